@@ -374,10 +374,10 @@ static double error_part(Error e) { return 100.0 * e.off / fmax(e.all, 1e-30); }
 /* The default strategy at that roughness. */
 static int best_of(int model, int r) {
     static AmbientFit fit;
-    if (model >= BASE) return model == BASE ? AMBIENT_FITTED : AMBIENT_SAMPLED;
-    Lobe lobe = lobe_rough(model, 0.1f * (float)(r + 1));
+    Stack m = model_stack(model, 0.1f * (float)(r + 1), dir(0.0f, 0.0f, 1.0f), NULL).stack;
+    Lobe lobe = HAS_SHEEN(&m) ? m.sheen.lobe : m.specular.lobe;
     ambient_fit(&fit, &lobe, lobe.params[0], lobe.params[0], 0);
-    return ambient_strategy(model, fit.turning, fit.denser > AMBIENT_DENSER);
+    return ambient_strategy(lobe.id, fit.turning, fit.denser > AMBIENT_DENSER);
 }
 
 static bool by_row; /* one line a roughness */

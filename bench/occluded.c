@@ -1,14 +1,14 @@
 /* occluded - prints what neighbours leave of a sheen's light from an environment: how the raster engine's sum
  * over a picture differs from the path tracer's direct light, in hundredths
  *
- *   bench_occluded [--only LOBE]... [--rays N] [--width N] [--centre] [--open] MAP.hdr ...
+ *   bench_occluded [--only LOBE]... [--rays N] [--width N] [--centre] MAP.hdr|white ...
  *
  * Scenes: builtin:spheres and builtin:cloth, without lights, with black base and specular. `sum` is the
  * difference of the sums, below 0 where the raster image is darker. `apart` is sum |difference| over sum, of
  * means over 4 x 4 pixels. `noise` is the standard deviation of the path tracer's sum: two renders of
  * different seeds run until it is below 0.5, or to 4096 samples each. --rays: occlusion rays of a vertex.
- * --centre: both engines take one sample in the centre of each pixel.
- * --open: nothing hides anything in either engine. */
+ * --centre: both engines take one sample in the centre of each pixel. `white` is an even sky, under which only
+ * occlusion and E can be wrong. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -22,7 +22,7 @@ enum { BLOCK = 4, SAMPLES = 32, SAMPLES_MOST = 4096, LOBES_MOST = 64 };
 /* Settings that both engines draw with. */
 typedef struct How {
     int width, height, rays;
-    bool centre, open;
+    bool centre;
 } How;
 
 static void check(WeftResult result, const WeftError *error) {
@@ -34,11 +34,15 @@ static void check(WeftResult result, const WeftError *error) {
 static WeftScene *scene_of(const char *name, const char *map, const char *lobe) {
     static const char *const settings[][2] = {
         {"*.base_color", "0"}, {"*.specular", "0"}, {"*.layer", "additive"}};
+    static const float white[3] = {1.0f, 1.0f, 1.0f};
     WeftScene *scene;
     WeftError error;
     check(weft_scene_load(name, &scene, NULL, &error), &error);
     while (weft_scene_info(scene).light_count > 0) check(weft_scene_remove_light(scene, 0, &error), &error);
-    check(weft_scene_set_environment_file(scene, map, NULL, &error), &error);
+    if (strcmp(map, "white") == 0)
+        check(weft_scene_set_environment_color(scene, white, &error), &error);
+    else
+        check(weft_scene_set_environment_file(scene, map, NULL, &error), &error);
     for (int k = 0; k < 3; k++)
         check(weft_scene_set(scene, settings[k][0], settings[k][1], NULL, &error), &error);
     check(weft_scene_set(scene, "*.sheen_lobe", lobe, NULL, &error), &error);
@@ -52,8 +56,7 @@ static WeftRender *render_of(const WeftScene *scene, const How *how, uint32_t se
                                  .seed = seed,
                                  .camera = "0",
                                  .background = WEFT_BACKGROUND_TRANSPARENT,
-                                 .pixel_centre = how->centre,
-                                 .no_shadows = how->open};
+                                 .pixel_centre = how->centre};
     WeftRender *render;
     WeftError error;
     check(weft_render_create(scene, &desc, &render, &error), &error);
@@ -68,7 +71,7 @@ static WeftImage image_of(const WeftRender *render) {
 }
 
 static WeftImage drawn(const WeftScene *scene, const How *how) {
-    const WeftRasterDesc desc = {.occlusion = how->open ? 0 : how->rays, .no_cache = 1};
+    const WeftRasterDesc desc = {.occlusion = how->rays, .no_cache = 1};
     const WeftRasterView view = {.width = how->width,
                                  .height = how->height,
                                  .samples = how->centre ? 1 : 0,
@@ -173,8 +176,6 @@ int main(int argc, char **argv) {
             how.width = atoi(argv[++k]);
         else if (strcmp(argv[k], "--centre") == 0)
             how.centre = true;
-        else if (strcmp(argv[k], "--open") == 0)
-            how.open = true;
         else if (map_count < 8)
             maps[map_count++] = argv[k];
     }

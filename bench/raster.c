@@ -2,9 +2,11 @@
  * one directional light and the environment, and nanoseconds a pixel over the bare base
  *
  *   bench_raster [--quick]
+ *   bench_raster --sampled [--shader-dir DIR] [--only NAME]... [MAP.hdr]
  *
  * Every lobe is drawn in turn, several rounds; the least time of a frame counts. The processor's own part is
- * that of a frame whose draw calls do nothing. */
+ * that of a frame whose draw calls do nothing. --sampled: what lobes that are sampled take under an environment
+ * and no other light, against the strategy `fitted` for the same lobe (docs/environment.md). */
 #define _POSIX_C_SOURCE 200809L
 #include <stdbool.h>
 #include <stdio.h>
@@ -111,7 +113,87 @@ static void measure_processor(WeftRaster *raster) {
     printf("\nprocessor's own part of a frame: %.3f ms\n", 1e3 * (now() - start) / FRAMES);
 }
 
+/* A material whose highlight is elongated or a ring. */
+typedef struct SampledCase {
+    const char *name, *settings[5][2];
+} SampledCase;
+
+static const SampledCase sampled_cases[] = {
+    {"ggx 0.3",
+     {{"*.metallic", "1"}, {"*.roughness", "0.3"}, {"*.anisotropy", "0.9"}, {"*.sheen_color", "0"}}},
+    {"disney 0.3",
+     {{"*.workflow", "disney"}, {"*.metallic", "1"}, {"*.roughness", "0.3"}, {"*.anisotropy", "0.9"}}},
+    {"silk 0.3", {{"*.sheen_lobe", "silk"}, {"*.sheen_roughness", "0.3"}, {"*.anisotropy", "0.9"}}},
+    {"fibre 0.3", {{"*.sheen_lobe", "fibre"}, {"*.sheen_roughness", "0.3"}}},
+    {"fibre-table 0.4", {{"*.sheen_lobe", "fibre-table"}, {"*.sheen_roughness", "0.4"}}},
+    {"ltc-fibre 0.3", {{"*.sheen_lobe", "ltc-fibre"}, {"*.sheen_roughness", "0.3"}}},
+    {"patry 0.2", {{"*.sheen_lobe", "patry"}, {"*.sheen_roughness", "0.2"}}},
+};
+
+/* Seconds of the best of some frames. */
+static double best_frame(WeftRaster *raster, const WeftRasterView *view) {
+    enum { FRAMES = 3 };
+    double best = frame(raster, view);
+    for (int k = 0; k < FRAMES; k++) {
+        double t = frame(raster, view);
+        if (t < best) best = t;
+    }
+    return best;
+}
+
+static void measure_sampled(const SampledCase *c, const char *map, const char *shader_dir) {
+    enum { ROUNDS = 2 };
+    WeftRasterView view = view_of((Size){640, 360});
+    WeftScene *scene;
+    WeftRaster *raster;
+    WeftError error;
+    double best[2] = {1e9, 1e9};
+    check(weft_scene_load("builtin:cloth", &scene, NULL, &error), &error);
+    while (weft_scene_info(scene).light_count > 0) check(weft_scene_remove_light(scene, 0, &error), &error);
+    if (map) check(weft_scene_set_environment_file(scene, map, NULL, &error), &error);
+    for (int k = 0; k < 5 && c->settings[k][0]; k++)
+        check(weft_scene_set(scene, c->settings[k][0], c->settings[k][1], NULL, &error), &error);
+    check(weft_raster_create(scene, &(WeftRasterDesc){.shader_dir = shader_dir}, &raster, NULL, &error),
+          &error);
+    for (int round = 0; round < ROUNDS; round++)
+        for (int k = 0; k < 2; k++) {
+            view.ambient = k ? WEFT_AMBIENT_BEST : WEFT_AMBIENT_FITTED;
+            double t = best_frame(raster, &view);
+            if (t < best[k]) best[k] = t;
+        }
+    printf("%-20s %10.1f %10.1f %8.2f\n", c->name, 1e3 * best[0], 1e3 * best[1], best[1] / best[0]);
+    fflush(stdout);
+    weft_raster_free(raster);
+    weft_scene_free(scene);
+}
+
+static bool is_named(const char *name, const char *const *only, int count) {
+    bool named = count == 0;
+    for (int k = 0; k < count; k++) named |= strncmp(name, only[k], strlen(only[k])) == 0;
+    return named;
+}
+
+static int sampled_main(int argc, char **argv) {
+    const char *map = NULL, *shader_dir = NULL, *only[LOBES_MOST];
+    int only_count = 0;
+    for (int k = 2; k < argc; k++) {
+        if (strcmp(argv[k], "--shader-dir") == 0 && k + 1 < argc)
+            shader_dir = argv[++k];
+        else if (strcmp(argv[k], "--only") == 0 && k + 1 < argc && only_count < LOBES_MOST)
+            only[only_count++] = argv[++k];
+        else
+            map = argv[k];
+    }
+    printf("builtin:cloth, 640 x 360, ms a frame\n%-20s %10s %10s %8s\n", "lobe and roughness", "fitted",
+           "default", "times");
+    for (size_t k = 0; k < sizeof sampled_cases / sizeof *sampled_cases; k++)
+        if (is_named(sampled_cases[k].name, only, only_count))
+            measure_sampled(&sampled_cases[k], map, shader_dir);
+    return 0;
+}
+
 int main(int argc, char **argv) {
+    if (argc > 1 && strcmp(argv[1], "--sampled") == 0) return sampled_main(argc, argv);
     bool quick = argc > 1 && strcmp(argv[1], "--quick") == 0;
     static Entry entries[LOBES_MOST];
     int count = 0;
