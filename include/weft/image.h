@@ -38,7 +38,8 @@ WEFT_API void weft_image_free(WeftImage *image);
 /* Reads PNG, JPEG, TGA, Radiance HDR, OpenEXR or NumPy's .npy, distinguished by content (TGA, which has no
  * signature, comes last). PNG gives U8 or U16, JPEG and TGA U8, HDR F32 RGB, EXR F32 of its display window.
  * An .npy is an array of rows by columns, by 1 to 4 channels where it has three indices: f2, f4 and f8 give
- * F32, u1 U8, u2 U16. Float values are finite. log (may be NULL) receives what was repaired. Fails with
+ * F32, u1 U8, u2 U16. Float values are finite. log (may be NULL) receives what was repaired, and
+ * WEFT_MESSAGE_IMAGE_DENOISED where the file says so. Fails with
  * WEFT_MESSAGE_FILE_OPEN, _FILE_READ, _FILE_LARGE, _IMAGE_FORMAT, _IMAGE_SIZE, _IMAGE_DAMAGED,
  * _IMAGE_UNSUPPORTED or _MEMORY; *out is then zero. */
 WEFT_API WeftResult weft_image_read(const char *path, WeftImage *out, const WeftLog *log, WeftError *error);
@@ -51,12 +52,27 @@ WEFT_API WeftResult weft_image_read_memory(const void *data, size_t size, const 
  * ZIP), .hdr (F32, RGBE, no alpha), .npy (F32, as it is). The file appears complete or not at all. */
 WEFT_API WeftResult weft_image_write(const char *path, const WeftImage *image, WeftError *error);
 
-/* Options for pixels that are data and not a picture. All zero: as weft_image_write does. */
+/* More channels of an .exr beside the picture's: F32 of its size, written as 32 bit floats, not multiplied by
+ * alpha. */
+typedef struct WeftImageLayer {
+    const WeftImage *image;
+    const char *channels[4]; /* full names, such as "albedo.R", one for each channel of image */
+} WeftImageLayer;
+
+enum { WEFT_IMAGE_LAYERS = 16 };
+
+/* Options for pixels that are data and not a picture, and what goes with them. All zero: as weft_image_write
+ * does. */
 typedef struct WeftImageWriting {
-    int data;            /* plain numbers: a .png is not called sRGB, an .exr not multiplied by its alpha */
-    int single;          /* .exr of 32 bit floats in place of half */
-    const char *comment; /* one line kept in a .png (text chunk "Comment") or .exr (attribute "comments");
+    int data;             /* plain numbers: a .png is not called sRGB, an .exr not multiplied by its alpha */
+    int single;           /* .exr of 32 bit floats in place of half */
+    const char *comment;  /* one line kept in a .png (text chunk "Comment") or .exr (attribute "comments");
                             the other formats have no place for it; may be NULL */
+    const char *denoised; /* how the picture was denoised, likewise in a .png ("Denoised") or .exr
+                             ("denoised"), where readers warn of it; may be NULL */
+    const WeftImageLayer
+        *layers; /* of an .exr, at most WEFT_IMAGE_LAYERS; the other formats leave them out */
+    int layer_count;
 } WeftImageWriting;
 
 /* weft_image_write, but so. */

@@ -4,7 +4,7 @@
  * emissive-triangle lights. The same descriptor gives the same bytes on any number of threads.
  *
  * DOES:     unbiased but for the shading-terminator offset and the bend of normal-mapped normals towards the
- * viewer. DOES NOT: refraction, volumes, clamping, denoising. */
+ * viewer; denoising on request, of a picture to look at. DOES NOT: refraction, volumes, clamping. */
 #ifndef WEFT_RENDER_H
 #define WEFT_RENDER_H
 
@@ -57,6 +57,11 @@ typedef struct WeftRenderDesc {
     int no_shadows;   /* not 0: lights reach every point that faces them; to compare with other renderers */
     WeftFloor floor;
     int hide_lights; /* not 0: polygon lights shine, but the camera looks through them */
+    /* not 0: samples are two halves, independent of each other, whose difference shows the error; needed by
+     * noise, WEFT_AOV_VARIANCE and weft_render_denoised. Half as many samples each are a little less even. */
+    int halves;
+    int first_hits; /* not 0: albedo, normal and depth are kept, which weft_render_denoised needs too */
+    float noise;    /* weft_render_run stops when the estimated relMSE is at most this; 0: it does not */
 } WeftRenderDesc;
 
 /* A picture in the making. */
@@ -105,6 +110,44 @@ WEFT_API WeftRenderInfo weft_render_info(const WeftRender *render);
 /* The picture so far: F32 RGBA, linear Rec. 709 radiance, straight alpha, of the crop's size. Pixels without
  * a sample are transparent black. Release with weft_image_free. */
 WEFT_API WeftResult weft_render_image(const WeftRender *render, WeftImage *out, WeftError *error);
+
+/* The relMSE of the picture so far, as weft_diff would find it beside a perfect one, estimated from the halves: the
+ * mean over pixels and channels of their variance over the square of the picture plus 1e-2. Below 0: not known,
+ * without halves, or where a pixel has no sample in one of them. */
+WEFT_API double weft_render_noise(const WeftRender *render);
+
+/* The other pictures of a render (arbitrary output variables): means over the samples of a pixel. */
+typedef enum WeftAov {
+    WEFT_AOV_ALBEDO = 0, /* RGB: base color of the surface that is seen; 0 of the background and the floor */
+    WEFT_AOV_NORMAL,     /* XYZ of the world, towards the viewer, normal map included; 0 likewise */
+    WEFT_AOV_DEPTH,      /* along the camera's axis, of the samples that meet a surface; else 1e10 */
+    WEFT_AOV_VARIANCE,   /* RGB: square of the error, as the halves show it: right on average, not smooth */
+    WEFT_AOV_SAMPLES,    /* how many */
+    WEFT_AOV_COUNT
+} WeftAov;
+
+/* "albedo", "normal", "depth", "variance" or "samples"; NULL beyond. */
+WEFT_API const char *weft_aov_name(int aov);
+
+/* One of them so far: F32 of 3 channels or 1. Fails with WEFT_MESSAGE_DESC where the descriptor did not ask for
+ * what it needs, or with _MEMORY. */
+WEFT_API WeftResult weft_render_aov(const WeftRender *render, WeftAov aov, WeftImage *out, WeftError *error);
+
+/* The ways to take noise out of a picture. */
+typedef enum WeftDenoiser {
+    WEFT_DENOISER_REGRESSION = 0, /* a linear model of albedo, normal and depth about each pixel */
+    WEFT_DENOISER_OIDN,           /* Intel's Open Image Denoise, where libOpenImageDenoise is installed */
+    WEFT_DENOISER_COUNT
+} WeftDenoiser;
+
+/* "regression" or "oidn"; NULL beyond. */
+WEFT_API const char *weft_denoiser_name(int denoiser);
+
+/* The picture so far without most of its noise, as weft_render_image has it otherwise. It is to look at, never
+ * to measure: what it takes away is not known. The same samples give the same bytes on any number of threads,
+ * by REGRESSION. Needs halves and first_hits. Fails with WEFT_MESSAGE_DESC, _MEMORY or _DENOISER. */
+WEFT_API WeftResult weft_render_denoised(const WeftRender *render, WeftDenoiser denoiser, WeftImage *out,
+                                         WeftError *error);
 
 #ifdef __cplusplus
 }

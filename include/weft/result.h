@@ -90,7 +90,9 @@ typedef enum WeftResult {
     M(LOBE_FILE, INPUT, "is not a lobe that can be taken")                                                   \
     M(LOBE_COMPILE, INPUT, "does not compile")                                                               \
     M(COMPILER, RESOURCES, "needs a C compiler; install gcc or clang")                                       \
-    M(YARN_NAME, USAGE, "is not a yarn")
+    M(YARN_NAME, USAGE, "is not a yarn")                                                                     \
+    M(IMAGE_DENOISED, WARNING, "was denoised: to look at, not to measure by")                                \
+    M(DENOISER, RESOURCES, "cannot denoise")
 
 /* The result of warnings, which are logged and never returned. */
 #define WEFT_WARNING WEFT_OK

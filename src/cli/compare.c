@@ -178,7 +178,9 @@ int compare_run(const Request *request, Warnings *warnings) {
     WeftResult result = trace_all(all, warnings, &interrupted, &error);
     if (result == WEFT_OK) result = measure(all, &error);
     if (result == WEFT_OK) result = compose(all, &sheet, &error);
-    if (result == WEFT_OK) result = request_outputs_write(request, NULL, &sheet, &sheet, &error);
+    if (result == WEFT_OK)
+        result =
+            request_outputs_write(request, NULL, &(Outputs){.linear = &sheet, .display = &sheet}, &error);
     if (result != WEFT_OK) {
         report_error(&error);
     } else {

@@ -81,6 +81,18 @@ static const char *camera_of(const Job *job, const char *camera) {
     return !camera && builtin && weft_scene_info(job->scene).camera_count > 0 ? "0" : camera;
 }
 
+/* Takes from the render what was asked for. */
+static WeftResult develop(Job *job, const WeftRender *render, WeftError *error) {
+    const Request *request = job->request;
+    WeftResult result = request->denoise
+                            ? weft_render_denoised(render, request->denoiser, &job->linear, error)
+                            : weft_render_image(render, &job->linear, error);
+    for (int k = 0; k < WEFT_AOV_COUNT && result == WEFT_OK; k++)
+        if (request->aovs & 1u << k) result = weft_render_aov(render, (WeftAov)k, &job->aovs[k], error);
+    job->noise = weft_render_noise(render);
+    return result;
+}
+
 static WeftResult trace(Job *job, const char *camera, WeftError *error) {
     WeftRenderDesc desc = job->request->desc;
     WeftRender *render = NULL;
@@ -89,7 +101,7 @@ static WeftResult trace(Job *job, const char *camera, WeftError *error) {
     WeftResult result = weft_render_create(job->scene, &desc, &render, error);
     if (result == WEFT_OK && interrupt_seen()) result = nothing_gathered(error);
     if (result == WEFT_OK) result = gather(job, render, error);
-    if (result == WEFT_OK) result = weft_render_image(render, &job->linear, error);
+    if (result == WEFT_OK) result = develop(job, render, error);
     weft_render_free(render);
     if (result == WEFT_OK && job->info.non_finite > 0) {
         char text[96];
@@ -182,9 +194,15 @@ static WeftResult finish(Job *job, WeftError *error) {
     return result;
 }
 
-WeftResult job_draw(Job *job, const char *camera, WeftError *error) {
+static void free_images(Job *job) {
     weft_image_free(&job->linear);
     weft_image_free(&job->display);
+    for (int k = 0; k < WEFT_AOV_COUNT; k++) weft_image_free(&job->aovs[k]);
+}
+
+WeftResult job_draw(Job *job, const char *camera, WeftError *error) {
+    free_images(job);
+    job->noise = -1.0;
     camera = camera_of(job, camera);
     WeftResult result = job->engine == ENGINE_RASTER ? raster(job, camera, error) : trace(job, camera, error);
     return result == WEFT_OK ? finish(job, error) : result;
@@ -204,8 +222,31 @@ void job_close(Job *job) {
 
 void job_free(Job *job) {
     job_close(job);
-    weft_image_free(&job->linear);
-    weft_image_free(&job->display);
+    free_images(job);
+}
+
+/* The channels of an AOV, by the names that Nuke, Blender and OpenEXR's own tools know. */
+static const char *const aov_channels[WEFT_AOV_COUNT][4] = {
+    {"albedo.R", "albedo.G", "albedo.B"},       {"N.X", "N.Y", "N.Z"}, {"Z"},
+    {"variance.R", "variance.G", "variance.B"}, {"sampleCount"},
+};
+
+WeftResult job_write(const Job *job, const char *number, WeftError *error) {
+    const Request *request = job->request;
+    WeftImageLayer layers[WEFT_AOV_COUNT];
+    int count = 0;
+    for (int k = 0; k < WEFT_AOV_COUNT; k++) {
+        if (!job->aovs[k].pixels) continue;
+        layers[count].image = &job->aovs[k];
+        memcpy(layers[count++].channels, aov_channels[k], sizeof aov_channels[k]);
+    }
+    const Outputs outputs = {
+        &job->linear,
+        &job->display,
+        {.denoised = request->denoise ? weft_denoiser_name((int)request->denoiser) : NULL,
+         .layers = layers,
+         .layer_count = count}};
+    return request_outputs_write(request, number, &outputs, error);
 }
 
 static double rate(double count, double seconds) { return seconds > 0.0 ? count / seconds : 0.0; }
@@ -240,6 +281,8 @@ void job_json(const Job *job, Json *json) {
         json_whole(json, "rays", info->rays);
         json_number(json, "samples_per_second", job_samples_per_second(job));
         json_number(json, "rays_per_second", rate((double)info->rays, info->render_seconds));
+        if (!(job->noise < 0.0)) json_number(json, "noise", job->noise);
+        if (request->denoise) json_text(json, "denoised", weft_denoiser_name((int)request->denoiser));
     }
     json_open(json, "camera", '{');
     json_floats(json, "eye", info->camera_eye, 3);

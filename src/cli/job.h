@@ -15,14 +15,16 @@ typedef struct Warnings {
 typedef struct Job {
     const Request *request;
     Warnings *warnings;
-    int number;          /* of the picture among those of the request */
-    Engine engine;       /* TRACE or RASTER */
-    WeftScene *scene;    /* owned, see job_free */
-    WeftRaster *raster;  /* owned; NULL of the path tracer */
-    WeftImage linear;    /* owned, see job_free */
-    WeftImage display;   /* owned */
-    WeftRenderInfo info; /* of the rasteriser: samples, seconds and camera */
-    char driver[128];    /* of OpenGL */
+    int number;                     /* of the picture among those of the request */
+    Engine engine;                  /* TRACE or RASTER */
+    WeftScene *scene;               /* owned, see job_free */
+    WeftRaster *raster;             /* owned; NULL of the path tracer */
+    WeftImage linear;               /* owned, see job_free */
+    WeftImage display;              /* owned */
+    WeftImage aovs[WEFT_AOV_COUNT]; /* owned; those that were asked for */
+    double noise;                   /* relMSE, estimated; below 0: not known */
+    WeftRenderInfo info;            /* of the rasteriser: samples, seconds and camera */
+    char driver[128];               /* of OpenGL */
     long long triangles;
     double load_seconds;
     int width, height; /* of the picture, which a crop makes smaller */
@@ -31,6 +33,9 @@ typedef struct Job {
 
 /* Loads, dresses and lights the scene. */
 WeftResult job_open(Job *job, WeftError *error);
+
+/* Writes the picture; number as for request_outputs_write. */
+WeftResult job_write(const Job *job, const char *number, WeftError *error);
 
 /* Makes the picture through a camera, NULL: the request's. Needs job_open. An interruption is noted; only one
  * before the first sample is a failure. */

@@ -13,9 +13,12 @@ static void summary(const Job *job) {
         report(0, "drawn in %.2f s by %s; wrote %s", job->info.render_seconds, job->driver, files);
         return;
     }
-    report(0, "%s%.4g samples/pixel in %.2f s, %.2f M samples/s; wrote %s",
+    char noise[48] = "";
+    if (!(job->noise < 0.0)) snprintf(noise, sizeof noise, ", relMSE about %.3g", job->noise);
+    report(0, "%s%.4g samples/pixel in %.2f s, %.2f M samples/s%s%s; wrote %s",
            job->interrupted ? "interrupted at " : "", job->info.samples_per_pixel, job->info.render_seconds,
-           1e-6 * job_samples_per_second(job), files);
+           1e-6 * job_samples_per_second(job), noise, job->request->denoise ? " before denoising" : "",
+           files);
 }
 
 /* Only what --save asks for. */
@@ -32,8 +35,7 @@ static int single_run(const Request *request, Warnings *warnings) {
     Job job = {.request = request, .warnings = warnings, .engine = request->engine};
     WeftError error = {0};
     WeftResult result = request->turntable ? turntable_run(&job, &error) : job_run(&job, &error);
-    if (result == WEFT_OK && !request->turntable)
-        result = request_outputs_write(request, NULL, &job.linear, &job.display, &error);
+    if (result == WEFT_OK && !request->turntable) result = job_write(&job, NULL, &error);
     if (result != WEFT_OK) {
         report_error(&error);
     } else {

@@ -7,6 +7,7 @@
 
 #include "names.h"
 #include "output.h"
+#include "path_suffix.h"
 #include "report.h"
 #include "save.h"
 
@@ -54,11 +55,21 @@ const Option request_options[] = {
     OPTION_NUMBER("--spp", "COUNT", "64", 1, REQUEST_SPP_MOST,
                   "samples a pixel; without end where only --time-limit is given"),
     OPTION_NUMBER("--time-limit", "SECONDS", NULL, 1e-3, 1e9, "stop then and write what there is"),
+    OPTION_NUMBER("--noise", "LEVEL", NULL, 1e-9, 1e9,
+                  "stop as soon as the picture's relMSE, estimated from two halves of its samples, is at "
+                  "most LEVEL; --spp is "
+                  "then the most samples, without end where it is not given"),
     OPTION_NUMBER("--max-depth", "COUNT", "9", 1, 1000, "scattering events on a path; 1 is direct light"),
     OPTION_TEXT("--sampling", "STRATEGY", "mis", "find lights by mis, light or lobe"),
     OPTION_NUMBER("--seed", "NUMBER", "0", 0, 2147483647, "another seed, other noise"),
     OPTION_NUMBER("--threads", "COUNT", NULL, 1, WEFT_THREADS_MAX,
                   "processors to use, 1 to 256; no influence on the picture [all]"),
+
+    OPTION_HEADING("Output of the path tracer"),
+    OPTION_TEXT("--aov", "NAMES", NULL,
+                "more channels in an .exr: albedo, normal, depth, variance, samples, with a comma between"),
+    OPTION_SWITCH("--denoise", "take noise out of the picture; to look at, never to measure by"),
+    OPTION_TEXT("--denoiser", "NAME", "regression", "and how: regression, or oidn where it is installed"),
 
     OPTION_HEADING("Reports"),
     OPTION_SWITCH("--quiet", "no progress, no warnings, no summary"),
@@ -141,12 +152,62 @@ static bool read_desc(const Options *options, WeftRenderDesc *desc) {
     return good;
 }
 
+/* Reads names with a comma between. */
+static bool read_aovs(const char *text, unsigned *aovs) {
+    while (text && *text) {
+        size_t length = strcspn(text, ",");
+        int found = -1;
+        for (int k = 0; k < WEFT_AOV_COUNT; k++)
+            if (strlen(weft_aov_name(k)) == length && strncmp(text, weft_aov_name(k), length) == 0) found = k;
+        if (found < 0) {
+            report(WEFT_USAGE, "--aov: \"%.*s\" is not albedo, normal, depth, variance or samples",
+                   (int)(length < 80 ? length : 80), text);
+            return false;
+        }
+        *aovs |= 1u << found;
+        text += length + (text[length] == ',');
+    }
+    return true;
+}
+
+/* Reads what else the path tracer is to give, and checks that it is asked for it. */
+static bool read_extras(const Options *options, Request *request) {
+    static const char *const of_tracer[] = {"--noise", "--aov", "--denoise", "--denoiser"};
+    const char *denoisers[WEFT_DENOISER_COUNT + 1];
+    int denoiser = 0;
+    double noise = 0.0;
+    for (int k = 0; k <= WEFT_DENOISER_COUNT; k++) denoisers[k] = weft_denoiser_name(k);
+    for (size_t k = 0; k < sizeof of_tracer / sizeof *of_tracer; k++)
+        if (option_given(options, of_tracer[k]) && request->engine == ENGINE_RASTER) {
+            report(WEFT_USAGE, "%s: needs --engine trace, OpenGL has no samples to judge", of_tracer[k]);
+            return false;
+        }
+    if (!read_aovs(option_text(options, "--aov"), &request->aovs) ||
+        !option_choice(options, "--denoiser", denoisers, &denoiser) ||
+        !option_number(options, "--noise", &noise))
+        return false;
+    request->denoiser = (WeftDenoiser)denoiser;
+    request->denoise = option_given(options, "--denoise") || option_given(options, "--denoiser");
+    if (request->denoise && request_count(request) > 1) {
+        report(WEFT_USAGE,
+               "--denoise: not for a sheet, whose differences would not be those of its pictures");
+        return false;
+    }
+    if (option_given(options, "--noise") && !option_given(options, "--spp")) request->spp = 0;
+    request->desc.noise = option_given(options, "--noise") ? (float)noise : 0.0f;
+    request->desc.halves =
+        request->denoise || request->desc.noise > 0.0f || (request->aovs & 1u << WEFT_AOV_VARIANCE);
+    request->desc.first_hits = request->denoise || (request->aovs & ((2u << WEFT_AOV_DEPTH) - 1u));
+    return true;
+}
+
 bool request_read(const Options *options, Request *request) {
     *request = (Request){.options = options, .quiet = option_given(options, "--quiet")};
     bool good = read_desc(options, &request->desc) &&
                 scene_options_read(options, options->operands[0], &request->scene_options) &&
                 option_integer(options, "--spp", &request->spp) &&
-                option_number(options, "--time-limit", &request->time_limit) && read_engine(options, request);
+                option_number(options, "--time-limit", &request->time_limit) &&
+                read_engine(options, request) && read_extras(options, request);
     request->desc.camera = request->scene_options.camera;
     bool laid_behind = request->scene_options.background == WEFT_BACKGROUND_COLOR; /* by job_draw */
     request->desc.background = laid_behind ? WEFT_BACKGROUND_TRANSPARENT : request->scene_options.background;
@@ -159,6 +220,7 @@ bool request_read(const Options *options, Request *request) {
 int request_outputs_check(const Request *request) {
     const Options *options = request->options;
     int cursor = 0, result = 0;
+    bool layered = false;
     result = save_check(options);
     if (result != 0) return result;
     if (!option_given(options, "-o") && !option_given(options, "--save"))
@@ -168,6 +230,12 @@ int request_outputs_check(const Request *request) {
             return report(WEFT_USAGE, "%s: %s", path, weft_message_text(WEFT_MESSAGE_OUTPUT_SUFFIX));
         else if (request_count(request) > 1 && weft_image_suffix_linear(path))
             return report(WEFT_USAGE, "%s: a sheet of several images must be a .png", path);
+        else if (request->denoise && !path_ends(path, ".png") && !path_ends(path, ".exr"))
+            return report(WEFT_USAGE, "%s: cannot say that it was denoised; .png and .exr can", path);
+        else if (path_ends(path, ".exr"))
+            layered = true;
+    if (request->aovs && option_given(options, "-o") && !layered)
+        return report(WEFT_USAGE, "--aov: needs an .exr among -o, other formats have no channels for it");
     for (cursor = 0; result == 0;) {
         const char *path = option_next(options, "-o", &cursor);
         if (!path) break;
@@ -186,17 +254,17 @@ static char *numbered(const char *path, const char *number) {
     return name;
 }
 
-WeftResult request_outputs_write(const Request *request, const char *number, const WeftImage *linear,
-                                 const WeftImage *display, WeftError *error) {
+WeftResult request_outputs_write(const Request *request, const char *number, const Outputs *outputs,
+                                 WeftError *error) {
     int cursor = 0;
     WeftError other;
     WeftResult result = WEFT_OK;
     for (const char *path; (path = option_next(request->options, "-o", &cursor));) {
-        const WeftImage *image = weft_image_suffix_linear(path) ? linear : display;
+        const WeftImage *image = weft_image_suffix_linear(path) ? outputs->linear : outputs->display;
         char *name = number ? numbered(path, number) : NULL;
-        WeftResult written =
-            number && !name ? (WeftResult)report(WEFT_RESOURCES, "out of memory")
-                            : weft_image_write(name ? name : path, image, result == WEFT_OK ? error : &other);
+        WeftResult written = number && !name ? (WeftResult)report(WEFT_RESOURCES, "out of memory")
+                                             : weft_image_write_as(name ? name : path, image, &outputs->how,
+                                                                   result == WEFT_OK ? error : &other);
         free(name);
         if (result == WEFT_OK) result = written;
     }

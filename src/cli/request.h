@@ -18,6 +18,9 @@ typedef struct Request {
     WeftRenderDesc desc;
     int spp; /* 0: until the time is up */
     double time_limit;
+    unsigned aovs; /* 1 << WEFT_AOV_ALBEDO and so on */
+    bool denoise;
+    WeftDenoiser denoiser;
     bool quiet;
     Engine engine;
     WeftRasterDesc raster;
@@ -37,10 +40,16 @@ bool request_read(const Options *options, Request *request);
  * a file there. Returns 0, or an exit code after one line. */
 int request_outputs_check(const Request *request);
 
-/* Writes every -o, linear or as displayed; one that fails does not keep the others from being written. number
- * (may be NULL) comes before every suffix. */
-WeftResult request_outputs_write(const Request *request, const char *number, const WeftImage *linear,
-                                 const WeftImage *display, WeftError *error);
+/* A picture for every -o: linear or as displayed, and what goes with it. */
+typedef struct Outputs {
+    const WeftImage *linear, *display;
+    WeftImageWriting how;
+} Outputs;
+
+/* Writes every -o; one that fails does not keep the others from being written. number (may be NULL) comes
+ * before every suffix. */
+WeftResult request_outputs_write(const Request *request, const char *number, const Outputs *outputs,
+                                 WeftError *error);
 
 /* Their names, comma between, in a buffer of the caller's. */
 enum { REQUEST_FILES = 512 };

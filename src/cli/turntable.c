@@ -28,8 +28,7 @@ WeftResult turntable_run(Job *job, WeftError *error) {
         if (!k) first = job->info;
         seconds += job->info.render_seconds;
         snprintf(number, sizeof number, "%0*d", count > 1000 ? 4 : 3, k);
-        if (result == WEFT_OK)
-            result = request_outputs_write(job->request, number, &job->linear, &job->display, error);
+        if (result == WEFT_OK) result = job_write(job, number, error);
         job->interrupted |= interrupt_seen();
     }
     job->info.render_seconds = seconds;

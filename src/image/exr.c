@@ -14,6 +14,9 @@
 #include "image/codec.h"
 #include "image/half.h"
 
+/* The attribute that says how a picture was denoised. */
+static const char exr_denoised[] = "denoised";
+
 /* The state that the library's callbacks share. */
 typedef struct ExrJob {
     const ImageSource *source; /* when reading */
@@ -335,6 +338,9 @@ static WeftResult exr_decode(Exr *exr, const ExrJob *job, WeftImage *out, WeftEr
     if (status != EXR_ERR_SUCCESS) return exr_refuse(job, status, error);
     alpha_straighten(out);
     image_repair(exr->source, out);
+    const exr_attribute_t *denoised = NULL;
+    if (exr_get_attribute_by_name(exr->context, exr->part, exr_denoised, &denoised) == EXR_ERR_SUCCESS)
+        warn(exr->source->log, WEFT_MESSAGE_IMAGE_DENOISED, exr->source->name, NULL);
     return WEFT_OK;
 }
 
@@ -371,18 +377,68 @@ static const struct {
     {{"A", 3}, {"B", 2}, {"G", 1}, {"R", 0}},
 };
 
-static exr_result_t exr_describe(exr_context_t exr, const WeftImage *image, const WeftImageWriting *how) {
+/* One channel of the file. */
+typedef struct ExrPlane {
+    const char *name;
+    const WeftImage *image;
+    int channel;
+    bool covered, single; /* times alpha; 32 bits */
+} ExrPlane;
+
+enum { EXR_PLANES = 4 * (1 + WEFT_IMAGE_LAYERS) };
+
+static int compare_planes(const void *a, const void *b) {
+    return strcmp(((const ExrPlane *)a)->name, ((const ExrPlane *)b)->name);
+}
+
+/* All channels, in the file's order; returns how many. */
+static int planes_list(const WeftImage *image, const WeftImageWriting *how, ExrPlane planes[EXR_PLANES]) {
+    int count = 0, alpha = image->channels % 2 == 0 ? image->channels - 1 : -1;
+    for (int c = 0; c < image->channels; c++) {
+        int from = exr_layouts[image->channels][c].channel;
+        planes[count++] = (ExrPlane){exr_layouts[image->channels][c].name, image, from,
+                                     alpha >= 0 && from != alpha && !how->data, how->single != 0};
+    }
+    for (int k = 0; k < how->layer_count; k++)
+        for (int c = 0; c < how->layers[k].image->channels; c++)
+            planes[count++] = (ExrPlane){how->layers[k].channels[c], how->layers[k].image, c, false, true};
+    qsort(planes, (size_t)count, sizeof *planes, compare_planes);
+    return count;
+}
+
+static WeftResult layers_check(const char *name, const WeftImage *image, const WeftImageWriting *how,
+                               WeftError *error) {
+    if (how->layer_count < 0 || how->layer_count > WEFT_IMAGE_LAYERS)
+        return fail(error, WEFT_MESSAGE_DESC, name, "%d layers; at most %d", how->layer_count,
+                    WEFT_IMAGE_LAYERS);
+    for (int k = 0; k < how->layer_count; k++) {
+        const WeftImage *layer = how->layers[k].image;
+        if (!layer->pixels || layer->type != WEFT_PIXEL_F32 || layer->width != image->width ||
+            layer->height != image->height)
+            return fail(error, WEFT_MESSAGE_DESC, name, "a layer has not the form of the picture");
+        for (int c = 0; c < layer->channels; c++)
+            if (!how->layers[k].channels[c])
+                return fail(error, WEFT_MESSAGE_DESC, name, "a layer has a channel without a name");
+    }
+    return WEFT_OK;
+}
+
+static exr_result_t exr_describe(exr_context_t exr, const WeftImage *image, const WeftImageWriting *how,
+                                 const ExrPlane *planes, int count) {
     int part = 0;
     exr_result_t status = exr_add_part(exr, "image", EXR_STORAGE_SCANLINE, &part);
     if (status == EXR_ERR_SUCCESS)
         status =
             exr_initialize_required_attr_simple(exr, part, image->width, image->height, EXR_COMPRESSION_ZIP);
-    for (int c = 0; status == EXR_ERR_SUCCESS && c < image->channels; c++)
-        status = exr_add_channel(exr, part, exr_layouts[image->channels][c].name,
-                                 how->single ? EXR_PIXEL_FLOAT : EXR_PIXEL_HALF,
-                                 how->data ? EXR_PERCEPTUALLY_LINEAR : EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1);
+    for (int k = 0; status == EXR_ERR_SUCCESS && k < count; k++)
+        status = exr_add_channel(
+            exr, part, planes[k].name, planes[k].single ? EXR_PIXEL_FLOAT : EXR_PIXEL_HALF,
+            how->data || planes[k].image != image ? EXR_PERCEPTUALLY_LINEAR : EXR_PERCEPTUALLY_LOGARITHMIC, 1,
+            1);
     if (status == EXR_ERR_SUCCESS && how->comment)
         status = exr_attr_set_string(exr, part, "comments", how->comment);
+    if (status == EXR_ERR_SUCCESS && how->denoised)
+        status = exr_attr_set_string(exr, part, exr_denoised, how->denoised);
     if (status == EXR_ERR_SUCCESS) status = exr_set_version(exr, part, 1);
     return status == EXR_ERR_SUCCESS ? exr_write_header(exr) : status;
 }
@@ -390,20 +446,16 @@ static exr_result_t exr_describe(exr_context_t exr, const WeftImage *image, cons
 /* A value of at most `most`, which the file's values can hold; NaN becomes 0. */
 static float clamped(float x, float most) { return isnan(x) ? 0.0f : fminf(fmaxf(x, -most), most); }
 
-/* Lines y .. y + lines as the file has them: one plane a channel, colours times alpha. */
-static void planes_fill(const WeftImage *image, const WeftImageWriting *how, int y, int lines,
-                        float *planes) {
-    const float most = how->single ? FLT_MAX : 65504.0f;
-    const size_t plane = (size_t)image->width * (size_t)lines;
-    const int channels = image->channels, alpha = channels % 2 == 0 ? channels - 1 : -1;
+/* Lines y .. y + lines of a channel as the file has them: colours times alpha. */
+static void plane_fill(const ExrPlane *plane, int y, int lines, float *to) {
+    const WeftImage *image = plane->image;
+    const float most = plane->single ? FLT_MAX : 65504.0f;
+    const int channels = image->channels;
     const float *pixel = (const float *)image->pixels + (size_t)y * (size_t)image->width * (size_t)channels;
-    for (size_t i = 0; i < plane; i++, pixel += channels)
-        for (int c = 0; c < channels; c++) {
-            const int from = exr_layouts[channels][c].channel;
-            const bool covered = alpha >= 0 && from != alpha && !how->data;
-            const float cover = covered ? clamped(pixel[alpha], most) : 1.0f;
-            planes[(size_t)c * plane + i] = clamped(clamped(pixel[from], most) * cover, most);
-        }
+    for (size_t i = 0; i < (size_t)image->width * (size_t)lines; i++, pixel += channels) {
+        const float cover = plane->covered ? clamped(pixel[channels - 1], most) : 1.0f;
+        to[i] = clamped(clamped(pixel[plane->channel], most) * cover, most);
+    }
 }
 
 /* The library's compression, put right: when it gains nothing at all (3.1.5) it leaves the compressed bytes,
@@ -418,8 +470,8 @@ static exr_result_t chunk_compress(exr_encode_pipeline_t *pipeline) {
     return status;
 }
 
-static exr_result_t exr_encode(exr_context_t exr, const WeftImage *image, const WeftImageWriting *how,
-                               float *planes, int chunk_lines) {
+static exr_result_t exr_encode(exr_context_t exr, const WeftImage *image, const ExrPlane *planes, int count,
+                               float *values, int chunk_lines) {
     exr_encode_pipeline_t pipeline = EXR_ENCODE_PIPELINE_INITIALIZER;
     exr_result_t (*library)(exr_encode_pipeline_t *) = NULL;
     exr_result_t status = EXR_ERR_SUCCESS;
@@ -431,11 +483,11 @@ static exr_result_t exr_encode(exr_context_t exr, const WeftImage *image, const 
             status = first ? exr_encoding_initialize(exr, 0, &chunk, &pipeline)
                            : exr_encoding_update(exr, 0, &chunk, &pipeline);
         if (status != EXR_ERR_SUCCESS) break;
-        planes_fill(image, how, y, chunk.height, planes);
-        for (int c = 0; c < image->channels; c++) {
+        for (int c = 0; c < count; c++) {
             exr_coding_channel_info_t *channel = pipeline.channels + c;
-            channel->encode_from_ptr =
-                (const uint8_t *)(planes + (size_t)c * (size_t)image->width * (size_t)chunk.height);
+            float *plane = values + (size_t)c * (size_t)image->width * (size_t)chunk.height;
+            plane_fill(&planes[c], y, chunk.height, plane);
+            channel->encode_from_ptr = (const uint8_t *)plane;
             channel->user_data_type = EXR_PIXEL_FLOAT;
             channel->user_bytes_per_element = sizeof(float);
             channel->user_pixel_stride = sizeof(float);
@@ -456,20 +508,24 @@ static exr_result_t exr_encode(exr_context_t exr, const WeftImage *image, const 
 WeftResult image_write_exr(FILE *stream, const char *name, const WeftImage *image,
                            const WeftImageWriting *how, WeftError *error) {
     ExrJob job = {.stream = stream};
+    ExrPlane planes[EXR_PLANES];
+    WeftResult result = layers_check(name, image, how, error);
+    if (result != WEFT_OK) return result;
+    int count = planes_list(image, how, planes);
     exr_context_initializer_t setup = exr_job_setup(&job);
     setup.write_fn = exr_job_write;
     exr_context_t exr = NULL;
     memory_begin();
     exr_result_t status = exr_start_write(&exr, name, EXR_WRITE_FILE_DIRECTLY, &setup);
     int32_t lines = 0;
-    float *planes = NULL;
-    if (status == EXR_ERR_SUCCESS) status = exr_describe(exr, image, how);
+    float *values = NULL;
+    if (status == EXR_ERR_SUCCESS) status = exr_describe(exr, image, how, planes, count);
     if (status == EXR_ERR_SUCCESS) status = exr_get_scanlines_per_chunk(exr, 0, &lines);
     if (status == EXR_ERR_SUCCESS) {
-        planes = alloc_array((size_t)image->width * (size_t)image->channels * (size_t)lines, sizeof(float));
-        status = planes ? exr_encode(exr, image, how, planes, lines) : EXR_ERR_OUT_OF_MEMORY;
+        values = alloc_array((size_t)image->width * (size_t)count * (size_t)lines, sizeof(float));
+        status = values ? exr_encode(exr, image, planes, count, values, lines) : EXR_ERR_OUT_OF_MEMORY;
     }
-    free(planes);
+    free(values);
     if (exr) {
         exr_result_t finished = exr_finish(&exr); /* writes the table of chunks */
         if (status == EXR_ERR_SUCCESS) status = finished;

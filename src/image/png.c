@@ -13,9 +13,13 @@ typedef struct PngJob {
     char reason[160];
     const ImageSource *source; /* when reading */
     size_t position;
-    bool data; /* when writing: no picture, and what its text chunk says, or NULL */
-    char *comment;
+    bool denoised; /* it says that it was */
+    bool data;     /* when writing: no picture, and what its text chunks say, or NULL */
+    char *comment, *how_denoised;
 } PngJob;
+
+/* The keyword of the text chunk that says how a picture was denoised. */
+static char denoised_key[] = "Denoised";
 
 static _Noreturn void png_job_fail(png_structp png, png_const_charp reason) {
     PngJob *job = png_get_error_ptr(png);
@@ -35,19 +39,29 @@ static void png_job_read(png_structp png, png_bytep to, size_t size) {
     job->position += size;
 }
 
-/* Only what changes pixels is parsed; profiles, texts and the like are skipped unread. */
-static void skip_ancillary(png_structp png) {
+/* Looks at the keyword of a text; chunks that come here are not parsed. */
+static int png_job_chunk(png_structp png, png_unknown_chunkp chunk) {
+    PngJob *job = png_get_user_chunk_ptr(png);
+    if (memcmp(chunk->name, "tEXt", 4) == 0 && chunk->size >= sizeof denoised_key)
+        job->denoised |= memcmp(chunk->data, denoised_key, sizeof denoised_key) == 0;
+    return 1;
+}
+
+/* Only what changes pixels is parsed; profiles and the like are skipped unread, texts but for their keyword. */
+static void skip_ancillary(png_structp png, PngJob *job) {
     static const char skipped[] =
         "bKGD\0cHRM\0cICP\0eXIf\0gAMA\0hIST\0iCCP\0iTXt\0oFFs\0pCAL\0pHYs\0sBIT\0sCAL\0"
-        "sPLT\0sRGB\0sTER\0tEXt\0tIME\0zTXt";
+        "sPLT\0sRGB\0sTER\0tIME\0zTXt";
     png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, NULL, 0);
     png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, (png_const_bytep)skipped, sizeof skipped / 5);
+    png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_ALWAYS, (png_const_bytep) "tEXt", 1);
+    png_set_read_user_chunk_fn(png, job, png_job_chunk);
 }
 
 /* Everything that can escape. */
-static WeftResult png_decode(png_structp png, png_infop info, const ImageSource *source, WeftImage *out,
-                             WeftError *error) {
-    skip_ancillary(png);
+static WeftResult png_decode(png_structp png, png_infop info, PngJob *job, WeftImage *out, WeftError *error) {
+    const ImageSource *source = job->source;
+    skip_ancillary(png, job);
     png_set_user_limits(png, IMAGE_SIDE_MAX, IMAGE_SIDE_MAX);
     png_read_info(png, info);
     const int64_t width = png_get_image_width(png, info), height = png_get_image_height(png, info);
@@ -82,7 +96,7 @@ static WeftResult png_read_guarded(PngJob *job, png_structp png, png_infop info,
     if (setjmp(job->escape))
         return fail(error, WEFT_MESSAGE_IMAGE_DAMAGED, job->source->name, "PNG: %s", job->reason);
     png_set_read_fn(png, job, png_job_read);
-    return png_decode(png, info, job->source, out, error);
+    return png_decode(png, info, job, out, error);
 }
 
 WeftResult image_read_png(const ImageSource *source, WeftImage *out, WeftError *error) {
@@ -93,21 +107,23 @@ WeftResult image_read_png(const ImageSource *source, WeftImage *out, WeftError *
                              : fail(error, WEFT_MESSAGE_MEMORY, source->name, NULL);
     png_destroy_read_struct(&png, &info, NULL);
     if (result != WEFT_OK) weft_image_free(out);
+    if (result == WEFT_OK && job.denoised) warn(source->log, WEFT_MESSAGE_IMAGE_DENOISED, source->name, NULL);
     return result;
 }
 
 /* A text chunk is Latin-1: what is not ASCII is left to the reader's guess. The library copies both strings.
  */
-static void png_comment(png_structp png, png_infop info, char *comment) {
-    static char keyword[] = "Comment";
+static void png_say(png_structp png, png_infop info, char *keyword, char *words) {
+    if (!words) return;
     const png_text text = {.compression = PNG_TEXT_COMPRESSION_NONE,
                            .key = keyword,
-                           .text = comment,
-                           .text_length = strlen(comment)};
+                           .text = words,
+                           .text_length = strlen(words)};
     png_set_text(png, info, &text, 1);
 }
 
 static void png_encode(png_structp png, png_infop info, const WeftImage *image, const PngJob *job) {
+    static char comment_key[] = "Comment";
     static const int color_types[] = {0, PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA, PNG_COLOR_TYPE_RGB,
                                       PNG_COLOR_TYPE_RGB_ALPHA};
     const int deep = image->type == WEFT_PIXEL_U16;
@@ -115,7 +131,8 @@ static void png_encode(png_structp png, png_infop info, const WeftImage *image, 
                  color_types[image->channels], PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
                  PNG_FILTER_TYPE_DEFAULT);
     if (!job->data) png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
-    if (job->comment) png_comment(png, info, job->comment);
+    png_say(png, info, comment_key, job->comment);
+    png_say(png, info, denoised_key, job->how_denoised);
     png_set_compression_level(png, 3); /* a third of the time of the default, files a fifth longer */
     png_write_info(png, info);
     if (deep && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__) png_set_swap(png);
@@ -135,13 +152,16 @@ static WeftResult png_write_guarded(PngJob *job, png_structp png, png_infop info
 
 WeftResult image_write_png(FILE *stream, const char *name, const WeftImage *image,
                            const WeftImageWriting *how, WeftError *error) {
-    PngJob job = {.data = how->data != 0, .comment = how->comment ? strdup(how->comment) : NULL};
+    PngJob job = {.data = how->data != 0,
+                  .comment = how->comment ? strdup(how->comment) : NULL,
+                  .how_denoised = how->denoised ? strdup(how->denoised) : NULL};
+    const bool said = !how->comment == !job.comment && !how->denoised == !job.how_denoised;
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &job, png_job_fail, png_job_warn);
     png_infop info = png ? png_create_info_struct(png) : NULL;
-    WeftResult result = info && !how->comment == !job.comment
-                            ? png_write_guarded(&job, png, info, stream, name, image, error)
-                            : fail(error, WEFT_MESSAGE_MEMORY, name, NULL);
+    WeftResult result = info && said ? png_write_guarded(&job, png, info, stream, name, image, error)
+                                     : fail(error, WEFT_MESSAGE_MEMORY, name, NULL);
     png_destroy_write_struct(&png, &info);
     free(job.comment);
+    free(job.how_denoised);
     return result;
 }

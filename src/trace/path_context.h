@@ -33,6 +33,8 @@ typedef struct PathContext {
     WeftSampling sampling;
     bool roulette, shadows;
     bool sky_in_parts; /* the factors ambient and reflection are not both 1 */
+    bool first_hits;   /* they are kept, */
+    float forward[3];  /* with depths along this axis, the camera's */
 } PathContext;
 
 /* Which random numbers a path takes (sampler.h). */

@@ -11,9 +11,8 @@
 #include "scene/shade.h"
 #include "scene/sheen_tables.h"
 #include "shading/frame.h"
-#include "trace/catcher.h"
+#include "trace/film.h"
 #include "trace/lens.h"
-#include "trace/stream.h"
 
 enum {
     DEFAULT_WIDTH = 960,
@@ -22,9 +21,8 @@ enum {
     SIDE_MAX = 65536,
 };
 
-/* One tile's finished work. Only one thread holds a tile at a time. */
+/* One tile's finished work, beside its samples. Only one thread holds a tile at a time. */
 typedef struct Tile {
-    int samples; /* in every pixel of the tile */
     long long rays, non_finite;
 } Tile;
 
@@ -46,9 +44,9 @@ struct WeftRender {
     int x0, y0, width, height; /* the crop */
     int tiles_across, tile_count;
     Tile *tiles;
-    float *sums; /* RGBA a pixel: radiance times coverage, coverage */
+    Film film;
+    int given[2]; /* samples that all tiles of a half have */
     Floor floor;
-    Caught *caught; /* one a pixel, by the floor; NULL where there is none */
     double build_seconds, render_seconds;
 };
 
@@ -66,6 +64,8 @@ static WeftResult check_desc(const WeftRenderDesc *d, WeftError *error) {
     for (int k = 0; k < 3; k++)
         if (!isfinite(d->background_color[k]))
             return fail(error, WEFT_MESSAGE_DESC, "background color", NULL);
+    if (!(d->noise >= 0.0f) || (d->noise > 0.0f && !d->halves))
+        return fail(error, WEFT_MESSAGE_DESC, "noise", "%g; above 0 it needs halves", (double)d->noise);
     if (d->threads < 0 || d->threads > WEFT_THREADS_MAX)
         return fail(error, WEFT_MESSAGE_DESC, "threads", "%d", d->threads);
     return floor_check(&d->floor, error);
@@ -158,15 +158,15 @@ static WeftResult begin_picture(WeftRender *render, WeftError *error) {
     render->tiles_across = (render->width + STREAM_TILE - 1) / STREAM_TILE;
     render->tile_count = render->tiles_across * ((render->height + STREAM_TILE - 1) / STREAM_TILE);
     free(render->tiles);
-    free(render->sums);
-    free(render->caught);
-    size_t pixels = (size_t)render->width * (size_t)render->height;
+    film_free(&render->film);
     render->floor = floor_of(render->scene, &d->floor);
     render->tiles = alloc_array((size_t)render->tile_count, sizeof(Tile));
-    render->sums = alloc_array(pixels, 4 * sizeof(float));
-    render->caught = render->floor.there ? alloc_array(pixels, sizeof(Caught)) : NULL;
     render->render_seconds = 0.0;
-    if (render->tiles && render->sums && (render->caught || !render->floor.there)) return WEFT_OK;
+    render->given[0] = render->given[1] = 0;
+    if (film_create(&render->film, render->width, render->height, d->halves, d->first_hits,
+                    render->floor.there) &&
+        render->tiles)
+        return WEFT_OK;
     render->tile_count = 0;
     return fail(error, WEFT_MESSAGE_MEMORY, render->scene->name, NULL);
 }
@@ -217,7 +217,10 @@ static WeftResult build(WeftRender *render, unsigned changed, WeftError *error) 
                                         .sampling = d->sampling,
                                         .roulette = !d->no_roulette,
                                         .shadows = !d->no_shadows,
-                                        .sky_in_parts = in_parts(&render->scene->environment)};
+                                        .sky_in_parts = in_parts(&render->scene->environment),
+                                        .first_hits = d->first_hits != 0,
+                                        .forward = {render->lens.view.forward.x, render->lens.view.forward.y,
+                                                    render->lens.view.forward.z}};
     if (result == WEFT_OK) result = make_streams(render, error);
     return result;
 }
@@ -279,8 +282,7 @@ void weft_render_free(WeftRender *render) {
     geometry_free(render->geometry);
     weft_image_free(&render->blurred);
     free(render->tiles);
-    free(render->sums);
-    free(render->caught);
+    film_free(&render->film);
     free(render);
 }
 
@@ -300,16 +302,16 @@ static void add_background(const WeftRender *render, Vec3 direction, float *sum)
 }
 
 /* A tile's part of a picture and of its samples. */
-static LensPart part_of(const WeftRender *render, int item, int first, int count) {
+static LensPart part_of(const WeftRender *render, int item, int half, int count) {
     int x = item % render->tiles_across * STREAM_TILE, y = item / render->tiles_across * STREAM_TILE;
     int w = render->width - x, h = render->height - y;
     return (LensPart){render->x0 + x,
                       render->y0 + y,
                       w < STREAM_TILE ? w : STREAM_TILE,
                       h < STREAM_TILE ? h : STREAM_TILE,
-                      first,
+                      render->film.half[half].samples[item],
                       count,
-                      render->desc.seed};
+                      half ? hash32(render->desc.seed + 0x9e3779b9u) : render->desc.seed};
 }
 
 static size_t index_of(const WeftRender *render, const LensPart *part, int pixel) {
@@ -351,7 +353,8 @@ static void take_mirrored(Stream *s, int k, const Mirrored *m) {
 }
 
 /* The floor, where a camera ray meets it before all else; false where it does not. */
-static bool add_floor(WeftRender *render, Stream *s, const LensPart *part, int k, float sum[4]) {
+static bool add_floor(WeftRender *render, Stream *s, const LensPart *part, Caught *film, int k,
+                      float sum[4]) {
     uint32_t id = s->paths[0].id[k], pixel = id >> PATHS_SAMPLES_LOG2;
     uint32_t sample = id & ((1u << PATHS_SAMPLES_LOG2) - 1u);
     CatcherRay from = {ray_of(render, &s->paths[0], k), 0.0f, {s->keys.pixel[pixel], s->keys.sample[sample]}};
@@ -360,7 +363,7 @@ static bool add_floor(WeftRender *render, Stream *s, const LensPart *part, int k
     float behind[4] = {0};
     Mirrored mirrored;
     add_background(render, from.ray.direction, behind);
-    Caught *caught = &render->caught[index_of(render, part, (int)pixel)];
+    Caught *caught = &film[index_of(render, part, (int)pixel)];
     if (catcher_sample(&render->context, &render->floor, &from, behind, caught, sum, &mirrored, &s->rays))
         take_mirrored(s, k, &mirrored);
     else
@@ -370,11 +373,12 @@ static bool add_floor(WeftRender *render, Stream *s, const LensPart *part, int k
 
 /* Adds what camera rays meet before any surface: the floor, the background. That of the environment is left to the
  * stream. */
-static void enter(WeftRender *render, Stream *s, const LensPart *part, int n) {
+static void enter(WeftRender *render, Stream *s, const LensPart *part, Caught *caught, int n) {
     bool sky = render->desc.background == WEFT_BACKGROUND_ENVIRONMENT;
     for (int k = 0; k < n; k++) {
-        float sum[4] = {0};
-        if (!render->floor.there || !add_floor(render, s, part, k, sum)) {
+        float sum[4] = {0}, seen = 0.0f;
+        if (!render->floor.there || !add_floor(render, s, part, caught, k, sum)) {
+            seen = s->mesh[k] != GEOMETRY_NOTHING ? 1.0f : 0.0f;
             if (s->mesh[k] != GEOMETRY_NOTHING || sky) {
                 sum[3] = 1.0f;
             } else {
@@ -383,33 +387,22 @@ static void enter(WeftRender *render, Stream *s, const LensPart *part, int n) {
             }
         }
         for (int c = 0; c < 4; c++) s->light.c[c][s->paths[0].id[k]] = sum[c];
+        for (int a = 0; s->first && a < FIRST_NUMBERS; a++)
+            s->first->number[a][s->paths[0].id[k]] = a == FIRST_SEEN ? seen : 0.0f;
     }
 }
 
-static bool finite(const float c[4]) {
-    float sum = c[0] + c[1] + c[2];
-    return sum < INFINITY && sum > -INFINITY;
-}
-
-/* Adds the samples of each pixel in their order. */
-static void sum_up(WeftRender *render, const Stream *s, const LensPart *part, Tile *tile) {
-    for (int pixel = 0; pixel < part->width * part->height; pixel++) {
-        float *sum = render->sums + 4 * index_of(render, part, pixel);
-        for (int k = 0; k < part->count; k++) {
-            int id = pixel << PATHS_SAMPLES_LOG2 | k;
-            float c[4] = {s->light.c[0][id], s->light.c[1][id], s->light.c[2][id], s->light.c[3][id]};
-            if (!finite(c)) {
-                tile->non_finite++;
-                c[0] = c[1] = c[2] = 0.0f;
-            }
-            for (int a = 0; a < 4; a++) sum[a] += c[a];
-        }
-    }
+static int sum_up(WeftRender *render, const Stream *s, const LensPart *part, int half) {
+    int non_finite = 0;
+    for (int pixel = 0; pixel < part->width * part->height; pixel++)
+        non_finite += film_add(&render->film, half, index_of(render, part, pixel), s,
+                               pixel << PATHS_SAMPLES_LOG2, part->count);
+    return non_finite;
 }
 
 typedef struct Pass {
     WeftRender *render;
-    int samples; /* per pixel in this pass, <= STREAM_SAMPLES */
+    int samples, half; /* per pixel in this pass, <= STREAM_SAMPLES, and for which half of the film */
     atomic_int stop, finished;
     double deadline; /* INFINITY: none */
     WeftProgress progress;
@@ -432,19 +425,43 @@ static void render_tile(void *user, int item, int thread) {
     if (atomic_load(&pass->stop)) return;
     Tile tile = render->tiles[item]; /* counted in a copy: neighbours in memory belong to other threads */
     Stream *stream = render->streams[thread];
-    LensPart part = part_of(render, item, tile.samples, pass->samples);
+    FilmHalf *half = &render->film.half[pass->half];
+    LensPart part = part_of(render, item, pass->half, pass->samples);
     int n = lens_rays(&render->lens, &part, &stream->keys, &stream->paths[0]);
     stream->rays = 0;
     trace_camera(render, stream, n);
-    enter(render, stream, &part, n);
+    enter(render, stream, &part, half->caught, n);
     stream_follow(stream, n);
-    sum_up(render, stream, &part, &tile);
+    tile.non_finite += sum_up(render, stream, &part, pass->half);
     tile.rays += stream->rays;
-    tile.samples += pass->samples;
+    half->samples[item] += pass->samples;
     render->tiles[item] = tile;
     int finished = atomic_fetch_add(&pass->finished, 1) + 1;
     if (pass->done_before > 0.0 && clock_now() > pass->deadline) atomic_store(&pass->stop, 1);
     if (thread == 0) report_progress(pass, finished);
+}
+
+/* Chooses the next pass of those that give `rest` samples. The first of a run is one sample and heeds no
+ * deadline, so that even a short time shows all of the picture. Halves take turns, and are made equal. */
+static void choose_pass(Pass *pass, bool first, int rest) {
+    const WeftRender *render = pass->render;
+    int most = first ? 1 : STREAM_SAMPLES, ahead = render->given[0] - render->given[1];
+    if (render->film.halves > 1) {
+        pass->half = ahead > 0 ? 1 : 0;
+        rest = ahead > 0 && rest > ahead ? ahead : ahead > 0 ? rest : (rest + 1) / 2;
+    }
+    pass->samples = rest < most ? rest : most;
+}
+
+/* Fewer samples show too little to judge the error by. */
+enum { NOISE_SAMPLES = 16 };
+
+/* Returns true if the error of the picture is as small as asked for. */
+static bool quiet_enough(const WeftRender *render) {
+    bool halved = render->film.halves > 1 && render->given[0] == render->given[1];
+    if (!halved || !(render->desc.noise > 0.0f) || 2 * render->given[0] < NOISE_SAMPLES) return false;
+    double noise = film_noise(&render->film);
+    return noise >= 0.0 && noise <= (double)render->desc.noise;
 }
 
 WeftResult weft_render_run(WeftRender *render, int spp, double seconds, WeftProgress progress, void *user) {
@@ -453,18 +470,18 @@ WeftResult weft_render_run(WeftRender *render, int spp, double seconds, WeftProg
                  .deadline = seconds > 0.0 ? start + seconds : (double)INFINITY,
                  .progress = progress,
                  .user = user};
+    bool quiet = quiet_enough(render);
     atomic_init(&pass.stop, 0);
-    /* The first pass is one sample and heeds no deadline, so that even a short time shows all of the picture.
-     */
-    for (int done = 0; done < spp && !atomic_load(&pass.stop); done += pass.samples) {
-        int rest = spp - done;
-        pass.samples = done == 0 ? 1 : rest < STREAM_SAMPLES ? rest : STREAM_SAMPLES;
+    for (int done = 0; done < spp && !quiet && !atomic_load(&pass.stop); done += pass.samples) {
+        choose_pass(&pass, done == 0, spp - done);
         pass.done_before = (double)done / spp;
         pass.share = (double)pass.samples / spp;
         atomic_init(&pass.finished, 0);
         parallel_for(render->stream_count, render->tile_count, render_tile, &pass);
-        /* the tiles that other threads finished last */
-        if (!atomic_load(&pass.stop)) report_progress(&pass, render->tile_count);
+        if (atomic_load(&pass.stop)) break;
+        report_progress(&pass, render->tile_count); /* the tiles that other threads finished last */
+        render->given[pass.half] += pass.samples;
+        quiet = quiet_enough(render);
     }
     render->render_seconds += clock_now() - start;
     return pass.asked_to_stop ? WEFT_INTERRUPTED : WEFT_OK;
@@ -478,7 +495,8 @@ WeftRenderInfo weft_render_info(const WeftRender *render) {
         int x = k % render->tiles_across * STREAM_TILE, y = k / render->tiles_across * STREAM_TILE;
         int w = render->width - x < STREAM_TILE ? render->width - x : STREAM_TILE;
         int h = render->height - y < STREAM_TILE ? render->height - y : STREAM_TILE;
-        samples += (double)render->tiles[k].samples * w * h;
+        for (int half = 0; half < render->film.halves; half++)
+            samples += (double)render->film.half[half].samples[k] * w * h;
         info.rays += render->tiles[k].rays;
         info.non_finite += render->tiles[k].non_finite;
     }
@@ -487,19 +505,16 @@ WeftRenderInfo weft_render_info(const WeftRender *render) {
 }
 
 WeftResult weft_render_image(const WeftRender *render, WeftImage *out, WeftError *error) {
-    WeftResult result = weft_image_create(render->width, render->height, 4, WEFT_PIXEL_F32, out, error);
-    if (result != WEFT_OK) return result;
-    float *pixel = out->pixels;
-    size_t index = 0;
-    for (int y = 0; y < render->height; y++)
-        for (int x = 0; x < render->width; x++, pixel += 4, index++) {
-            int samples = render->tiles[y / STREAM_TILE * render->tiles_across + x / STREAM_TILE].samples;
-            float sum[4];
-            memcpy(sum, render->sums + 4 * index, sizeof sum);
-            if (render->caught) catcher_resolve(&render->caught[index], sum);
-            if (!samples || !(sum[3] > 0.0f)) continue;
-            for (int c = 0; c < 3; c++) pixel[c] = sum[c] / sum[3]; /* straight alpha */
-            pixel[3] = sum[3] / (float)samples;
-        }
-    return WEFT_OK;
+    return film_image(&render->film, out, error);
+}
+
+double weft_render_noise(const WeftRender *render) { return film_noise(&render->film); }
+
+WeftResult weft_render_aov(const WeftRender *render, WeftAov aov, WeftImage *out, WeftError *error) {
+    return film_aov(&render->film, aov, out, error);
+}
+
+WeftResult weft_render_denoised(const WeftRender *render, WeftDenoiser denoiser, WeftImage *out,
+                                WeftError *error) {
+    return film_denoise(&render->film, denoiser, render->desc.threads, out, error);
 }

@@ -11,7 +11,8 @@ Stream *stream_create(const PathContext *context, int materials) {
     stream->context = context;
     stream->end = alloc_array(classes, sizeof(int));
     stream->order = alloc_array(PATHS_MOST + classes * ROW_LANES, sizeof(int));
-    if (stream->end && stream->order) return stream;
+    stream->first = context->first_hits ? alloc_array(1, sizeof(FirstHits)) : NULL;
+    if (stream->end && stream->order && !stream->first == !context->first_hits) return stream;
     stream_free(stream);
     return NULL;
 }
@@ -20,6 +21,7 @@ void stream_free(Stream *stream) {
     if (!stream) return;
     free(stream->end);
     free(stream->order);
+    free(stream->first);
     free(stream);
 }
 
@@ -85,8 +87,11 @@ static int shade(Stream *s, const ChunkSource *source, Paths *next, int at) {
     Chunk *chunk = &s->chunk;
     chunk_place(chunk, source);
     if (material->shines || material->material.unlit) chunk_add_emission(chunk, source, &s->light);
-    if (source->depth == context->max_depth || material->material.unlit) return at;
-    chunk_turn(chunk, source);
+    bool ends = source->depth == context->max_depth || material->material.unlit;
+    if (!ends) chunk_turn(chunk, source);
+    if (s->first && source->depth == 0)
+        first_hits_take(s->first, chunk, source->n, ends ? chunk->normal : chunk->frame[2], context->forward);
+    if (ends) return at;
     chunk_shade(chunk, source);
     for (int g = 0; g < LIGHT_GROUPS; g++)
         if (lights_shine(context->lights, (LightGroup)g))

@@ -7,7 +7,7 @@
 #ifndef WEFT_TRACE_STREAM_H
 #define WEFT_TRACE_STREAM_H
 
-#include "trace/chunk.h"
+#include "trace/first_hit.h"
 
 enum {
     STREAM_TILE = 16, /* pixels a side */
@@ -20,7 +20,8 @@ typedef struct Stream {
     Paths paths[2];                                    /* those of this depth and the next */
     float t[PATHS_ROOM], u[PATHS_ROOM], v[PATHS_ROOM]; /* where they end: as HitRows */
     uint32_t mesh[PATHS_ROOM], triangle[PATHS_ROOM];
-    Light4 light; /* by the id of the path that brought it */
+    Light4 light;     /* by the id of the path that brought it */
+    FirstHits *first; /* NULL where the context does not ask for them */
     PathKeys keys;
     Chunk chunk;
     int *end, *order; /* paths by class, which is nothing hit or a material; where those of a class end */

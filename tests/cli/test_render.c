@@ -1,3 +1,4 @@
+#define _GNU_SOURCE /* memmem */
 /* `weft render`: pictures come out, as asked for, and nothing is lost when they cannot. */
 #include "run.h"
 
@@ -339,6 +340,97 @@ static void output_through_a_link_replaces_its_target(void **state) {
     assert_size("real.png", 32, 24);
 }
 
+static bool file_has(const char *path, const void *part, size_t length) {
+    size_t size;
+    char *bytes = file_bytes(path, &size);
+    bool found = bytes && memmem(bytes, size, part, length) != NULL;
+    free(bytes);
+    return found;
+}
+
+/* Looks for a channel of 32 bit floats in an .exr's header: its name, a zero, and the type as an integer. */
+static bool file_has_channel(const char *path, const char *name) {
+    char entry[40] = {0};
+    size_t length = strlen(name);
+    memcpy(entry, name, length);
+    entry[length + 1] = 2;
+    return file_has(path, entry, length + 5);
+}
+
+/* The channels that were asked for, by the names that other programs know, and no more. */
+static void aovs_lie_in_the_exr_by_name(void **state) {
+    (void)state;
+    static const char *const names[] = {"albedo.R", "N.X", "Z", "variance.B", "sampleCount"};
+    quietly(LIST("render", "scene.gltf", TINY, "--quiet", "-o", "plain.exr", "-o", "plain.png"));
+    quietly(LIST("render", "scene.gltf", TINY, "--quiet", "--aov", "albedo,normal,depth,samples", "-o",
+                 "some.exr", "-o", "some.png"));
+    quietly(LIST("render", "scene.gltf", TINY, "--quiet", "--aov=variance", "-o", "one.exr"));
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
+        assert_int_equal(file_has_channel("some.exr", names[k]), k != 3);
+        assert_int_equal(file_has_channel("one.exr", names[k]), k == 3);
+        assert_false(file_has_channel("plain.exr", names[k]));
+    }
+    WeftImage some = picture("some.exr"), plain = picture("plain.exr");
+    assert_memory_equal(some.pixels, plain.pixels, 32 * 24 * 4 * sizeof(float));
+    weft_image_free(&some);
+    weft_image_free(&plain);
+}
+
+static void noise_level_ends_a_render(void **state) {
+    (void)state;
+    Ran ran = done(LIST("render", "builtin:spheres", "--width=48", "--height=36", "--noise=0.02", "--json",
+                        "-o", "a.png"));
+    json_t *all = parsed(ran.out);
+    assert_true(number(all, "noise") <= 0.02 && number(all, "samples_per_pixel") >= 16.0);
+    assert_non_null(strstr(ran.err, "relMSE about "));
+    json_decref(all);
+    ran_free(&ran);
+}
+
+/* A denoised picture is marked, and whoever compares with it is told. */
+static void denoised_picture_warns_who_compares_with_it(void **state) {
+    (void)state;
+    quietly(LIST("render", "scene.gltf", TINY, "--quiet", "--denoise", "-o", "clean.exr", "-o", "clean.png"));
+    quietly(LIST("render", "scene.gltf", TINY, "--quiet", "-o", "raw.exr", "-o", "raw.png"));
+    assert_true(file_has("clean.exr", "denoised", 8) && file_has("clean.png", "Denoised", 8));
+    assert_false(file_has("raw.exr", "denoised", 8) || file_has("raw.png", "Denoised", 8));
+    static const char *const pairs[][2] = {{"raw.exr", "clean.exr"}, {"raw.png", "clean.png"}};
+    for (int k = 0; k < 2; k++) {
+        Ran ran = done(LIST("diff", pairs[k][0], pairs[k][1]));
+        assert_non_null(strstr(ran.err, "was denoised"));
+        assert_non_null(strstr(ran.err, pairs[k][1]));
+        ran_free(&ran);
+        ran = done(LIST("diff", pairs[k][0], pairs[k][0]));
+        assert_string_equal(ran.err, "");
+        ran_free(&ran);
+    }
+}
+
+/* One line, and the exit code of a wrong command line. */
+static void aov_noise_and_denoise_are_refused_elsewhere(void **state) {
+    (void)state;
+    static const struct {
+        const char *arguments[8], *said;
+    } cases[] = {{{"--aov", "albedo", "-o", "a.png"}, "--aov: needs an .exr"},
+                 {{"--aov", "depth,colour", "-o", "a.exr"}, "--aov: \"colour\" is not "},
+                 {{"--aov", "albedo,", "-o", "a.hdr"}, "--aov: needs an .exr"},
+                 {{"--aov", "normal", "--engine", "raster", "-o", "a.exr"}, "--aov: needs --engine trace"},
+                 {{"--noise", "0.1", "--engine", "raster", "-o", "a.png"}, "--noise: needs --engine trace"},
+                 {{"--noise", "0", "-o", "a.png"}, "--noise"},
+                 {{"--denoise", "--engine", "both", "-o", "a.png"}, "--denoise: not for a sheet"},
+                 {{"--denoise", "-o", "a.hdr"}, "a.hdr: cannot say that it was denoised"},
+                 {{"--denoise", "-o", "a.npy"}, "a.npy: cannot say that it was denoised"},
+                 {{"--denoiser", "magic", "-o", "a.png"}, "--denoiser"}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        const char *const *a = cases[k].arguments;
+        Ran ran = run_with(NULL, LIST("render", "scene.gltf", a[0], a[1], a[2], a[3], a[4], a[5]));
+        assert_int_equal(ran.code, WEFT_USAGE);
+        assert_non_null(strstr(ran.err, cases[k].said));
+        assert_ptr_equal(strchr(ran.err, '\n'), ran.err + strlen(ran.err) - 1);
+        ran_free(&ran);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(builtin_scene_is_written_in_three_formats),
@@ -356,6 +448,10 @@ int main(void) {
         cmocka_unit_test(failed_render_keeps_the_old_picture),
         cmocka_unit_test(unwritable_output_is_refused_before_the_scene_is_read),
         cmocka_unit_test(output_through_a_link_replaces_its_target),
+        cmocka_unit_test(aovs_lie_in_the_exr_by_name),
+        cmocka_unit_test(noise_level_ends_a_render),
+        cmocka_unit_test(denoised_picture_warns_who_compares_with_it),
+        cmocka_unit_test(aov_noise_and_denoise_are_refused_elsewhere),
     };
     return cmocka_run_group_tests(tests, scene_begin, work_end);
 }

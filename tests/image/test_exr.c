@@ -500,6 +500,74 @@ static void exr_of_data_keeps_every_bit(void **state) {
     }
 }
 
+static void fill(WeftImage *image, float scale) {
+    for (size_t i = 0; i < value_total(image); i++)
+        ((float *)image->pixels)[i] =
+            image->channels % 2 == 0 && i % 4 == 3 ? 0.5f : scale * (float)(i * 7919 % 1021);
+}
+
+static void count_denoised(void *user, WeftMessage message, const char *text) {
+    assert_int_equal(message, WEFT_MESSAGE_IMAGE_DENOISED);
+    assert_non_null(strstr(text, "image.exr"));
+    ++*(int *)user;
+}
+
+/* Channels beside the picture's: the picture reads as it does without them; they are there by name, and exact: of a
+ * grey picture the reader takes a layer that is called R G B. */
+static void exr_layers_leave_the_picture_as_it_is(void **state) {
+    (void)state;
+    WeftImage image = make_image(23, 35, 4, WEFT_PIXEL_F32), normal = make_image(23, 35, 3, WEFT_PIXEL_F32),
+              depth = make_image(23, 35, 1, WEFT_PIXEL_F32);
+    fill(&image, 0.25f), fill(&normal, 1e-7f), fill(&depth, 1e7f);
+    const WeftImageLayer layers[] = {{&normal, {"N.X", "N.Y", "N.Z"}}, {&depth, {"Z"}}};
+    WeftImage with =
+                  write_and_read_as(&image, ".exr", &(WeftImageWriting){.layers = layers, .layer_count = 2}),
+              without = write_and_read(&image, ".exr");
+    assert_shape(&with, 23, 35, 4, WEFT_PIXEL_F32);
+    assert_memory_equal(with.pixels, without.pixels, value_total(&with) * sizeof(float));
+    weft_image_free(&with);
+    weft_image_free(&without);
+    const WeftImageLayer colors = {&normal, {"R", "G", "B"}};
+    with = write_and_read_as(&depth, ".exr", &(WeftImageWriting){.layers = &colors, .layer_count = 1});
+    assert_shape(&with, 23, 35, 3, WEFT_PIXEL_F32);
+    assert_memory_equal(with.pixels, normal.pixels, value_total(&with) * sizeof(float));
+    weft_image_free(&with);
+
+    WeftImage narrow = make_image(22, 35, 3, WEFT_PIXEL_F32);
+    const WeftImageLayer wrong[] = {{&narrow, {"N.X", "N.Y", "N.Z"}}, {&normal, {"N.X", NULL, "N.Z"}}};
+    for (int k = 0; k < 2; k++) {
+        WeftError error = {0};
+        const WeftImageWriting how = {.layers = &wrong[k], .layer_count = 1};
+        assert_int_equal(weft_image_write_as("refused.exr", &image, &how, &error), WEFT_USAGE);
+        assert_int_equal(error.message, WEFT_MESSAGE_DESC);
+    }
+    weft_image_free(&narrow);
+    weft_image_free(&image);
+    weft_image_free(&normal);
+    weft_image_free(&depth);
+}
+
+/* A denoised picture says so, and the reader does. */
+static void denoised_exr_warns_its_reader(void **state) {
+    (void)state;
+    char folder[256], path[300];
+    folder_make(folder);
+    snprintf(path, sizeof path, "%s/image.exr", folder);
+    WeftImage image = make_image(8, 8, 3, WEFT_PIXEL_F32), back;
+    for (int denoised = 0; denoised < 2; denoised++) {
+        int warnings = 0;
+        const WeftLog log = {count_denoised, &warnings};
+        const WeftImageWriting how = {.denoised = denoised ? "regression" : NULL};
+        assert_int_equal(weft_image_write_as(path, &image, &how, NULL), WEFT_OK);
+        assert_int_equal(weft_image_read(path, &back, &log, NULL), WEFT_OK);
+        assert_int_equal(warnings, denoised);
+        weft_image_free(&back);
+    }
+    weft_image_free(&image);
+    assert_int_equal(unlink(path), 0);
+    assert_int_equal(rmdir(folder), 0);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(exr_of_every_compression_type_and_tiling_is_read),
@@ -515,6 +583,8 @@ int main(void) {
         cmocka_unit_test(exr_lines_that_do_not_compress_read_back),
         cmocka_unit_test(exr_writes_values_beyond_half_clamped),
         cmocka_unit_test(exr_of_data_keeps_every_bit),
+        cmocka_unit_test(exr_layers_leave_the_picture_as_it_is),
+        cmocka_unit_test(denoised_exr_warns_its_reader),
     };
     return cmocka_run_group_tests_name("exr", tests, NULL, NULL);
 }

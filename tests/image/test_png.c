@@ -154,12 +154,41 @@ static void png_reads_what_it_wrote(void **state) {
         }
 }
 
+static void count_denoised(void *user, WeftMessage message, const char *text) {
+    assert_int_equal(message, WEFT_MESSAGE_IMAGE_DENOISED);
+    assert_non_null(strstr(text, "image.png"));
+    ++*(int *)user;
+}
+
+/* A denoised picture says so, and the reader does; another text is none of its business. */
+static void denoised_png_warns_its_reader(void **state) {
+    (void)state;
+    static const char *const said[] = {NULL, "regression", ""};
+    char folder[256], path[300];
+    folder_make(folder);
+    snprintf(path, sizeof path, "%s/image.png", folder);
+    WeftImage image = make_image(8, 8, 3, WEFT_PIXEL_U8), back;
+    for (int k = 0; k < 3; k++) {
+        int warnings = 0;
+        const WeftLog log = {count_denoised, &warnings};
+        const WeftImageWriting how = {.comment = "Denoised", .denoised = said[k]};
+        assert_int_equal(weft_image_write_as(path, &image, &how, NULL), WEFT_OK);
+        assert_int_equal(weft_image_read(path, &back, &log, NULL), WEFT_OK);
+        assert_int_equal(warnings, k > 0);
+        weft_image_free(&back);
+    }
+    weft_image_free(&image);
+    assert_int_equal(unlink(path), 0);
+    assert_int_equal(rmdir(folder), 0);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(png_of_every_type_and_depth_is_read),
         cmocka_unit_test(damaged_png_is_refused),
         cmocka_unit_test(png_that_claims_too_many_pixels_is_refused),
         cmocka_unit_test(png_reads_what_it_wrote),
+        cmocka_unit_test(denoised_png_warns_its_reader),
     };
     return cmocka_run_group_tests_name("png", tests, NULL, NULL);
 }
