@@ -550,8 +550,8 @@ static void exr_layers_leave_the_picture_as_it_is(void **state) {
 /* A denoised picture says so, and the reader does. */
 static void denoised_exr_warns_its_reader(void **state) {
     (void)state;
-    char folder[256], path[300];
-    folder_make(folder);
+    char folder[SCRATCH_SIZE], path[300];
+    assert_true(scratch_make(folder));
     snprintf(path, sizeof path, "%s/image.exr", folder);
     WeftImage image = make_image(8, 8, 3, WEFT_PIXEL_F32), back;
     for (int denoised = 0; denoised < 2; denoised++) {

@@ -164,8 +164,8 @@ static void count_denoised(void *user, WeftMessage message, const char *text) {
 static void denoised_png_warns_its_reader(void **state) {
     (void)state;
     static const char *const said[] = {NULL, "regression", ""};
-    char folder[256], path[300];
-    folder_make(folder);
+    char folder[SCRATCH_SIZE], path[300];
+    assert_true(scratch_make(folder));
     snprintf(path, sizeof path, "%s/image.png", folder);
     WeftImage image = make_image(8, 8, 3, WEFT_PIXEL_U8), back;
     for (int k = 0; k < 3; k++) {
