@@ -55,6 +55,8 @@ const Option request_options[] = {
     OPTION_NUMBER("--spp", "COUNT", "64", 1, REQUEST_SPP_MOST,
                   "samples a pixel; without end where only --time-limit is given"),
     OPTION_NUMBER("--time-limit", "SECONDS", NULL, 1e-3, 1e9, "stop then and write what there is"),
+    OPTION_SWITCH("--halves",
+                  "take the samples in two independent halves, by which the picture's relMSE is estimated"),
     OPTION_NUMBER("--noise", "LEVEL", NULL, 1e-9, 1e9,
                   "stop as soon as the picture's relMSE, estimated from two halves of its samples, is at "
                   "most LEVEL; --spp is "
@@ -172,7 +174,7 @@ static bool read_aovs(const char *text, unsigned *aovs) {
 
 /* Reads what else the path tracer is to give, and checks that it is asked for it. */
 static bool read_extras(const Options *options, Request *request) {
-    static const char *const of_tracer[] = {"--noise", "--aov", "--denoise", "--denoiser"};
+    static const char *const of_tracer[] = {"--halves", "--noise", "--aov", "--denoise", "--denoiser"};
     const char *denoisers[WEFT_DENOISER_COUNT + 1];
     int denoiser = 0;
     double noise = 0.0;
@@ -195,8 +197,8 @@ static bool read_extras(const Options *options, Request *request) {
     }
     if (option_given(options, "--noise") && !option_given(options, "--spp")) request->spp = 0;
     request->desc.noise = option_given(options, "--noise") ? (float)noise : 0.0f;
-    request->desc.halves =
-        request->denoise || request->desc.noise > 0.0f || (request->aovs & 1u << WEFT_AOV_VARIANCE);
+    request->desc.halves = option_given(options, "--halves") || request->denoise ||
+                           request->desc.noise > 0.0f || (request->aovs & 1u << WEFT_AOV_VARIANCE);
     request->desc.first_hits = request->denoise || (request->aovs & ((2u << WEFT_AOV_DEPTH) - 1u));
     return true;
 }

@@ -20,8 +20,8 @@
 #include "shading/loop.h"
 
 enum {
-    WINDOW = 5, /* its radius */
-    PATCH = 3,  /* and the patch's */
+    WINDOW = 5, /* the radius of the window, */
+    PATCH = 3,  /* and of the patch */
     MARGIN = WINDOW + PATCH,
     SIDE = 2 * WINDOW + 1,
     PATCH_SIDE = 2 * PATCH + 1,
@@ -120,8 +120,8 @@ static void find_variance(DenoisePlanes *planes) {
 }
 
 /* Sets what d is the mean of, for the pixels from p on and those at q from them. */
-CLONES static void distance_row(int n, const float *const u[3], const float *restrict v, ptrdiff_t q,
-                                float *restrict to) {
+CLONES static void distance_n(int n, const float *const u[3], const float *restrict v, ptrdiff_t q,
+                              float *restrict to) {
     const float *restrict r = u[0], *restrict g = u[1], *restrict b = u[2];
     const float *r_q = r + q, *g_q = g + q, *b_q = b + q, *v_q = v + q;
     EACH(x, (size_t)n) {
@@ -132,8 +132,8 @@ CLONES static void distance_row(int n, const float *const u[3], const float *res
 }
 
 /* Sets the weights: means over patches first down, then across. */
-CLONES static void weight_row(int n, const float (*restrict distance)[WIDE], float *restrict column,
-                              float *restrict weight) {
+CLONES static void weights_n(int n, const float (*restrict distance)[WIDE], float *restrict column,
+                             float *restrict weight) {
     EACH(x, (size_t)n + 2 * PATCH) {
         float sum = 0.0f;
         for (int y = 0; y < PATCH_SIDE; y++) sum += distance[y][x];
@@ -157,12 +157,12 @@ static void weigh(const DenoisePlanes *planes, int half, const Area *area, Scrat
             ptrdiff_t p = place_of(planes, area->x - PATCH, area->y - PATCH + y);
             const float *const u[3] = {planes->color[half][0] + p, planes->color[half][1] + p,
                                        planes->color[half][2] + p};
-            distance_row(area->width + 2 * PATCH, u, planes->variance + p, place_of(planes, dx, dy),
-                         s->distance[y]);
+            distance_n(area->width + 2 * PATCH, u, planes->variance + p, place_of(planes, dx, dy),
+                       s->distance[y]);
         }
         for (int y = 0; y < area->height; y++) {
             float *weight = s->weight[offset][y];
-            weight_row(area->width, (const float(*)[WIDE])s->distance + y, s->column, weight);
+            weights_n(area->width, (const float(*)[WIDE])s->distance + y, s->column, weight);
             bool there = area->y + y + dy >= 0 && area->y + y + dy < planes->height;
             for (int x = 0; x < area->width; x++)
                 if (!there || area->x + x + dx < 0 || area->x + x + dx >= planes->width) weight[x] = 0.0f;
@@ -198,7 +198,7 @@ CLONES static void add_products(int n, Scratch *s, const float *const color[DENO
 }
 
 /* Solves the equations by elimination from the last term on, so that beta_0 is found first and alone. */
-CLONES static void solve_row(int n, Scratch *s) {
+CLONES static void solve_n(int n, Scratch *s) {
     Line(*moment)[TERMS] = s->moment, (*side)[TERMS] = s->side;
     for (int i = 1; i < TERMS; i++) EACH(x, (size_t)n) moment[i][i][x] += ridge * moment[0][0][x];
     for (int k = TERMS - 1; k > 0; k--)
@@ -227,7 +227,7 @@ static void fit(const DenoisePlanes *planes, int half, const Area *area, Scratch
             for (int c = 0; c < DENOISE_COLORS; c++) color[c] = planes->color[half][c] + p + q;
             add_products(area->width, s, color);
         }
-        solve_row(area->width, s);
+        solve_n(area->width, s);
         for (int c = 0; c < DENOISE_COLORS; c++)
             for (int x = 0; x < area->width; x++) planes->out[c][p + x] += 0.5f * s->side[c][0][x];
     }

@@ -77,7 +77,7 @@ static void run(const OidnLibrary *library, OidnDevice device, const OidnPicture
     library->release_filter(filter);
 }
 
-/* What the library complained of, if it did. */
+/* Turns a complaint of the library into a failure. */
 static WeftResult verdict(const OidnLibrary *library, OidnDevice device, WeftError *error) {
     const char *text = NULL;
     if (!library->get_error(device, &text)) return WEFT_OK;

@@ -13,7 +13,7 @@ typedef struct PngJob {
     char reason[160];
     const ImageSource *source; /* when reading */
     size_t position;
-    bool denoised; /* it says that it was */
+    bool denoised; /* the file says so */
     bool data;     /* when writing: no picture, and what its text chunks say, or NULL */
     char *comment, *how_denoised;
 } PngJob;

@@ -141,7 +141,7 @@ static const struct {
 
 const char *weft_aov_name(int aov) { return aov >= 0 && aov < WEFT_AOV_COUNT ? aovs[aov].name : NULL; }
 
-/* How far away nothing is: what compositing programs know as the background. */
+/* The depth of nothing, which compositing programs know as the background. */
 static const float nowhere = 1e10f;
 
 static void aov_pixel(const Film *film, WeftAov aov, int x, int y, float *to) {

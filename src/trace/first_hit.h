@@ -1,4 +1,4 @@
-/* first_hit.h - what the camera sees of surfaces: albedo, normal and depth where its rays meet them first */
+/* first_hit.h - albedo, normal and depth of the surfaces that camera rays meet first */
 #ifndef WEFT_TRACE_FIRST_HIT_H
 #define WEFT_TRACE_FIRST_HIT_H
 

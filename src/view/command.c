@@ -158,7 +158,8 @@ static void put_view(Line *line, const Viewer *v) {
     if (v->options->tonemap != WEFT_TONEMAP_PBR_NEUTRAL)
         put(line, " --tonemap %s", curves[v->options->tonemap]);
     if (v->options->mode != MODE_LIVE) {
-        put(line, v->options->mode == MODE_DIFFERENCE ? " --engine both --spp %d" : " --spp %d",
+        put(line,
+            v->options->mode == MODE_DIFFERENCE ? " --engine both --halves --spp %d" : " --halves --spp %d",
             v->requests->traced.samples >= 1.0 ? (int)v->requests->traced.samples : 64);
         return;
     }

@@ -77,6 +77,7 @@ static void request_reference(Viewer *v, const FrameRequest *request) {
     t.desc.background = request->view.background;
     t.desc.floor = request->view.floor;
     t.desc.hide_lights = request->view.hide_lights;
+    t.desc.halves = t.desc.first_hits = 1; /* to show it denoised */
     snprintf(t.camera, sizeof t.camera, "%s", request->camera);
     t.tonemap = request->tonemap, t.exposure = request->exposure;
     memcpy(t.behind, request->behind, sizeof t.behind);

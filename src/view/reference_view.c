@@ -11,6 +11,8 @@
 
 #include "base/steady_clock.h"
 
+enum { COARSE = 3 }; /* pixels of the window for one of a first look, along a side */
+
 struct ReferenceView {
     Window *window;
     pthread_t thread;
@@ -30,11 +32,13 @@ struct ReferenceView {
     WeftImage linear; /* what the picture was made of */
     /* of the thread alone */
     WeftRender *render;
-    ReferenceRequest drawn;
+    ReferenceRequest asked, drawn; /* the latest, and with the pixels that it was given */
     unsigned drawn_number;
     bool current; /* `render` is of the scene and of `drawn` */
-    bool finer;   /* what stands in has all its pixels */
+    bool finer;   /* the render has all of its pixels */
     double samples;
+    WeftImage denoised; /* of the render when it had so many samples */
+    double denoised_samples;
     WeftImage compared;
 };
 
@@ -71,6 +75,8 @@ static bool begin(ReferenceView *self, const ReferenceRequest *request, const We
     pthread_mutex_lock(&self->lock);
     weft_image_free(&self->linear); /* of another view, or scene */
     pthread_mutex_unlock(&self->lock);
+    weft_image_free(&self->denoised);
+    self->denoised_samples = 0.0;
     if (other || !self->render) {
         weft_render_free(self->render);
         self->render = NULL;
@@ -99,24 +105,62 @@ static WeftResult compare(ReferenceView *self, const ReferenceRequest *request, 
                              : result;
 }
 
-/* Shows what there is. */
+/* Denoises what there is, each time that the samples have doubled, so that most of the time goes to them. */
+static const WeftImage *denoised(ReferenceView *self) {
+    WeftImage image;
+    if (self->samples < 2.0 || self->samples < 2.0 * self->denoised_samples) return &self->denoised;
+    if (weft_render_denoised(self->render, WEFT_DENOISER_REGRESSION, &image, NULL) == WEFT_OK) {
+        weft_image_free(&self->denoised);
+        self->denoised = image;
+        self->denoised_samples = self->samples;
+    }
+    return &self->denoised;
+}
+
+/* Mixes the denoised picture and the true one, whose share is that of the samples taken: its noise is then never
+ * more than that of the last picture, which is the true one alone. */
+static WeftResult mix(ReferenceView *self, const ReferenceRequest *request, const WeftImage *linear,
+                      WeftImage *out) {
+    const WeftImage *clean = denoised(self);
+    float share = fminf((float)(self->samples / request->samples), 1.0f);
+    WeftResult result = weft_image_create(linear->width, linear->height, 4, WEFT_PIXEL_F32, out, NULL);
+    if (result != WEFT_OK) return result;
+    const float *a = clean->pixels ? clean->pixels : linear->pixels, *b = linear->pixels;
+    float *to = out->pixels;
+    for (size_t k = 0; k < 4 * (size_t)linear->width * (size_t)linear->height; k++)
+        to[k] = a[k] + share * (b[k] - a[k]);
+    return WEFT_OK;
+}
+
+static WeftResult show(ReferenceView *self, const ReferenceRequest *request, const WeftImage *linear,
+                       WeftImage *out) {
+    WeftImage mixed;
+    WeftResult result = mix(self, request, linear, &mixed);
+    if (result != WEFT_OK) return result;
+    result = weft_image_tonemap_over(&mixed, request->tonemap, request->exposure, request->behind, out, NULL);
+    weft_image_free(&mixed);
+    return result;
+}
+
+/* Shows what there is. A picture of fewer pixels is no more than a first look: its samples are those of a pixel of the
+ * whole, and it is not kept. */
 static void publish(ReferenceView *self, const ReferenceRequest *request, unsigned number_for) {
     ReferenceFrame picture = {.wanted_samples = request->samples, .number = number_for};
+    bool kept = !number_for && self->finer;
     WeftImage linear;
     if (weft_render_image(self->render, &linear, NULL) != WEFT_OK) return;
     WeftRenderInfo info = weft_render_info(self->render);
     picture.samples = info.samples_per_pixel;
+    if (!number_for && !self->finer) picture.samples /= COARSE * COARSE;
     picture.seconds = info.render_seconds;
-    bool made = request->difference && compare(self, request, &linear, &picture) == WEFT_OK;
-    if (!made && !request->difference)
-        made = weft_image_tonemap_over(&linear, request->tonemap, request->exposure, request->behind,
-                                       &picture.image, NULL) == WEFT_OK;
+    bool made = request->difference ? compare(self, request, &linear, &picture) == WEFT_OK
+                                    : show(self, request, &linear, &picture.image) == WEFT_OK;
     pthread_mutex_lock(&self->lock);
     weft_image_free(&self->linear);
-    if (number_for)
-        weft_image_free(&linear); /* what stands in is none to be kept */
-    else
+    if (kept)
         self->linear = linear;
+    else
+        weft_image_free(&linear);
     if (made) {
         weft_image_free(&self->picture.image);
         self->picture = picture;
@@ -127,18 +171,18 @@ static void publish(ReferenceView *self, const ReferenceRequest *request, unsign
     window_wake(self->window);
 }
 
-/* A few more samples, as many as half a second has. */
+/* A few more samples, as many as half a second has; at first one of each half. */
 static void refine(ReferenceView *self, const ReferenceRequest *request) {
-    double start = clock_now();
+    double start = clock_now(), most = self->samples < 1.0 ? 0.0 : 0.4;
     int left = request->samples - (int)self->samples;
-    int count = self->samples < 1.0 ? 1 : self->samples < 8.0 ? (int)self->samples : 8;
+    int count = self->samples < 2.0 ? 2 : self->samples < 8.0 ? (int)self->samples : 8;
     if (count > left) count = left;
     while (count > 0) {
         WeftResult result = weft_render_run(self->render, count, 0.0, should_stop, self);
         self->samples = weft_render_info(self->render).samples_per_pixel;
         left = request->samples - (int)self->samples;
         if (count > left) count = left;
-        if (result != WEFT_OK || clock_now() - start > 0.4) break;
+        if (result != WEFT_OK || clock_now() - start > most) break;
     }
 }
 
@@ -149,12 +193,14 @@ static bool has_work(const ReferenceView *self) {
            (self->current && self->samples < (double)self->request.samples);
 }
 
-/* While programs compile it has little of the processors: fewer pixels, until there are as many samples as
- * those stand for. */
-static void stand_in(ReferenceView *self, ReferenceRequest *request, bool anew) {
-    enum { COARSE = 3 };
-    self->finer = !anew && (self->finer || self->samples >= COARSE * COARSE);
-    request->difference = false;
+/* A new view has fewer pixels at first, so that it is there at once, and all of them from the next picture on. While
+ * programs compile there is little of the processors: then until there are as many samples as those pixels stand
+ * for. */
+static void coarsen(ReferenceView *self, ReferenceRequest *request, bool anew, bool stands_in) {
+    double enough = stands_in ? COARSE * COARSE : 1.0;
+    self->finer = !anew && (self->finer || self->samples >= enough);
+    if (request->difference && !stands_in) self->finer = true;
+    if (stands_in) request->difference = false;
     if (self->finer) return;
     request->desc.width = request->desc.width > COARSE ? request->desc.width / COARSE : 1;
     request->desc.height = request->desc.height > COARSE ? request->desc.height / COARSE : 1;
@@ -178,7 +224,9 @@ static void round_of_work(ReferenceView *self) {
         redraw = true;
     }
     pthread_mutex_unlock(&self->lock);
-    if (number_for) stand_in(self, &request, other || changed || redraw);
+    bool moved = other || changed || !self->current || !same_view(&request, &self->asked);
+    self->asked = request;
+    coarsen(self, &request, moved || (number_for && redraw), number_for != 0);
     bool begun = self->current || other || changed || !same_view(&request, &self->drawn) || !self->render;
     bool anew = other || changed || !self->current || !same_view(&request, &self->drawn);
     if (anew) begun = begin(self, &request, scene, changed, other);
@@ -231,6 +279,7 @@ void reference_stop(ReferenceView *self) {
     weft_image_free(&self->compared);
     weft_image_free(&self->picture.image);
     weft_image_free(&self->linear);
+    weft_image_free(&self->denoised);
     pthread_mutex_destroy(&self->lock);
     pthread_cond_destroy(&self->change);
     free(self);

@@ -351,8 +351,8 @@ static void draw_tags(const Viewer *v) {
     const UiBox *s = &v->frame->stage;
     char text[128] = "";
     if (v->options->mode == MODE_REFERENCE)
-        snprintf(text, sizeof text, "path traced   %.0f of %d spp", v->requests->traced.samples,
-                 TRACE_SAMPLES);
+        snprintf(text, sizeof text, "path traced   %.0f of %d spp%s", v->requests->traced.samples,
+                 TRACE_SAMPLES, v->requests->traced.samples < TRACE_SAMPLES ? ", denoised" : "");
     else if (v->options->mode == MODE_DIFFERENCE)
         snprintf(text, sizeof text, "OpenGL less path traced");
     else if (viewer_shows(v) == SHOWS_TRACED)

@@ -406,6 +406,21 @@ static void denoised_picture_warns_who_compares_with_it(void **state) {
     }
 }
 
+/* Open Image Denoise is found at run time: it works where it is installed, and else one line says that it is not. */
+static void absent_denoising_library_is_named(void **state) {
+    (void)state;
+    Ran ran = run_with(NULL, LIST("render", "scene.gltf", TINY, "--denoiser", "oidn", "-o", "oidn.png"));
+    if (ran.code == 0) {
+        assert_size("oidn.png", 32, 24);
+    } else {
+        assert_int_equal(ran.code, WEFT_RESOURCES);
+        assert_non_null(strstr(ran.err, "libOpenImageDenoise: cannot denoise"));
+        assert_ptr_equal(strchr(ran.err, '\n'), ran.err + strlen(ran.err) - 1);
+        assert_int_equal(access("oidn.png", F_OK), -1);
+    }
+    ran_free(&ran);
+}
+
 /* One line, and the exit code of a wrong command line. */
 static void aov_noise_and_denoise_are_refused_elsewhere(void **state) {
     (void)state;
@@ -451,6 +466,7 @@ int main(void) {
         cmocka_unit_test(aovs_lie_in_the_exr_by_name),
         cmocka_unit_test(noise_level_ends_a_render),
         cmocka_unit_test(denoised_picture_warns_who_compares_with_it),
+        cmocka_unit_test(absent_denoising_library_is_named),
         cmocka_unit_test(aov_noise_and_denoise_are_refused_elsewhere),
     };
     return cmocka_run_group_tests(tests, scene_begin, work_end);

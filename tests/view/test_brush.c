@@ -21,7 +21,7 @@ static void brushed_nap_is_saved_and_drawn_by_both_engines(void **state) {
         shell, sizeof shell,
         "\"$0\" render nap.glb --env 0,0,0 --camera 0 --width %d --height %d --quiet --engine raster"
         " --occlusion 0 -o again.exr && \"$0\" render nap.glb --env 0,0,0 --camera 0 --width %d --height %d"
-        " --quiet --spp 24 -o truth.exr",
+        " --quiet --halves --spp 24 -o truth.exr",
         size.width, size.height, size.width, size.height);
     weft_image_free(&size);
     Ran ran = run_shell(shell);
