@@ -206,9 +206,10 @@ void edit_note_changes(Viewer *v, bool held); /* at the end of a frame; held: it
 void edit_choose_material(Viewer *v, int material);
 void edit_choose_light(Viewer *v, int light);
 void edit_forget_copy(Viewer *v);
-void edit_match_other(Viewer *v);                                     /* makes the other of A and B equal */
-void edit_take_light(Viewer *v, const EnvironmentState *environment); /* takes a light that the renderer has read */
-void edit_take_assigned(Viewer *v, SceneState *state);                /* what a task has made; takes it */
+void edit_match_other(Viewer *v); /* makes the other of A and B equal */
+void edit_take_light(Viewer *v,
+                     const EnvironmentState *environment); /* takes a light that the renderer has read */
+void edit_take_assigned(Viewer *v, SceneState *state);     /* what a task has made; takes it */
 void viewer_undo(Viewer *v);
 void viewer_redo(Viewer *v);
 void viewer_copy_material(Viewer *v);
