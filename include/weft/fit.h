@@ -24,14 +24,14 @@ extern "C" {
 /* A measurement: directions and f. It does not change, so any number of threads may read it. */
 typedef struct WeftData WeftData;
 
-/* Reads a measurement: ".binary" in MERL's format, of which every bin whose numbers are right for a grid of
- * 24 x 24 x 12 (theta_h, theta_d, phi_d) is a sample; else a table of lines
+/* Reads a measurement: ".binary", ".bsdf" or ".bin" (reflection.h has the formats), of which every bin, or every
+ * pair of directions, on a grid of 24 x 24 x 12 (theta_h, theta_d, phi_d) is a sample; else a table of lines
  *
  *   theta_o, phi_o, theta_i, phi_i, r, g, b        degrees, from the normal and the tangent; f in 1/sr
  *
  * separated by commas, semicolons, blanks or tabs, at most 1 million of them; empty lines and those that
  * begin with # are passed over, and so are a byte-order mark and one line of names above the numbers. Where
- * one of r, g, b is negative, nothing was measured. Fails with WEFT_MESSAGE_MEASURED, _BRDF_TABLE (which says
+ * one of r, g, b is negative, nothing was measured. Fails with WEFT_MESSAGE_MEASURED, _BSDF, _UTIA, _BRDF_TABLE (which says
  * in what line), _MEMORY and with what reading a file can fail with. Release with weft_data_free. */
 WEFT_API WeftResult weft_data_read(const char *path, WeftData **out, WeftError *error);
 
@@ -50,6 +50,22 @@ WEFT_API void weft_data_free(WeftData *data); /* may be NULL */
 /* Returns the number of samples in use. *all is the number of samples read, including grazing and
  * unmeasured ones. */
 WEFT_API int weft_data_count(const WeftData *data, int *all);
+
+/* Sample k of those in use: unit directions and f, 1/sr. */
+WEFT_API void weft_data_sample(const WeftData *data, int k, float wo[3], float wi[3], float f[3]);
+
+/* A measurement as a lobe. */
+typedef struct WeftDataLobe {
+    double error;        /* LOG, of the lobe in these colours */
+    float f0[3], f90[3]; /* of the lobe, which is white in its file */
+} WeftDataLobe;
+
+/* Makes the text of a lobe's file, which weft_lobe_load takes, out of a measurement: f and the share of the
+ * second colour as polynomials of half vector and difference angle (docs/measured.md); what depends on phi_d or
+ * on how the pair is turned is averaged. name: of the file without .h; about: a sentence for its comment.
+ * *text is owned by the caller: free it. Fails with WEFT_MESSAGE_DESC (no name of a lobe) or _MEMORY. */
+WEFT_API WeftResult weft_data_lobe(const WeftData *data, const char *name, const char *about, char **text,
+                                   WeftDataLobe *out, WeftError *error);
 
 /* One candidate, fitted. */
 typedef struct WeftFitted {
@@ -96,6 +112,12 @@ typedef struct WeftFitDesc {
 /* Fits all candidates and ranks them. The same data give the same answer. Fails with WEFT_MESSAGE_LOBE_NAME,
  * _DESC or _MEMORY; WEFT_INTERRUPTED where progress, which is asked while lobes are fitted, says so. */
 WEFT_API WeftResult weft_fit(const WeftData *data, const WeftFitDesc *desc, WeftFit *out, WeftError *error);
+
+/* Changes material, whose inputs and choices are where to begin, to what comes closest to the data: the free
+ * inputs are those of weft_match_material, and the search has several starts besides. out->matched is the
+ * error. Of desc, metric alone counts. Fails with WEFT_MESSAGE_PARAM_VALUE, _DESC or _MEMORY. */
+WEFT_API WeftResult weft_fit_material(const WeftData *data, const WeftFitDesc *desc, WeftMaterial *material,
+                                      WeftMatch *out, WeftError *error);
 
 /* The material that is exactly that base and lobe: workflow cloth, layer rule additive. Returns 0 where
  * inputs cannot say it: a lobe or base with more shape than inputs have (`sayable` fits them as they can be

@@ -27,11 +27,39 @@ WEFT_API WeftResult weft_reflection_create(const WeftMaterial *material, WeftRef
 /* Makes the reflection of a lobe. Fails with WEFT_MESSAGE_LOBE_NAME or _MEMORY. */
 WEFT_API WeftResult weft_reflection_of_lobe(const WeftLobe *lobe, WeftReflection **out, WeftError *error);
 
-/* Reads a measurement in the format of the MERL database (Wojciech Matusik, Hanspeter Pfister, Matt Brand and
- * Leonard McMillan, "A Data-Driven Reflectance Model", 2003), ".binary": isotropic, linear between the
- * middles of its bins, reciprocal; 0 where nothing was measured. Fails with WEFT_MESSAGE_MEASURED, _MEMORY
- * and with what reading a file can fail with. */
+/* Reads a measurement, whose name ends with its format's:
+ *
+ *   .binary  MERL: Wojciech Matusik, Hanspeter Pfister, Matt Brand and Leonard McMillan, "A Data-Driven
+ *            Reflectance Model", 2003. Isotropic, linear between the middles of its bins, 0 where nothing was
+ *            measured; reciprocal where phi_d has 180 bins, or all around with 360
+ *   .bsdf    RGL: Jonathan Dupuy and Wenzel Jakob, "An Adaptive Parameterization for Efficient Material
+ *            Acquisition and Rendering", 2018. Isotropic or not, of colours or of spectra, which are summed to
+ *            colours
+ *   .bin     UTIA: Jiri Filip and Radomir Vavra, "Template-Based Sampling of Anisotropic BRDFs", 2014. Linear
+ *            in its four angles; beyond 75 degrees that of 75
+ *
+ * Any other is taken for MERL. Fails with WEFT_MESSAGE_MEASURED, _BSDF, _UTIA, _MEMORY and with what reading a
+ * file can fail with. */
 WEFT_API WeftResult weft_reflection_read(const char *path, WeftReflection **out, WeftError *error);
+
+/* Returns 1 if weft_reflection_read knows the format of a file of that name, else 0. */
+WEFT_API int weft_reflection_readable(const char *name);
+
+/* How finely weft_reflection_write tabulates; zero-initialise for the defaults. */
+typedef struct WeftBsdfDesc {
+    int thetas; /* polar angles of wo, 2 .. 256; 0: 32 */
+    int phis;   /* azimuths of wo, 3 .. 256, where f depends on that; 0: 17 */
+    int side;   /* points along each side of the tables of one wo, 8 .. 512; 0: 96, and 32 with azimuths */
+    const char *comment; /* description in the file; NULL: empty */
+    int threads;         /* 0: one a processor; no influence on the file */
+} WeftBsdfDesc;
+
+/* Tabulates f as RGL's format has it (".bsdf"), so that whatever reads that renders it. The sampling of the
+ * file is proportional to f cos_i but for the tables' steps. Fails with WEFT_MESSAGE_DESC (a number out of its
+ * range, more than 2^26 points in all, or an estimate by random walks), _MEMORY, and with what writing a file
+ * can fail with. */
+WEFT_API WeftResult weft_reflection_write(const WeftReflection *reflection, const char *path,
+                                          const WeftBsdfDesc *desc, WeftError *error);
 
 WEFT_API void weft_reflection_free(WeftReflection *reflection); /* may be NULL */
 

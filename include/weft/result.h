@@ -73,6 +73,8 @@ typedef enum WeftResult {
     M(LAYER_NAME, USAGE, "is not a layer rule")                                                              \
     M(CHECK_NAME, USAGE, "is neither a lobe nor an engine profile")                                          \
     M(MEASURED, INPUT, "is not a measured BRDF in MERL's format")                                            \
+    M(BSDF, INPUT, "is not a measured BRDF in RGL's format")                                                 \
+    M(UTIA, INPUT, "is not a measured BRDF in UTIA's format")                                                \
     M(BRDF_TABLE, INPUT, "is not a table of theta_o, phi_o, theta_i, phi_i, r, g, b")                        \
     M(BAKE_KIND, USAGE, "is not a kind of table")                                                            \
     M(TABLE_FORM, USAGE, "is not a form of table (gltf, filament and so on, or cos,roughness,centres)")      \

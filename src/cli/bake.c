@@ -71,6 +71,8 @@ static const WeftBakeKind *kind_of_table(const char *id) {
     Nearest nearest = {.typed = id};
     nearest_offer(&nearest, "audit");
     nearest_offer(&nearest, "fibre-model");
+    nearest_offer(&nearest, "bsdf");
+    nearest_offer(&nearest, "lobe");
     for (int k = 0; weft_bake_kind(k); k++) {
         if (strcmp(weft_bake_kind(k)->id, id) == 0) return weft_bake_kind(k);
         nearest_offer(&nearest, weft_bake_kind(k)->id);
@@ -237,9 +239,17 @@ static int bake_run(const Options *options) {
     static const char *const others[] = {"--size", "--half", "--rounds", NULL};
     static const char *const tables[] = {"--size", "--half", "--axes", "--scale",
                                          "-p",     "--lobe", "--json", NULL};
+    static const char *const numbers[] = {"--half", "--axes", "--scale",   "--tolerance", "-p", "--rounds",
+                                          "--lobe", "--max",  "--channel", "--json",      NULL};
+    static const char *const sizes[] = {"--size", NULL};
     const char *kind = options->operands[0];
     if (strcmp(kind, "fibre-model") == 0)
         return none_given(options, tables, kind) ? fibre_model_run(options) : WEFT_USAGE;
+    if (strcmp(kind, "bsdf") == 0)
+        return none_given(options, numbers, kind) ? bake_bsdf_run(options) : WEFT_USAGE;
+    if (strcmp(kind, "lobe") == 0)
+        return none_given(options, numbers, kind) && none_given(options, sizes, kind) ? bake_lobe_run(options)
+                                                                                      : WEFT_USAGE;
     if (strcmp(kind, "audit") != 0) return table_run(options);
     return none_given(options, others, kind) ? audit_run(options) : WEFT_USAGE;
 }
@@ -257,6 +267,13 @@ static void lists(void) {
         layout_entry(stdout, 26, name, help);
     }
     layout_entry(stdout, 26, "fibre-model", "the numbers of the lobe fibre, fitted to solved slabs: minutes");
+    layout_entry(
+        stdout, 26, "bsdf MODEL",
+        "a whole BRDF as a file of RGL's format, .bsdf; --size polar angles x points along each side "
+        "[32x96, 32x32 where azimuths count]");
+    layout_entry(
+        stdout, 26, "lobe DATA",
+        "a measured BRDF as a lobe of one's own, NAME.h, which --lobe takes, and a material of it, .json");
     layout_entry(stdout, 26, "audit FILE --lobe LOBE", "how far a table of E in FILE is off, and why");
     printf("\nAxes\n");
     for (int k = 0; weft_table_form_name(k); k++) {
@@ -271,8 +288,8 @@ static const Option bake_options[] = {
     OPTION_HEADING("Output"),
     OPTION_LIST(
         "-o", "OUT",
-        "write OUT: .h a C array, .png 16 bit, .exr or .dds 32 bit floats, .npy, .csv or .txt; of an audit "
-        "the errors: .png a sheet, .exr or .npy the numbers"),
+        "write OUT: .h a C array, .png 16 bit, .exr or .dds 32 bit floats, .npy, .csv or .txt; of a bsdf "
+        ".bsdf, of a lobe .h and .json; of an audit the errors: .png a sheet, .exr or .npy the numbers"),
     OPTION_NUMBER(
         "--scale", "NUMBER", NULL, 1e-6, 1e6,
         "a .png holds the table / NUMBER, and an audit takes FILE times NUMBER [1; for values above "
@@ -322,6 +339,8 @@ const Verb verb_bake = {
              "  weft bake albedo charlie-neubelt -o charlie.h\n"
              "  weft bake dfg charlie-neubelt --axes filament -o dfg.exr\n"
              "  weft bake albedo patry -p density=2 --size 32x32 --axes zeltner -o patry.npy\n"
+             "  weft bake lobe felt.binary -o felt_measured.h -o felt.json\n"
+             "  weft bake bsdf velvet -o velvet.bsdf\n"
              "  weft bake audit lut_sheen_E.png --lobe charlie-khronos -o errors.png\n"
              "  weft bake audit dfg.exr --channel b --lobe charlie-neubelt --axes filament\n",
     .run = bake_run,

@@ -31,6 +31,12 @@ WeftLog bake_log(const BakeCommon *common);
 /* weft bake fibre-model */
 int fibre_model_run(const Options *options);
 
+/* weft bake bsdf MODEL */
+int bake_bsdf_run(const Options *options);
+
+/* weft bake lobe DATA */
+int bake_lobe_run(const Options *options);
+
 /* weft bake audit FILE */
 int audit_run(const Options *options);
 

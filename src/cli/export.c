@@ -6,12 +6,12 @@
 #include <string.h>
 
 #include "command.h"
+#include "export_files.h"
 #include "json_writer.h"
 #include "lobes.h"
 #include "model.h"
 #include "output.h"
 #include "report.h"
-#include "table_file.h"
 #include "two_columns.h"
 #include "verbs.h"
 
@@ -91,80 +91,31 @@ static int export_read(const Options *options, Export *self) {
                                                .prefix = option_text(options, "--prefix")});
 }
 
-/* "velvet.weft_texels_sheen.exr" beside "velvet.hlsl". */
-static char *table_path(const Export *self, int k) {
-    static const char *const suffixes[WEFT_EXPORT_LUTS] = {".h", ".png", ".exr", ".dds", ".npy"};
-    const char *path = option_text(self->options, "-o"), *slash = strrchr(path, '/');
-    const char *dot = strrchr(slash ? slash : path, '.');
-    int stem = dot && dot > (slash ? slash + 1 : path) ? (int)(dot - path) : (int)strlen(path);
-    size_t room = (size_t)stem + WEFT_EXPORT_NAME + 8;
-    char *out = malloc(room);
-    if (out)
-        snprintf(out, room, "%.*s.%s%s", stem, path, self->made.tables[k].name, suffixes[self->descs->lut]);
-    return out;
-}
-
-static int table_file_write(const Export *self, int k, const char *path) {
-    const WeftExportTable *table = &self->made.tables[k];
-    char *command = command_text(self->options), about[160];
-    const float *texels = table->texels.pixels;
-    float low = texels[0], high = texels[0];
-    for (int n = 0; n < table->texels.width * table->texels.height; n++) {
-        low = texels[n] < low ? texels[n] : low;
-        high = texels[n] > high ? texels[n] : high;
-    }
-    snprintf(about, sizeof about, "%.95s%s", table->name,
-             table->scale > 1.0f ? ", scaled as the text says" : "");
-    const TableFile file = {.table = &table->texels,
-                            .command = command,
-                            .about = about,
-                            .low = low,
-                            .high = high,
-                            .scale = self->descs->lut == WEFT_EXPORT_LUT_PNG16 ? 1.0 : 0.0};
-    int result = command ? table_write(&file, path) : report(WEFT_RESOURCES, "out of memory");
-    free(command);
-    return result;
-}
-
-static int tables_write(const Export *self, Json *json) {
-    int result = 0;
-    for (int k = 0; k < self->made.table_count && result == 0; k++) {
-        char *path = table_path(self, k);
-        result = path ? table_file_write(self, k, path) : report(WEFT_RESOURCES, "out of memory");
-        if (result == 0 && json) json_text(json, NULL, path);
-        if (result == 0 && !json && !self->quiet)
-            report(0, "%s: %d x %d texels", path, self->made.tables[k].texels.width,
-                   self->made.tables[k].texels.height);
-        free(path);
-    }
-    return result;
-}
-
-static int text_write(const Export *self) {
-    Output output;
-    int result = output_begin(&output, option_text(self->options, "-o"));
-    if (result != 0) return result;
-    fwrite(self->made.text, 1, self->made.size, output.stream);
-    return output_end(&output);
-}
-
 static int files_write(const Export *self) {
     Json json = {.stream = stdout};
     bool wanted = option_given(self->options, "--json");
-    int result;
-    if (!wanted) {
-        result = tables_write(self, NULL);
-    } else {
+    char *command = command_text(self->options);
+    const ExportFiles files = {.made = &self->made,
+                               .lut = self->descs->lut,
+                               .path = option_text(self->options, "-o"),
+                               .command = command,
+                               .quiet = self->quiet};
+    int result = command ? 0 : report(WEFT_RESOURCES, "out of memory");
+    if (result == 0 && !wanted) {
+        result = export_tables_write(&files, NULL);
+    } else if (result == 0) {
         json_open(&json, NULL, '{');
         json_text(&json, "target", weft_export_target_name((int)self->descs->target));
-        json_text(&json, "output", option_text(self->options, "-o"));
+        json_text(&json, "output", files.path);
         json_whole(&json, "bytes", (long long)self->made.size);
         json_open(&json, "tables", '[');
-        result = tables_write(self, &json);
+        result = export_tables_write(&files, &json);
         json_close(&json, ']');
         json_close(&json, '}');
     }
-    return result == 0 ? text_write(self) : result;
+    if (result == 0) result = export_text_write(&files);
+    free(command);
+    return result;
 }
 
 static int export_run(const Options *options) {

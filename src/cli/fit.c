@@ -4,11 +4,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "fit_files.h"
 #include "fit_sheet.h"
 #include "interrupt.h"
 #include "json_writer.h"
 #include "lobes.h"
 #include "model.h"
+#include "names.h"
 #include "output.h"
 #include "path_suffix.h"
 #include "progress.h"
@@ -18,10 +20,12 @@
 
 typedef struct Fitting {
     const Options *options;
-    const char *path, *base, *material, *plot; /* material, plot: NULL: none */
+    const char *path, *base, *plot, *engine; /* plot, engine: NULL: none */
     WeftBrdfMetric metric;
     WeftData *data;
     WeftFit fit;
+    WeftMaterial nearest; /* of the engine, and its error */
+    double error;
 } Fitting;
 
 /* A Fresnel term that does not read f90 leaves it at what it is given. */
@@ -115,6 +119,9 @@ static void text_write(const Fitting *fitting) {
            "many were free, three of each colour\n");
     printf("%d of %d are closer than the baseline, which is ggx over lambert with f90 = 1\n", better,
            fit->count);
+    if (fitting->engine)
+        printf("the nearest that %s can do has an error of %.4f, %.2f times the best\n", fitting->engine,
+               fitting->error, fitting->error / fit->fitted[0].error);
     if (idle) printf("%d of %d add nothing to the base: their best colour is 0\n", idle, fit->count);
 }
 
@@ -163,6 +170,12 @@ static void json_write(const Fitting *fitting) {
     json_close(&json, ']');
     json_fitted(&json, "baseline", &fitting->fit.baseline);
     json_number(&json, "base_alone", fitting->fit.base_alone);
+    if (fitting->engine) {
+        json_open(&json, "to", '{');
+        json_text(&json, "profile", fitting->engine);
+        json_number(&json, "error", fitting->error);
+        json_close(&json, '}');
+    }
     json_close(&json, '}');
 }
 
@@ -194,41 +207,48 @@ static WeftResult sayable_fit(const Fitting *fitting, WeftFit *again, WeftMateri
         report(0,
                "warning: %s: a material has no inputs for all numbers of %s over %s; with those at their "
                "defaults the error is %.4f",
-               fitting->material, desc.only, desc.base, again->fitted[0].error);
+               fitting->path, desc.only, desc.base, again->fitted[0].error);
     return result;
 }
 
+/* The best fit that a material can say, in every -o. */
 static int material_write(const Fitting *fitting) {
     WeftError error;
     WeftMaterial material;
     WeftFit again;
-    WeftScene *scene = NULL;
     WeftResult result = sayable_fit(fitting, &again, &material, &error);
     if (result != WEFT_OK) return report_error(&error);
     if (!weft_fitted_material(&again.fitted[0], &material))
-        return report(WEFT_FAILED, "%s: no fit can be expressed by the inputs of a material",
-                      fitting->material);
+        return report(WEFT_FAILED, "%s: no fit can be expressed by the inputs of a material", fitting->path);
     if (weft_fitted_notes(&again.fitted[0]) & WEFT_FITTED_BRIGHT)
-        report(0, "warning: %s: a colour is above 1: the material may reflect more light than it receives",
-               fitting->material);
-    result = weft_scene_load("builtin:cloth", &scene, NULL, &error);
-    if (result == WEFT_OK) result = weft_scene_put_material(scene, 0, &material, &error);
-    if (result == WEFT_OK) result = weft_scene_save_material(scene, 0, fitting->material, &error);
-    weft_scene_free(scene);
+        report(0, "warning: %s: a colour is above 1: the material may reflect more light than it receives", fitting->path);
+    return fit_files_write(fitting->options, &material);
+}
+
+/* Finds the nearest that the engine of --to can do, from a cloth with a grey sheen. */
+static int nearest_make(Fitting *fitting) {
+    static const char *const cloth[][2] = {
+        {"base_color", "0.3"}, {"sheen_color", "0.3"}, {"sheen_roughness", "0.5"}, {"roughness", "0.8"}};
+    WeftError error;
+    WeftMatch found;
+    const WeftFitDesc desc = {.metric = fitting->metric, .chosen = 1};
+    weft_material_default(&fitting->nearest);
+    WeftResult result = weft_material_set(&fitting->nearest, "profile", fitting->engine, NULL, &error);
+    for (size_t k = 0; result == WEFT_OK && k < sizeof cloth / sizeof *cloth; k++)
+        result = weft_material_set(&fitting->nearest, cloth[k][0], cloth[k][1], NULL, &error);
+    if (result == WEFT_OK)
+        result = weft_fit_material(fitting->data, &desc, &fitting->nearest, &found, &error);
+    fitting->error = found.matched;
     return result == WEFT_OK ? 0 : report_error(&error);
 }
 
 static int outputs_check(Fitting *fitting) {
-    int result = 0;
-    fitting->material = option_text(fitting->options, "-o");
     fitting->plot = option_text(fitting->options, "--plot");
-    if (fitting->material && !path_ends(fitting->material, ".json"))
-        return report(WEFT_USAGE, "%s: a material is written as .json", fitting->material);
+    fitting->engine = option_text(fitting->options, "--to");
     if (fitting->plot && !path_ends(fitting->plot, ".png"))
         return report(WEFT_USAGE, "%s: slices are written as .png", fitting->plot);
-    if (fitting->plot && !path_ends(fitting->path, ".binary"))
-        return report(WEFT_USAGE, "%s: slices need a measurement without gaps, a .binary", fitting->path);
-    if (fitting->material) result = output_probe_other(fitting->options, fitting->material);
+    if (fitting->engine && kind_named(kind_of("profile"), fitting->engine) <= 0) return WEFT_USAGE;
+    int result = fit_files_check(fitting->options);
     if (result == 0 && fitting->plot) result = output_probe_other(fitting->options, fitting->plot);
     return result;
 }
@@ -287,8 +307,13 @@ static int fit_run(const Options *options) {
     int result = lobes_check(&fitting);
     if (result == 0) result = outputs_check(&fitting);
     if (result == 0) result = fit_make(&fitting);
-    if (result == 0 && fitting.material) result = material_write(&fitting);
-    if (result == 0 && fitting.plot) result = fit_sheet_write(fitting.path, &fitting.fit, fitting.plot);
+    if (result == 0 && fitting.engine) result = nearest_make(&fitting);
+    if (result == 0 && fitting.engine)
+        result = fit_files_write(options, &fitting.nearest);
+    else if (result == 0 && option_given(options, "-o"))
+        result = material_write(&fitting);
+    if (result == 0 && fitting.plot)
+        result = fit_sheet_write(fitting.path, fitting.data, &fitting.fit, fitting.plot);
     if (result == 0 && option_given(options, "--json"))
         json_write(&fitting);
     else if (result == 0)
@@ -302,10 +327,14 @@ static const Option fit_options[] = {
     OPTION_TEXT("--metric", "NAME", "log", "what is made least: log or cosine"),
     OPTION_TEXT("--base", "LOBE|all", "lambert", "the diffuse lobe below, or each of them"),
     OPTION_LOBES_OR("fit this lobe alone"),
+    OPTION_TEXT("--to", "PROFILE", NULL, "find the nearest that this engine can do, too"),
     OPTION_HEADING("Result"),
-    OPTION_TEXT("-o", "FILE.json", NULL, "write the best as a material that weft render takes"),
+    OPTION_LIST(
+        "-o", "FILE",
+        "write the best, or with --to the nearest, as a material (.json), a cloth of it (.glb, .gltf) or "
+        "engine text (.glsl, .hlsl, .wgsl, .h)"),
     OPTION_TEXT("--plot", "FILE.png", NULL,
-                "draw slices of a .binary: data, the best fit, the baseline, and how these differ"),
+                "draw slices: data, the best fit, the baseline, and how these differ"),
     OPTION_SWITCH("--json", "the ranking as JSON on standard output"),
     OPTION_END,
 };
@@ -317,7 +346,8 @@ const Verb verb_fit = {
     .operands_least = 1,
     .operands_most = 1,
     .options = fit_options,
-    .notes = "DATA is a measured BRDF in MERL's format (.binary), or a table of lines\n"
+    .notes = "DATA is a measured BRDF in the format of MERL (.binary), RGL (.bsdf) or UTIA\n"
+             "(.bin), or a table of lines\n"
              "\"theta_o, phi_o, theta_i, phi_i, r, g, b\": degrees from the normal and from the\n"
              "tangent, f in 1/sr. Lines that start with # are passed over; one line of names\n"
              "may stand above. A negative number was not measured.\n\n"
@@ -331,6 +361,7 @@ const Verb verb_fit = {
              "Examples\n"
              "  weft fit red-fabric.binary --base all\n"
              "  weft fit felt.binary -o felt.json --plot felt.png\n"
+             "  weft fit felt.bsdf --to three -o felt.glb\n"
              "  weft fit gonio.csv --metric cosine --base eon --json\n",
     .run = fit_run,
 };

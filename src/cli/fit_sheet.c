@@ -2,6 +2,7 @@
 #include "base/pi.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdio.h>
 
@@ -33,16 +34,67 @@ static int directions(int column, int row, double phi_d, float wo[3], float wi[1
     return wo[2] > 0.1736f && wi[0][2] > 0.1736f;
 }
 
+/* f of what is drawn, at a pair of directions. */
+static void ask(const Drawn *drawn, const float wo[3], const float wi[3], float f[3]) {
+    float below[3] = {0.0f};
+    const float way[1][3] = {{wi[0], wi[1], wi[2]}};
+    weft_reflection_eval(drawn->reflection, WEFT_PART_ALL, wo, 1, way, (float(*)[3])f);
+    if (drawn->has_base) weft_lobe_eval(&drawn->base, wo, wi, below);
+    for (int c = 0; c < 3; c++) f[c] += below[c];
+}
+
 static WeftResult draw(const Drawn *drawn, double phi_d, WeftImage *out, WeftError *error) {
     WeftResult result = weft_image_create(SIDE, SIDE, 4, WEFT_PIXEL_F32, out, error);
     for (int k = 0; k < SIDE * SIDE && result == WEFT_OK; k++) {
-        float wo[3], wi[1][3], f[1][3] = {{0.0f}}, below[3] = {0.0f};
+        float wo[3], wi[1][3], f[3];
         float *pixel = (float *)out->pixels + (size_t)4 * (size_t)k;
         if (!directions(k % SIDE, k / SIDE, phi_d, wo, wi)) continue;
-        weft_reflection_eval(drawn->reflection, WEFT_PART_ALL, wo, 1, (const float(*)[3])wi, f);
-        if (drawn->has_base) weft_lobe_eval(&drawn->base, wo, wi[0], below);
-        for (int c = 0; c < 3; c++) pixel[c] = (f[0][c] + below[c]) * wi[0][2];
+        ask(drawn, wo, wi[0], f);
+        for (int c = 0; c < 3; c++) pixel[c] = f[c] * wi[0][2];
         pixel[3] = 1.0f;
+    }
+    return result;
+}
+
+/* Half vector and difference angles as a share of 90 degrees, of phi_d the size. */
+static void half_difference(const float wo[3], const float wi[3], double at[3]) {
+    const double quarter = 1.57079632679490;
+    double h[3], d[3], length = 0.0;
+    for (int c = 0; c < 3; c++) h[c] = (double)wo[c] + (double)wi[c], length += h[c] * h[c];
+    for (int c = 0; c < 3; c++) h[c] /= sqrt(length);
+    double flat = hypot(h[0], h[1]), x = flat > 1e-9 ? h[0] / flat : 1.0, y = flat > 1e-9 ? h[1] / flat : 0.0;
+    d[0] = h[2] * (x * (double)wi[0] + y * (double)wi[1]) - flat * (double)wi[2];
+    d[1] = x * (double)wi[1] - y * (double)wi[0];
+    d[2] = flat * (x * (double)wi[0] + y * (double)wi[1]) + h[2] * (double)wi[2];
+    double phi = fabs(atan2(d[1], d[0]));
+    at[0] = acos(fmin(h[2], 1.0)) / quarter;
+    at[1] = acos(fmin(fmax(d[2], 0.0), 1.0)) / quarter;
+    at[2] = fmin(phi, 2.0 * quarter - phi) / quarter;
+}
+
+enum { CELLS = 30 };
+
+/* The mean over the samples of each cell of a slice; pixels of cells without any stay empty. */
+static WeftResult draw_samples(const WeftData *data, const Drawn *drawn, double phi_d, WeftImage *out,
+                               WeftError *error) {
+    float sum[CELLS][CELLS][4] = {{{0.0f}}};
+    for (int k = 0; k < weft_data_count(data, NULL); k++) {
+        float wo[3], wi[3], f[3];
+        double at[3];
+        weft_data_sample(data, k, wo, wi, f);
+        half_difference(wo, wi, at);
+        if ((phi_d > 45.0) != (at[2] > 0.5)) continue;
+        if (drawn) ask(drawn, wo, wi, f);
+        float *cell = sum[(int)fmin(at[1] * CELLS, CELLS - 1)][(int)fmin(at[0] * CELLS, CELLS - 1)];
+        for (int c = 0; c < 3; c++) cell[c] += f[c] * wi[2];
+        cell[3] += 1.0f;
+    }
+    WeftResult result = weft_image_create(SIDE, SIDE, 4, WEFT_PIXEL_F32, out, error);
+    for (int k = 0; k < SIDE * SIDE && result == WEFT_OK; k++) {
+        const float *cell = sum[(SIDE - 1 - k / SIDE) * CELLS / SIDE][k % SIDE * CELLS / SIDE];
+        float *pixel = (float *)out->pixels + (size_t)4 * (size_t)k;
+        for (int c = 0; c < 3 && cell[3] > 0.0f; c++) pixel[c] = cell[c] / cell[3];
+        pixel[3] = cell[3] > 0.0f ? 1.0f : 0.0f;
     }
     return result;
 }
@@ -88,11 +140,14 @@ typedef struct Slices {
     float differ; /* where the colours of differences end */
 } Slices;
 
-static WeftResult draw_all(Slices *all, const Drawn *drawn, WeftError *error) {
+/* `samples`: NULL where all may be asked for any directions. */
+static WeftResult draw_all(Slices *all, const WeftData *samples, const Drawn *drawn, WeftError *error) {
     WeftResult result = WEFT_OK;
     for (int r = 0; r < ROWS && result == WEFT_OK; r++) {
         for (int c = 0; c < COLUMNS && result == WEFT_OK; c++)
-            result = draw(&drawn[c], azimuths[r], &all->linear[r][c], error);
+            result = samples
+                         ? draw_samples(samples, c ? &drawn[c] : NULL, azimuths[r], &all->linear[r][c], error)
+                         : draw(&drawn[c], azimuths[r], &all->linear[r][c], error);
         if (r == 0 && result == WEFT_OK) {
             all->scale = bright(&all->linear[0][0]);
             all->differ = to_figure(0.25f * all->scale);
@@ -137,16 +192,17 @@ static WeftResult compose(const Slices *all, const char *path, const WeftFit *fi
     return result;
 }
 
-int fit_sheet_write(const char *path, const WeftFit *fit, const char *output) {
+int fit_sheet_write(const char *path, const WeftData *data, const WeftFit *fit, const char *output) {
     WeftError error;
     Slices all = {.scale = 1.0f};
     WeftReflection *of[COLUMNS] = {NULL};
     Drawn drawn[COLUMNS] = {{.reflection = NULL}};
-    WeftResult result = weft_reflection_read(path, &of[0], &error);
+    const bool whole = weft_reflection_readable(path) != 0;
+    WeftResult result = whole ? weft_reflection_read(path, &of[0], &error) : WEFT_OK;
     drawn[0].reflection = of[0];
     if (result == WEFT_OK) result = drawn_of(&fit->fitted[0], &drawn[1], &of[1], &error);
     if (result == WEFT_OK) result = drawn_of(&fit->baseline, &drawn[2], &of[2], &error);
-    if (result == WEFT_OK) result = draw_all(&all, drawn, &error);
+    if (result == WEFT_OK) result = draw_all(&all, whole ? NULL : data, drawn, &error);
     if (result == WEFT_OK) result = compose(&all, path, fit, output, &error);
     for (int r = 0; r < ROWS; r++)
         for (int c = 0; c < COLUMNS; c++) {

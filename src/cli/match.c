@@ -284,8 +284,8 @@ const Verb verb_match = {
     .options = match_options,
     .notes = "FROM and TO are " MODEL_FORM ": a lobe, an engine profile, a\n"
              "preset, a material file, a material of a scene (chair.glb:fabric); FROM may be a\n"
-             "measured BRDF (.binary). The numbers of FROM are first copied to TO, then\n"
-             "searched for what comes closest; both errors are printed.\n\n"
+             "measured BRDF (.binary, .bsdf, .bin). The numbers of FROM are first copied to\n"
+             "TO, then searched for what comes closest; both errors are printed.\n\n"
              "Metrics, over pairs of directions, of x = f cos\n"
              "  cosine   sum of |x_to - x_from| over sum of x_from, as a sphere shows them\n"
              "  log      the same of ln(1 + x / mean of x_from)\n"

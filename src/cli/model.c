@@ -191,7 +191,7 @@ static int of_name(Model *model, const Parts *parts) {
         return of_scene(model, parts->name, wanted);
     }
     if (path_ends(parts->name, ".json")) return of_material(model, parts->name);
-    if (!path_ends(parts->name, ".binary")) return not_known(parts->name);
+    if (!weft_reflection_readable(parts->name)) return not_known(parts->name);
     model->kind = MODEL_MEASURED;
     snprintf(model->path, sizeof model->path, "%s", parts->name);
     return parts->settings ? report(WEFT_USAGE, "%.200s: nothing can be set in a measurement", parts->name)

@@ -6,7 +6,7 @@
  *   metallic:base_color=0.2            a workflow, likewise
  *   preset:velvet, velvet.json         a material
  *   chair.glb:fabric                   a material of a scene
- *   cotton.binary                      a measured BRDF in MERL's format
+ *   cotton.binary, felt.bsdf, m1.bin   a measured BRDF in MERL's, RGL's or UTIA's format
  *
  * A kind before the name settles what two of them share: "lobe:silk", "preset:silk". Textures are left out:
  * of a material only the numbers count, and a warning says so. */

@@ -207,7 +207,7 @@ const Verb verb_plot = {
     .lists = plot_lists,
     .notes = "A model is " MODEL_FORM ": a lobe, an engine profile, preset:NAME or a\n"
              "material file, a material of a scene as scene.glb:MATERIAL, or a measured BRDF\n"
-             "in MERL's format (.binary). Up to eight stand in one figure. Their colours stay\n"
+             "(.binary, .bsdf, .bin). Up to eight stand in one figure. Their colours stay\n"
              "distinct for colour-blind readers, and so do the dashes of their lines. docs/plots.md shows\n"
              "each kind.\n\n"
              "Examples\n"

@@ -24,9 +24,7 @@ static bool shows(const WeftMaterial *material, const char *name) {
     return v[0] > 0.0f || v[1] > 0.0f || v[2] > 0.0f;
 }
 
-/* The first material of the cloth, as --material has it: one with a sheen or, where none has, one that sends
- * out no light. */
-static int find_cloth(const WeftScene *scene) {
+int save_cloth_of(const WeftScene *scene) {
     int count = weft_scene_info(scene).material_count;
     for (int wanted = 0; wanted < 2; wanted++)
         for (int k = 0; k < count; k++) {
@@ -41,7 +39,7 @@ WeftResult save_all(const Options *options, const WeftScene *scene, WeftError *e
     WeftResult result = WEFT_OK;
     int cursor = 0;
     for (const char *path; result == WEFT_OK && (path = option_next(options, "--save", &cursor));)
-        result = path_ends(path, ".json") ? weft_scene_save_material(scene, find_cloth(scene), path, error)
+        result = path_ends(path, ".json") ? weft_scene_save_material(scene, save_cloth_of(scene), path, error)
                                           : weft_scene_save(scene, path, error);
     return result;
 }

@@ -9,6 +9,10 @@
  * code after one line. */
 int save_check(const Options *options);
 
+/* The first material of the cloth, as --material has it: one with a sheen or, where none has, one that sends out
+ * no light. */
+int save_cloth_of(const WeftScene *scene);
+
 /* Writes every --save. */
 WeftResult save_all(const Options *options, const WeftScene *scene, WeftError *error);
 

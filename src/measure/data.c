@@ -7,9 +7,8 @@
 #include "base/fail.h"
 #include "base/file.h"
 #include "base/memory.h"
-#include "base/path.h"
+#include "brdf/measured.h"
 #include "measure/brdf_table.h"
-#include "measure/merl.h"
 
 struct WeftData {
     int count, all;
@@ -19,7 +18,7 @@ struct WeftData {
 
 /* The cosine of 80 degrees: what is lower grazes. */
 static const float cosine_least = 0.17364818f;
-enum { FILE_MOST = 1 << 28, SAMPLES_LEAST = 16 };
+enum { SAMPLES_LEAST = 16 };
 
 void weft_data_free(WeftData *self) {
     if (!self) return;
@@ -27,6 +26,12 @@ void weft_data_free(WeftData *self) {
     free(self->wi);
     free(self->f);
     free(self);
+}
+
+void weft_data_sample(const WeftData *self, int k, float wo[3], float wi[3], float f[3]) {
+    memcpy(wo, self->wo[k], sizeof *self->wo);
+    memcpy(wi, self->wi[k], sizeof *self->wi);
+    memcpy(f, self->f[k], sizeof *self->f);
 }
 
 int weft_data_count(const WeftData *self, int *all) {
@@ -137,7 +142,7 @@ static void rusinkiewicz(double th, double td, double pd, double phi, float wo[3
     wo[0] = (float)(c * o[0] - s * o[1]), wo[1] = (float)(s * o[0] + c * o[1]), wo[2] = (float)o[2];
 }
 
-enum { SIDE_H = 24, SIDE_D = 24, SIDE_P = 12, MERL_SAMPLES = SIDE_H * SIDE_D * SIDE_P };
+enum { SIDE_H = 24, SIDE_D = 24, SIDE_P = 12, SAMPLES = SIDE_H * SIDE_D * SIDE_P };
 
 /* The middle of the bin that stands for cell k of n. */
 static double middle(int k, int n, int bins, int *bin) {
@@ -145,27 +150,37 @@ static double middle(int k, int n, int bins, int *bin) {
     return (*bin + 0.5) / bins;
 }
 
-/* Each pair is turned by another azimuth: f is the same, and what is not isotropic will not fit by chance. */
-static void merl_samples(const Merl *merl, float (*wo)[3], float (*wi)[3], float (*f)[3]) {
+/* f at a grid of half vectors and differences, of which each pair is turned by another azimuth: what is not
+ * isotropic will not fit by chance. Of MERL's the bins themselves. */
+static void grid_samples(const Measured *measured, float (*wo)[3], float (*wi)[3], float (*f)[3]) {
+    const Merl *merl = &measured->merl;
     const double half_pi = 1.57079632679490;
-    for (int k = 0; k < MERL_SAMPLES; k++) {
+    const bool binned = measured->format == MEASURED_MERL, around = !binned || merl->shape.around;
+    const int bins = binned ? merl->shape.phi_d : 2 * MERL_PHI_D;
+    for (int k = 0; k < SAMPLES; k++) {
         int h, d, p;
         double root = middle(k / (SIDE_D * SIDE_P), SIDE_H, MERL_THETA_H, &h);
         double td = middle(k / SIDE_P % SIDE_D, SIDE_D, MERL_THETA_D, &d) * half_pi;
-        double pd = middle(k % SIDE_P, SIDE_P, MERL_PHI_D, &p) * 2.0 * half_pi;
-        size_t bin = ((size_t)h * MERL_THETA_D + (size_t)d) * MERL_PHI_D + (size_t)p;
+        double pd = middle(k % SIDE_P, SIDE_P, bins, &p) * (around ? 4.0 : 2.0) * half_pi;
         rusinkiewicz(root * root * half_pi, td, pd, 2.39996322972865 * k, wo[k], wi[k]);
-        for (int c = 0; c < 3; c++) f[k][c] = merl->f[c][bin];
+        size_t bin = ((size_t)h * MERL_THETA_D + (size_t)d) * (size_t)bins + (size_t)p;
+        if (!binned)
+            measured_at(measured, dir(wo[k][0], wo[k][1], wo[k][2]), dir(wi[k][0], wi[k][1], wi[k][2]), f[k]);
+        for (int c = 0; binned && c < 3; c++) f[k][c] = merl->f[c][bin];
     }
 }
 
-static WeftResult data_of_merl(const Merl *merl, const char *name, WeftData **out, WeftError *error) {
-    float(*block)[3] = alloc_array((size_t)3 * MERL_SAMPLES, sizeof *block);
+static WeftResult data_of_measured(const Measured *measured, const char *name, WeftData **out,
+                                   WeftError *error) {
+    static const WeftMessage messages[] = {[MEASURED_MERL] = WEFT_MESSAGE_MEASURED,
+                                           [MEASURED_RGL] = WEFT_MESSAGE_BSDF,
+                                           [MEASURED_UTIA] = WEFT_MESSAGE_UTIA};
+    float(*block)[3] = alloc_array((size_t)3 * SAMPLES, sizeof *block);
     if (!block) return fail(error, WEFT_MESSAGE_MEMORY, name, NULL);
-    float(*wo)[3] = block, (*wi)[3] = block + MERL_SAMPLES, (*f)[3] = block + (size_t)2 * MERL_SAMPLES;
-    merl_samples(merl, wo, wi, f);
-    WeftResult result = data_make(MERL_SAMPLES, (const float(*)[3])wo, (const float(*)[3])wi,
-                                  (const float(*)[3])f, true, name, WEFT_MESSAGE_MEASURED, out, error);
+    float(*wo)[3] = block, (*wi)[3] = block + SAMPLES, (*f)[3] = block + (size_t)2 * SAMPLES;
+    grid_samples(measured, wo, wi, f);
+    WeftResult result = data_make(SAMPLES, (const float(*)[3])wo, (const float(*)[3])wi, (const float(*)[3])f,
+                                  measured_isotropic(measured), name, messages[measured->format], out, error);
     free(block);
     return result;
 }
@@ -174,11 +189,11 @@ WeftResult weft_data_read_memory(const void *data, size_t size, const char *name
                                  WeftError *error) {
     WeftResult result;
     *out = NULL;
-    if (path_ends(name, ".binary")) {
-        Merl merl;
-        result = merl_read_memory(data, size, name, &merl, error);
-        if (result == WEFT_OK) result = data_of_merl(&merl, name, out, error);
-        merl_free(&merl);
+    if (measured_format(name) != MEASURED_NONE) {
+        Measured measured;
+        result = measured_read_memory(data, size, name, &measured, error);
+        if (result == WEFT_OK) result = data_of_measured(&measured, name, out, error);
+        measured_free(&measured);
         return result;
     }
     BrdfTable table;
@@ -193,7 +208,7 @@ WeftResult weft_data_read_memory(const void *data, size_t size, const char *name
 WeftResult weft_data_read(const char *path, WeftData **out, WeftError *error) {
     FileBytes bytes;
     *out = NULL;
-    WeftResult result = file_read(path, FILE_MOST, &bytes, error);
+    WeftResult result = file_read(path, MEASURED_MOST, &bytes, error);
     if (result != WEFT_OK) return result;
     result = weft_data_read_memory(bytes.data, bytes.size, path, out, error);
     free(bytes.data);

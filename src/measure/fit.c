@@ -9,6 +9,7 @@
 #include "base/memory.h"
 #include "measure/data.h"
 #include "measure/lobe_search.h"
+#include "measure/material_search.h"
 #include "shading/choice.h"
 #include "shading/registry.h"
 
@@ -96,16 +97,23 @@ static WeftResult fit_lobe(const LobeSearch *search, LobeFound *out) {
     return result;
 }
 
+/* The parameters that are inputs of a material by themselves. */
+static const struct {
+    const char *param;
+    InputId input;
+} named[] = {{"density", INPUT_sheen_density}, {"tilt", INPUT_nap},        {"azimuth", INPUT_nap_direction},
+             {"tail", INPUT_sheen_tail},       {"rise", INPUT_sheen_rise}, {"retro", INPUT_diffuse_retro},
+             {"lift", INPUT_diffuse_lift}};
+enum { NAMED = sizeof named / sizeof *named };
+
 /* Returns the parameters, as bits, that no input of a material sets: all but the first, which is its
- * roughness, and those of fibres. Choices are inputs. */
+ * roughness, and those that are named. Choices are inputs. */
 static unsigned unsayable(const WeftLobe *lobe) {
-    static const char *const inputs[] = {"density", "tilt", "azimuth"};
     const WeftLobeInfo *info = weft_lobe_info(lobe->lobe);
     unsigned bits = 0;
     for (int k = 1; k < info->param_count; k++) {
         bool said = info->params[k].choices != NULL;
-        for (size_t n = 0; n < sizeof inputs / sizeof *inputs; n++)
-            said = said || strcmp(info->params[k].name, inputs[n]) == 0;
+        for (size_t n = 0; n < NAMED; n++) said = said || strcmp(info->params[k].name, named[n].param) == 0;
         if (!said) bits |= 1u << k;
     }
     return bits;
@@ -293,11 +301,6 @@ static float roughness_of(const WeftLobe *lobe) {
     return (float)(0.5 * (low + high));
 }
 
-static float param_or(const WeftLobe *lobe, const char *name, float none) {
-    int k = weft_lobe_param_find(lobe->lobe, name);
-    return k >= 0 ? lobe->params[k] : none;
-}
-
 static void input_set(WeftMaterial *material, InputId input, const float *values, int count) {
     memcpy(material->inputs[input].value, values, (size_t)count * sizeof *values);
     material->inputs[input].given = 1;
@@ -323,11 +326,22 @@ static bool is_same(const Lobe *said, const WeftLobe *lobe) {
     return same;
 }
 
+/* Sets the inputs that are parameters of a lobe by themselves, and those parameters. */
+static void say_named(const WeftLobe *lobe, Lobe *said, WeftMaterial *out) {
+    for (size_t n = 0; n < NAMED; n++) {
+        int k = weft_lobe_param_find(lobe->lobe, named[n].param);
+        if (k < 1) continue;
+        said->params[k] = lobe->params[k];
+        input_set(out, named[n].input, &lobe->params[k], 1);
+    }
+}
+
 /* Sets the inputs of the base; returns false if there are none for all of its parameters. */
 static bool say_base(const WeftLobe *base, WeftMaterial *out) {
     const WeftLobeInfo *info = weft_lobe_info(base->lobe);
     float roughness = info->param_count > 0 ? roughness_of(base) : 0.0f;
     Lobe said = lobe_rough(base->lobe, roughness);
+    say_named(base, &said, out);
     bool same = is_same(&said, base);
     for (int c = 0; c < 3; c++) same &= base->f0[c] <= 1.0f;
     weft_material_choose(out, CHOICE_diffuse, base->lobe);
@@ -341,9 +355,8 @@ static bool say_base(const WeftLobe *base, WeftMaterial *out) {
 static bool say_sheen(const WeftLobe *lobe, WeftMaterial *out) {
     const WeftLobeInfo *info = weft_lobe_info(lobe->lobe);
     float roughness = info->param_count > 0 ? roughness_of(lobe) : 0.0f;
-    float density = param_or(lobe, "density", 1.0f), tilt = param_or(lobe, "tilt", 0.0f);
-    float azimuth = param_or(lobe, "azimuth", 0.0f);
-    Lobe said = lobe_fibres(lobe_rough(lobe->lobe, roughness), density, tilt, azimuth);
+    Lobe said = lobe_rough(lobe->lobe, roughness);
+    say_named(lobe, &said, out);
     for (int k = 0; k < info->param_count; k++)
         if (info->params[k].choices) said.params[k] = lobe->params[k]; /* as choices of the material */
     bool same = is_same(&said, lobe);
@@ -353,9 +366,6 @@ static bool say_sheen(const WeftLobe *lobe, WeftMaterial *out) {
     input_set(out, INPUT_sheen_color, lobe->f0, 3);
     input_set(out, INPUT_sheen_second, lobe->f90, 3);
     input_set(out, INPUT_sheen_roughness, &roughness, 1);
-    input_set(out, INPUT_sheen_density, &density, 1);
-    input_set(out, INPUT_nap, &tilt, 1);
-    input_set(out, INPUT_nap_direction, &azimuth, 1);
     return same;
 }
 
@@ -365,4 +375,18 @@ int weft_fitted_material(const WeftFitted *fitted, WeftMaterial *out) {
     weft_material_choose(out, CHOICE_layer, choice_find(CHOICE_layer, "additive"));
     bool base = say_base(&fitted->base, out), sheen = say_sheen(&fitted->lobe, out);
     return base && sheen;
+}
+
+WeftResult weft_fit_material(const WeftData *data, const WeftFitDesc *desc, WeftMaterial *material,
+                             WeftMatch *out, WeftError *error) {
+    WeftBrdfMetric metric = desc->chosen ? desc->metric : WEFT_BRDF_METRIC_LOG;
+    *out = (WeftMatch){.copied = 0.0};
+    if (metric != WEFT_BRDF_METRIC_LOG && metric != WEFT_BRDF_METRIC_COSINE)
+        return fail(error, WEFT_MESSAGE_DESC, "a fit", "its metric is log or cosine");
+    Samples samples = {0};
+    WeftResult result =
+        data_samples(data, metric, &samples) ? WEFT_OK : fail(error, WEFT_MESSAGE_MEMORY, "a fit", NULL);
+    if (result == WEFT_OK) result = material_search_run(&samples, NULL, NULL, material, out, error);
+    samples_free(&samples);
+    return result;
 }

@@ -4,9 +4,8 @@
 
 #include "base/fail.h"
 #include "base/memory.h"
-#include "base/pi.h"
+#include "brdf/measured.h"
 #include "measure/halton.h"
-#include "measure/merl.h"
 #include "measure/reflection.h"
 #include "scene/material_numbers.h"
 #include "scene/shade.h"
@@ -34,7 +33,7 @@ struct WeftReflection {
     ReflectionKind kind;
     Whole whole;
     WeftLobe lobe;
-    Merl merl;
+    Measured measured;
 };
 
 /* Returns true if E of the sheen comes from a table of its lobe, and sets the stack that reads it. Tables of
@@ -136,13 +135,13 @@ WeftResult weft_reflection_of_lobe(const WeftLobe *lobe, WeftReflection **out, W
 
 WeftResult weft_reflection_read(const char *path, WeftReflection **out, WeftError *error) {
     if (!reflection_of_kind(REFLECTION_MEASURED, out, error)) return WEFT_RESOURCES;
-    return finish(out, merl_read(path, &(*out)->merl, error));
+    return finish(out, measured_read(path, &(*out)->measured, error));
 }
 
 void weft_reflection_free(WeftReflection *self) {
     if (!self) return;
     free(self->whole.own);
-    merl_free(&self->merl);
+    measured_free(&self->measured);
     free(self);
 }
 
@@ -205,7 +204,7 @@ void weft_reflection_eval(const WeftReflection *self, int part, const float wo[3
         if (self->kind == REFLECTION_LOBE)
             weft_lobe_eval(&self->lobe, wo, wi[k], f[k]);
         else
-            merl_at(&self->merl, dir(wo[0], wo[1], wo[2]), dir(wi[k][0], wi[k][1], wi[k][2]), f[k]);
+            measured_at(&self->measured, dir(wo[0], wo[1], wo[2]), dir(wi[k][0], wi[k][1], wi[k][2]), f[k]);
 }
 
 /* Directions as the lobes spread them: however narrow these are, few will do. */
@@ -227,14 +226,16 @@ static void whole_albedo(const Whole *self, int part, const float wo[3], float a
     for (int c = 0; c < 3; c++) albedo[c] = (float)sum[c];
 }
 
-/* Directions as the cosine spreads them. */
-static void measured_albedo(const Merl *merl, const float wo[3], float albedo[3]) {
+/* Directions as the measurement's sampling spreads them. */
+static void measured_albedo(const Measured *measured, const float wo[3], float albedo[3]) {
+    const Dir o = dir(wo[0], wo[1], wo[2]);
     double sum[3] = {0.0};
     for (uint32_t k = 0; k < 4 * DRAWS; k++) {
-        Dir i = warp_cosine(((float)k + 0.5f) / (4 * DRAWS), (float)halton((int)k, 2));
-        float f[3];
-        merl_at(merl, dir(wo[0], wo[1], wo[2]), i, f);
-        for (int c = 0; c < 3; c++) sum[c] += (double)f[c] * PI_DOUBLE / (4 * DRAWS);
+        Dir i = measured_sample(measured, o, ((float)k + 0.5f) / (4 * DRAWS), (float)halton((int)k, 2));
+        float f[3], pdf = measured_pdf(measured, o, i);
+        if (!(i.z > 0.0f) || !(pdf > 0.0f)) continue;
+        measured_at(measured, o, i, f);
+        for (int c = 0; c < 3; c++) sum[c] += (double)f[c] * (double)(i.z / pdf) / (4 * DRAWS);
     }
     for (int c = 0; c < 3; c++) albedo[c] = (float)sum[c];
 }
@@ -246,5 +247,7 @@ void weft_reflection_albedo(const WeftReflection *self, int part, float cos_o, f
     if (self->kind == REFLECTION_WHOLE) whole_albedo(&self->whole, part, wo, albedo);
     if (part != WEFT_PART_ALL) return;
     if (self->kind == REFLECTION_LOBE) weft_lobe_albedo(&self->lobe, z, albedo);
-    if (self->kind == REFLECTION_MEASURED) measured_albedo(&self->merl, wo, albedo);
+    if (self->kind == REFLECTION_MEASURED) measured_albedo(&self->measured, wo, albedo);
 }
+
+int weft_reflection_readable(const char *name) { return measured_format(name) != MEASURED_NONE; }

@@ -126,8 +126,20 @@ bool samples_spread(Samples *self, WeftBrdfMetric metric) {
     return metric == WEFT_BRDF_METRIC_PICTURE ? spread_pictures(self) : spread_wide(self, metric);
 }
 
+/* Of samples that each have their own wo. */
+static void ask_each(const Samples *self, const WeftReflection *reflection, int part, float *const x[3]) {
+    for (int k = 0; k < self->count; k++) {
+        const float wo[3] = {self->o[0][k], self->o[1][k], self->o[2][k]};
+        const float wi[1][3] = {{self->i[0][k], self->i[1][k], self->i[2][k]}};
+        float f[1][3];
+        weft_reflection_eval(reflection, part, wo, 1, wi, f);
+        for (int c = 0; c < 3; c++) x[c][k] = f[0][c] * wi[0][2];
+    }
+}
+
 void samples_ask(const Samples *self, const WeftReflection *reflection, int part, float *const x[3]) {
     float wi[256][3], f[256][3];
+    if (self->outs == 0) ask_each(self, reflection, part, x);
     for (int out = 0; out < self->outs; out++) {
         const float wo[3] = {self->o[0][out], self->o[1][out], self->o[2][out]};
         for (int first = out; first < self->count;) {

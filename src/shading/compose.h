@@ -71,15 +71,32 @@ FN Lobe compose_sheen(Lobe lobe, const Surface *s, Choices c) {
     return compose_terms(m, c.sheen_d, c.sheen_v, c.sheen_f, s);
 }
 
+/* The inputs that are parameters of a chosen sheen, and of a chosen diffuse lobe. */
+FN LobeNamed compose_sheen_named(const Surface *s) {
+    LobeNamed n = lobe_unnamed();
+    n.density = s->sheen_density;
+    n.tilt = s->nap;
+    n.azimuth = azimuth_of(s->nap_direction);
+    n.tail = s->sheen_tail;
+    n.rise = s->sheen_rise;
+    if (s->sheen_beta > 0.0f) n.beta = s->sheen_beta;
+    return n;
+}
+FN LobeNamed compose_diffuse_named(const Surface *s) {
+    LobeNamed n = lobe_unnamed();
+    n.retro = s->diffuse_retro;
+    n.lift = s->diffuse_lift;
+    n.wrap = s->subsurface;
+    return n;
+}
+
 FN void compose_choices(Stack *m, const Surface *s, Choices c) {
     bool free = compose_sheen_is_free(c);
     if (c.sheen_lobe >= 0 || free) {
         Lobe lobe = m->sheen.lobe;
         if (c.sheen_lobe >= 0) {
             lobe = lobe_rough(c.sheen_lobe, s->sheen_roughness);
-            float beta = s->sheen_beta > 0.0f ? s->sheen_beta : -1.0f;
-            lobe = lobe_named(
-                lobe, lobe_named_of(s->sheen_density, s->nap, azimuth_of(s->nap_direction), beta, -1.0f));
+            lobe = lobe_named(lobe, compose_sheen_named(s));
         }
         if (free) lobe = compose_sheen(lobe, s, c);
         m->nap = nap_of(s->nap, s->nap_direction);
@@ -98,8 +115,7 @@ FN void compose_choices(Stack *m, const Surface *s, Choices c) {
         m->specular.lobe = compose_terms(compose_facets(m->specular.lobe), c.d, c.v, c.f, s);
     }
     if (c.diffuse >= 0 && HAS_DIFFUSE(m)) {
-        Lobe lobe = lobe_named(lobe_rough(c.diffuse, s->roughness),
-                               lobe_named_of(-1.0f, -1.0f, -1.0f, -1.0f, s->subsurface));
+        Lobe lobe = lobe_named(lobe_rough(c.diffuse, s->roughness), compose_diffuse_named(s));
         Rgb color = m->diffuse.f0;
         slot_make(&m->diffuse, lobe, color, color, 1.0f, m->diffuse.normal, m->diffuse.grazing);
     }

@@ -50,6 +50,13 @@
     P(SCALAR, sheen_beta, 0.0f, 0.0f, 20.0f, 0.0f, 100.0f,                                                   \
       "beta of an exponential sheen; 0: mix(0.5, 20, sheen_roughness)")                                      \
     P(SCALAR, sheen_density, 1.0f, 0.25f, 4.0f, 0.01f, 8.0f, "of the fibres of a sheen that has a density")  \
+    P(SCALAR, sheen_tail, 0.6f, 0.25f, 4.0f, 0.25f, 4.0f,                                                    \
+      "of a sheen that has a tail: how fast its highlight falls, 0.5 loose fibres, 2 as ggx")                \
+    P(SCALAR, sheen_rise, 3.0f, 1.0f, 6.0f, 1.0f, 6.0f,                                                      \
+      "of such a sheen: the power by which sheen_second comes in")                                           \
+    P(SCALAR, diffuse_retro, 0.3f, 0.0f, 6.0f, 0.0f, 6.0f, "diffuse=body: the peak towards the light")       \
+    P(SCALAR, diffuse_lift, 0.3f, 0.0f, 8.0f, 0.0f, 8.0f,                                                    \
+      "diffuse=body: how much brighter it is where light and viewer part")                                   \
     P(ANGLE, nap, 0.0f, 0.0f, 45.0f, 0.0f, 90.0f, "how far the fibres of a sheen lean over, degrees")        \
     P(DIRECTION, nap_direction, 0.0f, 0.0f, 360.0f, -1e6f, 1e6f,                                             \
       "where they lean to: angle from the tangent, degrees")                                                 \

@@ -61,16 +61,16 @@ STRUCT(Lobe) {
 };
 
 /* The numbers that a material gives the parameters of these names; one below 0 leaves its parameter as it is.
- * Angles are radians. Density, tilt and azimuth leave the first parameter alone, which is the roughness's. */
-STRUCT(LobeNamed) { float density, tilt, azimuth, beta, wrap; };
+ * Angles are radians. All but beta and wrap leave the first parameter alone, which is the roughness's. */
+#define LOBE_NAMES(N)         N(density) N(tilt) N(azimuth) N(tail) N(rise) N(retro) N(lift) N(beta) N(wrap)
+#define LOBE_NAME_FIELD(name) float name;
+STRUCT(LobeNamed){LOBE_NAMES(LOBE_NAME_FIELD)};
 
-FN LobeNamed lobe_named_of(float density, float tilt, float azimuth, float beta, float wrap) {
+/* Leaves all parameters as they are. */
+#define LOBE_NAME_NONE(name) n.name = -1.0f;
+FN LobeNamed lobe_unnamed(void) {
     LobeNamed n;
-    n.density = density;
-    n.tilt = tilt;
-    n.azimuth = azimuth;
-    n.beta = beta;
-    n.wrap = wrap;
+    LOBE_NAMES(LOBE_NAME_NONE)
     return n;
 }
 

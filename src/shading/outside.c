@@ -56,11 +56,15 @@ void outside_rough(Lobe *m, float roughness) {
 }
 
 void outside_named(Lobe *m, LobeNamed n) {
-    static const char *const names[] = {"density", "tilt", "azimuth", "beta", "wrap"};
-    const float values[] = {n.density, n.tilt, n.azimuth, n.beta, n.wrap};
-    for (int k = 0; outside_lobe(m->id) && k < 5; k++) {
-        int at = weft_lobe_param_find(m->id, names[k]);
-        if (at > (k < 3 ? 0 : -1) && values[k] >= 0.0f) lobe_set(m, at, values[k]);
+#define NAMED_VALUE(name) {#name, n.name},
+    const struct {
+        const char *name;
+        float value;
+    } all[] = {LOBE_NAMES(NAMED_VALUE)};
+    for (size_t k = 0; outside_lobe(m->id) && k < sizeof all / sizeof *all; k++) {
+        bool first = strcmp(all[k].name, "beta") == 0 || strcmp(all[k].name, "wrap") == 0;
+        int at = weft_lobe_param_find(m->id, all[k].name);
+        if (at > (first ? -1 : 0) && all[k].value >= 0.0f) lobe_set(m, at, all[k].value);
     }
 }
 

@@ -55,7 +55,9 @@ LOBE_COPY Dir lobe_sample(const Lobe *m, Dir o, float u, float v);
 LOBE_COPY Strip lobe_strip(const Lobe *m, Dir o, float u, float v);
 
 static inline Lobe lobe_fibres(Lobe lobe, float density, float tilt, float azimuth) {
-    return lobe_named(lobe, lobe_named_of(density, tilt, azimuth, -1.0f, -1.0f));
+    LobeNamed n = lobe_unnamed();
+    n.density = density, n.tilt = tilt, n.azimuth = azimuth;
+    return lobe_named(lobe, n);
 }
 static inline float lobe_eval(const Lobe *lobe, Angles a) { return lobe_value(lobe, a).f; }
 static inline float lobe_pdf(const Lobe *lobe, Angles a) { return lobe_value(lobe, a).pdf; }

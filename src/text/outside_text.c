@@ -28,6 +28,8 @@ static void put_clamped(const WeftParamInfo *p, int k, const char *value, Buffer
 
 /* Its parameters from what any lobe may be asked for, as cmake/lobes.cmake has it. */
 static void put_common(const OutsideLobe *lobe, Buffer *out) {
+#define NAME_AND_BLANK(name) #name " "
+    static const char every[] = " " LOBE_NAMES(NAME_AND_BLANK);
     const WeftParamInfo *p = lobe->info.params;
     char mixed[120];
     buffer_print(out, "FN void %s_rough(Lobe *m, float roughness) {\n", lobe->names.prefix);
@@ -42,7 +44,7 @@ static void put_common(const OutsideLobe *lobe, Buffer *out) {
     buffer_print(out, "}\nFN void %s_named(Lobe *m, LobeNamed n) {\n", lobe->names.prefix);
     for (int k = 0; k < lobe->info.param_count; k++) {
         snprintf(mixed, sizeof mixed, " %s ", p[k].name);
-        if (!strstr(k ? " density tilt azimuth beta wrap " : " beta wrap ", mixed)) continue;
+        if (!strstr(k ? every : " beta wrap ", mixed)) continue;
         snprintf(mixed, sizeof mixed, "n.%s", p[k].name);
         buffer_print(out, "    if (%s >= 0.0f)\n    ", mixed);
         put_clamped(&p[k], k, mixed, out);

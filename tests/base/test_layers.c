@@ -12,9 +12,9 @@
 
 #include <cmocka.h>
 
-static const char *const folders[] = {"base",    "shading", "image", "weave", "fibre",
-                                      "scene",   "gltf",    "text",  "trace", "raster",
-                                      "measure", "export",  "plot",  "view",  "cli"};
+static const char *const folders[] = {"base",   "shading", "image", "weave", "fibre",  "brdf",
+                                      "scene",  "gltf",    "text",  "trace", "raster", "measure",
+                                      "export", "plot",    "view",  "cli"};
 enum { FOLDERS = sizeof folders / sizeof folders[0] };
 
 static int folder_index(const char *path) {

@@ -5,7 +5,7 @@
 
 #include <jansson.h>
 
-#include "weft/bake.h"
+#include "weft/weft.h"
 
 static void assert_near(double got, double expected, double tolerance) {
     if (!(fabs(got - expected) <= tolerance)) fail_msg("%.9g, not %.9g +- %g", got, expected, tolerance);
@@ -318,6 +318,58 @@ static void interrupted_bake_writes_nothing(void **state) {
     ran_free(&ran);
 }
 
+/* A material as a .bsdf is a model that other commands take, near the material. */
+static void bsdf_of_a_material_is_near_it(void **state) {
+    (void)state;
+    Ran ran = RUN("bake", "bsdf", "preset:wool", "-o", "wool.bsdf", "--size", "16x32");
+    if (ran.code != 0) fail_msg("%s", ran.err);
+    ran_free(&ran);
+    WeftReflection *file, *of;
+    WeftMaterial material;
+    WeftError error;
+    double distance = 1.0;
+    if (weft_reflection_read("wool.bsdf", &file, &error) != WEFT_OK) fail_msg("%s", error.text);
+    assert_int_equal(weft_material_read("preset:wool", &material, NULL, &error), WEFT_OK);
+    assert_int_equal(weft_reflection_create(&material, &of, &error), WEFT_OK);
+    assert_int_equal(weft_brdf_distance(file, of, WEFT_PART_ALL, WEFT_BRDF_METRIC_COSINE, &distance, &error),
+                     WEFT_OK);
+    print_message("a .bsdf of 16 x 32 is %.4f from its material\n", distance);
+    assert_true(distance < 0.02);
+    weft_reflection_free(of);
+    weft_reflection_free(file);
+    ran = RUN("fit", "wool.bsdf", "--lobe", "charlie-conty-kulla", "--base", "oren-nayar");
+    if (ran.code != 0) fail_msg("%s", ran.err);
+    ran_free(&ran);
+}
+
+/* A measurement as a lobe: near what was measured, with all that a lobe has, and worn in both engines. */
+static void measured_lobe_is_near_and_renders_in_both_engines(void **state) {
+    (void)state;
+    FILE *angles = fopen("pairs.txt", "w");
+    assert_non_null(angles);
+    for (int k = 0; k < 4000; k++)
+        fprintf(angles, "%g %d %g %d\n", 79.0 * (k * 0.618034 - (int)(k * 0.618034)), 37 * k % 360,
+                79.0 * (k * 0.754878 - (int)(k * 0.754878)), 101 * k % 360);
+    fclose(angles);
+    Ran ran = run_shell(
+        "\"$0\" eval fabric -p alpha=0.4 -p color=0.3,0.1,0.05 -p f90=0.6,0.5,0.4 pairs.txt >f.txt && "
+        "paste -d' ' pairs.txt f.txt | cut -d' ' -f1-7 >cloth.csv && "
+        "\"$0\" bake lobe cloth.csv -o my_cloth.h -o my_cloth.json");
+    if (ran.code != 0) fail_msg("%s", ran.err);
+    const char *error = strstr(ran.err, "error ");
+    assert_non_null(error);
+    print_message("%s", ran.err);
+    assert_true(strtod(error + 6, NULL) < 0.03);
+    ran_free(&ran);
+    ran = RUN("check", "my-cloth", "--lobe", "my_cloth.h", "--quick");
+    if (ran.code != 0) fail_msg("%s%s", ran.out, ran.err);
+    ran_free(&ran);
+    ran = RUN("render", "builtin:cloth", "--lobe", "my_cloth.h", "--material", "my_cloth.json", "--engine",
+              "both", "--width", "48", "--height", "36", "--spp", "4", "-o", "worn.png");
+    if (ran.code != 0) fail_msg("%s", ran.err);
+    ran_free(&ran);
+}
+
 static void bake_options_without_sense_are_refused(void **state) {
     (void)state;
     file_make("not.png", "\x89PNG\r\n", 6);
@@ -330,6 +382,19 @@ static void bake_options_without_sense_are_refused(void **state) {
         {{"bake"}, 2, "lacks an operand"},
         {{"bake", "fibre-model"}, 2, "needs -o"},
         {{"bake", "fibre-model", "--size", "4x4", "-o", "x.h"}, 2, "--size"},
+        {{"bake", "lobe", "-o", "x.h"}, 2, "needs a measurement"},
+        {{"bake", "lobe", "x.binary"}, 2, "needs -o NAME.h"},
+        {{"bake", "lobe", "x.binary", "-o", "x.png"}, 2, "x.png"},
+        {{"bake", "lobe", "x.binary", "-o", "x.h", "-o", "y.h"}, 2, "y.h"},
+        {{"bake", "lobe", "x.binary", "-o", "x.h"}, 3, "x.binary: cannot be opened"},
+        {{"bake", "lobe", "x.binary", "-o", "x.h", "--size", "4x4"}, 2, "--size"},
+        {{"bake", "bsdf", "-o", "x.bsdf"}, 2, "needs a model"},
+        {{"bake", "bsdf", "velvet"}, 2, "needs -o OUT.bsdf"},
+        {{"bake", "bsdf", "velvet", "-o", "x.exr"}, 2, ".bsdf"},
+        {{"bake", "bsdf", "velvet", "-o", "x.bsdf", "--size", "12"}, 2, "--size"},
+        {{"bake", "bsdf", "velvet", "-o", "x.bsdf", "--size", "1x64"}, 2, "polar angles"},
+        {{"bake", "bsdf", "velvet", "-o", "x.bsdf", "--axes", "gltf"}, 2, "--axes"},
+        {{"bake", "bsdf", "fibre-walk", "-o", "x.bsdf"}, 2, "random walks"},
         {{"bake", "fibre-truth", "charlie-neubelt", "-o", "x.npy"}, 2, "fibre"},
         {{"bake", "ltc", "silk", "-o", "x.npy"}, 2, "silk"},
         {{"bake", "ltc", "ggx", "--axes", "zeltner", "-o", "x.npy"}, 2, "--axes"},
@@ -424,6 +489,8 @@ int main(void) {
         cmocka_unit_test(audit_prints_fault_and_error_of_a_table),
         cmocka_unit_test(picture_of_8_bits_is_audited_as_a_table),
         cmocka_unit_test(interrupted_bake_writes_nothing),
+        cmocka_unit_test(bsdf_of_a_material_is_near_it),
+        cmocka_unit_test(measured_lobe_is_near_and_renders_in_both_engines),
         cmocka_unit_test(bake_options_without_sense_are_refused),
         cmocka_unit_test(solved_slabs_are_baked),
         cmocka_unit_test(kinds_of_fibre_bake_the_tables_of_the_tree),

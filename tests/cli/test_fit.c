@@ -125,6 +125,99 @@ static void plot_option_writes_slices(void **state) {
     weft_image_free(&sheet);
 }
 
+/* A table has gaps: its slices are cells, some of them empty. */
+static void slices_of_a_table_are_drawn(void **state) {
+    (void)state;
+    Ran ran = RUN("fit", "table.csv", "--lobe", "charlie-neubelt", "--plot", "cells.png");
+    if (ran.code != 0) fail_msg("%s", ran.err);
+    ran_free(&ran);
+    WeftImage sheet;
+    WeftError error;
+    if (weft_image_read("cells.png", &sheet, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
+    int lit[3] = {0}; /* of a column, in the rows of slices */
+    const unsigned char *p = sheet.pixels;
+    for (int k = 0; k < sheet.width * sheet.height; k++, p += sheet.channels)
+        lit[3 * (k % sheet.width) / sheet.width] +=
+            4 * (k / sheet.width) / sheet.height % 2 == 0 && (p[0] > p[2] + 10 || p[2] > p[0] + 10);
+    print_message("coloured pixels of data, fit and baseline: %d %d %d\n", lit[0], lit[1], lit[2]);
+    for (int c = 0; c < 3; c++) assert_true(lit[c] > 300);
+    weft_image_free(&sheet);
+}
+
+/* The nearest that an engine can do, as a material, an asset and text; each says the same numbers. */
+static void engine_nearest_to_data_is_written(void **state) {
+    (void)state;
+    Ran ran = RUN("fit", "table.csv", "--lobe", "charlie-neubelt", "--to", "khronos", "-o", "near.json", "-o",
+                  "near.glb", "-o", "near.hlsl", "--json");
+    if (ran.code != 0) fail_msg("%s", ran.err);
+    json_t *json = json_loads(ran.out, 0, NULL), *to = json_object_get(json, "to");
+    assert_string_equal(json_string_value(json_object_get(to, "profile")), "khronos");
+    double error = json_number_value(json_object_get(to, "error")),
+           best = json_number_value(
+               json_object_get(json_array_get(json_object_get(json, "ranking"), 0), "error"));
+    print_message("khronos %.4f, free %.4f\n", error, best);
+    assert_true(error > 0.0 && error < 0.1 && best < 0.1); /* it has a highlight, which may help */
+    json_decref(json);
+    ran_free(&ran);
+    WeftMaterial alone, worn;
+    WeftError failed;
+    WeftScene *scene;
+    assert_int_equal(weft_material_read("near.json", &alone, NULL, &failed), WEFT_OK);
+    if (weft_scene_load("near.glb", &scene, NULL, &failed) != WEFT_OK) fail_msg("%s", failed.text);
+    bool found = false;
+    for (int k = 0; k < weft_scene_info(scene).material_count; k++) {
+        bool same = weft_scene_material(scene, k, &worn, NULL) == WEFT_OK;
+        for (int n = 0; n < WEFT_INPUTS_MAX && same; n++)
+            same = fabsf(worn.inputs[n].value[0] - alone.inputs[n].value[0]) <= 1e-5f;
+        found |= same;
+    }
+    assert_true(found);
+    weft_scene_free(scene);
+    FILE *text = fopen("near.hlsl", "r");
+    char line[256];
+    assert_non_null(text);
+    bool named = false;
+    while (fgets(line, sizeof line, text)) named |= strstr(line, "khronos") != NULL;
+    assert_true(named);
+    fclose(text);
+}
+
+/* A fit of fabric over body is written whole: no warning, and the numbers that the table was made with. */
+static void whole_fit_of_fabric_is_written(void **state) {
+    (void)state;
+    Ran ran = run_shell(
+        "awk 'BEGIN { for (k = 0; k < 3000; k++) print 79 * (k * .618034 % 1), 37 * k % 360, 79 * (k * "
+        ".754878 % 1), "
+        "101 * k % 360 }' >pairs.txt && "
+        "\"$0\" eval fabric -p alpha=0.3 -p tail=1.4 -p rise=2.5 -p color=0.2,0.1,0.05 -p f90=0.6,0.5,0.4 "
+        "pairs.txt >over.txt && "
+        "\"$0\" eval body -p edge=0.2 -p retro=1 -p lift=1.5 -p color=0.3,0.1,0.1 pairs.txt >under.txt && "
+        "paste -d' ' pairs.txt over.txt under.txt | awk '{ print $1, $2, $3, $4, $5 + $9, $6 + $10, $7 + $11 "
+        "}' >whole.csv && "
+        "\"$0\" fit whole.csv --base body --lobe fabric -o whole.json");
+    if (ran.code != 0) fail_msg("%s", ran.err);
+    if (strstr(ran.err, "has no inputs")) fail_msg("%s", ran.err);
+    ran_free(&ran);
+    WeftMaterial material;
+    WeftError error;
+    assert_int_equal(weft_material_read("whole.json", &material, NULL, &error), WEFT_OK);
+    static const struct {
+        const char *name;
+        float value;
+    } inputs[] = {{"sheen_tail", 1.4f},
+                  {"sheen_rise", 2.5f},
+                  {"diffuse_retro", 1.0f},
+                  {"diffuse_lift", 1.5f},
+                  {"roughness", 0.2f}};
+    for (size_t k = 0; k < sizeof inputs / sizeof *inputs; k++) {
+        int input = weft_material_input_find(inputs[k].name);
+        float found = material.inputs[input].value[0];
+        if (!(fabsf(found - inputs[k].value) <= 0.03f * inputs[k].value))
+            fail_msg("%s is %g, not %g", inputs[k].name, (double)found, (double)inputs[k].value);
+        assert_true(weft_material_reads(&material, input));
+    }
+}
+
 static void fit_of_bad_data_or_options_is_refused(void **state) {
     (void)state;
     file_make("bad.csv", "1,2,3\n", 6);
@@ -137,7 +230,13 @@ static void fit_of_bad_data_or_options_is_refused(void **state) {
     assert_complaint(NULL, LIST("fit", "table.csv", "--lobe", "lambert"), 2, "--base");
     assert_complaint(NULL, LIST("fit", "table.csv", "--lobe", "fibre-walk"), 2, "fit fibre");
     assert_complaint(NULL, LIST("fit", "table.csv", "-o", "a.png"), 2, ".json");
-    assert_complaint(NULL, LIST("fit", "table.csv", "--plot", "a.png"), 2, ".binary");
+    assert_complaint(NULL, LIST("fit", "table.csv", "--plot", "a.jpg"), 2, ".png");
+    assert_complaint(NULL, LIST("fit", "table.csv", "--to", "unreal5"), 2, "unreal4");
+    assert_complaint(NULL, LIST("fit", "table.csv", "-o", "table.csv"), 2, ".json");
+    file_make("short.bsdf", "abc", 3);
+    assert_complaint(NULL, LIST("fit", "short.bsdf"), 3, "RGL's format");
+    file_make("short.bin", "abc", 3);
+    assert_complaint(NULL, LIST("fit", "short.bin"), 3, "UTIA's format");
     assert_complaint(NULL, LIST("fit", "table.csv", "--metric", "picture"), 2, "picture");
 }
 
@@ -160,6 +259,9 @@ int main(void) {
                                        cmocka_unit_test(fit_prints_a_table_of_lobes_by_error),
                                        cmocka_unit_test(f90_is_printed_only_for_lobes_that_read_it),
                                        cmocka_unit_test(plot_option_writes_slices),
+                                       cmocka_unit_test(slices_of_a_table_are_drawn),
+                                       cmocka_unit_test(engine_nearest_to_data_is_written),
+                                       cmocka_unit_test(whole_fit_of_fabric_is_written),
                                        cmocka_unit_test(interrupted_fit_ends),
                                        cmocka_unit_test(fit_of_bad_data_or_options_is_refused)};
     return cmocka_run_group_tests(tests, table_begin, work_end);

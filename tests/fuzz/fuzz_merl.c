@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "measure/merl.h"
+#include "brdf/merl.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 

@@ -199,7 +199,7 @@ static void workflow_reads_only_its_inputs(void **state) {
                  "clearcoat -clearcoat_roughness -clearcoat_gloss -clearcoat_normal -sheen -sheen_tint "
                  "sheen_color -sheen_roughness -sheen_density -nap dust -dust_color -dust_roughness "
                  "-dust_falloff -dust_tilt -dust_direction -dust_noise -dust_scale -opacity -extinction "
-                 "-sheen_second");
+                 "-sheen_second -sheen_tail -sheen_rise -diffuse_retro -diffuse_lift");
     m.alpha_mode = WEFT_ALPHA_MASK;
     set_value(&m, "ior", 1.5f);
     set_value(&m, "anisotropy", 0.5f);

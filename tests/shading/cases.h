@@ -198,6 +198,9 @@ static inline Surface random_surface(Random *random, bool tilt) {
         s.sheen_color = (Rgb){random_unit(random), random_unit(random), random_unit(random)};
     s.sheen_roughness = random_unit(random);
     s.sheen_density = 1.0f;
+    s.sheen_tail = 0.6f;
+    s.sheen_rise = 3.0f;
+    s.diffuse_retro = s.diffuse_lift = 0.3f;
     return s;
 }
 
@@ -237,6 +240,10 @@ static inline Surface white_cloth(float roughness) {
                      .ior = 1.0f,
                      .sheen_roughness = roughness,
                      .sheen_density = 1.0f,
+                     .sheen_tail = 0.6f,
+                     .sheen_rise = 3.0f,
+                     .diffuse_retro = 0.3f,
+                     .diffuse_lift = 0.3f,
                      .normal = {0.0f, 0.0f, 1.0f}};
 }
 

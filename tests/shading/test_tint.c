@@ -156,6 +156,10 @@ static void coloured_sheen_on_a_white_base_conserves_each_colour(void **state) {
                              .sheen_second = {1.0f, 1.0f, 1.0f},
                              .sheen = 1.0f,
                              .sheen_density = 1.0f,
+                             .sheen_tail = 0.6f,
+                             .sheen_rise = 3.0f,
+                             .diffuse_retro = 0.3f,
+                             .diffuse_lift = 0.3f,
                              .ior = 1.0f,
                              .sheen_roughness = 0.4f + 0.2f * (float)(n % 4),
                              .normal = {0.0f, 0.0f, 1.0f}};

@@ -3,12 +3,12 @@
 #include <string.h>
 
 #include "base/fail.h"
-#include "base/file.h"
 #include "base/memory.h"
 #include "base/pi.h"
-#include "measure/merl.h"
+#include "brdf/little_endian.h"
+#include "brdf/merl.h"
 
-enum { HEADER = 12, FILE_SIZE = HEADER + 3 * MERL_BINS * 8 };
+enum { HEADER = 12 };
 
 static size_t bins_of(MerlShape shape) {
     return (size_t)shape.theta_h * (size_t)shape.theta_d * (size_t)shape.phi_d;
@@ -16,25 +16,12 @@ static size_t bins_of(MerlShape shape) {
 
 static const double units[3] = {1.0 / 1500.0, 1.15 / 1500.0, 1.66 / 1500.0};
 
-static uint64_t little(const unsigned char *bytes, int count) {
-    uint64_t value = 0;
-    for (int k = count - 1; k >= 0; k--) value = value << 8 | bytes[k];
-    return value;
-}
-
-static double double_at(const unsigned char *bytes) {
-    uint64_t bits = little(bytes, 8);
-    double value;
-    memcpy(&value, &bits, sizeof value);
-    return value;
-}
-
 static WeftResult check_size(const unsigned char *bytes, size_t size, MerlShape shape, const char *name,
                              WeftError *error) {
     if (size < HEADER) return fail(error, WEFT_MESSAGE_MEASURED, name, "it has %zu bytes", size);
     const size_t whole = HEADER + 3 * 8 * bins_of(shape);
     unsigned n[3];
-    for (int k = 0; k < 3; k++) n[k] = (unsigned)little(bytes + (size_t)4 * (size_t)k, 4);
+    for (int k = 0; k < 3; k++) n[k] = (unsigned)little_endian(bytes + (size_t)4 * (size_t)k, 4);
     if (n[0] != (unsigned)shape.theta_h || n[1] != (unsigned)shape.theta_d || n[2] != (unsigned)shape.phi_d)
         return fail(error, WEFT_MESSAGE_MEASURED, name, "it has %u x %u x %u bins; %d x %d x %d are expected",
                     n[0], n[1], n[2], shape.theta_h, shape.theta_d, shape.phi_d);
@@ -56,7 +43,7 @@ WeftResult merl_read_shape(const void *data, size_t size, MerlShape shape, const
         out->f[c] = alloc_array(bins, sizeof **out->f);
         if (!out->f[c]) return fail(error, WEFT_MESSAGE_MEMORY, name, NULL);
         for (size_t k = 0; k < bins; k++) {
-            double f = double_at(bytes + HEADER + ((size_t)c * bins + k) * 8) * units[c];
+            double f = little_endian_double(bytes + HEADER + ((size_t)c * bins + k) * 8) * units[c];
             if (!isfinite(f) || f > 1e30)
                 return fail(error, WEFT_MESSAGE_MEASURED, name, "number %zu is not finite", k + 1);
             out->f[c][k] = f < 0.0 ? -1.0f : (float)f;
@@ -68,18 +55,11 @@ WeftResult merl_read_shape(const void *data, size_t size, MerlShape shape, const
 }
 
 WeftResult merl_read_memory(const void *data, size_t size, const char *name, Merl *out, WeftError *error) {
-    const MerlShape shape = {MERL_THETA_H, MERL_THETA_D, MERL_PHI_D};
+    const unsigned char *bytes = data;
+    MerlShape shape = {MERL_THETA_H, MERL_THETA_D, MERL_PHI_D, false};
+    if (size >= HEADER && little_endian(bytes + 8, 4) == MERL_ALL_AROUND)
+        shape.phi_d = MERL_ALL_AROUND, shape.around = true;
     return merl_read_shape(data, size, shape, name, out, error);
-}
-
-WeftResult merl_read(const char *path, Merl *out, WeftError *error) {
-    FileBytes bytes;
-    *out = (Merl){0};
-    WeftResult result = file_read(path, FILE_SIZE + 1, &bytes, error);
-    if (result != WEFT_OK) return result;
-    result = merl_read_memory(bytes.data, bytes.size, path, out, error);
-    free(bytes.data);
-    return result;
 }
 
 void merl_free(Merl *merl) {
@@ -87,13 +67,12 @@ void merl_free(Merl *merl) {
     *merl = (Merl){0};
 }
 
-/* Half vector and difference angles, radians; phi_d in [0, pi), since f(wo, wi) = f(wi, wo) turns it by pi.
- */
+/* Half vector and difference angles, radians; phi_d in [0, period). */
 typedef struct HalfDiff {
     double theta_h, theta_d, phi_d;
 } HalfDiff;
 
-static HalfDiff half_diff(Dir o, Dir i) {
+static HalfDiff half_diff(Dir o, Dir i, double period) {
     double hx = (double)o.x + (double)i.x, hy = (double)o.y + (double)i.y, hz = (double)o.z + (double)i.z;
     double flat = (sqrt)(hx * hx + hy * hy), length = (sqrt)(flat * flat + hz * hz);
     double c = flat > 1e-9 ? hx / flat : 1.0, s = flat > 1e-9 ? hy / flat : 0.0;
@@ -103,8 +82,8 @@ static HalfDiff half_diff(Dir o, Dir i) {
     double dx = ch * x - sh * z, dz = sh * x + ch * z;
     HalfDiff angles = {
         .theta_h = (atan2)(sh, ch), .theta_d = (atan2)((sqrt)(dx * dx + y * y), dz), .phi_d = (atan2)(y, dx)};
-    if (angles.phi_d < 0.0) angles.phi_d += PI_DOUBLE;
-    if (angles.phi_d >= PI_DOUBLE) angles.phi_d = 0.0;
+    if (angles.phi_d < 0.0) angles.phi_d += period;
+    if (angles.phi_d >= period) angles.phi_d = 0.0;
     return angles;
 }
 
@@ -129,11 +108,13 @@ bool merl_at(const Merl *merl, Dir o, Dir i, float f[3]) {
     f[0] = f[1] = f[2] = 0.0f;
     if (!(o.z > 0.0f) || !(i.z > 0.0f)) return false;
     const MerlShape s = merl->shape;
-    HalfDiff a = half_diff(o, i);
+    /* where the table has a half of the circle, f(wo, wi) = f(wi, wo) turns phi_d by pi */
+    const double period = s.around ? 2.0 * PI_DOUBLE : PI_DOUBLE;
+    HalfDiff a = half_diff(o, i, period);
     /* bins of theta_h are narrow near the mirror direction: uniform in its root */
     Between h = between((sqrt)(a.theta_h / (0.5 * PI_DOUBLE)) * s.theta_h, s.theta_h, false);
     Between d = between(a.theta_d / (0.5 * PI_DOUBLE) * s.theta_d, s.theta_d, false);
-    Between p = between(a.phi_d / PI_DOUBLE * s.phi_d, s.phi_d, true);
+    Between p = between(a.phi_d / period * s.phi_d, s.phi_d, true);
     double sum[3] = {0.0}, weights = 0.0;
     for (int corner = 0; corner < 8; corner++) {
         int u = corner & 1, v = corner >> 1 & 1, w = corner >> 2;

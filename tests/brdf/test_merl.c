@@ -14,7 +14,7 @@
 
 #include "base/memory.h"
 #include "base/pi.h"
-#include "measure/merl.h"
+#include "brdf/merl.h"
 #include "weft/weft.h"
 
 #undef sin /* of the dialect, which is single precision */
@@ -138,6 +138,40 @@ static void reflections_of_lobe_and_file_agree(void **state) {
     assert_null(of_lobe);
 }
 
+/* With phi_d all around, f of swapped directions is another bin: here one half of the circle is twice the
+ * other. */
+static void merl_of_360_bins_goes_all_around(void **state) {
+    (void)state;
+    enum { BINS = 2 * MERL_BINS, WHOLE = 12 + 3 * BINS * 8 };
+    unsigned char *kept = file;
+    file = alloc_array(WHOLE, 1);
+    assert_non_null(file);
+    put_int(0, MERL_THETA_H), put_int(4, MERL_THETA_D), put_int(8, 2 * MERL_PHI_D);
+    for (size_t k = 0; k < (size_t)3 * BINS; k++)
+        put_double(12 + 8 * k, k % (2 * MERL_PHI_D) < MERL_PHI_D ? 1500.0 : 3000.0);
+    Merl merl;
+    WeftError error;
+    assert_int_equal(merl_read_memory(file, WHOLE, "file", &merl, &error), WEFT_OK);
+    float wo[3], wi[3], f[3], back[3];
+    directions(20, 40, 60, wo, wi); /* phi_d is 60.5 degrees */
+    Dir o = {.x = wo[0], .y = wo[1], .z = wo[2]}, i = {.x = wi[0], .y = wi[1], .z = wi[2]};
+    assert_true(merl_at(&merl, o, i, f));
+    assert_true(merl_at(&merl, i, o, back));
+    assert_float_equal(f[0], 1.0f, 1e-5f);
+    assert_float_equal(back[0], 2.0f, 1e-5f);
+    merl_free(&merl);
+    WeftData *data;
+    int all = 0;
+    assert_int_equal(weft_data_read_memory(file, WHOLE, "all.binary", &data, &error), WEFT_OK);
+    assert_true(weft_data_count(data, &all) > 1000);
+    weft_data_free(data);
+    put_int(8, 359);
+    assert_int_equal(merl_read_memory(file, WHOLE, "file", &merl, &error), WEFT_INPUT);
+    merl_free(&merl);
+    free(file);
+    file = kept;
+}
+
 static void refused(size_t size, const char *word) {
     Merl merl;
     WeftError error;
@@ -214,6 +248,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lobe_written_as_merl_reads_as_it_was),
         cmocka_unit_test(reflections_of_lobe_and_file_agree),
+        cmocka_unit_test(merl_of_360_bins_goes_all_around),
         cmocka_unit_test(bad_merl_file_is_an_error_of_one_line),
         cmocka_unit_test(merl_fabrics_are_read),
     };

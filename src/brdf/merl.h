@@ -4,9 +4,10 @@
  * Transactions on Graphics 22(3), 2003; the file: three little-endian 32-bit integers (theta_h, theta_d,
  * phi_d: 90 90 180), then for red, green and blue so many doubles, phi_d fastest, in units of
  * 1/1500, 1.15/1500 and 1.66/1500 per steradian; a negative one was not measured. Angles are those of Szymon
- * Rusinkiewicz, "A New Change of Variables for Efficient BRDF Representation", 1998. */
-#ifndef WEFT_MEASURE_MERL_H
-#define WEFT_MEASURE_MERL_H
+ * Rusinkiewicz, "A New Change of Variables for Efficient BRDF Representation", 1998. Where phi_d has 360 bins it
+ * runs all around, and f need not be reciprocal; of 180 the other half is the same. */
+#ifndef WEFT_BRDF_MERL_H
+#define WEFT_BRDF_MERL_H
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -14,11 +15,18 @@
 #include "shading/angles.h"
 #include "weft/result.h"
 
-enum { MERL_THETA_H = 90, MERL_THETA_D = 90, MERL_PHI_D = 180, MERL_BINS = 90 * 90 * 180 };
+enum {
+    MERL_THETA_H = 90,
+    MERL_THETA_D = 90,
+    MERL_PHI_D = 180,
+    MERL_ALL_AROUND = 2 * MERL_PHI_D,
+    MERL_BINS = 90 * 90 * 180
+};
 
 /* The number of bins of each angle. */
 typedef struct MerlShape {
     int theta_h, theta_d, phi_d;
+    bool around; /* phi_d covers the circle, not its half */
 } MerlShape;
 
 /* f[channel][bin], 1/sr, negative where it was not measured. */
@@ -27,13 +35,12 @@ typedef struct Merl {
     float *f[3];
 } Merl;
 
-/* Reads a file, or size bytes of one. Fails with WEFT_MESSAGE_MEASURED, _MEMORY and as file_read does;
- * release with merl_free in any case. */
-WeftResult merl_read(const char *path, Merl *out, WeftError *error);
+/* Reads size bytes of a file. Fails with WEFT_MESSAGE_MEASURED or _MEMORY; release with merl_free in any case.
+ */
 WeftResult merl_read_memory(const void *data, size_t size, const char *name, Merl *out, WeftError *error);
 void merl_free(Merl *merl);
 
-/* Works as merl_read, for a file with another number of bins, which the format does not have. A fuzzer needs inputs
+/* Works as merl_read_memory, for a file with another number of bins, which the format does not have. A fuzzer needs inputs
  * smaller than 35 MB. */
 WeftResult merl_read_shape(const void *data, size_t size, MerlShape shape, const char *name, Merl *out,
                            WeftError *error);

@@ -1,0 +1,51 @@
+/* tensor.h - a file of named arrays of numbers, in which the RGL database keeps its measurements
+ *
+ *   "tensor_file", 0          12 bytes
+ *   1, 0                      the version, a byte each
+ *   count                     u32
+ *   count times: length u16, the name, rank u16, type u8, offset u64, rank extents u64
+ *
+ * then the numbers, each array from its offset in the file on, the last axis fastest; all little-endian.
+ * Jonathan Dupuy, Wenzel Jakob, "An Adaptive Parameterization for Efficient Material Acquisition and
+ * Rendering", ACM Transactions on Graphics 37(6), 2018, and what programs that read its data agree on. */
+#ifndef WEFT_BRDF_TENSOR_H
+#define WEFT_BRDF_TENSOR_H
+
+#include <stdbool.h>
+#include <stdio.h>
+
+#include "weft/result.h"
+
+enum { TENSOR_AXES = 6, TENSOR_NAME = 32, TENSORS_MOST = 32 };
+
+typedef enum TensorType { TENSOR_U8 = 1, TENSOR_F32 = 10, TENSOR_TYPES = 12 } TensorType;
+
+/* One array; data lie in the bytes that were read, or are to be written. */
+typedef struct Tensor {
+    char name[TENSOR_NAME];
+    TensorType type;
+    int rank;
+    size_t extent[TENSOR_AXES], count; /* count is their product */
+    const unsigned char *data;
+} Tensor;
+
+typedef struct TensorFile {
+    int count;
+    Tensor tensors[TENSORS_MOST];
+} TensorFile;
+
+/* Finds the arrays in size bytes, which must outlive the file; nothing is allocated. Each lies within the
+ * bytes. Fails with WEFT_MESSAGE_BSDF. */
+WeftResult tensor_file_read(const unsigned char *bytes, size_t size, const char *name, TensorFile *out,
+                            WeftError *error);
+
+/* The array called so; NULL: there is none. */
+const Tensor *tensor_find(const TensorFile *file, const char *name);
+
+/* Number k of an array of TENSOR_F32. */
+float tensor_float(const Tensor *tensor, size_t k);
+
+/* Writes count arrays, whose data are bytes in the order of the file. Returns false where that failed. */
+bool tensor_file_write(FILE *stream, const Tensor *tensors, int count);
+
+#endif

@@ -1,0 +1,29 @@
+/* utia.h - a measured anisotropic BRDF as the UTIA database keeps it, ".bin"
+ *
+ * Jiri Filip, Radomir Vavra, "Template-Based Sampling of Anisotropic BRDFs", Computer Graphics Forum 33(7),
+ * 2014; the file: for red, green and blue 288 x 288 little-endian doubles, 1/sr, without a header: theta_i
+ * in steps of 15 degrees from 0 to 75, in each phi_i in steps of 7.5 degrees, theta_v, phi_v, the last the
+ * fastest. A negative one counts as 0. */
+#ifndef WEFT_BRDF_UTIA_H
+#define WEFT_BRDF_UTIA_H
+
+#include <stddef.h>
+
+#include "shading/angles.h"
+#include "weft/result.h"
+
+enum { UTIA_THETAS = 6, UTIA_PHIS = 48, UTIA_SIDE = UTIA_THETAS * UTIA_PHIS };
+
+/* f[channel][light][view]. */
+typedef struct Utia {
+    float *f[3];
+} Utia;
+
+/* Reads size bytes of a file. Fails with WEFT_MESSAGE_UTIA or _MEMORY; release with utia_free in any case. */
+WeftResult utia_read_memory(const void *data, size_t size, const char *name, Utia *out, WeftError *error);
+void utia_free(Utia *utia);
+
+/* f, linear in the four angles; beyond 75 degrees that of 75. 0 below the horizon. */
+void utia_at(const Utia *utia, Dir o, Dir i, float f[3]);
+
+#endif
