@@ -45,7 +45,7 @@ WEFT_API WeftResult weft_reflection_read(const char *path, WeftReflection **out,
 /* Returns 1 if weft_reflection_read knows the format of a file of that name, else 0. */
 WEFT_API int weft_reflection_readable(const char *name);
 
-/* How finely weft_reflection_write tabulates; zero-initialise for the defaults. */
+/* The sizes of the tables of weft_reflection_write; zero-initialise for the defaults. */
 typedef struct WeftBsdfDesc {
     int thetas; /* polar angles of wo, 2 .. 256; 0: 32 */
     int phis;   /* azimuths of wo, 3 .. 256, where f depends on that; 0: 17 */

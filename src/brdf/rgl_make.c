@@ -14,12 +14,12 @@ enum { FACETS_ACROSS = 64, FACETS_AROUND = 65, ROUNDS = 8 };
 /* The share of D's peak that is even. */
 static const double even_share = 0.03;
 
-typedef struct Making {
+typedef struct RglMaking {
     const RglSource *source;
     Rgl *rgl;
     Dir facet[FACETS_AROUND][FACETS_ACROSS];
     double area[FACETS_ACROSS]; /* solid angle of a facet's cell */
-} Making;
+} RglMaking;
 
 static Dir direction(double theta, double phi) {
     return dir((float)((sin)(theta) * (cos)(phi)), (float)((sin)(theta) * (sin)(phi)),
@@ -27,7 +27,7 @@ static Dir direction(double theta, double phi) {
 }
 
 /* Directions at the corners of even cells of u; the first and the last azimuth are one. */
-static void facets_make(Making *making) {
+static void facets_make(RglMaking *making) {
     for (int x = 0; x < FACETS_ACROSS; x++) {
         SquarePoint u = {.x = (double)x / (FACETS_ACROSS - 1)};
         double theta, phi, end = x == 0 || x == FACETS_ACROSS - 1 ? 0.5 : 1.0;
@@ -48,7 +48,7 @@ static float *table_cell(const RglTable *table, int y, int x) {
 /* The row of a table for azimuth y of the facets. */
 static int row_of(const RglTable *table, int y) { return table->height == FACETS_AROUND ? y : 0; }
 
-static double projected(const Making *making, const RglTable *ndf, Dir w) {
+static double projected(const RglMaking *making, const RglTable *ndf, Dir w) {
     double sum = 0.0;
     for (int y = 0; y + 1 < FACETS_AROUND; y++)
         for (int x = 0; x < FACETS_ACROSS; x++) {
@@ -60,7 +60,7 @@ static double projected(const Making *making, const RglTable *ndf, Dir w) {
 
 /* Sets sigma to that of D, at every facet direction. */
 static void sigma_set(void *user, int item, int thread) {
-    const Making *making = user;
+    const RglMaking *making = user;
     const Rgl *rgl = making->rgl;
     int y = item / FACETS_ACROSS, x = item % FACETS_ACROSS;
     (void)thread;
@@ -76,13 +76,13 @@ static double straight_back(const RglSource *source, Dir w) {
 }
 
 /* Scales D so that sigma is 1 at the normal. */
-static void ndf_scale(const Making *making) {
+static void ndf_scale(const RglMaking *making) {
     const RglTable *ndf = &making->rgl->ndf;
     double whole = projected(making, ndf, dir(0.0f, 0.0f, 1.0f));
     for (int k = 0; k < ndf->width * ndf->height; k++) ndf->value[k] /= (float)whole;
 }
 
-static bool facets_solve(Making *making, int threads) {
+static bool facets_solve(RglMaking *making, int threads) {
     Rgl *rgl = making->rgl;
     const int rows = making->source->isotropic ? 1 : FACETS_AROUND, high = rows == 1 ? 2 : rows;
     const size_t n = (size_t)high * FACETS_ACROSS;
@@ -137,7 +137,7 @@ static void normals_fill(const Rgl *rgl, int slice, float *density) {
 /* R of a slice at all s. Below the horizon, where nothing is asked for, it goes on as if f were the same on
  * both sides, below 0: so it is straight where f cos_i crosses 0, and its steps do not show there. */
 static void colors_fill(void *user, int slice, int thread) {
-    const Making *making = user;
+    const RglMaking *making = user;
     const Rgl *rgl = making->rgl;
     const SliceBlend own = {.count = 1, .slice = {(size_t)slice}, .weight = {1.0}};
     const Dir o = slice_direction(rgl, slice);
@@ -191,7 +191,7 @@ static bool axes_make(Rgl *rgl, const RglSource *source, const RglDesc *desc) {
 
 bool rgl_make(const RglSource *source, const RglDesc *desc, Rgl *out) {
     *out = (Rgl){0};
-    Making *making = alloc_array(1, sizeof *making);
+    RglMaking *making = alloc_array(1, sizeof *making);
     bool made = making && axes_make(out, source, desc);
     const int slices = out->phis * out->thetas;
     const size_t n = (size_t)out->side * (size_t)out->side;

@@ -13,7 +13,7 @@
 
 #include "brdf/rgl.h"
 
-/* What is tabulated. */
+/* The BRDF to tabulate. */
 typedef struct RglSource {
     /* f of count directions wi. */
     void (*f)(void *user, const float wo[3], int count, const float (*wi)[3], float (*f)[3]);
@@ -21,7 +21,7 @@ typedef struct RglSource {
     bool isotropic;
 } RglSource;
 
-/* How fine. */
+/* The sizes of the tables. */
 typedef struct RglDesc {
     int thetas, phis; /* slices; phis counts where the source is not isotropic */
     int side;         /* of the tables of each slice */

@@ -135,8 +135,8 @@ static void spectra_of(RglFile *file, Rgl *rgl) {
 /* Alike parts of the circle, by what part of it the azimuths span. */
 static int parts_of(const Rgl *rgl) {
     double span = (double)rgl->phi[rgl->phis - 1] - (double)rgl->phi[0];
-    int parts = rgl->phis > 2 ? (int)(rint)(2.0 * 3.14159265358979 / span) : 1;
-    return parts == 2 || parts == 4 ? parts : 1;
+    double parts = rgl->phis > 2 ? 2.0 * 3.14159265358979 / span : 1.0;
+    return parts > 1.5 && parts < 2.5 ? 2 : parts > 3.5 && parts < 4.5 ? 4 : 1;
 }
 
 static void take_fields(RglFile *file, Rgl *rgl) {

@@ -123,7 +123,7 @@ static double ramp_place(double a, double b, double area) {
     return root > 0.0 ? fmin(fmax(2.0 * area / root, 0.0), 1.0) : 0.0;
 }
 
-/* What a row between two of the table holds: the numbers of row y and of the next, the second times t. */
+/* A row between two of the table: the numbers of row y and of the next, the second times t. */
 typedef struct BetweenRows {
     const SquareWarp *warp;
     const SliceBlend *blend;

@@ -23,8 +23,8 @@ typedef struct SliceBlend {
     double weight[4];
 } SliceBlend;
 
-/* Of slices at phis azimuths times thetas polar angles, both ascending. Beyond their ends the last one
- * counts. */
+/* Blends slices at phis azimuths times thetas polar angles, both ascending. Beyond their ends the last one counts.
+ */
 SliceBlend slice_blend(const float *phi, int phis, const float *theta, int thetas, double at_phi,
                        double at_theta);
 

@@ -9,7 +9,7 @@
 static const char magic[12] = "tensor_file";
 static const size_t sizes[TENSOR_TYPES] = {0, 1, 1, 2, 2, 4, 4, 8, 8, 2, 4, 8};
 
-/* What is left to read of a header. */
+/* A header, read up to `at`. */
 typedef struct Header {
     const unsigned char *bytes;
     size_t size, at;

@@ -8,12 +8,12 @@
 #include "measure/data_lobe.h"
 
 /* The name of a lobe's file in its three forms. */
-typedef struct LobeNames {
+typedef struct DataLobeNames {
     char low[48], upper[48], record[48];
-} LobeNames;
+} DataLobeNames;
 
 /* Letters, digits and _ that begin with a letter, as a lobe's file is called. */
-static bool names_of(const char *name, LobeNames *out) {
+static bool names_of(const char *name, DataLobeNames *out) {
     size_t length = strlen(name), r = 0;
     bool next = true;
     if (length == 0 || length > 40 || !islower((unsigned char)name[0])) return false;
@@ -44,7 +44,7 @@ static void put_polynomial(FILE *out, const char *rows, const char *result, cons
     fputs(";\n", out);
 }
 
-static void put_comment(FILE *out, const LobeNames *names, const char *about, const DataLobe *lobe) {
+static void put_comment(FILE *out, const DataLobeNames *names, const char *about, const DataLobe *lobe) {
     fprintf(out, "/* %s - a measured cloth\n *\n", names->low);
     fprintf(out,
             " *   f = k exp(P(x, y)) (f0 (1 - s) + f90 s),   s = Q(x, y) in [0, 1]                [1/sr]\n"
@@ -63,7 +63,7 @@ static void put_comment(FILE *out, const LobeNames *names, const char *about, co
         lobe->f0[0], lobe->f0[1], lobe->f0[2], lobe->f90[0], lobe->f90[1], lobe->f90[2]);
 }
 
-static void put_head(FILE *out, const LobeNames *n, const DataLobe *lobe) {
+static void put_head(FILE *out, const DataLobeNames *n, const DataLobe *lobe) {
     fprintf(out, "#ifndef WEFT_%s_H\n#define WEFT_%s_H\n\n#include \"shading/lobe.h\"\n", n->upper, n->upper);
     fprintf(out, "#include \"shading/terms/d_ggx.h\"\n#include \"shading/terms/facet.h\"\n\n");
     fprintf(
@@ -75,7 +75,7 @@ static void put_head(FILE *out, const LobeNames *n, const DataLobe *lobe) {
     fprintf(out, "#define %s_ALPHA %.2ff\n\n", n->upper, lobe->alpha);
 }
 
-static void put_value(FILE *out, const LobeNames *n, const DataLobe *lobe) {
+static void put_value(FILE *out, const DataLobeNames *n, const DataLobe *lobe) {
     fprintf(out, "FN LobeValue %s_value(const %sPrepared *p, const %sView *w, Angles a) {\n", n->low,
             n->record, n->record);
     fprintf(
@@ -91,7 +91,7 @@ static void put_value(FILE *out, const LobeNames *n, const DataLobe *lobe) {
         "    return lobe_value_of(f, clamp(s, 0.0f, 1.0f), 0.5f * (warp_cosine_pdf(a.i) + drawn));\n}\n\n");
 }
 
-static void put_sample(FILE *out, const LobeNames *n) {
+static void put_sample(FILE *out, const DataLobeNames *n) {
     fprintf(out, "FN Dir %s_sample(const %sPrepared *p, const %sView *w, Dir o, float u, float v) {\n",
             n->low, n->record, n->record);
     fprintf(out, "    if (u < 0.5f) return warp_cosine(2.0f * u, v);\n");
@@ -103,7 +103,7 @@ static void put_sample(FILE *out, const LobeNames *n) {
 
 WeftResult weft_data_lobe(const WeftData *data, const char *name, const char *about, char **text,
                           WeftDataLobe *out, WeftError *error) {
-    LobeNames names;
+    DataLobeNames names;
     DataLobe lobe;
     size_t size = 0;
     *text = NULL;

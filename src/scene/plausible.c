@@ -149,7 +149,45 @@ static const Limit limits[] = {
     {{"cloth"}, INPUTS_1(base_color), albedo, KEPT_ALBEDO, diffuse},
 };
 
-/* Choices that gain energy. */
+/* Inputs other than colours that a sum of base and sheen depends on. */
+static const InputId shapes[] = {
+    INPUT_metallic,        INPUT_roughness,     INPUT_specular,     INPUT_sheen,      INPUT_sheen_beta,
+    INPUT_sheen_roughness, INPUT_sheen_density, INPUT_sheen_tail,   INPUT_sheen_rise, INPUT_nap,
+    INPUT_subsurface,      INPUT_diffuse_retro, INPUT_diffuse_lift, INPUT_clearcoat};
+
+/* Adds E of a slot towards a direction. */
+static void slot_add(const Slot *slot, float cos_o, float sum[3]) {
+    WeftLobe lobe = {.lobe = slot->lobe.id,
+                     .f0 = {slot->f0.r, slot->f0.g, slot->f0.b},
+                     .f90 = {slot->f90.r, slot->f90.g, slot->f90.b}};
+    float e[3];
+    memcpy(lobe.params, slot->lobe.params, sizeof lobe.params);
+    weft_lobe_albedo(&lobe, cos_o, e);
+    for (int c = 0; c < 3; c++) sum[c] += e[c];
+}
+
+/* Returns true if base and sheen side by side return no more than they receive. Textures of colours only darken;
+ * with one of any other input nothing is known. */
+static bool sums_to_one(const Material *material) {
+    static const float cosines[] = {1.0f, 0.8f, 0.6f, 0.4f, 0.3f, 0.2f, 0.12f, 0.07f, 0.04f, 0.02f, 0.01f};
+    const Surface surface = material_plain(material);
+    const Choices choices = material_choices(material);
+    Stack stack;
+    for (size_t k = 0; k < sizeof shapes / sizeof *shapes; k++)
+        if (material->inputs[shapes[k]].texture) return false;
+    stack_make(&stack, &surface, &choices, (TableRef){.kind = TABLE_NONE});
+    if (HAS_COAT(&stack) || weft_lobe_info(stack.sheen.lobe.id)->traits & WEFT_LOBE_REFERENCE) return false;
+    for (size_t k = 0; k < sizeof cosines / sizeof *cosines; k++) {
+        float sum[3] = {0.0f};
+        if (HAS_DIFFUSE(&stack)) slot_add(&stack.diffuse, cosines[k], sum);
+        if (HAS_SPECULAR(&stack)) slot_add(&stack.specular, cosines[k], sum);
+        if (HAS_SHEEN(&stack)) slot_add(&stack.sheen, cosines[k], sum);
+        if (!(fmaxf(sum[0], fmaxf(sum[1], sum[2])) <= 1.0f)) return false;
+    }
+    return true;
+}
+
+/* Choices that may gain energy; the first does not where what it adds is dark. */
 static const struct {
     ChoiceId choice;
     const char *id, *text;
@@ -200,7 +238,8 @@ static void check_limit(const Limit *limit, const Material *material, const char
 static void check_gains(const Material *material, int choice, const char *target, const WeftLog *log) {
     for (size_t k = 0; k < sizeof gains / sizeof *gains; k++) {
         const char *id = choice_id((ChoiceId)choice, material->choices[choice]);
-        if ((int)gains[k].choice == choice && id && strcmp(id, gains[k].id) == 0)
+        bool chosen = (int)gains[k].choice == choice && id && strcmp(id, gains[k].id) == 0;
+        if (chosen && !(k == 0 && sums_to_one(material)))
             warn(log, WEFT_MESSAGE_PLAUSIBLE, target, "%s: %s", id, gains[k].text);
     }
 }

@@ -140,6 +140,61 @@ static void additive_layer_in_the_furnace_gains_energy(void **state) {
     weft_scene_free(scene);
 }
 
+/* An image of numbers drawn anew for each texel, read by some inputs at full strength. */
+static void put_noise(WeftScene *scene, Material *material, const InputId *inputs, int count) {
+    enum { SIDE = 16 };
+    uint32_t seed = 5;
+    scene->images = arena_array(&scene->arena, 1, sizeof *scene->images);
+    scene->textures = arena_array(&scene->arena, 1, sizeof *scene->textures);
+    scene->image_count = scene->texture_count = 1;
+    assert_int_equal(weft_image_create(SIDE, SIDE, 4, WEFT_PIXEL_F32, &scene->images[0], NULL), WEFT_OK);
+    float *p = scene->images[0].pixels;
+    for (int k = 0; k < 4 * SIDE * SIDE; k++) {
+        seed = seed * 1664525u + 1013904223u;
+        p[k] = (float)(seed >> 8) * 0x1p-24f;
+    }
+    for (int k = 0; k < count; k++) {
+        WeftInputInfo info;
+        weft_material_input_info((int)inputs[k], &info);
+        material->inputs[inputs[k]].texture = 1;
+        material->inputs[inputs[k]].channel = (uint8_t)(k % 3);
+        material->inputs[inputs[k]].value[0] = info.hard_high;
+    }
+}
+
+/* White fabric, and white body, whose numbers are textures over all their range: no part of a sphere of them
+ * returns more than it receives, and most of it returns much. */
+static void textured_fabric_and_body_keep_within_the_furnace(void **state) {
+    (void)state;
+    static const InputId inputs[2][3] = {{INPUT_sheen_roughness, INPUT_sheen_tail, INPUT_sheen_rise},
+                                         {INPUT_roughness, INPUT_diffuse_retro, INPUT_diffuse_lift}};
+    for (int body = 0; body < 2; body++) {
+        WeftScene *scene = test_scene();
+        test_environment(scene, 1.0f);
+        Material *white = test_material(scene, body ? 1.0f : 0.0f);
+        assert_int_equal(weft_scene_set(scene, "*.workflow", "cloth", NULL, NULL), WEFT_OK);
+        assert_int_equal(weft_scene_set(scene, "*.layer", "additive", NULL, NULL), WEFT_OK);
+        white->choices[CHOICE_diffuse] = weft_lobe_find("body");
+        if (!body) set_sheen(white, "fabric", 1.0f);
+        put_noise(scene, white, inputs[body], 3);
+        Mesh *sphere = test_sphere(scene, vec3(0, 0, 0), 1.0f);
+        sphere->texcoord[0] = arena_array(&scene->arena, sphere->vertex_count, 2 * sizeof(float));
+        for (uint32_t k = 0; k < 2 * sphere->vertex_count; k++)
+            sphere->texcoord[0][k] = 3.0f * sphere->position[k / 2 * 3 + k % 2];
+        scene_bounds(scene);
+        WeftImage image = test_render(
+            scene, (WeftRenderDesc){.width = 32, .height = 32, .camera = "0,0,3;0,0,0;20", .max_depth = 1},
+            1024);
+        Estimate e = estimate(&image);
+        double most = 0.0;
+        for (int k = 0; k < 32 * 32; k++) most = fmax(most, (double)((float *)image.pixels)[4 * k]);
+        printf("  textured %s: mean %.4f, most %.4f\n", body ? "body" : "fabric", e.mean, most);
+        assert_true(e.mean > 0.3 && e.mean < 1.0 && most < 1.04); /* the noise of a pixel is 0.01 */
+        weft_image_free(&image);
+        weft_scene_free(scene);
+    }
+}
+
 /* A lone lobe on a plane under radiance 1 shows E: camera straight at a wall from one direction. */
 static void plane_in_the_furnace_shows_the_albedo(void **state) {
     (void)state;
@@ -211,6 +266,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(closed_furnace_has_radiance_one),
         cmocka_unit_test(additive_layer_in_the_furnace_gains_energy),
+        cmocka_unit_test(textured_fabric_and_body_keep_within_the_furnace),
         cmocka_unit_test(plane_in_the_furnace_shows_the_albedo),
         cmocka_unit_test(sphere_in_the_furnace_shows_the_albedo),
     };
