@@ -1,9 +1,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/pi.h"
 #include "brdf/rgl.h"
-
-static const double pi = 3.14159265358979323846;
 
 void rgl_free(Rgl *self) {
     free(self->phi);
@@ -19,12 +18,12 @@ void rgl_free(Rgl *self) {
 bool rgl_isotropic(const Rgl *self) { return self->phis <= 2; }
 
 SquarePoint rgl_square_of(double theta, double phi) {
-    return (SquarePoint){(sqrt)(2.0 * theta / pi), (phi + pi) / (2.0 * pi)};
+    return (SquarePoint){(sqrt)(2.0 * theta / PI_DOUBLE), (phi + PI_DOUBLE) / (2.0 * PI_DOUBLE)};
 }
 
 void rgl_angles_of(SquarePoint u, double *theta, double *phi) {
-    *theta = u.x * u.x * 0.5 * pi;
-    *phi = (2.0 * u.y - 1.0) * pi;
+    *theta = u.x * u.x * 0.5 * PI_DOUBLE;
+    *phi = (2.0 * u.y - 1.0) * PI_DOUBLE;
 }
 
 double rgl_table_at(const RglTable *table, SquarePoint u) {
@@ -82,7 +81,7 @@ void rgl_at(const Rgl *self, Dir o, Dir i, float f[3]) {
 static double stretch(SquarePoint u, double cos_d) {
     double theta, phi;
     rgl_angles_of(u, &theta, &phi);
-    return 1.0 / ((fmax)(2.0 * pi * pi * u.x * (sin)(theta), 1e-6) * 4.0 * cos_d);
+    return 1.0 / ((fmax)(2.0 * PI_DOUBLE * PI_DOUBLE * u.x * (sin)(theta), 1e-6) * 4.0 * cos_d);
 }
 
 float rgl_pdf(const Rgl *self, Dir o, Dir i) {

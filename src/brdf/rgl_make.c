@@ -4,9 +4,8 @@
 #include "brdf/rgl_make.h"
 
 #include "base/memory.h"
+#include "base/pi.h"
 #include "base/thread.h"
-
-static const double pi = 3.14159265358979323846;
 
 /* Tables of D and sigma: over azimuths where the source is not isotropic, else two equal rows. */
 enum { FACETS_ACROSS = 64, FACETS_AROUND = 65, ROUNDS = 8 };
@@ -36,8 +35,8 @@ static void facets_make(RglMaking *making) {
             rgl_angles_of(u, &theta, &phi);
             making->facet[y][x] = direction(theta, phi);
         }
-        making->area[x] =
-            end * 2.0 * pi * pi * u.x * (sin)(theta) / (FACETS_ACROSS - 1) / (FACETS_AROUND - 1);
+        making->area[x] = end * 2.0 * PI_DOUBLE * PI_DOUBLE * u.x * (sin)(theta) / (FACETS_ACROSS - 1) /
+                          (FACETS_AROUND - 1);
     }
 }
 
@@ -183,9 +182,10 @@ static bool axes_make(Rgl *rgl, const RglSource *source, const RglDesc *desc) {
     rgl->theta = alloc_array((size_t)rgl->thetas, sizeof *rgl->theta);
     rgl->phi = alloc_array((size_t)rgl->phis, sizeof *rgl->phi);
     if (!rgl->theta || !rgl->phi) return false;
-    for (int k = 0; k < rgl->thetas; k++) rgl->theta[k] = (float)(89.0 / 180.0 * pi * k / (rgl->thetas - 1));
+    for (int k = 0; k < rgl->thetas; k++)
+        rgl->theta[k] = (float)(89.0 / 180.0 * PI_DOUBLE * k / (rgl->thetas - 1));
     for (int k = 0; k < rgl->phis && rgl->phis > 1; k++)
-        rgl->phi[k] = (float)(pi * (2.0 * k / (rgl->phis - 1) - 1.0));
+        rgl->phi[k] = (float)(PI_DOUBLE * (2.0 * k / (rgl->phis - 1) - 1.0));
     return true;
 }
 

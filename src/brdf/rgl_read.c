@@ -3,6 +3,7 @@
 
 #include "base/fail.h"
 #include "base/memory.h"
+#include "base/pi.h"
 #include "brdf/rgl.h"
 #include "brdf/spectrum.h"
 #include "brdf/tensor.h"
@@ -135,7 +136,7 @@ static void spectra_of(RglFile *file, Rgl *rgl) {
 /* Alike parts of the circle, by what part of it the azimuths span. */
 static int parts_of(const Rgl *rgl) {
     double span = (double)rgl->phi[rgl->phis - 1] - (double)rgl->phi[0];
-    double parts = rgl->phis > 2 ? 2.0 * 3.14159265358979 / span : 1.0;
+    double parts = rgl->phis > 2 ? 2.0 * PI_DOUBLE / span : 1.0;
     return parts > 1.5 && parts < 2.5 ? 2 : parts > 3.5 && parts < 4.5 ? 4 : 1;
 }
 

@@ -6,6 +6,7 @@
 
 #include "base/fail.h"
 #include "base/memory.h"
+#include "base/pi.h"
 #include "brdf/little_endian.h"
 
 enum { BINS = UTIA_SIDE * UTIA_SIDE, FILE_SIZE = 3 * 8 * BINS };
@@ -42,9 +43,8 @@ typedef struct Around {
 } Around;
 
 static Around around(Dir w) {
-    const double degrees = 180.0 / 3.14159265358979323846;
-    double theta = (atan2)((hypot)((double)w.x, (double)w.y), (double)w.z) * degrees / 15.0;
-    double phi = (atan2)((double)w.y, (double)w.x) * degrees / 7.5;
+    double theta = (atan2)((hypot)((double)w.x, (double)w.y), (double)w.z) / RADIANS / 15.0;
+    double phi = (atan2)((double)w.y, (double)w.x) / RADIANS / 7.5;
     if (phi < 0.0) phi += UTIA_PHIS;
     theta = (fmin)(theta, UTIA_THETAS - 1.0);
     size_t t = (size_t)(fmin)(theta, UTIA_THETAS - 2.0), p = (size_t)phi % UTIA_PHIS;

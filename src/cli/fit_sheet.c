@@ -58,7 +58,7 @@ static WeftResult draw(const Drawn *drawn, double phi_d, WeftImage *out, WeftErr
 
 /* Half vector and difference angles as a share of 90 degrees, of phi_d the size. */
 static void half_difference(const float wo[3], const float wi[3], double at[3]) {
-    const double quarter = 1.57079632679490;
+    const double quarter = 0.5 * PI_DOUBLE;
     double h[3], d[3], length = 0.0;
     for (int c = 0; c < 3; c++) h[c] = (double)wo[c] + (double)wi[c], length += h[c] * h[c];
     for (int c = 0; c < 3; c++) h[c] /= sqrt(length);

@@ -7,6 +7,7 @@
 #include "base/fail.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/pi.h"
 #include "brdf/measured.h"
 #include "measure/brdf_table.h"
 
@@ -154,7 +155,7 @@ static double middle(int k, int n, int bins, int *bin) {
  * isotropic will not fit by chance. Of MERL's the bins themselves. */
 static void grid_samples(const Measured *measured, float (*wo)[3], float (*wi)[3], float (*f)[3]) {
     const Merl *merl = &measured->merl;
-    const double half_pi = 1.57079632679490;
+    const double half_pi = 0.5 * PI_DOUBLE;
     const bool binned = measured->format == MEASURED_MERL, around = !binned || merl->shape.around;
     const int bins = binned ? merl->shape.phi_d : 2 * MERL_PHI_D;
     for (int k = 0; k < SAMPLES; k++) {

@@ -5,9 +5,9 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "base/pi.h"
 
 enum { UNKNOWNS = SHAPE_TERMS * SHAPE_TERMS };
-static const double pi = 3.14159265358979323846;
 
 /* A sample: where it is in the square, f cos_i, and what it weighs in a least square. */
 typedef struct LobePoint {
@@ -169,9 +169,9 @@ static void colors_fit(const LobeFitting *self, DataLobe *out) {
     }
     const double whole = a * c - b * b;
     for (int n = 0; n < 3; n++) {
-        bool apart = whole > 1e-9 * a * c;
-        out->f0[n] = fmax(apart ? (c * p[n] - b * q[n]) / whole : (p[n] + q[n]) / (a + 2.0 * b + c), 0.0);
-        out->f90[n] = fmax(apart ? (a * q[n] - b * p[n]) / whole : out->f0[n], 0.0);
+        bool differ = whole > 1e-9 * a * c;
+        out->f0[n] = fmax(differ ? (c * p[n] - b * q[n]) / whole : (p[n] + q[n]) / (a + 2.0 * b + c), 0.0);
+        out->f90[n] = fmax(differ ? (a * q[n] - b * p[n]) / whole : out->f0[n], 0.0);
     }
 }
 
@@ -215,14 +215,16 @@ typedef struct LobeSums {
 
 static LobeSums sums_at(const DataLobe *lobe, double cos_o, double alpha) {
     LobeSums sums = {0.0, 0.0};
-    const double area = 2.0 * pi / (RINGS * TURNS), sin_o = sqrt(1.0 - cos_o * cos_o), a2 = alpha * alpha;
+    const double area = 2.0 * PI_DOUBLE / (RINGS * TURNS), sin_o = sqrt(1.0 - cos_o * cos_o),
+                 a2 = alpha * alpha;
     for (int k = 0; k < RINGS * TURNS; k++) {
-        const double z = (k / TURNS + 0.5) / RINGS, phi = 2.0 * pi * (k % TURNS + 0.5) / TURNS,
+        const double z = (k / TURNS + 0.5) / RINGS, phi = 2.0 * PI_DOUBLE * (k % TURNS + 0.5) / TURNS,
                      r = sqrt(1.0 - z * z);
         const double hx = r * cos(phi) + sin_o, hy = r * sin(phi), hz = z + cos_o,
                      length2 = hx * hx + hy * hy + hz * hz, cos2 = hz * hz / length2;
         const double f = data_lobe_shape(lobe, 1.0 - cos2, 0.5 * sqrt(length2)), t = 1.0 + (a2 - 1.0) * cos2;
-        const double pdf = 0.5 * z / pi + 0.5 * a2 / (pi * t * t) * sqrt(cos2) / (2.0 * sqrt(length2));
+        const double pdf =
+            0.5 * z / PI_DOUBLE + 0.5 * a2 / (PI_DOUBLE * t * t) * sqrt(cos2) / (2.0 * sqrt(length2));
         sums.e += f * z * area;
         sums.squares += f * z * f * z / pdf * area;
     }

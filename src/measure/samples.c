@@ -126,7 +126,7 @@ bool samples_spread(Samples *self, WeftBrdfMetric metric) {
     return metric == WEFT_BRDF_METRIC_PICTURE ? spread_pictures(self) : spread_wide(self, metric);
 }
 
-/* Of samples that each have their own wo. */
+/* Asks for samples that each have their own wo. */
 static void ask_each(const Samples *self, const WeftReflection *reflection, int part, float *const x[3]) {
     for (int k = 0; k < self->count; k++) {
         const float wo[3] = {self->o[0][k], self->o[1][k], self->o[2][k]};

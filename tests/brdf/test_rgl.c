@@ -11,9 +11,11 @@
 
 #include <cmocka.h>
 
+#include "base/pi.h"
 #include "brdf/rgl.h"
 #include "brdf/spectrum.h"
 #include "measure/chi_square.h"
+#include "scratch.h"
 #include "tensor_bytes.h"
 #include "weft/weft.h"
 
@@ -23,7 +25,6 @@
 #undef acos
 #undef floor
 
-static const double pi = 3.14159265358979323846;
 static TensorBytes file;
 
 /* The tables of one file. */
@@ -49,7 +50,7 @@ static void fill(float *values, size_t count, double low, double high) {
 static Tables random_tables(size_t phis, double span) {
     Tables t = {.phis = phis};
     for (size_t k = 0; k < phis; k++)
-        t.phi[k] = phis > 1 ? (float)(span * (double)k / (double)(phis - 1) - pi) : 0.0f;
+        t.phi[k] = phis > 1 ? (float)(span * (double)k / (double)(phis - 1) - PI_DOUBLE) : 0.0f;
     for (size_t k = 0; k < THETAS; k++) t.theta[k] = 0.1f + 0.6f * (float)k;
     for (size_t k = 0; k < WAVES; k++) t.waves[k] = 430.0f + 65.0f * (float)k;
     fill(t.ndf, sizeof t.ndf / 4, 0.2, 3.0);
@@ -175,7 +176,7 @@ static void expected_place(const Tables *t, const double o[3], const double i[3]
     length = sqrt(length);
     double theta = acos(w[0][2]), phi = atan2(w[0][1], w[0][0]), theta_m = acos(m[2] / length),
            phi_m = atan2(m[1], m[0]) - (t->phis <= 2 ? phi : 0.0);
-    double ux = sqrt(2.0 * theta_m / pi), uy = (phi_m + pi) / (2.0 * pi);
+    double ux = sqrt(2.0 * theta_m / PI_DOUBLE), uy = (phi_m + PI_DOUBLE) / (2.0 * PI_DOUBLE);
     uy -= floor(uy);
     Mixed n = mixed_at(t, t->normals, WIDE, HIGH, phi, theta);
     mixed_scale(&n);
@@ -194,9 +195,11 @@ static Expected expected(const Tables *t, const double o[3], const double i[3], 
     Expected e;
     expected_place(t, o, i, parts, &s, &l, &p);
     l.y = s.y;
-    double sigma = bilinear(t->sigma, WIDE, 2, sqrt(2.0 * p.theta / pi), (p.phi + pi) / (2.0 * pi));
+    double sigma =
+        bilinear(t->sigma, WIDE, 2, sqrt(2.0 * p.theta / PI_DOUBLE), (p.phi + PI_DOUBLE) / (2.0 * PI_DOUBLE));
     double scale = bilinear(t->ndf, WIDE, HIGH, p.ux, p.uy) / (4.0 * sigma * i[2]);
-    e.pdf = p.density * mixed_row(&l, s.x) / (2.0 * pi * pi * p.ux * p.sin_m * 4.0 * 0.5 * p.length);
+    e.pdf = p.density * mixed_row(&l, s.x) /
+            (2.0 * PI_DOUBLE * PI_DOUBLE * p.ux * p.sin_m * 4.0 * 0.5 * p.length);
     for (int c = 0; c < 3; c++) {
         double color = 0.0;
         Mixed r = mixed_at(t, t->color, SIDE, SIDE, p.phi, p.theta);
@@ -209,7 +212,7 @@ static Expected expected(const Tables *t, const double o[3], const double i[3], 
 }
 
 static void direction_drawn(double w[3]) {
-    double z = 0.05 + 0.94 * drawn(), phi = 2.0 * pi * drawn(), r = sqrt(1.0 - z * z);
+    double z = 0.05 + 0.94 * drawn(), phi = 2.0 * PI_DOUBLE * drawn(), r = sqrt(1.0 - z * z);
     w[0] = r * cos(phi), w[1] = r * sin(phi), w[2] = z;
 }
 
@@ -239,9 +242,9 @@ static void tables_are_as_by_hand(const Tables *t, int parts) {
 
 static void evaluation_is_the_formula(void **state) {
     (void)state;
-    const Tables isotropic = random_tables(1, 0.0), two = random_tables(2, 2.0 * pi),
-                 whole = random_tables(4, 2.0 * pi), half = random_tables(3, pi),
-                 quarter = random_tables(3, 0.5 * pi);
+    const Tables isotropic = random_tables(1, 0.0), two = random_tables(2, 2.0 * PI_DOUBLE),
+                 whole = random_tables(4, 2.0 * PI_DOUBLE), half = random_tables(3, PI_DOUBLE),
+                 quarter = random_tables(3, 0.5 * PI_DOUBLE);
     tables_are_as_by_hand(&isotropic, 1);
     tables_are_as_by_hand(&two, 1);
     tables_are_as_by_hand(&whole, 1);
@@ -269,7 +272,7 @@ static void even_tables_give_a_number_known_on_paper(void **state) {
 /* An even spectrum is grey; one that rises towards red is redder than blue; f is linear in it. */
 static void spectra_become_colors(void **state) {
     (void)state;
-    Tables t = random_tables(4, 2.0 * pi), half = t;
+    Tables t = random_tables(4, 2.0 * PI_DOUBLE), half = t;
     const double o[3] = {0.48, 0.36, 0.8}, i[3] = {-0.6, 0.0, 0.8};
     float grey[3], red[3], less[3];
     for (int rising = 0; rising < 2; rising++) {
@@ -342,11 +345,11 @@ static WeftLobe lobe_of_name(const char *id) {
 
 /* A file of a lobe, read as tables. */
 static Rgl written(const WeftLobe *lobe, const WeftBsdfDesc *desc) {
-    char folder[] = "rgl-XXXXXX", path[40];
+    char folder[SCRATCH_SIZE], path[SCRATCH_SIZE + 16];
     WeftReflection *of;
     WeftError error;
     Rgl rgl;
-    assert_non_null(mkdtemp(folder));
+    assert_true(scratch_make(folder));
     snprintf(path, sizeof path, "%s/lobe.bsdf", folder);
     assert_int_equal(weft_reflection_of_lobe(lobe, &of, &error), WEFT_OK);
     if (weft_reflection_write(of, path, desc, &error) != WEFT_OK) fail_msg("%s", error.text);
@@ -370,7 +373,7 @@ static Rgl written(const WeftLobe *lobe, const WeftBsdfDesc *desc) {
     weft_reflection_free(back);
     free(bytes);
     unlink(path);
-    rmdir(folder);
+    assert_true(scratch_remove_empty(folder));
     weft_reflection_free(of);
     return rgl;
 }
@@ -384,7 +387,7 @@ static void compare(const Rgl *rgl, const WeftLobe *lobe, bool anywhere, double 
     for (int n = 0; n < PAIRS; n++) {
         double theta = (double)rgl->theta[(int)(drawn() * rgl->thetas * 0.89)];
         double phi = (double)rgl->phi[(int)(drawn() * rgl->phis)];
-        if (anywhere) theta = 80.0 / 180.0 * pi * drawn(), phi = 2.0 * pi * drawn() - pi;
+        if (anywhere) theta = 80.0 / 180.0 * PI_DOUBLE * drawn(), phi = 2.0 * PI_DOUBLE * drawn() - PI_DOUBLE;
         const double o[3] = {sin(theta) * cos(phi), sin(theta) * sin(phi), cos(theta)};
         double i[3];
         do direction_drawn(i);
@@ -447,9 +450,9 @@ static void sampling_is_the_inverse(void **state) {
         Tables tables;
         int parts;
     } all[] = {{random_tables(1, 0.0), 1},
-               {random_tables(4, 2.0 * pi), 1},
-               {random_tables(3, pi), 2},
-               {random_tables(3, 0.5 * pi), 4}};
+               {random_tables(4, 2.0 * PI_DOUBLE), 1},
+               {random_tables(3, PI_DOUBLE), 2},
+               {random_tables(3, 0.5 * PI_DOUBLE), 4}};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
         file_make(&all[k].tables, 3);
         Rgl rgl = file_read_back();

@@ -12,14 +12,15 @@
 #include <cmocka.h>
 
 #include "base/memory.h"
+#include "base/pi.h"
 #include "brdf/utia.h"
+#include "scratch.h"
 #include "weft/weft.h"
 
 #undef sin /* of the dialect, which is single precision */
 #undef cos
 
 enum { SIZE = 3 * 8 * UTIA_SIDE * UTIA_SIDE };
-static const double degrees = 3.14159265358979323846 / 180.0;
 static unsigned char *file;
 
 static void put_double(size_t k, double value) {
@@ -45,8 +46,8 @@ static void fill(void) {
 }
 
 static Dir direction(double theta, double phi) {
-    return dir((float)(sin(theta * degrees) * cos(phi * degrees)),
-               (float)(sin(theta * degrees) * sin(phi * degrees)), (float)cos(theta * degrees));
+    return dir((float)(sin(theta * RADIANS) * cos(phi * RADIANS)),
+               (float)(sin(theta * RADIANS) * sin(phi * RADIANS)), (float)cos(theta * RADIANS));
 }
 
 static void numbers_are_found_between_angles(void **state) {
@@ -100,7 +101,7 @@ static void bad_files_end_in_one_line(void **state) {
 /* A file of a lobe is data that the lobe fits, and a reflection. */
 static void a_lobe_is_found_again(void **state) {
     (void)state;
-    char folder[] = "utia-XXXXXX", path[40];
+    char folder[SCRATCH_SIZE], path[SCRATCH_SIZE + 16];
     WeftLobe lobe;
     WeftError error;
     size_t k = 0;
@@ -115,7 +116,7 @@ static void a_lobe_is_found_again(void **state) {
                 weft_lobe_eval(&lobe, wo, wi, f);
                 put_double(k++, (double)f[0] * (1.0 - 0.3 * c));
             }
-    assert_non_null(mkdtemp(folder));
+    assert_true(scratch_make(folder));
     snprintf(path, sizeof path, "%s/lobe.bin", folder);
     FILE *stream = fopen(path, "wb");
     assert_non_null(stream);
@@ -126,7 +127,7 @@ static void a_lobe_is_found_again(void **state) {
     if (weft_data_read(path, &data, &error) != WEFT_OK) fail_msg("%s", error.text);
     assert_int_equal(weft_reflection_read(path, &reflection, &error), WEFT_OK);
     unlink(path);
-    rmdir(folder);
+    assert_true(scratch_remove_empty(folder));
     int all = 0;
     assert_true(weft_data_count(data, &all) > 3000 && all == 24 * 24 * 12);
     float e[3], expected[3];

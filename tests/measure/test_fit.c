@@ -13,6 +13,8 @@
 #include <cmocka.h>
 
 #include "base/pi.h"
+#include "measure/data.h"
+#include "measure/lobe_search.h"
 #include "weft/weft.h"
 
 enum { PAIRS = 12000, FEW = 4000 };
@@ -492,12 +494,53 @@ static void measured_fabrics_are_ranked(void **state) {
     assert_true(count < 6 || mean <= 0.0235);
 }
 
+/* The least error of ggx with f90 = 1 over lambert, of many widths one by one: of each only colours are free. */
+static double scanned_baseline(const WeftData *data) {
+    enum { WIDTHS = 120 };
+    Samples samples;
+    WeftLobe lambert, ggx;
+    double least = 1e30;
+    assert_int_equal(weft_lobe_init("lambert", &lambert, NULL), WEFT_OK);
+    assert_int_equal(weft_lobe_init("ggx", &ggx, NULL), WEFT_OK);
+    assert_true(data_samples(data, WEFT_BRDF_METRIC_LOG, &samples));
+    const WeftParamInfo *p = &weft_lobe_info(ggx.lobe)->params[0];
+    for (int k = 0; k < WIDTHS; k++) {
+        LobeFound found = {.lobe = ggx};
+        found.lobe.params[0] = p->low * powf(p->high / p->low, (float)k / (WIDTHS - 1));
+        const LobeSearch search = {.samples = &samples, .base = &lambert, .hold = 0xff | WEFT_HOLD_COLOR_2};
+        assert_int_equal(lobe_search_run(&search, &found), WEFT_OK);
+        least = fmin(least, found.error);
+    }
+    samples_free(&samples);
+    return least;
+}
+
+/* The baseline is the best of its widths, however many hollows its error has between them. */
+static void baseline_is_no_local_minimum(void **state) {
+    (void)state;
+    static const char *const ids[] = {"charlie-neubelt", "fabric", "threads", "burley-sheen", "body"};
+    for (size_t n = 0; n < sizeof ids / sizeof *ids; n++) {
+        const WeftLobe lobe = coloured(weft_lobe_find(ids[n]));
+        const WeftFitDesc desc = {.only = "burley-sheen"};
+        WeftData *data = synthesised(&lobe, 0.0);
+        WeftFit fit;
+        WeftError error;
+        if (weft_fit(data, &desc, &fit, &error) != WEFT_OK) fail_msg("%s", error.text);
+        double scanned = scanned_baseline(data);
+        print_message("%s: baseline %.5f, the best of all widths %.5f\n", ids[n], fit.baseline.error,
+                      scanned);
+        assert_true(fit.baseline.error <= scanned + 1e-4);
+        weft_data_free(data);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(parameters_are_found_without_noise),
         cmocka_unit_test(parameters_are_found_in_noise),
         cmocka_unit_test(terms_of_cook_torrance_are_found),
         cmocka_unit_test(base_under_a_lobe_is_found),
+        cmocka_unit_test(baseline_is_no_local_minimum),
         cmocka_unit_test(fit_for_a_material_changes_only_what_it_has_inputs_for),
         cmocka_unit_test(fit_notes_name_what_its_numbers_hide),
         cmocka_unit_test(material_of_a_fit_reflects_as_the_fit),
