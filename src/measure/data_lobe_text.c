@@ -44,15 +44,23 @@ static void put_polynomial(FILE *out, const char *rows, const char *result, cons
     fputs(";\n", out);
 }
 
+/* Words within a comment: none may end it. */
+static void put_words(FILE *out, const char *words) {
+    for (size_t k = 0; words[k] && k < 400; k++)
+        fputc(iscntrl((unsigned char)words[k]) || words[k] == '*' ? '?' : words[k], out);
+}
+
 static void put_comment(FILE *out, const DataLobeNames *names, const char *about, const DataLobe *lobe) {
     fprintf(out, "/* %s - a measured cloth\n *\n", names->low);
     fprintf(out,
             " *   f = k exp(P(x, y)) (f0 (1 - s) + f90 s),   s = Q(x, y) in [0, 1]                [1/sr]\n"
             " *   x = 2 sqrt(sin_h) - 1,   y = 2 sqrt(1 - wi . h) - 1\n *\n");
+    fputs(" *   ", out);
+    put_words(out, about);
     fprintf(out,
-            " *   %.400s, 2026. The polynomials P and Q are fitted;\n"
+            ", 2026. The polynomials P and Q are fitted;\n"
             " * the log error of the fit over the data is %.4f.\n",
-            about, lobe->error);
+            lobe->error);
     fprintf(
         out,
         " *   Departures: phi_d is averaged over; P ends where the data do.\n"
