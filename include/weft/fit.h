@@ -119,6 +119,11 @@ WEFT_API WeftResult weft_fit(const WeftData *data, const WeftFitDesc *desc, Weft
 WEFT_API WeftResult weft_fit_material(const WeftData *data, const WeftFitDesc *desc, WeftMaterial *material,
                                       WeftMatch *out, WeftError *error);
 
+/* Sets *distance to the error of a reflection as it is. Of desc, metric alone counts. Fails with
+ * WEFT_MESSAGE_DESC or _MEMORY. */
+WEFT_API WeftResult weft_data_distance(const WeftData *data, const WeftFitDesc *desc,
+                                       const WeftReflection *reflection, double *distance, WeftError *error);
+
 /* The material that is exactly that base and lobe: workflow cloth, layer rule additive. Returns 0 where
  * inputs cannot say it: a lobe or base with more shape than inputs have (`sayable` fits them as they can be
  * said), or a base brighter than white. */

@@ -24,7 +24,8 @@ typedef struct Fitting {
     WeftBrdfMetric metric;
     WeftData *data;
     WeftFit fit;
-    WeftMaterial nearest; /* of the engine, and its error */
+    Model stated;           /* --to, where that is a material */
+    WeftMaterial nearest; /* what --to came to, and its error */
     double error;
 } Fitting;
 
@@ -120,8 +121,10 @@ static void text_write(const Fitting *fitting) {
     printf("%d of %d are closer than the baseline, which is ggx over lambert with f90 = 1\n", better,
            fit->count);
     if (fitting->engine)
-        printf("the nearest that %s can do has an error of %.4f, %.2f times the best\n", fitting->engine,
-               fitting->error, fitting->error / fit->fitted[0].error);
+        printf(fitting->stated.reflection
+                   ? "%s has an error of %.4f, %.2f times the best\n"
+                   : "the nearest that %s can do has an error of %.4f, %.2f times the best\n",
+               fitting->engine, fitting->error, fitting->error / fit->fitted[0].error);
     if (idle) printf("%d of %d add nothing to the base: their best colour is 0\n", idle, fit->count);
 }
 
@@ -172,7 +175,7 @@ static void json_write(const Fitting *fitting) {
     json_number(&json, "base_alone", fitting->fit.base_alone);
     if (fitting->engine) {
         json_open(&json, "to", '{');
-        json_text(&json, "profile", fitting->engine);
+        json_text(&json, fitting->stated.reflection ? "material" : "profile", fitting->engine);
         json_number(&json, "error", fitting->error);
         json_close(&json, '}');
     }
@@ -225,6 +228,16 @@ static int material_write(const Fitting *fitting) {
     return fit_files_write(fitting->options, &material);
 }
 
+/* The error of the material of --to, as it is. */
+static int error_of_material(Fitting *fitting) {
+    WeftError error;
+    const WeftFitDesc desc = {.metric = fitting->metric, .chosen = 1};
+    fitting->nearest = fitting->stated.material;
+    WeftResult result =
+        weft_data_distance(fitting->data, &desc, fitting->stated.reflection, &fitting->error, &error);
+    return result == WEFT_OK ? 0 : report_error(&error);
+}
+
 /* Finds the nearest that the engine of --to can do, from a cloth with a grey sheen. */
 static int nearest_make(Fitting *fitting) {
     static const char *const cloth[][2] = {
@@ -232,6 +245,7 @@ static int nearest_make(Fitting *fitting) {
     WeftError error;
     WeftMatch found;
     const WeftFitDesc desc = {.metric = fitting->metric, .chosen = 1};
+    if (fitting->stated.reflection) return error_of_material(fitting);
     weft_material_default(&fitting->nearest);
     WeftResult result = weft_material_set(&fitting->nearest, "profile", fitting->engine, NULL, &error);
     for (size_t k = 0; result == WEFT_OK && k < sizeof cloth / sizeof *cloth; k++)
@@ -246,9 +260,19 @@ static int outputs_check(Fitting *fitting) {
     fitting->plot = option_text(fitting->options, "--plot");
     fitting->engine = option_text(fitting->options, "--to");
     if (fitting->plot && !path_ends(fitting->plot, ".png"))
+<<<<<<< HEAD
         return report(WEFT_USAGE, "%s: slices are written as .png", fitting->plot);
     if (fitting->engine && kind_named(kind_of("profile"), fitting->engine) <= 0) return WEFT_USAGE;
     int result = fit_files_check(fitting->options);
+=======
+        return report(WEFT_USAGE, "%s: slices are drawn as .png", fitting->plot);
+    int result = 0;
+    if (fitting->engine && kind_find(kind_of("profile"), fitting->engine) <= 0)
+        result = model_read(fitting->engine, &fitting->stated);
+    if (result == 0 && fitting->stated.reflection && !model_is_material(&fitting->stated))
+        return report(WEFT_USAGE, "--to %.200s: is neither a profile nor a material", fitting->engine);
+    if (result == 0) result = fit_files_check(fitting->options);
+>>>>>>> 685bcb4 (Say with fit --to how near a material is; keep presets of measured fabrics within plausible colours)
     if (result == 0 && fitting->plot) result = output_probe_other(fitting->options, fitting->plot);
     return result;
 }
@@ -319,6 +343,7 @@ static int fit_run(const Options *options) {
     else if (result == 0)
         text_write(&fitting);
     weft_data_free(fitting.data);
+    model_free(&fitting.stated);
     return result;
 }
 
@@ -327,7 +352,9 @@ static const Option fit_options[] = {
     OPTION_TEXT("--metric", "NAME", "log", "what is made least: log or cosine"),
     OPTION_TEXT("--base", "LOBE|all", "lambert", "the diffuse lobe below, or each of them"),
     OPTION_LOBES_OR("fit this lobe alone"),
-    OPTION_TEXT("--to", "PROFILE", NULL, "find the nearest that this engine can do, too"),
+    OPTION_TEXT(
+        "--to", "PROFILE", NULL,
+        "find the nearest that this engine can do, too; of a preset or material file, how near it is"),
     OPTION_HEADING("Result"),
     OPTION_LIST(
         "-o", "FILE",

@@ -377,16 +377,38 @@ int weft_fitted_material(const WeftFitted *fitted, WeftMaterial *out) {
     return base && sheen;
 }
 
-WeftResult weft_fit_material(const WeftData *data, const WeftFitDesc *desc, WeftMaterial *material,
-                             WeftMatch *out, WeftError *error) {
+/* The samples by the metric of desc, which must be log or cosine. Release with samples_free in any case. */
+static WeftResult samples_of(const WeftData *data, const WeftFitDesc *desc, Samples *samples,
+                             WeftError *error) {
     WeftBrdfMetric metric = desc->chosen ? desc->metric : WEFT_BRDF_METRIC_LOG;
-    *out = (WeftMatch){.copied = 0.0};
+    *samples = (Samples){0};
     if (metric != WEFT_BRDF_METRIC_LOG && metric != WEFT_BRDF_METRIC_COSINE)
         return fail(error, WEFT_MESSAGE_DESC, "a fit", "its metric is log or cosine");
-    Samples samples = {0};
-    WeftResult result =
-        data_samples(data, metric, &samples) ? WEFT_OK : fail(error, WEFT_MESSAGE_MEMORY, "a fit", NULL);
+    return data_samples(data, metric, samples) ? WEFT_OK : fail(error, WEFT_MESSAGE_MEMORY, "a fit", NULL);
+}
+
+WeftResult weft_fit_material(const WeftData *data, const WeftFitDesc *desc, WeftMaterial *material,
+                             WeftMatch *out, WeftError *error) {
+    Samples samples;
+    *out = (WeftMatch){.copied = 0.0};
+    WeftResult result = samples_of(data, desc, &samples, error);
     if (result == WEFT_OK) result = material_search_run(&samples, NULL, NULL, material, out, error);
     samples_free(&samples);
+    return result;
+}
+
+WeftResult weft_data_distance(const WeftData *data, const WeftFitDesc *desc, const WeftReflection *reflection,
+                              double *distance, WeftError *error) {
+    Samples samples, other = {0};
+    WeftResult result = samples_of(data, desc, &samples, error);
+    *distance = 0.0;
+    if (result == WEFT_OK && !samples_create(&other, samples.count, samples.metric))
+        result = fail(error, WEFT_MESSAGE_MEMORY, "a fit", NULL);
+    if (result == WEFT_OK) {
+        samples_ask(&samples, reflection, WEFT_PART_ALL, other.x);
+        *distance = samples_distance(&samples, samples.count, (const float *const *)other.x);
+    }
+    samples_free(&samples);
+    samples_free(&other);
     return result;
 }

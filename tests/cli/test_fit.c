@@ -182,6 +182,25 @@ static void engine_nearest_to_data_is_written(void **state) {
     fclose(text);
 }
 
+/* A material as it is has the error of the fit that it was written from. */
+static void error_of_a_material_is_that_of_its_fit(void **state) {
+    (void)state;
+    double errors[2];
+    for (int again = 0; again < 2; again++) {
+        Ran ran = again ? RUN("fit", "table.csv", "--lobe", "burley-sheen", "--to", "same.json", "--json")
+                        : RUN("fit", "table.csv", "--lobe", "burley-sheen", "-o", "same.json", "--json");
+        if (ran.code != 0) fail_msg("%s", ran.err);
+        json_t *json = json_loads(ran.out, 0, NULL), *to = json_object_get(json, "to");
+        const json_t *best = json_array_get(json_object_get(json, "ranking"), 0);
+        errors[again] = json_number_value(json_object_get(again ? to : best, "error"));
+        if (again) assert_string_equal(json_string_value(json_object_get(to, "material")), "same.json");
+        json_decref(json);
+        ran_free(&ran);
+    }
+    print_message("fitted %.5f, its material %.5f\n", errors[0], errors[1]);
+    assert_true(errors[0] > 0.0 && fabs(errors[1] - errors[0]) < 0.002 * errors[0] + 1e-5);
+}
+
 /* A fit of fabric over body is written whole: no warning, and the numbers that the table was made with. */
 static void whole_fit_of_fabric_is_written(void **state) {
     (void)state;
@@ -232,6 +251,7 @@ static void fit_of_bad_data_or_options_is_refused(void **state) {
     assert_complaint(NULL, LIST("fit", "table.csv", "-o", "a.png"), 2, ".json");
     assert_complaint(NULL, LIST("fit", "table.csv", "--plot", "a.jpg"), 2, ".png");
     assert_complaint(NULL, LIST("fit", "table.csv", "--to", "unreal5"), 2, "unreal4");
+    assert_complaint(NULL, LIST("fit", "table.csv", "--to", "ggx"), 2, "neither a profile nor a material");
     assert_complaint(NULL, LIST("fit", "table.csv", "-o", "table.csv"), 2, ".json");
     file_make("short.bsdf", "abc", 3);
     assert_complaint(NULL, LIST("fit", "short.bsdf"), 3, "RGL's format");
@@ -261,6 +281,7 @@ int main(void) {
                                        cmocka_unit_test(plot_option_writes_slices),
                                        cmocka_unit_test(slices_of_a_table_are_drawn),
                                        cmocka_unit_test(engine_nearest_to_data_is_written),
+                                       cmocka_unit_test(error_of_a_material_is_that_of_its_fit),
                                        cmocka_unit_test(whole_fit_of_fabric_is_written),
                                        cmocka_unit_test(interrupted_fit_ends),
                                        cmocka_unit_test(fit_of_bad_data_or_options_is_refused)};
