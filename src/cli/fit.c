@@ -260,19 +260,13 @@ static int outputs_check(Fitting *fitting) {
     fitting->plot = option_text(fitting->options, "--plot");
     fitting->engine = option_text(fitting->options, "--to");
     if (fitting->plot && !path_ends(fitting->plot, ".png"))
-<<<<<<< HEAD
         return report(WEFT_USAGE, "%s: slices are written as .png", fitting->plot);
-    if (fitting->engine && kind_named(kind_of("profile"), fitting->engine) <= 0) return WEFT_USAGE;
-    int result = fit_files_check(fitting->options);
-=======
-        return report(WEFT_USAGE, "%s: slices are drawn as .png", fitting->plot);
     int result = 0;
     if (fitting->engine && kind_find(kind_of("profile"), fitting->engine) <= 0)
         result = model_read(fitting->engine, &fitting->stated);
     if (result == 0 && fitting->stated.reflection && !model_is_material(&fitting->stated))
         return report(WEFT_USAGE, "--to %.200s: is neither a profile nor a material", fitting->engine);
     if (result == 0) result = fit_files_check(fitting->options);
->>>>>>> 685bcb4 (Say with fit --to how near a material is; keep presets of measured fabrics within plausible colours)
     if (result == 0 && fitting->plot) result = output_probe_other(fitting->options, fitting->plot);
     return result;
 }
