@@ -43,7 +43,7 @@ static void take_filled(const uint8_t *data, size_t size, MerlShape shape, uint8
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
-    static const MerlShape real = {MERL_THETA_H, MERL_THETA_D, MERL_PHI_D}, small = {3, 4, 6};
+    static const MerlShape real = {MERL_THETA_H, MERL_THETA_D, MERL_PHI_D, false}, small = {3, 4, 6, false};
     static uint8_t file[12 + 24 * 3 * 4 * 6], whole[12 + 24 * MERL_BINS];
     static bool whole_done; /* one takes as long as thousands of small ones */
     take(data, size, real);
