@@ -1,7 +1,9 @@
 """weft and Blender Cycles side by side, one run: rate, memory, and error after equal time.
 
-    python3 bench/compare.py [--quick]
+    python3 bench/compare.py [--quick] [cloth] [lace] [lamps] [chair]
 
+Without names all four: builtin:cloth; the same cloth as coated lace, an alpha mask under the sheen `fibre`; the
+same cloth under six emissive polygons; SheenChair.
 Equal picture size, light, camera, depth and pixel filter, two threads each. A rate is samples over the time spent
 sampling, start-up and building left out on both sides. The error is relMSE against each renderer's own converged
 picture, since their sheens differ. Cycles counts bounces after the first hit, weft scattering events: 8 is 9.
@@ -10,15 +12,18 @@ picture, since their sheens differ. Cycles counts bounces after the first hit, w
 import json
 import os
 import pathlib
+import struct
 import subprocess
 import sys
 import tempfile
+import zlib
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 WEFT = ROOT / "build/release/weft"
 CHAIR = ROOT.parent / "shared/data/gltf/SheenChair/SheenChair.gltf"
 STUDIO = ROOT.parent / "shared/data/env/studio_small_03_1k.hdr"
 QUICK = "--quick" in sys.argv
+NAMES = [name for name in sys.argv[1:] if not name.startswith("-")] or ["cloth", "lace", "lamps", "chair"]
 RATE_SPP = 16 if QUICK else 64
 TIME = 2 if QUICK else 5
 CONVERGED_SPP = 128 if QUICK else 1024
@@ -70,10 +75,55 @@ def compare(name, weft_scene, cycles_scene, light, folder):
     print(f"{'ratio':8}{w['rate'] / c['rate']:12.2f}{w['memory'] / c['memory']:10.3f}{w['error'] / c['error']:12.3f}")
 
 
+def png(path, size, pixel):
+    """A square RGBA picture."""
+    rows = b"".join(b"\0" + bytes(c for x in range(size) for c in pixel(x, y)) for y in range(size))
+    chunks = ((b"IHDR", struct.pack(">IIBBBBB", size, size, 8, 6, 0, 0, 0)), (b"IDAT", zlib.compress(rows)), (b"IEND", b""))
+    with open(path, "wb") as file:
+        file.write(b"\x89PNG\r\n\x1a\n")
+        for kind, data in chunks:
+            file.write(struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data)))
+
+
+def save(folder, name, options):
+    """builtin:cloth with these options as a file that both read."""
+    path = f"{folder}/{name}.glb"
+    subprocess.run([WEFT, "render", "builtin:cloth", "--save", path, "--quiet", *options], check=True)
+    return path
+
+
+def lace(folder):
+    """A third of the cloth is holes, round ones."""
+    def hole(x, y):
+        return (230, 230, 230, 0 if (x % 16 - 8) ** 2 + (y % 16 - 8) ** 2 < 27 else 255)
+    png(f"{folder}/lace.png", 64, hole)
+    texture = {"texture": "lace.png", "scale": 4}
+    material = {"alpha_mode": "mask", "alpha_cutoff": 0.5, "base_color": {**texture, "factor": [0.6, 0.5, 0.4]},
+                "opacity": {**texture, "channel": "a"}, "sheen_lobe": "fibre", "sheen_color": 0.5,
+                "clearcoat": 0.5, "clearcoat_roughness": 0.2}
+    with open(f"{folder}/lace.json", "w", encoding="utf-8") as file:
+        json.dump(material, file)
+    return save(folder, "lace", ["--material", f"Cloth={folder}/lace.json"])
+
+
+def lamps(folder):
+    """Five more beside its own, around the cloth."""
+    places = ("2,1,0;-1,-.3,0", "0,2,-1.5;0,-1,.8", "-2,.6,-1;1,-.2,.5", "1,.4,1.6;-.5,0,-1", "1.4,2,1;-.7,-1,-.5")
+    return save(folder, "lamps", [part for k, place in enumerate(places)
+                                  for part in ("--light", f"polygon;{place};.4,.4;{4 + 2 * k},5,{12 - 2 * k}")])
+
+
 with tempfile.TemporaryDirectory() as folder:
     light = [STUDIO, "--env-strength", "0.2"] if STUDIO.exists() else ["0.2,0.2,0.2"]
-    compare("builtin:cloth", "builtin:cloth", ROOT / "scenes/cloth.glb", light, folder)
-    if CHAIR.exists() and STUDIO.exists():
+    if "cloth" in NAMES:
+        compare("builtin:cloth", "builtin:cloth", ROOT / "scenes/cloth.glb", light, folder)
+    if "lace" in NAMES:
+        compare("coated lace", lace(folder), f"{folder}/lace.glb", light, folder)
+    if "lamps" in NAMES:
+        compare("six lamps", lamps(folder), f"{folder}/lamps.glb", light, folder)
+    if "chair" not in NAMES:
+        pass
+    elif CHAIR.exists() and STUDIO.exists():
         compare("SheenChair", CHAIR, CHAIR, [STUDIO], folder)
     else:
         print("\nSheenChair: skipped, the asset is not here")

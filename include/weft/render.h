@@ -62,6 +62,7 @@ typedef struct WeftRenderDesc {
     int halves;
     int first_hits; /* not 0: albedo, normal and depth are kept, which weft_render_denoised needs too */
     float noise;    /* weft_render_run stops when the estimated relMSE is at most this; 0: it does not */
+    int stages;     /* not 0: the time of weft_render_stage is taken */
 } WeftRenderDesc;
 
 /* A picture in the making. */
@@ -106,6 +107,16 @@ typedef struct WeftRenderInfo {
 
 /* About a render, as it is now. */
 WEFT_API WeftRenderInfo weft_render_info(const WeftRender *render);
+
+/* A stage of following paths, and what it took. */
+typedef struct WeftRenderStage {
+    const char *name;
+    double seconds; /* of all threads since the last restart; 0 where `stages` was not asked for */
+    int embree;     /* not 0: spent in Embree, with the copying of rays */
+} WeftRenderStage;
+
+/* Fills out with a stage by its number from 0 on; returns 0 if there is none. */
+WEFT_API int weft_render_stage(const WeftRender *render, int stage, WeftRenderStage *out);
 
 /* The picture so far: F32 RGBA, linear Rec. 709 radiance, straight alpha, of the crop's size. Pixels without
  * a sample are transparent black. Release with weft_image_free. */

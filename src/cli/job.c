@@ -68,6 +68,10 @@ static WeftResult gather(Job *job, WeftRender *render, WeftError *error) {
     WeftResult result = weft_render_run(render, spp, limit, progress_heed, &progress);
     progress_finish(&progress);
     job->info = weft_render_info(render);
+    job->stage_count = 0;
+    while (job->request->desc.stages && job->stage_count < JOB_STAGES &&
+           weft_render_stage(render, job->stage_count, &job->stages[job->stage_count]))
+        job->stage_count++;
     job->interrupted = result == WEFT_INTERRUPTED;
     if (job->interrupted && !(job->info.samples_per_pixel > 0.0)) return nothing_gathered(error);
     if (job->interrupted) result = WEFT_OK;
@@ -255,6 +259,10 @@ double job_samples_per_second(const Job *job) {
     return rate(job->info.samples_per_pixel * job_pixels(job), job->info.render_seconds);
 }
 
+double job_stage_ns(const Job *job, int stage) {
+    return rate(1e9 * job->stages[stage].seconds, job->info.samples_per_pixel * job_pixels(job));
+}
+
 static long long peak_memory(void) {
     struct rusage usage;
     return getrusage(RUSAGE_SELF, &usage) == 0 ? (long long)usage.ru_maxrss * 1024 : 0; /* Linux counts KiB */
@@ -284,6 +292,9 @@ void job_json(const Job *job, Json *json) {
         if (!(job->noise < 0.0)) json_number(json, "noise", job->noise);
         if (request->denoise) json_text(json, "denoised", weft_denoiser_name((int)request->denoiser));
     }
+    if (job->stage_count) json_open(json, "stages", '{');
+    for (int k = 0; k < job->stage_count; k++) json_number(json, job->stages[k].name, job_stage_ns(job, k));
+    if (job->stage_count) json_close(json, '}');
     json_open(json, "camera", '{');
     json_floats(json, "eye", info->camera_eye, 3);
     json_floats(json, "target", info->camera_target, 3);

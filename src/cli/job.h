@@ -12,19 +12,23 @@ typedef struct Warnings {
     int count;
 } Warnings;
 
+enum { JOB_STAGES = 32 };
+
 typedef struct Job {
     const Request *request;
     Warnings *warnings;
-    int number;                     /* of the picture among those of the request */
-    Engine engine;                  /* TRACE or RASTER */
-    WeftScene *scene;               /* owned, see job_free */
-    WeftRaster *raster;             /* owned; NULL of the path tracer */
-    WeftImage linear;               /* owned, see job_free */
-    WeftImage display;              /* owned */
-    WeftImage aovs[WEFT_AOV_COUNT]; /* owned; those that were asked for */
-    double noise;                   /* relMSE, estimated; below 0: not known */
-    WeftRenderInfo info;            /* of the rasteriser: samples, seconds and camera */
-    char driver[128];               /* of OpenGL */
+    int number;                         /* of the picture among those of the request */
+    Engine engine;                      /* TRACE or RASTER */
+    WeftScene *scene;                   /* owned, see job_free */
+    WeftRaster *raster;                 /* owned; NULL of the path tracer */
+    WeftImage linear;                   /* owned, see job_free */
+    WeftImage display;                  /* owned */
+    WeftImage aovs[WEFT_AOV_COUNT];     /* owned; those that were asked for */
+    double noise;                       /* relMSE, estimated; below 0: not known */
+    WeftRenderStage stages[JOB_STAGES]; /* of --stages */
+    int stage_count;
+    WeftRenderInfo info; /* of the rasteriser: samples, seconds and camera */
+    char driver[128];    /* of OpenGL */
     long long triangles;
     double load_seconds;
     int width, height; /* of the picture, which a crop makes smaller */
@@ -49,6 +53,9 @@ void job_close(Job *job);
 void job_free(Job *job);
 
 double job_samples_per_second(const Job *job);
+
+/* ns of a stage for each sample. */
+double job_stage_ns(const Job *job, int stage);
 
 /* The members of its object. */
 void job_json(const Job *job, Json *json);

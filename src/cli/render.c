@@ -21,6 +21,21 @@ static void summary(const Job *job) {
            files);
 }
 
+static void print_stages(const Job *job) {
+    double sum = 0.0, embree = 0.0;
+    for (int k = 0; k < job->stage_count; k++) {
+        double ns = job_stage_ns(job, k);
+        sum += ns;
+        if (job->stages[k].embree) embree += ns;
+    }
+    if (!(sum > 0.0)) return;
+    puts("stage                          ns a sample   share");
+    for (int k = 0; k < job->stage_count; k++)
+        printf("%-30s %11.1f %6.1f %%%s\n", job->stages[k].name, job_stage_ns(job, k),
+               100.0 * job_stage_ns(job, k) / sum, job->stages[k].embree ? "  Embree" : "");
+    printf("%-30s %11.1f %6.1f %%  Embree\n", "all", sum, 100.0 * embree / sum);
+}
+
 /* Only what --save asks for. */
 static int save_run(const Request *request, Warnings *warnings) {
     Job job = {.request = request, .warnings = warnings, .engine = request->engine};
@@ -40,6 +55,7 @@ static int single_run(const Request *request, Warnings *warnings) {
         report_error(&error);
     } else {
         if (!request->quiet) summary(&job);
+        if (!option_given(request->options, "--json")) print_stages(&job);
         if (option_given(request->options, "--json")) {
             Json json = {.stream = stdout};
             json_open(&json, NULL, '{');

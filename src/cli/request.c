@@ -75,6 +75,7 @@ const Option request_options[] = {
 
     OPTION_HEADING("Reports"),
     OPTION_SWITCH("--quiet", "no progress, no warnings, no summary"),
+    OPTION_SWITCH("--stages", "print ns a sample of each stage of the path tracer, of all threads"),
     OPTION_SWITCH("--json", "print figures on standard output: a JSON object, of a sheet an array of them"),
     OPTION_END,
 };
@@ -151,6 +152,7 @@ static bool read_desc(const Options *options, WeftRenderDesc *desc) {
                 option_choice(options, "--sampling", strategies, &sampling);
     desc->seed = (uint32_t)seed;
     desc->sampling = (WeftSampling)sampling;
+    desc->stages = option_given(options, "--stages");
     return good;
 }
 

@@ -7,6 +7,7 @@
 #include "shading/kind.h"
 #include "shading/kind_loops.h"
 #include "shading/loop.h"
+#include "shading/stack_steps.h"
 
 static Choices known_choices(void) {
     Choices c = choices_unmade();
@@ -14,12 +15,15 @@ static Choices known_choices(void) {
     return c;
 }
 
+/* A coat of a kind that has one is always made, since a loop has no branches, and hidden where there is none. */
 #define TAKE_STACK(m, v)                                                                                     \
     Surface s = surface_of_row(&(v)->surface, k);                                                            \
-    if (coat_lobe < 0) s.clearcoat = 0.0f;                                                                   \
+    bool coated = s.clearcoat > 0.0f;                                                                        \
+    s.clearcoat = coat_lobe < 0 ? 0.0f : max(s.clearcoat, 1e-20f);                                           \
     if (dust_lobe < 0) s.dust = 0.0f;                                                                        \
     Stack m;                                                                                                 \
-    compose_stack(&m, &s, known_choices(), e)
+    compose_stack(&m, &s, known_choices(), e);                                                               \
+    m.coat.normal = coated ? m.coat.normal : 0.0f
 
 #define PUT_SELECT_P(name, NAME, Name, wo) v->select_p[place++][k] = w.select_p.name;
 #define GET_SELECT_P(name, NAME, Name, wo) w.select_p.name = v->select_p[place++][k];
@@ -62,8 +66,9 @@ FN void eval_each(KindVertices *restrict v, TableRef e, int direction, int n) {
         w.base_scale = rgb(v->base_scale[0][k], v->base_scale[1][k], v->base_scale[2][k]);
         int place = 0;
         SLOTS(GET_SELECT_P)
-        Angles a = angles_between(w.o, wi);
-        StackValue value = stack_value(&m, &w, &a, &a);
+        Angles a = angles_between(w.o, wi), in_coat = a;
+        if (coat_lobe >= 0) in_coat = angles_between(w.coat_o, stack_to_coat(&m, wi));
+        StackValue value = stack_value(&m, &w, &a, &in_coat);
         f[0][k] = value.f_cos.r * seen;
         f[1][k] = value.f_cos.g * seen;
         f[2][k] = value.f_cos.b * seen;
@@ -92,7 +97,8 @@ CLONES static void eval_n(KindVertices *restrict v, TableRef e, int direction, i
     if (name##_lobe >= 0) {                                                                                  \
         Dir x;                                                                                               \
         name##_sample_at(0, &m.name##_prepared, &w.name##_view, &w.wo, u, v->v[k], &x);                      \
-        i = dir_choose(slot == place, x, i);                                                                 \
+        if (PLACE_##NAME == PLACE_COAT) x = dir_choose(x.z > 0.0f, from_coat(&m, x), x);                     \
+        i = dir_choose((slot == place) & (w.wo.z > 0.0f), x, i);                                             \
     }                                                                                                        \
     place++;
 

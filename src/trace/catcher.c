@@ -7,7 +7,7 @@
 /* One light sample of a group at a point of a white floor. */
 static void add_light(const PathContext *context, LightGroup group, Vec3 point, float share, Point uv,
                       uint32_t key, Caught *caught, long long *rays) {
-    LightSample light = lights_sample(context->lights, group, point, uv.u, uv.v);
+    LightSample light = lights_sample(context->lights, group, point, vec3(0, 1, 0), uv.u, uv.v);
     if (!(light.pdf > 0.0f) || !(light.wi.y > 0.0f)) return;
     float whole = rgb_luminance(light.radiance) * light.wi.y / light.pdf;
     if (!(whole > 0.0f && whole < INFINITY)) return;

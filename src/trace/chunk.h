@@ -3,6 +3,7 @@
 #define WEFT_TRACE_CHUNK_H
 
 #include "trace/path_context.h"
+#include "trace/stages.h"
 
 enum {
     PATHS_SAMPLES_LOG2 = 4, /* an id is the pixel's number in its tile, then that of its sample */
@@ -15,8 +16,11 @@ typedef struct Paths {
     uint32_t id[PATHS_ROOM], key[PATHS_ROOM]; /* key: of the ray, see Ray */
     float o[3][PATHS_ROOM], d[3][PATHS_ROOM];
     float throughput[3][PATHS_ROOM];
-    float sky[3][PATHS_ROOM]; /* the same for the environment, where that is reflected in parts */
-    float pdf[PATHS_ROOM];    /* of the direction; 0: the camera's, or a mirror's */
+    float sky
+        [3]
+        [PATHS_ROOM]; /* the same for the environment, where that is reflected in parts; not the camera's */
+    float pdf[PATHS_ROOM];       /* of the direction; 0: the camera's, or a mirror's */
+    float normal[3][PATHS_ROOM]; /* of where it comes from, if pdf > 0 */
 } Paths;
 
 /* Radiance and coverage by a path's id. */
@@ -65,6 +69,7 @@ typedef struct Chunk {
     TexelRows textures;
     Stack stack;
     StackView view;
+    StageClock *clock; /* NULL: not asked for */
 } Chunk;
 
 /* The vertices that a chunk is made of: n of the paths in order, up to row_whole(n) valid ones, that hit the material. */

@@ -3,6 +3,7 @@
 #include "trace/emitters.h"
 
 #include "scene/shade.h"
+#include "shading/loop.h"
 #include "trace/geometry.h"
 
 typedef struct Emitter {
@@ -12,6 +13,18 @@ typedef struct Emitter {
     bool even, two_sided;   /* even: it sends out the same everywhere */
     Rgb radiance;           /* if it is even */
 } Emitter;
+
+/* The numbers of an emitter in a row. */
+enum {
+    EMITTER_A = 0,
+    EMITTER_AB = 3,
+    EMITTER_AC = 6,
+    EMITTER_NORMAL = 9,
+    EMITTER_RADIANCE = 12,
+    EMITTER_AREA = 15,
+    EMITTER_TWO_SIDED = 16, /* 1, or 0 */
+    EMITTER_FLOATS = 17
+};
 
 /* Returns the emission of a point times its opacity. */
 static Rgb emission(const WeftScene *scene, const Material *material, const Attributes *at) {
@@ -85,32 +98,73 @@ static Emitter emitter_of(const WeftScene *scene, int m, uint32_t triangle) {
                      .radiance = emission(scene, material, &none)};
 }
 
+static void put_numbers(const Emitter *e, float *numbers) {
+    const Vec3 vectors[] = {e->a, e->ab, e->ac, e->normal, {e->radiance.r, e->radiance.g, e->radiance.b}};
+    for (int k = 0; k < 5; k++) {
+        numbers[3 * k] = vectors[k].x;
+        numbers[3 * k + 1] = vectors[k].y;
+        numbers[3 * k + 2] = vectors[k].z;
+    }
+    numbers[EMITTER_AREA] = e->area;
+    numbers[EMITTER_TWO_SIDED] = e->two_sided ? 1.0f : 0.0f;
+}
+
+static Vec3 corner_of(const Emitter *e, int k) {
+    return k == 0 ? e->a : vec3_add(e->a, k == 1 ? e->ab : e->ac);
+}
+
+static LightBounds bounds_of(const Emitter *e, float power) {
+    LightBounds bounds = {.low = e->a,
+                          .high = e->a,
+                          .axis = e->normal,
+                          .cos_spread = 1.0f,
+                          .power = power,
+                          .two_sided = e->two_sided};
+    for (int k = 1; k < 3; k++) {
+        Vec3 c = corner_of(e, k);
+        bounds.low = vec3(min(bounds.low.x, c.x), min(bounds.low.y, c.y), min(bounds.low.z, c.z));
+        bounds.high = vec3(max(bounds.high.x, c.x), max(bounds.high.y, c.y), max(bounds.high.z, c.z));
+    }
+    return bounds;
+}
+
+/* Takes the triangles of a mesh; returns their power. */
+static float take_mesh(Emitters *emitters, int m, LightBounds *bounds) {
+    const WeftScene *scene = emitters->scene;
+    const Mesh *mesh = &scene->meshes[m];
+    float sum = 0.0f;
+    emitters->mesh_first[m] = (uint32_t)emitters->count + 1;
+    for (uint32_t t = 0; t < mesh->triangle_count; t++) {
+        int k = emitters->count++;
+        Emitter *e = &emitters->triangles[k];
+        *e = emitter_of(scene, m, t);
+        emitters->even &= e->even;
+        put_numbers(e, emitters->numbers + (size_t)EMITTER_FLOATS * (size_t)k);
+        float power = e->area > 0.0f ? triangle_power(scene, mesh, t, e->area) : 0.0f;
+        bounds[k] = bounds_of(e, power);
+        sum += power;
+    }
+    return sum;
+}
+
 bool emitters_make(Emitters *emitters, const WeftScene *scene, Arena *arena) {
-    *emitters = (Emitters){.scene = scene};
+    *emitters = (Emitters){.scene = scene, .even = true};
     size_t count = 0;
     for (int m = 0; m < scene->mesh_count; m++)
         if (emits(&scene->materials[scene->meshes[m].material])) count += scene->meshes[m].triangle_count;
     if (!count) return true;
-    if (count > 1 << 30) return false;
-    float *room = distribution_room(arena, distribution_size((int)count));
-    float *power = alloc_array(count, sizeof(float));
+    if (count > INT32_MAX / (2 * EMITTER_FLOATS)) return false; /* an int counts their numbers */
+    LightBounds *bounds = alloc_array(count, sizeof(LightBounds));
     emitters->triangles = arena_array(arena, count, sizeof(Emitter));
+    emitters->numbers = arena_array(arena, count * EMITTER_FLOATS, sizeof(float));
     emitters->mesh_first = arena_array(arena, (size_t)scene->mesh_count, sizeof(uint32_t));
-    bool made = room && power && emitters->triangles && emitters->mesh_first;
-    for (int m = 0; made && m < scene->mesh_count; m++) {
-        const Mesh *mesh = &scene->meshes[m];
-        if (!emits(&scene->materials[mesh->material])) continue;
-        emitters->mesh_first[m] = (uint32_t)emitters->count + 1;
-        for (uint32_t t = 0; t < mesh->triangle_count; t++) {
-            int k = emitters->count++;
-            emitters->triangles[k] = emitter_of(scene, m, t);
-            float area = emitters->triangles[k].area;
-            power[k] = area > 0.0f ? triangle_power(scene, mesh, t, area) : 0.0f;
-        }
-    }
-    bool shine = made && distribution_make(&emitters->choice, emitters->count, power, room) > 0.0;
-    if (!shine) emitters->count = 0;
-    free(power);
+    bool made = bounds && emitters->triangles && emitters->numbers && emitters->mesh_first;
+    float power = 0.0f;
+    for (int m = 0; made && m < scene->mesh_count; m++)
+        if (emits(&scene->materials[scene->meshes[m].material])) power += take_mesh(emitters, m, bounds);
+    if (!(power > 0.0f)) emitters->count = 0;
+    if (emitters->count) made = light_tree_make(&emitters->tree, emitters->count, bounds, arena);
+    free(bounds);
     return made;
 }
 
@@ -121,49 +175,69 @@ static Rgb radiance_at(const WeftScene *scene, const Emitter *emitter, float u, 
     return emission(scene, &scene->materials[mesh->material], &at);
 }
 
-EmitterPoint emitters_sample(const Emitters *emitters, int k, Vec3 point, float u, float v) {
-    const Emitter *emitter = &emitters->triangles[k];
-    /* the square folded onto the triangle; Eric Heitz, "A Low-Distortion Map Between Triangle and Square",
-     * 2019 */
-    float b1 = u, b2 = v;
-    if (b2 > b1) {
-        b1 *= 0.5f;
-        b2 -= b1;
-    } else {
-        b2 *= 0.5f;
-        b1 -= b2;
-    }
-    Vec3 to = vec3_sub(vec3_madd(vec3_madd(emitter->a, emitter->ab, b1), emitter->ac, b2), point);
-    EmitterPoint p = {.distance = vec3_length(to)};
-    if (!(p.distance > 0.0f)) return p;
-    p.direction = vec3_scale(to, 1.0f / p.distance);
-    float cosine = -vec3_dot(emitter->normal, p.direction);
-    if (cosine <= 0.0f && !emitter->two_sided) return p;
-    p.radiance = emitter->even ? emitter->radiance : radiance_at(emitters->scene, emitter, b1, b2);
-    p.pdf = emitters_pdf(emitters, emitter->mesh, emitter->triangle, p.distance, cosine);
-    return p;
+/* Barycentric weights of a point of a triangle: the square folded onto it. Eric Heitz, "A Low-Distortion Map
+ * Between Triangle and Square", 2019. */
+FN void fold(float u, float v, float *b1, float *b2) {
+    float half = 0.5f * min(u, v);
+    *b1 = u - half;
+    *b2 = v - half;
 }
 
-void emitters_sample_rows(const Emitters *emitters, int n, const float *const point[3], const float *u,
-                          const float *v, LightRows *samples) {
-    for (int k = 0; k < n; k++) {
-        Choice triangle = distribution_choose(&emitters->choice, u[k]);
-        Vec3 at = vec3(point[0][k], point[1][k], point[2][k]);
-        EmitterPoint p = emitters_sample(emitters, triangle.index, at, triangle.rest, v[k]);
-        samples->wi[0][k] = p.direction.x, samples->wi[1][k] = p.direction.y,
-        samples->wi[2][k] = p.direction.z;
-        samples->radiance[0][k] = p.radiance.r;
-        samples->radiance[1][k] = p.radiance.g;
-        samples->radiance[2][k] = p.radiance.b;
-        samples->pdf[k] = p.pdf;
-        samples->distance[k] = p.distance;
+/* Density over solid angle at distance t of a point that is chosen evenly over an area. */
+FN float solid_pdf(float t2, float area, float cosine) { return t2 / (area * max(abs(cosine), 1e-6f)); }
+
+typedef struct ChosenRows {
+    int emitter[ROW_ROOM];
+    float probability[ROW_ROOM], u[ROW_ROOM]; /* u: what is left of it */
+} ChosenRows;
+
+CLONES static void sample_n(const float *numbers, int n, const float *const point[3], const float *v,
+                            const ChosenRows *chosen, LightRows *restrict s) {
+    const float *px = point[0], *py = point[1], *pz = point[2];
+    EACH(k, (size_t)n) {
+        int e = EMITTER_FLOATS * chosen->emitter[k];
+        float b1, b2;
+        fold(chosen->u[k], v[k], &b1, &b2);
+        float x = numbers[e] + numbers[e + 3] * b1 + numbers[e + 6] * b2 - px[k];
+        float y = numbers[e + 1] + numbers[e + 4] * b1 + numbers[e + 7] * b2 - py[k];
+        float z = numbers[e + 2] + numbers[e + 5] * b1 + numbers[e + 8] * b2 - pz[k];
+        float t2 = x * x + y * y + z * z;
+        bool away = t2 > 1e-30f;
+        float t = sqrt(away ? t2 : 1.0f), r = 1.0f / t;
+        float cosine = -(x * numbers[e + 9] + y * numbers[e + 10] + z * numbers[e + 11]) * r;
+        bool live = away & ((cosine > 0.0f) | (numbers[e + EMITTER_TWO_SIDED] > 0.0f));
+        s->wi[0][k] = x * r;
+        s->wi[1][k] = y * r;
+        s->wi[2][k] = z * r;
+        s->radiance[0][k] = numbers[e + 12];
+        s->radiance[1][k] = numbers[e + 13];
+        s->radiance[2][k] = numbers[e + 14];
+        float shown = live ? 1.0f : 0.0f; /* a choice would put look-ups in a branch */
+        s->pdf[k] = shown * chosen->probability[k] * solid_pdf(t2, numbers[e + EMITTER_AREA], cosine);
+        s->distance[k] = t;
     }
 }
 
-float emitters_pdf(const Emitters *emitters, uint32_t mesh, uint32_t triangle, float t, float cosine) {
+void emitters_sample_rows(const Emitters *emitters, int n, const float *const point[3],
+                          const float *const normal[3], const float *u, const float *v, LightRows *samples) {
+    ChosenRows chosen;
+    memcpy(chosen.u, u, (size_t)n * sizeof *u);
+    light_tree_choose_rows(&emitters->tree, n, point, normal, chosen.u, chosen.emitter, chosen.probability);
+    sample_n(emitters->numbers, n, point, v, &chosen, samples);
+    for (int k = 0; !emitters->even && k < n; k++) {
+        const Emitter *e = &emitters->triangles[chosen.emitter[k]];
+        float b1, b2;
+        fold(chosen.u[k], v[k], &b1, &b2);
+        Rgb c = e->even ? e->radiance : radiance_at(emitters->scene, e, b1, b2);
+        samples->radiance[0][k] = c.r, samples->radiance[1][k] = c.g, samples->radiance[2][k] = c.b;
+    }
+}
+
+float emitters_pdf(const Emitters *emitters, uint32_t mesh, uint32_t triangle, Vec3 point, Vec3 normal,
+                   float t, float cosine) {
     if (!emitters->count || !emitters->mesh_first[mesh]) return 0.0f;
-    uint32_t k = emitters->mesh_first[mesh] - 1 + triangle;
+    int k = (int)(emitters->mesh_first[mesh] - 1 + triangle);
     float area = emitters->triangles[k].area;
     if (!(area > 0.0f)) return 0.0f;
-    return distribution_probability(&emitters->choice, (int)k) * t * t / (area * max(abs(cosine), 1e-6f));
+    return light_tree_probability(&emitters->tree, k, point, normal) * solid_pdf(t * t, area, cosine);
 }

@@ -70,7 +70,7 @@ int lens_rays(const Lens *lens, const LensPart *part, PathKeys *keys, Paths *pat
         for (int k = 0; k < part->count; k++) paths->id[at + k] = (uint32_t)(p << PATHS_SAMPLES_LOG2 | k);
     }
     for (int a = 0; a < 3; a++)
-        for (int k = 0; k < at; k++) paths->throughput[a][k] = paths->sky[a][k] = 1.0f;
+        for (int k = 0; k < at; k++) paths->throughput[a][k] = 1.0f;
     for (int k = 0; k < at; k++) paths->pdf[k] = 0.0f;
     return at;
 }

@@ -86,16 +86,24 @@ static LightSample from_sky(SkyPoint p) {
 
 bool lights_shine(const Lights *lights, LightGroup group) { return lights->shine[group]; }
 
-/* u chooses the triangle; what it has left after that is u of the point. */
-static LightSample sample_emitters(const Emitters *emitters, Vec3 point, float u, float v) {
-    Choice triangle = distribution_choose(&emitters->choice, u);
-    EmitterPoint p = emitters_sample(emitters, triangle.index, point, triangle.rest, v);
-    return (LightSample){p.direction, p.distance, p.radiance, p.pdf, false, false};
+/* Asks for a row of which all lanes are this point. */
+static LightSample sample_emitters(const Emitters *emitters, Vec3 point, Vec3 normal, float u, float v) {
+    float same[8][ROW_LANES];
+    const float of[] = {point.x, point.y, point.z, normal.x, normal.y, normal.z, u, v};
+    for (int a = 0; a < 8; a++)
+        for (int k = 0; k < ROW_LANES; k++) same[a][k] = of[a];
+    const float *const points[] = {same[0], same[1], same[2]}, *const normals[] = {same[3], same[4], same[5]};
+    LightRows rows;
+    emitters_sample_rows(emitters, ROW_LANES, points, normals, same[6], same[7], &rows);
+    return (LightSample){.wi = vec3(rows.wi[0][0], rows.wi[1][0], rows.wi[2][0]),
+                         .distance = rows.distance[0],
+                         .radiance = {rows.radiance[0][0], rows.radiance[1][0], rows.radiance[2][0]},
+                         .pdf = rows.pdf[0]};
 }
 
-LightSample lights_sample(const Lights *lights, LightGroup group, Vec3 point, float u, float v) {
+LightSample lights_sample(const Lights *lights, LightGroup group, Vec3 point, Vec3 normal, float u, float v) {
     if (group == LIGHTS_SKY) return from_sky(sky_sample(&lights->sky, u, v));
-    if (group == LIGHTS_EMITTERS) return sample_emitters(&lights->emitters, point, u, v);
+    if (group == LIGHTS_EMITTERS) return sample_emitters(&lights->emitters, point, normal, u, v);
     return sample_punctual(lights, point, u);
 }
 
@@ -109,9 +117,9 @@ static void put_sample(LightRows *rows, int k, const LightSample *s) {
 }
 
 void lights_sample_rows(const Lights *lights, LightGroup group, int n, const float *const point[3],
-                        const float *u, const float *v, LightRows *samples) {
+                        const float *const normal[3], const float *u, const float *v, LightRows *samples) {
     if (group == LIGHTS_SKY) sky_sample_rows(&lights->sky, n, u, v, samples);
-    if (group == LIGHTS_EMITTERS) emitters_sample_rows(&lights->emitters, n, point, u, v, samples);
+    if (group == LIGHTS_EMITTERS) emitters_sample_rows(&lights->emitters, n, point, normal, u, v, samples);
     for (int k = 0; group == LIGHTS_PUNCTUAL && k < n; k++) {
         Vec3 p = vec3(point[0][k], point[1][k], point[2][k]);
         LightSample s = sample_punctual(lights, p, u[k]);
@@ -130,6 +138,7 @@ LightSample lights_environment(const Lights *lights, Vec3 direction) {
     return s;
 }
 
-float lights_triangle_pdf(const Lights *lights, uint32_t mesh, uint32_t triangle, float t, float cosine) {
-    return emitters_pdf(&lights->emitters, mesh, triangle, t, cosine);
+float lights_triangle_pdf(const Lights *lights, uint32_t mesh, uint32_t triangle, Vec3 point, Vec3 normal,
+                          float t, float cosine) {
+    return emitters_pdf(&lights->emitters, mesh, triangle, point, normal, t, cosine);
 }

@@ -2,7 +2,7 @@
  * triangles, punctual lights
  *
  * One sample of each group that shines at a point estimates all light there. Within a group an element is
- * chosen by its power; the pdfs returned contain that choice. */
+ * chosen by its power, an emissive triangle by what of it may arrive; the pdfs returned contain that choice. */
 #ifndef WEFT_TRACE_LIGHTS_H
 #define WEFT_TRACE_LIGHTS_H
 
@@ -28,12 +28,13 @@ typedef struct LightSample {
     bool sky;       /* from the environment */
 } LightSample;
 
-/* Samples a group that has light, for (u, v) in [0, 1)^2. */
-LightSample lights_sample(const Lights *lights, LightGroup group, Vec3 point, float u, float v);
+/* Samples a group that has light, for a point with a normal, below which no light counts, and (u, v) in
+ * [0, 1)^2. */
+LightSample lights_sample(const Lights *lights, LightGroup group, Vec3 point, Vec3 normal, float u, float v);
 
 /* Samples such a group as arrays, for n points and (u, v), n <= ROW_MOST a multiple of ROW_LANES. */
 void lights_sample_rows(const Lights *lights, LightGroup group, int n, const float *const point[3],
-                        const float *u, const float *v, LightRows *samples);
+                        const float *const normal[3], const float *u, const float *v, LightRows *samples);
 
 /* Returns the light from a direction in which nothing is hit, and the density with which lights_sample
  * finds that direction. */
@@ -42,8 +43,9 @@ LightSample lights_environment(const Lights *lights, Vec3 direction);
 /* Radiance and pdf of that as arrays, along n directions. */
 void lights_environment_rows(const Lights *lights, int n, const float *const d[3], LightRows *found);
 
-/* Density with which lights_sample, from a point at distance t, finds that triangle's point seen under
- * `cosine`. */
-float lights_triangle_pdf(const Lights *lights, uint32_t mesh, uint32_t triangle, float t, float cosine);
+/* Density with which lights_sample, from a point with that normal and at distance t, finds that triangle's
+ * point seen under `cosine`. */
+float lights_triangle_pdf(const Lights *lights, uint32_t mesh, uint32_t triangle, Vec3 point, Vec3 normal,
+                          float t, float cosine);
 
 #endif

@@ -4,6 +4,15 @@
 #include "shading/loop.h"
 #include "shading/rgb.h"
 
+/* The density with which the light that a path hit is drawn where the path comes from. */
+static float light_pdf(const Chunk *c, const ChunkSource *from, int k, float cosine) {
+    const Paths *p = from->paths;
+    int j = from->order[k];
+    return lights_triangle_pdf(from->context->lights, c->mesh[k], c->triangle[k],
+                               vec3(p->o[0][j], p->o[1][j], p->o[2][j]),
+                               vec3(p->normal[0][j], p->normal[1][j], p->normal[2][j]), c->t[k], cosine);
+}
+
 void chunk_add_emission(Chunk *c, const ChunkSource *from, Light4 *light) {
     const PathContext *context = from->context;
     const Material *material = &context->materials[from->material].material;
@@ -13,7 +22,7 @@ void chunk_add_emission(Chunk *c, const ChunkSource *from, Light4 *light) {
         float cosine = 0.0f, worth = 1.0f;
         for (int a = 0; a < 3; a++) cosine += c->wo[a][k] * c->geometric[a][k];
         if (!material->unlit) {
-            float b = lights_triangle_pdf(context->lights, c->mesh[k], c->triangle[k], c->t[k], cosine);
+            float b = c->pdf[k] > 0.0f ? light_pdf(c, from, k, cosine) : 0.0f;
             worth = s->emission_strength[k] * lobe_weight(context->sampling, c->pdf[k], b);
             if (c->side[k] < 0.0f && !material->double_sided) worth = 0.0f;
         }
@@ -93,12 +102,15 @@ int chunk_add_light(Chunk *c, const ChunkSource *from, LightGroup group, Light4 
                               c->shadow.key,
                               false,
                               false};
+        stage_end(c->clock, STAGE_WEIGH);
         geometry_occlusions(context->geometry, &rays, count, c->hidden);
+        stage_end(c->clock, STAGE_OCCLUSIONS);
     }
     for (int k = 0; k < count; k++) {
         int j = c->list[k];
         if (context->shadows && c->hidden[k]) continue;
         for (int a = 0; a < 3; a++) light->c[a][c->id[j]] += c->added[a][j];
     }
+    stage_end(c->clock, STAGE_WEIGH);
     return context->shadows ? count : 0;
 }

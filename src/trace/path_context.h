@@ -32,6 +32,7 @@ typedef struct PathContext {
     int max_depth;
     WeftSampling sampling;
     bool roulette, shadows;
+    bool stages;       /* their time is taken */
     bool sky_in_parts; /* the factors ambient and reflection are not both 1 */
     bool first_hits;   /* they are kept, */
     float forward[3];  /* with depths along this axis, the camera's */

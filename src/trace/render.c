@@ -217,6 +217,7 @@ static WeftResult build(WeftRender *render, unsigned changed, WeftError *error) 
                                         .sampling = d->sampling,
                                         .roulette = !d->no_roulette,
                                         .shadows = !d->no_shadows,
+                                        .stages = d->stages != 0,
                                         .sky_in_parts = in_parts(&render->scene->environment),
                                         .first_hits = d->first_hits != 0,
                                         .forward = {render->lens.view.forward.x, render->lens.view.forward.y,
@@ -347,7 +348,7 @@ static void take_mirrored(Stream *s, int k, const Mirrored *m) {
     p->o[0][k] = m->ray.origin.x, p->o[1][k] = m->ray.origin.y, p->o[2][k] = m->ray.origin.z;
     p->d[0][k] = m->ray.direction.x, p->d[1][k] = m->ray.direction.y, p->d[2][k] = m->ray.direction.z;
     p->key[k] = m->ray.key;
-    for (int c = 0; c < 3; c++) p->throughput[c][k] = p->sky[c][k] = m->share;
+    for (int c = 0; c < 3; c++) p->throughput[c][k] = m->share;
     s->t[k] = m->hit.t, s->u[k] = m->hit.u, s->v[k] = m->hit.v;
     s->mesh[k] = m->hit.mesh, s->triangle[k] = m->hit.triangle;
 }
@@ -427,12 +428,18 @@ static void render_tile(void *user, int item, int thread) {
     Stream *stream = render->streams[thread];
     FilmHalf *half = &render->film.half[pass->half];
     LensPart part = part_of(render, item, pass->half, pass->samples);
+    StageClock *clock = stream->chunk.clock;
+    stage_begin(clock);
     int n = lens_rays(&render->lens, &part, &stream->keys, &stream->paths[0]);
+    stage_end(clock, STAGE_CAMERA);
     stream->rays = 0;
     trace_camera(render, stream, n);
+    stage_end(clock, STAGE_CAMERA_HITS);
     enter(render, stream, &part, half->caught, n);
+    stage_end(clock, STAGE_ENTER);
     stream_follow(stream, n);
     tile.non_finite += sum_up(render, stream, &part, pass->half);
+    stage_end(clock, STAGE_FILM);
     tile.rays += stream->rays;
     half->samples[item] += pass->samples;
     render->tiles[item] = tile;
@@ -502,6 +509,15 @@ WeftRenderInfo weft_render_info(const WeftRender *render) {
     }
     info.samples_per_pixel = samples / ((double)render->width * render->height);
     return info;
+}
+
+int weft_render_stage(const WeftRender *render, int stage, WeftRenderStage *out) {
+#define STAGE_ROW(NAME, name, embree) {name, 0.0, embree},
+    static const WeftRenderStage stages[STAGE_COUNT] = {TRACE_STAGES(STAGE_ROW)};
+    if (stage < 0 || stage >= STAGE_COUNT) return 0;
+    *out = stages[stage];
+    for (int k = 0; k < render->stream_count; k++) out->seconds += render->streams[k]->clock.spent[stage];
+    return 1;
 }
 
 WeftResult weft_render_image(const WeftRender *render, WeftImage *out, WeftError *error) {

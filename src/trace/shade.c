@@ -29,13 +29,17 @@ static void sample_lights(Chunk *c, const ChunkSource *from, int n) {
     KindVertices *v = &c->vertices;
     uint32_t pair = SAMPLER_VERTEX + SAMPLER_PER_VERTEX * (uint32_t)from->depth;
     const float *const point[3] = {c->lifted[0], c->lifted[1], c->lifted[2]};
+    const float *const normal[3] = {c->geometric[0], c->geometric[1], c->geometric[2]};
     for (int g = 0; g < LIGHT_GROUPS; g++) {
         if (!lights_shine(lights, (LightGroup)g)) continue;
         draw_numbers(c, pair + (uint32_t)g, n, v->u, v->v);
-        lights_sample_rows(lights, (LightGroup)g, n, point, v->u, v->v, &c->light[g]);
+        stage_end(c->clock, STAGE_NUMBERS);
+        lights_sample_rows(lights, (LightGroup)g, n, point, normal, v->u, v->v, &c->light[g]);
         turn_in_n(c, c->light[g].wi, n, v->i[g]);
+        stage_end(c->clock, (TraceStage)(STAGE_SKY + g)); /* in the order of LightGroup */
     }
     draw_numbers(c, pair + LIGHT_GROUPS, n, v->u, v->v);
+    stage_end(c->clock, STAGE_NUMBERS);
 }
 
 static void put_value(Chunk *c, int direction, int k, const Rgb *f, float pdf) {
@@ -68,7 +72,7 @@ static const Stack *stack_at(Chunk *c, const PathMaterial *material, int k) {
     stack_make(&c->stack, &surface, &material->choices, material->sheen_e);
     if (material->cloth)
         cloth_base(material->cloth, (float[2]){c->textures.uv[0][0][k], c->textures.uv[0][1][k]}, c->side[k],
-                    &c->stack);
+                   &c->stack);
     return &c->stack;
 }
 
@@ -109,6 +113,7 @@ void chunk_shade(Chunk *c, const ChunkSource *from) {
         kind_shade(material->kind, &c->vertices, material->sheen_e, shine, n);
     } else
         for (int k = 0; k < from->n; k++) shade_vertex(c, context, material, k);
+    stage_end(c->clock, STAGE_SHADE);
 }
 
 /* Weighs each path along the direction that was drawn; goes is 0 if it ends. */
@@ -171,6 +176,12 @@ CLONES static void append(const Chunk *c, int at, int n, Paths *restrict to) {
     }
 }
 
+/* The normals, for those who ask how probable their light was. */
+static void append_normals(const Chunk *c, int at, int n, Paths *to) {
+    for (int a = 0; a < 3; a++)
+        for (int k = 0; k < n; k++) to->normal[a][at + k] = c->geometric[a][c->list[k]];
+}
+
 static void append_sky(const Chunk *c, int at, int n, Paths *to) {
     for (int a = 0; a < 3; a++)
         for (int k = 0; k < n; k++) {
@@ -185,5 +196,6 @@ int chunk_go_on(Chunk *c, const ChunkSource *from, Paths *paths, int at) {
     int count = list_paths(c, from->n);
     append(c, at, count, paths);
     if (context->sky_in_parts) append_sky(c, at, count, paths);
+    if (lights_shine(context->lights, LIGHTS_EMITTERS)) append_normals(c, at, count, paths);
     return at + count;
 }

@@ -9,6 +9,7 @@ Stream *stream_create(const PathContext *context, int materials) {
     if (!stream) return NULL;
     size_t classes = (size_t)materials + 1;
     stream->context = context;
+    stream->chunk.clock = context->stages ? &stream->clock : NULL;
     stream->end = alloc_array(classes, sizeof(int));
     stream->order = alloc_array(PATHS_MOST + classes * ROW_LANES, sizeof(int));
     stream->first = context->first_hits ? alloc_array(1, sizeof(FirstHits)) : NULL;
@@ -59,8 +60,23 @@ CLONES static void take_directions(const Paths *paths, const int *order, int n, 
     }
 }
 
-/* Adds what the environment sends along paths that leave the scene. */
-static void add_sky(Stream *s, const Paths *paths, const int *order, int n) {
+/* Makes radiance along paths what they bring of it. */
+CLONES static void weigh_sky_n(const Paths *paths, bool in_parts, WeftSampling sampling, const int *order,
+                               int n, LightRows *restrict sky) {
+    const float(*worth)[PATHS_ROOM] = in_parts ? paths->sky : paths->throughput;
+    const float *r = worth[0], *g = worth[1], *b = worth[2], *pdf = paths->pdf;
+    EACH(k, (size_t)n) {
+        int j = order[k];
+        float weight = lobe_weight(sampling, pdf[j], sky->pdf[k]);
+        sky->radiance[0][k] = r[j] * (sky->radiance[0][k] * weight);
+        sky->radiance[1][k] = g[j] * (sky->radiance[1][k] * weight);
+        sky->radiance[2][k] = b[j] * (sky->radiance[2][k] * weight);
+    }
+}
+
+/* Adds what the environment sends along paths that leave the scene. in_parts: they know what its light is worth
+ * apart from other light. */
+static void add_sky(Stream *s, const Paths *paths, bool in_parts, const int *order, int n) {
     const PathContext *context = s->context;
     LightRows *sky = &s->chunk.light[LIGHTS_SKY];
     Row *d = s->chunk.wo;
@@ -69,15 +85,9 @@ static void add_sky(Stream *s, const Paths *paths, const int *order, int n) {
     const float *const along[3] = {d[0], d[1], d[2]};
     lights_environment_rows(context->lights, whole, along, sky);
 
-    for (int k = 0; k < n; k++) {
-        int j = order[k];
-        uint32_t id = paths->id[j];
-        float weight = lobe_weight(context->sampling, paths->pdf[j], sky->pdf[k]);
-        for (int c = 0; c < 3; c++) {
-            float worth = context->sky_in_parts ? paths->sky[c][j] : paths->throughput[c][j];
-            s->light.c[c][id] += worth * (sky->radiance[c][k] * weight);
-        }
-    }
+    weigh_sky_n(paths, in_parts, context->sampling, order, whole, sky);
+    for (int c = 0; c < 3; c++)
+        for (int k = 0; k < n; k++) s->light.c[c][paths->id[order[k]]] += sky->radiance[c][k];
 }
 
 /* Shades a chunk; returns how many paths go on. */
@@ -92,11 +102,14 @@ static int shade(Stream *s, const ChunkSource *source, Paths *next, int at) {
     if (s->first && source->depth == 0)
         first_hits_take(s->first, chunk, source->n, ends ? chunk->normal : chunk->frame[2], context->forward);
     if (ends) return at;
+    stage_end(chunk->clock, STAGE_TURN);
     chunk_shade(chunk, source);
     for (int g = 0; g < LIGHT_GROUPS; g++)
         if (lights_shine(context->lights, (LightGroup)g))
             s->rays += chunk_add_light(chunk, source, (LightGroup)g, &s->light);
-    return chunk_go_on(chunk, source, next, at);
+    at = chunk_go_on(chunk, source, next, at);
+    stage_end(chunk->clock, STAGE_GO_ON);
+    return at;
 }
 
 static int shade_class(Stream *s, ChunkSource source, int begin, int end, Paths *next, int at) {
@@ -118,6 +131,7 @@ static void trace(Stream *s, const Paths *paths, int n) {
     const HitRows hits = stream_hits(s);
     geometry_hits(s->context->geometry, &rays, n, &hits);
     s->rays += n;
+    stage_end(s->chunk.clock, STAGE_HITS);
 }
 
 void stream_follow(Stream *s, int n) {
@@ -128,9 +142,12 @@ void stream_follow(Stream *s, int n) {
         Paths *next = &s->paths[(depth + 1) % 2];
         if (depth > 0) trace(s, paths, n);
         sort(s, n, classes);
+        stage_end(s->chunk.clock, STAGE_SORT);
         const int *end = s->end;
         for (int k = 0; k < end[0]; k += ROW_MOST)
-            add_sky(s, paths, s->order + k, end[0] - k < ROW_MOST ? end[0] - k : ROW_MOST);
+            add_sky(s, paths, depth > 0 && s->context->sky_in_parts, s->order + k,
+                    end[0] - k < ROW_MOST ? end[0] - k : ROW_MOST);
+        stage_end(s->chunk.clock, STAGE_MISSES);
         ChunkSource source = {.context = s->context,
                               .paths = paths,
                               .t = s->t,

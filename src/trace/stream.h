@@ -24,6 +24,7 @@ typedef struct Stream {
     FirstHits *first; /* NULL where the context does not ask for them */
     PathKeys keys;
     Chunk chunk;
+    StageClock clock; /* the chunk has its address where the context says so */
     int *end, *order; /* paths by class, which is nothing hit or a material; where those of a class end */
     long long rays;
 } Stream;

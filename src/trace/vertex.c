@@ -113,7 +113,9 @@ void chunk_place(Chunk *c, const ChunkSource *from) {
     take_paths(c, from, n);
     take_corners(c, from->context->scene, n);
     place_n(c, n);
+    stage_end(c->clock, STAGE_PLACE);
     chunk_take_inputs(c, from, n);
+    stage_end(c->clock, STAGE_INPUTS);
 }
 
 static void take_tangents(Chunk *c, const WeftScene *scene, int n) {

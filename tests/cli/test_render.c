@@ -50,6 +50,31 @@ static void quietly(const char *const *arguments) {
     ran_free(&ran);
 }
 
+/* Each stage has a line; their sum is no more than the time of all threads. Without --stages there are none. */
+static void stages_are_listed_with_their_times(void **state) {
+    (void)state;
+    Ran ran =
+        done(LIST("render", "builtin:spheres", TINY, "-o", "a.png", "--stages", "--threads", "1", "--quiet"));
+    assert_non_null(strstr(ran.out, "shadow tests"));
+    assert_non_null(strstr(ran.out, "\nall "));
+    ran_free(&ran);
+    ran = done(LIST("render", "builtin:spheres", TINY, "-o", "a.png", "--stages", "--threads", "1", "--json",
+                    "--quiet"));
+    json_t *figures = parsed(ran.out), *stages = json_object_get(figures, "stages"), *stage;
+    const char *name;
+    double sum = 0.0;
+    json_object_foreach(stages, name, stage) sum += json_number_value(stage);
+    double all = 1e9 * number(json_object_get(figures, "seconds"), "render") / (32 * 24 * 4);
+    assert_true(number(stages, "bounce hits") > 0.0 && sum <= all && sum > 0.3 * all);
+    json_decref(figures);
+    ran_free(&ran);
+    ran = done(LIST("render", "builtin:spheres", TINY, "-o", "a.png", "--json", "--quiet"));
+    figures = parsed(ran.out);
+    assert_null(json_object_get(figures, "stages"));
+    json_decref(figures);
+    ran_free(&ran);
+}
+
 static void builtin_scene_is_written_in_three_formats(void **state) {
     (void)state;
     Ran ran = done(LIST("render", "builtin:spheres", TINY, "-o", "a.png", "-o", "a.exr", "-o", "a.hdr"));
@@ -449,6 +474,7 @@ static void aov_noise_and_denoise_are_refused_elsewhere(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(builtin_scene_is_written_in_three_formats),
+        cmocka_unit_test(stages_are_listed_with_their_times),
         cmocka_unit_test(picture_depends_on_the_seed_alone),
         cmocka_unit_test(light_and_picture_options_change_the_picture),
         cmocka_unit_test(crop_is_a_part_of_the_whole),

@@ -84,8 +84,8 @@ static void environment_samples_agree_with_its_pdf(void **state) {
     enum { N = 40000 };
     double sum = 0.0, total_pdf = 0.0;
     for (uint32_t k = 0; k < N; k++) {
-        LightSample s = lights_sample(lights, LIGHTS_SKY, vec3(0, 0, 0), unit_float(hash32(3 * k)),
-                                      unit_float(hash32(3 * k + 1)));
+        LightSample s = lights_sample(lights, LIGHTS_SKY, vec3(0, 0, 0), vec3(0, 1, 0),
+                                      unit_float(hash32(3 * k)), unit_float(hash32(3 * k + 1)));
         assert_true(s.pdf > 0.0f && fabsf(vec3_length(s.wi) - 1.0f) < 1e-4f);
         float pdf = lights_environment(lights, s.wi).pdf;
         if (fabsf(pdf - s.pdf) > 0.02f * s.pdf) total_pdf += 1.0; /* may differ on cell edges only */
@@ -119,14 +119,14 @@ static void emitters_subtend_their_solid_angle(void **state) {
     enum { N = 1 << 14 };
     double sum = 0.0;
     for (uint32_t k = 0; k < N; k++) {
-        LightSample s = lights_sample(lights, LIGHTS_EMITTERS, vec3(0, 0, 0), unit_float(hash32(3 * k)),
-                                      unit_float(hash32(3 * k + 1)));
+        LightSample s = lights_sample(lights, LIGHTS_EMITTERS, vec3(0, 0, 0), vec3(0, 1, 0),
+                                      unit_float(hash32(3 * k)), unit_float(hash32(3 * k + 1)));
         assert_true(s.pdf > 0.0f && s.distance >= 0.999f && s.distance < 1.3f && !s.punctual);
         sum += (double)(s.radiance.r / s.pdf) / N;
     }
     double expected = 2.0 * 4.0 * asin(0.25 / 1.25); /* 4 asin(a^2 / (a^2 + h^2)) with a = 1/2, h = 1 */
     assert_true(fabs(sum / expected - 1.0) < 0.01);
-    LightSample above = lights_sample(lights, LIGHTS_EMITTERS, vec3(0, 2, 0), 0.3f, 0.4f);
+    LightSample above = lights_sample(lights, LIGHTS_EMITTERS, vec3(0, 2, 0), vec3(0, -1, 0), 0.3f, 0.4f);
     assert_true(!(above.pdf > 0.0f) || above.radiance.r <= 0.0f); /* nothing from its back */
     lights_free(lights);
     weft_scene_free(scene);
@@ -140,16 +140,16 @@ static void punctual_lights_follow_their_extension(void **state) {
         .name = "p", .kind = LIGHT_POINT, .position = {0, 2, 0}, .color = {1, 0.5f, 0}, .intensity = 8.0f};
     scene->light_count = 1;
     Lights *lights = build(scene);
-    LightSample s = lights_sample(lights, LIGHTS_PUNCTUAL, vec3(0, 0, 0), 0.1f, 0.2f);
+    LightSample s = lights_sample(lights, LIGHTS_PUNCTUAL, vec3(0, 0, 0), vec3(0, 1, 0), 0.1f, 0.2f);
     assert_true(s.punctual && fabsf(s.pdf - 1.0f) < 1e-6f && fabsf(s.distance - 2.0f) < 1e-6f);
     assert_true(fabsf(s.radiance.r - 2.0f) < 1e-5f && fabsf(s.radiance.g - 1.0f) < 1e-5f); /* I / d^2 */
     lights_free(lights);
 
     scene->lights[0].range = 4.0f; /* window (1 - (d / range)^4) */
     lights = build(scene);
-    s = lights_sample(lights, LIGHTS_PUNCTUAL, vec3(0, 0, 0), 0.1f, 0.2f);
+    s = lights_sample(lights, LIGHTS_PUNCTUAL, vec3(0, 0, 0), vec3(0, 1, 0), 0.1f, 0.2f);
     assert_true(fabsf(s.radiance.r - 2.0f * (1.0f - 1.0f / 16.0f)) < 1e-5f);
-    s = lights_sample(lights, LIGHTS_PUNCTUAL, vec3(0, -3, 0), 0.1f, 0.2f);
+    s = lights_sample(lights, LIGHTS_PUNCTUAL, vec3(0, -3, 0), vec3(0, 1, 0), 0.1f, 0.2f);
     assert_true(s.radiance.r == 0.0f);
     lights_free(lights);
 
@@ -162,10 +162,14 @@ static void punctual_lights_follow_their_extension(void **state) {
                                .cos_inner = cosf(0.2f),
                                .cos_outer = cosf(0.6f)};
     lights = build(scene);
-    assert_true(fabsf(lights_sample(lights, LIGHTS_PUNCTUAL, vec3(0, 0, 0), 0, 0).radiance.r - 1.0f) < 1e-5f);
-    assert_true(lights_sample(lights, LIGHTS_PUNCTUAL, vec3(tanf(0.7f), 0, 0), 0, 0).radiance.r == 0.0f);
-    float between = lights_sample(lights, LIGHTS_PUNCTUAL, vec3(tanf(0.4f), 0, 0), 0, 0).radiance.r *
-                    (1.0f + tanf(0.4f) * tanf(0.4f));
+    assert_true(fabsf(lights_sample(lights, LIGHTS_PUNCTUAL, vec3(0, 0, 0), vec3(0, 1, 0), 0, 0).radiance.r -
+                      1.0f) < 1e-5f);
+    assert_true(
+        lights_sample(lights, LIGHTS_PUNCTUAL, vec3(tanf(0.7f), 0, 0), vec3(0, 1, 0), 0, 0).radiance.r ==
+        0.0f);
+    float between =
+        lights_sample(lights, LIGHTS_PUNCTUAL, vec3(tanf(0.4f), 0, 0), vec3(0, 1, 0), 0, 0).radiance.r *
+        (1.0f + tanf(0.4f) * tanf(0.4f));
     assert_true(between > 0.1f && between < 0.9f);
     lights_free(lights);
     weft_scene_free(scene);

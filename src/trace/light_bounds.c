@@ -1,0 +1,54 @@
+#include "trace/light_bounds.h"
+
+#include "base/pi.h"
+
+#define PI_F ((float)PI_DOUBLE)
+
+static Vec3 least(Vec3 a, Vec3 b) { return vec3(fminf(a.x, b.x), fminf(a.y, b.y), fminf(a.z, b.z)); }
+static Vec3 most(Vec3 a, Vec3 b) { return vec3(fmaxf(a.x, b.x), fmaxf(a.y, b.y), fmaxf(a.z, b.z)); }
+
+static float angle_of(float cosine) { return acosf(fminf(fmaxf(cosine, -1.0f), 1.0f)); }
+
+/* The narrowest cone around two, of which a is the wider: it leans from a towards b by half of what b reaches
+ * further. */
+static void join_cones(const LightBounds *a, const LightBounds *b, LightBounds *both) {
+    float wide = angle_of(a->cos_spread), narrow = angle_of(b->cos_spread);
+    float between = angle_of(vec3_dot(a->axis, b->axis));
+    both->axis = a->axis;
+    both->cos_spread = a->cos_spread;
+    if (between + narrow <= wide) return;
+    float spread = 0.5f * (wide + between + narrow), lean = spread - wide;
+    Vec3 across = vec3_normal_or(vec3_madd(b->axis, a->axis, -vec3_dot(a->axis, b->axis)), vec3(0, 0, 0));
+    both->cos_spread = -1.0f;
+    if (spread >= PI_F || !(vec3_dot(across, across) > 0.0f)) return;
+    both->cos_spread = cosf(spread);
+    both->axis = vec3_madd(vec3_scale(a->axis, cosf(lean)), across, sinf(lean));
+}
+
+LightBounds light_bounds_join(LightBounds a, LightBounds b) {
+    if (!(a.power > 0.0f)) return b;
+    if (!(b.power > 0.0f)) return a;
+    LightBounds both = {.low = least(a.low, b.low),
+                        .high = most(a.high, b.high),
+                        .power = a.power + b.power,
+                        .two_sided = a.two_sided || b.two_sided};
+    bool first = a.cos_spread <= b.cos_spread;
+    join_cones(first ? &a : &b, first ? &b : &a, &both);
+    return both;
+}
+
+/* M = 2 pi (1 - cos t) + pi / 2 (2 w sin t - cos(t - 2 w) - 2 t sin t + cos t),  w = min(t + pi / 2, pi)
+ *
+ * the solid angle of the cone of half angle t, and that of the hemispheres around it weighed by the cosine.
+ * Conty Estevez and Kulla (light_tree.h), equation 1. */
+static float directions(float t) {
+    float w = fminf(t + 0.5f * PI_F, PI_F);
+    return 2.0f * PI_F * (1.0f - cosf(t)) +
+           0.5f * PI_F * (2.0f * w * sinf(t) - cosf(t - 2.0f * w) - 2.0f * t * sinf(t) + cosf(t));
+}
+
+float light_bounds_cost(const LightBounds *bounds) {
+    Vec3 d = vec3_sub(bounds->high, bounds->low);
+    float area = 2.0f * (d.x * d.y + d.y * d.z + d.z * d.x);
+    return bounds->power * area * directions(angle_of(bounds->cos_spread));
+}

@@ -1,0 +1,23 @@
+/* light_bounds.h - the bounds of a group of emissive triangles: box, cone of normals, power */
+#ifndef WEFT_TRACE_LIGHT_BOUNDS_H
+#define WEFT_TRACE_LIGHT_BOUNDS_H
+
+#include <stdbool.h>
+
+#include "base/vec3.h"
+
+typedef struct LightBounds {
+    Vec3 low, high;   /* box */
+    Vec3 axis;        /* of the cone, unit */
+    float cos_spread; /* of the half angle of the cone */
+    float power;      /* 0: there is none */
+    bool two_sided;
+} LightBounds;
+
+/* The bounds of both. */
+LightBounds light_bounds_join(LightBounds a, LightBounds b);
+
+/* The cost of a group in a tree: power times the area of its box times the measure of where it shines. */
+float light_bounds_cost(const LightBounds *bounds);
+
+#endif
