@@ -24,7 +24,7 @@ typedef struct Fitting {
     WeftBrdfMetric metric;
     WeftData *data;
     WeftFit fit;
-    Model stated;           /* --to, where that is a material */
+    Model stated;         /* --to, where that is a material */
     WeftMaterial nearest; /* what --to came to, and its error */
     double error;
 } Fitting;
@@ -224,7 +224,8 @@ static int material_write(const Fitting *fitting) {
     if (!weft_fitted_material(&again.fitted[0], &material))
         return report(WEFT_FAILED, "%s: no fit can be expressed by the inputs of a material", fitting->path);
     if (weft_fitted_notes(&again.fitted[0]) & WEFT_FITTED_BRIGHT)
-        report(0, "warning: %s: a colour is above 1: the material may reflect more light than it receives", fitting->path);
+        report(0, "warning: %s: a colour is above 1: the material may reflect more light than it receives",
+               fitting->path);
     return fit_files_write(fitting->options, &material);
 }
 

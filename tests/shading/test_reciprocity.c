@@ -75,7 +75,8 @@ static void anisotropic_lobes_depend_on_azimuth(void **state) {
             if (how >= 0) lobe_set(&lobe, how, 0.8f);
             if (stretch >= 0) lobe_set(&lobe, stretch, 4.0f);
             if (tilt >= 0) lobe_set(&lobe, tilt, 0.7f);
-            if (crimp >= 0) lobe_set(&lobe, crimp, 0.1f); /* steep yarn draws its streak out to both directions */
+            if (crimp >= 0)
+                lobe_set(&lobe, crimp, 0.1f); /* steep yarn draws its streak out to both directions */
             /* an eighth of a turn: a quarter may lay one yarn of threads over the other */
             Dir o = direction(0.02, 0.0), i = direction(0.8, 0.3);
             float f = lobe_eval(&lobe, angles_between(o, i));
