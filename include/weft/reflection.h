@@ -50,7 +50,7 @@ typedef struct WeftBsdfDesc {
     int thetas; /* polar angles of wo, 2 .. 256; 0: 32 */
     int phis;   /* azimuths of wo, 3 .. 256, where f depends on that; 0: 17 */
     int side;   /* points along each side of the tables of one wo, 8 .. 512; 0: 96, and 32 with azimuths */
-    const char *comment; /* description in the file; NULL: empty */
+    const char *comment; /* description in the file; NULL or "": a blank */
     int threads;         /* 0: one a processor; no influence on the file */
 } WeftBsdfDesc;
 

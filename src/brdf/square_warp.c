@@ -45,14 +45,14 @@ static void integrate(SquareWarp *self, size_t slice) {
     const double dx = 1.0 / (double)(width - 1), dy = 1.0 / (double)(height - 1);
     double most = 0.0, sum = 0.0, before = 0.0, all = 0.0;
     for (size_t k = 0; k < n; k++) most = fmax(most, (double)density[k]);
-    for (size_t y = 0; y < height; y++) {
+    const bool even = !(most > 0.0);
+    for (size_t y = 0; y < height && !even; y++) {
         const float *row = density + y * width;
         double row_sum = 0.0;
         for (size_t x = 0; x < width; x++)
             row_sum += (x > 0 && x + 1 < width ? 1.0 : 0.5) * fmax((double)row[x], 0.0) / most;
         sum += (y > 0 && y + 1 < height ? 1.0 : 0.5) * row_sum;
     }
-    const bool even = !(most > 0.0);
     const double whole = even ? 1.0 : sum * dx * dy; /* of numbers over the largest */
     for (size_t y = 0; y < height; y++) {
         double row_sum = 0.0;

@@ -124,7 +124,7 @@ static void text_write(const Fitting *fitting) {
         printf(fitting->stated.reflection
                    ? "%s has an error of %.4f, %.2f times the best\n"
                    : "the nearest that %s can do has an error of %.4f, %.2f times the best\n",
-               fitting->engine, fitting->error, fitting->error / fit->fitted[0].error);
+               fitting->engine, fitting->error, fitting->error / fmax(fit->fitted[0].error, 1e-9));
     if (idle) printf("%d of %d add nothing to the base: their best colour is 0\n", idle, fit->count);
 }
 
@@ -244,7 +244,7 @@ static int nearest_make(Fitting *fitting) {
     static const char *const cloth[][2] = {
         {"base_color", "0.3"}, {"sheen_color", "0.3"}, {"sheen_roughness", "0.5"}, {"roughness", "0.8"}};
     WeftError error;
-    WeftMatch found;
+    WeftMatch found = {.matched = 0.0};
     const WeftFitDesc desc = {.metric = fitting->metric, .chosen = 1};
     if (fitting->stated.reflection) return error_of_material(fitting);
     weft_material_default(&fitting->nearest);

@@ -413,8 +413,8 @@ static WeftResult layers_check(const char *name, const WeftImage *image, const W
                     WEFT_IMAGE_LAYERS);
     for (int k = 0; k < how->layer_count; k++) {
         const WeftImage *layer = how->layers[k].image;
-        if (!layer->pixels || layer->type != WEFT_PIXEL_F32 || layer->width != image->width ||
-            layer->height != image->height)
+        if (!layer || !layer->pixels || layer->type != WEFT_PIXEL_F32 || layer->width != image->width ||
+            layer->height != image->height || layer->channels < 1 || layer->channels > 4)
             return fail(error, WEFT_MESSAGE_DESC, name, "a layer has not the form of the picture");
         for (int c = 0; c < layer->channels; c++)
             if (!how->layers[k].channels[c])

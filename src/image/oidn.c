@@ -12,7 +12,7 @@
 typedef struct OIDNDeviceImpl *OidnDevice;
 typedef struct OIDNFilterImpl *OidnFilter;
 
-enum { OIDN_DEFAULT_DEVICE = 0, OIDN_FLOAT3 = 3 };
+enum { OIDN_CPU_DEVICE = 1, OIDN_FLOAT3 = 3 };
 
 typedef struct OidnLibrary {
     void *handle;
@@ -92,7 +92,7 @@ WeftResult oidn_denoise(const OidnPicture *picture, int threads, WeftError *erro
         result = fail(error, WEFT_MESSAGE_DENOISER, "libOpenImageDenoise",
                       "version 1 or 2 of it is not installed");
     } else {
-        OidnDevice device = library.new_device(OIDN_DEFAULT_DEVICE);
+        OidnDevice device = library.new_device(OIDN_CPU_DEVICE);
         if (device) {
             library.set_device_int(device, "numThreads", threads);
             library.commit_device(device);

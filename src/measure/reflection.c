@@ -235,7 +235,7 @@ static void measured_albedo(const Measured *measured, const float wo[3], float a
         float f[3], pdf = measured_pdf(measured, o, i);
         if (!(i.z > 0.0f) || !(pdf > 0.0f)) continue;
         measured_at(measured, o, i, f);
-        for (int c = 0; c < 3; c++) sum[c] += (double)f[c] * (double)(i.z / pdf) / (4 * DRAWS);
+        for (int c = 0; c < 3; c++) sum[c] += (double)f[c] * (double)i.z / (double)pdf / (4 * DRAWS);
     }
     for (int c = 0; c < 3; c++) albedo[c] = (float)sum[c];
 }

@@ -81,7 +81,8 @@ WeftResult weft_reflection_write(const WeftReflection *reflection, const char *p
     WeftResult result = desc_check(&fine, isotropic, error);
     if (result != WEFT_OK) return result;
     if (!rgl_make(&source, &fine, &rgl)) result = fail(error, WEFT_MESSAGE_MEMORY, path, NULL);
-    if (result == WEFT_OK) result = file_write(&rgl, desc->comment ? desc->comment : " ", path, error);
+    if (result == WEFT_OK)
+        result = file_write(&rgl, desc->comment && desc->comment[0] ? desc->comment : " ", path, error);
     rgl_free(&rgl);
     return result;
 }

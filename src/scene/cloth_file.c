@@ -11,7 +11,7 @@
 #include "weave/weave_draft.h"
 #include "weave/weft_cloth.h"
 
-enum { CELLS_MAX = 1 << 20 }; /* of a draft: a small file is not to ask for much memory */
+enum { CELLS_MAX = 1 << 20 }; /* of a draft: a cloth takes 16 bytes a crossing */
 
 /* A weave being read. The first failure stays. */
 typedef struct ClothReader {
@@ -42,6 +42,10 @@ static void read_draft(ClothReader *r, const json_t *json) {
         refuse(r, "draft", "expected words such as \"twill 2/2\", or a file");
         return;
     }
+    if (r->folder && strlen(r->folder) > 511) {
+        refuse(r, "draft", "lies in a folder whose name is too long");
+        return;
+    }
     snprintf(path, sizeof path, "%.511s%s", text[0] == '/' || !r->folder ? "" : r->folder, text);
     r->in_file = r->folder && stat(path, &file) == 0;
     if (r->in_file)
@@ -54,7 +58,9 @@ static void read_draft(ClothReader *r, const json_t *json) {
 static void read_color(ClothReader *r, const json_t *json, WeftThreads threads) {
     const char *text = json_string_value(json);
     char *end = NULL;
-    const unsigned long rgb = text && text[0] == '#' && strlen(text) == 7 ? strtoul(text + 1, &end, 16) : 0;
+    const bool hex =
+        text && text[0] == '#' && strlen(text) == 7 && strspn(text + 1, "0123456789abcdefABCDEF") == 6;
+    const unsigned long rgb = hex ? strtoul(text + 1, &end, 16) : 0;
     if (!end || *end) {
         refuse(r, "color", "expected a colour such as \"#c02030\"");
         return;

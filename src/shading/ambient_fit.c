@@ -228,6 +228,12 @@ static void fit_column(void *user, int column, int thread) {
         for (int row = 0; row < fitter->fit->rows; row++) fit_node(fitter, &cloud, row, column, side);
 }
 
+/* Returns the parameter that says where the fibres of a lobe lean, by which a stack turns what is fitted; -1 if
+ * there is none. Yarns have an azimuth too, which belongs to what is fitted. */
+static int lean_azimuth(int lobe) {
+    return weft_lobe_param_find(lobe, "tilt") > 0 ? weft_lobe_param_find(lobe, "azimuth") : -1;
+}
+
 /* Returns true if the lobe depends on azimuth: upright fibres and unbrushed lobes do not. */
 static bool turns(const Lobe *lobe) {
     int tilt = weft_lobe_param_find(lobe->id, "tilt"), brushed = weft_lobe_param_find(lobe->id, "anisotropy");
@@ -237,7 +243,7 @@ static bool turns(const Lobe *lobe) {
 
 void ambient_fit_shape(AmbientFit *fit, const Lobe *lobe, float low, float high) {
     const WeftLobeInfo *info = weft_lobe_info(lobe->id);
-    int azimuth = weft_lobe_param_find(lobe->id, "azimuth");
+    int azimuth = lean_azimuth(lobe->id);
     fit->lobe = *lobe;
     if (azimuth > 0) lobe_set(&fit->lobe, azimuth, 0.0f);
     fit->turning = turns(lobe);
@@ -286,7 +292,7 @@ static bool same(float a, float b) { return !(a < b) && !(a > b); }
 static bool alike_from(const Lobe *a, const Lobe *b, int first) {
     if (a->id != b->id) return false;
     for (int k = first; k < weft_lobe_info(a->id)->param_count; k++)
-        if (k != weft_lobe_param_find(a->id, "azimuth") && !same(a->params[k], b->params[k])) return false;
+        if (k != lean_azimuth(a->id) && !same(a->params[k], b->params[k])) return false;
     return true;
 }
 

@@ -13,11 +13,12 @@ const char *weft_denoiser_name(int denoiser) {
     return denoiser >= 0 && denoiser < WEFT_DENOISER_COUNT ? denoisers[denoiser] : NULL;
 }
 
+/* A half that has no sample of a pixel yet takes the other's. */
 static void take_pixel(const Film *film, int x, int y, DenoisePlanes *planes) {
     size_t at = (size_t)y * planes->stride + (size_t)x;
     float rgba[4], hits[FIRST_NUMBERS];
     for (int h = 0; h < 2; h++) {
-        film_pixel(film, h, x, y, rgba);
+        if (!film_pixel(film, h, x, y, rgba)) film_pixel(film, 1 - h, x, y, rgba);
         for (int c = 0; c < 4; c++) planes->color[h][c][at] = rgba[c];
     }
     film_hits(film, x, y, hits);
@@ -65,8 +66,8 @@ static WeftResult by_oidn(const Film *film, int threads, WeftImage *out, WeftErr
     size_t pixels = (size_t)film->width * (size_t)film->height;
     float *values = alloc_array(pixels, 9 * sizeof(float)), *pixel = out->pixels, rgba[4],
           hits[FIRST_NUMBERS];
-    const OidnPicture picture = {film->width, film->height, values, values + 3 * pixels, values + 6 * pixels};
     if (!values) return fail(error, WEFT_MESSAGE_MEMORY, "denoising", NULL);
+    const OidnPicture picture = {film->width, film->height, values, values + 3 * pixels, values + 6 * pixels};
     for (size_t k = 0; k < pixels; k++) {
         int x = (int)(k % (size_t)film->width), y = (int)(k / (size_t)film->width);
         film_pixel(film, FILM_BOTH, x, y, rgba);

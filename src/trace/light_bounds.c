@@ -2,8 +2,6 @@
 
 #include "base/pi.h"
 
-#define PI_F ((float)PI_DOUBLE)
-
 static Vec3 least(Vec3 a, Vec3 b) { return vec3(fminf(a.x, b.x), fminf(a.y, b.y), fminf(a.z, b.z)); }
 static Vec3 most(Vec3 a, Vec3 b) { return vec3(fmaxf(a.x, b.x), fmaxf(a.y, b.y), fmaxf(a.z, b.z)); }
 
@@ -20,7 +18,7 @@ static void join_cones(const LightBounds *a, const LightBounds *b, LightBounds *
     float spread = 0.5f * (wide + between + narrow), lean = spread - wide;
     Vec3 across = vec3_normal_or(vec3_madd(b->axis, a->axis, -vec3_dot(a->axis, b->axis)), vec3(0, 0, 0));
     both->cos_spread = -1.0f;
-    if (spread >= PI_F || !(vec3_dot(across, across) > 0.0f)) return;
+    if (spread >= PI_FLOAT || !(vec3_dot(across, across) > 0.0f)) return;
     both->cos_spread = cosf(spread);
     both->axis = vec3_madd(vec3_scale(a->axis, cosf(lean)), across, sinf(lean));
 }
@@ -42,9 +40,9 @@ LightBounds light_bounds_join(LightBounds a, LightBounds b) {
  * the solid angle of the cone of half angle t, and that of the hemispheres around it weighed by the cosine.
  * Conty Estevez and Kulla (light_tree.h), equation 1. */
 static float directions(float t) {
-    float w = fminf(t + 0.5f * PI_F, PI_F);
-    return 2.0f * PI_F * (1.0f - cosf(t)) +
-           0.5f * PI_F * (2.0f * w * sinf(t) - cosf(t - 2.0f * w) - 2.0f * t * sinf(t) + cosf(t));
+    float w = fminf(t + 0.5f * PI_FLOAT, PI_FLOAT);
+    return 2.0f * PI_FLOAT * (1.0f - cosf(t)) +
+           0.5f * PI_FLOAT * (2.0f * w * sinf(t) - cosf(t - 2.0f * w) - 2.0f * t * sinf(t) + cosf(t));
 }
 
 float light_bounds_cost(const LightBounds *bounds) {

@@ -113,8 +113,9 @@ static WeftResult make_materials(WeftRender *render, WeftError *error) {
         stack_make(&known->stack, &surface, &known->choices, known->sheen_e);
         known->kind = known->cloth ? NULL : stack_kind(&known->stack, &known->choices);
         known->shines = material_emits(material);
-        known->bent =
-            !known->kind || known->material.inputs[INPUT_normal].texture || known->plain.anisotropy > 0.0f;
+        known->bent = !known->kind || known->material.inputs[INPUT_normal].texture ||
+                      known->material.inputs[INPUT_clearcoat_normal].texture ||
+                      known->plain.anisotropy > 0.0f;
     }
     for (int k = 0; k < scene->mesh_count; k++) {
         PathMaterial *known = &render->materials[scene->meshes[k].material];
@@ -455,7 +456,7 @@ static void choose_pass(Pass *pass, bool first, int rest) {
     int most = first ? 1 : STREAM_SAMPLES, ahead = render->given[0] - render->given[1];
     if (render->film.halves > 1) {
         pass->half = ahead > 0 ? 1 : 0;
-        rest = ahead > 0 && rest > ahead ? ahead : ahead > 0 ? rest : (rest + 1) / 2;
+        rest = ahead > 0 && rest > ahead ? ahead : ahead > 0 ? rest : rest - rest / 2;
     }
     pass->samples = rest < most ? rest : most;
 }

@@ -101,8 +101,8 @@ static int shade(Stream *s, const ChunkSource *source, Paths *next, int at) {
     if (!ends) chunk_turn(chunk, source);
     if (s->first && source->depth == 0)
         first_hits_take(s->first, chunk, source->n, ends ? chunk->normal : chunk->frame[2], context->forward);
-    if (ends) return at;
     stage_end(chunk->clock, STAGE_TURN);
+    if (ends) return at;
     chunk_shade(chunk, source);
     for (int g = 0; g < LIGHT_GROUPS; g++)
         if (lights_shine(context->lights, (LightGroup)g))

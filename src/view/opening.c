@@ -136,13 +136,14 @@ void viewer_open(Viewer *v, const char *path) {
     }
 }
 
-/* Keeps the edits when the scene is read again; maps are those of the file. */
+/* Keeps the edits when the scene is read again; maps and weaves are those of the file. */
 static void keep_edits(const Viewer *v, SceneState *state) {
     for (int k = 0; k < state->material_count; k++) {
         if (scene_state_same_material(&v->edit->state, &v->edit->first, k)) continue;
         WeftMaterial m = *scene_state_material(&v->edit->state, k);
         for (int i = 0; i < WEFT_INPUTS_MAX; i++)
             if (m.inputs[i].texture) m.inputs[i].texture = scene_state_material(state, k)->inputs[i].texture;
+        m.cloth = scene_state_material(state, k)->cloth;
         scene_state_set_material(state, k, &m);
         scene_state_set_preset(state, k, scene_state_preset(&v->edit->state, k));
     }

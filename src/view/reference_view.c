@@ -109,6 +109,7 @@ static WeftResult compare(ReferenceView *self, const ReferenceRequest *request, 
 static const WeftImage *denoised(ReferenceView *self) {
     WeftImage image;
     if (self->samples < 2.0 || self->samples < 2.0 * self->denoised_samples) return &self->denoised;
+    if (should_stop(self, 0.0)) return &self->denoised;
     if (weft_render_denoised(self->render, WEFT_DENOISER_REGRESSION, &image, NULL) == WEFT_OK) {
         weft_image_free(&self->denoised);
         self->denoised = image;
@@ -263,6 +264,8 @@ ReferenceView *reference_start(Window *window) {
     pthread_mutex_init(&self->lock, NULL);
     clock_condition(&self->change);
     if (pthread_create(&self->thread, NULL, work, self) == 0) return self;
+    pthread_cond_destroy(&self->change);
+    pthread_mutex_destroy(&self->lock);
     free(self);
     return NULL;
 }

@@ -162,8 +162,8 @@ static void id_of_several_catalogues_prints_all_pages(void **state) {
     ran_free(&ran);
     assert_complaint(NULL, LIST("models", "chalrie-neubelt"), 2, "did you mean charlie-neubelt?");
     assert_complaint(NULL, LIST("models", "d:neubelt"), 2, "is not a D term");
-    assert_complaint(NULL, LIST("models", "paint:ggx"), 2, "no kind");
-    assert_complaint(NULL, LIST("models", ":ggx"), 2, "no kind");
+    assert_complaint(NULL, LIST("models", "paint:ggx"), 2, "is not a kind");
+    assert_complaint(NULL, LIST("models", ":ggx"), 2, "is not a kind");
 }
 
 /* What preset:NAME prints is a material file that dresses a scene just so. */

@@ -68,6 +68,8 @@ static void broken_weaves_are_refused_in_one_line(void **state) {
         "{\"draft\": \"plain\", \"seed\": 1e9}",
         "{\"draft\": \"plain\", \"warp\": \"nettle\"}",
         "{\"draft\": \"plain\", \"warp\": 3}",
+        "{\"draft\": \"plain\", \"warp\": {\"color\": \"#-00001\"}}",
+        "{\"draft\": \"plain\", \"warp\": {\"color\": \"#0x1234\"}}",
         "{\"draft\": \"plain\", \"warp\": []}",
         "{\"draft\": \"plain\", \"warp\": {\"yarn\": 3}}",
         "{\"draft\": \"plain\", \"weft\": {\"alpha\": \"1\"}}",

@@ -158,6 +158,44 @@ static void normal_map_is_mirrored_on_the_back(void **state) {
     assert_true(fabs(lit[0][0] - lit[1][1]) < 1e-3 && fabs(lit[0][1] - lit[1][0]) < 1e-3);
 }
 
+/* A coat whose normal map leans along the tangent is brighter in light from there, whichever way the tangent runs. */
+static void normal_map_of_a_coat_leans_along_the_tangent(void **state) {
+    (void)state;
+    for (int along = 0; along < 2; along++) {
+        double lit[2]; /* from -x, from +x */
+        for (int from = 0; from < 2; from++) {
+            WeftScene *scene = test_scene();
+            test_environment(scene, 0.0f);
+            scene->images = arena_array(&scene->arena, 1, sizeof(WeftImage));
+            scene->textures = arena_array(&scene->arena, 1, sizeof(Texture));
+            assert_int_equal(weft_image_create(1, 1, 3, WEFT_PIXEL_F32, &scene->images[0], NULL), WEFT_OK);
+            memcpy(scene->images[0].pixels, (float[3]){0.8f, 0.5f, 0.9f}, 3 * sizeof(float));
+            scene->image_count = scene->texture_count = 1;
+            Material *coated = test_material(scene, 0.0f);
+            test_color(coated, INPUT_sheen_color, 0.01f);
+            coated->inputs[INPUT_clearcoat].value[0] = 1.0f;
+            coated->inputs[INPUT_clearcoat_roughness].value[0] = 0.6f;
+            coated->inputs[INPUT_clearcoat_normal].texture = 1;
+            Mesh *mesh = test_quad(scene, vec3(-2, -2, 0), vec3(4, 0, 0), vec3(0, 4, 0)); /* faces +z */
+            mesh->tangent = arena_array(&scene->arena, 4, 4 * sizeof(float));
+            for (int k = 0; k < 4; k++)
+                mesh->tangent[4 * k] = along ? 1.0f : -1.0f, mesh->tangent[4 * k + 3] = 1.0f;
+            scene->lights[scene->light_count++] =
+                (Light){.kind = LIGHT_DIRECTIONAL,
+                        .direction = {from ? -0.7071f : 0.7071f, 0, -0.7071f},
+                        .color = {1, 1, 1},
+                        .intensity = 1.0f};
+            scene_bounds(scene);
+            WeftRenderDesc desc = {.width = 4, .height = 4, .max_depth = 1, .camera = "0,0,3;0,0,0;20"};
+            WeftImage image = test_render(scene, desc, 4);
+            lit[from] = (double)((float *)image.pixels)[0];
+            weft_image_free(&image);
+            weft_scene_free(scene);
+        }
+        assert_true(lit[along] > 1.5 * lit[1 - along]);
+    }
+}
+
 /* Texels below zero, which EXR files may hold, do not darken the other lights. */
 static void negative_texels_of_an_environment_count_as_zero(void **state) {
     (void)state;
@@ -278,6 +316,7 @@ int main(void) {
         cmocka_unit_test(sampling_strategies_agree),
         cmocka_unit_test(transparent_emitter_shines_less),
         cmocka_unit_test(normal_map_is_mirrored_on_the_back),
+        cmocka_unit_test(normal_map_of_a_coat_leans_along_the_tangent),
         cmocka_unit_test(negative_texels_of_an_environment_count_as_zero),
         cmocka_unit_test(render_with_any_number_of_threads_is_the_same),
         cmocka_unit_test(crop_is_a_part_of_the_picture),
