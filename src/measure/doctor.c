@@ -36,7 +36,7 @@ const char *weft_severity_name(WeftSeverity severity) {
     return (unsigned)severity < sizeof names / sizeof *names ? names[severity] : NULL;
 }
 
-/* Returns the name of the list in the file that has the things of a kind. */
+/* Returns the root-level glTF array that holds the subjects of such findings; "" for the asset. */
 static const char *list_name(WeftFindingOf of) {
     static const char *const names[] = {"", "materials", "meshes", "images"};
     return names[of];

@@ -11,10 +11,10 @@
 typedef struct Repair {
     enum {
         REPAIR_NONE = 0,
-        REPAIR_NUMBER,  /* the value becomes `number` */
+        REPAIR_NUMBER,  /* the value becomes numbers[0] */
         REPAIR_NUMBERS, /* the value becomes an array of `count` numbers */
         REPAIR_REMOVE,  /* the member is removed */
-        REPAIR_DECLARE, /* extensionsUsed gets the name that `extension` is */
+        REPAIR_DECLARE, /* `extension` is added to extensionsUsed */
         REPAIR_ALPHA    /* a channel of texture number `texture` moves to alpha, in a picture of its own */
     } act;
     double numbers[4];
@@ -83,7 +83,7 @@ json_t *doctor_item(const WeftDoctor *doctor, const char *name, int index);
  * they are not there. */
 bool doctor_numbers(json_t *object, const char *path, double *out, int count);
 
-/* The index of the texture that a textureInfo names; -1: none that there is. */
+/* Returns the index of the texture that a textureInfo names; -1 if it names no existing texture. */
 int doctor_texture(const WeftDoctor *doctor, json_t *texture_info);
 
 /* The decoded image behind a textureInfo, and what it holds; NULL where there is none that could be read. */
@@ -119,20 +119,20 @@ bool cloth_shows(const Cloth *cloth); /* the sheen is not black */
 
 /* The checks, in doctor_NAME.c: each looks at the whole asset, at one material or at one mesh. */
 void check_extensions(WeftDoctor *doctor);
-void check_spaces(WeftDoctor *doctor);
-void check_glass(WeftDoctor *doctor);
+void check_spaces(WeftDoctor *doctor); /* finds images read in two colour spaces, or marked as linear */
+void check_glass(WeftDoctor *doctor);  /* finds a sheen and glass in one asset */
 void check_ranges(WeftDoctor *doctor, const Cloth *cloth);
-void check_factors(WeftDoctor *doctor, const Cloth *cloth);
+void check_factors(WeftDoctor *doctor, const Cloth *cloth); /* finds textures multiplied by 0 */
 void check_transforms(WeftDoctor *doctor, const Cloth *cloth);
-void check_black(WeftDoctor *doctor, const Cloth *cloth);
-void check_channel(WeftDoctor *doctor, const Cloth *cloth);
+void check_black(WeftDoctor *doctor, const Cloth *cloth);   /* finds sheens that are black */
+void check_channel(WeftDoctor *doctor, const Cloth *cloth); /* finds roughness whose alpha is 1 everywhere */
 void check_energy(WeftDoctor *doctor, const Cloth *cloth);
 
-/* E of the whole material in the strongest channel, as check_energy has it: for one of doctor_readers and one
- * of the cosines that it looks at; below 0 where it was not measured. */
+/* Returns E of the whole material, strongest channel, as check_energy measures it. reader: index into
+ * doctor_readers. cosine: one that check_energy samples. Negative if not measured. */
 float doctor_albedo(WeftDoctor *doctor, const Cloth *cloth, int reader, float cosine);
-void check_neighbours(WeftDoctor *doctor, const Cloth *cloth);
-void check_plausible(WeftDoctor *doctor, const Cloth *cloth);
+void check_neighbours(WeftDoctor *doctor, const Cloth *cloth); /* finds inputs that conflict with a sheen */
+void check_plausible(WeftDoctor *doctor, const Cloth *cloth);  /* finds numbers that no real material has */
 void check_mesh(WeftDoctor *doctor, int mesh);
 
 /* Applies a repair to the JSON of a rewrite. */

@@ -224,7 +224,7 @@ static Answer answer_of(EnergyTables *tables, const Case *self, int reader, cons
 }
 
 /* Returns the gain beyond 1 that the sheen causes, and where. Gain that an engine's base has without a sheen
- * does not count. 1e-2 is the error of weft_reflection_albedo. */
+ * does not count. `slack` allows for the error of the sampled base. */
 static float gain(const Answer *answer, int *where) {
     const float slack = 0.02f;
     float most = 0.0f;
@@ -242,9 +242,9 @@ static bool gains(const Answer *answer) {
     return gain(answer, &where) > 0.0f;
 }
 
-/* The least roughness, in hundredths, from which no engine gains; that of the sheen where none does now, and
- * 0 where even 1 does. An engine gains less the rougher a sheen is, so that each is halved only above where
- * those before it end. */
+/* Returns the least roughness, a multiple of 0.01, from which no engine gains energy: the sheen's own,
+ * rounded down, if none gains now; 0 if one gains even at roughness 1. Gain falls with roughness, so the
+ * bisection for each engine starts at the result for the engines before it. */
 static float least_roughness(EnergyTables *tables, const Cloth *cloth, const Case cases[READERS],
                              const Answer answers[READERS]) {
     const int start = (int)(cloth->roughness * 100.0f);

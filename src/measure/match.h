@@ -1,4 +1,4 @@
-/* match.h - weft_match_material inside a loop that is watched */
+/* match.h - weft_match_material that reports progress and can be stopped, for use in watch_loop */
 #ifndef WEFT_MEASURE_MATCH_H
 #define WEFT_MEASURE_MATCH_H
 

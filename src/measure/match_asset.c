@@ -156,7 +156,7 @@ static WeftResult factor_write(Rewrite *rewrite, json_t *material, const Factor 
     }
     json_t *before = json_object_get(home, factor->name), *now = json_array();
     for (int c = 0; c < factor->numbers; c++) {
-        const json_t *alpha = json_array_get(before, 3); /* three numbers have none, and it is 1 */
+        const json_t *alpha = json_array_get(before, 3); /* NULL if the factor has three numbers, then 1 */
         double kept = alpha ? json_number_value(alpha) : 1.0;
         json_array_append_new(now, json_real(c < 3 ? round((double)value[c] * 1e6) / 1e6 : kept));
     }

@@ -28,12 +28,13 @@ bool albedo_asks_color(const Lobe *lobe);
 /* Computes E of such a lobe for the three channels w of a colour. */
 void albedo_in_color(const Lobe *lobe, Dir wo, const float w[3], double tolerance, float e[3]);
 
-/* A table has E of a white lobe (f0 = f90 = 1) over cos_o = (1 - (1 - y)^2)^4, at ALBEDO_MU nodes uniform in y, and
- * over one parameter, at ALBEDO_ROWS nodes uniform in its eighth root, or in one row if the parameter is fixed. With
- * this spacing E curves about equally everywhere, though it changes fastest near grazing at low alpha, and for some
- * diffuse lobes as sin(theta_o) near the normal.
+/* A table has E of a white lobe (f0 = f90 = 1) over cos_o = (1 - (1 - y)^2)^4, at ALBEDO_MU nodes uniform in
+ * y, and over one parameter, at ALBEDO_ROWS nodes uniform in its eighth root, or in one row if the parameter
+ * is fixed. E changes fastest near grazing at low alpha; near the normal some diffuse lobes change as
+ * sin(theta_o). With this spacing its curvature is about equal everywhere.
  *
- * A tinted lobe has three more maps, from which E(w) of any colour w follows by the same law as its f:
+ * A tinted lobe has three more maps (s, q, e). They give E for a colour w by the same formula that tints f
+ * (tint.h):
  *
  *   E(w) = E(1) c(w),  c: tint_color with s, q_o = q_i = q and e of these maps
  *
@@ -56,8 +57,9 @@ typedef struct AlbedoTable {
     float root_low, root_high; /* eighth roots of the first and last row, inside the lobe's hard range */
     int maps;                  /* number of all maps, of `rows` rows each */
     int tilts;                 /* number of tilts with maps for headings: 0, 1 or TABLE_TILTS */
-    /* Maps of E, s, q and e, then of E by heading. The last column has the cosine-weighted average, 2 integral of
-     * E mu dmu, with s, q and e for it; for E by heading the average is over azimuths too. */
+    /* Maps of E, s, q and e, then of E by heading. The last column has the average over wo, 2 integral of
+     * E mu dmu; s, q and e there belong to that average. Maps by heading hold one average over wo and
+     * azimuth, the same in all five of a tilt. */
     float e[ALBEDO_MAPS_MOST * ALBEDO_ROWS][ALBEDO_MU + 1];
 } AlbedoTable;
 
@@ -71,10 +73,11 @@ void albedo_table_fill_tilts(AlbedoTable *table, const Lobe *lobe, float low, fl
 /* Returns true if the table is the lobe's for parameter 0 over low .. high and, if scaled, for all tilts. */
 bool albedo_table_serves(const AlbedoTable *table, const Lobe *lobe, float low, float high, bool scaled);
 
-/* Returns the table as table.h reads it, clamped to its ends; it must outlive the reference. Between nodes it is
- * within 2e-3 of the quadrature for alpha >= 0.005 and cos_o >= 1e-3, except for the lobes that
- * tests/shading/test_energy names, whose E has creases. With fibres that lean, a white base under rule
- * albedo-view is within 0.08 of 1, and 0.03 for one tilt and alpha >= 0.5 (tests/shading/test_leaning). */
+/* Returns the table as table.h reads it, clamped to its ends; it must outlive the reference. Between nodes it
+ * is within 2e-3 of the quadrature for alpha >= 0.005 and cos_o >= 1e-3, except for the lobes that
+ * tests/shading/test_energy names, whose E has creases. For leaning fibres, the total albedo of a white base
+ * under rule albedo-view errs by at most 0.08; by 0.03 with one tilt and alpha >= 0.5
+ * (tests/shading/test_leaning). */
 TableRef albedo_table_ref(const AlbedoTable *table);
 
 #endif

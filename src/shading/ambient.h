@@ -3,16 +3,18 @@
  * Each lobe of the stack reflects light as ambient_lobe.h describes. The environment's lights that a lobe has not
  * included are then added as directional lights, evaluated with the whole stack.
  *
- * Departure: look-ups have no single wi. A layer rule that depends on E(wi) dims them with the cosine average of E, and
- * a Fresnel factor that depends on wi with its own cosine average. Directional lights are dimmed exactly. */
+ * Departure: look-ups have no single wi. So a layer rule that needs E(wi) uses the cosine average of E
+ * instead, and a Fresnel factor that needs wi uses its own cosine average. Directional lights are dimmed
+ * exactly. */
 #ifndef WEFT_SHADING_AMBIENT_H
 #define WEFT_SHADING_AMBIENT_H
 
 #include "shading/ambient_lobe.h"
 #include "shading/compose.h"
 
-/* Returns what one channel of a slot reflects. Where F is not linear in its weight s (f_quadratic), and where the
- * colour is the albedo of flakes (tint.h), the share of the second colour and the tint are those of the whole lobe. */
+/* Returns what one channel of a slot reflects. The term f_quadratic takes the second colour's share from the
+ * light of the whole lobe, not per direction. Likewise a tinted lobe (tint.h) has one tint for all its
+ * light. */
 FN float ambient_apply_channel(SheenE e, float f0, float f90, float f_quadratic, float first, float second) {
     if (IS_TINTED(e.tint)) return first * f90 * tint_color(e.tint, f0 / max(f90, 1e-30f));
     return f0 * first + f90 * second - f_quadratic * first * second / max(first + second, 1e-30f);
@@ -23,8 +25,8 @@ FN Rgb ambient_apply_colors(SlotColors s, SheenE e, LobeLight p) {
                ambient_apply_channel(e, s.f0.b, s.f90.b, s.f_quadratic.b, p.first.b, p.second.b));
 }
 
-/* Returns the cosine average over wi of schlick_s at the least of wi . h, cos_o and cos_i, which is the smaller of the
- * two cosines: (1 - z)^5 for a cos_i of z below cos_o, (1 - cos_o)^5 above. */
+/* Returns the cosine average over wi of schlick_s(min(cos_o, cos_i)); wi . h is never less than this minimum.
+ * So the integrand is (1 - cos_i)^5 for cos_i < cos_o, otherwise (1 - cos_o)^5. */
 FN float ambient_schlick_least(float cos_o) {
     float q = 1.0f - cos_o, q2 = q * q, q5 = q2 * q2 * q;
     return q5 * (1.0f - cos_o * cos_o) + 2.0f * ((1.0f - q5 * q) / 6.0f - (1.0f - q5 * q2) / 7.0f);
@@ -78,7 +80,8 @@ STRUCT(AmbientSlot) {
     float lights_scale; /* factor on the lights still to be added, 0 for none */
 };
 
-/* Applies the colours of a slot to its light. scale: that of the slot in the view. factor: that of the source. */
+/* Applies the colours of a slot to its light. scale: view.scale of the slot. factor: ambient_diffuse or
+ * ambient_reflection of the source. */
 FN AmbientSlot ambient_slot(SlotColors colors, SheenE e, float scale, SlotLight light, float factor) {
     AmbientSlot a;
     a.reflected = rgb_scale(rgb_scale(ambient_apply_colors(colors, e, light.reflected), scale), factor);
@@ -86,8 +89,8 @@ FN AmbientSlot ambient_slot(SlotColors colors, SheenE e, float scale, SlotLight 
     return a;
 }
 
-/* Returns the light that the slots `only` reflect of the environment lights. view: the view of the stack, whose scales
- * are those for these lights. */
+/* Returns the environment's directional lights as the slots in `only` reflect them. view: the stack's view,
+ * with each slot's scale replaced by its lights_scale. */
 FN Rgb ambient_reflect_lights(const Stack *m, const StackView *view, Slots only, AmbientSource s,
                               float occlusion) {
     Rgb sum = rgb_grey(0.0f);

@@ -13,23 +13,26 @@ typedef struct AmbientFit {
     float low, high; /* the range asked for */
     float root_low, root_high;
     float finest; /* the greatest log2 kappa */
-    float
-        denser; /* log2 of the lobe's pdf over that of a lobe of equal width about one axis, averaged over its light */
+    float denser; /* mean, weighted by reflected light, of log2(density of this lobe / density of a
+                   * single-axis lobe of the same width) */
     bool turning; /* there are planes for AMBIENT_SIDES headings */
     float texels[AMBIENT_SIDES * AMBIENT_PLANES * AMBIENT_ROWS][AMBIENT_COLUMNS];
 } AmbientFit;
 
-/* Fills the table of a lobe whose parameter 0 varies from low to high; if these are equal, the table has one row. The
- * other parameters are as given. The weights w_k are those for which sum_k w_k G_k is closest to f cos_i under
- * environments of typical spatial correlation (ambient_fit.c). Lobes with TRAIT_REFERENCE have no table. Uses `threads`
- * threads, 0 for all; their number does not change the result. */
+/* Fills the table of a lobe whose parameter 0 varies from low to high; if these are equal, the table has one
+ * row. The other parameters are as given. The weights w_k are those for which sum_k w_k G_k is closest to
+ * f cos_i under environments of typical spatial correlation (ambient_fit.c); G_k is the filter of look-up
+ * k (the table in ambient_lobe.h). Lobes with TRAIT_REFERENCE have no table. Uses `threads` threads, 0 for
+ * all; their number does not change the result. */
 void ambient_fit(AmbientFit *fit, const Lobe *lobe, float low, float high, int threads);
 
-/* Completes a fit whose texels were cached: sets all other members. */
+/* These serve a fit whose texels come from a cache. ambient_fit_shape sets lobe, ranges, roots, rows and
+ * turning; then ambient_fit_finish derives finest and denser from the texels. */
 void ambient_fit_shape(AmbientFit *fit, const Lobe *lobe, float low, float high);
 void ambient_fit_finish(AmbientFit *fit);
 
-/* Returns true if one fit for a single value of parameter 0 serves both lobes. */
+/* Returns true if the lobes have the same id and the same parameters apart from azimuth, so that one one-row
+ * fit serves both. */
 bool ambient_alike(const Lobe *a, const Lobe *b);
 
 /* Returns true if this is the fit of that lobe for parameter 0 over low .. high. */

@@ -38,28 +38,32 @@
 #define AMBIENT_SAMPLED    3
 #define AMBIENT_STRATEGIES 4
 
-/* The fitted strategy blends from the four look-ups to one look-up of the residual around log2 kappa = AMBIENT_CLOSE.
- * It blends from there to the whole environment around AMBIENT_FINER below log2 of the lights' own kappa, where the
- * lobe becomes narrow enough to show that a light is not extended. Both blends reach AMBIENT_BLEND to either side. */
+/* The fitted strategy blends from the four look-ups to one look-up of the residual around log2 kappa =
+ * AMBIENT_CLOSE. A second blend, to look-ups of the whole environment, is centred at ambient_light_kappa -
+ * AMBIENT_FINER: a narrower lobe would show that a directional light has no extent. Both blends reach
+ * AMBIENT_BLEND to either side. */
 #define AMBIENT_CLOSE 4.0f
 #define AMBIENT_FINER 2.0f
 #define AMBIENT_BLEND 1.0f
 
-/* Returns 0 below the edge by AMBIENT_BLEND, 1 above it by as much, and a smooth step between. */
+/* Returns a smooth step: 0 for log2_kappa <= edge - AMBIENT_BLEND, 1 for log2_kappa >= edge +
+ * AMBIENT_BLEND. */
 FN float ambient_kappa_blend(float log2_kappa, float edge) {
     float x = clamp(0.5f + 0.5f * (log2_kappa - edge) / AMBIENT_BLEND, 0.0f, 1.0f);
     return x * x * (3.0f - 2.0f * x);
 }
 
-/* Returns a look-up of the visible residual about w. m is the mean direction of the filter above the horizon: the
- * visibility is taken there, and the look-up is bent towards the visible sky. w and m have x towards wo. */
+/* Returns a look-up of the visible residual about w. The visibility is that in direction m, the mean of the
+ * part of the filter above the horizon. The look-up's axis w is bent towards the visible sky. Both are in the
+ * frame whose x axis points towards wo (ambient_to_lobe). */
 FN Rgb ambient_visible_residual(AmbientSource s, AmbientView v, Dir w, float kappa, Dir m) {
     float open = ambient_sky_visibility(s, ambient_to_source(v, ambient_to_lobe(v, m)), w.z, v.occlusion);
     Dir bent = ambient_bent_direction(s, ambient_to_source(v, ambient_to_lobe(v, w)), kappa, open);
     return rgb_scale(ambient_residual(s, bent, kappa), open);
 }
 
-/* The look-ups of the residual for the weights w_0 to w_3. All lobes of one frame share them. */
+/* The look-ups of the residual for the weights w_0 to w_3. Lobes with the same shading frame share them; the
+ * coat has its own. */
 STRUCT(AmbientLookups) { Rgb a, b, c, d; };
 
 FN AmbientLookups ambient_residual_lookups(AmbientSource s, AmbientView v) {
@@ -93,10 +97,10 @@ FN LobeLight ambient_broad_light(AmbientLookups l, AmbientAlbedo e) {
     return p;
 }
 
-/* Returns the radiance about w, filtered like a lobe of concentration kappa. tail is 0 for a Gaussian lobe, 1 for ggx.
- * Half of the lobe's energy lies within 1 - mu = ln 2 / kappa. Beyond 1 - mu = t lies 1 / (1 + kappa t / ln 2) of ggx,
- * which two Gaussian filters approximate: 0.6 exp(-2.24 kappa t) + 0.4 exp(-0.245 kappa t), own fit, largest error
- * 0.036. */
+/* Returns the radiance about w, filtered like a lobe of concentration kappa. tail is 0 for a Gaussian lobe, 1
+ * for ggx. Half of the lobe's energy lies within 1 - mu = ln 2 / kappa. The share of a ggx lobe's energy with
+ * 1 - mu > t is 1 / (1 + kappa t / ln 2). Two Gaussian filters approximate it: 0.6 exp(-2.24 kappa t) + 0.4
+ * exp(-0.245 kappa t), own fit, largest error 0.036. */
 FN Rgb ambient_radiance_with_tail(AmbientSource s, Dir w, float kappa, float tail) {
     return rgb_mix(ambient_radiance(s, w, kappa * mix(1.0f, 2.24f, tail)),
                    ambient_radiance(s, w, kappa * mix(1.0f, 0.245f, tail)), 0.4f);

@@ -1,11 +1,11 @@
 /* ambient_samples.h - importance sampling of environment light for one lobe
  *
- * For a lobe whose shape one axis and one width describe badly: a ring around the normal, or an elongated highlight,
- * whose samples are placed in strips (terms/d_ggx.h). Two estimates are combined:
+ * Used for lobes that one axis and one width describe badly: a ring around the normal, or an elongated
+ * highlight. Samples of the latter are placed in strips (terms/d_ggx.h). Two estimates are combined:
  *
- *   samples of the lobe   the mean of f cos_i / pdf L(i, kappa), with kappa from the density of samples: Jaroslav
- *                         Krivanek, Mark Colbert, "Real-time Shading with Filtered Importance Sampling", Computer
- *                         Graphics Forum 27(4), 2008
+ *   samples of the lobe   the mean of (f cos_i / pdf) L(i, kappa), where kappa follows from the density of
+ *                         samples: Jaroslav Krivanek, Mark Colbert, "Real-time Shading with Filtered
+ *                         Importance Sampling", Computer Graphics Forum 27(4), 2008
  *   points of the lights  f cos_i of each of the points into which the environment lights are divided
  *
  * Both see the lights. Each light is weighted by the squares of the two densities, the power heuristic of Eric Veach,
@@ -26,8 +26,9 @@
 
 FN float ambient_power_heuristic(float a, float b) { return a * a / max(a * a + b * b, 1e-30f); }
 
-/* Returns the weight of the lights in a sample of the lobe about w, times the visibility of the nearest light.
- * density: of samples, 1/sr. open: the visible part of the sky about w. */
+/* Returns the factor on the lights' part of a sample of the lobe towards w: its power-heuristic weight times
+ * the visibility of the nearest light; without lights, `open`. density: of samples, 1/sr. open: the visible
+ * part of the sky about w. */
 FN float ambient_sample_weight(AmbientSource s, Dir w, float density, float open) {
     int nearest = ambient_nearest_light(s, w);
     if (nearest < 0) return open;
@@ -55,10 +56,11 @@ FN AmbientSample ambient_sample(Lobe lobe, Dir o, bool strips, float u, float v)
     return x;
 }
 
-/* Returns the residual and the lights as samples of the lobe find them. A sample stands for the solid angle
- * 1 / (n pdf). The paper filters over twice that angle, so that neighbours overlap; a filter exp(kappa (mu - 1))
- * covers 2 pi / kappa, hence kappa = pi n pdf. The sum is scaled to `albedo`, which has less noise. The sum over
- * strips is not: it is within 0.015 of E, and the table of an anisotropic lobe within 0.05. */
+/* Returns the estimate from samples of the lobe: the residual, plus the lights weighted by the power
+ * heuristic. A sample stands for the solid angle 1 / (n pdf). The paper filters over twice that angle, so
+ * that neighbours overlap; a filter exp(kappa (mu - 1)) covers 2 pi / kappa, hence kappa = pi n pdf. The sum
+ * is scaled to `albedo`, which has less noise. A sum over strips is not scaled, since it is within 0.015 of
+ * E, closer than the table of an anisotropic lobe (0.05). */
 FN LobeLight ambient_sample_lobe(AmbientSource s, AmbientView v, Lobe lobe, bool strips, float albedo) {
     LobeLight sum = lobe_light_of(rgb_grey(0.0f), 0.0f, 0.0f);
     int count = strips ? AMBIENT_STRIP_SAMPLES : AMBIENT_SAMPLES;
@@ -84,7 +86,8 @@ FN LobeLight ambient_sample_lobe(AmbientSource s, AmbientView v, Lobe lobe, bool
     return lobe_light_scale(sum, strips ? 1.0f : albedo / max(e, 1e-20f));
 }
 
-/* Returns the rest of the lights. Each of their points is evaluated as a directional light. */
+/* Returns the estimate from points of the lights, with the complementary weight. Each point is evaluated as a
+ * directional light. */
 FN LobeLight ambient_sample_lights(AmbientSource s, AmbientView v, Lobe lobe, bool strips) {
     LobeLight sum = lobe_light_of(rgb_grey(0.0f), 0.0f, 0.0f);
     int count = ambient_point_count(s);

@@ -11,11 +11,12 @@
  *                                  show the shape of a light
  *   ambient_point_count(s)         number of these points
  *   ambient_sky_visibility(s, w, cos_i, occlusion)
- *                                  visible part of the sky about w, if `occlusion` is that of the cosine-weighted sky;
- *                                  cos_i is the cosine of the look-up's axis to the normal
+ *                                  visible part of the sky about w; `occlusion` is the visible part of the
+ *                                  cosine-weighted sky, cos_i the cosine of the look-up's axis to the normal
  *   ambient_bent_direction(s, w, kappa, open)
- *                                  mean direction of the visible sky in a filter of that kappa about w, of which the
- *                                  part `open` is visible; a cosine about the normal has kappa 4
+ *                                  mean direction of the visible sky under a filter of that kappa about w; in
+ *                                  C it is w. `open` is the visible part of that filter. A cosine filter
+ *                                  about the normal counts as kappa 4.
  *   ambient_light_kappa(s)         log2 of the kappa of a filter as wide as the region that a light replaces
  *   ambient_residual(s, w, kappa)  L without its lights, which is smooth, filtered as radiance is
  *   ambient_baked(s, k)            coefficients k of the baked tables (ambient_table.h)
@@ -34,7 +35,7 @@
 STRUCT(AmbientLight) {
     Dir w;
     Rgb color;     /* irradiance on a surface that faces it */
-    float density; /* 1/sr: 1 over the solid angle of one point of the light, or of this point */
+    float density; /* 1/sr: 1 / the solid angle of one point; for a light, of any of its points */
     int light;     /* number of the light, or of the light that a point is part of */
 };
 

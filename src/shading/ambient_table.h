@@ -19,10 +19,11 @@
 
 /* A table consists of planes of `rows` rows each. Four planes make a group:
  *
- *   FIRST    of the first colour w_1, w_2, w_3 over E, and E. These ratios stay smooth where E goes to 0.
- *   SHAPE    the sine of the angle between the normal and the lobe's mean direction, positive towards wo; log2 of the
- *            lobe's kappa; its tail, 0 for a Gaussian and 1 for ggx; log2 of the kappa of a lobe of equal density
- *   SECOND   of the second colour w_0, w_1, w_2, w_3
+ *   FIRST    first colour: w_1 / E, w_2 / E, w_3 / E, E. These ratios stay smooth where E goes to 0.
+ *   SHAPE    the sine of the angle between the normal and the lobe's mean direction, positive towards wo;
+ *            log2 of the lobe's kappa; its tail, 0 for a Gaussian and 1 for ggx; log2 of the kappa of a
+ *            single-axis lobe with the same density as this lobe (for AmbientFit.denser)
+ *   SECOND   second colour: w_0, w_1, w_2, w_3
  *
  * The plane after the groups is E of the second colour. */
 #define AMBIENT_GROUP_FIRST  0
@@ -129,8 +130,8 @@ FN AmbientWeights ambient_polynomial(AmbientSource s, int first, float t) {
     return w;
 }
 
-/* Returns what polynomials give, within the range of tables. Near 0 a polynomial oscillates, but w_k and E are
- * never negative. Where E is almost 0, log2 kappa is arbitrary and stays within -2 to 22. */
+/* Clamps values of the polynomials to the range that tables have. Near 0 a polynomial oscillates, but w_k and
+ * E are never negative. Where E is almost 0, log2 kappa is arbitrary and stays within -2 to 22. */
 FN AmbientWeights ambient_clamp_weights(AmbientWeights w, int group) {
     if (group == AMBIENT_GROUP_SHAPE) return ambient_weights(w.a, clamp(w.b, -2.0f, 22.0f), w.c, w.d);
     return ambient_weights(max(w.a, 0.0f), max(w.b, 0.0f), max(w.c, 0.0f), max(w.d, 0.0f));
@@ -156,7 +157,7 @@ FN AmbientWeights ambient_group(AmbientTable t, AmbientSource s, AmbientCoord at
 /* E of a lobe's two colours, and its division among the four look-ups. */
 STRUCT(AmbientAlbedo) {
     float first, second;
-    AmbientWeights first_weights, second_weights; /* relative to each other: sums are not E */
+    AmbientWeights first_weights, second_weights; /* only ratios count; `first` and `second` have the scale */
 };
 
 /* albedo: E of both colours together if the caller knows it better than this table, otherwise negative. */

@@ -46,20 +46,21 @@ FN Lobe compose_terms(Lobe lobe, int d, int v, int f, const Surface *s) {
     return m;
 }
 
-/* Returns true if an isotropic D is chosen for the highlight. The inputs are then read as without anisotropy: the
- * highlight has the width of the roughness alone, which for workflow disney is sqrt(alpha_x alpha_y). */
+/* Returns true if an isotropic D is chosen for the highlight. Anisotropy is then set to 0, so roughness alone
+ * sets alpha; for workflow disney this equals sqrt(alpha_x alpha_y). */
 FN bool compose_evens(Choices c) { return c.d >= 0 && c.d != D_GGX_ANISO; }
 FN void compose_surface(Surface *s, Choices c) {
     if (compose_evens(c)) s->anisotropy = 0.0f;
 }
 
-/* Returns true if terms are chosen for the sheen, or the lobe cook-torrance, which is made of terms. */
+/* Returns true if the choices name a D, V or F for the sheen, or cook-torrance (a lobe made of such terms) as
+ * its lobe. */
 FN bool compose_sheen_is_free(Choices c) {
     return lobe_is_composed(c.sheen_lobe) || c.sheen_d >= 0 || c.sheen_v >= 0 || c.sheen_f >= 0;
 }
 
-/* Returns a sheen of chosen terms. A term that is not chosen is that of the workflow's or profile's sheen if that is a
- * cook-torrance and no other lobe was chosen, otherwise that of charlie-neubelt. */
+/* Returns a sheen of chosen terms. Terms that are not chosen stay as in `lobe` if this is a cook-torrance and
+ * the choices name no lobe; otherwise they are those of charlie-neubelt. */
 FN Lobe compose_sheen(Lobe lobe, const Surface *s, Choices c) {
     Lobe m = lobe;
     if (c.sheen_lobe >= 0 || !lobe_is_composed(lobe.id)) {
@@ -181,8 +182,8 @@ FN void view_coat(const Stack *m, StackView *w) {
     w->scale.coat = m->coat_rule == COAT_SCHLICK ? f : cosine > 1e-4f ? 1.0f : 0.0f;
 }
 
-/* Layers below dust are dimmed by 1 - E, E of white dust; dark dust absorbs the light that it does not
- * return. So a white base under white dust returns the light it receives. */
+/* Layers below are multiplied by 1 - E, where E is the albedo this amount of dust would have if white; dark
+ * dust absorbs the rest of its E. So a white base under white dust returns the light it receives. */
 FN void view_dust(const Stack *m, StackView *w) {
     if (m->dust_amount <= DUST_LEAST) return;
     float e_1 = dust_albedo(&m->dust.lobe, w->o.z);

@@ -6,8 +6,9 @@
 
 #include "shading/table.h"
 
-/* T(name, index). charlie_neubelt: E of that lobe over its whole range of alpha. Planes one after another: ltc_fibre
- * z, q, b, E and ltc_ggx (ltc_table.h), low and high roots of alpha; fibre A, h, g, k, low and high log2 alpha. */
+/* T(name, index). charlie_neubelt: E of that lobe over its whole range of alpha. The others are TABLE_PLANES.
+ * ltc_fibre and ltc_ggx: planes z, q, b, amplitude (E) of ltc_table_level; low and high are square roots of
+ * alpha. fibre: A, h, g, k of lobes/fibre_table.h; low and high are log2 of alpha. */
 #define LOBE_TABLES(T)                                                                                       \
     T(charlie_neubelt, 0)                                                                                    \
     T(ltc_fibre, 1)                                                                                          \
@@ -20,7 +21,7 @@
 extern TableRef lobe_table_refs[LOBE_TABLE_COUNT];
 void lobe_tables_make(void);
 
-/* Makes the tables that a lobe reads, and those that only have to be unpacked. */
+/* Unpacks all baked tables; computes charlie_neubelt only if lobe `id` reads it. */
 void lobe_tables_make_for(int id);
 
 #define LOBE_TABLE_GET(name, index)                                                                          \

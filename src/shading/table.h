@@ -132,7 +132,8 @@ FN float table_linear(TableRef m, float cos_o, float p) {
 #define SHEEN_TILTS(m) (m).tilts
 #endif
 
-/* E of a white sheen, and how colour changes it (tint.h): tint_none if E of a colour is the colour times E. */
+/* E of a white sheen, and the tint that colour gives it (tint.h). With tint_none, a sheen of colour c has E
+ * times c. */
 STRUCT(SheenE) {
     float e;
     Tint tint;
@@ -161,7 +162,7 @@ FN float sheen_e_in(SheenE x, float color) {
     return IS_TINTED(x.tint) ? x.e * tint_color(x.tint, color) / max(color, 1e-6f) : x.e;
 }
 
-/* Tests whether the table is one of weft's own, which alone have averages and positions (table_rows). */
+/* Tests whether the table is weft's own. Only those store averages and are read with table_rows. */
 #define SHEEN_IS_OWN(m) (SHEEN_KIND(m) == TABLE_ROOTS || SHEEN_KIND(m) == TABLE_TINTED)
 
 FN SheenE table_sheen_at(TableRef m, TablePlace at) {

@@ -20,8 +20,8 @@ typedef struct Renderer Renderer;
 /* The arrangement of two states in one picture. */
 typedef enum Split { SPLIT_NONE, SPLIT_LINE, SPLIT_SIDES } Split;
 
-/* The quality of a picture: coarse has fewer pixels, if all would take long while the mouse moves; whole has all
- * pixels; smooth has antialiased edges too. */
+/* The quality of a picture. coarse: while the mouse moves, fewer pixels if a full picture would be slow;
+ * whole: all pixels; smooth: antialiased edges too. */
 typedef enum Effort { EFFORT_COARSE, EFFORT_WHOLE, EFFORT_SMOOTH } Effort;
 
 /* A request for a picture. It holds only values that change the picture. */
@@ -54,10 +54,10 @@ typedef enum TaskKind {
     TASK_PICK,      /* describes the point without its light */
     TASK_PROFILES,  /* draws a sheet with material `index` under every profile */
     TASK_ASSIGN,    /* `path` is a material file, or "preset:NAME", or a picture for `input` of `index` */
-    TASK_BIND_MAPS, /* the maps of folder `path` on material `index`, -1: the cloth */
+    TASK_BIND_MAPS, /* puts the maps in folder `path` on material `index`; -1: on the cloth of the scene */
     TASK_LIGHT,     /* `path` is a picture, or the folder of a cubemap, that becomes the environment */
     TASK_SCENE,     /* an event only: another scene was taken, or failed */
-    TASK_SURVEY     /* an event only: a variant has changed which meshes use the materials */
+    TASK_SURVEY     /* an event only: coverage by each material, measured again after the variant changed */
 } TaskKind;
 
 typedef struct Task {
