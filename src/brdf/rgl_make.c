@@ -124,7 +124,8 @@ static void normals_fill(const Rgl *rgl, int slice, float *density) {
     const Dir o = slice_direction(rgl, slice);
     const int side = rgl->side;
     for (int k = 0; k < side * side; k++) {
-        SquarePoint u = {(double)(k % side) / (side - 1), (double)(k / side) / (side - 1)};
+        const int column = k % side, row = k / side;
+        SquarePoint u = {(double)column / (side - 1), (double)row / (side - 1)};
         double theta, phi;
         rgl_angles_of(u, &theta, &phi);
         double cosine =
@@ -150,8 +151,9 @@ static void colors_fill(void *user, int slice, int thread) {
     (void)thread;
     for (size_t k = 0; k < n; k++) {
         double theta, phi;
-        SquarePoint u = square_warp_point(&rgl->normals, &own, (double)(k % (size_t)side) / (side - 1),
-                                          (double)(k / (size_t)side) / (side - 1));
+        const size_t column = k % (size_t)side, row = k / (size_t)side;
+        SquarePoint u =
+            square_warp_point(&rgl->normals, &own, (double)column / (side - 1), (double)row / (side - 1));
         rgl_angles_of(u, &theta, &phi);
         if (rgl_isotropic(rgl)) phi += azimuth;
         Dir i = dir_mirror(o, direction(theta, phi));

@@ -1,4 +1,5 @@
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -20,7 +21,7 @@ static void add(Fields *fields, const char *name, TensorType type, const void *d
                 const int *extent) {
     Tensor *tensor = &fields->tensors[fields->count];
     *tensor = (Tensor){.type = type, .rank = rank, .count = 1};
-    strcpy(tensor->name, name);
+    snprintf(tensor->name, sizeof tensor->name, "%s", name);
     for (int k = 0; k < rank; k++) {
         tensor->extent[k] = (size_t)extent[k];
         tensor->count *= (size_t)extent[k];

@@ -218,7 +218,8 @@ static LobeSums sums_at(const DataLobe *lobe, double cos_o, double alpha) {
     const double area = 2.0 * PI_DOUBLE / (RINGS * TURNS), sin_o = sqrt(1.0 - cos_o * cos_o),
                  a2 = alpha * alpha;
     for (int k = 0; k < RINGS * TURNS; k++) {
-        const double z = (k / TURNS + 0.5) / RINGS, phi = 2.0 * PI_DOUBLE * (k % TURNS + 0.5) / TURNS,
+        const int ring = k / TURNS;
+        const double z = (ring + 0.5) / RINGS, phi = 2.0 * PI_DOUBLE * (k % TURNS + 0.5) / TURNS,
                      r = sqrt(1.0 - z * z);
         const double hx = r * cos(phi) + sin_o, hy = r * sin(phi), hz = z + cos_o,
                      length2 = hx * hx + hy * hy + hz * hz, cos2 = hz * hz / length2;

@@ -92,8 +92,8 @@ static void look_over(Weave *m) {
     m->high = -HUGE_VALF;
     for (int pass = 0; pass < 2; pass++)
         for (int k = 0; k < side * side; k++) {
-            const float x = ((float)(k % side) + 0.5f) / (float)side,
-                        y = ((float)(k / side) + 0.5f) / (float)side;
+            const int column = k % side, row = k / side;
+            const float x = ((float)column + 0.5f) / (float)side, y = ((float)row + 0.5f) / (float)side;
             const WeavePoint p = weave_point(m, x * across, y * along);
             if (p.height <= WEAVE_NONE) continue;
             if (pass == 0) {

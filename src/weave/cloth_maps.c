@@ -98,8 +98,9 @@ static void bake_row(void *user, int row, int thread) {
     for (int column = 0; column < b->width; column++) {
         MapTexel t = {.cover = 0.0f};
         for (int k = 0; k < FINE * FINE; k++) {
-            const float x = ((float)column + ((float)(k % FINE) + 0.5f) / FINE) / (float)b->width;
-            const float y = 1.0f - ((float)row + ((float)(k / FINE) + 0.5f) / FINE) / (float)b->height;
+            const int right = k % FINE, down = k / FINE;
+            const float x = ((float)column + ((float)right + 0.5f) / FINE) / (float)b->width;
+            const float y = 1.0f - ((float)row + ((float)down + 0.5f) / FINE) / (float)b->height;
             add_point(&b->weave, x * b->weave.cycle_x, y * b->weave.cycle_y, &t);
         }
         put_texel(b, &t, column, row);
