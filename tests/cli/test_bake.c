@@ -433,7 +433,7 @@ static void bake_options_without_sense_are_refused(void **state) {
         {{"bake", "audit", "x.png"}, 2, "needs --lobe"},
         {{"bake", "audit", "x.png", "--lobe", "gx"}, 2, "did you mean ggx?"},
         {{"bake", "audit", "x.png", "--lobe", "ggx", "--size", "4x4"}, 2, "does not go with bake audit"},
-        {{"bake", "audit", "x.png", "--lobe", "ggx", "-o", "e.h"}, 2, "are a .png, .exr or .npy"},
+        {{"bake", "audit", "x.png", "--lobe", "ggx", "-o", "e.h"}, 2, "as .png, .exr or .npy"},
         {{"bake", "audit", "none.png", "--lobe", "ggx"}, 3, "none.png: cannot be opened"},
         {{"bake", "audit", "not.png", "--lobe", "ggx"}, 3, "not.png: is damaged"},
         {{"bake", "audit", "hello.npy", "--lobe", "ggx"}, 3, "hello.npy: is damaged"},
