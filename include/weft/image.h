@@ -55,7 +55,7 @@ WEFT_API WeftResult weft_image_write(const char *path, const WeftImage *image, W
 /* More channels of an .exr beside the picture's: F32 of its size, written as 32 bit floats, not multiplied by
  * alpha. */
 typedef struct WeftImageLayer {
-    const WeftImage *image;
+    const WeftImage *image;  /* the numbers, of the picture's size */
     const char *channels[4]; /* full names, such as "albedo.R", one for each channel of image */
 } WeftImageLayer;
 
@@ -71,8 +71,8 @@ typedef struct WeftImageWriting {
     const char *denoised; /* how the picture was denoised, likewise in a .png ("Denoised") or .exr
                              ("denoised"), where readers warn of it; may be NULL */
     const WeftImageLayer
-        *layers; /* of an .exr, at most WEFT_IMAGE_LAYERS; the other formats leave them out */
-    int layer_count;
+        *layers;     /* of an .exr, at most WEFT_IMAGE_LAYERS; the other formats leave them out */
+    int layer_count; /* of layers */
 } WeftImageWriting;
 
 /* weft_image_write, but so. */

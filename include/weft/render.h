@@ -110,9 +110,9 @@ WEFT_API WeftRenderInfo weft_render_info(const WeftRender *render);
 
 /* A stage of following paths, and what it took. */
 typedef struct WeftRenderStage {
-    const char *name;
-    double seconds; /* of all threads since the last restart; 0 where `stages` was not asked for */
-    int embree;     /* not 0: spent in Embree, with the copying of rays */
+    const char *name; /* such as "camera rays" */
+    double seconds;   /* of all threads since the last restart; 0 where `stages` was not asked for */
+    int embree;       /* not 0: spent in Embree, with the copying of rays */
 } WeftRenderStage;
 
 /* Fills out with a stage by its number from 0 on; returns 0 if there is none. */

@@ -133,6 +133,7 @@ typedef struct WeftClothInfo {
     float size[2];  /* of the repeat, metres */
 } WeftClothInfo;
 
+/* Returns the facts of a cloth. */
 WEFT_API WeftClothInfo weft_cloth_info(const WeftCloth *cloth);
 
 /* Writes a cloth as textures that tile into a folder, which is made if it is not there: base_color.png (sRGB,

@@ -175,7 +175,7 @@ static void draw_save(Viewer *v) {
     if (pressed || entered) {
         PathKind kind = path_kind(v->rooms->dialogs.save_path);
         if (kind == PATH_SCENE || kind == PATH_MATERIAL) {
-            viewer_save(v, v->rooms->dialogs.save_path);
+            if (v->shown->any) viewer_task(v, TASK_SAVE, v->rooms->dialogs.save_path, v->edit->material, -1);
             ui_dialog_close();
         } else {
             viewer_say(v, true, "%.300s: is neither .glb, .gltf nor .json", v->rooms->dialogs.save_path);
