@@ -304,7 +304,7 @@ static void spectra_become_colors(void **state) {
     assert_true(sum > 0.0 && many[46] > many[81 + 46] && many[46] > many[162 + 46]);
 }
 
-/* What is known only as pointers in chi_square.h. */
+/* The record that chi_square.h knows by pointer only. */
 typedef struct Sampled {
     Bsdf bsdf;
     const Rgl *rgl;

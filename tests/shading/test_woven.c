@@ -102,7 +102,7 @@ static void the_far_lobe_is_the_mean_of_the_near_one(void **state) {
     }
 }
 
-/* Of the slopes of its own family the mean of P / V is 1, whatever the direction, where slopes are uniform. */
+/* The mean of P / V over uniform slopes of its own family is 1 for every direction. */
 static void yarns_hide_what_would_be_seen_twice(void **state) {
     (void)state;
     static const Shape shape = {0.3f, 40, 0, 1, 0.0};

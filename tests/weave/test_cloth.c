@@ -21,7 +21,7 @@ static WeftYarn yarn_of(const char *name) {
     return yarn;
 }
 
-/* The same yarn without anything that varies. */
+/* Returns the yarn of a name without anything that varies. */
 static WeftYarn even_yarn(const char *name) {
     WeftYarn yarn = yarn_of(name);
     yarn.streaks = yarn.dye = yarn.slub = yarn.wander = 0.0f;
@@ -62,7 +62,7 @@ static void the_draft_says_what_lies_on_top(void **state) {
     }
 }
 
-/* Of a warp satin hardly any weft is seen, less than its draft has; of a plain weave half is. */
+/* A warp satin shows hardly any weft, less than its draft has; a plain weave shows half. */
 static void shares_are_of_what_is_seen(void **state) {
     (void)state;
     WeftCloth *satin = woven("satin 8/3", even_yarn("silk"), 0),
