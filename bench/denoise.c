@@ -13,17 +13,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
+#include "base/steady_clock.h"
 #include "weft/weft.h"
 
 enum { SEEDS = 4, REFERENCE = 1024 };
-
-static double now(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static _Noreturn void give_up(const WeftError *error) {
     fprintf(stderr, "bench_denoise: %s\n", error->text);
@@ -55,10 +49,10 @@ static Shot shoot(const WeftScene *scene, int spp, unsigned seed, int halves) {
         weft_render_run(render, spp, 0.0, NULL, NULL) != WEFT_OK ||
         weft_render_image(render, &shot.image, &error) != WEFT_OK)
         give_up(&error);
-    double start = now();
+    double start = clock_now();
     if (halves && weft_render_denoised(render, WEFT_DENOISER_REGRESSION, &shot.denoised, &error) != WEFT_OK)
         give_up(&error);
-    shot.seconds = now() - start;
+    shot.seconds = clock_now() - start;
     if (halves && (weft_render_aov(render, WEFT_AOV_VARIANCE, &shot.variance, &error) != WEFT_OK ||
                    weft_render_aov(render, WEFT_AOV_DEPTH, &shot.depth, &error) != WEFT_OK))
         give_up(&error);

@@ -10,8 +10,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
+#include "base/steady_clock.h"
 #include "weft/arrays.h"
 
 enum { N = 4096, ROWS = 6 + 2 + 6 + WEFT_LOBE_PARAMS_MAX, COLUMNS = 6 };
@@ -80,12 +80,6 @@ static void inputs_make(const WeftLobeInfo *info) {
         if (!info->params[p].choices) lobes.params[p] = in[14 + p];
 }
 
-static double now(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 int main(int argc, char **argv) {
     int rounds = argc > 1 && strcmp(argv[1], "--quick") == 0 ? 10 : 60;
     printf("each: million elements a second of one core\n%-28s %9s %9s %9s %9s %9s %9s\n%-28s %9s %9s %9s "
@@ -99,9 +93,9 @@ int main(int argc, char **argv) {
         double best[COLUMNS];
         for (int r = 0; r < rounds; r++)
             for (int c = 0; c < COLUMNS; c++) {
-                double start = now(), seconds;
+                double start = clock_now(), seconds;
                 columns[c]();
-                seconds = now() - start;
+                seconds = clock_now() - start;
                 if (r == 0 || seconds < best[c]) best[c] = seconds;
             }
         printf("%-28s", info->id);

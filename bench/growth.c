@@ -10,15 +10,9 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
-#include <time.h>
 
+#include "base/steady_clock.h"
 #include "weft/weft.h"
-
-static double now(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static void put(unsigned char **at, const void *bytes, size_t size) {
     memcpy(*at, bytes, size);
@@ -83,10 +77,10 @@ int main(int argc, char **argv) {
     WeftError error;
     WeftScene *scene = NULL;
     WeftRender *render = NULL;
-    double start = now();
+    double start = clock_now();
     WeftResult result =
         glb ? weft_scene_load_memory(glb, size, "ball", &scene, NULL, &error) : WEFT_RESOURCES;
-    double loaded = now();
+    double loaded = clock_now();
     free(glb);
     if (result == WEFT_OK)
         result = weft_render_create(

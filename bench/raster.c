@@ -12,10 +12,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include <epoxy/gl.h>
 
+#include "base/steady_clock.h"
 #include "weft/weft.h"
 
 enum { LOBES_MOST = 64 };
@@ -30,12 +30,6 @@ typedef struct Entry {
     WeftRaster *raster;
     double best; /* s a frame */
 } Entry;
-
-static double now(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static void check(WeftResult result, const WeftError *error) {
     if (result == WEFT_OK) return;
@@ -68,10 +62,10 @@ static WeftRasterView view_of(Size size) {
 
 static double frame(WeftRaster *raster, const WeftRasterView *view) {
     WeftError error;
-    double start = now();
+    double start = clock_now();
     check(weft_raster_draw(raster, view, &error), &error);
     weft_raster_finish(raster);
-    return now() - start;
+    return clock_now() - start;
 }
 
 static void measure(Entry *entries, int count, Size size, int rounds, int frames) {
@@ -108,9 +102,9 @@ static void measure_processor(WeftRaster *raster) {
     epoxy_glClear = no_clear;
     epoxy_glBlitFramebuffer = no_blit;
     epoxy_glBufferSubData = no_data;
-    double start = now();
+    double start = clock_now();
     for (int k = 0; k < FRAMES; k++) check(weft_raster_draw(raster, &view, &error), &error);
-    printf("\nprocessor's own part of a frame: %.3f ms\n", 1e3 * (now() - start) / FRAMES);
+    printf("\nprocessor's own part of a frame: %.3f ms\n", 1e3 * (clock_now() - start) / FRAMES);
 }
 
 /* A material whose highlight is elongated or a ring. */
