@@ -92,7 +92,7 @@ ${rows}    {0, 0, 0},
 weft_embedded(catalogue ${places})
 
 # generated/half/shading holds the lobes that are shading text and what they include, with every literal a half float
-# (1.0f16), for src/measure/half.c; half_lang.h stands in the place of lang.h. Made again when one of them changes.
+# (1.0f16), for src/measure/half_text.c; half_lang.h stands in the place of lang.h. Made again when one of them changes.
 include(CheckCSourceCompiles)
 set(CMAKE_REQUIRED_FLAGS "-fexcess-precision=16")
 check_c_source_compiles("int main(void) { _Float16 x = 1.0f16; return (int)(x * x) - 1; }" WEFT_HAS_HALF)

@@ -28,7 +28,7 @@ typedef struct WeftPicked {
     float bitangent[3];           /* the same along +v */
     float texcoord[2][2];         /* of both UV sets */
     float distance;               /* m */
-    float texel;                  /* UV of set 0 that a metre on the surface spans, on average */
+    float uv_per_metre;           /* UV of set 0 that a metre on the surface spans, on average */
 } WeftPicked;
 
 /* Through the point (x, y), pixels from the top left, of a picture of that size; camera as in WeftRenderDesc.

@@ -9,8 +9,8 @@
 
 #include "gltf/gltf_material.h"
 #include "gltf/saving.h"
+#include "scene/material_at.h"
 #include "scene/material_numbers.h"
-#include "scene/shade.h"
 #include "shading/choice.h"
 #include "shading/workflow.h"
 

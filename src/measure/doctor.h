@@ -117,23 +117,27 @@ typedef struct Cloth {
 Cloth doctor_cloth(WeftDoctor *doctor, int material);
 bool cloth_shows(const Cloth *cloth); /* the sheen is not black */
 
-/* The checks, in doctor_NAME.c: each looks at the whole asset, at one material or at one mesh. */
-void check_extensions(WeftDoctor *doctor);
+/* The checks, in doctor_NAME.c: each looks at the whole asset, at one material or at one mesh, and adds its
+ * findings to the doctor. */
+void check_extensions(
+    WeftDoctor *doctor);               /* finds extensions that weft lacks, or that are used but not listed */
 void check_spaces(WeftDoctor *doctor); /* finds images read in two colour spaces, or marked as linear */
-void check_glass(WeftDoctor *doctor);  /* finds a sheen and glass in one asset */
-void check_ranges(WeftDoctor *doctor, const Cloth *cloth);
+void check_glass(WeftDoctor *doctor);  /* finds a sheen and a transmission in one asset */
+void check_ranges(WeftDoctor *doctor, const Cloth *cloth);  /* finds factors outside their range */
 void check_factors(WeftDoctor *doctor, const Cloth *cloth); /* finds textures multiplied by 0 */
-void check_transforms(WeftDoctor *doctor, const Cloth *cloth);
+void check_transforms(WeftDoctor *doctor,
+                      const Cloth *cloth); /* finds textures whose transform has a scale of 0 */
 void check_black(WeftDoctor *doctor, const Cloth *cloth);   /* finds sheens that are black */
 void check_channel(WeftDoctor *doctor, const Cloth *cloth); /* finds roughness whose alpha is 1 everywhere */
-void check_energy(WeftDoctor *doctor, const Cloth *cloth);
+void check_energy(WeftDoctor *doctor,
+                  const Cloth *cloth); /* finds engines that return too much light, or differ */
 
 /* Returns E of the whole material, strongest channel, as check_energy measures it. reader: index into
  * doctor_readers. cosine: one that check_energy samples. Negative if not measured. */
 float doctor_albedo(WeftDoctor *doctor, const Cloth *cloth, int reader, float cosine);
 void check_neighbours(WeftDoctor *doctor, const Cloth *cloth); /* finds inputs that conflict with a sheen */
 void check_plausible(WeftDoctor *doctor, const Cloth *cloth);  /* finds numbers that no real material has */
-void check_mesh(WeftDoctor *doctor, int mesh);
+void check_mesh(WeftDoctor *doctor, int mesh); /* finds normals and tangents that are missing or wrong */
 
 /* Applies a repair to the JSON of a rewrite. */
 struct Rewrite;

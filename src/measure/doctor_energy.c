@@ -15,8 +15,8 @@
 #include "measure/doctor.h"
 #include "measure/halton.h"
 #include "measure/material_key.h"
+#include "scene/material_at.h"
 #include "scene/material_numbers.h"
-#include "scene/shade.h"
 #include "shading/albedo.h"
 #include "shading/choice.h"
 #include "shading/frame.h"
@@ -77,7 +77,8 @@ struct EnergyTables {
     AlbedoTable keep;
 };
 
-static Dir seen_from(Dir along, int k) {
+/* Returns the direction to the viewer at the k-th cosine, in the plane of the normal and x of the shading frame. */
+static Dir viewer_at(Dir along, int k) {
     const float z = cosines[k], s = sqrtf(1.0f - z * z);
     return dir(s * along.x, -s * along.y, z);
 }
@@ -90,8 +91,9 @@ static Surface surface_of(const Case *self, const float color[3], float roughnes
     return surface;
 }
 
-static void see(const Case *self, const float color[3], float roughness, TableRef table, Dir o,
-                SeenStack *seen) {
+/* Prepares the case with a sheen, seen from o. */
+static void case_view(const Case *self, const float color[3], float roughness, TableRef table, Dir o,
+                      SeenStack *seen) {
     const Surface surface = surface_of(self, color, roughness);
     seen_make(seen, &surface, &self->choices, table, o);
 }
@@ -141,7 +143,7 @@ static bool case_make(const WeftDoctor *doctor, const Cloth *cloth, int reader, 
                    .choices = material_choices(&material),
                    .along = surface.anisotropy > 0.0f ? surface.anisotropy_direction : dir(1.0f, 0.0f, 0.0f)};
     for (int k = 0; k < COSINES; k++) {
-        const Dir o = seen_from(self->along, k);
+        const Dir o = viewer_at(self->along, k);
         SeenStack bare;
         seen_make(&bare, &self->bare, &self->choices, (TableRef){.kind = TABLE_NONE}, o);
         for (int slot = 0; slot < 3; slot++) base_add(&bare, slot, &self->base[k]);
@@ -155,9 +157,9 @@ static TableRef keep_table(EnergyTables *tables, const Case *self) {
     const Dir n = dir(0.0f, 0.0f, 1.0f);
     SeenStack most, end;
     const Stack *stack = &most.stack;
-    see(self, white, 1.0f, (TableRef){.kind = TABLE_NONE}, n, &most);
+    case_view(self, white, 1.0f, (TableRef){.kind = TABLE_NONE}, n, &most);
     if (!albedo_is_own(stack->albedo)) return (TableRef){.kind = TABLE_NONE};
-    see(self, white, 0.0f, (TableRef){.kind = TABLE_NONE}, n, &end);
+    case_view(self, white, 0.0f, (TableRef){.kind = TABLE_NONE}, n, &end);
     const float low = fminf(end.stack.albedo_coord, stack->albedo_coord),
                 high = fmaxf(end.stack.albedo_coord, stack->albedo_coord);
     if (!tables->keep.rows || !albedo_table_serves(&tables->keep, &stack->sheen.lobe, low, high, false))
@@ -173,9 +175,9 @@ static float white_albedo(EnergyTables *tables, const Case *self, int reader, fl
     float *memory[2] = {&tables->white[reader][low][k], &tables->white[reader][low + 1][k]};
     for (int end = 0; end < 2; end++) {
         if (*memory[end] > 0.0f) continue;
-        const Dir o = seen_from(self->along, k);
+        const Dir o = viewer_at(self->along, k);
         SeenStack seen;
-        see(self, white, (float)(low + end) / 100.0f, (TableRef){.kind = TABLE_NONE}, o, &seen);
+        case_view(self, white, (float)(low + end) / 100.0f, (TableRef){.kind = TABLE_NONE}, o, &seen);
         *memory[end] = albedo_quadrature(&seen.stack.sheen.lobe, o, 1e-4).f0;
     }
     return mix(*memory[0], *memory[1], at - (float)low);
@@ -185,7 +187,7 @@ static float white_albedo(EnergyTables *tables, const Case *self, int reader, fl
 static float sheen_albedo(EnergyTables *tables, const Case *self, int reader, float roughness, int k) {
     static const float white[3] = {1.0f, 1.0f, 1.0f};
     SeenStack seen;
-    see(self, white, roughness, (TableRef){.kind = TABLE_NONE}, seen_from(self->along, k), &seen);
+    case_view(self, white, roughness, (TableRef){.kind = TABLE_NONE}, viewer_at(self->along, k), &seen);
     return white_albedo(tables, self, reader, roughness, k) * seen.view.scale.sheen * seen.stack.sheen.f0.r;
 }
 
@@ -200,9 +202,9 @@ static Answer answer_of(EnergyTables *tables, const Case *self, int reader, cons
     Answer answer;
     for (int k = 0; k < COSINES; k++) {
         const Base *base = &self->base[k];
-        const Dir o = seen_from(self->along, k);
+        const Dir o = viewer_at(self->along, k);
         SeenStack seen;
-        see(self, color, roughness, table, o, &seen);
+        case_view(self, color, roughness, table, o, &seen);
         const Stack *stack = &seen.stack;
         const float e = white_albedo(tables, self, reader, roughness, k) * seen.view.scale.sheen;
         float with[3] = {base->over[0] + e * stack->sheen.f0.r, base->over[1] + e * stack->sheen.f0.g,

@@ -17,7 +17,7 @@
 typedef struct Factor {
     InputId input;
     const char *extension, *name; /* extension NULL: of pbrMetallicRoughness */
-    int numbers;
+    int numbers;                  /* in the JSON: 1, or an array of so many */
     double def;
 } Factor;
 
@@ -134,7 +134,8 @@ static bool has_sheen(const WeftMaterial *material) {
     return !material->unlit && color[0] + color[1] + color[2] > 0.0f;
 }
 
-static json_t *member(json_t *object, const char *name) {
+/* Returns the object of that name in `object`; adds an empty one if there is none. */
+static json_t *member_object(json_t *object, const char *name) {
     json_t *value = json_object_get(object, name);
     if (value) return value;
     json_object_set_new(object, name, json_object());
@@ -144,8 +145,8 @@ static json_t *member(json_t *object, const char *name) {
 /* Puts a factor that has changed into the JSON. */
 static WeftResult factor_write(Rewrite *rewrite, json_t *material, const Factor *factor, const float *value,
                                WeftError *error) {
-    json_t *home = factor->extension ? member(member(material, "extensions"), factor->extension)
-                                     : member(material, "pbrMetallicRoughness");
+    json_t *home = factor->extension ? member_object(member_object(material, "extensions"), factor->extension)
+                                     : member_object(material, "pbrMetallicRoughness");
     if (factor->extension) {
         WeftResult result = rewrite_uses(rewrite, factor->extension, error);
         if (result != WEFT_OK) return result;

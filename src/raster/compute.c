@@ -7,7 +7,7 @@
 
 #include "base/fail.h"
 #include "base/memory.h"
-#include "raster/check.h"
+#include "raster/gl_check.h"
 #include "raster/gl_tables.h"
 #include "raster/program.h"
 

@@ -4,7 +4,7 @@
 
 #include <epoxy/gl.h>
 
-#include "raster/check.h"
+#include "raster/gl_check.h"
 #include "raster/program.h"
 
 static void set_program(Display *self, GLuint program) {

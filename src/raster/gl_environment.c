@@ -11,7 +11,7 @@
 #include "base/memory.h"
 #include "base/pi.h"
 #include "image/half.h"
-#include "raster/check.h"
+#include "raster/gl_check.h"
 #include "raster/program.h"
 #include "scene/backdrop.h"
 

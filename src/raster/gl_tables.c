@@ -2,7 +2,7 @@
 
 #include <epoxy/gl.h>
 
-#include "raster/check.h"
+#include "raster/gl_check.h"
 
 unsigned tables_create(const TextTable *tables, int count, WeftError *error) {
     int rows = 1, columns = 1;

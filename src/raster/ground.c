@@ -6,7 +6,7 @@
 
 #include "base/fail.h"
 #include "base/thread.h"
-#include "raster/check.h"
+#include "raster/gl_check.h"
 #include "shading/rgb.h"
 #include "trace/sky.h"
 

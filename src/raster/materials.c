@@ -6,10 +6,10 @@
 #include <epoxy/gl.h>
 
 #include "base/fail.h"
-#include "raster/check.h"
 #include "raster/families.h"
+#include "raster/gl_check.h"
+#include "scene/material_at.h"
 #include "scene/polygons.h"
-#include "scene/shade.h"
 
 /* The block "Material" of shader.c. */
 typedef struct Uniforms {

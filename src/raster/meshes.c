@@ -5,7 +5,7 @@
 #include <epoxy/gl.h>
 
 #include "base/fail.h"
-#include "raster/check.h"
+#include "raster/gl_check.h"
 #include "raster/occlusion.h"
 
 static const int components[AT_COUNT] = {3, 3, 4, 2, 2, 4};

@@ -6,7 +6,7 @@
 #include "raster/gl_environment.h"
 #include "raster/part.h"
 
-#include "scene/shade.h"
+#include "scene/material_at.h"
 #include "shading/material_stack.h"
 #include "text/composition.h"
 #include "text/number_text.h"

@@ -7,7 +7,7 @@
 
 #include "base/fail.h"
 #include "base/pi.h"
-#include "raster/check.h"
+#include "raster/gl_check.h"
 
 typedef struct Box {
     Vec3 low, high;

@@ -5,7 +5,7 @@
 
 #include "base/fail.h"
 #include "base/memory.h"
-#include "raster/check.h"
+#include "raster/gl_check.h"
 
 #include <stdlib.h>
 

@@ -8,7 +8,7 @@
 #include "base/fail.h"
 #include "base/thread.h"
 #include "image/halve.h"
-#include "raster/check.h"
+#include "raster/gl_check.h"
 #include "weft/progress.h"
 
 typedef struct Plan {

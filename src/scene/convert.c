@@ -2,8 +2,8 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "scene/material_at.h"
 #include "scene/set.h"
-#include "scene/shade.h"
 #include "shading/choice.h"
 #include "shading/compose.h"
 

@@ -5,7 +5,7 @@
 
 #include "base/pi.h"
 #include "scene/cloth_base.h"
-#include "scene/shade.h"
+#include "scene/material_at.h"
 #include "shading/choice.h"
 #include "shading/texel.h"
 

@@ -6,8 +6,8 @@
 
 #include "base/fail.h"
 #include "base/pi.h"
+#include "scene/material_at.h"
 #include "scene/set.h"
-#include "scene/shade.h"
 #include "scene/tangents.h"
 #include "shading/choice.h"
 

@@ -2,7 +2,7 @@
 
 #include "scene/polygons.h"
 
-#include "scene/shade.h"
+#include "scene/material_at.h"
 
 bool material_emits(const Material *material) {
     const float *e = material->inputs[INPUT_emission].value;

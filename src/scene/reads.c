@@ -5,8 +5,8 @@
  * directions that see a narrow highlight and a rim. */
 #include <math.h>
 
+#include "scene/material_at.h"
 #include "scene/material_numbers.h"
-#include "scene/shade.h"
 #include "shading/dust.h"
 #include "shading/frame.h"
 

@@ -7,7 +7,7 @@
 #include "base/fail.h"
 #include "base/number.h"
 #include "base/pi.h"
-#include "scene/shade.h"
+#include "scene/material_at.h"
 #include "scene/tangents.h"
 #include "shading/choice.h"
 #include "shading/compose.h"

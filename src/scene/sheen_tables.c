@@ -3,7 +3,7 @@
 #include "scene/sheen_tables.h"
 
 #include "base/fail.h"
-#include "scene/shade.h"
+#include "scene/material_at.h"
 #include "shading/material_stack.h"
 
 enum { NARROW_TABLES = 8 }; /* made for one material's range of roughness; then one for all */

@@ -192,9 +192,11 @@ FN void view_dust(const Stack *m, StackView *w) {
     w->dust_transmittance = 1.0f - w->select_p.dust;
 }
 
+/* For each slot: all of its light passes, and it is sampled as often as it shines. */
 #define SCALE_ONE(name, NAME, Name, wo)                                                                      \
     w->scale.name = 1.0f;                                                                                    \
     w->select_p.name = 1.0f;
+/* For each row of WEFT_VIEWS: the correction that it makes to a view, if the stack asks for that one. */
 #define COMPOSE_VIEW(name, index, what)                                                                      \
     if (m->view == index) what;
 /* Sets all of a view but E of the sheen, the base scale and the selection probabilities. */

@@ -1,6 +1,6 @@
 /* plugin_lobe.h - makes a plugin of a lobe's file
  *
- * text/plugin.c puts the file and this one into one text of C, which is compiled twice: with PLUGIN_LOOPS as
+ * text/plugin_compile.c puts the file and this one into one text of C, which is compiled twice: with PLUGIN_LOOPS as
  * arrays.c is, else as registry.c is, so that a lobe gives the same numbers here and in lobes.list. */
 #ifndef WEFT_SHADING_PLUGIN_LOBE_H
 #define WEFT_SHADING_PLUGIN_LOBE_H

@@ -2,7 +2,7 @@
 #ifndef WEFT_TEXT_COMPOSITION_H
 #define WEFT_TEXT_COMPOSITION_H
 
-#include "scene/shade.h"
+#include "scene/material_at.h"
 #include "text/dispatch.h"
 
 /* A surface in which every lobe of a stack shows, but for the inputs that are zero; x is 0, 1/2 or 1 for what

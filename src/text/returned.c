@@ -1,6 +1,6 @@
 #include "text/returned.h"
 
-#include "text/edit.h"
+#include "text/splice.h"
 #include "text/types.h"
 
 enum { FILLERS_MAX = 256 };

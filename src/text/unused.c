@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "text/edit.h"
+#include "text/splice.h"
 #include "text/types.h"
 
 enum { MEMBERS_MAX = 1024, USES_MAX = 256 };

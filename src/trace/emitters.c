@@ -2,7 +2,7 @@
 
 #include "trace/emitters.h"
 
-#include "scene/shade.h"
+#include "scene/material_at.h"
 #include "shading/loop.h"
 #include "trace/geometry.h"
 

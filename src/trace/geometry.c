@@ -8,7 +8,7 @@
 
 #include "base/fail.h"
 #include "base/random.h"
-#include "scene/shade.h"
+#include "scene/material_at.h"
 
 struct Geometry {
     const WeftScene *scene;

@@ -50,7 +50,7 @@ static bool nearest(const WeftPick *self, CameraRay through, Hit *hit) {
 /* The change of position with u and with v on a triangle, and the UV that a metre spans. */
 typedef struct Stretch {
     Vec3 u, v;
-    float texel;
+    float uv_per_metre;
 } Stretch;
 
 static Stretch stretch_of(const Mesh *mesh, const Hit *hit) {
@@ -64,7 +64,7 @@ static Stretch stretch_of(const Mesh *mesh, const Hit *hit) {
     Vec3 a = vec3_sub(vec3_load(p[1]), vec3_load(p[0])), b = vec3_sub(vec3_load(p[2]), vec3_load(p[0]));
     float ua = t[1][0] - t[0][0], va = t[1][1] - t[0][1], ub = t[2][0] - t[0][0], vb = t[2][1] - t[0][1];
     float twice = ua * vb - ub * va, area = vec3_length(vec3_cross(a, b)), sign = twice < 0.0f ? -1.0f : 1.0f;
-    Stretch s = {.texel = area > 0.0f ? sqrtf(fabsf(twice) / area) : 0.0f};
+    Stretch s = {.uv_per_metre = area > 0.0f ? sqrtf(fabsf(twice) / area) : 0.0f};
     if (!(fabsf(twice) > 0.0f)) return s;
     s.u = vec3_scale(vec3_madd(vec3_scale(a, vb), b, -va), sign);
     s.v = vec3_scale(vec3_madd(vec3_scale(b, ua), a, -ub), sign);
@@ -96,7 +96,7 @@ static void describe(const WeftPick *self, const Hit *hit, Vec3 direction, WeftP
     store(out->bitangent, beside(stretch.v, n, vec3_cross(n, t)));
     memcpy(out->texcoord, at.uv, sizeof out->texcoord);
     out->distance = hit->t;
-    out->texel = stretch.texel;
+    out->uv_per_metre = stretch.uv_per_metre;
 }
 
 int weft_pick_at(const WeftPick *self, const char *text, int width, int height, float x, float y,

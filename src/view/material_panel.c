@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "base/pi.h"
-#include "view/chart.h"
 #include "view/help.h"
+#include "view/swatches.h"
 #include "view/viewer.h"
 
 static const float degrees = (float)(1.0 / RADIANS);

@@ -67,16 +67,18 @@ typedef struct Task {
     int index, input;
     float x, y;
     int width, height;
-    bool transparent, reference;
-    bool nap;       /* TASK_PICK: the event has the material's own nap map too */
-    unsigned stamp; /* copied to the event */
+    bool transparent; /* TASK_SHOT: the background of the file stays transparent */
+    bool reference;   /* TASK_SHOT: writes the path-traced picture as far as it is */
+    bool nap;         /* TASK_PICK: the event has the material's own nap map too */
+    unsigned stamp;   /* copied to the event */
 } Task;
 
 /* The parts of a pixel. */
 typedef struct Probe {
     bool hit;
     int material;
-    float position[3], normal[3], texcoord[2], distance, texel;
+    float position[3], normal[3], texcoord[2], distance;
+    float uv_per_metre; /* WeftPicked */
     float tangent[3], bitangent[3];
     float value[WEFT_PART_COUNT][3];
 } Probe;
@@ -94,8 +96,8 @@ typedef struct RenderEvent {
     bool state_changed; /* `state` is then the state of the scene after the task; owned */
     SceneState state;
     Facts maps;      /* if the maps changed: only the maps are filled in; owned */
-    float *coverage; /* TASK_SURVEY: survey.h; owned, may be NULL */
-    int index;
+    float *coverage; /* TASK_SURVEY: share of the picture by each material (survey.h); owned, may be NULL */
+    int index;       /* of the task: its material */
 } RenderEvent;
 
 /* The latest picture and its state. */
@@ -109,10 +111,10 @@ typedef struct RenderedFrame {
     float seconds;       /* s, for this picture */
     float whole_seconds; /* s, for a picture with all pixels */
     float eye[3], target[3], fov;
-    int programs, compiled;
-    bool busy;           /* shaders, tables or occlusion are still being computed */
-    char complaint[512]; /* the compiler's message about changed shader text; "" if all compiles */
-    char failure[512];   /* the reason why there is no newer picture */
+    int programs, compiled; /* shader programs in use, and compiled since the start */
+    bool busy;              /* shaders, tables or occlusion are still being computed */
+    char complaint[512];    /* the compiler's message about changed shader text; "" if all compiles */
+    char failure[512];      /* the reason why there is no newer picture */
     char driver[128];
 } RenderedFrame;
 

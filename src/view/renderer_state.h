@@ -1,4 +1,4 @@
-/* renderer_state.h - the renderer's data, for the files that run in its thread: renderer.c, frame.c, tasks.c */
+/* renderer_state.h - the renderer's data, for the files that run in its thread: renderer.c, pictures.c, tasks.c */
 #ifndef WEFT_VIEW_RENDERER_STATE_H
 #define WEFT_VIEW_RENDERER_STATE_H
 
@@ -65,7 +65,7 @@ void renderer_post(Renderer *renderer, RenderEvent *event); /* takes the event o
 void renderer_watch_files(
     Renderer *renderer); /* watches the scene's texture files and the folders of maps in use, no others */
 
-/* frame.c: applies a state to the scene, and draws a request into the next texture. If the file of an environment
+/* pictures.c: applies a state to the scene, and draws a request into the next texture. If the file of an environment
  * cannot be read, the one before stays; frame_refusal then returns the reason, and the file is not read again
  * until it has changed. */
 WeftResult frame_apply_state(Renderer *renderer, const SceneState *state, WeftError *error);

@@ -135,7 +135,7 @@ static bool takes_strokes(Viewer *v, int material) {
 /* Along the way from where the brush was; over a seam of the map it begins anew. */
 static void lay_along(const Viewer *v, WeftImage *image, const Probe *at, const float along[2]) {
     const Stroke *brush = &v->drag->stroke;
-    float radius = v->options->brush_radius * at->texel, du = at->texcoord[0] - brush->uv[0],
+    float radius = v->options->brush_radius * at->uv_per_metre, du = at->texcoord[0] - brush->uv[0],
           dv = at->texcoord[1] - brush->uv[1];
     float far = hypotf(du, dv);
     int steps = far < 0.25f ? 1 + (int)fminf(far / fmaxf(0.3f * radius, 1e-4f), 200.0f) : 1;

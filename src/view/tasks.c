@@ -175,7 +175,7 @@ static WeftResult pick(Renderer *self, const Task *task, const FrameRequest *req
     if (!probe->hit) return WEFT_OK;
     probe->material = at.material;
     probe->distance = at.distance;
-    probe->texel = at.texel;
+    probe->uv_per_metre = at.uv_per_metre;
     memcpy(probe->position, at.position, sizeof probe->position);
     memcpy(probe->normal, at.normal, sizeof probe->normal);
     memcpy(probe->tangent, at.tangent, sizeof probe->tangent);

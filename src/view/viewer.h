@@ -294,7 +294,7 @@ void keys_input(Viewer *v);
 void inspection_free(Inspection *inspection);
 bool inspection_busy(const Inspection *inspection); /* returns true if measuring goes on in the next frame */
 
-/* command.c: the command line that draws what the window shows. Release with free; NULL where memory is
+/* render_command.c: the command line that draws what the window shows. Release with free; NULL where memory is
  * short; `lost` (may be NULL) is set if a painted nap is not in it. */
 char *command_line(const Viewer *v, bool *lost);
 

@@ -22,8 +22,8 @@
 #include "export/sheen.h"
 #include "measure/draw.h"
 #include "measure/grid.h"
+#include "scene/material_at.h"
 #include "scene/material_numbers.h"
-#include "scene/shade.h"
 #include "shading/choice.h"
 #include "shading/material_stack.h"
 

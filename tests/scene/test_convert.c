@@ -9,8 +9,8 @@
 #include <cmocka.h>
 
 #include "base/random.h"
+#include "scene/material_at.h"
 #include "scene/scene.h"
-#include "scene/shade.h"
 #include "shading/compose.h"
 #include "weft/weft.h"
 

@@ -54,12 +54,12 @@ static void picked_point_is_described(void **state) {
     assert_float_equal(p.texcoord[0][0], 0.5f, 1e-4f);
     assert_float_equal(p.texcoord[0][1], 1.0f, 1e-4f);
     assert_float_equal(p.distance, 4.0f, 1e-4f);
-    assert_float_equal(p.texel, sqrtf(0.5f), 1e-4f);
+    assert_float_equal(p.uv_per_metre, sqrtf(0.5f), 1e-4f);
     p = at(pick, 2.0f, 98.0f); /* low on the left, beside the first; its back */
     assert_int_equal(p.mesh, 1);
     assert_true(p.position[0] < -1.0f && p.position[1] < -1.0f);
     is_about(p.normal, 0.0f, 0.0f, 1.0f);
-    assert_float_equal(p.texel, 0.0f, 0.0f);
+    assert_float_equal(p.uv_per_metre, 0.0f, 0.0f);
     assert_float_equal(p.tangent[2], 0.0f, 1e-5f);
     assert_int_equal(weft_pick_at(pick, "9,9,9;20,20,20;30", 100, 100, 50.0f, 50.0f, &none), 0);
     assert_int_equal(weft_pick_at(pick, "no such", 100, 100, 50.0f, 50.0f, &none), 0);

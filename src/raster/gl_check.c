@@ -1,4 +1,4 @@
-#include "raster/check.h"
+#include "raster/gl_check.h"
 
 #include <epoxy/gl.h>
 

@@ -1,4 +1,4 @@
-/* inputs.c - the material's inputs at the vertices of a chunk, from its numbers, textures and vertex colors */
+/* vertex_inputs.c - the material's inputs at the vertices of a chunk, from its numbers, textures and vertex colors */
 #include "trace/chunk.h"
 
 #include "shading/loop.h"

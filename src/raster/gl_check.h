@@ -1,6 +1,6 @@
-/* check.h - helpers of all passes: errors of the driver, textures that are read texel by texel */
-#ifndef WEFT_RASTER_CHECK_H
-#define WEFT_RASTER_CHECK_H
+/* gl_check.h - helpers of all passes: errors of the driver, textures that are read texel by texel */
+#ifndef WEFT_RASTER_GL_CHECK_H
+#define WEFT_RASTER_GL_CHECK_H
 
 #include "weft/result.h"
 

@@ -1,4 +1,4 @@
-#include "raster/picture.h"
+#include "raster/picture_block.h"
 
 #include <math.h>
 #include <string.h>

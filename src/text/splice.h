@@ -1,6 +1,6 @@
-/* edit.h - pieces of a text that give way to others */
-#ifndef WEFT_TEXT_EDIT_H
-#define WEFT_TEXT_EDIT_H
+/* splice.h - pieces of a text that give way to others */
+#ifndef WEFT_TEXT_SPLICE_H
+#define WEFT_TEXT_SPLICE_H
 
 #include "text/buffer.h"
 

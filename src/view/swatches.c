@@ -1,4 +1,4 @@
-#include "view/chart.h"
+#include "view/swatches.h"
 
 #include <stdbool.h>
 #include <stdio.h>

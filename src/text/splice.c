@@ -1,4 +1,4 @@
-#include "text/edit.h"
+#include "text/splice.h"
 
 #include <stdlib.h>
 

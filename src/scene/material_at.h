@@ -1,6 +1,6 @@
-/* shade.h - a material evaluated at a point of a mesh */
-#ifndef WEFT_SCENE_SHADE_H
-#define WEFT_SCENE_SHADE_H
+/* material_at.h - a material evaluated at a point of a mesh */
+#ifndef WEFT_SCENE_MATERIAL_AT_H
+#define WEFT_SCENE_MATERIAL_AT_H
 
 #include "scene/scene.h"
 #include "shading/material_stack.h"

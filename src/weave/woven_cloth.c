@@ -1,4 +1,4 @@
-/* cloth.c - a draft becomes a cloth: its runs, the albedo of its fibres, and what is seen of either system */
+/* woven_cloth.c - a draft becomes a cloth: its runs, the albedo of its fibres, and what is seen of either system */
 #include <math.h>
 #include <stdlib.h>
 

@@ -1,6 +1,6 @@
-/* chart.h - swatches of reference materials, beside the inputs that they are for */
-#ifndef WEFT_VIEW_CHART_H
-#define WEFT_VIEW_CHART_H
+/* swatches.h - swatches of reference materials, beside the inputs that they are for */
+#ifndef WEFT_VIEW_SWATCHES_H
+#define WEFT_VIEW_SWATCHES_H
 
 #include "weft/material.h"
 

@@ -1,7 +1,7 @@
-/* picture.h - the uniform block that all shaders of a picture share: camera, punctual lights and
+/* picture_block.h - the uniform block that all shaders of a picture share: camera, punctual lights and
  * their shadows */
-#ifndef WEFT_RASTER_PICTURE_H
-#define WEFT_RASTER_PICTURE_H
+#ifndef WEFT_RASTER_PICTURE_BLOCK_H
+#define WEFT_RASTER_PICTURE_BLOCK_H
 
 #include "raster/shadow.h"
 #include "scene/floor.h"

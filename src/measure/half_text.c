@@ -1,4 +1,4 @@
-/* half.c - the shading texts compiled for half floats. -Wpedantic, -Wdouble-promotion and the like are off
+/* half_text.c - the shading texts compiled for half floats. -Wpedantic, -Wdouble-promotion and the like are off
  * for this file (CMakeLists.txt): _Float16 is no C11, integer rows of parameter tables become halves, and
  * that floors such as 1e-30 vanish is what is looked for. */
 #include "measure/half_precision.h"

@@ -1,4 +1,4 @@
-/* lobe.c - a lobe behind functions that an engine calls: colour in, directions in, no record of angles */
+/* lobe_text.c - a lobe behind functions that an engine calls: colour in, directions in, no record of angles */
 #include <stdio.h>
 #include <stdlib.h>
 

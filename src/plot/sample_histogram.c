@@ -1,4 +1,4 @@
-/* samples.c - histogram of a lobe's samples beside its pdf, and their ratio */
+/* sample_histogram.c - histogram of a lobe's samples beside its pdf, and their ratio */
 #include <math.h>
 #include <stdlib.h>
 

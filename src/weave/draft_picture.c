@@ -1,4 +1,4 @@
-/* picture.c - a picture of two colours as a draft, one pixel a crossing: how jacquard looms receive their
+/* draft_picture.c - a picture of two colours as a draft, one pixel a crossing: how jacquard looms receive their
  * patterns */
 #include <stdint.h>
 #include <string.h>

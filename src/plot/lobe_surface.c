@@ -1,4 +1,4 @@
-/* surface.c - a panel of a surface over the ground: lengths by direction, seen from above and aside
+/* lobe_surface.c - a panel of a surface over the ground: lengths by direction, seen from above and aside
  *
  * Triangles go through a depth buffer of a picture that is SAMPLES times as fine as the page, and then lies
  * over the ground, which Cairo draws: nothing of the ground is in front, for it is seen from above. */
