@@ -64,7 +64,14 @@ static float *map_at(const AuditWork *work, int x, int y) {
     return (float *)work->errors->pixels + 3 * ((size_t)y * (size_t)work->width + (size_t)x);
 }
 
-enum { CELL = 32, NODES = (CELL + 1) * (CELL + 1), EXACT_TEXELS = 128 * 128 };
+enum { CELL = 64, NODES = (CELL + 1) * (CELL + 1), EXACT_TEXELS = 128 * 128 };
+
+/* The texels along a side of a cell: a sixteenth of the shorter side of a large table, within bounds. */
+static int cell_size(const AuditWork *work) {
+    const int side = work->width < work->height ? work->width : work->height;
+    if (work->width * work->height <= EXACT_TEXELS) return 1;
+    return side / 16 < CELL / 2 ? CELL / 2 : side / 16 > CELL ? CELL : side / 16;
+}
 
 /* A square of a large table, its last column and row those where its neighbours begin. */
 typedef struct Cell {
@@ -85,44 +92,70 @@ static float cell_exact(Cell *cell, int i, int j) {
     return cell->e[n] = judged ? texel.part[work->reading.part] : -1.0f;
 }
 
-/* Columns i[0] .. i[1] and rows j[0] .. j[1] of a cell, between whose corners E is taken as bilinear. */
+/* Columns i[0] .. i[2] and rows j[0] .. j[2] of a cell, the middle ones at 1: E is known where they cross, and taken
+ * as biquadratic between. */
 typedef struct TexelPatch {
-    int i[2], j[2];
+    int i[3], j[3];
 } TexelPatch;
 
-static float patch_at(const Cell *cell, const TexelPatch *p, int i, int j) {
-    const float u = p->i[1] > p->i[0] ? (float)(i - p->i[0]) / (float)(p->i[1] - p->i[0]) : 0.0f,
-                v = p->j[1] > p->j[0] ? (float)(j - p->j[0]) / (float)(p->j[1] - p->j[0]) : 0.0f;
-    const float *low = cell->e + p->j[0] * (CELL + 1), *high = cell->e + p->j[1] * (CELL + 1);
-    return mix(mix(low[p->i[0]], low[p->i[1]], u), mix(high[p->i[0]], high[p->i[1]], u), v);
+static TexelPatch patch_of(int i0, int i1, int j0, int j1) {
+    return (TexelPatch){{i0, (i0 + i1) / 2, i1}, {j0, (j0 + j1) / 2, j1}};
 }
 
-/* Fills a patch: as it is where E, in its middle and in the middles of its sides, is what lies between the
- * corners; else quarter by quarter, down to the texel. A patch of which nothing is judged is left at that. */
-static void patch_fill(Cell *cell, TexelPatch p) {
-    const int mid_i = (p.i[0] + p.i[1]) / 2, mid_j = (p.j[0] + p.j[1]) / 2;
-    const int columns[3] = {p.i[0], mid_i, p.i[1]}, rows[3] = {p.j[0], mid_j, p.j[1]};
+/* Lagrange's weights of three places at x; of two, where the middle one is the first. */
+static void weights_at(const int places[3], int x, float weight[3]) {
+    const float a = (float)(x - places[0]), b = (float)(x - places[1]), c = (float)(x - places[2]),
+                ab = (float)(places[1] - places[0]), bc = (float)(places[2] - places[1]), ac = ab + bc;
+    const bool two = places[1] == places[0];
+    weight[1] = two ? 0.0f : -a * c / (ab * bc);
+    weight[2] = two ? (ac > 0.0f ? a / ac : 0.0f) : a * b / (ac * bc);
+    weight[0] = 1.0f - weight[1] - weight[2];
+}
+
+static float patch_at(const Cell *cell, const TexelPatch *p, int i, int j) {
+    float across[3], along[3], e = 0.0f;
+    weights_at(p->i, i, across);
+    weights_at(p->j, j, along);
+    for (int row = 0; row < 3; row++)
+        for (int column = 0; column < 3; column++)
+            e += along[row] * across[column] * cell->e[p->j[row] * (CELL + 1) + p->i[column]];
+    return e;
+}
+
+/* Returns true if E in the middles of the patch's quarters is what lies between its nine places. */
+static bool patch_holds(Cell *cell, const TexelPatch *p) {
     const float allowed = (float)(2.0 * cell->work->tolerance);
-    bool flat = true, all = true, none = true;
-    for (int corner = 0; corner < 4; corner++) cell_exact(cell, p.i[corner & 1], p.j[corner >> 1]);
-    for (int k = 0; k < 9; k++) {
-        const float e = cell_exact(cell, columns[k % 3], rows[k / 3]);
-        all &= e >= 0.0f, none &= e < 0.0f;
-        flat &= fabsf(e - patch_at(cell, &p, columns[k % 3], rows[k / 3])) <= allowed;
+    bool holds = true;
+    for (int quarter = 0; quarter < 4; quarter++) {
+        const int column = quarter & 1, row = quarter >> 1, i = (p->i[column] + p->i[column + 1]) / 2,
+                  j = (p->j[row] + p->j[row + 1]) / 2;
+        holds &= fabsf(cell_exact(cell, i, j) - patch_at(cell, p, i, j)) <= allowed;
     }
-    if (p.i[1] - p.i[0] <= 1 && p.j[1] - p.j[0] <= 1) return;
-    if ((flat && all) || none) {
-        for (int j = p.j[0]; j <= p.j[1]; j++)
-            for (int i = p.i[0]; i <= p.i[1]; i++) {
+    return holds;
+}
+
+/* Fills a patch: as it is where it holds, else quarter by quarter, down to the texel. A patch of which nothing is
+ * judged is left at that. */
+static void patch_fill(Cell *cell, TexelPatch p) {
+    bool all = true, none = true;
+    for (int k = 0; k < 9; k++) {
+        const float e = cell_exact(cell, p.i[k % 3], p.j[k / 3]);
+        all &= e >= 0.0f, none &= e < 0.0f;
+    }
+    if (p.i[2] - p.i[0] <= 2 && p.j[2] - p.j[0] <= 2) return;
+    if (none || (all && patch_holds(cell, &p))) {
+        for (int j = p.j[0]; j <= p.j[2]; j++)
+            for (int i = p.i[0]; i <= p.i[2]; i++) {
                 const int n = j * (CELL + 1) + i;
                 if (!cell->known[n]) cell->e[n] = patch_at(cell, &p, i, j);
                 cell->known[n] = true;
             }
         return;
     }
-    for (int quarter = 0; quarter < 4; quarter++)
-        patch_fill(cell, (TexelPatch){{columns[quarter & 1], columns[(quarter & 1) + 1]},
-                                      {rows[quarter >> 1], rows[(quarter >> 1) + 1]}});
+    for (int quarter = 0; quarter < 4; quarter++) {
+        const int column = quarter & 1, row = quarter >> 1;
+        patch_fill(cell, patch_of(p.i[column], p.i[column + 1], p.j[row], p.j[row + 1]));
+    }
 }
 
 static void map_put(AuditWork *work, int x, int y, float e) {
@@ -144,7 +177,7 @@ static void map_cell(void *user, int column, int row, int thread) {
     if (step == 1)
         cell_exact(&cell, 0, 0);
     else
-        patch_fill(&cell, (TexelPatch){{0, wide}, {0, high}});
+        patch_fill(&cell, patch_of(0, wide, 0, high));
     for (int j = 0; j < step && y + j < work->height; j++)
         for (int i = 0; i < step && x + i < work->width; i++)
             map_put(work, x + i, y + j, cell.e[j * (CELL + 1) + i]);
@@ -370,11 +403,11 @@ static WeftResult map_make(AuditWork *work, WeftError *error) {
                               .height = work->height,
                               .lobe = work->lobe,
                               .tolerance = work->tolerance};
-    work->step = work->width * work->height > EXACT_TEXELS ? CELL : 1;
+    work->step = cell_size(work);
     result =
         bake_texels((work->width + work->step - 1) / work->step, (work->height + work->step - 1) / work->step,
                     desc->threads, desc->progress, desc->user, map_cell, work);
-    if (work->step > 1) work->met[0] += 2.0 * work->tolerance; /* of patches, tested in nine places */
+    if (work->step > 1) work->met[0] += 2.0 * work->tolerance; /* of patches, tested in four places */
     return result;
 }
 

@@ -51,6 +51,25 @@ static void albedos_find(const TableProbe *probe, const ProbeReading *reading, W
     parallel_for(probe->threads, probe->columns * probe->rows, albedo_find, e);
 }
 
+/* Works as albedos_find for reading, whose axes are those of the last one exchanged. The texels of a square table
+ * have the same cosines and parameters then, with rows and columns exchanged. */
+static void albedos_exchange(const TableProbe *probe, const ProbeReading *reading, WeftTableForm *form,
+                             Albedos *e) {
+    const int side = probe->columns;
+    if (probe->width != probe->height) {
+        albedos_find(probe, reading, form, e);
+        return;
+    }
+    *form = reading->form;
+    form->flip_x = form->flip_y = 0;
+    for (int j = 0; j < side; j++)
+        for (int i = 0; i < j; i++) {
+            const BakeTexel kept = e->at[j * side + i];
+            e->at[j * side + i] = e->at[i * side + j];
+            e->at[i * side + j] = kept;
+        }
+}
+
 /* Returns the place of the E of probed texel n, under the flips of a form. */
 static int flipped(const TableProbe *probe, const WeftTableForm *form, int n) {
     const int i = n % probe->columns, j = n / probe->columns;
@@ -192,8 +211,8 @@ ProbeReading probe_any(const TableProbe *probe, const WeftTableForm *form) {
     for (int id = 0; id < weft_lobe_count(); id++) {
         const WeftLobeInfo *info = weft_lobe_info(id);
         if (info->param_count > 1 || info->traits & TRAIT_REFERENCE) continue;
+        Albedos e;
         for (int base = 0; base < (form ? 1 : 16); base++) {
-            Albedos e;
             WeftTableForm bare;
             ProbeReading now = {.lobe = lobe_default(id), .factor = 1.0};
             if (form)
@@ -203,7 +222,7 @@ ProbeReading probe_any(const TableProbe *probe, const WeftTableForm *form) {
                                            .alpha = base >> 1 & 1,
                                            .edges = base >> 2 & 1,
                                            .root = base >> 3 & 1};
-            albedos_find(probe, &now, &bare, &e);
+            (base & 1 ? albedos_exchange : albedos_find)(probe, &now, &bare, &e);
             try_forms(probe, &e, now, !form, best);
         }
     }
