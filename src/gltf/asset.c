@@ -28,15 +28,20 @@ bool asset_progress(Asset *asset, double low, double high, size_t done, size_t o
     return false;
 }
 
-void *asset_array(Asset *asset, Arena *arena, size_t count, size_t size) {
+bool asset_charge(Asset *asset, size_t count, size_t size) {
     if (size && count > (asset->limit - asset->spent) / size) {
         asset_fail(asset, WEFT_MESSAGE_GLTF_TOO_LARGE, "%zu bytes of input decode to more than %zu bytes",
                    asset->input_bytes, asset->limit);
-        return NULL;
+        return false;
     }
+    asset->spent += count * size;
+    return true;
+}
+
+void *asset_array(Asset *asset, Arena *arena, size_t count, size_t size) {
+    if (!asset_charge(asset, count, size)) return NULL;
     void *memory = arena_array(arena, count, size);
     if (!memory) asset_fail(asset, WEFT_MESSAGE_MEMORY, NULL);
-    asset->spent += count * size;
     return memory;
 }
 

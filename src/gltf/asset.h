@@ -173,6 +173,9 @@ __attribute__((format(printf, 3, 4))) void asset_fail(Asset *asset, WeftMessage 
  * sticky WEFT_INTERRUPTED, where it is to stop. For the thread that made the call alone. */
 bool asset_progress(Asset *asset, double low, double high, size_t done, size_t of);
 
+/* Charges count * size bytes to the limit for good; false after a sticky GLTF_TOO_LARGE. */
+bool asset_charge(Asset *asset, size_t count, size_t size);
+
 /* count * size zeroed bytes from an arena (the asset's or the scene's), charged to the limit for good; NULL
  * after a sticky GLTF_TOO_LARGE or MEMORY. */
 void *asset_array(Asset *asset, Arena *arena, size_t count, size_t size);

@@ -9,8 +9,10 @@
 #include <string.h>
 
 #include "gltf/field.h"
+#include "scene/cloth_file.h"
 #include "scene/material_numbers.h"
 #include "scene/set.h"
+#include "weave/weft_cloth.h"
 
 /* KHR_texture_transform: T R S. The asset TextureTransformTest shows which way the rotation turns: v runs
  * down, so that counter-clockwise is (c u + s v, c v - s u). */
@@ -201,10 +203,36 @@ static void saved_read(const Field *weft, Material *material) {
         (float)field_number(&cutoff, (double)material->alpha_cutoff, 0.0, (double)FLT_MAX);
 }
 
+enum { WEAVES_MOST = 256 }; /* of a scene: each takes its time to be woven */
+
+/* A weave as a material file has it, whose draft is never in a file. One that makes no sense is left out. */
+static void weave_read(const Field *weft, Material *material) {
+    Field field = field_member(weft, "weave");
+    WeftScene *scene = field.asset->scene;
+    WeftCloth *cloth = NULL;
+    WeftError error = {0};
+    if (!field.json || field.asset->result != WEFT_OK) return;
+    if (scene->cloth_count == WEAVES_MOST) {
+        field_warn(&field, WEFT_MESSAGE_GLTF_WARN_IGNORED, "there are more than %d", WEAVES_MOST);
+        return;
+    }
+    WeftResult result =
+        cloth_from_json(field.json, field.asset->name, NULL, &cloth, field.asset->log, &error);
+    if (result != WEFT_OK && result != WEFT_RESOURCES)
+        field_warn(&field, WEFT_MESSAGE_GLTF_WARN_IGNORED, "%s", error.text);
+    const bool paid =
+        cloth &&
+        asset_charge(field.asset, (size_t)cloth->weave.warps * (size_t)cloth->weave.picks, 4 * sizeof(float));
+    material->cloth = paid ? scene_adopt_cloth(scene, cloth) : 0;
+    if (result == WEFT_RESOURCES || (paid && !material->cloth))
+        asset_fail(field.asset, WEFT_MESSAGE_MEMORY, NULL);
+    if (!material->cloth) weft_cloth_free(cloth);
+}
+
 /* extras.weft: what no extension of glTF says. Other extras are for others. */
 static void extras_read(const Field *field, Material *material) {
-    static const char *const keys[] = {"nap",     "napRotation", "napTexture", "dustTexture",
-                                       "choices", "inputs",      "alphaCutoff"};
+    static const char *const keys[] = {"nap",     "napRotation", "napTexture",  "dustTexture",
+                                       "choices", "inputs",      "alphaCutoff", "weave"};
     Input *inputs = material->inputs;
     Field extras = field_member(field, "extras");
     if (!json_is_object(extras.json)) return;
@@ -217,6 +245,7 @@ static void extras_read(const Field *field, Material *material) {
     inputs[INPUT_nap_direction].value[0] = (float)field_number(&rotation, 0.0, -1e3, 1e3);
     texture_read(&texture, &inputs[INPUT_nap_direction], 0);
     saved_read(&weft, material);
+    weave_read(&weft, material);
     const char *key;
     json_t *value;
     json_object_foreach(weft.json, key, value) {

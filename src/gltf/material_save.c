@@ -9,6 +9,7 @@
 
 #include "gltf/gltf_material.h"
 #include "gltf/saving.h"
+#include "scene/cloth_file.h"
 #include "scene/material_at.h"
 #include "scene/material_numbers.h"
 #include "shading/choice.h"
@@ -225,6 +226,8 @@ static void extras_save(Saving *saving, json_t *object, const Material *material
     }
     if (json_object_size(choices)) saving_put(saving, weft, "choices", json_incref(choices));
     if (json_object_size(inputs)) saving_put(saving, weft, "inputs", json_incref(inputs));
+    if (material->cloth)
+        saving_put(saving, weft, "weave", cloth_to_json(saving->scene->cloths[material->cloth - 1], NULL));
     if (material->alpha_cutoff < read->alpha_cutoff || material->alpha_cutoff > read->alpha_cutoff)
         number_put(saving, weft, "alphaCutoff", fmaxf(material->alpha_cutoff, 0.0f));
     json_decref(choices);

@@ -44,15 +44,9 @@ static bool adopt_textures(WeftScene *scene, MaterialFile *file) {
 /* Gives the scene the cloth of the file, whose material then names it. */
 static bool adopt_cloth(WeftScene *scene, MaterialFile *file) {
     if (!file->cloth) return true;
-    const size_t count = (size_t)scene->cloth_count;
-    WeftCloth **cloths = arena_array(&scene->arena, count + 1, sizeof(WeftCloth *));
-    if (!cloths) return false;
-    for (size_t k = 0; k < count; k++) cloths[k] = scene->cloths[k];
-    cloths[count] = file->cloth;
-    file->cloth = NULL;
-    scene->cloths = cloths;
-    file->material.cloth = ++scene->cloth_count;
-    return true;
+    file->material.cloth = scene_adopt_cloth(scene, file->cloth);
+    if (file->material.cloth) file->cloth = NULL;
+    return file->material.cloth != 0;
 }
 
 /* Returns the material of the file. Inputs that belong to the shape stay unless the file gives them. */

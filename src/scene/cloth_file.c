@@ -1,3 +1,4 @@
+#define _XOPEN_SOURCE 700 /* realpath */
 #include "scene/cloth_file.h"
 
 #include <math.h>
@@ -20,7 +21,7 @@ typedef struct ClothReader {
     WeftError *error;
     WeftResult result;
     WeftDraft *draft;
-    bool in_file; /* the draft is */
+    char path[4096 + 512]; /* of the draft's file; "": it is in none */
     WeftYarn yarns[2];
 } ClothReader;
 
@@ -33,11 +34,14 @@ static void keep_first(ClothReader *r, WeftResult result) {
     if (r->result == WEFT_OK) r->result = result;
 }
 
-/* A draft in words, or in a file beside the material's. */
+/* A draft as the text of a WIF, which has lines, in words, or in a file beside the material's. */
 static void read_draft(ClothReader *r, const json_t *json) {
     const char *text = json_string_value(json);
     struct stat file;
-    char path[4096 + 512];
+    if (text && strchr(text, '\n')) {
+        keep_first(r, weft_draft_read_memory(text, strlen(text), r->name, &r->draft, r->log, r->error));
+        return;
+    }
     if (!text || strlen(text) > 4096) {
         refuse(r, "draft", "expected words such as \"twill 2/2\", or a file");
         return;
@@ -46,12 +50,13 @@ static void read_draft(ClothReader *r, const json_t *json) {
         refuse(r, "draft", "lies in a folder whose name is too long");
         return;
     }
-    snprintf(path, sizeof path, "%.511s%s", text[0] == '/' || !r->folder ? "" : r->folder, text);
-    r->in_file = r->folder && stat(path, &file) == 0;
-    if (r->in_file)
-        keep_first(r, weft_draft_read(path, &r->draft, r->log, r->error));
-    else
+    snprintf(r->path, sizeof r->path, "%.511s%s", text[0] == '/' || !r->folder ? "" : r->folder, text);
+    if (r->folder && stat(r->path, &file) == 0) {
+        keep_first(r, weft_draft_read(r->path, &r->draft, r->log, r->error));
+    } else {
         keep_first(r, weft_draft_parse(text, &r->draft, r->error));
+        r->path[0] = '\0';
+    }
 }
 
 /* "#rrggbb", on all threads of a system. */
@@ -132,6 +137,16 @@ static void read_keys(ClothReader *r, const json_t *json) {
     }
 }
 
+/* Notes what the cloth came from. Returns false if memory is short. */
+static bool keep_source(ClothReader *r, const json_t *json, WeftCloth *cloth) {
+    cloth->text = json_dumps(json, JSON_COMPACT);
+    if (!r->path[0]) return cloth->text != NULL;
+    cloth->path = realpath(r->path, NULL);
+    cloth->draft = r->draft;
+    r->draft = NULL;
+    return cloth->text && cloth->path;
+}
+
 WeftResult cloth_from_json(const json_t *json, const char *name, const char *folder, WeftCloth **out,
                            const WeftLog *log, WeftError *error) {
     static const char *const systems[] = {"warp", "weft"};
@@ -154,11 +169,23 @@ WeftResult cloth_from_json(const json_t *json, const char *name, const char *fol
     if (reader.result == WEFT_OK)
         reader.result = weft_cloth_create(reader.draft, reader.yarns, (unsigned)seed, out, error);
     if (*out) cloth_spread(*out, metres);
-    if (*out && !reader.in_file && !((*out)->text = json_dumps(json, JSON_COMPACT))) {
+    if (*out && !keep_source(&reader, json, *out)) {
         weft_cloth_free(*out);
         *out = NULL;
         reader.result = fail(error, WEFT_MESSAGE_MEMORY, name, NULL);
     }
     weft_draft_free(reader.draft);
     return reader.result;
+}
+
+json_t *cloth_to_json(const WeftCloth *cloth, const char *draft) {
+    json_t *json = json_loads(cloth->text, 0, NULL);
+    char *text = cloth->draft && !draft ? wif_text(cloth->draft) : NULL;
+    if (!cloth->draft) return json;
+    if (json_object_set_new(json, "draft", json_string(draft ? draft : text)) != 0) {
+        json_decref(json);
+        json = NULL;
+    }
+    free(text);
+    return json;
 }

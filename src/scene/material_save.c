@@ -9,6 +9,7 @@
 #include "base/fail.h"
 #include "base/file.h"
 #include "base/pi.h"
+#include "scene/cloth_file.h"
 #include "scene/scene.h"
 #include "shading/choice.h"
 #include "weave/weft_cloth.h"
@@ -185,13 +186,20 @@ static void write_inputs(Writer *w, const Material *material) {
     }
 }
 
+/* A weave whose draft is in a file names it by its place from ours. */
+static json_t *weave_json(Writer *w, const WeftCloth *cloth) {
+    char *folder = cloth->path ? folder_of(w->path) : NULL;
+    const char *draft = folder ? relative(w, folder, cloth->path) : NULL;
+    free(folder);
+    return cloth_to_json(cloth, draft);
+}
+
 static void write_rest(Writer *w, const Material *material) {
     static const char *const modes[] = {"opaque", "mask", "blend"}; /* as WeftAlphaMode */
     put(w, w->root, "alpha_mode", json_string(modes[material->alpha_mode]));
     put(w, w->root, "alpha_cutoff", number(material->alpha_cutoff));
     if (material->unlit) put(w, w->root, "unlit", json_true());
-    const WeftCloth *cloth = material->cloth ? w->scene->cloths[material->cloth - 1] : NULL;
-    if (cloth && cloth->text) put(w, w->root, "weave", json_loads(cloth->text, 0, NULL));
+    if (material->cloth) put(w, w->root, "weave", weave_json(w, w->scene->cloths[material->cloth - 1]));
     put(w, w->root, "double_sided", json_boolean(material->double_sided));
 }
 

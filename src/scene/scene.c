@@ -9,6 +9,7 @@
 #include "base/pi.h"
 #include "scene/cubemap.h"
 #include "scene/environment.h"
+#include "weave/weft_cloth.h"
 
 WeftScene *scene_create(const char *name) {
     WeftScene *scene = alloc_array(1, sizeof *scene);
@@ -28,6 +29,23 @@ void weft_scene_free(WeftScene *scene) {
     weft_image_free(&scene->environment.image);
     arena_free(&scene->arena);
     free(scene);
+}
+
+int scene_adopt_cloth(WeftScene *scene, WeftCloth *cloth) {
+    const size_t count = (size_t)scene->cloth_count;
+    for (int k = 0; k < scene->cloth_count; k++)
+        if (cloth_same(scene->cloths[k], cloth)) {
+            weft_cloth_free(cloth);
+            return k + 1;
+        }
+    if ((count & (count - 1)) == 0) { /* the list has room for a power of two */
+        WeftCloth **cloths = arena_array(&scene->arena, 2 * count + 1, sizeof(WeftCloth *));
+        if (!cloths) return 0;
+        for (size_t k = 0; k < count; k++) cloths[k] = scene->cloths[k];
+        scene->cloths = cloths;
+    }
+    scene->cloths[count] = cloth;
+    return ++scene->cloth_count;
 }
 
 void scene_bounds(WeftScene *scene) {

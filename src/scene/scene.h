@@ -127,6 +127,11 @@ enum { NAMES_SIZE = 256 };
 const char *scene_names(const WeftScene *scene, const char *(*name)(const WeftScene *scene, int index),
                         char text[NAMES_SIZE]);
 
+/* Takes over a cloth and returns its number, counted from 1: that of the same cloth where the scene has it, which then
+ * takes its place. 0: memory is short, and the cloth is still the caller's. A cloth stays as long as the scene, since
+ * materials that were read from it may name it. */
+int scene_adopt_cloth(WeftScene *scene, WeftCloth *cloth);
+
 /* Sets low and high from the meshes. Call once all meshes stand. */
 void scene_bounds(WeftScene *scene);
 

@@ -48,6 +48,16 @@ void weft_draft_free(WeftDraft *draft) {
     free(draft);
 }
 
+bool draft_same(const WeftDraft *a, const WeftDraft *b) {
+    const size_t crossings = (size_t)a->count[0] * (size_t)a->count[1];
+    if (a->count[0] != b->count[0] || a->count[1] != b->count[1]) return false;
+    bool same = memcmp(a->up, b->up, crossings) == 0;
+    for (int t = 0; t < 2; t++)
+        same &= memcmp((const char *)a->threads[t], (const char *)b->threads[t],
+                       (size_t)a->count[t] * sizeof(WeftThread)) == 0;
+    return same;
+}
+
 void draft_title(WeftDraft *draft, const char *text) {
     size_t size = strlen(text), room = sizeof draft->title - 1;
     if (size > room)

@@ -27,11 +27,17 @@ WeftResult draft_create(const char *name, long warps, long picks, WeftMessage re
  * characters. */
 void draft_title(WeftDraft *draft, const char *text);
 
+/* Returns true if both have the same threads and crossings. */
+bool draft_same(const WeftDraft *a, const WeftDraft *b);
+
 /* The reader of pictures for weft_draft_read; text: all that its file begins with is text. */
 WeftResult draft_from_picture(const char *path, bool text, WeftDraft **out, const WeftLog *log,
                               WeftError *error);
 
 /* Writes a WIF 1.1. WEFT_OK, or memory was short. */
 WeftResult wif_write(const WeftDraft *draft, FILE *stream, const char *name, WeftError *error);
+
+/* The same as a text, to be released with free(); NULL where memory is short. */
+char *wif_text(const WeftDraft *draft);
 
 #endif

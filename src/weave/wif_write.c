@@ -1,4 +1,5 @@
 /* wif_write.c - writes WIF 1.1 with threading, tie-up and treadling of the smallest loom */
+#define _POSIX_C_SOURCE 200809L /* open_memstream */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -102,4 +103,15 @@ WeftResult wif_write(const WeftDraft *draft, FILE *stream, const char *name, Wef
     loom_free(&loom);
     colors_free(&colors);
     return made && dyed ? WEFT_OK : fail(error, WEFT_MESSAGE_MEMORY, name, NULL);
+}
+
+char *wif_text(const WeftDraft *draft) {
+    char *text = NULL;
+    size_t size = 0;
+    FILE *stream = open_memstream(&text, &size);
+    if (!stream) return NULL;
+    const bool written = wif_write(draft, stream, draft->title, NULL) == WEFT_OK;
+    const bool whole = fclose(stream) == 0 && written;
+    if (!whole) free(text);
+    return whole ? text : NULL;
 }

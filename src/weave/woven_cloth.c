@@ -1,6 +1,7 @@
 /* woven_cloth.c - a draft becomes a cloth: its runs, the albedo of its fibres, and what is seen of either system */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/fail.h"
 #include "base/memory.h"
@@ -183,7 +184,16 @@ void weft_cloth_free(WeftCloth *cloth) {
     free(cloth->runs);
     free(cloth->albedos);
     free(cloth->text);
+    free(cloth->path);
+    weft_draft_free(cloth->draft);
     free(cloth);
+}
+
+static bool same_text(const char *a, const char *b) { return a && b ? strcmp(a, b) == 0 : a == b; }
+
+bool cloth_same(const WeftCloth *a, const WeftCloth *b) {
+    if (!a->text || !same_text(a->text, b->text) || !same_text(a->path, b->path)) return false;
+    return a->draft && b->draft ? draft_same(a->draft, b->draft) : a->draft == b->draft;
 }
 
 WeftClothInfo weft_cloth_info(const WeftCloth *cloth) {

@@ -6,13 +6,25 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cmocka.h>
 
 #include "scene/scene.h"
+#include "scratch.h"
 #include "weave/weft_cloth.h"
 #include "weft/weft.h"
+
+/* Warnings that speak of a weave. */
+typedef struct Warned {
+    int weaves;
+} Warned;
+
+static void count_warning(void *user, WeftMessage message, const char *text) {
+    (void)message;
+    ((Warned *)user)->weaves += strstr(text, "weft.weave") != NULL;
+}
 
 static WeftScene *scene_of_cloth(void) {
     WeftScene *scene;
@@ -93,23 +105,127 @@ static void broken_weaves_are_refused_in_one_line(void **state) {
     weft_scene_free(scene);
 }
 
-static void a_saved_material_is_woven_again(void **state) {
-    (void)state;
-    WeftScene *scene = scene_of_cloth();
-    WeftError error;
-    char path[64];
-    snprintf(path, sizeof path, "/tmp/weft-woven-%ld.json", (long)getpid());
-    assert_int_equal(put(scene, denim, &error), WEFT_OK);
-    if (weft_scene_save_material(scene, 0, path, &error) != WEFT_OK) fail_msg("%s", error.text);
-    if (weft_scene_assign_material(scene, NULL, path, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
-    assert_int_equal(scene->materials[0].cloth, 2);
-    const Weave *a = &scene->cloths[0]->weave, *b = &scene->cloths[1]->weave;
+/* That material 0 of both scenes is woven alike. */
+static void assert_woven_alike(const WeftScene *one, const WeftScene *other) {
+    assert_true(one->materials[0].cloth && other->materials[0].cloth);
+    const Weave *a = &one->cloths[one->materials[0].cloth - 1]->weave,
+                *b = &other->cloths[other->materials[0].cloth - 1]->weave;
+    assert_int_equal(a->warps, b->warps);
+    assert_int_equal(a->picks, b->picks);
     for (int k = 0; k < 100; k++) {
         const float x = 0.61f * (float)k, y = 0.37f * (float)k;
-        assert_float_equal(weave_point(a, x, y).height, weave_point(b, x, y).height, 0.0f);
+        assert_float_equal(weave_point(a, x, y).height, weave_point(b, x, y).height, 1e-5f);
     }
-    assert_int_equal(unlink(path), 0);
+    for (int k = 0; k < 3 * (a->warps + a->picks); k++)
+        assert_float_equal(a->albedos[k], b->albedos[k], 0.0f);
+}
+
+/* Saves the scene or its first material, and compares what a fresh scene reads. */
+static void assert_saved(const WeftScene *scene, const char *path) {
+    WeftError error = {0};
+    WeftScene *fresh = NULL;
+    const bool material = strstr(path, ".json") != NULL;
+    WeftResult result =
+        material ? weft_scene_save_material(scene, 0, path, &error) : weft_scene_save(scene, path, &error);
+    if (result == WEFT_OK && material) {
+        fresh = scene_of_cloth();
+        result = weft_scene_assign_material(fresh, NULL, path, NULL, &error);
+    } else if (result == WEFT_OK) {
+        result = weft_scene_load(path, &fresh, NULL, &error);
+    }
+    if (result != WEFT_OK) fail_msg("%s", error.text);
+    assert_woven_alike(scene, fresh);
+    weft_scene_free(fresh);
+}
+
+static void a_saved_weave_is_woven_again(void **state) {
+    (void)state;
+    char work[SCRATCH_SIZE], path[SCRATCH_SIZE + 64];
+    WeftError error;
+    WeftScene *scene = scene_of_cloth();
+    assert_true(scratch_make(work));
+    assert_int_equal(put(scene, denim, &error), WEFT_OK);
+    snprintf(path, sizeof path, "%s/woven.json", work);
+    assert_saved(scene, path);
+    snprintf(path, sizeof path, "%s/woven.glb", work);
+    assert_saved(scene, path);
     weft_scene_free(scene);
+    assert_true(scratch_remove(work));
+}
+
+/* A draft in a file is found from another folder, and is still there in a glTF when that file is not. */
+static void a_weave_of_a_draft_in_a_file_is_saved_with_it(void **state) {
+    (void)state;
+    char work[SCRATCH_SIZE], path[SCRATCH_SIZE + 64], draft_path[SCRATCH_SIZE + 64];
+    static const char text[] = "{\"weave\": {\"draft\": \"own draft.wif\", \"weft\": \"silk\"}}";
+    WeftError error = {0};
+    WeftDraft *draft;
+    WeftScene *scene = scene_of_cloth();
+    assert_true(scratch_make(work));
+    assert_int_equal(weft_draft_parse("satin 5/2; warp 3#123456 2r; sett 31 17", &draft, &error), WEFT_OK);
+    snprintf(draft_path, sizeof draft_path, "%s/own draft.wif", work);
+    assert_int_equal(weft_draft_write(draft, draft_path, &error), WEFT_OK);
+    weft_draft_free(draft);
+    snprintf(path, sizeof path, "%s/mine.json", work);
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_int_equal(fputs(text, file) < 0, 0);
+    assert_int_equal(fclose(file), 0);
+    if (weft_scene_assign_material(scene, NULL, path, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
+    snprintf(path, sizeof path, "%s/below", work);
+    assert_int_equal(mkdir(path, 0700), 0);
+    snprintf(path, sizeof path, "%s/below/saved.json", work);
+    assert_saved(scene, path);
+    assert_int_equal(unlink(draft_path), 0);
+    WeftScene *other = scene_of_cloth();
+    assert_int_not_equal(weft_scene_assign_material(other, NULL, path, NULL, &error), WEFT_OK);
+    assert_non_null(strstr(error.text, "../own draft.wif")); /* it was named, not copied */
+    weft_scene_free(other);
+    snprintf(path, sizeof path, "%s/below/saved.glb", work);
+    assert_saved(scene, path);
+    snprintf(path, sizeof path, "%s/below/saved.gltf", work);
+    assert_saved(scene, path);
+    weft_scene_free(scene);
+    assert_true(scratch_remove(work));
+}
+
+/* Memory does not grow with every weave that is tried again. */
+static void a_weave_that_the_scene_has_is_not_added(void **state) {
+    (void)state;
+    static const char *const other = "{\"weave\": {\"draft\": \"plain\"}}";
+    WeftScene *scene = scene_of_cloth();
+    WeftError error;
+    for (int k = 0; k < 40; k++) {
+        assert_int_equal(put(scene, k % 2 ? other : denim, &error), WEFT_OK);
+        assert_int_equal(scene->materials[0].cloth, 1 + k % 2);
+    }
+    assert_int_equal(scene->cloth_count, 2);
+    weft_scene_free(scene);
+}
+
+/* A glTF's weave never opens a file; what makes no sense is left out with a line. */
+static void weave_of_a_gltf_reads_no_file(void **state) {
+    (void)state;
+    static const char *const bad[] = {"3", "{\"draft\": \"/etc/passwd\"}",
+                                      "{\"draft\": \"[WIF]\\nVersion=1.1\\n\"}",
+                                      "{\"draft\": \"plain\", \"warp\": \"nettle\"}"};
+    for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
+        char text[512];
+        Warned warned = {0};
+        const WeftLog log = {count_warning, &warned};
+        WeftScene *scene;
+        WeftError error;
+        snprintf(
+            text, sizeof text,
+            "{\"asset\": {\"version\": \"2.0\"}, \"materials\": [{\"extras\": {\"weft\": {\"weave\": %s}}}]}",
+            bad[k]);
+        if (weft_scene_load_memory(text, strlen(text), "some.gltf", &scene, &log, &error) != WEFT_OK)
+            fail_msg("%s", error.text);
+        assert_int_equal(scene->cloth_count, 0);
+        assert_int_equal(scene->materials[0].cloth, 0);
+        assert_int_equal(warned.weaves, 1);
+        weft_scene_free(scene);
+    }
 }
 
 /* A number of a cloth that the scene lacks is refused, one that it has is taken. */
@@ -150,7 +266,10 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_weave_is_a_cloth_of_the_scene),
         cmocka_unit_test(broken_weaves_are_refused_in_one_line),
-        cmocka_unit_test(a_saved_material_is_woven_again),
+        cmocka_unit_test(a_saved_weave_is_woven_again),
+        cmocka_unit_test(a_weave_of_a_draft_in_a_file_is_saved_with_it),
+        cmocka_unit_test(a_weave_that_the_scene_has_is_not_added),
+        cmocka_unit_test(weave_of_a_gltf_reads_no_file),
         cmocka_unit_test(numbers_name_cloths_of_the_scene),
         cmocka_unit_test(every_file_of_weaves_is_a_cloth),
     };
