@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "base/fail.h"
 #include "base/file.h"
@@ -154,13 +155,23 @@ static WeftResult write_material(const MapBake *b, const WeftCloth *cloth, const
 /* Whole repeats of at least CYCLE_LEAST threads. */
 static int cycle_of(int count) { return count * ((CYCLE_LEAST + count - 1) / count); }
 
+/* Takes back a folder that was made for maps which then could not all be written. */
+static void folder_remove(const char *folder) {
+    for (int k = 0; k < MAP_COUNT; k++) {
+        char path[4096];
+        snprintf(path, sizeof path, "%.4000s/%s", folder, kinds[k].file);
+        unlink(path);
+    }
+    rmdir(folder);
+}
+
 WeftResult weft_cloth_bake(const WeftCloth *cloth, int pixels, double metres, const char *folder,
                            WeftError *error) {
     if (pixels < 16 || pixels > SIDE_MAX)
         return fail(error, WEFT_MESSAGE_DESC, "maps", "%d pixels; 16 to %d are possible", pixels, SIDE_MAX);
     if (!(metres > 1e-6 && metres < 1e6)) return fail(error, WEFT_MESSAGE_DESC, "maps", "%g metres", metres);
-    if (mkdir(folder, 0777) != 0 && errno != EEXIST)
-        return fail(error, WEFT_MESSAGE_FILE_WRITE, folder, "%s", strerror(errno));
+    const bool made = mkdir(folder, 0777) == 0;
+    if (!made && errno != EEXIST) return fail(error, WEFT_MESSAGE_FILE_WRITE, folder, "%s", strerror(errno));
     MapBake bake = {.weave = cloth->weave, .width = pixels};
     const int across = cycle_of(cloth->weave.warps), along = cycle_of(cloth->weave.picks);
     const double size[2] = {cloth->size[0] * across / cloth->weave.warps,
@@ -178,5 +189,6 @@ WeftResult weft_cloth_bake(const WeftCloth *cloth, int pixels, double metres, co
     }
     if (result == WEFT_OK) result = write_material(&bake, cloth, size, metres, folder, error);
     for (int k = 0; k < MAP_COUNT; k++) weft_image_free(&bake.maps[k]);
+    if (result != WEFT_OK && made) folder_remove(folder);
     return result;
 }

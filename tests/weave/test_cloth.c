@@ -1,15 +1,18 @@
 /* Cloth woven of yarns: what lies on top, what is seen of either system, what varies, and maps that tile. */
 #include <setjmp.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <cmocka.h>
 
+#include "scratch.h"
 #include "shading/weave_light.h"
 #include "weave/weft_cloth.h"
 #include "weft/weft.h"
@@ -257,6 +260,32 @@ static void maps_repeat_without_a_seam(void **state) {
     weft_cloth_free(cloth);
 }
 
+/* A bake that fails takes its folder back, but leaves one that was there. */
+static void failed_bake_leaves_no_folder(void **state) {
+    (void)state;
+    char folder[SCRATCH_SIZE], maps[SCRATCH_SIZE + 8];
+    WeftError error;
+    struct rlimit was, small;
+    WeftCloth *cloth = woven("plain", yarn_of("cotton"), 0);
+    assert_true(scratch_make(folder));
+    snprintf(maps, sizeof maps, "%s/maps", folder);
+    assert_int_equal(getrlimit(RLIMIT_FSIZE, &was), 0);
+    small = was;
+    small.rlim_cur = 3000; /* bytes: the first map is larger */
+    void (*before)(int) = signal(SIGXFSZ, SIG_IGN);
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &small), 0);
+    const WeftResult result = weft_cloth_bake(cloth, 64, 0.5, maps, &error);
+    const WeftResult there = weft_cloth_bake(cloth, 64, 0.5, folder, &error);
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &was), 0);
+    signal(SIGXFSZ, before);
+    assert_int_equal(result, WEFT_RESOURCES);
+    assert_int_equal(there, WEFT_RESOURCES);
+    assert_int_equal(access(maps, F_OK), -1);
+    assert_int_equal(access(folder, F_OK), 0);
+    weft_cloth_free(cloth);
+    assert_true(scratch_remove(folder));
+}
+
 static void a_picture_shows_the_colours_of_its_threads(void **state) {
     (void)state;
     WeftCloth *cloth = woven("plain; both 1#c02020", yarn_of("cotton"), 0);
@@ -283,6 +312,7 @@ int main(void) {
         cmocka_unit_test(a_thread_without_end_is_level),
         cmocka_unit_test(numbers_that_no_yarn_has_are_refused_in_one_line),
         cmocka_unit_test(maps_repeat_without_a_seam),
+        cmocka_unit_test(failed_bake_leaves_no_folder),
         cmocka_unit_test(a_picture_shows_the_colours_of_its_threads),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
