@@ -154,6 +154,10 @@ typedef enum WeftDenoiser {
 /* "regression" or "oidn"; NULL beyond. */
 WEFT_API const char *weft_denoiser_name(int denoiser);
 
+/* Fails with WEFT_MESSAGE_DENOISER where this machine lacks what the denoiser needs, or with _DESC: so that a render is
+ * not begun in vain. */
+WEFT_API WeftResult weft_denoiser_check(WeftDenoiser denoiser, WeftError *error);
+
 /* The picture so far without most of its noise, as weft_render_image has it otherwise. It is to look at, never
  * to measure: what it takes away is not known. The same samples give the same bytes on any number of threads,
  * by REGRESSION. Needs halves and first_hits. Fails with WEFT_MESSAGE_DESC, _MEMORY or _DENOISER. */

@@ -225,8 +225,11 @@ int request_outputs_check(const Request *request) {
     const Options *options = request->options;
     int cursor = 0, result = 0;
     bool layered = false;
+    WeftError error;
     result = save_check(options);
     if (result != 0) return result;
+    if (request->denoise && weft_denoiser_check(request->denoiser, &error) != WEFT_OK)
+        return report_error(&error);
     if (!option_given(options, "-o") && !option_given(options, "--save"))
         return report(WEFT_USAGE, "render: needs -o OUT, a .png, .exr, .hdr or .npy file");
     for (const char *path; (path = option_next(options, "-o", &cursor));)

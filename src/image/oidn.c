@@ -85,24 +85,32 @@ static WeftResult verdict(const OidnLibrary *library, OidnDevice device, WeftErr
                 text ? text : "no reason given");
 }
 
+static WeftResult library_find(OidnLibrary *library, WeftError *error) {
+    if (library_open(library)) return WEFT_OK;
+    if (library->handle) dlclose(library->handle);
+    return fail(error, WEFT_MESSAGE_DENOISER, "libOpenImageDenoise", "version 1 or 2 of it is not installed");
+}
+
+WeftResult oidn_check(WeftError *error) {
+    OidnLibrary library;
+    WeftResult result = library_find(&library, error);
+    if (result == WEFT_OK) dlclose(library.handle);
+    return result;
+}
+
 WeftResult oidn_denoise(const OidnPicture *picture, int threads, WeftError *error) {
     OidnLibrary library;
-    WeftResult result = WEFT_OK;
-    if (!library_open(&library)) {
-        result = fail(error, WEFT_MESSAGE_DENOISER, "libOpenImageDenoise",
-                      "version 1 or 2 of it is not installed");
-    } else {
-        OidnDevice device = library.new_device(OIDN_CPU_DEVICE);
-        if (device) {
-            library.set_device_int(device, "numThreads", threads);
-            library.commit_device(device);
-            result = verdict(&library, device, error);
-            if (result == WEFT_OK) run(&library, device, picture);
-        }
-        if (result == WEFT_OK)
-            result = verdict(&library, device, error); /* of no device: why there is none */
-        if (device) library.release_device(device);
+    WeftResult result = library_find(&library, error);
+    if (result != WEFT_OK) return result;
+    OidnDevice device = library.new_device(OIDN_CPU_DEVICE);
+    if (device) {
+        library.set_device_int(device, "numThreads", threads);
+        library.commit_device(device);
+        result = verdict(&library, device, error);
+        if (result == WEFT_OK) run(&library, device, picture);
     }
-    if (library.handle) dlclose(library.handle);
+    if (result == WEFT_OK) result = verdict(&library, device, error); /* of no device: why there is none */
+    if (device) library.release_device(device);
+    dlclose(library.handle);
     return result;
 }

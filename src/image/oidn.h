@@ -11,6 +11,9 @@ typedef struct OidnPicture {
     float *albedo, *normal;
 } OidnPicture;
 
+/* Fails with WEFT_MESSAGE_DENOISER where the library is not there. */
+WeftResult oidn_check(WeftError *error);
+
 /* Fails with WEFT_MESSAGE_DENOISER where the library is not there, or complains. */
 WeftResult oidn_denoise(const OidnPicture *picture, int threads, WeftError *error);
 

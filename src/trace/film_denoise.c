@@ -13,6 +13,12 @@ const char *weft_denoiser_name(int denoiser) {
     return denoiser >= 0 && denoiser < WEFT_DENOISER_COUNT ? denoisers[denoiser] : NULL;
 }
 
+WeftResult weft_denoiser_check(WeftDenoiser denoiser, WeftError *error) {
+    if (!weft_denoiser_name((int)denoiser))
+        return fail(error, WEFT_MESSAGE_DESC, "denoiser", "%d", (int)denoiser);
+    return denoiser == WEFT_DENOISER_OIDN ? oidn_check(error) : WEFT_OK;
+}
+
 /* A half that has no sample of a pixel yet takes the other's. */
 static void take_pixel(const Film *film, int x, int y, DenoisePlanes *planes) {
     size_t at = (size_t)y * planes->stride + (size_t)x;
@@ -92,9 +98,9 @@ WeftResult film_denoise(const Film *film, WeftDenoiser denoiser, int threads, We
     *out = (WeftImage){0};
     if (film->halves < 2 || !film->hits)
         return fail(error, WEFT_MESSAGE_DESC, "denoising", "it needs halves and first_hits");
-    if ((unsigned)denoiser >= WEFT_DENOISER_COUNT)
-        return fail(error, WEFT_MESSAGE_DESC, "denoiser", "%d", (int)denoiser);
-    WeftResult result = weft_image_create(film->width, film->height, 4, WEFT_PIXEL_F32, out, error);
+    WeftResult result = weft_denoiser_check(denoiser, error);
+    if (result == WEFT_OK)
+        result = weft_image_create(film->width, film->height, 4, WEFT_PIXEL_F32, out, error);
     if (result == WEFT_OK)
         result = (denoiser == WEFT_DENOISER_OIDN ? by_oidn : by_regression)(film, threads, out, error);
     if (result != WEFT_OK) weft_image_free(out);

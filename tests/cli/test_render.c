@@ -437,7 +437,11 @@ static void absent_denoising_library_is_named(void **state) {
     Ran ran = run_with(NULL, LIST("render", "scene.gltf", TINY, "--denoiser", "oidn", "-o", "oidn.png"));
     if (ran.code == 0) {
         assert_size("oidn.png", 32, 24);
-    } else {
+    } else { /* before anything is read or rendered */
+        Ran absent =
+            run_with(NULL, LIST("render", "none.gltf", TINY, "--denoiser", "oidn", "-o", "oidn.png"));
+        assert_string_equal(absent.err, ran.err);
+        ran_free(&absent);
         assert_int_equal(ran.code, WEFT_RESOURCES);
         assert_non_null(strstr(ran.err, "libOpenImageDenoise: cannot denoise"));
         assert_ptr_equal(strchr(ran.err, '\n'), ran.err + strlen(ran.err) - 1);
