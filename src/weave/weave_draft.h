@@ -37,7 +37,7 @@ WeftResult draft_from_picture(const char *path, bool text, WeftDraft **out, cons
 /* Writes a WIF 1.1. WEFT_OK, or memory was short. */
 WeftResult wif_write(const WeftDraft *draft, FILE *stream, const char *name, WeftError *error);
 
-/* The same as a text, to be released with free(); NULL where memory is short. */
+/* Returns what that writes as a text, to be released with free(); NULL where memory is short. */
 char *wif_text(const WeftDraft *draft);
 
 #endif
