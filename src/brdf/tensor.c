@@ -65,8 +65,10 @@ static WeftResult take_tensor(Header *header, const char *name, Tensor *out, Wef
 WeftResult tensor_file_read(const unsigned char *bytes, size_t size, const char *name, TensorFile *out,
                             WeftError *error) {
     *out = (TensorFile){.count = 0};
-    if (size < sizeof magic + 6 || memcmp(bytes, magic, sizeof magic) != 0)
+    if (size < sizeof magic || memcmp(bytes, magic, sizeof magic) != 0)
         return fail(error, WEFT_MESSAGE_BSDF, name, "it does not begin with \"%s\"", magic);
+    if (size < sizeof magic + 6)
+        return fail(error, WEFT_MESSAGE_BSDF, name, "it is cut short behind \"%s\"", magic);
     Header header = {.bytes = bytes, .size = size, .at = sizeof magic};
     unsigned major = (unsigned)take(&header, 1), minor = (unsigned)take(&header, 1);
     uint64_t count = take(&header, 4);

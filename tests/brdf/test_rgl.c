@@ -547,6 +547,26 @@ static void hostile_files_end_in_one_line(void **state) {
     refused("red to blue");
 }
 
+/* A copy of the first bytes in memory of just that size, which a sanitizer watches. */
+static void files_cut_anywhere_end_in_one_line(void **state) {
+    (void)state;
+    const Tables t = random_tables(PHIS, 6.0);
+    file_make(&t, WAVES);
+    for (size_t size = 0; size < file.size; size++) {
+        unsigned char *cut = malloc(size ? size : 1);
+        Rgl rgl;
+        WeftError error;
+        assert_non_null(cut);
+        memcpy(cut, file.data, size);
+        assert_int_equal(rgl_read_memory(cut, size, "file", &rgl, &error), WEFT_INPUT);
+        assert_int_equal(error.message, WEFT_MESSAGE_BSDF);
+        assert_null(strchr(error.text, '\n'));
+        if (size >= 12 && strstr(error.text, "does not begin")) fail_msg("%zu bytes: %s", size, error.text);
+        rgl_free(&rgl);
+        free(cut);
+    }
+}
+
 /* A slice of zeros is drawn as one of ones; where sigma is 0 nothing is reflected. */
 static void empty_tables_are_even(void **state) {
     (void)state;
@@ -604,6 +624,7 @@ int main(void) {
         cmocka_unit_test(sampling_is_the_inverse),
         cmocka_unit_test(lobes_come_back),
         cmocka_unit_test(hostile_files_end_in_one_line),
+        cmocka_unit_test(files_cut_anywhere_end_in_one_line),
         cmocka_unit_test(empty_tables_are_even),
         cmocka_unit_test(bad_sizes_are_refused),
     };

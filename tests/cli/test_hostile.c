@@ -66,6 +66,14 @@ static void pipes_and_devices_are_refused_at_once(void **state) {
     unlink("pipe");
 }
 
+/* All that is there is the word that a .bsdf begins with. */
+static void bsdf_cut_behind_its_magic_is_refused(void **state) {
+    (void)state;
+    file_make("cut.bsdf", "tensor_file", 12);
+    assert_complaint(NULL, LIST("fit", "cut.bsdf"), 3, "cut short");
+    assert_complaint(NULL, LIST("plot", "polar", "cut.bsdf", "-o", "a.svg"), 3, "cut short");
+}
+
 /* The program runs once to have its cache, of which every file becomes a pipe. */
 static void cache_file_that_is_a_pipe_is_ignored(void **state) {
     (void)state;
@@ -146,6 +154,7 @@ int main(void) {
         cmocka_unit_test(cameras_out_of_reach_are_refused),
         cmocka_unit_test(picture_from_a_camera_out_of_reach_is_refused),
         cmocka_unit_test(pipes_and_devices_are_refused_at_once),
+        cmocka_unit_test(bsdf_cut_behind_its_magic_is_refused),
         cmocka_unit_test(cache_file_that_is_a_pipe_is_ignored),
         cmocka_unit_test(damaged_cache_is_a_warning),
         cmocka_unit_test(eval_waiting_for_a_pipe_ends_by_a_signal),
