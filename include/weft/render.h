@@ -54,7 +54,9 @@ typedef struct WeftRenderDesc {
     WeftSampling sampling;
     int pixel_centre; /* not 0: every camera ray goes through the middle of its pixel, no filter */
     int no_roulette;  /* not 0: paths end only at max_depth or where nothing is hit */
-    int no_shadows;   /* not 0: lights reach every point that faces them; to compare with other renderers */
+    /* not 0: lights and the environment reach every point that faces them, however they are sampled; to compare with
+     * other renderers */
+    int no_shadows;
     WeftFloor floor;
     int hide_lights; /* not 0: polygon lights shine, but the camera looks through them */
     /* not 0: samples are two halves, independent of each other, whose difference shows the error; needed by

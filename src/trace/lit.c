@@ -4,6 +4,13 @@
 #include "shading/loop.h"
 #include "shading/rgb.h"
 
+/* Returns the way in which a group of lights is found. Without shadows all of it must be found by what nothing stands in the way of: the rays
+ * that the lobe draws meet the environment behind everything then (stream.c), but other lights only where they are seen.
+ */
+static WeftSampling sampling_of(const PathContext *context, LightGroup group) {
+    return context->shadows || group == LIGHTS_SKY ? context->sampling : WEFT_SAMPLING_LIGHT;
+}
+
 /* The density with which the light that a path hit is drawn where the path comes from. */
 static float light_pdf(const Chunk *c, const ChunkSource *from, int k, float cosine) {
     const Paths *p = from->paths;
@@ -23,7 +30,8 @@ void chunk_add_emission(Chunk *c, const ChunkSource *from, Light4 *light) {
         for (int a = 0; a < 3; a++) cosine += c->wo[a][k] * c->geometric[a][k];
         if (!material->unlit) {
             float b = c->pdf[k] > 0.0f ? light_pdf(c, from, k, cosine) : 0.0f;
-            worth = s->emission_strength[k] * lobe_weight(context->sampling, c->pdf[k], b);
+            worth =
+                s->emission_strength[k] * lobe_weight(sampling_of(context, LIGHTS_EMITTERS), c->pdf[k], b);
             if (c->side[k] < 0.0f && !material->double_sided) worth = 0.0f;
         }
         for (int a = 0; a < 3; a++) light->c[a][c->id[k]] += c->throughput[a][k] * (sent[a][k] * worth);
@@ -91,8 +99,9 @@ CLONES static void aim_n(Chunk *restrict c, LightGroup group, int n) {
 int chunk_add_light(Chunk *c, const ChunkSource *from, LightGroup group, Light4 *light) {
     const PathContext *context = from->context;
     bool punctual = group == LIGHTS_PUNCTUAL;
-    if (context->sampling == WEFT_SAMPLING_LOBE && !punctual) return 0;
-    weigh_n(c, group, !punctual && context->sampling == WEFT_SAMPLING_MIS, row_whole(from->n));
+    WeftSampling sampling = sampling_of(context, group);
+    if (sampling == WEFT_SAMPLING_LOBE && !punctual) return 0;
+    weigh_n(c, group, !punctual && sampling == WEFT_SAMPLING_MIS, row_whole(from->n));
     int count = list_rays(c, from->n);
     if (context->shadows) {
         aim_n(c, group, row_whole(count));

@@ -144,9 +144,12 @@ void stream_follow(Stream *s, int n) {
         sort(s, n, classes);
         stage_end(s->chunk.clock, STAGE_SORT);
         const int *end = s->end;
-        for (int k = 0; k < end[0]; k += ROW_MOST)
-            add_sky(s, paths, depth > 0 && s->context->sky_in_parts, s->order + k,
-                    end[0] - k < ROW_MOST ? end[0] - k : ROW_MOST);
+        /* without shadows the environment reaches a surface along every ray that leaves it, whatever that hits */
+        const int reached = depth > 0 && !s->context->shadows ? classes : 1;
+        for (int c = 0; c < reached; c++)
+            for (int k = c ? row_whole(end[c - 1]) : 0; k < end[c]; k += ROW_MOST)
+                add_sky(s, paths, depth > 0 && s->context->sky_in_parts, s->order + k,
+                        end[c] - k < ROW_MOST ? end[c] - k : ROW_MOST);
         stage_end(s->chunk.clock, STAGE_MISSES);
         ChunkSource source = {.context = s->context,
                               .paths = paths,

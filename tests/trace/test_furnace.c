@@ -262,6 +262,51 @@ static void sphere_in_the_furnace_shows_the_albedo(void **state) {
     }
 }
 
+/* The mean of a matt floor's picture under a sky and a square light, with a black board between, or not. */
+static Estimate under_a_board(bool board, WeftSampling sampling, int no_shadows) {
+    WeftScene *scene = test_scene();
+    test_environment(scene, 1.0f);
+    test_material(scene, 0.5f);
+    test_quad(scene, vec3(-1, 0, 1), vec3(2, 0, 0), vec3(0, 0, -2));
+    Material *light = test_material(scene, 0.0f);
+    test_color(light, INPUT_emission, 3.0f);
+    test_quad(scene, vec3(-1, 3, -1), vec3(2, 0, 0), vec3(0, 0, 2));
+    test_material(scene, 0.0f);
+    if (board) test_quad(scene, vec3(-4, 2, -4), vec3(8, 0, 0), vec3(0, 0, 8));
+    scene_bounds(scene);
+    const WeftRenderDesc desc = {.width = 16,
+                                 .height = 16,
+                                 .camera = "0,1,0.01;0,0,0;40",
+                                 .sampling = sampling,
+                                 .no_shadows = no_shadows};
+    WeftRender *render;
+    WeftImage image;
+    WeftError error;
+    if (weft_render_create(scene, &desc, &render, &error) != WEFT_OK) fail_msg("%s", error.text);
+    assert_int_equal(weft_render_run(render, 64, 0.0, NULL, NULL), WEFT_OK);
+    assert_int_equal(weft_render_image(render, &image, &error), WEFT_OK);
+    const Estimate found = estimate(&image);
+    weft_image_free(&image);
+    weft_render_free(render);
+    weft_scene_free(scene);
+    return found;
+}
+
+/* Without shadows the board is as if it were not there, however light is sampled; with them it is. */
+static void no_shadows_is_the_same_for_every_sampling(void **state) {
+    (void)state;
+    const Estimate bare = under_a_board(false, WEFT_SAMPLING_LIGHT, 1); /* nor does the light hide the sky */
+    const double shaded = under_a_board(true, WEFT_SAMPLING_MIS, 0).mean;
+    assert_int_equal(bare.count, 16 * 16);
+    assert_true(shaded < 0.5 * bare.mean);
+    for (int sampling = 0; sampling <= WEFT_SAMPLING_LOBE; sampling++) {
+        const Estimate found = under_a_board(true, (WeftSampling)sampling, 1);
+        if (!(fabs(found.mean - bare.mean) < 4.0 * hypot(found.error, bare.error)))
+            fail_msg("sampling %d: %.4f, not %.4f +- %.4f", sampling, found.mean, bare.mean,
+                     4.0 * hypot(found.error, bare.error));
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(closed_furnace_has_radiance_one),
@@ -269,6 +314,7 @@ int main(void) {
         cmocka_unit_test(textured_fabric_and_body_keep_within_the_furnace),
         cmocka_unit_test(plane_in_the_furnace_shows_the_albedo),
         cmocka_unit_test(sphere_in_the_furnace_shows_the_albedo),
+        cmocka_unit_test(no_shadows_is_the_same_for_every_sampling),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
