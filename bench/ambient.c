@@ -347,7 +347,7 @@ static void measure(void *user, int item, int thread) {
                                         maps[k].parts.point_count};
             Rgb expected = reference(&maps[k], p, &m, draws, count);
             for (int s = 0; s < AMBIENT_STRATEGIES; s++) {
-                Rgb got = stack_ambient(&m.stack, &m.view, by_strategy(tables, s), &calls, 1.0f);
+                Rgb got = stack_ambient(&m.stack, &m.view, by_strategy(tables, s), &calls, 1.0f, 1.0f);
                 double *sum = results[model][r][s][k];
                 sum[0] += p->weight * (double)(abs(got.r - expected.r) + abs(got.g - expected.g) +
                                                abs(got.b - expected.b));

@@ -17,7 +17,7 @@ WEFT_API WeftResult weft_scene_save_material(const WeftScene *scene, int index, 
 
 /* Writes the scene as it is as .glb, or as .gltf beside which are a .bin and pictures: meshes in the world,
  * materials with the extensions KHR_materials_sheen, _clearcoat, _anisotropy, _specular, _ior,
- * _emissive_strength, _unlit, KHR_texture_transform and KHR_materials_variants where they say it, and in the
+ * _diffuse_transmission, _emissive_strength, _unlit, KHR_texture_transform and KHR_materials_variants where they say it, and in the
  * extras of a material, under "weft", what they do not; lights of KHR_lights_punctual, cameras. Read again it
  * gives the same picture. Environment and node hierarchy are not kept. Fails with WEFT_MESSAGE_SCENE_KIND
  * (another suffix), _FILE_WRITE or _MEMORY. */

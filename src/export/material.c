@@ -180,15 +180,18 @@ static void put_surface(Draft *draft, const ExportModel *model) {
 
 static void put_shade(Draft *draft, const ExportModel *model) {
     Text *text = &draft->text;
-    bool coat = model->slots.slots[PLACE_COAT].count > 0;
+    bool coat = model->slots.slots[PLACE_COAT].count > 0, through = model->slots.transmits;
     text_line(text,
-              "\n/* f%s times the cosine of wi, each channel; black below the horizon. */\n"
+              "\n/* f%s times the cosine of wi, each channel; %s. */\n"
               "Rgb %s_shade(Surface s, Dir wo, Dir wi) {\n"
-              "    if (wo.z <= 0.0 || wi.z <= 0.0) return rgb_grey(0.0);",
-              draft->desc->fold_pi ? " times pi" : "", draft->id[0]);
+              "    if (wo.z <= 0.0%s) return rgb_grey(0.0);",
+              draft->desc->fold_pi ? " times pi" : "",
+              through ? "below the horizon, of the light that comes through" : "black below the horizon",
+              draft->id[0], through ? "" : " || wi.z <= 0.0");
     if (model->chosen) text_line(text, "    compose_surface(s, material_choices());");
     text_line(text, "    Stack m;\n    stack_clear(m);\n    %s;", composition_stack(&model->choices));
     if (model->chosen) text_line(text, "    compose_choices(m, s, material_choices());");
+    if (through) text_line(text, "    stack_split_diffuse(m);");
     if (!model->zero[INPUT_dust]) text_line(text, "    compose_dust(m, s);");
     if (model->table) text_line(text, "    m.table = sheen_table();");
     if (model->table && layer_asks_average(model->stack.layer))
@@ -203,6 +206,13 @@ static void put_shade(Draft *draft, const ExportModel *model) {
               c ? "    static StackView nothing;\n" : "", c ? " = nothing" : "");
     if (needs_e(model)) text_line(text, "    w.e_o = stack_albedo(m, wo);");
     if (model->slots.slots[PLACE_SHEEN].count) text_line(text, "    view_base_scale(m, w);");
+    if (through)
+        text_line(text,
+                  "    if (wi.z < 0.0) {\n"
+                  "        Angles mirrored = angles_between(wo, dir(wi.x, wi.y, -wi.z));\n"
+                  "        return %s;\n    }",
+                  draft->desc->fold_pi ? "rgb_scale(stack_transmitted(m, w, mirrored).f_cos, PI)"
+                                       : "stack_transmitted(m, w, mirrored).f_cos");
     text_line(text, "    Angles a = angles_between(wo, wi);");
     if (coat) text_line(text, "    Angles b = angles_between(w.coat_o, stack_to_coat(m, wi));");
     text_line(text,

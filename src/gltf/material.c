@@ -1,5 +1,5 @@
 /* Specification: Khronos Group, "glTF 2.0 Specification", 2021, section 3.9 (materials), and the texts of
- * KHR_materials_anisotropy, _clearcoat, _emissive_strength, _ior, _sheen, _specular, _unlit and
+ * KHR_materials_anisotropy, _clearcoat, _diffuse_transmission, _emissive_strength, _ior, _sheen, _specular, _unlit and
  * KHR_texture_transform in its extension registry. */
 #include "base/pi.h"
 #include "gltf/gltf_material.h"
@@ -128,6 +128,14 @@ static void clearcoat_read(const Field *material, Input *inputs) {
     scalar_read(&extension, &inputs[INPUT_clearcoat_roughness], "clearcoatRoughnessFactor", 0.0f, 1.0f,
                 "clearcoatRoughnessTexture", G);
     normal_read(&extension, &inputs[INPUT_clearcoat_normal], "clearcoatNormalTexture");
+}
+
+static void diffuse_transmission_read(const Field *material, Input *inputs) {
+    Field extension = field_extension(material, "KHR_materials_diffuse_transmission");
+    scalar_read(&extension, &inputs[INPUT_diffuse_transmission], "diffuseTransmissionFactor", 0.0f, 1.0f,
+                "diffuseTransmissionTexture", A);
+    color_read(&extension, &inputs[INPUT_diffuse_transmission_color], "diffuseTransmissionColorFactor", 1.0f,
+               1.0f, "diffuseTransmissionColorTexture");
 }
 
 static void sheen_read(const Field *material, Input *inputs) {
@@ -284,6 +292,7 @@ static Material material_read(const Field *field) {
     specular_read(field, inputs);
     anisotropy_read(field, inputs);
     clearcoat_read(field, inputs);
+    diffuse_transmission_read(field, inputs);
     sheen_read(field, inputs);
     extras_read(field, &material);
     return material;

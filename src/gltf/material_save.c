@@ -150,6 +150,19 @@ static void clearcoat_save(Saving *saving, json_t *object, const Material *mater
     saving_extend(saving, object, "KHR_materials_clearcoat", extension);
 }
 
+static void diffuse_transmission_save(Saving *saving, json_t *object, const Material *material) {
+    const Input *inputs = material->inputs;
+    json_t *extension = json_object();
+    number_put(saving, extension, "diffuseTransmissionFactor",
+               unit(value(material, INPUT_diffuse_transmission)));
+    texture_put(saving, extension, "diffuseTransmissionTexture", &inputs[INPUT_diffuse_transmission], A);
+    color_put(saving, extension, "diffuseTransmissionColorFactor",
+              inputs[INPUT_diffuse_transmission_color].value, 1.0f, 1.0f);
+    texture_put(saving, extension, "diffuseTransmissionColorTexture",
+                &inputs[INPUT_diffuse_transmission_color], -1);
+    saving_extend(saving, object, "KHR_materials_diffuse_transmission", extension);
+}
+
 static void sheen_save(Saving *saving, json_t *object, const Material *material) {
     const Input *inputs = material->inputs;
     json_t *extension = json_object();
@@ -179,6 +192,8 @@ static json_t *material_save(Saving *saving, const char *name, const Material *m
     specular_save(saving, object, material);
     if (value(material, INPUT_anisotropy) > 0.0f) anisotropy_save(saving, object, material);
     if (value(material, INPUT_clearcoat) > 0.0f) clearcoat_save(saving, object, material);
+    if (value(material, INPUT_diffuse_transmission) > 0.0f)
+        diffuse_transmission_save(saving, object, material);
     if (!is_black(material, INPUT_sheen_color)) sheen_save(saving, object, material);
     return object;
 }

@@ -30,6 +30,7 @@ static const struct {
     {"extensions/KHR_materials_clearcoat/clearcoatNormalTexture", SPACE_DATA},
     {"extensions/KHR_materials_anisotropy/anisotropyTexture", SPACE_DATA},
     {"extensions/KHR_materials_transmission/transmissionTexture", SPACE_DATA},
+    {"extensions/KHR_materials_diffuse_transmission/diffuseTransmissionTexture", SPACE_DATA},
     {"extensions/KHR_materials_iridescence/iridescenceTexture", SPACE_DATA},
     {"extensions/KHR_materials_volume/thicknessTexture", SPACE_DATA},
 };

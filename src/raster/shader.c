@@ -212,7 +212,7 @@ static bool turns(const ShaderKey *key, const CompositionSlots *found) {
 }
 
 static bool same_slots(const CompositionSlots *a, const CompositionSlots *b) {
-    bool same = a->used == b->used;
+    bool same = a->used == b->used && a->transmits == b->transmits;
     for (int k = 0; k < SLOT_COUNT; k++) {
         const TextSlot *s = &a->slots[k], *t = &b->slots[k];
         same = same && s->count == t->count;

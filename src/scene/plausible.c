@@ -150,10 +150,14 @@ static const Limit limits[] = {
 };
 
 /* Inputs other than colours that a sum of base and sheen depends on. */
-static const InputId shapes[] = {
-    INPUT_metallic,        INPUT_roughness,     INPUT_specular,     INPUT_sheen,      INPUT_sheen_beta,
-    INPUT_sheen_roughness, INPUT_sheen_density, INPUT_sheen_tail,   INPUT_sheen_rise, INPUT_nap,
-    INPUT_subsurface,      INPUT_diffuse_retro, INPUT_diffuse_lift, INPUT_clearcoat};
+static const InputId shapes[] = {INPUT_metallic,      INPUT_roughness,
+                                 INPUT_specular,      INPUT_sheen,
+                                 INPUT_sheen_beta,    INPUT_sheen_roughness,
+                                 INPUT_sheen_density, INPUT_sheen_tail,
+                                 INPUT_sheen_rise,    INPUT_nap,
+                                 INPUT_subsurface,    INPUT_diffuse_retro,
+                                 INPUT_diffuse_lift,  INPUT_diffuse_transmission,
+                                 INPUT_clearcoat};
 
 /* Adds E of a slot towards a direction. */
 static void slot_add(const Slot *slot, float cos_o, float sum[3]) {
@@ -180,6 +184,8 @@ static bool sums_to_one(const Material *material) {
     for (size_t k = 0; k < sizeof cosines / sizeof *cosines; k++) {
         float sum[3] = {0.0f};
         if (HAS_DIFFUSE(&stack)) slot_add(&stack.diffuse, cosines[k], sum);
+        const Rgb through = stack.transmitted;
+        sum[0] += through.r, sum[1] += through.g, sum[2] += through.b;
         if (HAS_SPECULAR(&stack)) slot_add(&stack.specular, cosines[k], sum);
         if (HAS_SHEEN(&stack)) slot_add(&stack.sheen, cosines[k], sum);
         if (!(fmaxf(sum[0], fmaxf(sum[1], sum[2])) <= 1.0f)) return false;

@@ -20,7 +20,7 @@ static const ReadProbe probes[] = {
     {{-0.48f, -0.36f, 0.80f}, {0.6f, 0.0f, 0.8f}, {1.373f, -0.418f, 0.702f}, {-0.78f, -0.10f, 0.62f}},
     {{0.48f, 0.60f, -0.64f}, {0.0f, 1.0f, 0.0f}, {-0.561f, 0.933f, 2.207f}, {0.88f, 0.12f, 0.46f}},
 };
-enum { PROBES = sizeof probes / sizeof *probes, INCOMING = 4, ANSWERS = PROBES * INCOMING };
+enum { PROBES = sizeof probes / sizeof *probes, INCOMING = 5, ANSWERS = PROBES * INCOMING };
 
 typedef struct MaterialAnswer {
     Rgb f_cos[ANSWERS];
@@ -34,13 +34,14 @@ static float stand_in(const Stack *m) {
     return f > 0.0f ? f / (1.0f + f) : 0.0f;
 }
 
-/* Four directions of light: where a mirror sends it, just beside, and far off. */
+/* Directions of light: where a mirror sends it, just beside, far off, and the last from behind. */
 static Dir incoming(Dir o, int k) {
-    const float aside[INCOMING][2] = {{0.0f, 0.0f}, {0.021f, 0.013f}, {0.43f, -0.29f}, {-0.51f, 0.37f}};
+    const float aside[INCOMING][2] = {
+        {0.0f, 0.0f}, {0.021f, 0.013f}, {0.43f, -0.29f}, {-0.51f, 0.37f}, {0.2f, 0.3f}};
     float x = aside[k][0] - o.x, y = aside[k][1] - o.y, most = 0.97f; /* above the horizon */
     float shrink = min(1.0f, sqrt(most / max(x * x + y * y, most)));
     x *= shrink, y *= shrink;
-    return dir(x, y, sqrt(1.0f - x * x - y * y));
+    return dir(x, y, (k == INCOMING - 1 ? -1.0f : 1.0f) * sqrt(1.0f - x * x - y * y));
 }
 
 static void answer_at(const ReadProbe *probe, Surface s, const Choices *choices, Rgb f_cos[INCOMING]) {

@@ -108,9 +108,10 @@ FN Rgb ambient_reflect_lights(const Stack *m, const StackView *view, Slots only,
     return sum;
 }
 
-/* Returns the light that a stack reflects towards wo. t: the tables of its lobes. occlusion: the visible part of the
- * cosine-weighted sky, 0 to 1. */
-FN Rgb stack_ambient(const Stack *m, const StackView *w, AmbientTables t, AmbientSource s, float occlusion) {
+/* Returns the light that a stack reflects towards wo, and what comes through. t: the tables of its lobes. occlusion,
+ * occlusion_behind: the visible part of the cosine-weighted sky on either side, 0 to 1. */
+FN Rgb stack_ambient(const Stack *m, const StackView *w, AmbientTables t, AmbientSource s, float occlusion,
+                     float occlusion_behind) {
     Rgb sum = rgb_grey(0.0f);
     StackView lights = *w; /* with scales for the lights still to be added */
     Slots only = slots_of(false, false, false, false, false);
@@ -127,6 +128,11 @@ FN Rgb stack_ambient(const Stack *m, const StackView *w, AmbientTables t, Ambien
         if (SHOWS_DIFFUSE) sum = rgb_mul(through.diffuse, a.reflected);
         lights.scale.diffuse = a.lights_scale;
         only.diffuse = SHOWS_DIFFUSE && a.lights_scale > 0.0f;
+    }
+    if (HAS_TRANSMITTED(m) && SHOWS_DIFFUSE) {
+        float behind = w->scale.diffuse * clamp(occlusion_behind, 0.0f, 1.0f) * diffuse_factor;
+        Rgb light = rgb_scale(ambient_irradiance(s, dir(-v.z.x, -v.z.y, -v.z.z)), behind);
+        sum = rgb_add(sum, rgb_mul(through.diffuse, rgb_mul(m->transmitted, light)));
     }
     if (HAS_SPECULAR(m)) {
         SlotLight light = ambient_slot_light(t.specular, s, v, residual, m->specular.lobe, -1.0f);

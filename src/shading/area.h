@@ -134,4 +134,17 @@ FN Rgb stack_polygon(const Stack *m, const StackView *view, Polygon p) {
     return sum;
 }
 
+/* Light of a polygon of radiance 1 below the surface, as much of it as comes through: the form factor of its mirror image
+ * times what the layers let through of the middle of that. */
+FN Rgb stack_polygon_behind(const Stack *m, const StackView *view, Polygon p) {
+    Polygon q = p;
+    for (int k = 0; k < p.count; k++) q.corners[k] = dir(p.corners[k].x, p.corners[k].y, -p.corners[k].z);
+    q = polygon_on_sphere(polygon_clip(q));
+    Dir flux = polygon_flux(q), c = polygon_middle(q, flux);
+    if (q.count < 3 || view->o.z <= 0.0f || c.z <= 0.0f) return rgb_grey(0.0f);
+    Angles a = angles_between(view->o, c);
+    StackValue value = stack_transmitted(m, view, &a);
+    return rgb_scale(value.f_cos, max(flux.z, 0.0f) / max(c.z, 1e-6f));
+}
+
 #endif

@@ -151,6 +151,7 @@ FN void stack_prepare(Stack *m) {
 FN void compose_stack(Stack *m, const Surface *s, Choices c, TableRef e) {
     compose_begin(m, s, c);
     compose_choices(m, s, c);
+    stack_split_diffuse(m);
     compose_dust(m, s);
     m->table = e;
     stack_prepare(m);
@@ -283,6 +284,26 @@ FN void stack_view(const Stack *m, Dir o, StackView *w) {
     IN_SLOT(slot, reflect)                                                                                   \
     (m->slot.lobe.id, &m->slot##_prepared, &w->slot##_view, pair, &m->slot.f0, &m->slot.f90, &v);
 
+/* f of the diffuse lobe under the interface. through: what that lets through by a rule that puts it over the sheen
+ * too, which is the case if below_f. */
+FN Rgb stack_under_interface(const Stack *m, const StackView *w, const Angles *a, bool below_f, Rgb through,
+                             Rgb f) {
+    if (below_f) return rgb_mul(rgb_mul(f, through), w->base_scale);
+    if (m->base_fresnel != BASE_FRESNEL_NONE) return rgb_mul(f, stack_base_transmittance(m, w, a));
+    return f;
+}
+
+/* f of the base under the sheen, of the other rules. */
+FN Rgb stack_under_sheen(const Stack *m, const StackView *w, const Angles *a, Rgb f) {
+    Rgb base_scale = w->base_scale;
+    if (layer_asks_wi(m->layer)) {
+        SheenE e_i = sheen_e_of(0.0f);
+        if (HAS_SHEEN(m)) e_i = stack_albedo(m, a->i);
+        base_scale = stack_base_scale(m, w, e_i);
+    }
+    return rgb_mul(f, base_scale);
+}
+
 /* Works as stack_value, for the slots `only`. The other slots still dim them. */
 FN StackValue stack_value_of(const Stack *m, const StackView *w, Slots only, const Angles *a,
                              const Angles *coat) {
@@ -295,10 +316,8 @@ FN StackValue stack_value_of(const Stack *m, const StackView *w, Slots only, con
         SLOT_VALUE(diffuse, a)
         f = rgb_scale(v.f, w->scale.diffuse);
         pdf = w->select_p.diffuse * v.pdf;
-        if (below_f)
-            f = rgb_mul(rgb_mul(f, through), w->base_scale);
-        else if (m->base_fresnel != BASE_FRESNEL_NONE)
-            f = rgb_mul(f, stack_base_transmittance(m, w, a));
+        if (HAS_TRANSMITTED(m)) pdf = pdf * (1.0f - m->transmitted_p);
+        f = stack_under_interface(m, w, a, below_f, through, f);
     }
     if (only.specular && HAS_SPECULAR(m)) {
         if (HAS_EXTRA_F(m)) {
@@ -312,15 +331,7 @@ FN StackValue stack_value_of(const Stack *m, const StackView *w, Slots only, con
         f = rgb_add(f, rgb_scale(v.f, w->scale.specular));
         pdf = pdf + w->select_p.specular * v.pdf;
     }
-    if (layered && !below_f) {
-        Rgb base_scale = w->base_scale;
-        if (layer_asks_wi(m->layer)) {
-            SheenE e_i = sheen_e_of(0.0f);
-            if (HAS_SHEEN(m)) e_i = stack_albedo(m, a->i);
-            base_scale = stack_base_scale(m, w, e_i);
-        }
-        f = rgb_mul(f, base_scale);
-    }
+    if (layered && !below_f) f = stack_under_sheen(m, w, a, f);
     if (only.sheen && HAS_SHEEN(m)) {
         SLOT_VALUE(sheen, a)
         v.f = rgb_scale(v.f, w->scale.sheen);
@@ -343,6 +354,21 @@ FN StackValue stack_value_of(const Stack *m, const StackView *w, Slots only, con
     sum.f_cos = f;
     sum.pdf = pdf;
     return sum;
+}
+
+/* Returns f cos_i and the pdf of light from below the surface. a: of its mirror image above. Of layer rule stochastic it
+ * is the first pass. */
+FN StackValue stack_transmitted(const Stack *m, const StackView *w, const Angles *a) {
+    bool layered = HAS_LAYERED_SHEEN(m), below_f = IS_BELOW_F(m) && layered;
+    float lambert = a->i.z / PI;
+    Rgb f = rgb_scale(m->transmitted, w->scale.diffuse), through = f;
+    if (below_f) through = stack_interface_transmittance(m, w, a);
+    f = stack_under_interface(m, w, a, below_f, through, f);
+    if (layered && !below_f) f = stack_under_sheen(m, w, a, f);
+    StackValue v;
+    v.f_cos = rgb_scale(f, lambert);
+    v.pdf = w->select_p.diffuse * m->transmitted_p * lambert;
+    return v;
 }
 
 /* Returns f cos_i and the pdf of wi. Both directions are above the horizon. coat: the pair in the coat's frame. */

@@ -33,6 +33,9 @@
     P(SCALAR, specular_tint, 0.0f, 0.0f, 1.0f, 0.0f, 1.0f, "disney: base colour in the reflection")          \
     P(SCALAR, subsurface, 0.0f, 0.0f, 1.0f, 0.0f, 1.0f,                                                      \
       "disney: flattened subsurface; diffuse=wrap: the amount of wrap")                                      \
+    P(SCALAR, diffuse_transmission, 0.0f, 0.0f, 1.0f, 0.0f, 1.0f,                                            \
+      "share of the diffuse light that goes through cloth in place of back")                                 \
+    P(COLOR, diffuse_transmission_color, 1.0f, 0.0f, 1.0f, 0.0f, 1.0f, "colour of the light that does")      \
     P(SCALAR, anisotropy, 0.0f, 0.0f, 1.0f, 0.0f, 1.0f,                                                      \
       "stretch of the highlight along anisotropy_direction")                                                 \
     P(DIRECTION, anisotropy_direction, 0.0f, 0.0f, 360.0f, -1e6f, 1e6f, "angle from the tangent, degrees")   \

@@ -5,17 +5,19 @@
 struct StackKind {
     int profile;
     int lobe[5]; /* of each slot; -1: it holds none */
+    bool transmits;
     int layer, base_fresnel, albedo;
     const KindLoops *loops;
 };
 
-#define K(name, profile, diffuse, specular, sheen, coat, dust, layer, base_fresnel, albedo)                  \
+#define K(name, profile, diffuse, specular, sheen, coat, dust, transmits, layer, base_fresnel, albedo)       \
     extern const KindLoops kind_loops_##name;
 #include "shading/kinds.gen.h"
 #undef K
 
-#define K(name, profile, diffuse, specular, sheen, coat, dust, layer, base_fresnel, albedo)                  \
-    {profile, {diffuse, specular, sheen, coat, dust}, layer, base_fresnel, albedo, &kind_loops_##name},
+#define K(name, profile, diffuse, specular, sheen, coat, dust, transmits, layer, base_fresnel, albedo)       \
+    {profile,           {diffuse, specular, sheen, coat, dust}, transmits, layer, base_fresnel, albedo,      \
+     &kind_loops_##name},
 static const StackKind kinds[] = {
 #include "shading/kinds.gen.h"
 };
@@ -41,9 +43,9 @@ static bool holds_no_other(const StackKind *kind, const Stack *m) {
 
 static bool fits(const StackKind *kind, const Stack *m, const Choices *choices) {
     bool has_e = !HAS_SHEEN(m) || (m->table.kind == TABLE_ROOTS && m->table.tilts == 0);
-    return has_e && m->layer == kind->layer && m->combine == LAYER_BY_MAX &&
-           m->base_fresnel == kind->base_fresnel && m->albedo == kind->albedo && m->view == VIEW_PLAIN &&
-           holds_no_other(kind, m) && same_choices(*choices, kind->profile);
+    return has_e && HAS_TRANSMITTED(m) == kind->transmits && m->layer == kind->layer &&
+           m->combine == LAYER_BY_MAX && m->base_fresnel == kind->base_fresnel && m->albedo == kind->albedo &&
+           m->view == VIEW_PLAIN && holds_no_other(kind, m) && same_choices(*choices, kind->profile);
 }
 
 const StackKind *stack_kind(const Stack *plain, const Choices *choices) {

@@ -3,6 +3,7 @@
 #define WEFT_SHADING_KIND_TEXT_H
 
 #define HAS_LAYERED_SHEEN(m) HAS_SHEEN(m) /* a black one leaves all of the base */
+#define HAS_TRANSMITTED(m)   (KIND_TRANSMITS)
 #include "shading/frame.h"
 #include "shading/kind.h"
 #include "shading/kind_loops.h"
@@ -21,6 +22,7 @@ static Choices known_choices(void) {
     bool coated = s.clearcoat > 0.0f;                                                                        \
     s.clearcoat = coat_lobe < 0 ? 0.0f : max(s.clearcoat, 1e-20f);                                           \
     if (dust_lobe < 0) s.dust = 0.0f;                                                                        \
+    if (!KIND_TRANSMITS) s.diffuse_transmission = 0.0f;                                                      \
     Stack m;                                                                                                 \
     compose_stack(&m, &s, known_choices(), e);                                                               \
     m.coat.normal = coated ? m.coat.normal : 0.0f
@@ -58,6 +60,8 @@ FN void eval_each(KindVertices *restrict v, TableRef e, int direction, int n) {
         TAKE_STACK(m, v);
         StackView w = {0};
         Dir wi = ROW_DIR(i, k);
+        bool below = KIND_TRANSMITS && wi.z < 0.0f;
+        wi.z = below ? -wi.z : wi.z;
         bool above = wi.z > 0.0f;
         float seen = above ? 1.0f : 0.0f; /* a choice would put look-ups in a branch */
         wi = dir(above ? wi.x : 0.0f, above ? wi.y : 0.0f, above ? wi.z : 1.0f);
@@ -69,6 +73,13 @@ FN void eval_each(KindVertices *restrict v, TableRef e, int direction, int n) {
         Angles a = angles_between(w.o, wi), in_coat = a;
         if (coat_lobe >= 0) in_coat = angles_between(w.coat_o, stack_to_coat(&m, wi));
         StackValue value = stack_value(&m, &w, &a, &in_coat);
+        if (KIND_TRANSMITS) {
+            StackValue through = stack_transmitted(&m, &w, &a);
+            value.f_cos.r = below ? through.f_cos.r : value.f_cos.r;
+            value.f_cos.g = below ? through.f_cos.g : value.f_cos.g;
+            value.f_cos.b = below ? through.f_cos.b : value.f_cos.b;
+            value.pdf = below ? through.pdf : value.pdf;
+        }
         f[0][k] = value.f_cos.r * seen;
         f[1][k] = value.f_cos.g * seen;
         f[2][k] = value.f_cos.b * seen;
@@ -114,9 +125,18 @@ CLONES static void sample_n(KindVertices *restrict v, TableRef e, int n) {
         place = 0;
         SLOTS(TRY_SLOT)
         u = min(max((u - begin) / max(width, 1e-12f), 0.0f), 0x1.fffffep-1f);
+        bool through = KIND_TRANSMITS && slot == PLACE_DIFFUSE;
+        float rest = u;
+        through = through && steps_goes_through(&m, &rest);
+        u = KIND_TRANSMITS && slot == PLACE_DIFFUSE ? rest : u;
         Dir i = dir(0.0f, 0.0f, -1.0f);
         place = 0;
         SLOTS(DRAW_SLOT)
+        if (KIND_TRANSMITS) {
+            Dir behind = warp_cosine(u, v->v[k]);
+            i.z = max(i.z, 0.0f);
+            i = dir_choose(through, dir(behind.x, behind.y, -behind.z), i);
+        }
         drawn[0][k] = i.x;
         drawn[1][k] = i.y;
         drawn[2][k] = i.z;

@@ -21,6 +21,7 @@ void stack_put_base(Stack *stack, const Lobe *lobe, Rgb f0, Rgb f90) {
     stack->diffuse.f0 = f0;
     stack->diffuse.f90 = f90;
     stack->diffuse.normal = stack->diffuse.grazing = fmaxf(about, 1e-3f);
+    stack_split_diffuse(stack);
     lobe_prepare(lobe, &stack->diffuse_prepared);
 }
 
@@ -37,7 +38,7 @@ void seen_prepare(SeenStack *seen, Dir o) {
 }
 
 StackValue stack_eval_of(const Stack *stack, const StackView *view, Slots only, Dir i) {
-    if (view->o.z <= 0.0f || i.z <= 0.0f) return (StackValue){0};
+    if (view->o.z <= 0.0f) return (StackValue){0};
     return value_of(stack, view, only, i);
 }
 

@@ -31,7 +31,7 @@ ONE_COPY void stack_make(Stack *stack, const Surface *surface, const Choices *ch
 /* Fills view for wo (shading frame, z > 0), once for all wi. It holds for that stack alone. */
 ONE_COPY void stack_see(const Stack *stack, const Dir *o, StackView *view);
 
-/* f cos and pdf for wi; 0 below the horizon. seed: of the random walk that layer rule stochastic takes
+/* f cos and pdf for wi; below the horizon of what comes through. seed: of the random walk that layer rule stochastic takes
  * between sheen and base, where f is an unbiased estimate; pdf never depends on it. */
 ONE_COPY void stack_eval(const Stack *stack, const StackView *view, const Dir *i, uint32_t seed,
                          StackValue *value);
@@ -39,7 +39,7 @@ ONE_COPY void stack_eval(const Stack *stack, const StackView *view, const Dir *i
 /* Works as stack_eval, for some of the slots, and without the walk of layer rule stochastic. */
 ONE_COPY StackValue stack_eval_of(const Stack *stack, const StackView *view, Slots only, Dir i);
 
-/* A wi for (u, v) in [0, 1)^2; below the horizon where there is no sample. */
+/* A wi for (u, v) in [0, 1)^2; where there is no sample at the horizon, or below if nothing comes through. */
 ONE_COPY void stack_sample(const Stack *stack, const StackView *view, float u, float v, Dir *i);
 
 /* The slot that u in [0, 1) picks, by its place among SLOTS, -1 where there is none; u becomes what is left

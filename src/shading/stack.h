@@ -3,6 +3,10 @@
  *   f cos = T_dust (T_coat (sheen + base_scale (specular + (1 - F) diffuse)) + coat) + dust
  *   pdf   = sum select_p_k pdf_k,  sum select_p_k = 1
  *
+ * Cloth lets light through: a share of the diffuse lobe's energy goes to a Lambert lobe below the surface. It is
+ * dimmed by all that lies over the diffuse lobe as if wi were its mirror image above, for what is in front is
+ * behind too: so f is as reciprocal as the layers are, and both sides together receive what one did.
+ *
  * A Stack is what does not depend on directions: it is made once a material, or once after its textures. A
  * StackView is what wo adds: it is made once for all wi and for sampling. What depends on wi too - what the
  * layer rule leaves for the base, what the specular interface leaves for the diffuse lobe - changes f and not
@@ -72,7 +76,10 @@ STRUCT(Stack) {
     int view;
     int coat_rule;
     float coat_weight;
-    float dust_amount; /* 0: nothing */
+    float dust_amount;   /* 0: nothing */
+    float transmission;  /* the share of the diffuse slot's energy that goes through */
+    Rgb transmitted;     /* the colour of that light, times its share */
+    float transmitted_p; /* the share of the diffuse slot's samples */
     int layer, combine;
     Rgb color;       /* of the sheen, as the layer rule sees it */
     Rgb sheen_color; /* times its weight, for a lobe that is chosen in its place */
@@ -120,7 +127,7 @@ STRUCT(StackValue) {
 };
 
 /* HAS_DIFFUSE and so on test whether a slot holds a lobe, HAS_LAYERED_SHEEN whether the layer rule has a
- * sheen to see. A shader defines them as constants where it knows: an empty slot then costs nothing. */
+ * sheen to see, HAS_TRANSMITTED whether the base lets light through. A shader defines them as constants where it knows: an empty slot then costs nothing. */
 #ifndef HAS_DIFFUSE
 #define HAS_DIFFUSE(m)       ((m)->diffuse.normal > 0.0f)
 #define HAS_SPECULAR(m)      ((m)->specular.normal > 0.0f)
@@ -128,6 +135,7 @@ STRUCT(StackValue) {
 #define HAS_COAT(m)          ((m)->coat.normal > 0.0f)
 #define HAS_DUST(m)          ((m)->dust.normal > 0.0f)
 #define HAS_LAYERED_SHEEN(m) ((m)->color.r + (m)->color.g + (m)->color.b > 0.0f)
+#define HAS_TRANSMITTED(m)   ((m)->transmission > 0.0f)
 #endif
 
 /* Tests whether the layer rule puts the specular interface over the sheen too. Such a rule needs no E. */
@@ -183,6 +191,9 @@ FN void stack_clear(Stack *m) {
     m->coat_rule = COAT_BARE;
     m->coat_weight = 0.0f;
     m->dust_amount = 0.0f;
+    m->transmission = 0.0f;
+    m->transmitted = rgb_grey(0.0f);
+    m->transmitted_p = 0.0f;
     m->layer = LAYER_ADDITIVE;
     m->combine = LAYER_BY_MAX;
     m->color = rgb_grey(0.0f);
@@ -215,6 +226,20 @@ FN void stack_coat_frame(Stack *m, Dir n) {
 }
 FN Dir stack_to_coat(const Stack *m, Dir w) {
     return dir(dir_dot(w, m->coat_x), dir_dot(w, m->coat_y), dir_dot(w, m->coat_z));
+}
+
+/* Takes from the diffuse slot, once its lobe is chosen, what goes through. Samples are split by what either reflects
+ * or lets through; so a black lobe that does keeps its slot. */
+FN void stack_split_diffuse(Stack *m) {
+    if (!HAS_TRANSMITTED(m)) return;
+    float kept = 1.0f - m->transmission, through = rgb_mean(m->transmitted);
+    float facing = max(through * (1.0f - rgb_max3(m->interface_f0)), 0.0f);
+    float least = m->diffuse.normal + through > 0.0f ? 1e-30f : 0.0f;
+    m->diffuse.f0 = rgb_scale(m->diffuse.f0, kept);
+    m->diffuse.f90 = rgb_scale(m->diffuse.f90, kept);
+    m->diffuse.normal = max(kept * m->diffuse.normal + facing, least);
+    m->diffuse.grazing = kept * m->diffuse.grazing + max(through * (1.0f - m->interface_f90), 0.0f);
+    m->transmitted_p = min(facing / max(m->diffuse.normal, 1e-30f), 1.0f);
 }
 
 /* Prepares the lobes, once their parameters are set. */

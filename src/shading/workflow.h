@@ -39,6 +39,13 @@ FN void workflow_sheen(Stack *m, Lobe lobe, Rgb color, Rgb second, int layer) {
     slot_even(&m->sheen, lobe, color, second, 1.0f);
 }
 
+/* Sets what the base lets through; weight: of its diffuse light, as the diffuse lobe has it. Khronos Group,
+ * KHR_materials_diffuse_transmission, 2025. */
+FN void workflow_transmission(Stack *m, const Surface *s, float weight) {
+    m->transmission = s->diffuse_transmission;
+    m->transmitted = rgb_scale(s->diffuse_transmission_color, s->diffuse_transmission * weight);
+}
+
 /* The base: a diffuse lobe of one colour under a GGX of f0 and f90. alpha = roughness^2. */
 FN void workflow_base(Stack *m, const Surface *s, Rgb diffuse, Rgb f0, float f90) {
     float mean = rgb_mean(diffuse);

@@ -51,7 +51,7 @@ Surface composition_surface(float x, const bool zero[INPUT_COUNT]) {
     Surface s = material_plain(&material);
     s.sheen_color = s.base_color = s.specular_color = (Rgb){0.5f, 0.5f, 0.5f};
     s.clearcoat = s.dust = 1.0f;
-    s.roughness = s.sheen_roughness = 0.5f;
+    s.roughness = s.sheen_roughness = s.diffuse_transmission = 0.5f;
     s.anisotropy = s.subsurface = s.metallic = x;
     s.sheen = s.specular = 1.0f;
     leave_out(zero, &s);
@@ -85,6 +85,7 @@ CompositionSlots composition_slots(const Choices *choices, const bool zero[INPUT
         for (int k = 0; k < SLOT_COUNT; k++) add_lobe(&found, k, stack_slot(&m, k));
         const Stack *made = &m;
         found.used &= !IS_BELOW_F(made);
+        found.transmits |= HAS_TRANSMITTED(made);
     }
     return found;
 }
@@ -104,6 +105,7 @@ void text_composition_lobes(Text *text, const CompositionSlots *found, int table
     for (int k = 0; k < SLOT_COUNT; k++) text_define(text, has[k], found->slots[k].count ? "true" : "false");
     text_define(text, "HAS_LAYERED_SHEEN(m)",
                 found->used ? "true" : "(m.color.r + m.color.g + m.color.b > 0.0)");
+    text_define(text, "HAS_TRANSMITTED(m)", found->transmits ? "true" : "false");
     text_dispatch(text, ids, count);
     text_slots(text, found->slots);
 }

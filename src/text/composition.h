@@ -13,7 +13,8 @@ Surface composition_surface(float x, const bool zero[INPUT_COUNT]);
 typedef struct CompositionSlots {
     TextSlot slots[SLOT_COUNT];
     Lobe lobes[SLOT_COUNT];
-    bool used; /* no layer rule could do without a sheen */
+    bool used;      /* no layer rule could do without a sheen */
+    bool transmits; /* a base lets light through */
 } CompositionSlots;
 
 /* whole_sheen: input sheen is 1 everywhere. */

@@ -51,6 +51,7 @@ typedef struct Chunk {
     Row wo[3], throughput[3], pdf, t, u, v;
     Row corner[3][3], corner_normal[3][3], tangent[3], handedness; /* by vertex of the triangle, by axis */
     Row position[3], lifted[3], origin[3];                         /* origin: where rays start that leave */
+    Row behind[3];                     /* the same on the far side, if the material transmits */
     Row geometric[3], normal[3], side; /* on the viewer's side; side: 1 or -1, the triangle's */
     Row frame[3][3];                   /* x, y, z of it */
     KindVertices vertices;

@@ -171,7 +171,8 @@ FN float importance(const float *nodes, int node, Dir p, Dir n) {
     float cos_a = cos_less(sin_t, cos_t, sin_o, cos_o), sin_a = sin_less(sin_t, cos_t, sin_o, cos_o);
     float cos_e = cos_less(sin_a, cos_a, sin_u, cos_u);
     float cos_i = clamp(-(x * n.x + y * n.y + z * n.z) * r, -1.0f, 1.0f);
-    float cos_r = cos_less(sin_of(cos_i), cos_i, sin_u, cos_u);
+    bool facing = n.x * n.x + n.y * n.y + n.z * n.z > 0.5f;
+    float cos_r = facing ? cos_less(sin_of(cos_i), cos_i, sin_u, cos_u) : 1.0f;
     return nodes[k + NODE_POWER] * max(cos_e, 0.0f) * max(cos_r, 0.0f) / max(max(d2, r2), 1e-30f);
 }
 

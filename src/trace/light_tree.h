@@ -27,7 +27,8 @@ typedef struct LightTree {
 bool light_tree_make(LightTree *tree, int count, const LightBounds *lights, Arena *arena);
 
 /* Chooses a light for each of n <= ROW_MOST points with normals, n a multiple of ROW_LANES, by u in [0, 1),
- * which becomes what is left of it. Light that arrives from below the normal does not count. */
+ * which becomes what is left of it. Light that arrives from below the normal does not count; all counts where the
+ * normal is 0. */
 void light_tree_choose_rows(const LightTree *tree, int n, const float *const point[3],
                             const float *const normal[3], float *u, int *light, float *probability);
 

@@ -28,7 +28,7 @@ typedef struct LightSample {
     bool sky;       /* from the environment */
 } LightSample;
 
-/* Samples a group that has light, for a point with a normal, below which no light counts, and (u, v) in
+/* Samples a group that has light, for a point with a normal, below which no light counts, or 0, and (u, v) in
  * [0, 1)^2. */
 LightSample lights_sample(const Lights *lights, LightGroup group, Vec3 point, Vec3 normal, float u, float v);
 

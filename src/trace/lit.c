@@ -38,11 +38,11 @@ void chunk_add_emission(Chunk *c, const ChunkSource *from, Light4 *light) {
     }
 }
 
-/* Weighs each light sample of a group, as if nothing were in its way; far is below 0 if it brings nothing.
- * mis: the lobe may find the same light. */
+/* Weighs each light sample of a group, as if nothing were in its way; far is below 0 if it brings nothing, as it
+ * does from between the triangle and the plane of the shading normal. mis: the lobe may find the same light. */
 CLONES static void weigh_n(Chunk *restrict c, LightGroup group, bool mis, int n) {
     const LightRows *light = &c->light[group];
-    float(*f)[ROW_ROOM] = c->vertices.f[group], *pdf = c->vertices.pdf[group];
+    float(*f)[ROW_ROOM] = c->vertices.f[group], *pdf = c->vertices.pdf[group], *z = c->vertices.i[group][2];
     float both = mis ? 1.0f : 0.0f;
     EACH(k, (size_t)n) {
         float own = light->pdf[k], lobe = pdf[k], safe = own > 0.0f ? own : 1.0f;
@@ -51,7 +51,7 @@ CLONES static void weigh_n(Chunk *restrict c, LightGroup group, bool mis, int n)
                    light->wi[2][k] * c->geometric[2][k];
         float r = f[0][k] * light->radiance[0][k], g = f[1][k] * light->radiance[1][k],
               b = f[2][k] * light->radiance[2][k];
-        bool live = (own > 0.0f) & (up > 0.0f) & (r + g + b > 0.0f);
+        bool live = (own > 0.0f) & (up * z[k] > 0.0f) & (r + g + b > 0.0f);
         c->far[k] = live ? light->distance[k] : -1.0f;
         c->added[0][k] = c->throughput[0][k] * r * worth;
         c->added[1][k] = c->throughput[1][k] * g * worth;
@@ -70,14 +70,21 @@ static int list_rays(Chunk *c, int n) {
     return count;
 }
 
-/* From the moved start to just before the light. */
-CLONES static void aim_n(Chunk *restrict c, LightGroup group, int n) {
+/* From the moved start to just before the light. transmits: the light may be behind. */
+FN void aim_each(Chunk *restrict c, LightGroup group, bool transmits, int n) {
     const LightRows *light = &c->light[group];
     const int *list = c->list;
     EACH(k, (size_t)n) {
         int j = list[k];
         float distance = c->far[j], x = light->wi[0][j], y = light->wi[1][j], z = light->wi[2][j];
         float ox = c->origin[0][j], oy = c->origin[1][j], oz = c->origin[2][j];
+        if (transmits) {
+            bool below = c->vertices.i[group][2][j] < 0.0f;
+            float bx = c->behind[0][j], by = c->behind[1][j], bz = c->behind[2][j];
+            ox = below ? bx : ox;
+            oy = below ? by : oy;
+            oz = below ? bz : oz;
+        }
         bool near = distance < 0.5f * LIGHT_FAR;
         float d = near ? distance : 0.0f;
         float tx = c->lifted[0][j] + x * d - ox, ty = c->lifted[1][j] + y * d - oy,
@@ -96,6 +103,13 @@ CLONES static void aim_n(Chunk *restrict c, LightGroup group, int n) {
     }
 }
 
+CLONES static void aim_n(Chunk *restrict c, LightGroup group, bool transmits, int n) {
+    if (transmits)
+        aim_each(c, group, true, n);
+    else
+        aim_each(c, group, false, n);
+}
+
 int chunk_add_light(Chunk *c, const ChunkSource *from, LightGroup group, Light4 *light) {
     const PathContext *context = from->context;
     bool punctual = group == LIGHTS_PUNCTUAL;
@@ -104,7 +118,7 @@ int chunk_add_light(Chunk *c, const ChunkSource *from, LightGroup group, Light4 
     weigh_n(c, group, !punctual && sampling == WEFT_SAMPLING_MIS, row_whole(from->n));
     int count = list_rays(c, from->n);
     if (context->shadows) {
-        aim_n(c, group, row_whole(count));
+        aim_n(c, group, context->materials[from->material].transmits, row_whole(count));
         const RayRows rays = {{c->shadow.o[0], c->shadow.o[1], c->shadow.o[2]},
                               {c->shadow.d[0], c->shadow.d[1], c->shadow.d[2]},
                               c->shadow.far,

@@ -18,6 +18,7 @@ typedef struct PathMaterial {
     bool texcoords[2];      /* the sets of texture coordinates that its textures use */
     bool shines;            /* may send out light */
     bool bent;              /* a normal map or anisotropy turns the shading frame */
+    bool transmits;         /* light goes through, and comes from all sides */
     const WeftCloth *cloth; /* of which the base is woven; NULL: of none */
     TableRef sheen_e;       /* TABLE_NONE without a sheen */
     Stack stack;            /* of plain, where no point has one of its own */

@@ -111,6 +111,7 @@ static WeftResult make_materials(WeftRender *render, WeftError *error) {
         known->sheen_e = sheen_tables_of(render->tables, (int)k);
         Surface surface = frame_surface(known->plain);
         stack_make(&known->stack, &surface, &known->choices, known->sheen_e);
+        known->transmits = known->stack.transmission > 0.0f;
         known->kind = known->cloth ? NULL : stack_kind(&known->stack, &known->choices);
         known->shines = material_emits(material);
         known->bent = !known->kind || known->material.inputs[INPUT_normal].texture ||

@@ -24,12 +24,19 @@ CLONES static void turn_in_n(Chunk *c, Row w[3], int n, Row *restrict local) {
     }
 }
 
+/* The normals below which no light counts; 0 where it counts from both sides. */
+static void put_facing(const Chunk *c, const PathMaterial *material, const float *facing[3]) {
+    static const Row nowhere;
+    for (int a = 0; a < 3; a++) facing[a] = material->transmits ? nowhere : c->geometric[a];
+}
+
 static void sample_lights(Chunk *c, const ChunkSource *from, int n) {
     const Lights *lights = from->context->lights;
     KindVertices *v = &c->vertices;
     uint32_t pair = SAMPLER_VERTEX + SAMPLER_PER_VERTEX * (uint32_t)from->depth;
     const float *const point[3] = {c->lifted[0], c->lifted[1], c->lifted[2]};
-    const float *const normal[3] = {c->geometric[0], c->geometric[1], c->geometric[2]};
+    const float *normal[3];
+    put_facing(c, &from->context->materials[from->material], normal);
     for (int g = 0; g < LIGHT_GROUPS; g++) {
         if (!lights_shine(lights, (LightGroup)g)) continue;
         draw_numbers(c, pair + (uint32_t)g, n, v->u, v->v);
@@ -133,7 +140,7 @@ CLONES static void weigh_paths_n(Chunk *restrict c, bool roulette, uint32_t plac
         /* the square root ends paths later than their share of the light would, as the eye sees it */
         float survive = max(min(sqrt(max(most, 0.0f)), 1.0f), surely);
         float chance = sampler_random(c->pixel[k], c->sample[k], place);
-        bool live = (z > 0.0f) & (up > 0.0f) & (p > 0.0f) & (most > 0.0f) & (chance < survive);
+        bool live = (z * up > 0.0f) & (p > 0.0f) & (most > 0.0f) & (chance < survive);
         float gain = 1.0f / max(survive, 1e-20f);
         c->goes[k] = live ? 1.0f : 0.0f;
         c->worth[0][k] = r * gain;
@@ -155,13 +162,19 @@ static int list_paths(Chunk *c, int n) {
     return count;
 }
 
-CLONES static void append(const Chunk *c, int at, int n, Paths *restrict to) {
+FN void append_each(const Chunk *c, bool transmits, int at, int n, Paths *restrict to) {
     const int *list = c->list;
+    const float *z = c->vertices.i[KIND_DRAWN][2];
     for (int a = 0; a < 3; a++) {
         float *o = to->o[a] + at, *d = to->d[a] + at, *throughput = to->throughput[a] + at;
-        const float *origin = c->origin[a], *w = c->next[a], *worth = c->worth[a];
+        const float *origin = c->origin[a], *behind = c->behind[a], *w = c->next[a], *worth = c->worth[a];
         EACH(k, (size_t)n) {
-            o[k] = origin[list[k]];
+            float from = origin[list[k]];
+            if (transmits) {
+                float far = behind[list[k]];
+                from = z[list[k]] < 0.0f ? far : from;
+            }
+            o[k] = from;
             d[k] = w[list[k]];
             throughput[k] = worth[list[k]];
         }
@@ -176,10 +189,19 @@ CLONES static void append(const Chunk *c, int at, int n, Paths *restrict to) {
     }
 }
 
+CLONES static void append(const Chunk *c, bool transmits, int at, int n, Paths *restrict to) {
+    if (transmits)
+        append_each(c, true, at, n, to);
+    else
+        append_each(c, false, at, n, to);
+}
+
 /* The normals, for those who ask how probable their light was. */
-static void append_normals(const Chunk *c, int at, int n, Paths *to) {
+static void append_normals(const Chunk *c, const PathMaterial *material, int at, int n, Paths *to) {
+    const float *facing[3];
+    put_facing(c, material, facing);
     for (int a = 0; a < 3; a++)
-        for (int k = 0; k < n; k++) to->normal[a][at + k] = c->geometric[a][c->list[k]];
+        for (int k = 0; k < n; k++) to->normal[a][at + k] = facing[a][c->list[k]];
 }
 
 static void append_sky(const Chunk *c, int at, int n, Paths *to) {
@@ -192,10 +214,11 @@ static void append_sky(const Chunk *c, int at, int n, Paths *to) {
 
 int chunk_go_on(Chunk *c, const ChunkSource *from, Paths *paths, int at) {
     const PathContext *context = from->context;
+    const PathMaterial *material = &context->materials[from->material];
     weigh_paths_n(c, context->roulette && from->depth >= 1, (uint32_t)from->depth, row_whole(from->n));
     int count = list_paths(c, from->n);
-    append(c, at, count, paths);
+    append(c, material->transmits, at, count, paths);
     if (context->sky_in_parts) append_sky(c, at, count, paths);
-    if (lights_shine(context->lights, LIGHTS_EMITTERS)) append_normals(c, at, count, paths);
+    if (lights_shine(context->lights, LIGHTS_EMITTERS)) append_normals(c, material, at, count, paths);
     return at + count;
 }

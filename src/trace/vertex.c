@@ -108,11 +108,27 @@ CLONES static void place_n(Chunk *restrict c, int n) {
     }
 }
 
+/* Sets where rays start that leave on the far side, lifted as the near one is. */
+CLONES static void place_behind_n(Chunk *restrict c, int n) {
+    EACH(k, (size_t)n) {
+        float u = c->u[k], v = c->v[k], side = -c->side[k];
+        Dir p = ROW_DIR(c->position, k), out = dir_scale(ROW_DIR(c->geometric, k), -1.0f);
+        Dir a = raise(p, ROW_DIR(c->corner[0], k), dir_scale(ROW_DIR(c->corner_normal[0], k), side),
+                      1.0f - u - v);
+        Dir b = raise(p, ROW_DIR(c->corner[1], k), dir_scale(ROW_DIR(c->corner_normal[1], k), side), u);
+        Dir d = raise(p, ROW_DIR(c->corner[2], k), dir_scale(ROW_DIR(c->corner_normal[2], k), side), v);
+        Dir lifted = dir_add(dir_add(p, a), dir_add(b, d));
+        put3(c->behind, k,
+             dir(step_out(lifted.x, out.x), step_out(lifted.y, out.y), step_out(lifted.z, out.z)));
+    }
+}
+
 void chunk_place(Chunk *c, const ChunkSource *from) {
     int n = row_whole(from->n);
     take_paths(c, from, n);
     take_corners(c, from->context->scene, n);
     place_n(c, n);
+    if (from->context->materials[from->material].transmits) place_behind_n(c, n);
     stage_end(c->clock, STAGE_PLACE);
     chunk_take_inputs(c, from, n);
     stage_end(c->clock, STAGE_INPUTS);

@@ -67,14 +67,15 @@ static inline int models_profiles(Exported *out) {
 }
 
 /* Materials of choices beside a workflow: rules below the interface, a sheen of free terms with an F of its
- * colour, and a round highlight on a brushed base. */
+ * colour, a round highlight on a brushed base, and light through cloth. */
 static inline int models_choices(Exported *out) {
     static const struct {
-        const char *id, *workflow, *layer, *sheen_d, *sheen_v, *sheen_f, *d, *f;
+        const char *id, *workflow, *layer, *sheen_d, *sheen_v, *sheen_f, *d, *f, *through;
     } rows[] = {
-        {"a_seed", "metallic", "seed", "auto", "auto", "auto", "auto", "cook-torrance"},
-        {"a_blend", "metallic", "side-by-side", "charlie", "conty-kulla-soft", "auto", "auto", "auto"},
-        {"a_sheen", "disney", "albedo-view", "inverse-ggx", "implicit", "cook-torrance", "ggx", "auto"}};
+        {"a_seed", "metallic", "seed", "auto", "auto", "auto", "auto", "cook-torrance", "0"},
+        {"a_blend", "metallic", "side-by-side", "charlie", "conty-kulla-soft", "auto", "auto", "auto", "0.3"},
+        {"a_sheen", "disney", "albedo-view", "inverse-ggx", "implicit", "cook-torrance", "ggx", "auto", "0"},
+        {"a_thin", "cloth", "albedo-max", "auto", "auto", "auto", "auto", "auto", "0.6"}};
     enum { ROWS = sizeof rows / sizeof *rows };
     for (int k = 0; k < ROWS; k++) {
         const char *const choices[][2] = {{"workflow", rows[k].workflow},
@@ -83,13 +84,15 @@ static inline int models_choices(Exported *out) {
                                           {"sheen_v", rows[k].sheen_v},
                                           {"sheen_f", rows[k].sheen_f},
                                           {"d", rows[k].d},
-                                          {"f", rows[k].f}};
+                                          {"f", rows[k].f},
+                                          {"diffuse_transmission", rows[k].through},
+                                          {"diffuse_transmission_color", "0.9,0.6,0.3"}};
         WeftScene *scene;
         assert_int_equal(weft_scene_load("builtin:ball", &scene, NULL, NULL), WEFT_OK);
         assert_int_equal(weft_scene_set(scene, "ball.anisotropy", "0.7", NULL, NULL), WEFT_OK);
         assert_int_equal(weft_scene_set(scene, "ball.sheen", "0.4", NULL, NULL), WEFT_OK);
         for (size_t c = 0; c < sizeof choices / sizeof *choices; c++) {
-            char target[32];
+            char target[48];
             snprintf(target, sizeof target, "ball.%s", choices[c][0]);
             assert_int_equal(weft_scene_set(scene, target, choices[c][1], NULL, NULL), WEFT_OK);
         }
@@ -165,6 +168,7 @@ static inline void model_inputs(const Exported *s, float *in[INPUTS]) {
     Draw draw = draw_start(20, 0);
     for (size_t k = 0; k < PAIRS; k++) {
         Dir o = any_direction(&draw), i = any_direction(&draw);
+        if (!s->is_lobe && k % 4 == 3) i.z = -i.z; /* light from behind */
         const float rows[2][4] = {{o.x, o.y, o.z, draw_unit(&draw)}, {i.x, i.y, i.z, draw_unit(&draw)}};
         for (size_t c = 0; c < 4; c++) {
             in[0][4 * k + c] = rows[0][c];

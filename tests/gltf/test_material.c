@@ -130,6 +130,32 @@ static void material_with_every_extension_is_read(void **state) {
     done(reading);
 }
 
+static void light_through_cloth_is_read(void **state) {
+    (void)state;
+    enum { R, A = 3 };
+    Reading *reading = read_material(
+        textures(),
+        "'extensions':{'KHR_materials_diffuse_transmission':{'diffuseTransmissionFactor':0.4,"
+        "'diffuseTransmissionTexture':{'index':1},'diffuseTransmissionColorFactor':[0.9,0.5,0.25],"
+        "'diffuseTransmissionColorTexture':{'index':1,'texCoord':1}}}");
+    assert_read(reading);
+    assert_input(reading, INPUT_diffuse_transmission, 0.4f, 0, 0, A);
+    assert_input(reading, INPUT_diffuse_transmission_color, 0.9f, 0.5f, 0.25f, R);
+    assert_int_equal(reading->scene->materials[0].inputs[INPUT_diffuse_transmission_color].texcoord, 1);
+    done(reading);
+    reading = read_material("", "'extensions':{'KHR_materials_diffuse_transmission':{}}");
+    assert_read(reading);
+    assert_input(reading, INPUT_diffuse_transmission, 0, 0, 0, -1);
+    assert_input(reading, INPUT_diffuse_transmission_color, 1, 1, 1, -1);
+    done(reading);
+    assert_refused(
+        read_material(
+            "", "'extensions':{'KHR_materials_diffuse_transmission':{'diffuseTransmissionFactor':'thin'}}"),
+        WEFT_MESSAGE_GLTF_SCHEMA,
+        "materials[0].extensions.KHR_materials_diffuse_transmission.diffuseTransmissionFactor: expected a "
+        "number");
+}
+
 /* extras belong to whoever wrote them; ours are in extras.weft. */
 static void nap_of_the_extras_is_read(void **state) {
     (void)state;
@@ -452,6 +478,7 @@ int main(void) {
         cmocka_unit_test(images_of_too_many_pixels_together_are_refused),
         cmocka_unit_test(texture_of_an_unreadable_container_falls_back_to_its_source),
         cmocka_unit_test(material_variants_are_read),
+        cmocka_unit_test(light_through_cloth_is_read),
         cmocka_unit_test(nap_of_the_extras_is_read),
         cmocka_unit_test(dust_of_the_extras_is_read),
         cmocka_unit_test(saved_material_reads_as_it_was),

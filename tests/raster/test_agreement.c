@@ -221,6 +221,30 @@ static void engines_agree_on_a_textured_cloth(void **state) {
     assert_true(good);
 }
 
+/* The same of light that comes through: with workflows that have it, and a light behind what is seen. */
+static void engines_agree_on_light_through_cloth(void **state) {
+    (void)state;
+    need_gl();
+    static const char *const workflows[] = {"metallic", "specular", "cloth", "free"};
+    WeftScene *scene = scene_of("builtin:spheres");
+    find_inside(scene, "0");
+    weft_scene_free(scene);
+    bool good = true;
+    for (size_t k = 0; k < sizeof workflows / sizeof *workflows; k++) {
+        char words[96];
+        scene = scene_of("builtin:spheres");
+        choose(scene, "workflow", workflows[k]);
+        choose(scene, "diffuse_transmission", "0.6");
+        choose(scene, "diffuse_transmission_color", "0.9,0.5,0.3");
+        const WeftLight light = {.direction = {1.0f, 1.0f, 1.5f}, .color = {light_color, 1.0f, 1.0f}};
+        assert_int_equal(weft_scene_put_light(scene, 0, &light, NULL), WEFT_OK);
+        snprintf(words, sizeof words, "through %s", workflows[k]);
+        good &= engines_agree(scene, "0", k % 2 ? WEFT_GL_ES : WEFT_GL_DESKTOP, words);
+        weft_scene_free(scene);
+    }
+    assert_true(good);
+}
+
 static int begin(void **state) {
     /* Mesa's software renderer would filter 8-bit textures with 8 bits of fraction. */
     setenv("GALLIVM_PERF", "no_aos_sampling", 1);
@@ -229,6 +253,7 @@ static int begin(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(engines_agree_on_spheres),
+                                       cmocka_unit_test(engines_agree_on_light_through_cloth),
                                        cmocka_unit_test(engines_agree_on_a_textured_cloth)};
     return cmocka_run_group_tests(tests, begin, NULL);
 }

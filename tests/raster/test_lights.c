@@ -69,12 +69,13 @@ static bool is_same(const WeftImage *a, const WeftImage *b) {
 }
 
 /* |drawn - traced| over the sum of what is traced, of a ball below a polygon. */
-static double compare(int corners, bool shadows_drawn, bool shadows_traced) {
+static double compare(int corners, bool shadows_drawn, bool shadows_traced, float through) {
     WeftRasterView how = view;
     how.no_shadows = !shadows_drawn;
     WeftScene *scene = ball_scene();
     WeftLight light = panel;
     light.corners = corners;
+    scene->materials[0].inputs[INPUT_diffuse_transmission].value[0] = through;
     test_environment(scene, 0.0f);
     assert_int_equal(weft_scene_add_light(scene, &light, NULL), WEFT_OK);
     WeftRaster *raster = raster_of(scene);
@@ -109,7 +110,7 @@ static void polygon_lights_agree_with_the_path_tracer(void **state) {
     (void)state;
     need_gl();
     for (int corners = 3; corners <= 8; corners += corners == 4 ? 4 : 1) {
-        double off = compare(corners, false, false);
+        double off = compare(corners, false, false, 0.0f);
         print_message("%d corners: %.2f %% from the path tracer\n", corners, 100.0 * off);
         assert_true(off < 0.04);
     }
@@ -119,9 +120,37 @@ static void polygon_lights_agree_with_the_path_tracer(void **state) {
 static void soft_shadows_are_near_the_path_tracer(void **state) {
     (void)state;
     need_gl();
-    double off = compare(4, true, true), without = compare(4, false, true);
+    double off = compare(4, true, true, 0.0f), without = compare(4, false, true, 0.0f);
     print_message("shadows: %.2f %% from the path tracer, %.2f %% without\n", 100.0 * off, 100.0 * without);
     assert_true(off < 0.12 && without > 2.0 * off);
+}
+
+static void polygon_behind_shines_through_cloth(void **state) {
+    (void)state;
+    need_gl();
+    double off = compare(4, false, false, 0.7f);
+    print_message("through the ball: %.2f %% from the path tracer\n", 100.0 * off);
+    assert_true(off < 0.04);
+}
+
+/* A sheet before an even sky: half of its light comes back, six tenths of the other half through. */
+static void sky_behind_shines_through_cloth(void **state) {
+    (void)state;
+    need_gl();
+    WeftScene *scene = test_scene();
+    Material *sheet = test_material(scene, 1.0f);
+    sheet->inputs[INPUT_diffuse_transmission].value[0] = 0.5f;
+    test_color(sheet, INPUT_diffuse_transmission_color, 0.6f);
+    test_quad(scene, vec3(-2.0f, -2.0f, 0.0f), vec3(4.0f, 0.0f, 0.0f), vec3(0.0f, 4.0f, 0.0f));
+    scene_bounds(scene);
+    test_environment(scene, 1.0f);
+    WeftRaster *raster = raster_of(scene);
+    WeftImage image = drawn(raster, &view);
+    float middle = ((const float *)image.pixels)[4 * (SIDE / 2 * SIDE + SIDE / 2)];
+    if (!(fabsf(middle - 0.8f) < 0.008f)) fail_msg("%g is not 0.8", (double)middle);
+    weft_image_free(&image);
+    weft_raster_free(raster);
+    weft_scene_free(scene);
 }
 
 static void put(WeftScene *scene, int index, float x, int corners) {
@@ -185,6 +214,8 @@ static void updated_lights_draw_as_new_ones(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(polygon_lights_agree_with_the_path_tracer),
                                        cmocka_unit_test(soft_shadows_are_near_the_path_tracer),
+                                       cmocka_unit_test(polygon_behind_shines_through_cloth),
+                                       cmocka_unit_test(sky_behind_shines_through_cloth),
                                        cmocka_unit_test(updated_lights_draw_as_new_ones)};
     return cmocka_run_group_tests(tests, gl_begin, NULL);
 }

@@ -46,7 +46,7 @@ static SeenStack one_lobe(Lobe lobe, Dir o) {
 }
 
 static Rgb ambient_of(SeenStack m, AmbientTables t, AmbientSource s, float occlusion) {
-    return stack_ambient(&m.stack, &m.view, t, s, occlusion);
+    return stack_ambient(&m.stack, &m.view, t, s, occlusion, occlusion);
 }
 
 /* What the table has for E is E, at nodes and between them, and no weight takes light away. */
@@ -149,7 +149,7 @@ static void baked_weights_of_a_fading_lobe_are_not_negative(void **state) {
             for (size_t n = 0; n < sizeof cosines / sizeof cosines[0]; n++) {
                 Dir o = direction_cos((double)cosines[n], 0.0);
                 SeenStack m = tabled(lobe, o, &albedo);
-                Rgb got = stack_ambient(&m.stack, &m.view, all_tables(t), &calls, 1.0f);
+                Rgb got = stack_ambient(&m.stack, &m.view, all_tables(t), &calls, 1.0f, 1.0f);
                 if (!(got.r >= 0.0f && abs(got.r - m.view.e_o.e) <= 0.03f * m.view.e_o.e + 0.003f))
                     fail_msg("%s, roughness %g, cosine %g: %g for %g", weft_lobe_info(id)->id,
                              (double)roughnesses[k], (double)o.z, (double)got.r, (double)m.view.e_o.e);
@@ -176,7 +176,7 @@ static void faint_sheens_keep_albedo_under_a_white_sky(void **state) {
             Dir o = direction_cos(0.025 * n, 0.0);
             SeenStack m = tabled(lobe, o, &albedo);
             for (t.strategy = 0; t.strategy < AMBIENT_STRATEGIES; t.strategy++) {
-                Rgb got = stack_ambient(&m.stack, &m.view, all_tables(t), &calls, 1.0f);
+                Rgb got = stack_ambient(&m.stack, &m.view, all_tables(t), &calls, 1.0f, 1.0f);
                 if (!(abs(got.r - m.view.e_o.e) <= 0.01f * m.view.e_o.e + 1e-9f))
                     fail_msg("%s, alpha %g, strategy %d, cosine %g: %g for %g", weft_lobe_info(lobe.id)->id,
                              (double)lobe.params[0], t.strategy, (double)o.z, (double)got.r,
@@ -269,7 +269,7 @@ static void layer_rules_dim_the_base_under_an_environment(void **state) {
             SeenStack m;
             Dir o = direction_cos(0.2 + 0.35 * (double)(k / 2), 0.3);
             seen_make(&m, &s, &c, albedo_table_ref(&albedo), o);
-            Rgb truth = whole(&m, o), got = stack_ambient(&m.stack, &m.view, tables, &calls, 1.0f);
+            Rgb truth = whole(&m, o), got = stack_ambient(&m.stack, &m.view, tables, &calls, 1.0f, 1.0f);
             if (layer == LAYER_STOCHASTIC) continue; /* its bounces are the path tracer's */
             float off = abs(got.r - truth.r) + abs(got.g - truth.g) + abs(got.b - truth.b);
             float all = truth.r + truth.g + truth.b;

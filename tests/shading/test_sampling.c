@@ -91,6 +91,40 @@ static void stack_samples_follow_their_pdf(void **state) {
     }
 }
 
+/* The same below the surface, as if it were above. */
+static Dir mirrored(Dir i) { return dir(i.x, i.y, -i.z); }
+static void through_pdf(const BsdfView *view, Dirs i, float *pdf) {
+    for (size_t k = 0; k < i.n; k++)
+        pdf[k] = seen_eval(&view->whole, mirrored(dir(i.x[k], i.y[k], i.z[k])), 0).pdf;
+}
+static Dir through_draw(const BsdfView *view, float u, float v) {
+    return mirrored(seen_sample(&view->whole, u, v));
+}
+static const Bsdf through = {.pdf = through_pdf, .sample = through_draw};
+
+static void stack_samples_that_go_through_follow_their_pdf(void **state) {
+    (void)state;
+    static AlbedoTable table;
+    Random random = {9};
+    fill_albedo(&table, LOBE_CHARLIE_CONTY_KULLA);
+    for (int k = 0; k < 4; k++) {
+        Surface surface = random_surface(&random, k % 2);
+        surface.metallic = 0.0f;
+        surface.diffuse_transmission = 0.3f + 0.2f * (float)k;
+        surface.diffuse_transmission_color = surface.base_color;
+        for (int side = 0; side < 2; side++) {
+            Dir o = direction_cos(elevations[1 + k % 3], 1.0 + k);
+            BsdfView view = {.bsdf = side ? &through : &stacked,
+                             .o = o,
+                             .whole = test_stack(&surface, LAYER_ALBEDO_VIEW, &table, o)};
+            char name[64];
+            snprintf(name, sizeof name, "thin surface %d %s cos_o=%g", k, side ? "below" : "above",
+                     (double)o.z);
+            check_proposal(&view, name);
+        }
+    }
+}
+
 /* Lambert's pdf, 5 % too large in one half of the hemisphere and too small in the other. */
 static void leaning_pdf(const BsdfView *view, Dirs i, float *pdf) {
     float lean = test_short() ? 0.2f : 0.05f; /* few samples see no less */
@@ -116,6 +150,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lobe_samples_follow_their_pdf),
         cmocka_unit_test(stack_samples_follow_their_pdf),
+        cmocka_unit_test(stack_samples_that_go_through_follow_their_pdf),
         cmocka_unit_test(chi_square_finds_a_wrong_pdf),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

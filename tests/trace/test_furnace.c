@@ -124,6 +124,33 @@ static void closed_furnace_has_radiance_one(void **state) {
             fail_msg("case %d is %.2f standard errors from 1; the limit is %.2f", k, z[k], limit);
 }
 
+/* A ball and a curtain that let light through and lose none, under radiance 1: they are invisible. By lobe samples
+ * alone each path is worth 1 from the first. */
+static void white_cloth_that_light_goes_through_vanishes(void **state) {
+    (void)state;
+    static const float shares[] = {0.3f, 0.7f, 1.0f};
+    for (int k = 0; k < 6; k++) {
+        bool sheen = k % 3 == 1, by_lobe = k < 3;
+        WeftScene *scene = test_scene();
+        test_environment(scene, 1.0f);
+        Material *white = test_material(scene, 1.0f);
+        if (sheen) set_sheen(white, "charlie-conty-kulla", 0.5f);
+        white->inputs[INPUT_diffuse_transmission].value[0] = shares[k % 3];
+        test_sphere(scene, vec3(0, 0, 0), 1.0f);
+        test_quad(scene, vec3(-1.5f, -1.5f, -1.4f), vec3(3, 0, 0), vec3(0, 3, 0));
+        scene_bounds(scene);
+        WeftRenderDesc desc = {.width = 32, .height = 32, .camera = "0,0,3;0,0,0;40", .max_depth = 1000};
+        desc.sampling = by_lobe ? WEFT_SAMPLING_LOBE : WEFT_SAMPLING_MIS;
+        WeftImage image = test_render(scene, desc, sheen && by_lobe ? 1024 : 128);
+        Estimate e = estimate(&image);
+        printf("  R + T = 1, T %.1f%s%s: %.5f +- %.5f\n", (double)shares[k % 3], sheen ? ", sheen" : "",
+               by_lobe ? ", by lobe" : "", e.mean, e.error);
+        assert_true(fabs(e.mean - 1.0) < (by_lobe ? 1e-3 : 4.0 * e.error + 2e-4) && e.error < 2e-3);
+        weft_image_free(&image);
+        weft_scene_free(scene);
+    }
+}
+
 /* The furnace test can fail: an additive sheen returns more than it receives. */
 static void additive_layer_in_the_furnace_gains_energy(void **state) {
     (void)state;
@@ -310,6 +337,7 @@ static void no_shadows_is_the_same_for_every_sampling(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(closed_furnace_has_radiance_one),
+        cmocka_unit_test(white_cloth_that_light_goes_through_vanishes),
         cmocka_unit_test(additive_layer_in_the_furnace_gains_energy),
         cmocka_unit_test(textured_fabric_and_body_keep_within_the_furnace),
         cmocka_unit_test(plane_in_the_furnace_shows_the_albedo),

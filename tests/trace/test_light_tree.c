@@ -40,7 +40,8 @@ static void fill(LightBounds lights[LIGHTS], uint32_t *state) {
 static bool arrives(const LightBounds *light, Vec3 point, Vec3 normal) {
     Vec3 to = vec3_sub(vec3_scale(vec3_add(light->low, light->high), 0.5f), point);
     float sent = -vec3_dot(to, light->axis);
-    return light->power > 0.0f && vec3_dot(to, normal) > 0.0f &&
+    bool anywhere = !(vec3_dot(normal, normal) > 0.0f);
+    return light->power > 0.0f && (anywhere || vec3_dot(to, normal) > 0.0f) &&
            (sent > 0.0f || (light->two_sided && sent < 0.0f));
 }
 
@@ -74,6 +75,7 @@ static void probabilities_sum_to_one(void **state) {
     assert_true(tree.depth >= 8 && tree.depth < 40);
     for (int n = 0; n < POINTS; n++) {
         Vec3 point = draw_in(&random, 10.0f), normal = draw_unit(&random);
+        if (n % 4 == 0) normal = vec3(0, 0, 0); /* what light reaches from both sides */
         double sum = 0.0;
         for (int k = 0; k < LIGHTS; k++) {
             float p = light_tree_probability(&tree, k, point, normal);
@@ -90,17 +92,16 @@ static void probabilities_sum_to_one(void **state) {
 }
 
 /* Chooses as often as it says, and keeps u even. */
-static void choices_follow_probabilities(void **state) {
-    (void)state;
+static void follows_probabilities(Vec3 normal) {
     enum { ROUNDS = 400 };
     static LightBounds lights[LIGHTS];
-    static int counts[LIGHTS];
+    int counts[LIGHTS] = {0};
     Arena arena = {0};
     LightTree tree;
     uint32_t random = 11;
     fill(lights, &random);
     assert_true(light_tree_make(&tree, LIGHTS, lights, &arena));
-    Vec3 point = vec3(0.5f, -1.0f, 0.2f), normal = vec3(0, 1, 0);
+    Vec3 point = vec3(0.5f, -1.0f, 0.2f);
     static float rows[6][ROW_MOST], u[ROW_MOST], probability[ROW_MOST];
     static int chosen[ROW_MOST];
     const float of[] = {point.x, point.y, point.z, normal.x, normal.y, normal.z};
@@ -127,6 +128,12 @@ static void choices_follow_probabilities(void **state) {
         assert_true(fabs(counts[k] - expected) < 2.5 + 0.01 * expected);
     }
     arena_free(&arena);
+}
+
+static void choices_follow_probabilities(void **state) {
+    (void)state;
+    follows_probabilities(vec3(0, 1, 0));
+    follows_probabilities(vec3(0, 0, 0));
 }
 
 /* The irradiance of a triangle above the horizon: half of the sum of each edge's angle times the part of its

@@ -42,6 +42,21 @@ static WeftScene *lit_scene(void) {
     return scene;
 }
 
+/* A shade around a lamp, a curtain before the environment: what light they let through. */
+static WeftScene *shaded_scene(void) {
+    WeftScene *scene = lit_scene();
+    Material *shade = test_material(scene, 0.6f);
+    test_color(shade, INPUT_specular, 1.0f);
+    test_color(shade, INPUT_sheen_color, 0.3f);
+    test_color(shade, INPUT_sheen_roughness, 0.5f);
+    test_color(shade, INPUT_diffuse_transmission, 0.6f);
+    test_color(shade, INPUT_diffuse_transmission_color, 0.9f);
+    test_quad(scene, vec3(-2.6f, 2.0f, -1.3f), vec3(2.0f, 0.4f, 0), vec3(0, 0, 2.0f)); /* under the lamp */
+    test_quad(scene, vec3(0.6f, 0.1f, -1.5f), vec3(2.6f, 0, 0.4f), vec3(0, 2.4f, 0));
+    scene_bounds(scene);
+    return scene;
+}
+
 static const WeftRenderDesc small = {
     .width = 24, .height = 18, .camera = "0,2.4,6;0,0.8,0;32", .max_depth = 4};
 
@@ -71,10 +86,8 @@ static void moments(const double *x, double *mean, double *error) {
     *error = sqrt(squares / (BATCHES - 1) / BATCHES);
 }
 
-static void sampling_strategies_agree(void **state) {
-    (void)state;
+static void strategies_agree(WeftScene *scene) {
     static const char *const names[] = {"mis", "light", "lobe"};
-    WeftScene *scene = lit_scene();
     double means[3][2][BATCHES], m[3][2], e[3][2];
     for (int s = 0; s < 3; s++) {
         batch_means(scene, (WeftSampling)s, means[s]);
@@ -93,6 +106,16 @@ static void sampling_strategies_agree(void **state) {
         assert_true(e[0][half] < 0.02 * m[0][half]); /* else the comparison above could not fail */
     }
     weft_scene_free(scene);
+}
+
+static void sampling_strategies_agree(void **state) {
+    (void)state;
+    strategies_agree(lit_scene());
+}
+
+static void sampling_strategies_agree_on_light_through_cloth(void **state) {
+    (void)state;
+    strategies_agree(shaded_scene());
 }
 
 /* An emitter that is half there shines half as much, by whichever way it is found. */
@@ -314,6 +337,7 @@ static void render_descriptors_without_sense_are_refused(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sampling_strategies_agree),
+        cmocka_unit_test(sampling_strategies_agree_on_light_through_cloth),
         cmocka_unit_test(transparent_emitter_shines_less),
         cmocka_unit_test(normal_map_is_mirrored_on_the_back),
         cmocka_unit_test(normal_map_of_a_coat_leans_along_the_tangent),

@@ -25,17 +25,29 @@ Facing fragment_facing(Dir wo) {
     return at;
 }
 
+/* What a part of the light shows of what comes through. */
+StackValue stack_seen_through(Stack m, StackView w, Angles a) {
+    StackValue v = stack_transmitted(m, w, a);
+    if (!SHOWS_DIFFUSE) v.f_cos = rgb_grey(0.0);
+    return v;
+}
+
 /* From light k, which is of that kind and has that shadow map, or -1. */
 Rgb light_from(int k, int kind, int map, Stack m, StackView w, Facing at, Frame f) {
     Beam beam = light_beam(k, kind);
     Dir i = frame_to(f, beam.wi);
     float cosine = dir_dot(beam.wi, at.geometric);
+    bool behind = HAS_TRANSMITTED(m) && cosine < 0.0;
+    float side = behind ? -1.0 : 1.0;
+    i.z = side * i.z;
+    cosine = side * cosine;
     bool lit = i.z > 0.0 && cosine > 0.0;
     i.z = max(i.z, 1e-6); /* what is not lit is worked out and left out: a branch costs more */
     Angles a = angles_between(w.o, i), coat = a;
     if (HAS_COAT(m)) coat = angles_between(w.coat_o, stack_to_coat(m, i));
     StackValue v = stack_value(m, w, a, coat);
-    float reaches = light_reaches(map, vec_of_dir(at.geometric), cosine);
+    if (behind) v = stack_seen_through(m, w, a);
+    float reaches = light_reaches(map, side * vec_of_dir(at.geometric), cosine);
     Rgb sum = rgb_scale(rgb_mul(v.f_cos, beam.radiance), reaches);
     return rgb(lit ? sum.r : 0.0, lit ? sum.g : 0.0, lit ? sum.b : 0.0);
 }
@@ -59,8 +71,8 @@ Rgb polygon_light(Stack m, StackView w, Facing at, Frame f) { return rgb_grey(0.
  * crease the lesser is right. */
 Rgb ambient_light_of(Stack m, StackView w, Frame f, float occlusion) {
     texture_occlusion = occlusion;
-    return stack_ambient(m, w, material_ambient(), f,
-                         min(occlusion, gl_FrontFacing ? vertex_occlusion.x : vertex_occlusion.y));
+    vec2 open = gl_FrontFacing ? vertex_occlusion : vertex_occlusion.yx;
+    return stack_ambient(m, w, material_ambient(), f, min(occlusion, open.x), min(occlusion, open.y));
 }
 #else
 Rgb ambient_light_of(Stack m, StackView w, Frame f, float occlusion) { return rgb_grey(0.0); }

@@ -4,7 +4,7 @@
 #include "shading/frame.h"
 
 /* From polygon k, which has so many corners and that shadow map, or -1. Its back is dark unless it has two
- * sides; behind the surface's own plane it is cut off. */
+ * sides; the surface's own plane parts what is reflected from what comes through. */
 Rgb polygon_from(int k, int corners, bool two_sided, int map, Stack m, StackView w, Facing at, Frame f) {
     vec3 here = eye.xyz + from_eye, normal = polygon_normals[k].xyz, c = polygon_radiance[k].rgb;
     Polygon p;
@@ -14,9 +14,12 @@ Rgb polygon_from(int k, int corners, bool two_sided, int map, Stack m, StackView
         p.corners[j] = frame_to(f, dir(to.x, to.y, to.z));
     }
     float reaches = polygon_reaches(map, vec_of_dir(at.geometric)); /* before any pixel is left out: it asks its neighbours */
+    float comes_through = 1.0;
+    if (HAS_TRANSMITTED(m)) comes_through = polygon_reaches(map, -vec_of_dir(at.geometric));
     if (!two_sided && dot(normal, here - polygon_corners[8 * k].xyz) <= 0.0) return rgb_grey(0.0);
-    Rgb sum = rgb_mul(stack_polygon(m, w, p), rgb(c.r, c.g, c.b));
-    return rgb_scale(sum, reaches);
+    Rgb sum = rgb_scale(stack_polygon(m, w, p), reaches);
+    if (HAS_TRANSMITTED(m) && SHOWS_DIFFUSE) sum = rgb_add(sum, rgb_scale(stack_polygon_behind(m, w, p), comes_through));
+    return rgb_mul(sum, rgb(c.r, c.g, c.b));
 }
 
 /* EACH_POLYGON(L) is L(k, corners, two_sided, map) for each polygon. */

@@ -13,6 +13,7 @@
 FN void free_stack(Stack *m, const Surface *s) {
     Lobe sheen = lobe_rough(LOBE_CHARLIE_NEUBELT, s->sheen_roughness);
     workflow_sheen(m, sheen, rgb_scale(s->sheen_color, s->sheen), s->sheen_second, LAYER_ADDITIVE);
+    workflow_transmission(m, s, 1.0f);
     workflow_base(m, s, s->base_color, rgb_scale(s->specular_color, s->specular), 1.0f);
 }
 

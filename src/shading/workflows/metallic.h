@@ -29,6 +29,7 @@ FN void metallic_with(Stack *m, const Surface *s, Lobe sheen, int layer, int bas
     m->base_fresnel = base_fresnel;
     m->interface_f0 = f0;
     m->interface_f90 = s->specular;
+    workflow_transmission(m, s, 1.0f - s->metallic);
     workflow_base(m, s, rgb_scale(s->base_color, 1.0f - s->metallic), rgb_mix(f0, s->base_color, s->metallic),
                   mix(s->specular, 1.0f, s->metallic));
 }

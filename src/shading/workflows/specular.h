@@ -18,6 +18,7 @@ FN void specular_stack(Stack *m, const Surface *s) {
     m->base_fresnel = BASE_FRESNEL_LEAST;
     m->interface_f0 = f0;
     m->interface_f90 = 1.0f;
+    workflow_transmission(m, s, 1.0f - rgb_max3(f0));
     workflow_base(m, s, rgb_scale(s->base_color, 1.0f - rgb_max3(f0)), f0, 1.0f);
 }
 

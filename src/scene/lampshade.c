@@ -1,0 +1,151 @@
+#include "scene/lampshade.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/fail.h"
+#include "base/pi.h"
+
+enum { SHADE, CURTAIN, BULB, STAND, TABLE, THINGS };
+static const char *const names[THINGS] = {"shade", "curtain", "bulb", "stand", "table"};
+
+/* A sheet of (across + 1) (down + 1) points, which `point` places for u and v from 0 to 1. */
+typedef struct Sheet {
+    uint32_t across, down;
+    Vec3 (*point)(float u, float v);
+    bool smooth;
+} Sheet;
+
+static Vec3 about(float u, float radius, float y) {
+    float phi = 2.0f * PI_FLOAT * u;
+    return (Vec3){radius * sinf(phi), y, radius * cosf(phi)};
+}
+
+static Vec3 shade_point(float u, float v) { return about(u, 0.115f + 0.065f * v, 0.53f - 0.23f * v); }
+
+static Vec3 curtain_point(float u, float v) {
+    float x = 1.5f * (u - 0.5f), fold = sinf(52.0f * x) + 0.4f * sinf(19.0f * x + 1.0f);
+    return (Vec3){x, 1.1f * (1.0f - v), -0.42f + (0.012f + 0.016f * v) * fold};
+}
+
+/* Foot and stem, by the way from the middle of the table up and in. */
+static Vec3 stand_point(float u, float v) {
+    static const float profile[][2] = {{0.0f, 0.0f},     {0.085f, 0.0f},  {0.09f, 0.006f}, {0.085f, 0.014f},
+                                       {0.03f, 0.03f},   {0.01f, 0.06f},  {0.008f, 0.12f}, {0.008f, 0.37f},
+                                       {0.014f, 0.375f}, {0.014f, 0.39f}, {0.0f, 0.39f}};
+    enum { LAST = sizeof profile / sizeof profile[0] - 1 };
+    float at = (1.0f - v) * LAST;
+    int k = at < LAST ? (int)at : LAST - 1;
+    float t = at - (float)k;
+    return about(u, profile[k][0] + t * (profile[k + 1][0] - profile[k][0]),
+                 profile[k][1] + t * (profile[k + 1][1] - profile[k][1]));
+}
+
+static Vec3 table_point(float u, float v) { return (Vec3){8.0f * (u - 0.5f), 0.0f, 8.0f * (v - 0.5f)}; }
+
+/* Four upright sides, which both engines know for polygons that shine. */
+static Vec3 bulb_point(float u, float v) {
+    static const float side = 0.025f;
+    int corner = (int)(4.0f * u + 0.5f) & 3;
+    return (Vec3){corner == 0 || corner == 3 ? -side : side, 0.465f - 0.06f * v, corner < 2 ? side : -side};
+}
+
+static const Sheet sheets[THINGS] = {[SHADE] = {128, 16, shade_point, true},
+                                     [CURTAIN] = {600, 12, curtain_point, true},
+                                     [BULB] = {4, 1, bulb_point, false},
+                                     [STAND] = {64, 40, stand_point, true},
+                                     [TABLE] = {1, 1, table_point, false}};
+
+/* The normal of a smooth sheet, by differences. */
+static Vec3 normal_at(const Sheet *sheet, float u, float v) {
+    const float step = 1e-3f, v0 = fmaxf(v - step, 0.0f), v1 = fminf(v + step, 1.0f);
+    Vec3 along = vec3_sub(sheet->point(u + step, v), sheet->point(u - step, v));
+    Vec3 down = vec3_sub(sheet->point(u, v1), sheet->point(u, v0));
+    return vec3_normal_or(vec3_cross(down, along), (Vec3){0.0f, 1.0f, 0.0f});
+}
+
+static bool sheet_make(Arena *arena, Mesh *mesh, const Sheet *sheet) {
+    uint32_t row = sheet->across + 1;
+    mesh->vertex_count = row * (sheet->down + 1);
+    mesh->triangle_count = 2 * sheet->across * sheet->down;
+    mesh->position = arena_array(arena, mesh->vertex_count, 3 * sizeof(float));
+    mesh->normal = sheet->smooth ? arena_array(arena, mesh->vertex_count, 3 * sizeof(float)) : NULL;
+    mesh->texcoord[0] = arena_array(arena, mesh->vertex_count, 2 * sizeof(float));
+    mesh->index = arena_array(arena, mesh->triangle_count, 3 * sizeof(uint32_t));
+    if (!mesh->position || (sheet->smooth && !mesh->normal) || !mesh->texcoord[0] || !mesh->index)
+        return false;
+    for (uint32_t k = 0; k < mesh->vertex_count; k++) {
+        uint32_t i = k % row, j = k / row;
+        float u = (float)i / (float)sheet->across, v = (float)j / (float)sheet->down;
+        Vec3 p = sheet->point(u, v), n = normal_at(sheet, u, v);
+        memcpy(mesh->position + 3 * k, &p, sizeof p);
+        if (mesh->normal) memcpy(mesh->normal + 3 * k, &n, sizeof n);
+        mesh->texcoord[0][2 * k] = u, mesh->texcoord[0][2 * k + 1] = v;
+    }
+    uint32_t *index = mesh->index;
+    for (uint32_t k = 0; k < sheet->across * sheet->down; k++) {
+        uint32_t i = k % sheet->across, j = k / sheet->across, a = j * row + i, b = a + row;
+        *index++ = a, *index++ = b, *index++ = a + 1;
+        *index++ = a + 1, *index++ = b, *index++ = b + 1;
+    }
+    return true;
+}
+
+static void set_color(Material *material, InputId input, float r, float g, float b) {
+    float *value = material->inputs[input].value;
+    value[0] = r, value[1] = g, value[2] = b;
+}
+
+/* Cloth that reflects one colour and lets another through. */
+static Material thin_cloth(float share, Vec3 color, Vec3 through) {
+    Material m = material_default();
+    m.double_sided = true;
+    set_color(&m, INPUT_base_color, color.x, color.y, color.z);
+    m.inputs[INPUT_diffuse_transmission].value[0] = share;
+    set_color(&m, INPUT_diffuse_transmission_color, through.x, through.y, through.z);
+    m.inputs[INPUT_roughness].value[0] = 0.9f;
+    set_color(&m, INPUT_sheen_color, 0.1f, 0.1f, 0.1f);
+    m.inputs[INPUT_sheen_roughness].value[0] = 0.6f;
+    return m;
+}
+
+static void materials_make(Material *m) {
+    m[SHADE] = thin_cloth(0.5f, (Vec3){0.85f, 0.78f, 0.66f}, (Vec3){0.9f, 0.72f, 0.48f});
+    m[CURTAIN] = thin_cloth(0.4f, (Vec3){0.42f, 0.50f, 0.55f}, (Vec3){0.45f, 0.55f, 0.62f});
+    for (int k = BULB; k < THINGS; k++) m[k] = material_default();
+    set_color(&m[BULB], INPUT_base_color, 0.0f, 0.0f, 0.0f);
+    set_color(&m[BULB], INPUT_emission, 1.0f, 0.78f, 0.52f);
+    m[BULB].inputs[INPUT_emission_strength].value[0] = 60.0f;
+    set_color(&m[STAND], INPUT_base_color, 0.75f, 0.52f, 0.28f);
+    m[STAND].inputs[INPUT_metallic].value[0] = 1.0f;
+    m[STAND].inputs[INPUT_roughness].value[0] = 0.35f;
+    set_color(&m[TABLE], INPUT_base_color, 0.20f, 0.13f, 0.09f);
+    m[TABLE].inputs[INPUT_roughness].value[0] = 0.6f;
+}
+
+WeftResult lampshade_make(WeftScene *scene, WeftError *error) {
+    Arena *arena = &scene->arena;
+    scene->meshes = arena_array(arena, THINGS, sizeof(Mesh));
+    scene->materials = arena_array(arena, THINGS, sizeof(Material));
+    scene->material_names = arena_array(arena, THINGS, sizeof(char *));
+    scene->cameras = arena_array(arena, 1, sizeof(Camera));
+    bool made = scene->meshes && scene->materials && scene->material_names && scene->cameras;
+    for (int k = 0; made && k < THINGS; k++) {
+        char *kept = arena_text(arena, names[k]);
+        scene->meshes[k] = (Mesh){.name = kept, .material = k};
+        scene->material_names[k] = kept;
+        made = kept && sheet_make(arena, &scene->meshes[k], &sheets[k]);
+    }
+    if (!made) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    materials_make(scene->materials);
+    scene->mesh_count = scene->material_count = THINGS;
+    scene->cameras[0] = (Camera){.name = "main",
+                                 .eye = {0.0f, 0.42f, 1.35f},
+                                 .right = {1.0f, 0.0f, 0.0f},
+                                 .up = {0.0f, cosf(0.08f), -sinf(0.08f)},
+                                 .forward = {0.0f, -sinf(0.08f), -cosf(0.08f)},
+                                 .yfov = 0.5f};
+    scene->camera_count = 1;
+    scene_bounds(scene);
+    return WEFT_OK;
+}
