@@ -199,7 +199,8 @@ static void workflow_reads_only_its_inputs(void **state) {
                  "clearcoat -clearcoat_roughness -clearcoat_gloss -clearcoat_normal -sheen -sheen_tint "
                  "sheen_color -sheen_roughness -sheen_density -nap dust -dust_color -dust_roughness "
                  "-dust_falloff -dust_tilt -dust_direction -dust_noise -dust_scale -opacity -extinction "
-                 "-sheen_second -sheen_tail -sheen_rise -diffuse_retro -diffuse_lift");
+                 "-sheen_second -sheen_tail -sheen_rise -diffuse_retro -diffuse_lift diffuse_transmission "
+                 "-diffuse_transmission_color");
     m.alpha_mode = WEFT_ALPHA_MASK;
     set_value(&m, "ior", 1.5f);
     set_value(&m, "anisotropy", 0.5f);
@@ -207,6 +208,8 @@ static void workflow_reads_only_its_inputs(void **state) {
     set_value(&m, "dust", 0.5f);
     set_value(&m, "emission", 0.5f);
     set_value(&m, "sheen_color", 0.5f);
+    set_value(&m, "diffuse_transmission", 0.5f);
+    assert_reads(&m, "diffuse_transmission_color");
     assert_reads(&m,
                  "opacity -reflectance anisotropy_direction clearcoat_roughness clearcoat_normal dust_color "
                  "dust_roughness dust_falloff dust_tilt -dust_direction dust_noise -dust_scale "
@@ -246,7 +249,8 @@ static void profile_reads_only_its_inputs(void **state) {
     (void)state;
     WeftMaterial m = plain();
     set_choice(&m, "workflow", "disney");
-    assert_reads(&m, "sheen -sheen_color -sheen_roughness specular -reflectance subsurface clearcoat "
+    assert_reads(&m, "-diffuse_transmission sheen -sheen_color -sheen_roughness specular -reflectance "
+                     "subsurface clearcoat "
                      "-clearcoat_gloss -clearcoat_roughness");
     m.inputs[input_of("base_color")].value[0] = 0.1f;
     set_value(&m, "clearcoat", 1.0f);
