@@ -26,6 +26,14 @@ STRUCT(WeaveYarn) {
     float streaks, dye, slub, wander; /* how far slopes, albedo, width and place vary */
 };
 
+/* One system from afar: the numbers of the lobe woven that reflects as its visible points do on the mean, and how
+ * far their slopes reach across it and along, were they uniform, by which yarns hide each other. */
+STRUCT(WeaveFar) {
+    float alpha, crimp, roundness, floats; /* crimp: tangent */
+    float slope_across, slope_along;
+    float share; /* of the cloth, as seen from above; what is left are gaps */
+};
+
 /* A cloth. runs holds a row for each pick and four numbers for each warp thread: of the warp and of the weft
  * the crossings since their runs began, and their lengths, negative where they lie below; a run that never
  * ends has length 0. albedos holds a row for each thread, warp first: the fibres' albedo by channel. */
@@ -33,11 +41,10 @@ STRUCT(Weave) {
     int warps, picks;
     WeaveYarn warp, weft;
     float seed;
-    float low, high;              /* between them heights lie */
-    float openness;               /* the mean of weave_depth */
-    float warp_share, weft_share; /* of the cloth, as seen from above; what is left are gaps */
-    float warp_run, weft_run;     /* the mean k of what is seen of either */
-    float cycle_x, cycle_y;       /* threads after which what varies comes again; 0: never */
+    WeaveFar warp_far, weft_far;
+    float low, high;        /* between them heights lie */
+    float openness;         /* the mean of weave_depth */
+    float cycle_x, cycle_y; /* threads after which what varies comes again; 0: never */
     Table runs, albedos;
 };
 
@@ -53,17 +60,23 @@ STRUCT(WeavePoint) {
 
 #define WEAVE_NONE (-1e6f)
 
+/* A shader has the tables of cloths in a texture of their own, and defines this. */
+#ifndef weave_texel
+#define weave_texel(t, stride, row, column) table_texel(t, stride, row, column)
+#endif
+
 /* x mod n of a whole number, n > 0. */
 FN float weave_mod(float x, float n) {
     float m = x - n * floor(x / n);
     return m >= n ? m - n : m < 0.0f ? m + n : m;
 }
 
-/* A hash of a thread and a purpose, 0 .. 288. */
-FN float weave_key(float thread, float purpose) {
+/* A hash of a thread, 0 .. 288, and one of such a hash and a purpose. */
+FN float weave_hash(float thread) {
     float low = weave_mod(thread, 289.0f), high = weave_mod(floor(thread / 289.0f), 289.0f);
-    return dust_hash(dust_sum(dust_hash(dust_sum(dust_hash(high), low)), dust_mod(purpose)));
+    return dust_hash(dust_sum(dust_hash(high), low));
 }
+FN float weave_key(float hash, float purpose) { return dust_hash(dust_sum(hash, dust_mod(purpose))); }
 
 /* From -1 to 1: for a key; smooth along t, which comes again after n; smooth over a plane. */
 FN float weave_random(float key) { return dust_hash(key) / 144.0f - 1.0f; }
@@ -93,7 +106,7 @@ FN float weave_lean(float f, float cycle) {
 /* The number of a column of runs: column 0 and 1 are of the warp. */
 FN float weave_run(const Weave *m, float warp, float pick, int column) {
     int row = to_int(weave_mod(pick, to_float(m->picks))), at = to_int(weave_mod(warp, to_float(m->warps)));
-    return table_texel(m->runs, 4 * m->warps, row, 4 * at + column);
+    return weave_texel(m->runs, 4 * m->warps, row, 4 * at + column);
 }
 
 /* A random course along a thread, of about f turns a crossing. */
@@ -102,9 +115,9 @@ FN float weave_along(float key, float f, float v, float cycle) {
     return weave_course(key, pace * v, weave_turns(pace, cycle));
 }
 
-/* The key of a thread in a cycle of them. */
-FN float weave_key_of(float thread, float cycle, float purpose) {
-    return weave_key(cycle > 0.0f ? weave_mod(thread, cycle) : thread, purpose);
+/* The hash of a thread in a cycle of them. */
+FN float weave_hash_of(float thread, float cycle) {
+    return weave_hash(cycle > 0.0f ? weave_mod(thread, cycle) : thread);
 }
 
 /* The thread numbered c of a system at the place u across the system, v along it. */
@@ -116,15 +129,14 @@ FN WeavePoint weave_thread(const Weave *m, WeaveYarn y, bool weft, float c, floa
     bool ends = abs(run) > 0.5f;
     float l = max(abs(run), 1.0f), s = ends ? 2.0f * (v - cross + since) / l - 1.0f : 0.0f;
     float up = run < 0.0f ? -1.0f : 1.0f, k = 1.0f + y.floats * (l - 1.0f), flat = pow(max(abs(s), 1e-3f), k);
-    float crimp = ends ? y.crimp : 0.0f, begin = cross - since;
-    crimp = crimp *
-            (1.0f + 0.5f * y.wander * weave_along(weave_key_of(c, side, seed + 5.0f), 1.0f, begin, cycle));
-    float place =
-        c + 0.5f + 0.12f * y.wander * weave_along(weave_key_of(c, side, seed + 1.0f), 0.21f, v, cycle);
-    float thick = 1.0f + y.slub * (0.35f * weave_along(weave_key_of(c, side, seed + 2.0f), 0.06f, v, cycle) +
-                                   0.12f * weave_along(weave_key_of(c, side, seed + 3.0f), 0.9f, v, cycle));
+    float crimp = ends ? y.crimp : 0.0f, begin = cross - since, hash = weave_hash_of(c, side);
+    crimp = crimp * (1.0f + 0.5f * y.wander * weave_along(weave_key(hash, seed + 5.0f), 1.0f, begin, cycle));
+    float aside = 0.12f * y.wander * weave_along(weave_key(hash, seed + 1.0f), 0.21f, v, cycle);
+    float thick = 1.0f + y.slub * (0.35f * weave_along(weave_key(hash, seed + 2.0f), 0.06f, v, cycle) +
+                                   0.12f * weave_along(weave_key(hash, seed + 3.0f), 0.9f, v, cycle));
     float swell = up > 0.0f ? y.bulge * (1.0f - s * s) * (1.0f - 1.0f / l) : 0.0f;
-    float width = y.width * max(thick, 0.2f) * (1.0f + swell), r = 2.0f * (u - place) / width;
+    float width = min(y.width * max(thick, 0.2f) * (1.0f + swell), 2.0f - 2.0f * abs(aside));
+    float r = 2.0f * (u - c - 0.5f - aside) / width;
     float arc = up * 0.5f * l * y.cross_pitch * crimp * (1.0f - abs(s) * flat) / (k + 1.0f);
 
     WeavePoint p;
@@ -149,7 +161,8 @@ FN void weave_higher(WeavePoint *best, WeavePoint p) {
  * the cloth's. */
 FN void weave_finish(const Weave *m, WeaveYarn y, float u, float v, WeavePoint *p) {
     float seed = m->seed + (p->weft ? 97.0f : 0.0f), side = p->weft ? m->cycle_y : m->cycle_x;
-    float cycle = p->weft ? m->cycle_x : m->cycle_y, key = weave_key_of(p->thread, side, seed + 7.0f);
+    float cycle = p->weft ? m->cycle_x : m->cycle_y, hash = weave_hash_of(p->thread, side);
+    float key = weave_key(hash, seed + 7.0f);
     float twist = p->weft ? -y.twist : y.twist; /* across and along are x and y, mirrored */
     float c = cos(twist) / y.width, s = sin(twist) / y.width, x = u - p->thread;
     float fine = weave_lean(14.0f * s, cycle), wide = weave_lean(9.0f * s, cycle);
@@ -162,22 +175,22 @@ FN void weave_finish(const Weave *m, WeaveYarn y, float u, float v, WeavePoint *
     float sx = p->slope_x + y.streaks * grain, sy = p->slope_y;
     float n = 1.0f / sqrt(1.0f + sx * sx + sy * sy), t = 1.0f / sqrt(1.0f + sy * sy);
     float fx = -st * n / t, fy = ct * t + st * sx * sy * t * n, fz = -ct * t * sy + st * sx * t * n;
-    p->dye = 1.0f - y.dye * (0.7f * weave_random(weave_key_of(p->thread, side, seed + 4.0f)) +
+    p->dye = 1.0f - y.dye * (0.7f * weave_random(weave_key(hash, seed + 4.0f)) +
                              0.3f * weave_along(key, 0.35f, v, cycle) + 0.5f * y.streaks * grain);
     p->slope_x = p->weft ? sy : sx;
     p->slope_y = p->weft ? sx : sy;
     p->fibre = p->weft ? dir(fy, fx, fz) : dir(fx, fy, fz);
 }
 
-/* The point at x, y. */
+/* The point at x, y. No thread reaches further than the middle of the next one's place: of either system the two
+ * nearest are asked. */
 FN WeavePoint weave_point(const Weave *m, float x, float y) {
-    float i = floor(x), j = floor(y);
+    float i = floor(x), j = floor(y), beside = x - i < 0.5f ? -1.0f : 1.0f,
+          above = y - j < 0.5f ? -1.0f : 1.0f;
     WeavePoint best = weave_thread(m, m->warp, false, i, x, y);
-    weave_higher(&best, weave_thread(m, m->warp, false, i - 1.0f, x, y));
-    weave_higher(&best, weave_thread(m, m->warp, false, i + 1.0f, x, y));
+    weave_higher(&best, weave_thread(m, m->warp, false, i + beside, x, y));
     weave_higher(&best, weave_thread(m, m->weft, true, j, y, x));
-    weave_higher(&best, weave_thread(m, m->weft, true, j - 1.0f, y, x));
-    weave_higher(&best, weave_thread(m, m->weft, true, j + 1.0f, y, x));
+    weave_higher(&best, weave_thread(m, m->weft, true, j + above, y, x));
     if (best.height <= WEAVE_NONE) {
         best.slope_x = 0.0f;
         best.slope_y = 0.0f;
@@ -195,7 +208,7 @@ FN WeavePoint weave_point(const Weave *m, float x, float y) {
 FN float weave_albedo(const Weave *m, WeavePoint p, int channel) {
     int row = p.weft ? m->warps + to_int(weave_mod(p.thread, to_float(m->picks)))
                      : to_int(weave_mod(p.thread, to_float(m->warps)));
-    float a = table_texel(m->albedos, 3, row, channel);
+    float a = weave_texel(m->albedos, 3, row, channel);
     return a / max(a + (1.0f - a) * max(p.dye, 0.1f), 1e-6f);
 }
 

@@ -2,6 +2,7 @@
 #ifndef WEFT_TRACE_CHUNK_H
 #define WEFT_TRACE_CHUNK_H
 
+#include "scene/cloth_base.h"
 #include "trace/path_context.h"
 #include "trace/stages.h"
 
@@ -87,6 +88,9 @@ typedef struct ChunkSource {
 /* vertex.c: fills the chunk up to its inputs, and up to its frames. */
 void chunk_place(Chunk *chunk, const ChunkSource *source);
 void chunk_turn(Chunk *chunk, const ChunkSource *source);
+
+/* footprint.c: vertex k as a path looks at the cloth there. */
+ClothLook chunk_look(const Chunk *chunk, const ChunkSource *source, int k);
 
 /* inputs.c: fills n rows of the material's inputs. */
 void chunk_take_inputs(Chunk *chunk, const ChunkSource *source, int n);

@@ -37,6 +37,7 @@ typedef struct PathContext {
     bool sky_in_parts; /* the factors ambient and reflection are not both 1 */
     bool first_hits;   /* they are kept, */
     float forward[3];  /* with depths along this axis, the camera's */
+    float pixel[2];    /* width of a pixel at the eye, and how much wider it becomes with depth */
 } PathContext;
 
 /* Which random numbers a path takes (sampler.h). */

@@ -224,6 +224,11 @@ static WeftResult build(WeftRender *render, unsigned changed, WeftError *error) 
                                         .first_hits = d->first_hits != 0,
                                         .forward = {render->lens.view.forward.x, render->lens.view.forward.y,
                                                     render->lens.view.forward.z}};
+    if (result == WEFT_OK) {
+        const View *view = &render->lens.view;
+        render->context.pixel[view->orthographic ? 0 : 1] =
+            2.0f * sqrtf(vec3_dot(view->up, view->up)) / (float)d->height;
+    }
     if (result == WEFT_OK) result = make_streams(render, error);
     return result;
 }

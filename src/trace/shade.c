@@ -70,23 +70,25 @@ static Rgb f_cos_of_sky(const PathContext *context, const Stack *stack, const St
 }
 
 /* The stack at a vertex: the material's, or one of its own. */
-static const Stack *stack_at(Chunk *c, const PathMaterial *material, int k) {
+static const Stack *stack_at(Chunk *c, const ChunkSource *from, const PathMaterial *material, int k) {
     Surface surface = surface_of_row(&c->vertices.surface, (size_t)k);
     if (!material->textured && !(surface.dust > 0.0f)) return &material->stack;
     Dir normal = dir(c->frame[2][0][k], c->frame[2][1][k], c->frame[2][2][k]);
     Dir position = dir(c->position[0][k], c->position[1][k], c->position[2][k]);
     surface = dust_accumulate(frame_surface(surface), normal, position);
     stack_make(&c->stack, &surface, &material->choices, material->sheen_e);
-    if (material->cloth)
-        cloth_base(material->cloth, (float[2]){c->textures.uv[0][0][k], c->textures.uv[0][1][k]}, c->side[k],
-                   &c->stack);
+    if (material->cloth) {
+        const ClothLook look = chunk_look(c, from, k);
+        cloth_base(material->cloth, &look, &c->stack);
+    }
     return &c->stack;
 }
 
 /* One vertex at a time, whatever its stack is. */
-static void shade_vertex(Chunk *c, const PathContext *context, const PathMaterial *material, int k) {
+static void shade_vertex(Chunk *c, const ChunkSource *from, const PathMaterial *material, int k) {
+    const PathContext *context = from->context;
     KindVertices *v = &c->vertices;
-    const Stack *stack = stack_at(c, material, k);
+    const Stack *stack = stack_at(c, from, material, k);
     uint32_t seed = hash32(c->key[k]);
     Dir o = dir(v->o[0][k], v->o[1][k], v->o[2][k]), wi;
     StackValue value;
@@ -119,7 +121,7 @@ void chunk_shade(Chunk *c, const ChunkSource *from) {
         for (int g = 0; g < LIGHT_GROUPS; g++) shine[g] = lights_shine(context->lights, (LightGroup)g);
         kind_shade(material->kind, &c->vertices, material->sheen_e, shine, n);
     } else
-        for (int k = 0; k < from->n; k++) shade_vertex(c, context, material, k);
+        for (int k = 0; k < from->n; k++) shade_vertex(c, from, material, k);
     stage_end(c->clock, STAGE_SHADE);
 }
 

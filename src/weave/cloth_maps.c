@@ -128,7 +128,7 @@ static WeftResult write_material(const MapBake *b, const WeftCloth *cloth, const
     WeftResult result = output_open(&file, path, error);
     if (result != WEFT_OK) return result;
     const double white = 0.5 * (double)(b->weave.warp.white + b->weave.weft.white);
-    const bool gaps = cloth->weave.warp_share + cloth->weave.weft_share < 0.999f;
+    const bool gaps = cloth->weave.warp_far.share + cloth->weave.weft_far.share < 0.999f;
     snprintf(place, sizeof place, "\"scale\": [%.9g, %.9g]", metres / size[0], metres / size[1]);
     fprintf(file.stream, "{\n    \"base_color\": {\"texture\": \"%s\", %s},\n", kinds[MAP_COLOR].file, place);
     if (gaps)

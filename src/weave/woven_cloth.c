@@ -10,8 +10,6 @@
 #include "weave/weave_draft.h"
 #include "weave/weft_cloth.h"
 
-enum { LOOKS = 192 }; /* places along a side at which a cloth is looked at */
-
 /* Returns 1 where thread k of a system is on top at its crossing with thread c of the other. */
 static int on_top(const WeftDraft *draft, WeftThreads threads, int k, int c) {
     return threads == WEFT_WARP ? weft_draft_warp_up(draft, k, c) : !weft_draft_warp_up(draft, c, k);
@@ -80,40 +78,6 @@ static WeaveYarn laid(const WeftYarn *yarn, float pitch, float cross_pitch, floa
                        .wander = yarn->wander};
 }
 
-/* Returns how many threads are looked at: about 48, in whole repeats where these are small. */
-static float looked_at(int count) { return (float)(count < 48 ? count * ((47 + count) / count) : 48); }
-
-/* Looks at some repeats, or at the first threads of a large one. */
-static void look_over(Weave *m) {
-    const int side = LOOKS;
-    const float across = looked_at(m->warps), along = looked_at(m->picks);
-    int seen[2] = {0, 0};
-    double open = 0.0, run[2] = {0.0, 0.0};
-    m->low = HUGE_VALF;
-    m->high = -HUGE_VALF;
-    for (int pass = 0; pass < 2; pass++)
-        for (int k = 0; k < side * side; k++) {
-            const int column = k % side, row = k / side;
-            const float x = ((float)column + 0.5f) / (float)side, y = ((float)row + 0.5f) / (float)side;
-            const WeavePoint p = weave_point(m, x * across, y * along);
-            if (p.height <= WEAVE_NONE) continue;
-            if (pass == 0) {
-                seen[p.weft]++;
-                run[p.weft] += (double)p.k;
-                m->low = fminf(m->low, p.height);
-                m->high = fmaxf(m->high, p.height);
-            } else
-                open += (double)weave_depth(m, p);
-        }
-    const int all = seen[0] + seen[1];
-    m->warp_share = (float)seen[0] / (float)(side * side);
-    m->weft_share = (float)seen[1] / (float)(side * side);
-    m->warp_run = seen[0] ? (float)(run[0] / (double)seen[0]) : 1.0f;
-    m->weft_run = seen[1] ? (float)(run[1] / (double)seen[1]) : 1.0f;
-    m->openness = all ? (float)(open / (double)all) : 1.0f;
-    if (!all) m->low = m->high = 0.0f;
-}
-
 static WeftResult yarn_check(const WeftYarn *y, WeftError *error) {
     const struct {
         const char *name;
@@ -168,7 +132,10 @@ WeftResult weft_cloth_create(const WeftDraft *draft, const WeftYarn yarns[2], un
                            .seed = (float)(seed % 289u),
                            .runs = cloth->runs,
                            .albedos = cloth->albedos};
-    look_over(&cloth->weave);
+    if (!cloth_far_make(cloth)) {
+        weft_cloth_free(cloth);
+        return fail(error, WEFT_MESSAGE_MEMORY, draft->title, NULL);
+    }
     cloth_spread(cloth, 1.0);
     *out = cloth;
     return WEFT_OK;
@@ -183,6 +150,7 @@ void weft_cloth_free(WeftCloth *cloth) {
     if (!cloth) return;
     free(cloth->runs);
     free(cloth->albedos);
+    free(cloth->far.texels);
     free(cloth->text);
     free(cloth->path);
     weft_draft_free(cloth->draft);
@@ -197,6 +165,6 @@ bool cloth_same(const WeftCloth *a, const WeftCloth *b) {
 }
 
 WeftClothInfo weft_cloth_info(const WeftCloth *cloth) {
-    return (WeftClothInfo){.share = {cloth->weave.warp_share, cloth->weave.weft_share},
+    return (WeftClothInfo){.share = {cloth->weave.warp_far.share, cloth->weave.weft_far.share},
                            .size = {(float)cloth->size[0], (float)cloth->size[1]}};
 }

@@ -1,0 +1,374 @@
+/* cloth_far.c - a cloth from afar: yarns of lobe woven that reflect as the visible points of either system do on the
+ * mean, and the colours of its crossings, ever coarser
+ *
+ *   E[s_x^2] = across^2 / 3,  E[s_y^2] = along^2 / 3
+ *
+ * are solved for the slopes by which yarns hide each other. The four numbers of woven are fitted: to the mean of what
+ * points reflect of light that met one fibre, over pairs of directions, in which threads hide the ends of others,
+ * crevices are dark and fibres rise. What is left is one factor for each system and each kind of light, which goes into
+ * the colours. */
+#include <math.h>
+#include <stdlib.h>
+
+#include <nlopt.h>
+
+#include "base/memory.h"
+#include "shading/lobes/woven.h"
+#include "shading/weave_light.h"
+#include "weave/weft_cloth.h"
+
+enum {
+    PIECE = 480,      /* threads of a piece of cloth, */
+    LOOKS = 40000,    /* places at which it is looked at, */
+    LOOKS_LIT = 8000, /* and at which it is lit */
+    PAIRS = 96,       /* of directions */
+    FITS_MOST = 300,
+    FAR_SIDE_MAX = 512,
+};
+
+/* The largest numbers of lobe woven; the crimp is a tangent. */
+static const float ROUNDNESS_MOST = 1.5f, CRIMP_MOST = 2.5f, FLOATS_MOST = 16.0f;
+
+/* The points of one system that were seen. */
+typedef struct SystemSeen {
+    int count, crossings[2], on[2]; /* places where it is above or below, and those at which it is seen */
+    double run, across, along;      /* sums of k, s_x^2 and s_y^2 */
+} SystemSeen;
+
+/* Returns about how many threads are looked at, in whole repeats. */
+static double looked_at(int count) { return (double)(count * ((PIECE + count - 1) / count)); }
+
+/* Place k of evenly spread ones. Martin Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018. */
+static WeavePoint look(const Weave *m, int k, float *x, float *y) {
+    *x = (float)(fmod(0.7548776662466927 * (k + 1), 1.0) * looked_at(m->warps));
+    *y = (float)(fmod(0.5698402909980532 * (k + 1), 1.0) * looked_at(m->picks));
+    return weave_point(m, *x, *y);
+}
+
+static int is_up(const Weave *m, float x, float y, int weft) {
+    return weave_run(m, floorf(x), floorf(y), 2 * weft + 1) > 0.0f;
+}
+
+static void see(Weave *m, SystemSeen seen[2]) {
+    m->low = HUGE_VALF;
+    m->high = -HUGE_VALF;
+    for (int k = 0; k < LOOKS; k++) {
+        float x, y;
+        const WeavePoint p = look(m, k, &x, &y);
+        for (int t = 0; t < 2; t++) seen[t].crossings[is_up(m, x, y, t)]++;
+        if (p.height <= WEAVE_NONE) continue;
+        SystemSeen *of = &seen[p.weft];
+        const float across = p.weft ? p.slope_y : p.slope_x, along = p.weft ? p.slope_x : p.slope_y;
+        of->count++;
+        of->on[is_up(m, x, y, p.weft)]++;
+        of->run += (double)p.k;
+        of->across += (double)(across * across);
+        of->along += (double)(along * along);
+        m->low = fminf(m->low, p.height);
+        m->high = fmaxf(m->high, p.height);
+    }
+    if (m->low > m->high) m->low = m->high = 0.0f;
+}
+
+static float open_mean(const Weave *m) {
+    double open = 0.0;
+    int count = 0;
+    for (int k = 0; k < LOOKS; k++) {
+        float x, y;
+        const WeavePoint p = look(m, k, &x, &y);
+        if (p.height <= WEAVE_NONE) continue;
+        open += (double)weave_depth(m, p);
+        count++;
+    }
+    return count ? (float)(open / count) : 1.0f;
+}
+
+/* Streaks turn fibres by 0.35 streaks times noise whose variance is 0.18 (weave_finish), and so widen D. */
+static WeaveFar far_of(const WeaveYarn *y, const SystemSeen *seen) {
+    const float turn = 0.35f * y->streaks, a2 = y->alpha * y->alpha;
+    WeaveFar far = {.alpha = sqrtf(a2 + (1.0f - a2) * fminf(0.18f * turn * turn, 1.0f)),
+                    .crimp = fminf(y->crimp, CRIMP_MOST),
+                    .roundness = y->roundness,
+                    .floats = 1.0f,
+                    .slope_across = y->roundness,
+                    .slope_along = y->crimp,
+                    .share = (float)seen->count / LOOKS};
+    if (!seen->count) return far;
+    far.floats = fminf((float)(seen->run / seen->count), FLOATS_MOST);
+    far.slope_across = far.roundness = fminf((float)(sqrt)(3.0 * seen->across / seen->count), ROUNDNESS_MOST);
+    far.slope_along = (float)(sqrt)(3.0 * seen->along / seen->count);
+    far.crimp = fminf(far.slope_along * sqrtf((2.0f * far.floats + 1.0f) / 3.0f), CRIMP_MOST);
+    return far;
+}
+
+/* The share that a system covers of crossings where it is below, or above. */
+static float covers(const SystemSeen *seen, int up) {
+    return seen->crossings[up] ? (float)seen->on[up] / (float)seen->crossings[up] : 0.0f;
+}
+
+/* A thread's colour in light that met one fibre, and in all other, without irregular dye. */
+static float color_of(const Weave *m, int t, int thread, int c, bool again) {
+    const float a = m->albedos[3 * ((t ? m->warps : 0) + thread) + c],
+                white = t ? m->weft.white : m->warp.white;
+    return again ? yarn_reflectance(a) : fminf(a + white, 1.0f);
+}
+
+/* Adds a crossing to the texels of the first level that it overlaps. */
+static void add_crossing(ClothFar *far, const Weave *m, const SystemSeen seen[2], int i, int j) {
+    const float across = (float)far->width / (float)m->warps, along = (float)far->height / (float)m->picks;
+    const float x0 = (float)i * across, x1 = x0 + across, y0 = (float)j * along, y1 = y0 + along;
+    float color[FAR_LAYERS][4];
+    for (int layer = 0; layer < FAR_LAYERS; layer++) {
+        const int t = layer / 2;
+        const float part = covers(&seen[t], is_up(m, (float)i, (float)j, t));
+        for (int c = 0; c < 3; c++) color[layer][c] = part * color_of(m, t, t ? j : i, c, layer % 2 == 1);
+        color[layer][3] = part;
+    }
+    for (int row = (int)y0; row < far->height && (float)row < y1; row++)
+        for (int column = (int)x0; column < far->width && (float)column < x1; column++) {
+            const float part = (fminf(x1, (float)column + 1.0f) - fmaxf(x0, (float)column)) *
+                               (fminf(y1, (float)row + 1.0f) - fmaxf(y0, (float)row));
+            for (int layer = 0; layer < FAR_LAYERS; layer++)
+                for (int c = 0; c < 4; c++)
+                    far->texels[4 * ((size_t)(layer * far->height + row) * (size_t)far->width +
+                                     (size_t)column) +
+                                (size_t)c] += fmaxf(part, 0.0f) * color[layer][c];
+        }
+}
+
+static int side_of(int level, int side) { return side >> level > 0 ? side >> level : 1; }
+
+static size_t level_start(const ClothFar *far, int level) {
+    size_t texels = 0;
+    for (int k = 0; k < level; k++)
+        texels += (size_t)FAR_LAYERS * (size_t)side_of(k, far->width) * (size_t)side_of(k, far->height);
+    return 4 * texels;
+}
+
+const float *cloth_far_level(const ClothFar *far, int level, int *width, int *height) {
+    *width = side_of(level, far->width);
+    *height = side_of(level, far->height);
+    return far->texels + level_start(far, level);
+}
+
+/* Makes a level of the one before it. */
+static void halve(ClothFar *far, int level) {
+    int w, h, width, height;
+    const float *from = cloth_far_level(far, level - 1, &width, &height);
+    float *to = far->texels + level_start(far, level);
+    (void)cloth_far_level(far, level, &w, &h);
+    for (int row = 0; row < FAR_LAYERS * h; row++)
+        for (int column = 0; column < w; column++)
+            for (int c = 0; c < 4; c++) {
+                float sum = 0.0f;
+                for (int k = 0; k < 4; k++) {
+                    const int right = width > 1 ? 2 * column + (k & 1) : 0, up = k / 2;
+                    const int layer = row / h, at = height > 1 ? 2 * (row % h) + up : 0;
+                    sum += from[4 * ((layer * height + at) * width + right) + c];
+                }
+                to[4 * (row * w + column) + c] = 0.25f * sum;
+            }
+}
+
+/* A power of 2 that has a texel for each thread, as far as there is room. */
+static int far_side(int threads) {
+    int side = 1;
+    while (side < threads && side < FAR_SIDE_MAX) side *= 2;
+    return side;
+}
+
+static bool make_colors(WeftCloth *cloth, const SystemSeen seen[2]) {
+    const Weave *m = &cloth->weave;
+    ClothFar *far = &cloth->far;
+    far->width = far_side(m->warps);
+    far->height = far_side(m->picks);
+    far->levels = 1;
+    while (far->width >> far->levels > 0 || far->height >> far->levels > 0) far->levels++;
+    far->texels = alloc_array(level_start(far, far->levels), sizeof(float));
+    if (!far->texels) return false;
+    for (int j = 0; j < m->picks; j++)
+        for (int i = 0; i < m->warps; i++) add_crossing(far, m, seen, i, j);
+    for (int level = 1; level < far->levels; level++) halve(far, level);
+    return true;
+}
+
+/* Directions within 80 degrees of the normal, evenly by their cosine. */
+static Dir direction_of(double mu, double turn) {
+    const double z = 0.17 + 0.83 * mu, r = (sqrt)(1.0 - z * z), phi = 2.0 * (double)PI * turn;
+    return dir((float)(r * (cos)(phi)), (float)(r * (sin)(phi)), (float)z);
+}
+
+/* Pairs of directions, and what one system reflects between them of light that met one fibre, and of all other, times
+ * the cosine. */
+typedef struct Lit {
+    Dir o[PAIRS], i[PAIRS];
+    double once[PAIRS], again[PAIRS];
+} Lit;
+
+static void take_pairs(Lit *lit) {
+    for (int k = 0; k < PAIRS; k++) {
+        const double n = (double)k + 0.5;
+        lit->o[k] = direction_of(n / PAIRS, fmod(0.7548776662 * n, 1.0));
+        lit->i[k] = direction_of(fmod(0.5698402910 * n, 1.0), fmod(0.3819660113 * n, 1.0));
+        lit->once[k] = lit->again[k] = 0.0;
+    }
+}
+
+static void add_value(Lit *lit, int k, LobeValue v, double once, double again) {
+    const double f = (double)(v.f * lit->i[k].z), s = (double)v.s;
+    lit->once[k] += f * (1.0 - s) * once;
+    lit->again[k] += f * s * again;
+}
+
+/* The mean over channels of what a point reflects. */
+static void color_of_point(const Weave *m, WeavePoint p, double *once, double *again) {
+    *once = *again = 0.0;
+    for (int c = 0; c < 3; c++) {
+        *once += (double)weave_once(m, p, c) / 3.0;
+        *again += (double)weave_reflectance(m, p, c) / 3.0;
+    }
+}
+
+static void light_points(const Weave *m, Lit near[2]) {
+    const double part = 1.0 / LOOKS_LIT;
+    for (int at = 0; at < LOOKS_LIT; at++) {
+        float x, y;
+        double once, again;
+        YarnPrepared p;
+        const WeavePoint point = look(m, at, &x, &y);
+        if (point.height <= WEAVE_NONE) continue;
+        yarn_prepare(weave_yarn(m, point), &p);
+        color_of_point(m, point, &once, &again);
+        for (int k = 0; k < PAIRS; k++) {
+            YarnView w;
+            Lit *lit = &near[point.weft];
+            yarn_view(&p, lit->o[k], &w);
+            add_value(lit, k, yarn_value(&p, &w, angles_between(lit->o[k], lit->i[k])), part * once,
+                      part * again);
+        }
+    }
+}
+
+static void light_lobe(const Woven *m, Lit *far) {
+    WovenPrepared p;
+    woven_prepare(*m, &p);
+    for (int k = 0; k < PAIRS; k++) {
+        WovenView w;
+        woven_view(&p, far->o[k], &w);
+        far->once[k] = far->again[k] = 0.0;
+        add_value(far, k, woven_value(&p, &w, angles_between(far->o[k], far->i[k])), 1.0, 1.0);
+    }
+}
+
+static double sum_of(const double values[PAIRS]) {
+    double sum = 0.0;
+    for (int k = 0; k < PAIRS; k++) sum += values[k];
+    return sum;
+}
+
+typedef struct FarFit {
+    Weave *weave;
+    bool weft;
+    const Lit *near;
+    Lit lobe;
+} FarFit;
+
+/* Sum |s lobe - near| over the pairs, s the factor that makes both alike on the mean. */
+static double fit_error(unsigned n, const double *x, double *gradient, void *user) {
+    FarFit *fit = user;
+    WeaveFar *far = fit->weft ? &fit->weave->weft_far : &fit->weave->warp_far;
+    (void)n, (void)gradient;
+    far->alpha = (float)x[0], far->crimp = (float)x[1], far->roundness = (float)x[2],
+    far->floats = (float)x[3];
+    const Woven woven = weave_woven(fit->weave, fit->weft);
+    light_lobe(&woven, &fit->lobe);
+    const double s = sum_of(fit->near->once) / fmax(sum_of(fit->lobe.once), 1e-30);
+    double error = 0.0;
+    for (int k = 0; k < PAIRS; k++) error += fabs(s * fit->lobe.once[k] - fit->near->once[k]);
+    return error;
+}
+
+/* Fits the lobe of one system: Thomas Harvey Rowan, "Functional Stability Analysis of Numerical Algorithms", 1990, as
+ * NLopt has it. Where memory is short the lobe stays that of the moments. */
+static void fit_lobe(FarFit *fit) {
+    WeaveFar *far = fit->weft ? &fit->weave->weft_far : &fit->weave->warp_far;
+    const WeaveFar moments = *far;
+    const double low[4] = {0.05, 0.0, 0.0, 1.0},
+                 high[4] = {1.0, (double)CRIMP_MOST, (double)ROUNDNESS_MOST, (double)FLOATS_MOST};
+    double x[4] = {(double)far->alpha, (double)far->crimp, (double)far->roundness, (double)far->floats},
+           error;
+    for (int k = 0; k < 4; k++) x[k] = fmin(fmax(x[k], low[k]), high[k]);
+    nlopt_opt method = nlopt_create(NLOPT_LN_SBPLX, 4);
+    const bool made = method && nlopt_set_min_objective(method, fit_error, fit) > 0 &&
+                      nlopt_set_lower_bounds(method, low) > 0 && nlopt_set_upper_bounds(method, high) > 0 &&
+                      nlopt_set_maxeval(method, FITS_MOST) > 0 && nlopt_optimize(method, x, &error) > 0;
+    if (made)
+        (void)fit_error(4, x, NULL, fit);
+    else
+        *far = moments;
+    nlopt_destroy(method);
+}
+
+static float ratio(double near, double far) { return near > 0.0 && far > 0.0 ? (float)(near / far) : 0.0f; }
+
+/* The mean over channels of the whole repeat. */
+static double mean_color(const ClothFar *far, int layer) {
+    int w, h;
+    const float *c = cloth_far_level(far, far->levels - 1, &w, &h) + 4 * layer;
+    return (double)(c[0] + c[1] + c[2]) / 3.0;
+}
+
+static void scale_layer(ClothFar *far, int layer, float factor) {
+    for (int level = 0; level < far->levels; level++) {
+        int w, h;
+        (void)cloth_far_level(far, level, &w, &h);
+        float *texels = far->texels + level_start(far, level) + 4 * (size_t)layer * (size_t)w * (size_t)h;
+        for (int k = 0; k < w * h; k++)
+            for (int c = 0; c < 3; c++) texels[4 * k + c] *= factor;
+    }
+}
+
+/* Fits lobes, and scales the colours so that from afar the cloth is as bright as its points are on the mean. */
+static void fit_far(WeftCloth *cloth) {
+    Lit near[2];
+    take_pairs(&near[0]);
+    near[1] = near[0];
+    light_points(&cloth->weave, near);
+    for (int t = 0; t < 2; t++) {
+        FarFit fit = {.weave = &cloth->weave, .weft = t == 1, .near = &near[t], .lobe = near[t]};
+        if (sum_of(near[t].once) > 0.0) fit_lobe(&fit);
+        const Woven woven = weave_woven(&cloth->weave, t == 1);
+        light_lobe(&woven, &fit.lobe);
+        const double share = (double)woven.share;
+        for (int again = 0; again < 2; again++) {
+            const int layer = 2 * t + again;
+            const double lit =
+                sum_of(again ? fit.lobe.again : fit.lobe.once) * mean_color(&cloth->far, layer);
+            scale_layer(&cloth->far, layer, ratio(sum_of(again ? near[t].again : near[t].once) * share, lit));
+        }
+    }
+}
+
+bool cloth_far_make(WeftCloth *cloth) {
+    Weave *m = &cloth->weave;
+    SystemSeen seen[2] = {{0}};
+    see(m, seen);
+    m->openness = open_mean(m);
+    m->warp_far = far_of(&m->warp, &seen[0]);
+    m->weft_far = far_of(&m->weft, &seen[1]);
+    if (!make_colors(cloth, seen)) return false;
+    fit_far(cloth);
+    return true;
+}
+
+static int texel_of(float x, int side) {
+    const int texel = (int)((x - floorf(x)) * (float)side);
+    return texel < side ? texel : side - 1;
+}
+
+const float *cloth_far_color(const ClothFar *far, int layer, float x, float y, float level) {
+    int width, height;
+    const int at = (int)fminf(fmaxf(level, 0.0f), (float)(far->levels - 1));
+    const float *texels = cloth_far_level(far, at, &width, &height);
+    return texels + 4 * ((layer * height + texel_of(y, height)) * width + texel_of(x, width));
+}

@@ -1,0 +1,160 @@
+/* A cloth at every distance: the mean over pixels of what is looked up near, far and between is that of many points of
+ * threads, to 0.5 % up to two threads a pixel and to 2 % beyond, where the lobe woven takes over. Pixels vary as those of
+ * many points do up to there, and hardly at all beyond. A pixel is a square of so many threads. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "base/pi.h"
+#include "base/random.h"
+#include "scene/cloth_base.h"
+#include "weft/weft.h"
+
+enum { PIXELS = 100, SAMPLES = 144, FINE = 576, PAIRS = 7 };
+
+typedef struct Direction {
+    double theta, phi; /* degrees */
+} Direction;
+
+/* From above, and at grazing; a highlight and beside it. */
+static const Direction views[PAIRS] = {{0, 0}, {0, 0}, {45, 20}, {45, 20}, {45, 20}, {70, 100}, {70, 100}},
+                       suns[PAIRS] = {{30, 40},  {60, 200}, {45, 200}, {20, 90},
+                                      {65, 300}, {70, 280}, {30, 10}};
+
+static Dir direction_of(Direction d) {
+    const double t = d.theta * PI_DOUBLE / 180.0, p = d.phi * PI_DOUBLE / 180.0;
+    return (Dir){(float)((sin)(t) * (cos)(p)), (float)((sin)(t) * (sin)(p)), (float)(cos)(t)};
+}
+
+/* The weave of a preset. */
+typedef struct Case {
+    const char *name, *draft, *warp, *weft;
+} Case;
+static const Case cases[] = {
+    {"denim", "twill 3/1 z; warp 1#26375c; weft 1#d8d4c8; sett 26 18", "cotton", "cotton"},
+    {"gabardine", "twill 2/1 z; both 1#4a4438; sett 40 22", "wool", "wool"},
+    {"linen", "plain; both 1#c9bfa4; sett 14 13", "linen", "linen"},
+    {"houndstooth", "houndstooth; sett 20", "wool", "wool"},
+};
+static const float footprints[] = {0.1f, 0.25f, 0.5f, 1.0f, 1.5f, 2.0f, 4.0f, 16.0f, 100.0f};
+
+static WeftCloth *cloth_of(const Case *c) {
+    WeftDraft *draft;
+    WeftYarn yarns[2];
+    WeftCloth *cloth;
+    WeftError error;
+    assert_int_equal(weft_draft_parse(c->draft, &draft, &error), WEFT_OK);
+    assert_int_equal(weft_yarn_find(c->warp, &yarns[0], &error), WEFT_OK);
+    assert_int_equal(weft_yarn_find(c->weft, &yarns[1], &error), WEFT_OK);
+    assert_int_equal(weft_cloth_create(draft, yarns, 0, &cloth, &error), WEFT_OK);
+    weft_draft_free(draft);
+    return cloth;
+}
+
+static float random_unit(uint64_t *random) { return unit_float((uint32_t)(stream_next(random) >> 32)); }
+
+/* Adds what is seen of a place by all pairs, red and blue. */
+static void add_look(const WeftCloth *cloth, const ClothLook *look, double weight, double sum[PAIRS][2]) {
+    static Stack stack;
+    cloth_base(cloth, look, &stack);
+    const Slot *base = &stack.diffuse;
+    for (int k = 0; k < PAIRS; k++) {
+        const LobeValue v =
+            lobe_value(&base->lobe, angles_between(direction_of(views[k]), direction_of(suns[k])));
+        const double f = (double)v.f * weight, s = (double)v.s;
+        sum[k][0] += f * ((double)base->f0.r * (1.0 - s) + (double)base->f90.r * s);
+        sum[k][1] += f * ((double)base->f0.b * (1.0 - s) + (double)base->f90.b * s);
+    }
+}
+
+/* A pixel with its lower left corner at x, y threads, of so many samples; near: of points of threads at any distance. */
+static void see_pixel(const WeftCloth *cloth, float x, float y, float side, int samples, bool near,
+                      uint64_t *random, double sum[PAIRS][2]) {
+    for (int k = 0; k < PAIRS; k++) sum[k][0] = sum[k][1] = 0.0;
+    for (int n = 0; n < samples; n++) {
+        const int rows = samples == FINE ? 24 : samples == SAMPLES ? 12 : 1, columns = samples / rows;
+        const int column = n % columns, row = n / columns;
+        const float u = x + side * ((float)column + random_unit(random)) / (float)columns,
+                    v = y + side * ((float)row + random_unit(random)) / (float)rows;
+        const ClothLook look = {.uv = {u / cloth->per_uv[WEFT_WARP], -v / cloth->per_uv[WEFT_WEFT]},
+                                .footprint = {side, side, side},
+                                .level = near ? 1.0f : random_unit(random),
+                                .system = random_unit(random)};
+        add_look(cloth, &look, 1.0 / samples, sum);
+    }
+}
+
+/* Sums over pixels. */
+typedef struct Moments {
+    double mean[PAIRS][2], square[PAIRS][2];
+} Moments;
+
+static void add_pixel(Moments *m, double pixel[PAIRS][2]) {
+    for (int k = 0; k < PAIRS; k++)
+        for (int c = 0; c < 2; c++) {
+            m->mean[k][c] += pixel[k][c] / PIXELS;
+            m->square[k][c] += pixel[k][c] * pixel[k][c] / PIXELS;
+        }
+}
+static double variance(const Moments *m, int k, int c) {
+    return m->square[k][c] - m->mean[k][c] * m->mean[k][c];
+}
+
+/* Sums of variances over pairs, in units of the squared mean. */
+static double spread(const Moments *m) {
+    double sum = 0.0;
+    for (int k = 0; k < PAIRS; k++)
+        for (int c = 0; c < 2; c++) sum += variance(m, k, c) / (m->mean[k][c] * m->mean[k][c]) / (2 * PAIRS);
+    return sum;
+}
+
+static void a_cloth_is_as_bright_at_every_distance(void **state) {
+    (void)state;
+    for (size_t n = 0; n < sizeof cases / sizeof *cases; n++) {
+        WeftCloth *cloth = cloth_of(&cases[n]);
+        for (size_t at = 0; at < sizeof footprints / sizeof *footprints; at++) {
+            const float side = footprints[at];
+            uint64_t random = stream_start(n, 29);
+            Moments fine = {0}, seen = {0}, unfiltered = {0};
+            double error = 0.0, worst = 0.0;
+            for (int p = 0; p < PIXELS; p++) {
+                double pixel[PAIRS][2];
+                const float x = (float)(480.0 * fmod(0.7548776662466927 * p, 1.0)),
+                            y = (float)(480.0 * fmod(0.5698402909980532 * p, 1.0));
+                see_pixel(cloth, x, y, side, FINE, true, &random, pixel), add_pixel(&fine, pixel);
+                see_pixel(cloth, x, y, side, SAMPLES, false, &random, pixel), add_pixel(&seen, pixel);
+                see_pixel(cloth, x, y, side, 1, true, &random, pixel), add_pixel(&unfiltered, pixel);
+            }
+            for (int k = 0; k < PAIRS; k++)
+                for (int c = 0; c < 2; c++) {
+                    const double e = fabs(seen.mean[k][c] / fine.mean[k][c] - 1.0);
+                    error += e / (2 * PAIRS);
+                    worst = fmax(worst, e);
+                }
+            const double kept = spread(&seen) / spread(&fine), left = spread(&seen) / spread(&unfiltered);
+            print_message(
+                "%-12s %6.2f threads: mean %.4f worst %.4f, variance %.3f of the reference's, %.4f of the "
+                "unfiltered\n",
+                cases[n].name, (double)side, error, worst, kept, left);
+            const bool near = side <= 2.0f;
+            assert_true(error <= (near ? 0.005 : 0.02));
+            assert_true(worst <= (near ? 0.02 : 0.06));
+            if (near)
+                assert_true(kept > 0.75 && kept < 1.25);
+            else
+                assert_true(left < 0.1);
+        }
+        weft_cloth_free(cloth);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(a_cloth_is_as_bright_at_every_distance)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
