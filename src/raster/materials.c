@@ -8,8 +8,11 @@
 #include "base/fail.h"
 #include "raster/families.h"
 #include "raster/gl_check.h"
+#include "raster/programs.h"
 #include "scene/material_at.h"
 #include "scene/polygons.h"
+#include "shading/weave_base.h"
+#include "weave/weft_cloth.h"
 
 /* The block "Material" of shader.c. */
 typedef struct Uniforms {
@@ -17,6 +20,7 @@ typedef struct Uniforms {
     float places[INPUT_COUNT][2][4];
     float e[4];    /* layer, low, high, tilt */
     float more[4]; /* alpha cutoff */
+    float weave[CLOTH_NUMBERS];
     AmbientWeights fits[SLOT_COUNT * AMBIENT_BAKED];
 } Uniforms;
 
@@ -79,16 +83,29 @@ static Surface middle_surface(const Material *material) {
     return material_plain(&middle);
 }
 
+/* The lobe of a cloth from afar, halfway between warp and weft: what of the environment is smooth is reflected by either
+ * alike. */
+static Lobe cloth_lobe(const WeftCloth *cloth) {
+    const Weave *m = &cloth->weave;
+    Lobe lobe =
+        weave_far(m, m->weft_far.share > m->warp_far.share, rgb_grey(0.0f), rgb_grey(0.0f), 1.0f, 1.0f).lobe;
+    lobe.params[WOVEN_SHARE] = 1.0f;
+    lobe.params[WOVEN_AZIMUTH] = 0.25f * PI;
+    return lobe;
+}
+
 /* Holds the tables of the slots whose parameters are numbers: another is made where the lobe is another. */
-static bool add_fits(GlMaterial *self, const Material *material, int threads, Uniforms *uniforms) {
+static bool add_fits(GlMaterial *self, const Material *material, const WeftCloth *cloth, int threads,
+                     Uniforms *uniforms) {
     AmbientFit *fit = alloc_array(1, sizeof *fit);
     Surface surface = middle_surface(material);
     Stack m;
     if (!fit) return false;
     stack_make(&m, &surface, &self->key.choices, (TableRef){.kind = TABLE_NONE});
     for (int k = 0; k < SLOT_COUNT; k++) {
-        const Lobe *lobe = &stack_slot(&m, k)->lobe;
-        if (!(stack_slot(&m, k)->normal > 0.0f) || !shader_holds(&self->key, k)) continue;
+        const bool woven = cloth && k == PLACE_DIFFUSE;
+        const Lobe own = woven ? cloth_lobe(cloth) : stack_slot(&m, k)->lobe, *lobe = &own;
+        if (!(woven || stack_slot(&m, k)->normal > 0.0f) || !shader_holds(&self->key, k)) continue;
         MaterialFit *baked = &self->fits[k];
         if (!baked->made || !ambient_alike(&baked->lobe, lobe)) {
             ambient_fit(fit, lobe, lobe->params[0], lobe->params[0], threads);
@@ -117,6 +134,7 @@ static void make_material(GlMaterial *self, const Material *material, const GlTe
     self->key.alpha_mode = (int)material->alpha_mode;
     self->key.unlit = material->unlit;
     self->key.double_sided = material->double_sided;
+    self->key.woven = material->cloth > 0;
     for (int k = 0; k < INPUT_COUNT; k++) add_input(self, textures, material, k, uniforms);
     uniforms->more[0] = material->alpha_cutoff;
 }
@@ -144,7 +162,10 @@ static bool take(GlMaterials *self, const GlMaterials *old, const WeftScene *sce
             material->key.ranged = self->count > MATERIALS_HELD && is_round(&material->key);
             add_table(material, sheen_tables_of(self->sheens, k), sheen_tables_index(self->sheens, k),
                       &uniforms);
-            whole &= add_fits(material, &scene->materials[k], threads, &uniforms);
+            material->cloth = scene->materials[k].cloth;
+            const WeftCloth *cloth = material->cloth ? scene->cloths[material->cloth - 1] : NULL;
+            if (cloth) cloth_numbers(cloth, uniforms.weave);
+            whole &= add_fits(material, &scene->materials[k], cloth, threads, &uniforms);
         }
         memcpy(self->blocks + at, &uniforms, sizeof uniforms);
     }
@@ -154,7 +175,7 @@ static bool take(GlMaterials *self, const GlMaterials *old, const WeftScene *sce
 static bool is_same(const GlMaterial *a, const GlMaterial *b) {
     return memcmp((const char *)&a->key, (const char *)&b->key, sizeof a->key) == 0 &&
            a->group_count == b->group_count && memcmp(a->groups, b->groups, sizeof a->groups) == 0 &&
-           a->used == b->used && a->emits == b->emits;
+           a->used == b->used && a->emits == b->emits && a->cloth == b->cloth;
 }
 
 static void add_change(const GlMaterial *old, const GlMaterial *fresh, MaterialsChange *change) {
@@ -216,6 +237,8 @@ WeftResult materials_update(GlMaterials *self, const WeftScene *scene, const GlT
     fresh.count = scene->material_count;
     WeftResult result = hold(&fresh, scene, error);
     if (fresh.count != self->count) make_uniforms(&fresh);
+    if (result == WEFT_OK) result = cloths_update(&self->cloths, scene, error);
+    fresh.cloths = self->cloths;
     if (result == WEFT_OK) result = sheen_tables_renew(self->sheens, scene, threads, &fresh.sheens, error);
     if (result == WEFT_OK && !take(&fresh, self, scene, textures, threads))
         result = fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
@@ -253,6 +276,7 @@ WeftResult materials_create(const WeftScene *scene, const GlTextures *textures, 
 
 void materials_destroy(GlMaterials *self) {
     if (self->uniforms) glDeleteBuffers(1, &self->uniforms);
+    cloths_destroy(&self->cloths);
     let_go(self, NULL);
     *self = (GlMaterials){0};
 }
@@ -268,6 +292,7 @@ void material_in_light(const GlMaterial *self, float env_light_kappa, ShaderKey 
 void materials_bind(const GlMaterials *self, const GlTextures *textures, int material, int block) {
     const GlMaterial *m = &self->all[material];
     for (int k = 0; k < m->group_count; k++) textures_bind(textures, m->groups[k], k);
+    if (m->cloth) cloths_bind(&self->cloths, m->cloth - 1, UNIT_CLOTH_CELLS, UNIT_CLOTH_COLORS);
     glBindBufferRange(GL_UNIFORM_BUFFER, (GLuint)block, self->uniforms, (GLintptr)material * self->stride,
                       (GLsizeiptr)sizeof(Uniforms));
 }

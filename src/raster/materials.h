@@ -4,6 +4,7 @@
 #ifndef WEFT_RASTER_MATERIALS_H
 #define WEFT_RASTER_MATERIALS_H
 
+#include "raster/cloths.h"
 #include "raster/shader.h"
 #include "raster/textures.h"
 #include "scene/sheen_tables.h"
@@ -22,6 +23,7 @@ typedef struct GlMaterial {
     int group_count;
     bool used;                /* by some mesh */
     bool emits;               /* light */
+    int cloth;                /* of the scene, counted from 1; 0: none */
     float finest[SLOT_COUNT]; /* of the tables that are baked, or a finer one's; 0 where none is */
     MaterialFit fits[SLOT_COUNT];
 } GlMaterial;
@@ -36,6 +38,7 @@ typedef struct GlMaterials {
     int *of_mesh; /* the material of each mesh, of which there are so many */
     int mesh_count;
     SheenTables *sheens; /* what programs read behind their own tables */
+    GlCloths cloths;
 } GlMaterials;
 
 /* Zero on failure: WEFT_MESSAGE_MEMORY or _GL_MEMORY. */

@@ -19,9 +19,10 @@ typedef struct TextureSampler {
 } TextureSampler;
 
 static const TextureSampler samplers[] = {
-    {"weft_tables", UNIT_TABLES},   {"environment_cube", UNIT_ENVIRONMENT},
-    {"shadow_map", UNIT_SHADOW},    {"shadow_depth", UNIT_SHADOW_DEPTH},
-    {"floor_sky", UNIT_FLOOR},      {"floor_mirror", UNIT_FLOOR + 1},
+    {"weft_tables", UNIT_TABLES},      {"environment_cube", UNIT_ENVIRONMENT},
+    {"shadow_map", UNIT_SHADOW},       {"shadow_depth", UNIT_SHADOW_DEPTH},
+    {"weave_cells", UNIT_CLOTH_CELLS}, {"weave_colors", UNIT_CLOTH_COLORS},
+    {"floor_sky", UNIT_FLOOR},         {"floor_mirror", UNIT_FLOOR + 1},
     {"floor_depth", UNIT_FLOOR + 2}};
 
 /* Leaves the program in use: the one that was may be the one it replaces, and be gone. */

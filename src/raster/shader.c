@@ -3,6 +3,7 @@
 
 #include "raster/shader.h"
 
+#include "raster/cloths.h"
 #include "raster/gl_environment.h"
 #include "raster/part.h"
 
@@ -20,7 +21,13 @@ static void find_zeros(const ShaderKey *key, bool zero[INPUT_COUNT]) {
 static CompositionSlots find_slots(const ShaderKey *key) {
     bool zero[INPUT_COUNT];
     find_zeros(key, zero);
-    return composition_slots(&key->choices, zero, key->inputs[INPUT_sheen].state == INPUT_ONE);
+    CompositionSlots found =
+        composition_slots(&key->choices, zero, key->inputs[INPUT_sheen].state == INPUT_ONE);
+    if (!key->woven) return found;
+    found.slots[PLACE_DIFFUSE] = (TextSlot){.lobes = {LOBE_WOVEN, LOBE_YARN}, .count = 2};
+    found.slots[PLACE_SPECULAR].count = 0;
+    found.lobes[PLACE_DIFFUSE] = lobe_default(LOBE_WOVEN);
+    return found;
 }
 
 static bool is_mapped(const ShaderInput *input) {
@@ -42,7 +49,8 @@ static void vary(const ShaderKey *key, Surface *s, float x) {
 bool shader_holds(const ShaderKey *key, int slot) {
     Lobe lobes[2];
     bool zero[INPUT_COUNT];
-    if (key->ranged) return false;
+    if (key->ranged || (key->woven && slot == PLACE_SPECULAR)) return false;
+    if (key->woven && slot == PLACE_DIFFUSE) return true;
     find_zeros(key, zero);
     for (int k = 0; k < 2; k++) {
         Stack m;
@@ -63,13 +71,14 @@ static void put_uniforms(Text *text, const ShaderKey *key) {
     text_line(text, "    highp vec4 material_places[%d];", 2 * INPUT_COUNT);
     text_line(text, "    highp vec4 material_e;    /* layer, low, high, tilt */");
     text_line(text, "    highp vec4 material_more; /* alpha cutoff */");
+    text_line(text, "    highp vec4 material_weave[%d]; /* cloths.h */", CLOTH_NUMBERS / 4);
     text_line(text, "    highp vec4 material_fits[%d]; /* see shading/ambient.h */\n};",
               SLOT_COUNT * AMBIENT_BAKED);
     int slots = 0;
     for (int k = 0; k < INPUT_COUNT; k++)
         if (is_mapped(&key->inputs[k]) && key->inputs[k].slot >= slots) slots = key->inputs[k].slot + 1;
     if (slots) text_line(text, "uniform highp sampler2DArray material_maps[%d];", slots);
-    if (slots || key->part == WEFT_PART_TEXCOORD)
+    if (slots || key->woven || key->part == WEFT_PART_TEXCOORD)
         text_line(text, "in highp vec2 texcoord_0;\nin highp vec2 texcoord_1;");
 }
 
@@ -170,6 +179,8 @@ static void put_surface(Text *text, const ShaderKey *key) {
     text_line(text, "    return s;\n}");
     text_line(text, "\nconst bool MATERIAL_UNLIT = %s;\nconst bool MATERIAL_DOUBLE_SIDED = %s;",
               key->unlit ? "true" : "false", key->double_sided ? "true" : "false");
+    text_line(text, "const bool MATERIAL_HOLED = %s;",
+              key->alpha_mode != WEFT_ALPHA_OPAQUE ? "true" : "false");
     static const char *const coverage[] = {[WEFT_ALPHA_OPAQUE] = "1.0",
                                            [WEFT_ALPHA_MASK] = "opacity < material_more.x ? 0.0 : 1.0",
                                            [WEFT_ALPHA_BLEND] = "clamp(opacity, 0.0, 1.0)"};
@@ -202,6 +213,7 @@ static void put_lights(Text *text, const ShaderKey *key) {
 /* Returns true if a pixel depends on the tangent. */
 static bool turns(const ShaderKey *key, const CompositionSlots *found) {
     static const InputId turning[] = {INPUT_normal, INPUT_clearcoat_normal, INPUT_anisotropy, INPUT_nap};
+    if (key->woven) return true;
     for (size_t k = 0; k < sizeof turning / sizeof turning[0]; k++) {
         const ShaderInput *input = &key->inputs[turning[k]];
         bool number = input_infos[turning[k]].kind != WEFT_INPUT_NORMAL;
@@ -348,6 +360,10 @@ void shader_text(const ShaderKey *key, const TextDesc *desc, Fits *fits, Text *t
     const CompositionSlots found = find_slots(key);
     if (key->shadowed) text_define(text, "SHADOWED", "1");
     if (turns(key, &found)) text_define(text, "TURNS", "1");
+    if (key->woven) {
+        text_define(text, "WOVEN", "1");
+        text_define(text, "weave_texel(t, stride, row, column)", "weave_fetch(t, row, column)");
+    }
     part_text(key->part, text);
     put_lights(text, key);
     text_composition_lobes(text, &found, key->table_kind, key->table_tilts);

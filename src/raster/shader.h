@@ -46,6 +46,7 @@ typedef struct ShaderKey {
     int16_t polygon_corners[SHADER_LIGHTS], polygon_two_sided[SHADER_LIGHTS], polygon_map[SHADER_LIGHTS];
     int part; /* WeftPart */
     int alpha_mode, unlit, double_sided, colored;
+    int woven;                                              /* of a cloth, in the place of a base */
     int table_kind, table_rows, table_columns, table_tilts; /* of the sheen's E */
 } ShaderKey;
 

@@ -19,11 +19,11 @@ STRUCT(WeaveFootprint) { float x, y, longest; };
 
 /* From two directions at right angles on the picture, each a pixel long, as the cloth has them. */
 FN WeaveFootprint weave_footprint(float ax, float ay, float bx, float by) {
-    float xx = ax * ax + bx * bx, yy = ay * ay + by * by, xy = ax * ay + bx * by, half = 0.5f * (xx - yy);
+    float xx = ax * ax + bx * bx, yy = ay * ay + by * by, xy = ax * ay + bx * by, skew = 0.5f * (xx - yy);
     WeaveFootprint f;
     f.x = sqrt(xx);
     f.y = sqrt(yy);
-    f.longest = sqrt(0.5f * (xx + yy) + sqrt(half * half + xy * xy));
+    f.longest = sqrt(0.5f * (xx + yy) + sqrt(skew * skew + xy * xy));
     return f;
 }
 

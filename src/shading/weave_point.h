@@ -128,7 +128,8 @@ FN WeavePoint weave_thread(const Weave *m, WeaveYarn y, bool weft, float c, floa
     float run = weave_run(m, weft ? cross : c, weft ? c : cross, weft ? 3 : 1);
     bool ends = abs(run) > 0.5f;
     float l = max(abs(run), 1.0f), s = ends ? 2.0f * (v - cross + since) / l - 1.0f : 0.0f;
-    float up = run < 0.0f ? -1.0f : 1.0f, k = 1.0f + y.floats * (l - 1.0f), flat = pow(max(abs(s), 1e-3f), k);
+    float up = run < 0.0f ? -1.0f : 1.0f, k = 1.0f + y.floats * (l - 1.0f),
+          steep = pow(max(abs(s), 1e-3f), k);
     float crimp = ends ? y.crimp : 0.0f, begin = cross - since, hash = weave_hash_of(c, side);
     crimp = crimp * (1.0f + 0.5f * y.wander * weave_along(weave_key(hash, seed + 5.0f), 1.0f, begin, cycle));
     float aside = 0.12f * y.wander * weave_along(weave_key(hash, seed + 1.0f), 0.21f, v, cycle);
@@ -137,7 +138,7 @@ FN WeavePoint weave_thread(const Weave *m, WeaveYarn y, bool weft, float c, floa
     float swell = up > 0.0f ? y.bulge * (1.0f - s * s) * (1.0f - 1.0f / l) : 0.0f;
     float width = min(y.width * max(thick, 0.2f) * (1.0f + swell), 2.0f - 2.0f * abs(aside));
     float r = 2.0f * (u - c - 0.5f - aside) / width;
-    float arc = up * 0.5f * l * y.cross_pitch * crimp * (1.0f - abs(s) * flat) / (k + 1.0f);
+    float arc = up * 0.5f * l * y.cross_pitch * crimp * (1.0f - abs(s) * steep) / (k + 1.0f);
 
     WeavePoint p;
     p.height = abs(r) < 1.0f ? arc + 0.25f * width * y.pitch * y.roundness * (1.0f - r * r) : WEAVE_NONE;
@@ -147,7 +148,7 @@ FN WeavePoint weave_thread(const Weave *m, WeaveYarn y, bool weft, float c, floa
     p.s = s;
     p.k = k;
     p.slope_x = y.roundness * r;
-    p.slope_y = up * crimp * (s < 0.0f ? -flat : flat);
+    p.slope_y = up * crimp * (s < 0.0f ? -steep : steep);
     p.fibre = dir(0.0f, 1.0f, 0.0f);
     p.dye = 1.0f;
     return p;

@@ -78,6 +78,19 @@ Rgb ambient_light_of(Stack m, StackView w, Frame f, float occlusion) {
 Rgb ambient_light_of(Stack m, StackView w, Frame f, float occlusion) { return rgb_grey(0.0); }
 #endif
 
+/* All light that a stack sends towards o, but for what it emits. */
+Rgb stack_light(Stack m, Dir o, Facing at, Frame f, float occlusion) {
+    StackView w;
+    stack_view(m, o, w);
+    Rgb sum = punctual_light(m, w, at, f);
+    sum = rgb_add(sum, polygon_light(m, w, at, f));
+    return rgb_add(sum, ambient_light_of(m, w, f, occlusion));
+}
+
+#ifdef WOVEN
+#include "raster/glsl/weave.glsl"
+#endif
+
 void main() {
     Dir wo = dir_of(-forward.xyz);
     if (eye.w > 0.5) wo = dir_of(-normalize(from_eye));
@@ -95,12 +108,18 @@ void main() {
         Dir o = frame_to(f, wo);
         s = dust_accumulate(frame_surface(s), f.z, dir_of(eye.xyz + from_eye));
         Stack m;
-        StackView w;
         surface_stack(m, s, material_choices(), material_table());
-        stack_view(m, o, w);
-        sum = rgb_add(sum, punctual_light(m, w, at, f));
-        sum = rgb_add(sum, polygon_light(m, w, at, f));
-        sum = rgb_add(sum, ambient_light_of(m, w, f, s.occlusion));
+#ifdef WOVEN
+        vec4 woven = woven_light(m, o, at, f, s.occlusion);
+        sum = rgb_add(sum, rgb(woven.r, woven.g, woven.b));
+#ifdef MASKED
+        opacity = woven.a < 0.5 ? 0.0 : opacity;
+#else
+        opacity = opacity * woven.a;
+#endif
+#else
+        sum = rgb_add(sum, stack_light(m, o, at, f, s.occlusion));
+#endif
     }
     fragment = vec4(vec_of(sum) * opacity, opacity);
 #endif

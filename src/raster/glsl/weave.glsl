@@ -1,0 +1,137 @@
+/* weave.glsl - the light of a woven material at a fragment: of points of threads, and of both systems from afar
+ *
+ * A pixel has one point while it is much smaller than a thread, and up to nine where it is as large as one, sheared:
+ * rows of points would beat with threads. The text before it supplies stack_light, which is all that a stack sends to
+ * the eye; each base is lit alone, so whatever lies on it is there every time, and the weights sum up to 1. */
+uniform highp sampler2D weave_cells;
+uniform highp sampler2DArray weave_colors;
+
+float weave_number(int k) {
+    vec4 four = material_weave[k / 4];
+    int at = k - 4 * (k / 4);
+    return at == 0 ? four.x : at == 1 ? four.y : at == 2 ? four.z : four.w;
+}
+
+/* Table 0 is the runs, 1 the albedos. */
+float weave_fetch(int table, int row, int column) {
+    int warps = int(weave_number(46)), picks = int(weave_number(47));
+    int k = table == 0 ? column - 4 * (column / 4) : column;
+    ivec2 at = table == 0 ? ivec2(column / 4, row) : ivec2(row - warps * (row / warps), picks + row / warps);
+    vec4 four = texelFetch(weave_cells, at, 0);
+    return k == 0 ? four.x : k == 1 ? four.y : k == 2 ? four.z : four.w;
+}
+
+#include "shading/weave_base.h"
+
+WeaveYarn weave_yarn_from(int k) {
+    WeaveYarn y;
+    y.alpha = weave_number(k);
+    y.crimp = weave_number(k + 1);
+    y.roundness = weave_number(k + 2);
+    y.twist = weave_number(k + 3);
+    y.white = weave_number(k + 4);
+    y.pitch = weave_number(k + 5);
+    y.cross_pitch = weave_number(k + 6);
+    y.width = weave_number(k + 7);
+    y.bulge = weave_number(k + 8);
+    y.floats = weave_number(k + 9);
+    y.streaks = weave_number(k + 10);
+    y.dye = weave_number(k + 11);
+    y.slub = weave_number(k + 12);
+    y.wander = weave_number(k + 13);
+    return y;
+}
+
+WeaveFar weave_far_from(int k) {
+    WeaveFar f;
+    f.alpha = weave_number(k);
+    f.crimp = weave_number(k + 1);
+    f.roundness = weave_number(k + 2);
+    f.floats = weave_number(k + 3);
+    f.slope_across = weave_number(k + 4);
+    f.slope_along = weave_number(k + 5);
+    f.share = weave_number(k + 6);
+    return f;
+}
+
+Weave material_cloth() {
+    Weave m;
+    m.warps = int(weave_number(46));
+    m.picks = int(weave_number(47));
+    m.warp = weave_yarn_from(0);
+    m.weft = weave_yarn_from(14);
+    m.seed = weave_number(42);
+    m.warp_far = weave_far_from(28);
+    m.weft_far = weave_far_from(35);
+    m.low = weave_number(43);
+    m.high = weave_number(44);
+    m.openness = weave_number(45);
+    m.cycle_x = 0.0;
+    m.cycle_y = 0.0;
+    m.runs = 0;
+    m.albedos = 1;
+    return m;
+}
+
+/* One system from afar. Two bases stand for the cloth, each with half of the weight: so it reflects twice as much. All
+ * bases have one table for the light of the environment, so that the lobe is of a whole cloth. Departure: then only
+ * yarns of its own system hide it, which at grazing are not all. */
+WeaveBase woven_far(Weave c, bool weft, vec2 place, WeaveFootprint f) {
+    float warps = weave_number(46), picks = weave_number(47), layer = weft ? 2.0 : 0.0;
+    float level = weave_far_level(f, 2.0 * warps / weave_number(48), 2.0 * picks / weave_number(49));
+    vec2 at = vec2(place.x / warps, place.y / picks);
+    vec4 once = textureLod(weave_colors, vec3(at, layer), level);
+    vec4 again = textureLod(weave_colors, vec3(at, layer + 1.0), level);
+    float dye = weave_far_dye(c, weft, weft ? place.y : place.x, weft ? f.y : f.x);
+    float scale = MATERIAL_HOLED ? 2.0 / max(c.warp_far.share + c.weft_far.share, 1e-3) : 2.0;
+    WeaveBase b = weave_far(c, weft, rgb(once.r, once.g, once.b), rgb(again.r, again.g, again.b), once.a, dye);
+    scale = scale * b.lobe.params[WOVEN_SHARE];
+    b.lobe.params[WOVEN_SHARE] = 1.0;
+    b.once = rgb_scale(b.once, scale);
+    b.again = rgb_scale(b.again, scale);
+    return b;
+}
+
+/* In the place of the stack's base. */
+Stack woven_stack(Stack m, WeaveBase b) {
+    Stack n = m;
+    n.diffuse.lobe = b.lobe;
+    n.diffuse.f0 = b.once;
+    n.diffuse.f90 = b.again;
+    n.diffuse.normal = max(0.33 * rgb_mean(b.once) + 0.67 * rgb_mean(b.again), 1e-3);
+    n.diffuse.grazing = n.diffuse.normal;
+    n.base_fresnel = BASE_FRESNEL_NONE;
+    diffuse_prepare(n.diffuse.lobe, n.diffuse_prepared);
+    return n;
+}
+
+/* rgb: the light; a: the part of the pixel that threads cover. */
+vec4 woven_light(Stack m, Dir o, Facing at, Frame frame, float occlusion) {
+    Weave c = material_cloth();
+    vec2 place = vec2(texcoord_0.x * weave_number(50), -texcoord_0.y * weave_number(51));
+    vec2 across = dFdx(place), up = dFdy(place);
+    WeaveFootprint f = weave_footprint(across.x, across.y, up.x, up.y);
+    float far = weave_far_weight(f), covered = 0.0;
+    int side = far >= 1.0 ? 0 : f.longest < 0.2 ? 1 : f.longest < 0.6 ? 2 : 3;
+    int points = side * side, count = far > 0.0 ? points + 2 : points;
+    Rgb sum = rgb_grey(0.0);
+    for (int k = 0; k < count; k++) {
+        WeaveBase b;
+        float weight = 0.5 * far;
+        if (k < points) {
+            float n = float(side), i = float(k - side * (k / side)), j = float(k / side);
+            vec2 from = vec2((i + (j + 0.5) / n) / n - 0.5, (j + (i + 0.5) / n) / n - 0.5);
+            vec2 spot = place + from.x * across + from.y * up;
+            WeavePoint p = weave_point(c, spot.x, spot.y);
+            b = weave_near(c, p);
+            weight = (1.0 - far) / (n * n);
+            covered = covered + (p.height > WEAVE_NONE ? weight : 0.0);
+        } else {
+            b = woven_far(c, k > points, place, f);
+            covered = covered + weight;
+        }
+        sum = rgb_add(sum, rgb_scale(stack_light(woven_stack(m, b), o, at, frame, occlusion), weight));
+    }
+    if (MATERIAL_HOLED) sum = rgb_scale(sum, 1.0 / max(covered, 1e-3));
+    return vec4(vec_of(sum), MATERIAL_HOLED ? covered : 1.0);
+}
