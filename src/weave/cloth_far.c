@@ -36,7 +36,10 @@ typedef struct SystemSeen {
 } SystemSeen;
 
 /* Returns about how many threads are looked at, in whole repeats. */
-static double looked_at(int count) { return (double)(count * ((PIECE + count - 1) / count)); }
+static double looked_at(int count) {
+    const int repeats = (PIECE + count - 1) / count;
+    return (double)(count * repeats);
+}
 
 /* Place k of evenly spread ones. Martin Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018. */
 static WeavePoint look(const Weave *m, int k, float *x, float *y) {
