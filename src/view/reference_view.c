@@ -106,27 +106,26 @@ static WeftResult compare(ReferenceView *self, const ReferenceRequest *request, 
 }
 
 /* Denoises what there is, each time that the samples have doubled, so that most of the time goes to them. */
-static const WeftImage *denoised(ReferenceView *self) {
+static void clean(ReferenceView *self) {
     WeftImage image;
-    if (self->samples < 2.0 || self->samples < 2.0 * self->denoised_samples) return &self->denoised;
-    if (should_stop(self, 0.0)) return &self->denoised;
+    if (self->samples < 2.0 || self->samples < 2.0 * self->denoised_samples) return;
+    if (should_stop(self, 0.0)) return;
     if (weft_render_denoised(self->render, WEFT_DENOISER_REGRESSION, &image, NULL) == WEFT_OK) {
         weft_image_free(&self->denoised);
         self->denoised = image;
         self->denoised_samples = self->samples;
     }
-    return &self->denoised;
 }
 
 /* Mixes the denoised picture and the true one, whose share is that of the samples taken: its noise is then never
  * more than that of the last picture, which is the true one alone. */
 static WeftResult mix(ReferenceView *self, const ReferenceRequest *request, const WeftImage *linear,
                       WeftImage *out) {
-    const WeftImage *clean = denoised(self);
+    const WeftImage *denoised = &self->denoised;
     float share = fminf((float)(self->samples / request->samples), 1.0f);
     WeftResult result = weft_image_create(linear->width, linear->height, 4, WEFT_PIXEL_F32, out, NULL);
     if (result != WEFT_OK) return result;
-    const float *a = clean->pixels ? clean->pixels : linear->pixels, *b = linear->pixels;
+    const float *a = denoised->pixels ? denoised->pixels : linear->pixels, *b = linear->pixels;
     float *to = out->pixels;
     for (size_t k = 0; k < 4 * (size_t)linear->width * (size_t)linear->height; k++)
         to[k] = a[k] + share * (b[k] - a[k]);
@@ -154,6 +153,8 @@ static void publish(ReferenceView *self, const ReferenceRequest *request, unsign
     picture.samples = info.samples_per_pixel;
     if (!number_for && !self->finer) picture.samples /= COARSE * COARSE;
     picture.seconds = info.render_seconds;
+    picture.denoised =
+        !request->difference && self->denoised.pixels && self->samples < (double)request->samples;
     bool made = request->difference ? compare(self, request, &linear, &picture) == WEFT_OK
                                     : show(self, request, &linear, &picture.image) == WEFT_OK;
     pthread_mutex_lock(&self->lock);
@@ -170,6 +171,15 @@ static void publish(ReferenceView *self, const ReferenceRequest *request, unsign
     }
     pthread_mutex_unlock(&self->lock);
     window_wake(self->window);
+}
+
+/* Shows new samples: as they are while nothing of the view is denoised, since that takes longer than the first of them
+ * took; and then denoised. */
+static void publish_samples(ReferenceView *self, const ReferenceRequest *request, unsigned number_for) {
+    bool noisy = !self->denoised.pixels;
+    if (noisy) publish(self, request, number_for);
+    if (!request->difference) clean(self);
+    if (!noisy || self->denoised.pixels) publish(self, request, number_for);
 }
 
 /* A few more samples, as many as half a second has; at first one of each half. */
@@ -237,7 +247,7 @@ static void round_of_work(ReferenceView *self) {
         if (redraw && !anew && self->samples >= 1.0)
             publish(self, &request, number_for); /* the same samples, shown otherwise */
         if (more) refine(self, &request);
-        if (more && self->samples >= 1.0) publish(self, &request, number_for);
+        if (more && self->samples >= 1.0) publish_samples(self, &request, number_for);
     }
     pthread_mutex_lock(&self->lock);
     self->running = false;

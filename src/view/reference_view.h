@@ -23,11 +23,13 @@ typedef struct ReferenceRequest {
     int samples;     /* a pixel, after which it rests */
 } ReferenceRequest;
 
-/* A picture of the path tracer: U8 RGBA. Its noise is taken out until it has all samples, but for a difference. */
+/* A picture of the path tracer: U8 RGBA. But for the first, and for a difference, its noise is taken out until
+ * it has all samples. */
 typedef struct ReferenceFrame {
     WeftImage image;
     unsigned number;         /* of the renderer's request in whose place it is; 0: it is wanted for itself */
     double samples, seconds; /* samples: below 1 of a first look, with fewer pixels */
+    bool denoised;           /* in part */
     int wanted_samples;
     WeftDifference difference; /* where one was asked for and `compared` */
     bool compared;

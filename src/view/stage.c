@@ -352,7 +352,7 @@ static void draw_tags(const Viewer *v) {
     char text[128] = "";
     if (v->options->mode == MODE_REFERENCE)
         snprintf(text, sizeof text, "path traced   %.0f of %d spp%s", v->requests->traced.samples,
-                 TRACE_SAMPLES, v->requests->traced.samples < TRACE_SAMPLES ? ", denoised" : "");
+                 TRACE_SAMPLES, v->requests->traced.denoised ? ", denoised" : "");
     else if (v->options->mode == MODE_DIFFERENCE)
         snprintf(text, sizeof text, "OpenGL less path traced");
     else if (viewer_shows(v) == SHOWS_TRACED)
