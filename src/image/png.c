@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "base/memory.h"
 #include "image/codec.h"
 
 /* libpng leaves an error by longjmp: whatever must outlive that lives here, behind a pointer. */
@@ -94,7 +95,9 @@ static WeftResult png_decode(png_structp png, png_infop info, PngJob *job, WeftI
 static WeftResult png_read_guarded(PngJob *job, png_structp png, png_infop info, WeftImage *out,
                                    WeftError *error) {
     if (setjmp(job->escape))
-        return fail(error, WEFT_MESSAGE_IMAGE_DAMAGED, job->source->name, "PNG: %s", job->reason);
+        return fail(error, memory_was_short() ? WEFT_MESSAGE_MEMORY : WEFT_MESSAGE_IMAGE_DAMAGED,
+                    job->source->name, "PNG: %s", job->reason);
+    memory_begin();
     png_set_read_fn(png, job, png_job_read);
     return png_decode(png, info, job, out, error);
 }
