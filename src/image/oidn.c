@@ -85,23 +85,25 @@ static WeftResult verdict(const OidnLibrary *library, OidnDevice device, WeftErr
                 text ? text : "no reason given");
 }
 
-static WeftResult library_find(OidnLibrary *library, WeftError *error) {
-    if (library_open(library)) return WEFT_OK;
+/* Returns false, with the error, where the library is not there or lacks a function. */
+static bool library_find(OidnLibrary *library, WeftError *error) {
+    if (library_open(library)) return true;
     if (library->handle) dlclose(library->handle);
-    return fail(error, WEFT_MESSAGE_DENOISER, "libOpenImageDenoise", "version 1 or 2 of it is not installed");
+    fail(error, WEFT_MESSAGE_DENOISER, "libOpenImageDenoise", "version 1 or 2 of it is not installed");
+    return false;
 }
 
 WeftResult oidn_check(WeftError *error) {
     OidnLibrary library;
-    WeftResult result = library_find(&library, error);
-    if (result == WEFT_OK) dlclose(library.handle);
-    return result;
+    if (!library_find(&library, error)) return WEFT_RESOURCES;
+    dlclose(library.handle);
+    return WEFT_OK;
 }
 
 WeftResult oidn_denoise(const OidnPicture *picture, int threads, WeftError *error) {
     OidnLibrary library;
-    WeftResult result = library_find(&library, error);
-    if (result != WEFT_OK) return result;
+    WeftResult result = WEFT_OK;
+    if (!library_find(&library, error)) return WEFT_RESOURCES;
     OidnDevice device = library.new_device(OIDN_CPU_DEVICE);
     if (device) {
         library.set_device_int(device, "numThreads", threads);
