@@ -13,12 +13,12 @@ typedef struct Fit {
 } Fit;
 
 /* Raised whenever the same lobe would give other tables. */
-enum { FITS = 3 };
+enum { FITS = 4 };
 
 /* All that a table depends on: see ambient_fit_serves. */
 static uint64_t fit_key(const Lobe *lobe, float low, float high) {
     const WeftLobeInfo *info = weft_lobe_info(lobe->id);
-    int azimuth = weft_lobe_param_find(lobe->id, "azimuth");
+    int azimuth = ambient_lean_azimuth(lobe->id);
     const int sizes[] = {FITS, AMBIENT_COLUMNS, AMBIENT_ROWS, AMBIENT_PLANES, info->param_count};
     const float range[] = {low, high};
     uint64_t hash = cache_hash(CACHE_HASH, sizes, sizeof sizes);

@@ -228,22 +228,28 @@ static void fit_column(void *user, int column, int thread) {
         for (int row = 0; row < fitter->fit->rows; row++) fit_node(fitter, &cloud, row, column, side);
 }
 
-/* Returns the parameter that says where the fibres of a lobe lean, by which a stack turns what is fitted; -1 if
- * there is none. Yarns have an azimuth too, which belongs to what is fitted. */
-static int lean_azimuth(int lobe) {
+int ambient_lean_azimuth(int lobe) {
     return weft_lobe_param_find(lobe, "tilt") > 0 ? weft_lobe_param_find(lobe, "azimuth") : -1;
+}
+
+/* Returns true if the lobe has that parameter; *set is raised if its value is another than `plain`. */
+static bool has_param(const Lobe *lobe, const char *name, float plain, bool *set) {
+    int k = weft_lobe_param_find(lobe->id, name);
+    if (k >= 0) *set |= fabsf(lobe->params[k] - plain) > 0.0f;
+    return k >= 0;
 }
 
 /* Returns true if the lobe depends on azimuth: upright fibres and unbrushed lobes do not. */
 static bool turns(const Lobe *lobe) {
-    int tilt = weft_lobe_param_find(lobe->id, "tilt"), brushed = weft_lobe_param_find(lobe->id, "anisotropy");
-    int by = tilt < 0 ? brushed : tilt;
-    return weft_lobe_info(lobe->id)->traits & TRAIT_ANISOTROPIC && (by < 0 || fabsf(lobe->params[by]) > 0.0f);
+    bool set = false, any = has_param(lobe, "tilt", 0.0f, &set);
+    any |= has_param(lobe, "anisotropy", 0.0f, &set);
+    any |= has_param(lobe, "stretch", 1.0f, &set);
+    return weft_lobe_info(lobe->id)->traits & TRAIT_ANISOTROPIC && (set || !any);
 }
 
 void ambient_fit_shape(AmbientFit *fit, const Lobe *lobe, float low, float high) {
     const WeftLobeInfo *info = weft_lobe_info(lobe->id);
-    int azimuth = lean_azimuth(lobe->id);
+    int azimuth = ambient_lean_azimuth(lobe->id);
     fit->lobe = *lobe;
     if (azimuth > 0) lobe_set(&fit->lobe, azimuth, 0.0f);
     fit->turning = turns(lobe);
@@ -292,7 +298,7 @@ static bool same(float a, float b) { return !(a < b) && !(a > b); }
 static bool alike_from(const Lobe *a, const Lobe *b, int first) {
     if (a->id != b->id) return false;
     for (int k = first; k < weft_lobe_info(a->id)->param_count; k++)
-        if (k != lean_azimuth(a->id) && !same(a->params[k], b->params[k])) return false;
+        if (k != ambient_lean_azimuth(a->id) && !same(a->params[k], b->params[k])) return false;
     return true;
 }
 

@@ -31,6 +31,10 @@ void ambient_fit(AmbientFit *fit, const Lobe *lobe, float low, float high, int t
 void ambient_fit_shape(AmbientFit *fit, const Lobe *lobe, float low, float high);
 void ambient_fit_finish(AmbientFit *fit);
 
+/* Returns the parameter that says where the fibres of a lobe lean, by which a stack turns what is fitted, so that no
+ * table depends on it; -1 if there is none. Yarns have an azimuth too, which belongs to what is fitted. */
+int ambient_lean_azimuth(int lobe);
+
 /* Returns true if the lobes have the same id and the same parameters apart from azimuth, so that one one-row
  * fit serves both. */
 bool ambient_alike(const Lobe *a, const Lobe *b);

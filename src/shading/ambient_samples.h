@@ -16,25 +16,31 @@
 #include "shading/ambient_view.h"
 #include "shading/registry.h"
 
-/* Number of samples of a lobe without strips and of a lobe with strips. */
+/* Number of samples of a lobe without strips and of a lobe with strips. The place of strip k on its arc is the
+ * fraction of k AMBIENT_STRIP_STEP, so that strips are a lattice: N. M. Korobov, "The Approximate Computation of Multiple
+ * Integrals", 1959. Of all lattices of 14 to 26 strips this number and step have the sums nearest to E of brushed lobes. */
 #define AMBIENT_SAMPLES       32
-#define AMBIENT_STRIP_SAMPLES 64
+#define AMBIENT_STRIP_SAMPLES 24
+#define AMBIENT_STRIP_STEP    (7.0f / 24.0f)
 
 /* Factor on the density of samples in the power heuristic, fitted with bench_ambient. It favours samples, which follow
- * the lobe; points only follow the lights. */
+ * the lobe; points only follow the lights. A strip is narrower than the space between points for longer. */
 #define AMBIENT_SAMPLE_TRUST 4.0f
+#define AMBIENT_STRIP_TRUST  6.0f
+
+/* Returns the number of samples, and what the density of one of them is multiplied by in the power heuristic. */
+FN int ambient_sample_count(bool strips) { return strips ? AMBIENT_STRIP_SAMPLES : AMBIENT_SAMPLES; }
+FN float ambient_sample_trust(bool strips) { return strips ? AMBIENT_STRIP_TRUST : AMBIENT_SAMPLE_TRUST; }
 
 FN float ambient_power_heuristic(float a, float b) { return a * a / max(a * a + b * b, 1e-30f); }
 
-/* Returns the factor on the lights' part of a sample of the lobe towards w: its power-heuristic weight times
- * the visibility of the nearest light; without lights, `open`. density: of samples, 1/sr. open: the visible
- * part of the sky about w. */
+/* Returns the weight of the lights in a sample of the lobe about w, times the visibility of the nearest light.
+ * density: of samples, 1/sr, times the trust in them. open: the visible part of the sky about w. */
 FN float ambient_sample_weight(AmbientSource s, Dir w, float density, float open) {
     int nearest = ambient_nearest_light(s, w);
     if (nearest < 0) return open;
     AmbientLight l = ambient_light(s, nearest);
-    return ambient_power_heuristic(AMBIENT_SAMPLE_TRUST * density, l.density) *
-           ambient_light_visibility(s, nearest, open);
+    return ambient_power_heuristic(density, l.density) * ambient_light_visibility(s, nearest, open);
 }
 
 /* One sample of a lobe. */
@@ -56,34 +62,40 @@ FN AmbientSample ambient_sample(Lobe lobe, Dir o, bool strips, float u, float v)
     return x;
 }
 
+/* Returns the place of sample k across its strip, or of a sample that has none, 0 to 1. */
+FN float ambient_sample_place(bool strips, int k) {
+    float v = strips ? to_float(k) * AMBIENT_STRIP_STEP : to_float(k) * 0.618033989f + 0.25f;
+    return v - floor(v);
+}
+
 /* Returns the estimate from samples of the lobe: the residual, plus the lights weighted by the power
  * heuristic. A sample stands for the solid angle 1 / (n pdf). The paper filters over twice that angle, so
- * that neighbours overlap; a filter exp(kappa (mu - 1)) covers 2 pi / kappa, hence kappa = pi n pdf. The sum
- * is scaled to `albedo`, which has less noise. A sum over strips is not scaled, since it is within 0.015 of
- * E, closer than the table of an anisotropic lobe (0.05). */
-FN LobeLight ambient_sample_lobe(AmbientSource s, AmbientView v, Lobe lobe, bool strips, float albedo) {
+ * that neighbours overlap; a filter exp(kappa (mu - 1)) covers 2 pi / kappa, hence kappa = pi n pdf. Strips
+ * are a lattice and cover that angle once, hence twice that kappa. The sum
+ * is scaled to `albedo`, which has less noise, but for the part `own` of it. */
+FN LobeLight ambient_sample_lobe(AmbientSource s, AmbientView v, Lobe lobe, bool strips, float albedo,
+                                 float own) {
     LobeLight sum = lobe_light_of(rgb_grey(0.0f), 0.0f, 0.0f);
-    int count = strips ? AMBIENT_STRIP_SAMPLES : AMBIENT_SAMPLES;
+    int count = ambient_sample_count(strips);
     float e = 0.0f, n = to_float(count);
     for (int k = 0; k < count; k++) {
-        float golden = to_float(k) * 0.618033989f + 0.25f;
         AmbientSample one =
-            ambient_sample(lobe, v.o, strips, (to_float(k) + 0.5f) / n, golden - floor(golden));
+            ambient_sample(lobe, v.o, strips, (to_float(k) + 0.5f) / n, ambient_sample_place(strips, k));
         Dir i = one.i;
         if (i.z > 0.0f) {
             LobeValue x = lobe_value(&lobe, angles_between(v.o, i));
             float density = max(x.pdf * one.density * n, 1e-20f), weight = x.f * i.z / density;
-            float kappa = clamp(PI * density, 0.5f, 1e4f);
+            float kappa = clamp((strips ? 2.0f * PI : PI) * density, 0.5f, 1e4f);
             Dir w = ambient_to_source(v, i);
             Rgb all = ambient_radiance(s, w, kappa);
             float open = ambient_sky_visibility(s, w, i.z, v.occlusion);
-            float lights = ambient_sample_weight(s, w, density, open);
+            float lights = ambient_sample_weight(s, w, density * ambient_sample_trust(strips), open);
             Rgb l = rgb_scale(ambient_visible_radiance(s, w, all, kappa, lights, open), weight);
             sum = lobe_light_add(sum, lobe_light_of(l, 1.0f - x.s, x.s));
             e = e + weight;
         }
     }
-    return lobe_light_scale(sum, strips ? 1.0f : albedo / max(e, 1e-20f));
+    return lobe_light_scale(sum, mix(albedo / max(e, 1e-20f), 1.0f, own));
 }
 
 /* Returns the estimate from points of the lights, with the complementary weight. Each point is evaluated as a
@@ -91,7 +103,7 @@ FN LobeLight ambient_sample_lobe(AmbientSource s, AmbientView v, Lobe lobe, bool
 FN LobeLight ambient_sample_lights(AmbientSource s, AmbientView v, Lobe lobe, bool strips) {
     LobeLight sum = lobe_light_of(rgb_grey(0.0f), 0.0f, 0.0f);
     int count = ambient_point_count(s);
-    float n = AMBIENT_SAMPLE_TRUST * to_float(strips ? AMBIENT_STRIP_SAMPLES : AMBIENT_SAMPLES);
+    float n = ambient_sample_trust(strips) * to_float(ambient_sample_count(strips));
     for (int k = 0; k < count; k++) {
         AmbientLight l = ambient_point(s, k);
         Dir i = dir(dir_dot(l.w, v.x), dir_dot(l.w, v.y), dir_dot(l.w, v.z));

@@ -431,6 +431,21 @@ static void streaks_show_the_shape_of_a_light(void **state) {
     weft_image_free(&s.image);
 }
 
+/* A lobe of terms is sampled in strips where it is stretched, as workflow disney has it brushed, and else is round. */
+static void stretched_terms_are_sampled(void **state) {
+    (void)state;
+    static AmbientFit table;
+    Lobe lobe = lobe_rough(LOBE_COOK_TORRANCE, 0.3f);
+    ambient_fit(&table, &lobe, lobe.params[0], lobe.params[0], 0);
+    assert_false(table.turning);
+    assert_int_equal(ambient_strategy(lobe.id, table.turning, false), AMBIENT_FITTED);
+    lobe.params[COOK_TORRANCE_STRETCH] = 5.0f;
+    lobe.params[COOK_TORRANCE_D] = to_float(D_GGX_ANISO);
+    ambient_fit(&table, &lobe, lobe.params[0], lobe.params[0], 0);
+    assert_true(table.turning);
+    assert_int_equal(ambient_strategy(lobe.id, table.turning, false), AMBIENT_SAMPLED);
+}
+
 static void sharp_environment_is_within_the_stated_error(void **state) {
     (void)state;
     static const int lobes[] = {LOBE_LAMBERT,         LOBE_FABRIC_LAMBERT,
@@ -495,6 +510,7 @@ int main(void) {
                                        cmocka_unit_test(light_of_the_map_is_in_lights_or_residual),
                                        cmocka_unit_test(baked_weights_of_a_fading_lobe_are_not_negative),
                                        cmocka_unit_test(streaks_show_the_shape_of_a_light),
+                                       cmocka_unit_test(stretched_terms_are_sampled),
                                        cmocka_unit_test(sharp_environment_is_within_the_stated_error),
                                        cmocka_unit_test(ring_shaped_lobes_are_nearer_with_samples),
                                        cmocka_unit_test(faint_sheens_keep_albedo_under_a_white_sky)};

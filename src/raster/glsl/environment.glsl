@@ -89,12 +89,14 @@ int ambient_light_count(Frame f) { return int(environment_place.w); }
 float ambient_diffuse(Frame f) { return environment_parts.x; }
 float ambient_reflection(Frame f) { return environment_parts.y; }
 
+/* The number of rounds is a constant, so that compilers unroll them: an index that a loop counts costs a software driver
+ * a load for each pixel. */
 int ambient_nearest_light(Frame f, Dir w) {
     vec3 d = environment_image(f, w);
     float most = -2.0;
-    int nearest = -1;
-    for (int k = 0; k < ambient_light_count(f); k++) {
-        float mu = dot(d, environment_lights[2 * k].xyz);
+    int nearest = -1, count = ambient_light_count(f);
+    for (int k = 0; k < 16; k++) {
+        float mu = k < count ? dot(d, environment_lights[2 * k].xyz) : -2.0;
         if (mu > most) nearest = k;
         most = max(most, mu);
     }

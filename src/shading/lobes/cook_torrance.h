@@ -83,4 +83,23 @@ FN Dir cook_torrance_sample(const CookTorrancePrepared *p, const CookTorranceVie
     return dir_mirror(o, facet_towards(o, term_facet(m.d, m.alpha, ax, m.alpha, w, v)));
 }
 
+/* Without the uniform half. Of ggx-aniso in strips, of other D as they are drawn. */
+FN Strip cook_torrance_strip(const CookTorrancePrepared *p, Dir o, float u, float v) {
+    CookTorrance m = p->m;
+    float ax = cook_torrance_ax(m);
+    Strip strip;
+    strip.density = 1.0f;
+    if (m.d == D_GGX_ANISO)
+        strip = ggx_strip_h(ax, m.alpha, o, u, v);
+    else if (m.d == D_GGX)
+        strip.h = ggx_sample_h(m.alpha, m.alpha, o, u, v);
+    else
+        strip.h = facet_towards(o, term_facet(m.d, m.alpha, ax, m.alpha, u, v));
+    Angles a = angles_between(o, dir_mirror(o, strip.h));
+    float pdf = cook_torrance_sample_pdf(m, cook_torrance_spread(m, a), a);
+    float even = 0.5f * warp_uniform_pdf(a.i) / max(pdf, 1e-20f);
+    strip.density = strip.density * 2.0f * max(1.0f - even, 1e-3f);
+    return strip;
+}
+
 #endif
