@@ -1,12 +1,13 @@
 """weft and Blender Cycles side by side, one run: rate, memory, and error after equal time.
 
-    python3 bench/compare.py [--quick] [cloth] [lace] [lamps] [chair]
+    python3 bench/compare.py [--quick | --long] [cloth] [lace] [lamps] [chair]
 
 Without names all four: builtin:cloth; the same cloth as coated lace, an alpha mask under the sheen `fibre`; the
 same cloth under six emissive polygons; SheenChair.
 Equal picture size, light, camera, depth and pixel filter, two threads each. A rate is samples over the time spent
 sampling, start-up and building left out on both sides. The error is relMSE against each renderer's own converged
-picture, since their sheens differ. Cycles counts bounces after the first hit, weft scattering events: 8 is 9.
+picture, since their sheens differ: after 5 s; with --quick after 2 s; with --long after 2, 5 and 20 s, against
+pictures of many more samples. Cycles counts bounces after the first hit, weft scattering events: 8 is 9.
 """
 
 import json
@@ -22,11 +23,12 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 WEFT = ROOT / "build/release/weft"
 CHAIR = ROOT.parent / "shared/data/gltf/SheenChair/SheenChair.gltf"
 STUDIO = ROOT.parent / "shared/data/env/studio_small_03_1k.hdr"
-QUICK = "--quick" in sys.argv
+QUICK, LONG = "--quick" in sys.argv, "--long" in sys.argv
 NAMES = [name for name in sys.argv[1:] if not name.startswith("-")] or ["cloth", "lace", "lamps", "chair"]
 RATE_SPP = 16 if QUICK else 64
-TIME = 2 if QUICK else 5
-CONVERGED_SPP = 128 if QUICK else 1024
+TIMES = (2,) if QUICK else (2, 5, 20) if LONG else (5,)
+# a long run's errors are so small that the slower renderer's converged picture may have fewer samples
+CONVERGED_SPP = {"weft": 128 if QUICK else 8192 if LONG else 1024, "cycles": 128 if QUICK else 2048 if LONG else 1024}
 
 
 def weft(scene, out, common, extra):
@@ -62,17 +64,21 @@ def compare(name, weft_scene, cycles_scene, light, folder):
     rows = {}
     for renderer, run, scene in (("weft", weft, weft_scene), ("cycles", cycles, cycles_scene)):
         picture, truth = f"{folder}/{renderer}.exr", f"{folder}/{renderer}-converged.exr"
-        timing = ["--time-limit", str(TIME)] if renderer == "weft" else ["--time", str(TIME)]
+        option = "--time-limit" if renderer == "weft" else "--time"
         rows[renderer] = run(scene, picture, common + big, ["--spp", str(RATE_SPP)])
-        run(scene, truth, common + small, ["--spp", str(CONVERGED_SPP), "--seed", "7"])
-        run(scene, picture, common + small, timing)
-        rows[renderer]["error"] = relmse(picture, truth)
-    print(f"\n{name}, 640 x 480, {RATE_SPP} samples a pixel; error after {TIME} s at 320 x 240")
-    print(f"{'':8}{'M samples/s':>12}{'peak MiB':>10}{'relMSE':>12}")
+        run(scene, truth, common + small, ["--spp", str(CONVERGED_SPP[renderer]), "--seed", "7"])
+        rows[renderer]["errors"] = []
+        for seconds in TIMES:
+            run(scene, picture, common + small, [option, str(seconds)])
+            rows[renderer]["errors"].append(relmse(picture, truth))
+    print(f"\n{name}, 640 x 480, {RATE_SPP} samples a pixel; relMSE at 320 x 240")
+    print(f"{'':8}{'M samples/s':>12}{'peak MiB':>10}" + "".join(f"{f'after {seconds} s':>12}" for seconds in TIMES))
     for renderer, row in rows.items():
-        print(f"{renderer:8}{row['rate'] * 1e-6:12.3f}{row['memory'] / 2**20:10.0f}{row['error']:12.3e}")
+        print(f"{renderer:8}{row['rate'] * 1e-6:12.3f}{row['memory'] / 2**20:10.0f}"
+              + "".join(f"{error:12.3e}" for error in row["errors"]))
     w, c = rows["weft"], rows["cycles"]
-    print(f"{'ratio':8}{w['rate'] / c['rate']:12.2f}{w['memory'] / c['memory']:10.3f}{w['error'] / c['error']:12.3f}")
+    print(f"{'ratio':8}{w['rate'] / c['rate']:12.2f}{w['memory'] / c['memory']:10.3f}"
+          + "".join(f"{ours / theirs:12.3f}" for ours, theirs in zip(w["errors"], c["errors"])), flush=True)
 
 
 def png(path, size, pixel):

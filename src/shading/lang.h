@@ -51,6 +51,16 @@
     typedef union Name Name;                                                                                 \
     union Name
 
+/* a b + c, with one rounding where the processor has that in one instruction. Only the functions below use it: they are
+ * other than GLSL's own anyway, while all that both languages compute alike rounds each product. */
+FN float weft_fused(float a, float b, float c) {
+#ifdef __FMA__
+    return __builtin_fmaf(a, b, c);
+#else
+    return a * b + c;
+#endif
+}
+
 /* log2 x of a normal x > 0, as the exponent and what it leaves, within a half of 0. The mantissa in
  * [sqrt(1/2), sqrt(2)) is 1 + t, and log2(1 + t) / t a degree-7 polynomial interpolated at Chebyshev nodes.
  * Written here because a library call stops a loop from vectorising, and summed in pairs because a scalar
@@ -67,9 +77,10 @@ FN WeftLog2 weft_log2_parts(float x) {
     float m;
     memcpy(&m, &i, 4);
     float t = m - 1.0f, t2 = t * t;
-    float p = (0.287288882f - 0.249271822f * t) + t2 * (0.232652579f - 0.142759734f * t);
-    p = (-0.721352931f + 0.480916708f * t) + t2 * (-0.360225182f + t * p);
-    p = p * t + 1.44269499f;
+    float p = weft_fused(weft_fused(-0.142759734f, t, 0.232652579f), t2,
+                         weft_fused(-0.249271822f, t, 0.287288882f));
+    p = weft_fused(weft_fused(p, t, -0.360225182f), t2, weft_fused(0.480916708f, t, -0.721352931f));
+    p = weft_fused(p, t, 1.44269499f);
     WeftLog2 l = {(float)e, p * t};
     return l;
 }
@@ -87,9 +98,9 @@ FN float weft_log2(float x) {
 /* 2^(k + t) for rounded = k + WEFT_ROUND and |t| <= 1/2: a degree-6 polynomial for 2^t, k added to its
  * exponent. */
 FN float weft_exp2_parts(float rounded, float t) {
-    float t2 = t * t, p = (0.00961808256f + 0.00133908634f * t) + t2 * 0.000154531629f;
-    p = (0.240226508f + 0.0555035711f * t) + t2 * p;
-    p = (0.693147188f + p * t) * t + 1.0f;
+    float t2 = t * t, p = weft_fused(0.000154531629f, t2, weft_fused(0.00133908634f, t, 0.00961808256f));
+    p = weft_fused(p, t2, weft_fused(0.0555035711f, t, 0.240226508f));
+    p = weft_fused(weft_fused(p, t, 0.693147188f), t, 1.0f);
     uint32_t k, i;
     memcpy(&k, &rounded, 4);
     memcpy(&i, &p, 4);
@@ -124,7 +135,7 @@ FN float weft_pow(float x, float y) {
     float w = y * (l.whole + l.rest);
     w = w < -125.0f ? -125.0f : w > 127.0f ? 127.0f : w;
     float rounded = w + WEFT_ROUND;
-    float t = (head * l.whole - (rounded - WEFT_ROUND)) + ((y - head) * l.whole + y * l.rest);
+    float t = (head * l.whole - (rounded - WEFT_ROUND)) + weft_fused(y, l.rest, (y - head) * l.whole);
     t = t < -0.51f ? -0.51f : t > 0.51f ? 0.51f : t; /* beyond 1/2 by more than rounding: w was clamped */
     return weft_exp2_parts(rounded, t);
 }
@@ -134,9 +145,12 @@ FN float weft_pow(float x, float y) {
  * Stephen L. Moshier, Cephes Mathematical Library, sinf.c, 1992. */
 FN float weft_sine(float x, uint32_t quarters) {
     float rounded = x * 0.636619772f + WEFT_ROUND, k = rounded - WEFT_ROUND;
-    float r = ((x - k * 1.5703125f) - k * 4.83751297e-4f) - k * 7.54978995e-8f, q = r * r;
-    float s = r + r * q * (-1.66666546e-1f + q * (8.33216087e-3f - q * 1.95152959e-4f));
-    float c = 1.0f - 0.5f * q + q * q * (4.16666457e-2f + q * (-1.38873163e-3f + q * 2.44331571e-5f));
+    float r = weft_fused(k, -7.54978995e-8f, weft_fused(k, -4.83751297e-4f, weft_fused(k, -1.5703125f, x))),
+          q = r * r;
+    float s =
+        weft_fused(weft_fused(weft_fused(-1.95152959e-4f, q, 8.33216087e-3f), q, -1.66666546e-1f), r * q, r);
+    float c = weft_fused(weft_fused(weft_fused(2.44331571e-5f, q, -1.38873163e-3f), q, 4.16666457e-2f), q * q,
+                         weft_fused(-0.5f, q, 1.0f));
     uint32_t n, bits;
     memcpy(&n, &rounded, 4);
     n += quarters;

@@ -3,6 +3,7 @@
  * Any input must be read or refused with one line. What is read has its threads in their ranges, and written
  * as a WIF and read again it is the same cloth. */
 #include <math.h>
+#include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -51,7 +52,8 @@ static void check_cloth(const WeftDraft *draft) {
     weft_cloth_free(cloth);
 }
 
-static void take(WeftResult result, WeftDraft *draft, const WeftError *error) {
+/* has_cloth: a cloth is made too, which takes a thousand times as long as reading. */
+static void take(WeftResult result, WeftDraft *draft, bool has_cloth, const WeftError *error) {
     demand((result == WEFT_OK) == (draft != NULL));
     if (!draft) {
         demand(error->text[0] && !strchr(error->text, '\n'));
@@ -59,21 +61,22 @@ static void take(WeftResult result, WeftDraft *draft, const WeftError *error) {
     }
     check_threads(draft);
     if ((long)draft->count[0] * draft->count[1] <= 4096) check_round_trip(draft);
-    if ((long)draft->count[0] * draft->count[1] <= 256) check_cloth(draft);
+    if (has_cloth && (long)draft->count[0] * draft->count[1] <= 256) check_cloth(draft);
     weft_draft_free(draft);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     WeftDraft *draft;
     WeftError error;
+    const bool has_cloth = size % 512 == 100;
     WeftResult result = weft_draft_read_memory(data, size, "fuzz", &draft, NULL, &error);
-    take(result, draft, &error);
+    take(result, draft, has_cloth, &error);
     char *words = malloc(size + 1);
     if (!words) return 0;
     memcpy(words, data, size);
     words[size] = '\0';
     result = weft_draft_parse(words, &draft, &error);
-    take(result, draft, &error);
+    take(result, draft, has_cloth, &error);
     free(words);
     return 0;
 }
