@@ -36,7 +36,7 @@ const char *weft_severity_name(WeftSeverity severity) {
     return (unsigned)severity < sizeof names / sizeof *names ? names[severity] : NULL;
 }
 
-/* Returns the root-level glTF array that holds the subjects of such findings; "" for the asset. */
+/* Returns the name of the array in the glTF file that lists what a finding is about; "" for the asset as a whole. */
 static const char *list_name(WeftFindingOf of) {
     static const char *const names[] = {"", "materials", "meshes", "images"};
     return names[of];
@@ -119,17 +119,18 @@ void doctor_soften(WeftDoctor *doctor) {
     doctor->repairs[doctor->count - 1].act = REPAIR_NONE;
 }
 
-/* Returns true if a warning begins with the path of the image's file. fail.c cuts the path off at GIVEN characters. */
+/* Returns true if a warning begins with the path of the image's file. fail.c cuts a path off at PATH_LENGTH
+ * characters. */
 static bool begins_with_path(const WeftDoctor *doctor, int image, const char *text) {
-    enum { GIVEN = 200 };
-    char path[GIVEN * 4];
+    enum { PATH_LENGTH = 200 };
+    char path[PATH_LENGTH * 4];
     const char *asset = doctor->asset.name, *slash = strrchr(asset, '/');
     const char *uri = json_string_value(json_object_get(doctor_item(doctor, "images", image), "uri"));
     int folder = slash ? (int)(slash - asset) + 1 : 0;
-    if (!uri || folder >= GIVEN) return false;
+    if (!uri || folder >= PATH_LENGTH) return false;
     snprintf(path, sizeof path, "%.*s%s", folder, asset, uri);
     if (!uri_unescape(path + folder)) return false;
-    size_t length = strnlen(path, GIVEN);
+    size_t length = strnlen(path, PATH_LENGTH);
     return strncmp(text, path, length) == 0 && text[length] == ':';
 }
 
@@ -142,8 +143,8 @@ static int image_named(const WeftDoctor *doctor, const char *text) {
     return images ? atoi(images + strlen("images[")) : -1;
 }
 
-/* Receives the warnings of the reader. A warning about an image becomes a finding. All warnings go on to the caller's
- * log, except those about an unread image, of which the finding says everything. */
+/* Receives the warnings of the reader. A warning about an image becomes a finding. All go on to the caller's log,
+ * except those about an image that cannot be read: the finding repeats their text. */
 static void on_warning(void *user, WeftMessage message, const char *text) {
     WeftDoctor *doctor = user;
     bool absent = message == WEFT_MESSAGE_FILE_OPEN || message == WEFT_MESSAGE_GLTF_URI,
@@ -189,7 +190,7 @@ static void examine(WeftDoctor *doctor) {
         check_mesh(doctor, m);
 }
 
-/* A finding while the list is sorted. */
+/* A finding with its repair and its index, for sorting. */
 typedef struct Found {
     WeftFinding item;
     Repair repair;

@@ -15,7 +15,7 @@ typedef struct Repair {
         REPAIR_NUMBERS, /* the value becomes an array of `count` numbers */
         REPAIR_REMOVE,  /* the member is removed */
         REPAIR_DECLARE, /* `extension` is added to extensionsUsed */
-        REPAIR_ALPHA    /* a channel of texture number `texture` moves to alpha, in a picture of its own */
+        REPAIR_ALPHA    /* a new picture gets `channel` of texture number `texture` as its alpha */
     } act;
     double numbers[4];
     int count, texture, channel;
@@ -24,7 +24,7 @@ typedef struct Repair {
 
 /* The channels of a decoded image, 0 .. 1, as R G B A. */
 typedef struct Pixels {
-    bool known;
+    bool known; /* false: not computed yet */
     float low[4], high[4], mean[4];
     float linear[3]; /* mean of colours decoded from sRGB */
 } Pixels;
@@ -35,13 +35,13 @@ typedef struct EnergyTables EnergyTables;
 struct WeftDoctor {
     Asset asset;
     WeftScene *scene;
-    WeftLog log;           /* the caller's, to which `own` passes warnings on */
+    WeftLog log;           /* the caller's; `own` passes warnings on to it */
     WeftLog own;           /* the log of the asset */
     WeftProgress progress; /* the caller's, may be NULL */
-    void *user;
-    bool examining; /* false while the file is being read */
+    void *user;            /* for progress */
+    bool examining;        /* false while the file is being read */
     WeftError error;
-    WeftFinding *items;
+    WeftFinding *items; /* the findings, and their repairs: `count`, with memory for `room` */
     Repair *repairs;
     int count, room;
     Pixels *pixels;   /* of the scene's images */
@@ -58,7 +58,8 @@ typedef struct Place {
     const char *path; /* within the thing, such as "extensions/NAME/key"; NULL: the thing itself */
 } Place;
 
-/* Notes a finding; words is a printf format, engines and figure as in weft/doctor.h, repair may be NULL. */
+/* Adds a finding. engines: a bit mask of doctor_engine, 0 for whatever reads the file. figure: the value measured, or
+ * NAN. repair: may be NULL. words: a printf format. */
 __attribute__((format(printf, 7, 8))) void doctor_found(WeftDoctor *doctor, WeftFindingKind kind, Place place,
                                                         unsigned engines, double figure, const Repair *repair,
                                                         const char *words, ...);
@@ -69,13 +70,13 @@ __attribute__((format(printf, 2, 3))) void doctor_advise(WeftDoctor *doctor, con
 /* Makes the last finding a note without a repair: on a material that is no cloth the value may be intended. */
 void doctor_soften(WeftDoctor *doctor);
 
-/* The value at "a/b/c" below an object; NULL where there is none. */
+/* Returns the value at a path such as "a/b/c" below an object, or NULL if there is none. */
 json_t *doctor_part(json_t *object, const char *path);
 
-/* The last part of such a path. */
+/* Returns the last part of such a path. */
 const char *doctor_key(const char *path);
 
-/* The list of that name at the root, and one thing of it. */
+/* Return the array of that name at the root of the JSON, such as "materials", and one of its items. */
 json_t *doctor_list(const WeftDoctor *doctor, const char *name);
 json_t *doctor_item(const WeftDoctor *doctor, const char *name, int index);
 
@@ -86,7 +87,7 @@ bool doctor_numbers(json_t *object, const char *path, double *out, int count);
 /* Returns the index of the texture that a textureInfo names; -1 if it names no existing texture. */
 int doctor_texture(const WeftDoctor *doctor, json_t *texture_info);
 
-/* The decoded image behind a textureInfo, and what it holds; NULL where there is none that could be read. */
+/* Return the decoded image that a textureInfo names, and the range and mean of its channels; NULL if none was read. */
 const WeftImage *doctor_image(WeftDoctor *doctor, json_t *texture_info);
 const Pixels *doctor_pixels(WeftDoctor *doctor, json_t *texture_info);
 
@@ -94,28 +95,28 @@ const Pixels *doctor_pixels(WeftDoctor *doctor, json_t *texture_info);
 void doctor_texel(const WeftImage *image, float u, float v, float rgb[3]);
 void doctor_texel_linear(const WeftDoctor *doctor, const WeftImage *image, float u, float v, float rgb[3]);
 
-/* Return the mean of a factor, clamped to 0 .. 1, times its texture: a linear colour, or one channel. absent: the
+/* Return a factor, clamped to 0 .. 1, times the mean of its texture: a linear colour, or one channel. absent: the
  * factor's default. */
 void doctor_color(WeftDoctor *doctor, json_t *object, const char *factor, const char *texture, double absent,
                   float color[3]);
 float doctor_scalar(WeftDoctor *doctor, json_t *object, const char *factor, const char *texture, int channel,
                     double absent);
 
-/* The bit of a profile by its id, and those of all that read glTF. */
+/* The profiles of the engines that read KHR_materials_sheen: the bit of one by its id, the bits of all, and all ids. */
 unsigned doctor_engine(const char *profile);
 unsigned doctor_engines(void);
-extern const char *const doctor_readers[]; /* their ids, NULL last */
+extern const char *const doctor_readers[]; /* ends with NULL */
 
-/* The numbers of a material that the checks of sheens read. */
+/* Any material of the asset, with the numbers that the checks of sheens read: factors times the means of textures. */
 typedef struct Cloth {
     int index;
-    json_t *json, *sheen;    /* sheen: NULL: none */
-    float color[3];          /* of the sheen, mean */
-    float roughness;         /* of the sheen, mean */
-    float base[3], metallic; /* mean */
+    json_t *json, *sheen; /* the material, and its KHR_materials_sheen or NULL */
+    float color[3];       /* colour of the sheen */
+    float roughness;      /* roughness of the sheen */
+    float base[3], metallic;
 } Cloth;
 Cloth doctor_cloth(WeftDoctor *doctor, int material);
-bool cloth_shows(const Cloth *cloth); /* the sheen is not black */
+bool cloth_shows(const Cloth *cloth); /* true if there is a sheen that is not black */
 
 /* The checks, in doctor_NAME.c: each looks at the whole asset, at one material or at one mesh, and adds its
  * findings to the doctor. */

@@ -1,6 +1,6 @@
-/* doctor_energy.c - energy of a sheen in each engine that reads glTF, measured on the engine's profile
+/* doctor_energy.c - the energy that a sheen adds or removes in each engine that reads it, by the engine's profile
  *
- * Textures count by their means. E(wo) is the directional albedo of the material. The layer rules of these engines
+ * A texture counts as its mean. E(wo) is the directional albedo of the material. The layer rules of these engines
  * dim the base by a factor, keep, that depends on the cosines of wo and wi alone. Hence
  *
  *   E(wo) = over + sum_z keep(wo, z) base(wo, z) + c E_sheen(wo),  z: slices of cos_i
@@ -24,13 +24,13 @@
 
 /* From 37 to 87 degrees off the normal; steeper cloth covers next to no pixels. */
 static const float cosines[] = {0.8f, 0.5f, 0.3f, 0.2f, 0.1f, 0.05f};
+/* AT_60: index of 60 degrees. READERS: length of doctor_readers. */
 enum { COSINES = sizeof cosines / sizeof *cosines, AT_60 = 1, READERS = 5 };
 
-/* The albedo of a material in an engine, with its sheen and without: E of the strongest channel, and
- * luminance. */
+/* The measured albedo E of a material in one engine at each of `cosines`, with its sheen and without. */
 typedef struct Answer {
-    float with[COSINES], without[COSINES];
-    float light_with[COSINES], light_without[COSINES];
+    float with[COSINES], without[COSINES]; /* of the strongest channel */
+    float luminance_with[COSINES], luminance_without[COSINES];
     float alone[COSINES]; /* E of the white sheen by itself */
 } Answer;
 
@@ -38,12 +38,13 @@ typedef struct Answer {
 struct Energy {
     MaterialKey key;
     Answer answers[READERS];
-    float least; /* the roughness from which on no engine gains energy (least_roughness) */
+    float least; /* roughness at and above which no engine gains energy (least_roughness) */
 };
 
-/* Makes a material of the mean numbers, with this sheen, under a profile; false if its numbers cannot be read. */
-static bool numbers_of(const WeftDoctor *doctor, const Cloth *cloth, const float color[3], float roughness,
-                       const char *profile, WeftMaterial *out) {
+/* Makes the material of a cloth, with textures replaced by their means, this sheen and a profile. Returns false if the
+ * material cannot be read. */
+static bool mean_material(const WeftDoctor *doctor, const Cloth *cloth, const float color[3], float roughness,
+                          const char *profile, WeftMaterial *out) {
     WeftError error;
     if (weft_scene_material(doctor->scene, cloth->index, out, &error) != WEFT_OK) return false;
     weft_material_set_number(out, INPUT_base_color, cloth->base, NULL);
@@ -54,36 +55,37 @@ static bool numbers_of(const WeftDoctor *doctor, const Cloth *cloth, const float
     return true;
 }
 
-enum { SLICES = 24, DRAWS = 128 };
+enum { SLICES = 24, DRAWS = 128 }; /* slices of cos_i; samples of a slot */
 
-/* The light that a material returns towards one cosine: of the coat, and of the slots below the sheen by slices of
- * cos_i. */
+/* The albedo of a material without its sheen, seen at one cosine. */
 typedef struct Base {
-    float over[3], below[SLICES][3], z[SLICES]; /* z: mean cos_i of a slice */
+    float over[3];          /* of the coat */
+    float below[SLICES][3]; /* of the slots below the sheen, by slices of cos_i */
+    float z[SLICES];        /* mean cos_i of a slice */
 } Base;
 
-/* A material under one engine. */
+/* A material in one engine. */
 typedef struct Case {
     Surface bare; /* without its sheen */
     Choices choices;
-    Dir along; /* x of the shading frame */
+    Dir along; /* x of the shading frame, in tangent space */
     Base base[COSINES];
 } Case;
 
-/* Tables that all materials share: E of white sheens at hundredths of roughness, and the albedo table that a layer rule
- * reads. */
+/* Tables that all materials share: E of white sheens at steps of 0.01 in roughness, and the last table of E that a
+ * layer rule has read. */
 struct EnergyTables {
     float white[READERS][101][COSINES]; /* 0: not computed yet */
-    AlbedoTable keep;
+    AlbedoTable layer_table;
 };
 
-/* Returns the direction to the viewer at the k-th cosine, in the plane of the normal and x of the shading frame. */
+/* Returns, in the shading frame, the direction to the viewer at the k-th cosine, in the plane of normal and tangent. */
 static Dir viewer_at(Dir along, int k) {
     const float z = cosines[k], s = sqrtf(1.0f - z * z);
     return dir(s * along.x, -s * along.y, z);
 }
 
-/* Returns the surface of a case with a sheen, as stack_make reads it. */
+/* Returns the surface of a case with a sheen, as an input of stack_make. */
 static Surface surface_of(const Case *self, const float color[3], float roughness) {
     Surface surface = self->bare;
     surface.sheen_color = (Rgb){color[0], color[1], color[2]};
@@ -109,7 +111,7 @@ static void base_add(const SeenStack *whole, int slot, Base *base) {
     one.view.select_p = (Scales){0};
     *picks[slot] = 1.0f;
     int counts[SLICES] = {0};
-    double heights[SLICES] = {0.0};
+    double z_sums[SLICES] = {0.0};
     for (int d = 0; d < DRAWS; d++) {
         const Dir i = seen_sample(&one, ((float)d + 0.5f) / DRAWS, (float)halton(d, 2));
         if (!(i.z > 0.0f)) continue;
@@ -120,10 +122,10 @@ static void base_add(const SeenStack *whole, int slot, Base *base) {
         const float weight = 1.0f / (value.pdf * DRAWS);
         to[0] += value.f_cos.r * weight, to[1] += value.f_cos.g * weight, to[2] += value.f_cos.b * weight;
         counts[slice]++;
-        heights[slice] += (double)i.z;
+        z_sums[slice] += (double)i.z;
     }
     for (int k = 0; k < SLICES; k++)
-        if (counts[k]) base->z[k] = (float)(heights[k] / counts[k]);
+        if (counts[k]) base->z[k] = (float)(z_sums[k] / counts[k]);
 }
 
 /* Makes the case of a material under an engine. Choices in glTF's extras do not count, since engines do not read them.
@@ -132,7 +134,7 @@ static bool case_make(const WeftDoctor *doctor, const Cloth *cloth, int reader, 
     static const float black[3] = {0.0f, 0.0f, 0.0f};
     WeftMaterial numbers, plain;
     WeftError error;
-    if (!numbers_of(doctor, cloth, black, 0.0f, doctor_readers[reader], &numbers)) return false;
+    if (!mean_material(doctor, cloth, black, 0.0f, doctor_readers[reader], &numbers)) return false;
     weft_material_default(&plain);
     plain.choices[CHOICE_profile] = numbers.choices[CHOICE_profile];
     memcpy(numbers.choices, plain.choices, sizeof numbers.choices);
@@ -152,7 +154,7 @@ static bool case_make(const WeftDoctor *doctor, const Cloth *cloth, int reader, 
 }
 
 /* Returns the table of E that the layer rule reads, over all roughnesses; TABLE_NONE if the engine has a formula. */
-static TableRef keep_table(EnergyTables *tables, const Case *self) {
+static TableRef layer_table_of(EnergyTables *tables, const Case *self) {
     static const float white[3] = {1.0f, 1.0f, 1.0f};
     const Dir n = dir(0.0f, 0.0f, 1.0f);
     SeenStack most, end;
@@ -162,12 +164,13 @@ static TableRef keep_table(EnergyTables *tables, const Case *self) {
     case_view(self, white, 0.0f, (TableRef){.kind = TABLE_NONE}, n, &end);
     const float low = fminf(end.stack.albedo_coord, stack->albedo_coord),
                 high = fmaxf(end.stack.albedo_coord, stack->albedo_coord);
-    if (!tables->keep.rows || !albedo_table_serves(&tables->keep, &stack->sheen.lobe, low, high, false))
-        albedo_table_fill(&tables->keep, &stack->sheen.lobe, low, high, 0);
-    return albedo_table_ref(&tables->keep);
+    if (!tables->layer_table.rows ||
+        !albedo_table_serves(&tables->layer_table, &stack->sheen.lobe, low, high, false))
+        albedo_table_fill(&tables->layer_table, &stack->sheen.lobe, low, high, 0);
+    return albedo_table_ref(&tables->layer_table);
 }
 
-/* Returns E of the white lobe at a roughness, interpolated between hundredths, each of which is integrated once. */
+/* Returns E of the white lobe at a roughness, interpolated between steps of 0.01, each integrated when first needed. */
 static float white_albedo(EnergyTables *tables, const Case *self, int reader, float roughness, int k) {
     static const float white[3] = {1.0f, 1.0f, 1.0f};
     const float at = fminf(fmaxf(roughness, 0.0f), 1.0f) * 100.0f;
@@ -198,7 +201,7 @@ static float most_of(const float e[3]) { return fmaxf(e[0], fmaxf(e[1], e[2])); 
 /* Computes the albedos of a case with a sheen of that colour and roughness. */
 static Answer answer_of(EnergyTables *tables, const Case *self, int reader, const float color[3],
                         float roughness) {
-    const TableRef table = keep_table(tables, self);
+    const TableRef table = layer_table_of(tables, self);
     Answer answer;
     for (int k = 0; k < COSINES; k++) {
         const Base *base = &self->base[k];
@@ -220,7 +223,7 @@ static Answer answer_of(EnergyTables *tables, const Case *self, int reader, cons
         }
         answer.alone[k] = sheen_albedo(tables, self, reader, roughness, k);
         answer.with[k] = most_of(with), answer.without[k] = most_of(without);
-        answer.light_with[k] = luminance_of(with), answer.light_without[k] = luminance_of(without);
+        answer.luminance_with[k] = luminance_of(with), answer.luminance_without[k] = luminance_of(without);
     }
     return answer;
 }
@@ -244,8 +247,8 @@ static bool gains(const Answer *answer) {
     return gain(answer, &where) > 0.0f;
 }
 
-/* Returns the least roughness, a multiple of 0.01, from which no engine gains energy: the sheen's own,
- * rounded down, if none gains now; 0 if one gains even at roughness 1. Gain falls with roughness, so the
+/* Returns the least roughness, a multiple of 0.01, at and above which no engine gains energy. If none gains now, it is
+ * the sheen's own, rounded down; if one gains even at roughness 1, it is 0. Gain falls with roughness, so the
  * bisection for each engine starts at the result for the engines before it. */
 static float least_roughness(EnergyTables *tables, const Cloth *cloth, const Case cases[READERS],
                              const Answer answers[READERS]) {
@@ -271,7 +274,7 @@ static float least_roughness(EnergyTables *tables, const Cloth *cloth, const Cas
     return (float)least / 100.0f;
 }
 
-/* The engines of a mask by name, "three, babylon". */
+/* Writes the names of the engines in a mask to text, as "three, babylon", and returns it. */
 static const char *engine_names(unsigned engines, char text[128]) {
     text[0] = 0;
     for (int r = 0; doctor_readers[r]; r++)
@@ -282,8 +285,8 @@ static const char *engine_names(unsigned engines, char text[128]) {
 
 static double degrees(float cosine) { return 57.2957795 * acos((double)cosine); }
 
-static void tell_gain(WeftDoctor *doctor, const Cloth *cloth, unsigned engines, int worst,
-                      const Energy *energy, int where) {
+static void report_gain(WeftDoctor *doctor, const Cloth *cloth, unsigned engines, int worst,
+                        const Energy *energy, int where) {
     static const char path[] = "extensions/KHR_materials_sheen/sheenRoughnessFactor";
     bool textured = json_object_get(cloth->sheen, "sheenRoughnessTexture") != NULL;
     const Answer *answers = energy->answers;
@@ -326,7 +329,7 @@ static void check_gain(WeftDoctor *doctor, const Cloth *cloth, const Energy *ene
         worst = r;
         where = at;
     }
-    if (worst >= 0) tell_gain(doctor, cloth, engines, worst, energy, where);
+    if (worst >= 0) report_gain(doctor, cloth, engines, worst, energy, where);
 }
 
 /* Finds cloth that is less than half as bright as it would be without its sheen. */
@@ -336,8 +339,8 @@ static void check_dark(WeftDoctor *doctor, const Cloth *cloth, const Answer *ans
     int worst = -1, where = 0;
     for (int r = 0; r < READERS; r++)
         for (int k = 0; k < COSINES; k++) {
-            float ratio = answers[r].light_with[k] / fmaxf(answers[r].light_without[k], 1e-6f);
-            if (!(ratio < 0.5f) || answers[r].light_without[k] < 0.01f) continue;
+            float ratio = answers[r].luminance_with[k] / fmaxf(answers[r].luminance_without[k], 1e-6f);
+            if (!(ratio < 0.5f) || answers[r].luminance_without[k] < 0.01f) continue;
             engines |= doctor_engine(doctor_readers[r]);
             if (ratio >= least) continue;
             least = ratio;
@@ -385,7 +388,7 @@ static void check_differ(WeftDoctor *doctor, const Cloth *cloth, const Answer an
 
 static bool key_of(const WeftDoctor *doctor, const Cloth *cloth, MaterialKey *key) {
     WeftMaterial material;
-    if (!numbers_of(doctor, cloth, cloth->color, cloth->roughness, doctor_readers[0], &material))
+    if (!mean_material(doctor, cloth, cloth->color, cloth->roughness, doctor_readers[0], &material))
         return false;
     *key = material_key(&material);
     return true;
@@ -398,7 +401,7 @@ static const Energy *energy_find(const WeftDoctor *doctor, const MaterialKey *ke
     return NULL;
 }
 
-/* Adds one to the list; returns NULL if memory is short. */
+/* Adds an Energy to the list of the doctor; returns NULL if memory is short. */
 static Energy *energy_add(WeftDoctor *doctor) {
     if (doctor->energy_count == doctor->energy_room) {
         size_t room = doctor->energy_room ? 2 * (size_t)doctor->energy_room : 8;

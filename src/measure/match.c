@@ -9,7 +9,7 @@
 #include "measure/material_search.h"
 #include "measure/reflection.h"
 
-/* Refuses a lobe that is evaluated by random walks, which is fibre-walk alone. */
+/* Refuses lobe `id`, which is evaluated by random walks. Only fibre-walk is. */
 static WeftResult walks_refused(const char *id, WeftError *error) {
     return fail(error, WEFT_MESSAGE_DESC, id,
                 "is an estimate by random walks; match fibre, which is its mean");
@@ -19,7 +19,7 @@ static WeftResult short_of_memory(WeftError *error) {
     return fail(error, WEFT_MESSAGE_MEMORY, "a match", NULL);
 }
 
-/* Chooses the directions of a metric and evaluates FROM there. */
+/* Chooses the directions that a metric compares, and evaluates `from` in them. */
 static WeftResult samples_from(Samples *samples, const WeftReflection *from, int part, WeftBrdfMetric metric,
                                WeftError *error) {
     char number[16];
@@ -35,13 +35,13 @@ static WeftResult samples_from(Samples *samples, const WeftReflection *from, int
 static WeftResult distance_of(const Samples *samples, const WeftReflection *to, int part, double *distance,
                               WeftError *error) {
     Samples other;
-    bool held = samples_create(&other, samples->count, samples->metric);
-    if (held) {
+    bool made = samples_create(&other, samples->count, samples->metric);
+    if (made) {
         samples_ask(samples, to, part, other.x);
         *distance = samples_distance(samples, samples->count, (const float *const *)other.x);
     }
     samples_free(&other);
-    return held ? WEFT_OK : short_of_memory(error);
+    return made ? WEFT_OK : short_of_memory(error);
 }
 
 WeftResult weft_brdf_distance(const WeftReflection *to, const WeftReflection *from, int part,
@@ -54,7 +54,7 @@ WeftResult weft_brdf_distance(const WeftReflection *to, const WeftReflection *fr
     return result;
 }
 
-/* Sets the distance of a lobe with its present parameters. */
+/* Sets *distance to that of a lobe with its present parameters. */
 static WeftResult lobe_distance(const Samples *samples, const WeftLobe *lobe, double *distance,
                                 WeftError *error) {
     WeftReflection *to;
@@ -64,24 +64,25 @@ static WeftResult lobe_distance(const Samples *samples, const WeftLobe *lobe, do
     return result;
 }
 
-static WeftResult lobe_matched(const Samples *samples, const WeftReflection *from, unsigned hold,
-                               ItemProgress *item_progress, WeftLobe *lobe, WeftMatch *out,
-                               WeftError *error) {
+/* Searches for parameters; the lobe stays as it is unless they bring it nearer. hold: as in
+ * weft_match_lobe. */
+static WeftResult search_lobe(const Samples *samples, const WeftReflection *from, unsigned hold,
+                              ItemProgress *item_progress, WeftLobe *lobe, WeftMatch *out, WeftError *error) {
     const LobeSearch search = {.samples = samples,
                                .hold = hold,
                                .isotropic = samples_isotropic(samples, from),
                                .item_progress = item_progress};
     LobeFound found = {.lobe = *lobe};
-    double exact = 0.0;
+    double reached = 0.0; /* distance of what was found, measured as `copied` is */
     WeftResult result = lobe_distance(samples, lobe, &out->copied, error);
     out->matched = out->copied;
     if (result != WEFT_OK || out->copied < 1e-7) return result;
     result = lobe_search_run(&search, &found);
     if (result != WEFT_OK) return result == WEFT_RESOURCES ? short_of_memory(error) : result;
     out->evaluations = found.evaluations;
-    result = lobe_distance(samples, &found.lobe, &exact, error);
-    if (result != WEFT_OK || !(exact < out->copied)) return result;
-    out->matched = exact;
+    result = lobe_distance(samples, &found.lobe, &reached, error);
+    if (result != WEFT_OK || !(reached < out->copied)) return result;
+    out->matched = reached;
     *lobe = found.lobe;
     return WEFT_OK;
 }
@@ -97,7 +98,7 @@ static WeftResult match_lobe(const WeftReflection *from, WeftBrdfMetric metric, 
     if (info->traits & WEFT_LOBE_REFERENCE) return walks_refused(info->id, error);
     if (reflection_walks(from)) return walks_refused(reflection_walks(from), error);
     WeftResult result = samples_from(&samples, from, WEFT_PART_ALL, metric, error);
-    if (result == WEFT_OK) result = lobe_matched(&samples, from, hold, item_progress, lobe, out, error);
+    if (result == WEFT_OK) result = search_lobe(&samples, from, hold, item_progress, lobe, out, error);
     samples_free(&samples);
     return result;
 }
@@ -107,8 +108,9 @@ WeftResult weft_match_lobe(const WeftReflection *from, WeftBrdfMetric metric, un
     return match_lobe(from, metric, hold, NULL, lobe, out, error);
 }
 
-static WeftResult material_matched(const Samples *samples, const int *held, ItemProgress *item_progress,
-                                   WeftMaterial *material, WeftMatch *out, WeftError *error) {
+/* Works as search_lobe, for a material. */
+static WeftResult search_material(const Samples *samples, const int *held, ItemProgress *item_progress,
+                                  WeftMaterial *material, WeftMatch *out, WeftError *error) {
     WeftReflection *copy;
     WeftMaterial changed = *material;
     WeftMatch found = {.copied = 0.0};
@@ -133,7 +135,7 @@ WeftResult match_material(const WeftReflection *from, WeftBrdfMetric metric, con
     *out = (WeftMatch){.copied = 0.0};
     if (reflection_walks(from)) return walks_refused(reflection_walks(from), error);
     WeftResult result = samples_from(&samples, from, WEFT_PART_ALL, metric, error);
-    if (result == WEFT_OK) result = material_matched(&samples, held, item_progress, material, out, error);
+    if (result == WEFT_OK) result = search_material(&samples, held, item_progress, material, out, error);
     samples_free(&samples);
     return result;
 }
@@ -143,6 +145,7 @@ WeftResult weft_match_material(const WeftReflection *from, WeftBrdfMetric metric
     return match_material(from, metric, held, NULL, material, out, error);
 }
 
+/* The jobs of weft_match_many, each of which is one item of a loop. */
 typedef struct Batch {
     WeftMatchJob *jobs;
     WeftBrdfMetric metric;

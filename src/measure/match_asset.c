@@ -13,33 +13,32 @@
 #include "scene/scene.h"
 #include "shading/choice.h"
 
-/* The place of a factor in a material's JSON, and its default. */
+/* A factor that a match may change, and its place in a material's JSON. */
 typedef struct Factor {
     InputId input;
-    const char *extension, *name; /* extension NULL: of pbrMetallicRoughness */
-    int numbers;                  /* in the JSON: 1, or an array of so many */
-    double def;
+    const char *extension, *name; /* extension: NULL for pbrMetallicRoughness */
+    int numbers;                  /* 1: a number; otherwise an array of so many */
 } Factor;
 
 static const Factor factors[] = {
-    {INPUT_base_color, NULL, "baseColorFactor", 4, 1.0},
-    {INPUT_roughness, NULL, "roughnessFactor", 1, 1.0},
-    {INPUT_sheen_color, "KHR_materials_sheen", "sheenColorFactor", 3, 0.0},
-    {INPUT_sheen_roughness, "KHR_materials_sheen", "sheenRoughnessFactor", 1, 0.0},
-    {INPUT_specular, "KHR_materials_specular", "specularFactor", 1, 1.0},
+    {INPUT_base_color, NULL, "baseColorFactor", 4},
+    {INPUT_roughness, NULL, "roughnessFactor", 1},
+    {INPUT_sheen_color, "KHR_materials_sheen", "sheenColorFactor", 3},
+    {INPUT_sheen_roughness, "KHR_materials_sheen", "sheenRoughnessFactor", 1},
+    {INPUT_specular, "KHR_materials_specular", "specularFactor", 1},
 };
 enum { FACTORS = sizeof factors / sizeof *factors };
 
 static double linear_of(double x) { return x <= 0.04045 ? x / 12.92 : pow((x + 0.055) / 1.055, 2.4); }
 
-/* Returns the place of red, green, blue or alpha among an image's channels. Grey stands for all three
- * colours, and alpha is the last of two or four. Returns -1 if there is no alpha. */
+/* Returns the place of red, green, blue or alpha among an image's channels, -1 if there is none. With one
+ * channel or two, the first is grey and stands for all three colours; with two or four, the last is alpha. */
 static int place_of(int channel, int channels) {
     if (channel == 3) return channels & 1 ? -1 : channels - 1;
     return channels < 3 ? 0 : channel;
 }
 
-/* Returns the mean of a channel over a texture's pixels. Integers of a colour are decoded from sRGB. */
+/* Returns the mean of a channel over a texture's pixels. color: integers are decoded from sRGB. */
 static double texture_mean(WeftImage image, int channel, bool color) {
     double sum = 0.0;
     size_t pixels = (size_t)image.width * (size_t)image.height;
@@ -62,15 +61,15 @@ typedef struct Mean {
 } Mean;
 
 /* One material of the asset. */
-typedef struct MatchJob {
-    double means[FACTORS][3]; /* mean of each factor's texture; 1 without a texture */
-    int search;               /* number of its search; -1: it has no sheen */
-} MatchJob;
+typedef struct AssetMaterial {
+    double means[FACTORS][3]; /* mean of each factor's texture, by channel; 1 without a texture */
+    int search;               /* index into `searches`; -1: the material has no sheen */
+} AssetMaterial;
 
-/* One search, for all materials whose mean numbers are equal. */
+/* One search, for all materials that are equal once textures are replaced by their means. */
 typedef struct AverageSearch {
     MaterialKey key;      /* of `average` */
-    WeftMaterial average; /* the material with mean numbers; after the search the match */
+    WeftMaterial average; /* such a material, without textures; the search replaces it by its match */
     WeftMatch found;
     WeftResult result;
     WeftError error;
@@ -78,14 +77,15 @@ typedef struct AverageSearch {
 
 typedef struct AssetSearch {
     WeftScene *scene;
-    int from, to, held[WEFT_INPUTS_MAX];
+    int from, to;              /* profiles */
+    int held[WEFT_INPUTS_MAX]; /* not 0: the input keeps its value */
     WeftBrdfMetric metric;
     WeftProgress progress; /* may be NULL */
     void *user;
     LoopWatch watch;
-    Mean (*means)[2][4];     /* by texture; as plain numbers or as sRGB colours; by channel */
-    MatchJob *jobs;          /* `count`, one a material */
-    AverageSearch *searches; /* `search_count`, at most `count` */
+    Mean (*means)[2][4];      /* [texture - 1][0: plain numbers, 1: sRGB colours][channel] */
+    AssetMaterial *materials; /* `count` */
+    AverageSearch *searches;  /* `search_count`, at most `count` */
     WeftAssetMatch *matches;
     int count, search_count;
 } AssetSearch;
@@ -116,7 +116,7 @@ static void to_average(WeftMaterial *material, double means[FACTORS][3]) {
     for (int k = 0; k < WEFT_INPUTS_MAX; k++) material->inputs[k].texture = 0;
 }
 
-/* Divides the numbers by the means again. Returns 1 if a factor would exceed 1 and was clipped. */
+/* Undoes to_average: divides the numbers by the means. Returns 1 if a factor would exceed 1 and was clipped. */
 static int to_factors(WeftMaterial *material, double means[FACTORS][3]) {
     int clipped = 0;
     for (int f = 0; f < FACTORS; f++)
@@ -157,7 +157,7 @@ static WeftResult factor_write(Rewrite *rewrite, json_t *material, const Factor 
     }
     json_t *before = json_object_get(home, factor->name), *now = json_array();
     for (int c = 0; c < factor->numbers; c++) {
-        const json_t *alpha = json_array_get(before, 3); /* NULL if the factor has three numbers, then 1 */
+        const json_t *alpha = json_array_get(before, 3); /* NULL, and then 1, if there was none */
         double kept = alpha ? json_number_value(alpha) : 1.0;
         json_array_append_new(now, json_real(c < 3 ? round((double)value[c] * 1e6) / 1e6 : kept));
     }
@@ -183,7 +183,7 @@ static WeftResult material_write(Rewrite *rewrite, int index, const WeftAssetMat
     return result;
 }
 
-/* Holds every input that has no factor in a glTF file. */
+/* Sets held for every input but those of `factors`. */
 static void hold_rest(int held[WEFT_INPUTS_MAX]) {
     for (int k = 0; k < WEFT_INPUTS_MAX; k++) {
         held[k] = 1;
@@ -192,7 +192,7 @@ static void hold_rest(int held[WEFT_INPUTS_MAX]) {
     }
 }
 
-/* Returns the number of the search for these mean numbers, which is added if there is none yet. */
+/* Returns the index of the search for a material without textures; adds the search if there is none yet. */
 static int search_for(AssetSearch *self, const WeftMaterial *average) {
     const MaterialKey key = material_key(average);
     int k = 0;
@@ -209,18 +209,18 @@ static int search_for(AssetSearch *self, const WeftMaterial *average) {
 static WeftResult plan(AssetSearch *self, WeftError *error) {
     WeftResult result = WEFT_OK;
     for (int k = 0; k < self->count && result == WEFT_OK; k++) {
-        MatchJob *job = &self->jobs[k];
+        AssetMaterial *material = &self->materials[k];
         WeftAssetMatch *match = &self->matches[k];
         snprintf(match->name, sizeof match->name, "%s", weft_scene_material_name(self->scene, k));
-        job->search = -1;
+        material->search = -1;
         result = weft_scene_material(self->scene, k, &match->copied, error);
         match->matched = match->copied;
         if (result != WEFT_OK || !has_sheen(&match->copied)) continue;
         if (self->progress && self->progress(self->user, 0.0)) return WEFT_INTERRUPTED;
         WeftMaterial average = match->copied;
-        means_of(self, &match->copied, job->means);
-        to_average(&average, job->means);
-        job->search = search_for(self, &average);
+        means_of(self, &match->copied, material->means);
+        to_average(&average, material->means);
+        material->search = search_for(self, &average);
     }
     return result;
 }
@@ -256,20 +256,20 @@ static WeftResult search_all(AssetSearch *self, WeftError *error) {
 }
 
 /* Writes the result of each search to its materials, as factors. */
-static void hand_out(AssetSearch *self) {
+static void write_matches(AssetSearch *self) {
     for (int k = 0; k < self->count; k++) {
         WeftAssetMatch *match = &self->matches[k];
-        MatchJob *job = &self->jobs[k];
-        if (job->search < 0) continue;
-        const AverageSearch *search = &self->searches[job->search];
+        AssetMaterial *material = &self->materials[k];
+        if (material->search < 0) continue;
+        const AverageSearch *search = &self->searches[material->search];
         WeftMaterial found = search->average;
         match->found = search->found;
-        match->clipped = to_factors(&found, job->means);
+        match->clipped = to_factors(&found, material->means);
         for (int f = 0; f < FACTORS; f++)
             memcpy(match->matched.inputs[factors[f].input].value, found.inputs[factors[f].input].value,
                    sizeof found.inputs->value);
         match->changed = 1;
-        match->search = job->search + 1;
+        match->search = material->search + 1;
     }
 }
 
@@ -277,14 +277,14 @@ static WeftResult asset_match(AssetSearch *self, WeftError *error) {
     self->count = self->scene->material_count;
     size_t count = (size_t)self->count;
     self->means = alloc_array((size_t)self->scene->texture_count, sizeof *self->means);
-    self->jobs = alloc_array(count, sizeof *self->jobs);
+    self->materials = alloc_array(count, sizeof *self->materials);
     self->searches = alloc_array(count, sizeof *self->searches);
     self->matches = alloc_array(count, sizeof *self->matches);
-    if (!self->means || !self->jobs || !self->searches || !self->matches)
+    if (!self->means || !self->materials || !self->searches || !self->matches)
         return fail(error, WEFT_MESSAGE_MEMORY, "a match", NULL);
     WeftResult result = plan(self, error);
     if (result == WEFT_OK) result = search_all(self, error);
-    if (result == WEFT_OK) hand_out(self);
+    if (result == WEFT_OK) write_matches(self);
     return result;
 }
 
@@ -337,7 +337,7 @@ WeftResult weft_match_asset(const char *path, const char *out, int from, int to,
     }
     free(self.matches);
     free(self.searches);
-    free(self.jobs);
+    free(self.materials);
     free(self.means);
     weft_scene_free(self.scene);
     return result;

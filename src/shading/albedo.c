@@ -4,11 +4,11 @@
 #include "base/thread.h"
 #include "shading/lobe_tables.h"
 
-/* Quadrature in (theta_i, phi), split at the mirror polar angle theta_o, at the creases of a table that f reads, and at
- * the plane of incidence. Each piece is integrated by the double-exponential rule, whose nodes crowd towards the ends
- * of an interval: x = 1 / (1 + exp(-pi sinh t)), dx/dt = pi cosh t x (1 - x). There the lobes have their peaks (mirror
- * direction, horizon, backscatter), however narrow. Hidetosi Takahasi, Masatake Mori, "Double Exponential Formulas
- * for Numerical Integration", 1974. */
+/* Quadrature in (theta_i, phi), split at the mirror polar angle theta_o, at the columns of a table that f reads
+ * (lobe_creases), and at the plane of incidence. Each piece is integrated by the double-exponential rule, whose nodes
+ * crowd towards the ends of an interval: x = 1 / (1 + exp(-pi sinh t)), dx/dt = pi cosh t x (1 - x). There the lobes
+ * have their peaks (mirror direction, horizon, backscatter), however narrow. Hidetosi Takahasi, Masatake Mori,
+ * "Double Exponential Formulas for Numerical Integration", 1974. */
 enum { NODES_MAX = 2 * 99 + 1 }; /* at the finest step, 1/32 */
 
 typedef struct QuadratureRule {
@@ -36,12 +36,12 @@ static QuadratureRule rule_make(double step) {
     return rule;
 }
 
-/* The integrand of a lobe. Without w it has two parts, f (1 - s) and f s. With w it is f in three colours: albedos of a
- * tinted lobe, or values of f0 for a lobe whose F is computed from f0. */
-typedef struct Asked {
+/* The integrand of a lobe. Without a colour it has two parts, f (1 - s) and f s. With one it is f in three channels:
+ * for a tinted lobe the colour is that of its flakes, for a lobe that computes F from f0 it is f0. */
+typedef struct Integrand {
     const Lobe *lobe;
-    const float *w; /* NULL: two parts */
-} Asked;
+    const float *color; /* three channels; NULL: two parts */
+} Integrand;
 
 typedef struct Sum {
     double part[3];
@@ -55,12 +55,12 @@ static double distance(const Sum *a, const Sum *b) {
     return fabs(a->part[0] - b->part[0]) + fabs(a->part[1] - b->part[1]) + fabs(a->part[2] - b->part[2]);
 }
 
-/* Sum over one ring of constant theta_i, all azimuths, phi measured from the direction opposite to wo. */
-static Sum ring(const Asked *asked, Dir wo, const QuadratureRule *rule, double sin_i, double cos_i) {
+/* Returns the sum over one ring of constant theta_i, all azimuths, phi measured from the direction opposite to wo. */
+static Sum ring(const Integrand *integrand, Dir wo, const QuadratureRule *rule, double sin_i, double cos_i) {
     float ox[2 * NODES_MAX], oy[2 * NODES_MAX], oz[2 * NODES_MAX];
     float ix[2 * NODES_MAX], iy[2 * NODES_MAX], iz[2 * NODES_MAX], f[3][2 * NODES_MAX];
     double w[2 * NODES_MAX];
-    unsigned traits = weft_lobe_info((int)asked->lobe->id)->traits;
+    unsigned traits = weft_lobe_info((int)integrand->lobe->id)->traits;
     bool diffuse = (traits & TRAIT_DIFFUSE) != 0;                 /* some have a kink at phi = pi / 2 */
     int mirrored = diffuse || traits & TRAIT_ANISOTROPIC ? 2 : 1; /* isotropic lobes are even in phi */
     double s = hypot((double)wo.x, (double)wo.y);
@@ -78,27 +78,29 @@ static Sum ring(const Asked *asked, Dir wo, const QuadratureRule *rule, double s
             w[n++] = rule->w[k] * PI_DOUBLE * (mirrored == 1 ? 2.0 : 1.0);
         }
     Sum sum = {0};
-    if (asked->w && traits & TRAIT_TINTED) {
-        lobe_tinted_n(asked->lobe, asked->w, n, ox, oy, oz, ix, iy, iz, (float *const[3]){f[0], f[1], f[2]});
+    if (integrand->color && traits & TRAIT_TINTED) {
+        lobe_tinted_n(integrand->lobe, integrand->color, n, ox, oy, oz, ix, iy, iz,
+                      (float *const[3]){f[0], f[1], f[2]});
         for (int p = 0; p < 3; p++)
             for (size_t k = 0; k < n; k++) sum.part[p] += w[k] * (double)f[p][k];
         return sum;
     }
     float *share = f[1];
-    lobe_eval_n(asked->lobe, n, ox, oy, oz, ix, iy, iz, f[0], share);
-    for (size_t k = 0; k < n && !asked->w; k++) {
+    lobe_eval_n(integrand->lobe, n, ox, oy, oz, ix, iy, iz, f[0], share);
+    for (size_t k = 0; k < n && !integrand->color; k++) {
         double weight = w[k] * (double)f[0][k], of_f90 = weight * (double)fresnel_weight_plain(share[k]);
         sum.part[0] += weight - of_f90;
         sum.part[1] += of_f90;
     }
-    for (size_t k = 0; k < n && asked->w; k++)
+    for (size_t k = 0; k < n && integrand->color; k++)
         for (int p = 0; p < 3; p++)
-            sum.part[p] += w[k] * (double)f[0][k] * (double)fresnel_weight_mix(share[k], asked->w[p], 1.0f);
+            sum.part[p] +=
+                w[k] * (double)f[0][k] * (double)fresnel_weight_mix(share[k], integrand->color[p], 1.0f);
     return sum;
 }
 
-/* Angles above the horizon, ascending, between which f is smooth in theta_i: 0, the columns of a table that is read by
- * cos_i, the mirror angle, and pi / 2. */
+/* Angles above the horizon, ascending, between which f is smooth in theta_i: 0, those of lobe_creases (columns of a
+ * table over cos_i), the mirror angle, and pi / 2. */
 enum { PIECES_MOST = LOBE_CREASES_MOST + 2 };
 typedef struct Pieces {
     int count;
@@ -119,30 +121,31 @@ static Pieces pieces_of(const Lobe *lobe, Dir wo) {
     return p;
 }
 
-static Sum hemisphere(const Asked *asked, Dir wo, const QuadratureRule *rule) {
-    const Pieces pieces = pieces_of(asked->lobe, wo);
+static Sum hemisphere(const Integrand *integrand, Dir wo, const QuadratureRule *rule) {
+    const Pieces pieces = pieces_of(integrand->lobe, wo);
     Sum sum = {0};
     for (int piece = pieces.count; piece > 0; piece--) {
         double low = pieces.edge[piece - 1], width = pieces.edge[piece] - low;
         if (width < 1e-9) continue;
         for (int k = 0; k < rule->count; k++) {
-            /* measured from the horizon, so that small cosines keep their digits; the last piece from the normal */
+            /* a is the angle from the horizon, so that small cosines keep their digits; in the last piece from
+             * the normal */
             bool steep = piece == pieces.count;
             double a = steep ? width * rule->x[k] : low + width * rule->rest[k];
             double sin_i = steep ? (sin)(a) : (cos)(a), cos_i = steep ? (cos)(a) : (sin)(a);
-            Sum part = ring(asked, wo, rule, sin_i, cos_i);
+            Sum part = ring(integrand, wo, rule, sin_i, cos_i);
             add(&sum, rule->w[k] * width * sin_i * cos_i, &part);
         }
     }
     return sum;
 }
 
-static Sum quadrature(const Asked *asked, Dir wo, double tolerance, double *error) {
+static Sum quadrature(const Integrand *integrand, Dir wo, double tolerance, double *error) {
     QuadratureRule rule = rule_make(0.25);
-    Sum before = hemisphere(asked, wo, &rule), now = before;
+    Sum before = hemisphere(integrand, wo, &rule), now = before;
     for (int halving = 3; halving <= 5; halving++) {
         rule = rule_make(ldexp(1.0, -halving));
-        now = hemisphere(asked, wo, &rule);
+        now = hemisphere(integrand, wo, &rule);
         /* halving the step about squares the error, so the last difference is a safe bound */
         *error = distance(&now, &before);
         if (*error < tolerance) break;
@@ -153,10 +156,10 @@ static Sum quadrature(const Asked *asked, Dir wo, double tolerance, double *erro
 
 Albedo albedo_quadrature_error(const Lobe *lobe, Dir wo, double tolerance, double *error) {
     if (weft_lobe_info(lobe->id)->traits & TRAIT_REFERENCE) {
-        *error = tolerance; /* a standard error of walks */
+        *error = tolerance; /* walks have no step to halve; their number follows from the tolerance */
         return (Albedo){lobe_walked_albedo(lobe, wo, (int)(4.0 / tolerance)), 0.0f};
     }
-    Sum e = quadrature(&(Asked){lobe, NULL}, wo, tolerance, error);
+    Sum e = quadrature(&(Integrand){lobe, NULL}, wo, tolerance, error);
     return (Albedo){(float)e.part[0], (float)e.part[1]};
 }
 
@@ -173,7 +176,7 @@ bool albedo_asks_color(const Lobe *lobe) {
 
 void albedo_in_color(const Lobe *lobe, Dir wo, const float w[3], double tolerance, float e[3]) {
     double error;
-    Sum sum = quadrature(&(Asked){lobe, w}, wo, tolerance, &error);
+    Sum sum = quadrature(&(Integrand){lobe, w}, wo, tolerance, &error);
     for (int c = 0; c < 3; c++) e[c] = (float)sum.part[c];
 }
 
@@ -185,7 +188,7 @@ typedef struct Fill {
     const Lobe *lobe;
 } Fill;
 
-/* The colours beside white for which E of a tinted lobe is integrated; the last stands for the limit 0. */
+/* The colours other than white for which E of a tinted lobe is integrated; the last stands for the limit 0. */
 static const float map_colors[3] = {0.875f, 0.5f, 0x1p-10f};
 
 /* Returns the tilt of the lobe's fibres; 0 for a lobe without one. */
@@ -194,13 +197,13 @@ static float tilt_of(const Lobe *lobe) {
     return tilt > 0 && weft_lobe_param_find(lobe->id, "azimuth") > 0 ? lobe->params[tilt] : 0.0f;
 }
 
-/* Returns the number of tilts that have maps. */
+/* Returns the number of tilts that have maps. scaled: a texture scales the tilt. */
 static int tilts_of(const Lobe *lobe, bool scaled) {
     if (!(tilt_of(lobe) > 0.0f)) return 0;
     return scaled ? TABLE_TILTS : 1;
 }
 
-enum { ACROSS = TABLE_HEADINGS / 2 + 1 }; /* heading 0 of the greatest tilt, from the last map */
+enum { ACROSS = TABLE_HEADINGS / 2 + 1 }; /* distance of the map for heading 0, greatest tilt, from the end */
 
 /* Returns E of a lobe with azimuth 0 towards a wo of that heading. */
 static float towards(const Lobe *lobe, float heading, float cos_o, double tolerance) {
@@ -209,7 +212,8 @@ static float towards(const Lobe *lobe, float heading, float cos_o, double tolera
     return e.f0 + e.f90;
 }
 
-/* Fills one texel of all maps by heading. A lobe of walks takes as many walks for all of them as for one E. */
+/* Fills one texel of all maps by heading. The tolerance grows with their number, so that random walks, if the lobe is
+ * estimated by them, are as many in all as for one E. */
 static void fill_headings(AlbedoTable *table, Lobe lobe, int row, int column, float cos_o) {
     int tilt = weft_lobe_param_find(lobe.id, "tilt"), map = table->maps - table->tilts * TABLE_HEADINGS;
     float most = lobe.params[tilt];

@@ -1,4 +1,4 @@
-/* compose.h - makes a stack from inputs and choices, its view for wo, and evaluates it
+/* compose.h - makes the stack of a surface and its choices, computes the view of a stack from wo, and evaluates it
  *
  * A profile, or else a workflow, makes the stack. The choices of a material then replace the parts of it that
  * they name. */
@@ -12,17 +12,18 @@
 #include "shading/lobes/cook_torrance.h"
 #include "shading/profile.h"
 
-/* Returns true if a source of E is the table of the sheen's own lobe. */
+/* Returns true if the source of E, `albedo`, reads the table of the sheen's own lobe. */
 #define ALBEDO_OWN_TABLE(name, index, own_table, formula) || (albedo == index && own_table)
 FN bool albedo_is_own(int albedo) { return albedo == ALBEDO_TABLE WEFT_ALBEDO_FORMULAS(ALBEDO_OWN_TABLE); }
 
-/* The index of refraction; where none is given, that of the reflectance. */
+/* Returns the index of refraction. If none is given, it follows from the reflectance at normal incidence. */
 FN float compose_ior(const Surface *s) {
     float root = sqrt(dielectric_f0(s));
     return s->ior > 0.0f ? max(s->ior, 1.0f) : (1.0f + root) / max(1.0f - root, 0.1f);
 }
 
-/* Returns a facet lobe as the cook-torrance of the same D and V, other lobes as they are. */
+/* Returns a microfacet lobe as a cook-torrance lobe of the same alphas, whose terms can then be replaced. Other
+ * lobes stay as they are. */
 FN Lobe compose_facets(Lobe lobe) {
     Proxy p = lobe_proxy(&lobe);
     if (lobe_is_composed(lobe.id) || p.fit != PROXY_FACETS) return lobe;
@@ -46,8 +47,8 @@ FN Lobe compose_terms(Lobe lobe, int d, int v, int f, const Surface *s) {
     return m;
 }
 
-/* Returns true if an isotropic D is chosen for the highlight. Anisotropy is then set to 0, so roughness alone
- * sets alpha; for workflow disney this equals sqrt(alpha_x alpha_y). */
+/* Returns true if an isotropic D is chosen for the highlight. compose_surface then sets anisotropy to 0, so that
+ * roughness alone sets alpha. In workflow disney, that alpha is sqrt(alpha_x alpha_y). */
 FN bool compose_evens(Choices c) { return c.d >= 0 && c.d != D_GGX_ANISO; }
 FN void compose_surface(Surface *s, Choices c) {
     if (compose_evens(c)) s->anisotropy = 0.0f;
@@ -72,7 +73,7 @@ FN Lobe compose_sheen(Lobe lobe, const Surface *s, Choices c) {
     return compose_terms(m, c.sheen_d, c.sheen_v, c.sheen_f, s);
 }
 
-/* The inputs that are parameters of a chosen sheen, and of a chosen diffuse lobe. */
+/* Return the inputs that set parameters, by their names, of a chosen sheen and of a chosen diffuse lobe. */
 FN LobeNamed compose_sheen_named(const Surface *s) {
     LobeNamed n = lobe_unnamed();
     n.density = s->sheen_density;
@@ -91,6 +92,7 @@ FN LobeNamed compose_diffuse_named(const Surface *s) {
     return n;
 }
 
+/* Replaces the lobes, terms, layer rule and source of E that the choices name, and sets the amount of the sheen. */
 FN void compose_choices(Stack *m, const Surface *s, Choices c) {
     bool free = compose_sheen_is_free(c);
     if (c.sheen_lobe >= 0 || free) {
@@ -137,7 +139,7 @@ FN void compose_dust(Stack *m, const Surface *s) {
     if (s->dust <= DUST_LEAST) return;
     m->dust_amount = s->dust;
     slot_even(&m->dust, lobe_rough(DUST_LOBE, s->dust_roughness), s->dust_color, s->dust_color, 1.0f);
-    m->dust.normal = max(m->dust.normal, 1e-30f); /* black dust dims the slots below too */
+    m->dust.normal = max(m->dust.normal, 1e-30f); /* HAS_DUST: black dust too dims what is below */
 }
 
 /* Prepares the lobes of a stack, once they are chosen, and finds the rows of the albedo table for the sheen. */
@@ -172,6 +174,7 @@ FN void surface_stack(Stack *m, const Surface *s, Choices c, TableRef e) {
     compose_stack(m, &t, d, e);
 }
 
+/* Sets what the coat does in a view: its wo, its scale and its transmittance. */
 FN void view_coat(const Stack *m, StackView *w) {
     w->coat_o = stack_to_coat(m, w->o);
     if (m->coat_rule == COAT_BARE) return;
@@ -183,8 +186,8 @@ FN void view_coat(const Stack *m, StackView *w) {
     w->scale.coat = m->coat_rule == COAT_SCHLICK ? f : cosine > 1e-4f ? 1.0f : 0.0f;
 }
 
-/* Layers below are multiplied by 1 - E, where E is the albedo this amount of dust would have if white; dark
- * dust absorbs the rest of its E. So a white base under white dust returns the light it receives. */
+/* Layers below are multiplied by 1 - E, where E is the albedo this amount of dust would have if white. Darker
+ * dust reflects less than E and absorbs the difference. A white base under white dust returns the light it receives. */
 FN void view_dust(const Stack *m, StackView *w) {
     if (m->dust_amount <= DUST_LEAST) return;
     float e_1 = dust_albedo(&m->dust.lobe, w->o.z);
@@ -193,11 +196,11 @@ FN void view_dust(const Stack *m, StackView *w) {
     w->dust_transmittance = 1.0f - w->select_p.dust;
 }
 
-/* For each slot: all of its light passes, and it is sampled as often as it shines. */
+/* For each slot: nothing dims it, and its albedo alone decides how often it is sampled. */
 #define SCALE_ONE(name, NAME, Name, wo)                                                                      \
     w->scale.name = 1.0f;                                                                                    \
     w->select_p.name = 1.0f;
-/* For each row of WEFT_VIEWS: the correction that it makes to a view, if the stack asks for that one. */
+/* For each row of WEFT_VIEWS: runs its statement if the stack's `view` names the row. */
 #define COMPOSE_VIEW(name, index, what)                                                                      \
     if (m->view == index) what;
 /* Sets all of a view but E of the sheen, the base scale and the selection probabilities. */
@@ -232,7 +235,8 @@ FN void view_base_scale(const Stack *m, StackView *w) {
     if (HAS_LAYERED_SHEEN(m)) w->base_scale = stack_base_scale(m, w, w->e_o);
 }
 
-/* Returns a slot's weight before dimming. The floor of 1e-3 keeps every slot reachable: f cos / pdf is bounded. */
+/* Returns a slot's sampling weight: its albedo times weight, before dust and the layer rule dim it. The floor of
+ * 1e-3 keeps every slot in use reachable, so that f cos / pdf is bounded. */
 FN float select_p_of(const Slot *s, float schlick, float weight, float scale) {
     return s->normal > 0.0f && scale > 0.0f ? max(mix(s->normal, s->grazing, schlick) * weight, 1e-3f) : 0.0f;
 }
@@ -280,6 +284,7 @@ FN void stack_view(const Stack *m, Dir o, StackView *w) {
     view_select_p(m, w);
 }
 
+/* Sets v to f and the pdf of a slot's lobe. pair: wo and wi in the slot's frame. */
 #define SLOT_VALUE(slot, pair)                                                                               \
     IN_SLOT(slot, reflect)                                                                                   \
     (m->slot.lobe.id, &m->slot##_prepared, &w->slot##_view, pair, &m->slot.f0, &m->slot.f90, &v);

@@ -1,4 +1,4 @@
-/* lobe_tables.h - tables that lobes read themselves, whatever the material: made once, at the first need
+/* lobe_tables.h - tables that belong to a lobe, not to a material; each is made once, when first needed
  *
  * In GLSL the flattener (text/) supplies the same functions, which read layers of one array texture. */
 #ifndef WEFT_SHADING_LOBE_TABLES_H
@@ -6,9 +6,9 @@
 
 #include "shading/table.h"
 
-/* T(name, index). charlie_neubelt: E of that lobe over its whole range of alpha. The others are TABLE_PLANES.
- * ltc_fibre and ltc_ggx: planes z, q, b, amplitude (E) of ltc_table_level; low and high are square roots of
- * alpha. fibre: A, h, g, k of lobes/fibre_table.h; low and high are log2 of alpha. */
+/* T(name, index). charlie_neubelt: E of that lobe over its whole range of alpha. The others are of kind TABLE_PLANES.
+ * ltc_fibre and ltc_ggx: planes z, q, b, amplitude (E) of ltc_table_level; TableRef.low and high are square
+ * roots of alpha. fibre: A, h, g, k of lobes/fibre_table.h; low and high are log2 of alpha. */
 #define LOBE_TABLES(T)                                                                                       \
     T(charlie_neubelt, 0)                                                                                    \
     T(ltc_fibre, 1)                                                                                          \

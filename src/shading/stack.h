@@ -4,13 +4,13 @@
  *   pdf   = sum select_p_k pdf_k,  sum select_p_k = 1
  *
  * Cloth lets light through: a share of the diffuse lobe's energy goes to a Lambert lobe below the surface. It is
- * dimmed by all that lies over the diffuse lobe as if wi were its mirror image above, for what is in front is
+ * dimmed by all that lies over the diffuse lobe as if wi were its mirror image above, since what is in front is
  * behind too: so f is as reciprocal as the layers are, and both sides together receive what one did.
  *
- * A Stack is what does not depend on directions: it is made once a material, or once after its textures. A
- * StackView is what wo adds: it is made once for all wi and for sampling. What depends on wi too - what the
- * layer rule leaves for the base, what the specular interface leaves for the diffuse lobe - changes f and not
- * the proposal, so that sampling and pdf agree exactly. */
+ * A Stack holds what does not depend on directions. It is made once for a material, or for each point if textures
+ * change its inputs. A StackView holds what depends on wo alone. It serves sampling and every wi. Two factors depend
+ * on wi too: base_scale of some layer rules, and 1 - F. They scale f but not the pdf, so that samples follow the pdf
+ * exactly. */
 #ifndef WEFT_SHADING_STACK_H
 #define WEFT_SHADING_STACK_H
 
@@ -23,8 +23,9 @@
 
 STRUCT(Slot) {
     Lobe lobe;
-    Rgb f0, f90; /* the lobe's colours times its weight; of a tinted one the second is the weight alone */
-    float normal, grazing; /* about what it reflects to there, for the choice of one to sample; 0: no lobe */
+    Rgb f0, f90; /* the lobe's two colours times its weight; f90 of a tinted lobe is the weight alone */
+    float normal, grazing; /* rough albedo at normal and at grazing incidence, to weigh slots when sampling;
+                            * normal is 0 if the slot is empty */
 };
 
 /* The dimming of the diffuse lobe by the specular interface: none; by F at wi . h, as glTF has it; by F at
@@ -67,43 +68,45 @@ STRUCT(Slot) {
 STRUCT(Stack) {
     SLOTS(SLOT_MEMBER)
     SLOTS(SLOT_PREPARED)
-    int base_fresnel;
-    Rgb interface_f0;
+    int base_fresnel; /* BASE_FRESNEL_NONE ... */
+    Rgb interface_f0; /* of the specular interface over the diffuse lobe */
     float interface_f90;
-    Rgb extra_f0, extra_f90,
-        extra_f_quadratic; /* F of the specular slot is f0 (1 - s) + f90 s, and so much more times */
-    float gloss; /* the view's `extra`, less extra_f_quadratic s (1 - s); by what E of ggx is asked */
-    int view;
-    int coat_rule;
+    /* F of the specular slot, with s = schlick_s and the view's `extra`, is f0 (1 - s) + f90 s
+     * + extra (extra_f0 (1 - s) + extra_f90 s - extra_f_quadratic s (1 - s)). */
+    Rgb extra_f0, extra_f90, extra_f_quadratic;
+    float gloss;   /* roughness or alpha of the specular slot, as the engine's steps in `view` need it */
+    int view;      /* VIEW_PLAIN ... */
+    int coat_rule; /* COAT_BARE ... */
     float coat_weight;
-    float dust_amount;   /* 0: nothing */
+    float dust_amount;   /* 0: no dust */
     float transmission;  /* the share of the diffuse slot's energy that goes through */
     Rgb transmitted;     /* the colour of that light, times its share */
     float transmitted_p; /* the share of the diffuse slot's samples */
-    int layer, combine;
-    Rgb color;       /* of the sheen, as the layer rule sees it */
-    Rgb sheen_color; /* times its weight, for a lobe that is chosen in its place */
-    float amount;    /* k of layer rule seed */
-    int albedo;      /* source of E */
+    int layer, combine;  /* LAYER_ADDITIVE ...; LAYER_BY_MAX or LAYER_BY_CHANNEL */
+    Rgb color;           /* colour of the sheen in the layer rule */
+    Rgb sheen_color;     /* colour, times weight, of a lobe that is chosen for the sheen */
+    float amount;        /* k of layer rule seed: the amount of the sheen */
+    int albedo;          /* source of E: ALBEDO_TABLE ... */
     TableRef table;
-    Nap nap;                    /* of the sheen */
-    float albedo_coord;         /* the parameter with which E is asked for */
-    Taps rows;                  /* where that falls in the table, of weft's own */
-    SheenE e_avg;               /* E of the white sheen on cosine average */
+    Nap nap;                    /* lean of the sheen's fibres */
+    float albedo_coord;         /* the sheen's shape parameter at which E is looked up */
+    Taps rows;                  /* row weights for it, if the table is weft's own */
+    SheenE e_avg;               /* cosine-weighted average of the white sheen's E */
     Dir coat_x, coat_y, coat_z; /* the coat's frame, in the shading frame */
 };
 
 STRUCT(Scales){SLOTS(SLOT_FLOAT)};
 STRUCT(StackView) {
-    Dir o, coat_o; /* wo, and in the coat's frame */
+    Dir o, coat_o; /* wo in the shading frame, and in the coat's */
     SLOTS(SLOT_VIEW)
-    Scales scale;    /* of what a slot reflects: what lies above, and weights that wo decides */
-    Scales select_p; /* probability that sampling chooses it */
+    Scales scale; /* factors on f of the slots: transmittance of dust and coat, weights that depend on wo */
+    Scales select_p;                              /* probability that sampling chooses the slot */
     float coat_transmittance, dust_transmittance; /* what coat and dust let through, 1 without them */
-    Rgb interface_f0;
-    float interface_f90, extra;
+    Rgb interface_f0;                             /* as in the stack, unless `view` changes them */
+    float interface_f90;
+    float extra;    /* factor on the stack's extra_f0, extra_f90 and extra_f_quadratic */
     SheenE e_o;     /* E of the white sheen towards wo */
-    Rgb base_scale; /* of the base, where the layer rule does not ask for wi */
+    Rgb base_scale; /* the layer rule's factor on the base; if it depends on wi, a stand-in for sampling */
 };
 
 /* Some of the slots. */
@@ -127,7 +130,8 @@ STRUCT(StackValue) {
 };
 
 /* HAS_DIFFUSE and so on test whether a slot holds a lobe, HAS_LAYERED_SHEEN whether the layer rule has a
- * sheen to see, HAS_TRANSMITTED whether the base lets light through. A shader defines them as constants where it knows: an empty slot then costs nothing. */
+ * sheen that is not black, HAS_TRANSMITTED whether the base lets light through. A shader whose slots are known
+ * defines them as constants: an empty slot costs nothing. */
 #ifndef HAS_DIFFUSE
 #define HAS_DIFFUSE(m)       ((m)->diffuse.normal > 0.0f)
 #define HAS_SPECULAR(m)      ((m)->specular.normal > 0.0f)
@@ -138,7 +142,7 @@ STRUCT(StackValue) {
 #define HAS_TRANSMITTED(m)   ((m)->transmission > 0.0f)
 #endif
 
-/* Tests whether the layer rule puts the specular interface over the sheen too. Such a rule needs no E. */
+/* Tests whether the layer rule puts the sheen too below F of the specular interface. Such a rule needs no E. */
 #define IS_BELOW_F(m) (m->layer == LAYER_SEED || m->layer == LAYER_SIDE_BY_SIDE)
 
 /* Tests whether the view has `extra`, a correction of the specular slot. */
@@ -161,8 +165,7 @@ STRUCT(StackValue) {
     m->name.normal = 0.0f;                                                                                   \
     m->name.grazing = 0.0f;
 
-/* A lobe of a colour and, where it has two, of a second one; normal and grazing are about what it reflects.
- */
+/* Fills a slot. second: the second colour, if the lobe has two. normal, grazing: rough albedo there (Slot). */
 FN void slot_make(Slot *s, Lobe lobe, Rgb color, Rgb second, float weight, float normal, float grazing) {
     s->lobe = lobe;
     s->f0 = rgb_scale(color, weight);
@@ -173,7 +176,7 @@ FN void slot_make(Slot *s, Lobe lobe, Rgb color, Rgb second, float weight, float
     s->grazing = grazing;
 }
 
-/* Works as slot_make, for a lobe that reflects alike in all directions. */
+/* Works as slot_make, for a lobe of about the same albedo in all directions. */
 FN void slot_even(Slot *s, Lobe lobe, Rgb color, Rgb second, float weight) {
     slot_make(s, lobe, color, second, weight, weight * rgb_mean(color), weight * rgb_mean(color));
 }
@@ -247,14 +250,14 @@ FN void stack_split_diffuse(Stack *m) {
     if (HAS_##NAME(m)) IN_SLOT(name, prepare)(&m->name.lobe, &m->name##_prepared);
 FN void stack_prepare_lobes(Stack *m){SLOTS(PREPARE_SLOT)}
 
-/* Computes the lobes' views for wo if it is above the slot's horizon: a coat's normal may turn it away. */
+/* Computes the view of each lobe whose horizon wo is above. It may be below that of a coat with its own normal. */
 #define VIEW_SLOT(name, NAME, Name, wo)                                                                      \
     if (HAS_##NAME(m) && w->wo.z > 0.0f) {                                                                   \
         IN_SLOT(name, view)(m->name.lobe.id, &m->name##_prepared, &w->wo, &w->name##_view);                  \
     }
 FN void stack_view_lobes(const Stack *m, StackView *w){SLOTS(VIEW_SLOT)}
 
-/* The colours of a slot at a view, its scale aside: F = f0 (1 - s) + f90 s - f_quadratic s (1 - s). */
+/* The colours of a slot seen from wo, without its scale: F = f0 (1 - s) + f90 s - f_quadratic s (1 - s). */
 STRUCT(SlotColors) {
     Rgb f0, f90, f_quadratic;
 };
@@ -275,7 +278,7 @@ FN SlotColors stack_specular_colors(const Stack *m, const StackView *w) {
     return c;
 }
 
-/* F of the specular interface, each channel. */
+/* Returns F of the specular interface in each channel, at the cosine d. */
 FN Rgb stack_fresnel(const Stack *m, const StackView *w, float d) {
     float s = m->base_fresnel == BASE_FRESNEL_GAUSSIAN ? schlick_gaussian_s(d) : schlick_s(d);
     return rgb_mix(w->interface_f0, rgb_grey(w->interface_f90), s);
@@ -286,16 +289,16 @@ FN Rgb stack_one_minus(Rgb f) {
     return rgb(max(1.0f - f.r, 0.0f), max(1.0f - f.g, 0.0f), max(1.0f - f.b, 0.0f));
 }
 
-/* For the diffuse lobe, of a stack that has an interface over it. */
+/* Returns what the specular interface lets through to the diffuse lobe. base_fresnel is not NONE. */
 FN Rgb stack_base_transmittance(const Stack *m, const StackView *w, const Angles *a) {
     if (m->base_fresnel != BASE_FRESNEL_LEAST) return stack_one_minus(stack_fresnel(m, w, a->d));
     float s = schlick_s(min(a->d, min(a->o.z, a->i.z)));
     return rgb_grey(max(1.0f - mix(rgb_max3(w->interface_f0), w->interface_f90, s), 0.0f));
 }
 
-/* For the rules whose interface lies over diffuse and sheen, what it lets through: 1 - F of whatever the
- * specular slot is, metal too, by schlick between its two colours. seed: at wi . h, each channel.
- * side-by-side: of the strongest channel at the least of the three cosines. s: schlick_s there. */
+/* Returns what the specular interface lets through to diffuse and sheen if IS_BELOW_F: 1 - F, by Schlick between the
+ * two colours of the specular slot, even of a metal. Rule seed takes F at wi . h in each channel; side-by-side takes
+ * F of the strongest channel at the least of wi . h, cos_o and cos_i. s: schlick_s of that cosine. */
 FN Rgb stack_interface_at(const Stack *m, const StackView *w, float s) {
     SlotColors c = stack_specular_colors(m, w);
     Rgb f = rgb_mix(c.f0, c.f90, s);
@@ -308,7 +311,7 @@ FN Rgb stack_interface_transmittance(const Stack *m, const StackView *w, const A
     return stack_interface_at(m, w, schlick_s(cosine));
 }
 
-/* Returns the factor that the sheen leaves for the base, by one channel of its colour. */
+/* Returns the layer rule's factor on the base, for one channel c of the sheen's colour. */
 FN float stack_base_scale_of(const Stack *m, const StackView *w, float c, SheenE e_i) {
     return layer_base(m->layer, c, sheen_e_in(w->e_o, c), sheen_e_in(e_i, c), sheen_e_in(m->e_avg, c));
 }

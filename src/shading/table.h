@@ -1,11 +1,12 @@
 /* table.h - directional albedo looked up: weft's own tables and those that engines ship
  *
- * A table has cos_o along its columns and one shape parameter down its rows; a map is `rows` such rows. Texels are
- * fetched one by one and interpolated here, so that C and GPU agree: a GPU's filter has 8 bits of fraction.
+ * A map has cos_o along its columns and one shape parameter down its `rows` rows. A table is one map or more, one below
+ * the other. Texels are fetched one by one and interpolated here, so that C and GPU agree: a GPU's filter has 8 bits of
+ * fraction.
  *
- * If fibres lean, E depends on the azimuth too. Then five more maps follow, for the headings (nap.h) -1, -1/2, 0, 1/2
- * and 1. If a texture scales the tilt, there are five sets of five, for 0, 1/16, 1/4, 9/16 and 1 times the greatest
- * tilt. */
+ * If fibres lean, E depends on the azimuth too. Then five more maps follow, for the headings -1, -1/2, 0, 1/2 and 1
+ * (nap.h: 1 is along the nap, 0 across it). If a texture scales the tilt, there are five sets of five, for 0, 1/16,
+ * 1/4, 9/16 and 1 times the greatest tilt. */
 #ifndef WEFT_TABLE_H
 #define WEFT_TABLE_H
 
@@ -13,10 +14,10 @@
 #include "shading/tint.h"
 
 #define TABLE_NONE 0 /* E is 0 */
-#define TABLE_ROOTS                                                                                          \
-    1 /* weft's: bicubic; nodes uniform in y, cos_o = (1 - (1 - y)^2)^4, and in the parameter's eighth root */
-#define TABLE_LINEAR 2 /* engines': texel centres uniform in cos_o and in the parameter, bilinear */
-#define TABLE_TINTED 3 /* TABLE_ROOTS of a tinted lobe, with three maps more below: s, q and e (albedo.h) */
+/* weft's own, bicubic. Columns are uniform in y, cos_o = (1 - (1 - y)^2)^4; rows in the parameter's eighth root. */
+#define TABLE_ROOTS  1
+#define TABLE_LINEAR 2 /* an engine's, bilinear: texel centres uniform in cos_o and in the parameter */
+#define TABLE_TINTED 3 /* as TABLE_ROOTS; the maps s, q and e of the tint (albedo.h) follow that of E */
 #define TABLE_PLANES 4 /* read by a lobe's own code, one plane after another (lobe_tables.h) */
 
 #define TABLE_HEADINGS 5
@@ -25,15 +26,15 @@
 STRUCT(TableRef) {
     Table texels;
     int kind;
-    int rows, columns; /* of a map; weft's have one column more, the cosine-weighted average of E */
+    int rows, columns; /* of a map; weft's own have one column more, the average of each row over wo */
     float low, high;   /* weft's: eighth roots of the parameter in the first and the last row */
-    int tilts;         /* number of tilts with maps for headings: 0 without a lean, 1 or TABLE_TILTS */
+    int tilts;         /* number of tilts with maps by heading: 0 (no fibres lean), 1 or TABLE_TILTS */
     float tilt;        /* the greatest tilt, radians */
 };
 
-/* Weights of four neighbouring nodes: the cubic whose slope at a node is that between its two neighbours. At an end of
- * the table a parabola extrapolates the missing node. Edwin Catmull, Raphael Rom, "A Class of Local Interpolating
- * Splines", 1974. */
+/* Weights of four neighbouring nodes: the cubic whose slope at a node is that of the line through its two neighbours.
+ * At an end of the table a parabola extrapolates the missing node. Edwin Catmull, Raphael Rom, "A Class of Local
+ * Interpolating Splines", 1974. */
 STRUCT(Taps) {
     int first;
     float a, b, c, d; /* weights of nodes first .. first + 3 */
@@ -45,7 +46,7 @@ FN Taps table_taps(float x, int count) {
     float t = clamp(x - k, 0.0f, 1.0f), s = 1.0f - t;
     float a = -0.5f * t * s * s, d = -0.5f * t * t * s;
     float b = s * (1.0f + t - 1.5f * t * t), c = t * (1.0f + s - 1.5f * s * s);
-    int first = to_int(k); /* of a NaN it is any number */
+    int first = to_int(k); /* any number if x is NaN, hence the bounds of m.first */
     Taps m;
     m.first = first < 1 ? 0 : first > count - 3 ? count - 4 : first - 1;
     m.a = a;
@@ -66,6 +67,7 @@ FN Taps table_taps(float x, int count) {
     return m;
 }
 
+/* Returns a row of a map, interpolated between columns. */
 FN float table_row(TableRef m, int row, Taps x) {
     return x.a * table_texel(m.texels, m.columns + 1, row, x.first) +
            x.b * table_texel(m.texels, m.columns + 1, row, x.first + 1) +
@@ -73,7 +75,7 @@ FN float table_row(TableRef m, int row, Taps x) {
            x.d * table_texel(m.texels, m.columns + 1, row, x.first + 3);
 }
 
-/* Returns the position of parameter p, in rows. */
+/* Returns the position of parameter p among the rows: 0 is the first. */
 FN float table_height(TableRef m, float p) {
     float root = sqrt(sqrt(sqrt(max(p, 0.0f))));
     return m.rows > 1 ? (root - m.low) / (m.high - m.low) * to_float(m.rows - 1) : 0.0f;
@@ -82,9 +84,10 @@ FN float table_height(TableRef m, float p) {
 /* A position in weft's maps: x from the cosine, y from the parameter. */
 STRUCT(TablePlace) { Taps x, y; };
 
-/* Returns the y of a position, which is the same for all directions. */
+/* Returns the weights of the rows for parameter p, which serve all directions. */
 FN Taps table_rows(TableRef m, float p) { return table_taps(table_height(m, p), m.rows < 4 ? 4 : m.rows); }
 
+/* Returns the position of cos_o in weft's maps, in rows of those weights. */
 FN TablePlace table_place(TableRef m, float cos_o, Taps rows) {
     float y_o = 1.0f - sqrt(max(1.0f - sqrt(sqrt(max(cos_o, 0.0f))), 0.0f));
     TablePlace at;
@@ -93,6 +96,7 @@ FN TablePlace table_place(TableRef m, float cos_o, Taps rows) {
     return at;
 }
 
+/* Returns a map at a position. */
 FN float table_map(TableRef m, int map, TablePlace at) {
     if (m.rows < 2) return table_row(m, map, at.x);
     int row = map * m.rows + at.y.first;
@@ -100,6 +104,7 @@ FN float table_map(TableRef m, int map, TablePlace at) {
            at.y.c * table_row(m, row + 2, at.x) + at.y.d * table_row(m, row + 3, at.x);
 }
 
+/* Returns E from one of weft's own tables. */
 FN float table_roots(TableRef m, float cos_o, float p) {
     return max(table_map(m, 0, table_place(m, cos_o, table_rows(m, p))), 0.0f);
 }
@@ -114,6 +119,7 @@ FN float table_map_average(TableRef m, int map, Taps y) {
            y.d * table_texel(m.texels, m.columns + 1, row + 3, m.columns);
 }
 
+/* Returns E from an engine's table, which is bilinear. */
 FN float table_linear(TableRef m, float cos_o, float p) {
     float x = clamp(cos_o * to_float(m.columns) - 0.5f, 0.0f, to_float(m.columns - 1));
     float y = clamp(p * to_float(m.rows) - 0.5f, 0.0f, to_float(m.rows - 1));
@@ -132,8 +138,8 @@ FN float table_linear(TableRef m, float cos_o, float p) {
 #define SHEEN_TILTS(m) (m).tilts
 #endif
 
-/* E of a white sheen, and the tint that colour gives it (tint.h). With tint_none, a sheen of colour c has E
- * times c. */
+/* E of a white sheen, and the tint by which E of another colour differs (tint.h). With tint_none, E of a sheen of
+ * colour c is e c. */
 STRUCT(SheenE) {
     float e;
     Tint tint;
@@ -146,7 +152,7 @@ FN SheenE sheen_e_of(float e) {
     return x;
 }
 
-/* Works as sheen_e_of, with the tint that a table's maps s, q and e store. */
+/* Works as sheen_e_of, with the tint from a table's maps s, q and e. rest: e of the tint. */
 FN SheenE sheen_e_tinted(float e, float s, float q, float rest) {
     SheenE x;
     x.e = e;
@@ -165,6 +171,7 @@ FN float sheen_e_in(SheenE x, float color) {
 /* Tests whether the table is weft's own. Only those store averages and are read with table_rows. */
 #define SHEEN_IS_OWN(m) (SHEEN_KIND(m) == TABLE_ROOTS || SHEEN_KIND(m) == TABLE_TINTED)
 
+/* Returns E and tint at a position, without regard to the heading. */
 FN SheenE table_sheen_at(TableRef m, TablePlace at) {
     float e = max(table_map(m, 0, at), 0.0f);
     if (SHEEN_KIND(m) != TABLE_TINTED) return sheen_e_of(e);
@@ -204,6 +211,7 @@ FN float table_at_heading(TableRef m, int map, Taps heading, TablePlace at) {
            heading.c * table_map(m, k + 2, at) + heading.d * table_map(m, k + 3, at);
 }
 
+/* Returns E of leaning fibres, interpolated between headings and, if there are several, tilts. */
 FN float table_leaning(TableRef m, Nap nap, float heading, TablePlace at) {
     Taps h = table_taps((0.5f + 0.5f * heading) * to_float(TABLE_HEADINGS - 1), TABLE_HEADINGS);
     int map = table_headings(m);
@@ -233,7 +241,8 @@ FN SheenE table_sheen_average(TableRef m, Taps rows) {
                           table_map_average(m, 3, rows));
 }
 
-/* Returns that average for a sheen with a nap, over azimuths too; the first map of each tilt stores it. */
+/* Works as table_sheen_average, for a sheen with a nap: E is averaged over azimuths too. Every map of a tilt stores
+ * it. */
 FN SheenE table_sheen_nap_average(TableRef m, Nap nap, Taps rows) {
     SheenE x = table_sheen_average(m, rows);
     if (!SHEEN_IS_OWN(m) || SHEEN_TILTS(m) < 1) return x;

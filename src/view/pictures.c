@@ -1,4 +1,4 @@
-/* Pictures: what the scene is configured as, how well it is drawn, and the textures that it is drawn into. */
+/* Pictures: applies the state of a request, chooses the quality, and draws into the textures of the ring. */
 #define _POSIX_C_SOURCE 200809L
 #include "view/renderer_state.h"
 
@@ -10,12 +10,12 @@
 
 #include "base/steady_clock.h"
 
-enum { COARSE_MOST = 8 };
+enum { COARSE_MOST = 8 }; /* greatest `coarse` */
 
-static const double smooth_most = 4.0;     /* s, that smooth edges may take */
+static const double smooth_most = 4.0;     /* s; smooth edges that would take longer are left out */
 static const double frame_seconds = 0.036; /* s, for a picture while the mouse moves */
 
-/* One of the ring that is neither shown nor newest, of this size. */
+/* Returns the index of a texture that is neither shown nor newest, and gives it this size. */
 static int take_target(Renderer *self, int width, int height) {
     int k = 0;
     pthread_mutex_lock(&self->lock);
@@ -41,7 +41,7 @@ static int take_target(Renderer *self, int width, int height) {
     return k;
 }
 
-/* Reads the state back from the scene after a state could not be applied. */
+/* Reads the state back from the scene after `wanted` could not be applied. */
 static bool read_again(Renderer *self, const SceneState *wanted, SceneState *is) {
     if (!scene_state_read(is, self->scene)) return false;
     is->environment = self->is.environment;
@@ -55,7 +55,7 @@ const char *frame_refusal(const Renderer *self, const SceneState *state) {
                : NULL;
 }
 
-/* Lights the scene from far away; where the source cannot be had, by the one before. */
+/* Applies an environment. If its source cannot be read, the source before stays, and the reason is kept. */
 static WeftResult apply_environment(Renderer *self, EnvironmentState *environment, unsigned *changed,
                                     WeftError *error) {
     const WeftLog log = renderer_log(self);
@@ -72,7 +72,7 @@ static WeftResult apply_environment(Renderer *self, EnvironmentState *environmen
 WeftResult frame_apply_state(Renderer *self, const SceneState *wanted, WeftError *error) {
     const WeftLog log = renderer_log(self);
     unsigned changed = 0;
-    SceneState is, parts = *wanted, *state = &parts;                         /* the parts are borrowed */
+    SceneState is, parts = *wanted, *state = &parts;                         /* a shallow copy */
     if (state->material_count != self->is.material_count) return WEFT_INPUT; /* of another scene */
     if (frame_refusal(self, state)) environment_state_take_source(&state->environment, &self->is.environment);
     if (scene_state_same(state, &self->is)) return WEFT_OK;
@@ -92,12 +92,12 @@ WeftResult frame_apply_state(Renderer *self, const SceneState *wanted, WeftError
     return result == WEFT_OK ? updated : result;
 }
 
-/* One look in a part of a picture; as much of it as `strip` has of its height. */
+/* Draws one state into the rectangle `part` of a picture: x, y, width, height. */
 static WeftResult draw_one(Renderer *self, const FrameRequest *request, const SceneState *state,
                            const int part[4], int target, WeftError *error) {
     WeftRasterView view = request->view;
     view.camera = request->camera;
-    bool sides = request->split == SPLIT_SIDES, number = request->view.part >= WEFT_PART_BASE_COLOR;
+    bool sides = request->split == SPLIT_SIDES, numeric = request->view.part >= WEFT_PART_BASE_COLOR;
     int height = request->view.height;
     WeftResult result = frame_apply_state(self, state, error);
     if (sides) view.width = request->view.width / 2;
@@ -109,8 +109,8 @@ static WeftResult draw_one(Renderer *self, const FrameRequest *request, const Sc
                                  .x = sides ? part[0] : 0,
                                  .clip = {part[0], height - part[1] - part[3], part[2], part[3]},
                                  .background = {request->behind[0], request->behind[1], request->behind[2]},
-                                 .tonemap = number ? WEFT_TONEMAP_NONE : request->tonemap,
-                                 .exposure = number ? 0.0f : request->exposure};
+                                 .tonemap = numeric ? WEFT_TONEMAP_NONE : request->tonemap,
+                                 .exposure = numeric ? 0.0f : request->exposure};
     return result == WEFT_OK ? weft_raster_show(self->raster, &show, error) : result;
 }
 
@@ -121,10 +121,9 @@ static bool is_outdated(Renderer *self, unsigned number) {
     return outdated;
 }
 
-/* Draws part of a picture, so many rows at a time as a twentieth of a second has, about: another request need
- * not wait long, nor does a window whose driver draws one thing after the other. More rows cost less than in
- * proportion, so that their number is found by doubling and halving. *whole is true if no request came
- * between. / */
+/* Draws part of a picture in strips of rows. A strip takes about `piece` seconds, so that another request does not wait
+ * long, nor does the window if the driver draws for one context at a time. Time grows less than in proportion to the
+ * rows; their number is therefore found by doubling and halving. *whole becomes false if newer work stops it. */
 static WeftResult draw_part(Renderer *self, const FrameRequest *request, const SceneState *state,
                             const int part[4], unsigned number, int target, double expected, bool *whole,
                             WeftError *error) {
@@ -149,7 +148,7 @@ static WeftResult draw_part(Renderer *self, const FrameRequest *request, const S
     return result;
 }
 
-/* One look after the other: to go from one to the other may take long. */
+/* Draws the states of a request, each in all its strips before the next, since to change the state may take long. */
 static WeftResult draw_picture(Renderer *self, const FrameRequest *request, unsigned number, int target,
                                double expected, bool *whole, WeftError *error) {
     int width = request->view.width, height = request->view.height, middle = width / 2;
@@ -160,7 +159,7 @@ static WeftResult draw_picture(Renderer *self, const FrameRequest *request, unsi
     if (request->split == SPLIT_LINE) middle = (int)(request->at * (float)width);
     middle = middle < 1 ? 1 : middle > width - 1 ? width - 1 : middle;
     const int left[4] = {0, 0, middle, height}, right[4] = {middle, 0, width - middle, height};
-    bool last = request->edited == 1; /* the one that is edited comes last: tasks find the scene so */
+    bool last = request->edited == 1; /* the edited state is drawn last, so that tasks find it applied */
     WeftResult result = draw_part(self, request, last ? &request->state : &request->other,
                                   last ? left : right, number, target, 0.5 * expected, whole, error);
     if (result != WEFT_OK || !*whole) return result;
@@ -168,8 +167,8 @@ static WeftResult draw_picture(Renderer *self, const FrameRequest *request, unsi
                      target, 0.5 * expected, whole, error);
 }
 
-/* Returns the effort that fits the time: smooth edges in a few seconds, or at once if they take no longer
- * than a frame may; all pixels if that has proved quick enough; but at least the requested effort. */
+/* Returns the effort that fits the time: smooth edges to compare with, if they take no longer than a frame may, or
+ * if they are requested and take less than smooth_most; else all pixels if they are requested or quick enough. */
 static Effort effort_of(const Renderer *self, const FrameRequest *request) {
     if (request->compare || self->smooth_seconds < frame_seconds) return EFFORT_SMOOTH;
     if (request->effort == EFFORT_SMOOTH && self->smooth_seconds < smooth_most) return EFFORT_SMOOTH;
@@ -177,7 +176,7 @@ static Effort effort_of(const Renderer *self, const FrameRequest *request) {
 }
 
 static FrameRequest with_effort(const Renderer *self, const FrameRequest *request, Effort effort) {
-    FrameRequest drawn = *request; /* frees the states are borrowed */
+    FrameRequest drawn = *request; /* a shallow copy */
     int by = effort == EFFORT_COARSE ? self->coarse : 1;
     if (effort < EFFORT_SMOOTH) drawn.view.samples = 1;
     drawn.view.width = request->view.width / by > 16 ? request->view.width / by : 16;
@@ -191,9 +190,8 @@ static double *seconds_of(Renderer *self, Effort effort) {
                                     : &self->coarse_seconds;
 }
 
-/* Learns from the time that a picture took: how coarse those have to be that are drawn while the hand moves,
- * and what the others take. One that takes far longer than those before counts only if the next one does,
- * too: drivers compile as they draw. */
+/* Learns from the time that a picture took: the time of its effort, and how coarse pictures have to be while the mouse
+ * moves. A time far above the last does not count unless the next is too, since drivers compile as they draw. */
 static void learn(Renderer *self, const FrameRequest *request, Effort effort, double seconds) {
     double *known = seconds_of(self, effort);
     self->surprised = !self->surprised && seconds > 3.0 * *known;
@@ -209,7 +207,8 @@ static void learn(Renderer *self, const FrameRequest *request, Effort effort, do
         self->coarse--;
 }
 
-/* A camera of the scene turns about what is in the middle of its picture. */
+/* Moves the target of a camera of the scene to the surface in the middle of the picture, for orbits about it. A camera
+ * given as numbers, with ';' between them, has a target already. */
 static void focus(Renderer *self, const FrameRequest *request) {
     WeftPicked at;
     RenderedFrame seen = self->rendered; /* this thread alone writes it */
@@ -247,7 +246,7 @@ static void publish(Renderer *self, const FrameRequest *request, Effort effort, 
         self->newest = target;
     }
     p->number = number;
-    p->effort = target >= 0 ? effort : EFFORT_SMOOTH; /* what cannot be drawn becomes no finer */
+    p->effort = target >= 0 ? effort : EFFORT_SMOOTH; /* the window need not ask for a finer one */
     memcpy(p->eye, info.camera_eye, sizeof p->eye);
     memcpy(p->target, info.camera_target, sizeof p->target);
     p->fov = info.camera_fov;
@@ -262,14 +261,15 @@ static void publish(Renderer *self, const FrameRequest *request, Effort effort, 
     window_wake(self->window);
 }
 
+/* Hands a linear copy of the picture to the path tracer, to compare with. */
 static void hand_linear(Renderer *self) {
     WeftImage linear;
     if (weft_raster_image(self->raster, &linear, NULL) == WEFT_OK)
         reference_set_comparison(self->reference, &linear);
 }
 
-/* Returns true if the shaders are not compiled yet and the path tracer is to stand in. */
-static bool waits(Renderer *self, const FrameRequest *request) {
+/* Returns true if the path tracer is to stand in for a whole picture whose shaders are not compiled yet. */
+static bool needs_stand_in(Renderer *self, const FrameRequest *request) {
     WeftRasterView view = request->view;
     view.camera = request->camera;
     bool whole = request->split == SPLIT_NONE && view.part == WEFT_PART_ALL && !request->reference;
@@ -280,7 +280,7 @@ const SceneState *frame_edited_state(const FrameRequest *request) {
     return request->edited && request->split != SPLIT_NONE ? &request->other : &request->state;
 }
 
-/* Surveys the materials if the edited state has another variant than before. */
+/* Sends the coverage by each material if the edited state is applied and its variant is new. */
 static void survey(Renderer *self, const FrameRequest *request) {
     int variant = self->is.variant;
     if (self->surveyed == variant || frame_edited_state(request)->variant != variant) return;
@@ -298,9 +298,9 @@ static void draw(Renderer *self, const FrameRequest *request, unsigned number) {
     WeftResult result = frame_apply_state(self, &request->state, &error);
     survey(self, request);
     double start = clock_now();
-    if (waits(self, &drawn)) {
+    if (needs_stand_in(self, &drawn)) {
         reference_stand_in(self->reference, number);
-        reference_wait(self->reference, number, 1.0); /* a compiler leaves it little of the processors */
+        reference_wait(self->reference, number, 1.0); /* before the compiler takes most of the processors */
     }
     if (!request->reference || request->compare) {
         target = take_target(self, drawn.view.width, drawn.view.height);
@@ -315,7 +315,7 @@ static void draw(Renderer *self, const FrameRequest *request, unsigned number) {
     if (!whole) return; /* another request came between */
     const char *refusal = frame_refusal(self, &request->state);
     if (result == WEFT_OK) snprintf(error.text, sizeof error.text, "%s", refusal ? refusal : "");
-    bool best = effort == EFFORT_WHOLE && self->smooth_seconds >= smooth_most;
+    bool best = effort == EFFORT_WHOLE && self->smooth_seconds >= smooth_most; /* smooth is too slow */
     publish(self, request, best || request->reference ? EFFORT_SMOOTH : effort, number, target,
             clock_now() - start, &error);
     focus(self, request);

@@ -32,7 +32,7 @@ void renderer_post(Renderer *self, RenderEvent *event) {
 
 /* ---- scenes ---- */
 
-enum { FOLDERS = 1 << 24 }; /* id of the first folder in the file watch; smaller ids are textures */
+enum { FIRST_FOLDER = 1 << 24 }; /* id of the first folder in the file watch; smaller ids are textures */
 
 void renderer_watch_files(Renderer *self) {
     file_watch_clear(self->file_watch);
@@ -41,7 +41,7 @@ void renderer_watch_files(Renderer *self) {
         if (path) file_watch_add(self->file_watch, path, k);
     }
     for (int k = 0; k < self->folders.count; k++)
-        file_watch_add(self->file_watch, self->folders.paths[k], FOLDERS + k);
+        file_watch_add(self->file_watch, self->folders.paths[k], FIRST_FOLDER + k);
 }
 
 static void drop_scene(Renderer *self) {
@@ -97,23 +97,22 @@ static void replace_scene(Renderer *self, WeftScene *scene, SceneState *state, c
 
 /* Reads again one file that has changed: a texture, or a folder of maps. Returns true if there was one. */
 static bool reload_file(Renderer *self) {
-    int texture = self->started ? file_watch_poll(self->file_watch, clock_now()) : -1;
-    if (texture < 0) return false;
-    if (texture >= FOLDERS) {
+    int id = self->started ? file_watch_poll(self->file_watch, clock_now()) : -1;
+    if (id < 0) return false;
+    if (id >= FIRST_FOLDER) {
         Task bind = {.kind = TASK_BIND_MAPS, .scene = self->scene_number};
-        bind.index = self->folders.materials[texture - FOLDERS];
-        snprintf(bind.path, sizeof bind.path, "%s", self->folders.paths[texture - FOLDERS]);
+        bind.index = self->folders.materials[id - FIRST_FOLDER];
+        snprintf(bind.path, sizeof bind.path, "%s", self->folders.paths[id - FIRST_FOLDER]);
         tasks_do(self, &bind, &self->drawn);
         return true;
     }
     WeftError error = {0};
     RenderEvent event = {.kind = TASK_ASSIGN, .scene = self->scene_number};
-    event.failed = tasks_reload(self, texture, &error) != WEFT_OK;
+    event.failed = tasks_reload(self, id, &error) != WEFT_OK;
     if (event.failed)
         snprintf(event.text, sizeof event.text, "%s", error.text);
     else
-        snprintf(event.text, sizeof event.text, "reloaded: %.400s",
-                 weft_scene_texture_path(self->scene, texture));
+        snprintf(event.text, sizeof event.text, "reloaded: %.400s", weft_scene_texture_path(self->scene, id));
     if (!event.failed) facts_read_maps(&event.maps, self->scene);
     renderer_post(self, &event);
     return true;
@@ -289,7 +288,7 @@ void renderer_add_task(Renderer *self, const Task *task) {
     pthread_mutex_lock(&self->lock);
     bool picking =
         task->kind == TASK_PICK && self->task_count && self->tasks[self->task_count - 1].kind == TASK_PICK;
-    if (picking) self->task_count--; /* a newer pick replaces the last one */
+    if (picking) self->task_count--; /* the newer pick replaces the one that waits */
     if (self->task_count < TASKS) self->tasks[self->task_count++] = *task;
     pthread_cond_broadcast(&self->change);
     pthread_mutex_unlock(&self->lock);

@@ -30,14 +30,14 @@ typedef struct FrameRequest {
     int edited;              /* the state that tasks change: 0 is `state`, 1 is `other` */
     SceneState state, other; /* `other` is the right side of a split picture; empty without a split */
     Split split;
-    float at;            /* SPLIT_LINE: share of the width that is left of it */
-    WeftRasterView view; /* size, background, part, ambient; the camera is the text below */
+    float at;            /* SPLIT_LINE: position of the line, as a fraction of the width */
+    WeftRasterView view; /* but for its camera, which is the text below */
     char camera[ORBIT_TEXT];
     float behind[3];  /* linear colour behind transparent pixels, after tone mapping */
     bool laid_behind; /* saved pictures have this colour too; otherwise they stay transparent */
     WeftTonemap tonemap;
-    float exposure;
-    Effort effort;  /* the least acceptable quality */
+    float exposure; /* stops */
+    Effort effort;  /* the quality wanted; smooth edges that would take too long are left out */
     bool reference; /* the path tracer shows this view: OpenGL draws only what `compare` needs */
     bool compare;   /* a linear copy of the picture goes to the path tracer */
 } FrameRequest;
@@ -53,34 +53,34 @@ typedef enum TaskKind {
     TASK_PROBE,     /* describes the point at x, y of the request's picture, with the parts of its light */
     TASK_PICK,      /* describes the point without its light */
     TASK_PROFILES,  /* draws a sheet with material `index` under every profile */
-    TASK_ASSIGN,    /* `path` is a material file, or "preset:NAME", or a picture for `input` of `index` */
+    TASK_ASSIGN,    /* `path`: a material file or "preset:NAME" for `index`; a picture, if `input` >= 0 */
     TASK_BIND_MAPS, /* puts the maps in folder `path` on material `index`; -1: on the cloth of the scene */
     TASK_LIGHT,     /* `path` is a picture, or the folder of a cubemap, that becomes the environment */
-    TASK_SCENE,     /* an event only: another scene was taken, or failed */
-    TASK_SURVEY     /* an event only: coverage by each material, measured again after the variant changed */
+    TASK_SCENE,     /* no task, but an event: a new scene was taken over, or cannot be drawn */
+    TASK_SURVEY     /* no task, but an event: coverage by each material, after a change of variant */
 } TaskKind;
 
 typedef struct Task {
     TaskKind kind;
     unsigned scene; /* number of its scene; tasks of another scene are dropped */
     char path[STATE_PATH];
-    int index, input;
-    float x, y;
-    int width, height;
-    bool transparent; /* TASK_SHOT: the background of the file stays transparent */
-    bool reference;   /* TASK_SHOT: writes the path-traced picture as far as it is */
-    bool nap;         /* TASK_PICK: the event has the material's own nap map too */
-    unsigned stamp;   /* copied to the event */
+    int index, input;  /* material (TASK_BIND_MAPS, TASK_ASSIGN: -1 for all cloth) and input (-1: none) */
+    float x, y;        /* pixels of the request's picture, from the top left */
+    int width, height; /* pixels; 0: as the request */
+    bool transparent;  /* TASK_SHOT: the background of the file stays transparent */
+    bool reference;    /* TASK_SHOT: writes the path-traced picture with the samples that it has so far */
+    bool nap;          /* TASK_PICK: the event has the material's own nap map too */
+    unsigned stamp;    /* any number; the event has the same */
 } Task;
 
-/* The parts of a pixel. */
+/* The surface at a pixel, and the parts of its light. */
 typedef struct Probe {
     bool hit;
     int material;
     float position[3], normal[3], texcoord[2], distance;
-    float uv_per_metre; /* WeftPicked */
+    float uv_per_metre; /* UV units that a metre on the surface spans */
     float tangent[3], bitangent[3];
-    float value[WEFT_PART_COUNT][3];
+    float value[WEFT_PART_COUNT][3]; /* by WeftPart; TASK_PROBE sets those that the window shows */
 } Probe;
 
 typedef struct RenderEvent {
@@ -92,40 +92,42 @@ typedef struct RenderEvent {
     char path[STATE_PATH]; /* TASK_BIND_MAPS: the folder */
     unsigned stamp;
     Probe probe;
-    WeftImage image;    /* TASK_PROFILES: U8 RGB; TASK_PICK: the nap map, if none was brushed; owned */
+    WeftImage
+        image; /* TASK_PROFILES: the sheet, U8 RGB; TASK_PICK: the nap map, if none was brushed; owned */
     bool state_changed; /* `state` is then the state of the scene after the task; owned */
     SceneState state;
-    Facts maps;      /* if the maps changed: only the maps are filled in; owned */
+    Facts maps;      /* set if maps changed, but without anything else than the maps; owned */
     float *coverage; /* TASK_SURVEY: share of the picture by each material (survey.h); owned, may be NULL */
-    int index;       /* of the task: its material */
+    int index;       /* `index` of the task; TASK_BIND_MAPS: the number of maps */
 } RenderEvent;
 
 /* The latest picture and its state. */
 typedef struct RenderedFrame {
     unsigned texture; /* 0: nothing yet */
     int width, height;
-    unsigned scene;      /* number of the scene that is shown */
-    unsigned number;     /* of the request it shows */
-    bool focused;        /* `target` is the surface point in the middle of the picture */
-    Effort effort;       /* quality; a coarse picture has a smaller texture, which is stretched */
-    float seconds;       /* s, for this picture */
-    float whole_seconds; /* s, for a picture with all pixels */
-    float eye[3], target[3], fov;
-    int programs, compiled; /* shader programs in use, and compiled since the start */
-    bool busy;              /* shaders, tables or occlusion are still being computed */
-    char complaint[512];    /* the compiler's message about changed shader text; "" if all compiles */
-    char failure[512];      /* the reason why there is no newer picture */
+    unsigned scene;               /* number of the scene that is shown */
+    unsigned number;              /* number of the request that is shown (renderer_request) */
+    bool focused;                 /* `target` is the surface point in the middle of the picture */
+    Effort effort;                /* quality; a coarse picture has a smaller texture, which is stretched */
+    float seconds;                /* s, for this picture */
+    float whole_seconds;          /* s, for a picture with all pixels */
+    float eye[3], target[3], fov; /* m; fov in degrees, vertical */
+    int programs, compiled;       /* shader programs in use, and compiled since the start */
+    bool busy;                    /* shaders, tables or occlusion are still being computed */
+    char complaint[512];          /* the compiler's message about changed shader text; "" if all compiles */
+    char failure[512];            /* the reason why there is no newer picture */
     char driver[128];
 } RenderedFrame;
 
-/* Starts the thread. window and reference must outlive the renderer; shader_dir may be NULL. Returns NULL if memory or
- * threads are short. Without a second OpenGL context the frame has a `failure`. */
+/* Starts the thread. window and reference must outlive the renderer; shader_dir (may be NULL) and occlusion are as in
+ * WeftRasterDesc. Returns NULL if memory or threads are short. Without a second OpenGL context the frame has a
+ * `failure`. */
 Renderer *renderer_start(Window *window, ReferenceView *reference, const char *shader_dir, int occlusion);
 void renderer_stop(Renderer *renderer);
 
-/* Takes the scene over, with the state it has; the old one is released once the new one can be drawn, and an
- * event of TASK_SCENE reports the outcome. number is the scene's own: requests and tasks of another one are
- * dropped. Folders of maps in use are watched. */
+/* Takes the scene over and copies `state`, which describes it. The old scene is released once the new one can be drawn.
+ * An event of TASK_SCENE reports the outcome. Requests and tasks whose `scene` is not `number` are dropped. Folders of
+ * maps in use are watched. */
 void renderer_set_scene(Renderer *renderer, WeftScene *scene, const SceneState *state, const Folders *folders,
                         unsigned number);
 

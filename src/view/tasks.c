@@ -1,4 +1,4 @@
-/* Tasks, which are done once: files to write and to apply, queries of a pixel, a sheet of profiles. */
+/* Tasks: writes files, applies materials and environments, probes pixels, draws the sheet of profiles. */
 #include <stdio.h>
 #include <string.h>
 
@@ -26,9 +26,9 @@ static WeftResult shot(Renderer *self, const Task *task, const FrameRequest *req
     }
     const WeftImage *image = &linear;
     if (result == WEFT_OK && !weft_image_suffix_linear(task->path)) {
-        bool number = request->view.part >= WEFT_PART_BASE_COLOR && !task->reference;
-        WeftTonemap curve = number ? WEFT_TONEMAP_NONE : request->tonemap;
-        float exposure = number ? 0.0f : request->exposure;
+        bool numeric = request->view.part >= WEFT_PART_BASE_COLOR && !task->reference;
+        WeftTonemap curve = numeric ? WEFT_TONEMAP_NONE : request->tonemap;
+        float exposure = numeric ? 0.0f : request->exposure;
         result = request->laid_behind && !task->transparent
                      ? weft_image_tonemap_over(&linear, curve, exposure, request->behind, &display, error)
                      : weft_image_tonemap(&linear, curve, exposure, &display, error);
@@ -79,7 +79,7 @@ static WeftResult finish_assign(Renderer *self, WeftResult result, RenderEvent *
     return result;
 }
 
-/* NULL where nothing can be seen, or memory is short. */
+/* Returns the coverage of the picture by each material; NULL if there is nothing to pick, or memory is short. */
 static float *survey(Renderer *self, const FrameRequest *request) {
     if (!self->pick && weft_pick_create(self->scene, &self->pick, NULL) != WEFT_OK) return NULL;
     return survey_take(self->pick, self->scene, request->camera,
@@ -91,7 +91,7 @@ void tasks_survey(Renderer *self, const FrameRequest *request) {
     renderer_post(self, &event);
 }
 
-/* The number of a preset of that name, counted from 1; 0: it is a file's. */
+/* Returns the number, from 1, of the preset in "preset:NAME"; 0 if the path is a file's. */
 static int preset_of(const char *path) {
     int k = 0;
     if (strncmp(path, "preset:", 7) != 0) return 0;
@@ -131,7 +131,7 @@ static WeftResult assign_material(Renderer *self, const Task *task, const FrameR
     return finish_assign(self, result, event, error);
 }
 
-/* A state names the file of a light once it has been read, not before. */
+/* Lights the scene by a file. The window receives a state that names the file only if the file could be read. */
 static WeftResult light(Renderer *self, const Task *task, const FrameRequest *request, RenderEvent *event,
                         WeftError *error) {
     SceneState state;
@@ -187,7 +187,7 @@ static WeftResult pick(Renderer *self, const Task *task, const FrameRequest *req
     return WEFT_OK;
 }
 
-/* The pixel once for each part, as far as a person asks for. */
+/* Draws the pixel once for each part of its light that the window shows. */
 static WeftResult probe(Renderer *self, const Task *task, const FrameRequest *request, RenderEvent *event,
                         WeftError *error) {
     static const WeftPart parts[] = {WEFT_PART_ALL,      WEFT_PART_DIFFUSE,    WEFT_PART_SPECULAR,
@@ -239,7 +239,7 @@ void tasks_do(Renderer *self, const Task *task, const FrameRequest *request) {
     renderer_post(self, &event);
 }
 
-/* One more picture of a sheet. */
+/* Draws one more picture of the sheet of profiles (studies.h); sends the sheet after the last. */
 void tasks_study(Renderer *self) {
     RenderEvent event = {.kind = TASK_PROFILES, .scene = self->scene_number, .stamp = self->study.stamp};
     SceneState state;
@@ -262,5 +262,5 @@ void tasks_study(Renderer *self) {
         study_stop(&self->study);
         renderer_post(self, &event);
     }
-    self->stale = true; /* the scene is configured otherwise */
+    self->stale = true; /* the scene has the state of a study, not of the request */
 }
