@@ -55,6 +55,10 @@ void environment_place(const GlEnvironment *self, const Environment *environment
 int environment_lights(const GlEnvironment *environment, float rotation,
                        EnvLight env_lights[AMBIENT_LIGHTS_MAX]);
 
+/* Likewise fills in the points that they are divided into, and returns their number. */
+int environment_points(const GlEnvironment *environment, float rotation,
+                       EnvPoint env_points[AMBIENT_POINTS_MAX]);
+
 /* Declares the functions that shading/ambient.h needs from its source, which is then a Frame
  * (shading/frame.h). Takes one sampler. The caller declares AmbientWeights ambient_baked(Frame, int) and float
  * ambient_light_visibility(Frame, int, float). */

@@ -26,16 +26,17 @@ static int tangents_of(const WeftScene *scene) {
     return count;
 }
 
-static uint32_t own_vertices(const WeftScene *scene) {
+static uint32_t own_vertices(const Refinement *refinement, const WeftScene *scene) {
     uint32_t count = 0;
-    for (int m = 0; m < scene_own_meshes(scene); m++) count += scene->meshes[m].vertex_count;
+    for (int m = 0; m < scene_own_meshes(scene); m++)
+        count += refinement_mesh(refinement, scene, m).vertex_count;
     return count;
 }
 
 /* One attribute of all meshes, one after the other; 0, or white, where a mesh has none. An attribute that no
  * mesh has takes no memory: the shader reads the constant that meshes_bind sets. */
-static WeftResult upload(GLuint buffer, const WeftScene *scene, int attribute, size_t count,
-                         WeftError *error) {
+static WeftResult upload(const GlMeshes *self, const WeftScene *scene, int attribute, WeftError *error) {
+    size_t count = self->vertex_count;
     size_t width = (size_t)components[attribute];
     const float constant = attribute == AT_COLOR ? 1.0f : 0.0f;
     bool any = false;
@@ -45,12 +46,14 @@ static WeftResult upload(GLuint buffer, const WeftScene *scene, int attribute, s
     if (!all) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     for (int m = 0; m < scene->mesh_count; m++) {
         const Mesh *mesh = &scene->meshes[m];
+        const RefinedMesh refined = refinement_mesh(self->refinement, scene, m);
         const float *from = stream_of(mesh, attribute);
-        size_t floats = mesh->vertex_count * width;
-        for (size_t k = 0; k < floats; k++) to[k] = from ? from[k] : constant;
+        size_t floats = refined.vertex_count * width;
+        if (from) refined_fill(&refined, mesh, from, width, to);
+        for (size_t k = 0; k < floats && !from; k++) to[k] = constant;
         to += floats;
     }
-    glBindBuffer(GL_ARRAY_BUFFER, buffer);
+    glBindBuffer(GL_ARRAY_BUFFER, self->attributes[attribute]);
     glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(count * width * sizeof(float)), all, GL_STATIC_DRAW);
     glVertexAttribPointer((GLuint)attribute, components[attribute], GL_FLOAT, GL_FALSE, 0, NULL);
     glEnableVertexAttribArray((GLuint)attribute);
@@ -63,9 +66,9 @@ static WeftResult upload_indices(GlMeshes *self, const WeftScene *scene, WeftErr
     uint32_t *all = alloc_array(count, sizeof(uint32_t)), *to = all;
     if (!all) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     for (int m = 0; m < scene->mesh_count; m++) {
-        const Mesh *mesh = &scene->meshes[m];
-        for (size_t k = 0; k < 3 * (size_t)mesh->triangle_count; k++) *to++ = mesh->index[k] + vertex;
-        vertex += mesh->vertex_count;
+        const RefinedMesh mesh = refinement_mesh(self->refinement, scene, m);
+        for (size_t k = 0; k < 3 * (size_t)mesh.triangle_count; k++) *to++ = mesh.index[k] + vertex;
+        vertex += mesh.vertex_count;
     }
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, self->index);
     glBufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)(count * sizeof(uint32_t)), all, GL_STATIC_DRAW);
@@ -73,15 +76,17 @@ static WeftResult upload_indices(GlMeshes *self, const WeftScene *scene, WeftErr
     return gl_check(error, "triangles");
 }
 
-WeftResult meshes_create(const WeftScene *scene, GlMeshes *out, WeftError *error) {
-    *out = (GlMeshes){0};
+WeftResult meshes_create(const WeftScene *scene, const Refinement *refinement, GlMeshes *out,
+                         WeftError *error) {
+    *out = (GlMeshes){.refinement = refinement};
     out->first = alloc_array((size_t)scene->mesh_count + 1, sizeof(uint32_t));
     if (!out->first) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     size_t vertices = 0, indices = 0;
     for (int m = 0; m < scene->mesh_count; m++) {
+        const RefinedMesh mesh = refinement_mesh(refinement, scene, m);
         out->first[m] = (uint32_t)indices;
-        vertices += scene->meshes[m].vertex_count;
-        indices += 3 * (size_t)scene->meshes[m].triangle_count;
+        vertices += mesh.vertex_count;
+        indices += 3 * (size_t)mesh.triangle_count;
         if (vertices > INT32_MAX || indices > INT32_MAX) {
             meshes_destroy(out);
             return fail(error, WEFT_MESSAGE_GL_MEMORY, scene->name, "more than 2^31 vertices or corners");
@@ -92,12 +97,11 @@ WeftResult meshes_create(const WeftScene *scene, GlMeshes *out, WeftError *error
     glGenBuffers(AT_COUNT, out->attributes);
     glGenBuffers(1, &out->index);
     glBindVertexArray(out->vertices);
-    WeftResult result = upload_indices(out, scene, error);
-    for (int a = 0; a < AT_COUNT && result == WEFT_OK; a++)
-        result = upload(out->attributes[a], scene, a, vertices, error);
-    glBindVertexArray(0);
     out->vertex_count = (uint32_t)vertices;
-    out->own_count = own_vertices(scene);
+    out->own_count = own_vertices(refinement, scene);
+    WeftResult result = upload_indices(out, scene, error);
+    for (int a = 0; a < AT_COUNT && result == WEFT_OK; a++) result = upload(out, scene, a, error);
+    glBindVertexArray(0);
     out->mesh_count = scene->mesh_count;
     out->tangents = tangents_of(scene);
     if (result != WEFT_OK) meshes_destroy(out);
@@ -108,8 +112,7 @@ WeftResult meshes_update(GlMeshes *self, const WeftScene *scene, WeftError *erro
     int tangents = tangents_of(scene);
     if (tangents == self->tangents) return WEFT_OK;
     glBindVertexArray(self->vertices);
-    WeftResult result =
-        upload(self->attributes[AT_TANGENT], scene, AT_TANGENT, (size_t)self->vertex_count, error);
+    WeftResult result = upload(self, scene, AT_TANGENT, error);
     glBindVertexArray(0);
     if (result == WEFT_OK) self->tangents = tangents;
     return result;
@@ -179,7 +182,7 @@ WeftResult meshes_reshape(GlMeshes *self, const WeftScene *scene, WeftError *err
         move_lights(self, scene);
         return gl_check(error, "lights");
     }
-    WeftResult result = meshes_create(scene, &fresh, error);
+    WeftResult result = meshes_create(scene, self->refinement, &fresh, error);
     if (result == WEFT_OK && self->occlusion) result = begin_occlusion(&fresh, self->env_lights, error);
     if (result == WEFT_OK && self->occlusion) {
         glBindBuffer(GL_COPY_READ_BUFFER, self->occlusion);

@@ -4,7 +4,7 @@
 #ifndef WEFT_RASTER_MESHES_H
 #define WEFT_RASTER_MESHES_H
 
-#include "scene/scene.h"
+#include "raster/refinement.h"
 
 /* Locations of the attributes in every vertex shader. */
 enum {
@@ -27,11 +27,13 @@ typedef struct GlMeshes {
     uint32_t vertex_count, own_count; /* own: of the scene's own meshes, which come first */
     int mesh_count, tangents;         /* tangents: of how many meshes they are uploaded */
     uint32_t *first;                  /* a mesh's first index; mesh_count + 1 entries, owned */
+    const Refinement *refinement;     /* of the scene's own meshes */
 } GlMeshes;
 
-/* Uploads all meshes. Zero on failure: WEFT_MESSAGE_MEMORY, _GL_MEMORY, the latter beyond 2^31 corners too.
- */
-WeftResult meshes_create(const WeftScene *scene, GlMeshes *out, WeftError *error);
+/* Uploads all meshes, its own as they are refined; the refinement must live as long. Zero on failure:
+ * WEFT_MESSAGE_MEMORY, _GL_MEMORY, the latter beyond 2^31 corners too. */
+WeftResult meshes_create(const WeftScene *scene, const Refinement *refinement, GlMeshes *out,
+                         WeftError *error);
 void meshes_destroy(GlMeshes *meshes);
 
 /* Gives each vertex of the scene's own meshes what it sees of the sky and of lights, as occlusion_values has

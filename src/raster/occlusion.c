@@ -16,19 +16,22 @@
 enum { BLOCK = 256 }; /* vertices in one go */
 
 /* Raised whenever the same scene would give other values. */
-enum { LOOK = 4 };
+enum { LOOK = 5 };
 
 struct Occlusion {
     WeftScene scene; /* as it was, without the meshes of its lights: what its lists hold stays, those of
                         meshes and materials are copies */
     Geometry *geometry;
     float *values;
-    uint32_t *first; /* vertex of a mesh */
+    float *position, *normal; /* 3 a vertex; a normal of 0 looks nowhere */
+    uint32_t *first;          /* vertex of a mesh */
     int rays, threads;
     bool no_cache, behind;
     EnvLight env_lights[OCCLUSION_LIGHTS];
     int env_light_count;
-    uint64_t key; /* of the values in the cache */
+    EnvPoint env_points[AMBIENT_POINTS_MAX + OCCLUSION_LIGHTS];
+    int first_point[OCCLUSION_LIGHTS + 1]; /* of a light */
+    uint64_t key;                          /* of the values in the cache */
     atomic_int stop, done;
     bool joined;
     pthread_t thread;
@@ -116,20 +119,34 @@ static float seen_from(const Occlusion *self, Vec3 p, Vec3 n, float reach, uint3
     return min(sum, 1.0f);
 }
 
-/* The part of a light that a point sees, its light spread about it by exp(kappa (mu - 1)), whose mean squared
- * distance is 2 / kappa. */
-static float env_light_visibility(const Occlusion *self, const EnvLight *light, Vec3 p, Vec3 n, float reach,
-                                  uint32_t turn) {
-    Frame frame = frame_about(dir_of(light->direction), dir(0.0f, 0.0f, 0.0f), 1.0f);
-    if (vec3_dot(light->direction, n) < 0.0f) n = vec3_scale(n, -1.0f);
-    Vec3 from = vec3_madd(p, n, reach);
+static float point_light(const EnvPoint *point) {
+    return point->color[0] + point->color[1] + point->color[2];
+}
+
+static float fraction(float x) { return x - floor(x); }
+
+/* The part of a light that p sees. Rays are even over the light of its points; about a point that stands for 1 / m of
+ * the light they are spread by exp(kappa (mu - 1)), whose mean squared distance 2 / kappa is a share 1 / m of the
+ * light's: so they have its shape, as that of a glow along the horizon. */
+static float env_light_visibility(const Occlusion *self, int light, Vec3 p, Vec3 n, float reach,
+                                  uint32_t vertex) {
+    const EnvLight *l = &self->env_lights[light];
+    int at = self->first_point[light], end = self->first_point[light + 1];
     int rays = self->rays / 4 > 0 ? self->rays / 4 : 1, seen = 0, above = 0;
+    float total = 0.0f, before = 0.0f, spread = l->spread / (float)(end - at), turn = turned(vertex);
+    for (int k = at; k < end; k++) total += point_light(&self->env_points[k]);
+    if (vec3_dot(l->direction, n) < 0.0f) n = vec3_scale(n, -1.0f);
+    Vec3 from = vec3_madd(p, n, reach);
     for (int k = 0; k < rays; k++) {
-        float u = ((float)k + 0.5f) / (float)rays, mu = max(1.0f + 0.5f * light->spread * logf(u), -1.0f);
-        float phi = (float)k * 2.39996323f + 2.0f * PI * turned(turn);
-        float s = sqrt(max(1.0f - mu * mu, 0.0f));
+        float part = total * ((float)k + 0.5f) / (float)rays;
+        while (at + 1 < end && before + point_light(&self->env_points[at]) < part)
+            before += point_light(&self->env_points[at++]);
+        float u = max(fraction((float)k * 0.754877666f + turn), 1e-6f);
+        float phi = 2.0f * PI * fraction((float)k * 0.569840291f + turn);
+        float mu = max(1.0f + 0.5f * spread * logf(u), -1.0f), s = sqrt(max(1.0f - mu * mu, 0.0f));
+        Frame frame = frame_about(dir_of(self->env_points[at].direction), dir(0.0f, 0.0f, 0.0f), 1.0f);
         Dir d = frame_from(frame, dir(s * cos(phi), s * sin(phi), mu));
-        Ray ray = {from, vec3(d.x, d.y, d.z), 0.0f, INFINITY, turn, false};
+        Ray ray = {from, vec3(d.x, d.y, d.z), 0.0f, INFINITY, vertex, false};
         if (vec3_dot(ray.direction, n) <= 0.0f) continue;
         above++;
         seen += !geometry_occluded(self->geometry, ray);
@@ -152,16 +169,15 @@ static void look(void *user, int item, int thread) {
     for (uint32_t k = begin; k < end && !atomic_load(&self->stop); k++) {
         while (self->first[m + 1] <= k) m++;
         const Mesh *mesh = &scene->meshes[m];
-        size_t at = 3 * (size_t)(k - self->first[m]);
         float *to = self->values + OCCLUSION_VALUES * (size_t)k;
         occlusion_nothing(to);
-        if (!mesh->normal) continue;
-        Vec3 p = vec3_load(mesh->position + at), n = vec3_load(mesh->normal + at);
+        Vec3 p = vec3_load(self->position + 3 * (size_t)k), n = vec3_load(self->normal + 3 * (size_t)k);
+        if (!(vec3_dot(n, n) > 0.0f)) continue;
         to[0] = seen_from(self, p, n, reach, k, to + OCCLUSION_OPEN);
         if (scene->materials[mesh->material].double_sided)
             to[1] = seen_from(self, p, vec3_scale(n, -1.0f), reach, k, to + OCCLUSION_OPEN + 4);
         for (int j = 0; j < self->env_light_count; j++)
-            to[OCCLUSION_LIGHT + j] = env_light_visibility(self, &self->env_lights[j], p, n, reach, k);
+            to[OCCLUSION_LIGHT + j] = env_light_visibility(self, j, p, n, reach, k);
     }
 }
 
@@ -182,6 +198,8 @@ static uint64_t values_key(const Occlusion *self) {
         hash = cache_hash(hash, &self->env_lights[k].direction, sizeof self->env_lights[k].direction);
         hash = cache_hash(hash, &self->env_lights[k].spread, sizeof self->env_lights[k].spread);
     }
+    for (int k = 0; k < self->first_point[self->env_light_count]; k++)
+        hash = cache_hash(hash, &self->env_points[k], sizeof self->env_points[k]);
     for (int m = 0; m < scene->mesh_count; m++) {
         const Mesh *mesh = &scene->meshes[m];
         const uint32_t what[] = {mesh->vertex_count, mesh->triangle_count, mesh->normal != NULL,
@@ -234,6 +252,65 @@ static bool copy_scene(Occlusion *self, const WeftScene *scene) {
     return true;
 }
 
+/* Sums the normals of the triangles about each vertex, weighted by area; 0 where they differ. */
+static bool add_face_normals(const RefinedMesh *refined, const float *position, float *normal) {
+    float *area = alloc_array(refined->vertex_count, sizeof *area);
+    for (size_t k = 0; area && k < 3 * (size_t)refined->triangle_count; k++) {
+        const uint32_t *v = refined->index + k / 3 * 3;
+        Vec3 a = vec3_load(position + 3 * (size_t)v[0]), b = vec3_load(position + 3 * (size_t)v[1]),
+             c = vec3_load(position + 3 * (size_t)v[2]);
+        Vec3 face = vec3_cross(vec3_sub(b, a), vec3_sub(c, a));
+        float *n = normal + 3 * (size_t)refined->index[k];
+        n[0] += face.x, n[1] += face.y, n[2] += face.z;
+        area[refined->index[k]] += vec3_length(face);
+    }
+    for (size_t k = 0; area && k < refined->vertex_count; k++) {
+        Vec3 n = vec3_load(normal + 3 * k);
+        float length = vec3_length(n), scale = length > 0.99f * area[k] ? 1.0f / length : 0.0f;
+        normal[3 * k] = scale * n.x, normal[3 * k + 1] = scale * n.y, normal[3 * k + 2] = scale * n.z;
+    }
+    free(area);
+    return area != NULL;
+}
+
+/* A light without points is one point. */
+static void copy_env_lights(Occlusion *self, const OcclusionHow *how) {
+    int count = 0;
+    for (int k = 0; k < self->env_light_count; k++) {
+        self->env_lights[k] = how->env_lights[k];
+        for (int n = 0; n < how->env_point_count; n++)
+            if (how->env_points[n].light == k && count < AMBIENT_POINTS_MAX)
+                self->env_points[count++] = how->env_points[n];
+        if (count == self->first_point[k])
+            self->env_points[count++] = (EnvPoint){how->env_lights[k].direction, {1.0f, 1.0f, 1.0f}, k};
+        self->first_point[k + 1] = count;
+    }
+}
+
+/* Gives the vertices of the refined meshes places and unit normals. */
+static bool copy_vertices(Occlusion *self, const Refinement *refinement) {
+    size_t count = self->first[self->scene.mesh_count];
+    self->position = alloc_array(count, 3 * sizeof(float));
+    self->normal = alloc_array(count, 3 * sizeof(float));
+    bool held = self->position && self->normal;
+    for (int m = 0; held && m < self->scene.mesh_count; m++) {
+        const Mesh *mesh = &self->scene.meshes[m];
+        const RefinedMesh refined = refinement_mesh(refinement, &self->scene, m);
+        float *position = self->position + 3 * (size_t)self->first[m],
+              *normal = self->normal + 3 * (size_t)self->first[m];
+        refined_fill(&refined, mesh, mesh->position, 3, position);
+        if (mesh->normal)
+            refined_fill(&refined, mesh, mesh->normal, 3, normal);
+        else
+            held = add_face_normals(&refined, position, normal);
+    }
+    for (size_t k = 0; held && k < count; k++) {
+        Vec3 n = vec3_normal_or(vec3_load(self->normal + 3 * k), vec3(0.0f, 0.0f, 0.0f));
+        self->normal[3 * k] = n.x, self->normal[3 * k + 1] = n.y, self->normal[3 * k + 2] = n.z;
+    }
+    return held;
+}
+
 /* Returns true if the cache of an earlier run has the values. */
 static bool known(Occlusion *self, const WeftLog *log) {
     if (self->no_cache) return false;
@@ -252,8 +329,8 @@ static WeftResult begin(Occlusion *self, WeftError *error) {
     return WEFT_OK;
 }
 
-WeftResult occlusion_start(const WeftScene *scene, const OcclusionHow *how, Occlusion **out,
-                           const WeftLog *log, WeftError *error) {
+WeftResult occlusion_start(const WeftScene *scene, const Refinement *refinement, const OcclusionHow *how,
+                           Occlusion **out, const WeftLog *log, WeftError *error) {
     *out = NULL;
     Occlusion *self = alloc_array(1, sizeof *self);
     if (!self) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
@@ -262,14 +339,15 @@ WeftResult occlusion_start(const WeftScene *scene, const OcclusionHow *how, Occl
     self->behind = how->behind;
     self->threads = how->threads ? how->threads : thread_count();
     self->env_light_count = how->env_light_count < OCCLUSION_LIGHTS ? how->env_light_count : OCCLUSION_LIGHTS;
-    for (int k = 0; k < self->env_light_count; k++) self->env_lights[k] = how->env_lights[k];
+    copy_env_lights(self, how);
     self->joined = true;
     self->first = alloc_array((size_t)scene_own_meshes(scene) + 1, sizeof(uint32_t));
     bool held = self->first && copy_scene(self, scene);
     if (held) {
         for (int m = 0; m < self->scene.mesh_count; m++)
-            self->first[m + 1] = self->first[m] + scene->meshes[m].vertex_count;
+            self->first[m + 1] = self->first[m] + refinement_mesh(refinement, scene, m).vertex_count;
         self->values = alloc_array(values_count(self), sizeof(float));
+        held = copy_vertices(self, refinement);
     }
     WeftResult result = WEFT_OK;
     if (!held || !self->values)
@@ -300,6 +378,8 @@ void occlusion_free(Occlusion *self) {
     free(self->scene.meshes);
     free(self->scene.materials);
     free(self->values);
+    free(self->position);
+    free(self->normal);
     free(self->first);
     free(self);
 }

@@ -3,6 +3,7 @@
 #ifndef WEFT_RASTER_OCCLUSION_H
 #define WEFT_RASTER_OCCLUSION_H
 
+#include "raster/refinement.h"
 #include "scene/env_split.h"
 
 typedef struct Occlusion Occlusion;
@@ -25,15 +26,18 @@ typedef struct OcclusionHow {
     bool no_cache; /* neither reads what an earlier run found from the user's cache, nor writes it there */
     const EnvLight *env_lights; /* in the world; copied */
     int env_light_count;        /* those beyond OCCLUSION_LIGHTS are not looked for */
+    const EnvPoint *env_points; /* the parts of the lights, sorted by light; copied */
+    int env_point_count;        /* 0: each light is about its direction */
     bool behind;                /* other threads come first */
 } OcclusionHow;
 
-/* Starts to look from every vertex of the scene's own meshes; those of its lights, which move, neither hide
- * anything nor are looked from. The scene must outlive it; the calls of weft/scene.h may change it
+/* Starts to look from every vertex of the scene's own meshes as they are refined; those of its lights, which move,
+ * neither hide anything nor are looked from. Where a mesh has no normals a vertex looks along that of its triangles,
+ * or, if they do not lie in one plane, sees all. The scene and the refinement must outlive it; the calls of weft/scene.h may change it
  * meanwhile. Fails with WEFT_MESSAGE_MEMORY or _RENDER_DEVICE; what is wrong with a file of the cache is a
  * warning. */
-WeftResult occlusion_start(const WeftScene *scene, const OcclusionHow *how, Occlusion **out,
-                           const WeftLog *log, WeftError *error);
+WeftResult occlusion_start(const WeftScene *scene, const Refinement *refinement, const OcclusionHow *how,
+                           Occlusion **out, const WeftLog *log, WeftError *error);
 
 /* The numbers of a vertex before which there is nothing, and that knows of no light. */
 void occlusion_nothing(float values[OCCLUSION_VALUES]);

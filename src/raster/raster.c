@@ -31,6 +31,7 @@ struct WeftRaster {
     const WeftScene *scene;
     WeftRasterDesc desc; /* shader_dir is our own copy */
     GlContext *context;
+    Refinement refinement; /* of the scene's own meshes; nothing is refined without occlusion */
     GlMeshes meshes;
     GlTextures textures;
     GlMaterials materials;
@@ -42,6 +43,8 @@ struct WeftRaster {
     Occlusion *occlusion;                    /* NULL where none is wanted, or once it is uploaded */
     EnvLight env_lights[AMBIENT_LIGHTS_MAX]; /* the lights whose visibility was or is being found */
     int env_light_count;
+    EnvPoint env_points[AMBIENT_POINTS_MAX]; /* the parts of these lights */
+    int env_point_count;
     bool look; /* once more, when what is looked for now is found */
     LightPolygons polygons;
     Shadows shadows;
@@ -111,6 +114,8 @@ static bool find_env_lights(WeftRaster *self) {
     for (int k = 0; same && k < count; k++) same = is_same_place(&env_lights[k], &self->env_lights[k]);
     memcpy(self->env_lights, env_lights, (size_t)count * sizeof *env_lights);
     self->env_light_count = count;
+    self->env_point_count =
+        environment_points(&self->environment, self->scene->environment.rotation, self->env_points);
     return !same;
 }
 
@@ -120,8 +125,10 @@ static WeftResult start_occlusion(WeftRaster *self, bool no_cache, const WeftLog
                               .no_cache = no_cache,
                               .env_lights = self->env_lights,
                               .env_light_count = self->env_light_count,
+                              .env_points = self->env_points,
+                              .env_point_count = self->env_point_count,
                               .behind = self->desc.adopt != 0}; /* pictures are drawn meanwhile */
-    WeftResult result = occlusion_start(self->scene, &how, &self->occlusion, log, error);
+    WeftResult result = occlusion_start(self->scene, &self->refinement, &how, &self->occlusion, log, error);
     self->look = result != WEFT_OK;
     return result;
 }
@@ -141,7 +148,9 @@ static WeftResult upload(WeftRaster *self, const WeftLog *log, WeftError *error)
     const WeftScene *scene = self->scene;
     int threads = self->desc.threads;
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    WeftResult result = meshes_create(scene, &self->meshes, error);
+    WeftResult result = WEFT_OK;
+    if (self->desc.occlusion) result = refinement_make(scene, &self->refinement, error);
+    if (result == WEFT_OK) result = meshes_create(scene, &self->refinement, &self->meshes, error);
     self->shape_turn = scene->shape_turn;
     if (result == WEFT_OK) result = textures_create(scene, threads, &self->textures, log, error);
     if (result == WEFT_OK)
@@ -236,6 +245,7 @@ void weft_raster_free(WeftRaster *self) {
     }
     context_destroy(self->context);
     occlusion_free(self->occlusion);
+    refinement_free(&self->refinement);
     queue_destroy(&self->queue);
     light_polygons_free(&self->polygons);
     free((char *)self->desc.shader_dir);

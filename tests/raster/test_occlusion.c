@@ -44,8 +44,13 @@ static void look(const WeftScene *scene, bool no_cache, float values[ALL], int *
                                          {.direction = {0.0f, 0.6f, -0.8f}, .spread = 0.01f},
                                          {.direction = {0.0f, 1.0f, 0.0f}, .spread = 0.05f},
                                          {.direction = {0.0f, -0.8f, 0.6f}, .spread = 0.01f}};
-    const OcclusionHow how = {RAYS, 2, no_cache, env_lights, LIGHTS, false};
-    assert_int_equal(occlusion_start(scene, &how, &occlusion, &log, &error), WEFT_OK);
+    const Refinement unrefined = {0};
+    const OcclusionHow how = {.rays = RAYS,
+                              .threads = 2,
+                              .no_cache = no_cache,
+                              .env_lights = env_lights,
+                              .env_light_count = LIGHTS};
+    assert_int_equal(occlusion_start(scene, &unrefined, &how, &occlusion, &log, &error), WEFT_OK);
     memcpy(values, occlusion_values(occlusion, true), ALL * sizeof *values);
     occlusion_free(occlusion);
 }
