@@ -61,9 +61,8 @@ static double drawn(const WeftScene *scene) {
     return sum_of(&image);
 }
 
-/* Returns the largest relative error of a sheen's light; lobes with a highlight, threads and fabric are further off. */
+/* Returns the largest relative error of a sheen's light; lobes with a highlight are further off. */
 static double bound_of(const char *lobe) {
-    if (strcmp(lobe, "threads") == 0 || strcmp(lobe, "fabric") == 0) return 0.19;
     return strcmp(lobe, "ggx") == 0 || strcmp(lobe, "burley-coat") == 0 ? 0.10 : 0.08;
 }
 
