@@ -132,7 +132,7 @@ static float env_light_visibility(const Occlusion *self, int light, Vec3 p, Vec3
                                   uint32_t vertex) {
     const EnvLight *l = &self->env_lights[light];
     int at = self->first_point[light], end = self->first_point[light + 1];
-    int rays = self->rays / 4 > 0 ? self->rays / 4 : 1, seen = 0, above = 0;
+    int rays = self->rays / 2 > 0 ? self->rays / 2 : 1, seen = 0, above = 0;
     float total = 0.0f, before = 0.0f, spread = l->spread / (float)(end - at), turn = turned(vertex);
     for (int k = at; k < end; k++) total += point_light(&self->env_points[k]);
     if (vec3_dot(l->direction, n) < 0.0f) n = vec3_scale(n, -1.0f);
