@@ -21,7 +21,7 @@ enum {
 
 /* Options of the search. */
 typedef struct OcclusionHow {
-    int rays;      /* directions a side, up to OCCLUSION_RAYS_MAX; a quarter of them for each light */
+    int rays;      /* directions a side, up to OCCLUSION_RAYS_MAX; half of them for each light */
     int threads;   /* beside the caller; 0: one a processor */
     bool no_cache; /* neither reads what an earlier run found from the user's cache, nor writes it there */
     const EnvLight *env_lights; /* in the world; copied */
