@@ -37,19 +37,19 @@ WeftResult utia_read_memory(const void *data, size_t size, const char *name, Uti
 }
 
 /* The four measured directions that one lies between, and their weights. */
-typedef struct Around {
+typedef struct Surrounding {
     size_t place[4];
     double weight[4];
-} Around;
+} Surrounding;
 
-static Around around(Dir w) {
+static Surrounding surrounding(Dir w) {
     double theta = (atan2)((hypot)((double)w.x, (double)w.y), (double)w.z) / RADIANS / 15.0;
     double phi = (atan2)((double)w.y, (double)w.x) / RADIANS / 7.5;
     if (phi < 0.0) phi += UTIA_PHIS;
     theta = (fmin)(theta, UTIA_THETAS - 1.0);
     size_t t = (size_t)(fmin)(theta, UTIA_THETAS - 2.0), p = (size_t)phi % UTIA_PHIS;
     double part_t = theta - (double)t, part_p = phi - (floor)(phi);
-    Around a;
+    Surrounding a;
     for (size_t corner = 0; corner < 4; corner++) {
         size_t up = corner >> 1, on = corner & 1;
         a.place[corner] = (t + up) * UTIA_PHIS + (p + on) % UTIA_PHIS;
@@ -61,7 +61,7 @@ static Around around(Dir w) {
 void utia_at(const Utia *utia, Dir o, Dir i, float f[3]) {
     f[0] = f[1] = f[2] = 0.0f;
     if (!(o.z > 0.0f) || !(i.z > 0.0f)) return;
-    Around light = around(i), view = around(o);
+    Surrounding light = surrounding(i), view = surrounding(o);
     for (int c = 0; c < 3; c++) {
         double sum = 0.0;
         for (int k = 0; k < 16; k++)

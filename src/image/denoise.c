@@ -33,7 +33,7 @@ enum {
 
 /* Between the two widths of the paper, 0.25 and 1, among which it chooses for each pixel. */
 static const float k_squared = 0.6f;
-static const float ridge = 1e-4f; /* keeps slopes at 0 that no difference of features tells */
+static const float ridge = 1e-4f; /* keeps the slope of a feature that does not vary at 0 */
 
 typedef float Line[TILE_W];
 
