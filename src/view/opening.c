@@ -297,7 +297,7 @@ void opening_take(Viewer *v, const RenderEvent *event) {
                    v->rooms->shown.facts.info.triangle_count, v->rooms->shown.facts.info.material_count,
                    v->rooms->shown.folders.count ? ", maps of " : "",
                    v->rooms->shown.folders.count ? v->rooms->shown.folders.paths[0] : "");
-        if (loaded.lobe[0]) viewer_say(v, false, "%.300s: compiled with the scene", loaded.lobe);
+        if (loaded.lobe[0]) viewer_say(v, false, "%.300s: read again, with the scene", loaded.lobe);
         snprintf(title, sizeof title, "weft - %.200s", path_name(v->rooms->shown.facts.path));
         window_title(v->window, title);
     }
