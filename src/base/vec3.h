@@ -19,6 +19,14 @@ static inline Vec3 vec3_madd(Vec3 a, Vec3 b, float s) {
 static inline float vec3_dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 static inline float vec3_length(Vec3 a) { return sqrtf(vec3_dot(a, a)); }
 
+/* The least, and the greatest, of each number: from infinity on, the corners of a box about points. */
+static inline Vec3 vec3_least(Vec3 a, Vec3 b) {
+    return (Vec3){fminf(a.x, b.x), fminf(a.y, b.y), fminf(a.z, b.z)};
+}
+static inline Vec3 vec3_most(Vec3 a, Vec3 b) {
+    return (Vec3){fmaxf(a.x, b.x), fmaxf(a.y, b.y), fmaxf(a.z, b.z)};
+}
+
 static inline Vec3 vec3_cross(Vec3 a, Vec3 b) {
     return (Vec3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }

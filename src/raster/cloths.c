@@ -9,13 +9,6 @@
 #include "raster/gl_check.h"
 #include "weave/weft_cloth.h"
 
-static void set_filter(GLenum target, GLint mag, GLint min, GLint wrap) {
-    glTexParameteri(target, GL_TEXTURE_MAG_FILTER, mag);
-    glTexParameteri(target, GL_TEXTURE_MIN_FILTER, min);
-    glTexParameteri(target, GL_TEXTURE_WRAP_S, wrap);
-    glTexParameteri(target, GL_TEXTURE_WRAP_T, wrap);
-}
-
 /* Returns the texels of a row of a width for so many threads. */
 static int rows_for(int threads, int width) { return (threads + width - 1) / width; }
 
@@ -30,7 +23,7 @@ static bool upload_cells(const WeftCloth *cloth, unsigned texture) {
         memcpy(texels + 4 * (cells + (size_t)k), cloth->albedos + 3 * (size_t)k, 3 * sizeof(float));
     glBindTexture(GL_TEXTURE_2D, texture);
     glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, m->warps, rows, 0, GL_RGBA, GL_FLOAT, texels);
-    set_filter(GL_TEXTURE_2D, GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE);
+    texture_plain(GL_TEXTURE_2D);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
     free(texels);
     return true;
@@ -44,7 +37,10 @@ static void upload_colors(const ClothFar *far, unsigned texture) {
         glTexImage3D(GL_TEXTURE_2D_ARRAY, level, GL_RGBA16F, width, height, FAR_LAYERS, 0, GL_RGBA, GL_FLOAT,
                      texels);
     }
-    set_filter(GL_TEXTURE_2D_ARRAY, GL_LINEAR, GL_LINEAR_MIPMAP_LINEAR, GL_REPEAT);
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_S, GL_REPEAT);
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_T, GL_REPEAT);
     glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAX_LEVEL, far->levels - 1);
 }
 

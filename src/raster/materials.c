@@ -83,7 +83,7 @@ static Surface middle_surface(const Material *material) {
     return material_plain(&middle);
 }
 
-/* The lobe of a cloth from afar, halfway between warp and weft: what of the environment is smooth is reflected by either
+/* The lobe of a cloth from afar, halfway between warp and weft, which reflect the smooth part of the environment
  * alike. */
 static Lobe cloth_lobe(const WeftCloth *cloth) {
     const Weave *m = &cloth->weave;

@@ -33,9 +33,9 @@ typedef struct OcclusionHow {
 
 /* Starts to look from every vertex of the scene's own meshes as they are refined; those of its lights, which move,
  * neither hide anything nor are looked from. Where a mesh has no normals a vertex looks along that of its triangles,
- * or, if they do not lie in one plane, sees all. The scene and the refinement must outlive it; the calls of weft/scene.h may change it
- * meanwhile. Fails with WEFT_MESSAGE_MEMORY or _RENDER_DEVICE; what is wrong with a file of the cache is a
- * warning. */
+ * or, if they do not lie in one plane, sees all. The scene and the refinement must outlive it; the calls of
+ * weft/scene.h may change it meanwhile. Fails with WEFT_MESSAGE_MEMORY or _RENDER_DEVICE; what is wrong with a file of
+ * the cache is a warning. */
 WeftResult occlusion_start(const WeftScene *scene, const Refinement *refinement, const OcclusionHow *how,
                            Occlusion **out, const WeftLog *log, WeftError *error);
 

@@ -3,18 +3,13 @@
 #include <stdlib.h>
 
 #include "base/fail.h"
+#include "raster/box.h"
 
 static void measure(Queue *self, const WeftScene *scene, int m) {
     const Mesh *mesh = &scene->meshes[m];
-    Vec3 low = vec3(INFINITY, INFINITY, INFINITY), high = vec3(-INFINITY, -INFINITY, -INFINITY);
-    for (uint32_t k = 0; k < mesh->vertex_count; k++) {
-        Vec3 p = vec3_load(mesh->position + 3 * (size_t)k);
-        low = vec3(fminf(low.x, p.x), fminf(low.y, p.y), fminf(low.z, p.z));
-        high = vec3(fmaxf(high.x, p.x), fmaxf(high.y, p.y), fmaxf(high.z, p.z));
-    }
-    if (!mesh->vertex_count) low = high = vec3(0.0f, 0.0f, 0.0f);
-    self->middle[m] = vec3_scale(vec3_add(low, high), 0.5f);
-    self->reach[m] = 0.5f * vec3_length(vec3_sub(high, low));
+    const Box box = mesh->vertex_count ? mesh_box(mesh) : (Box){{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}};
+    self->middle[m] = vec3_scale(vec3_add(box.low, box.high), 0.5f);
+    self->reach[m] = 0.5f * box_size(box);
 }
 
 static bool blends(const WeftScene *scene, int m) {

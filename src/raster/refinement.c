@@ -5,38 +5,25 @@
 
 #include "base/fail.h"
 #include "base/memory.h"
+#include "raster/box.h"
 
 enum { ROUNDS = 24, TRIANGLES_MOST = 1 << 19 };
 
 #define NOT_HALVED UINT32_MAX
 
-typedef struct MeshBox {
-    Vec3 low, high;
-} MeshBox;
-
-static MeshBox box_of(const Mesh *mesh) {
-    MeshBox box = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
-    for (uint32_t k = 0; k < mesh->vertex_count; k++) {
-        Vec3 p = vec3_load(mesh->position + 3 * (size_t)k);
-        box.low = vec3(fminf(box.low.x, p.x), fminf(box.low.y, p.y), fminf(box.low.z, p.z));
-        box.high = vec3(fmaxf(box.high.x, p.x), fmaxf(box.high.y, p.y), fmaxf(box.high.z, p.z));
-    }
-    return box;
-}
-
 static float gap(float low_a, float high_a, float low_b, float high_b) {
     return fmaxf(fmaxf(low_b - high_a, low_a - high_b), 0.0f);
 }
 
-static float box_distance(const MeshBox *a, const MeshBox *b) {
+static float box_distance(const Box *a, const Box *b) {
     return vec3_length(vec3(gap(a->low.x, a->high.x, b->low.x, b->high.x),
                             gap(a->low.y, a->high.y, b->low.y, b->high.y),
                             gap(a->low.z, a->high.z, b->low.z, b->high.z)));
 }
 
 /* The longest edge of about that middle which box b allows. */
-static float longest(const MeshBox *middle, const MeshBox *b) {
-    return fmaxf(0.5f * box_distance(middle, b), vec3_length(vec3_sub(b->high, b->low)) / 24.0f);
+static float longest(const Box *middle, const Box *b) {
+    return fmaxf(0.5f * box_distance(middle, b), box_size(*b) / 24.0f);
 }
 
 /* A mesh that is being refined. */
@@ -44,7 +31,7 @@ typedef struct Refiner {
     RefinedMesh out;
     float *position;
     uint32_t own_count;
-    const MeshBox *near; /* of meshes that may halve its edges */
+    const Box *near; /* of meshes that may halve its edges */
     int near_count;
 } Refiner;
 
@@ -64,7 +51,7 @@ static LongEdge edge_from(const uint32_t *index, uint32_t corner) {
 
 static bool is_too_long(const Refiner *self, const LongEdge *edge) {
     Vec3 a = at(self, edge->a), b = at(self, edge->b), middle = vec3_scale(vec3_add(a, b), 0.5f);
-    const MeshBox box = {middle, middle};
+    const Box box = {middle, middle};
     float length = vec3_length(vec3_sub(a, b));
     for (int k = 0; k < self->near_count; k++)
         if (length > longest(&box, &self->near[k])) return true;
@@ -167,7 +154,7 @@ static float longest_edge(const Mesh *mesh) {
 }
 
 /* Refines mesh m. boxes: of all meshes. near: room for as many. */
-static bool refine(const WeftScene *scene, int m, const MeshBox *boxes, MeshBox *near, RefinedMesh *refined) {
+static bool refine(const WeftScene *scene, int m, const Box *boxes, Box *near, RefinedMesh *refined) {
     const Mesh *mesh = &scene->meshes[m];
     Refiner self = {.out = *refined, .own_count = mesh->vertex_count, .near = near};
     float most = longest_edge(mesh);
@@ -190,10 +177,10 @@ static bool refine(const WeftScene *scene, int m, const MeshBox *boxes, MeshBox 
 
 WeftResult refinement_make(const WeftScene *scene, Refinement *out, WeftError *error) {
     int count = scene_own_meshes(scene);
-    MeshBox *boxes = alloc_array((size_t)count, 2 * sizeof *boxes);
+    Box *boxes = alloc_array((size_t)count, 2 * sizeof *boxes);
     *out = (Refinement){alloc_array((size_t)count, sizeof(RefinedMesh)), 0};
     bool made = boxes && out->meshes;
-    for (int m = 0; made && m < count; m++) boxes[m] = box_of(&scene->meshes[m]);
+    for (int m = 0; made && m < count; m++) boxes[m] = mesh_box(&scene->meshes[m]);
     for (int m = 0; made && m < count; m++) {
         const Mesh *mesh = &scene->meshes[m];
         out->meshes[out->count++] = (RefinedMesh){mesh->vertex_count, mesh->triangle_count, NULL, NULL};

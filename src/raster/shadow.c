@@ -7,31 +7,8 @@
 
 #include "base/fail.h"
 #include "base/pi.h"
+#include "raster/box.h"
 #include "raster/gl_check.h"
-
-typedef struct Box {
-    Vec3 low, high;
-} Box;
-
-static Box box_empty(void) {
-    return (Box){{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
-}
-
-static void box_add(Box *box, Vec3 p) {
-    box->low = vec3(fminf(box->low.x, p.x), fminf(box->low.y, p.y), fminf(box->low.z, p.z));
-    box->high = vec3(fmaxf(box->high.x, p.x), fmaxf(box->high.y, p.y), fmaxf(box->high.z, p.z));
-}
-
-static float box_size(Box box) {
-    return box.low.x > box.high.x ? 0.0f : vec3_length(vec3_sub(box.high, box.low));
-}
-
-static Box mesh_box(const Mesh *mesh) {
-    Box box = box_empty();
-    for (uint32_t k = 0; k < mesh->vertex_count; k++)
-        box_add(&box, vec3_load(mesh->position + 3 * (size_t)k));
-    return box;
-}
 
 /* The box of the scene's own meshes smaller than a size, and the largest among them. */
 static Box smaller_box(const WeftScene *scene, float size, float *largest) {

@@ -91,20 +91,15 @@ static bool sheet_make(Arena *arena, Mesh *mesh, const Sheet *sheet) {
     return true;
 }
 
-static void set_color(Material *material, InputId input, float r, float g, float b) {
-    float *value = material->inputs[input].value;
-    value[0] = r, value[1] = g, value[2] = b;
-}
-
 /* Cloth that reflects one colour and lets another through. */
 static Material thin_cloth(float share, Vec3 color, Vec3 through) {
     Material m = material_default();
     m.double_sided = true;
-    set_color(&m, INPUT_base_color, color.x, color.y, color.z);
+    material_set_color(&m, INPUT_base_color, color.x, color.y, color.z);
     m.inputs[INPUT_diffuse_transmission].value[0] = share;
-    set_color(&m, INPUT_diffuse_transmission_color, through.x, through.y, through.z);
+    material_set_color(&m, INPUT_diffuse_transmission_color, through.x, through.y, through.z);
     m.inputs[INPUT_roughness].value[0] = 0.9f;
-    set_color(&m, INPUT_sheen_color, 0.1f, 0.1f, 0.1f);
+    material_set_color(&m, INPUT_sheen_color, 0.1f, 0.1f, 0.1f);
     m.inputs[INPUT_sheen_roughness].value[0] = 0.6f;
     return m;
 }
@@ -113,13 +108,13 @@ static void materials_make(Material *m) {
     m[SHADE] = thin_cloth(0.5f, (Vec3){0.85f, 0.78f, 0.66f}, (Vec3){0.9f, 0.72f, 0.48f});
     m[CURTAIN] = thin_cloth(0.4f, (Vec3){0.42f, 0.50f, 0.55f}, (Vec3){0.45f, 0.55f, 0.62f});
     for (int k = BULB; k < THINGS; k++) m[k] = material_default();
-    set_color(&m[BULB], INPUT_base_color, 0.0f, 0.0f, 0.0f);
-    set_color(&m[BULB], INPUT_emission, 1.0f, 0.78f, 0.52f);
+    material_set_color(&m[BULB], INPUT_base_color, 0.0f, 0.0f, 0.0f);
+    material_set_color(&m[BULB], INPUT_emission, 1.0f, 0.78f, 0.52f);
     m[BULB].inputs[INPUT_emission_strength].value[0] = 60.0f;
-    set_color(&m[STAND], INPUT_base_color, 0.75f, 0.52f, 0.28f);
+    material_set_color(&m[STAND], INPUT_base_color, 0.75f, 0.52f, 0.28f);
     m[STAND].inputs[INPUT_metallic].value[0] = 1.0f;
     m[STAND].inputs[INPUT_roughness].value[0] = 0.35f;
-    set_color(&m[TABLE], INPUT_base_color, 0.20f, 0.13f, 0.09f);
+    material_set_color(&m[TABLE], INPUT_base_color, 0.20f, 0.13f, 0.09f);
     m[TABLE].inputs[INPUT_roughness].value[0] = 0.6f;
 }
 

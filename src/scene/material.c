@@ -42,6 +42,11 @@ Material material_default(void) {
     return material;
 }
 
+void material_set_color(Material *material, InputId input, float r, float g, float b) {
+    float *value = material->inputs[input].value;
+    value[0] = r, value[1] = g, value[2] = b;
+}
+
 void input_set_map_factor(Input *input, InputId id) {
     const WeftInputInfo *info = &input_infos[id];
     float factor = info->kind == WEFT_INPUT_DIRECTION ? 0.0f

@@ -27,6 +27,9 @@ bool input_same_texels(const Input *a, const Input *b);
  * chosen. */
 Material material_default(void);
 
+/* Sets the colour of an input, linear. */
+void material_set_color(Material *material, InputId input, float r, float g, float b);
+
 /* Sets the factor beside a texture that alone counts: 1, the greatest angle, or 0 added to a direction. */
 void input_set_map_factor(Input *input, InputId id);
 

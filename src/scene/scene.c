@@ -54,11 +54,9 @@ void scene_bounds(WeftScene *scene) {
     for (int m = 0; m < scene->mesh_count; m++) {
         const Mesh *mesh = &scene->meshes[m];
         for (uint32_t k = 0; k < mesh->vertex_count; k++) {
-            const float *p = mesh->position + 3 * (size_t)k;
-            scene->low =
-                (Vec3){fminf(scene->low.x, p[0]), fminf(scene->low.y, p[1]), fminf(scene->low.z, p[2])};
-            scene->high =
-                (Vec3){fmaxf(scene->high.x, p[0]), fmaxf(scene->high.y, p[1]), fmaxf(scene->high.z, p[2])};
+            const Vec3 p = vec3_load(mesh->position + 3 * (size_t)k);
+            scene->low = vec3_least(scene->low, p);
+            scene->high = vec3_most(scene->high, p);
         }
     }
 }

@@ -57,16 +57,12 @@ static bool floor_quad(Arena *arena, Mesh *mesh, float half) {
     return true;
 }
 
-static void set_color(Material *material, InputId input, float r, float g, float b) {
-    float *value = material->inputs[input].value;
-    value[0] = r, value[1] = g, value[2] = b;
-}
-
 static Material sphere_material(bool light, float sheen_roughness) {
     Material material = material_default();
-    set_color(&material, INPUT_base_color, light ? 0.55f : 0.02f, light ? 0.10f : 0.03f,
-              light ? 0.09f : 0.08f);
-    set_color(&material, INPUT_sheen_color, light ? 0.9f : 0.35f, light ? 0.75f : 0.55f, light ? 0.7f : 0.9f);
+    material_set_color(&material, INPUT_base_color, light ? 0.55f : 0.02f, light ? 0.10f : 0.03f,
+                       light ? 0.09f : 0.08f);
+    material_set_color(&material, INPUT_sheen_color, light ? 0.9f : 0.35f, light ? 0.75f : 0.55f,
+                       light ? 0.7f : 0.9f);
     material.inputs[INPUT_sheen_roughness].value[0] = sheen_roughness;
     material.inputs[INPUT_roughness].value[0] = 0.9f;
     return material;
@@ -110,7 +106,7 @@ static WeftResult arrange(WeftScene *scene, const Arrangement *balls, WeftError 
         made = floor_quad(arena, &scene->meshes[count], 40.0f);
         scene->materials[count] = material_default();
         scene->material_names[count] = "floor";
-        set_color(&scene->materials[count], INPUT_base_color, 0.42f, 0.41f, 0.40f);
+        material_set_color(&scene->materials[count], INPUT_base_color, 0.42f, 0.41f, 0.40f);
         scene->materials[count].inputs[INPUT_roughness].value[0] = 1.0f;
         scene->mesh_count = scene->material_count = count + 1;
     }

@@ -16,23 +16,30 @@
 #include "shading/table.h"
 
 /* The yarn of one system as it lies in a cloth. Widths are in its own pitch; pitches and heights have a common
- * unit. */
-STRUCT(WeaveYarn) {
-    float alpha, crimp, roundness, twist; /* as lobe yarn has them; crimp: tangent */
-    float white;                          /* share of light that one fibre reflects without its dye */
-    float pitch, cross_pitch;             /* from thread to thread, of its own system and of the other */
-    float width, bulge;                   /* of a thread, and how much wider the middle of a float is */
-    float floats;
-    float streaks, dye, slub, wander; /* how far slopes, albedo, width and place vary */
-};
+ * unit.
+ *   alpha, crimp, roundness, twist: as lobe yarn has them; crimp: tangent. white: share of light that one fibre reflects
+ * without its dye. pitch, cross_pitch: from thread to thread, of its own system and of the other. width, bulge: of a
+ * thread, and how much wider the middle of a float is. streaks, dye, slub, wander: how far slopes, albedo, width and
+ * place vary. */
+#define WEAVE_YARN_NUMBERS(N)                                                                                \
+    N(alpha)                                                                                                 \
+    N(crimp)                                                                                                 \
+    N(roundness)                                                                                             \
+    N(twist)                                                                                                 \
+    N(white)                                                                                                 \
+    N(pitch)                                                                                                 \
+    N(cross_pitch)                                                                                           \
+    N(width)                                                                                                 \
+    N(bulge) N(floats) N(streaks) N(dye) N(slub) N(wander)
 
 /* One system from afar: the numbers of the lobe woven that reflects as its visible points do on the mean, and how
- * far their slopes reach across it and along, were they uniform, by which yarns hide each other. */
-STRUCT(WeaveFar) {
-    float alpha, crimp, roundness, floats; /* crimp: tangent */
-    float slope_across, slope_along;
-    float share; /* of the cloth, as seen from above; what is left are gaps */
-};
+ * far their slopes reach across it and along, were they uniform, by which yarns hide each other.
+ *   crimp: tangent. share: of the cloth, as seen from above; what is left are gaps. */
+#define WEAVE_FAR_NUMBERS(N) N(alpha) N(crimp) N(roundness) N(floats) N(slope_across) N(slope_along) N(share)
+
+#define WEAVE_NUMBER(name) float name;
+STRUCT(WeaveYarn){WEAVE_YARN_NUMBERS(WEAVE_NUMBER)};
+STRUCT(WeaveFar){WEAVE_FAR_NUMBERS(WEAVE_NUMBER)};
 
 /* A cloth. runs holds a row for each pick and four numbers for each warp thread: of the warp and of the weft
  * the crossings since their runs began, and their lengths, negative where they lie below; a run that never

@@ -1,4 +1,4 @@
-/* plugin_compile.h - a plugin (shading/plugin_compile.h) made of a lobe's file by the machine's C compiler */
+/* plugin_compile.h - a plugin (shading/plugin.h) made of a lobe's file by the machine's C compiler */
 #ifndef WEFT_TEXT_PLUGIN_COMPILE_H
 #define WEFT_TEXT_PLUGIN_COMPILE_H
 

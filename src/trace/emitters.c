@@ -122,8 +122,8 @@ static LightBounds bounds_of(const Emitter *e, float power) {
                           .two_sided = e->two_sided};
     for (int k = 1; k < 3; k++) {
         Vec3 c = corner_of(e, k);
-        bounds.low = vec3(min(bounds.low.x, c.x), min(bounds.low.y, c.y), min(bounds.low.z, c.z));
-        bounds.high = vec3(max(bounds.high.x, c.x), max(bounds.high.y, c.y), max(bounds.high.z, c.z));
+        bounds.low = vec3_least(bounds.low, c);
+        bounds.high = vec3_most(bounds.high, c);
     }
     return bounds;
 }

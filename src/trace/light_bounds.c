@@ -2,9 +2,6 @@
 
 #include "base/pi.h"
 
-static Vec3 least(Vec3 a, Vec3 b) { return vec3(fminf(a.x, b.x), fminf(a.y, b.y), fminf(a.z, b.z)); }
-static Vec3 most(Vec3 a, Vec3 b) { return vec3(fmaxf(a.x, b.x), fmaxf(a.y, b.y), fmaxf(a.z, b.z)); }
-
 static float angle_of(float cosine) { return acosf(fminf(fmaxf(cosine, -1.0f), 1.0f)); }
 
 /* The narrowest cone around two, of which a is the wider: it leans from a towards b by half of what b reaches
@@ -26,8 +23,8 @@ static void join_cones(const LightBounds *a, const LightBounds *b, LightBounds *
 LightBounds light_bounds_join(LightBounds a, LightBounds b) {
     if (!(a.power > 0.0f)) return b;
     if (!(b.power > 0.0f)) return a;
-    LightBounds both = {.low = least(a.low, b.low),
-                        .high = most(a.high, b.high),
+    LightBounds both = {.low = vec3_least(a.low, b.low),
+                        .high = vec3_most(a.high, b.high),
                         .power = a.power + b.power,
                         .two_sided = a.two_sided || b.two_sided};
     bool first = a.cos_spread <= b.cos_spread;

@@ -4,9 +4,9 @@
 #include "shading/loop.h"
 #include "shading/rgb.h"
 
-/* Returns the way in which a group of lights is found. Without shadows all of it must be found by what nothing stands in the way of: the rays
- * that the lobe draws meet the environment behind everything then (stream.c), but other lights only where they are seen.
- */
+/* Returns the way in which a group of lights is found. Without shadows all of it must be found by what nothing stands
+ * in the way of: the rays that the lobe draws meet the environment behind everything then (stream.c), but other lights
+ * only where they are seen. */
 static WeftSampling sampling_of(const PathContext *context, LightGroup group) {
     return context->shadows || group == LIGHTS_SKY ? context->sampling : WEFT_SAMPLING_LIGHT;
 }

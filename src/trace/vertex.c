@@ -78,10 +78,24 @@ FN Dir raise(Dir p, Dir corner, Dir n, float weight) {
     return dir_scale(n, -below * weight);
 }
 
-/* Sets position, normals on the viewer's side, and the lifted point: the mean of the position's projections onto the
- * tangent planes of the corners, outward only, near the smooth surface that the normals describe. Rays that leave from
- * there meet no shadow of the triangles' own edges. Johannes Hanika, "Hacking the Shadow Terminator", Ray Tracing Gems
- * II, 2021. */
+/* Returns the mean of p's projections onto the tangent planes of the corners, outward only, on the side of the triangle
+ * that `side` times its normals are on: near the smooth surface that these describe. Rays that leave from there meet no
+ * shadow of the triangles' own edges. Johannes Hanika, "Hacking the Shadow Terminator", Ray Tracing Gems II, 2021. */
+FN Dir lift(const Chunk *c, size_t k, Dir p, float side) {
+    float u = c->u[k], v = c->v[k];
+    Dir a =
+        raise(p, ROW_DIR(c->corner[0], k), dir_scale(ROW_DIR(c->corner_normal[0], k), side), 1.0f - u - v);
+    Dir b = raise(p, ROW_DIR(c->corner[1], k), dir_scale(ROW_DIR(c->corner_normal[1], k), side), u);
+    Dir d = raise(p, ROW_DIR(c->corner[2], k), dir_scale(ROW_DIR(c->corner_normal[2], k), side), v);
+    return dir_add(dir_add(p, a), dir_add(b, d));
+}
+
+/* Sets where rays start: at a lifted point, stepped out along the normal on that side. */
+FN void put_start(Row to[3], size_t k, Dir lifted, Dir out) {
+    put3(to, k, dir(step_out(lifted.x, out.x), step_out(lifted.y, out.y), step_out(lifted.z, out.z)));
+}
+
+/* Sets position, normals on the viewer's side, the lifted point, and where rays start on that side. */
 CLONES static void place_n(Chunk *restrict c, int n) {
     EACH(k, (size_t)n) {
         Dir a = ROW_DIR(c->corner[0], k), b = ROW_DIR(c->corner[1], k), d = ROW_DIR(c->corner[2], k);
@@ -95,31 +109,21 @@ CLONES static void place_n(Chunk *restrict c, int n) {
         Dir nb = dir_scale(ROW_DIR(c->corner_normal[1], k), side);
         Dir nd = dir_scale(ROW_DIR(c->corner_normal[2], k), side);
         Dir p = blend(a, b, d, u, v);
-        Dir lifted = dir_add(dir_add(p, raise(p, a, na, 1.0f - u - v)),
-                             dir_add(raise(p, b, nb, u), raise(p, d, nd, v)));
+        Dir lifted = lift(c, k, p, side);
         c->side[k] = side;
         put3(c->geometric, k, geometric);
         put3(c->normal, k, dir_normal_or(blend(na, nb, nd, u, v), geometric));
         put3(c->position, k, p);
         put3(c->lifted, k, lifted);
-        put3(c->origin, k,
-             dir(step_out(lifted.x, geometric.x), step_out(lifted.y, geometric.y),
-                 step_out(lifted.z, geometric.z)));
+        put_start(c->origin, k, lifted, geometric);
     }
 }
 
 /* Sets where rays start that leave on the far side, lifted as the near one is. */
 CLONES static void place_behind_n(Chunk *restrict c, int n) {
     EACH(k, (size_t)n) {
-        float u = c->u[k], v = c->v[k], side = -c->side[k];
-        Dir p = ROW_DIR(c->position, k), out = dir_scale(ROW_DIR(c->geometric, k), -1.0f);
-        Dir a = raise(p, ROW_DIR(c->corner[0], k), dir_scale(ROW_DIR(c->corner_normal[0], k), side),
-                      1.0f - u - v);
-        Dir b = raise(p, ROW_DIR(c->corner[1], k), dir_scale(ROW_DIR(c->corner_normal[1], k), side), u);
-        Dir d = raise(p, ROW_DIR(c->corner[2], k), dir_scale(ROW_DIR(c->corner_normal[2], k), side), v);
-        Dir lifted = dir_add(dir_add(p, a), dir_add(b, d));
-        put3(c->behind, k,
-             dir(step_out(lifted.x, out.x), step_out(lifted.y, out.y), step_out(lifted.z, out.z)));
+        Dir lifted = lift(c, k, ROW_DIR(c->position, k), -c->side[k]);
+        put_start(c->behind, k, lifted, dir_scale(ROW_DIR(c->geometric, k), -1.0f));
     }
 }
 

@@ -528,7 +528,7 @@ static void assert_stated_error(const char *lobe_id, const char *axes, int width
     weft_image_free(&errors);
 }
 
-/* Of a large table E is measured where it bends; between, it is as near as is said. */
+/* E of a large table is measured where it bends; between, it is as near as is said. */
 static void albedo_of_a_large_table_has_the_stated_error(void **state) {
     (void)state;
     assert_stated_error("charlie-neubelt", "gltf", 200, 200);

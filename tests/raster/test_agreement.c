@@ -221,7 +221,7 @@ static void engines_agree_on_a_textured_cloth(void **state) {
     assert_true(good);
 }
 
-/* The same of light that comes through: with workflows that have it, and a light behind what is seen. */
+/* Engines agree on light that comes through: with workflows that have it, and a light behind what is seen. */
 static void engines_agree_on_light_through_cloth(void **state) {
     (void)state;
     need_gl();

@@ -12,7 +12,7 @@ static Surface random_plain(Random *random) {
     return s;
 }
 
-/* The same of cloth that light goes through. */
+/* Makes a random surface that lets light through. */
 static Surface random_thin(Random *random) {
     Surface s = random_plain(random);
     s.clearcoat = 0.0f;

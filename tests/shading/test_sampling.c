@@ -91,7 +91,7 @@ static void stack_samples_follow_their_pdf(void **state) {
     }
 }
 
-/* The same below the surface, as if it were above. */
+/* Directions below the surface are mirrored, so that they can be counted as those above are. */
 static Dir mirrored(Dir i) { return dir(i.x, i.y, -i.z); }
 static void through_pdf(const BsdfView *view, Dirs i, float *pdf) {
     for (size_t k = 0; k < i.n; k++)

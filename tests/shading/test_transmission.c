@@ -41,7 +41,7 @@ static int workflow_named(const char *id) {
     return k;
 }
 
-/* Where nothing but the share changes, wi and its mirror image together send what wi sent. */
+/* If nothing but the share changes, wi and its mirror image together send what wi sent. */
 static void both_sides_receive_what_one_did(void **state) {
     (void)state;
     static const char *const workflows[] = {"metallic", "specular", "cloth", "free"};
@@ -88,7 +88,7 @@ static void white_cloth_sends_on_all_light(void **state) {
     assert_true(worst < 1e-3);
 }
 
-/* What comes from i behind to o is what goes from o to i, seen from the back. */
+/* Light from i behind reaches o as strongly as light from o reaches i, seen from the back. */
 static void light_goes_through_alike_both_ways(void **state) {
     (void)state;
     static const int layers[] = {LAYER_ADDITIVE, LAYER_SEED, LAYER_SIDE_BY_SIDE};

@@ -25,7 +25,7 @@ Facing fragment_facing(Dir wo) {
     return at;
 }
 
-/* What a part of the light shows of what comes through. */
+/* Returns the light that comes through, black if the part that is shown leaves the diffuse lobe out. */
 StackValue stack_seen_through(Stack m, StackView w, Angles a) {
     StackValue v = stack_transmitted(m, w, a);
     if (!SHOWS_DIFFUSE) v.f_cos = rgb_grey(0.0);

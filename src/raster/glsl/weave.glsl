@@ -6,66 +6,49 @@
 uniform highp sampler2D weave_cells;
 uniform highp sampler2DArray weave_colors;
 
-float weave_number(int k) {
-    vec4 four = material_weave[k / 4];
-    int at = k - 4 * (k / 4);
-    return at == 0 ? four.x : at == 1 ? four.y : at == 2 ? four.z : four.w;
-}
+/* Places of cloth_numbers (raster/cloths.h), behind the yarns. */
+const int CLOTH_SEED = 42, CLOTH_LOW = 43, CLOTH_HIGH = 44, CLOTH_OPENNESS = 45, CLOTH_WARPS = 46, CLOTH_PICKS = 47,
+          CLOTH_FAR_WIDTH = 48, CLOTH_FAR_HEIGHT = 49, CLOTH_PER_U = 50, CLOTH_PER_V = 51;
+
+float weave_number(int k) { return material_weave[k / 4][k - 4 * (k / 4)]; }
 
 /* Table 0 is the runs, 1 the albedos. */
 float weave_fetch(int table, int row, int column) {
-    int warps = int(weave_number(46)), picks = int(weave_number(47));
+    int warps = int(weave_number(CLOTH_WARPS)), picks = int(weave_number(CLOTH_PICKS));
     int k = table == 0 ? column - 4 * (column / 4) : column;
     ivec2 at = table == 0 ? ivec2(column / 4, row) : ivec2(row - warps * (row / warps), picks + row / warps);
-    vec4 four = texelFetch(weave_cells, at, 0);
-    return k == 0 ? four.x : k == 1 ? four.y : k == 2 ? four.z : four.w;
+    return texelFetch(weave_cells, at, 0)[k];
 }
 
 #include "shading/weave_base.h"
 
-WeaveYarn weave_yarn_from(int k) {
-    WeaveYarn y;
-    y.alpha = weave_number(k);
-    y.crimp = weave_number(k + 1);
-    y.roundness = weave_number(k + 2);
-    y.twist = weave_number(k + 3);
-    y.white = weave_number(k + 4);
-    y.pitch = weave_number(k + 5);
-    y.cross_pitch = weave_number(k + 6);
-    y.width = weave_number(k + 7);
-    y.bulge = weave_number(k + 8);
-    y.floats = weave_number(k + 9);
-    y.streaks = weave_number(k + 10);
-    y.dye = weave_number(k + 11);
-    y.slub = weave_number(k + 12);
-    y.wander = weave_number(k + 13);
-    return y;
+/* Each takes its numbers from the k-th on, which moves behind them. */
+#define WEAVE_TAKE(name) taken.name = weave_number(k++);
+WeaveYarn weave_yarn_from(inout int k) {
+    WeaveYarn taken;
+    WEAVE_YARN_NUMBERS(WEAVE_TAKE)
+    return taken;
 }
 
-WeaveFar weave_far_from(int k) {
-    WeaveFar f;
-    f.alpha = weave_number(k);
-    f.crimp = weave_number(k + 1);
-    f.roundness = weave_number(k + 2);
-    f.floats = weave_number(k + 3);
-    f.slope_across = weave_number(k + 4);
-    f.slope_along = weave_number(k + 5);
-    f.share = weave_number(k + 6);
-    return f;
+WeaveFar weave_far_from(inout int k) {
+    WeaveFar taken;
+    WEAVE_FAR_NUMBERS(WEAVE_TAKE)
+    return taken;
 }
 
 Weave material_cloth() {
     Weave m;
-    m.warps = int(weave_number(46));
-    m.picks = int(weave_number(47));
-    m.warp = weave_yarn_from(0);
-    m.weft = weave_yarn_from(14);
-    m.seed = weave_number(42);
-    m.warp_far = weave_far_from(28);
-    m.weft_far = weave_far_from(35);
-    m.low = weave_number(43);
-    m.high = weave_number(44);
-    m.openness = weave_number(45);
+    m.warps = int(weave_number(CLOTH_WARPS));
+    m.picks = int(weave_number(CLOTH_PICKS));
+    int k = 0;
+    m.warp = weave_yarn_from(k);
+    m.weft = weave_yarn_from(k);
+    m.seed = weave_number(CLOTH_SEED);
+    m.warp_far = weave_far_from(k);
+    m.weft_far = weave_far_from(k);
+    m.low = weave_number(CLOTH_LOW);
+    m.high = weave_number(CLOTH_HIGH);
+    m.openness = weave_number(CLOTH_OPENNESS);
     m.cycle_x = 0.0;
     m.cycle_y = 0.0;
     m.runs = 0;
@@ -77,8 +60,8 @@ Weave material_cloth() {
  * bases have one table for the light of the environment, so that the lobe is of a whole cloth. Departure: then only
  * yarns of its own system hide it, which at grazing are not all. */
 WeaveBase woven_far(Weave c, bool weft, vec2 place, WeaveFootprint f) {
-    float warps = weave_number(46), picks = weave_number(47), layer = weft ? 2.0 : 0.0;
-    float level = weave_far_level(f, 2.0 * warps / weave_number(48), 2.0 * picks / weave_number(49));
+    float warps = weave_number(CLOTH_WARPS), picks = weave_number(CLOTH_PICKS), layer = weft ? 2.0 : 0.0;
+    float level = weave_far_level(f, 2.0 * warps / weave_number(CLOTH_FAR_WIDTH), 2.0 * picks / weave_number(CLOTH_FAR_HEIGHT));
     vec2 at = vec2(place.x / warps, place.y / picks);
     vec4 once = textureLod(weave_colors, vec3(at, layer), level);
     vec4 again = textureLod(weave_colors, vec3(at, layer + 1.0), level);
@@ -108,7 +91,7 @@ Stack woven_stack(Stack m, WeaveBase b) {
 /* rgb: the light; a: the part of the pixel that threads cover. */
 vec4 woven_light(Stack m, Dir o, Facing at, Frame frame, float occlusion) {
     Weave c = material_cloth();
-    vec2 place = vec2(texcoord_0.x * weave_number(50), -texcoord_0.y * weave_number(51));
+    vec2 place = vec2(texcoord_0.x * weave_number(CLOTH_PER_U), -texcoord_0.y * weave_number(CLOTH_PER_V));
     vec2 across = dFdx(place), up = dFdy(place);
     WeaveFootprint f = weave_footprint(across.x, across.y, up.x, up.y);
     float far = weave_far_weight(f), covered = 0.0;
