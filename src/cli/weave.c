@@ -248,7 +248,7 @@ const Verb verb_weave = {
     .notes = "DRAFT is a WIF file (.wif), a picture of two colours (a pixel a crossing, the\n"
              "darker where the warp is on top), or words:\n\n"
              "  plain | houndstooth | basket N [M] | twill A/B[/A/B...] [z|s] | satin N/C |\n"
-             "  sateen N/C | herringbone A/B N\n\n"
+             "  sateen N/C | herringbone A/B N | picks #.. .#. ..#\n\n"
              "and after it, each behind a semicolon,\n\n"
              "  warp STRIPES, weft STRIPES or both STRIPES: such as 24k 4r 8#2050a0; the word\n"
              "      mirror at their end repeats them backwards, as in a tartan\n"

@@ -1,20 +1,13 @@
 #include "scene/lampshade.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "base/fail.h"
 #include "base/pi.h"
+#include "scene/lattice.h"
 
 enum { SHADE, CURTAIN, BULB, STAND, TABLE, THINGS };
 static const char *const names[THINGS] = {"shade", "curtain", "bulb", "stand", "table"};
-
-/* A sheet of (across + 1) (down + 1) points, which `point` places for u and v from 0 to 1. */
-typedef struct Sheet {
-    uint32_t across, down;
-    Vec3 (*point)(float u, float v);
-    bool smooth;
-} Sheet;
 
 static Vec3 about(float u, float radius, float y) {
     float phi = 2.0f * PI_FLOAT * u;
@@ -50,46 +43,12 @@ static Vec3 bulb_point(float u, float v) {
     return (Vec3){corner == 0 || corner == 3 ? -side : side, 0.465f - 0.06f * v, corner < 2 ? side : -side};
 }
 
-static const Sheet sheets[THINGS] = {[SHADE] = {128, 16, shade_point, true},
-                                     [CURTAIN] = {600, 12, curtain_point, true},
-                                     [BULB] = {4, 1, bulb_point, false},
-                                     [STAND] = {64, 40, stand_point, true},
-                                     [TABLE] = {1, 1, table_point, false}};
-
-/* The normal of a smooth sheet, by differences. */
-static Vec3 normal_at(const Sheet *sheet, float u, float v) {
-    const float step = 1e-3f, v0 = fmaxf(v - step, 0.0f), v1 = fminf(v + step, 1.0f);
-    Vec3 along = vec3_sub(sheet->point(u + step, v), sheet->point(u - step, v));
-    Vec3 down = vec3_sub(sheet->point(u, v1), sheet->point(u, v0));
-    return vec3_normal_or(vec3_cross(down, along), (Vec3){0.0f, 1.0f, 0.0f});
-}
-
-static bool sheet_make(Arena *arena, Mesh *mesh, const Sheet *sheet) {
-    uint32_t row = sheet->across + 1;
-    mesh->vertex_count = row * (sheet->down + 1);
-    mesh->triangle_count = 2 * sheet->across * sheet->down;
-    mesh->position = arena_array(arena, mesh->vertex_count, 3 * sizeof(float));
-    mesh->normal = sheet->smooth ? arena_array(arena, mesh->vertex_count, 3 * sizeof(float)) : NULL;
-    mesh->texcoord[0] = arena_array(arena, mesh->vertex_count, 2 * sizeof(float));
-    mesh->index = arena_array(arena, mesh->triangle_count, 3 * sizeof(uint32_t));
-    if (!mesh->position || (sheet->smooth && !mesh->normal) || !mesh->texcoord[0] || !mesh->index)
-        return false;
-    for (uint32_t k = 0; k < mesh->vertex_count; k++) {
-        uint32_t i = k % row, j = k / row;
-        float u = (float)i / (float)sheet->across, v = (float)j / (float)sheet->down;
-        Vec3 p = sheet->point(u, v), n = normal_at(sheet, u, v);
-        memcpy(mesh->position + 3 * k, &p, sizeof p);
-        if (mesh->normal) memcpy(mesh->normal + 3 * k, &n, sizeof n);
-        mesh->texcoord[0][2 * k] = u, mesh->texcoord[0][2 * k + 1] = v;
-    }
-    uint32_t *index = mesh->index;
-    for (uint32_t k = 0; k < sheet->across * sheet->down; k++) {
-        uint32_t i = k % sheet->across, j = k / sheet->across, a = j * row + i, b = a + row;
-        *index++ = a, *index++ = b, *index++ = a + 1;
-        *index++ = a + 1, *index++ = b, *index++ = b + 1;
-    }
-    return true;
-}
+static const Lattice lattices[THINGS] = {
+    [SHADE] = {.across = 128, .down = 16, .point = shade_point, .smooth = true},
+    [CURTAIN] = {.across = 600, .down = 12, .point = curtain_point, .smooth = true},
+    [BULB] = {.across = 4, .down = 1, .point = bulb_point},
+    [STAND] = {.across = 64, .down = 40, .point = stand_point, .smooth = true},
+    [TABLE] = {.across = 1, .down = 1, .point = table_point}};
 
 /* Cloth that reflects one colour and lets another through. */
 static Material thin_cloth(float share, Vec3 color, Vec3 through) {
@@ -129,7 +88,7 @@ WeftResult lampshade_make(WeftScene *scene, WeftError *error) {
         char *kept = arena_text(arena, names[k]);
         scene->meshes[k] = (Mesh){.name = kept, .material = k};
         scene->material_names[k] = kept;
-        made = kept && sheet_make(arena, &scene->meshes[k], &sheets[k]);
+        made = kept && lattice_make(arena, &scene->meshes[k], &lattices[k]);
     }
     if (!made) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     materials_make(scene->materials);

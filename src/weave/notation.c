@@ -3,6 +3,7 @@
  *   twill a/b z   up(i, j) = (j - i) mod (a + b) < a; s: (j + i). Longer lists alternate over and under.
  *   satin n/c     warp-faced: the weft is on top where i = c j mod n; sateen is the opposite
  *   basket n m    up(i, j) = floor(i / n) + floor(j / m) is even; plain is basket 1
+ *   picks #.. .#. a word a pick, from the first one on, # where the warp is on top
  *   herringbone   n threads of a twill z, then n of its mirror image, moved by a picks so that the line
  * breaks instead of doubling a thread at the turn */
 #include <stdlib.h>
@@ -116,6 +117,20 @@ static WeftResult make_satin(const Notation *notation, const char *word, bool wa
     return result;
 }
 
+/* Makes what words such as "#..#" say, a pick each. */
+static WeftResult make_picks(const Notation *notation, const Clause *clause, WeftDraft **out) {
+    const size_t warps = clause->count > 1 ? strlen(clause->words[1]) : 0;
+    for (int j = 1; j < clause->count; j++)
+        if (strspn(clause->words[j], "#.") != warps || clause->words[j][warps])
+            return REFUSE(notation, "\"%.40s\" is no pick: a # or a . for each of %zu warp threads",
+                          clause->words[j], warps);
+    WeftResult result = draft_create(notation->text, (long)warps, clause->count - 1L,
+                                     WEFT_MESSAGE_DRAFT_NOTATION, out, notation->error);
+    for (int j = 0; result == WEFT_OK && j < clause->count - 1; j++)
+        for (size_t i = 0; i < warps; i++) (*out)->up[(size_t)j * warps + i] = clause->words[j + 1][i] == '#';
+    return result;
+}
+
 /* Reads "z" or "s", to the right or to the left; nothing is z. */
 static bool slope_of(const Clause *clause, int at, int *slope) {
     *slope = 1;
@@ -137,6 +152,7 @@ static WeftResult make_weave(const Notation *notation, const Clause *clause, Wef
         if (count == 2 || word_count(clause->words[2], WEFT_DRAFT_SIDE_MAX / 2, &m))
             return make_basket(notation, n, m, out);
     }
+    if (strcmp(name, "picks") == 0 && count >= 2) return make_picks(notation, clause, out);
     if (strcmp(name, "twill") == 0 && count >= 2 && slope_of(clause, 2, &slope))
         return make_twill(notation, second, slope, 0, out);
     if (strcmp(name, "herringbone") == 0 && count == 3 &&
@@ -145,7 +161,7 @@ static WeftResult make_weave(const Notation *notation, const Clause *clause, Wef
     if ((strcmp(name, "satin") == 0 || strcmp(name, "sateen") == 0) && count == 2)
         return make_satin(notation, second, name[3] == 'i', out);
     return REFUSE(notation, "the weave is plain, basket N [M], twill A/B [z|s], satin N/C, sateen N/C, "
-                            "herringbone A/B N or houndstooth");
+                            "herringbone A/B N, houndstooth or picks #.. .#. ...");
 }
 
 /* Colours. */

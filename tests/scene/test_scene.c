@@ -11,6 +11,7 @@
 #include "base/pi.h"
 #include "scene/camera.h"
 #include "scene/scene.h"
+#include "weave/weft_cloth.h"
 #include "weft/weft.h"
 
 static WeftScene *load(const char *name) {
@@ -197,6 +198,32 @@ static void cameras_are_found_by_name_and_number(void **state) {
     weft_scene_free(scene);
 }
 
+/* The middle tenth of its pictures shows a tenth of the threads that they promise, but for folds. */
+static void cameras_of_the_loom_see_so_many_threads(void **state) {
+    (void)state;
+    static const struct {
+        const char *name;
+        float threads;
+    } cameras[] = {{"far", 5000.0f}, {"near", 500.0f}, {"close", 50.0f}, {"threads", 5.0f}};
+    enum { WIDTH = 400, HEIGHT = 300 };
+    WeftScene *scene;
+    WeftPick *pick;
+    assert_int_equal(weft_scene_load("builtin:loom", &scene, NULL, NULL), WEFT_OK);
+    assert_int_equal(scene->cloth_count, 7);
+    assert_int_equal(weft_pick_create(scene, &pick, NULL), WEFT_OK);
+    for (size_t k = 0; k < sizeof cameras / sizeof *cameras; k++) {
+        WeftPicked left, right;
+        const float half = 0.05f * WIDTH, y = 0.5f * HEIGHT;
+        assert_true(weft_pick_at(pick, cameras[k].name, WIDTH, HEIGHT, 0.5f * WIDTH - half, y, &left));
+        assert_true(weft_pick_at(pick, cameras[k].name, WIDTH, HEIGHT, 0.5f * WIDTH + half, y, &right));
+        const WeftCloth *denim = scene->cloths[scene->materials[left.material].cloth - 1];
+        const float seen = (right.texcoord[0][0] - left.texcoord[0][0]) * denim->per_uv[WEFT_WARP];
+        assert_float_equal(seen, 0.1f * cameras[k].threads, 0.01f * cameras[k].threads);
+    }
+    weft_pick_free(pick);
+    weft_scene_free(scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_builtin_scene_loads),
@@ -204,6 +231,7 @@ int main(void) {
         cmocka_unit_test(sheen_and_layer_are_set_by_id),
         cmocka_unit_test(automatic_camera_frames_the_scene),
         cmocka_unit_test(cameras_are_found_by_name_and_number),
+        cmocka_unit_test(cameras_of_the_loom_see_so_many_threads),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

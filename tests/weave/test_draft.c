@@ -55,6 +55,7 @@ static void notation_gives_the_crossings_of_textbooks(void **state) {
     assert_notation("twill 3/1", ROWS(".###", "###.", "##.#", "#.##"));
     assert_notation("twill 1/2", ROWS("..#", ".#.", "#.."));
     assert_notation("twill 2/1/1/1", ROWS(".#.##", "#.##.", ".##.#", "##.#.", "#.#.#"));
+    assert_notation("picks #.. .## #.#", ROWS("#.#", ".##", "#.."));
     assert_notation("satin 5/2", ROWS("###.#", "#.###", "####.", "##.##", ".####"));
     assert_notation("sateen 5/2", ROWS("...#.", ".#...", "....#", "..#..", "#...."));
     assert_notation("herringbone 2/2 4", ROWS("..##..##", ".##.#..#", "##..##..", "#..#.##."));
@@ -88,6 +89,10 @@ static void notation_without_sense_is_refused_in_one_line(void **state) {
                                       "twill 2/2 z z",
                                       "twill a/b",
                                       "twill 9000/1",
+                                      "picks",
+                                      "picks #.. .#",
+                                      "picks #.x",
+                                      "picks 3",
                                       "satin 4/1",
                                       "satin 5/1",
                                       "satin 5/4",
