@@ -1,13 +1,14 @@
 /* occluded - prints what neighbours leave of a sheen's light from an environment: how the raster engine's sum
  * over a picture differs from the path tracer's direct light, in hundredths
  *
- *   bench_occluded [--only LOBE]... [--rays N] [--width N] [--centre] MAP.hdr|white ...
+ *   bench_occluded [--only LOBE]... [--rays N] [--width N] [--fine N] [--centre] MAP.hdr|white ...
  *
- * Scenes: builtin:spheres and builtin:cloth, without lights, with black base and specular. `sum` is the
+ * Scenes: builtin:spheres and builtin:cloth, without lights, with black base and specular; their sheens have the lobe. `sum` is the
  * difference of the sums, below 0 where the raster image is darker. `apart` is sum |difference| over sum, of
  * means over 4 x 4 pixels. `noise` is the standard deviation of the path tracer's sum: two renders of
  * different seeds run until it is below 0.5, or to 4096 samples each. --rays: occlusion rays of a vertex.
- * --centre: both engines take one sample in the centre of each pixel. `white` is an even sky, under which only
+ * --fine: the raster engine draws N x N pixels for one, 4 unless told, since it shades a pixel once and the path tracer
+ * shades all of its area. --centre: both engines take one sample in the centre of each pixel. `white` is an even sky, under which only
  * occlusion and E can be wrong. */
 #include <math.h>
 #include <stdbool.h>
@@ -22,6 +23,7 @@ enum { BLOCK = 4, SAMPLES = 32, SAMPLES_MOST = 4096, LOBES_MOST = 64 };
 /* Settings that both engines draw with. */
 typedef struct How {
     int width, height, rays;
+    int fine; /* pixels of the raster image along a pixel's side */
     bool centre;
 } How;
 
@@ -31,7 +33,7 @@ static void check(WeftResult result, const WeftError *error) {
     exit(1);
 }
 
-static WeftScene *scene_of(const char *name, const char *map, const char *lobe) {
+static WeftScene *scene_of(const char *name, const char *map) {
     static const char *const settings[][2] = {
         {"*.base_color", "0"}, {"*.specular", "0"}, {"*.layer", "additive"}};
     static const float white[3] = {1.0f, 1.0f, 1.0f};
@@ -45,7 +47,6 @@ static WeftScene *scene_of(const char *name, const char *map, const char *lobe) 
         check(weft_scene_set_environment_file(scene, map, NULL, &error), &error);
     for (int k = 0; k < 3; k++)
         check(weft_scene_set(scene, settings[k][0], settings[k][1], NULL, &error), &error);
-    check(weft_scene_set(scene, "*.sheen_lobe", lobe, NULL, &error), &error);
     return scene;
 }
 
@@ -70,34 +71,40 @@ static WeftImage image_of(const WeftRender *render) {
     return image;
 }
 
-static WeftImage drawn(const WeftScene *scene, const How *how) {
+/* Rays are traced once for all lobes. */
+static WeftRaster *raster_of(const WeftScene *scene, const How *how) {
     const WeftRasterDesc desc = {.occlusion = how->rays, .no_cache = 1};
-    const WeftRasterView view = {.width = how->width,
-                                 .height = how->height,
-                                 .samples = how->centre ? 1 : 0,
-                                 .camera = "0",
-                                 .background = WEFT_BACKGROUND_TRANSPARENT};
     WeftRaster *raster;
-    WeftImage image;
     WeftError error;
     check(weft_raster_create(scene, &desc, &raster, NULL, &error), &error);
     check(weft_raster_wait(raster, &error), &error);
+    return raster;
+}
+
+static WeftImage drawn(WeftRaster *raster, const How *how) {
+    const WeftRasterView view = {.width = how->width * how->fine,
+                                 .height = how->height * how->fine,
+                                 .samples = how->centre ? 1 : 0,
+                                 .camera = "0",
+                                 .background = WEFT_BACKGROUND_TRANSPARENT};
+    WeftImage image;
+    WeftError error;
+    check(weft_raster_update(raster, NULL, &error), &error);
     check(weft_raster_draw(raster, &view, &error), &error);
     check(weft_raster_image(raster, &image, &error), &error);
-    weft_raster_free(raster);
     return image;
 }
 
-/* Sum of a colour over a block of pixels, of straight alpha. */
-static double block_sum(const WeftImage *image, int block, int c) {
-    int across = image->width / BLOCK, x = block % across * BLOCK, y = block / across * BLOCK;
+/* Mean of a colour over a block that is `side` pixels wide, of straight alpha. */
+static double block_mean(const WeftImage *image, int side, int block, int c) {
+    int across = image->width / side, x = block % across * side, y = block / across * side;
     const float *p = image->pixels;
     double sum = 0.0;
-    for (int k = 0; k < BLOCK * BLOCK; k++) {
-        int at = 4 * ((y + k / BLOCK) * image->width + x + k % BLOCK);
+    for (int k = 0; k < side * side; k++) {
+        int at = 4 * ((y + k / side) * image->width + x + k % side);
         sum += (double)(p[at + c] * p[at + 3]);
     }
-    return sum;
+    return sum / (side * side);
 }
 
 /* Ratios to the sum of the path traced image. */
@@ -106,14 +113,14 @@ typedef struct Error {
 } Error;
 
 /* Two path traced images, of which the mean counts, and the raster image. */
-static Error error_of(const WeftImage reference[2], const WeftImage *image) {
+static Error error_of(const WeftImage reference[2], const WeftImage *image, int fine) {
     Error e = {0.0, 0.0, 0.0};
     double all = 0.0;
-    int blocks = image->width / BLOCK * (image->height / BLOCK);
+    int blocks = reference->width / BLOCK * (reference->height / BLOCK);
     for (int k = 0; k < 3 * blocks; k++) {
-        double a = 0.5 * block_sum(&reference[0], k / 3, k % 3),
-               b = 0.5 * block_sum(&reference[1], k / 3, k % 3);
-        double difference = block_sum(image, k / 3, k % 3) - a - b;
+        double a = 0.5 * block_mean(&reference[0], BLOCK, k / 3, k % 3),
+               b = 0.5 * block_mean(&reference[1], BLOCK, k / 3, k % 3);
+        double difference = block_mean(image, fine * BLOCK, k / 3, k % 3) - a - b;
         e.sum += difference;
         e.apart += fabs(difference);
         e.noise += (a - b) * (a - b);
@@ -122,9 +129,9 @@ static Error error_of(const WeftImage reference[2], const WeftImage *image) {
     return (Error){e.sum / all, e.apart / all, sqrt(e.noise) / all};
 }
 
-static Error measure(const WeftScene *scene, const How *how) {
+static Error measure(const WeftScene *scene, WeftRaster *raster, const How *how) {
     WeftRender *renders[2] = {render_of(scene, how, 0), render_of(scene, how, 1)};
-    WeftImage image = drawn(scene, how);
+    WeftImage image = drawn(raster, how);
     Error e = {0.0, 0.0, 1.0};
     for (int samples = SAMPLES; e.noise > 0.005 && samples <= SAMPLES_MOST; samples *= 2) {
         WeftImage reference[2];
@@ -134,7 +141,7 @@ static Error measure(const WeftScene *scene, const How *how) {
             check(weft_render_run(renders[k], samples - done, 0.0, NULL, NULL), &error);
             reference[k] = image_of(renders[k]);
         }
-        e = error_of(reference, &image);
+        e = error_of(reference, &image, how->fine);
         for (int k = 0; k < 2; k++) weft_image_free(&reference[k]);
     }
     weft_image_free(&image);
@@ -148,13 +155,25 @@ static bool is_named(const char *id, const char *const *only, int count) {
     return named;
 }
 
-static void print_lobe(const char *id, const char *map, const How *how) {
-    static const char *const scenes[] = {"builtin:spheres", "builtin:cloth"};
+/* Gives that lobe to the materials that have a sheen. Others, as the floor, would shine by the lobe's second colour. */
+static void set_lobe(WeftScene *scene, const char *id) {
+    WeftMaterial material;
+    const int color = weft_material_input_find("sheen_color");
+    for (int k = 0; weft_scene_material(scene, k, &material, NULL) == WEFT_OK; k++) {
+        const float *c = material.inputs[color].value;
+        char target[64];
+        snprintf(target, sizeof target, "%d.sheen_lobe", k);
+        WeftError error;
+        if (c[0] + c[1] + c[2] > 0.0f) check(weft_scene_set(scene, target, id, NULL, &error), &error);
+    }
+}
+
+static void print_lobe(const char *id, WeftScene *const scenes[2], WeftRaster *const rasters[2],
+                       const How *how) {
     Error e[2];
     for (int s = 0; s < 2; s++) {
-        WeftScene *scene = scene_of(scenes[s], map, id);
-        e[s] = measure(scene, how);
-        weft_scene_free(scene);
+        set_lobe(scenes[s], id);
+        e[s] = measure(scenes[s], rasters[s], how);
     }
     printf("%-27s", id);
     for (int s = 0; s < 2; s++)
@@ -166,7 +185,7 @@ static void print_lobe(const char *id, const char *map, const How *how) {
 int main(int argc, char **argv) {
     const char *maps[8], *only[LOBES_MOST];
     int map_count = 0, only_count = 0;
-    How how = {.width = 160, .rays = 64};
+    How how = {.width = 160, .rays = 64, .fine = 4};
     for (int k = 1; k < argc; k++) {
         if (strcmp(argv[k], "--only") == 0 && k + 1 < argc && only_count < LOBES_MOST)
             only[only_count++] = argv[++k];
@@ -175,19 +194,32 @@ int main(int argc, char **argv) {
         else if (strcmp(argv[k], "--width") == 0 && k + 1 < argc)
             how.width = atoi(argv[++k]);
         else if (strcmp(argv[k], "--centre") == 0)
-            how.centre = true;
+            how.centre = true, how.fine = 1;
+        else if (strcmp(argv[k], "--fine") == 0 && k + 1 < argc)
+            how.fine = atoi(argv[++k]);
         else if (map_count < 8)
             maps[map_count++] = argv[k];
     }
     how.height = how.width * 3 / 4;
     for (int m = 0; m < map_count; m++) {
+        static const char *const names[] = {"builtin:spheres", "builtin:cloth"};
         const char *slash = strrchr(maps[m], '/');
+        WeftScene *scenes[2];
+        WeftRaster *rasters[2];
+        for (int s = 0; s < 2; s++) {
+            scenes[s] = scene_of(names[s], maps[m]);
+            rasters[s] = raster_of(scenes[s], &how);
+        }
         printf("\n%-27s %26s %26s\n", slash ? slash + 1 : maps[m], "spheres", "cloth");
         printf("%-27s %8s %8s %8s %8s %8s %8s\n", "lobe", "sum", "apart", "noise", "sum", "apart", "noise");
         for (int lobe = 0; weft_lobe_info(lobe); lobe++) {
             const WeftLobeInfo *info = weft_lobe_info(lobe);
             if (info->traits & (WEFT_LOBE_REFERENCE | WEFT_LOBE_DIFFUSE)) continue;
-            if (is_named(info->id, only, only_count)) print_lobe(info->id, maps[m], &how);
+            if (is_named(info->id, only, only_count)) print_lobe(info->id, scenes, rasters, &how);
+        }
+        for (int s = 0; s < 2; s++) {
+            weft_raster_free(rasters[s]);
+            weft_scene_free(scenes[s]);
         }
     }
     return 0;
