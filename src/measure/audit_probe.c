@@ -22,6 +22,24 @@ void probe_take(TableProbe *probe, const float *values, int width, int height) {
                 values[(size_t)probe->y[j] * (size_t)width + (size_t)probe->x[i]];
 }
 
+/* Returns the probe of every other column and row, which costs a quarter. */
+static TableProbe coarse_of(const TableProbe *probe) {
+    TableProbe coarse = *probe;
+    coarse.columns = (probe->columns + 1) / 2;
+    coarse.rows = (probe->rows + 1) / 2;
+    for (int n = 0; n < coarse.columns * coarse.rows; n++) {
+        const int i = n % coarse.columns, j = n / coarse.columns,
+                  x = spread(i, coarse.columns, probe->columns), y = spread(j, coarse.rows, probe->rows);
+        coarse.x[i] = probe->x[x];
+        coarse.y[j] = probe->y[y];
+        coarse.table[n] = probe->table[y * probe->columns + x];
+    }
+    return coarse;
+}
+
+/* A reading whose distance by a coarse probe is so many times the least is not looked at further. */
+static const double hopeless = 2.0;
+
 /* E at the probed texels of a form, which has no flips: those only change places. */
 typedef struct Albedos {
     const TableProbe *probe;
@@ -174,13 +192,19 @@ ProbeReading probe_best_form(const TableProbe *probe, const ProbeReading *readin
 }
 
 ProbeReading probe_best_lobe(const TableProbe *probe, const ProbeReading *reading, bool forms) {
+    const TableProbe coarse = coarse_of(probe);
     ProbeReading best = *reading;
     best.distance = HUGE_VAL;
     for (int id = 0; id < weft_lobe_count() && best.distance > nothing(probe); id++) {
         const WeftLobeInfo *info = weft_lobe_info(id);
         if (id == reading->lobe.id || info->param_count > 1 || info->traits & TRAIT_REFERENCE) continue;
-        ProbeReading now = *reading;
+        ProbeReading now = *reading, rough;
         now.lobe = lobe_default(id);
+        rough = now;
+        probe_read(&coarse, &rough);
+        if (forms && rough.distance > hopeless * best.distance)
+            rough = probe_best_form(&coarse, &now, true, false);
+        if (rough.distance > hopeless * best.distance) continue;
         probe_read(probe, &now);
         if (forms) {
             const ProbeReading other = probe_best_form(probe, &now, true, false);
@@ -205,25 +229,37 @@ static void try_forms(const TableProbe *probe, const Albedos *e, ProbeReading no
     }
 }
 
+/* Tries a form and, where `all`, the one with its axes exchanged, each in all flips. */
+static void try_pair(const TableProbe *probe, ProbeReading now, bool all, ProbeReading best[2]) {
+    Albedos e;
+    WeftTableForm bare;
+    albedos_find(probe, &now, &bare, &e);
+    try_forms(probe, &e, now, all, best);
+    if (!all) return;
+    now.form.transposed = 1;
+    albedos_exchange(probe, &now, &bare, &e);
+    try_forms(probe, &e, now, all, best);
+}
+
+static bool is_hopeless(const TableProbe *coarse, const ProbeReading *now, bool all,
+                        const ProbeReading best[2]) {
+    ProbeReading rough[2] = {{.distance = HUGE_VAL}, {.distance = HUGE_VAL}};
+    try_pair(coarse, *now, all, rough);
+    return rough[0].distance > hopeless * best[0].distance && rough[1].distance > hopeless * best[1].distance;
+}
+
 ProbeReading probe_any(const TableProbe *probe, const WeftTableForm *form) {
     const double explained = 0.25; /* as in audit.c: less is no explanation */
+    const TableProbe coarse = coarse_of(probe);
     ProbeReading best[2] = {{.distance = HUGE_VAL}, {.distance = HUGE_VAL}};
     for (int id = 0; id < weft_lobe_count(); id++) {
         const WeftLobeInfo *info = weft_lobe_info(id);
         if (info->param_count > 1 || info->traits & TRAIT_REFERENCE) continue;
-        Albedos e;
-        for (int base = 0; base < (form ? 1 : 16); base++) {
-            WeftTableForm bare;
+        for (int base = 0; base < (form ? 1 : 8); base++) {
             ProbeReading now = {.lobe = lobe_default(id), .factor = 1.0};
-            if (form)
-                now.form = *form;
-            else
-                now.form = (WeftTableForm){.transposed = base & 1,
-                                           .alpha = base >> 1 & 1,
-                                           .edges = base >> 2 & 1,
-                                           .root = base >> 3 & 1};
-            (base & 1 ? albedos_exchange : albedos_find)(probe, &now, &bare, &e);
-            try_forms(probe, &e, now, !form, best);
+            now.form =
+                form ? *form : (WeftTableForm){.alpha = base & 1, .edges = base >> 1 & 1, .root = base >> 2};
+            if (!is_hopeless(&coarse, &now, !form, best)) try_pair(probe, now, !form, best);
         }
     }
     return best[best[1].distance < explained * best[0].distance];
