@@ -12,6 +12,7 @@ void viewer_task(Viewer *v, TaskKind kind, const char *path, int index, int inpu
         return;
     }
     if (path) snprintf(task.path, sizeof task.path, "%s", path);
+    if (kind == TASK_ASSIGN) task.stamp = edit_assign(v, index);
     renderer_add_task(v->renderer, &task);
 }
 

@@ -22,6 +22,7 @@ void edit_forget(Viewer *v) {
     scene_state_free(&edit->other);
     history_free(&edit->history);
     history_free(&edit->other_history);
+    edit->assignment_count = 0;
 }
 
 void edit_choose_material(Viewer *v, int material) { v->rooms->edit.material = material; }
@@ -160,8 +161,62 @@ void edit_take_light(Viewer *v, const EnvironmentState *environment) {
     accept_state(v);
 }
 
-void edit_take_assigned(Viewer *v, SceneState *state) {
+unsigned edit_assign(Viewer *v, int material) {
     EditRoom *edit = &v->rooms->edit;
+    if (edit->assignment_count == ASSIGNMENTS || material < 0 || material >= edit->state.material_count)
+        return 0;
+    const Assignment fresh = {++edit->stamp, material, *scene_state_material(&edit->state, material)};
+    edit->assignments[edit->assignment_count++] = fresh;
+    return fresh.stamp;
+}
+
+static Assignment *assignment_of(EditRoom *edit, unsigned stamp) {
+    for (int k = 0; k < edit->assignment_count; k++)
+        if (stamp && edit->assignments[k].stamp == stamp) return &edit->assignments[k];
+    return NULL;
+}
+
+void edit_end_assign(Viewer *v, unsigned stamp) {
+    EditRoom *edit = &v->rooms->edit;
+    Assignment *ended = assignment_of(edit, stamp);
+    if (!ended) return;
+    size_t behind = (size_t)(edit->assignments + edit->assignment_count - (ended + 1));
+    memmove(ended, ended + 1, behind * sizeof *ended);
+    edit->assignment_count--;
+}
+
+/* Returns `made` with what differs between `was` and `now` as it is now. */
+static WeftMaterial material_merged(const WeftMaterial *was, const WeftMaterial *now, WeftMaterial made) {
+    for (int k = 0; k < WEFT_CHOICES_MAX; k++)
+        if (now->choices[k] != was->choices[k]) made.choices[k] = now->choices[k];
+    for (int k = 0; k < WEFT_INPUTS_MAX; k++)
+        if (memcmp(&now->inputs[k], &was->inputs[k], sizeof now->inputs[k]) != 0)
+            made.inputs[k] = now->inputs[k];
+    return made;
+}
+
+/* Makes of a task's state the one that is edited, with the task's material merged into it. To tasks that follow, what
+ * this one made was there before. */
+static void keep_later_changes(EditRoom *edit, const Assignment *task, SceneState *state) {
+    SceneState merged;
+    const int k = task->material, preset = scene_state_preset(state, k);
+    const WeftMaterial now = *scene_state_material(&edit->state, k),
+                       made = material_merged(&task->was, &now, *scene_state_material(state, k));
+    if (!scene_state_copy(&merged, &edit->state)) return;
+    scene_state_set_material(&merged, k, &made);
+    scene_state_set_preset(&merged, k, preset);
+    scene_state_free(state);
+    *state = merged;
+    for (int other = 0; other < edit->assignment_count; other++) {
+        Assignment *later = &edit->assignments[other];
+        if (later->material == k && later != task) later->was = material_merged(&now, &later->was, made);
+    }
+}
+
+void edit_take_assigned(Viewer *v, SceneState *state, unsigned stamp) {
+    EditRoom *edit = &v->rooms->edit;
+    const Assignment *task = assignment_of(edit, stamp);
+    if (task && state->material_count == edit->state.material_count) keep_later_changes(edit, task, state);
     EnvironmentState environment = edit->state.environment;
     if (!scene_state_same(&edit->state, state)) keep_step(v);
     scene_state_free(&edit->state);

@@ -167,9 +167,10 @@ void requests_take_events(Viewer *v) {
         if (event.state_changed && event.kind == TASK_LIGHT) {
             edit_take_light(v, &event.state.environment);
         } else if (event.state_changed) {
-            edit_take_assigned(v, &event.state);
+            edit_take_assigned(v, &event.state, event.stamp);
             event.state_changed = false;
         }
+        if (event.kind == TASK_ASSIGN) edit_end_assign(v, event.stamp);
         if (event.kind == TASK_BIND_MAPS && !event.failed) opening_keep_folder(v, event.path);
         if (event.coverage) opening_varied(v, &event.coverage);
         if (event.kind == TASK_PROBE && !event.failed) {

@@ -225,7 +225,7 @@ static const char *material_help(const void *user, int k) {
     return text;
 }
 static const char *variant_name(const void *user, int k) {
-    return k ? ((const Viewer *)user)->shown->facts.variants[k - 1] : "none";
+    return k ? ((const Viewer *)user)->shown->facts.variants[k - 1] : "the file's own";
 }
 static const char *preset_name(const void *user, int k) { return k ? weft_preset_name(k - 1) : "none"; }
 static const char *preset_help(const void *user, int k) {

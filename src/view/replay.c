@@ -16,9 +16,11 @@ enum { MOTIONS = 512, TRIES = 240, SIZE_MOST = 1 << 20 };
 typedef struct Motion {
     enum { DO_EVENT, DO_POINT, DO_NOTHING, DO_KEEP, DO_WRITE } kind;
     Event event;
-    char path[1024];  /* of the action's file */
-    char control[96]; /* DO_POINT: moves the mouse to a share of this control's box */
+    char path[1024]; /* of the action's file */
+    char control
+        [96]; /* DO_POINT: moves the mouse to a share of this control's box, once it stays where it is */
     float x, y;
+    UiBox last; /* of the control, a frame ago */
 } Motion;
 
 struct Replay {
@@ -309,6 +311,10 @@ static bool do_motion(Replay *self, Viewer *v, char why[512]) {
             snprintf(why, 512, "%.200s:%d: there is no \"%.90s\" to point at", self->path, self->line,
                      m->control);
             return false;
+        }
+        if (memcmp(&c->box, &m->last, sizeof m->last) != 0 && ++self->tries < TRIES) {
+            m->last = c->box;
+            return true;
         }
         window_push(v->window, &(Event){.kind = EVENT_MOVE,
                                         .x = c->box.x + m->x * c->box.width,

@@ -69,6 +69,15 @@ typedef struct ShownRoom {
 } ShownRoom;
 
 /* edit.c: what is edited, and what was. */
+enum { ASSIGNMENTS = 16 };
+
+/* A material that a task is about to replace, as it was when the task was sent. */
+typedef struct Assignment {
+    unsigned stamp;
+    int material;
+    WeftMaterial was;
+} Assignment;
+
 typedef struct EditRoom {
     SceneState state, first, before; /* as it is edited; as it was read; a frame ago */
     SceneState other;                /* the other of A and B; empty without a comparison */
@@ -78,6 +87,9 @@ typedef struct EditRoom {
     int material, light; /* shown in the panels */
     WeftMaterial copied;
     bool has_copied;
+    Assignment assignments[ASSIGNMENTS]; /* under way, in the order they were sent */
+    int assignment_count;
+    unsigned stamp; /* of the last */
 } EditRoom;
 
 /* view_options.c: how the scene is seen. */
@@ -209,7 +221,11 @@ void edit_forget_copy(Viewer *v);
 void edit_match_other(Viewer *v); /* makes the other of A and B equal */
 void edit_take_light(Viewer *v,
                      const EnvironmentState *environment); /* takes a light that the renderer has read */
-void edit_take_assigned(Viewer *v, SceneState *state);     /* what a task has made; takes it */
+unsigned edit_assign(Viewer *v,
+                     int material); /* a stamp for a task that replaces a material; 0: none is left */
+void edit_end_assign(Viewer *v, unsigned stamp);
+/* Takes what a task has made; of a material with a stamp, what was changed since the task was sent stays. */
+void edit_take_assigned(Viewer *v, SceneState *state, unsigned stamp);
 void viewer_undo(Viewer *v);
 void viewer_redo(Viewer *v);
 void viewer_copy_material(Viewer *v);
