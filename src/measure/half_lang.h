@@ -60,6 +60,7 @@ FN Half table_texel(Table t, int stride, int row, int column) { return (Half)t[r
 #define mix(a, b, t)        half_mix(a, b, t)
 #define to_float(x)         ((Half)(x))
 #define to_int(x)           ((int)(x))
+#define ROUNDS(k, n)        for (int k = 0; k < (n); k++)
 
 #define PI                                                           3.14159265358979f16
 #define FIELD(type, name, def, low, high, hard_low, hard_high, help) type name;

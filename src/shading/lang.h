@@ -21,6 +21,8 @@
 #define to_float(x) float(x)
 #define to_int(x)   int(x)
 
+#define ROUNDS(k, n) for (int k = 0; k < n; k++)
+
 /* Layer t of the one array texture that holds all tables. */
 #define Table                               int
 #define TABLE_OF_NOTHING                    0
@@ -39,8 +41,8 @@
 #else
 #define FN static inline __attribute__((always_inline, unused))
 #endif
-/* One that is to stay out of its callers: long text that runs once for many pairs, or has loops, which only
- * lobes with TRAIT_REFERENCE may. A file in which it runs for each pair says otherwise. */
+/* One that is to stay out of its callers: long text that runs once for many pairs, or has loops without ROUNDS,
+ * which only lobes with TRAIT_REFERENCE may. A file in which it runs for each pair says otherwise. */
 #ifndef FN_NOINLINE
 #define FN_NOINLINE static __attribute__((noinline, unused))
 #endif
@@ -50,6 +52,14 @@
 #define UNION(Name)                                                                                          \
     typedef union Name Name;                                                                                 \
     union Name
+
+/* A loop of so many rounds, a number. C writes them out, so that a loop over arrays around it is one of vectors; a
+ * shader has the loop, since a driver takes long for what is written out. */
+#ifdef __clang__
+#define ROUNDS(k, n) _Pragma("clang loop unroll(full)") for (int k = 0; k < n; k++)
+#else
+#define ROUNDS(k, n) _Pragma("GCC unroll 16") for (int k = 0; k < n; k++)
+#endif
 
 /* a b + c, with one rounding where the processor has that in one instruction. Only the functions below use it: they are
  * other than GLSL's own anyway, while all that both languages compute alike rounds each product. */

@@ -18,21 +18,21 @@
 #include "weave/weft_cloth.h"
 
 enum {
-    PIECE = 480,      /* threads of a piece of cloth, */
-    LOOKS = 40000,    /* places at which it is looked at, */
-    LOOKS_LIT = 8000, /* and at which it is lit */
-    PAIRS = 96,       /* of directions */
+    PIECE = 480,    /* threads of a piece of cloth, */
+    LOOKS = 24000,  /* places at which it is looked at, */
+    LIT_PAIRS = 96, /* of directions */
     FITS_MOST = 300,
     FAR_SIDE_MAX = 512,
 };
 
-/* The largest numbers of lobe woven; the crimp is a tangent. */
-static const float ROUNDNESS_MOST = 1.5f, CRIMP_MOST = 2.5f, FLOATS_MOST = 16.0f;
+/* The ends of the numbers of lobe woven; the crimp is a tangent. */
+static const float ROUNDNESS_MOST = 1.5f, CRIMP_MOST = 2.5f, FLOATS_LEAST = 0.4f, FLOATS_MOST = 16.0f;
 
 /* The points of one system that were seen. */
 typedef struct SystemSeen {
     int count, crossings[2], on[2]; /* places where it is above or below, and those at which it is seen */
     double run, across, along;      /* sums of k, s_x^2 and s_y^2 */
+    double height, square;          /* of heights, and of their squares */
 } SystemSeen;
 
 /* Returns about how many threads are looked at, in whole repeats. */
@@ -67,23 +67,22 @@ static void see(Weave *m, SystemSeen seen[2]) {
         of->run += (double)p.k;
         of->across += (double)(across * across);
         of->along += (double)(along * along);
+        of->height += (double)p.height;
+        of->square += (double)p.height * (double)p.height;
         m->low = fminf(m->low, p.height);
         m->high = fmaxf(m->high, p.height);
     }
     if (m->low > m->high) m->low = m->high = 0.0f;
 }
 
-static float open_mean(const Weave *m) {
-    double open = 0.0;
-    int count = 0;
-    for (int k = 0; k < LOOKS; k++) {
-        float x, y;
-        const WeavePoint p = look(m, k, &x, &y);
-        if (p.height <= WEAVE_NONE) continue;
-        open += (double)weave_depth(m, p);
-        count++;
-    }
-    return count ? (float)(open / count) : 1.0f;
+/* The mean of weave_depth, 1 - 0.7 ((high - z) / (high - low))^2, from the sums of z and z^2. */
+static float open_mean(const Weave *m, const SystemSeen seen[2]) {
+    const double count = (double)(seen[0].count + seen[1].count), high = (double)m->high;
+    const double range = fmax(high - (double)m->low, 1e-6);
+    if (count < 1.0) return 1.0f;
+    const double z = (seen[0].height + seen[1].height) / count,
+                 z2 = (seen[0].square + seen[1].square) / count;
+    return (float)(1.0 - 0.7 * (high * high - 2.0 * high * z + z2) / (range * range));
 }
 
 /* Streaks turn fibres by 0.35 streaks times noise whose variance is 0.18 (weave_finish), and so widen D. */
@@ -98,7 +97,8 @@ static WeaveFar far_of(const WeaveYarn *y, const SystemSeen *seen) {
                     .share = (float)seen->count / LOOKS};
     if (!seen->count) return far;
     far.floats = fminf((float)(seen->run / seen->count), FLOATS_MOST);
-    far.slope_across = far.roundness = fminf((float)(sqrt)(3.0 * seen->across / seen->count), ROUNDNESS_MOST);
+    far.slope_across = fminf((float)(sqrt)(3.0 * seen->across / seen->count), ROUNDNESS_MOST);
+    far.roundness = far.slope_across;
     far.slope_along = (float)(sqrt)(3.0 * seen->along / seen->count);
     far.crimp = fminf(far.slope_along * sqrtf((2.0f * far.floats + 1.0f) / 3.0f), CRIMP_MOST);
     return far;
@@ -204,23 +204,49 @@ static Dir direction_of(double mu, double turn) {
 /* Pairs of directions, and what one system reflects between them of light that met one fibre, and of all other, times
  * the cosine. */
 typedef struct Lit {
-    Dir o[PAIRS], i[PAIRS];
-    double once[PAIRS], again[PAIRS];
+    float o[3][LIT_PAIRS], i[3][LIT_PAIRS];
+    double once[LIT_PAIRS], again[LIT_PAIRS];
 } Lit;
 
+static void put_direction(float to[3][LIT_PAIRS], int k, Dir w) {
+    to[0][k] = w.x, to[1][k] = w.y, to[2][k] = w.z;
+}
+
 static void take_pairs(Lit *lit) {
-    for (int k = 0; k < PAIRS; k++) {
+    for (int k = 0; k < LIT_PAIRS; k++) {
         const double n = (double)k + 0.5;
-        lit->o[k] = direction_of(n / PAIRS, fmod(0.7548776662 * n, 1.0));
-        lit->i[k] = direction_of(fmod(0.5698402910 * n, 1.0), fmod(0.3819660113 * n, 1.0));
+        put_direction(lit->o, k, direction_of(n / LIT_PAIRS, fmod(0.7548776662 * n, 1.0)));
+        put_direction(lit->i, k, direction_of(fmod(0.5698402910 * n, 1.0), fmod(0.3819660113 * n, 1.0)));
         lit->once[k] = lit->again[k] = 0.0;
     }
 }
 
-static void add_value(Lit *lit, int k, LobeValue v, double once, double again) {
-    const double f = (double)(v.f * lit->i[k].z), s = (double)v.s;
-    lit->once[k] += f * (1.0 - s) * once;
-    lit->again[k] += f * s * again;
+/* Light of both kinds between each pair, times the cosine. */
+typedef struct PairsLit {
+    float once[LIT_PAIRS], again[LIT_PAIRS];
+} PairsLit;
+
+/* A loop over the pairs for a lobe, of vectors. */
+#define PAIRS_LOOP(name, Name)                                                                               \
+    static void name##_pairs(const Name##Prepared *p, const Lit *lit, PairsLit *restrict out) {              \
+        for (int k = 0; k < LIT_PAIRS; k++) {                                                                \
+            const Dir o = {lit->o[0][k], lit->o[1][k], lit->o[2][k]};                                        \
+            const Dir i = {lit->i[0][k], lit->i[1][k], lit->i[2][k]};                                        \
+            Name##View w;                                                                                    \
+            name##_view(p, o, &w);                                                                           \
+            const LobeValue v = name##_value(p, &w, angles_between(o, i));                                   \
+            out->once[k] = v.f * i.z * (1.0f - v.s);                                                         \
+            out->again[k] = v.f * i.z * v.s;                                                                 \
+        }                                                                                                    \
+    }
+PAIRS_LOOP(yarn, Yarn)
+PAIRS_LOOP(woven, Woven)
+
+static void add_pairs(Lit *lit, const PairsLit *pairs, double once, double again) {
+    for (int k = 0; k < LIT_PAIRS; k++) {
+        lit->once[k] += (double)pairs->once[k] * once;
+        lit->again[k] += (double)pairs->again[k] * again;
+    }
 }
 
 /* The mean over channels of what a point reflects. */
@@ -233,39 +259,33 @@ static void color_of_point(const Weave *m, WeavePoint p, double *once, double *a
 }
 
 static void light_points(const Weave *m, Lit near[2]) {
-    const double part = 1.0 / LOOKS_LIT;
-    for (int at = 0; at < LOOKS_LIT; at++) {
+    const double part = 1.0 / LOOKS;
+    for (int at = 0; at < LOOKS; at++) {
         float x, y;
         double once, again;
         YarnPrepared p;
+        PairsLit pairs;
         const WeavePoint point = look(m, at, &x, &y);
         if (point.height <= WEAVE_NONE) continue;
         yarn_prepare(weave_yarn(m, point), &p);
         color_of_point(m, point, &once, &again);
-        for (int k = 0; k < PAIRS; k++) {
-            YarnView w;
-            Lit *lit = &near[point.weft];
-            yarn_view(&p, lit->o[k], &w);
-            add_value(lit, k, yarn_value(&p, &w, angles_between(lit->o[k], lit->i[k])), part * once,
-                      part * again);
-        }
+        yarn_pairs(&p, &near[0], &pairs);
+        add_pairs(&near[point.weft], &pairs, part * once, part * again);
     }
 }
 
 static void light_lobe(const Woven *m, Lit *far) {
     WovenPrepared p;
+    PairsLit pairs;
     woven_prepare(*m, &p);
-    for (int k = 0; k < PAIRS; k++) {
-        WovenView w;
-        woven_view(&p, far->o[k], &w);
-        far->once[k] = far->again[k] = 0.0;
-        add_value(far, k, woven_value(&p, &w, angles_between(far->o[k], far->i[k])), 1.0, 1.0);
-    }
+    woven_pairs(&p, far, &pairs);
+    for (int k = 0; k < LIT_PAIRS; k++) far->once[k] = far->again[k] = 0.0;
+    add_pairs(far, &pairs, 1.0, 1.0);
 }
 
-static double sum_of(const double values[PAIRS]) {
+static double sum_of(const double values[LIT_PAIRS]) {
     double sum = 0.0;
-    for (int k = 0; k < PAIRS; k++) sum += values[k];
+    for (int k = 0; k < LIT_PAIRS; k++) sum += values[k];
     return sum;
 }
 
@@ -276,7 +296,8 @@ typedef struct FarFit {
     Lit lobe;
 } FarFit;
 
-/* Sum |s lobe - near| over the pairs, s the factor that makes both alike on the mean. */
+/* Sum |s lobe - near| / sqrt(near) over the pairs, near with a tenth of what was met again, s the factor that makes both
+ * alike on the mean: between the worst of bright pairs and the worst of all. */
 static double fit_error(unsigned n, const double *x, double *gradient, void *user) {
     FarFit *fit = user;
     WeaveFar *far = fit->weft ? &fit->weave->weft_far : &fit->weave->warp_far;
@@ -287,7 +308,9 @@ static double fit_error(unsigned n, const double *x, double *gradient, void *use
     light_lobe(&woven, &fit->lobe);
     const double s = sum_of(fit->near->once) / fmax(sum_of(fit->lobe.once), 1e-30);
     double error = 0.0;
-    for (int k = 0; k < PAIRS; k++) error += fabs(s * fit->lobe.once[k] - fit->near->once[k]);
+    for (int k = 0; k < LIT_PAIRS; k++)
+        error += fabs(s * fit->lobe.once[k] - fit->near->once[k]) /
+                 (sqrt)(fit->near->once[k] + 0.1 * fit->near->again[k] + 1e-9);
     return error;
 }
 
@@ -296,7 +319,7 @@ static double fit_error(unsigned n, const double *x, double *gradient, void *use
 static void fit_lobe(FarFit *fit) {
     WeaveFar *far = fit->weft ? &fit->weave->weft_far : &fit->weave->warp_far;
     const WeaveFar moments = *far;
-    const double low[4] = {0.05, 0.0, 0.0, 1.0},
+    const double low[4] = {0.05, 0.0, 0.0, (double)FLOATS_LEAST},
                  high[4] = {1.0, (double)CRIMP_MOST, (double)ROUNDNESS_MOST, (double)FLOATS_MOST};
     double x[4] = {(double)far->alpha, (double)far->crimp, (double)far->roundness, (double)far->floats},
            error;
@@ -356,7 +379,7 @@ bool cloth_far_make(WeftCloth *cloth) {
     Weave *m = &cloth->weave;
     SystemSeen seen[2] = {{0}};
     see(m, seen);
-    m->openness = open_mean(m);
+    m->openness = open_mean(m, seen);
     m->warp_far = far_of(&m->warp, &seen[0]);
     m->weft_far = far_of(&m->weft, &seen[1]);
     if (!make_colors(cloth, seen)) return false;

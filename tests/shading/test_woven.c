@@ -37,7 +37,7 @@ static Yarn point_of(const Woven *m, float r, float s) {
                   .slope_y = slope,
                   .azimuth = azimuth_of(fibre),
                   .roundness = m->roundness,
-                  .crimp = t / sqrtf(m->floats),
+                  .crimp = t * sqrtf(3.0f / (2.0f * m->floats + 1.0f)),
                   .cross_crimp = tanf(m->cross_crimp),
                   .share = m->share};
 }
@@ -46,6 +46,7 @@ typedef struct Mean {
     double once, many, seen; /* of both kinds of light, and of P / V towards wo */
 } Mean;
 
+/* Light that met one fibre counts less at the sides of a yarn, as in the lobe. */
 static Mean mean_of(const Woven *m, Dir o, Dir i, int side) {
     Mean mean = {0.0, 0.0, 0.0};
     for (int k = 0; k < side * side; k++) {
@@ -56,7 +57,7 @@ static Mean mean_of(const Woven *m, Dir o, Dir i, int side) {
         yarn_prepare(point_of(m, r, s), &p);
         yarn_view(&p, o, &w);
         const LobeValue v = yarn_value(&p, &w, angles_between(o, i));
-        mean.once += (double)(v.f * (1.0f - v.s)) / (side * side);
+        mean.once += (double)(v.f * (1.0f - v.s) * (1.0f - 0.3f * r * r) / 0.9f) / (side * side);
         mean.many += (double)(v.f * v.s) / (side * side);
         mean.seen += (double)(w.p / w.seen) / (side * side);
     }
@@ -79,9 +80,9 @@ static Dir above(Random *random, double least) {
 /* Over 100 pairs. */
 static void the_far_lobe_is_the_mean_of_the_near_one(void **state) {
     (void)state;
-    static const Shape shapes[] = {{0.2f, 25, 0, 1, 0.014}, {0.4f, 25, 30, 1, 0.014},
-                                   {0.2f, 40, 0, 1, 0.014}, {0.3f, 40, 30, 1, 0.014},
-                                   {0.1f, 15, 0, 1, 0.014}, {0.12f, 35, 0, 4, 0.04}};
+    static const Shape shapes[] = {{0.2f, 25, 0, 1, 0.01}, {0.4f, 25, 30, 1, 0.01},
+                                   {0.2f, 40, 0, 1, 0.01}, {0.3f, 40, 30, 1, 0.01},
+                                   {0.1f, 15, 0, 1, 0.01}, {0.12f, 35, 0, 4, 0.01}};
     for (size_t k = 0; k < sizeof shapes / sizeof *shapes; k++) {
         const Woven m = woven_shape(&shapes[k], 1.0f);
         Random random = {k};
@@ -98,7 +99,7 @@ static void the_far_lobe_is_the_mean_of_the_near_one(void **state) {
                (double)shapes[k].alpha, (double)shapes[k].crimp, (double)shapes[k].twist,
                (double)shapes[k].floats, 100.0 * apart / sum, 100.0 * many);
         assert_true(apart / sum < shapes[k].most);
-        assert_true(many < (shapes[k].floats > 1.0f ? 0.05 : 2e-3)); /* hidden shares of floats are rough */
+        assert_true(many < (shapes[k].floats > 1.0f ? 0.02 : 2e-3)); /* hidden shares of floats are rough */
     }
 }
 
