@@ -3,10 +3,12 @@
  *
  *   bench_raster [--quick]
  *   bench_raster --sampled [--shader-dir DIR] [--only NAME]... [MAP.hdr]
+ *   bench_raster --woven
  *
  * Every lobe is drawn in turn, several rounds; the least time of a frame counts. The processor's own part is
  * that of a frame whose draw calls do nothing. --sampled: what lobes that are sampled take under an environment
- * and no other light, against the strategy `fitted` for the same lobe (docs/environment.md). */
+ * and no other light, against the strategy `fitted` for the same lobe (docs/environment.md). --woven: what denim takes
+ * in both engines against the cloth's own material, from threads close up to all of the cloth (docs/weave.md). */
 #define _POSIX_C_SOURCE 200809L
 #include <stdbool.h>
 #include <stdio.h>
@@ -186,7 +188,64 @@ static int sampled_main(int argc, char **argv) {
     return 0;
 }
 
+static const char denim[] =
+    "{\"weave\": {\"draft\": \"twill 3/1 z; warp 1#26375c; weft 1#d8d4c8; sett 26 18\", "
+    "\"warp\": \"cotton\", \"weft\": \"cotton\", \"metres\": 0.5}}";
+
+/* Seconds for four samples a pixel of the path tracer, the scene's tree apart. */
+static double trace(const WeftScene *scene, const char *camera) {
+    WeftRender *render;
+    WeftError error;
+    const WeftRenderDesc desc = {.width = 320, .height = 180, .camera = camera, .threads = 1};
+    check(weft_render_create(scene, &desc, &render, &error), &error);
+    const double start = clock_now();
+    check(weft_render_run(render, 4, 0.0, NULL, NULL), &error);
+    const double seconds = clock_now() - start;
+    weft_render_free(render);
+    return seconds;
+}
+
+static int woven_main(void) {
+    static const struct {
+        const char *name, *camera;
+    } distances[] = {{"threads", "0.25,0.62,0.65;0.03,0.42,0.15;1.5"},
+                     {"near", "0.25,0.62,0.65;0.03,0.42,0.15;8"},
+                     {"all", "0"}};
+    enum { ROUNDS = 3 };
+    Entry entries[2] = {entry_of(NULL), entry_of(NULL)};
+    WeftError error;
+    check(weft_scene_assign_material_memory(entries[1].scene, NULL, denim, sizeof denim - 1, "denim", NULL,
+                                            &error),
+          &error);
+    weft_raster_free(entries[1].raster);
+    check(weft_raster_create(entries[1].scene, &(WeftRasterDesc){0}, &entries[1].raster, NULL, &error),
+          &error);
+    printf("builtin:cloth and denim on it, ms a frame\n%-20s %10s %10s %8s\n", "engine and distance", "plain",
+           "denim", "times");
+    for (int engine = 0; engine < 2; engine++)
+        for (size_t d = 0; d < sizeof distances / sizeof *distances; d++) {
+            WeftRasterView view = view_of((Size){640, 360});
+            view.camera = distances[d].camera;
+            double best[2] = {1e9, 1e9};
+            for (int round = 0; round < ROUNDS; round++)
+                for (int k = 0; k < 2; k++) {
+                    if (engine && round == 0) frame(entries[k].raster, &view); /* compiles */
+                    const double t =
+                        engine ? frame(entries[k].raster, &view) : trace(entries[k].scene, view.camera);
+                    if (t < best[k]) best[k] = t;
+                }
+            printf("%-7s %-12s %10.1f %10.1f %8.2f\n", engine ? "raster" : "traced", distances[d].name,
+                   1e3 * best[0], 1e3 * best[1], best[1] / best[0]);
+        }
+    for (int k = 0; k < 2; k++) {
+        weft_raster_free(entries[k].raster);
+        weft_scene_free(entries[k].scene);
+    }
+    return 0;
+}
+
 int main(int argc, char **argv) {
+    if (argc > 1 && strcmp(argv[1], "--woven") == 0) return woven_main();
     if (argc > 1 && strcmp(argv[1], "--sampled") == 0) return sampled_main(argc, argv);
     bool quick = argc > 1 && strcmp(argv[1], "--quick") == 0;
     static Entry entries[LOBES_MOST];
