@@ -16,6 +16,7 @@ static const double even_share = 0.03;
 typedef struct RglMaking {
     const RglSource *source;
     Rgl *rgl;
+    float *luminance; /* [slice][y][x] */
     Dir facet[FACETS_AROUND][FACETS_ACROSS];
     double area[FACETS_ACROSS]; /* solid angle of a facet's cell */
 } RglMaking;
@@ -119,23 +120,39 @@ static Dir slice_direction(const Rgl *rgl, int slice) {
     return direction((double)rgl->theta[slice % rgl->thetas], (double)rgl->phi[slice / rgl->thetas]);
 }
 
-/* D(m) (wo . m) over u. */
+/* k and q of one m. */
+typedef struct Spread {
+    double k, q;
+} Spread;
+static Spread spread_at(const Rgl *rgl, Dir o, SquarePoint u) {
+    double theta, phi;
+    rgl_angles_of(u, &theta, &phi);
+    Dir m = direction(theta, phi + (rgl_isotropic(rgl) ? (double)rgl->phi[0] : 0.0));
+    double cosine = (fmax)((double)dir_dot(o, m), 0.0), height = (double)dir_mirror(o, m).z;
+    double q2 = cosine * rgl_table_at(&rgl->ndf, u) * u.x * (sin)(theta);
+    return (Spread){(fmin)((fmax)(1.0 + 10.0 * height, 0.1), 1.0), (sqrt)((fmax)(q2, 0.0))};
+}
+
+/* W's density over u. */
 static void normals_fill(const Rgl *rgl, int slice, float *density) {
     const Dir o = slice_direction(rgl, slice);
     const int side = rgl->side;
-    for (int k = 0; k < side * side; k++) {
-        const int column = k % side, row = k / side;
-        SquarePoint u = {(double)column / (side - 1), (double)row / (side - 1)};
-        double theta, phi;
-        rgl_angles_of(u, &theta, &phi);
-        double cosine =
-            (double)dir_dot(o, direction(theta, phi + (rgl_isotropic(rgl) ? (double)rgl->phi[0] : 0.0)));
-        density[k] = (float)((fmax)(cosine, 0.0) * rgl_table_at(&rgl->ndf, u) * u.x * (sin)(theta));
-    }
+    double sum = 0.0, of_k = 0.0;
+    for (int round = 0; round < 2; round++)
+        for (int at = 0; at < side * side; at++) {
+            const int column = at % side, row = at / side;
+            Spread s =
+                spread_at(rgl, o, (SquarePoint){(double)column / (side - 1), (double)row / (side - 1)});
+            if (round == 0)
+                sum += s.k * s.q, of_k += s.k;
+            else
+                density[at] = (float)(s.k * (s.q + sum / of_k));
+        }
 }
 
-/* R of a slice at all s. Below the horizon, where nothing is asked for, it goes on as if f were the same on
- * both sides, below 0: so it is straight where f cos_i crosses 0, and its steps do not show there. */
+/* R of a slice at all s, and the luminance there of f cos_i over the pdf of W, by which samples have even weights.
+ * Below the horizon, where nothing is asked for, R goes on as if f were the same on both sides, below 0: so it is
+ * straight where f cos_i crosses 0, and its steps do not show there. */
 static void colors_fill(void *user, int slice, int thread) {
     const RglMaking *making = user;
     const Rgl *rgl = making->rgl;
@@ -147,7 +164,7 @@ static void colors_fill(void *user, int slice, int thread) {
     const double azimuth = (double)rgl->phi[slice / rgl->thetas];
     const double sigma =
         4.0 * rgl_table_at(&rgl->sigma, rgl_square_of((double)rgl->theta[slice % rgl->thetas], azimuth));
-    float *color = rgl->color + (size_t)slice * 3 * n;
+    float *color = rgl->color + (size_t)slice * 3 * n, *luminance = making->luminance + (size_t)slice * n;
     (void)thread;
     for (size_t k = 0; k < n; k++) {
         double theta, phi;
@@ -156,38 +173,32 @@ static void colors_fill(void *user, int slice, int thread) {
             square_warp_point(&rgl->normals, &own, (double)column / (side - 1), (double)row / (side - 1));
         rgl_angles_of(u, &theta, &phi);
         if (rgl_isotropic(rgl)) phi += azimuth;
-        Dir i = dir_mirror(o, direction(theta, phi));
+        Dir m = direction(theta, phi), i = dir_mirror(o, m);
         const float wi[1][3] = {{i.x, i.y, (float)(fabs)((double)i.z)}};
         float f[1][3];
         making->source->f(making->source->user, wo, 1, wi, f);
         double scale = sigma * (double)i.z / rgl_table_at(&rgl->ndf, u);
         for (size_t c = 0; c < 3; c++) color[c * n + k] = (float)((double)f[0][c] * scale);
+        double area = u.x * (sin)(theta) *
+                      (fmax)((double)dir_dot(o, m), 0.0); /* of wi for one of u, times a constant */
+        double bright = 0.2126 * (double)f[0][0] + 0.7152 * (double)f[0][1] + 0.0722 * (double)f[0][2];
+        luminance[k] =
+            (float)((fmax)(bright * (double)i.z * area, 0.0) / square_warp_density(&rgl->normals, &own, u));
     }
-}
-
-/* Luminances of the colours: proportional to f cos_i over the pdf of W, so the weights of samples are even. */
-static void luminance_fill(const Rgl *rgl, float *density) {
-    const size_t n = (size_t)rgl->side * (size_t)rgl->side;
-    for (size_t slice = 0; slice < (size_t)rgl->phis * (size_t)rgl->thetas; slice++)
-        for (size_t k = 0; k < n; k++) {
-            const float *color = rgl->color + slice * 3 * n + k;
-            density[slice * n + k] =
-                0.2126f * color[0] + 0.7152f * color[n] + 0.0722f * color[2 * n]; /* 0 below */
-        }
 }
 
 static bool axes_make(Rgl *rgl, const RglSource *source, const RglDesc *desc) {
     rgl->thetas = desc->thetas;
     rgl->phis = source->isotropic ? 1 : desc->phis;
     rgl->side = desc->side;
-    rgl->parts = 1;
+    rgl->parts = source->isotropic ? 1 : source->parts;
     rgl->theta = alloc_array((size_t)rgl->thetas, sizeof *rgl->theta);
     rgl->phi = alloc_array((size_t)rgl->phis, sizeof *rgl->phi);
     if (!rgl->theta || !rgl->phi) return false;
     for (int k = 0; k < rgl->thetas; k++)
         rgl->theta[k] = (float)(89.0 / 180.0 * PI_DOUBLE * k / (rgl->thetas - 1));
     for (int k = 0; k < rgl->phis && rgl->phis > 1; k++)
-        rgl->phi[k] = (float)(PI_DOUBLE * (2.0 * k / (rgl->phis - 1) - 1.0));
+        rgl->phi[k] = (float)(PI_DOUBLE * (2.0 * k / (rgl->parts * (rgl->phis - 1)) - 1.0));
     return true;
 }
 
@@ -208,10 +219,14 @@ bool rgl_make(const RglSource *source, const RglDesc *desc, Rgl *out) {
         normals_fill(out, slice, normals + (size_t)slice * n);
     made = normals && square_warp_create(&out->normals, out->side, out->side, (size_t)slices, normals);
     out->color = made ? alloc_array((size_t)slices * 3 * n, sizeof *out->color) : NULL;
-    if (out->color) parallel_for(desc->threads, slices, colors_fill, making);
-    float *luminance = out->color ? alloc_array((size_t)slices * n, sizeof *luminance) : NULL;
-    if (luminance) luminance_fill(out, luminance);
-    made = luminance && square_warp_create(&out->luminance, out->side, out->side, (size_t)slices, luminance);
+    if (made) making->luminance = alloc_array((size_t)slices * n, sizeof *making->luminance);
+    made = made && out->color && making->luminance;
+    if (made) {
+        parallel_for(desc->threads, slices, colors_fill, making);
+        made = square_warp_create(&out->luminance, out->side, out->side, (size_t)slices, making->luminance);
+    } else if (making) {
+        free(making->luminance);
+    }
     free(making);
     return made;
 }

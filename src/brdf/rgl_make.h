@@ -4,10 +4,17 @@
  *
  *   D(w) ~ 4 f(w, w) cos(w) sigma(w),   sigma(w) = integral of max(w . m, 0) D(m) dm
  *
- * by power iteration; W spreads points by D(m) (wo . m), and R is what remains of f. Jonathan Dupuy, Eric
- * Heitz, Jean-Claude Iehl, Pierre Poulin, Victor Ostromoukhov, "Extracting Microfacet-based BRDF Parameters
- * from Arbitrary Materials with Power Iterations", Computer Graphics Forum 34(4), 2015; for the rest rgl.h. A
- * part of D is even, 3 % of its peak, so that f is met where nothing comes straight back. */
+ * by power iteration; R is what remains of f. Jonathan Dupuy, Eric Heitz, Jean-Claude Iehl, Pierre Poulin,
+ * Victor Ostromoukhov, "Extracting Microfacet-based BRDF Parameters from Arbitrary Materials with Power
+ * Iterations", Computer Graphics Forum 34(4), 2015; for the rest rgl.h. A part of D is even, 3 % of its peak,
+ * so that f is met where nothing comes straight back.
+ *
+ * The authors' W spreads points by q^2 = D(m) (wo . m) u_theta sin theta_m. Here it is
+ *
+ *   k (q + Q),   k = 1 above the horizon, 0.1 well below,   Q the mean of q where k counts
+ *
+ * so that points are left where little comes straight back, and few lie where mirroring wo at m ends below the
+ * horizon. A reader looks W up, whatever made it. Own form, by how near lobes come back (docs/measured.md). */
 #ifndef WEFT_BRDF_RGL_MAKE_H
 #define WEFT_BRDF_RGL_MAKE_H
 
@@ -19,6 +26,7 @@ typedef struct RglSource {
     void (*f)(void *user, const float wo[3], int count, const float (*wi)[3], float (*f)[3]);
     void *user;
     bool isotropic;
+    int parts; /* of the circle of azimuths that are alike, as in rgl.h; counts where it is not isotropic */
 } RglSource;
 
 /* The sizes of the tables. */

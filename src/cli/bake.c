@@ -270,7 +270,7 @@ static void lists(void) {
     layout_entry(
         stdout, 26, "bsdf MODEL",
         "a whole BRDF as a file of RGL's format, .bsdf; --size polar angles x points along each side "
-        "[32x96, 32x32 where azimuths count]");
+        "[as many as bring f back within 1e-3]");
     layout_entry(
         stdout, 26, "lobe DATA",
         "a measured BRDF as a lobe of one's own, NAME.h, which --lobe takes, and a material of it, .json");

@@ -21,6 +21,17 @@ static int desc_read(const Options *options, WeftBsdfDesc *desc) {
     return 0;
 }
 
+/* Prints how near the file comes to its model. */
+static int comparison_print(const char *path, const WeftReflection *reflection) {
+    WeftReflection *back;
+    WeftError error;
+    if (weft_reflection_read(path, &back, &error) != WEFT_OK) return report_error(&error);
+    printf("%s: f differs by %.5f of its mean, up to 80 degrees\n", path,
+           weft_reflection_distance(reflection, back));
+    weft_reflection_free(back);
+    return 0;
+}
+
 int bake_bsdf_run(const Options *options) {
     WeftError error;
     WeftBsdfDesc desc = {0};
@@ -40,6 +51,8 @@ int bake_bsdf_run(const Options *options) {
     for (const char *path; result == 0 && (path = option_next(options, "-o", &cursor));)
         if (weft_reflection_write(model.reflection, path, &desc, &error) != WEFT_OK)
             result = report_error(&error);
+        else
+            result = comparison_print(path, model.reflection);
     free(command);
     model_free(&model);
     return result;
