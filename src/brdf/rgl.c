@@ -47,7 +47,9 @@ static void view_make(const Rgl *self, Dir o, RglView *view) {
     if (self->parts > 1 && o.y > 0.0f) view->x = view->y = -1.0f;
     if (self->parts == 4) view->x = o.x > 0.0f ? -1.0f : 1.0f;
     view->o = dir(o.x * view->x, o.y * view->y, o.z);
-    view->phi = (atan2)((double)view->o.y, (double)view->o.x);
+    /* of a part of the circle y is not above 0, and -0 where it is 0: its azimuth is -pi, not pi, behind */
+    double y = self->parts > 1 ? -(fabs)((double)view->o.y) : (double)view->o.y;
+    view->phi = (atan2)(y, (double)view->o.x);
     double theta = angle_to_normal(o);
     view->u = rgl_square_of(theta, view->phi);
     view->blend = slice_blend(self->phi, self->phis, self->theta, self->thetas, view->phi, theta);

@@ -252,6 +252,30 @@ static void evaluation_is_the_formula(void **state) {
     tables_are_as_by_hand(&quarter, 4);
 }
 
+/* Where parts of the circle meet, at y = 0, f and pdf are as beside. */
+static void seams_do_not_show(void **state) {
+    (void)state;
+    const struct {
+        Tables tables;
+        int parts;
+    } all[] = {{random_tables(3, PI_DOUBLE), 2}, {random_tables(3, 0.5 * PI_DOUBLE), 4}};
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+        file_make(&all[k].tables, 3);
+        Rgl rgl = file_read_back();
+        assert_int_equal(rgl.parts, all[k].parts);
+        for (int side = 0; side < 2; side++) {
+            const float x = side ? 0.6f : -0.6f;
+            const Dir i = dir(0.3f, 0.4f, 0.8660254f), o = dir(x, 0.0f, 0.8f), near = dir(x, -1e-6f, 0.8f);
+            float at[3], beside[3], pdf = rgl_pdf(&rgl, o, i);
+            rgl_at(&rgl, o, i, at);
+            rgl_at(&rgl, near, i, beside);
+            for (int c = 0; c < 3; c++) assert_float_equal(at[c], beside[c], 1e-4f * beside[c]);
+            assert_float_equal(pdf, rgl_pdf(&rgl, near, i), 1e-3f * pdf);
+        }
+        rgl_free(&rgl);
+    }
+}
+
 /* On paper: D 2, sigma 1/2 and R (0.3, 0.6, 0.9) everywhere give f = R 2 / (4 1/2 cos) = R / cos. */
 static void even_tables_give_a_number_known_on_paper(void **state) {
     (void)state;
@@ -626,6 +650,7 @@ static void bad_sizes_are_refused(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(evaluation_is_the_formula),
+        cmocka_unit_test(seams_do_not_show),
         cmocka_unit_test(even_tables_give_a_number_known_on_paper),
         cmocka_unit_test(spectra_become_colors),
         cmocka_unit_test(sampling_is_the_inverse),
