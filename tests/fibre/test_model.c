@@ -135,6 +135,78 @@ static void thin_coloured_slab_agrees_with_random_walks(void **state) {
     assert_true(worst <= 0.1);
 }
 
+/* A range that docs/fibre.md claims, and the most by which E may be off there beyond four standard errors of the walks:
+ * a little more than R's error of its stage. */
+typedef struct Claim {
+    const char *name;
+    double alpha, density, color, tilt; /* alpha from here to alpha_most, the rest as far from 1, 1 and 0 */
+    double alpha_most, most;
+} Claim;
+
+static const Claim claims[] = {
+    {"white", 0.19, 1.0, 1.0, 0.0, 1.0, 2e-3},
+    {"white, low alpha", 0.05, 1.0, 1.0, 0.0, 0.19, 1e-2},
+    {"white, density", 0.05, 4.0, 1.0, 0.0, 1.0, 2e-2},
+    {"color, density", 0.19, 4.0, 0.1, 0.0, 1.0, 2e-2},
+    {"color, low alpha, density", 0.05, 4.0, 0.1, 0.0, 0.19, 2e-2},
+    {"white, nap", 0.38, 1.0, 1.0, 0.78, 1.0, 6e-2},
+    {"color, nap, density", 0.38, 4.0, 0.1, 0.78, 1.0, 9e-2},
+};
+
+/* E of one random material of a claim and R of the walks, towards a random direction. */
+typedef struct ClaimSample {
+    double e, r, error;
+} ClaimSample;
+static ClaimSample claim_sample(const Claim *claim, uint32_t k, double walks) {
+    const double u = (double)unit(k, 3), mu = k % 2 ? u : u * u * u + 1e-3,
+                 r = (sqrt)((1.0 - mu) * (1.0 + mu)), azimuth = PI_DOUBLE * (double)unit(k, 5),
+                 alpha = claim->alpha * (pow)(claim->alpha_most / claim->alpha, (double)unit(k, 0)),
+                 density = (pow)(claim->density, 2.0 * (double)unit(k, 1) - 1.0),
+                 color = claim->color + (1.0 - claim->color) * (double)unit(k, 2),
+                 tilt = claim->tilt * (double)unit(k, 4);
+    WalkDesc desc = {.alpha = alpha,
+                     .thickness = density,
+                     .albedo = color,
+                     .tilt = tilt,
+                     .azimuth = azimuth,
+                     .wo = {r, 0.0, mu},
+                     .walks = (long long)walks,
+                     .seed = k + 1};
+    WalkCount count;
+    assert_true(walk_run(&desc, &count, NULL));
+    const WalkEstimate back = walk_share(count.reflected, count.walks);
+    Lobe lobe = lobe_default(LOBE_FIBRE);
+    set(&lobe, "alpha", alpha);
+    set(&lobe, "density", density);
+    set(&lobe, "tilt", tilt);
+    set(&lobe, "azimuth", azimuth);
+    const float w = (float)color;
+    float e[3];
+    albedo_in_color(&lobe, dir((float)r, 0.0f, (float)mu), (const float[3]){w, w, w}, 1e-4, e);
+    return (ClaimSample){(double)e[0], back.mean, back.error};
+}
+
+/* What is claimed holds at random materials against light walking among fibres, which no fit saw. */
+static void claims_hold_against_random_walks(void **state) {
+    (void)state;
+    const uint32_t samples = getenv("WEFT_TEST_LONG") ? 200 : getenv("WEFT_TEST_SHORT") ? 4 : 24;
+    for (size_t n = 0; n < sizeof claims / sizeof *claims; n++) {
+        double mean = 0.0, most = 0.0, relative = 0.0, noise = 0.0;
+        for (uint32_t k = 0; k < samples; k++) {
+            const ClaimSample s = claim_sample(&claims[n], hash_combine(77u + (uint32_t)n, k), 1e5);
+            const double off = fabs(s.e - s.r);
+            mean += off / samples, noise += s.error / samples;
+            most = fmax(most, off - 4.0 * s.error);
+            if (s.r > 1e-3) relative = fmax(relative, (off - 4.0 * s.error) / s.r);
+        }
+        printf(
+            "against walks, %s: R off by %.5f in the mean, of which chance is %.5f; beyond it %.4f at most, "
+            "%.1f %% of R > 0.001\n",
+            claims[n].name, mean, noise, most, 100.0 * relative);
+        assert_true(most <= claims[n].most);
+    }
+}
+
 static void fitted_model_follows_the_slab_under_a_nap(void **state) {
     (void)state;
     if (getenv("WEFT_TEST_SHORT")) skip();
@@ -223,6 +295,7 @@ int main(void) {
         cmocka_unit_test(fitted_model_follows_the_slab_in_colour),
         cmocka_unit_test(fitted_model_follows_thin_slabs_in_colour),
         cmocka_unit_test(thin_coloured_slab_agrees_with_random_walks),
+        cmocka_unit_test(claims_hold_against_random_walks),
         cmocka_unit_test(fitted_model_follows_the_slab_under_a_nap),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
