@@ -60,6 +60,7 @@ typedef struct WeftMaterial {
     int double_sided;         /* 0: seen only from the front */
     int unlit;                /* not 0: base_color is shown as it is */
     int cloth;                /* of the scene, counted from 1, in place of diffuse and specular; 0: none */
+    int measured; /* of the scene, counted from 1, in place of all lobes in the path tracer; 0: none */
     int choices[WEFT_CHOICES_MAX];     /* as weft_material_choice_value counts; -1: auto */
     WeftInput inputs[WEFT_INPUTS_MAX]; /* in the order of weft_material_input_name */
 } WeftMaterial;
@@ -94,6 +95,12 @@ WEFT_API WeftResult weft_scene_material(const WeftScene *scene, int index, WeftM
  * not) or _MEMORY; the scene is then as it was. */
 WEFT_API WeftResult weft_scene_put_material(WeftScene *scene, int index, const WeftMaterial *material,
                                             WeftError *error);
+
+/* Gives material index a measurement, a file as weft_reflection_read has them: the path tracer reflects by it in
+ * place of all lobes of the material, whose numbers are what everything else shows and which draw half of the
+ * samples. Its opacity, normal map and emission stay. Fails with WEFT_MESSAGE_MATERIAL_NAME, _MEASURED where
+ * the name is of no format, and as weft_reflection_read; the scene is then as it was. */
+WEFT_API WeftResult weft_scene_put_measured(WeftScene *scene, int index, const char *path, WeftError *error);
 
 /* Makes a choice in it, as weft_scene_set does: inputs that mean something else to the new workflow move from
  * default to default. choice and value out of range change nothing. */

@@ -1,3 +1,4 @@
+#define _XOPEN_SOURCE 700 /* realpath */
 #include <stdlib.h>
 
 #include "brdf/measured.h"
@@ -29,6 +30,7 @@ WeftResult measured_read(const char *path, Measured *out, WeftError *error) {
     if (result != WEFT_OK) return result;
     result = measured_read_memory(bytes.data, bytes.size, path, out, error);
     free(bytes.data);
+    if (result == WEFT_OK) out->path = realpath(path, NULL);
     return result;
 }
 
@@ -36,6 +38,8 @@ void measured_free(Measured *self) {
     merl_free(&self->merl);
     rgl_free(&self->rgl);
     utia_free(&self->utia);
+    free(self->path);
+    self->path = NULL;
     self->format = MEASURED_NONE;
 }
 

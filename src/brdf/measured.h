@@ -12,6 +12,7 @@ typedef enum MeasuredFormat { MEASURED_NONE, MEASURED_MERL, MEASURED_RGL, MEASUR
 
 typedef struct Measured {
     MeasuredFormat format;
+    char *path; /* of its file, absolute; NULL: it was read from memory, or the system gave none */
     Merl merl;
     Rgl rgl;
     Utia utia;

@@ -355,6 +355,7 @@ static const Option fit_options[] = {
         "-o", "FILE",
         "write the best, or with --to the nearest, as a material (.json), a cloth of it (.glb, .gltf) or "
         "engine text (.glsl, .hlsl, .wgsl, .h)"),
+    OPTION_SWITCH("--measured", "let a .json name DATA too, by which the path tracer then reflects"),
     OPTION_TEXT("--plot", "FILE.png", NULL,
                 "draw slices: data, the best fit, the baseline, and how these differ"),
     OPTION_SWITCH("--json", "the ranking as JSON on standard output"),
@@ -383,6 +384,7 @@ const Verb verb_fit = {
              "Examples\n"
              "  weft fit red-fabric.binary --base all\n"
              "  weft fit felt.binary -o felt.json --plot felt.png\n"
+             "  weft fit felt.binary --base body --lobe fabric --measured -o felt.json\n"
              "  weft fit felt.bsdf --to three -o felt.glb\n"
              "  weft fit gonio.csv --metric cosine --base eon --json\n",
     .run = fit_run,

@@ -49,6 +49,13 @@ static bool adopt_cloth(WeftScene *scene, MaterialFile *file) {
     return file->material.cloth != 0;
 }
 
+static bool adopt_measured(WeftScene *scene, MaterialFile *file) {
+    if (!file->measured) return true;
+    file->material.measured = scene_adopt_measured(scene, file->measured);
+    if (file->material.measured) file->measured = NULL;
+    return file->material.measured != 0;
+}
+
 /* Returns the material of the file. Inputs that belong to the shape stay unless the file gives them. */
 static Material assigned(const Material *old, const MaterialFile *file) {
     static const InputId shape[] = {INPUT_normal, INPUT_occlusion, INPUT_opacity};
@@ -88,7 +95,7 @@ static WeftResult put_on(WeftScene *scene, const char *material, MaterialFile *f
     const bool *selected = materials_matching(scene, material, &said);
     if (!selected && error) *error = said;
     if (!selected) return said.result;
-    if (!adopt_textures(scene, file) || !adopt_cloth(scene, file))
+    if (!adopt_textures(scene, file) || !adopt_cloth(scene, file) || !adopt_measured(scene, file))
         return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     for (int k = 0; k < scene_own_materials(scene); k++)
         if (selected[k]) scene->materials[k] = assigned(&scene->materials[k], file);

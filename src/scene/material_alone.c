@@ -52,6 +52,9 @@ WeftResult weft_material_read(const char *path, WeftMaterial *out, const WeftLog
             warn(log, WEFT_MESSAGE_PLAUSIBLE, path, "its textures are left out: only its numbers count here");
         if (file.cloth)
             warn(log, WEFT_MESSAGE_PLAUSIBLE, path, "its weave is left out: only its numbers count here");
+        if (file.measured)
+            warn(log, WEFT_MESSAGE_PLAUSIBLE, path,
+                 "its measurement is left out: only its numbers count here");
         *out = file.material;
         for (int k = 0; k < INPUT_COUNT; k++) out->inputs[k].texture = 0;
     }

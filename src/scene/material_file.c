@@ -267,6 +267,19 @@ static void read_keep(Reader *r, const json_t *json) {
     }
 }
 
+/* A measurement in a file beside the material's. */
+static void read_measured(Reader *r, const json_t *json) {
+    const char *text = json_string_value(json);
+    char path[4096 + 512];
+    if (!text || !text[0] || strlen(text) > 4096)
+        refuse(r, "expected the name of a file");
+    else if (!r->folder || strlen(r->folder) > 511)
+        refuse(r, "a file can be named only by a material in a file");
+    if (r->result != WEFT_OK || r->out->measured) return;
+    snprintf(path, sizeof path, "%s%s", text[0] == '/' ? "" : r->folder, text);
+    r->result = scene_measured_read(path, &r->out->measured, r->error);
+}
+
 /* Reads the members of a material that are neither inputs nor choices. */
 static void read_rest(Reader *r, const json_t *json) {
     static const char *const modes[] = {"opaque", "mask", "blend", NULL}; /* as WeftAlphaMode */
@@ -288,6 +301,8 @@ static void read_rest(Reader *r, const json_t *json) {
         out->sided_named = true;
     } else if (strcmp(key, "weave") == 0) {
         if (!out->cloth) r->result = cloth_from_json(json, r->name, r->folder, &out->cloth, r->log, r->error);
+    } else if (strcmp(key, "measured") == 0) {
+        read_measured(r, json);
     } else if (strcmp(key, "unlit") == 0) {
         if (!json_is_boolean(json)) refuse(r, "expected true or false");
         out->material.unlit = json_is_true(json);
@@ -354,5 +369,6 @@ void material_file_free(MaterialFile *file) {
         free(file->paths[k]);
     }
     weft_cloth_free(file->cloth);
+    scene_measured_free(file->measured);
     *file = (MaterialFile){0};
 }

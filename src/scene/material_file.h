@@ -15,7 +15,8 @@ typedef struct MaterialFile {
     WeftImage images[INPUT_COUNT]; /* owned */
     char *paths[INPUT_COUNT];      /* owned; of images */
     int texture_count, image_count;
-    WeftCloth *cloth; /* owned; NULL: none */
+    WeftCloth *cloth;   /* owned; NULL: none */
+    Measured *measured; /* owned; NULL: none */
 } MaterialFile;
 
 /* Reads size bytes of JSON. name is the subject of errors and warnings; folder ("" or with a slash at its

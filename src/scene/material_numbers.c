@@ -32,6 +32,7 @@ Material material_sound(const WeftMaterial *numbers) {
     material.double_sided = numbers->double_sided != 0;
     material.unlit = numbers->unlit != 0;
     material.cloth = numbers->cloth;
+    material.measured = numbers->measured;
     for (int k = 0; k < CHOICE_COUNT; k++)
         if (is_choice(k, numbers->choices[k])) material.choices[k] = numbers->choices[k];
     for (int k = 0; k < INPUT_COUNT; k++) {
@@ -79,6 +80,8 @@ static WeftResult check_numbers(const WeftScene *scene, const WeftMaterial *m, W
         return fail(error, WEFT_MESSAGE_PARAM_VALUE, "alpha_cutoff", "it is not finite");
     if (m->cloth < 0 || m->cloth > scene->cloth_count)
         return fail(error, WEFT_MESSAGE_PARAM_VALUE, "cloth", "there is no such cloth");
+    if (m->measured < 0 || m->measured > scene->measured_count)
+        return fail(error, WEFT_MESSAGE_PARAM_VALUE, "measured", "there is no such measurement");
     WeftResult result = numbers_sound(m, error);
     if (result != WEFT_OK) return result;
     for (int k = 0; k < INPUT_COUNT; k++) {
@@ -112,6 +115,18 @@ WeftResult weft_scene_put_material(WeftScene *scene, int index, const WeftMateri
     result = tangents_complete(scene, error);
     if (result != WEFT_OK) scene->materials[index] = before;
     return result;
+}
+
+WeftResult weft_scene_put_measured(WeftScene *scene, int index, const char *path, WeftError *error) {
+    Measured *measured;
+    if (index < 0 || index >= scene_own_materials(scene)) return no_material(scene, index, error);
+    WeftResult result = scene_measured_read(path, &measured, error);
+    if (result != WEFT_OK) return result;
+    Material material = scene->materials[index];
+    material.measured = scene_adopt_measured(scene, measured);
+    if (material.measured) return weft_scene_put_material(scene, index, &material, error);
+    scene_measured_free(measured);
+    return fail(error, WEFT_MESSAGE_MEMORY, path, NULL);
 }
 
 void weft_material_choose(WeftMaterial *numbers, int choice, int value) {

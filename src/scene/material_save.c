@@ -9,6 +9,7 @@
 #include "base/fail.h"
 #include "base/file.h"
 #include "base/pi.h"
+#include "brdf/measured.h"
 #include "scene/cloth_file.h"
 #include "scene/scene.h"
 #include "shading/choice.h"
@@ -194,12 +195,22 @@ static json_t *weave_json(Writer *w, const WeftCloth *cloth) {
     return cloth_to_json(cloth, draft);
 }
 
+/* A measurement by its place from ours. */
+static json_t *measured_json(Writer *w, const Measured *measured) {
+    char *folder = measured->path ? folder_of(w->path) : NULL;
+    const char *path = folder ? relative(w, folder, measured->path) : measured->path;
+    free(folder);
+    return json_string(path ? path : "");
+}
+
 static void write_rest(Writer *w, const Material *material) {
     static const char *const modes[] = {"opaque", "mask", "blend"}; /* as WeftAlphaMode */
     put(w, w->root, "alpha_mode", json_string(modes[material->alpha_mode]));
     put(w, w->root, "alpha_cutoff", number(material->alpha_cutoff));
     if (material->unlit) put(w, w->root, "unlit", json_true());
     if (material->cloth) put(w, w->root, "weave", weave_json(w, w->scene->cloths[material->cloth - 1]));
+    if (material->measured)
+        put(w, w->root, "measured", measured_json(w, w->scene->measured[material->measured - 1]));
     put(w, w->root, "double_sided", json_boolean(material->double_sided));
 }
 

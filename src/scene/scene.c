@@ -7,6 +7,7 @@
 
 #include "base/fail.h"
 #include "base/pi.h"
+#include "brdf/measured.h"
 #include "scene/cubemap.h"
 #include "scene/environment.h"
 #include "weave/weft_cloth.h"
@@ -26,26 +27,65 @@ void weft_scene_free(WeftScene *scene) {
     if (!scene) return;
     for (int k = 0; k < scene->image_count; k++) weft_image_free(&scene->images[k]);
     for (int k = 0; k < scene->cloth_count; k++) weft_cloth_free(scene->cloths[k]);
+    for (int k = 0; k < scene->measured_count; k++) scene_measured_free(scene->measured[k]);
     weft_image_free(&scene->environment.image);
     arena_free(&scene->arena);
     free(scene);
 }
 
+/* Returns the list with room for one more, which it has up to each power of two; NULL: memory is short. */
+static void *with_room(WeftScene *scene, void *list, int count) {
+    const size_t had = (size_t)count;
+    if ((had & (had - 1)) != 0) return list;
+    void **longer = arena_array(&scene->arena, 2 * had + 1, sizeof *longer);
+    if (longer && had) memcpy(longer, list, had * sizeof *longer);
+    return longer;
+}
+
 int scene_adopt_cloth(WeftScene *scene, WeftCloth *cloth) {
-    const size_t count = (size_t)scene->cloth_count;
     for (int k = 0; k < scene->cloth_count; k++)
         if (cloth_same(scene->cloths[k], cloth)) {
             weft_cloth_free(cloth);
             return k + 1;
         }
-    if ((count & (count - 1)) == 0) { /* the list has room for a power of two */
-        WeftCloth **cloths = arena_array(&scene->arena, 2 * count + 1, sizeof(WeftCloth *));
-        if (!cloths) return 0;
-        for (size_t k = 0; k < count; k++) cloths[k] = scene->cloths[k];
-        scene->cloths = cloths;
-    }
-    scene->cloths[count] = cloth;
+    WeftCloth **cloths = with_room(scene, scene->cloths, scene->cloth_count);
+    if (!cloths) return 0;
+    scene->cloths = cloths;
+    scene->cloths[scene->cloth_count] = cloth;
     return ++scene->cloth_count;
+}
+
+int scene_adopt_measured(WeftScene *scene, Measured *measured) {
+    for (int k = 0; measured->path && k < scene->measured_count; k++) {
+        const char *path = scene->measured[k]->path;
+        if (path && strcmp(path, measured->path) == 0) {
+            scene_measured_free(measured);
+            return k + 1;
+        }
+    }
+    Measured **list = with_room(scene, scene->measured, scene->measured_count);
+    if (!list) return 0;
+    scene->measured = list;
+    scene->measured[scene->measured_count] = measured;
+    return ++scene->measured_count;
+}
+
+WeftResult scene_measured_read(const char *path, Measured **out, WeftError *error) {
+    *out = NULL;
+    if (measured_format(path) == MEASURED_NONE)
+        return fail(error, WEFT_MESSAGE_MEASURED, path, "its name ends with none of .binary, .bsdf and .bin");
+    *out = alloc_array(1, sizeof **out);
+    if (!*out) return fail(error, WEFT_MESSAGE_MEMORY, path, NULL);
+    WeftResult result = measured_read(path, *out, error);
+    if (result == WEFT_OK) return WEFT_OK;
+    scene_measured_free(*out);
+    *out = NULL;
+    return result;
+}
+
+void scene_measured_free(Measured *measured) {
+    if (measured) measured_free(measured);
+    free(measured);
 }
 
 void scene_bounds(WeftScene *scene) {

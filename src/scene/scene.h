@@ -15,6 +15,8 @@
 #include "weft/scene.h"
 #include "weft/weave.h"
 
+typedef struct Measured Measured; /* brdf/measured.h */
+
 /* No coordinate of a scene is larger, m: squares of coordinates must stay finite. A ray may start further
  * out, since a camera backs off to see a scene and a parallel one looks from beside its eye, but not beyond
  * RAY_REACH: from 1.844e18 on Embree takes a number for no number. */
@@ -96,6 +98,8 @@ struct WeftScene {
     Material *materials;
     WeftCloth **cloths; /* owned; NULL without any */
     int cloth_count;
+    Measured **measured; /* owned; NULL without any */
+    int measured_count;
     const char **material_names; /* of its own materials: never NULL, may be empty */
     Mesh *meshes;
     Light *lights;
@@ -131,6 +135,14 @@ const char *scene_names(const WeftScene *scene, const char *(*name)(const WeftSc
  * takes its place. 0: memory is short, and the cloth is still the caller's. A cloth stays as long as the scene, since
  * materials that were read from it may name it. */
 int scene_adopt_cloth(WeftScene *scene, WeftCloth *cloth);
+
+/* Takes over a measurement in the same way: that of the same file stays where the scene has one. */
+int scene_adopt_measured(WeftScene *scene, Measured *measured);
+
+/* Reads a measurement into memory of its own. Fails as measured_read, and with WEFT_MESSAGE_MEASURED where the name is
+ * of no format. Release with scene_measured_free. */
+WeftResult scene_measured_read(const char *path, Measured **out, WeftError *error);
+void scene_measured_free(Measured *measured); /* may be NULL */
 
 /* Sets low and high from the meshes. Call once all meshes stand. */
 void scene_bounds(WeftScene *scene);

@@ -8,7 +8,7 @@ const Input *tangents_input(const Material *material) {
     const Input *inputs = material->inputs;
     for (size_t k = 0; k < sizeof maps / sizeof *maps; k++)
         if (inputs[maps[k]].texture) return &inputs[maps[k]];
-    if (material->cloth) return &inputs[INPUT_normal];
+    if (material->cloth || material->measured) return &inputs[INPUT_normal];
     if (inputs[INPUT_anisotropy].value[0] > 0.0f) return &inputs[INPUT_anisotropy];
     return inputs[INPUT_nap].value[0] > 0.0f ? &inputs[INPUT_nap] : NULL;
 }

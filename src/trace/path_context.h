@@ -2,6 +2,7 @@
 #ifndef WEFT_TRACE_PATH_CONTEXT_H
 #define WEFT_TRACE_PATH_CONTEXT_H
 
+#include "brdf/measured.h"
 #include "scene/material.h"
 #include "shading/kind.h"
 #include "trace/geometry.h"
@@ -13,16 +14,17 @@ typedef struct PathMaterial {
     Material material; /* the scene's, without textures that a path never looks at */
     Surface plain;     /* all its textures left out */
     Choices choices;
-    bool textured;          /* has any, or a mesh that wears it has colours */
-    bool colored;           /* a mesh that wears it has colors */
-    bool texcoords[2];      /* the sets of texture coordinates that its textures use */
-    bool shines;            /* may send out light */
-    bool bent;              /* a normal map or anisotropy turns the shading frame */
-    bool transmits;         /* light goes through, and comes from all sides */
-    const WeftCloth *cloth; /* of which the base is woven; NULL: of none */
-    TableRef sheen_e;       /* TABLE_NONE without a sheen */
-    Stack stack;            /* of plain, where no point has one of its own */
-    const StackKind *kind;  /* NULL: shaded one vertex at a time */
+    bool textured;            /* has any, or a mesh that wears it has colours */
+    bool colored;             /* a mesh that wears it has colors */
+    bool texcoords[2];        /* the sets of texture coordinates that its textures use */
+    bool shines;              /* may send out light */
+    bool bent;                /* a normal map or anisotropy turns the shading frame */
+    bool transmits;           /* light goes through, and comes from all sides */
+    const WeftCloth *cloth;   /* of which the base is woven; NULL: of none */
+    const Measured *measured; /* what light is reflected by in place of the stack; NULL: the stack */
+    TableRef sheen_e;         /* TABLE_NONE without a sheen */
+    Stack stack;              /* of plain, where no point has one of its own */
+    const StackKind *kind;    /* NULL: shaded one vertex at a time */
 } PathMaterial;
 
 typedef struct PathContext {

@@ -112,7 +112,8 @@ static WeftResult make_materials(WeftRender *render, WeftError *error) {
         Surface surface = frame_surface(known->plain);
         stack_make(&known->stack, &surface, &known->choices, known->sheen_e);
         known->transmits = known->stack.transmission > 0.0f;
-        known->kind = known->cloth ? NULL : stack_kind(&known->stack, &known->choices);
+        known->measured = material->measured ? scene->measured[material->measured - 1] : NULL;
+        known->kind = known->cloth || known->measured ? NULL : stack_kind(&known->stack, &known->choices);
         known->shines = material_emits(material);
         known->bent = !known->kind || known->material.inputs[INPUT_normal].texture ||
                       known->material.inputs[INPUT_clearcoat_normal].texture ||

@@ -84,9 +84,36 @@ static const Stack *stack_at(Chunk *c, const ChunkSource *from, const PathMateri
     return &c->stack;
 }
 
+/* f cos and pdf of the stack, or of a measurement in its place, whose samples are half its own, half the stack's. */
+static void vertex_eval(const Measured *measured, const Stack *stack, const StackView *view, const Dir *wi,
+                        uint32_t seed, StackValue *value) {
+    float f[3];
+    stack_eval(stack, view, wi, seed, value);
+    if (!measured) return;
+    measured_at(measured, view->o, *wi, f);
+    value->f_cos = rgb_scale(rgb(f[0], f[1], f[2]), max(wi->z, 0.0f));
+    value->pdf = wi->z > 0.0f ? 0.5f * (value->pdf + measured_pdf(measured, view->o, *wi)) : 0.0f;
+}
+
+static void vertex_sample(const Measured *measured, const Stack *stack, const StackView *view, float u,
+                          float v, Dir *wi) {
+    if (measured && u < 0.5f)
+        *wi = measured_sample(measured, view->o, 2.0f * u, v);
+    else
+        stack_sample(stack, view, measured ? 2.0f * u - 1.0f : u, v, wi);
+}
+
+/* f cos as it is for the environment's light; all of a measurement counts as reflection. */
+static Rgb vertex_sky(const PathContext *context, const Measured *measured, const Stack *stack,
+                      const StackView *view, Dir wi, uint32_t seed, Rgb f_cos) {
+    return measured ? rgb_scale(f_cos, context->scene->environment.reflection)
+                    : f_cos_of_sky(context, stack, view, wi, seed, f_cos);
+}
+
 /* One vertex at a time, whatever its stack is. */
 static void shade_vertex(Chunk *c, const ChunkSource *from, const PathMaterial *material, int k) {
     const PathContext *context = from->context;
+    const Measured *measured = material->measured;
     KindVertices *v = &c->vertices;
     const Stack *stack = stack_at(c, from, material, k);
     uint32_t seed = hash32(c->key[k]);
@@ -96,18 +123,18 @@ static void shade_vertex(Chunk *c, const ChunkSource *from, const PathMaterial *
     for (int g = 0; g < LIGHT_GROUPS; g++) {
         if (!lights_shine(context->lights, (LightGroup)g)) continue;
         wi = dir(v->i[g][0][k], v->i[g][1][k], v->i[g][2][k]);
-        stack_eval(stack, &c->view, &wi, seed, &value);
+        vertex_eval(measured, stack, &c->view, &wi, seed, &value);
         if (g == LIGHTS_SKY && context->sky_in_parts)
-            value.f_cos = f_cos_of_sky(context, stack, &c->view, wi, seed, value.f_cos);
+            value.f_cos = vertex_sky(context, measured, stack, &c->view, wi, seed, value.f_cos);
         put_value(c, g, k, &value.f_cos, value.pdf);
     }
     seed = hash32(c->key[k] ^ 0x68e31da4u);
-    stack_sample(stack, &c->view, v->u[k], v->v[k], &wi);
-    stack_eval(stack, &c->view, &wi, seed, &value);
+    vertex_sample(measured, stack, &c->view, v->u[k], v->v[k], &wi);
+    vertex_eval(measured, stack, &c->view, &wi, seed, &value);
     v->i[KIND_DRAWN][0][k] = wi.x, v->i[KIND_DRAWN][1][k] = wi.y, v->i[KIND_DRAWN][2][k] = wi.z;
     put_value(c, KIND_DRAWN, k, &value.f_cos, value.pdf);
     if (!context->sky_in_parts) return;
-    Rgb f = f_cos_of_sky(context, stack, &c->view, wi, seed, value.f_cos);
+    Rgb f = vertex_sky(context, measured, stack, &c->view, wi, seed, value.f_cos);
     c->f_sky[0][k] = f.r, c->f_sky[1][k] = f.g, c->f_sky[2][k] = f.b;
 }
 

@@ -136,7 +136,7 @@ void viewer_open(Viewer *v, const char *path) {
     }
 }
 
-/* Keeps the edits when the scene is read again; maps and weaves are those of the file. */
+/* Keeps the edits when the scene is read again; maps, weaves and measurements are those of the file. */
 static void keep_edits(const Viewer *v, SceneState *state) {
     for (int k = 0; k < state->material_count; k++) {
         if (scene_state_same_material(&v->edit->state, &v->edit->first, k)) continue;
@@ -144,6 +144,7 @@ static void keep_edits(const Viewer *v, SceneState *state) {
         for (int i = 0; i < WEFT_INPUTS_MAX; i++)
             if (m.inputs[i].texture) m.inputs[i].texture = scene_state_material(state, k)->inputs[i].texture;
         m.cloth = scene_state_material(state, k)->cloth;
+        m.measured = scene_state_material(state, k)->measured;
         scene_state_set_material(state, k, &m);
         scene_state_set_preset(state, k, scene_state_preset(&v->edit->state, k));
     }

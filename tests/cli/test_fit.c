@@ -237,6 +237,28 @@ static void whole_fit_of_fabric_is_written(void **state) {
     }
 }
 
+/* The material of a fit may name what it was fitted to, by which the path tracer then reflects. */
+static void material_of_a_fit_names_its_data(void **state) {
+    (void)state;
+    make_measured("cloth.binary");
+    for (int named = 0; named < 2; named++) {
+        Ran ran = RUN("fit", "cloth.binary", "--lobe", "charlie-neubelt", "-o", "cloth.json",
+                      named ? "--measured" : "--json");
+        if (ran.code != 0) fail_msg("%s", ran.err);
+        ran_free(&ran);
+        ran = RUN("render", "builtin:cloth", "--material", "cloth.json", "--width", "32", "--height", "24",
+                  "--spp", "2", "-o", named ? "table.exr" : "fitted.exr");
+        if (ran.code != 0) fail_msg("%s", ran.err);
+        ran_free(&ran);
+    }
+    Ran ran = RUN("diff", "fitted.exr", "table.exr", "--max", "1e-4");
+    assert_int_equal(ran.code, 1); /* the fit is not the table */
+    ran_free(&ran);
+    assert_complaint(NULL, LIST("fit", "table.csv", "--measured", "-o", "a.json"), 2, "is no .binary");
+    assert_complaint(NULL, LIST("fit", "cloth.binary", "--measured", "-o", "a.glb"), 2,
+                     "only a material file");
+}
+
 static void fit_of_bad_data_or_options_is_refused(void **state) {
     (void)state;
     file_make("bad.csv", "1,2,3\n", 6);
@@ -284,6 +306,7 @@ int main(void) {
                                        cmocka_unit_test(error_of_a_material_is_that_of_its_fit),
                                        cmocka_unit_test(whole_fit_of_fabric_is_written),
                                        cmocka_unit_test(interrupted_fit_ends),
+                                       cmocka_unit_test(material_of_a_fit_names_its_data),
                                        cmocka_unit_test(fit_of_bad_data_or_options_is_refused)};
     return cmocka_run_group_tests(tests, table_begin, work_end);
 }
