@@ -15,6 +15,7 @@
 #include <stddef.h>
 
 #include "weft/image.h"
+#include "weft/scene.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -66,6 +67,9 @@ WEFT_API WeftResult weft_draft_parse(const char *notation, WeftDraft **out, Weft
  * with WEFT_MESSAGE_MEMORY. */
 WEFT_API WeftResult weft_draft_back(const WeftDraft *draft, WeftDraft **out, WeftError *error);
 
+/* A copy of a draft. Fails with WEFT_MESSAGE_MEMORY. */
+WEFT_API WeftResult weft_draft_copy(const WeftDraft *draft, WeftDraft **out, WeftError *error);
+
 /* Releases a draft. draft may be NULL. */
 WEFT_API void weft_draft_free(WeftDraft *draft);
 
@@ -74,6 +78,9 @@ WEFT_API WeftDraftInfo weft_draft_info(const WeftDraft *draft);
 
 /* Returns 1 where that warp thread lies on top of that pick, else 0. Indices wrap around: a cloth repeats. */
 WEFT_API int weft_draft_warp_up(const WeftDraft *draft, int warp, int pick);
+
+/* Puts the warp (1) or the weft (0) on top at one crossing; indices wrap around. */
+WEFT_API void weft_draft_set_up(WeftDraft *draft, int warp, int pick, int up);
 
 /* One thread of either system; the index wraps around. */
 WEFT_API WeftThread weft_draft_thread(const WeftDraft *draft, WeftThreads threads, int index);
@@ -116,6 +123,17 @@ WEFT_API const char *weft_yarn_help(int index);
 /* A yarn by name. Fails with WEFT_MESSAGE_YARN_NAME. */
 WEFT_API WeftResult weft_yarn_find(const char *name, WeftYarn *out, WeftError *error);
 
+/* A number of a yarn. */
+typedef struct WeftYarnNumber {
+    const char *name, *help; /* as a material file has it, and a line on what it does */
+    size_t offset;           /* in WeftYarn */
+    float low, high;         /* what is possible */
+    int angle;               /* not 0: radians, which material files have in degrees */
+} WeftYarnNumber;
+
+/* The numbers of a yarn; NULL past the end. */
+WEFT_API const WeftYarnNumber *weft_yarn_number(int index);
+
 /* A draft woven of yarns: at each place the highest thread is seen. Opaque; release with weft_cloth_free. */
 typedef struct WeftCloth WeftCloth;
 
@@ -132,6 +150,16 @@ typedef struct WeftClothInfo {
     float share[2]; /* of the cloth as seen from above: warp, weft; the rest is gaps */
     float size[2];  /* of the repeat, metres */
 } WeftClothInfo;
+
+/* A cloth of a scene, as WeftMaterial's `cloth` counts them: the draft that it is woven of, which is the scene's, and its
+ * yarns (may be NULL). NULL where there is none of that number. */
+WEFT_API const WeftDraft *weft_scene_cloth(const WeftScene *scene, int cloth, WeftYarn yarns[2]);
+
+/* Weaves the cloth of a material anew, of another draft and other yarns. The cloth that it had stays in the scene, since
+ * others may have it, and so may a copy of the material. Fails with WEFT_MESSAGE_DESC (the material is not woven, or no
+ * yarn can have a number), _MATERIAL_FILE (too many crossings) or _MEMORY; the scene is then as it was. */
+WEFT_API WeftResult weft_scene_set_weave(WeftScene *scene, int material, const WeftDraft *draft,
+                                         const WeftYarn yarns[2], WeftError *error);
 
 /* Returns the facts of a cloth. */
 WEFT_API WeftClothInfo weft_cloth_info(const WeftCloth *cloth);

@@ -9,6 +9,7 @@
 
 #include "base/fail.h"
 #include "base/pi.h"
+#include "scene/scene.h"
 #include "weave/weave_draft.h"
 #include "weave/weft_cloth.h"
 
@@ -75,23 +76,20 @@ static void read_color(ClothReader *r, const json_t *json, WeftThreads threads) 
             r->draft->threads[threads][k].color[c] = (float)(rgb >> (16 - 8 * c) & 255u) / 255.0f;
 }
 
+static float *number_in(WeftYarn *yarn, const WeftYarnNumber *number) {
+    return (float *)((char *)yarn + number->offset);
+}
+
+static float scale_of(const WeftYarnNumber *number) { return number->angle ? (float)RADIANS : 1.0f; }
+
 static void read_number(ClothReader *r, const char *key, const json_t *json, WeftYarn *yarn) {
-    const struct {
-        const char *key;
-        float *to;
-        float scale;
-    } numbers[] = {{"alpha", &yarn->alpha, 1.0f},         {"crimp", &yarn->crimp, (float)RADIANS},
-                   {"roundness", &yarn->roundness, 1.0f}, {"twist", &yarn->twist, (float)RADIANS},
-                   {"white", &yarn->white, 1.0f},         {"width", &yarn->width, 1.0f},
-                   {"bulge", &yarn->bulge, 1.0f},         {"floats", &yarn->floats, 1.0f},
-                   {"streaks", &yarn->streaks, 1.0f},     {"dye", &yarn->dye, 1.0f},
-                   {"slub", &yarn->slub, 1.0f},           {"wander", &yarn->wander, 1.0f}};
-    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
-        if (strcmp(key, numbers[k].key) == 0) {
-            if (!json_is_number(json)) refuse(r, key, "expected a number");
-            *numbers[k].to = numbers[k].scale * (float)fmin(fmax(json_number_value(json), -1e6), 1e6);
-            return;
-        }
+    for (int k = 0; weft_yarn_number(k); k++) {
+        const WeftYarnNumber *number = weft_yarn_number(k);
+        if (strcmp(key, number->name) != 0) continue;
+        if (!json_is_number(json)) refuse(r, key, "expected a number");
+        *number_in(yarn, number) = scale_of(number) * (float)fmin(fmax(json_number_value(json), -1e6), 1e6);
+        return;
+    }
     refuse(r, key, "is not a key of a yarn");
 }
 
@@ -140,10 +138,10 @@ static void read_keys(ClothReader *r, const json_t *json) {
 /* Notes what the cloth came from. Returns false if memory is short. */
 static bool keep_source(ClothReader *r, const json_t *json, WeftCloth *cloth) {
     cloth->text = json_dumps(json, JSON_COMPACT);
-    if (!r->path[0]) return cloth->text != NULL;
-    cloth->path = realpath(r->path, NULL);
     cloth->draft = r->draft;
     r->draft = NULL;
+    if (!r->path[0]) return cloth->text != NULL;
+    cloth->path = realpath(r->path, NULL);
     return cloth->text && cloth->path;
 }
 
@@ -180,12 +178,67 @@ WeftResult cloth_from_json(const json_t *json, const char *name, const char *fol
 
 json_t *cloth_to_json(const WeftCloth *cloth, const char *draft) {
     json_t *json = json_loads(cloth->text, 0, NULL);
-    char *text = cloth->draft && !draft ? wif_text(cloth->draft) : NULL;
-    if (!cloth->draft) return json;
+    char *text = cloth->path && !draft ? wif_text(cloth->draft) : NULL;
+    if (!cloth->path) return json;
     if (json_object_set_new(json, "draft", json_string(draft ? draft : text)) != 0) {
         json_decref(json);
         json = NULL;
     }
     free(text);
     return json;
+}
+
+/* Writes what the yarn of a system has now into its JSON. Returns false where memory is short. */
+static bool put_yarn(json_t *weave, const char *system, WeftYarn *yarn) {
+    json_t *json = json_object_get(weave, system);
+    if (!json_is_object(json)) {
+        json = json_pack("{s:s}", "yarn", json ? json_string_value(json) : "cotton");
+        if (json_object_set_new(weave, system, json) != 0) return false;
+    }
+    for (int k = 0; weft_yarn_number(k); k++) {
+        const WeftYarnNumber *number = weft_yarn_number(k);
+        const float is = *number_in(yarn, number);
+        const double value = isfinite(is) ? (double)is / (number->angle ? RADIANS : 1.0) : 1e6; /* refused */
+        if (json_object_set_new(json, number->name, json_real(value)) != 0) return false;
+    }
+    return true;
+}
+
+static bool put_draft(json_t *weave, const WeftDraft *draft) {
+    char *text = wif_text(draft);
+    const bool put = text && json_object_set_new(weave, "draft", json_string(text)) == 0;
+    free(text);
+    return put;
+}
+
+const WeftDraft *weft_scene_cloth(const WeftScene *scene, int cloth, WeftYarn yarns[2]) {
+    if (cloth < 1 || cloth > scene->cloth_count) return NULL;
+    const WeftCloth *of = scene->cloths[cloth - 1];
+    for (int t = 0; yarns && t < 2; t++) yarns[t] = of->yarns[t];
+    return of->draft;
+}
+
+WeftResult weft_scene_set_weave(WeftScene *scene, int material, const WeftDraft *draft,
+                                const WeftYarn yarns[2], WeftError *error) {
+    const bool there = material >= 0 && material < scene_own_materials(scene);
+    const int number = there ? scene->materials[material].cloth : 0;
+    if (!number) return fail(error, WEFT_MESSAGE_DESC, "weave", "material %d is not woven", material);
+    const WeftCloth *was = scene->cloths[number - 1];
+    WeftYarn both[2] = {yarns[0], yarns[1]};
+    WeftCloth *cloth = NULL;
+    json_t *json = cloth_to_json(was, NULL);
+    bool put = json && put_yarn(json, "warp", &both[0]) && put_yarn(json, "weft", &both[1]);
+    if (put && !draft_same(draft, was->draft)) put = put_draft(json, draft);
+    WeftResult result =
+        put ? cloth_from_json(json, scene->material_names[material], NULL, &cloth, NULL, error)
+            : fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    json_decref(json);
+    if (result != WEFT_OK) return result;
+    const int fresh = scene_adopt_cloth(scene, cloth);
+    if (!fresh) {
+        weft_cloth_free(cloth);
+        return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    }
+    scene->materials[material].cloth = fresh;
+    return WEFT_OK;
 }

@@ -103,6 +103,27 @@ static void read_thumbs(Facts *facts, const WeftScene *scene) {
     }
 }
 
+static void free_cloths(Facts *facts) {
+    for (int k = 0; k < facts->cloth_count; k++) weft_draft_free(facts->cloths[k].draft);
+    free(facts->cloths);
+    facts->cloths = NULL;
+    facts->cloth_count = 0;
+}
+
+/* There are fewer if memory is short. */
+static void read_cloths(Facts *facts, const WeftScene *scene) {
+    int count = 0;
+    free_cloths(facts);
+    while (weft_scene_cloth(scene, count + 1, NULL)) count++;
+    facts->cloths = calloc((size_t)count + 1, sizeof *facts->cloths);
+    for (int k = 0; facts->cloths && k < count; k++) {
+        FactCloth *cloth = &facts->cloths[k];
+        const WeftDraft *draft = weft_scene_cloth(scene, k + 1, cloth->yarns);
+        if (weft_draft_copy(draft, &cloth->draft, NULL) != WEFT_OK) return;
+        facts->cloth_count++;
+    }
+}
+
 void facts_read_maps(Facts *facts, const WeftScene *scene) {
     int count = 0;
     while (weft_scene_texture(scene, count + 1).pixels) count++;
@@ -113,6 +134,7 @@ void facts_read_maps(Facts *facts, const WeftScene *scene) {
     facts->map_count = count;
     weft_image_free(&facts->thumbs);
     read_thumbs(facts, scene);
+    read_cloths(facts, scene);
 }
 
 bool facts_read(Facts *facts, const WeftScene *scene, const char *path) {
@@ -134,6 +156,7 @@ void facts_free(Facts *facts) {
     free(facts->maps);
     weft_image_free(&facts->thumbs);
     free(facts->coverage);
+    free_cloths(facts);
     *facts = (Facts){0};
 }
 

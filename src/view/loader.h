@@ -5,10 +5,17 @@
 #include "view/scene_state.h"
 #include "view/view.h"
 #include "view/window.h"
+#include "weft/weave.h"
 
 enum { FACTS_NAME = 64, FACTS_MOST = 512, FACTS_THUMB = 32, FACTS_THUMBS = 128 };
 
 typedef char FactName[FACTS_NAME];
+
+/* A cloth of the scene: a copy of its draft, owned, and its yarns. */
+typedef struct FactCloth {
+    WeftDraft *draft;
+    WeftYarn yarns[2];
+} FactCloth;
 
 /* The contents of a scene: copies, since the scene belongs to the renderer. */
 typedef struct Facts {
@@ -16,6 +23,8 @@ typedef struct Facts {
     FactName *materials, *cameras, *variants; /* owned */
     FactName *maps;                           /* files of textures, as it was read; owned */
     int map_count;
+    FactCloth *cloths; /* as WeftMaterial's `cloth` counts them, from 1; owned */
+    int cloth_count;
     WeftImage
         thumbs; /* of the maps in the same order, FACTS_THUMB a side, one below the other: U8 RGB; owned */
     float *
@@ -26,7 +35,7 @@ typedef struct Facts {
 /* Reads the facts of a scene from path. Returns false if memory is short. */
 bool facts_read(Facts *facts, const WeftScene *scene, const char *path);
 void facts_free(Facts *facts);
-/* Its maps anew, where pictures were put on. */
+/* Its maps and cloths anew, where pictures or weaves were put on. */
 void facts_read_maps(Facts *facts, const WeftScene *scene);
 
 typedef struct Loader Loader;

@@ -335,6 +335,7 @@ void material_panel(Viewer *v) {
     WeftMaterial m = *scene_state_material(&v->edit->state, v->edit->material);
     draw_buttons(v, &m);
     draw_plausible(v, &m);
+    weave_section(v, &m);
     for (int g = 0; g < GROUPS; g++) {
         if (g == MODELS_BEFORE && ui_section("Models", false)) draw_models(&m);
         if (!ui_section(groups[g].heading, groups[g].unfolded)) continue;

@@ -172,7 +172,9 @@ void opening_take_maps(Viewer *v, RenderEvent *event) {
     const Facts was = *facts;
     facts->maps = event->maps.maps, facts->map_count = event->maps.map_count;
     facts->thumbs = event->maps.thumbs;
+    facts->cloths = event->maps.cloths, facts->cloth_count = event->maps.cloth_count;
     event->maps.maps = was.maps, event->maps.thumbs = was.thumbs;
+    event->maps.cloths = was.cloths, event->maps.cloth_count = was.cloth_count;
     show_maps(v);
 }
 

@@ -55,6 +55,7 @@ typedef enum TaskKind {
     TASK_PROFILES,  /* draws a sheet with material `index` under every profile */
     TASK_ASSIGN,    /* `path`: a material file or "preset:NAME" for `index`; a picture, if `input` >= 0 */
     TASK_BIND_MAPS, /* puts the maps in folder `path` on material `index`; -1: on the cloth of the scene */
+    TASK_WEAVE,     /* weaves material `index` of other yarns, and turns a crossing of its draft over */
     TASK_LIGHT,     /* `path` is a picture, or the folder of a cubemap, that becomes the environment */
     TASK_SCENE,     /* no task, but an event: a new scene was taken over, or cannot be drawn */
     TASK_SURVEY     /* no task, but an event: coverage by each material, after a change of variant */
@@ -71,6 +72,8 @@ typedef struct Task {
     bool reference;    /* TASK_SHOT: writes the path-traced picture with the samples that it has so far */
     bool nap;          /* TASK_PICK: the event has the material's own nap map too */
     unsigned stamp;    /* any number; the event has the same */
+    WeftYarn yarns[2]; /* TASK_WEAVE: of warp and weft */
+    int warp, pick;    /* TASK_WEAVE: the crossing; pick -1: none */
 } Task;
 
 /* The surface at a pixel, and the parts of its light. */

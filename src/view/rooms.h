@@ -14,6 +14,7 @@ struct Rooms {
     RequestsRoom requests;
     DialogsRoom dialogs;
     DragRoom drag;
+    WeaveRoom weave;
 };
 
 #endif

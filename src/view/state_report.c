@@ -24,6 +24,7 @@ static json_t *material_json(const Viewer *v, int index) {
     int preset = scene_state_preset(&v->edit->state, index);
     json_object_set_new(object, "name", json_string(v->shown->facts.materials[index]));
     json_object_set_new(object, "preset", json_string(preset ? weft_preset_name(preset - 1) : ""));
+    json_object_set_new(object, "cloth", json_integer(m->cloth));
     for (int k = 0; weft_material_choice_name(k); k++) {
         const char *id = m->choices[k] < 0 ? "auto" : weft_material_choice_value(k, m->choices[k]);
         json_object_set_new(object, weft_material_choice_name(k), json_string(id ? id : ""));

@@ -99,6 +99,25 @@ static int preset_of(const char *path) {
     return weft_preset_name(k) ? k + 1 : 0;
 }
 
+/* Weaves a material of the task's yarns. */
+static WeftResult weave_anew(Renderer *self, const Task *task, WeftError *error) {
+    WeftMaterial material;
+    WeftDraft *draft;
+    WeftResult result = weft_scene_material(self->scene, task->index, &material, error);
+    const WeftDraft *was = result == WEFT_OK ? weft_scene_cloth(self->scene, material.cloth, NULL) : NULL;
+    if (result == WEFT_OK && !was) {
+        snprintf(error->text, sizeof error->text, "the material is not woven");
+        return WEFT_USAGE;
+    }
+    if (result == WEFT_OK) result = weft_draft_copy(was, &draft, error);
+    if (result != WEFT_OK) return result;
+    if (task->pick >= 0)
+        weft_draft_set_up(draft, task->warp, task->pick, !weft_draft_warp_up(draft, task->warp, task->pick));
+    result = weft_scene_set_weave(self->scene, task->index, draft, task->yarns, error);
+    weft_draft_free(draft);
+    return result;
+}
+
 static WeftResult assign_material(Renderer *self, const Task *task, const FrameRequest *request,
                                   RenderEvent *event, WeftError *error) {
     const WeftLog log = renderer_log(self);
@@ -115,6 +134,7 @@ static WeftResult assign_material(Renderer *self, const Task *task, const FrameR
         snprintf(event->path, sizeof event->path, "%s", task->path);
         if (result == WEFT_OK) folders_keep(&self->folders, task->path, task->index);
         break;
+    case TASK_WEAVE: result = weave_anew(self, task, error); break;
     default:
         if (task->input >= 0) {
             size_t used = strlen(target);
@@ -231,6 +251,7 @@ void tasks_do(Renderer *self, const Task *task, const FrameRequest *request) {
                     request->tonemap, request->exposure, task->stamp);
         return;
     case TASK_ASSIGN:
+    case TASK_WEAVE:
     case TASK_BIND_MAPS: result = assign_material(self, task, request, &event, &error); break;
     }
     event.failed = result != WEFT_OK;

@@ -237,6 +237,7 @@ Viewer *viewer_create(const ViewDesc *desc) {
                             .requests = &rooms->requests,
                             .dialogs = &rooms->dialogs,
                             .drag = &rooms->drag,
+                            .weave = &rooms->weave,
                             .rooms = rooms};
     rooms->frame.settings = settings_default();
     options_begin(&both->viewer);

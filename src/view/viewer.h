@@ -167,6 +167,14 @@ typedef struct DragRoom {
     Stroke stroke;
 } DragRoom;
 
+/* weave_panel.c: yarns that are being changed. */
+typedef struct WeaveRoom {
+    unsigned scene; /* number of the scene */
+    int cloth;      /* of it, as it is shown; 0: none */
+    WeftYarn yarns[2];
+    bool changed; /* and not yet woven */
+} WeaveRoom;
+
 typedef struct Viewer {
     const ViewDesc *desc;
     Window *window;
@@ -185,6 +193,7 @@ typedef struct Viewer {
     const RequestsRoom *requests;
     const DialogsRoom *dialogs;
     const DragRoom *drag;
+    const WeaveRoom *weave;
     struct Rooms *rooms; /* the same, for their owners */
 } Viewer;
 
@@ -300,6 +309,7 @@ void stage_picked(Viewer *v, const RenderEvent *event);
 void menu_draw(Viewer *v);
 void status_draw(Viewer *v);
 void material_panel(Viewer *v);
+void weave_section(Viewer *v, const WeftMaterial *m); /* of the material's panel, where it is woven */
 void light_panel(Viewer *v);
 void view_panel(Viewer *v);
 void inspect_panel(Viewer *v);

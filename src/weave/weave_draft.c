@@ -193,6 +193,22 @@ WeftResult weft_draft_back(const WeftDraft *draft, WeftDraft **out, WeftError *e
     return WEFT_OK;
 }
 
+WeftResult weft_draft_copy(const WeftDraft *draft, WeftDraft **out, WeftError *error) {
+    const int warps = draft->count[WEFT_WARP], picks = draft->count[WEFT_WEFT];
+    WeftResult result = draft_create(draft->title, warps, picks, WEFT_MESSAGE_DRAFT, out, error);
+    if (!*out) return result;
+    memcpy((*out)->title, draft->title, sizeof draft->title);
+    memcpy((*out)->up, draft->up, (size_t)warps * (size_t)picks);
+    for (int t = 0; t < 2; t++)
+        memcpy((*out)->threads[t], draft->threads[t], (size_t)draft->count[t] * sizeof(WeftThread));
+    return WEFT_OK;
+}
+
+void weft_draft_set_up(WeftDraft *draft, int warp, int pick, int up) {
+    const size_t warps = (size_t)draft->count[WEFT_WARP], row = (size_t)wrapped(pick, draft->count[WEFT_WEFT]);
+    draft->up[row * warps + (size_t)wrapped(warp, draft->count[WEFT_WARP])] = up != 0;
+}
+
 WeftResult weft_draft_set_sett(WeftDraft *draft, WeftThreads threads, float per_metre, WeftError *error) {
     if (!(per_metre >= 1.0f && per_metre <= 1e6f))
         return fail(error, WEFT_MESSAGE_DESC, "sett", "%g per metre; 1 to 1e6 is possible",

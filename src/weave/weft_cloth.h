@@ -20,8 +20,8 @@ struct WeftCloth {
     float *runs, *albedos;
     WeftYarn yarns[2];
     char *text;       /* JSON: the weave of the material that it came from; NULL: of none */
-    WeftDraft *draft; /* owned; NULL: the text has all of its words */
-    char *path;       /* of the draft's file, absolute; NULL: it is in none */
+    WeftDraft *draft; /* as it was read; owned; NULL where no material has the cloth */
+    char *path;       /* of the draft's file, absolute; NULL: it is in none, and all of it in the text */
     double size[2];   /* of the repeat, metres */
     float per_uv[2];  /* threads of warp and weft in one unit of texture coordinates */
 };

@@ -78,20 +78,14 @@ static WeaveYarn laid(const WeftYarn *yarn, float pitch, float cross_pitch, floa
                        .wander = yarn->wander};
 }
 
-static WeftResult yarn_check(const WeftYarn *y, WeftError *error) {
-    const struct {
-        const char *name;
-        float value, low, high;
-    } limits[] = {{"alpha", y->alpha, 0.05f, 1.0f},        {"crimp", y->crimp, 0.0f, 1.2f},
-                  {"roundness", y->roundness, 0.0f, 1.5f}, {"twist", y->twist, -1.5f, 1.5f},
-                  {"white", y->white, 0.0f, 1.0f},         {"width", y->width, 0.05f, 2.0f},
-                  {"bulge", y->bulge, 0.0f, 1.0f},         {"floats", y->floats, 0.0f, 8.0f},
-                  {"streaks", y->streaks, 0.0f, 2.0f},     {"dye", y->dye, 0.0f, 1.0f},
-                  {"slub", y->slub, 0.0f, 2.0f},           {"wander", y->wander, 0.0f, 2.0f}};
-    for (size_t k = 0; k < sizeof limits / sizeof *limits; k++)
-        if (!(limits[k].value >= limits[k].low && limits[k].value <= limits[k].high))
-            return fail(error, WEFT_MESSAGE_DESC, "yarn", "%s is %g; %g to %g is possible", limits[k].name,
-                        (double)limits[k].value, (double)limits[k].low, (double)limits[k].high);
+static WeftResult yarn_check(const WeftYarn *yarn, WeftError *error) {
+    for (int k = 0; weft_yarn_number(k); k++) {
+        const WeftYarnNumber *n = weft_yarn_number(k);
+        const float value = *(const float *)((const char *)yarn + n->offset);
+        if (!(value >= n->low && value <= n->high))
+            return fail(error, WEFT_MESSAGE_DESC, "yarn", "%s is %g; %g to %g is possible", n->name,
+                        (double)value, (double)n->low, (double)n->high);
+    }
     return WEFT_OK;
 }
 

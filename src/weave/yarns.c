@@ -1,4 +1,5 @@
 /* yarns.c - the yarns that have a name */
+#include <stddef.h>
 #include <string.h>
 
 #include "base/fail.h"
@@ -49,4 +50,28 @@ WeftResult weft_yarn_find(const char *name, WeftYarn *out, WeftError *error) {
             return WEFT_OK;
         }
     return fail(error, WEFT_MESSAGE_YARN_NAME, name, "cotton, linen, wool, silk, dupion, polyester");
+}
+
+static const WeftYarnNumber numbers[] = {
+#define NUMBER(name, low, high, angle, help)                                                                 \
+    { #name, help, offsetof(WeftYarn, name), low, high, angle }
+    NUMBER(alpha, 0.05f, 1.0f, 0,
+           "Width of the highlight across the fibres: silk 0.1, cotton 0.4, wool 0.5."),
+    NUMBER(crimp, 0.0f, 1.2f, 1, "Steepest angle of the thread along itself, where it dives below another."),
+    NUMBER(roundness, 0.0f, 1.5f, 0, "Slope at the edges of a thread: a flat ribbon has 0."),
+    NUMBER(twist, -1.5f, 1.5f, 1,
+           "Of the fibres about the thread: 0 filament, below 0 as in a Z, above as in an S."),
+    NUMBER(white, 0.0f, 1.0f, 0, "Share of light that a fibre reflects without its dye."),
+    NUMBER(width, 0.05f, 2.0f, 0, "Of a thread, in parts of the draft's: below 1 there are gaps."),
+    NUMBER(bulge, 0.0f, 1.0f, 0, "How much wider the middle of a long float is."),
+    NUMBER(floats, 0.0f, 8.0f, 0, "How level a long float lies."),
+    NUMBER(streaks, 0.0f, 2.0f, 0, "How far fibres turn and rise out of their way."),
+    NUMBER(dye, 0.0f, 1.0f, 0, "How far colour varies from thread to thread, and along each."),
+    NUMBER(slub, 0.0f, 2.0f, 0, "How far thickness varies along a thread."),
+    NUMBER(wander, 0.0f, 2.0f, 0, "How far a thread strays from its place."),
+#undef NUMBER
+};
+
+const WeftYarnNumber *weft_yarn_number(int index) {
+    return index >= 0 && index < (int)(sizeof numbers / sizeof *numbers) ? &numbers[index] : NULL;
 }

@@ -246,6 +246,47 @@ static void numbers_name_cloths_of_the_scene(void **state) {
     weft_scene_free(scene);
 }
 
+/* A cloth that is woven anew is one more of the scene, differs in what was asked for alone, and is saved. */
+static void a_material_is_woven_anew(void **state) {
+    (void)state;
+    WeftScene *scene = scene_of_cloth();
+    WeftYarn yarns[2];
+    WeftDraft *draft;
+    WeftError error;
+    assert_int_equal(put(scene, denim, &error), WEFT_OK);
+    assert_null(weft_scene_cloth(scene, 0, yarns));
+    assert_null(weft_scene_cloth(scene, 2, yarns));
+    const WeftDraft *was = weft_scene_cloth(scene, 1, yarns);
+    assert_non_null(was);
+    assert_int_equal(weft_draft_copy(was, &draft, &error), WEFT_OK);
+    weft_draft_set_up(draft, 5, -4, !weft_draft_warp_up(draft, 1, 0)); /* indices wrap */
+    assert_int_not_equal(weft_draft_warp_up(draft, 1, 0), weft_draft_warp_up(was, 1, 0));
+    yarns[WEFT_WARP].crimp = 0.3f;
+    if (weft_scene_set_weave(scene, 0, draft, yarns, &error) != WEFT_OK) fail_msg("%s", error.text);
+    assert_int_equal(scene->cloth_count, 2);
+    assert_int_equal(scene->materials[0].cloth, 2);
+    const WeftCloth *first = scene->cloths[0], *second = scene->cloths[1];
+    assert_float_equal(second->yarns[WEFT_WARP].crimp, 0.3f, 1e-6f);
+    assert_float_equal(second->yarns[WEFT_WARP].alpha, 0.45f, 1e-6f);
+    assert_float_equal(second->per_uv[WEFT_WARP], first->per_uv[WEFT_WARP], 0.1f);
+    assert_float_equal(second->weave.seed, 7.0f, 0.0f);
+    for (int k = 0; k < 3 * 8; k++) /* a WIF has colours of 8 bits */
+        assert_float_equal(second->albedos[k], first->albedos[k], 1e-3f);
+    assert_int_equal(weft_draft_warp_up(weft_scene_cloth(scene, 2, NULL), 1, 0),
+                     weft_draft_warp_up(draft, 1, 0));
+    assert_int_equal(weft_scene_set_weave(scene, 0, draft, yarns, &error), WEFT_OK); /* the same once more */
+    assert_int_equal(scene->cloth_count, 2);
+    yarns[WEFT_WEFT].alpha = NAN;
+    assert_int_equal(weft_scene_set_weave(scene, 0, draft, yarns, &error), WEFT_USAGE);
+    yarns[WEFT_WEFT].alpha = 7.0f;
+    assert_int_not_equal(weft_scene_set_weave(scene, 0, draft, yarns, &error), WEFT_OK);
+    assert_int_not_equal(weft_scene_set_weave(scene, 1, draft, yarns, &error), WEFT_OK); /* not woven */
+    assert_int_not_equal(weft_scene_set_weave(scene, 99, draft, yarns, &error), WEFT_OK);
+    assert_int_equal(scene->materials[0].cloth, 2);
+    weft_draft_free(draft);
+    weft_scene_free(scene);
+}
+
 /* Asserts that a lobe's value is a number, for directions from the normal down to a cosine of 1e-4. */
 #define ASSERT_FINITE(lobe, Prepared, View, m, name)                                                         \
     do {                                                                                                     \
@@ -269,6 +310,18 @@ static Dir direction(int k) {
     return dir(r * cosf(phi), r * sinf(phi), z);
 }
 
+/* Bytes of a cloth's tables and of its colours at all levels. */
+static size_t size_of(const WeftCloth *cloth) {
+    const size_t warps = (size_t)cloth->weave.warps, picks = (size_t)cloth->weave.picks;
+    size_t floats = 4 * warps * picks + 3 * (warps + picks);
+    for (int level = 0; level < cloth->far.levels; level++) {
+        int width, height;
+        (void)cloth_far_level(&cloth->far, level, &width, &height);
+        floats += 4 * FAR_LAYERS * (size_t)width * (size_t)height;
+    }
+    return sizeof(float) * floats;
+}
+
 /* The presets that are woven: ours, and those by the numbers of two papers. */
 static void woven_presets_are_cloths_and_finite_to_the_horizon(void **state) {
     (void)state;
@@ -289,6 +342,7 @@ static void woven_presets_are_cloths_and_finite_to_the_horizon(void **state) {
             const WeftCloth *cloth = scene->cloths[0];
             const WeftClothInfo info = weft_cloth_info(cloth);
             if (!(info.share[0] + info.share[1] > 0.95f)) fail_msg("%s is full of holes", name);
+            assert_true(size_of(cloth) < (size_t)6 << 20);
             for (int t = 0; t < 2; t++)
                 ASSERT_FINITE(woven, WovenPrepared, WovenView, weave_woven(&cloth->weave, t == 1), name);
             for (int at = 0; at < 25; at++) {
@@ -311,6 +365,7 @@ int main(void) {
         cmocka_unit_test(a_weave_that_the_scene_has_is_not_added),
         cmocka_unit_test(weave_of_a_gltf_reads_no_file),
         cmocka_unit_test(numbers_name_cloths_of_the_scene),
+        cmocka_unit_test(a_material_is_woven_anew),
         cmocka_unit_test(woven_presets_are_cloths_and_finite_to_the_horizon),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

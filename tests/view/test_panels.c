@@ -93,6 +93,36 @@ static void the_menu_of_presets_follows_undo(void **state) {
     assert_true(pictures_most("worn.png", "again.png") < 0.5 / 255.0);
 }
 
+/* A click turns a crossing over, a number changes a yarn: either is a cloth of its own, and undo brings the one before. */
+static void a_weave_is_changed_by_clicks_and_numbers(void **state) {
+    (void)state;
+    need_gl();
+    script_begin();
+    say("wait rest\nchoose Material/preset woven-charmeuse\nwait 5\n");
+    say_rested_picture("satin.png");
+    say("click \"Material/crossing 2 1\"\nwait 5\n");
+    say_rested_picture("clicked.png");
+    say("click \"Material/yarn of warp\"\nwait 3\nset \"Material/warp alpha\" 0.9\nwait 5\n");
+    say_rested_picture("matt.png");
+    say("key control+z\nwait 5\n");
+    say_rested_picture("undone.png");
+    say("key control+z\nwait 5\n");
+    say_rested_picture("first.png");
+    Drive drive = drive_start(script, LIST(UNSEEN, CHEAP));
+    static const char *const pictures[] = {"satin.png", "clicked.png", "matt.png", "undone.png", "first.png"};
+    static const int cloths[] = {1, 2, 3, 2, 1};
+    for (int k = 0; k < 5; k++) {
+        json_t *now = drive_picture(&drive, pictures[k]);
+        assert_int_equal(number_of(material_of(now, 0), "cloth"), cloths[k]);
+        json_decref(now);
+    }
+    drive_finish(&drive);
+    assert_true(pictures_most("clicked.png", "matt.png") > 0.02);
+    assert_true(pictures_most("satin.png", "clicked.png") > 1.0 / 255.0);
+    assert_true(pictures_most("undone.png", "clicked.png") < 0.5 / 255.0);
+    assert_true(pictures_most("first.png", "satin.png") < 0.5 / 255.0);
+}
+
 static void a_scene_that_is_read_again_keeps_its_folder(void **state) {
     (void)state;
     need_gl();
@@ -216,6 +246,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(undo_restores_a_variant),
                                        cmocka_unit_test(the_menu_of_presets_follows_undo),
                                        cmocka_unit_test(a_choice_made_while_a_preset_is_put_on_stays),
+                                       cmocka_unit_test(a_weave_is_changed_by_clicks_and_numbers),
                                        cmocka_unit_test(a_scene_that_is_read_again_keeps_its_folder),
                                        cmocka_unit_test(every_number_takes_a_map_and_shows_it),
                                        cmocka_unit_test(swatch_sets_the_values_of_the_chart),
