@@ -68,7 +68,6 @@ typedef struct ShownRoom {
     char warnings[8192];   /* of scene and files, one a line */
 } ShownRoom;
 
-/* edit.c: what is edited, and what was. */
 enum { ASSIGNMENTS = 16 };
 
 /* A material that a task is about to replace, as it was when the task was sent. */
@@ -78,6 +77,7 @@ typedef struct Assignment {
     WeftMaterial was;
 } Assignment;
 
+/* edit.c: what is edited, and what was. */
 typedef struct EditRoom {
     SceneState state, first, before; /* as it is edited; as it was read; a frame ago */
     SceneState other;                /* the other of A and B; empty without a comparison */
