@@ -271,13 +271,14 @@ static void read_keep(Reader *r, const json_t *json) {
 static void read_measured(Reader *r, const json_t *json) {
     const char *text = json_string_value(json);
     char path[4096 + 512];
-    if (!text || !text[0] || strlen(text) > 4096)
+    if (!text || !text[0] || strlen(text) > 4096) {
         refuse(r, "expected the name of a file");
-    else if (!r->folder || strlen(r->folder) > 511)
+    } else if (!r->folder || strlen(r->folder) > 511) {
         refuse(r, "a file can be named only by a material in a file");
-    if (r->result != WEFT_OK || r->out->measured) return;
-    snprintf(path, sizeof path, "%s%s", text[0] == '/' ? "" : r->folder, text);
-    r->result = scene_measured_read(path, &r->out->measured, r->error);
+    } else if (!r->out->measured) {
+        snprintf(path, sizeof path, "%s%s", text[0] == '/' ? "" : r->folder, text);
+        r->result = scene_measured_read(path, &r->out->measured, r->error);
+    }
 }
 
 /* Reads the members of a material that are neither inputs nor choices. */
