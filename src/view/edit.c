@@ -185,23 +185,13 @@ void edit_end_assign(Viewer *v, unsigned stamp) {
     edit->assignment_count--;
 }
 
-/* Returns `made` with what differs between `was` and `now` as it is now. */
-static WeftMaterial material_merged(const WeftMaterial *was, const WeftMaterial *now, WeftMaterial made) {
-    for (int k = 0; k < WEFT_CHOICES_MAX; k++)
-        if (now->choices[k] != was->choices[k]) made.choices[k] = now->choices[k];
-    for (int k = 0; k < WEFT_INPUTS_MAX; k++)
-        if (memcmp(&now->inputs[k], &was->inputs[k], sizeof now->inputs[k]) != 0)
-            made.inputs[k] = now->inputs[k];
-    return made;
-}
-
 /* Makes of a task's state the one that is edited, with the task's material merged into it. To tasks that follow, what
  * this one made was there before. */
 static void keep_later_changes(EditRoom *edit, const Assignment *task, SceneState *state) {
     SceneState merged;
     const int k = task->material, preset = scene_state_preset(state, k);
     const WeftMaterial now = *scene_state_material(&edit->state, k),
-                       made = material_merged(&task->was, &now, *scene_state_material(state, k));
+                       made = material_merged(&task->was, &now, scene_state_material(state, k));
     if (!scene_state_copy(&merged, &edit->state)) return;
     scene_state_set_material(&merged, k, &made);
     scene_state_set_preset(&merged, k, preset);
@@ -209,7 +199,7 @@ static void keep_later_changes(EditRoom *edit, const Assignment *task, SceneStat
     *state = merged;
     for (int other = 0; other < edit->assignment_count; other++) {
         Assignment *later = &edit->assignments[other];
-        if (later->material == k && later != task) later->was = material_merged(&now, &later->was, made);
+        if (later->material == k && later != task) later->was = material_merged(&now, &later->was, &made);
     }
 }
 

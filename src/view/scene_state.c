@@ -150,6 +150,16 @@ bool scene_state_set_material(SceneState *state, int k, const WeftMaterial *mate
     return same_bytes(&was->is, material, sizeof *material) || put_material(state, k, material, was->preset);
 }
 
+WeftMaterial material_merged(const WeftMaterial *was, const WeftMaterial *now, const WeftMaterial *made) {
+    WeftMaterial merged = *made;
+    for (int k = 0; k < WEFT_CHOICES_MAX; k++)
+        if (now->choices[k] != was->choices[k]) merged.choices[k] = now->choices[k];
+    for (int k = 0; k < WEFT_INPUTS_MAX; k++)
+        if (!same_bytes(&now->inputs[k], &was->inputs[k], sizeof now->inputs[k]))
+            merged.inputs[k] = now->inputs[k];
+    return merged;
+}
+
 int scene_state_preset(const SceneState *state, int k) { return state->materials[k]->preset; }
 
 bool scene_state_set_preset(SceneState *state, int k, int preset) {

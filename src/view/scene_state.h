@@ -80,6 +80,9 @@ const WeftMaterial *scene_state_material(const SceneState *state, int index);
 bool scene_state_set_material(SceneState *state, int index, const WeftMaterial *material);
 bool scene_state_same_material(const SceneState *a, const SceneState *b, int index);
 
+/* Returns `made` with every choice and input that differs between `was` and `now` as it is now. */
+WeftMaterial material_merged(const WeftMaterial *was, const WeftMaterial *now, const WeftMaterial *made);
+
 /* The preset that a material was configured in last, counted from 1; 0: none. What else is done to it leaves
  * that as it is, and a state that differs in it alone is the same. */
 int scene_state_preset(const SceneState *state, int index);

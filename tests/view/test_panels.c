@@ -226,26 +226,9 @@ static void a_finding_of_the_doctor_chooses_its_material(void **state) {
     drive_through(script, LIST(UNSEEN, "quads.gltf", FLAT));
 }
 
-/* The renderer puts a preset on once it has drawn what was asked for before; what is chosen meanwhile is later. */
-static void a_choice_made_while_a_preset_is_put_on_stays(void **state) {
-    (void)state;
-    need_gl();
-    script_begin();
-    say("wait rest\nclick \"Material/Models\"\nwait 3\nchoose Material/preset felt\nwait 6\n");
-    say("choose Material/preset velvet\nchoose Material/profile khronos\nwait rest\n");
-    say_rested_picture("end.png");
-    Drive drive = drive_start(script, LIST(UNSEEN, CHEAP));
-    json_t *now = drive_picture(&drive, "end.png");
-    drive_finish(&drive);
-    assert_string_equal(word_of(material_of(now, 0), "preset"), "velvet");
-    assert_string_equal(word_of(material_of(now, 0), "profile"), "khronos");
-    json_decref(now);
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(undo_restores_a_variant),
                                        cmocka_unit_test(the_menu_of_presets_follows_undo),
-                                       cmocka_unit_test(a_choice_made_while_a_preset_is_put_on_stays),
                                        cmocka_unit_test(a_weave_is_changed_by_clicks_and_numbers),
                                        cmocka_unit_test(a_scene_that_is_read_again_keeps_its_folder),
                                        cmocka_unit_test(every_number_takes_a_map_and_shows_it),

@@ -280,6 +280,25 @@ static void copied_states_share_materials_until_changed(void **state) {
     scene_state_free(&b);
 }
 
+/* A preset is put on late; what was chosen meanwhile stays, and all else is the preset's. */
+static void choice_made_while_a_preset_is_put_on_stays(void **state) {
+    (void)state;
+    WeftMaterial was, made;
+    weft_material_default(&was);
+    assert_int_equal(weft_material_read("preset:velvet", &made, NULL, NULL), WEFT_OK);
+    WeftMaterial now = was;
+    assert_int_equal(weft_material_set(&now, "profile", "khronos", NULL, NULL), WEFT_OK);
+    assert_int_equal(weft_material_set(&now, "roughness", "0.31", NULL, NULL), WEFT_OK);
+    WeftMaterial wanted = made;
+    assert_int_equal(weft_material_set(&wanted, "profile", "khronos", NULL, NULL), WEFT_OK);
+    assert_int_equal(weft_material_set(&wanted, "roughness", "0.31", NULL, NULL), WEFT_OK);
+    WeftMaterial merged = material_merged(&was, &now, &made);
+    assert_memory_not_equal(&made, &wanted, sizeof made);
+    assert_memory_equal(&merged, &wanted, sizeof merged);
+    merged = material_merged(&was, &was, &made);
+    assert_memory_equal(&merged, &made, sizeof merged);
+}
+
 static void preset_is_copied_with_its_state(void **state) {
     (void)state;
     WeftScene *scene;
@@ -703,6 +722,7 @@ int main(void) {
                                        cmocka_unit_test(steps_of_the_history_are_undone_and_redone),
                                        cmocka_unit_test(oldest_steps_of_the_history_are_dropped),
                                        cmocka_unit_test(copied_states_share_materials_until_changed),
+                                       cmocka_unit_test(choice_made_while_a_preset_is_put_on_stays),
                                        cmocka_unit_test(preset_is_copied_with_its_state),
                                        cmocka_unit_test(folder_of_maps_replaces_the_one_before),
                                        cmocka_unit_test(brushing_begins_with_the_map_of_the_material),
