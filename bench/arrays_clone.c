@@ -2,12 +2,12 @@
  *
  * Compiled once for each column of arrays.c: CLONE is its name there. The loops stand in a section of that
  * name, where arrays.c counts their instructions. */
-#define PASTE(a, b)     a##_##b
-#define NAMED(a, clone) PASTE(a, clone)
-#define TEXT(name)      #name
-#define SECTION(clone)  TEXT(arrays_##clone)
-#define ALONE(clone)    __attribute__((noinline, section(SECTION(clone))))
-#define CLONES          ALONE(CLONE)
+#define PASTE(a, b)                       a##_##b
+#define NAMED(a, clone)                   PASTE(a, clone)
+#define TEXT(name)                        #name
+#define SECTION(clone)                    TEXT(arrays_##clone)
+#define ALONE(clone)                      __attribute__((noinline, section(SECTION(clone))))
+#define LOOP(name, parameters, arguments) ALONE(CLONE) static void name parameters
 
 #define lobe_eval_n   NAMED(lobe_eval_n, CLONE)
 #define lobe_pdf_n    NAMED(lobe_pdf_n, CLONE)

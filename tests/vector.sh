@@ -41,7 +41,7 @@ function judge(k, j, packed, single, best) {
     name = ""
     count = 0
     split("", at)
-    if ($2 ~ /_n\.arch_x86_64_v3>:$/) { name = $2; sub(/^</, "", name); sub(/\.arch.*/, "", name); there[name] = 1 }
+    if ($2 ~ /_n_avx2(\.[a-z]+\.[0-9]+)*>:$/) { name = $2; sub(/^</, "", name); sub(/_avx2.*/, "", name); there[name] = 1 }
 }
 name != "" && $1 ~ /:$/ {
     address = $1

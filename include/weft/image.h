@@ -73,6 +73,7 @@ typedef struct WeftImageWriting {
     const WeftImageLayer
         *layers;     /* of an .exr, at most WEFT_IMAGE_LAYERS; the other formats leave them out */
     int layer_count; /* of layers */
+    const char *isa; /* the instructions that made it (weft_isa), kept in an .exr ("isa"); may be NULL */
 } WeftImageWriting;
 
 /* weft_image_write, but so. */

@@ -94,7 +94,9 @@ typedef enum WeftResult {
     M(COMPILER, RESOURCES, "needs a C compiler; install gcc or clang")                                       \
     M(YARN_NAME, USAGE, "is not a yarn")                                                                     \
     M(IMAGE_DENOISED, WARNING, "was denoised: to look at, not to measure by")                                \
-    M(DENOISER, RESOURCES, "cannot denoise")
+    M(DENOISER, RESOURCES, "cannot denoise")                                                                 \
+    M(ISA_NAME, USAGE, "is not a set of instructions")                                                       \
+    M(ISA, RESOURCES, "cannot be used")
 
 /* The result of warnings, which are logged and never returned. */
 #define WEFT_WARNING WEFT_OK

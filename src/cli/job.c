@@ -248,6 +248,7 @@ WeftResult job_write(const Job *job, const char *number, WeftError *error) {
         &job->linear,
         &job->display,
         {.denoised = request->denoise ? weft_denoiser_name((int)request->denoiser) : NULL,
+         .isa = job->engine == ENGINE_TRACE ? weft_isa() : NULL,
          .layers = layers,
          .layer_count = count}};
     return request_outputs_write(request, number, &outputs, error);
@@ -286,6 +287,7 @@ void job_json(const Job *job, Json *json) {
     json_number(json, "render", info->render_seconds);
     json_close(json, '}');
     if (job->engine == ENGINE_TRACE) {
+        json_text(json, "isa", weft_isa());
         json_whole(json, "rays", info->rays);
         json_number(json, "samples_per_second", job_samples_per_second(job));
         json_number(json, "rays_per_second", rate((double)info->rays, info->render_seconds));

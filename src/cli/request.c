@@ -10,6 +10,7 @@
 #include "path_suffix.h"
 #include "report.h"
 #include "save.h"
+#include "weft/isa.h"
 
 const Option request_options[] = {
     OPTION_HEADING("Pictures"),
@@ -66,6 +67,9 @@ const Option request_options[] = {
     OPTION_NUMBER("--seed", "NUMBER", "0", 0, 2147483647, "another seed, other noise"),
     OPTION_NUMBER("--threads", "COUNT", NULL, 1, WEFT_THREADS_MAX,
                   "processors to use, 1 to 256; no influence on the picture [all]"),
+    OPTION_TEXT("--isa", "NAME", NULL,
+                "instructions to use: sse2, avx2 or avx512; no influence but on last bits, an .exr names "
+                "them [the widest that the processor has]"),
 
     OPTION_HEADING("Output of the path tracer"),
     OPTION_TEXT("--aov", "NAMES", NULL,
@@ -174,6 +178,14 @@ static bool read_aovs(const char *text, unsigned *aovs) {
     return true;
 }
 
+/* Pins the instructions of loops. */
+static bool use_isa(const Options *options) {
+    WeftError error;
+    if (weft_isa_use(option_text(options, "--isa"), &error) == WEFT_OK) return true;
+    report_error(&error);
+    return false;
+}
+
 /* Reads what else the path tracer is to give, and checks that it is asked for it. */
 static bool read_extras(const Options *options, Request *request) {
     static const char *const of_tracer[] = {"--halves", "--noise", "--aov", "--denoise", "--denoiser"};
@@ -211,7 +223,7 @@ bool request_read(const Options *options, Request *request) {
                 scene_options_read(options, options->operands[0], &request->scene_options) &&
                 option_integer(options, "--spp", &request->spp) &&
                 option_number(options, "--time-limit", &request->time_limit) &&
-                read_engine(options, request) && read_extras(options, request);
+                read_engine(options, request) && read_extras(options, request) && use_isa(options);
     request->desc.camera = request->scene_options.camera;
     bool laid_behind = request->scene_options.background == WEFT_BACKGROUND_COLOR; /* by job_draw */
     request->desc.background = laid_behind ? WEFT_BACKGROUND_TRANSPARENT : request->scene_options.background;

@@ -121,8 +121,8 @@ static void find_variance(DenoisePlanes *planes) {
 }
 
 /* Sets what d is the mean of, for the pixels from p on and those at q from them. */
-CLONES static void distance_n(int n, const float *const u[3], const float *restrict v, ptrdiff_t q,
-                              float *restrict to) {
+LOOP(distance_n, (int n, const float *const u[3], const float *restrict v, ptrdiff_t q, float *restrict to),
+     (n, u, v, q, to)) {
     const float *restrict r = u[0], *restrict g = u[1], *restrict b = u[2];
     const float *r_q = r + q, *g_q = g + q, *b_q = b + q, *v_q = v + q;
     EACH(x, (size_t)n) {
@@ -133,8 +133,9 @@ CLONES static void distance_n(int n, const float *const u[3], const float *restr
 }
 
 /* Sets the weights: means over patches first down, then across. */
-CLONES static void weights_n(int n, const float (*restrict distance)[WIDE], float *restrict column,
-                             float *restrict weight) {
+LOOP(weights_n,
+     (int n, const float (*restrict distance)[WIDE], float *restrict column, float *restrict weight),
+     (n, distance, column, weight)) {
     EACH(x, (size_t)n + 2 * PATCH) {
         float sum = 0.0f;
         for (int y = 0; y < PATCH_SIDE; y++) sum += distance[y][x];
@@ -172,8 +173,10 @@ static void weigh(const DenoisePlanes *planes, int half, const Area *area, Scrat
 }
 
 /* Sets the features of the pixels q beside those of p, as they are and weighted. */
-CLONES static void take_steps(int n, const float *restrict of_p, ptrdiff_t q, const float *restrict weight,
-                              float *restrict step, float *restrict weighted) {
+LOOP(take_steps,
+     (int n, const float *restrict of_p, ptrdiff_t q, const float *restrict weight, float *restrict step,
+      float *restrict weighted),
+     (n, of_p, q, weight, step, weighted)) {
     const float *of_q = of_p + q;
     EACH(x, (size_t)n) {
         step[x] = of_q[x] - of_p[x];
@@ -182,7 +185,7 @@ CLONES static void take_steps(int n, const float *restrict of_p, ptrdiff_t q, co
 }
 
 /* Adds a pixel of each window to the equations. */
-CLONES static void add_products(int n, Scratch *s, const float *const color[DENOISE_COLORS]) {
+LOOP(add_products, (int n, Scratch *s, const float *const color[DENOISE_COLORS]), (n, s, color)) {
     for (int i = 0; i < TERMS; i++) {
         const float *restrict a = s->weighted[i];
         for (int j = i; j < TERMS; j++) {
@@ -199,7 +202,7 @@ CLONES static void add_products(int n, Scratch *s, const float *const color[DENO
 }
 
 /* Solves the equations by elimination from the last term on, so that beta_0 is found first and alone. */
-CLONES static void solve_n(int n, Scratch *s) {
+LOOP(solve_n, (int n, Scratch *s), (n, s)) {
     Line(*moment)[TERMS] = s->moment, (*side)[TERMS] = s->side;
     for (int i = 1; i < TERMS; i++) EACH(x, (size_t)n) moment[i][i][x] += ridge * moment[0][0][x];
     for (int k = TERMS - 1; k > 0; k--)

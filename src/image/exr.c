@@ -439,6 +439,7 @@ static exr_result_t exr_describe(exr_context_t exr, const WeftImage *image, cons
         status = exr_attr_set_string(exr, part, "comments", how->comment);
     if (status == EXR_ERR_SUCCESS && how->denoised)
         status = exr_attr_set_string(exr, part, exr_denoised, how->denoised);
+    if (status == EXR_ERR_SUCCESS && how->isa) status = exr_attr_set_string(exr, part, "isa", how->isa);
     if (status == EXR_ERR_SUCCESS) status = exr_set_version(exr, part, 1);
     return status == EXR_ERR_SUCCESS ? exr_write_header(exr) : status;
 }

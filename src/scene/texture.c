@@ -111,13 +111,13 @@ FN void spans(const float *u, int size, TextureWrap wrap, int step, int n, SpanR
         rows->t[k] = s.t;
     }
 }
-CLONES static void spans_repeat_n(const float *u, int size, int step, int n, SpanRows *rows) {
+LOOP(spans_repeat_n, (const float *u, int size, int step, int n, SpanRows *rows), (u, size, step, n, rows)) {
     spans(u, size, WRAP_REPEAT, step, n, rows);
 }
-CLONES static void spans_mirror_n(const float *u, int size, int step, int n, SpanRows *rows) {
+LOOP(spans_mirror_n, (const float *u, int size, int step, int n, SpanRows *rows), (u, size, step, n, rows)) {
     spans(u, size, WRAP_MIRROR, step, n, rows);
 }
-CLONES static void spans_clamp_n(const float *u, int size, int step, int n, SpanRows *rows) {
+LOOP(spans_clamp_n, (const float *u, int size, int step, int n, SpanRows *rows), (u, size, step, n, rows)) {
     spans(u, size, WRAP_CLAMP, step, n, rows);
 }
 

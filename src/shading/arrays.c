@@ -13,7 +13,8 @@
 /* The composed lobe, one term at a time with its number a constant: a loop with a chain of terms in it stays
  * scalar, which is ten times slower. */
 #define TERM_N(question, choice, NAME, value)                                                                \
-    CLONES static void question##_##NAME##_n(const Lobe *lobe, size_t n, PAIRS, float *restrict f) {         \
+    LOOP(question##_##NAME##_n, (const Lobe *lobe, size_t n, PAIRS, float *restrict f),                      \
+         (lobe, n, PAIR_NAMES, f)) {                                                                         \
         CookTorrance m = cook_torrance_of(lobe);                                                             \
         m.choice = NAME;                                                                                     \
         EACH(k, n) {                                                                                         \

@@ -17,7 +17,7 @@
     m.choice = NAME
 
 #define SPREAD_EACH(id, NAME, ...)                                                                           \
-    CLONES static void spread_##NAME##_each_n(const Each *e, size_t n) {                                     \
+    LOOP(spread_##NAME##_each_n, (const Each *e, size_t n), (e, n)) {                                        \
         TAKE_PAIRS(e);                                                                                       \
         float *pdf = e->pdf;                                                                                 \
         TAKE_TERMS(e);                                                                                       \
@@ -31,7 +31,7 @@
         }                                                                                                    \
     }
 #define SHADOW_EACH(id, NAME, ...)                                                                           \
-    CLONES static void shadow_##NAME##_each_n(const Each *e, size_t n) {                                     \
+    LOOP(shadow_##NAME##_each_n, (const Each *e, size_t n), (e, n)) {                                        \
         TAKE_PAIRS(e);                                                                                       \
         TAKE_TERMS(e);                                                                                       \
         EACH(k, n) {                                                                                         \
@@ -43,7 +43,7 @@
     }
 #define TERM_COLOR(first, second) fresnel_weight_mix(s, first, cook_torrance_second(m, first, second))
 #define MIXED_EACH(id, NAME, ...)                                                                            \
-    CLONES static void mixed_##NAME##_each_n(const Each *e, size_t n) {                                      \
+    LOOP(mixed_##NAME##_each_n, (const Each *e, size_t n), (e, n)) {                                         \
         TAKE_PAIRS(e);                                                                                       \
         TAKE_COLORS(e);                                                                                      \
         TAKE_TERMS(e);                                                                                       \
@@ -55,7 +55,7 @@
         }                                                                                                    \
     }
 #define DRAWN_EACH(id, NAME, ...)                                                                            \
-    CLONES static void drawn_##NAME##_each_n(const Each *e, size_t n) {                                      \
+    LOOP(drawn_##NAME##_each_n, (const Each *e, size_t n), (e, n)) {                                         \
         TAKE_DRAWS(e);                                                                                       \
         TAKE_TERMS(e);                                                                                       \
         EACH(k, n) {                                                                                         \

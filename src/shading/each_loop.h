@@ -65,7 +65,7 @@
         if (NAME##_TRAITS & TRAIT_TINTED) return tint_color(v.tint, f0);                                     \
         return NAME##_TRAITS & TRAIT_TWO_COLORS ? mix(f0, second(m, f0, f90), v.s) : f0;                     \
     }                                                                                                        \
-    CLONES static void name##_each_n(const Each *e, size_t n) {                                              \
+    LOOP(name##_each_n, (const Each *e, size_t n), (e, n)) {                                                 \
         TAKE_PAIRS(e);                                                                                       \
         TAKE_COLORS(e);                                                                                      \
         float *pdf = e->pdf;                                                                                 \
@@ -81,7 +81,7 @@
             pdf[k] = counts ? v.pdf : 0.0f;                                                                  \
         }                                                                                                    \
     }                                                                                                        \
-    CLONES static void name##_drawn_each_n(const Each *e, size_t n) {                                        \
+    LOOP(name##_drawn_each_n, (const Each *e, size_t n), (e, n)) {                                           \
         TAKE_DRAWS(e);                                                                                       \
         TAKE_OWN(name, Name, NAME)                                                                           \
         EACH(k, n) {                                                                                         \

@@ -45,7 +45,7 @@ FN void see_each(KindVertices *restrict v, TableRef e, int n) {
     }
 }
 
-CLONES static void see_n(KindVertices *restrict v, TableRef e, int n) {
+LOOP(see_n, (KindVertices *restrict v, TableRef e, int n), (v, e, n)) {
     if (e.rows < 2) {
         e.rows = 1;
         see_each(v, e, n);
@@ -87,7 +87,7 @@ FN void eval_each(KindVertices *restrict v, TableRef e, int direction, int n) {
     }
 }
 
-CLONES static void eval_n(KindVertices *restrict v, TableRef e, int direction, int n) {
+LOOP(eval_n, (KindVertices *restrict v, TableRef e, int direction, int n), (v, e, direction, n)) {
     if (e.rows < 2) {
         e.rows = 1;
         eval_each(v, e, direction, n);
@@ -113,7 +113,7 @@ CLONES static void eval_n(KindVertices *restrict v, TableRef e, int direction, i
     }                                                                                                        \
     place++;
 
-CLONES static void sample_n(KindVertices *restrict v, TableRef e, int n) {
+LOOP(sample_n, (KindVertices *restrict v, TableRef e, int n), (v, e, n)) {
     float(*drawn)[ROW_ROOM] = v->i[KIND_DRAWN];
     EACH(k, (size_t)n) {
         TAKE_STACK(m, v);

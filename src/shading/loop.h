@@ -7,13 +7,31 @@
 
 #include <stddef.h>
 
+#include "shading/isa.h"
 #include "shading/lobe.h"
 
-#if defined(CLONES) /* bench/ makes each clone by itself */
-#elif defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__clang__)
-#define CLONES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+/* LOOP(name, (parameters), (arguments)) { ... } is a function without a result whose text is compiled once for each
+ * set of instructions; a call runs the one in use. What its file is compiled for is the least set (CMakeLists.txt). */
+#if defined(LOOP) /* bench/ makes each by itself */
+#elif defined(__x86_64__) && !defined(WEFT_OUTLINED)
+#define LOOP_AVX2   __attribute__((noinline, target("arch=x86-64-v3")))
+#define LOOP_AVX512 __attribute__((noinline, target("arch=x86-64-v4")))
+#define LOOP(name, parameters, arguments)                                                                    \
+    FN void name##_text parameters;                                                                          \
+    __attribute__((noinline)) static void name##_sse2 parameters { name##_text arguments; }                  \
+    LOOP_AVX2 static void name##_avx2 parameters { name##_text arguments; }                                  \
+    LOOP_AVX512 static void name##_avx512 parameters { name##_text arguments; }                              \
+    static void name parameters {                                                                            \
+        if (isa_used == ISA_AVX512)                                                                          \
+            name##_avx512 arguments;                                                                         \
+        else if (isa_used == ISA_AVX2)                                                                       \
+            name##_avx2 arguments;                                                                           \
+        else                                                                                                 \
+            name##_sse2 arguments;                                                                           \
+    }                                                                                                        \
+    FN void name##_text parameters
 #else
-#define CLONES
+#define LOOP(name, parameters, arguments) static void name parameters
 #endif
 
 /* Returns true if both directions are above the horizon and all of their components are finite; their sum
@@ -35,6 +53,7 @@ FN bool pair_counts(Dir o, Dir i) {
 #define PAIRS                                                                                                \
     const float *restrict ox, const float *restrict oy, const float *restrict oz, const float *restrict ix,  \
         const float *restrict iy, const float *restrict iz
+#define PAIR_NAMES ox, oy, oz, ix, iy, iz
 
 /* A loop whose elements know nothing of each other. Not `omp simd`: that makes an array over lanes of every
  * record which travels by reference. */
@@ -46,7 +65,8 @@ FN bool pair_counts(Dir o, Dir i) {
 
 /* One member of a lobe's value: f, pdf or s. */
 #define LOBE_LOOP(question, name, Name)                                                                      \
-    CLONES static void name##_##question##_n(const Lobe *m, size_t n, PAIRS, float *restrict question) {     \
+    LOOP(name##_##question##_n, (const Lobe *m, size_t n, PAIRS, float *restrict question),                  \
+         (m, n, PAIR_NAMES, question)) {                                                                     \
         Name##Prepared p;                                                                                    \
         name##_prepare(name##_of(m), &p);                                                                    \
         EACH(k, n) {                                                                                         \
@@ -61,8 +81,10 @@ FN bool pair_counts(Dir o, Dir i) {
 
 /* f of a tinted lobe in three channels, made of what has albedo c. */
 #define TINTED_LOOP(name, Name)                                                                              \
-    CLONES static void name##_tinted_n(const Lobe *m, const float c[3], size_t n, PAIRS, float *restrict r,  \
-                                       float *restrict g, float *restrict b) {                               \
+    LOOP(name##_tinted_n,                                                                                    \
+         (const Lobe *m, const float c[3], size_t n, PAIRS, float *restrict r, float *restrict g,            \
+          float *restrict b),                                                                                \
+         (m, c, n, PAIR_NAMES, r, g, b)) {                                                                   \
         Name##Prepared p;                                                                                    \
         name##_prepare(name##_of(m), &p);                                                                    \
         float c_r = c[0], c_g = c[1], c_b = c[2];                                                            \

@@ -5,6 +5,7 @@
 #include <stddef.h>
 
 #include "shading/each.h"
+#include "shading/isa.h"
 #include "shading/terms/d_ggx.h"
 #include "shading/traits.h"
 
@@ -47,10 +48,11 @@ typedef struct Plugin {
     const PluginLoops *loops;
 } Plugin;
 
-/* The only name that a plugin shows. */
-typedef const Plugin *PluginEntry(void);
+/* The only name that a plugin shows. Its loops run with the instructions that isa says at each call. */
+typedef const Plugin *PluginEntry(const Isa *isa);
 #define PLUGIN_ENTRY "weft_lobe_plugin"
 PluginEntry weft_lobe_plugin;
 extern const PluginLoops weft_lobe_loops;
+extern const Isa *plugin_isa;
 
 #endif

@@ -28,6 +28,7 @@
     LOBE_LOOP(s, name, Name)                                                                                 \
     TINTED_LOOP(name, Name)                                                                                  \
     EACH_LOOPS(name, Name, NAME, second)                                                                     \
+    const Isa *plugin_isa;                                                                                   \
     const PluginLoops weft_lobe_loops = {name##_f_n,      name##_pdf_n,  name##_s_n,                         \
                                          name##_tinted_n, name##_each_n, name##_drawn_each_n};
 
@@ -54,7 +55,7 @@
     static void plugin_sample(const void *p, const void *w, const Dir *o, float u, float v, Dir *i) {        \
         *i = name##_sample(p, w, *o, u, v);                                                                  \
     }                                                                                                        \
-    __attribute__((visibility("default"))) const Plugin *weft_lobe_plugin(void) {                            \
+    __attribute__((visibility("default"))) const Plugin *weft_lobe_plugin(const Isa *isa) {                  \
         static const Plugin plugin = {NAME##_TRAITS,                                                         \
                                       (int)(sizeof plugin_params / sizeof *plugin_params) - 1,               \
                                       plugin_params,                                                         \
@@ -68,6 +69,7 @@
                                       strip,                                                                 \
                                       proxy,                                                                 \
                                       &weft_lobe_loops};                                                     \
+        plugin_isa = isa;                                                                                    \
         return &plugin;                                                                                      \
     }
 

@@ -94,11 +94,11 @@ static void put_plugin(Flat *flat, const LobeNames *names, const char *bytes) {
 #define ARCH
 #endif
 #define COMMON                                                                                               \
-    ARCH "-std=c11", "-O3", "-fPIC", "-fvisibility=hidden", "-Werror=implicit-function-declaration",         \
+    "-std=c11", "-O3", "-fPIC", "-fvisibility=hidden", "-Werror=implicit-function-declaration",              \
         "-fno-math-errno", "-fno-trapping-math", "-fno-signed-zeros", "-ffinite-math-only"
 static const char *const half_flags[2][16] = {
     {COMMON, "-fopenmp-simd", "-ffp-contract=fast", "-DPLUGIN_LOOPS", "-DFN_NOINLINE=FN", "-c"},
-    {COMMON, "-ffp-contract=off", "-shared"}};
+    {COMMON, ARCH "-ffp-contract=off", "-shared"}};
 
 enum { COMPILER_SIZE = 256, COMPILER_WORDS = 8, PATH_SIZE = CACHE_PATH_SIZE + 32 };
 
@@ -250,7 +250,7 @@ static const Plugin *load(const char *library) {
     void *symbol = handle ? dlsym(handle, PLUGIN_ENTRY) : NULL;
     PluginEntry *entry;
     memcpy(&entry, &symbol, sizeof entry);
-    return symbol ? entry() : NULL;
+    return symbol ? entry(&isa_used) : NULL;
 }
 
 static uint64_t key_of(const Buffer *text, const Compiler *compiler) {

@@ -191,8 +191,10 @@ typedef struct ChosenRows {
     float probability[ROW_ROOM], u[ROW_ROOM]; /* u: what is left of it */
 } ChosenRows;
 
-CLONES static void sample_n(const float *numbers, int n, const float *const point[3], const float *v,
-                            const ChosenRows *chosen, LightRows *restrict s) {
+LOOP(sample_n,
+     (const float *numbers, int n, const float *const point[3], const float *v, const ChosenRows *chosen,
+      LightRows *restrict s),
+     (numbers, n, point, v, chosen, s)) {
     const float *px = point[0], *py = point[1], *pz = point[2];
     EACH(k, (size_t)n) {
         int e = EMITTER_FLOATS * chosen->emitter[k];

@@ -9,6 +9,7 @@
 #include "base/fail.h"
 #include "base/random.h"
 #include "scene/material_at.h"
+#include "weft/isa.h"
 
 struct Geometry {
     const WeftScene *scene;
@@ -150,11 +151,11 @@ static void build(void *user) {
     Geometry *geometry = user;
     const WeftScene *scene = geometry->scene;
     const uint32_t triangles = count_triangles(geometry);
-    char config[64];
+    char config[96];
     /* Few triangles are not worth threads: and where memory runs out, tasks of Embree's may outlive the call
      * that started them. */
-    snprintf(config, sizeof config, "threads=%d,set_affinity=0",
-             triangles <= SERIAL_BUILD_TRIANGLES ? 1 : geometry->threads);
+    snprintf(config, sizeof config, "threads=%d,set_affinity=0,isa=%s",
+             triangles <= SERIAL_BUILD_TRIANGLES ? 1 : geometry->threads, weft_isa());
     geometry->device = rtcNewDevice(config);
     if (!geometry->device) {
         note_error(geometry, rtcGetDeviceError(NULL), NULL);

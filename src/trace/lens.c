@@ -32,8 +32,10 @@ FN float filter_offset(const float *filter, float u) {
 }
 
 /* Makes the rays of one pixel; pixels do not share vectors, so that a crop has the bytes of the whole. */
-CLONES static void rays_of_pixel_n(const Lens *lens, float px, float py, uint32_t pixel,
-                                   const uint32_t *sample, int at, int n, Paths *restrict paths) {
+LOOP(rays_of_pixel_n,
+     (const Lens *lens, float px, float py, uint32_t pixel, const uint32_t *sample, int at, int n,
+      Paths *restrict paths),
+     (lens, px, py, pixel, sample, at, n, paths)) {
     const View view = lens->view;
     const float *filter = lens->filter;
     float across = 2.0f / (float)lens->width, down = 2.0f / (float)lens->height,

@@ -180,9 +180,10 @@ FN float importance(const float *nodes, int node, Dir p, Dir n) {
 FN float first_part(float a, float b) { return a / max(a + b, 1e-38f); }
 
 /* One step down for all that are not at a leaf. */
-CLONES static void descend_n(const LightTree *tree, int n, const float *const point[3],
-                             const float *const normal[3], float *restrict u, int *restrict at,
-                             float *restrict probability) {
+LOOP(descend_n,
+     (const LightTree *tree, int n, const float *const point[3], const float *const normal[3],
+      float *restrict u, int *restrict at, float *restrict probability),
+     (tree, n, point, normal, u, at, probability)) {
     const float *nodes = tree->nodes;
     const int *child = tree->child;
     const float *px = point[0], *py = point[1], *pz = point[2], *nx = normal[0], *ny = normal[1],

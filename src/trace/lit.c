@@ -40,7 +40,7 @@ void chunk_add_emission(Chunk *c, const ChunkSource *from, Light4 *light) {
 
 /* Weighs each light sample of a group, as if nothing were in its way; far is below 0 if it brings nothing, as it
  * does from between the triangle and the plane of the shading normal. mis: the lobe may find the same light. */
-CLONES static void weigh_n(Chunk *restrict c, LightGroup group, bool mis, int n) {
+LOOP(weigh_n, (Chunk *restrict c, LightGroup group, bool mis, int n), (c, group, mis, n)) {
     const LightRows *light = &c->light[group];
     float(*f)[ROW_ROOM] = c->vertices.f[group], *pdf = c->vertices.pdf[group], *z = c->vertices.i[group][2];
     float both = mis ? 1.0f : 0.0f;
@@ -103,7 +103,7 @@ FN void aim_each(Chunk *restrict c, LightGroup group, bool transmits, int n) {
     }
 }
 
-CLONES static void aim_n(Chunk *restrict c, LightGroup group, bool transmits, int n) {
+LOOP(aim_n, (Chunk *restrict c, LightGroup group, bool transmits, int n), (c, group, transmits, n)) {
     if (transmits)
         aim_each(c, group, true, n);
     else

@@ -6,7 +6,8 @@
 #include "shading/loop.h"
 #include "trace/sampler.h"
 
-CLONES static void draw_numbers(const Chunk *c, uint32_t pair, int n, float *restrict u, float *restrict v) {
+LOOP(draw_numbers, (const Chunk *c, uint32_t pair, int n, float *restrict u, float *restrict v),
+     (c, pair, n, u, v)) {
     const uint32_t *pixel = c->pixel, *sample = c->sample;
     EACH(k, (size_t)n) {
         Point p = sampler_point(pixel[k], sample[k], pair);
@@ -16,9 +17,9 @@ CLONES static void draw_numbers(const Chunk *c, uint32_t pair, int n, float *res
 }
 
 /* World directions as the shading frame has them. */
-CLONES static void turn_in_n(Chunk *c, Row w[3], int n, Row *restrict local) {
+LOOP(turn_in_n, (const Chunk *c, Row w[3], int n, Row *restrict local), (c, w, n, local)) {
     for (int axis = 0; axis < 3; axis++) {
-        Row *along = c->frame[axis];
+        const Row *along = c->frame[axis];
         float *to = local[axis];
         EACH(k, (size_t)n) { to[k] = w[0][k] * along[0][k] + w[1][k] * along[1][k] + w[2][k] * along[2][k]; }
     }
@@ -153,7 +154,7 @@ void chunk_shade(Chunk *c, const ChunkSource *from) {
 }
 
 /* Weighs each path along the direction that was drawn; goes is 0 if it ends. */
-CLONES static void weigh_paths_n(Chunk *restrict c, bool roulette, uint32_t place, int n) {
+LOOP(weigh_paths_n, (Chunk *restrict c, bool roulette, uint32_t place, int n), (c, roulette, place, n)) {
     KindVertices *v = &c->vertices;
     float(*i)[ROW_ROOM] = v->i[KIND_DRAWN], (*f)[ROW_ROOM] = v->f[KIND_DRAWN], *pdf = v->pdf[KIND_DRAWN];
     float surely = roulette ? 0.0f : 1.0f;
@@ -218,7 +219,7 @@ FN void append_each(const Chunk *c, bool transmits, int at, int n, Paths *restri
     }
 }
 
-CLONES static void append(const Chunk *c, bool transmits, int at, int n, Paths *restrict to) {
+LOOP(append, (const Chunk *c, bool transmits, int at, int n, Paths *restrict to), (c, transmits, at, n, to)) {
     if (transmits)
         append_each(c, true, at, n, to);
     else

@@ -238,12 +238,14 @@ FN void sample_cells(const Sky *sky, SkyTexels t, bool packed, int n, const floa
 }
 
 /* Compiled for either form of texels: a loop of vectors has no choice in it. */
-CLONES static void sample_packed_n(const Sky *sky, int n, const float *u, const float *v, const Cells *cells,
-                                   LightRows *s) {
+LOOP(sample_packed_n,
+     (const Sky *sky, int n, const float *u, const float *v, const Cells *cells, LightRows *s),
+     (sky, n, u, v, cells, s)) {
     sample_cells(sky, sky_texels(sky), true, n, u, v, cells, s);
 }
-CLONES static void sample_floats_n(const Sky *sky, int n, const float *u, const float *v, const Cells *cells,
-                                   LightRows *s) {
+LOOP(sample_floats_n,
+     (const Sky *sky, int n, const float *u, const float *v, const Cells *cells, LightRows *s),
+     (sky, n, u, v, cells, s)) {
     sample_cells(sky, sky_texels(sky), false, n, u, v, cells, s);
 }
 
@@ -277,8 +279,9 @@ typedef struct Places {
     Cells cells;
 } Places;
 
-CLONES static void find_places_n(const Sky *sky, int n, const float *x, const float *y, const float *z,
-                                 Places *restrict at) {
+LOOP(find_places_n,
+     (const Sky *sky, int n, const float *x, const float *y, const float *z, Places *restrict at),
+     (sky, n, x, y, z, at)) {
     const Sky s = {.cos_turn = sky->cos_turn, .sin_turn = sky->sin_turn};
     float width = (float)sky->width, height = (float)sky->height;
     EACH(k, (size_t)n) {
@@ -309,12 +312,14 @@ FN void look_up(const Sky *sky, bool packed, int n, const float *x, const float 
                         max(sqrt(x[k] * x[k] + z[k] * z[k]), 1e-7f);
     }
 }
-CLONES static void look_up_packed_n(const Sky *sky, int n, const float *x, const float *z, const Places *at,
-                                    LightRows *found) {
+LOOP(look_up_packed_n,
+     (const Sky *sky, int n, const float *x, const float *z, const Places *at, LightRows *found),
+     (sky, n, x, z, at, found)) {
     look_up(sky, true, n, x, z, at, found);
 }
-CLONES static void look_up_floats_n(const Sky *sky, int n, const float *x, const float *z, const Places *at,
-                                    LightRows *found) {
+LOOP(look_up_floats_n,
+     (const Sky *sky, int n, const float *x, const float *z, const Places *at, LightRows *found),
+     (sky, n, x, z, at, found)) {
     look_up(sky, false, n, x, z, at, found);
 }
 

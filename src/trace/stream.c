@@ -52,7 +52,7 @@ static void sort(Stream *s, int n, int classes) {
         for (int k = end[c]; k % ROW_LANES; k++) s->order[k] = s->order[k - 1];
 }
 
-CLONES static void take_directions(const Paths *paths, const int *order, int n, Row d[3]) {
+LOOP(take_directions, (const Paths *paths, const int *order, int n, Row d[3]), (paths, order, n, d)) {
     for (int c = 0; c < 3; c++) {
         const float *from = paths->d[c];
         float *to = d[c];
@@ -61,8 +61,10 @@ CLONES static void take_directions(const Paths *paths, const int *order, int n, 
 }
 
 /* Makes radiance along paths what they bring of it. */
-CLONES static void weigh_sky_n(const Paths *paths, bool in_parts, WeftSampling sampling, const int *order,
-                               int n, LightRows *restrict sky) {
+LOOP(weigh_sky_n,
+     (const Paths *paths, bool in_parts, WeftSampling sampling, const int *order, int n,
+      LightRows *restrict sky),
+     (paths, in_parts, sampling, order, n, sky)) {
     const float(*worth)[PATHS_ROOM] = in_parts ? paths->sky : paths->throughput;
     const float *r = worth[0], *g = worth[1], *b = worth[2], *pdf = paths->pdf;
     EACH(k, (size_t)n) {

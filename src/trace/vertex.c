@@ -24,7 +24,7 @@ FN void put3(Row rows[3], size_t k, Dir d) {
 }
 
 /* Gathers the paths and their hits. */
-CLONES static void take_paths(Chunk *restrict c, const ChunkSource *from, int n) {
+LOOP(take_paths, (Chunk *restrict c, const ChunkSource *from, int n), (c, from, n)) {
     const Paths *p = from->paths;
     const int *order = from->order;
     const PathKeys *keys = from->keys;
@@ -96,7 +96,7 @@ FN void put_start(Row to[3], size_t k, Dir lifted, Dir out) {
 }
 
 /* Sets position, normals on the viewer's side, the lifted point, and where rays start on that side. */
-CLONES static void place_n(Chunk *restrict c, int n) {
+LOOP(place_n, (Chunk *restrict c, int n), (c, n)) {
     EACH(k, (size_t)n) {
         Dir a = ROW_DIR(c->corner[0], k), b = ROW_DIR(c->corner[1], k), d = ROW_DIR(c->corner[2], k);
         Dir wo = ROW_DIR(c->wo, k), up = dir(0.0f, 1.0f, 0.0f);
@@ -120,7 +120,7 @@ CLONES static void place_n(Chunk *restrict c, int n) {
 }
 
 /* Sets where rays start that leave on the far side, lifted as the near one is. */
-CLONES static void place_behind_n(Chunk *restrict c, int n) {
+LOOP(place_behind_n, (Chunk *restrict c, int n), (c, n)) {
     EACH(k, (size_t)n) {
         Dir lifted = lift(c, k, ROW_DIR(c->position, k), -c->side[k]);
         put_start(c->behind, k, lifted, dir_scale(ROW_DIR(c->geometric, k), -1.0f));
@@ -168,14 +168,14 @@ FN void put_frame(Chunk *c, size_t k, Surface s, Dir tangent, float handedness) 
     put3(c->vertices.o, k, frame_to(f, wo));
 }
 
-CLONES static void turn_bent_n(Chunk *restrict c, int n) {
+LOOP(turn_bent_n, (Chunk *restrict c, int n), (c, n)) {
     EACH(k, (size_t)n) {
         put_frame(c, k, surface_of_row(&c->vertices.surface, k), ROW_DIR(c->tangent, k), c->handedness[k]);
     }
 }
 
 /* Makes frames that depend on no input and no tangent. */
-CLONES static void turn_plain_n(Chunk *restrict c, int n) {
+LOOP(turn_plain_n, (Chunk *restrict c, int n), (c, n)) {
     EACH(k, (size_t)n) {
         Surface s = surface_of_row(&c->vertices.surface, k);
         s.normal = dir(0.0f, 0.0f, 1.0f);

@@ -18,7 +18,7 @@ static void take_texcoords(const Chunk *c, const WeftScene *scene, int set, int 
     }
 }
 
-CLONES static void place_uv_n(const Row uv[2], const float m[6], int n, Row *restrict place) {
+LOOP(place_uv_n, (const Row uv[2], const float m[6], int n, Row *restrict place), (uv, m, n, place)) {
     EACH(k, (size_t)n) {
         float u = uv[0][k], v = uv[1][k];
         place[0][k] = m[0] * u + m[1] * v + m[2];
@@ -54,7 +54,7 @@ static void read_COLOR(TexelRows *lookup, const Input *input, Row to[3]) {
     for (int a = 0; a < 3; a++) scale(lookup->texel[a], input->value[a], row_whole(lookup->n), to[a]);
 }
 
-CLONES static void normals_n(const Row texel[4], float strength, int n, Row *restrict to) {
+LOOP(normals_n, (const Row texel[4], float strength, int n, Row *restrict to), (texel, strength, n, to)) {
     EACH(k, (size_t)n) {
         Dir d = texel_normal(texel[0][k], texel[1][k], texel[2][k], strength);
         to[0][k] = d.x;

@@ -432,6 +432,20 @@ static void denoised_picture_warns_who_compares_with_it(void **state) {
     }
 }
 
+/* The header says with which instructions, and one line that there are none of that name. */
+static void header_has_the_instructions(void **state) {
+    (void)state;
+    quietly(LIST("render", "scene.gltf", TINY, "--quiet", "--isa", "sse2", "-o", "pinned.exr"));
+    assert_true(file_has("pinned.exr", "isa\0string\0\4\0\0\0sse2", 19));
+    quietly(LIST("render", "scene.gltf", TINY, "--quiet", "--engine", "raster", "-o", "drawn.exr"));
+    assert_false(file_has("drawn.exr", "isa\0string", 10));
+    Ran ran = run_with(NULL, LIST("render", "scene.gltf", TINY, "--isa", "mmx", "-o", "none.exr"));
+    assert_int_equal(ran.code, WEFT_USAGE);
+    assert_string_equal(ran.err, "weft: mmx: is not a set of instructions: sse2, avx2 or avx512\n");
+    assert_int_equal(access("none.exr", F_OK), -1);
+    ran_free(&ran);
+}
+
 /* Open Image Denoise is found at run time: it works where it is installed, and else one line says that it is not. */
 static void absent_denoising_library_is_named(void **state) {
     (void)state;
@@ -497,6 +511,7 @@ int main(void) {
         cmocka_unit_test(aovs_lie_in_the_exr_by_name),
         cmocka_unit_test(noise_level_ends_a_render),
         cmocka_unit_test(denoised_picture_warns_who_compares_with_it),
+        cmocka_unit_test(header_has_the_instructions),
         cmocka_unit_test(absent_denoising_library_is_named),
         cmocka_unit_test(aov_noise_and_denoise_are_refused_elsewhere),
     };

@@ -1,0 +1,17 @@
+/* isa.h - the set of instructions that loops over arrays run with
+ *
+ * Loops (loop.h) are compiled once for each set, and a call runs the one in use: the widest that the processor has,
+ * unless weft_isa_use pinned another. */
+#ifndef WEFT_SHADING_ISA_H
+#define WEFT_SHADING_ISA_H
+
+/* Each includes those before it. */
+typedef enum Isa { ISA_SSE2 = 0, ISA_AVX2, ISA_AVX512, ISA_COUNT } Isa;
+
+#ifdef PLUGIN_LOOPS /* a lobe from outside asks the library that has loaded it (plugin.h) */
+#define isa_used (*plugin_isa)
+#else
+extern Isa isa_used;
+#endif
+
+#endif
