@@ -65,6 +65,9 @@ typedef struct WeftRenderDesc {
     int first_hits; /* not 0: albedo, normal and depth are kept, which weft_render_denoised needs too */
     float noise;    /* weft_render_run stops when the estimated relMSE is at most this; 0: it does not */
     int stages;     /* not 0: the time of weft_render_stage is taken */
+    /* not 0: light and rays meet the triangles and not the smooth surface that their normals describe, so that coarse
+     * meshes are dark where light grazes them; to show what that is for */
+    int no_lift;
 } WeftRenderDesc;
 
 /* A picture in the making. */

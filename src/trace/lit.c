@@ -39,7 +39,7 @@ void chunk_add_emission(Chunk *c, const ChunkSource *from, Light4 *light) {
 }
 
 /* Weighs each light sample of a group, as if nothing were in its way; far is below 0 if it brings nothing, as it
- * does from between the triangle and the plane of the shading normal. mis: the lobe may find the same light. */
+ * does from between the smooth surface and the plane of the shading normal. mis: the lobe may find the same light. */
 LOOP(weigh_n, (Chunk *restrict c, LightGroup group, bool mis, int n), (c, group, mis, n)) {
     const LightRows *light = &c->light[group];
     float(*f)[ROW_ROOM] = c->vertices.f[group], *pdf = c->vertices.pdf[group], *z = c->vertices.i[group][2];
@@ -47,8 +47,8 @@ LOOP(weigh_n, (Chunk *restrict c, LightGroup group, bool mis, int n), (c, group,
     EACH(k, (size_t)n) {
         float own = light->pdf[k], lobe = pdf[k], safe = own > 0.0f ? own : 1.0f;
         float worth = 1.0f / (safe + both * lobe * (lobe / safe)); /* weight / own */
-        float up = light->wi[0][k] * c->geometric[0][k] + light->wi[1][k] * c->geometric[1][k] +
-                   light->wi[2][k] * c->geometric[2][k];
+        float up = light->wi[0][k] * c->facing[0][k] + light->wi[1][k] * c->facing[1][k] +
+                   light->wi[2][k] * c->facing[2][k];
         float r = f[0][k] * light->radiance[0][k], g = f[1][k] * light->radiance[1][k],
               b = f[2][k] * light->radiance[2][k];
         bool live = (own > 0.0f) & (up * z[k] > 0.0f) & (r + g + b > 0.0f);

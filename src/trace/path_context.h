@@ -35,6 +35,7 @@ typedef struct PathContext {
     int max_depth;
     WeftSampling sampling;
     bool roulette, shadows;
+    bool lift;         /* light and rays meet the smooth surface of a mesh, not its triangles */
     bool stages;       /* their time is taken */
     bool sky_in_parts; /* the factors ambient and reflection are not both 1 */
     bool first_hits;   /* they are kept, */

@@ -220,6 +220,7 @@ static WeftResult build(WeftRender *render, unsigned changed, WeftError *error) 
                                         .sampling = d->sampling,
                                         .roulette = !d->no_roulette,
                                         .shadows = !d->no_shadows,
+                                        .lift = !d->no_lift,
                                         .stages = d->stages != 0,
                                         .sky_in_parts = in_parts(&render->scene->environment),
                                         .first_hits = d->first_hits != 0,

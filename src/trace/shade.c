@@ -28,7 +28,7 @@ LOOP(turn_in_n, (const Chunk *c, Row w[3], int n, Row *restrict local), (c, w, n
 /* The normals below which no light counts; 0 where it counts from both sides. */
 static void put_facing(const Chunk *c, const PathMaterial *material, const float *facing[3]) {
     static const Row nowhere;
-    for (int a = 0; a < 3; a++) facing[a] = material->transmits ? nowhere : c->geometric[a];
+    for (int a = 0; a < 3; a++) facing[a] = material->transmits ? nowhere : c->facing[a];
 }
 
 static void sample_lights(Chunk *c, const ChunkSource *from, int n) {
@@ -163,7 +163,7 @@ LOOP(weigh_paths_n, (Chunk *restrict c, bool roulette, uint32_t place, int n), (
         float wx = x * c->frame[0][0][k] + y * c->frame[1][0][k] + z * c->frame[2][0][k];
         float wy = x * c->frame[0][1][k] + y * c->frame[1][1][k] + z * c->frame[2][1][k];
         float wz = x * c->frame[0][2][k] + y * c->frame[1][2][k] + z * c->frame[2][2][k];
-        float up = wx * c->geometric[0][k] + wy * c->geometric[1][k] + wz * c->geometric[2][k];
+        float up = wx * c->facing[0][k] + wy * c->facing[1][k] + wz * c->facing[2][k];
         float worth = 1.0f / (p > 0.0f ? p : 1.0f);
         float r = c->throughput[0][k] * f[0][k] * worth, g = c->throughput[1][k] * f[1][k] * worth,
               b = c->throughput[2][k] * f[2][k] * worth, most = max(r, max(g, b));

@@ -80,11 +80,10 @@ FN Dir raise(Dir p, Dir corner, Dir n, float weight) {
 
 /* Returns the mean of p's projections onto the tangent planes of the corners, outward only, on the side of the triangle
  * that `side` times its normals are on: near the smooth surface that these describe. Rays that leave from there meet no
- * shadow of the triangles' own edges. Johannes Hanika, "Hacking the Shadow Terminator", Ray Tracing Gems II, 2021. */
-FN Dir lift(const Chunk *c, size_t k, Dir p, float side) {
-    float u = c->u[k], v = c->v[k];
-    Dir a =
-        raise(p, ROW_DIR(c->corner[0], k), dir_scale(ROW_DIR(c->corner_normal[0], k), side), 1.0f - u - v);
+ * shadow of the triangles' own edges. share: 1, or 0 to leave p as it is. Johannes Hanika, "Hacking the Shadow Terminator", Ray Tracing Gems II, 2021. */
+FN Dir lift(const Chunk *c, size_t k, Dir p, float side, float share) {
+    float u = c->u[k] * share, v = c->v[k] * share, w = (1.0f - c->u[k] - c->v[k]) * share;
+    Dir a = raise(p, ROW_DIR(c->corner[0], k), dir_scale(ROW_DIR(c->corner_normal[0], k), side), w);
     Dir b = raise(p, ROW_DIR(c->corner[1], k), dir_scale(ROW_DIR(c->corner_normal[1], k), side), u);
     Dir d = raise(p, ROW_DIR(c->corner[2], k), dir_scale(ROW_DIR(c->corner_normal[2], k), side), v);
     return dir_add(dir_add(p, a), dir_add(b, d));
@@ -95,8 +94,10 @@ FN void put_start(Row to[3], size_t k, Dir lifted, Dir out) {
     put3(to, k, dir(step_out(lifted.x, out.x), step_out(lifted.y, out.y), step_out(lifted.z, out.z)));
 }
 
-/* Sets position, normals on the viewer's side, the lifted point, and where rays start on that side. */
-LOOP(place_n, (Chunk *restrict c, int n), (c, n)) {
+/* Sets position, normals on the viewer's side, the lifted point, and where rays start on that side. What faces light is
+ * the smooth surface as well: a triangle that turns away from light which its smooth surface faces lies, lifted, in no
+ * shadow of its own. share: as lift has it. */
+LOOP(place_n, (Chunk *restrict c, float share, int n), (c, share, n)) {
     EACH(k, (size_t)n) {
         Dir a = ROW_DIR(c->corner[0], k), b = ROW_DIR(c->corner[1], k), d = ROW_DIR(c->corner[2], k);
         Dir wo = ROW_DIR(c->wo, k), up = dir(0.0f, 1.0f, 0.0f);
@@ -109,10 +110,13 @@ LOOP(place_n, (Chunk *restrict c, int n), (c, n)) {
         Dir nb = dir_scale(ROW_DIR(c->corner_normal[1], k), side);
         Dir nd = dir_scale(ROW_DIR(c->corner_normal[2], k), side);
         Dir p = blend(a, b, d, u, v);
-        Dir lifted = lift(c, k, p, side);
+        Dir lifted = lift(c, k, p, side, share);
         c->side[k] = side;
         put3(c->geometric, k, geometric);
-        put3(c->normal, k, dir_normal_or(blend(na, nb, nd, u, v), geometric));
+        Dir normal = dir_normal_or(blend(na, nb, nd, u, v), geometric);
+        normal = dir_choose(dir_dot(normal, geometric) > 0.0f, normal, geometric); /* else damaged */
+        put3(c->normal, k, normal);
+        put3(c->facing, k, dir_choose(share > 0.0f, normal, geometric));
         put3(c->position, k, p);
         put3(c->lifted, k, lifted);
         put_start(c->origin, k, lifted, geometric);
@@ -120,19 +124,20 @@ LOOP(place_n, (Chunk *restrict c, int n), (c, n)) {
 }
 
 /* Sets where rays start that leave on the far side, lifted as the near one is. */
-LOOP(place_behind_n, (Chunk *restrict c, int n), (c, n)) {
+LOOP(place_behind_n, (Chunk *restrict c, float share, int n), (c, share, n)) {
     EACH(k, (size_t)n) {
-        Dir lifted = lift(c, k, ROW_DIR(c->position, k), -c->side[k]);
+        Dir lifted = lift(c, k, ROW_DIR(c->position, k), -c->side[k], share);
         put_start(c->behind, k, lifted, dir_scale(ROW_DIR(c->geometric, k), -1.0f));
     }
 }
 
 void chunk_place(Chunk *c, const ChunkSource *from) {
     int n = row_whole(from->n);
+    float share = from->context->lift ? 1.0f : 0.0f;
     take_paths(c, from, n);
     take_corners(c, from->context->scene, n);
-    place_n(c, n);
-    if (from->context->materials[from->material].transmits) place_behind_n(c, n);
+    place_n(c, share, n);
+    if (from->context->materials[from->material].transmits) place_behind_n(c, share, n);
     stage_end(c->clock, STAGE_PLACE);
     chunk_take_inputs(c, from, n);
     stage_end(c->clock, STAGE_INPUTS);

@@ -60,27 +60,33 @@ static inline Mesh *test_quad(WeftScene *scene, Vec3 a, Vec3 u, Vec3 v) {
     return mesh;
 }
 
-/* A finely tessellated sphere of the last material, with smooth normals. */
-static inline Mesh *test_sphere(WeftScene *scene, Vec3 centre, float radius) {
-    enum { RINGS = 96, SECTORS = 192, ACROSS = SECTORS + 1 };
-    Mesh *mesh = test_mesh(scene, (RINGS + 1) * ACROSS, 2 * SECTORS * (RINGS - 1));
+/* A sphere of the last material, of rings from pole to pole, with smooth normals. */
+static inline Mesh *test_ball(WeftScene *scene, Vec3 centre, float radius, uint32_t rings) {
+    const uint32_t sectors = 2 * rings, across = sectors + 1;
+    Mesh *mesh = test_mesh(scene, (rings + 1) * across, 2 * sectors * (rings - 1));
     mesh->normal = arena_array(&scene->arena, mesh->vertex_count, 3 * sizeof(float));
     for (uint32_t k = 0; k < mesh->vertex_count; k++) {
-        float theta = (float)(k / ACROSS) * PI_FLOAT / RINGS,
-              phi = (float)(k % ACROSS) * 6.28318531f / SECTORS;
+        uint32_t ring = k / across, sector = k % across;
+        float theta = (float)ring * PI_FLOAT / (float)rings,
+              phi = (float)sector * 6.28318531f / (float)sectors;
         Vec3 n = {sinf(theta) * sinf(phi), cosf(theta), sinf(theta) * cosf(phi)};
         Vec3 p = vec3_madd(centre, n, radius);
         memcpy(mesh->normal + 3 * k, &n, sizeof n);
         memcpy(mesh->position + 3 * k, &p, sizeof p);
     }
     uint32_t *index = mesh->index;
-    for (uint32_t ring = 0; ring < RINGS; ring++)
-        for (uint32_t sector = 0; sector < SECTORS; sector++) {
-            uint32_t a = ring * ACROSS + sector, b = a + ACROSS;
+    for (uint32_t ring = 0; ring < rings; ring++)
+        for (uint32_t sector = 0; sector < sectors; sector++) {
+            uint32_t a = ring * across + sector, b = a + across;
             if (ring > 0) *index++ = a, *index++ = b, *index++ = a + 1;
-            if (ring + 1 < RINGS) *index++ = a + 1, *index++ = b, *index++ = b + 1;
+            if (ring + 1 < rings) *index++ = a + 1, *index++ = b, *index++ = b + 1;
         }
     return mesh;
+}
+
+/* A finely tessellated one. */
+static inline Mesh *test_sphere(WeftScene *scene, Vec3 centre, float radius) {
+    return test_ball(scene, centre, radius, 96);
 }
 
 /* Renders and checks that nothing went wrong; release with weft_image_free. */

@@ -212,7 +212,7 @@ static void place(const WeftScene *scene, uint32_t triangle, float u, Vec3 wo, V
     static const PathKeys keys;
     const PathMaterial material = {.material = scene->materials[0],
                                    .plain = material_plain(&scene->materials[0])};
-    const PathContext context = {.scene = scene, .materials = &material};
+    const PathContext context = {.scene = scene, .materials = &material, .lift = true};
     const float t = 1.0f;
     const uint32_t mesh = 0;
     const int order[ROW_LANES] = {0};
@@ -302,6 +302,47 @@ static void smooth_ball_does_not_shadow_itself(void **state) {
     }
 }
 
+/* A matt ball of so many rings under a sun from the side. */
+static WeftImage grazed_ball(uint32_t rings, int no_lift) {
+    WeftScene *scene = test_scene();
+    test_environment(scene, 0.0f);
+    test_material(scene, 1.0f);
+    test_ball(scene, vec3(0, 0, 0), 1.0f, rings);
+    scene->lights[scene->light_count++] = (Light){.name = "sun",
+                                                  .kind = LIGHT_DIRECTIONAL,
+                                                  .direction = {0.995f, -0.1f, 0},
+                                                  .color = {1, 1, 1},
+                                                  .intensity = PI_FLOAT};
+    scene_bounds(scene);
+    WeftImage image = test_render(scene,
+                                  (WeftRenderDesc){.width = 64,
+                                                   .height = 64,
+                                                   .camera = "0,0,10;0,0,0;8",
+                                                   .max_depth = 1,
+                                                   .pixel_centre = 1,
+                                                   .no_lift = no_lift},
+                                  1);
+    weft_scene_free(scene);
+    return image;
+}
+
+/* A coarse ball is lit as the smooth one that its normals describe: its triangles leave no blocks of black. */
+static void coarse_ball_is_lit_as_a_fine_one(void **state) {
+    (void)state;
+    WeftImage fine = grazed_ball(96, 0);
+    double most[2] = {0.0, 0.0};
+    for (int no_lift = 0; no_lift < 2; no_lift++) {
+        WeftImage coarse = grazed_ball(12, no_lift);
+        for (int k = 0; k < 64 * 64; k++)
+            most[no_lift] = fmax(most[no_lift], fabs((double)((float *)coarse.pixels)[4 * k] -
+                                                     (double)((float *)fine.pixels)[4 * k]));
+        weft_image_free(&coarse);
+    }
+    weft_image_free(&fine);
+    assert_true(most[0] < 0.03);
+    assert_true(most[1] > 2.0 * most[0]);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(single_sided_surface_has_no_back),
@@ -312,6 +353,7 @@ int main(void) {
         cmocka_unit_test(walk_through_coincident_sheets_ends),
         cmocka_unit_test(lifted_points_lie_on_the_smooth_surface),
         cmocka_unit_test(smooth_ball_does_not_shadow_itself),
+        cmocka_unit_test(coarse_ball_is_lit_as_a_fine_one),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
