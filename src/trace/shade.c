@@ -148,9 +148,11 @@ void chunk_shade(Chunk *c, const ChunkSource *from) {
         bool shine[LIGHT_GROUPS];
         for (int g = 0; g < LIGHT_GROUPS; g++) shine[g] = lights_shine(context->lights, (LightGroup)g);
         kind_shade(material->kind, &c->vertices, material->sheen_e, shine, n);
-    } else
+        stage_end(c->clock, STAGE_SHADE);
+    } else {
         for (int k = 0; k < from->n; k++) shade_vertex(c, from, material, k);
-    stage_end(c->clock, STAGE_SHADE);
+        stage_end(c->clock, STAGE_SHADE_EACH);
+    }
 }
 
 /* Weighs each path along the direction that was drawn; goes is 0 if it ends. */

@@ -20,6 +20,7 @@
     S(EMITTERS, "samples of emissive triangles", false)                                                      \
     S(PUNCTUAL, "samples of punctual lights", false)                                                         \
     S(SHADE, "stack: views, values, sample", false)                                                          \
+    S(SHADE_EACH, "stack, one vertex at a time", false)                                                      \
     S(WEIGH, "weights and shadow rays", false)                                                               \
     S(OCCLUSIONS, "shadow tests", true)                                                                      \
     S(GO_ON, "roulette and next rays", false)                                                                \
