@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""What the window takes: frames while it is orbited, the longest frame while a term is switched, processor time
-while nothing happens, memory. On a display of its own (Xvfb) where there is one, else without.
+"""What the window takes: frames while it is orbited, the longest frame while a term is switched, the time from Tab to
+the first path-traced pixels, processor time while nothing happens, memory. On a display of its own (Xvfb) where there is one, else without.
 
   bench/view.py [PROGRAM]
 """
@@ -38,7 +38,7 @@ def display():
     return server, dict(os.environ, DISPLAY=":" + number)
 
 
-def replay(lines, environment, unseen):
+def replay(lines, environment, unseen, scene=scene):
     with tempfile.NamedTemporaryFile("w", suffix=".txt") as file:
         file.write("\n".join(lines) + "\n")
         file.flush()
@@ -69,6 +69,17 @@ def idle_share(environment, unseen):
     return share
 
 
+def first_pixels(environment, unseen):
+    """Seconds from Tab to a frame that shows path-traced pixels, in the studio's light: the least of three starts."""
+    plain = scene[:3] + scene[scene.index("--forget"):]
+    times = []
+    for _ in range(3):
+        reports = replay(["wait rest", "wait 10", "key tab", "wait shows traced", "wait 2"], environment, unseen, plain)
+        asked = next(r["clock"] for r in reports if r["mode"] == "truth")
+        times.append(next(r["clock"] for r in reports if r["shows"] == "traced") - asked)
+    return min(times)
+
+
 server, environment = display()
 unseen = server is None
 try:
@@ -81,6 +92,7 @@ try:
     print(f"orbit: {frames} frames, {frames / seconds:.1f} a second; a picture of all pixels takes "
           f"{orbits[1]['picture_ms']:.1f} ms")
     print(f"switching {len(terms)} sheen lobes: the longest frame of the window {max(r['worst_ms'] for r in switches):.0f} ms")
+    print(f"from Tab to the first path-traced pixels: {first_pixels(environment, unseen):.3f} s")
     print(f"memory: {max(r['resident_mib'] for r in reports):.0f} MiB at most, {reports[0]['resident_mib']:.0f} at the start")
     share = idle_share(environment, unseen)
     if share is not None:

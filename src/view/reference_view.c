@@ -182,11 +182,13 @@ static void publish_samples(ReferenceView *self, const ReferenceRequest *request
     if (!noisy || self->denoised.pixels) publish(self, request, number_for);
 }
 
-/* A few more samples, as many as half a second has; at first one of each half. */
+/* A few more samples, as many as half a second has; at first one of each half, for a first look one alone and then the
+ * other. */
 static void refine(ReferenceView *self, const ReferenceRequest *request) {
-    double start = clock_now(), most = self->samples < 1.0 ? 0.0 : 0.4;
+    double start = clock_now(), most = self->samples < 2.0 ? 0.0 : 0.4;
     int left = request->samples - (int)self->samples;
-    int count = self->samples < 2.0 ? 2 : self->samples < 8.0 ? (int)self->samples : 8;
+    int first = self->finer ? 2 : 1;
+    int count = self->samples < 2.0 ? first : self->samples < 8.0 ? (int)self->samples : 8;
     if (count > left) count = left;
     while (count > 0) {
         WeftResult result = weft_render_run(self->render, count, 0.0, should_stop, self);
@@ -208,7 +210,7 @@ static bool has_work(const ReferenceView *self) {
  * programs compile there is little of the processors: then until there are as many samples as those pixels stand
  * for. */
 static void coarsen(ReferenceView *self, ReferenceRequest *request, bool anew, bool stands_in) {
-    double enough = stands_in ? COARSE * COARSE : 1.0;
+    double enough = stands_in ? COARSE * COARSE : 2.0;
     self->finer = !anew && (self->finer || self->samples >= enough);
     if (request->difference && !stands_in) self->finer = true;
     if (stands_in) request->difference = false;
