@@ -392,6 +392,7 @@ static ShaderKey depth_key(const ShaderKey *key) {
     for (int k = 0; k < INPUT_COUNT; k++) depth.inputs[k].state = INPUT_ZERO;
     if (key->alpha_mode == WEFT_ALPHA_OPAQUE) return depth;
     depth.colored = key->colored;
+    depth.woven = key->woven;
     depth.inputs[INPUT_opacity] = key->inputs[INPUT_opacity];
     depth.inputs[INPUT_opacity].like = -1;
     return depth;

@@ -276,13 +276,24 @@ bool shader_join(ShaderKey *key, const ShaderKey *other) {
     return true;
 }
 
-/* Nothing but what is there: holes and what is less than half there let light through. */
+/* Texels of a cloth's tables come from a texture of its own. */
+static void define_weave(Text *text) {
+    text_define(text, "weave_texel(t, stride, row, column)", "weave_fetch(t, row, column)");
+}
+
+/* Nothing but what is there: holes, gaps between threads and what is less than half there let light through. */
 static void depth_text(const ShaderKey *key, Text *text) {
     text_include(text, "shading/surface.h");
     text_include(text, "shading/rgb.h");
     put_uniforms(text, key);
     put_surface(text, key);
-    text_line(text, "\nvoid main() {\n    if (coverage_of(material_surface().opacity) < 0.5) discard;\n}");
+    if (key->woven) {
+        define_weave(text);
+        text_include(text, "raster/glsl/weave_cloth.glsl");
+    }
+    text_line(text, "\nvoid main() {\n    if (coverage_of(material_surface().opacity) < 0.5) discard;");
+    if (key->woven) text_line(text, "    if (weave_is_gap()) discard;");
+    text_line(text, "}");
 }
 
 static void floor_text(const ShaderKey *key, Text *text) {
@@ -362,7 +373,7 @@ void shader_text(const ShaderKey *key, const TextDesc *desc, Fits *fits, Text *t
     if (turns(key, &found)) text_define(text, "TURNS", "1");
     if (key->woven) {
         text_define(text, "WOVEN", "1");
-        text_define(text, "weave_texel(t, stride, row, column)", "weave_fetch(t, row, column)");
+        define_weave(text);
     }
     part_text(key->part, text);
     put_lights(text, key);

@@ -1,4 +1,5 @@
-/* Both engines weave the same cloth: near by pixel for pixel, and from afar as bright on the mean. */
+/* Both engines weave the same cloth: near by pixel for pixel, and from afar as bright on the mean. At every distance the
+ * pixels of the raster engine are as bright as those of many points of threads, and vary as they do. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -11,6 +12,10 @@
 
 #include "raster/gl.h"
 
+#include "base/random.h"
+#include "scene/cloth_base.h"
+#include "scene/scene.h"
+#include "trace/scenes.h"
 #include "weft/weft.h"
 
 enum { WIDTH = 240, HEIGHT = 160, PIXELS = WIDTH * HEIGHT };
@@ -80,7 +85,7 @@ static void threads_are_the_same_in_both_engines(void **state) {
     need_gl();
     WeftScene *scene = scene_of(denim);
     static const char camera[] = "0.25,0.62,0.65;0.03,0.42,0.15;0.4";
-    WeftImage reference, picture;
+    WeftImage reference = {0}, picture = {0};
     trace(scene, camera, 1, &reference);
     for (size_t g = 0; g < 2; g++) {
         int agree = 0, lit = 0;
@@ -120,7 +125,7 @@ static void a_cloth_is_as_bright_in_both_engines(void **state) {
     for (size_t w = 0; w < 2; w++) {
         WeftScene *scene = scene_of(weaves[w]);
         for (size_t d = 0; d < sizeof cameras / sizeof *cameras; d++) {
-            WeftImage reference, picture;
+            WeftImage reference = {0}, picture = {0};
             trace(scene, cameras[d], 16, &reference);
             draw(scene, WEFT_GL_DESKTOP, cameras[d], &picture);
             for (int c = 0; c < 3; c++) {
@@ -135,8 +140,205 @@ static void a_cloth_is_as_bright_in_both_engines(void **state) {
     }
 }
 
+/* A flat cloth of 20 threads a centimetre that is looked at from above, so many threads a pixel. */
+enum { SIDE = 40, SUNS = 3, FINE = 12 };
+static const float SPAN = 5.0f; /* metres */
+static const Dir suns[SUNS] = {{0.383f, 0.321f, 0.866f}, {-0.814f, -0.296f, 0.5f}, {0.163f, -0.926f, 0.342f}};
+
+static WeftScene *flat_scene(const char *weave, Dir sun) {
+    WeftScene *scene = test_scene();
+    WeftError error;
+    const WeftLight light = {.direction = {-sun.x, -sun.y, -sun.z}, .color = {3.0f, 3.0f, 3.0f}};
+    const float half = 0.5f * SPAN;
+    static const float uv[8] = {0.0f, 1.0f, 1.0f, 1.0f, 1.0f, 0.0f, 0.0f, 0.0f};
+    test_environment(scene, 0.0f);
+    test_material(scene, 0.5f);
+    Mesh *mesh = test_quad(scene, vec3(-half, -half, 0.0f), vec3(SPAN, 0.0f, 0.0f), vec3(0.0f, SPAN, 0.0f));
+    mesh->texcoord[0] = arena_array(&scene->arena, 4, 2 * sizeof(float));
+    memcpy(mesh->texcoord[0], uv, sizeof uv);
+    scene->low = vec3(-half, -half, 0.0f);
+    scene->high = vec3(half, half, 0.0f);
+    assert_int_equal(weft_scene_add_light(scene, &light, &error), WEFT_OK);
+    if (weft_scene_assign_material_memory(scene, NULL, weave, strlen(weave), "mine.json", NULL, &error) !=
+        WEFT_OK)
+        fail_msg("%s", error.text);
+    return scene;
+}
+
+/* The mean over a pixel of FINE x FINE points of threads, in two channels. */
+static void see_pixel(const WeftCloth *cloth, float x, float y, float side, Dir sun, uint64_t *random,
+                      double sum[2]) {
+    static Stack stack;
+    const Angles a = angles_between(dir(0.0f, 0.0f, 1.0f), sun);
+    sum[0] = sum[1] = 0.0;
+    for (int n = 0; n < FINE * FINE; n++) {
+        const int row = n / FINE, column = n % FINE;
+        const float u = x + side * ((float)column + unit_float((uint32_t)(stream_next(random) >> 32))) / FINE,
+                    v = y + side * ((float)row + unit_float((uint32_t)(stream_next(random) >> 32))) / FINE;
+        const ClothLook look = {.uv = {u / cloth->per_uv[WEFT_WARP], -v / cloth->per_uv[WEFT_WEFT]}};
+        cloth_base(cloth, &look, &stack);
+        const Slot *base = &stack.diffuse;
+        const LobeValue value = lobe_value(&base->lobe, a);
+        const double f = 3.0 * (double)(value.f * sun.z) / (FINE * FINE), s = (double)value.s;
+        sum[0] += f * ((double)base->f0.r * (1.0 - s) + (double)base->f90.r * s);
+        sum[1] += f * ((double)base->f0.b * (1.0 - s) + (double)base->f90.b * s);
+    }
+}
+
+/* Means and variances over the pixels of a picture. */
+typedef struct Spread {
+    double mean[2], square[2];
+} Spread;
+
+static void add_pixel(Spread *s, const double pixel[2]) {
+    for (int c = 0; c < 2; c++) {
+        s->mean[c] += pixel[c] / (SIDE * SIDE);
+        s->square[c] += pixel[c] * pixel[c] / (SIDE * SIDE);
+    }
+}
+static double variance(const Spread *s) {
+    double sum = 0.0;
+    for (int c = 0; c < 2; c++) sum += s->square[c] / (s->mean[c] * s->mean[c]) - 1.0;
+    return sum;
+}
+
+/* The left edge of column k, or the lower one of row k counted from below, in threads. */
+static float edge_of(float side, int k) { return 1000.0f * SPAN + side * (float)(k - SIDE / 2); }
+
+/* Adds what a picture shows at such a distance, and what it should. */
+static void compare(WeftRaster *raster, const WeftCloth *cloth, Dir sun, float side, Spread *seen,
+                    Spread *fine) {
+    WeftError error;
+    WeftImage picture = {0};
+    char camera[96];
+    const float height = side * SIDE / 2000.0f / (2.0f * tanf(2.0f * PI_FLOAT / 180.0f));
+    uint64_t random = stream_start(1, 29);
+    snprintf(camera, sizeof camera, "0,0,%g;0,0,0;4", (double)height);
+    const WeftRasterView view = {.width = SIDE,
+                                 .height = SIDE,
+                                 .samples = 1,
+                                 .camera = camera,
+                                 .background = WEFT_BACKGROUND_TRANSPARENT,
+                                 .no_shadows = 1};
+    if (weft_raster_draw(raster, &view, &error) != WEFT_OK ||
+        weft_raster_image(raster, &picture, &error) != WEFT_OK)
+        fail_msg("%s", error.text);
+    const float *p = picture.pixels;
+    for (int row = 0; row < SIDE; row++)
+        for (int column = 0; column < SIDE; column++) {
+            const float *at = p + 4 * (row * SIDE + column);
+            double pixel[2];
+            add_pixel(seen, (const double[]){(double)at[0], (double)at[2]});
+            see_pixel(cloth, edge_of(side, column), edge_of(side, SIDE - 1 - row), side, sun, &random, pixel);
+            add_pixel(fine, pixel);
+        }
+    weft_image_free(&picture);
+}
+
+static void pixels_vary_as_those_of_many_points_do(void **state) {
+    (void)state;
+    need_gl();
+    static const char weave[] =
+        "{\"weave\": {\"draft\": \"twill 3/1 z; warp 1#26375c; weft 1#d8d4c8; sett 20 20\", "
+        "\"warp\": \"cotton\", \"weft\": \"cotton\", \"metres\": 5}}";
+    static const float sides[] = {0.11f, 0.27f, 0.53f, 1.07f, 1.9f, 4.1f, 16.3f, 100.0f};
+    enum { SIDES = sizeof sides / sizeof *sides };
+    Spread seen[SIDES][SUNS] = {{{{0.0}, {0.0}}}}, fine[SIDES][SUNS] = {{{{0.0}, {0.0}}}};
+    for (int k = 0; k < SUNS; k++) {
+        WeftScene *scene = flat_scene(weave, suns[k]);
+        WeftRaster *raster = NULL;
+        WeftError error;
+        if (weft_raster_create(scene, &(WeftRasterDesc){.gl = WEFT_GL_DESKTOP}, &raster, NULL, &error) !=
+            WEFT_OK)
+            fail_msg("%s", error.text);
+        for (int d = 0; d < SIDES; d++)
+            compare(raster, scene->cloths[0], suns[k], sides[d], &seen[d][k], &fine[d][k]);
+        weft_raster_free(raster);
+        weft_scene_free(scene);
+    }
+    double first = 0.0; /* variance of the picture nearest by, of single points */
+    for (int d = 0; d < SIDES; d++) {
+        double error = 0.0, worst = 0.0, kept = 0.0, spread = 0.0;
+        for (int k = 0; k < SUNS; k++) {
+            for (int c = 0; c < 2; c++) {
+                const double e = fabs(seen[d][k].mean[c] / fine[d][k].mean[c] - 1.0);
+                error += e / (2 * SUNS);
+                worst = fmax(worst, e);
+            }
+            kept += variance(&seen[d][k]);
+            spread += variance(&fine[d][k]);
+        }
+        print_message("%6.2f threads a pixel: mean %.4f worst %.4f, variance %.4f, %.3f of the reference's\n",
+                      (double)sides[d], error, worst, kept / SUNS, kept / spread);
+        assert_true(error < 0.05);
+        assert_true(worst < 0.1);
+        first = d ? first : kept;
+        if (sides[d] <=
+            2.0f) /* over to the far cloth pixels vary more: its colours are those of whole crossings */
+            assert_true(kept > 0.75 * spread && kept < (sides[d] <= 1.1f ? 1.5 : 2.6) * spread);
+        else
+            assert_true(kept < 0.1 * first);
+    }
+}
+
+/* What a floor shows below a loose cloth that the sun shines on from above. */
+static double floor_below(const char *alpha_mode, int no_shadows) {
+    WeftScene *scene = test_scene();
+    WeftRaster *raster = NULL;
+    WeftImage picture = {0};
+    WeftError error;
+    char weave[256];
+    const WeftLight light = {.direction = {0.0f, 0.0f, -1.0f}, .color = {3.0f, 3.0f, 3.0f}};
+    static const float uv[8] = {0.0f, 1.0f, 1.0f, 1.0f, 1.0f, 0.0f, 0.0f, 0.0f};
+    test_environment(scene, 0.0f);
+    test_material(scene, 0.5f);
+    Mesh *mesh = test_quad(scene, vec3(-0.2f, -0.2f, 0.2f), vec3(0.4f, 0.0f, 0.0f), vec3(0.0f, 0.4f, 0.0f));
+    mesh->texcoord[0] = arena_array(&scene->arena, 4, 2 * sizeof(float));
+    memcpy(mesh->texcoord[0], uv, sizeof uv);
+    scene->material_names[0] = "cloth";
+    test_material(scene, 0.5f);
+    (void)test_quad(scene, vec3(-0.2f, -0.2f, 0.0f), vec3(0.4f, 0.0f, 0.0f), vec3(0.0f, 0.4f, 0.0f));
+    scene->low = vec3(-0.2f, -0.2f, 0.0f);
+    scene->high = vec3(0.2f, 0.2f, 0.2f);
+    snprintf(weave, sizeof weave,
+             "{\"weave\": {\"draft\": \"plain; sett 4 4\", \"warp\": {\"yarn\": \"linen\", \"width\": 0.6}, "
+             "\"weft\": {\"yarn\": \"linen\", \"width\": 0.6}, \"metres\": 0.4}, \"alpha_mode\": \"%s\"}",
+             alpha_mode);
+    const WeftRasterView view = {.width = WIDTH,
+                                 .height = HEIGHT,
+                                 .samples = 1,
+                                 .camera = "0,0,0.15;0,0,0;30",
+                                 .no_shadows = no_shadows};
+    if (weft_scene_add_light(scene, &light, &error) != WEFT_OK ||
+        weft_scene_assign_material_memory(scene, "cloth", weave, strlen(weave), "mine.json", NULL, &error) !=
+            WEFT_OK ||
+        weft_raster_create(scene, &(WeftRasterDesc){.gl = WEFT_GL_DESKTOP}, &raster, NULL, &error) !=
+            WEFT_OK ||
+        weft_raster_draw(raster, &view, &error) != WEFT_OK ||
+        weft_raster_image(raster, &picture, &error) != WEFT_OK)
+        fail_msg("%s", error.text);
+    const double mean = mean_of(&picture, 1);
+    weft_image_free(&picture);
+    weft_raster_free(raster);
+    weft_scene_free(scene);
+    return mean;
+}
+
+static void light_falls_through_gaps(void **state) {
+    (void)state;
+    need_gl();
+    const double bare = floor_below("mask", 1), closed = floor_below("opaque", 0),
+                 holed = floor_below("mask", 0);
+    print_message("below a cloth: %.3f of the light through gaps, %.3f without\n", holed / bare,
+                  closed / bare);
+    assert_true(closed < 0.01 * bare);
+    assert_true(holed > 0.08 * bare && holed < 0.3 * bare);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(threads_are_the_same_in_both_engines),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(pixels_vary_as_those_of_many_points_do),
+                                       cmocka_unit_test(light_falls_through_gaps),
+                                       cmocka_unit_test(threads_are_the_same_in_both_engines),
                                        cmocka_unit_test(a_cloth_is_as_bright_in_both_engines)};
     return cmocka_run_group_tests(tests, gl_begin, NULL);
 }

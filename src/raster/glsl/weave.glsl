@@ -3,58 +3,10 @@
  * A pixel has one point while it is much smaller than a thread, and up to nine where it is as large as one, sheared:
  * rows of points would beat with threads. The text before it supplies stack_light, which is all that a stack sends to
  * the eye; each base is lit alone, so whatever lies on it is there every time, and the weights sum up to 1. */
-uniform highp sampler2D weave_cells;
 uniform highp sampler2DArray weave_colors;
 
-/* Places of cloth_numbers (raster/cloths.h), behind the yarns. */
-const int CLOTH_SEED = 42, CLOTH_LOW = 43, CLOTH_HIGH = 44, CLOTH_OPENNESS = 45, CLOTH_WARPS = 46, CLOTH_PICKS = 47,
-          CLOTH_FAR_WIDTH = 48, CLOTH_FAR_HEIGHT = 49, CLOTH_PER_U = 50, CLOTH_PER_V = 51;
-
-float weave_number(int k) { return material_weave[k / 4][k - 4 * (k / 4)]; }
-
-/* Table 0 is the runs, 1 the albedos. */
-float weave_fetch(int table, int row, int column) {
-    int warps = int(weave_number(CLOTH_WARPS)), picks = int(weave_number(CLOTH_PICKS));
-    int k = table == 0 ? column - 4 * (column / 4) : column;
-    ivec2 at = table == 0 ? ivec2(column / 4, row) : ivec2(row - warps * (row / warps), picks + row / warps);
-    return texelFetch(weave_cells, at, 0)[k];
-}
-
+#include "raster/glsl/weave_cloth.glsl"
 #include "shading/weave_base.h"
-
-/* Each takes its numbers from the k-th on, which moves behind them. */
-#define WEAVE_TAKE(name) taken.name = weave_number(k++);
-WeaveYarn weave_yarn_from(inout int k) {
-    WeaveYarn taken;
-    WEAVE_YARN_NUMBERS(WEAVE_TAKE)
-    return taken;
-}
-
-WeaveFar weave_far_from(inout int k) {
-    WeaveFar taken;
-    WEAVE_FAR_NUMBERS(WEAVE_TAKE)
-    return taken;
-}
-
-Weave material_cloth() {
-    Weave m;
-    m.warps = int(weave_number(CLOTH_WARPS));
-    m.picks = int(weave_number(CLOTH_PICKS));
-    int k = 0;
-    m.warp = weave_yarn_from(k);
-    m.weft = weave_yarn_from(k);
-    m.seed = weave_number(CLOTH_SEED);
-    m.warp_far = weave_far_from(k);
-    m.weft_far = weave_far_from(k);
-    m.low = weave_number(CLOTH_LOW);
-    m.high = weave_number(CLOTH_HIGH);
-    m.openness = weave_number(CLOTH_OPENNESS);
-    m.cycle_x = 0.0;
-    m.cycle_y = 0.0;
-    m.runs = 0;
-    m.albedos = 1;
-    return m;
-}
 
 /* One system from afar. Two bases stand for the cloth, each with half of the weight: so it reflects twice as much. All
  * bases have one table for the light of the environment, so that the lobe is of a whole cloth. Departure: then only
@@ -91,7 +43,7 @@ Stack woven_stack(Stack m, WeaveBase b) {
 /* rgb: the light; a: the part of the pixel that threads cover. */
 vec4 woven_light(Stack m, Dir o, Facing at, Frame frame, float occlusion) {
     Weave c = material_cloth();
-    vec2 place = vec2(texcoord_0.x * weave_number(CLOTH_PER_U), -texcoord_0.y * weave_number(CLOTH_PER_V));
+    vec2 place = weave_place();
     vec2 across = dFdx(place), up = dFdy(place);
     WeaveFootprint f = weave_footprint(across.x, across.y, up.x, up.y);
     float far = weave_far_weight(f), covered = 0.0;

@@ -1,0 +1,64 @@
+/* weave_cloth.glsl - the cloth of a woven material, from its numbers and its texture of runs and albedos */
+uniform highp sampler2D weave_cells;
+
+/* Places of cloth_numbers (raster/cloths.h), behind the yarns. */
+const int CLOTH_SEED = 42, CLOTH_LOW = 43, CLOTH_HIGH = 44, CLOTH_OPENNESS = 45, CLOTH_WARPS = 46, CLOTH_PICKS = 47,
+          CLOTH_FAR_WIDTH = 48, CLOTH_FAR_HEIGHT = 49, CLOTH_PER_U = 50, CLOTH_PER_V = 51;
+
+float weave_number(int k) { return material_weave[k / 4][k - 4 * (k / 4)]; }
+
+/* Table 0 is the runs, 1 the albedos. */
+float weave_fetch(int table, int row, int column) {
+    int warps = int(weave_number(CLOTH_WARPS)), picks = int(weave_number(CLOTH_PICKS));
+    int k = table == 0 ? column - 4 * (column / 4) : column;
+    ivec2 at = table == 0 ? ivec2(column / 4, row) : ivec2(row - warps * (row / warps), picks + row / warps);
+    return texelFetch(weave_cells, at, 0)[k];
+}
+
+#include "shading/weave_point.h"
+
+/* Each takes its numbers from the k-th on, which moves behind them. */
+#define WEAVE_TAKE(name) taken.name = weave_number(k++);
+WeaveYarn weave_yarn_from(inout int k) {
+    WeaveYarn taken;
+    WEAVE_YARN_NUMBERS(WEAVE_TAKE)
+    return taken;
+}
+
+WeaveFar weave_far_from(inout int k) {
+    WeaveFar taken;
+    WEAVE_FAR_NUMBERS(WEAVE_TAKE)
+    return taken;
+}
+
+Weave material_cloth() {
+    Weave m;
+    m.warps = int(weave_number(CLOTH_WARPS));
+    m.picks = int(weave_number(CLOTH_PICKS));
+    int k = 0;
+    m.warp = weave_yarn_from(k);
+    m.weft = weave_yarn_from(k);
+    m.seed = weave_number(CLOTH_SEED);
+    m.warp_far = weave_far_from(k);
+    m.weft_far = weave_far_from(k);
+    m.low = weave_number(CLOTH_LOW);
+    m.high = weave_number(CLOTH_HIGH);
+    m.openness = weave_number(CLOTH_OPENNESS);
+    m.cycle_x = 0.0;
+    m.cycle_y = 0.0;
+    m.runs = 0;
+    m.albedos = 1;
+    return m;
+}
+
+/* A fragment on the cloth: warp threads from the left, picks from the bottom. */
+vec2 weave_place() {
+    return vec2(texcoord_0.x * weave_number(CLOTH_PER_U), -texcoord_0.y * weave_number(CLOTH_PER_V));
+}
+
+/* Returns true between threads. */
+bool weave_is_gap() {
+    vec2 place = weave_place();
+    WeavePoint p = weave_point(material_cloth(), place.x, place.y);
+    return p.height <= WEAVE_NONE;
+}
