@@ -1,6 +1,7 @@
 #include "save.h"
 
 #include <stdbool.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "output.h"
@@ -35,11 +36,27 @@ int save_cloth_of(const WeftScene *scene) {
     return 0;
 }
 
+/* A glTF holds the numbers that were fitted to a measurement, not the measurement. */
+static void warn_of_measured(const Options *options, const WeftScene *scene, const char *path) {
+    char text[1024];
+    int count = option_given(options, "--quiet") ? 0 : weft_scene_info(scene).material_count;
+    for (int k = 0; k < count; k++) {
+        WeftMaterial material;
+        if (weft_scene_material(scene, k, &material, NULL) != WEFT_OK || !material.measured) continue;
+        snprintf(text, sizeof text, "%.200s: material %d is saved as the numbers fitted to its measurement",
+                 path, k);
+        report_warning(NULL, WEFT_MESSAGE_GLTF_WARN_IGNORED, text);
+    }
+}
+
 WeftResult save_all(const Options *options, const WeftScene *scene, WeftError *error) {
     WeftResult result = WEFT_OK;
     int cursor = 0;
-    for (const char *path; result == WEFT_OK && (path = option_next(options, "--save", &cursor));)
-        result = path_ends(path, ".json") ? weft_scene_save_material(scene, save_cloth_of(scene), path, error)
-                                          : weft_scene_save(scene, path, error);
+    for (const char *path; result == WEFT_OK && (path = option_next(options, "--save", &cursor));) {
+        bool material = path_ends(path, ".json");
+        result = material ? weft_scene_save_material(scene, save_cloth_of(scene), path, error)
+                          : weft_scene_save(scene, path, error);
+        if (result == WEFT_OK && !material) warn_of_measured(options, scene, path);
+    }
     return result;
 }

@@ -49,12 +49,11 @@ WeftResult weft_material_read(const char *path, WeftMaterial *out, const WeftLog
     WeftResult result = material_file_load(path, &file, log, error);
     if (result == WEFT_OK) {
         if (file.texture_count)
-            warn(log, WEFT_MESSAGE_PLAUSIBLE, path, "its textures are left out: only its numbers count here");
+            warn(log, WEFT_MESSAGE_GLTF_WARN_IGNORED, path, "its textures; only its numbers count here");
         if (file.cloth)
-            warn(log, WEFT_MESSAGE_PLAUSIBLE, path, "its weave is left out: only its numbers count here");
+            warn(log, WEFT_MESSAGE_GLTF_WARN_IGNORED, path, "its weave; only its numbers count here");
         if (file.measured)
-            warn(log, WEFT_MESSAGE_PLAUSIBLE, path,
-                 "its measurement is left out: only its numbers count here");
+            warn(log, WEFT_MESSAGE_GLTF_WARN_IGNORED, path, "its measurement; only its numbers count here");
         *out = file.material;
         for (int k = 0; k < INPUT_COUNT; k++) out->inputs[k].texture = 0;
     }

@@ -205,7 +205,8 @@ WeftResult weft_draft_copy(const WeftDraft *draft, WeftDraft **out, WeftError *e
 }
 
 void weft_draft_set_up(WeftDraft *draft, int warp, int pick, int up) {
-    const size_t warps = (size_t)draft->count[WEFT_WARP], row = (size_t)wrapped(pick, draft->count[WEFT_WEFT]);
+    const size_t warps = (size_t)draft->count[WEFT_WARP],
+                 row = (size_t)wrapped(pick, draft->count[WEFT_WEFT]);
     draft->up[row * warps + (size_t)wrapped(warp, draft->count[WEFT_WARP])] = up != 0;
 }
 

@@ -13,7 +13,7 @@ uniform highp sampler2DArray weave_colors;
  * yarns of its own system hide it, which at grazing are not all. */
 WeaveBase woven_far(Weave c, bool weft, vec2 place, WeaveFootprint f) {
     float warps = weave_number(CLOTH_WARPS), picks = weave_number(CLOTH_PICKS), layer = weft ? 2.0 : 0.0;
-    float level = weave_far_level(f, 2.0 * warps / weave_number(CLOTH_FAR_WIDTH), 2.0 * picks / weave_number(CLOTH_FAR_HEIGHT));
+    float level = weave_far_level(f, warps / weave_number(CLOTH_FAR_WIDTH), picks / weave_number(CLOTH_FAR_HEIGHT));
     vec2 at = vec2(place.x / warps, place.y / picks);
     vec4 once = textureLod(weave_colors, vec3(at, layer), level);
     vec4 again = textureLod(weave_colors, vec3(at, layer + 1.0), level);
