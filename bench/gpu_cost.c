@@ -310,11 +310,12 @@ static void term_row(Gpu *gpu, WeftTermKind kind, int term) {
  * numbers a texel, and what belongs to the material alone lies in a uniform buffer. Fibres stand upright.
  * u[6] is the row of a table that is read by pixel, u[6] and further what was kept of wo. Those that lean are
  * no sharper than alpha 0.19. */
-#define UPRIGHT "    FibreModel m = model;\n    m.s = 0.0;\n    m.n.thin = 0.0;\n"
-#define SINGLE  "    f = flake_single_upright(flakes, a.o, a.i);\n"
+#define UPRIGHT                                                                                              \
+    "    FibreModel m = model;\n    FibreNumbers n = numbers;\n    m.s = 0.0;\n    n.thin = 0.0;\n"
+#define SINGLE "    f = flake_single_upright(flakes, a.o, a.i);\n"
 #define MULTIPLE(o)                                                                                          \
-    "    f += fibre_multiple(m, " o ", fibre_side(m, a.i.z, a.i.z), a.o.x * a.i.x + a.o.y * a.i.y);\n"
-#define LEANING "    FibrePrepared p = leaning;\n    p.model.n.thin = 0.0;\n    FibreView w;\n"
+    "    f += fibre_multiple(m, n, " o ", fibre_side(m, n, a.i.z, a.i.z), a.o.x * a.i.x + a.o.y * a.i.y);\n"
+#define LEANING "    FibrePrepared p = leaning;\n    p.numbers.thin = 0.0;\n    FibreView w;\n"
 #define COLOURED                                                                                             \
     "    LobeReflected x = lobe_reflected(fibre_value(p, w, a), color, rgb_grey(1.0));\n"                    \
     "    f = x.f.r;\n    s = x.f.g + x.f.b;\n"
@@ -336,7 +337,7 @@ static const struct {
             "    f = flake_single_upright(flake_upright(u[6] * u[6], 1.0), a.o, a.i);\n"
             "    f += fibre_table_multiple(read_side(a.o.z, y), read_side(a.i.z, y), a.o, a.i,\n"
             "                              u[6], 1.4 - 2.2 * l);\n"},
-    {"fibre, fixed material", 6, ANGLES UPRIGHT SINGLE MULTIPLE("fibre_side(m, a.o.z, a.o.z)")},
+    {"fibre, fixed material", 6, ANGLES UPRIGHT SINGLE MULTIPLE("fibre_side(m, n, a.o.z, a.o.z)")},
     {"fibre, fixed material, view side kept", 10,
      ANGLES UPRIGHT SINGLE
      "    FibreSide kept = side_of(a.o.z, vec4(u[6], u[7], u[8], u[9]));\n" MULTIPLE("kept")},
@@ -356,7 +357,8 @@ static Cost fibre_cost(Gpu *gpu, size_t row, bool loaded) {
     text_include(&text, "shading/lobes/fibre_table.h");
     text_include(&text, "shading/rgb.h");
     text_include(&text, "shading/lobes/fibre.h");
-    text_line(&text, "\nlayout(std140, set = 0, binding = 3) uniform Material {\n    FibreModel model;\n"
+    text_line(&text, "\nlayout(std140, set = 0, binding = 3) uniform Material {\n    FibreModel model;\n    "
+                     "FibreNumbers numbers;\n"
                      "    FlakeUpright flakes;\n    float row, alpha, power;\n    FibrePrepared leaning;\n   "
                      " Rgb color;\n};\n\n"
                      "FibreSide side_of(float mu, vec4 t) {\n"

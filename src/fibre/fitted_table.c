@@ -73,11 +73,12 @@ static void value(void *user, int slab, const SolvedSlab *t, const double *theta
 static void start(const FibreTableDesc *desc, double *coefficients) {
     for (int row = 0; row < desc->rows; row++) {
         double alpha = alpha_at(desc, (double)row / (desc->rows - 1));
-        FibreModel m = fibre_model((float)alpha, 1.0f, 0.0f);
+        FibreModel m = fibre_model((float)alpha, 0.0f);
+        FibreNumbers n = fibre_material_numbers((float)alpha, 1.0f, 0.0f);
         for (int column = 0; column < desc->columns; column++) {
             double mu = mu_of((double)column / (desc->columns - 1));
-            FibreSide side = fibre_side(m, (float)mu, (float)mu);
-            double theirs = (double)fibre_bases(m, side, side, 0.0f),
+            FibreSide side = fibre_side(m, n, (float)mu, (float)mu);
+            double theirs = (double)fibre_bases(m, n, side, side, 0.0f),
                    ours = -power_of(alpha) * log(base_of(alpha, 2.0 * mu)) / log(2.0);
             double *to = coefficients + PARTS * (row * desc->columns + column);
             to[0] = (double)side.a + 0.5 * (theirs - ours);

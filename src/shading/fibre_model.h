@@ -18,9 +18,9 @@
 #include "shading/tables/fibre_model.h"
 #include "shading/tint.h"
 
-/* All that a material knows. */
+/* All that a material knows, but for FibreNumbers: a record in this one would be too deep for WebGL, which takes four
+ * levels. */
 STRUCT(FibreModel) {
-    FibreNumbers n;
     float power, span, low; /* u = span (mu + 0.001)^power + low */
     float ridge, narrow;    /* squares */
     float s;                /* twice the square of the tilt's sine */
@@ -48,13 +48,18 @@ FN FibreNumbers fibre_leaning(FibreNumbers n, float s) {
     return n;
 }
 
-FN FibreModel fibre_model(float alpha, float density, float tilt) {
+FN float fibre_coordinate(float alpha) { return 1.0f + 0.44703414f * log2(alpha); } /* -1 at 0.045, 1 at 1 */
+
+FN FibreNumbers fibre_material_numbers(float alpha, float density, float s) {
+    return fibre_leaning(fibre_numbers(fibre_coordinate(alpha), 0.5f * log2(density), s), s);
+}
+
+FN FibreModel fibre_model(float alpha, float tilt) {
     FibreModel m;
-    float t = 1.0f + 0.44703414f * log2(alpha); /* -1 at 0.045, 1 at 1 */
+    float t = fibre_coordinate(alpha);
     float sine = sin(tilt), s2 = alpha * alpha;
     m.s = 2.0f * sine * sine;
     m.hold = 16.0f * m.s * ((1.0f - alpha) * (1.0f - alpha)) * ((1.0f - alpha) * (1.0f - alpha));
-    m.n = fibre_leaning(fibre_numbers(t, 0.5f * log2(density), m.s), m.s);
     m.power = 0.26f + 0.24f * max(t, -0.4f);
     m.low = pow(1e-3f, m.power);
     m.span = 2.0f / (pow(1.001f, m.power) - m.low);
@@ -66,8 +71,7 @@ FN FibreModel fibre_model(float alpha, float density, float tilt) {
 
 /* The powers of d = nu - mu and of u by which a leaning fibre differs from an upright one, of which fibre_model has
  * taken those without d; w fades from the horizon. */
-FN FibreSide fibre_nap(FibreModel m, FibreSide side, float mu, float nu, float u) {
-    FibreNumbers n = m.n;
+FN FibreSide fibre_nap(FibreModel m, FibreNumbers n, FibreSide side, float mu, float nu, float u) {
     float d = nu - mu, w = 0.03f / (mu + 0.03f);
     float first = n.na0 + u * (n.na2 + u * (n.na7 + u * (n.na12 + u * n.na18)));
     float second = n.na3 + u * (n.na5 + u * (n.na11 + u * n.na17));
@@ -100,8 +104,7 @@ FN FibreSide fibre_thin(FibreNumbers n, FibreSide r, float u) {
 }
 
 /* Polynomials in u, which runs from -1 at the horizon to 1, by Horner's rule. */
-FN FibreSide fibre_side(FibreModel m, float mu, float nu) {
-    FibreNumbers n = m.n;
+FN FibreSide fibre_side(FibreModel m, FibreNumbers n, float mu, float nu) {
     float u = m.span * pow(mu + 1e-3f, m.power) + m.low;
     FibreSide r;
     r.mu = mu;
@@ -117,22 +120,22 @@ FN FibreSide fibre_side(FibreModel m, float mu, float nu) {
     r.c = n.c0 + u * (n.c1 + u * n.c2);
     if (n.thin > 0.0f) r = fibre_thin(n, r, u);
     r.q = 1.0f / (1.0f + exp2(clamp(-r.q, -17.0f, 40.0f)));
-    if (m.s > 0.0f) r = fibre_nap(m, r, mu, nu, u);
+    if (m.s > 0.0f) r = fibre_nap(m, n, r, mu, nu, u);
     return r;
 }
 
 /* e less log2 of the bases to their powers. */
-FN float fibre_bases(FibreModel m, FibreSide o, FibreSide i, float e) {
+FN float fibre_bases(FibreModel m, FibreNumbers n, FibreSide o, FibreSide i, float e) {
     float sum = o.mu + i.mu, cross = sum * sum - 3.0f * (o.mu * i.mu);
-    float l = e - m.n.p0 * log2(sum + 0.04f) - m.n.p1 * log2(cross + m.ridge);
-    if (m.n.thin > 0.0f)
-        l = l - m.n.tp0 * log2(sum + 0.04f) - m.n.tp1 * log2(cross + m.ridge) - m.n.tp2 * log2(sum + 0.002f);
+    float l = e - n.p0 * log2(sum + 0.04f) - n.p1 * log2(cross + m.ridge);
+    if (n.thin > 0.0f)
+        l = l - n.tp0 * log2(sum + 0.04f) - n.tp1 * log2(cross + m.ridge) - n.tp2 * log2(sum + 0.002f);
     if (m.s > 0.0f) {
         float lean = o.nu + i.nu, mm = sum * sum, nn = lean * lean;
         l = l -
-            0.5f * (m.n.np0 * log2((nn + 0.09f) / (mm + 0.09f)) + m.n.np1 * log2((nn + 0.5f) / (mm + 0.5f)) +
-                    m.n.np2 * log2((nn + m.narrow) / (mm + m.narrow))) -
-            m.n.np3 * log2((max(nn - 3.0f * (o.nu * i.nu), 0.0f) + 0.01f) / (cross + 0.01f));
+            0.5f * (n.np0 * log2((nn + 0.09f) / (mm + 0.09f)) + n.np1 * log2((nn + 0.5f) / (mm + 0.5f)) +
+                    n.np2 * log2((nn + m.narrow) / (mm + m.narrow))) -
+            n.np3 * log2((max(nn - 3.0f * (o.nu * i.nu), 0.0f) + 0.01f) / (cross + 0.01f));
         l = min(l, 40.0f);
     }
     return l;
@@ -142,9 +145,9 @@ FN float fibre_bases(FibreModel m, FibreSide o, FibreSide i, float e) {
 FN float fibre_turn(FibreSide o, FibreSide i, Dir wo, Dir wi) { return dir_dot(wo, wi) - o.nu * i.nu; }
 
 /* M, 1/sr. */
-FN float fibre_multiple(FibreModel m, FibreSide o, FibreSide i, float turn) {
+FN float fibre_multiple(FibreModel m, FibreNumbers n, FibreSide o, FibreSide i, float turn) {
     float e = (o.a + i.a) + (o.h * i.h - o.g * i.g) - o.k * i.k * turn;
-    return exp2(fibre_bases(m, o, i, e));
+    return exp2(fibre_bases(m, n, o, i, e));
 }
 
 /* e of the colour. */

@@ -8,15 +8,28 @@ uniform highp sampler2DArray weave_colors;
 #include "raster/glsl/weave_cloth.glsl"
 #include "shading/weave_base.h"
 
-/* One system from afar. Two bases stand for the cloth, each with half of the weight: so it reflects twice as much. All
- * bases have one table for the light of the environment, so that the lobe is of a whole cloth. Departure: then only
- * yarns of its own system hide it, which at grazing are not all. */
-WeaveBase woven_far(Weave c, bool weft, vec2 place, WeaveFootprint f) {
-    float warps = weave_number(CLOTH_WARPS), picks = weave_number(CLOTH_PICKS), layer = weft ? 2.0 : 0.0;
-    float level = weave_far_level(f, warps / weave_number(CLOTH_FAR_WIDTH), picks / weave_number(CLOTH_FAR_HEIGHT));
-    vec2 at = vec2(place.x / warps, place.y / picks);
-    vec4 once = textureLod(weave_colors, vec3(at, layer), level);
-    vec4 again = textureLod(weave_colors, vec3(at, layer + 1.0), level);
+/* Point k of side x side over a pixel, from its middle, in pixels: sheared. */
+vec2 pixel_point(int k, int side) {
+    float n = float(side), i = float(k - side * (k / side)), j = float(k / side);
+    return vec2((i + (j + 0.5) / n) / n - 0.5, (j + (i + 0.5) / n) / n - 0.5);
+}
+
+/* One system from afar, its colours as the mean of four places half a pixel wide: a level as wide as the pixel would
+ * mix neighbours that are still told apart. Two bases stand for the cloth, each with half of the weight: so it
+ * reflects twice as much. All bases have one table for the light of the environment, so that the lobe is of a whole
+ * cloth. Departure: then only yarns of its own system hide it, which at grazing are not all. */
+WeaveBase woven_far(Weave c, bool weft, vec2 place, vec2 across, vec2 up, WeaveFootprint f) {
+    vec2 repeat = vec2(weave_number(CLOTH_WARPS), weave_number(CLOTH_PICKS));
+    vec2 texel = repeat / vec2(weave_number(CLOTH_FAR_WIDTH), weave_number(CLOTH_FAR_HEIGHT));
+    float level = weave_far_level(f, 2.0 * texel.x, 2.0 * texel.y);
+    float layer = weft ? 2.0 : 0.0;
+    vec4 once = vec4(0.0), again = vec4(0.0);
+    for (int k = 0; k < 4; k++) {
+        vec2 from = pixel_point(k, 2);
+        vec2 at = (place + from.x * across + from.y * up) / repeat;
+        once += 0.25 * textureLod(weave_colors, vec3(at, layer), level);
+        again += 0.25 * textureLod(weave_colors, vec3(at, layer + 1.0), level);
+    }
     float dye = weave_far_dye(c, weft, weft ? place.y : place.x, weft ? f.y : f.x);
     float scale = MATERIAL_HOLED ? 2.0 / max(c.warp_far.share + c.weft_far.share, 1e-3) : 2.0;
     WeaveBase b = weave_far(c, weft, rgb(once.r, once.g, once.b), rgb(again.r, again.g, again.b), once.a, dye);
@@ -54,15 +67,14 @@ vec4 woven_light(Stack m, Dir o, Facing at, Frame frame, float occlusion) {
         WeaveBase b;
         float weight = 0.5 * far;
         if (k < points) {
-            float n = float(side), i = float(k - side * (k / side)), j = float(k / side);
-            vec2 from = vec2((i + (j + 0.5) / n) / n - 0.5, (j + (i + 0.5) / n) / n - 0.5);
+            vec2 from = pixel_point(k, side);
             vec2 spot = place + from.x * across + from.y * up;
             WeavePoint p = weave_point(c, spot.x, spot.y);
             b = weave_near(c, p);
-            weight = (1.0 - far) / (n * n);
+            weight = (1.0 - far) / float(points);
             covered = covered + (p.height > WEAVE_NONE ? weight : 0.0);
         } else {
-            b = woven_far(c, k > points, place, f);
+            b = woven_far(c, k > points, place, across, up, f);
             covered = covered + weight;
         }
         sum = rgb_add(sum, rgb_scale(stack_light(woven_stack(m, b), o, at, frame, occlusion), weight));

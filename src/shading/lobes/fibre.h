@@ -130,11 +130,13 @@ STRUCT(FibrePrepared) {
     FibreNap nap;
     float density;
     FibreModel model;
+    FibreNumbers numbers;
 };
 FN void fibre_prepare(Fibre m, FibrePrepared *p) {
     p->nap = fibre_nap_of(m.alpha, m.tilt, m.azimuth);
     p->density = m.density;
-    p->model = fibre_model(p->nap.alpha, m.density, m.tilt);
+    p->model = fibre_model(p->nap.alpha, m.tilt);
+    p->numbers = fibre_material_numbers(p->nap.alpha, m.density, p->model.s);
 }
 
 STRUCT(FibreView) {
@@ -146,15 +148,16 @@ STRUCT(FibreView) {
 FN void fibre_view(const FibrePrepared *p, Dir o, FibreView *w) {
     w->ltc = fibre_ltc(p->nap.alpha, o.z);
     w->draw = fibre_draw(p->nap, o);
-    w->side = fibre_side(p->model, o.z, w->draw.nu);
+    w->side = fibre_side(p->model, p->numbers, o.z, w->draw.nu);
     w->sigma = flake_sigma(p->nap.s, w->draw.nu);
 }
 
 FN LobeValue fibre_value(const FibrePrepared *p, const FibreView *w, Angles a) {
     float nu_i = dir_dot(a.i, p->nap.axis), sigma_i = flake_sigma(p->nap.s, nu_i);
     float single = flake_single_of(p->nap.s, p->nap.axis, p->density, w->sigma, sigma_i, a.o, a.i);
-    FibreSide i = fibre_side(p->model, a.i.z, nu_i);
-    float turn = fibre_turn(w->side, i, a.o, a.i), multiple = fibre_multiple(p->model, w->side, i, turn);
+    FibreSide i = fibre_side(p->model, p->numbers, a.i.z, nu_i);
+    float turn = fibre_turn(w->side, i, a.o, a.i),
+          multiple = fibre_multiple(p->model, p->numbers, w->side, i, turn);
     LobeValue v = lobe_value_of(single + multiple, 0.0f, fibre_sample_pdf(p->nap, w->draw, w->ltc, a));
     v.tint.s = multiple / max(single + multiple, 1e-30f);
     v.tint.q_o = w->side.q;

@@ -43,27 +43,35 @@
 
 STRUCT(Woven){WOVEN_PARAMS(FIELD)};
 
+/* A part of the yarn: s between two bounds, or between their opposites. */
+STRUCT(WovenBin) {
+    float slope;  /* s_y in the middle */
+    float weight; /* of it in the mean over s */
+    float a2;     /* of the wider D */
+};
+
 STRUCT(WovenPrepared) {
     float alpha, share, roundness, over_roundness;
     float crimp, cross_crimp; /* slopes as yarn_area takes them */
     float cos_a, sin_a, cos_t, sin_t;
-    /* Of each part of the yarn, s between two bounds or between their opposites: x is s_y in the middle, y the weight
-     * in the mean over s, z the a2 of the wider D. No record of its own, since those of WebGL nest in four levels. */
-    Dir b0, b1, b2, b3, b4, b5;
+    WovenBin b0, b1, b2, b3, b4, b5;
 };
 
 #define WOVEN_BINS 6
 
 /* Bin k, from x = k / 6 to (k + 1) / 6, s = x^(2 / (floats + 1)): the mean of the slope over it, and how far it varies. */
-FN Dir woven_bin(Woven m, float tan_crimp, float k) {
+FN WovenBin woven_bin(Woven m, float tan_crimp, float k) {
     float f = m.floats, e = 2.0f / (f + 1.0f), e2 = (2.0f * f + 1.0f) * e, a2 = m.alpha * m.alpha;
     float x0 = k / to_float(WOVEN_BINS), x1 = (k + 1.0f) / to_float(WOVEN_BINS), least = max(x0, 1e-3f);
     float width = pow(x1, e) - (x0 > 0.0f ? pow(least, e) : 0.0f);
     float mean = (x1 * x1 - x0 * x0) / ((f + 1.0f) * width);
     float square = (pow(x1, e2) - (x0 > 0.0f ? pow(least, e2) : 0.0f)) / ((2.0f * f + 1.0f) * width);
-    float slope = tan_crimp * mean;
-    float spread = tan_crimp / (1.0f + slope * slope); /* of angles, by that of slopes */
-    return dir(slope, 0.5f * width, a2 + (1.0f - a2) * spread * spread * max(square - mean * mean, 0.0f));
+    WovenBin b;
+    b.slope = tan_crimp * mean;
+    b.weight = 0.5f * width;
+    float spread = tan_crimp / (1.0f + b.slope * b.slope); /* of angles, by that of slopes */
+    b.a2 = a2 + (1.0f - a2) * spread * spread * max(square - mean * mean, 0.0f);
+    return b;
 }
 
 FN void woven_prepare(Woven m, WovenPrepared *p) {
@@ -152,9 +160,11 @@ FN LobeValue woven_value(const WovenPrepared *p, const WovenView *w, Angles a) {
     float once = 0.0f;
     ROUNDS(at, 2 * WOVEN_BINS) {
         int k = at < WOVEN_BINS ? at : at - WOVEN_BINS;
-        float slope = woven_pick(k, p->b0.x, p->b1.x, p->b2.x, p->b3.x, p->b4.x, p->b5.x);
-        float weight = woven_pick(k, p->b0.y, p->b1.y, p->b2.y, p->b3.y, p->b4.y, p->b5.y);
-        float a2 = woven_pick(k, p->b0.z, p->b1.z, p->b2.z, p->b3.z, p->b4.z, p->b5.z);
+        float slope =
+            woven_pick(k, p->b0.slope, p->b1.slope, p->b2.slope, p->b3.slope, p->b4.slope, p->b5.slope);
+        float weight =
+            woven_pick(k, p->b0.weight, p->b1.weight, p->b2.weight, p->b3.weight, p->b4.weight, p->b5.weight);
+        float a2 = woven_pick(k, p->b0.a2, p->b1.a2, p->b2.a2, p->b3.a2, p->b4.a2, p->b5.a2);
         once = once + weight * woven_row(p, at < WOVEN_BINS ? slope : -slope, a2, w, &v, q);
     }
     once = once / w->seen / v.seen;
