@@ -1,6 +1,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "view/replay.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -300,6 +301,12 @@ static bool do_action(Replay *self, Viewer *v, const char *word, char *rest, boo
     return true;
 }
 
+/* Returns true if no side moved by as much as a thousandth of a pixel. */
+static bool same_box(UiBox a, UiBox b) {
+    return fabsf(a.x - b.x) < 1e-3f && fabsf(a.y - b.y) < 1e-3f && fabsf(a.width - b.width) < 1e-3f &&
+           fabsf(a.height - b.height) < 1e-3f;
+}
+
 /* One frame of what is under way. False where a control is nowhere. */
 static bool do_motion(Replay *self, Viewer *v, char why[512]) {
     Motion *m = &self->motions[self->first];
@@ -312,7 +319,7 @@ static bool do_motion(Replay *self, Viewer *v, char why[512]) {
                      m->control);
             return false;
         }
-        if (memcmp(&c->box, &m->last, sizeof m->last) != 0 && ++self->tries < TRIES) {
+        if (!same_box(c->box, m->last) && ++self->tries < TRIES) {
             m->last = c->box;
             return true;
         }
