@@ -70,13 +70,17 @@ def idle_share(environment, unseen):
 
 
 def first_pixels(environment, unseen):
-    """Seconds from Tab to a frame that shows path-traced pixels, in the studio's light: the least of three starts."""
+    """Seconds from Tab to a frame that shows path-traced pixels, in the studio's light and of a lobe that was not traced
+    before: the least of three starts. Counted from the last report before Tab, so it is an upper bound."""
     plain = scene[:3] + scene[scene.index("--forget"):]
+    lines = ["wait rest", f'choose "Material/sheen lobe" {terms[0]}', "wait rest", "wait 10", "key tab",
+             "wait shows traced", "wait 2"]
     times = []
     for _ in range(3):
-        reports = replay(["wait rest", "wait 10", "key tab", "wait shows traced", "wait 2"], environment, unseen, plain)
-        asked = next(r["clock"] for r in reports if r["mode"] == "truth")
-        times.append(next(r["clock"] for r in reports if r["shows"] == "traced") - asked)
+        reports = replay(lines, environment, unseen, plain)
+        pressed = next(k for k, r in enumerate(reports) if r["mode"] == "truth")
+        shown = next(r["clock"] for r in reports[pressed:] if r["shows"] == "traced")
+        times.append(shown - reports[pressed - 1]["clock"])
     return min(times)
 
 
@@ -92,7 +96,7 @@ try:
     print(f"orbit: {frames} frames, {frames / seconds:.1f} a second; a picture of all pixels takes "
           f"{orbits[1]['picture_ms']:.1f} ms")
     print(f"switching {len(terms)} sheen lobes: the longest frame of the window {max(r['worst_ms'] for r in switches):.0f} ms")
-    print(f"from Tab to the first path-traced pixels: {first_pixels(environment, unseen):.3f} s")
+    print(f"from Tab to the first path-traced pixels: at most {first_pixels(environment, unseen):.3f} s")
     print(f"memory: {max(r['resident_mib'] for r in reports):.0f} MiB at most, {reports[0]['resident_mib']:.0f} at the start")
     share = idle_share(environment, unseen)
     if share is not None:
