@@ -3,19 +3,20 @@
  *
  *   bench_occluded [--only LOBE]... [--rays N] [--width N] [--fine N] [--centre] MAP.hdr|white ...
  *
- * Scenes: builtin:spheres and builtin:cloth, without lights, with black base and specular; their sheens have the lobe. `sum` is the
- * difference of the sums, below 0 where the raster image is darker. `apart` is sum |difference| over sum, of
- * means over 4 x 4 pixels. `noise` is the standard deviation of the path tracer's sum: two renders of
- * different seeds run until it is below 0.5, or to 4096 samples each. --rays: occlusion rays of a vertex.
- * --fine: the raster engine draws N x N pixels for one, 4 unless told, since it shades a pixel once and the path tracer
- * shades all of its area. --centre: both engines take one sample in the centre of each pixel. `white` is an even sky, under which only
- * occlusion and E can be wrong. */
+ * Scenes: builtin:spheres and builtin:cloth, without lights, with black base and specular; their sheens have the
+ * lobe. `sum` is the difference of the sums, below 0 where the raster image is darker. `apart` is sum |difference|
+ * over sum, of means over 4 x 4 pixels. `noise` is the standard deviation of the path tracer's sum: two renders of
+ * different seeds run until it is below 0.5, or to 4096 samples each. --rays: occlusion rays of a vertex. --fine: the
+ * raster engine draws N x N pixels for one, 4 unless told, since it shades a pixel once and the path tracer shades all
+ * of its area. --centre: both engines take one sample in the centre of each pixel. `white` is an even sky, under which
+ * only occlusion and E can be wrong. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "raster/sheens.h"
 #include "weft/weft.h"
 
 enum { BLOCK = 4, SAMPLES = 32, SAMPLES_MOST = 4096, LOBES_MOST = 64 };
@@ -155,24 +156,12 @@ static bool is_named(const char *id, const char *const *only, int count) {
     return named;
 }
 
-/* Gives that lobe to the materials that have a sheen. Others, as the floor, would shine by the lobe's second colour. */
-static void set_lobe(WeftScene *scene, const char *id) {
-    WeftMaterial material;
-    const int color = weft_material_input_find("sheen_color");
-    for (int k = 0; weft_scene_material(scene, k, &material, NULL) == WEFT_OK; k++) {
-        const float *c = material.inputs[color].value;
-        char target[64];
-        snprintf(target, sizeof target, "%d.sheen_lobe", k);
-        WeftError error;
-        if (c[0] + c[1] + c[2] > 0.0f) check(weft_scene_set(scene, target, id, NULL, &error), &error);
-    }
-}
-
 static void print_lobe(const char *id, WeftScene *const scenes[2], WeftRaster *const rasters[2],
                        const How *how) {
     Error e[2];
+    WeftError error;
     for (int s = 0; s < 2; s++) {
-        set_lobe(scenes[s], id);
+        check(sheens_set_lobe(scenes[s], id, &error), &error);
         e[s] = measure(scenes[s], rasters[s], how);
     }
     printf("%-27s", id);

@@ -2,9 +2,10 @@
  *
  *   bench_terminator [SHEET.png]
  *
- * A matt ball of 12 rings under a sun from the side, whose terminator goes down its middle, is rendered with light that
- * meets its triangles, and with light that meets the smooth surface that their normals describe, as docs/render.md has it.
- * A ball of 192 rings is the reference. relMSE and the greatest difference are those of pixels within 0.9 of its outline. */
+ * A matt ball of 12 rings under a sun from the side, whose terminator goes down its middle, is rendered with light
+ * that meets its triangles, and with light that meets the smooth surface that their normals describe, as docs/render.md
+ * has it. A ball of 192 rings is the reference. relMSE and the greatest difference are those of pixels within 0.9 of its
+ * outline. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -18,16 +19,7 @@
 enum { SIDE = 320, COARSE = 12, FINE = 192, SAMPLES = 64 };
 
 static WeftImage ball(uint32_t rings, int no_lift) {
-    WeftScene *scene = test_scene();
-    test_environment(scene, 0.02f);
-    test_material(scene, 0.8f);
-    test_ball(scene, vec3(0, 0, 0), 1.0f, rings);
-    scene->lights[scene->light_count++] = (Light){.name = "sun",
-                                                  .kind = LIGHT_DIRECTIONAL,
-                                                  .direction = {0.995f, -0.1f, 0},
-                                                  .color = {1, 1, 1},
-                                                  .intensity = PI_FLOAT};
-    scene_bounds(scene);
+    WeftScene *scene = test_grazed_ball(rings, 0.8f, 0.02f);
     const WeftRenderDesc desc = {
         .width = SIDE, .height = SIDE, .camera = "0,1.5,9.9;0,0,0;13", .no_lift = no_lift};
     WeftImage image = test_render(scene, desc, SAMPLES);

@@ -19,8 +19,8 @@ WEFT_API WeftResult weft_scene_save_material(const WeftScene *scene, int index, 
  * materials with the extensions KHR_materials_sheen, _clearcoat, _anisotropy, _specular, _ior,
  * _diffuse_transmission, _emissive_strength, _unlit, KHR_texture_transform and KHR_materials_variants where they say it, and in the
  * extras of a material, under "weft", what they do not; lights of KHR_lights_punctual, cameras. Read again it
- * gives the same picture. Environment and node hierarchy are not kept, and of a measurement only the numbers fitted to it.
- * Fails with WEFT_MESSAGE_SCENE_KIND (another suffix), _FILE_WRITE or _MEMORY. */
+ * gives the same picture. Environment and node hierarchy are not kept, and of a measurement only the numbers fitted
+ * to it. Fails with WEFT_MESSAGE_SCENE_KIND (another suffix), _FILE_WRITE or _MEMORY. */
 WEFT_API WeftResult weft_scene_save(const WeftScene *scene, const char *path, WeftError *error);
 
 #ifdef __cplusplus

@@ -16,8 +16,8 @@
  * 640}.
  * - A call named _create, _load or _read fills a handle, which the _free beside it releases; _open has a _close.
  *   A call named _init fills a value that owns nothing.
- * - The only global state is the lobes that weft_lobe_load added, and the choice of weft_isa_use. Different objects may be used from different
- *   threads at once.
+ * - The only global state is the lobes that weft_lobe_load added, and the choice of weft_isa_use. Different objects
+ *   may be used from different threads at once.
  * - Directions, units and colours are those that lobe.h states; world space that of scene.h. */
 #ifndef WEFT_H
 #define WEFT_H

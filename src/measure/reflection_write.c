@@ -101,16 +101,16 @@ static bool refine(const RglSource *source, RglDesc *desc, Rgl *out) {
     const RglSource tables = {.f = tables_f, .user = out};
     for (;;) {
         if (!rgl_make(source, desc, out)) return false;
-        const double anywhere = difference(source, &tables, NULL),
-                     at_slices = difference(source, &tables, out);
+        const double anywhere = difference(source, &tables, NULL);
         RglDesc finer = *desc;
-        if (anywhere > 2.0 * at_slices) {
+        if (anywhere <= near_enough) return true;
+        if (anywhere > 2.0 * difference(source, &tables, out)) {
             finer.thetas = half_more(desc->thetas, RGL_SLICES_MOST);
             finer.phis = half_more(desc->phis, RGL_SLICES_MOST);
         } else {
             finer.side = half_more(desc->side, RGL_SIDE_MOST);
         }
-        if (anywhere <= near_enough || numbers_of(&finer, source->isotropic) > POINTS_GROWN ||
+        if (numbers_of(&finer, source->isotropic) > POINTS_GROWN ||
             numbers_of(&finer, source->isotropic) == numbers_of(desc, source->isotropic))
             return true;
         rgl_free(out);

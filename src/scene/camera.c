@@ -8,12 +8,16 @@
 #include "base/number.h"
 #include "base/pi.h"
 
-static void look_at(Camera *camera, Vec3 eye, Vec3 target) {
-    camera->eye = eye;
-    camera->forward = vec3_normal_or(vec3_sub(target, eye), vec3(0.0f, 0.0f, -1.0f));
-    Vec3 up = fabsf(camera->forward.y) > 0.9999f ? vec3(0.0f, 0.0f, -1.0f) : vec3(0.0f, 1.0f, 0.0f);
-    camera->right = vec3_normal_or(vec3_cross(camera->forward, up), vec3(1.0f, 0.0f, 0.0f));
-    camera->up = vec3_cross(camera->right, camera->forward);
+Camera camera_towards(const char *name, Vec3 eye, Vec3 target, float yfov) {
+    const Vec3 forward = vec3_normal_or(vec3_sub(target, eye), vec3(0.0f, 0.0f, -1.0f));
+    const Vec3 up = fabsf(forward.y) > 0.9999f ? vec3(0.0f, 0.0f, -1.0f) : vec3(0.0f, 1.0f, 0.0f);
+    const Vec3 right = vec3_normal_or(vec3_cross(forward, up), vec3(1.0f, 0.0f, 0.0f));
+    return (Camera){.name = name,
+                    .eye = eye,
+                    .forward = forward,
+                    .right = right,
+                    .up = vec3_cross(right, forward),
+                    .yfov = yfov};
 }
 
 /* Finds the eye from which every vertex is inside the frustum, touching it on at least one pair of sides and
@@ -22,9 +26,9 @@ static void look_at(Camera *camera, Vec3 eye, Vec3 target) {
  * likewise. */
 static Camera frame_scene(const WeftScene *scene, float aspect) {
     const float azimuth = 0.61f, elevation = 0.26f, margin = 1.12f; /* 35 and 15 degrees */
-    Camera camera = {.name = "auto", .yfov = 0.49f};                /* 28 degrees, a portrait lens */
-    look_at(&camera, vec3(sinf(azimuth) * cosf(elevation), sinf(elevation), cosf(azimuth) * cosf(elevation)),
-            vec3(0.0f, 0.0f, 0.0f));
+    Camera camera = camera_towards(
+        "auto", vec3(sinf(azimuth) * cosf(elevation), sinf(elevation), cosf(azimuth) * cosf(elevation)),
+        vec3(0.0f, 0.0f, 0.0f), 0.49f); /* 28 degrees, a portrait lens */
     float ty = tanf(0.5f * camera.yfov) / margin, tx = ty * aspect;
     float right = -INFINITY, left = -INFINITY, above = -INFINITY, below = -INFINITY;
     for (int m = 0; m < scene_own_meshes(scene); m++)
@@ -62,8 +66,7 @@ static bool parse_view(const char *text, Camera *camera, const char **wrong) {
     if (!within_reach(vec3_load(e), SCENE_REACH) || !within_reach(vec3_load(t), SCENE_REACH))
         *wrong = "its eye or its target is beyond 1e15 m";
     if (*wrong) return true;
-    *camera = (Camera){.name = "", .yfov = degrees * (PI_FLOAT / 180.0f)};
-    look_at(camera, vec3_load(e), vec3_load(t));
+    *camera = camera_towards("", vec3_load(e), vec3_load(t), degrees * (PI_FLOAT / 180.0f));
     return true;
 }
 

@@ -9,6 +9,9 @@
  * height. Fails with WEFT_MESSAGE_CAMERA_NAME. */
 WeftResult camera_find(const WeftScene *scene, const char *text, float aspect, Camera *out, WeftError *error);
 
+/* A perspective camera at eye that looks at target, upright; yfov: vertical, radians. name is not copied. */
+Camera camera_towards(const char *name, Vec3 eye, Vec3 target, float yfov);
+
 /* A camera as a person would type it: target is the point of its axis beside the scene's middle, fov
  * vertical, degrees. */
 void camera_tell(const WeftScene *scene, const Camera *camera, float eye[3], float target[3], float *fov);

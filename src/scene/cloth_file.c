@@ -198,7 +198,7 @@ static bool put_yarn(json_t *weave, const char *system, WeftYarn *yarn) {
     for (int k = 0; weft_yarn_number(k); k++) {
         const WeftYarnNumber *number = weft_yarn_number(k);
         const float is = *number_in(yarn, number);
-        const double value = isfinite(is) ? (double)is / (number->angle ? RADIANS : 1.0) : 1e6; /* refused */
+        const double value = isfinite(is) ? (double)is / (double)scale_of(number) : 1e6; /* refused */
         if (json_object_set_new(json, number->name, json_real(value)) != 0) return false;
     }
     return true;

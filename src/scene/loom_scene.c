@@ -5,6 +5,7 @@
 
 #include "base/fail.h"
 #include "base/pi.h"
+#include "scene/camera.h"
 #include "scene/lattice.h"
 
 /* Cloths first: each is named as its preset is behind "woven-". */
@@ -115,28 +116,16 @@ static void materials_make(Material *m) {
     m[SOFTBOX].inputs[INPUT_emission_strength].value[0] = 34.0f;
 }
 
-static Camera camera_at(const char *name, Vec3 eye, Vec3 target, float yfov) {
-    const Vec3 forward = vec3_normal_or(vec3_sub(target, eye), (Vec3){0.0f, 0.0f, -1.0f}),
-               right =
-                   vec3_normal_or(vec3_cross(forward, (Vec3){0.0f, 1.0f, 0.0f}), (Vec3){1.0f, 0.0f, 0.0f});
-    return (Camera){.name = name,
-                    .eye = eye,
-                    .right = right,
-                    .up = vec3_cross(right, forward),
-                    .forward = forward,
-                    .yfov = yfov};
-}
-
 /* Looks at the denim, so that so many of its 2,600 threads a metre lie in a picture of 4 by 3. */
 static Camera camera_over(const char *name, float threads, float distance) {
     const Vec3 target = {0.012f, 0.3f, 0.03f};
     const float height = 0.75f * threads / 2600.0f;
-    return camera_at(name, (Vec3){target.x, target.y + 0.15f * distance, target.z + distance}, target,
-                     2.0f * atanf(0.5f * height / distance));
+    return camera_towards(name, (Vec3){target.x, target.y + 0.15f * distance, target.z + distance}, target,
+                          2.0f * atanf(0.5f * height / distance));
 }
 
 static void cameras_make(Camera *c) {
-    c[0] = camera_at("main", (Vec3){0.0f, 1.0f, 1.3f}, (Vec3){0.0f, 0.2f, 0.2f}, 0.54f);
+    c[0] = camera_towards("main", (Vec3){0.0f, 1.0f, 1.3f}, (Vec3){0.0f, 0.2f, 0.2f}, 0.54f);
     c[1] = camera_over("far", 5000.0f, 3.5f);
     c[2] = camera_over("near", 500.0f, 0.6f);
     c[3] = camera_over("close", 50.0f, 0.25f);

@@ -220,11 +220,14 @@ FN float weave_albedo(const Weave *m, WeavePoint p, int channel) {
     return a / max(a + (1.0f - a) * max(p.dye, 0.1f), 1e-6f);
 }
 
+/* The part of light that does not reach the lowest places. */
+#define WEAVE_SHADE 0.7f
+
 /* The light that reaches a point of that depth between threads, in parts of what reaches their crowns; and in
  * parts of the mean, so that crevices take from no cloth as a whole. */
 FN float weave_depth(const Weave *m, WeavePoint p) {
     float depth = clamp((m->high - p.height) / max(m->high - m->low, 1e-6f), 0.0f, 1.0f);
-    return 1.0f - 0.7f * depth * depth;
+    return 1.0f - WEAVE_SHADE * depth * depth;
 }
 FN float weave_open(const Weave *m, WeavePoint p) { return weave_depth(m, p) / m->openness; }
 

@@ -54,7 +54,7 @@ typedef struct Chunk {
     Row position[3], lifted[3], origin[3];                         /* origin: where rays start that leave */
     Row behind[3];                     /* the same on the far side, if the material transmits */
     Row geometric[3], normal[3], side; /* on the viewer's side; side: 1 or -1, the triangle's */
-    Row facing[3];                     /* the normal below whose plane no light counts, likewise */
+    Row *facing;                       /* of both, the normal below whose plane no light counts */
     Row frame[3][3];                   /* x, y, z of it */
     KindVertices vertices;
     LightRows light[LIGHT_GROUPS];

@@ -43,12 +43,13 @@ void chunk_add_emission(Chunk *c, const ChunkSource *from, Light4 *light) {
 LOOP(weigh_n, (Chunk *restrict c, LightGroup group, bool mis, int n), (c, group, mis, n)) {
     const LightRows *light = &c->light[group];
     float(*f)[ROW_ROOM] = c->vertices.f[group], *pdf = c->vertices.pdf[group], *z = c->vertices.i[group][2];
+    Row *facing = c->facing;
     float both = mis ? 1.0f : 0.0f;
     EACH(k, (size_t)n) {
         float own = light->pdf[k], lobe = pdf[k], safe = own > 0.0f ? own : 1.0f;
         float worth = 1.0f / (safe + both * lobe * (lobe / safe)); /* weight / own */
-        float up = light->wi[0][k] * c->facing[0][k] + light->wi[1][k] * c->facing[1][k] +
-                   light->wi[2][k] * c->facing[2][k];
+        float up =
+            light->wi[0][k] * facing[0][k] + light->wi[1][k] * facing[1][k] + light->wi[2][k] * facing[2][k];
         float r = f[0][k] * light->radiance[0][k], g = f[1][k] * light->radiance[1][k],
               b = f[2][k] * light->radiance[2][k];
         bool live = (own > 0.0f) & (up * z[k] > 0.0f) & (r + g + b > 0.0f);

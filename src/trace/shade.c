@@ -159,13 +159,14 @@ void chunk_shade(Chunk *c, const ChunkSource *from) {
 LOOP(weigh_paths_n, (Chunk *restrict c, bool roulette, uint32_t place, int n), (c, roulette, place, n)) {
     KindVertices *v = &c->vertices;
     float(*i)[ROW_ROOM] = v->i[KIND_DRAWN], (*f)[ROW_ROOM] = v->f[KIND_DRAWN], *pdf = v->pdf[KIND_DRAWN];
+    Row *facing = c->facing;
     float surely = roulette ? 0.0f : 1.0f;
     EACH(k, (size_t)n) {
         float x = i[0][k], y = i[1][k], z = i[2][k], p = pdf[k];
         float wx = x * c->frame[0][0][k] + y * c->frame[1][0][k] + z * c->frame[2][0][k];
         float wy = x * c->frame[0][1][k] + y * c->frame[1][1][k] + z * c->frame[2][1][k];
         float wz = x * c->frame[0][2][k] + y * c->frame[1][2][k] + z * c->frame[2][2][k];
-        float up = wx * c->facing[0][k] + wy * c->facing[1][k] + wz * c->facing[2][k];
+        float up = wx * facing[0][k] + wy * facing[1][k] + wz * facing[2][k];
         float worth = 1.0f / (p > 0.0f ? p : 1.0f);
         float r = c->throughput[0][k] * f[0][k] * worth, g = c->throughput[1][k] * f[1][k] * worth,
               b = c->throughput[2][k] * f[2][k] * worth, most = max(r, max(g, b));

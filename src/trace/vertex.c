@@ -80,7 +80,8 @@ FN Dir raise(Dir p, Dir corner, Dir n, float weight) {
 
 /* Returns the mean of p's projections onto the tangent planes of the corners, outward only, on the side of the triangle
  * that `side` times its normals are on: near the smooth surface that these describe. Rays that leave from there meet no
- * shadow of the triangles' own edges. share: 1, or 0 to leave p as it is. Johannes Hanika, "Hacking the Shadow Terminator", Ray Tracing Gems II, 2021. */
+ * shadow of the triangles' own edges. share: 1, or 0 to leave p as it is. Johannes Hanika, "Hacking the Shadow
+ * Terminator", Ray Tracing Gems II, 2021. */
 FN Dir lift(const Chunk *c, size_t k, Dir p, float side, float share) {
     float u = c->u[k] * share, v = c->v[k] * share, w = (1.0f - c->u[k] - c->v[k]) * share;
     Dir a = raise(p, ROW_DIR(c->corner[0], k), dir_scale(ROW_DIR(c->corner_normal[0], k), side), w);
@@ -116,7 +117,6 @@ LOOP(place_n, (Chunk *restrict c, float share, int n), (c, share, n)) {
         Dir normal = dir_normal_or(blend(na, nb, nd, u, v), geometric);
         normal = dir_choose(dir_dot(normal, geometric) > 0.0f, normal, geometric); /* else damaged */
         put3(c->normal, k, normal);
-        put3(c->facing, k, dir_choose(share > 0.0f, normal, geometric));
         put3(c->position, k, p);
         put3(c->lifted, k, lifted);
         put_start(c->origin, k, lifted, geometric);
@@ -136,6 +136,7 @@ void chunk_place(Chunk *c, const ChunkSource *from) {
     float share = from->context->lift ? 1.0f : 0.0f;
     take_paths(c, from, n);
     take_corners(c, from->context->scene, n);
+    c->facing = from->context->lift ? c->normal : c->geometric;
     place_n(c, share, n);
     if (from->context->materials[from->material].transmits) place_behind_n(c, share, n);
     stage_end(c->clock, STAGE_PLACE);

@@ -591,11 +591,18 @@ bool ui_color(const char *label, const float initial[3], float color[3]) {
     return swatch || typed;
 }
 
+static ImVec4 shown_of(const float color[3]) {
+    return ImVec4(encoded(color[0]), encoded(color[1]), encoded(color[2]), 1.0f);
+}
+
+float ui_linear(float shown) { return decoded(shown); }
+unsigned ui_shown(const float color[3]) { return ImGui::ColorConvertFloat4ToU32(shown_of(color)); }
+
 bool ui_swatch(const char *label, const float color[3]) {
     float side = 1.1f * ImGui::GetFontSize();
-    ImVec4 shown(encoded(color[0]), encoded(color[1]), encoded(color[2]), 1.0f);
-    bool pressed = ImGui::ColorButton(
-        label, shown, ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoDragDrop, at(side, side));
+    bool pressed =
+        ImGui::ColorButton(label, shown_of(color),
+                           ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoDragDrop, at(side, side));
     note(label);
     return pressed;
 }

@@ -158,6 +158,9 @@ bool ui_slider_int(const char *label, int low, int high, int *value);
 bool ui_numbers(const char *label, float step, float *values, int count);
 /* Linear Rec. 709, shown as sRGB; values beyond 1 stay. */
 bool ui_color(const char *label, const float initial[3], float color[3]);
+/* A part of sRGB as it is linear; and a linear colour as what draws takes it, clamped. */
+float ui_linear(float shown);
+unsigned ui_shown(const float color[3]);
 /* A small square of that colour, linear; true where it was clicked. */
 bool ui_swatch(const char *label, const float color[3]);
 bool ui_input(const char *label, char *text, int size);

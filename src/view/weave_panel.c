@@ -29,7 +29,7 @@ static bool crossing_color(const WeftDraft *draft, int warp, int pick, float col
     const bool up = weft_draft_warp_up(draft, warp, pick) != 0;
     const WeftThread thread = weft_draft_thread(draft, up ? WEFT_WARP : WEFT_WEFT, up ? warp : pick);
     for (int c = 0; c < 3; c++) {
-        const float linear = powf(thread.color[c], 2.2f);
+        const float linear = ui_linear(thread.color[c]);
         color[c] = up ? 0.7f * linear : 0.65f * linear + 0.35f;
     }
     return up;
@@ -51,10 +51,6 @@ static void draw_crossings(Viewer *v, const WeftDraft *draft, int warps, int pic
         }
 }
 
-static unsigned byte_of(float linear) {
-    return (unsigned)(255.0f * powf(fminf(fmaxf(linear, 0.0f), 1.0f), 1.0f / 2.2f));
-}
-
 /* All of a repeat that is too large to be clicked. */
 static void draw_picture(const WeftDraft *draft, int warps, int picks) {
     const float room = ui_room(), side = room / (float)warps;
@@ -66,7 +62,7 @@ static void draw_picture(const WeftDraft *draft, int warps, int picks) {
             float c[3];
             crossing_color(draft, warp, pick, c);
             ui_fill((UiBox){box.x + side * (float)warp, box.y + side * (float)(picks - 1 - pick), side, side},
-                    0xff000000u | byte_of(c[2]) << 16 | byte_of(c[1]) << 8 | byte_of(c[0]));
+                    ui_shown(c));
         }
 }
 

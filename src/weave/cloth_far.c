@@ -75,14 +75,14 @@ static void see(Weave *m, SystemSeen seen[2]) {
     if (m->low > m->high) m->low = m->high = 0.0f;
 }
 
-/* The mean of weave_depth, 1 - 0.7 ((high - z) / (high - low))^2, from the sums of z and z^2. */
+/* The mean of weave_depth, 1 - WEAVE_SHADE ((high - z) / (high - low))^2, from the sums of z and z^2. */
 static float open_mean(const Weave *m, const SystemSeen seen[2]) {
     const double count = (double)(seen[0].count + seen[1].count), high = (double)m->high;
     const double range = fmax(high - (double)m->low, 1e-6);
     if (count < 1.0) return 1.0f;
     const double z = (seen[0].height + seen[1].height) / count,
                  z2 = (seen[0].square + seen[1].square) / count;
-    return (float)(1.0 - 0.7 * (high * high - 2.0 * high * z + z2) / (range * range));
+    return (float)(1.0 - (double)WEAVE_SHADE * (high * high - 2.0 * high * z + z2) / (range * range));
 }
 
 /* Streaks turn fibres by 0.35 streaks times noise whose variance is 0.18 (weave_finish), and so widen D. */

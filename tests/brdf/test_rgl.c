@@ -252,7 +252,7 @@ static void evaluation_is_the_formula(void **state) {
     tables_are_as_by_hand(&quarter, 4);
 }
 
-/* Where parts of the circle meet, at y = 0, f and pdf are as beside. */
+/* f and pdf are as beside where parts of the circle meet, at y = 0. */
 static void seams_do_not_show(void **state) {
     (void)state;
     const struct {

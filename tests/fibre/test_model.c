@@ -186,7 +186,7 @@ static ClaimSample claim_sample(const Claim *claim, uint32_t k, double walks) {
     return (ClaimSample){(double)e[0], back.mean, back.error};
 }
 
-/* What is claimed holds at random materials against light walking among fibres, which no fit saw. */
+/* The claims hold at random materials, which no fit saw, against light walking among fibres. */
 static void claims_hold_against_random_walks(void **state) {
     (void)state;
     const uint32_t samples = getenv("WEFT_TEST_LONG") ? 200 : getenv("WEFT_TEST_SHORT") ? 4 : 24;

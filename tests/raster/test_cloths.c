@@ -281,7 +281,7 @@ static void pixels_vary_as_those_of_many_points_do(void **state) {
     }
 }
 
-/* What a floor shows below a loose cloth that the sun shines on from above. */
+/* Returns the light of a floor below a loose cloth that the sun shines on from above. */
 static double floor_below(const char *alpha_mode, int no_shadows) {
     WeftScene *scene = test_scene();
     WeftRaster *raster = NULL;

@@ -5,6 +5,7 @@
 #include "shading/cases.h"
 
 #include "raster/gl.h"
+#include "raster/sheens.h"
 #include "weft/weft.h"
 
 enum { WIDTH = 128, HEIGHT = 96, SAMPLES = 32 };
@@ -65,26 +66,13 @@ static double drawn(WeftRaster *raster) {
     return sum_of(&image);
 }
 
-/* Gives that lobe to the materials that have a sheen. Others, as the floor, would shine by the lobe's second colour. */
-static void set_lobe(WeftScene *scene, const char *id) {
-    WeftMaterial material;
-    const int color = weft_material_input_find("sheen_color");
-    for (int k = 0; weft_scene_material(scene, k, &material, NULL) == WEFT_OK; k++) {
-        const float *c = material.inputs[color].value;
-        char target[64];
-        snprintf(target, sizeof target, "%d.sheen_lobe", k);
-        if (c[0] + c[1] + c[2] > 0.0f)
-            assert_int_equal(weft_scene_set(scene, target, id, NULL, NULL), WEFT_OK);
-    }
-}
-
 /* Returns the largest relative error of a sheen's light. Lobes of yarns are further off. */
 static double bound_of(const char *lobe, double most) {
     return strcmp(lobe, "yarn") == 0 || strcmp(lobe, "woven") == 0 ? 1.5 * most : most;
 }
 
 static bool is_near(WeftScene *scene, WeftRaster *raster, const char *lobe, double most) {
-    set_lobe(scene, lobe);
+    assert_int_equal(sheens_set_lobe(scene, lobe, NULL), WEFT_OK);
     double off = drawn(raster) / traced(scene) - 1.0;
     print_message("%s: %.1f %%\n", lobe, 100.0 * off);
     return off > -most && off < most;

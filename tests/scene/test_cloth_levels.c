@@ -157,7 +157,7 @@ static void a_cloth_is_as_bright_at_every_distance(void **state) {
     }
 }
 
-/* What both systems from afar reflect of a pair of directions, were all fibres white. */
+/* Returns f of both systems from afar between two directions, with all fibres white. */
 static float white_of(const WovenPrepared p[2], Dir o, Dir i) {
     float sum = 0.0f;
     for (int t = 0; t < 2; t++) {

@@ -89,6 +89,21 @@ static inline Mesh *test_sphere(WeftScene *scene, Vec3 centre, float radius) {
     return test_ball(scene, centre, radius, 96);
 }
 
+/* A matt ball of so many rings under a sun from the side, in light that is as bright all around. */
+static inline WeftScene *test_grazed_ball(uint32_t rings, float base_color, float radiance) {
+    WeftScene *scene = test_scene();
+    test_environment(scene, radiance);
+    test_material(scene, base_color);
+    test_ball(scene, vec3(0, 0, 0), 1.0f, rings);
+    scene->lights[scene->light_count++] = (Light){.name = "sun",
+                                                  .kind = LIGHT_DIRECTIONAL,
+                                                  .direction = {0.995f, -0.1f, 0},
+                                                  .color = {1, 1, 1},
+                                                  .intensity = PI_FLOAT};
+    scene_bounds(scene);
+    return scene;
+}
+
 /* Renders and checks that nothing went wrong; release with weft_image_free. */
 static inline WeftImage test_render(const WeftScene *scene, WeftRenderDesc desc, int spp) {
     WeftRender *r = NULL;

@@ -302,18 +302,8 @@ static void smooth_ball_does_not_shadow_itself(void **state) {
     }
 }
 
-/* A matt ball of so many rings under a sun from the side. */
 static WeftImage grazed_ball(uint32_t rings, int no_lift) {
-    WeftScene *scene = test_scene();
-    test_environment(scene, 0.0f);
-    test_material(scene, 1.0f);
-    test_ball(scene, vec3(0, 0, 0), 1.0f, rings);
-    scene->lights[scene->light_count++] = (Light){.name = "sun",
-                                                  .kind = LIGHT_DIRECTIONAL,
-                                                  .direction = {0.995f, -0.1f, 0},
-                                                  .color = {1, 1, 1},
-                                                  .intensity = PI_FLOAT};
-    scene_bounds(scene);
+    WeftScene *scene = test_grazed_ball(rings, 1.0f, 0.0f);
     WeftImage image = test_render(scene,
                                   (WeftRenderDesc){.width = 64,
                                                    .height = 64,

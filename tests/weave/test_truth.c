@@ -17,7 +17,7 @@
 
 enum { FINE = 6 }; /* directions along a bin's side */
 
-/* What was walked: through the cloth, the noise, and what goes up. */
+/* Results of walks: light through the cloth, the noise, and light that goes up. */
 typedef struct Walked {
     double through, apart, up[BINS];
 } Walked;
@@ -100,7 +100,7 @@ static double layer_mean(const WeftCloth *cloth, int layer) {
     return (double)top[4 * layer];
 }
 
-/* As the cloth is drawn from afar. */
+/* The lobes are those of the cloth drawn from afar. */
 static Lit lit_cloth(const WeftCloth *cloth, int kind) {
     Lit lit;
     for (int t = 0; t < 2; t++) {
@@ -136,7 +136,7 @@ static WeftCloth *cloth_of(const YarnCase *yarn, int kind) {
     return cloth;
 }
 
-/* How far off a case is in each kind of light, and how bright it is, in parts of the truth. */
+/* Errors of a case in each kind of light, and its brightness, in parts of the truth. */
 typedef struct CaseErrors {
     double off[KINDS_OF_LIGHT], bright[KINDS_OF_LIGHT];
 } CaseErrors;
