@@ -3,7 +3,13 @@
 the first path-traced pixels, processor time while nothing happens, memory. On a display of its own (Xvfb) where there is one, else without.
 
   bench/view.py [PROGRAM]
+
+With --switches N it only switches terms, profiles and presets of the cloth N times, some minutes for 200, and prints
+the memory that is resident meanwhile.
+
+  bench/view.py --switches 200 [PROGRAM]
 """
+import argparse
 import json
 import os
 import shutil
@@ -12,7 +18,11 @@ import sys
 import tempfile
 import time
 
-program = sys.argv[1] if len(sys.argv) > 1 else "build/release/weft"
+parser = argparse.ArgumentParser()
+parser.add_argument("--switches", type=int, metavar="N")
+parser.add_argument("program", nargs="?", default="build/release/weft")
+arguments = parser.parse_args()
+program = arguments.program
 scene = [program, "view", "builtin:cloth", "--set", "Softbox.emission=0", "--env", "0,0,0", "--light",
          "sun;-1,-2,-1;3,3,3", "--forget", "--json", "--width", "1280", "--height", "720"]
 FRAMES = 90
@@ -43,7 +53,7 @@ def replay(lines, environment, unseen, scene=scene):
         file.write("\n".join(lines) + "\n")
         file.flush()
         command = scene + ["--script", file.name] + (["--windowless"] if unseen else [])
-        out = subprocess.run(command, env=environment, stdout=subprocess.PIPE, check=True, timeout=900).stdout
+        out = subprocess.run(command, env=environment, stdout=subprocess.PIPE, check=True, timeout=7200).stdout
     return [json.loads(line) for line in out.splitlines()]
 
 
@@ -84,9 +94,42 @@ def first_pixels(environment, unseen):
     return min(times)
 
 
+def switches(count):
+    """Lines of a script: every value of each choice of terms and models, each followed by auto, and every preset, dealt
+    in turn so that one of each kind comes early; from the start again where that is not enough. Each is drawn whole."""
+    models = json.loads(subprocess.run([program, "models", "--json"], stdout=subprocess.PIPE, check=True).stdout)
+    decks = [[("Material/" + choice["id"].replace("_", " "), value) for value in choice["values"][1:]]
+             for choice in models["choices"]]
+    decks.append([("Material/preset", preset["id"]) for preset in models["presets"]])
+    lines, done = ["wait rest", 'click "Material/Models"', "wait rest"], 0
+    while done < count:
+        for turn in range(max(map(len, decks))):
+            for deck in decks:
+                if done >= count:
+                    return lines
+                control, value = deck[turn % len(deck)]
+                lines += [f'choose "{control}" {value}', "wait rest"]
+                done += 1
+                if control != "Material/preset" and done < count:
+                    lines += [f'choose "{control}" auto', "wait rest"]
+                    done += 1
+    return lines
+
+
+def print_switches(environment, unseen):
+    plain = scene[:3] + scene[scene.index("--forget"):]
+    reports = replay(switches(arguments.switches), environment, unseen, plain)
+    memory = [r["resident_mib"] for r in reports]
+    print(f"{arguments.switches} switches of terms, profiles and presets: {max(memory):.0f} MiB resident at most, "
+          f"{memory[-1]:.0f} at the end, {memory[0]:.0f} at the start")
+
+
 server, environment = display()
 unseen = server is None
 try:
+    if arguments.switches:
+        print_switches(environment, unseen)
+        sys.exit()
     reports = replay(script, environment, unseen)
     orbits = max(zip(reports, reports[1:]), key=lambda pair: pair[1]["frame"] - pair[0]["frame"])
     frames, seconds = orbits[1]["frame"] - orbits[0]["frame"], orbits[1]["clock"] - orbits[0]["clock"]

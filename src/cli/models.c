@@ -161,12 +161,13 @@ static void json_lobe(Json *json, const WeftLobeInfo *info) {
     json_close(json, ']');
 }
 
-/* The ids that a choice may take. */
+/* The ids that a choice may take, not those that `--set` would refuse. */
 static void json_values(Json *json, int choice) {
     json_open(json, "values", '[');
     json_text(json, NULL, "auto");
     for (int k = 0; weft_material_choice_value(choice, k); k++)
-        json_text(json, NULL, weft_material_choice_value(choice, k));
+        if (weft_material_choice_fits(choice, k))
+            json_text(json, NULL, weft_material_choice_value(choice, k));
     json_close(json, ']');
 }
 
@@ -225,7 +226,8 @@ static void print_one(const Kind *kind, int k) {
     if (strcmp(kind->id, "preset") == 0) printf("\n%s", weft_preset_text(k));
     if (entry_chart(kind, k)) layout_entry(stdout, COLUMN, "source", entry_chart(kind, k)->source);
     for (int v = 0; entry_choice(kind, k) >= 0 && weft_material_choice_value(k, v); v++)
-        layout_entry(stdout, COLUMN, v ? "" : "may be auto or", weft_material_choice_value(k, v));
+        if (weft_material_choice_fits(k, v))
+            layout_entry(stdout, COLUMN, v ? "" : "may be auto or", weft_material_choice_value(k, v));
     free(page);
 }
 

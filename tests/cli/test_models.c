@@ -41,6 +41,32 @@ static void json_names_every_model(void **state) {
     ran_free(&ran);
 }
 
+static bool is_among(const json_t *list, const char *id) {
+    for (size_t k = 0; k < json_array_size(list); k++)
+        if (strcmp(json_string_value(json_array_get(list, k)), id) == 0) return true;
+    return false;
+}
+
+static void values_of_a_choice_are_those_that_set_takes(void **state) {
+    (void)state;
+    Ran ran = RUN("models", "--json");
+    json_t *all = parsed(ran.out), *choices = json_object_get(all, "choices");
+    for (int c = 0; weft_material_choice_name(c); c++) {
+        const json_t *values = json_object_get(json_array_get(choices, (size_t)c), "values");
+        for (int k = 0; weft_material_choice_value(c, k); k++) {
+            const char *id = weft_material_choice_value(c, k);
+            if (is_among(values, id) != (weft_material_choice_fits(c, k) != 0))
+                fail_msg("%s %s", weft_material_choice_name(c), id);
+        }
+    }
+    json_decref(all);
+    ran_free(&ran);
+    ran = RUN("models", "choice:diffuse");
+    assert_non_null(strstr(ran.out, "oren-nayar"));
+    assert_null(strstr(ran.out, "burley-sheen"));
+    ran_free(&ran);
+}
+
 /* Every number of every parameter table comes through as the same float. */
 static void json_has_every_number_of_the_parameter_tables(void **state) {
     (void)state;
@@ -186,6 +212,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(text_names_every_model),
         cmocka_unit_test(json_names_every_model),
+        cmocka_unit_test(values_of_a_choice_are_those_that_set_takes),
         cmocka_unit_test(json_has_every_number_of_the_parameter_tables),
         cmocka_unit_test(every_listed_id_has_a_page),
         cmocka_unit_test(id_of_several_catalogues_prints_all_pages),
