@@ -59,7 +59,9 @@ struct WeftRaster {
     Queue queue;
     Camera camera; /* of the last picture */
     double compile_seconds;
-    FolderWatch watch; /* of the shader_dir */
+    int settled;           /* programs compiled before, for which the driver's own work is done */
+    uint64_t settled_with; /* bit k: with k samples a pixel */
+    FolderWatch watch;     /* of the shader_dir */
 };
 
 typedef struct Watched {
@@ -679,6 +681,16 @@ static WeftResult draw_mirror(WeftRaster *self, const View *seen, const WeftRast
     return result;
 }
 
+/* Drivers compile once more when they first draw with a program, for each number of samples, and have most of what that
+ * takes to spare. */
+static void return_spare(WeftRaster *self) {
+    const uint64_t samples = (uint64_t)1 << (self->target.samples & 63);
+    if (self->programs.compiled != self->settled) self->settled_with = 0;
+    if (!(self->settled_with & samples)) memory_return();
+    self->settled = self->programs.compiled;
+    self->settled_with |= samples;
+}
+
 WeftResult weft_raster_draw(WeftRaster *self, const WeftRasterView *wanted, WeftError *error) {
     WeftRasterView view = *wanted;
     GlOuter outer;
@@ -691,7 +703,6 @@ WeftResult weft_raster_draw(WeftRaster *self, const WeftRasterView *wanted, Weft
     View seen = view_of(&self->camera, aspect);
     result = enter(self, &outer, error);
     if (result != WEFT_OK) return result;
-    int compiled = self->programs.compiled;
     set_state(self);
     result = find_floor(self, &seen, &view, error);
     if (result == WEFT_OK) result = prepare(self, &view, error);
@@ -710,8 +721,7 @@ WeftResult weft_raster_draw(WeftRaster *self, const WeftRasterView *wanted, Weft
         glDisable(GL_SCISSOR_TEST);
         target_resolve(&self->target, box);
     }
-    /* drivers compile once more when they first draw, and have most of what that takes to spare */
-    if (self->programs.compiled != compiled) memory_return();
+    return_spare(self);
     context_leave(self->context, &outer);
     return result;
 }

@@ -36,6 +36,7 @@ struct ReferenceView {
     unsigned drawn_number;
     bool current; /* `render` is of the scene and of `drawn` */
     bool finer;   /* the render has all of its pixels */
+    bool spare;   /* and was in the place of a picture that is now there */
     double samples;
     WeftImage denoised; /* of the render when it had so many samples */
     double denoised_samples;
@@ -206,6 +207,27 @@ static bool has_work(const ReferenceView *self) {
            (self->current && self->samples < (double)self->request.samples);
 }
 
+/* Returns true if the samples are of no use any more. */
+static bool is_spare(const ReferenceView *self) {
+    return self->spare && !is_wanted(self) && self->scene && !self->held && !self->waiting;
+}
+
+/* Lets the samples of all pixels go, which take some fifty bytes a pixel, and keeps the tree of the scene. The lock is
+ * held before and after, not during. */
+static void let_go(ReferenceView *self) {
+    ReferenceRequest least = self->asked;
+    const WeftScene *scene = self->scene;
+    least.desc.width = least.desc.height = 1;
+    self->running = true;
+    self->spare = false;
+    pthread_mutex_unlock(&self->lock);
+    if (self->render) begin(self, &least, scene, 0, false);
+    pthread_mutex_lock(&self->lock);
+    self->current = false;
+    self->running = false;
+    pthread_cond_broadcast(&self->change);
+}
+
 /* A new view has fewer pixels at first, so that it is there at once, and all of them from the next picture on. While
  * programs compile there is little of the processors: then until there are as many samples as those pixels stand
  * for. */
@@ -230,6 +252,7 @@ static void round_of_work(ReferenceView *self) {
     self->changed = 0;
     self->other = false;
     self->drawn_number = self->number;
+    self->spare = number_for != 0;
     if (self->reference.pixels) {
         weft_image_free(&self->compared);
         self->compared = self->reference;
@@ -263,6 +286,8 @@ static void *work(void *user) {
     while (!self->quit)
         if (has_work(self))
             round_of_work(self);
+        else if (is_spare(self))
+            let_go(self);
         else
             pthread_cond_wait(&self->change, &self->lock);
     pthread_mutex_unlock(&self->lock);
@@ -387,7 +412,7 @@ bool reference_image(ReferenceView *self, WeftImage *out) {
 
 bool reference_is_idle(ReferenceView *self) {
     pthread_mutex_lock(&self->lock);
-    bool resting = !self->running && !has_work(self);
+    bool resting = !self->running && !has_work(self) && !is_spare(self);
     pthread_mutex_unlock(&self->lock);
     return resting;
 }
