@@ -112,8 +112,9 @@ typedef struct WeftYarn {
     float width;             /* of a thread, in parts of the draft's; below 1 there are gaps */
     float bulge;             /* how much wider the middle of a long float is */
     float floats;            /* how level it lies: the power of its slope is 1 + floats (crossings - 1) */
-    float streaks;           /* of fibres: how far they turn and rise */
+    float streaks;           /* slope at the edges of a fibre; it also turns, and takes more or less dye */
     float dye, slub, wander; /* how far colour, thickness and place vary */
+    float hairiness;         /* of loose fibres on the cloth: 1 is one for each crossing, about */
 } WeftYarn;
 
 /* The yarns that have a name, NULL past the end, and what each is. */

@@ -21,9 +21,9 @@ typedef struct CloseUp {
 static const Dir light = {-0.579f, 0.579f, 0.574f};
 
 /* Adds what one point of the cloth reflects towards the viewer above it. */
-static void add_point(const Weave *m, float x, float y, float sum[3]) {
+static void add_point(const Weave *m, float x, float y, float spacing, float sum[3]) {
     const Dir o = {0.0f, 0.0f, 1.0f};
-    const WeavePoint point = weave_point(m, x, y);
+    const WeavePoint point = weave_point(m, x, y, spacing);
     YarnPrepared yarn;
     YarnView view;
     if (point.height <= WEAVE_NONE) return;
@@ -48,7 +48,8 @@ static void draw_row(void *user, int row, int thread) {
             const int a = k % FINE, b = k / FINE; /* sheared: rows of points would beat with threads */
             const float x = (float)column + ((float)a + ((float)b + 0.5f) / FINE) / FINE;
             const float y = (float)(side - 1 - row) + ((float)b + ((float)a + 0.5f) / FINE) / FINE;
-            add_point(&d->cloth->weave, x * d->step_x, y * d->step_y, sum);
+            add_point(&d->cloth->weave, x * d->step_x, y * d->step_y, fmaxf(d->step_x, d->step_y) / FINE,
+                      sum);
         }
         for (int c = 0; c < 3; c++)
             to[3 * column + c] =

@@ -96,8 +96,9 @@ void cloth_numbers(const WeftCloth *cloth, float numbers[CLOTH_NUMBERS]) {
                           (float)cloth->far.height,
                           cloth->per_uv[WEFT_WARP],
                           cloth->per_uv[WEFT_WEFT]};
-    _Static_assert(2 * sizeof(WeaveYarn) + 2 * sizeof(WeaveFar) + sizeof rest ==
-                       CLOTH_NUMBERS * sizeof(float),
+    _Static_assert((2 * sizeof(WeaveYarn) + 2 * sizeof(WeaveFar) + sizeof rest + 3 * sizeof(float)) /
+                           (4 * sizeof(float)) ==
+                       CLOTH_NUMBERS / 4,
                    "all of them");
     memcpy(numbers, &m->warp, sizeof m->warp), numbers += sizeof m->warp / sizeof(float);
     memcpy(numbers, &m->weft, sizeof m->weft), numbers += sizeof m->weft / sizeof(float);

@@ -3,8 +3,9 @@
 #include <math.h>
 
 /* The samples of a pixel average points and crossings, without an error: so the mean takes their place from two threads
- * a pixel on, completely at four, and its colours are those of a quarter of the pixel. */
-enum { LATER = 2, FINER = 4 };
+ * a pixel on, completely at four, and its colours are those of a quarter of the pixel. Fibres half as wide as a pixel are
+ * seen. */
+enum { LATER = 2, FINER = 4, POINTS = 2 };
 
 /* Rows of picks run up the cloth, v runs down it. Further out than a million threads there are no fractions. */
 static void place_of(const WeftCloth *cloth, const float uv[2], float *x, float *y) {
@@ -17,7 +18,7 @@ static void place_of(const WeftCloth *cloth, const float uv[2], float *x, float 
 bool cloth_is_gap(const WeftCloth *cloth, const float uv[2]) {
     float x, y;
     place_of(cloth, uv, &x, &y);
-    return weave_point(&cloth->weave, x, y).height <= WEAVE_NONE;
+    return weave_top(&cloth->weave, x, y).height <= WEAVE_NONE;
 }
 
 /* One system from afar, its colours times `scale`. */
@@ -65,6 +66,7 @@ void cloth_base(const WeftCloth *cloth, const ClothLook *look, Stack *stack) {
     const bool far =
         look->level < weave_far_weight((WeaveFootprint){f->x / LATER, f->y / LATER, f->longest / LATER});
     const WeaveBase b =
-        far ? from_afar(cloth, look, x, y) : weave_near(&cloth->weave, weave_point(&cloth->weave, x, y));
+        far ? from_afar(cloth, look, x, y)
+            : weave_near(&cloth->weave, weave_point(&cloth->weave, x, y, f->longest / POINTS));
     stack_put_base(stack, &b.lobe, b.once, b.again);
 }

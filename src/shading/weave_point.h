@@ -7,20 +7,22 @@
  * w. m is the tangent of the steepest angle, q the slope at the thread's edge, k = 1 + floats (l - 1): a long
  * float lies level but for its ends. Own. Of all threads at a place the highest is seen, so that threads
  * whose width, place and height vary still cover each other as threads do.
- *   What varies does so by hashes of the number of the thread, counted on through all repeats: the draft
- * repeats, the cloth does not. A float that counts more than a million threads has no fractions left. */
+ *   Near by a thread is a bundle of fibres along its twist, each with a round back and dark crevices beside it, and
+ * some fibres have come loose and lie across the cloth. What is finer than the distance of the points that are looked at
+ * is left out, and its mean stays.
+ *   A float that counts more than a million threads has no fractions left. */
 #ifndef WEFT_SHADING_WEAVE_POINT_H
 #define WEFT_SHADING_WEAVE_POINT_H
 
-#include "shading/dust.h"
 #include "shading/table.h"
+#include "shading/weave_noise.h"
 
 /* The yarn of one system as it lies in a cloth. Widths are in its own pitch; pitches and heights have a common
  * unit.
  *   alpha, crimp, roundness, twist: as lobe yarn has them; crimp: tangent. white: share of light that one fibre reflects
  * without its dye. pitch, cross_pitch: from thread to thread, of its own system and of the other. width, bulge: of a
- * thread, and how much wider the middle of a float is. streaks, dye, slub, wander: how far slopes, albedo, width and
- * place vary. */
+ * thread, and how much wider the middle of a float is. streaks: slope at the edges of a fibre. dye, slub, wander: how far
+ * albedo, width and place vary. hairiness: part of the places for loose fibres that have one. */
 #define WEAVE_YARN_NUMBERS(N)                                                                                \
     N(alpha)                                                                                                 \
     N(crimp)                                                                                                 \
@@ -30,7 +32,7 @@
     N(pitch)                                                                                                 \
     N(cross_pitch)                                                                                           \
     N(width)                                                                                                 \
-    N(bulge) N(floats) N(streaks) N(dye) N(slub) N(wander)
+    N(bulge) N(floats) N(streaks) N(dye) N(slub) N(wander) N(hairiness)
 
 /* One system from afar: the numbers of the lobe woven that reflects as its visible points do on the mean, and how
  * far their slopes reach across it and along, were they uniform, by which yarns hide each other.
@@ -63,6 +65,7 @@ STRUCT(WeavePoint) {
     float slope_x, slope_y; /* as lobe yarn has them, along the cloth's x and y */
     Dir fibre;              /* along the fibres, unit */
     float dye;              /* factor on the amount of dye */
+    float lit;              /* by the light that falls on the thread, in parts of its mean */
 };
 
 #define WEAVE_NONE (-1e6f)
@@ -72,59 +75,10 @@ STRUCT(WeavePoint) {
 #define weave_texel(t, stride, row, column) table_texel(t, stride, row, column)
 #endif
 
-/* x mod n of a whole number, n > 0. */
-FN float weave_mod(float x, float n) {
-    float m = x - n * floor(x / n);
-    return m >= n ? m - n : m < 0.0f ? m + n : m;
-}
-
-/* A hash of a thread, 0 .. 288, and one of such a hash and a purpose. */
-FN float weave_hash(float thread) {
-    float low = weave_mod(thread, 289.0f), high = weave_mod(floor(thread / 289.0f), 289.0f);
-    return dust_hash(dust_sum(dust_hash(high), low));
-}
-FN float weave_key(float hash, float purpose) { return dust_hash(dust_sum(hash, dust_mod(purpose))); }
-
-/* From -1 to 1: for a key; smooth along t, which comes again after n; smooth over a plane. */
-FN float weave_random(float key) { return dust_hash(key) / 144.0f - 1.0f; }
-FN float weave_course(float key, float t, float n) {
-    float i = floor(t), a = weave_mod(i, n), b = a + 1.0f < n ? a + 1.0f : 0.0f;
-    return mix(weave_random(dust_sum(key, dust_mod(a))), weave_random(dust_sum(key, dust_mod(b))),
-               dust_ease(t - i));
-}
-FN float weave_plane(float key, float t, float n, float u, float m) {
-    float i = floor(u), a = weave_mod(i, m), b = a + 1.0f < m ? a + 1.0f : 0.0f;
-    return mix(weave_course(dust_hash(dust_sum(key, dust_mod(a))), t, n),
-               weave_course(dust_hash(dust_sum(key, dust_mod(b))), t, n), dust_ease(u - i));
-}
-
-/* A frequency in a crossing: about f > 0 times, and a whole number of times in a cycle; and how
- * often in that. Hashes repeat after 289, where there is no cycle. */
-FN float weave_turns(float f, float cycle) {
-    return cycle > 0.0f ? max(floor(f * cycle + 0.5f), 1.0f) : 289.0f;
-}
-FN float weave_pace(float f, float cycle) { return cycle > 0.0f ? weave_turns(f, cycle) / cycle : f; }
-
-/* A slanted lattice moves in a crossing: by about f, and by a multiple of 40 lattice points in a cycle. */
-FN float weave_lean(float f, float cycle) {
-    return cycle > 0.0f ? 40.0f * floor(f * cycle / 40.0f + 0.5f) / cycle : f;
-}
-
 /* The number of a column of runs: column 0 and 1 are of the warp. */
 FN float weave_run(const Weave *m, float warp, float pick, int column) {
     int row = to_int(weave_mod(pick, to_float(m->picks))), at = to_int(weave_mod(warp, to_float(m->warps)));
     return weave_texel(m->runs, 4 * m->warps, row, 4 * at + column);
-}
-
-/* A random course along a thread, of about f turns a crossing. */
-FN float weave_along(float key, float f, float v, float cycle) {
-    float pace = weave_pace(f, cycle);
-    return weave_course(key, pace * v, weave_turns(pace, cycle));
-}
-
-/* The hash of a thread in a cycle of them. */
-FN float weave_hash_of(float thread, float cycle) {
-    return weave_hash(cycle > 0.0f ? weave_mod(thread, cycle) : thread);
 }
 
 /* The thread numbered c of a system at the place u across the system, v along it. */
@@ -137,8 +91,8 @@ FN WeavePoint weave_thread(const Weave *m, WeaveYarn y, bool weft, float c, floa
     float l = max(abs(run), 1.0f), s = ends ? 2.0f * (v - cross + since) / l - 1.0f : 0.0f;
     float up = run < 0.0f ? -1.0f : 1.0f, k = 1.0f + y.floats * (l - 1.0f),
           steep = pow(max(abs(s), 1e-3f), k);
-    float crimp = ends ? y.crimp : 0.0f, begin = cross - since, hash = weave_hash_of(c, side);
-    crimp = crimp * (1.0f + 0.5f * y.wander * weave_along(weave_key(hash, seed + 5.0f), 1.0f, begin, cycle));
+    float crimp = ends ? y.crimp : 0.0f, hash = weave_hash_of(c, side);
+    crimp = crimp * (1.0f + 0.5f * y.wander * weave_along(weave_key(hash, seed + 5.0f), 1.0f, v, cycle));
     float aside = 0.12f * y.wander * weave_along(weave_key(hash, seed + 1.0f), 0.21f, v, cycle);
     float thick = 1.0f + y.slub * (0.35f * weave_along(weave_key(hash, seed + 2.0f), 0.06f, v, cycle) +
                                    0.12f * weave_along(weave_key(hash, seed + 3.0f), 0.9f, v, cycle));
@@ -158,6 +112,7 @@ FN WeavePoint weave_thread(const Weave *m, WeaveYarn y, bool weft, float c, floa
     p.slope_y = up * crimp * (s < 0.0f ? -steep : steep);
     p.fibre = dir(0.0f, 1.0f, 0.0f);
     p.dye = 1.0f;
+    p.lit = 1.0f;
     return p;
 }
 
@@ -165,50 +120,126 @@ FN void weave_higher(WeavePoint *best, WeavePoint p) {
     if (p.height > best->height) *best = p;
 }
 
-/* Adds streaks along the twist, and how the dye took. Then turns the point from the thread's frame, along y, to
- * the cloth's. */
-FN void weave_finish(const Weave *m, WeaveYarn y, float u, float v, WeavePoint *p) {
+/* Fibres side by side in a thread; half the width of a loose one, in threads. */
+#define WEAVE_FIBRES      20.0f
+#define WEAVE_HAIR_RADIUS 0.018f
+
+/* Slopes and crevices of fibres fade as the spacing of points grows, in threads. The width of loose fibres fades later,
+ * since their colours tell them from what is below. */
+FN float weave_fineness(float spacing) { return clamp(1.5f - 30.0f * spacing, 0.0f, 1.0f); }
+FN float weave_hair_radius(float spacing) {
+    return WEAVE_HAIR_RADIUS * clamp(1.6f - 6.0f * spacing, 0.0f, 1.0f);
+}
+
+/* Adds fibres along the twist, and how the dye took. Then turns the point from the thread's frame, along y, to
+ * the cloth's. Crevices between fibres, 1 - a f^4 where f goes from -1 to 1 across a fibre, take no light on the mean. */
+FN void weave_finish(const Weave *m, WeaveYarn y, float u, float v, float spacing, WeavePoint *p) {
     float seed = m->seed + (p->weft ? 97.0f : 0.0f), side = p->weft ? m->cycle_y : m->cycle_x;
     float cycle = p->weft ? m->cycle_x : m->cycle_y, hash = weave_hash_of(p->thread, side);
     float key = weave_key(hash, seed + 7.0f);
     float twist = p->weft ? -y.twist : y.twist; /* across and along are x and y, mirrored */
     float c = cos(twist) / y.width, s = sin(twist) / y.width, x = u - p->thread;
-    float fine = weave_lean(14.0f * s, cycle), wide = weave_lean(9.0f * s, cycle);
-    float on = weave_pace(1.3f * c, cycle), slant = cycle > 0.0f ? 40.0f : 289.0f,
-          turns = weave_turns(1.3f * c, cycle);
-    float grain = weave_plane(key, 14.0f * c * x + fine * v, slant, on * v - 1.3f * s * x, turns);
-    float waver =
-        weave_plane(dust_sum(key, 31.0f), 9.0f * c * x + wide * v, slant, on * v - 1.3f * s * x, turns);
+    float on = weave_pace(1.3f * c, cycle), turns = weave_turns(1.3f * c, cycle), t = on * v - 1.3f * s * x;
+    float waver = weave_plane(weave_key(key, 31.0f), 3.0f * c * x + weave_lean(3.0f * s, 8.0f, cycle) * v,
+                              8.0f, t, turns);
+    float fibre = WEAVE_FIBRES * c * x + weave_lean(WEAVE_FIBRES * s, 40.0f, cycle) * v + 2.0f * waver;
+    float number = floor(fibre), f = 2.0f * (fibre - number) - 1.0f,
+          streaks = y.streaks * weave_fineness(spacing);
+    float own = weave_course(weave_key(weave_mod(number, 40.0f), key), t, turns);
     float turn = twist + 0.35f * y.streaks * waver, ct = cos(turn), st = sin(turn);
-    float sx = p->slope_x + y.streaks * grain, sy = p->slope_y;
-    float n = 1.0f / sqrt(1.0f + sx * sx + sy * sy), t = 1.0f / sqrt(1.0f + sy * sy);
-    float fx = -st * n / t, fy = ct * t + st * sx * sy * t * n, fz = -ct * t * sy + st * sx * t * n;
-    p->dye = 1.0f - y.dye * (0.7f * weave_random(weave_key(hash, seed + 4.0f)) +
-                             0.3f * weave_along(key, 0.35f, v, cycle) + 0.5f * y.streaks * grain);
+    float sx = p->slope_x + streaks * f, sy = p->slope_y;
+    float n = 1.0f / sqrt(1.0f + sx * sx + sy * sy), q = 1.0f / sqrt(1.0f + sy * sy);
+    float fx = -st * n / q, fy = ct * q + st * sx * sy * q * n, fz = -ct * q * sy + st * sx * q * n;
+    float crevice = min(2.0f * streaks, 0.6f);
+    p->dye = 1.0f -
+             y.dye * (0.7f * weave_random(weave_key(hash, seed + 4.0f)) +
+                      0.3f * weave_along(key, 0.35f, v, cycle)) -
+             0.8f * streaks * own;
+    p->lit = (1.0f - crevice * f * f * f * f) / (1.0f - 0.2f * crevice);
     p->slope_x = p->weft ? sy : sx;
     p->slope_y = p->weft ? sx : sy;
     p->fibre = p->weft ? dir(fy, fx, fz) : dir(fx, fy, fz);
 }
 
-/* The point at x, y. No thread reaches further than the middle of the next one's place: of either system the two
- * nearest are asked. */
-FN WeavePoint weave_point(const Weave *m, float x, float y) {
+/* The highest thread at x, y, level along itself. No thread reaches further than the middle of the next one's place: of
+ * either system the two nearest are asked. */
+FN WeavePoint weave_top(const Weave *m, float x, float y) {
     float i = floor(x), j = floor(y), beside = x - i < 0.5f ? -1.0f : 1.0f,
           above = y - j < 0.5f ? -1.0f : 1.0f;
     WeavePoint best = weave_thread(m, m->warp, false, i, x, y);
     weave_higher(&best, weave_thread(m, m->warp, false, i + beside, x, y));
     weave_higher(&best, weave_thread(m, m->weft, true, j, y, x));
     weave_higher(&best, weave_thread(m, m->weft, true, j + above, y, x));
-    if (best.height <= WEAVE_NONE) {
-        best.slope_x = 0.0f;
-        best.slope_y = 0.0f;
-        return best;
-    }
-    if (best.weft)
-        weave_finish(m, m->weft, y, x, &best);
-    else
-        weave_finish(m, m->warp, x, y, &best);
     return best;
+}
+
+/* A loose fibre whose middle is at x, y of the point and that comes from the thread on top there: an S from the thread's
+ * own direction, r = (across - l (b + w t) (1 - t^2)) / radius with t from -1 to 1 along it, arched, and thinner to its
+ * ends. It lies on what it crosses, and never below the middle of the cloth. */
+FN void weave_hair(const Weave *m, float key, float middle_x, float middle_y, float x, float y, float radius,
+                   WeavePoint *p) {
+    bool weft = weave_run(m, floor(middle_x), floor(middle_y), 1) < 0.0f;
+    float along = weft ? x : y, across = weft ? y : x;
+    if (0.5f + 0.5f * weave_random(key) >= (weft ? m->weft.hairiness : m->warp.hairiness)) return;
+    float turn = 1.2f * weave_random(weave_key(key, 3.0f)), c = cos(turn), s = sin(turn);
+    float bend = 0.6f * weave_random(weave_key(key, 4.0f)), wave = 1.2f * weave_random(weave_key(key, 6.0f));
+    float l = 0.6f + 0.3f * weave_random(weave_key(key, 5.0f)), t = (c * along + s * across) / l,
+          arch = 1.0f - t * t;
+    float reach = radius * (1.0f - t * t * t * t);
+    float off = c * across - s * along - l * (bend + wave * t) * arch;
+    if (abs(t) >= 1.0f || abs(off) >= reach) return;
+    float lean = wave * (1.0f - 3.0f * t * t) - 2.0f * bend * t, rise = -0.4f * t, round = 0.8f * off / reach;
+    float fx = s + c * lean, fy = c - s * lean, n = 1.0f / sqrt(fx * fx + fy * fy);
+    fx = fx * n;
+    fy = fy * n;
+    float sx = round * fy - rise * fx, sy = -round * fx - rise * fy, q = 1.0f / sqrt(1.0f + rise * rise);
+    p->height = max(p->height, 0.0f) + WEAVE_HAIR_RADIUS;
+    p->weft = weft;
+    p->thread = floor(weft ? middle_y : middle_x);
+    p->dye = 1.0f;
+    p->lit = 1.0f;
+    p->slope_x = weft ? sy : sx;
+    p->slope_y = weft ? sx : sy;
+    p->fibre = weft ? dir(fy * q, fx * q, rise * q) : dir(fx * q, fy * q, rise * q);
+}
+
+/* Loose fibres: in each cell of about two threads by two there are places for a few, and none reaches over half a cell. */
+#define WEAVE_HAIRS 4
+FN void weave_hairs(const Weave *m, float x, float y, float spacing, WeavePoint *p) {
+    float radius = weave_hair_radius(spacing);
+    if (radius * max(m->warp.hairiness, m->weft.hairiness) <= 0.0f) return;
+    float pace_x = weave_pace(0.5f, m->cycle_x), pace_y = weave_pace(0.5f, m->cycle_y);
+    float first_x = floor(x * pace_x - 0.5f), first_y = floor(y * pace_y - 0.5f);
+    for (int right = 0; right < 2; right++)
+        for (int up = 0; up < 2; up++) {
+            float i = first_x + to_float(right), j = first_y + to_float(up);
+            float column = weave_mod(i, weave_turns(pace_x, m->cycle_x)),
+                  row = weave_mod(j, weave_turns(pace_y, m->cycle_y));
+            float cell = weave_key(weave_key(m->seed, column), row);
+            for (int k = 0; k < WEAVE_HAIRS; k++) {
+                float key = weave_key(cell, 11.0f + to_float(k));
+                float middle_x = (i + 0.5f + 0.5f * weave_random(weave_key(key, 1.0f))) / pace_x;
+                float middle_y = (j + 0.5f + 0.5f * weave_random(weave_key(key, 2.0f))) / pace_y;
+                if (max(abs(x - middle_x), abs(y - middle_y)) < 1.0f)
+                    weave_hair(m, key, middle_x, middle_y, x - middle_x, y - middle_y, radius, p);
+            }
+        }
+}
+
+/* The point at x, y, where the spacing of points is so many threads; a place without a thread has none. */
+FN WeavePoint weave_point(const Weave *m, float x, float y, float spacing) {
+    WeavePoint p = weave_top(m, x, y);
+    if (p.height <= WEAVE_NONE) {
+        p.slope_x = 0.0f;
+        p.slope_y = 0.0f;
+        return p;
+    }
+    if (p.weft)
+        weave_finish(m, m->weft, y, x, spacing, &p);
+    else
+        weave_finish(m, m->warp, x, y, spacing, &p);
+    weave_hairs(m, x, y, spacing, &p);
+    return p;
 }
 
 /* The fibres' albedo at a point, one channel, without white: fibres of albedo A absorb as the dye in them
@@ -229,6 +260,6 @@ FN float weave_depth(const Weave *m, WeavePoint p) {
     float depth = clamp((m->high - p.height) / max(m->high - m->low, 1e-6f), 0.0f, 1.0f);
     return 1.0f - WEAVE_SHADE * depth * depth;
 }
-FN float weave_open(const Weave *m, WeavePoint p) { return weave_depth(m, p) / m->openness; }
+FN float weave_open(const Weave *m, WeavePoint p) { return p.lit * weave_depth(m, p) / m->openness; }
 
 #endif

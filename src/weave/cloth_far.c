@@ -45,7 +45,7 @@ static double looked_at(int count) {
 static WeavePoint look(const Weave *m, int k, float *x, float *y) {
     *x = (float)(fmod(0.7548776662466927 * (k + 1), 1.0) * looked_at(m->warps));
     *y = (float)(fmod(0.5698402909980532 * (k + 1), 1.0) * looked_at(m->picks));
-    return weave_point(m, *x, *y);
+    return weave_point(m, *x, *y, 0.0f);
 }
 
 static int is_up(const Weave *m, float x, float y, int weft) {
@@ -85,7 +85,7 @@ static float open_mean(const Weave *m, const SystemSeen seen[2]) {
     return (float)(1.0 - (double)WEAVE_SHADE * (high * high - 2.0 * high * z + z2) / (range * range));
 }
 
-/* Streaks turn fibres by 0.35 streaks times noise whose variance is 0.18 (weave_finish), and so widen D. */
+/* Fibres turn by 0.35 streaks times noise whose variance is 0.18 (weave_finish), which widens D. */
 static WeaveFar far_of(const WeaveYarn *y, const SystemSeen *seen) {
     const float turn = 0.35f * y->streaks, a2 = y->alpha * y->alpha;
     WeaveFar far = {.alpha = sqrtf(a2 + (1.0f - a2) * fminf(0.18f * turn * turn, 1.0f)),

@@ -41,8 +41,8 @@ typedef struct MapTexel {
 /* Part of the light that fibres met once reflect, of all that they do (yarn_medium.h). */
 static float once_of(float alpha) { return 0.328f - 0.111f * alpha; }
 
-static void add_point(const Weave *m, float x, float y, MapTexel *t) {
-    const WeavePoint p = weave_point(m, x, y);
+static void add_point(const Weave *m, float x, float y, float spacing, MapTexel *t) {
+    const WeavePoint p = weave_point(m, x, y, spacing);
     const float part = 1.0f / (FINE * FINE);
     if (p.height <= WEAVE_NONE) {
         t->height += part * m->low;
@@ -57,7 +57,7 @@ static void add_point(const Weave *m, float x, float y, MapTexel *t) {
     t->slope[0] += part * p.slope_x;
     t->slope[1] += part * p.slope_y;
     t->roughness += part * sqrtf(alpha);
-    t->open += part * weave_depth(m, p);
+    t->open += part * p.lit * weave_depth(m, p);
     t->height += part * p.height;
     const float across = p.fibre.x * p.fibre.x + p.fibre.y * p.fibre.y;
     t->along[0] += part * (p.fibre.x * p.fibre.x - p.fibre.y * p.fibre.y) / fmaxf(across, 1e-6f);
@@ -95,6 +95,8 @@ static void put_texel(MapBake *b, const MapTexel *t, int column, int row) {
 
 static void bake_row(void *user, int row, int thread) {
     MapBake *b = user;
+    const float spacing =
+        fmaxf(b->weave.cycle_x / (float)b->width, b->weave.cycle_y / (float)b->height) / FINE;
     (void)thread;
     for (int column = 0; column < b->width; column++) {
         MapTexel t = {.cover = 0.0f};
@@ -102,7 +104,7 @@ static void bake_row(void *user, int row, int thread) {
             const int right = k % FINE, down = k / FINE;
             const float x = ((float)column + ((float)right + 0.5f) / FINE) / (float)b->width;
             const float y = 1.0f - ((float)row + ((float)down + 0.5f) / FINE) / (float)b->height;
-            add_point(&b->weave, x * b->weave.cycle_x, y * b->weave.cycle_y, &t);
+            add_point(&b->weave, x * b->weave.cycle_x, y * b->weave.cycle_y, spacing, &t);
         }
         put_texel(b, &t, column, row);
     }

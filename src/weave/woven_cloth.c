@@ -75,7 +75,8 @@ static WeaveYarn laid(const WeftYarn *yarn, float pitch, float cross_pitch, floa
                        .streaks = yarn->streaks,
                        .dye = yarn->dye,
                        .slub = yarn->slub,
-                       .wander = yarn->wander};
+                       .wander = yarn->wander,
+                       .hairiness = yarn->hairiness};
 }
 
 static WeftResult yarn_check(const WeftYarn *yarn, WeftError *error) {

@@ -8,31 +8,32 @@
 
 #define DEGREES ((float)RADIANS)
 
-/* Y(name, help, alpha, crimp, roundness, twist, white, width, bulge, floats, streaks, dye, slub, wander), crimp
+/* Y(name, help, alpha, crimp, roundness, twist, white, width, bulge, floats, streaks, dye, slub, wander, hairiness), crimp
  * and twist in degrees. */
 #define YARNS(Y)                                                                                             \
     Y("cotton", "spun, matt, slightly uneven", 0.4f, 25, 0.95f, -24, 0.04f, 0.96f, 0.1f, 1.2f, 0.25f, 0.12f, \
-      0.3f, 0.35f)                                                                                           \
+      0.3f, 0.35f, 0.7f)                                                                                     \
     Y("linen", "dry and straight, with slubs and small gaps", 0.3f, 20, 0.95f, -12, 0.05f, 0.86f, 0.05f,     \
-      1.2f, 0.3f, 0.16f, 0.9f, 0.7f)                                                                         \
-    Y("wool", "soft and full", 0.5f, 26, 0.9f, -28, 0.03f, 1.02f, 0.2f, 1.2f, 0.35f, 0.12f, 0.35f, 0.5f)     \
+      1.2f, 0.3f, 0.16f, 0.9f, 0.7f, 0.5f)                                                                   \
+    Y("wool", "soft and full", 0.5f, 26, 0.9f, -28, 0.03f, 1.02f, 0.2f, 1.2f, 0.35f, 0.12f, 0.35f, 0.5f,     \
+      1.0f)                                                                                                  \
     Y("silk", "filament with hardly any twist", 0.12f, 22, 0.9f, 0, 0.12f, 1.0f, 0.55f, 1.6f, 0.1f, 0.05f,   \
-      0.06f, 0.15f)                                                                                          \
+      0.06f, 0.15f, 0.0f)                                                                                    \
     Y("dupion", "raw silk of uneven thickness", 0.14f, 24, 0.95f, -4, 0.12f, 0.95f, 0.2f, 1.4f, 0.2f, 0.1f,  \
-      1.3f, 0.6f)                                                                                            \
+      1.3f, 0.6f, 0.1f)                                                                                      \
     Y("polyester", "smooth filament", 0.16f, 20, 0.9f, 0, 0.1f, 0.98f, 0.35f, 1.5f, 0.06f, 0.02f, 0.03f,     \
-      0.08f)
+      0.08f, 0.0f)
 
 static const struct {
     const char *name, *help;
     WeftYarn yarn;
 } yarns[] = {
 #define ROW(name, help, alpha, crimp, roundness, twist, white, width, bulge, floats, streaks, dye, slub,     \
-            wander)                                                                                          \
+            wander, hairiness)                                                                               \
     {name,                                                                                                   \
      help,                                                                                                   \
      {alpha, (crimp)*DEGREES, roundness, (twist)*DEGREES, white, width, bulge, floats, streaks, dye, slub,   \
-      wander}},
+      wander, hairiness}},
     YARNS(ROW)
 #undef ROW
 };
@@ -65,10 +66,12 @@ static const WeftYarnNumber numbers[] = {
     NUMBER(width, 0.05f, 2.0f, 0, "Of a thread, in parts of the draft's: below 1 there are gaps."),
     NUMBER(bulge, 0.0f, 1.0f, 0, "How much wider the middle of a long float is."),
     NUMBER(floats, 0.0f, 8.0f, 0, "How level a long float lies."),
-    NUMBER(streaks, 0.0f, 2.0f, 0, "How far fibres turn and rise out of their way."),
+    NUMBER(streaks, 0.0f, 2.0f, 0,
+           "Slope at the edges of a fibre, which also turns and takes more or less dye."),
     NUMBER(dye, 0.0f, 1.0f, 0, "How far colour varies from thread to thread, and along each."),
     NUMBER(slub, 0.0f, 2.0f, 0, "How far thickness varies along a thread."),
     NUMBER(wander, 0.0f, 2.0f, 0, "How far a thread strays from its place."),
+    NUMBER(hairiness, 0.0f, 1.0f, 0, "Loose fibres on the cloth: 1 is about one for each crossing."),
 #undef NUMBER
 };
 

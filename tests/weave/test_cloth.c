@@ -27,7 +27,7 @@ static WeftYarn yarn_of(const char *name) {
 /* Returns the yarn of a name without anything that varies. */
 static WeftYarn even_yarn(const char *name) {
     WeftYarn yarn = yarn_of(name);
-    yarn.streaks = yarn.dye = yarn.slub = yarn.wander = 0.0f;
+    yarn.streaks = yarn.dye = yarn.slub = yarn.wander = yarn.hairiness = 0.0f;
     return yarn;
 }
 
@@ -56,7 +56,7 @@ static void the_draft_says_what_lies_on_top(void **state) {
         assert_int_equal(weft_draft_parse(drafts[d], &draft, &error), WEFT_OK);
         for (int pick = -20; pick < 40; pick++)
             for (int warp = -20; warp < 40; warp++) {
-                const WeavePoint p = weave_point(&cloth->weave, (float)warp + 0.5f, (float)pick + 0.5f);
+                const WeavePoint p = weave_top(&cloth->weave, (float)warp + 0.5f, (float)pick + 0.5f);
                 if (p.weft == (bool)weft_draft_warp_up(draft, warp, pick))
                     fail_msg("%s: warp %d, pick %d", drafts[d], warp, pick);
             }
@@ -89,7 +89,7 @@ static int changes(const Weave *m, float x, float y) {
     int count = 0;
     for (int k = 0; k < 400; k++) {
         const float u = 7.77f + 0.31f * (float)(k % 20), v = 3.33f + 0.37f * (float)(k / 20);
-        count += !same_point(weave_point(m, u, v), weave_point(m, u + x, v + y));
+        count += !same_point(weave_point(m, u, v, 0.0f), weave_point(m, u + x, v + y, 0.0f));
     }
     return count;
 }
@@ -120,8 +120,8 @@ static void a_seed_makes_a_cloth(void **state) {
     int apart = 0;
     for (int k = 0; k < 300; k++) {
         const float x = 0.37f * (float)k, y = 0.11f * (float)k;
-        assert_true(same_point(weave_point(&one->weave, x, y), weave_point(&again->weave, x, y)));
-        apart += !same_point(weave_point(&one->weave, x, y), weave_point(&other->weave, x, y));
+        assert_true(same_point(weave_point(&one->weave, x, y, 0.0f), weave_point(&again->weave, x, y, 0.0f)));
+        apart += !same_point(weave_point(&one->weave, x, y, 0.0f), weave_point(&other->weave, x, y, 0.0f));
     }
     assert_true(apart > 250);
     weft_cloth_free(one);
@@ -138,7 +138,7 @@ static void every_point_is_sound(void **state) {
             WeftCloth *cloth = woven(drafts[d], yarn_of(yarns[n]), (unsigned)n);
             for (int k = 0; k < 500; k++) {
                 const float x = 1.618f * (float)k - 100.0f, y = 0.7071f * (float)k - 50.0f;
-                const WeavePoint p = weave_point(&cloth->weave, x, y);
+                const WeavePoint p = weave_point(&cloth->weave, x, y, 0.0f);
                 if (p.height <= WEAVE_NONE) continue;
                 const Yarn yarn = weave_yarn(&cloth->weave, p);
                 const float length = p.fibre.x * p.fibre.x + p.fibre.y * p.fibre.y + p.fibre.z * p.fibre.z;
@@ -155,6 +155,73 @@ static void every_point_is_sound(void **state) {
         }
 }
 
+/* Places in rows that no thread and no fibre follows. */
+enum { PLACES = 200000 };
+static void place_of(int k, float *x, float *y) {
+    *x = (float)fmod(0.7548776662466927 * k, 1.0) * 480.0f;
+    *y = (float)fmod(0.5698402909980532 * k, 1.0) * 480.0f;
+}
+
+/* What is too fine to be seen is left out, and the mean of light, dye and slopes stays. */
+static void fibres_leave_the_mean_as_it_is(void **state) {
+    (void)state;
+    WeftYarn yarn = even_yarn("cotton");
+    yarn.streaks = 0.4f;
+    WeftCloth *cloth = woven("twill 2/2", yarn, 1);
+    double lit = 0.0, dye = 0.0, slope[2] = {0.0, 0.0};
+    int seen = 0;
+    for (int k = 0; k < PLACES; k++) {
+        float x, y;
+        place_of(k, &x, &y);
+        const WeavePoint fine = weave_point(&cloth->weave, x, y, 0.0f),
+                         coarse = weave_point(&cloth->weave, x, y, 0.06f);
+        if (fine.height <= WEAVE_NONE) continue;
+        assert_true(coarse.lit == 1.0f && coarse.dye == 1.0f);
+        seen += fabsf(fine.lit - 1.0f) > 0.05f;
+        lit += (double)(fine.lit - 1.0f);
+        dye += (double)(fine.dye - 1.0f);
+        slope[0] += (double)(fine.slope_x - coarse.slope_x);
+        slope[1] += (double)(fine.slope_y - coarse.slope_y);
+    }
+    print_message("cotton: light %+.4f, dye %+.4f, slopes %+.4f %+.4f\n", lit / PLACES, dye / PLACES,
+                  slope[0] / PLACES, slope[1] / PLACES);
+    assert_true(seen > PLACES / 2);
+    assert_true(fabs(lit) < 0.003 * PLACES && fabs(dye) < 0.01 * PLACES);
+    assert_true(fabs(slope[0]) < 0.003 * PLACES && fabs(slope[1]) < 0.003 * PLACES);
+    weft_cloth_free(cloth);
+}
+
+/* Returns how much of the cloth loose fibres cover, where points are so far apart. */
+static double covered_by_hairs(const WeftCloth *cloth, float spacing) {
+    int count = 0;
+    for (int k = 0; k < PLACES; k++) {
+        float x, y;
+        place_of(k, &x, &y);
+        const float top = weave_top(&cloth->weave, x, y).height;
+        const WeavePoint p = weave_point(&cloth->weave, x, y, spacing);
+        assert_true(p.height >= top);
+        count += p.height > top;
+    }
+    return (double)count / PLACES;
+}
+
+static void hairiness_says_how_many_fibres_come_loose(void **state) {
+    (void)state;
+    double covered[3];
+    for (int k = 0; k < 3; k++) {
+        WeftYarn yarn = even_yarn("cotton");
+        yarn.hairiness = 0.5f * (float)k;
+        WeftCloth *cloth = woven("plain", yarn, 1);
+        covered[k] = covered_by_hairs(cloth, 0.0f);
+        assert_true(covered_by_hairs(cloth, 0.3f) == 0.0);
+        weft_cloth_free(cloth);
+    }
+    print_message("hairiness 1 covers %.4f of the cloth\n", covered[2]);
+    assert_true(covered[0] == 0.0);
+    assert_true(covered[2] > 0.01 && covered[2] < 0.05);
+    assert_true(fabs(covered[1] - 0.5 * covered[2]) < 0.1 * covered[2]);
+}
+
 static void a_thread_without_end_is_level(void **state) {
     (void)state;
     static const char wif[] =
@@ -169,7 +236,7 @@ static void a_thread_without_end_is_level(void **state) {
     assert_int_equal(weft_cloth_create(draft, (WeftYarn[2]){yarn, yarn}, 0, &cloth, &error), WEFT_OK);
     int level = 0;
     for (int k = 0; k < 64; k++) { /* warp 1 is up at both picks */
-        const WeavePoint p = weave_point(&cloth->weave, 0.5f, 0.05f * (float)k);
+        const WeavePoint p = weave_point(&cloth->weave, 0.5f, 0.05f * (float)k, 0.0f);
         if (p.weft || p.thread != 0.0f) continue;
         assert_float_equal(p.slope_y, 0.0f, 1e-6f);
         level++;
@@ -309,6 +376,8 @@ int main(void) {
         cmocka_unit_test(variation_does_not_tile_unless_it_is_to),
         cmocka_unit_test(a_seed_makes_a_cloth),
         cmocka_unit_test(every_point_is_sound),
+        cmocka_unit_test(fibres_leave_the_mean_as_it_is),
+        cmocka_unit_test(hairiness_says_how_many_fibres_come_loose),
         cmocka_unit_test(a_thread_without_end_is_level),
         cmocka_unit_test(numbers_that_no_yarn_has_are_refused_in_one_line),
         cmocka_unit_test(maps_repeat_without_a_seam),

@@ -1,20 +1,21 @@
 /* weave.glsl - the light of a woven material at a fragment: of points of threads, and of both systems from afar
  *
- * A pixel has one point while it is much smaller than a thread, and up to nine where it is as large as one, sheared:
- * rows of points would beat with threads. The text before it supplies stack_light, which is all that a stack sends to
- * the eye; each base is lit alone, so whatever lies on it is there every time, and the weights sum up to 1. */
+ * A pixel has one point while it is much smaller than a thread, and eight where it is as large as one. The text
+ * before it supplies stack_light, which is all that a stack sends to the eye; each base is lit alone, so whatever
+ * lies on it is there every time, and the weights sum up to 1. */
 uniform highp sampler2DArray weave_colors;
 
 #include "raster/glsl/weave_cloth.glsl"
 #include "shading/weave_base.h"
 
-/* Point k of side x side over a pixel, from its middle, in pixels: sheared. */
-vec2 pixel_point(int k, int side) {
-    float n = float(side), i = float(k - side * (k / side)), j = float(k / side);
-    return vec2((i + (j + 0.5) / n) / n - 0.5, (j + (i + 0.5) / n) / n - 0.5);
+/* Point k of n over a pixel, from its middle, in pixels: of the Fibonacci lattice (k, k g mod n) / n, where n is 1, 5 or
+ * 8 and g the Fibonacci number before it. Points of a square lattice would beat with threads. */
+vec2 pixel_point(int k, int n) {
+    float g = n == 8 ? 5.0 : n == 5 ? 3.0 : 1.0, x = float(k) + 0.5, y = float(k) * g + 0.5;
+    return vec2(x, y) / float(n) - vec2(0.5, 0.5 + floor(y / float(n)));
 }
 
-/* One system from afar, its colours as the mean of four places half a pixel wide: a level as wide as the pixel would
+/* One system from afar, its colours as the mean of five places half a pixel wide: a level as wide as the pixel would
  * mix neighbours that are still told apart. Two bases stand for the cloth, each with half of the weight: so it
  * reflects twice as much. All bases have one table for the light of the environment, so that the lobe is of a whole
  * cloth. Departure: then only yarns of its own system hide it, which at grazing are not all. */
@@ -24,11 +25,11 @@ WeaveBase woven_far(Weave c, bool weft, vec2 place, vec2 across, vec2 up, WeaveF
     float level = weave_far_level(f, 2.0 * texel.x, 2.0 * texel.y);
     float layer = weft ? 2.0 : 0.0;
     vec4 once = vec4(0.0), again = vec4(0.0);
-    for (int k = 0; k < 4; k++) {
-        vec2 from = pixel_point(k, 2);
+    for (int k = 0; k < 5; k++) {
+        vec2 from = pixel_point(k, 5);
         vec2 at = (place + from.x * across + from.y * up) / repeat;
-        once += 0.25 * textureLod(weave_colors, vec3(at, layer), level);
-        again += 0.25 * textureLod(weave_colors, vec3(at, layer + 1.0), level);
+        once += 0.2 * textureLod(weave_colors, vec3(at, layer), level);
+        again += 0.2 * textureLod(weave_colors, vec3(at, layer + 1.0), level);
     }
     float dye = weave_far_dye(c, weft, weft ? place.y : place.x, weft ? f.y : f.x);
     float scale = MATERIAL_HOLED ? 2.0 / max(c.warp_far.share + c.weft_far.share, 1e-3) : 2.0;
@@ -60,16 +61,16 @@ vec4 woven_light(Stack m, Dir o, Facing at, Frame frame, float occlusion) {
     vec2 across = dFdx(place), up = dFdy(place);
     WeaveFootprint f = weave_footprint(across.x, across.y, up.x, up.y);
     float far = weave_far_weight(f), covered = 0.0;
-    int side = far >= 1.0 ? 0 : f.longest < 0.2 ? 1 : f.longest < 0.6 ? 2 : 3;
-    int points = side * side, count = far > 0.0 ? points + 2 : points;
+    int points = far >= 1.0 ? 0 : f.longest < 0.2 ? 1 : f.longest < 0.6 ? 5 : 8;
+    int count = far > 0.0 ? points + 2 : points;
     Rgb sum = rgb_grey(0.0);
     for (int k = 0; k < count; k++) {
         WeaveBase b;
         float weight = 0.5 * far;
         if (k < points) {
-            vec2 from = pixel_point(k, side);
+            vec2 from = pixel_point(k, points);
             vec2 spot = place + from.x * across + from.y * up;
-            WeavePoint p = weave_point(c, spot.x, spot.y);
+            WeavePoint p = weave_point(c, spot.x, spot.y, f.longest * inversesqrt(float(points)));
             b = weave_near(c, p);
             weight = (1.0 - far) / float(points);
             covered = covered + (p.height > WEAVE_NONE ? weight : 0.0);

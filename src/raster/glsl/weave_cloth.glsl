@@ -2,8 +2,8 @@
 uniform highp sampler2D weave_cells;
 
 /* Places of cloth_numbers (raster/cloths.h), behind the yarns. */
-const int CLOTH_SEED = 42, CLOTH_LOW = 43, CLOTH_HIGH = 44, CLOTH_OPENNESS = 45, CLOTH_WARPS = 46, CLOTH_PICKS = 47,
-          CLOTH_FAR_WIDTH = 48, CLOTH_FAR_HEIGHT = 49, CLOTH_PER_U = 50, CLOTH_PER_V = 51;
+const int CLOTH_SEED = 44, CLOTH_LOW = 45, CLOTH_HIGH = 46, CLOTH_OPENNESS = 47, CLOTH_WARPS = 48, CLOTH_PICKS = 49,
+          CLOTH_FAR_WIDTH = 50, CLOTH_FAR_HEIGHT = 51, CLOTH_PER_U = 52, CLOTH_PER_V = 53;
 
 float weave_number(int k) { return material_weave[k / 4][k - 4 * (k / 4)]; }
 
@@ -59,6 +59,6 @@ vec2 weave_place() {
 /* Returns true between threads. */
 bool weave_is_gap() {
     vec2 place = weave_place();
-    WeavePoint p = weave_point(material_cloth(), place.x, place.y);
+    WeavePoint p = weave_top(material_cloth(), place.x, place.y);
     return p.height <= WEAVE_NONE;
 }
