@@ -140,7 +140,7 @@ static void a_cloth_is_as_bright_in_both_engines(void **state) {
             for (int c = 0; c < 3; c++) {
                 const double a = mean_of(&reference, c), b = mean_of(&picture, c);
                 print_message("weave %zu, distance %zu, channel %d: %.4f and %.4f\n", w, d, c, a, b);
-                assert_true(fabs(a - b) < 0.03 * a + 1e-4);
+                assert_true(fabs(a - b) < 0.01 * a + 1e-4);
             }
             weft_image_free(&reference);
             weft_image_free(&picture);
@@ -279,8 +279,9 @@ static void pixels_vary_as_those_of_many_points_do(void **state) {
         }
         print_message("%6.2f threads a pixel: mean %.4f worst %.4f, variance %.4f, %.3f of the reference's\n",
                       (double)sides[d], error, worst, kept / SUNS, kept / spread);
-        assert_true(error < 0.05);
-        assert_true(worst < 0.1);
+        assert_true(error <
+                    (sides[d] < 1.0f ? 0.05 : 0.01)); /* of one point of a few threads chance is as much */
+        assert_true(worst < (sides[d] < 1.0f ? 0.1 : 0.02));
         first = d ? first : kept;
         if (sides[d] <= 2.0f)
             assert_true(kept > 0.75 * spread && kept < 1.25 * spread);

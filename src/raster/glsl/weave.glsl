@@ -17,8 +17,8 @@ vec2 pixel_point(int k, int n) {
 
 /* One system from afar, its colours as the mean of five places half a pixel wide: a level as wide as the pixel would
  * mix neighbours that are still told apart. Two bases stand for the cloth, each with half of the weight: so it
- * reflects twice as much. All bases have one table for the light of the environment, so that the lobe is of a whole
- * cloth. Departure: then only yarns of its own system hide it, which at grazing are not all. */
+ * reflects twice as much. All bases have one table for the light of the environment, which is of a whole cloth: the
+ * colours have the share of the system, so that the lobe has it no more. */
 WeaveBase woven_far(Weave c, bool weft, vec2 place, vec2 across, vec2 up, WeaveFootprint f) {
     vec2 repeat = vec2(weave_number(CLOTH_WARPS), weave_number(CLOTH_PICKS));
     vec2 texel = repeat / vec2(weave_number(CLOTH_FAR_WIDTH), weave_number(CLOTH_FAR_HEIGHT));
@@ -35,7 +35,6 @@ WeaveBase woven_far(Weave c, bool weft, vec2 place, vec2 across, vec2 up, WeaveF
     float scale = MATERIAL_HOLED ? 2.0 / max(c.warp_far.share + c.weft_far.share, 1e-3) : 2.0;
     WeaveBase b = weave_far(c, weft, rgb(once.r, once.g, once.b), rgb(again.r, again.g, again.b), once.a, dye);
     scale = scale * b.lobe.params[WOVEN_SHARE];
-    b.lobe.params[WOVEN_SHARE] = 1.0;
     b.once = rgb_scale(b.once, scale);
     b.again = rgb_scale(b.again, scale);
     return b;
@@ -51,6 +50,7 @@ Stack woven_stack(Stack m, WeaveBase b) {
     n.diffuse.grazing = n.diffuse.normal;
     n.base_fresnel = BASE_FRESNEL_NONE;
     diffuse_prepare(n.diffuse.lobe, n.diffuse_prepared);
+    n.diffuse_prepared.woven.part = 1.0;
     return n;
 }
 

@@ -52,6 +52,7 @@ STRUCT(WovenBin) {
 
 STRUCT(WovenPrepared) {
     float alpha, share, roundness, over_roundness;
+    float part; /* factor on f: the share, where the colours do not have it already */
     float crimp, cross_crimp; /* slopes as yarn_area takes them */
     float cos_a, sin_a, cos_t, sin_t;
     WovenBin b0, b1, b2, b3, b4, b5;
@@ -78,6 +79,7 @@ FN void woven_prepare(Woven m, WovenPrepared *p) {
     float tan_crimp = sin(m.crimp) / cos(m.crimp);
     p->alpha = m.alpha;
     p->share = m.share;
+    p->part = m.share;
     p->roundness = max(m.roundness, 1e-3f);
     p->over_roundness = 1.0f / p->roundness;
     p->crimp = tan_crimp * sqrt(3.0f / (2.0f * m.floats + 1.0f));
@@ -169,7 +171,7 @@ FN LobeValue woven_value(const WovenPrepared *p, const WovenView *w, Angles a) {
     }
     once = once / w->seen / v.seen;
     float many = w->left * v.left / (PI * yarn_left_mean(p->alpha)) * 0.5f * (w->shown + v.shown);
-    float f = p->share * (once + many);
+    float f = p->part * (once + many);
     return lobe_value_of(f, many / (once + many), warp_cosine_pdf(a.i));
 }
 FN Dir woven_sample(const WovenPrepared *p, const WovenView *w, Dir o, float u, float v) {
