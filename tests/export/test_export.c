@@ -8,6 +8,17 @@
 
 static Exported models[MODELS_MAX];
 static int model_count;
+static WeftExport made_texts[MODELS_MAX][WEFT_EXPORT_TARGETS]; /* what was asked for so far */
+
+/* Returns a model's text in a target, which is made once for all tests: tables of E take long. */
+static const WeftExport *text_of(int model, int target) {
+    WeftExport *made = &made_texts[model][target];
+    if (made->text) return made;
+    WeftExportDesc desc = model_desc(&models[model], (WeftExportTarget)target);
+    if (target != WEFT_EXPORT_ESSL) desc.albedo = 0;
+    *made = model_export(&desc);
+    return made;
+}
 
 static int begin(void **state) {
     (void)state;
@@ -15,6 +26,13 @@ static int begin(void **state) {
     model_count += models_profiles(models + model_count);
     model_count += models_choices(models + model_count);
     model_count += models_presets(models + model_count);
+    return 0;
+}
+
+static int end(void **state) {
+    (void)state;
+    for (int k = 0; k < model_count; k++)
+        for (int t = 0; t < WEFT_EXPORT_TARGETS; t++) weft_export_free(&made_texts[k][t]);
     return 0;
 }
 
@@ -38,15 +56,12 @@ static void exported_text_has_no_macro_or_include(void **state) {
         if (s->profile && !getenv("WEFT_TEST_LONG") && k % 4) continue; /* test_gpu makes all of them */
         for (int t = 0; t < WEFT_EXPORT_TARGETS; t++) {
             if (!s->is_lobe && t != WEFT_EXPORT_SHADERTOY && !getenv("WEFT_TEST_LONG")) continue;
-            WeftExportDesc desc = model_desc(s, (WeftExportTarget)t);
-            desc.albedo = 0;
-            WeftExport made = model_export(&desc);
-            assert_int_equal(made.size, strlen(made.text));
-            assert_text(s, weft_export_target_name(t), made.text);
-            if (s->is_lobe && t != WEFT_EXPORT_SHADERTOY) assert_non_null(strstr(made.text, "Example"));
+            const WeftExport *made = text_of(k, t);
+            assert_int_equal(made->size, strlen(made->text));
+            assert_text(s, weft_export_target_name(t), made->text);
+            if (s->is_lobe && t != WEFT_EXPORT_SHADERTOY) assert_non_null(strstr(made->text, "Example"));
             if (t == WEFT_EXPORT_SHADERTOY)
-                assert_non_null(strstr(made.text, "void mainImage(out vec4 pixel"));
-            weft_export_free(&made);
+                assert_non_null(strstr(made->text, "void mainImage(out vec4 pixel"));
         }
     }
 }
@@ -55,19 +70,16 @@ static void exported_text_has_no_macro_or_include(void **state) {
 static void exported_text_has_no_unused_function(void **state) {
     (void)state;
     for (int k = 0; k < model_count && models[k].is_lobe; k++) {
-        WeftExportDesc desc = model_desc(&models[k], WEFT_EXPORT_C);
-        desc.albedo = 0;
-        WeftExport made = model_export(&desc);
-        for (const char *c = made.text; (c = strstr(c, "\nstatic inline ")); c++) {
+        const char *text = text_of(k, WEFT_EXPORT_C)->text;
+        for (const char *c = text; (c = strstr(c, "\nstatic inline ")); c++) {
             char name[128];
             const char *open = strchr(c, '('), *start = open;
             while (start[-1] != ' ') start--;
             snprintf(name, sizeof name, "%.*s", (int)(open - start) + 1, start);
             int found = 0;
-            for (const char *at = made.text; (at = strstr(at, name)); at++) found++;
+            for (const char *at = text; (at = strstr(at, name)); at++) found++;
             if (found < 2) fail_msg("%s: nothing calls %s)", models[k].id, name);
         }
-        weft_export_free(&made);
     }
 }
 
@@ -129,16 +141,13 @@ static void records_nest_as_webgl_takes_them(void **state) {
     (void)state;
     for (int k = 0; k < model_count; k++)
         for (int toy = 0; toy < 2; toy++) {
-            WeftExportDesc desc = model_desc(&models[k], toy ? WEFT_EXPORT_SHADERTOY : WEFT_EXPORT_ESSL);
-            WeftExport made = model_export(&desc);
-            char *code = code_of(made.text);
+            char *code = code_of(text_of(k, toy ? WEFT_EXPORT_SHADERTOY : WEFT_EXPORT_ESSL)->text);
             for (const char *c = code; (c = strstr(c, "struct ")); c++) {
                 size_t size = strcspn(c + 7, " ");
                 int deep = nesting_of(code, c + 7, size);
                 if (deep > 4) fail_msg("%s: %.*s is %d deep", models[k].id, (int)size, c + 7, deep);
             }
             free(code);
-            weft_export_free(&made);
         }
 }
 
@@ -161,10 +170,7 @@ static void exported_text_uses_operators_of_its_language(void **state) {
         const Exported *s = &models[k];
         if (!s->is_lobe && !getenv("WEFT_TEST_LONG") && k % 6) continue;
         for (int t = WEFT_EXPORT_GLSL; t <= WEFT_EXPORT_HLSL; t++) {
-            WeftExportDesc desc = model_desc(s, (WeftExportTarget)t);
-            desc.albedo = 0;
-            WeftExport made = model_export(&desc);
-            char *code = code_of(made.text);
+            char *code = code_of(text_of(k, t)->text);
             for (size_t n = 0; n < sizeof banned / sizeof *banned; n++)
                 if (strstr(code, banned[n])) fail_msg("%s: %.60s", s->id, strstr(code, banned[n]));
             for (size_t n = 0; n < sizeof reserved / sizeof *reserved; n++)
@@ -179,7 +185,6 @@ static void exported_text_uses_operators_of_its_language(void **state) {
                 }
             assert_records_used(s, code);
             free(code);
-            weft_export_free(&made);
         }
     }
 }
@@ -411,5 +416,5 @@ int main(void) {
         cmocka_unit_test(exported_names_have_no_two_underscores),
         cmocka_unit_test(export_descriptors_without_sense_are_refused),
     };
-    return cmocka_run_group_tests(tests, begin, NULL);
+    return cmocka_run_group_tests(tests, begin, end);
 }
