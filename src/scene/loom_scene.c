@@ -47,7 +47,7 @@ static Vec3 hang_point(float u, float v) {
 }
 
 static Vec3 bar_point(float u, float v) {
-    const float phi = -2.0f * PI_FLOAT * v, r = 0.98f * bar_radius;
+    const float phi = -2.0f * PI_FLOAT * v, r = 0.9f * bar_radius; /* room between them for depth buffers */
     return (Vec3){0.6f * (u - 0.5f), bar_height + r * cosf(phi), -r * sinf(phi)};
 }
 
