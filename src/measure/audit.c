@@ -85,11 +85,11 @@ static float cell_exact(Cell *cell, int i, int j) {
     AuditWork *work = cell->work;
     const int n = j * (CELL + 1) + i;
     if (cell->known[n]) return cell->e[n];
-    const BakeTexel texel = bake_texel(&work->plane, cell->x + i, cell->y + j);
-    const bool judged = !texel.beyond && texel.cos_o > 0.0f;
-    if (judged && exceeds_or_nan(texel.error, work->met[cell->thread])) work->met[cell->thread] = texel.error;
     cell->known[n] = true;
-    return cell->e[n] = judged ? texel.part[work->reading.part] : -1.0f;
+    if (!bake_judges(&work->plane, cell->x + i, cell->y + j)) return cell->e[n] = -1.0f;
+    const BakeTexel texel = bake_texel(&work->plane, cell->x + i, cell->y + j);
+    if (exceeds_or_nan(texel.error, work->met[cell->thread])) work->met[cell->thread] = texel.error;
+    return cell->e[n] = texel.part[work->reading.part];
 }
 
 /* Columns i[0] .. i[2] and rows j[0] .. j[2] of a cell, the middle ones at 1: E is known where they cross, and taken
@@ -112,50 +112,82 @@ static void weights_at(const int places[3], int x, float weight[3]) {
     weight[0] = 1.0f - weight[1] - weight[2];
 }
 
-static float patch_at(const Cell *cell, const TexelPatch *p, int i, int j) {
+static float patch_at(Cell *cell, const TexelPatch *p, int i, int j) {
     float across[3], along[3], e = 0.0f;
     weights_at(p->i, i, across);
     weights_at(p->j, j, along);
     for (int row = 0; row < 3; row++)
         for (int column = 0; column < 3; column++)
-            e += along[row] * across[column] * cell->e[p->j[row] * (CELL + 1) + p->i[column]];
+            e += along[row] * across[column] * cell_exact(cell, p->i[column], p->j[row]);
     return e;
 }
 
-/* Returns true if E in the middles of the patch's quarters is what lies between its nine places. */
-static bool patch_holds(Cell *cell, const TexelPatch *p) {
+/* Returns how far E in a place of the cell is from what lies between the nine places of the patch. */
+static float patch_error(Cell *cell, const TexelPatch *p, int i, int j) {
+    return fabsf(cell_exact(cell, i, j) - patch_at(cell, p, i, j));
+}
+
+static int quarter(const int places[3], int k) { return (places[k] + places[k + 1]) / 2; }
+
+/* Returns the most that a patch is off half-way between its places, in each row or in each column. These are places of its
+ * halves. */
+static float patch_bend(Cell *cell, const TexelPatch *p, bool down) {
+    float most = 0.0f;
+    for (int k = 0; k < 6; k++)
+        most = fmaxf(most, down ? patch_error(cell, p, p->i[k >> 1], quarter(p->j, k & 1))
+                                : patch_error(cell, p, quarter(p->i, k & 1), p->j[k >> 1]));
+    return most;
+}
+
+/* Returns true if E in the middles of the patch's quarters is what lies between its nine places; of rows or columns
+ * without any between, which need not have to do with each other, in each. */
+static bool patch_holds(Cell *cell, const TexelPatch *p, bool wide, bool high) {
     const float allowed = (float)(2.0 * cell->work->tolerance);
     bool holds = true;
-    for (int quarter = 0; quarter < 4; quarter++) {
-        const int column = quarter & 1, row = quarter >> 1, i = (p->i[column] + p->i[column + 1]) / 2,
-                  j = (p->j[row] + p->j[row + 1]) / 2;
-        holds &= fabsf(cell_exact(cell, i, j) - patch_at(cell, p, i, j)) <= allowed;
-    }
+    if (!wide || !high) return patch_bend(cell, p, high) <= allowed;
+    for (int k = 0; k < 4; k++)
+        holds &= patch_error(cell, p, quarter(p->i, k & 1), quarter(p->j, k >> 1)) <= allowed;
     return holds;
 }
 
-/* Fills a patch: as it is where it holds, else quarter by quarter, down to the texel. A patch of which nothing is
+/* Some of the patch's places beside each other, or below each other, are judged and some are not. */
+static bool patch_is_mixed(Cell *cell, const TexelPatch *p, bool below) {
+    bool mixed = false;
+    for (int k = 0; k < 3; k++) {
+        int judged = 0;
+        for (int m = 0; m < 3; m++)
+            judged += cell_exact(cell, p->i[below ? k : m], p->j[below ? m : k]) >= 0.0f;
+        mixed |= judged % 3 != 0;
+    }
+    return mixed;
+}
+
+static void patch_take(Cell *cell, const TexelPatch *p) {
+    for (int j = p->j[0]; j <= p->j[2]; j++)
+        for (int i = p->i[0]; i <= p->i[2]; i++) {
+            const int n = j * (CELL + 1) + i;
+            if (!cell->known[n]) cell->e[n] = patch_at(cell, p, i, j);
+            cell->known[n] = true;
+        }
+}
+
+/* Fills a patch: as it is where it holds, else half by half, down to the texel. E may bend in one direction alone, as
+ * where views graze, or end in one, as beyond the range of a lobe: halves are cut there. A patch of which nothing is
  * judged is left at that. */
 static void patch_fill(Cell *cell, TexelPatch p) {
-    bool all = true, none = true;
-    for (int k = 0; k < 9; k++) {
-        const float e = cell_exact(cell, p.i[k % 3], p.j[k / 3]);
-        all &= e >= 0.0f, none &= e < 0.0f;
-    }
-    if (p.i[2] - p.i[0] <= 2 && p.j[2] - p.j[0] <= 2) return;
-    if (none || (all && patch_holds(cell, &p))) {
-        for (int j = p.j[0]; j <= p.j[2]; j++)
-            for (int i = p.i[0]; i <= p.i[2]; i++) {
-                const int n = j * (CELL + 1) + i;
-                if (!cell->known[n]) cell->e[n] = patch_at(cell, &p, i, j);
-                cell->known[n] = true;
-            }
+    const bool wide = p.i[2] - p.i[0] > 2, high = p.j[2] - p.j[0] > 2;
+    const bool mixed = wide && patch_is_mixed(cell, &p, false),
+               mixed_down = high && patch_is_mixed(cell, &p, true);
+    if (!mixed && !mixed_down && ((!wide && !high) || patch_holds(cell, &p, wide, high))) {
+        patch_take(cell, &p);
         return;
     }
-    for (int quarter = 0; quarter < 4; quarter++) {
-        const int column = quarter & 1, row = quarter >> 1;
-        patch_fill(cell, patch_of(p.i[column], p.i[column + 1], p.j[row], p.j[row + 1]));
-    }
+    const bool cut_down = mixed != mixed_down
+                              ? mixed_down
+                              : high && (!wide || patch_bend(cell, &p, true) > patch_bend(cell, &p, false));
+    for (int half = 0; half < 2; half++)
+        patch_fill(cell, cut_down ? patch_of(p.i[0], p.i[2], p.j[half], p.j[half + 1])
+                                  : patch_of(p.i[half], p.i[half + 1], p.j[0], p.j[2]));
 }
 
 static void map_put(AuditWork *work, int x, int y, float e) {

@@ -39,19 +39,32 @@ WeftResult bake_texels(int width, int height, int threads, WeftProgress progress
     return texels.stopped ? WEFT_INTERRUPTED : WEFT_OK;
 }
 
-BakeTexel bake_texel(const BakePlane *plane, int x, int y) {
+/* Finds all of a texel but its parts, and the lobe there. */
+static BakeTexel texel_place(const BakePlane *plane, int x, int y, Lobe *lobe) {
     BakeTexel texel = {0};
-    Lobe lobe = plane->lobe;
+    *lobe = plane->lobe;
     if (plane->form->transposed)
         x += plane->form->flip_x ? -plane->late : plane->late;
     else
         y += plane->form->flip_y ? -plane->late : plane->late;
-    weft_table_form_texel(plane->form, lobe.id, plane->width, plane->height, x, y, &texel.cos_o,
+    weft_table_form_texel(plane->form, lobe->id, plane->width, plane->height, x, y, &texel.cos_o,
                           &texel.value);
-    if (weft_lobe_info(lobe.id)->param_count > 0) {
-        lobe_set(&lobe, 0, texel.value);
-        texel.beyond = lobe.params[0] < texel.value || lobe.params[0] > texel.value;
+    if (weft_lobe_info(lobe->id)->param_count > 0) {
+        lobe_set(lobe, 0, texel.value);
+        texel.beyond = lobe->params[0] < texel.value || lobe->params[0] > texel.value;
     }
+    return texel;
+}
+
+bool bake_judges(const BakePlane *plane, int x, int y) {
+    Lobe lobe;
+    const BakeTexel texel = texel_place(plane, x, y, &lobe);
+    return !texel.beyond && texel.cos_o > 0.0f;
+}
+
+BakeTexel bake_texel(const BakePlane *plane, int x, int y) {
+    Lobe lobe;
+    BakeTexel texel = texel_place(plane, x, y, &lobe);
     const float z = max(texel.cos_o, 1e-6f);
     const Dir wo = {sqrt(max(1.0f - z * z, 0.0f)), 0.0f, z};
     const Albedo e = albedo_quadrature_error(&lobe, wo, plane->tolerance, &texel.error);

@@ -48,6 +48,10 @@ typedef struct BakeTexel {
 } BakeTexel;
 BakeTexel bake_texel(const BakePlane *plane, int x, int y);
 
+/* Returns true if a table can be judged by E at a texel: its cosine is not 0, and its value is not beyond. Takes next to
+ * no time. */
+bool bake_judges(const BakePlane *plane, int x, int y);
+
 /* Some channels of a table, and the lobe whose parts they hold. */
 typedef struct BakeLayer {
     Lobe lobe;
