@@ -15,12 +15,12 @@ FN float azimuth_half(float t) { return t / (1.0f + sqrt(1.0f + t * t)); }
 /* Returns the azimuth of w in the tangent plane, radians; 0 if w has no tangential part. */
 FN float azimuth_of(Dir w) {
     float r = sqrt(w.x * w.x + w.y * w.y);
-    if (r < 1e-15f) return 0.0f;
-    float t = azimuth_half(azimuth_half(abs(w.y) / (r + abs(w.x)))), q = t * t;
+    float t = azimuth_half(azimuth_half(abs(w.y) / max(r + abs(w.x), 1e-30f))), q = t * t;
     float phi =
         8.0f * t * (1.0f - q * (1.0f / 3.0f - q * (1.0f / 5.0f - q * (1.0f / 7.0f - q * (1.0f / 9.0f)))));
     phi = w.x < 0.0f ? PI - phi : phi;
-    return w.y < 0.0f ? 2.0f * PI - phi : phi;
+    phi = w.y < 0.0f ? 2.0f * PI - phi : phi;
+    return r < 1e-15f ? 0.0f : phi;
 }
 
 #endif

@@ -164,6 +164,19 @@ FN void compose_stack(Stack *m, const Surface *s, Choices c, TableRef e) {
     }
 }
 
+/* Puts a lobe with two colours in the place of the diffuse and the specular one: what a woven cloth is at a place. */
+FN void compose_base(Stack *m, Lobe lobe, Rgb once, Rgb again) {
+    m->specular.normal = 0.0f;
+    m->base_fresnel = BASE_FRESNEL_NONE;
+    m->diffuse.lobe = lobe;
+    m->diffuse.f0 = once;
+    m->diffuse.f90 = again;
+    m->diffuse.normal = max(0.33f * rgb_mean(once) + 0.67f * rgb_mean(again), 1e-3f);
+    m->diffuse.grazing = m->diffuse.normal;
+    stack_split_diffuse(m);
+    IN_SLOT(diffuse, prepare)(&m->diffuse.lobe, &m->diffuse_prepared);
+}
+
 /* Makes the stack of a surface. e: the table of E of the sheen's lobe over its first parameter; only a stack whose
  * `albedo` is ALBEDO_TABLE or ALBEDO_KHRONOS reads it. s->dust: the amount at this point, as dust_accumulate
  * returns it. */

@@ -9,17 +9,32 @@
 #include "shading/material_stack.h"
 #include "shading/surface_rows.h"
 
+/* Points of threads, or facets of them from afar: the parameters of lobe yarn, and what is reflected of light that met
+ * one fibre, and of all other. */
+typedef struct YarnRows {
+    float params[LOBE_PARAMS_MAX][ROW_ROOM], once[3][ROW_ROOM], again[3][ROW_ROOM];
+} YarnRows;
+
 enum { KIND_LIGHTS = 3, KIND_DRAWN = KIND_LIGHTS, KIND_DIRECTIONS };
 
 /* Vertices of surfaces in the shading frame; each wi is unit, in [KIND_DRAWN] the one that is sampled. */
 typedef struct KindVertices {
     SurfaceRows surface;
+    YarnRows yarn;        /* the bases, where they are woven */
     float o[3][ROW_ROOM]; /* wo, z > 0 */
     float u[ROW_ROOM], v[ROW_ROOM];
     float i[KIND_DIRECTIONS][3][ROW_ROOM];
     float f[KIND_DIRECTIONS][3][ROW_ROOM], pdf[KIND_DIRECTIONS][ROW_ROOM]; /* f cos and pdf; 0 below */
     float e_o[ROW_ROOM], base_scale[3][ROW_ROOM], select_p[5][ROW_ROOM];   /* of the StackView */
 } KindVertices;
+
+/* The base of a woven vertex. */
+FN Lobe yarn_of_row(const YarnRows *rows, size_t k) {
+    Lobe lobe;
+    lobe.id = LOBE_YARN;
+    ROUNDS(p, LOBE_PARAMS_MAX) lobe.params[p] = rows->params[p][k];
+    return lobe;
+}
 
 typedef struct StackKind StackKind;
 

@@ -25,6 +25,9 @@ static Choices known_choices(void) {
     if (!KIND_TRANSMITS) s.diffuse_transmission = 0.0f;                                                      \
     Stack m;                                                                                                 \
     compose_stack(&m, &s, known_choices(), e);                                                               \
+    if (diffuse_lobe == LOBE_YARN)                                                                           \
+        compose_base(&m, yarn_of_row(&(v)->yarn, k), ROW_RGB((v)->yarn.once, k),                             \
+                     ROW_RGB((v)->yarn.again, k));                                                           \
     m.coat.normal = coated ? m.coat.normal : 0.0f
 
 #define PUT_SELECT_P(name, NAME, Name, wo) v->select_p[place++][k] = w.select_p.name;

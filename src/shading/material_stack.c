@@ -13,17 +13,7 @@ void stack_make(Stack *stack, const Surface *surface, const Choices *choices, Ta
     compose_stack(stack, surface, *choices, e);
 }
 
-void stack_put_base(Stack *stack, const Lobe *lobe, Rgb f0, Rgb f90) {
-    const float about = 0.33f * rgb_mean(f0) + 0.67f * rgb_mean(f90);
-    stack->specular.normal = 0.0f;
-    stack->base_fresnel = BASE_FRESNEL_NONE;
-    stack->diffuse.lobe = *lobe;
-    stack->diffuse.f0 = f0;
-    stack->diffuse.f90 = f90;
-    stack->diffuse.normal = stack->diffuse.grazing = fmaxf(about, 1e-3f);
-    stack_split_diffuse(stack);
-    lobe_prepare(lobe, &stack->diffuse_prepared);
-}
+void stack_put_base(Stack *stack, const Lobe *lobe, Rgb f0, Rgb f90) { compose_base(stack, *lobe, f0, f90); }
 
 void stack_see(const Stack *stack, const Dir *o, StackView *view) { stack_view(stack, *o, view); }
 

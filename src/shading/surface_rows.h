@@ -13,6 +13,8 @@ static inline int row_whole(int n) { return (n + ROW_LANES - 1) & ~(ROW_LANES - 
 /* Element k of three rows. */
 #define ROW_DIR(rows, k) dir((rows)[0][k], (rows)[1][k], (rows)[2][k])
 
+#define ROW_RGB(rows, k) rgb((rows)[0][k], (rows)[1][k], (rows)[2][k])
+
 #define ROWS_OF_SCALAR(name)                                                float name[ROW_ROOM];
 #define ROWS_OF_COLOR(name)                                                 float name[3][ROW_ROOM];
 #define ROWS_OF_NORMAL(name)                                                float name[3][ROW_ROOM];

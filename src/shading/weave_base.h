@@ -44,8 +44,7 @@ FN float weave_far_level(WeaveFootprint f, float warps, float picks) {
 FN float weave_far_dye(const Weave *m, bool weft, float u, float threads) {
     float seed = m->seed + (weft ? 97.0f : 0.0f), side = weft ? m->cycle_y : m->cycle_x, sum = 0.0f;
     float dye = weft ? m->weft.dye : m->warp.dye, wide = max(threads, 1.0f);
-    if (dye <= 0.0f || wide >= 16.0f) return 1.0f;
-    for (int k = 0; k < 4; k++) {
+    ROUNDS(k, 4) {
         float c = floor(u + (0.25f * to_float(k) - 0.375f) * wide);
         sum = sum + weave_random(weave_key(weave_hash_of(c, side), seed + 4.0f));
     }
@@ -92,7 +91,8 @@ FN Rgb weave_dyed_rgb(Rgb c, float covers, float dye) {
  * the whole cloth. */
 FN WeaveBase weave_far(const Weave *m, bool weft, Rgb once, Rgb again, float covers, float dye) {
     Woven w = weave_woven(m, weft);
-    float r = 1.0f / w.share;
+    float r_once = (weft ? m->weft_far.once : m->warp_far.once) / w.share;
+    float r_again = (weft ? m->weft_far.again : m->warp_far.again) / w.share;
     WeaveBase b;
     b.lobe = lobe_default(LOBE_WOVEN);
     b.lobe.params[WOVEN_ALPHA] = w.alpha;
@@ -103,8 +103,8 @@ FN WeaveBase weave_far(const Weave *m, bool weft, Rgb once, Rgb again, float cov
     b.lobe.params[WOVEN_ROUNDNESS] = w.roundness;
     b.lobe.params[WOVEN_FLOATS] = w.floats;
     b.lobe.params[WOVEN_CROSS_CRIMP] = w.cross_crimp;
-    b.once = rgb_scale(weave_dyed_rgb(once, covers, dye), r);
-    b.again = rgb_scale(weave_dyed_rgb(again, covers, dye), r);
+    b.once = rgb_scale(weave_dyed_rgb(once, covers, dye), r_once);
+    b.again = rgb_scale(weave_dyed_rgb(again, covers, dye), r_again);
     return b;
 }
 

@@ -36,8 +36,10 @@
 
 /* One system from afar: the numbers of the lobe woven that reflects as its visible points do on the mean, and how
  * far their slopes reach across it and along, were they uniform, by which yarns hide each other.
- *   crimp: tangent. share: of the cloth, as seen from above; what is left are gaps. */
-#define WEAVE_FAR_NUMBERS(N) N(alpha) N(crimp) N(roundness) N(floats) N(slope_across) N(slope_along) N(share)
+ *   crimp: tangent. share: of the cloth, as seen from above; what is left are gaps. once, again: factors on the lobe's
+ * colours, which make it as bright as the points are. */
+#define WEAVE_FAR_NUMBERS(N)                                                                                 \
+    N(alpha) N(crimp) N(roundness) N(floats) N(slope_across) N(slope_along) N(share) N(once) N(again)
 
 #define WEAVE_NUMBER(name) float name;
 STRUCT(WeaveYarn){WEAVE_YARN_NUMBERS(WEAVE_NUMBER)};
@@ -87,11 +89,12 @@ FN WeavePoint weave_thread(const Weave *m, WeaveYarn y, bool weft, float c, floa
     float side = weft ? m->cycle_y : m->cycle_x, cycle = weft ? m->cycle_x : m->cycle_y;
     float since = weave_run(m, weft ? cross : c, weft ? c : cross, weft ? 2 : 0);
     float run = weave_run(m, weft ? cross : c, weft ? c : cross, weft ? 3 : 1);
-    bool ends = abs(run) > 0.5f;
-    float l = max(abs(run), 1.0f), s = ends ? 2.0f * (v - cross + since) / l - 1.0f : 0.0f;
+    float ends =
+        abs(run) > 0.5f ? 1.0f : 0.0f; /* a factor: a load behind a branch keeps loops from vectors */
+    float l = max(abs(run), 1.0f), s = ends * (2.0f * (v - cross + since) / l - 1.0f);
     float up = run < 0.0f ? -1.0f : 1.0f, k = 1.0f + y.floats * (l - 1.0f),
           steep = pow(max(abs(s), 1e-3f), k);
-    float crimp = ends ? y.crimp : 0.0f, hash = weave_hash_of(c, side);
+    float crimp = ends * y.crimp, hash = weave_hash_of(c, side);
     crimp = crimp * (1.0f + 0.5f * y.wander * weave_along(weave_key(hash, seed + 5.0f), 1.0f, v, cycle));
     float aside = 0.12f * y.wander * weave_along(weave_key(hash, seed + 1.0f), 0.21f, v, cycle);
     float thick = 1.0f + y.slub * (0.35f * weave_along(weave_key(hash, seed + 2.0f), 0.06f, v, cycle) +
@@ -166,87 +169,125 @@ FN void weave_finish(const Weave *m, WeaveYarn y, float u, float v, float spacin
 FN WeavePoint weave_top(const Weave *m, float x, float y) {
     float i = floor(x), j = floor(y), beside = x - i < 0.5f ? -1.0f : 1.0f,
           above = y - j < 0.5f ? -1.0f : 1.0f;
-    WeavePoint best = weave_thread(m, m->warp, false, i, x, y);
+    WeavePoint best = weave_thread(m, m->warp, false, i, x, y),
+               weft = weave_thread(m, m->weft, true, j, y, x);
     weave_higher(&best, weave_thread(m, m->warp, false, i + beside, x, y));
-    weave_higher(&best, weave_thread(m, m->weft, true, j, y, x));
-    weave_higher(&best, weave_thread(m, m->weft, true, j + above, y, x));
+    weave_higher(&weft, weave_thread(m, m->weft, true, j + above, y, x));
+    bool is_weft = weft.height > best.height; /* a loop of vectors chooses numbers, not whether */
+    weave_higher(&best, weft);
+    best.weft = is_weft;
     return best;
 }
 
-/* A loose fibre whose middle is at x, y of the point and that comes from the thread on top there: an S from the thread's
- * own direction, r = (across - l (b + w t) (1 - t^2)) / radius with t from -1 to 1 along it, arched, and thinner to its
- * ends. It lies on what it crosses, and never below the middle of the cloth. */
-FN void weave_hair(const Weave *m, float key, float middle_x, float middle_y, float x, float y, float radius,
-                   WeavePoint *p) {
+/* The yarn of either system, without a branch. */
+#define WEAVE_CHOOSE(name) y.name = weft ? m->weft.name : m->warp.name;
+FN WeaveYarn weave_yarn_of(const Weave *m, bool weft) {
+    WeaveYarn y;
+    WEAVE_YARN_NUMBERS(WEAVE_CHOOSE)
+    return y;
+}
+
+/* The point of a thread at x, y, with its fibres but for loose ones. A place without a thread has no slopes. */
+FN WeavePoint weave_bound(const Weave *m, float x, float y, float spacing) {
+    WeavePoint p = weave_top(m, x, y);
+    weave_finish(m, weave_yarn_of(m, p.weft), p.weft ? y : x, p.weft ? x : y, spacing, &p);
+    p.slope_x = p.height > WEAVE_NONE ? p.slope_x : 0.0f;
+    p.slope_y = p.height > WEAVE_NONE ? p.slope_y : 0.0f;
+    return p;
+}
+
+/* A loose fibre at a point near it: whether the point is on it, and at what parts of its length and width, from -1 to 1;
+ * number and system of the thread that it comes from; cosine and sine of its angle with that, and how far it bends. */
+STRUCT(WeaveHair) {
+    bool here, weft;
+    float along, across, thread, c, s, bend, wave;
+};
+
+/* Loose fibres: in each cell of about two threads by two there are places for a few, and none reaches over half a cell. */
+#define WEAVE_HAIRS      4
+#define WEAVE_HAIRS_NEAR (4 * WEAVE_HAIRS)
+
+/* Fibre n of those near x, y, from the thread on top of its middle: an S from the thread's own direction,
+ * across = (q - l (b + w t) (1 - t^2)) / radius with t from -1 to 1 along it, thinner to its ends. */
+FN WeaveHair weave_hair(const Weave *m, int n, float x, float y, float radius) {
+    float pace_x = weave_pace(0.5f, m->cycle_x), pace_y = weave_pace(0.5f, m->cycle_y);
+    float i = floor(x * pace_x - 0.5f) + to_float(n / (2 * WEAVE_HAIRS)),
+          j = floor(y * pace_y - 0.5f) + to_float((n / WEAVE_HAIRS) % 2);
+    float column = weave_mod(i, weave_turns(pace_x, m->cycle_x)),
+          row = weave_mod(j, weave_turns(pace_y, m->cycle_y));
+    float key = weave_key(weave_key(weave_key(m->seed, column), row), 11.0f + to_float(n % WEAVE_HAIRS));
+    float middle_x = (i + 0.5f + 0.5f * weave_random(weave_key(key, 1.0f))) / pace_x;
+    float middle_y = (j + 0.5f + 0.5f * weave_random(weave_key(key, 2.0f))) / pace_y;
     bool weft = weave_run(m, floor(middle_x), floor(middle_y), 1) < 0.0f;
-    float along = weft ? x : y, across = weft ? y : x;
-    if (0.5f + 0.5f * weave_random(key) >= (weft ? m->weft.hairiness : m->warp.hairiness)) return;
+    float p = weft ? x - middle_x : y - middle_y, q = weft ? y - middle_y : x - middle_x;
     float turn = 1.2f * weave_random(weave_key(key, 3.0f)), c = cos(turn), s = sin(turn);
     float bend = 0.6f * weave_random(weave_key(key, 4.0f)), wave = 1.2f * weave_random(weave_key(key, 6.0f));
-    float l = 0.6f + 0.3f * weave_random(weave_key(key, 5.0f)), t = (c * along + s * across) / l,
-          arch = 1.0f - t * t;
-    float reach = radius * (1.0f - t * t * t * t);
-    float off = c * across - s * along - l * (bend + wave * t) * arch;
-    if (abs(t) >= 1.0f || abs(off) >= reach) return;
-    float lean = wave * (1.0f - 3.0f * t * t) - 2.0f * bend * t, rise = -0.4f * t, round = 0.8f * off / reach;
-    float fx = s + c * lean, fy = c - s * lean, n = 1.0f / sqrt(fx * fx + fy * fy);
+    float l = 0.6f + 0.3f * weave_random(weave_key(key, 5.0f)), t = (c * p + s * q) / l, t2 = t * t;
+    float reach = radius * (1.0f - t2 * t2), off = c * q - s * p - l * (bend + wave * t) * (1.0f - t2);
+    float kept = (weft ? m->weft.hairiness : m->warp.hairiness) - (0.5f + 0.5f * weave_random(key));
+    WeaveHair h;
+    h.here = min(min(kept, 1.0f - max(abs(x - middle_x), abs(y - middle_y))),
+                 min(1.0f - abs(t), reach - abs(off))) > 0.0f;
+    h.weft = weft;
+    h.thread = floor(weft ? middle_y : middle_x);
+    h.c = c;
+    h.s = s;
+    h.bend = bend;
+    h.wave = wave;
+    h.along = t;
+    h.across = off / reach;
+    return h;
+}
+
+/* Lays it over the point: arched, on what it crosses, and never below the middle of the cloth. */
+FN void weave_lay(WeaveHair h, WeavePoint *p) {
+    float t = h.along, lean = h.wave * (1.0f - 3.0f * t * t) - 2.0f * h.bend * t, rise = -0.4f * t,
+          round = 0.8f * h.across;
+    float fx = h.s + h.c * lean, fy = h.c - h.s * lean, n = 1.0f / sqrt(fx * fx + fy * fy);
     fx = fx * n;
     fy = fy * n;
     float sx = round * fy - rise * fx, sy = -round * fx - rise * fy, q = 1.0f / sqrt(1.0f + rise * rise);
     p->height = max(p->height, 0.0f) + WEAVE_HAIR_RADIUS;
-    p->weft = weft;
-    p->thread = floor(weft ? middle_y : middle_x);
+    p->weft = h.weft;
+    p->thread = h.thread;
     p->dye = 1.0f;
     p->lit = 1.0f;
-    p->slope_x = weft ? sy : sx;
-    p->slope_y = weft ? sx : sy;
-    p->fibre = weft ? dir(fy * q, fx * q, rise * q) : dir(fx * q, fy * q, rise * q);
+    p->slope_x = h.weft ? sy : sx;
+    p->slope_y = h.weft ? sx : sy;
+    p->fibre = h.weft ? dir(fy * q, fx * q, rise * q) : dir(fx * q, fy * q, rise * q);
 }
 
-/* Loose fibres: in each cell of about two threads by two there are places for a few, and none reaches over half a cell. */
-#define WEAVE_HAIRS 4
-FN void weave_hairs(const Weave *m, float x, float y, float spacing, WeavePoint *p) {
-    float radius = weave_hair_radius(spacing);
-    if (radius * max(m->warp.hairiness, m->weft.hairiness) <= 0.0f) return;
-    float pace_x = weave_pace(0.5f, m->cycle_x), pace_y = weave_pace(0.5f, m->cycle_y);
-    float first_x = floor(x * pace_x - 0.5f), first_y = floor(y * pace_y - 0.5f);
-    for (int right = 0; right < 2; right++)
-        for (int up = 0; up < 2; up++) {
-            float i = first_x + to_float(right), j = first_y + to_float(up);
-            float column = weave_mod(i, weave_turns(pace_x, m->cycle_x)),
-                  row = weave_mod(j, weave_turns(pace_y, m->cycle_y));
-            float cell = weave_key(weave_key(m->seed, column), row);
-            for (int k = 0; k < WEAVE_HAIRS; k++) {
-                float key = weave_key(cell, 11.0f + to_float(k));
-                float middle_x = (i + 0.5f + 0.5f * weave_random(weave_key(key, 1.0f))) / pace_x;
-                float middle_y = (j + 0.5f + 0.5f * weave_random(weave_key(key, 2.0f))) / pace_y;
-                if (max(abs(x - middle_x), abs(y - middle_y)) < 1.0f)
-                    weave_hair(m, key, middle_x, middle_y, x - middle_x, y - middle_y, radius, p);
-            }
-        }
-}
-
-/* The point at x, y, where the spacing of points is so many threads; a place without a thread has none. */
-FN WeavePoint weave_point(const Weave *m, float x, float y, float spacing) {
-    WeavePoint p = weave_top(m, x, y);
-    if (p.height <= WEAVE_NONE) {
-        p.slope_x = 0.0f;
-        p.slope_y = 0.0f;
-        return p;
+/* The number of the fibre on top of those at x, y; -1: none. */
+FN int weave_hair_at(const Weave *m, float x, float y, float radius) {
+    int top = -1;
+    ROUNDS(n, WEAVE_HAIRS_NEAR) {
+        WeaveHair h = weave_hair(m, n, x, y, radius);
+        top = h.here ? n : top;
     }
-    if (p.weft)
-        weave_finish(m, m->weft, y, x, spacing, &p);
-    else
-        weave_finish(m, m->warp, x, y, spacing, &p);
-    weave_hairs(m, x, y, spacing, &p);
+    return top;
+}
+
+/* True where loose fibres are wide enough to be seen. */
+FN bool weave_has_hairs(const Weave *m, float spacing) {
+    return weave_hair_radius(spacing) * max(m->warp.hairiness, m->weft.hairiness) > 0.0f;
+}
+
+/* The point at x, y, where the spacing of points is so many threads. */
+FN WeavePoint weave_point(const Weave *m, float x, float y, float spacing) {
+    WeavePoint p = weave_bound(m, x, y, spacing);
+    if (p.height > WEAVE_NONE && weave_has_hairs(m, spacing)) {
+        float radius = weave_hair_radius(spacing);
+        int top = weave_hair_at(m, x, y, radius);
+        if (top >= 0) weave_lay(weave_hair(m, top, x, y, radius), &p);
+    }
     return p;
 }
 
 /* The fibres' albedo at a point, one channel, without white: fibres of albedo A absorb as the dye in them
  * does, (1 - A) / A of what they scatter. */
 FN float weave_albedo(const Weave *m, WeavePoint p, int channel) {
-    int row = p.weft ? m->warps + to_int(weave_mod(p.thread, to_float(m->picks)))
-                     : to_int(weave_mod(p.thread, to_float(m->warps)));
+    float thread = weave_mod(p.thread, to_float(p.weft ? m->picks : m->warps));
+    int row = to_int(thread) + (p.weft ? m->warps : 0);
     float a = weave_texel(m->albedos, 3, row, channel);
     return a / max(a + (1.0f - a) * max(p.dye, 0.1f), 1e-6f);
 }

@@ -55,6 +55,8 @@ typedef struct Chunk {
     Row behind[3];                     /* the same on the far side, if the material transmits */
     Row geometric[3], normal[3], side; /* on the viewer's side; side: 1 or -1, the triangle's */
     Row *facing;                       /* of both, the normal below whose plane no light counts */
+    Row uv_edge[2][2];                 /* texture coordinates along two edges of a woven triangle */
+    ClothLooks looks;                  /* at a woven cloth */
     Row frame[3][3];                   /* x, y, z of it */
     KindVertices vertices;
     LightRows light[LIGHT_GROUPS];
@@ -90,8 +92,8 @@ typedef struct ChunkSource {
 void chunk_place(Chunk *chunk, const ChunkSource *source);
 void chunk_turn(Chunk *chunk, const ChunkSource *source);
 
-/* footprint.c: vertex k as a path looks at the cloth there. */
-ClothLook chunk_look(const Chunk *chunk, const ChunkSource *source, int k);
+/* footprint.c: weaves the bases of n vertices, after their inputs. */
+void chunk_weave(Chunk *chunk, const ChunkSource *source, int n);
 
 /* inputs.c: fills n rows of the material's inputs. */
 void chunk_take_inputs(Chunk *chunk, const ChunkSource *source, int n);

@@ -6,24 +6,24 @@
  * Homan Igehy, "Tracing Ray Differentials", SIGGRAPH 1999, Equation 10, without what turns. A pixel of the camera is
  * as wide as the picture says. A path that was scattered stands for all those around it: of n directions with the
  * density p each has 1 / (n p) of the sphere, and from there on a cone as wide. */
-#include "base/pi.h"
 #include "shading/frame.h"
+#include "shading/loop.h"
 #include "trace/chunk.h"
 #include "trace/sampler.h"
 
 enum { SCATTERED = 16 }; /* directions that take a share of the sphere */
 
 /* The width of what path k covers, across its ray. */
-static float width_of(const Chunk *c, const ChunkSource *from, int k) {
-    const PathContext *context = from->context;
-    const float *f = context->forward;
-    if (from->depth > 0 && c->pdf[k] > 0.0f)
-        return c->t[k] * fminf(sqrtf(1.0f / ((float)SCATTERED * c->pdf[k])), 1.0f);
-    const float depth = -c->t[k] * (c->wo[0][k] * f[0] + c->wo[1][k] * f[1] + c->wo[2][k] * f[2]);
-    return context->pixel[0] + context->pixel[1] * fabsf(from->depth > 0 ? c->t[k] : depth);
+FN float width_of(const Chunk *c, const float forward[3], const float pixel[2], bool scattered, size_t k) {
+    float p = c->pdf[k], t = c->t[k];
+    float depth = -t * (c->wo[0][k] * forward[0] + c->wo[1][k] * forward[1] + c->wo[2][k] * forward[2]);
+    float seen = pixel[0] + pixel[1] * abs(scattered ? t : depth);
+    float spread = t * min(sqrt(1.0f / ((float)SCATTERED * max(p, 1e-20f))), 1.0f);
+    bool spreads = scattered & (p > 0.0f);
+    return spreads ? spread : seen;
 }
 
-static Dir minus(Dir a, Dir b) { return dir(a.x - b.x, a.y - b.y, a.z - b.z); }
+FN Dir minus(Dir a, Dir b) { return dir(a.x - b.x, a.y - b.y, a.z - b.z); }
 
 /* Texture coordinates of a triangle's corners from the first: by two edges, which the plane's vectors are made of. */
 typedef struct UvPlane {
@@ -31,50 +31,77 @@ typedef struct UvPlane {
     float u[2], v[2];          /* along either */
 } UvPlane;
 
-static UvPlane plane_of(const Chunk *c, const ChunkSource *from, int k) {
-    const Mesh *mesh = &from->context->scene->meshes[c->mesh[k]];
-    const uint32_t *index = mesh->index + 3 * (size_t)c->triangle[k];
-    const Dir a = ROW_DIR(c->corner[0], k);
-    UvPlane p = {.first = minus(ROW_DIR(c->corner[1], k), a), .second = minus(ROW_DIR(c->corner[2], k), a)};
+FN UvPlane plane_of(const Chunk *c, size_t k) {
+    Dir a = ROW_DIR(c->corner[0], k);
+    UvPlane p;
+    p.first = minus(ROW_DIR(c->corner[1], k), a);
+    p.second = minus(ROW_DIR(c->corner[2], k), a);
     p.normal = dir_cross(p.first, p.second);
-    for (int corner = 0; mesh->texcoord[0] && corner < 2; corner++) {
-        const float *at = mesh->texcoord[0] + 2 * (size_t)index[corner + 1],
-                    *zero = mesh->texcoord[0] + 2 * (size_t)index[0];
-        p.u[corner] = at[0] - zero[0];
-        p.v[corner] = at[1] - zero[1];
-    }
+    p.u[0] = c->uv_edge[0][0][k];
+    p.v[0] = c->uv_edge[0][1][k];
+    p.u[1] = c->uv_edge[1][0][k];
+    p.v[1] = c->uv_edge[1][1][k];
     return p;
 }
 
 /* The edge of a pixel on the plane, in texture coordinates. */
-static void project(const UvPlane *p, Dir d, Dir edge, float uv[2]) {
-    const float square = fmaxf(dir_dot(p->normal, p->normal), 1e-30f), facing = dir_dot(p->normal, d);
-    const float least = 1e-2f * sqrtf(square), by = fabsf(facing) > least ? facing
-                                                    : facing < 0.0f       ? -least
-                                                                          : least;
-    const Dir on = minus(edge, dir_scale(d, dir_dot(p->normal, edge) / by));
-    const float b = dir_dot(dir_cross(on, p->second), p->normal) / square,
-                c = dir_dot(dir_cross(p->first, on), p->normal) / square;
-    uv[0] = b * p->u[0] + c * p->u[1];
-    uv[1] = b * p->v[0] + c * p->v[1];
+typedef struct UvEdge {
+    float u, v;
+} UvEdge;
+FN UvEdge project(UvPlane p, Dir d, Dir edge) {
+    float square = max(dir_dot(p.normal, p.normal), 1e-30f), facing = dir_dot(p.normal, d);
+    float least = 1e-2f * sqrt(square), by = abs(facing) > least ? facing : facing < 0.0f ? -least : least;
+    Dir on = minus(edge, dir_scale(d, dir_dot(p.normal, edge) / by));
+    float b = dir_dot(dir_cross(on, p.second), p.normal) / square,
+          c = dir_dot(dir_cross(p.first, on), p.normal) / square;
+    UvEdge e = {b * p.u[0] + c * p.u[1], b * p.v[0] + c * p.v[1]};
+    return e;
 }
 
-ClothLook chunk_look(const Chunk *c, const ChunkSource *from, int k) {
+/* Texture coordinates along two edges of the triangles. */
+static void take_uv_edges(Chunk *c, const WeftScene *scene, int n) {
+    for (int k = 0; k < n; k++) {
+        const Mesh *mesh = &scene->meshes[c->mesh[k]];
+        const uint32_t *index = mesh->index + 3 * (size_t)c->triangle[k];
+        for (int edge = 0; edge < 2; edge++)
+            for (int a = 0; a < 2; a++)
+                c->uv_edge[edge][a][k] = mesh->texcoord[0]
+                                             ? mesh->texcoord[0][2 * index[edge + 1] + (uint32_t)a] -
+                                                   mesh->texcoord[0][2 * index[0] + (uint32_t)a]
+                                             : 0.0f;
+    }
+}
+
+LOOP(look_n, (Chunk *restrict c, const PathContext *context, const float per_uv[2], int depth, int n),
+     (c, context, per_uv, depth, n)) {
+    ClothLooks *to = &c->looks;
+    const float forward[3] = {context->forward[0], context->forward[1], context->forward[2]};
+    const float pixel[2] = {context->pixel[0], context->pixel[1]};
+    float per_u = per_uv[0], per_v = per_uv[1];
+    uint32_t place = 64u * (uint32_t)depth;
+    EACH(k, (size_t)n) {
+        UvPlane plane = plane_of(c, k);
+        Dir d = dir_scale(ROW_DIR(c->wo, k), -1.0f);
+        bool level = abs(d.y) < 0.9f;
+        Dir side = dir_normal_or(dir_cross(d, dir(level ? 0.0f : 1.0f, level ? 1.0f : 0.0f, 0.0f)), d);
+        float width = width_of(c, forward, pixel, depth > 0, k);
+        UvEdge a = project(plane, d, dir_scale(side, width)),
+               b = project(plane, d, dir_scale(dir_cross(side, d), width));
+        WeaveFootprint f = weave_footprint(a.u * per_u, a.v * per_v, b.u * per_u, b.v * per_v);
+        to->uv[0][k] = c->textures.uv[0][0][k];
+        to->uv[1][k] = c->textures.uv[0][1][k];
+        to->footprint_x[k] = f.x;
+        to->footprint_y[k] = f.y;
+        to->longest[k] = f.longest;
+        to->level[k] = sampler_random(c->pixel[k], c->sample[k], 1000003u + place);
+        to->facet[k] = sampler_random(c->pixel[k], c->sample[k], 1000033u + place);
+    }
+}
+
+void chunk_weave(Chunk *c, const ChunkSource *from, int n) {
     const PathMaterial *material = &from->context->materials[from->material];
-    const float *per_uv = material->cloth->per_uv;
-    const uint32_t place = 64u * (uint32_t)from->depth;
-    const UvPlane plane = plane_of(c, from, k);
-    const Dir d = dir_scale(ROW_DIR(c->wo, k), -1.0f);
-    const Dir side =
-        dir_normal_or(dir_cross(d, fabsf(d.y) < 0.9f ? dir(0.0f, 1.0f, 0.0f) : dir(1.0f, 0.0f, 0.0f)), d);
-    const float width = width_of(c, from, k);
-    float a[2], b[2];
-    project(&plane, d, dir_scale(side, width), a);
-    project(&plane, d, dir_scale(dir_cross(side, d), width), b);
-    ClothLook look = {.uv = {c->textures.uv[0][0][k], c->textures.uv[0][1][k]},
-                      .level = sampler_random(c->pixel[k], c->sample[k], 1000003u + place),
-                      .system = sampler_random(c->pixel[k], c->sample[k], 1000033u + place),
-                      .holed = material->material.alpha_mode != WEFT_ALPHA_OPAQUE};
-    look.footprint = weave_footprint(a[0] * per_uv[0], a[1] * per_uv[1], b[0] * per_uv[0], b[1] * per_uv[1]);
-    return look;
+    take_uv_edges(c, from->context->scene, n);
+    look_n(c, from->context, material->cloth->per_uv, from->depth, n);
+    c->looks.holed = material->material.alpha_mode != WEFT_ALPHA_OPAQUE;
+    cloth_bases(material->cloth, &c->looks, n, &c->vertices.yarn);
 }

@@ -113,9 +113,13 @@ static WeftResult make_materials(WeftRender *render, WeftError *error) {
         stack_make(&known->stack, &surface, &known->choices, known->sheen_e);
         known->transmits = known->stack.transmission > 0.0f;
         known->measured = material->measured ? scene->measured[material->measured - 1] : NULL;
-        known->kind = known->cloth || known->measured ? NULL : stack_kind(&known->stack, &known->choices);
+        if (known->cloth) {
+            const Lobe yarn = lobe_default(LOBE_YARN);
+            stack_put_base(&known->stack, &yarn, rgb_grey(1.0f), rgb_grey(1.0f));
+        }
+        known->kind = known->measured ? NULL : stack_kind(&known->stack, &known->choices);
         known->shines = material_emits(material);
-        known->bent = !known->kind || known->material.inputs[INPUT_normal].texture ||
+        known->bent = !known->kind || known->cloth || known->material.inputs[INPUT_normal].texture ||
                       known->material.inputs[INPUT_clearcoat_normal].texture ||
                       known->plain.anisotropy > 0.0f;
     }

@@ -1,7 +1,6 @@
 /* shade.c - light samples and materials at the vertices of a chunk, and the rays that go on */
 #include "trace/chunk.h"
 
-#include "scene/cloth_base.h"
 #include "shading/frame.h"
 #include "shading/loop.h"
 #include "trace/sampler.h"
@@ -71,7 +70,7 @@ static Rgb f_cos_of_sky(const PathContext *context, const Stack *stack, const St
 }
 
 /* The stack at a vertex: the material's, or one of its own. */
-static const Stack *stack_at(Chunk *c, const ChunkSource *from, const PathMaterial *material, int k) {
+static const Stack *stack_at(Chunk *c, const PathMaterial *material, int k) {
     Surface surface = surface_of_row(&c->vertices.surface, (size_t)k);
     if (!material->textured && !(surface.dust > 0.0f)) return &material->stack;
     Dir normal = dir(c->frame[2][0][k], c->frame[2][1][k], c->frame[2][2][k]);
@@ -79,8 +78,9 @@ static const Stack *stack_at(Chunk *c, const ChunkSource *from, const PathMateri
     surface = dust_accumulate(frame_surface(surface), normal, position);
     stack_make(&c->stack, &surface, &material->choices, material->sheen_e);
     if (material->cloth) {
-        const ClothLook look = chunk_look(c, from, k);
-        cloth_base(material->cloth, &look, &c->stack);
+        const YarnRows *yarn = &c->vertices.yarn;
+        const Lobe lobe = yarn_of_row(yarn, (size_t)k);
+        stack_put_base(&c->stack, &lobe, ROW_RGB(yarn->once, k), ROW_RGB(yarn->again, k));
     }
     return &c->stack;
 }
@@ -116,7 +116,7 @@ static void shade_vertex(Chunk *c, const ChunkSource *from, const PathMaterial *
     const PathContext *context = from->context;
     const Measured *measured = material->measured;
     KindVertices *v = &c->vertices;
-    const Stack *stack = stack_at(c, from, material, k);
+    const Stack *stack = stack_at(c, material, k);
     uint32_t seed = hash32(c->key[k]);
     Dir o = dir(v->o[0][k], v->o[1][k], v->o[2][k]), wi;
     StackValue value;

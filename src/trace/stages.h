@@ -14,6 +14,7 @@
     S(MISSES, "environment at misses", false)                                                                \
     S(PLACE, "positions and normals", false)                                                                 \
     S(INPUTS, "inputs and textures", false)                                                                  \
+    S(WEAVE, "threads of woven cloths", false)                                                               \
     S(TURN, "emission and frames", false)                                                                    \
     S(NUMBERS, "random numbers", false)                                                                      \
     S(SKY, "samples of the environment", false)                                                              \

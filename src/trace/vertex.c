@@ -142,6 +142,9 @@ void chunk_place(Chunk *c, const ChunkSource *from) {
     stage_end(c->clock, STAGE_PLACE);
     chunk_take_inputs(c, from, n);
     stage_end(c->clock, STAGE_INPUTS);
+    if (!from->context->materials[from->material].cloth) return;
+    chunk_weave(c, from, n);
+    stage_end(c->clock, STAGE_WEAVE);
 }
 
 static void take_tangents(Chunk *c, const WeftScene *scene, int n) {

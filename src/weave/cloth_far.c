@@ -24,6 +24,10 @@ enum {
     FITS_MOST = 300,
     FAR_SIDE_MAX = 512,
 };
+_Static_assert(1 << (FAR_LEVELS_MOST - 1) == FAR_SIDE_MAX, "a level for each halving, and the first");
+
+/* The spacing of points from afar, in threads: without fibres. */
+static const float FAR_SPACING = 1.0f;
 
 /* The ends of the numbers of lobe woven; the crimp is a tangent. */
 static const float ROUNDNESS_MOST = 1.5f, CRIMP_MOST = 2.5f, FLOATS_LEAST = 0.4f, FLOATS_MOST = 16.0f;
@@ -45,7 +49,7 @@ static double looked_at(int count) {
 static WeavePoint look(const Weave *m, int k, float *x, float *y) {
     *x = (float)(fmod(0.7548776662466927 * (k + 1), 1.0) * looked_at(m->warps));
     *y = (float)(fmod(0.5698402909980532 * (k + 1), 1.0) * looked_at(m->picks));
-    return weave_point(m, *x, *y, 0.0f);
+    return weave_bound(m, *x, *y, FAR_SPACING);
 }
 
 static int is_up(const Weave *m, float x, float y, int weft) {
@@ -94,7 +98,9 @@ static WeaveFar far_of(const WeaveYarn *y, const SystemSeen *seen) {
                     .floats = 1.0f,
                     .slope_across = y->roundness,
                     .slope_along = y->crimp,
-                    .share = (float)seen->count / LOOKS};
+                    .share = (float)seen->count / LOOKS,
+                    .once = 1.0f,
+                    .again = 1.0f};
     if (!seen->count) return far;
     far.floats = fminf((float)(seen->run / seen->count), FLOATS_MOST);
     far.slope_across = fminf((float)(sqrt)(3.0 * seen->across / seen->count), ROUNDNESS_MOST);
@@ -141,24 +147,17 @@ static void add_crossing(ClothFar *far, const Weave *m, const SystemSeen seen[2]
 
 static int side_of(int level, int side) { return side >> level > 0 ? side >> level : 1; }
 
-static size_t level_start(const ClothFar *far, int level) {
-    size_t texels = 0;
-    for (int k = 0; k < level; k++)
-        texels += (size_t)FAR_LAYERS * (size_t)side_of(k, far->width) * (size_t)side_of(k, far->height);
-    return 4 * texels;
-}
-
 const float *cloth_far_level(const ClothFar *far, int level, int *width, int *height) {
     *width = side_of(level, far->width);
     *height = side_of(level, far->height);
-    return far->texels + level_start(far, level);
+    return far->texels + far->starts[level];
 }
 
 /* Makes a level of the one before it. */
 static void halve(ClothFar *far, int level) {
     int w, h, width, height;
     const float *from = cloth_far_level(far, level - 1, &width, &height);
-    float *to = far->texels + level_start(far, level);
+    float *to = far->texels + far->starts[level];
     (void)cloth_far_level(far, level, &w, &h);
     for (int row = 0; row < FAR_LAYERS * h; row++)
         for (int column = 0; column < w; column++)
@@ -185,9 +184,13 @@ static bool make_colors(WeftCloth *cloth, const SystemSeen seen[2]) {
     ClothFar *far = &cloth->far;
     far->width = far_side(m->warps);
     far->height = far_side(m->picks);
-    far->levels = 1;
-    while (far->width >> far->levels > 0 || far->height >> far->levels > 0) far->levels++;
-    far->texels = alloc_array(level_start(far, far->levels), sizeof(float));
+    int numbers = 0;
+    for (int level = 0; level == 0 || far->width >> level > 0 || far->height >> level > 0; level++) {
+        far->starts[level] = numbers;
+        numbers += 4 * FAR_LAYERS * side_of(level, far->width) * side_of(level, far->height);
+        far->levels = level + 1;
+    }
+    far->texels = alloc_array((size_t)numbers, sizeof(float));
     if (!far->texels) return false;
     for (int j = 0; j < m->picks; j++)
         for (int i = 0; i < m->warps; i++) add_crossing(far, m, seen, i, j);
@@ -202,10 +205,10 @@ static Dir direction_of(double mu, double turn) {
 }
 
 /* Pairs of directions, and what one system reflects between them of light that met one fibre, and of all other, times
- * the cosine. */
+ * the cosine; and its mean colours, in parts of the cloth. */
 typedef struct Lit {
     float o[3][LIT_PAIRS], i[3][LIT_PAIRS];
-    double once[LIT_PAIRS], again[LIT_PAIRS];
+    double once[LIT_PAIRS], again[LIT_PAIRS], once_color, again_color;
 } Lit;
 
 static void put_direction(float to[3][LIT_PAIRS], int k, Dir w) {
@@ -219,6 +222,7 @@ static void take_pairs(Lit *lit) {
         put_direction(lit->i, k, direction_of(fmod(0.5698402910 * n, 1.0), fmod(0.3819660113 * n, 1.0)));
         lit->once[k] = lit->again[k] = 0.0;
     }
+    lit->once_color = lit->again_color = 0.0;
 }
 
 /* Light of both kinds between each pair, times the cosine. */
@@ -258,7 +262,39 @@ static void color_of_point(const Weave *m, WeavePoint p, double *once, double *a
     }
 }
 
-static void light_points(const Weave *m, Lit near[2]) {
+/* Adds a point to those that stand for its system. Its colours are in parts of its thread's. */
+static void add_facet(WeftCloth *cloth, WeavePoint p, const Yarn *yarn, double once, double again) {
+    const Weave *m = &cloth->weave;
+    int *count = &cloth->facet_count[p.weft];
+    if (*count == FACETS_MOST) return;
+    const int threads = p.weft ? m->picks : m->warps, thread = (int)weave_mod(p.thread, (float)threads);
+    double own[2] = {0.0, 0.0};
+    for (int c = 0; c < 3; c++)
+        for (int kind = 0; kind < 2; kind++)
+            own[kind] += (double)color_of(m, p.weft, thread, c, kind == 1) / 3.0;
+    cloth->facets[p.weft][(*count)++] = (ClothFacet){.slope_x = yarn->slope_x,
+                                                     .slope_y = yarn->slope_y,
+                                                     .azimuth = yarn->azimuth,
+                                                     .once = (float)(once / fmax(own[0], 1e-9)),
+                                                     .again = (float)(again / fmax(own[1], 1e-9))};
+}
+
+/* Makes the factors 1 on the mean. */
+static void finish_facets(ClothFacet *facets, int *count) {
+    double once = 0.0, again = 0.0;
+    for (int k = 0; k < *count; k++) {
+        once += (double)facets[k].once / *count;
+        again += (double)facets[k].again / *count;
+    }
+    for (int k = 0; k < *count; k++) {
+        facets[k].once /= (float)fmax(once, 1e-9);
+        facets[k].again /= (float)fmax(again, 1e-9);
+    }
+    if (*count == 0) *count = 1; /* of a system that is never seen, black */
+}
+
+static void light_points(WeftCloth *cloth, Lit near[2]) {
+    const Weave *m = &cloth->weave;
     const double part = 1.0 / LOOKS;
     for (int at = 0; at < LOOKS; at++) {
         float x, y;
@@ -267,11 +303,16 @@ static void light_points(const Weave *m, Lit near[2]) {
         PairsLit pairs;
         const WeavePoint point = look(m, at, &x, &y);
         if (point.height <= WEAVE_NONE) continue;
-        yarn_prepare(weave_yarn(m, point), &p);
+        const Yarn yarn = weave_yarn(m, point);
+        yarn_prepare(yarn, &p);
         color_of_point(m, point, &once, &again);
         yarn_pairs(&p, &near[0], &pairs);
         add_pairs(&near[point.weft], &pairs, part * once, part * again);
+        near[point.weft].once_color += part * once;
+        near[point.weft].again_color += part * again;
+        add_facet(cloth, point, &yarn, once, again);
     }
+    for (int t = 0; t < 2; t++) finish_facets(cloth->facets[t], &cloth->facet_count[t]);
 }
 
 static void light_lobe(const Woven *m, Lit *far) {
@@ -348,31 +389,33 @@ static void scale_layer(ClothFar *far, int layer, float factor) {
     for (int level = 0; level < far->levels; level++) {
         int w, h;
         (void)cloth_far_level(far, level, &w, &h);
-        float *texels = far->texels + level_start(far, level) + 4 * (size_t)layer * (size_t)w * (size_t)h;
+        float *texels = far->texels + far->starts[level] + 4 * (size_t)layer * (size_t)w * (size_t)h;
         for (int k = 0; k < w * h; k++)
             for (int c = 0; c < 3; c++) texels[4 * k + c] *= factor;
     }
 }
 
-/* Fits lobes, and scales the colours so that from afar the cloth is as bright as its points are on the mean. */
+/* Scales the colours of a system to those of its points, and fits its lobe with factors on them. */
+static void fit_system(WeftCloth *cloth, bool weft, const Lit *near) {
+    FarFit fit = {.weave = &cloth->weave, .weft = weft, .near = near, .lobe = *near};
+    WeaveFar *far = weft ? &cloth->weave.weft_far : &cloth->weave.warp_far;
+    const int once = weft ? FAR_WEFT_ONCE : FAR_WARP_ONCE, again = once + 1;
+    scale_layer(&cloth->far, once, ratio(near->once_color, mean_color(&cloth->far, once)));
+    scale_layer(&cloth->far, again, ratio(near->again_color, mean_color(&cloth->far, again)));
+    if (sum_of(near->once) > 0.0) fit_lobe(&fit);
+    const Woven woven = weave_woven(&cloth->weave, weft);
+    const double share = (double)woven.share;
+    light_lobe(&woven, &fit.lobe);
+    far->once = ratio(sum_of(near->once) * share, sum_of(fit.lobe.once) * near->once_color);
+    far->again = ratio(sum_of(near->again) * share, sum_of(fit.lobe.again) * near->again_color);
+}
+
 static void fit_far(WeftCloth *cloth) {
     Lit near[2];
     take_pairs(&near[0]);
     near[1] = near[0];
-    light_points(&cloth->weave, near);
-    for (int t = 0; t < 2; t++) {
-        FarFit fit = {.weave = &cloth->weave, .weft = t == 1, .near = &near[t], .lobe = near[t]};
-        if (sum_of(near[t].once) > 0.0) fit_lobe(&fit);
-        const Woven woven = weave_woven(&cloth->weave, t == 1);
-        light_lobe(&woven, &fit.lobe);
-        const double share = (double)woven.share;
-        for (int again = 0; again < 2; again++) {
-            const int layer = 2 * t + again;
-            const double lit =
-                sum_of(again ? fit.lobe.again : fit.lobe.once) * mean_color(&cloth->far, layer);
-            scale_layer(&cloth->far, layer, ratio(sum_of(again ? near[t].again : near[t].once) * share, lit));
-        }
-    }
+    light_points(cloth, near);
+    for (int t = 0; t < 2; t++) fit_system(cloth, t == 1, &near[t]);
 }
 
 bool cloth_far_make(WeftCloth *cloth) {
@@ -385,16 +428,4 @@ bool cloth_far_make(WeftCloth *cloth) {
     if (!make_colors(cloth, seen)) return false;
     fit_far(cloth);
     return true;
-}
-
-static int texel_of(float x, int side) {
-    const int texel = (int)((x - floorf(x)) * (float)side);
-    return texel < side ? texel : side - 1;
-}
-
-const float *cloth_far_color(const ClothFar *far, int layer, float x, float y, float level) {
-    int width, height;
-    const int at = (int)fminf(fmaxf(level, 0.0f), (float)(far->levels - 1));
-    const float *texels = cloth_far_level(far, at, &width, &height);
-    return texels + 4 * ((layer * height + texel_of(y, height)) * width + texel_of(x, width));
 }

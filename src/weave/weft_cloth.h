@@ -9,14 +9,25 @@
  * before. A level is FAR_LAYERS layers of RGBA: what the warp reflects at a place of light that met one fibre, and of
  * all other light, in parts of the cloth; the same of the weft. Alpha is the share that the system covers. */
 enum { FAR_WARP_ONCE, FAR_WARP_AGAIN, FAR_WEFT_ONCE, FAR_WEFT_AGAIN, FAR_LAYERS };
+enum { FAR_LEVELS_MOST = 10 };
 typedef struct ClothFar {
     int width, height, levels;
+    int starts[FAR_LEVELS_MOST]; /* of each level among the numbers of all */
     float *texels;
 } ClothFar;
+
+/* Points of one system, evenly spread over a piece of the cloth, any of which may stand for all: slopes and azimuth as
+ * lobe yarn has them, and factors on the colours, 1 on the mean. */
+typedef struct ClothFacet {
+    float slope_x, slope_y, azimuth, once, again;
+} ClothFacet;
+enum { FACETS_MOST = 4096 };
 
 struct WeftCloth {
     Weave weave; /* with the two tables below */
     ClothFar far;
+    int facet_count[2]; /* of either system, at least 1 */
+    ClothFacet facets[2][FACETS_MOST];
     float *runs, *albedos;
     WeftYarn yarns[2];
     char *text;       /* JSON: the weave of the material that it came from; NULL: of none */
@@ -32,13 +43,10 @@ void cloth_spread(WeftCloth *cloth, double metres);
 /* Returns true if both came from the same text, and from the same draft where that is in a file. */
 bool cloth_same(const WeftCloth *a, const WeftCloth *b);
 
-/* cloth_far.c: makes weave.warp_far and weft_far, and far; false where memory is short. */
+/* cloth_far.c: makes weave.warp_far and weft_far, far and facets; false where memory is short. */
 bool cloth_far_make(WeftCloth *cloth);
 
 /* Returns the texels of a level, all layers one after the other. */
 const float *cloth_far_level(const ClothFar *far, int level, int *width, int *height);
-
-/* Returns the texel of a layer so many repeats from the left and from the bottom, of the level below `level`. */
-const float *cloth_far_color(const ClothFar *far, int layer, float x, float y, float level);
 
 #endif

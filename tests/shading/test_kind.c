@@ -53,15 +53,30 @@ static void value_is(KindVertices *v, int direction, int k, StackValue expected)
     assert_true(close(v->pdf[direction][k], expected.pdf));
 }
 
+/* Puts a random point of a thread into both. */
+static void weave_both(Random *random, YarnRows *rows, size_t k, SeenStack *any, Dir o) {
+    Lobe yarn = lobe_default(LOBE_YARN);
+    yarn.params[YARN_SLOPE_X] = random_unit(random) - 0.5f;
+    yarn.params[YARN_SLOPE_Y] = random_unit(random) - 0.5f;
+    yarn.params[YARN_AZIMUTH] = 6.0f * random_unit(random);
+    const Rgb once = rgb(random_unit(random), random_unit(random), 0.0f), again = rgb(0.3f, 0.0f, once.r);
+    for (int p = 0; p < LOBE_PARAMS_MAX; p++) rows->params[p][k] = yarn.params[p];
+    rows->once[0][k] = once.r, rows->once[1][k] = once.g, rows->once[2][k] = once.b;
+    rows->again[0][k] = again.r, rows->again[1][k] = again.g, rows->again[2][k] = again.b;
+    stack_put_base(&any->stack, &yarn, once, again);
+    stack_see(&any->stack, &o, &any->view);
+}
+
 /* Shades textured points both ways, one light from above and one from below. */
 static void shade_alike(Random *random, const StackKind *kind, const Surface *plain, const Choices *choices,
-                        TableRef e) {
+                        TableRef e, bool woven) {
     static KindVertices v;
     static SeenStack any[ROW_MOST];
     for (int k = 0; k < ROW_MOST; k++) {
         Surface s = textured(random, *plain);
         Dir o = random_direction(random), i = random_direction(random);
         seen_make(&any[k], &s, choices, e, o);
+        if (woven) weave_both(random, &v.yarn, (size_t)k, &any[k], o);
         surface_to_row(&v.surface, (size_t)k, &s);
         v.o[0][k] = o.x, v.o[1][k] = o.y, v.o[2][k] = o.z;
         v.i[0][0][k] = i.x, v.i[0][1][k] = i.y, v.i[0][2][k] = i.z;
@@ -95,7 +110,28 @@ static void kinds_shade_as_the_general_stack(void **state) {
         stack_make(&stack, &plain, &choices, e);
         const StackKind *kind = stack_kind(&stack, &choices);
         assert_non_null(kind); /* what has no dust has one */
-        shade_alike(&random, kind, &plain, &choices, e);
+        shade_alike(&random, kind, &plain, &choices, e, false);
+    }
+}
+
+static void woven_kinds_shade_as_the_general_stack(void **state) {
+    (void)state;
+    Random random = {41};
+    const Choices choices = choices_unmade();
+    const TableRef e = albedo_table_ref(table_of(LOBE_CHARLIE_CONTY_KULLA));
+    const Lobe yarn = lobe_default(LOBE_YARN);
+    for (int n = 0; n < CASES; n++) {
+        Surface plain = random_plain(&random);
+        Stack stack;
+        plain.clearcoat = n < 2 ? 0.5f : 0.0f;
+        if (n % 2) plain.sheen_color = rgb_grey(0.0f);
+        stack_make(&stack, &plain, &choices, e);
+        stack_put_base(&stack, &yarn, rgb_grey(1.0f), rgb_grey(1.0f));
+        const StackKind *kind = stack_kind(&stack, &choices);
+        if (n < 2)
+            assert_null(kind); /* no kind is woven and coated */
+        else
+            shade_alike(&random, kind, &plain, &choices, e, true);
     }
 }
 
@@ -121,6 +157,7 @@ static void stack_outside_the_list_has_no_kind(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(kinds_shade_as_the_general_stack),
+        cmocka_unit_test(woven_kinds_shade_as_the_general_stack),
         cmocka_unit_test(stack_outside_the_list_has_no_kind),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -43,13 +43,7 @@ WeaveBase woven_far(Weave c, bool weft, vec2 place, vec2 across, vec2 up, WeaveF
 /* In the place of the stack's base. */
 Stack woven_stack(Stack m, WeaveBase b) {
     Stack n = m;
-    n.diffuse.lobe = b.lobe;
-    n.diffuse.f0 = b.once;
-    n.diffuse.f90 = b.again;
-    n.diffuse.normal = max(0.33 * rgb_mean(b.once) + 0.67 * rgb_mean(b.again), 1e-3);
-    n.diffuse.grazing = n.diffuse.normal;
-    n.base_fresnel = BASE_FRESNEL_NONE;
-    diffuse_prepare(n.diffuse.lobe, n.diffuse_prepared);
+    compose_base(n, b.lobe, b.once, b.again);
     n.diffuse_prepared.woven.part = 1.0;
     return n;
 }

@@ -2,8 +2,8 @@
 uniform highp sampler2D weave_cells;
 
 /* Places of cloth_numbers (raster/cloths.h), behind the yarns. */
-const int CLOTH_SEED = 44, CLOTH_LOW = 45, CLOTH_HIGH = 46, CLOTH_OPENNESS = 47, CLOTH_WARPS = 48, CLOTH_PICKS = 49,
-          CLOTH_FAR_WIDTH = 50, CLOTH_FAR_HEIGHT = 51, CLOTH_PER_U = 52, CLOTH_PER_V = 53;
+const int CLOTH_SEED = 48, CLOTH_LOW = 49, CLOTH_HIGH = 50, CLOTH_OPENNESS = 51, CLOTH_WARPS = 52, CLOTH_PICKS = 53,
+          CLOTH_FAR_WIDTH = 54, CLOTH_FAR_HEIGHT = 55, CLOTH_PER_U = 56, CLOTH_PER_V = 57;
 
 float weave_number(int k) { return material_weave[k / 4][k - 4 * (k / 4)]; }
 
