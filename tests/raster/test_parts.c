@@ -76,13 +76,43 @@ static WeftImage part_of(WeftRaster *raster, int part) {
     return drawn(raster, &how);
 }
 
-static void parts_sum_up(WeftRaster *raster, const char *name) {
+/* A part under that many times the environment's own factors: none, its own, and other ones. */
+enum { FACTORS = 3 };
+
+static void scaled_parts(WeftScene *scene, WeftRaster *raster, int part, WeftImage image[FACTORS]) {
+    static const float factors[FACTORS][2] = {{0.0f, 0.0f}, {1.0f, 1.0f}, {0.25f, 3.0f}};
+    for (int k = 0; k < FACTORS; k++) {
+        assert_int_equal(weft_scene_set_environment_parts(scene, factors[k][0], factors[k][1], NULL),
+                         WEFT_OK);
+        assert_int_equal(weft_raster_update(raster, NULL, NULL), WEFT_OK);
+        image[k] = part_of(raster, part);
+    }
+}
+
+/* Light that is near does not change. */
+static void part_is_scaled(const WeftImage image[FACTORS], int part, const char *name) {
+    const float factor = part == WEFT_PART_DIFFUSE || part == WEFT_PART_DUST ? 0.25f : 3.0f;
+    const float *none = image[0].pixels, *plain = image[1].pixels, *scaled = image[2].pixels;
+    for (int k = 0; k < SIDE * SIDE * 4; k++) {
+        if (k % 4 == 3) continue;
+        float due = none[k] + factor * (plain[k] - none[k]);
+        if (!(fabsf(scaled[k] - due) <= 4e-3f * (due + plain[k]) + 1e-4f))
+            fail_msg("%s: %s: pixel %d is %g, not %g", name, weft_part_name(part), k / 4, (double)scaled[k],
+                     (double)due);
+    }
+}
+
+/* The parts sum up to all light, and each is as the environment's factors scale it. A part has a program of its own,
+ * which is asked for all of its pictures at once. */
+static void parts_sum_up_and_are_scaled(WeftScene *scene, WeftRaster *raster, const char *name) {
     WeftImage all = part_of(raster, WEFT_PART_ALL);
     float sum[SIDE * SIDE * 4] = {0.0f}, most = 0.0f;
     for (int part = WEFT_PART_DIFFUSE; part <= WEFT_PART_DUST; part++) {
-        WeftImage image = part_of(raster, part);
-        for (int k = 0; k < SIDE * SIDE * 4; k++) sum[k] += ((float *)image.pixels)[k];
-        weft_image_free(&image);
+        WeftImage image[FACTORS];
+        scaled_parts(scene, raster, part, image);
+        part_is_scaled(image, part, name);
+        for (int k = 0; k < SIDE * SIDE * 4; k++) sum[k] += ((float *)image[1].pixels)[k];
+        for (int k = 0; k < FACTORS; k++) weft_image_free(&image[k]);
     }
     const float *is = all.pixels;
     for (int k = 0; k < SIDE * SIDE * 4; k++) {
@@ -93,33 +123,8 @@ static void parts_sum_up(WeftRaster *raster, const char *name) {
     }
     assert_true(most > 0.1f);
     weft_image_free(&all);
-}
-
-/* Each part as the environment's factors scale it: those of light that is near do not change. */
-static void parts_are_scaled(WeftScene *scene, WeftRaster *raster, const char *name) {
-    static const float factors[3][2] = {{0.0f, 0.0f}, {1.0f, 1.0f}, {0.25f, 3.0f}};
-    WeftError error;
-    for (int part = WEFT_PART_DIFFUSE; part <= WEFT_PART_DUST; part++) {
-        WeftImage image[3];
-        float factor = factors[2][part == WEFT_PART_DIFFUSE || part == WEFT_PART_DUST ? 0 : 1];
-        for (int k = 0; k < 3; k++) {
-            assert_int_equal(weft_scene_set_environment_parts(scene, factors[k][0], factors[k][1], &error),
-                             WEFT_OK);
-            assert_int_equal(weft_raster_update(raster, NULL, &error), WEFT_OK);
-            image[k] = part_of(raster, part);
-        }
-        const float *none = image[0].pixels, *plain = image[1].pixels, *scaled = image[2].pixels;
-        for (int k = 0; k < SIDE * SIDE * 4; k++) {
-            if (k % 4 == 3) continue;
-            float due = none[k] + factor * (plain[k] - none[k]);
-            if (!(fabsf(scaled[k] - due) <= 4e-3f * (due + plain[k]) + 1e-4f))
-                fail_msg("%s: %s: pixel %d is %g, not %g", name, weft_part_name(part), k / 4,
-                         (double)scaled[k], (double)due);
-        }
-        for (int k = 0; k < 3; k++) weft_image_free(&image[k]);
-    }
-    assert_int_equal(weft_scene_set_environment_parts(scene, 1.0f, 1.0f, &error), WEFT_OK);
-    assert_int_equal(weft_raster_update(raster, NULL, &error), WEFT_OK);
+    assert_int_equal(weft_scene_set_environment_parts(scene, 1.0f, 1.0f, NULL), WEFT_OK);
+    assert_int_equal(weft_raster_update(raster, NULL, NULL), WEFT_OK);
 }
 
 /* A choice's values, from the first one on. */
@@ -134,8 +139,7 @@ static void choices_sum_up(WeftScene *scene, WeftRaster *raster, const char *cho
         if (weft_scene_set(scene, target, value, NULL, &error) != WEFT_OK) continue; /* a reference's own */
         if (weft_raster_update(raster, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
         snprintf(name, sizeof name, "%s %s", choice, value);
-        parts_sum_up(raster, name);
-        parts_are_scaled(scene, raster, name);
+        parts_sum_up_and_are_scaled(scene, raster, name);
     }
     assert_int_equal(weft_scene_set(scene, target, "auto", NULL, &error), WEFT_OK);
 }
