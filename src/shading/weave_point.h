@@ -131,7 +131,7 @@ FN void weave_higher(WeavePoint *best, WeavePoint p) {
  * since their colours tell them from what is below. */
 FN float weave_fineness(float spacing) { return clamp(1.5f - 30.0f * spacing, 0.0f, 1.0f); }
 FN float weave_hair_radius(float spacing) {
-    return WEAVE_HAIR_RADIUS * clamp(1.6f - 6.0f * spacing, 0.0f, 1.0f);
+    return WEAVE_HAIR_RADIUS * clamp(1.75f - 25.0f * spacing, 0.0f, 1.0f);
 }
 
 /* Adds fibres along the twist, and how the dye took. Then turns the point from the thread's frame, along y, to

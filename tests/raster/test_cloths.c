@@ -79,15 +79,15 @@ static const char *const tartan = "{\"weave\": {\"draft\": \"twill 2/2; both 8b 
                                   "\"warp\": \"wool\", \"weft\": \"wool\", \"metres\": 0.5}}";
 static const WeftGl gls[] = {WEFT_GL_DESKTOP, WEFT_GL_ES};
 
-/* A pixel is an eleventh of a thread, loose fibres and all, or fine enough for the fibres in it too: one point. Edges may
+/* A pixel is an eleventh of a thread that has no fibres, or fine enough for fibres, the loose ones too: one point. Edges may
  * lie on either side of its middle. */
 static void threads_are_the_same_in_both_engines(void **state) {
     (void)state;
     need_gl();
     static const char smooth[] =
         "{\"weave\": {\"draft\": \"twill 3/1 z; warp 1#26375c; weft 1#d8d4c8; sett 26 18\", "
-        "\"warp\": {\"yarn\": \"cotton\", \"streaks\": 0}, "
-        "\"weft\": {\"yarn\": \"cotton\", \"streaks\": 0}, \"metres\": 0.5}}";
+        "\"warp\": {\"yarn\": \"cotton\", \"streaks\": 0, \"hairiness\": 0}, "
+        "\"weft\": {\"yarn\": \"cotton\", \"streaks\": 0, \"hairiness\": 0}, \"metres\": 0.5}}";
     static const char *const weaves[] = {smooth, denim};
     static const char *const cameras[] = {"0.25,0.62,0.65;0.03,0.42,0.15;0.35",
                                           "0.25,0.62,0.65;0.03,0.42,0.15;0.06"};

@@ -257,7 +257,7 @@ static void looks_are_the_same_alone_and_among_others(void **state) {
             if (k % 2) continue;
             const float x = looks.uv[0][k] * cloth->per_uv[WEFT_WARP],
                         y = -looks.uv[1][k] * cloth->per_uv[WEFT_WEFT];
-            const WeavePoint p = weave_point(&cloth->weave, x, y, 0.5f * side);
+            const WeavePoint p = weave_point(&cloth->weave, x, y, 0.25f * side);
             assert_float_equal(p.slope_x, rows.params[YARN_SLOPE_X][k], 1e-2f);
             loose += p.height > weave_top(&cloth->weave, x, y).height;
         }
