@@ -57,11 +57,11 @@ static Dir sky_ray(int k, int rays, float turn) {
 }
 
 /* So many times as steep, its mean over the rays as it was when it is cut off. */
-static Ramp ramp_steeper(const Occlusion *self, const Ramp *r, float by, float turn) {
+static Ramp ramp_steeper(const Occlusion *self, const Ramp *r, float by, const Dir *sky) {
     Ramp out = {r->mean, by * r->x, by * r->y, by * r->z};
     for (int round = 0; round < 4; round++) {
         float mean = 0.0f;
-        for (int k = 0; k < self->rays; k++) mean += ramp_at(&out, sky_ray(k, self->rays, turn));
+        for (int k = 0; k < self->rays; k++) mean += ramp_at(&out, sky[k]);
         out.mean = clamp(out.mean + r->mean - mean / (float)self->rays, -1.0f, 2.0f);
     }
     return out;
@@ -74,12 +74,12 @@ static Ramp ramp_steeper(const Occlusion *self, const Ramp *r, float by, float t
  *
  * and since V ends at 0 and 1, as many times as steep as is nearest when it is cut off there, and as much
  * higher as cutting it off takes from its mean. */
-static void fit_ramp(const Occlusion *self, const bool *seen, float turn, Ramp *out) {
+static void fit_ramp(const Occlusion *self, const bool *seen, const Dir *sky, Ramp *out) {
     static const float steps[] = {1.0f, 1.25f, 1.5f, 2.0f, 2.5f, 3.0f};
     Ramp r = {0.0f, 0.0f, 0.0f, 0.0f};
     float least = INFINITY, share = 1.0f / (float)self->rays;
     for (int k = 0; k < self->rays; k++) {
-        Dir w = sky_ray(k, self->rays, turn);
+        Dir w = sky[k];
         if (!seen[k]) continue;
         r.mean += share;
         r.x += 3.0f * share * w.x;
@@ -88,10 +88,10 @@ static void fit_ramp(const Occlusion *self, const bool *seen, float turn, Ramp *
     }
     *out = r;
     for (size_t n = 0; n < sizeof steps / sizeof steps[0]; n++) {
-        Ramp steep = ramp_steeper(self, &r, steps[n], turn);
+        Ramp steep = ramp_steeper(self, &r, steps[n], sky);
         float off = 0.0f;
         for (int k = 0; k < self->rays; k++) {
-            float d = ramp_at(&steep, sky_ray(k, self->rays, turn)) - (seen[k] ? 1.0f : 0.0f);
+            float d = ramp_at(&steep, sky[k]) - (seen[k] ? 1.0f : 0.0f);
             off += d * d;
         }
         if (off < least) least = off, *out = steep;
@@ -102,17 +102,18 @@ static void fit_ramp(const Occlusion *self, const bool *seen, float turn, Ramp *
  * hemisphere by the golden ratio. */
 static float seen_from(const Occlusion *self, Vec3 p, Vec3 n, float reach, uint32_t vertex, float open[4]) {
     bool seen[OCCLUSION_RAYS_MAX];
+    Dir sky[OCCLUSION_RAYS_MAX]; /* of a frame whose z is n */
     Frame frame = frame_about(dir_of(n), dir(0.0f, 0.0f, 0.0f), 1.0f);
     Vec3 from = vec3_madd(p, n, reach);
     float sum = 0.0f, turn = turned(vertex);
     Ramp ramp;
     for (int k = 0; k < self->rays; k++) {
-        Dir w = sky_ray(k, self->rays, turn), d = frame_from(frame, w);
+        Dir w = sky[k] = sky_ray(k, self->rays, turn), d = frame_from(frame, w);
         Ray ray = {from, vec3(d.x, d.y, d.z), 0.0f, INFINITY, vertex, false};
         seen[k] = !geometry_occluded(self->geometry, ray);
         if (seen[k]) sum += 2.0f * w.z / (float)self->rays;
     }
-    fit_ramp(self, seen, turn, &ramp);
+    fit_ramp(self, seen, sky, &ramp);
     Dir slope = frame_from(frame, dir(ramp.x, ramp.y, ramp.z));
     open[0] = ramp.mean - 0.5f * ramp.z;
     open[1] = slope.x, open[2] = slope.y, open[3] = slope.z;
