@@ -130,6 +130,17 @@ static WeftResult crop(const Job *job, WeftImage *image, WeftError *error) {
     return WEFT_OK;
 }
 
+/* Has the driver compile what a picture is drawn with while its occlusion is still being found: draws a small one. If
+ * that fails, so does the picture, which then says why. */
+static void compile_early(WeftRaster *raster, WeftRasterView view) {
+    enum { SMALLER = 32 };
+    if (!weft_raster_info(raster).making) return;
+    view.width = view.width > SMALLER ? view.width / SMALLER : 1;
+    view.height = view.height > SMALLER ? view.height / SMALLER : 1;
+    memset(view.crop, 0, sizeof view.crop);
+    weft_raster_draw(raster, &view, NULL);
+}
+
 static WeftResult raster(Job *job, const char *camera, WeftError *error) {
     const WeftRenderDesc *desc = &job->request->desc;
     const WeftLog log = {.fn = warn, .user = job->warnings};
@@ -148,6 +159,7 @@ static WeftResult raster(Job *job, const char *camera, WeftError *error) {
     if (!job->raster)
         result = weft_raster_create(job->scene, &job->request->raster, &job->raster, &log, error);
     double started = clock_now();
+    if (result == WEFT_OK) compile_early(job->raster, view);
     if (result == WEFT_OK) result = weft_raster_wait(job->raster, error);
     if (result == WEFT_OK) result = weft_raster_draw(job->raster, &view, error);
     if (result == WEFT_OK) result = weft_raster_image(job->raster, &job->linear, error);

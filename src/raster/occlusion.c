@@ -26,7 +26,7 @@ struct Occlusion {
     float *position, *normal; /* 3 a vertex; a normal of 0 looks nowhere */
     uint32_t *first;          /* vertex of a mesh */
     int rays, threads;
-    bool no_cache, behind;
+    bool no_cache;
     EnvLight env_lights[OCCLUSION_LIGHTS];
     int env_light_count;
     EnvPoint env_points[AMBIENT_POINTS_MAX + OCCLUSION_LIGHTS];
@@ -232,7 +232,7 @@ static bool in_range(const float *values, size_t count) {
 static void *work(void *user) {
     Occlusion *self = user;
     uint32_t count = self->first[self->scene.mesh_count];
-    if (self->behind) thread_step_back();
+    thread_step_back(); /* for those who draw meanwhile, or compile programs */
     parallel_for(self->threads, (int)((count + BLOCK - 1) / BLOCK), look, self);
     /* in silence: a log is for the thread that made this */
     if (!self->no_cache && !atomic_load(&self->stop))
@@ -337,7 +337,6 @@ WeftResult occlusion_start(const WeftScene *scene, const Refinement *refinement,
     if (!self) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     self->rays = how->rays;
     self->no_cache = how->no_cache || !is_opaque(scene);
-    self->behind = how->behind;
     self->threads = how->threads ? how->threads : thread_count();
     self->env_light_count = how->env_light_count < OCCLUSION_LIGHTS ? how->env_light_count : OCCLUSION_LIGHTS;
     copy_env_lights(self, how);

@@ -28,7 +28,6 @@ typedef struct OcclusionHow {
     int env_light_count;        /* those beyond OCCLUSION_LIGHTS are not looked for */
     const EnvPoint *env_points; /* the parts of the lights, sorted by light; copied */
     int env_point_count;        /* 0: each light is about its direction */
-    bool behind;                /* other threads come first */
 } OcclusionHow;
 
 /* Starts to look from every vertex of the scene's own meshes as they are refined; those of its lights, which move,

@@ -128,8 +128,7 @@ static WeftResult start_occlusion(WeftRaster *self, bool no_cache, const WeftLog
                               .env_lights = self->env_lights,
                               .env_light_count = self->env_light_count,
                               .env_points = self->env_points,
-                              .env_point_count = self->env_point_count,
-                              .behind = self->desc.adopt != 0}; /* pictures are drawn meanwhile */
+                              .env_point_count = self->env_point_count};
     WeftResult result = occlusion_start(self->scene, &self->refinement, &how, &self->occlusion, log, error);
     self->look = result != WEFT_OK;
     return result;
