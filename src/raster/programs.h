@@ -50,7 +50,7 @@ typedef struct Programs {
 
 /* So many programs are kept, those of the last few pictures in any case: each may be some ten megabytes of
  * code. */
-enum { PROGRAMS_KEPT = 4, PROGRAMS_LATE = 3 };
+enum { PROGRAMS_KEPT = 7, PROGRAMS_LATE = 3 };
 
 /* Notes that a key will be drawn with; false where memory is short. */
 bool programs_want(Programs *programs, const ShaderKey *key);
