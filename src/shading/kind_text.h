@@ -25,7 +25,7 @@ static Choices known_choices(void) {
     if (!KIND_TRANSMITS) s.diffuse_transmission = 0.0f;                                                      \
     Stack m;                                                                                                 \
     compose_stack(&m, &s, known_choices(), e);                                                               \
-    if (diffuse_lobe == LOBE_YARN)                                                                           \
+    if (KIND_WOVEN)                                                                                          \
         compose_base(&m, yarn_of_row(&(v)->yarn, k), ROW_RGB((v)->yarn.once, k),                             \
                      ROW_RGB((v)->yarn.again, k));                                                           \
     m.coat.normal = coated ? m.coat.normal : 0.0f
