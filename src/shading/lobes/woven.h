@@ -52,7 +52,7 @@ STRUCT(WovenBin) {
 
 STRUCT(WovenPrepared) {
     float alpha, share, roundness, over_roundness;
-    float part; /* factor on f: the share, where the colours do not have it already */
+    float part;               /* factor on f: the share, where the colours do not have it already */
     float crimp, cross_crimp; /* slopes as yarn_area takes them */
     float cos_a, sin_a, cos_t, sin_t;
     WovenBin b0, b1, b2, b3, b4, b5;
