@@ -30,13 +30,13 @@ struct ReferenceView {
     bool fresh;          /* `picture` was not taken yet */
     ReferenceFrame picture;
     WeftImage linear; /* what the picture was made of */
-    /* of the thread alone */
+    /* written by the thread alone; what others read of it, while it does not run */
     WeftRender *render;
     ReferenceRequest asked, drawn; /* the latest, and with the pixels that it was given */
     unsigned drawn_number;
     bool current; /* `render` is of the scene and of `drawn` */
     bool finer;   /* the render has all of its pixels */
-    bool spare;   /* and was in the place of a picture that is now there */
+    bool spare;   /* the render stood in for a picture that may be there by now */
     double samples;
     WeftImage denoised; /* of the render when it had so many samples */
     double denoised_samples;
@@ -203,8 +203,8 @@ static void refine(ReferenceView *self, const ReferenceRequest *request) {
 static bool has_work(const ReferenceView *self) {
     if (!is_wanted(self) || !self->scene || self->held || self->waiting) return false;
     if (self->picture.failure[0] && self->number == self->drawn_number && !self->changed) return false;
-    return self->other || self->changed || self->number != self->drawn_number || self->reference.pixels ||
-           (self->current && self->samples < (double)self->request.samples);
+    return !self->current || self->other || self->changed || self->number != self->drawn_number ||
+           self->reference.pixels || self->samples < (double)self->request.samples;
 }
 
 /* Returns true if the samples are of no use any more. */
@@ -212,16 +212,21 @@ static bool is_spare(const ReferenceView *self) {
     return self->spare && !is_wanted(self) && self->scene && !self->held && !self->waiting;
 }
 
-/* Lets the samples of all pixels go, which take some fifty bytes a pixel, and keeps the tree of the scene. The lock is
- * held before and after, not during. */
+/* Lets the samples of all pixels go, which take some fifty bytes a pixel, and keeps the tree of the scene, unless that is
+ * another one by now. The lock is held before and after, not during. */
 static void let_go(ReferenceView *self) {
     ReferenceRequest least = self->asked;
     const WeftScene *scene = self->scene;
+    const bool other = self->other;
     least.desc.width = least.desc.height = 1;
     self->running = true;
     self->spare = false;
     pthread_mutex_unlock(&self->lock);
-    if (self->render) begin(self, &least, scene, 0, false);
+    if (other) {
+        weft_render_free(self->render);
+        self->render = NULL;
+    } else if (self->render)
+        begin(self, &least, scene, 0, false);
     pthread_mutex_lock(&self->lock);
     self->current = false;
     self->running = false;
