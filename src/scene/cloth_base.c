@@ -3,8 +3,8 @@
 #include "shading/loop.h"
 
 /* The samples of a pixel average points and crossings, without an error: so the mean takes their place from two threads
- * a pixel on, completely at four, and its colours are those of a quarter of the pixel. Fibres a quarter as wide as a pixel are
- * seen. */
+ * a pixel on, completely at four, and its colours are those of a quarter of the pixel. Fibres fade until they are a quarter as wide as a
+ * pixel. */
 enum { LATER = 2, FINER = 4, POINTS = 4 };
 
 /* Rows of picks run up the cloth, v runs down it. Further out than a million threads there are no fractions. */

@@ -40,7 +40,8 @@ FN float weave_turns(float f, float cycle) {
 }
 FN float weave_pace(float f, float cycle) { return cycle > 0.0f ? weave_turns(f, cycle) / cycle : f; }
 
-/* A slanted lattice that comes again after n points moves in a crossing: by about f, and by whole n in a cycle. */
+/* The points that a slanted lattice moves on in a crossing. They are about f, and a multiple of n in a cycle, since the
+ * lattice comes again after n. */
 FN float weave_lean(float f, float n, float cycle) {
     return cycle > 0.0f ? n * floor(f * cycle / n + 0.5f) / cycle : f;
 }

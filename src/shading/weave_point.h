@@ -10,7 +10,8 @@
  *   Near by a thread is a bundle of fibres along its twist, each with a round back and dark crevices beside it, and
  * some fibres have come loose and lie across the cloth. What is finer than the distance of the points that are looked at
  * is left out, and its mean stays.
- *   A float that counts more than a million threads has no fractions left. */
+ *   A float that counts more than a million threads has no fractions left, and fibres lose their shape from a hundred
+ * thousand on. */
 #ifndef WEFT_SHADING_WEAVE_POINT_H
 #define WEFT_SHADING_WEAVE_POINT_H
 
@@ -123,11 +124,13 @@ FN void weave_higher(WeavePoint *best, WeavePoint p) {
     if (p.height > best->height) *best = p;
 }
 
-/* Fibres side by side in a thread; half the width of a loose one, in threads. */
+/* Fibres side by side in a thread, and how many differ in it; half the width of a loose one, in threads. */
 #define WEAVE_FIBRES      20.0f
+#define WEAVE_FIBRES_OWN  40.0f
 #define WEAVE_HAIR_RADIUS 0.018f
 
-/* Slopes and crevices of fibres fade as the spacing of points grows, in threads. The width of loose fibres fades later,
+/* Slopes and crevices of fibres fade as the spacing of points grows, in widths of the thread; half of a fibre's width leaves
+ * none. The width of loose fibres fades later,
  * since their colours tell them from what is below. */
 FN float weave_fineness(float spacing) { return clamp(1.5f - 30.0f * spacing, 0.0f, 1.0f); }
 FN float weave_hair_radius(float spacing) {
@@ -142,13 +145,17 @@ FN void weave_finish(const Weave *m, WeaveYarn y, float u, float v, float spacin
     float key = weave_key(hash, seed + 7.0f);
     float twist = p->weft ? -y.twist : y.twist; /* across and along are x and y, mirrored */
     float c = cos(twist) / y.width, s = sin(twist) / y.width, x = u - p->thread;
-    float on = weave_pace(1.3f * c, cycle), turns = weave_turns(1.3f * c, cycle), t = on * v - 1.3f * s * x;
-    float waver = weave_plane(weave_key(key, 31.0f), 3.0f * c * x + weave_lean(3.0f * s, 8.0f, cycle) * v,
+    float crossing = y.cross_pitch / y.pitch, c_v = c * crossing,
+          s_v = s * crossing; /* v counts the others */
+    float on = weave_pace(1.3f * c_v, cycle), turns = weave_turns(1.3f * c_v, cycle),
+          t = on * v - 1.3f * s * x;
+    float waver = weave_plane(weave_key(key, 31.0f), 3.0f * c * x + weave_lean(3.0f * s_v, 8.0f, cycle) * v,
                               8.0f, t, turns);
-    float fibre = WEAVE_FIBRES * c * x + weave_lean(WEAVE_FIBRES * s, 40.0f, cycle) * v + 2.0f * waver;
+    float fibre =
+        WEAVE_FIBRES * c * x + weave_lean(WEAVE_FIBRES * s_v, WEAVE_FIBRES_OWN, cycle) * v + 2.0f * waver;
     float number = floor(fibre), f = 2.0f * (fibre - number) - 1.0f,
-          streaks = y.streaks * weave_fineness(spacing);
-    float own = weave_course(weave_key(weave_mod(number, 40.0f), key), t, turns);
+          streaks = y.streaks * weave_fineness(spacing / y.width);
+    float own = weave_course(weave_key(key, weave_mod(number, WEAVE_FIBRES_OWN)), t, turns);
     float turn = twist + 0.35f * y.streaks * waver, ct = cos(turn), st = sin(turn);
     float sx = p->slope_x + streaks * f, sy = p->slope_y;
     float n = 1.0f / sqrt(1.0f + sx * sx + sy * sy), q = 1.0f / sqrt(1.0f + sy * sy);
@@ -157,14 +164,14 @@ FN void weave_finish(const Weave *m, WeaveYarn y, float u, float v, float spacin
     p->dye = 1.0f -
              y.dye * (0.7f * weave_random(weave_key(hash, seed + 4.0f)) +
                       0.3f * weave_along(key, 0.35f, v, cycle)) -
-             0.8f * streaks * own;
+             0.5f * min(streaks, 0.5f) * own;
     p->lit = (1.0f - crevice * f * f * f * f) / (1.0f - 0.2f * crevice);
     p->slope_x = p->weft ? sy : sx;
     p->slope_y = p->weft ? sx : sy;
     p->fibre = p->weft ? dir(fy, fx, fz) : dir(fx, fy, fz);
 }
 
-/* The highest thread at x, y, level along itself. No thread reaches further than the middle of the next one's place: of
+/* The highest thread at x, y, in its own frame and without its fibres. No thread reaches further than the middle of the next one's place: of
  * either system the two nearest are asked. */
 FN WeavePoint weave_top(const Weave *m, float x, float y) {
     float i = floor(x), j = floor(y), beside = x - i < 0.5f ? -1.0f : 1.0f,
@@ -173,7 +180,7 @@ FN WeavePoint weave_top(const Weave *m, float x, float y) {
                weft = weave_thread(m, m->weft, true, j, y, x);
     weave_higher(&best, weave_thread(m, m->warp, false, i + beside, x, y));
     weave_higher(&weft, weave_thread(m, m->weft, true, j + above, y, x));
-    bool is_weft = weft.height > best.height; /* a loop of vectors chooses numbers, not whether */
+    bool is_weft = weft.height > best.height; /* copied, a truth would keep loops from vectors */
     weave_higher(&best, weft);
     best.weft = is_weft;
     return best;
@@ -197,43 +204,50 @@ FN WeavePoint weave_bound(const Weave *m, float x, float y, float spacing) {
 }
 
 /* A loose fibre at a point near it: whether the point is on it, and at what parts of its length and width, from -1 to 1;
- * number and system of the thread that it comes from; cosine and sine of its angle with that, and how far it bends. */
+ * number and system of the thread that it comes from; cosine and sine of its angle with that, and its slope there. */
 STRUCT(WeaveHair) {
     bool here, weft;
-    float along, across, thread, c, s, bend, wave;
+    float along, across, thread, c, s, lean;
 };
 
-/* Loose fibres: in each cell of about two threads by two there are places for a few, and none reaches over half a cell. */
+/* Loose fibres: in each cell of about two threads by two there are places for a few. None reaches further than 0.9 threads,
+ * and half a cell is at least 0.94. Where a cloth has no cycle, they come again after 578 threads. They end at gaps. */
 #define WEAVE_HAIRS      4
 #define WEAVE_HAIRS_NEAR (4 * WEAVE_HAIRS)
 
 /* Fibre n of those near x, y, from the thread on top of its middle: an S from the thread's own direction,
- * across = (q - l (b + w t) (1 - t^2)) / radius with t from -1 to 1 along it, thinner to its ends. */
+ * across = (q - l (b + w t) (1 - t^2)) / (radius sqrt(1 + lean^2)) with t from -1 to 1 along it and lean the slope of the S,
+ * thinner to its ends. Lengths are in threads of the finer system, which count as long along as across. */
 FN WeaveHair weave_hair(const Weave *m, int n, float x, float y, float radius) {
     float pace_x = weave_pace(0.5f, m->cycle_x), pace_y = weave_pace(0.5f, m->cycle_y);
     float i = floor(x * pace_x - 0.5f) + to_float(n / (2 * WEAVE_HAIRS)),
           j = floor(y * pace_y - 0.5f) + to_float((n / WEAVE_HAIRS) % 2);
     float column = weave_mod(i, weave_turns(pace_x, m->cycle_x)),
           row = weave_mod(j, weave_turns(pace_y, m->cycle_y));
-    float key = weave_key(weave_key(weave_key(m->seed, column), row), 11.0f + to_float(n % WEAVE_HAIRS));
+    float cell = weave_key(weave_key(weave_key(m->seed, 13.0f), column), row);
+    float key = weave_key(cell, 11.0f + to_float(n % WEAVE_HAIRS));
     float middle_x = (i + 0.5f + 0.5f * weave_random(weave_key(key, 1.0f))) / pace_x;
     float middle_y = (j + 0.5f + 0.5f * weave_random(weave_key(key, 2.0f))) / pace_y;
-    bool weft = weave_run(m, floor(middle_x), floor(middle_y), 1) < 0.0f;
-    float p = weft ? x - middle_x : y - middle_y, q = weft ? y - middle_y : x - middle_x;
+    float warp_run = weave_run(m, floor(middle_x), floor(middle_y), 1),
+          weft_run = weave_run(m, floor(middle_x), floor(middle_y), 3);
+    bool weft = max(-warp_run, weft_run) > 0.0f;
+    float finer = 1.0f / min(m->warp.pitch, m->weft.pitch);
+    float right = (x - middle_x) * m->warp.pitch * finer, up = (y - middle_y) * m->weft.pitch * finer;
+    float p = weft ? right : up, q = weft ? up : right;
     float turn = 1.2f * weave_random(weave_key(key, 3.0f)), c = cos(turn), s = sin(turn);
     float bend = 0.6f * weave_random(weave_key(key, 4.0f)), wave = 1.2f * weave_random(weave_key(key, 6.0f));
     float l = 0.6f + 0.3f * weave_random(weave_key(key, 5.0f)), t = (c * p + s * q) / l, t2 = t * t;
-    float reach = radius * (1.0f - t2 * t2), off = c * q - s * p - l * (bend + wave * t) * (1.0f - t2);
+    float lean = wave * (1.0f - 3.0f * t2) - 2.0f * bend * t;
+    float reach = radius * (1.0f - t2 * t2) * sqrt(1.0f + lean * lean),
+          off = c * q - s * p - l * (bend + wave * t) * (1.0f - t2);
     float kept = (weft ? m->weft.hairiness : m->warp.hairiness) - (0.5f + 0.5f * weave_random(key));
     WeaveHair h;
-    h.here = min(min(kept, 1.0f - max(abs(x - middle_x), abs(y - middle_y))),
-                 min(1.0f - abs(t), reach - abs(off))) > 0.0f;
+    h.here = min(kept, min(1.0f - abs(t), reach - abs(off))) > 0.0f;
     h.weft = weft;
     h.thread = floor(weft ? middle_y : middle_x);
     h.c = c;
     h.s = s;
-    h.bend = bend;
-    h.wave = wave;
+    h.lean = lean;
     h.along = t;
     h.across = off / reach;
     return h;
@@ -241,9 +255,8 @@ FN WeaveHair weave_hair(const Weave *m, int n, float x, float y, float radius) {
 
 /* Lays it over the point: arched, on what it crosses, and never below the middle of the cloth. */
 FN void weave_lay(WeaveHair h, WeavePoint *p) {
-    float t = h.along, lean = h.wave * (1.0f - 3.0f * t * t) - 2.0f * h.bend * t, rise = -0.4f * t,
-          round = 0.8f * h.across;
-    float fx = h.s + h.c * lean, fy = h.c - h.s * lean, n = 1.0f / sqrt(fx * fx + fy * fy);
+    float rise = -0.4f * h.along, round = 0.8f * h.across;
+    float fx = h.s + h.c * h.lean, fy = h.c - h.s * h.lean, n = 1.0f / sqrt(fx * fx + fy * fy);
     fx = fx * n;
     fy = fy * n;
     float sx = round * fy - rise * fx, sy = -round * fx - rise * fy, q = 1.0f / sqrt(1.0f + rise * rise);

@@ -51,13 +51,13 @@ static void add_point(const Weave *m, float x, float y, float spacing, MapTexel 
     const float alpha = p.weft ? m->weft.alpha : m->warp.alpha, once = once_of(alpha);
     for (int c = 0; c < 3; c++) {
         const float a = weave_albedo(m, p, c);
-        t->color[c] += part * (a * once + yarn_reflectance(a) * (1.0f - once));
+        t->color[c] += part * p.lit * (a * once + yarn_reflectance(a) * (1.0f - once));
     }
     t->cover += part;
     t->slope[0] += part * p.slope_x;
     t->slope[1] += part * p.slope_y;
     t->roughness += part * sqrtf(alpha);
-    t->open += part * p.lit * weave_depth(m, p);
+    t->open += part * weave_depth(m, p);
     t->height += part * p.height;
     const float across = p.fibre.x * p.fibre.x + p.fibre.y * p.fibre.y;
     t->along[0] += part * (p.fibre.x * p.fibre.x - p.fibre.y * p.fibre.y) / fmaxf(across, 1e-6f);

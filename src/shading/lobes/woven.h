@@ -1,6 +1,7 @@
 /* woven - the yarns of one direction in a woven cloth, from afar: streaks across the yarn on a soft ground
  *
- *   f = share (A <single> + rho(A) many)                                                          [1/sr]
+ *   f = part (A <single> + rho(A) many)                                                           [1/sr]
+ *   part: the share, of the cloth that these yarns cover
  *   <single>: the mean over slopes s_x = roundness r, s_y = tan(crimp) s |s|^(floats - 1), r and s in [-1, 1],
  *     with the weight 1 - 0.3 r^2
  *
@@ -52,7 +53,7 @@ STRUCT(WovenBin) {
 
 STRUCT(WovenPrepared) {
     float alpha, share, roundness, over_roundness;
-    float part;               /* factor on f: the share, where the colours do not have it already */
+    float part;               /* the share; 1 where colours hold it (raster/glsl/weave.glsl) */
     float crimp, cross_crimp; /* slopes as yarn_area takes them */
     float cos_a, sin_a, cos_t, sin_t;
     WovenBin b0, b1, b2, b3, b4, b5;
