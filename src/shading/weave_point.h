@@ -249,7 +249,7 @@ FN WeaveHair weave_hair(const Weave *m, int n, float x, float y, float radius) {
     h.s = s;
     h.lean = lean;
     h.along = t;
-    h.across = off / reach;
+    h.across = off / max(reach, 1e-6f);
     return h;
 }
 
