@@ -38,8 +38,8 @@ static Range depth_range(const WeftScene *scene, const View *view, const Floor *
         for (uint32_t k = 0; k < scene->meshes[m].vertex_count; k++)
             reach_out(&range, view, vec3_load(scene->meshes[m].position + 3 * (size_t)k));
     reach_floor(&range, view, floor);
-    const float rounding =
-        1e-5f * fmaxf(fabsf(range.near), fabsf(range.far)); /* a plane that faces the eye has no depth */
+    /* a plane that faces the eye has no depth of its own */
+    const float rounding = 1e-5f * fmaxf(fabsf(range.near), fabsf(range.far));
     const float margin = 1e-3f * (range.far - range.near) + rounding + 1e-6f;
     range.near -= margin;
     range.far += margin;

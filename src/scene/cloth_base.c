@@ -84,10 +84,7 @@ FN Weave without_cycle(const Weave *weave) {
 }
 
 FN void put_point(YarnRows *restrict out, size_t k, const Weave *m, WeavePoint p) {
-    float there = p.height > WEAVE_NONE ? 1.0f : 0.0f;
-    Rgb once = rgb(weave_once(m, p, 0), weave_once(m, p, 1), weave_once(m, p, 2));
-    Rgb again = rgb(weave_reflectance(m, p, 0), weave_reflectance(m, p, 1), weave_reflectance(m, p, 2));
-    put_base(out, k, weave_yarn(m, p), rgb_scale(once, there), rgb_scale(again, there));
+    put_base(out, k, weave_yarn(m, p), weave_once_rgb(m, p), weave_again_rgb(m, p));
 }
 
 LOOP(bind_n, (const Weave *weave, Part *restrict part, int n), (weave, part, n)) {
@@ -153,9 +150,7 @@ LOOP(choose_n, (const WeftCloth *cloth, Part *restrict part, float scale, int n)
         f.longest = 0.0f;
         float x = part->x[k], y = part->y[k];
         int level = to_int(min(weave_far_level(f, finer_x, finer_y), last));
-        int w = width >> level, h = height >> level;
-        w = w > 0 ? w : 1;
-        h = h > 0 ? h : 1;
+        int w = cloth_far_side(width, level), h = cloth_far_side(height, level);
         int layer = 4 * w * h, at = starts[level] + 4 * (texel_at(y / picks, h) * w + texel_at(x / warps, w));
         float warp_dye = weave_far_dye(&m, false, x, f.x / FINER),
               weft_dye = weave_far_dye(&m, true, y, f.y / FINER);
@@ -224,18 +219,4 @@ void cloth_bases(const WeftCloth *cloth, const ClothLooks *looks, int n, YarnRow
     if (far->count) lay_n(cloth->facets[0], far, row_whole(far->count));
     give(near, out);
     give(far, out);
-}
-
-void cloth_base(const WeftCloth *cloth, const ClothLook *look, Stack *stack) {
-    ClothLooks looks;
-    YarnRows yarn;
-    looks.uv[0][0] = look->uv[0], looks.uv[1][0] = look->uv[1];
-    looks.footprint_x[0] = look->footprint.x;
-    looks.footprint_y[0] = look->footprint.y;
-    looks.longest[0] = look->footprint.longest;
-    looks.level[0] = look->level, looks.facet[0] = look->facet;
-    looks.holed = look->holed;
-    cloth_bases(cloth, &looks, 1, &yarn);
-    const Lobe lobe = yarn_of_row(&yarn, 0);
-    stack_put_base(stack, &lobe, ROW_RGB(yarn.once, 0), ROW_RGB(yarn.again, 0));
 }

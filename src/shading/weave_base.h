@@ -60,7 +60,6 @@ STRUCT(WeaveBase) {
 
 FN WeaveBase weave_near(const Weave *m, WeavePoint p) {
     Yarn y = weave_yarn(m, p);
-    bool thread = p.height > WEAVE_NONE;
     WeaveBase b;
     b.lobe = lobe_default(LOBE_YARN);
     b.lobe.params[YARN_ALPHA] = y.alpha;
@@ -71,11 +70,8 @@ FN WeaveBase weave_near(const Weave *m, WeavePoint p) {
     b.lobe.params[YARN_CRIMP] = y.crimp;
     b.lobe.params[YARN_CROSS_CRIMP] = y.cross_crimp;
     b.lobe.params[YARN_SHARE] = y.share;
-    b.once = rgb_grey(0.0f);
-    b.again = b.once;
-    if (thread) b.once = rgb(weave_once(m, p, 0), weave_once(m, p, 1), weave_once(m, p, 2));
-    if (thread)
-        b.again = rgb(weave_reflectance(m, p, 0), weave_reflectance(m, p, 1), weave_reflectance(m, p, 2));
+    b.once = weave_once_rgb(m, p);
+    b.again = weave_again_rgb(m, p);
     return b;
 }
 
@@ -88,11 +84,9 @@ FN Rgb weave_dyed_rgb(Rgb c, float covers, float dye) {
 }
 
 /* The threads of one system, which cover so much of the cloth there. once, again: what they reflect, in parts of
- * the whole cloth. */
+ * the whole cloth, as the colours of the base are: its lobe is to leave the share out. */
 FN WeaveBase weave_far(const Weave *m, bool weft, Rgb once, Rgb again, float covers, float dye) {
     Woven w = weave_woven(m, weft);
-    float r_once = (weft ? m->weft_far.once : m->warp_far.once) / w.share;
-    float r_again = (weft ? m->weft_far.again : m->warp_far.again) / w.share;
     WeaveBase b;
     b.lobe = lobe_default(LOBE_WOVEN);
     b.lobe.params[WOVEN_ALPHA] = w.alpha;
@@ -103,8 +97,8 @@ FN WeaveBase weave_far(const Weave *m, bool weft, Rgb once, Rgb again, float cov
     b.lobe.params[WOVEN_ROUNDNESS] = w.roundness;
     b.lobe.params[WOVEN_FLOATS] = w.floats;
     b.lobe.params[WOVEN_CROSS_CRIMP] = w.cross_crimp;
-    b.once = rgb_scale(weave_dyed_rgb(once, covers, dye), r_once);
-    b.again = rgb_scale(weave_dyed_rgb(again, covers, dye), r_again);
+    b.once = rgb_scale(weave_dyed_rgb(once, covers, dye), weft ? m->weft_far.once : m->warp_far.once);
+    b.again = rgb_scale(weave_dyed_rgb(again, covers, dye), weft ? m->weft_far.again : m->warp_far.again);
     return b;
 }
 

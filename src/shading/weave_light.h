@@ -5,6 +5,7 @@
 #include "shading/azimuth.h"
 #include "shading/lobes/woven.h"
 #include "shading/lobes/yarn.h"
+#include "shading/rgb.h"
 #include "shading/weave_point.h"
 
 /* Lobe yarn at the point. */
@@ -45,6 +46,17 @@ FN float weave_once(const Weave *m, WeavePoint p, int channel) {
 }
 FN float weave_reflectance(const Weave *m, WeavePoint p, int channel) {
     return yarn_reflectance(weave_albedo(m, p, channel)) * weave_open(m, p);
+}
+
+/* Returns the same in all channels; a place without a thread is black. */
+FN Rgb weave_once_rgb(const Weave *m, WeavePoint p) {
+    float there = p.height > WEAVE_NONE ? 1.0f : 0.0f;
+    return rgb_scale(rgb(weave_once(m, p, 0), weave_once(m, p, 1), weave_once(m, p, 2)), there);
+}
+FN Rgb weave_again_rgb(const Weave *m, WeavePoint p) {
+    float there = p.height > WEAVE_NONE ? 1.0f : 0.0f;
+    return rgb_scale(rgb(weave_reflectance(m, p, 0), weave_reflectance(m, p, 1), weave_reflectance(m, p, 2)),
+                     there);
 }
 
 #endif

@@ -145,11 +145,9 @@ static void add_crossing(ClothFar *far, const Weave *m, const SystemSeen seen[2]
         }
 }
 
-static int side_of(int level, int side) { return side >> level > 0 ? side >> level : 1; }
-
 const float *cloth_far_level(const ClothFar *far, int level, int *width, int *height) {
-    *width = side_of(level, far->width);
-    *height = side_of(level, far->height);
+    *width = cloth_far_side(far->width, level);
+    *height = cloth_far_side(far->height, level);
     return far->texels + far->starts[level];
 }
 
@@ -187,7 +185,7 @@ static bool make_colors(WeftCloth *cloth, const SystemSeen seen[2]) {
     int numbers = 0;
     for (int level = 0; level == 0 || far->width >> level > 0 || far->height >> level > 0; level++) {
         far->starts[level] = numbers;
-        numbers += 4 * FAR_LAYERS * side_of(level, far->width) * side_of(level, far->height);
+        numbers += 4 * FAR_LAYERS * cloth_far_side(far->width, level) * cloth_far_side(far->height, level);
         far->levels = level + 1;
     }
     far->texels = alloc_array((size_t)numbers, sizeof(float));

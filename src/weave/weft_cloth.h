@@ -46,6 +46,9 @@ bool cloth_same(const WeftCloth *a, const WeftCloth *b);
 /* cloth_far.c: makes weave.warp_far and weft_far, far and facets; false where memory is short. */
 bool cloth_far_make(WeftCloth *cloth);
 
+/* The side of a level of that side at the first. */
+static inline int cloth_far_side(int side, int level) { return side >> level > 0 ? side >> level : 1; }
+
 /* Returns the texels of a level, all layers one after the other. */
 const float *cloth_far_level(const ClothFar *far, int level, int *width, int *height);
 

@@ -4,6 +4,7 @@
 #include "shading/cases.h"
 
 #include "raster/gl.h"
+#include "raster/spheres.h"
 
 #include "scene/camera.h"
 #include "scene/scene.h"
@@ -139,23 +140,16 @@ static bool engines_agree(const WeftScene *scene, const char *camera, WeftGl gl,
     return share >= share_least;
 }
 
-static void choose_for(WeftScene *scene, const char *material, const char *choice, const char *id) {
+static void choose(WeftScene *scene, const char *choice, const char *id) {
     char target[64];
     WeftError error;
-    snprintf(target, sizeof target, "%s.%s", material, choice);
+    snprintf(target, sizeof target, "*.%s", choice);
     if (weft_scene_set(scene, target, id, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
 }
 
-static void choose(WeftScene *scene, const char *choice, const char *id) {
-    choose_for(scene, "*", choice, id);
-}
-
-/* The spheres, and a floor that has as many inputs, so that one program draws all. */
 static WeftScene *spheres(void) {
     WeftScene *scene = scene_of("builtin:spheres");
-    choose_for(scene, "floor", "roughness", "0.9");
-    choose_for(scene, "floor", "sheen_color", "0.5,0.4,0.3");
-    choose_for(scene, "floor", "sheen_roughness", "0.5");
+    spheres_cover_floor(scene);
     return scene;
 }
 

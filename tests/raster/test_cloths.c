@@ -13,7 +13,7 @@
 #include "raster/gl.h"
 
 #include "base/random.h"
-#include "scene/cloth_base.h"
+#include "scene/cloth_look.h"
 #include "scene/scene.h"
 #include "trace/scenes.h"
 #include "weft/weft.h"
@@ -279,13 +279,12 @@ static void pixels_vary_as_those_of_many_points_do(void **state) {
         }
         print_message("%6.2f threads a pixel: mean %.4f worst %.4f, variance %.4f, %.3f of the reference's\n",
                       (double)sides[d], error, worst, kept / SUNS, kept / spread);
-        assert_true(error <
-                    (sides[d] < 1.0f ? 0.05 : 0.01)); /* of one point of a few threads chance is as much */
+        /* Of a few threads with a few points, chance is as much; 1.3 is 1.25 and what another driver's rounding moves. */
+        assert_true(error < (sides[d] < 1.0f ? 0.05 : 0.01));
         assert_true(worst < (sides[d] < 1.0f ? 0.1 : 0.02));
         first = d ? first : kept;
         if (sides[d] <= 2.0f)
-            assert_true(kept > 0.75 * spread &&
-                        kept < 1.3 * spread); /* 1.25, and what another driver's rounding moves */
+            assert_true(kept > 0.75 * spread && kept < 1.3 * spread);
         else
             assert_true(kept < 0.1 * first);
     }

@@ -10,12 +10,12 @@
 #include <cmocka.h>
 
 #include "raster/gl.h"
+#include "raster/spheres.h"
 #include "weft/weft.h"
 
 enum { WIDTH = 320, HEIGHT = 180 };
 
-/* Spheres of sheen roughness 0.1 to 1 and nothing but the environment. The floor has as many inputs as they have, so
- * that one program draws all. */
+/* Spheres of sheen roughness 0.1 to 1 and nothing but the environment. */
 static WeftScene *spheres(const char *lobe) {
     WeftScene *scene;
     WeftError error;
@@ -23,9 +23,7 @@ static WeftScene *spheres(const char *lobe) {
     while (weft_scene_info(scene).light_count > 0)
         assert_int_equal(weft_scene_remove_light(scene, 0, NULL), WEFT_OK);
     assert_int_equal(weft_scene_set(scene, "*.sheen_lobe", lobe, NULL, NULL), WEFT_OK);
-    assert_int_equal(weft_scene_set(scene, "floor.roughness", "0.9", NULL, NULL), WEFT_OK);
-    assert_int_equal(weft_scene_set(scene, "floor.sheen_color", "0.5,0.4,0.3", NULL, NULL), WEFT_OK);
-    assert_int_equal(weft_scene_set(scene, "floor.sheen_roughness", "0.5", NULL, NULL), WEFT_OK);
+    spheres_cover_floor(scene);
     return scene;
 }
 

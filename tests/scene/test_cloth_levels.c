@@ -15,7 +15,7 @@
 
 #include "base/pi.h"
 #include "base/random.h"
-#include "scene/cloth_base.h"
+#include "scene/cloth_look.h"
 #include "scene/scene.h"
 #include "weft/weft.h"
 

@@ -162,8 +162,8 @@ static void place_of(int k, float *x, float *y) {
     *y = (float)fmod(0.5698402909980532 * k, 1.0) * 480.0f;
 }
 
-/* What is too fine to be seen is left out, and the mean of light, dye and slopes stays, and nearly that of colours, where
- * more dye takes less than less dye gives. */
+/* Fibres that are too fine to be seen are left out. The means of light, dye and slopes stay, and nearly those of colours,
+ * from which more dye takes less than less dye gives. */
 static void fibres_leave_the_mean_as_it_is(void **state) {
     (void)state;
     static const float most[] = {0.4f, 2.0f};

@@ -1,7 +1,7 @@
 /* weave.glsl - the light of a woven material at a fragment: of points of threads, and of both systems from afar
  *
- * A pixel has one point while it is much smaller than a thread, and eight where it is as large as one. The text
- * before it supplies stack_light, which is all that a stack sends to the eye; each base is lit alone, so whatever
+ * A pixel has one point while it is much smaller than a thread, then five, and eight where it is as large as one. The
+ * text before it supplies stack_light, which is all that a stack sends to the eye; each base is lit alone, so whatever
  * lies on it is there every time, and the weights sum up to 1. */
 uniform highp sampler2DArray weave_colors;
 
@@ -17,8 +17,7 @@ vec2 pixel_point(int k, int n) {
 
 /* One system from afar, its colours as the mean of five places half a pixel wide: a level as wide as the pixel would
  * mix neighbours that are still told apart. Two bases stand for the cloth, each with half of the weight: so it
- * reflects twice as much. All bases have one table for the light of the environment, which is of a whole cloth: the
- * colours have the share of the system, so that the lobe has it no more. */
+ * reflects twice as much. All bases have one table for the light of the environment, which is of a whole cloth. */
 WeaveBase woven_far(Weave c, bool weft, vec2 place, vec2 across, vec2 up, WeaveFootprint f) {
     vec2 repeat = vec2(weave_number(CLOTH_WARPS), weave_number(CLOTH_PICKS));
     vec2 texel = repeat / vec2(weave_number(CLOTH_FAR_WIDTH), weave_number(CLOTH_FAR_HEIGHT));
@@ -34,13 +33,12 @@ WeaveBase woven_far(Weave c, bool weft, vec2 place, vec2 across, vec2 up, WeaveF
     float dye = weave_far_dye(c, weft, weft ? place.y : place.x, weft ? f.y : f.x);
     float scale = MATERIAL_HOLED ? 2.0 / max(c.warp_far.share + c.weft_far.share, 1e-3) : 2.0;
     WeaveBase b = weave_far(c, weft, rgb(once.r, once.g, once.b), rgb(again.r, again.g, again.b), once.a, dye);
-    scale = scale * b.lobe.params[WOVEN_SHARE];
     b.once = rgb_scale(b.once, scale);
     b.again = rgb_scale(b.again, scale);
     return b;
 }
 
-/* In the place of the stack's base. */
+/* In the place of the stack's base. Colours from afar have the share of the system, so that the lobe has it no more. */
 Stack woven_stack(Stack m, WeaveBase b) {
     Stack n = m;
     compose_base(n, b.lobe, b.once, b.again);
