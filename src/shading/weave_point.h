@@ -220,8 +220,8 @@ STRUCT(WeaveHair) {
  * thinner to its ends. Lengths are in threads of the finer system, which count as long along as across. */
 FN WeaveHair weave_hair(const Weave *m, int n, float x, float y, float radius) {
     float pace_x = weave_pace(0.5f, m->cycle_x), pace_y = weave_pace(0.5f, m->cycle_y);
-    float i = floor(x * pace_x - 0.5f) + to_float(n / (2 * WEAVE_HAIRS)),
-          j = floor(y * pace_y - 0.5f) + to_float((n / WEAVE_HAIRS) % 2);
+    int cell_x = n / (2 * WEAVE_HAIRS), cell_y = n / WEAVE_HAIRS % 2;
+    float i = floor(x * pace_x - 0.5f) + to_float(cell_x), j = floor(y * pace_y - 0.5f) + to_float(cell_y);
     float column = weave_mod(i, weave_turns(pace_x, m->cycle_x)),
           row = weave_mod(j, weave_turns(pace_y, m->cycle_y));
     float cell = weave_key(weave_key(weave_key(m->seed, 13.0f), column), row);
