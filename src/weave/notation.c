@@ -232,6 +232,27 @@ static int stripes_of(const Notation *notation, const Clause *clause, Stripe str
     return count;
 }
 
+/* Makes the repeat so many warp threads wide and picks high, multiples of what they are. */
+static WeftResult widen(const Notation *notation, WeftDraft **draft, const long count[2]) {
+    const WeftDraft *from = *draft;
+    const int warps = from->count[WEFT_WARP];
+    WeftDraft *wide;
+    WeftResult result =
+        draft_create(notation->text, count[0], count[1], WEFT_MESSAGE_DRAFT_NOTATION, &wide, notation->error);
+    if (result != WEFT_OK) return result;
+    for (int j = 0; j < (int)count[1]; j++) {
+        const unsigned char *row = from->up + (size_t)(j % from->count[WEFT_WEFT]) * (size_t)warps;
+        for (int i = 0; i < (int)count[0]; i += warps)
+            memcpy(wide->up + (size_t)j * (size_t)count[0] + (size_t)i, row, (size_t)warps);
+    }
+    for (int t = 0; t < 2; t++)
+        for (int k = 0; k < (int)count[t]; k++)
+            wide->threads[t][k] = weft_draft_thread(from, (WeftThreads)t, k);
+    weft_draft_free(*draft);
+    *draft = wide;
+    return WEFT_OK;
+}
+
 /* Makes a repeat in which both the weave and the stripes come out even, and dyes its threads. */
 static WeftResult dye_threads(const Notation *notation, WeftDraft **draft, WeftThreads threads,
                               const Stripe *stripes, int stripe_count) {
@@ -240,25 +261,17 @@ static WeftResult dye_threads(const Notation *notation, WeftDraft **draft, WeftT
     long count[2] = {(*draft)->count[0], (*draft)->count[1]};
     if (length > WEFT_DRAFT_SIDE_MAX)
         return REFUSE(notation, "%ld threads are too many for one repeat", length);
-    count[threads] *= length / divisor((int)length, (int)count[threads]);
-    WeftDraft *wide;
-    WeftResult result =
-        draft_create(notation->text, count[0], count[1], WEFT_MESSAGE_DRAFT_NOTATION, &wide, notation->error);
+    const long growth = length / divisor((int)length, (int)count[threads]);
+    count[threads] *= growth;
+    const WeftResult result = growth > 1 ? widen(notation, draft, count) : WEFT_OK;
     if (result != WEFT_OK) return result;
-    for (int j = 0; j < (int)count[1]; j++)
-        for (int i = 0; i < (int)count[0]; i++)
-            wide->up[j * count[0] + i] = (unsigned char)weft_draft_warp_up(*draft, i, j);
-    for (int t = 0; t < 2; t++)
-        for (int k = 0; k < (int)count[t]; k++)
-            wide->threads[t][k] = weft_draft_thread(*draft, (WeftThreads)t, k);
+    WeftThread *dyed = (*draft)->threads[threads];
     for (int k = 0, stripe = 0, used = 0; k < (int)count[threads]; k++) {
-        memcpy(wide->threads[threads][k].color, stripes[stripe].color, sizeof stripes[stripe].color);
+        memcpy(dyed[k].color, stripes[stripe].color, sizeof stripes[stripe].color);
         if (++used < stripes[stripe].count) continue;
         used = 0;
         stripe = (stripe + 1) % stripe_count;
     }
-    weft_draft_free(*draft);
-    *draft = wide;
     return WEFT_OK;
 }
 

@@ -52,7 +52,14 @@ static void check_cloth(const WeftDraft *draft) {
     weft_cloth_free(cloth);
 }
 
-/* has_cloth: a cloth is made too, which takes a thousand times as long as reading. */
+/* Returns true for one input in 4096, of any size. Daniel J. Bernstein's hash, as he posted it to comp.lang.c. */
+static bool is_chosen(const uint8_t *data, size_t size) {
+    uint32_t hash = 5381;
+    for (size_t k = 0; k < size; k++) hash = 33 * hash ^ data[k];
+    return (hash ^ hash >> 15) % 4096 == 100;
+}
+
+/* has_cloth: a cloth is made too, which takes ten thousand times as long as reading. */
 static void take(WeftResult result, WeftDraft *draft, bool has_cloth, const WeftError *error) {
     demand((result == WEFT_OK) == (draft != NULL));
     if (!draft) {
@@ -68,7 +75,7 @@ static void take(WeftResult result, WeftDraft *draft, bool has_cloth, const Weft
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     WeftDraft *draft;
     WeftError error;
-    const bool has_cloth = size % 512 == 100;
+    const bool has_cloth = is_chosen(data, size);
     WeftResult result = weft_draft_read_memory(data, size, "fuzz", &draft, NULL, &error);
     take(result, draft, has_cloth, &error);
     char *words = malloc(size + 1);

@@ -14,6 +14,7 @@
 #include <cmocka.h>
 
 #include "scratch.h"
+#include "weave/weave_draft.h"
 #include "weft/weft.h"
 
 #define SHARED WEFT_SOURCE_DIR "/../shared/data/weave/"
@@ -156,6 +157,24 @@ static void stripes_repeat_with_the_weave_and_mirror(void **state) {
     assert_int_equal(weft_draft_warp_up(draft, 0, 0), 1);
     assert_int_equal(weft_draft_warp_up(draft, -4, 20), 1); /* a cloth repeats */
     weft_draft_free(draft);
+}
+
+/* Of many clauses the last one counts; a repeat that has grown to its limit is not made anew for each. */
+static void clauses_that_come_again_dye_in_place(void **state) {
+    (void)state;
+    enum { CLAUSES = 1000 };
+    static const char weave[] = "twill 9/1/1/2; both 315w", clause[] = "; both 20k 15r";
+    static char text[sizeof weave + CLAUSES * sizeof clause];
+    size_t used = (size_t)snprintf(text, sizeof text, "%s", weave);
+    for (int k = 0; k < CLAUSES; k++) used += (size_t)snprintf(text + used, sizeof text - used, "%s", clause);
+    WeftDraft *many = parsed(text), *one = parsed("twill 9/1/1/2; both 315w; both 20k 15r");
+    assert_int_equal(weft_draft_info(many).count[WEFT_WARP], 4095);
+    assert_true(draft_same(many, one));
+    for (int k = 0; k < 100; k++)
+        assert_int_equal(weft_draft_warp_up(one, 7 * k, 31 * k),
+                         weft_draft_warp_up(one, 7 * k % 13, 31 * k % 13));
+    weft_draft_free(many);
+    weft_draft_free(one);
 }
 
 static void figures_of_a_satin_are_those_of_its_name(void **state) {
@@ -573,6 +592,7 @@ int main(void) {
         cmocka_unit_test(herringbone_breaks_at_its_turns),
         cmocka_unit_test(notation_without_sense_is_refused_in_one_line),
         cmocka_unit_test(stripes_repeat_with_the_weave_and_mirror),
+        cmocka_unit_test(clauses_that_come_again_dye_in_place),
         cmocka_unit_test(figures_of_a_satin_are_those_of_its_name),
         cmocka_unit_test(back_of_a_draft_is_its_inverse),
         cmocka_unit_test(unusual_forms_of_real_files_are_read_as_meant),
