@@ -100,7 +100,7 @@ LOOP(find_n, (const Weave *weave, Part *restrict part, int n), (weave, part, n))
     Weave m = without_cycle(weave);
     EACH(k, (size_t)n) {
         float radius = weave_hair_radius(part->spacing[k]);
-        part->hair[k] = to_float(weave_hair_at(&m, part->x[k], part->y[k], radius));
+        part->hair[k] = to_float(weave_hair_at(&m, part->x[k], part->y[k], radius, WEAVE_HAIRS_NEAR));
     }
 }
 

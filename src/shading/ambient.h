@@ -108,13 +108,15 @@ FN Rgb ambient_reflect_lights(const Stack *m, const StackView *view, Slots only,
     return sum;
 }
 
-/* Returns the light that a stack reflects towards wo, and what comes through. t: the tables of its lobes. occlusion,
- * occlusion_behind: the visible part of the cosine-weighted sky on either side, 0 to 1. */
-FN Rgb stack_ambient(const Stack *m, const StackView *w, AmbientTables t, AmbientSource s, float occlusion,
-                     float occlusion_behind) {
+/* Returns what a stack reflects towards wo of an environment without its lights, and what comes through. t: the tables
+ * of its lobes. occlusion, occlusion_behind: the visible part of the cosine-weighted sky on either side, 0 to 1. lights:
+ * gets the view with scales for the lights still to be added, by the slots in only. It is linear in the diffuse lobe's
+ * colours. */
+FN Rgb ambient_smooth(const Stack *m, const StackView *w, AmbientTables t, AmbientSource s, float occlusion,
+                      float occlusion_behind, StackView *lights, Slots *only) {
     Rgb sum = rgb_grey(0.0f);
-    StackView lights = *w; /* with scales for the lights still to be added */
-    Slots only = slots_of(false, false, false, false, false);
+    *lights = *w;
+    *only = slots_of(false, false, false, false, false);
     AmbientView v = ambient_view(w->o, dir(1.0f, 0.0f, 0.0f), dir(0.0f, 1.0f, 0.0f), dir(0.0f, 0.0f, 1.0f),
                                  clamp(occlusion, 0.0f, 1.0f));
     AmbientLookups residual = ambient_residual_lookups(s, v);
@@ -126,8 +128,8 @@ FN Rgb stack_ambient(const Stack *m, const StackView *w, AmbientTables t, Ambien
         AmbientSlot a =
             ambient_slot(slot_colors(&m->diffuse), untinted, w->scale.diffuse, light, diffuse_factor);
         if (SHOWS_DIFFUSE) sum = rgb_mul(through.diffuse, a.reflected);
-        lights.scale.diffuse = a.lights_scale;
-        only.diffuse = SHOWS_DIFFUSE && a.lights_scale > 0.0f;
+        lights->scale.diffuse = a.lights_scale;
+        only->diffuse = SHOWS_DIFFUSE && a.lights_scale > 0.0f;
     }
     if (HAS_TRANSMITTED(m) && SHOWS_DIFFUSE) {
         float behind = w->scale.diffuse * clamp(occlusion_behind, 0.0f, 1.0f) * diffuse_factor;
@@ -139,8 +141,8 @@ FN Rgb stack_ambient(const Stack *m, const StackView *w, AmbientTables t, Ambien
         AmbientSlot a =
             ambient_slot(stack_specular_colors(m, w), untinted, w->scale.specular, light, reflection_factor);
         if (SHOWS_SPECULAR) sum = rgb_add(sum, rgb_mul(through.specular, a.reflected));
-        lights.scale.specular = a.lights_scale;
-        only.specular = SHOWS_SPECULAR && a.lights_scale > 0.0f;
+        lights->scale.specular = a.lights_scale;
+        only->specular = SHOWS_SPECULAR && a.lights_scale > 0.0f;
     }
     if (HAS_SHEEN(m)) {
         AmbientView along = v;
@@ -151,8 +153,8 @@ FN Rgb stack_ambient(const Stack *m, const StackView *w, AmbientTables t, Ambien
         AmbientSlot a =
             ambient_slot(slot_colors(&m->sheen), w->e_o, w->scale.sheen, light, reflection_factor);
         if (SHOWS_SHEEN) sum = rgb_add(sum, rgb_mul(through.sheen, a.reflected));
-        lights.scale.sheen = a.lights_scale;
-        only.sheen = SHOWS_SHEEN && a.lights_scale > 0.0f;
+        lights->scale.sheen = a.lights_scale;
+        only->sheen = SHOWS_SHEEN && a.lights_scale > 0.0f;
     }
     if (HAS_COAT(m)) {
         if (w->coat_o.z > 0.0f) {
@@ -162,19 +164,28 @@ FN Rgb stack_ambient(const Stack *m, const StackView *w, AmbientTables t, Ambien
             AmbientSlot a =
                 ambient_slot(slot_colors(&m->coat), untinted, w->scale.coat, light, reflection_factor);
             if (SHOWS_COAT) sum = rgb_add(sum, a.reflected);
-            lights.scale.coat = a.lights_scale;
-            only.coat = SHOWS_COAT && a.lights_scale > 0.0f;
+            lights->scale.coat = a.lights_scale;
+            only->coat = SHOWS_COAT && a.lights_scale > 0.0f;
         }
     }
     if (HAS_DUST(m)) {
         SlotLight light = ambient_slot_light(t.dust, s, v, residual, m->dust.lobe, -1.0f);
         AmbientSlot a = ambient_slot(slot_colors(&m->dust), untinted, w->scale.dust, light, diffuse_factor);
         if (SHOWS_DUST) sum = rgb_add(sum, a.reflected);
-        lights.scale.dust = a.lights_scale;
-        only.dust = SHOWS_DUST && a.lights_scale > 0.0f;
+        lights->scale.dust = a.lights_scale;
+        only->dust = SHOWS_DUST && a.lights_scale > 0.0f;
     }
+    return sum;
+}
+
+/* Returns the light that a stack reflects towards wo, and what comes through: of ambient_smooth and of lights. */
+FN Rgb stack_ambient(const Stack *m, const StackView *w, AmbientTables t, AmbientSource s, float occlusion,
+                     float occlusion_behind) {
+    StackView lights;
+    Slots only;
+    Rgb sum = ambient_smooth(m, w, t, s, occlusion, occlusion_behind, &lights, &only);
     if (only.diffuse || only.specular || only.sheen || only.coat || only.dust)
-        sum = rgb_add(sum, ambient_reflect_lights(m, &lights, only, s, v.occlusion));
+        sum = rgb_add(sum, ambient_reflect_lights(m, &lights, only, s, clamp(occlusion, 0.0f, 1.0f)));
     return sum;
 }
 

@@ -297,6 +297,11 @@ FN void stack_view(const Stack *m, Dir o, StackView *w) {
     view_select_p(m, w);
 }
 
+/* Makes a view that of a stack with another diffuse lobe, as far as stack_value asks. */
+FN void view_base(const Stack *m, StackView *w) {
+    IN_SLOT(diffuse, view)(m->diffuse.lobe.id, &m->diffuse_prepared, &w->o, &w->diffuse_view);
+}
+
 /* Sets v to f and the pdf of a slot's lobe. pair: wo and wi in the slot's frame. */
 #define SLOT_VALUE(slot, pair)                                                                               \
     IN_SLOT(slot, reflect)                                                                                   \

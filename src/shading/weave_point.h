@@ -270,10 +270,10 @@ FN void weave_lay(WeaveHair h, WeavePoint *p) {
     p->fibre = h.weft ? dir(fy * q, fx * q, rise * q) : dir(fx * q, fy * q, rise * q);
 }
 
-/* The number of the fibre on top of those at x, y; -1: none. */
-FN int weave_hair_at(const Weave *m, float x, float y, float radius) {
+/* The number of the fibre on top of so many at x, y; -1: none. */
+FN int weave_hair_at(const Weave *m, float x, float y, float radius, int count) {
     int top = -1;
-    ROUNDS(n, WEAVE_HAIRS_NEAR) {
+    ROUNDS(n, count) {
         WeaveHair h = weave_hair(m, n, x, y, radius);
         top = h.here ? n : top;
     }
@@ -288,11 +288,10 @@ FN bool weave_has_hairs(const Weave *m, float spacing) {
 /* The point at x, y, where the spacing of points is so many threads. */
 FN WeavePoint weave_point(const Weave *m, float x, float y, float spacing) {
     WeavePoint p = weave_bound(m, x, y, spacing);
-    if (p.height > WEAVE_NONE && weave_has_hairs(m, spacing)) {
-        float radius = weave_hair_radius(spacing);
-        int top = weave_hair_at(m, x, y, radius);
-        if (top >= 0) weave_lay(weave_hair(m, top, x, y, radius), &p);
-    }
+    float radius = weave_hair_radius(spacing);
+    int count = p.height > WEAVE_NONE && weave_has_hairs(m, spacing) ? WEAVE_HAIRS_NEAR : 0;
+    int top = weave_hair_at(m, x, y, radius, count);
+    if (top >= 0) weave_lay(weave_hair(m, top, x, y, radius), &p);
     return p;
 }
 

@@ -25,15 +25,15 @@ Facing fragment_facing(Dir wo) {
     return at;
 }
 
-/* Returns the light that comes through, black if the part that is shown leaves the diffuse lobe out. */
-StackValue stack_seen_through(Stack m, StackView w, Angles a) {
+/* Returns the light that comes through, black without the diffuse lobe. */
+StackValue stack_seen_through(Stack m, StackView w, Slots only, Angles a) {
     StackValue v = stack_transmitted(m, w, a);
-    if (!SHOWS_DIFFUSE) v.f_cos = rgb_grey(0.0);
+    if (!only.diffuse) v.f_cos = rgb_grey(0.0);
     return v;
 }
 
-/* From light k, which is of that kind and has that shadow map, or -1. */
-Rgb light_from(int k, int kind, int map, Stack m, StackView w, Facing at, Frame f) {
+/* From light k, which is of that kind and has that shadow map, or -1, by the slots in only. */
+Rgb light_from(int k, int kind, int map, Stack m, StackView w, Slots only, Facing at, Frame f) {
     Beam beam = light_beam(k, kind);
     Dir i = frame_to(f, beam.wi);
     float cosine = dir_dot(beam.wi, at.geometric);
@@ -45,20 +45,22 @@ Rgb light_from(int k, int kind, int map, Stack m, StackView w, Facing at, Frame 
     i.z = max(i.z, 1e-6); /* what is not lit is worked out and left out: a branch costs more */
     Angles a = angles_between(w.o, i), coat = a;
     if (HAS_COAT(m)) coat = angles_between(w.coat_o, stack_to_coat(m, i));
-    StackValue v = stack_value(m, w, a, coat);
-    if (behind) v = stack_seen_through(m, w, a);
+    StackValue v = stack_value_of(m, w, only, a, coat);
+    if (behind) v = stack_seen_through(m, w, only, a);
     float reaches = light_reaches(map, side * vec_of_dir(at.geometric), cosine);
     Rgb sum = rgb_scale(rgb_mul(v.f_cos, beam.radiance), reaches);
     return rgb(lit ? sum.r : 0.0, lit ? sum.g : 0.0, lit ? sum.b : 0.0);
 }
 
 /* EACH_LIGHT(L) is L(k, kind, map) for each light. */
-#define ONE_LIGHT(k, kind, map) sum = rgb_add(sum, light_from(k, kind, map, m, w, at, f));
-Rgb punctual_light(Stack m, StackView w, Facing at, Frame f) {
+#define ONE_LIGHT(k, kind, map) sum = rgb_add(sum, light_from(k, kind, map, m, w, only, at, f));
+Rgb punctual_light(Stack m, StackView w, Slots only, Facing at, Frame f) {
     Rgb sum = rgb_grey(0.0);
     EACH_LIGHT(ONE_LIGHT)
     return sum;
 }
+
+const Slots SHOWN = Slots(SHOWS_DIFFUSE, SHOWS_SPECULAR, SHOWS_SHEEN, SHOWS_COAT, SHOWS_DUST);
 
 #ifdef POLYGONS
 #include "raster/glsl/polygons.glsl"
@@ -68,27 +70,28 @@ Rgb polygon_light(Stack m, StackView w, Facing at, Frame f) { return rgb_grey(0.
 
 #ifdef AMBIENT
 /* The texture's occlusion is of the material's own bumps, the vertex's of all else; where both know the same
- * crease the lesser is right. */
-Rgb ambient_light_of(Stack m, StackView w, Frame f, float occlusion) {
+ * crease the lesser is right. Of the sky on this side and behind. */
+vec2 sky_open(float occlusion) {
     texture_occlusion = occlusion;
-    vec2 open = gl_FrontFacing ? vertex_occlusion : vertex_occlusion.yx;
-    return stack_ambient(m, w, material_ambient(), f, min(occlusion, open.x), min(occlusion, open.y));
+    return min(vec2(occlusion), gl_FrontFacing ? vertex_occlusion : vertex_occlusion.yx);
 }
-#else
-Rgb ambient_light_of(Stack m, StackView w, Frame f, float occlusion) { return rgb_grey(0.0); }
 #endif
 
+#ifdef WOVEN
+#include "raster/glsl/weave.glsl"
+#else
 /* All light that a stack sends towards o, but for what it emits. */
 Rgb stack_light(Stack m, Dir o, Facing at, Frame f, float occlusion) {
     StackView w;
     stack_view(m, o, w);
-    Rgb sum = punctual_light(m, w, at, f);
+    Rgb sum = punctual_light(m, w, SHOWN, at, f);
     sum = rgb_add(sum, polygon_light(m, w, at, f));
-    return rgb_add(sum, ambient_light_of(m, w, f, occlusion));
+#ifdef AMBIENT
+    vec2 open = sky_open(occlusion);
+    sum = rgb_add(sum, stack_ambient(m, w, material_ambient(), f, open.x, open.y));
+#endif
+    return sum;
 }
-
-#ifdef WOVEN
-#include "raster/glsl/weave.glsl"
 #endif
 
 void main() {

@@ -1,8 +1,8 @@
 /* weave.glsl - the light of a woven material at a fragment: of points of threads, and of both systems from afar
  *
- * A pixel has one point while it is much smaller than a thread, then five, and eight where it is as large as one. The
- * text before it supplies stack_light, which is all that a stack sends to the eye; each base is lit alone, so whatever
- * lies on it is there every time, and the weights sum up to 1. */
+ * A pixel has one point while it is much smaller than a thread, then five, and eight where it is as large as one. Each
+ * is a base of its own under the lights. What lies on it, and what all reflect of the environment without its lights,
+ * which is linear in a base's colours, are found once, of the mean base. */
 uniform highp sampler2DArray weave_colors;
 
 #include "raster/glsl/weave_cloth.glsl"
@@ -46,32 +46,81 @@ Stack woven_stack(Stack m, WeaveBase b) {
     return n;
 }
 
-/* rgb: the light; a: the part of the pixel that threads cover. */
+/* What bases send to the eye: of lights, of the environment's lights if nothing dims them, and their mean colours. */
+struct WovenSum {
+    Rgb direct, around, once, again;
+    float covered; /* the part of the pixel that threads cover */
+};
+
+/* Adds a base in place of that of m, which is seen as w. */
+void woven_add(inout WovenSum sum, Stack m, StackView w, WeaveBase b, float weight, Facing at, Frame frame) {
+    Stack n = woven_stack(m, b);
+    StackView v = w;
+    Slots base = slots_of(SHOWS_DIFFUSE, false, false, false, false);
+    view_base(n, v);
+    Rgb direct = rgb_add(punctual_light(n, v, base, at, frame), polygon_light(n, v, at, frame));
+    sum.direct = rgb_add(sum.direct, rgb_scale(direct, weight));
+#ifdef AMBIENT
+    v.scale.diffuse = 1.0;
+    Rgb around = ambient_reflect_lights(n, v, base, frame, sky_open(texture_occlusion).x);
+    sum.around = rgb_add(sum.around, rgb_scale(around, weight));
+#endif
+    sum.once = rgb_add(sum.once, rgb_scale(b.once, weight));
+    sum.again = rgb_add(sum.again, rgb_scale(b.again, weight));
+}
+
+/* The rest: what lies on bases, and what the mean one reflects of the environment without its lights. */
+Rgb woven_rest(WovenSum sum, Stack m, StackView w, Facing at, Frame frame) {
+    Slots above = slots_of(false, SHOWS_SPECULAR, SHOWS_SHEEN, SHOWS_COAT, SHOWS_DUST);
+    Rgb rest = punctual_light(m, w, above, at, frame);
+#ifdef AMBIENT
+    WeaveBase mean;
+    mean.lobe = lobe_default(LOBE_YARN);
+    mean.once = sum.once;
+    mean.again = sum.again;
+    StackView lights;
+    Slots only;
+    vec2 open = sky_open(texture_occlusion);
+    rest = rgb_add(rest, ambient_smooth(woven_stack(m, mean), w, material_ambient(), frame, open.x, open.y, lights, only));
+    rest = rgb_add(rest, rgb_scale(sum.around, lights.scale.diffuse));
+    only.diffuse = false;
+    rest = rgb_add(rest, ambient_reflect_lights(m, lights, only, frame, open.x));
+#endif
+    return rest;
+}
+
+/* rgb: the light; a: the part of the pixel that threads cover. Loops of no rounds are left out by drivers that do not
+ * branch. */
 vec4 woven_light(Stack m, Dir o, Facing at, Frame frame, float occlusion) {
     Weave c = material_cloth();
     vec2 place = weave_place();
     vec2 across = dFdx(place), up = dFdy(place);
     WeaveFootprint f = weave_footprint(across.x, across.y, up.x, up.y);
-    float far = weave_far_weight(f), covered = 0.0;
-    int points = far >= 1.0 ? 0 : f.longest < 0.2 ? 1 : f.longest < 0.6 ? 5 : 8;
-    int count = far > 0.0 ? points + 2 : points;
-    Rgb sum = rgb_grey(0.0);
-    for (int k = 0; k < count; k++) {
-        WeaveBase b;
-        float weight = 0.5 * far;
-        if (k < points) {
-            vec2 from = pixel_point(k, points);
-            vec2 spot = place + from.x * across + from.y * up;
-            WeavePoint p = weave_point(c, spot.x, spot.y, f.longest * inversesqrt(float(points)));
-            b = weave_near(c, p);
-            weight = (1.0 - far) / float(points);
-            covered = covered + (p.height > WEAVE_NONE ? weight : 0.0);
-        } else {
-            b = woven_far(c, k > points, place, across, up, f);
-            covered = covered + weight;
-        }
-        sum = rgb_add(sum, rgb_scale(stack_light(woven_stack(m, b), o, at, frame, occlusion), weight));
+    float far = weave_far_weight(f);
+    int points = far >= 1.0 ? 0 : f.longest < 0.2 ? 1 : f.longest < 0.6 ? 5 : 8, systems = far > 0.0 ? 2 : 0;
+    StackView w;
+    stack_view(m, o, w);
+#ifdef AMBIENT
+    texture_occlusion = occlusion;
+#endif
+    WovenSum sum = WovenSum(rgb_grey(0.0), rgb_grey(0.0), rgb_grey(0.0), rgb_grey(0.0), far);
+    for (int k = 0; k < points; k++) {
+        float weight = (1.0 - far) / float(points);
+        vec2 from = pixel_point(k, points);
+        vec2 spot = place + from.x * across + from.y * up;
+        WeavePoint p = weave_point(c, spot.x, spot.y, f.longest * inversesqrt(float(points)));
+        sum.covered = sum.covered + (p.height > WEAVE_NONE ? weight : 0.0);
+        woven_add(sum, m, w, weave_near(c, p), weight, at, frame);
     }
-    if (MATERIAL_HOLED) sum = rgb_scale(sum, 1.0 / max(covered, 1e-3));
-    return vec4(vec_of(sum), MATERIAL_HOLED ? covered : 1.0);
+    for (int k = 0; k < systems; k++)
+        woven_add(sum, m, w, woven_far(c, k > 0, place, across, up, f), 0.5 * far, at, frame);
+    if (MATERIAL_HOLED) {
+        float scale = 1.0 / max(sum.covered, 1e-3);
+        sum.direct = rgb_scale(sum.direct, scale);
+        sum.around = rgb_scale(sum.around, scale);
+        sum.once = rgb_scale(sum.once, scale);
+        sum.again = rgb_scale(sum.again, scale);
+    }
+    Rgb light = rgb_add(sum.direct, woven_rest(sum, m, w, at, frame));
+    return vec4(vec_of(light), MATERIAL_HOLED ? sum.covered : 1.0);
 }
