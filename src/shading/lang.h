@@ -21,8 +21,7 @@
 #define to_float(x) float(x)
 #define to_int(x)   int(x)
 
-#define ROUNDS(k, n)          for (int k = 0; k < n; k++)
-#define ROUNDS_OF(k, n, most) ROUNDS(k, n)
+#define ROUNDS(k, n) for (int k = 0; k < n; k++)
 
 /* Layer t of the one array texture that holds all tables. */
 #define Table                               int
@@ -61,9 +60,6 @@
 #else
 #define ROUNDS(k, n) _Pragma("GCC unroll 16") for (int k = 0; k < n; k++)
 #endif
-
-/* A loop of n rounds, n <= most, a number. C has all of them: those beyond n are to change nothing. */
-#define ROUNDS_OF(k, n, most) ROUNDS(k, most)
 
 /* a b + c, with one rounding where the processor has that in one instruction. Only the functions below use it: they are
  * other than GLSL's own anyway, while all that both languages compute alike rounds each product. */

@@ -10,9 +10,8 @@
  * yarns as Piti Irawan, Steve Marschner, "Specular Reflection from Woven Cloth", ACM TOG 31(1), 2012, have
  * them. A yarn that goes over one is an arc; one that floats is level for a while: floats is the power of its
  * slope. Fibres run along the yarn, or turn about it by the twist.
- *   The mean is a sum over 4 to 12 s, the more the narrower D is beside the slopes, and over 3 r of those that face
- * both directions; one s stands for those up to the next by its mean slope and by a D as much wider as slopes vary.
- * Errors: docs/weave.md. The weight is our own:
+ *   The mean is a sum over 12 s, and over 3 r of those that face both directions; one s stands for those up to
+ * the next by its mean slope and by a D as much wider as slopes vary. Errors: docs/weave.md. The weight is our own:
  * of threads in woven cloth the neighbours hide more of the sides than of the middle.
  *   color: the albedo A of the fibres. The first colour dims light that met one of them, the second, rho(A),
  *     all other light. A cloth of two yarns is two of these lobes, at right angles.
@@ -57,25 +56,18 @@ STRUCT(WovenPrepared) {
     float part;               /* the share; 1 where colours hold it (raster/glsl/weave.glsl) */
     float crimp, cross_crimp; /* slopes as yarn_area takes them */
     float cos_a, sin_a, cos_t, sin_t;
-    float bins; /* how many of the bins below are used; the weight of the others is 0 */
     WovenBin b0, b1, b2, b3, b4, b5;
 };
 
 #define WOVEN_BINS 6
 
-/* So many that the slope's steps are about as wide as D: the sum is then within 1 % of one over any more. */
-FN float woven_bins(float alpha, float tan_crimp) {
-    return clamp(floor(tan_crimp / (0.85f * alpha) + 1.0f), 2.0f, to_float(WOVEN_BINS));
-}
-
-/* Bin k of n, from x = k / n to (k + 1) / n, s = x^(2 / (floats + 1)): the mean of the slope over it, and how far it
- * varies. */
-FN WovenBin woven_bin(Woven m, float tan_crimp, float k, float n) {
+/* Bin k, from x = k / 6 to (k + 1) / 6, s = x^(2 / (floats + 1)): the mean of the slope over it, and how far it varies. */
+FN WovenBin woven_bin(Woven m, float tan_crimp, float k) {
     float f = m.floats, e = 2.0f / (f + 1.0f), e2 = (2.0f * f + 1.0f) * e, a2 = m.alpha * m.alpha;
-    float x0 = min(k / n, 1.0f), x1 = min((k + 1.0f) / n, 1.0f), least = max(x0, 1e-3f);
-    float width = pow(x1, e) - (x0 > 0.0f ? pow(least, e) : 0.0f), over = 1.0f / max(width, 1e-6f);
-    float mean = (x1 * x1 - x0 * x0) / (f + 1.0f) * over;
-    float square = (pow(x1, e2) - (x0 > 0.0f ? pow(least, e2) : 0.0f)) / (2.0f * f + 1.0f) * over;
+    float x0 = k / to_float(WOVEN_BINS), x1 = (k + 1.0f) / to_float(WOVEN_BINS), least = max(x0, 1e-3f);
+    float width = pow(x1, e) - (x0 > 0.0f ? pow(least, e) : 0.0f);
+    float mean = (x1 * x1 - x0 * x0) / ((f + 1.0f) * width);
+    float square = (pow(x1, e2) - (x0 > 0.0f ? pow(least, e2) : 0.0f)) / ((2.0f * f + 1.0f) * width);
     WovenBin b;
     b.slope = tan_crimp * mean;
     b.weight = 0.5f * width;
@@ -97,13 +89,12 @@ FN void woven_prepare(Woven m, WovenPrepared *p) {
     p->sin_a = sin(m.azimuth);
     p->cos_t = cos(m.twist);
     p->sin_t = sin(m.twist);
-    p->bins = woven_bins(m.alpha, tan_crimp);
-    p->b0 = woven_bin(m, tan_crimp, 0.0f, p->bins);
-    p->b1 = woven_bin(m, tan_crimp, 1.0f, p->bins);
-    p->b2 = woven_bin(m, tan_crimp, 2.0f, p->bins);
-    p->b3 = woven_bin(m, tan_crimp, 3.0f, p->bins);
-    p->b4 = woven_bin(m, tan_crimp, 4.0f, p->bins);
-    p->b5 = woven_bin(m, tan_crimp, 5.0f, p->bins);
+    p->b0 = woven_bin(m, tan_crimp, 0.0f);
+    p->b1 = woven_bin(m, tan_crimp, 1.0f);
+    p->b2 = woven_bin(m, tan_crimp, 2.0f);
+    p->b3 = woven_bin(m, tan_crimp, 3.0f);
+    p->b4 = woven_bin(m, tan_crimp, 4.0f);
+    p->b5 = woven_bin(m, tan_crimp, 5.0f);
 }
 FN float woven_second(Woven m, float f0, float f90) { return yarn_reflectance(f0); }
 
@@ -170,14 +161,14 @@ FN LobeValue woven_value(const WovenPrepared *p, const WovenView *w, Angles a) {
     WovenView v = woven_look(p, a.i);
     float q = yarn_half(a);
     float once = 0.0f;
-    ROUNDS_OF(at, 2 * to_int(p->bins), 2 * WOVEN_BINS) {
-        int k = at / 2;
+    ROUNDS(at, 2 * WOVEN_BINS) {
+        int k = at < WOVEN_BINS ? at : at - WOVEN_BINS;
         float slope =
             woven_pick(k, p->b0.slope, p->b1.slope, p->b2.slope, p->b3.slope, p->b4.slope, p->b5.slope);
         float weight =
             woven_pick(k, p->b0.weight, p->b1.weight, p->b2.weight, p->b3.weight, p->b4.weight, p->b5.weight);
         float a2 = woven_pick(k, p->b0.a2, p->b1.a2, p->b2.a2, p->b3.a2, p->b4.a2, p->b5.a2);
-        once = once + weight * woven_row(p, at == 2 * k ? slope : -slope, a2, w, &v, q);
+        once = once + weight * woven_row(p, at < WOVEN_BINS ? slope : -slope, a2, w, &v, q);
     }
     once = once / w->seen / v.seen;
     float many = w->left * v.left / (PI * yarn_left_mean(p->alpha)) * 0.5f * (w->shown + v.shown);
