@@ -285,7 +285,8 @@ FN bool weave_has_hairs(const Weave *m, float spacing) {
     return weave_hair_radius(spacing) * max(m->warp.hairiness, m->weft.hairiness) > 0.0f;
 }
 
-/* The point at x, y, where the spacing of points is so many threads. */
+/* The point at x, y, where the spacing of points is so many threads. Where there are no loose fibres the loop over them has
+ * no rounds, which drivers that do not branch leave out too. */
 FN WeavePoint weave_point(const Weave *m, float x, float y, float spacing) {
     WeavePoint p = weave_bound(m, x, y, spacing);
     float radius = weave_hair_radius(spacing);

@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/cache.h"
 #include "weave/weave_draft.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
@@ -52,14 +53,7 @@ static void check_cloth(const WeftDraft *draft) {
     weft_cloth_free(cloth);
 }
 
-/* Returns true for one input in 4096, of any size. Daniel J. Bernstein's hash, as he posted it to comp.lang.c. */
-static bool is_chosen(const uint8_t *data, size_t size) {
-    uint32_t hash = 5381;
-    for (size_t k = 0; k < size; k++) hash = 33 * hash ^ data[k];
-    return (hash ^ hash >> 15) % 4096 == 100;
-}
-
-/* has_cloth: a cloth is made too, which takes ten thousand times as long as reading. */
+/* has_cloth: a cloth is made too, which takes ten thousand times as long as reading, so that one input in 4096 has one. */
 static void take(WeftResult result, WeftDraft *draft, bool has_cloth, const WeftError *error) {
     demand((result == WEFT_OK) == (draft != NULL));
     if (!draft) {
@@ -75,7 +69,7 @@ static void take(WeftResult result, WeftDraft *draft, bool has_cloth, const Weft
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     WeftDraft *draft;
     WeftError error;
-    const bool has_cloth = is_chosen(data, size);
+    const bool has_cloth = cache_hash(CACHE_HASH, data, size) % 4096 == 100;
     WeftResult result = weft_draft_read_memory(data, size, "fuzz", &draft, NULL, &error);
     take(result, draft, has_cloth, &error);
     char *words = malloc(size + 1);

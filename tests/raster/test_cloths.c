@@ -279,7 +279,7 @@ static void pixels_vary_as_those_of_many_points_do(void **state) {
         }
         print_message("%6.2f threads a pixel: mean %.4f worst %.4f, variance %.4f, %.3f of the reference's\n",
                       (double)sides[d], error, worst, kept / SUNS, kept / spread);
-        /* Of a few threads with a few points, chance is as much; 1.3 is 1.25 and what another driver's rounding moves. */
+        /* Chance moves the mean of a few threads by as much; 1.3 is 1.25 and what another driver's rounding moves. */
         assert_true(error < (sides[d] < 1.0f ? 0.05 : 0.01));
         assert_true(worst < (sides[d] < 1.0f ? 0.1 : 0.02));
         first = d ? first : kept;

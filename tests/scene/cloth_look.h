@@ -4,7 +4,7 @@
 
 #include "scene/cloth_base.h"
 
-/* As ClothLooks has them. */
+/* The fields are those of ClothLooks, for one place. */
 typedef struct ClothLook {
     float uv[2];
     WeaveFootprint footprint;

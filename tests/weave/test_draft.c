@@ -159,7 +159,7 @@ static void stripes_repeat_with_the_weave_and_mirror(void **state) {
     weft_draft_free(draft);
 }
 
-/* Of many clauses the last one counts; a repeat that has grown to its limit is not made anew for each. */
+/* The last of many clauses counts; a repeat that has grown to its limit is not made anew for each. */
 static void clauses_that_come_again_dye_in_place(void **state) {
     (void)state;
     enum { CLAUSES = 1000 };

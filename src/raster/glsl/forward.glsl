@@ -69,12 +69,9 @@ Rgb polygon_light(Stack m, StackView w, Facing at, Frame f) { return rgb_grey(0.
 #endif
 
 #ifdef AMBIENT
-/* The texture's occlusion is of the material's own bumps, the vertex's of all else; where both know the same
- * crease the lesser is right. Of the sky on this side and behind. */
-vec2 sky_open(float occlusion) {
-    texture_occlusion = occlusion;
-    return min(vec2(occlusion), gl_FrontFacing ? vertex_occlusion : vertex_occlusion.yx);
-}
+/* Returns how much of the sky is seen on this side and behind. The texture's occlusion is of the material's own bumps,
+ * the vertex's of all else; where both know the same crease the lesser is right. */
+vec2 sky_open() { return min(vec2(texture_occlusion), gl_FrontFacing ? vertex_occlusion : vertex_occlusion.yx); }
 #endif
 
 #ifdef WOVEN
@@ -87,7 +84,8 @@ Rgb stack_light(Stack m, Dir o, Facing at, Frame f, float occlusion) {
     Rgb sum = punctual_light(m, w, SHOWN, at, f);
     sum = rgb_add(sum, polygon_light(m, w, at, f));
 #ifdef AMBIENT
-    vec2 open = sky_open(occlusion);
+    texture_occlusion = occlusion;
+    vec2 open = sky_open();
     sum = rgb_add(sum, stack_ambient(m, w, material_ambient(), f, open.x, open.y));
 #endif
     return sum;

@@ -1,8 +1,8 @@
 /* weave.glsl - the light of a woven material at a fragment: of points of threads, and of both systems from afar
  *
  * A pixel has one point while it is much smaller than a thread, then five, and eight where it is as large as one. Each
- * is a base of its own under the lights. What lies on it, and what all reflect of the environment without its lights,
- * which is linear in a base's colours, are found once, of the mean base. */
+ * is a base of its own under the lights. What lies on it, but under polygons, and what all reflect of the environment
+ * without its lights, which is linear in a base's colours, are found once, of the mean base. */
 uniform highp sampler2DArray weave_colors;
 
 #include "raster/glsl/weave_cloth.glsl"
@@ -46,9 +46,10 @@ Stack woven_stack(Stack m, WeaveBase b) {
     return n;
 }
 
-/* What bases send to the eye: of lights, of the environment's lights if nothing dims them, and their mean colours. */
 struct WovenSum {
-    Rgb direct, around, once, again;
+    Rgb direct;      /* what bases send to the eye of lights */
+    Rgb around;      /* and of the environment's lights, if nothing dims them */
+    Rgb once, again; /* the mean colours of bases */
     float covered; /* the part of the pixel that threads cover */
 };
 
@@ -62,7 +63,7 @@ void woven_add(inout WovenSum sum, Stack m, StackView w, WeaveBase b, float weig
     sum.direct = rgb_add(sum.direct, rgb_scale(direct, weight));
 #ifdef AMBIENT
     v.scale.diffuse = 1.0;
-    Rgb around = ambient_reflect_lights(n, v, base, frame, sky_open(texture_occlusion).x);
+    Rgb around = ambient_reflect_lights(n, v, base, frame, sky_open().x);
     sum.around = rgb_add(sum.around, rgb_scale(around, weight));
 #endif
     sum.once = rgb_add(sum.once, rgb_scale(b.once, weight));
@@ -80,8 +81,9 @@ Rgb woven_rest(WovenSum sum, Stack m, StackView w, Facing at, Frame frame) {
     mean.again = sum.again;
     StackView lights;
     Slots only;
-    vec2 open = sky_open(texture_occlusion);
-    rest = rgb_add(rest, ambient_smooth(woven_stack(m, mean), w, material_ambient(), frame, open.x, open.y, lights, only));
+    vec2 open = sky_open();
+    Stack n = woven_stack(m, mean);
+    rest = rgb_add(rest, ambient_smooth(n, w, material_ambient(), frame, open.x, open.y, lights, only));
     rest = rgb_add(rest, rgb_scale(sum.around, lights.scale.diffuse));
     only.diffuse = false;
     rest = rgb_add(rest, ambient_reflect_lights(m, lights, only, frame, open.x));
