@@ -13,7 +13,7 @@
 #include "raster/gl.h"
 
 #include "base/random.h"
-#include "scene/cloth_look.h"
+#include "scene/cloth_base.h"
 #include "scene/scene.h"
 #include "trace/scenes.h"
 #include "weft/weft.h"
@@ -174,23 +174,29 @@ static WeftScene *flat_scene(const char *weave, Dir sun) {
     return scene;
 }
 
-/* The mean over a pixel of FINE x FINE points of threads, in two channels. */
+/* The mean over a pixel of FINE x FINE points of threads, in two channels. All points are looked at in one call: each is
+ * padded to a vector. */
 static void see_pixel(const WeftCloth *cloth, float x, float y, float side, Dir sun, uint64_t *random,
                       double sum[2]) {
-    static Stack stack;
+    enum { POINTS = FINE * FINE };
+    static ClothLooks looks;
+    static YarnRows yarn;
     const Angles a = angles_between(dir(0.0f, 0.0f, 1.0f), sun);
-    sum[0] = sum[1] = 0.0;
-    for (int n = 0; n < FINE * FINE; n++) {
+    for (int n = 0; n < POINTS; n++) {
         const int row = n / FINE, column = n % FINE;
         const float u = x + side * ((float)column + unit_float((uint32_t)(stream_next(random) >> 32))) / FINE,
                     v = y + side * ((float)row + unit_float((uint32_t)(stream_next(random) >> 32))) / FINE;
-        const ClothLook look = {.uv = {u / cloth->per_uv[WEFT_WARP], -v / cloth->per_uv[WEFT_WEFT]}};
-        cloth_base(cloth, &look, &stack);
-        const Slot *base = &stack.diffuse;
-        const LobeValue value = lobe_value(&base->lobe, a);
-        const double f = 3.0 * (double)(value.f * sun.z) / (FINE * FINE), s = (double)value.s;
-        sum[0] += f * ((double)base->f0.r * (1.0 - s) + (double)base->f90.r * s);
-        sum[1] += f * ((double)base->f0.b * (1.0 - s) + (double)base->f90.b * s);
+        looks.uv[0][n] = u / cloth->per_uv[WEFT_WARP];
+        looks.uv[1][n] = -v / cloth->per_uv[WEFT_WEFT];
+    }
+    cloth_bases(cloth, &looks, POINTS, &yarn);
+    sum[0] = sum[1] = 0.0;
+    for (int n = 0; n < POINTS; n++) {
+        const Lobe lobe = yarn_of_row(&yarn, (size_t)n);
+        const LobeValue value = lobe_value(&lobe, a);
+        const double f = 3.0 * (double)(value.f * sun.z) / POINTS, s = (double)value.s;
+        sum[0] += f * ((double)yarn.once[0][n] * (1.0 - s) + (double)yarn.again[0][n] * s);
+        sum[1] += f * ((double)yarn.once[2][n] * (1.0 - s) + (double)yarn.again[2][n] * s);
     }
 }
 

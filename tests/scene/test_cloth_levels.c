@@ -15,7 +15,7 @@
 
 #include "base/pi.h"
 #include "base/random.h"
-#include "scene/cloth_look.h"
+#include "scene/cloth_base.h"
 #include "scene/scene.h"
 #include "weft/weft.h"
 
@@ -33,6 +33,27 @@ static const Direction views[PAIRS] = {{0, 0}, {0, 0}, {45, 20}, {45, 20}, {45, 
 static Dir direction_of(Direction d) {
     const double t = d.theta * PI_DOUBLE / 180.0, p = d.phi * PI_DOUBLE / 180.0;
     return (Dir){(float)((sin)(t) * (cos)(p)), (float)((sin)(t) * (sin)(p)), (float)(cos)(t)};
+}
+
+/* A look at one place, with the fields of ClothLooks; the product looks at many at once. */
+typedef struct ClothLook {
+    float uv[2];
+    WeaveFootprint footprint;
+    float level, facet;
+} ClothLook;
+
+/* Puts into the place of the stack's base what is there. */
+static void cloth_base(const WeftCloth *cloth, const ClothLook *look, Stack *stack) {
+    static ClothLooks looks;
+    static YarnRows yarn;
+    looks.uv[0][0] = look->uv[0], looks.uv[1][0] = look->uv[1];
+    looks.footprint_x[0] = look->footprint.x;
+    looks.footprint_y[0] = look->footprint.y;
+    looks.longest[0] = look->footprint.longest;
+    looks.level[0] = look->level, looks.facet[0] = look->facet;
+    cloth_bases(cloth, &looks, 1, &yarn);
+    const Lobe lobe = yarn_of_row(&yarn, 0);
+    stack_put_base(stack, &lobe, ROW_RGB(yarn.once, 0), ROW_RGB(yarn.again, 0));
 }
 
 /* The weave of a preset. */
