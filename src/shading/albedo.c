@@ -5,7 +5,7 @@
 #include "shading/lobe_tables.h"
 
 /* Quadrature in (theta_i, phi), split at the mirror polar angle theta_o, at the columns of a table that f reads
- * (lobe_creases), and at the plane of incidence. Each piece is integrated by the double-exponential rule, whose nodes
+ * (lobe_creases), and at the plane of incidence. Each zone is integrated by the double-exponential rule, whose nodes
  * crowd towards the ends of an interval: x = 1 / (1 + exp(-pi sinh t)), dx/dt = pi cosh t x (1 - x). There the lobes
  * have their peaks (mirror direction, horizon, backscatter), however narrow. Hidetosi Takahasi, Masatake Mori,
  * "Double Exponential Formulas for Numerical Integration", 1974. */
@@ -99,59 +99,96 @@ static Sum ring(const Integrand *integrand, Dir wo, const QuadratureRule *rule, 
     return sum;
 }
 
-/* Angles above the horizon, ascending, between which f is smooth in theta_i: 0, those of lobe_creases (columns of a
- * table over cos_i), the mirror angle, and pi / 2. */
-enum { PIECES_MOST = LOBE_CREASES_MOST + 2 };
-typedef struct Pieces {
-    int count;
-    double edge[PIECES_MOST + 1];
-} Pieces;
+/* Rules by the halvings of a step of 1, made when they are first asked for. */
+enum { HALVINGS_MOST = 5 };
+typedef struct Rules {
+    QuadratureRule at[HALVINGS_MOST + 1];
+} Rules;
 
-static Pieces pieces_of(const Lobe *lobe, Dir wo) {
-    float creases[LOBE_CREASES_MOST];
-    int count = lobe_creases(lobe->id, creases);
-    double mirror = atan2((double)wo.z, hypot((double)wo.x, (double)wo.y));
-    Pieces p = {.count = 0, .edge = {0.0}};
-    for (int k = 0; k < count && asin((double)creases[k]) < mirror; k++)
-        p.edge[++p.count] = asin((double)creases[k]);
-    p.edge[++p.count] = mirror;
-    for (int k = 0; k < count; k++)
-        if (asin((double)creases[k]) > mirror) p.edge[++p.count] = asin((double)creases[k]);
-    p.edge[++p.count] = 0.5 * PI_DOUBLE;
-    return p;
+static const QuadratureRule *rule_of(Rules *rules, int halvings) {
+    QuadratureRule *rule = &rules->at[halvings];
+    if (rule->count == 0) *rule = rule_make(ldexp(1.0, -halvings));
+    return rule;
 }
 
-static Sum hemisphere(const Integrand *integrand, Dir wo, const QuadratureRule *rule) {
-    const Pieces pieces = pieces_of(integrand->lobe, wo);
+/* The integral between two angles above the horizon, on either side of the mirror angle if that lies between. */
+typedef struct Zone {
+    double low, high, mirror;
+    int halvings;  /* of the rule's step */
+    Sum sum;       /* by that rule */
+    double change; /* from the sum by the rule before */
+} Zone;
+
+/* Adds the integral between two angles. */
+static void band_add(const Integrand *integrand, Dir wo, const QuadratureRule *rule, double low, double high,
+                     Sum *sum) {
+    const double width = high - low;
+    const bool steep = high >= 0.5 * PI_DOUBLE;
+    if (width < 1e-9) return;
+    for (int k = 0; k < rule->count; k++) {
+        /* a is the angle from the horizon, so that small cosines keep their digits; in the last band from the
+         * normal */
+        double a = steep ? width * rule->x[k] : low + width * rule->rest[k];
+        double sin_i = steep ? (sin)(a) : (cos)(a), cos_i = steep ? (cos)(a) : (sin)(a);
+        Sum part = ring(integrand, wo, rule, sin_i, cos_i);
+        add(sum, rule->w[k] * width * sin_i * cos_i, &part);
+    }
+}
+
+static void zone_take(const Integrand *integrand, Dir wo, Zone *zone, Rules *rules) {
+    const QuadratureRule *rule = rule_of(rules, zone->halvings);
+    const double middle = fmin(fmax(zone->mirror, zone->low), zone->high);
     Sum sum = {0};
-    for (int piece = pieces.count; piece > 0; piece--) {
-        double low = pieces.edge[piece - 1], width = pieces.edge[piece] - low;
-        if (width < 1e-9) continue;
-        for (int k = 0; k < rule->count; k++) {
-            /* a is the angle from the horizon, so that small cosines keep their digits; in the last piece from
-             * the normal */
-            bool steep = piece == pieces.count;
-            double a = steep ? width * rule->x[k] : low + width * rule->rest[k];
-            double sin_i = steep ? (sin)(a) : (cos)(a), cos_i = steep ? (cos)(a) : (sin)(a);
-            Sum part = ring(integrand, wo, rule, sin_i, cos_i);
-            add(&sum, rule->w[k] * width * sin_i * cos_i, &part);
-        }
-    }
-    return sum;
+    band_add(integrand, wo, rule, middle, zone->high, &sum);
+    band_add(integrand, wo, rule, zone->low, middle, &sum);
+    zone->change = distance(&sum, &zone->sum);
+    zone->sum = sum;
 }
 
-static Sum quadrature(const Integrand *integrand, Dir wo, double tolerance, double *error) {
-    QuadratureRule rule = rule_make(0.25);
-    Sum before = hemisphere(integrand, wo, &rule), now = before;
-    for (int halving = 3; halving <= 5; halving++) {
-        rule = rule_make(ldexp(1.0, -halving));
-        now = hemisphere(integrand, wo, &rule);
-        /* halving the step about squares the error, so the last difference is a safe bound */
-        *error = distance(&now, &before);
-        if (*error < tolerance) break;
-        before = now;
+static void zone_halve(const Integrand *integrand, Dir wo, Zone *zone, Rules *rules) {
+    zone->halvings++;
+    zone_take(integrand, wo, zone, rules);
+}
+
+/* Cuts the hemisphere at the columns of a table over cos_i that f reads. Between them f is smooth but for the mirror
+ * angle, and a longer step will do. Returns the number of zones. */
+static int zones_make(const Integrand *integrand, Dir wo, Zone zones[LOBE_CREASES_MOST + 1], Rules *rules) {
+    float creases[LOBE_CREASES_MOST];
+    const int count = lobe_creases(integrand->lobe->id, creases) + 1;
+    const double mirror = atan2((double)wo.z, hypot((double)wo.x, (double)wo.y));
+    for (int k = 0; k < count; k++) {
+        zones[k] = (Zone){.low = k > 0 ? zones[k - 1].high : 0.0,
+                          .high = k + 1 < count ? asin((double)creases[k]) : 0.5 * PI_DOUBLE,
+                          .mirror = mirror,
+                          .halvings = count > 1 ? 1 : 2};
+        zone_take(integrand, wo, &zones[k], rules);
+        zone_halve(integrand, wo, &zones[k], rules);
     }
-    return now;
+    return count;
+}
+
+/* Halves the step in the zone whose sum has changed most until all changes are within the tolerance. Halving about
+ * squares the error, so the last changes are a safe bound. */
+static Sum quadrature(const Integrand *integrand, Dir wo, double tolerance, double *error) {
+    Zone zones[LOBE_CREASES_MOST + 1], *worst;
+    Rules rules;
+    for (int k = 0; k <= HALVINGS_MOST; k++) rules.at[k].count = 0;
+    const int count = zones_make(integrand, wo, zones, &rules);
+    Sum sum;
+    do {
+        worst = NULL;
+        sum = (Sum){0};
+        *error = 0.0;
+        for (int k = 0; k < count; k++) {
+            add(&sum, 1.0, &zones[k].sum);
+            *error += zones[k].change;
+            if (zones[k].halvings < HALVINGS_MOST && (!worst || zones[k].change > worst->change))
+                worst = &zones[k];
+        }
+        if (*error < tolerance) break;
+        if (worst) zone_halve(integrand, wo, worst, &rules);
+    } while (worst);
+    return sum;
 }
 
 Albedo albedo_quadrature_error(const Lobe *lobe, Dir wo, double tolerance, double *error) {
