@@ -1,13 +1,4 @@
-/* rgl_make.h - a BRDF as tables of the RGL format
- *
- * As its authors do, D is solved from what comes straight back, F held constant in a microfacet model:
- *
- *   D(w) ~ 4 f(w, w) cos(w) sigma(w),   sigma(w) = integral of max(w . m, 0) D(m) dm
- *
- * by power iteration; R is what remains of f. Jonathan Dupuy, Eric Heitz, Jean-Claude Iehl, Pierre Poulin,
- * Victor Ostromoukhov, "Extracting Microfacet-based BRDF Parameters from Arbitrary Materials with Power
- * Iterations", Computer Graphics Forum 34(4), 2015; for the rest rgl.h. A part of D is even, 3 % of its peak,
- * so that f is met where nothing comes straight back.
+/* rgl_make.h - a BRDF as tables of the RGL format: R is what D and sigma leave of f (rgl_facets.h, rgl.h)
  *
  * The authors' W spreads points by q^2 = D(m) (wo . m) u_theta sin theta_m. Here it is
  *
@@ -18,16 +9,7 @@
 #ifndef WEFT_BRDF_RGL_MAKE_H
 #define WEFT_BRDF_RGL_MAKE_H
 
-#include "brdf/rgl.h"
-
-/* The BRDF to tabulate. */
-typedef struct RglSource {
-    /* f of count directions wi. */
-    void (*f)(void *user, const float wo[3], int count, const float (*wi)[3], float (*f)[3]);
-    void *user;
-    bool isotropic;
-    int parts; /* of the circle of azimuths that are alike, as in rgl.h; counts where it is not isotropic */
-} RglSource;
+#include "brdf/rgl_facets.h"
 
 /* The sizes of the tables. */
 typedef struct RglDesc {
@@ -38,7 +20,13 @@ typedef struct RglDesc {
 
 enum { RGL_SIDE_MOST = 512, RGL_SLICES_MOST = 256 };
 
-/* Makes the tables. False where memory is short; release with rgl_free in any case. */
+/* Makes all tables but D and sigma, which out has (rgl_facets), in place of those that it has. False where memory is
+ * short; release with rgl_free in any case. */
 bool rgl_make(const RglSource *source, const RglDesc *desc, Rgl *out);
+
+/* Takes a sixteenth of its second difference from every number of R, along each of its four axes. Linear interpolation
+ * of a function that is quadratic between nodes is off by an eighth of that difference in the middle and right at the
+ * nodes; so it is off by a sixteenth at both. False where memory is short. */
+bool rgl_sharpen(Rgl *rgl);
 
 #endif

@@ -87,33 +87,41 @@ static long long numbers_of(const RglDesc *desc, bool isotropic) {
     return 5LL * desc->thetas * (isotropic ? 1 : desc->phis) * desc->side * desc->side;
 }
 
-static int half_more(int count, int most) {
-    const int more = count + count / 2;
+/* A quarter more, as tables that err by the square of their steps may need. */
+static int finer_count(int count, int most) {
+    const int more = count + count / 4;
     return more < most ? more : most;
 }
 
 /* A little below 1e-3, which other pairs may find. */
-static const double near_enough = 8e-4;
+static const double near_enough = 9.5e-4;
 
-/* Makes the tables finer, slices or sides by what lacks more, until f comes back within 1e-3 of its mean. The next step
- * would be past the most when it ends otherwise. False where memory is short. */
+/* Makes all tables of that size but D and sigma. */
+static bool tables_make(const RglSource *source, const RglDesc *desc, Rgl *out) {
+    return rgl_make(source, desc, out) && rgl_sharpen(out);
+}
+
+/* Makes the tables finer, slices or sides by what lacks more before they are sharpened, until f comes back within 1e-3
+ * of its mean, at slices and between. The next step would be past the most when it ends otherwise. False where memory
+ * is short. */
 static bool refine(const RglSource *source, RglDesc *desc, Rgl *out) {
     const RglSource tables = {.f = tables_f, .user = out};
     for (;;) {
         if (!rgl_make(source, desc, out)) return false;
-        const double anywhere = difference(source, &tables, NULL);
+        const bool by_slices = difference(source, &tables, NULL) > 2.0 * difference(source, &tables, out);
         RglDesc finer = *desc;
-        if (anywhere <= near_enough) return true;
-        if (anywhere > 2.0 * difference(source, &tables, out)) {
-            finer.thetas = half_more(desc->thetas, RGL_SLICES_MOST);
-            finer.phis = half_more(desc->phis, RGL_SLICES_MOST);
+        if (!rgl_sharpen(out)) return false;
+        if (fmax(difference(source, &tables, NULL), difference(source, &tables, out)) <= near_enough)
+            return true;
+        if (by_slices) {
+            finer.thetas = finer_count(desc->thetas, RGL_SLICES_MOST);
+            finer.phis = finer_count(desc->phis, RGL_SLICES_MOST);
         } else {
-            finer.side = half_more(desc->side, RGL_SIDE_MOST);
+            finer.side = finer_count(desc->side, RGL_SIDE_MOST);
         }
         if (numbers_of(&finer, source->isotropic) > POINTS_GROWN ||
             numbers_of(&finer, source->isotropic) == numbers_of(desc, source->isotropic))
             return true;
-        rgl_free(out);
         *desc = finer;
     }
 }
@@ -165,7 +173,8 @@ WeftResult weft_reflection_write(const WeftReflection *reflection, const char *p
                     "is an estimate by random walks; tabulate fibre, its mean");
     WeftResult result = desc_check(&fine, isotropic, error);
     if (result != WEFT_OK) return result;
-    if (!(given ? rgl_make(&source, &fine, &rgl) : refine(&source, &fine, &rgl)))
+    if (result == WEFT_OK && !(rgl_facets(&source, fine.threads, &rgl) &&
+                               (given ? tables_make(&source, &fine, &rgl) : refine(&source, &fine, &rgl))))
         result = fail(error, WEFT_MESSAGE_MEMORY, path, NULL);
     if (result == WEFT_OK)
         result = file_write(&rgl, desc->comment && desc->comment[0] ? desc->comment : " ", path, error);
