@@ -444,9 +444,9 @@ static void lobes_come_back(void **state) {
                 {"fabric", 0.0f, {0}, 1e-3, 1e-3},
                 {"charlie-neubelt", 0.0f, {0}, 1e-3, 1e-3},
                 {"charlie-neubelt", 0.05f, {0}, 1e-3, 1e-3},
-                {"silk", 0.0f, {0}, 2.5e-3, 7e-3},
-                {"threads", 0.0f, {0}, 4e-3, 7e-3},
-                {"threads", 0.0f, {.thetas = 16, .phis = 9, .side = 32}, 0.02, 0.03}};
+                {"silk", 0.0f, {0}, 1.3e-3, 1.1e-3},
+                {"threads", 0.0f, {0}, 2.2e-3, 2.2e-3},
+                {"threads", 0.0f, {.thetas = 16, .phis = 9, .side = 32}, 0.01, 0.011}};
     for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
         WeftLobe lobe = lobe_of_name(rows[k].id);
         if (rows[k].alpha > 0.0f) lobe.params[0] = rows[k].alpha;
