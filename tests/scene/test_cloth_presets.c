@@ -1,11 +1,12 @@
-/* What holds of the threads of every woven preset, at random places of the cloth: directions that lobe yarn draws carry
- * light that varies little, and points send back no more light than falls on the cloth, on the mean over it. A crown
- * alone may send back more, since it gets more than its share. */
+/* Every woven preset keeps energy. From afar it reflects the same both ways round, and no more than it gets. Points at
+ * random places of the cloth send back no more than falls on it, on the mean over them: a crown alone may, since it gets
+ * more than its share. Directions that lobe yarn draws there carry light that varies little. */
 #include "shading/cases.h"
 
 #include <string.h>
 
 #include "base/pi.h"
+#include "base/random.h"
 #include "scene/scene.h"
 #include "shading/weave_light.h"
 #include "weave/weft_cloth.h"
@@ -13,7 +14,81 @@
 
 enum { PLACES = 400, DRAWN = 256, THREADS = 480 };
 
-/* What drawn directions carry, f cos / pdf, of fibres of albedo 0.9: sums of it and of its square. White: of albedo 1. */
+/* Calls a function for each woven preset with its cloth. */
+static void each_preset(void (*check)(const char *name, const WeftCloth *cloth)) {
+    static const char *const families[] = {"woven-", "irawan-", "sadeghi-"};
+    WeftScene *scene;
+    WeftError error;
+    int count = 0;
+    assert_int_equal(weft_scene_load("builtin:cloth", &scene, NULL, &error), WEFT_OK);
+    for (int k = 0; weft_preset_name(k); k++) {
+        const char *name = weft_preset_name(k), *text = weft_preset_text(k);
+        bool woven = false;
+        for (size_t f = 0; f < sizeof families / sizeof *families; f++)
+            woven |= strncmp(name, families[f], strlen(families[f])) == 0;
+        if (!woven) continue;
+        if (weft_scene_assign_material_memory(scene, NULL, text, strlen(text), name, NULL, &error) != WEFT_OK)
+            fail_msg("%s", error.text);
+        check(name, scene->cloths[scene->materials[0].cloth - 1]);
+        count++;
+    }
+    assert_true(count >= 22);
+    weft_scene_free(scene);
+}
+
+/* Returns f of both systems from afar between two directions, with all fibres white. */
+static float white_of(const WovenPrepared p[2], Dir o, Dir i) {
+    float sum = 0.0f;
+    for (int t = 0; t < 2; t++) {
+        WovenView w;
+        woven_view(&p[t], o, &w);
+        sum += woven_value(&p[t], &w, angles_between(o, i)).f;
+    }
+    return sum;
+}
+
+/* The part of the light from o that the cloth sends back. */
+static double white_albedo(const WovenPrepared p[2], Dir o) {
+    enum { ROWS = 24, COLUMNS = 48 };
+    double sum = 0.0;
+    for (int k = 0; k < ROWS * COLUMNS; k++) {
+        const Dir i =
+            warp_cosine(((float)(k / COLUMNS) + 0.5f) / ROWS, ((float)(k % COLUMNS) + 0.5f) / COLUMNS);
+        sum += PI_DOUBLE * (double)white_of(p, o, i) / (ROWS * COLUMNS);
+    }
+    return sum;
+}
+
+static double any_unit(uint64_t *stream) { return (double)unit_float((uint32_t)(stream_next(stream) >> 32)); }
+
+static Dir any_above(uint64_t *stream) {
+    const double z = 0.02 + 0.98 * any_unit(stream);
+    return direction_cos(z, 6.0 * any_unit(stream));
+}
+
+static void check_afar(const char *name, const WeftCloth *cloth) {
+    WovenPrepared p[2];
+    uint64_t stream = stream_start(3, 29);
+    double apart = 0.0, most = 0.0;
+    for (int t = 0; t < 2; t++) woven_prepare(weave_woven(&cloth->weave, t == 1), &p[t]);
+    for (int k = 0; k < 1000; k++) {
+        const Dir o = any_above(&stream), i = any_above(&stream);
+        apart = fmax(apart, fabs((double)white_of(p, o, i) - (double)white_of(p, i, o)));
+    }
+    for (int k = 0; k < 40; k++)
+        most = fmax(most, white_albedo(p, direction_cos(0.05 + 0.95 * (k % 8) / 7.0, 0.4 * (k / 8))));
+    print_message("%-24s symmetric to %.1e, E at most %.3f\n", name, apart, most);
+    assert_true(apart < 1e-6);
+    assert_true(most < 1.0);
+}
+
+static void presets_from_afar_are_symmetric_and_keep_energy(void **state) {
+    (void)state;
+    each_preset(check_afar);
+}
+
+/* Sums of what drawn directions carry, f cos / pdf, and of its square, of fibres of albedo 0.9; white is the sum of
+ * fibres of albedo 1. */
 typedef struct Carried {
     double sum, square, white;
 } Carried;
@@ -33,10 +108,10 @@ static Carried draw(const YarnPrepared *yarn, Dir o, Random *random) {
     return c;
 }
 
-/* Over the places of a cloth, with the part that is open to light between threads. */
+/* The places of a cloth together, with the light that reaches them between threads. The variance is of what is carried,
+ * about the mean of each place, in parts of the squared mean of all. */
 typedef struct Found {
-    double
-        variance; /* of what is carried, about the mean of each place, in parts of the squared mean of all */
+    double variance;
     double mean, most; /* E of white fibres, on the mean and where it is largest */
 } Found;
 
@@ -62,46 +137,36 @@ static Found find(const Weave *m, float degrees, Random *random) {
     return found;
 }
 
-static bool is_woven(const char *name) {
-    return strncmp(name, "woven-", 6) == 0 || strncmp(name, "irawan-", 7) == 0 ||
-           strncmp(name, "sadeghi-", 8) == 0;
+static double mean[3], worst[3]; /* of the variance over presets, by angle */
+static int checked;
+
+static void check_points(const char *name, const WeftCloth *cloth) {
+    static const float degrees[] = {10, 45, 75};
+    static const double most[] = {0.32, 0.36, 0.48};
+    Random random = {29};
+    print_message("%-24s", name);
+    for (int d = 0; d < 3; d++) {
+        const Found f = find(&cloth->weave, degrees[d], &random);
+        print_message("  %2.0f: variance %.2f, E %.2f, at most %.2f", (double)degrees[d], f.variance, f.mean,
+                      f.most);
+        assert_true(f.variance < most[d]);
+        assert_true(f.mean < 1.0);
+        worst[d] = fmax(worst[d], f.variance), mean[d] += f.variance;
+    }
+    print_message("\n");
+    checked++;
 }
 
 static void points_send_back_what_falls_on_the_cloth_with_little_variance(void **state) {
     (void)state;
-    static const float degrees[] = {10, 45, 75};
-    static const double most[] = {0.32, 0.36, 0.48};
-    double worst[3] = {0.0, 0.0, 0.0}, mean[3] = {0.0, 0.0, 0.0};
-    WeftScene *scene;
-    WeftError error;
-    Random random = {29};
-    int count = 0;
-    assert_int_equal(weft_scene_load("builtin:cloth", &scene, NULL, &error), WEFT_OK);
-    for (int k = 0; weft_preset_name(k); k++) {
-        const char *name = weft_preset_name(k), *text = weft_preset_text(k);
-        if (!is_woven(name)) continue;
-        if (weft_scene_assign_material_memory(scene, NULL, text, strlen(text), name, NULL, &error) != WEFT_OK)
-            fail_msg("%s", error.text);
-        count++;
-        printf("%-24s", name);
-        for (int d = 0; d < 3; d++) {
-            const Found f = find(&scene->cloths[scene->materials[0].cloth - 1]->weave, degrees[d], &random);
-            printf("  %2.0f: variance %.2f, E %.2f, at most %.2f", (double)degrees[d], f.variance, f.mean,
-                   f.most);
-            assert_true(f.variance < most[d]);
-            assert_true(f.mean < 1.0);
-            worst[d] = fmax(worst[d], f.variance), mean[d] += f.variance;
-        }
-        printf("\n");
-    }
-    printf("variance on the mean %.2f, %.2f and %.2f, at worst %.2f, %.2f and %.2f\n", mean[0] / count,
-           mean[1] / count, mean[2] / count, worst[0], worst[1], worst[2]);
-    assert_true(count >= 20);
-    weft_scene_free(scene);
+    each_preset(check_points);
+    for (int d = 0; d < 3; d++)
+        print_message("variance on the mean %.2f, at worst %.2f\n", mean[d] / checked, worst[d]);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(presets_from_afar_are_symmetric_and_keep_energy),
         cmocka_unit_test(points_send_back_what_falls_on_the_cloth_with_little_variance),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -15,7 +15,7 @@
  *   energy: no: a facet that faces the light gets more than its share of the flat cloth. On the mean over a
  *     thread E <= 1.
  *   sampling: of the light that met one fibre by the flakes that are seen, as their paper's section 4 has it: a sphere
- *     stretched along t. What would go down is mirrored about the fibre: pdf = (D(h) + D(h')) / (4 sigma_o), h' of the
+ *     stretched along t. What would go down is mirrored at the yarn: pdf = (D(h) + D(h')) / (4 sigma_o), h' of the
  *     mirrored direction. Other light by the cosine. Own.
  *   Not for: cloth from afar, which is woven.
  *   measured by weft check yarn: E at most 0.98 (alpha 0.36, cos_o 1);
@@ -70,7 +70,7 @@ FN void yarn_view(const YarnPrepared *p, Dir o, YarnView *w) { *w = yarn_look(p,
 /* The share of samples by flakes: a little more than that of the light that met one of them, since cloth is not white. */
 FN float yarn_flakes_p(const YarnView *w) { return w->p > 0.0f ? 1.1f - w->left : 0.0f; }
 
-/* |wi' + wo|^2 = (t . (wi + wo))^2 + (b . (wi + wo))^2 + (n . (wi - wo))^2:  wi' is mirrored about the plane of the yarn,
+/* |wi' + wo|^2 = (t . (wi + wo))^2 + (b . (wi + wo))^2 + (n . (wi - wo))^2:  wi' is mirrored at the plane of the yarn,
  * whose normal is n, and b = n x t */
 FN float yarn_density(const YarnPrepared *p, const YarnView *w, YarnView v, Angles a) {
     float x = p->m.slope_x, y = p->m.slope_y, m = w->along + v.along, rise = w->p - v.p;
@@ -89,6 +89,7 @@ FN LobeValue yarn_value(const YarnPrepared *p, const YarnView *w, Angles a) {
         w->left * v.left / (PI * yarn_left_mean(p->m.alpha)) * 0.5f * (w->p / w->seen + v.p / v.seen);
     return lobe_value_of(once + many, many / max(once + many, 1e-6f), yarn_density(p, w, v, a));
 }
+
 /* A flake that o sees, not unit. Where the stretch of t is taken back, flakes are a sphere, and what o sees of it has a
  * density of the cosine about s, as the sum of s and a point of the unit sphere has. */
 FN Dir yarn_flake(const YarnPrepared *p, float along, Dir o, float u, float v) {
