@@ -108,6 +108,16 @@ WeftResult meshes_create(const WeftScene *scene, const Refinement *refinement, G
     return result;
 }
 
+WeftResult meshes_refine(GlMeshes *self, const WeftScene *scene, const Refinement *refinement,
+                         WeftError *error) {
+    GlMeshes fresh;
+    WeftResult result = meshes_create(scene, refinement, &fresh, error);
+    if (result != WEFT_OK) return result;
+    meshes_destroy(self);
+    *self = fresh;
+    return WEFT_OK;
+}
+
 WeftResult meshes_update(GlMeshes *self, const WeftScene *scene, WeftError *error) {
     int tangents = tangents_of(scene);
     if (tangents == self->tangents) return WEFT_OK;

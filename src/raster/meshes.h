@@ -36,6 +36,11 @@ WeftResult meshes_create(const WeftScene *scene, const Refinement *refinement, G
                          WeftError *error);
 void meshes_destroy(GlMeshes *meshes);
 
+/* Uploads all meshes once more, refined in another way; nothing is known of what vertices see. Fails as meshes_create
+ * does; it is then as it was. */
+WeftResult meshes_refine(GlMeshes *meshes, const WeftScene *scene, const Refinement *refinement,
+                         WeftError *error);
+
 /* Gives each vertex of the scene's own meshes what it sees of the sky and of lights, as occlusion_values has
  * it; others, and all until then, see all of the sky, and of lights nothing is known. */
 WeftResult meshes_occlusion(GlMeshes *meshes, const float *values, WeftError *error);

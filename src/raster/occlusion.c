@@ -15,32 +15,44 @@
 
 enum { BLOCK = 256 }; /* vertices in one go */
 
+/* One in so many rays of a light is sent first, the others follow where those do not agree. */
+enum { FIRST = 4 };
+
+/* Edges are halved so often where their ends see that much that is different, in parts of the light. */
+enum { ROUNDS = 2 };
+#define DIFFERENT 0.16f
+
 /* Raised whenever the same scene would give other values. */
-enum { LOOK = 5 };
+enum { LOOK = 6 };
+
+/* All vertices, of the meshes as they are refined, and what they see. */
+typedef struct Outlook {
+    Refinement refinement;
+    float *values;
+    float *position, *normal; /* 3 a vertex; a normal of 0 looks nowhere */
+    uint32_t *first, *known;  /* vertex of a mesh; how many of a mesh have been looked from */
+} Outlook;
 
 struct Occlusion {
     WeftScene scene; /* as it was, without the meshes of its lights: what its lists hold stays, those of
                         meshes and materials are copies */
     Geometry *geometry;
-    float *values;
-    float *position, *normal; /* 3 a vertex; a normal of 0 looks nowhere */
-    uint32_t *first;          /* vertex of a mesh */
-    int rays, threads;
+    Outlook at;
+    int round, rays, threads;
+    Dir *sky, *toward; /* rays: of the sky about the normal, and in the world to each light */
     bool no_cache;
     EnvLight env_lights[OCCLUSION_LIGHTS];
     int env_light_count;
     EnvPoint env_points[AMBIENT_POINTS_MAX + OCCLUSION_LIGHTS];
     int first_point[OCCLUSION_LIGHTS + 1]; /* of a light */
-    uint64_t key;                          /* of the values in the cache */
+    float share[OCCLUSION_LIGHTS];         /* of all lights' light */
+    uint64_t key;                          /* of the values in the cache, with the round */
     atomic_int stop, done;
     bool joined;
     pthread_t thread;
 };
 
 static Dir dir_of(Vec3 v) { return dir(v.x, v.y, v.z); }
-
-/* Part of a turn by which a vertex's directions differ from others', so that neighbours do not err alike. */
-static float turned(uint32_t vertex) { return (float)(vertex * 2654435769u >> 8) * 0x1p-24f; }
 
 /* c_0 + c . w about n, each from -1 to 1. */
 typedef struct Ramp {
@@ -51,17 +63,21 @@ static float ramp_at(const Ramp *r, Dir w) {
     return clamp(r->mean + r->x * w.x + r->y * w.y + r->z * (w.z - 0.5f), 0.0f, 1.0f);
 }
 
-static Dir sky_ray(int k, int rays, float turn) {
-    float v = (float)k * 0.618033989f + turn;
-    return warp_uniform(((float)k + 0.5f) / (float)rays, v - floor(v));
+/* Directions are even over the hemisphere by the golden ratio. All vertices have the same, so that what they err by
+ * is nearly the same for neighbours, and does not show. */
+static void place_sky(Occlusion *self) {
+    for (int k = 0; k < self->rays; k++) {
+        float v = (float)k * 0.618033989f;
+        self->sky[k] = warp_uniform(((float)k + 0.5f) / (float)self->rays, v - floor(v));
+    }
 }
 
 /* So many times as steep, its mean over the rays as it was when it is cut off. */
-static Ramp ramp_steeper(const Occlusion *self, const Ramp *r, float by, const Dir *sky) {
+static Ramp ramp_steeper(const Occlusion *self, const Ramp *r, float by) {
     Ramp out = {r->mean, by * r->x, by * r->y, by * r->z};
     for (int round = 0; round < 4; round++) {
         float mean = 0.0f;
-        for (int k = 0; k < self->rays; k++) mean += ramp_at(&out, sky[k]);
+        for (int k = 0; k < self->rays; k++) mean += ramp_at(&out, self->sky[k]);
         out.mean = clamp(out.mean + r->mean - mean / (float)self->rays, -1.0f, 2.0f);
     }
     return out;
@@ -74,12 +90,12 @@ static Ramp ramp_steeper(const Occlusion *self, const Ramp *r, float by, const D
  *
  * and since V ends at 0 and 1, as many times as steep as is nearest when it is cut off there, and as much
  * higher as cutting it off takes from its mean. */
-static void fit_ramp(const Occlusion *self, const bool *seen, const Dir *sky, Ramp *out) {
+static void fit_ramp(const Occlusion *self, const bool *seen, Ramp *out) {
     static const float steps[] = {1.0f, 1.25f, 1.5f, 2.0f, 2.5f, 3.0f};
     Ramp r = {0.0f, 0.0f, 0.0f, 0.0f};
     float least = INFINITY, share = 1.0f / (float)self->rays;
     for (int k = 0; k < self->rays; k++) {
-        Dir w = sky[k];
+        Dir w = self->sky[k];
         if (!seen[k]) continue;
         r.mean += share;
         r.x += 3.0f * share * w.x;
@@ -88,32 +104,33 @@ static void fit_ramp(const Occlusion *self, const bool *seen, const Dir *sky, Ra
     }
     *out = r;
     for (size_t n = 0; n < sizeof steps / sizeof steps[0]; n++) {
-        Ramp steep = ramp_steeper(self, &r, steps[n], sky);
+        Ramp steep = ramp_steeper(self, &r, steps[n]);
         float off = 0.0f;
         for (int k = 0; k < self->rays; k++) {
-            float d = ramp_at(&steep, sky[k]) - (seen[k] ? 1.0f : 0.0f);
+            float d = ramp_at(&steep, self->sky[k]) - (seen[k] ? 1.0f : 0.0f);
             off += d * d;
         }
         if (off < least) least = off, *out = steep;
     }
 }
 
-/* The part of the cosine-weighted sky above n that a point sees, and which. Directions are even over the
- * hemisphere by the golden ratio. */
+/* The frame of a normal, x upwards: so it turns little from vertex to vertex, but beside the poles. */
+static Frame frame_upright(Vec3 n) { return frame_about(dir_of(n), dir(0.0f, 1.0f, 0.0f), 1.0f); }
+
+/* The part of the cosine-weighted sky above n that a point sees, and which. */
 static float seen_from(const Occlusion *self, Vec3 p, Vec3 n, float reach, uint32_t vertex, float open[4]) {
     bool seen[OCCLUSION_RAYS_MAX];
-    Dir sky[OCCLUSION_RAYS_MAX]; /* of a frame whose z is n */
-    Frame frame = frame_about(dir_of(n), dir(0.0f, 0.0f, 0.0f), 1.0f);
+    Frame frame = frame_upright(n);
     Vec3 from = vec3_madd(p, n, reach);
-    float sum = 0.0f, turn = turned(vertex);
+    float sum = 0.0f;
     Ramp ramp;
     for (int k = 0; k < self->rays; k++) {
-        Dir w = sky[k] = sky_ray(k, self->rays, turn), d = frame_from(frame, w);
+        Dir w = self->sky[k], d = frame_from(frame, w);
         Ray ray = {from, vec3(d.x, d.y, d.z), 0.0f, INFINITY, vertex, false};
         seen[k] = !geometry_occluded(self->geometry, ray);
         if (seen[k]) sum += 2.0f * w.z / (float)self->rays;
     }
-    fit_ramp(self, seen, sky, &ramp);
+    fit_ramp(self, seen, &ramp);
     Dir slope = frame_from(frame, dir(ramp.x, ramp.y, ramp.z));
     open[0] = ramp.mean - 0.5f * ramp.z;
     open[1] = slope.x, open[2] = slope.y, open[3] = slope.z;
@@ -126,28 +143,50 @@ static float point_light(const EnvPoint *point) {
 
 static float fraction(float x) { return x - floor(x); }
 
-/* The part of a light that p sees. Rays are even over the light of its points; about a point that stands for 1 / m of
- * the light they are spread by exp(kappa (mu - 1)), whose mean squared distance 2 / kappa is a share 1 / m of the
- * light's: so they have its shape, as that of a glow along the horizon. */
-static float env_light_visibility(const Occlusion *self, int light, Vec3 p, Vec3 n, float reach,
-                                  uint32_t vertex) {
-    const EnvLight *l = &self->env_lights[light];
-    int at = self->first_point[light], end = self->first_point[light + 1];
-    int rays = self->rays / 2 > 0 ? self->rays / 2 : 1, seen = 0, above = 0;
-    float total = 0.0f, before = 0.0f, spread = l->spread / (float)(end - at), turn = turned(vertex);
-    for (int k = at; k < end; k++) total += point_light(&self->env_points[k]);
-    if (vec3_dot(l->direction, n) < 0.0f) n = vec3_scale(n, -1.0f);
-    Vec3 from = vec3_madd(p, n, reach);
-    for (int k = 0; k < rays; k++) {
-        float part = total * ((float)k + 0.5f) / (float)rays;
-        while (at + 1 < end && before + point_light(&self->env_points[at]) < part)
+static int first_rays(const Occlusion *self) { return (self->rays + FIRST - 1) / FIRST; }
+
+/* Places rays of a light from `begin` on, which are even over the light of its points; about a point that stands for
+ * 1 / m of the light they are spread by exp(kappa (mu - 1)), whose mean squared distance 2 / kappa is a share 1 / m of
+ * the light's: so they have its shape, as that of a glow along the horizon. */
+static void place_toward(Occlusion *self, int light, int begin, int end) {
+    int at = self->first_point[light], last = self->first_point[light + 1] - 1;
+    float total = self->share[light], before = 0.0f;
+    float spread = self->env_lights[light].spread / (float)(last + 1 - at);
+    for (int k = begin; k < end; k++) {
+        float part = total * ((float)(k - begin) + 0.5f) / (float)(end - begin);
+        while (at < last && before + point_light(&self->env_points[at]) < part)
             before += point_light(&self->env_points[at++]);
-        float u = max(fraction((float)k * 0.754877666f + turn), 1e-6f);
-        float phi = 2.0f * PI * fraction((float)k * 0.569840291f + turn);
+        float u = max(fraction((float)k * 0.754877666f), 1e-6f);
+        float phi = 2.0f * PI * fraction((float)k * 0.569840291f);
         float mu = max(1.0f + 0.5f * spread * logf(u), -1.0f), s = sqrt(max(1.0f - mu * mu, 0.0f));
         Frame frame = frame_about(dir_of(self->env_points[at].direction), dir(0.0f, 0.0f, 0.0f), 1.0f);
-        Dir d = frame_from(frame, dir(s * cos(phi), s * sin(phi), mu));
-        Ray ray = {from, vec3(d.x, d.y, d.z), 0.0f, INFINITY, vertex, false};
+        self->toward[light * self->rays + k] = frame_from(frame, dir(s * cos(phi), s * sin(phi), mu));
+    }
+}
+
+/* Places all rays to lights; share becomes that of all lights' light. */
+static void place_lights(Occlusion *self) {
+    float total = 0.0f;
+    for (int k = 0; k < self->env_light_count; k++) {
+        self->share[k] = 0.0f;
+        for (int n = self->first_point[k]; n < self->first_point[k + 1]; n++)
+            self->share[k] += point_light(&self->env_points[n]);
+        place_toward(self, k, 0, first_rays(self));
+        place_toward(self, k, first_rays(self), self->rays);
+        total += self->share[k];
+    }
+    for (int k = 0; k < self->env_light_count && total > 0.0f; k++) self->share[k] /= total;
+}
+
+/* The part of a light above the horizon that p sees, 1 if none is. */
+static float env_light_visibility(const Occlusion *self, int light, Vec3 p, Vec3 n, float reach,
+                                  uint32_t vertex) {
+    const Dir *toward = self->toward + light * self->rays;
+    int seen = 0, above = 0;
+    Vec3 from = vec3_madd(p, n, reach);
+    for (int k = 0; k < self->rays; k++) {
+        Ray ray = {from, vec3(toward[k].x, toward[k].y, toward[k].z), 0.0f, INFINITY, vertex, false};
+        if (k == first_rays(self) && above && (seen == 0 || seen == above)) break;
         if (vec3_dot(ray.direction, n) <= 0.0f) continue;
         above++;
         seen += !geometry_occluded(self->geometry, ray);
@@ -163,22 +202,26 @@ void occlusion_nothing(float values[OCCLUSION_VALUES]) {
 static void look(void *user, int item, int thread) {
     Occlusion *self = user;
     const WeftScene *scene = &self->scene;
-    uint32_t count = self->first[scene->mesh_count], begin = (uint32_t)item * BLOCK;
+    const Outlook *at = &self->at;
+    uint32_t count = at->first[scene->mesh_count], begin = (uint32_t)item * BLOCK;
     uint32_t end = count - begin < BLOCK ? count : begin + BLOCK;
     float reach = 1e-4f * vec3_length(vec3_sub(scene->high, scene->low));
     int m = 0;
     for (uint32_t k = begin; k < end && !atomic_load(&self->stop); k++) {
-        while (self->first[m + 1] <= k) m++;
-        const Mesh *mesh = &scene->meshes[m];
-        float *to = self->values + OCCLUSION_VALUES * (size_t)k;
+        while (at->first[m + 1] <= k) m++;
+        if (k - at->first[m] < at->known[m]) continue;
+        bool two_sided = scene->materials[scene->meshes[m].material].double_sided;
+        float *to = at->values + OCCLUSION_VALUES * (size_t)k;
         occlusion_nothing(to);
-        Vec3 p = vec3_load(self->position + 3 * (size_t)k), n = vec3_load(self->normal + 3 * (size_t)k);
+        Vec3 p = vec3_load(at->position + 3 * (size_t)k), n = vec3_load(at->normal + 3 * (size_t)k);
         if (!(vec3_dot(n, n) > 0.0f)) continue;
+        Vec3 back = vec3_scale(n, -1.0f);
         to[0] = seen_from(self, p, n, reach, k, to + OCCLUSION_OPEN);
-        if (scene->materials[mesh->material].double_sided)
-            to[1] = seen_from(self, p, vec3_scale(n, -1.0f), reach, k, to + OCCLUSION_OPEN + 4);
-        for (int j = 0; j < self->env_light_count; j++)
-            to[OCCLUSION_LIGHT + j] = env_light_visibility(self, j, p, n, reach, k);
+        if (two_sided) to[1] = seen_from(self, p, back, reach, k, to + OCCLUSION_OPEN + 4);
+        for (int j = 0; j < self->env_light_count; j++) {
+            bool behind = two_sided && vec3_dot(self->env_lights[j].direction, n) < 0.0f;
+            to[OCCLUSION_LIGHT + j] = env_light_visibility(self, j, p, behind ? back : n, reach, k);
+        }
     }
 }
 
@@ -214,10 +257,6 @@ static uint64_t values_key(const Occlusion *self) {
     return hash;
 }
 
-static size_t values_count(const Occlusion *self) {
-    return OCCLUSION_VALUES * (size_t)self->first[self->scene.mesh_count];
-}
-
 /* The sums of fit_ramp are greatest where V is 1 on the side they point to and 0 on the other: 3/4 along the
  * horizon and 3/2 upwards, which is less than 1.7 together, before it makes them up to three times as steep.
  */
@@ -229,22 +268,59 @@ static bool in_range(const float *values, size_t count) {
     return good;
 }
 
-static void *work(void *user) {
-    Occlusion *self = user;
-    uint32_t count = self->first[self->scene.mesh_count];
-    thread_step_back(); /* for those who draw meanwhile, or compile programs */
-    parallel_for(self->threads, (int)((count + BLOCK - 1) / BLOCK), look, self);
-    /* in silence: a log is for the thread that made this */
-    if (!self->no_cache && !atomic_load(&self->stop))
-        cache_keep(self->key, "sky", self->values, values_count(self) * sizeof(float), NULL);
-    atomic_store(&self->done, 1);
-    return NULL;
+/* The numbers of vertices that are not known yet, in one piece, which the caller frees. */
+static float *fresh_values(const Occlusion *self, size_t *count) {
+    const Outlook *at = &self->at;
+    size_t vertices = 0;
+    for (int m = 0; m < self->scene.mesh_count; m++)
+        vertices += at->first[m + 1] - at->first[m] - at->known[m];
+    *count = vertices * OCCLUSION_VALUES;
+    return alloc_array(*count, sizeof(float));
+}
+
+/* Puts them there, or takes them from there. */
+static void move_fresh(Occlusion *self, float *fresh, bool put) {
+    const Outlook *at = &self->at;
+    for (int m = 0; m < self->scene.mesh_count; m++) {
+        size_t begin = at->first[m] + at->known[m], floats = (at->first[m + 1] - begin) * OCCLUSION_VALUES;
+        float *own = at->values + begin * OCCLUSION_VALUES;
+        memcpy(put ? own : fresh, put ? fresh : own, floats * sizeof(float));
+        fresh += floats;
+    }
+}
+
+static uint64_t round_key(const Occlusion *self) {
+    return cache_hash(self->key, &self->round, sizeof self->round);
+}
+
+/* Returns true if the cache of an earlier run has what is not known yet. */
+static bool find(Occlusion *self, const WeftLog *log) {
+    size_t count;
+    if (self->no_cache) return false;
+    float *fresh = fresh_values(self, &count);
+    bool found = fresh && cache_find(round_key(self), "sky", fresh, count * sizeof(float), log) &&
+                 in_range(fresh, count);
+    if (found) move_fresh(self, fresh, true);
+    free(fresh);
+    return found;
+}
+
+/* In silence: a log is for the thread that made this. */
+static void keep(Occlusion *self) {
+    size_t count;
+    if (self->no_cache || atomic_load(&self->stop)) return;
+    float *fresh = fresh_values(self, &count);
+    if (fresh) move_fresh(self, fresh, false);
+    if (fresh) cache_keep(round_key(self), "sky", fresh, count * sizeof(float), NULL);
+    free(fresh);
 }
 
 static bool copy_scene(Occlusion *self, const WeftScene *scene) {
-    size_t meshes = (size_t)scene_own_meshes(scene), materials = (size_t)scene->material_count;
+    size_t meshes = (size_t)scene_own_meshes(scene), materials = (size_t)scene_own_materials(scene);
     self->scene = *scene;
     self->scene.mesh_count = scene_own_meshes(scene);
+    self->scene.material_count = scene_own_materials(scene);
+    self->scene.polygon_light_count = 0;
     self->scene.meshes = alloc_array(meshes, sizeof(Mesh));
     self->scene.materials = alloc_array(materials, sizeof(Material));
     if (!self->scene.meshes || !self->scene.materials) return false;
@@ -288,17 +364,25 @@ static void copy_env_lights(Occlusion *self, const OcclusionHow *how) {
     }
 }
 
+static void outlook_free(Outlook *at) {
+    refinement_free(&at->refinement);
+    free(at->values);
+    free(at->position);
+    free(at->normal);
+    free(at->first);
+    free(at->known);
+    *at = (Outlook){0};
+}
+
 /* Gives the vertices of the refined meshes places and unit normals. */
-static bool copy_vertices(Occlusion *self, const Refinement *refinement) {
-    size_t count = self->first[self->scene.mesh_count];
-    self->position = alloc_array(count, 3 * sizeof(float));
-    self->normal = alloc_array(count, 3 * sizeof(float));
-    bool held = self->position && self->normal;
-    for (int m = 0; held && m < self->scene.mesh_count; m++) {
-        const Mesh *mesh = &self->scene.meshes[m];
-        const RefinedMesh refined = refinement_mesh(refinement, &self->scene, m);
-        float *position = self->position + 3 * (size_t)self->first[m],
-              *normal = self->normal + 3 * (size_t)self->first[m];
+static bool place_vertices(const WeftScene *scene, Outlook *at) {
+    size_t count = at->first[scene->mesh_count];
+    bool held = true;
+    for (int m = 0; held && m < scene->mesh_count; m++) {
+        const Mesh *mesh = &scene->meshes[m];
+        const RefinedMesh refined = refinement_mesh(&at->refinement, scene, m);
+        float *position = at->position + 3 * (size_t)at->first[m],
+              *normal = at->normal + 3 * (size_t)at->first[m];
         refined_fill(&refined, mesh, mesh->position, 3, position);
         if (mesh->normal)
             refined_fill(&refined, mesh, mesh->normal, 3, normal);
@@ -306,19 +390,82 @@ static bool copy_vertices(Occlusion *self, const Refinement *refinement) {
             held = add_face_normals(&refined, position, normal);
     }
     for (size_t k = 0; held && k < count; k++) {
-        Vec3 n = vec3_normal_or(vec3_load(self->normal + 3 * k), vec3(0.0f, 0.0f, 0.0f));
-        self->normal[3 * k] = n.x, self->normal[3 * k + 1] = n.y, self->normal[3 * k + 2] = n.z;
+        Vec3 n = vec3_normal_or(vec3_load(at->normal + 3 * k), vec3(0.0f, 0.0f, 0.0f));
+        at->normal[3 * k] = n.x, at->normal[3 * k + 1] = n.y, at->normal[3 * k + 2] = n.z;
     }
     return held;
 }
 
-/* Returns true if the cache of an earlier run has the values. */
-static bool known(Occlusion *self, const WeftLog *log) {
-    if (self->no_cache) return false;
-    size_t count = values_count(self);
-    self->key = values_key(self);
-    return cache_find(self->key, "sky", self->values, count * sizeof(float), log) &&
-           in_range(self->values, count);
+/* Lays out the vertices of a refinement, of which nothing is known but what `before` knows, unless that is NULL. The
+ * refinement is the outlook's from then on; false for want of memory. */
+static bool outlook_make(const WeftScene *scene, const Refinement *refinement, const Outlook *before,
+                         Outlook *at) {
+    *at = (Outlook){.refinement = *refinement};
+    at->first = alloc_array((size_t)scene->mesh_count + 1, sizeof(uint32_t));
+    at->known = alloc_array((size_t)scene->mesh_count, sizeof(uint32_t));
+    if (!at->first || !at->known) return false;
+    for (int m = 0; m < scene->mesh_count; m++) {
+        at->first[m + 1] = at->first[m] + refinement_mesh(refinement, scene, m).vertex_count;
+        if (before) at->known[m] = before->first[m + 1] - before->first[m];
+    }
+    size_t count = at->first[scene->mesh_count];
+    at->values = alloc_array(count, OCCLUSION_VALUES * sizeof(float));
+    at->position = alloc_array(count, 3 * sizeof(float));
+    at->normal = alloc_array(count, 3 * sizeof(float));
+    if (!at->values || !at->position || !at->normal) return false;
+    for (int m = 0; before && m < scene->mesh_count; m++)
+        memcpy(at->values + (size_t)OCCLUSION_VALUES * at->first[m],
+               before->values + (size_t)OCCLUSION_VALUES * before->first[m],
+               (size_t)at->known[m] * OCCLUSION_VALUES * sizeof(float));
+    return place_vertices(scene, at);
+}
+
+/* Returns true where the rim of a shadow lies between two vertices: of the sky, or of lights, each by its share of the
+ * light that falls there. */
+static bool differ(const void *user, int mesh, uint32_t a, uint32_t b) {
+    const Occlusion *self = user;
+    const Outlook *at = &self->at;
+    size_t one = (size_t)at->first[mesh] + a, two = (size_t)at->first[mesh] + b;
+    const float *p = at->values + OCCLUSION_VALUES * one, *q = at->values + OCCLUSION_VALUES * two;
+    bool two_sided = self->scene.materials[self->scene.meshes[mesh].material].double_sided;
+    Vec3 n = vec3_load(at->normal + 3 * one);
+    float lights = 0.0f;
+    for (int k = 0; k < self->env_light_count; k++) {
+        float cosine = vec3_dot(n, self->env_lights[k].direction);
+        float falls = two_sided ? fabsf(cosine) : max(cosine, 0.0f);
+        lights += self->share[k] * falls * fabsf(p[OCCLUSION_LIGHT + k] - q[OCCLUSION_LIGHT + k]);
+    }
+    return max(lights, max(fabsf(p[0] - q[0]), fabsf(p[1] - q[1]))) > DIFFERENT;
+}
+
+/* Cuts where what vertices see differs; false if there is nothing more to look from. */
+static bool cut(Occlusion *self) {
+    const EdgeTest test = {.differ = differ, .user = self};
+    Refinement finer;
+    Outlook next;
+    if (self->round == ROUNDS || !refinement_halve(&self->scene, &self->at.refinement, &test, &finer))
+        return false;
+    self->round++;
+    bool made = outlook_make(&self->scene, &finer, &self->at, &next);
+    if (made) {
+        outlook_free(&self->at);
+        self->at = next;
+    } else {
+        outlook_free(&next);
+    }
+    return made;
+}
+
+static void *work(void *user) {
+    Occlusion *self = user;
+    thread_step_back(); /* for those who draw meanwhile, or compile programs */
+    do {
+        uint32_t count = self->at.first[self->scene.mesh_count];
+        parallel_for(self->threads, (int)((count + BLOCK - 1) / BLOCK), look, self);
+        keep(self);
+    } while (!atomic_load(&self->stop) && cut(self));
+    atomic_store(&self->done, 1);
+    return NULL;
 }
 
 static WeftResult begin(Occlusion *self, WeftError *error) {
@@ -341,18 +488,22 @@ WeftResult occlusion_start(const WeftScene *scene, const Refinement *refinement,
     self->env_light_count = how->env_light_count < OCCLUSION_LIGHTS ? how->env_light_count : OCCLUSION_LIGHTS;
     copy_env_lights(self, how);
     self->joined = true;
-    self->first = alloc_array((size_t)scene_own_meshes(scene) + 1, sizeof(uint32_t));
-    bool held = self->first && copy_scene(self, scene);
-    if (held) {
-        for (int m = 0; m < self->scene.mesh_count; m++)
-            self->first[m + 1] = self->first[m] + refinement_mesh(refinement, scene, m).vertex_count;
-        self->values = alloc_array(values_count(self), sizeof(float));
-        held = copy_vertices(self, refinement);
+    self->sky = alloc_array((size_t)self->rays, sizeof(Dir));
+    self->toward = alloc_array((size_t)self->rays * OCCLUSION_LIGHTS, sizeof(Dir));
+    Refinement own;
+    bool held = self->sky && self->toward && copy_scene(self, scene) &&
+                refinement_copy(scene, refinement, &own) && outlook_make(&self->scene, &own, NULL, &self->at);
+    if (!held) {
+        occlusion_free(self);
+        return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     }
+    place_sky(self);
+    place_lights(self);
+    if (!self->no_cache) self->key = values_key(self);
+    bool found = find(self, log);
+    while (found && cut(self)) found = find(self, log);
     WeftResult result = WEFT_OK;
-    if (!held || !self->values)
-        result = fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
-    else if (known(self, log))
+    if (found)
         atomic_store(&self->done, 1);
     else
         result = begin(self, error);
@@ -367,7 +518,13 @@ const float *occlusion_values(Occlusion *self, bool wait) {
     if (!wait && !atomic_load(&self->done)) return NULL;
     if (!self->joined) pthread_join(self->thread, NULL);
     self->joined = true;
-    return self->values;
+    return self->at.values;
+}
+
+Refinement occlusion_take_refinement(Occlusion *self) {
+    Refinement taken = self->at.refinement;
+    self->at.refinement = (Refinement){0};
+    return taken;
 }
 
 void occlusion_free(Occlusion *self) {
@@ -377,9 +534,8 @@ void occlusion_free(Occlusion *self) {
     geometry_free(self->geometry);
     free(self->scene.meshes);
     free(self->scene.materials);
-    free(self->values);
-    free(self->position);
-    free(self->normal);
-    free(self->first);
+    outlook_free(&self->at);
+    free(self->sky);
+    free(self->toward);
     free(self);
 }

@@ -21,7 +21,7 @@ enum {
 
 /* Options of the search. */
 typedef struct OcclusionHow {
-    int rays;      /* directions a side, up to OCCLUSION_RAYS_MAX; half of them for each light */
+    int rays; /* directions a side and a light, up to OCCLUSION_RAYS_MAX; of a light a quarter where they agree */
     int threads;   /* beside the caller; 0: one a processor */
     bool no_cache; /* neither reads what an earlier run found from the user's cache, nor writes it there */
     const EnvLight *env_lights; /* in the world; copied */
@@ -30,11 +30,11 @@ typedef struct OcclusionHow {
     int env_point_count;        /* 0: each light is about its direction */
 } OcclusionHow;
 
-/* Starts to look from every vertex of the scene's own meshes as they are refined; those of its lights, which move,
- * neither hide anything nor are looked from. Where a mesh has no normals a vertex looks along that of its triangles,
- * or, if they do not lie in one plane, sees all. The scene and the refinement must outlive it; the calls of
- * weft/scene.h may change it meanwhile. Fails with WEFT_MESSAGE_MEMORY or _RENDER_DEVICE; what is wrong with a file of
- * the cache is a warning. */
+/* Starts to look from every vertex of the scene's own meshes as they are refined, and then as they are refined further
+ * where neighbours see different things; those of its lights, which move, neither hide anything nor are looked from.
+ * Where a mesh has no normals a vertex looks along that of its triangles, or, if they do not lie in one plane, sees all.
+ * The scene must outlive it; the calls of weft/scene.h may change it meanwhile. The refinement is copied. Fails with
+ * WEFT_MESSAGE_MEMORY or _RENDER_DEVICE; what is wrong with a file of the cache is a warning. */
 WeftResult occlusion_start(const WeftScene *scene, const Refinement *refinement, const OcclusionHow *how,
                            Occlusion **out, const WeftLog *log, WeftError *error);
 
@@ -45,6 +45,10 @@ void occlusion_nothing(float values[OCCLUSION_VALUES]);
  * is above the horizon of whichever side faces it; below 0 where nothing is known. NULL until it is done,
  * unless it is waited for. Lives until occlusion_free. */
 const float *occlusion_values(Occlusion *occlusion, bool wait);
+
+/* The refinement whose vertices these are: the one given, finer where a shadow has its rim. It is the caller's from
+ * then on; to be asked for once, when there are values. */
+Refinement occlusion_take_refinement(Occlusion *occlusion);
 
 /* Stops early where it is not done; occlusion may be NULL. */
 void occlusion_free(Occlusion *occlusion);

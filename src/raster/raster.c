@@ -32,6 +32,7 @@ struct WeftRaster {
     WeftRasterDesc desc; /* shader_dir is our own copy */
     GlContext *context;
     Refinement refinement; /* of the scene's own meshes; nothing is refined without occlusion */
+    Refinement finer;      /* where shadows have rims, once they are found: that of `meshes` then */
     GlMeshes meshes;
     GlTextures textures;
     GlMaterials materials;
@@ -247,6 +248,7 @@ void weft_raster_free(WeftRaster *self) {
     context_destroy(self->context);
     occlusion_free(self->occlusion);
     refinement_free(&self->refinement);
+    refinement_free(&self->finer);
     queue_destroy(&self->queue);
     light_polygons_free(&self->polygons);
     free((char *)self->desc.shader_dir);
@@ -549,11 +551,27 @@ static WeftResult draw_all(WeftRaster *self, const View *seen, const WeftRasterV
     return result == WEFT_OK ? gl_check(error, "a picture") : result;
 }
 
-/* Uploads what the background has made. */
+/* Uploads the scene's meshes as the background has refined them. */
+static WeftResult take_refinement(WeftRaster *self, WeftError *error) {
+    Refinement before = self->finer;
+    self->finer = occlusion_take_refinement(self->occlusion);
+    WeftResult result = meshes_refine(&self->meshes, self->scene, &self->finer, error);
+    if (result != WEFT_OK) {
+        refinement_free(&self->finer);
+        self->finer = before;
+    } else {
+        refinement_free(&before);
+    }
+    return result;
+}
+
+/* Uploads what the background has made, but where shapes of lights have changed not before the update that takes
+ * them. */
 static WeftResult take_occlusion(WeftRaster *self, bool wait, WeftError *error) {
     const float *values = self->occlusion ? occlusion_values(self->occlusion, wait) : NULL;
-    if (!values) return WEFT_OK;
-    WeftResult result = meshes_occlusion(&self->meshes, values, error);
+    if (!values || self->shape_turn != self->scene->shape_turn) return WEFT_OK;
+    WeftResult result = take_refinement(self, error);
+    if (result == WEFT_OK) result = meshes_occlusion(&self->meshes, values, error);
     occlusion_free(self->occlusion);
     self->occlusion = NULL;
     if (!self->look || result != WEFT_OK) return result;
@@ -565,7 +583,9 @@ WeftResult weft_raster_wait(WeftRaster *self, WeftError *error) {
     GlOuter outer;
     WeftResult result = enter(self, &outer, error);
     if (result != WEFT_OK) return result;
-    while (self->occlusion && result == WEFT_OK) result = take_occlusion(self, true, error);
+    result = take_occlusion(self, true, error);
+    /* A map that was turned meanwhile is looked at once more. */
+    if (self->occlusion && result == WEFT_OK) result = take_occlusion(self, true, error);
     context_leave(self->context, &outer);
     return result;
 }

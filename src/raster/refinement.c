@@ -21,10 +21,13 @@ static float box_distance(const Box *a, const Box *b) {
                             gap(a->low.z, a->high.z, b->low.z, b->high.z)));
 }
 
-/* The longest edge of about that middle which box b allows. */
+/* The longest edge of about that middle which box b allows, before what its ends see is known. */
 static float longest(const Box *middle, const Box *b) {
     return fmaxf(0.5f * box_distance(middle, b), box_size(*b) / 24.0f);
 }
+
+/* By how much an edge may be shorter. */
+static float finer(const EdgeTest *test) { return test ? REFINEMENT_FINER : 1.0f; }
 
 /* A mesh that is being refined. */
 typedef struct Refiner {
@@ -33,6 +36,7 @@ typedef struct Refiner {
     uint32_t own_count;
     const Box *near; /* of meshes that may halve its edges */
     int near_count;
+    const EdgeTest *test; /* NULL: only the boxes decide */
 } Refiner;
 
 typedef struct LongEdge {
@@ -52,10 +56,10 @@ static LongEdge edge_from(const uint32_t *index, uint32_t corner) {
 static bool is_too_long(const Refiner *self, const LongEdge *edge) {
     Vec3 a = at(self, edge->a), b = at(self, edge->b), middle = vec3_scale(vec3_add(a, b), 0.5f);
     const Box box = {middle, middle};
-    float length = vec3_length(vec3_sub(a, b));
-    for (int k = 0; k < self->near_count; k++)
-        if (length > longest(&box, &self->near[k])) return true;
-    return false;
+    float length = vec3_length(vec3_sub(a, b)) * finer(self->test);
+    bool may = false;
+    for (int k = 0; k < self->near_count && !may; k++) may = length > longest(&box, &self->near[k]);
+    return may && (!self->test || self->test->differ(self->test->user, self->test->mesh, edge->a, edge->b));
 }
 
 static int by_ends(const void *x, const void *y) {
@@ -153,47 +157,96 @@ static float longest_edge(const Mesh *mesh) {
     return most;
 }
 
-/* Refines mesh m. boxes: of all meshes. near: room for as many. */
-static bool refine(const WeftScene *scene, int m, const Box *boxes, Box *near, RefinedMesh *refined) {
+/* Refines mesh m further in so many rounds. boxes: of all meshes. near: room for as many. *any is set if it was cut. */
+static bool refine(const WeftScene *scene, int m, const Box *boxes, Box *near, const EdgeTest *test,
+                   int rounds, RefinedMesh *refined, bool *any) {
     const Mesh *mesh = &scene->meshes[m];
-    Refiner self = {.out = *refined, .own_count = mesh->vertex_count, .near = near};
-    float most = longest_edge(mesh);
+    const uint32_t *index = refined->index ? refined->index : mesh->index;
+    Refiner self = {.out = *refined, .own_count = mesh->vertex_count, .near = near, .test = test};
+    float most = longest_edge(mesh) * finer(test);
     for (int k = 0; k < scene_own_meshes(scene); k++)
         if (k != m && most > longest(&boxes[m], &boxes[k])) near[self.near_count++] = boxes[k];
     if (self.near_count == 0) return true;
-    size_t floats = 3 * (size_t)mesh->vertex_count, corners = 3 * (size_t)mesh->triangle_count;
-    self.position = alloc_array(floats, sizeof(float));
-    self.out.index = alloc_array(corners, sizeof(uint32_t));
-    bool made = self.position && self.out.index, any = made;
-    if (made) {
-        memcpy(self.position, mesh->position, floats * sizeof(float));
-        memcpy(self.out.index, mesh->index, corners * sizeof(uint32_t));
+    size_t corners = 3 * (size_t)self.out.triangle_count;
+    self.position = alloc_array(self.out.vertex_count, 3 * sizeof(float));
+    if (!refined->index) self.out.index = alloc_array(corners, sizeof(uint32_t));
+    bool made = self.position && self.out.index, more = made;
+    if (made) refined_fill(refined, mesh, mesh->position, 3, self.position);
+    if (made && !refined->index) memcpy(self.out.index, index, corners * sizeof(uint32_t));
+    for (int round = 0; more && made && round < rounds; round++) {
+        made = refine_once(&self, &more);
+        *any |= more;
     }
-    for (int round = 0; any && made && round < ROUNDS; round++) made = refine_once(&self, &any);
     free(self.position);
+    if (self.out.vertex_count == mesh->vertex_count) free(self.out.index), self.out.index = NULL;
     *refined = self.out;
     return made;
 }
 
-WeftResult refinement_make(const WeftScene *scene, Refinement *out, WeftError *error) {
+/* Refines all meshes. test: NULL, or what decides beside the boxes, its mesh of no account. */
+static bool refine_all(const WeftScene *scene, Refinement *self, const EdgeTest *test, int rounds,
+                       bool *any) {
     int count = scene_own_meshes(scene);
     Box *boxes = alloc_array((size_t)count, 2 * sizeof *boxes);
-    *out = (Refinement){alloc_array((size_t)count, sizeof(RefinedMesh)), 0};
-    bool made = boxes && out->meshes;
+    bool made = boxes != NULL;
     for (int m = 0; made && m < count; m++) boxes[m] = mesh_box(&scene->meshes[m]);
     for (int m = 0; made && m < count; m++) {
-        const Mesh *mesh = &scene->meshes[m];
-        out->meshes[out->count++] = (RefinedMesh){mesh->vertex_count, mesh->triangle_count, NULL, NULL};
-        made = refine(scene, m, boxes, boxes + count, &out->meshes[m]);
+        EdgeTest own = test ? *test : (EdgeTest){0};
+        own.mesh = m;
+        made = refine(scene, m, boxes, boxes + count, test ? &own : NULL, rounds, &self->meshes[m], any);
     }
     free(boxes);
-    if (made) return WEFT_OK;
+    return made;
+}
+
+/* All meshes as they are. */
+static bool start(const WeftScene *scene, Refinement *out) {
+    int count = scene_own_meshes(scene);
+    *out = (Refinement){alloc_array((size_t)count, sizeof(RefinedMesh)), count};
+    for (int m = 0; out->meshes && m < count; m++)
+        out->meshes[m] =
+            (RefinedMesh){scene->meshes[m].vertex_count, scene->meshes[m].triangle_count, NULL, NULL};
+    return out->meshes != NULL;
+}
+
+WeftResult refinement_make(const WeftScene *scene, Refinement *out, WeftError *error) {
+    bool any = false;
+    if (start(scene, out) && refine_all(scene, out, NULL, ROUNDS, &any)) return WEFT_OK;
     refinement_free(out);
     return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
 }
 
+/* Fills a mesh of its own with another's. */
+static bool copy(const RefinedMesh *from, uint32_t own_count, RefinedMesh *to) {
+    size_t added = from->vertex_count - own_count, corners = 3 * (size_t)from->triangle_count;
+    *to = (RefinedMesh){from->vertex_count, from->triangle_count, NULL, NULL};
+    if (!from->index) return true;
+    to->ends = alloc_array(added, sizeof *to->ends);
+    to->index = alloc_array(corners, sizeof *to->index);
+    if (!to->ends || !to->index) return false;
+    memcpy(to->ends, from->ends, added * sizeof *to->ends);
+    memcpy(to->index, from->index, corners * sizeof *to->index);
+    return true;
+}
+
+bool refinement_copy(const WeftScene *scene, const Refinement *from, Refinement *out) {
+    bool made = start(scene, out);
+    for (int m = 0; made && m < from->count; m++)
+        made = copy(&from->meshes[m], scene->meshes[m].vertex_count, &out->meshes[m]);
+    if (!made) refinement_free(out);
+    return made;
+}
+
+bool refinement_halve(const WeftScene *scene, const Refinement *from, const EdgeTest *test, Refinement *out) {
+    bool any = false;
+    if (!refinement_copy(scene, from, out)) return false;
+    if (refine_all(scene, out, test, 1, &any) && any) return true;
+    refinement_free(out);
+    return false;
+}
+
 void refinement_free(Refinement *refinement) {
-    for (int m = 0; m < refinement->count; m++) {
+    for (int m = 0; refinement->meshes && m < refinement->count; m++) {
         free(refinement->meshes[m].ends);
         free(refinement->meshes[m].index);
     }

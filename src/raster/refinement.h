@@ -9,7 +9,11 @@
  * halved by its own ends alone, so triangles that share it agree, and also where a seam has its vertices twice.
  * All attributes of a new vertex are the means of its two ends, which is what the triangle had there.
  *
- * Departure: parts of one mesh do not refine each other. */
+ * What their ends then see decides further: an edge up to REFINEMENT_FINER times as short is halved too if its ends
+ * differ, which is where a shadow has its rim.
+ *
+ * Departures: parts of one mesh do not refine each other. At a crease, which has its vertices twice, two meshes of one
+ * edge may differ. */
 #ifndef WEFT_RASTER_REFINEMENT_H
 #define WEFT_RASTER_REFINEMENT_H
 
@@ -31,6 +35,22 @@ typedef struct Refinement {
 /* Refines the scene's own meshes. Fails with WEFT_MESSAGE_MEMORY; `out` is then zero. */
 WeftResult refinement_make(const WeftScene *scene, Refinement *out, WeftError *error);
 void refinement_free(Refinement *refinement);
+
+/* Returns false for want of memory; `out` is then zero. */
+bool refinement_copy(const WeftScene *scene, const Refinement *from, Refinement *out);
+
+#define REFINEMENT_FINER 4.0f
+
+/* Says which edges of mesh `mesh` have ends a and b that differ; `mesh` is set by whoever asks. */
+typedef struct EdgeTest {
+    bool (*differ)(const void *user, int mesh, uint32_t a, uint32_t b);
+    const void *user;
+    int mesh;
+} EdgeTest;
+
+/* Makes of a refinement one whose edges are halved once more where a test says so. Returns false if there are none, or
+ * for want of memory; `out` is then zero. */
+bool refinement_halve(const WeftScene *scene, const Refinement *from, const EdgeTest *test, Refinement *out);
 
 /* Returns mesh m; its arrays belong to the refinement. */
 RefinedMesh refinement_mesh(const Refinement *refinement, const WeftScene *scene, int m);

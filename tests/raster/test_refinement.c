@@ -1,5 +1,6 @@
 /* Triangles cut for what their vertices see: a floor has small ones below what stands on it, without a gap and with its
- * attributes; a mesh alone stays as it is; and vertices below a slab see less of the sky */
+ * attributes, and smaller ones where a test tells the ends of edges apart; a mesh alone stays as it is; and vertices below
+ * a slab see less of the sky */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -63,6 +64,19 @@ static void floor_is_cut_below_what_stands_on_it(void **state) {
 }
 
 /* Each edge inside the floor is of two triangles, so that nothing opens where one is cut and its neighbour is not. */
+static void has_no_gap(const RefinedMesh *mesh, const float *position) {
+    uint32_t corners = 3 * mesh->triangle_count;
+    for (uint32_t k = 0; k < corners; k++) {
+        uint32_t a = mesh->index[k], b = mesh->index[k % 3 == 2 ? k - 2 : k + 1], back = 0;
+        for (uint32_t n = 0; n < corners; n++)
+            back += mesh->index[n] == b && mesh->index[n % 3 == 2 ? n - 2 : n + 1] == a;
+        Vec3 p = vec3_load(position + 3 * (size_t)a), q = vec3_load(position + 3 * (size_t)b);
+        bool border = (fabsf(p.x) > 19.99f && fabsf(p.x + q.x) > 39.9f) ||
+                      (fabsf(p.z) > 19.99f && fabsf(p.z + q.z) > 39.9f);
+        assert_int_equal(back, border ? 0 : 1);
+    }
+}
+
 static void cut_triangles_leave_no_gap(void **state) {
     (void)state;
     WeftScene *scene = floor_below(true);
@@ -70,19 +84,69 @@ static void cut_triangles_leave_no_gap(void **state) {
     assert_int_equal(refinement_make(scene, &refinement, NULL), WEFT_OK);
     const RefinedMesh mesh = refinement_mesh(&refinement, scene, FLOOR);
     float *position = filled(&mesh, &scene->meshes[FLOOR]);
-    uint32_t corners = 3 * mesh.triangle_count;
-    for (uint32_t k = 0; k < corners; k++) {
-        uint32_t a = mesh.index[k], b = mesh.index[k % 3 == 2 ? k - 2 : k + 1], back = 0;
-        for (uint32_t n = 0; n < corners; n++)
-            back += mesh.index[n] == b && mesh.index[n % 3 == 2 ? n - 2 : n + 1] == a;
-        Vec3 p = vec3_load(position + 3 * (size_t)a), q = vec3_load(position + 3 * (size_t)b);
-        bool border = (fabsf(p.x) > 19.99f && fabsf(p.x + q.x) > 39.9f) ||
-                      (fabsf(p.z) > 19.99f && fabsf(p.z + q.z) > 39.9f);
-        assert_int_equal(back, border ? 0 : 1);
-    }
+    has_no_gap(&mesh, position);
     free(position);
     refinement_free(&refinement);
     weft_scene_free(scene);
+}
+
+/* Says that the sides of the line x = 0.1 differ, of the floor alone. */
+static bool differ_at_line(const void *user, int mesh, uint32_t a, uint32_t b) {
+    const float *position = user;
+    return mesh == FLOOR && (position[3 * (size_t)a] < 0.1f) != (position[3 * (size_t)b] < 0.1f);
+}
+
+static bool never_differ(const void *user, int mesh, uint32_t a, uint32_t b) {
+    (void)user, (void)mesh, (void)a, (void)b;
+    return false;
+}
+
+static bool always_differ(const void *user, int mesh, uint32_t a, uint32_t b) {
+    (void)user, (void)mesh, (void)a, (void)b;
+    return true;
+}
+
+/* Vertices that were there stay, and each new one halves an edge across the line, near the slab and not far from it. */
+static void edges_whose_ends_differ_are_halved(void **state) {
+    (void)state;
+    WeftScene *scene = floor_below(true);
+    Refinement coarse, fine;
+    assert_int_equal(refinement_make(scene, &coarse, NULL), WEFT_OK);
+    const RefinedMesh before = refinement_mesh(&coarse, scene, FLOOR);
+    float *position = filled(&before, &scene->meshes[FLOOR]);
+    const EdgeTest line = {differ_at_line, position, 0};
+    assert_true(refinement_halve(scene, &coarse, &line, &fine));
+    const RefinedMesh after = refinement_mesh(&fine, scene, FLOOR);
+    float *finer = filled(&after, &scene->meshes[FLOOR]);
+    assert_true(after.vertex_count > before.vertex_count && after.triangle_count > before.triangle_count);
+    assert_memory_equal(finer, position, 3 * (size_t)before.vertex_count * sizeof *finer);
+    for (uint32_t k = before.vertex_count; k < after.vertex_count; k++) {
+        const uint32_t *ends = after.ends[k - scene->meshes[FLOOR].vertex_count];
+        assert_true(ends[0] < before.vertex_count && ends[1] < before.vertex_count);
+        assert_true(differ_at_line(position, FLOOR, ends[0], ends[1]));
+    }
+    has_no_gap(&after, finer);
+    free(position);
+    free(finer);
+    refinement_free(&coarse);
+    refinement_free(&fine);
+    weft_scene_free(scene);
+}
+
+/* Nothing is made where no edge may be halved: none differs, or no other mesh is near. */
+static void refinement_stays_where_no_ends_differ(void **state) {
+    (void)state;
+    for (int slab = 0; slab < 2; slab++) {
+        WeftScene *scene = floor_below(slab);
+        Refinement coarse, fine;
+        const EdgeTest test = {slab ? never_differ : always_differ, NULL, 0};
+        assert_int_equal(refinement_make(scene, &coarse, NULL), WEFT_OK);
+        assert_false(refinement_halve(scene, &coarse, &test, &fine));
+        assert_null(fine.meshes);
+        assert_int_equal(fine.count, 0);
+        refinement_free(&coarse);
+        weft_scene_free(scene);
+    }
 }
 
 static void mesh_alone_stays_as_it_is(void **state) {
@@ -112,7 +176,8 @@ static void vertices_below_a_slab_see_less_of_the_sky(void **state) {
     assert_int_equal(refinement_make(scene, &refinement, NULL), WEFT_OK);
     assert_int_equal(occlusion_start(scene, &refinement, &how, &occlusion, NULL, NULL), WEFT_OK);
     const float *values = occlusion_values(occlusion, true);
-    const RefinedMesh mesh = refinement_mesh(&refinement, scene, FLOOR);
+    Refinement finer = occlusion_take_refinement(occlusion);
+    const RefinedMesh mesh = refinement_mesh(&finer, scene, FLOOR);
     float *position = filled(&mesh, &scene->meshes[FLOOR]), r = sqrtf(0.5f);
     float seen = 1.0f - 4.0f / 3.14159265f * 0.5f / r * atanf(0.5f / r);
     int middles = 0, corners = 0;
@@ -127,6 +192,7 @@ static void vertices_below_a_slab_see_less_of_the_sky(void **state) {
     assert_true(middles == 1 && corners == 4);
     free(position);
     occlusion_free(occlusion);
+    refinement_free(&finer);
     refinement_free(&refinement);
     weft_scene_free(scene);
 }
@@ -134,6 +200,8 @@ static void vertices_below_a_slab_see_less_of_the_sky(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(floor_is_cut_below_what_stands_on_it),
                                        cmocka_unit_test(cut_triangles_leave_no_gap),
+                                       cmocka_unit_test(edges_whose_ends_differ_are_halved),
+                                       cmocka_unit_test(refinement_stays_where_no_ends_differ),
                                        cmocka_unit_test(mesh_alone_stays_as_it_is),
                                        cmocka_unit_test(vertices_below_a_slab_see_less_of_the_sky)};
     return cmocka_run_group_tests(tests, NULL, NULL);
