@@ -233,7 +233,8 @@ static const Option weave_options[] = {
                   "draw the cloth itself, so many warp threads wide, as -o OUT.png"),
     OPTION_TEXT("--bake", "DIR", NULL,
                 "write textures that tile, a material file with them, and a draped cloth of it, cloth.glb"),
-    OPTION_NUMBER("--size", "PIXELS", "800", 16, 8192, "width of that picture, or of the textures"),
+    OPTION_NUMBER("--size", "PIXELS", "800", 16, 8192,
+                  "width of that picture; textures have as many texels as a square of that side"),
     OPTION_SWITCH("--json", "the figures as JSON on standard output"),
     OPTION_END,
 };

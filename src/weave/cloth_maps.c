@@ -154,6 +154,14 @@ static WeftResult write_material(const MapBake *b, const WeftCloth *cloth, const
     return output_commit(&file, error);
 }
 
+/* Sides of maps of about pixels^2 square texels over a cloth of that size, each 16 to SIDE_MAX: a tall repeat gets maps
+ * narrower than pixels, and so takes no more memory than a wide one. */
+static void sides_of(int pixels, const double size[2], int sides[2]) {
+    const double q = (sqrt)(size[0] / size[1]), side = fmin(pixels, SIDE_MAX / fmax(q, 1.0 / q));
+    sides[0] = (int)fmax(rint(side * q), 16.0);
+    sides[1] = (int)fmax(rint(side / q), 16.0);
+}
+
 /* Whole repeats of at least CYCLE_LEAST threads. */
 static int cycle_of(int count) { return count * ((CYCLE_LEAST + count - 1) / count); }
 
@@ -174,13 +182,14 @@ WeftResult weft_cloth_bake(const WeftCloth *cloth, int pixels, double metres, co
     if (!(metres > 1e-6 && metres < 1e6)) return fail(error, WEFT_MESSAGE_DESC, "maps", "%g metres", metres);
     const bool made = mkdir(folder, 0777) == 0;
     if (!made && errno != EEXIST) return fail(error, WEFT_MESSAGE_FILE_WRITE, folder, "%s", strerror(errno));
-    MapBake bake = {.weave = cloth->weave, .width = pixels};
     const int across = cycle_of(cloth->weave.warps), along = cycle_of(cloth->weave.picks);
     const double size[2] = {cloth->size[0] * across / cloth->weave.warps,
                             cloth->size[1] * along / cloth->weave.picks};
+    int sides[2];
+    sides_of(pixels, size, sides);
+    MapBake bake = {.weave = cloth->weave, .width = sides[0], .height = sides[1]};
     bake.weave.cycle_x = (float)across;
     bake.weave.cycle_y = (float)along;
-    bake.height = (int)fmin(fmax(rint(pixels * size[1] / size[0]), 16.0), SIDE_MAX);
     WeftResult result = WEFT_OK;
     for (int k = 0; k < MAP_COUNT && result == WEFT_OK; k++)
         result = weft_image_create(bake.width, bake.height, kinds[k].channels, WEFT_PIXEL_U8, &bake.maps[k],

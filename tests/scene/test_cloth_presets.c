@@ -3,7 +3,10 @@
  * more than its share. Directions that lobe yarn draws there carry light that varies little. */
 #include "shading/cases.h"
 
+#include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "base/pi.h"
 #include "base/random.h"
@@ -164,10 +167,59 @@ static void points_send_back_what_falls_on_the_cloth_with_little_variance(void *
         print_message("variance on the mean %.2f, at worst %.2f\n", mean[d] / checked, worst[d]);
 }
 
+/* Returns the bytes of all maps of a folder, and the sides of one, and removes them. */
+static double maps_weigh(const char *folder, int sides[2]) {
+    static const char *const names[] = {"base_color.png", "normal.png", "occlusion_roughness.png",
+                                        "anisotropy.png", "height.png"};
+    double bytes = 0.0;
+    char path[300];
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
+        struct stat file;
+        WeftImage image;
+        WeftError error;
+        snprintf(path, sizeof path, "%s/%s", folder, names[k]);
+        if (weft_image_read(path, &image, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
+        sides[0] = image.width, sides[1] = image.height;
+        weft_image_free(&image);
+        assert_int_equal(stat(path, &file), 0);
+        bytes += (double)file.st_size;
+        assert_int_equal(unlink(path), 0);
+    }
+    snprintf(path, sizeof path, "%s/material.json", folder);
+    assert_int_equal(unlink(path), 0);
+    assert_int_equal(rmdir(folder), 0);
+    return bytes;
+}
+
+/* Maps of any preset have as many texels, square ones, however long its repeat is. So in memory they weigh the same, and
+ * their files nearly so. */
+static void check_maps(const char *name, const WeftCloth *cloth) {
+    enum { SIDE = 160, LEAST = 16 };
+    char folder[64];
+    int sides[2];
+    WeftError error;
+    snprintf(folder, sizeof folder, "/tmp/weft-maps-%ld", (long)getpid());
+    if (weft_cloth_bake(cloth, SIDE, 0.5, folder, &error) != WEFT_OK) fail_msg("%s", error.text);
+    const double bytes = maps_weigh(folder, sides), texels = (double)sides[0] * sides[1];
+    const WeftClothInfo info = weft_cloth_info(cloth);
+    const int warps = cloth->weave.warps, picks = cloth->weave.picks;
+    const double wide = (double)info.size[0] * ((LEAST + warps - 1) / warps),
+                 tall = (double)info.size[1] * ((LEAST + picks - 1) / picks);
+    print_message("%-24s %d x %d, %.2f bytes a texel\n", name, sides[0], sides[1], bytes / texels);
+    assert_true(fabs(texels / (SIDE * SIDE) - 1.0) < 0.01);
+    assert_true(fabs(wide / sides[0] / (tall / sides[1]) - 1.0) < 0.01);
+}
+
+static void maps_of_presets_have_one_weight(void **state) {
+    (void)state;
+    each_preset(check_maps);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(presets_from_afar_are_symmetric_and_keep_energy),
         cmocka_unit_test(points_send_back_what_falls_on_the_cloth_with_little_variance),
+        cmocka_unit_test(maps_of_presets_have_one_weight),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
