@@ -117,18 +117,32 @@ static void fit_ramp(const Occlusion *self, const bool *seen, Ramp *out) {
 /* The frame of a normal, x upwards: so it turns little from vertex to vertex, but beside the poles. */
 static Frame frame_upright(Vec3 n) { return frame_about(dir_of(n), dir(0.0f, 1.0f, 0.0f), 1.0f); }
 
+/* Sets hidden[k] where something lies on the way from a point. */
+static void look_along(const Occlusion *self, Vec3 from, const Dir *ways, int count, uint32_t vertex,
+                       bool *hidden) {
+    float o[3][OCCLUSION_RAYS_MAX], d[3][OCCLUSION_RAYS_MAX];
+    uint32_t key[OCCLUSION_RAYS_MAX];
+    const RayRows rays = {{o[0], o[1], o[2]}, {d[0], d[1], d[2]}, NULL, key, false, false};
+    for (int k = 0; k < count; k++) {
+        o[0][k] = from.x, o[1][k] = from.y, o[2][k] = from.z;
+        d[0][k] = ways[k].x, d[1][k] = ways[k].y, d[2][k] = ways[k].z;
+        key[k] = vertex;
+    }
+    geometry_occlusions(self->geometry, &rays, count, hidden);
+}
+
 /* The part of the cosine-weighted sky above n that a point sees, and which. */
 static float seen_from(const Occlusion *self, Vec3 p, Vec3 n, float reach, uint32_t vertex, float open[4]) {
-    bool seen[OCCLUSION_RAYS_MAX];
+    bool hidden[OCCLUSION_RAYS_MAX], seen[OCCLUSION_RAYS_MAX];
+    Dir ways[OCCLUSION_RAYS_MAX];
     Frame frame = frame_upright(n);
-    Vec3 from = vec3_madd(p, n, reach);
     float sum = 0.0f;
     Ramp ramp;
+    for (int k = 0; k < self->rays; k++) ways[k] = frame_from(frame, self->sky[k]);
+    look_along(self, vec3_madd(p, n, reach), ways, self->rays, vertex, hidden);
     for (int k = 0; k < self->rays; k++) {
-        Dir w = self->sky[k], d = frame_from(frame, w);
-        Ray ray = {from, vec3(d.x, d.y, d.z), 0.0f, INFINITY, vertex, false};
-        seen[k] = !geometry_occluded(self->geometry, ray);
-        if (seen[k]) sum += 2.0f * w.z / (float)self->rays;
+        seen[k] = !hidden[k];
+        if (seen[k]) sum += 2.0f * self->sky[k].z / (float)self->rays;
     }
     fit_ramp(self, seen, &ramp);
     Dir slope = frame_from(frame, dir(ramp.x, ramp.y, ramp.z));
@@ -184,12 +198,16 @@ static float env_light_visibility(const Occlusion *self, int light, Vec3 p, Vec3
     const Dir *toward = self->toward + light * self->rays;
     int seen = 0, above = 0;
     Vec3 from = vec3_madd(p, n, reach);
-    for (int k = 0; k < self->rays; k++) {
-        Ray ray = {from, vec3(toward[k].x, toward[k].y, toward[k].z), 0.0f, INFINITY, vertex, false};
-        if (k == first_rays(self) && above && (seen == 0 || seen == above)) break;
-        if (vec3_dot(ray.direction, n) <= 0.0f) continue;
-        above++;
-        seen += !geometry_occluded(self->geometry, ray);
+    for (int begin = 0, end = first_rays(self); begin < end; begin = end, end = self->rays) {
+        bool hidden[OCCLUSION_RAYS_MAX];
+        Dir ways[OCCLUSION_RAYS_MAX];
+        int count = 0;
+        for (int k = begin; k < end; k++)
+            if (dir_dot(toward[k], dir_of(n)) > 0.0f) ways[count++] = toward[k];
+        look_along(self, from, ways, count, vertex, hidden);
+        for (int k = 0; k < count; k++) seen += !hidden[k];
+        above += count;
+        if (above && (seen == 0 || seen == above)) break;
     }
     return above ? (float)seen / (float)above : 1.0f;
 }
