@@ -13,9 +13,9 @@
 #include "raster/gl_check.h"
 #include "raster/gl_environment.h"
 #include "raster/ground.h"
+#include "raster/lookout.h"
 #include "raster/materials.h"
 #include "raster/meshes.h"
-#include "raster/occlusion.h"
 #include "raster/part.h"
 #include "raster/picture_block.h"
 #include "raster/programs.h"
@@ -31,22 +31,15 @@ struct WeftRaster {
     const WeftScene *scene;
     WeftRasterDesc desc; /* shader_dir is our own copy */
     GlContext *context;
-    Refinement refinement; /* of the scene's own meshes; nothing is refined without occlusion */
-    Refinement finer;      /* where shadows have rims, once they are found: that of `meshes` then */
     GlMeshes meshes;
     GlTextures textures;
     GlMaterials materials;
     Programs programs;
     GlEnvironment environment;
-    unsigned background;                     /* program, 0 until it is needed */
-    bool shines;                             /* the environment does */
-    unsigned turn, shape_turn;               /* of the environment and of the shapes that were uploaded */
-    Occlusion *occlusion;                    /* NULL where none is wanted, or once it is uploaded */
-    EnvLight env_lights[AMBIENT_LIGHTS_MAX]; /* the lights whose visibility was or is being found */
-    int env_light_count;
-    EnvPoint env_points[AMBIENT_POINTS_MAX]; /* the parts of these lights */
-    int env_point_count;
-    bool look; /* once more, when what is looked for now is found */
+    unsigned background;       /* program, 0 until it is needed */
+    bool shines;               /* the environment does */
+    unsigned turn, shape_turn; /* of the environment and of the shapes that were uploaded */
+    Lookout lookout;
     LightPolygons polygons;
     Shadows shadows;
     Floor floor; /* of the last picture, there where it is seen */
@@ -102,57 +95,17 @@ static WeftResult update_environment(WeftRaster *self, const WeftLog *log, WeftE
     return result;
 }
 
-static bool is_same_place(const EnvLight *a, const EnvLight *b) {
-    return memcmp((const char *)&a->direction, (const char *)&b->direction, sizeof a->direction) == 0 &&
-           memcmp((const char *)&a->spread, (const char *)&b->spread, sizeof a->spread) == 0;
-}
-
-/* Updates the environment's lights and returns true if they moved. In a dark environment they keep their
- * places. */
-static bool find_env_lights(WeftRaster *self) {
-    EnvLight env_lights[AMBIENT_LIGHTS_MAX];
-    if (!self->shines) return false;
-    int count = environment_lights(&self->environment, self->scene->environment.rotation, env_lights);
-    bool same = count == self->env_light_count;
-    for (int k = 0; same && k < count; k++) same = is_same_place(&env_lights[k], &self->env_lights[k]);
-    memcpy(self->env_lights, env_lights, (size_t)count * sizeof *env_lights);
-    self->env_light_count = count;
-    self->env_point_count =
-        environment_points(&self->environment, self->scene->environment.rotation, self->env_points);
-    return !same;
-}
-
-static WeftResult start_occlusion(WeftRaster *self, bool no_cache, const WeftLog *log, WeftError *error) {
-    const OcclusionHow how = {.rays = self->desc.occlusion,
-                              .threads = self->desc.threads,
-                              .no_cache = no_cache,
-                              .env_lights = self->env_lights,
-                              .env_light_count = self->env_light_count,
-                              .env_points = self->env_points,
-                              .env_point_count = self->env_point_count};
-    WeftResult result = occlusion_start(self->scene, &self->refinement, &how, &self->occlusion, log, error);
-    self->look = result != WEFT_OK;
-    return result;
-}
-
-/* Until it is known what hides them, other lights are hidden as the sky is. Whoever is looking may finish: of
- * what is found then, the sky serves. */
-static WeftResult update_occlusion(WeftRaster *self, const WeftLog *log, WeftError *error) {
-    if (!self->desc.occlusion) return WEFT_OK;
-    if (find_env_lights(self)) {
-        meshes_forget_lights(&self->meshes);
-        self->look = true;
-    }
-    return self->look && !self->occlusion ? start_occlusion(self, true, log, error) : WEFT_OK;
+/* Returns NULL where the environment is dark. */
+static const GlEnvironment *lit_environment(const WeftRaster *self) {
+    return self->shines ? &self->environment : NULL;
 }
 
 static WeftResult upload(WeftRaster *self, const WeftLog *log, WeftError *error) {
     const WeftScene *scene = self->scene;
     int threads = self->desc.threads;
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    WeftResult result = WEFT_OK;
-    if (self->desc.occlusion) result = refinement_make(scene, &self->refinement, error);
-    if (result == WEFT_OK) result = meshes_create(scene, &self->refinement, &self->meshes, error);
+    WeftResult result = lookout_create(&self->lookout, scene, self->desc.occlusion, threads, error);
+    if (result == WEFT_OK) result = meshes_create(scene, &self->lookout.refinement, &self->meshes, error);
     self->shape_turn = scene->shape_turn;
     if (result == WEFT_OK) result = textures_create(scene, threads, &self->textures, log, error);
     if (result == WEFT_OK)
@@ -227,10 +180,8 @@ WeftResult weft_raster_create(const WeftScene *scene, const WeftRasterDesc *desc
         result = fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     if (result == WEFT_OK && desc->shader_dir) watch_poll(&self->watch, desc->shader_dir);
     if (result == WEFT_OK) result = begin_drawing(self, log, error);
-    if (result == WEFT_OK && desc->occlusion) {
-        find_env_lights(self);
-        result = start_occlusion(self, desc->no_cache != 0, log, error);
-    }
+    if (result == WEFT_OK)
+        result = lookout_start(&self->lookout, lit_environment(self), desc->no_cache != 0, log, error);
     if (result == WEFT_OK)
         *out = self;
     else
@@ -246,9 +197,7 @@ void weft_raster_free(WeftRaster *self) {
         context_leave(self->context, &outer);
     }
     context_destroy(self->context);
-    occlusion_free(self->occlusion);
-    refinement_free(&self->refinement);
-    refinement_free(&self->finer);
+    lookout_free(&self->lookout);
     queue_destroy(&self->queue);
     light_polygons_free(&self->polygons);
     free((char *)self->desc.shader_dir);
@@ -551,32 +500,10 @@ static WeftResult draw_all(WeftRaster *self, const View *seen, const WeftRasterV
     return result == WEFT_OK ? gl_check(error, "a picture") : result;
 }
 
-/* Uploads the scene's meshes as the background has refined them. */
-static WeftResult take_refinement(WeftRaster *self, WeftError *error) {
-    Refinement before = self->finer;
-    self->finer = occlusion_take_refinement(self->occlusion);
-    WeftResult result = meshes_refine(&self->meshes, self->scene, &self->finer, error);
-    if (result != WEFT_OK) {
-        refinement_free(&self->finer);
-        self->finer = before;
-    } else {
-        refinement_free(&before);
-    }
-    return result;
-}
-
-/* Uploads what the background has made, but where shapes of lights have changed not before the update that takes
- * them. */
+/* Uploads nothing where shapes of lights have changed, before the update that takes them. */
 static WeftResult take_occlusion(WeftRaster *self, bool wait, WeftError *error) {
-    const float *values = self->occlusion ? occlusion_values(self->occlusion, wait) : NULL;
-    if (!values || self->shape_turn != self->scene->shape_turn) return WEFT_OK;
-    WeftResult result = take_refinement(self, error);
-    if (result == WEFT_OK) result = meshes_occlusion(&self->meshes, values, error);
-    occlusion_free(self->occlusion);
-    self->occlusion = NULL;
-    if (!self->look || result != WEFT_OK) return result;
-    meshes_forget_lights(&self->meshes);
-    return start_occlusion(self, true, NULL, error);
+    if (self->shape_turn != self->scene->shape_turn) return WEFT_OK;
+    return lookout_take(&self->lookout, &self->meshes, wait, error);
 }
 
 WeftResult weft_raster_wait(WeftRaster *self, WeftError *error) {
@@ -585,7 +512,7 @@ WeftResult weft_raster_wait(WeftRaster *self, WeftError *error) {
     if (result != WEFT_OK) return result;
     result = take_occlusion(self, true, error);
     /* A map that was turned meanwhile is looked at once more. */
-    if (self->occlusion && result == WEFT_OK) result = take_occlusion(self, true, error);
+    if (self->lookout.occlusion && result == WEFT_OK) result = take_occlusion(self, true, error);
     context_leave(self->context, &outer);
     return result;
 }
@@ -656,11 +583,12 @@ WeftResult weft_raster_update(WeftRaster *self, const WeftLog *log, WeftError *e
     result = update_shapes(self, error);
     if (result == WEFT_OK) result = meshes_update(&self->meshes, self->scene, error);
     if (result == WEFT_OK) result = update_materials(self, &change, log, error);
-    if (result == WEFT_OK) self->look |= change.coverage;
+    if (result == WEFT_OK) self->lookout.again |= change.coverage;
     if (result == WEFT_OK) self->ground.stale |= change.coverage;
     if (result == WEFT_OK) result = update_lights(self, &change, error);
     if (result == WEFT_OK) result = update_environment(self, log, error);
-    if (result == WEFT_OK) result = update_occlusion(self, log, error);
+    if (result == WEFT_OK)
+        result = lookout_update(&self->lookout, lit_environment(self), &self->meshes, log, error);
     queue_update(&self->queue, self->scene);
     context_leave(self->context, &outer);
     return result;
@@ -815,8 +743,8 @@ WeftRasterInfo weft_raster_info(const WeftRaster *self) {
                            .compiled = self->programs.compiled,
                            .samples = self->target.samples,
                            .compile_seconds = self->compile_seconds};
-    info.making = self->occlusion != NULL;
-    info.made = self->occlusion && occlusion_values(self->occlusion, false);
+    info.making = self->lookout.occlusion != NULL;
+    info.made = self->lookout.occlusion && occlusion_values(self->lookout.occlusion, false);
     camera_tell(self->scene, &self->camera, info.camera_eye, info.camera_target, &info.camera_fov);
     for (const Program *p = self->programs.first; p; p = p->next) {
         info.programs += p->name != 0;
