@@ -16,7 +16,7 @@ FN Dir place_of(const float per_uv[2], float u, float v) {
 
 bool cloth_is_gap(const WeftCloth *cloth, const float uv[2]) {
     const Dir at = place_of(cloth->per_uv, uv[0], uv[1]);
-    return weave_top(&cloth->weave, at.x, at.y).height <= WEAVE_NONE;
+    return weave_gap(&cloth->weave, at.x, at.y);
 }
 
 /* Those of the looks that are all near, or all far, one behind the other, and what is there. */
@@ -99,7 +99,7 @@ LOOP(bind_n, (const Weave *weave, Part *restrict part, int n), (weave, part, n))
 LOOP(find_n, (const Weave *weave, Part *restrict part, int n), (weave, part, n)) {
     Weave m = without_cycle(weave);
     EACH(k, (size_t)n) {
-        float radius = weave_hair_radius(part->spacing[k]);
+        float radius = weave_hair_reach(&m, part->height[k], part->spacing[k]);
         part->hair[k] = to_float(weave_hair_at(&m, part->x[k], part->y[k], radius, WEAVE_HAIRS_NEAR));
     }
 }
@@ -107,13 +107,14 @@ LOOP(find_n, (const Weave *weave, Part *restrict part, int n), (weave, part, n))
 /* Lays loose fibres over points, of which a few are under any. */
 static void loosen(const Weave *m, Part *part) {
     bool seen = false;
-    for (int k = 0; k < part->count; k++) seen |= weave_has_hairs(m, part->spacing[k]);
+    for (int k = 0; k < part->count; k++)
+        seen |= weave_hair_reach(m, part->height[k], part->spacing[k]) > 0.0f;
     if (!seen) return;
     find_n(m, part, row_whole(part->count));
     for (int k = 0; k < part->count; k++) {
         WeavePoint p = {.height = part->height[k]};
-        if (part->hair[k] < 0.0f || p.height <= WEAVE_NONE) continue;
-        const float radius = weave_hair_radius(part->spacing[k]);
+        if (part->hair[k] < 0.0f) continue;
+        const float radius = weave_hair_reach(m, p.height, part->spacing[k]);
         weave_lay(weave_hair(m, (int)part->hair[k], part->x[k], part->y[k], radius), &p);
         put_point(&part->yarn, (size_t)k, m, p);
     }

@@ -1,6 +1,7 @@
 /* lang.h - the dialect: what a shading file may use, in C11 and in GLSL (3.30 core, ES 3.00)
  *
- * Shading text uses float, int, bool, records and the calls below; nothing else. No vectors: a lobe sees a
+ * Shading text uses float, int, bool, records and the calls below; nothing else, but uint for hashes where no text is
+ * exported. No vectors: a lobe sees a
  * pair of directions through Angles (angles.h), so that one text serves a pixel, a ray and an array of
  * directions. This is the only file that knows which language it is in.
  *
@@ -20,6 +21,7 @@
 
 #define to_float(x) float(x)
 #define to_int(x)   int(x)
+#define to_uint(x)  uint(x)
 
 #define ROUNDS(k, n) for (int k = 0; k < n; k++)
 
@@ -177,6 +179,9 @@ FN float weft_max(float a, float b) { return a > b ? a : b; }
 
 FN float weft_mix(float a, float b, float t) { return a + (b - a) * t; }
 
+/* Whole numbers of 32 bits, which wrap. */
+typedef uint32_t uint;
+
 /* A table's texels, row after row. */
 typedef const float *Table;
 #define TABLE_OF_NOTHING    NULL
@@ -207,6 +212,7 @@ FN float table_texel(Table t, int stride, int row, int column) { return t[row * 
 #endif
 #define to_float(x) ((float)(x))
 #define to_int(x)   ((int)(x))
+#define to_uint(x)  ((uint)(x))
 
 #endif
 

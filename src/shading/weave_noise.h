@@ -5,7 +5,7 @@
 #ifndef WEFT_SHADING_WEAVE_NOISE_H
 #define WEFT_SHADING_WEAVE_NOISE_H
 
-#include "shading/dust.h"
+#include "shading/lang.h"
 
 /* x mod n of a whole number, n > 0. */
 FN float weave_mod(float x, float n) {
@@ -13,30 +13,36 @@ FN float weave_mod(float x, float n) {
     return m >= n ? m - n : m < 0.0f ? m + n : m;
 }
 
-/* A hash of a thread, 0 .. 288, and one of such a hash and a purpose. */
-FN float weave_hash(float thread) {
-    float low = weave_mod(thread, 289.0f), high = weave_mod(floor(thread / 289.0f), 289.0f);
-    return dust_hash(dust_sum(dust_hash(high), low));
+/* A permutation of 32 bits, in which each bit of x turns about half of all: lowbias32 of Chris Wellons, "Prospecting for
+ * Hash Functions", 2018. */
+FN uint weave_hash(uint x) {
+    uint y = (x ^ (x >> 16u)) * 0x7feb352du;
+    y = (y ^ (y >> 15u)) * 0x846ca68bu;
+    return y ^ (y >> 16u);
 }
-FN float weave_key(float hash, float purpose) { return dust_hash(dust_sum(hash, dust_mod(purpose))); }
+
+/* A hash of another one and of a whole number, -2^31 to 2^31: of a thread's and a purpose, for example. */
+FN uint weave_key(uint key, float number) {
+    return weave_hash(key + to_uint(to_int(number)) * 0x9e3779b9u); /* 2^32 by the golden ratio */
+}
 
 /* From -1 to 1: for a key; smooth along t, which comes again after n; smooth over a plane. */
-FN float weave_random(float key) { return dust_hash(key) / 144.0f - 1.0f; }
-FN float weave_course(float key, float t, float n) {
+FN float weave_random(uint key) { return to_float(to_int(key >> 8u)) / 8388608.0f - 1.0f; }
+FN float weave_ease(float t) { return t * t * (3.0f - 2.0f * t); }
+FN float weave_course(uint key, float t, float n) {
     float i = floor(t), a = weave_mod(i, n), b = a + 1.0f < n ? a + 1.0f : 0.0f;
-    return mix(weave_random(dust_sum(key, dust_mod(a))), weave_random(dust_sum(key, dust_mod(b))),
-               dust_ease(t - i));
+    return mix(weave_random(weave_key(key, a)), weave_random(weave_key(key, b)), weave_ease(t - i));
 }
-FN float weave_plane(float key, float t, float n, float u, float m) {
+FN float weave_plane(uint key, float t, float n, float u, float m) {
     float i = floor(u), a = weave_mod(i, m), b = a + 1.0f < m ? a + 1.0f : 0.0f;
-    return mix(weave_course(dust_hash(dust_sum(key, dust_mod(a))), t, n),
-               weave_course(dust_hash(dust_sum(key, dust_mod(b))), t, n), dust_ease(u - i));
+    return mix(weave_course(weave_key(key, a), t, n), weave_course(weave_key(key, b), t, n),
+               weave_ease(u - i));
 }
 
 /* A frequency in a crossing: about f > 0 times, and a whole number of times in a cycle; and how
- * often in that. Hashes repeat after 289, where there is no cycle. */
+ * often in that. Where there is no cycle, it is where floats have no whole numbers any more. */
 FN float weave_turns(float f, float cycle) {
-    return cycle > 0.0f ? max(floor(f * cycle + 0.5f), 1.0f) : 289.0f;
+    return cycle > 0.0f ? max(floor(f * cycle + 0.5f), 1.0f) : 16777216.0f;
 }
 FN float weave_pace(float f, float cycle) { return cycle > 0.0f ? weave_turns(f, cycle) / cycle : f; }
 
@@ -47,14 +53,15 @@ FN float weave_lean(float f, float n, float cycle) {
 }
 
 /* A random course along a thread, of about f turns a crossing. */
-FN float weave_along(float key, float f, float v, float cycle) {
+FN float weave_along(uint key, float f, float v, float cycle) {
     float pace = weave_pace(f, cycle);
     return weave_course(key, pace * v, weave_turns(pace, cycle));
 }
 
-/* The hash of a thread in a cycle of them. */
-FN float weave_hash_of(float thread, float cycle) {
-    return weave_hash(cycle > 0.0f ? weave_mod(thread, cycle) : thread);
+/* The key of a thread of either system in a cycle of them, by the cloth's seed, 0 to 288. */
+FN uint weave_thread_key(float seed, bool weft, float thread, float cycle) {
+    uint all = weave_key(weave_key(0u, seed), weft ? 1.0f : 0.0f);
+    return weave_key(all, cycle > 0.0f ? weave_mod(thread, cycle) : thread);
 }
 
 #endif

@@ -86,7 +86,7 @@ FN float weave_run(const Weave *m, float warp, float pick, int column) {
 
 /* The thread numbered c of a system at the place u across the system, v along it. */
 FN WeavePoint weave_thread(const Weave *m, WeaveYarn y, bool weft, float c, float u, float v) {
-    float cross = floor(v), seed = m->seed + (weft ? 97.0f : 0.0f);
+    float cross = floor(v);
     float side = weft ? m->cycle_y : m->cycle_x, cycle = weft ? m->cycle_x : m->cycle_y;
     float since = weave_run(m, weft ? cross : c, weft ? c : cross, weft ? 2 : 0);
     float run = weave_run(m, weft ? cross : c, weft ? c : cross, weft ? 3 : 1);
@@ -95,11 +95,12 @@ FN WeavePoint weave_thread(const Weave *m, WeaveYarn y, bool weft, float c, floa
     float l = max(abs(run), 1.0f), s = ends * (2.0f * (v - cross + since) / l - 1.0f);
     float up = run < 0.0f ? -1.0f : 1.0f, k = 1.0f + y.floats * (l - 1.0f),
           steep = pow(max(abs(s), 1e-3f), k);
-    float crimp = ends * y.crimp, hash = weave_hash_of(c, side);
-    crimp = crimp * (1.0f + 0.5f * y.wander * weave_along(weave_key(hash, seed + 5.0f), 1.0f, v, cycle));
-    float aside = 0.12f * y.wander * weave_along(weave_key(hash, seed + 1.0f), 0.21f, v, cycle);
-    float thick = 1.0f + y.slub * (0.35f * weave_along(weave_key(hash, seed + 2.0f), 0.06f, v, cycle) +
-                                   0.12f * weave_along(weave_key(hash, seed + 3.0f), 0.9f, v, cycle));
+    float crimp = ends * y.crimp;
+    uint key = weave_thread_key(m->seed, weft, c, side);
+    crimp = crimp * (1.0f + 0.5f * y.wander * weave_along(weave_key(key, 5.0f), 1.0f, v, cycle));
+    float aside = 0.12f * y.wander * weave_along(weave_key(key, 1.0f), 0.21f, v, cycle);
+    float thick = 1.0f + y.slub * (0.35f * weave_along(weave_key(key, 2.0f), 0.06f, v, cycle) +
+                                   0.12f * weave_along(weave_key(key, 3.0f), 0.9f, v, cycle));
     float swell = up > 0.0f ? y.bulge * (1.0f - s * s) * (1.0f - 1.0f / l) : 0.0f;
     float width = min(y.width * max(thick, 0.2f) * (1.0f + swell), 2.0f - 2.0f * abs(aside));
     float r = 2.0f * (u - c - 0.5f - aside) / width;
@@ -140,9 +141,8 @@ FN float weave_hair_radius(float spacing) {
 /* Adds fibres along the twist, and how the dye took. Then turns the point from the thread's frame, along y, to
  * the cloth's. Crevices between fibres, 1 - a f^4 where f goes from -1 to 1 across a fibre, take no light on the mean. */
 FN void weave_finish(const Weave *m, WeaveYarn y, float u, float v, float spacing, WeavePoint *p) {
-    float seed = m->seed + (p->weft ? 97.0f : 0.0f), side = p->weft ? m->cycle_y : m->cycle_x;
-    float cycle = p->weft ? m->cycle_x : m->cycle_y, hash = weave_hash_of(p->thread, side);
-    float key = weave_key(hash, seed + 7.0f);
+    float side = p->weft ? m->cycle_y : m->cycle_x, cycle = p->weft ? m->cycle_x : m->cycle_y;
+    uint thread = weave_thread_key(m->seed, p->weft, p->thread, side), key = weave_key(thread, 7.0f);
     float twist = p->weft ? -y.twist : y.twist; /* across and along are x and y, mirrored */
     float c = cos(twist) / y.width, s = sin(twist) / y.width, x = u - p->thread;
     float crossing = y.cross_pitch / y.pitch, c_v = c * crossing,
@@ -161,10 +161,10 @@ FN void weave_finish(const Weave *m, WeaveYarn y, float u, float v, float spacin
     float n = 1.0f / sqrt(1.0f + sx * sx + sy * sy), q = 1.0f / sqrt(1.0f + sy * sy);
     float fx = -st * n / q, fy = ct * q + st * sx * sy * q * n, fz = -ct * q * sy + st * sx * q * n;
     float crevice = min(2.0f * streaks, 0.6f);
-    p->dye = 1.0f -
-             y.dye * (0.7f * weave_random(weave_key(hash, seed + 4.0f)) +
-                      0.3f * weave_along(key, 0.35f, v, cycle)) -
-             0.5f * min(streaks, 0.5f) * own;
+    p->dye =
+        1.0f -
+        y.dye * (0.7f * weave_random(weave_key(thread, 4.0f)) + 0.3f * weave_along(key, 0.35f, v, cycle)) -
+        0.5f * min(streaks, 0.5f) * own;
     p->lit = (1.0f - crevice * f * f * f * f) / (1.0f - 0.2f * crevice);
     p->slope_x = p->weft ? sy : sx;
     p->slope_y = p->weft ? sx : sy;
@@ -211,7 +211,7 @@ STRUCT(WeaveHair) {
 };
 
 /* Loose fibres: in each cell of about two threads by two there are places for a few. None reaches further than 0.9 threads,
- * and half a cell is at least 0.94. Where a cloth has no cycle, they come again after 578 threads. They end at gaps. */
+ * and half a cell is at least 0.94. */
 #define WEAVE_HAIRS      4
 #define WEAVE_HAIRS_NEAR (4 * WEAVE_HAIRS)
 
@@ -224,8 +224,8 @@ FN WeaveHair weave_hair(const Weave *m, int n, float x, float y, float radius) {
     float i = floor(x * pace_x - 0.5f) + to_float(cell_x), j = floor(y * pace_y - 0.5f) + to_float(cell_y);
     float column = weave_mod(i, weave_turns(pace_x, m->cycle_x)),
           row = weave_mod(j, weave_turns(pace_y, m->cycle_y));
-    float cell = weave_key(weave_key(weave_key(m->seed, 13.0f), column), row);
-    float key = weave_key(cell, 11.0f + to_float(n % WEAVE_HAIRS));
+    uint cell = weave_key(weave_key(weave_key(weave_key(0u, m->seed), 2.0f), column), row);
+    uint key = weave_key(cell, 11.0f + to_float(n % WEAVE_HAIRS));
     float middle_x = (i + 0.5f + 0.5f * weave_random(weave_key(key, 1.0f))) / pace_x;
     float middle_y = (j + 0.5f + 0.5f * weave_random(weave_key(key, 2.0f))) / pace_y;
     float warp_run = weave_run(m, floor(middle_x), floor(middle_y), 1),
@@ -280,20 +280,28 @@ FN int weave_hair_at(const Weave *m, float x, float y, float radius, int count) 
     return top;
 }
 
-/* True where loose fibres are wide enough to be seen. */
-FN bool weave_has_hairs(const Weave *m, float spacing) {
-    return weave_hair_radius(spacing) * max(m->warp.hairiness, m->weft.hairiness) > 0.0f;
+/* Half of the width of loose fibres over a point of that height; 0: there are none. In a gap nothing else is seen that
+ * could take their place: there they do not fade. */
+FN float weave_hair_reach(const Weave *m, float height, float spacing) {
+    float radius = height > WEAVE_NONE ? weave_hair_radius(spacing) : WEAVE_HAIR_RADIUS;
+    return max(m->warp.hairiness, m->weft.hairiness) > 0.0f ? radius : 0.0f;
 }
 
 /* The point at x, y, where the spacing of points is so many threads. Where there are no loose fibres the loop over them has
  * no rounds, which drivers that do not branch leave out too. */
 FN WeavePoint weave_point(const Weave *m, float x, float y, float spacing) {
     WeavePoint p = weave_bound(m, x, y, spacing);
-    float radius = weave_hair_radius(spacing);
-    int count = p.height > WEAVE_NONE && weave_has_hairs(m, spacing) ? WEAVE_HAIRS_NEAR : 0;
-    int top = weave_hair_at(m, x, y, radius, count);
+    float radius = weave_hair_reach(m, p.height, spacing);
+    int top = weave_hair_at(m, x, y, radius, radius > 0.0f ? WEAVE_HAIRS_NEAR : 0);
     if (top >= 0) weave_lay(weave_hair(m, top, x, y, radius), &p);
     return p;
+}
+
+/* True where one looks through the cloth. */
+FN bool weave_gap(const Weave *m, float x, float y) {
+    float height = weave_top(m, x, y).height, radius = weave_hair_reach(m, WEAVE_NONE, 0.0f);
+    bool open = height <= WEAVE_NONE;
+    return open && weave_hair_at(m, x, y, radius, open && radius > 0.0f ? WEAVE_HAIRS_NEAR : 0) < 0;
 }
 
 /* The fibres' albedo at a point, one channel, without white: fibres of albedo A absorb as the dye in them

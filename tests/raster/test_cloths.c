@@ -150,7 +150,7 @@ static void a_cloth_is_as_bright_in_both_engines(void **state) {
 }
 
 /* A flat cloth of 20 threads a centimetre that is looked at from above, so many threads a pixel. */
-enum { SIDE = 48, SUNS = 3, FINE = 10 };
+enum { SIDE = 96, SUNS = 3, FINE = 10 };
 static const float SPAN = 5.0f; /* metres */
 static const Dir suns[SUNS] = {{0.383f, 0.321f, 0.866f}, {-0.814f, -0.296f, 0.5f}, {0.163f, -0.926f, 0.342f}};
 

@@ -18,7 +18,7 @@
 #include "scene/scene.h"
 #include "weft/weft.h"
 
-enum { PIXELS = 100, SAMPLES = 144, FINE = 576, PAIRS = 7 };
+enum { PIXELS = 256, SAMPLES = 144, FINE = 576, PAIRS = 7 };
 
 typedef struct Direction {
     double theta, phi; /* degrees */

@@ -113,6 +113,41 @@ static void variation_does_not_tile_unless_it_is_to(void **state) {
     weft_cloth_free(real);
 }
 
+enum { THREADS = 8192 };
+
+/* Returns the largest correlation of numbers of mean 0 with themselves, 1 to half of all numbers further on. */
+static double most_alike(const float x[THREADS]) {
+    double most = 0.0, square = 0.0;
+    for (int k = 0; k < THREADS; k++) square += (double)(x[k] * x[k]) / THREADS;
+    for (int lag = 1; lag <= THREADS / 2; lag++) {
+        double sum = 0.0;
+        for (int k = 0; k < THREADS - lag; k++) sum += (double)(x[k] * x[k + lag]);
+        most = fmax(most, fabs(sum) / (THREADS - lag) / square);
+    }
+    return most;
+}
+
+/* What varies between threads, and what loose fibres do, has no period: of chance alone a correlation of 4096 numbers is
+ * beyond 0.094, six deviations, once in a hundred thousand cloths. */
+static void variation_has_no_period(void **state) {
+    (void)state;
+    static float dye[THREADS], turn[2][THREADS];
+    WeftCloth *cloth = woven("plain", yarn_of("wool"), 7);
+    for (int weft = 0; weft < 2; weft++) {
+        for (int k = 0; k < THREADS; k++) {
+            const float along = 2.0f * (float)k + 2.0f, x = weft ? 2.0f : along, y = weft ? along : 2.0f;
+            dye[k] = weave_random(weave_key(
+                weave_thread_key(cloth->weave.seed, weft == 1, (float)(k - THREADS / 2), 0.0f), 4.0f));
+            turn[weft][k] = weave_hair(&cloth->weave, 0, x, y, WEAVE_HAIR_RADIUS).s;
+        }
+        const double threads = most_alike(dye), fibres = most_alike(turn[weft]);
+        print_message("%s: correlated by at most %.3f, loose fibres %.3f\n", weft ? "weft" : "warp", threads,
+                      fibres);
+        assert_true(threads < 0.094 && fibres < 0.094);
+    }
+    weft_cloth_free(cloth);
+}
+
 static void a_seed_makes_a_cloth(void **state) {
     (void)state;
     WeftCloth *one = woven("plain", yarn_of("linen"), 1), *again = woven("plain", yarn_of("linen"), 1),
@@ -198,18 +233,21 @@ static void fibres_leave_the_mean_as_it_is(void **state) {
     }
 }
 
-/* Returns how much of the cloth loose fibres cover, where points are so far apart. */
-static double covered_by_hairs(const WeftCloth *cloth, float spacing) {
-    int count = 0;
+/* Returns how much of the threads, or else of the gaps between them, loose fibres cover where points are so far apart. */
+static double covered_by_hairs(const WeftCloth *cloth, float spacing, bool gaps) {
+    int count = 0, all = 0;
     for (int k = 0; k < PLACES; k++) {
         float x, y;
         place_of(k, &x, &y);
         const float top = weave_top(&cloth->weave, x, y).height;
         const WeavePoint p = weave_point(&cloth->weave, x, y, spacing);
         assert_true(p.height >= top);
+        assert_true(weave_gap(&cloth->weave, x, y) == (top <= WEAVE_NONE && p.height <= WEAVE_NONE));
+        if (gaps != (top <= WEAVE_NONE)) continue;
         count += p.height > top;
+        all++;
     }
-    return (double)count / PLACES;
+    return (double)count / all;
 }
 
 static void hairiness_says_how_many_fibres_come_loose(void **state) {
@@ -219,14 +257,31 @@ static void hairiness_says_how_many_fibres_come_loose(void **state) {
         WeftYarn yarn = even_yarn("cotton");
         yarn.hairiness = 0.5f * (float)k;
         WeftCloth *cloth = woven("plain", yarn, 1);
-        covered[k] = covered_by_hairs(cloth, 0.0f);
-        assert_true(covered_by_hairs(cloth, 0.3f) == 0.0);
+        covered[k] = covered_by_hairs(cloth, 0.0f, false);
+        assert_true(covered_by_hairs(cloth, 0.3f, false) == 0.0);
         weft_cloth_free(cloth);
     }
     print_message("hairiness 1 covers %.4f of the cloth\n", covered[2]);
     assert_true(covered[0] == 0.0);
     assert_true(covered[2] > 0.01 && covered[2] < 0.05);
     assert_true(fabs(covered[1] - 0.5 * covered[2]) < 0.1 * covered[2]);
+}
+
+/* Over gaps lie as many loose fibres as over threads, from near and far, and light does not pass them. */
+static void loose_fibres_go_across_gaps(void **state) {
+    (void)state;
+    WeftYarn yarn = even_yarn("cotton");
+    yarn.width = 0.6f;
+    WeftCloth *bare = woven("plain", yarn, 1);
+    yarn.hairiness = 1.0f;
+    WeftCloth *hairy = woven("plain", yarn, 1);
+    const double threads = covered_by_hairs(hairy, 0.0f, false), gaps = covered_by_hairs(hairy, 0.0f, true);
+    print_message("loose fibres cover %.4f of threads, %.4f of gaps\n", threads, gaps);
+    assert_true(fabs(gaps / threads - 1.0) < 0.15);
+    assert_true(covered_by_hairs(hairy, 0.3f, true) == gaps);
+    assert_true(covered_by_hairs(bare, 0.0f, true) == 0.0);
+    weft_cloth_free(bare);
+    weft_cloth_free(hairy);
 }
 
 static void a_thread_without_end_is_level(void **state) {
@@ -381,10 +436,12 @@ int main(void) {
         cmocka_unit_test(the_draft_says_what_lies_on_top),
         cmocka_unit_test(shares_are_of_what_is_seen),
         cmocka_unit_test(variation_does_not_tile_unless_it_is_to),
+        cmocka_unit_test(variation_has_no_period),
         cmocka_unit_test(a_seed_makes_a_cloth),
         cmocka_unit_test(every_point_is_sound),
         cmocka_unit_test(fibres_leave_the_mean_as_it_is),
         cmocka_unit_test(hairiness_says_how_many_fibres_come_loose),
+        cmocka_unit_test(loose_fibres_go_across_gaps),
         cmocka_unit_test(a_thread_without_end_is_level),
         cmocka_unit_test(numbers_that_no_yarn_has_are_refused_in_one_line),
         cmocka_unit_test(maps_repeat_without_a_seam),

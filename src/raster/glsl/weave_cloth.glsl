@@ -59,6 +59,5 @@ vec2 weave_place() {
 /* Returns true between threads. */
 bool weave_is_gap() {
     vec2 place = weave_place();
-    WeavePoint p = weave_top(material_cloth(), place.x, place.y);
-    return p.height <= WEAVE_NONE;
+    return weave_gap(material_cloth(), place.x, place.y);
 }
