@@ -1,4 +1,4 @@
-/* A soft shadow is smooth: neither the same for four pixels nor grainy. */
+/* A soft shadow is smooth, neither the same for four pixels nor grainy, and only of what is in the way. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -77,10 +77,53 @@ static void penumbra_is_even_along_the_edge(void **state) {
     weft_image_free(&image);
 }
 
+/* A low wall that a lamp before it lights, with a floor at its foot or without: what the wall looks like. */
+static WeftImage wall(bool floor) {
+    WeftScene *scene = test_scene();
+    WeftRaster *raster;
+    WeftImage image = {0};
+    WeftError error;
+    const WeftLight lamp = {.kind = WEFT_LIGHT_POLYGON,
+                            .position = {0.0f, 1.4f, 1.7f},
+                            .direction = {0.0f, -0.7f, -0.7f},
+                            .size = {0.8f, 0.8f},
+                            .color = {30.0f, 30.0f, 30.0f}};
+    const WeftRasterView view = {
+        .width = SIDE, .height = SIDE, .samples = 1, .camera = "0,0.06,1;0,0.06,0;5"};
+    test_material(scene, 0.8f);
+    test_quad(scene, vec3(-1.0f, 0.0f, 0.0f), vec3(2.0f, 0.0f, 0.0f), vec3(0.0f, 0.3f, 0.0f));
+    if (floor) test_quad(scene, vec3(-1.0f, 0.0f, 1.5f), vec3(2.0f, 0.0f, 0.0f), vec3(0.0f, 0.0f, -1.5f));
+    scene_bounds(scene);
+    test_environment(scene, 0.0f);
+    weft_scene_add_light(scene, &lamp, NULL);
+    if (weft_raster_create(scene, &(WeftRasterDesc){0}, &raster, NULL, &error) != WEFT_OK ||
+        weft_raster_draw(raster, &view, &error) != WEFT_OK ||
+        weft_raster_image(raster, &image, &error) != WEFT_OK)
+        fail_msg("%s", error.text);
+    weft_raster_free(raster);
+    weft_scene_free(scene);
+    return image;
+}
+
+/* The floor is nearer to the lamp than the wall, but on no line from one to the other. */
+static void floor_before_a_wall_does_not_shade_it(void **state) {
+    (void)state;
+    need_gl();
+    WeftImage alone = wall(false), above = wall(true);
+    for (int k = 0; k < SIDE * SIDE; k++) {
+        float a = at(&alone, k % SIDE, k / SIDE), b = at(&above, k % SIDE, k / SIDE);
+        if (!(a > 0.0f && fabsf(a - b) < 0.01f * a))
+            fail_msg("at %d, %d: %g alone, %g above a floor", k % SIDE, k / SIDE, (double)a, (double)b);
+    }
+    weft_image_free(&alone);
+    weft_image_free(&above);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(penumbra_steps_within_quads_are_as_large_as_between_them),
         cmocka_unit_test(penumbra_is_even_along_the_edge),
+        cmocka_unit_test(floor_before_a_wall_does_not_shade_it),
     };
     return cmocka_run_group_tests(tests, gl_begin, NULL);
 }

@@ -3,7 +3,12 @@
  * A point of the light that is s from its middle meets the plane at distance b, on its way to a receiver at
  * distance r, at s (1 - b / r) from the line to the middle: on the map, whose half width at distance 1 is h, at
  * s (1 / b - 1 / r) / h. So the mean distance b of what is in the way says how far to look. Randima Fernando,
- * "Percentage-Closer Soft Shadows", SIGGRAPH Sketches 2005. */
+ * "Percentage-Closer Soft Shadows", SIGGRAPH Sketches 2005.
+ *
+ * Not all that is nearer to the light is in the way: a floor before a wall is not. What is seen at t on the map hides
+ * the point s = t h / (1 / b - 1 / r), if that is on the light. It counts wholly there, and less outside, down to
+ * nothing at twice the light's radius. Gael Guennebaud, Loic Barthe and Mathias Paulin, "Real-time Soft Shadow Mapping
+ * by Backprojection", Eurographics Symposium on Rendering 2006, project what the map shows on the light so. */
 #include "raster/glsl/disc.glsl"
 #include "raster/glsl/shadow.glsl"
 
@@ -38,7 +43,8 @@ vec2 shadow_slope(int map, vec3 p, vec3 n) {
 
 /* Quads share what they look for, which is how far the light is spread, but not what they find: a shadow that
  * is the same for four pixels shows. All look in the same places about themselves, for grain shows too, and
- * swims where the view moves. */
+ * swims where the view moves. Places are densest in the middle, where alone what nearly touches the receiver hides the
+ * light, and a shadow fades in with what is found. */
 float soft_shadow(int map, vec3 normal, float cosine) {
     vec4 at = shadow_place(map, normal, cosine, 2.5);
     bool there = at.w > 0.0 && cosine > 0.0;
@@ -50,21 +56,23 @@ float soft_shadow(int map, vec3 normal, float cosine) {
     float c = shadow_clip[map][3].z, a = 2.0 * at.z - 1.0 - c / at.w, layer = float(map);
     float inverse = 0.0, found = 0.0, look = min(size / at.w, 0.1);
     for (int k = 0; k < 16; k++) {
-        vec2 to = look * disc_point(QUAD * float(k) + place, 16.0 * QUAD);
+        vec2 to = disc_point(QUAD * float(k) + place, 16.0 * QUAD);
+        to = look * dot(to, to) * dot(to, to) * to;
         float d = texture(shadow_depth, vec3(at.xy + to, layer)).r;
-        float nearer = (2.0 * d - 1.0 - a) / c;
-        if (d < at.z + dot(slope, to) && nearer * at.w > 1.002) {
-            inverse += nearer;
-            found += 1.0;
+        float nearer = (2.0 * d - 1.0 - a) / c, reach = size * (nearer - 1.0 / at.w);
+        if (d < at.z + dot(slope, to) && reach > 0.0) {
+            float weight = clamp(2.0 - length(to) / reach, 0.0, 1.0);
+            inverse += weight * nearer;
+            found += weight;
         }
     }
     found = quad_mean(there ? found : 0.0);
     inverse = quad_mean(there ? inverse : 0.0);
-    if (found < 0.2) return 1.0;
+    if (found < 0.01) return 1.0;
     float spread = clamp(size * (inverse / found - 1.0 / at.w), 1.0 / 2048.0, 0.1), sum = 0.0;
     for (int k = 0; k < 32; k++) {
         vec2 to = spread * disc_point(float(k), 32.0);
         sum += texture(shadow_map, vec4(at.xy + to, layer, at.z + dot(slope, to)));
     }
-    return there ? sum / 32.0 : 1.0;
+    return there ? mix(1.0, sum / 32.0, min(found, 1.0)) : 1.0;
 }
