@@ -168,7 +168,7 @@ foreach(id ${WEFT_LOBE_IDS})
     weft_case(fitted_cases "return ${name}_fitted(${name}_of(m));")
   endif()
   if(NOT crease EQUAL -1)
-    weft_case(crease_cases "return ${name}_crease(k);")
+    weft_case(crease_cases "return ${name}_crease(${name}_of(m), cos_o, k);")
   endif()
   if(is_REFERENCE)
     weft_case(walked_cases "return ${name}_albedo(${name}_of(m), o, walks);")
@@ -224,8 +224,8 @@ float lobe_fitted_first(const Lobe *m) {
     }
 }
 
-static float crease_of(int id, int k) {
-    switch (id) {
+static float crease_of(const Lobe *m, float cos_o, int k) {
+    switch (m->id) {
 @crease_cases@    default: return 0.0f;
     }
 }

@@ -4,7 +4,7 @@
 #include "base/thread.h"
 #include "shading/lobe_tables.h"
 
-/* Quadrature in (theta_i, phi), split at the mirror polar angle theta_o, at the columns of a table that f reads
+/* Quadrature in (theta_i, phi), split at the mirror polar angle theta_o, where f bends
  * (lobe_creases), and at the plane of incidence. Each zone is integrated by the double-exponential rule, whose nodes
  * crowd towards the ends of an interval: x = 1 / (1 + exp(-pi sinh t)), dx/dt = pi cosh t x (1 - x). There the lobes
  * have their peaks (mirror direction, horizon, backscatter), however narrow. Hidetosi Takahasi, Masatake Mori,
@@ -150,11 +150,11 @@ static void zone_halve(const Integrand *integrand, Dir wo, Zone *zone, Rules *ru
     zone_take(integrand, wo, zone, rules);
 }
 
-/* Cuts the hemisphere at the columns of a table over cos_i that f reads. Between them f is smooth but for the mirror
+/* Cuts the hemisphere at the cosines of wi where f bends. Between them f is smooth but for the mirror
  * angle, and a longer step will do. Returns the number of zones. */
 static int zones_make(const Integrand *integrand, Dir wo, Zone zones[LOBE_CREASES_MOST + 1], Rules *rules) {
     float creases[LOBE_CREASES_MOST];
-    const int count = lobe_creases(integrand->lobe->id, creases) + 1;
+    const int count = lobe_creases(integrand->lobe, wo.z, creases) + 1;
     const double mirror = atan2((double)wo.z, hypot((double)wo.x, (double)wo.y));
     for (int k = 0; k < count; k++) {
         zones[k] = (Zone){.low = k > 0 ? zones[k - 1].high : 0.0,

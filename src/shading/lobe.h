@@ -44,10 +44,10 @@
  *
  *   float name_fitted(Name m)
  *
- * One whose f bends as a function of cos_i, since it mixes what is between the columns of a table linearly,
- * lists these cosines, rising, and then 0:
+ * One whose f bends as a function of cos_i, where it is clamped or since it mixes what is between the columns
+ * of a table linearly, lists these cosines, rising, and then 0:
  *
- *   float name_crease(int k)
+ *   float name_crease(Name m, float cos_o, int k)
  *
  * cmake/lobes.cmake makes of all files what knows every lobe: dispatch.gen.h and lobe_ids.gen.h. */
 

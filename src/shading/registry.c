@@ -32,9 +32,9 @@ static const char *const choices_FTerm[F_COUNT + 1] = {WEFT_F_TERMS(F_TERM_ID)};
     {#name, help, def, low, high, hard_low, hard_high, choices_##type},
 #include "shading/lobe_infos.gen.h"
 
-int lobe_creases(int id, float cosines[LOBE_CREASES_MOST]) {
+int lobe_creases(const Lobe *lobe, float cos_o, float cosines[LOBE_CREASES_MOST]) {
     int count = 0;
-    while (count < LOBE_CREASES_MOST && (cosines[count] = crease_of(id, count)) > 0.0f) count++;
+    while (count < LOBE_CREASES_MOST && (cosines[count] = crease_of(lobe, cos_o, count)) > 0.0f) count++;
     return count;
 }
 

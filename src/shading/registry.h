@@ -80,7 +80,7 @@ float lobe_fitted_first(const Lobe *lobe);
 
 /* The cosines of name_crease (lobe.h), and their number, 0 for most lobes. */
 enum { LOBE_CREASES_MOST = 62 };
-int lobe_creases(int id, float cosines[LOBE_CREASES_MOST]);
+int lobe_creases(const Lobe *lobe, float cos_o, float cosines[LOBE_CREASES_MOST]);
 
 /* E of a lobe of TRAIT_REFERENCE, from so many walks; 0 of any other. */
 LOBE_COPY float lobe_walked_albedo(const Lobe *lobe, Dir o, int walks);

@@ -51,6 +51,18 @@ FN LobeValue charlie_khronos_value(const CharlieKhronosPrepared *p, const Charli
     float visibility = min(1.0f / max((1.0f + lambda) * 4.0f * a.o.z * a.i.z, 1e-30f), 1.0f);
     return lobe_value_of(d * visibility, 0.0f, charlie_pdf(d, w->side, a));
 }
+/* The cosine of wi below which the clamp holds: V falls as it rises. */
+FN float charlie_khronos_crease(CharlieKhronos m, float cos_o, int k) {
+    ContyKulla shadow = conty_kulla_of(m.alpha);
+    float low = 0.0f, high = 1.0f, lambda = conty_kulla_lambda(shadow, cos_o);
+    for (int step = 0; step < 32; step++) {
+        float c = 0.5f * (low + high);
+        bool clamped = 4.0f * (1.0f + lambda + conty_kulla_lambda(shadow, c)) * cos_o * c < 1.0f;
+        low = clamped ? c : low;
+        high = clamped ? high : c;
+    }
+    return k == 0 && high < 1.0f ? high : 0.0f;
+}
 FN Dir charlie_khronos_sample(const CharlieKhronosPrepared *p, const CharlieKhronosView *w, Dir o, float u,
                               float v) {
     return charlie_sample(p->d, w->side, o, u, v);

@@ -50,7 +50,7 @@ FN float fibre_table_cosine(float column) {
     return root * root - 1e-3f;
 }
 
-FN float fibre_table_crease(int k) {
+FN float fibre_table_crease(FibreTable m, float cos_o, int k) {
     int last = lobe_table_fibre().columns - 1;
     return k + 1 < last ? fibre_table_cosine(to_float(k + 1) / to_float(last)) : 0.0f;
 }
