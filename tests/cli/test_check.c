@@ -227,6 +227,8 @@ static void check_options_without_sense_are_refused(void **state) {
     (void)state;
     assert_complaint(NULL, LIST("check", "charly-neubelt"), 2, "did you mean charlie-neubelt?");
     assert_complaint(NULL, LIST("check", "moleskin"), 2, "is neither a lobe nor an engine profile");
+    assert_complaint(NULL, LIST("check", "preset:woven-denim"), 2,
+                     "`weft check woven` and `weft check yarn`");
     assert_complaint(NULL, LIST("check"), 2, "check");
     assert_complaint(NULL, LIST("check", "ggx", "lambert"), 2, "");
     assert_complaint(NULL, LIST("check", "ggx", "--max-albedo", "much"), 2, "--max-albedo");
