@@ -3,12 +3,13 @@
  *
  *   bench_raster [--quick]
  *   bench_raster --sampled [--shader-dir DIR] [--only NAME]... [MAP.hdr]
- *   bench_raster --woven
+ *   bench_raster --woven [--shader-dir DIR]
  *
  * Every lobe is drawn in turn, several rounds; the least time of a frame counts. The processor's own part is
  * that of a frame whose draw calls do nothing. --sampled: what lobes that are sampled take under an environment
  * and no other light, against the strategy `fitted` for the same lobe (docs/environment.md). --woven: what denim takes
- * in both engines against the cloth's own material, from threads close up to all of the cloth (docs/weave.md). */
+ * in both engines against the cloth's own material, from threads close up to all of the cloth (docs/weave.md). With
+ * shaders of a folder only the raster engine is measured. */
 #define _POSIX_C_SOURCE 200809L
 #include <stdbool.h>
 #include <stdio.h>
@@ -205,7 +206,7 @@ static double trace(const WeftScene *scene, const char *camera) {
     return seconds;
 }
 
-static int woven_main(void) {
+static int woven_main(const char *shader_dir) {
     static const struct {
         const char *name, *camera;
     } distances[] = {{"threads", "0.25,0.62,0.65;0.03,0.42,0.15;1.5"},
@@ -218,11 +219,12 @@ static int woven_main(void) {
                                             &error),
           &error);
     weft_raster_free(entries[1].raster);
-    check(weft_raster_create(entries[1].scene, &(WeftRasterDesc){0}, &entries[1].raster, NULL, &error),
+    check(weft_raster_create(entries[1].scene, &(WeftRasterDesc){.shader_dir = shader_dir},
+                             &entries[1].raster, NULL, &error),
           &error);
     printf("builtin:cloth and denim on it, ms a frame\n%-20s %10s %10s %8s\n", "engine and distance", "plain",
            "denim", "times");
-    for (int engine = 0; engine < 2; engine++)
+    for (int engine = shader_dir != NULL; engine < 2; engine++)
         for (size_t d = 0; d < sizeof distances / sizeof *distances; d++) {
             WeftRasterView view = view_of((Size){640, 360});
             view.camera = distances[d].camera;
@@ -245,7 +247,8 @@ static int woven_main(void) {
 }
 
 int main(int argc, char **argv) {
-    if (argc > 1 && strcmp(argv[1], "--woven") == 0) return woven_main();
+    if (argc > 1 && strcmp(argv[1], "--woven") == 0)
+        return woven_main(argc > 3 && strcmp(argv[2], "--shader-dir") == 0 ? argv[3] : NULL);
     if (argc > 1 && strcmp(argv[1], "--sampled") == 0) return sampled_main(argc, argv);
     bool quick = argc > 1 && strcmp(argv[1], "--quick") == 0;
     static Entry entries[LOBES_MOST];

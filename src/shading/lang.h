@@ -23,7 +23,8 @@
 #define to_int(x)   int(x)
 #define to_uint(x)  uint(x)
 
-#define ROUNDS(k, n) for (int k = 0; k < n; k++)
+#define ROUNDS(k, n)          for (int k = 0; k < n; k++)
+#define ROUNDS_OF(k, n, most) for (int k = 0; k < most && k < n; k++)
 
 /* Layer t of the one array texture that holds all tables. */
 #define Table                               int
@@ -62,6 +63,9 @@
 #else
 #define ROUNDS(k, n) _Pragma("GCC unroll 16") for (int k = 0; k < n; k++)
 #endif
+
+/* The first n of so many rounds, of which the others add nothing: C has all of them, so that its loops stay of vectors. */
+#define ROUNDS_OF(k, n, most) ROUNDS(k, most)
 
 /* a b + c, with one rounding where the processor has that in one instruction. Only the functions below use it: they are
  * other than GLSL's own anyway, while all that both languages compute alike rounds each product. */

@@ -52,10 +52,13 @@ FN float yarn_flake_area(float a2, float along) { return sqrt(max(1.0f - (1.0f -
 /* Returns |wi + wo|^-2. */
 FN float yarn_half(Angles a) { return 0.25f / max(a.d * a.d, 1e-6f); }
 
-/* single times V_i V_o, from P and t . w of both directions. */
-FN float yarn_met_once(float a2, float q, float p_o, float p_i, float t_o, float t_i) {
-    float wait = yarn_flake_area(a2, t_i) * p_o + yarn_flake_area(a2, t_o) * p_i;
-    return 0.25f * yarn_flakes(a2, t_i + t_o, q) * p_o * p_i / max(wait, 1e-6f);
+/* single times 4 pi a^2 V_i V_o, from e = (1 - a^2) / a^2 and P and t . w of both directions, with one division:
+ * a pi D = (1 + e m^2 q)^-2, sigma / a = sqrt(1 + e (1 - (t . w)^2)). */
+FN float yarn_met_once(float e, float q, float p_o, float p_i, float t_o, float t_i) {
+    float m = t_o + t_i, d = 1.0f + e * min(m * m * q, 1.0f);
+    float wait = sqrt(1.0f + e * max(1.0f - t_i * t_i, 0.0f)) * p_o +
+                 sqrt(1.0f + e * max(1.0f - t_o * t_o, 0.0f)) * p_i;
+    return p_o * p_i / max(d * d * wait, 1e-6f);
 }
 
 /* Light that one fibre leaves for others, and its mean over the cosine. */

@@ -16,19 +16,21 @@ vec2 pixel_point(int k, int n) {
 }
 
 /* One system from afar, its colours as the mean of five places half a pixel wide: a level as wide as the pixel would
- * mix neighbours that are still told apart. Two bases stand for the cloth, each with half of the weight: so it
- * reflects twice as much. All bases have one table for the light of the environment, which is of a whole cloth. */
+ * mix neighbours that are still told apart; the last level is the same at all. Two bases stand for the cloth, each with
+ * half of the weight: so it reflects twice as much. All bases have one table for the light of the environment, which is
+ * of a whole cloth. */
 WeaveBase woven_far(Weave c, bool weft, vec2 place, vec2 across, vec2 up, WeaveFootprint f) {
     vec2 repeat = vec2(weave_number(CLOTH_WARPS), weave_number(CLOTH_PICKS));
     vec2 texel = repeat / vec2(weave_number(CLOTH_FAR_WIDTH), weave_number(CLOTH_FAR_HEIGHT));
-    float level = weave_far_level(f, 2.0 * texel.x, 2.0 * texel.y);
-    float layer = weft ? 2.0 : 0.0;
+    float level = weave_far_level(f, 2.0 * texel.x, 2.0 * texel.y), layer = weft ? 2.0 : 0.0;
+    float last = log2(max(weave_number(CLOTH_FAR_WIDTH), weave_number(CLOTH_FAR_HEIGHT)));
+    int places = level < last ? 5 : 1;
     vec4 once = vec4(0.0), again = vec4(0.0);
-    for (int k = 0; k < 5; k++) {
-        vec2 from = pixel_point(k, 5);
+    for (int k = 0; k < places; k++) {
+        vec2 from = pixel_point(k, places);
         vec2 at = (place + from.x * across + from.y * up) / repeat;
-        once += 0.2 * textureLod(weave_colors, vec3(at, layer), level);
-        again += 0.2 * textureLod(weave_colors, vec3(at, layer + 1.0), level);
+        once += textureLod(weave_colors, vec3(at, layer), level) / float(places);
+        again += textureLod(weave_colors, vec3(at, layer + 1.0), level) / float(places);
     }
     float dye = weave_far_dye(c, weft, weft ? place.y : place.x, weft ? f.y : f.x);
     float scale = MATERIAL_HOLED ? 2.0 / max(c.warp_far.share + c.weft_far.share, 1e-3) : 2.0;

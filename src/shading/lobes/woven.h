@@ -10,9 +10,9 @@
  * yarns as Piti Irawan, Steve Marschner, "Specular Reflection from Woven Cloth", ACM TOG 31(1), 2012, have
  * them. A yarn that goes over one is an arc; one that floats is level for a while: floats is the power of its
  * slope. Fibres run along the yarn, or turn about it by the twist.
- *   The mean is a sum over 12 s, and over 3 r of those that face both directions; one s stands for those up to
- * the next by its mean slope and by a D as much wider as slopes vary. Errors: docs/weave.md. The weight is our own:
- * of threads in woven cloth the neighbours hide more of the sides than of the middle.
+ *   The mean is a sum over 6 to 12 s, the more the narrower D is, and over 3 r of those that face both directions; one
+ * s stands for those up to the next by its mean slope and by a D as much wider as slopes vary. Errors: docs/weave.md.
+ * The weight is our own: of threads in woven cloth the neighbours hide more of the sides than of the middle.
  *   color: the albedo A of the fibres. The first colour dims light that met one of them, the second, rho(A),
  *     all other light. A cloth of two yarns is two of these lobes, at right angles.
  *   roughness: alpha = roughness^2, the width of the highlight across the fibres' direction: silk 0.1, linen
@@ -46,13 +46,14 @@ STRUCT(Woven){WOVEN_PARAMS(FIELD)};
 
 /* A part of the yarn: s between two bounds, or between their opposites. */
 STRUCT(WovenBin) {
-    float slope;  /* s_y in the middle */
-    float weight; /* of it in the mean over s */
-    float a2;     /* of the wider D */
+    float slope; /* s_y in the middle */
+    float e;     /* of the wider D, as yarn_met_once has it */
+    float gain;  /* of its weight in the mean over s, and of the wider D; 0: no part */
 };
 
 STRUCT(WovenPrepared) {
     float alpha, share, roundness, over_roundness;
+    float count;              /* of bins */
     float part;               /* the share; 1 where colours hold it (raster/glsl/weave.glsl) */
     float crimp, cross_crimp; /* slopes as yarn_area takes them */
     float cos_a, sin_a, cos_t, sin_t;
@@ -61,18 +62,27 @@ STRUCT(WovenPrepared) {
 
 #define WOVEN_BINS 6
 
-/* Bin k, from x = k / 6 to (k + 1) / 6, s = x^(2 / (floats + 1)): the mean of the slope over it, and how far it varies. */
-FN WovenBin woven_bin(Woven m, float tan_crimp, float k) {
+/* There are so many bins that from one to the next D moves by no more than 0.7 of its width, where slopes change most.
+ * Fewer than three would miss how much of the yarn turns away. */
+FN float woven_count(Woven m) {
+    float turn = 2.0f * m.floats / (m.floats + 1.0f) * m.crimp;
+    return clamp(floor(turn / (0.7f * m.alpha)) + 1.0f, 3.0f, to_float(WOVEN_BINS));
+}
+
+/* Bin k, from x = k / count to (k + 1) / count, s = x^(2 / (floats + 1)): the mean of the slope over it, and how far it
+ * varies. */
+FN WovenBin woven_bin(Woven m, float tan_crimp, float count, float k) {
     float f = m.floats, e = 2.0f / (f + 1.0f), e2 = (2.0f * f + 1.0f) * e, a2 = m.alpha * m.alpha;
-    float x0 = k / to_float(WOVEN_BINS), x1 = (k + 1.0f) / to_float(WOVEN_BINS), least = max(x0, 1e-3f);
+    float x0 = k / count, x1 = (k + 1.0f) / count, least = max(x0, 1e-3f);
     float width = pow(x1, e) - (x0 > 0.0f ? pow(least, e) : 0.0f);
     float mean = (x1 * x1 - x0 * x0) / ((f + 1.0f) * width);
     float square = (pow(x1, e2) - (x0 > 0.0f ? pow(least, e2) : 0.0f)) / ((2.0f * f + 1.0f) * width);
     WovenBin b;
     b.slope = tan_crimp * mean;
-    b.weight = 0.5f * width;
     float spread = tan_crimp / (1.0f + b.slope * b.slope); /* of angles, by that of slopes */
-    b.a2 = a2 + (1.0f - a2) * spread * spread * max(square - mean * mean, 0.0f);
+    a2 = a2 + (1.0f - a2) * spread * spread * max(square - mean * mean, 0.0f);
+    b.e = (1.0f - a2) / a2;
+    b.gain = k < count ? 0.5f * width / (4.0f * PI * a2) : 0.0f;
     return b;
 }
 
@@ -83,18 +93,19 @@ FN void woven_prepare(Woven m, WovenPrepared *p) {
     p->part = m.share;
     p->roundness = max(m.roundness, 1e-3f);
     p->over_roundness = 1.0f / p->roundness;
+    p->count = woven_count(m);
     p->crimp = tan_crimp * sqrt(3.0f / (2.0f * m.floats + 1.0f));
     p->cross_crimp = sin(m.cross_crimp) / cos(m.cross_crimp);
     p->cos_a = cos(m.azimuth);
     p->sin_a = sin(m.azimuth);
     p->cos_t = cos(m.twist);
     p->sin_t = sin(m.twist);
-    p->b0 = woven_bin(m, tan_crimp, 0.0f);
-    p->b1 = woven_bin(m, tan_crimp, 1.0f);
-    p->b2 = woven_bin(m, tan_crimp, 2.0f);
-    p->b3 = woven_bin(m, tan_crimp, 3.0f);
-    p->b4 = woven_bin(m, tan_crimp, 4.0f);
-    p->b5 = woven_bin(m, tan_crimp, 5.0f);
+    p->b0 = woven_bin(m, tan_crimp, p->count, 0.0f);
+    p->b1 = woven_bin(m, tan_crimp, p->count, 1.0f);
+    p->b2 = woven_bin(m, tan_crimp, p->count, 2.0f);
+    p->b3 = woven_bin(m, tan_crimp, p->count, 3.0f);
+    p->b4 = woven_bin(m, tan_crimp, p->count, 4.0f);
+    p->b5 = woven_bin(m, tan_crimp, p->count, 5.0f);
 }
 FN float woven_second(Woven m, float f0, float f90) { return yarn_reflectance(f0); }
 
@@ -129,27 +140,27 @@ FN float woven_along(const WovenPrepared *p, float slope, float c, float x, floa
     return p->cos_t * c * (w.y - slope * w.z) + p->sin_t * n * across;
 }
 
-/* single V_i V_o of one facet, by its part of the yarn. */
-FN float woven_facet(const WovenPrepared *p, float slope, float c, float a2, float x, Dir o, Dir i, float q) {
+/* yarn_met_once of one facet, by its part of the yarn. */
+FN float woven_facet(const WovenPrepared *p, float slope, float c, float e, float x, Dir o, Dir i, float q) {
     float n = 1.0f / sqrt(1.0f + slope * slope + x * x);
     float r = x * p->over_roundness;
-    return (1.0f - 0.3f * r * r) * yarn_met_once(a2, q, yarn_facet(o, x, slope), yarn_facet(i, x, slope),
+    return (1.0f - 0.3f * r * r) * yarn_met_once(e, q, yarn_facet(o, x, slope), yarn_facet(i, x, slope),
                                                  woven_along(p, slope, c, x, n, o),
                                                  woven_along(p, slope, c, x, n, i));
 }
 
 /* The mean over s_x, by Gauss's rule with three nodes on the part of it that faces both directions: beyond, the sum
  * would meet an edge. 0.9 is the mean of 1 - 0.3 r^2. */
-FN float woven_row(const WovenPrepared *p, float slope, float a2, const WovenView *o, const WovenView *i,
+FN float woven_row(const WovenPrepared *p, float slope, float e, const WovenView *o, const WovenView *i,
                    float q) {
     float r = p->roundness, c = 1.0f / sqrt(1.0f + slope * slope);
     float end_o = -(o->w.z + slope * o->w.y) * o->over_x, end_i = -(i->w.z + slope * i->w.y) * i->over_x;
     float low = clamp(max(o->over_x > 0.0f ? end_o : -r, i->over_x > 0.0f ? end_i : -r), -r, r);
     float high = clamp(min(o->over_x > 0.0f ? r : end_o, i->over_x > 0.0f ? r : end_i), -r, r);
     float reach = 0.5f * max(high - low, 0.0f), middle = 0.5f * (high + low), g = 0.7745966692f * reach;
-    float sides = woven_facet(p, slope, c, a2, middle - g, o->w, i->w, q) +
-                  woven_facet(p, slope, c, a2, middle + g, o->w, i->w, q);
-    float inner = woven_facet(p, slope, c, a2, middle, o->w, i->w, q);
+    float sides = woven_facet(p, slope, c, e, middle - g, o->w, i->w, q) +
+                  woven_facet(p, slope, c, e, middle + g, o->w, i->w, q);
+    float inner = woven_facet(p, slope, c, e, middle, o->w, i->w, q);
     return reach * p->over_roundness / 0.9f * (5.0f * sides + 8.0f * inner) / 18.0f;
 }
 
@@ -161,16 +172,15 @@ FN LobeValue woven_value(const WovenPrepared *p, const WovenView *w, Angles a) {
     WovenView v = woven_look(p, a.i);
     float q = yarn_half(a);
     float once = 0.0f;
-    ROUNDS(at, 2 * WOVEN_BINS) {
-        int k = at < WOVEN_BINS ? at : at - WOVEN_BINS;
+    ROUNDS_OF(at, 2 * to_int(p->count), 2 * WOVEN_BINS) {
+        int k = at / 2;
         float slope =
             woven_pick(k, p->b0.slope, p->b1.slope, p->b2.slope, p->b3.slope, p->b4.slope, p->b5.slope);
-        float weight =
-            woven_pick(k, p->b0.weight, p->b1.weight, p->b2.weight, p->b3.weight, p->b4.weight, p->b5.weight);
-        float a2 = woven_pick(k, p->b0.a2, p->b1.a2, p->b2.a2, p->b3.a2, p->b4.a2, p->b5.a2);
-        once = once + weight * woven_row(p, at < WOVEN_BINS ? slope : -slope, a2, w, &v, q);
+        float e = woven_pick(k, p->b0.e, p->b1.e, p->b2.e, p->b3.e, p->b4.e, p->b5.e);
+        float gain = woven_pick(k, p->b0.gain, p->b1.gain, p->b2.gain, p->b3.gain, p->b4.gain, p->b5.gain);
+        once = once + gain * woven_row(p, at > 2 * k ? -slope : slope, e, w, &v, q);
     }
-    once = once / w->seen / v.seen;
+    once = once / (w->seen * v.seen);
     float many = w->left * v.left / (PI * yarn_left_mean(p->alpha)) * 0.5f * (w->shown + v.shown);
     float f = p->part * (once + many);
     return lobe_value_of(f, many / (once + many), warp_cosine_pdf(a.i));
