@@ -118,7 +118,8 @@ WEFT_API WeftResult weft_raster_draw(WeftRaster *raster, const WeftRasterView *v
  * view that would be refused counts as ready. Asks no driver; the floor counts though it may not be seen. */
 WEFT_API int weft_raster_ready(WeftRaster *raster, const WeftRasterView *view);
 
-/* Waits for what is made in the background: the next picture has it. Fails with WEFT_MESSAGE_GL_MEMORY. */
+/* Waits for what is made in the background: the next picture has it. Where shapes of lights have changed it waits only
+ * after weft_raster_update. Fails with WEFT_MESSAGE_GL_MEMORY or _MEMORY. */
 WEFT_API WeftResult weft_raster_wait(WeftRaster *raster, WeftError *error);
 
 /* The picture drawn last: F32 RGBA, linear Rec. 709 radiance, straight alpha. Release with weft_image_free.

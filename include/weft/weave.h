@@ -169,7 +169,8 @@ WEFT_API WeftClothInfo weft_cloth_info(const WeftCloth *cloth);
  * coverage in alpha), normal.png, occlusion_roughness.png (occlusion in red, roughness in green),
  * anisotropy.png (as KHR_materials_anisotropy has it), height.png, and material.json, which lays them on a
  * surface whose texture coordinates span so many metres a unit. They hold whole repeats of at least 16
- * threads, in square texels, about pixels^2 of them (16 .. 8192; no side is outside of that either). Fails with WEFT_MESSAGE_DESC, _FILE_WRITE or _MEMORY. */
+ * threads, in about pixels^2 texels, pixels 16 .. 8192, which are square unless a side would be shorter or longer than
+ * that. Fails with WEFT_MESSAGE_DESC, _FILE_WRITE or _MEMORY. */
 WEFT_API WeftResult weft_cloth_bake(const WeftCloth *cloth, int pixels, double metres, const char *folder,
                                     WeftError *error);
 

@@ -109,12 +109,11 @@ static int add_all(Check *check) {
 }
 
 static int unknown(const char *id) {
-    if (strncmp(id, "preset:", 7) == 0 || kind_find(kind_of("preset"), id) >= 0)
-        return report(
-            WEFT_USAGE,
-            "%.200s: is a material, of which this checks the profile or a lobe; those of a woven one are "
-            "`weft check woven` and `weft check yarn`",
-            id);
+    if (kind_find(kind_of("preset"), strncmp(id, "preset:", 7) == 0 ? id + 7 : id) >= 0)
+        return report(WEFT_USAGE,
+                      "%.200s: is a material; check its profile or its lobes, those of a woven one by "
+                      "`weft check woven` and `weft check yarn`",
+                      id);
     char hint[96];
     Nearest nearest = {.typed = id};
     for (int k = 0; k < weft_lobe_count(); k++) nearest_offer(&nearest, weft_lobe_info(k)->id);

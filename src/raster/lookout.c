@@ -85,6 +85,7 @@ WeftResult lookout_take(Lookout *self, GlMeshes *meshes, bool wait, WeftError *e
     if (result == WEFT_OK) result = meshes_occlusion(meshes, values, error);
     occlusion_free(self->occlusion);
     self->occlusion = NULL;
+    if (result != WEFT_OK) self->again = true;
     if (!self->again || result != WEFT_OK) return result;
     meshes_forget_lights(meshes);
     return look(self, true, NULL, error);

@@ -23,7 +23,7 @@ enum { ROUNDS = 2 };
 #define DIFFERENT 0.16f
 
 /* Raised whenever the same scene would give other values. */
-enum { LOOK = 6 };
+enum { LOOK = 7 };
 
 /* All vertices, of the meshes as they are refined, and what they see. */
 typedef struct Outlook {
@@ -170,15 +170,16 @@ static void place_toward(Occlusion *self, int light, int begin, int end) {
         float part = total * ((float)(k - begin) + 0.5f) / (float)(end - begin);
         while (at < last && before + point_light(&self->env_points[at]) < part)
             before += point_light(&self->env_points[at++]);
-        float u = max(fraction((float)k * 0.754877666f), 1e-6f);
-        float phi = 2.0f * PI * fraction((float)k * 0.569840291f);
+        float u = max(fraction(((float)k + 0.5f) * 0.754877666f), 1e-6f);
+        float phi = 2.0f * PI * fraction(((float)k + 0.5f) * 0.569840291f);
         float mu = max(1.0f + 0.5f * spread * logf(u), -1.0f), s = sqrt(max(1.0f - mu * mu, 0.0f));
         Frame frame = frame_about(dir_of(self->env_points[at].direction), dir(0.0f, 0.0f, 0.0f), 1.0f);
         self->toward[light * self->rays + k] = frame_from(frame, dir(s * cos(phi), s * sin(phi), mu));
     }
 }
 
-/* Places all rays to lights; share becomes that of all lights' light. */
+/* Places all rays to lights; share becomes that of the light of all that are
+ * looked for. */
 static void place_lights(Occlusion *self) {
     float total = 0.0f;
     for (int k = 0; k < self->env_light_count; k++) {
@@ -438,19 +439,21 @@ static bool outlook_make(const WeftScene *scene, const Refinement *refinement, c
     return place_vertices(scene, at);
 }
 
-/* Returns true where the rim of a shadow lies between two vertices: of the sky, or of lights, each by its share of the
- * light that falls there. */
+/* Returns true where the rim of a shadow lies between two vertices: of the sky, or of lights, each by its share of all
+ * lights' light and by the cosine at which it falls on the end that has more of it: copies of an edge at a seam are then
+ * cut alike. */
 static bool differ(const void *user, int mesh, uint32_t a, uint32_t b) {
     const Occlusion *self = user;
     const Outlook *at = &self->at;
     size_t one = (size_t)at->first[mesh] + a, two = (size_t)at->first[mesh] + b;
     const float *p = at->values + OCCLUSION_VALUES * one, *q = at->values + OCCLUSION_VALUES * two;
     bool two_sided = self->scene.materials[self->scene.meshes[mesh].material].double_sided;
-    Vec3 n = vec3_load(at->normal + 3 * one);
+    Vec3 n = vec3_load(at->normal + 3 * one), o = vec3_load(at->normal + 3 * two);
     float lights = 0.0f;
     for (int k = 0; k < self->env_light_count; k++) {
-        float cosine = vec3_dot(n, self->env_lights[k].direction);
-        float falls = two_sided ? fabsf(cosine) : max(cosine, 0.0f);
+        float cn = vec3_dot(n, self->env_lights[k].direction),
+              co = vec3_dot(o, self->env_lights[k].direction);
+        float falls = two_sided ? max(fabsf(cn), fabsf(co)) : max(max(cn, co), 0.0f);
         lights += self->share[k] * falls * fabsf(p[OCCLUSION_LIGHT + k] - q[OCCLUSION_LIGHT + k]);
     }
     return max(lights, max(fabsf(p[0] - q[0]), fabsf(p[1] - q[1]))) > DIFFERENT;

@@ -42,7 +42,7 @@ WeftResult occlusion_start(const WeftScene *scene, const Refinement *refinement,
 void occlusion_nothing(float values[OCCLUSION_VALUES]);
 
 /* OCCLUSION_VALUES a vertex, its own meshes one after the other: of the sky 1 is all; of a light the part that
- * is above the horizon of whichever side faces it; below 0 where nothing is known. NULL until it is done,
+ * is above the horizon of the front, or of whichever side faces it where both are seen; below 0 where nothing is known. NULL until it is done,
  * unless it is waited for. Lives until occlusion_free. */
 const float *occlusion_values(Occlusion *occlusion, bool wait);
 

@@ -744,7 +744,8 @@ WeftRasterInfo weft_raster_info(const WeftRaster *self) {
                            .samples = self->target.samples,
                            .compile_seconds = self->compile_seconds};
     info.making = self->lookout.occlusion != NULL;
-    info.made = self->lookout.occlusion && occlusion_values(self->lookout.occlusion, false);
+    info.made = self->shape_turn == self->scene->shape_turn && self->lookout.occlusion &&
+                occlusion_values(self->lookout.occlusion, false);
     camera_tell(self->scene, &self->camera, info.camera_eye, info.camera_target, &info.camera_fov);
     for (const Program *p = self->programs.first; p; p = p->next) {
         info.programs += p->name != 0;

@@ -21,7 +21,7 @@ FN uint weave_hash(uint x) {
     return y ^ (y >> 16u);
 }
 
-/* A hash of another one and of a whole number, -2^31 to 2^31: of a thread's and a purpose, for example. */
+/* A hash of another one and of a whole number, from -2^31 up to 2^31, in which it is not included: of a thread's and a purpose, for example. */
 FN uint weave_key(uint key, float number) {
     return weave_hash(key + to_uint(to_int(number)) * 0x9e3779b9u); /* 2^32 by the golden ratio */
 }
@@ -40,7 +40,7 @@ FN float weave_plane(uint key, float t, float n, float u, float m) {
 }
 
 /* A frequency in a crossing: about f > 0 times, and a whole number of times in a cycle; and how
- * often in that. Where there is no cycle, it is where floats have no whole numbers any more. */
+ * often in that. Where there is no cycle, it is 2^24, from which on floats skip whole numbers. */
 FN float weave_turns(float f, float cycle) {
     return cycle > 0.0f ? max(floor(f * cycle + 0.5f), 1.0f) : 16777216.0f;
 }

@@ -191,8 +191,8 @@ static double maps_weigh(const char *folder, int sides[2]) {
     return bytes;
 }
 
-/* Maps of any preset have as many texels, square ones, however long its repeat is. So in memory they weigh the same, and
- * their files nearly so. */
+/* Maps of any preset have as many texels, square ones, however long its repeat is. So in memory they weigh the
+ * same. */
 static void check_maps(const char *name, const WeftCloth *cloth) {
     enum { SIDE = 160, LEAST = 16 };
     char folder[64];

@@ -62,17 +62,17 @@ STRUCT(WovenPrepared) {
 
 #define WOVEN_BINS 6
 
-/* There are so many bins that from one to the next D moves by no more than 0.7 of its width, where slopes change most.
- * Fewer than three would miss how much of the yarn turns away. */
+/* There are so many bins, up to six, that from one to the next D moves by no more than 0.7 of its width at the end of the
+ * yarn, where slopes of one that floats change most. Fewer than three would miss how much of the yarn turns away. */
 FN float woven_count(Woven m) {
     float turn = 2.0f * m.floats / (m.floats + 1.0f) * m.crimp;
-    return clamp(floor(turn / (0.7f * m.alpha)) + 1.0f, 3.0f, to_float(WOVEN_BINS));
+    return clamp(floor(turn / (0.7f * max(m.alpha, 1e-3f))) + 1.0f, 3.0f, to_float(WOVEN_BINS));
 }
 
 /* Bin k, from x = k / count to (k + 1) / count, s = x^(2 / (floats + 1)): the mean of the slope over it, and how far it
  * varies. */
 FN WovenBin woven_bin(Woven m, float tan_crimp, float count, float k) {
-    float f = m.floats, e = 2.0f / (f + 1.0f), e2 = (2.0f * f + 1.0f) * e, a2 = m.alpha * m.alpha;
+    float f = m.floats, e = 2.0f / (f + 1.0f), e2 = (2.0f * f + 1.0f) * e, a2 = max(m.alpha * m.alpha, 1e-6f);
     float x0 = k / count, x1 = (k + 1.0f) / count, least = max(x0, 1e-3f);
     float width = pow(x1, e) - (x0 > 0.0f ? pow(least, e) : 0.0f);
     float mean = (x1 * x1 - x0 * x0) / ((f + 1.0f) * width);
@@ -180,7 +180,7 @@ FN LobeValue woven_value(const WovenPrepared *p, const WovenView *w, Angles a) {
         float gain = woven_pick(k, p->b0.gain, p->b1.gain, p->b2.gain, p->b3.gain, p->b4.gain, p->b5.gain);
         once = once + gain * woven_row(p, at > 2 * k ? -slope : slope, e, w, &v, q);
     }
-    once = once / (w->seen * v.seen);
+    once = once / w->seen / v.seen;
     float many = w->left * v.left / (PI * yarn_left_mean(p->alpha)) * 0.5f * (w->shown + v.shown);
     float f = p->part * (once + many);
     return lobe_value_of(f, many / (once + many), warp_cosine_pdf(a.i));

@@ -51,7 +51,7 @@ FN void yarn_prepare(Yarn m, YarnPrepared *p) {
     float r = 1.0f / sqrt(1.0f + z * z);
     p->m = m;
     p->axis = dir(c * r, s * r, z * r);
-    p->a2 = m.alpha * m.alpha;
+    p->a2 = max(m.alpha * m.alpha, 1e-6f); /* lanes of other lobes have 0 */
     p->e = (1.0f - p->a2) / p->a2;
 }
 FN float yarn_second(Yarn m, float f0, float f90) { return yarn_reflectance(f0); }
@@ -86,7 +86,7 @@ FN float yarn_density(const YarnPrepared *p, const YarnView *w, YarnView v, Angl
 FN LobeValue yarn_value(const YarnPrepared *p, const YarnView *w, Angles a) {
     YarnView v = yarn_look(p, a.i);
     float met = yarn_met_once(p->e, yarn_half(a), w->p, v.p, w->along, v.along);
-    float once = met / (4.0f * PI * p->a2 * w->seen * v.seen);
+    float once = met / (4.0f * PI * p->a2) / w->seen / v.seen;
     float many =
         w->left * v.left / (PI * yarn_left_mean(p->m.alpha)) * 0.5f * (w->p / w->seen + v.p / v.seen);
     return lobe_value_of(once + many, many / max(once + many, 1e-6f), yarn_density(p, w, v, a));
