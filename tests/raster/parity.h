@@ -28,7 +28,7 @@ enum { LANGUAGES = 2, SAMPLES_MOST = 65536, INPUTS = COMPUTE_INPUTS_MAX, OUTPUTS
  * of 1e3 that cancel leave no more digits than they had. */
 #define MIXED_SHARE 1e-4 /* and one where there are few samples */
 
-/* What is asked of both: the body reads row[0..] as in0.xyzw, in1.x ... and sets out0, out1 to the answers.
+/* Says what is asked of both: the body reads row[0..] as in0.xyzw, in1.x ... and sets out0, out1 to the answers.
  */
 typedef struct Model {
     const char *body;
@@ -212,7 +212,7 @@ static inline void report(const Model *model, int language, const char *name, co
     print_message("\n");
 }
 
-/* Whether both languages agree with C. */
+/* Returns true if both languages agree with C. */
 static inline bool programs_agree(Programs *programs, int which, const char *name, double share) {
     bool good = true;
     fill(programs->model, which);

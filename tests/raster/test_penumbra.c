@@ -13,25 +13,15 @@
 
 enum { SIDE = 64 };
 
-/* A roof over one half of a plane, and a lamp over the roof; seen is the plane along the shadow's edge. */
-static WeftImage edge(void) {
-    WeftScene *scene = test_scene();
+/* Draws a scene under one lamp, and frees it. */
+static WeftImage picture(WeftScene *scene, const WeftLight *lamp, const char *camera) {
     WeftRaster *raster;
     WeftImage image = {0};
     WeftError error;
-    const WeftLight lamp = {.kind = WEFT_LIGHT_POLYGON,
-                            .position = {0.0f, 2.0f, 0.0f},
-                            .direction = {0.0f, -1.0f, 0.0f},
-                            .size = {0.3f, 0.3f},
-                            .color = {30.0f, 30.0f, 30.0f}};
-    const WeftRasterView view = {
-        .width = SIDE, .height = SIDE, .samples = 1, .camera = "0,0.9,0.001;0,0,0;30"};
-    test_material(scene, 0.8f);
-    test_quad(scene, vec3(-2.0f, 0.0f, 2.0f), vec3(4.0f, 0.0f, 0.0f), vec3(0.0f, 0.0f, -4.0f));
-    test_quad(scene, vec3(-2.0f, 1.0f, 2.0f), vec3(2.0f, 0.0f, 0.0f), vec3(0.0f, 0.0f, -4.0f));
+    const WeftRasterView view = {.width = SIDE, .height = SIDE, .samples = 1, .camera = camera};
     scene_bounds(scene);
     test_environment(scene, 0.0f);
-    weft_scene_add_light(scene, &lamp, NULL);
+    weft_scene_add_light(scene, lamp, NULL);
     if (weft_raster_create(scene, &(WeftRasterDesc){0}, &raster, NULL, &error) != WEFT_OK ||
         weft_raster_draw(raster, &view, &error) != WEFT_OK ||
         weft_raster_image(raster, &image, &error) != WEFT_OK)
@@ -39,6 +29,20 @@ static WeftImage edge(void) {
     weft_raster_free(raster);
     weft_scene_free(scene);
     return image;
+}
+
+/* A roof over one half of a plane, and a lamp over the roof; seen is the plane along the shadow's edge. */
+static WeftImage edge(void) {
+    WeftScene *scene = test_scene();
+    const WeftLight lamp = {.kind = WEFT_LIGHT_POLYGON,
+                            .position = {0.0f, 2.0f, 0.0f},
+                            .direction = {0.0f, -1.0f, 0.0f},
+                            .size = {0.3f, 0.3f},
+                            .color = {30.0f, 30.0f, 30.0f}};
+    test_material(scene, 0.8f);
+    test_quad(scene, vec3(-2.0f, 0.0f, 2.0f), vec3(4.0f, 0.0f, 0.0f), vec3(0.0f, 0.0f, -4.0f));
+    test_quad(scene, vec3(-2.0f, 1.0f, 2.0f), vec3(2.0f, 0.0f, 0.0f), vec3(0.0f, 0.0f, -4.0f));
+    return picture(scene, &lamp, "0,0.9,0.001;0,0,0;30");
 }
 
 static float at(const WeftImage *image, int x, int y) {
@@ -80,29 +84,15 @@ static void penumbra_is_even_along_the_edge(void **state) {
 /* A low wall that a lamp before it lights, with a floor at its foot or without: what the wall looks like. */
 static WeftImage wall(bool floor) {
     WeftScene *scene = test_scene();
-    WeftRaster *raster;
-    WeftImage image = {0};
-    WeftError error;
     const WeftLight lamp = {.kind = WEFT_LIGHT_POLYGON,
                             .position = {0.0f, 1.4f, 1.7f},
                             .direction = {0.0f, -0.7f, -0.7f},
                             .size = {0.8f, 0.8f},
                             .color = {30.0f, 30.0f, 30.0f}};
-    const WeftRasterView view = {
-        .width = SIDE, .height = SIDE, .samples = 1, .camera = "0,0.06,1;0,0.06,0;5"};
     test_material(scene, 0.8f);
     test_quad(scene, vec3(-1.0f, 0.0f, 0.0f), vec3(2.0f, 0.0f, 0.0f), vec3(0.0f, 0.3f, 0.0f));
     if (floor) test_quad(scene, vec3(-1.0f, 0.0f, 1.5f), vec3(2.0f, 0.0f, 0.0f), vec3(0.0f, 0.0f, -1.5f));
-    scene_bounds(scene);
-    test_environment(scene, 0.0f);
-    weft_scene_add_light(scene, &lamp, NULL);
-    if (weft_raster_create(scene, &(WeftRasterDesc){0}, &raster, NULL, &error) != WEFT_OK ||
-        weft_raster_draw(raster, &view, &error) != WEFT_OK ||
-        weft_raster_image(raster, &image, &error) != WEFT_OK)
-        fail_msg("%s", error.text);
-    weft_raster_free(raster);
-    weft_scene_free(scene);
-    return image;
+    return picture(scene, &lamp, "0,0.06,1;0,0.06,0;5");
 }
 
 /* The floor is nearer to the lamp than the wall, but on no line from one to the other. */

@@ -135,7 +135,7 @@ static const double cosines[] = {1.0, 0.8, 0.5, 0.2, 0.05, 0.02, 0.004};
 static const float spread[] = {0.01f, 0.02f, 0.0625f, 0.15f, 0.25f, 0.5f, 1.0f};
 enum { COSINES = sizeof cosines / sizeof cosines[0], SPREAD = sizeof spread / sizeof spread[0] };
 
-/* Whether its highlight is a ridge so narrow that neither rule, whose rings cross it, comes within 1e-4. */
+/* Returns true if its highlight is a ridge so narrow that neither rule, whose rings cross it, comes within 1e-4. */
 static bool is_ridge(const WeftLobe *lobe) {
     return lobe->lobe == LOBE_SILK && lobe->params[weft_lobe_param_find(LOBE_SILK, "alpha")] < 0.1f;
 }

@@ -127,7 +127,7 @@ static double most_alike(const float x[THREADS]) {
     return most;
 }
 
-/* What varies between threads, and what loose fibres do, has no period: of chance alone a correlation of 4096 numbers is
+/* Neither threads nor loose fibres vary with a period: of chance alone a correlation of 4096 numbers is
  * beyond 0.094, six deviations, once in a hundred thousand cloths. */
 static void variation_has_no_period(void **state) {
     (void)state;
