@@ -18,6 +18,12 @@ static inline void box_add(Box *box, Vec3 p) {
 }
 
 /* Returns the length of the diagonal; 0 of an empty box. */
+/* Corner k of 8. */
+static inline Vec3 box_corner(Box box, int k) {
+    return vec3(k & 1 ? box.high.x : box.low.x, k & 2 ? box.high.y : box.low.y,
+                k & 4 ? box.high.z : box.low.z);
+}
+
 static inline float box_size(Box box) {
     return box.low.x > box.high.x ? 0.0f : vec3_length(vec3_sub(box.high, box.low));
 }

@@ -3,7 +3,13 @@
 #include <math.h>
 #include <string.h>
 
+#include "raster/box.h"
 #include "raster/ground.h"
+
+/* The unit vector across a view's picture, away from its eye: its forward, unless it is sheared. */
+static Vec3 view_axis(const View *view) {
+    return vec3_normal_or(vec3_cross(view->up, view->across), view->forward);
+}
 
 /* The nearest depth as a share of the farthest: cameras come close, depths of shadow maps are to be exact. */
 static const float CAMERA_NEAR = 1e-4f, SHADOW_NEAR = 1e-2f;
@@ -13,7 +19,7 @@ typedef struct Range {
 } Range;
 
 static void reach_out(Range *range, const View *view, Vec3 p) {
-    float depth = vec3_dot(vec3_sub(p, view->eye), view->forward);
+    float depth = vec3_dot(vec3_sub(p, view->eye), view_axis(view));
     range->near = fminf(range->near, depth);
     range->far = fmaxf(range->far, depth);
 }
@@ -29,11 +35,7 @@ static void reach_floor(Range *range, const View *view, const Floor *floor) {
  * of the view; with perspective at least that share of the way. */
 static Range depth_range(const WeftScene *scene, const View *view, const Floor *floor, float least) {
     Range range = {INFINITY, -INFINITY};
-    for (int k = 0; k < 8; k++) {
-        Vec3 corner = {k & 1 ? scene->high.x : scene->low.x, k & 2 ? scene->high.y : scene->low.y,
-                       k & 4 ? scene->high.z : scene->low.z};
-        reach_out(&range, view, corner);
-    }
+    for (int k = 0; k < 8; k++) reach_out(&range, view, box_corner((Box){scene->low, scene->high}, k));
     for (int m = scene_own_meshes(scene); m < scene->mesh_count; m++)
         for (uint32_t k = 0; k < scene->meshes[m].vertex_count; k++)
             reach_out(&range, view, vec3_load(scene->meshes[m].position + 3 * (size_t)k));
@@ -60,10 +62,13 @@ static Depth depth_of(const View *view, Range r) {
                               : (Depth){(r.far + r.near) / span, -2.0f * r.far * r.near / span};
 }
 
-/* q, from the eye, to clip space: x = q.across / |across|^2, likewise y, w the depth. */
+/* q, from the eye, to clip space: x = (q - w forward).across / |across|^2, likewise y, w the depth. */
 static void put_matrix(const View *view, Range r, float m[16]) {
+    Vec3 f = view_axis(view);
     Vec3 x = vec3_scale(view->across, 1.0f / vec3_dot(view->across, view->across));
-    Vec3 y = vec3_scale(view->up, 1.0f / vec3_dot(view->up, view->up)), f = view->forward;
+    Vec3 y = vec3_scale(view->up, 1.0f / vec3_dot(view->up, view->up));
+    x = vec3_madd(x, f, -vec3_dot(view->forward, x));
+    y = vec3_madd(y, f, -vec3_dot(view->forward, y));
     const Depth depth = depth_of(view, r);
     float a = depth.a, b = depth.b;
     Vec3 w = vec3_scale(f, view->orthographic ? 0.0f : 1.0f);
@@ -97,15 +102,34 @@ static void put_polygon(const LightPolygon *polygon, int k, Picture *out) {
     memcpy(out->polygon_radiance[k], polygon->radiance, sizeof polygon->radiance);
 }
 
-static void put_shadow(const WeftScene *scene, const Shadow *shadow, const Floor *floor, int k,
+/* The depths that all points of a light see together. */
+static Range shadow_range(const WeftScene *scene, const Shadow *shadow, const Floor *floor) {
+    Range range = depth_range(scene, &shadow->view, floor, SHADOW_NEAR);
+    for (int k = 0; k < shadow->points; k++) {
+        const View view = shadow_view(shadow, k);
+        Range r = depth_range(scene, &view, floor, SHADOW_NEAR);
+        range.near = fminf(range.near, r.near);
+        range.far = fmaxf(range.far, r.far);
+    }
+    return range;
+}
+
+/* `first` is the first layer of a polygon. */
+static void put_shadow(const WeftScene *scene, const Shadow *shadow, const Floor *floor, int k, int first,
                        Picture *out) {
     const View *view = &shadow->view;
     const float place[4] = {view->eye.x, view->eye.y, view->eye.z,
                             view->orthographic ? shadow->texel : -shadow->texel};
-    const float disc[4] = {shadow->radius, sqrtf(vec3_dot(view->across, view->across)), 0.0f, 0.0f};
-    put_matrix(view, depth_range(scene, view, floor, SHADOW_NEAR), out->shadow_clip[k]);
+    const float half = vec3_length(view->across), soft[4] = {half, (float)first, 0.0f, 0.0f};
+    put_matrix(view, shadow_range(scene, shadow, floor), out->shadow_clip[k]);
     memcpy(out->shadow_eye[k], place, sizeof place);
-    memcpy(out->shadow_disc[k], disc, sizeof disc);
+    memcpy(out->shadow_soft[k], soft, sizeof soft);
+    for (int j = 0; j < shadow->points; j++) {
+        Vec3 o = shadow->point[j];
+        const float point[4] = {o.x / half, o.y / half, o.z,
+                                shadow->meeting / (1.0f - o.z * shadow->meeting)};
+        memcpy(out->shadow_points[k][j], point, sizeof point);
+    }
 }
 
 /* A facet whose slope is alpha at most turns what it mirrors by twice as much. */
@@ -127,15 +151,25 @@ void picture_make(const WeftScene *scene, const View *view, const LightPolygons 
     const float eye[4] = {view->eye.x, view->eye.y, view->eye.z, view->orthographic ? 0.0f : 1.0f};
     const float forward[4] = {view->forward.x, view->forward.y, view->forward.z, (float)lights};
     *out = (Picture){0};
-    put_matrix(view, depth_range(scene, view, floor, shadows ? CAMERA_NEAR : SHADOW_NEAR), out->to_clip);
+    put_matrix(view, depth_range(scene, view, floor, CAMERA_NEAR), out->to_clip);
     memcpy(out->eye, eye, sizeof eye);
     memcpy(out->forward, forward, sizeof forward);
     if (floor->there) put_floor(scene, view, floor, out);
     for (int k = 0; k < lights; k++) put_light(&scene->lights[k], out->lights[k]);
-    for (int k = 0; polygons && k < polygons->count; k++) put_polygon(&polygons->items[k], k, out);
-    for (int k = 0; shadows && k < shadows->count; k++) {
+    for (int k = 0; k < polygons->count; k++) put_polygon(&polygons->items[k], k, out);
+    for (int k = 0; k < shadows->count; k++) {
         int light = shadows->of_light[k];
-        put_shadow(scene, &shadows->all[k], floor, k, out);
+        int hard = shadows->count - shadows->polygons;
+        put_shadow(scene, &shadows->all[k], floor, k, SHADOW_POINTS * (k - hard), out);
         if (light >= 0 && light < lights) out->lights[light][2][3] = (float)k;
     }
+}
+
+void picture_of_shadow(const WeftScene *scene, const Shadow *shadow, int point, const Floor *floor,
+                       Picture *out) {
+    const View view = shadow_view(shadow, point);
+    const float eye[4] = {view.eye.x, view.eye.y, view.eye.z, view.orthographic ? 0.0f : 1.0f};
+    *out = (Picture){0};
+    put_matrix(&view, shadow_range(scene, shadow, floor), out->to_clip);
+    memcpy(out->eye, eye, sizeof eye);
 }

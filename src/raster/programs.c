@@ -20,7 +20,7 @@ typedef struct TextureSampler {
 
 static const TextureSampler samplers[] = {
     {"weft_tables", UNIT_TABLES},      {"environment_cube", UNIT_ENVIRONMENT},
-    {"shadow_map", UNIT_SHADOW},       {"shadow_depth", UNIT_SHADOW_DEPTH},
+    {"shadow_map", UNIT_SHADOW},       {"soft_map", UNIT_SOFT_SHADOW},
     {"weave_cells", UNIT_CLOTH_CELLS}, {"weave_colors", UNIT_CLOTH_COLORS},
     {"floor_sky", UNIT_FLOOR},         {"floor_mirror", UNIT_FLOOR + 1},
     {"floor_depth", UNIT_FLOOR + 2}};

@@ -152,10 +152,7 @@ static WeftResult begin_drawing(WeftRaster *self, const WeftLog *log, WeftError 
     if (result == WEFT_OK) result = enter(self, &outer, error);
     if (result != WEFT_OK) return result;
     language = context_language(self->context);
-    self->programs.desc = (TextDesc){.language = language,
-                                     .tables = true,
-                                     .fine_derivatives = epoxy_has_gl_extension("GL_ARB_derivative_control"),
-                                     .folder = self->desc.shader_dir};
+    self->programs.desc = (TextDesc){.language = language, .tables = true, .folder = self->desc.shader_dir};
     result = upload(self, log, error);
     context_leave(self->context, &outer);
     return result;
@@ -240,14 +237,18 @@ static void set_defaults(const WeftScene *scene, WeftRasterView *view) {
     for (int c = 0; c < 3; c++) view->background_color[c] = 0.62f; /* a light grey paper roll */
 }
 
-static void set_picture(WeftRaster *self, const View *view, const Shadows *shadows) {
+static void set_block(const WeftRaster *self, const Picture *picture) {
+    glBindBuffer(GL_UNIFORM_BUFFER, self->picture);
+    glBufferSubData(GL_UNIFORM_BUFFER, 0, sizeof *picture, picture);
+    glBindBufferBase(GL_UNIFORM_BUFFER, BLOCK_PICTURE, self->picture);
+}
+
+static void set_picture(const WeftRaster *self, const View *view) {
     Picture picture;
-    picture_make(self->scene, view, &self->polygons, shadows, &self->floor, &picture);
+    picture_make(self->scene, view, &self->polygons, &self->shadows, &self->floor, &picture);
     picture.floor_light[0] = self->sky_on_floor;
     picture.floor_light[2] = self->floor_shaded ? 1.0f : 0.0f;
-    glBindBuffer(GL_UNIFORM_BUFFER, self->picture);
-    glBufferSubData(GL_UNIFORM_BUFFER, 0, sizeof picture, &picture);
-    glBindBufferBase(GL_UNIFORM_BUFFER, BLOCK_PICTURE, self->picture);
+    set_block(self, &picture);
 }
 
 /* Sets the state that every pass starts from. */
@@ -304,7 +305,7 @@ static void bind_light(WeftRaster *self, const WeftRasterView *view) {
     self->plain = plain;
     if (self->shines) environment_bind(&self->environment, UNIT_ENVIRONMENT, BLOCK_ENVIRONMENT);
     glActiveTexture(GL_TEXTURE0);
-    if (self->shadows.count) shadows_bind(&self->shadows, UNIT_SHADOW, UNIT_SHADOW_DEPTH);
+    if (self->shadows.count) shadows_bind(&self->shadows, UNIT_SHADOW, UNIT_SOFT_SHADOW);
 }
 
 static WeftResult use_program(WeftRaster *self, const ShaderKey *key, const Program **program,
@@ -416,15 +417,27 @@ static WeftResult prepare(WeftRaster *self, const WeftRasterView *view, WeftErro
     return held ? WEFT_OK : fail(error, WEFT_MESSAGE_MEMORY, "shaders", NULL);
 }
 
+static WeftResult draw_depth(WeftRaster *self, WeftError *error) {
+    WeftResult result = WEFT_OK;
+    for (int m = 0; m < self->scene->mesh_count && result == WEFT_OK; m++) {
+        ShaderKey key = depth_key(&self->materials.all[self->scene->meshes[m].material].key);
+        result = draw_mesh(self, m, &key, error);
+    }
+    return result;
+}
+
 /* The maps stay as they are as long as the scene does. */
 static WeftResult draw_shadows(WeftRaster *self, WeftError *error) {
     WeftResult result = WEFT_OK;
     for (int k = 0; k < self->shadows.count && !self->shadows.drawn && result == WEFT_OK; k++) {
-        set_picture(self, &self->shadows.all[k].view, NULL);
-        shadows_begin(&self->shadows, k);
-        for (int m = 0; m < self->scene->mesh_count && result == WEFT_OK; m++) {
-            ShaderKey key = depth_key(&self->materials.all[self->scene->meshes[m].material].key);
-            result = draw_mesh(self, m, &key, error);
+        const Shadow *shadow = &self->shadows.all[k];
+        for (int point = 0; point < (shadow->points ? shadow->points : 1) && result == WEFT_OK; point++) {
+            Picture picture;
+            picture_of_shadow(self->scene, shadow, point, &self->floor, &picture);
+            set_block(self, &picture);
+            shadows_begin(&self->shadows, k, point);
+            result = draw_depth(self, error);
+            glFinish(); /* or Mesa's software renderer keeps the triangles of all passes until the last */
         }
     }
     self->shadows.drawn = result == WEFT_OK;
@@ -620,7 +633,7 @@ static WeftResult draw_mirror(WeftRaster *self, const View *seen, const WeftRast
     alone.floor.on = 0;
     WeftResult result = ground_mirror(&self->ground, view->width, view->height, box, error);
     if (result != WEFT_OK) return result;
-    set_picture(self, &below, &self->shadows);
+    set_picture(self, &below);
     bind_light(self, view);
     result = draw_all(self, &below, &alone, error);
     ground_mirrored(&self->ground);
@@ -661,7 +674,7 @@ WeftResult weft_raster_draw(WeftRaster *self, const WeftRasterView *wanted, Weft
     const int *c = view.crop, box[4] = {c[0], view.height - c[1] - c[3], c[2], c[3]};
     if (result == WEFT_OK) result = draw_mirror(self, &seen, &view, box, error);
     if (result == WEFT_OK) {
-        set_picture(self, &seen, &self->shadows);
+        set_picture(self, &seen);
         begin(self, &view, box);
         bind_light(self, &view);
         result = draw_all(self, &seen, &view, error);

@@ -1,4 +1,7 @@
-/* shadow.h - shadow maps: what the lights that cast shadows see, as layers of one depth texture
+/* shadow.h - shadow maps: what the lights that cast shadows see, as layers of depth textures
+ *
+ * A polygon has a map for each of some points on it: the mean over them is its soft shadow. Paul Heckbert and Michael
+ * Herf, "Simulating Soft Shadows with Graphics Hardware", Carnegie Mellon University, CMU-CS-97-104, 1997.
  *
  * All calls are for the context that is current. */
 #ifndef WEFT_RASTER_SHADOW_H
@@ -7,13 +10,15 @@
 #include "scene/camera.h"
 #include "scene/polygons.h"
 
-enum { SHADOWS_MOST = 4, SHADOW_SIDE = 2048 };
+enum { SHADOWS_MOST = 4, SHADOW_SIDE = 2048, SHADOW_POINTS = 48, SHADOW_POINT_SIDE = 512 };
 
 /* A light that casts one. */
 typedef struct Shadow {
-    View view;    /* the light's: what it sees lies in [-1, 1]^2 */
-    float texel;  /* width of a texel, m; of a view with perspective at distance 1 */
-    float radius; /* of the light, m */
+    View view;                 /* the light's: what it sees lies in [-1, 1]^2; of a polygon from its middle */
+    float texel;               /* width of a texel, m; of a view with perspective at distance 1 */
+    int points;                /* of a polygon: SHADOW_POINTS; else 0 */
+    Vec3 point[SHADOW_POINTS]; /* from the eye, m: along across, up and forward */
+    float meeting; /* 1 / distance of the plane on which all of them see the same, 1/m; 0 where that is far */
 } Shadow;
 
 typedef struct Shadows {
@@ -21,10 +26,10 @@ typedef struct Shadows {
     int count;
     int of_light[SHADOWS_MOST];   /* index of the punctual light, or -1 */
     int of_polygon[SHADOWS_MOST]; /* of the polygon, or -1 */
-    unsigned texture, framebuffer;
-    unsigned compare, plain; /* sampler objects: compared, and as numbers */
-    Vec3 low, high;          /* box of what shadows are looked at on */
-    bool drawn;              /* the texture holds what the lights see */
+    int polygons;                 /* how many are of polygons: the last ones */
+    unsigned hard, soft; /* array textures: a layer a punctual light, and SHADOW_POINTS layers a polygon */
+    unsigned framebuffer, compare; /* compare: the sampler */
+    bool drawn;                    /* the textures hold what the lights see */
 } Shadows;
 
 /* Chooses the lights: the strongest directional and spot lights, and the strongest polygons, which get at
@@ -39,10 +44,13 @@ void shadows_destroy(Shadows *shadows);
 WeftResult shadows_update(Shadows *shadows, const WeftScene *scene, const LightPolygons *polygons,
                           WeftError *error);
 
-/* Makes layer `layer` the target, empty. */
-void shadows_begin(const Shadows *shadows, int layer);
+/* The view from a point of a polygon; of another light, its one view. */
+View shadow_view(const Shadow *shadow, int point);
 
-/* Binds the texture to two units: to compare with, and to read. */
-void shadows_bind(const Shadows *shadows, int compare_unit, int plain_unit);
+/* Makes the map of light `k` from a point the target, empty. */
+void shadows_begin(const Shadows *shadows, int k, int point);
+
+/* Binds the textures to two units, to compare with. */
+void shadows_bind(const Shadows *shadows, int hard_unit, int soft_unit);
 
 #endif

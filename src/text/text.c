@@ -65,12 +65,7 @@ void text_undefine(Text *text, const char *name) {
 void text_begin(Text *text, const TextDesc *desc) {
     *text = (Text){.desc = *desc, .gap = true};
     switch (desc->language) {
-    case TEXT_GLSL_330:
-        text_line(text, "#version 330 core");
-        if (!desc->fine_derivatives) break;
-        text_line(text, "#extension GL_ARB_derivative_control : require");
-        text_define(text, "FINE_DERIVATIVES", "1");
-        break;
+    case TEXT_GLSL_330: text_line(text, "#version 330 core"); break;
     case TEXT_GLSL_ES_300:
         text_line(text, "#version 300 es\nprecision highp float;\nprecision highp int;");
         break;

@@ -32,8 +32,6 @@ typedef struct TextDesc {
     /* Declares the array texture weft_tables that shading/table.h reads: one float a texel, a layer a table.
      */
     bool tables;
-    /* GLSL 3.30: FINE_DERIVATIVES is defined, for whoever has GL_ARB_derivative_control. */
-    bool fine_derivatives;
     /* A folder whose files win over those of the library: shading/lobes/ggx.h below it is taken where it is
      * there. May be NULL; must outlive the Text. */
     const char *folder;

@@ -37,7 +37,7 @@ void add_polygon(int k, int corners, bool two_sided, int map) {
         vec3 to = polygon_corners[8 * k + j].xyz - here;
         p.corners[j] = dir(to.x, to.z, to.y);
     }
-    float reaches = polygon_reaches(map, vec3(0.0, 1.0, 0.0));
+    float reaches = polygon_reaches(map, vec3(0.0, 1.0, 0.0), polygon_normals[k].xyz);
     bool shines = two_sided || dot(polygon_normals[k].xyz, here - polygon_corners[8 * k].xyz) > 0.0;
     add_light(shines ? rgb_luminance(rgb(c.r, c.g, c.b)) * PI * polygon_cosine(p) : 0.0, reaches);
 }

@@ -42,11 +42,10 @@ Beam light_beam(int k, int kind) {
 float light_reaches(int map, vec3 normal, float cosine) {
     return map < 0 ? 1.0 : shadow_light(map, normal, cosine);
 }
-float polygon_reaches(int map, vec3 normal) {
-    if (map < 0) return 1.0;
-    return soft_shadow(map, normal, dot(normal, normalize(shadow_eye[map].xyz - eye.xyz - from_eye)));
+float polygon_reaches(int map, vec3 normal, vec3 light_normal) {
+    return map < 0 ? 1.0 : soft_shadow(map, normal, light_normal);
 }
 #else
 float light_reaches(int map, vec3 normal, float cosine) { return 1.0; }
-float polygon_reaches(int map, vec3 normal) { return 1.0; }
+float polygon_reaches(int map, vec3 normal, vec3 light_normal) { return 1.0; }
 #endif

@@ -13,9 +13,9 @@ Rgb polygon_from(int k, int corners, bool two_sided, int map, Stack m, StackView
         vec3 to = polygon_corners[8 * k + j].xyz - here;
         p.corners[j] = frame_to(f, dir(to.x, to.y, to.z));
     }
-    float reaches = polygon_reaches(map, vec_of_dir(at.geometric)); /* before any pixel is left out: it asks its neighbours */
+    float reaches = polygon_reaches(map, vec_of_dir(at.geometric), normal);
     float comes_through = 1.0;
-    if (HAS_TRANSMITTED(m)) comes_through = polygon_reaches(map, -vec_of_dir(at.geometric));
+    if (HAS_TRANSMITTED(m)) comes_through = polygon_reaches(map, -vec_of_dir(at.geometric), normal);
     if (!two_sided && dot(normal, here - polygon_corners[8 * k].xyz) <= 0.0) return rgb_grey(0.0);
     Rgb sum = rgb_scale(stack_polygon(m, w, p), reaches);
     if (HAS_TRANSMITTED(m) && SHOWS_DIFFUSE) sum = rgb_add(sum, rgb_scale(stack_polygon_behind(m, w, p), comes_through));

@@ -1,78 +1,35 @@
-/* soft_shadow.glsl - how much of a light that has a size reaches a point
+/* soft_shadow.glsl - how much of a polygon's light reaches a point
  *
- * A point of the light that is s from its middle meets the plane at distance b, on its way to a receiver at
- * distance r, at s (1 - b / r) from the line to the middle: on the map, whose half width at distance 1 is h, at
- * s (1 / b - 1 / r) / h. So the mean distance b of what is in the way says how far to look. Randima Fernando,
- * "Percentage-Closer Soft Shadows", SIGGRAPH Sketches 2005.
- *
- * Not all that is nearer to the light is in the way: a floor before a wall is not. What is seen at t on the map hides
- * the point s = t h / (1 / b - 1 / r), if that is on the light. It counts wholly there, and less outside, down to
- * nothing at twice the light's radius. Gael Guennebaud, Loic Barthe and Mathias Paulin, "Real-time Soft Shadow Mapping
- * by Backprojection", Eurographics Symposium on Rendering 2006, project what the map shows on the light so. */
-#include "raster/glsl/disc.glsl"
+ * The mean over points of the light of what is seen of each, weighted by what it sends,
+ * w = (n.d) (l.d) / |d|^4, d from here to there and n and l the normals: the share of the light that is not in
+ * shadow, by which the light without shadows is multiplied. Eric Heitz, Stephen Hill and Morgan McGuire, "Combining
+ * Analytic Direct Illumination and Stochastic Shadows", I3D 2018. */
 #include "raster/glsl/shadow.glsl"
 
-uniform highp sampler2DArray shadow_depth;
+uniform highp sampler2DArrayShadow soft_map;
 
-/* The mean over the four pixels of a quad, between which a fine derivative is the difference; to be asked of
- * all four. Each looks in every fourth place of one pattern. A coarse derivative may be of one pair for all
- * four, which is no mean: then each pixel has its own places. */
-#ifdef FINE_DERIVATIVES
-float quad_mean(float v) {
-    vec2 side = 0.5 - mod(floor(gl_FragCoord.xy), 2.0);
-    v += side.x * dFdxFine(v);
-    return v + side.y * dFdyFine(v);
-}
-const float QUAD = 4.0;
-float quad_place() { return dot(mod(floor(gl_FragCoord.xy), 2.0), vec2(1.0, 2.0)); }
-#else
-const float QUAD = 1.0;
-float quad_place() { return 0.0; }
-float quad_mean(float v) { return v; }
-#endif
-
-/* Returns how the depth of the plane through a point p from the light, with normal n, changes over the map.
- * There 1 / w = (n.f + X n.x + Y n.y) / n.p, f the axis of the light and x, y the halves of its map at
- * distance 1; and depth is linear in 1 / w. */
-vec2 shadow_slope(int map, vec3 p, vec3 n) {
+/* Axes are those of the light's view. With all x and y divided by half the width of the map at distance 1, h, a point
+ * o of the light sees q at ((q - o).xy / (q - o).z + o.xy / (d - o.z)); depth = a + b / (q - o).z in clip space. */
+float soft_shadow(int map, vec3 normal, vec3 light_normal) {
+    float h = shadow_soft[map].x;
     mat4 m = shadow_clip[map];
-    float h2 = shadow_disc[map].y * shadow_disc[map].y, through = min(dot(n, p), -1e-3 * length(p));
-    vec2 across = h2 * vec2(dot(n, vec3(m[0].x, m[1].x, m[2].x)), dot(n, vec3(m[0].y, m[1].y, m[2].y)));
-    return m[3].z * across / through;
-}
-
-/* Quads share what they look for, which is how far the light is spread, but not what they find: a shadow that
- * is the same for four pixels shows. All look in the same places about themselves, for grain shows too, and
- * swims where the view moves. Places are densest in the middle, where alone what nearly touches the receiver hides the
- * light, and a shadow fades in with what is found. */
-float soft_shadow(int map, vec3 normal, float cosine) {
-    vec4 at = shadow_place(map, normal, cosine, 2.5);
-    bool there = at.w > 0.0 && cosine > 0.0;
-    if (quad_mean(there ? 1.0 : 0.0) < 0.1) return 1.0; /* of one quad all return or none */
-    at.w = max(at.w, 1e-6);
-    vec2 slope = shadow_slope(map, eye.xyz + from_eye - shadow_eye[map].xyz, normal);
-    float size = 0.5 * shadow_disc[map].x / shadow_disc[map].y, place = quad_place();
-    /* depth = 1/2 + (a + c / w) / 2 */
-    float c = shadow_clip[map][3].z, a = 2.0 * at.z - 1.0 - c / at.w, layer = float(map);
-    float inverse = 0.0, found = 0.0, look = min(size / at.w, 0.1);
-    for (int k = 0; k < 16; k++) {
-        vec2 to = disc_point(QUAD * float(k) + place, 16.0 * QUAD);
-        to = look * dot(to, to) * dot(to, to) * to;
-        float d = texture(shadow_depth, vec3(at.xy + to, layer)).r;
-        float nearer = (2.0 * d - 1.0 - a) / c, reach = size * (nearer - 1.0 / at.w);
-        if (d < at.z + dot(slope, to) && reach > 0.0) {
-            float weight = clamp(2.0 - length(to) / reach, 0.0, 1.0);
-            inverse += weight * nearer;
-            found += weight;
-        }
+    vec3 x = vec3(m[0].x, m[1].x, m[2].x), y = vec3(m[0].y, m[1].y, m[2].y), z = vec3(m[0].w, m[1].w, m[2].w);
+    vec3 p = eye.xyz + from_eye - shadow_eye[map].xyz;
+    float cosine = dot(normal, p) * inversesqrt(max(dot(p, p), 1e-12));
+    p += normal * (-shadow_eye[map].w * dot(z, p) * (0.5 + 1.5 * sqrt(max(1.0 - cosine * cosine, 0.0))));
+    vec3 q = vec3(dot(x, p), dot(y, p), dot(z, p)), scale = vec3(h * h, h * h, 1.0);
+    vec3 n = scale * vec3(dot(x, normal), dot(y, normal), dot(z, normal));
+    vec3 l = scale * vec3(dot(x, light_normal), dot(y, light_normal), dot(z, light_normal));
+    float a = dot(vec3(m[0].z, m[1].z, m[2].z), z), b = m[3].z, sum = 0.0, all = 0.0;
+    for (int k = 0; k < 48; k++) {
+        vec4 o = shadow_points[48 * map + k];
+        vec3 to = o.xyz - q;
+        float d2 = dot(scale * to, to), weight = max(dot(n, to), 0.0) * abs(dot(l, to)) / max(d2 * d2, 1e-24);
+        vec2 at = to.xy / to.z + o.xy * o.w;
+        vec4 place = vec4(0.5 + 0.5 * at, shadow_soft[map].y + float(k), 0.5 + 0.5 * (a - b / to.z));
+        bool outside = to.z >= 0.0 || max(abs(at.x), abs(at.y)) > 1.0;
+        sum += outside ? weight : weight * texture(soft_map, place);
+        all += weight;
     }
-    found = quad_mean(there ? found : 0.0);
-    inverse = quad_mean(there ? inverse : 0.0);
-    if (found < 0.01) return 1.0;
-    float spread = clamp(size * (inverse / found - 1.0 / at.w), 1.0 / 2048.0, 0.1), sum = 0.0;
-    for (int k = 0; k < 32; k++) {
-        vec2 to = spread * disc_point(float(k), 32.0);
-        sum += texture(shadow_map, vec4(at.xy + to, layer, at.z + dot(slope, to)));
-    }
-    return there ? mix(1.0, sum / 32.0, min(found, 1.0)) : 1.0;
+    return all > 0.0 ? sum / all : 1.0;
 }
