@@ -381,6 +381,48 @@ static void fibre_costs(Gpu *gpu) {
     }
 }
 
+/* A woven cloth as the raster engine has it: its numbers in a uniform block, runs and albedos in a texture, and what varies
+ * never comes again. u[6] and u[7] are the place, u[8] the spacing of points. f and s are of all three channels. */
+#define CLOTH "    Weave m = cloth;\n    m.cycle_x = 0.0;\n    m.cycle_y = 0.0;\n"
+#define LIT                                                                                                  \
+    "    YarnPrepared q;\n    YarnView w;\n    yarn_prepare(weave_yarn(m, p), q);\n"                         \
+    "    yarn_view(q, a.o, w);\n"                                                                            \
+    "    LobeReflected x = lobe_reflected(yarn_value(q, w, a), weave_once_rgb(m, p), weave_again_rgb(m, "    \
+    "p));\n"                                                                                                 \
+    "    f = x.f.r;\n    s = x.f.g + x.f.b;\n"
+static const struct {
+    const char *name, *lines;
+} weave_rows[] = {
+    {"place and slopes of the thread on top", CLOTH "    WeavePoint p = weave_top(m, u[6], u[7]);\n"
+                                                    "    f = p.slope_x + p.height;\n    s = p.slope_y;\n"},
+    {"the same with its fibres and colours",
+     CLOTH "    WeavePoint p = weave_bound(m, u[6], u[7], u[8]);\n"
+           "    Rgb once = weave_once_rgb(m, p), again = weave_again_rgb(m, p);\n"
+           "    f = p.slope_x + p.height + once.r + once.g + once.b;\n"
+           "    s = p.slope_y + dir_dot(p.fibre, dir(1.0, 2.0, 3.0)) + again.r + again.g + again.b;\n"},
+    {"the same, lit by lobe `yarn`",
+     ANGLES CLOTH "    WeavePoint p = weave_bound(m, u[6], u[7], u[8]);\n" LIT},
+    {"the same under loose fibres",
+     ANGLES CLOTH "    WeavePoint p = weave_point(m, u[6], u[7], u[8]);\n" LIT},
+};
+
+static void weave_cost(Gpu *gpu, size_t row) {
+    Text text;
+    text_begin(&text, &(TextDesc){.language = TEXT_GLSL_450, .tables = true});
+    text_define(&text, "weave_texel(t, stride, row, column)", "weave_fetch(t, row, column)");
+    text_line(&text, "\nfloat weave_fetch(int table, int row, int column);");
+    text_include(&text, "shading/weave_light.h");
+    text_line(&text, "\nlayout(set = 0, binding = 0) uniform highp sampler2D weave_cells;\n"
+                     "layout(std140, set = 0, binding = 3) uniform Material { Weave cloth; };\n\n"
+                     "float weave_fetch(int table, int row, int column) {\n"
+                     "    int k = table == 0 ? column - 4 * (column / 4) : column;\n"
+                     "    int up = int((float(row) + 0.5) / float(cloth.warps));\n"
+                     "    ivec2 at = table == 0 ? ivec2(column / 4, row)\n"
+                     "                          : ivec2(row - cloth.warps * up, cloth.picks + up);\n"
+                     "    return texelFetch(weave_cells, at, 0)[k];\n}");
+    put_row(gpu, weave_rows[row].name, &text, 9, weave_rows[row].lines);
+}
+
 int main(void) {
     Gpu gpu = {0};
     gpu_begin(&gpu);
@@ -422,6 +464,11 @@ int main(void) {
         "| fibres | instructions | cycles | over ltc | alone | over ltc | registers |\n"
         "|---|---|---|---|---|---|---|\n");
     fibre_costs(&gpu);
+    printf("\nA point of a woven cloth (docs/weave.md), the cloth's numbers in a uniform buffer. Loose "
+           "fibres are a loop\n"
+           "of sixteen rounds where there may be any; its text counts once.\n\n"
+           "| point of a cloth | instructions | cycles | registers |\n|---|---|---|---|\n");
+    for (size_t k = 0; k < sizeof weave_rows / sizeof weave_rows[0]; k++) weave_cost(&gpu, k);
     gpu_end(&gpu);
     return 0;
 }

@@ -40,6 +40,12 @@ static void check(WeftResult result, const WeftError *error) {
     exit(1);
 }
 
+static _Noreturn void refuse(const char *argument) {
+    fprintf(stderr, "bench_raster: \"%s\" is no option here; see the first lines of bench/raster.c\n",
+            argument);
+    exit(2);
+}
+
 /* builtin:cloth under a sun and the studio; without a name no material has a sheen. */
 static Entry entry_of(const char *lobe) {
     Entry entry = {.name = lobe ? lobe : "no sheen", .best = 1e9};
@@ -178,6 +184,8 @@ static int sampled_main(int argc, char **argv) {
             shader_dir = argv[++k];
         else if (strcmp(argv[k], "--only") == 0 && k + 1 < argc && only_count < LOBES_MOST)
             only[only_count++] = argv[++k];
+        else if (argv[k][0] == '-' || map)
+            refuse(argv[k]);
         else
             map = argv[k];
     }
@@ -206,13 +214,18 @@ static double trace(const WeftScene *scene, const char *camera) {
     return seconds;
 }
 
-static int woven_main(const char *shader_dir) {
+static int woven_main(int argc, char **argv) {
     static const struct {
         const char *name, *camera;
     } distances[] = {{"threads", "0.25,0.62,0.65;0.03,0.42,0.15;1.5"},
                      {"near", "0.25,0.62,0.65;0.03,0.42,0.15;8"},
                      {"all", "0"}};
     enum { ROUNDS = 3 };
+    const char *shader_dir = NULL;
+    for (int k = 2; k < argc; k++) {
+        if (strcmp(argv[k], "--shader-dir") != 0 || k + 1 == argc) refuse(argv[k]);
+        shader_dir = argv[++k];
+    }
     Entry entries[2] = {entry_of(NULL), entry_of(NULL)};
     WeftError error;
     check(weft_scene_assign_material_memory(entries[1].scene, NULL, denim, sizeof denim - 1, "denim", NULL,
@@ -247,10 +260,10 @@ static int woven_main(const char *shader_dir) {
 }
 
 int main(int argc, char **argv) {
-    if (argc > 1 && strcmp(argv[1], "--woven") == 0)
-        return woven_main(argc > 3 && strcmp(argv[2], "--shader-dir") == 0 ? argv[3] : NULL);
+    if (argc > 1 && strcmp(argv[1], "--woven") == 0) return woven_main(argc, argv);
     if (argc > 1 && strcmp(argv[1], "--sampled") == 0) return sampled_main(argc, argv);
-    bool quick = argc > 1 && strcmp(argv[1], "--quick") == 0;
+    const bool quick = argc > 1 && strcmp(argv[1], "--quick") == 0;
+    if (argc > 1 + (int)quick) refuse(argv[1 + (int)quick]);
     static Entry entries[LOBES_MOST];
     int count = 0;
     entries[count++] = entry_of(NULL);

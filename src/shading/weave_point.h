@@ -280,6 +280,24 @@ FN int weave_hair_at(const Weave *m, float x, float y, float radius, int count) 
     return top;
 }
 
+/* That fibre itself, which drivers that do not branch would work out once more from its number; not here: none. */
+FN WeaveHair weave_hair_top(const Weave *m, float x, float y, float radius, int count) {
+    WeaveHair top;
+    top.here = false;
+    top.weft = false;
+    top.along = 0.0f;
+    top.across = 0.0f;
+    top.thread = 0.0f;
+    top.c = 1.0f;
+    top.s = 0.0f;
+    top.lean = 0.0f;
+    ROUNDS(n, count) {
+        WeaveHair h = weave_hair(m, n, x, y, radius);
+        if (h.here) top = h;
+    }
+    return top;
+}
+
 /* Half of the width of loose fibres over a point of that height; 0: there are none. In a gap nothing else is seen that
  * could take their place: there they do not fade. */
 FN float weave_hair_reach(const Weave *m, float height, float spacing) {
@@ -288,12 +306,12 @@ FN float weave_hair_reach(const Weave *m, float height, float spacing) {
 }
 
 /* The point at x, y, where the spacing of points is so many threads. Where there are no loose fibres the loop over them has
- * no rounds, which drivers that do not branch leave out too. */
+ * no rounds, of which drivers that do not branch run one. */
 FN WeavePoint weave_point(const Weave *m, float x, float y, float spacing) {
     WeavePoint p = weave_bound(m, x, y, spacing);
     float radius = weave_hair_reach(m, p.height, spacing);
-    int top = weave_hair_at(m, x, y, radius, radius > 0.0f ? WEAVE_HAIRS_NEAR : 0);
-    if (top >= 0) weave_lay(weave_hair(m, top, x, y, radius), &p);
+    WeaveHair top = weave_hair_top(m, x, y, radius, radius > 0.0f ? WEAVE_HAIRS_NEAR : 0);
+    if (top.here) weave_lay(top, &p);
     return p;
 }
 

@@ -1,12 +1,19 @@
 /* weave.glsl - the light of a woven material at a fragment: of points of threads, and of both systems from afar
  *
- * A pixel has one point while it is much smaller than a thread, then five, and eight where it is as large as one. Each
+ * A pixel has one point while it is much smaller than a thread, then five, eight where it is as large as one, and five
+ * where the cloth from afar takes over. Each
  * is a base of its own under the lights. What lies on it, but under polygons, and what all reflect of the environment
  * without its lights, which is linear in a base's colours, are found once, of the mean base. */
 uniform highp sampler2DArray weave_colors;
 
 #include "raster/glsl/weave_cloth.glsl"
 #include "shading/weave_base.h"
+
+/* How many points: one where a pixel is much smaller than a thread, eight where it is as large, five between and where their
+ * part in the pixel fades. */
+int pixel_points(WeaveFootprint f, float far) {
+    return far >= 1.0 ? 0 : f.longest < 0.2 ? 1 : f.longest < 0.6 || far > 0.4 ? 5 : 8;
+}
 
 /* Point k of n over a pixel, from its middle, in pixels: of the Fibonacci lattice (k, k g mod n) / n, where n is 1, 5 or
  * 8 and g the Fibonacci number before it. Points of a square lattice would beat with threads. */
@@ -93,15 +100,14 @@ Rgb woven_rest(WovenSum sum, Stack m, StackView w, Facing at, Frame frame) {
     return rest;
 }
 
-/* rgb: the light; a: the part of the pixel that threads cover. Loops of no rounds are left out by drivers that do not
- * branch. */
+/* rgb: the light; a: the part of the pixel that threads cover. Of loops of no rounds drivers that do not branch run one. */
 vec4 woven_light(Stack m, Dir o, Facing at, Frame frame, float occlusion) {
     Weave c = material_cloth();
     vec2 place = weave_place();
     vec2 across = dFdx(place), up = dFdy(place);
     WeaveFootprint f = weave_footprint(across.x, across.y, up.x, up.y);
     float far = weave_far_weight(f);
-    int points = far >= 1.0 ? 0 : f.longest < 0.2 ? 1 : f.longest < 0.6 ? 5 : 8, systems = far > 0.0 ? 2 : 0;
+    int points = pixel_points(f, far), systems = far > 0.0 ? 2 : 0;
     StackView w;
     stack_view(m, o, w);
 #ifdef AMBIENT

@@ -7,11 +7,12 @@ const int CLOTH_SEED = 48, CLOTH_LOW = 49, CLOTH_HIGH = 50, CLOTH_OPENNESS = 51,
 
 float weave_number(int k) { return material_weave[k / 4][k - 4 * (k / 4)]; }
 
-/* Table 0 is the runs, 1 the albedos. */
+/* Table 0 is the runs, 1 the albedos. Rows of texels are divided as floats, which holds up to 2^22 threads: software drivers
+ * divide whole numbers pixel by pixel. */
 float weave_fetch(int table, int row, int column) {
     int warps = int(weave_number(CLOTH_WARPS)), picks = int(weave_number(CLOTH_PICKS));
-    int k = table == 0 ? column - 4 * (column / 4) : column;
-    ivec2 at = table == 0 ? ivec2(column / 4, row) : ivec2(row - warps * (row / warps), picks + row / warps);
+    int k = table == 0 ? column - 4 * (column / 4) : column, up = int((float(row) + 0.5) / float(warps));
+    ivec2 at = table == 0 ? ivec2(column / 4, row) : ivec2(row - warps * up, picks + up);
     return texelFetch(weave_cells, at, 0)[k];
 }
 
