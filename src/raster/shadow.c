@@ -123,13 +123,17 @@ static void choose_lights(const WeftScene *scene, int most, Box casters, Shadows
     }
 }
 
-/* A point of a polygon for two numbers in [0, 1): a triangle of the fan about the first corner, and a point in it.
- * Greg Turk, "Generating Random Points in Triangles", Graphics Gems, 1990. */
+/* A point of a polygon for two numbers in [0, 1): of a parallelogram along its sides; else a triangle of the fan about
+ * the first corner, and a point in it. Greg Turk, "Generating Random Points in Triangles", Graphics Gems, 1990. */
 static Vec3 point_on(const LightPolygon *polygon, float u, float v) {
-    Vec3 a = polygon->corners[0];
+    const Vec3 *corners = polygon->corners;
+    Vec3 a = corners[0], across = vec3_sub(corners[1], a), up = vec3_sub(corners[polygon->count - 1], a);
+    Vec3 fourth = vec3_add(vec3_add(a, across), up);
+    if (polygon->count == 4 && vec3_length(vec3_sub(fourth, corners[2])) < 1e-3f * sqrtf(polygon->area))
+        return vec3_madd(vec3_madd(a, across, u), up, v);
     float area = u * polygon->area;
     for (int k = 1;; k++) {
-        Vec3 b = vec3_sub(polygon->corners[k], a), c = vec3_sub(polygon->corners[k + 1], a);
+        Vec3 b = vec3_sub(corners[k], a), c = vec3_sub(corners[k + 1], a);
         float part = 0.5f * vec3_length(vec3_cross(b, c));
         if (k + 2 < polygon->count && area > part) {
             area -= part;
@@ -138,13 +142,6 @@ static Vec3 point_on(const LightPolygon *polygon, float u, float v) {
         float root = sqrtf(fminf(area / part, 1.0f));
         return vec3_madd(vec3_madd(a, b, root * (1.0f - v)), c, root * v);
     }
-}
-
-/* Digit after digit of k in base 2, behind the point in the order turned round. */
-static float radical_inverse(unsigned k) {
-    float sum = 0.0f;
-    for (float digit = 0.5f; k; k /= 2, digit *= 0.5f) sum += digit * (float)(k % 2);
-    return sum;
 }
 
 /* Returns half the width at distance 1 of the map in which every point o sees all corners c of a box. With axes as in
@@ -174,7 +171,8 @@ static Shadow of_polygon(const LightPolygon *polygon, Box casters) {
     across(forward, &right, &up);
     Shadow self = {.points = SHADOW_POINTS, .meeting = faces && distance > 0.0f ? 1.0f / distance : 0.0f};
     for (int k = 0; k < self.points; k++) {
-        float u = ((float)k + 0.5f) / SHADOW_POINTS, v = radical_inverse((unsigned)k);
+        const float n = SHADOW_POINTS, u = ((float)k + 0.5f) / n,
+                    v = ((float)(k * 34 % SHADOW_POINTS) + 0.5f) / n;
         self.point[k] = along(vec3_sub(point_on(polygon, u, v), eye), right, up, forward);
     }
     for (int k = 0; k < 8; k++) corners[k] = along(vec3_sub(box_corner(casters, k), eye), right, up, forward);

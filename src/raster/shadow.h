@@ -10,7 +10,7 @@
 #include "scene/camera.h"
 #include "scene/polygons.h"
 
-enum { SHADOWS_MOST = 4, SHADOW_SIDE = 2048, SHADOW_POINTS = 48, SHADOW_POINT_SIDE = 512 };
+enum { SHADOWS_MOST = 4, SHADOW_SIDE = 2048, SHADOW_POINTS = 55, SHADOW_POINT_SIDE = 512 };
 
 /* A light that casts one. */
 typedef struct Shadow {

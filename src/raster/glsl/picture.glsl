@@ -6,7 +6,7 @@ layout(std140) uniform Picture {
     highp mat4 shadow_clip[4]; /* from the world, less shadow_eye */
     highp vec4 shadow_eye[4];  /* w: width of a texel, m; below 0 of one at distance 1 */
     highp vec4 shadow_soft[4]; /* half the width of the map at distance 1; first of its layers */
-    highp vec4 shadow_points[192]; /* 32 each: of the light, from shadow_eye, along x and y in such halves and along
+    highp vec4 shadow_points[220]; /* 55 each: of the light, from shadow_eye, along x and y in such halves and along
                                       w in m; how x and y of what it sees are moved, by these two */
     highp vec4 lights[256]; /* four each: position and kind (0 directional, 1 point, 2 spot); direction that it
                                travels and range; colour times intensity, and shadow map or -1; cosines of the
