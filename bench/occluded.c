@@ -36,7 +36,7 @@ static void check(WeftResult result, const WeftError *error) {
 
 static WeftScene *scene_of(const char *name, const char *map) {
     static const char *const settings[][2] = {
-        {"*.base_color", "0"}, {"*.specular", "0"}, {"*.layer", "additive"}};
+        {"*.base_color", "0"}, {"*.specular", "0"}, {"*.layer", "additive"}, {"*.emission_strength", "0"}};
     static const float white[3] = {1.0f, 1.0f, 1.0f};
     WeftScene *scene;
     WeftError error;
@@ -46,7 +46,7 @@ static WeftScene *scene_of(const char *name, const char *map) {
         check(weft_scene_set_environment_color(scene, white, &error), &error);
     else
         check(weft_scene_set_environment_file(scene, map, NULL, &error), &error);
-    for (int k = 0; k < 3; k++)
+    for (size_t k = 0; k < sizeof settings / sizeof *settings; k++)
         check(weft_scene_set(scene, settings[k][0], settings[k][1], NULL, &error), &error);
     return scene;
 }
