@@ -7,11 +7,9 @@
  * pixel. */
 enum { LATER = 2, FINER = 4, POINTS = 4 };
 
-/* Rows of picks run up the cloth, v runs down it. Further out than a million threads there are no fractions. */
+/* Rows of picks run up the cloth, v runs down it. */
 FN Dir place_of(const float per_uv[2], float u, float v) {
-    float across = u * per_uv[WEFT_WARP], up = -v * per_uv[WEFT_WEFT];
-    bool there = (abs(across) < 1e6f) & (abs(up) < 1e6f);
-    return dir(there ? across : 0.0f, there ? up : 0.0f, 0.0f);
+    return dir(weave_bounded(u * per_uv[WEFT_WARP]), weave_bounded(-v * per_uv[WEFT_WEFT]), 0.0f);
 }
 
 bool cloth_is_gap(const WeftCloth *cloth, const float uv[2]) {

@@ -40,10 +40,10 @@ FN float weave_far_level(WeaveFootprint f, float warps, float picks) {
 }
 
 /* The factor on dye, as a mean over a footprint of so many threads about u: of four, whose mean varies as that of
- * all would. Of more than 16 threads nothing is left to see. */
+ * all would. Of 16 threads or more nothing is left to see. */
 FN float weave_far_dye(const Weave *m, bool weft, float u, float threads) {
     float side = weft ? m->cycle_y : m->cycle_x, sum = 0.0f;
-    float dye = weft ? m->weft.dye : m->warp.dye, wide = max(threads, 1.0f);
+    float dye = weft ? m->weft.dye : m->warp.dye, wide = clamp(threads, 1.0f, 16.0f);
     ROUNDS(k, 4) {
         float c = floor(u + (0.25f * to_float(k) - 0.375f) * wide);
         sum = sum + weave_random(weave_key(weave_thread_key(m->seed, weft, c, side), 4.0f));

@@ -13,6 +13,10 @@ FN float weave_mod(float x, float n) {
     return m >= n ? m - n : m < 0.0f ? m + n : m;
 }
 
+/* A place on the cloth, in threads. A float that counts more than a million has few fractions left, and numbers of threads
+ * are to fit into 32 bits: what lies further out, or nowhere, is at the first thread. */
+FN float weave_bounded(float x) { return abs(x) < 1e6f ? x : 0.0f; }
+
 /* A permutation of 32 bits, in which each bit of x turns about half of all: lowbias32 of Chris Wellons, "Prospecting for
  * Hash Functions", 2018. */
 FN uint weave_hash(uint x) {

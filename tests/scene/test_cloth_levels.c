@@ -216,8 +216,39 @@ static void looks_are_the_same_alone_and_among_others(void **state) {
     weft_cloth_free(cloth);
 }
 
+/* A place that is too far out to count its threads, or is none, is the first thread, whatever is seen of it; a pixel
+ * without bounds has the mean dye. */
+static void places_without_a_number_are_the_first(void **state) {
+    (void)state;
+    static const float none[] = {1e30f, -1e30f, INFINITY, -INFINITY, NAN};
+    enum { NONE = sizeof none / sizeof *none };
+    static Stack at, first;
+    WeftCloth *cloth = cloth_of(&cases[0]);
+    for (int k = 0; k < NONE * NONE; k++) {
+        const float uv[2] = {none[k % NONE], none[k / NONE]};
+        assert_true(cloth_is_gap(cloth, uv) == cloth_is_gap(cloth, (const float[2]){0.0f, 0.0f}));
+        for (int wide = 0; wide <= NONE; wide++) {
+            const float side = wide < NONE ? fabsf(none[wide]) : 0.1f;
+            ClothLook look = {.footprint = {side, side, side}, .level = 0.5f, .facet = 0.3f};
+            cloth_base(cloth, &look, &first);
+            look.uv[0] = uv[0], look.uv[1] = uv[1];
+            cloth_base(cloth, &look, &at);
+            assert_float_equal(at.diffuse.f0.r, first.diffuse.f0.r, 1e-6f);
+            assert_true(isfinite(at.diffuse.f0.r) && isfinite(at.diffuse.lobe.params[YARN_SLOPE_X]));
+        }
+    }
+    for (int weft = 0; weft < 2; weft++) {
+        assert_true(weave_far_dye(&cloth->weave, weft == 1, 7.0f, 1e30f) == 1.0f);
+        assert_true(weave_far_dye(&cloth->weave, weft == 1, 7.0f, INFINITY) == 1.0f);
+        assert_true(weave_far_dye(&cloth->weave, weft == 1, 7.0f, NAN) ==
+                    weave_far_dye(&cloth->weave, weft == 1, 7.0f, 1.0f));
+    }
+    weft_cloth_free(cloth);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(looks_are_the_same_alone_and_among_others),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(places_without_a_number_are_the_first),
+                                       cmocka_unit_test(looks_are_the_same_alone_and_among_others),
                                        cmocka_unit_test(a_cloth_is_as_bright_at_every_distance)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

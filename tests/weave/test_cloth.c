@@ -127,23 +127,41 @@ static double most_alike(const float x[THREADS]) {
     return most;
 }
 
+/* How far the dye of a thread is off, where it lies on top of its crossing with one of two threads, and fibres show no
+ * streaks: in parts of the yarn's own dye. */
+static float dye_of(const Weave *m, bool weft, float thread) {
+    for (int cross = 0; cross < 2; cross++) {
+        const float u = thread + 0.5f, v = (float)cross + 0.5f;
+        const WeavePoint p = weave_bound(m, weft ? v : u, weft ? u : v, 0.0f);
+        if (p.weft == weft && p.thread == thread) return (1.0f - p.dye) / (weft ? m->weft.dye : m->warp.dye);
+    }
+    fail_msg("thread %g is on top of neither of two", (double)thread);
+    return 0.0f;
+}
+
 /* Neither threads nor loose fibres vary with a period: of chance alone a correlation of 4096 numbers is
- * beyond 0.094, six deviations, once in a hundred thousand cloths. */
+ * beyond 0.094, six deviations, once in a hundred thousand cloths. Dye is even on the mean, and varies as what is uniform
+ * up to 0.7 of the yarn's does, with up to 0.3 more along each thread. */
 static void variation_has_no_period(void **state) {
     (void)state;
-    static float dye[THREADS], turn[2][THREADS];
-    WeftCloth *cloth = woven("plain", yarn_of("wool"), 7);
+    static float dye[THREADS], turn[THREADS];
+    WeftYarn yarn = yarn_of("wool");
+    yarn.streaks = yarn.slub = yarn.wander = 0.0f;
+    WeftCloth *cloth = woven("plain", yarn, 7);
     for (int weft = 0; weft < 2; weft++) {
+        double sum = 0.0, square = 0.0;
         for (int k = 0; k < THREADS; k++) {
             const float along = 2.0f * (float)k + 2.0f, x = weft ? 2.0f : along, y = weft ? along : 2.0f;
-            dye[k] = weave_random(weave_key(
-                weave_thread_key(cloth->weave.seed, weft == 1, (float)(k - THREADS / 2), 0.0f), 4.0f));
-            turn[weft][k] = weave_hair(&cloth->weave, 0, x, y, WEAVE_HAIR_RADIUS).s;
+            dye[k] = dye_of(&cloth->weave, weft == 1, (float)(k - THREADS / 2));
+            turn[k] = weave_hair(&cloth->weave, 0, x, y, WEAVE_HAIR_RADIUS).s;
+            sum += (double)dye[k] / THREADS, square += (double)(dye[k] * dye[k]) / THREADS;
         }
-        const double threads = most_alike(dye), fibres = most_alike(turn[weft]);
-        print_message("%s: correlated by at most %.3f, loose fibres %.3f\n", weft ? "weft" : "warp", threads,
-                      fibres);
+        const double threads = most_alike(dye), fibres = most_alike(turn);
+        print_message("%s: correlated by at most %.3f, loose fibres %.3f; dye %.3f, deviation %.3f\n",
+                      weft ? "weft" : "warp", threads, fibres, sum, (sqrt)(square - sum * sum));
         assert_true(threads < 0.094 && fibres < 0.094);
+        assert_true(fabs(sum) < 0.02);
+        assert_true(square > 0.49 / 3.0 && square < (0.49 + 0.09) / 3.0);
     }
     weft_cloth_free(cloth);
 }
