@@ -56,8 +56,8 @@ FN float yarn_draw_pdf(YarnSurface s, YarnProposal w, float along, Angles a) {
 FN Dir yarn_draw(YarnSurface s, YarnProposal w, Dir o, float u, float v) {
     float flakes = w.flakes, slope = flakes + (1.0f - flakes) * w.slope;
     bool once = u < flakes, leans = u < slope;
-    float from = once ? 0.0f : leans ? flakes : slope, to = once ? flakes : leans ? slope : 1.0f;
-    float x = min((u - from) / max(to - from, 1e-6f), 0.999999f);
+    float low = once ? 0.0f : leans ? flakes : slope, high = once ? flakes : leans ? slope : 1.0f;
+    float x = min((u - low) / max(high - low, 1e-6f), 0.999999f);
     float r = 2.0f * sqrt(x * (1.0f - x)), phi = 2.0f * PI * v;
 
     Dir t = s.axis, n = dir(s.slope_x * s.over_n, s.slope_y * s.over_n, s.over_n);
