@@ -21,31 +21,33 @@ STRUCT(YarnSurface) {
     float alpha, slope_x, slope_y, over_n;
 };
 
-/* A view adds P, t . wo, c and q. */
-STRUCT(YarnProposal) { float p, along, flakes, slope; };
+/* A view adds t . wo, c and q. */
+STRUCT(YarnProposal) { float along, flakes, slope; };
 
 /* c, found by trial for fibres of albedo 0.9. left: as yarn_left has it. */
 FN float yarn_by_flakes(float alpha, float p, float left) {
     return p > 0.0f ? clamp(1.3f - 0.6f * alpha - left, 0.0f, 0.9f) : 0.0f;
 }
 
-/* F, from P_i without its bound, m = t . (wi + wo) and k = |wi + wo|^2:
- * F = D (r (P_i k + m^2 P_o - 2 (t . wo) m (P_i + P_o)) / sqrt(k - m^2) +- (t . wo) m)+ / (sigma_o k),
- * r = 1 / |(s_x, s_y, 1)|, minus where h points into the yarn. */
-FN float yarn_turned_pdf(YarnSurface s, YarnProposal w, float p_i, float m, float k) {
-    float a2 = max(s.alpha * s.alpha, 1e-6f), q = max(k, 1e-12f), on = w.along * m, both = w.p + p_i;
-    float across = s.over_n * (p_i * q + m * m * w.p - 2.0f * on * both) / sqrt(max(q - m * m, 1e-6f * q));
-    float seen = max(across + (both < 0.0f ? -on : on), 0.0f);
+/* F from the sum d of wo and wi or wi', whose direction is h. With b = n x t, and x, y, m the parts of d along n, b, t,
+ * F = D (((n . wo) (x^2 - y^2) + 2 (b . wo) x y) / sqrt(x^2 + y^2) +- (t . wo) m)+ / (sigma_o |d|^2),
+ * minus where h points into the yarn. Nothing cancels but what cancels in d. */
+FN float yarn_turned_pdf(YarnSurface s, YarnProposal w, Dir o, Dir n, Dir d) {
+    Dir t = s.axis, b = dir(n.y * t.z - n.z * t.y, n.z * t.x - n.x * t.z, n.x * t.y - n.y * t.x);
+    float x = dir_dot(n, d), y = dir_dot(b, d), m = dir_dot(t, d), e = x * x + y * y,
+          q = max(e + m * m, 1e-12f);
+    float a2 = max(s.alpha * s.alpha, 1e-6f), on = w.along * m;
+    float across = dir_dot(n, o) * (x * x - y * y) + 2.0f * dir_dot(b, o) * x * y;
+    float seen = max(across / sqrt(max(e, 1e-6f * q)) + (x < 0.0f ? -on : on), 0.0f);
     return yarn_flakes(a2, m, 1.0f / q) * seen / (yarn_flake_area(a2, w.along) * q);
 }
 
-/* along: t . wi. The differences are found from directions, since in those of squares nothing would be left of a small k. */
-FN float yarn_draw_pdf(YarnSurface s, YarnProposal w, float along, Angles a) {
-    float up = a.i.z + s.slope_x * a.i.x + s.slope_y * a.i.y, down = up - 2.0f * a.i.z;
-    float x = a.o.x + a.i.x, y = a.o.y + a.i.y, z = a.o.z - a.i.z, m = w.along + along;
-    float flakes = yarn_turned_pdf(s, w, up, m, 4.0f * a.d * a.d) +
-                   yarn_turned_pdf(s, w, down, m - 2.0f * a.i.z * s.axis.z, x * x + y * y + z * z);
-    float slope = (max(up, 0.0f) + max(down, 0.0f)) * s.over_n / PI;
+FN float yarn_draw_pdf(YarnSurface s, YarnProposal w, Angles a) {
+    Dir n = dir(s.slope_x * s.over_n, s.slope_y * s.over_n, s.over_n);
+    float x = a.o.x + a.i.x, y = a.o.y + a.i.y, up = dir_dot(n, a.i), down = up - 2.0f * n.z * a.i.z;
+    float flakes = yarn_turned_pdf(s, w, a.o, n, dir(x, y, a.o.z + a.i.z)) +
+                   yarn_turned_pdf(s, w, a.o, n, dir(x, y, a.o.z - a.i.z));
+    float slope = (max(up, 0.0f) + max(down, 0.0f)) / PI;
     return mix(mix(warp_cosine_pdf(a.i), slope, w.slope), flakes, w.flakes);
 }
 

@@ -183,7 +183,6 @@ FN YarnSurface woven_surface(const WovenPrepared *p) {
 }
 FN YarnProposal woven_proposal(YarnSurface s, const WovenView *w, Dir o) {
     YarnProposal d;
-    d.p = o.z;
     d.along = dir_dot(o, s.axis);
     d.flakes = yarn_by_flakes(s.alpha, o.z, w->left);
     d.slope = 0.0f;
@@ -206,8 +205,7 @@ FN LobeValue woven_value(const WovenPrepared *p, const WovenView *w, Angles a) {
     float many = w->left * v.left / (PI * yarn_left_mean(p->alpha)) * 0.5f * (w->shown + v.shown);
     float f = p->part * (once + many);
     YarnSurface s = woven_surface(p);
-    return lobe_value_of(f, many / (once + many),
-                         yarn_draw_pdf(s, woven_proposal(s, w, a.o), dir_dot(a.i, s.axis), a));
+    return lobe_value_of(f, many / (once + many), yarn_draw_pdf(s, woven_proposal(s, w, a.o), a));
 }
 FN Dir woven_sample(const WovenPrepared *p, const WovenView *w, Dir o, float u, float v) {
     YarnSurface s = woven_surface(p);

@@ -78,7 +78,6 @@ FN YarnSurface yarn_surface(const YarnPrepared *p) {
 }
 FN YarnProposal yarn_proposal(const YarnPrepared *p, const YarnView *w) {
     YarnProposal d;
-    d.p = w->p;
     d.along = w->along;
     d.flakes = yarn_by_flakes(p->m.alpha, w->p, w->left);
     d.slope = w->seen / (w->seen + 2.0f * w->p);
@@ -92,7 +91,7 @@ FN LobeValue yarn_value(const YarnPrepared *p, const YarnView *w, Angles a) {
     float many =
         w->left * v.left / (PI * yarn_left_mean(p->m.alpha)) * 0.5f * (w->p / w->seen + v.p / v.seen);
     return lobe_value_of(once + many, many / max(once + many, 1e-6f),
-                         yarn_draw_pdf(yarn_surface(p), yarn_proposal(p, w), v.along, a));
+                         yarn_draw_pdf(yarn_surface(p), yarn_proposal(p, w), a));
 }
 
 FN Dir yarn_sample(const YarnPrepared *p, const YarnView *w, Dir o, float u, float v) {
