@@ -17,13 +17,13 @@ static inline void box_add(Box *box, Vec3 p) {
     box->high = vec3_most(box->high, p);
 }
 
-/* Returns the length of the diagonal; 0 of an empty box. */
 /* Corner k of 8. */
 static inline Vec3 box_corner(Box box, int k) {
     return vec3(k & 1 ? box.high.x : box.low.x, k & 2 ? box.high.y : box.low.y,
                 k & 4 ? box.high.z : box.low.z);
 }
 
+/* Returns the length of the diagonal; 0 of an empty box. */
 static inline float box_size(Box box) {
     return box.low.x > box.high.x ? 0.0f : vec3_length(vec3_sub(box.high, box.low));
 }

@@ -37,9 +37,9 @@ void add_polygon(int k, int corners, bool two_sided, int map) {
         vec3 to = polygon_corners[8 * k + j].xyz - here;
         p.corners[j] = dir(to.x, to.z, to.y);
     }
+    if (!two_sided && dot(polygon_normals[k].xyz, here - polygon_corners[8 * k].xyz) <= 0.0) return;
     float reaches = polygon_reaches(map, vec3(0.0, 1.0, 0.0), polygon_normals[k].xyz);
-    bool shines = two_sided || dot(polygon_normals[k].xyz, here - polygon_corners[8 * k].xyz) > 0.0;
-    add_light(shines ? rgb_luminance(rgb(c.r, c.g, c.b)) * PI * polygon_cosine(p) : 0.0, reaches);
+    add_light(rgb_luminance(rgb(c.r, c.g, c.b)) * PI * polygon_cosine(p), reaches);
 }
 #define ONE_POLYGON(k, corners, two_sided, map) add_polygon(k, corners, two_sided, map);
 void add_polygons() { EACH_POLYGON(ONE_POLYGON) }
@@ -51,8 +51,7 @@ void add_polygons() {}
 float sky_reaches(vec2 p) { return texture(floor_sky, 0.5 + 0.5 * p / sqrt(max(length(p), 1e-6))).r; }
 
 /* The mean of what a rough mirror shows. A cone of half width h, from a point w away to what is w' away on the
- * mirrored way, is h (1 - w / w') wide as the eye sees it; its middle w' is looked for first, as soft shadows
- * do. */
+ * mirrored way, is h (1 - w / w') wide as the eye sees it; its middle w' is looked for first. */
 vec4 mirrored() {
     vec4 clip = to_clip * vec4(from_eye, 1.0);
     vec2 at = 0.5 + 0.5 * clip.xy / clip.w, aspect = vec2(1.0, floor_lens.w);

@@ -13,12 +13,11 @@ Rgb polygon_from(int k, int corners, bool two_sided, int map, Stack m, StackView
         vec3 to = polygon_corners[8 * k + j].xyz - here;
         p.corners[j] = frame_to(f, dir(to.x, to.y, to.z));
     }
-    float reaches = polygon_reaches(map, vec_of_dir(at.geometric), normal);
-    float comes_through = 1.0;
-    if (HAS_TRANSMITTED(m)) comes_through = polygon_reaches(map, -vec_of_dir(at.geometric), normal);
     if (!two_sided && dot(normal, here - polygon_corners[8 * k].xyz) <= 0.0) return rgb_grey(0.0);
-    Rgb sum = rgb_scale(stack_polygon(m, w, p), reaches);
-    if (HAS_TRANSMITTED(m) && SHOWS_DIFFUSE) sum = rgb_add(sum, rgb_scale(stack_polygon_behind(m, w, p), comes_through));
+    Rgb sum = rgb_scale(stack_polygon(m, w, p), polygon_reaches(map, vec_of_dir(at.geometric), normal));
+    if (HAS_TRANSMITTED(m) && SHOWS_DIFFUSE)
+        sum = rgb_add(sum, rgb_scale(stack_polygon_behind(m, w, p),
+                                     polygon_reaches(map, -vec_of_dir(at.geometric), normal)));
     return rgb_mul(sum, rgb(c.r, c.g, c.b));
 }
 

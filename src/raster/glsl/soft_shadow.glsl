@@ -9,7 +9,8 @@
 uniform highp sampler2DArrayShadow soft_map;
 
 /* Axes are those of the light's view. With all x and y divided by half the width of the map at distance 1, h, a point
- * o of the light sees q at ((q - o).xy / (q - o).z + o.xy / (d - o.z)); depth = a + b / (q - o).z in clip space. */
+ * o of the light sees q at ((q - o).xy / (q - o).z + o.xy / (d - o.z)); depth = a + b / (q - o).z in clip space, which the
+ * map holds in steps of 1 / 65535. */
 float soft_shadow(int map, vec3 normal, vec3 light_normal) {
     float h = shadow_soft[map].x;
     mat4 m = shadow_clip[map];
@@ -26,8 +27,8 @@ float soft_shadow(int map, vec3 normal, vec3 light_normal) {
         vec3 to = o.xyz - q;
         float d2 = dot(scale * to, to), weight = max(dot(n, to), 0.0) * abs(dot(l, to)) / max(d2 * d2, 1e-24);
         vec2 at = to.xy / to.z + o.xy * o.w;
-        vec4 place = vec4(0.5 + 0.5 * at, shadow_soft[map].y + float(k), 0.5 + 0.5 * (a - b / to.z));
-        bool outside = to.z >= 0.0 || max(abs(at.x), abs(at.y)) > 1.0;
+        vec4 place = vec4(0.5 + 0.5 * at, shadow_soft[map].y + float(k), 0.5 + 0.5 * (a - b / to.z) - 1.0 / 65535.0);
+        bool outside = weight <= 0.0 || to.z >= 0.0 || max(abs(at.x), abs(at.y)) > 1.0;
         sum += outside ? weight : weight * texture(soft_map, place);
         all += weight;
     }
