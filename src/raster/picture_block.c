@@ -126,8 +126,7 @@ static void put_shadow(const WeftScene *scene, const Shadow *shadow, const Floor
     memcpy(out->shadow_soft[k], soft, sizeof soft);
     for (int j = 0; j < shadow->points; j++) {
         Vec3 o = shadow->point[j];
-        const float point[4] = {o.x / half, o.y / half, o.z,
-                                shadow->meeting / (1.0f - o.z * shadow->meeting)};
+        const float point[4] = {o.x / half, o.y / half, o.z, shadow_slope(shadow, j)};
         memcpy(out->shadow_points[k][j], point, sizeof point);
     }
 }

@@ -144,6 +144,10 @@ static Vec3 point_on(const LightPolygon *polygon, float u, float v) {
     }
 }
 
+float shadow_slope(const Shadow *self, int point) {
+    return self->meeting / (1.0f - self->point[point].z * self->meeting);
+}
+
 /* Returns half the width at distance 1 of the map in which every point o sees all corners c of a box. With axes as in
  * glsl/soft_shadow.glsl and d the distance of the plane on which all see the same, that of c is
  * (c - o).xy / (c - o).z + o.xy / (d - o.z). 0 where a corner is not before a point. */
@@ -151,7 +155,7 @@ static float half_width(const Shadow *self, const Vec3 corners[8]) {
     float half = 0.0f;
     for (int k = 0; k < 8 * self->points; k++) {
         Vec3 o = self->point[k / 8], c = vec3_sub(corners[k % 8], o);
-        float slope = self->meeting / (1.0f - o.z * self->meeting);
+        float slope = shadow_slope(self, k / 8);
         if (!(c.z > 0.05f * vec3_length(c) && slope > 0.0f)) return 0.0f;
         half = fmaxf(half, fmaxf(fabsf(c.x / c.z + slope * o.x), fabsf(c.y / c.z + slope * o.y)));
     }
@@ -191,7 +195,7 @@ View shadow_view(const Shadow *self, int point) {
     if (!self->points) return view;
     Vec3 o = self->point[point], right = vec3_normal_or(view.across, view.across),
          up = vec3_normal_or(view.up, view.up);
-    float slope = self->meeting / (1.0f - o.z * self->meeting);
+    float slope = shadow_slope(self, point);
     view.eye = vec3_madd(vec3_madd(vec3_madd(view.eye, right, o.x), up, o.y), view.forward, o.z);
     view.forward = vec3_madd(vec3_madd(view.forward, right, -slope * o.x), up, -slope * o.y);
     return view;

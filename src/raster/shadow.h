@@ -44,6 +44,10 @@ void shadows_destroy(Shadows *shadows);
 WeftResult shadows_update(Shadows *shadows, const WeftScene *scene, const LightPolygons *polygons,
                           WeftError *error);
 
+/* By how much x and y of what a point of a polygon sees are moved, in parts of where the point is, 1/m: so much that all
+ * see the same on the plane where they meet. */
+float shadow_slope(const Shadow *shadow, int point);
+
 /* The view from a point of a polygon; of another light, its one view. */
 View shadow_view(const Shadow *shadow, int point);
 

@@ -29,6 +29,9 @@ FN Dir dir(float x, float y, float z) {
 }
 
 FN float dir_dot(Dir a, Dir b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+FN Dir dir_cross(Dir a, Dir b) {
+    return dir(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+}
 
 /* Directions that graze from opposite sides cancel to almost nothing: the floor on z keeps h a unit vector
  * (the normal, if all is lost) and d above zero. A lobe is never asked about directions below the horizon. */

@@ -10,9 +10,6 @@ STRUCT(Frame) { Dir x, y, z; };
 
 FN Dir dir_scale(Dir a, float k) { return dir(a.x * k, a.y * k, a.z * k); }
 FN Dir dir_add(Dir a, Dir b) { return dir(a.x + b.x, a.y + b.y, a.z + b.z); }
-FN Dir dir_cross(Dir a, Dir b) {
-    return dir(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
-}
 
 FN Dir dir_choose(bool first, Dir a, Dir b) {
     return dir(first ? a.x : b.x, first ? a.y : b.y, first ? a.z : b.z);

@@ -33,7 +33,7 @@ FN float yarn_by_flakes(float alpha, float p, float left) {
  * F = D (((n . wo) (x^2 - y^2) + 2 (b . wo) x y) / sqrt(x^2 + y^2) +- (t . wo) m)+ / (sigma_o |d|^2),
  * minus where h points into the yarn. Nothing cancels but what cancels in d. */
 FN float yarn_turned_pdf(YarnSurface s, YarnProposal w, Dir o, Dir n, Dir d) {
-    Dir t = s.axis, b = dir(n.y * t.z - n.z * t.y, n.z * t.x - n.x * t.z, n.x * t.y - n.y * t.x);
+    Dir t = s.axis, b = dir_cross(n, t);
     float x = dir_dot(n, d), y = dir_dot(b, d), m = dir_dot(t, d), e = x * x + y * y,
           q = max(e + m * m, 1e-12f);
     float a2 = max(s.alpha * s.alpha, 1e-6f), on = w.along * m;
@@ -70,7 +70,7 @@ FN Dir yarn_draw(YarnSurface s, YarnProposal w, Dir o, float u, float v) {
     if (!once) about = dir(leans ? n.x : 0.0f, leans ? n.y : 0.0f, leans ? n.z : 1.0f);
     Dir g = dir(about.x + r * cos(phi), about.y + r * sin(phi), about.z + 1.0f - 2.0f * x);
 
-    Dir b = dir(n.y * t.z - n.z * t.y, n.z * t.x - n.x * t.z, n.x * t.y - n.y * t.x);
+    Dir b = dir_cross(n, t);
     float along = s.alpha * dir_dot(t, g), near = dir_dot(n, g), side = dir_dot(b, g);
     float d = sqrt(near * near + side * side), root = sqrt(d), wide = sqrt(0.5f * (d + abs(near)));
     float thin = 0.5f * abs(side) / max(wide, 1e-9f), c = root * (near < 0.0f ? thin : wide);

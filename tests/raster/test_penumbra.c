@@ -110,7 +110,7 @@ static void floor_before_a_wall_does_not_shade_it(void **state) {
     weft_image_free(&above);
 }
 
-/* Of builtin:cloth under its soft box alone, |drawn - traced| over the sum of what is traced, by direct light. */
+/* The soft box of builtin:cloth is alone, and light is direct: |drawn - traced| is little of the sum of what is traced. */
 static void shadows_of_a_cloth_are_the_path_tracers(void **state) {
     (void)state;
     need_gl();

@@ -127,7 +127,7 @@ static double most_alike(const float x[THREADS]) {
     return most;
 }
 
-/* How far the dye of a thread is off, where it lies on top of its crossing with one of two threads, and fibres show no
+/* Returns how far the dye of a thread is off, where it lies on top of its crossing with one of two threads, and fibres show no
  * streaks: in parts of the yarn's own dye. */
 static float dye_of(const Weave *m, bool weft, float thread) {
     for (int cross = 0; cross < 2; cross++) {

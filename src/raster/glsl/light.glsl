@@ -6,6 +6,7 @@
 #include "shading/punctual.h"
 #include "shading/rgb.h"
 #ifdef SHADOWED
+#include "raster/glsl/shadow.glsl"
 #include "raster/glsl/soft_shadow.glsl"
 #endif
 

@@ -4,7 +4,7 @@
  * w = (n.d) (l.d) / |d|^4, d from here to there and n and l the normals: the share of the light that is not in
  * shadow, by which the light without shadows is multiplied. Eric Heitz, Stephen Hill and Morgan McGuire, "Combining
  * Analytic Direct Illumination and Stochastic Shadows", I3D 2018. */
-#include "raster/glsl/shadow.glsl"
+#include "raster/glsl/picture.glsl"
 
 uniform highp sampler2DArrayShadow soft_map;
 

@@ -9,8 +9,8 @@ uniform highp sampler2DArray weave_colors;
 #include "raster/glsl/weave_cloth.glsl"
 #include "shading/weave_base.h"
 
-/* How many points: one where a pixel is much smaller than a thread, eight where it is as large, five between and where their
- * part in the pixel fades. */
+/* Returns how many points a pixel has: one where it is much smaller than a thread, eight where it is as large, five between
+ * and where their part in the pixel fades. */
 int pixel_points(WeaveFootprint f, float far) {
     return far >= 1.0 ? 0 : f.longest < 0.2 ? 1 : f.longest < 0.6 || far > 0.4 ? 5 : 8;
 }
