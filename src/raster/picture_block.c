@@ -3,52 +3,20 @@
 #include <math.h>
 #include <string.h>
 
-#include "raster/box.h"
+#include "raster/depths.h"
 #include "raster/ground.h"
 
-/* The unit vector across a view's picture, away from its eye: its forward, unless it is sheared. */
-static Vec3 view_axis(const View *view) {
-    return vec3_normal_or(vec3_cross(view->up, view->across), view->forward);
-}
-
-/* The nearest depth as a share of the farthest: cameras come close, depths of shadow maps are to be exact. */
-static const float CAMERA_NEAR = 1e-4f, SHADOW_NEAR = 1e-2f;
-
-typedef struct Range {
-    float near, far;
-} Range;
-
-static void reach_out(Range *range, const View *view, Vec3 p) {
-    float depth = vec3_dot(vec3_sub(p, view->eye), view_axis(view));
-    range->near = fminf(range->near, depth);
-    range->far = fmaxf(range->far, depth);
-}
-
-static void reach_floor(Range *range, const View *view, const Floor *floor) {
+/* From the nearest to the farthest of the scene, of its lights and of the floor. Cameras come close. */
+static Depths camera_depths(const WeftScene *scene, const View *view, const Floor *floor) {
+    const float least = 1e-4f; /* of the farthest */
+    Depths depths = depths_none();
+    depths_add_scene(&depths, view, scene);
     for (int k = 0; k < 4 && floor->there; k++)
-        reach_out(range, view,
-                  vec3_add(floor->middle, vec3(k & 1 ? floor->radius : -floor->radius, 0.0f,
-                                               k & 2 ? floor->radius : -floor->radius)));
-}
-
-/* From the nearest to the farthest corner of the scene's box, of its lights and of the floor, along the axis
- * of the view; with perspective at least that share of the way. */
-static Range depth_range(const WeftScene *scene, const View *view, const Floor *floor, float least) {
-    Range range = {INFINITY, -INFINITY};
-    for (int k = 0; k < 8; k++) reach_out(&range, view, box_corner((Box){scene->low, scene->high}, k));
-    for (int m = scene_own_meshes(scene); m < scene->mesh_count; m++)
-        for (uint32_t k = 0; k < scene->meshes[m].vertex_count; k++)
-            reach_out(&range, view, vec3_load(scene->meshes[m].position + 3 * (size_t)k));
-    reach_floor(&range, view, floor);
-    /* a plane that faces the eye has no depth of its own */
-    const float rounding = 1e-5f * fmaxf(fabsf(range.near), fabsf(range.far));
-    const float margin = 1e-3f * (range.far - range.near) + rounding + 1e-6f;
-    range.near -= margin;
-    range.far += margin;
-    if (view->orthographic) return range;
-    range.far = fmaxf(range.far, 1e-5f);
-    range.near = fmaxf(range.near, least * range.far);
-    return range;
+        depths_add(&depths, view,
+                   vec3_add(floor->middle, vec3(k & 1 ? floor->radius : -floor->radius, 0.0f,
+                                                k & 2 ? floor->radius : -floor->radius)));
+    depths_widen(&depths, view, fmaxf(least * depths.far, 1e-6f));
+    return depths;
 }
 
 /* The depth in clip space of a distance w along the axis: a w + b, to be divided by w with perspective. */
@@ -56,14 +24,14 @@ typedef struct Depth {
     float a, b;
 } Depth;
 
-static Depth depth_of(const View *view, Range r) {
+static Depth depth_of(const View *view, Depths r) {
     float span = r.far - r.near;
     return view->orthographic ? (Depth){2.0f / span, -(r.far + r.near) / span}
                               : (Depth){(r.far + r.near) / span, -2.0f * r.far * r.near / span};
 }
 
 /* q, from the eye, to clip space: x = (q - w forward).across / |across|^2, likewise y, w the depth. */
-static void put_matrix(const View *view, Range r, float m[16]) {
+static void put_matrix(const View *view, Depths r, float m[16]) {
     Vec3 f = view_axis(view);
     Vec3 x = vec3_scale(view->across, 1.0f / vec3_dot(view->across, view->across));
     Vec3 y = vec3_scale(view->up, 1.0f / vec3_dot(view->up, view->up));
@@ -102,26 +70,13 @@ static void put_polygon(const LightPolygon *polygon, int k, Picture *out) {
     memcpy(out->polygon_radiance[k], polygon->radiance, sizeof polygon->radiance);
 }
 
-/* The depths that all points of a light see together. */
-static Range shadow_range(const WeftScene *scene, const Shadow *shadow, const Floor *floor) {
-    Range range = depth_range(scene, &shadow->view, floor, SHADOW_NEAR);
-    for (int k = 0; k < shadow->points; k++) {
-        const View view = shadow_view(shadow, k);
-        Range r = depth_range(scene, &view, floor, SHADOW_NEAR);
-        range.near = fminf(range.near, r.near);
-        range.far = fmaxf(range.far, r.far);
-    }
-    return range;
-}
-
 /* `first` is the first layer of a polygon. */
-static void put_shadow(const WeftScene *scene, const Shadow *shadow, const Floor *floor, int k, int first,
-                       Picture *out) {
+static void put_shadow(const Shadow *shadow, int k, int first, Picture *out) {
     const View *view = &shadow->view;
     const float place[4] = {view->eye.x, view->eye.y, view->eye.z,
                             view->orthographic ? shadow->texel : -shadow->texel};
     const float half = vec3_length(view->across), soft[4] = {half, (float)first, 0.0f, 0.0f};
-    put_matrix(view, shadow_range(scene, shadow, floor), out->shadow_clip[k]);
+    put_matrix(view, shadow->depths, out->shadow_clip[k]);
     memcpy(out->shadow_eye[k], place, sizeof place);
     memcpy(out->shadow_soft[k], soft, sizeof soft);
     for (int j = 0; j < shadow->points; j++) {
@@ -134,7 +89,7 @@ static void put_shadow(const WeftScene *scene, const Shadow *shadow, const Floor
 /* A facet whose slope is alpha at most turns what it mirrors by twice as much. */
 static void put_floor(const WeftScene *scene, const View *view, const Floor *floor, Picture *out) {
     View below = ground_view(floor, view);
-    Depth depth = depth_of(view, depth_range(scene, &below, floor, CAMERA_NEAR));
+    Depth depth = depth_of(view, camera_depths(scene, &below, floor));
     float across = sqrtf(vec3_dot(view->across, view->across)), up = sqrtf(vec3_dot(view->up, view->up));
     float cone = fminf(2.0f * floor->roughness * floor->roughness, 1.0f);
     const float place[4] = {floor->middle.x, floor->middle.y, floor->middle.z, floor->radius};
@@ -150,7 +105,7 @@ void picture_make(const WeftScene *scene, const View *view, const LightPolygons 
     const float eye[4] = {view->eye.x, view->eye.y, view->eye.z, view->orthographic ? 0.0f : 1.0f};
     const float forward[4] = {view->forward.x, view->forward.y, view->forward.z, (float)lights};
     *out = (Picture){0};
-    put_matrix(view, depth_range(scene, view, floor, CAMERA_NEAR), out->to_clip);
+    put_matrix(view, camera_depths(scene, view, floor), out->to_clip);
     memcpy(out->eye, eye, sizeof eye);
     memcpy(out->forward, forward, sizeof forward);
     if (floor->there) put_floor(scene, view, floor, out);
@@ -159,16 +114,15 @@ void picture_make(const WeftScene *scene, const View *view, const LightPolygons 
     for (int k = 0; k < shadows->count; k++) {
         int light = shadows->of_light[k];
         int hard = shadows->count - shadows->polygons;
-        put_shadow(scene, &shadows->all[k], floor, k, SHADOW_POINTS * (k - hard), out);
+        put_shadow(&shadows->all[k], k, SHADOW_POINTS * (k - hard), out);
         if (light >= 0 && light < lights) out->lights[light][2][3] = (float)k;
     }
 }
 
-void picture_of_shadow(const WeftScene *scene, const Shadow *shadow, int point, const Floor *floor,
-                       Picture *out) {
+void picture_of_shadow(const Shadow *shadow, int point, Picture *out) {
     const View view = shadow_view(shadow, point);
     const float eye[4] = {view.eye.x, view.eye.y, view.eye.z, view.orthographic ? 0.0f : 1.0f};
     *out = (Picture){0};
-    put_matrix(&view, shadow_range(scene, shadow, floor), out->to_clip);
+    put_matrix(&view, shadow->depths, out->to_clip);
     memcpy(out->eye, eye, sizeof eye);
 }

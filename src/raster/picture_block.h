@@ -27,7 +27,6 @@ void picture_make(const WeftScene *scene, const View *view, const LightPolygons 
                   const Shadows *shadows, const Floor *floor, Picture *out);
 
 /* Fills it for the view of a light from a point of it. */
-void picture_of_shadow(const WeftScene *scene, const Shadow *shadow, int point, const Floor *floor,
-                       Picture *out);
+void picture_of_shadow(const Shadow *shadow, int point, Picture *out);
 
 #endif

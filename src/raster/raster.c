@@ -433,7 +433,7 @@ static WeftResult draw_shadows(WeftRaster *self, WeftError *error) {
         const Shadow *shadow = &self->shadows.all[k];
         for (int point = 0; point < (shadow->points ? shadow->points : 1) && result == WEFT_OK; point++) {
             Picture picture;
-            picture_of_shadow(self->scene, shadow, point, &self->floor, &picture);
+            picture_of_shadow(shadow, point, &picture);
             set_block(self, &picture);
             shadows_begin(&self->shadows, k, point);
             result = draw_depth(self, error);
@@ -613,7 +613,6 @@ static WeftResult find_floor(WeftRaster *self, const View *seen, const WeftRaste
     Floor floor = floor_of(self->scene, &view->floor);
     bool above = seen->orthographic ? seen->forward.y < 0.0f : seen->eye.y > floor.middle.y;
     floor.there = floor.there && view->part == WEFT_PART_ALL && above;
-    if (floor.there != self->floor.there) self->shadows.drawn = false; /* shadows reach as far as the floor */
     self->floor = floor;
     self->sky_on_floor = 0.0f;
     self->floor_shaded = !view->no_shadows;

@@ -53,6 +53,25 @@ static Box find_casters(const WeftScene *scene, const LightPolygon *polygon) {
     }
 }
 
+/* From the nearest to the farthest of the scene and its lights, as all points see them, which look along one axis. With
+ * perspective most depths are spent where it is near, so they start at a share of the way to the farthest caster,
+ * however far a stage reaches. */
+static Depths depths_of(const WeftScene *scene, const Shadow *shadow, Box casters) {
+    const float least = 1e-2f;
+    Depths all = depths_none(), here = depths_none();
+    float back = 0.0f, front = 0.0f;
+    depths_add_scene(&all, &shadow->view, scene);
+    depths_add_box(&here, &shadow->view, casters);
+    for (int k = 0; k < shadow->points; k++) {
+        back = fminf(back, shadow->point[k].z);
+        front = fmaxf(front, shadow->point[k].z);
+    }
+    all.near -= front;
+    all.far -= back;
+    depths_widen(&all, &shadow->view, fmaxf(least * (here.far - back), 1e-6f));
+    return all;
+}
+
 /* Two axes across a direction. */
 static void across(Vec3 forward, Vec3 *right, Vec3 *up) {
     Vec3 pole = fabsf(forward.y) < 0.99f ? vec3(0.0f, 1.0f, 0.0f) : vec3(1.0f, 0.0f, 0.0f);
@@ -106,7 +125,8 @@ static int strongest(const WeftScene *scene, const Shadows *shadows, LightKind k
     return best;
 }
 
-static void add(Shadows *self, Shadow shadow, int light, int polygon) {
+static void add(Shadows *self, const WeftScene *scene, Box casters, Shadow shadow, int light, int polygon) {
+    shadow.depths = depths_of(scene, &shadow, casters);
     self->of_light[self->count] = light;
     self->of_polygon[self->count] = polygon;
     self->all[self->count++] = shadow;
@@ -119,7 +139,8 @@ static void choose_lights(const WeftScene *scene, int most, Box casters, Shadows
         missed = k < 0 ? missed + 1 : 0;
         if (k < 0) continue;
         const Light *light = &scene->lights[k];
-        add(self, kind == LIGHT_SPOT ? of_spot(light) : of_directional(light, casters), k, -1);
+        add(self, scene, casters, kind == LIGHT_SPOT ? of_spot(light) : of_directional(light, casters), k,
+            -1);
     }
 }
 
@@ -206,7 +227,8 @@ static void choose(const WeftScene *scene, const LightPolygons *polygons, Shadow
     choose_lights(scene, SHADOWS_MOST - wanted, find_casters(scene, NULL), self);
     for (int k = 0; k < polygons->count && self->count < SHADOWS_MOST; k++, self->polygons++) {
         const LightPolygon *polygon = &polygons->items[k];
-        add(self, of_polygon(polygon, find_casters(scene, polygon)), -1, k);
+        Box casters = find_casters(scene, polygon);
+        add(self, scene, casters, of_polygon(polygon, casters), -1, k);
     }
 }
 
@@ -216,7 +238,8 @@ static bool sees_the_same(const Shadow *a, const Shadow *b) {
     for (int k = 0; k < a->points && same; k++)
         same = a->point[k].x == b->point[k].x && a->point[k].y == b->point[k].y &&
                a->point[k].z == b->point[k].z;
-    return same && a->meeting == b->meeting;
+    return same && a->meeting == b->meeting && a->depths.near == b->depths.near &&
+           a->depths.far == b->depths.far;
 }
 
 static void delete_objects(Shadows *self) {

@@ -7,7 +7,7 @@
 #ifndef WEFT_RASTER_SHADOW_H
 #define WEFT_RASTER_SHADOW_H
 
-#include "scene/camera.h"
+#include "raster/depths.h"
 #include "scene/polygons.h"
 
 enum { SHADOWS_MOST = 4, SHADOW_SIDE = 2048, SHADOW_POINTS = 55, SHADOW_POINT_SIDE = 512 };
@@ -19,6 +19,8 @@ typedef struct Shadow {
     int points;                /* of a polygon: SHADOW_POINTS; else 0 */
     Vec3 point[SHADOW_POINTS]; /* from the eye, m: along across, up and forward */
     float meeting; /* 1 / distance of the plane on which all of them see the same, 1/m; 0 where that is far */
+    Depths
+        depths; /* Between these a map holds what casts a shadow; a thing beyond is shaded and casts none. */
 } Shadow;
 
 typedef struct Shadows {

@@ -110,6 +110,39 @@ static void floor_before_a_wall_does_not_shade_it(void **state) {
     weft_image_free(&above);
 }
 
+/* A roof over ground that reaches so far to all sides, beside a lamp aslant; what is seen is at the roof's foot. */
+static WeftImage ground(float reach) {
+    WeftScene *scene = test_scene();
+    const WeftLight lamp = {.kind = WEFT_LIGHT_POLYGON,
+                            .position = {-1.5f, 2.0f, 0.0f},
+                            .direction = {0.6f, -0.8f, 0.0f},
+                            .size = {0.3f, 0.3f},
+                            .color = {30.0f, 30.0f, 30.0f}};
+    test_material(scene, 0.8f);
+    test_quad(scene, vec3(-0.2f, 0.5f, 0.2f), vec3(0.4f, 0.0f, 0.0f), vec3(0.0f, 0.0f, -0.4f));
+    test_quad(scene, vec3(-reach, 0.0f, reach), vec3(2.0f * reach, 0.0f, 0.0f),
+              vec3(0.0f, 0.0f, -2.0f * reach));
+    return picture(scene, &lamp, "0.5,0.4,0.001;0.5,0,0;120");
+}
+
+/* What is near the lamp keeps its shadow however far the ground reaches. */
+static void shadows_do_not_mind_far_ground(void **state) {
+    (void)state;
+    need_gl();
+    WeftImage small = ground(4.0f), large = ground(400.0f);
+    double off = 0.0, sum = 0.0, low = HUGE_VAL, high = 0.0;
+    for (int k = 0; k < SIDE * SIDE; k++) {
+        double a = (double)at(&small, k % SIDE, k / SIDE), b = (double)at(&large, k % SIDE, k / SIDE);
+        off += fabs(a - b);
+        sum += a;
+        low = fmin(low, a), high = fmax(high, a);
+    }
+    assert_true(low < 0.1 * high);
+    if (!(off < 0.001 * sum)) fail_msg("%g of %g off", off, sum);
+    weft_image_free(&small);
+    weft_image_free(&large);
+}
+
 /* The soft box of builtin:cloth is alone, and light is direct: |drawn - traced| is little of the sum of what is traced. */
 static void shadows_of_a_cloth_are_the_path_tracers(void **state) {
     (void)state;
@@ -146,6 +179,7 @@ int main(void) {
         cmocka_unit_test(penumbra_has_no_bands),
         cmocka_unit_test(penumbra_is_even_along_the_edge),
         cmocka_unit_test(floor_before_a_wall_does_not_shade_it),
+        cmocka_unit_test(shadows_do_not_mind_far_ground),
         cmocka_unit_test(shadows_of_a_cloth_are_the_path_tracers),
     };
     return cmocka_run_group_tests(tests, gl_begin, NULL);

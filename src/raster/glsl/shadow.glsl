@@ -13,7 +13,8 @@ float shadow_light(int map, vec3 normal, float cosine) {
     p = p + normal * (texel * (1.0 + 2.5 * sqrt(max(1.0 - cosine * cosine, 0.0))));
     vec4 clip = shadow_clip[map] * vec4(p, 1.0);
     vec3 at = 0.5 + 0.5 * clip.xyz / clip.w;
-    if (clip.w <= 0.0 || abs(at.x - 0.5) > 0.5 || abs(at.y - 0.5) > 0.5 || at.z > 1.0) return 1.0;
+    if (clip.w <= 0.0 || abs(at.x - 0.5) > 0.5 || abs(at.y - 0.5) > 0.5) return 1.0;
+    at.z = min(at.z, 1.0); /* what is beyond the map's depths */
     float step = 1.0 / 2048.0, layer = float(map), sum = 0.0;
     sum += texture(shadow_map, vec4(at.x - 0.4 * step, at.y - 1.1 * step, layer, at.z));
     sum += texture(shadow_map, vec4(at.x + 1.1 * step, at.y - 0.4 * step, layer, at.z));
