@@ -206,7 +206,9 @@ static void put_lights(Text *text, const ShaderKey *key) {
         snprintf(polygons + used, sizeof polygons - used, "L(%d, %d, %s, %d) ", k, key->polygon_corners[k],
                  key->polygon_two_sided[k] ? "true" : "false", key->polygon_map[k]);
     }
-    text_define(text, "POLYGONS", "1");
+    char count[16];
+    snprintf(count, sizeof count, "%d", key->polygons);
+    text_define(text, "POLYGONS", count);
     text_define(text, "EACH_POLYGON(L)", polygons);
 }
 

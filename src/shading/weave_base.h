@@ -46,7 +46,7 @@ FN float weave_far_dye(const Weave *m, bool weft, float u, float threads) {
     float dye = weft ? m->weft.dye : m->warp.dye, wide = clamp(threads, 1.0f, 16.0f);
     ROUNDS(k, 4) {
         float c = floor(u + (0.25f * to_float(k) - 0.375f) * wide);
-        sum = sum + weave_random(weave_key(weave_thread_key(m->seed, weft, c, side), 4.0f));
+        sum = sum + weave_thread_dye(m->seed, weft, c, side);
     }
     float fades = clamp((16.0f - wide) / 8.0f, 0.0f, 1.0f) * min(2.0f / sqrt(wide), 1.0f);
     return 1.0f - dye * 0.7f * 0.25f * sum * fades;

@@ -25,28 +25,41 @@ FN uint weave_hash(uint x) {
     return y ^ (y >> 16u);
 }
 
-/* A hash of another one and of a whole number, from -2^31 up to 2^31, in which it is not included: of a thread's and a purpose, for example. */
-FN uint weave_key(uint key, float number) {
-    return weave_hash(key + to_uint(to_int(number)) * 0x9e3779b9u); /* 2^32 by the golden ratio */
+/* A hash of two whole numbers, from -2^31 up to 2^31, in which it is not included, of the cloth's seed, 0 to 288, and of a
+ * purpose, 0 to 15. The factors are those of MurmurHash3's last step and 2^32 by the golden ratio: no two near pairs have the same
+ * sum, and hardly any the sum 0, whose hash is 0. */
+FN uint weave_key(float seed, int purpose, float i, float j) {
+    uint cloth = to_uint(16 * to_int(seed) + purpose + 32) * 0x9e3779b9u;
+    return weave_hash(cloth + to_uint(to_int(i)) * 0x85ebca6bu + to_uint(to_int(j)) * 0xc2b2ae35u);
 }
 
-/* From -1 to 1: for a key; smooth along t, which comes again after n; smooth over a plane. */
-FN float weave_random(uint key) { return to_float(to_int(key >> 8u)) / 8388608.0f - 1.0f; }
-FN float weave_ease(float t) { return t * t * (3.0f - 2.0f * t); }
-FN float weave_course(uint key, float t, float n) {
-    float i = floor(t), a = weave_mod(i, n), b = a + 1.0f < n ? a + 1.0f : 0.0f;
-    return mix(weave_random(weave_key(key, a)), weave_random(weave_key(key, b)), weave_ease(t - i));
+/* A number from -1 to 1: so many bits of a hash from a place on; its upper and its lower half. */
+FN float weave_bits(uint key, uint place, uint count) {
+    uint all = (1u << count) - 1u;
+    return to_float(to_int((key >> place) & all)) * (2.0f / to_float(to_int(all))) - 1.0f;
 }
-FN float weave_plane(uint key, float t, float n, float u, float m) {
-    float i = floor(u), a = weave_mod(i, m), b = a + 1.0f < m ? a + 1.0f : 0.0f;
-    return mix(weave_course(weave_key(key, a), t, n), weave_course(weave_key(key, b), t, n),
-               weave_ease(u - i));
+FN float weave_first(uint key) { return weave_bits(key, 16u, 16u); }
+FN float weave_second(uint key) { return weave_bits(key, 0u, 16u); }
+FN float weave_ease(float t) { return t * t * (3.0f - 2.0f * t); }
+
+/* A whole number that comes again after n; 0: never. */
+FN float weave_wrap(float x, float n) { return n > 0.0f ? weave_mod(x, n) : x; }
+
+/* A place between two whole numbers that come again after n, and what part of the way it is. */
+STRUCT(WeaveStep) { float low, high, part; };
+FN WeaveStep weave_step(float t, float n) {
+    float i = floor(t);
+    WeaveStep s;
+    s.low = weave_wrap(i, n);
+    s.high = n > 0.0f && s.low + 1.0f >= n ? 0.0f : s.low + 1.0f;
+    s.part = weave_ease(t - i);
+    return s;
 }
 
 /* A frequency in a crossing: about f > 0 times, and a whole number of times in a cycle; and how
- * often in that. Where there is no cycle, it is 2^24, from which on floats skip whole numbers. */
+ * often in that. 0: there is no cycle. */
 FN float weave_turns(float f, float cycle) {
-    return cycle > 0.0f ? max(floor(f * cycle + 0.5f), 1.0f) : 16777216.0f;
+    return cycle > 0.0f ? max(floor(f * cycle + 0.5f), 1.0f) : 0.0f;
 }
 FN float weave_pace(float f, float cycle) { return cycle > 0.0f ? weave_turns(f, cycle) / cycle : f; }
 
@@ -56,16 +69,27 @@ FN float weave_lean(float f, float n, float cycle) {
     return cycle > 0.0f ? n * floor(f * cycle / n + 0.5f) / cycle : f;
 }
 
-/* A random course along a thread, of about f turns a crossing. */
-FN float weave_along(uint key, float f, float v, float cycle) {
+/* Finds v between places along a thread that are about 1 / f crossings apart. */
+FN WeaveStep weave_along(float f, float v, float cycle) {
     float pace = weave_pace(f, cycle);
-    return weave_course(key, pace * v, weave_turns(pace, cycle));
+    return weave_step(pace * v, weave_turns(pace, cycle));
 }
 
-/* The key of a thread of either system in a cycle of them, by the cloth's seed, 0 to 288. */
-FN uint weave_thread_key(float seed, bool weft, float thread, float cycle) {
-    uint all = weave_key(weave_key(0u, seed), weft ? 1.0f : 0.0f);
-    return weave_key(all, cycle > 0.0f ? weave_mod(thread, cycle) : thread);
+/* Two random courses along a thread, at its place t. */
+STRUCT(WeavePair) { float first, second; };
+FN WeavePair weave_courses(float seed, int purpose, float thread, WeaveStep t) {
+    uint a = weave_key(seed, purpose, thread, t.low), b = weave_key(seed, purpose, thread, t.high);
+    WeavePair p;
+    p.first = mix(weave_first(a), weave_first(b), t.part);
+    p.second = mix(weave_second(a), weave_second(b), t.part);
+    return p;
+}
+
+/* A random course along a thread of which places k of n across it have their own, at t. */
+FN float weave_course(float seed, int purpose, float thread, float k, float n, WeaveStep t) {
+    float place = n * thread + k;
+    return mix(weave_first(weave_key(seed, purpose, place, t.low)),
+               weave_first(weave_key(seed, purpose, place, t.high)), t.part);
 }
 
 #endif

@@ -84,8 +84,19 @@ FN float weave_run(const Weave *m, float warp, float pick, int column) {
     return weave_texel(m->runs, 4 * m->warps, row, 4 * at + column);
 }
 
-/* The thread numbered c of a system at the place u across the system, v along it. */
-FN WeavePoint weave_thread(const Weave *m, WeaveYarn y, bool weft, float c, float u, float v) {
+/* Purposes of hashes: crossings; of the warp, and next to it of the weft, courses of threads, dye of threads and along them, how fibres
+ * waver and how each one's dye took; loose fibres, as many as a cell has. */
+#define WEAVE_OF_CROSSINGS 0
+#define WEAVE_OF_THREADS   1
+#define WEAVE_OF_DYE       3
+#define WEAVE_OF_STREAKS   5
+#define WEAVE_OF_WAVER     7
+#define WEAVE_OF_FIBRES    9
+#define WEAVE_OF_HAIRS     11
+
+/* The thread numbered c of a system at the place u across the system, v along it. bends: -1 to 1, how thick it is and how far it
+ * bends at its crossings, smoothly from one to the next. */
+FN WeavePoint weave_thread(const Weave *m, WeaveYarn y, bool weft, float c, float u, float v, float bends) {
     float cross = floor(v);
     float side = weft ? m->cycle_y : m->cycle_x, cycle = weft ? m->cycle_x : m->cycle_y;
     float since = weave_run(m, weft ? cross : c, weft ? c : cross, weft ? 2 : 0);
@@ -95,12 +106,11 @@ FN WeavePoint weave_thread(const Weave *m, WeaveYarn y, bool weft, float c, floa
     float l = max(abs(run), 1.0f), s = ends * (2.0f * (v - cross + since) / l - 1.0f);
     float up = run < 0.0f ? -1.0f : 1.0f, k = 1.0f + y.floats * (l - 1.0f),
           steep = pow(max(abs(s), 1e-3f), k);
-    float crimp = ends * y.crimp;
-    uint key = weave_thread_key(m->seed, weft, c, side);
-    crimp = crimp * (1.0f + 0.5f * y.wander * weave_along(weave_key(key, 5.0f), 1.0f, v, cycle));
-    float aside = 0.12f * y.wander * weave_along(weave_key(key, 1.0f), 0.21f, v, cycle);
-    float thick = 1.0f + y.slub * (0.35f * weave_along(weave_key(key, 2.0f), 0.06f, v, cycle) +
-                                   0.12f * weave_along(weave_key(key, 3.0f), 0.9f, v, cycle));
+    WeavePair slow = weave_courses(m->seed, WEAVE_OF_THREADS + (weft ? 1 : 0), weave_wrap(c, side),
+                                   weave_along(0.1f, v, cycle));
+    float crimp = ends * y.crimp * (1.0f + 0.5f * y.wander * bends);
+    float aside = 0.12f * y.wander * slow.first;
+    float thick = 1.0f + y.slub * (0.35f * slow.second + 0.12f * bends);
     float swell = up > 0.0f ? y.bulge * (1.0f - s * s) * (1.0f - 1.0f / l) : 0.0f;
     float width = min(y.width * max(thick, 0.2f) * (1.0f + swell), 2.0f - 2.0f * abs(aside));
     float r = 2.0f * (u - c - 0.5f - aside) / width;
@@ -125,8 +135,10 @@ FN void weave_higher(WeavePoint *best, WeavePoint p) {
     if (p.height > best->height) *best = p;
 }
 
-/* Fibres side by side in a thread, and how many differ in it; half the width of a loose one, in threads. */
+/* Fibres side by side in a thread, and how many differ in it; places across it after which they waver alike; half the width of a
+ * loose one, in threads. */
 #define WEAVE_FIBRES      20.0f
+#define WEAVE_WAVES       8.0f
 #define WEAVE_FIBRES_OWN  40.0f
 #define WEAVE_HAIR_RADIUS 0.018f
 
@@ -138,48 +150,71 @@ FN float weave_hair_radius(float spacing) {
     return WEAVE_HAIR_RADIUS * clamp(1.75f - 25.0f * spacing, 0.0f, 1.0f);
 }
 
+/* -1 to 1: how the dye took of the thread of either system, of a cycle of them. */
+FN float weave_thread_dye(float seed, bool weft, float thread, float cycle) {
+    return weave_first(weave_key(seed, WEAVE_OF_DYE + (weft ? 1 : 0), weave_wrap(thread, cycle), 0.0f));
+}
+
 /* Adds fibres along the twist, and how the dye took. Then turns the point from the thread's frame, along y, to
  * the cloth's. Crevices between fibres, 1 - a f^4 where f goes from -1 to 1 across a fibre, take no light on the mean. */
 FN void weave_finish(const Weave *m, WeaveYarn y, float u, float v, float spacing, WeavePoint *p) {
     float side = p->weft ? m->cycle_y : m->cycle_x, cycle = p->weft ? m->cycle_x : m->cycle_y;
-    uint thread = weave_thread_key(m->seed, p->weft, p->thread, side), key = weave_key(thread, 7.0f);
+    float thread = weave_wrap(p->thread, side);
+    int weft = p->weft ? 1 : 0;
     float twist = p->weft ? -y.twist : y.twist; /* across and along are x and y, mirrored */
     float c = cos(twist) / y.width, s = sin(twist) / y.width, x = u - p->thread;
     float crossing = y.cross_pitch / y.pitch, c_v = c * crossing,
           s_v = s * crossing; /* v counts the others */
     float on = weave_pace(1.3f * c_v, cycle), turns = weave_turns(1.3f * c_v, cycle),
           t = on * v - 1.3f * s * x;
-    float waver = weave_plane(weave_key(key, 31.0f), 3.0f * c * x + weave_lean(3.0f * s_v, 8.0f, cycle) * v,
-                              8.0f, t, turns);
+    WeaveStep down = weave_step(t, turns),
+              over = weave_step(3.0f * c * x + weave_lean(3.0f * s_v, WEAVE_WAVES, cycle) * v, WEAVE_WAVES);
+    float waver =
+        mix(weave_course(m->seed, WEAVE_OF_WAVER + weft, thread, over.low, WEAVE_WAVES, down),
+            weave_course(m->seed, WEAVE_OF_WAVER + weft, thread, over.high, WEAVE_WAVES, down), over.part);
     float fibre =
         WEAVE_FIBRES * c * x + weave_lean(WEAVE_FIBRES * s_v, WEAVE_FIBRES_OWN, cycle) * v + 2.0f * waver;
     float number = floor(fibre), f = 2.0f * (fibre - number) - 1.0f,
           streaks = y.streaks * weave_fineness(spacing / y.width);
-    float own = weave_course(weave_key(key, weave_mod(number, WEAVE_FIBRES_OWN)), t, turns);
+    float own = weave_course(m->seed, WEAVE_OF_FIBRES + weft, thread, weave_mod(number, WEAVE_FIBRES_OWN),
+                             WEAVE_FIBRES_OWN, down);
     float turn = twist + 0.35f * y.streaks * waver, ct = cos(turn), st = sin(turn);
     float sx = p->slope_x + streaks * f, sy = p->slope_y;
     float n = 1.0f / sqrt(1.0f + sx * sx + sy * sy), q = 1.0f / sqrt(1.0f + sy * sy);
     float fx = -st * n / q, fy = ct * q + st * sx * sy * q * n, fz = -ct * q * sy + st * sx * q * n;
     float crevice = min(2.0f * streaks, 0.6f);
-    p->dye =
-        1.0f -
-        y.dye * (0.7f * weave_random(weave_key(thread, 4.0f)) + 0.3f * weave_along(key, 0.35f, v, cycle)) -
-        0.5f * min(streaks, 0.5f) * own;
+    WeavePair taken = weave_courses(m->seed, WEAVE_OF_STREAKS + weft, thread, weave_along(0.35f, v, cycle));
+    p->dye = 1.0f -
+             y.dye * (0.7f * weave_thread_dye(m->seed, p->weft, p->thread, side) + 0.3f * taken.first) -
+             0.5f * min(streaks, 0.5f) * own;
     p->lit = (1.0f - crevice * f * f * f * f) / (1.0f - 0.2f * crevice);
     p->slope_x = p->weft ? sy : sx;
     p->slope_y = p->weft ? sx : sy;
     p->fibre = p->weft ? dir(fy, fx, fz) : dir(fx, fy, fz);
 }
 
+/* A hash of a crossing, for the warp and for the weft. */
+FN uint weave_crossing(const Weave *m, float i, float j) {
+    return weave_key(m->seed, WEAVE_OF_CROSSINGS, weave_wrap(i, m->cycle_x), weave_wrap(j, m->cycle_y));
+}
+
 /* The highest thread at x, y, in its own frame and without its fibres. No thread reaches further than the middle of the next one's place: of
- * either system the two nearest are asked. */
+ * either system the two nearest are asked. Threads vary from crossing to crossing by what the four nearest crossings have,
+ * which all of them share. */
 FN WeavePoint weave_top(const Weave *m, float x, float y) {
-    float i = floor(x), j = floor(y), beside = x - i < 0.5f ? -1.0f : 1.0f,
-          above = y - j < 0.5f ? -1.0f : 1.0f;
-    WeavePoint best = weave_thread(m, m->warp, false, i, x, y),
-               weft = weave_thread(m, m->weft, true, j, y, x);
-    weave_higher(&best, weave_thread(m, m->warp, false, i + beside, x, y));
-    weave_higher(&weft, weave_thread(m, m->weft, true, j + above, y, x));
+    float i = floor(x), j = floor(y), near_x = x - i - 0.5f, near_y = y - j - 0.5f;
+    float beside = i + (near_x < 0.0f ? -1.0f : 1.0f), above = j + (near_y < 0.0f ? -1.0f : 1.0f);
+    float part_x = weave_ease(abs(near_x)), part_y = weave_ease(abs(near_y));
+    uint here = weave_crossing(m, i, j), right = weave_crossing(m, beside, j),
+         up = weave_crossing(m, i, above), across = weave_crossing(m, beside, above);
+    WeavePoint best =
+        weave_thread(m, m->warp, false, i, x, y, mix(weave_first(here), weave_first(up), part_y));
+    WeavePoint weft =
+        weave_thread(m, m->weft, true, j, y, x, mix(weave_second(here), weave_second(right), part_x));
+    weave_higher(&best, weave_thread(m, m->warp, false, beside, x, y,
+                                     mix(weave_first(right), weave_first(across), part_y)));
+    weave_higher(&weft, weave_thread(m, m->weft, true, above, y, x,
+                                     mix(weave_second(up), weave_second(across), part_x)));
     bool is_weft = weft.height > best.height; /* copied, a truth would keep loops from vectors */
     weave_higher(&best, weft);
     best.weft = is_weft;
@@ -215,32 +250,31 @@ STRUCT(WeaveHair) {
 #define WEAVE_HAIRS      4
 #define WEAVE_HAIRS_NEAR (4 * WEAVE_HAIRS)
 
-/* Fibre n of those near x, y, from the thread on top of its middle: an S from the thread's own direction,
+/* Fibre n of those near x, y, from a thread at its middle, of either system in proportion to what is seen of them: an S from the thread's own direction,
  * across = (q - l (b + w t) (1 - t^2)) / (radius sqrt(1 + lean^2)) with t from -1 to 1 along it and lean the slope of the S,
  * thinner to its ends. Lengths are in threads of the finer system, which count as long along as across. */
 FN WeaveHair weave_hair(const Weave *m, int n, float x, float y, float radius) {
     float pace_x = weave_pace(0.5f, m->cycle_x), pace_y = weave_pace(0.5f, m->cycle_y);
     int cell_x = n / (2 * WEAVE_HAIRS), cell_y = n / WEAVE_HAIRS % 2;
     float i = floor(x * pace_x - 0.5f) + to_float(cell_x), j = floor(y * pace_y - 0.5f) + to_float(cell_y);
-    float column = weave_mod(i, weave_turns(pace_x, m->cycle_x)),
-          row = weave_mod(j, weave_turns(pace_y, m->cycle_y));
-    uint cell = weave_key(weave_key(weave_key(weave_key(0u, m->seed), 2.0f), column), row);
-    uint key = weave_key(cell, 11.0f + to_float(n % WEAVE_HAIRS));
-    float middle_x = (i + 0.5f + 0.5f * weave_random(weave_key(key, 1.0f))) / pace_x;
-    float middle_y = (j + 0.5f + 0.5f * weave_random(weave_key(key, 2.0f))) / pace_y;
-    float warp_run = weave_run(m, floor(middle_x), floor(middle_y), 1),
-          weft_run = weave_run(m, floor(middle_x), floor(middle_y), 3);
-    bool weft = max(-warp_run, weft_run) > 0.0f;
+    float column = weave_wrap(i, weave_turns(pace_x, m->cycle_x)),
+          row = weave_wrap(j, weave_turns(pace_y, m->cycle_y));
+    uint place = weave_key(m->seed, WEAVE_OF_HAIRS + n % WEAVE_HAIRS, column, row),
+         shape = weave_hash(place + 0x9e3779b9u);
+    float middle_x = (i + 0.5f + 0.5f * weave_bits(place, 21u, 11u)) / pace_x;
+    float middle_y = (j + 0.5f + 0.5f * weave_bits(place, 10u, 11u)) / pace_y;
+    float covers = m->warp_far.share + m->weft_far.share;
+    bool weft = (0.5f + 0.5f * weave_bits(shape, 0u, 6u)) * covers > m->warp_far.share;
     float finer = 1.0f / min(m->warp.pitch, m->weft.pitch);
     float right = (x - middle_x) * m->warp.pitch * finer, up = (y - middle_y) * m->weft.pitch * finer;
     float p = weft ? right : up, q = weft ? up : right;
-    float turn = 1.2f * weave_random(weave_key(key, 3.0f)), c = cos(turn), s = sin(turn);
-    float bend = 0.6f * weave_random(weave_key(key, 4.0f)), wave = 1.2f * weave_random(weave_key(key, 6.0f));
-    float l = 0.6f + 0.3f * weave_random(weave_key(key, 5.0f)), t = (c * p + s * q) / l, t2 = t * t;
+    float turn = 1.2f * weave_bits(shape, 6u, 7u), c = cos(turn), s = sin(turn);
+    float bend = 0.6f * weave_bits(shape, 13u, 6u), wave = 1.2f * weave_bits(shape, 19u, 6u);
+    float l = 0.6f + 0.3f * weave_bits(shape, 25u, 7u), t = (c * p + s * q) / l, t2 = t * t;
     float lean = wave * (1.0f - 3.0f * t2) - 2.0f * bend * t;
     float reach = radius * (1.0f - t2 * t2) * sqrt(1.0f + lean * lean),
           off = c * q - s * p - l * (bend + wave * t) * (1.0f - t2);
-    float kept = (weft ? m->weft.hairiness : m->warp.hairiness) - (0.5f + 0.5f * weave_random(key));
+    float kept = (weft ? m->weft.hairiness : m->warp.hairiness) - (0.5f + 0.5f * weave_bits(place, 0u, 10u));
     WeaveHair h;
     h.here = min(kept, min(1.0f - abs(t), reach - abs(off))) > 0.0f;
     h.weft = weft;

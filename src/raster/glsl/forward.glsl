@@ -65,7 +65,11 @@ const Slots SHOWN = Slots(SHOWS_DIFFUSE, SHOWS_SPECULAR, SHOWS_SHEEN, SHOWS_COAT
 #ifdef POLYGONS
 #include "raster/glsl/polygons.glsl"
 #else
-Rgb polygon_light(Stack m, StackView w, Facing at, Frame f) { return rgb_grey(0.0); }
+struct PolygonReach {
+    float none;
+};
+PolygonReach polygon_reach(bool transmits, Facing at) { return PolygonReach(0.0); }
+Rgb polygon_light(Stack m, StackView w, PolygonReach reach, Frame f) { return rgb_grey(0.0); }
 #endif
 
 #ifdef AMBIENT
@@ -82,7 +86,7 @@ Rgb stack_light(Stack m, Dir o, Facing at, Frame f, float occlusion) {
     StackView w;
     stack_view(m, o, w);
     Rgb sum = punctual_light(m, w, SHOWN, at, f);
-    sum = rgb_add(sum, polygon_light(m, w, at, f));
+    sum = rgb_add(sum, polygon_light(m, w, polygon_reach(HAS_TRANSMITTED(m) && SHOWS_DIFFUSE, at), f));
 #ifdef AMBIENT
     texture_occlusion = occlusion;
     vec2 open = sky_open();

@@ -63,12 +63,13 @@ struct WovenSum {
 };
 
 /* Adds a base in place of that of m, which is seen as w. */
-void woven_add(inout WovenSum sum, Stack m, StackView w, WeaveBase b, float weight, Facing at, Frame frame) {
+void woven_add(inout WovenSum sum, Stack m, StackView w, WeaveBase b, float weight, PolygonReach reach,
+               Facing at, Frame frame) {
     Stack n = woven_stack(m, b);
     StackView v = w;
     Slots base = slots_of(SHOWS_DIFFUSE, false, false, false, false);
     view_base(n, v);
-    Rgb direct = rgb_add(punctual_light(n, v, base, at, frame), polygon_light(n, v, at, frame));
+    Rgb direct = rgb_add(punctual_light(n, v, base, at, frame), polygon_light(n, v, reach, frame));
     sum.direct = rgb_add(sum.direct, rgb_scale(direct, weight));
 #ifdef AMBIENT
     v.scale.diffuse = 1.0;
@@ -113,6 +114,7 @@ vec4 woven_light(Stack m, Dir o, Facing at, Frame frame, float occlusion) {
 #ifdef AMBIENT
     texture_occlusion = occlusion;
 #endif
+    PolygonReach reach = polygon_reach(HAS_TRANSMITTED(m), at);
     WovenSum sum = WovenSum(rgb_grey(0.0), rgb_grey(0.0), rgb_grey(0.0), rgb_grey(0.0), far);
     for (int k = 0; k < points; k++) {
         float weight = (1.0 - far) / float(points);
@@ -120,10 +122,11 @@ vec4 woven_light(Stack m, Dir o, Facing at, Frame frame, float occlusion) {
         vec2 spot = place + from.x * across + from.y * up;
         WeavePoint p = weave_point(c, spot.x, spot.y, f.longest * inversesqrt(float(points)));
         sum.covered = sum.covered + (p.height > WEAVE_NONE ? weight : 0.0);
-        woven_add(sum, m, w, weave_near(c, p), weight, at, frame);
+        woven_add(sum, m, w, weave_near(c, p), weight, reach, at, frame);
     }
     for (int k = 0; k < systems; k++)
-        woven_add(sum, m, w, woven_far(c, k > 0, place, across, up, f), 0.5 * far, at, frame);
+        woven_add(sum, m, w, woven_far(c, k > 0, place, across, up, f), 0.5 * far, reach,
+                  at, frame);
     if (MATERIAL_HOLED) {
         float scale = 1.0 / max(sum.covered, 1e-3);
         sum.direct = rgb_scale(sum.direct, scale);
