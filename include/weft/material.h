@@ -11,6 +11,7 @@
 
 #include "weft/image.h"
 #include "weft/scene.h"
+#include "weft/weave.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -72,6 +73,10 @@ WEFT_API void weft_material_default(WeftMaterial *out);
  * warning names. Fails with WEFT_MESSAGE_MATERIAL_FILE, _PRESET_NAME and with what reading a file can fail with. */
 WEFT_API WeftResult weft_material_read(const char *path, WeftMaterial *out, const WeftLog *log,
                                        WeftError *error);
+
+/* Likewise with the cloth that it is woven of, for weft_cloth_free; NULL where it is not woven. */
+WEFT_API WeftResult weft_material_read_woven(const char *path, WeftMaterial *out, WeftCloth **cloth,
+                                             const WeftLog *log, WeftError *error);
 
 /* Sets an input or a choice by name, as weft_scene_set does. Fails with WEFT_MESSAGE_PARAM_NAME or
  * _PARAM_VALUE; the material is then as it was. */

@@ -9,6 +9,7 @@
 #include "weft/lobe.h"
 #include "weft/material.h"
 #include "weft/part.h"
+#include "weft/weave.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -23,6 +24,11 @@ typedef struct WeftReflection WeftReflection;
  * _MEMORY. Numbers are clamped as weft_scene_set does. */
 WEFT_API WeftResult weft_reflection_create(const WeftMaterial *material, WeftReflection **out,
                                            WeftError *error);
+
+/* Likewise of a woven one, as it is seen from afar: in place of its base the sum of two lobes woven, of the warp and of
+ * the weft, in the mean colours of the cloth (NULL: as above). The cloth may be freed. */
+WEFT_API WeftResult weft_reflection_create_woven(const WeftMaterial *material, const WeftCloth *cloth,
+                                                 WeftReflection **out, WeftError *error);
 
 /* Makes the reflection of a lobe. Fails with WEFT_MESSAGE_LOBE_NAME or _MEMORY. */
 WEFT_API WeftResult weft_reflection_of_lobe(const WeftLobe *lobe, WeftReflection **out, WeftError *error);

@@ -81,7 +81,8 @@ static int refuse_estimate(const Model *model) {
 }
 
 int match_begin(Match *match, const char *from, const char *to) {
-    int result = model_read(from, &match->from);
+    int result = model_parse(from, &match->from); /* whose numbers are matched, without a weave */
+    if (result == 0) result = model_prepare(&match->from);
     if (result == 0) result = model_parse(to, &match->to);
     if (result == 0) result = refuse_estimate(&match->from);
     if (result == 0) result = refuse_estimate(&match->to);

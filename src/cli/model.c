@@ -99,7 +99,10 @@ static int of_material(Model *model, const char *path) {
     WeftError error, last = {0};
     const WeftLog log = {.fn = warned, .user = last.text};
     model->kind = MODEL_MATERIAL;
-    return weft_material_read(path, &model->material, &log, &error) == WEFT_OK ? 0 : report_error(&error);
+    WeftResult result = model->weaves
+                            ? weft_material_read_woven(path, &model->material, &model->cloth, &log, &error)
+                            : weft_material_read(path, &model->material, &log, &error);
+    return result == WEFT_OK ? 0 : report_error(&error);
 }
 
 /* The material called so, or by its index; NULL: the only one. */
@@ -134,6 +137,19 @@ static void take_material(Model *model, const char *name, const char *path) {
     if (*name) snprintf(model->name, sizeof model->name, "%s", name);
 }
 
+/* The cloth that a material of a scene is woven of. */
+static int take_cloth(Model *model, const WeftScene *scene, const char *path) {
+    WeftError error;
+    WeftYarn yarns[2];
+    const WeftDraft *draft = weft_scene_cloth(scene, model->material.cloth, yarns);
+    if (!draft) return 0;
+    if (!model->weaves) {
+        report(0, "warning: %.200s: its weave is left out: only its numbers count here", path);
+        return 0;
+    }
+    return weft_cloth_create(draft, yarns, 0, &model->cloth, &error) == WEFT_OK ? 0 : report_error(&error);
+}
+
 static int of_scene(Model *model, const char *path, const char *wanted) {
     WeftError error;
     WeftScene *scene;
@@ -142,6 +158,7 @@ static int of_scene(Model *model, const char *path, const char *wanted) {
     int index = material_index(scene, path, wanted), result = index < 0 ? WEFT_USAGE : 0;
     if (result == 0 && weft_scene_material(scene, index, &model->material, &error) != WEFT_OK)
         result = report_error(&error);
+    if (result == 0) result = take_cloth(model, scene, path);
     if (result == 0) take_material(model, weft_scene_material_name(scene, index), path);
     weft_scene_free(scene);
     return result;
@@ -207,10 +224,11 @@ static void name_after(Model *model, const char *path) {
     model->name[length] = '\0';
 }
 
-static int parse(const char *typed, bool bare, Model *out) {
+static int parse(const char *typed, bool bare, bool weaves, Model *out) {
     Parts parts;
     memset(out, 0, sizeof *out);
     out->bare = bare;
+    out->weaves = weaves;
     int result = split_name(typed, &parts);
     if (result != 0) return result;
     out->given = parts.settings != NULL;
@@ -231,24 +249,24 @@ void model_warn(const Model *model) {
         weft_material_fitted(&model->material, model->name, &log);
 }
 
-int model_parse(const char *typed, Model *out) { return parse(typed, false, out); }
+int model_parse(const char *typed, Model *out) { return parse(typed, false, false, out); }
 
-int model_parse_bare(const char *typed, Model *out) { return parse(typed, true, out); }
+int model_parse_bare(const char *typed, Model *out) { return parse(typed, true, false, out); }
 
 int model_prepare(Model *model) {
     WeftError error;
     weft_reflection_free(model->reflection);
     model->reflection = NULL;
-    WeftResult result = model->kind == MODEL_LOBE
-                            ? weft_reflection_of_lobe(&model->lobe, &model->reflection, &error)
-                        : model->kind == MODEL_MEASURED
-                            ? weft_reflection_read(model->path, &model->reflection, &error)
-                            : weft_reflection_create(&model->material, &model->reflection, &error);
+    WeftResult result =
+        model->kind == MODEL_LOBE ? weft_reflection_of_lobe(&model->lobe, &model->reflection, &error)
+        : model->kind == MODEL_MEASURED
+            ? weft_reflection_read(model->path, &model->reflection, &error)
+            : weft_reflection_create_woven(&model->material, model->cloth, &model->reflection, &error);
     return result == WEFT_OK ? 0 : report_error(&error);
 }
 
 int model_read(const char *typed, Model *out) {
-    int result = model_parse(typed, out);
+    int result = parse(typed, false, true, out);
     return result == 0 ? model_prepare(out) : result;
 }
 
@@ -257,6 +275,8 @@ bool model_is_material(const Model *model) {
 }
 
 void model_free(Model *model) {
+    weft_cloth_free(model->cloth);
+    model->cloth = NULL;
     weft_reflection_free(model->reflection);
     model->reflection = NULL;
 }

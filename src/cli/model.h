@@ -9,7 +9,7 @@
  *   cotton.binary, felt.bsdf, m1.bin   a measured BRDF in MERL's, RGL's or UTIA's format
  *
  * A kind before the name settles what two of them share: "lobe:silk", "preset:silk". Textures are left out:
- * of a material only the numbers count, and a warning says so. */
+ * of a material only the numbers count, and a warning says so. A weave counts where model_read made its reflection. */
 #ifndef WEFT_CLI_MODEL_H
 #define WEFT_CLI_MODEL_H
 
@@ -33,7 +33,10 @@ typedef struct Model {
     bool given;      /* settings stood behind the name */
     char words[256]; /* as it was typed, cut where it is long: for labels */
     WeftLobe lobe;   /* MODEL_LOBE */
-    WeftMaterial material;      /* MODEL_PROFILE, MODEL_WORKFLOW, MODEL_MATERIAL */
+    WeftMaterial material; /* MODEL_PROFILE, MODEL_WORKFLOW, MODEL_MATERIAL */
+    bool weaves;           /* a weave is not left out */
+    WeftCloth
+        *cloth; /* MODEL_MATERIAL: what it is woven of; owned; NULL: it is not woven, or that is left out */
     WeftReflection *reflection; /* owned */
 } Model;
 
@@ -45,7 +48,7 @@ typedef struct Model {
  * error. Release with model_free in any case. */
 int model_read(const char *typed, Model *out);
 
-/* Without the reflection. */
+/* Without the reflection, and without a weave. */
 int model_parse(const char *typed, Model *out);
 
 /* Works as model_parse, but a profile or workflow has its own defaults and no grey cloth. */

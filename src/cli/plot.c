@@ -116,10 +116,11 @@ static int models_read(Plot *plot) {
         if (!plot->report && plot->desc.kind == WEFT_PLOT_SAMPLES && model->kind != MODEL_LOBE)
             return report(WEFT_USAGE, "%.200s: is not a lobe, and only lobes have samples to plot",
                           model->words);
-        plot->models[k] = (WeftPlotModel){.reflection = model->reflection,
-                                          .lobe = model->kind == MODEL_LOBE ? &model->lobe : NULL,
-                                          .material = model_is_material(model) ? &model->material : NULL,
-                                          .label = label_of(model)};
+        plot->models[k] =
+            (WeftPlotModel){.reflection = model->reflection,
+                            .lobe = model->kind == MODEL_LOBE ? &model->lobe : NULL,
+                            .material = model_is_material(model) && !model->cloth ? &model->material : NULL,
+                            .label = label_of(model)};
     }
     plot->desc.models = plot->models;
     return 0;
@@ -207,9 +208,9 @@ const Verb verb_plot = {
     .lists = plot_lists,
     .notes = "A model is " MODEL_FORM ": a lobe, an engine profile, preset:NAME or a\n"
              "material file, a material of a scene as scene.glb:MATERIAL, or a measured BRDF\n"
-             "(.binary, .bsdf, .bin). Up to eight stand in one figure. Their colours stay\n"
-             "distinct for colour-blind readers, and so do the dashes of their lines.\n"
-             "docs/plots.md shows each kind.\n\n"
+             "(.binary, .bsdf, .bin). A woven material is drawn as it is from afar. Up to\n"
+             "eight stand in one figure. Their colours stay distinct for colour-blind\n"
+             "readers, and so do the dashes of their lines. docs/plots.md shows each kind.\n\n"
              "Examples\n"
              "  weft plot polar charlie-neubelt:alpha=0.25 ashikhmin-neubelt -o polar.svg\n"
              "  weft plot cartesian ggx:alpha=0.1 ggx:alpha=0.4 --log --view 45 -o ggx.pdf\n"

@@ -7,6 +7,7 @@
 #include "brdf/measured.h"
 #include "measure/halton.h"
 #include "measure/reflection.h"
+#include "scene/cloth_base.h"
 #include "scene/material_at.h"
 #include "scene/material_numbers.h"
 #include "shading/choice.h"
@@ -25,6 +26,8 @@ typedef struct Whole {
     Dir along; /* x of the shading frame, in the caller's frame */
     TableRef table;
     AlbedoTable *own;
+    int bases;            /* 1, or the two systems of a weave, whose sum it is */
+    WeaveBase threads[2]; /* what stands in the place of the base of a weave */
 } Whole;
 
 typedef enum ReflectionKind { REFLECTION_WHOLE, REFLECTION_LOBE, REFLECTION_MEASURED } ReflectionKind;
@@ -63,6 +66,7 @@ static void whole_set(Whole *self, const Material *material) {
     self->surface = dust_accumulate(frame_surface(surface), dust_source(surface), dir(0.0f, 0.0f, 0.0f));
     self->choices = material_choices(material);
     self->table = (TableRef){.kind = TABLE_NONE};
+    self->bases = 1;
 }
 
 static bool whole_make(Whole *self, const Material *material) {
@@ -114,12 +118,19 @@ static WeftResult finish(WeftReflection **out, WeftResult result) {
 }
 
 WeftResult weft_reflection_create(const WeftMaterial *material, WeftReflection **out, WeftError *error) {
+    return weft_reflection_create_woven(material, NULL, out, error);
+}
+
+WeftResult weft_reflection_create_woven(const WeftMaterial *material, const WeftCloth *cloth,
+                                        WeftReflection **out, WeftError *error) {
     *out = NULL;
     WeftResult result = numbers_sound(material, error);
     if (result != WEFT_OK) return result;
     if (!reflection_of_kind(REFLECTION_WHOLE, out, error)) return WEFT_RESOURCES;
     const Material taken = material_sound(material);
     if (!whole_make(&(*out)->whole, &taken)) result = fail(error, WEFT_MESSAGE_MEMORY, "a reflection", NULL);
+    for (int t = 0; cloth && t < 2; t++) (*out)->whole.threads[t] = cloth_base_far(cloth, t == WEFT_WEFT);
+    if (cloth) (*out)->whole.bases = 2;
     return finish(out, result);
 }
 
@@ -162,17 +173,26 @@ static Dir to_frame(const Whole *self, const float w[3]) {
     return dir(a.x * w[0] + a.y * w[1], a.x * w[1] - a.y * w[0], w[2]);
 }
 
-static Slots slots_of_part(int part) {
-    bool all = part == WEFT_PART_ALL;
-    return slots_of(all || part == WEFT_PART_DIFFUSE, all || part == WEFT_PART_SPECULAR,
-                    all || part == WEFT_PART_SHEEN, all || part == WEFT_PART_COAT,
-                    all || part == WEFT_PART_DUST);
+/* Sees a base of a whole, and what lies on it, from o. */
+static void see_base(const Whole *self, int base, Dir o, SeenStack *seen) {
+    const WeaveBase *threads = &self->threads[base];
+    stack_make(&seen->stack, &self->surface, &self->choices, self->table);
+    if (self->bases > 1) stack_put_base(&seen->stack, &threads->lobe, threads->once, threads->again);
+    seen_prepare(seen, o);
 }
 
-/* Returns the value; for a rule that walks at random, the mean of some walks. */
-static StackValue value_of(const SeenStack *seen, int part, Dir i, uint32_t first, uint32_t walks) {
+/* Sheen, coat and dust lie on the cloth as a whole: they count once, with the first base. */
+static Slots slots_of_part(int part, int base) {
+    bool all = part == WEFT_PART_ALL, above = base == 0;
+    return slots_of(all || part == WEFT_PART_DIFFUSE, above && (all || part == WEFT_PART_SPECULAR),
+                    above && (all || part == WEFT_PART_SHEEN), above && (all || part == WEFT_PART_COAT),
+                    above && (all || part == WEFT_PART_DUST));
+}
+
+/* Returns the value with one base; for a rule that walks at random, the mean of some walks. */
+static StackValue value_of(const SeenStack *seen, int part, int base, Dir i, uint32_t first, uint32_t walks) {
     const Stack *stack = &seen->stack;
-    StackValue sum = stack_eval_of(stack, &seen->view, slots_of_part(part), i);
+    StackValue sum = stack_eval_of(stack, &seen->view, slots_of_part(part, base), i);
     bool walk = part == WEFT_PART_ALL && stack->layer == LAYER_STOCHASTIC && HAS_SHEEN(stack);
     for (uint32_t k = 0; walk && i.z > 0.0f && k < walks; k++) {
         Rgb bounces = layer_walk_bounces(stack, &seen->view, slots_all(), i, first + k);
@@ -186,12 +206,14 @@ static void whole_eval(const Whole *self, int part, const float wo[3], int count
     SeenStack seen;
     Dir o = to_frame(self, wo);
     if (!(o.z > 0.0f)) return;
-    seen_make(&seen, &self->surface, &self->choices, self->table, o);
-    for (int k = 0; k < count; k++) {
-        Dir i = to_frame(self, wi[k]);
-        if (!(i.z > 0.0f)) continue;
-        Rgb c = rgb_scale(value_of(&seen, part, i, 0, WALKS).f_cos, 1.0f / i.z);
-        f[k][0] = c.r, f[k][1] = c.g, f[k][2] = c.b;
+    for (int base = 0; base < self->bases; base++) {
+        see_base(self, base, o, &seen);
+        for (int k = 0; k < count; k++) {
+            Dir i = to_frame(self, wi[k]);
+            if (!(i.z > 0.0f)) continue;
+            Rgb c = rgb_scale(value_of(&seen, part, base, i, 0, WALKS).f_cos, 1.0f / i.z);
+            f[k][0] += c.r, f[k][1] += c.g, f[k][2] += c.b;
+        }
     }
 }
 
@@ -212,16 +234,16 @@ static void whole_albedo(const Whole *self, int part, const float wo[3], float a
     SeenStack seen;
     Dir o = to_frame(self, wo);
     double sum[3] = {0.0};
-    seen_make(&seen, &self->surface, &self->choices, self->table, o);
-    for (uint32_t k = 0; k < DRAWS; k++) {
-        Dir i = seen_sample(&seen, ((float)k + 0.5f) / DRAWS, (float)halton((int)k, 2));
-        if (!(i.z > 0.0f)) continue;
-        StackValue value = value_of(&seen, WEFT_PART_ALL, i, k, 1);
-        float pdf = value.pdf;
-        if (!(pdf > 0.0f)) continue;
-        if (part != WEFT_PART_ALL) value = value_of(&seen, part, i, k, 1);
-        Rgb c = rgb_scale(value.f_cos, 1.0f / (pdf * DRAWS));
-        sum[0] += (double)c.r, sum[1] += (double)c.g, sum[2] += (double)c.b;
+    for (int base = 0; base < self->bases; base++) {
+        see_base(self, base, o, &seen);
+        for (uint32_t k = 0; k < DRAWS; k++) {
+            Dir i = seen_sample(&seen, ((float)k + 0.5f) / DRAWS, (float)halton((int)k, 2));
+            if (!(i.z > 0.0f)) continue;
+            float pdf = stack_eval_of(&seen.stack, &seen.view, slots_all(), i).pdf;
+            if (!(pdf > 0.0f)) continue;
+            Rgb c = rgb_scale(value_of(&seen, part, base, i, k, 1).f_cos, 1.0f / (pdf * DRAWS));
+            sum[0] += (double)c.r, sum[1] += (double)c.g, sum[2] += (double)c.b;
+        }
     }
     for (int c = 0; c < 3; c++) albedo[c] = (float)sum[c];
 }

@@ -17,6 +17,20 @@ bool cloth_is_gap(const WeftCloth *cloth, const float uv[2]) {
     return weave_gap(&cloth->weave, at.x, at.y);
 }
 
+WeaveBase cloth_base_far(const WeftCloth *cloth, bool weft) {
+    int w, h;
+    const float *once = cloth_far_level(&cloth->far, cloth->far.levels - 1, &w, &h) +
+                        4 * (weft ? FAR_WEFT_ONCE : FAR_WARP_ONCE),
+                *again = once + 4;
+    WeaveBase base = weave_far(&cloth->weave, weft, rgb(once[0], once[1], once[2]),
+                               rgb(again[0], again[1], again[2]), once[3], 1.0f);
+    const float part =
+        1.0f / base.lobe.params[WOVEN_SHARE]; /* the colours have the share, and so has the lobe */
+    base.once = rgb_scale(base.once, part);
+    base.again = rgb_scale(base.again, part);
+    return base;
+}
+
 /* Those of the looks that are all near, or all far, one behind the other, and what is there. */
 typedef struct Part {
     int count, at[ROW_ROOM]; /* their places among all */

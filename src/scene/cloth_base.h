@@ -20,6 +20,10 @@ typedef struct ClothLooks {
  * of all, by which system in proportion to what they reflect. The mean over the random numbers is the cloth. */
 void cloth_bases(const WeftCloth *cloth, const ClothLooks *looks, int n, YarnRows *out);
 
+/* Returns what the threads of one system reflect on the mean over the whole repeat: lobe woven and its colours, of the
+ * light that falls on the cloth, so that the cloth is the sum of both systems. */
+WeaveBase cloth_base_far(const WeftCloth *cloth, bool weft);
+
 /* Returns true if there is no thread. */
 bool cloth_is_gap(const WeftCloth *cloth, const float uv[2]);
 

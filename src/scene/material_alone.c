@@ -43,14 +43,19 @@ WeftResult material_file_load(const char *path, MaterialFile *out, const WeftLog
 
 void weft_material_default(WeftMaterial *out) { *out = material_default(); }
 
-WeftResult weft_material_read(const char *path, WeftMaterial *out, const WeftLog *log, WeftError *error) {
+/* cloth: NULL: a weave is left out. */
+static WeftResult read_alone(const char *path, WeftMaterial *out, WeftCloth **cloth, const WeftLog *log,
+                             WeftError *error) {
     MaterialFile file;
     weft_material_default(out);
     WeftResult result = material_file_load(path, &file, log, error);
     if (result == WEFT_OK) {
         if (file.texture_count)
             warn(log, WEFT_MESSAGE_GLTF_WARN_IGNORED, path, "its textures; only its numbers count here");
-        if (file.cloth)
+        if (file.cloth && cloth) {
+            *cloth = file.cloth;
+            file.cloth = NULL;
+        } else if (file.cloth)
             warn(log, WEFT_MESSAGE_GLTF_WARN_IGNORED, path, "its weave; only its numbers count here");
         if (file.measured)
             warn(log, WEFT_MESSAGE_GLTF_WARN_IGNORED, path, "its measurement; only its numbers count here");
@@ -59,6 +64,16 @@ WeftResult weft_material_read(const char *path, WeftMaterial *out, const WeftLog
     }
     material_file_free(&file);
     return result;
+}
+
+WeftResult weft_material_read(const char *path, WeftMaterial *out, const WeftLog *log, WeftError *error) {
+    return read_alone(path, out, NULL, log, error);
+}
+
+WeftResult weft_material_read_woven(const char *path, WeftMaterial *out, WeftCloth **cloth,
+                                    const WeftLog *log, WeftError *error) {
+    *cloth = NULL;
+    return read_alone(path, out, cloth, log, error);
 }
 
 WeftResult weft_material_set_number(WeftMaterial *material, int input, const float *values,

@@ -5,6 +5,7 @@
 
 #include "base/pi.h"
 #include "run.h"
+#include "weft/weft.h"
 
 static const char *const kinds[] = {"polar", "lobe3d", "cartesian", "albedo",    "furnace",
                                     "slice", "sphere", "samples",   "difference"};
@@ -51,6 +52,39 @@ static void models_of_all_kinds_share_one_figure(void **state) {
     if (ran.code != 0) fail_msg("%d: %s", ran.code, ran.err);
     ran_free(&ran);
     assert_begins("page.html", "<!DOCTYPE html>");
+}
+
+static void file_of(const char *path, const char *text) { file_make(path, text, strlen(text)); }
+
+/* Presets that are woven, and a material file that is, without a word of what is left out. */
+static void weaves_are_plotted_as_any_model(void **state) {
+    (void)state;
+    static const char *const families[] = {"woven-", "irawan-", "sadeghi-"};
+    int count = 0;
+    for (int k = 0; weft_preset_name(k); k++)
+        for (size_t f = 0; f < sizeof families / sizeof *families; f++) {
+            char model[96];
+            if (strncmp(weft_preset_name(k), families[f], strlen(families[f])) != 0) continue;
+            snprintf(model, sizeof model, "preset:%s", weft_preset_name(k));
+            Ran ran = RUN("plot", "cartesian", model, "--quick", "--csv", "-o", "weave.svg");
+            if (ran.code != 0 || *ran.err) fail_msg("%s: %d: %s", model, ran.code, ran.err);
+            assert_non_null(strstr(ran.out, model));
+            ran_free(&ran);
+            count++;
+        }
+    assert_true(count >= 22);
+    assert_begins("weave.svg", "<?xml");
+    file_of("shot.json", "{\"weave\": {\"draft\": \"plain; warp 1#ff0000; weft 1#0000ff\"}}");
+    assert_complaint(NULL, LIST("plot", "samples", "shot.json", "-o", "shot.png"), 2, "is not a lobe");
+    Ran ran = RUN("plot", "report", "shot.json", "woven", "--quick", "-o", "shot.html");
+    if (ran.code != 0 || *ran.err) fail_msg("%d: %s", ran.code, ran.err);
+    ran_free(&ran);
+    assert_begins("shot.html", "<!DOCTYPE html>");
+    file_of("none.json", "{\"weave\": {\"draft\": \"nowhere.wif\"}}");
+    assert_complaint(NULL, LIST("plot", "polar", "none.json", "-o", "none.svg"), 2,
+                     "nowhere.wif: is not a weave");
+    unlink("none.json");
+    unlink("shot.json");
 }
 
 static void json_has_the_numbers_that_are_drawn(void **state) {
@@ -189,6 +223,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_kind_of_plot_is_written),
         cmocka_unit_test(models_of_all_kinds_share_one_figure),
+        cmocka_unit_test(weaves_are_plotted_as_any_model),
         cmocka_unit_test(json_has_the_numbers_that_are_drawn),
         cmocka_unit_test(csv_has_one_row_for_each_sample),
         cmocka_unit_test(two_runs_write_the_same_bytes),

@@ -90,6 +90,92 @@ static void presets_from_afar_are_symmetric_and_keep_energy(void **state) {
     each_preset(check_afar);
 }
 
+/* Pairs of directions within 75 degrees of the normal, and what a cloth reflects between them on the mean over its points,
+ * times the cosine; a colour for all pairs. */
+enum { PAIRS = 64, POINTS = 6000 };
+typedef struct Pairs {
+    Dir o[PAIRS], i[PAIRS];
+} Pairs;
+
+static void points_reflect(const Weave *m, const Pairs *pairs, double sum[3]) {
+    sum[0] = sum[1] = sum[2] = 0.0;
+    for (int n = 0; n < POINTS; n++) {
+        const float x = (float)(THREADS * fmod(0.7548776662466927 * n, 1.0)),
+                    y = (float)(THREADS * fmod(0.5698402909980532 * n, 1.0));
+        const WeavePoint p = weave_point(m, x, y, 0.1f);
+        if (p.height <= WEAVE_NONE) continue;
+        const Rgb once = weave_once_rgb(m, p), again = weave_again_rgb(m, p);
+        YarnPrepared yarn;
+        YarnView view;
+        yarn_prepare(weave_yarn(m, p), &yarn);
+        for (int k = 0; k < PAIRS; k++) {
+            yarn_view(&yarn, pairs->o[k], &view);
+            const LobeValue v = yarn_value(&yarn, &view, angles_between(pairs->o[k], pairs->i[k]));
+            const double f = (double)(v.f * pairs->i[k].z) / POINTS, s = (double)v.s;
+            sum[0] += f * ((double)once.r * (1.0 - s) + (double)again.r * s);
+            sum[1] += f * ((double)once.g * (1.0 - s) + (double)again.g * s);
+            sum[2] += f * ((double)once.b * (1.0 - s) + (double)again.b * s);
+        }
+    }
+}
+
+/* What a reflection does between them. It is the same both ways round, and its parts are the whole. */
+static void reflection_reflects(const WeftReflection *r, const Pairs *pairs, double sum[3]) {
+    sum[0] = sum[1] = sum[2] = 0.0;
+    for (int k = 0; k < PAIRS; k++) {
+        const float o[3] = {pairs->o[k].x, pairs->o[k].y, pairs->o[k].z},
+                    i[1][3] = {{pairs->i[k].x, pairs->i[k].y, pairs->i[k].z}},
+                    back[1][3] = {{o[0], o[1], o[2]}};
+        float f[1][3], turned[1][3], base[1][3];
+        weft_reflection_eval(r, WEFT_PART_ALL, o, 1, i, f);
+        weft_reflection_eval(r, WEFT_PART_ALL, i[0], 1, back, turned);
+        weft_reflection_eval(r, WEFT_PART_DIFFUSE, o, 1, i, base);
+        for (int c = 0; c < 3; c++) {
+            sum[c] += (double)(f[0][c] * i[0][2]);
+            assert_true(fabsf(f[0][c] - turned[0][c]) < 1e-5f && fabsf(f[0][c] - base[0][c]) < 1e-6f);
+        }
+    }
+}
+
+static double farthest;
+
+static void check_reflection(const char *name, const WeftCloth *cloth) {
+    Pairs pairs;
+    WeftMaterial bare;
+    WeftReflection *reflection;
+    WeftError error;
+    uint64_t stream = stream_start(5, 29);
+    for (int k = 0; k < PAIRS; k++) {
+        double unit[4]; /* in this order with any compiler */
+        for (int n = 0; n < 4; n++) unit[n] = any_unit(&stream);
+        pairs.o[k] = direction_cos(0.26 + 0.74 * unit[0], 6.28 * unit[1]);
+        pairs.i[k] = direction_cos(0.26 + 0.74 * unit[2], 6.28 * unit[3]);
+    }
+    weft_material_default(&bare);
+    assert_int_equal(weft_reflection_create_woven(&bare, cloth, &reflection, &error), WEFT_OK);
+    double points[3], far[3];
+    float e[3];
+    points_reflect(&cloth->weave, &pairs, points);
+    reflection_reflects(reflection, &pairs, far);
+    weft_reflection_albedo(reflection, WEFT_PART_ALL, 0.7f, e);
+    print_message("%-24s", name);
+    for (int c = 0; c < 3; c++) {
+        const double off = far[c] / points[c] - 1.0;
+        print_message(" %+.3f", off);
+        farthest = fmax(farthest, fabs(off));
+        assert_true(e[c] > 0.0f && e[c] < 1.0f);
+    }
+    print_message("  E %.3f %.3f %.3f\n", (double)e[0], (double)e[1], (double)e[2]);
+    weft_reflection_free(reflection);
+}
+
+static void presets_are_reflections_that_reflect_as_their_points_do(void **state) {
+    (void)state;
+    each_preset(check_reflection);
+    print_message("the farthest is off by %.3f\n", farthest);
+    assert_true(farthest < 0.02);
+}
+
 /* f cos / pdf of fibres of albedo 0.9. */
 static double carried(LobeValue v, float cosine) {
     const double again = (double)v.s;
@@ -274,6 +360,7 @@ static void maps_of_presets_have_one_weight(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(presets_are_reflections_that_reflect_as_their_points_do),
         cmocka_unit_test(presets_from_afar_are_symmetric_and_keep_energy),
         cmocka_unit_test(points_send_back_what_falls_on_the_cloth_with_little_variance),
         cmocka_unit_test(systems_from_afar_are_drawn_with_little_variance),
