@@ -1,7 +1,7 @@
 /* Prints how near the closed forms of fibres are to the solved slab, how long the solver takes, and how well
  * it holds. Directions and alphas are none that anything was fitted to.
  *
- *   build/release/bench/bench_fibre [solver|models|sampling] */
+ *   build/release/bench/bench_fibre [solver|models|tiers|sampling] */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -205,6 +205,89 @@ static void print_models(void) {
     print_slabs("all three, alpha 0.45 .. 1", &grid, 0.45, 1.0);
 }
 
+/* ---- the tiers ---- */
+
+/* The materials of a row, drawn from a range, and the error in % of R that we want to stay below, mean and worst; 0
+ * where none is set. */
+typedef struct Tier {
+    const char *what, *parameter; /* what a lobe needs to have, or NULL */
+    bool colored;
+    double low, high; /* alpha */
+    double mean, worst;
+} Tier;
+
+static double drawn_between(unsigned *state, double low, double high) {
+    *state = *state * 1664525u + 1013904223u;
+    return low + (high - low) * ((double)(*state >> 8) + 0.5) / 16777216.0;
+}
+
+/* Why a lobe has no figures over a row, or NULL where it has. */
+static const char *refusal(int id, const Tier *tier) {
+    const WeftLobeInfo *info = weft_lobe_info(id);
+    if (tier->parameter && weft_lobe_param_find(id, tier->parameter) < 0) return tier->parameter;
+    if (tier->colored && !(info->traits & TRAIT_TINTED)) return "colour of fibres";
+    return (double)info->params[0].hard_low > tier->low + 1e-6 ? "such alpha" : NULL;
+}
+
+static void print_tier(const Tier *tier, unsigned *state) {
+    enum { ALPHAS = 6, COLORS = 3, TILTS = 2 };
+    double alpha[ALPHAS], color[COLORS], tilt[TILTS];
+    const bool leans = tier->parameter && strcmp(tier->parameter, "tilt") == 0,
+               dense = tier->parameter && !leans;
+    for (int k = 0; k < ALPHAS; k++)
+        alpha[k] = tier->low * (pow)(tier->high / tier->low, drawn_between(state, 0.0, 1.0));
+    for (int k = 0; k < COLORS; k++) color[k] = tier->colored ? drawn_between(state, 0.2, 1.0) : 1.0;
+    if (tier->colored) color[COLORS - 1] = 1.0; /* the last is what others are compared with */
+    for (int k = 0; k < TILTS; k++) tilt[k] = drawn_between(state, 0.05, 0.75);
+    SolvedGrid grid = {.alphas = ALPHAS,
+                       .albedos = tier->colored ? COLORS : 1,
+                       .tilts = leans ? TILTS : 0,
+                       .kept = dense ? 4 : 1,
+                       .rings = leans ? 9 : 25,
+                       .spokes = leans ? 9 : 7,
+                       .alpha = alpha,
+                       .albedo = color,
+                       .tilt = tilt,
+                       .depth = dense ? drawn_between(state, 2.0, 4.0) : 1.0};
+    SolvedSet slabs;
+    make(&grid, &slabs);
+    for (size_t m = 0; m < sizeof models / sizeof models[0]; m++) {
+        const int id = weft_lobe_find(models[m]);
+        const char *none = refusal(id, tier);
+        printf("  %-24s %5.2f ", tier->what, tier->mean);
+        if (tier->worst > 0.0)
+            printf("%6.2f", tier->worst);
+        else
+            printf("%6s", "-");
+        printf("  %-12s ", models[m]);
+        if (none) {
+            printf("has no %s\n", none);
+            continue;
+        }
+        const FitError e = set_error(id, &slabs, 0.0, 1.0);
+        const double mean = 100.0 * e.mean, worst = 100.0 * e.worst;
+        const bool holds = mean <= tier->mean && (tier->worst <= 0.0 || worst <= tier->worst);
+        printf("%6.2f %7.1f  %s\n", mean, worst, holds ? "yes" : "no");
+    }
+    fflush(stdout);
+    solved_set_free(&slabs);
+}
+
+static void print_tiers(void) {
+    static const Tier tiers[] = {
+        {"white, alpha .19 .. 1", NULL, false, 0.19, 1.0, 0.25, 1.2},
+        {"white, alpha .05 .. .19", NULL, false, 0.05, 0.19, 0.25, 1.2},
+        {"density, alpha .19 .. 1", "density", false, 0.19, 1.0, 1.0, 0.0},
+        {"colour, alpha .19 .. 1", NULL, true, 0.19, 1.0, 1.0, 0.0},
+        {"colour, alpha .05 .. .19", NULL, true, 0.05, 0.19, 3.0, 0.0},
+        {"nap, alpha .38 .. 1", "tilt", false, 0.38, 1.0, 1.0, 0.0},
+    };
+    unsigned state = 28;
+    printf("\ntiers: error of f in %% of R, at materials drawn at random, and the aim\n");
+    printf("  materials                  aim  worst  lobe           mean   worst  within\n");
+    for (size_t k = 0; k < sizeof tiers / sizeof *tiers; k++) print_tier(&tiers[k], &state);
+}
+
 /* ---- sampling ---- */
 
 /* The weight f cos / pdf of stratified samples: its variance in parts of its mean's square, and its largest.
@@ -253,6 +336,7 @@ int main(int count, char **arguments) {
     const char *only = count > 1 ? arguments[1] : "";
     if (!only[0] || strcmp(only, "solver") == 0) print_solver();
     if (!only[0] || strcmp(only, "models") == 0) print_models();
+    if (!only[0] || strcmp(only, "tiers") == 0) print_tiers();
     if (!only[0] || strcmp(only, "sampling") == 0) print_sampling();
     return 0;
 }
