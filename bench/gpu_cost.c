@@ -385,7 +385,7 @@ static void fibre_costs(Gpu *gpu) {
  * never comes again. u[6] and u[7] are the place, u[8] the spacing of points. f and s are of all three channels. */
 #define CLOTH "    Weave m = cloth;\n    m.cycle_x = 0.0;\n    m.cycle_y = 0.0;\n"
 #define LIT                                                                                                  \
-    "    YarnPrepared q;\n    YarnView w;\n    yarn_prepare(weave_yarn(m, p), q);\n"                         \
+    "    YarnPrepared q;\n    YarnView w;\n    yarn_prepare(weave_yarn(m, p), q);\n    q.axis = p.fibre;\n"  \
     "    yarn_view(q, a.o, w);\n"                                                                            \
     "    LobeReflected x = lobe_reflected(yarn_value(q, w, a), weave_once_rgb(m, p), weave_again_rgb(m, "    \
     "p));\n"                                                                                                 \

@@ -7,6 +7,7 @@
 
 #include "base/fail.h"
 #include "raster/gl_check.h"
+#include "shading/weave_light.h"
 #include "weave/weft_cloth.h"
 
 /* Returns the texels of a row of a width for so many threads. */
@@ -96,10 +97,18 @@ void cloth_numbers(const WeftCloth *cloth, float numbers[CLOTH_NUMBERS]) {
                           (float)cloth->far.height,
                           cloth->per_uv[WEFT_WARP],
                           cloth->per_uv[WEFT_WEFT]};
+    enum { AFAR = 60 }; /* the place of what does, CLOTH_AFAR of glsl/weave.glsl */
     _Static_assert((2 * sizeof(WeaveYarn) + 2 * sizeof(WeaveFar) + sizeof rest + 3 * sizeof(float)) /
                            (4 * sizeof(float)) ==
-                       CLOTH_NUMBERS / 4,
+                       AFAR / 4,
                    "all of them");
+    _Static_assert(AFAR * sizeof(float) + 2 * sizeof(WovenPrepared) == CLOTH_NUMBERS * sizeof(float),
+                   "all of them");
+    for (int system = 0; system < 2; system++) {
+        WovenPrepared afar;
+        woven_prepare(weave_woven(m, system == WEFT_WEFT), &afar);
+        memcpy(numbers + AFAR + system * (int)(sizeof afar / sizeof(float)), &afar, sizeof afar);
+    }
     memcpy(numbers, &m->warp, sizeof m->warp), numbers += sizeof m->warp / sizeof(float);
     memcpy(numbers, &m->weft, sizeof m->weft), numbers += sizeof m->weft / sizeof(float);
     memcpy(numbers, &m->warp_far, sizeof m->warp_far), numbers += sizeof m->warp_far / sizeof(float);

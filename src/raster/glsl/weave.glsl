@@ -47,11 +47,26 @@ WeaveBase woven_far(Weave c, bool weft, vec2 place, vec2 across, vec2 up, WeaveF
     return b;
 }
 
-/* In the place of the stack's base. Colours from afar have the share of the system, so that the lobe has it no more. */
+/* Lobe woven of a system is the same at all pixels, and found once by who draws: cloth_numbers. Both systems are read, since
+ * an index that a loop counts costs a software driver a load for each pixel. */
+const int CLOTH_AFAR = 60, CLOTH_AFAR_EACH = 30;
+#define TAKE_AFAR(name)                                                                                      \
+    taken.name = weft ? weave_number(k + CLOTH_AFAR_EACH) : weave_number(k);                                 \
+    k++;
+#define TAKE_BIN(name) TAKE_AFAR(name.slope) TAKE_AFAR(name.e) TAKE_AFAR(name.gain)
+WovenPrepared woven_afar(bool weft) {
+    int k = CLOTH_AFAR;
+    WovenPrepared taken;
+    WOVEN_NUMBERS(TAKE_AFAR)
+    WOVEN_EACH_BIN(TAKE_BIN)
+    taken.part = 1.0; /* colours from afar have the share of the system */
+    return taken;
+}
+
+/* In the place of the stack's base. */
 Stack woven_stack(Stack m, WeaveBase b) {
     Stack n = m;
     compose_base(n, b.lobe, b.once, b.again);
-    n.diffuse_prepared.woven.part = 1.0;
     return n;
 }
 
@@ -62,10 +77,9 @@ struct WovenSum {
     float covered; /* the part of the pixel that threads cover */
 };
 
-/* Adds a base in place of that of m, which is seen as w. */
-void woven_add(inout WovenSum sum, Stack m, StackView w, WeaveBase b, float weight, PolygonReach reach,
+/* Adds a base, that of n, which but for it is seen as w. */
+void woven_add(inout WovenSum sum, Stack n, StackView w, WeaveBase b, float weight, PolygonReach reach,
                Facing at, Frame frame) {
-    Stack n = woven_stack(m, b);
     StackView v = w;
     Slots base = slots_of(SHOWS_DIFFUSE, false, false, false, false);
     view_base(n, v);
@@ -122,11 +136,17 @@ vec4 woven_light(Stack m, Dir o, Facing at, Frame frame, float occlusion) {
         vec2 spot = place + from.x * across + from.y * up;
         WeavePoint p = weave_point(c, spot.x, spot.y, f.longest * inversesqrt(float(points)));
         sum.covered = sum.covered + (p.height > WEAVE_NONE ? weight : 0.0);
-        woven_add(sum, m, w, weave_near(c, p), weight, reach, at, frame);
+        WeaveBase b = weave_near(c, p);
+        Stack n = woven_stack(m, b);
+        n.diffuse_prepared.yarn.axis = p.fibre; /* what its azimuth says, without an arc */
+        woven_add(sum, n, w, b, weight, reach, at, frame);
     }
-    for (int k = 0; k < systems; k++)
-        woven_add(sum, m, w, woven_far(c, k > 0, place, across, up, f), 0.5 * far, reach,
-                  at, frame);
+    for (int k = 0; k < systems; k++) {
+        WeaveBase b = woven_far(c, k > 0, place, across, up, f);
+        Stack n = woven_stack(m, b);
+        n.diffuse_prepared.woven = woven_afar(k > 0);
+        woven_add(sum, n, w, b, 0.5 * far, reach, at, frame);
+    }
     if (MATERIAL_HOLED) {
         float scale = 1.0 / max(sum.covered, 1e-3);
         sum.direct = rgb_scale(sum.direct, scale);

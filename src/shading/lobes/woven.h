@@ -51,14 +51,17 @@ STRUCT(WovenBin) {
     float gain;  /* of its weight in the mean over s, and of the wider D; 0: no part */
 };
 
-STRUCT(WovenPrepared) {
-    float alpha, share, roundness, over_roundness;
-    float count;              /* of bins */
-    float part;               /* the share; 1 where colours hold it (raster/glsl/weave.glsl) */
-    float crimp, cross_crimp; /* slopes as yarn_area takes them */
-    float cos_a, sin_a, cos_t, sin_t;
-    WovenBin b0, b1, b2, b3, b4, b5;
-};
+/* count: of bins. part: the share; 1 where colours hold it (raster/glsl/weave.glsl). crimp, cross_crimp: slopes as yarn_area
+ * takes them. */
+#define WOVEN_NUMBERS(N)                                                                                     \
+    N(alpha)                                                                                                 \
+    N(share)                                                                                                 \
+    N(roundness)                                                                                             \
+    N(over_roundness) N(count) N(part) N(crimp) N(cross_crimp) N(cos_a) N(sin_a) N(cos_t) N(sin_t)
+#define WOVEN_EACH_BIN(N)  N(b0) N(b1) N(b2) N(b3) N(b4) N(b5)
+#define WOVEN_NUMBER(name) float name;
+#define WOVEN_BIN(name)    WovenBin name;
+STRUCT(WovenPrepared){WOVEN_NUMBERS(WOVEN_NUMBER) WOVEN_EACH_BIN(WOVEN_BIN)};
 
 #define WOVEN_BINS 6
 
