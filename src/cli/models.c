@@ -262,12 +262,24 @@ static void show_one(const Kind *kind, int k, Json *json, bool first) {
     print_one(kind, k);
 }
 
-/* An id may be that of several: "cook-torrance" is a lobe, a V and an F. only: of one kind, NULL: of all. */
+static int list_kind(const Kind *kind, Json *json) {
+    if (json)
+        json_kind(json, kind, NULL);
+    else
+        print_kind(kind);
+    return 0;
+}
+
+/* An id may be that of several: "cook-torrance" is a lobe, a V and an F. only: of one kind, NULL: of all. The name of a
+ * kind that is no id lists the kind. */
 static int show(const char *id, const Kind *only, Json *json) {
     int found = 0;
+    const Kind *named = kind_prefixed(id, (int)strlen(id));
+    if (named && strlen(id) + 1 < strlen(named->key))
+        named = NULL; /* "preset" and "presets", but not "pre" */
     for (const Kind *kind = kinds; kind->id; kind++)
         found += (only ? kind == only : in_json(kind)) && kind_find(kind, id) >= 0;
-    if (!found) return no_such_id(id);
+    if (!found) return named ? list_kind(named, json) : no_such_id(id);
     if (json) json_open(json, NULL, '[');
     found = 0;
     for (const Kind *kind = kinds; kind->id; kind++)
@@ -286,9 +298,7 @@ static int show_of_kind(const char *text, const char *colon, Json *json) {
     if (!kind)
         return report(WEFT_USAGE, "%.200s: the word before the colon is not a kind that `weft models` lists",
                       text);
-    if (!colon[1] && !json) print_kind(kind);
-    if (!colon[1] && json) json_kind(json, kind, NULL);
-    if (!colon[1]) return 0;
+    if (!colon[1]) return list_kind(kind, json);
     int k = kind_named(kind, colon + 1);
     if (k < 0) return WEFT_USAGE;
     if (json || strcmp(kind->id, "preset") != 0) return show(colon + 1, kind, json);
@@ -330,7 +340,7 @@ const Verb verb_models = {
              "one sees, formula and source, of a lobe its parameters, of a choice its values,\n"
              "of a preset its material file, of a reference material who measured it. KIND:ID\n"
              "is one of them: lobe:cook-torrance, d:charlie, layer:seed, profile:three; KIND:\n"
-             "lists all of a kind. preset:NAME prints a material file and nothing else;\n"
+             "lists all of a kind, as presets does. preset:NAME prints a material file and nothing else;\n"
              "chart: with -o draws the reference materials as swatches.\n\n"
              "Examples\n"
              "  weft models\n"

@@ -20,9 +20,10 @@ typedef struct Weaving {
 
 static int output_check(Weaving *weaving) {
     const char *path = weaving->output = option_text(weaving->options, "-o");
+    const bool cloth = option_given(weaving->options, "--close");
+    if (!path && cloth) return report(WEFT_USAGE, "--close: the picture needs a name: -o OUT.png");
     if (!path) return 0;
-    if (option_given(weaving->options, "--close") && !path_ends(path, ".png"))
-        return report(WEFT_USAGE, "%s: a cloth is drawn as .png", path);
+    if (cloth && !path_ends(path, ".png")) return report(WEFT_USAGE, "%s: a cloth is drawn as .png", path);
     if (!weft_draft_suffix_known(path))
         return report(WEFT_USAGE, "%s: drafts are written as .wif, .png, .svg, .pdf or .txt", path);
     return output_probe_other(weaving->options, path);

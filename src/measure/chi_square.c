@@ -1,4 +1,6 @@
+#include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "measure/chi_square.h"
 
@@ -16,6 +18,8 @@ static int by_expectation(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
+/* The statistic is the sum of (seen - expected)^2 over the variance: of a count, which is what is expected, and the square
+ * of the error. */
 double chi_square_bins(Bin *bins, int count) {
     const double least = 8.0; /* expected in a bin, for the distribution to hold */
     qsort(bins, (size_t)count, sizeof *bins, by_expectation);
@@ -24,11 +28,12 @@ double chi_square_bins(Bin *bins, int count) {
     Bin pool = {0};
     for (int k = 0; k < count; k++) {
         pool.expected += bins[k].expected;
+        pool.error += bins[k].error;
         pool.seen += bins[k].seen;
         if (pool.expected < least && k + 1 < count) continue;
         double d = pool.seen - pool.expected;
         if (pool.expected > 0.0)
-            statistic += d * d / pool.expected;
+            statistic += d * d / (pool.expected + pool.error * pool.error);
         else if (pool.seen > 0.0)
             return 0.0;
         used++;
@@ -40,20 +45,33 @@ double chi_square_bins(Bin *bins, int count) {
 /* Bins along a side of the grid; the last of all counts "no sample". */
 enum { BINS = 20, ALL_BINS = BINS * BINS + 1 };
 
-static double expect(const BsdfView *view, const Grid *grid, Bin *bins) {
+/* Integrates the pdf over each bin by that many points along a side; returns the integral over all. */
+static double integrate(const BsdfView *view, int cells, double shares[BINS * BINS]) {
+    Grid grid;
     Ring ring;
     float pdf[GRID_MAX];
     double all = 0.0;
-    int cells = grid->cells / BINS;
-    for (int row = 0; row < grid->cells; row++) {
-        Dirs dirs = grid_ring(grid, row, &ring);
+    grid_make(&grid, view->o, BINS * cells);
+    memset(shares, 0, BINS * BINS * sizeof *shares);
+    for (int row = 0; row < grid.cells; row++) {
+        Dirs dirs = grid_ring(&grid, row, &ring);
         view->bsdf->pdf(view, dirs, pdf);
-        for (int c = 0; c < grid->cells; c++) {
+        for (int c = 0; c < grid.cells; c++) {
             double share = (double)pdf[c] * ring.area[c];
-            bins[row / cells * BINS + c / cells].expected += share;
+            shares[row / cells * BINS + c / cells] += share;
             all += share;
         }
     }
+    return all;
+}
+
+/* Fills the bins with what `count` samples are expected to be. Returns the integral of the pdf. */
+static double expect(const BsdfView *view, int cells, int count, Bin bins[ALL_BINS]) {
+    double fine[BINS * BINS], coarse[BINS * BINS];
+    double all = integrate(view, cells, fine), about = integrate(view, cells / 2, coarse);
+    for (int k = 0; k + 1 < ALL_BINS; k++)
+        bins[k] = (Bin){.expected = fine[k] * count, .error = fabs(fine[k] - coarse[k]) * count};
+    bins[ALL_BINS - 1] = (Bin){.expected = fmax(1.0 - all, 0.0) * count, .error = fabs(all - about) * count};
     return all;
 }
 
@@ -72,8 +90,8 @@ bool chi_square_measure(const BsdfView *view, int count, int cells, uint32_t see
     Ring block;
     Bin *bins = alloc_array(ALL_BINS, sizeof *bins);
     if (!bins) return false;
-    grid_make(&grid, view->o, BINS * cells);
-    *out = (ChiSquare){.integral = expect(view, &grid, bins)};
+    grid_make(&grid, view->o, BINS);
+    *out = (ChiSquare){.integral = expect(view, cells, count, bins)};
     Draw draw = draw_start(seed, 1);
     int above = 0, held = 0;
     for (int k = 0; k < count; k++) {
@@ -88,8 +106,7 @@ bool chi_square_measure(const BsdfView *view, int count, int cells, uint32_t see
             held = 0;
         }
     }
-    for (int k = 0; k + 1 < ALL_BINS; k++) bins[k].expected *= count;
-    bins[ALL_BINS - 1] = (Bin){fmax(1.0 - out->integral, 0.0) * count, (double)(count - above)};
+    bins[ALL_BINS - 1].seen = (double)(count - above);
     out->p = chi_square_bins(bins, ALL_BINS);
     free(bins);
     return true;

@@ -10,16 +10,16 @@ typedef struct ChiSquare {
     int stray;       /* samples above the horizon with a pdf of 0 */
 } ChiSquare;
 
-/* Draws `count` samples; the pdf is integrated over `cells` by `cells` (at most 20) points in each of 20 by
- * 20 bins. False when memory is short. */
+/* Draws `count` samples; the pdf is integrated over `cells` by `cells` points in each of 20 by 20 bins, and over half as
+ * many, from which it differs by its error. cells is even and at most 20. False when memory is short. */
 bool chi_square_measure(const BsdfView *view, int count, int cells, uint32_t seed, ChiSquare *out);
 
 /* Upper tail of the distribution. */
 double chi_square_tail(double statistic, int freedom);
 
-/* A bin's share and count. */
+/* A bin: how many samples are expected, by how much that may be off, and how many are counted. */
 typedef struct Bin {
-    double expected, seen;
+    double expected, error, seen;
 } Bin;
 
 /* p of the counts; bins that expect little are counted together. Sorts the bins. */

@@ -109,7 +109,7 @@ static WeftResult make_satin(const Notation *notation, const char *word, bool wa
     if (n < 5 || c < 2 || c > n - 2 || divisor(n, c) != 1)
         return REFUSE(
             notation,
-            "a satin of %d threads cannot move by %d: that is 2 to %d, and shares no divisor with %d", n, c,
+            "a satin of %d threads cannot move by %d: a move is 2 to %d and shares no divisor with %d", n, c,
             n - 2, n);
     WeftResult result = draft_create(notation->text, n, n, WEFT_MESSAGE_DRAFT_NOTATION, out, notation->error);
     for (int j = 0; result == WEFT_OK && j < n; j++)

@@ -186,6 +186,15 @@ static void id_of_several_catalogues_prints_all_pages(void **state) {
     ran = RUN("models", "layers:");
     assert_true(has_row(ran.out, "reciprocal") && !has_row(ran.out, "lambert"));
     ran_free(&ran);
+    ran = RUN("models", "presets:");
+    Ran plain = RUN("models", "presets"), single = RUN("models", "preset");
+    assert_true(has_row(ran.out, "velvet"));
+    assert_string_equal(plain.out, ran.out);
+    assert_string_equal(single.out, ran.out);
+    ran_free(&ran);
+    ran_free(&plain);
+    ran_free(&single);
+    assert_complaint(NULL, LIST("models", "lay"), 2, "is not an id");
     assert_complaint(NULL, LIST("models", "chalrie-neubelt"), 2, "did you mean charlie-neubelt?");
     assert_complaint(NULL, LIST("models", "d:neubelt"), 2, "is not a D term");
     assert_complaint(NULL, LIST("models", "paint:ggx"), 2, "is not a kind");

@@ -67,6 +67,7 @@ static void impossible_weave_commands_are_errors_of_one_line(void **state) {
     assert_ends(LIST("weave", "plain", "--yarn", "silk,"), 2, "is not a yarn");
     assert_ends(LIST("weave", "plain", "--close", "4", "-o", "plain.svg"), 2, "a cloth is drawn as .png");
     assert_ends(LIST("weave", "plain", "--close", "0", "-o", "plain.png"), 2, "--close");
+    assert_ends(LIST("weave", "plain", "--close", "6"), 2, "needs a name");
     assert_ends(LIST("weave", "plain", "--bake", "none/there"), 4, "none/there");
     assert_ends(LIST("weave", "plain", "--sett", "a,b"), 2, "threads per centimetre");
     assert_ends(LIST("weave", "twill.wif", "-o", "twill.wif"), 2, "");
