@@ -13,16 +13,25 @@
 #include "shading/compose.h"
 
 /* Returns what one channel of a slot reflects. The term f_quadratic takes the second colour's share from the
- * light of the whole lobe, not per direction. Likewise a tinted lobe (tint.h) has one tint for all its
- * light. */
+ * light of the whole lobe, not per direction. The light of a tinted lobe has its colour already. */
 FN float ambient_apply_channel(SheenE e, float f0, float f90, float f_quadratic, float first, float second) {
-    if (IS_TINTED(e.tint)) return first * f90 * tint_color(e.tint, f0 / max(f90, 1e-30f));
+    if (IS_TINTED(e.tint)) return first * f90;
     return f0 * first + f90 * second - f_quadratic * first * second / max(first + second, 1e-30f);
 }
 FN Rgb ambient_apply_colors(SlotColors s, SheenE e, LobeLight p) {
     return rgb(ambient_apply_channel(e, s.f0.r, s.f90.r, s.f_quadratic.r, p.first.r, p.second.r),
                ambient_apply_channel(e, s.f0.g, s.f90.g, s.f_quadratic.g, p.first.g, p.second.g),
                ambient_apply_channel(e, s.f0.b, s.f90.b, s.f_quadratic.b, p.first.b, p.second.b));
+}
+
+/* Returns how a sheen of these colours tints. */
+FN AmbientTint ambient_tint(SheenE e, SlotColors s) {
+    AmbientTint t = ambient_untinted();
+    if (!IS_TINTED(e.tint)) return t;
+    t.whole = e.tint;
+    t.flakes =
+        rgb(s.f0.r / max(s.f90.r, 1e-30f), s.f0.g / max(s.f90.g, 1e-30f), s.f0.b / max(s.f90.b, 1e-30f));
+    return t;
 }
 
 /* Returns the cosine average over wi of schlick_s(min(cos_o, cos_i)); wi . h is never less than this minimum.
@@ -124,7 +133,8 @@ FN Rgb ambient_smooth(const Stack *m, const StackView *w, AmbientTables t, Ambie
     SheenE untinted = sheen_e_of(0.0f);
     float diffuse_factor = ambient_diffuse(s), reflection_factor = ambient_reflection(s);
     if (HAS_DIFFUSE(m)) {
-        SlotLight light = ambient_slot_light(t.diffuse, s, v, residual, m->diffuse.lobe, -1.0f);
+        SlotLight light =
+            ambient_slot_light(t.diffuse, s, v, residual, m->diffuse.lobe, ambient_untinted(), -1.0f);
         AmbientSlot a =
             ambient_slot(slot_colors(&m->diffuse), untinted, w->scale.diffuse, light, diffuse_factor);
         if (SHOWS_DIFFUSE) sum = rgb_mul(through.diffuse, a.reflected);
@@ -137,7 +147,8 @@ FN Rgb ambient_smooth(const Stack *m, const StackView *w, AmbientTables t, Ambie
         sum = rgb_add(sum, rgb_mul(through.diffuse, rgb_mul(m->transmitted, light)));
     }
     if (HAS_SPECULAR(m)) {
-        SlotLight light = ambient_slot_light(t.specular, s, v, residual, m->specular.lobe, -1.0f);
+        SlotLight light =
+            ambient_slot_light(t.specular, s, v, residual, m->specular.lobe, ambient_untinted(), -1.0f);
         AmbientSlot a =
             ambient_slot(stack_specular_colors(m, w), untinted, w->scale.specular, light, reflection_factor);
         if (SHOWS_SPECULAR) sum = rgb_add(sum, rgb_mul(through.specular, a.reflected));
@@ -149,9 +160,10 @@ FN Rgb ambient_smooth(const Stack *m, const StackView *w, AmbientTables t, Ambie
         if (m->nap.tilt > 0.0f) along.heading = v.tx * m->nap.x + v.ty * m->nap.y;
         /* The sheen's own albedo table interpolates E better than the table of the fit. */
         float albedo = m->albedo == ALBEDO_TABLE && m->table.kind != TABLE_NONE ? w->e_o.e : -1.0f;
-        SlotLight light = ambient_slot_light(t.sheen, s, along, residual, m->sheen.lobe, albedo);
-        AmbientSlot a =
-            ambient_slot(slot_colors(&m->sheen), w->e_o, w->scale.sheen, light, reflection_factor);
+        SlotColors colors = slot_colors(&m->sheen);
+        AmbientTint tint = ambient_tint(w->e_o, colors);
+        SlotLight light = ambient_slot_light(t.sheen, s, along, residual, m->sheen.lobe, tint, albedo);
+        AmbientSlot a = ambient_slot(colors, w->e_o, w->scale.sheen, light, reflection_factor);
         if (SHOWS_SHEEN) sum = rgb_add(sum, rgb_mul(through.sheen, a.reflected));
         lights->scale.sheen = a.lights_scale;
         only->sheen = SHOWS_SHEEN && a.lights_scale > 0.0f;
@@ -159,8 +171,8 @@ FN Rgb ambient_smooth(const Stack *m, const StackView *w, AmbientTables t, Ambie
     if (HAS_COAT(m)) {
         if (w->coat_o.z > 0.0f) {
             AmbientView c = ambient_view(w->coat_o, m->coat_x, m->coat_y, m->coat_z, v.occlusion);
-            SlotLight light =
-                ambient_slot_light(t.coat, s, c, ambient_residual_lookups(s, c), m->coat.lobe, -1.0f);
+            SlotLight light = ambient_slot_light(t.coat, s, c, ambient_residual_lookups(s, c), m->coat.lobe,
+                                                 ambient_untinted(), -1.0f);
             AmbientSlot a =
                 ambient_slot(slot_colors(&m->coat), untinted, w->scale.coat, light, reflection_factor);
             if (SHOWS_COAT) sum = rgb_add(sum, a.reflected);
@@ -169,7 +181,7 @@ FN Rgb ambient_smooth(const Stack *m, const StackView *w, AmbientTables t, Ambie
         }
     }
     if (HAS_DUST(m)) {
-        SlotLight light = ambient_slot_light(t.dust, s, v, residual, m->dust.lobe, -1.0f);
+        SlotLight light = ambient_slot_light(t.dust, s, v, residual, m->dust.lobe, ambient_untinted(), -1.0f);
         AmbientSlot a = ambient_slot(slot_colors(&m->dust), untinted, w->scale.dust, light, diffuse_factor);
         if (SHOWS_DUST) sum = rgb_add(sum, a.reflected);
         lights->scale.dust = a.lights_scale;

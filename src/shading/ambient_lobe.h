@@ -68,8 +68,7 @@ STRUCT(AmbientLookups) { Rgb a, b, c, d; };
 
 FN AmbientLookups ambient_residual_lookups(AmbientSource s, AmbientView v) {
     AmbientLookups l;
-    l.a =
-        rgb_scale(ambient_residual(s, ambient_bent_direction(s, v.z, 4.0f, v.occlusion), 0.0f), v.occlusion);
+    l.a = rgb_scale(ambient_residual(s, v.z, 0.0f), v.occlusion);
     l.b = rgb_add(ambient_visible_residual(s, v, dir(0.612372436f, 0.612372436f, 0.5f), 3.125f,
                                            dir(0.3984f, 0.3984f, 0.5224f)),
                   ambient_visible_residual(s, v, dir(0.612372436f, -0.612372436f, 0.5f), 3.125f,
@@ -135,11 +134,12 @@ FN SlotLight ambient_mirror_light(AmbientTable t, AmbientSource s, AmbientView v
  * the sum over strips is within a twentieth. So it scales the sum near those headings alone: h is the square of the
  * cosine of the heading, 32 fitted to ggx and silk. */
 FN SlotLight ambient_sampled_light(AmbientTable t, AmbientSource s, AmbientView v, AmbientCoord at, Lobe lobe,
-                                   AmbientAlbedo e) {
+                                   AmbientTint tint, AmbientAlbedo e) {
     SlotLight a;
     float h = at.side_weight, own = t.strips && t.turning ? min(32.0f * h * (1.0f - h), 1.0f) : 0.0f;
-    a.reflected = lobe_light_add(ambient_sample_lobe(s, v, lobe, t.strips, e.first + e.second, own),
-                                 ambient_sample_lights(s, v, lobe, t.strips));
+    a.reflected =
+        lobe_light_add(ambient_sample_lobe(s, v, lobe, tint.flakes, t.strips, e.first + e.second, own),
+                       ambient_sample_lights(s, v, lobe, tint.flakes, t.strips));
     a.light_fraction = 0.0f;
     return a;
 }
@@ -168,16 +168,25 @@ FN SlotLight ambient_fitted_light(AmbientTable t, AmbientSource s, AmbientView v
     return a;
 }
 
-/* residual: the look-ups in this view. albedo: see ambient_albedo; a brushed lobe has another for each heading. */
+/* Works as ambient_slot_light for all but samples, which have directions. */
+FN SlotLight ambient_undirected_light(AmbientTable t, AmbientSource s, AmbientView v, AmbientLookups residual,
+                                      AmbientCoord at, float p, AmbientAlbedo e) {
+    if (t.strategy == AMBIENT_IRRADIANCE) return ambient_irradiance_light(s, v, e);
+    if (t.strategy == AMBIENT_MIRROR) return ambient_mirror_light(t, s, v, p, e);
+    return ambient_fitted_light(t, s, v, residual, at, e);
+}
+
+/* residual: the look-ups in this view. albedo: see ambient_albedo; a brushed lobe has another for each heading. The light
+ * of a tinted lobe is that of its flakes. */
 FN SlotLight ambient_slot_light(AmbientTable t, AmbientSource s, AmbientView v, AmbientLookups residual,
-                                Lobe lobe, float albedo) {
+                                Lobe lobe, AmbientTint tint, float albedo) {
     float p = lobe.params[0];
     AmbientCoord at = ambient_coord(t, v.o.z, v.heading, p);
     AmbientAlbedo e = ambient_albedo(t, s, at, t.strips && t.turning ? -1.0f : albedo);
-    if (t.strategy == AMBIENT_IRRADIANCE) return ambient_irradiance_light(s, v, e);
-    if (t.strategy == AMBIENT_MIRROR) return ambient_mirror_light(t, s, v, p, e);
-    if (t.strategy == AMBIENT_SAMPLED) return ambient_sampled_light(t, s, v, at, lobe, e);
-    return ambient_fitted_light(t, s, v, residual, at, e);
+    if (t.strategy == AMBIENT_SAMPLED) return ambient_sampled_light(t, s, v, at, lobe, tint, e);
+    SlotLight a = ambient_undirected_light(t, s, v, residual, at, p, e);
+    a.reflected.first = ambient_tinted(tint.whole, tint.flakes, a.reflected.first);
+    return a;
 }
 
 #endif

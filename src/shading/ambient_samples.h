@@ -32,6 +32,25 @@
 FN int ambient_sample_count(bool strips) { return strips ? AMBIENT_STRIP_SAMPLES : AMBIENT_SAMPLES; }
 FN float ambient_sample_trust(bool strips) { return strips ? AMBIENT_STRIP_TRUST : AMBIENT_SAMPLE_TRUST; }
 
+/* The colour of a tinted lobe (tint.h), by which the lobe itself tints light that has a direction. */
+STRUCT(AmbientTint) {
+    Tint whole; /* of all light that goes to wo */
+    Rgb flakes; /* albedo of what the lobe is made of; white for a lobe that is not tinted */
+};
+
+FN AmbientTint ambient_untinted(void) {
+    AmbientTint t;
+    t.whole = tint_none();
+    t.flakes = rgb_grey(1.0f);
+    return t;
+}
+
+FN Rgb ambient_tinted(Tint t, Rgb flakes, Rgb light) {
+    if (!IS_TINTED(t)) return rgb_mul(light, flakes);
+    return rgb(light.r * tint_color(t, flakes.r), light.g * tint_color(t, flakes.g),
+               light.b * tint_color(t, flakes.b));
+}
+
 FN float ambient_power_heuristic(float a, float b) { return a * a / max(a * a + b * b, 1e-30f); }
 
 /* Returns the weight of the lights in a sample of the lobe about w, times the visibility of the nearest light.
@@ -73,8 +92,8 @@ FN float ambient_sample_place(bool strips, int k) {
  * that neighbours overlap; a filter exp(kappa (mu - 1)) covers 2 pi / kappa, hence kappa = pi n pdf. Strips
  * are a lattice and cover that angle once, hence twice that kappa. The sum
  * is scaled to `albedo`, which has less noise, but for the part `own` of it. */
-FN LobeLight ambient_sample_lobe(AmbientSource s, AmbientView v, Lobe lobe, bool strips, float albedo,
-                                 float own) {
+FN LobeLight ambient_sample_lobe(AmbientSource s, AmbientView v, Lobe lobe, Rgb flakes, bool strips,
+                                 float albedo, float own) {
     LobeLight sum = lobe_light_of(rgb_grey(0.0f), 0.0f, 0.0f);
     int count = ambient_sample_count(strips);
     float e = 0.0f, n = to_float(count);
@@ -91,7 +110,7 @@ FN LobeLight ambient_sample_lobe(AmbientSource s, AmbientView v, Lobe lobe, bool
             float open = ambient_sky_visibility(s, w, i.z, v.occlusion);
             float lights = ambient_sample_weight(s, w, density * ambient_sample_trust(strips), open);
             Rgb l = rgb_scale(ambient_visible_radiance(s, w, all, kappa, lights, open), weight);
-            sum = lobe_light_add(sum, lobe_light_of(l, 1.0f - x.s, x.s));
+            sum = lobe_light_add(sum, lobe_light_of(ambient_tinted(x.tint, flakes, l), 1.0f - x.s, x.s));
             e = e + weight;
         }
     }
@@ -100,7 +119,7 @@ FN LobeLight ambient_sample_lobe(AmbientSource s, AmbientView v, Lobe lobe, bool
 
 /* Returns the estimate from points of the lights, with the complementary weight. Each point is evaluated as a
  * directional light. */
-FN LobeLight ambient_sample_lights(AmbientSource s, AmbientView v, Lobe lobe, bool strips) {
+FN LobeLight ambient_sample_lights(AmbientSource s, AmbientView v, Lobe lobe, Rgb flakes, bool strips) {
     LobeLight sum = lobe_light_of(rgb_grey(0.0f), 0.0f, 0.0f);
     int count = ambient_point_count(s);
     float n = ambient_sample_trust(strips) * to_float(ambient_sample_count(strips));
@@ -112,7 +131,7 @@ FN LobeLight ambient_sample_lights(AmbientSource s, AmbientView v, Lobe lobe, bo
             float weight = ambient_power_heuristic(l.density, x.pdf * n);
             Rgb c =
                 rgb_scale(l.color, x.f * i.z * weight * ambient_light_visibility(s, l.light, v.occlusion));
-            sum = lobe_light_add(sum, lobe_light_of(c, 1.0f - x.s, x.s));
+            sum = lobe_light_add(sum, lobe_light_of(ambient_tinted(x.tint, flakes, c), 1.0f - x.s, x.s));
         }
     }
     return sum;

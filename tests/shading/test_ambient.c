@@ -35,6 +35,11 @@ static void fit(AmbientFit *to, int id) {
     ambient_fit(to, &lobe, min(a, b), max(a, b), 0);
 }
 
+static void fit_one(AmbientFit *to, int id, float roughness) {
+    Lobe lobe = lobe_rough(id, roughness);
+    ambient_fit(to, &lobe, lobe.params[0], lobe.params[0], 0);
+}
+
 static AmbientTables all_tables(AmbientTable t) { return (AmbientTables){t, t, t, t, t}; }
 
 static SeenStack one_lobe(Lobe lobe, Dir o) {
@@ -208,6 +213,36 @@ static void environment_lights_are_shaded_as_lights(void **state) {
     /* a crease dims them */
     got = ambient_of(one_lobe(lobe, o), tables, &calls, 0.6f);
     assert_float_equal(got.r, 0.6f * (2.0f * f[0] + 0.1f * f[1]), 1e-6);
+}
+
+/* Grey fibres reflect a light as they do from its direction, and an even sky as they do from all. */
+static void tinted_lobes_have_the_tint_of_a_direction(void **state) {
+    (void)state;
+    static AlbedoTable albedo;
+    static AmbientFit table;
+    const float grey = 0.3f;
+    int checked = 0;
+    for (int id = 0; id < LOBE_COUNT; id++) {
+        if (!(weft_lobe_info(id)->traits & TRAIT_TINTED) || !asked(id)) continue;
+        Lobe lobe = lobe_rough(id, 0.7f);
+        fit_one(&table, id, 0.7f);
+        SeenStack m = tabled(lobe, direction(0.3, 0.2), &albedo);
+        m.stack.sheen.f0 = rgb_grey(grey);
+        for (int k = 0; k < 6; k++) {
+            Dir o = direction(0.3 + 0.2 * k, 0.2), w = direction(1.2, 0.4 + 0.5 * k);
+            Even even = {.count = 1, .env_lights = {{w, rgb_grey(1.0f), 1e9f, 0}}}, sky = {.radiance = 1.0f};
+            AmbientSourceCalls one = even_calls(&even), all = even_calls(&sky);
+            seen_prepare(&m, o);
+            LobeValue x = lobe_value(&lobe, angles_between(o, w));
+            float f = x.f * w.z * tint_color(x.tint, grey);
+            AmbientTables tables = all_tables(ambient_table(&table, AMBIENT_SAMPLED));
+            assert_float_equal(ambient_of(m, tables, &one, 1.0f).r, f, 1e-4f * f + 1e-7f);
+            float e = m.view.e_o.e * tint_color(m.view.e_o.tint, grey);
+            assert_float_equal(ambient_of(m, tables, &all, 1.0f).r, e, 0.04f * e + 2e-4f);
+            checked++;
+        }
+    }
+    assert_true(checked > 0);
 }
 
 /* The cosine-weighted mean of what is seen is the occlusion, and more is never seen less of. */
@@ -469,11 +504,6 @@ static void sharp_environment_is_within_the_stated_error(void **state) {
     weft_image_free(&s.image);
 }
 
-static void fit_one(AmbientFit *to, int id, float roughness) {
-    Lobe lobe = lobe_rough(id, roughness);
-    ambient_fit(to, &lobe, lobe.params[0], lobe.params[0], 0);
-}
-
 /* A lobe that is a ring is known by its density, and then its samples are nearer than one axis is. */
 static void ring_shaped_lobes_are_nearer_with_samples(void **state) {
     (void)state;
@@ -505,6 +535,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(even_environment_returns_the_albedo),
                                        cmocka_unit_test(baked_weights_return_the_albedo),
                                        cmocka_unit_test(environment_lights_are_shaded_as_lights),
+                                       cmocka_unit_test(tinted_lobes_have_the_tint_of_a_direction),
                                        cmocka_unit_test(occlusion_of_lights_has_the_stated_mean),
                                        cmocka_unit_test(layer_rules_dim_the_base_under_an_environment),
                                        cmocka_unit_test(light_of_the_map_is_in_lights_or_residual),
