@@ -20,7 +20,17 @@ static bool is_same_place(const EnvLight *a, const EnvLight *b) {
            memcmp((const char *)&a->spread, (const char *)&b->spread, sizeof a->spread) == 0;
 }
 
-/* Returns true if lights have moved. */
+/* Returns true if the environment has, without its lights. */
+static bool find_rest(Lookout *self, const GlEnvironment *environment, float rotation) {
+    const AmbientRest *rest = &environment->parts.rest;
+    bool same = rotation >= self->rotation && rotation <= self->rotation &&
+                memcmp(rest, &self->rest, sizeof *rest) == 0;
+    self->rest = *rest;
+    self->rotation = rotation;
+    return !same;
+}
+
+/* Returns true if lights, or what is left, have moved. */
 static bool find_lights(Lookout *self, const GlEnvironment *environment) {
     EnvLight lights[AMBIENT_LIGHTS_MAX];
     const float rotation = self->scene->environment.rotation;
@@ -31,7 +41,7 @@ static bool find_lights(Lookout *self, const GlEnvironment *environment) {
     memcpy(self->lights, lights, (size_t)count * sizeof *lights);
     self->light_count = count;
     self->point_count = environment_points(environment, rotation, self->points);
-    return !same;
+    return find_rest(self, environment, rotation) || !same;
 }
 
 static WeftResult look(Lookout *self, bool no_cache, const WeftLog *log, WeftError *error) {
@@ -41,7 +51,9 @@ static WeftResult look(Lookout *self, bool no_cache, const WeftLog *log, WeftErr
                               .env_lights = self->lights,
                               .env_light_count = self->light_count,
                               .env_points = self->points,
-                              .env_point_count = self->point_count};
+                              .env_point_count = self->point_count,
+                              .rest = &self->rest,
+                              .rotation = self->rotation};
     WeftResult result = occlusion_start(self->scene, &self->refinement, &how, &self->occlusion, log, error);
     self->again = result != WEFT_OK;
     return result;

@@ -17,6 +17,8 @@ typedef struct Lookout {
     int light_count;
     EnvPoint points[AMBIENT_POINTS_MAX]; /* the parts of these lights */
     int point_count;
+    AmbientRest rest; /* the environment without them */
+    float rotation;
     bool again; /* when what is looked for now is found */
 } Lookout;
 

@@ -23,7 +23,7 @@ enum { ROUNDS = 2 };
 #define DIFFERENT 0.16f
 
 /* Raised whenever the same scene would give other values. */
-enum { LOOK = 7 };
+enum { LOOK = 8 };
 
 /* All vertices, of the meshes as they are refined, and what they see. */
 typedef struct Outlook {
@@ -33,13 +33,17 @@ typedef struct Outlook {
     uint32_t *first, *known;  /* vertex of a mesh; how many of a mesh have been looked from */
 } Outlook;
 
+/* Texels along a side of a face of a cube. */
+enum { BRIGHT = 16 };
+
 struct Occlusion {
     WeftScene scene; /* as it was, without the meshes of its lights: what its lists hold stays, those of
                         meshes and materials are copies */
     Geometry *geometry;
     Outlook at;
     int round, rays, threads;
-    Dir *sky, *toward; /* rays: of the sky about the normal, and in the world to each light */
+    Dir *sky, *toward;               /* rays: of the sky about the normal, and in the world to each light */
+    float bright[6][BRIGHT][BRIGHT]; /* of a cube: the environment without its lights, 1 in the mean */
     bool no_cache;
     EnvLight env_lights[OCCLUSION_LIGHTS];
     int env_light_count;
@@ -54,13 +58,77 @@ struct Occlusion {
 
 static Dir dir_of(Vec3 v) { return dir(v.x, v.y, v.z); }
 
-/* c_0 + c . w about n, each from -1 to 1. */
-typedef struct Ramp {
-    float mean, x, y, z;
-} Ramp;
+/* Solves m x = y for m symmetric and positive definite, of which the lower half counts, by m = l d l^T, which takes the
+ * place of m as x does that of y. */
+static void solve(double m[4][4], double x[4]) {
+    for (int j = 0; j < 4; j++)
+        for (int i = j; i < 4; i++) {
+            for (int k = 0; k < j; k++) m[i][j] -= m[i][k] * m[j][k] * m[k][k];
+            if (i > j) m[i][j] /= m[j][j];
+        }
+    for (int i = 0; i < 4; i++)
+        for (int k = 0; k < i; k++) x[i] -= m[i][k] * x[k];
+    for (int i = 3; i >= 0; i--) {
+        x[i] /= m[i][i];
+        for (int k = i + 1; k < 4; k++) x[i] -= m[k][i] * x[k];
+    }
+}
 
-static float ramp_at(const Ramp *r, Dir w) {
-    return clamp(r->mean + r->x * w.x + r->y * w.y + r->z * (w.z - 0.5f), 0.0f, 1.0f);
+/* The face of a cube that a direction meets, and where, both coordinates from -1 to 1. */
+static int face_of(Dir w, float *u, float *v) {
+    float x = abs(w.x), y = abs(w.y), z = abs(w.z);
+    if (x >= y && x >= z) return *u = w.y / x, *v = w.z / x, w.x < 0.0f;
+    if (y >= z) return *u = w.z / y, *v = w.x / y, 2 + (w.y < 0.0f);
+    return *u = w.x / z, *v = w.y / z, 4 + (w.z < 0.0f);
+}
+
+static float brightness(const Occlusion *self, Dir w) {
+    float u, v;
+    int face = face_of(w, &u, &v), x = (int)(0.5f * (u + 1.0f) * BRIGHT),
+        y = (int)(0.5f * (v + 1.0f) * BRIGHT);
+    return self->bright[face][y < BRIGHT ? y : BRIGHT - 1][x < BRIGHT ? x : BRIGHT - 1];
+}
+
+/* Fills the cube. Dark directions count a little too, since lights are dimmed as the sky is until they are found. */
+static void place_brightness(Occlusion *self, const OcclusionHow *how) {
+    const float dark = 0.05f, c = cos(how->rotation), s = sin(how->rotation);
+    float mean = 0.0f;
+    for (int k = 0; k < 6 * BRIGHT * BRIGHT; k++) {
+        const float u = ((float)(k % BRIGHT) + 0.5f) * 2.0f / BRIGHT - 1.0f,
+                    v = ((float)(k / BRIGHT % BRIGHT) + 0.5f) * 2.0f / BRIGHT - 1.0f;
+        const int face = k / (BRIGHT * BRIGHT);
+        const float side = face % 2 ? -1.0f : 1.0f;
+        const Vec3 at[3] = {{side, u, v}, {v, side, u}, {u, v, side}};
+        Vec3 w = vec3_normal_or(at[face / 2], vec3(0.0f, 1.0f, 0.0f));
+        Vec3 own = vec3(w.x * c - w.z * s, w.y, w.z * c + w.x * s);
+        float l = how->rest ? ambient_rest_at(how->rest, own) : 1.0f;
+        self->bright[face][k / BRIGHT % BRIGHT][k % BRIGHT] = l;
+        mean += l / (6 * BRIGHT * BRIGHT);
+    }
+    for (int k = 0; k < 6 * BRIGHT * BRIGHT; k++) {
+        float *l = &self->bright[k / (BRIGHT * BRIGHT)][k / BRIGHT % BRIGHT][k % BRIGHT];
+        *l = (mean > 0.0f ? *l / mean : 1.0f) + dark;
+    }
+}
+
+/* The ramp c . b, b = (1, w.x, w.y, w.z), nearest to what is seen, V: the sum over the rays of g (c . b - V)^2 is least
+ * where c = (sum g b b^T)^-1 sum g b V. g = L / (w.z + 0.07), L the brightness of the environment there, since a sheen
+ * looks along the horizon: then the sum of g c . b is that of g V, so what is seen of such a lobe's light is right
+ * whatever hides the rest. A ramp that is fitted as it is cut off at 0 and 1 is nearer at a vertex, but steep, and
+ * further off between vertices. */
+static void fit_ramp(const Occlusion *self, const Dir *ways, const bool *hidden, double c[4]) {
+    double m[4][4] = {{0.0}};
+    memset(c, 0, 4 * sizeof *c);
+    for (int i = 0; i < 4; i++) m[i][i] = 1e-6 * self->rays; /* fewer than four rays leave it open */
+    for (int k = 0; k < self->rays; k++) {
+        Dir w = self->sky[k];
+        const float g = brightness(self, ways[k]) / (w.z + 0.07f), b[4] = {1.0f, w.x, w.y, w.z};
+        for (int i = 0; i < 4; i++) {
+            for (int j = 0; j <= i; j++) m[i][j] += (double)(g * b[i] * b[j]);
+            if (!hidden[k]) c[i] += (double)(g * b[i]);
+        }
+    }
+    solve(m, c);
 }
 
 /* Directions are even over the hemisphere by the golden ratio. All vertices have the same, so that what they err by
@@ -69,48 +137,6 @@ static void place_sky(Occlusion *self) {
     for (int k = 0; k < self->rays; k++) {
         float v = (float)k * 0.618033989f;
         self->sky[k] = warp_uniform(((float)k + 0.5f) / (float)self->rays, v - floor(v));
-    }
-}
-
-/* So many times as steep, its mean over the rays as it was when it is cut off. */
-static Ramp ramp_steeper(const Occlusion *self, const Ramp *r, float by) {
-    Ramp out = {r->mean, by * r->x, by * r->y, by * r->z};
-    for (int round = 0; round < 4; round++) {
-        float mean = 0.0f;
-        for (int k = 0; k < self->rays; k++) mean += ramp_at(&out, self->sky[k]);
-        out.mean = clamp(out.mean + r->mean - mean / (float)self->rays, -1.0f, 2.0f);
-    }
-    return out;
-}
-
-/* Nearest to what is seen, V, over the hemisphere, whose x, y, z have the means 0, 0, 1/2 and the variances
- * 1/3, 1/3, 1/12:
- *
- *   mean(V) + 3 mean(V x) x + 3 mean(V y) y + 12 mean(V (z - 1/2)) (z - 1/2)
- *
- * and since V ends at 0 and 1, as many times as steep as is nearest when it is cut off there, and as much
- * higher as cutting it off takes from its mean. */
-static void fit_ramp(const Occlusion *self, const bool *seen, Ramp *out) {
-    static const float steps[] = {1.0f, 1.25f, 1.5f, 2.0f, 2.5f, 3.0f};
-    Ramp r = {0.0f, 0.0f, 0.0f, 0.0f};
-    float least = INFINITY, share = 1.0f / (float)self->rays;
-    for (int k = 0; k < self->rays; k++) {
-        Dir w = self->sky[k];
-        if (!seen[k]) continue;
-        r.mean += share;
-        r.x += 3.0f * share * w.x;
-        r.y += 3.0f * share * w.y;
-        r.z += 12.0f * share * (w.z - 0.5f);
-    }
-    *out = r;
-    for (size_t n = 0; n < sizeof steps / sizeof steps[0]; n++) {
-        Ramp steep = ramp_steeper(self, &r, steps[n]);
-        float off = 0.0f;
-        for (int k = 0; k < self->rays; k++) {
-            float d = ramp_at(&steep, self->sky[k]) - (seen[k] ? 1.0f : 0.0f);
-            off += d * d;
-        }
-        if (off < least) least = off, *out = steep;
     }
 }
 
@@ -133,22 +159,23 @@ static void look_along(const Occlusion *self, Vec3 from, const Dir *ways, int co
 
 /* The part of the cosine-weighted sky above n that a point sees, and which. */
 static float seen_from(const Occlusion *self, Vec3 p, Vec3 n, float reach, uint32_t vertex, float open[4]) {
-    bool hidden[OCCLUSION_RAYS_MAX], seen[OCCLUSION_RAYS_MAX];
+    bool hidden[OCCLUSION_RAYS_MAX];
     Dir ways[OCCLUSION_RAYS_MAX];
     Frame frame = frame_upright(n);
-    float sum = 0.0f;
-    Ramp ramp;
+    float sum = 0.0f, all = 1e-6f;
+    double c[4];
     for (int k = 0; k < self->rays; k++) ways[k] = frame_from(frame, self->sky[k]);
     look_along(self, vec3_madd(p, n, reach), ways, self->rays, vertex, hidden);
     for (int k = 0; k < self->rays; k++) {
-        seen[k] = !hidden[k];
-        if (seen[k]) sum += 2.0f * self->sky[k].z / (float)self->rays;
+        const float light = self->sky[k].z * brightness(self, ways[k]);
+        sum += hidden[k] ? 0.0f : light;
+        all += light;
     }
-    fit_ramp(self, seen, &ramp);
-    Dir slope = frame_from(frame, dir(ramp.x, ramp.y, ramp.z));
-    open[0] = ramp.mean - 0.5f * ramp.z;
+    fit_ramp(self, ways, hidden, c);
+    Dir slope = frame_from(frame, dir((float)c[1], (float)c[2], (float)c[3]));
+    open[0] = (float)c[0];
     open[1] = slope.x, open[2] = slope.y, open[3] = slope.z;
-    return min(sum, 1.0f);
+    return min(sum / all, 1.0f);
 }
 
 static float point_light(const EnvPoint *point) {
@@ -263,6 +290,7 @@ static uint64_t values_key(const Occlusion *self) {
     }
     for (int k = 0; k < self->first_point[self->env_light_count]; k++)
         hash = cache_hash(hash, &self->env_points[k], sizeof self->env_points[k]);
+    hash = cache_hash(hash, self->bright, sizeof self->bright);
     for (int m = 0; m < scene->mesh_count; m++) {
         const Mesh *mesh = &scene->meshes[m];
         const uint32_t what[] = {mesh->vertex_count, mesh->triangle_count, mesh->normal != NULL,
@@ -276,14 +304,11 @@ static uint64_t values_key(const Occlusion *self) {
     return hash;
 }
 
-/* The sums of fit_ramp are greatest where V is 1 on the side they point to and 0 on the other: 3/4 along the
- * horizon and 3/2 upwards, which is less than 1.7 together, before it makes them up to three times as steep.
- */
 static bool in_range(const float *values, size_t count) {
-    static const float steepest = 3.0f * 1.7f;
+    const float most = 16.0f; /* several times what a ramp ever has */
     bool good = true;
     for (size_t k = 0; k < count; k++)
-        good &= fabsf(values[k]) <= (k % OCCLUSION_VALUES - OCCLUSION_OPEN < 8 ? steepest : 1.0f);
+        good &= fabsf(values[k]) <= (k % OCCLUSION_VALUES - OCCLUSION_OPEN < 8 ? most : 1.0f);
     return good;
 }
 
@@ -508,6 +533,7 @@ WeftResult occlusion_start(const WeftScene *scene, const Refinement *refinement,
     self->threads = how->threads ? how->threads : thread_count();
     self->env_light_count = how->env_light_count < OCCLUSION_LIGHTS ? how->env_light_count : OCCLUSION_LIGHTS;
     copy_env_lights(self, how);
+    place_brightness(self, how);
     self->joined = true;
     self->sky = alloc_array((size_t)self->rays, sizeof(Dir));
     self->toward = alloc_array((size_t)self->rays * OCCLUSION_LIGHTS, sizeof(Dir));

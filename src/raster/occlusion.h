@@ -10,7 +10,7 @@ typedef struct Occlusion Occlusion;
 
 /* Numbers of a vertex: the part of the cosine-weighted sky that its front sees, and its back; of front and of
  * back four numbers c by which the part of direction w that is seen is near c_0 + c_1 w.x + c_2 w.y +
- * c_3 w.z, w in the world; then of each light. */
+ * c_3 w.z, w in the world, nearest where the environment is bright; then of each light. */
 enum {
     OCCLUSION_OPEN = 2,
     OCCLUSION_LIGHT = OCCLUSION_OPEN + 2 * 4,
@@ -28,6 +28,8 @@ typedef struct OcclusionHow {
     int env_light_count;        /* those beyond OCCLUSION_LIGHTS are not looked for */
     const EnvPoint *env_points; /* the parts of the lights, sorted by light; copied */
     int env_point_count;        /* 0: each light is about its direction */
+    const AmbientRest *rest; /* of the environment, turned by `rotation`; copied; NULL: as if it were even */
+    float rotation;
 } OcclusionHow;
 
 /* Starts to look from every vertex of the scene's own meshes as they are refined, and then as they are refined further

@@ -151,6 +151,21 @@ static double luminance(const float *p) {
     return 0.2126 * (double)p[0] + 0.7152 * (double)p[1] + 0.0722 * (double)p[2];
 }
 
+static void find_rest(const WeftImage *image, AmbientRest *rest) {
+    const float *p = image->pixels;
+    const int across = image->width / AMBIENT_REST_WIDTH, down = image->height / AMBIENT_REST_HEIGHT;
+    for (int y = 0; y < image->height; y++)
+        for (int x = 0; x < image->width; x++, p += 3)
+            rest->luminance[y / down][x / across] += (float)(luminance(p) / (across * down));
+}
+
+float ambient_rest_at(const AmbientRest *rest, Vec3 d) {
+    float u = 0.5f + atan2f(d.x, -d.z) / (float)(2.0 * PI_DOUBLE),
+          v = acosf(fminf(fmaxf(d.y, -1.0f), 1.0f)) / PI_FLOAT;
+    int x = (int)(u * AMBIENT_REST_WIDTH), y = (int)(v * AMBIENT_REST_HEIGHT);
+    return rest->luminance[y < AMBIENT_REST_HEIGHT ? y : AMBIENT_REST_HEIGHT - 1][x % AMBIENT_REST_WIDTH];
+}
+
 /* The brighter part of a texel: where it comes from and how much it is. */
 typedef struct Spark {
     Vec3 direction;
@@ -348,6 +363,7 @@ WeftResult ambient_split(const Environment *environment, int env_lights, Ambient
             for (int c = 0; c < 3; c++) out->terms[k][c] *= (float)cosines[degree(k)];
         if (env_lights >= 2) take_sparks(&image, &sparks);
         project(&image, out->residual_sh);
+        find_rest(&image, &out->rest);
         find_env_lights(&sparks, env_lights < AMBIENT_LIGHTS_MAX ? env_lights : AMBIENT_LIGHTS_MAX, out);
     }
     if (!sparks.list || !find_points(&sparks, out))

@@ -35,6 +35,12 @@ typedef struct EnvPoint {
     int light;      /* the number of its EnvLight */
 } EnvPoint;
 
+/* Luminance of a residual, means over the texels of a lat-long image. */
+enum { AMBIENT_REST_WIDTH = 64, AMBIENT_REST_HEIGHT = 32 };
+typedef struct AmbientRest {
+    float luminance[AMBIENT_REST_HEIGHT][AMBIENT_REST_WIDTH];
+} AmbientRest;
+
 typedef struct AmbientParts {
     EnvLight env_lights[AMBIENT_LIGHTS_MAX];
     int env_light_count;
@@ -47,6 +53,7 @@ typedef struct AmbientParts {
      * ambient_polynomials. */
     float terms[AMBIENT_TERMS][3];
     float residual_sh[AMBIENT_TERMS][3]; /* radiance of the residual */
+    AmbientRest rest;                    /* the residual, less smooth */
 } AmbientParts;
 
 /* Splits the environment into as many lights as are enough, at most env_lights (0, or 2 ..
@@ -65,6 +72,9 @@ void ambient_polynomials(Vec3 n, float p[AMBIENT_TERMS]);
 /* ambient_residual of ambient_source.h by the first AMBIENT_RESIDUAL_TERMS of the residual's terms. exp(kappa mu) has the
  * Legendre coefficients a_0 = 1, a_1 = coth kappa - 1 / kappa, a_(l+1) = a_(l-1) - (2 l + 1) / kappa a_l. */
 void ambient_rest_about(const AmbientParts *parts, Vec3 w, float kappa, float color[3]);
+
+/* Luminance along a unit direction, of the texel that it meets. */
+float ambient_rest_at(const AmbientRest *rest, Vec3 direction);
 
 /* Radiance of an F32 lat-long image along a unit direction of its own frame, bilinear. */
 void latlong_at(const WeftImage *image, Vec3 direction, float color[3]);

@@ -35,7 +35,8 @@ static WeftScene *corner(WeftAlphaMode mode) {
     return scene;
 }
 
-static void look(const WeftScene *scene, bool no_cache, float values[ALL], int *warnings) {
+static void look_under(const WeftScene *scene, const AmbientRest *rest, bool no_cache, float values[ALL],
+                       int *warnings) {
     const WeftLog log = {count, warnings};
     Occlusion *occlusion;
     WeftError error;
@@ -49,10 +50,15 @@ static void look(const WeftScene *scene, bool no_cache, float values[ALL], int *
                               .threads = 2,
                               .no_cache = no_cache,
                               .env_lights = env_lights,
-                              .env_light_count = LIGHTS};
+                              .env_light_count = LIGHTS,
+                              .rest = rest};
     assert_int_equal(occlusion_start(scene, &unrefined, &how, &occlusion, &log, &error), WEFT_OK);
     memcpy(values, occlusion_values(occlusion, true), ALL * sizeof *values);
     occlusion_free(occlusion);
+}
+
+static void look(const WeftScene *scene, bool no_cache, float values[ALL], int *warnings) {
+    look_under(scene, NULL, no_cache, values, warnings);
 }
 
 static int files(void) {
@@ -72,8 +78,8 @@ static void occlusion_of_a_corner_is_found_in_the_cache(void **state) {
         const float *at = first + OCCLUSION_VALUES * k, half = 0.5f;
         assert_float_equal(at[0], half, 0.02f);
         const float *open = at + OCCLUSION_OPEN, *env_lights = at + OCCLUSION_LIGHT;
-        /* all of one side and nothing of the other */
-        assert_true(open[0] + 0.5f * open[3] > 0.9f && open[0] - 0.5f * open[3] < 0.1f);
+        /* along the horizon all of one side and nothing of the other */
+        assert_true(open[0] + open[3] > 0.95f && open[0] - open[3] < 0.05f);
         assert_float_equal(open[0], half, 0.1f);
         assert_float_equal(open[1], 0.0f, 0.1f);
         assert_float_equal(env_lights[0], 1.0f, 0.0f);
@@ -92,6 +98,26 @@ static void occlusion_of_a_corner_is_found_in_the_cache(void **state) {
     look(scene, false, again, &warnings);
     assert_float_equal(again[0], 1.0f, 0.0f);
     assert_int_equal(warnings, 0);
+    weft_scene_free(scene);
+}
+
+/* A wall before a dark half of the sky hides a part of the light that is as small as the half is dark. */
+static void wall_before_the_dark_hides_little(void **state) {
+    (void)state;
+    const float dark = 0.02f;
+    WeftScene *scene = corner(WEFT_ALPHA_OPAQUE);
+    AmbientRest rest;
+    float values[ALL];
+    int warnings = 0;
+    /* the middle column of the image is where the wall is, towards -z */
+    for (int y = 0; y < AMBIENT_REST_HEIGHT; y++)
+        for (int x = 0; x < AMBIENT_REST_WIDTH; x++)
+            rest.luminance[y][x] = abs(2 * x - AMBIENT_REST_WIDTH) < AMBIENT_REST_WIDTH / 2 ? dark : 1.0f;
+    look_under(scene, &rest, true, values, &warnings);
+    for (int k = 0; k < 4; k++) {
+        const float *at = values + OCCLUSION_VALUES * k;
+        assert_true(at[0] > 0.9f && at[0] < 1.0f);
+    }
     weft_scene_free(scene);
 }
 
@@ -121,6 +147,7 @@ static int end(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(occlusion_of_a_corner_is_found_in_the_cache),
+                                       cmocka_unit_test(wall_before_the_dark_hides_little),
                                        cmocka_unit_test(occlusion_of_transparent_scenes_is_not_cached)};
     return cmocka_run_group_tests(tests, begin, end);
 }
