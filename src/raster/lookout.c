@@ -20,14 +20,16 @@ static bool is_same_place(const EnvLight *a, const EnvLight *b) {
            memcmp((const char *)&a->spread, (const char *)&b->spread, sizeof a->spread) == 0;
 }
 
-/* Returns true if the environment has, without its lights. */
+/* Returns true if the environment without its lights is another, or turned. */
 static bool find_rest(Lookout *self, const GlEnvironment *environment, float rotation) {
     const AmbientRest *rest = &environment->parts.rest;
-    bool same = rotation >= self->rotation && rotation <= self->rotation &&
-                memcmp(rest, &self->rest, sizeof *rest) == 0;
+    float change = fabsf(rotation - self->rotation);
+    for (int k = 0; k < AMBIENT_REST_HEIGHT * AMBIENT_REST_WIDTH; k++)
+        change += fabsf(rest->luminance[k / AMBIENT_REST_WIDTH][k % AMBIENT_REST_WIDTH] -
+                        self->rest.luminance[k / AMBIENT_REST_WIDTH][k % AMBIENT_REST_WIDTH]);
     self->rest = *rest;
     self->rotation = rotation;
-    return !same;
+    return change > 0.0f;
 }
 
 /* Returns true if lights, or what is left, have moved. */
