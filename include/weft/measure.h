@@ -6,6 +6,7 @@
 #define WEFT_MEASURE_H
 
 #include "weft/lobe.h"
+#include "weft/material.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -26,15 +27,17 @@ typedef struct WeftPlace {
     float value, cos_o, cos_i, phi; /* the parameter, the two cosines, the azimuth between */
 } WeftPlace;
 
-/* A white lobe, or a whole white material under an engine profile. For a lobe the rows run over its first
+/* A white lobe, a whole white material under an engine profile, or a woven material in its own colours. For a lobe the rows run over its first
  * parameter from the low to the high end of what is plausible, as `roughness` runs from 0 to 1; the other
- * parameters stay. For a profile they run over the roughness of the sheen. */
+ * parameters stay. For a profile they run over the roughness of the sheen; of a woven
+ * material there is one. */
 typedef struct WeftPassport {
     char id[64];        /* of the lobe or of the profile */
-    int profile;        /* 0: a lobe */
+    int profile;        /* 0: a lobe; else a whole material, */
+    int woven;          /* and 1 where that is a woven one */
     unsigned traits;    /* of a lobe */
     char parameter[64]; /* what the rows run over; empty where there is one row and no parameter */
-    char surface[256];  /* of a profile: the material in words */
+    char surface[256];  /* of a whole material: it in words */
     int rows;           /* 1 .. WEFT_PASSPORT_ROWS */
     int row_default;    /* the row nearest to the default; of a profile, to roughness 0.5 */
     float values[WEFT_PASSPORT_ROWS]; /* of the parameter, row by row */
@@ -114,9 +117,12 @@ typedef struct WeftPassport {
 typedef struct WeftPassportDesc {
     const char *id;       /* of a lobe or of a profile */
     const WeftLobe *lobe; /* in place of the id: a lobe whose further parameters are not the defaults; NULL */
-    int threads;          /* 0: all */
-    int quick;            /* fewer rows, pairs and samples: for a first look, not for documents */
-    int no_gpu;           /* parity is not measured */
+    /* In place of both: a material as weft_reflection_create_woven has it, whose name the id is; NULL. */
+    const WeftMaterial *material;
+    const WeftCloth *cloth;
+    int threads; /* 0: all */
+    int quick;   /* fewer rows, pairs and samples: for a first look, not for documents */
+    int no_gpu;  /* parity is not measured */
     /* Only E, reciprocity, variance and half precision: what the files of the lobes say of themselves. */
     int brief;
 } WeftPassportDesc;

@@ -1,4 +1,4 @@
-/* check.c - `weft check`: what a lobe or an engine profile does with light, in numbers */
+/* check.c - `weft check`: what a lobe, an engine profile or a weave does with light, in numbers */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -7,6 +7,7 @@
 
 #include "given_lobe.h"
 #include "lobes.h"
+#include "model.h"
 #include "names.h"
 #include "output.h"
 #include "passports.h"
@@ -55,6 +56,7 @@ typedef struct Check {
     const Options *options;
     WeftPassportDesc desc;
     WeftLobe lobe; /* desc.lobe, where there is -p */
+    Model model;   /* of desc.material and desc.cloth, where that is a woven material */
     double most[BOUNDS];
     bool json, header, lines, watched;
     WeftPassport *passports;
@@ -109,11 +111,6 @@ static int add_all(Check *check) {
 }
 
 static int unknown(const char *id) {
-    if (kind_find(kind_of("preset"), strncmp(id, "preset:", 7) == 0 ? id + 7 : id) >= 0)
-        return report(WEFT_USAGE,
-                      "%.200s: is a material; check its profile or its lobes, those of a woven one by "
-                      "`weft check woven` and `weft check yarn`",
-                      id);
     char hint[96];
     Nearest nearest = {.typed = id};
     for (int k = 0; k < weft_lobe_count(); k++) nearest_offer(&nearest, weft_lobe_info(k)->id);
@@ -122,11 +119,35 @@ static int unknown(const char *id) {
                   nearest.name ? nearest_hint(&nearest, hint, sizeof hint) : "; `weft models` lists them");
 }
 
+/* Returns true if id names a preset, a material file or a scene. */
+static bool is_material(const char *id) {
+    return strncmp(id, "preset:", 7) == 0 || kind_find(kind_of("preset"), id) >= 0 || strstr(id, ".json") ||
+           strstr(id, ".glb") || strstr(id, ".gltf");
+}
+
+/* Takes a woven material. */
+static int take_weave(Check *check, const char *id) {
+    int result = model_read(id, &check->model);
+    if (result != 0) return result;
+    if (!check->model.cloth)
+        return report(WEFT_USAGE, "%.200s: is a material that is not woven; check its profile or its lobes",
+                      id);
+    check->desc.material = &check->model.material;
+    check->desc.cloth = check->model.cloth;
+    return 0;
+}
+
 static int add_one(Check *check, const char *id) {
-    bool set = option_given(check->options, "-p"), whole = kind_find(kind_of("profile"), id) >= 0;
-    if (!whole && weft_lobe_find(id) < 0) return unknown(id);
-    if (whole && (set || check->header))
-        return report(WEFT_USAGE, "%s: is for lobes, and %s is a profile", set ? "-p" : "--header", id);
+    const bool set = option_given(check->options, "-p"), profile = kind_find(kind_of("profile"), id) >= 0,
+               woven = !profile && weft_lobe_find(id) < 0 && is_material(id);
+    if (!profile && !woven && weft_lobe_find(id) < 0) return unknown(id);
+    if ((profile || woven) && (set || check->header))
+        return report(WEFT_USAGE, "%s: is for lobes, and %s is a %s", set ? "-p" : "--header", id,
+                      woven ? "material" : "profile");
+    if (woven) {
+        int result = take_weave(check, id);
+        if (result != 0) return result;
+    }
     if (set) {
         int result = given_lobe(check->options, id, true, &check->lobe);
         if (result != 0) return result;
@@ -178,6 +199,7 @@ static int check_run(const Options *options) {
     }
     if (result == 0 && page) result = page_write(page, &check);
     free(check.passports);
+    model_free(&check.model);
     return result ? result : check.broken ? WEFT_FAILED : 0;
 }
 
@@ -204,15 +226,17 @@ static const Option check_options[] = {
 
 const Verb verb_check = {
     .name = "check",
-    .operands = "LOBE|PROFILE|all [options]",
-    .help = "validates a lobe or a profile: energy, reciprocity, sampling",
+    .operands = "LOBE|PROFILE|WEAVE|all [options]",
+    .help = "validates a lobe, profile or weave: energy, reciprocity, sampling",
     .operands_least = 1,
     .operands_most = 1,
     .options = check_options,
     .notes = "The passport shows where more light comes back than arrived, whether f is reciprocal,\n"
              "what each layer rule makes of a white cloth, whether samples follow their pdf and how\n"
              "much their weights scatter, what hard directions and 16-bit floats do, and whether\n"
-             "the GPU agrees. docs/check.md explains the numbers. Of `all`, a line each.\n\n"
+             "the GPU agrees. docs/check.md explains the numbers. Of `all`, a line each.\n"
+             "A weave is a woven preset, material file or material of a scene, from afar and in its\n"
+             "own colours.\n\n"
              "Whatever the options, the exit code is 1 too where a result is not finite, is negative\n"
              "or comes from below the horizon, where samples do not follow their pdf or miss more\n"
              "than 1e-4 of the albedo, and where more than 0.1 % of the results on the GPU differ.\n\n"
@@ -220,6 +244,7 @@ const Verb verb_check = {
              "  weft check charlie-neubelt\n"
              "  weft check charlie-neubelt --max-albedo 1\n"
              "  weft check cook-torrance -p d=charlie -p v=neubelt -p f=none\n"
+             "  weft check preset:woven-denim\n"
              "  weft check all --html passports.html\n",
     .run = check_run,
 };

@@ -126,7 +126,7 @@ static void json_parity(Json *json, const WeftPassport *p) {
 void passport_json(Json *json, const WeftPassport *p) {
     json_open(json, NULL, '{');
     json_text(json, "id", p->id);
-    json_text(json, "kind", p->profile ? "profile" : "lobe");
+    json_text(json, "kind", p->woven ? "weave" : p->profile ? "profile" : "lobe");
     if (*p->surface) json_text(json, "surface", p->surface);
     if (*p->parameter) json_text(json, "parameter", p->parameter);
     json_floats(json, "values", p->values, p->rows);

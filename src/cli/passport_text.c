@@ -37,8 +37,10 @@ static void print_cells(const WeftPassport *p, const float cells[][WEFT_PASSPORT
 
 static void print_albedo(const WeftPassport *p) {
     char place[96];
-    printf("\nDirectional albedo E of the white %s; * marks what is above 1 by more than 0.001\n\n",
-           p->profile ? "material" : "lobe");
+    printf("\nDirectional albedo E of the %s; * marks what is above 1 by more than 0.001\n\n",
+           p->woven     ? "woven material"
+           : p->profile ? "white material"
+                        : "white lobe");
     print_cells(p, p->albedo);
     printf("  at most %.3g (%s); %d of %d cells above 1\n", (double)p->albedo_most,
            place_text(p, &p->albedo_place, place, sizeof place), p->albedo_above,

@@ -4,6 +4,9 @@
 
 #include "base/memory.h"
 #include "base/thread.h"
+#include "scene/material_at.h"
+#include "scene/material_numbers.h"
+#include "shading/lobes/woven.h"
 
 /* Lobes. */
 
@@ -168,22 +171,44 @@ static Surface extreme_velvet(int k) {
 static void whole_prepare(const Bsdf *bsdf, int setting, Dir o, BsdfView *view) {
     view->bsdf = bsdf;
     view->o = o;
-    seen_make(&view->whole, &bsdf->surfaces[setting], &bsdf->choices,
-              albedo_table_ref(&bsdf->tables[bsdf->table_of[setting]]), o);
+    for (int base = 0; base < bsdf->bases; base++) {
+        const WeaveBase *threads = &bsdf->threads[base];
+        SeenStack *seen = &view->whole[base];
+        stack_make(&seen->stack, &bsdf->surfaces[setting], &bsdf->choices,
+                   albedo_table_ref(&bsdf->tables[bsdf->table_of[setting]]));
+        if (bsdf->bases > 1) stack_put_base(&seen->stack, &threads->lobe, threads->once, threads->again);
+        stack_see(&seen->stack, &o, &seen->view);
+    }
 }
 
+/* Sheen, coat and dust lie on the cloth as a whole: they count once, with the first base. */
 static void whole_f(const BsdfView *view, Dirs i, float *f) {
+    const Slots base = slots_of(true, false, false, false, false);
+    const SeenStack *second = &view->whole[1];
     for (size_t k = 0; k < i.n; k++) {
-        StackValue value = seen_eval(&view->whole, dir(i.x[k], i.y[k], i.z[k]), 0);
-        f[k] = i.z[k] > 0.0f ? rgb_max3(value.f_cos) / i.z[k] : rgb_max3(value.f_cos);
+        const Dir w = dir(i.x[k], i.y[k], i.z[k]);
+        Rgb f_cos = seen_eval(&view->whole[0], w, 0).f_cos;
+        if (view->bsdf->bases > 1)
+            f_cos = rgb_add(f_cos, stack_eval_of(&second->stack, &second->view, base, w).f_cos);
+        f[k] = w.z > 0.0f ? rgb_max3(f_cos) / w.z : rgb_max3(f_cos);
     }
 }
 
 static void whole_pdf(const BsdfView *view, Dirs i, float *pdf) {
-    for (size_t k = 0; k < i.n; k++) pdf[k] = seen_eval(&view->whole, dir(i.x[k], i.y[k], i.z[k]), 0).pdf;
+    for (size_t k = 0; k < i.n; k++) {
+        const Dir w = dir(i.x[k], i.y[k], i.z[k]);
+        pdf[k] = seen_eval(&view->whole[0], w, 0).pdf;
+        if (view->bsdf->bases > 1)
+            pdf[k] = mix(seen_eval(&view->whole[1], w, 0).pdf, pdf[k], view->bsdf->first);
+    }
 }
 
-static Dir whole_sample(const BsdfView *view, float u, float v) { return seen_sample(&view->whole, u, v); }
+static Dir whole_sample(const BsdfView *view, float u, float v) {
+    const float first = view->bsdf->first;
+    if (view->bsdf->bases == 1) return seen_sample(&view->whole[0], u, v);
+    return u < first ? seen_sample(&view->whole[0], min(u / first, 0x1.fffffep-1f), v)
+                     : seen_sample(&view->whole[1], min((u - first) / (1.0f - first), 0x1.fffffep-1f), v);
+}
 
 /* A sheen's lobe and the parameter with which E is asked for. */
 typedef struct Sheen {
@@ -235,6 +260,7 @@ static bool fill_tables(Bsdf *bsdf, int threads) {
 
 bool bsdf_of_profile(Bsdf *bsdf, int profile, bool quick, int threads) {
     *bsdf = (Bsdf){.whole = true,
+                   .bases = 1,
                    .parameter = "sheen_roughness",
                    .prepare = whole_prepare,
                    .f = whole_f,
@@ -251,6 +277,30 @@ bool bsdf_of_profile(Bsdf *bsdf, int profile, bool quick, int threads) {
     bsdf->row_default = nearest_row(bsdf, 0.5f);
     for (int k = 0; k < BSDF_EXTREMES; k++) bsdf->surfaces[bsdf->rows + k] = extreme_velvet(k);
     bsdf->settings = bsdf->rows + BSDF_EXTREMES;
+    return fill_tables(bsdf, threads);
+}
+
+/* Returns about what threads send back of the light on the cloth. */
+static float bright(const WeaveBase *threads) {
+    return threads->lobe.params[WOVEN_SHARE] * (rgb_mean(threads->once) + rgb_mean(threads->again));
+}
+
+bool bsdf_of_weave(Bsdf *bsdf, const WeftMaterial *material, const WeftCloth *cloth, int threads) {
+    const Material sound = material_sound(material);
+    *bsdf = (Bsdf){.whole = true,
+                   .bases = 2,
+                   .parameter = "",
+                   .rows = 1,
+                   .settings = 1,
+                   .choices = material_choices(&sound),
+                   .prepare = whole_prepare,
+                   .f = whole_f,
+                   .pdf = whole_pdf,
+                   .sample = whole_sample};
+    bsdf->surfaces[0] = material_plain(&sound);
+    for (int t = 0; t < 2; t++) bsdf->threads[t] = cloth_base_far(cloth, t == WEFT_WEFT);
+    const float warp = bright(&bsdf->threads[0]), weft = bright(&bsdf->threads[1]);
+    bsdf->first = clamp(warp / max(warp + weft, 1e-6f), 0.05f, 0.95f);
     return fill_tables(bsdf, threads);
 }
 

@@ -6,6 +6,7 @@
 #ifndef WEFT_MEASURE_BSDF_H
 #define WEFT_MEASURE_BSDF_H
 
+#include "scene/cloth_base.h"
 #include "shading/material_stack.h"
 #include "weft/measure.h"
 
@@ -17,7 +18,7 @@ typedef struct BsdfView {
     Dir o;
     Lobe lobe; /* of a lobe */
     float second;
-    SeenStack whole; /* of a material */
+    SeenStack whole[2]; /* of a material, with each of its bases */
 } BsdfView;
 
 /* Many directions: structures of arrays. */
@@ -36,7 +37,10 @@ struct Bsdf {
 
     Lobe lobe;
     float albedo; /* what a tinted lobe is made of; 1: it is white */
-    bool whole;   /* a material: */
+    bool whole;   /* a material, */
+    int bases;    /* with one base, or as the sum of two, the warp and the weft of a weave: */
+    WeaveBase threads[2];
+    float first; /* the part of the samples that the first base draws */
     Surface surfaces[WEFT_PASSPORT_ROWS + BSDF_EXTREMES];
     Choices choices;
     AlbedoTable *tables; /* of E, released by bsdf_free; that of a setting: */
@@ -54,6 +58,9 @@ void bsdf_of_lobe(Bsdf *bsdf, const Lobe *lobe, bool quick);
 /* The white velvet of a profile (bsdf_velvet says it in words). False when memory is short. */
 bool bsdf_of_profile(Bsdf *bsdf, int profile, bool quick, int threads);
 extern const char bsdf_velvet[];
+
+/* A woven material from afar, in its own colours. False when memory is short. */
+bool bsdf_of_weave(Bsdf *bsdf, const WeftMaterial *material, const WeftCloth *cloth, int threads);
 
 void bsdf_free(Bsdf *bsdf);
 

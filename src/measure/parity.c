@@ -91,7 +91,7 @@ static WeftResult run(GlContext *context, const Bsdf *bsdf, Arrays *arrays, Weft
 void parity_measure(const Bsdf *bsdf, WeftPassport *out) {
     if (bsdf->whole || weft_lobe_info(bsdf->lobe.id)->traits & TRAIT_REFERENCE) {
         snprintf(out->parity_words, sizeof out->parity_words, "%s",
-                 bsdf->whole ? "profiles are compared in tests/raster" : "for the path tracer only");
+                 bsdf->whole ? "whole materials are compared in tests/raster" : "for the path tracer only");
         return;
     }
     GlContext *context;

@@ -285,19 +285,25 @@ bool passport_measure(const Bsdf *bsdf, const WeftPassportDesc *desc, WeftPasspo
 }
 
 WeftResult weft_passport_measure(const WeftPassportDesc *desc, WeftPassport *out, WeftError *error) {
-    const WeftLobe *given = desc->lobe;
-    int lobe = given ? given->lobe : desc->id ? weft_lobe_find(desc->id) : -1;
-    int profile = !given && lobe < 0 && desc->id ? choice_find(CHOICE_profile, desc->id) : -1;
-    if (given ? !weft_lobe_info(lobe) : lobe < 0 && profile < 0)
+    const bool woven = desc->material && desc->cloth;
+    const WeftLobe *given = woven ? NULL : desc->lobe;
+    int lobe = given ? given->lobe : desc->id && !woven ? weft_lobe_find(desc->id) : -1;
+    int profile = !given && !woven && lobe < 0 && desc->id ? choice_find(CHOICE_profile, desc->id) : -1;
+    if (given ? !weft_lobe_info(lobe) : lobe < 0 && profile < 0 && !woven)
         return fail(error, WEFT_MESSAGE_CHECK_NAME, desc->id ? desc->id : "index", NULL);
     if (desc->threads < 0 || desc->threads > WEFT_THREADS_MAX)
         return fail(error, WEFT_MESSAGE_DESC, "threads", "%d", desc->threads);
-    *out = (WeftPassport){.profile = profile >= 0};
+    *out = (WeftPassport){.profile = woven || profile >= 0, .woven = woven};
     snprintf(out->id, sizeof out->id, "%s",
-             profile >= 0 ? weft_profile_name(profile) : weft_lobe_info(lobe)->id);
+             woven          ? (desc->id ? desc->id : "weave")
+             : profile >= 0 ? weft_profile_name(profile)
+                            : weft_lobe_info(lobe)->id);
     Bsdf *bsdf = calloc(1, sizeof *bsdf);
     bool held = bsdf != NULL;
-    if (held && profile >= 0) {
+    if (held && woven) {
+        held = bsdf_of_weave(bsdf, desc->material, desc->cloth, desc->threads);
+        snprintf(out->surface, sizeof out->surface, "a woven material from afar, in its own colours");
+    } else if (held && profile >= 0) {
         held = bsdf_of_profile(bsdf, profile, desc->quick != 0, desc->threads);
         snprintf(out->surface, sizeof out->surface, "%s", bsdf_velvet);
     } else if (held) {

@@ -67,9 +67,9 @@ static void lobe_samples_follow_their_pdf(void **state) {
 }
 
 static void stack_pdf(const BsdfView *view, Dirs i, float *pdf) {
-    for (size_t k = 0; k < i.n; k++) pdf[k] = seen_eval(&view->whole, dir(i.x[k], i.y[k], i.z[k]), 0).pdf;
+    for (size_t k = 0; k < i.n; k++) pdf[k] = seen_eval(&view->whole[0], dir(i.x[k], i.y[k], i.z[k]), 0).pdf;
 }
-static Dir stack_draw(const BsdfView *view, float u, float v) { return seen_sample(&view->whole, u, v); }
+static Dir stack_draw(const BsdfView *view, float u, float v) { return seen_sample(&view->whole[0], u, v); }
 static const Bsdf stacked = {.pdf = stack_pdf, .sample = stack_draw};
 
 static void stack_samples_follow_their_pdf(void **state) {
@@ -83,7 +83,7 @@ static void stack_samples_follow_their_pdf(void **state) {
         for (int e = 1; e < ELEVATIONS; e += 2) {
             Dir o = direction_cos(elevations[e], 1.0 + k);
             BsdfView view = {
-                .bsdf = &stacked, .o = o, .whole = test_stack(&surface, k % LAYER_COUNT, &table, o)};
+                .bsdf = &stacked, .o = o, .whole = {test_stack(&surface, k % LAYER_COUNT, &table, o)}};
             char name[64];
             snprintf(name, sizeof name, "surface %d cos_o=%g", k, (double)o.z);
             check_proposal(&view, name);
@@ -95,10 +95,10 @@ static void stack_samples_follow_their_pdf(void **state) {
 static Dir mirrored(Dir i) { return dir(i.x, i.y, -i.z); }
 static void through_pdf(const BsdfView *view, Dirs i, float *pdf) {
     for (size_t k = 0; k < i.n; k++)
-        pdf[k] = seen_eval(&view->whole, mirrored(dir(i.x[k], i.y[k], i.z[k])), 0).pdf;
+        pdf[k] = seen_eval(&view->whole[0], mirrored(dir(i.x[k], i.y[k], i.z[k])), 0).pdf;
 }
 static Dir through_draw(const BsdfView *view, float u, float v) {
-    return mirrored(seen_sample(&view->whole, u, v));
+    return mirrored(seen_sample(&view->whole[0], u, v));
 }
 static const Bsdf through = {.pdf = through_pdf, .sample = through_draw};
 
@@ -116,7 +116,7 @@ static void stack_samples_that_go_through_follow_their_pdf(void **state) {
             Dir o = direction_cos(elevations[1 + k % 3], 1.0 + k);
             BsdfView view = {.bsdf = side ? &through : &stacked,
                              .o = o,
-                             .whole = test_stack(&surface, LAYER_ALBEDO_VIEW, &table, o)};
+                             .whole = {test_stack(&surface, LAYER_ALBEDO_VIEW, &table, o)}};
             char name[64];
             snprintf(name, sizeof name, "thin surface %d %s cos_o=%g", k, side ? "below" : "above",
                      (double)o.z);
