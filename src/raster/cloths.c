@@ -102,7 +102,9 @@ void cloth_numbers(const WeftCloth *cloth, float numbers[CLOTH_NUMBERS]) {
                            (4 * sizeof(float)) ==
                        AFAR / 4,
                    "all of them");
-    _Static_assert(AFAR * sizeof(float) + 2 * sizeof(WovenPrepared) == CLOTH_NUMBERS * sizeof(float),
+    _Static_assert((AFAR * sizeof(float) + 2 * sizeof(WovenPrepared) + 3 * sizeof(float)) /
+                           (4 * sizeof(float)) ==
+                       CLOTH_NUMBERS / 4,
                    "all of them");
     for (int system = 0; system < 2; system++) {
         WovenPrepared afar;

@@ -49,8 +49,11 @@ FN float yarn_flakes(float a2, float m, float q) {
 }
 FN float yarn_flake_area(float a2, float along) { return sqrt(max(1.0f - (1.0f - a2) * along * along, a2)); }
 
-/* Returns |wi + wo|^-2. */
-FN float yarn_half(Angles a) { return 0.25f / max(a.d * a.d, 1e-6f); }
+/* Returns |wi + wo|^-2, from the directions themselves: a.d would ask for a root. */
+FN float yarn_half(Angles a) {
+    float x = a.o.x + a.i.x, y = a.o.y + a.i.y, z = a.o.z + a.i.z;
+    return 1.0f / max(x * x + y * y + z * z, 4e-6f);
+}
 
 /* single times 4 pi a^2 V_i V_o, from e = (1 - a^2) / a^2 and P and t . w of both directions, with one division:
  * a pi D = (1 + e m^2 q)^-2, sigma / a = sqrt(1 + e (1 - (t . w)^2)). */

@@ -59,7 +59,7 @@ static Mean mean_of(const Woven *m, Dir o, Dir i, int side) {
         const LobeValue v = yarn_value(&p, &w, angles_between(o, i));
         mean.once += (double)(v.f * (1.0f - v.s) * (1.0f - 0.3f * r * r) / 0.9f) / (side * side);
         mean.many += (double)(v.f * v.s) / (side * side);
-        mean.seen += (double)(w.p / w.seen) / (side * side);
+        mean.seen += (double)(w.p * w.over_seen) / (side * side);
     }
     return mean;
 }

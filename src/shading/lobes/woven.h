@@ -47,17 +47,18 @@ STRUCT(Woven){WOVEN_PARAMS(FIELD)};
 /* A part of the yarn: s between two bounds, or between their opposites. */
 STRUCT(WovenBin) {
     float slope; /* s_y in the middle */
+    float c;     /* 1 / sqrt(1 + slope^2) */
     float e;     /* of the wider D, as yarn_met_once has it */
     float gain;  /* of its weight in the mean over s, and of the wider D; 0: no part */
 };
 
-/* count: of bins. part: the share; 1 where colours hold it (raster/glsl/weave.glsl). crimp, cross_crimp: slopes as yarn_area
- * takes them. */
+/* edge: of the weight 1 + edge s_x^2. count: of bins. part: the share; 1 where colours hold it (raster/glsl/weave.glsl).
+ * crimp, cross_crimp: slopes as yarn_area takes them. again: of many, beside what directions add. */
 #define WOVEN_NUMBERS(N)                                                                                     \
     N(alpha)                                                                                                 \
     N(share)                                                                                                 \
     N(roundness)                                                                                             \
-    N(over_roundness) N(count) N(part) N(crimp) N(cross_crimp) N(cos_a) N(sin_a) N(cos_t) N(sin_t)
+    N(edge) N(count) N(part) N(crimp) N(cross_crimp) N(cos_a) N(sin_a) N(cos_t) N(sin_t) N(again)
 #define WOVEN_EACH_BIN(N)  N(b0) N(b1) N(b2) N(b3) N(b4) N(b5)
 #define WOVEN_NUMBER(name) float name;
 #define WOVEN_BIN(name)    WovenBin name;
@@ -74,6 +75,7 @@ FN float woven_count(Woven m) {
 
 /* Bin k, from x = k / count to (k + 1) / count, s = x^(2 / (floats + 1)): the mean of the slope over it, and how far it
  * varies. */
+#define WOVEN_ACROSS (0.5f * 5.0f / (18.0f * 0.9f)) /* half a bin on either side; of woven_row */
 FN WovenBin woven_bin(Woven m, float tan_crimp, float count, float k) {
     float f = m.floats, e = 2.0f / (f + 1.0f), e2 = (2.0f * f + 1.0f) * e, a2 = max(m.alpha * m.alpha, 1e-6f);
     float x0 = k / count, x1 = (k + 1.0f) / count, least = max(x0, 1e-3f);
@@ -85,7 +87,8 @@ FN WovenBin woven_bin(Woven m, float tan_crimp, float count, float k) {
     float spread = tan_crimp / (1.0f + b.slope * b.slope); /* of angles, by that of slopes */
     a2 = a2 + (1.0f - a2) * spread * spread * max(square - mean * mean, 0.0f);
     b.e = (1.0f - a2) / a2;
-    b.gain = k < count ? 0.5f * width / (4.0f * PI * a2) : 0.0f;
+    b.c = 1.0f / sqrt(1.0f + b.slope * b.slope);
+    b.gain = k < count ? WOVEN_ACROSS * width / (4.0f * PI * a2 * max(m.roundness, 1e-3f)) : 0.0f;
     return b;
 }
 
@@ -95,7 +98,7 @@ FN void woven_prepare(Woven m, WovenPrepared *p) {
     p->share = m.share;
     p->part = m.share;
     p->roundness = max(m.roundness, 1e-3f);
-    p->over_roundness = 1.0f / p->roundness;
+    p->edge = -0.3f / (p->roundness * p->roundness);
     p->count = woven_count(m);
     p->crimp = tan_crimp * sqrt(3.0f / (2.0f * m.floats + 1.0f));
     p->cross_crimp = sin(m.cross_crimp) / cos(m.cross_crimp);
@@ -103,6 +106,7 @@ FN void woven_prepare(Woven m, WovenPrepared *p) {
     p->sin_a = sin(m.azimuth);
     p->cos_t = cos(m.twist);
     p->sin_t = sin(m.twist);
+    p->again = 0.5f / (PI * yarn_left_mean(m.alpha));
     p->b0 = woven_bin(m, tan_crimp, p->count, 0.0f);
     p->b1 = woven_bin(m, tan_crimp, p->count, 1.0f);
     p->b2 = woven_bin(m, tan_crimp, p->count, 2.0f);
@@ -121,7 +125,7 @@ FN Dir woven_turn(const WovenPrepared *p, Dir w) {
 STRUCT(WovenView) {
     Dir w;        /* in the yarn's frame */
     float over_x; /* 1 / w.x */
-    float seen, left;
+    float over_seen, left;
     float shown; /* the mean of P / V over these yarns */
 };
 FN WovenView woven_look(const WovenPrepared *p, Dir w) {
@@ -130,41 +134,55 @@ FN WovenView woven_look(const WovenPrepared *p, Dir w) {
     v.over_x = 1.0f / (abs(v.w.x) < 1e-4f ? 1e-4f : v.w.x);
     float own = yarn_hidden(v.w.x, v.w.y, w.z, p->roundness, p->crimp);
     float cross = yarn_hidden(v.w.y, v.w.x, w.z, p->roundness, p->cross_crimp);
-    v.seen = max(w.z + p->share * own + (1.0f - p->share) * cross, 1e-4f);
-    v.shown = (w.z + own) / v.seen;
+    v.over_seen = 1.0f / max(w.z + p->share * own + (1.0f - p->share) * cross, 1e-4f);
+    v.shown = (w.z + own) * v.over_seen;
     v.left = yarn_left(p->alpha, w.z);
     return v;
 }
 FN void woven_view(const WovenPrepared *p, Dir o, WovenView *w) { *w = woven_look(p, o); }
 
-/* t . w = cos twist T . w + sin twist (N x T) . w,  T = c (0, 1, -s_y), N = (s_x, s_y, 1) n. */
-FN float woven_along(const WovenPrepared *p, float slope, float c, float x, float n, Dir w) {
-    float across = c * x * (slope * w.y + w.z) - w.x / c;
-    return p->cos_t * c * (w.y - slope * w.z) + p->sin_t * n * across;
+/* A direction over yarn of one slope along it: P = p + s_x x and t . w = along + n (s_x turn - side), of
+ * t = cos twist T + sin twist (N x T),  T = c (0, 1, -s_y),  N = n (s_x, s_y, 1). */
+STRUCT(WovenLine) {
+    float x, p, end; /* end: the s_x from which on P is 0 */
+    float along, turn, side;
+};
+FN WovenLine woven_line(const WovenPrepared *p, float slope, float c, const WovenView *v) {
+    WovenLine l;
+    l.x = v->w.x;
+    l.p = v->w.z + slope * v->w.y;
+    l.end = -l.p * v->over_x;
+    l.along = p->cos_t * c * (v->w.y - slope * v->w.z);
+    l.turn = p->sin_t * c * l.p;
+    l.side = p->sin_t * c * (1.0f + slope * slope) * l.x;
+    return l;
+}
+
+/* n = 1 / |(s_x, s_y, 1)| over c, from q = (c s_x)^2, without a root: within 0.001 up to the steepest roundness, own fit. */
+FN float woven_flat(float q) {
+    return 1.0f + q * (-0.483265f + q * (0.276777f + q * (-0.10213f + q * 0.0158065f)));
 }
 
 /* yarn_met_once of one facet, by its part of the yarn. */
-FN float woven_facet(const WovenPrepared *p, float slope, float c, float e, float x, Dir o, Dir i, float q) {
-    float n = 1.0f / sqrt(1.0f + slope * slope + x * x);
-    float r = x * p->over_roundness;
-    return (1.0f - 0.3f * r * r) * yarn_met_once(e, q, yarn_facet(o, x, slope), yarn_facet(i, x, slope),
-                                                 woven_along(p, slope, c, x, n, o),
-                                                 woven_along(p, slope, c, x, n, i));
+FN float woven_facet(const WovenPrepared *p, float c, float e, float x, const WovenLine *o,
+                     const WovenLine *i, float q) {
+    float x2 = x * x, n = c * woven_flat(c * c * x2);
+    float p_o = max(o->p + x * o->x, 0.0f), p_i = max(i->p + x * i->x, 0.0f);
+    float t_o = o->along + n * (x * o->turn - o->side), t_i = i->along + n * (x * i->turn - i->side);
+    return (1.0f + p->edge * x2) * yarn_met_once(e, q, p_o, p_i, t_o, t_i);
 }
 
 /* The mean over s_x, by Gauss's rule with three nodes on the part of it that faces both directions: beyond, the sum
- * would meet an edge. 0.9 is the mean of 1 - 0.3 r^2. */
-FN float woven_row(const WovenPrepared *p, float slope, float e, const WovenView *o, const WovenView *i,
-                   float q) {
-    float r = p->roundness, c = 1.0f / sqrt(1.0f + slope * slope);
-    float end_o = -(o->w.z + slope * o->w.y) * o->over_x, end_i = -(i->w.z + slope * i->w.y) * i->over_x;
-    float low = clamp(max(o->over_x > 0.0f ? end_o : -r, i->over_x > 0.0f ? end_i : -r), -r, r);
-    float high = clamp(min(o->over_x > 0.0f ? r : end_o, i->over_x > 0.0f ? r : end_i), -r, r);
+ * would meet an edge. 0.9 is the mean of 1 - 0.3 r^2; it, 1 / roundness and the rule's 5 / 18 are in WOVEN_ACROSS. */
+FN float woven_row(const WovenPrepared *p, float slope, float c, float e, const WovenView *o,
+                   const WovenView *i, float q) {
+    WovenLine a = woven_line(p, slope, c, o), b = woven_line(p, slope, c, i);
+    float r = p->roundness;
+    float low = clamp(max(o->over_x > 0.0f ? a.end : -r, i->over_x > 0.0f ? b.end : -r), -r, r);
+    float high = clamp(min(o->over_x > 0.0f ? r : a.end, i->over_x > 0.0f ? r : b.end), -r, r);
     float reach = 0.5f * max(high - low, 0.0f), middle = 0.5f * (high + low), g = 0.7745966692f * reach;
-    float sides = woven_facet(p, slope, c, e, middle - g, o->w, i->w, q) +
-                  woven_facet(p, slope, c, e, middle + g, o->w, i->w, q);
-    float inner = woven_facet(p, slope, c, e, middle, o->w, i->w, q);
-    return reach * p->over_roundness / 0.9f * (5.0f * sides + 8.0f * inner) / 18.0f;
+    float sides = woven_facet(p, c, e, middle - g, &a, &b, q) + woven_facet(p, c, e, middle + g, &a, &b, q);
+    return reach * (sides + 1.6f * woven_facet(p, c, e, middle, &a, &b, q));
 }
 
 FN float woven_pick(int k, float a, float b, float c, float d, float e, float f) {
@@ -196,16 +214,16 @@ FN LobeValue woven_value(const WovenPrepared *p, const WovenView *w, Angles a) {
     WovenView v = woven_look(p, a.i);
     float q = yarn_half(a);
     float once = 0.0f;
-    ROUNDS_OF(at, 2 * to_int(p->count), 2 * WOVEN_BINS) {
-        int k = at / 2;
+    ROUNDS_OF(k, to_int(p->count), WOVEN_BINS) {
         float slope =
             woven_pick(k, p->b0.slope, p->b1.slope, p->b2.slope, p->b3.slope, p->b4.slope, p->b5.slope);
+        float c = woven_pick(k, p->b0.c, p->b1.c, p->b2.c, p->b3.c, p->b4.c, p->b5.c);
         float e = woven_pick(k, p->b0.e, p->b1.e, p->b2.e, p->b3.e, p->b4.e, p->b5.e);
         float gain = woven_pick(k, p->b0.gain, p->b1.gain, p->b2.gain, p->b3.gain, p->b4.gain, p->b5.gain);
-        once = once + gain * woven_row(p, at > 2 * k ? -slope : slope, e, w, &v, q);
+        once = once + gain * (woven_row(p, slope, c, e, w, &v, q) + woven_row(p, -slope, c, e, w, &v, q));
     }
-    once = once / w->seen / v.seen;
-    float many = w->left * v.left / (PI * yarn_left_mean(p->alpha)) * 0.5f * (w->shown + v.shown);
+    once = once * w->over_seen * v.over_seen;
+    float many = p->again * w->left * v.left * (w->shown + v.shown);
     float f = p->part * (once + many);
     YarnSurface s = woven_surface(p);
     return lobe_value_of(f, many / (once + many), yarn_draw_pdf(s, woven_proposal(s, w, a.o), a));

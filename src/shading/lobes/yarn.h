@@ -40,27 +40,30 @@ STRUCT(Yarn){YARN_PARAMS(FIELD)};
 
 STRUCT(YarnPrepared) {
     Yarn m;
-    Dir axis;     /* of the fibres, unit */
-    float a2, e;  /* a^2, and (1 - a^2) / a^2 */
-    float over_n; /* 1 / |(s_x, s_y, 1)| */
+    Dir axis;          /* of the fibres, unit */
+    float e;           /* (1 - a^2) / a^2 */
+    float over_n;      /* 1 / |(s_x, s_y, 1)| */
+    float once, again; /* what single and many are of the numbers that directions add */
 };
 FN void yarn_prepare(Yarn m, YarnPrepared *p) {
     float c = cos(m.azimuth), s = sin(m.azimuth), z = -(m.slope_x * c + m.slope_y * s);
     float r = 1.0f / sqrt(1.0f + z * z);
     p->m = m;
     p->axis = dir(c * r, s * r, z * r);
-    p->a2 = max(m.alpha * m.alpha, 1e-6f); /* lanes of other lobes have 0 */
-    p->e = (1.0f - p->a2) / p->a2;
+    float a2 = max(m.alpha * m.alpha, 1e-6f); /* lanes of other lobes have 0 */
+    p->e = (1.0f - a2) / a2;
     p->over_n = 1.0f / sqrt(1.0f + m.slope_x * m.slope_x + m.slope_y * m.slope_y);
+    p->once = 1.0f / (4.0f * PI * a2);
+    p->again = 0.5f / (PI * yarn_left_mean(m.alpha));
 }
 FN float yarn_second(Yarn m, float f0, float f90) { return yarn_reflectance(f0); }
 
-/* A direction at the point: P, V, t . w and the light that one fibre leaves. */
-STRUCT(YarnView) { float p, seen, along, left; };
+/* A direction at the point: P, 1 / V, t . w and the light that one fibre leaves. */
+STRUCT(YarnView) { float p, over_seen, along, left; };
 FN YarnView yarn_look(const YarnPrepared *p, Dir w) {
     YarnView v;
     v.p = yarn_facet(w, p->m.slope_x, p->m.slope_y);
-    v.seen = max(yarn_area(w, p->m.share, p->m.roundness, p->m.crimp, p->m.cross_crimp), 1e-4f);
+    v.over_seen = 1.0f / max(yarn_area(w, p->m.share, p->m.roundness, p->m.crimp, p->m.cross_crimp), 1e-4f);
     v.along = dir_dot(w, p->axis);
     v.left = yarn_left(p->m.alpha, w.z);
     return v;
@@ -80,16 +83,15 @@ FN YarnProposal yarn_proposal(const YarnPrepared *p, const YarnView *w) {
     YarnProposal d;
     d.along = w->along;
     d.flakes = yarn_by_flakes(p->m.alpha, w->p, w->left);
-    d.slope = w->seen / (w->seen + 2.0f * w->p);
+    d.slope = 1.0f / (1.0f + 2.0f * w->p * w->over_seen);
     return d;
 }
 
 FN LobeValue yarn_value(const YarnPrepared *p, const YarnView *w, Angles a) {
     YarnView v = yarn_look(p, a.i);
     float met = yarn_met_once(p->e, yarn_half(a), w->p, v.p, w->along, v.along);
-    float once = met / (4.0f * PI * p->a2) / w->seen / v.seen;
-    float many =
-        w->left * v.left / (PI * yarn_left_mean(p->m.alpha)) * 0.5f * (w->p / w->seen + v.p / v.seen);
+    float once = met * (p->once * w->over_seen) * v.over_seen;
+    float many = p->again * w->left * v.left * (w->p * w->over_seen + v.p * v.over_seen);
     return lobe_value_of(once + many, many / max(once + many, 1e-6f),
                          yarn_draw_pdf(yarn_surface(p), yarn_proposal(p, w), a));
 }
