@@ -6,7 +6,6 @@
 #include "base/thread.h"
 #include "scene/material_at.h"
 #include "scene/material_numbers.h"
-#include "shading/lobes/woven.h"
 
 /* Lobes. */
 
@@ -171,25 +170,19 @@ static Surface extreme_velvet(int k) {
 static void whole_prepare(const Bsdf *bsdf, int setting, Dir o, BsdfView *view) {
     view->bsdf = bsdf;
     view->o = o;
-    for (int base = 0; base < bsdf->bases; base++) {
-        const WeaveBase *threads = &bsdf->threads[base];
-        SeenStack *seen = &view->whole[base];
-        stack_make(&seen->stack, &bsdf->surfaces[setting], &bsdf->choices,
-                   albedo_table_ref(&bsdf->tables[bsdf->table_of[setting]]));
-        if (bsdf->bases > 1) stack_put_base(&seen->stack, &threads->lobe, threads->once, threads->again);
-        stack_see(&seen->stack, &o, &seen->view);
-    }
+    const TableRef e = albedo_table_ref(&bsdf->tables[bsdf->table_of[setting]]);
+    for (int base = 0; base < bsdf->sum.bases; base++)
+        weave_sum_see(&bsdf->sum, base, &bsdf->surfaces[setting], &bsdf->choices, e, o, &view->whole[base]);
 }
 
-/* Sheen, coat and dust lie on the cloth as a whole: they count once, with the first base. */
 static void whole_f(const BsdfView *view, Dirs i, float *f) {
-    const Slots base = slots_of(true, false, false, false, false);
+    const Slots slots = weave_sum_slots(1, slots_all());
     const SeenStack *second = &view->whole[1];
     for (size_t k = 0; k < i.n; k++) {
         const Dir w = dir(i.x[k], i.y[k], i.z[k]);
         Rgb f_cos = seen_eval(&view->whole[0], w, 0).f_cos;
-        if (view->bsdf->bases > 1)
-            f_cos = rgb_add(f_cos, stack_eval_of(&second->stack, &second->view, base, w).f_cos);
+        if (view->bsdf->sum.bases > 1)
+            f_cos = rgb_add(f_cos, stack_eval_of(&second->stack, &second->view, slots, w).f_cos);
         f[k] = w.z > 0.0f ? rgb_max3(f_cos) / w.z : rgb_max3(f_cos);
     }
 }
@@ -198,14 +191,14 @@ static void whole_pdf(const BsdfView *view, Dirs i, float *pdf) {
     for (size_t k = 0; k < i.n; k++) {
         const Dir w = dir(i.x[k], i.y[k], i.z[k]);
         pdf[k] = seen_eval(&view->whole[0], w, 0).pdf;
-        if (view->bsdf->bases > 1)
+        if (view->bsdf->sum.bases > 1)
             pdf[k] = mix(seen_eval(&view->whole[1], w, 0).pdf, pdf[k], view->bsdf->first);
     }
 }
 
 static Dir whole_sample(const BsdfView *view, float u, float v) {
     const float first = view->bsdf->first;
-    if (view->bsdf->bases == 1) return seen_sample(&view->whole[0], u, v);
+    if (view->bsdf->sum.bases == 1) return seen_sample(&view->whole[0], u, v);
     return u < first ? seen_sample(&view->whole[0], min(u / first, 0x1.fffffep-1f), v)
                      : seen_sample(&view->whole[1], min((u - first) / (1.0f - first), 0x1.fffffep-1f), v);
 }
@@ -260,7 +253,7 @@ static bool fill_tables(Bsdf *bsdf, int threads) {
 
 bool bsdf_of_profile(Bsdf *bsdf, int profile, bool quick, int threads) {
     *bsdf = (Bsdf){.whole = true,
-                   .bases = 1,
+                   .sum = weave_sum_of(NULL),
                    .parameter = "sheen_roughness",
                    .prepare = whole_prepare,
                    .f = whole_f,
@@ -280,15 +273,10 @@ bool bsdf_of_profile(Bsdf *bsdf, int profile, bool quick, int threads) {
     return fill_tables(bsdf, threads);
 }
 
-/* Returns about what threads send back of the light on the cloth. */
-static float bright(const WeaveBase *threads) {
-    return threads->lobe.params[WOVEN_SHARE] * (rgb_mean(threads->once) + rgb_mean(threads->again));
-}
-
 bool bsdf_of_weave(Bsdf *bsdf, const WeftMaterial *material, const WeftCloth *cloth, int threads) {
     const Material sound = material_sound(material);
     *bsdf = (Bsdf){.whole = true,
-                   .bases = 2,
+                   .sum = weave_sum_of(cloth),
                    .parameter = "",
                    .rows = 1,
                    .settings = 1,
@@ -298,9 +286,7 @@ bool bsdf_of_weave(Bsdf *bsdf, const WeftMaterial *material, const WeftCloth *cl
                    .pdf = whole_pdf,
                    .sample = whole_sample};
     bsdf->surfaces[0] = material_plain(&sound);
-    for (int t = 0; t < 2; t++) bsdf->threads[t] = cloth_base_far(cloth, t == WEFT_WEFT);
-    const float warp = bright(&bsdf->threads[0]), weft = bright(&bsdf->threads[1]);
-    bsdf->first = clamp(warp / max(warp + weft, 1e-6f), 0.05f, 0.95f);
+    bsdf->first = clamp(weave_sum_first(&bsdf->sum), 0.05f, 0.95f);
     return fill_tables(bsdf, threads);
 }
 

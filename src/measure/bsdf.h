@@ -6,8 +6,7 @@
 #ifndef WEFT_MEASURE_BSDF_H
 #define WEFT_MEASURE_BSDF_H
 
-#include "scene/cloth_base.h"
-#include "shading/material_stack.h"
+#include "measure/weave_sum.h"
 #include "weft/measure.h"
 
 typedef struct Bsdf Bsdf;
@@ -37,10 +36,9 @@ struct Bsdf {
 
     Lobe lobe;
     float albedo; /* what a tinted lobe is made of; 1: it is white */
-    bool whole;   /* a material, */
-    int bases;    /* with one base, or as the sum of two, the warp and the weft of a weave: */
-    WeaveBase threads[2];
-    float first; /* the part of the samples that the first base draws */
+    bool whole;   /* a material */
+    WeaveSum sum; /* the base, or two */
+    float first;  /* the part of the samples that the first of two draws */
     Surface surfaces[WEFT_PASSPORT_ROWS + BSDF_EXTREMES];
     Choices choices;
     AlbedoTable *tables; /* of E, released by bsdf_free; that of a setting: */

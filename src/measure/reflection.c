@@ -7,7 +7,7 @@
 #include "brdf/measured.h"
 #include "measure/halton.h"
 #include "measure/reflection.h"
-#include "scene/cloth_base.h"
+#include "measure/weave_sum.h"
 #include "scene/material_at.h"
 #include "scene/material_numbers.h"
 #include "shading/choice.h"
@@ -26,8 +26,7 @@ typedef struct Whole {
     Dir along; /* x of the shading frame, in the caller's frame */
     TableRef table;
     AlbedoTable *own;
-    int bases;            /* 1, or the two systems of a weave, whose sum it is */
-    WeaveBase threads[2]; /* what stands in the place of the base of a weave */
+    WeaveSum sum;
 } Whole;
 
 typedef enum ReflectionKind { REFLECTION_WHOLE, REFLECTION_LOBE, REFLECTION_MEASURED } ReflectionKind;
@@ -66,7 +65,7 @@ static void whole_set(Whole *self, const Material *material) {
     self->surface = dust_accumulate(frame_surface(surface), dust_source(surface), dir(0.0f, 0.0f, 0.0f));
     self->choices = material_choices(material);
     self->table = (TableRef){.kind = TABLE_NONE};
-    self->bases = 1;
+    self->sum = weave_sum_of(NULL);
 }
 
 static bool whole_make(Whole *self, const Material *material) {
@@ -129,8 +128,7 @@ WeftResult weft_reflection_create_woven(const WeftMaterial *material, const Weft
     if (!reflection_of_kind(REFLECTION_WHOLE, out, error)) return WEFT_RESOURCES;
     const Material taken = material_sound(material);
     if (!whole_make(&(*out)->whole, &taken)) result = fail(error, WEFT_MESSAGE_MEMORY, "a reflection", NULL);
-    for (int t = 0; cloth && t < 2; t++) (*out)->whole.threads[t] = cloth_base_far(cloth, t == WEFT_WEFT);
-    if (cloth) (*out)->whole.bases = 2;
+    (*out)->whole.sum = weave_sum_of(cloth);
     return finish(out, result);
 }
 
@@ -175,24 +173,20 @@ static Dir to_frame(const Whole *self, const float w[3]) {
 
 /* Sees a base of a whole, and what lies on it, from o. */
 static void see_base(const Whole *self, int base, Dir o, SeenStack *seen) {
-    const WeaveBase *threads = &self->threads[base];
-    stack_make(&seen->stack, &self->surface, &self->choices, self->table);
-    if (self->bases > 1) stack_put_base(&seen->stack, &threads->lobe, threads->once, threads->again);
-    seen_prepare(seen, o);
+    weave_sum_see(&self->sum, base, &self->surface, &self->choices, self->table, o, seen);
 }
 
-/* Sheen, coat and dust lie on the cloth as a whole: they count once, with the first base. */
-static Slots slots_of_part(int part, int base) {
-    bool all = part == WEFT_PART_ALL, above = base == 0;
-    return slots_of(all || part == WEFT_PART_DIFFUSE, above && (all || part == WEFT_PART_SPECULAR),
-                    above && (all || part == WEFT_PART_SHEEN), above && (all || part == WEFT_PART_COAT),
-                    above && (all || part == WEFT_PART_DUST));
+static Slots slots_of_part(int part) {
+    bool all = part == WEFT_PART_ALL;
+    return slots_of(all || part == WEFT_PART_DIFFUSE, all || part == WEFT_PART_SPECULAR,
+                    all || part == WEFT_PART_SHEEN, all || part == WEFT_PART_COAT,
+                    all || part == WEFT_PART_DUST);
 }
 
 /* Returns the value with one base; for a rule that walks at random, the mean of some walks. */
 static StackValue value_of(const SeenStack *seen, int part, int base, Dir i, uint32_t first, uint32_t walks) {
     const Stack *stack = &seen->stack;
-    StackValue sum = stack_eval_of(stack, &seen->view, slots_of_part(part, base), i);
+    StackValue sum = stack_eval_of(stack, &seen->view, weave_sum_slots(base, slots_of_part(part)), i);
     bool walk = part == WEFT_PART_ALL && stack->layer == LAYER_STOCHASTIC && HAS_SHEEN(stack);
     for (uint32_t k = 0; walk && i.z > 0.0f && k < walks; k++) {
         Rgb bounces = layer_walk_bounces(stack, &seen->view, slots_all(), i, first + k);
@@ -206,7 +200,7 @@ static void whole_eval(const Whole *self, int part, const float wo[3], int count
     SeenStack seen;
     Dir o = to_frame(self, wo);
     if (!(o.z > 0.0f)) return;
-    for (int base = 0; base < self->bases; base++) {
+    for (int base = 0; base < self->sum.bases; base++) {
         see_base(self, base, o, &seen);
         for (int k = 0; k < count; k++) {
             Dir i = to_frame(self, wi[k]);
@@ -234,7 +228,7 @@ static void whole_albedo(const Whole *self, int part, const float wo[3], float a
     SeenStack seen;
     Dir o = to_frame(self, wo);
     double sum[3] = {0.0};
-    for (int base = 0; base < self->bases; base++) {
+    for (int base = 0; base < self->sum.bases; base++) {
         see_base(self, base, o, &seen);
         for (uint32_t k = 0; k < DRAWS; k++) {
             Dir i = seen_sample(&seen, ((float)k + 0.5f) / DRAWS, (float)halton((int)k, 2));

@@ -17,6 +17,7 @@
 #include "shading/weave_light.h"
 #include "weave/weft_cloth.h"
 #include "weft/weft.h"
+#include "woven_presets.h"
 
 /* Warnings that speak of a weave. */
 typedef struct Warned {
@@ -325,15 +326,11 @@ static size_t size_of(const WeftCloth *cloth) {
 /* The presets that are woven: ours, and those by the numbers of two papers. */
 static void woven_presets_are_cloths_and_finite_to_the_horizon(void **state) {
     (void)state;
-    static const struct {
-        const char *prefix;
-        int promised;
-    } families[] = {{"woven-", 10}, {"irawan-", 6}, {"sadeghi-", 6}};
-    for (size_t f = 0; f < sizeof families / sizeof *families; f++) {
+    for (int f = 0; f < WOVEN_FAMILIES; f++) {
         int found = 0;
         for (int k = 0; weft_preset_name(k); k++) {
             const char *name = weft_preset_name(k);
-            if (strncmp(name, families[f].prefix, strlen(families[f].prefix)) != 0) continue;
+            if (woven_family(name) != f) continue;
             WeftScene *scene = scene_of_cloth();
             WeftError error;
             found++;
@@ -353,7 +350,7 @@ static void woven_presets_are_cloths_and_finite_to_the_horizon(void **state) {
             }
             weft_scene_free(scene);
         }
-        assert_int_equal(found, families[f].promised);
+        assert_int_equal(found, woven_families[f].promised);
     }
 }
 

@@ -14,28 +14,25 @@
 #include "shading/weave_light.h"
 #include "weave/weft_cloth.h"
 #include "weft/weft.h"
+#include "woven_presets.h"
 
 enum { PLACES = 400, DRAWN = 256, THREADS = 480 };
 
 /* Calls a function for each woven preset with its cloth. */
 static void each_preset(void (*check)(const char *name, const WeftCloth *cloth)) {
-    static const char *const families[] = {"woven-", "irawan-", "sadeghi-"};
     WeftScene *scene;
     WeftError error;
     int count = 0;
     assert_int_equal(weft_scene_load("builtin:cloth", &scene, NULL, &error), WEFT_OK);
     for (int k = 0; weft_preset_name(k); k++) {
         const char *name = weft_preset_name(k), *text = weft_preset_text(k);
-        bool woven = false;
-        for (size_t f = 0; f < sizeof families / sizeof *families; f++)
-            woven |= strncmp(name, families[f], strlen(families[f])) == 0;
-        if (!woven) continue;
+        if (woven_family(name) < 0) continue;
         if (weft_scene_assign_material_memory(scene, NULL, text, strlen(text), name, NULL, &error) != WEFT_OK)
             fail_msg("%s", error.text);
         check(name, scene->cloths[scene->materials[0].cloth - 1]);
         count++;
     }
-    assert_true(count >= 22);
+    assert_true(count >= WOVEN_PRESETS);
     weft_scene_free(scene);
 }
 
