@@ -10,8 +10,8 @@ typedef struct ChiSquare {
     int stray;       /* samples above the horizon with a pdf of 0 */
 } ChiSquare;
 
-/* Draws `count` samples; the pdf is integrated over `cells` by `cells` points in each of 20 by 20 bins, and over half as
- * many, from which it differs by its error. cells is even and at most 20. False when memory is short. */
+/* Draws `count` samples; the pdf is integrated by `cells` by `cells` points in each of 20 by 20 bins, and by half as many
+ * at a side, whose difference tells the error. cells is even and at most 20. False when memory is short. */
 bool chi_square_measure(const BsdfView *view, int count, int cells, uint32_t seed, ChiSquare *out);
 
 /* Upper tail of the distribution. */

@@ -24,29 +24,40 @@ Dir grid_direction(double cosine, double phi) {
 
 static double polar(Dir w) { return atan2(hypot((double)w.x, (double)w.y), (double)w.z); }
 
+GridLine grid_column(const Grid *grid, double t) {
+    double side = t < 0.0 ? -1.0 : 1.0, phi = grid->phi + side * PI_DOUBLE * stretch(fabs(t));
+    return (GridLine){(float)(cos)(phi), (float)(sin)(phi), PI_DOUBLE * stretch_slope(fabs(t))};
+}
+
+GridLine grid_row(const Grid *grid, double s) {
+    double side = s < 0.0 ? -1.0 : 1.0, range = s < 0.0 ? grid->theta : PI_DOUBLE / 2.0 - grid->theta;
+    double theta = grid->theta + side * range * stretch(fabs(s));
+    return (GridLine){(float)(cos)(theta), (float)(sin)(theta),
+                      range * stretch_slope(fabs(s)) * (sin)(theta)};
+}
+
+/* The middle of a cell along a side. */
+static double middle(int k, int cells) { return -1.0 + 2.0 * (k + 0.5) / cells; }
+
 void grid_make(Grid *grid, Dir o, int cells) {
     grid->cells = cells;
     grid->theta = polar(o);
     grid->phi = atan2(-(double)o.y, -(double)o.x);
     for (int k = 0; k < cells; k++) {
-        double t = -1.0 + 2.0 * (k + 0.5) / cells, side = t < 0.0 ? -1.0 : 1.0;
-        double phi = grid->phi + side * PI_DOUBLE * stretch(fabs(t));
-        grid->cos_phi[k] = (float)(cos)(phi);
-        grid->sin_phi[k] = (float)(sin)(phi);
-        grid->width[k] = PI_DOUBLE * stretch_slope(fabs(t)) * 2.0 / cells;
+        GridLine column = grid_column(grid, middle(k, cells));
+        grid->cos_phi[k] = column.cosine;
+        grid->sin_phi[k] = column.sine;
+        grid->width[k] = column.slope * 2.0 / cells;
     }
 }
 
 Dirs grid_ring(const Grid *grid, int k, Ring *ring) {
-    double s = -1.0 + 2.0 * (k + 0.5) / grid->cells, side = s < 0.0 ? -1.0 : 1.0;
-    double range = s < 0.0 ? grid->theta : PI_DOUBLE / 2.0 - grid->theta;
-    double theta = grid->theta + side * range * stretch(fabs(s));
-    double height = range * stretch_slope(fabs(s)) * 2.0 / grid->cells * (sin)(theta);
-    float sine = (float)(sin)(theta), cosine = (float)(cos)(theta);
+    GridLine row = grid_row(grid, middle(k, grid->cells));
+    double height = row.slope * 2.0 / grid->cells;
     for (int c = 0; c < grid->cells; c++) {
-        ring->x[c] = sine * grid->cos_phi[c];
-        ring->y[c] = sine * grid->sin_phi[c];
-        ring->z[c] = cosine;
+        ring->x[c] = row.sine * grid->cos_phi[c];
+        ring->y[c] = row.sine * grid->sin_phi[c];
+        ring->z[c] = row.cosine;
         ring->area[c] = height * grid->width[c];
     }
     return (Dirs){(size_t)grid->cells, ring->x, ring->y, ring->z};

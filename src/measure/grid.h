@@ -24,6 +24,17 @@ typedef struct Ring {
 
 void grid_make(Grid *grid, Dir o, int cells);
 
+/* A line of the square: cosine and sine of phi, or of theta; and the derivative of phi, or of -cos theta, along the
+ * square's side. So ds dt of the square is row.slope column.slope sr. */
+typedef struct GridLine {
+    float cosine, sine;
+    double slope;
+} GridLine;
+
+/* t and s are places in [-1, 1]. */
+GridLine grid_column(const Grid *grid, double t);
+GridLine grid_row(const Grid *grid, double s);
+
 /* Fills row k and returns its directions. */
 Dirs grid_ring(const Grid *grid, int k, Ring *ring);
 
