@@ -409,17 +409,21 @@ static const struct {
 static void weave_cost(Gpu *gpu, size_t row) {
     Text text;
     text_begin(&text, &(TextDesc){.language = TEXT_GLSL_450, .tables = true});
-    text_define(&text, "weave_texel(t, stride, row, column)", "weave_fetch(t, row, column)");
-    text_line(&text, "\nfloat weave_fetch(int table, int row, int column);");
+    text_define(&text, "weave_texel(t, stride, row, column)", "weave_fetch(row, column)");
+    text_define(&text, "weave_cell_texel(t, stride, row, at)", "weave_fetch_cell(row, at)");
+    text_include(&text, "shading/weave_cell.h");
+    text_line(&text,
+              "\nfloat weave_fetch(int row, int channel);\nWeaveCell weave_fetch_cell(int row, int at);");
     text_include(&text, "shading/weave_light.h");
     text_line(&text, "\nlayout(set = 0, binding = 0) uniform highp sampler2D weave_cells;\n"
                      "layout(std140, set = 0, binding = 3) uniform Material { Weave cloth; };\n\n"
-                     "float weave_fetch(int table, int row, int column) {\n"
-                     "    int k = table == 0 ? column - 4 * (column / 4) : column;\n"
+                     "WeaveCell weave_fetch_cell(int row, int at) {\n"
+                     "    vec4 c = texelFetch(weave_cells, ivec2(at, row), 0);\n"
+                     "    return WeaveCell(c.x, c.y, c.z, c.w);\n}\n\n"
+                     "float weave_fetch(int row, int channel) {\n"
                      "    int up = int((float(row) + 0.5) / float(cloth.warps));\n"
-                     "    ivec2 at = table == 0 ? ivec2(column / 4, row)\n"
-                     "                          : ivec2(row - cloth.warps * up, cloth.picks + up);\n"
-                     "    return texelFetch(weave_cells, at, 0)[k];\n}");
+                     "    ivec2 at = ivec2(row - cloth.warps * up, cloth.picks + up);\n"
+                     "    return texelFetch(weave_cells, at, 0)[channel];\n}");
     put_row(gpu, weave_rows[row].name, &text, 9, weave_rows[row].lines);
 }
 

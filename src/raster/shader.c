@@ -280,7 +280,8 @@ bool shader_join(ShaderKey *key, const ShaderKey *other) {
 
 /* Texels of a cloth's tables come from a texture of its own. */
 static void define_weave(Text *text) {
-    text_define(text, "weave_texel(t, stride, row, column)", "weave_fetch(t, row, column)");
+    text_define(text, "weave_texel(t, stride, row, column)", "weave_fetch(row, column)");
+    text_define(text, "weave_cell_texel(t, stride, row, at)", "weave_fetch_cell(row, at)");
 }
 
 /* Nothing but what is there: holes, gaps between threads and what is less than half there let light through. */

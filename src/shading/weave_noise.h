@@ -7,9 +7,9 @@
 
 #include "shading/lang.h"
 
-/* x mod n of a whole number, n > 0. */
+/* x mod n of a whole number, n > 0. x / n may be off by one where it is near a whole number. */
 FN float weave_mod(float x, float n) {
-    float m = x - n * floor(x / n);
+    float over_n = 1.0f / n, m = x - n * floor(x * over_n);
     return m >= n ? m - n : m < 0.0f ? m + n : m;
 }
 

@@ -16,6 +16,7 @@
 #define WEFT_SHADING_WEAVE_POINT_H
 
 #include "shading/table.h"
+#include "shading/weave_cell.h"
 #include "shading/weave_noise.h"
 
 /* The yarn of one system as it lies in a cloth. Widths are in its own pitch; pitches and heights have a common
@@ -23,7 +24,8 @@
  *   alpha, crimp, roundness, twist: as lobe yarn has them; crimp: tangent. white: share of light that one fibre reflects
  * without its dye. pitch, cross_pitch: from thread to thread, of its own system and of the other. width, bulge: of a
  * thread, and how much wider the middle of a float is. streaks: slope at the edges of a fibre. dye, slub, wander: how far
- * albedo, width and place vary. hairiness: part of the places for loose fibres that have one. */
+ * albedo, width and place vary. hairiness: part of the places for loose fibres that have one. over_width, cos_twist,
+ * sin_twist, crossing: what these make of width, twist and pitches, once for all points. */
 #define WEAVE_YARN_NUMBERS(N)                                                                                \
     N(alpha)                                                                                                 \
     N(crimp)                                                                                                 \
@@ -33,7 +35,9 @@
     N(pitch)                                                                                                 \
     N(cross_pitch)                                                                                           \
     N(width)                                                                                                 \
-    N(bulge) N(floats) N(streaks) N(dye) N(slub) N(wander) N(hairiness)
+    N(bulge)                                                                                                 \
+    N(floats)                                                                                                \
+    N(streaks) N(dye) N(slub) N(wander) N(hairiness) N(over_width) N(cos_twist) N(sin_twist) N(crossing)
 
 /* One system from afar: the numbers of the lobe woven that reflects as its visible points do on the mean, and how
  * far their slopes reach across it and along, were they uniform, by which yarns hide each other.
@@ -46,9 +50,8 @@
 STRUCT(WeaveYarn){WEAVE_YARN_NUMBERS(WEAVE_NUMBER)};
 STRUCT(WeaveFar){WEAVE_FAR_NUMBERS(WEAVE_NUMBER)};
 
-/* A cloth. runs holds a row for each pick and four numbers for each warp thread: of the warp and of the weft
- * the crossings since their runs began, and their lengths, negative where they lie below; a run that never
- * ends has length 0. albedos holds a row for each thread, warp first: the fibres' albedo by channel. */
+/* A cloth. runs holds a row for each pick and the four numbers of a WeaveCell for each warp thread. albedos holds a row
+ * for each thread, warp first: the fibres' albedo by channel. */
 STRUCT(Weave) {
     int warps, picks;
     WeaveYarn warp, weft;
@@ -73,15 +76,23 @@ STRUCT(WeavePoint) {
 
 #define WEAVE_NONE (-1e6f)
 
-/* A shader has the tables of cloths in a texture of their own, and defines this. */
+/* A shader has the tables of cloths in a texture of their own, and defines these. */
 #ifndef weave_texel
-#define weave_texel(t, stride, row, column) table_texel(t, stride, row, column)
+#define weave_texel(t, stride, row, column)  table_texel(t, stride, row, column)
+#define weave_cell_texel(t, stride, row, at) weave_cell_of(t, 4 * (stride), row, 4 * (at))
+FN WeaveCell weave_cell_of(Table t, int stride, int row, int column) {
+    WeaveCell c;
+    c.warp_since = table_texel(t, stride, row, column);
+    c.warp_run = table_texel(t, stride, row, column + 1);
+    c.weft_since = table_texel(t, stride, row, column + 2);
+    c.weft_run = table_texel(t, stride, row, column + 3);
+    return c;
+}
 #endif
 
-/* The number of a column of runs: column 0 and 1 are of the warp. */
-FN float weave_run(const Weave *m, float warp, float pick, int column) {
+FN WeaveCell weave_cell(const Weave *m, float warp, float pick) {
     int row = to_int(weave_mod(pick, to_float(m->picks))), at = to_int(weave_mod(warp, to_float(m->warps)));
-    return weave_texel(m->runs, 4 * m->warps, row, 4 * at + column);
+    return weave_cell_texel(m->runs, m->warps, row, at);
 }
 
 /* Purposes of hashes: crossings; of the warp, and next to it of the weft, courses of threads, dye of threads and along them, how fibres
@@ -94,16 +105,15 @@ FN float weave_run(const Weave *m, float warp, float pick, int column) {
 #define WEAVE_OF_FIBRES    9
 #define WEAVE_OF_HAIRS     11
 
-/* The thread numbered c of a system at the place u across the system, v along it. bends: -1 to 1, how thick it is and how far it
- * bends at its crossings, smoothly from one to the next. */
-FN WeavePoint weave_thread(const Weave *m, WeaveYarn y, bool weft, float c, float u, float v, float bends) {
-    float cross = floor(v);
+/* The thread numbered c of a system at the place u across the system, v along it. since, run: of the cell there. bends: -1 to 1,
+ * how thick it is and how far it bends at its crossings, smoothly from one to the next. */
+FN WeavePoint weave_thread(const Weave *m, WeaveYarn y, bool weft, float c, float u, float v, float since,
+                           float run, float bends) {
     float side = weft ? m->cycle_y : m->cycle_x, cycle = weft ? m->cycle_x : m->cycle_y;
-    float since = weave_run(m, weft ? cross : c, weft ? c : cross, weft ? 2 : 0);
-    float run = weave_run(m, weft ? cross : c, weft ? c : cross, weft ? 3 : 1);
     float ends =
         abs(run) > 0.5f ? 1.0f : 0.0f; /* a factor: a load behind a branch keeps loops from vectors */
-    float l = max(abs(run), 1.0f), s = ends * (2.0f * (v - cross + since) / l - 1.0f);
+    float l = max(abs(run), 1.0f), over_l = 1.0f / l,
+          s = ends * (2.0f * (v - floor(v) + since) * over_l - 1.0f);
     float up = run < 0.0f ? -1.0f : 1.0f, k = 1.0f + y.floats * (l - 1.0f),
           steep = pow(max(abs(s), 1e-3f), k);
     WeavePair slow = weave_courses(m->seed, WEAVE_OF_THREADS + (weft ? 1 : 0), weave_wrap(c, side),
@@ -111,7 +121,7 @@ FN WeavePoint weave_thread(const Weave *m, WeaveYarn y, bool weft, float c, floa
     float crimp = ends * y.crimp * (1.0f + 0.5f * y.wander * bends);
     float aside = 0.12f * y.wander * slow.first;
     float thick = 1.0f + y.slub * (0.35f * slow.second + 0.12f * bends);
-    float swell = up > 0.0f ? y.bulge * (1.0f - s * s) * (1.0f - 1.0f / l) : 0.0f;
+    float swell = up > 0.0f ? y.bulge * (1.0f - s * s) * (1.0f - over_l) : 0.0f;
     float width = min(y.width * max(thick, 0.2f) * (1.0f + swell), 2.0f - 2.0f * abs(aside));
     float r = 2.0f * (u - c - 0.5f - aside) / width;
     float arc = up * 0.5f * l * y.cross_pitch * crimp * (1.0f - abs(s) * steep) / (k + 1.0f);
@@ -155,16 +165,25 @@ FN float weave_thread_dye(float seed, bool weft, float thread, float cycle) {
     return weave_first(weave_key(seed, WEAVE_OF_DYE + (weft ? 1 : 0), weave_wrap(thread, cycle), 0.0f));
 }
 
+/* Cosine and sine of an angle of at most 0.7, by their series: within 2e-5. */
+STRUCT(WeaveTurn) { float c, s; };
+FN WeaveTurn weave_turn(float angle) {
+    float a2 = angle * angle;
+    WeaveTurn t;
+    t.c = 1.0f - a2 * (0.5f - a2 * (1.0f / 24.0f - a2 / 720.0f));
+    t.s = angle * (1.0f - a2 * (1.0f / 6.0f - a2 / 120.0f));
+    return t;
+}
+
 /* Adds fibres along the twist, and how the dye took. Then turns the point from the thread's frame, along y, to
  * the cloth's. Crevices between fibres, 1 - a f^4 where f goes from -1 to 1 across a fibre, take no light on the mean. */
 FN void weave_finish(const Weave *m, WeaveYarn y, float u, float v, float spacing, WeavePoint *p) {
     float side = p->weft ? m->cycle_y : m->cycle_x, cycle = p->weft ? m->cycle_x : m->cycle_y;
     float thread = weave_wrap(p->thread, side);
     int weft = p->weft ? 1 : 0;
-    float twist = p->weft ? -y.twist : y.twist; /* across and along are x and y, mirrored */
-    float c = cos(twist) / y.width, s = sin(twist) / y.width, x = u - p->thread;
-    float crossing = y.cross_pitch / y.pitch, c_v = c * crossing,
-          s_v = s * crossing; /* v counts the others */
+    float sin_twist = p->weft ? -y.sin_twist : y.sin_twist; /* across and along are x and y, mirrored */
+    float c = y.cos_twist * y.over_width, s = sin_twist * y.over_width, x = u - p->thread;
+    float c_v = c * y.crossing, s_v = s * y.crossing; /* v counts the others */
     float on = weave_pace(1.3f * c_v, cycle), turns = weave_turns(1.3f * c_v, cycle),
           t = on * v - 1.3f * s * x;
     WeaveStep down = weave_step(t, turns),
@@ -175,13 +194,15 @@ FN void weave_finish(const Weave *m, WeaveYarn y, float u, float v, float spacin
     float fibre =
         WEAVE_FIBRES * c * x + weave_lean(WEAVE_FIBRES * s_v, WEAVE_FIBRES_OWN, cycle) * v + 2.0f * waver;
     float number = floor(fibre), f = 2.0f * (fibre - number) - 1.0f,
-          streaks = y.streaks * weave_fineness(spacing / y.width);
+          streaks = y.streaks * weave_fineness(spacing * y.over_width);
     float own = weave_course(m->seed, WEAVE_OF_FIBRES + weft, thread, weave_mod(number, WEAVE_FIBRES_OWN),
                              WEAVE_FIBRES_OWN, down);
-    float turn = twist + 0.35f * y.streaks * waver, ct = cos(turn), st = sin(turn);
+    WeaveTurn turn = weave_turn(0.35f * y.streaks * waver);
+    float ct = y.cos_twist * turn.c - sin_twist * turn.s, st = sin_twist * turn.c + y.cos_twist * turn.s;
     float sx = p->slope_x + streaks * f, sy = p->slope_y;
     float n = 1.0f / sqrt(1.0f + sx * sx + sy * sy), q = 1.0f / sqrt(1.0f + sy * sy);
-    float fx = -st * n / q, fy = ct * q + st * sx * sy * q * n, fz = -ct * q * sy + st * sx * q * n;
+    float fx = -st * n * q * (1.0f + sy * sy), fy = ct * q + st * sx * sy * q * n,
+          fz = -ct * q * sy + st * sx * q * n;
     float crevice = min(2.0f * streaks, 0.6f);
     WeavePair taken = weave_courses(m->seed, WEAVE_OF_STREAKS + weft, thread, weave_along(0.35f, v, cycle));
     p->dye = 1.0f -
@@ -207,13 +228,16 @@ FN WeavePoint weave_top(const Weave *m, float x, float y) {
     float part_x = weave_ease(abs(near_x)), part_y = weave_ease(abs(near_y));
     uint here = weave_crossing(m, i, j), right = weave_crossing(m, beside, j),
          up = weave_crossing(m, i, above), across = weave_crossing(m, beside, above);
-    WeavePoint best =
-        weave_thread(m, m->warp, false, i, x, y, mix(weave_first(here), weave_first(up), part_y));
-    WeavePoint weft =
-        weave_thread(m, m->weft, true, j, y, x, mix(weave_second(here), weave_second(right), part_x));
-    weave_higher(&best, weave_thread(m, m->warp, false, beside, x, y,
-                                     mix(weave_first(right), weave_first(across), part_y)));
-    weave_higher(&weft, weave_thread(m, m->weft, true, above, y, x,
+    WeaveCell cell = weave_cell(m, i, j), cell_right = weave_cell(m, beside, j),
+              cell_up = weave_cell(m, i, above);
+    WeavePoint best = weave_thread(m, m->warp, false, i, x, y, cell.warp_since, cell.warp_run,
+                                   mix(weave_first(here), weave_first(up), part_y));
+    WeavePoint weft = weave_thread(m, m->weft, true, j, y, x, cell.weft_since, cell.weft_run,
+                                   mix(weave_second(here), weave_second(right), part_x));
+    weave_higher(&best,
+                 weave_thread(m, m->warp, false, beside, x, y, cell_right.warp_since, cell_right.warp_run,
+                              mix(weave_first(right), weave_first(across), part_y)));
+    weave_higher(&weft, weave_thread(m, m->weft, true, above, y, x, cell_up.weft_since, cell_up.weft_run,
                                      mix(weave_second(up), weave_second(across), part_x)));
     bool is_weft = weft.height > best.height; /* copied, a truth would keep loops from vectors */
     weave_higher(&best, weft);

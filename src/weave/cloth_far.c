@@ -53,7 +53,8 @@ static WeavePoint look(const Weave *m, int k, float *x, float *y) {
 }
 
 static int is_up(const Weave *m, float x, float y, int weft) {
-    return weave_run(m, floorf(x), floorf(y), 2 * weft + 1) > 0.0f;
+    const WeaveCell cell = weave_cell(m, floorf(x), floorf(y));
+    return (weft ? cell.weft_run : cell.warp_run) > 0.0f;
 }
 
 static void see(Weave *m, SystemSeen seen[2]) {

@@ -62,6 +62,7 @@ static void put_albedos(WeftCloth *cloth, const WeftDraft *draft) {
 }
 
 static WeaveYarn laid(const WeftYarn *yarn, float pitch, float cross_pitch, float width) {
+    const float own = yarn->width * width;
     return (WeaveYarn){.alpha = yarn->alpha,
                        .crimp = tanf(yarn->crimp),
                        .roundness = yarn->roundness,
@@ -69,14 +70,18 @@ static WeaveYarn laid(const WeftYarn *yarn, float pitch, float cross_pitch, floa
                        .white = yarn->white,
                        .pitch = pitch,
                        .cross_pitch = cross_pitch,
-                       .width = yarn->width * width,
+                       .width = own,
                        .bulge = yarn->bulge,
                        .floats = yarn->floats,
                        .streaks = yarn->streaks,
                        .dye = yarn->dye,
                        .slub = yarn->slub,
                        .wander = yarn->wander,
-                       .hairiness = yarn->hairiness};
+                       .hairiness = yarn->hairiness,
+                       .over_width = 1.0f / own,
+                       .cos_twist = cosf(yarn->twist),
+                       .sin_twist = sinf(yarn->twist),
+                       .crossing = cross_pitch / pitch};
 }
 
 static WeftResult yarn_check(const WeftYarn *yarn, WeftError *error) {

@@ -1,19 +1,26 @@
 /* weave_cloth.glsl - the cloth of a woven material, from its numbers and its texture of runs and albedos */
 uniform highp sampler2D weave_cells;
 
+#include "shading/weave_cell.h"
+
 /* Places of cloth_numbers (raster/cloths.h), behind the yarns. */
-const int CLOTH_SEED = 48, CLOTH_LOW = 49, CLOTH_HIGH = 50, CLOTH_OPENNESS = 51, CLOTH_WARPS = 52, CLOTH_PICKS = 53,
-          CLOTH_FAR_WIDTH = 54, CLOTH_FAR_HEIGHT = 55, CLOTH_PER_U = 56, CLOTH_PER_V = 57;
+const int CLOTH_SEED = 56, CLOTH_LOW = 57, CLOTH_HIGH = 58, CLOTH_OPENNESS = 59, CLOTH_WARPS = 60, CLOTH_PICKS = 61,
+          CLOTH_FAR_WIDTH = 62, CLOTH_FAR_HEIGHT = 63, CLOTH_PER_U = 64, CLOTH_PER_V = 65;
 
 float weave_number(int k) { return material_weave[k / 4][k - 4 * (k / 4)]; }
 
-/* Table 0 is the runs, 1 the albedos. Rows of texels are divided as floats, which holds up to 2^22 threads: software drivers
- * divide whole numbers pixel by pixel. */
-float weave_fetch(int table, int row, int column) {
+/* A cell of the runs. */
+WeaveCell weave_fetch_cell(int row, int at) {
+    vec4 c = texelFetch(weave_cells, ivec2(at, row), 0);
+    return WeaveCell(c.x, c.y, c.z, c.w);
+}
+
+/* A channel of an albedo. Rows of texels are divided as floats, which holds up to 2^22 threads: software drivers divide whole
+ * numbers pixel by pixel. */
+float weave_fetch(int row, int channel) {
     int warps = int(weave_number(CLOTH_WARPS)), picks = int(weave_number(CLOTH_PICKS));
-    int k = table == 0 ? column - 4 * (column / 4) : column, up = int((float(row) + 0.5) / float(warps));
-    ivec2 at = table == 0 ? ivec2(column / 4, row) : ivec2(row - warps * up, picks + up);
-    return texelFetch(weave_cells, at, 0)[k];
+    int up = int((float(row) + 0.5) / float(warps));
+    return texelFetch(weave_cells, ivec2(row - warps * up, picks + up), 0)[channel];
 }
 
 #include "shading/weave_point.h"
