@@ -158,8 +158,21 @@ static void value_is_the_same_both_ways_round(void **state) {
     }
 }
 
+/* Of every slope across a yarn that the lobe's parameters allow. */
+static void tilt_of_fibres_is_within_a_thousandth(void **state) {
+    (void)state;
+    double most = 0.0;
+    for (int k = 0; k <= 1000; k++) {
+        const double q = 2.25 * k / 1000.0, off = fabs((double)woven_flat((float)q) - 1.0 / (sqrt)(1.0 + q));
+        most = fmax(most, off);
+    }
+    printf("woven_flat is at most %.5f off\n", most);
+    assert_true(most < 1e-3);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(tilt_of_fibres_is_within_a_thousandth),
         cmocka_unit_test(the_far_lobe_is_the_mean_of_the_near_one),
         cmocka_unit_test(yarns_hide_what_would_be_seen_twice),
         cmocka_unit_test(yarns_of_irawan_are_finite_down_to_the_horizon),
