@@ -100,8 +100,8 @@ unset(CMAKE_REQUIRED_FLAGS)
 if(WEFT_HAS_HALF)
   file(GLOB WEFT_HALF_FILES CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}/src
     src/shading/lobes/*.h src/shading/terms/*.h src/shading/tables/*.h)
-  foreach(name angles fibre_medium fibre_model fresnel_weight lobe lobe_tables lobe_value ltc ltc_table nap proxy rgb table
-          terms tint warp yarn_draw yarn_medium)
+  foreach(name angles fibre_medium fibre_model fresnel_weight lobe lobe_tables lobe_value ltc ltc_sheen ltc_table nap proxy rgb
+          table terms tint warp yarn_draw yarn_medium)
     list(APPEND WEFT_HALF_FILES shading/${name}.h)
   endforeach()
   foreach(file ${WEFT_HALF_FILES} shading/lobes.gen.h shading/dispatch.gen.h)

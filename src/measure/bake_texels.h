@@ -10,7 +10,8 @@
 /* Makes the table of a checked description, whose zeros have become the defaults. info is zeroed. A failure
  * leaves *out zeroed. */
 typedef WeftResult BakeMaker(const WeftBakeDesc *desc, WeftBakeInfo *info, WeftImage *out, WeftError *error);
-BakeMaker bake_albedo, bake_dfg, bake_solved, bake_ltc, bake_ltc_amplitude, bake_ltc_level, bake_fibre_table;
+BakeMaker bake_albedo, bake_dfg, bake_solved, bake_ltc, bake_ltc_amplitude, bake_ltc_level, bake_fibre_table,
+    bake_talk;
 
 /* K(id, maker, lobe, formed, width, height, help): the columns of a WeftBakeKind. */
 #define BAKE_KINDS(K)                                                                                        \
@@ -21,6 +22,7 @@ BakeMaker bake_albedo, bake_dfg, bake_solved, bake_ltc, bake_ltc_amplitude, bake
       "their amplitudes of both colours, and each fit's error")                                              \
     K("ltc-level", bake_ltc_level, 2, 0, 32, 32, "the same with r = 0, in one texel: z, q, b, E of LOBE")    \
     K("fibre-table", bake_fibre_table, 0, 0, 16, 16, "the functions of the lobe fibre-table: A, h, g, k")    \
+    K("ltc-fibre-published", bake_talk, 0, 0, 32, 32, "the table of the lobe ltc-fibre-published: a, b, R")  \
     K("fibre-truth", bake_solved, 1, 1, 32, 32,                                                              \
       "R and T of the solved slab of fibres; -p density of LOBE fibre")
 

@@ -6,6 +6,7 @@
 #include "shading/lobes/fibre_table.h"
 #include "shading/tables/fibre_table.h"
 #include "shading/tables/ltc_fibre.h"
+#include "shading/tables/ltc_fibre_published.h"
 #include "shading/tables/ltc_ggx.h"
 
 TableRef lobe_table_refs[LOBE_TABLE_COUNT];
@@ -34,6 +35,11 @@ static TableRef make_ltc_fibre(void) {
     return make_planes(table_ltc_fibre, PLANES(table_ltc_fibre), sqrt(alpha->low), sqrt(alpha->high), planes);
 }
 
+static TableRef make_ltc_fibre_published(void) {
+    static float planes[sizeof table_ltc_fibre_published / sizeof(float)];
+    return make_planes(table_ltc_fibre_published, PLANES(table_ltc_fibre_published), 0.0f, 1.0f, planes);
+}
+
 static TableRef make_ltc_ggx(void) {
     static float planes[sizeof table_ltc_ggx / sizeof(float)];
     const WeftParamInfo *alpha = &weft_lobe_info(LOBE_GGX)->params[0];
@@ -51,6 +57,7 @@ static void make_baked(void) {
     lobe_table_refs[1] = make_ltc_fibre();
     lobe_table_refs[2] = make_fibre();
     lobe_table_refs[3] = make_ltc_ggx();
+    lobe_table_refs[4] = make_ltc_fibre_published();
 }
 
 static void make_computed(void) { lobe_table_refs[0] = make_charlie_neubelt(); }

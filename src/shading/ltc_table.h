@@ -36,10 +36,9 @@ STRUCT(LtcLobe) {
     float f0, f90;
 };
 
-FN LtcSpot ltc_table_spot(LtcTable t, float cos_o, float p) {
-    float x = sqrt(clamp(cos_o, 0.0f, 1.0f)) * to_float(t.columns - 1), y = 0.0f;
-    if (t.rows > 1)
-        y = clamp((sqrt(max(p, 0.0f)) - t.low) / (t.high - t.low), 0.0f, 1.0f) * to_float(t.rows - 1);
+/* So far along the columns and down the rows, both in [0, 1]. */
+FN LtcSpot ltc_table_spot_at(LtcTable t, float along, float down) {
+    float x = along * to_float(t.columns - 1), y = down * to_float(t.rows - 1);
     float left = clamp(floor(x), 0.0f, to_float(t.columns - 2));
     float top = clamp(floor(y), 0.0f, to_float(t.rows - 1));
     LtcSpot s;
@@ -49,6 +48,11 @@ FN LtcSpot ltc_table_spot(LtcTable t, float cos_o, float p) {
     s.x = x - left;
     s.y = y - top;
     return s;
+}
+
+FN LtcSpot ltc_table_spot(LtcTable t, float cos_o, float p) {
+    float y = t.rows > 1 ? clamp((sqrt(max(p, 0.0f)) - t.low) / (t.high - t.low), 0.0f, 1.0f) : 0.0f;
+    return ltc_table_spot_at(t, sqrt(clamp(cos_o, 0.0f, 1.0f)), y);
 }
 
 FN float ltc_table_interpolate(LtcTable t, LtcSpot s, int plane) {
@@ -75,18 +79,45 @@ FN LtcLobe ltc_table_at(LtcTable t, float cos_o, float p) {
 #define LTC_LEVEL_E      3
 #define LTC_LEVEL_PLANES 4
 
-FN LtcLobe ltc_table_level(TableRef e, float cos_o, float p) {
+/* A lobe's own table, of so many planes. */
+FN LtcTable ltc_table_of(TableRef e, int planes) {
     LtcTable t;
     t.texels = e.texels;
-    t.rows = e.rows / LTC_LEVEL_PLANES;
+    t.rows = e.rows / planes;
     t.columns = e.columns;
     t.low = e.low;
     t.high = e.high;
+    return t;
+}
+
+FN LtcLobe ltc_table_level(TableRef e, float cos_o, float p) {
+    LtcTable t = ltc_table_of(e, LTC_LEVEL_PLANES);
     LtcSpot s = ltc_table_spot(t, cos_o, p);
     LtcLobe l;
     l.m = ltc_of(ltc_table_interpolate(t, s, LTC_Z), ltc_table_interpolate(t, s, LTC_Q),
                  ltc_table_interpolate(t, s, LTC_B), 0.0f, cos_o);
     l.f0 = ltc_table_interpolate(t, s, LTC_LEVEL_E);
+    l.f90 = 0.0f;
+    return l;
+}
+
+/* The planes of a published one: a and b of M^-1 = (a 0 b, 0 a 0, 0 0 1), x along wo, and R (lobe
+ * ltc-fibre-published). Nodes are uniform in cos_o and in alpha, and a, b and R are mixed linearly, as its authors do. */
+#define LTC_PUBLISHED_A      0
+#define LTC_PUBLISHED_B      1
+#define LTC_PUBLISHED_R      2
+#define LTC_PUBLISHED_PLANES 3
+
+/* M^-1 / a is that of ltc_of with z = 1 / a, q = 1 and b / (a s). b goes as s^2 towards the normal; the floors keep
+ * 16 bits from 0 / 0. */
+FN LtcLobe ltc_table_published(TableRef e, float cos_o, float alpha) {
+    LtcTable t = ltc_table_of(e, LTC_PUBLISHED_PLANES);
+    float c = clamp(cos_o, 0.0f, 1.0f), s = sqrt(max(1.0f - c * c, 1e-4f));
+    LtcSpot at = ltc_table_spot_at(t, c, clamp(alpha, 0.0f, 1.0f));
+    float a = max(ltc_table_interpolate(t, at, LTC_PUBLISHED_A), 1e-3f);
+    LtcLobe l;
+    l.m = ltc_of(1.0f / a, 1.0f, ltc_table_interpolate(t, at, LTC_PUBLISHED_B) / (a * s), 0.0f, cos_o);
+    l.f0 = ltc_table_interpolate(t, at, LTC_PUBLISHED_R);
     l.f90 = 0.0f;
     return l;
 }

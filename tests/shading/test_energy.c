@@ -227,8 +227,10 @@ static void albedo_table_between_nodes_is_close(void **state) {
         }
         print_message("%-20s table within %.1e (at alpha %.4g, cos_o %.4g)\n", info->id, worst, worst_alpha,
                       worst_cos);
-        /* a clamp is a crease in E, as are the nodes of a table, and a maximum of two tables a sharper one */
+        /* a clamp is a crease in E, as are the nodes of a table, and a maximum of two tables a sharper one; those of
+         * ltc-fibre-published are uniform in cos_o, so few where E is steep */
         double most = id == LOBE_CHARLIE_KHRONOS                       ? 4e-3
+                      : id == LOBE_LTC_FIBRE_PUBLISHED                 ? 2e-2
                       : id == LOBE_LTC_FIBRE || id == LOBE_FIBRE_TABLE ? 6e-3
                       : id == LOBE_FIBRE                               ? 3e-3 /* below alpha 0.1 */
                       : id == LOBE_CHARLIE_NEUBELT_NORMALISED          ? 4e-2 /* below alpha 0.01 */

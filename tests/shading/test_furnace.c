@@ -46,7 +46,8 @@ static int layer_named(const char *id) {
 /* E that a smooth table does not follow: a maximum of two, or the nodes of a table mixed in straight lines.
  */
 static bool has_creases(int id) {
-    return id == LOBE_CHARLIE_NEUBELT_NORMALISED || id == LOBE_LTC_FIBRE || id == LOBE_FIBRE_TABLE;
+    return id == LOBE_CHARLIE_NEUBELT_NORMALISED || id == LOBE_LTC_FIBRE || id == LOBE_LTC_FIBRE_PUBLISHED ||
+           id == LOBE_FIBRE_TABLE;
 }
 
 static void rule_albedo_view_returns_what_it_receives(void **state) {

@@ -23,6 +23,7 @@
 
 #include "shading/lobe.h"
 #include "shading/lobe_tables.h"
+#include "shading/ltc_sheen.h"
 #include "shading/ltc_table.h"
 
 #define LTC_FIBRE_PARAMS(P)                                                                                  \
@@ -43,9 +44,7 @@ FN void ltc_fibre_view(const LtcFibrePrepared *p, Dir o, LtcFibreView *w) {
 }
 
 FN LobeValue ltc_fibre_value(const LtcFibrePrepared *p, const LtcFibreView *w, Angles a) {
-    Dir v = ltc_inverse(w->ltc, a.o, a.i);
-    float r2 = max(dir_dot(v, v), 1e-18f); /* keeps its square a normal number */
-    return lobe_value_of(w->r * w->ltc.z * w->ltc.det / (PI * r2 * r2), 0.0f, ltc_pdf(w->ltc, a.o, a.i));
+    return ltc_sheen_value(w->ltc, w->r, a);
 }
 FN Dir ltc_fibre_sample(const LtcFibrePrepared *p, const LtcFibreView *w, Dir o, float u, float v) {
     return ltc_sample(w->ltc, o, u, v);
