@@ -35,7 +35,7 @@ static inline void depths_add_scene(Depths *depths, const View *view, const Weft
 }
 
 /* Widens depths by what rounding may take from them: a plane that faces the eye has none of its own. With perspective
- * they then start at the least, above 0 since it is divided by them, and end behind it. */
+ * they then start at the least or behind, above 0 since it is divided by them, and end behind it. */
 static inline void depths_widen(Depths *depths, const View *view, float least) {
     const float rounding = 1e-5f * fmaxf(fabsf(depths->near), fabsf(depths->far));
     const float margin = 1e-3f * (depths->far - depths->near) + rounding + 1e-6f;
@@ -43,7 +43,7 @@ static inline void depths_widen(Depths *depths, const View *view, float least) {
     depths->far += margin;
     if (view->orthographic) return;
     depths->near = fmaxf(depths->near, least);
-    depths->far = fmaxf(depths->far, 2.0f * depths->near);
+    depths->far = fmaxf(depths->far, 2.0f * least);
 }
 
 #endif

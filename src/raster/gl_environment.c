@@ -367,22 +367,18 @@ void environment_place(const GlEnvironment *self, const Environment *e) {
     glBufferSubData(GL_UNIFORM_BUFFER, 0, sizeof place, place);
 }
 
-static Vec3 turned(Vec3 d, float c, float s) { return vec3(d.x * c + d.z * s, d.y, d.z * c - d.x * s); }
-
 int environment_lights(const GlEnvironment *self, float rotation, EnvLight env_lights[AMBIENT_LIGHTS_MAX]) {
-    float c = cosf(rotation), s = sinf(rotation);
     for (int k = 0; k < self->parts.env_light_count; k++) {
         env_lights[k] = self->parts.env_lights[k];
-        env_lights[k].direction = turned(env_lights[k].direction, c, s);
+        env_lights[k].direction = latlong_turned(env_lights[k].direction, rotation);
     }
     return self->parts.env_light_count;
 }
 
 int environment_points(const GlEnvironment *self, float rotation, EnvPoint env_points[AMBIENT_POINTS_MAX]) {
-    float c = cosf(rotation), s = sinf(rotation);
     for (int k = 0; k < self->parts.point_count; k++) {
         env_points[k] = self->parts.points[k];
-        env_points[k].direction = turned(env_points[k].direction, c, s);
+        env_points[k].direction = latlong_turned(env_points[k].direction, rotation);
     }
     return self->parts.point_count;
 }

@@ -20,16 +20,22 @@ static bool is_same_place(const EnvLight *a, const EnvLight *b) {
            memcmp((const char *)&a->spread, (const char *)&b->spread, sizeof a->spread) == 0;
 }
 
-/* Returns true if the environment without its lights is another, or turned. */
+/* Returns true if the environment without its lights is another, or turned; not if it is the same but for its strength,
+ * since only parts of its light count. */
 static bool find_rest(Lookout *self, const GlEnvironment *environment, float rotation) {
-    const AmbientRest *rest = &environment->parts.rest;
-    float change = fabsf(rotation - self->rotation);
-    for (int k = 0; k < AMBIENT_REST_HEIGHT * AMBIENT_REST_WIDTH; k++)
-        change += fabsf(rest->luminance[k / AMBIENT_REST_WIDTH][k % AMBIENT_REST_WIDTH] -
-                        self->rest.luminance[k / AMBIENT_REST_WIDTH][k % AMBIENT_REST_WIDTH]);
-    self->rest = *rest;
+    enum { TEXELS = AMBIENT_REST_HEIGHT * AMBIENT_REST_WIDTH };
+    AmbientRest rest = environment->parts.rest;
+    float *now = rest.luminance[0], mean = 0.0f, change = 0.0f;
+    const float *before = self->rest.luminance[0];
+    for (int k = 0; k < TEXELS; k++) mean += now[k] / TEXELS;
+    for (int k = 0; k < TEXELS; k++) {
+        now[k] = mean > 0.0f ? now[k] / mean : 1.0f;
+        change += fabsf(now[k] - before[k]) / TEXELS;
+    }
+    bool turned = fabsf(rotation - self->rotation) > 0.0f;
+    self->rest = rest;
     self->rotation = rotation;
-    return change > 0.0f;
+    return turned || change > 1e-5f; /* more than rounding */
 }
 
 /* Returns true if lights, or what is left, have moved. */

@@ -36,7 +36,6 @@ WeftResult backdrop_blurred(const Environment *environment, WeftImage *out, Weft
 }
 
 void backdrop_at(const Environment *environment, const WeftImage *blurred, Vec3 d, float color[3]) {
-    float c = cosf(environment->rotation), s = sinf(environment->rotation);
-    latlong_at(blurred, vec3(d.x * c - d.z * s, d.y, d.x * s + d.z * c), color);
+    latlong_at(blurred, latlong_turned(d, -environment->rotation), color);
     for (int k = 0; k < 3; k++) color[k] *= environment->strength;
 }

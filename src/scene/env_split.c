@@ -14,6 +14,17 @@ Vec3 latlong_direction(double u, double v) {
     return vec3((float)(sin(theta) * sin(phi)), (float)cos(theta), (float)(-sin(theta) * cos(phi)));
 }
 
+Vec3 latlong_turned(Vec3 d, float turn) {
+    float c = cosf(turn), s = sinf(turn);
+    return vec3(d.x * c + d.z * s, d.y, d.z * c - d.x * s);
+}
+
+/* The point of the image where a unit direction is, u and v in [0, 1]. */
+static void latlong_point(Vec3 d, float *u, float *v) {
+    *u = 0.5f + atan2f(d.x, -d.z) / (float)(2.0 * PI_DOUBLE);
+    *v = acosf(fminf(fmaxf(d.y, -1.0f), 1.0f)) / PI_FLOAT;
+}
+
 /* Texel (x, y) as three colours; grey where there are fewer. */
 static void texel(const WeftImage *image, int x, int y, float color[3]) {
     const float *p = (const float *)image->pixels +
@@ -22,8 +33,9 @@ static void texel(const WeftImage *image, int x, int y, float color[3]) {
 }
 
 void latlong_at(const WeftImage *image, Vec3 d, float color[3]) {
-    float x = (0.5f + atan2f(d.x, -d.z) / (float)(2.0 * PI_DOUBLE)) * (float)image->width - 0.5f;
-    float y = acosf(fminf(fmaxf(d.y, -1.0f), 1.0f)) / PI_FLOAT * (float)image->height - 0.5f;
+    float u, v;
+    latlong_point(d, &u, &v);
+    float x = u * (float)image->width - 0.5f, y = v * (float)image->height - 0.5f;
     int x0 = (int)floorf(x), y0 = (int)floorf(y);
     float fx = x - (float)x0, fy = y - (float)y0;
     color[0] = color[1] = color[2] = 0.0f;
@@ -160,8 +172,8 @@ static void find_rest(const WeftImage *image, AmbientRest *rest) {
 }
 
 float ambient_rest_at(const AmbientRest *rest, Vec3 d) {
-    float u = 0.5f + atan2f(d.x, -d.z) / (float)(2.0 * PI_DOUBLE),
-          v = acosf(fminf(fmaxf(d.y, -1.0f), 1.0f)) / PI_FLOAT;
+    float u, v;
+    latlong_point(d, &u, &v);
     int x = (int)(u * AMBIENT_REST_WIDTH), y = (int)(v * AMBIENT_REST_HEIGHT);
     return rest->luminance[y < AMBIENT_REST_HEIGHT ? y : AMBIENT_REST_HEIGHT - 1][x % AMBIENT_REST_WIDTH];
 }

@@ -86,4 +86,8 @@ WeftResult latlong_resize(const WeftImage *image, int width, int height, WeftIma
 /* The unit direction of a point of the image, u and v in [0, 1]. */
 Vec3 latlong_direction(double u, double v);
 
+/* A direction of the image in the world, where the environment is turned so far, Environment.rotation; by its negative
+ * the other way. */
+Vec3 latlong_turned(Vec3 direction, float rotation);
+
 #endif

@@ -1,5 +1,6 @@
 #include "shading/ambient_fit.h"
 
+#include "base/cholesky.h"
 #include "base/thread.h"
 
 /* Wanted: w >= 0 that makes least, on average over environments, the square of
@@ -232,27 +233,12 @@ int ambient_lean_azimuth(int lobe) {
     return weft_lobe_param_find(lobe, "tilt") > 0 ? weft_lobe_param_find(lobe, "azimuth") : -1;
 }
 
-/* Returns true if the lobe has that parameter; *set is raised if its value is another than `plain`. */
-static bool has_param(const Lobe *lobe, const char *name, float plain, bool *set) {
-    int k = weft_lobe_param_find(lobe->id, name);
-    if (k >= 0) *set |= fabsf(lobe->params[k] - plain) > 0.0f;
-    return k >= 0;
-}
-
-/* Returns true if the lobe depends on azimuth: upright fibres and unbrushed lobes do not. */
-static bool turns(const Lobe *lobe) {
-    bool set = false, any = has_param(lobe, "tilt", 0.0f, &set);
-    any |= has_param(lobe, "anisotropy", 0.0f, &set);
-    any |= has_param(lobe, "stretch", 1.0f, &set);
-    return weft_lobe_info(lobe->id)->traits & TRAIT_ANISOTROPIC && (set || !any);
-}
-
 void ambient_fit_shape(AmbientFit *fit, const Lobe *lobe, float low, float high) {
     const WeftLobeInfo *info = weft_lobe_info(lobe->id);
     int azimuth = ambient_lean_azimuth(lobe->id);
     fit->lobe = *lobe;
     if (azimuth > 0) lobe_set(&fit->lobe, azimuth, 0.0f);
-    fit->turning = turns(lobe);
+    fit->turning = lobe_turns(lobe);
     fit->low = low;
     fit->high = high;
     if (info->param_count > 0) {
@@ -342,26 +328,6 @@ enum { TERMS = AMBIENT_DEGREE + 1, PLANES_HELD = 4 * AMBIENT_GROUPS };
  * that is small elsewhere would be all there is. */
 static const double FADED = 0.01;
 
-/* Solves A x = b, A symmetric and positive definite, for all planes b at once: A = L L^T. Both are
- * overwritten. */
-static void cholesky_solve(double a[TERMS][TERMS], double b[TERMS][PLANES_HELD]) {
-    for (int i = 0; i < TERMS; i++)
-        for (int j = 0; j <= i; j++) {
-            for (int k = 0; k < j; k++) a[i][j] -= a[i][k] * a[j][k];
-            a[i][j] = i == j ? (sqrt)(a[i][i]) : a[i][j] / a[j][j];
-        }
-    for (int n = 0; n < PLANES_HELD; n++) {
-        for (int i = 0; i < TERMS; i++) {
-            for (int k = 0; k < i; k++) b[i][n] -= a[i][k] * b[k][n];
-            b[i][n] /= a[i][i];
-        }
-        for (int i = TERMS - 1; i >= 0; i--) {
-            for (int k = i + 1; k < TERMS; k++) b[i][n] -= a[k][i] * b[k][n];
-            b[i][n] /= a[i][i];
-        }
-    }
-}
-
 static double node(const AmbientFit *fit, int side, int plane, int column) {
     return (double)fit->texels[side * AMBIENT_PLANES + plane][column];
 }
@@ -382,7 +348,7 @@ static void hold_planes(const AmbientFit *fit, int side, int first, int end,
                 b[j][n] += weight[column] * power[j] * node(fit, side, n, column);
         }
     }
-    cholesky_solve(a, b);
+    cholesky_solve(TERMS, a[0], PLANES_HELD, b[0]);
     for (int k = 0; k < AMBIENT_SIDE; k++) {
         float *to[4] = {&out[k].a, &out[k].b, &out[k].c, &out[k].d};
         for (int n = 0; n < 4; n++) {
