@@ -7,6 +7,7 @@
 #include "raster/occlusion.h"
 
 #include "base/cache.h"
+#include "base/cholesky.h"
 #include "base/fail.h"
 #include "base/thread.h"
 #include "shading/frame.h"
@@ -17,6 +18,8 @@ enum { BLOCK = 256 }; /* vertices in one go */
 
 /* One in so many rays of a light is sent first, the others follow where those do not agree. */
 enum { FIRST = 4 };
+
+enum { SHIFTS = 4 };
 
 /* Edges are halved so often where their ends see that much that is different, in parts of the light. */
 enum { ROUNDS = 2 };
@@ -58,22 +61,6 @@ struct Occlusion {
 
 static Dir dir_of(Vec3 v) { return dir(v.x, v.y, v.z); }
 
-/* Solves m x = y for m symmetric and positive definite, of which the lower half counts, by m = l d l^T, which takes the
- * place of m as x does that of y. */
-static void solve(double m[4][4], double x[4]) {
-    for (int j = 0; j < 4; j++)
-        for (int i = j; i < 4; i++) {
-            for (int k = 0; k < j; k++) m[i][j] -= m[i][k] * m[j][k] * m[k][k];
-            if (i > j) m[i][j] /= m[j][j];
-        }
-    for (int i = 0; i < 4; i++)
-        for (int k = 0; k < i; k++) x[i] -= m[i][k] * x[k];
-    for (int i = 3; i >= 0; i--) {
-        x[i] /= m[i][i];
-        for (int k = i + 1; k < 4; k++) x[i] -= m[k][i] * x[k];
-    }
-}
-
 /* The face of a cube that a direction meets, and where, both coordinates from -1 to 1. */
 static int face_of(Dir w, float *u, float *v) {
     float x = abs(w.x), y = abs(w.y), z = abs(w.z);
@@ -91,7 +78,7 @@ static float brightness(const Occlusion *self, Dir w) {
 
 /* Fills the cube. Dark directions count a little too, since lights are dimmed as the sky is until they are found. */
 static void place_brightness(Occlusion *self, const OcclusionHow *how) {
-    const float dark = 0.05f, c = cos(how->rotation), s = sin(how->rotation);
+    const float dark = 0.05f;
     float mean = 0.0f;
     for (int k = 0; k < 6 * BRIGHT * BRIGHT; k++) {
         const float u = ((float)(k % BRIGHT) + 0.5f) * 2.0f / BRIGHT - 1.0f,
@@ -100,8 +87,7 @@ static void place_brightness(Occlusion *self, const OcclusionHow *how) {
         const float side = face % 2 ? -1.0f : 1.0f;
         const Vec3 at[3] = {{side, u, v}, {v, side, u}, {u, v, side}};
         Vec3 w = vec3_normal_or(at[face / 2], vec3(0.0f, 1.0f, 0.0f));
-        Vec3 own = vec3(w.x * c - w.z * s, w.y, w.z * c + w.x * s);
-        float l = how->rest ? ambient_rest_at(how->rest, own) : 1.0f;
+        float l = how->rest ? ambient_rest_at(how->rest, latlong_turned(w, -how->rotation)) : 1.0f;
         self->bright[face][k / BRIGHT % BRIGHT][k % BRIGHT] = l;
         mean += l / (6 * BRIGHT * BRIGHT);
     }
@@ -112,23 +98,40 @@ static void place_brightness(Occlusion *self, const OcclusionHow *how) {
 }
 
 /* The ramp c . b, b = (1, w.x, w.y, w.z), nearest to what is seen, V: the sum over the rays of g (c . b - V)^2 is least
- * where c = (sum g b b^T)^-1 sum g b V. g = L / (w.z + 0.07), L the brightness of the environment there, since a sheen
+ * where c = (sum g b b^T)^-1 sum g b V. g = L / (w.z + 0.07), L the light from there, since a sheen
  * looks along the horizon: then the sum of g c . b is that of g V, so what is seen of such a lobe's light is right
  * whatever hides the rest. A ramp that is fitted as it is cut off at 0 and 1 is nearer at a vertex, but steep, and
  * further off between vertices. */
-static void fit_ramp(const Occlusion *self, const Dir *ways, const bool *hidden, double c[4]) {
+static void fit_ramp(const Occlusion *self, const float *light, const bool *hidden, double c[4]) {
     double m[4][4] = {{0.0}};
     memset(c, 0, 4 * sizeof *c);
     for (int i = 0; i < 4; i++) m[i][i] = 1e-6 * self->rays; /* fewer than four rays leave it open */
     for (int k = 0; k < self->rays; k++) {
         Dir w = self->sky[k];
-        const float g = brightness(self, ways[k]) / (w.z + 0.07f), b[4] = {1.0f, w.x, w.y, w.z};
+        const float g = light[k] / (w.z + 0.07f), b[4] = {1.0f, w.x, w.y, w.z};
         for (int i = 0; i < 4; i++) {
             for (int j = 0; j <= i; j++) m[i][j] += (double)(g * b[i] * b[j]);
             if (!hidden[k]) c[i] += (double)(g * b[i]);
         }
     }
-    solve(m, c);
+    cholesky_solve(4, m[0], 1, c);
+}
+
+/* Shifts the ramp so that the sum of g clamp(c . b) over the rays is that of g V: a ramp that is cut off at 0 and 1 is
+ * brighter or darker than it was. Newton's method, whose slope is the part of the light where it is not cut off. */
+static void shift_ramp(const Occlusion *self, const float *light, const bool *hidden, double c[4]) {
+    for (int step = 0; step < SHIFTS; step++) {
+        double missing = 0.0, slope = 0.0, all = 1e-9;
+        for (int k = 0; k < self->rays; k++) {
+            Dir w = self->sky[k];
+            const double g = (double)(light[k] / (w.z + 0.07f)),
+                         ramp = c[0] + c[1] * (double)w.x + c[2] * (double)w.y + c[3] * (double)w.z;
+            missing += g * ((hidden[k] ? 0.0 : 1.0) - fmin(fmax(ramp, 0.0), 1.0));
+            slope += ramp > 0.0 && ramp < 1.0 ? g : 0.0;
+            all += g;
+        }
+        c[0] += missing / fmax(slope, 0.1 * all);
+    }
 }
 
 /* Directions are even over the hemisphere by the golden ratio. All vertices have the same, so that what they err by
@@ -162,16 +165,20 @@ static float seen_from(const Occlusion *self, Vec3 p, Vec3 n, float reach, uint3
     bool hidden[OCCLUSION_RAYS_MAX];
     Dir ways[OCCLUSION_RAYS_MAX];
     Frame frame = frame_upright(n);
-    float sum = 0.0f, all = 1e-6f;
+    float light[OCCLUSION_RAYS_MAX], sum = 0.0f, all = 1e-6f;
     double c[4];
-    for (int k = 0; k < self->rays; k++) ways[k] = frame_from(frame, self->sky[k]);
+    for (int k = 0; k < self->rays; k++) {
+        ways[k] = frame_from(frame, self->sky[k]);
+        light[k] = brightness(self, ways[k]);
+    }
     look_along(self, vec3_madd(p, n, reach), ways, self->rays, vertex, hidden);
     for (int k = 0; k < self->rays; k++) {
-        const float light = self->sky[k].z * brightness(self, ways[k]);
-        sum += hidden[k] ? 0.0f : light;
-        all += light;
+        const float falls = self->sky[k].z * light[k];
+        sum += hidden[k] ? 0.0f : falls;
+        all += falls;
     }
-    fit_ramp(self, ways, hidden, c);
+    fit_ramp(self, light, hidden, c);
+    shift_ramp(self, light, hidden, c);
     Dir slope = frame_from(frame, dir((float)c[1], (float)c[2], (float)c[3]));
     open[0] = (float)c[0];
     open[1] = slope.x, open[2] = slope.y, open[3] = slope.z;

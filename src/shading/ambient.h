@@ -158,8 +158,11 @@ FN Rgb ambient_smooth(const Stack *m, const StackView *w, AmbientTables t, Ambie
     if (HAS_SHEEN(m)) {
         AmbientView along = v;
         if (m->nap.tilt > 0.0f) along.heading = v.tx * m->nap.x + v.ty * m->nap.y;
-        /* The sheen's own albedo table interpolates E better than the table of the fit. */
-        float albedo = m->albedo == ALBEDO_TABLE && m->table.kind != TABLE_NONE ? w->e_o.e : -1.0f;
+        /* The sheen's own albedo table interpolates E better than the table of the fit, unless E depends on the heading
+         * and it does not. */
+        bool better = m->albedo == ALBEDO_TABLE && m->table.kind != TABLE_NONE &&
+                      (!t.sheen.turning || SHEEN_TILTS(m->table) > 0);
+        float albedo = better ? w->e_o.e : -1.0f;
         SlotColors colors = slot_colors(&m->sheen);
         AmbientTint tint = ambient_tint(w->e_o, colors);
         SlotLight light = ambient_slot_light(t.sheen, s, along, residual, m->sheen.lobe, tint, albedo);

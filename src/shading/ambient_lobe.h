@@ -176,13 +176,12 @@ FN SlotLight ambient_undirected_light(AmbientTable t, AmbientSource s, AmbientVi
     return ambient_fitted_light(t, s, v, residual, at, e);
 }
 
-/* residual: the look-ups in this view. albedo: see ambient_albedo; a brushed lobe has another for each heading. The light
- * of a tinted lobe is that of its flakes. */
+/* residual: the look-ups in this view. albedo: see ambient_albedo. The light of a tinted lobe is that of its flakes. */
 FN SlotLight ambient_slot_light(AmbientTable t, AmbientSource s, AmbientView v, AmbientLookups residual,
                                 Lobe lobe, AmbientTint tint, float albedo) {
     float p = lobe.params[0];
     AmbientCoord at = ambient_coord(t, v.o.z, v.heading, p);
-    AmbientAlbedo e = ambient_albedo(t, s, at, t.strips && t.turning ? -1.0f : albedo);
+    AmbientAlbedo e = ambient_albedo(t, s, at, albedo);
     if (t.strategy == AMBIENT_SAMPLED) return ambient_sampled_light(t, s, v, at, lobe, tint, e);
     SlotLight a = ambient_undirected_light(t, s, v, residual, at, p, e);
     a.reflected.first = ambient_tinted(tint.whole, tint.flakes, a.reflected.first);

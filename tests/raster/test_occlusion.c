@@ -9,6 +9,7 @@
 
 #include "trace/scenes.h"
 
+#include "base/pi.h"
 #include "raster/occlusion.h"
 #include "scratch.h"
 
@@ -35,8 +36,9 @@ static WeftScene *corner(WeftAlphaMode mode) {
     return scene;
 }
 
-static void look_under(const WeftScene *scene, const AmbientRest *rest, bool no_cache, float values[ALL],
-                       int *warnings) {
+/* rest: NULL is even; turned by the rotation. */
+static void look_under(const WeftScene *scene, const AmbientRest *rest, float rotation, bool no_cache,
+                       float values[ALL], int *warnings) {
     const WeftLog log = {count, warnings};
     Occlusion *occlusion;
     WeftError error;
@@ -51,14 +53,15 @@ static void look_under(const WeftScene *scene, const AmbientRest *rest, bool no_
                               .no_cache = no_cache,
                               .env_lights = env_lights,
                               .env_light_count = LIGHTS,
-                              .rest = rest};
+                              .rest = rest,
+                              .rotation = rotation};
     assert_int_equal(occlusion_start(scene, &unrefined, &how, &occlusion, &log, &error), WEFT_OK);
     memcpy(values, occlusion_values(occlusion, true), ALL * sizeof *values);
     occlusion_free(occlusion);
 }
 
 static void look(const WeftScene *scene, bool no_cache, float values[ALL], int *warnings) {
-    look_under(scene, NULL, no_cache, values, warnings);
+    look_under(scene, NULL, 0.0f, no_cache, values, warnings);
 }
 
 static int files(void) {
@@ -101,22 +104,41 @@ static void occlusion_of_a_corner_is_found_in_the_cache(void **state) {
     weft_scene_free(scene);
 }
 
-/* A wall before a dark half of the sky hides a part of the light that is as small as the half is dark. */
+/* The half of the sky about the middle of a column of the image is dark. */
+static AmbientRest dark_about(int column) {
+    AmbientRest rest;
+    for (int y = 0; y < AMBIENT_REST_HEIGHT; y++)
+        for (int x = 0; x < AMBIENT_REST_WIDTH; x++) {
+            int off = (x - column + AMBIENT_REST_WIDTH) % AMBIENT_REST_WIDTH;
+            bool dark = off < AMBIENT_REST_WIDTH / 4 || off >= 3 * AMBIENT_REST_WIDTH / 4;
+            rest.luminance[y][x] = dark ? 0.02f : 1.0f;
+        }
+    return rest;
+}
+
+/* A wall, towards -z, before a dark half of the sky hides a part of the light that is as small as the half is dark, and
+ * before the bright half all but that. */
 static void wall_before_the_dark_hides_little(void **state) {
     (void)state;
-    const float dark = 0.02f;
+    /* the middle column of the image is -z, from which turns by a positive angle lead to -x */
+    static const struct {
+        int column;
+        float rotation;
+        bool dark;
+    } cases[] = {{AMBIENT_REST_WIDTH / 2, 0.0f, true},
+                 {0, 0.0f, false},
+                 {3 * AMBIENT_REST_WIDTH / 4, 0.5f * PI_FLOAT, true},
+                 {3 * AMBIENT_REST_WIDTH / 4, -0.5f * PI_FLOAT, false}};
     WeftScene *scene = corner(WEFT_ALPHA_OPAQUE);
-    AmbientRest rest;
-    float values[ALL];
-    int warnings = 0;
-    /* the middle column of the image is where the wall is, towards -z */
-    for (int y = 0; y < AMBIENT_REST_HEIGHT; y++)
-        for (int x = 0; x < AMBIENT_REST_WIDTH; x++)
-            rest.luminance[y][x] = abs(2 * x - AMBIENT_REST_WIDTH) < AMBIENT_REST_WIDTH / 2 ? dark : 1.0f;
-    look_under(scene, &rest, true, values, &warnings);
-    for (int k = 0; k < 4; k++) {
-        const float *at = values + OCCLUSION_VALUES * k;
-        assert_true(at[0] > 0.9f && at[0] < 1.0f);
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
+        const AmbientRest rest = dark_about(cases[c].column);
+        float values[ALL];
+        int warnings = 0;
+        look_under(scene, &rest, cases[c].rotation, true, values, &warnings);
+        for (int k = 0; k < 4; k++) {
+            float seen = values[OCCLUSION_VALUES * k];
+            assert_true(cases[c].dark ? seen > 0.9f && seen < 1.0f : seen < 0.1f);
+        }
     }
     weft_scene_free(scene);
 }
