@@ -274,6 +274,21 @@ static void average_headings(AlbedoTable *table, int map, int row) {
     for (int k = 0; k < TABLE_HEADINGS; k++) table->e[(map + k) * table->rows + row][ALBEDO_MU] = mean;
 }
 
+/* Returns the wo for which the E of a brushed lobe is greatest, of ALBEDO_AZIMUTHS on a half turn, which is all that it
+ * has: a table that knows no heading must not be below E at any, or layer rules would return more light than arrives. Of
+ * another lobe wo is at azimuth 0. */
+static Dir brightest(const Lobe *lobe, float cos_o) {
+    float most = -1.0f, s = sqrt(max(1.0f - cos_o * cos_o, 0.0f));
+    Dir best = dir(s, 0.0f, cos_o);
+    for (int k = 0; lobe_turns(lobe) && k < ALBEDO_AZIMUTHS; k++) {
+        float azimuth = PI * (float)k / ALBEDO_AZIMUTHS;
+        Dir wo = dir(s * cos(azimuth), s * sin(azimuth), cos_o);
+        Albedo e = albedo_quadrature(lobe, wo, 1e-3);
+        if (e.f0 + e.f90 > most) most = e.f0 + e.f90, best = wo;
+    }
+    return best;
+}
+
 static void fill_column(void *user, int column, int thread) {
     (void)thread;
     const Fill *fill = user;
@@ -281,17 +296,17 @@ static void fill_column(void *user, int column, int thread) {
     bool tinted = (weft_lobe_info(fill->lobe->id)->traits & TRAIT_TINTED) != 0;
     float y = 1.0f - (float)column / (ALBEDO_MU - 1), x = 1.0f - y * y, cos_o = max(x * x * x * x, 1e-7f);
     float s = sqrt(max(1.0f - cos_o * cos_o, 0.0f));
-    Dir wo = table->tilts ? dir(0.0f, s, cos_o) : dir(s, 0.0f, cos_o);
     for (int row = 0; row < table->rows; row++) {
-        Lobe lobe = *fill->lobe;
         float t = table->rows > 1 ? (float)row / (ALBEDO_ROWS - 1) : 0.0f;
         float r = mix(table->root_low, table->root_high, t), r2 = r * r, r4 = r2 * r2;
+        Lobe lobe = *fill->lobe;
         if (weft_lobe_info((int)lobe.id)->param_count > 0) lobe_set(&lobe, 0, r4 * r4);
         if (table->tilts) fill_headings(table, lobe, row, column, cos_o);
         if (table->tilts && !tinted) {
             table->e[row][column] = table->e[(table->maps - ACROSS) * table->rows + row][column];
             continue;
         }
+        Dir wo = table->tilts ? dir(0.0f, s, cos_o) : brightest(&lobe, cos_o);
         Albedo e = albedo_quadrature(&lobe, wo, 1e-4);
         table->e[row][column] = e.f0 + e.f90;
         if (!tinted) continue;

@@ -40,10 +40,13 @@ void albedo_in_color(const Lobe *lobe, Dir wo, const float w[3], double toleranc
  *
  * E(w) is exact at w = 1, 7/8 and 1/2, and so is its slope at w = 0.
  *
+ * A brushed lobe's table is that of the azimuth of wo where E is greatest, so that layer rules give no light away.
+ *
  * If the fibres of a lobe lean (it has the parameters tilt > 0 and azimuth), these maps are for wo across the nap.
  * They hold for any azimuth of the nap. Further maps have E by heading (table.h), for the tilt of the lobe or for
  * TABLE_TILTS tilts. */
 enum {
+    ALBEDO_AZIMUTHS = 4, /* of wo, that a brushed lobe is asked for */
     ALBEDO_MU = 40,
     ALBEDO_ROWS = 32,
     ALBEDO_MAPS = 4, /* E, s, q and e */

@@ -13,6 +13,20 @@ bool lobe_of(const WeftLobe *public_lobe, Lobe *lobe) {
     return true;
 }
 
+/* Returns true if the lobe has that parameter; *set is raised if its value is another than `plain`. */
+static bool has_param(const Lobe *lobe, const char *name, float plain, bool *set) {
+    int k = weft_lobe_param_find(lobe->id, name);
+    if (k >= 0) *set |= fabsf(lobe->params[k] - plain) > 0.0f;
+    return k >= 0;
+}
+
+bool lobe_turns(const Lobe *lobe) {
+    bool set = false, any = has_param(lobe, "tilt", 0.0f, &set);
+    any |= has_param(lobe, "anisotropy", 0.0f, &set);
+    any |= has_param(lobe, "stretch", 1.0f, &set);
+    return weft_lobe_info(lobe->id)->traits & TRAIT_ANISOTROPIC && (set || !any);
+}
+
 WeftResult weft_lobe_init(const char *id, WeftLobe *out, WeftError *error) {
     int k = weft_lobe_find(id);
     char text[SEVERAL_SIZE];

@@ -69,6 +69,9 @@ const char *const *lobe_choices(const char *type);
 /* Sets parameter k, clamped to its hard range. */
 void lobe_set(Lobe *lobe, int k, float value);
 
+/* Returns true if the lobe depends on azimuth: upright fibres and unbrushed lobes do not. */
+bool lobe_turns(const Lobe *lobe);
+
 /* The registry's lobe for a public one, its parameters clamped; false where there is none of that index. */
 bool lobe_of(const WeftLobe *public_lobe, Lobe *lobe);
 
