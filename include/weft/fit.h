@@ -4,6 +4,10 @@
  * both that are numbers, within their plausible ranges; the choices of the lobe, of which all that may be put
  * together are looked at and the best searched; its colours and that of the base, which are at least 0 and
  * may pass 1 (weft_fitted_notes says so). Candidates are all lobes but diffuse ones and WEFT_LOBE_REFERENCE.
+ *   A weave is lobe woven, the warp, over base woven, the weft, which are fitted where base is "woven": as materials have
+ * them, the warp along the bitangent. f0 of each is the colour of light that met one fibre, f90 of all other, both factors;
+ * free are those and all numbers but the azimuth, the shares together being 1, within what is possible. Data that are
+ * isotropic or lie in one plane are refused with WEFT_MESSAGE_DESC: they do not tell warp from weft.
  *
  * The error is that of match.h over the samples of the data, each of which counts alike:
  *
@@ -69,10 +73,10 @@ WEFT_API WeftResult weft_data_lobe(const WeftData *data, const char *name, const
 
 /* One candidate, fitted. */
 typedef struct WeftFitted {
-    WeftLobe lobe;         /* with the parameters and colours that were found */
-    WeftLobe base;         /* likewise; f0 and f90 are its colour, a factor on the white base */
-    int numbers;           /* free ones: parameters of both, and three a colour, or one if all is grey */
-    double error;          /* by the metric that was chosen */
+    WeftLobe lobe; /* with the parameters and colours that were found */
+    WeftLobe base; /* likewise; f0 and f90 are its colour, a factor on the white base; of a weave the weft */
+    int numbers;   /* free ones: parameters of both, and three a colour, or one if all is grey */
+    double error;  /* by the metric that was chosen */
     long long evaluations; /* of the error, that it took */
 } WeftFitted;
 
@@ -101,7 +105,7 @@ typedef struct WeftFit {
 typedef struct WeftFitDesc {
     WeftBrdfMetric metric; /* LOG where `chosen` is 0; PICTURE is refused */
     int chosen;            /* not 0: metric was chosen */
-    const char *base;      /* a diffuse lobe, or "all": over each of them; NULL: lambert */
+    const char *base;      /* a diffuse lobe, or "all": over each of them; NULL: lambert; "woven": a weave */
     const char *only;      /* one candidate instead of all; NULL: all */
     int sayable;           /* not 0: parameters that no material has an input for stay at their default */
     int threads;           /* 0: one a processor; no influence on the result */
@@ -123,6 +127,9 @@ WEFT_API WeftResult weft_fit_material(const WeftData *data, const WeftFitDesc *d
  * WEFT_MESSAGE_DESC or _MEMORY. */
 WEFT_API WeftResult weft_data_distance(const WeftData *data, const WeftFitDesc *desc,
                                        const WeftReflection *reflection, double *distance, WeftError *error);
+
+/* Makes the reflection of a fit: base and lobe, or warp and weft. Fails with WEFT_MESSAGE_MEMORY. */
+WEFT_API WeftResult weft_fitted_reflection(const WeftFitted *fitted, WeftReflection **out, WeftError *error);
 
 /* The material that is exactly that base and lobe: workflow cloth, layer rule additive. Returns 0 where
  * inputs cannot say it: a lobe or base with more shape than inputs have (`sayable` fits them as they can be

@@ -44,6 +44,11 @@ static bool reads_f90(const WeftLobe *lobe) {
     return reads;
 }
 
+/* Warp and weft, in the colours of light that met one fibre, f0, and of all other, f90. */
+static bool is_weave(const WeftFitted *fitted) {
+    return !(weft_lobe_info(fitted->base.lobe)->traits & WEFT_LOBE_DIFFUSE);
+}
+
 /* Writes "d charlie, alpha 0.31" from `used` on; returns the new end. */
 static size_t numbers_text(const WeftLobe *lobe, char *text, size_t size, size_t used) {
     const WeftLobeInfo *info = weft_lobe_info(lobe->lobe);
@@ -58,15 +63,24 @@ static size_t numbers_text(const WeftLobe *lobe, char *text, size_t size, size_t
     return used;
 }
 
+/* Writes "f90 0.1,0.1,0.2" from `used` on; returns the new end. */
+static size_t f90_text(const WeftLobe *lobe, char *text, size_t size, size_t used) {
+    const float *c = lobe->f90;
+    if (used >= size) return used;
+    return used + (size_t)snprintf(text + used, size - used, "%sf90 %.3g,%.3g,%.3g", used ? ", " : "",
+                                   (double)c[0], (double)c[1], (double)c[2]);
+}
+
 /* Writes all of lobe and base but their first colours: "f90 0.1,0.1,0.2, d charlie, alpha 0.31, edge 0.1". */
 static const char *params_text(const WeftFitted *fitted, char *text, size_t size) {
-    const float *f90 = fitted->lobe.f90;
     size_t used = 0;
     text[0] = '\0';
-    if (reads_f90(&fitted->lobe))
-        used = (size_t)snprintf(text, size, "f90 %.3g,%.3g,%.3g", (double)f90[0], (double)f90[1],
-                                (double)f90[2]);
+    if (is_weave(fitted) || reads_f90(&fitted->lobe)) used = f90_text(&fitted->lobe, text, size, used);
     used = numbers_text(&fitted->lobe, text, size, used);
+    if (is_weave(fitted) && used < size) {
+        used += (size_t)snprintf(text + used, size - used, "; weft");
+        used = f90_text(&fitted->base, text, size, used);
+    }
     if (used < size) numbers_text(&fitted->base, text, size, used);
     return text;
 }
@@ -83,7 +97,7 @@ static const struct {
 enum { NOTES = sizeof notes / sizeof *notes };
 
 static void row_write(const char *rank, const char *name, const WeftFitted *fitted) {
-    char params[320], base[64], color[64];
+    char params[512], base[64], color[64];
     snprintf(base, sizeof base, "%.3f,%.3f,%.3f", (double)fitted->base.f0[0], (double)fitted->base.f0[1],
              (double)fitted->base.f0[2]);
     snprintf(color, sizeof color, "%.3g,%.3g,%.3g", (double)fitted->lobe.f0[0], (double)fitted->lobe.f0[1],
@@ -114,7 +128,8 @@ static void text_write(const Fitting *fitting) {
         idle += (weft_fitted_notes(&fit->fitted[k]) & WEFT_FITTED_NOTHING) != 0;
     }
     row_write("", "baseline: ggx, f90 = 1, over lambert", &fit->baseline);
-    printf("%4s  %-44s %7.4f\n\n", "", "the base alone", fit->base_alone);
+    printf("%4s  %-44s %7.4f\n\n", "", is_weave(&fit->fitted[0]) ? "lambert alone" : "the base alone",
+           fit->base_alone);
     printf("these are fits to a measurement: what they say of directions that it has not is a guess. "
            "Numbers: how "
            "many were free, three of each colour\n");
@@ -148,7 +163,8 @@ static void json_fitted(Json *json, const char *key, const WeftFitted *fitted) {
     json_whole(json, "numbers", fitted->numbers);
     json_floats(json, "base_color", fitted->base.f0, 3);
     json_floats(json, "color", fitted->lobe.f0, 3);
-    if (reads_f90(&fitted->lobe)) json_floats(json, "f90", fitted->lobe.f90, 3);
+    if (is_weave(fitted) || reads_f90(&fitted->lobe)) json_floats(json, "f90", fitted->lobe.f90, 3);
+    if (is_weave(fitted)) json_floats(json, "base_f90", fitted->base.f90, 3);
     json_params(json, "params", &fitted->lobe);
     json_params(json, "base_params", &fitted->base);
     json_open(json, "notes", '[');
@@ -190,7 +206,9 @@ static int fits_count(const Fitting *fitting, const char *only) {
         bases += (traits & WEFT_LOBE_DIFFUSE) != 0;
         lobes += !(traits & (WEFT_LOBE_DIFFUSE | WEFT_LOBE_REFERENCE));
     }
-    return (only ? 1 : lobes) * (strcmp(fitting->base, "all") == 0 ? bases : 1) + 1;
+    return (only || strcmp(fitting->base, "woven") == 0 ? 1 : lobes) *
+               (strcmp(fitting->base, "all") == 0 ? bases : 1) +
+           1;
 }
 
 /* Finds the best fit that a material can express: parameters without an input stay at their defaults, and the
@@ -277,7 +295,13 @@ static int lobes_check(const Fitting *fitting) {
     const char *only = option_text(fitting->options, "--lobe");
     const WeftLobeInfo *base = weft_lobe_info(weft_lobe_find(fitting->base)),
                        *lobe = only ? weft_lobe_info(weft_lobe_find(only)) : NULL;
-    if (base && !(base->traits & WEFT_LOBE_DIFFUSE))
+    const bool weave = strcmp(fitting->base, "woven") == 0;
+    if (weave && only && strcmp(only, "woven") != 0)
+        return report(WEFT_USAGE, "--base woven: is the weft; it goes with --lobe woven, the warp, alone");
+    if (weave && option_given(fitting->options, "-o") && !option_given(fitting->options, "--to"))
+        return report(WEFT_USAGE,
+                      "--base woven: is fitted as two lobes, of which no material can be written");
+    if (base && !weave && !(base->traits & WEFT_LOBE_DIFFUSE))
         return report(WEFT_USAGE, "--base %s: is not a diffuse lobe", base->id);
     if (lobe && lobe->traits & WEFT_LOBE_DIFFUSE)
         return report(WEFT_USAGE, "--lobe %s: is a diffuse lobe, which is fitted as --base alone", lobe->id);
@@ -345,7 +369,8 @@ static int fit_run(const Options *options) {
 static const Option fit_options[] = {
     OPTION_HEADING("Fit"),
     OPTION_TEXT("--metric", "NAME", "log", "what is made least: log or cosine"),
-    OPTION_TEXT("--base", "LOBE|all", "lambert", "the diffuse lobe below, or each of them"),
+    OPTION_TEXT("--base", "LOBE|all|woven", "lambert",
+                "the diffuse lobe below, or each of them; woven: fit warp and weft of a cloth alone"),
     OPTION_LOBES_OR("fit this lobe alone"),
     OPTION_TEXT(
         "--to", "PROFILE", NULL,
@@ -379,6 +404,8 @@ const Verb verb_fit = {
              "The error is the sum of |g(fit) - g(data)| over that of g(data), of x = f cos:\n"
              "  log      g = ln(1 + x / mean x)\n"
              "  cosine   g = x\n"
+             "With --base woven a cloth's two systems of threads, lobes woven at right angles,\n"
+             "are fitted instead, to data that tell azimuths apart.\n"
              "Directions more than 80 degrees off the normal do not count. docs/fit.md explains\n"
              "more.\n\n"
              "Examples\n"
@@ -386,6 +413,7 @@ const Verb verb_fit = {
              "  weft fit felt.binary -o felt.json --plot felt.png\n"
              "  weft fit felt.binary --base body --lobe fabric --measured -o felt.json\n"
              "  weft fit felt.bsdf --to three -o felt.glb\n"
+             "  weft fit denim.bsdf --base woven --json\n"
              "  weft fit gonio.csv --metric cosine --base eon --json\n",
     .run = fit_run,
 };

@@ -13,13 +13,6 @@
 enum { SIDE = 220, ROWS = 2, COLUMNS = 3, PANELS = 2 * ROWS * COLUMNS };
 static const double azimuths[ROWS] = {90.0, 0.0};
 
-/* One of the three that are drawn: a reflection, over a base where base is not NULL. */
-typedef struct Drawn {
-    const WeftReflection *reflection;
-    WeftLobe base;
-    int has_base;
-} Drawn;
-
 /* The directions of a pixel; 0 where one is below the horizon or grazes. */
 static int directions(int column, int row, double phi_d, float wo[3], float wi[1][3]) {
     const double quarter = 0.5 * PI_DOUBLE;
@@ -34,23 +27,14 @@ static int directions(int column, int row, double phi_d, float wo[3], float wi[1
     return wo[2] > 0.1736f && wi[0][2] > 0.1736f;
 }
 
-/* f of what is drawn, at a pair of directions. */
-static void ask(const Drawn *drawn, const float wo[3], const float wi[3], float f[3]) {
-    float below[3] = {0.0f};
-    const float way[1][3] = {{wi[0], wi[1], wi[2]}};
-    weft_reflection_eval(drawn->reflection, WEFT_PART_ALL, wo, 1, way, (float(*)[3])f);
-    if (drawn->has_base) weft_lobe_eval(&drawn->base, wo, wi, below);
-    for (int c = 0; c < 3; c++) f[c] += below[c];
-}
-
-static WeftResult draw(const Drawn *drawn, double phi_d, WeftImage *out, WeftError *error) {
+static WeftResult draw(const WeftReflection *drawn, double phi_d, WeftImage *out, WeftError *error) {
     WeftResult result = weft_image_create(SIDE, SIDE, 4, WEFT_PIXEL_F32, out, error);
     for (int k = 0; k < SIDE * SIDE && result == WEFT_OK; k++) {
-        float wo[3], wi[1][3], f[3];
+        float wo[3], wi[1][3], f[1][3];
         float *pixel = (float *)out->pixels + (size_t)4 * (size_t)k;
         if (!directions(k % SIDE, k / SIDE, phi_d, wo, wi)) continue;
-        ask(drawn, wo, wi[0], f);
-        for (int c = 0; c < 3; c++) pixel[c] = f[c] * wi[0][2];
+        weft_reflection_eval(drawn, WEFT_PART_ALL, wo, 1, (const float(*)[3])wi, f);
+        for (int c = 0; c < 3; c++) pixel[c] = f[0][c] * wi[0][2];
         pixel[3] = 1.0f;
     }
     return result;
@@ -75,18 +59,18 @@ static void half_difference(const float wo[3], const float wi[3], double at[3]) 
 enum { CELLS = 30 };
 
 /* The mean over the samples of each cell of a slice; pixels of cells without any stay empty. */
-static WeftResult draw_samples(const WeftData *data, const Drawn *drawn, double phi_d, WeftImage *out,
-                               WeftError *error) {
+static WeftResult draw_samples(const WeftData *data, const WeftReflection *drawn, double phi_d,
+                               WeftImage *out, WeftError *error) {
     float sum[CELLS][CELLS][4] = {{{0.0f}}};
     for (int k = 0; k < weft_data_count(data, NULL); k++) {
-        float wo[3], wi[3], f[3];
+        float wo[3], wi[1][3], f[1][3];
         double at[3];
-        weft_data_sample(data, k, wo, wi, f);
-        half_difference(wo, wi, at);
+        weft_data_sample(data, k, wo, wi[0], f[0]);
+        half_difference(wo, wi[0], at);
         if ((phi_d > 45.0) != (at[2] > 0.5)) continue;
-        if (drawn) ask(drawn, wo, wi, f);
+        if (drawn) weft_reflection_eval(drawn, WEFT_PART_ALL, wo, 1, (const float(*)[3])wi, f);
         float *cell = sum[(int)fmin(at[1] * CELLS, CELLS - 1)][(int)fmin(at[0] * CELLS, CELLS - 1)];
-        for (int c = 0; c < 3; c++) cell[c] += f[c] * wi[2];
+        for (int c = 0; c < 3; c++) cell[c] += f[0][c] * wi[0][2];
         cell[3] += 1.0f;
     }
     WeftResult result = weft_image_create(SIDE, SIDE, 4, WEFT_PIXEL_F32, out, error);
@@ -96,16 +80,6 @@ static WeftResult draw_samples(const WeftData *data, const Drawn *drawn, double 
         for (int c = 0; c < 3 && cell[3] > 0.0f; c++) pixel[c] = cell[c] / cell[3];
         pixel[3] = cell[3] > 0.0f ? 1.0f : 0.0f;
     }
-    return result;
-}
-
-/* A fit as two things to be added. */
-static WeftResult drawn_of(const WeftFitted *fitted, Drawn *drawn, WeftReflection **reflection,
-                           WeftError *error) {
-    drawn->base = fitted->base;
-    drawn->has_base = 1;
-    WeftResult result = weft_reflection_of_lobe(&fitted->lobe, reflection, error);
-    drawn->reflection = *reflection;
     return result;
 }
 
@@ -141,13 +115,13 @@ typedef struct Slices {
 } Slices;
 
 /* `samples`: NULL where all may be asked for any directions. */
-static WeftResult draw_all(Slices *all, const WeftData *samples, const Drawn *drawn, WeftError *error) {
+static WeftResult draw_all(Slices *all, const WeftData *samples, WeftReflection *const drawn[COLUMNS],
+                           WeftError *error) {
     WeftResult result = WEFT_OK;
     for (int r = 0; r < ROWS && result == WEFT_OK; r++) {
         for (int c = 0; c < COLUMNS && result == WEFT_OK; c++)
-            result = samples
-                         ? draw_samples(samples, c ? &drawn[c] : NULL, azimuths[r], &all->linear[r][c], error)
-                         : draw(&drawn[c], azimuths[r], &all->linear[r][c], error);
+            result = samples ? draw_samples(samples, drawn[c], azimuths[r], &all->linear[r][c], error)
+                             : draw(drawn[c], azimuths[r], &all->linear[r][c], error);
         if (r == 0 && result == WEFT_OK) {
             all->scale = bright(&all->linear[0][0]);
             all->differ = to_figure(0.25f * all->scale);
@@ -196,13 +170,11 @@ int fit_sheet_write(const char *path, const WeftData *data, const WeftFit *fit, 
     WeftError error;
     Slices all = {.scale = 1.0f};
     WeftReflection *of[COLUMNS] = {NULL};
-    Drawn drawn[COLUMNS] = {{.reflection = NULL}};
     const bool whole = weft_reflection_readable(path) != 0;
     WeftResult result = whole ? weft_reflection_read(path, &of[0], &error) : WEFT_OK;
-    drawn[0].reflection = of[0];
-    if (result == WEFT_OK) result = drawn_of(&fit->fitted[0], &drawn[1], &of[1], &error);
-    if (result == WEFT_OK) result = drawn_of(&fit->baseline, &drawn[2], &of[2], &error);
-    if (result == WEFT_OK) result = draw_all(&all, whole ? NULL : data, drawn, &error);
+    if (result == WEFT_OK) result = weft_fitted_reflection(&fit->fitted[0], &of[1], &error);
+    if (result == WEFT_OK) result = weft_fitted_reflection(&fit->baseline, &of[2], &error);
+    if (result == WEFT_OK) result = draw_all(&all, whole ? NULL : data, of, &error);
     if (result == WEFT_OK) result = compose(&all, path, fit, output, &error);
     for (int r = 0; r < ROWS; r++)
         for (int c = 0; c < COLUMNS; c++) {

@@ -10,6 +10,7 @@
 #include "measure/data.h"
 #include "measure/lobe_search.h"
 #include "measure/material_search.h"
+#include "measure/weave_search.h"
 #include "shading/choice.h"
 #include "shading/registry.h"
 
@@ -30,7 +31,7 @@ typedef struct FitWork {
     int count;
     WeftFitted fitted[WEFT_FITTED_MOST + 1]; /* the last is the baseline */
     WeftResult results[WEFT_FITTED_MOST + 1];
-    bool isotropic;
+    bool isotropic, weave; /* weave: the one candidate is warp and weft, both of lobe woven */
     LoopWatch watch;
 } FitWork;
 
@@ -133,7 +134,8 @@ static WeftResult fit_item(FitWork *work, int item, ItemProgress *item_progress)
         search.hold |= unsayable(&found.lobe);
         search.hold_base = unsayable(base);
     }
-    WeftResult result = fit_lobe(&search, &found);
+    WeftResult result = work->weave && !baseline ? weave_search_run(&work->samples, item_progress, &found)
+                                                 : fit_lobe(&search, &found);
     work->fitted[item] = (WeftFitted){.lobe = found.lobe,
                                       .base = found.base,
                                       .numbers = found.numbers,
@@ -156,8 +158,9 @@ static WeftResult bases_alone(const FitWork *work, double *error) {
     WeftResult result = WEFT_OK;
     *error = 1e30;
     for (int k = 0; k < work->base_count && result == WEFT_OK; k++) {
-        const LobeSearch search = {
-            .samples = &work->samples, .base = &work->bases[k], .hold = WEFT_HOLD_COLOR};
+        const LobeSearch search = {.samples = &work->samples,
+                                   .base = work->weave ? &work->lambert : &work->bases[k],
+                                   .hold = WEFT_HOLD_COLOR};
         LobeFound found = {.lobe = work->lambert};
         memset(found.lobe.f0, 0, sizeof found.lobe.f0);
         result = lobe_search_run(&search, &found);
@@ -178,7 +181,9 @@ static WeftResult bases(FitWork *work, const char *name, WeftError *error) {
     WeftResult result = WEFT_OK;
     if (!all) {
         result = weft_lobe_init(name, &work->bases[work->base_count++], error);
-        if (result == WEFT_OK && !(weft_lobe_info(work->bases[0].lobe)->traits & WEFT_LOBE_DIFFUSE))
+        work->weave = strcmp(name, "woven") == 0;
+        if (result == WEFT_OK && !work->weave &&
+            !(weft_lobe_info(work->bases[0].lobe)->traits & WEFT_LOBE_DIFFUSE))
             return fail(error, WEFT_MESSAGE_DESC, name, "is no diffuse lobe");
     }
     for (int k = 0; all && k < weft_lobe_count() && result == WEFT_OK; k++) {
@@ -206,7 +211,11 @@ static WeftResult candidates(FitWork *work, WeftError *error) {
     if (result == WEFT_OK) result = weft_lobe_init("ggx", &work->ggx, error);
     if (result == WEFT_OK) result = bases(work, desc->base ? desc->base : "lambert", error);
     WeftLobe only = {.lobe = -1};
-    if (result == WEFT_OK && desc->only) result = weft_lobe_init(desc->only, &only, error);
+    const char *id = work->weave && !desc->only ? "woven" : desc->only;
+    if (result == WEFT_OK && id) result = weft_lobe_init(id, &only, error);
+    if (result == WEFT_OK && work->weave && strcmp(id, "woven") != 0)
+        return fail(error, WEFT_MESSAGE_DESC, id,
+                    "base woven, which is the weft, goes with lobe woven, the warp");
     for (int k = 0; k < weft_lobe_count() && result == WEFT_OK; k++) {
         const WeftLobeInfo *info = weft_lobe_info(k);
         if (info->traits & (WEFT_LOBE_DIFFUSE | WEFT_LOBE_REFERENCE)) continue;
@@ -253,22 +262,31 @@ WeftResult weft_fit(const WeftData *data, const WeftFitDesc *desc, WeftFit *out,
     WeftResult result = candidates(work, error);
     if (result == WEFT_OK && !data_samples(data, metric, &work->samples))
         result = fail(error, WEFT_MESSAGE_MEMORY, "a fit", NULL);
+    if (result == WEFT_OK && work->weave && (work->isotropic || !weave_search_sees(&work->samples)))
+        result = fail(error, WEFT_MESSAGE_DESC, "woven over woven",
+                      "the data are isotropic, or in one plane: they do not tell warp from weft");
     if (result == WEFT_OK) result = work_run(work, out, error);
     samples_free(&work->samples);
     free(work);
     return result;
 }
 
-/* Returns true if a parameter is not its default and lies at an end of its plausible range. */
-static bool at_edge(const WeftLobe *lobe) {
+/* Returns true if a parameter is not its default and lies at an end of its plausible range, or of what is possible. */
+static bool at_edge(const WeftLobe *lobe, bool hard) {
     const WeftLobeInfo *info = weft_lobe_info(lobe->lobe);
     for (int k = 0; k < info->param_count; k++) {
         const WeftParamInfo *p = &info->params[k];
-        float value = lobe->params[k], near = 1e-3f * (p->high - p->low);
+        const float low = hard ? p->hard_low : p->low, high = hard ? p->hard_high : p->high;
+        float value = lobe->params[k], near = 1e-3f * (high - low);
         bool moved = value < p->def || value > p->def;
-        if (!p->choices && moved && (value <= p->low + near || value >= p->high - near)) return true;
+        if (!p->choices && moved && (value <= low + near || value >= high - near)) return true;
     }
     return false;
+}
+
+/* Under all else lies a diffuse base. */
+static bool fitted_is_weave(const WeftFitted *fitted) {
+    return !(weft_lobe_info(fitted->base.lobe)->traits & WEFT_LOBE_DIFFUSE);
 }
 
 unsigned weft_fitted_notes(const WeftFitted *fitted) {
@@ -282,7 +300,8 @@ unsigned weft_fitted_notes(const WeftFitted *fitted) {
     }
     if (!(most > 1e-6f)) notes |= WEFT_FITTED_NOTHING;
     if (fmaxf(most, base) > 1.0f) notes |= WEFT_FITTED_BRIGHT;
-    if (at_edge(lobe) || at_edge(&fitted->base)) notes |= WEFT_FITTED_EDGE;
+    const bool weave = fitted_is_weave(fitted);
+    if (at_edge(lobe, weave) || at_edge(&fitted->base, weave)) notes |= WEFT_FITTED_EDGE;
     return notes;
 }
 
@@ -371,6 +390,7 @@ static bool say_sheen(const WeftLobe *lobe, WeftMaterial *out) {
 
 int weft_fitted_material(const WeftFitted *fitted, WeftMaterial *out) {
     weft_material_default(out);
+    if (fitted_is_weave(fitted)) return 0;
     weft_material_choose(out, CHOICE_workflow, choice_find(CHOICE_workflow, "cloth"));
     weft_material_choose(out, CHOICE_layer, choice_find(CHOICE_layer, "additive"));
     bool base = say_base(&fitted->base, out), sheen = say_sheen(&fitted->lobe, out);

@@ -14,6 +14,7 @@
 #include "shading/dust.h"
 #include "shading/frame.h"
 #include "shading/warp.h"
+#include "weft/fit.h"
 #include "weft/reflection.h"
 
 /* WALKS: of layer rule stochastic for one pair of directions. */
@@ -34,7 +35,8 @@ typedef enum ReflectionKind { REFLECTION_WHOLE, REFLECTION_LOBE, REFLECTION_MEAS
 struct WeftReflection {
     ReflectionKind kind;
     Whole whole;
-    WeftLobe lobe;
+    WeftLobe lobe, under; /* under: a second lobe, that is added */
+    bool based;
     Measured measured;
 };
 
@@ -142,6 +144,28 @@ WeftResult weft_reflection_of_lobe(const WeftLobe *lobe, WeftReflection **out, W
     return WEFT_OK;
 }
 
+/* The lobe of a system, with both colours. */
+static WeaveBase fitted_threads(const WeftLobe *lobe) {
+    WeaveBase threads = {.once = rgb(lobe->f0[0], lobe->f0[1], lobe->f0[2]),
+                         .again = rgb(lobe->f90[0], lobe->f90[1], lobe->f90[2])};
+    lobe_of(lobe, &threads.lobe);
+    return threads;
+}
+
+WeftResult weft_fitted_reflection(const WeftFitted *fitted, WeftReflection **out, WeftError *error) {
+    WeftMaterial bare;
+    const bool woven = !(weft_lobe_info(fitted->base.lobe)->traits & WEFT_LOBE_DIFFUSE);
+    weft_material_default(&bare);
+    WeftResult result = woven ? weft_reflection_create(&bare, out, error)
+                              : weft_reflection_of_lobe(&fitted->lobe, out, error);
+    if (!*out) return result;
+    (*out)->under = fitted->base;
+    (*out)->based = true;
+    const WeaveBase threads[2] = {fitted_threads(&fitted->lobe), fitted_threads(&fitted->base)};
+    if (woven) (*out)->whole.sum = (WeaveSum){.bases = 2, .threads = {threads[0], threads[1]}};
+    return WEFT_OK;
+}
+
 WeftResult weft_reflection_read(const char *path, WeftReflection **out, WeftError *error) {
     if (!reflection_of_kind(REFLECTION_MEASURED, out, error)) return WEFT_RESOURCES;
     return finish(out, measured_read(path, &(*out)->measured, error));
@@ -211,6 +235,22 @@ static void whole_eval(const Whole *self, int part, const float wo[3], int count
     }
 }
 
+static void lobes_eval(const WeftReflection *self, const float wo[3], const float wi[3], float f[3]) {
+    float below[3];
+    weft_lobe_eval(&self->lobe, wo, wi, f);
+    if (!self->based) return;
+    weft_lobe_eval(&self->under, wo, wi, below);
+    for (int c = 0; c < 3; c++) f[c] += below[c];
+}
+
+static void lobes_albedo(const WeftReflection *self, float cos_o, float albedo[3]) {
+    float below[3];
+    weft_lobe_albedo(&self->lobe, cos_o, albedo);
+    if (!self->based) return;
+    weft_lobe_albedo(&self->under, cos_o, below);
+    for (int c = 0; c < 3; c++) albedo[c] += below[c];
+}
+
 void weft_reflection_eval(const WeftReflection *self, int part, const float wo[3], int count,
                           const float (*wi)[3], float (*f)[3]) {
     for (int k = 0; k < count; k++) f[k][0] = f[k][1] = f[k][2] = 0.0f;
@@ -218,7 +258,7 @@ void weft_reflection_eval(const WeftReflection *self, int part, const float wo[3
     if (self->kind == REFLECTION_WHOLE || part != WEFT_PART_ALL) return;
     for (int k = 0; k < count; k++)
         if (self->kind == REFLECTION_LOBE)
-            weft_lobe_eval(&self->lobe, wo, wi[k], f[k]);
+            lobes_eval(self, wo, wi[k], f[k]);
         else
             measured_at(&self->measured, dir(wo[0], wo[1], wo[2]), dir(wi[k][0], wi[k][1], wi[k][2]), f[k]);
 }
@@ -262,7 +302,7 @@ void weft_reflection_albedo(const WeftReflection *self, int part, float cos_o, f
     albedo[0] = albedo[1] = albedo[2] = 0.0f;
     if (self->kind == REFLECTION_WHOLE) whole_albedo(&self->whole, part, wo, albedo);
     if (part != WEFT_PART_ALL) return;
-    if (self->kind == REFLECTION_LOBE) weft_lobe_albedo(&self->lobe, z, albedo);
+    if (self->kind == REFLECTION_LOBE) lobes_albedo(self, z, albedo);
     if (self->kind == REFLECTION_MEASURED) measured_albedo(&self->measured, wo, albedo);
 }
 

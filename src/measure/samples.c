@@ -177,7 +177,7 @@ static float display(float linear) {
     return x <= 0.0031308f ? 12.92f * x : 1.055f * powf(x, 1.0f / 2.4f) - 0.055f;
 }
 
-static float goal_of(const Samples *self, float x) {
+float samples_goal(const Samples *self, float x) {
     switch (self->metric) {
     case WEFT_BRDF_METRIC_LOG: return log1pf(x / self->scale);
     case WEFT_BRDF_METRIC_PICTURE: return display(PI_FLOAT * x);
@@ -224,7 +224,7 @@ void samples_finish(Samples *self) {
     }
     self->scale = sum > 0.0 ? (float)(sum / weights) : 1.0f;
     for (int c = 0; c < 3; c++)
-        for (int k = 0; k < self->count; k++) self->goal[c][k] = goal_of(self, self->x[c][k]);
+        for (int k = 0; k < self->count; k++) self->goal[c][k] = samples_goal(self, self->x[c][k]);
     self->whole[0] = whole_of(self, self->first);
     self->whole[1] = whole_of(self, self->count);
 }
@@ -235,7 +235,7 @@ static double channel_distance(const Samples *self, int count, int c, const floa
     if (self->metric == WEFT_BRDF_METRIC_COSINE)
         for (int k = 0; k < count; k++) sum += (double)(w[k] * fabsf(x[k] - from[k]));
     else
-        for (int k = 0; k < count; k++) sum += (double)(w[k] * fabsf(goal_of(self, x[k]) - goal[k]));
+        for (int k = 0; k < count; k++) sum += (double)(w[k] * fabsf(samples_goal(self, x[k]) - goal[k]));
     return sum;
 }
 

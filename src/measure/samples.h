@@ -39,11 +39,14 @@ bool samples_isotropic(const Samples *samples, const WeftReflection *reflection)
 /* To be called when directions, weights and x are there, before all that follows. */
 void samples_finish(Samples *samples);
 
+/* g(x). */
+float samples_goal(const Samples *samples, float x);
+
 /* The error of x over the first count samples: `first` or all of them. */
 double samples_distance(const Samples *samples, int count, const float *const x[3]);
 
 /* Sums of columns whose weights are not negative, in each channel by itself. */
-enum { BLEND_MOST = 3 };
+enum { BLEND_MOST = 4 };
 typedef struct Blend {
     int columns;
     const float *column[BLEND_MOST][3]; /* x of column number so in each channel */

@@ -269,6 +269,9 @@ static void fit_of_bad_data_or_options_is_refused(void **state) {
     assert_complaint(NULL, LIST("fit", "table.csv", "--lobe", "velours"), 2, "velours");
     assert_complaint(NULL, LIST("fit", "table.csv", "--base", "ggx"), 2, "diffuse");
     assert_complaint(NULL, LIST("fit", "table.csv", "--lobe", "lambert"), 2, "--base");
+    assert_complaint(NULL, LIST("fit", "table.csv", "--base", "woven", "--lobe", "silk"), 2, "--lobe woven");
+    assert_complaint(NULL, LIST("fit", "table.csv", "--base", "woven", "-o", "a.json"), 2, "no material");
+    assert_complaint(NULL, LIST("fit", "cloth.binary", "--base", "woven"), 2, "do not tell warp from weft");
     assert_complaint(NULL, LIST("fit", "table.csv", "--lobe", "fibre-walk"), 2, "fit fibre");
     assert_complaint(NULL, LIST("fit", "table.csv", "-o", "a.png"), 2, ".json");
     assert_complaint(NULL, LIST("fit", "table.csv", "--plot", "a.jpg"), 2, ".png");

@@ -1,0 +1,178 @@
+/* Fits of weaves: what woven presets reflect from afar is found again, with their numbers where light tells them; data
+ * that cannot tell warp from weft is refused. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "base/pi.h"
+#include "scene/scene.h"
+#include "shading/registry.h"
+#include "shading/weave_light.h"
+#include "weave/weft_cloth.h"
+#include "weft/weft.h"
+#include "woven_presets.h"
+
+enum { PAIRS = 6000, FITTED = 4000 };
+static float wo[PAIRS][3], wi[PAIRS][3], f[PAIRS][3];
+static uint32_t seed;
+
+static double drawn(void) {
+    seed = seed * 1664525u + 1013904223u;
+    return (double)(seed >> 8) * 0x1p-24;
+}
+
+static void direction(float w[3]) {
+    const double z = 0.18 + 0.82 * drawn(), r = (sqrt)(1.0 - z * z), phi = 2.0 * PI_DOUBLE * drawn();
+    w[0] = (float)(r * (cos)(phi)), w[1] = (float)(r * (sin)(phi)), w[2] = (float)z;
+}
+
+/* The first are fitted to; the others are what the fit has to foretell. */
+static void reflect(const WeftReflection *reflection) {
+    seed = 11;
+    for (int k = 0; k < PAIRS; k++) {
+        direction(wo[k]);
+        direction(wi[k]);
+        weft_reflection_eval(reflection, WEFT_PART_ALL, wo[k], 1, (const float(*)[3]) & wi[k], &f[k]);
+    }
+}
+
+/* The mean distance over pairs that were not fitted to, over the mean. */
+static double foretold(const WeftFitted *fitted) {
+    double off = 0.0, sum = 0.0;
+    WeftReflection *found;
+    WeftError error;
+    assert_int_equal(weft_fitted_reflection(fitted, &found, &error), WEFT_OK);
+    for (int k = FITTED; k < PAIRS; k++) {
+        float x[1][3];
+        weft_reflection_eval(found, WEFT_PART_ALL, wo[k], 1, (const float(*)[3]) & wi[k], x);
+        for (int c = 0; c < 3; c++) {
+            off += fabs((double)(x[0][c] - f[k][c])) * (double)wi[k][2];
+            sum += (double)(f[k][c] * wi[k][2]);
+        }
+    }
+    weft_reflection_free(found);
+    return off / sum;
+}
+
+/* The most by which a number that light tells is off: widths, shares, angles of yarns and of their fibres. */
+static double numbers_off(const WeftLobe *found, const Woven *is) {
+    const struct {
+        int param;
+        float is;
+    } told[] = {{WOVEN_ALPHA, is->alpha},
+                {WOVEN_SHARE, is->share},
+                {WOVEN_CRIMP, is->crimp},
+                {WOVEN_TWIST, is->twist}};
+    double off = 0.0;
+    for (size_t k = 0; k < sizeof told / sizeof *told; k++)
+        off = fmax(off, fabs((double)(found->params[told[k].param] - told[k].is)));
+    return off;
+}
+
+static double worst, worst_number;
+
+static void find_again(const char *name, const WeftCloth *cloth) {
+    WeftMaterial bare;
+    WeftReflection *reflection;
+    WeftData *data;
+    WeftFit *fit = malloc(sizeof *fit);
+    WeftError error;
+    assert_non_null(fit);
+    weft_material_default(&bare);
+    assert_int_equal(weft_reflection_create_woven(&bare, cloth, &reflection, &error), WEFT_OK);
+    reflect(reflection);
+    assert_int_equal(weft_data_create(FITTED, (const float(*)[3])wo, (const float(*)[3])wi,
+                                      (const float(*)[3])f, 0, &data, &error),
+                     WEFT_OK);
+    const WeftFitDesc desc = {.base = "woven", .only = "woven"};
+    if (weft_fit(data, &desc, fit, &error) != WEFT_OK) fail_msg("%s", error.text);
+    assert_int_equal(fit->count, 1);
+    const WeftFitted *best = &fit->fitted[0];
+    const double off = foretold(best);
+    double number = 0.0;
+    for (int t = 0; t < 2; t++) {
+        const Woven is = weave_woven(&cloth->weave, t == 1);
+        number = fmax(number, numbers_off(t ? &best->base : &best->lobe, &is));
+    }
+    print_message("%-24s error %.5f, foretold to %.5f, numbers to %.4f\n", name, best->error, off, number);
+    assert_int_equal(best->numbers, 25);
+    worst_number = fmax(worst_number, number);
+    worst = fmax(worst, off);
+    weft_data_free(data);
+    weft_reflection_free(reflection);
+    free(fit);
+}
+
+static void presets_are_found_again_by_what_they_reflect(void **state) {
+    (void)state;
+    WeftScene *scene;
+    WeftError error;
+    assert_int_equal(weft_scene_load("builtin:cloth", &scene, NULL, &error), WEFT_OK);
+    for (int k = 0; weft_preset_name(k); k++) {
+        const char *name = weft_preset_name(k), *text = weft_preset_text(k);
+        if (woven_family(name) < 0 || (getenv("WEFT_TEST_SHORT") && k % 4)) continue;
+        if (weft_scene_assign_material_memory(scene, NULL, text, strlen(text), name, NULL, &error) != WEFT_OK)
+            fail_msg("%s", error.text);
+        find_again(name, scene->cloths[scene->materials[0].cloth - 1]);
+    }
+    print_message("the farthest is off by %.5f, a number by %.4f\n", worst, worst_number);
+    assert_true(worst < 0.01);
+    assert_true(worst_number < 0.02);
+    weft_scene_free(scene);
+}
+
+/* Data of lobe ggx, which does not change as both directions turn; in all azimuths, and in one plane. */
+static WeftData *round_data(bool one_plane, int isotropic) {
+    WeftLobe ggx;
+    WeftData *data;
+    WeftError error;
+    assert_int_equal(weft_lobe_init("ggx", &ggx, &error), WEFT_OK);
+    seed = 13;
+    for (int k = 0; k < FITTED; k++) {
+        direction(wo[k]);
+        direction(wi[k]);
+        for (int way = 0; way < 2 && one_plane; way++) {
+            float *w = way ? wi[k] : wo[k];
+            const float r = copysignf(hypotf(w[0], w[1]), w[0]);
+            w[0] = 0.6f * r, w[1] = 0.8f * r;
+        }
+        weft_lobe_eval(&ggx, wo[k], wi[k], f[k]);
+    }
+    assert_int_equal(weft_data_create(FITTED, (const float(*)[3])wo, (const float(*)[3])wi,
+                                      (const float(*)[3])f, isotropic, &data, &error),
+                     WEFT_OK);
+    return data;
+}
+
+static void data_that_cannot_tell_warp_from_weft_are_refused(void **state) {
+    (void)state;
+    WeftFit *fit = malloc(sizeof *fit);
+    assert_non_null(fit);
+    for (int plane = 0; plane < 2; plane++) {
+        WeftError error;
+        WeftData *data = round_data(plane == 1, plane == 0);
+        WeftFitDesc desc = {.base = "woven"};
+        assert_int_equal(weft_fit(data, &desc, fit, &error), WEFT_USAGE);
+        assert_non_null(strstr(error.text, "do not tell warp from weft"));
+        desc.only = "silk";
+        assert_int_equal(weft_fit(data, &desc, fit, &error), WEFT_USAGE);
+        assert_non_null(strstr(error.text, "goes with lobe woven"));
+        weft_data_free(data);
+    }
+    free(fit);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(data_that_cannot_tell_warp_from_weft_are_refused),
+        cmocka_unit_test(presets_are_found_again_by_what_they_reflect),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
