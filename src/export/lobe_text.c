@@ -145,7 +145,8 @@ static void put_albedo(Draft *draft, const WeftLobe *lobe, const LobeNames *own)
     text_include(&draft->text, "shading/table.h");
     text_albedo_table(&draft->text, function, name, table);
     text_line(&draft->text,
-              "\n/* E of the white lobe towards wo, cos_o = wo.z%s; from a table. */\n"
+              "\n/* E of the white lobe towards wo, cos_o = wo.z%s; from a table; of a brushed lobe where it "
+              "is greatest. */\n"
               "float %s(%s m, float cos_o) {\n    return table_roots(%s(), cos_o, %s%s);\n}",
               info->param_count > 1 ? ", other parameters as in the default" : "", name, own->record,
               function, rows ? "m." : "0.0", rows ? info->params[0].name : "");

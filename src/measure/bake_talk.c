@@ -29,7 +29,7 @@ typedef struct TalkTable {
     const WeftBakeDesc *desc;
     float *texels;
     atomic_int done;
-    atomic_bool stopped;
+    atomic_bool stopped, unfitted; /* unfitted: for want of memory */
 } TalkTable;
 
 static double transformed(double a, double b, double theta, double phi) {
@@ -51,11 +51,11 @@ static double cubes(unsigned n, const double *at, double *gradient, void *user) 
     return sum;
 }
 
-/* From where it stands. */
-static void fit(const TalkSlab *slab, double at[2]) {
+/* Starts where `at` is; false for want of memory. */
+static bool fit(const TalkSlab *slab, double at[2]) {
     static const double low[] = {1e-3, -2.0}, high[] = {4.0, 2.0}, step[] = {0.1, 0.05};
     nlopt_opt method = nlopt_create(NLOPT_LN_NELDERMEAD, 2);
-    if (!method) return;
+    if (!method) return false;
     nlopt_set_min_objective(method, cubes, (void *)slab);
     nlopt_set_lower_bounds(method, low);
     nlopt_set_upper_bounds(method, high);
@@ -65,6 +65,7 @@ static void fit(const TalkSlab *slab, double at[2]) {
     double found, there[] = {at[0], at[1]};
     if (nlopt_optimize(method, there, &found) > 0) at[0] = there[0], at[1] = there[1];
     nlopt_destroy(method);
+    return true;
 }
 
 static double along(int k, int count) { return fmax((double)k / (count - 1), least); }
@@ -74,10 +75,11 @@ static void column(void *user, int x, int thread) {
     TalkTable *table = user;
     const WeftBakeDesc *desc = table->desc;
     double at[2] = {1.0, 0.0};
-    for (int row = desc->height - 1; row >= 0 && !atomic_load(&table->stopped); row--) {
+    for (int row = desc->height - 1;
+         row >= 0 && !atomic_load(&table->stopped) && !atomic_load(&table->unfitted); row--) {
         TalkSlab slab;
         talk_walk(along(row, desc->height), along(x, desc->width), WALKS, &slab);
-        if (slab.seen >= SEEN_LEAST) fit(&slab, at);
+        if (slab.seen >= SEEN_LEAST && !fit(&slab, at)) atomic_store(&table->unfitted, true);
         if (x == desc->width - 1) at[1] = 0.0;
         float *texel = table->texels + CHANNELS * (row * desc->width + x);
         texel[0] = (float)at[0], texel[1] = (float)at[1], texel[2] = (float)slab.reflected;
@@ -96,10 +98,11 @@ WeftResult bake_talk(const WeftBakeDesc *desc, WeftBakeInfo *info, WeftImage *ou
     if (result != WEFT_OK) return result;
     TalkTable table = {.desc = desc, .texels = out->pixels};
     parallel_for(desc->threads, desc->width, column, &table);
-    if (atomic_load(&table.stopped)) {
+    if (atomic_load(&table.stopped) || atomic_load(&table.unfitted)) {
         weft_image_free(out);
         *out = (WeftImage){0};
-        return WEFT_INTERRUPTED;
+        return atomic_load(&table.unfitted) ? fail(error, WEFT_MESSAGE_MEMORY, "a fit", NULL)
+                                            : WEFT_INTERRUPTED;
     }
     snprintf(info->words, sizeof info->words,
              "transformed cosines of upright white fibres by walks of at most 16 flakes, cos_o to the right, "

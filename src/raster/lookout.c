@@ -32,10 +32,11 @@ static bool find_rest(Lookout *self, const GlEnvironment *environment, float rot
         now[k] = mean > 0.0f ? now[k] / mean : 1.0f;
         change += fabsf(now[k] - before[k]) / TEXELS;
     }
-    bool turned = fabsf(rotation - self->rotation) > 0.0f;
+    const float rounding = 1e-5f;
+    if (!(fabsf(rotation - self->rotation) > 0.0f) && change <= rounding) return false;
     self->rest = rest;
     self->rotation = rotation;
-    return turned || change > 1e-5f; /* more than rounding */
+    return true;
 }
 
 /* Returns true if lights, or what is left, have moved. */

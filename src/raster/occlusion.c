@@ -26,7 +26,7 @@ enum { ROUNDS = 2 };
 #define DIFFERENT 0.16f
 
 /* Raised whenever the same scene would give other values. */
-enum { LOOK = 8 };
+enum { LOOK = 9 };
 
 /* All vertices, of the meshes as they are refined, and what they see. */
 typedef struct Outlook {
@@ -108,10 +108,12 @@ static void fit_ramp(const Occlusion *self, const float *light, const bool *hidd
     for (int i = 0; i < 4; i++) m[i][i] = 1e-6 * self->rays; /* fewer than four rays leave it open */
     for (int k = 0; k < self->rays; k++) {
         Dir w = self->sky[k];
-        const float g = light[k] / (w.z + 0.07f), b[4] = {1.0f, w.x, w.y, w.z};
+        /* in double: few rays leave next to nothing of m */
+        const double g = (double)(light[k] / (w.z + 0.07f)),
+                     b[4] = {1.0, (double)w.x, (double)w.y, (double)w.z};
         for (int i = 0; i < 4; i++) {
-            for (int j = 0; j <= i; j++) m[i][j] += (double)(g * b[i] * b[j]);
-            if (!hidden[k]) c[i] += (double)(g * b[i]);
+            for (int j = 0; j <= i; j++) m[i][j] += g * b[i] * b[j];
+            if (!hidden[k]) c[i] += g * b[i];
         }
     }
     cholesky_solve(4, m[0], 1, c);

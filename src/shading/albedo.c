@@ -274,14 +274,15 @@ static void average_headings(AlbedoTable *table, int map, int row) {
     for (int k = 0; k < TABLE_HEADINGS; k++) table->e[(map + k) * table->rows + row][ALBEDO_MU] = mean;
 }
 
-/* Returns the wo for which the E of a brushed lobe is greatest, of ALBEDO_AZIMUTHS on a half turn, which is all that it
- * has: a table that knows no heading must not be below E at any, or layer rules would return more light than arrives. Of
- * another lobe wo is at azimuth 0. */
+/* Returns the wo for which the E of a brushed lobe is greatest, of ALBEDO_AZIMUTHS on a half turn from its own azimuth: a
+ * table that knows no heading must not be below E at any by more than a hundredth, or layer rules would return more light
+ * than arrives. Of another lobe wo is at azimuth 0. */
 static Dir brightest(const Lobe *lobe, float cos_o) {
     float most = -1.0f, s = sqrt(max(1.0f - cos_o * cos_o, 0.0f));
+    const int own = weft_lobe_param_find((int)lobe->id, "azimuth");
     Dir best = dir(s, 0.0f, cos_o);
     for (int k = 0; lobe_turns(lobe) && k < ALBEDO_AZIMUTHS; k++) {
-        float azimuth = PI * (float)k / ALBEDO_AZIMUTHS;
+        float azimuth = PI * (float)k / ALBEDO_AZIMUTHS + (own > 0 ? lobe->params[own] : 0.0f);
         Dir wo = dir(s * cos(azimuth), s * sin(azimuth), cos_o);
         Albedo e = albedo_quadrature(lobe, wo, 1e-3);
         if (e.f0 + e.f90 > most) most = e.f0 + e.f90, best = wo;

@@ -40,7 +40,7 @@ void albedo_in_color(const Lobe *lobe, Dir wo, const float w[3], double toleranc
  *
  * E(w) is exact at w = 1, 7/8 and 1/2, and so is its slope at w = 0.
  *
- * A brushed lobe's table is that of the azimuth of wo where E is greatest, so that layer rules give no light away.
+ * A brushed lobe's table is that of the azimuth of wo where E is greatest, so that layer rules give no light away, to a hundredth.
  *
  * If the fibres of a lobe lean (it has the parameters tilt > 0 and azimuth), these maps are for wo across the nap.
  * They hold for any azimuth of the nap. Further maps have E by heading (table.h), for the tilt of the lobe or for

@@ -1,4 +1,5 @@
 /* What vertices see of the sky: all of it, half of it; and from the cache what was found before */
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -37,8 +38,8 @@ static WeftScene *corner(WeftAlphaMode mode) {
 }
 
 /* rest: NULL is even; turned by the rotation. */
-static void look_under(const WeftScene *scene, const AmbientRest *rest, float rotation, bool no_cache,
-                       float values[ALL], int *warnings) {
+static void look_by(int rays, const WeftScene *scene, const AmbientRest *rest, float rotation, bool no_cache,
+                    float values[ALL], int *warnings) {
     const WeftLog log = {count, warnings};
     Occlusion *occlusion;
     WeftError error;
@@ -48,7 +49,7 @@ static void look_under(const WeftScene *scene, const AmbientRest *rest, float ro
                                          {.direction = {0.0f, 1.0f, 0.0f}, .spread = 0.05f},
                                          {.direction = {0.0f, -0.8f, 0.6f}, .spread = 0.01f}};
     const Refinement unrefined = {0};
-    const OcclusionHow how = {.rays = RAYS,
+    const OcclusionHow how = {.rays = rays,
                               .threads = 2,
                               .no_cache = no_cache,
                               .env_lights = env_lights,
@@ -58,6 +59,11 @@ static void look_under(const WeftScene *scene, const AmbientRest *rest, float ro
     assert_int_equal(occlusion_start(scene, &unrefined, &how, &occlusion, &log, &error), WEFT_OK);
     memcpy(values, occlusion_values(occlusion, true), ALL * sizeof *values);
     occlusion_free(occlusion);
+}
+
+static void look_under(const WeftScene *scene, const AmbientRest *rest, float rotation, bool no_cache,
+                       float values[ALL], int *warnings) {
+    look_by(RAYS, scene, rest, rotation, no_cache, values, warnings);
 }
 
 static void look(const WeftScene *scene, bool no_cache, float values[ALL], int *warnings) {
@@ -143,6 +149,50 @@ static void wall_before_the_dark_hides_little(void **state) {
     weft_scene_free(scene);
 }
 
+/* What a ramp lets through is as much as what is seen over a low wall, by the weight 1 / (w.y + .07) of a sheen's light,
+ * though it is cut off at 0 and 1. */
+static void ramp_lets_through_what_is_seen(void **state) {
+    (void)state;
+    enum { UP = 64, AROUND = 256 };
+    const float height = 0.02f;
+    WeftScene *scene = corner(WEFT_ALPHA_OPAQUE);
+    float values[ALL], *wall = scene->meshes[1].position;
+    int warnings = 0;
+    for (int k = 0; k < 4; k++) wall[3 * k + 1] = fminf(wall[3 * k + 1], height);
+    look(scene, true, values, &warnings);
+    for (int v = 0; v < 4; v++) {
+        const float *c = values + OCCLUSION_VALUES * v + OCCLUSION_OPEN;
+        const float away = scene->meshes[0].position[3 * v + 2] + 0.02f; /* from the wall */
+        float off = 0.0f, all = 0.0f;
+        for (int k = 0; k < UP * AROUND; k++) {
+            const float y = ((float)(k / AROUND) + 0.5f) / UP, s = sqrtf(1.0f - y * y),
+                        phi = ((float)(k % AROUND) + 0.5f) * 2.0f * PI_FLOAT / AROUND, x = s * cosf(phi),
+                        z = s * sinf(phi), g = 1.0f / (y + 0.07f);
+            const bool seen = z > 0.0f || y * away > -z * height;
+            off +=
+                g * (fminf(fmaxf(c[0] + c[1] * x + c[2] * y + c[3] * z, 0.0f), 1.0f) - (seen ? 1.0f : 0.0f));
+            all += g;
+        }
+        print_message("ramp at vertex %d: %.4f more than is seen\n", v, (double)(off / all));
+        assert_float_equal(off / all, 0.0f, 0.01f);
+    }
+    weft_scene_free(scene);
+}
+
+/* With fewer rays than a ramp has numbers it is some ramp all the same. */
+static void few_rays_give_finite_ramps(void **state) {
+    (void)state;
+    WeftScene *scene = corner(WEFT_ALPHA_OPAQUE);
+    const AmbientRest rest = dark_about(AMBIENT_REST_WIDTH / 2);
+    float values[ALL];
+    for (int rays = 1; rays < 6; rays++) {
+        int warnings = 0;
+        look_by(rays, scene, &rest, 0.0f, true, values, &warnings);
+        for (int k = 0; k < ALL; k++) assert_true(isfinite(values[k]));
+    }
+    weft_scene_free(scene);
+}
+
 /* What is transparent by its textures is looked at anew each time. */
 static void occlusion_of_transparent_scenes_is_not_cached(void **state) {
     (void)state;
@@ -170,6 +220,8 @@ static int end(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(occlusion_of_a_corner_is_found_in_the_cache),
                                        cmocka_unit_test(wall_before_the_dark_hides_little),
+                                       cmocka_unit_test(ramp_lets_through_what_is_seen),
+                                       cmocka_unit_test(few_rays_give_finite_ramps),
                                        cmocka_unit_test(occlusion_of_transparent_scenes_is_not_cached)};
     return cmocka_run_group_tests(tests, begin, end);
 }

@@ -258,10 +258,12 @@ static inline Lobe sheen_lobe(int id, float roughness) {
 
 /* The direction at that cosine from which a table has E: azimuth 0, or where a brushed lobe is brightest. */
 static inline Dir brightest_direction(const Lobe *lobe, double cosine) {
+    const int own = weft_lobe_param_find((int)lobe->id, "azimuth");
     Dir best = direction_cos(cosine, 0.0);
     float most = 0.0f;
     for (int k = 0; lobe_turns(lobe) && k < ALBEDO_AZIMUTHS; k++) {
-        Dir o = direction_cos(cosine, k * 3.14159265358979 / ALBEDO_AZIMUTHS);
+        Dir o = direction_cos(cosine,
+                              k * PI_DOUBLE / ALBEDO_AZIMUTHS + (own > 0 ? (double)lobe->params[own] : 0.0));
         Albedo e = albedo_quadrature(lobe, o, 1e-3);
         if (e.f0 + e.f90 > most) most = e.f0 + e.f90, best = o;
     }
