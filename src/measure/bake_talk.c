@@ -106,7 +106,7 @@ WeftResult bake_talk(const WeftBakeDesc *desc, WeftBakeInfo *info, WeftImage *ou
     }
     snprintf(info->words, sizeof info->words,
              "transformed cosines of upright white fibres by walks of at most 16 flakes, cos_o to the right, "
-             "alpha downwards, from 0 to 1");
+             "alpha downwards, from 0 to 1, with the error of R");
     snprintf(info->channels, sizeof info->channels, "a, b, R");
     info->error = 0.5 / (sqrt)((double)WALKS);
     return WEFT_OK;

@@ -1,5 +1,5 @@
 // weft bake ltc-fibre-published -o src/shading/tables/ltc_fibre_published.h
-/* transformed cosines of upright white fibres by walks of at most 16 flakes, cos_o to the right, alpha downwards, from 0 to 1: a, b, R; within 0.0005
+/* transformed cosines of upright white fibres by walks of at most 16 flakes, cos_o to the right, alpha downwards, from 0 to 1, with the error of R: a, b, R; within 0.0005
  * Row after row, 32 x 32 texels, each 3 values. */
 #ifndef WEFT_TABLE_LTC_FIBRE_PUBLISHED_H
 #define WEFT_TABLE_LTC_FIBRE_PUBLISHED_H
