@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
-#include "fibre/matrix.h"
+#include "base/matrix.h"
 
 /* Inside, a kernel has sqrt(c) of the nodes multiplied into its rows and columns, 1 for passengers: then the
  * product over the quadrature, A diag(c) B, is a plain one over the first `nodes` columns of A and rows of B.

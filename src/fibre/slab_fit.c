@@ -6,7 +6,7 @@
 
 #include "base/memory.h"
 #include "base/thread.h"
-#include "fibre/matrix.h"
+#include "base/matrix.h"
 
 /* One pass over the slabs: cost, and with slopes its quadratic model. Every slab has its own place, and
  * places are summed in order, so that threads change nothing. */

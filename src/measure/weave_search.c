@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/matrix.h"
 #include "base/memory.h"
 #include "base/pi.h"
 #include "measure/halton.h"
@@ -187,29 +188,21 @@ static bool is_held(const WeaveNormal *normal, const double *x, int p) {
     return low || high || !(normal->a[p][p] > 0.0);
 }
 
-/* Moves x by the step of a damped least-squares problem, by Cholesky's decomposition; what would leave its range stays at
- * its end. Donald W. Marquardt, "An Algorithm for Least-Squares Estimation of Nonlinear Parameters", 1963. */
+/* Moves x by the step of a damped least-squares problem; what would leave its range stays at its end. Donald W. Marquardt,
+ * "An Algorithm for Least-Squares Estimation of Nonlinear Parameters", 1963. */
 static bool take_step(const WeaveWalker *self, const WeaveNormal *normal, double damp, double *x) {
-    double l[UNKNOWNS][UNKNOWNS], y[UNKNOWNS];
+    double a[UNKNOWNS * UNKNOWNS], step[UNKNOWNS];
     int index[UNKNOWNS], n = 0;
     for (int p = 0; p < unknowns(self); p++)
         if (!is_held(normal, x, p)) index[n++] = p;
-    for (int r = 0; r < n; r++) {
-        for (int c = 0; c <= r; c++) {
-            double sum = normal->a[index[r]][index[c]];
-            if (r == c) sum *= 1.0 + damp;
-            for (int k = 0; k < c; k++) sum -= l[r][k] * l[c][k];
-            if (r == c && !(sum > 0.0)) return false;
-            l[r][c] = r == c ? (sqrt)(sum) : sum / l[c][c];
-        }
-        y[r] = -normal->b[index[r]];
-        for (int k = 0; k < r; k++) y[r] -= l[r][k] * y[k];
-        y[r] /= l[r][r];
+    for (int c = 0; c < n; c++) {
+        for (int r = c; r < n; r++) a[c * n + r] = normal->a[index[r]][index[c]];
+        a[c * n + c] *= 1.0 + damp;
+        step[c] = -normal->b[index[c]];
     }
-    for (int r = n - 1; r >= 0; r--) {
-        for (int k = r + 1; k < n; k++) y[r] -= l[k][r] * y[k];
-        y[r] /= l[r][r];
-        const double moved = x[index[r]] + y[r];
+    if (!matrix_factor(n, a, n) || !matrix_solve(n, a, n, 1, step, n)) return false;
+    for (int r = 0; r < n; r++) {
+        const double moved = x[index[r]] + step[r];
         x[index[r]] = index[r] < NUMBERS ? fmin(fmax(moved, 0.0), 1.0) : fmax(moved, 0.0);
     }
     return true;
@@ -233,8 +226,7 @@ static void descend(WeaveWalker *self, WeavePlace *place, int steps) {
             damp = fmax(damp * 0.1, 1e-9);
             break;
         }
-        if (!(place->cost < before * (1.0 - 1e-5))) break;
-        (void)cost_at(self, place->x);
+        if (!(place->cost < before * (1.0 - 1e-5))) break; /* else the columns are of this place */
     }
 }
 

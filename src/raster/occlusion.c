@@ -7,8 +7,8 @@
 #include "raster/occlusion.h"
 
 #include "base/cache.h"
-#include "base/cholesky.h"
 #include "base/fail.h"
+#include "base/matrix.h"
 #include "base/thread.h"
 #include "shading/frame.h"
 #include "shading/warp.h"
@@ -18,8 +18,6 @@ enum { BLOCK = 256 }; /* vertices in one go */
 
 /* One in so many rays of a light is sent first, the others follow where those do not agree. */
 enum { FIRST = 4 };
-
-enum { SHIFTS = 4 };
 
 /* Edges are halved so often where their ends see that much that is different, in parts of the light. */
 enum { ROUNDS = 2 };
@@ -98,39 +96,40 @@ static void place_brightness(Occlusion *self, const OcclusionHow *how) {
 }
 
 /* The ramp c . b, b = (1, w.x, w.y, w.z), nearest to what is seen, V: the sum over the rays of g (c . b - V)^2 is least
- * where c = (sum g b b^T)^-1 sum g b V. g = L / (w.z + 0.07), L the light from there, since a sheen
- * looks along the horizon: then the sum of g c . b is that of g V, so what is seen of such a lobe's light is right
- * whatever hides the rest. A ramp that is fitted as it is cut off at 0 and 1 is nearer at a vertex, but steep, and
- * further off between vertices. */
-static void fit_ramp(const Occlusion *self, const float *light, const bool *hidden, double c[4]) {
+ * where c = (sum g b b^T)^-1 sum g b V. g = L / (w.z + 0.07), L the light from there, since a sheen looks along the
+ * horizon: then the sum of g c . b is that of g V, so what is seen of such a lobe's light is right whatever hides the
+ * rest. A ramp that is fitted as it is cut off at 0 and 1 is nearer at a vertex, but steep, and further off between
+ * vertices. */
+static void fit_ramp(const Occlusion *self, const float *g, const bool *hidden, double c[4]) {
     double m[4][4] = {{0.0}};
     memset(c, 0, 4 * sizeof *c);
     for (int i = 0; i < 4; i++) m[i][i] = 1e-6 * self->rays; /* fewer than four rays leave it open */
     for (int k = 0; k < self->rays; k++) {
         Dir w = self->sky[k];
-        /* in double: few rays leave next to nothing of m */
-        const double g = (double)(light[k] / (w.z + 0.07f)),
-                     b[4] = {1.0, (double)w.x, (double)w.y, (double)w.z};
+        const double b[4] = {1.0, (double)w.x, (double)w.y, (double)w.z};
         for (int i = 0; i < 4; i++) {
-            for (int j = 0; j <= i; j++) m[i][j] += g * b[i] * b[j];
-            if (!hidden[k]) c[i] += g * b[i];
+            /* in double: few rays leave next to nothing of m, whose rows are here its columns */
+            for (int j = 0; j <= i; j++) m[j][i] += (double)g[k] * b[i] * b[j];
+            if (!hidden[k]) c[i] += (double)g[k] * b[i];
         }
     }
-    cholesky_solve(4, m[0], 1, c);
+    if (matrix_factor(4, m[0], 4) && matrix_solve(4, m[0], 4, 1, c, 4)) return;
+    c[0] = 0.5; /* level, where it is to be shifted from */
+    c[1] = c[2] = c[3] = 0.0;
 }
 
 /* Shifts the ramp so that the sum of g clamp(c . b) over the rays is that of g V: a ramp that is cut off at 0 and 1 is
  * brighter or darker than it was. Newton's method, whose slope is the part of the light where it is not cut off. */
-static void shift_ramp(const Occlusion *self, const float *light, const bool *hidden, double c[4]) {
-    for (int step = 0; step < SHIFTS; step++) {
+static void shift_ramp(const Occlusion *self, const float *g, const bool *hidden, double c[4]) {
+    enum { STEPS = 4 };
+    for (int step = 0; step < STEPS; step++) {
         double missing = 0.0, slope = 0.0, all = 1e-9;
         for (int k = 0; k < self->rays; k++) {
             Dir w = self->sky[k];
-            const double g = (double)(light[k] / (w.z + 0.07f)),
-                         ramp = c[0] + c[1] * (double)w.x + c[2] * (double)w.y + c[3] * (double)w.z;
-            missing += g * ((hidden[k] ? 0.0 : 1.0) - fmin(fmax(ramp, 0.0), 1.0));
-            slope += ramp > 0.0 && ramp < 1.0 ? g : 0.0;
-            all += g;
+            const double ramp = c[0] + c[1] * (double)w.x + c[2] * (double)w.y + c[3] * (double)w.z;
+            missing += (double)g[k] * ((hidden[k] ? 0.0 : 1.0) - fmin(fmax(ramp, 0.0), 1.0));
+            slope += ramp > 0.0 && ramp < 1.0 ? (double)g[k] : 0.0;
+            all += (double)g[k];
         }
         c[0] += missing / fmax(slope, 0.1 * all);
     }
@@ -167,20 +166,18 @@ static float seen_from(const Occlusion *self, Vec3 p, Vec3 n, float reach, uint3
     bool hidden[OCCLUSION_RAYS_MAX];
     Dir ways[OCCLUSION_RAYS_MAX];
     Frame frame = frame_upright(n);
-    float light[OCCLUSION_RAYS_MAX], sum = 0.0f, all = 1e-6f;
+    float g[OCCLUSION_RAYS_MAX], sum = 0.0f, all = 1e-6f; /* g: of fit_ramp */
     double c[4];
-    for (int k = 0; k < self->rays; k++) {
-        ways[k] = frame_from(frame, self->sky[k]);
-        light[k] = brightness(self, ways[k]);
-    }
+    for (int k = 0; k < self->rays; k++) ways[k] = frame_from(frame, self->sky[k]);
     look_along(self, vec3_madd(p, n, reach), ways, self->rays, vertex, hidden);
     for (int k = 0; k < self->rays; k++) {
-        const float falls = self->sky[k].z * light[k];
+        const float light = brightness(self, ways[k]), falls = self->sky[k].z * light;
         sum += hidden[k] ? 0.0f : falls;
         all += falls;
+        g[k] = light / (self->sky[k].z + 0.07f);
     }
-    fit_ramp(self, light, hidden, c);
-    shift_ramp(self, light, hidden, c);
+    fit_ramp(self, g, hidden, c);
+    shift_ramp(self, g, hidden, c);
     Dir slope = frame_from(frame, dir((float)c[1], (float)c[2], (float)c[3]));
     open[0] = (float)c[0];
     open[1] = slope.x, open[2] = slope.y, open[3] = slope.z;

@@ -1,6 +1,6 @@
 #include "shading/ambient_fit.h"
 
-#include "base/cholesky.h"
+#include "base/matrix.h"
 #include "base/thread.h"
 
 /* Wanted: w >= 0 that makes least, on average over environments, the square of
@@ -338,22 +338,23 @@ static double albedo_at(const AmbientFit *fit, int side, int column) {
 /* Coefficients of planes first .. end - 1 by weighted least squares, into members of the groups. */
 static void hold_planes(const AmbientFit *fit, int side, int first, int end,
                         const double weight[AMBIENT_COLUMNS], AmbientWeights out[AMBIENT_SIDE]) {
-    double a[TERMS][TERMS] = {{0.0}}, b[TERMS][PLANES_HELD] = {{0.0}};
+    double a[TERMS][TERMS] = {{0.0}}, b[PLANES_HELD][TERMS] = {{0.0}};
     for (int column = 0; column < AMBIENT_COLUMNS; column++) {
         double power[TERMS] = {1.0}, t = 2.0 * column / (AMBIENT_COLUMNS - 1) - 1.0;
         for (int k = 1; k < TERMS; k++) power[k] = power[k - 1] * t;
         for (int j = 0; j < TERMS; j++) {
             for (int k = 0; k < TERMS; k++) a[j][k] += weight[column] * power[j] * power[k];
             for (int n = first; n < end; n++)
-                b[j][n] += weight[column] * power[j] * node(fit, side, n, column);
+                b[n][j] += weight[column] * power[j] * node(fit, side, n, column);
         }
     }
-    cholesky_solve(TERMS, a[0], PLANES_HELD, b[0]);
+    if (!matrix_factor(TERMS, a[0], TERMS) || !matrix_solve(TERMS, a[0], TERMS, PLANES_HELD, b[0], TERMS))
+        memset(b, 0, sizeof b); /* nothing has weight */
     for (int k = 0; k < AMBIENT_SIDE; k++) {
         float *to[4] = {&out[k].a, &out[k].b, &out[k].c, &out[k].d};
         for (int n = 0; n < 4; n++) {
             int plane = 4 * (k / TERMS) + n;
-            if (plane >= first && plane < end) *to[n] = (float)b[k % TERMS][plane];
+            if (plane >= first && plane < end) *to[n] = (float)b[plane][k % TERMS];
         }
     }
 }

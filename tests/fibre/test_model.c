@@ -12,7 +12,7 @@
 
 #include "base/pi.h"
 #include "base/random.h"
-#include "fibre/matrix.h"
+#include "base/matrix.h"
 #include "fibre/solver_reference.h"
 #include "fibre/walk.h"
 #include "shading/albedo.h"

@@ -1,4 +1,4 @@
-#include "fibre/matrix.h"
+#include "base/matrix.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -3,8 +3,8 @@
  * Here because the packaged OpenBLAS without threads may not be called from two at once, and the one with
  * threads makes its own for the whole process. A matrix is where it begins and the strides from row to row
  * and from column to column. */
-#ifndef WEFT_FIBRE_MATRIX_H
-#define WEFT_FIBRE_MATRIX_H
+#ifndef WEFT_BASE_MATRIX_H
+#define WEFT_BASE_MATRIX_H
 
 #include <stdbool.h>
 
