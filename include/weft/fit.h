@@ -128,6 +128,9 @@ WEFT_API WeftResult weft_fit_material(const WeftData *data, const WeftFitDesc *d
 WEFT_API WeftResult weft_data_distance(const WeftData *data, const WeftFitDesc *desc,
                                        const WeftReflection *reflection, double *distance, WeftError *error);
 
+/* Returns 1 if lobe and base are warp and weft of a weave: under all else lies a diffuse base. */
+WEFT_API int weft_fitted_is_weave(const WeftFitted *fitted);
+
 /* Makes the reflection of a fit: base and lobe, or warp and weft. Fails with WEFT_MESSAGE_MEMORY. */
 WEFT_API WeftResult weft_fitted_reflection(const WeftFitted *fitted, WeftReflection **out, WeftError *error);
 

@@ -44,11 +44,6 @@ static bool reads_f90(const WeftLobe *lobe) {
     return reads;
 }
 
-/* Warp and weft, in the colours of light that met one fibre, f0, and of all other, f90. */
-static bool is_weave(const WeftFitted *fitted) {
-    return !(weft_lobe_info(fitted->base.lobe)->traits & WEFT_LOBE_DIFFUSE);
-}
-
 /* Writes "d charlie, alpha 0.31" from `used` on; returns the new end. */
 static size_t numbers_text(const WeftLobe *lobe, char *text, size_t size, size_t used) {
     const WeftLobeInfo *info = weft_lobe_info(lobe->lobe);
@@ -75,9 +70,10 @@ static size_t f90_text(const WeftLobe *lobe, char *text, size_t size, size_t use
 static const char *params_text(const WeftFitted *fitted, char *text, size_t size) {
     size_t used = 0;
     text[0] = '\0';
-    if (is_weave(fitted) || reads_f90(&fitted->lobe)) used = f90_text(&fitted->lobe, text, size, used);
+    if (weft_fitted_is_weave(fitted) || reads_f90(&fitted->lobe))
+        used = f90_text(&fitted->lobe, text, size, used);
     used = numbers_text(&fitted->lobe, text, size, used);
-    if (is_weave(fitted) && used < size) {
+    if (weft_fitted_is_weave(fitted) && used < size) {
         used += (size_t)snprintf(text + used, size - used, "; weft");
         used = f90_text(&fitted->base, text, size, used);
     }
@@ -128,8 +124,8 @@ static void text_write(const Fitting *fitting) {
         idle += (weft_fitted_notes(&fit->fitted[k]) & WEFT_FITTED_NOTHING) != 0;
     }
     row_write("", "baseline: ggx, f90 = 1, over lambert", &fit->baseline);
-    printf("%4s  %-44s %7.4f\n\n", "", is_weave(&fit->fitted[0]) ? "lambert alone" : "the base alone",
-           fit->base_alone);
+    printf("%4s  %-44s %7.4f\n\n", "",
+           weft_fitted_is_weave(&fit->fitted[0]) ? "lambert alone" : "the base alone", fit->base_alone);
     printf("these are fits to a measurement: what they say of directions that it has not is a guess. "
            "Numbers: how "
            "many were free, three of each colour\n");
@@ -163,8 +159,9 @@ static void json_fitted(Json *json, const char *key, const WeftFitted *fitted) {
     json_whole(json, "numbers", fitted->numbers);
     json_floats(json, "base_color", fitted->base.f0, 3);
     json_floats(json, "color", fitted->lobe.f0, 3);
-    if (is_weave(fitted) || reads_f90(&fitted->lobe)) json_floats(json, "f90", fitted->lobe.f90, 3);
-    if (is_weave(fitted)) json_floats(json, "base_f90", fitted->base.f90, 3);
+    if (weft_fitted_is_weave(fitted) || reads_f90(&fitted->lobe))
+        json_floats(json, "f90", fitted->lobe.f90, 3);
+    if (weft_fitted_is_weave(fitted)) json_floats(json, "base_f90", fitted->base.f90, 3);
     json_params(json, "params", &fitted->lobe);
     json_params(json, "base_params", &fitted->base);
     json_open(json, "notes", '[');

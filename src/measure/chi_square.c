@@ -51,8 +51,8 @@ enum { BINS = 20, ALL_BINS = BINS * BINS + 1, LINES_MOST = BINS * GRID_MAX };
  *
  *   s = (i + (p_j + 1/2) / n) / n,  t = (j + (n - 1/2 - p_i) / n) / n,  i, j = 0 .. n - 1,  p_k = m k mod n
  *
- * m is the first from n / golden ratio^2 up that is prime to n, so that neighbours lie far apart: a rank-1 lattice in each row. What
- * the shifts of rows would add to the integral of s t, those of the columns take away. */
+ * m is the first from n / golden ratio^2 up that is prime to n, so that neighbours lie far apart: a rank-1 lattice in each
+ * row. What the shifts of rows would add to the integral of s t, those of the columns take away. */
 typedef struct Net {
     int n, place[GRID_MAX]; /* p */
     GridLine rows[LINES_MOST], columns[LINES_MOST];

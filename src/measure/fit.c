@@ -284,8 +284,7 @@ static bool at_edge(const WeftLobe *lobe, bool hard) {
     return false;
 }
 
-/* Under all else lies a diffuse base. */
-static bool fitted_is_weave(const WeftFitted *fitted) {
+int weft_fitted_is_weave(const WeftFitted *fitted) {
     return !(weft_lobe_info(fitted->base.lobe)->traits & WEFT_LOBE_DIFFUSE);
 }
 
@@ -300,7 +299,7 @@ unsigned weft_fitted_notes(const WeftFitted *fitted) {
     }
     if (!(most > 1e-6f)) notes |= WEFT_FITTED_NOTHING;
     if (fmaxf(most, base) > 1.0f) notes |= WEFT_FITTED_BRIGHT;
-    const bool weave = fitted_is_weave(fitted);
+    const bool weave = weft_fitted_is_weave(fitted) != 0;
     if (at_edge(lobe, weave) || at_edge(&fitted->base, weave)) notes |= WEFT_FITTED_EDGE;
     return notes;
 }
@@ -390,7 +389,7 @@ static bool say_sheen(const WeftLobe *lobe, WeftMaterial *out) {
 
 int weft_fitted_material(const WeftFitted *fitted, WeftMaterial *out) {
     weft_material_default(out);
-    if (fitted_is_weave(fitted)) return 0;
+    if (weft_fitted_is_weave(fitted)) return 0;
     weft_material_choose(out, CHOICE_workflow, choice_find(CHOICE_workflow, "cloth"));
     weft_material_choose(out, CHOICE_layer, choice_find(CHOICE_layer, "additive"));
     bool base = say_base(&fitted->base, out), sheen = say_sheen(&fitted->lobe, out);

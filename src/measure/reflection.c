@@ -154,7 +154,7 @@ static WeaveBase fitted_threads(const WeftLobe *lobe) {
 
 WeftResult weft_fitted_reflection(const WeftFitted *fitted, WeftReflection **out, WeftError *error) {
     WeftMaterial bare;
-    const bool woven = !(weft_lobe_info(fitted->base.lobe)->traits & WEFT_LOBE_DIFFUSE);
+    const bool woven = weft_fitted_is_weave(fitted) != 0;
     weft_material_default(&bare);
     WeftResult result = woven ? weft_reflection_create(&bare, out, error)
                               : weft_reflection_of_lobe(&fitted->lobe, out, error);

@@ -274,15 +274,13 @@ static void average_headings(AlbedoTable *table, int map, int row) {
     for (int k = 0; k < TABLE_HEADINGS; k++) table->e[(map + k) * table->rows + row][ALBEDO_MU] = mean;
 }
 
-/* Returns the wo for which the E of a brushed lobe is greatest, of ALBEDO_AZIMUTHS on a half turn from its own azimuth: a
- * table that knows no heading must not be below E at any by more than a hundredth, or layer rules would return more light
- * than arrives. Of another lobe wo is at azimuth 0. */
-static Dir brightest(const Lobe *lobe, float cos_o) {
+Dir albedo_brightest(const Lobe *lobe, float cos_o) {
+    enum { AZIMUTHS = 4 };
     float most = -1.0f, s = sqrt(max(1.0f - cos_o * cos_o, 0.0f));
     const int own = weft_lobe_param_find((int)lobe->id, "azimuth");
     Dir best = dir(s, 0.0f, cos_o);
-    for (int k = 0; lobe_turns(lobe) && k < ALBEDO_AZIMUTHS; k++) {
-        float azimuth = PI * (float)k / ALBEDO_AZIMUTHS + (own > 0 ? lobe->params[own] : 0.0f);
+    for (int k = 0; lobe_turns(lobe) && k < AZIMUTHS; k++) {
+        float azimuth = PI * (float)k / AZIMUTHS + (own > 0 ? lobe->params[own] : 0.0f);
         Dir wo = dir(s * cos(azimuth), s * sin(azimuth), cos_o);
         Albedo e = albedo_quadrature(lobe, wo, 1e-3);
         if (e.f0 + e.f90 > most) most = e.f0 + e.f90, best = wo;
@@ -307,7 +305,7 @@ static void fill_column(void *user, int column, int thread) {
             table->e[row][column] = table->e[(table->maps - ACROSS) * table->rows + row][column];
             continue;
         }
-        Dir wo = table->tilts ? dir(0.0f, s, cos_o) : brightest(&lobe, cos_o);
+        Dir wo = table->tilts ? dir(0.0f, s, cos_o) : albedo_brightest(&lobe, cos_o);
         Albedo e = albedo_quadrature(&lobe, wo, 1e-4);
         table->e[row][column] = e.f0 + e.f90;
         if (!tinted) continue;

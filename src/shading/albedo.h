@@ -28,6 +28,10 @@ bool albedo_asks_color(const Lobe *lobe);
 /* Computes E of such a lobe for the three channels w of a colour. */
 void albedo_in_color(const Lobe *lobe, Dir wo, const float w[3], double tolerance, float e[3]);
 
+/* Returns the wo of that cosine for which the E of a brushed lobe is greatest, of four on a half turn from its own azimuth;
+ * of another lobe that at azimuth 0. */
+Dir albedo_brightest(const Lobe *lobe, float cos_o);
+
 /* A table has E of a white lobe (f0 = f90 = 1). Its ALBEDO_MU columns are uniform in y, cos_o = (1 - (1 - y)^2)^4. Its
  * ALBEDO_ROWS rows are uniform in the eighth root of parameter 0; there is one row if that is fixed. E changes fastest
  * near grazing at low alpha; near the normal some diffuse lobes change as sin(theta_o). With this spacing the curvature
@@ -40,13 +44,13 @@ void albedo_in_color(const Lobe *lobe, Dir wo, const float w[3], double toleranc
  *
  * E(w) is exact at w = 1, 7/8 and 1/2, and so is its slope at w = 0.
  *
- * A brushed lobe's table is that of the azimuth of wo where E is greatest, so that layer rules give no light away, to a hundredth.
+ * A brushed lobe's table is of albedo_brightest: it knows no heading and must not be below E at any by more than a hundredth,
+ * or layer rules would return more light than arrives.
  *
  * If the fibres of a lobe lean (it has the parameters tilt > 0 and azimuth), these maps are for wo across the nap.
  * They hold for any azimuth of the nap. Further maps have E by heading (table.h), for the tilt of the lobe or for
  * TABLE_TILTS tilts. */
 enum {
-    ALBEDO_AZIMUTHS = 4, /* of wo, that a brushed lobe is asked for */
     ALBEDO_MU = 40,
     ALBEDO_ROWS = 32,
     ALBEDO_MAPS = 4, /* E, s, q and e */

@@ -14,17 +14,12 @@
 
 #include "base/pi.h"
 #include "measure/data.h"
+#include "measure/drawn.h"
 #include "measure/lobe_search.h"
 #include "weft/weft.h"
 
 enum { PAIRS = 12000, FEW = 4000 };
 static float wo[PAIRS][3], wi[PAIRS][3], f[PAIRS][3];
-static uint32_t seed;
-
-static double drawn(void) {
-    seed = seed * 1664525u + 1013904223u;
-    return (double)(seed >> 8) * 0x1p-24;
-}
 
 static void direction(float w[3]) {
     double z = sqrt(drawn()), r = sqrt(1.0 - z * z), phi = 6.283185307179586 * drawn();
@@ -33,7 +28,7 @@ static void direction(float w[3]) {
 
 /* Half of the pairs about the mirror direction, where some lobes have all they have. */
 static void spread(void) {
-    seed = 7;
+    drawn_seed = 7;
     for (int k = 0; k < PAIRS; k++) {
         direction(wo[k]);
         direction(wi[k]);
@@ -425,7 +420,7 @@ static void table_of_a_brdf_is_read(void **state) {
     char *text = calloc(LINES + 1, LINE);
     assert_non_null(text);
     size_t used = (size_t)snprintf(text, LINE, "theta_o, phi_o, theta_i, phi_i, r, g, b\n# made\n\n");
-    seed = 3;
+    drawn_seed = 3;
     for (int k = 0; k < LINES; k++) {
         double t[4] = {89.0 * drawn(), 360.0 * drawn(), 89.0 * drawn(), 360.0 * drawn()},
                r = PI_DOUBLE / 180.0;

@@ -12,6 +12,7 @@
 #include <cmocka.h>
 
 #include "base/pi.h"
+#include "measure/drawn.h"
 #include "scene/scene.h"
 #include "shading/registry.h"
 #include "shading/weave_light.h"
@@ -21,12 +22,6 @@
 
 enum { PAIRS = 6000, FITTED = 4000 };
 static float wo[PAIRS][3], wi[PAIRS][3], f[PAIRS][3];
-static uint32_t seed;
-
-static double drawn(void) {
-    seed = seed * 1664525u + 1013904223u;
-    return (double)(seed >> 8) * 0x1p-24;
-}
 
 static void direction(float w[3]) {
     const double z = 0.18 + 0.82 * drawn(), r = (sqrt)(1.0 - z * z), phi = 2.0 * PI_DOUBLE * drawn();
@@ -35,7 +30,7 @@ static void direction(float w[3]) {
 
 /* The first are fitted to; the others are what the fit has to foretell. */
 static void reflect(const WeftReflection *reflection) {
-    seed = 11;
+    drawn_seed = 11;
     for (int k = 0; k < PAIRS; k++) {
         direction(wo[k]);
         direction(wi[k]);
@@ -134,7 +129,7 @@ static WeftData *round_data(bool one_plane, int isotropic) {
     WeftData *data;
     WeftError error;
     assert_int_equal(weft_lobe_init("ggx", &ggx, &error), WEFT_OK);
-    seed = 13;
+    drawn_seed = 13;
     for (int k = 0; k < FITTED; k++) {
         direction(wo[k]);
         direction(wi[k]);

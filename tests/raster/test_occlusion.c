@@ -149,8 +149,8 @@ static void wall_before_the_dark_hides_little(void **state) {
     weft_scene_free(scene);
 }
 
-/* What a ramp lets through is as much as what is seen over a low wall, by the weight 1 / (w.y + .07) of a sheen's light,
- * though it is cut off at 0 and 1. */
+/* A ramp lets through as much as is seen over a low wall, by the weight 1 / (w.y + .07) of a sheen's light, though it is
+ * cut off at 0 and 1. */
 static void ramp_lets_through_what_is_seen(void **state) {
     (void)state;
     enum { UP = 64, AROUND = 256 };

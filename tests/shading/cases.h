@@ -256,20 +256,6 @@ static inline Lobe sheen_lobe(int id, float roughness) {
     return stack.sheen.lobe;
 }
 
-/* The direction at that cosine from which a table has E: azimuth 0, or where a brushed lobe is brightest. */
-static inline Dir brightest_direction(const Lobe *lobe, double cosine) {
-    const int own = weft_lobe_param_find((int)lobe->id, "azimuth");
-    Dir best = direction_cos(cosine, 0.0);
-    float most = 0.0f;
-    for (int k = 0; lobe_turns(lobe) && k < ALBEDO_AZIMUTHS; k++) {
-        Dir o = direction_cos(cosine,
-                              k * PI_DOUBLE / ALBEDO_AZIMUTHS + (own > 0 ? (double)lobe->params[own] : 0.0));
-        Albedo e = albedo_quadrature(lobe, o, 1e-3);
-        if (e.f0 + e.f90 > most) most = e.f0 + e.f90, best = o;
-    }
-    return best;
-}
-
 /* E of a lobe over what a roughness from 0 to 1 makes of its first parameter, as a stack expects it. */
 static inline void fill_albedo(AlbedoTable *table, int id) {
     Lobe lobe = sheen_lobe(id, 0.5f);

@@ -66,7 +66,7 @@ static void rule_albedo_view_returns_what_it_receives(void **state) {
                 Surface cloth = white_cloth((float)r / 10.0f);
                 seen++;
                 Lobe sheen = sheen_lobe(id, cloth.sheen_roughness);
-                Dir o = brightest_direction(&sheen, c / 10.0 - 0.05); /* the azimuth of the table */
+                Dir o = albedo_brightest(&sheen, (float)(c / 10.0 - 0.05)); /* the azimuth of the table */
                 SeenStack stack = test_stack(&cloth, view, &table, o),
                           base = test_stack(&cloth, additive, &table, o);
                 float e = stack.view.e_o.e;

@@ -154,7 +154,7 @@ static void wide_pdf(const BsdfView *view, Dirs i, float *pdf) {
         pdf[k] = lobe_pdf(&wide, angles_between(view->o, dir(i.x[k], i.y[k], i.z[k])));
 }
 
-/* Where a peak is as narrow as a bin, an error that the integral claims for itself could hide a wrong pdf. */
+/* An error that the integral claims for itself could hide a wrong pdf where a peak is as narrow as a bin. */
 static void chi_square_finds_a_width_that_is_slightly_wrong(void **state) {
     (void)state;
     Lobe ggx = lobe_default(LOBE_GGX);

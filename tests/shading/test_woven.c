@@ -158,7 +158,7 @@ static void value_is_the_same_both_ways_round(void **state) {
     }
 }
 
-/* Of every slope across a yarn that the lobe's parameters allow. */
+/* The bound holds for every slope across a yarn that the lobe's parameters allow. */
 static void tilt_of_fibres_is_within_a_thousandth(void **state) {
     (void)state;
     double most = 0.0;
