@@ -151,8 +151,9 @@ static void zone_halve(const Integrand *integrand, Dir wo, Zone *zone, Rules *ru
 }
 
 /* Cuts the hemisphere at the cosines of wi where f bends. Between them f is smooth but for the mirror
- * angle, and a longer step will do. Returns the number of zones. */
-static int zones_make(const Integrand *integrand, Dir wo, Zone zones[LOBE_CREASES_MOST + 1], Rules *rules) {
+ * angle, and a longer step will do; so it will for a hundredth. Returns the number of zones. */
+static int zones_make(const Integrand *integrand, Dir wo, double tolerance, Zone zones[LOBE_CREASES_MOST + 1],
+                      Rules *rules) {
     float creases[LOBE_CREASES_MOST];
     const int count = lobe_creases(integrand->lobe, wo.z, creases) + 1;
     const double mirror = atan2((double)wo.z, hypot((double)wo.x, (double)wo.y));
@@ -160,7 +161,7 @@ static int zones_make(const Integrand *integrand, Dir wo, Zone zones[LOBE_CREASE
         zones[k] = (Zone){.low = k > 0 ? zones[k - 1].high : 0.0,
                           .high = k + 1 < count ? asin((double)creases[k]) : 0.5 * PI_DOUBLE,
                           .mirror = mirror,
-                          .halvings = count > 1 ? 1 : 2};
+                          .halvings = (count > 1 ? 1 : 2) - (tolerance >= 1e-2)};
         zone_take(integrand, wo, &zones[k], rules);
         zone_halve(integrand, wo, &zones[k], rules);
     }
@@ -173,7 +174,7 @@ static Sum quadrature(const Integrand *integrand, Dir wo, double tolerance, doub
     Zone zones[LOBE_CREASES_MOST + 1], *worst;
     Rules rules;
     for (int k = 0; k <= HALVINGS_MOST; k++) rules.at[k].count = 0;
-    const int count = zones_make(integrand, wo, zones, &rules);
+    const int count = zones_make(integrand, wo, tolerance, zones, &rules);
     Sum sum;
     do {
         worst = NULL;
@@ -282,7 +283,7 @@ Dir albedo_brightest(const Lobe *lobe, float cos_o) {
     for (int k = 0; lobe_turns(lobe) && k < AZIMUTHS; k++) {
         float azimuth = PI * (float)k / AZIMUTHS + (own > 0 ? lobe->params[own] : 0.0f);
         Dir wo = dir(s * cos(azimuth), s * sin(azimuth), cos_o);
-        Albedo e = albedo_quadrature(lobe, wo, 1e-3);
+        Albedo e = albedo_quadrature(lobe, wo, 1e-2);
         if (e.f0 + e.f90 > most) most = e.f0 + e.f90, best = wo;
     }
     return best;

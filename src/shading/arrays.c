@@ -47,8 +47,12 @@ static void cook_torrance_f_n(const Lobe *m, size_t n, PAIRS, float *restrict f)
     switch (cook_torrance_of(m).d) { WEFT_D_TERMS(CALL_SPREAD) }
     switch (cook_torrance_of(m).v) { WEFT_V_TERMS(CALL_SHADOW) }
 }
-static void cook_torrance_s_n(const Lobe *m, size_t n, PAIRS, float *restrict f) {
+static void cook_torrance_mixed_n(const Lobe *m, size_t n, PAIRS, float *restrict f) {
     switch (cook_torrance_of(m).f) { WEFT_F_TERMS(CALL_MIXED) }
+}
+static void cook_torrance_shares_n(const Lobe *m, size_t n, PAIRS, float *restrict f, float *restrict s) {
+    cook_torrance_f_n(m, n, ox, oy, oz, ix, iy, iz, f);
+    cook_torrance_mixed_n(m, n, ox, oy, oz, ix, iy, iz, s);
 }
 static void cook_torrance_pdf_n(const Lobe *m, size_t n, PAIRS, float *restrict f) {
     switch (cook_torrance_of(m).d) { WEFT_D_TERMS(CALL_DRAWN) }
@@ -57,8 +61,10 @@ static void cook_torrance_pdf_n(const Lobe *m, size_t n, PAIRS, float *restrict 
 #include "shading/loops.gen.h"
 
 void lobe_eval_n(const Lobe *m, size_t n, PAIRS, float *restrict f, float *restrict s) {
-    lobe_f_n(m, n, ox, oy, oz, ix, iy, iz, f);
-    if (s) lobe_s_n(m, n, ox, oy, oz, ix, iy, iz, s);
+    if (s)
+        lobe_shares_n(m, n, ox, oy, oz, ix, iy, iz, f, s);
+    else
+        lobe_f_n(m, n, ox, oy, oz, ix, iy, iz, f);
 }
 
 void lobe_tinted_n(const Lobe *m, const float w[3], size_t n, PAIRS, float *const f[3]) {

@@ -63,7 +63,7 @@ FN bool pair_counts(Dir o, Dir i) {
 #define EACH(k, n) _Pragma("GCC ivdep") for (size_t k = 0; k < n; k++)
 #endif
 
-/* One member of a lobe's value: f, pdf or s. */
+/* One member of a lobe's value: f or pdf. */
 #define LOBE_LOOP(question, name, Name)                                                                      \
     LOOP(name##_##question##_n, (const Lobe *m, size_t n, PAIRS, float *restrict question),                  \
          (m, n, PAIR_NAMES, question)) {                                                                     \
@@ -76,6 +76,23 @@ FN bool pair_counts(Dir o, Dir i) {
             name##_view(&p, o, &w);                                                                          \
             float question##_k = name##_value(&p, &w, a).question;                                           \
             question[k] = counts ? question##_k : 0.0f;                                                      \
+        }                                                                                                    \
+    }
+
+/* f and s of a lobe of two colours. */
+#define SHARES_LOOP(name, Name)                                                                              \
+    LOOP(name##_shares_n, (const Lobe *m, size_t n, PAIRS, float *restrict f, float *restrict s),            \
+         (m, n, PAIR_NAMES, f, s)) {                                                                         \
+        Name##Prepared p;                                                                                    \
+        name##_prepare(name##_of(m), &p);                                                                    \
+        EACH(k, n) {                                                                                         \
+            TAKE_PAIR(o, i, counts);                                                                         \
+            Angles a = angles_between(o, i);                                                                 \
+            Name##View w;                                                                                    \
+            name##_view(&p, o, &w);                                                                          \
+            LobeValue v = name##_value(&p, &w, a);                                                           \
+            f[k] = counts ? v.f : 0.0f;                                                                      \
+            s[k] = counts ? v.s : 0.0f;                                                                      \
         }                                                                                                    \
     }
 

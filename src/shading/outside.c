@@ -117,6 +117,10 @@ Proxy outside_proxies(const Lobe *m) {
 
 /* The loop of an id without a lobe. */
 static void no_loop(const Lobe *m, size_t n, PAIRS, float *restrict out) { memset(out, 0, n * sizeof *out); }
+static void no_shares(const Lobe *m, size_t n, PAIRS, float *restrict f, float *restrict s) {
+    no_loop(m, n, ox, oy, oz, ix, iy, iz, f);
+    no_loop(m, n, ox, oy, oz, ix, iy, iz, s);
+}
 static void no_tinted(const Lobe *m, const float c[3], size_t n, PAIRS, float *restrict r, float *restrict g,
                       float *restrict b) {
     no_loop(m, n, ox, oy, oz, ix, iy, iz, r);
@@ -133,7 +137,7 @@ static void no_drawn(const Each *e, size_t n) {
 }
 
 const PluginLoops *outside_loops(int id) {
-    static const PluginLoops none = {no_loop, no_loop, no_loop, no_tinted, no_each, no_drawn};
+    static const PluginLoops none = {no_loop, no_loop, no_shares, no_tinted, no_each, no_drawn};
     const Plugin *plugin = plugin_of(id);
     return plugin ? plugin->loops : &none;
 }

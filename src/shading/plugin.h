@@ -19,6 +19,9 @@ typedef struct PluginParam {
 typedef void PluginLoop(const Lobe *m, size_t n, const float *restrict ox, const float *restrict oy,
                         const float *restrict oz, const float *restrict ix, const float *restrict iy,
                         const float *restrict iz, float *restrict out);
+typedef void PluginShares(const Lobe *m, size_t n, const float *restrict ox, const float *restrict oy,
+                          const float *restrict oz, const float *restrict ix, const float *restrict iy,
+                          const float *restrict iz, float *restrict f, float *restrict s);
 typedef void PluginTinted(const Lobe *m, const float c[3], size_t n, const float *restrict ox,
                           const float *restrict oy, const float *restrict oz, const float *restrict ix,
                           const float *restrict iy, const float *restrict iz, float *restrict r,
@@ -27,7 +30,8 @@ typedef void PluginTinted(const Lobe *m, const float c[3], size_t n, const float
 typedef void PluginEach(const Each *e, size_t n); /* each.h */
 
 typedef struct PluginLoops {
-    PluginLoop *f, *pdf, *s;
+    PluginLoop *f, *pdf;
+    PluginShares *shares;
     PluginTinted *tinted;
     PluginEach *each, *drawn_each;
 } PluginLoops;

@@ -25,11 +25,11 @@
 #define PLUGIN_LOOPS_OF(name, Name, NAME, second)                                                            \
     LOBE_LOOP(f, name, Name)                                                                                 \
     LOBE_LOOP(pdf, name, Name)                                                                               \
-    LOBE_LOOP(s, name, Name)                                                                                 \
+    SHARES_LOOP(name, Name)                                                                                  \
     TINTED_LOOP(name, Name)                                                                                  \
     EACH_LOOPS(name, Name, NAME, second)                                                                     \
     const Isa *plugin_isa;                                                                                   \
-    const PluginLoops weft_lobe_loops = {name##_f_n,      name##_pdf_n,  name##_s_n,                         \
+    const PluginLoops weft_lobe_loops = {name##_f_n,      name##_pdf_n,  name##_shares_n,                    \
                                          name##_tinted_n, name##_each_n, name##_drawn_each_n};
 
 #define PLUGIN_SECOND(name)                                                                                  \
