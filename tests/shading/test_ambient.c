@@ -124,10 +124,14 @@ static void baked_weights_return_the_albedo(void **state) {
         }
 }
 
-/* A sheen with the table that a stack asks E of. */
-static SeenStack tabled(Lobe lobe, Dir o, AlbedoTable *table) {
+/* E of that lobe alone, as a stack asks for it. */
+static void fill_own(AlbedoTable *table, const Lobe *lobe) {
+    albedo_table_fill(table, lobe, lobe->params[0], lobe->params[0], 0);
+}
+
+/* A sheen with that table. */
+static SeenStack tabled(Lobe lobe, Dir o, const AlbedoTable *table) {
     SeenStack m = one_lobe(lobe, o);
-    albedo_table_fill(table, &lobe, lobe.params[0], lobe.params[0], 0);
     m.stack.table = albedo_table_ref(table);
     m.stack.albedo = ALBEDO_TABLE;
     m.stack.albedo_coord = lobe.params[0];
@@ -151,6 +155,7 @@ static void baked_weights_of_a_fading_lobe_are_not_negative(void **state) {
             if (!test_turn(&at, 1, 11)) continue;
             Lobe lobe = lobe_rough(id, roughnesses[k]);
             AmbientTable t = bake(&lobe, ambient_strategy(id, true, false), baked);
+            fill_own(&albedo, &lobe);
             for (size_t n = 0; n < sizeof cosines / sizeof cosines[0]; n++) {
                 Dir o = direction_cos((double)cosines[n], 0.0);
                 SeenStack m = tabled(lobe, o, &albedo);
@@ -180,6 +185,7 @@ static void faint_sheens_keep_albedo_under_a_white_sky(void **state) {
         if (!test_turn(&at, 1, 3)) continue;
         Lobe lobe = lobe_rough(lobes[k % 4], 0.25f + 0.05f * (float)(k / 4));
         AmbientTable t = bake(&lobe, AMBIENT_FITTED, baked);
+        fill_own(&albedo, &lobe);
         for (int n = 1; n < 40; n++) {
             Dir o = direction_cos(0.025 * n, 0.0);
             SeenStack m = tabled(lobe, o, &albedo);
@@ -229,6 +235,7 @@ static void tinted_lobes_have_the_tint_of_a_direction(void **state) {
         if (!(weft_lobe_info(id)->traits & TRAIT_TINTED) || !asked(id)) continue;
         Lobe lobe = lobe_rough(id, 0.7f);
         fit_one(&table, id, 0.7f);
+        fill_own(&albedo, &lobe);
         SeenStack m = tabled(lobe, direction(0.3, 0.2), &albedo);
         m.stack.sheen.f0 = rgb_grey(grey);
         for (int k = 0; k < 6; k++) {
