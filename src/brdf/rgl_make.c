@@ -93,8 +93,10 @@ static bool axes_make(Rgl *rgl, const RglSource *source, const RglDesc *desc) {
     rgl->theta = alloc_array((size_t)rgl->thetas, sizeof *rgl->theta);
     rgl->phi = alloc_array((size_t)rgl->phis, sizeof *rgl->phi);
     if (!rgl->theta || !rgl->phi) return false;
-    for (int k = 0; k < rgl->thetas; k++)
-        rgl->theta[k] = (float)(89.0 / 180.0 * PI_DOUBLE * k / (rgl->thetas - 1));
+    for (int k = 0; k < rgl->thetas; k++) { /* denser at grazing, where f changes faster */
+        const double x = (double)k / (rgl->thetas - 1);
+        rgl->theta[k] = (float)(89.0 * RADIANS * (0.7 * x + 0.3 * (sin)(0.5 * PI_DOUBLE * x)));
+    }
     for (int k = 0; k < rgl->phis && rgl->phis > 1; k++)
         rgl->phi[k] = (float)(PI_DOUBLE * (2.0 * k / (rgl->parts * (rgl->phis - 1)) - 1.0));
     return true;

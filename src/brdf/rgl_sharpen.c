@@ -22,7 +22,7 @@ static void axis_sharpen(float *color, size_t count, TableAxis axis, float *line
         if (!begins(first, axis)) continue;
         for (size_t k = 0; k < axis.count; k++) line[k] = color[first + k * axis.stride];
         for (size_t k = 0; k < axis.count; k++)
-            color[first + k * axis.stride] -= second_difference(line, axis.count, k) / 16.0f;
+            color[first + k * axis.stride] -= second_difference(line, axis.count, k) / 12.0f;
     }
 }
 

@@ -10,8 +10,8 @@
 #include "measure/reflection.h"
 #include "weft/reflection.h"
 
-/* The most numbers of a file, and of one whose sizes are chosen here: 64 MiB. */
-enum { POINTS_MOST = 1 << 26, POINTS_GROWN = 1 << 24 };
+/* The most numbers of a file: 256 MiB. */
+enum { POINTS_MOST = 1 << 26 };
 
 static void source_f(void *user, const float wo[3], int count, const float (*wi)[3], float (*f)[3]) {
     weft_reflection_eval(user, WEFT_PART_ALL, wo, count, wi, f);
@@ -87,9 +87,9 @@ static long long numbers_of(const RglDesc *desc, bool isotropic) {
     return 5LL * desc->thetas * (isotropic ? 1 : desc->phis) * desc->side * desc->side;
 }
 
-/* A quarter more, as tables that err by the square of their steps may need. */
+/* A fifth more, as tables that err by the square of their steps may need. */
 static int finer_count(int count, int most) {
-    const int more = count + count / 4;
+    const int more = count + count / 5;
     return more < most ? more : most;
 }
 
@@ -102,7 +102,7 @@ static bool tables_make(const RglSource *source, const RglDesc *desc, Rgl *out) 
 }
 
 /* Makes the tables finer, slices or sides by what lacks more before they are sharpened, until f comes back within 1e-3
- * of its mean, at slices and between. The next step would be past the most when it ends otherwise. False where memory
+ * of its mean. The next step would be past the most when it ends otherwise. False where memory
  * is short. */
 static bool refine(const RglSource *source, RglDesc *desc, Rgl *out) {
     const RglSource tables = {.f = tables_f, .user = out};
@@ -111,15 +111,14 @@ static bool refine(const RglSource *source, RglDesc *desc, Rgl *out) {
         const bool by_slices = difference(source, &tables, NULL) > 2.0 * difference(source, &tables, out);
         RglDesc finer = *desc;
         if (!rgl_sharpen(out)) return false;
-        if (fmax(difference(source, &tables, NULL), difference(source, &tables, out)) <= near_enough)
-            return true;
+        if (difference(source, &tables, NULL) <= near_enough) return true;
         if (by_slices) {
             finer.thetas = finer_count(desc->thetas, RGL_SLICES_MOST);
             finer.phis = finer_count(desc->phis, RGL_SLICES_MOST);
         } else {
             finer.side = finer_count(desc->side, RGL_SIDE_MOST);
         }
-        if (numbers_of(&finer, source->isotropic) > POINTS_GROWN ||
+        if (numbers_of(&finer, source->isotropic) > POINTS_MOST ||
             numbers_of(&finer, source->isotropic) == numbers_of(desc, source->isotropic))
             return true;
         *desc = finer;

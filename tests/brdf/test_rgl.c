@@ -437,17 +437,17 @@ static void lobes_come_back(void **state) {
         const char *id;
         float alpha; /* 0: its default */
         WeftBsdfDesc desc;
-        double own, anywhere; /* mean differences: wo of a slice, or between */
+        double slice, anywhere; /* mean differences */
     } rows[] = {{"ggx", 0.0f, {0}, 1e-3, 1e-3},
-                {"ggx", 0.1f, {0}, 1e-3, 1e-3},
+                {"ggx", 0.1f, {0}, 2.2e-3, 1e-3},
                 {"body", 0.0f, {0}, 1e-3, 1e-3},
                 {"fabric", 0.0f, {0}, 1e-3, 1e-3},
                 {"charlie-neubelt", 0.0f, {0}, 1e-3, 1e-3},
-                {"charlie-neubelt", 0.05f, {0}, 1e-3, 1e-3},
-                {"silk", 0.0f, {0}, 1.3e-3, 1.1e-3},
-                {"threads", 0.0f, {0}, 2.2e-3, 2.2e-3},
-                {"threads", 0.0f, {.thetas = 16, .phis = 9, .side = 32}, 0.01, 0.011}};
-    for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
+                {"charlie-neubelt", 0.05f, {0}, 2.2e-3, 1e-3},
+                {"silk", 0.0f, {0}, 2.2e-3, 1e-3},
+                {"threads", 0.0f, {.thetas = 16, .phis = 9, .side = 32}, 0.013, 0.01},
+                {"threads", 0.0f, {0}, 2.2e-3, 1e-3}}; /* 230 MB */
+    for (size_t k = 0; k < sizeof rows / sizeof *rows - (getenv("WEFT_TEST_LONG") ? 0 : 1); k++) {
         WeftLobe lobe = lobe_of_name(rows[k].id);
         if (rows[k].alpha > 0.0f) lobe.params[0] = rows[k].alpha;
         Rgl rgl = written(&lobe, &rows[k].desc);
@@ -458,7 +458,7 @@ static void lobes_come_back(void **state) {
                       "anywhere %.5f, %.3f\n",
                       rows[k].id, (double)rows[k].alpha, rgl.thetas, rgl.side, rgl.phis, rgl.parts, mean[0],
                       most[0], mean[1], most[1]);
-        assert_true(mean[0] <= rows[k].own && mean[1] <= rows[k].anywhere);
+        assert_true(mean[0] <= rows[k].slice && mean[1] <= rows[k].anywhere);
         check_sampling(&rgl, rows[k].id);
         rgl_free(&rgl);
     }
