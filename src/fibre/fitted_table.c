@@ -9,11 +9,11 @@
 #include "shading/fibre_model.h"
 
 /* Cosines and angles of a slab; slabs in a row of the table and in the middles between rows. */
-enum { PARTS = 4, RINGS = 40, SPOKES = 5, CORNERS = 4 };
+enum { PARTS = 4, RINGS = 56, SPOKES = 5, CORNERS = 4 };
 
 /* The base of M and its power, as shading/lobes/fibre_table.h has them. */
 static double base_of(double alpha, double sum) { return sum + 0.2 * alpha; }
-static double power_of(double alpha) { return 1.4 - 2.2 * log(alpha) / log(2.0); }
+static double power_of(double alpha) { return 1.4 - 2.5 * log(alpha) / log(2.0); }
 
 /* Added to a cosine, whose root then gives its place among the columns. */
 static const double horizon = 1e-3;
@@ -121,7 +121,7 @@ static bool fit(const FibreTableDesc *desc, const SolvedSet *set, float *texels,
     if (done) {
         place(set, desc, all);
         start(desc, found);
-        done = fit_run(&form, set, (FitEffort){desc->rounds, 5.0, 0.4, 0.0, 0.0}, desc->threads,
+        done = fit_run(&form, set, (FitEffort){desc->rounds, 5.0, 0.4, 60.0, 0.0}, desc->threads,
                        desc->progress, desc->user, found);
     }
     for (int k = 0; done && k < count; k++) found[k] = (double)(texels[k] = half_near(found[k]));

@@ -1,15 +1,15 @@
-/* fibre-table - velvet, felt and fuzz as fibre has them, upright, its functions read from a table of 2 KB
+/* fibre-table - velvet, felt and fuzz as fibre has them, upright, its functions read from a table of 3 KB
  *
  *   f = f1 + M,  f1 = D(h) / 4 (1 - exp(-L / (mu_i mu_o))) / L                                   [1/sr]
  *   M = 2^(A_o + A_i + h_o h_i - g_o g_i - k_o k_i (wo . wi - mu_o mu_i)) (mu_o + mu_i + alpha / 5)^-p
- *   p = 1.4 - 2.2 log2 alpha;  D and L: those of fibre
+ *   p = 1.4 - 2.5 log2 alpha;  D and L: those of fibre
  *
  *   The slab of Tizian Zeltner, Brent Burley, Matt Jen-Yuan Chiang, "Practical Multiple-Scattering Sheen
  * Using Linearly Transformed Cosines", SIGGRAPH Talks 2022. Departures: A, h, g and k, one texel for each
  * direction, are fitted to its solution as they are mixed between the nodes; fibres stand upright, and their
  * density is 1.
  *   The text below reads the table texel by texel, in 32 bits; an engine binds it as one filtered texture of
- * four half floats, at (15 / 16 x + 1 / 32, 15 / 16 y + 1 / 32) for 16 by 16 texels.
+ * four half floats, at (23 / 24 x + 1 / 48, 15 / 16 y + 1 / 32) for 24 by 16 texels.
  *   color: a factor; that of fibre is not.
  *   roughness: alpha = roughness^2.
  *   reciprocal: yes.
@@ -108,7 +108,7 @@ STRUCT(FibreTablePrepared) {
 FN void fibre_table_prepare(FibreTable m, FibreTablePrepared *p) {
     p->nap = fibre_nap_of(m.alpha, 0.0f, 0.0f);
     p->flake = flake_upright(m.alpha * m.alpha, 1.0f);
-    p->power = 1.4f - 2.2f * log2(m.alpha);
+    p->power = 1.4f - 2.5f * log2(m.alpha);
 }
 
 STRUCT(FibreTableView) {
