@@ -11,7 +11,7 @@
  * leaves *out zeroed. */
 typedef WeftResult BakeMaker(const WeftBakeDesc *desc, WeftBakeInfo *info, WeftImage *out, WeftError *error);
 BakeMaker bake_albedo, bake_dfg, bake_solved, bake_ltc, bake_ltc_amplitude, bake_ltc_level, bake_fibre_table,
-    bake_talk;
+    bake_ltc_published;
 
 /* K(id, maker, lobe, formed, width, height, help): the columns of a WeftBakeKind. */
 #define BAKE_KINDS(K)                                                                                        \
@@ -22,7 +22,8 @@ BakeMaker bake_albedo, bake_dfg, bake_solved, bake_ltc, bake_ltc_amplitude, bake
       "their amplitudes of both colours, and each fit's error")                                              \
     K("ltc-level", bake_ltc_level, 2, 0, 32, 32, "the same with r = 0, in one texel: z, q, b, E of LOBE")    \
     K("fibre-table", bake_fibre_table, 0, 0, 24, 16, "the functions of the lobe fibre-table: A, h, g, k")    \
-    K("ltc-fibre-published", bake_talk, 0, 0, 32, 32, "the table of the lobe ltc-fibre-published: a, b, R")  \
+    K("ltc-fibre-published", bake_ltc_published, 0, 0, 32, 32,                                               \
+      "the table of the lobe ltc-fibre-published: a, b, R")                                                  \
     K("fibre-truth", bake_solved, 1, 1, 32, 32,                                                              \
       "R and T of the solved slab of fibres; -p density of LOBE fibre")
 

@@ -7,7 +7,7 @@
  * in both, as in the authors' program. They are of white flakes around upright fibres, density 1, with walks
  * that end at the 16th flake (docs/fibre.md, section 3): at low alpha the horizon is darker than fibres are,
  * which ltc-fibre has right.
- *   Departures: the numbers are made anew by weft's own walk and fit (fibre/talk.h), so they have noise of
+ *   Departures: the numbers are made anew by weft's own walk and fit (fibre/truncated_walk.h), so they have noise of
  * their own. Where light is too faint for a shape the authors have a = b = 0 and so no light; here the shape
  * is that of the next rougher row. At normal incidence b is 0; theirs is noise below .003. Theirs has alpha
  * down to 0.

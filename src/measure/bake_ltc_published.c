@@ -1,4 +1,4 @@
-/* bake_talk.c - kind "ltc-fibre-published": the table of the lobe of that name (fibre/talk.h)
+/* bake_ltc_published.c - kind "ltc-fibre-published": the table of the lobe of that name (fibre/truncated_walk.h)
  *
  * Columns are uniform in cos_o and rows in alpha, both from 0 to 1, of which 0.01 is the least. A texel is
  *
@@ -18,7 +18,7 @@
 #include "base/fail.h"
 #include "base/pi.h"
 #include "base/thread.h"
-#include "fibre/talk.h"
+#include "fibre/truncated_walk.h"
 #include "measure/bake_texels.h"
 
 /* Fewer walks that come up than `SEEN_LEAST` have no shape: the next row's is taken. */
@@ -40,11 +40,11 @@ static double transformed(double a, double b, double theta, double phi) {
 }
 
 static double cubes(unsigned n, const double *at, double *gradient, void *user) {
-    const TalkSlab *slab = user;
+    const TruncatedSlab *slab = user;
     double sum = 0.0;
-    for (int row = 0; row < TALK_SIDE; row++)
-        for (int c = 0; c < TALK_SIDE; c++) {
-            double d = transformed(at[0], at[1], talk_theta(row), talk_phi(c));
+    for (int row = 0; row < TRUNCATED_SIDE; row++)
+        for (int c = 0; c < TRUNCATED_SIDE; c++) {
+            double d = transformed(at[0], at[1], truncated_theta(row), truncated_phi(c));
             double off = fabs(slab->reflected * d - slab->f[row][c]);
             sum += off * off * off;
         }
@@ -52,7 +52,7 @@ static double cubes(unsigned n, const double *at, double *gradient, void *user) 
 }
 
 /* Starts where `at` is; false for want of memory. */
-static bool fit(const TalkSlab *slab, double at[2]) {
+static bool fit(const TruncatedSlab *slab, double at[2]) {
     static const double low[] = {1e-3, -2.0}, high[] = {4.0, 2.0}, step[] = {0.1, 0.05};
     nlopt_opt method = nlopt_create(NLOPT_LN_NELDERMEAD, 2);
     if (!method) return false;
@@ -77,8 +77,8 @@ static void column(void *user, int x, int thread) {
     double at[2] = {1.0, 0.0};
     for (int row = desc->height - 1;
          row >= 0 && !atomic_load(&table->stopped) && !atomic_load(&table->unfitted); row--) {
-        TalkSlab slab;
-        talk_walk(along(row, desc->height), along(x, desc->width), WALKS, &slab);
+        TruncatedSlab slab;
+        truncated_walk(along(row, desc->height), along(x, desc->width), WALKS, &slab);
         if (slab.seen >= SEEN_LEAST && !fit(&slab, at)) atomic_store(&table->unfitted, true);
         if (x == desc->width - 1) at[1] = 0.0;
         float *texel = table->texels + CHANNELS * (row * desc->width + x);
@@ -90,7 +90,8 @@ static void column(void *user, int x, int thread) {
     }
 }
 
-WeftResult bake_talk(const WeftBakeDesc *desc, WeftBakeInfo *info, WeftImage *out, WeftError *error) {
+WeftResult bake_ltc_published(const WeftBakeDesc *desc, WeftBakeInfo *info, WeftImage *out,
+                              WeftError *error) {
     if (desc->width < 2 || desc->height < 2)
         return fail(error, WEFT_MESSAGE_DESC, "size", "%d x %d; it has at least 2 nodes a side", desc->width,
                     desc->height);
