@@ -70,10 +70,14 @@ FN Dir frame_visible_normal(Dir n, Dir wo) {
     return dir_scale(m, 1.0f / sqrt(dir_dot(m, m)));
 }
 
+/* The interpolated normal, or the geometric one where that is damaged. */
+FN Dir facing_normal(Facing at) {
+    return dir_choose(dir_dot(at.normal, at.geometric) > 0.0f, at.normal, at.geometric);
+}
+
 /* The frame of a surface seen along wo, x along the direction of its anisotropy if it has one. */
 FN Frame frame_of(Facing at, Surface s, Dir wo) {
-    bool sound = dir_dot(at.normal, at.geometric) > 0.0f; /* else damaged */
-    Dir normal = dir_choose(sound, at.normal, at.geometric), n = normal;
+    Dir normal = facing_normal(at), n = normal;
     if (s.normal.z < 1.0f)
         n = frame_bent(frame_from(frame_about(normal, at.tangent, at.handedness), s.normal), at.geometric,
                        wo);

@@ -103,6 +103,9 @@ void main() {
     Surface s = material_surface();
     float opacity = coverage_of(s.opacity);
     Frame f = frame_of(at, s, wo);
+#ifdef AMBIENT
+    smooth_normal = facing_normal(at);
+#endif
 #ifdef PROPERTY
     fragment = vec4(PROPERTY * opacity, opacity);
 #else

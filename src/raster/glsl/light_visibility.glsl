@@ -11,13 +11,22 @@ in highp vec4 vertex_lights_1;
 /* Visible fraction of the sky by the occlusion texture, which has the material's own bumps. */
 float texture_occlusion = 1.0;
 
+/* The normal that a material's map leaves as it is, on the viewer's side. */
+Dir smooth_normal;
+
 vec4 fragment_open() { return gl_FrontFacing ? vertex_open_front : vertex_open_back; }
+
+/* The part of light about d that comes from above the smooth surface, and not only from above a shading normal that is bent
+ * away from it: as at a silhouette, whose smooth normal the eye does not see. blur: how far about d it comes from. */
+float above_smooth(Frame f, Dir d, float blur) {
+    return clamp((dir_dot(d, smooth_normal) + blur) / (max(dir_dot(d, f.z), 0.0) + blur), 0.0, 1.0);
+}
 
 float ambient_sky_visibility(Frame f, Dir w, float cos_i, float occlusion) {
     vec4 c = fragment_open();
     Dir d = frame_from(f, w);
     float seen = clamp(c.x + c.y * d.x + c.z * d.y + c.w * d.z, 0.0, 1.0);
-    return min(seen, occlusion_cone(texture_occlusion, cos_i));
+    return min(seen * above_smooth(f, d, 0.02), occlusion_cone(texture_occlusion, cos_i));
 }
 
 /* A Gaussian of variance 1 / kappa times V = open + c . x has its mean at c / (kappa open); cut off where V
@@ -34,5 +43,7 @@ float env_light_seen(int k) { return k < 0 ? -1.0 : k < 4 ? vertex_lights_0[k] :
 
 float ambient_light_visibility(Frame f, int k, float occlusion) {
     float seen = env_light_seen(k);
-    return seen < -0.5 ? occlusion : clamp(seen, 0.0, 1.0) * texture_occlusion;
+    vec3 d = environment_world(environment_lights[2 * k].xyz);
+    float above = above_smooth(f, dir(d.x, d.y, d.z), 0.045);
+    return seen < -0.5 ? occlusion : clamp(seen, 0.0, 1.0) * texture_occlusion * above;
 }
