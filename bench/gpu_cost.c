@@ -336,7 +336,7 @@ static const struct {
      ANGLES "    float l = log2(u[6]), y = 0.391289 * l + 0.96875;\n"
             "    f = flake_single_upright(flake_upright(u[6] * u[6], 1.0), a.o, a.i);\n"
             "    f += fibre_table_multiple(read_side(a.o.z, y), read_side(a.i.z, y), a.o, a.i,\n"
-            "                              u[6], 1.4 - 2.2 * l);\n"},
+            "                              u[6], 1.4 - 2.5 * l);\n"},
     {"fibre, fixed material", 6, ANGLES UPRIGHT SINGLE MULTIPLE("fibre_side(m, n, a.o.z, a.o.z)")},
     {"fibre, fixed material, view side kept", 10,
      ANGLES UPRIGHT SINGLE
@@ -364,7 +364,7 @@ static Cost fibre_cost(Gpu *gpu, size_t row, bool loaded) {
                      "FibreSide side_of(float mu, vec4 t) {\n"
                      "    return FibreSide(mu, mu, t.x, t.y, t.z, t.w, 0.0, 0.0, 0.0, 0.0);\n}\n\n"
                      "FibreTableSide read_side(float mu, float y) {\n"
-                     "    float x = sqrt(mu + 1e-3) * 0.967615 + 6.51327e-4;\n"
+                     "    float x = sqrt(mu + 1e-3) * 0.989118 - 0.01044531;\n"
                      "    vec4 t = textureLod(weft_tables, vec3(x, y, 0.0), 0.0);\n"
                      "    return FibreTableSide(t.x, t.y, t.z, t.w);\n}");
     return cost_added(gpu, &text, fibre_rows[row].inputs, loaded, fibre_rows[row].lines);

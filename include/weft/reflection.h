@@ -52,7 +52,7 @@ WEFT_API WeftResult weft_reflection_read(const char *path, WeftReflection **out,
 WEFT_API int weft_reflection_readable(const char *name);
 
 /* The sizes of the tables of weft_reflection_write. With none given they grow until f comes back within 1e-3
- * of its mean (weft_reflection_distance), or the file would pass 256 MiB. */
+ * of its mean (weft_reflection_distance), or the next ones would pass 256 MiB or the sizes below. */
 typedef struct WeftBsdfDesc {
     int thetas; /* polar angles of wo, 2 .. 256; 0 beside another: 32 */
     int phis;   /* azimuths of wo, 3 .. 256, where f depends on that, over the part of the circle that is not

@@ -24,9 +24,9 @@ enum { RGL_SIDE_MOST = 512, RGL_SLICES_MOST = 256 };
  * short; release with rgl_free in any case. */
 bool rgl_make(const RglSource *source, const RglDesc *desc, Rgl *out);
 
-/* Takes a twelfth of its second difference from every number of R, along each of its four axes. Linear interpolation of a
- * function that is quadratic between nodes is off by x (1 - x) / 2 of that difference, at x from one node to the next: a
- * twelfth in the mean. So what is left of four axes adds up to nothing in the mean. False where memory is short. */
+/* Takes h^2 f'' / 12 from every number of R, along each of its four axes, h the step from node to node. Linear interpolation
+ * of a function that is quadratic between nodes is off by h^2 f'' x (1 - x) / 2, at x from one node to the next, and so by a
+ * twelfth in the mean. What is left cancels in the mean, over each axis. False where memory is short. */
 bool rgl_sharpen(Rgl *rgl);
 
 #endif

@@ -3,8 +3,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/memory.h"
 #include "base/matrix.h"
+#include "base/memory.h"
 
 /* Inside, a kernel has sqrt(c) of the nodes multiplied into its rows and columns, 1 for passengers: then the
  * product over the quadrature, A diag(c) B, is a plain one over the first `nodes` columns of A and rows of B.

@@ -4,9 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/matrix.h"
 #include "base/memory.h"
 #include "base/thread.h"
-#include "base/matrix.h"
 
 /* One pass over the slabs: cost, and with slopes its quadratic model. Every slab has its own place, and
  * places are summed in order, so that threads change nothing. */

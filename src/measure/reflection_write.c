@@ -5,13 +5,14 @@
 #include "base/fail.h"
 #include "base/file.h"
 #include "base/pi.h"
+#include "brdf/measured.h"
 #include "brdf/rgl_make.h"
 #include "measure/halton.h"
 #include "measure/reflection.h"
 #include "weft/reflection.h"
 
-/* The most numbers of a file: 256 MiB. */
-enum { POINTS_MOST = 1 << 26 };
+/* The most numbers of a file: with D, sigma and the axes it stays within MEASURED_MOST, beyond which it is not read. */
+enum { POINTS_MOST = MEASURED_MOST / 4 - (1 << 18) };
 
 static void source_f(void *user, const float wo[3], int count, const float (*wi)[3], float (*f)[3]) {
     weft_reflection_eval(user, WEFT_PART_ALL, wo, count, wi, f);
@@ -53,6 +54,12 @@ static void tables_f(void *user, const float wo[3], int count, const float (*wi)
         rgl_at(user, dir(wo[0], wo[1], wo[2]), dir(wi[k][0], wi[k][1], wi[k][2]), f[k]);
 }
 
+static float nearest_slice(const Rgl *slices, float theta) {
+    int k = 0;
+    while (k + 1 < slices->thetas && slices->theta[k] + slices->theta[k + 1] < 2.0f * theta) k++;
+    return slices->theta[k];
+}
+
 /* The mean difference of f over the mean of a's f, of pairs up to 80 degrees; wo at slices of the tables, where these
  * are given. */
 static double difference(const RglSource *a, const RglSource *b, const Rgl *slices) {
@@ -62,7 +69,7 @@ static double difference(const RglSource *a, const RglSource *b, const Rgl *slic
         float u = (float)halton(n, 2), v = (float)halton(n, 3), theta = 80.0f * (float)RADIANS * u,
               phi = PI_FLOAT * (2.0f * v - 1.0f);
         if (slices) {
-            theta = slices->theta[(int)(u * 0.89f * (float)slices->thetas)];
+            theta = nearest_slice(slices, theta);
             phi = slices->phi[(int)(v * (float)slices->phis)];
         }
         const float z = 0.1737f + 0.8263f * (float)halton(n, 5), r = sqrtf(1.0f - z * z),

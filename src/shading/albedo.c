@@ -41,6 +41,7 @@ static QuadratureRule rule_make(double step) {
 typedef struct Integrand {
     const Lobe *lobe;
     const float *color; /* three channels; NULL: two parts */
+    int rough;          /* 1: begins with a longer step, for what is only compared */
 } Integrand;
 
 typedef struct Sum {
@@ -151,9 +152,8 @@ static void zone_halve(const Integrand *integrand, Dir wo, Zone *zone, Rules *ru
 }
 
 /* Cuts the hemisphere at the cosines of wi where f bends. Between them f is smooth but for the mirror
- * angle, and a longer step will do; so it will for a hundredth. Returns the number of zones. */
-static int zones_make(const Integrand *integrand, Dir wo, double tolerance, Zone zones[LOBE_CREASES_MOST + 1],
-                      Rules *rules) {
+ * angle, and a longer step will do. Returns the number of zones. */
+static int zones_make(const Integrand *integrand, Dir wo, Zone zones[LOBE_CREASES_MOST + 1], Rules *rules) {
     float creases[LOBE_CREASES_MOST];
     const int count = lobe_creases(integrand->lobe, wo.z, creases) + 1;
     const double mirror = atan2((double)wo.z, hypot((double)wo.x, (double)wo.y));
@@ -161,7 +161,7 @@ static int zones_make(const Integrand *integrand, Dir wo, double tolerance, Zone
         zones[k] = (Zone){.low = k > 0 ? zones[k - 1].high : 0.0,
                           .high = k + 1 < count ? asin((double)creases[k]) : 0.5 * PI_DOUBLE,
                           .mirror = mirror,
-                          .halvings = (count > 1 ? 1 : 2) - (tolerance >= 1e-2)};
+                          .halvings = (count > 1 ? 1 : 2) - integrand->rough};
         zone_take(integrand, wo, &zones[k], rules);
         zone_halve(integrand, wo, &zones[k], rules);
     }
@@ -174,7 +174,7 @@ static Sum quadrature(const Integrand *integrand, Dir wo, double tolerance, doub
     Zone zones[LOBE_CREASES_MOST + 1], *worst;
     Rules rules;
     for (int k = 0; k <= HALVINGS_MOST; k++) rules.at[k].count = 0;
-    const int count = zones_make(integrand, wo, tolerance, zones, &rules);
+    const int count = zones_make(integrand, wo, zones, &rules);
     Sum sum;
     do {
         worst = NULL;
@@ -197,7 +197,7 @@ Albedo albedo_quadrature_error(const Lobe *lobe, Dir wo, double tolerance, doubl
         *error = tolerance; /* walks have no step to halve; their number follows from the tolerance */
         return (Albedo){lobe_walked_albedo(lobe, wo, (int)(4.0 / tolerance)), 0.0f};
     }
-    Sum e = quadrature(&(Integrand){lobe, NULL}, wo, tolerance, error);
+    Sum e = quadrature(&(Integrand){.lobe = lobe}, wo, tolerance, error);
     return (Albedo){(float)e.part[0], (float)e.part[1]};
 }
 
@@ -214,7 +214,7 @@ bool albedo_asks_color(const Lobe *lobe) {
 
 void albedo_in_color(const Lobe *lobe, Dir wo, const float w[3], double tolerance, float e[3]) {
     double error;
-    Sum sum = quadrature(&(Integrand){lobe, w}, wo, tolerance, &error);
+    Sum sum = quadrature(&(Integrand){.lobe = lobe, .color = w}, wo, tolerance, &error);
     for (int c = 0; c < 3; c++) e[c] = (float)sum.part[c];
 }
 
@@ -283,8 +283,10 @@ Dir albedo_brightest(const Lobe *lobe, float cos_o) {
     for (int k = 0; lobe_turns(lobe) && k < AZIMUTHS; k++) {
         float azimuth = PI * (float)k / AZIMUTHS + (own > 0 ? lobe->params[own] : 0.0f);
         Dir wo = dir(s * cos(azimuth), s * sin(azimuth), cos_o);
-        Albedo e = albedo_quadrature(lobe, wo, 1e-2);
-        if (e.f0 + e.f90 > most) most = e.f0 + e.f90, best = wo;
+        double error;
+        Sum sum = quadrature(&(Integrand){.lobe = lobe, .rough = 1}, wo, 1e-2, &error);
+        float e = (float)(sum.part[0] + sum.part[1]);
+        if (e > most) most = e, best = wo;
     }
     return best;
 }

@@ -1,4 +1,4 @@
-/* arrays.c - the same text over arrays: one loop per lobe and question, the widest instructions chosen at
+/* arrays.c - the same text over arrays: one loop per lobe for f, f and share, and pdf, the widest instructions chosen at
  * start-up */
 #include "shading/loop.h"
 #include "shading/registry.h"

@@ -10,9 +10,9 @@
 
 #include <cmocka.h>
 
+#include "base/matrix.h"
 #include "base/pi.h"
 #include "base/random.h"
-#include "base/matrix.h"
 #include "fibre/solver_reference.h"
 #include "fibre/walk.h"
 #include "shading/albedo.h"
