@@ -226,7 +226,7 @@ static void descend(WeaveWalker *self, WeavePlace *place, int steps) {
             damp = fmax(damp * 0.1, 1e-9);
             break;
         }
-        if (!(place->cost < before * (1.0 - 1e-5))) break; /* else the columns are of `place`, which cost_at met last */
+        if (!(place->cost < before * (1.0 - 1e-5))) break; /* else the columns are of this place, met last */
     }
 }
 
