@@ -109,8 +109,7 @@ static bool tables_make(const RglSource *source, const RglDesc *desc, Rgl *out) 
 }
 
 /* Makes the tables finer, slices or sides by what lacks more before they are sharpened, until f comes back within 1e-3
- * of its mean. The next step would be past the most when it ends otherwise. False where memory
- * is short. */
+ * of its mean. The next step would be past the most when it ends otherwise. False where memory is short. */
 static bool refine(const RglSource *source, RglDesc *desc, Rgl *out) {
     const RglSource tables = {.f = tables_f, .user = out};
     for (;;) {

@@ -63,37 +63,31 @@ FN bool pair_counts(Dir o, Dir i) {
 #define EACH(k, n) _Pragma("GCC ivdep") for (size_t k = 0; k < n; k++)
 #endif
 
+/* The body of a loop over pairs of a lobe: what to do with the value v of pair k, which counts or does not. */
+#define EACH_VALUE(name, Name, ...)                                                                          \
+    Name##Prepared p;                                                                                        \
+    name##_prepare(name##_of(m), &p);                                                                        \
+    EACH(k, n) {                                                                                             \
+        TAKE_PAIR(o, i, counts);                                                                             \
+        Angles a = angles_between(o, i);                                                                     \
+        Name##View w;                                                                                        \
+        name##_view(&p, o, &w);                                                                              \
+        LobeValue v = name##_value(&p, &w, a);                                                               \
+        __VA_ARGS__;                                                                                         \
+    }
+
 /* One member of a lobe's value: f or pdf. */
 #define LOBE_LOOP(question, name, Name)                                                                      \
     LOOP(name##_##question##_n, (const Lobe *m, size_t n, PAIRS, float *restrict question),                  \
          (m, n, PAIR_NAMES, question)) {                                                                     \
-        Name##Prepared p;                                                                                    \
-        name##_prepare(name##_of(m), &p);                                                                    \
-        EACH(k, n) {                                                                                         \
-            TAKE_PAIR(o, i, counts);                                                                         \
-            Angles a = angles_between(o, i);                                                                 \
-            Name##View w;                                                                                    \
-            name##_view(&p, o, &w);                                                                          \
-            float question##_k = name##_value(&p, &w, a).question;                                           \
-            question[k] = counts ? question##_k : 0.0f;                                                      \
-        }                                                                                                    \
+        EACH_VALUE(name, Name, question[k] = counts ? v.question : 0.0f)                                     \
     }
 
 /* f and s of a lobe of two colours. */
 #define SHARES_LOOP(name, Name)                                                                              \
     LOOP(name##_shares_n, (const Lobe *m, size_t n, PAIRS, float *restrict f, float *restrict s),            \
          (m, n, PAIR_NAMES, f, s)) {                                                                         \
-        Name##Prepared p;                                                                                    \
-        name##_prepare(name##_of(m), &p);                                                                    \
-        EACH(k, n) {                                                                                         \
-            TAKE_PAIR(o, i, counts);                                                                         \
-            Angles a = angles_between(o, i);                                                                 \
-            Name##View w;                                                                                    \
-            name##_view(&p, o, &w);                                                                          \
-            LobeValue v = name##_value(&p, &w, a);                                                           \
-            f[k] = counts ? v.f : 0.0f;                                                                      \
-            s[k] = counts ? v.s : 0.0f;                                                                      \
-        }                                                                                                    \
+        EACH_VALUE(name, Name, f[k] = counts ? v.f : 0.0f; s[k] = counts ? v.s : 0.0f)                       \
     }
 
 /* f of a tinted lobe in three channels, made of what has albedo c. */
@@ -102,20 +96,9 @@ FN bool pair_counts(Dir o, Dir i) {
          (const Lobe *m, const float c[3], size_t n, PAIRS, float *restrict r, float *restrict g,            \
           float *restrict b),                                                                                \
          (m, c, n, PAIR_NAMES, r, g, b)) {                                                                   \
-        Name##Prepared p;                                                                                    \
-        name##_prepare(name##_of(m), &p);                                                                    \
         float c_r = c[0], c_g = c[1], c_b = c[2];                                                            \
-        EACH(k, n) {                                                                                         \
-            TAKE_PAIR(o, i, counts);                                                                         \
-            Angles a = angles_between(o, i);                                                                 \
-            Name##View w;                                                                                    \
-            name##_view(&p, o, &w);                                                                          \
-            LobeValue v = name##_value(&p, &w, a);                                                           \
-            float f = counts ? v.f : 0.0f;                                                                   \
-            r[k] = f * tint_color(v.tint, c_r);                                                              \
-            g[k] = f * tint_color(v.tint, c_g);                                                              \
-            b[k] = f * tint_color(v.tint, c_b);                                                              \
-        }                                                                                                    \
+        EACH_VALUE(name, Name, float f = counts ? v.f : 0.0f; r[k] = f * tint_color(v.tint, c_r);            \
+                   g[k] = f * tint_color(v.tint, c_g); b[k] = f * tint_color(v.tint, c_b))                   \
     }
 
 #endif

@@ -203,34 +203,6 @@ static void albedo_of_a_creased_table_is_integrated(void **state) {
     assert_true(worst < 1e-5);
 }
 
-/* A table that knows no heading is not below the E of any by more than a hundredth, or layer rules would return more than
- * arrives. */
-static void table_of_a_brushed_lobe_bounds_albedo(void **state) {
-    (void)state;
-    enum { AZIMUTHS = 12 };
-    static AlbedoTable table;
-    for (int id = 0; id < LOBE_COUNT; id++) {
-        Lobe lobe = sheen_lobe(id, 0.5f);
-        if (case_walks(id) || !lobe_turns(&lobe)) continue;
-        fill_albedo(&table, id);
-        double most = 0.0;
-        for (int n = 0; n < (test_short() ? 2 : 8); n++) {
-            const float alpha = table.low + (table.high - table.low) * (float)(n % 3) / 3.0f;
-            const double cosine = 0.05 + 0.12 * n;
-            lobe = table.lobe;
-            if (weft_lobe_info(id)->param_count) lobe_set(&lobe, 0, alpha);
-            const double bound = (double)table_albedo(albedo_table_ref(&table), (float)cosine, alpha);
-            for (int k = 0; k < AZIMUTHS; k++) {
-                Albedo e =
-                    albedo_quadrature(&lobe, direction_cos(cosine, 2.0 * PI_DOUBLE * k / AZIMUTHS), 1e-3);
-                most = fmax(most, (double)(e.f0 + e.f90) - bound);
-            }
-        }
-        print_message("%s: E at most %.4f above its table\n", weft_lobe_info(id)->id, most);
-        assert_true(most <= 0.01);
-    }
-}
-
 static void albedo_table_between_nodes_is_close(void **state) {
     (void)state;
     static AlbedoTable table;
@@ -267,8 +239,19 @@ static void albedo_table_between_nodes_is_close(void **state) {
     }
 }
 
+/* The most by which a table is below E of a lobe, over azimuths and cosines. */
+static float most_below(const AlbedoTable *table, const Lobe *lobe) {
+    float below = 0.0f;
+    for (int n = 0; n < 5 * 9; n++) {
+        Dir o = direction_cos(0.05 + 0.2 * (n % 5), 0.35 * (n / 5));
+        Albedo e = albedo_quadrature(lobe, o, 1e-4);
+        below = max(below, e.f0 + e.f90 - table_albedo(albedo_table_ref(table), o.z, lobe->params[0]));
+    }
+    return below;
+}
+
 /* A brushed lobe's table is not below E of any azimuth by more than a hair, else layer rules would give light away:
- * for yarns that run along x, as those of a sheen do, it would be by .08. */
+ * for yarns that run along x, as those of a sheen do, it would be by .08. Nor is one for a range of widths. */
 static void albedo_table_of_a_brushed_lobe_is_a_bound(void **state) {
     (void)state;
     static AlbedoTable table;
@@ -277,12 +260,16 @@ static void albedo_table_of_a_brushed_lobe_is_a_bound(void **state) {
         const int id = k / 2;
         Lobe lobe = lobe_fibres(lobe_default(id), 1.0f, 0.0f, k % 2 ? 0.39f : 0.0f); /* azimuth */
         if (case_walks(id) || !lobe_turns(&lobe)) continue;
-        float below = 0.0f;
         albedo_table_fill(&table, &lobe, lobe.params[0], lobe.params[0], 0);
-        for (int n = 0; n < 4 * 9; n++) {
-            Dir o = direction_cos(0.05 + 0.2 * (n % 4), 0.35 * (n / 4));
-            Albedo e = albedo_quadrature(&lobe, o, 1e-4);
-            below = max(below, e.f0 + e.f90 - table_albedo(albedo_table_ref(&table), o.z, lobe.params[0]));
+        float below = most_below(&table, &lobe);
+        lobe = sheen_lobe(id, 0.5f);
+        if (k % 2 == 0 && lobe_turns(&lobe)) {
+            fill_albedo(&table, id);
+            for (int n = 0; n < (test_short() ? 1 : 3); n++) {
+                lobe = table.lobe;
+                lobe_set(&lobe, 0, mix(table.low, table.high, (float)n / 3.0f));
+                below = max(below, most_below(&table, &lobe));
+            }
         }
         print_message("%s: at most %.4f below E\n", weft_lobe_info(id)->id, (double)below);
         assert_true(below < 0.01f);
@@ -318,7 +305,6 @@ int main(void) {
         cmocka_unit_test(albedo_has_the_values_of_the_headers),
         cmocka_unit_test(albedo_of_a_creased_table_is_integrated),
         cmocka_unit_test(albedo_table_between_nodes_is_close),
-        cmocka_unit_test(table_of_a_brushed_lobe_bounds_albedo),
         cmocka_unit_test(albedo_table_of_a_brushed_lobe_is_a_bound),
         cmocka_unit_test(albedo_table_outside_its_range_uses_its_end),
     };
