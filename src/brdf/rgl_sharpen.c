@@ -14,24 +14,24 @@ static double step(TableAxis axis, size_t k) {
 }
 
 /* What is taken from a node: before (f(middle - 1) - f(middle)) + behind (f(middle + 1) - f(middle)). */
-typedef struct Taps {
+typedef struct NodeTaps {
     size_t middle;
     double before, behind;
-} Taps;
+} NodeTaps;
 
 /* h^2 f'' / 12, with the mean of h^2 over the steps on both sides and f'' at the node; at an end, f'' of the node beside. */
-static Taps taps_of(TableAxis axis, size_t k) {
+static NodeTaps taps_of(TableAxis axis, size_t k) {
     const size_t last = axis.count - 1, middle = k == 0 ? 1 : k == last ? last - 1 : k;
     const double left = step(axis, k > 0 ? k - 1 : 0), right = step(axis, k < last ? k : k - 1);
     const double before = step(axis, middle - 1), behind = step(axis, middle);
     const double scale = (left * left + right * right) / 12.0 / (before + behind);
-    return (Taps){middle, scale / before, scale / behind};
+    return (NodeTaps){middle, scale / before, scale / behind};
 }
 
 /* Returns true if `first` begins a line along the axis. */
 static bool begins(size_t first, TableAxis axis) { return first / axis.stride % axis.count == 0; }
 
-static void axis_sharpen(float *color, size_t count, TableAxis axis, Taps *taps, float *line) {
+static void axis_sharpen(float *color, size_t count, TableAxis axis, NodeTaps *taps, float *line) {
     for (size_t k = 0; k < axis.count; k++) taps[k] = taps_of(axis, k);
     for (size_t first = 0; first < count; first++) {
         if (!begins(first, axis)) continue;
@@ -50,7 +50,7 @@ bool rgl_sharpen(Rgl *rgl) {
                  most = longer > phis ? longer : phis;
     const TableAxis axes[] = {
         {side, 1, NULL}, {side, side, NULL}, {thetas, slice, rgl->theta}, {phis, slice * thetas, NULL}};
-    Taps *taps = alloc_array(most, sizeof *taps);
+    NodeTaps *taps = alloc_array(most, sizeof *taps);
     float *line = taps ? alloc_array(most, sizeof *line) : NULL;
     for (size_t k = 0; line && k < sizeof axes / sizeof *axes; k++)
         if (axes[k].count > 2) axis_sharpen(rgl->color, slice * thetas * phis, axes[k], taps, line);
