@@ -13,7 +13,7 @@ static double step(TableAxis axis, size_t k) {
     return axis.at ? (double)axis.at[k + 1] - (double)axis.at[k] : 1.0;
 }
 
-/* What is taken from a node: before (f(middle - 1) - f(middle)) + behind (f(middle + 1) - f(middle)). */
+/* A node loses before (f(middle - 1) - f(middle)) + behind (f(middle + 1) - f(middle)). */
 typedef struct NodeTaps {
     size_t middle;
     double before, behind;
