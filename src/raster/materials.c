@@ -24,6 +24,9 @@ typedef struct Uniforms {
     AmbientWeights fits[SLOT_COUNT * AMBIENT_BAKED];
 } Uniforms;
 
+/* OpenGL ES 3.0 promises no more. */
+_Static_assert(sizeof(Uniforms) <= 16384, "the block of a material is too large");
+
 static bool is_all(const Input *input, int count, float x) {
     bool all = true;
     for (int c = 0; c < count; c++) all &= !(input->value[c] < x) && !(input->value[c] > x);

@@ -191,7 +191,7 @@ static void fit_node(const Fitter *fitter, Cloud *cloud, int row, int column, in
     float x = 1.0f - y * y;
     if (fit->rows > 1) root = mix(root, fit->root_high, (float)row / (AMBIENT_ROWS - 1));
     if (weft_lobe_info(lobe.id)->param_count > 0) lobe_set(&lobe, 0, root * root);
-    make_cloud(cloud, &lobe, max(x * x, 1e-4f), (float)side * 0.5f * PI);
+    make_cloud(cloud, &lobe, max(x * x, 1e-4f), (float)side * 0.25f * PI);
     Dir mean = dir(0.0f, 0.0f, 1e-20f);
     double b[2][ATOMS] = {{0.0}};
     for (int n = 0; n < cloud->count; n++) {

@@ -4,7 +4,7 @@
 
 #include "shading/ambient_lobe.h"
 
-enum { AMBIENT_COLUMNS = 24, AMBIENT_ROWS = 16, AMBIENT_SIDES = 3 };
+enum { AMBIENT_COLUMNS = 24, AMBIENT_ROWS = 16 };
 
 /* The planes of ambient_table.h over cos_o and one parameter. */
 typedef struct AmbientFit {

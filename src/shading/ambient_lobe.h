@@ -57,7 +57,8 @@ FN float ambient_kappa_blend(float log2_kappa, float edge) {
  * part of the filter above the horizon. The look-up's axis w is bent towards the visible sky. Both are in the
  * frame whose x axis points towards wo (ambient_to_lobe). */
 FN Rgb ambient_visible_residual(AmbientSource s, AmbientView v, Dir w, float kappa, Dir m) {
-    float open = ambient_sky_visibility(s, ambient_to_source(v, ambient_to_lobe(v, m)), w.z, v.occlusion);
+    float open =
+        ambient_sky_visibility(s, ambient_to_source(v, ambient_to_lobe(v, m)), kappa, w.z, v.occlusion);
     Dir bent = ambient_bent_direction(s, ambient_to_source(v, ambient_to_lobe(v, w)), kappa, open);
     return rgb_scale(ambient_residual(s, bent, kappa), open);
 }
@@ -124,19 +125,19 @@ FN SlotLight ambient_mirror_light(AmbientTable t, AmbientSource s, AmbientView v
     Dir r = ambient_to_source(v, dir(-v.o.x, -v.o.y, v.o.z));
     AmbientWeights facing = ambient_group(t, s, ambient_coord(t, 1.0f, v.heading, p), AMBIENT_GROUP_SHAPE);
     Rgb radiance = ambient_radiance(s, r, exp2(facing.b));
-    float open = ambient_sky_visibility(s, r, v.o.z, v.occlusion);
+    float open = ambient_sky_visibility(s, r, exp2(facing.b), v.o.z, v.occlusion);
     a.reflected = lobe_light_of(rgb_scale(radiance, open), e.first, e.second);
     a.light_fraction = 0.0f;
     return a;
 }
 
-/* The table of a brushed lobe is right for wo along the brushing and across it, and up to a quarter off between, where
- * the sum over strips is within a twentieth. So it scales the sum near those headings alone: h is the square of the
- * cosine of the heading, 32 fitted to ggx and silk. */
+/* The table of a brushed lobe is right at its headings, and further off between them than the sum over strips, which is
+ * within a twentieth. So it scales the sum near those headings alone: w is the place between two, 16 fitted to ggx and
+ * silk. */
 FN SlotLight ambient_sampled_light(AmbientTable t, AmbientSource s, AmbientView v, AmbientCoord at, Lobe lobe,
                                    AmbientTint tint, AmbientAlbedo e) {
     SlotLight a;
-    float h = at.side_weight, own = t.strips && t.turning ? min(32.0f * h * (1.0f - h), 1.0f) : 0.0f;
+    float w = at.outer_weight, own = t.strips && t.turning ? min(16.0f * w * (1.0f - w), 1.0f) : 0.0f;
     a.reflected =
         lobe_light_add(ambient_sample_lobe(s, v, lobe, tint.flakes, t.strips, e.first + e.second, own),
                        ambient_sample_lights(s, v, lobe, tint.flakes, t.strips));
@@ -154,7 +155,7 @@ FN SlotLight ambient_fitted_light(AmbientTable t, AmbientSource s, AmbientView v
     float sine = clamp(shape.a, -1.0f, 1.0f), log2_kappa = shape.b, kappa = exp2(log2_kappa);
     Dir axis = ambient_to_lobe(v, dir(sine, 0.0f, sqrt(max(1.0f - sine * sine, 0.0f)))),
         w = ambient_to_source(v, axis);
-    float open = ambient_sky_visibility(s, w, axis.z, v.occlusion);
+    float open = ambient_sky_visibility(s, w, kappa, axis.z, v.occlusion);
     Rgb wide = rgb_scale(ambient_residual(s, w, kappa), open);
     a.reflected = lobe_light_mix(a.reflected, lobe_light_of(wide, e.first, e.second),
                                  ambient_kappa_blend(log2_kappa, AMBIENT_CLOSE));

@@ -10,9 +10,10 @@
  *   ambient_point(s, k)            point k of those that the lights are divided into, for lobes so narrow that they
  *                                  show the shape of a light
  *   ambient_point_count(s)         number of these points
- *   ambient_sky_visibility(s, w, cos_i, occlusion)
- *                                  visible part of the sky about w; `occlusion` is the visible part of the
- *                                  cosine-weighted sky, cos_i the cosine of the look-up's axis to the normal
+ *   ambient_sky_visibility(s, w, kappa, cos_i, occlusion)
+ *                                  visible part of the sky about w under a filter of that kappa; `occlusion` is the
+ *                                  visible part of the cosine-weighted sky, cos_i the cosine of the look-up's axis
+ *                                  to the normal
  *   ambient_bent_direction(s, w, kappa, open)
  *                                  mean direction of the visible sky under a filter of that kappa about w; in
  *                                  C it is w. `open` is the visible part of that filter. A cosine filter
@@ -77,7 +78,7 @@ FN int ambient_nearest_light(AmbientSource s, Dir w) {
     }
     return nearest;
 }
-FN float ambient_sky_visibility(AmbientSource s, Dir w, float cos_i, float occlusion) {
+FN float ambient_sky_visibility(AmbientSource s, Dir w, float kappa, float cos_i, float occlusion) {
     return occlusion_cone(occlusion, cos_i);
 }
 FN Dir ambient_bent_direction(AmbientSource s, Dir w, float kappa, float open) { return w; }

@@ -10,8 +10,8 @@
  *
  *   entry(y) = sum_k c_k (2 y - 1)^k,  k = 0 .. AMBIENT_DEGREE
  *
- * Departure: a lobe that depends on the azimuth of wo has three sets of entries only, for wo along the nap, across it
- * and against it. Other headings are interpolated. */
+ * Departure: a lobe that depends on the azimuth of wo has five sets of entries only, for wo along the nap, across it,
+ * against it, and midway. Between them the square of the cosine of the heading is what is interpolated over. */
 #ifndef WEFT_SHADING_AMBIENT_TABLE_H
 #define WEFT_SHADING_AMBIENT_TABLE_H
 
@@ -37,7 +37,8 @@
 
 #define AMBIENT_DEGREE 9
 #define AMBIENT_SIDE   (3 * (AMBIENT_DEGREE + 1)) /* coefficients of one heading */
-#define AMBIENT_BAKED  (3 * AMBIENT_SIDE)         /* coefficients of all three headings */
+#define AMBIENT_SIDES  5                          /* headings: 45 degrees from one to the next */
+#define AMBIENT_BAKED  (AMBIENT_SIDES * AMBIENT_SIDE)
 
 /* The table of one slot's lobe. */
 STRUCT(AmbientTable) {
@@ -49,10 +50,9 @@ STRUCT(AmbientTable) {
     bool second;       /* the lobe has a second colour */
     bool lossless;     /* E is 1 everywhere */
     bool strips;       /* the lobe has lobe_strip */
-    bool
-        turning; /* the lobe depends on azimuth: entries along, across and against the nap, one after another */
-    int strategy; /* one of the AMBIENT_... of ambient_lobe.h */
-    int baked;    /* index of the first coefficient; negative if the table is not baked */
+    bool turning;      /* the lobe depends on azimuth: entries of AMBIENT_SIDES headings, one after another */
+    int strategy;      /* one of the AMBIENT_... of ambient_lobe.h */
+    int baked;         /* index of the first coefficient; negative if the table is not baked */
 };
 
 STRUCT(AmbientTables) { AmbientTable diffuse, specular, sheen, coat, dust; };
@@ -61,9 +61,9 @@ STRUCT(AmbientTables) { AmbientTable diffuse, specular, sheen, coat, dust; };
 STRUCT(AmbientCoord) {
     int row, column;                     /* the nodes before the position */
     float row_fraction, column_fraction; /* from these nodes to the next, 0 to 1 */
-    int side;          /* first plane of the heading nearest to wo, along or against the nap */
-    float side_weight; /* of that heading; the rest is for wo across the nap */
-    float t;           /* 2 y - 1, for polynomials */
+    int outer, inner;   /* numbers of the headings beside that of wo: outer is further from across the nap */
+    float outer_weight; /* of the outer heading; the rest is the inner one's */
+    float t;            /* 2 y - 1, for polynomials */
 };
 
 /* Returns the position of cos_o and parameter p. heading: cosine of the azimuth of wo from that of the lobe (nap.h). */
@@ -71,8 +71,11 @@ FN AmbientCoord ambient_coord(AmbientTable t, float cos_o, float heading, float 
     AmbientCoord at;
     float y = 1.0f - sqrt(max(1.0f - sqrt(clamp(cos_o, 0.0f, 1.0f)), 0.0f)), x = y * to_float(t.columns - 1);
     float left = clamp(floor(x), 0.0f, to_float(t.columns - 2));
-    at.side = heading < 0.0f ? 2 * AMBIENT_PLANES : 0;
-    at.side_weight = heading * heading;
+    float h = heading * heading;
+    int steps = h < 0.5f ? 1 : 2; /* of the outer heading from across the nap */
+    at.outer = heading < 0.0f ? 2 + steps : 2 - steps;
+    at.inner = heading < 0.0f ? at.outer - 1 : at.outer + 1;
+    at.outer_weight = h < 0.5f ? 2.0f * h : 2.0f * h - 1.0f;
     at.t = 2.0f * y - 1.0f;
     at.column = to_int(left);
     at.column_fraction = clamp(x - left, 0.0f, 1.0f);
@@ -101,8 +104,8 @@ FN float ambient_plane(AmbientTable t, AmbientCoord at, int plane) {
 
 FN float ambient_entry(AmbientTable t, AmbientCoord at, int plane) {
     if (!t.turning) return ambient_plane(t, at, plane);
-    return mix(ambient_plane(t, at, AMBIENT_PLANES + plane), ambient_plane(t, at, at.side + plane),
-               at.side_weight);
+    return mix(ambient_plane(t, at, at.inner * AMBIENT_PLANES + plane),
+               ambient_plane(t, at, at.outer * AMBIENT_PLANES + plane), at.outer_weight);
 }
 
 FN AmbientWeights ambient_weights(float a, float b, float c, float d) {
@@ -112,9 +115,6 @@ FN AmbientWeights ambient_weights(float a, float b, float c, float d) {
     w.c = c;
     w.d = d;
     return w;
-}
-FN AmbientWeights ambient_weights_select(bool first, AmbientWeights x, AmbientWeights y) {
-    return ambient_weights(first ? x.a : y.a, first ? x.b : y.b, first ? x.c : y.c, first ? x.d : y.d);
 }
 FN AmbientWeights ambient_weights_mix(AmbientWeights x, AmbientWeights y, float t) {
     return ambient_weights(mix(x.a, y.a, t), mix(x.b, y.b, t), mix(x.c, y.c, t), mix(x.d, y.d, t));
@@ -139,12 +139,10 @@ FN AmbientWeights ambient_clamp_weights(AmbientWeights w, int group) {
 
 FN AmbientWeights ambient_baked_group(AmbientTable t, AmbientSource s, AmbientCoord at, int group) {
     int first = t.baked + (AMBIENT_DEGREE + 1) * group;
-    AmbientWeights along = ambient_polynomial(s, first, at.t);
-    if (!t.turning) return ambient_clamp_weights(along, group);
-    AmbientWeights across = ambient_polynomial(s, first + AMBIENT_SIDE, at.t),
-                   against = ambient_polynomial(s, first + 2 * AMBIENT_SIDE, at.t);
-    AmbientWeights nearest = ambient_weights_select(at.side > 0, against, along);
-    return ambient_clamp_weights(ambient_weights_mix(across, nearest, at.side_weight), group);
+    if (!t.turning) return ambient_clamp_weights(ambient_polynomial(s, first, at.t), group);
+    AmbientWeights inner = ambient_polynomial(s, first + at.inner * AMBIENT_SIDE, at.t),
+                   outer = ambient_polynomial(s, first + at.outer * AMBIENT_SIDE, at.t);
+    return ambient_clamp_weights(ambient_weights_mix(inner, outer, at.outer_weight), group);
 }
 
 /* Returns the four planes of a group. */

@@ -22,10 +22,18 @@ float above_smooth(Frame f, Dir d, float blur) {
     return clamp((dir_dot(d, smooth_normal) + blur) / (max(dir_dot(d, f.z), 0.0) + blur), 0.0, 1.0);
 }
 
-float ambient_sky_visibility(Frame f, Dir w, float cos_i, float occlusion) {
+/* A vertex knows what it sees as a ramp over directions, which is the least-squares fit: where half of the sky is hidden by
+ * an edge, its slope is 3/4. A filter of that kappa shows such an edge with a slope of sqrt(kappa / (2 pi)). So the ramp
+ * is steepened for narrow ones; not beyond the narrowest of the look-ups, since the edge is somewhere else at the next
+ * vertex. */
+float sharpened(float ramp, float kappa) {
+    return clamp(0.5 + clamp(0.532 * sqrt(kappa), 1.0, 1.88) * (ramp - 0.5), 0.0, 1.0);
+}
+
+float ambient_sky_visibility(Frame f, Dir w, float kappa, float cos_i, float occlusion) {
     vec4 c = fragment_open();
     Dir d = frame_from(f, w);
-    float seen = clamp(c.x + c.y * d.x + c.z * d.y + c.w * d.z, 0.0, 1.0);
+    float seen = sharpened(c.x + c.y * d.x + c.z * d.y + c.w * d.z, kappa);
     return min(seen * above_smooth(f, d, 0.02), occlusion_cone(texture_occlusion, cos_i));
 }
 
