@@ -107,7 +107,8 @@ FN LobeLight ambient_sample_lobe(AmbientSource s, AmbientView v, Lobe lobe, Rgb 
             float kappa = clamp((strips ? 2.0f * PI : PI) * density, 0.5f, 1e4f);
             Dir w = ambient_to_source(v, i);
             Rgb all = ambient_radiance(s, w, kappa);
-            float open = ambient_sky_visibility(s, w, kappa, i.z, v.occlusion);
+            /* all samples together are as wide as the lobe */
+            float open = ambient_sky_visibility(s, w, 0.0f, i.z, v.occlusion);
             float lights = ambient_sample_weight(s, w, density * ambient_sample_trust(strips), open);
             Rgb l = rgb_scale(ambient_visible_radiance(s, w, all, kappa, lights, open), weight);
             sum = lobe_light_add(sum, lobe_light_of(ambient_tinted(x.tint, flakes, l), 1.0f - x.s, x.s));

@@ -11,9 +11,9 @@
  *                                  show the shape of a light
  *   ambient_point_count(s)         number of these points
  *   ambient_sky_visibility(s, w, kappa, cos_i, occlusion)
- *                                  visible part of the sky about w under a filter of that kappa; `occlusion` is the
- *                                  visible part of the cosine-weighted sky, cos_i the cosine of the look-up's axis
- *                                  to the normal
+ *                                  visible part of the sky about w under a filter of that kappa, 0 for a wide one;
+ *                                  `occlusion` is the visible part of the cosine-weighted sky, cos_i the cosine of
+ *                                  the look-up's axis to the normal
  *   ambient_bent_direction(s, w, kappa, open)
  *                                  mean direction of the visible sky under a filter of that kappa about w; in
  *                                  C it is w. `open` is the visible part of that filter. A cosine filter

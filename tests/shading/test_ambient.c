@@ -74,8 +74,9 @@ static void even_environment_returns_the_albedo(void **state) {
                 }
         for (int k = 0; k < 12; k++) {
             Lobe lobe = lobe_rough(id, 0.35f + 0.2f * (float)(k % 4));
-            Dir o = direction_cos(0.15 + 0.28 * (double)(k / 4), 0.0);
-            if (weft_lobe_info(id)->traits & TRAIT_ANISOTROPIC && k % 2) o = dir(o.y, o.x, o.z);
+            /* along, midway, across, and midway behind */
+            float turn = weft_lobe_info(id)->traits & TRAIT_ANISOTROPIC ? (float)(k % 4) * 0.25f * PI : 0.0f;
+            Dir o = direction_cos(0.15 + 0.28 * (double)(k / 4), (double)turn);
             Albedo e = albedo_quadrature(&lobe, o, 1e-3);
             for (int s = 0; s < AMBIENT_STRATEGIES; s++) {
                 Rgb got = ambient_of(one_lobe(lobe, o), all_tables(ambient_table(&table, s)), &calls, 1.0f);
