@@ -123,7 +123,7 @@ static bool add_fits(GlMaterial *self, const Material *material, const WeftCloth
     return true;
 }
 
-/* To fit tables for a lobe's own numbers takes some 10 ms. Of more materials than these all share those over
+/* To fit tables for a lobe's own numbers takes tens of ms. Of more materials than these all share those over
  * the range, which know nothing of nap and anisotropy: what turns has its own all the same. */
 enum { MATERIALS_HELD = 100 };
 

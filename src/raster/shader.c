@@ -331,8 +331,8 @@ static bool put_ambient_slot(Text *text, const ShaderKey *key, int slot, const L
         if (!fit) return false;
         t = ambient_table(fit, AMBIENT_FITTED);
         dense = fit->denser > AMBIENT_DENSER;
-        int sides = t.turning ? AMBIENT_SIDES : 1;
-        layer = text_table(text, (TextTable){t.texels, sides * AMBIENT_PLANES * t.rows, t.columns, NULL});
+        int headings = t.turning ? AMBIENT_HEADINGS : 1;
+        layer = text_table(text, (TextTable){t.texels, headings * AMBIENT_PLANES * t.rows, t.columns, NULL});
     } else if (lobe) {
         t.baked = slot * AMBIENT_BAKED;
         t.focus = key->focus >> slot & 1;

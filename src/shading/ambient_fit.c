@@ -108,14 +108,16 @@ static float mirrored(uint32_t k) {
     return x;
 }
 
-/* Seen at that azimuth. */
-static void make_cloud(Cloud *cloud, const Lobe *lobe, float cos_o, float azimuth) {
-    float s = sqrt(max(1.0f - cos_o * cos_o, 0.0f)), tx = cos(azimuth), ty = sin(azimuth);
-    Dir o = dir(s * tx, s * ty, cos_o);
+/* Seen at that azimuth, and, where the lobe turns, half of it at the opposite one: a table knows only the cosine of
+ * the azimuth, and a lobe need not be the same on both sides, as the cloth of raster/materials.c is not. */
+static void make_cloud(Cloud *cloud, const Lobe *lobe, float cos_o, float azimuth, bool turning) {
+    const float s = sqrt(max(1.0f - cos_o * cos_o, 0.0f));
     cloud->count = 0;
     cloud->e[0] = cloud->e[1] = cloud->dense = 0.0;
     for (int k = 0; k < SAMPLES; k++) {
-        Dir i = lobe_sample(lobe, o, ((float)k + 0.5f) / SAMPLES, mirrored((uint32_t)k));
+        const float turn = turning && k & 1 ? -azimuth : azimuth, tx = cos(turn), ty = sin(turn);
+        Dir o = dir(s * tx, s * ty, cos_o);
+        Dir i = lobe_sample(lobe, o, ((float)k + 0.5f) / SAMPLES, mirrored((uint32_t)(turning ? k / 2 : k)));
         if (!(i.z > 0.0f)) continue;
         LobeValue value = lobe_value(lobe, angles_between(o, i));
         if (!(value.pdf > 0.0f)) continue;
@@ -167,31 +169,32 @@ static double cloud_within(const Cloud *cloud, Dir axis, double part) {
 }
 
 /* A node of a plane. */
-static float *entry(AmbientFit *fit, int side, int plane, int row, int column) {
-    return &fit->texels[(side * AMBIENT_PLANES + plane) * fit->rows + row][column];
+static float *entry(AmbientFit *fit, int heading, int plane, int row, int column) {
+    return &fit->texels[(heading * AMBIENT_PLANES + plane) * fit->rows + row][column];
 }
 
 /* Half of what exp(kappa (mu - 1)) weighs is within kappa (1 - mu) = ln 2, and three quarters within twice
  * that, of ggx within thrice. Of its density, the mean of the logarithm by
  * itself is ln(kappa / (2 pi e)). */
-static void fit_width(AmbientFit *fit, const Cloud *cloud, Dir axis, int row, int column, int side) {
+static void fit_width(AmbientFit *fit, const Cloud *cloud, Dir axis, int row, int column, int heading) {
     if (!(cloud->e[0] + cloud->e[1] > 0.0)) return; /* there is nothing to be narrow */
     double half = cloud_within(cloud, axis, 0.5), more = cloud_within(cloud, axis, 0.75);
     double e = cloud->e[0] + cloud->e[1];
-    *entry(fit, side, PLANE_AXIS, row, column) = axis.x;
-    *entry(fit, side, PLANE_KAPPA, row, column) = log2((float)(0.693147180559945 / half));
-    *entry(fit, side, PLANE_TAIL, row, column) = (float)fmin(fmax(more / half - 2.0, 0.0), 1.0);
-    *entry(fit, side, PLANE_DENSE, row, column) = (float)cloud->dense + log2((float)(17.0794684453471 / e));
+    *entry(fit, heading, PLANE_AXIS, row, column) = axis.x;
+    *entry(fit, heading, PLANE_KAPPA, row, column) = log2((float)(0.693147180559945 / half));
+    *entry(fit, heading, PLANE_TAIL, row, column) = (float)fmin(fmax(more / half - 2.0, 0.0), 1.0);
+    *entry(fit, heading, PLANE_DENSE, row, column) =
+        (float)cloud->dense + log2((float)(17.0794684453471 / e));
 }
 
-static void fit_node(const Fitter *fitter, Cloud *cloud, int row, int column, int side) {
+static void fit_node(const Fitter *fitter, Cloud *cloud, int row, int column, int heading) {
     AmbientFit *fit = fitter->fit;
     Lobe lobe = fit->lobe;
     float root = fit->root_low, y = 1.0f - (float)column / (AMBIENT_COLUMNS - 1);
     float x = 1.0f - y * y;
     if (fit->rows > 1) root = mix(root, fit->root_high, (float)row / (AMBIENT_ROWS - 1));
     if (weft_lobe_info(lobe.id)->param_count > 0) lobe_set(&lobe, 0, root * root);
-    make_cloud(cloud, &lobe, max(x * x, 1e-4f), (float)side * 0.25f * PI);
+    make_cloud(cloud, &lobe, max(x * x, 1e-4f), (float)heading * 0.25f * PI, fit->turning);
     Dir mean = dir(0.0f, 0.0f, 1e-20f);
     double b[2][ATOMS] = {{0.0}};
     for (int n = 0; n < cloud->count; n++) {
@@ -211,22 +214,22 @@ static void fit_node(const Fitter *fitter, Cloud *cloud, int row, int column, in
     solve(fitter, b[0], cloud->e[0], w);
     for (int k = 1; k < ATOMS; k++) {
         double part = cloud->e[0] > 0.0 ? w[k] / cloud->e[0] : 1.0 / ATOMS;
-        *entry(fit, side, 4 * AMBIENT_GROUP_FIRST + k - 1, row, column) = (float)part;
+        *entry(fit, heading, 4 * AMBIENT_GROUP_FIRST + k - 1, row, column) = (float)part;
     }
-    *entry(fit, side, AMBIENT_PLANE_E, row, column) = (float)cloud->e[0];
+    *entry(fit, heading, AMBIENT_PLANE_E, row, column) = (float)cloud->e[0];
     solve(fitter, b[1], cloud->e[1], w);
     for (int k = 0; k < ATOMS; k++)
-        *entry(fit, side, 4 * AMBIENT_GROUP_SECOND + k, row, column) = (float)w[k];
-    *entry(fit, side, AMBIENT_PLANE_E_SECOND, row, column) = (float)cloud->e[1];
-    fit_width(fit, cloud, axis, row, column, side);
+        *entry(fit, heading, 4 * AMBIENT_GROUP_SECOND + k, row, column) = (float)w[k];
+    *entry(fit, heading, AMBIENT_PLANE_E_SECOND, row, column) = (float)cloud->e[1];
+    fit_width(fit, cloud, axis, row, column, heading);
 }
 
 static void fit_column(void *user, int column, int thread) {
     (void)thread;
     const Fitter *fitter = user;
     Cloud cloud;
-    for (int side = 0; side < (fitter->fit->turning ? AMBIENT_SIDES : 1); side++)
-        for (int row = 0; row < fitter->fit->rows; row++) fit_node(fitter, &cloud, row, column, side);
+    for (int heading = 0; heading < (fitter->fit->turning ? AMBIENT_HEADINGS : 1); heading++)
+        for (int row = 0; row < fitter->fit->rows; row++) fit_node(fitter, &cloud, row, column, heading);
 }
 
 int ambient_lean_azimuth(int lobe) {
@@ -253,16 +256,17 @@ void ambient_fit_shape(AmbientFit *fit, const Lobe *lobe, float low, float high)
 void ambient_fit_finish(AmbientFit *fit) {
     float denser = 0.0f, light = 1e-20f;
     fit->finest = -100.0f;
-    for (int side = 0; side < (fit->turning ? AMBIENT_SIDES : 1); side++)
+    /* between those along and across the mean direction is beside the plane of wo: an axis in it says nothing */
+    for (int heading = 0; heading < (fit->turning ? AMBIENT_HEADINGS : 1); heading += 2)
         for (int row = 0; row < fit->rows; row++)
             for (int column = 0; column < AMBIENT_COLUMNS; column++) {
-                float kappa = *entry(fit, side, PLANE_KAPPA, row, column);
+                float kappa = *entry(fit, heading, PLANE_KAPPA, row, column);
                 float y = 1.0f - (float)column / (AMBIENT_COLUMNS - 1), x = 1.0f - y * y;
-                float e = *entry(fit, side, AMBIENT_PLANE_E, row, column) +
-                          *entry(fit, side, AMBIENT_PLANE_E_SECOND, row, column);
+                float e = *entry(fit, heading, AMBIENT_PLANE_E, row, column) +
+                          *entry(fit, heading, AMBIENT_PLANE_E_SECOND, row, column);
                 float part = e * x * x * x * y; /* of the light of a sphere: cos_o = x^2 */
                 fit->finest = max(fit->finest, kappa);
-                denser += part * (*entry(fit, side, PLANE_DENSE, row, column) - kappa);
+                denser += part * (*entry(fit, heading, PLANE_DENSE, row, column) - kappa);
                 light += part;
             }
     fit->denser = denser / light;
@@ -296,10 +300,11 @@ bool ambient_fit_serves(const AmbientFit *fit, const Lobe *lobe, float low, floa
 
 /* Returns true if E is 1 for every wo. */
 static bool is_flat(const AmbientFit *fit) {
-    for (int side = 0; side < (fit->turning ? AMBIENT_SIDES : 1); side++)
+    for (int heading = 0; heading < (fit->turning ? AMBIENT_HEADINGS : 1); heading++)
         for (int row = 0; row < fit->rows; row++)
             for (int column = 0; column < AMBIENT_COLUMNS; column++) {
-                const float *plane = fit->texels[(side * AMBIENT_PLANES + AMBIENT_PLANE_E) * fit->rows + row];
+                const float *plane =
+                    fit->texels[(heading * AMBIENT_PLANES + AMBIENT_PLANE_E) * fit->rows + row];
                 if (fabsf(plane[column] - 1.0f) > 1e-4f) return false;
             }
     return true;
@@ -328,16 +333,16 @@ enum { TERMS = AMBIENT_DEGREE + 1, PLANES_HELD = 4 * AMBIENT_GROUPS };
  * that is small elsewhere would be all there is. */
 static const double FADED = 0.01;
 
-static double node(const AmbientFit *fit, int side, int plane, int column) {
-    return (double)fit->texels[side * AMBIENT_PLANES + plane][column];
+static double node(const AmbientFit *fit, int heading, int plane, int column) {
+    return (double)fit->texels[heading * AMBIENT_PLANES + plane][column];
 }
-static double albedo_at(const AmbientFit *fit, int side, int column) {
-    return node(fit, side, AMBIENT_PLANE_E, column) + node(fit, side, AMBIENT_PLANE_E_SECOND, column);
+static double albedo_at(const AmbientFit *fit, int heading, int column) {
+    return node(fit, heading, AMBIENT_PLANE_E, column) + node(fit, heading, AMBIENT_PLANE_E_SECOND, column);
 }
 
 /* Coefficients of planes first .. end - 1 by weighted least squares, into members of the groups. */
-static void hold_planes(const AmbientFit *fit, int side, int first, int end,
-                        const double weight[AMBIENT_COLUMNS], AmbientWeights out[AMBIENT_SIDE]) {
+static void hold_planes(const AmbientFit *fit, int heading, int first, int end,
+                        const double weight[AMBIENT_COLUMNS], AmbientWeights out[AMBIENT_HEADING]) {
     double a[TERMS][TERMS] = {{0.0}}, b[PLANES_HELD][TERMS] = {{0.0}};
     for (int column = 0; column < AMBIENT_COLUMNS; column++) {
         double power[TERMS] = {1.0}, t = 2.0 * column / (AMBIENT_COLUMNS - 1) - 1.0;
@@ -345,12 +350,12 @@ static void hold_planes(const AmbientFit *fit, int side, int first, int end,
         for (int j = 0; j < TERMS; j++) {
             for (int k = 0; k < TERMS; k++) a[j][k] += weight[column] * power[j] * power[k];
             for (int n = first; n < end; n++)
-                b[n][j] += weight[column] * power[j] * node(fit, side, n, column);
+                b[n][j] += weight[column] * power[j] * node(fit, heading, n, column);
         }
     }
     if (!matrix_factor(TERMS, a[0], TERMS) || !matrix_solve(TERMS, a[0], TERMS, PLANES_HELD, b[0], TERMS))
         memset(b, 0, sizeof b); /* nothing has weight */
-    for (int k = 0; k < AMBIENT_SIDE; k++) {
+    for (int k = 0; k < AMBIENT_HEADING; k++) {
         float *to[4] = {&out[k].a, &out[k].b, &out[k].c, &out[k].d};
         for (int n = 0; n < 4; n++) {
             int plane = 4 * (k / TERMS) + n;
@@ -361,23 +366,24 @@ static void hold_planes(const AmbientFit *fit, int side, int first, int end,
 
 /* The shape of a lobe, and how it is spread, count where it is to be seen, up to a hair for what fades away.
  */
-static void hold_side(const AmbientFit *fit, int side, AmbientWeights out[AMBIENT_SIDE]) {
+static void hold_heading(const AmbientFit *fit, int heading, AmbientWeights out[AMBIENT_HEADING]) {
     double most = 1e-9, value[AMBIENT_COLUMNS], shape[AMBIENT_COLUMNS];
-    for (int column = 0; column < AMBIENT_COLUMNS; column++) most = fmax(most, albedo_at(fit, side, column));
+    for (int column = 0; column < AMBIENT_COLUMNS; column++)
+        most = fmax(most, albedo_at(fit, heading, column));
     for (int column = 0; column < AMBIENT_COLUMNS; column++) {
-        double e = albedo_at(fit, side, column) / most;
+        double e = albedo_at(fit, heading, column) / most;
         value[column] = 1.0 / ((e + FADED) * (e + FADED));
         shape[column] = fmin(e, 0.1) + 1e-9;
     }
-    hold_planes(fit, side, 0, AMBIENT_PLANE_E, shape, out);
-    hold_planes(fit, side, AMBIENT_PLANE_E, AMBIENT_PLANE_E + 1, value, out);
-    hold_planes(fit, side, PLANE_AXIS, PLANE_TAIL + 1, shape, out);
-    hold_planes(fit, side, 4 * AMBIENT_GROUP_SECOND, PLANES_HELD, value, out);
+    hold_planes(fit, heading, 0, AMBIENT_PLANE_E, shape, out);
+    hold_planes(fit, heading, AMBIENT_PLANE_E, AMBIENT_PLANE_E + 1, value, out);
+    hold_planes(fit, heading, PLANE_AXIS, PLANE_TAIL + 1, shape, out);
+    hold_planes(fit, heading, 4 * AMBIENT_GROUP_SECOND, PLANES_HELD, value, out);
 }
 
 void ambient_bake(const AmbientFit *fit, AmbientWeights out[AMBIENT_BAKED]) {
-    for (int side = 0; side < AMBIENT_SIDES; side++)
-        hold_side(fit, fit->turning ? side : 0, out + side * AMBIENT_SIDE);
+    for (int heading = 0; heading < AMBIENT_HEADINGS; heading++)
+        hold_heading(fit, fit->turning ? heading : 0, out + heading * AMBIENT_HEADING);
 }
 
 int ambient_strategy(int lobe, bool turning, bool dense) {

@@ -15,8 +15,8 @@ typedef struct AmbientFit {
     float finest; /* the greatest log2 kappa */
     float denser; /* mean, weighted by reflected light, of log2(density of this lobe / density of a
                    * single-axis lobe of the same width) */
-    bool turning; /* there are planes for AMBIENT_SIDES headings */
-    float texels[AMBIENT_SIDES * AMBIENT_PLANES * AMBIENT_ROWS][AMBIENT_COLUMNS];
+    bool turning; /* there are planes for AMBIENT_HEADINGS headings */
+    float texels[AMBIENT_HEADINGS * AMBIENT_PLANES * AMBIENT_ROWS][AMBIENT_COLUMNS];
 } AmbientFit;
 
 /* Fills the table of a lobe whose parameter 0 varies from low to high; if these are equal, the table has one

@@ -124,8 +124,9 @@ FN SlotLight ambient_mirror_light(AmbientTable t, AmbientSource s, AmbientView v
     SlotLight a;
     Dir r = ambient_to_source(v, dir(-v.o.x, -v.o.y, v.o.z));
     AmbientWeights facing = ambient_group(t, s, ambient_coord(t, 1.0f, v.heading, p), AMBIENT_GROUP_SHAPE);
-    Rgb radiance = ambient_radiance(s, r, exp2(facing.b));
-    float open = ambient_sky_visibility(s, r, exp2(facing.b), v.o.z, v.occlusion);
+    float kappa = exp2(facing.b);
+    Rgb radiance = ambient_radiance(s, r, kappa);
+    float open = ambient_sky_visibility(s, r, kappa, v.o.z, v.occlusion);
     a.reflected = lobe_light_of(rgb_scale(radiance, open), e.first, e.second);
     a.light_fraction = 0.0f;
     return a;

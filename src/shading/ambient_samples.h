@@ -107,7 +107,7 @@ FN LobeLight ambient_sample_lobe(AmbientSource s, AmbientView v, Lobe lobe, Rgb 
             float kappa = clamp((strips ? 2.0f * PI : PI) * density, 0.5f, 1e4f);
             Dir w = ambient_to_source(v, i);
             Rgb all = ambient_radiance(s, w, kappa);
-            /* all samples together are as wide as the lobe */
+            /* as wide as the lobe: with kappa of one sample light of fibres past folds is further off (bench_occluded) */
             float open = ambient_sky_visibility(s, w, 0.0f, i.z, v.occlusion);
             float lights = ambient_sample_weight(s, w, density * ambient_sample_trust(strips), open);
             Rgb l = rgb_scale(ambient_visible_radiance(s, w, all, kappa, lights, open), weight);

@@ -11,7 +11,7 @@
  *   entry(y) = sum_k c_k (2 y - 1)^k,  k = 0 .. AMBIENT_DEGREE
  *
  * Departure: a lobe that depends on the azimuth of wo has five sets of entries only, for wo along the nap, across it,
- * against it, and midway. Between them the square of the cosine of the heading is what is interpolated over. */
+ * against it, and midway. Between two of them entries are linear in the square of the heading (nap.h). */
 #ifndef WEFT_SHADING_AMBIENT_TABLE_H
 #define WEFT_SHADING_AMBIENT_TABLE_H
 
@@ -35,10 +35,10 @@
 #define AMBIENT_PLANE_E        3
 #define AMBIENT_PLANE_E_SECOND 12
 
-#define AMBIENT_DEGREE 9
-#define AMBIENT_SIDE   (3 * (AMBIENT_DEGREE + 1)) /* coefficients of one heading */
-#define AMBIENT_SIDES  5                          /* headings: 45 degrees from one to the next */
-#define AMBIENT_BAKED  (AMBIENT_SIDES * AMBIENT_SIDE)
+#define AMBIENT_DEGREE   9
+#define AMBIENT_HEADING  (3 * (AMBIENT_DEGREE + 1)) /* coefficients of one heading */
+#define AMBIENT_HEADINGS 5                          /* azimuths of wo, 45 degrees from one to the next */
+#define AMBIENT_BAKED    (AMBIENT_HEADINGS * AMBIENT_HEADING)
 
 /* The table of one slot's lobe. */
 STRUCT(AmbientTable) {
@@ -50,9 +50,9 @@ STRUCT(AmbientTable) {
     bool second;       /* the lobe has a second colour */
     bool lossless;     /* E is 1 everywhere */
     bool strips;       /* the lobe has lobe_strip */
-    bool turning;      /* the lobe depends on azimuth: entries of AMBIENT_SIDES headings, one after another */
-    int strategy;      /* one of the AMBIENT_... of ambient_lobe.h */
-    int baked;         /* index of the first coefficient; negative if the table is not baked */
+    bool turning; /* the lobe depends on azimuth: entries of AMBIENT_HEADINGS headings, one after another */
+    int strategy; /* one of the AMBIENT_... of ambient_lobe.h */
+    int baked;    /* index of the first coefficient; negative if the table is not baked */
 };
 
 STRUCT(AmbientTables) { AmbientTable diffuse, specular, sheen, coat, dust; };
@@ -61,7 +61,7 @@ STRUCT(AmbientTables) { AmbientTable diffuse, specular, sheen, coat, dust; };
 STRUCT(AmbientCoord) {
     int row, column;                     /* the nodes before the position */
     float row_fraction, column_fraction; /* from these nodes to the next, 0 to 1 */
-    int outer, inner;   /* numbers of the headings beside that of wo: outer is further from across the nap */
+    int outer, inner;   /* numbers of the headings beside that of wo: inner is nearer to across the nap */
     float outer_weight; /* of the outer heading; the rest is the inner one's */
     float t;            /* 2 y - 1, for polynomials */
 };
@@ -140,8 +140,8 @@ FN AmbientWeights ambient_clamp_weights(AmbientWeights w, int group) {
 FN AmbientWeights ambient_baked_group(AmbientTable t, AmbientSource s, AmbientCoord at, int group) {
     int first = t.baked + (AMBIENT_DEGREE + 1) * group;
     if (!t.turning) return ambient_clamp_weights(ambient_polynomial(s, first, at.t), group);
-    AmbientWeights inner = ambient_polynomial(s, first + at.inner * AMBIENT_SIDE, at.t),
-                   outer = ambient_polynomial(s, first + at.outer * AMBIENT_SIDE, at.t);
+    AmbientWeights inner = ambient_polynomial(s, first + at.inner * AMBIENT_HEADING, at.t),
+                   outer = ambient_polynomial(s, first + at.outer * AMBIENT_HEADING, at.t);
     return ambient_clamp_weights(ambient_weights_mix(inner, outer, at.outer_weight), group);
 }
 

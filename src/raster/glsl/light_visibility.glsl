@@ -22,18 +22,20 @@ float above_smooth(Frame f, Dir d, float blur) {
     return clamp((dir_dot(d, smooth_normal) + blur) / (max(dir_dot(d, f.z), 0.0) + blur), 0.0, 1.0);
 }
 
-/* A vertex knows what it sees as a ramp over directions, which is the least-squares fit: where half of the sky is hidden by
- * an edge, its slope is 3/4. A filter of that kappa shows such an edge with a slope of sqrt(kappa / (2 pi)). So the ramp
- * is steepened for narrow ones; not beyond the narrowest of the look-ups, since the edge is somewhere else at the next
- * vertex. */
-float sharpened(float ramp, float kappa) {
-    return clamp(0.5 + clamp(0.532 * sqrt(kappa), 1.0, 1.88) * (ramp - 0.5), 0.0, 1.0);
+/* A vertex knows what it sees as a ramp over directions, near a least-squares fit: of a sky that is half hidden by an edge
+ * that has a slope of 3/4. A filter of that kappa shows such an edge with a slope of sqrt(kappa / (2 pi)). So the ramp is
+ * steepened for narrow ones, the more the steeper it is: a level ramp has no edge. Not beyond the narrowest of the look-ups,
+ * since the edge is somewhere else at the next vertex. What passes in all is then no longer that of the rays. */
+float steepness(vec3 slope, float kappa) {
+    float edge = min(length(slope) / 0.75, 1.0);
+    return mix(1.0, clamp(0.532 * sqrt(kappa), 1.0, 1.88), edge);
 }
 
 float ambient_sky_visibility(Frame f, Dir w, float kappa, float cos_i, float occlusion) {
     vec4 c = fragment_open();
     Dir d = frame_from(f, w);
-    float seen = sharpened(c.x + c.y * d.x + c.z * d.y + c.w * d.z, kappa);
+    float ramp = c.x + c.y * d.x + c.z * d.y + c.w * d.z;
+    float seen = clamp(0.5 + steepness(c.yzw, kappa) * (ramp - 0.5), 0.0, 1.0);
     return min(seen * above_smooth(f, d, 0.02), occlusion_cone(texture_occlusion, cos_i));
 }
 
@@ -41,6 +43,7 @@ float ambient_sky_visibility(Frame f, Dir w, float kappa, float cos_i, float occ
  * is, it is not beyond a deviation. */
 Dir ambient_bent_direction(Frame f, Dir w, float kappa, float open) {
     vec3 c = fragment_open().yzw;
+    c *= steepness(c, kappa);
     Dir slope = frame_to(f, dir(c.x, c.y, c.z));
     float by = min(1.0 / (kappa * max(open, 0.01)), inversesqrt(kappa * max(dot(c, c), 1e-12)));
     return dir_normal_or(dir_add(w, dir_scale(slope, open < 1.0 ? by : 0.0)), w);
