@@ -224,11 +224,6 @@ static Cost cost_added(Gpu *gpu, Text *text, int inputs, bool loaded, const char
     return cost;
 }
 
-static void put_row(Gpu *gpu, const char *name, Text *text, int inputs, const char *lines) {
-    Cost cost = cost_added(gpu, text, inputs, true, lines);
-    printf("| %s | %.0f | %.0f | %.0f |\n", name, cost.instructions, cost.cycles, cost.registers);
-}
-
 #define ANGLES "    Angles a = angles_between(dir(u[0], u[1], u[2]), dir(u[3], u[4], u[5]));\n"
 
 /* How a shader knows the parameters of a lobe. */
@@ -300,13 +295,14 @@ static void term_row(Gpu *gpu, WeftTermKind kind, int term) {
     static const char *const arguments[] = {[WEFT_TERM_D] = "u[6], u[7], u[6], a.h",
                                             [WEFT_TERM_V] = "u[6], u[7], u[6], a",
                                             [WEFT_TERM_F] = "u[6], u[7], a.d"};
-    char lines[256], name[64];
+    char lines[256];
     Text text;
     snprintf(lines, sizeof lines, ANGLES "    f = term_%c(%d, %s);\n", "dvf"[kind], term, arguments[kind]);
-    snprintf(name, sizeof name, "%c %s", "DVF"[kind], weft_term_name(kind, term));
     text_begin(&text, &(TextDesc){.language = TEXT_GLSL_450});
     text_include(&text, "shading/terms.h");
-    put_row(gpu, name, &text, 8, lines);
+    Cost cost = cost_added(gpu, &text, 8, true, lines);
+    printf("| %c %s | %.0f | %.0f | %.0f |\n", "DVF"[kind], weft_term_name(kind, term), cost.instructions,
+           cost.cycles, cost.registers);
 }
 
 /* Fibres as an engine has them, beside the tightest transformed cosine: tables are filtered by the GPU, four
@@ -410,29 +406,22 @@ static const struct {
 };
 
 /* A structure of floats, by its constructor. */
-#define PUT_NUMBER(name) text_line(text, "    %s%s", count++ ? ", " : "", number(numbers->name).text);
-static void put_yarn(Text *text, const WeaveYarn *numbers) {
-    int count = 0;
-    text_line(text, "    WeaveYarn(");
-    WEAVE_YARN_NUMBERS(PUT_NUMBER)
-    text_line(text, "    ),");
-}
-
-static void put_far(Text *text, const WeaveFar *numbers) {
-    int count = 0;
-    text_line(text, "    WeaveFar(");
-    WEAVE_FAR_NUMBERS(PUT_NUMBER)
+static void put_floats(Text *text, const char *type, const void *structure, size_t size) {
+    const float *numbers = structure;
+    text_line(text, "    %s(", type);
+    for (size_t k = 0; k < size / sizeof *numbers; k++)
+        text_line(text, "    %s%s", k ? ", " : "", number(numbers[k]).text);
     text_line(text, "    ),");
 }
 
 /* Numbers that the compiler knows. */
 static void put_cloth(Text *text, const Weave *m) {
     text_line(text, "const Weave cloth = Weave(%d, %d,", m->warps, m->picks);
-    put_yarn(text, &m->warp);
-    put_yarn(text, &m->weft);
+    put_floats(text, "WeaveYarn", &m->warp, sizeof m->warp);
+    put_floats(text, "WeaveYarn", &m->weft, sizeof m->weft);
     text_line(text, "    %s,", number(m->seed).text);
-    put_far(text, &m->warp_far);
-    put_far(text, &m->weft_far);
+    put_floats(text, "WeaveFar", &m->warp_far, sizeof m->warp_far);
+    put_floats(text, "WeaveFar", &m->weft_far, sizeof m->weft_far);
     text_line(text, "    %s, %s, %s, 0.0, 0.0, 0, 0);\n", number(m->low).text, number(m->high).text,
               number(m->openness).text);
 }

@@ -109,13 +109,13 @@ static float mirrored(uint32_t k) {
 }
 
 /* Seen at that azimuth, and, where the lobe turns, half of it at the opposite one: a table knows only the cosine of
- * the azimuth, and a lobe need not be the same on both sides, as the cloth of raster/materials.c is not. */
+ * the azimuth, and a lobe need not be the same on both sides, as a yarn that runs athwart is not. */
 static void make_cloud(Cloud *cloud, const Lobe *lobe, float cos_o, float azimuth, bool turning) {
-    const float s = sqrt(max(1.0f - cos_o * cos_o, 0.0f));
+    const float s = sqrt(max(1.0f - cos_o * cos_o, 0.0f)), tx = cos(azimuth), side = sin(azimuth);
     cloud->count = 0;
     cloud->e[0] = cloud->e[1] = cloud->dense = 0.0;
     for (int k = 0; k < SAMPLES; k++) {
-        const float turn = turning && k & 1 ? -azimuth : azimuth, tx = cos(turn), ty = sin(turn);
+        const float ty = turning && k & 1 ? -side : side;
         Dir o = dir(s * tx, s * ty, cos_o);
         Dir i = lobe_sample(lobe, o, ((float)k + 0.5f) / SAMPLES, mirrored((uint32_t)(turning ? k / 2 : k)));
         if (!(i.z > 0.0f)) continue;

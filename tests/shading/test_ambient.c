@@ -54,6 +54,12 @@ static Rgb ambient_of(SeenStack m, AmbientTables t, AmbientSource s, float occlu
     return stack_ambient(&m.stack, &m.view, t, s, occlusion, occlusion);
 }
 
+/* Direction k of some: of a lobe that turns at 0 to 180 degrees, since a table stands for either side. */
+static Dir direction_about(int id, double cos_theta, int k) {
+    bool turns = weft_lobe_info(id)->traits & TRAIT_ANISOTROPIC;
+    return direction_cos(cos_theta, turns ? (double)(k % 5) * 0.25 * PI_DOUBLE : 0.0);
+}
+
 /* What the table has for E is E, at nodes and between them, and no weight takes light away. */
 static void even_environment_returns_the_albedo(void **state) {
     (void)state;
@@ -64,8 +70,8 @@ static void even_environment_returns_the_albedo(void **state) {
     for (int id = 0; id < LOBE_COUNT; id++) {
         if (!asked(id) || !test_turn(&at, 1, 7)) continue;
         fit(&table, id);
-        int sides = table.turning ? AMBIENT_HEADINGS : 1;
-        for (int plane = 0; plane < sides * AMBIENT_PLANES; plane++)
+        int headings = table.turning ? AMBIENT_HEADINGS : 1;
+        for (int plane = 0; plane < headings * AMBIENT_PLANES; plane++)
             for (int row = 0; row < table.rows; row++)
                 for (int column = 0; column < AMBIENT_COLUMNS; column++) {
                     int k = plane % AMBIENT_PLANES;
@@ -74,9 +80,7 @@ static void even_environment_returns_the_albedo(void **state) {
                 }
         for (int k = 0; k < 12; k++) {
             Lobe lobe = lobe_rough(id, 0.35f + 0.2f * (float)(k % 4));
-            /* 0 to 180 degrees; a table stands for either side */
-            float turn = weft_lobe_info(id)->traits & TRAIT_ANISOTROPIC ? (float)(k % 5) * 0.25f * PI : 0.0f;
-            Dir o = direction_cos(0.15 + 0.28 * (double)(k / 4), (double)turn);
+            Dir o = direction_about(id, 0.15 + 0.28 * (double)(k / 4), k);
             Albedo e = albedo_quadrature(&lobe, o, 1e-3);
             for (int s = 0; s < AMBIENT_STRATEGIES; s++) {
                 Rgb got = ambient_of(one_lobe(lobe, o), all_tables(ambient_table(&table, s)), &calls, 1.0f);
@@ -135,8 +139,7 @@ static void baked_weights_return_the_albedo(void **state) {
         for (int k = 0; asked(id) && k < 9; k++) {
             if (!test_turn(&at, 1, 11)) continue;
             Lobe lobe = lobe_rough(id, 0.4f + 0.25f * (float)(k % 3));
-            float turn = weft_lobe_info(id)->traits & TRAIT_ANISOTROPIC ? (float)(k % 5) * 0.25f * PI : 0.0f;
-            Dir o = direction_cos(0.15 + 0.35 * (double)(k / 3), (double)turn);
+            Dir o = direction_about(id, 0.15 + 0.35 * (double)(k / 3), k);
             AmbientTable t = bake(&lobe, AMBIENT_FITTED, baked);
             Albedo e = albedo_quadrature(&lobe, o, 1e-3);
             Rgb got = ambient_of(one_lobe(lobe, o), all_tables(t), &calls, 1.0f);
