@@ -23,10 +23,28 @@ static const Option *row_find(const Verb *verb, const char *text, size_t length)
     return NULL;
 }
 
+/* What other renderers call an option: the name that the verb has for it, or NULL. */
+static const char *option_elsewhere(const Verb *verb, const char *typed) {
+    static const struct {
+        const char *elsewhere, *here;
+    } words[] = {{"--samples", "--spp"},
+                 {"--size", "--width"},
+                 {"--resolution", "--width"},
+                 {"--output", "-o"},
+                 {"--out", "-o"},
+                 {"--environment", "--env"},
+                 {"--hdri", "--env"},
+                 {"--bounces", "--max-depth"}};
+    for (size_t k = 0; k < sizeof words / sizeof *words; k++)
+        if (strcmp(typed, words[k].elsewhere) == 0 && row_find(verb, words[k].here, strlen(words[k].here)))
+            return words[k].here;
+    return NULL;
+}
+
 static int unknown_option(const Verb *verb, const char *argument, size_t length) {
     char typed[64], hint[96];
     snprintf(typed, sizeof typed, "%.*s", (int)(length < sizeof typed ? length : sizeof typed - 1), argument);
-    Nearest nearest = {.typed = typed};
+    Nearest nearest = {.typed = typed, .name = option_elsewhere(verb, typed)};
     nearest_offer(&nearest, "--help");
     for (const Option *row = verb->options; !is_end(row); row++)
         if (row->name) nearest_offer(&nearest, row->name);

@@ -120,6 +120,20 @@ static void numbers_outside_their_range_are_refused(void **state) {
     }
 }
 
+/* A verb is offered what it has; fit has no samples a pixel and no size. */
+static void words_of_other_renderers_are_understood(void **state) {
+    (void)state;
+    static const char *const pairs[][2] = {{"--samples=4", "did you mean --spp?"},
+                                           {"--size=64", "did you mean --width?"},
+                                           {"--output=o.png", "did you mean -o?"},
+                                           {"--bounces=4", "did you mean --max-depth?"},
+                                           {"--hdri=a.hdr", "did you mean --env?"}};
+    for (size_t k = 0; k < sizeof pairs / sizeof *pairs; k++)
+        assert_complaint(NULL, LIST("render", "a.glb", pairs[k][0]), 2, pairs[k][1]);
+    assert_complaint(NULL, LIST("fit", "--samples=4", "a"), 2, "see weft fit --help");
+    assert_complaint(NULL, LIST("view", "--size=64", "a.glb"), 2, "did you mean --width?");
+}
+
 static void floor_options_without_a_floor_are_refused(void **state) {
     (void)state;
     static const char *const verbs[] = {"render", "view"};
@@ -164,6 +178,7 @@ int main(void) {
         cmocka_unit_test(full_disk_is_an_error),
         cmocka_unit_test(help_and_version_work_as_words_and_as_options),
         cmocka_unit_test(empty_argument_is_quoted_in_its_error),
+        cmocka_unit_test(words_of_other_renderers_are_understood),
         cmocka_unit_test(floor_options_without_a_floor_are_refused),
     };
     return cmocka_run_group_tests(tests, work_begin, work_end);
