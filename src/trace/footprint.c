@@ -78,7 +78,7 @@ LOOP(look_n, (Chunk *restrict c, const PathContext *context, const float per_uv[
     const float forward[3] = {context->forward[0], context->forward[1], context->forward[2]};
     const float pixel[2] = {context->pixel[0], context->pixel[1]};
     float per_u = per_uv[0], per_v = per_uv[1];
-    uint32_t place = 64u * (uint32_t)depth;
+    uint32_t pair = SAMPLER_CLOTH + (uint32_t)depth;
     EACH(k, (size_t)n) {
         UvPlane plane = plane_of(c, k);
         Dir d = dir_scale(ROW_DIR(c->wo, k), -1.0f);
@@ -93,8 +93,9 @@ LOOP(look_n, (Chunk *restrict c, const PathContext *context, const float per_uv[
         to->footprint_x[k] = f.x;
         to->footprint_y[k] = f.y;
         to->longest[k] = f.longest;
-        to->level[k] = sampler_random(c->pixel[k], c->sample[k], 1000003u + place);
-        to->facet[k] = sampler_random(c->pixel[k], c->sample[k], 1000033u + place);
+        Point p = sampler_point(c->pixel[k], c->sample[k], pair);
+        to->level[k] = p.u;
+        to->facet[k] = p.v;
     }
 }
 

@@ -24,6 +24,8 @@ enum {
     SAMPLER_FLOOR,                      /* one for each group of lights, one for the mirror */
     SAMPLER_VERTEX = SAMPLER_FLOOR + 4, /* the same for each depth, the last for the lobe */
     SAMPLER_PER_VERTEX = 4,
+    SAMPLER_CLOTH =
+        1 << 16, /* behind those of all vertices: one for each depth, for what stands for a woven cloth */
 };
 
 static inline uint32_t reverse_bits(uint32_t x) {
