@@ -278,6 +278,31 @@ static void add_facet(WeftCloth *cloth, WeavePoint p, const Yarn *yarn, double o
                                                      .again = (float)(again / fmax(own[1], 1e-9))};
 }
 
+static int across_first(const void *a, const void *b) {
+    const float x = ((const ClothFacet *)a)->slope_x, y = ((const ClothFacet *)b)->slope_x;
+    return (x > y) - (x < y);
+}
+static int along_first(const void *a, const void *b) {
+    const float x = ((const ClothFacet *)a)->slope_y, y = ((const ClothFacet *)b)->slope_y;
+    return (x > y) - (x < y);
+}
+
+/* Orders facets as the leaves of a k-d tree of their slopes, so that those side by side reflect alike, and numbers that are
+ * evenly spread, as those of a pixel's samples, choose facets that are. Jon Louis Bentley, "Multidimensional Binary Search
+ * Trees Used for Associative Searching", 1975. */
+static void order_facets(ClothFacet *facets, int count) {
+    if (count < 3) return;
+    float low[2] = {facets->slope_x, facets->slope_y}, high[2] = {low[0], low[1]};
+    for (int k = 1; k < count; k++) {
+        low[0] = fminf(low[0], facets[k].slope_x), high[0] = fmaxf(high[0], facets[k].slope_x);
+        low[1] = fminf(low[1], facets[k].slope_y), high[1] = fmaxf(high[1], facets[k].slope_y);
+    }
+    qsort(facets, (size_t)count, sizeof *facets,
+          high[0] - low[0] > high[1] - low[1] ? across_first : along_first);
+    order_facets(facets, count / 2);
+    order_facets(facets + count / 2, count - count / 2);
+}
+
 /* Makes the factors 1 on the mean. */
 static void finish_facets(ClothFacet *facets, int *count) {
     double once = 0.0, again = 0.0;
@@ -289,6 +314,7 @@ static void finish_facets(ClothFacet *facets, int *count) {
         facets[k].once /= (float)fmax(once, 1e-9);
         facets[k].again /= (float)fmax(again, 1e-9);
     }
+    order_facets(facets, *count);
     if (*count == 0) *count = 1; /* of a system that is never seen, black */
 }
 

@@ -307,6 +307,42 @@ static void systems_from_afar_are_drawn_with_little_variance(void **state) {
                       (double)afar_degrees[d], afar_mean[d] / afar_checked, afar_worst[d]);
 }
 
+static double facet_spread(const ClothFacet *facets, int count) {
+    double sum[2] = {0.0, 0.0}, squares = 0.0;
+    for (int k = 0; k < count; k++) {
+        const double x = (double)facets[k].slope_x, y = (double)facets[k].slope_y;
+        sum[0] += x, sum[1] += y, squares += x * x + y * y;
+    }
+    return squares / count - (sum[0] * sum[0] + sum[1] * sum[1]) / count / count;
+}
+
+static double spread_worst;
+
+/* In each 64th of a system's facets slopes vary little of what they vary in all; in any order they would vary as much. */
+static void check_facets(const char *name, const WeftCloth *cloth) {
+    enum { PARTS = 64 };
+    for (int t = 0; t < 2; t++) {
+        const int count = cloth->facet_count[t];
+        const double all = facet_spread(cloth->facets[t], count);
+        double within = 0.0;
+        if (count < 8 * PARTS || all < 1e-6) continue;
+        for (int k = 0; k < PARTS; k++) {
+            const int begin = count * k / PARTS, end = count * (k + 1) / PARTS;
+            within += facet_spread(cloth->facets[t] + begin, end - begin) * (end - begin) / count;
+        }
+        print_message("%-24s %s: %4d facets, of their spread within 1/64 %.4f\n", name, t ? "weft" : "warp",
+                      count, within / all);
+        spread_worst = fmax(spread_worst, within / all);
+    }
+}
+
+static void facets_side_by_side_are_alike(void **state) {
+    (void)state;
+    each_preset(check_facets);
+    assert_true(spread_worst > 0.0);
+    assert_true(spread_worst < 0.06);
+}
+
 /* Returns the bytes of all maps of a folder, and the sides of one, and removes them. */
 static double maps_weigh(const char *folder, int sides[2]) {
     static const char *const names[] = {"base_color.png", "normal.png", "occlusion_roughness.png",
@@ -361,6 +397,7 @@ int main(void) {
         cmocka_unit_test(presets_from_afar_are_symmetric_and_keep_energy),
         cmocka_unit_test(points_send_back_what_falls_on_the_cloth_with_little_variance),
         cmocka_unit_test(systems_from_afar_are_drawn_with_little_variance),
+        cmocka_unit_test(facets_side_by_side_are_alike),
         cmocka_unit_test(maps_of_presets_have_one_weight),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
