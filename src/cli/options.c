@@ -23,7 +23,7 @@ static const Option *row_find(const Verb *verb, const char *text, size_t length)
     return NULL;
 }
 
-/* What other renderers call an option: the name that the verb has for it, or NULL. */
+/* Returns what the verb calls an option that other renderers call so; NULL: it has none. */
 static const char *option_elsewhere(const Verb *verb, const char *typed) {
     static const struct {
         const char *elsewhere, *here;
