@@ -23,7 +23,7 @@ static const Option *row_find(const Verb *verb, const char *text, size_t length)
     return NULL;
 }
 
-/* Returns what the verb calls an option that other renderers call so; NULL: it has none. */
+/* Returns the verb's own name for an option that other renderers call so; NULL: it has none. */
 static const char *option_elsewhere(const Verb *verb, const char *typed) {
     static const struct {
         const char *elsewhere, *here;
@@ -44,7 +44,8 @@ static const char *option_elsewhere(const Verb *verb, const char *typed) {
 static int unknown_option(const Verb *verb, const char *argument, size_t length) {
     char typed[64], hint[96];
     snprintf(typed, sizeof typed, "%.*s", (int)(length < sizeof typed ? length : sizeof typed - 1), argument);
-    Nearest nearest = {.typed = typed, .name = option_elsewhere(verb, typed)};
+    Nearest nearest = {.typed = typed,
+                       .name = option_elsewhere(verb, typed)}; /* at distance 0: none is nearer */
     nearest_offer(&nearest, "--help");
     for (const Option *row = verb->options; !is_end(row); row++)
         if (row->name) nearest_offer(&nearest, row->name);

@@ -25,7 +25,7 @@ enum {
     SAMPLER_VERTEX = SAMPLER_FLOOR + 4, /* the same for each depth, the last for the lobe */
     SAMPLER_PER_VERTEX = 4,
     SAMPLER_CLOTH =
-        1 << 16, /* behind those of all vertices: one for each depth, for what stands for a woven cloth */
+        1 << 16, /* after those of all vertices: one for each depth, for what stands for a woven cloth */
 };
 
 static inline uint32_t reverse_bits(uint32_t x) {

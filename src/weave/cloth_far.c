@@ -278,16 +278,24 @@ static void add_facet(WeftCloth *cloth, WeavePoint p, const Yarn *yarn, double o
                                                      .again = (float)(again / fmax(own[1], 1e-9))};
 }
 
-static int across_first(const void *a, const void *b) {
-    const float x = ((const ClothFacet *)a)->slope_x, y = ((const ClothFacet *)b)->slope_x;
-    return (x > y) - (x < y);
+/* By one number after the other, so that any C library has the same order. */
+static int facet_order(const float a[5], const float b[5]) {
+    for (int k = 0; k < 5; k++)
+        if (a[k] < b[k] || a[k] > b[k]) return a[k] < b[k] ? -1 : 1;
+    return 0;
 }
-static int along_first(const void *a, const void *b) {
-    const float x = ((const ClothFacet *)a)->slope_y, y = ((const ClothFacet *)b)->slope_y;
-    return (x > y) - (x < y);
+static int by_slope_x(const void *a, const void *b) {
+    const ClothFacet *p = a, *q = b;
+    return facet_order((float[]){p->slope_x, p->slope_y, p->azimuth, p->once, p->again},
+                       (float[]){q->slope_x, q->slope_y, q->azimuth, q->once, q->again});
+}
+static int by_slope_y(const void *a, const void *b) {
+    const ClothFacet *p = a, *q = b;
+    return facet_order((float[]){p->slope_y, p->slope_x, p->azimuth, p->once, p->again},
+                       (float[]){q->slope_y, q->slope_x, q->azimuth, q->once, q->again});
 }
 
-/* Orders facets as the leaves of a k-d tree of their slopes, so that those side by side reflect alike, and numbers that are
+/* Orders facets as the leaves of a k-d tree of their slopes, so that those side by side have like slopes, and numbers that are
  * evenly spread, as those of a pixel's samples, choose facets that are. Jon Louis Bentley, "Multidimensional Binary Search
  * Trees Used for Associative Searching", 1975. */
 static void order_facets(ClothFacet *facets, int count) {
@@ -298,12 +306,12 @@ static void order_facets(ClothFacet *facets, int count) {
         low[1] = fminf(low[1], facets[k].slope_y), high[1] = fmaxf(high[1], facets[k].slope_y);
     }
     qsort(facets, (size_t)count, sizeof *facets,
-          high[0] - low[0] > high[1] - low[1] ? across_first : along_first);
+          high[0] - low[0] > high[1] - low[1] ? by_slope_x : by_slope_y);
     order_facets(facets, count / 2);
     order_facets(facets + count / 2, count - count / 2);
 }
 
-/* Makes the factors 1 on the mean. */
+/* Makes the factors 1 on the mean, and orders the facets. */
 static void finish_facets(ClothFacet *facets, int *count) {
     double once = 0.0, again = 0.0;
     for (int k = 0; k < *count; k++) {

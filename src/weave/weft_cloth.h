@@ -17,7 +17,7 @@ typedef struct ClothFar {
 } ClothFar;
 
 /* Points of one system, evenly spread over a piece of the cloth, any of which may stand for all: slopes and azimuth as
- * lobe yarn has them, and factors on the colours, 1 on the mean. */
+ * lobe yarn has them, and factors on the colours, 1 on the mean. Neighbours have like slopes: they are the leaves of a k-d tree. */
 typedef struct ClothFacet {
     float slope_x, slope_y, azimuth, once, again;
 } ClothFacet;

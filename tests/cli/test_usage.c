@@ -120,14 +120,14 @@ static void numbers_outside_their_range_are_refused(void **state) {
     }
 }
 
-/* A verb is offered what it has; fit has no samples a pixel and no size. */
+/* Only options that the verb has are offered; fit has no samples a pixel. */
 static void words_of_other_renderers_are_understood(void **state) {
     (void)state;
-    static const char *const pairs[][2] = {{"--samples=4", "did you mean --spp?"},
-                                           {"--size=64", "did you mean --width?"},
-                                           {"--output=o.png", "did you mean -o?"},
-                                           {"--bounces=4", "did you mean --max-depth?"},
-                                           {"--hdri=a.hdr", "did you mean --env?"}};
+    static const char *const pairs[][2] = {
+        {"--samples=4", "did you mean --spp?"},       {"--size=64", "did you mean --width?"},
+        {"--output=o.png", "did you mean -o?"},       {"--resolution=64", "did you mean --width?"},
+        {"--out=o.png", "did you mean -o?"},          {"--environment=a.hdr", "did you mean --env?"},
+        {"--bounces=4", "did you mean --max-depth?"}, {"--hdri=a.hdr", "did you mean --env?"}};
     for (size_t k = 0; k < sizeof pairs / sizeof *pairs; k++)
         assert_complaint(NULL, LIST("render", "a.glb", pairs[k][0]), 2, pairs[k][1]);
     assert_complaint(NULL, LIST("fit", "--samples=4", "a"), 2, "see weft fit --help");

@@ -38,9 +38,10 @@ static void reflect(const WeftReflection *reflection) {
     }
 }
 
-/* What an instrument makes of the first: each number is off by a part of itself, of that deviation; as a sum of four that are
- * even, which is near to normal. */
-static void measure(float noise) {
+/* What an instrument makes of the first: each number is off by a part of itself, of that deviation; as a sum of four evenly
+ * distributed numbers, which is near to normal. */
+static void measure(float noise, int seed) {
+    drawn_seed = (uint32_t)seed;
     for (int k = 0; k < FITTED; k++)
         for (int c = 0; c < 3; c++) {
             const double normal = (drawn() + drawn() + drawn() + drawn() - 2.0) * 1.7320508;
@@ -85,7 +86,7 @@ typedef struct Found {
 } Found;
 
 /* Fits what a cloth reflects, to numbers with that noise. */
-static Found find_again(const char *name, const WeftCloth *cloth, float noise) {
+static Found find_again(const char *name, const WeftCloth *cloth, float noise, int seed) {
     WeftMaterial bare;
     WeftReflection *reflection;
     WeftData *data;
@@ -95,7 +96,7 @@ static Found find_again(const char *name, const WeftCloth *cloth, float noise) {
     weft_material_default(&bare);
     assert_int_equal(weft_reflection_create_woven(&bare, cloth, &reflection, &error), WEFT_OK);
     reflect(reflection);
-    measure(noise);
+    measure(noise, seed);
     assert_int_equal(weft_data_create(FITTED, (const float(*)[3])wo, (const float(*)[3])wi,
                                       (const float(*)[3])measured, 0, &data, &error),
                      WEFT_OK);
@@ -117,38 +118,50 @@ static Found find_again(const char *name, const WeftCloth *cloth, float noise) {
     return found;
 }
 
-/* The worst of every step-th preset. */
-static Found find_presets(int step, float noise) {
+/* The worst of some presets. */
+typedef struct Worst {
+    double foretold, second; /* the worst two of foretold */
+    double number;
+} Worst;
+
+/* Of every step-th woven preset. */
+static Worst find_presets(int step, float noise) {
     WeftScene *scene;
     WeftError error;
-    Found worst = {0};
+    Worst worst = {0};
+    int woven = 0;
     assert_int_equal(weft_scene_load("builtin:cloth", &scene, NULL, &error), WEFT_OK);
     for (int k = 0; weft_preset_name(k); k++) {
         const char *name = weft_preset_name(k), *text = weft_preset_text(k);
-        if (woven_family(name) < 0 || k % step) continue;
+        if (woven_family(name) < 0 || woven++ % step) continue;
         if (weft_scene_assign_material_memory(scene, NULL, text, strlen(text), name, NULL, &error) != WEFT_OK)
             fail_msg("%s", error.text);
-        const Found found = find_again(name, scene->cloths[scene->materials[0].cloth - 1], noise);
+        const Found found = find_again(name, scene->cloths[scene->materials[0].cloth - 1], noise, 17 + k);
+        worst.second = fmax(worst.second, fmin(worst.foretold, found.foretold));
         worst.foretold = fmax(worst.foretold, found.foretold);
         worst.number = fmax(worst.number, found.number);
     }
-    print_message("the farthest is off by %.5f, a number by %.4f\n", worst.foretold, worst.number);
+    assert_true(woven >= WOVEN_PRESETS);
+    print_message("the farthest is off by %.5f, the next by %.5f, a number by %.4f\n", worst.foretold,
+                  worst.second, worst.number);
     weft_scene_free(scene);
     return worst;
 }
 
 static void presets_are_found_again_by_what_they_reflect(void **state) {
     (void)state;
-    const Found worst = find_presets(getenv("WEFT_TEST_SHORT") ? 4 : 1, 0.0f);
+    const Worst worst = find_presets(getenv("WEFT_TEST_SHORT") ? 4 : 1, 0.0f);
     assert_true(worst.foretold < 0.01);
     assert_true(worst.number < 0.005);
 }
 
-/* 25 numbers of 12,000 that are a tenth off each: little of the noise may be in what is found. */
+/* 25 numbers are fitted to 12,000, each with noise of a tenth: little of that may be in what is found. Of one preset the
+ * search may end beside the best. */
 static void presets_are_found_again_under_noise(void **state) {
     (void)state;
-    const Found worst = find_presets(getenv("WEFT_TEST_SHORT") ? 8 : 1, 0.1f);
-    assert_true(worst.foretold < 0.02);
+    const Worst worst = find_presets(getenv("WEFT_TEST_SHORT") ? 8 : 1, 0.1f);
+    assert_true(worst.foretold < 0.03);
+    assert_true(worst.second < 0.012);
 }
 
 /* Data of lobe ggx, which does not change as both directions turn; in all azimuths, and in one plane. */

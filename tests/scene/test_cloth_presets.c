@@ -317,8 +317,9 @@ static double facet_spread(const ClothFacet *facets, int count) {
 }
 
 static double spread_worst;
+static int spreads;
 
-/* In each 64th of a system's facets slopes vary little of what they vary in all; in any order they would vary as much. */
+/* In each 64th of a system's facets slopes vary little of what they vary in all; in no particular order they would vary as much as all. */
 static void check_facets(const char *name, const WeftCloth *cloth) {
     enum { PARTS = 64 };
     for (int t = 0; t < 2; t++) {
@@ -332,6 +333,8 @@ static void check_facets(const char *name, const WeftCloth *cloth) {
         }
         print_message("%-24s %s: %4d facets, of their spread within 1/64 %.4f\n", name, t ? "weft" : "warp",
                       count, within / all);
+        assert_true(isfinite(within / all));
+        spreads++;
         spread_worst = fmax(spread_worst, within / all);
     }
 }
@@ -339,7 +342,7 @@ static void check_facets(const char *name, const WeftCloth *cloth) {
 static void facets_side_by_side_are_alike(void **state) {
     (void)state;
     each_preset(check_facets);
-    assert_true(spread_worst > 0.0);
+    assert_true(spreads > WOVEN_PRESETS); /* of two systems each, some are level or hidden */
     assert_true(spread_worst < 0.06);
 }
 
