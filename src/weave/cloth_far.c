@@ -278,21 +278,22 @@ static void add_facet(WeftCloth *cloth, WeavePoint p, const Yarn *yarn, double o
                                                      .again = (float)(again / fmax(own[1], 1e-9))};
 }
 
-/* By one number after the other, so that any C library has the same order. */
-static int facet_order(const float a[5], const float b[5]) {
-    for (int k = 0; k < 5; k++)
-        if (a[k] < b[k] || a[k] > b[k]) return a[k] < b[k] ? -1 : 1;
-    return 0;
+static int order_of(float a, float b) { return (a > b) - (a < b); }
+
+/* Facets of equal slopes have an order too, so that it is the same with any C library. */
+static int by_rest(const ClothFacet *a, const ClothFacet *b) {
+    const int azimuth = order_of(a->azimuth, b->azimuth), once = order_of(a->once, b->once);
+    return azimuth ? azimuth : once ? once : order_of(a->again, b->again);
 }
-static int by_slope_x(const void *a, const void *b) {
-    const ClothFacet *p = a, *q = b;
-    return facet_order((float[]){p->slope_x, p->slope_y, p->azimuth, p->once, p->again},
-                       (float[]){q->slope_x, q->slope_y, q->azimuth, q->once, q->again});
+static int by_slope_x(const void *p, const void *q) {
+    const ClothFacet *a = p, *b = q;
+    const int x = order_of(a->slope_x, b->slope_x), y = order_of(a->slope_y, b->slope_y);
+    return x ? x : y ? y : by_rest(a, b);
 }
-static int by_slope_y(const void *a, const void *b) {
-    const ClothFacet *p = a, *q = b;
-    return facet_order((float[]){p->slope_y, p->slope_x, p->azimuth, p->once, p->again},
-                       (float[]){q->slope_y, q->slope_x, q->azimuth, q->once, q->again});
+static int by_slope_y(const void *p, const void *q) {
+    const ClothFacet *a = p, *b = q;
+    const int y = order_of(a->slope_y, b->slope_y);
+    return y ? y : by_slope_x(p, q);
 }
 
 /* Orders facets as the leaves of a k-d tree of their slopes, so that those side by side have like slopes, and numbers that are

@@ -38,8 +38,8 @@ static void reflect(const WeftReflection *reflection) {
     }
 }
 
-/* What an instrument makes of the first: each number is off by a part of itself, of that deviation; as a sum of four evenly
- * distributed numbers, which is near to normal. */
+/* Sets what an instrument makes of the first: each number is off by a part of itself. That is the sum of four evenly
+ * distributed numbers, which is near to normal, and its deviation is `noise`. */
 static void measure(float noise, int seed) {
     drawn_seed = (uint32_t)seed;
     for (int k = 0; k < FITTED; k++)
@@ -118,13 +118,11 @@ static Found find_again(const char *name, const WeftCloth *cloth, float noise, i
     return found;
 }
 
-/* The worst of some presets. */
 typedef struct Worst {
-    double foretold, second; /* the worst two of foretold */
-    double number;
+    double foretold, second, number; /* of Found, and the second worst of foretold */
 } Worst;
 
-/* Of every step-th woven preset. */
+/* Returns the worst of every step-th woven preset. */
 static Worst find_presets(int step, float noise) {
     WeftScene *scene;
     WeftError error;

@@ -319,7 +319,8 @@ static double facet_spread(const ClothFacet *facets, int count) {
 static double spread_worst;
 static int spreads;
 
-/* In each 64th of a system's facets slopes vary little of what they vary in all; in no particular order they would vary as much as all. */
+/* Checks that slopes vary little within each 64th of a system's facets; in no particular order they would vary there as much
+ * as in all. */
 static void check_facets(const char *name, const WeftCloth *cloth) {
     enum { PARTS = 64 };
     for (int t = 0; t < 2; t++) {
