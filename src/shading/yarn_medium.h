@@ -3,7 +3,7 @@
  *   single = D(h) / 4  P_i P_o / (sigma_i P_o + sigma_o P_i) / (V_i V_o)                            [1/sr]
  *   many   = t_i t_o / (pi t_mean) (P_i / V_i + P_o / V_o) / 2                                      [1/sr]
  *   P = (w . (s_x, s_y, 1))+,  sigma = sqrt(1 - (1 - a^2) (t . w)^2),  V = w_z + sum share_k C_k
- *   C = [(A + B - w_z)+^3 - (A - B - w_z)+^3 - (B - A - w_z)+^3] / (24 A B)
+ *   C = [(A + B - w_z)+^3 - (|A - B| - w_z)+^3] / (24 A B)
  *
  * A yarn is a height field with slopes s_x, s_y to a flat cloth, filled with flakes of Eric Heitz, Jonathan
  * Dupuy, Cyril Crassin, Carsten Dachsbacher, "The SGGX Microflake Distribution", ACM TOG 34(4), 2015, along
@@ -27,8 +27,7 @@ FN float yarn_cube(float x) {
 }
 FN float yarn_hidden(float across, float along, float z, float roundness, float crimp) {
     float a = max(roundness * abs(across), 1e-3f), b = max(crimp * abs(along), 1e-3f);
-    float sum = yarn_cube(a + b - z) - yarn_cube(a - b - z) - yarn_cube(b - a - z);
-    return max(sum, 0.0f) / (24.0f * a * b);
+    return (yarn_cube(a + b - z) - yarn_cube(abs(a - b) - z)) / (24.0f * a * b);
 }
 
 /* V over two families: `share` of yarn that runs along y with slopes up to crimp, the rest along x. */
@@ -55,10 +54,10 @@ FN float yarn_half(Angles a) {
     return 1.0f / max(x * x + y * y + z * z, 4e-6f);
 }
 
-/* single times 4 pi a^2 V_i V_o, from e = (1 - a^2) / a^2 and P and t . w of both directions, with one division:
+/* single times 4 pi a^2 V_i V_o, from e = (1 - a^2) / a^2, m = t . wi + t . wo and P and t . w of each, with one division:
  * a pi D = (1 + e m^2 q)^-2, sigma / a = sqrt(1 + e (1 - (t . w)^2)). */
-FN float yarn_met_once(float e, float q, float p_o, float p_i, float t_o, float t_i) {
-    float m = t_o + t_i, d = 1.0f + e * min(m * m * q, 1.0f);
+FN float yarn_met_once(float e, float q, float m, float p_o, float p_i, float t_o, float t_i) {
+    float d = 1.0f + e * min(m * m * q, 1.0f);
     float wait = sqrt(1.0f + e * max(1.0f - t_i * t_i, 0.0f)) * p_o +
                  sqrt(1.0f + e * max(1.0f - t_o * t_o, 0.0f)) * p_i;
     return p_o * p_i / max(d * d * wait, 1e-6f);

@@ -89,7 +89,7 @@ FN YarnProposal yarn_proposal(const YarnPrepared *p, const YarnView *w) {
 
 FN LobeValue yarn_value(const YarnPrepared *p, const YarnView *w, Angles a) {
     YarnView v = yarn_look(p, a.i);
-    float met = yarn_met_once(p->e, yarn_half(a), w->p, v.p, w->along, v.along);
+    float met = yarn_met_once(p->e, yarn_half(a), w->along + v.along, w->p, v.p, w->along, v.along);
     float once = met * (p->once * w->over_seen) * v.over_seen;
     float many = p->again * w->left * v.left * (w->p * w->over_seen + v.p * v.over_seen);
     return lobe_value_of(once + many, many / max(once + many, 1e-6f),
