@@ -47,7 +47,8 @@ MATERIALS = {
         "extensions": {"KHR_materials_sheen": {
             "sheenColorFactor": [0.42, 0.1, 0.13], "sheenRoughnessFactor": 0.35}},
     },
-    "Plinth": {"pbrMetallicRoughness": {
+    # Plinth and foot are open below; seen from there as well, they keep light from the floor that they hide.
+    "Plinth": {"doubleSided": True, "pbrMetallicRoughness": {
         "baseColorFactor": [0.62, 0.6, 0.57, 1.0], "metallicFactor": 0.0, "roughnessFactor": 0.6}},
     "Floor": {"pbrMetallicRoughness": {
         "baseColorFactor": [0.34, 0.325, 0.31, 1.0], "metallicFactor": 0.0, "roughnessFactor": 0.9}},
