@@ -12,7 +12,7 @@
 
 /* COLUMNS: of a system's two kinds of light, of both. UNKNOWNS: numbers, and colours of three channels. */
 enum { NUMBERS = 13, COLUMNS = 4, UNKNOWNS = NUMBERS + 3 * COLUMNS };
-enum { GRID = 192, STARTS = 12, ROUGH_STEPS = 20, FULL_STEPS = 60 };
+enum { GRID = 512, STARTS = 16, ROUGH_STEPS = 20, FULL_STEPS = 180, FINISHED = 4 };
 
 /* A number: of which lobe it is, between which ends, and whether steps are those of its logarithm. */
 typedef struct WeaveNumber {
@@ -284,26 +284,37 @@ static void give(const WeaveWalker *self, const double *x, LobeFound *out) {
     out->evaluations = self->evaluations;
 }
 
-/* Roughly, from several starts and few samples, and from the best of them with all. */
+static int by_cost(const void *a, const void *b) {
+    const WeavePlace *x = a, *y = b;
+    return (x->cost > y->cost) - (x->cost < y->cost);
+}
+
+/* Goes down with all samples, by squares and ever more by sizes. */
+static void finish(WeaveWalker *self, WeavePlace *place, double soft) {
+    self->soft = soft;
+    for (int k = 0; k < 3; k++, self->soft *= 0.1) descend(self, place, FULL_STEPS / 3);
+}
+
+/* Roughly, from several starts and few samples, and from the best of them with all, since a valley that is the deepest with few
+ * samples need not be with all. */
 WeftResult weave_search_run(const Samples *samples, ItemProgress *item_progress, LobeFound *out) {
     WeaveWalker self;
-    WeavePlace starts[STARTS], best = {.cost = HUGE_VAL};
+    WeavePlace starts[STARTS];
     if (!walker_make(&self, samples, item_progress)) return WEFT_RESOURCES;
     const double mean = mean_goal(samples);
     self.count = samples->first;
     self.soft = 0.3 * mean;
     find_starts(&self, starts);
     out->start = starts[0].cost;
-    const double met = 1e-6 * mean * self.count * samples->channels;
-    for (int k = 0; k < STARTS && best.cost > met && progress_report(item_progress, 0.2 + 0.6 * k / STARTS);
-         k++) {
+    for (int k = 0; k < STARTS && progress_report(item_progress, 0.2 + 0.5 * k / STARTS); k++)
         descend(&self, &starts[k], ROUGH_STEPS);
-        if (starts[k].cost < best.cost) best = starts[k];
-    }
+    qsort(starts, STARTS, sizeof *starts, by_cost);
     self.count = samples->count;
-    for (int k = 0; k < 3; k++, self.soft *= 0.1) descend(&self, &best, FULL_STEPS / 3);
-    out->error = paint(&self, best.x);
-    give(&self, best.x, out);
+    for (int k = 0; k < FINISHED && progress_report(item_progress, 0.7 + 0.3 * k / FINISHED); k++)
+        finish(&self, &starts[k], 0.3 * mean);
+    qsort(starts, FINISHED, sizeof *starts, by_cost);
+    out->error = paint(&self, starts[0].x);
+    give(&self, starts[0].x, out);
     free(self.block);
     return progress_report(item_progress, 0.0) ? WEFT_OK : WEFT_INTERRUPTED;
 }

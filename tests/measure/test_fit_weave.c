@@ -119,7 +119,7 @@ static Found find_again(const char *name, const WeftCloth *cloth, float noise, i
 }
 
 typedef struct Worst {
-    double foretold, second, number; /* of Found, and the second worst of foretold */
+    double foretold, number; /* of Found */
 } Worst;
 
 /* Returns the worst of every step-th woven preset. */
@@ -135,13 +135,11 @@ static Worst find_presets(int step, float noise) {
         if (weft_scene_assign_material_memory(scene, NULL, text, strlen(text), name, NULL, &error) != WEFT_OK)
             fail_msg("%s", error.text);
         const Found found = find_again(name, scene->cloths[scene->materials[0].cloth - 1], noise, 17 + k);
-        worst.second = fmax(worst.second, fmin(worst.foretold, found.foretold));
         worst.foretold = fmax(worst.foretold, found.foretold);
         worst.number = fmax(worst.number, found.number);
     }
     assert_true(woven >= WOVEN_PRESETS);
-    print_message("the farthest is off by %.5f, the next by %.5f, a number by %.4f\n", worst.foretold,
-                  worst.second, worst.number);
+    print_message("the farthest is off by %.5f, a number by %.4f\n", worst.foretold, worst.number);
     weft_scene_free(scene);
     return worst;
 }
@@ -149,17 +147,15 @@ static Worst find_presets(int step, float noise) {
 static void presets_are_found_again_by_what_they_reflect(void **state) {
     (void)state;
     const Worst worst = find_presets(getenv("WEFT_TEST_SHORT") ? 4 : 1, 0.0f);
-    assert_true(worst.foretold < 0.01);
-    assert_true(worst.number < 0.005);
+    assert_true(worst.foretold < 0.001);
+    assert_true(worst.number < 0.001);
 }
 
-/* 25 numbers are fitted to 12,000, each with noise of a tenth: little of that may be in what is found. Of one preset the
- * search may end beside the best. */
+/* 25 numbers are fitted to 12,000, each with noise of a tenth: little of that may be in what is found. */
 static void presets_are_found_again_under_noise(void **state) {
     (void)state;
     const Worst worst = find_presets(getenv("WEFT_TEST_SHORT") ? 8 : 1, 0.1f);
-    assert_true(worst.foretold < 0.03);
-    assert_true(worst.second < 0.012);
+    assert_true(worst.foretold < 0.012);
 }
 
 /* Data of lobe ggx, which does not change as both directions turn; in all azimuths, and in one plane. */

@@ -69,23 +69,24 @@ STRUCT(WovenPrepared){WOVEN_NUMBERS(WOVEN_NUMBER) WOVEN_EACH_BIN(WOVEN_BIN)};
 
 /* There are 2 n - 1 parts, up to eleven: so many that from one to the next D moves by no more than 0.7 of its width at the
  * end of the yarn, where slopes of one that floats change most, unless that asks for more. About the level part of a plain
- * weave it moves up to 1.4 times as far. With fewer than five the sum would miss how much of the yarn turns away. */
+ * weave it moves up to 1.4 times as far. With fewer than five the sum would miss how much of the yarn turns away. n need not
+ * be whole: the last bin is as much narrower, so that f does not jump as numbers change, which would stop a fit. */
 FN float woven_count(Woven m) {
     float turn = 2.0f * m.floats / (m.floats + 1.0f) * m.crimp;
-    return clamp(floor(turn / (0.7f * max(m.alpha, 1e-3f)) + 0.5f) + 1.0f, 3.0f, to_float(WOVEN_BINS));
+    return clamp(turn / (0.7f * max(m.alpha, 1e-3f)) + 1.0f, 3.0f, to_float(WOVEN_BINS));
 }
 
-/* Bin k reaches from x_k to x_(k + 1), s = x^(2 / (floats + 1)), x_0 = 0, x_1 = 1.25 / (2 n - 1), and the others are even: it
- * has the mean slope there, and a D as much wider as slopes vary. Bin 0 and its opposite are one part, level on the mean,
+/* Bin k reaches from x_k to x_(k + 1), s = x^(2 / (floats + 1)), x_0 = 0, x_1 = 1.25 / (2 n - 1), and the others are even, up to 1:
+ * it has the mean slope there, and a D as much wider as slopes vary. Bin 0 and its opposite are one part, level on the mean,
  * with the gain of one of them. That part is the wider one (own choice): where light grazes the others turn away one by
  * one, and it never does. */
 #define WOVEN_ACROSS (0.5f * 5.0f / (18.0f * 0.9f)) /* half a bin on either side; of woven_row */
 FN WovenBin woven_bin(Woven m, float tan_crimp, float n, float k) {
     float f = m.floats, e = 2.0f / (f + 1.0f), e2 = (2.0f * f + 1.0f) * e, a2 = max(m.alpha * m.alpha, 1e-6f);
     float first = 1.25f / (2.0f * n - 1.0f), next = (1.0f - first) / (n - 1.0f);
-    float x0 = k > 0.0f ? first + (k - 1.0f) * next : 0.0f, x1 = first + k * next;
-    float least = max(x0, 1e-3f), width = pow(x1, e) - (x0 > 0.0f ? pow(least, e) : 0.0f);
-    float mean = x0 > 0.0f ? (x1 * x1 - x0 * x0) / ((f + 1.0f) * width) : 0.0f;
+    float x0 = k > 0.0f ? first + (k - 1.0f) * next : 0.0f, x1 = min(first + k * next, 1.0f);
+    float least = max(x0, 1e-3f), width = max(pow(x1, e) - (x0 > 0.0f ? pow(least, e) : 0.0f), 1e-6f);
+    float mean = x0 > 0.0f ? max(x1 * x1 - x0 * x0, 0.0f) / ((f + 1.0f) * width) : 0.0f;
     float square = (pow(x1, e2) - (x0 > 0.0f ? pow(least, e2) : 0.0f)) / ((2.0f * f + 1.0f) * width);
     WovenBin b;
     b.slope = tan_crimp * mean;
@@ -98,13 +99,13 @@ FN WovenBin woven_bin(Woven m, float tan_crimp, float n, float k) {
 }
 
 FN void woven_prepare(Woven m, WovenPrepared *p) {
-    float tan_crimp = sin(m.crimp) / cos(m.crimp);
+    float tan_crimp = sin(m.crimp) / cos(m.crimp), n = woven_count(m);
     p->alpha = m.alpha;
     p->share = m.share;
     p->part = m.share;
     p->roundness = max(m.roundness, 1e-2f);
     p->edge = -0.3f / (p->roundness * p->roundness);
-    p->count = woven_count(m);
+    p->count = -floor(-n);
     p->crimp = tan_crimp * sqrt(3.0f / (2.0f * m.floats + 1.0f));
     p->cross_crimp = sin(m.cross_crimp) / cos(m.cross_crimp);
     p->cos_a = cos(m.azimuth);
@@ -112,12 +113,12 @@ FN void woven_prepare(Woven m, WovenPrepared *p) {
     p->cos_t = cos(m.twist);
     p->sin_t = sin(m.twist);
     p->again = 0.5f / (PI * yarn_left_mean(m.alpha));
-    p->b0 = woven_bin(m, tan_crimp, p->count, 0.0f);
-    p->b1 = woven_bin(m, tan_crimp, p->count, 1.0f);
-    p->b2 = woven_bin(m, tan_crimp, p->count, 2.0f);
-    p->b3 = woven_bin(m, tan_crimp, p->count, 3.0f);
-    p->b4 = woven_bin(m, tan_crimp, p->count, 4.0f);
-    p->b5 = woven_bin(m, tan_crimp, p->count, 5.0f);
+    p->b0 = woven_bin(m, tan_crimp, n, 0.0f);
+    p->b1 = woven_bin(m, tan_crimp, n, 1.0f);
+    p->b2 = woven_bin(m, tan_crimp, n, 2.0f);
+    p->b3 = woven_bin(m, tan_crimp, n, 3.0f);
+    p->b4 = woven_bin(m, tan_crimp, n, 4.0f);
+    p->b5 = woven_bin(m, tan_crimp, n, 5.0f);
 }
 FN float woven_second(Woven m, float f0, float f90) { return yarn_reflectance(f0); }
 
