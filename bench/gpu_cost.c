@@ -489,7 +489,8 @@ int main(void) {
         "  material.\n"
         "\nThree programs for each lobe: its parameters read per thread, as from textures; prepared before, "
         "in\n"
-        "a uniform block; and known to the compiler.\n\n"
+        "a uniform block; and known to the compiler. The loop of `woven` counts once but where its numbers "
+        "are known.\n\n"
         "| lobe | instructions, textured | prepared | known | cycles, textured | prepared | known |"
         " registers, textured | prepared | known |\n|---|---|---|---|---|---|---|---|---|---|\n",
         gpu.driver.driverName, gpu.driver.driverInfo, gpu.properties.properties.deviceName);

@@ -10,7 +10,7 @@
  * and no other light, against the strategy `fitted` for the same lobe (docs/environment.md). --woven: what the cloth
  * takes in denim, in both engines, against the scene as it comes, from threads close up to all of the cloth
  * (docs/weave.md). With shaders of a folder or a width (640 without) only the raster engine is measured: a graphics card
- * takes so little for 640 that the processor's part counts, so give it 3840. */
+ * takes so little for 640 that the processor's part counts, so give it 3840; 16 to 16384 are taken. */
 #define _POSIX_C_SOURCE 200809L
 #include <stdbool.h>
 #include <stdio.h>
@@ -259,10 +259,10 @@ static int woven_main(int argc, char **argv) {
     for (int k = 2; k + 1 < argc; k += 2) {
         if (strcmp(argv[k], "--shader-dir") == 0)
             shader_dir = argv[k + 1];
-        else if (strcmp(argv[k], "--width") == 0 && width_of(argv[k + 1]))
-            width = width_of(argv[k + 1]);
-        else
+        else if (strcmp(argv[k], "--width") != 0)
             refuse(argv[k]);
+        else if (!(width = width_of(argv[k + 1])))
+            refuse(argv[k + 1]);
     }
     if (argc % 2) refuse(argv[argc - 1]);
     const bool traced = !shader_dir && !width;
@@ -275,7 +275,7 @@ static int woven_main(int argc, char **argv) {
     for (int k = 0; k < 2; k++) entries[k].raster = raster_of(entries[k].scene, shader_dir);
     printf(
         "builtin:cloth as it comes and in denim, ms a frame; raster: %d wide, by %s\n%-20s %10s %10s %8s\n",
-        width, weft_raster_info(entries[1].raster).driver, "engine and distance", "plain", "denim", "times");
+        width, weft_raster_info(entries[1].raster).driver, "engine and distance", "as is", "denim", "times");
     for (int engine = !traced; engine < 2; engine++)
         for (size_t d = 0; d < sizeof distances / sizeof *distances; d++) {
             WeftRasterView view = view_of((Size){width, width * 9 / 16});

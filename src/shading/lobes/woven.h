@@ -47,14 +47,15 @@ STRUCT(Woven){WOVEN_PARAMS(FIELD)};
 /* A part of the yarn: s between two bounds, or between their opposites. The first lies on both sides of 0 and is level: its
  * slope and its c are 0 and 1, and stand here so that all are alike. */
 STRUCT(WovenBin) {
-    float slope; /* s_y in the middle */
+    float slope; /* the mean s_y */
     float c;     /* 1 / sqrt(1 + slope^2) */
     float e;     /* of the wider D, as yarn_met_once has it */
     float gain;  /* of its weight in the mean over s, and of the wider D; 0: no part */
 };
 
-/* edge: of the weight 1 + edge s_x^2. count: of bins. part: the share; 1 where colours hold it (raster/glsl/weave.glsl).
- * crimp, cross_crimp: slopes as yarn_area takes them. again: of many, beside what directions add. */
+/* roundness: at least 0.01, so that edge fits a half float. edge: of the weight 1 + edge s_x^2. count: of bins. part: the
+ * share; 1 where colours hold it (raster/glsl/weave.glsl). crimp, cross_crimp: slopes as yarn_area takes them. again: of
+ * many, beside what directions add. */
 #define WOVEN_NUMBERS(N)                                                                                     \
     N(alpha)                                                                                                 \
     N(share)                                                                                                 \
@@ -68,18 +69,19 @@ STRUCT(WovenPrepared){WOVEN_NUMBERS(WOVEN_NUMBER) WOVEN_EACH_BIN(WOVEN_BIN)};
 #define WOVEN_BINS 6
 
 /* There are 2 n - 1 parts, up to eleven: so many that from one to the next D moves by no more than 0.7 of its width at the
- * end of the yarn, where slopes of one that floats change most, unless that asks for more. About the level part of a plain
- * weave it moves up to 1.4 times as far. With fewer than five the sum would miss how much of the yarn turns away. n need not
- * be whole: the last bin is as much narrower, so that f does not jump as numbers change, which would stop a fit. */
+ * end of the yarn, where slopes of one that floats change most, unless that asks for more than eleven. About the level
+ * part of a plain weave it moves up to 1.4 times as far at a crimp of 0.8, and 2.2 times at 1.2. With fewer than five the
+ * sum would miss how much of the yarn turns away. n need not be whole: the last bin is as much narrower, so that f does
+ * not jump as numbers change, which would stop a fit. */
 FN float woven_count(Woven m) {
     float turn = 2.0f * m.floats / (m.floats + 1.0f) * m.crimp;
     return clamp(turn / (0.7f * max(m.alpha, 1e-3f)) + 1.0f, 3.0f, to_float(WOVEN_BINS));
 }
 
-/* Bin k reaches from x_k to x_(k + 1), s = x^(2 / (floats + 1)), x_0 = 0, x_1 = 1.25 / (2 n - 1), and the others are even, up to 1:
- * it has the mean slope there, and a D as much wider as slopes vary. Bin 0 and its opposite are one part, level on the mean,
- * with the gain of one of them. That part is the wider one (own choice): where light grazes the others turn away one by
- * one, and it never does. */
+/* Bin k reaches from x_k to x_(k + 1), s = x^(2 / (floats + 1)), x_0 = 0, x_1 = 1.25 / (2 n - 1), and the others are even,
+ * up to 1: it has the mean slope there, and a D as much wider as slopes vary. Bin 0 and its opposite are one part, level on
+ * the mean, with the gain of one of them. That part is the wider one (own choice): where light grazes the others turn away
+ * one by one, and it never does. */
 #define WOVEN_ACROSS (0.5f * 5.0f / (18.0f * 0.9f)) /* half a bin on either side; of woven_row */
 FN WovenBin woven_bin(Woven m, float tan_crimp, float n, float k) {
     float f = m.floats, e = 2.0f / (f + 1.0f), e2 = (2.0f * f + 1.0f) * e, a2 = max(m.alpha * m.alpha, 1e-6f);
@@ -170,8 +172,8 @@ FN float woven_flat(float q) {
 }
 
 /* yarn_met_once of one facet, by its part of the yarn. P is not below 0 where the facet counts, and abs keeps it so where
- * reach is 0. t . (wo + wi) is summed term by term, since the two nearly cancel where light goes straight on along the
- * cloth. */
+ * reach is 0. t . (wo + wi) is summed term by term, so that vectors and single calls round alike where the two nearly
+ * cancel, as light does that goes straight on along the cloth. */
 FN float woven_facet(const WovenPrepared *p, float c, float e, float x, const WovenLine *o,
                      const WovenLine *i, float q) {
     float x2 = x * x, n = c * woven_flat(c * c * x2);
