@@ -76,7 +76,7 @@ static void stack_samples_follow_their_pdf(void **state) {
     (void)state;
     static AlbedoTable table;
     Random random = {7};
-    for (int k = 0; k < (test_long() ? 30 : test_short() ? 3 : 8); k++) {
+    for (int k = 0; k < (test_long() ? 30 : test_short() ? 3 : 12); k++) {
         fill_albedo(&table, (k % weft_lobe_count()));
         Surface surface = random_surface(&random, k % 2);
         if (k % 3 == 1) surface = dusted(surface, 0.1f * (float)k);
