@@ -295,15 +295,15 @@ static void finish(WeaveWalker *self, WeavePlace *place, double soft) {
     for (int k = 0; k < 3; k++, self->soft *= 0.1) descend(self, place, FULL_STEPS / 3);
 }
 
-/* Roughly, from several starts and few samples, and from the best of them with all, since a valley that is the deepest with few
- * samples need not be with all. */
+/* Roughly, from several starts and few samples, and from the best of them with all, since a valley that is the deepest with
+ * few samples need not be with all. */
 WeftResult weave_search_run(const Samples *samples, ItemProgress *item_progress, LobeFound *out) {
     WeaveWalker self;
     WeavePlace starts[STARTS];
     if (!walker_make(&self, samples, item_progress)) return WEFT_RESOURCES;
-    const double mean = mean_goal(samples);
+    const double soft = 0.3 * mean_goal(samples);
     self.count = samples->first;
-    self.soft = 0.3 * mean;
+    self.soft = soft;
     find_starts(&self, starts);
     out->start = starts[0].cost;
     for (int k = 0; k < STARTS && progress_report(item_progress, 0.2 + 0.5 * k / STARTS); k++)
@@ -311,7 +311,7 @@ WeftResult weave_search_run(const Samples *samples, ItemProgress *item_progress,
     qsort(starts, STARTS, sizeof *starts, by_cost);
     self.count = samples->count;
     for (int k = 0; k < FINISHED && progress_report(item_progress, 0.7 + 0.3 * k / FINISHED); k++)
-        finish(&self, &starts[k], 0.3 * mean);
+        finish(&self, &starts[k], soft);
     qsort(starts, FINISHED, sizeof *starts, by_cost);
     out->error = paint(&self, starts[0].x);
     give(&self, starts[0].x, out);

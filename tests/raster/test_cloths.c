@@ -223,10 +223,8 @@ static double variance(const Spread *s) {
     return sum;
 }
 
-/* The left edge of column k, or the lower one of row k counted from below, in threads. */
-static float edge_of(float side, int k) {
-    return 1000.0f * SPAN + side * (float)(k - pixels_across(side) / 2);
-}
+/* The left edge of column k, or the lower one of row k, counted from the middle, in threads. */
+static float edge_of(float side, int k) { return 1000.0f * SPAN + side * (float)k; }
 
 /* Adds what a picture shows at such a distance, and what it should. */
 static void compare(WeftRaster *raster, const WeftCloth *cloth, Dir sun, float side, Spread *seen,
@@ -253,8 +251,8 @@ static void compare(WeftRaster *raster, const WeftCloth *cloth, Dir sun, float s
             const float *at = p + 4 * (row * across + column);
             double pixel[2];
             add_pixel(seen, (const double[]){(double)at[0], (double)at[2]}, across * across);
-            see_pixel(cloth, edge_of(side, column), edge_of(side, across - 1 - row), side, sun, &random,
-                      pixel);
+            see_pixel(cloth, edge_of(side, column - across / 2), edge_of(side, across / 2 - 1 - row), side,
+                      sun, &random, pixel);
             add_pixel(fine, pixel, across * across);
         }
     weft_image_free(&picture);
