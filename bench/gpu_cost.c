@@ -380,8 +380,9 @@ static void fibre_costs(Gpu *gpu) {
     }
 }
 
-/* A woven cloth as the raster engine has it: its numbers in a uniform block, runs and albedos in a texture, and what varies
- * never comes again. u[6] and u[7] are the place, u[8] the spacing of points. f and s are of all three channels. */
+/* A woven cloth as the raster engine has it: its numbers in a uniform block, runs and albedos in a texture, and what
+ * varies never comes again. u[6] and u[7] are the place, u[8] the spacing of points, u[9] the place across a fibre. f and
+ * s are of all three channels. */
 #define CLOTH "    Weave m = cloth;\n    m.cycle_x = 0.0;\n    m.cycle_y = 0.0;\n"
 #define LIT                                                                                                  \
     "    YarnPrepared q;\n    YarnView w;\n    yarn_prepare(weave_yarn(m, p), q);\n    q.axis = p.fibre;\n"  \
@@ -395,14 +396,14 @@ static const struct {
     {"place and slopes of the thread on top", CLOTH "    WeavePoint p = weave_top(m, u[6], u[7]);\n"
                                                     "    f = p.slope_x + p.height;\n    s = p.slope_y;\n"},
     {"the same with its fibres and colours",
-     CLOTH "    WeavePoint p = weave_bound(m, u[6], u[7], u[8]);\n"
+     CLOTH "    WeavePoint p = weave_bound(m, u[6], u[7], u[8], u[9]);\n"
            "    Rgb once = weave_once_rgb(m, p), again = weave_again_rgb(m, p);\n"
            "    f = p.slope_x + p.height + once.r + once.g + once.b;\n"
            "    s = p.slope_y + dir_dot(p.fibre, dir(1.0, 2.0, 3.0)) + again.r + again.g + again.b;\n"},
     {"the same, lit by lobe `yarn`",
-     ANGLES CLOTH "    WeavePoint p = weave_bound(m, u[6], u[7], u[8]);\n" LIT},
+     ANGLES CLOTH "    WeavePoint p = weave_bound(m, u[6], u[7], u[8], u[9]);\n" LIT},
     {"the same under loose fibres",
-     ANGLES CLOTH "    WeavePoint p = weave_point(m, u[6], u[7], u[8]);\n" LIT},
+     ANGLES CLOTH "    WeavePoint p = weave_point(m, u[6], u[7], u[8], u[9]);\n" LIT},
 };
 
 /* A structure of floats, by its constructor. */
@@ -448,7 +449,7 @@ static Cost weave_cost(Gpu *gpu, size_t row, const Weave *known) {
                      "    int up = int((float(row) + 0.5) / float(cloth.warps));\n"
                      "    ivec2 at = ivec2(row - cloth.warps * up, cloth.picks + up);\n"
                      "    return texelFetch(weave_cells, at, 0)[channel];\n}");
-    return cost_added(gpu, &text, 9, true, weave_rows[row].lines);
+    return cost_added(gpu, &text, 10, true, weave_rows[row].lines);
 }
 
 static void weave_costs(Gpu *gpu) {

@@ -21,9 +21,9 @@ typedef struct CloseUp {
 static const Dir light = {-0.579f, 0.579f, 0.574f};
 
 /* Adds what one point of the cloth reflects towards the viewer above it. */
-static void add_point(const Weave *m, float x, float y, float spacing, float sum[3]) {
+static void add_point(const Weave *m, float x, float y, float spacing, float across, float sum[3]) {
     const Dir o = {0.0f, 0.0f, 1.0f};
-    const WeavePoint point = weave_point(m, x, y, spacing);
+    const WeavePoint point = weave_point(m, x, y, spacing, across);
     YarnPrepared yarn;
     YarnView view;
     if (point.height <= WEAVE_NONE) return;
@@ -49,7 +49,7 @@ static void draw_row(void *user, int row, int thread) {
             const float x = (float)column + ((float)a + ((float)b + 0.5f) / FINE) / FINE;
             const float y = (float)(side - 1 - row) + ((float)b + ((float)a + 0.5f) / FINE) / FINE;
             add_point(&d->cloth->weave, x * d->step_x, y * d->step_y, fmaxf(d->step_x, d->step_y) / FINE,
-                      sum);
+                      2.0f * ((float)((a + b) % FINE) + 0.5f) / FINE - 1.0f, sum);
         }
         for (int c = 0; c < 3; c++)
             to[3 * column + c] =

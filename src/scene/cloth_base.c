@@ -2,9 +2,9 @@
 
 #include "shading/loop.h"
 
-/* The samples of a pixel average points and crossings, without an error: so the mean takes their place from two threads
- * a pixel on, completely at four, and its colours are those of a quarter of the pixel. Fibres fade until they are a quarter as wide as a
- * pixel. */
+/* The samples of a pixel average points and crossings, without an error: so the mean takes their place from 1.7
+ * threads a pixel on, completely at four, and its colours are those of a quarter of the pixel. Fibres fade until they are a
+ * quarter as wide as a pixel. */
 enum { LATER = 2, FINER = 4, POINTS = 4 };
 
 /* Rows of picks run up the cloth, v runs down it. */
@@ -102,7 +102,8 @@ FN void put_point(YarnRows *restrict out, size_t k, const Weave *m, WeavePoint p
 LOOP(bind_n, (const Weave *weave, Part *restrict part, int n), (weave, part, n)) {
     Weave m = without_cycle(weave);
     EACH(k, (size_t)n) {
-        WeavePoint p = weave_bound(&m, part->x[k], part->y[k], part->spacing[k]);
+        WeavePoint p =
+            weave_bound(&m, part->x[k], part->y[k], part->spacing[k], 2.0f * part->facet[k] - 1.0f);
         part->height[k] = p.height;
         put_point(&part->yarn, k, &m, p);
     }

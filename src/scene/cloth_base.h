@@ -9,7 +9,7 @@
 #include "weave/weft_cloth.h"
 
 /* Looks at a cloth: texture coordinates, footprints (WeaveFootprint), and two random numbers in [0, 1) each: `level`
- * chooses between near and far, `facet` what stands for the cloth from afar. */
+ * chooses between near and far, `facet` is near by the place across a fibre, and from afar what stands for the cloth. */
 typedef struct ClothLooks {
     float uv[2][ROW_ROOM], footprint_x[ROW_ROOM], footprint_y[ROW_ROOM], longest[ROW_ROOM];
     float level[ROW_ROOM], facet[ROW_ROOM];

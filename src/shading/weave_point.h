@@ -9,7 +9,8 @@
  * whose width, place and height vary still cover each other as threads do.
  *   Near by a thread is a bundle of fibres along its twist, each with a round back and dark crevices beside it, and
  * some fibres have come loose and lie across the cloth. What is finer than the distance of the points that are looked at
- * is left out, and its mean stays.
+ * is left out, and its mean stays; but light that grazes finds what slopes towards it, so that fibres keep their slopes: a
+ * point then lies across its fibre where the caller says.
  *   A float that counts more than a million threads has no fractions left, and fibres lose their shape from a hundred
  * thousand on. */
 #ifndef WEFT_SHADING_WEAVE_POINT_H
@@ -95,8 +96,8 @@ FN WeaveCell weave_cell(const Weave *m, float warp, float pick) {
     return weave_cell_texel(m->runs, m->warps, row, at);
 }
 
-/* Purposes of hashes: crossings; of the warp, and next to it of the weft, courses of threads, dye of threads and along them, how fibres
- * waver and how each one's dye took; loose fibres, as many as a cell has. */
+/* Purposes of hashes: crossings; of the warp, and next to it of the weft, courses of threads, dye of threads and along
+ * them, how fibres waver and how each one's dye took; loose fibres, as many as a cell has. */
 #define WEAVE_OF_CROSSINGS 0
 #define WEAVE_OF_THREADS   1
 #define WEAVE_OF_DYE       3
@@ -105,8 +106,8 @@ FN WeaveCell weave_cell(const Weave *m, float warp, float pick) {
 #define WEAVE_OF_FIBRES    9
 #define WEAVE_OF_HAIRS     11
 
-/* The thread numbered c of a system at the place u across the system, v along it. since, run: of the cell there. bends: -1 to 1,
- * how thick it is and how far it bends at its crossings, smoothly from one to the next. */
+/* The thread numbered c of a system at the place u across the system, v along it. since, run: of the cell there. bends: -1
+ * to 1, how thick it is and how far it bends at its crossings, smoothly from one to the next. */
 FN WeavePoint weave_thread(const Weave *m, WeaveYarn y, bool weft, float c, float u, float v, float since,
                            float run, float bends) {
     float side = weft ? m->cycle_y : m->cycle_x, cycle = weft ? m->cycle_x : m->cycle_y;
@@ -145,16 +146,15 @@ FN void weave_higher(WeavePoint *best, WeavePoint p) {
     if (p.height > best->height) *best = p;
 }
 
-/* Fibres side by side in a thread, and how many differ in it; places across it after which they waver alike; half the width of a
- * loose one, in threads. */
+/* Fibres side by side in a thread, and how many differ in it; places across it after which they waver alike; half the
+ * width of a loose one, in threads. */
 #define WEAVE_FIBRES      20.0f
 #define WEAVE_WAVES       8.0f
 #define WEAVE_FIBRES_OWN  40.0f
 #define WEAVE_HAIR_RADIUS 0.018f
 
-/* Slopes and crevices of fibres fade as the spacing of points grows, in widths of the thread; half of a fibre's width leaves
- * none. The width of loose fibres fades later,
- * since their colours tell them from what is below. */
+/* Crevices of fibres and where they lie fade as the spacing of points grows, in widths of the thread; a whole fibre's width
+ * leaves none. The width of loose fibres fades later, since their colours tell them from what is below. */
 FN float weave_fineness(float spacing) { return clamp(1.5f - 30.0f * spacing, 0.0f, 1.0f); }
 FN float weave_hair_radius(float spacing) {
     return WEAVE_HAIR_RADIUS * clamp(1.75f - 25.0f * spacing, 0.0f, 1.0f);
@@ -175,9 +175,12 @@ FN WeaveTurn weave_turn(float angle) {
     return t;
 }
 
-/* Adds fibres along the twist, and how the dye took. Then turns the point from the thread's frame, along y, to
- * the cloth's. Crevices between fibres, 1 - a f^4 where f goes from -1 to 1 across a fibre, take no light on the mean. */
-FN void weave_finish(const Weave *m, WeaveYarn y, float u, float v, float spacing, WeavePoint *p) {
+/* Adds fibres along the twist, and how the dye took, and turns the point from the thread's frame, along y, to the cloth's.
+ * Crevices between fibres, 1 - a f^4 where f goes from -1 to 1 across a fibre, take no light on the mean. across, from -1
+ * to 1: the place across a fibre, of points so far apart that they do not tell; between, both have a part, and slopes vary
+ * as much. */
+FN void weave_finish(const Weave *m, WeaveYarn y, float u, float v, float spacing, float across,
+                     WeavePoint *p) {
     float side = p->weft ? m->cycle_y : m->cycle_x, cycle = p->weft ? m->cycle_x : m->cycle_y;
     float thread = weave_wrap(p->thread, side);
     int weft = p->weft ? 1 : 0;
@@ -194,12 +197,14 @@ FN void weave_finish(const Weave *m, WeaveYarn y, float u, float v, float spacin
     float fibre =
         WEAVE_FIBRES * c * x + weave_lean(WEAVE_FIBRES * s_v, WEAVE_FIBRES_OWN, cycle) * v + 2.0f * waver;
     float number = floor(fibre), f = 2.0f * (fibre - number) - 1.0f,
-          streaks = y.streaks * weave_fineness(spacing * y.over_width);
+          fine = weave_fineness(spacing * y.over_width), streaks = y.streaks * fine;
     float own = weave_course(m->seed, WEAVE_OF_FIBRES + weft, thread, weave_mod(number, WEAVE_FIBRES_OWN),
                              WEAVE_FIBRES_OWN, down);
     WeaveTurn turn = weave_turn(0.35f * y.streaks * waver);
     float ct = y.cos_twist * turn.c - sin_twist * turn.s, st = sin_twist * turn.c + y.cos_twist * turn.s;
-    float sx = p->slope_x + streaks * f, sy = p->slope_y;
+    float sx = p->slope_x +
+               y.streaks * mix(across, f, fine) / sqrt(fine * fine + (1.0f - fine) * (1.0f - fine)),
+          sy = p->slope_y;
     float n = 1.0f / sqrt(1.0f + sx * sx + sy * sy), q = 1.0f / sqrt(1.0f + sy * sy);
     float fx = -st * n * q * (1.0f + sy * sy), fy = ct * q + st * sx * sy * q * n,
           fz = -ct * q * sy + st * sx * q * n;
@@ -219,9 +224,9 @@ FN uint weave_crossing(const Weave *m, float i, float j) {
     return weave_key(m->seed, WEAVE_OF_CROSSINGS, weave_wrap(i, m->cycle_x), weave_wrap(j, m->cycle_y));
 }
 
-/* The highest thread at x, y, in its own frame and without its fibres. No thread reaches further than the middle of the next one's place: of
- * either system the two nearest are asked. Threads vary from crossing to crossing by what the four nearest crossings have,
- * which all of them share. */
+/* The highest thread at x, y, in its own frame and without its fibres. No thread reaches further than the middle of the
+ * next one's place: of either system the two nearest are asked. Threads vary from crossing to crossing by what the four
+ * nearest crossings have, which all of them share. */
 FN WeavePoint weave_top(const Weave *m, float x, float y) {
     float i = floor(x), j = floor(y), near_x = x - i - 0.5f, near_y = y - j - 0.5f;
     float beside = i + (near_x < 0.0f ? -1.0f : 1.0f), above = j + (near_y < 0.0f ? -1.0f : 1.0f);
@@ -254,9 +259,9 @@ FN WeaveYarn weave_yarn_of(const Weave *m, bool weft) {
 }
 
 /* The point of a thread at x, y, with its fibres but for loose ones. A place without a thread has no slopes. */
-FN WeavePoint weave_bound(const Weave *m, float x, float y, float spacing) {
+FN WeavePoint weave_bound(const Weave *m, float x, float y, float spacing, float across) {
     WeavePoint p = weave_top(m, x, y);
-    weave_finish(m, weave_yarn_of(m, p.weft), p.weft ? y : x, p.weft ? x : y, spacing, &p);
+    weave_finish(m, weave_yarn_of(m, p.weft), p.weft ? y : x, p.weft ? x : y, spacing, across, &p);
     p.slope_x = p.height > WEAVE_NONE ? p.slope_x : 0.0f;
     p.slope_y = p.height > WEAVE_NONE ? p.slope_y : 0.0f;
     return p;
@@ -274,9 +279,10 @@ STRUCT(WeaveHair) {
 #define WEAVE_HAIRS      4
 #define WEAVE_HAIRS_NEAR (4 * WEAVE_HAIRS)
 
-/* Fibre n of those near x, y, from a thread at its middle, of either system in proportion to what is seen of them: an S from the thread's own direction,
- * across = (q - l (b + w t) (1 - t^2)) / (radius sqrt(1 + lean^2)) with t from -1 to 1 along it and lean the slope of the S,
- * thinner to its ends. Lengths are in threads of the finer system, which count as long along as across. */
+/* Fibre n of those near x, y, from a thread at its middle, of either system in proportion to what is seen of them: an S
+ * from the thread's own direction, across = (q - l (b + w t) (1 - t^2)) / (radius sqrt(1 + lean^2)) with t from -1 to 1
+ * along it and lean the slope of the S, thinner to its ends. Lengths are in threads of the finer system, which count as
+ * long along as across. */
 FN WeaveHair weave_hair(const Weave *m, int n, float x, float y, float radius) {
     float pace_x = weave_pace(0.5f, m->cycle_x), pace_y = weave_pace(0.5f, m->cycle_y);
     int cell_x = n / (2 * WEAVE_HAIRS), cell_y = n / WEAVE_HAIRS % 2;
@@ -363,10 +369,10 @@ FN float weave_hair_reach(const Weave *m, float height, float spacing) {
     return max(m->warp.hairiness, m->weft.hairiness) > 0.0f ? radius : 0.0f;
 }
 
-/* The point at x, y, where the spacing of points is so many threads. Where there are no loose fibres the loop over them has
- * no rounds, of which drivers that do not branch run one. */
-FN WeavePoint weave_point(const Weave *m, float x, float y, float spacing) {
-    WeavePoint p = weave_bound(m, x, y, spacing);
+/* The point at x, y, where the spacing of points is so many threads, and across as weave_finish has it. Where there are no
+ * loose fibres the loop over them has no rounds, of which drivers that do not branch run one. */
+FN WeavePoint weave_point(const Weave *m, float x, float y, float spacing, float across) {
+    WeavePoint p = weave_bound(m, x, y, spacing, across);
     float radius = weave_hair_reach(m, p.height, spacing);
     WeaveHair top = weave_hair_top(m, x, y, radius, radius > 0.0f ? WEAVE_HAIRS_NEAR : 0);
     if (top.here) weave_lay(top, &p);

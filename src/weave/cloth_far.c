@@ -26,7 +26,7 @@ enum {
 };
 _Static_assert(1 << (FAR_LEVELS_MOST - 1) == FAR_SIDE_MAX, "a level for each halving, and the first");
 
-/* The spacing of points from afar, in threads: without fibres. */
+/* The spacing of points from afar, in threads: fibres are told by their slopes alone. */
 static const float FAR_SPACING = 1.0f;
 
 /* The ends of the numbers of lobe woven; the crimp is a tangent. */
@@ -49,7 +49,7 @@ static double looked_at(int count) {
 static WeavePoint look(const Weave *m, int k, float *x, float *y) {
     *x = (float)(fmod(0.7548776662466927 * (k + 1), 1.0) * looked_at(m->warps));
     *y = (float)(fmod(0.5698402909980532 * (k + 1), 1.0) * looked_at(m->picks));
-    return weave_bound(m, *x, *y, FAR_SPACING);
+    return weave_bound(m, *x, *y, FAR_SPACING, 2.0f * (float)fmod(1.4142135623730951 * (k + 1), 1.0) - 1.0f);
 }
 
 static int is_up(const Weave *m, float x, float y, int weft) {

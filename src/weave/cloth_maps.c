@@ -42,7 +42,7 @@ typedef struct MapTexel {
 static float once_of(float alpha) { return 0.328f - 0.111f * alpha; }
 
 static void add_point(const Weave *m, float x, float y, float spacing, MapTexel *t) {
-    const WeavePoint p = weave_point(m, x, y, spacing);
+    const WeavePoint p = weave_point(m, x, y, spacing, 0.0f);
     const float part = 1.0f / (FINE * FINE);
     if (p.height <= WEAVE_NONE) {
         t->height += part * m->low;

@@ -117,7 +117,8 @@ static void assert_woven_alike(const WeftScene *one, const WeftScene *other) {
     assert_int_equal(a->picks, b->picks);
     for (int k = 0; k < 100; k++) {
         const float x = 0.61f * (float)k, y = 0.37f * (float)k;
-        assert_float_equal(weave_point(a, x, y, 0.0f).height, weave_point(b, x, y, 0.0f).height, 1e-5f);
+        assert_float_equal(weave_point(a, x, y, 0.0f, 0.0f).height, weave_point(b, x, y, 0.0f, 0.0f).height,
+                           1e-5f);
     }
     for (int k = 0; k < 3 * (a->warps + a->picks); k++)
         assert_float_equal(a->albedos[k], b->albedos[k], 0.0f);
@@ -344,7 +345,7 @@ static void woven_presets_are_cloths_and_finite_to_the_horizon(void **state) {
                 ASSERT_FINITE(woven, WovenPrepared, WovenView, weave_woven(&cloth->weave, t == 1), name);
             for (int at = 0; at < 25; at++) {
                 const WeavePoint point =
-                    weave_point(&cloth->weave, 7.31f * (float)at, 3.77f * (float)at, 0.0f);
+                    weave_point(&cloth->weave, 7.31f * (float)at, 3.77f * (float)at, 0.0f, 0.0f);
                 if (point.height > WEAVE_NONE)
                     ASSERT_FINITE(yarn, YarnPrepared, YarnView, weave_yarn(&cloth->weave, point), name);
             }

@@ -87,19 +87,21 @@ static void presets_from_afar_are_symmetric_and_keep_energy(void **state) {
     each_preset(check_afar);
 }
 
-/* Pairs of directions within 75 degrees of the normal, and what a cloth reflects between them on the mean over its points,
- * times the cosine; a colour for all pairs. */
-enum { PAIRS = 64, POINTS = 6000 };
+/* Pairs of directions within 75 degrees of the normal, and what a cloth reflects between each on the mean over its points,
+ * with all fibres, times the cosine; the long run looks at more of them. */
+enum { PAIRS = 64 };
+static int points_seen(void) { return getenv("WEFT_TEST_LONG") ? 60000 : 6000; }
 typedef struct Pairs {
     Dir o[PAIRS], i[PAIRS];
 } Pairs;
 
-static void points_reflect(const Weave *m, const Pairs *pairs, double sum[3]) {
-    sum[0] = sum[1] = sum[2] = 0.0;
-    for (int n = 0; n < POINTS; n++) {
+static void points_reflect(const Weave *m, const Pairs *pairs, double lit[PAIRS][3]) {
+    memset(lit, 0, PAIRS * sizeof *lit);
+    const int count = points_seen();
+    for (int n = 0; n < count; n++) {
         const float x = (float)(THREADS * fmod(0.7548776662466927 * n, 1.0)),
                     y = (float)(THREADS * fmod(0.5698402909980532 * n, 1.0));
-        const WeavePoint p = weave_point(m, x, y, 0.1f);
+        const WeavePoint p = weave_point(m, x, y, 0.0f, 0.0f);
         if (p.height <= WEAVE_NONE) continue;
         const Rgb once = weave_once_rgb(m, p), again = weave_again_rgb(m, p);
         YarnPrepared yarn;
@@ -108,17 +110,16 @@ static void points_reflect(const Weave *m, const Pairs *pairs, double sum[3]) {
         for (int k = 0; k < PAIRS; k++) {
             yarn_view(&yarn, pairs->o[k], &view);
             const LobeValue v = yarn_value(&yarn, &view, angles_between(pairs->o[k], pairs->i[k]));
-            const double f = (double)(v.f * pairs->i[k].z) / POINTS, s = (double)v.s;
-            sum[0] += f * ((double)once.r * (1.0 - s) + (double)again.r * s);
-            sum[1] += f * ((double)once.g * (1.0 - s) + (double)again.g * s);
-            sum[2] += f * ((double)once.b * (1.0 - s) + (double)again.b * s);
+            const double f = (double)(v.f * pairs->i[k].z) / count, s = (double)v.s;
+            lit[k][0] += f * ((double)once.r * (1.0 - s) + (double)again.r * s);
+            lit[k][1] += f * ((double)once.g * (1.0 - s) + (double)again.g * s);
+            lit[k][2] += f * ((double)once.b * (1.0 - s) + (double)again.b * s);
         }
     }
 }
 
 /* What a reflection does between them. It is the same both ways round, and its parts are the whole. */
-static void reflection_reflects(const WeftReflection *r, const Pairs *pairs, double sum[3]) {
-    sum[0] = sum[1] = sum[2] = 0.0;
+static void reflection_reflects(const WeftReflection *r, const Pairs *pairs, double lit[PAIRS][3]) {
     for (int k = 0; k < PAIRS; k++) {
         const float o[3] = {pairs->o[k].x, pairs->o[k].y, pairs->o[k].z},
                     i[1][3] = {{pairs->i[k].x, pairs->i[k].y, pairs->i[k].z}},
@@ -128,13 +129,28 @@ static void reflection_reflects(const WeftReflection *r, const Pairs *pairs, dou
         weft_reflection_eval(r, WEFT_PART_ALL, i[0], 1, back, turned);
         weft_reflection_eval(r, WEFT_PART_DIFFUSE, o, 1, i, base);
         for (int c = 0; c < 3; c++) {
-            sum[c] += (double)(f[0][c] * i[0][2]);
+            lit[k][c] = (double)(f[0][c] * i[0][2]);
             assert_true(fabsf(f[0][c] - turned[0][c]) < 1e-5f && fabsf(f[0][c] - base[0][c]) < 1e-6f);
         }
     }
 }
 
-static double farthest;
+/* Sums over pairs: of what points reflect and what is reflected from afar, and of how far these are apart. */
+typedef struct Compared {
+    double points, far, apart;
+} Compared;
+
+static Compared compare(double points[PAIRS][3], double far[PAIRS][3], int c) {
+    Compared sum = {0.0, 0.0, 0.0};
+    for (int k = 0; k < PAIRS; k++) {
+        sum.points += points[k][c];
+        sum.far += far[k][c];
+        sum.apart += fabs(far[k][c] - points[k][c]);
+    }
+    return sum;
+}
+
+static double farthest, most_apart;
 
 static void check_reflection(const char *name, const WeftCloth *cloth) {
     Pairs pairs;
@@ -150,27 +166,32 @@ static void check_reflection(const char *name, const WeftCloth *cloth) {
     }
     weft_material_default(&bare);
     assert_int_equal(weft_reflection_create_woven(&bare, cloth, &reflection, &error), WEFT_OK);
-    double points[3], far[3];
+    static double points[PAIRS][3], far[PAIRS][3];
+    double apart = 0.0;
     float e[3];
     points_reflect(&cloth->weave, &pairs, points);
     reflection_reflects(reflection, &pairs, far);
     weft_reflection_albedo(reflection, WEFT_PART_ALL, 0.7f, e);
     print_message("%-24s", name);
     for (int c = 0; c < 3; c++) {
-        const double off = far[c] / points[c] - 1.0;
+        const Compared sum = compare(points, far, c);
+        const double off = sum.far / sum.points - 1.0;
         print_message(" %+.3f", off);
         farthest = fmax(farthest, fabs(off));
+        apart = fmax(apart, sum.apart / sum.points);
         assert_true(e[c] > 0.0f && e[c] < 1.0f);
     }
-    print_message("  E %.3f %.3f %.3f\n", (double)e[0], (double)e[1], (double)e[2]);
+    most_apart = fmax(most_apart, apart);
+    assert_true(apart < (strcmp(name, "sadeghi-charmeuse-back") == 0 ? 0.08 : 0.03)); /* docs/weave.md */
+    print_message("  each pair by %.4f  E %.3f %.3f %.3f\n", apart, (double)e[0], (double)e[1], (double)e[2]);
     weft_reflection_free(reflection);
 }
 
 static void presets_are_reflections_that_reflect_as_their_points_do(void **state) {
     (void)state;
     each_preset(check_reflection);
-    print_message("the farthest is off by %.3f\n", farthest);
-    assert_true(farthest < 0.02);
+    print_message("the farthest is off by %.3f, each pair by %.3f\n", farthest, most_apart);
+    assert_true(farthest < (getenv("WEFT_TEST_LONG") ? 0.01 : 0.02));
 }
 
 /* f cos / pdf of fibres of albedo 0.9. */
@@ -210,8 +231,8 @@ static Found find(const Weave *m, float degrees, Random *random) {
     double variance = 0.0, sum = 0.0;
     Found found = {0.0, 0.0, 0.0};
     for (int k = 0; k < PLACES; k++) {
-        const WeavePoint point =
-            weave_point(m, THREADS * random_unit(random), THREADS * random_unit(random), 0.02f);
+        const float x = THREADS * random_unit(random), y = THREADS * random_unit(random);
+        const WeavePoint point = weave_point(m, x, y, 0.02f, 0.0f);
         if (point.height <= WEAVE_NONE) continue;
         const Dir o =
             direction_cos((cos)((double)degrees * RADIANS), 2.0 * PI_DOUBLE * (double)random_unit(random));

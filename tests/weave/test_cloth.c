@@ -89,7 +89,7 @@ static int changes(const Weave *m, float x, float y) {
     int count = 0;
     for (int k = 0; k < 400; k++) {
         const float u = 7.77f + 0.31f * (float)(k % 20), v = 3.33f + 0.37f * (float)(k / 20);
-        count += !same_point(weave_point(m, u, v, 0.0f), weave_point(m, u + x, v + y, 0.0f));
+        count += !same_point(weave_point(m, u, v, 0.0f, 0.0f), weave_point(m, u + x, v + y, 0.0f, 0.0f));
     }
     return count;
 }
@@ -132,7 +132,7 @@ static double most_alike(const float x[THREADS]) {
 static float dye_of(const Weave *m, bool weft, float thread) {
     for (int cross = 0; cross < 2; cross++) {
         const float u = thread + 0.5f, v = (float)cross + 0.5f;
-        const WeavePoint p = weave_bound(m, weft ? v : u, weft ? u : v, 0.0f);
+        const WeavePoint p = weave_bound(m, weft ? v : u, weft ? u : v, 0.0f, 0.0f);
         if (p.weft == weft && p.thread == thread) return (1.0f - p.dye) / (weft ? m->weft.dye : m->warp.dye);
     }
     fail_msg("thread %g is on top of neither of two", (double)thread);
@@ -173,8 +173,10 @@ static void a_seed_makes_a_cloth(void **state) {
     int apart = 0;
     for (int k = 0; k < 300; k++) {
         const float x = 0.37f * (float)k, y = 0.11f * (float)k;
-        assert_true(same_point(weave_point(&one->weave, x, y, 0.0f), weave_point(&again->weave, x, y, 0.0f)));
-        apart += !same_point(weave_point(&one->weave, x, y, 0.0f), weave_point(&other->weave, x, y, 0.0f));
+        assert_true(same_point(weave_point(&one->weave, x, y, 0.0f, 0.0f),
+                               weave_point(&again->weave, x, y, 0.0f, 0.0f)));
+        apart += !same_point(weave_point(&one->weave, x, y, 0.0f, 0.0f),
+                             weave_point(&other->weave, x, y, 0.0f, 0.0f));
     }
     assert_true(apart > 250);
     weft_cloth_free(one);
@@ -191,7 +193,7 @@ static void every_point_is_sound(void **state) {
             WeftCloth *cloth = woven(drafts[d], yarn_of(yarns[n]), (unsigned)n);
             for (int k = 0; k < 500; k++) {
                 const float x = 1.618f * (float)k - 100.0f, y = 0.7071f * (float)k - 50.0f;
-                const WeavePoint p = weave_point(&cloth->weave, x, y, 0.0f);
+                const WeavePoint p = weave_point(&cloth->weave, x, y, 0.0f, 0.0f);
                 if (p.height <= WEAVE_NONE) continue;
                 const Yarn yarn = weave_yarn(&cloth->weave, p);
                 const float length = p.fibre.x * p.fibre.x + p.fibre.y * p.fibre.y + p.fibre.z * p.fibre.z;
@@ -215,8 +217,14 @@ static void place_of(int k, float *x, float *y) {
     *y = (float)fmod(0.5698402909980532 * k, 1.0) * 480.0f;
 }
 
+/* How much of a point a sun sees that stands 15 degrees over the cloth. */
+static double sunlit(WeavePoint p) {
+    return (double)fmaxf(0.2588f + 0.683f * p.slope_x + 0.683f * p.slope_y, 0.0f);
+}
+
 /* Fibres that are too fine to be seen are left out. The means of light, dye and slopes stay, and nearly those of colours,
- * from which more dye takes less than less dye gives. */
+ * from which more dye takes less than less dye gives. A low sun sees what slopes towards it: as much of fibres whose places
+ * across are drawn as of those that are seen, and less of none. */
 static void fibres_leave_the_mean_as_it_is(void **state) {
     (void)state;
     static const float most[] = {0.4f, 2.0f};
@@ -225,13 +233,18 @@ static void fibres_leave_the_mean_as_it_is(void **state) {
         yarn.streaks = most[n];
         WeftCloth *cloth = woven("twill 2/2; both 1#a03040", yarn, 1);
         double lit = 0.0, dye = 0.0, slope[2] = {0.0, 0.0}, color[2] = {0.0, 0.0};
+        double sun[4] = {0.0, 0.0, 0.0, 0.0};
         int seen = 0;
         for (int k = 0; k < PLACES; k++) {
             float x, y;
             place_of(k, &x, &y);
-            const WeavePoint fine = weave_point(&cloth->weave, x, y, 0.0f),
-                             coarse = weave_point(&cloth->weave, x, y, 0.09f);
+            const float across = 2.0f * (float)fmod(1.4142135623730951 * k, 1.0) - 1.0f;
+            const WeavePoint fine = weave_point(&cloth->weave, x, y, 0.0f, 0.0f),
+                             coarse = weave_point(&cloth->weave, x, y, 0.09f, across),
+                             bare = weave_point(&cloth->weave, x, y, 0.09f, 0.0f);
             if (fine.height <= WEAVE_NONE) continue;
+            sun[0] += sunlit(fine), sun[1] += sunlit(coarse), sun[2] += sunlit(bare);
+            sun[3] += sunlit(weave_point(&cloth->weave, x, y, 0.033f, across));
             assert_true(coarse.lit == 1.0f && coarse.dye == 1.0f);
             seen += fabsf(fine.lit - 1.0f) > 0.05f;
             lit += (double)(fine.lit - 1.0f) / PLACES;
@@ -243,6 +256,11 @@ static void fibres_leave_the_mean_as_it_is(void **state) {
         }
         print_message("cotton, streaks %.1f: light %+.4f, dye %+.4f, slopes %+.4f %+.4f, colour %+.4f\n",
                       (double)most[n], lit, dye, slope[0], slope[1], color[0] / color[1] - 1.0);
+        print_message("a low sun: %+.4f, half way %+.4f, without their slopes %+.4f\n", sun[1] / sun[0] - 1.0,
+                      sun[3] / sun[0] - 1.0, sun[2] / sun[0] - 1.0);
+        assert_true(fabs(sun[1] / sun[0] - 1.0) < 0.003);
+        assert_true(fabs(sun[3] / sun[0] - 1.0) < 0.02);
+        assert_true(sun[2] < 0.98 * sun[0]);
         assert_true(seen > PLACES / 2);
         assert_true(fabs(lit) < 0.003 && fabs(dye) < 0.01);
         assert_true(fabs(slope[0]) < 0.003 && fabs(slope[1]) < 0.003);
@@ -258,7 +276,7 @@ static double covered_by_hairs(const WeftCloth *cloth, float spacing, bool gaps)
         float x, y;
         place_of(k, &x, &y);
         const float top = weave_top(&cloth->weave, x, y).height;
-        const WeavePoint p = weave_point(&cloth->weave, x, y, spacing);
+        const WeavePoint p = weave_point(&cloth->weave, x, y, spacing, 0.0f);
         assert_true(p.height >= top);
         assert_true(weave_gap(&cloth->weave, x, y) == (top <= WEAVE_NONE && p.height <= WEAVE_NONE));
         if (gaps != (top <= WEAVE_NONE)) continue;
@@ -316,7 +334,7 @@ static void a_thread_without_end_is_level(void **state) {
     assert_int_equal(weft_cloth_create(draft, (WeftYarn[2]){yarn, yarn}, 0, &cloth, &error), WEFT_OK);
     int level = 0;
     for (int k = 0; k < 64; k++) { /* warp 1 is up at both picks */
-        const WeavePoint p = weave_point(&cloth->weave, 0.5f, 0.05f * (float)k, 0.0f);
+        const WeavePoint p = weave_point(&cloth->weave, 0.5f, 0.05f * (float)k, 0.0f, 0.0f);
         if (p.weft || p.thread != 0.0f) continue;
         assert_float_equal(p.slope_y, 0.0f, 1e-6f);
         level++;

@@ -134,7 +134,7 @@ vec4 woven_light(Stack m, Dir o, Facing at, Frame frame, float occlusion) {
         float weight = (1.0 - far) / float(points);
         vec2 from = pixel_point(k, points);
         vec2 spot = place + from.x * across + from.y * up;
-        WeavePoint p = weave_point(c, spot.x, spot.y, f.longest * inversesqrt(float(points)));
+        WeavePoint p = weave_point(c, spot.x, spot.y, f.longest * inversesqrt(float(points)), 0.0);
         sum.covered = sum.covered + (p.height > WEAVE_NONE ? weight : 0.0);
         WeaveBase b = weave_near(c, p);
         Stack n = woven_stack(m, b);
