@@ -1,7 +1,7 @@
 /* weave_base.h - a woven cloth at a place, as the base of a stack: near by a point of a thread, from afar the mean of
  * one system's threads
  *
- *   base = (1 - w) yarn + w (warp + weft),  w = smoothstep(0.95, 2, footprint)
+ *   base = (1 - w) yarn + w (warp + weft),  w = smoothstep(0.85, 2, footprint)
  *
  * The footprint of a pixel is the longer half axis of the ellipse that it covers, twice, in threads. Below one thread
  * a pixel, points are averaged by whoever looks. Beyond two, the colours are those of crossings, averaged over the
@@ -27,9 +27,9 @@ FN WeaveFootprint weave_footprint(float ax, float ay, float bx, float by) {
     return f;
 }
 
-/* w. It begins a little below one thread, since pixels of eight points vary too much there. */
+/* w. It begins a little below one thread, since pixels of five points vary too much there. */
 FN float weave_far_weight(WeaveFootprint f) {
-    float t = clamp((f.longest - 0.95f) / 1.05f, 0.0f, 1.0f);
+    float t = clamp((f.longest - 0.85f) / 1.15f, 0.0f, 1.0f);
     return t * t * (3.0f - 2.0f * t);
 }
 

@@ -223,8 +223,10 @@ static double variance(const Spread *s) {
     return sum;
 }
 
-/* The left edge of column k, or the lower one of row k, counted from the middle, in threads. */
-static float edge_of(float side, int k) { return 1000.0f * SPAN + side * (float)k; }
+/* The left edge of column k, and the lower one of row k, counted from the middle, in threads: picks count up to 0 at the
+ * upper edge of the texture. */
+static float left_of(float side, int k) { return 1000.0f * SPAN + side * (float)k; }
+static float low_of(float side, int k) { return -1000.0f * SPAN + side * (float)k; }
 
 /* Adds what a picture shows at such a distance, and what it should. */
 static void compare(WeftRaster *raster, const WeftCloth *cloth, Dir sun, float side, Spread *seen,
@@ -251,7 +253,7 @@ static void compare(WeftRaster *raster, const WeftCloth *cloth, Dir sun, float s
             const float *at = p + 4 * (row * across + column);
             double pixel[2];
             add_pixel(seen, (const double[]){(double)at[0], (double)at[2]}, across * across);
-            see_pixel(cloth, edge_of(side, column - across / 2), edge_of(side, across / 2 - 1 - row), side,
+            see_pixel(cloth, left_of(side, column - across / 2), low_of(side, across / 2 - 1 - row), side,
                       sun, &random, pixel);
             add_pixel(fine, pixel, across * across);
         }
@@ -293,12 +295,12 @@ static void pixels_vary_as_those_of_many_points_do(void **state) {
         }
         print_message("%6.2f threads a pixel: mean %.4f worst %.4f, variance %.4f, %.3f of the reference's\n",
                       (double)sides[d], error, worst, kept / SUNS, kept / spread);
-        /* Chance moves the mean of a few threads by as much; 1.3 is 1.25 and what another driver's rounding moves. */
-        assert_true(error < (sides[d] < 1.0f ? 0.05 : 0.01));
-        assert_true(worst < (sides[d] < 1.0f ? 0.1 : 0.02));
+        /* The long run's chance is less; from afar the lobe's own error is as much, docs/weave.md. */
+        assert_true(error < (getenv("WEFT_TEST_LONG") && sides[d] < 1.2f ? 0.005 : 0.009));
+        assert_true(worst < 0.012);
         first = d ? first : kept;
         if (sides[d] <= 2.0f)
-            assert_true(kept > 0.75 * spread && kept < 1.3 * spread);
+            assert_true(kept > 0.75 * spread && kept < 1.25 * spread);
         else
             assert_true(kept < 0.1 * first);
     }

@@ -1,25 +1,41 @@
 /* weave.glsl - the light of a woven material at a fragment: of points of threads, and of both systems from afar
  *
- * A pixel has one point while it is much smaller than a thread, then five, eight where it is as large as one, and five
- * where the cloth from afar takes over. Each
- * is a base of its own under the lights. What lies on it, but under polygons, and what all reflect of the environment
- * without its lights, which is linear in a base's colours, are found once, of the mean base. */
+ * A pixel has one point while it is much smaller than a thread, and more the larger it is, until the cloth from afar takes
+ * over. Each is a base of its own under the lights. What lies on it, but under polygons, and what all reflect of the
+ * environment without its lights, which is linear in a base's colours, are found once, of the mean base. */
 uniform highp sampler2DArray weave_colors;
 
 #include "raster/glsl/weave_cloth.glsl"
 #include "shading/weave_base.h"
 
-/* Returns how many points a pixel has: one where it is much smaller than a thread, eight where it is as large, five between
- * and where their part in the pixel fades. */
+/* Returns how many points a pixel has: as many as keep pixels from varying a quarter more than they should. */
 int pixel_points(WeaveFootprint f, float far) {
-    return far >= 1.0 ? 0 : f.longest < 0.2 ? 1 : f.longest < 0.6 || far > 0.4 ? 5 : 8;
+    int few = f.longest < 0.14 ? 1 : f.longest < 0.45 ? 2 : 3;
+    return far >= 1.0 ? 0 : f.longest < 0.65 || far > 0.5 ? few : 5;
 }
 
-/* Point k of n over a pixel, from its middle, in pixels: of the Fibonacci lattice (k, k g mod n) / n, where n is 1, 5 or
- * 8 and g the Fibonacci number before it. Points of a square lattice would beat with threads. */
+/* Point k of n over a pixel, from its middle, in pixels: of the Fibonacci lattice (k, k g mod n) / n, where n is 1, 2, 3 or
+ * 5 and g the Fibonacci number before it. */
 vec2 pixel_point(int k, int n) {
-    float g = n == 8 ? 5.0 : n == 5 ? 3.0 : 1.0, x = float(k) + 0.5, y = float(k) * g + 0.5;
+    float g = n == 5 ? 3.0 : n == 3 ? 2.0 : 1.0, x = float(k) + 0.5, y = float(k) * g + 0.5;
     return vec2(x, y) / float(n) - vec2(0.5, 0.5 + floor(y / float(n)));
+}
+
+/* What each pixel has its own of. */
+uint pixel_key() { return weave_hash(uint(gl_FragCoord.x) + (uint(gl_FragCoord.y) << 16u)); }
+
+/* Moves a lattice of n points around the pixel, in each pixel by another way, since the same in all would beat with
+ * threads: Robert Cranley, Thomas Patterson, "Randomization of Number Theoretic Methods for Multiple Integration", 1976. A
+ * single point stays in the middle, where it leaves the edges of threads smooth. */
+vec2 pixel_moved(vec2 from, int n, uint key) {
+    vec2 by = 0.5 * vec2(weave_first(key), weave_second(key));
+    return n > 1 ? fract(from + by + 0.5) - 0.5 : from;
+}
+
+/* The place across a fibre of that point, if it lies too far from others to tell: by rows of the lattice, moved by another
+ * way, so that it does not depend on where the point is. */
+float pixel_across(vec2 from, uint key) {
+    return 2.0 * fract(from.y + weave_first(weave_hash(key + 1u))) - 1.0;
 }
 
 /* One system from afar, its colours as the mean of five places half a pixel wide: a level as wide as the pixel would
@@ -123,6 +139,7 @@ vec4 woven_light(Stack m, Dir o, Facing at, Frame frame, float occlusion) {
     WeaveFootprint f = weave_footprint(across.x, across.y, up.x, up.y);
     float far = weave_far_weight(f);
     int points = pixel_points(f, far), systems = far > 0.0 ? 2 : 0;
+    uint key = pixel_key();
     StackView w;
     stack_view(m, o, w);
 #ifdef AMBIENT
@@ -132,9 +149,10 @@ vec4 woven_light(Stack m, Dir o, Facing at, Frame frame, float occlusion) {
     WovenSum sum = WovenSum(rgb_grey(0.0), rgb_grey(0.0), rgb_grey(0.0), rgb_grey(0.0), far);
     for (int k = 0; k < points; k++) {
         float weight = (1.0 - far) / float(points);
-        vec2 from = pixel_point(k, points);
+        vec2 lattice = pixel_point(k, points), from = pixel_moved(lattice, points, key);
         vec2 spot = place + from.x * across + from.y * up;
-        WeavePoint p = weave_point(c, spot.x, spot.y, f.longest * inversesqrt(float(points)), 0.0);
+        float spacing = f.longest * inversesqrt(float(points));
+        WeavePoint p = weave_point(c, spot.x, spot.y, spacing, pixel_across(lattice, key));
         sum.covered = sum.covered + (p.height > WEAVE_NONE ? weight : 0.0);
         WeaveBase b = weave_near(c, p);
         Stack n = woven_stack(m, b);
