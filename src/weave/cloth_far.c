@@ -45,7 +45,8 @@ static double looked_at(int count) {
     return (double)(count * repeats);
 }
 
-/* Place k of evenly spread ones. Martin Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018. */
+/* Place k of evenly spread ones, which the root of 2 spreads across fibres. Martin Roberts, "The Unreasonable
+ * Effectiveness of Quasirandom Sequences", 2018. */
 static WeavePoint look(const Weave *m, int k, float *x, float *y) {
     *x = (float)(fmod(0.7548776662466927 * (k + 1), 1.0) * looked_at(m->warps));
     *y = (float)(fmod(0.5698402909980532 * (k + 1), 1.0) * looked_at(m->picks));

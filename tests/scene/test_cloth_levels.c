@@ -85,6 +85,25 @@ static WeftCloth *cloth_of(const Case *c) {
 
 static float random_unit(uint64_t *random) { return unit_float((uint32_t)(stream_next(random) >> 32)); }
 
+/* Place k of evenly spread ones, in threads. */
+static float place_x(int k) { return (float)(480.0 * fmod(0.7548776662466927 * k, 1.0)); }
+static float place_y(int k) { return (float)(480.0 * fmod(0.5698402909980532 * k, 1.0)); }
+
+/* How far one light by pair and channel is from another, in parts of that: on the mean and at worst. */
+typedef struct Apart {
+    double mean, worst;
+} Apart;
+static Apart apart_of(double seen[PAIRS][2], double fine[PAIRS][2]) {
+    Apart apart = {0.0, 0.0};
+    for (int k = 0; k < PAIRS; k++)
+        for (int c = 0; c < 2; c++) {
+            const double e = fabs(seen[k][c] / fine[k][c] - 1.0);
+            apart.mean += e / (2 * PAIRS);
+            apart.worst = fmax(apart.worst, e);
+        }
+    return apart;
+}
+
 /* Adds what is seen of a place by all pairs, red and blue. */
 static void add_look(const WeftCloth *cloth, const ClothLook *look, double weight, double sum[PAIRS][2]) {
     static Stack stack;
@@ -149,29 +168,22 @@ static void a_cloth_is_as_bright_at_every_distance(void **state) {
             const float side = footprints[at];
             uint64_t random = stream_start(n, 29);
             Moments fine = {0}, seen = {0}, unfiltered = {0};
-            double error = 0.0, worst = 0.0;
             for (int p = 0; p < pixels(); p++) {
                 double pixel[PAIRS][2];
-                const float x = (float)(480.0 * fmod(0.7548776662466927 * p, 1.0)),
-                            y = (float)(480.0 * fmod(0.5698402909980532 * p, 1.0));
+                const float x = place_x(p), y = place_y(p);
                 see_pixel(cloth, x, y, side, FINE, true, &random, pixel), add_pixel(&fine, pixel);
                 see_pixel(cloth, x, y, side, SAMPLES, false, &random, pixel), add_pixel(&seen, pixel);
                 see_pixel(cloth, x, y, side, 1, true, &random, pixel), add_pixel(&unfiltered, pixel);
             }
-            for (int k = 0; k < PAIRS; k++)
-                for (int c = 0; c < 2; c++) {
-                    const double e = fabs(seen.mean[k][c] / fine.mean[k][c] - 1.0);
-                    error += e / (2 * PAIRS);
-                    worst = fmax(worst, e);
-                }
+            const Apart apart = apart_of(seen.mean, fine.mean);
             const double kept = spread(&seen) / spread(&fine), left = spread(&seen) / spread(&unfiltered);
             print_message(
                 "%-12s %6.2f threads: mean %.4f worst %.4f, variance %.3f of the reference's, %.4f of the "
                 "unfiltered\n",
-                cases[n].name, (double)side, error, worst, kept, left);
+                cases[n].name, (double)side, apart.mean, apart.worst, kept, left);
             const bool near = side <= 2.0f;
-            assert_true(error <= (near || pixels() > 256 ? 0.005 : 0.01));
-            assert_true(worst <= 0.02);
+            assert_true(apart.mean <= (near || pixels() > 256 ? 0.005 : 0.01));
+            assert_true(apart.worst <= 0.02);
             if (near)
                 assert_true(kept > 0.75 && kept < 1.25);
             else
@@ -188,25 +200,20 @@ static void fibres_that_are_left_out_take_little_light(void **state) {
     for (size_t n = 0; n < sizeof cases / sizeof *cases; n++) {
         WeftCloth *cloth = cloth_of(&cases[n]);
         uint64_t random = stream_start(n, 31);
-        double fine[PAIRS][2] = {{0.0}}, coarse[PAIRS][2] = {{0.0}}, error = 0.0, worst = 0.0;
+        double fine[PAIRS][2] = {{0.0}}, coarse[PAIRS][2] = {{0.0}};
         for (int p = 0; p < 40000; p++) {
             ClothLook look = {
-                .uv = {(float)fmod(0.7548776662466927 * p, 1.0) * 480.0f / cloth->per_uv[WEFT_WARP],
-                       (float)fmod(0.5698402909980532 * p, 1.0) * 480.0f / cloth->per_uv[WEFT_WEFT]},
+                .uv = {place_x(p) / cloth->per_uv[WEFT_WARP], place_y(p) / cloth->per_uv[WEFT_WEFT]},
                 .level = 1.0f,
                 .facet = random_unit(&random)};
             add_look(cloth, &look, 1.0, fine);
             look.footprint = (WeaveFootprint){0.4f, 0.4f, 0.4f};
             add_look(cloth, &look, 1.0, coarse);
         }
-        for (int k = 0; k < PAIRS; k++)
-            for (int c = 0; c < 2; c++) {
-                const double e = fabs(coarse[k][c] / fine[k][c] - 1.0);
-                error += e / (2 * PAIRS);
-                worst = fmax(worst, e);
-            }
-        print_message("%-12s without loose fibres: mean %.4f worst %.4f\n", cases[n].name, error, worst);
-        assert_true(error < 0.01 && worst < 0.02);
+        const Apart apart = apart_of(coarse, fine);
+        print_message("%-12s without loose fibres: mean %.4f worst %.4f\n", cases[n].name, apart.mean,
+                      apart.worst);
+        assert_true(apart.mean < 0.01 && apart.worst < 0.02);
         weft_cloth_free(cloth);
     }
 }

@@ -90,7 +90,7 @@ static void presets_from_afar_are_symmetric_and_keep_energy(void **state) {
 /* Pairs of directions within 75 degrees of the normal, and what a cloth reflects between each on the mean over its points,
  * with all fibres, times the cosine; the long run looks at more of them. */
 enum { PAIRS = 64 };
-static int points_seen(void) { return getenv("WEFT_TEST_LONG") ? 60000 : 6000; }
+static int points_seen(void) { return test_long() ? 60000 : 6000; }
 typedef struct Pairs {
     Dir o[PAIRS], i[PAIRS];
 } Pairs;
@@ -191,7 +191,7 @@ static void presets_are_reflections_that_reflect_as_their_points_do(void **state
     (void)state;
     each_preset(check_reflection);
     print_message("the farthest is off by %.3f, each pair by %.3f\n", farthest, most_apart);
-    assert_true(farthest < (getenv("WEFT_TEST_LONG") ? 0.01 : 0.02));
+    assert_true(farthest < (test_long() ? 0.01 : 0.02));
 }
 
 /* f cos / pdf of fibres of albedo 0.9. */

@@ -217,7 +217,7 @@ static void place_of(int k, float *x, float *y) {
     *y = (float)fmod(0.5698402909980532 * k, 1.0) * 480.0f;
 }
 
-/* How much of a point a sun sees that stands 15 degrees over the cloth. */
+/* Returns how much of a point a sun sees that stands 15 degrees over the cloth. */
 static double sunlit(WeavePoint p) {
     return (double)fmaxf(0.2588f + 0.683f * p.slope_x + 0.683f * p.slope_y, 0.0f);
 }
@@ -233,7 +233,9 @@ static void fibres_leave_the_mean_as_it_is(void **state) {
         yarn.streaks = most[n];
         WeftCloth *cloth = woven("twill 2/2; both 1#a03040", yarn, 1);
         double lit = 0.0, dye = 0.0, slope[2] = {0.0, 0.0}, color[2] = {0.0, 0.0};
-        double sun[4] = {0.0, 0.0, 0.0, 0.0};
+        struct {
+            double fine, half_way, coarse, bare;
+        } sun = {0.0, 0.0, 0.0, 0.0};
         int seen = 0;
         for (int k = 0; k < PLACES; k++) {
             float x, y;
@@ -243,8 +245,8 @@ static void fibres_leave_the_mean_as_it_is(void **state) {
                              coarse = weave_point(&cloth->weave, x, y, 0.09f, across),
                              bare = weave_point(&cloth->weave, x, y, 0.09f, 0.0f);
             if (fine.height <= WEAVE_NONE) continue;
-            sun[0] += sunlit(fine), sun[1] += sunlit(coarse), sun[2] += sunlit(bare);
-            sun[3] += sunlit(weave_point(&cloth->weave, x, y, 0.033f, across));
+            sun.fine += sunlit(fine), sun.coarse += sunlit(coarse), sun.bare += sunlit(bare);
+            sun.half_way += sunlit(weave_point(&cloth->weave, x, y, 0.033f, across));
             assert_true(coarse.lit == 1.0f && coarse.dye == 1.0f);
             seen += fabsf(fine.lit - 1.0f) > 0.05f;
             lit += (double)(fine.lit - 1.0f) / PLACES;
@@ -256,11 +258,11 @@ static void fibres_leave_the_mean_as_it_is(void **state) {
         }
         print_message("cotton, streaks %.1f: light %+.4f, dye %+.4f, slopes %+.4f %+.4f, colour %+.4f\n",
                       (double)most[n], lit, dye, slope[0], slope[1], color[0] / color[1] - 1.0);
-        print_message("a low sun: %+.4f, half way %+.4f, without their slopes %+.4f\n", sun[1] / sun[0] - 1.0,
-                      sun[3] / sun[0] - 1.0, sun[2] / sun[0] - 1.0);
-        assert_true(fabs(sun[1] / sun[0] - 1.0) < 0.003);
-        assert_true(fabs(sun[3] / sun[0] - 1.0) < 0.02);
-        assert_true(sun[2] < 0.98 * sun[0]);
+        print_message("a low sun: %+.4f, half way %+.4f, without their slopes %+.4f\n",
+                      sun.coarse / sun.fine - 1.0, sun.half_way / sun.fine - 1.0, sun.bare / sun.fine - 1.0);
+        assert_true(fabs(sun.coarse / sun.fine - 1.0) < 0.003);
+        assert_true(fabs(sun.half_way / sun.fine - 1.0) < 0.02);
+        assert_true(sun.bare < 0.98 * sun.fine);
         assert_true(seen > PLACES / 2);
         assert_true(fabs(lit) < 0.003 && fabs(dye) < 0.01);
         assert_true(fabs(slope[0]) < 0.003 && fabs(slope[1]) < 0.003);

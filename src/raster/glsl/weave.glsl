@@ -21,22 +21,22 @@ vec2 pixel_point(int k, int n) {
     return vec2(x, y) / float(n) - vec2(0.5, 0.5 + floor(y / float(n)));
 }
 
-/* What each pixel has its own of. */
-uint pixel_key() { return weave_hash(uint(gl_FragCoord.x) + (uint(gl_FragCoord.y) << 16u)); }
+/* Returns three numbers from -1 to 1 that are random from pixel to pixel. */
+vec3 pixel_random() {
+    uint key = weave_hash(uint(gl_FragCoord.x) + (uint(gl_FragCoord.y) << 16u));
+    return vec3(weave_first(key), weave_second(key), weave_first(weave_hash(key + 1u)));
+}
 
 /* Moves a lattice of n points around the pixel, in each pixel by another way, since the same in all would beat with
  * threads: Robert Cranley, Thomas Patterson, "Randomization of Number Theoretic Methods for Multiple Integration", 1976. A
  * single point stays in the middle, where it leaves the edges of threads smooth. */
-vec2 pixel_moved(vec2 from, int n, uint key) {
-    vec2 by = 0.5 * vec2(weave_first(key), weave_second(key));
-    return n > 1 ? fract(from + by + 0.5) - 0.5 : from;
+vec2 pixel_moved(vec2 from, int n, vec3 random) {
+    return n > 1 ? fract(from + 0.5 * random.xy + 0.5) - 0.5 : from;
 }
 
 /* The place across a fibre of that point, if it lies too far from others to tell: by rows of the lattice, moved by another
  * way, so that it does not depend on where the point is. */
-float pixel_across(vec2 from, uint key) {
-    return 2.0 * fract(from.y + weave_first(weave_hash(key + 1u))) - 1.0;
-}
+float pixel_across(vec2 from, vec3 random) { return 2.0 * fract(from.y + random.z) - 1.0; }
 
 /* One system from afar, its colours as the mean of five places half a pixel wide: a level as wide as the pixel would
  * mix neighbours that are still told apart; the last level is the same at all. Two bases stand for the cloth, each with
@@ -139,7 +139,7 @@ vec4 woven_light(Stack m, Dir o, Facing at, Frame frame, float occlusion) {
     WeaveFootprint f = weave_footprint(across.x, across.y, up.x, up.y);
     float far = weave_far_weight(f);
     int points = pixel_points(f, far), systems = far > 0.0 ? 2 : 0;
-    uint key = pixel_key();
+    vec3 random = pixel_random();
     StackView w;
     stack_view(m, o, w);
 #ifdef AMBIENT
@@ -149,10 +149,10 @@ vec4 woven_light(Stack m, Dir o, Facing at, Frame frame, float occlusion) {
     WovenSum sum = WovenSum(rgb_grey(0.0), rgb_grey(0.0), rgb_grey(0.0), rgb_grey(0.0), far);
     for (int k = 0; k < points; k++) {
         float weight = (1.0 - far) / float(points);
-        vec2 lattice = pixel_point(k, points), from = pixel_moved(lattice, points, key);
+        vec2 lattice = pixel_point(k, points), from = pixel_moved(lattice, points, random);
         vec2 spot = place + from.x * across + from.y * up;
         float spacing = f.longest * inversesqrt(float(points));
-        WeavePoint p = weave_point(c, spot.x, spot.y, spacing, pixel_across(lattice, key));
+        WeavePoint p = weave_point(c, spot.x, spot.y, spacing, pixel_across(lattice, random));
         sum.covered = sum.covered + (p.height > WEAVE_NONE ? weight : 0.0);
         WeaveBase b = weave_near(c, p);
         Stack n = woven_stack(m, b);
