@@ -200,13 +200,19 @@ static void put_lights(Text *text, const ShaderKey *key) {
                  "L(k, int(lights[4 * k].w), int(lights[4 * k + 2].w)) }");
     text_define(text, "EACH_LIGHT(L)", each);
     if (!key->polygons) return;
-    char polygons[SHADER_LIGHTS * 24] = "";
+    char polygons[SHADER_LIGHTS * 24] = "", corners[SHADER_LIGHTS * 16] = "";
     for (int k = 0; k < key->polygons; k++) {
-        size_t used = strlen(polygons);
+        size_t used = strlen(polygons), length = strlen(corners);
+        if (k && key->polygon_corners[k] != key->polygon_corners[k - 1])
+            snprintf(corners + length, sizeof corners - length, "(k) < %d ? %d : ", k,
+                     key->polygon_corners[k - 1]);
         snprintf(polygons + used, sizeof polygons - used, "L(%d, %d, %s, %d) ", k, key->polygon_corners[k],
                  key->polygon_two_sided[k] ? "true" : "false", key->polygon_map[k]);
     }
     char count[16];
+    size_t length = strlen(corners);
+    snprintf(corners + length, sizeof corners - length, "%d", key->polygon_corners[key->polygons - 1]);
+    text_define(text, "CORNERS_OF(k)", corners);
     snprintf(count, sizeof count, "%d", key->polygons);
     text_define(text, "POLYGONS", count);
     text_define(text, "EACH_POLYGON(L)", polygons);

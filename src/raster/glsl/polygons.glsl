@@ -9,6 +9,7 @@ struct PolygonReach {
     float front[POLYGONS], behind[POLYGONS];
 };
 
+/* EACH_POLYGON(L) is L(k, corners, two_sided, map) for each polygon. */
 #define ONE_REACH(k, corners, two_sided, map)                                                                \
     if (two_sided || dot(polygon_normals[k].xyz, here - polygon_corners[8 * k].xyz) > 0.0) {                 \
         reach.front[k] = polygon_reaches(map, normal, polygon_normals[k].xyz);                               \
@@ -37,11 +38,10 @@ Rgb polygon_from(int k, int corners, float front, float behind, Stack m, StackVi
     return rgb_mul(sum, rgb(c.r, c.g, c.b));
 }
 
-/* EACH_POLYGON(L) is L(k, corners, two_sided, map) for each polygon. */
-#define ONE_POLYGON(k, corners, two_sided, map)                                                              \
-    sum = rgb_add(sum, polygon_from(k, corners, reach.front[k], reach.behind[k], m, w, f));
+/* A loop, for a copy of the stack under each polygon would take compilers a second. */
 Rgb polygon_light(Stack m, StackView w, PolygonReach reach, Frame f) {
     Rgb sum = rgb_grey(0.0);
-    EACH_POLYGON(ONE_POLYGON)
+    for (int k = 0; k < POLYGONS; k++)
+        sum = rgb_add(sum, polygon_from(k, CORNERS_OF(k), reach.front[k], reach.behind[k], m, w, f));
     return sum;
 }
