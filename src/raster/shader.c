@@ -313,10 +313,16 @@ static void floor_text(const ShaderKey *key, Text *text) {
 
 static const char *boolean(bool x) { return x ? "true" : "false"; }
 
-/* One slot's table, baked where `baked` is not below 0. */
-static void put_ambient_table(Text *text, const char *slot, AmbientTable t, int layer) {
-    text_line(text, "    t.%s.texels = %d;\n    t.%s.rows = %d;\n    t.%s.columns = %d;", slot, layer, slot,
-              t.rows, slot, t.columns);
+/* One slot's table, baked where `baked` is not below 0, else a layer of the program's tables. */
+typedef struct AmbientEntry {
+    AmbientTable table;
+    int layer;
+} AmbientEntry;
+
+static void put_ambient_table(Text *text, const char *slot, const AmbientEntry *entry) {
+    const AmbientTable t = entry->table;
+    text_line(text, "    t.%s.texels = %d;\n    t.%s.rows = %d;\n    t.%s.columns = %d;", slot, entry->layer,
+              slot, t.rows, slot, t.columns);
     text_line(text, "    t.%s.low = %s;\n    t.%s.high = %s;\n    t.%s.strategy = %d;", slot,
               number(t.low).text, slot, number(t.high).text, slot, t.strategy);
     text_line(text, "    t.%s.focus = %s;\n    t.%s.narrow = %s;\n    t.%s.second = %s;", slot,
@@ -326,11 +332,10 @@ static void put_ambient_table(Text *text, const char *slot, AmbientTable t, int 
               boolean(t.turning), slot, boolean(t.lossless), slot, t.baked);
 }
 
-/* Writes the table of a slot; an empty slot has one too, which is never read. Returns false if memory is
- * short. */
-static bool put_ambient_slot(Text *text, const ShaderKey *key, int slot, const Lobe *lobe, Fits *fits) {
+/* Finds the table of a slot; an empty slot has one too, which is never read. Returns false if memory is short. */
+static bool find_ambient_table(Text *text, const ShaderKey *key, int slot, const Lobe *lobe, Fits *fits,
+                               AmbientEntry *entry) {
     AmbientTable t = {.rows = 1, .columns = AMBIENT_COLUMNS};
-    int layer = 0;
     bool dense = key->dense >> slot & 1;
     if (lobe && !shader_holds(key, slot)) {
         const AmbientFit *fit = fits_get(fits, lobe);
@@ -338,7 +343,8 @@ static bool put_ambient_slot(Text *text, const ShaderKey *key, int slot, const L
         t = ambient_table(fit, AMBIENT_FITTED);
         dense = fit->denser > AMBIENT_DENSER;
         int headings = t.turning ? AMBIENT_HEADINGS : 1;
-        layer = text_table(text, (TextTable){t.texels, headings * AMBIENT_PLANES * t.rows, t.columns, NULL});
+        TextTable texels = {t.texels, headings * AMBIENT_PLANES * t.rows, t.columns, NULL};
+        entry->layer = text_table(text, texels);
     } else if (lobe) {
         t.baked = slot * AMBIENT_BAKED;
         t.focus = key->focus >> slot & 1;
@@ -352,22 +358,37 @@ static bool put_ambient_slot(Text *text, const ShaderKey *key, int slot, const L
         t.strategy = key->ambient - 2;
     else if (lobe)
         t.strategy = ambient_strategy(lobe->id, t.turning, dense);
-    put_ambient_table(text, slot_name(slot), t, layer);
+    entry->table = t;
     return true;
 }
 
+/* Compilers copy all that a slot might do before they see that it does not. */
+static void define_strategies(Text *text, const AmbientEntry entries[SLOT_COUNT]) {
+    static const char *const names[AMBIENT_STRATEGIES] = {[AMBIENT_IRRADIANCE] = "IS_IRRADIANCE(t)",
+                                                          [AMBIENT_MIRROR] = "IS_MIRROR(t)",
+                                                          [AMBIENT_SAMPLED] = "IS_SAMPLED(t)"};
+    for (int k = 0; k < AMBIENT_STRATEGIES; k++) {
+        bool there = false;
+        for (int slot = 0; slot < SLOT_COUNT; slot++) there |= entries[slot].table.strategy == k;
+        if (names[k] && !there) text_define(text, names[k], "false");
+    }
+}
+
 static void put_ambient(Text *text, const ShaderKey *key, const CompositionSlots *found, Fits *fits) {
+    AmbientEntry entries[SLOT_COUNT] = {0};
+    for (int k = 0; k < SLOT_COUNT; k++) {
+        const Lobe *lobe = found->slots[k].count ? &found->lobes[k] : NULL;
+        if (!find_ambient_table(text, key, k, lobe, fits, &entries[k])) return;
+    }
     environment_text(text);
     text_line(text, "\nAmbientWeights ambient_baked(Frame f, int k) {\n    vec4 c = material_fits[k];\n"
                     "    AmbientWeights w;\n    w.a = c.x;\n    w.b = c.y;\n    w.c = c.z;\n    w.d = c.w;\n"
                     "    return w;\n}");
     text_include(text, "raster/glsl/light_visibility.glsl");
+    define_strategies(text, entries);
     text_include(text, "shading/ambient.h");
     text_line(text, "\nAmbientTables material_ambient() {\n    AmbientTables t;");
-    for (int k = 0; k < SLOT_COUNT; k++) {
-        const Lobe *lobe = found->slots[k].count ? &found->lobes[k] : NULL;
-        if (!put_ambient_slot(text, key, k, lobe, fits)) return;
-    }
+    for (int k = 0; k < SLOT_COUNT; k++) put_ambient_table(text, slot_name(k), &entries[k]);
     text_line(text, "    return t;\n}");
     text_define(text, "AMBIENT", "1");
 }

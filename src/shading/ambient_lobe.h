@@ -38,6 +38,17 @@
 #define AMBIENT_SAMPLED    3
 #define AMBIENT_STRATEGIES 4
 
+/* A shader defines as false those that no slot of its material has (raster/shader.c). */
+#ifndef IS_IRRADIANCE
+#define IS_IRRADIANCE(t) ((t).strategy == AMBIENT_IRRADIANCE)
+#endif
+#ifndef IS_MIRROR
+#define IS_MIRROR(t) ((t).strategy == AMBIENT_MIRROR)
+#endif
+#ifndef IS_SAMPLED
+#define IS_SAMPLED(t) ((t).strategy == AMBIENT_SAMPLED)
+#endif
+
 /* The fitted strategy blends from the four look-ups to one look-up of the residual around log2 kappa =
  * AMBIENT_CLOSE. A second blend, to look-ups of the whole environment, is centred at ambient_light_kappa -
  * AMBIENT_FINER: a narrower lobe would show that a directional light has no extent. Both blends reach
@@ -173,8 +184,8 @@ FN SlotLight ambient_fitted_light(AmbientTable t, AmbientSource s, AmbientView v
 /* Works as ambient_slot_light for all but samples, which have directions. */
 FN SlotLight ambient_undirected_light(AmbientTable t, AmbientSource s, AmbientView v, AmbientLookups residual,
                                       AmbientCoord at, float p, AmbientAlbedo e) {
-    if (t.strategy == AMBIENT_IRRADIANCE) return ambient_irradiance_light(s, v, e);
-    if (t.strategy == AMBIENT_MIRROR) return ambient_mirror_light(t, s, v, p, e);
+    if (IS_IRRADIANCE(t)) return ambient_irradiance_light(s, v, e);
+    if (IS_MIRROR(t)) return ambient_mirror_light(t, s, v, p, e);
     return ambient_fitted_light(t, s, v, residual, at, e);
 }
 
@@ -184,7 +195,7 @@ FN SlotLight ambient_slot_light(AmbientTable t, AmbientSource s, AmbientView v, 
     float p = lobe.params[0];
     AmbientCoord at = ambient_coord(t, v.o.z, v.heading, p);
     AmbientAlbedo e = ambient_albedo(t, s, at, albedo);
-    if (t.strategy == AMBIENT_SAMPLED) return ambient_sampled_light(t, s, v, at, lobe, tint, e);
+    if (IS_SAMPLED(t)) return ambient_sampled_light(t, s, v, at, lobe, tint, e);
     SlotLight a = ambient_undirected_light(t, s, v, residual, at, p, e);
     a.reflected.first = ambient_tinted(tint.whole, tint.flakes, a.reflected.first);
     return a;
