@@ -13,6 +13,7 @@
 
 #include "base/pi.h"
 #include "base/thread.h"
+#include "measure/blend.h"
 #include "measure/data.h"
 #include "measure/search.h"
 

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "measure/blend.h"
 #include "measure/search.h"
 #include "weft/arrays.h"
 

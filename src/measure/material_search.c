@@ -6,6 +6,7 @@
 
 #include "base/fail.h"
 #include "base/memory.h"
+#include "measure/blend.h"
 #include "measure/reflection.h"
 #include "measure/search.h"
 #include "shading/choice.h"

@@ -185,19 +185,6 @@ float samples_goal(const Samples *self, float x) {
     }
 }
 
-/* d goal / dx between two values; above what is displayed some is left, so that it is not forgotten. */
-static float slope_of(const Samples *self, float a, float b) {
-    float x = 0.5f * (a + b);
-    switch (self->metric) {
-    case WEFT_BRDF_METRIC_LOG: return 1.0f / (self->scale + x);
-    case WEFT_BRDF_METRIC_PICTURE: {
-        float y = PI_FLOAT * x;
-        return y > 1.0f ? 0.1f : y <= 0.0031308f ? 40.0f : 1.381f * powf(y, -1.4f / 2.4f);
-    }
-    default: return 1.0f;
-    }
-}
-
 static bool same_channels(const Samples *self) {
     for (int k = 0; k < self->count; k++)
         for (int c = 1; c < 3; c++)
@@ -244,113 +231,12 @@ static double share(const Samples *self, int count, double sum) {
     return whole > 0.0 ? sum / whole : sum > 0.0 ? 1.0 : 0.0;
 }
 
+double samples_channel_error(const Samples *self, int count, int c, const float *x) {
+    return share(self, count, channel_distance(self, count, c, x));
+}
+
 double samples_distance(const Samples *self, int count, const float *const x[3]) {
     double sum = 0.0;
     for (int c = 0; c < 3; c++) sum += channel_distance(self, count, c, x[c]) * self->channels / 3.0;
     return share(self, count, sum);
-}
-
-/* Normal equations of one channel: A weights = b. */
-typedef struct Normal {
-    double a[BLEND_MOST][BLEND_MOST], b[BLEND_MOST];
-} Normal;
-
-static void normal_make(Normal *normal, int columns, const float *const column[], const float *w,
-                        const float *rest, int count) {
-    for (int j = 0; j < columns; j++) {
-        double b = 0.0;
-        for (int k = 0; k < count; k++) b += (double)(w[k] * column[j][k]) * (double)rest[k];
-        normal->b[j] = b;
-        for (int l = 0; l <= j; l++) {
-            double a = 0.0;
-            for (int k = 0; k < count; k++) a += (double)(w[k] * column[j][k]) * (double)column[l][k];
-            normal->a[j][l] = normal->a[l][j] = a;
-        }
-    }
-}
-
-/* Gauss elimination of the columns in `active`, a set of bits. False where they depend on each other. */
-static bool solve_active(const Normal *normal, int columns, unsigned active, double *weights) {
-    double m[BLEND_MOST][BLEND_MOST + 1];
-    int index[BLEND_MOST], n = 0;
-    for (int j = 0; j < columns; j++) {
-        weights[j] = 0.0;
-        if (active >> j & 1u) index[n++] = j;
-    }
-    for (int r = 0; r < n; r++) {
-        for (int c = 0; c < n; c++) m[r][c] = normal->a[index[r]][index[c]];
-        m[r][n] = normal->b[index[r]];
-    }
-    for (int p = 0; p < n; p++) {
-        if (!(m[p][p] > 1e-10 * normal->a[index[p]][index[p]])) return false;
-        for (int r = p + 1; r < n; r++) {
-            double t = m[r][p] / m[p][p];
-            for (int c = p; c <= n; c++) m[r][c] -= t * m[p][c];
-        }
-    }
-    for (int r = n - 1; r >= 0; r--) {
-        double sum = m[r][n];
-        for (int c = r + 1; c < n; c++) sum -= m[r][c] * weights[index[c]];
-        weights[index[r]] = sum / m[r][r];
-    }
-    return true;
-}
-
-/* Least squares without negative weights: of so few columns every set can be tried. */
-static void solve_positive(const Normal *normal, int columns, double *weights) {
-    double least = 1e300;
-    for (unsigned active = 0; active < 1u << columns; active++) {
-        double trial[BLEND_MOST], cost = 0.0;
-        bool good = solve_active(normal, columns, active, trial);
-        for (int j = 0; good && j < columns; j++) {
-            good = !(trial[j] < 0.0);
-            for (int l = 0; l < columns; l++) cost += trial[j] * normal->a[j][l] * trial[l];
-            cost -= 2.0 * trial[j] * normal->b[j];
-        }
-        if (!good || !(cost < least)) continue;
-        least = cost;
-        for (int j = 0; j < columns; j++) weights[j] = trial[j];
-    }
-}
-
-/* x of the blend. */
-static void blend_add(const Blend *blend, int count, int c, const double *weights, float *x) {
-    const float *fixed = blend->fixed[c];
-    for (int k = 0; k < count; k++) x[k] = fixed ? fixed[k] : 0.0f;
-    for (int j = 0; j < blend->columns; j++) {
-        const float *column = blend->column[j][c];
-        float a = (float)weights[j];
-        for (int k = 0; k < count; k++) x[k] += a * column[k];
-    }
-}
-
-/* A sample's weight in least squares: so that its square counts for what its size does. `soft` keeps those
- * that are met from counting for everything. */
-static void weigh(const Samples *self, int count, int c, const float *x, float soft, float *w) {
-    const float *from = self->x[c];
-    if (self->metric == WEFT_BRDF_METRIC_COSINE)
-        for (int k = 0; k < count; k++) w[k] = self->weight[k] / fmaxf(fabsf(x[k] - from[k]), soft);
-    else
-        for (int k = 0; k < count; k++)
-            w[k] = self->weight[k] * slope_of(self, x[k], from[k]) / fmaxf(fabsf(x[k] - from[k]), soft);
-}
-
-double blend_solve(const Samples *self, int count, int c, const Blend *blend, double weights[BLEND_MOST]) {
-    const int rounds = count == self->count ? 9 : 5;
-    float *x = blend->work, *rest = x + self->count, *w = rest + self->count, soft = self->scale;
-    const float *columns[BLEND_MOST];
-    for (int j = 0; j < blend->columns; j++) columns[j] = blend->column[j][c], weights[j] = 0.0;
-    for (int k = 0; k < count; k++) rest[k] = self->x[c][k] - (blend->fixed[c] ? blend->fixed[c][k] : 0.0f);
-    for (int round = 0; round < rounds && blend->columns > 0; round++, soft *= 0.3f) {
-        Normal normal;
-        blend_add(blend, count, c, weights, x);
-        if (round == 0)
-            for (int k = 0; k < count; k++) w[k] = self->weight[k];
-        else
-            weigh(self, count, c, x, soft, w);
-        normal_make(&normal, blend->columns, columns, w, rest, count);
-        solve_positive(&normal, blend->columns, weights);
-    }
-    blend_add(blend, count, c, weights, x);
-    return share(self, count, channel_distance(self, count, c, x));
 }

@@ -7,6 +7,7 @@
 #include "base/matrix.h"
 #include "base/memory.h"
 #include "base/pi.h"
+#include "measure/blend.h"
 #include "measure/halton.h"
 #include "shading/registry.h"
 
