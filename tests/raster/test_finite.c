@@ -9,6 +9,8 @@
 
 #include <cmocka.h>
 
+#include "shading/cases.h"
+
 #include "raster/gl.h"
 #include "raster/spheres.h"
 #include "weft/weft.h"
@@ -56,14 +58,14 @@ static void pixels_of_extreme_materials_are_finite(void **state) {
     WeftScene *scenes[2] = {spheres(), spheres()};
     WeftRaster *rasters[2];
     WeftError error;
-    int odd = 0;
+    int odd = 0, at = 0;
     assert_int_equal(weft_scene_set(scenes[1], "*.sheen_roughness", "0.01", NULL, NULL), WEFT_OK);
     for (int k = 0; k < 2; k++)
         if (weft_raster_create(scenes[k], &desc, &rasters[k], NULL, &error) != WEFT_OK)
             fail_msg("%s", error.text);
     for (int lobe = 0; weft_lobe_info(lobe); lobe++) {
         const WeftLobeInfo *info = weft_lobe_info(lobe);
-        if (info->traits & (WEFT_LOBE_REFERENCE | WEFT_LOBE_DIFFUSE)) continue;
+        if (info->traits & (WEFT_LOBE_REFERENCE | WEFT_LOBE_DIFFUSE) || !test_turn(&at, 2, 9)) continue;
         for (int k = 0; k < 2; k++) odd += odd_of(scenes[k], rasters[k], info->id, k ? "0.01" : "0.1 to 1");
     }
     for (int k = 0; k < 2; k++) {
