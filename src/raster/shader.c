@@ -362,16 +362,20 @@ static bool find_ambient_table(Text *text, const ShaderKey *key, int slot, const
     return true;
 }
 
-/* Compilers copy all that a slot might do before they see that it does not. */
+/* What only some strategies do is left out where no slot has them. */
 static void define_strategies(Text *text, const AmbientEntry entries[SLOT_COUNT]) {
-    static const char *const names[AMBIENT_STRATEGIES] = {[AMBIENT_IRRADIANCE] = "IS_IRRADIANCE(t)",
-                                                          [AMBIENT_MIRROR] = "IS_MIRROR(t)",
-                                                          [AMBIENT_SAMPLED] = "IS_SAMPLED(t)"};
-    for (int k = 0; k < AMBIENT_STRATEGIES; k++) {
-        bool there = false;
-        for (int slot = 0; slot < SLOT_COUNT; slot++) there |= entries[slot].table.strategy == k;
-        if (names[k] && !there) text_define(text, names[k], "false");
+    bool there[AMBIENT_STRATEGIES] = {false};
+    for (int k = 0; k < SLOT_COUNT; k++) {
+        char name[64];
+        there[entries[k].table.strategy] = true;
+        snprintf(name, sizeof name, "LIGHT_OF_%s", slot_name(k));
+        text_define(text, name,
+                    entries[k].table.strategy == AMBIENT_SAMPLED ? "ambient_slot_light"
+                                                                 : "ambient_lookup_light");
     }
+    text_define(text, "LIGHT_OF_SLOT(slot)", "LIGHT_OF_##slot");
+    if (!there[AMBIENT_IRRADIANCE]) text_define(text, "IS_IRRADIANCE(t)", "false");
+    if (!there[AMBIENT_MIRROR]) text_define(text, "IS_MIRROR(t)", "false");
 }
 
 static void put_ambient(Text *text, const ShaderKey *key, const CompositionSlots *found, Fits *fits) {

@@ -134,7 +134,7 @@ FN Rgb ambient_smooth(const Stack *m, const StackView *w, AmbientTables t, Ambie
     float diffuse_factor = ambient_diffuse(s), reflection_factor = ambient_reflection(s);
     if (HAS_DIFFUSE(m)) {
         SlotLight light =
-            ambient_slot_light(t.diffuse, s, v, residual, m->diffuse.lobe, ambient_untinted(), -1.0f);
+            LIGHT_OF_SLOT(diffuse)(t.diffuse, s, v, residual, m->diffuse.lobe, ambient_untinted(), -1.0f);
         AmbientSlot a =
             ambient_slot(slot_colors(&m->diffuse), untinted, w->scale.diffuse, light, diffuse_factor);
         if (SHOWS_DIFFUSE) sum = rgb_mul(through.diffuse, a.reflected);
@@ -148,7 +148,7 @@ FN Rgb ambient_smooth(const Stack *m, const StackView *w, AmbientTables t, Ambie
     }
     if (HAS_SPECULAR(m)) {
         SlotLight light =
-            ambient_slot_light(t.specular, s, v, residual, m->specular.lobe, ambient_untinted(), -1.0f);
+            LIGHT_OF_SLOT(specular)(t.specular, s, v, residual, m->specular.lobe, ambient_untinted(), -1.0f);
         AmbientSlot a =
             ambient_slot(stack_specular_colors(m, w), untinted, w->scale.specular, light, reflection_factor);
         if (SHOWS_SPECULAR) sum = rgb_add(sum, rgb_mul(through.specular, a.reflected));
@@ -165,7 +165,7 @@ FN Rgb ambient_smooth(const Stack *m, const StackView *w, AmbientTables t, Ambie
         float albedo = better ? w->e_o.e : -1.0f;
         SlotColors colors = slot_colors(&m->sheen);
         AmbientTint tint = ambient_tint(w->e_o, colors);
-        SlotLight light = ambient_slot_light(t.sheen, s, along, residual, m->sheen.lobe, tint, albedo);
+        SlotLight light = LIGHT_OF_SLOT(sheen)(t.sheen, s, along, residual, m->sheen.lobe, tint, albedo);
         AmbientSlot a = ambient_slot(colors, w->e_o, w->scale.sheen, light, reflection_factor);
         if (SHOWS_SHEEN) sum = rgb_add(sum, rgb_mul(through.sheen, a.reflected));
         lights->scale.sheen = a.lights_scale;
@@ -174,8 +174,8 @@ FN Rgb ambient_smooth(const Stack *m, const StackView *w, AmbientTables t, Ambie
     if (HAS_COAT(m)) {
         if (w->coat_o.z > 0.0f) {
             AmbientView c = ambient_view(w->coat_o, m->coat_x, m->coat_y, m->coat_z, v.occlusion);
-            SlotLight light = ambient_slot_light(t.coat, s, c, ambient_residual_lookups(s, c), m->coat.lobe,
-                                                 ambient_untinted(), -1.0f);
+            SlotLight light = LIGHT_OF_SLOT(coat)(t.coat, s, c, ambient_residual_lookups(s, c), m->coat.lobe,
+                                                  ambient_untinted(), -1.0f);
             AmbientSlot a =
                 ambient_slot(slot_colors(&m->coat), untinted, w->scale.coat, light, reflection_factor);
             if (SHOWS_COAT) sum = rgb_add(sum, a.reflected);
@@ -184,7 +184,8 @@ FN Rgb ambient_smooth(const Stack *m, const StackView *w, AmbientTables t, Ambie
         }
     }
     if (HAS_DUST(m)) {
-        SlotLight light = ambient_slot_light(t.dust, s, v, residual, m->dust.lobe, ambient_untinted(), -1.0f);
+        SlotLight light =
+            LIGHT_OF_SLOT(dust)(t.dust, s, v, residual, m->dust.lobe, ambient_untinted(), -1.0f);
         AmbientSlot a = ambient_slot(slot_colors(&m->dust), untinted, w->scale.dust, light, diffuse_factor);
         if (SHOWS_DUST) sum = rgb_add(sum, a.reflected);
         lights->scale.dust = a.lights_scale;

@@ -38,15 +38,16 @@
 #define AMBIENT_SAMPLED    3
 #define AMBIENT_STRATEGIES 4
 
-/* A shader defines as false those that no slot of its material has (raster/shader.c). */
+/* A shader has those that no slot of its material has as false, and of each slot the function that does for it
+ * (raster/shader.c): compilers copy all that a slot might do before they see that it does not. */
 #ifndef IS_IRRADIANCE
 #define IS_IRRADIANCE(t) ((t).strategy == AMBIENT_IRRADIANCE)
 #endif
 #ifndef IS_MIRROR
 #define IS_MIRROR(t) ((t).strategy == AMBIENT_MIRROR)
 #endif
-#ifndef IS_SAMPLED
-#define IS_SAMPLED(t) ((t).strategy == AMBIENT_SAMPLED)
+#ifndef LIGHT_OF_SLOT
+#define LIGHT_OF_SLOT(slot) ambient_slot_light
 #endif
 
 /* The fitted strategy blends from the four look-ups to one look-up of the residual around log2 kappa =
@@ -181,24 +182,29 @@ FN SlotLight ambient_fitted_light(AmbientTable t, AmbientSource s, AmbientView v
     return a;
 }
 
-/* Works as ambient_slot_light for all but samples, which have directions. */
-FN SlotLight ambient_undirected_light(AmbientTable t, AmbientSource s, AmbientView v, AmbientLookups residual,
-                                      AmbientCoord at, float p, AmbientAlbedo e) {
-    if (IS_IRRADIANCE(t)) return ambient_irradiance_light(s, v, e);
-    if (IS_MIRROR(t)) return ambient_mirror_light(t, s, v, p, e);
-    return ambient_fitted_light(t, s, v, residual, at, e);
-}
-
-/* residual: the look-ups in this view. albedo: see ambient_albedo. The light of a tinted lobe is that of its flakes. */
-FN SlotLight ambient_slot_light(AmbientTable t, AmbientSource s, AmbientView v, AmbientLookups residual,
-                                Lobe lobe, AmbientTint tint, float albedo) {
+/* Works as ambient_slot_light for a slot that is not sampled. The light of a tinted lobe is that of its flakes. */
+FN SlotLight ambient_lookup_light(AmbientTable t, AmbientSource s, AmbientView v, AmbientLookups residual,
+                                  Lobe lobe, AmbientTint tint, float albedo) {
     float p = lobe.params[0];
     AmbientCoord at = ambient_coord(t, v.o.z, v.heading, p);
     AmbientAlbedo e = ambient_albedo(t, s, at, albedo);
-    if (IS_SAMPLED(t)) return ambient_sampled_light(t, s, v, at, lobe, tint, e);
-    SlotLight a = ambient_undirected_light(t, s, v, residual, at, p, e);
+    SlotLight a;
+    if (IS_IRRADIANCE(t))
+        a = ambient_irradiance_light(s, v, e);
+    else if (IS_MIRROR(t))
+        a = ambient_mirror_light(t, s, v, p, e);
+    else
+        a = ambient_fitted_light(t, s, v, residual, at, e);
     a.reflected.first = ambient_tinted(tint.whole, tint.flakes, a.reflected.first);
     return a;
+}
+
+/* residual: the look-ups in this view. albedo: see ambient_albedo. */
+FN SlotLight ambient_slot_light(AmbientTable t, AmbientSource s, AmbientView v, AmbientLookups residual,
+                                Lobe lobe, AmbientTint tint, float albedo) {
+    if (t.strategy != AMBIENT_SAMPLED) return ambient_lookup_light(t, s, v, residual, lobe, tint, albedo);
+    AmbientCoord at = ambient_coord(t, v.o.z, v.heading, lobe.params[0]);
+    return ambient_sampled_light(t, s, v, at, lobe, tint, ambient_albedo(t, s, at, albedo));
 }
 
 #endif
