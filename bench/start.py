@@ -20,7 +20,9 @@ STUDIO = DATA / "env/studio_small_03_1k.hdr"
 QUICK = "--quick" in sys.argv
 WEFT = next((name for name in sys.argv[1:] if not name.startswith("--")), ROOT / "build/release/weft")
 ROUNDS = 2 if QUICK else 5
-SCENES = [["builtin:spheres"]]
+LAMPS = ("2,1,0;-1,-.3,0", "0,2,-1.5;0,-1,.8", "-2,.6,-1;1,-.2,.5", "1,.4,1.6;-.5,0,-1", "1.4,2,1;-.7,-1,-.5")
+SCENES = [["builtin:spheres"],
+          ["builtin:cloth", *(part for place in LAMPS for part in ("--light", f"polygon;{place};.4,.4;6,5,8"))]]
 if (DATA / "gltf/SheenChair/SheenChair.gltf").exists():
     SCENES += [[DATA / "gltf/SheenChair/SheenChair.gltf"]]
     SCENES += [[DATA / "gltf/SheenChair/SheenChair.gltf", "--env", STUDIO]]
@@ -50,7 +52,7 @@ def main():
             with tempfile.TemporaryDirectory() as folder:
                 cold.append(start(scene, folder))
                 warm.append(start(scene, folder))
-        name = pathlib.Path(scene[0]).stem + (" --env" if len(scene) > 1 else "")
+        name = pathlib.Path(scene[0]).stem + (f" {scene[1]}" if len(scene) > 1 else "")
         print(f"{name:26} {min(cold)[0]:8.2f} {min(c for _, c in cold):13.2f} {min(warm)[0]:9.2f} "
               f"{min(c for _, c in warm):13.2f}")
 

@@ -1,10 +1,8 @@
-/* blend.c - compiled with -ffinite-math-only, as arrays.c is (CMakeLists.txt) */
 #include "measure/blend.h"
 
 #include <math.h>
 
 #include "base/pi.h"
-#include "shading/lang.h"
 
 /* Normal equations of one channel: A weights = b. */
 typedef struct Normal {
@@ -87,7 +85,7 @@ static void blend_add(const Blend *blend, int count, int c, const double *weight
 }
 
 /* d goal / dx at x; above what is displayed some is left, so that it is not forgotten. */
-FN float goal_slope(WeftBrdfMetric metric, float scale, float x) {
+static inline float goal_slope(WeftBrdfMetric metric, float scale, float x) {
     if (metric == WEFT_BRDF_METRIC_COSINE) return 1.0f;
     if (metric == WEFT_BRDF_METRIC_LOG) return 1.0f / (scale + x);
     float y = PI_FLOAT * x;
@@ -96,13 +94,14 @@ FN float goal_slope(WeftBrdfMetric metric, float scale, float x) {
 
 /* A sample's weight in least squares: so that its square counts for what its size does. `soft` keeps those that are met
  * from counting for everything. The metric is a constant wherever this is inlined. */
-FN void weigh_by(WeftBrdfMetric metric, const Samples *self, int count, int c, const float *x, float soft,
-                 float *w) {
+static inline void weigh_by(WeftBrdfMetric metric, const Samples *self, int count, int c, const float *x,
+                            float soft, float *w) {
     const float *from = self->x[c], *weight = self->weight;
     const float scale = self->scale;
-    for (int k = 0; k < count; k++)
-        w[k] = weight[k] * goal_slope(metric, scale, 0.5f * (x[k] + from[k])) /
-               fmaxf(fabsf(x[k] - from[k]), soft);
+    for (int k = 0; k < count; k++) {
+        const float off = fabsf(x[k] - from[k]);
+        w[k] = weight[k] * goal_slope(metric, scale, 0.5f * (x[k] + from[k])) / (off > soft ? off : soft);
+    }
 }
 
 static void weigh(const Samples *self, int count, int c, const float *x, float soft, float *w) {

@@ -362,7 +362,7 @@ static bool find_ambient_table(Text *text, const ShaderKey *key, int slot, const
     return true;
 }
 
-/* What only some strategies do is left out where no slot has them. */
+/* Tells shading/ambient_lobe.h what serves each slot, and which strategies no slot has. */
 static void define_strategies(Text *text, const AmbientEntry entries[SLOT_COUNT]) {
     bool there[AMBIENT_STRATEGIES] = {false};
     for (int k = 0; k < SLOT_COUNT; k++) {
@@ -382,7 +382,7 @@ static void put_ambient(Text *text, const ShaderKey *key, const CompositionSlots
     AmbientEntry entries[SLOT_COUNT] = {0};
     for (int k = 0; k < SLOT_COUNT; k++) {
         const Lobe *lobe = found->slots[k].count ? &found->lobes[k] : NULL;
-        if (!find_ambient_table(text, key, k, lobe, fits, &entries[k])) return;
+        if (!find_ambient_table(text, key, k, lobe, fits, &entries[k])) text->macros.short_of_memory = true;
     }
     environment_text(text);
     text_line(text, "\nAmbientWeights ambient_baked(Frame f, int k) {\n    vec4 c = material_fits[k];\n"

@@ -26,7 +26,8 @@ typedef struct ShaderInput {
     int16_t like;                    /* the earlier input whose texel this is, or -1 */
 } ShaderInput;
 
-/* Up to so many lights are written out one by one, the fastest way; there are no more polygons. */
+/* Up to so many punctual lights are written out one by one, which is the fastest way to light by them. There are no more
+ * polygons. */
 enum { SHADER_LIGHTS = 8 };
 
 /* Compared byte by byte: zero-initialise. */
@@ -42,7 +43,7 @@ typedef struct ShaderKey {
     int dense;                  /* bit k: so is the lobe of slot k, by AMBIENT_DENSER, whose table is baked */
     int ranged;                 /* no table is baked: there are too many materials to fit one for each */
     int ambient;  /* 0: no light from the environment; 1: by each lobe's best strategy; else it less 2 */
-    int polygons; /* likewise; corners, sides, shadow map */
+    int polygons; /* and the corners of each, whether both sides shine, and the shadow map */
     int16_t polygon_corners[SHADER_LIGHTS], polygon_two_sided[SHADER_LIGHTS], polygon_map[SHADER_LIGHTS];
     int part; /* WeftPart */
     int alpha_mode, unlit, double_sided, colored;

@@ -38,7 +38,7 @@
 #define AMBIENT_SAMPLED    3
 #define AMBIENT_STRATEGIES 4
 
-/* A shader has those that no slot of its material has as false, and of each slot the function that does for it
+/* A shader defines IS_... as false for a strategy that no slot has, and LIGHT_OF_SLOT as the function that serves a slot
  * (raster/shader.c): compilers copy all that a slot might do before they see that it does not. */
 #ifndef IS_IRRADIANCE
 #define IS_IRRADIANCE(t) ((t).strategy == AMBIENT_IRRADIANCE)
@@ -147,8 +147,10 @@ FN SlotLight ambient_mirror_light(AmbientTable t, AmbientSource s, AmbientView v
 /* The table of a brushed lobe is right at its headings, and further off between them than the sum over strips, which is
  * within a twentieth. So it scales the sum near those headings alone: w is the place between two, 16 fitted to ggx and
  * silk. */
-FN SlotLight ambient_sampled_light(AmbientTable t, AmbientSource s, AmbientView v, AmbientCoord at, Lobe lobe,
-                                   AmbientTint tint, AmbientAlbedo e) {
+FN SlotLight ambient_sampled_light(AmbientTable t, AmbientSource s, AmbientView v, AmbientLookups residual,
+                                   Lobe lobe, AmbientTint tint, float albedo) {
+    AmbientCoord at = ambient_coord(t, v.o.z, v.heading, lobe.params[0]);
+    AmbientAlbedo e = ambient_albedo(t, s, at, albedo);
     SlotLight a;
     float w = at.outer_weight, own = t.strips && t.turning ? min(16.0f * w * (1.0f - w), 1.0f) : 0.0f;
     a.reflected =
@@ -199,12 +201,11 @@ FN SlotLight ambient_lookup_light(AmbientTable t, AmbientSource s, AmbientView v
     return a;
 }
 
-/* residual: the look-ups in this view. albedo: see ambient_albedo. */
+/* residual: the look-ups in this view, which samples do without. albedo: see ambient_albedo. */
 FN SlotLight ambient_slot_light(AmbientTable t, AmbientSource s, AmbientView v, AmbientLookups residual,
                                 Lobe lobe, AmbientTint tint, float albedo) {
-    if (t.strategy != AMBIENT_SAMPLED) return ambient_lookup_light(t, s, v, residual, lobe, tint, albedo);
-    AmbientCoord at = ambient_coord(t, v.o.z, v.heading, lobe.params[0]);
-    return ambient_sampled_light(t, s, v, at, lobe, tint, ambient_albedo(t, s, at, albedo));
+    if (t.strategy == AMBIENT_SAMPLED) return ambient_sampled_light(t, s, v, residual, lobe, tint, albedo);
+    return ambient_lookup_light(t, s, v, residual, lobe, tint, albedo);
 }
 
 #endif

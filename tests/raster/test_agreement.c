@@ -192,7 +192,7 @@ static void engines_agree_on_spheres(void **state) {
     find_inside(scene, "0");
     weft_scene_free(scene);
     bool good = true;
-    int step = test_short() ? 11 : test_long() ? 1 : 4; /* raster/parity and raster/families take all */
+    int step = test_short() ? 11 : test_long() ? 1 : 5; /* raster/parity and raster/families take all */
     for (size_t k = 0; k < sizeof choices / sizeof choices[0]; k++)
         good &= choice_agrees(choices[k].choice, choices[k].name, step);
     assert_true(good);

@@ -106,6 +106,50 @@ static double compare(int corners, bool shadows_drawn, bool shadows_traced, floa
     return off / sum;
 }
 
+/* Panel k of some that do not touch each other in the picture, or all. */
+static WeftImage drawn_under(int k) {
+    static const int corners[] = {3, 4, 4, 7, 8};
+    enum { PANELS = sizeof corners / sizeof *corners };
+    WeftScene *scene = ball_scene();
+    test_environment(scene, 0.0f);
+    for (int n = 0; n < PANELS; n++) {
+        WeftLight light = panel;
+        light.position[0] = 0.35f * (float)(n - 2);
+        light.size[0] = light.size[1] = 0.3f;
+        light.corners = corners[n];
+        if (k < 0 || k == n) assert_int_equal(weft_scene_add_light(scene, &light, NULL), WEFT_OK);
+    }
+    WeftRasterView how = view;
+    how.no_shadows = 1;
+    WeftRaster *raster = raster_of(scene);
+    WeftImage image = drawn(raster, &how);
+    weft_raster_free(raster);
+    weft_scene_free(scene);
+    return image;
+}
+
+static void polygons_of_different_corners_add_up(void **state) {
+    (void)state;
+    need_gl();
+    static float sum[SIDE * SIDE * 4];
+    WeftImage all = drawn_under(-1);
+    for (int n = 0; n < 5; n++) {
+        WeftImage one = drawn_under(n);
+        for (int k = 0; k < SIDE * SIDE * 4; k++) sum[k] += ((float *)one.pixels)[k];
+        weft_image_free(&one);
+    }
+    const float *is = all.pixels;
+    float most = 0.0f;
+    for (int k = 0; k < SIDE * SIDE * 4; k++) {
+        if (k % 4 == 3 || is[k] > 2.9f) continue; /* a lamp itself */
+        if (!(fabsf(is[k] - sum[k]) <= 4e-3f * sum[k] + 1e-4f))
+            fail_msg("pixel %d is %g, each alone adds up to %g", k / 4, (double)is[k], (double)sum[k]);
+        most = fmaxf(most, is[k]);
+    }
+    assert_true(most > 0.1f);
+    weft_image_free(&all);
+}
+
 static void polygon_lights_agree_with_the_path_tracer(void **state) {
     (void)state;
     need_gl();
@@ -212,6 +256,7 @@ static void updated_lights_draw_as_new_ones(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(polygon_lights_agree_with_the_path_tracer),
+                                       cmocka_unit_test(polygons_of_different_corners_add_up),
                                        cmocka_unit_test(soft_shadows_are_near_the_path_tracer),
                                        cmocka_unit_test(polygon_behind_shines_through_cloth),
                                        cmocka_unit_test(sky_behind_shines_through_cloth),

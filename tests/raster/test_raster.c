@@ -316,8 +316,9 @@ static ShaderKey whole_key(void) {
     for (int k = 0; k < INPUT_COUNT; k++) key.inputs[k].like = -1;
     key.inputs[INPUT_base_color].state = key.inputs[INPUT_normal].state = INPUT_MAP;
     key.inputs[INPUT_normal].slot = 1;
-    key.shadowed = key.lights = key.polygons = key.colored = key.ambient = 1;
-    key.polygon_corners[0] = 4;
+    key.shadowed = key.lights = key.colored = key.ambient = 1;
+    key.polygons = 3;
+    for (int k = 0; k < 3; k++) key.polygon_corners[k] = (int16_t)(k < 2 ? 4 : 8);
     key.light_kind[0] = 2;
     return key;
 }

@@ -101,7 +101,7 @@ static void traits_about_energy_are_true(void **state) {
                 Lobe lobe = case_lobe(id, k);
                 Dir o = direction_cos((double)grazing[c], 0.3);
                 if (is_ridge(&lobe)) continue;
-                Albedo e = albedo_quadrature(&lobe, o, 3e-5);
+                Albedo e = albedo_quadrature(&lobe, o, test_long() ? 1e-5 : 3e-5);
                 double all = (double)(e.f0 + e.f90);
                 highest = fmax(highest, all);
                 lowest = fmin(lowest, all);
@@ -220,7 +220,7 @@ static void albedo_table_between_nodes_is_close(void **state) {
             Dir o = direction_cos(fmax(n % 4 < 2 ? x * x * x * x : x, 1e-3), 0.0);
             Lobe lobe = table.lobe;
             if (info->param_count) lobe_set(&lobe, 0, (float)alpha);
-            Albedo e = albedo_quadrature(&lobe, albedo_brightest(&lobe, o.z), 5e-5);
+            Albedo e = albedo_quadrature(&lobe, albedo_brightest(&lobe, o.z), test_long() ? 1e-5 : 5e-5);
             double d =
                 fabs((double)(e.f0 + e.f90 - table_albedo(albedo_table_ref(&table), o.z, (float)alpha)));
             if (d > worst) worst = d, worst_cos = (double)o.z, worst_alpha = alpha;

@@ -9,7 +9,8 @@ struct PolygonReach {
     float front[POLYGONS], behind[POLYGONS];
 };
 
-/* EACH_POLYGON(L) is L(k, corners, two_sided, map) for each polygon. */
+/* The text before it has POLYGONS, how many there are, CORNERS_OF(k), and EACH_POLYGON(L), which is L(k, corners,
+ * two_sided, map) for each. */
 #define ONE_REACH(k, corners, two_sided, map)                                                                \
     if (two_sided || dot(polygon_normals[k].xyz, here - polygon_corners[8 * k].xyz) > 0.0) {                 \
         reach.front[k] = polygon_reaches(map, normal, polygon_normals[k].xyz);                               \
@@ -38,7 +39,7 @@ Rgb polygon_from(int k, int corners, float front, float behind, Stack m, StackVi
     return rgb_mul(sum, rgb(c.r, c.g, c.b));
 }
 
-/* A loop, for a copy of the stack under each polygon would take compilers a second. */
+/* This is a loop, since a copy of the stack for each polygon would take compilers a second each. */
 Rgb polygon_light(Stack m, StackView w, PolygonReach reach, Frame f) {
     Rgb sum = rgb_grey(0.0);
     for (int k = 0; k < POLYGONS; k++)
