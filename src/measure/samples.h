@@ -45,7 +45,7 @@ float samples_goal(const Samples *samples, float x);
 /* The error of x over the first count samples: `first` or all of them. */
 double samples_distance(const Samples *samples, int count, const float *const x[3]);
 
-/* What x of channel c adds to that error, if the channels are not the same. */
+/* Returns what x of channel c adds to that error, where channels differ. */
 double samples_channel_error(const Samples *samples, int count, int c, const float *x);
 
 #endif
