@@ -203,6 +203,24 @@ static void albedo_of_a_creased_table_is_integrated(void **state) {
     assert_true(worst < 1e-5);
 }
 
+/* A clamp is a crease in E, as are the nodes of a table and where another azimuth is brightest, and a maximum of two tables
+ * a sharper one; those of ltc-fibre-published are uniform in cos_o, so few where E is steep. */
+static double table_error_most(int id, double alpha) {
+    switch (id) {
+    case LOBE_CHARLIE_KHRONOS: return 4e-3;
+    case LOBE_LTC_FIBRE_PUBLISHED: return 2e-2;
+    case LOBE_LTC_FIBRE:
+    case LOBE_FIBRE_TABLE: return 6e-3;
+    case LOBE_SILK: return alpha < 0.015 ? 3e-2 : 1e-2;
+    case LOBE_WOVEN: return alpha < 0.1 ? 1e-2 : 4e-3;
+    case LOBE_YARN:
+    case LOBE_THREADS: return 4e-3;
+    case LOBE_FIBRE: return alpha < 0.1 ? 3e-3 : 2e-3;
+    case LOBE_CHARLIE_NEUBELT_NORMALISED: return alpha < 0.01 ? 4e-2 : 3e-2;
+    default: return 2e-3;
+    }
+}
+
 static void albedo_table_between_nodes_is_close(void **state) {
     (void)state;
     static AlbedoTable table;
@@ -220,22 +238,16 @@ static void albedo_table_between_nodes_is_close(void **state) {
             Dir o = direction_cos(fmax(n % 4 < 2 ? x * x * x * x : x, 1e-3), 0.0);
             Lobe lobe = table.lobe;
             if (info->param_count) lobe_set(&lobe, 0, (float)alpha);
-            Albedo e = albedo_quadrature(&lobe, albedo_brightest(&lobe, o.z), test_long() ? 1e-5 : 5e-5);
+            Albedo e = albedo_quadrature(&lobe, albedo_brightest(&lobe, o.z), 1e-5);
             double d =
                 fabs((double)(e.f0 + e.f90 - table_albedo(albedo_table_ref(&table), o.z, (float)alpha)));
             if (d > worst) worst = d, worst_cos = (double)o.z, worst_alpha = alpha;
+            if (d > table_error_most(id, alpha))
+                fail_msg("%s: the table errs by %.5f at alpha %.4g, cos_o %.4g", info->id, d, alpha,
+                         (double)o.z);
         }
         print_message("%-20s table within %.1e (at alpha %.4g, cos_o %.4g)\n", info->id, worst, worst_alpha,
                       worst_cos);
-        /* a clamp is a crease in E, as are the nodes of a table and where another azimuth is brightest, and a maximum of
-         * two tables a sharper one; those of ltc-fibre-published are uniform in cos_o, so few where E is steep */
-        double most = id == LOBE_CHARLIE_KHRONOS                                          ? 4e-3
-                      : id == LOBE_LTC_FIBRE_PUBLISHED                                    ? 2e-2
-                      : id == LOBE_LTC_FIBRE || id == LOBE_FIBRE_TABLE || id == LOBE_SILK ? 6e-3
-                      : id == LOBE_FIBRE                      ? 3e-3 /* below alpha 0.1 */
-                      : id == LOBE_CHARLIE_NEUBELT_NORMALISED ? 4e-2 /* below alpha 0.01 */
-                                                              : 2e-3;
-        if (worst > most) fail_msg("%s: the table errs by %.5f", info->id, worst);
     }
 }
 
