@@ -370,7 +370,7 @@ static void define_strategies(Text *text, const AmbientEntry entries[SLOT_COUNT]
         there[entries[k].table.strategy] = true;
         snprintf(name, sizeof name, "LIGHT_OF_%s", slot_name(k));
         text_define(text, name,
-                    entries[k].table.strategy == AMBIENT_SAMPLED ? "ambient_slot_light"
+                    entries[k].table.strategy == AMBIENT_SAMPLED ? "ambient_sampled_light"
                                                                  : "ambient_lookup_light");
     }
     text_define(text, "LIGHT_OF_SLOT(slot)", "LIGHT_OF_##slot");
