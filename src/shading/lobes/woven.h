@@ -70,7 +70,7 @@ STRUCT(WovenPrepared){WOVEN_NUMBERS(WOVEN_NUMBER) WOVEN_EACH_BIN(WOVEN_BIN)};
 
 /* There are 2 n - 1 parts, up to eleven: so many that from one to the next D moves by no more than 0.7 of its width at the
  * end of the yarn, where slopes of one that floats change most, unless that asks for more than eleven. About the level
- * part of a plain weave it moves up to 1.4 times as far at a crimp of 0.8, and 2.2 times at 1.2. With fewer than five the
+ * part of a plain weave it moves up to 1.3 times as far at a crimp of 0.8, and 2.1 times at 1.2. With fewer than five the
  * sum would miss how much of the yarn turns away. n need not be whole: the last bin is as much narrower, so that f does
  * not jump as numbers change, which would stop a fit. */
 FN float woven_count(Woven m) {
@@ -78,18 +78,20 @@ FN float woven_count(Woven m) {
     return clamp(turn / (0.7f * max(m.alpha, 1e-3f)) + 1.0f, 3.0f, to_float(WOVEN_BINS));
 }
 
-/* Bin k reaches from x_k to x_(k + 1), s = x^(2 / (floats + 1)), x_0 = 0, x_1 = 1.25 / (2 n - 1), and the others are even,
- * up to 1: it has the mean slope there, and a D as much wider as slopes vary. Bin 0 and its opposite are one part, level on
- * the mean, with the gain of one of them. That part is the wider one (own choice): where light grazes the others turn away
- * one by one, and it never does. */
-#define WOVEN_ACROSS (0.5f * 5.0f / (18.0f * 0.9f)) /* half a bin on either side; of woven_row */
+/* Bin k reaches from x_k to x_(k + 1), s = x^(1.5 / (floats + 0.5)), x_0 = 0, x_1 = 1.1 / (2 n - 1), and the others are
+ * even, up to 1: it has the mean slope there, and a D as much wider as slopes vary. Bin 0 and its opposite are one part,
+ * level on the mean, with the gain of one of them. That part is the wider one: where light grazes the others turn away one
+ * by one, and it never does. 1.5 and 1.1 are our own fit to means over points. */
+#define WOVEN_ACROSS (0.5f / (6.0f * 0.56f * 0.9f)) /* half a bin on either side; of woven_row */
 FN WovenBin woven_bin(Woven m, float tan_crimp, float n, float k) {
-    float f = m.floats, e = 2.0f / (f + 1.0f), e2 = (2.0f * f + 1.0f) * e, a2 = max(m.alpha * m.alpha, 1e-6f);
-    float first = 1.25f / (2.0f * n - 1.0f), next = (1.0f - first) / (n - 1.0f);
+    float f = m.floats, e = 1.5f / (f + 0.5f), a2 = max(m.alpha * m.alpha, 1e-6f);
+    float first = 1.1f / (2.0f * n - 1.0f), next = (1.0f - first) / (n - 1.0f);
     float x0 = k > 0.0f ? first + (k - 1.0f) * next : 0.0f, x1 = min(first + k * next, 1.0f);
-    float least = max(x0, 1e-3f), width = max(pow(x1, e) - (x0 > 0.0f ? pow(least, e) : 0.0f), 1e-6f);
-    float mean = x0 > 0.0f ? max(x1 * x1 - x0 * x0, 0.0f) / ((f + 1.0f) * width) : 0.0f;
-    float square = (pow(x1, e2) - (x0 > 0.0f ? pow(least, e2) : 0.0f)) / ((2.0f * f + 1.0f) * width);
+    float s0 = pow(max(x0, 1e-3f), e), s1 = pow(x1, e);
+    float width = max(s1 - (x0 > 0.0f ? s0 : 0.0f), 1e-6f);
+    float mean = x0 > 0.0f ? max(pow(s1, f + 1.0f) - pow(s0, f + 1.0f), 0.0f) / ((f + 1.0f) * width) : 0.0f;
+    float square = pow(s1, 2.0f * f + 1.0f) - (x0 > 0.0f ? pow(s0, 2.0f * f + 1.0f) : 0.0f);
+    square = max(square, 0.0f) / ((2.0f * f + 1.0f) * width);
     WovenBin b;
     b.slope = tan_crimp * mean;
     float spread = tan_crimp / (1.0f + b.slope * b.slope); /* of angles, by that of slopes */
@@ -183,17 +185,19 @@ FN float woven_facet(const WovenPrepared *p, float c, float e, float x, const Wo
     return (1.0f + p->edge * x2) * yarn_met_once(e, q, m, p_o, p_i, t_o, m - t_o);
 }
 
-/* The mean over s_x, by Gauss's rule with three nodes on the part of it that faces both directions: beyond, the sum
- * would meet an edge. 0.9 is the mean of 1 - 0.3 r^2; it, 1 / roundness and the rule's 5 / 18 are in WOVEN_ACROSS. */
+/* The mean over s_x, by three nodes on the part of it that faces both directions: beyond, the sum would meet an edge. The
+ * outer ones have the weight 1 / (6 g^2), so that the rule is right for cubes, and g^2 is 0.56: Gauss's 0.6 would be right up
+ * to fifth powers, but errs half as much again where fibres turn and D is a narrow peak (own fit). 0.9 is the mean of
+ * 1 - 0.3 r^2; it, 1 / roundness and that weight are in WOVEN_ACROSS. */
 FN float woven_row(const WovenPrepared *p, float slope, float c, float e, const WovenView *o,
                    const WovenView *i, float q) {
     WovenLine a = woven_line(p, slope, c, o), b = woven_line(p, slope, c, i);
     float r = p->roundness;
     float low = clamp(max(o->over_x > 0.0f ? a.end : -r, i->over_x > 0.0f ? b.end : -r), -r, r);
     float high = clamp(min(o->over_x > 0.0f ? r : a.end, i->over_x > 0.0f ? r : b.end), -r, r);
-    float reach = 0.5f * max(high - low, 0.0f), middle = 0.5f * (high + low), g = 0.7745966692f * reach;
+    float reach = 0.5f * max(high - low, 0.0f), middle = 0.5f * (high + low), g = 0.7483314774f * reach;
     float sides = woven_facet(p, c, e, middle - g, &a, &b, q) + woven_facet(p, c, e, middle + g, &a, &b, q);
-    return reach * (sides + 1.6f * woven_facet(p, c, e, middle, &a, &b, q));
+    return reach * (sides + 1.36f * woven_facet(p, c, e, middle, &a, &b, q));
 }
 
 FN float woven_pick(int k, float a, float b, float c, float d, float e) {
