@@ -332,19 +332,22 @@ static void put_ambient_table(Text *text, const char *slot, const AmbientEntry *
               boolean(t.turning), slot, boolean(t.lossless), slot, t.baked);
 }
 
-/* Finds the table of a slot; an empty slot has one too, which is never read. Returns false if memory is short. */
-static bool find_ambient_table(Text *text, const ShaderKey *key, int slot, const Lobe *lobe, Fits *fits,
-                               AmbientEntry *entry) {
+/* Returns the table of a slot; an empty slot has one too, which is never read. The text is told if memory is short. */
+static AmbientEntry find_ambient_table(Text *text, const ShaderKey *key, int slot, const Lobe *lobe,
+                                       Fits *fits) {
     AmbientTable t = {.rows = 1, .columns = AMBIENT_COLUMNS};
+    int layer = 0;
     bool dense = key->dense >> slot & 1;
     if (lobe && !shader_holds(key, slot)) {
         const AmbientFit *fit = fits_get(fits, lobe);
-        if (!fit) return false;
+        if (!fit) {
+            text->macros.short_of_memory = true;
+            return (AmbientEntry){.table = t};
+        }
         t = ambient_table(fit, AMBIENT_FITTED);
         dense = fit->denser > AMBIENT_DENSER;
         int headings = t.turning ? AMBIENT_HEADINGS : 1;
-        TextTable texels = {t.texels, headings * AMBIENT_PLANES * t.rows, t.columns, NULL};
-        entry->layer = text_table(text, texels);
+        layer = text_table(text, (TextTable){t.texels, headings * AMBIENT_PLANES * t.rows, t.columns, NULL});
     } else if (lobe) {
         t.baked = slot * AMBIENT_BAKED;
         t.focus = key->focus >> slot & 1;
@@ -358,8 +361,7 @@ static bool find_ambient_table(Text *text, const ShaderKey *key, int slot, const
         t.strategy = key->ambient - 2;
     else if (lobe)
         t.strategy = ambient_strategy(lobe->id, t.turning, dense);
-    entry->table = t;
-    return true;
+    return (AmbientEntry){.table = t, .layer = layer};
 }
 
 /* Tells shading/ambient_lobe.h what serves each slot, and which strategies no slot has. */
@@ -379,10 +381,10 @@ static void define_strategies(Text *text, const AmbientEntry entries[SLOT_COUNT]
 }
 
 static void put_ambient(Text *text, const ShaderKey *key, const CompositionSlots *found, Fits *fits) {
-    AmbientEntry entries[SLOT_COUNT] = {0};
+    AmbientEntry entries[SLOT_COUNT];
     for (int k = 0; k < SLOT_COUNT; k++) {
         const Lobe *lobe = found->slots[k].count ? &found->lobes[k] : NULL;
-        if (!find_ambient_table(text, key, k, lobe, fits, &entries[k])) text->macros.short_of_memory = true;
+        entries[k] = find_ambient_table(text, key, k, lobe, fits);
     }
     environment_text(text);
     text_line(text, "\nAmbientWeights ambient_baked(Frame f, int k) {\n    vec4 c = material_fits[k];\n"

@@ -1,5 +1,5 @@
-/* What the raster engine draws is a number: of every sheen lobe under the sky, half of them at their least roughness,
- * where their light is next to nothing, and all in long runs */
+/* The raster engine draws numbers for every sheen lobe under the sky: for half of them at their least roughness, where
+ * their light is next to nothing, and for all in long runs. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

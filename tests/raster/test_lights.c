@@ -106,10 +106,11 @@ static double compare(int corners, bool shadows_drawn, bool shadows_traced, floa
     return off / sum;
 }
 
-/* Panel k of some that do not touch each other in the picture, or all. */
+enum { PANELS = 5 };
+
+/* Draws under one of some panels that do not touch each other in the picture, or under all where k is below 0. */
 static WeftImage drawn_under(int k) {
-    static const int corners[] = {3, 4, 4, 7, 8};
-    enum { PANELS = sizeof corners / sizeof *corners };
+    static const int corners[PANELS] = {3, 4, 4, 7, 8};
     WeftScene *scene = ball_scene();
     test_environment(scene, 0.0f);
     for (int n = 0; n < PANELS; n++) {
@@ -133,7 +134,7 @@ static void polygons_of_different_corners_add_up(void **state) {
     need_gl();
     static float sum[SIDE * SIDE * 4];
     WeftImage all = drawn_under(-1);
-    for (int n = 0; n < 5; n++) {
+    for (int n = 0; n < PANELS; n++) {
         WeftImage one = drawn_under(n);
         for (int k = 0; k < SIDE * SIDE * 4; k++) sum[k] += ((float *)one.pixels)[k];
         weft_image_free(&one);

@@ -89,7 +89,7 @@ static float random_unit(uint64_t *random) { return unit_float((uint32_t)(stream
 static float place_x(int k) { return (float)(480.0 * fmod(0.7548776662466927 * k, 1.0)); }
 static float place_y(int k) { return (float)(480.0 * fmod(0.5698402909980532 * k, 1.0)); }
 
-/* How far one light by pair and channel is from another, in parts of that: on the mean and at worst. */
+/* It tells how far one light by pair and channel is from another, in parts of that: on the mean and at worst. */
 typedef struct Apart {
     double mean, worst;
 } Apart;

@@ -187,7 +187,7 @@ FN float woven_facet(const WovenPrepared *p, float c, float e, float x, const Wo
 
 /* The mean over s_x, by three nodes on the part of it that faces both directions: beyond, the sum would meet an edge. The
  * outer ones have the weight 1 / (6 g^2), so that the rule is right for cubes, and g^2 is 0.56: Gauss's 0.6 would be right up
- * to fifth powers, but errs half as much again where fibres turn and D is a narrow peak (own fit). 0.9 is the mean of
+ * to fifth powers, but errs up to twice as much where fibres turn and D is a narrow peak (own fit). 0.9 is the mean of
  * 1 - 0.3 r^2; it, 1 / roundness and that weight are in WOVEN_ACROSS. */
 FN float woven_row(const WovenPrepared *p, float slope, float c, float e, const WovenView *o,
                    const WovenView *i, float q) {
