@@ -67,17 +67,23 @@ static double foretold(const WeftFitted *fitted) {
     return off / sum;
 }
 
-/* The most by which a number that light tells is off: widths, shares, angles of fibres, and the square of the crimp, in which f
- * is even, as it goes up and down alike. */
+/* The mean square of the slopes along a yarn, tan^2(crimp) of the mean of |s|^(2 floats) over s. Of a yarn that is all but
+ * level light tells this alone: a higher crimp with more floats reflects the same. */
+static double slopes(double crimp, double floats) {
+    return (tan)(crimp) * (tan)(crimp) / (2.0 * floats + 1.0);
+}
+
+/* The most by which a number that light tells is off: widths, shares, angles of fibres, and slopes. */
 static double numbers_off(const WeftLobe *found, const Woven *is) {
     const struct {
         int param;
         float is;
     } told[] = {{WOVEN_ALPHA, is->alpha}, {WOVEN_SHARE, is->share}, {WOVEN_TWIST, is->twist}};
-    const double crimp = (double)found->params[WOVEN_CRIMP], its = (double)is->crimp;
-    double off = fabs(crimp * crimp - its * its);
+    const float *has = found->params;
+    double off = fabs(slopes((double)has[WOVEN_CRIMP], (double)has[WOVEN_FLOATS]) -
+                      slopes((double)is->crimp, (double)is->floats));
     for (size_t k = 0; k < sizeof told / sizeof *told; k++)
-        off = fmax(off, fabs((double)(found->params[told[k].param] - told[k].is)));
+        off = fmax(off, fabs((double)(has[told[k].param] - told[k].is)));
     return off;
 }
 
@@ -109,7 +115,7 @@ static Found find_again(const char *name, const WeftCloth *cloth, float noise, i
         const Woven is = weave_woven(&cloth->weave, t == 1);
         found.number = fmax(found.number, numbers_off(t ? &best->base : &best->lobe, &is));
     }
-    print_message("%-24s noise %4.2f, error %.5f, foretold to %.5f, numbers to %.4f\n", name, (double)noise,
+    print_message("%-24s noise %4.2f, error %.5f, foretold to %.5f, numbers to %.5f\n", name, (double)noise,
                   best->error, found.foretold, found.number);
     assert_int_equal(best->numbers, 25);
     weft_data_free(data);
@@ -139,16 +145,16 @@ static Worst find_presets(int step, float noise) {
         worst.number = fmax(worst.number, found.number);
     }
     assert_true(woven >= WOVEN_PRESETS);
-    print_message("the farthest is off by %.5f, a number by %.4f\n", worst.foretold, worst.number);
+    print_message("the farthest is off by %.5f, a number by %.5f\n", worst.foretold, worst.number);
     weft_scene_free(scene);
     return worst;
 }
 
 static void presets_are_found_again_by_what_they_reflect(void **state) {
     (void)state;
-    const Worst worst = find_presets(getenv("WEFT_TEST_SHORT") ? 4 : 1, 0.0f);
+    const Worst worst = find_presets(getenv("WEFT_TEST_SHORT") ? 8 : 1, 0.0f);
     assert_true(worst.foretold < 0.001);
-    assert_true(worst.number < 0.001);
+    assert_true(worst.number < 0.0002);
 }
 
 /* 25 numbers are fitted to 12,000, each with noise of a tenth: little of that may be in what is found. */
