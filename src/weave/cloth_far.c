@@ -18,10 +18,10 @@
 #include "weave/weft_cloth.h"
 
 enum {
-    PIECE = 480,    /* threads of a piece of cloth, */
-    LOOKS = 24000,  /* places at which it is looked at, */
-    LIT_PAIRS = 96, /* of directions */
-    FITS_MOST = 300,
+    PIECE = 480,     /* threads of a piece of cloth, */
+    LOOKS = 24000,   /* places at which it is looked at, */
+    LIT_PAIRS = 144, /* of directions */
+    FITS_MOST = 2000,
     FAR_SIDE_MAX = 512,
 };
 _Static_assert(1 << (FAR_LEVELS_MOST - 1) == FAR_SIDE_MAX, "a level for each halving, and the first");
@@ -403,7 +403,8 @@ static void fit_lobe(FarFit *fit) {
     nlopt_opt method = nlopt_create(NLOPT_LN_SBPLX, 4);
     const bool made = method && nlopt_set_min_objective(method, fit_error, fit) > 0 &&
                       nlopt_set_lower_bounds(method, low) > 0 && nlopt_set_upper_bounds(method, high) > 0 &&
-                      nlopt_set_maxeval(method, FITS_MOST) > 0 && nlopt_optimize(method, x, &error) > 0;
+                      nlopt_set_maxeval(method, FITS_MOST) > 0 && nlopt_set_xtol_rel(method, 1e-4) > 0 &&
+                      nlopt_optimize(method, x, &error) > 0;
     if (made)
         (void)fit_error(4, x, NULL, fit);
     else

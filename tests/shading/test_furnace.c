@@ -43,12 +43,17 @@ static int layer_named(const char *id) {
     return k;
 }
 
-/* E that a smooth table does not follow: a maximum of two, the nodes of a table mixed in straight lines, or facets that
- * turn away one by one, which leave woven off by 0.0011. */
+/* E that a smooth table does not follow: a maximum of two, or the nodes of a table mixed in straight lines. */
 static bool has_creases(int id) {
     return id == LOBE_CHARLIE_NEUBELT_NORMALISED || id == LOBE_LTC_FIBRE || id == LOBE_FIBRE_TABLE ||
-           id == LOBE_LTC_FIBRE_PUBLISHED || id == LOBE_WOVEN ||
-           id == LOBE_SILK; /* where another azimuth is brightest */
+           id == LOBE_LTC_FIBRE_PUBLISHED || id == LOBE_SILK; /* where another azimuth is brightest */
+}
+
+/* Yarns turn away from light and eye with a crease, and E of silk is off its table by up to 0.006, as shading/energy has it. */
+static double all_error_most(int id) {
+    if (id == LOBE_SILK) return 1e-2;
+    if (id == LOBE_YARN || id == LOBE_WOVEN) return 2e-3;
+    return has_creases(id) ? 5e-3 : 1e-3;
 }
 
 static void rule_albedo_view_returns_what_it_receives(void **state) {
@@ -75,7 +80,7 @@ static void rule_albedo_view_returns_what_it_receives(void **state) {
                 if (e <= 1.0f) {
                     checked++;
                     worst = fmax(worst, has_creases(id) ? 0.0 : fabs(all - 1.0));
-                    if (fabs(all - 1.0) > (has_creases(id) ? 5e-3 : 1e-3))
+                    if (fabs(all - 1.0) > all_error_most(id))
                         fail_msg("%s at %g cos_o %g: %.5f", weft_lobe_info(id)->id,
                                  (double)stack.stack.albedo_coord, (double)o.z, all);
                 }

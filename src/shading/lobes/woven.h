@@ -10,7 +10,7 @@
  * yarns as Piti Irawan, Steve Marschner, "Specular Reflection from Woven Cloth", ACM TOG 31(1), 2012, have
  * them. A yarn that goes over one is an arc; one that floats is level for a while: floats is the power of its
  * slope. Fibres run along the yarn, or turn about it by the twist.
- *   The mean is a sum over 5 to 11 s, the more the narrower D is, and over 3 r of those that face both directions; one
+ *   The mean is a sum over 5 to 13 s, the more the narrower D is, and over 3 r of those that face both directions; one
  * s stands for those up to the next by its mean slope and by a D as much wider as slopes vary. Errors: docs/weave.md.
  * The weight is our own: of threads in woven cloth the neighbours hide more of the sides than of the middle.
  *   color: the albedo A of the fibres. The first colour dims light that met one of them, the second, rho(A),
@@ -61,28 +61,28 @@ STRUCT(WovenBin) {
     N(share)                                                                                                 \
     N(roundness)                                                                                             \
     N(edge) N(count) N(part) N(crimp) N(cross_crimp) N(cos_a) N(sin_a) N(cos_t) N(sin_t) N(again)
-#define WOVEN_EACH_BIN(N)  N(b0) N(b1) N(b2) N(b3) N(b4) N(b5)
+#define WOVEN_EACH_BIN(N)  N(b0) N(b1) N(b2) N(b3) N(b4) N(b5) N(b6)
 #define WOVEN_NUMBER(name) float name;
 #define WOVEN_BIN(name)    WovenBin name;
 STRUCT(WovenPrepared){WOVEN_NUMBERS(WOVEN_NUMBER) WOVEN_EACH_BIN(WOVEN_BIN)};
 
-#define WOVEN_BINS 6
+#define WOVEN_BINS 7
 
-/* There are 2 n - 1 parts, up to eleven: so many that from one to the next D moves by no more than 0.7 of its width at the
- * end of the yarn, where slopes of one that floats change most, unless that asks for more than eleven. About the level
- * part of a plain weave it moves up to 1.3 times as far at a crimp of 0.8, and 2.1 times at 1.2. With fewer than five the
- * sum would miss how much of the yarn turns away. n need not be whole: the last bin is as much narrower, so that f does
- * not jump as numbers change, which would stop a fit. */
+/* There are 2 n - 1 parts, up to thirteen: so many that from one to the next D moves by no more than 0.7 of its width at the
+ * end of the yarn, unless that asks for more than thirteen. About the level part of a plain weave it moves up to 1.2 times as
+ * far at a crimp of 0.8, and 1.9 times at 1.2. With fewer than five the sum would miss how much of the yarn turns away. n
+ * need not be whole: the last bin is as much narrower, so that f does not jump as numbers change, which would stop a fit. */
 FN float woven_count(Woven m) {
-    float turn = 2.0f * m.floats / (m.floats + 1.0f) * m.crimp;
+    float turn = 1.5f * m.floats / (m.floats + 0.5f) * m.crimp; /* at most, as x goes from 0 to 1 evenly */
     return clamp(turn / (0.7f * max(m.alpha, 1e-3f)) + 1.0f, 3.0f, to_float(WOVEN_BINS));
 }
 
 /* Bin k reaches from x_k to x_(k + 1), s = x^(1.5 / (floats + 0.5)), x_0 = 0, x_1 = 1.1 / (2 n - 1), and the others are
  * even, up to 1: it has the mean slope there, and a D as much wider as slopes vary. Bin 0 and its opposite are one part,
- * level on the mean, with the gain of one of them. That part is the wider one: where light grazes the others turn away one
- * by one, and it never does. 1.5 and 1.1 are our own fit to means over points. */
-#define WOVEN_ACROSS (0.5f / (6.0f * 0.56f * 0.9f)) /* half a bin on either side; of woven_row */
+ * level on the mean, with the gain of one of them. In x that part is a little wider than the others: where light grazes these
+ * turn away one by one, and it never does. 1.5 and 1.1 are our own fit to means over points. WOVEN_ACROSS: a bin and its
+ * opposite are half of the mean each, 1 / (6 g^2) is the outer weight of woven_row, and 0.9 is the mean of 1 - 0.3 r^2. */
+#define WOVEN_ACROSS (0.5f / (6.0f * 0.56f * 0.9f))
 FN WovenBin woven_bin(Woven m, float tan_crimp, float n, float k) {
     float f = m.floats, e = 1.5f / (f + 0.5f), a2 = max(m.alpha * m.alpha, 1e-6f);
     float first = 1.1f / (2.0f * n - 1.0f), next = (1.0f - first) / (n - 1.0f);
@@ -123,6 +123,7 @@ FN void woven_prepare(Woven m, WovenPrepared *p) {
     p->b3 = woven_bin(m, tan_crimp, n, 3.0f);
     p->b4 = woven_bin(m, tan_crimp, n, 4.0f);
     p->b5 = woven_bin(m, tan_crimp, n, 5.0f);
+    p->b6 = woven_bin(m, tan_crimp, n, 6.0f);
 }
 FN float woven_second(Woven m, float f0, float f90) { return yarn_reflectance(f0); }
 
@@ -186,9 +187,9 @@ FN float woven_facet(const WovenPrepared *p, float c, float e, float x, const Wo
 }
 
 /* The mean over s_x, by three nodes on the part of it that faces both directions: beyond, the sum would meet an edge. The
- * outer ones have the weight 1 / (6 g^2), so that the rule is right for cubes, and g^2 is 0.56: Gauss's 0.6 would be right up
- * to fifth powers, but errs up to twice as much where fibres turn and D is a narrow peak (own fit). 0.9 is the mean of
- * 1 - 0.3 r^2; it, 1 / roundness and that weight are in WOVEN_ACROSS. */
+ * outer ones, at g of the way to its ends, have the weight 1 / (6 g^2), so that the rule is right for cubes, and the one in the
+ * middle 6 g^2 - 2 times that. g^2 is 0.56: Gauss's 0.6 would be right up to fifth powers, but errs by half as much
+ * again and more where fibres turn by 30 degrees (own fit). */
 FN float woven_row(const WovenPrepared *p, float slope, float c, float e, const WovenView *o,
                    const WovenView *i, float q) {
     WovenLine a = woven_line(p, slope, c, o), b = woven_line(p, slope, c, i);
@@ -200,18 +201,19 @@ FN float woven_row(const WovenPrepared *p, float slope, float c, float e, const 
     return reach * (sides + 1.36f * woven_facet(p, c, e, middle, &a, &b, q));
 }
 
-FN float woven_pick(int k, float a, float b, float c, float d, float e) {
-    return k < 2 ? (k < 1 ? a : b) : (k < 3 ? c : k < 4 ? d : e);
+FN float woven_pick(int k, float a, float b, float c, float d, float e, float f) {
+    return k < 3 ? (k < 1 ? a : k < 2 ? b : c) : (k < 4 ? d : k < 5 ? e : f);
 }
 
 /* The mean of single: of the level part, and of the others by twos. */
 FN float woven_once(const WovenPrepared *p, const WovenView *o, const WovenView *i, float q) {
     float sum = 2.0f * p->b0.gain * woven_row(p, 0.0f, 1.0f, p->b0.e, o, i, q);
     ROUNDS_OF(k, to_int(p->count) - 1, WOVEN_BINS - 1) {
-        float slope = woven_pick(k, p->b1.slope, p->b2.slope, p->b3.slope, p->b4.slope, p->b5.slope);
-        float c = woven_pick(k, p->b1.c, p->b2.c, p->b3.c, p->b4.c, p->b5.c);
-        float e = woven_pick(k, p->b1.e, p->b2.e, p->b3.e, p->b4.e, p->b5.e);
-        float gain = woven_pick(k, p->b1.gain, p->b2.gain, p->b3.gain, p->b4.gain, p->b5.gain);
+        float slope =
+            woven_pick(k, p->b1.slope, p->b2.slope, p->b3.slope, p->b4.slope, p->b5.slope, p->b6.slope);
+        float c = woven_pick(k, p->b1.c, p->b2.c, p->b3.c, p->b4.c, p->b5.c, p->b6.c);
+        float e = woven_pick(k, p->b1.e, p->b2.e, p->b3.e, p->b4.e, p->b5.e, p->b6.e);
+        float gain = woven_pick(k, p->b1.gain, p->b2.gain, p->b3.gain, p->b4.gain, p->b5.gain, p->b6.gain);
         sum = sum + gain * (woven_row(p, slope, c, e, o, i, q) + woven_row(p, -slope, c, e, o, i, q));
     }
     return sum * o->over_seen * i->over_seen;
