@@ -20,6 +20,11 @@ static const WeftExport *text_of(int model, int target) {
     return made;
 }
 
+/* Every lobe, and a fourth of all profiles and presets, whose tables take long; test_gpu makes all profiles. */
+static bool is_asked(int model) {
+    return models[model].is_lobe || getenv("WEFT_TEST_LONG") || model % 4 == 0;
+}
+
 static int begin(void **state) {
     (void)state;
     model_count = models_lobes(models);
@@ -53,7 +58,7 @@ static void exported_text_has_no_macro_or_include(void **state) {
     (void)state;
     for (int k = 0; k < model_count; k++) {
         const Exported *s = &models[k];
-        if (s->profile && !getenv("WEFT_TEST_LONG") && k % 4) continue; /* test_gpu makes all of them */
+        if (!is_asked(k)) continue;
         for (int t = 0; t < WEFT_EXPORT_TARGETS; t++) {
             if (!s->is_lobe && t != WEFT_EXPORT_SHADERTOY && !getenv("WEFT_TEST_LONG")) continue;
             const WeftExport *made = text_of(k, t);
@@ -140,7 +145,7 @@ static int nesting_of(const char *code, const char *name, size_t size) {
 static void records_nest_as_webgl_takes_them(void **state) {
     (void)state;
     for (int k = 0; k < model_count; k++)
-        for (int toy = 0; toy < 2; toy++) {
+        for (int toy = 0; is_asked(k) && toy < 2; toy++) {
             char *code = code_of(text_of(k, toy ? WEFT_EXPORT_SHADERTOY : WEFT_EXPORT_ESSL)->text);
             for (const char *c = code; (c = strstr(c, "struct ")); c++) {
                 size_t size = strcspn(c + 7, " ");

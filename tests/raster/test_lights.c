@@ -24,15 +24,15 @@ static const WeftLight lamp = {.kind = WEFT_LIGHT_SPOT,
                                .direction = {-1.0f, -2.0f, -1.0f},
                                .color = {4.0f, 4.0f, 4.0f}};
 
-/* A ball with a sheen on a floor. */
-static WeftScene *ball_scene(void) {
+/* A ball on a floor, with a sheen; without, the floor is of its material: where shaders of many lights are to be made. */
+static WeftScene *ball_scene(bool sheen) {
     WeftScene *scene = test_scene();
     Material *ball = test_material(scene, 0.4f);
-    test_color(ball, INPUT_sheen_color, 0.6f);
+    if (sheen) test_color(ball, INPUT_sheen_color, 0.6f);
     ball->inputs[INPUT_sheen_roughness].value[0] = 0.5f;
     ball->inputs[INPUT_specular].value[0] = 1.0f;
     test_sphere(scene, vec3(0.0f, 0.0f, 0.0f), 0.5f);
-    test_material(scene, 0.5f);
+    if (sheen) test_material(scene, 0.5f);
     test_quad(scene, vec3(-2.0f, -0.5f, 2.0f), vec3(4.0f, 0.0f, 0.0f), vec3(0.0f, 0.0f, -4.0f));
     scene_bounds(scene);
     test_environment(scene, 0.1f);
@@ -72,7 +72,7 @@ static bool is_same(const WeftImage *a, const WeftImage *b) {
 static double compare(int corners, bool shadows_drawn, bool shadows_traced, float through) {
     WeftRasterView how = view;
     how.no_shadows = !shadows_drawn;
-    WeftScene *scene = ball_scene();
+    WeftScene *scene = ball_scene(true);
     WeftLight light = panel;
     light.corners = corners;
     scene->materials[0].inputs[INPUT_diffuse_transmission].value[0] = through;
@@ -111,7 +111,7 @@ enum { PANELS = 5 };
 /* Draws under one of some panels that do not touch each other in the picture, or under all where k is below 0. */
 static WeftImage drawn_under(int k) {
     static const int corners[PANELS] = {3, 4, 4, 7, 8};
-    WeftScene *scene = ball_scene();
+    WeftScene *scene = ball_scene(true);
     test_environment(scene, 0.0f);
     for (int n = 0; n < PANELS; n++) {
         WeftLight light = panel;
@@ -232,7 +232,7 @@ static void updated_lights_draw_as_new_ones(void **state) {
     (void)state;
     need_gl();
     enum { CHANGES = 11 };
-    WeftScene *scene = ball_scene();
+    WeftScene *scene = ball_scene(false);
     WeftRaster *raster = raster_of(scene);
     WeftError error;
     WeftImage before = drawn(raster, &view), first = drawn(raster, &view);

@@ -100,7 +100,7 @@ static void sheens_are_as_bright_as_traced(const char *map, double most) {
     int far = 0, at = 0;
     for (int lobe = 0; weft_lobe_info(lobe); lobe++) {
         const WeftLobeInfo *info = weft_lobe_info(lobe);
-        if (info->traits & (WEFT_LOBE_REFERENCE | WEFT_LOBE_DIFFUSE) || !test_turn(&at, 3, 9)) continue;
+        if (info->traits & (WEFT_LOBE_REFERENCE | WEFT_LOBE_DIFFUSE) || !test_turn(&at, 5, 9)) continue;
         far += !is_near(scene, raster, 1, info->id, bound_of(info->id, most));
     }
     weft_raster_free(raster);

@@ -55,7 +55,7 @@ static void lobe_samples_follow_their_pdf(void **state) {
             for (int k = 0; k < case_count(id); k++) {
                 Lobe lobe = case_lobe(id, k);
                 if (k > 0 && samples_as_default(&lobe)) continue;
-                if (!test_turn(&turn, 1, 7)) continue;
+                if (!test_turn(&turn, 2, 7)) continue;
                 tests++;
                 Dir o = direction_cos(elevations[e], 0.4 + e);
                 Bsdf bsdf;
