@@ -404,6 +404,7 @@ static void fit_lobe(FarFit *fit) {
     const bool made = method && nlopt_set_min_objective(method, fit_error, fit) > 0 &&
                       nlopt_set_lower_bounds(method, low) > 0 && nlopt_set_upper_bounds(method, high) > 0 &&
                       nlopt_set_maxeval(method, FITS_MOST) > 0 && nlopt_set_xtol_rel(method, 1e-4) > 0 &&
+                      nlopt_set_xtol_abs1(method, 1e-5) > 0 && /* of numbers that are 0 */
                       nlopt_optimize(method, x, &error) > 0;
     if (made)
         (void)fit_error(4, x, NULL, fit);

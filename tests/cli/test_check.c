@@ -225,8 +225,7 @@ static void header_option_prints_the_end_of_a_comment(void **state) {
 }
 
 /* Every woven preset keeps energy and is sampled as its pdf says. Without a sheen, which lies on it by a layer rule that is
- * not reciprocal, it is reciprocal. */
-/* The long run has all woven presets, the usual one every third. */
+ * not reciprocal, it is reciprocal. The long run asks all of them, the usual one every third. */
 static void weaves_are_checked_as_any_model(void **state) {
     (void)state;
     int count = 0;

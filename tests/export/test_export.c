@@ -20,7 +20,7 @@ static const WeftExport *text_of(int model, int target) {
     return made;
 }
 
-/* Every lobe, and a fourth of all profiles and presets, whose tables take long; test_gpu makes all profiles. */
+/* Every lobe, and a fourth of all profiles, choices and presets, whose tables take long; the long run has all. */
 static bool is_asked(int model) {
     return models[model].is_lobe || getenv("WEFT_TEST_LONG") || model % 4 == 0;
 }

@@ -73,7 +73,8 @@ static double slopes(double crimp, double floats) {
     return (tan)(crimp) * (tan)(crimp) / (2.0 * floats + 1.0);
 }
 
-/* The most by which a number that light tells is off: widths, shares, angles of fibres, and slopes. */
+/* The most by which a number that light tells is off: widths, shares, angles of fibres, slopes, and a crimp that is more than
+ * the width. */
 static double numbers_off(const WeftLobe *found, const Woven *is) {
     const struct {
         int param;
@@ -82,6 +83,7 @@ static double numbers_off(const WeftLobe *found, const Woven *is) {
     const float *has = found->params;
     double off = fabs(slopes((double)has[WOVEN_CRIMP], (double)has[WOVEN_FLOATS]) -
                       slopes((double)is->crimp, (double)is->floats));
+    if (is->crimp > is->alpha) off = fmax(off, fabs((double)(has[WOVEN_CRIMP] - is->crimp)));
     for (size_t k = 0; k < sizeof told / sizeof *told; k++)
         off = fmax(off, fabs((double)(has[told[k].param] - told[k].is)));
     return off;

@@ -49,7 +49,8 @@ static bool has_creases(int id) {
            id == LOBE_LTC_FIBRE_PUBLISHED || id == LOBE_SILK; /* where another azimuth is brightest */
 }
 
-/* Yarns turn away from light and eye with a crease, and E of silk is off its table by up to 0.006, as shading/energy has it. */
+/* Yarns turn away from light and eye with a crease; E of silk is off its table by 0.006 here, and shading/energy lets it be off
+ * by 0.01. */
 static double all_error_most(int id) {
     if (id == LOBE_SILK) return 1e-2;
     if (id == LOBE_YARN || id == LOBE_WOVEN) return 2e-3;

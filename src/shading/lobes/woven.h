@@ -68,19 +68,19 @@ STRUCT(WovenPrepared){WOVEN_NUMBERS(WOVEN_NUMBER) WOVEN_EACH_BIN(WOVEN_BIN)};
 
 #define WOVEN_BINS 7
 
-/* There are 2 n - 1 parts, up to thirteen: so many that from one to the next D moves by no more than 0.7 of its width at the
- * end of the yarn, unless that asks for more than thirteen. About the level part of a plain weave it moves up to 1.2 times as
- * far at a crimp of 0.8, and 1.9 times at 1.2. With fewer than five the sum would miss how much of the yarn turns away. n
- * need not be whole: the last bin is as much narrower, so that f does not jump as numbers change, which would stop a fit. */
+/* There are 2 n - 1 parts, up to thirteen: so many that from one to the next D moves by no more than 0.7 of its width at
+ * the end of the yarn, unless that asks for more than thirteen. About the level part it moves farther: in a plain weave up
+ * to 1.2 times at a crimp of 0.8 and 1.9 at 1.2, and most with floats below 1. With fewer than five the sum would miss what
+ * turns away. n need not be whole: the last bin is as much narrower, so that f does not jump, which would stop a fit. */
 FN float woven_count(Woven m) {
-    float turn = 1.5f * m.floats / (m.floats + 0.5f) * m.crimp; /* at most, as x goes from 0 to 1 evenly */
+    float turn = 1.5f * m.floats / (m.floats + 0.5f) * m.crimp; /* at the end of the yarn, where x is 1 */
     return clamp(turn / (0.7f * max(m.alpha, 1e-3f)) + 1.0f, 3.0f, to_float(WOVEN_BINS));
 }
 
 /* Bin k reaches from x_k to x_(k + 1), s = x^(1.5 / (floats + 0.5)), x_0 = 0, x_1 = 1.1 / (2 n - 1), and the others are
  * even, up to 1: it has the mean slope there, and a D as much wider as slopes vary. Bin 0 and its opposite are one part,
- * level on the mean, with the gain of one of them. In x that part is a little wider than the others: where light grazes these
- * turn away one by one, and it never does. 1.5 and 1.1 are our own fit to means over points. WOVEN_ACROSS: a bin and its
+ * level on the mean, with the gain of one of them. In x that part is a little wider: where light grazes the others turn
+ * away one by one, and it never does. 1.5 and 1.1 are our own fit to means over points. WOVEN_ACROSS: a bin and its
  * opposite are half of the mean each, 1 / (6 g^2) is the outer weight of woven_row, and 0.9 is the mean of 1 - 0.3 r^2. */
 #define WOVEN_ACROSS (0.5f / (6.0f * 0.56f * 0.9f))
 FN WovenBin woven_bin(Woven m, float tan_crimp, float n, float k) {
@@ -186,9 +186,9 @@ FN float woven_facet(const WovenPrepared *p, float c, float e, float x, const Wo
     return (1.0f + p->edge * x2) * yarn_met_once(e, q, m, p_o, p_i, t_o, m - t_o);
 }
 
-/* The mean over s_x, by three nodes on the part of it that faces both directions: beyond, the sum would meet an edge. The
- * outer ones, at g of the way to its ends, have the weight 1 / (6 g^2), so that the rule is right for cubes, and the one in the
- * middle 6 g^2 - 2 times that. g^2 is 0.56: Gauss's 0.6 would be right up to fifth powers, but errs by half as much
+/* The mean over s_x, by three nodes on the part of it that faces both directions: beyond, the sum would meet an edge.
+ * The outer ones, at g of the way to its ends, have the weight 1 / (6 g^2), so that the rule is right for cubes, and the
+ * middle one 6 g^2 - 2 times that. g^2 is 0.56: Gauss's 0.6 would be right up to fifth powers, but errs by half as much
  * again and more where fibres turn by 30 degrees (own fit). */
 FN float woven_row(const WovenPrepared *p, float slope, float c, float e, const WovenView *o,
                    const WovenView *i, float q) {
