@@ -124,7 +124,7 @@ WEFT_API float weft_lobe_pdf(const WeftLobe *lobe, const float wo[3], const floa
 WEFT_API float weft_lobe_sample(const WeftLobe *lobe, const float wo[3], const float u[2], float wi[3]);
 
 /* Directional albedo E per colour channel for wo = (sin, 0, cos_o), cos_o in (0, 1]: adaptive quadrature to
- * 1e-4 absolute, or 4e-3 where `silk` has alpha below 0.1; with WEFT_LOBE_REFERENCE a mean whose
+ * 1e-4 absolute, or 4e-3 and 1e-3 where `silk` and `woven` have alpha below 0.1; with WEFT_LOBE_REFERENCE a mean whose
  * standard error is 0.0011 at most. A smaller cos_o is taken for 1e-6, a larger one for 1. */
 WEFT_API void weft_lobe_albedo(const WeftLobe *lobe, float cos_o, float e[3]);
 
