@@ -144,8 +144,9 @@ static int nesting_of(const char *code, const char *name, size_t size) {
 /* WebGL takes records in four levels and no more: "WebGL Specification", version 1.0.3, section 6.19. */
 static void records_nest_as_webgl_takes_them(void **state) {
     (void)state;
-    for (int k = 0; k < model_count; k++)
-        for (int toy = 0; is_asked(k) && toy < 2; toy++) {
+    for (int k = 0; k < model_count; k++) {
+        if (!is_asked(k)) continue;
+        for (int toy = 0; toy < 2; toy++) {
             char *code = code_of(text_of(k, toy ? WEFT_EXPORT_SHADERTOY : WEFT_EXPORT_ESSL)->text);
             for (const char *c = code; (c = strstr(c, "struct ")); c++) {
                 size_t size = strcspn(c + 7, " ");
@@ -154,6 +155,7 @@ static void records_nest_as_webgl_takes_them(void **state) {
             }
             free(code);
         }
+    }
 }
 
 /* No name of a language's own, no call where it has an operator, no number in the notation of C, no record

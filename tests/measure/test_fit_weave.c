@@ -14,6 +14,7 @@
 #include "base/pi.h"
 #include "measure/drawn.h"
 #include "scene/scene.h"
+#include "shading/cases.h"
 #include "shading/registry.h"
 #include "shading/weave_light.h"
 #include "weave/weft_cloth.h"
@@ -23,7 +24,7 @@
 enum { PAIRS = 6000, FITTED = 4000 };
 static float wo[PAIRS][3], wi[PAIRS][3], f[PAIRS][3], measured[FITTED][3];
 
-static void direction(float w[3]) {
+static void any_direction(float w[3]) {
     const double z = 0.18 + 0.82 * drawn(), r = (sqrt)(1.0 - z * z), phi = 2.0 * PI_DOUBLE * drawn();
     w[0] = (float)(r * (cos)(phi)), w[1] = (float)(r * (sin)(phi)), w[2] = (float)z;
 }
@@ -32,8 +33,8 @@ static void direction(float w[3]) {
 static void reflect(const WeftReflection *reflection) {
     drawn_seed = 11;
     for (int k = 0; k < PAIRS; k++) {
-        direction(wo[k]);
-        direction(wi[k]);
+        any_direction(wo[k]);
+        any_direction(wi[k]);
         weft_reflection_eval(reflection, WEFT_PART_ALL, wo[k], 1, (const float(*)[3]) & wi[k], &f[k]);
     }
 }
@@ -130,8 +131,8 @@ typedef struct Worst {
     double foretold, number; /* of Found */
 } Worst;
 
-/* Returns the worst of every step-th woven preset. */
-static Worst find_presets(int step, float noise) {
+/* Returns the worst of the woven presets. */
+static Worst find_presets(float noise) {
     WeftScene *scene;
     WeftError error;
     Worst worst = {0};
@@ -139,7 +140,7 @@ static Worst find_presets(int step, float noise) {
     assert_int_equal(weft_scene_load("builtin:cloth", &scene, NULL, &error), WEFT_OK);
     for (int k = 0; weft_preset_name(k); k++) {
         const char *name = weft_preset_name(k), *text = weft_preset_text(k);
-        if (woven_family(name) < 0 || woven++ % step) continue;
+        if (woven_family(name) < 0 || !test_turn(&woven, 2, 8)) continue;
         if (weft_scene_assign_material_memory(scene, NULL, text, strlen(text), name, NULL, &error) != WEFT_OK)
             fail_msg("%s", error.text);
         const Found found = find_again(name, scene->cloths[scene->materials[0].cloth - 1], noise, 17 + k);
@@ -152,12 +153,9 @@ static Worst find_presets(int step, float noise) {
     return worst;
 }
 
-/* The long run has all presets, the usual one every second. */
-static int step_of(int few) { return getenv("WEFT_TEST_LONG") ? 1 : getenv("WEFT_TEST_SHORT") ? few : 2; }
-
 static void presets_are_found_again_by_what_they_reflect(void **state) {
     (void)state;
-    const Worst worst = find_presets(step_of(8), 0.0f);
+    const Worst worst = find_presets(0.0f);
     assert_true(worst.foretold < 0.001);
     assert_true(worst.number < 0.0002);
 }
@@ -165,7 +163,7 @@ static void presets_are_found_again_by_what_they_reflect(void **state) {
 /* 25 numbers are fitted to 12,000, each with noise of a tenth: little of that may be in what is found. */
 static void presets_are_found_again_under_noise(void **state) {
     (void)state;
-    const Worst worst = find_presets(step_of(8), 0.1f);
+    const Worst worst = find_presets(0.1f);
     assert_true(worst.foretold < 0.012);
 }
 
@@ -177,8 +175,8 @@ static WeftData *round_data(bool one_plane, int isotropic) {
     assert_int_equal(weft_lobe_init("ggx", &ggx, &error), WEFT_OK);
     drawn_seed = 13;
     for (int k = 0; k < FITTED; k++) {
-        direction(wo[k]);
-        direction(wi[k]);
+        any_direction(wo[k]);
+        any_direction(wi[k]);
         for (int way = 0; way < 2 && one_plane; way++) {
             float *w = way ? wi[k] : wo[k];
             const float r = copysignf(hypotf(w[0], w[1]), w[0]);

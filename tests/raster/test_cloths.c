@@ -16,6 +16,7 @@
 #include "base/random.h"
 #include "scene/cloth_base.h"
 #include "scene/scene.h"
+#include "shading/cases.h"
 #include "trace/scenes.h"
 #include "weft/weft.h"
 
@@ -155,7 +156,7 @@ static void a_cloth_is_as_bright_in_both_engines(void **state) {
 enum { SUNS = 3, FINE = 10 };
 static const float SPAN = 5.0f; /* metres */
 static int pixels_across(float side) {
-    const int most = getenv("WEFT_TEST_LONG") ? 384 : 96, cloth = (int)(2000.0f * SPAN / side);
+    const int most = test_long() ? 384 : 96, cloth = (int)(2000.0f * SPAN / side);
     return cloth < most ? cloth & ~1 : most;
 }
 static const Dir suns[SUNS] = {{0.383f, 0.321f, 0.866f}, {-0.814f, -0.296f, 0.5f}, {0.163f, -0.926f, 0.342f}};
@@ -237,7 +238,7 @@ static void compare(WeftRaster *raster, const WeftCloth *cloth, Dir sun, float s
     const float height = side * (float)across / 2000.0f / (2.0f * tanf(2.0f * PI_FLOAT / 180.0f));
     uint64_t random = stream_start(1, 29);
     /* the farthest picture has few pixels, so the long run looks at each more often */
-    const int looks = getenv("WEFT_TEST_LONG") && side > 50.0f ? 16 : 1;
+    const int looks = test_long() && side > 50.0f ? 16 : 1;
     snprintf(camera, sizeof camera, "0,0,%g;0,0,0;4", (double)height);
     const WeftRasterView view = {.width = across,
                                  .height = across,
@@ -298,8 +299,8 @@ static void pixels_vary_as_those_of_many_points_do(void **state) {
         print_message("%6.2f threads a pixel: mean %.4f worst %.4f, variance %.4f, %.3f of the reference's\n",
                       (double)sides[d], error, worst, kept / SUNS, kept / spread);
         /* the long run's chance is less */
-        assert_true(error < (getenv("WEFT_TEST_LONG") ? 0.005 : 0.009));
-        assert_true(worst < (getenv("WEFT_TEST_LONG") ? 0.009 : 0.012));
+        assert_true(error < (test_long() ? 0.005 : 0.009));
+        assert_true(worst < (test_long() ? 0.009 : 0.012));
         first = d ? first : kept;
         if (sides[d] <= 2.0f)
             assert_true(kept > 0.75 * spread && kept < 1.25 * spread);

@@ -65,7 +65,9 @@ WeaveBase woven_far(Weave c, bool weft, vec2 place, vec2 across, vec2 up, WeaveF
 
 /* Lobe woven of a system is the same at all pixels, and found once by who draws: cloth_numbers. Both systems are read, since
  * an index that a loop counts costs a software driver a load for each pixel. */
-const int CLOTH_AFAR = 68, CLOTH_AFAR_EACH = 41;
+#define ONE_NUMBER(name)   +1
+#define FOUR_NUMBERS(name) +4
+const int CLOTH_AFAR = 68, CLOTH_AFAR_EACH = 0 WOVEN_NUMBERS(ONE_NUMBER) WOVEN_EACH_BIN(FOUR_NUMBERS);
 #define TAKE_AFAR(name)                                                                                      \
     taken.name = weft ? weave_number(k + CLOTH_AFAR_EACH) : weave_number(k);                                 \
     k++;
