@@ -69,7 +69,8 @@ static FrameRequest make_request(const Viewer *v) {
     return request;
 }
 
-static void request_reference(Viewer *v, const FrameRequest *request) {
+/* Returns true if what the path tracer has shown so far is something else. */
+static bool request_reference(Viewer *v, const FrameRequest *request) {
     ReferenceRequest t;
     memset(&t, 0, sizeof t); /* compared byte by byte */
     t.wanted = v->options->mode != MODE_LIVE && v->shown->any;
@@ -83,13 +84,8 @@ static void request_reference(Viewer *v, const FrameRequest *request) {
     memcpy(t.behind, request->behind, sizeof t.behind);
     t.difference = v->options->mode == MODE_DIFFERENCE;
     t.samples = TRACE_SAMPLES;
-    reference_request(v->reference, &t);
-    bool moved = strcmp(v->rooms->requests.request.camera, request->camera) != 0 ||
-                 v->rooms->requests.request.view.width != request->view.width ||
-                 v->rooms->requests.request.view.height != request->view.height ||
-                 v->rooms->requests.request.reference != request->reference ||
-                 !scene_state_same(&v->edit->state, &v->rooms->requests.sent);
-    if (moved) v->rooms->requests.traced.samples = 0.0; /* until there are some of this view */
+    bool other = reference_request(v->reference, &t);
+    return other || !scene_state_same(&v->edit->state, &v->rooms->requests.sent);
 }
 
 /* Returns true if the picture shown is of the latest request but could be drawn more finely. */
@@ -108,8 +104,12 @@ void requests_send(Viewer *v) {
     bool finer = requests_can_refine(v) && clock_now() - v->rooms->requests.changed > 0.12;
     if (!changed && !finer) return;
     request.effort = finer ? (Effort)(v->rooms->requests.rendered.effort + 1) : EFFORT_COARSE;
+    bool moved = request_reference(v, &request); /* before the renderer tells it the number */
     v->rooms->requests.requested = renderer_request(v->renderer, &request);
-    request_reference(v, &request);
+    if (moved) {
+        v->rooms->requests.moved = v->rooms->requests.requested;
+        v->rooms->requests.traced.samples = 0.0; /* until there are some of this view */
+    }
     scene_state_free(&v->rooms->requests.sent);
     if (!scene_state_copy(&v->rooms->requests.sent, &v->edit->state))
         v->rooms->requests.sent = (SceneState){0};
@@ -150,6 +150,7 @@ void requests_take_reference(Viewer *v) {
         viewer_upload(&v->rooms->requests.reference_texture, &picture.image);
         weft_image_free(&picture.image);
     }
+    if (picture.applied < v->rooms->requests.moved) picture.samples = 0.0; /* of what was there before */
     v->rooms->requests.traced = picture;
     if (picture.failure[0]) viewer_say(v, true, "%s", picture.failure);
 }

@@ -27,13 +27,14 @@ struct ReferenceView {
     bool held, running, quit, waiting;
     unsigned number_for; /* the renderer's request in whose place pictures are made; 0: none */
     WeftImage reference; /* to compare with, newest; taken by the thread */
+    unsigned applied;    /* the renderer's request whose state `scene` has */
     bool fresh;          /* `picture` was not taken yet */
     ReferenceFrame picture;
     WeftImage linear; /* what the picture was made of */
     /* written by the thread alone; what others read of it, while it does not run */
     WeftRender *render;
     ReferenceRequest asked, drawn; /* the latest, and with the pixels that it was given */
-    unsigned drawn_number;
+    unsigned drawn_number, drawn_applied;
     bool current; /* `render` is of the scene and of `drawn` */
     bool finer;   /* the render has all of its pixels */
     bool spare;   /* the render stood in for a picture that may be there by now */
@@ -146,7 +147,8 @@ static WeftResult show(ReferenceView *self, const ReferenceRequest *request, con
 /* Shows what there is. A picture of fewer pixels is no more than a first look: its samples are those of a pixel of the
  * whole, and it is not kept. */
 static void publish(ReferenceView *self, const ReferenceRequest *request, unsigned number_for) {
-    ReferenceFrame picture = {.wanted_samples = request->samples, .number = number_for};
+    ReferenceFrame picture = {
+        .wanted_samples = request->samples, .number = number_for, .applied = self->drawn_applied};
     bool kept = !number_for && self->finer;
     WeftImage linear;
     if (weft_render_image(self->render, &linear, NULL) != WEFT_OK) return;
@@ -257,6 +259,7 @@ static void round_of_work(ReferenceView *self) {
     self->changed = 0;
     self->other = false;
     self->drawn_number = self->number;
+    self->drawn_applied = self->applied;
     self->spare = number_for != 0;
     if (self->reference.pixels) {
         weft_image_free(&self->compared);
@@ -349,8 +352,17 @@ void reference_resume(ReferenceView *self, const WeftScene *scene, unsigned chan
     pthread_mutex_unlock(&self->lock);
 }
 
-void reference_request(ReferenceView *self, const ReferenceRequest *request) {
+void reference_applied(ReferenceView *self, unsigned number) {
     pthread_mutex_lock(&self->lock);
+    if (self->applied != number && self->request.wanted) self->number++; /* to be shown under the new one */
+    self->applied = number;
+    pthread_cond_broadcast(&self->change);
+    pthread_mutex_unlock(&self->lock);
+}
+
+bool reference_request(ReferenceView *self, const ReferenceRequest *request) {
+    pthread_mutex_lock(&self->lock);
+    bool other = self->request.wanted != request->wanted || !same_view(&self->request, request);
     if (memcmp((const char *)&self->request, (const char *)request, sizeof *request) != 0) {
         self->request = *request;
         self->number++;
@@ -358,6 +370,7 @@ void reference_request(ReferenceView *self, const ReferenceRequest *request) {
         pthread_cond_broadcast(&self->change);
     }
     pthread_mutex_unlock(&self->lock);
+    return other;
 }
 
 void reference_stand_in(ReferenceView *self, unsigned number) {

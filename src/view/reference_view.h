@@ -28,6 +28,7 @@ typedef struct ReferenceRequest {
 typedef struct ReferenceFrame {
     WeftImage image;
     unsigned number;         /* of the renderer's request in whose place it is; 0: it is wanted for itself */
+    unsigned applied;        /* the renderer's request whose state of the scene it shows */
     double samples, seconds; /* samples: below 1 of a first look, with fewer pixels */
     bool denoised;           /* in part */
     int wanted_samples;
@@ -47,7 +48,11 @@ void reference_pause(ReferenceView *reference);
  * of another scene all. */
 void reference_resume(ReferenceView *reference, const WeftScene *scene, unsigned changed);
 
-void reference_request(ReferenceView *reference, const ReferenceRequest *request);
+/* The scene has the state of the renderer's request of this number by now; pictures made from now on bear it. */
+void reference_applied(ReferenceView *reference, unsigned number);
+
+/* Returns true if its pictures are of another view than those of the request before. */
+bool reference_request(ReferenceView *reference, const ReferenceRequest *request);
 
 /* From now on pictures are made though none is wanted, in the place of the one that the renderer cannot draw
  * yet, whose number they bear; coarse ones at first. 0: no more. */
