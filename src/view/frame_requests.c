@@ -69,8 +69,8 @@ static FrameRequest make_request(const Viewer *v) {
     return request;
 }
 
-/* Returns true if what the path tracer has shown so far is something else. */
-static bool request_reference(Viewer *v, const FrameRequest *request) {
+/* Returns the number of the view (reference_request). */
+static unsigned send_reference(Viewer *v, const FrameRequest *request) {
     ReferenceRequest t;
     memset(&t, 0, sizeof t); /* compared byte by byte */
     t.wanted = v->options->mode != MODE_LIVE && v->shown->any;
@@ -84,8 +84,7 @@ static bool request_reference(Viewer *v, const FrameRequest *request) {
     memcpy(t.behind, request->behind, sizeof t.behind);
     t.difference = v->options->mode == MODE_DIFFERENCE;
     t.samples = TRACE_SAMPLES;
-    bool other = reference_request(v->reference, &t);
-    return other || !scene_state_same(&v->edit->state, &v->rooms->requests.sent);
+    return reference_request(v->reference, &t);
 }
 
 /* Returns true if the picture shown is of the latest request but could be drawn more finely. */
@@ -104,12 +103,14 @@ void requests_send(Viewer *v) {
     bool finer = requests_can_refine(v) && clock_now() - v->rooms->requests.changed > 0.12;
     if (!changed && !finer) return;
     request.effort = finer ? (Effort)(v->rooms->requests.rendered.effort + 1) : EFFORT_COARSE;
-    bool moved = request_reference(v, &request); /* before the renderer tells it the number */
+    bool moved = !scene_state_same(&v->edit->state, &v->rooms->requests.sent);
+    if (moved) v->rooms->requests.state++;
+    request.state_number = v->rooms->requests.state;
+    unsigned view = send_reference(v, &request);
+    moved |= view != v->rooms->requests.view;
+    v->rooms->requests.view = view;
+    if (moved) v->rooms->requests.traced.samples = 0.0; /* until there are some of this view and state */
     v->rooms->requests.requested = renderer_request(v->renderer, &request);
-    if (moved) {
-        v->rooms->requests.moved = v->rooms->requests.requested;
-        v->rooms->requests.traced.samples = 0.0; /* until there are some of this view */
-    }
     scene_state_free(&v->rooms->requests.sent);
     if (!scene_state_copy(&v->rooms->requests.sent, &v->edit->state))
         v->rooms->requests.sent = (SceneState){0};
@@ -150,7 +151,8 @@ void requests_take_reference(Viewer *v) {
         viewer_upload(&v->rooms->requests.reference_texture, &picture.image);
         weft_image_free(&picture.image);
     }
-    if (picture.applied < v->rooms->requests.moved) picture.samples = 0.0; /* of what was there before */
+    bool current = picture.view == v->rooms->requests.view && picture.state == v->rooms->requests.state;
+    if (!current) picture.samples = 0.0; /* they are of an earlier view or state */
     v->rooms->requests.traced = picture;
     if (picture.failure[0]) viewer_say(v, true, "%s", picture.failure);
 }

@@ -296,7 +296,7 @@ static void draw(Renderer *self, const FrameRequest *request, unsigned number) {
     FrameRequest drawn = with_effort(self, request, effort);
     double expected = *seconds_of(self, effort);
     WeftResult result = frame_apply_state(self, &request->state, &error);
-    reference_applied(self->reference, number);
+    reference_set_state(self->reference, request->state_number);
     survey(self, request);
     double start = clock_now();
     if (needs_stand_in(self, &drawn)) {

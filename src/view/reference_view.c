@@ -20,21 +20,23 @@ struct ReferenceView {
     pthread_cond_t change;
     /* under the lock */
     ReferenceRequest request;
-    unsigned number;        /* of the request, counted up */
+    unsigned number;        /* counted up as there is something else to show */
+    unsigned view;          /* of the request, counted up as it has another view */
+    unsigned state;         /* number of the state that `scene` has, as the renderer tells; 0: another one */
     const WeftScene *scene; /* may be read while `running` */
     unsigned changed;
     bool other; /* the scene is another one */
     bool held, running, quit, waiting;
     unsigned number_for; /* the renderer's request in whose place pictures are made; 0: none */
     WeftImage reference; /* to compare with, newest; taken by the thread */
-    unsigned applied;    /* the renderer's request whose state `scene` has */
+    bool outdated;       /* `compared` is of another view or state */
     bool fresh;          /* `picture` was not taken yet */
     ReferenceFrame picture;
     WeftImage linear; /* what the picture was made of */
     /* written by the thread alone; what others read of it, while it does not run */
     WeftRender *render;
     ReferenceRequest asked, drawn; /* the latest, and with the pixels that it was given */
-    unsigned drawn_number, drawn_applied;
+    unsigned drawn_number, drawn_view, drawn_state;
     bool current; /* `render` is of the scene and of `drawn` */
     bool finer;   /* the render has all of its pixels */
     bool spare;   /* the render stood in for a picture that may be there by now */
@@ -147,8 +149,10 @@ static WeftResult show(ReferenceView *self, const ReferenceRequest *request, con
 /* Shows what there is. A picture of fewer pixels is no more than a first look: its samples are those of a pixel of the
  * whole, and it is not kept. */
 static void publish(ReferenceView *self, const ReferenceRequest *request, unsigned number_for) {
-    ReferenceFrame picture = {
-        .wanted_samples = request->samples, .number = number_for, .applied = self->drawn_applied};
+    ReferenceFrame picture = {.wanted_samples = request->samples,
+                              .number = number_for,
+                              .view = self->drawn_view,
+                              .state = self->drawn_state};
     bool kept = !number_for && self->finer;
     WeftImage linear;
     if (weft_render_image(self->render, &linear, NULL) != WEFT_OK) return;
@@ -173,7 +177,7 @@ static void publish(ReferenceView *self, const ReferenceRequest *request, unsign
         pthread_cond_broadcast(&self->change);
     }
     pthread_mutex_unlock(&self->lock);
-    window_wake(self->window);
+    if (self->window) window_wake(self->window);
 }
 
 /* Shows new samples: as they are while nothing of the view is denoised, since that takes longer than the first of them
@@ -259,8 +263,11 @@ static void round_of_work(ReferenceView *self) {
     self->changed = 0;
     self->other = false;
     self->drawn_number = self->number;
-    self->drawn_applied = self->applied;
+    self->drawn_view = self->view;
+    self->drawn_state = self->state;
     self->spare = number_for != 0;
+    if (self->outdated) weft_image_free(&self->compared);
+    self->outdated = false;
     if (self->reference.pixels) {
         weft_image_free(&self->compared);
         self->compared = self->reference;
@@ -341,36 +348,53 @@ void reference_pause(ReferenceView *self) {
     pthread_mutex_unlock(&self->lock);
 }
 
+/* Forgets what was to be compared with; the lock is held. */
+static void outdate(ReferenceView *self) {
+    weft_image_free(&self->reference);
+    self->outdated = true;
+}
+
 void reference_resume(ReferenceView *self, const WeftScene *scene, unsigned changed) {
     pthread_mutex_lock(&self->lock);
     self->held = self->waiting = false;
     if (scene != self->scene) self->other = true;
-    if (scene != self->scene || changed) self->picture.failure[0] = '\0';
+    if (scene != self->scene || changed) {
+        self->picture.failure[0] = '\0';
+        self->state = 0;
+        outdate(self);
+    }
     self->scene = scene;
     self->changed |= changed;
     pthread_cond_broadcast(&self->change);
     pthread_mutex_unlock(&self->lock);
 }
 
-void reference_applied(ReferenceView *self, unsigned number) {
+void reference_set_state(ReferenceView *self, unsigned state) {
     pthread_mutex_lock(&self->lock);
-    if (self->applied != number && self->request.wanted) self->number++; /* to be shown under the new one */
-    self->applied = number;
-    pthread_cond_broadcast(&self->change);
+    if (state != self->state) {
+        self->state = state;
+        if (!self->picture.failure[0])
+            self->number++; /* what is still right is shown once more, with this number */
+        pthread_cond_broadcast(&self->change);
+    }
     pthread_mutex_unlock(&self->lock);
 }
 
-bool reference_request(ReferenceView *self, const ReferenceRequest *request) {
+unsigned reference_request(ReferenceView *self, const ReferenceRequest *request) {
     pthread_mutex_lock(&self->lock);
-    bool other = self->request.wanted != request->wanted || !same_view(&self->request, request);
     if (memcmp((const char *)&self->request, (const char *)request, sizeof *request) != 0) {
+        if (self->request.wanted != request->wanted || !same_view(&self->request, request)) {
+            self->view++;
+            outdate(self);
+        }
         self->request = *request;
         self->number++;
         self->picture.failure[0] = '\0';
         pthread_cond_broadcast(&self->change);
     }
+    unsigned view = self->view;
     pthread_mutex_unlock(&self->lock);
-    return other;
+    return view;
 }
 
 void reference_stand_in(ReferenceView *self, unsigned number) {

@@ -28,7 +28,7 @@ typedef struct ReferenceRequest {
 typedef struct ReferenceFrame {
     WeftImage image;
     unsigned number;         /* of the renderer's request in whose place it is; 0: it is wanted for itself */
-    unsigned applied;        /* the renderer's request whose state of the scene it shows */
+    unsigned view, state;    /* numbers of what it shows: reference_request, reference_set_state */
     double samples, seconds; /* samples: below 1 of a first look, with fewer pixels */
     bool denoised;           /* in part */
     int wanted_samples;
@@ -38,7 +38,7 @@ typedef struct ReferenceFrame {
     char failure[256];
 } ReferenceFrame;
 
-/* window must outlive it, and is woken when there is something to take. NULL where memory is short. */
+/* window, if there is one, must outlive it, and is woken when there is something to take. NULL where memory is short. */
 ReferenceView *reference_start(Window *window);
 void reference_stop(ReferenceView *reference);
 
@@ -48,11 +48,13 @@ void reference_pause(ReferenceView *reference);
  * of another scene all. */
 void reference_resume(ReferenceView *reference, const WeftScene *scene, unsigned changed);
 
-/* The scene has the state of the renderer's request of this number by now; pictures made from now on bear it. */
-void reference_applied(ReferenceView *reference, unsigned number);
+/* Gives the state that the scene has by now a number, which pictures made from now on bear. After reference_resume with a
+ * change or another scene its state has the number 0 until then. */
+void reference_set_state(ReferenceView *reference, unsigned state);
 
-/* Returns true if its pictures are of another view than those of the request before. */
-bool reference_request(ReferenceView *reference, const ReferenceRequest *request);
+/* Returns the number of the request's view, which its pictures bear: a new one if the request before had another view, or
+ * only one of them is wanted. */
+unsigned reference_request(ReferenceView *reference, const ReferenceRequest *request);
 
 /* From now on pictures are made though none is wanted, in the place of the one that the renderer cannot draw
  * yet, whose number they bear; coarse ones at first. 0: no more. */
@@ -60,7 +62,7 @@ void reference_stand_in(ReferenceView *reference, unsigned number);
 /* Waits for the first picture that bears the number, so long at most. */
 void reference_wait(ReferenceView *reference, unsigned number, double seconds);
 
-/* The picture to compare with: taken over and zeroed. */
+/* The picture to compare with: taken over and zeroed, and forgotten as view or scene change. */
 void reference_set_comparison(ReferenceView *reference, WeftImage *linear);
 
 /* The newest picture: true where it is another one; then it is the caller's to free. */
