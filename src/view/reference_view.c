@@ -383,7 +383,9 @@ void reference_set_state(ReferenceView *self, unsigned state) {
 unsigned reference_request(ReferenceView *self, const ReferenceRequest *request) {
     pthread_mutex_lock(&self->lock);
     if (memcmp((const char *)&self->request, (const char *)request, sizeof *request) != 0) {
-        if (self->request.wanted != request->wanted || !same_view(&self->request, request)) {
+        bool same =
+            self->request.wanted == request->wanted && self->request.difference == request->difference;
+        if (!same || !same_view(&self->request, request)) {
             self->view++;
             outdate(self);
         }

@@ -53,7 +53,7 @@ void reference_resume(ReferenceView *reference, const WeftScene *scene, unsigned
 void reference_set_state(ReferenceView *reference, unsigned state);
 
 /* Returns the number of the request's view, which its pictures bear: a new one if the request before had another view, or
- * only one of them is wanted. */
+ * only one of the two is wanted, or is for a difference. */
 unsigned reference_request(ReferenceView *reference, const ReferenceRequest *request);
 
 /* From now on pictures are made though none is wanted, in the place of the one that the renderer cannot draw

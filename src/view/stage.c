@@ -354,7 +354,8 @@ static void draw_tags(const Viewer *v) {
         snprintf(text, sizeof text, "path traced   %.0f of %d spp%s", v->requests->traced.samples,
                  TRACE_SAMPLES, v->requests->traced.denoised ? ", denoised" : "");
     else if (v->options->mode == MODE_DIFFERENCE)
-        snprintf(text, sizeof text, "OpenGL less path traced");
+        snprintf(text, sizeof text, "%s",
+                 v->requests->traced.compared ? "OpenGL less path traced" : "path traced while OpenGL draws");
     else if (viewer_shows(v) == SHOWS_TRACED)
         snprintf(text, sizeof text, "path traced while shaders compile   %.0f spp",
                  v->requests->traced.samples);

@@ -104,8 +104,11 @@ static void differences_are_from_pictures_of_the_same_view(void **state) {
     (void)state;
     ReferenceFrame last;
     ReferenceRequest request = asked();
+    unsigned plain = reference_request(reference, &request);
+    assert_true(rested(&last) && !last.compared && last.view == plain);
     request.difference = true;
-    reference_request(reference, &request);
+    assert_true(reference_request(reference, &request) !=
+                plain); /* its samples are not those of a difference */
     compare_with_grey();
     assert_true(rested(&last) && last.compared);
     request.desc.floor.on = !request.desc.floor.on;
