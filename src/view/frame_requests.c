@@ -108,7 +108,7 @@ void requests_send(Viewer *v) {
     request.state_number = v->rooms->requests.state;
     unsigned view = send_reference(v, &request);
     moved |= view != v->rooms->requests.view;
-    v->rooms->requests.view = view;
+    request.view_number = v->rooms->requests.view = view;
     if (moved) v->rooms->requests.traced.samples = 0.0; /* until there are some of this view and state */
     v->rooms->requests.requested = renderer_request(v->renderer, &request);
     scene_state_free(&v->rooms->requests.sent);
@@ -166,7 +166,11 @@ void requests_take_events(Viewer *v) {
             render_event_free(&event);
             continue;
         }
-        if (event.maps.maps) opening_take_maps(v, &event);
+        if (event.maps.maps) {
+            opening_take_maps(v, &event);
+            requests_forget(v); /* pixels are others, though the state may be the same */
+            requests_due(v);
+        }
         if (event.state_changed && event.kind == TASK_LIGHT) {
             edit_take_light(v, &event.state.environment);
         } else if (event.state_changed) {

@@ -262,10 +262,10 @@ static void publish(Renderer *self, const FrameRequest *request, Effort effort, 
 }
 
 /* Hands a linear copy of the picture to the path tracer, to compare with. */
-static void hand_linear(Renderer *self) {
+static void hand_linear(Renderer *self, const FrameRequest *request) {
     WeftImage linear;
     if (weft_raster_image(self->raster, &linear, NULL) == WEFT_OK)
-        reference_set_comparison(self->reference, &linear);
+        reference_set_comparison(self->reference, request->view_number, &linear);
 }
 
 /* Returns true if the path tracer is to stand in for a whole picture whose shaders are not compiled yet. */
@@ -296,7 +296,8 @@ static void draw(Renderer *self, const FrameRequest *request, unsigned number) {
     FrameRequest drawn = with_effort(self, request, effort);
     double expected = *seconds_of(self, effort);
     WeftResult result = frame_apply_state(self, &request->state, &error);
-    reference_set_state(self->reference, request->state_number);
+    bool edited = frame_edited_state(request) == &request->state;
+    reference_set_state(self->reference, edited ? request->state_number : 0);
     survey(self, request);
     double start = clock_now();
     if (needs_stand_in(self, &drawn)) {
@@ -308,7 +309,7 @@ static void draw(Renderer *self, const FrameRequest *request, unsigned number) {
         WeftResult done =
             draw_picture(self, &drawn, number, target, expected, &whole, result == WEFT_OK ? &error : NULL);
         if (result == WEFT_OK) result = done;
-        if (done == WEFT_OK && request->compare) hand_linear(self);
+        if (done == WEFT_OK && request->compare) hand_linear(self, request);
         if (done != WEFT_OK) target = -1;
         bool fair = done == WEFT_OK && whole && weft_raster_info(self->raster).compiled == compiled;
         if (fair) learn(self, request, effort, clock_now() - start);

@@ -22,7 +22,7 @@ struct ReferenceView {
     ReferenceRequest request;
     unsigned number;        /* counted up as there is something else to show */
     unsigned view;          /* of the request, counted up as it has another view */
-    unsigned state;         /* number of the state that `scene` has, as the renderer tells; 0: another one */
+    unsigned state;         /* number of the state that `scene` has, as the renderer tells; 0: not told yet */
     const WeftScene *scene; /* may be read while `running` */
     unsigned changed;
     bool other; /* the scene is another one */
@@ -166,7 +166,7 @@ static void publish(ReferenceView *self, const ReferenceRequest *request, unsign
                                     : show(self, request, &linear, &picture.image) == WEFT_OK;
     pthread_mutex_lock(&self->lock);
     weft_image_free(&self->linear);
-    if (kept)
+    if (kept && same_view(request, &self->request))
         self->linear = linear;
     else
         weft_image_free(&linear);
@@ -385,7 +385,9 @@ unsigned reference_request(ReferenceView *self, const ReferenceRequest *request)
     if (memcmp((const char *)&self->request, (const char *)request, sizeof *request) != 0) {
         bool same =
             self->request.wanted == request->wanted && self->request.difference == request->difference;
-        if (!same || !same_view(&self->request, request)) {
+        bool moved = !same_view(&self->request, request);
+        if (moved) weft_image_free(&self->linear);
+        if (moved || !same) {
             self->view++;
             outdate(self);
         }
@@ -415,12 +417,16 @@ void reference_wait(ReferenceView *self, unsigned number, double seconds) {
     pthread_mutex_unlock(&self->lock);
 }
 
-void reference_set_comparison(ReferenceView *self, WeftImage *linear) {
+void reference_set_comparison(ReferenceView *self, unsigned view, WeftImage *linear) {
     pthread_mutex_lock(&self->lock);
-    weft_image_free(&self->reference);
-    self->reference = *linear;
-    *linear = (WeftImage){0};
-    pthread_cond_broadcast(&self->change);
+    if (view == self->view) {
+        weft_image_free(&self->reference);
+        self->reference = *linear;
+        *linear = (WeftImage){0};
+        pthread_cond_broadcast(&self->change);
+    } else {
+        weft_image_free(linear);
+    }
     pthread_mutex_unlock(&self->lock);
 }
 

@@ -62,8 +62,9 @@ void reference_stand_in(ReferenceView *reference, unsigned number);
 /* Waits for the first picture that bears the number, so long at most. */
 void reference_wait(ReferenceView *reference, unsigned number, double seconds);
 
-/* The picture to compare with: taken over and zeroed, and forgotten as view or scene change. */
-void reference_set_comparison(ReferenceView *reference, WeftImage *linear);
+/* Takes the picture to compare with, and zeroes it. It is forgotten if it is not of the latest request's view, or as soon as
+ * view or scene change. */
+void reference_set_comparison(ReferenceView *reference, unsigned view, WeftImage *linear);
 
 /* The newest picture: true where it is another one; then it is the caller's to free. */
 bool reference_take_frame(ReferenceView *reference, ReferenceFrame *picture);

@@ -28,7 +28,8 @@ typedef enum Effort { EFFORT_COARSE, EFFORT_WHOLE, EFFORT_SMOOTH } Effort;
 typedef struct FrameRequest {
     unsigned scene;          /* number of the scene (renderer_set_scene) */
     int edited;              /* the state that tasks change: 0 is `state`, 1 is `other` */
-    unsigned state_number;   /* counted up as `state` is another one; not 0 */
+    unsigned view_number;    /* of the path tracer's view (reference_request) */
+    unsigned state_number;   /* of the edited state, counted up as it is another one; not 0 */
     SceneState state, other; /* `other` is the right side of a split picture; empty without a split */
     Split split;
     float at;            /* SPLIT_LINE: position of the line, as a fraction of the width */

@@ -355,7 +355,9 @@ static void draw_tags(const Viewer *v) {
                  TRACE_SAMPLES, v->requests->traced.denoised ? ", denoised" : "");
     else if (v->options->mode == MODE_DIFFERENCE)
         snprintf(text, sizeof text, "%s",
-                 v->requests->traced.compared ? "OpenGL less path traced" : "path traced while OpenGL draws");
+                 viewer_shows(v) != SHOWS_TRACED ? "OpenGL before it is compared"
+                 : v->requests->traced.compared  ? "OpenGL less path traced"
+                                                 : "path traced before it is compared");
     else if (viewer_shows(v) == SHOWS_TRACED)
         snprintf(text, sizeof text, "path traced while shaders compile   %.0f spp",
                  v->requests->traced.samples);

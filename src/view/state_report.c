@@ -83,9 +83,8 @@ void report_state(const Viewer *v) {
     json_object_set_new(root, "lights", json_integer(v->edit->state.light_count));
     json_object_set_new(root, "rotation", json_real((double)v->edit->state.environment.rotation));
     json_object_set_new(root, "samples", json_real(v->requests->traced.samples));
-    json_object_set_new(
-        root, "relmse",
-        json_real(v->requests->traced.compared ? v->requests->traced.difference.relmse : -1.0));
+    bool compared = v->requests->traced.compared && v->requests->traced.samples > 0.0;
+    json_object_set_new(root, "relmse", json_real(compared ? v->requests->traced.difference.relmse : -1.0));
     json_object_set_new(root, "message", json_string(v->frame->message));
     json_object_set_new(root, "complaint", json_string(v->requests->shader_complaint));
     json_object_set_new(root, "variant", json_integer(v->shown->any ? v->edit->state.variant : -1));

@@ -60,10 +60,10 @@ static WeftResult save(Renderer *self, const Task *task, const FrameRequest *req
 /* Sends the new state of the materials to the window. */
 static WeftResult finish_assign(Renderer *self, WeftResult result, RenderEvent *event, WeftError *error) {
     const WeftLog log = renderer_log(self);
+    SceneState state;
+    if (result == WEFT_OK && !scene_state_read(&state, self->scene)) result = WEFT_RESOURCES;
     if (result == WEFT_OK) {
         EnvironmentState environment = self->is.environment;
-        SceneState state;
-        if (!scene_state_read(&state, self->scene)) return WEFT_RESOURCES;
         state.environment = environment;
         scene_state_take_naps(&state, &self->is);
         scene_state_take_presets(&state, &self->is);
