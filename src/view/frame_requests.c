@@ -97,19 +97,17 @@ bool requests_can_refine(const Viewer *v) {
 void requests_send(Viewer *v) {
     if (!v->shown->any || v->frame->stage.width < 1.0f) return;
     FrameRequest request = make_request(v);
-    bool changed = v->rooms->requests.ask || !same_request(&request, &v->rooms->requests.request) ||
-                   !scene_state_same(&v->edit->state, &v->rooms->requests.sent);
+    const FrameRequest *last = &v->rooms->requests.request;
+    bool other_state = !scene_state_same(&v->edit->state, &v->rooms->requests.sent);
+    bool changed = v->rooms->requests.ask || other_state || !same_request(&request, last);
     if (changed) v->rooms->requests.changed = clock_now();
     bool finer = requests_can_refine(v) && clock_now() - v->rooms->requests.changed > 0.12;
     if (!changed && !finer) return;
     request.effort = finer ? (Effort)(v->rooms->requests.rendered.effort + 1) : EFFORT_COARSE;
-    bool moved = !scene_state_same(&v->edit->state, &v->rooms->requests.sent);
-    if (moved) v->rooms->requests.state++;
-    request.state_number = v->rooms->requests.state;
-    unsigned view = send_reference(v, &request);
-    moved |= view != v->rooms->requests.view;
-    request.view_number = v->rooms->requests.view = view;
-    if (moved) v->rooms->requests.traced.samples = 0.0; /* until there are some of this view and state */
+    request.state_number = last->state_number + (other_state ? 1 : 0);
+    request.view_number = send_reference(v, &request);
+    if (other_state || request.view_number != last->view_number)
+        v->rooms->requests.traced.samples = 0.0; /* until there are some of this view and state */
     v->rooms->requests.requested = renderer_request(v->renderer, &request);
     scene_state_free(&v->rooms->requests.sent);
     if (!scene_state_copy(&v->rooms->requests.sent, &v->edit->state))
@@ -151,7 +149,8 @@ void requests_take_reference(Viewer *v) {
         viewer_upload(&v->rooms->requests.reference_texture, &picture.image);
         weft_image_free(&picture.image);
     }
-    bool current = picture.view == v->rooms->requests.view && picture.state == v->rooms->requests.state;
+    const FrameRequest *last = &v->rooms->requests.request;
+    bool current = picture.view == last->view_number && picture.state == last->state_number;
     if (!current) picture.samples = 0.0; /* they are of an earlier view or state */
     v->rooms->requests.traced = picture;
     if (picture.failure[0]) viewer_say(v, true, "%s", picture.failure);
@@ -169,7 +168,6 @@ void requests_take_events(Viewer *v) {
         if (event.maps.maps) {
             opening_take_maps(v, &event);
             requests_forget(v); /* pixels are others, though the state may be the same */
-            requests_due(v);
         }
         if (event.state_changed && event.kind == TASK_LIGHT) {
             edit_take_light(v, &event.state.environment);

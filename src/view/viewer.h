@@ -122,7 +122,6 @@ typedef struct CameraRoom {
 typedef struct RequestsRoom {
     RenderedFrame rendered;
     unsigned requested;   /* number of the last request */
-    unsigned view, state; /* numbers of its view and state, as pictures bear them (reference_view.h) */
     FrameRequest request; /* the last request; the states are empty */
     SceneState sent;      /* as last requested */
     bool ask;             /* a request is due */

@@ -1,15 +1,6 @@
 /* The path tracer's thread of the window: its pictures bear the numbers of the view and the state that they show. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <string.h>
-#include <time.h>
+#include "cli/run.h"
 
-#include <cmocka.h>
-
-#include "base/steady_clock.h"
 #include "view/reference_view.h"
 #include "weft/weft.h"
 
@@ -50,7 +41,7 @@ static bool rested(ReferenceFrame *last) {
     double start = clock_now();
     while (!reference_is_idle(reference)) {
         if (clock_now() - start > 60.0) fail_msg("it does not come to rest");
-        nanosleep(&(struct timespec){.tv_nsec = 5000000}, NULL);
+        sleep_seconds(0.005);
     }
     if (!reference_take_frame(reference, last)) return false;
     weft_image_free(&last->image);
