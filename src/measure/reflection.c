@@ -162,7 +162,7 @@ WeftResult weft_fitted_reflection(const WeftFitted *fitted, WeftReflection **out
     (*out)->under = fitted->base;
     (*out)->based = true;
     const WeaveBase threads[2] = {fitted_threads(&fitted->lobe), fitted_threads(&fitted->base)};
-    if (woven) (*out)->whole.sum = (WeaveSum){.bases = 2, .threads = {threads[0], threads[1]}};
+    if (woven) (*out)->whole.sum = weave_sum_of_lobes(threads);
     return WEFT_OK;
 }
 

@@ -1,10 +1,22 @@
 #include "measure/weave_sum.h"
 
-#include "shading/lobes/woven.h"
+#include "shading/registry.h"
 
 WeaveSum weave_sum_of(const WeftCloth *cloth) {
     WeaveSum sum = {.bases = cloth ? 2 : 1};
-    for (int t = 0; cloth && t < 2; t++) sum.threads[t] = cloth_base_far(cloth, t == WEFT_WEFT);
+    for (int t = 0; cloth && t < 2; t++) {
+        sum.threads[t] = cloth_base_far(cloth, t == WEFT_WEFT);
+        sum.woven[t] = cloth->far.woven[t];
+    }
+    return sum;
+}
+
+WeaveSum weave_sum_of_lobes(const WeaveBase threads[2]) {
+    WeaveSum sum = {.bases = 2};
+    for (int t = 0; t < 2; t++) {
+        sum.threads[t] = threads[t];
+        woven_prepare(woven_of(&threads[t].lobe), &sum.woven[t]);
+    }
     return sum;
 }
 
@@ -12,7 +24,10 @@ void weave_sum_see(const WeaveSum *self, int base, const Surface *surface, const
                    Dir o, SeenStack *seen) {
     const WeaveBase *threads = &self->threads[base];
     stack_make(&seen->stack, surface, choices, e);
-    if (self->bases > 1) stack_put_base(&seen->stack, &threads->lobe, threads->once, threads->again);
+    if (self->bases > 1) {
+        stack_put_base(&seen->stack, &threads->lobe, threads->once, threads->again);
+        seen->stack.diffuse_prepared.woven = self->woven[base];
+    }
     stack_see(&seen->stack, &o, &seen->view);
 }
 

@@ -12,10 +12,14 @@
 typedef struct WeaveSum {
     int bases;            /* 1, the material's own, or 2 */
     WeaveBase threads[2]; /* of 2: warp and weft */
+    WovenPrepared woven[2];
 } WeaveSum;
 
 /* The systems of a cloth; NULL: the material's own base. */
 WeaveSum weave_sum_of(const WeftCloth *cloth);
+
+/* Two lobes woven. */
+WeaveSum weave_sum_of_lobes(const WeaveBase threads[2]);
 
 /* Sees base number so, and what lies on it, from o. e: as stack_make has it. */
 void weave_sum_see(const WeaveSum *self, int base, const Surface *surface, const Choices *choices, TableRef e,

@@ -102,15 +102,11 @@ void cloth_numbers(const WeftCloth *cloth, float numbers[CLOTH_NUMBERS]) {
                            (4 * sizeof(float)) ==
                        AFAR / 4,
                    "all of them");
-    _Static_assert((AFAR * sizeof(float) + 2 * sizeof(WovenPrepared) + 3 * sizeof(float)) /
+    _Static_assert((AFAR * sizeof(float) + sizeof cloth->far.woven + 3 * sizeof(float)) /
                            (4 * sizeof(float)) ==
                        CLOTH_NUMBERS / 4,
                    "all of them");
-    for (int system = 0; system < 2; system++) {
-        WovenPrepared afar;
-        woven_prepare(weave_woven(m, system == WEFT_WEFT), &afar);
-        memcpy(numbers + AFAR + system * (int)(sizeof afar / sizeof(float)), &afar, sizeof afar);
-    }
+    memcpy(numbers + AFAR, cloth->far.woven, sizeof cloth->far.woven);
     memcpy(numbers, &m->warp, sizeof m->warp), numbers += sizeof m->warp / sizeof(float);
     memcpy(numbers, &m->weft, sizeof m->weft), numbers += sizeof m->weft / sizeof(float);
     memcpy(numbers, &m->warp_far, sizeof m->warp_far), numbers += sizeof m->warp_far / sizeof(float);

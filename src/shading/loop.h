@@ -63,10 +63,8 @@ FN bool pair_counts(Dir o, Dir i) {
 #define EACH(k, n) _Pragma("GCC ivdep") for (size_t k = 0; k < n; k++)
 #endif
 
-/* The body of a loop over pairs of a lobe: what to do with the value v of pair k, which counts or does not. */
-#define EACH_VALUE(name, Name, ...)                                                                          \
-    Name##Prepared p;                                                                                        \
-    name##_prepare(name##_of(m), &p);                                                                        \
+/* A loop over pairs of a prepared lobe: what to do with the value v of pair k, which counts or does not. */
+#define EACH_PAIR(name, Name, ...)                                                                           \
     EACH(k, n) {                                                                                             \
         TAKE_PAIR(o, i, counts);                                                                             \
         Angles a = angles_between(o, i);                                                                     \
@@ -75,19 +73,40 @@ FN bool pair_counts(Dir o, Dir i) {
         LobeValue v = name##_value(&p, &w, a);                                                               \
         __VA_ARGS__;                                                                                         \
     }
+#define EACH_VALUE(name, Name, ...)                                                                          \
+    Name##Prepared p;                                                                                        \
+    name##_prepare(name##_of(m), &p);                                                                        \
+    EACH_PAIR(name, Name, __VA_ARGS__)
+
+/* Of a lobe with as many rounds as its count asks for (ROUNDS_OF), of which more than that add nothing: a loop for few,
+ * one for some, and one for all that may be, so that the compiler knows how many there are. */
+#define BY_COUNT(...)                                                                                        \
+    if (p.count <= 3.0f) {                                                                                   \
+        p.count = 3.0f;                                                                                      \
+        __VA_ARGS__                                                                                          \
+    } else if (p.count <= 5.0f) {                                                                            \
+        p.count = 5.0f;                                                                                      \
+        __VA_ARGS__                                                                                          \
+    } else {                                                                                                 \
+        __VA_ARGS__                                                                                          \
+    }
+#define EACH_COUNTED(name, Name, ...)                                                                        \
+    Name##Prepared p;                                                                                        \
+    name##_prepare(name##_of(m), &p);                                                                        \
+    BY_COUNT(EACH_PAIR(name, Name, __VA_ARGS__))
 
 /* One member of a lobe's value: f or pdf. */
-#define LOBE_LOOP(question, name, Name)                                                                      \
+#define LOBE_LOOP(question, name, Name, VALUES)                                                              \
     LOOP(name##_##question##_n, (const Lobe *m, size_t n, PAIRS, float *restrict question),                  \
          (m, n, PAIR_NAMES, question)) {                                                                     \
-        EACH_VALUE(name, Name, question[k] = counts ? v.question : 0.0f)                                     \
+        VALUES(name, Name, question[k] = counts ? v.question : 0.0f)                                         \
     }
 
 /* f and s of a lobe of two colours. */
-#define SHARES_LOOP(name, Name)                                                                              \
+#define SHARES_LOOP(name, Name, VALUES)                                                                      \
     LOOP(name##_shares_n, (const Lobe *m, size_t n, PAIRS, float *restrict f, float *restrict s),            \
          (m, n, PAIR_NAMES, f, s)) {                                                                         \
-        EACH_VALUE(name, Name, f[k] = counts ? v.f : 0.0f; s[k] = counts ? v.s : 0.0f)                       \
+        VALUES(name, Name, f[k] = counts ? v.f : 0.0f; s[k] = counts ? v.s : 0.0f)                           \
     }
 
 /* f of a tinted lobe in three channels, made of what has albedo c. */

@@ -3,34 +3,22 @@
  *
  *   E[s_x^2] = across^2 / 3,  E[s_y^2] = along^2 / 3
  *
- * are solved for the slopes by which yarns hide each other. The four numbers of woven are fitted: to the mean of what
- * points reflect of light that met one fibre, over pairs of directions, in which threads hide the ends of others,
- * crevices are dark and fibres rise. What is left is one factor for each system and each kind of light, which goes into
- * the colours. */
+ * are solved for the slopes by which yarns hide each other. The lobe is fitted (woven_fit.c) to the mean of what points
+ * reflect between pairs of directions, in which threads hide the ends of others, crevices are dark and fibres rise or
+ * lie loose. What is left is one factor for each system and each kind of light, which goes into the colours. */
 #include <math.h>
 #include <stdlib.h>
 
-#include <nlopt.h>
-
 #include "base/memory.h"
-#include "shading/lobes/woven.h"
-#include "shading/weave_light.h"
 #include "weave/weft_cloth.h"
+#include "weave/woven_fit.h"
 
 enum {
-    PIECE = 480,     /* threads of a piece of cloth, */
-    LOOKS = 24000,   /* places at which it is looked at, */
-    LIT_PAIRS = 144, /* of directions */
-    FITS_MOST = 2000,
+    PIECE = 480,   /* threads of a piece of cloth, */
+    LOOKS = 24000, /* places at which it is looked at */
     FAR_SIDE_MAX = 512,
 };
 _Static_assert(1 << (FAR_LEVELS_MOST - 1) == FAR_SIDE_MAX, "a level for each halving, and the first");
-
-/* The spacing of points from afar, in threads: fibres are told by their slopes alone. */
-static const float FAR_SPACING = 1.0f;
-
-/* The ends of the numbers of lobe woven; the crimp is a tangent. */
-static const float ROUNDNESS_MOST = 1.5f, CRIMP_MOST = 2.5f, FLOATS_LEAST = 0.4f, FLOATS_MOST = 16.0f;
 
 /* The points of one system that were seen. */
 typedef struct SystemSeen {
@@ -45,12 +33,10 @@ static double looked_at(int count) {
     return (double)(count * repeats);
 }
 
-/* Place k of evenly spread ones, which the root of 2 spreads across fibres. Martin Roberts, "The Unreasonable
- * Effectiveness of Quasirandom Sequences", 2018. */
-static WeavePoint look(const Weave *m, int k, float *x, float *y) {
+/* Place k of evenly spread ones. Martin Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018. */
+static void place(const Weave *m, int k, float *x, float *y) {
     *x = (float)(fmod(0.7548776662466927 * (k + 1), 1.0) * looked_at(m->warps));
     *y = (float)(fmod(0.5698402909980532 * (k + 1), 1.0) * looked_at(m->picks));
-    return weave_bound(m, *x, *y, FAR_SPACING, 2.0f * (float)fmod(1.4142135623730951 * (k + 1), 1.0) - 1.0f);
 }
 
 static int is_up(const Weave *m, float x, float y, int weft) {
@@ -63,7 +49,8 @@ static void see(Weave *m, SystemSeen seen[2]) {
     m->high = -HUGE_VALF;
     for (int k = 0; k < LOOKS; k++) {
         float x, y;
-        const WeavePoint p = look(m, k, &x, &y);
+        place(m, k, &x, &y);
+        const WeavePoint p = weave_bound(m, x, y, 0.0f, 0.0f);
         for (int t = 0; t < 2; t++) seen[t].crossings[is_up(m, x, y, t)]++;
         if (p.height <= WEAVE_NONE) continue;
         SystemSeen *of = &seen[p.weft];
@@ -198,69 +185,16 @@ static bool make_colors(WeftCloth *cloth, const SystemSeen seen[2]) {
     return true;
 }
 
-/* Directions within 80 degrees of the normal, evenly by their cosine. */
-static Dir direction_of(double mu, double turn) {
-    const double z = 0.17 + 0.83 * mu, r = (sqrt)(1.0 - z * z), phi = 2.0 * (double)PI * turn;
-    return dir((float)(r * (cos)(phi)), (float)(r * (sin)(phi)), (float)z);
-}
-
-/* Pairs of directions, and what one system reflects between them of light that met one fibre, and of all other, times
- * the cosine; and its mean colours, in parts of the cloth. */
-typedef struct Lit {
-    float o[3][LIT_PAIRS], i[3][LIT_PAIRS];
-    double once[LIT_PAIRS], again[LIT_PAIRS], once_color, again_color;
-} Lit;
-
-static void put_direction(float to[3][LIT_PAIRS], int k, Dir w) {
-    to[0][k] = w.x, to[1][k] = w.y, to[2][k] = w.z;
-}
-
-static void take_pairs(Lit *lit) {
-    for (int k = 0; k < LIT_PAIRS; k++) {
-        const double n = (double)k + 0.5;
-        put_direction(lit->o, k, direction_of(n / LIT_PAIRS, fmod(0.7548776662 * n, 1.0)));
-        put_direction(lit->i, k, direction_of(fmod(0.5698402910 * n, 1.0), fmod(0.3819660113 * n, 1.0)));
-        lit->once[k] = lit->again[k] = 0.0;
-    }
-    lit->once_color = lit->again_color = 0.0;
-}
-
-/* Light of both kinds between each pair, times the cosine. */
-typedef struct PairsLit {
-    float once[LIT_PAIRS], again[LIT_PAIRS];
-} PairsLit;
-
-/* A loop over the pairs for a lobe, of vectors. */
-#define PAIRS_LOOP(name, Name)                                                                               \
-    static void name##_pairs(const Name##Prepared *p, const Lit *lit, PairsLit *restrict out) {              \
-        for (int k = 0; k < LIT_PAIRS; k++) {                                                                \
-            const Dir o = {lit->o[0][k], lit->o[1][k], lit->o[2][k]};                                        \
-            const Dir i = {lit->i[0][k], lit->i[1][k], lit->i[2][k]};                                        \
-            Name##View w;                                                                                    \
-            name##_view(p, o, &w);                                                                           \
-            const LobeValue v = name##_value(p, &w, angles_between(o, i));                                   \
-            out->once[k] = v.f * i.z * (1.0f - v.s);                                                         \
-            out->again[k] = v.f * i.z * v.s;                                                                 \
-        }                                                                                                    \
-    }
 PAIRS_LOOP(yarn, Yarn)
-PAIRS_LOOP(woven, Woven)
 
-static void add_pairs(Lit *lit, const PairsLit *pairs, double once, double again) {
-    for (int k = 0; k < LIT_PAIRS; k++) {
-        lit->once[k] += (double)pairs->once[k] * once;
-        lit->again[k] += (double)pairs->again[k] * again;
-    }
-}
+/* What points of one system reflect: between pairs of directions, the mean over channels; and their mean colours, in parts of
+ * the cloth. */
+typedef struct SystemLit {
+    Lit lit;
+    double once[3], again[3];
+} SystemLit;
 
-/* The mean over channels of what a point reflects. */
-static void color_of_point(const Weave *m, WeavePoint p, double *once, double *again) {
-    *once = *again = 0.0;
-    for (int c = 0; c < 3; c++) {
-        *once += (double)weave_once(m, p, c) / 3.0;
-        *again += (double)weave_reflectance(m, p, c) / 3.0;
-    }
-}
+static double channel_mean(const double color[3]) { return (color[0] + color[1] + color[2]) / 3.0; }
 
 /* Adds a point to those that stand for its system. Its colours are in parts of its thread's. */
 static void add_facet(WeftCloth *cloth, WeavePoint p, const Yarn *yarn, double once, double again) {
@@ -328,129 +262,67 @@ static void finish_facets(ClothFacet *facets, int *count) {
     if (*count == 0) *count = 1; /* of a system that is never seen, black */
 }
 
-static void light_points(WeftCloth *cloth, Lit near[2]) {
+/* Adds what a point reflects of a part of the light. */
+static void light_point(SystemLit *near, const Weave *m, WeavePoint p, const Yarn *yarn, double part,
+                        double *once, double *again) {
+    double first[3], second[3];
+    YarnPrepared prepared;
+    PairsLit pairs;
+    for (int c = 0; c < 3; c++) {
+        first[c] = (double)weave_once(m, p, c), second[c] = (double)weave_reflectance(m, p, c);
+        near->once[c] += part * first[c], near->again[c] += part * second[c];
+    }
+    *once = channel_mean(first), *again = channel_mean(second);
+    yarn_prepare(*yarn, &prepared);
+    yarn_pairs(&prepared, &near->lit, &pairs);
+    lit_add(&near->lit, &pairs, part * *once, part * *again);
+}
+
+static void light_points(WeftCloth *cloth, SystemLit near[2]) {
     const Weave *m = &cloth->weave;
-    const double part = 1.0 / LOOKS;
     for (int at = 0; at < LOOKS; at++) {
         float x, y;
         double once, again;
-        YarnPrepared p;
-        PairsLit pairs;
-        const WeavePoint point = look(m, at, &x, &y);
+        place(m, at, &x, &y);
+        const WeavePoint point = weave_point(m, x, y, 0.0f, 0.0f);
         if (point.height <= WEAVE_NONE) continue;
         const Yarn yarn = weave_yarn(m, point);
-        yarn_prepare(yarn, &p);
-        color_of_point(m, point, &once, &again);
-        yarn_pairs(&p, &near[0], &pairs);
-        add_pairs(&near[point.weft], &pairs, part * once, part * again);
-        near[point.weft].once_color += part * once;
-        near[point.weft].again_color += part * again;
+        light_point(&near[point.weft], m, point, &yarn, 1.0 / LOOKS, &once, &again);
         add_facet(cloth, point, &yarn, once, again);
     }
     for (int t = 0; t < 2; t++) finish_facets(cloth->facets[t], &cloth->facet_count[t]);
 }
 
-static void light_lobe(const Woven *m, Lit *far) {
-    WovenPrepared p;
-    PairsLit pairs;
-    woven_prepare(*m, &p);
-    woven_pairs(&p, far, &pairs);
-    for (int k = 0; k < LIT_PAIRS; k++) far->once[k] = far->again[k] = 0.0;
-    add_pairs(far, &pairs, 1.0, 1.0);
-}
-
-static double sum_of(const double values[LIT_PAIRS]) {
-    double sum = 0.0;
-    for (int k = 0; k < LIT_PAIRS; k++) sum += values[k];
-    return sum;
-}
-
-typedef struct FarFit {
-    Weave *weave;
-    bool weft;
-    const Lit *near;
-    Lit lobe;
-} FarFit;
-
-/* Sum |s lobe - near| / sqrt(near) over the pairs, near with a tenth of what was met again, s the factor that makes both
- * alike on the mean: between the worst of bright pairs and the worst of all. */
-static double fit_error(unsigned n, const double *x, double *gradient, void *user) {
-    FarFit *fit = user;
-    WeaveFar *far = fit->weft ? &fit->weave->weft_far : &fit->weave->warp_far;
-    (void)n, (void)gradient;
-    far->alpha = (float)x[0], far->crimp = (float)x[1], far->roundness = (float)x[2],
-    far->floats = (float)x[3];
-    const Woven woven = weave_woven(fit->weave, fit->weft);
-    light_lobe(&woven, &fit->lobe);
-    const double s = sum_of(fit->near->once) / fmax(sum_of(fit->lobe.once), 1e-30);
-    double error = 0.0;
-    for (int k = 0; k < LIT_PAIRS; k++)
-        error += fabs(s * fit->lobe.once[k] - fit->near->once[k]) /
-                 (sqrt)(fit->near->once[k] + 0.1 * fit->near->again[k] + 1e-9);
-    return error;
-}
-
-/* Fits the lobe of one system: Thomas Harvey Rowan, "Functional Stability Analysis of Numerical Algorithms", 1990, as
- * NLopt has it. Where memory is short the lobe stays that of the moments. */
-static void fit_lobe(FarFit *fit) {
-    WeaveFar *far = fit->weft ? &fit->weave->weft_far : &fit->weave->warp_far;
-    const WeaveFar moments = *far;
-    const double low[4] = {0.05, 0.0, 0.0, (double)FLOATS_LEAST},
-                 high[4] = {1.0, (double)CRIMP_MOST, (double)ROUNDNESS_MOST, (double)FLOATS_MOST};
-    double x[4] = {(double)far->alpha, (double)far->crimp, (double)far->roundness, (double)far->floats},
-           error;
-    for (int k = 0; k < 4; k++) x[k] = fmin(fmax(x[k], low[k]), high[k]);
-    nlopt_opt method = nlopt_create(NLOPT_LN_SBPLX, 4);
-    const bool made = method && nlopt_set_min_objective(method, fit_error, fit) > 0 &&
-                      nlopt_set_lower_bounds(method, low) > 0 && nlopt_set_upper_bounds(method, high) > 0 &&
-                      nlopt_set_maxeval(method, FITS_MOST) > 0 && nlopt_set_xtol_rel(method, 1e-4) > 0 &&
-                      nlopt_set_xtol_abs1(method, 1e-5) > 0 && /* of numbers that are 0 */
-                      nlopt_optimize(method, x, &error) > 0;
-    if (made)
-        (void)fit_error(4, x, NULL, fit);
-    else
-        *far = moments;
-    nlopt_destroy(method);
-}
-
 static float ratio(double near, double far) { return near > 0.0 && far > 0.0 ? (float)(near / far) : 0.0f; }
 
-/* The mean over channels of the whole repeat. */
-static double mean_color(const ClothFar *far, int layer) {
+/* Makes the mean of a layer over the repeat that colour. */
+static void scale_layer(ClothFar *far, int layer, const double color[3]) {
     int w, h;
-    const float *c = cloth_far_level(far, far->levels - 1, &w, &h) + 4 * layer;
-    return (double)(c[0] + c[1] + c[2]) / 3.0;
-}
-
-static void scale_layer(ClothFar *far, int layer, float factor) {
+    float factor[3];
+    const float *mean = cloth_far_level(far, far->levels - 1, &w, &h) + 4 * layer;
+    for (int c = 0; c < 3; c++) factor[c] = ratio(color[c], (double)mean[c]);
     for (int level = 0; level < far->levels; level++) {
-        int w, h;
         (void)cloth_far_level(far, level, &w, &h);
         float *texels = far->texels + far->starts[level] + 4 * (size_t)layer * (size_t)w * (size_t)h;
         for (int k = 0; k < w * h; k++)
-            for (int c = 0; c < 3; c++) texels[4 * k + c] *= factor;
+            for (int c = 0; c < 3; c++) texels[4 * k + c] *= factor[c];
     }
 }
 
 /* Scales the colours of a system to those of its points, and fits its lobe with factors on them. */
-static void fit_system(WeftCloth *cloth, bool weft, const Lit *near) {
-    FarFit fit = {.weave = &cloth->weave, .weft = weft, .near = near, .lobe = *near};
+static void fit_system(WeftCloth *cloth, bool weft, const SystemLit *near) {
     WeaveFar *far = weft ? &cloth->weave.weft_far : &cloth->weave.warp_far;
-    const int once = weft ? FAR_WEFT_ONCE : FAR_WARP_ONCE, again = once + 1;
-    scale_layer(&cloth->far, once, ratio(near->once_color, mean_color(&cloth->far, once)));
-    scale_layer(&cloth->far, again, ratio(near->again_color, mean_color(&cloth->far, again)));
-    if (sum_of(near->once) > 0.0) fit_lobe(&fit);
-    const Woven woven = weave_woven(&cloth->weave, weft);
-    const double share = (double)woven.share;
-    light_lobe(&woven, &fit.lobe);
-    far->once = ratio(sum_of(near->once) * share, sum_of(fit.lobe.once) * near->once_color);
-    far->again = ratio(sum_of(near->again) * share, sum_of(fit.lobe.again) * near->again_color);
+    scale_layer(&cloth->far, weft ? FAR_WEFT_ONCE : FAR_WARP_ONCE, near->once);
+    scale_layer(&cloth->far, weft ? FAR_WEFT_AGAIN : FAR_WARP_AGAIN, near->again);
+    const Lit lobe = woven_fit(&cloth->weave, weft, &near->lit, far, &cloth->far.woven[weft]);
+    const double share = (double)cloth->far.woven[weft].share;
+    far->once = ratio(lit_sum(near->lit.once) * share, lit_sum(lobe.once) * channel_mean(near->once));
+    far->again = ratio(lit_sum(near->lit.again) * share, lit_sum(lobe.again) * channel_mean(near->again));
 }
 
 static void fit_far(WeftCloth *cloth) {
-    Lit near[2];
-    take_pairs(&near[0]);
-    near[1] = near[0];
+    SystemLit near[2] = {{.once = {0.0}}};
+    for (int t = 0; t < 2; t++) lit_start(&near[t].lit);
     light_points(cloth, near);
     for (int t = 0; t < 2; t++) fit_system(cloth, t == 1, &near[t]);
 }

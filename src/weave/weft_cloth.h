@@ -2,6 +2,7 @@
 #ifndef WEFT_WEAVE_WEFT_CLOTH_H
 #define WEFT_WEAVE_WEFT_CLOTH_H
 
+#include "shading/lobes/woven.h"
 #include "shading/weave_point.h"
 #include "weft/weave.h"
 
@@ -14,6 +15,7 @@ typedef struct ClothFar {
     int width, height, levels;
     int starts[FAR_LEVELS_MOST]; /* of each level among the numbers of all */
     float *texels;
+    WovenPrepared woven[2]; /* what reflects as either system does: weave_woven, and what its formula does not know */
 } ClothFar;
 
 /* Points of one system, evenly spread over a piece of the cloth, any of which may stand for all: slopes and azimuth as

@@ -13,6 +13,7 @@
 
 #include "base/pi.h"
 #include "measure/drawn.h"
+#include "scene/cloth_base.h"
 #include "scene/scene.h"
 #include "shading/cases.h"
 #include "shading/registry.h"
@@ -94,16 +95,27 @@ typedef struct Found {
     double foretold, number; /* foretold, and the most of numbers_off */
 } Found;
 
-/* Fits what a cloth reflects, to numbers with that noise. */
+/* Lobe woven of one system as numbers alone say it, without what is fitted to its parts (weave/cloth_far.c). */
+static WeftLobe lobe_alone(const WeftCloth *cloth, bool weft) {
+    const WeaveBase base = cloth_base_far(cloth, weft);
+    WeftLobe lobe;
+    assert_int_equal(weft_lobe_init("woven", &lobe, NULL), WEFT_OK);
+    memcpy(lobe.params, base.lobe.params, sizeof base.lobe.params);
+    memcpy(lobe.f0, (float[3]){base.once.r, base.once.g, base.once.b}, sizeof lobe.f0);
+    memcpy(lobe.f90, (float[3]){base.again.r, base.again.g, base.again.b}, sizeof lobe.f90);
+    return lobe;
+}
+
+/* Fits what a cloth's two lobes reflect, to numbers with that noise. */
 static Found find_again(const char *name, const WeftCloth *cloth, float noise, int seed) {
-    WeftMaterial bare;
     WeftReflection *reflection;
     WeftData *data;
     WeftFit *fit = malloc(sizeof *fit);
     WeftError error;
     assert_non_null(fit);
-    weft_material_default(&bare);
-    assert_int_equal(weft_reflection_create_woven(&bare, cloth, &reflection, &error), WEFT_OK);
+    const WeftFitted systems = {.base = lobe_alone(cloth, true), .lobe = lobe_alone(cloth, false)};
+    assert_true(weft_fitted_is_weave(&systems));
+    assert_int_equal(weft_fitted_reflection(&systems, &reflection, &error), WEFT_OK);
     reflect(reflection);
     measure(noise, seed);
     assert_int_equal(weft_data_create(FITTED, (const float(*)[3])wo, (const float(*)[3])wi,

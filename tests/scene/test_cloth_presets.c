@@ -67,10 +67,9 @@ static Dir any_above(uint64_t *stream) {
 }
 
 static void check_afar(const char *name, const WeftCloth *cloth) {
-    WovenPrepared p[2];
+    const WovenPrepared *p = cloth->far.woven;
     uint64_t stream = stream_start(3, 29);
     double apart = 0.0, most = 0.0;
-    for (int t = 0; t < 2; t++) woven_prepare(weave_woven(&cloth->weave, t == 1), &p[t]);
     for (int k = 0; k < 1000; k++) {
         const Dir o = any_above(&stream), i = any_above(&stream);
         apart = fmax(apart, fabs((double)white_of(p, o, i) - (double)white_of(p, i, o)));
@@ -308,10 +307,8 @@ static void check_variance_afar(const char *name, const WeftCloth *cloth) {
     Random random = {31};
     print_message("%-24s", name);
     for (int t = 0; t < 2; t++, afar_checked++) {
-        WovenPrepared p;
-        woven_prepare(weave_woven(&cloth->weave, t == 1), &p);
         for (int d = 0; d < AFAR; d++) {
-            const double variance = variance_afar(&p, afar_degrees[d], &random);
+            const double variance = variance_afar(&cloth->far.woven[t], afar_degrees[d], &random);
             print_message(" %.3f", variance);
             assert_true(variance < most[d]);
             afar_mean[d] += variance, afar_worst[d] = fmax(afar_worst[d], variance);

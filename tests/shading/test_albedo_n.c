@@ -135,7 +135,7 @@ static const double cosines[] = {1.0, 0.8, 0.5, 0.2, 0.05, 0.02, 0.004};
 static const float spread[] = {0.01f, 0.02f, 0.0625f, 0.15f, 0.25f, 0.5f, 1.0f};
 enum { COSINES = sizeof cosines / sizeof cosines[0], SPREAD = sizeof spread / sizeof spread[0] };
 
-/* Returns how far E may be off. Highlights of silk and woven at a small alpha are one ridge, or thirteen, so narrow that the
+/* Returns how far E may be off. Highlights of silk and woven at a small alpha are one ridge, or up to 17, so narrow that the
  * rings of a rule that cross them may agree with those of the rule before by chance. */
 static double error_most(const WeftLobe *lobe) {
     const int alpha = weft_lobe_param_find(lobe->lobe, "alpha");

@@ -47,7 +47,7 @@ static void read_walked(void) {
 /* Light of one kind on a cloth from afar: the lobes of both systems, and their colours for light that met one fibre and
  * for all other. */
 typedef struct Lit {
-    Woven lobes[2];
+    WovenPrepared lobes[2];
     double once[2], again[2];
 } Lit;
 
@@ -61,16 +61,15 @@ static void light_bins(const Lit *lit, double theta, double up[BINS]) {
     const Dir o = direction((cos)(theta * RADIANS), yarn_azimuth * RADIANS);
     for (int k = 0; k < BINS; k++) up[k] = 0.0;
     for (int t = 0; t < 2; t++) {
-        WovenPrepared p;
+        const WovenPrepared *p = &lit->lobes[t];
         WovenView w;
-        woven_prepare(lit->lobes[t], &p);
-        woven_view(&p, o, &w);
+        woven_view(p, o, &w);
         for (int k = 0; k < BINS * FINE * FINE; k++) {
             const int bin = k / (FINE * FINE), row = bin / AZIMUTHS, column = bin % AZIMUTHS;
             const int fine = k % (FINE * FINE), down = fine / FINE;
             const double z = (row + (down + 0.5) / FINE) / COSINES;
             const double phi = 2.0 * PI_DOUBLE * (column + (fine % FINE + 0.5) / FINE) / AZIMUTHS;
-            const LobeValue v = woven_value(&p, &w, angles_between(o, direction(z, phi)));
+            const LobeValue v = woven_value(p, &w, angles_between(o, direction(z, phi)));
             const double f = (double)v.f, s = (double)v.s, solid = 2.0 * PI_DOUBLE / (BINS * FINE * FINE);
             up[bin] += f * z * solid * ((1.0 - s) * lit->once[t] + s * lit->again[t]);
         }
@@ -104,7 +103,7 @@ static double layer_mean(const WeftCloth *cloth, int layer) {
 static Lit lit_cloth(const WeftCloth *cloth, int kind) {
     Lit lit;
     for (int t = 0; t < 2; t++) {
-        lit.lobes[t] = weave_woven(&cloth->weave, t == 1);
+        lit.lobes[t] = cloth->far.woven[t];
         const double share = (double)lit.lobes[t].share;
         lit.once[t] = layer_mean(cloth, t ? FAR_WEFT_ONCE : FAR_WARP_ONCE) / share;
         lit.again[t] = kind ? layer_mean(cloth, t ? FAR_WEFT_AGAIN : FAR_WARP_AGAIN) / share : 0.0;

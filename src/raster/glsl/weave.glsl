@@ -63,15 +63,17 @@ WeaveBase woven_far(Weave c, bool weft, vec2 place, vec2 across, vec2 up, WeaveF
     return b;
 }
 
-/* Lobe woven of a system is the same at all pixels, and found once by who draws: cloth_numbers. Both systems are read, since
+/* Lobe woven of a system is the same at all pixels, and found when the cloth is made (weave/cloth_far.c). Both systems are read, since
  * an index that a loop counts costs a software driver a load for each pixel. */
-#define ONE_NUMBER(name)   +1
-#define FOUR_NUMBERS(name) +4
-const int CLOTH_AFAR = 68, CLOTH_AFAR_EACH = 0 WOVEN_NUMBERS(ONE_NUMBER) WOVEN_EACH_BIN(FOUR_NUMBERS);
+#define ONE_NUMBER(name)  +1
+#define SIX_NUMBERS(name) +6
+const int CLOTH_AFAR = 68, CLOTH_AFAR_EACH = 0 WOVEN_NUMBERS(ONE_NUMBER) WOVEN_EACH_BIN(SIX_NUMBERS);
 #define TAKE_AFAR(name)                                                                                      \
     taken.name = weft ? weave_number(k + CLOTH_AFAR_EACH) : weave_number(k);                                 \
     k++;
-#define TAKE_BIN(name) TAKE_AFAR(name.slope) TAKE_AFAR(name.c) TAKE_AFAR(name.e) TAKE_AFAR(name.gain)
+#define TAKE_BIN(name)                                                                                       \
+    TAKE_AFAR(name.slope) TAKE_AFAR(name.middle) TAKE_AFAR(name.wide)                                        \
+    TAKE_AFAR(name.c) TAKE_AFAR(name.e) TAKE_AFAR(name.gain)
 WovenPrepared woven_afar(bool weft) {
     int k = CLOTH_AFAR;
     WovenPrepared taken;

@@ -10,7 +10,7 @@
  * yarns as Piti Irawan, Steve Marschner, "Specular Reflection from Woven Cloth", ACM TOG 31(1), 2012, have
  * them. A yarn that goes over one is an arc; one that floats is level for a while: floats is the power of its
  * slope. Fibres run along the yarn, or turn about it by the twist.
- *   The mean is a sum over 5 to 13 s, the more the narrower D is, and over 3 r of those that face both directions; one
+ *   The mean is a sum over 5 to 17 s, the more the narrower D is, and over 3 r of those that face both directions; one
  * s stands for those up to the next by its mean slope and by a D as much wider as slopes vary. Errors: docs/weave.md.
  * The weight is our own: of threads in woven cloth the neighbours hide more of the sides than of the middle.
  *   color: the albedo A of the fibres. The first colour dims light that met one of them, the second, rho(A),
@@ -47,29 +47,32 @@ STRUCT(Woven){WOVEN_PARAMS(FIELD)};
 /* A part of the yarn: s between two bounds, or between their opposites. The first lies on both sides of 0 and is level: its
  * slope and its c are 0 and 1, and stand here so that all are alike. */
 STRUCT(WovenBin) {
-    float slope; /* the mean s_y */
-    float c;     /* 1 / sqrt(1 + slope^2) */
-    float e;     /* of the wider D, as yarn_met_once has it */
-    float gain;  /* of its weight in the mean over s, and of the wider D; 0: no part */
+    float slope;  /* the mean s_y */
+    float middle; /* s_x lies as far from it as wide; where the slope is the opposite, from its opposite */
+    float wide;
+    float c;    /* 1 / sqrt(1 + slope^2) */
+    float e;    /* of the wider D, as yarn_met_once has it */
+    float gain; /* of its weight in the mean over s, and of the wider D; 0: no part */
 };
 
-/* roundness: at least 0.01, so that edge fits a half float. edge: of the weight 1 + edge s_x^2. count: of bins. part: the
- * share; 1 where colours hold it (raster/glsl/weave.glsl). crimp, cross_crimp: slopes as yarn_area takes them. again: of
- * many, beside what directions add. */
+/* roundness, crimp, cross_crimp: slopes as yarn_area takes them; the first at least 0.01, so that edge fits a half float.
+ * edge: of the weight 1 + edge s_x^2. count: of bins. part: the share; 1 where colours hold it (raster/glsl/weave.glsl).
+ * again: of many, beside what directions add. Of a cloth all of these and the bins are fitted (weave/cloth_far.c). */
 #define WOVEN_NUMBERS(N)                                                                                     \
     N(alpha)                                                                                                 \
     N(share)                                                                                                 \
     N(roundness)                                                                                             \
     N(edge) N(count) N(part) N(crimp) N(cross_crimp) N(cos_a) N(sin_a) N(cos_t) N(sin_t) N(again)
-#define WOVEN_EACH_BIN(N)  N(b0) N(b1) N(b2) N(b3) N(b4) N(b5) N(b6)
-#define WOVEN_NUMBER(name) float name;
-#define WOVEN_BIN(name)    WovenBin name;
+#define WOVEN_BIN_NUMBERS(N) N(slope) N(middle) N(wide) N(c) N(e) N(gain)
+#define WOVEN_EACH_BIN(N)    N(b0) N(b1) N(b2) N(b3) N(b4) N(b5) N(b6) N(b7) N(b8)
+#define WOVEN_NUMBER(name)   float name;
+#define WOVEN_BIN(name)      WovenBin name;
 STRUCT(WovenPrepared){WOVEN_NUMBERS(WOVEN_NUMBER) WOVEN_EACH_BIN(WOVEN_BIN)};
 
-#define WOVEN_BINS 7
+#define WOVEN_BINS 9
 
-/* There are 2 n - 1 parts, up to thirteen: so many that from one to the next D moves by no more than 0.7 of its width at
- * the end of the yarn, unless that asks for more than thirteen. About the level part it moves farther: in a plain weave up
+/* There are 2 n - 1 parts, up to 17: so many that from one to the next D moves by no more than 0.7 of its width at
+ * the end of the yarn, unless that asks for more than 17. About the level part it moves farther: in a plain weave up
  * to 1.2 times at a crimp of 0.8 and 1.9 at 1.2, and most with floats below 1. With fewer than five the sum would miss what
  * turns away. n need not be whole: the last bin is as much narrower, so that f does not jump, which would stop a fit. */
 FN float woven_count(Woven m) {
@@ -83,10 +86,13 @@ FN float woven_count(Woven m) {
  * away one by one, and it never does. 1.5 and 1.1 are our own fit to means over points. WOVEN_ACROSS: a bin and its
  * opposite are half of the mean each, 1 / (6 g^2) is the outer weight of woven_row, and 0.9 is the mean of 1 - 0.3 r^2. */
 #define WOVEN_ACROSS (0.5f / (6.0f * 0.56f * 0.9f))
+FN float woven_place(float n, float k) { /* x_k */
+    float first = 1.1f / (2.0f * n - 1.0f), next = (1.0f - first) / (n - 1.0f);
+    return k > 0.0f ? min(first + (k - 1.0f) * next, 1.0f) : 0.0f;
+}
 FN WovenBin woven_bin(Woven m, float tan_crimp, float n, float k) {
     float f = m.floats, e = 1.5f / (f + 0.5f), a2 = max(m.alpha * m.alpha, 1e-6f);
-    float first = 1.1f / (2.0f * n - 1.0f), next = (1.0f - first) / (n - 1.0f);
-    float x0 = k > 0.0f ? first + (k - 1.0f) * next : 0.0f, x1 = min(first + k * next, 1.0f);
+    float x0 = woven_place(n, k), x1 = woven_place(n, k + 1.0f);
     float s0 = pow(max(x0, 1e-3f), e), s1 = pow(x1, e);
     float width = max(s1 - (x0 > 0.0f ? s0 : 0.0f), 1e-6f);
     float mean = x0 > 0.0f ? max(pow(s1, f + 1.0f) - pow(s0, f + 1.0f), 0.0f) / ((f + 1.0f) * width) : 0.0f;
@@ -98,7 +104,9 @@ FN WovenBin woven_bin(Woven m, float tan_crimp, float n, float k) {
     a2 = a2 + (1.0f - a2) * spread * spread * max(square - mean * mean, 0.0f);
     b.e = (1.0f - a2) / a2;
     b.c = 1.0f / sqrt(1.0f + b.slope * b.slope);
-    b.gain = k < n ? WOVEN_ACROSS * width / (4.0f * PI * a2 * max(m.roundness, 1e-2f)) : 0.0f;
+    b.middle = 0.0f;
+    b.wide = max(m.roundness, 1e-2f);
+    b.gain = k < n ? WOVEN_ACROSS * width / (4.0f * PI * a2 * b.wide) : 0.0f;
     return b;
 }
 
@@ -124,6 +132,8 @@ FN void woven_prepare(Woven m, WovenPrepared *p) {
     p->b4 = woven_bin(m, tan_crimp, n, 4.0f);
     p->b5 = woven_bin(m, tan_crimp, n, 5.0f);
     p->b6 = woven_bin(m, tan_crimp, n, 6.0f);
+    p->b7 = woven_bin(m, tan_crimp, n, 7.0f);
+    p->b8 = woven_bin(m, tan_crimp, n, 8.0f);
 }
 FN float woven_second(Woven m, float f0, float f90) { return yarn_reflectance(f0); }
 
@@ -177,44 +187,55 @@ FN float woven_flat(float q) {
 /* yarn_met_once of one facet, by its part of the yarn. P is not below 0 where the facet counts, and abs keeps it so where
  * reach is 0. t . (wo + wi) is summed term by term, so that vectors and single calls round alike where the two nearly
  * cancel, as light does that goes straight on along the cloth. */
-FN float woven_facet(const WovenPrepared *p, float c, float e, float x, const WovenLine *o,
-                     const WovenLine *i, float q) {
-    float x2 = x * x, n = c * woven_flat(c * c * x2);
+FN float woven_facet(const WovenPrepared *p, WovenBin b, float x, const WovenLine *o, const WovenLine *i,
+                     float q) {
+    float x2 = x * x, n = b.c * woven_flat(b.c * b.c * x2);
     float p_o = abs(o->p + x * o->x), p_i = abs(i->p + x * i->x);
     float m = (o->along + i->along) + n * (x * (o->turn + i->turn) - (o->side + i->side));
     float t_o = o->along + n * (x * o->turn - o->side);
-    return (1.0f + p->edge * x2) * yarn_met_once(e, q, m, p_o, p_i, t_o, m - t_o);
+    return (1.0f + p->edge * x2) * yarn_met_once(b.e, q, m, p_o, p_i, t_o, m - t_o);
 }
 
 /* The mean over s_x, by three nodes on the part of it that faces both directions: beyond, the sum would meet an edge.
  * The outer ones, at g of the way to its ends, have the weight 1 / (6 g^2), so that the rule is right for cubes, and the
  * middle one 6 g^2 - 2 times that. g^2 is 0.56: Gauss's 0.6 would be right up to fifth powers, but errs by half as much
  * again and more where fibres turn by 30 degrees (own fit). */
-FN float woven_row(const WovenPrepared *p, float slope, float c, float e, const WovenView *o,
-                   const WovenView *i, float q) {
-    WovenLine a = woven_line(p, slope, c, o), b = woven_line(p, slope, c, i);
-    float r = p->roundness;
-    float low = clamp(max(o->over_x > 0.0f ? a.end : -r, i->over_x > 0.0f ? b.end : -r), -r, r);
-    float high = clamp(min(o->over_x > 0.0f ? r : a.end, i->over_x > 0.0f ? r : b.end), -r, r);
+FN float woven_row(const WovenPrepared *p, WovenBin b, const WovenView *o, const WovenView *i, float q) {
+    WovenLine l = woven_line(p, b.slope, b.c, o), n = woven_line(p, b.slope, b.c, i);
+    float from = b.middle - b.wide, to = b.middle + b.wide;
+    float low = clamp(max(o->over_x > 0.0f ? l.end : from, i->over_x > 0.0f ? n.end : from), from, to);
+    float high = clamp(min(o->over_x > 0.0f ? to : l.end, i->over_x > 0.0f ? to : n.end), from, to);
     float reach = 0.5f * max(high - low, 0.0f), middle = 0.5f * (high + low), g = 0.7483314774f * reach;
-    float sides = woven_facet(p, c, e, middle - g, &a, &b, q) + woven_facet(p, c, e, middle + g, &a, &b, q);
-    return reach * (sides + 1.36f * woven_facet(p, c, e, middle, &a, &b, q));
+    float sides = woven_facet(p, b, middle - g, &l, &n, q) + woven_facet(p, b, middle + g, &l, &n, q);
+    return reach * (sides + 1.36f * woven_facet(p, b, middle, &l, &n, q));
 }
 
-FN float woven_pick(int k, float a, float b, float c, float d, float e, float f) {
-    return k < 3 ? (k < 1 ? a : k < 2 ? b : c) : (k < 4 ? d : k < 5 ? e : f);
+FN float woven_pick(int k, float a, float b, float c, float d, float e, float f, float g, float h) {
+    float low = k < 2 ? (k < 1 ? a : b) : (k < 3 ? c : d), high = k < 6 ? (k < 5 ? e : f) : (k < 7 ? g : h);
+    return k < 4 ? low : high;
+}
+#define WOVEN_PICK(of)                                                                                       \
+    b.of = woven_pick(k, p->b1.of, p->b2.of, p->b3.of, p->b4.of, p->b5.of, p->b6.of, p->b7.of, p->b8.of);
+FN WovenBin woven_part(const WovenPrepared *p, int k) {
+    WovenBin b;
+    WOVEN_BIN_NUMBERS(WOVEN_PICK)
+    return b;
+}
+FN WovenBin woven_opposite(WovenBin b) {
+    b.slope = -b.slope;
+    b.middle = -b.middle;
+    return b;
 }
 
 /* The mean of single: of the level part, and of the others by twos. */
 FN float woven_once(const WovenPrepared *p, const WovenView *o, const WovenView *i, float q) {
-    float sum = 2.0f * p->b0.gain * woven_row(p, 0.0f, 1.0f, p->b0.e, o, i, q);
+    WovenBin level = p->b0;
+    level.slope = 0.0f;
+    level.c = 1.0f;
+    float sum = 2.0f * level.gain * woven_row(p, level, o, i, q);
     ROUNDS_OF(k, to_int(p->count) - 1, WOVEN_BINS - 1) {
-        float slope =
-            woven_pick(k, p->b1.slope, p->b2.slope, p->b3.slope, p->b4.slope, p->b5.slope, p->b6.slope);
-        float c = woven_pick(k, p->b1.c, p->b2.c, p->b3.c, p->b4.c, p->b5.c, p->b6.c);
-        float e = woven_pick(k, p->b1.e, p->b2.e, p->b3.e, p->b4.e, p->b5.e, p->b6.e);
-        float gain = woven_pick(k, p->b1.gain, p->b2.gain, p->b3.gain, p->b4.gain, p->b5.gain, p->b6.gain);
-        sum = sum + gain * (woven_row(p, slope, c, e, o, i, q) + woven_row(p, -slope, c, e, o, i, q));
+        WovenBin b = woven_part(p, k);
+        sum = sum + b.gain * (woven_row(p, b, o, i, q) + woven_row(p, woven_opposite(b), o, i, q));
     }
     return sum * o->over_seen * i->over_seen;
 }

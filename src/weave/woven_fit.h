@@ -1,0 +1,79 @@
+/* woven_fit.h - lobe woven of one system of a cloth, fitted to what points of its threads reflect */
+#ifndef WEFT_WEAVE_WOVEN_FIT_H
+#define WEFT_WEAVE_WOVEN_FIT_H
+
+#include <math.h>
+
+#include "shading/weave_light.h"
+
+/* The ends of the numbers of lobe woven; the crimp is a tangent. */
+#define ROUNDNESS_MOST 1.5f
+#define CRIMP_MOST     2.5f
+#define FLOATS_LEAST   0.4f
+#define FLOATS_MOST    16.0f
+
+enum { LIT_PAIRS = 144 };
+
+/* Directions within 80 degrees of the normal, evenly by their cosine. */
+static inline Dir lit_direction(double mu, double turn) {
+    const double z = 0.17 + 0.83 * mu, r = (sqrt)(1.0 - z * z), phi = 2.0 * (double)PI * turn;
+    return dir((float)(r * (cos)(phi)), (float)(r * (sin)(phi)), (float)z);
+}
+
+/* Pairs of directions, and what is reflected between them of light that met one fibre, and of all other, times the cosine. */
+typedef struct Lit {
+    float o[3][LIT_PAIRS], i[3][LIT_PAIRS];
+    double once[LIT_PAIRS], again[LIT_PAIRS];
+} Lit;
+
+static inline void lit_put(float to[3][LIT_PAIRS], int k, Dir w) {
+    to[0][k] = w.x, to[1][k] = w.y, to[2][k] = w.z;
+}
+
+/* Takes the pairs, in the dark. */
+static inline void lit_start(Lit *lit) {
+    for (int k = 0; k < LIT_PAIRS; k++) {
+        const double n = (double)k + 0.5;
+        lit_put(lit->o, k, lit_direction(n / LIT_PAIRS, fmod(0.7548776662 * n, 1.0)));
+        lit_put(lit->i, k, lit_direction(fmod(0.5698402910 * n, 1.0), fmod(0.3819660113 * n, 1.0)));
+        lit->once[k] = lit->again[k] = 0.0;
+    }
+}
+
+/* Light of both kinds between each pair, times the cosine. */
+typedef struct PairsLit {
+    float once[LIT_PAIRS], again[LIT_PAIRS];
+} PairsLit;
+
+/* A loop over the pairs for a lobe, of vectors. */
+#define PAIRS_LOOP(name, Name)                                                                               \
+    static void name##_pairs(const Name##Prepared *p, const Lit *lit, PairsLit *restrict out) {              \
+        for (int k = 0; k < LIT_PAIRS; k++) {                                                                \
+            const Dir o = {lit->o[0][k], lit->o[1][k], lit->o[2][k]};                                        \
+            const Dir i = {lit->i[0][k], lit->i[1][k], lit->i[2][k]};                                        \
+            Name##View w;                                                                                    \
+            name##_view(p, o, &w);                                                                           \
+            const LobeValue v = name##_value(p, &w, angles_between(o, i));                                   \
+            out->once[k] = v.f * i.z * (1.0f - v.s);                                                         \
+            out->again[k] = v.f * i.z * v.s;                                                                 \
+        }                                                                                                    \
+    }
+
+static inline void lit_add(Lit *lit, const PairsLit *pairs, double once, double again) {
+    for (int k = 0; k < LIT_PAIRS; k++) {
+        lit->once[k] += (double)pairs->once[k] * once;
+        lit->again[k] += (double)pairs->again[k] * again;
+    }
+}
+
+static inline double lit_sum(const double values[LIT_PAIRS]) {
+    double sum = 0.0;
+    for (int k = 0; k < LIT_PAIRS; k++) sum += values[k];
+    return sum;
+}
+
+/* Fits the lobe of one system to `near`: four numbers of far, which is that system's of m and is what moments say before, and
+ * what woven_fit.c says of its bins. Returns what the lobe reflects. Where memory is short it stays that of the moments. */
+Lit woven_fit(const Weave *m, bool weft, const Lit *near, WeaveFar *far, WovenPrepared *woven);
+
+#endif
