@@ -16,7 +16,7 @@ file(STRINGS src/shading/lobes.list WEFT_LOBE_IDS REGEX "^[a-z]")
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/src/shading/lobes.list)
 
 # Reads the file of a lobe: name, Name and NAME; params, types, and of each parameter ranges_PARAM; whether text, two,
-# tinted, tabled, second, strips, proxy, fitted, crease.
+# tinted, tabled, second, strips, proxy, fitted, crease, counted (of as many rounds as its numbers ask for, ROUNDS_OF).
 macro(weft_read_lobe id)
   string(REPLACE "-" "_" name ${id})
   string(TOUPPER ${name} NAME)
@@ -179,8 +179,10 @@ foreach(id ${WEFT_LOBE_IDS})
   string(FIND "${types}" "Term" composed) # of choices, which arrays.c makes apart
   if(composed EQUAL -1)
     set(values EACH_VALUE)
+    set(rounds ITS_ROUNDS)
     if(counted)
       set(values EACH_COUNTED)
+      set(rounds ALL_ROUNDS)
     endif()
     string(APPEND loops "LOBE_LOOP(f, ${name}, ${Name}, ${values})\nLOBE_LOOP(pdf, ${name}, ${Name}, EACH_VALUE)\n")
     if(is_TWO_COLORS)
@@ -190,7 +192,7 @@ foreach(id ${WEFT_LOBE_IDS})
     if(NOT second EQUAL -1)
       set(second_color ${name}_second)
     endif()
-    string(APPEND each_loops "EACH_LOOPS(${name}, ${Name}, ${NAME}, ${second_color})\n")
+    string(APPEND each_loops "EACH_LOOPS(${name}, ${Name}, ${NAME}, ${second_color}, ${rounds})\n")
   endif()
   weft_case(each_cases "${name}_each_n(e, n); break;")
   weft_case(drawn_each_cases "${name}_drawn_each_n(e, n); break;")

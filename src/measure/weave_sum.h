@@ -12,7 +12,7 @@
 typedef struct WeaveSum {
     int bases;            /* 1, the material's own, or 2 */
     WeaveBase threads[2]; /* of 2: warp and weft */
-    WovenPrepared woven[2];
+    WovenPrepared woven[2]; /* their lobes, prepared */
 } WeaveSum;
 
 /* The systems of a cloth; NULL: the material's own base. */

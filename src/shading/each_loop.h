@@ -49,18 +49,22 @@
     const Name all = name##_of(&e->lobe);                                                                    \
     NAME##_PARAMS(EACH_ARRAY)
 
-/* Prepares the lobe of an element and its view of o. */
-#define TAKE_VIEW(name, Name, NAME)                                                                          \
+/* Prepares the lobe of an element and its view of o. rounds: ALL_ROUNDS of a lobe with a count (BY_COUNT), which differs
+ * from element to element, or ITS_ROUNDS. */
+#define ALL_ROUNDS(p) p.count = 1e3f
+#define ITS_ROUNDS(p)
+#define TAKE_VIEW(name, Name, NAME, rounds)                                                                  \
     Name m = all;                                                                                            \
     NAME##_PARAMS(EACH_OWN);                                                                                 \
     Name##Prepared p;                                                                                        \
     name##_prepare(m, &p);                                                                                   \
+    rounds(p);                                                                                               \
     Name##View w;                                                                                            \
     name##_view(&p, o, &w)
 
 /* second: name_second, or EACH_F90. */
 #define EACH_F90(m, f0, f90) (f90)
-#define EACH_LOOPS(name, Name, NAME, second)                                                                 \
+#define EACH_LOOPS(name, Name, NAME, second, rounds)                                                         \
     FN float name##_each_color(Name m, LobeValue v, float f0, float f90) {                                   \
         if (NAME##_TRAITS & TRAIT_TINTED) return tint_color(v.tint, f0);                                     \
         return NAME##_TRAITS & TRAIT_TWO_COLORS ? mix(f0, second(m, f0, f90), v.s) : f0;                     \
@@ -72,7 +76,7 @@
         TAKE_OWN(name, Name, NAME)                                                                           \
         EACH(k, n) {                                                                                         \
             TAKE_PAIR(o, i, counts);                                                                         \
-            TAKE_VIEW(name, Name, NAME);                                                                     \
+            TAKE_VIEW(name, Name, NAME, rounds);                                                             \
             LobeValue v = name##_value(&p, &w, angles_between(o, i));                                        \
             float f = counts ? v.f : 0.0f;                                                                   \
             r[k] = f * name##_each_color(m, v, r0[k], r90[k]);                                               \
@@ -86,7 +90,7 @@
         TAKE_OWN(name, Name, NAME)                                                                           \
         EACH(k, n) {                                                                                         \
             TAKE_ONE(o, counts);                                                                             \
-            TAKE_VIEW(name, Name, NAME);                                                                     \
+            TAKE_VIEW(name, Name, NAME, rounds);                                                             \
             Dir i = name##_sample(&p, &w, o, us[k], vs[k]);                                                  \
             PUT_DRAWN(i, counts);                                                                            \
         }                                                                                                    \

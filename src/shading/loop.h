@@ -78,8 +78,8 @@ FN bool pair_counts(Dir o, Dir i) {
     name##_prepare(name##_of(m), &p);                                                                        \
     EACH_PAIR(name, Name, __VA_ARGS__)
 
-/* Of a lobe with as many rounds as its count asks for (ROUNDS_OF), of which more than that add nothing: a loop for few,
- * one for some, and one for all that may be, so that the compiler knows how many there are. */
+/* A loop over what a prepared lobe p reflects whose rounds (ROUNDS_OF) depend on p.count, and those beyond it add nothing:
+ * one with few rounds, one with some, and one with all, so that the compiler knows how many there are. */
 #define BY_COUNT(...)                                                                                        \
     if (p.count <= 3.0f) {                                                                                   \
         p.count = 3.0f;                                                                                      \

@@ -23,11 +23,11 @@
     }
 
 #define PLUGIN_LOOPS_OF(name, Name, NAME, second)                                                            \
-    LOBE_LOOP(f, name, Name, EACH_VALUE)                                                                                 \
-    LOBE_LOOP(pdf, name, Name, EACH_VALUE)                                                                               \
-    SHARES_LOOP(name, Name, EACH_VALUE)                                                                                  \
+    LOBE_LOOP(f, name, Name, EACH_VALUE)                                                                     \
+    LOBE_LOOP(pdf, name, Name, EACH_VALUE)                                                                   \
+    SHARES_LOOP(name, Name, EACH_VALUE)                                                                      \
     TINTED_LOOP(name, Name)                                                                                  \
-    EACH_LOOPS(name, Name, NAME, second)                                                                     \
+    EACH_LOOPS(name, Name, NAME, second, ITS_ROUNDS)                                                         \
     const Isa *plugin_isa;                                                                                   \
     const PluginLoops weft_lobe_loops = {name##_f_n,      name##_pdf_n,  name##_shares_n,                    \
                                          name##_tinted_n, name##_each_n, name##_drawn_each_n};

@@ -5,8 +5,8 @@
  *
  * The footprint of a pixel is the longer half axis of the ellipse that it covers, twice, in threads. Below one thread
  * a pixel, points are averaged by whoever looks. Beyond two, the colours are those of crossings, averaged over the
- * footprint, and the lobe is woven with the moments of the whole cloth: averaged directions of fibres would be 15 to
- * 45 % off (docs/weave.md). */
+ * footprint, and the lobe is woven as it is fitted to the whole cloth: averaged directions of fibres would be 15 to 45 % off
+ * (docs/weave.md). */
 #ifndef WEFT_SHADING_WEAVE_BASE_H
 #define WEFT_SHADING_WEAVE_BASE_H
 
@@ -75,9 +75,11 @@ FN WeaveBase weave_near(const Weave *m, WeavePoint p) {
     return b;
 }
 
-/* The part c of a colour, which covers so much, with so much more dye, as if it were the fibres' albedo. */
+/* The part c of a colour, which covers so much, with so much more dye, as if it were the fibres' albedo. Crowns, which get
+ * more than their share of light, may reflect more than they cover. */
 FN float weave_dyed(float c, float covers, float dye) {
-    return c * covers / max(c + max(covers - c, 0.0f) * dye, 1e-6f);
+    float most = max(covers, c);
+    return c * most / max(c + (most - c) * dye, 1e-6f);
 }
 FN Rgb weave_dyed_rgb(Rgb c, float covers, float dye) {
     return rgb(weave_dyed(c.r, covers, dye), weave_dyed(c.g, covers, dye), weave_dyed(c.b, covers, dye));

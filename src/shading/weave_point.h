@@ -40,8 +40,8 @@
     N(floats)                                                                                                \
     N(streaks) N(dye) N(slub) N(wander) N(hairiness) N(over_width) N(cos_twist) N(sin_twist) N(crossing)
 
-/* One system from afar: the numbers of the lobe woven that reflects as its visible points do on the mean, and how
- * far their slopes reach across it and along, were they uniform, by which yarns hide each other.
+/* One system from afar: numbers of the lobe woven that is fitted to its visible points (weave/woven_fit.c has the others),
+ * and how far their slopes reach across it and along, were they uniform, by which yarns hide each other.
  *   crimp: tangent. share: of the cloth, as seen from above; what is left are gaps. once, again: factors on the lobe's
  * colours, which make it as bright as the points are. */
 #define WEAVE_FAR_NUMBERS(N)                                                                                 \

@@ -20,6 +20,9 @@ enum {
 };
 _Static_assert(1 << (FAR_LEVELS_MOST - 1) == FAR_SIDE_MAX, "a level for each halving, and the first");
 
+/* The spacing of points from afar, in threads. */
+static const float FAR_SPACING = 1.0f;
+
 /* The points of one system that were seen. */
 typedef struct SystemSeen {
     int count, crossings[2], on[2]; /* places where it is above or below, and those at which it is seen */
@@ -33,10 +36,12 @@ static double looked_at(int count) {
     return (double)(count * repeats);
 }
 
-/* Place k of evenly spread ones. Martin Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018. */
-static void place(const Weave *m, int k, float *x, float *y) {
+/* Place k of evenly spread ones, and the thread there, its fibres told by their slopes alone: the root of 2 spreads places
+ * across them. Martin Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018. */
+static WeavePoint look(const Weave *m, int k, float *x, float *y) {
     *x = (float)(fmod(0.7548776662466927 * (k + 1), 1.0) * looked_at(m->warps));
     *y = (float)(fmod(0.5698402909980532 * (k + 1), 1.0) * looked_at(m->picks));
+    return weave_bound(m, *x, *y, FAR_SPACING, 2.0f * (float)fmod(1.4142135623730951 * (k + 1), 1.0) - 1.0f);
 }
 
 static int is_up(const Weave *m, float x, float y, int weft) {
@@ -49,8 +54,7 @@ static void see(Weave *m, SystemSeen seen[2]) {
     m->high = -HUGE_VALF;
     for (int k = 0; k < LOOKS; k++) {
         float x, y;
-        place(m, k, &x, &y);
-        const WeavePoint p = weave_bound(m, x, y, 0.0f, 0.0f);
+        const WeavePoint p = look(m, k, &x, &y);
         for (int t = 0; t < 2; t++) seen[t].crossings[is_up(m, x, y, t)]++;
         if (p.height <= WEAVE_NONE) continue;
         SystemSeen *of = &seen[p.weft];
@@ -185,10 +189,10 @@ static bool make_colors(WeftCloth *cloth, const SystemSeen seen[2]) {
     return true;
 }
 
-PAIRS_LOOP(yarn, Yarn)
+static void yarn_pairs(YarnPrepared p, const Lit *lit, PairsLit *restrict out) { EACH_LIT(yarn, Yarn) }
 
-/* What points of one system reflect: between pairs of directions, the mean over channels; and their mean colours, in parts of
- * the cloth. */
+/* Light that points of one system reflect between pairs of directions, the mean over channels, with loose fibres; and the
+ * mean colours of points, in parts of the cloth, without these, as points of cloth that is not near have them. */
 typedef struct SystemLit {
     Lit lit;
     double once[3], again[3];
@@ -196,9 +200,17 @@ typedef struct SystemLit {
 
 static double channel_mean(const double color[3]) { return (color[0] + color[1] + color[2]) / 3.0; }
 
+static void color_of_point(const Weave *m, WeavePoint p, double once[3], double again[3]) {
+    for (int c = 0; c < 3; c++) {
+        once[c] = (double)weave_once(m, p, c);
+        again[c] = (double)weave_reflectance(m, p, c);
+    }
+}
+
 /* Adds a point to those that stand for its system. Its colours are in parts of its thread's. */
-static void add_facet(WeftCloth *cloth, WeavePoint p, const Yarn *yarn, double once, double again) {
+static void add_facet(WeftCloth *cloth, WeavePoint p, double once, double again) {
     const Weave *m = &cloth->weave;
+    const Yarn yarn = weave_yarn(m, p);
     int *count = &cloth->facet_count[p.weft];
     if (*count == FACETS_MOST) return;
     const int threads = p.weft ? m->picks : m->warps, thread = (int)weave_mod(p.thread, (float)threads);
@@ -206,9 +218,9 @@ static void add_facet(WeftCloth *cloth, WeavePoint p, const Yarn *yarn, double o
     for (int c = 0; c < 3; c++)
         for (int kind = 0; kind < 2; kind++)
             own[kind] += (double)color_of(m, p.weft, thread, c, kind == 1) / 3.0;
-    cloth->facets[p.weft][(*count)++] = (ClothFacet){.slope_x = yarn->slope_x,
-                                                     .slope_y = yarn->slope_y,
-                                                     .azimuth = yarn->azimuth,
+    cloth->facets[p.weft][(*count)++] = (ClothFacet){.slope_x = yarn.slope_x,
+                                                     .slope_y = yarn.slope_y,
+                                                     .azimuth = yarn.azimuth,
                                                      .once = (float)(once / fmax(own[0], 1e-9)),
                                                      .again = (float)(again / fmax(own[1], 1e-9))};
 }
@@ -262,33 +274,32 @@ static void finish_facets(ClothFacet *facets, int *count) {
     if (*count == 0) *count = 1; /* of a system that is never seen, black */
 }
 
-/* Adds what a point reflects of a part of the light. */
-static void light_point(SystemLit *near, const Weave *m, WeavePoint p, const Yarn *yarn, double part,
-                        double *once, double *again) {
-    double first[3], second[3];
-    YarnPrepared prepared;
+/* Adds a point, as it reflects its part of the light. */
+static void light_point(Lit *near, const Weave *m, WeavePoint point) {
+    double once[3], again[3];
+    YarnPrepared p;
     PairsLit pairs;
-    for (int c = 0; c < 3; c++) {
-        first[c] = (double)weave_once(m, p, c), second[c] = (double)weave_reflectance(m, p, c);
-        near->once[c] += part * first[c], near->again[c] += part * second[c];
-    }
-    *once = channel_mean(first), *again = channel_mean(second);
-    yarn_prepare(*yarn, &prepared);
-    yarn_pairs(&prepared, &near->lit, &pairs);
-    lit_add(&near->lit, &pairs, part * *once, part * *again);
+    color_of_point(m, point, once, again);
+    yarn_prepare(weave_yarn(m, point), &p);
+    yarn_pairs(p, near, &pairs);
+    lit_add(near, &pairs, channel_mean(once) / LOOKS, channel_mean(again) / LOOKS);
 }
 
 static void light_points(WeftCloth *cloth, SystemLit near[2]) {
     const Weave *m = &cloth->weave;
     for (int at = 0; at < LOOKS; at++) {
         float x, y;
-        double once, again;
-        place(m, at, &x, &y);
-        const WeavePoint point = weave_point(m, x, y, 0.0f, 0.0f);
-        if (point.height <= WEAVE_NONE) continue;
-        const Yarn yarn = weave_yarn(m, point);
-        light_point(&near[point.weft], m, point, &yarn, 1.0 / LOOKS, &once, &again);
-        add_facet(cloth, point, &yarn, once, again);
+        double once[3], again[3];
+        const WeavePoint bound = look(m, at, &x, &y);
+        if (bound.height <= WEAVE_NONE) continue;
+        color_of_point(m, bound, once, again);
+        for (int c = 0; c < 3; c++) {
+            near[bound.weft].once[c] += once[c] / LOOKS;
+            near[bound.weft].again[c] += again[c] / LOOKS;
+        }
+        add_facet(cloth, bound, channel_mean(once), channel_mean(again));
+        const WeavePoint point = weave_point(m, x, y, 0.0f, 0.0f); /* with loose fibres */
+        light_point(&near[point.weft].lit, m, point);
     }
     for (int t = 0; t < 2; t++) finish_facets(cloth->facets[t], &cloth->facet_count[t]);
 }

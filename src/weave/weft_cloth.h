@@ -15,7 +15,8 @@ typedef struct ClothFar {
     int width, height, levels;
     int starts[FAR_LEVELS_MOST]; /* of each level among the numbers of all */
     float *texels;
-    WovenPrepared woven[2]; /* what reflects as either system does: weave_woven, and what its formula does not know */
+    WovenPrepared
+        woven[2]; /* what reflects as either system does: weave_woven, and what its formula does not know */
 } ClothFar;
 
 /* Points of one system, evenly spread over a piece of the cloth, any of which may stand for all: slopes and azimuth as

@@ -1,55 +1,61 @@
-/* woven_fit.c - what lobe woven of a system does not know of yarns between others, fitted to points of its threads
+/* woven_fit.c - lobe woven of one system, and what its formula does not know of yarns between others
  *
- *   wide = r (1 - narrow x^2),  middle = lean s_y,  gain = g_k that of an arc
+ *   wide = r (1 - narrow x^2),  middle = lean s_y,  gain = g_k times that of an arc
  *
- * of bin k, about x. Others go over both ends of what is seen of a yarn, which is a lens; in a twill more over one corner
- * than over the other, so that it leans; and there is more or less of each slope than of an arc. Alpha, crimp, roundness
- * and floats of the lobe, narrow and lean make a shape, which is fitted in turn with the gains g_k: the light of each bin is a
- * term of a sum, so that gains cost no look at the lobe. The slopes by which yarns hide each other are those of points. */
+ * of bin k, whose mean x along the yarn (woven_place) is x, and where r is the lobe's roundness. Others go over both ends of
+ * what is seen of a yarn, which is a lens; in a twill more over one corner than over the other, so that it leans; and there
+ * is more or less of each slope than of an arc. The lobe's alpha, crimp, roundness and floats, narrow and lean make a shape,
+ * which is fitted in turn with the gains g_k: the light of each bin is a term of a sum, so that gains cost no look at the
+ * lobe. The slopes by which yarns hide each other are those of points. */
 #include "weave/woven_fit.h"
 
 #include <string.h>
 
 #include <nlopt.h>
 
+#include "shading/loop.h"
+
 enum {
     SHAPE_NUMBERS = 6,
-    LOOKS_MOST = 600, /* at what a shape reflects, or a sum of bins */
+    SHAPES_MOST = 600, /* looks at what a shape reflects, */
+    GAINS_MOST = 4000, /* and at sums of bins */
     FIT_ROUNDS = 2,
 };
 
-PAIRS_LOOP(woven, Woven)
+static void woven_pairs(WovenPrepared p, const Lit *lit, PairsLit *restrict out) {
+    BY_COUNT(EACH_LIT(woven, Woven))
+}
 
-typedef struct Fit {
+typedef struct SystemFit {
     const Weave *weave;
     bool weft;
     WeaveFar *far;
     const Lit *near;
     Lit lobe;
     float narrow, lean, gains[WOVEN_BINS];
-} Fit;
+} SystemFit;
 
-/* The lobe, with bins no wider than the steepest roundness. */
+/* The lobe with these gains. |s_x| stays within 1.5, as far as woven_flat is good, and within 1.8 r, beyond which the weight
+ * 1 - 0.3 (s_x / r)^2 would be negative. */
 #define BIN_PLACE(name) &p->name,
-static void prepare(const Fit *fit, WovenPrepared *p) {
+static void prepare(const SystemFit *fit, const float gains[WOVEN_BINS], WovenPrepared *p) {
     const Woven m = weave_woven(fit->weave, fit->weft);
     woven_prepare(m, p);
     p->roundness = max(fit->far->slope_across, 1e-2f);
     p->crimp = fit->far->slope_along;
     WovenBin *const bins[] = {WOVEN_EACH_BIN(BIN_PLACE)};
-    const float n = woven_count(m), r = m.roundness;
+    const float n = woven_count(m), r = max(m.roundness, 1e-2f), most = min(1.8f * r, ROUNDNESS_MOST);
     for (int k = 0; k < WOVEN_BINS; k++) {
         const float x = k > 0 ? 0.5f * (woven_place(n, (float)k) + woven_place(n, (float)k + 1.0f)) : 0.0f;
         bins[k]->middle = clamp(fit->lean * bins[k]->slope, -0.5f * r, 0.5f * r);
-        bins[k]->wide =
-            min(bins[k]->wide * (1.0f - fit->narrow * x * x), ROUNDNESS_MOST - abs(bins[k]->middle));
-        bins[k]->gain *= fit->gains[k];
+        bins[k]->wide = min(r * (1.0f - fit->narrow * x * x), most - abs(bins[k]->middle));
+        bins[k]->gain *= gains[k];
     }
 }
 
 static void light_lobe(const WovenPrepared *p, Lit *far) {
     PairsLit pairs;
-    woven_pairs(p, far, &pairs);
+    woven_pairs(*p, far, &pairs);
     for (int k = 0; k < LIT_PAIRS; k++) far->once[k] = far->again[k] = 0.0;
     lit_add(far, &pairs, 1.0, 1.0);
 }
@@ -65,17 +71,17 @@ static double error_of(const double lobe[LIT_PAIRS], const Lit *near) {
 }
 
 static double shape_error(unsigned n, const double *x, double *gradient, void *user) {
-    Fit *fit = user;
+    SystemFit *fit = user;
     WovenPrepared p;
     (void)n, (void)gradient;
     fit->far->alpha = (float)x[0], fit->far->crimp = (float)x[1], fit->far->roundness = (float)x[2];
     fit->far->floats = (float)x[3], fit->narrow = (float)x[4], fit->lean = (float)x[5];
-    prepare(fit, &p);
+    prepare(fit, fit->gains, &p);
     light_lobe(&p, &fit->lobe);
     return error_of(fit->lobe.once, fit->near);
 }
 
-/* What each bin alone reflects. */
+/* Light of each bin without the others, with a gain of 1. */
 typedef struct BinsLit {
     const Lit *near;
     double once[WOVEN_BINS][LIT_PAIRS];
@@ -90,35 +96,34 @@ static double gains_error(unsigned n, const double *x, double *gradient, void *u
     return error_of(once, bins->near);
 }
 
-static void light_bins(Fit *fit, int count, BinsLit *bins) {
-    const Fit all = *fit;
+static void light_bins(SystemFit *fit, int count, BinsLit *bins) {
     bins->near = fit->near;
     for (int bin = 0; bin < count; bin++) {
         WovenPrepared p;
-        for (int k = 0; k < WOVEN_BINS; k++) fit->gains[k] = k == bin ? all.gains[k] : 0.0f;
-        prepare(fit, &p);
+        float gains[WOVEN_BINS] = {0.0f};
+        gains[bin] = 1.0f;
+        prepare(fit, gains, &p);
         light_lobe(&p, &fit->lobe);
         memcpy(bins->once[bin], fit->lobe.once, sizeof fit->lobe.once);
     }
-    memcpy(fit->gains, all.gains, sizeof fit->gains);
 }
 
 /* Makes the error least from x on: Thomas Harvey Rowan, "Functional Stability Analysis of Numerical Algorithms", 1990, as
  * NLopt has it. Returns false where memory is short. */
-static bool make_least(nlopt_func error, void *user, unsigned n, const double *low, const double *high,
-                       double *x) {
+static bool make_least(nlopt_func error, void *user, unsigned n, int looks, const double *low,
+                       const double *high, double *x) {
     double least;
     nlopt_opt method = nlopt_create(NLOPT_LN_SBPLX, n);
     const bool made = method && nlopt_set_min_objective(method, error, user) > 0 &&
                       nlopt_set_lower_bounds(method, low) > 0 && nlopt_set_upper_bounds(method, high) > 0 &&
-                      nlopt_set_maxeval(method, LOOKS_MOST) > 0 && nlopt_set_xtol_rel(method, 1e-4) > 0 &&
-                      nlopt_set_xtol_abs1(method, 1e-5) > 0 && /* of numbers that are 0 */
-                      nlopt_optimize(method, x, &least) > 0;
+                      nlopt_set_maxeval(method, looks) > 0 && nlopt_set_xtol_rel(method, 1e-4) > 0 &&
+                      nlopt_set_xtol_abs1(method, 1e-5) > 0; /* of numbers that are 0 */
+    const nlopt_result result = made ? nlopt_optimize(method, x, &least) : NLOPT_FAILURE;
     nlopt_destroy(method);
-    return made;
+    return result > 0 || result == NLOPT_ROUNDOFF_LIMITED;
 }
 
-static bool fit_shape(Fit *fit) {
+static bool fit_shape(SystemFit *fit) {
     const double low[SHAPE_NUMBERS] = {0.05, 0.0, 0.0, (double)FLOATS_LEAST, -0.9, -2.0};
     const double high[SHAPE_NUMBERS] = {
         1.0, (double)CRIMP_MOST, (double)ROUNDNESS_MOST, (double)FLOATS_MOST, 0.9, 2.0};
@@ -126,31 +131,25 @@ static bool fit_shape(Fit *fit) {
     double x[SHAPE_NUMBERS] = {(double)far->alpha,  (double)far->crimp,  (double)far->roundness,
                                (double)far->floats, (double)fit->narrow, (double)fit->lean};
     for (int k = 0; k < SHAPE_NUMBERS; k++) x[k] = fmin(fmax(x[k], low[k]), high[k]);
-    if (!make_least(shape_error, fit, SHAPE_NUMBERS, low, high, x)) return false;
+    if (!make_least(shape_error, fit, SHAPE_NUMBERS, SHAPES_MOST, low, high, x)) return false;
     (void)shape_error(SHAPE_NUMBERS, x, NULL, fit);
     return true;
 }
 
-/* Gains leave the sum over the pairs as it was. */
-static bool fit_gains(Fit *fit) {
+static bool fit_gains(SystemFit *fit) {
     const int count = (int)ceilf(woven_count(weave_woven(fit->weave, fit->weft)));
     double low[WOVEN_BINS], high[WOVEN_BINS], x[WOVEN_BINS];
     BinsLit bins;
-    for (int k = 0; k < count; k++) low[k] = 0.0, high[k] = 4.0, x[k] = 1.0;
+    for (int k = 0; k < count; k++) low[k] = 0.0, high[k] = 8.0, x[k] = (double)fit->gains[k];
     light_bins(fit, count, &bins);
-    if (!make_least(gains_error, &bins, (unsigned)count, low, high, x)) return false;
-    double before = 0.0, after = 0.0;
-    for (int k = 0; k < count; k++) {
-        before += lit_sum(bins.once[k]);
-        after += x[k] * lit_sum(bins.once[k]);
-    }
-    for (int k = 0; k < count && after > 0.0; k++) fit->gains[k] *= (float)(x[k] * before / after);
+    if (!make_least(gains_error, &bins, (unsigned)count, GAINS_MOST, low, high, x)) return false;
+    for (int k = 0; k < count; k++) fit->gains[k] = (float)x[k];
     return true;
 }
 
-static void fit_lobe(Fit *fit) {
+static void fit_lobe(SystemFit *fit) {
     const WeaveFar moments = *fit->far;
-    const Fit plain = *fit;
+    const SystemFit plain = *fit;
     bool made = true;
     for (int round = 0; round < FIT_ROUNDS; round++) made = made && fit_shape(fit) && fit_gains(fit);
     if (made) return;
@@ -158,11 +157,24 @@ static void fit_lobe(Fit *fit) {
     *fit = plain;
 }
 
+/* Makes the lobe as bright as the one of its numbers alone, for which the environment is convolved (raster/materials.c). */
+static void level_gains(SystemFit *fit) {
+    WovenPrepared p;
+    woven_prepare(weave_woven(fit->weave, fit->weft), &p);
+    light_lobe(&p, &fit->lobe);
+    const double plain = lit_sum(fit->lobe.once);
+    prepare(fit, fit->gains, &p);
+    light_lobe(&p, &fit->lobe);
+    const double fitted = lit_sum(fit->lobe.once);
+    for (int k = 0; k < WOVEN_BINS && fitted > 0.0; k++) fit->gains[k] *= (float)(plain / fitted);
+}
+
 Lit woven_fit(const Weave *m, bool weft, const Lit *near, WeaveFar *far, WovenPrepared *woven) {
-    Fit fit = {.weave = m, .weft = weft, .far = far, .near = near, .lobe = *near};
+    SystemFit fit = {.weave = m, .weft = weft, .far = far, .near = near, .lobe = *near};
     for (int k = 0; k < WOVEN_BINS; k++) fit.gains[k] = 1.0f;
     if (lit_sum(near->once) > 0.0) fit_lobe(&fit);
-    prepare(&fit, woven);
+    level_gains(&fit);
+    prepare(&fit, fit.gains, woven);
     light_lobe(woven, &fit.lobe);
     return fit.lobe;
 }

@@ -30,7 +30,7 @@ static inline void lit_put(float to[3][LIT_PAIRS], int k, Dir w) {
     to[0][k] = w.x, to[1][k] = w.y, to[2][k] = w.z;
 }
 
-/* Takes the pairs, in the dark. */
+/* Sets the pairs, between which nothing is reflected yet. */
 static inline void lit_start(Lit *lit) {
     for (int k = 0; k < LIT_PAIRS; k++) {
         const double n = (double)k + 0.5;
@@ -45,18 +45,16 @@ typedef struct PairsLit {
     float once[LIT_PAIRS], again[LIT_PAIRS];
 } PairsLit;
 
-/* A loop over the pairs for a lobe, of vectors. */
-#define PAIRS_LOOP(name, Name)                                                                               \
-    static void name##_pairs(const Name##Prepared *p, const Lit *lit, PairsLit *restrict out) {              \
-        for (int k = 0; k < LIT_PAIRS; k++) {                                                                \
-            const Dir o = {lit->o[0][k], lit->o[1][k], lit->o[2][k]};                                        \
-            const Dir i = {lit->i[0][k], lit->i[1][k], lit->i[2][k]};                                        \
-            Name##View w;                                                                                    \
-            name##_view(p, o, &w);                                                                           \
-            const LobeValue v = name##_value(p, &w, angles_between(o, i));                                   \
-            out->once[k] = v.f * i.z * (1.0f - v.s);                                                         \
-            out->again[k] = v.f * i.z * v.s;                                                                 \
-        }                                                                                                    \
+/* A loop over the pairs, of vectors, for p, a lobe that was prepared. */
+#define EACH_LIT(name, Name)                                                                                 \
+    for (int k = 0; k < LIT_PAIRS; k++) {                                                                    \
+        const Dir o = {lit->o[0][k], lit->o[1][k], lit->o[2][k]};                                            \
+        const Dir i = {lit->i[0][k], lit->i[1][k], lit->i[2][k]};                                            \
+        Name##View w;                                                                                        \
+        name##_view(&p, o, &w);                                                                              \
+        const LobeValue v = name##_value(&p, &w, angles_between(o, i));                                      \
+        out->once[k] = v.f * i.z * (1.0f - v.s);                                                             \
+        out->again[k] = v.f * i.z * v.s;                                                                     \
     }
 
 static inline void lit_add(Lit *lit, const PairsLit *pairs, double once, double again) {
@@ -72,8 +70,9 @@ static inline double lit_sum(const double values[LIT_PAIRS]) {
     return sum;
 }
 
-/* Fits the lobe of one system to `near`: four numbers of far, which is that system's of m and is what moments say before, and
- * what woven_fit.c says of its bins. Returns what the lobe reflects. Where memory is short it stays that of the moments. */
+/* Fits the lobe of one system of m to what its points reflect, `near`. far is that system's part of m, with the moments of
+ * the points, of which alpha, crimp, roundness and floats are fitted; woven is the whole lobe, prepared. Returns what that
+ * reflects. Where memory is short it stays the lobe of the moments. */
 Lit woven_fit(const Weave *m, bool weft, const Lit *near, WeaveFar *far, WovenPrepared *woven);
 
 #endif

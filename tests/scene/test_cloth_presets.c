@@ -37,24 +37,27 @@ static void each_preset(void (*check)(const char *name, const WeftCloth *cloth))
 }
 
 /* Returns f of both systems from afar between two directions, with all fibres white. */
-static float white_of(const WovenPrepared p[2], Dir o, Dir i) {
+static float white_of(const WeftCloth *cloth, Dir o, Dir i) {
     float sum = 0.0f;
     for (int t = 0; t < 2; t++) {
+        const WovenPrepared *p = &cloth->far.woven[t];
+        const WeaveFar *far = t == WEFT_WEFT ? &cloth->weave.weft_far : &cloth->weave.warp_far;
         WovenView w;
-        woven_view(&p[t], o, &w);
-        sum += woven_value(&p[t], &w, angles_between(o, i)).f;
+        woven_view(p, o, &w);
+        const LobeValue v = woven_value(p, &w, angles_between(o, i));
+        sum += v.f * (far->once * (1.0f - v.s) + far->again * v.s);
     }
     return sum;
 }
 
 /* The part of the light from o that the cloth sends back. */
-static double white_albedo(const WovenPrepared p[2], Dir o) {
+static double white_albedo(const WeftCloth *cloth, Dir o) {
     enum { ROWS = 24, COLUMNS = 48 };
     double sum = 0.0;
     for (int k = 0; k < ROWS * COLUMNS; k++) {
         const Dir i =
             warp_cosine(((float)(k / COLUMNS) + 0.5f) / ROWS, ((float)(k % COLUMNS) + 0.5f) / COLUMNS);
-        sum += PI_DOUBLE * (double)white_of(p, o, i) / (ROWS * COLUMNS);
+        sum += PI_DOUBLE * (double)white_of(cloth, o, i) / (ROWS * COLUMNS);
     }
     return sum;
 }
@@ -67,15 +70,14 @@ static Dir any_above(uint64_t *stream) {
 }
 
 static void check_afar(const char *name, const WeftCloth *cloth) {
-    const WovenPrepared *p = cloth->far.woven;
     uint64_t stream = stream_start(3, 29);
     double apart = 0.0, most = 0.0;
     for (int k = 0; k < 1000; k++) {
         const Dir o = any_above(&stream), i = any_above(&stream);
-        apart = fmax(apart, fabs((double)white_of(p, o, i) - (double)white_of(p, i, o)));
+        apart = fmax(apart, fabs((double)white_of(cloth, o, i) - (double)white_of(cloth, i, o)));
     }
     for (int k = 0; k < 40; k++)
-        most = fmax(most, white_albedo(p, direction_cos(0.05 + 0.95 * (k % 8) / 7.0, 0.4 * (k / 8))));
+        most = fmax(most, white_albedo(cloth, direction_cos(0.05 + 0.95 * (k % 8) / 7.0, 0.4 * (k / 8))));
     print_message("%-24s symmetric to %.1e, E at most %.3f\n", name, apart, most);
     assert_true(apart < 1e-6);
     assert_true(most < 1.0);

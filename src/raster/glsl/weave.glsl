@@ -63,19 +63,22 @@ WeaveBase woven_far(Weave c, bool weft, vec2 place, vec2 across, vec2 up, WeaveF
     return b;
 }
 
-/* Lobe woven of a system is the same at all pixels, and found when the cloth is made (weave/cloth_far.c). Both systems are read, since
- * an index that a loop counts costs a software driver a load for each pixel. */
+/* Lobe woven of a system is the same at all pixels, and fitted when the cloth is made (weave/woven_fit.c). Both systems are
+ * read, since an index that a loop counts costs a software driver a load for each pixel. */
 #define ONE_NUMBER(name)  +1
-#define SIX_NUMBERS(name) +6
-const int CLOTH_AFAR = 68, CLOTH_AFAR_EACH = 0 WOVEN_NUMBERS(ONE_NUMBER) WOVEN_EACH_BIN(SIX_NUMBERS);
-#define TAKE_AFAR(name)                                                                                      \
-    taken.name = weft ? weave_number(k + CLOTH_AFAR_EACH) : weave_number(k);                                 \
+#define BIN_NUMBERS(name) WOVEN_BIN_NUMBERS(ONE_NUMBER)
+const int CLOTH_AFAR = 68, CLOTH_AFAR_EACH = 0 WOVEN_NUMBERS(ONE_NUMBER) WOVEN_EACH_BIN(BIN_NUMBERS);
+#define TAKE_NUMBER(to)                                                                                      \
+    to = weft ? weave_number(k + CLOTH_AFAR_EACH) : weave_number(k);                                         \
     k++;
+#define TAKE_AFAR(name)   TAKE_NUMBER(taken.name)
+#define TAKE_OF_BIN(name) TAKE_NUMBER(bin.name)
 #define TAKE_BIN(name)                                                                                       \
-    TAKE_AFAR(name.slope) TAKE_AFAR(name.middle) TAKE_AFAR(name.wide)                                        \
-    TAKE_AFAR(name.c) TAKE_AFAR(name.e) TAKE_AFAR(name.gain)
+    WOVEN_BIN_NUMBERS(TAKE_OF_BIN)                                                                           \
+    taken.name = bin;
 WovenPrepared woven_afar(bool weft) {
     int k = CLOTH_AFAR;
+    WovenBin bin;
     WovenPrepared taken;
     WOVEN_NUMBERS(TAKE_AFAR)
     WOVEN_EACH_BIN(TAKE_BIN)

@@ -44,29 +44,25 @@
 
 STRUCT(Woven){WOVEN_PARAMS(FIELD)};
 
-/* A part of the yarn: s between two bounds, or between their opposites. The first lies on both sides of 0 and is level: its
- * slope and its c are 0 and 1, and stand here so that all are alike. */
-STRUCT(WovenBin) {
-    float slope;  /* the mean s_y */
-    float middle; /* s_x lies as far from it as wide; where the slope is the opposite, from its opposite */
-    float wide;
-    float c;    /* 1 / sqrt(1 + slope^2) */
-    float e;    /* of the wider D, as yarn_met_once has it */
-    float gain; /* of its weight in the mean over s, and of the wider D; 0: no part */
-};
-
-/* roundness, crimp, cross_crimp: slopes as yarn_area takes them; the first at least 0.01, so that edge fits a half float.
- * edge: of the weight 1 + edge s_x^2. count: of bins. part: the share; 1 where colours hold it (raster/glsl/weave.glsl).
- * again: of many, beside what directions add. Of a cloth all of these and the bins are fitted (weave/cloth_far.c). */
+/* roundness, crimp, cross_crimp: slopes by which yarns hide each other, as yarn_area takes them; of a cloth those of its
+ * points, where what else is here is fitted (weave/woven_fit.c). edge: of the weight 1 + edge s_x^2. count: of bins. part: the
+ * share; 1 where colours hold it (raster/glsl/weave.glsl). again: of many, beside what directions add. */
 #define WOVEN_NUMBERS(N)                                                                                     \
     N(alpha)                                                                                                 \
     N(share)                                                                                                 \
     N(roundness)                                                                                             \
     N(edge) N(count) N(part) N(crimp) N(cross_crimp) N(cos_a) N(sin_a) N(cos_t) N(sin_t) N(again)
+
+/* A part of the yarn: s between two bounds, or between their opposites. The first lies on both sides of 0 and is level: its
+ * slope and its c are 0 and 1, and stand here so that all are alike.
+ *   slope: the mean s_y. middle, wide: s_x lies within wide of middle, and at the opposite slope within wide of its
+ * opposite. c: 1 / sqrt(1 + slope^2). e: of the wider D, as yarn_met_once has it. gain: of its weight in the mean over s,
+ * and of the wider D; 0: no part. */
 #define WOVEN_BIN_NUMBERS(N) N(slope) N(middle) N(wide) N(c) N(e) N(gain)
 #define WOVEN_EACH_BIN(N)    N(b0) N(b1) N(b2) N(b3) N(b4) N(b5) N(b6) N(b7) N(b8)
 #define WOVEN_NUMBER(name)   float name;
 #define WOVEN_BIN(name)      WovenBin name;
+STRUCT(WovenBin){WOVEN_BIN_NUMBERS(WOVEN_NUMBER)};
 STRUCT(WovenPrepared){WOVEN_NUMBERS(WOVEN_NUMBER) WOVEN_EACH_BIN(WOVEN_BIN)};
 
 #define WOVEN_BINS 9
@@ -115,7 +111,7 @@ FN void woven_prepare(Woven m, WovenPrepared *p) {
     p->alpha = m.alpha;
     p->share = m.share;
     p->part = m.share;
-    p->roundness = max(m.roundness, 1e-2f);
+    p->roundness = max(m.roundness, 1e-2f); /* so that edge fits a half float */
     p->edge = -0.3f / (p->roundness * p->roundness);
     p->count = -floor(-n);
     p->crimp = tan_crimp * sqrt(3.0f / (2.0f * m.floats + 1.0f));
