@@ -10,8 +10,8 @@
 #include "shading/material_stack.h"
 
 typedef struct WeaveSum {
-    int bases;            /* 1, the material's own, or 2 */
-    WeaveBase threads[2]; /* of 2: warp and weft */
+    int bases;              /* 1, the material's own, or 2 */
+    WeaveBase threads[2];   /* of 2: warp and weft */
     WovenPrepared woven[2]; /* their lobes, prepared */
 } WeaveSum;
 
