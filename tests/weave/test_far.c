@@ -1,0 +1,129 @@
+/* Cloths of any yarns from afar: numbers of their lobes are finite and within what the lobe can do, its light is finite and not
+ * below 0 and the same both ways round. White fibres send back no more than falls on the cloth by little more than a tenth,
+ * which is of their points: yarns as no cloth has them, with a crimp of 69 degrees, have crowns that get more than their share. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "base/pi.h"
+#include "base/random.h"
+#include "shading/cases.h"
+#include "shading/weave_light.h"
+#include "weave/weft_cloth.h"
+#include "weft/weft.h"
+
+enum { CLOTHS = 24, CLOTHS_LONG = 240, PAIRS = 200 };
+
+static uint64_t stream;
+static double any_unit(void) { return (double)unit_float((uint32_t)(stream_next(&stream) >> 32)); }
+
+/* Any number of those that a yarn may have, or either end of them. */
+static WeftYarn any_yarn(void) {
+    WeftYarn yarn;
+    for (int k = 0; weft_yarn_number(k); k++) {
+        const WeftYarnNumber *number = weft_yarn_number(k);
+        const double u = any_unit(), end = any_unit();
+        const float value = end < 0.1 ? number->low : end < 0.2 ? number->high : (float)u;
+        *(float *)((char *)&yarn + number->offset) =
+            end < 0.2 ? value : number->low + value * (number->high - number->low);
+    }
+    return yarn;
+}
+
+static WeftCloth *any_cloth(void) {
+    static const char *const drafts[] = {"plain", "twill 3/1 z", "satin 8/3", "basket 2",
+                                         "plain; warp 24k 4r"};
+    const WeftYarn yarns[2] = {any_yarn(), any_yarn()};
+    WeftDraft *draft;
+    WeftCloth *cloth;
+    WeftError error;
+    const char *text = drafts[(int)(any_unit() * sizeof drafts / sizeof *drafts)];
+    if (weft_draft_parse(text, &draft, &error) != WEFT_OK) fail_msg("%s", error.text);
+    if (weft_cloth_create(draft, yarns, 7, &cloth, &error) != WEFT_OK) fail_msg("%s", error.text);
+    weft_draft_free(draft);
+    return cloth;
+}
+
+static Dir any_above(void) {
+    const double z = 1e-4 + (1.0 - 1e-4) * any_unit(), r = (sqrt)(1.0 - z * z), phi = 6.28 * any_unit();
+    return dir((float)(r * (cos)(phi)), (float)(r * (sin)(phi)), (float)z);
+}
+
+static float value_of(const WovenPrepared *p, Dir o, Dir i, float once, float again) {
+    WovenView w;
+    woven_view(p, o, &w);
+    const LobeValue v = woven_value(p, &w, angles_between(o, i));
+    assert_true(v.f >= 0.0f && v.f < 1e8f && v.s >= 0.0f && v.s <= 1.0f && v.pdf >= 0.0f);
+    return v.f * (once * (1.0f - v.s) + again * v.s);
+}
+
+/* The mean over o of what either system sends back of light that falls on the whole cloth, all fibres white. */
+static double sent_back(const WeftCloth *cloth, Dir o) {
+    enum { ROWS = 16, COLUMNS = 32 };
+    double sum = 0.0;
+    for (int t = 0; t < 2; t++) {
+        const WeaveFar *far = t == WEFT_WEFT ? &cloth->weave.weft_far : &cloth->weave.warp_far;
+        for (int k = 0; k < ROWS * COLUMNS; k++) {
+            const Dir i =
+                warp_cosine(((float)(k / COLUMNS) + 0.5f) / ROWS, ((float)(k % COLUMNS) + 0.5f) / COLUMNS);
+            sum += PI_DOUBLE * (double)value_of(&cloth->far.woven[t], o, i, far->once, far->again) /
+                   (ROWS * COLUMNS);
+        }
+    }
+    return sum;
+}
+
+#define BIN_OF(name) p->name,
+static void check_numbers(const WovenPrepared *p) {
+    const WovenBin bins[] = {WOVEN_EACH_BIN(BIN_OF)};
+    for (int k = 0; k < WOVEN_BINS; k++) {
+        const float reach = fabsf(bins[k].middle) + bins[k].wide;
+        assert_true(bins[k].wide > 0.0f && reach <= 1.5f + 1e-6f);
+        assert_true(1.0f + p->edge * reach * reach >= 0.0f); /* the weight */
+        assert_true(bins[k].gain >= 0.0f && isfinite(bins[k].gain));
+        assert_true(isfinite(bins[k].slope) && bins[k].c > 0.0f && bins[k].c <= 1.0f && bins[k].e >= 0.0f);
+    }
+}
+
+static double most_back, most_apart;
+
+static void check_cloth(const WeftCloth *cloth) {
+    for (int t = 0; t < 2; t++) {
+        const WovenPrepared *p = &cloth->far.woven[t];
+        check_numbers(p);
+        for (int k = 0; k < PAIRS; k++) {
+            const Dir o = any_above(), i = any_above();
+            const float there = value_of(p, o, i, 1.0f, 1.0f), back = value_of(p, i, o, 1.0f, 1.0f);
+            most_apart = fmax(most_apart, (double)(fabsf(there - back) / fmaxf(1.0f, there)));
+        }
+    }
+    for (int k = 0; k < 8; k++) {
+        const double z = 0.05 + 0.95 * k / 7.0;
+        most_back = fmax(most_back, sent_back(cloth, dir((float)(sqrt)(1.0 - z * z), 0.0f, (float)z)));
+    }
+}
+
+static void cloths_of_any_yarns_reflect_from_afar(void **state) {
+    (void)state;
+    stream = stream_start(41, 29);
+    for (int k = 0; k < (test_long() ? CLOTHS_LONG : CLOTHS); k++) {
+        WeftCloth *cloth = any_cloth();
+        check_cloth(cloth);
+        weft_cloth_free(cloth);
+    }
+    print_message("at most %.3f of the light comes back, both ways round alike to %.1e\n", most_back,
+                  most_apart);
+    assert_true(most_back < 1.15);
+    assert_true(most_apart < 1e-6);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(cloths_of_any_yarns_reflect_from_afar)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
