@@ -11,7 +11,8 @@ command -v objdump >/dev/null || {
 # where each element has a row of its own; F = none (mixed_0) has nothing to work out.
 exceptions="charlie_neubelt_normalised_f_n charlie_neubelt_normalised_each_n ltc_fibre_each_n ltc_fibre_drawn_each_n \
 ltc_fibre_published_each_n ltc_fibre_published_drawn_each_n fibre_table_each_n mixed_0_n"
-# cook-torrance has a loop for each term, and fibre-walk, which walks, has none.
+# cook-torrance has a loop for each term, and fibre-walk, which walks, has none. woven has three where all pairs have one
+# lobe: with few rounds, with some, and with all (BY_COUNT in src/shading/loop.h).
 wanted=
 if [ $# -gt 2 ]; then
     for id in $(grep '^[a-z]' "$3" | grep -v -e '^cook-torrance$' -e '^fibre-walk$' | tr - _); do
@@ -19,7 +20,7 @@ if [ $# -gt 2 ]; then
     done
 fi
 objdump -d --no-show-raw-insn "$1" | awk -v wanted="$wanted" -v exceptions="$exceptions" -v least="${2-40}" '
-function judge(k, j, packed, single, best) {
+function judge(k, j, packed, single, best, good) {
     if (name == "" || (count <= 2 && op[1] ~ /^jmp/)) return # another with the same code
     best = 0
     for (k = 1; k <= count; k++) {
@@ -29,9 +30,11 @@ function judge(k, j, packed, single, best) {
             if (op[j] ~ /^v(add|sub|mul|div|sqrt|max|min|fn?m(add|sub)[0-9]*)ps$/ && line[j] ~ /%[yz]mm/) packed++
             if (op[j] ~ /^v(add|sub|mul|div|sqrt|max|min|fn?m(add|sub)[0-9]*)ss$/) single++
         }
+        if (packed > 2 && !single) good++
         if (packed > 2 && !single && packed > best) best = packed
     }
     loops++
+    if (name ~ /^woven_(f|shares)_n$/ && good < 3) { print name " has " good + 0 " loops of vectors, not 3"; wrong = 1 }
     excepted = index(" " exceptions " ", " " name " ")
     if (!best && !excepted) { print name " is not vectorised"; wrong = 1 }
     if (best && excepted) { print name " is vectorised: no exception"; wrong = 1 }

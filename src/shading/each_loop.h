@@ -51,7 +51,6 @@
 
 /* Prepares the lobe of an element and its view of o. rounds: ALL_ROUNDS of a lobe with a count (BY_COUNT), which differs
  * from element to element, or ITS_ROUNDS. */
-#define ALL_ROUNDS(p) p.count = 1e3f
 #define ITS_ROUNDS(p)
 #define TAKE_VIEW(name, Name, NAME, rounds)                                                                  \
     Name m = all;                                                                                            \

@@ -80,6 +80,7 @@ FN bool pair_counts(Dir o, Dir i) {
 
 /* A loop over what a prepared lobe p reflects whose rounds (ROUNDS_OF) depend on p.count, and those beyond it add nothing:
  * one with few rounds, one with some, and one with all, so that the compiler knows how many there are. */
+#define ALL_ROUNDS(p) p.count = 1e3f
 #define BY_COUNT(...)                                                                                        \
     if (p.count <= 3.0f) {                                                                                   \
         p.count = 3.0f;                                                                                      \
@@ -88,6 +89,7 @@ FN bool pair_counts(Dir o, Dir i) {
         p.count = 5.0f;                                                                                      \
         __VA_ARGS__                                                                                          \
     } else {                                                                                                 \
+        ALL_ROUNDS(p);                                                                                       \
         __VA_ARGS__                                                                                          \
     }
 #define EACH_COUNTED(name, Name, ...)                                                                        \
