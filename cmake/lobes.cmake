@@ -16,7 +16,8 @@ file(STRINGS src/shading/lobes.list WEFT_LOBE_IDS REGEX "^[a-z]")
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/src/shading/lobes.list)
 
 # Reads the file of a lobe: name, Name and NAME; params, types, and of each parameter ranges_PARAM; whether text, two,
-# tinted, tabled, second, strips, proxy, fitted, crease, counted (of as many rounds as its numbers ask for, ROUNDS_OF).
+# tinted, tabled, second, strips, proxy, fitted, crease, counted (of two colours, and of as many rounds as its numbers ask
+# for, ROUNDS_OF).
 macro(weft_read_lobe id)
   string(REPLACE "-" "_" name ${id})
   string(TOUPPER ${name} NAME)
@@ -178,15 +179,16 @@ foreach(id ${WEFT_LOBE_IDS})
   list(APPEND WEFT_TEXT_LOBE_IDS ${id})
   string(FIND "${types}" "Term" composed) # of choices, which arrays.c makes apart
   if(composed EQUAL -1)
-    set(values EACH_VALUE)
     set(rounds ITS_ROUNDS)
+    string(APPEND loops "LOBE_LOOP(pdf, ${name}, ${Name})\n")
     if(counted)
-      set(values EACH_COUNTED)
       set(rounds ALL_ROUNDS)
+      string(APPEND loops "COUNTED_LOOPS(${name}, ${Name})\n")
+    else()
+      string(APPEND loops "LOBE_LOOP(f, ${name}, ${Name})\n")
     endif()
-    string(APPEND loops "LOBE_LOOP(f, ${name}, ${Name}, ${values})\nLOBE_LOOP(pdf, ${name}, ${Name}, EACH_VALUE)\n")
-    if(is_TWO_COLORS)
-      string(APPEND loops "SHARES_LOOP(${name}, ${Name}, ${values})\n")
+    if(is_TWO_COLORS AND NOT counted)
+      string(APPEND loops "SHARES_LOOP(${name}, ${Name})\n")
     endif()
     set(second_color EACH_F90)
     if(NOT second EQUAL -1)

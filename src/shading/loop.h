@@ -92,23 +92,36 @@ FN bool pair_counts(Dir o, Dir i) {
         ALL_ROUNDS(p);                                                                                       \
         __VA_ARGS__                                                                                          \
     }
-#define EACH_COUNTED(name, Name, ...)                                                                        \
-    Name##Prepared p;                                                                                        \
-    name##_prepare(name##_of(m), &p);                                                                        \
-    BY_COUNT(EACH_PAIR(name, Name, __VA_ARGS__))
 
 /* One member of a lobe's value: f or pdf. */
-#define LOBE_LOOP(question, name, Name, VALUES)                                                              \
+#define LOBE_LOOP(question, name, Name)                                                                      \
     LOOP(name##_##question##_n, (const Lobe *m, size_t n, PAIRS, float *restrict question),                  \
          (m, n, PAIR_NAMES, question)) {                                                                     \
-        VALUES(name, Name, question[k] = counts ? v.question : 0.0f)                                         \
+        EACH_VALUE(name, Name, question[k] = counts ? v.question : 0.0f)                                     \
     }
 
 /* f and s of a lobe of two colours. */
-#define SHARES_LOOP(name, Name, VALUES)                                                                      \
+#define SHARES_LOOP(name, Name)                                                                              \
     LOOP(name##_shares_n, (const Lobe *m, size_t n, PAIRS, float *restrict f, float *restrict s),            \
          (m, n, PAIR_NAMES, f, s)) {                                                                         \
-        VALUES(name, Name, f[k] = counts ? v.f : 0.0f; s[k] = counts ? v.s : 0.0f)                           \
+        EACH_VALUE(name, Name, f[k] = counts ? v.f : 0.0f; s[k] = counts ? v.s : 0.0f)                       \
+    }
+
+/* A lobe with a count (BY_COUNT) has loops for f and s together, and f alone is made by them, since another set of loops
+ * would take long to compile. */
+#define COUNTED_LOOPS(name, Name)                                                                            \
+    LOOP(name##_shares_n, (const Lobe *m, size_t n, PAIRS, float *restrict f, float *restrict s),            \
+         (m, n, PAIR_NAMES, f, s)) {                                                                         \
+        Name##Prepared p;                                                                                    \
+        name##_prepare(name##_of(m), &p);                                                                    \
+        BY_COUNT(EACH_PAIR(name, Name, f[k] = counts ? v.f : 0.0f; s[k] = counts ? v.s : 0.0f))              \
+    }                                                                                                        \
+    static void name##_f_n(const Lobe *m, size_t n, PAIRS, float *restrict f) {                              \
+        enum { SOME = 1024 };                                                                                \
+        float s[SOME];                                                                                       \
+        for (size_t k = 0; k < n; k += SOME)                                                                 \
+            name##_shares_n(m, n - k < SOME ? n - k : SOME, ox + k, oy + k, oz + k, ix + k, iy + k, iz + k,  \
+                            f + k, s);                                                                       \
     }
 
 /* f of a tinted lobe in three channels, made of what has albedo c. */

@@ -23,9 +23,9 @@
     }
 
 #define PLUGIN_LOOPS_OF(name, Name, NAME, second)                                                            \
-    LOBE_LOOP(f, name, Name, EACH_VALUE)                                                                     \
-    LOBE_LOOP(pdf, name, Name, EACH_VALUE)                                                                   \
-    SHARES_LOOP(name, Name, EACH_VALUE)                                                                      \
+    LOBE_LOOP(f, name, Name)                                                                                 \
+    LOBE_LOOP(pdf, name, Name)                                                                               \
+    SHARES_LOOP(name, Name)                                                                                  \
     TINTED_LOOP(name, Name)                                                                                  \
     EACH_LOOPS(name, Name, NAME, second, ITS_ROUNDS)                                                         \
     const Isa *plugin_isa;                                                                                   \
