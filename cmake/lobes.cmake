@@ -16,8 +16,8 @@ file(STRINGS src/shading/lobes.list WEFT_LOBE_IDS REGEX "^[a-z]")
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/src/shading/lobes.list)
 
 # Reads the file of a lobe: name, Name and NAME; params, types, and of each parameter ranges_PARAM; whether text, two,
-# tinted, tabled, second, strips, proxy, fitted, crease, counted (of two colours, and of as many rounds as its numbers ask
-# for, ROUNDS_OF).
+# tinted, tabled, second, strips, proxy, fitted, crease, counted (of two colours, and of as many rounds, ROUNDS_OF, as the
+# member `count` of its prepared record says).
 macro(weft_read_lobe id)
   string(REPLACE "-" "_" name ${id})
   string(TOUPPER ${name} NAME)

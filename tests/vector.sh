@@ -16,8 +16,9 @@ ltc_fibre_published_each_n ltc_fibre_published_drawn_each_n fibre_table_each_n m
 wanted=
 if [ $# -gt 2 ]; then
     for id in $(grep '^[a-z]' "$3" | grep -v -e '^cook-torrance$' -e '^fibre-walk$' | tr - _); do
-        for end in $4; do [ "${id}_$end" = woven_f_n ] || wanted="$wanted ${id}_$end"; done
+        for end in $4; do wanted="$wanted ${id}_$end"; done
     done
+    wanted=$(echo "$wanted" | sed 's/ woven_f_n/ woven_shares_n/')
 fi
 objdump -d --no-show-raw-insn "$1" | awk -v wanted="$wanted" -v exceptions="$exceptions" -v least="${2-40}" '
 function judge(k, j, packed, single, best, good) {
@@ -30,8 +31,9 @@ function judge(k, j, packed, single, best, good) {
             if (op[j] ~ /^v(add|sub|mul|div|sqrt|max|min|fn?m(add|sub)[0-9]*)ps$/ && line[j] ~ /%[yz]mm/) packed++
             if (op[j] ~ /^v(add|sub|mul|div|sqrt|max|min|fn?m(add|sub)[0-9]*)ss$/) single++
         }
-        if (packed > 2 && !single) good++
-        if (packed > 2 && !single && packed > best) best = packed
+        if (packed <= 2 || single) continue
+        good++
+        if (packed > best) best = packed
     }
     loops++
     if (name == "woven_shares_n" && good < 3) { print name " has " good + 0 " loops of vectors, not 3"; wrong = 1 }

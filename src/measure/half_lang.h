@@ -61,7 +61,7 @@ FN Half table_texel(Table t, int stride, int row, int column) { return (Half)t[r
 #define to_float(x)           ((Half)(x))
 #define to_int(x)             ((int)(x))
 #define ROUNDS(k, n)          for (int k = 0; k < (n); k++)
-#define ROUNDS_OF(k, n, most) for (int k = 0; k < (most); k++)
+#define ROUNDS_OF(k, n, most) for (int k = 0; k < (most) && k < (n); k++)
 
 #define PI                                                           3.14159265358979f16
 #define FIELD(type, name, def, low, high, hard_low, hard_high, help) type name;

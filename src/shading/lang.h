@@ -64,9 +64,8 @@
 #define ROUNDS(k, n) _Pragma("GCC unroll 16") for (int k = 0; k < n; k++)
 #endif
 
-/* The first n of so many rounds. C writes out all of them, so that a loop over arrays stays one of vectors; where the
- * compiler does not know n such a loop does them all, so others have to add nothing, and loops over arrays know n
- * (BY_COUNT in loop.h, which asks the lobe's numbers for `count`). */
+/* The first n of at most so many rounds. A loop of vectors has to know n, or to do them all, so rounds from n on must add
+ * nothing; loops over arrays know it (BY_COUNT in loop.h). */
 #define ROUNDS_OF(k, n, most) ROUNDS(k, most) if (k < n)
 
 /* a b + c, with one rounding where the processor has that in one instruction. Only the functions below use it: they are

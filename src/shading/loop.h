@@ -78,8 +78,9 @@ FN bool pair_counts(Dir o, Dir i) {
     name##_prepare(name##_of(m), &p);                                                                        \
     EACH_PAIR(name, Name, __VA_ARGS__)
 
-/* A loop over what a prepared lobe p reflects whose rounds (ROUNDS_OF) depend on p.count, and those beyond it add nothing:
- * one with few rounds, one with some, and one with all, so that the compiler knows how many there are. */
+/* A loop for a prepared lobe p whose value is a sum of p.count rounds (ROUNDS_OF), of which later ones would add nothing. It is
+ * compiled three times, for up to 3, for up to 5 and for all rounds, since it is one of vectors only where the compiler knows
+ * their number. */
 #define ALL_ROUNDS(p) p.count = 1e3f
 #define BY_COUNT(...)                                                                                        \
     if (p.count <= 3.0f) {                                                                                   \

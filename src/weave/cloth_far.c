@@ -192,7 +192,8 @@ static bool make_colors(WeftCloth *cloth, const SystemSeen seen[2]) {
 static void yarn_pairs(YarnPrepared p, const Lit *lit, PairsLit *restrict out) { EACH_LIT(yarn, Yarn) }
 
 /* Light that points of one system reflect between pairs of directions, the mean over channels, with loose fibres; and the
- * mean colours of points, in parts of the cloth, without these, as points of cloth that is not near have them. */
+ * mean colours of points, in parts of the cloth, without these, as points of cloth that is not near have them. Loose fibres over
+ * gaps count as gaps. */
 typedef struct SystemLit {
     Lit lit;
     double once[3], again[3];
@@ -325,7 +326,7 @@ static void fit_system(WeftCloth *cloth, bool weft, const SystemLit *near) {
     WeaveFar *far = weft ? &cloth->weave.weft_far : &cloth->weave.warp_far;
     scale_layer(&cloth->far, weft ? FAR_WEFT_ONCE : FAR_WARP_ONCE, near->once);
     scale_layer(&cloth->far, weft ? FAR_WEFT_AGAIN : FAR_WARP_AGAIN, near->again);
-    const Lit lobe = woven_fit(&cloth->weave, weft, &near->lit, far, &cloth->far.woven[weft]);
+    const Lit lobe = woven_fit(&cloth->weave, weft, &near->lit, &cloth->far.woven[weft]);
     const double share = (double)cloth->far.woven[weft].share;
     far->once = ratio(lit_sum(near->lit.once) * share, lit_sum(lobe.once) * channel_mean(near->once));
     far->again = ratio(lit_sum(near->lit.again) * share, lit_sum(lobe.again) * channel_mean(near->again));

@@ -15,8 +15,8 @@ typedef struct ClothFar {
     int width, height, levels;
     int starts[FAR_LEVELS_MOST]; /* of each level among the numbers of all */
     float *texels;
-    WovenPrepared
-        woven[2]; /* what reflects as either system does: weave_woven, and what its formula does not know */
+    /* The lobes of warp and weft: weave_woven, with what is fitted to the parts of their yarns (woven_fit.h). */
+    WovenPrepared woven[2];
 } ClothFar;
 
 /* Points of one system, evenly spread over a piece of the cloth, any of which may stand for all: slopes and azimuth as

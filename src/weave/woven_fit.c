@@ -2,11 +2,11 @@
  *
  *   wide = r (1 - narrow x^2),  middle = lean s_y,  gain = g_k times that of an arc
  *
- * of bin k, whose mean x along the yarn (woven_place) is x, and where r is the lobe's roundness. Others go over both ends of
- * what is seen of a yarn, which is a lens; in a twill more over one corner than over the other, so that it leans; and there
- * is more or less of each slope than of an arc. The lobe's alpha, crimp, roundness and floats, narrow and lean make a shape,
- * which is fitted in turn with the gains g_k: the light of each bin is a term of a sum, so that gains cost no look at the
- * lobe. The slopes by which yarns hide each other are those of points. */
+ * of bin k, where x is its middle along the yarn (woven_place) and r the lobe's roundness. Other yarns cross over both ends of
+ * the visible part of a yarn, so that it is narrower there; in a twill they cover one corner more than the other, so that it
+ * leans; and its slopes are not as frequent as those of an arc. The lobe's alpha, crimp, roundness and floats, narrow and lean
+ * make a shape, which is fitted in turn with the gains g_k: the light of each bin is a term of a sum, so that gains cost no
+ * look at the lobe. The slopes by which yarns hide each other are those of points. */
 #include "weave/woven_fit.h"
 
 #include <string.h>
@@ -29,22 +29,22 @@ static void woven_pairs(WovenPrepared p, const Lit *lit, PairsLit *restrict out)
 typedef struct SystemFit {
     const Weave *weave;
     bool weft;
-    WeaveFar *far;
+    WeaveFar *far; /* of the weave */
     const Lit *near;
     Lit lobe;
     float narrow, lean, gains[WOVEN_BINS];
 } SystemFit;
 
 /* The lobe with these gains. |s_x| stays within 1.5, as far as woven_flat is good, and within 1.8 r, beyond which the weight
- * 1 - 0.3 (s_x / r)^2 would be negative. */
+ * 1 - 0.3 (s_x / r)^2 would be negative; so its middle stays within r / 2. */
 #define BIN_PLACE(name) &p->name,
-static void prepare(const SystemFit *fit, const float gains[WOVEN_BINS], WovenPrepared *p) {
+static void prepare_fitted(const SystemFit *fit, const float gains[WOVEN_BINS], WovenPrepared *p) {
     const Woven m = weave_woven(fit->weave, fit->weft);
     woven_prepare(m, p);
+    const float n = woven_count(m), r = p->roundness, most = min(1.8f * r, ROUNDNESS_MOST);
     p->roundness = max(fit->far->slope_across, 1e-2f);
     p->crimp = fit->far->slope_along;
     WovenBin *const bins[] = {WOVEN_EACH_BIN(BIN_PLACE)};
-    const float n = woven_count(m), r = max(m.roundness, 1e-2f), most = min(1.8f * r, ROUNDNESS_MOST);
     for (int k = 0; k < WOVEN_BINS; k++) {
         const float x = k > 0 ? 0.5f * (woven_place(n, (float)k) + woven_place(n, (float)k + 1.0f)) : 0.0f;
         bins[k]->middle = clamp(fit->lean * bins[k]->slope, -0.5f * r, 0.5f * r);
@@ -76,7 +76,7 @@ static double shape_error(unsigned n, const double *x, double *gradient, void *u
     (void)n, (void)gradient;
     fit->far->alpha = (float)x[0], fit->far->crimp = (float)x[1], fit->far->roundness = (float)x[2];
     fit->far->floats = (float)x[3], fit->narrow = (float)x[4], fit->lean = (float)x[5];
-    prepare(fit, fit->gains, &p);
+    prepare_fitted(fit, fit->gains, &p);
     light_lobe(&p, &fit->lobe);
     return error_of(fit->lobe.once, fit->near);
 }
@@ -102,14 +102,14 @@ static void light_bins(SystemFit *fit, int count, BinsLit *bins) {
         WovenPrepared p;
         float gains[WOVEN_BINS] = {0.0f};
         gains[bin] = 1.0f;
-        prepare(fit, gains, &p);
+        prepare_fitted(fit, gains, &p);
         light_lobe(&p, &fit->lobe);
         memcpy(bins->once[bin], fit->lobe.once, sizeof fit->lobe.once);
     }
 }
 
 /* Makes the error least from x on: Thomas Harvey Rowan, "Functional Stability Analysis of Numerical Algorithms", 1990, as
- * NLopt has it. Returns false where memory is short. */
+ * NLopt has it. Returns false where that fails, as it does where memory is short. */
 static bool make_least(nlopt_func error, void *user, unsigned n, int looks, const double *low,
                        const double *high, double *x) {
     double least;
@@ -147,34 +147,38 @@ static bool fit_gains(SystemFit *fit) {
     return true;
 }
 
-static void fit_lobe(SystemFit *fit) {
-    const WeaveFar moments = *fit->far;
-    const SystemFit plain = *fit;
-    bool made = true;
-    for (int round = 0; round < FIT_ROUNDS; round++) made = made && fit_shape(fit) && fit_gains(fit);
-    if (made) return;
-    *fit->far = moments;
-    *fit = plain;
-}
-
-/* Makes the lobe as bright as the one of its numbers alone, for which the environment is convolved (raster/materials.c). */
+/* Makes the lobe as bright, in light that met one fibre, as the one of its numbers alone, for which the environment is
+ * convolved (raster/materials.c). */
 static void level_gains(SystemFit *fit) {
     WovenPrepared p;
     woven_prepare(weave_woven(fit->weave, fit->weft), &p);
     light_lobe(&p, &fit->lobe);
     const double plain = lit_sum(fit->lobe.once);
-    prepare(fit, fit->gains, &p);
+    prepare_fitted(fit, fit->gains, &p);
     light_lobe(&p, &fit->lobe);
     const double fitted = lit_sum(fit->lobe.once);
     for (int k = 0; k < WOVEN_BINS && fitted > 0.0; k++) fit->gains[k] *= (float)(plain / fitted);
 }
 
-Lit woven_fit(const Weave *m, bool weft, const Lit *near, WeaveFar *far, WovenPrepared *woven) {
+static void fit_lobe(SystemFit *fit) {
+    const WeaveFar moments = *fit->far;
+    const SystemFit plain = *fit;
+    bool made = true;
+    for (int round = 0; made && round < FIT_ROUNDS; round++) {
+        made = fit_shape(fit) && fit_gains(fit);
+        level_gains(fit);
+    }
+    if (made) return;
+    *fit->far = moments;
+    *fit = plain;
+}
+
+Lit woven_fit(Weave *m, bool weft, const Lit *near, WovenPrepared *woven) {
+    WeaveFar *far = weft ? &m->weft_far : &m->warp_far;
     SystemFit fit = {.weave = m, .weft = weft, .far = far, .near = near, .lobe = *near};
     for (int k = 0; k < WOVEN_BINS; k++) fit.gains[k] = 1.0f;
     if (lit_sum(near->once) > 0.0) fit_lobe(&fit);
-    level_gains(&fit);
-    prepare(&fit, fit.gains, woven);
+    prepare_fitted(&fit, fit.gains, woven);
     light_lobe(woven, &fit.lobe);
     return fit.lobe;
 }

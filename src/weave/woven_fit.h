@@ -30,7 +30,7 @@ static inline void lit_put(float to[3][LIT_PAIRS], int k, Dir w) {
     to[0][k] = w.x, to[1][k] = w.y, to[2][k] = w.z;
 }
 
-/* Sets the pairs, between which nothing is reflected yet. */
+/* Sets the pairs, evenly spread as cloth_far.c spreads places, between which nothing is reflected yet. */
 static inline void lit_start(Lit *lit) {
     for (int k = 0; k < LIT_PAIRS; k++) {
         const double n = (double)k + 0.5;
@@ -45,7 +45,7 @@ typedef struct PairsLit {
     float once[LIT_PAIRS], again[LIT_PAIRS];
 } PairsLit;
 
-/* A loop over the pairs, of vectors, for p, a lobe that was prepared. */
+/* A loop over the pairs for p, a lobe that was prepared. */
 #define EACH_LIT(name, Name)                                                                                 \
     for (int k = 0; k < LIT_PAIRS; k++) {                                                                    \
         const Dir o = {lit->o[0][k], lit->o[1][k], lit->o[2][k]};                                            \
@@ -70,9 +70,9 @@ static inline double lit_sum(const double values[LIT_PAIRS]) {
     return sum;
 }
 
-/* Fits the lobe of one system of m to what its points reflect, `near`. far is that system's part of m, with the moments of
- * the points, of which alpha, crimp, roundness and floats are fitted; woven is the whole lobe, prepared. Returns what that
- * reflects. Where memory is short it stays the lobe of the moments. */
-Lit woven_fit(const Weave *m, bool weft, const Lit *near, WeaveFar *far, WovenPrepared *woven);
+/* Fits the lobe of one system of m to what its points reflect, `near`: alpha, crimp, roundness and floats of that system's
+ * WeaveFar, which says what moments of the points are, and what woven_fit.c says. woven is the lobe, prepared. Returns what
+ * it reflects between the pairs. Where memory is short it stays the lobe of the moments. */
+Lit woven_fit(Weave *m, bool weft, const Lit *near, WovenPrepared *woven);
 
 #endif

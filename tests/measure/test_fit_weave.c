@@ -191,7 +191,8 @@ static void presets_are_found_again_under_noise(void **state) {
     assert_true(worst.foretold < 0.012);
 }
 
-/* What is fitted to the parts of a cloth's yarns beside the lobes' numbers is all that is left. */
+/* Two lobes by their numbers alone foretell a cloth nearly: what is missing is what is fitted to the parts of its yarns
+ * (weave/woven_fit.c), which is most on the back of Sadeghi's charmeuse. */
 static void cloths_are_found_by_lobes_without_their_parts(void **state) {
     (void)state;
     const Worst worst = find_presets(false, 0.0f);

@@ -63,7 +63,7 @@ static float value_of(const WovenPrepared *p, Dir o, Dir i, float once, float ag
     return v.f * (once * (1.0f - v.s) + again * v.s);
 }
 
-/* The mean over o of what either system sends back of light that falls on the whole cloth, all fibres white. */
+/* The part of the light from o that both systems send back, all fibres white. */
 static double sent_back(const WeftCloth *cloth, Dir o) {
     enum { ROWS = 16, COLUMNS = 32 };
     double sum = 0.0;

@@ -54,7 +54,7 @@ STRUCT(Woven){WOVEN_PARAMS(FIELD)};
     N(edge) N(count) N(part) N(crimp) N(cross_crimp) N(cos_a) N(sin_a) N(cos_t) N(sin_t) N(again)
 
 /* A part of the yarn: s between two bounds, or between their opposites. The first lies on both sides of 0 and is level: its
- * slope and its c are 0 and 1, and stand here so that all are alike.
+ * slope and middle are 0 and its c is 1, and stand here so that all are alike.
  *   slope: the mean s_y. middle, wide: s_x lies within wide of middle, and at the opposite slope within wide of its
  * opposite. c: 1 / sqrt(1 + slope^2). e: of the wider D, as yarn_met_once has it. gain: of its weight in the mean over s,
  * and of the wider D; 0: no part. */
@@ -106,6 +106,9 @@ FN WovenBin woven_bin(Woven m, float tan_crimp, float n, float k) {
     return b;
 }
 
+#define WOVEN_MAKE(name)                                                                                     \
+    p->name = woven_bin(m, tan_crimp, n, k);                                                                 \
+    k = k + 1.0f;
 FN void woven_prepare(Woven m, WovenPrepared *p) {
     float tan_crimp = sin(m.crimp) / cos(m.crimp), n = woven_count(m);
     p->alpha = m.alpha;
@@ -121,15 +124,8 @@ FN void woven_prepare(Woven m, WovenPrepared *p) {
     p->cos_t = cos(m.twist);
     p->sin_t = sin(m.twist);
     p->again = 0.5f / (PI * yarn_left_mean(m.alpha));
-    p->b0 = woven_bin(m, tan_crimp, n, 0.0f);
-    p->b1 = woven_bin(m, tan_crimp, n, 1.0f);
-    p->b2 = woven_bin(m, tan_crimp, n, 2.0f);
-    p->b3 = woven_bin(m, tan_crimp, n, 3.0f);
-    p->b4 = woven_bin(m, tan_crimp, n, 4.0f);
-    p->b5 = woven_bin(m, tan_crimp, n, 5.0f);
-    p->b6 = woven_bin(m, tan_crimp, n, 6.0f);
-    p->b7 = woven_bin(m, tan_crimp, n, 7.0f);
-    p->b8 = woven_bin(m, tan_crimp, n, 8.0f);
+    float k = 0.0f;
+    WOVEN_EACH_BIN(WOVEN_MAKE)
 }
 FN float woven_second(Woven m, float f0, float f90) { return yarn_reflectance(f0); }
 
@@ -226,7 +222,8 @@ FN WovenBin woven_opposite(WovenBin b) {
 /* The mean of single: of the level part, and of the others by twos. */
 FN float woven_once(const WovenPrepared *p, const WovenView *o, const WovenView *i, float q) {
     WovenBin level = p->b0;
-    level.slope = 0.0f;
+    level.slope = 0.0f; /* known, so that the compiler leaves out what it multiplies */
+    level.middle = 0.0f;
     level.c = 1.0f;
     float sum = 2.0f * level.gain * woven_row(p, level, o, i, q);
     ROUNDS_OF(k, to_int(p->count) - 1, WOVEN_BINS - 1) {
