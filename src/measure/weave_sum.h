@@ -12,13 +12,13 @@
 typedef struct WeaveSum {
     int bases;              /* 1, the material's own, or 2 */
     WeaveBase threads[2];   /* of 2: warp and weft */
-    WovenPrepared woven[2]; /* their lobes, prepared */
+    WovenPrepared woven[2]; /* and their lobes, prepared */
 } WeaveSum;
 
 /* The systems of a cloth; NULL: the material's own base. */
 WeaveSum weave_sum_of(const WeftCloth *cloth);
 
-/* Two lobes woven. */
+/* The sum of two lobes woven as their numbers alone say them, unlike those of a cloth. */
 WeaveSum weave_sum_of_lobes(const WeaveBase threads[2]);
 
 /* Sees base number so, and what lies on it, from o. e: as stack_make has it. */

@@ -191,9 +191,9 @@ static bool make_colors(WeftCloth *cloth, const SystemSeen seen[2]) {
 
 static void yarn_pairs(YarnPrepared p, const Lit *lit, PairsLit *restrict out) { EACH_LIT(yarn, Yarn) }
 
-/* Light that points of one system reflect between pairs of directions, the mean over channels, with loose fibres; and the
- * mean colours of points, in parts of the cloth, without these, as points of cloth that is not near have them. Loose fibres over
- * gaps count as gaps. */
+/* Light that points of one system reflect between pairs of directions, loose fibres among them, the mean over channels; and
+ * the mean colours of its points without loose fibres, in parts of the cloth, since textures and facets have these. What loose
+ * fibres add is in the factors of WeaveFar. Over a gap there are none. */
 typedef struct SystemLit {
     Lit lit;
     double once[3], again[3];

@@ -140,7 +140,7 @@ static bool fit_gains(SystemFit *fit) {
     const int count = (int)ceilf(woven_count(weave_woven(fit->weave, fit->weft)));
     double low[WOVEN_BINS], high[WOVEN_BINS], x[WOVEN_BINS];
     BinsLit bins;
-    for (int k = 0; k < count; k++) low[k] = 0.0, high[k] = 8.0, x[k] = (double)fit->gains[k];
+    for (int k = 0; k < count; k++) low[k] = 0.0, high[k] = 8.0, x[k] = fmin((double)fit->gains[k], high[k]);
     light_bins(fit, count, &bins);
     if (!make_least(gains_error, &bins, (unsigned)count, GAINS_MOST, low, high, x)) return false;
     for (int k = 0; k < count; k++) fit->gains[k] = (float)x[k];

@@ -72,7 +72,7 @@ static inline double lit_sum(const double values[LIT_PAIRS]) {
 
 /* Fits the lobe of one system of m to what its points reflect, `near`: alpha, crimp, roundness and floats of that system's
  * WeaveFar, which says what moments of the points are, and what woven_fit.c says. woven is the lobe, prepared. Returns what
- * it reflects between the pairs. Where memory is short it stays the lobe of the moments. */
+ * it reflects between the pairs. Where the search fails, as it does where memory is short, that is the lobe of the moments. */
 Lit woven_fit(Weave *m, bool weft, const Lit *near, WovenPrepared *woven);
 
 #endif

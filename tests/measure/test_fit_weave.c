@@ -168,6 +168,7 @@ static Worst find_presets(bool alone, float noise) {
             fail_msg("%s", error.text);
         const Found found =
             find_again(name, scene->cloths[scene->materials[0].cloth - 1], alone, noise, 17 + k);
+        if (!alone) assert_true(found.foretold < (strcmp(name, "sadeghi-charmeuse-back") == 0 ? 0.08 : 0.02));
         worst.foretold = fmax(worst.foretold, found.foretold);
         worst.number = fmax(worst.number, found.number);
     }
@@ -188,15 +189,14 @@ static void presets_are_found_again_by_what_they_reflect(void **state) {
 static void presets_are_found_again_under_noise(void **state) {
     (void)state;
     const Worst worst = find_presets(true, 0.1f);
-    assert_true(worst.foretold < 0.012);
+    assert_true(worst.foretold < 0.008);
 }
 
 /* Two lobes by their numbers alone foretell a cloth nearly: what is missing is what is fitted to the parts of its yarns
  * (weave/woven_fit.c), which is most on the back of Sadeghi's charmeuse. */
 static void cloths_are_found_by_lobes_without_their_parts(void **state) {
     (void)state;
-    const Worst worst = find_presets(false, 0.0f);
-    assert_true(worst.foretold < 0.08);
+    (void)find_presets(false, 0.0f);
 }
 
 /* Data of lobe ggx, which does not change as both directions turn; in all azimuths, and in one plane. */

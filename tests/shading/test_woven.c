@@ -85,7 +85,7 @@ static void the_far_lobe_is_the_mean_of_the_near_one(void **state) {
     static const Shape shapes[] = {{0.2f, 25, 0, 1, 0.005},    {0.4f, 25, 30, 1, 0.005},
                                    {0.2f, 40, 0, 1, 0.005},    {0.3f, 40, 30, 1, 0.005},
                                    {0.1f, 15, 0, 1, 0.005},    {0.12f, 35, 0, 4, 0.005},
-                                   {0.1f, 40, 0, 1, 0.017},    {0.1f, 60, 0, 1, 0.085},
+                                   {0.1f, 40, 0, 1, 0.005},    {0.1f, 60, 0, 1, 0.043},
                                    {0.2f, 25, 0, 0.4f, 0.015}, {0.12f, 35, 0, 16, 0.002}};
     for (size_t k = 0; k < sizeof shapes / sizeof *shapes; k++) {
         const Woven m = woven_shape(&shapes[k], 1.0f);
