@@ -9,6 +9,7 @@
  * look at the lobe. The slopes by which yarns hide each other are those of points. */
 #include "weave/woven_fit.h"
 
+#include <math.h>
 #include <string.h>
 
 #include <nlopt.h>
@@ -21,6 +22,36 @@ enum {
     GAINS_MOST = 4000, /* and at sums of bins */
     FIT_ROUNDS = 2,
 };
+
+/* Directions within 80 degrees of the normal, evenly by their cosine. */
+static Dir direction_of(double mu, double turn) {
+    const double z = 0.17 + 0.83 * mu, r = (sqrt)(1.0 - z * z), phi = 2.0 * (double)PI * turn;
+    return dir((float)(r * (cos)(phi)), (float)(r * (sin)(phi)), (float)z);
+}
+
+static void put(float to[3][LIT_PAIRS], int k, Dir w) { to[0][k] = w.x, to[1][k] = w.y, to[2][k] = w.z; }
+
+void lit_start(Lit *lit) {
+    for (int k = 0; k < LIT_PAIRS; k++) {
+        const double n = (double)k + 0.5;
+        put(lit->o, k, direction_of(n / LIT_PAIRS, fmod(0.7548776662 * n, 1.0)));
+        put(lit->i, k, direction_of(fmod(0.5698402910 * n, 1.0), fmod(0.3819660113 * n, 1.0)));
+        lit->once[k] = lit->again[k] = 0.0;
+    }
+}
+
+void lit_add(Lit *lit, const PairsLit *pairs, double once, double again) {
+    for (int k = 0; k < LIT_PAIRS; k++) {
+        lit->once[k] += (double)pairs->once[k] * once;
+        lit->again[k] += (double)pairs->again[k] * again;
+    }
+}
+
+double lit_sum(const double values[LIT_PAIRS]) {
+    double sum = 0.0;
+    for (int k = 0; k < LIT_PAIRS; k++) sum += values[k];
+    return sum;
+}
 
 static void woven_pairs(WovenPrepared p, const Lit *lit, PairsLit *restrict out) {
     BY_COUNT(EACH_LIT(woven, Woven))
@@ -96,16 +127,19 @@ static double gains_error(unsigned n, const double *x, double *gradient, void *u
     return error_of(once, bins->near);
 }
 
-static void light_bins(SystemFit *fit, int count, BinsLit *bins) {
+/* Returns how many bins there are. */
+static int light_bins(SystemFit *fit, BinsLit *bins) {
+    WovenPrepared p;
+    int bin = 0;
     bins->near = fit->near;
-    for (int bin = 0; bin < count; bin++) {
-        WovenPrepared p;
+    do {
         float gains[WOVEN_BINS] = {0.0f};
         gains[bin] = 1.0f;
         prepare_fitted(fit, gains, &p);
         light_lobe(&p, &fit->lobe);
         memcpy(bins->once[bin], fit->lobe.once, sizeof fit->lobe.once);
-    }
+    } while (++bin < (int)p.count);
+    return bin;
 }
 
 /* Makes the error least from x on: Thomas Harvey Rowan, "Functional Stability Analysis of Numerical Algorithms", 1990, as
@@ -137,11 +171,10 @@ static bool fit_shape(SystemFit *fit) {
 }
 
 static bool fit_gains(SystemFit *fit) {
-    const int count = (int)ceilf(woven_count(weave_woven(fit->weave, fit->weft)));
     double low[WOVEN_BINS], high[WOVEN_BINS], x[WOVEN_BINS];
     BinsLit bins;
+    const int count = light_bins(fit, &bins);
     for (int k = 0; k < count; k++) low[k] = 0.0, high[k] = 8.0, x[k] = fmin((double)fit->gains[k], high[k]);
-    light_bins(fit, count, &bins);
     if (!make_least(gains_error, &bins, (unsigned)count, GAINS_MOST, low, high, x)) return false;
     for (int k = 0; k < count; k++) fit->gains[k] = (float)x[k];
     return true;

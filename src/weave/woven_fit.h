@@ -2,8 +2,6 @@
 #ifndef WEFT_WEAVE_WOVEN_FIT_H
 #define WEFT_WEAVE_WOVEN_FIT_H
 
-#include <math.h>
-
 #include "shading/weave_light.h"
 
 /* The ends of the numbers of lobe woven; the crimp is a tangent. */
@@ -14,31 +12,14 @@
 
 enum { LIT_PAIRS = 144 };
 
-/* Directions within 80 degrees of the normal, evenly by their cosine. */
-static inline Dir lit_direction(double mu, double turn) {
-    const double z = 0.17 + 0.83 * mu, r = (sqrt)(1.0 - z * z), phi = 2.0 * (double)PI * turn;
-    return dir((float)(r * (cos)(phi)), (float)(r * (sin)(phi)), (float)z);
-}
-
 /* Pairs of directions, and what is reflected between them of light that met one fibre, and of all other, times the cosine. */
 typedef struct Lit {
     float o[3][LIT_PAIRS], i[3][LIT_PAIRS];
     double once[LIT_PAIRS], again[LIT_PAIRS];
 } Lit;
 
-static inline void lit_put(float to[3][LIT_PAIRS], int k, Dir w) {
-    to[0][k] = w.x, to[1][k] = w.y, to[2][k] = w.z;
-}
-
 /* Sets the pairs, evenly spread as cloth_far.c spreads places, between which nothing is reflected yet. */
-static inline void lit_start(Lit *lit) {
-    for (int k = 0; k < LIT_PAIRS; k++) {
-        const double n = (double)k + 0.5;
-        lit_put(lit->o, k, lit_direction(n / LIT_PAIRS, fmod(0.7548776662 * n, 1.0)));
-        lit_put(lit->i, k, lit_direction(fmod(0.5698402910 * n, 1.0), fmod(0.3819660113 * n, 1.0)));
-        lit->once[k] = lit->again[k] = 0.0;
-    }
-}
+void lit_start(Lit *lit);
 
 /* Light of both kinds between each pair, times the cosine. */
 typedef struct PairsLit {
@@ -57,18 +38,11 @@ typedef struct PairsLit {
         out->again[k] = v.f * i.z * v.s;                                                                     \
     }
 
-static inline void lit_add(Lit *lit, const PairsLit *pairs, double once, double again) {
-    for (int k = 0; k < LIT_PAIRS; k++) {
-        lit->once[k] += (double)pairs->once[k] * once;
-        lit->again[k] += (double)pairs->again[k] * again;
-    }
-}
+/* Adds the light of pairs, of either kind by a factor. */
+void lit_add(Lit *lit, const PairsLit *pairs, double once, double again);
 
-static inline double lit_sum(const double values[LIT_PAIRS]) {
-    double sum = 0.0;
-    for (int k = 0; k < LIT_PAIRS; k++) sum += values[k];
-    return sum;
-}
+/* Returns the sum over the pairs. */
+double lit_sum(const double values[LIT_PAIRS]);
 
 /* Fits the lobe of one system of m to what its points reflect, `near`: alpha, crimp, roundness and floats of that system's
  * WeaveFar, which says what moments of the points are, and what woven_fit.c says. woven is the lobe, prepared. Returns what

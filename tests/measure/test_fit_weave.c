@@ -106,7 +106,7 @@ static WeftLobe lobe_alone(const WeftCloth *cloth, bool weft) {
     return lobe;
 }
 
-/* What a cloth reflects: all of it, or its two lobes by their numbers alone. */
+/* Returns what a cloth reflects, or what its two lobes do by their numbers alone. */
 static WeftReflection *reflection_of(const WeftCloth *cloth, bool alone) {
     WeftReflection *reflection;
     WeftMaterial bare;

@@ -14,6 +14,7 @@
 #include "shading/weave_light.h"
 #include "weave/weft_cloth.h"
 #include "weft/weft.h"
+#include "white_cloth.h"
 #include "woven_presets.h"
 
 enum { PLACES = 400, DRAWN = 256, THREADS = 480 };
@@ -34,32 +35,6 @@ static void each_preset(void (*check)(const char *name, const WeftCloth *cloth))
     }
     assert_true(count >= WOVEN_PRESETS);
     weft_scene_free(scene);
-}
-
-/* Returns f of both systems from afar between two directions, with all fibres white. */
-static float white_of(const WeftCloth *cloth, Dir o, Dir i) {
-    float sum = 0.0f;
-    for (int t = 0; t < 2; t++) {
-        const WovenPrepared *p = &cloth->far.woven[t];
-        const WeaveFar *far = t == WEFT_WEFT ? &cloth->weave.weft_far : &cloth->weave.warp_far;
-        WovenView w;
-        woven_view(p, o, &w);
-        const LobeValue v = woven_value(p, &w, angles_between(o, i));
-        sum += v.f * (far->once * (1.0f - v.s) + far->again * v.s);
-    }
-    return sum;
-}
-
-/* The part of the light from o that the cloth sends back. */
-static double white_albedo(const WeftCloth *cloth, Dir o) {
-    enum { ROWS = 24, COLUMNS = 48 };
-    double sum = 0.0;
-    for (int k = 0; k < ROWS * COLUMNS; k++) {
-        const Dir i =
-            warp_cosine(((float)(k / COLUMNS) + 0.5f) / ROWS, ((float)(k % COLUMNS) + 0.5f) / COLUMNS);
-        sum += PI_DOUBLE * (double)white_of(cloth, o, i) / (ROWS * COLUMNS);
-    }
-    return sum;
 }
 
 static double any_unit(uint64_t *stream) { return (double)unit_float((uint32_t)(stream_next(stream) >> 32)); }

@@ -11,18 +11,16 @@
 
 #include <cmocka.h>
 
-#include "base/pi.h"
-#include "base/random.h"
 #include "shading/cases.h"
 #include "shading/weave_light.h"
-#include "weave/weft_cloth.h"
 #include "weave/woven_fit.h"
 #include "weft/weft.h"
+#include "white_cloth.h"
 
 enum { CLOTHS = 24, CLOTHS_LONG = 240, PAIRS = 200 };
 
-static uint64_t stream;
-static double any_unit(void) { return (double)unit_float((uint32_t)(stream_next(&stream) >> 32)); }
+static Random random_numbers = {41};
+static double any_unit(void) { return (double)random_unit(&random_numbers); }
 
 /* Any number of those that a yarn may have, or either end of them. */
 static WeftYarn any_yarn(void) {
@@ -50,32 +48,8 @@ static WeftCloth *any_cloth(void) {
 }
 
 static Dir any_above(void) {
-    const double z = 1e-4 + (1.0 - 1e-4) * any_unit(), r = (sqrt)(1.0 - z * z), phi = 6.28 * any_unit();
-    return dir((float)(r * (cos)(phi)), (float)(r * (sin)(phi)), (float)z);
-}
-
-static float value_of(const WovenPrepared *p, Dir o, Dir i, float once, float again) {
-    WovenView w;
-    woven_view(p, o, &w);
-    const LobeValue v = woven_value(p, &w, angles_between(o, i));
-    assert_true(v.f >= 0.0f && v.f < 1e8f && v.s >= 0.0f && v.s <= 1.0f && v.pdf >= 0.0f);
-    return v.f * (once * (1.0f - v.s) + again * v.s);
-}
-
-/* The part of the light from o that both systems send back, all fibres white. */
-static double sent_back(const WeftCloth *cloth, Dir o) {
-    enum { ROWS = 16, COLUMNS = 32 };
-    double sum = 0.0;
-    for (int t = 0; t < 2; t++) {
-        const WeaveFar *far = t == WEFT_WEFT ? &cloth->weave.weft_far : &cloth->weave.warp_far;
-        for (int k = 0; k < ROWS * COLUMNS; k++) {
-            const Dir i =
-                warp_cosine(((float)(k / COLUMNS) + 0.5f) / ROWS, ((float)(k % COLUMNS) + 0.5f) / COLUMNS);
-            sum += PI_DOUBLE * (double)value_of(&cloth->far.woven[t], o, i, far->once, far->again) /
-                   (ROWS * COLUMNS);
-        }
-    }
-    return sum;
+    const double z = 1e-4 + (1.0 - 1e-4) * any_unit();
+    return direction_cos(z, 2.0 * PI_DOUBLE * any_unit());
 }
 
 #define BIN_OF(name) p->name,
@@ -107,21 +81,16 @@ static void check_cloth(const WeftCloth *cloth) {
         fitted += is_fitted(p, weave_woven(&cloth->weave, t == WEFT_WEFT));
         for (int k = 0; k < PAIRS; k++) {
             const Dir o = any_above(), i = any_above();
-            const float there = value_of(p, o, i, 1.0f, 1.0f), back = value_of(p, i, o, 1.0f, 1.0f);
+            const float there = white_system(cloth, t, o, i), back = white_system(cloth, t, i, o);
             most_apart = fmax(most_apart, (double)(fabsf(there - back) / fmaxf(1.0f, there)));
         }
     }
-    for (int k = 0; k < 8; k++) {
-        const double z = 0.05 + 0.95 * k / 7.0;
-        const double r = (sqrt)(1.0 - z * z);
-        const Dir o = dir((float)(r * (cos)(0.8 * k)), (float)(r * (sin)(0.8 * k)), (float)z);
-        most_back = fmax(most_back, sent_back(cloth, o));
-    }
+    for (int k = 0; k < 8; k++)
+        most_back = fmax(most_back, white_albedo(cloth, direction_cos(0.05 + 0.95 * k / 7.0, 0.8 * k)));
 }
 
 static void cloths_of_any_yarns_reflect_from_afar(void **state) {
     (void)state;
-    stream = stream_start(41, 29);
     for (int k = 0; k < (test_long() ? CLOTHS_LONG : CLOTHS); k++) {
         WeftCloth *cloth = any_cloth();
         check_cloth(cloth);
