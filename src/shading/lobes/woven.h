@@ -194,9 +194,9 @@ FN float woven_facet(const WovenPrepared *p, WovenBin b, float x, const WovenLin
  * again and more where fibres turn by 30 degrees (own fit). */
 FN float woven_row(const WovenPrepared *p, WovenBin b, const WovenView *o, const WovenView *i, float q) {
     WovenLine l = woven_line(p, b.slope, b.c, o), n = woven_line(p, b.slope, b.c, i);
-    float from = b.middle - b.wide, to = b.middle + b.wide;
-    float low = clamp(max(o->over_x > 0.0f ? l.end : from, i->over_x > 0.0f ? n.end : from), from, to);
-    float high = clamp(min(o->over_x > 0.0f ? to : l.end, i->over_x > 0.0f ? to : n.end), from, to);
+    float least = b.middle - b.wide, most = b.middle + b.wide;
+    float low = clamp(max(o->over_x > 0.0f ? l.end : least, i->over_x > 0.0f ? n.end : least), least, most);
+    float high = clamp(min(o->over_x > 0.0f ? most : l.end, i->over_x > 0.0f ? most : n.end), least, most);
     float reach = 0.5f * max(high - low, 0.0f), middle = 0.5f * (high + low), g = 0.7483314774f * reach;
     float sides = woven_facet(p, b, middle - g, &l, &n, q) + woven_facet(p, b, middle + g, &l, &n, q);
     return reach * (sides + 1.36f * woven_facet(p, b, middle, &l, &n, q));
