@@ -14,8 +14,8 @@
 #include "weave/woven_fit.h"
 
 enum {
-    PIECE = 480,   /* threads of a piece of cloth, */
-    LOOKS = 24000, /* places at which it is looked at */
+    PIECE = 4800,  /* threads of a piece of cloth, */
+    LOOKS = 48000, /* places at which it is looked at */
     FAR_SIDE_MAX = 512,
 };
 _Static_assert(1 << (FAR_LEVELS_MOST - 1) == FAR_SIDE_MAX, "a level for each halving, and the first");

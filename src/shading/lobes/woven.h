@@ -10,8 +10,8 @@
  * yarns as Piti Irawan, Steve Marschner, "Specular Reflection from Woven Cloth", ACM TOG 31(1), 2012, have
  * them. A yarn that goes over one is an arc; one that floats is level for a while: floats is the power of its
  * slope. Fibres run along the yarn, or turn about it by the twist.
- *   The mean is a sum over 5 to 17 s, the more the narrower D is, and over 3 r of those that face both directions; one
- * s stands for those up to the next by its mean slope and by a D as much wider as slopes vary. Errors: docs/weave.md.
+ *   The mean is a sum over 5 to 17 s, the more the narrower D is, and over 3 r of those that face both directions; where
+ * 17 are too few for D, it is as much wider as slopes vary from one s to the next. Errors: docs/weave.md.
  * The weight is our own: of threads in woven cloth the neighbours hide more of the sides than of the middle.
  *   color: the albedo A of the fibres. The first colour dims light that met one of them, the second, rho(A),
  *     all other light. A cloth of two yarns is two of these lobes, at right angles.
@@ -23,7 +23,7 @@
  * (shading/yarn_draw.h). Own.
  *   Not for: cloth so near that threads are told apart, which is yarn.
  *   measured by weft check woven: E at most 0.98 (alpha 1, cos_o 1);
- *     reciprocal to 1e-3; weight variance 1.58 of the cosine's;
+ *     reciprocal to 1e-3; weight variance 1.60 of the cosine's;
  *     half precision: finite for any cosines. */
 #ifndef WEFT_WOVEN_H
 #define WEFT_WOVEN_H
@@ -56,8 +56,8 @@ STRUCT(Woven){WOVEN_PARAMS(FIELD)};
 /* A part of the yarn: s between two bounds, or between their opposites. The first lies on both sides of 0 and is level: its
  * slope and middle are 0 and its c is 1, and stand here so that all are alike.
  *   slope: the mean s_y. middle, wide: s_x lies within wide of middle, and at the opposite slope within wide of its
- * opposite. c: 1 / sqrt(1 + slope^2). e: of the wider D, as yarn_met_once has it. gain: of its weight in the mean over s,
- * and of the wider D; 0: no part. */
+ * opposite. c: 1 / sqrt(1 + slope^2). e: of D, as yarn_met_once has it. gain: of its weight in the mean over s,
+ * and of D; 0: no part. */
 #define WOVEN_BIN_NUMBERS(N) N(slope) N(middle) N(wide) N(c) N(e) N(gain)
 #define WOVEN_EACH_BIN(N)    N(b0) N(b1) N(b2) N(b3) N(b4) N(b5) N(b6) N(b7) N(b8)
 #define WOVEN_NUMBER(name)   float name;
@@ -67,47 +67,68 @@ STRUCT(WovenPrepared){WOVEN_NUMBERS(WOVEN_NUMBER) WOVEN_EACH_BIN(WOVEN_BIN)};
 
 #define WOVEN_BINS 9
 
-/* There are 2 n - 1 parts, up to 17: so many that from one to the next D moves by no more than 0.7 of its width at
- * the end of the yarn, unless that asks for more than 17. About the level part it moves farther: in a plain weave up
- * to 1.2 times at a crimp of 0.8 and 1.9 at 1.2, and most with floats below 1. With fewer than five the sum would miss what
- * turns away. n need not be whole: the last bin is as much narrower, so that f does not jump, which would stop a fit. */
-FN float woven_count(Woven m) {
+/* There are 2 n - 1 parts, up to 17: so many that from one to the next D moves by no more than 0.6 of its width at
+ * the end of the yarn, unless that asks for more than 17. About the level part it moves farther: in a plain weave up to 0.8
+ * times at a crimp of 0.8 and 1.3 at 1.2, and with floats of 0.4 up to 2.4 and 3.6 times. With fewer than five the sum would
+ * miss what turns away. n need not be whole: the last bin is as much narrower, so that f does not jump, which would stop a
+ * fit. */
+FN float woven_needed(Woven m) {
     float turn = 1.5f * m.floats / (m.floats + 0.5f) * m.crimp; /* at the end of the yarn, where x is 1 */
-    return clamp(turn / (0.7f * max(m.alpha, 1e-3f)) + 1.0f, 3.0f, to_float(WOVEN_BINS));
+    return max(turn / (0.6f * max(m.alpha, 1e-3f)) + 1.0f, 3.0f);
 }
+FN float woven_count(Woven m) { return min(woven_needed(m), to_float(WOVEN_BINS)); }
 
-/* Bin k reaches from x_k to x_(k + 1), s = x^(1.5 / (floats + 0.5)), x_0 = 0, x_1 = 1.1 / (2 n - 1), and the others are
- * even, up to 1: it has the mean slope there, and a D as much wider as slopes vary. Bin 0 and its opposite are one part,
- * level on the mean, with the gain of one of them. In x that part is a little wider: where light grazes the others turn
- * away one by one, and it never does. 1.5 and 1.1 are our own fit to means over points. WOVEN_ACROSS: a bin and its
- * opposite are half of the mean each, 1 / (6 g^2) is the outer weight of woven_row, and 0.9 is the mean of 1 - 0.3 r^2. */
-#define WOVEN_ACROSS (0.5f / (6.0f * 0.56f * 0.9f))
+/* Bin k reaches from x_k to x_(k + 1), s = x^(1.5 / (floats + 0.5)), x_0 = 0, x_1 = 1.2 / (2 n - 1), and the others are
+ * even, up to 1. Bin 0 and its opposite are one part, level on the mean, with the gain of one of them. In x that part is a
+ * little wider: where light grazes the others turn away one by one, and it never does. 1.5 and 1.2 are our own fit to means
+ * over points. */
 FN float woven_place(float n, float k) { /* x_k */
-    float first = 1.1f / (2.0f * n - 1.0f), next = (1.0f - first) / (n - 1.0f);
+    float first = 1.2f / (2.0f * n - 1.0f), next = (1.0f - first) / (n - 1.0f);
     return k > 0.0f ? min(first + (k - 1.0f) * next, 1.0f) : 0.0f;
 }
-FN WovenBin woven_bin(Woven m, float tan_crimp, float n, float k) {
-    float f = m.floats, e = 1.5f / (f + 0.5f), a2 = max(m.alpha * m.alpha, 1e-6f);
-    float x0 = woven_place(n, k), x1 = woven_place(n, k + 1.0f);
-    float s0 = pow(max(x0, 1e-3f), e), s1 = pow(x1, e);
-    float width = max(s1 - (x0 > 0.0f ? s0 : 0.0f), 1e-6f);
-    float mean = x0 > 0.0f ? max(pow(s1, f + 1.0f) - pow(s0, f + 1.0f), 0.0f) / ((f + 1.0f) * width) : 0.0f;
-    float square = pow(s1, 2.0f * f + 1.0f) - (x0 > 0.0f ? pow(s0, 2.0f * f + 1.0f) : 0.0f);
-    square = max(square, 0.0f) / ((2.0f * f + 1.0f) * width);
+
+/* Bin k: its width in s, and its means of s_y, over the largest, and of the square of that. */
+STRUCT(WovenReach) { float width, mean, square; };
+FN WovenReach woven_reach(Woven m, float n, float k) {
+    float f = m.floats, e = 1.5f / (f + 0.5f), x0 = woven_place(n, k), x1 = woven_place(n, k + 1.0f);
+    float there = x0 > 0.0f ? 1.0f : 0.0f, s0 = pow(max(x0, 1e-3f), e), s1 = pow(x1, e);
+    float more = max(pow(s1, f + 1.0f) - there * pow(s0, f + 1.0f), 0.0f) / (f + 1.0f);
+    float square = max(pow(s1, 2.0f * f + 1.0f) - there * pow(s0, 2.0f * f + 1.0f), 0.0f) / (2.0f * f + 1.0f);
+    WovenReach r;
+    r.width = max(s1 - there * s0, 1e-6f);
+    r.mean = there * more / r.width;
+    r.square = square / r.width;
+    return r;
+}
+
+/* A sum over the mean slopes of bins misses how slopes vary within them. So either these are moved out, by one factor, until
+ * they vary as much as all slopes, whose mean square is 1 / (2 floats + 1) of the largest; or D is as much wider as slopes
+ * vary, which is better where there are fewer parts than D asks for: 0 to 1 as those are up to 1.5 times as many as there
+ * are. WOVEN_ACROSS: a bin and its opposite are half of the mean each, 1 / (6 g^2) is the outer weight of woven_row, and 0.9
+ * is the mean of 1 - 0.3 r^2. */
+#define WOVEN_ACROSS (0.5f / (6.0f * 0.56f * 0.9f))
+FN float woven_widened(Woven m, float n) { return clamp(2.0f * (woven_needed(m) / n - 1.0f), 0.0f, 1.0f); }
+FN WovenBin woven_bin(Woven m, float tan_crimp, float n, float k, float moved) {
+    WovenReach r = woven_reach(m, n, k);
     WovenBin b;
-    b.slope = tan_crimp * mean;
+    b.slope = tan_crimp * moved * r.mean;
+    float a2 = max(m.alpha * m.alpha, 1e-6f);
     float spread = tan_crimp / (1.0f + b.slope * b.slope); /* of angles, by that of slopes */
-    a2 = a2 + (1.0f - a2) * spread * spread * max(square - mean * mean, 0.0f);
+    a2 = a2 + (1.0f - a2) * woven_widened(m, n) * spread * spread * max(r.square - r.mean * r.mean, 0.0f);
     b.e = (1.0f - a2) / a2;
     b.c = 1.0f / sqrt(1.0f + b.slope * b.slope);
     b.middle = 0.0f;
     b.wide = max(m.roundness, 1e-2f);
-    b.gain = k < n ? WOVEN_ACROSS * width / (4.0f * PI * a2 * b.wide) : 0.0f;
+    b.gain = k < n ? WOVEN_ACROSS * r.width / (4.0f * PI * a2 * b.wide) : 0.0f;
     return b;
 }
 
+#define WOVEN_VARY(name)                                                                                     \
+    reach = woven_reach(m, n, k);                                                                            \
+    vary = vary + reach.width * reach.mean * reach.mean;                                                     \
+    k = k + 1.0f;
 #define WOVEN_MAKE(name)                                                                                     \
-    p->name = woven_bin(m, tan_crimp, n, k);                                                                 \
+    p->name = woven_bin(m, tan_crimp, n, k, moved);                                                          \
     k = k + 1.0f;
 FN void woven_prepare(Woven m, WovenPrepared *p) {
     float tan_crimp = sin(m.crimp) / cos(m.crimp), n = woven_count(m);
@@ -124,7 +145,11 @@ FN void woven_prepare(Woven m, WovenPrepared *p) {
     p->cos_t = cos(m.twist);
     p->sin_t = sin(m.twist);
     p->again = 0.5f / (PI * yarn_left_mean(m.alpha));
-    float k = 0.0f;
+    WovenReach reach;
+    float k = 0.0f, vary = 0.0f;
+    WOVEN_EACH_BIN(WOVEN_VARY)
+    float moved = mix(1.0f / sqrt((2.0f * m.floats + 1.0f) * max(vary, 1e-6f)), 1.0f, woven_widened(m, n));
+    k = 0.0f;
     WOVEN_EACH_BIN(WOVEN_MAKE)
 }
 FN float woven_second(Woven m, float f0, float f90) { return yarn_reflectance(f0); }
