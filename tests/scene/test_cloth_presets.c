@@ -46,6 +46,7 @@ static void presets_from_afar_are_symmetric_and_keep_energy(void **state) {
 /* Pairs of directions within 81 degrees of the normal, and what a cloth reflects between each on the mean over its points,
  * with all fibres, times the cosine; the long run looks at more of them. */
 enum { PAIRS = 100 };
+enum { OTHERS = 1000003 }; /* places that cloth_far.c does not look at begin there */
 static int points_seen(void) { return test_long() ? 300000 : 12000; }
 typedef struct Pairs {
     Dir o[PAIRS], i[PAIRS];
@@ -55,8 +56,8 @@ static void points_reflect(const Weave *m, const Pairs *pairs, double lit[PAIRS]
     memset(lit, 0, PAIRS * sizeof *lit);
     const int count = points_seen();
     for (int n = 0; n < count; n++) {
-        const float x = (float)(PIECE * fmod(0.7548776662466927 * n, 1.0)),
-                    y = (float)(PIECE * fmod(0.5698402909980532 * n, 1.0));
+        const float x = (float)(PIECE * fmod(0.7548776662466927 * (n + OTHERS), 1.0)),
+                    y = (float)(PIECE * fmod(0.5698402909980532 * (n + OTHERS), 1.0));
         const WeavePoint p = weave_point(m, x, y, 0.0f, 0.0f);
         if (p.height <= WEAVE_NONE) continue;
         const Rgb once = weave_once_rgb(m, p), again = weave_again_rgb(m, p);
@@ -113,6 +114,7 @@ static Compared compare(const Pairs *pairs, double points[PAIRS][3], double far[
 }
 
 static double farthest, most_apart, worst_apart;
+static int well_met; /* presets that are near, pair by pair */
 
 static void check_reflection(const char *name, const WeftCloth *cloth) {
     Pairs pairs;
@@ -146,7 +148,8 @@ static void check_reflection(const char *name, const WeftCloth *cloth) {
     }
     most_apart = fmax(most_apart, apart);
     worst_apart = fmax(worst_apart, one);
-    assert_true(apart < (test_long() ? 0.02 : 0.025)); /* docs/weave.md */
+    well_met += apart < (test_long() ? 0.009 : 0.016); /* docs/weave.md */
+    assert_true(apart < (test_long() ? 0.02 : 0.025) && one < 0.16);
     print_message("  each pair by %.4f, at worst %.3f  E %.3f %.3f %.3f\n", apart, one, (double)e[0],
                   (double)e[1], (double)e[2]);
     weft_reflection_free(reflection);
@@ -158,6 +161,7 @@ static void presets_are_reflections_that_reflect_as_their_points_do(void **state
     print_message("the farthest is off by %.3f, each pair by %.3f, one by %.3f\n", farthest, most_apart,
                   worst_apart);
     assert_true(farthest < (test_long() ? 0.01 : 0.02));
+    assert_true(WOVEN_PRESETS - well_met <= 3);
 }
 
 /* f cos / pdf of fibres of albedo 0.9. */

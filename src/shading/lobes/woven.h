@@ -10,8 +10,8 @@
  * yarns as Piti Irawan, Steve Marschner, "Specular Reflection from Woven Cloth", ACM TOG 31(1), 2012, have
  * them. A yarn that goes over one is an arc; one that floats is level for a while: floats is the power of its
  * slope. Fibres run along the yarn, or turn about it by the twist.
- *   The mean is a sum over 5 to 17 s, the more the narrower D is, and over 3 r of those that face both directions; where
- * 17 are too few for D, it is as much wider as slopes vary from one s to the next. Errors: docs/weave.md.
+ *   The mean is a sum over 5 to 17 slopes s_y, the more the narrower D is, which vary as all of the yarn do, and over 3 r of
+ * those that face both directions; where 17 are too few, D is wider instead. Errors: docs/weave.md.
  * The weight is our own: of threads in woven cloth the neighbours hide more of the sides than of the middle.
  *   color: the albedo A of the fibres. The first colour dims light that met one of them, the second, rho(A),
  *     all other light. A cloth of two yarns is two of these lobes, at right angles.
@@ -72,7 +72,7 @@ STRUCT(WovenPrepared){WOVEN_NUMBERS(WOVEN_NUMBER) WOVEN_EACH_BIN(WOVEN_BIN)};
  * times at a crimp of 0.8 and 1.3 at 1.2, and with floats of 0.4 up to 2.4 and 3.6 times. With fewer than five the sum would
  * miss what turns away. n need not be whole: the last bin is as much narrower, so that f does not jump, which would stop a
  * fit. */
-FN float woven_needed(Woven m) {
+FN float woven_needed(Woven m) {                                /* n, however many bins that asks for */
     float turn = 1.5f * m.floats / (m.floats + 0.5f) * m.crimp; /* at the end of the yarn, where x is 1 */
     return max(turn / (0.6f * max(m.alpha, 1e-3f)) + 1.0f, 3.0f);
 }
@@ -101,20 +101,19 @@ FN WovenReach woven_reach(Woven m, float n, float k) {
     return r;
 }
 
-/* A sum over the mean slopes of bins misses how slopes vary within them. So either these are moved out, by one factor, until
- * they vary as much as all slopes, whose mean square is 1 / (2 floats + 1) of the largest; or D is as much wider as slopes
- * vary, which is better where there are fewer parts than D asks for: 0 to 1 as those are up to 1.5 times as many as there
- * are. WOVEN_ACROSS: a bin and its opposite are half of the mean each, 1 / (6 g^2) is the outer weight of woven_row, and 0.9
- * is the mean of 1 - 0.3 r^2. */
+/* The mean slopes of bins vary less than all slopes, whose mean square is 1 / (2 floats + 1) of the largest one's. Where
+ * there are enough bins, all are moved outwards by one factor, `moved`, which makes up for it. Where D asks for more, D is
+ * wider instead, by how slopes vary within a bin. widened goes from the first, 0, to the second, 1, as D asks for up to 1.5
+ * times the bins; between, each makes up for its part. WOVEN_ACROSS: a bin and its opposite are half of the mean each,
+ * 1 / (6 g^2) is the outer weight of woven_row, and 0.9 is the mean of 1 - 0.3 r^2. */
 #define WOVEN_ACROSS (0.5f / (6.0f * 0.56f * 0.9f))
-FN float woven_widened(Woven m, float n) { return clamp(2.0f * (woven_needed(m) / n - 1.0f), 0.0f, 1.0f); }
-FN WovenBin woven_bin(Woven m, float tan_crimp, float n, float k, float moved) {
+FN WovenBin woven_bin(Woven m, float tan_crimp, float n, float k, float moved, float widened) {
     WovenReach r = woven_reach(m, n, k);
     WovenBin b;
     b.slope = tan_crimp * moved * r.mean;
     float a2 = max(m.alpha * m.alpha, 1e-6f);
     float spread = tan_crimp / (1.0f + b.slope * b.slope); /* of angles, by that of slopes */
-    a2 = a2 + (1.0f - a2) * woven_widened(m, n) * spread * spread * max(r.square - r.mean * r.mean, 0.0f);
+    a2 = a2 + (1.0f - a2) * widened * spread * spread * max(r.square - r.mean * r.mean, 0.0f);
     b.e = (1.0f - a2) / a2;
     b.c = 1.0f / sqrt(1.0f + b.slope * b.slope);
     b.middle = 0.0f;
@@ -128,7 +127,7 @@ FN WovenBin woven_bin(Woven m, float tan_crimp, float n, float k, float moved) {
     vary = vary + reach.width * reach.mean * reach.mean;                                                     \
     k = k + 1.0f;
 #define WOVEN_MAKE(name)                                                                                     \
-    p->name = woven_bin(m, tan_crimp, n, k, moved);                                                          \
+    p->name = woven_bin(m, tan_crimp, n, k, moved, widened);                                                 \
     k = k + 1.0f;
 FN void woven_prepare(Woven m, WovenPrepared *p) {
     float tan_crimp = sin(m.crimp) / cos(m.crimp), n = woven_count(m);
@@ -148,7 +147,8 @@ FN void woven_prepare(Woven m, WovenPrepared *p) {
     WovenReach reach;
     float k = 0.0f, vary = 0.0f;
     WOVEN_EACH_BIN(WOVEN_VARY)
-    float moved = mix(1.0f / sqrt((2.0f * m.floats + 1.0f) * max(vary, 1e-6f)), 1.0f, woven_widened(m, n));
+    float widened = clamp(2.0f * (woven_needed(m) / n - 1.0f), 0.0f, 1.0f);
+    float moved = mix(1.0f / sqrt((2.0f * m.floats + 1.0f) * vary), 1.0f, widened);
     k = 0.0f;
     WOVEN_EACH_BIN(WOVEN_MAKE)
 }
