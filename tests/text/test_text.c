@@ -667,11 +667,11 @@ static void lines_are_traced_to_their_file(void **state) {
     text_free(&text);
 }
 
-/* The only line of a file that holds these words; 0 where there is none or another. */
+/* The only line of a file that holds these words and does not go on as a macro's; 0 where there is none or another. */
 static int only_line_with(const char *bytes, const char *words, size_t size) {
     int line = 1, found = 0;
     for (const char *c = bytes; *c; line += *c++ == '\n')
-        if (strncmp(c, words, size) == 0) {
+        if (strncmp(c, words, size) == 0 && c[size + strspn(c + size, " ")] != '\\') {
             if (found) return 0;
             found = line;
         }
