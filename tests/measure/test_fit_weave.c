@@ -163,7 +163,7 @@ static Worst find_presets(bool alone, float noise) {
     assert_int_equal(weft_scene_load("builtin:cloth", &scene, NULL, &error), WEFT_OK);
     for (int k = 0; weft_preset_name(k); k++) {
         const char *name = weft_preset_name(k), *text = weft_preset_text(k);
-        if (woven_family(name) < 0 || !test_turn(&woven, alone ? 2 : 4, 8)) continue;
+        if (woven_family(name) < 0 || !test_turn(&woven, alone ? 2 : 4, 11)) continue;
         if (weft_scene_assign_material_memory(scene, NULL, text, strlen(text), name, NULL, &error) != WEFT_OK)
             fail_msg("%s", error.text);
         const Found found =
