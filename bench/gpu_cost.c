@@ -521,17 +521,14 @@ int main(void) {
         "| fibres | instructions | cycles | over ltc | alone | over ltc | registers |\n"
         "|---|---|---|---|---|---|---|\n");
     fibre_costs(&gpu);
-    printf("\nA point of a woven cloth (docs/weave.md): the cloth's numbers in a uniform buffer; those of "
-           "denim known "
-           "to\nthe compiler; and those of denim whose threads are all alike, without streaks, slubs, "
-           "irregular dye "
-           "and\nloose fibres. Loose fibres are a loop of sixteen rounds where there may be any; its text "
-           "counts "
-           "once.\n\n"
-           "| point of a cloth | instructions, prepared | known | threads alike | cycles, prepared | known | "
-           "threads "
-           "alike |"
-           " registers, prepared | known | threads alike |\n|---|---|---|---|---|---|---|---|---|---|\n");
+    printf(
+        "\nA point of a woven cloth (docs/weave.md): the cloth's numbers in a uniform buffer; those of "
+        "denim known to\nthe compiler; and those of denim whose threads are all alike, without streaks, "
+        "slubs, irregular dye and\nloose fibres. Loose fibres are a loop of sixteen rounds where there may "
+        "be any; its text counts once.\n\n"
+        "| point of a cloth | instructions, prepared | known | threads alike | cycles, prepared | known |"
+        " threads alike | registers, prepared | known | threads alike |\n"
+        "|---|---|---|---|---|---|---|---|---|---|\n");
     weave_costs(&gpu);
     gpu_end(&gpu);
     return 0;

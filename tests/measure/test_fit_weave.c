@@ -20,7 +20,7 @@
 #include "shading/weave_light.h"
 #include "weave/weft_cloth.h"
 #include "weft/weft.h"
-#include "woven_presets.h"
+#include "woven_cloths.h"
 
 enum { PAIRS = 6000, FITTED = 4000 };
 static float wo[PAIRS][3], wi[PAIRS][3], f[PAIRS][3], measured[FITTED][3];
@@ -156,25 +156,18 @@ typedef struct Worst {
 
 /* Returns the worst of the woven presets. */
 static Worst find_presets(bool alone, float noise) {
-    WeftScene *scene;
-    WeftError error;
     Worst worst = {0};
     int woven = 0;
-    assert_int_equal(weft_scene_load("builtin:cloth", &scene, NULL, &error), WEFT_OK);
     for (int k = 0; weft_preset_name(k); k++) {
-        const char *name = weft_preset_name(k), *text = weft_preset_text(k);
+        const char *name = weft_preset_name(k);
         if (woven_family(name) < 0 || !test_turn(&woven, alone ? 2 : 4, 11)) continue;
-        if (weft_scene_assign_material_memory(scene, NULL, text, strlen(text), name, NULL, &error) != WEFT_OK)
-            fail_msg("%s", error.text);
-        const Found found =
-            find_again(name, scene->cloths[scene->materials[0].cloth - 1], alone, noise, 17 + k);
+        const Found found = find_again(name, woven_cloth(k), alone, noise, 17 + k);
         if (!alone) assert_true(found.foretold < (strcmp(name, "sadeghi-charmeuse-back") == 0 ? 0.08 : 0.02));
         worst.foretold = fmax(worst.foretold, found.foretold);
         worst.number = fmax(worst.number, found.number);
     }
     assert_true(woven >= WOVEN_PRESETS);
     print_message("the farthest is off by %.5f, a number by %.5f\n", worst.foretold, worst.number);
-    weft_scene_free(scene);
     return worst;
 }
 
@@ -247,5 +240,5 @@ int main(void) {
         cmocka_unit_test(presets_are_found_again_under_noise),
         cmocka_unit_test(cloths_are_found_by_lobes_without_their_parts),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, NULL, woven_cloths_free);
 }

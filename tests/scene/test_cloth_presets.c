@@ -393,5 +393,5 @@ int main(void) {
         cmocka_unit_test(facets_side_by_side_are_alike),
         cmocka_unit_test(maps_of_presets_have_one_weight),
     };
-    return cmocka_run_group_tests(tests, woven_cloths_make, woven_cloths_free);
+    return cmocka_run_group_tests(tests, NULL, woven_cloths_free);
 }

@@ -79,9 +79,9 @@ static Dir above(Random *random, double least) {
     return direction_cos(least + (1.0 - least) * up, 2.0 * PI_DOUBLE * turn);
 }
 
-/* What a yarn near and far reflects between pairs of directions within 81 degrees of the normal: how far both are apart, in
- * parts of the mean; at worst, in its own, of pairs that have a twentieth of the brightest one's light; and at worst in
- * light that was met again. */
+/* Yarns near and far are compared between pairs of directions within 81 degrees of the normal.
+ *   mean: how far they are apart, in parts of the mean. worst: of one pair, in its own, where that has a twentieth of the
+ * brightest one's light. many: of one pair, in light that was met again. */
 enum { PAIRS = 100 };
 typedef struct Apart {
     double mean, worst, many;
@@ -255,5 +255,5 @@ int main(void) {
         cmocka_unit_test(yarns_of_irawan_are_finite_down_to_the_horizon),
         cmocka_unit_test(value_is_the_same_both_ways_round),
     };
-    return cmocka_run_group_tests(tests, woven_cloths_make, woven_cloths_free);
+    return cmocka_run_group_tests(tests, NULL, woven_cloths_free);
 }
