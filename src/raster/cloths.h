@@ -27,7 +27,7 @@ void cloths_bind(const GlCloths *cloths, int cloth, int cells_unit, int colors_u
 void cloths_destroy(GlCloths *cloths);
 
 /* The numbers of a cloth as weave.glsl reads them, and what fills their last vector of four. */
-enum { CLOTH_NUMBERS = 204 };
+enum { CLOTH_NUMBERS = 172 };
 void cloth_numbers(const WeftCloth *cloth, float numbers[CLOTH_NUMBERS]);
 
 #endif

@@ -78,8 +78,8 @@ FN bool pair_counts(Dir o, Dir i) {
     name##_prepare(name##_of(m), &p);                                                                        \
     EACH_PAIR(name, Name, __VA_ARGS__)
 
-/* A loop for a prepared lobe p whose value is a sum of p.count rounds (ROUNDS_OF), of which later ones would add nothing. It is
- * compiled three times, for up to 3, for up to 5 and for all rounds, since it is one of vectors only where the compiler knows
+/* A loop for a prepared lobe p whose value is a sum of p.count rounds (ROUNDS_OF), of which later ones would add nothing. It
+ * is compiled four times, for up to 3, 5 and 9 rounds and for all, since it is one of vectors only where the compiler knows
  * their number. */
 #define ALL_ROUNDS(p) p.count = 1e3f
 #define BY_COUNT(...)                                                                                        \
@@ -88,6 +88,9 @@ FN bool pair_counts(Dir o, Dir i) {
         __VA_ARGS__                                                                                          \
     } else if (p.count <= 5.0f) {                                                                            \
         p.count = 5.0f;                                                                                      \
+        __VA_ARGS__                                                                                          \
+    } else if (p.count <= 9.0f) {                                                                            \
+        p.count = 9.0f;                                                                                      \
         __VA_ARGS__                                                                                          \
     } else {                                                                                                 \
         ALL_ROUNDS(p);                                                                                       \

@@ -7,7 +7,6 @@
 /* The ends of the numbers of lobe woven; the crimp is a tangent. */
 #define ROUNDNESS_MOST 1.5f
 #define CRIMP_MOST     2.5f
-#define FLOATS_LEAST   0.4f
 #define FLOATS_MOST    16.0f
 
 enum { LIT_PAIRS = 144 };

@@ -109,12 +109,11 @@ static Apart apart_of(const Woven *m, int side, Random random) {
 
 static void the_far_lobe_is_the_mean_of_the_near_one(void **state) {
     (void)state;
-    /* of the last four, two plain weaves need more parts than there are, as floats of 4 and 16 do, and two powers are
-     * the ends of their range */
+    /* of the last four the first asks for 14 parts more than there are, and two powers are the ends of their range */
     static const Shape shapes[] = {{0.2f, 25, 0, 1, 0.005, 0.02},    {0.4f, 25, 30, 1, 0.005, 0.02},
                                    {0.2f, 40, 0, 1, 0.005, 0.02},    {0.3f, 40, 30, 1, 0.005, 0.025},
                                    {0.1f, 15, 0, 1, 0.005, 0.02},    {0.12f, 35, 0, 4, 0.005, 0.02},
-                                   {0.1f, 40, 0, 1, 0.006, 0.04},    {0.1f, 60, 0, 1, 0.043, 0.25},
+                                   {0.1f, 60, 0, 1, 0.005, 0.025},   {0.1f, 40, 0, 1, 0.005, 0.02},
                                    {0.2f, 25, 0, 0.4f, 0.015, 0.15}, {0.12f, 35, 0, 16, 0.002, 0.02}};
     for (size_t k = 0; k < sizeof shapes / sizeof *shapes; k++) {
         const Woven m = woven_shape(&shapes[k], 1.0f);
@@ -154,24 +153,22 @@ static Woven system_yarn(const Weave *m, bool weft) {
 static void check_yarns(const char *name, const WeftCloth *cloth) {
     for (int weft = 0; weft < 2; weft++) {
         const Woven m = system_yarn(&cloth->weave, weft);
-        const Apart a = apart_of(&m, 64, (Random){7});
+        const Apart a = apart_of(&m, 128, (Random){7});
         printf("%-24s %s: %.2f %% apart, %.1f %% at worst\n", name, weft ? "weft" : "warp", 100.0 * a.mean,
                100.0 * a.worst);
         yarns++;
         near_yarns += a.mean < 0.005;
         settled_yarns += a.worst < 0.02;
-        assert_true(a.mean < 0.025);
     }
 }
 
-/* By sums over 64 x 64 points. Most of those that are farther are steep, or too smooth for 17 parts. */
 static void yarns_of_presets_are_the_mean_of_near_ones(void **state) {
     (void)state;
     each_woven_cloth(check_yarns);
     printf("of %d yarns %d are within 0.5 %%, and %d within 2 %% at worst\n", yarns, near_yarns,
            settled_yarns);
-    assert_true(yarns - near_yarns <= 5);
-    assert_true(yarns - settled_yarns <= 7);
+    assert_int_equal(near_yarns, yarns);
+    assert_int_equal(settled_yarns, yarns);
 }
 
 /* The mean of P / V over uniform slopes of its own family is 1 for every direction. */

@@ -55,12 +55,15 @@ static Dir any_above(void) {
 #define BIN_OF(name) p->name,
 static void check_numbers(const WovenPrepared *p) {
     const WovenBin bins[] = {WOVEN_EACH_BIN(BIN_OF)};
-    for (int k = 0; k < WOVEN_BINS; k++) {
-        const float reach = fabsf(bins[k].middle) + bins[k].wide;
-        assert_true(bins[k].wide > 0.0f && reach <= ROUNDNESS_MOST + 1e-6f);
+    assert_true(p->level >= 0.0f && isfinite(p->level) && isfinite(p->steep) && p->e >= 0.0f);
+    assert_true(p->wide > 0.0f && p->wide <= ROUNDNESS_MOST);
+    for (int k = 0; k < WOVEN_BINS - 1; k++) {
+        const WovenSlopes slopes = woven_slopes(p, bins[k].mean);
+        const float reach = fabsf(slopes.middle) + slopes.wide;
+        assert_true(slopes.wide > 0.0f && reach <= ROUNDNESS_MOST + 1e-6f);
         assert_true(1.0f + p->edge * reach * reach >= 0.0f); /* the weight */
         assert_true(bins[k].gain >= 0.0f && isfinite(bins[k].gain));
-        assert_true(isfinite(bins[k].slope) && bins[k].c > 0.0f && bins[k].c <= 1.0f && bins[k].e >= 0.0f);
+        assert_true(bins[k].mean >= 0.0f && bins[k].mean <= 1.0f && slopes.c > 0.0f && slopes.c <= 1.0f);
     }
 }
 
@@ -68,7 +71,7 @@ static void check_numbers(const WovenPrepared *p) {
 static int is_fitted(const WovenPrepared *p, Woven m) {
     WovenPrepared plain;
     woven_prepare(m, &plain);
-    return p->b0.gain != plain.b0.gain || p->b1.gain != plain.b1.gain || p->b1.wide != plain.b1.wide;
+    return p->level != plain.level || p->b1.gain != plain.b1.gain || p->narrow != plain.narrow;
 }
 
 static double most_back, most_apart;

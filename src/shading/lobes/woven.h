@@ -10,8 +10,9 @@
  * yarns as Piti Irawan, Steve Marschner, "Specular Reflection from Woven Cloth", ACM TOG 31(1), 2012, have
  * them. A yarn that goes over one is an arc; one that floats is level for a while: floats is the power of its
  * slope. Fibres run along the yarn, or turn about it by the twist.
- *   The mean is a sum over 5 to 17 slopes s_y, the more the narrower D is, which vary as all of the yarn do, and over 3 r of
- * those that face both directions; where 17 are too few, D is wider instead. Errors: docs/weave.md.
+ *   The mean is a sum over 5 to 33 slopes s_y, the more the narrower D is and the steeper the yarn, which vary as all of
+ * the yarn do, and over 3 r of those that face both directions; where 33 are too few, D is wider instead. Errors:
+ * docs/weave.md.
  * The weight is our own: of threads in woven cloth the neighbours hide more of the sides than of the middle.
  *   color: the albedo A of the fibres. The first colour dims light that met one of them, the second, rho(A),
  *     all other light. A cloth of two yarns is two of these lobes, at right angles.
@@ -45,112 +46,115 @@
 STRUCT(Woven){WOVEN_PARAMS(FIELD)};
 
 /* roundness, crimp, cross_crimp: slopes by which yarns hide each other, as yarn_area takes them; of a cloth those of its
- * points, where what else is here is fitted (weave/woven_fit.c). edge: of the weight 1 + edge s_x^2. count: of bins. part: the
- * share; 1 where colours hold it (raster/glsl/weave.glsl). again: of many, beside what directions add. */
+ * points, where what else is here is fitted (weave/woven_fit.c). edge: of the weight 1 + edge s_x^2. count: of bins, the
+ * level part among them. part: the share; 1 where colours hold it (raster/glsl/weave.glsl). again: of many, beside what
+ * directions add. e: of D, as yarn_met_once has it. steep: s_y where mean is 1. level: the gain of the level part. wide,
+ * lean, narrow: of WovenSlopes. */
 #define WOVEN_NUMBERS(N)                                                                                     \
     N(alpha)                                                                                                 \
     N(share)                                                                                                 \
     N(roundness)                                                                                             \
-    N(edge) N(count) N(part) N(crimp) N(cross_crimp) N(cos_a) N(sin_a) N(cos_t) N(sin_t) N(again)
+    N(edge)                                                                                                  \
+    N(count)                                                                                                 \
+    N(part)                                                                                                  \
+    N(crimp)                                                                                                 \
+    N(cross_crimp)                                                                                           \
+    N(cos_a) N(sin_a) N(cos_t) N(sin_t) N(again) N(e) N(steep) N(level) N(wide) N(lean) N(narrow)
 
-/* A part of the yarn: s between two bounds, or between their opposites. The first lies on both sides of 0 and is level: its
- * slope and middle are 0 and its c is 1, and stand here so that all are alike.
- *   slope: the mean s_y. middle, wide: s_x lies within wide of middle, and at the opposite slope within wide of its
- * opposite. c: 1 / sqrt(1 + slope^2). e: of D, as yarn_met_once has it. gain: of its weight in the mean over s,
- * and of D; 0: no part. */
-#define WOVEN_BIN_NUMBERS(N) N(slope) N(middle) N(wide) N(c) N(e) N(gain)
-#define WOVEN_EACH_BIN(N)    N(b0) N(b1) N(b2) N(b3) N(b4) N(b5) N(b6) N(b7) N(b8)
-#define WOVEN_NUMBER(name)   float name;
-#define WOVEN_BIN(name)      WovenBin name;
+/* A part of the yarn: s between two bounds, or between their opposites. The first lies on both sides of 0 and is level, and
+ * stands in WOVEN_NUMBERS; the others follow it here.
+ *   mean: of s_y, over steep. gain: of its weight in the mean over s, and of D; 0: no part. */
+#define WOVEN_BIN_NUMBERS(N) N(mean) N(gain)
+#define WOVEN_EACH_BIN(N)                                                                                    \
+    N(b1) N(b2) N(b3) N(b4) N(b5) N(b6) N(b7) N(b8) N(b9) N(b10) N(b11) N(b12) N(b13) N(b14) N(b15) N(b16)
+#define WOVEN_NUMBER(name) float name;
+#define WOVEN_BIN(name)    WovenBin name;
 STRUCT(WovenBin){WOVEN_BIN_NUMBERS(WOVEN_NUMBER)};
 STRUCT(WovenPrepared){WOVEN_NUMBERS(WOVEN_NUMBER) WOVEN_EACH_BIN(WOVEN_BIN)};
 
-#define WOVEN_BINS 9
+#define WOVEN_BINS 17 /* with the level one; ROUNDS writes out the others, up to 16 */
 
-/* There are 2 n - 1 parts, up to 17: so many that from one to the next D moves by no more than 0.6 of its width at
- * the end of the yarn, unless that asks for more than 17. About the level part it moves farther: in a plain weave up to 0.8
- * times at a crimp of 0.8 and 1.3 at 1.2, and with floats of 0.4 up to 2.4 and 3.6 times. With fewer than five the sum would
- * miss what turns away. n need not be whole: the last bin is as much narrower, so that f does not jump, which would stop a
- * fit. */
+/* There are 2 n - 1 parts. t: how many of its widths D would move along the yarn at the pace that it has at the end. n grows
+ * with t, and a little with t^2. Yarns that are steep and rough need more parts than D asks for. n need not be whole: the
+ * last bin is as much narrower, so that f does not jump. Own fit. */
 FN float woven_needed(Woven m) {                                /* n, however many bins that asks for */
     float turn = 1.5f * m.floats / (m.floats + 0.5f) * m.crimp; /* at the end of the yarn, where x is 1 */
-    return max(turn / (0.6f * max(m.alpha, 1e-3f)) + 1.0f, 3.0f);
+    float t = turn / max(m.alpha, 1e-3f);
+    return max(max(t * (1.55f + 0.06f * t) + 1.0f, 9.0f * (turn - 0.65f) + 3.0f), 3.0f);
 }
 FN float woven_count(Woven m) { return min(woven_needed(m), to_float(WOVEN_BINS)); }
 
-/* Bin k reaches from x_k to x_(k + 1), s = x^(1.5 / (floats + 0.5)), x_0 = 0, x_1 = 1.2 / (2 n - 1), and the others are
- * even, up to 1. Bin 0 and its opposite are one part, level on the mean, with the gain of one of them. In x that part is a
- * little wider: where light grazes the others turn away one by one, and it never does. 1.5 and 1.2 are our own fit to means
- * over points. */
-FN float woven_place(float n, float k) { /* x_k */
+/* Bin k reaches from x_k to x_(k + 1), s = x^(1.5 (1 + 0.05 crimp^2) / (floats + 0.5)), x_0 = 0, x_1 = 1.2 / (2 n - 1), and
+ * the others are even, up to 1. Bin 0 and its opposite are one part, level on the mean. In x that part is a little wider:
+ * where light grazes the others turn away one by one, and it never does. Steep yarns have their bins closer to it. Own fit to
+ * means over points. */
+FN float woven_place(float n, float k) { /* x_k, k > 0 */
     float first = 1.2f / (2.0f * n - 1.0f), next = (1.0f - first) / (n - 1.0f);
-    return k > 0.0f ? min(first + (k - 1.0f) * next, 1.0f) : 0.0f;
+    return min(first + (k - 1.0f) * next, 1.0f);
 }
 
-/* Bin k: its width in s, and its means of s_y, over the largest, and of the square of that. */
-STRUCT(WovenReach) { float width, mean, square; };
-FN WovenReach woven_reach(Woven m, float n, float k) {
-    float f = m.floats, e = 1.5f / (f + 0.5f), x0 = woven_place(n, k), x1 = woven_place(n, k + 1.0f);
-    float there = x0 > 0.0f ? 1.0f : 0.0f, s0 = pow(max(x0, 1e-3f), e), s1 = pow(x1, e);
-    float more = max(pow(s1, f + 1.0f) - there * pow(s0, f + 1.0f), 0.0f) / (f + 1.0f);
-    float square = max(pow(s1, 2.0f * f + 1.0f) - there * pow(s0, 2.0f * f + 1.0f), 0.0f) / (2.0f * f + 1.0f);
-    WovenReach r;
-    r.width = max(s1 - there * s0, 1e-6f);
-    r.mean = there * more / r.width;
-    r.square = square / r.width;
-    return r;
+/* s at the upper end of bin k, the part of the yarn up to there, and s^(floats + 1), floats + 1 times what its slopes sum up
+ * to. */
+STRUCT(WovenEnd) { float s, sum; };
+FN WovenEnd woven_end(Woven m, float n, float k) {
+    WovenEnd e;
+    e.s = pow(woven_place(n, k + 1.0f), 1.5f * (1.0f + 0.05f * m.crimp * m.crimp) / (m.floats + 0.5f));
+    e.sum = e.s * pow(e.s, m.floats);
+    return e;
 }
-
-/* The mean slopes of bins vary less than all slopes, whose mean square is 1 / (2 floats + 1) of the largest one's. Where
- * there are enough bins, all are moved outwards by one factor, `moved`, which makes up for it. Where D asks for more, D is
- * wider instead, by how slopes vary within a bin. widened goes from the first, 0, to the second, 1, as D asks for up to 1.5
- * times the bins; between, each makes up for its part. WOVEN_ACROSS: a bin and its opposite are half of the mean each,
- * 1 / (6 g^2) is the outer weight of woven_row, and 0.9 is the mean of 1 - 0.3 r^2. */
-#define WOVEN_ACROSS (0.5f / (6.0f * 0.56f * 0.9f))
-FN WovenBin woven_bin(Woven m, float tan_crimp, float n, float k, float moved, float widened) {
-    WovenReach r = woven_reach(m, n, k);
+FN WovenBin woven_bin(Woven m, WovenEnd low, WovenEnd high) {
     WovenBin b;
-    b.slope = tan_crimp * moved * r.mean;
-    float a2 = max(m.alpha * m.alpha, 1e-6f);
-    float spread = tan_crimp / (1.0f + b.slope * b.slope); /* of angles, by that of slopes */
-    a2 = a2 + (1.0f - a2) * widened * spread * spread * max(r.square - r.mean * r.mean, 0.0f);
-    b.e = (1.0f - a2) / a2;
-    b.c = 1.0f / sqrt(1.0f + b.slope * b.slope);
-    b.middle = 0.0f;
-    b.wide = max(m.roundness, 1e-2f);
-    b.gain = k < n ? WOVEN_ACROSS * r.width / (4.0f * PI * a2 * b.wide) : 0.0f;
+    b.gain = max(high.s - low.s, 0.0f); /* the width in s, of which WOVEN_SCALE makes the gain */
+    b.mean = min((high.sum - low.sum) / ((m.floats + 1.0f) * max(b.gain, 1e-4f)), 1.0f);
     return b;
 }
 
-#define WOVEN_VARY(name)                                                                                     \
-    reach = woven_reach(m, n, k);                                                                            \
-    vary = vary + reach.width * reach.mean * reach.mean;                                                     \
-    k = k + 1.0f;
+/* The mean slopes of bins vary less than all slopes, whose mean square is 1 / (2 floats + 1) of the largest one's. Where
+ * there are enough bins, all are moved outwards by one factor, which makes up for it. Where D asks for more, D is wider
+ * instead. widened goes from the first, 0, to the second, 1, as D asks for up to 1.5 times the bins; between, each
+ * makes up for its part. A bin and its opposite are half of the mean each, 1 / (6 g^2) is the outer weight of woven_row, and
+ * 0.9 is the mean of 1 - 0.3 r^2. */
+#define WOVEN_GAIN (0.5f / (6.0f * WOVEN_G2 * 0.9f) / (4.0f * PI))
+#define WOVEN_G2   0.545f
 #define WOVEN_MAKE(name)                                                                                     \
-    p->name = woven_bin(m, tan_crimp, n, k, moved, widened);                                                 \
+    next = woven_end(m, n, k);                                                                               \
+    p->name = woven_bin(m, end, next);                                                                       \
+    vary = vary + p->name.gain * p->name.mean * p->name.mean;                                                \
+    end = next;                                                                                              \
     k = k + 1.0f;
+#define WOVEN_SCALE(name) p->name.gain = p->name.gain * gain;
 FN void woven_prepare(Woven m, WovenPrepared *p) {
-    float tan_crimp = sin(m.crimp) / cos(m.crimp), n = woven_count(m);
+    float tan_crimp = sin(m.crimp) / cos(m.crimp), n = woven_count(m),
+          slopes = 1.0f / (2.0f * m.floats + 1.0f);
     p->alpha = m.alpha;
     p->share = m.share;
     p->part = m.share;
     p->roundness = max(m.roundness, 1e-2f); /* so that edge fits a half float */
     p->edge = -0.3f / (p->roundness * p->roundness);
     p->count = -floor(-n);
-    p->crimp = tan_crimp * sqrt(3.0f / (2.0f * m.floats + 1.0f));
+    p->crimp = tan_crimp * sqrt(3.0f * slopes);
     p->cross_crimp = sin(m.cross_crimp) / cos(m.cross_crimp);
     p->cos_a = cos(m.azimuth);
     p->sin_a = sin(m.azimuth);
     p->cos_t = cos(m.twist);
     p->sin_t = sin(m.twist);
     p->again = 0.5f / (PI * yarn_left_mean(m.alpha));
-    WovenReach reach;
-    float k = 0.0f, vary = 0.0f;
-    WOVEN_EACH_BIN(WOVEN_VARY)
-    float widened = clamp(2.0f * (woven_needed(m) / n - 1.0f), 0.0f, 1.0f);
-    float moved = mix(1.0f / sqrt((2.0f * m.floats + 1.0f) * vary), 1.0f, widened);
-    k = 0.0f;
+    p->wide = p->roundness;
+    p->lean = 0.0f;
+    p->narrow = 0.0f;
+    WovenEnd end = woven_end(m, n, 0.0f), next;
+    p->level = end.s;
+    float k = 1.0f, vary = 0.0f;
     WOVEN_EACH_BIN(WOVEN_MAKE)
+    float widened = clamp(2.0f * (woven_needed(m) / n - 1.0f), 0.0f, 1.0f);
+    p->steep = tan_crimp * mix(sqrt(slopes / vary), 1.0f, widened);
+    float a2 = max(m.alpha * m.alpha, 1e-6f);
+    float spread = tan_crimp / (1.0f + tan_crimp * tan_crimp * slopes); /* of angles, by that of slopes */
+    a2 = a2 + (1.0f - a2) * widened * spread * spread * max(slopes - vary, 0.0f);
+    p->e = (1.0f - a2) / a2;
+    float gain = WOVEN_GAIN / a2 / p->wide;
+    p->level = 2.0f * gain * p->level;
+    WOVEN_EACH_BIN(WOVEN_SCALE)
 }
 FN float woven_second(Woven m, float f0, float f90) { return yarn_reflectance(f0); }
 
@@ -201,30 +205,47 @@ FN float woven_flat(float q) {
     return 1.0f + q * (-0.483265f + q * (0.276777f + q * (-0.10213f + q * 0.0158065f)));
 }
 
+/* The slopes of a bin: s_y is slope, and s_x lies within wide of middle; at the opposite slope within wide of its opposite.
+ * wide is that of p less narrow mean^2, and middle is lean mean. c: 1 / sqrt(1 + slope^2). */
+STRUCT(WovenSlopes) { float slope, middle, wide, c; };
+FN WovenSlopes woven_slopes(const WovenPrepared *p, float mean) {
+    WovenSlopes b;
+    b.slope = p->steep * mean;
+    b.middle = p->lean * mean;
+    b.wide = p->wide - p->narrow * mean * mean;
+    b.c = 1.0f / sqrt(1.0f + b.slope * b.slope);
+    return b;
+}
+FN WovenSlopes woven_opposite(WovenSlopes b) {
+    b.slope = -b.slope;
+    b.middle = -b.middle;
+    return b;
+}
+
 /* yarn_met_once of one facet, by its part of the yarn. P is not below 0 where the facet counts, and abs keeps it so where
  * reach is 0. t . (wo + wi) is summed term by term, so that vectors and single calls round alike where the two nearly
  * cancel, as light does that goes straight on along the cloth. */
-FN float woven_facet(const WovenPrepared *p, WovenBin b, float x, const WovenLine *o, const WovenLine *i,
+FN float woven_facet(const WovenPrepared *p, float c, float x, const WovenLine *o, const WovenLine *i,
                      float q) {
-    float x2 = x * x, n = b.c * woven_flat(b.c * b.c * x2);
+    float x2 = x * x, n = c * woven_flat(c * c * x2);
     float p_o = abs(o->p + x * o->x), p_i = abs(i->p + x * i->x);
     float m = (o->along + i->along) + n * (x * (o->turn + i->turn) - (o->side + i->side));
     float t_o = o->along + n * (x * o->turn - o->side);
-    return (1.0f + p->edge * x2) * yarn_met_once(b.e, q, m, p_o, p_i, t_o, m - t_o);
+    return (1.0f + p->edge * x2) * yarn_met_once(p->e, q, m, p_o, p_i, t_o, m - t_o);
 }
 
 /* The mean over s_x, by three nodes on the part of it that faces both directions: beyond, the sum would meet an edge.
  * The outer ones, at g of the way to its ends, have the weight 1 / (6 g^2), so that the rule is right for cubes, and the
- * middle one 6 g^2 - 2 times that. g^2 is 0.56: Gauss's 0.6 would be right up to fifth powers, but errs by half as much
+ * middle one 6 g^2 - 2 times that. g^2 is 0.545: Gauss's 0.6 would be right up to fifth powers, but errs by half as much
  * again and more where fibres turn by 30 degrees (own fit). */
-FN float woven_row(const WovenPrepared *p, WovenBin b, const WovenView *o, const WovenView *i, float q) {
+FN float woven_row(const WovenPrepared *p, WovenSlopes b, const WovenView *o, const WovenView *i, float q) {
     WovenLine l = woven_line(p, b.slope, b.c, o), n = woven_line(p, b.slope, b.c, i);
     float least = b.middle - b.wide, most = b.middle + b.wide;
     float low = clamp(max(o->over_x > 0.0f ? l.end : least, i->over_x > 0.0f ? n.end : least), least, most);
     float high = clamp(min(o->over_x > 0.0f ? most : l.end, i->over_x > 0.0f ? most : n.end), least, most);
-    float reach = 0.5f * max(high - low, 0.0f), middle = 0.5f * (high + low), g = 0.7483314774f * reach;
-    float sides = woven_facet(p, b, middle - g, &l, &n, q) + woven_facet(p, b, middle + g, &l, &n, q);
-    return reach * (sides + 1.36f * woven_facet(p, b, middle, &l, &n, q));
+    float reach = 0.5f * max(high - low, 0.0f), middle = 0.5f * (high + low), g = sqrt(WOVEN_G2) * reach;
+    float sides = woven_facet(p, b.c, middle - g, &l, &n, q) + woven_facet(p, b.c, middle + g, &l, &n, q);
+    return reach * (sides + (6.0f * WOVEN_G2 - 2.0f) * woven_facet(p, b.c, middle, &l, &n, q));
 }
 
 FN float woven_pick(int k, float a, float b, float c, float d, float e, float f, float g, float h) {
@@ -232,28 +253,29 @@ FN float woven_pick(int k, float a, float b, float c, float d, float e, float f,
     return k < 4 ? low : high;
 }
 #define WOVEN_PICK(of)                                                                                       \
-    b.of = woven_pick(k, p->b1.of, p->b2.of, p->b3.of, p->b4.of, p->b5.of, p->b6.of, p->b7.of, p->b8.of);
+    low = woven_pick(k, p->b1.of, p->b2.of, p->b3.of, p->b4.of, p->b5.of, p->b6.of, p->b7.of, p->b8.of);     \
+    high = woven_pick(k - 8, p->b9.of, p->b10.of, p->b11.of, p->b12.of, p->b13.of, p->b14.of, p->b15.of,     \
+                      p->b16.of);                                                                            \
+    b.of = k < 8 ? low : high;
 FN WovenBin woven_part(const WovenPrepared *p, int k) {
     WovenBin b;
+    float low, high;
     WOVEN_BIN_NUMBERS(WOVEN_PICK)
-    return b;
-}
-FN WovenBin woven_opposite(WovenBin b) {
-    b.slope = -b.slope;
-    b.middle = -b.middle;
     return b;
 }
 
 /* The mean of single: of the level part, and of the others by twos. */
 FN float woven_once(const WovenPrepared *p, const WovenView *o, const WovenView *i, float q) {
-    WovenBin level = p->b0;
-    level.slope = 0.0f; /* known, so that the compiler leaves out what it multiplies */
+    WovenSlopes level; /* known, so that the compiler leaves out what its zeros multiply */
+    level.slope = 0.0f;
     level.middle = 0.0f;
+    level.wide = p->wide;
     level.c = 1.0f;
-    float sum = 2.0f * level.gain * woven_row(p, level, o, i, q);
+    float sum = p->level * woven_row(p, level, o, i, q);
     ROUNDS_OF(k, to_int(p->count) - 1, WOVEN_BINS - 1) {
         WovenBin b = woven_part(p, k);
-        sum = sum + b.gain * (woven_row(p, b, o, i, q) + woven_row(p, woven_opposite(b), o, i, q));
+        WovenSlopes s = woven_slopes(p, b.mean);
+        sum = sum + b.gain * (woven_row(p, s, o, i, q) + woven_row(p, woven_opposite(s), o, i, q));
     }
     return sum * o->over_seen * i->over_seen;
 }
