@@ -13,8 +13,6 @@
 
 #include <nlopt.h>
 
-#include "shading/loop.h"
-
 enum {
     SHAPE_NUMBERS = 6,
     SHAPES_MOST = 600, /* looks at what a shape reflects, */
@@ -89,7 +87,7 @@ typedef struct BinsLit {
 
 static void light_bin(const WovenPrepared *p, WovenBin b, const Lit *lit, float *restrict once) {
     const WovenSlopes s = woven_slopes(p, b.mean), opposite = woven_opposite(s);
-    EACH(k, LIT_PAIRS) {
+    for (int k = 0; k < LIT_PAIRS; k++) {
         const Dir o = {lit->o[0][k], lit->o[1][k], lit->o[2][k]};
         const Dir i = {lit->i[0][k], lit->i[1][k], lit->i[2][k]};
         const WovenView v = woven_look(p, o), w = woven_look(p, i);
