@@ -121,25 +121,23 @@ typedef struct Gains {
     double m[WOVEN_BINS][WOVEN_BINS], v[WOVEN_BINS], even;
 } Gains;
 
-static double pairs_product(const Lit *near, const float *bin, const float *other) {
-    double sum = 0.0;
-    for (int k = 0; k < LIT_PAIRS; k++) sum += weight_of(near, k) * (double)bin[k] * (double)other[k];
-    return sum;
-}
-
 static void gains_start(Gains *g, const BinsLit *bins, const Lit *near) {
     double sum = 0.0;
     for (int i = 0; i < bins->count; i++)
         for (int k = 0; k < LIT_PAIRS; k++) sum += (double)bins->once[i][k];
     g->even = lit_sum(near->once) / fmax(sum, 1e-30);
     for (int i = 0; i < bins->count; i++) {
-        for (int j = 0; j <= i; j++)
-            g->m[i][j] = g->m[j][i] = pairs_product(near, bins->once[i], bins->once[j]);
+        double weighted[LIT_PAIRS];
+        for (int k = 0; k < LIT_PAIRS; k++) weighted[k] = weight_of(near, k) * (double)bins->once[i][k];
+        for (int j = 0; j <= i; j++) {
+            double product = 0.0;
+            for (int k = 0; k < LIT_PAIRS; k++) product += weighted[k] * (double)bins->once[j][k];
+            g->m[i][j] = g->m[j][i] = product;
+        }
         const double part = i < bins->count - 1 ? 1.0 : fmax(bins->last, 1e-6);
         const double d = 1e-4 / part * g->m[i][i] + 1e-30;
         g->v[i] = d * g->even;
-        for (int k = 0; k < LIT_PAIRS; k++)
-            g->v[i] += weight_of(near, k) * (double)bins->once[i][k] * near->once[k];
+        for (int k = 0; k < LIT_PAIRS; k++) g->v[i] += weighted[k] * near->once[k];
         g->m[i][i] += d;
     }
 }
@@ -247,13 +245,11 @@ Lit woven_fit(Weave *m, bool weft, const Lit *near, WovenPrepared *woven) {
     for (int k = 0; k < WOVEN_BINS; k++) fit.gains[k] = 1.0f;
     const SystemFit plain = fit;
     const WeaveFar moments = *far;
-    if (lit_sum(near->once) > 0.0) {
-        if (fit_shape(&fit)) {
-            level_gains(&fit);
-        } else {
-            *far = moments;
-            fit = plain;
-        }
+    if (lit_sum(near->once) > 0.0 && fit_shape(&fit)) {
+        level_gains(&fit);
+    } else {
+        *far = moments;
+        fit = plain;
     }
     prepare_fitted(&fit, woven);
     light_lobe(woven, &lobe);
