@@ -17,13 +17,13 @@
 #include "base/pi.h"
 #include "base/random.h"
 #include "base/thread.h"
-#include "scene/env_split.h"
-#include "scene/scene.h"
-#include "shading/albedo.h"
-#include "shading/ambient.h"
-#include "shading/ambient_fit.h"
-#include "shading/choice.h"
-#include "shading/material_stack.h"
+#include "scene/light/env_split.h"
+#include "scene/record/scene.h"
+#include "shading/ambient/ambient.h"
+#include "shading/ambient/ambient_fit.h"
+#include "shading/catalogue/albedo.h"
+#include "shading/material/choice.h"
+#include "shading/material/material_stack.h"
 
 enum { LEVELS = 16, AZIMUTHS = 12, SIDES = 2, PIXELS = LEVELS * AZIMUTHS * SIDES, ROUGHNESSES = 10 };
 enum { LOBE_DRAWS = 2048, MAP_DRAWS = 2048, CELLS_WIDTH = 256, CELLS_HEIGHT = 128 };

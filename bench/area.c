@@ -8,9 +8,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "shading/albedo.h"
+#include "shading/catalogue/albedo.h"
 #include "shading/lights.h"
-#include "shading/lobe_tables.h"
+#include "shading/lobe/lobe_tables.h"
 #include "weft/ltc.h"
 
 enum { LIGHTS = 20, SPOTS = 24 };

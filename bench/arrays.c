@@ -14,7 +14,7 @@
 
 #include "base/random.h"
 #include "base/steady_clock.h"
-#include "shading/registry.h"
+#include "shading/catalogue/registry.h"
 
 /* ---- the columns --------------------------------------------------------------------------------- */
 

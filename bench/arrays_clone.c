@@ -1,4 +1,4 @@
-/* arrays_clone.c - src/shading/arrays.c for one set of instructions, and the fastest loops that it can run
+/* arrays_clone.c - src/shading/catalogue/arrays.c for one set of instructions, and the fastest loops that it can run
  *
  * Compiled once for each column of arrays.c: CLONE is its name there. The loops stand in a section of that
  * name, where arrays.c counts their instructions. */
@@ -12,7 +12,7 @@
 #define lobe_eval_n   NAMED(lobe_eval_n, CLONE)
 #define lobe_pdf_n    NAMED(lobe_pdf_n, CLONE)
 #define lobe_tinted_n NAMED(lobe_tinted_n, CLONE)
-#include "shading/arrays.c"
+#include "shading/catalogue/arrays.c"
 
 #ifdef __FMA__
 #ifdef __AVX512F__

@@ -13,9 +13,9 @@
 
 #include "base/pi.h"
 #include "base/thread.h"
-#include "measure/blend.h"
-#include "measure/data.h"
-#include "measure/search.h"
+#include "measure/fit/blend.h"
+#include "measure/fit/data.h"
+#include "measure/fit/search.h"
 
 /* f = color (cos_i cos_o)^edge (1 + retro peak + lift sin^2 d) / pi + D V (f0 (1 - s) + f90 s)
  * peak = exp(-tan d / width), or width / (width + tan d) where width is below 0 (its size counts)

@@ -13,8 +13,8 @@
 #include "fibre/slab.h"
 #include "fibre/solver_reference.h"
 #include "fibre/tilted.h"
-#include "shading/albedo.h"
-#include "shading/registry.h"
+#include "shading/catalogue/albedo.h"
+#include "shading/catalogue/registry.h"
 
 static double now(void) {
     struct timespec t;

@@ -13,12 +13,12 @@
 #include <vulkan/vulkan.h>
 
 #include "base/file.h"
-#include "scene/scene.h"
-#include "shading/terms.h"
-#include "shading/weave_light.h"
-#include "text/dispatch.h"
-#include "text/number_text.h"
-#include "text/tables.h"
+#include "scene/record/scene.h"
+#include "shading/lobe/terms.h"
+#include "shading/weave/weave_light.h"
+#include "text/assemble/dispatch.h"
+#include "text/assemble/tables.h"
+#include "text/source/number_text.h"
 #include "weave/weft_cloth.h"
 
 /* The cycles are those of the busiest unit: so many multiplications beside the lines in question make sure
@@ -299,7 +299,7 @@ static void term_row(Gpu *gpu, WeftTermKind kind, int term) {
     Text text;
     snprintf(lines, sizeof lines, ANGLES "    f = term_%c(%d, %s);\n", "dvf"[kind], term, arguments[kind]);
     text_begin(&text, &(TextDesc){.language = TEXT_GLSL_450});
-    text_include(&text, "shading/terms.h");
+    text_include(&text, "shading/lobe/terms.h");
     Cost cost = cost_added(gpu, &text, 8, true, lines);
     printf("| %c %s | %.0f | %.0f | %.0f |\n", "DVF"[kind], weft_term_name(kind, term), cost.instructions,
            cost.cycles, cost.registers);
@@ -351,10 +351,10 @@ static const struct {
 static Cost fibre_cost(Gpu *gpu, size_t row, bool loaded) {
     Text text;
     text_begin(&text, &(TextDesc){.language = TEXT_GLSL_450, .tables = true});
-    text_include(&text, "shading/fibre_medium.h");
+    text_include(&text, "shading/media/fibre_medium.h");
     text_lobe_tables(&text);
     text_include(&text, "shading/lobes/fibre_table.h");
-    text_include(&text, "shading/rgb.h");
+    text_include(&text, "shading/dialect/rgb.h");
     text_include(&text, "shading/lobes/fibre.h");
     text_line(&text, "\nlayout(std140, set = 0, binding = 3) uniform Material {\n    FibreModel model;\n    "
                      "FibreNumbers numbers;\n"
@@ -433,10 +433,10 @@ static Cost weave_cost(Gpu *gpu, size_t row, const Weave *known) {
     text_begin(&text, &(TextDesc){.language = TEXT_GLSL_450, .tables = true});
     text_define(&text, "weave_texel(t, stride, row, column)", "weave_fetch(row, column)");
     text_define(&text, "weave_cell_texel(t, stride, row, at)", "weave_fetch_cell(row, at)");
-    text_include(&text, "shading/weave_cell.h");
+    text_include(&text, "shading/weave/weave_cell.h");
     text_line(&text,
               "\nfloat weave_fetch(int row, int channel);\nWeaveCell weave_fetch_cell(int row, int at);");
-    text_include(&text, "shading/weave_light.h");
+    text_include(&text, "shading/weave/weave_light.h");
     text_line(&text, "\nlayout(set = 0, binding = 0) uniform highp sampler2D weave_cells;");
     if (known)
         put_cloth(&text, known);

@@ -9,8 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "measure/ltc_bake.h"
-#include "measure/ltc_fit.h"
+#include "measure/ltc/ltc_bake.h"
+#include "measure/ltc/ltc_fit.h"
 
 enum { CELLS = 96 };
 

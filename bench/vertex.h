@@ -17,6 +17,6 @@ typedef struct VertexArrays {
  * what does not depend on directions may be made before. */
 typedef void VertexRun(VertexArrays *a, int material, int once);
 VertexRun vertex_run;
-VertexRun vertex_run_kind; /* the same by the kind of the material (shading/kind.h) */
+VertexRun vertex_run_kind; /* the same by the kind of the material (shading/kinds/kind.h) */
 
 #endif

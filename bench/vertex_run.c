@@ -3,8 +3,8 @@
 
 #include <string.h>
 
-#include "shading/albedo.h"
-#include "shading/kind.h"
+#include "shading/catalogue/albedo.h"
+#include "shading/kinds/kind.h"
 
 #define DEFAULT_SCALAR(d)                                                 d
 #define DEFAULT_COLOR(d)                                                  rgb_grey(d)

@@ -6,7 +6,7 @@
  *
  *   |z - c(v)| < (w / 4) q (1 - r^2),   c = +-(l / 2) m (1 - |s|^(k + 1)) / (k + 1)
  *
- * with the letters of shading/weave_point.h, once more in double precision. It is full of flakes along the thread,
+ * with the letters of shading/weave/weave_point.h, once more in double precision. It is full of flakes along the thread,
  * turned by the twist, so dense that half a tube is 12 free paths. Where two tubes overlap, the higher one is there.
  * A walk enters from above at a random place and is followed by delta tracking, E. Woodcock and others, "Techniques
  * Used in the GEM Code for Monte Carlo Neutronics Calculations in Reactors and Other Systems of Complex Geometry",

@@ -50,7 +50,7 @@ foreach(file ${files})
   string(APPEND names "extern const char ${symbol}[];\n")
   string(APPEND rows "    {\"${name}\", \"${help}\", ${symbol}},\n")
 endforeach()
-set(code "#include \"scene/presets.h\"
+set(code "#include \"scene/material/presets.h\"
 
 #include <stddef.h>
 
@@ -82,7 +82,7 @@ foreach(file ${files} shading/lobe_ids.gen.h shading/lobes.gen.h shading/dispatc
   string(APPEND names "extern const char ${symbol}[], ${symbol}_end[];\n")
   string(APPEND rows "    {\"${file}\", ${symbol}, ${symbol}_end},\n")
 endforeach()
-set(code "#include \"text/catalogue.h\"
+set(code "#include \"text/assemble/catalogue.h\"
 
 ${names}
 const CatalogueFile catalogue_files[] = {
@@ -92,7 +92,7 @@ ${rows}    {0, 0, 0},
 weft_embedded(catalogue ${places})
 
 # generated/half/shading holds the lobes that are shading text and what they include, with every literal a half float
-# (1.0f16), for src/measure/half_text.c; half_lang.h stands in the place of lang.h. Made again when one of them changes.
+# (1.0f16), for src/measure/check/half_text.c; half_lang.h stands in the place of lang.h. Made again when one of them changes.
 include(CheckCSourceCompiles)
 set(CMAKE_REQUIRED_FLAGS "-fexcess-precision=16")
 check_c_source_compiles("int main(void) { _Float16 x = 1.0f16; return (int)(x * x) - 1; }" WEFT_HAS_HALF)
@@ -100,9 +100,9 @@ unset(CMAKE_REQUIRED_FLAGS)
 if(WEFT_HAS_HALF)
   file(GLOB WEFT_HALF_FILES CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}/src
     src/shading/lobes/*.h src/shading/terms/*.h src/shading/tables/*.h)
-  foreach(name angles fibre_medium fibre_model fresnel_weight lobe lobe_tables lobe_value ltc ltc_sheen ltc_table nap proxy rgb
-          table terms tint warp yarn_draw yarn_medium)
-    list(APPEND WEFT_HALF_FILES shading/${name}.h)
+  foreach(file dialect/angles dialect/proxy dialect/rgb dialect/tint dialect/warp lobe/fresnel_weight lobe/lobe lobe/lobe_tables lobe/lobe_value lobe/nap lobe/table lobe/terms
+          ltc/ltc ltc/ltc_sheen ltc/ltc_table media/fibre_medium media/fibre_model media/yarn_draw media/yarn_medium)
+    list(APPEND WEFT_HALF_FILES shading/${file}.h)
   endforeach()
   foreach(file ${WEFT_HALF_FILES} shading/lobes.gen.h shading/dispatch.gen.h)
     set(place ${CMAKE_CURRENT_SOURCE_DIR}/src/${file})
@@ -120,7 +120,7 @@ if(WEFT_HAS_HALF)
     if(text MATCHES "[^0-9A-Za-z_]([0-9]+\\.?[0-9]*|\\.[0-9]+)(e[-+]?[0-9]+)?f[^0-9A-Za-z_]")
       message(FATAL_ERROR "${file}: \"${CMAKE_MATCH_0}\" would stay a single float in half precision")
     endif()
-    string(REPLACE "#include \"shading/lang.h\"" "#include \"measure/half_lang.h\"" text "${text}")
+    string(REPLACE "#include \"shading/dialect/lang.h\"" "#include \"measure/check/half_lang.h\"" text "${text}")
     string(REPLACE "#include \"shading/" "#include \"half/shading/" text "${text}")
     file(CONFIGURE OUTPUT ${WEFT_GENERATED_DIR}/half/${file} CONTENT "${text}" @ONLY)
   endforeach()

@@ -1,7 +1,7 @@
 # What the rows of src/shading/kinds.list make: a file each, and kinds.gen.h that lists them for kind.c.
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/src/shading/kinds.list)
 file(STRINGS src/shading/kinds.list kinds REGEX "^[a-z]")
-file(READ src/shading/profile.h profiles)
+file(READ src/shading/material/profile.h profiles)
 set(kind_rows "")
 set(kind_files "")
 foreach(kind ${kinds})

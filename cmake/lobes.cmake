@@ -9,7 +9,7 @@
 #   loops.gen.h       their loops over arrays, for arrays.c
 #   each.gen.h        those with parameters of each element, for arrays_each.c
 #
-# A line that is one lobe's alone names its LOBE_ constant: of those in the dialect src/text/dispatch.c takes the lines
+# A line that is one lobe's alone names its LOBE_ constant: of those in the dialect src/text/assemble/dispatch.c takes the lines
 # of lobes that a shader needs.
 
 file(STRINGS src/shading/lobes.list WEFT_LOBE_IDS REGEX "^[a-z]")
@@ -244,5 +244,5 @@ static float crease_of(const Lobe *m, float cos_o, int k) {
 ")
 configure_file(cmake/loops.h.in ${WEFT_GENERATED_DIR}/shading/loops.gen.h @ONLY)
 configure_file(cmake/each.h.in ${WEFT_GENERATED_DIR}/shading/each.gen.h @ONLY)
-weft_dispatch(${WEFT_GENERATED_DIR}/shading "#include \"shading/outside.h\"\n" ${WEFT_LOBE_IDS})
+weft_dispatch(${WEFT_GENERATED_DIR}/shading "#include \"shading/catalogue/outside.h\"\n" ${WEFT_LOBE_IDS})
 weft_dispatch(${WEFT_GENERATED_DIR}/text/shading "" ${WEFT_TEXT_LOBE_IDS}) # for half floats

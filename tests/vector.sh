@@ -1,6 +1,6 @@
 #!/bin/sh
 # Each loop over arrays of a lobe is one of vectors: its machine code, as built for AVX2, has a loop of packed arithmetic
-# without any of single numbers. Arguments: the compiled src/shading/arrays.c, arrays_each.c or a plugin, the least number
+# without any of single numbers. Arguments: the compiled src/shading/catalogue/arrays.c, arrays_each.c or a plugin, the least number
 # of loops (40), and lobes.list with the ends of the names of the loops that each of its lobes has. Exit 77: skipped.
 set -eu
 command -v objdump >/dev/null || {
@@ -12,7 +12,7 @@ command -v objdump >/dev/null || {
 exceptions="charlie_neubelt_normalised_f_n charlie_neubelt_normalised_each_n ltc_fibre_each_n ltc_fibre_drawn_each_n \
 ltc_fibre_published_each_n ltc_fibre_published_drawn_each_n fibre_table_each_n mixed_0_n"
 # cook-torrance has a loop for each term, and fibre-walk, which walks, has none. woven has three where all pairs have one
-# lobe: with few rounds, with some, and with all (COUNTED_LOOPS in src/shading/loop.h); its f is made by them.
+# lobe: with few rounds, with some, and with all (COUNTED_LOOPS in src/shading/dialect/loop.h); its f is made by them.
 wanted=
 if [ $# -gt 2 ]; then
     for id in $(grep '^[a-z]' "$3" | grep -v -e '^cook-torrance$' -e '^fibre-walk$' | tr - _); do

@@ -2,7 +2,7 @@
 #ifndef WEFT_TESTS_WOVEN_CLOTHS_H
 #define WEFT_TESTS_WOVEN_CLOTHS_H
 
-#include "scene/scene.h"
+#include "scene/record/scene.h"
 #include "weave/weft_cloth.h"
 #include "weft/weft.h"
 #include "woven_presets.h"

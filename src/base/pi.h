@@ -1,6 +1,6 @@
 /* pi.h - pi, and radians in a degree; includes nothing of weft, so that programs may include it
  *
- * The dialect has a PI of its own, for its text is GLSL too (shading/lang.h). */
+ * The dialect has a PI of its own, for its text is GLSL too (shading/dialect/lang.h). */
 #ifndef WEFT_BASE_PI_H
 #define WEFT_BASE_PI_H
 

@@ -5,7 +5,7 @@
 
 #include "base/file.h"
 #include "base/path.h"
-#include "shading/warp.h"
+#include "shading/dialect/warp.h"
 
 MeasuredFormat measured_format(const char *name) {
     return path_ends(name, ".binary") ? MEASURED_MERL

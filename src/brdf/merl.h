@@ -12,7 +12,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "shading/angles.h"
+#include "shading/dialect/angles.h"
 #include "weft/result.h"
 
 enum {

@@ -26,7 +26,7 @@
 #include <stdio.h>
 
 #include "brdf/square_warp.h"
-#include "shading/angles.h"
+#include "shading/dialect/angles.h"
 #include "weft/result.h"
 
 /* A table over u, height rows of width numbers. */

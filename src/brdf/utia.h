@@ -9,7 +9,7 @@
 
 #include <stddef.h>
 
-#include "shading/angles.h"
+#include "shading/dialect/angles.h"
 #include "weft/result.h"
 
 enum { UTIA_THETAS = 6, UTIA_PHIS = 48, UTIA_SIDE = UTIA_THETAS * UTIA_PHIS };

@@ -5,13 +5,13 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "lobes.h"
+#include "cli/console/names.h"
+#include "cli/console/report.h"
+#include "cli/console/two_columns.h"
+#include "cli/console/uncaught.h"
+#include "cli/operands/lobes.h"
+#include "cli/verbs/verbs.h"
 #include "man.h"
-#include "names.h"
-#include "report.h"
-#include "two_columns.h"
-#include "uncaught.h"
-#include "verbs.h"
 #include "weft/version.h"
 
 static const Verb *const verbs[] = {&verb_render,

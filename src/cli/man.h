@@ -2,7 +2,7 @@
 #ifndef WEFT_CLI_MAN_H
 #define WEFT_CLI_MAN_H
 
-#include "options.h"
+#include "cli/console/options.h"
 
 typedef struct ExitCode {
     const char *code, *words;

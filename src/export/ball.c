@@ -7,7 +7,7 @@
 
 #include "export/draft.h"
 
-#include "text/types.h"
+#include "text/passes/types.h"
 
 static const char scene[] =
     "/* A ball fills most of the picture's height, or of its half. Radiance towards the viewer, of\n"

@@ -5,10 +5,10 @@
 #include "export/draft.h"
 
 #include "base/fail.h"
-#include "text/native.h"
-#include "text/returned.h"
-#include "text/unused.h"
-#include "text/wgsl.h"
+#include "text/passes/native.h"
+#include "text/passes/returned.h"
+#include "text/passes/unused.h"
+#include "text/passes/wgsl.h"
 
 void draft_begin(Draft *draft, const WeftExportDesc *desc, DraftTables *tables) {
     static const SpellLanguage languages[WEFT_EXPORT_TARGETS] = {
@@ -24,7 +24,7 @@ void draft_begin(Draft *draft, const WeftExportDesc *desc, DraftTables *tables) 
                                          .before_count = tables->count,
                                          .comments = true,
                                          .table_side = desc->target == WEFT_EXPORT_SHADERTOY ? 32 : 0});
-    text_include(&draft->text, "shading/lang.h");
+    text_include(&draft->text, "shading/dialect/lang.h");
     text_define(&draft->text, "table_texel", "table_fetch");
     text_line(&draft->text,
               "\nfloat table_fetch(int t, int stride, int row, int column) {\n"

@@ -2,11 +2,11 @@
 #ifndef WEFT_EXPORT_DRAFT_H
 #define WEFT_EXPORT_DRAFT_H
 
-#include "shading/albedo.h"
-#include "text/fold.h"
-#include "text/items.h"
-#include "text/spell.h"
-#include "text/text.h"
+#include "shading/catalogue/albedo.h"
+#include "text/assemble/text.h"
+#include "text/passes/fold.h"
+#include "text/passes/items.h"
+#include "text/passes/spell.h"
 #include "weft/export.h"
 
 enum { DRAFT_ROOTS = 24, DRAFT_FACTS = 48, DRAFT_ID = 64, DRAFT_ALBEDOS = 2 };

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "export/draft.h"
-#include "text/number_text.h"
+#include "text/source/number_text.h"
 
 /* The most that WGSL takes between the brackets of an array: "WebGPU Shading Language", section 2.3. */
 enum { WGSL_ARRAY = 2047 };

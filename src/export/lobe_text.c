@@ -5,9 +5,9 @@
 #include "export/draft.h"
 
 #include "base/fail.h"
-#include "text/dispatch.h"
-#include "text/number_text.h"
-#include "text/tables.h"
+#include "text/assemble/dispatch.h"
+#include "text/assemble/tables.h"
+#include "text/source/number_text.h"
 
 const char *draft_lobe_record(int lobe) { return lobe_names(lobe)->record; }
 
@@ -76,8 +76,8 @@ static void put_eval(Text *text, const WeftLobe *lobe, const LobeNames *own, boo
     unsigned traits = weft_lobe_info(lobe->lobe)->traits;
     const char *p = own->prefix, *pi = folded ? "PI * " : "";
     bool two = traits & TRAIT_TWO_COLORS, tinted = traits & TRAIT_TINTED;
-    text_include(text, "shading/rgb.h");
-    if (two && has_second(own)) text_include(text, "shading/fresnel_weight.h");
+    text_include(text, "shading/dialect/rgb.h");
+    if (two && has_second(own)) text_include(text, "shading/lobe/fresnel_weight.h");
     text_line(text,
               "\n/* f%s of wo and wi; black below the horizon.%s */\nRgb %s_eval(%s m, Rgb color, %sDir wo, "
               "Dir wi) {\n    if (wo.z <= 0.0 || wi.z <= 0.0) return rgb_grey(0.0);",
@@ -142,7 +142,7 @@ static void put_albedo(Draft *draft, const WeftLobe *lobe, const LobeNames *own)
     char function[96], *name = draft->albedo_names[draft->albedo_count - 1];
     snprintf(function, sizeof function, "%s_albedo_table", own->prefix);
     snprintf(name, SPELL_NAME, "%s_albedo", own->prefix);
-    text_include(&draft->text, "shading/table.h");
+    text_include(&draft->text, "shading/lobe/table.h");
     text_albedo_table(&draft->text, function, name, table);
     text_line(&draft->text,
               "\n/* E of the white lobe towards wo, cos_o = wo.z%s; from a table; of a brushed lobe where it "
@@ -157,7 +157,7 @@ void draft_lobe(Draft *draft, const WeftLobe *lobe, int which) {
     const LobeNames *own = lobe_names(lobe->lobe);
     Text *text = &draft->text;
     rename_own(text, own->prefix);
-    text_include(text, "shading/angles.h");
+    text_include(text, "shading/dialect/angles.h");
     if (!text_weight_is_cosine(lobe->lobe)) text_define(text, "FRESNEL_WEIGHT_IS_COSINE(s)", "false");
     text_lobe(text, lobe->lobe);
     put_default(text, lobe, own);

@@ -6,11 +6,11 @@
 
 #include "base/fail.h"
 #include "export/sheen.h"
-#include "scene/material_numbers.h"
-#include "shading/choice.h"
-#include "text/composition.h"
-#include "text/number_text.h"
-#include "text/tables.h"
+#include "scene/material/material_numbers.h"
+#include "shading/material/choice.h"
+#include "text/assemble/composition.h"
+#include "text/assemble/tables.h"
+#include "text/source/number_text.h"
 
 typedef struct Rule {
     const char *id, *base, *asks_wi, *asks_average;
@@ -125,10 +125,10 @@ static bool needs_table(const ExportModel *model) {
     return needs_e(model) && albedo_is_own(model->stack.albedo);
 }
 
-/* In place of shading/layer.h: the one rule. */
+/* In place of shading/stack/layer.h: the one rule. */
 static void put_layer(Text *text, int layer) {
     char file[96];
-    text_provide(text, "shading/layer.h");
+    text_provide(text, "shading/stack/layer.h");
     snprintf(file, sizeof file, "shading/layers/%s.h", rules[layer].id);
     for (char *c = file; *c; c++)
         if (*c == '-') *c = '_';
@@ -226,7 +226,7 @@ static void put_text(Draft *draft, ExportModel *model) {
     Text *text = &draft->text;
     TableRef e = {.kind = TABLE_NONE};
     if (model->table) e = albedo_table_ref(model->table);
-    text_include(text, "shading/angles.h");
+    text_include(text, "shading/dialect/angles.h");
     text_composition_lobes(text, &model->slots, e.kind, e.tilts);
     if (!model->slots.slots[PLACE_SHEEN].count) text_define(text, "HAS_LAYERED_SHEEN(m)", "false");
     if (model->one_layer) put_layer(text, model->stack.layer);

@@ -2,7 +2,7 @@
 #ifndef WEFT_EXPORT_SHEEN_H
 #define WEFT_EXPORT_SHEEN_H
 
-#include "shading/material_stack.h"
+#include "shading/material/material_stack.h"
 
 /* Fills the table of E of the surface's sheen, over all that its parameter can be while the inputs that it
  * comes from run from 0 to 1. */

@@ -78,7 +78,7 @@ static FibreStage stage_of(const CoefficientGroup *g, int c) {
     return g->kind == THIN ? FIBRE_THIN : FIBRE_WHITE;
 }
 
-/* ---- features: the same as shading/fibre_model.h, in double precision, but for its `hold` ---- */
+/* ---- features: the same as shading/media/fibre_model.h, in double precision, but for its `hold` ---- */
 
 static const double alpha_low = 0.045, alpha_thin = 0.19, alpha_nap = 0.38;
 static double t_of(double alpha) { return 1.0 - 2.0 * log(alpha) / log(alpha_low); }
@@ -245,7 +245,7 @@ static void scatter(void *user, int slab, const SolvedSlab *reference, const dou
     sides_free(&s);
 }
 
-/* The law of shading/tint.h, with its bounds: q is 0.999 at the most, and light that met two flakes or more
+/* The law of shading/dialect/tint.h, with its bounds: q is 0.999 at the most, and light that met two flakes or more
  * keeps no more than w^2. */
 static const double q_most = 6.9; /* log(0.999 / 0.001) */
 static void tint(void *user, int slab, const SolvedSlab *reference, const double *theta, double *log_f,
@@ -612,7 +612,8 @@ bool fibre_model_write(const FibreModelFit *fit, const char *command, FILE *file
     FibreModelFit turned, *model = &turned;
     if (!powers_of_u(fit, model)) return false;
     fprintf(file, "/* %s\n", command);
-    fputs(" *\n * Numbers of shading/fibre_model.h for a material, fitted to the solved slab: polynomials in "
+    fputs(" *\n * Numbers of shading/media/fibre_model.h for a material, fitted to the solved slab: "
+          "polynomials in "
           "t, which runs\n"
           " * over the logarithm of alpha, in l, the logarithm to base 4 of density, and in s, twice the "
           "square of the\n"
@@ -626,7 +627,7 @@ bool fibre_model_write(const FibreModelFit *fit, const char *command, FILE *file
                 100.0 * model->errors[k].worst, model->errors[k].albedo);
     fputs(" */\n/* clang-format off */\n#ifndef WEFT_TABLES_FIBRE_MODEL_H\n#define "
           "WEFT_TABLES_FIBRE_MODEL_H\n\n"
-          "#include \"shading/lang.h\"\n\nSTRUCT(FibreNumbers) {\n    float thin;\n",
+          "#include \"shading/dialect/lang.h\"\n\nSTRUCT(FibreNumbers) {\n    float thin;\n",
           file);
     for (int g = 0; g < GROUPS; g++) {
         for (int q = 0; q < groups[g].count; q++) {

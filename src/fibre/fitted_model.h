@@ -1,11 +1,11 @@
-/* fitted_model.h - the closed forms of light scattered more than once that shading/fibre_model.h evaluates, and
+/* fitted_model.h - the closed forms of light scattered more than once that shading/media/fibre_model.h evaluates, and
  * their fit
  *
  *   M = exp(A_o + A_i + h_o h_i - g_o g_i - k_o k_i (wo . wi - nu_o nu_i) - sum_b p_b L_b(o, i))       [1/sr]
  *   M(w) = w^2 M(1) r_o r_i exp((1 - w) (v_o v_i - u_o u_i - k'_o k'_i (wo . wi - nu_o nu_i))),
  *   r = (1 - q) / (1 - w q)
  *
- * A, h, g, k, q, v, u, k' are sums of features of a direction (shading/fibre_model.h) times numbers that
+ * A, h, g, k, q, v, u, k' are sums of features of a direction (shading/media/fibre_model.h) times numbers that
  * are polynomials in t, the logarithm of alpha, in l, that of the density, and in the sine of the tilt. They
  * are found in stages, each on top of the last and without touching it: white of
  * alpha 0.19 and up, white of thinner fibres, density, nap, colour, colour of thinner fibres. */

@@ -6,7 +6,7 @@
 
 #include "base/memory.h"
 #include "image/half.h"
-#include "shading/fibre_model.h"
+#include "shading/media/fibre_model.h"
 
 /* Cosines and angles of a slab; slabs in a row of the table and in the middles between rows. */
 enum { PARTS = 4, RINGS = 56, SPOKES = 5, CORNERS = 4 };

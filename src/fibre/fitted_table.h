@@ -2,7 +2,7 @@
  *
  * Of white fibres that stand upright, of density 1. Columns are uniform in the root of mu + 0.001,
  * rows in the logarithm of alpha; between nodes all four are mixed linearly, and the fit is of what is mixed.
- * It starts from shading/fibre_model.h, which is to be baked first. */
+ * It starts from shading/media/fibre_model.h, which is to be baked first. */
 #ifndef WEFT_FIBRE_FITTED_TABLE_H
 #define WEFT_FIBRE_FITTED_TABLE_H
 

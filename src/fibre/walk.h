@@ -1,7 +1,7 @@
 /* walk.h - light walking through a slab of fibres, flake by flake: the independent check of whatever solves
  * the slab otherwise
  *
- * The medium is that of shading/fibre_medium.h, once more in double precision. A walk enters against wo and
+ * The medium is that of shading/media/fibre_medium.h, once more in double precision. A walk enters against wo and
  * is simulated as it is: distances by sigma, flakes by how much of them is seen, an end at a flake by the
  * share that it does not reflect; nothing is cut off after some number of flakes. Every estimate is unbiased.
  *

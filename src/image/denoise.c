@@ -17,7 +17,7 @@
 
 #include "base/memory.h"
 #include "base/thread.h"
-#include "shading/loop.h"
+#include "shading/dialect/loop.h"
 
 enum {
     WINDOW = 5, /* the radius of the window, */

@@ -1,4 +1,4 @@
-/* srgb.h - the sRGB decoding curve, on [0, 1] (IEC 61966-2-1:1999); shading/tone.h has the other way */
+/* srgb.h - the sRGB decoding curve, on [0, 1] (IEC 61966-2-1:1999); shading/dialect/tone.h has the other way */
 #ifndef WEFT_IMAGE_SRGB_H
 #define WEFT_IMAGE_SRGB_H
 

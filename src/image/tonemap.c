@@ -1,5 +1,5 @@
 #define WEFT_LIBM /* pow of the C library: no byte of a picture hangs on the dialect's own */
-#include "shading/tone.h"
+#include "shading/dialect/tone.h"
 
 #include "base/fail.h"
 #include "weft/image.h"

@@ -6,8 +6,8 @@
 
 #include "base/fail.h"
 #include "base/thread.h"
-#include "shading/tone.h"
-#include "shading/weave_light.h"
+#include "shading/dialect/tone.h"
+#include "shading/weave/weave_light.h"
 #include "weave/weft_cloth.h"
 
 enum { FINE = 4, SIDE_MAX = 8192 }; /* points along a pixel's side */

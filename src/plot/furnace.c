@@ -6,8 +6,8 @@
 
 #include "base/pi.h"
 #include "base/thread.h"
-#include "measure/furnace.h"
-#include "measure/grid.h"
+#include "measure/bsdf/grid.h"
+#include "measure/check/furnace.h"
 #include "plot/making.h"
 
 /* WALKS: of a rule or a lobe that walks at random, at most. */

@@ -1,6 +1,6 @@
 /* rough.c - the same cloth, rougher or smoother */
 #include "plot/making.h"
-#include "shading/registry.h"
+#include "shading/catalogue/registry.h"
 
 static bool rough_material(const WeftMaterial *given, float roughness, WeftReflection **out) {
     WeftMaterial material = *given;

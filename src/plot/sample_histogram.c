@@ -5,9 +5,9 @@
 #include "base/fail.h"
 #include "base/pi.h"
 #include "base/random.h"
-#include "measure/chi_square.h"
+#include "measure/check/chi_square.h"
 #include "plot/making.h"
-#include "shading/lobe_tables.h"
+#include "shading/lobe/lobe_tables.h"
 
 /* Cells over phi and theta; POINTS along each side of one, where the pdf is asked. */
 enum { PHIS = 60, THETAS = 30, POINTS = 12, COUNT = 1 << 20, COUNT_QUICK = 1 << 17, TESTED = 60000 };

@@ -1,4 +1,4 @@
-#include "scene/scene.h"
+#include "scene/record/scene.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -8,8 +8,8 @@
 #include "base/fail.h"
 #include "base/pi.h"
 #include "brdf/measured.h"
-#include "scene/cubemap.h"
-#include "scene/environment.h"
+#include "scene/light/cubemap.h"
+#include "scene/light/environment.h"
 #include "weave/weft_cloth.h"
 
 WeftScene *scene_create(const char *name) {

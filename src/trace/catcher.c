@@ -1,6 +1,6 @@
 #include "trace/catcher.h"
 
-#include "shading/rgb.h"
+#include "shading/dialect/rgb.h"
 #include "shading/terms/d_ggx.h"
 #include "trace/sampler.h"
 

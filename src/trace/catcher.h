@@ -9,7 +9,7 @@
 #ifndef WEFT_TRACE_CATCHER_H
 #define WEFT_TRACE_CATCHER_H
 
-#include "scene/floor.h"
+#include "scene/light/floor.h"
 #include "trace/path_context.h"
 
 /* Sums over the samples of a pixel that meet the floor. */

@@ -2,9 +2,9 @@
 #ifndef WEFT_TRACE_CHUNK_H
 #define WEFT_TRACE_CHUNK_H
 
-#include "scene/cloth_base.h"
 #include "trace/path_context.h"
 #include "trace/stages.h"
+#include "weave/cloth_base.h"
 
 enum {
     PATHS_SAMPLES_LOG2 = 4, /* an id is the pixel's number in its tile, then that of its sample */

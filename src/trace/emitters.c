@@ -2,8 +2,8 @@
 
 #include "trace/emitters.h"
 
-#include "scene/material_at.h"
-#include "shading/loop.h"
+#include "scene/record/material_at.h"
+#include "shading/dialect/loop.h"
 #include "trace/geometry.h"
 
 typedef struct Emitter {

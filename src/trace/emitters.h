@@ -2,7 +2,7 @@
 #ifndef WEFT_TRACE_EMITTERS_H
 #define WEFT_TRACE_EMITTERS_H
 
-#include "scene/scene.h"
+#include "scene/record/scene.h"
 #include "trace/light_rows.h"
 #include "trace/light_tree.h"
 

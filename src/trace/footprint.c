@@ -6,8 +6,8 @@
  * Homan Igehy, "Tracing Ray Differentials", SIGGRAPH 1999, Equation 10, without what turns. A pixel of the camera is
  * as wide as the picture says. A path that was scattered stands for all those around it: of n directions with the
  * density p each has 1 / (n p) of the sphere, and from there on a cone as wide. */
-#include "shading/frame.h"
-#include "shading/loop.h"
+#include "shading/dialect/loop.h"
+#include "shading/stack/frame.h"
 #include "trace/chunk.h"
 #include "trace/sampler.h"
 

@@ -8,7 +8,7 @@
 
 #include "base/fail.h"
 #include "base/random.h"
-#include "scene/material_at.h"
+#include "scene/record/material_at.h"
 #include "weft/isa.h"
 
 struct Geometry {

@@ -2,7 +2,7 @@
 #ifndef WEFT_TRACE_GEOMETRY_H
 #define WEFT_TRACE_GEOMETRY_H
 
-#include "scene/scene.h"
+#include "scene/record/scene.h"
 
 typedef struct Geometry Geometry;
 

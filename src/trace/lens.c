@@ -1,7 +1,7 @@
 #include "trace/lens.h"
 
 #include "base/pi.h"
-#include "shading/loop.h"
+#include "shading/dialect/loop.h"
 #include "trace/sampler.h"
 
 /* Positions at equal steps of the integral of the Blackman-Harris window of 1.5 pixels' radius: looking one

@@ -2,7 +2,7 @@
 #ifndef WEFT_TRACE_LENS_H
 #define WEFT_TRACE_LENS_H
 
-#include "scene/camera.h"
+#include "scene/record/camera.h"
 #include "trace/chunk.h"
 
 enum { LENS_STEPS = 256 };

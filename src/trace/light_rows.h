@@ -2,7 +2,7 @@
 #ifndef WEFT_TRACE_LIGHT_ROWS_H
 #define WEFT_TRACE_LIGHT_ROWS_H
 
-#include "shading/surface_rows.h"
+#include "shading/stack/surface_rows.h"
 
 /* Further than any light of a scene. */
 #define LIGHT_FAR 1e30f

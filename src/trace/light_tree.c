@@ -2,7 +2,7 @@
 
 #include "trace/light_tree.h"
 
-#include "shading/loop.h"
+#include "shading/dialect/loop.h"
 
 /* A node's numbers. The cone of normals has the axis w and half angle theta_o. */
 enum {

@@ -11,7 +11,7 @@
 #define WEFT_TRACE_LIGHT_TREE_H
 
 #include "base/memory.h"
-#include "shading/surface_rows.h"
+#include "shading/stack/surface_rows.h"
 #include "trace/light_bounds.h"
 
 typedef struct LightTree {

@@ -3,7 +3,7 @@
 #include "trace/lights.h"
 
 #include "base/fail.h"
-#include "shading/punctual.h"
+#include "shading/area/punctual.h"
 #include "trace/emitters.h"
 #include "trace/sky.h"
 

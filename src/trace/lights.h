@@ -6,7 +6,7 @@
 #ifndef WEFT_TRACE_LIGHTS_H
 #define WEFT_TRACE_LIGHTS_H
 
-#include "scene/scene.h"
+#include "scene/record/scene.h"
 #include "trace/light_rows.h"
 
 typedef struct Lights Lights;

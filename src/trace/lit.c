@@ -1,8 +1,8 @@
 /* lit.c - light that vertices of paths send out or receive */
 #include "trace/chunk.h"
 
-#include "shading/loop.h"
-#include "shading/rgb.h"
+#include "shading/dialect/loop.h"
+#include "shading/dialect/rgb.h"
 
 /* Returns the way in which a group of lights is found. Without shadows all of it must be found by what nothing stands
  * in the way of: the rays that the lobe draws meet the environment behind everything then (stream.c), but other lights

@@ -3,8 +3,8 @@
 #define WEFT_TRACE_PATH_CONTEXT_H
 
 #include "brdf/measured.h"
-#include "scene/material.h"
-#include "shading/kind.h"
+#include "scene/record/material.h"
+#include "shading/kinds/kind.h"
 #include "trace/geometry.h"
 #include "trace/lights.h"
 #include "weft/render.h"

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/fail.h"
-#include "scene/camera.h"
+#include "scene/record/camera.h"
 #include "trace/geometry.h"
 
 /* Rays with other keys, so that what is half there is there, and what is cut out is not. */

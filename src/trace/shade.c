@@ -1,8 +1,8 @@
 /* shade.c - light samples and materials at the vertices of a chunk, and the rays that go on */
 #include "trace/chunk.h"
 
-#include "shading/frame.h"
-#include "shading/loop.h"
+#include "shading/dialect/loop.h"
+#include "shading/stack/frame.h"
 #include "trace/sampler.h"
 
 LOOP(draw_numbers, (const Chunk *c, uint32_t pair, int n, float *restrict u, float *restrict v),

@@ -3,8 +3,8 @@
 #include "trace/sky.h"
 
 #include "base/pi.h"
-#include "shading/loop.h"
-#include "shading/rgb.h"
+#include "shading/dialect/loop.h"
+#include "shading/dialect/rgb.h"
 
 #define TWO_PI 6.28318530717959f
 

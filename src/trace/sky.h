@@ -3,8 +3,8 @@
 #define WEFT_TRACE_SKY_H
 
 #include "base/memory.h"
-#include "scene/scene.h"
-#include "shading/angles.h"
+#include "scene/record/scene.h"
+#include "shading/dialect/angles.h"
 #include "trace/distribution.h"
 #include "trace/light_rows.h"
 

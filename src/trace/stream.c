@@ -2,7 +2,7 @@
 
 #include "trace/stream.h"
 
-#include "shading/loop.h"
+#include "shading/dialect/loop.h"
 
 Stream *stream_create(const PathContext *context, int materials) {
     Stream *stream = alloc_array(1, sizeof *stream);

@@ -1,8 +1,8 @@
 /* vertex.c - the points that paths hit: position, normal, and the frame */
 #include "trace/chunk.h"
 
-#include "shading/frame.h"
-#include "shading/loop.h"
+#include "shading/dialect/loop.h"
+#include "shading/stack/frame.h"
 
 /* Carsten Waechter, Nikolaus Binder, "A Fast and Robust Method for Avoiding Self-Intersection", Ray Tracing
  * Gems, 2019: a step of so many units in the last place, or of a fixed length near the origin of the world.

@@ -1,8 +1,8 @@
 /* vertex_inputs.c - the material's inputs at the vertices of a chunk, from its numbers, textures and vertex colors */
 #include "trace/chunk.h"
 
-#include "shading/loop.h"
-#include "shading/texel.h"
+#include "shading/dialect/loop.h"
+#include "shading/dialect/texel.h"
 
 /* Texture coordinates as geometry_attributes has them. */
 static void take_texcoords(const Chunk *c, const WeftScene *scene, int set, int n, Row uv[2]) {

@@ -2,7 +2,7 @@
 #ifndef WEFT_VIEW_REPLAY_H
 #define WEFT_VIEW_REPLAY_H
 
-#include "view/viewer.h"
+#include "view/state/viewer.h"
 
 typedef struct Replay Replay;
 

@@ -2,7 +2,7 @@
 #ifndef WEFT_VIEW_STATE_REPORT_H
 #define WEFT_VIEW_STATE_REPORT_H
 
-#include "view/viewer.h"
+#include "view/state/viewer.h"
 
 /* Prints an object in one line on standard output, when the window has come to rest:
  * scene, camera, materials, lights, message, rates, memory, and every control that is shown with its place.

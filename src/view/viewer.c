@@ -1,5 +1,5 @@
 #define _POSIX_C_SOURCE 200809L
-#include "view/viewer.h"
+#include "view/state/viewer.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -11,13 +11,13 @@
 #include <epoxy/gl.h>
 
 #include "base/steady_clock.h"
-#include "view/browser.h"
-#include "view/examine.h"
-#include "view/frame_requests.h"
-#include "view/opening.h"
+#include "view/panels/examine.h"
 #include "view/replay.h"
-#include "view/rooms.h"
+#include "view/state/frame_requests.h"
+#include "view/state/opening.h"
+#include "view/state/rooms.h"
 #include "view/state_report.h"
+#include "view/ui/browser.h"
 
 void viewer_say(Viewer *v, bool grave, const char *format, ...) {
     va_list list;

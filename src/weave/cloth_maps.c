@@ -10,8 +10,8 @@
 #include "base/file.h"
 #include "base/thread.h"
 #include "image/srgb.h"
-#include "shading/tone.h"
-#include "shading/yarn_medium.h"
+#include "shading/dialect/tone.h"
+#include "shading/media/yarn_medium.h"
 #include "weave/weft_cloth.h"
 
 enum { MAP_COLOR, MAP_NORMAL, MAP_ROUGHNESS, MAP_ANISOTROPY, MAP_HEIGHT, MAP_COUNT };

@@ -3,7 +3,7 @@
 #define WEFT_WEAVE_WEFT_CLOTH_H
 
 #include "shading/lobes/woven.h"
-#include "shading/weave_point.h"
+#include "shading/weave/weave_point.h"
 #include "weft/weave.h"
 
 /* The colours of a repeat, ever coarser: square grids of a power of 2 columns and rows, each level half of the one

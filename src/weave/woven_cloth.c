@@ -6,7 +6,7 @@
 #include "base/fail.h"
 #include "base/memory.h"
 #include "image/srgb.h"
-#include "shading/yarn_medium.h"
+#include "shading/media/yarn_medium.h"
 #include "weave/weave_draft.h"
 #include "weave/weft_cloth.h"
 

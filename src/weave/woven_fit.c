@@ -225,7 +225,7 @@ static void light_lobe(const WovenPrepared *p, Lit *far) {
 }
 
 /* Makes the lobe as bright, in light that met one fibre, as the one of its numbers alone, for which the environment is
- * convolved (raster/materials.c). */
+ * convolved (raster/material/materials.c). */
 static void level_gains(SystemFit *fit) {
     Lit lobe = *fit->near;
     WovenPrepared p;

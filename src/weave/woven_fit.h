@@ -2,7 +2,7 @@
 #ifndef WEFT_WEAVE_WOVEN_FIT_H
 #define WEFT_WEAVE_WOVEN_FIT_H
 
-#include "shading/weave_light.h"
+#include "shading/weave/weave_light.h"
 
 /* The ends of the numbers of lobe woven; the crimp is a tangent. */
 #define ROUNDNESS_MOST 1.5f

@@ -14,7 +14,7 @@
 #include "base/pi.h"
 #include "brdf/rgl.h"
 #include "brdf/spectrum.h"
-#include "measure/chi_square.h"
+#include "measure/check/chi_square.h"
 #include "scratch.h"
 #include "tensor_bytes.h"
 #include "weft/weft.h"

@@ -5,7 +5,7 @@
 
 #include <cmocka.h>
 
-#include "cli/decimal.c"
+#include "cli/console/decimal.c"
 
 static uint64_t random_state = 1;
 static uint32_t random_bits(void) {

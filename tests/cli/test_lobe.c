@@ -307,7 +307,7 @@ static void bad_lobe_file_is_an_error_of_one_line(void **state) {
     refused("toy2.h", 3, "toy2.h:25: does not compile: ");
     toy_with("s/p->power = 1.0f - m.roughness;/p->power = = 1;/");
     refused("toy2.h", 3, "toy2.h:25: does not compile: ");
-    toy_with("s/#include \"shading.lobe.h\"/#include \"other.h\"/");
+    toy_with("s/#include \"shading.lobe.lobe.h\"/#include \"other.h\"/");
     refused("toy2.h", 3, "toy2.h:14: is not shading text: includes other.h, which does not exist");
     toy_with("s/{ float power, scale, fade; }/{ float power, scale, fade, big[166]; }/");
     refused("toy2.h", 3, "Toy2Prepared has 676 bytes, and 672 is the most");

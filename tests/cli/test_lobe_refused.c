@@ -21,7 +21,7 @@ static void lobe_name_that_is_taken_or_malformed_is_refused(void **state) {
     static const char *const names[][4] = {
         {"toy_", "Toy", "TOY_", "lower-case letters, digits and single _ between"},
         {"a__b", "AB", "A__B", "lower-case letters, digits and single _ between"},
-        {"stack", "Stack", "STACK", "its Stack would be that of shading/stack.h"},
+        {"stack", "Stack", "STACK", "its Stack would be that of shading/stack/stack.h"},
         {"slot", "Slot", "SLOT", "its Slot would be that of shading/"},
         {"surface", "Surface", "SURFACE", "its Surface would be that of shading/"},
         {"lobe", "Lobe", "LOBE", "its Lobe would be that of "},

@@ -20,12 +20,12 @@
 
 #include "base/memory.h"
 #include "export/sheen.h"
-#include "measure/draw.h"
-#include "measure/grid.h"
-#include "scene/material_at.h"
-#include "scene/material_numbers.h"
-#include "shading/choice.h"
-#include "shading/material_stack.h"
+#include "measure/bsdf/draw.h"
+#include "measure/bsdf/grid.h"
+#include "scene/material/material_numbers.h"
+#include "scene/record/material_at.h"
+#include "shading/material/choice.h"
+#include "shading/material/material_stack.h"
 
 enum { PAIRS = 4096, INPUTS = 6, OUTPUTS = 2, MODELS_MAX = 128 };
 

@@ -6,7 +6,7 @@
 
 #include <unistd.h>
 
-#include "raster/compute.h"
+#include "raster/frame/compute.h"
 #include "scratch.h"
 
 typedef enum Way { WAY_GLSL, WAY_ESSL, WAY_HLSL, WAYS } Way;

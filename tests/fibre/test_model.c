@@ -15,8 +15,8 @@
 #include "base/random.h"
 #include "fibre/solver_reference.h"
 #include "fibre/walk.h"
-#include "shading/albedo.h"
-#include "shading/registry.h"
+#include "shading/catalogue/albedo.h"
+#include "shading/catalogue/registry.h"
 
 static void set(Lobe *lobe, const char *name, double value) {
     lobe_set(lobe, weft_lobe_param_find(lobe->id, name), (float)value);

@@ -10,9 +10,9 @@
 #include <cmocka.h>
 
 #include "fibre/solver_reference.h"
-#include "shading/albedo.h"
-#include "shading/lobe_tables.h"
-#include "shading/registry.h"
+#include "shading/catalogue/albedo.h"
+#include "shading/catalogue/registry.h"
+#include "shading/lobe/lobe_tables.h"
 #include "weft/weft.h"
 
 static Lobe lobe_at_alpha(int id, double alpha) {

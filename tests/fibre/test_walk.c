@@ -12,8 +12,8 @@
 #include <cmocka.h>
 
 #include "base/random.h"
-#include "measure/chi_square.h"
-#include "shading/fibre_medium.h"
+#include "measure/check/chi_square.h"
+#include "shading/media/fibre_medium.h"
 #include "walks.h"
 
 static const double degree = PI_DOUBLE / 180.0;

@@ -12,8 +12,8 @@
 #include <cmocka.h>
 
 #include "base/random.h"
-#include "shading/albedo.h"
-#include "shading/fibre_medium.h"
+#include "shading/catalogue/albedo.h"
+#include "shading/media/fibre_medium.h"
 #include "walks.h"
 
 static Judge all;

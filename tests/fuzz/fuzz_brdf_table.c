@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "measure/brdf_table.h"
+#include "measure/fit/brdf_table.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 

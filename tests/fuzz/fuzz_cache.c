@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "base/cache.h"
-#include "measure/ltc_cache.h"
+#include "measure/ltc/ltc_cache.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 

@@ -1,15 +1,15 @@
 /* fuzz_gltf - the glTF reader: GLB and JSON from memory, all that can lie in one file
  *
  * Any input must be read or refused with one line; sanitizers watch the rest. What was read must keep the
- * promises of scene/scene.h. Use the dictionary gltf.dict. */
+ * promises of scene/record/scene.h. Use the dictionary gltf.dict. */
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "gltf/gltf.h"
-#include "gltf/patch.h"
-#include "measure/doctor.h"
+#include "gltf/read/gltf.h"
+#include "gltf/save/patch.h"
+#include "measure/doctor/doctor.h"
 #include "weft/doctor.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);

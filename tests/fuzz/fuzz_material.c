@@ -8,8 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scene/material_file.h"
-#include "shading/choice.h"
+#include "scene/material/material_file.h"
+#include "shading/material/choice.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 

@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "gltf/gltf.h"
+#include "gltf/read/gltf.h"
 
 /* What came of a read: the scene (to be freed by done), the error, and how often each warning came. */
 typedef struct Reading {

@@ -4,9 +4,9 @@
 #include <math.h>
 #include <meshoptimizer.h>
 
-#include "gltf/accessor.h"
-#include "gltf/buffer_views.h"
-#include "gltf/container.h"
+#include "gltf/asset/accessor.h"
+#include "gltf/asset/buffer_views.h"
+#include "gltf/asset/container.h"
 
 /* The first accessor of { 'buffers': [bytes], REST }, decoded: floats (in *values, NULL after a failure), its
  * number of elements in *count. */

@@ -5,7 +5,7 @@
 #include <time.h>
 
 #include "base/random.h"
-#include "gltf/tangent.h"
+#include "gltf/read/tangent.h"
 
 /* A scene of the square under one node, whose members are node. */
 static Reading *read_square(const char *node, const char *primitive) {

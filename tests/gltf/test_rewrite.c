@@ -1,5 +1,5 @@
 /* A glTF file written again: what was edited is edited, and all else is what it was. */
-#include "gltf/rewrite.h"
+#include "gltf/save/rewrite.h"
 
 #include <sys/stat.h>
 #include <unistd.h>

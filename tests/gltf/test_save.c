@@ -14,7 +14,7 @@
 
 #include <cmocka.h>
 
-#include "scene/scene.h"
+#include "scene/record/scene.h"
 #include "scratch.h"
 #include "weft/weft.h"
 

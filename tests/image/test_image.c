@@ -8,7 +8,7 @@
 #include "image/codec.h"
 #include "image/srgb.h"
 #define WEFT_LIBM /* as tonemap.c has it */
-#include "shading/tone.h"
+#include "shading/dialect/tone.h"
 
 static void new_image_is_black_and_freed(void **state) {
     (void)state;

@@ -5,7 +5,7 @@
 
 #include "image/srgb.h"
 #define WEFT_LIBM /* as tonemap.c has it */
-#include "shading/tone.h"
+#include "shading/dialect/tone.h"
 
 static const WeftTonemap curves[] = {WEFT_TONEMAP_PBR_NEUTRAL, WEFT_TONEMAP_ACES, WEFT_TONEMAP_NONE};
 

@@ -11,7 +11,7 @@
 #ifndef WEFT_TOY_H
 #define WEFT_TOY_H
 
-#include "shading/lobe.h"
+#include "shading/lobe/lobe.h"
 
 #define TOY_PARAMS(P)                                                                                        \
     P(float, roughness, 0.5f, 0.0f, 1.0f, 0.0f, 1.0f, "how slowly it darkens towards the edge")              \

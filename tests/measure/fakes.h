@@ -4,9 +4,9 @@
 #ifndef WEFT_TEST_MEASURE_FAKES_H
 #define WEFT_TEST_MEASURE_FAKES_H
 
-#include "measure/bsdf.h"
-#include "measure/passport.h"
-#include "shading/warp.h"
+#include "measure/bsdf/bsdf.h"
+#include "measure/check/passport.h"
+#include "shading/dialect/warp.h"
 
 static inline void fake_prepare(const Bsdf *bsdf, int setting, Dir o, BsdfView *view) {
     view->bsdf = bsdf;

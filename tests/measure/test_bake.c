@@ -11,7 +11,7 @@
 #include <cmocka.h>
 
 #include "base/pi.h"
-#include "shading/registry.h"
+#include "shading/catalogue/registry.h"
 #include "weft/weft.h"
 
 static void assert_near(double got, double expected, double tolerance) {

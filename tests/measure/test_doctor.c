@@ -7,9 +7,9 @@
 
 #include "gltf/reading.h"
 #include "image/codec.h"
-#include "measure/doctor.h"
+#include "measure/doctor/doctor.h"
 #include "scratch.h"
-#include "shading/choice.h"
+#include "shading/material/choice.h"
 #include "weft/doctor.h"
 #include "weft/reflection.h"
 #include "weft/save.h"

@@ -13,9 +13,9 @@
 #include <cmocka.h>
 
 #include "base/pi.h"
-#include "measure/data.h"
 #include "measure/drawn.h"
-#include "measure/lobe_search.h"
+#include "measure/fit/data.h"
+#include "measure/fit/lobe_search.h"
 #include "weft/weft.h"
 
 enum { PAIRS = 12000, FEW = 4000 };

@@ -11,9 +11,9 @@
 #include <cmocka.h>
 
 #include "base/pi.h"
-#include "measure/half_floor.h"
-#include "measure/half_precision.h"
-#include "measure/sweep.h"
+#include "measure/check/half_floor.h"
+#include "measure/check/half_precision.h"
+#include "measure/check/sweep.h"
 #include "weft/lobe.h"
 
 /* x to the nearest number of 11 significant bits, ties to even; 2^-24 is the least there is. */

@@ -6,8 +6,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "measure/ltc_cache.h"
-#include "measure/ltc_fit.h"
+#include "measure/ltc/ltc_cache.h"
+#include "measure/ltc/ltc_fit.h"
 #include "scratch.h"
 
 static WeftLtc *make_of(const WeftLobe *lobe, WeftLtcDesc desc) {

@@ -10,12 +10,12 @@
 #include "base/pi.h"
 #include "fakes.h"
 
-#include "measure/chi_square.h"
-#include "measure/exceeds.h"
-#include "measure/furnace.h"
-#include "measure/grid.h"
-#include "measure/sweep.h"
-#include "measure/weight.h"
+#include "measure/bsdf/exceeds.h"
+#include "measure/bsdf/grid.h"
+#include "measure/check/chi_square.h"
+#include "measure/check/furnace.h"
+#include "measure/check/sweep.h"
+#include "measure/check/weight.h"
 
 static void assert_near(double got, double expected, double tolerance) {
     if (!(fabs(got - expected) <= tolerance)) fail_msg("%.9g, not %.9g +- %g", got, expected, tolerance);

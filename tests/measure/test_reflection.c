@@ -10,9 +10,9 @@
 #include <cmocka.h>
 
 #include "base/steady_clock.h"
-#include "scene/material.h"
-#include "shading/choice.h"
-#include "shading/material_stack.h"
+#include "scene/record/material.h"
+#include "shading/material/choice.h"
+#include "shading/material/material_stack.h"
 #include "weft/weft.h"
 
 #undef sin /* of the dialect, which is single precision */

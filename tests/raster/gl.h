@@ -2,7 +2,7 @@
 #ifndef WEFT_TEST_RASTER_GL_H
 #define WEFT_TEST_RASTER_GL_H
 
-#include "raster/context.h"
+#include "raster/gl/context.h"
 
 static bool no_gl;
 

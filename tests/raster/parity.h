@@ -9,10 +9,10 @@
 #include "shading/cases.h"
 
 #include "base/thread.h"
-#include "raster/compute.h"
-#include "text/dispatch.h"
-#include "text/number_text.h"
-#include "text/tables.h"
+#include "raster/frame/compute.h"
+#include "text/assemble/dispatch.h"
+#include "text/assemble/tables.h"
+#include "text/source/number_text.h"
 
 enum { LANGUAGES = 2, SAMPLES_MOST = 65536, INPUTS = COMPUTE_INPUTS_MAX, OUTPUTS = 2, ANSWERS = 4 * OUTPUTS };
 

@@ -6,9 +6,9 @@
 #include "raster/gl.h"
 #include "raster/spheres.h"
 
-#include "scene/camera.h"
-#include "scene/scene.h"
-#include "shading/choice.h"
+#include "scene/record/camera.h"
+#include "scene/record/scene.h"
+#include "shading/material/choice.h"
 #include "trace/geometry.h"
 #include "weft/weft.h"
 

@@ -14,10 +14,10 @@
 #include "raster/gl.h"
 
 #include "base/random.h"
-#include "scene/cloth_base.h"
-#include "scene/scene.h"
+#include "scene/record/scene.h"
 #include "shading/cases.h"
 #include "trace/scenes.h"
+#include "weave/cloth_base.h"
 #include "weft/weft.h"
 
 enum { WIDTH = 240, HEIGHT = 160, PIXELS = WIDTH * HEIGHT };

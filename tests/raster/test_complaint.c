@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "raster/complaint.h"
+#include "raster/gl/complaint.h"
 #include "weft/lobe.h"
 
 static const char file[] = "shading/lobes/ggx.h", statement[] = "    GgxPrepared p;\n";

@@ -11,7 +11,7 @@
 #include <cmocka.h>
 #include <epoxy/egl.h>
 
-#include "raster/compute.h"
+#include "raster/frame/compute.h"
 
 static const TextLanguage languages[] = {TEXT_GLSL_330, TEXT_GLSL_ES_300};
 enum { LANGUAGES = 2 };

@@ -1,5 +1,5 @@
 /* The environment on the GPU: cubes beside sums over all texels, in both languages; terms, lights and
- * rotation; the cache; the whole of shading/ambient.h beside C; and how many samplers that takes */
+ * rotation; the cache; the whole of shading/ambient/ambient.h beside C; and how many samplers that takes */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -13,14 +13,14 @@
 #include <cmocka.h>
 #include <epoxy/gl.h>
 
-#include "raster/context.h"
-#include "raster/gl_environment.h"
-#include "raster/gl_tables.h"
-#include "raster/program.h"
-#include "shading/ambient.h"
-#include "shading/ambient_fit.h"
-#include "shading/material_stack.h"
-#include "text/dispatch.h"
+#include "raster/gl/context.h"
+#include "raster/gl/program.h"
+#include "raster/light/gl_environment.h"
+#include "raster/material/gl_tables.h"
+#include "shading/ambient/ambient.h"
+#include "shading/ambient/ambient_fit.h"
+#include "shading/material/material_stack.h"
+#include "text/assemble/dispatch.h"
 
 enum { POINTS = 256, MAP_WIDTH = 128, MAP_HEIGHT = 64 };
 

@@ -11,7 +11,7 @@
 #include "trace/scenes.h"
 
 #include "base/pi.h"
-#include "raster/occlusion.h"
+#include "raster/geometry/occlusion.h"
 #include "scratch.h"
 
 enum { RAYS = 256, LIGHTS = 4, ALL = 8 * OCCLUSION_VALUES };

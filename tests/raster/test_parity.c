@@ -5,8 +5,8 @@
 #include <sys/stat.h>
 
 #include "scratch.h"
-#include "shading/engine_tables.h"
-#include "shading/lobe_tables.h"
+#include "shading/catalogue/engine_tables.h"
+#include "shading/lobe/lobe_tables.h"
 
 static void put_lobe(Text *text, int which) {
     text_dispatch(text, &which, 1);
@@ -87,7 +87,7 @@ static void dispatch_in_glsl_finds_each_lobe(void **state) {
 }
 
 static void put_term(Text *text, int which) {
-    text_include(text, "shading/terms.h");
+    text_include(text, "shading/lobe/terms.h");
     text_line(text, "\nconst int TERM = %d;", which);
 }
 
@@ -220,7 +220,7 @@ static void tables_in_glsl_agree_with_c(void **state) {
 }
 
 static void put_leaning(Text *text, int which) {
-    text_include(text, "shading/table.h");
+    text_include(text, "shading/lobe/table.h");
     put_table(text, "leaning", &leaning);
     put_table(text, "scaled", &scaled);
 }
@@ -281,9 +281,10 @@ static void parity_finds_a_wrong_text(void **state) {
     FILE *stream = fopen(path, "wb");
     assert_non_null(stream);
     assert_true(
-        fputs("#include \"shading/lang.h\"\nFN float schlick_s(float d) {\n    float m = 1.001f - d;\n"
-              "    return m * m * m * m * m;\n}\n",
-              stream) >= 0);
+        fputs(
+            "#include \"shading/dialect/lang.h\"\nFN float schlick_s(float d) {\n    float m = 1.001f - d;\n"
+            "    return m * m * m * m * m;\n}\n",
+            stream) >= 0);
     assert_int_equal(fclose(stream), 0);
     fill(&f_terms, F_SCHLICK);
     Programs programs = make_programs(&f_terms, F_SCHLICK, "a wrong schlick", folder);

@@ -2,13 +2,13 @@
  * rules, stacks of every workflow and profile, dust */
 #include "raster/parity.h"
 
-#include "shading/choice.h"
-#include "shading/dust.h"
-#include "shading/engine_tables.h"
-#include "shading/lobe_tables.h"
+#include "shading/catalogue/engine_tables.h"
+#include "shading/lobe/lobe_tables.h"
+#include "shading/material/choice.h"
+#include "shading/material/dust.h"
 
 static void put_layer(Text *text, int which) {
-    text_include(text, "shading/layer.h");
+    text_include(text, "shading/stack/layer.h");
     text_line(text, "\nconst int LAYER = %d;", which);
 }
 
@@ -81,7 +81,7 @@ static void put_stack(Text *text, int which) {
     put_all_lobes(text, which);
     text_lobe_tables(text);
     text_engine_tables(text, engines, ENGINE_COUNT);
-    text_include(text, "shading/compose.h");
+    text_include(text, "shading/material/compose.h");
     put_readers(text);
 }
 
@@ -191,7 +191,7 @@ static void stacks_in_glsl_agree_with_c(void **state) {
     assert_true(good);
 }
 
-static void put_dust(Text *text, int which) { text_include(text, "shading/dust.h"); }
+static void put_dust(Text *text, int which) { text_include(text, "shading/material/dust.h"); }
 
 /* in0: normal, tilt.  in1: place, scale.  in2: direction, falloff, amount.  in3: strength of the noise. */
 static void fill_dust(Random *random, int which, float *row) {

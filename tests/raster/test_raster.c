@@ -14,10 +14,10 @@
 #include "raster/made.h"
 #include "trace/scenes.h"
 
-#include "raster/shader.h"
-#include "scene/backdrop.h"
+#include "raster/material/shader.h"
+#include "scene/light/backdrop.h"
 #include "scratch.h"
-#include "shading/choice.h"
+#include "shading/material/choice.h"
 
 enum { SIDE = 96 };
 

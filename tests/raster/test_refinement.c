@@ -12,7 +12,7 @@
 
 #include "trace/scenes.h"
 
-#include "raster/occlusion.h"
+#include "raster/geometry/occlusion.h"
 
 enum { FLOOR, SLAB };
 

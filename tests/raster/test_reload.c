@@ -14,7 +14,7 @@
 #include <cmocka.h>
 
 #include "raster/gl.h"
-#include "raster/shader_watch.h"
+#include "raster/material/shader_watch.h"
 #include "scratch.h"
 #include "weft/weft.h"
 

@@ -10,7 +10,7 @@
 #include <cmocka.h>
 #include <epoxy/egl.h>
 
-#include "raster/context.h"
+#include "raster/gl/context.h"
 #include "raster/made.h"
 #include "scratch.h"
 #include "trace/scenes.h"

@@ -9,8 +9,8 @@
 
 #include <cmocka.h>
 
-#include "scene/scene.h"
-#include "shading/workflow.h"
+#include "scene/record/scene.h"
+#include "shading/stack/workflow.h"
 #include "weft/weft.h"
 
 static void chart_entries_are_complete_and_their_numbers_agree(void **state) {

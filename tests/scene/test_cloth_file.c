@@ -12,9 +12,9 @@
 
 #include <cmocka.h>
 
-#include "scene/scene.h"
+#include "scene/record/scene.h"
 #include "scratch.h"
-#include "shading/weave_light.h"
+#include "shading/weave/weave_light.h"
 #include "weave/weft_cloth.h"
 #include "weft/weft.h"
 #include "woven_presets.h"

@@ -15,8 +15,8 @@
 
 #include "base/pi.h"
 #include "base/random.h"
-#include "scene/cloth_base.h"
-#include "scene/scene.h"
+#include "scene/record/scene.h"
+#include "weave/cloth_base.h"
 #include "weft/weft.h"
 
 enum { SAMPLES = 144, FINE = 576, PAIRS = 7 };

@@ -10,7 +10,7 @@
 
 #include "base/pi.h"
 #include "base/random.h"
-#include "shading/weave_light.h"
+#include "shading/weave/weave_light.h"
 #include "weft/weft.h"
 #include "white_cloth.h"
 #include "woven_cloths.h"

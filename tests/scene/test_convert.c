@@ -9,9 +9,9 @@
 #include <cmocka.h>
 
 #include "base/random.h"
-#include "scene/material_at.h"
-#include "scene/scene.h"
-#include "shading/compose.h"
+#include "scene/record/material_at.h"
+#include "scene/record/scene.h"
+#include "shading/material/compose.h"
 #include "weft/weft.h"
 
 typedef struct Colors {

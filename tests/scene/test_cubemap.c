@@ -12,8 +12,8 @@
 
 #include <cmocka.h>
 
-#include "scene/cubemap.h"
-#include "scene/env_split.h"
+#include "scene/light/cubemap.h"
+#include "scene/light/env_split.h"
 #include "scratch.h"
 
 enum { SIDE = 32 };

@@ -6,8 +6,8 @@
 
 #include <cmocka.h>
 
-#include "scene/scene.h"
-#include "shading/choice.h"
+#include "scene/record/scene.h"
+#include "shading/material/choice.h"
 
 static void choose(Material *material, ChoiceId choice, const char *id) {
     material_choose(material, choice, id ? choice_find(choice, id) : CHOICE_AUTO);

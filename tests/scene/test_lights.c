@@ -11,7 +11,7 @@
 #include <cmocka.h>
 
 #include "base/random.h"
-#include "scene/polygons.h"
+#include "scene/light/polygons.h"
 #include "trace/scenes.h"
 
 enum { MOST = 24, STEPS = 4000 };

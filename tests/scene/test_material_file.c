@@ -10,7 +10,7 @@
 
 #include <cmocka.h>
 
-#include "scene/material_file.h"
+#include "scene/material/material_file.h"
 #include "scratch.h"
 #include "weft/weft.h"
 

@@ -9,9 +9,9 @@
 #include <cmocka.h>
 
 #include "base/steady_clock.h"
-#include "scene/material_numbers.h"
-#include "scene/scene.h"
-#include "shading/choice.h"
+#include "scene/material/material_numbers.h"
+#include "scene/record/scene.h"
+#include "shading/material/choice.h"
 #include "weft/weft.h"
 
 static WeftScene *load(const char *name) {

@@ -10,8 +10,8 @@
 #include <cmocka.h>
 
 #include "base/pi.h"
-#include "scene/polygons.h"
-#include "shading/angles.h"
+#include "scene/light/polygons.h"
+#include "shading/dialect/angles.h"
 
 /* A scene of one mesh that emits (3, 2, 1). */
 typedef struct Stage {

@@ -9,8 +9,8 @@
 #include <cmocka.h>
 
 #include "base/pi.h"
-#include "scene/camera.h"
-#include "scene/scene.h"
+#include "scene/record/camera.h"
+#include "scene/record/scene.h"
 #include "weave/weft_cloth.h"
 #include "weft/weft.h"
 

@@ -9,8 +9,8 @@
 #include <cmocka.h>
 
 #include "base/random.h"
-#include "scene/texture.h"
-#include "shading/surface_rows.h"
+#include "scene/record/texture.h"
+#include "shading/stack/surface_rows.h"
 
 static WeftImage image_of(int width, int height, int channels, WeftPixelType type) {
     WeftImage image;

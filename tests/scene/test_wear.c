@@ -11,10 +11,10 @@
 
 #include <cmocka.h>
 
-#include "scene/scene.h"
+#include "scene/record/scene.h"
 #include "scratch.h"
-#include "shading/choice.h"
-#include "shading/convert.h"
+#include "shading/material/choice.h"
+#include "shading/material/convert.h"
 #include "weft/weft.h"
 
 static char folder[SCRATCH_SIZE];

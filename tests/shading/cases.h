@@ -18,7 +18,7 @@
 
 #include "base/pi.h"
 #include "base/random.h"
-#include "shading/material_stack.h"
+#include "shading/material/material_stack.h"
 
 /* WEFT_TEST_LONG=1 asks for finer grids and more samples, WEFT_TEST_SHORT=1 (sanitizers) for fewer. */
 static inline bool test_asked(const char *variable) {

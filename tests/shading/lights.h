@@ -7,8 +7,8 @@
 
 #include "base/pi.h"
 #include "base/random.h"
-#include "shading/area.h"
-#include "shading/material_stack.h"
+#include "shading/area/area.h"
+#include "shading/material/material_stack.h"
 
 typedef struct Point {
     double x, y, z;

@@ -3,9 +3,9 @@
  * says; layers and coats leave what they should; lights and residual are all of an environment */
 #include "cases.h"
 
-#include "scene/env_split.h"
-#include "shading/ambient.h"
-#include "shading/ambient_fit.h"
+#include "scene/light/env_split.h"
+#include "shading/ambient/ambient.h"
+#include "shading/ambient/ambient_fit.h"
 
 /* An environment that is even, with a light or two. */
 typedef struct Even {

@@ -3,11 +3,11 @@
 #include "cases.h"
 #include "lights.h"
 
-#include "raster/compute.h"
+#include "raster/frame/compute.h"
 #include "scratch.h"
-#include "shading/lobe_tables.h"
-#include "text/dispatch.h"
-#include "text/tables.h"
+#include "shading/lobe/lobe_tables.h"
+#include "text/assemble/dispatch.h"
+#include "text/assemble/tables.h"
 
 enum { POSES = 20 };
 
@@ -232,7 +232,7 @@ static void begin_text(Text *text, TextLanguage language) {
     text_dispatch(text, gpu_lobes, GPU_LOBES);
     text_lobe_tables(text);
     text_engine_tables(text, NULL, 0);
-    text_include(text, "shading/area.h");
+    text_include(text, "shading/area/area.h");
     text_line(text, "%s", stack_text);
 }
 

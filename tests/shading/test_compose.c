@@ -1,6 +1,6 @@
 /* Choices beside a workflow or a profile: what they replace, and what they leave alone */
 #include "cases.h"
-#include "shading/choice.h"
+#include "shading/material/choice.h"
 
 static Surface plain(void) {
     return (Surface){.base_color = {1.0f, 1.0f, 1.0f},

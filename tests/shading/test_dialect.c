@@ -1,8 +1,8 @@
 /* The dialect's own functions against double precision, and the warps against their densities */
 #include "cases.h"
+#include "shading/dialect/warp.h"
 #include "shading/terms/d_charlie.h"
 #include "shading/terms/d_ggx.h"
-#include "shading/warp.h"
 
 static void log2_has_the_stated_error(void **state) {
     (void)state;

@@ -1,7 +1,7 @@
 /* The diffuse lobes against their papers in double precision; their energy, closed forms, and the figures
  * their headers state */
 #include "cases.h"
-#include "shading/albedo.h"
+#include "shading/catalogue/albedo.h"
 
 static const double unit_pi = PI_DOUBLE;
 

@@ -1,7 +1,7 @@
 /* Dust over surfaces of every workflow and profile: how much lies where, and what it takes and gives */
 #include "cases.h"
 
-#include "shading/albedo.h"
+#include "shading/catalogue/albedo.h"
 
 /* Plausible, with dust over a coat, a sheen, a highlight and a diffuse lobe. */
 static Surface dusty(Random *random, float dust) {

@@ -1,6 +1,6 @@
 /* E by quadrature, by other means, by closed forms and by table; and what the lobes claim about it */
 #include "cases.h"
-#include "shading/warp.h"
+#include "shading/dialect/warp.h"
 
 static const double cosines[] = {1.0, 0.9, 0.6, 0.3, 0.1, 0.02};
 enum { COSINES = sizeof cosines / sizeof cosines[0] };

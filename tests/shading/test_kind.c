@@ -1,7 +1,7 @@
 /* The kinds of stacks: which materials they fit, and that they shade as the stack of any lobes does but for
  * the last bits */
 #include "cases.h"
-#include "shading/kind.h"
+#include "shading/kinds/kind.h"
 
 enum { PROFILE_KHRONOS = 7, CASES = 300 };
 

@@ -10,10 +10,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "measure/chi_square.h"
-#include "raster/compute.h"
+#include "measure/check/chi_square.h"
+#include "raster/frame/compute.h"
 #include "scratch.h"
-#include "shading/ltc_table.h"
+#include "shading/ltc/ltc_table.h"
 
 typedef struct Entries {
     float z, q, b, r;
@@ -223,7 +223,7 @@ static void ltc_tables_are_interpolated_between_nodes(void **state) {
 
 static void begin_text(Text *text, TextLanguage language) {
     text_begin(text, &(TextDesc){.language = language, .tables = true});
-    text_include(text, "shading/ltc_table.h");
+    text_include(text, "shading/ltc/ltc_table.h");
 }
 
 static void ltc_text_is_valid_glsl(void **state) {

@@ -1,7 +1,7 @@
 /* The engine profiles against their engines' formulas, written a second time in double precision */
 #include "cases.h"
 
-#include "shading/engine_tables.h"
+#include "shading/catalogue/engine_tables.h"
 
 enum {
     NONE,

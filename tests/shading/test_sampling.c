@@ -7,7 +7,7 @@
 #undef Grid
 #undef grid_direction
 
-#include "measure/chi_square.h"
+#include "measure/check/chi_square.h"
 
 /* How many tests share the significance of 1 %: those of the stacks, and room for those of the lobes. */
 enum { STACK_TESTS = 60, TESTS = 1600 };

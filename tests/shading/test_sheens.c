@@ -1,7 +1,7 @@
 /* The sheen and cloth lobes against their papers' formulas in double precision, written from the papers:
  * other angles, other order, integrals instead of closed forms */
 #include "cases.h"
-#include "shading/albedo.h"
+#include "shading/catalogue/albedo.h"
 
 typedef struct Vector {
     double x, y, z;

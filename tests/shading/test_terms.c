@@ -4,7 +4,7 @@
 #include <dirent.h>
 
 #include "cases.h"
-#include "shading/terms.h"
+#include "shading/lobe/terms.h"
 
 static const double alphas[] = {0.05, 0.1, 0.25, 0.5, 0.8, 1.0};
 enum { ALPHAS = sizeof alphas / sizeof alphas[0] };

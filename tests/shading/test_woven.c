@@ -3,7 +3,7 @@
 #include "cases.h"
 
 #include "base/pi.h"
-#include "shading/azimuth.h"
+#include "shading/dialect/azimuth.h"
 #include "shading/lobes/woven.h"
 #include "shading/lobes/yarn.h"
 #include "woven_cloths.h"

@@ -32,7 +32,7 @@ static int end(void **state) {
 /* A Lambert that is so bright. In its text @ is the record, $ the name. */
 static void write_lobe(const char *name, const char *bright) {
     static const char form[] =
-        "#include \"shading/lobe.h\"\n#include \"shading/warp.h\"\n"
+        "#include \"shading/lobe/lobe.h\"\n#include \"shading/dialect/warp.h\"\n"
         "#define @_PARAMS(P) P(float, level, BRIGHT, 0.0f, 9.0f, 0.0f, 9.0f, \"how bright it is\")\n"
         "#define @_TRAITS TRAIT_RECIPROCAL\n"
         "STRUCT(@){@_PARAMS(FIELD)};\nPREPARED_AS_IT_IS($, @)\nSEEN_AS_IT_IS($, @)\n"

@@ -10,12 +10,12 @@
 
 #include <cmocka.h>
 
-#include "text/native.h"
-#include "text/reference.h"
-#include "text/returned.h"
-#include "text/spell.h"
-#include "text/types.h"
-#include "text/unused.h"
+#include "text/passes/native.h"
+#include "text/passes/returned.h"
+#include "text/passes/spell.h"
+#include "text/passes/types.h"
+#include "text/passes/unused.h"
+#include "text/source/reference.h"
 
 /* The text without the blanks that no one asked about. */
 static void assert_words(const char *made, const char *wanted) {

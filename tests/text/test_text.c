@@ -13,13 +13,13 @@
 #include <cmocka.h>
 
 #include "scratch.h"
-#include "shading/engine_tables.h"
-#include "shading/layer.h"
-#include "shading/lobe_tables.h"
-#include "text/catalogue.h"
-#include "text/dispatch.h"
-#include "text/items.h"
-#include "text/tables.h"
+#include "shading/catalogue/engine_tables.h"
+#include "shading/lobe/lobe_tables.h"
+#include "shading/stack/layer.h"
+#include "text/assemble/catalogue.h"
+#include "text/assemble/dispatch.h"
+#include "text/assemble/tables.h"
+#include "text/passes/items.h"
 
 static const TextLanguage languages[] = {TEXT_GLSL_330, TEXT_GLSL_ES_300, TEXT_GLSL_450};
 enum { LANGUAGES = 3 };
@@ -156,7 +156,7 @@ static void text_of_every_term_is_valid_glsl(void **state) {
         text_begin(&all, &(TextDesc){.language = languages[l]});
         for (const CatalogueFile *file = catalogue_files; file->name; file++) {
             if (!is_below(file->name, "shading/terms/") && !is_below(file->name, "shading/layers/") &&
-                strcmp(file->name, "shading/fibre_medium.h") != 0)
+                strcmp(file->name, "shading/media/fibre_medium.h") != 0)
                 continue;
             text_include(&all, file->name);
             files++;
@@ -194,7 +194,7 @@ static void text_of_a_surface_is_valid_glsl(void **state) {
         assert_int_equal(text.table_count, LOBE_TABLE_COUNT + 1);
         assert_int_equal(text_table(&text, (TextTable){.rows = 1, .columns = 1}),
                          LOBE_TABLE_COUNT + 1); /* the surface's own E */
-        text_include(&text, "shading/compose.h");
+        text_include(&text, "shading/material/compose.h");
         for (const CatalogueFile *file = catalogue_files; file->name; file++)
             if (is_below(file->name, "shading/workflows/") || is_below(file->name, "shading/profiles/"))
                 text_include(&text, file->name);
@@ -247,7 +247,7 @@ static void text_that_is_not_glsl_is_found(void **state) {
         batch_begin(&batch);
         Text text;
         text_begin(&text, &(TextDesc){.language = languages[l]});
-        text_include(&text, "shading/angles.h");
+        text_include(&text, "shading/dialect/angles.h");
         text_line(&text, "float half_of(Dir d) { return d->x * 0.5; }");
         put_main(&text, "color = u[0];");
         assert_int_equal(text_end(&text, NULL), WEFT_OK);
@@ -268,8 +268,8 @@ static void file_included_twice_stands_once(void **state) {
     for (int k = 0; k < 3; k++) {
         text_lobe(&twice, LOBE_GGX);
         text_lobe(&twice, LOBE_LAMBERT);
-        text_include(&twice, "shading/angles.h");
-        text_include(&twice, "shading/lang.h");
+        text_include(&twice, "shading/dialect/angles.h");
+        text_include(&twice, "shading/dialect/lang.h");
     }
     assert_int_equal(text_end(&once, NULL), WEFT_OK);
     assert_int_equal(text_end(&twice, NULL), WEFT_OK);
@@ -429,17 +429,24 @@ static void conditional_expression_of_records_is_absent(void **state) {
         "Dir bad(Angles a, bool x) { return x ? a.o : a.i; }",
         "Dir bad(Dir a, bool x) { return x ? dir(a.x, a.y, a.z) : a; }",
         "float good(Angles a, bool x) { return x ? a.o.x : dir(1.0, a.d, 1.0).x; }"};
-    static const char *const of[] = {"shading/terms/",    "shading/layers/",   "shading/workflows/",
-                                     "shading/profiles/", "shading/compose.h", "shading/area.h",
-                                     "shading/ambient.h", "shading/frame.h",   "shading/punctual.h",
-                                     "shading/texel.h",   "shading/tone.h"};
+    static const char *const of[] = {"shading/terms/",
+                                     "shading/layers/",
+                                     "shading/workflows/",
+                                     "shading/profiles/",
+                                     "shading/material/compose.h",
+                                     "shading/area/area.h",
+                                     "shading/ambient/ambient.h",
+                                     "shading/stack/frame.h",
+                                     "shading/area/punctual.h",
+                                     "shading/dialect/texel.h",
+                                     "shading/dialect/tone.h"};
     for (int k = 0; k < 4; k++) {
         int ids[LOBE_COUNT], count = gpu_lobes(ids), records = 0, choices = 0;
         Text text;
         text_begin(&text, &(TextDesc){.language = TEXT_PLAIN, .tables = true});
         text_dispatch(&text, ids, count);
         text_engine_tables(&text, NULL, 0);
-        text_provide(&text, "shading/ambient_source.h"); /* a shader's own */
+        text_provide(&text, "shading/ambient/ambient_source.h"); /* a shader's own */
         for (const CatalogueFile *file = catalogue_files; file->name; file++) {
             bool shading = false;
             for (size_t n = 0; n < sizeof of / sizeof *of; n++) shading |= is_below(file->name, of[n]);
@@ -506,7 +513,7 @@ static void text_outside_the_dialect_is_refused(void **state) {
     WeftError error = {0};
     text_begin(&text, &(TextDesc){.language = TEXT_GLSL_330});
     text_include(&text, "shading/nothing.h");
-    text_include(&text, "shading/angles.h"); /* the first failure stays */
+    text_include(&text, "shading/dialect/angles.h"); /* the first failure stays */
     assert_int_equal(text_end(&text, &error), WEFT_USAGE);
     assert_int_equal(error.message, WEFT_MESSAGE_TEXT_NAME);
     assert_null(text.bytes);
@@ -575,7 +582,7 @@ static void text_of_dust_brings_its_lobe(void **state) {
         text_dispatch(&text, (const int[]){LOBE_GGX, LOBE_LAMBERT, LOBE_LTC_FIBRE}, 2 + there);
         text_lobe_tables(&text);
         text_engine_tables(&text, NULL, 0);
-        text_include(&text, "shading/compose.h");
+        text_include(&text, "shading/material/compose.h");
         end_clean(&text, "dust");
         assert_int_equal(occurrences(text.bytes, "float dust_albedo(Lobe m, float cos_o) {"), 1);
         assert_int_equal(strstr(text.bytes, "ltc_fibre_value") != NULL, there);
@@ -686,7 +693,7 @@ static void catalogue_lines_are_found_by_file_and_line(void **state) {
     text_begin(&text, &(TextDesc){.language = TEXT_GLSL_330, .tables = true});
     text_dispatch(&text, ids, count);
     text_engine_tables(&text, NULL, 0);
-    text_include(&text, "shading/compose.h");
+    text_include(&text, "shading/material/compose.h");
     end_clean(&text, "lobes");
     for (const char *c = text.bytes; *c; line++) {
         size_t size = strcspn(c, "\n"), blank = strspn(c, " ");
@@ -711,7 +718,7 @@ static void lines_of_the_caller_may_replace_a_file(void **state) {
     (void)state;
     write_overlay(
         "own.h",
-        "#include \"shading/registry.h\"\n#include \"shading/mine.h\"\n"
+        "#include \"shading/catalogue/registry.h\"\n#include \"shading/mine.h\"\n"
         "FN float own_f(int id, Lobe m, Angles a, Table t) {\n"
         "    return id == LOBE_GGX ? lobe_f(m, a) * table_texel(t, 1, 0, LOBE_PARAMS_MAX) : mine(m);\n}\n");
     Batch batch;

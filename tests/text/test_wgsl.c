@@ -9,8 +9,8 @@
 
 #include <cmocka.h>
 
-#include "text/returned.h"
-#include "text/wgsl.h"
+#include "text/passes/returned.h"
+#include "text/passes/wgsl.h"
 
 /* The first item of a text. */
 static char *translated(const char *text) {

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/pi.h"
-#include "scene/scene.h"
+#include "scene/record/scene.h"
 #include "weft/weft.h"
 
 enum { TEST_MESHES = 16 };

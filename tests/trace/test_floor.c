@@ -9,9 +9,9 @@
 
 #include <cmocka.h>
 
-#include "scene/camera.h"
+#include "scene/record/camera.h"
 #include "scenes.h"
-#include "shading/polygon.h"
+#include "shading/ltc/polygon.h"
 
 enum { SIDE = 8 };
 

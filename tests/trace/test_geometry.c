@@ -7,7 +7,7 @@
 
 #include "base/pi.h"
 #include "base/random.h"
-#include "scene/material_at.h"
+#include "scene/record/material_at.h"
 #include "scenes.h"
 #include "trace/chunk.h"
 #include "trace/geometry.h"

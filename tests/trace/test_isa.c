@@ -7,7 +7,7 @@
 
 #include <cmocka.h>
 
-#include "shading/isa_choice.h"
+#include "shading/dialect/isa_choice.h"
 #include "trace/scenes.h"
 
 static void sets_are_named_and_the_widest_is_in_use(void **state) {

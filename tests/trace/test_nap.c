@@ -7,9 +7,9 @@
 
 #include "base/pi.h"
 #include "base/random.h"
-#include "scene/tangents.h"
+#include "scene/record/tangents.h"
 #include "scenes.h"
-#include "shading/layer.h"
+#include "shading/stack/layer.h"
 #include "weft/weft.h"
 
 #define DEGREES (PI_FLOAT / 180.0f)

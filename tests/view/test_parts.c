@@ -14,9 +14,9 @@
 #include <cmocka.h>
 
 #include "scratch.h"
-#include "view/brush.h"
-#include "view/paths.h"
-#include "view/rooms.h"
+#include "view/files/paths.h"
+#include "view/state/brush.h"
+#include "view/state/rooms.h"
 
 static char folder[SCRATCH_SIZE];
 

@@ -1,7 +1,7 @@
 /* The path tracer's thread of the window: its pictures bear the numbers of the view and the state that they show. */
 #include "cli/run.h"
 
-#include "view/reference_view.h"
+#include "view/render/reference_view.h"
 #include "weft/weft.h"
 
 enum { WIDTH = 24, HEIGHT = 16, SAMPLES = 4 };

@@ -13,7 +13,7 @@
 #include <cmocka.h>
 
 #include "scratch.h"
-#include "shading/weave_light.h"
+#include "shading/weave/weave_light.h"
 #include "weave/weft_cloth.h"
 #include "weft/weft.h"
 

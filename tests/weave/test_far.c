@@ -12,7 +12,7 @@
 #include <cmocka.h>
 
 #include "shading/cases.h"
-#include "shading/weave_light.h"
+#include "shading/weave/weave_light.h"
 #include "weave/woven_fit.h"
 #include "weft/weft.h"
 #include "white_cloth.h"

@@ -11,7 +11,7 @@
 #include <cmocka.h>
 
 #include "base/pi.h"
-#include "shading/weave_base.h"
+#include "shading/weave/weave_base.h"
 #include "weave/weft_cloth.h"
 #include "weave/yarn_cases.h"
 

@@ -1,5 +1,5 @@
 /* display.glsl - the picture as a display shows it: exposure, tone curve, sRGB encoding, what is behind it */
-#include "shading/tone.h"
+#include "shading/dialect/tone.h"
 
 uniform highp sampler2D picture_mean;
 uniform highp vec4 show_place; /* the picture's corner and size in the framebuffer */

@@ -1,11 +1,11 @@
-/* environment.glsl - the light around a scene, for shading/ambient.h: a filtered cube, terms and lights
+/* environment.glsl - the light around a scene, for shading/ambient/ambient.h: a filtered cube, terms and lights
  *
  * A source is the frame that directions are given in. Of environment_cube level m holds the radiance weighted
- * by exp(3200 / 4^m (mu - 1)). Terms, those of scene/env_split.h: environment_terms of irradiance over pi,
+ * by exp(3200 / 4^m (mu - 1)). Terms, those of scene/light/env_split.h: environment_terms of irradiance over pi,
  * without degree 3; environment_residual of what the lights leave. All are of the image as it is, lights too.
  * ambient_baked is whoever's who has baked tables, ambient_light_visibility whoever's who knows what hides lights. */
-#include "shading/frame.h"
-#include "shading/rgb.h"
+#include "shading/stack/frame.h"
+#include "shading/dialect/rgb.h"
 
 uniform highp samplerCube environment_cube;
 layout(std140) uniform Environment {
@@ -47,7 +47,7 @@ Rgb ambient_radiance(Frame f, Dir w, float kappa) {
     return environment_rgb(textureLod(environment_cube, environment_image(f, w), max(level, 0.0)).rgb);
 }
 
-/* Degrees 0 to 3, each times the weight's Legendre coefficient: ambient_rest_about (scene/env_split.h). */
+/* Degrees 0 to 3, each times the weight's Legendre coefficient: ambient_rest_about (scene/light/env_split.h). */
 Rgb ambient_residual(Frame f, Dir w, float kappa) {
     float k = max(kappa, 0.25), q = 1.0 / k, a = 1.0 + 2.0 / (exp(min(2.0 * k, 60.0)) - 1.0) - q, b = 1.0 - 3.0 * q * a;
     vec3 d = kappa > 0.0 ? vec3(a, b, a - 5.0 * q * b) : vec3(2.0 / 3.0, 0.25, 0.0);

@@ -7,9 +7,9 @@ out highp vec4 fragment;
 
 #include "raster/glsl/disc.glsl"
 #include "raster/glsl/light.glsl"
-#include "shading/polygon.h"
+#include "shading/ltc/polygon.h"
 
-uniform highp sampler2D floor_sky;    /* part of the environment's light that arrives: raster/ground.h */
+uniform highp sampler2D floor_sky;    /* part of the environment's light that arrives: raster/light/ground.h */
 uniform highp sampler2D floor_mirror; /* the scene from below, premultiplied, with smaller copies */
 uniform highp sampler2D floor_depth;  /* of that */
 

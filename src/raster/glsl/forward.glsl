@@ -12,7 +12,7 @@ const vec4 vertex_tangent = vec4(0.0, 0.0, 0.0, 1.0);
 out highp vec4 fragment;
 
 #include "raster/glsl/light.glsl"
-#include "shading/dust.h"
+#include "shading/material/dust.h"
 
 /* The geometric normal is that of the plane through neighbouring pixels, which faces the eye. */
 Facing fragment_facing(Dir wo) {

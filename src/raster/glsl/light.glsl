@@ -2,9 +2,9 @@
  *
  * The text before it has EACH_LIGHT, and SHADOWED where there are shadow maps. */
 #include "raster/glsl/picture.glsl"
-#include "shading/frame.h"
-#include "shading/punctual.h"
-#include "shading/rgb.h"
+#include "shading/stack/frame.h"
+#include "shading/area/punctual.h"
+#include "shading/dialect/rgb.h"
 #ifdef SHADOWED
 #include "raster/glsl/shadow.glsl"
 #include "raster/glsl/soft_shadow.glsl"

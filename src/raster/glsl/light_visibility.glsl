@@ -1,6 +1,6 @@
 /* light_visibility.glsl - what a fragment sees of the sky and of the environment's lights, of which there are eight:
- * raster/occlusion.h */
-#include "shading/occlusion_cone.h"
+ * raster/geometry/occlusion.h */
+#include "shading/ambient/occlusion_cone.h"
 
 in highp vec2 vertex_occlusion;
 in highp vec4 vertex_open_front;

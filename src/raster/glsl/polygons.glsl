@@ -1,7 +1,7 @@
 /* polygons.glsl - light from polygons */
 #include "raster/glsl/picture.glsl"
-#include "shading/area.h"
-#include "shading/frame.h"
+#include "shading/area/area.h"
+#include "shading/stack/frame.h"
 
 /* How much of each polygon's light reaches a pixel, on its side and on the other; nothing behind the back of a polygon of
  * one side. The same at all points of the pixel. */

@@ -6,7 +6,7 @@
 uniform highp sampler2DArray weave_colors;
 
 #include "raster/glsl/weave_cloth.glsl"
-#include "shading/weave_base.h"
+#include "shading/weave/weave_base.h"
 
 /* Returns how many points a pixel has: as many as keep pixels from varying a quarter more than they should. */
 int pixel_points(WeaveFootprint f, float far) {

@@ -1,9 +1,9 @@
 /* weave_cloth.glsl - the cloth of a woven material, from its numbers and its texture of runs and albedos */
 uniform highp sampler2D weave_cells;
 
-#include "shading/weave_cell.h"
+#include "shading/weave/weave_cell.h"
 
-/* Places of cloth_numbers (raster/cloths.h), behind the yarns. */
+/* Places of cloth_numbers (raster/material/cloths.h), behind the yarns. */
 const int CLOTH_SEED = 56, CLOTH_LOW = 57, CLOTH_HIGH = 58, CLOTH_OPENNESS = 59, CLOTH_WARPS = 60, CLOTH_PICKS = 61,
           CLOTH_FAR_WIDTH = 62, CLOTH_FAR_HEIGHT = 63, CLOTH_PER_U = 64, CLOTH_PER_V = 65;
 
@@ -23,7 +23,7 @@ float weave_fetch(int row, int channel) {
     return texelFetch(weave_cells, ivec2(row - warps * up, picks + up), 0)[channel];
 }
 
-#include "shading/weave_point.h"
+#include "shading/weave/weave_point.h"
 
 /* Each takes its numbers from the k-th on, which moves behind them. */
 #define WEAVE_TAKE(name) taken.name = weave_number(k++);

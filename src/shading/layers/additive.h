@@ -9,7 +9,7 @@
 #ifndef WEFT_LAYER_ADDITIVE_H
 #define WEFT_LAYER_ADDITIVE_H
 
-#include "shading/lang.h"
+#include "shading/dialect/lang.h"
 
 FN float additive_base(float c, float e_o, float e_i, float e_avg) { return 1.0f; }
 

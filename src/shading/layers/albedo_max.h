@@ -9,7 +9,7 @@
 #ifndef WEFT_LAYER_ALBEDO_MAX_H
 #define WEFT_LAYER_ALBEDO_MAX_H
 
-#include "shading/lang.h"
+#include "shading/dialect/lang.h"
 
 FN float albedo_max_base(float c, float e_o, float e_i, float e_avg) {
     return max(1.0f - c * max(e_o, e_i), 0.0f);

@@ -10,7 +10,7 @@
 #ifndef WEFT_LAYER_ALBEDO_MIN_H
 #define WEFT_LAYER_ALBEDO_MIN_H
 
-#include "shading/lang.h"
+#include "shading/dialect/lang.h"
 
 FN float albedo_min_base(float c, float e_o, float e_i, float e_avg) {
     return max(1.0f - c * min(e_o, e_i), 0.0f);

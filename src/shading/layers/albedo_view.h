@@ -9,7 +9,7 @@
 #ifndef WEFT_LAYER_ALBEDO_VIEW_H
 #define WEFT_LAYER_ALBEDO_VIEW_H
 
-#include "shading/lang.h"
+#include "shading/dialect/lang.h"
 
 /* A sheen that reflects more than it receives leaves nothing for the base. */
 FN float albedo_view_base(float c, float e_o, float e_i, float e_avg) { return max(1.0f - c * e_o, 0.0f); }

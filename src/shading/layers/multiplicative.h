@@ -9,7 +9,7 @@
 #ifndef WEFT_LAYER_MULTIPLICATIVE_H
 #define WEFT_LAYER_MULTIPLICATIVE_H
 
-#include "shading/lang.h"
+#include "shading/dialect/lang.h"
 
 FN float multiplicative_base(float c, float e_o, float e_i, float e_avg) { return max(1.0f + c * e_o, 0.0f); }
 

@@ -10,7 +10,7 @@
 #ifndef WEFT_LAYER_RECIPROCAL_H
 #define WEFT_LAYER_RECIPROCAL_H
 
-#include "shading/lang.h"
+#include "shading/dialect/lang.h"
 
 /* Each factor is clamped, for the product of two negative ones is not. The denominator stops at 1/100: only a
  * sheen that reflects more than 99 % of all light, or more than all, comes there. */

@@ -14,7 +14,7 @@
 #ifndef WEFT_LAYER_SEED_H
 #define WEFT_LAYER_SEED_H
 
-#include "shading/lang.h"
+#include "shading/dialect/lang.h"
 
 FN float seed_base(float c, float e_o, float e_i, float e_avg) { return max(1.0f - c, 0.0f); }
 

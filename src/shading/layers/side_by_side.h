@@ -14,7 +14,7 @@
 #ifndef WEFT_LAYER_SIDE_BY_SIDE_H
 #define WEFT_LAYER_SIDE_BY_SIDE_H
 
-#include "shading/lang.h"
+#include "shading/dialect/lang.h"
 
 FN float side_by_side_base(float c, float e_o, float e_i, float e_avg) { return max(1.0f - c, 0.0f); }
 

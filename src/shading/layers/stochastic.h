@@ -12,7 +12,7 @@
 #ifndef WEFT_LAYER_STOCHASTIC_H
 #define WEFT_LAYER_STOCHASTIC_H
 
-#include "shading/lang.h"
+#include "shading/dialect/lang.h"
 
 FN float stochastic_base(float c, float e_o, float e_i, float e_avg) {
     return max(1.0f - c * e_o, 0.0f) * max(1.0f - c * e_i, 0.0f);

@@ -17,7 +17,7 @@
 #ifndef WEFT_ASHIKHMIN_NEUBELT_H
 #define WEFT_ASHIKHMIN_NEUBELT_H
 
-#include "shading/lobe.h"
+#include "shading/lobe/lobe.h"
 #include "shading/terms/d_ashikhmin.h"
 #include "shading/terms/v_neubelt.h"
 

@@ -20,8 +20,8 @@
 #ifndef WEFT_BODY_H
 #define WEFT_BODY_H
 
-#include "shading/lobe.h"
-#include "shading/warp.h"
+#include "shading/dialect/warp.h"
+#include "shading/lobe/lobe.h"
 
 #define BODY_PARAMS(P)                                                                                       \
     P(float, edge, 0.1f, 0.0f, 1.0f, 0.0f, 1.0f, "how much it darkens towards the edge; 0: not at all")      \

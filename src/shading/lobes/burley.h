@@ -16,9 +16,9 @@
 #ifndef WEFT_BURLEY_H
 #define WEFT_BURLEY_H
 
-#include "shading/lobe.h"
+#include "shading/dialect/warp.h"
+#include "shading/lobe/lobe.h"
 #include "shading/terms/f_schlick.h"
-#include "shading/warp.h"
 
 #define BURLEY_PARAMS(P)                                                                                     \
     P(float, roughness, 0.5f, 0.0f, 1.0f, 0.0f, 1.0f, "0 darkens at grazing, 1 brightens towards the light")

@@ -15,11 +15,11 @@
 #ifndef WEFT_BURLEY_COAT_H
 #define WEFT_BURLEY_COAT_H
 
-#include "shading/lobe.h"
+#include "shading/dialect/warp.h"
+#include "shading/lobe/lobe.h"
 #include "shading/terms/d_gtr1.h"
 #include "shading/terms/f_schlick.h"
 #include "shading/terms/v_smith_ggx.h"
-#include "shading/warp.h"
 
 #define BURLEY_COAT_PARAMS(P)                                                                                \
     P(float, alpha, 0.001f, 0.001f, 0.1f, 0.001f, 1.0f, "width of the highlight's peak")

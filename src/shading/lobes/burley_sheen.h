@@ -16,9 +16,9 @@
 #ifndef WEFT_BURLEY_SHEEN_H
 #define WEFT_BURLEY_SHEEN_H
 
-#include "shading/lobe.h"
+#include "shading/dialect/warp.h"
+#include "shading/lobe/lobe.h"
 #include "shading/terms/f_schlick.h"
-#include "shading/warp.h"
 
 #define BURLEY_SHEEN_PARAMS(P)
 #define BURLEY_SHEEN_TRAITS (TRAIT_RECIPROCAL | TRAIT_CONSERVES)

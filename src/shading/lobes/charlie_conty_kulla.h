@@ -17,7 +17,7 @@
 #ifndef WEFT_CHARLIE_CONTY_KULLA_H
 #define WEFT_CHARLIE_CONTY_KULLA_H
 
-#include "shading/lobe.h"
+#include "shading/lobe/lobe.h"
 #include "shading/terms/d_charlie.h"
 #include "shading/terms/v_conty_kulla.h"
 

@@ -16,7 +16,7 @@
 #ifndef WEFT_CHARLIE_NEUBELT_H
 #define WEFT_CHARLIE_NEUBELT_H
 
-#include "shading/lobe.h"
+#include "shading/lobe/lobe.h"
 #include "shading/terms/d_charlie.h"
 #include "shading/terms/v_neubelt.h"
 

@@ -17,7 +17,7 @@
 #ifndef WEFT_CHARLIE_NEUBELT_NORMALISED_H
 #define WEFT_CHARLIE_NEUBELT_NORMALISED_H
 
-#include "shading/lobe_tables.h"
+#include "shading/lobe/lobe_tables.h"
 #include "shading/lobes/charlie_neubelt.h"
 
 #define CHARLIE_NEUBELT_NORMALISED_PARAMS(P)                                                                 \

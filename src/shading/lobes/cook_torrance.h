@@ -19,8 +19,8 @@
 #ifndef WEFT_COOK_TORRANCE_H
 #define WEFT_COOK_TORRANCE_H
 
-#include "shading/lobe.h"
-#include "shading/terms.h"
+#include "shading/lobe/lobe.h"
+#include "shading/lobe/terms.h"
 
 #define COOK_TORRANCE_PARAMS(P)                                                                              \
     P(float, alpha, 0.25f, 0.01f, 1.0f, 0.005f, 1.0f, "width of D, and of the V that have one")              \

@@ -21,8 +21,8 @@
 #ifndef WEFT_EON_H
 #define WEFT_EON_H
 
-#include "shading/lobe.h"
-#include "shading/warp.h"
+#include "shading/dialect/warp.h"
+#include "shading/lobe/lobe.h"
 
 #define EON_PARAMS(P)                                                                                        \
     P(float, roughness, 0.5f, 0.0f, 1.0f, 0.0f, 1.0f, "0 is Lambert, 1 the brightest towards the light")

@@ -19,8 +19,8 @@
 #ifndef WEFT_EXPONENTIAL_H
 #define WEFT_EXPONENTIAL_H
 
-#include "shading/lobe.h"
-#include "shading/warp.h"
+#include "shading/dialect/warp.h"
+#include "shading/lobe/lobe.h"
 
 #define EXPONENTIAL_PARAMS(P)                                                                                \
     P(float, beta, 3.0f, 0.5f, 20.0f, 0.01f, 100.0f, "how soon the rim is full; low is a straight ramp")

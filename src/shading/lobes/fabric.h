@@ -23,7 +23,7 @@
 #ifndef WEFT_FABRIC_H
 #define WEFT_FABRIC_H
 
-#include "shading/lobe.h"
+#include "shading/lobe/lobe.h"
 #include "shading/terms/facet.h"
 
 #define FABRIC_PARAMS(P)                                                                                     \

@@ -12,8 +12,8 @@
 #ifndef WEFT_FABRIC_LAMBERT_H
 #define WEFT_FABRIC_LAMBERT_H
 
-#include "shading/lobe.h"
-#include "shading/warp.h"
+#include "shading/dialect/warp.h"
+#include "shading/lobe/lobe.h"
 
 #define FABRIC_LAMBERT_PARAMS(P)                                                                             \
     P(float, roughness, 0.5f, 0.0f, 1.0f, 0.0f, 1.0f, "0 is Lambert, 1 half as bright")

@@ -23,10 +23,10 @@
 #ifndef WEFT_LOBES_FIBRE_H
 #define WEFT_LOBES_FIBRE_H
 
-#include "shading/fibre_medium.h"
-#include "shading/fibre_model.h"
-#include "shading/lobe.h"
-#include "shading/ltc.h"
+#include "shading/lobe/lobe.h"
+#include "shading/ltc/ltc.h"
+#include "shading/media/fibre_medium.h"
+#include "shading/media/fibre_model.h"
 
 #define FIBRE_PARAMS(P)                                                                                      \
     P(float, alpha, 0.5f, 0.05f, 1.0f, 0.05f, 1.0f, "square root of what a fibre shows along its axis")      \

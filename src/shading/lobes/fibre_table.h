@@ -21,7 +21,7 @@
 #ifndef WEFT_LOBES_FIBRE_TABLE_H
 #define WEFT_LOBES_FIBRE_TABLE_H
 
-#include "shading/lobe_tables.h"
+#include "shading/lobe/lobe_tables.h"
 #include "shading/lobes/fibre.h"
 
 #define FIBRE_TABLE_PARAMS(P)                                                                                \

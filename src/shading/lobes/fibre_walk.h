@@ -26,9 +26,9 @@
 #define WEFT_LOBES_FIBRE_WALK_H
 
 #include "base/random.h"
-#include "shading/fibre_medium.h"
-#include "shading/lobe.h"
-#include "shading/warp.h"
+#include "shading/dialect/warp.h"
+#include "shading/lobe/lobe.h"
+#include "shading/media/fibre_medium.h"
 
 #define FIBRE_WALK_PARAMS(P)                                                                                 \
     P(float, alpha, 0.5f, 0.05f, 1.0f, 0.03f, 1.0f, "square root of what a fibre shows along its axis")      \

@@ -17,7 +17,7 @@
 #ifndef WEFT_GGX_H
 #define WEFT_GGX_H
 
-#include "shading/lobe.h"
+#include "shading/lobe/lobe.h"
 #include "shading/terms/d_ggx.h"
 #include "shading/terms/f_schlick.h"
 

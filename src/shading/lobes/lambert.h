@@ -10,8 +10,8 @@
 #ifndef WEFT_LAMBERT_H
 #define WEFT_LAMBERT_H
 
-#include "shading/lobe.h"
-#include "shading/warp.h"
+#include "shading/dialect/warp.h"
+#include "shading/lobe/lobe.h"
 
 #define LAMBERT_PARAMS(P)
 #define LAMBERT_TRAITS (TRAIT_RECIPROCAL | TRAIT_CONSERVES | TRAIT_LOSSLESS | TRAIT_DIFFUSE)

@@ -22,10 +22,10 @@
 #ifndef WEFT_LOBES_LTC_FIBRE_PUBLISHED_H
 #define WEFT_LOBES_LTC_FIBRE_PUBLISHED_H
 
-#include "shading/lobe.h"
-#include "shading/lobe_tables.h"
-#include "shading/ltc_sheen.h"
-#include "shading/ltc_table.h"
+#include "shading/lobe/lobe.h"
+#include "shading/lobe/lobe_tables.h"
+#include "shading/ltc/ltc_sheen.h"
+#include "shading/ltc/ltc_table.h"
 
 #define LTC_FIBRE_PUBLISHED_PARAMS(P)                                                                        \
     P(float, alpha, 0.5f, 0.05f, 1.0f, 0.05f, 1.0f, "square root of what a fibre shows along its axis")

@@ -17,8 +17,8 @@
 #ifndef WEFT_OREN_NAYAR_H
 #define WEFT_OREN_NAYAR_H
 
-#include "shading/lobe.h"
-#include "shading/warp.h"
+#include "shading/dialect/warp.h"
+#include "shading/lobe/lobe.h"
 
 #define OREN_NAYAR_PARAMS(P)                                                                                 \
     P(float, sigma, 0.3f, 0.0f, 1.0f, 0.0f, 1.57079633f, "spread of the facets' slopes, radians")

@@ -23,8 +23,8 @@
 #ifndef WEFT_PATRY_H
 #define WEFT_PATRY_H
 
-#include "shading/lobe.h"
-#include "shading/warp.h"
+#include "shading/dialect/warp.h"
+#include "shading/lobe/lobe.h"
 
 #define PATRY_PARAMS(P)                                                                                      \
     P(float, roughness, 0.5f, 0.1f, 1.0f, 0.1f, 1.0f, "spread of the fibres' directions about the normal")   \

@@ -31,7 +31,7 @@
 #ifndef WEFT_THREADS_H
 #define WEFT_THREADS_H
 
-#include "shading/lobe.h"
+#include "shading/lobe/lobe.h"
 
 #define THREADS_PARAMS(P)                                                                                    \
     P(float, warp_width, 0.3f, 0.1f, 1.0f, 0.05f, 4.0f, "spread of the warp's highlight along x")            \

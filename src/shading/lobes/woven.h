@@ -5,7 +5,7 @@
  *   <single>: the mean over slopes s_x = roundness r, s_y = tan(crimp) s |s|^(floats - 1), r and s in [-1, 1],
  *     with the weight 1 - 0.3 r^2
  *
- *   The yarn, its fibres and what hides it are those of shading/yarn_medium.h: flakes of Eric Heitz, Jonathan
+ *   The yarn, its fibres and what hides it are those of shading/media/yarn_medium.h: flakes of Eric Heitz, Jonathan
  * Dupuy, Cyril Crassin, Carsten Dachsbacher, "The SGGX Microflake Distribution", ACM TOG 34(4), 2015, along
  * yarns as Piti Irawan, Steve Marschner, "Specular Reflection from Woven Cloth", ACM TOG 31(1), 2012, have
  * them. A yarn that goes over one is an arc; one that floats is level for a while: floats is the power of its
@@ -21,7 +21,7 @@
  *   reciprocal: yes.
  *   energy: E <= 1; what is missing is light that the yarns hide from each other.
  *   sampling: by flakes of a level surface, as wide as slopes and twist spread those of the yarns, and by the cosine
- * (shading/yarn_draw.h). Own.
+ * (shading/media/yarn_draw.h). Own.
  *   Not for: cloth so near that threads are told apart, which is yarn.
  *   measured by weft check woven: E at most 0.98 (alpha 1, cos_o 1);
  *     reciprocal to 1e-3; weight variance 1.60 of the cosine's;
@@ -29,8 +29,8 @@
 #ifndef WEFT_WOVEN_H
 #define WEFT_WOVEN_H
 
-#include "shading/lobe.h"
-#include "shading/yarn_draw.h"
+#include "shading/lobe/lobe.h"
+#include "shading/media/yarn_draw.h"
 
 #define WOVEN_PARAMS(P)                                                                                      \
     P(float, alpha, 0.4f, 0.05f, 1.0f, 0.05f, 1.0f, "what a fibre shows along its axis")                     \

@@ -16,8 +16,8 @@
 #ifndef WEFT_WRAP_H
 #define WEFT_WRAP_H
 
-#include "shading/lobe.h"
-#include "shading/warp.h"
+#include "shading/dialect/warp.h"
+#include "shading/lobe/lobe.h"
 
 #define WRAP_PARAMS(P) P(float, wrap, 0.5f, 0.0f, 1.0f, 0.0f, 1.0f, "reach past the terminator, 0 is Lambert")
 #define WRAP_TRAITS    (TRAIT_CONSERVES | TRAIT_DIFFUSE)

@@ -3,7 +3,7 @@
  *   f = A single + rho(A) many:  yarn_medium.h, at slopes s_x, s_y                                      [1/sr]
  *   t = (cos azimuth, sin azimuth, -s_x cos azimuth - s_y sin azimuth), normalised
  *
- *   The surface of a yarn and what hides it are those of shading/yarn_medium.h; its fibres are flakes of Eric
+ *   The surface of a yarn and what hides it are those of shading/media/yarn_medium.h; its fibres are flakes of Eric
  * Heitz, Jonathan Dupuy, Cyril Crassin, Carsten Dachsbacher, "The SGGX Microflake Distribution", ACM TOG
  * 34(4), 2015. This is the lobe that changes from
  * point to point of a thread; its mean over threads of two families is that of two lobes woven.
@@ -14,7 +14,7 @@
  *   reciprocal: yes.
  *   energy: no: a facet that faces the light gets more than its share of the flat cloth. On the mean over a
  *     thread E <= 1.
- *   sampling: by flakes and by cosines about the yarn and the cloth (shading/yarn_draw.h). Own.
+ *   sampling: by flakes and by cosines about the yarn and the cloth (shading/media/yarn_draw.h). Own.
  *   Not for: cloth from afar, which is woven.
  *   measured by weft check yarn: E at most 0.98 (alpha 0.36, cos_o 1);
  *     reciprocal to 1e-3; weight variance 0.78 of the cosine's;
@@ -22,8 +22,8 @@
 #ifndef WEFT_LOBES_YARN_H
 #define WEFT_LOBES_YARN_H
 
-#include "shading/lobe.h"
-#include "shading/yarn_draw.h"
+#include "shading/lobe/lobe.h"
+#include "shading/media/yarn_draw.h"
 
 #define YARN_PARAMS(P)                                                                                       \
     P(float, alpha, 0.4f, 0.05f, 1.0f, 0.05f, 1.0f, "what a fibre shows along its axis")                     \

@@ -13,7 +13,7 @@
 #define WEFT_PROFILE_CYCLES_VELVET_H
 
 #include "shading/lobes/cook_torrance.h"
-#include "shading/workflow.h"
+#include "shading/stack/workflow.h"
 
 FN void cycles_velvet_stack(Stack *m, const Surface *s) {
     Lobe sheen = lobe_default(LOBE_COOK_TORRANCE);

@@ -18,7 +18,7 @@
 #ifndef WEFT_PROFILE_FILAMENT_SHEEN_H
 #define WEFT_PROFILE_FILAMENT_SHEEN_H
 
-#include "shading/engine_tables.h"
+#include "shading/catalogue/engine_tables.h"
 #include "shading/lobes/cook_torrance.h"
 #include "shading/workflows/metallic.h"
 

@@ -15,7 +15,7 @@
 #ifndef WEFT_PROFILE_HDRP_COTTON_H
 #define WEFT_PROFILE_HDRP_COTTON_H
 
-#include "shading/workflow.h"
+#include "shading/stack/workflow.h"
 
 FN void hdrp_cotton_stack(Stack *m, const Surface *s) {
     float r = clamp(s->sheen_roughness, 0.0f, 1.0f), alpha = r * r;

@@ -16,7 +16,7 @@
 #define WEFT_PROFILE_ORDER_1886_H
 
 #include "shading/lobes/cook_torrance.h"
-#include "shading/workflow.h"
+#include "shading/stack/workflow.h"
 
 FN void order_1886_stack(Stack *m, const Surface *s) {
     float r = clamp(s->sheen_roughness, 0.0f, 1.0f);

@@ -17,7 +17,7 @@
 #define WEFT_PROFILE_URP_H
 
 #include "shading/lobes/cook_torrance.h"
-#include "shading/workflow.h"
+#include "shading/stack/workflow.h"
 
 FN void urp_stack(Stack *m, const Surface *s) {
     float r = clamp(s->roughness, 0.0f, 1.0f), alpha = max(r * r, 0.0078125f);

@@ -1,6 +1,6 @@
 /* weft bake fibre-model -o src/shading/tables/fibre_model.h
  *
- * Numbers of shading/fibre_model.h for a material, fitted to the solved slab: polynomials in t, which runs
+ * Numbers of shading/media/fibre_model.h for a material, fitted to the solved slab: polynomials in t, which runs
  * over the logarithm of alpha, in l, the logarithm to base 4 of density, and in s, twice the square of the
  * tilt's sine. Errors over what they were fitted to:
  *
@@ -15,7 +15,7 @@
 #ifndef WEFT_TABLES_FIBRE_MODEL_H
 #define WEFT_TABLES_FIBRE_MODEL_H
 
-#include "shading/lang.h"
+#include "shading/dialect/lang.h"
 
 STRUCT(FibreNumbers) {
     float thin;

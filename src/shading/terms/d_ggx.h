@@ -8,7 +8,7 @@
 #ifndef WEFT_D_GGX_H
 #define WEFT_D_GGX_H
 
-#include "shading/angles.h"
+#include "shading/dialect/angles.h"
 
 /* alpha = roughness^2 in what is built on it (Burley 2012, Karis 2013). */
 FN float ggx_d(float ax, float ay, Dir h) {

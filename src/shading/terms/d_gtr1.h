@@ -8,7 +8,7 @@
 #ifndef WEFT_D_GTR1_H
 #define WEFT_D_GTR1_H
 
-#include "shading/proxy.h"
+#include "shading/dialect/proxy.h"
 #include "shading/terms/facet.h"
 
 /* At alpha = 1 the formula is 0 / 0, whose limit is 1 / pi. Just below, numerator and logarithm share one

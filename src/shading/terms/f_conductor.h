@@ -14,7 +14,7 @@
 #ifndef WEFT_F_CONDUCTOR_H
 #define WEFT_F_CONDUCTOR_H
 
-#include "shading/lang.h"
+#include "shading/dialect/lang.h"
 
 FN float conductor_s(float ior, float k, float d) {
     float c = clamp(d, 1e-6f, 1.0f), c2 = c * c, s2 = 1.0f - c2;

@@ -14,7 +14,7 @@
 #ifndef WEFT_F_COOK_TORRANCE_H
 #define WEFT_F_COOK_TORRANCE_H
 
-#include "shading/lang.h"
+#include "shading/dialect/lang.h"
 
 FN float cook_torrance_f(float f_0, float d) {
     float root = sqrt(clamp(f_0, 0.0f, 0.9998f)), n = (1.0f + root) / (1.0f - root);

@@ -13,7 +13,7 @@
 #ifndef WEFT_F_DIELECTRIC_H
 #define WEFT_F_DIELECTRIC_H
 
-#include "shading/lang.h"
+#include "shading/dialect/lang.h"
 
 FN float dielectric_s(float ior, float d) {
     float c = clamp(d, 1e-6f, 1.0f), n2 = ior * ior, g = sqrt(max((ior - 1.0f) * (ior + 1.0f) + c * c, 0.0f));

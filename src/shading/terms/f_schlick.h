@@ -8,7 +8,7 @@
 #ifndef WEFT_F_SCHLICK_H
 #define WEFT_F_SCHLICK_H
 
-#include "shading/lang.h"
+#include "shading/dialect/lang.h"
 
 /* The scalar part: colours multiply outside. */
 FN float schlick_s(float d) {

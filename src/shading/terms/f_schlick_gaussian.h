@@ -7,7 +7,7 @@
 #ifndef WEFT_F_SCHLICK_GAUSSIAN_H
 #define WEFT_F_SCHLICK_GAUSSIAN_H
 
-#include "shading/lang.h"
+#include "shading/dialect/lang.h"
 
 FN float schlick_gaussian_s(float d) { return exp2((-5.55473f * d - 6.98316f) * d); }
 

@@ -9,7 +9,7 @@
 #ifndef WEFT_FACET_H
 #define WEFT_FACET_H
 
-#include "shading/warp.h"
+#include "shading/dialect/warp.h"
 
 /* The half vector of that tilt; v in [0, 1) turns it about the normal. */
 FN Dir facet(float sin_h, float cos_h, float v) {

@@ -16,7 +16,7 @@
 #ifndef WEFT_V_CONTY_KULLA_H
 #define WEFT_V_CONTY_KULLA_H
 
-#include "shading/lang.h"
+#include "shading/dialect/lang.h"
 
 /* a/2 .. e for one alpha, and 2 L(1/2). */
 STRUCT(ContyKulla) { float a, b, c, d, e, twice_half; };

@@ -10,7 +10,7 @@
 #ifndef WEFT_V_COOK_TORRANCE_H
 #define WEFT_V_COOK_TORRANCE_H
 
-#include "shading/angles.h"
+#include "shading/dialect/angles.h"
 
 FN float cook_torrance_v(Angles a) {
     float open = 0.25f / max(a.o.z * a.i.z, 1e-12f);

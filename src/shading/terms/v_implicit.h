@@ -7,7 +7,7 @@
 #ifndef WEFT_V_IMPLICIT_H
 #define WEFT_V_IMPLICIT_H
 
-#include "shading/lang.h"
+#include "shading/dialect/lang.h"
 
 FN float implicit_v(float o, float i) { return 0.25f; }
 

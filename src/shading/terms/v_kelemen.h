@@ -9,7 +9,7 @@
 #ifndef WEFT_V_KELEMEN_H
 #define WEFT_V_KELEMEN_H
 
-#include "shading/lang.h"
+#include "shading/dialect/lang.h"
 
 FN float kelemen_v(float d) { return 0.25f / max(d * d, 1e-12f); }
 

@@ -8,7 +8,7 @@
 #ifndef WEFT_V_NEUBELT_H
 #define WEFT_V_NEUBELT_H
 
-#include "shading/lang.h"
+#include "shading/dialect/lang.h"
 
 FN float neubelt_v(float o, float i) { return 0.25f / max(o + i - o * i, 1e-20f); }
 

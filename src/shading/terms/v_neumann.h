@@ -8,7 +8,7 @@
 #ifndef WEFT_V_NEUMANN_H
 #define WEFT_V_NEUMANN_H
 
-#include "shading/lang.h"
+#include "shading/dialect/lang.h"
 
 FN float neumann_v(float o, float i) { return 0.25f / max(max(o, i), 1e-12f); }
 

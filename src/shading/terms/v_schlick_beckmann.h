@@ -7,7 +7,7 @@
 #ifndef WEFT_V_SCHLICK_BECKMANN_H
 #define WEFT_V_SCHLICK_BECKMANN_H
 
-#include "shading/lang.h"
+#include "shading/dialect/lang.h"
 
 FN float schlick_v(float k, float o, float i) { return 0.25f / (mix(o, 1.0f, k) * mix(i, 1.0f, k)); }
 

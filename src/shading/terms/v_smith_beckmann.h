@@ -11,7 +11,7 @@
 #ifndef WEFT_V_SMITH_BECKMANN_H
 #define WEFT_V_SMITH_BECKMANN_H
 
-#include "shading/angles.h"
+#include "shading/dialect/angles.h"
 
 /* G1(w) / cos_w */
 FN float smith_beckmann_part(float alpha, Dir w) {

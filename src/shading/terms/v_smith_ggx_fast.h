@@ -9,7 +9,7 @@
 #ifndef WEFT_V_SMITH_GGX_FAST_H
 #define WEFT_V_SMITH_GGX_FAST_H
 
-#include "shading/lang.h"
+#include "shading/dialect/lang.h"
 
 FN float smith_ggx_fast_v(float alpha, float o, float i) {
     return 0.5f / max(mix(2.0f * o * i, o + i, alpha), 1e-12f);

@@ -8,7 +8,7 @@
 #ifndef WEFT_V_URP_H
 #define WEFT_V_URP_H
 
-#include "shading/angles.h"
+#include "shading/dialect/angles.h"
 
 FN float urp_v(float alpha, Angles a) {
     float q = a.h.x * a.h.x + a.h.y * a.h.y + alpha * alpha * a.h.z * a.h.z, r = q / (q + 1e-5f);

@@ -8,7 +8,7 @@
 #ifndef WEFT_WORKFLOW_CLOTH_H
 #define WEFT_WORKFLOW_CLOTH_H
 
-#include "shading/workflow.h"
+#include "shading/stack/workflow.h"
 
 FN void cloth_stack(Stack *m, const Surface *s) {
     Lobe sheen = lobe_rough(LOBE_CHARLIE_NEUBELT, s->sheen_roughness);

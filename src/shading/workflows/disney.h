@@ -17,7 +17,7 @@
 
 #include "shading/lobes/burley_subsurface.h"
 #include "shading/lobes/cook_torrance.h"
-#include "shading/workflow.h"
+#include "shading/stack/workflow.h"
 
 FN Rgb disney_tint(Rgb base) {
     float y = rgb_luminance(base);

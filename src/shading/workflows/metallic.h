@@ -15,7 +15,7 @@
 #ifndef WEFT_WORKFLOW_METALLIC_H
 #define WEFT_WORKFLOW_METALLIC_H
 
-#include "shading/workflow.h"
+#include "shading/stack/workflow.h"
 
 FN Rgb metallic_f0(const Surface *s) {
     return rgb_scale(rgb_min(rgb_scale(s->specular_color, dielectric_f0(s)), 1.0f), s->specular);

@@ -8,7 +8,7 @@
 #ifndef WEFT_WORKFLOW_SPECULAR_H
 #define WEFT_WORKFLOW_SPECULAR_H
 
-#include "shading/workflow.h"
+#include "shading/stack/workflow.h"
 
 FN void specular_stack(Stack *m, const Surface *s) {
     workflow_coat(m, s);

@@ -1,0 +1,19 @@
+/* save.h - option --save: a scene as glTF, or one material as JSON */
+#ifndef WEFT_CLI_SAVE_H
+#define WEFT_CLI_SAVE_H
+
+#include "cli/console/options.h"
+#include "weft/scene.h"
+
+/* Tests that every --save names a known kind of file and a place that can be written. Returns 0, or an exit
+ * code after one line. */
+int save_check(const Options *options);
+
+/* The first material of the cloth, as --material has it: one with a sheen or, where none has, one that sends out
+ * no light. */
+int save_cloth_of(const WeftScene *scene);
+
+/* Writes every --save. */
+WeftResult save_all(const Options *options, const WeftScene *scene, WeftError *error);
+
+#endif

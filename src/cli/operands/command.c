@@ -1,0 +1,52 @@
+#include "cli/operands/command.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static const char safe[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./,=:+@%";
+
+static char *append(char *to, const char *text) {
+    while (*text) *to++ = *text++;
+    return to;
+}
+
+/* An argument after a blank, in single quotes unless all of it is safe. Returns where it ends. */
+static char *argument_write(char *to, const char *argument) {
+    const char *quote = argument[strspn(argument, safe)] || !argument[0] ? "'" : "";
+    to = append(append(to, " "), quote);
+    for (; *argument; argument++) {
+        if (*argument == '\'') to = append(to, "'\\'");
+        *to++ = (unsigned char)*argument < 0x20 || *argument == 0x7f ? '?' : *argument;
+    }
+    return append(to, quote);
+}
+
+char *command_text(const Options *options) {
+    size_t room = sizeof "weft " + strlen(options->verb->name);
+    for (int k = 0; k < options->argument_count; k++) room += 3 + 4 * strlen(options->arguments[k]);
+    char *text = malloc(room), *to = text;
+    if (!text) return NULL;
+    to = argument_write(append(to, "weft"), options->verb->name);
+    for (int k = 0; k < options->argument_count; k++) to = argument_write(to, options->arguments[k]);
+    *to = '\0';
+    return text;
+}
+
+/* Each is an option and its value: "--preset velvet". */
+char *command_assign_text(const Options *options) {
+    static const char *const names[] = {"--variant", "--preset",  "--material", "--materials", "--workflow",
+                                        "--profile", "--diffuse", "--sheen",    "--layer",     "--texture",
+                                        "--set",     "--convert", "--light"};
+    size_t room = 1;
+    for (int k = 0; k < options->argument_count; k++) room += 16 + 4 * strlen(options->arguments[k]);
+    char *text = malloc(room), *to = text;
+    if (!text) return NULL;
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
+        int cursor = 0;
+        for (const char *value; (value = option_next(options, names[k], &cursor));)
+            to = argument_write(argument_write(to, names[k]), value);
+    }
+    *to = '\0';
+    if (text[0]) memmove(text, text + 1, strlen(text)); /* the blank before the first */
+    return text;
+}

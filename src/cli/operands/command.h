@@ -1,0 +1,14 @@
+/* command.h - the command line again, as one could type it in a shell */
+#ifndef WEFT_CLI_COMMAND_H
+#define WEFT_CLI_COMMAND_H
+
+#include "cli/console/options.h"
+
+/* "weft VERB ...", one line, with quotes where a shell needs them; control characters become '?'. NULL where
+ * memory is short. Release with free. */
+char *command_text(const Options *options);
+
+/* Returns the options given that assign materials and add lights, as they could be typed; else as above. */
+char *command_assign_text(const Options *options);
+
+#endif

@@ -1,0 +1,37 @@
+#include "cli/operands/lobes.h"
+
+#include <string.h>
+
+#include "cli/console/report.h"
+#include "weft/lobe.h"
+
+/* No id has a dot. */
+static bool is_file(const char *value) { return strpbrk(value, "./") != NULL; }
+
+enum { TAKEN_MOST = 64 };
+static const char *taken[TAKEN_MOST + 1];
+
+const char *const *lobes_taken(void) { return taken; }
+
+static void keep(const char *path) {
+    int k = 0;
+    while (k < TAKEN_MOST && taken[k]) k++;
+    if (k < TAKEN_MOST) taken[k] = path;
+}
+
+int lobes_take(Options *options) {
+    const WeftLog log = {.fn = report_warning};
+    WeftError error;
+    int cursor = 0, ids = 0;
+    for (const char *value; (value = option_next(options, "--lobe", &cursor));) {
+        bool either = strchr(option_row(options, "--lobe")->value, '|') != NULL;
+        if (either && !is_file(value)) {
+            if (ids++) return report(WEFT_USAGE, "--lobe: is given twice");
+            continue;
+        }
+        if (weft_lobe_load(value, NULL, &log, &error) != WEFT_OK) return report_error(&error);
+        keep(value);
+        option_drop(options, --cursor);
+    }
+    return 0;
+}

@@ -1,0 +1,21 @@
+/* lobes.h - lobes of the user's own: --lobe FILE.h, of every verb that names lobes */
+#ifndef WEFT_CLI_LOBES_H
+#define WEFT_CLI_LOBES_H
+
+#include "cli/console/options.h"
+
+#define LOBES_HELP                                                                                           \
+    "take a lobe of your own (docs/adding-a-lobe.md); it runs as native code: only one that you trust"
+#define OPTION_LOBES OPTION_LIST("--lobe", "FILE.h", LOBES_HELP)
+
+/* The option of a verb whose --lobe has another meaning too. */
+#define OPTION_LOBES_OR(words) OPTION_LIST("--lobe", "LOBE|FILE.h", words "; FILE.h: " LOBES_HELP)
+
+/* Takes every file that was typed, which the verb then sees nothing of. Returns 0, or an exit code after one
+ * line on standard error. */
+int lobes_take(Options *options);
+
+/* Their paths, ended by NULL. */
+const char *const *lobes_taken(void);
+
+#endif

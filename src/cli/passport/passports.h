@@ -1,0 +1,24 @@
+/* passports.h - printing of a passport: as text, in a line, as lines of a lobe's header, as JSON, as a
+ * page */
+#ifndef WEFT_CLI_PASSPORTS_H
+#define WEFT_CLI_PASSPORTS_H
+
+#include "cli/console/json_writer.h"
+#include "weft/measure.h"
+
+/* On standard output. */
+void passport_text(const WeftPassport *passport);
+void passport_line(const WeftPassport *passport);
+
+/* Prints the lines that the lobe's file has at the end of its opening comment. */
+void passport_header(const WeftPassport *passport);
+
+/* Prints the heading of the lines. */
+void passport_line_heading(void);
+
+void passport_json(Json *json, const WeftPassport *passport);
+
+/* One HTML page with pictures in it, which needs no other file. */
+void passports_page(FILE *stream, const WeftPassport *passports, int count);
+
+#endif

@@ -1,0 +1,325 @@
+#include "cli/render/job.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+
+#include "base/steady_clock.h"
+#include "cli/console/interrupt.h"
+#include "cli/console/progress.h"
+#include "cli/console/report.h"
+#include "cli/files/save.h"
+#include "weft/weft.h"
+
+/* Keeps the line for --json and shows it. Short of memory it is only shown. */
+void warnings_add(Warnings *warnings, bool grave, const char *text) {
+    for (int k = 0; k < warnings->count; k++)
+        if (strcmp(warnings->lines[k], text) == 0) return;
+    if (!warnings->quiet) report(0, "%s%s", grave ? "warning: " : "", text);
+    char **grown = realloc(warnings->lines, (size_t)(warnings->count + 1) * sizeof *grown);
+    if (!grown) return;
+    warnings->lines = grown;
+    if ((grown[warnings->count] = strdup(text))) warnings->count++;
+}
+
+void warnings_free(Warnings *warnings) {
+    for (int k = 0; k < warnings->count; k++) free(warnings->lines[k]);
+    free(warnings->lines);
+    *warnings = (Warnings){0};
+}
+
+static void warn(void *user, WeftMessage message, const char *text) {
+    warnings_add(user, message != WEFT_MESSAGE_NONE, text);
+}
+
+WeftResult failure(WeftError *error, WeftResult result, const char *text) {
+    error->result = result;
+    snprintf(error->text, sizeof error->text, "%s", text);
+    return result;
+}
+
+/* Loads the scene and dresses and lights it. */
+static WeftResult scene_open(Job *job, WeftScene **scene, WeftError *error) {
+    const Request *request = job->request;
+    int picture = request->engine == ENGINE_BOTH ? 0 : job->number;
+    const WeftLog log = {.fn = warn, .user = job->warnings};
+    WeftResult result = weft_scene_load(request->scene_options.scene, scene, &log, error);
+    if (result == WEFT_OK)
+        result = scene_options_apply(&request->scene_options, picture, *scene, &log, error);
+    return result;
+}
+
+static double job_pixels(const Job *job) { return (double)job->width * job->height; }
+
+static WeftResult nothing_gathered(WeftError *error) {
+    return failure(error, WEFT_INTERRUPTED, "interrupted before the first sample; nothing was written");
+}
+
+/* Gathers the samples. */
+static WeftResult gather(Job *job, WeftRender *render, WeftError *error) {
+    const Request *request = job->request;
+    int spp = request->spp ? request->spp : REQUEST_SPP_MOST;
+    double limit = request->time_limit / request_count(request);
+    char prefix[32] = "";
+    if (request_count(request) > 1)
+        snprintf(prefix, sizeof prefix, "%d/%d ", job->number + 1, request_count(request));
+    Progress progress = progress_start(request->quiet, prefix, request->spp, spp, job_pixels(job), limit);
+    WeftResult result = weft_render_run(render, spp, limit, progress_heed, &progress);
+    progress_finish(&progress);
+    job->info = weft_render_info(render);
+    job->stage_count = 0;
+    while (job->request->desc.stages && job->stage_count < JOB_STAGES &&
+           weft_render_stage(render, job->stage_count, &job->stages[job->stage_count]))
+        job->stage_count++;
+    job->interrupted = result == WEFT_INTERRUPTED;
+    if (job->interrupted && !(job->info.samples_per_pixel > 0.0)) return nothing_gathered(error);
+    if (job->interrupted) result = WEFT_OK;
+    return result == WEFT_OK ? result : failure(error, result, "the render could not be finished");
+}
+
+/* A built-in scene has a camera that shows it best. */
+static const char *camera_of(const Job *job, const char *camera) {
+    if (!camera) camera = job->request->desc.camera;
+    bool builtin = strncmp(job->request->scene_options.scene, "builtin:", 8) == 0;
+    return !camera && builtin && weft_scene_info(job->scene).camera_count > 0 ? "0" : camera;
+}
+
+/* Takes from the render what was asked for. */
+static WeftResult develop(Job *job, const WeftRender *render, WeftError *error) {
+    const Request *request = job->request;
+    WeftResult result = request->denoise
+                            ? weft_render_denoised(render, request->denoiser, &job->linear, error)
+                            : weft_render_image(render, &job->linear, error);
+    for (int k = 0; k < WEFT_AOV_COUNT && result == WEFT_OK; k++)
+        if (request->aovs & 1u << k) result = weft_render_aov(render, (WeftAov)k, &job->aovs[k], error);
+    job->noise = weft_render_noise(render);
+    return result;
+}
+
+static WeftResult trace(Job *job, const char *camera, WeftError *error) {
+    WeftRenderDesc desc = job->request->desc;
+    WeftRender *render = NULL;
+    desc.camera = camera;
+    if (interrupt_seen()) return nothing_gathered(error);
+    WeftResult result = weft_render_create(job->scene, &desc, &render, error);
+    if (result == WEFT_OK && interrupt_seen()) result = nothing_gathered(error);
+    if (result == WEFT_OK) result = gather(job, render, error);
+    if (result == WEFT_OK) result = develop(job, render, error);
+    weft_render_free(render);
+    if (result == WEFT_OK && job->info.non_finite > 0) {
+        char text[96];
+        snprintf(text, sizeof text, "%lld samples were not finite and were left out", job->info.non_finite);
+        warnings_add(job->warnings, true, text);
+    }
+    return result;
+}
+
+static WeftResult crop(const Job *job, WeftImage *image, WeftError *error) {
+    const int *c = job->request->desc.crop;
+    WeftImage part;
+    if (!c[2]) return WEFT_OK;
+    WeftResult result = weft_image_create(c[2], c[3], 4, WEFT_PIXEL_F32, &part, error);
+    if (result != WEFT_OK) return result;
+    for (int y = 0; y < c[3]; y++)
+        memcpy((float *)part.pixels + 4 * (size_t)y * (size_t)c[2],
+               (const float *)image->pixels + 4 * ((size_t)(c[1] + y) * (size_t)image->width + (size_t)c[0]),
+               4 * (size_t)c[2] * sizeof(float));
+    weft_image_free(image);
+    *image = part;
+    return WEFT_OK;
+}
+
+/* Has the driver compile what a picture is drawn with while its occlusion is still being found: draws a small one. If
+ * that fails, so does the picture, which then says why. */
+static void compile_early(WeftRaster *raster, WeftRasterView view) {
+    enum { SMALLER = 32 };
+    if (!weft_raster_info(raster).making) return;
+    view.width = view.width > SMALLER ? view.width / SMALLER : 1;
+    view.height = view.height > SMALLER ? view.height / SMALLER : 1;
+    memset(view.crop, 0, sizeof view.crop);
+    weft_raster_draw(raster, &view, NULL);
+}
+
+static WeftResult raster(Job *job, const char *camera, WeftError *error) {
+    const WeftRenderDesc *desc = &job->request->desc;
+    const WeftLog log = {.fn = warn, .user = job->warnings};
+    WeftRasterView view = {.width = desc->width,
+                           .height = desc->height,
+                           .samples = job->request->msaa,
+                           .ambient = job->request->ambient,
+                           .polygons = job->request->polygons ? job->request->polygons : -1,
+                           .camera = camera,
+                           .part = job->request->part,
+                           .floor = desc->floor,
+                           .hide_lights = desc->hide_lights,
+                           .background = desc->background};
+    memcpy(view.crop, desc->crop, sizeof view.crop);
+    WeftResult result = WEFT_OK;
+    if (!job->raster)
+        result = weft_raster_create(job->scene, &job->request->raster, &job->raster, &log, error);
+    double started = clock_now();
+    if (result == WEFT_OK) compile_early(job->raster, view);
+    if (result == WEFT_OK) result = weft_raster_wait(job->raster, error);
+    if (result == WEFT_OK) result = weft_raster_draw(job->raster, &view, error);
+    if (result == WEFT_OK) result = weft_raster_image(job->raster, &job->linear, error);
+    if (result != WEFT_OK) return result;
+    const WeftRasterInfo drawn = weft_raster_info(job->raster);
+    job->info = (WeftRenderInfo){.samples_per_pixel = drawn.samples,
+                                 .render_seconds = clock_now() - started,
+                                 .camera_fov = drawn.camera_fov};
+    memcpy(job->info.camera_eye, drawn.camera_eye, sizeof job->info.camera_eye);
+    memcpy(job->info.camera_target, drawn.camera_target, sizeof job->info.camera_target);
+    snprintf(job->driver, sizeof job->driver, "%s", drawn.driver);
+    if (*drawn.complaint) warnings_add(job->warnings, true, drawn.complaint);
+    return crop(job, &job->linear, error);
+}
+
+WeftResult job_open(Job *job, WeftError *error) {
+    const WeftRenderDesc *desc = &job->request->desc;
+    double started = clock_now();
+    job->width = desc->crop[2] ? desc->crop[2] : desc->width;
+    job->height = desc->crop[3] ? desc->crop[3] : desc->height;
+    WeftResult result = scene_open(job, &job->scene, error);
+    job->load_seconds = clock_now() - started;
+    if (result == WEFT_OK) job->triangles = weft_scene_info(job->scene).triangle_count;
+    if (result == WEFT_OK && job->number == 0) result = save_all(job->request->options, job->scene, error);
+    return result;
+}
+
+/* Puts a colour behind a linear picture. */
+static void lay_behind(WeftImage *linear, const float color[3]) {
+    float *p = linear->pixels;
+    for (size_t k = 0; k < (size_t)linear->width * (size_t)linear->height; k++, p += 4) {
+        for (int c = 0; c < 3; c++) p[c] = p[c] * p[3] + color[c] * (1.0f - p[3]);
+        p[3] = 1.0f;
+    }
+}
+
+/* Makes the picture as displayed; a colour is laid behind what is displayed, where neither curve nor exposure
+ * changes it, and behind what is linear. */
+static WeftResult finish(Job *job, WeftError *error) {
+    const SceneOptions *scene_options = &job->request->scene_options;
+    bool color = scene_options->background == WEFT_BACKGROUND_COLOR && job->request->part == WEFT_PART_ALL;
+    WeftTonemap curve = (WeftTonemap)scene_options->tonemap;
+    float exposure = (float)scene_options->exposure;
+    if (!color) return weft_image_tonemap(&job->linear, curve, exposure, &job->display, error);
+    WeftResult result = weft_image_tonemap_over(&job->linear, curve, exposure,
+                                                scene_options->background_color, &job->display, error);
+    lay_behind(&job->linear, scene_options->background_color);
+    return result;
+}
+
+static void free_images(Job *job) {
+    weft_image_free(&job->linear);
+    weft_image_free(&job->display);
+    for (int k = 0; k < WEFT_AOV_COUNT; k++) weft_image_free(&job->aovs[k]);
+}
+
+WeftResult job_draw(Job *job, const char *camera, WeftError *error) {
+    free_images(job);
+    job->noise = -1.0;
+    camera = camera_of(job, camera);
+    WeftResult result = job->engine == ENGINE_RASTER ? raster(job, camera, error) : trace(job, camera, error);
+    return result == WEFT_OK ? finish(job, error) : result;
+}
+
+WeftResult job_run(Job *job, WeftError *error) {
+    WeftResult result = job_open(job, error);
+    return result == WEFT_OK ? job_draw(job, NULL, error) : result;
+}
+
+void job_close(Job *job) {
+    weft_raster_free(job->raster);
+    weft_scene_free(job->scene);
+    job->raster = NULL;
+    job->scene = NULL;
+}
+
+void job_free(Job *job) {
+    job_close(job);
+    free_images(job);
+}
+
+/* The channels of an AOV, by the names that Nuke, Blender and OpenEXR's own tools know. */
+static const char *const aov_channels[WEFT_AOV_COUNT][4] = {
+    {"albedo.R", "albedo.G", "albedo.B"},       {"N.X", "N.Y", "N.Z"}, {"Z"},
+    {"variance.R", "variance.G", "variance.B"}, {"sampleCount"},
+};
+
+WeftResult job_write(const Job *job, const char *number, WeftError *error) {
+    const Request *request = job->request;
+    WeftImageLayer layers[WEFT_AOV_COUNT];
+    int count = 0;
+    for (int k = 0; k < WEFT_AOV_COUNT; k++) {
+        if (!job->aovs[k].pixels) continue;
+        layers[count].image = &job->aovs[k];
+        memcpy(layers[count++].channels, aov_channels[k], sizeof aov_channels[k]);
+    }
+    const Outputs outputs = {
+        &job->linear,
+        &job->display,
+        {.denoised = request->denoise ? weft_denoiser_name((int)request->denoiser) : NULL,
+         .isa = job->engine == ENGINE_TRACE ? weft_isa() : NULL,
+         .layers = layers,
+         .layer_count = count}};
+    return request_outputs_write(request, number, &outputs, error);
+}
+
+static double rate(double count, double seconds) { return seconds > 0.0 ? count / seconds : 0.0; }
+
+double job_samples_per_second(const Job *job) {
+    return rate(job->info.samples_per_pixel * job_pixels(job), job->info.render_seconds);
+}
+
+double job_stage_ns(const Job *job, int stage) {
+    return rate(1e9 * job->stages[stage].seconds, job->info.samples_per_pixel * job_pixels(job));
+}
+
+static long long peak_memory(void) {
+    struct rusage usage;
+    return getrusage(RUSAGE_SELF, &usage) == 0 ? (long long)usage.ru_maxrss * 1024 : 0; /* Linux counts KiB */
+}
+
+void job_json(const Job *job, Json *json) {
+    const Request *request = job->request;
+    const WeftRenderInfo *info = &job->info;
+    int cursor = 0;
+    json_text(json, "scene", request->scene_options.scene);
+    json_text(json, "engine", job->engine == ENGINE_RASTER ? "raster" : "trace");
+    if (job->engine == ENGINE_RASTER) json_text(json, "driver", job->driver);
+    json_whole(json, "triangles", job->triangles);
+    json_whole(json, "width", job->width);
+    json_whole(json, "height", job->height);
+    json_number(json, "samples_per_pixel", info->samples_per_pixel);
+    json_bool(json, "interrupted", job->interrupted);
+    json_open(json, "seconds", '{');
+    json_number(json, "load", job->load_seconds);
+    json_number(json, "build", info->build_seconds);
+    json_number(json, "render", info->render_seconds);
+    json_close(json, '}');
+    if (job->engine == ENGINE_TRACE) {
+        json_text(json, "isa", weft_isa());
+        json_whole(json, "rays", info->rays);
+        json_number(json, "samples_per_second", job_samples_per_second(job));
+        json_number(json, "rays_per_second", rate((double)info->rays, info->render_seconds));
+        if (!(job->noise < 0.0)) json_number(json, "noise", job->noise);
+        if (request->denoise) json_text(json, "denoised", weft_denoiser_name((int)request->denoiser));
+    }
+    if (job->stage_count) json_open(json, "stages", '{');
+    for (int k = 0; k < job->stage_count; k++) json_number(json, job->stages[k].name, job_stage_ns(job, k));
+    if (job->stage_count) json_close(json, '}');
+    json_open(json, "camera", '{');
+    json_floats(json, "eye", info->camera_eye, 3);
+    json_floats(json, "target", info->camera_target, 3);
+    json_float(json, "fov", info->camera_fov);
+    json_close(json, '}');
+    json_whole(json, "peak_memory_bytes", peak_memory());
+    json_open(json, "outputs", '[');
+    for (const char *path; (path = option_next(request->options, "-o", &cursor));)
+        json_text(json, NULL, path);
+    json_close(json, ']');
+    json_open(json, "warnings", '[');
+    for (int k = 0; k < job->warnings->count; k++) json_text(json, NULL, job->warnings->lines[k]);
+    json_close(json, ']');
+}

@@ -1,0 +1,70 @@
+/* job.h - one picture at work: a scene loaded, dressed, lit and drawn by an engine, and its report */
+#ifndef WEFT_CLI_JOB_H
+#define WEFT_CLI_JOB_H
+
+#include "cli/console/json_writer.h"
+#include "cli/render/request.h"
+
+/* The warnings so far, each line once. */
+typedef struct Warnings {
+    bool quiet;
+    char **lines;
+    int count;
+} Warnings;
+
+enum { JOB_STAGES = 32 };
+
+typedef struct Job {
+    const Request *request;
+    Warnings *warnings;
+    int number;                         /* of the picture among those of the request */
+    Engine engine;                      /* TRACE or RASTER */
+    WeftScene *scene;                   /* owned, see job_free */
+    WeftRaster *raster;                 /* owned; NULL of the path tracer */
+    WeftImage linear;                   /* owned, see job_free */
+    WeftImage display;                  /* owned */
+    WeftImage aovs[WEFT_AOV_COUNT];     /* owned; those that were asked for */
+    double noise;                       /* relMSE, estimated; below 0: not known */
+    WeftRenderStage stages[JOB_STAGES]; /* of --stages */
+    int stage_count;
+    WeftRenderInfo info; /* of the rasteriser: samples, seconds and camera */
+    char driver[128];    /* of OpenGL */
+    long long triangles;
+    double load_seconds;
+    int width, height; /* of the picture, which a crop makes smaller */
+    bool interrupted;
+} Job;
+
+/* Loads, dresses and lights the scene. */
+WeftResult job_open(Job *job, WeftError *error);
+
+/* Writes the picture; number as for request_outputs_write. */
+WeftResult job_write(const Job *job, const char *number, WeftError *error);
+
+/* Makes the picture through a camera, NULL: the request's. Needs job_open. An interruption is noted; only one
+ * before the first sample is a failure. */
+WeftResult job_draw(Job *job, const char *camera, WeftError *error);
+
+/* Both. */
+WeftResult job_run(Job *job, WeftError *error);
+
+/* Releases the scene, and keeps the picture and its report. */
+void job_close(Job *job);
+void job_free(Job *job);
+
+double job_samples_per_second(const Job *job);
+
+/* ns of a stage for each sample. */
+double job_stage_ns(const Job *job, int stage);
+
+/* The members of its object. */
+void job_json(const Job *job, Json *json);
+
+/* Adds and prints a line. One that is not grave is not called a warning. */
+void warnings_add(Warnings *warnings, bool grave, const char *text);
+void warnings_free(Warnings *warnings);
+
+/* A failure that is the program's own. */
+WeftResult failure(WeftError *error, WeftResult result, const char *text);
+
+#endif

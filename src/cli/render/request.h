@@ -1,0 +1,58 @@
+/* request.h - the command line of `weft render`, checked */
+#ifndef WEFT_CLI_REQUEST_H
+#define WEFT_CLI_REQUEST_H
+
+#include "cli/render/scene_options.h"
+#include "weft/raster.h"
+
+enum { REQUEST_SPP_MOST = 1 << 24 }; /* as good as "until the time is up" */
+
+extern const Option request_options[];
+
+typedef enum Engine { ENGINE_TRACE, ENGINE_RASTER, ENGINE_BOTH } Engine;
+
+/* The request of the command line, checked. */
+typedef struct Request {
+    const Options *options;
+    SceneOptions scene_options;
+    WeftRenderDesc desc;
+    int spp; /* 0: until the time is up */
+    double time_limit;
+    unsigned aovs; /* 1 << WEFT_AOV_ALBEDO and so on */
+    bool denoise;
+    WeftDenoiser denoiser;
+    bool quiet;
+    Engine engine;
+    WeftRasterDesc raster;
+    int msaa, polygons;
+    WeftAmbient ambient;
+    WeftPart part;
+    int turntable; /* pictures around the scene; 0: one */
+} Request;
+
+/* Returns the number of images side by side. */
+int request_count(const Request *request);
+
+/* Reads and checks all that can be judged without the scene. False after one line on standard error. */
+bool request_read(const Options *options, Request *request);
+
+/* Tests before a long render that every -o names a known format and a place that can be written, by creating
+ * a file there. Returns 0, or an exit code after one line. */
+int request_outputs_check(const Request *request);
+
+/* A picture for every -o: linear or as displayed, and what goes with it. */
+typedef struct Outputs {
+    const WeftImage *linear, *display;
+    WeftImageWriting how;
+} Outputs;
+
+/* Writes every -o; one that fails does not keep the others from being written. number (may be NULL) comes
+ * before every suffix. */
+WeftResult request_outputs_write(const Request *request, const char *number, const Outputs *outputs,
+                                 WeftError *error);
+
+/* Their names, comma between, in a buffer of the caller's. */
+enum { REQUEST_FILES = 512 };
+const char *request_outputs_text(const Request *request, char files[REQUEST_FILES]);
+
+#endif

@@ -1,0 +1,11 @@
+/* turntable.h - pictures on a circle around a scene */
+#ifndef WEFT_CLI_TURNTABLE_H
+#define WEFT_CLI_TURNTABLE_H
+
+#include "cli/render/job.h"
+
+/* Makes and writes the request's pictures, each as it is done. The camera goes around the vertical through
+ * what it looks at, counter-clockwise seen from above, as if the scene turned the other way. */
+WeftResult turntable_run(Job *job, WeftError *error);
+
+#endif

@@ -1,0 +1,247 @@
+/* eval.c - `weft eval`: numbers of one lobe, a line in, a line out */
+#include <errno.h>
+#include <fcntl.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/pi.h"
+#include "cli/console/decimal.h"
+#include "cli/console/json_writer.h"
+#include "cli/console/report.h"
+#include "cli/operands/given_lobe.h"
+#include "cli/operands/lobes.h"
+#include "cli/verbs/verbs.h"
+#include "weft/weft.h"
+
+enum { LINE_MOST = 4095, CHUNK = 1 << 18, BATCH = 1024 };
+
+/* Lines that wait for their answers. A line of --albedo has its cosine in o[2]. */
+typedef struct EvalBatch {
+    size_t n;
+    float o[3][BATCH], i[3][BATCH];
+    float f[3][BATCH], pdf[BATCH];
+    char text[BATCH * 4 * DECIMAL_SIZE];
+} EvalBatch;
+
+/* Exactly count finite numbers separated by blanks and tabs, with at most one comma among them. */
+static bool line_numbers(const char *text, int count, double *numbers) {
+    for (int k = 0; k < count; k++) {
+        text += strspn(text, " \t");
+        if (k && *text == ',') text += 1 + strspn(text + 1, " \t");
+        const char *end = decimal_read(text, &numbers[k]);
+        if (end == text || !isfinite(numbers[k]) || !strchr(" \t,\r", *end)) return false;
+        text = end;
+    }
+    return text[strspn(text, " \t\r")] == '\0';
+}
+
+/* Unit direction from degrees. The cosine is the sine of the rest to 90, so that it is exactly 0 there. */
+static void direction(double theta, double phi, float w[3][BATCH], size_t k) {
+    const double radians = RADIANS;
+    double sin_theta = sin(theta * radians);
+    w[0][k] = (float)(sin_theta * cos(phi * radians));
+    w[1][k] = (float)(sin_theta * sin(phi * radians));
+    w[2][k] = (float)sin((90.0 - theta) * radians);
+}
+
+/* The processing of lines: numbers are read, then all are answered. */
+typedef struct EvalTask {
+    const char *form;                                      /* of a line */
+    int count;                                             /* numbers in it */
+    bool (*take)(EvalBatch *batch, const double *numbers); /* false: not what they should be */
+    void (*answer)(EvalBatch *batch, const WeftLobe *lobe, bool json);
+} EvalTask;
+
+static bool take_angles(EvalBatch *batch, const double *numbers) {
+    direction(numbers[0], numbers[1], batch->o, batch->n);
+    direction(numbers[2], numbers[3], batch->i, batch->n);
+    batch->n++;
+    return true;
+}
+
+static bool take_cosine(EvalBatch *batch, const double *numbers) {
+    if (!(numbers[0] > 0.0 && numbers[0] <= 1.0)) return false;
+    batch->o[2][batch->n++] = (float)numbers[0];
+    return true;
+}
+
+static void answer_eval(EvalBatch *batch, const WeftLobe *lobe, bool as_json) {
+    WeftDirections wo = {batch->o[0], batch->o[1], batch->o[2]}, wi = {batch->i[0], batch->i[1], batch->i[2]};
+    WeftColors colors = {batch->f[0], batch->f[1], batch->f[2]};
+    weft_eval_n(lobe, batch->n, wo, wi, colors, NULL);
+    weft_pdf_n(lobe, batch->n, wo, wi, batch->pdf, NULL);
+    char *text = batch->text;
+    for (size_t k = 0; k < batch->n; k++) {
+        float f[3] = {batch->f[0][k], batch->f[1][k], batch->f[2][k]};
+        if (as_json) {
+            Json json = {.stream = stdout, .compact = true};
+            json_open(&json, NULL, '{');
+            json_floats(&json, "f", f, 3);
+            json_float(&json, "pdf", batch->pdf[k]);
+            json_close(&json, '}');
+            continue;
+        }
+        for (int c = 0; c < 3; c++) {
+            text = decimal_write(text, f[c]);
+            *text++ = ' ';
+        }
+        text = decimal_write(text, batch->pdf[k]);
+        *text++ = '\n';
+    }
+    fwrite(batch->text, 1, (size_t)(text - batch->text), stdout);
+}
+
+static void answer_albedo(EvalBatch *batch, const WeftLobe *lobe, bool as_json) {
+    weft_albedo_n(lobe, batch->n, batch->o[2], (WeftColors){batch->f[0], batch->f[1], batch->f[2]}, NULL);
+    char *text = batch->text;
+    for (size_t k = 0; k < batch->n; k++) {
+        float e[3] = {batch->f[0][k], batch->f[1][k], batch->f[2][k]};
+        if (as_json) {
+            Json json = {.stream = stdout, .compact = true};
+            json_open(&json, NULL, '{');
+            json_floats(&json, "albedo", e, 3);
+            json_close(&json, '}');
+            continue;
+        }
+        bool grey = !(e[0] < e[1] || e[0] > e[1] || e[0] < e[2] || e[0] > e[2]);
+        for (int c = 0; c < (grey ? 1 : 3); c++) {
+            text = decimal_write(text, e[c]);
+            *text++ = c < 2 && !grey ? ' ' : '\n';
+        }
+    }
+    fwrite(batch->text, 1, (size_t)(text - batch->text), stdout);
+}
+
+static const EvalTask task_eval = {"theta_o phi_o theta_i phi_i", 4, take_angles, answer_eval};
+static const EvalTask task_albedo = {"a cosine in (0, 1]", 1, take_cosine, answer_albedo};
+
+/* A file as it is read. */
+typedef struct NumberLines {
+    const char *name;
+    int file;
+    long long count; /* of lines so far */
+    size_t held;     /* bytes in chunk */
+    char chunk[CHUNK + 1];
+} NumberLines;
+
+/* One line, a zero at its end. */
+static int take_line(const NumberLines *lines, const char *line, size_t length, EvalBatch *batch,
+                     const EvalTask *task) {
+    double numbers[4];
+    bool marked = lines->count == 1 && strncmp(line, "\xef\xbb\xbf", 3) == 0; /* U+FEFF, from a spreadsheet */
+    if (length > LINE_MOST || strlen(line) != length)
+        return report(WEFT_INPUT, "%s: line %lld: is too long or not text", lines->name, lines->count);
+    if (marked) line += 3;
+    const char *first = line + strspn(line, " \t\r");
+    if (*first == '\0' || *first == '#') return 0;
+    if (!line_numbers(line, task->count, numbers) || !task->take(batch, numbers))
+        return report(WEFT_INPUT, "%s: line %lld: is not %s", lines->name, lines->count, task->form);
+    return 0;
+}
+
+/* The whole lines of the chunk, answered whenever the batch is full and at the end. What is left of the chunk
+ * goes to its front. */
+static int take_chunk(NumberLines *lines, EvalBatch *batch, const EvalTask *task, const WeftLobe *lobe,
+                      bool json) {
+    int result = 0;
+    char *line = lines->chunk, *last = lines->chunk + lines->held, *end;
+    while (result == 0 && !ferror(stdout) && (end = memchr(line, '\n', (size_t)(last - line)))) {
+        *end = '\0';
+        lines->count++;
+        result = take_line(lines, line, (size_t)(end - line), batch, task);
+        line = end + 1;
+        if (batch->n < BATCH) continue;
+        task->answer(batch, lobe, json);
+        batch->n = 0;
+    }
+    task->answer(batch, lobe, json);
+    batch->n = 0;
+    lines->held = (size_t)(last - line);
+    memmove(lines->chunk, line, lines->held);
+    return result;
+}
+
+/* Answers what has arrived before it waits for more. */
+static int eval_lines(NumberLines *lines, EvalBatch *batch, const EvalTask *task, const WeftLobe *lobe,
+                      bool json) {
+    int result = 0;
+    ssize_t got = 1;
+    while (result == 0 && got > 0 && !ferror(stdout)) { /* a failed output is for main to report */
+        do got = read(lines->file, lines->chunk + lines->held, CHUNK - lines->held);
+        while (got < 0 && errno == EINTR);
+        if (got < 0)
+            return report(WEFT_INPUT, "%s: %s: %s", lines->name, weft_message_text(WEFT_MESSAGE_FILE_READ),
+                          strerror(errno));
+        lines->held += (size_t)got;
+        if (got == 0 && lines->held > 0)
+            lines->chunk[lines->held++] = '\n'; /* the last line may lack its own */
+        result = take_chunk(lines, batch, task, lobe, json);
+        if (result == 0 && !ferror(stdout) && lines->held > LINE_MOST) {
+            lines->count++;
+            result = take_line(lines, lines->chunk, lines->held, batch, task);
+        }
+        fflush(stdout);
+    }
+    return result;
+}
+
+static int eval_run(const Options *options) {
+    WeftLobe lobe;
+    int result = given_lobe(options, options->operands[0], false, &lobe);
+    if (result != 0) return result;
+    const char *path = options->operand_count > 1 ? options->operands[1] : "-";
+    bool piped = strcmp(path, "-") == 0;
+    int file = piped ? STDIN_FILENO : open(path, O_RDONLY);
+    if (file < 0)
+        return report(WEFT_INPUT, "%s: %s: %s", path, weft_message_text(WEFT_MESSAGE_FILE_OPEN),
+                      strerror(errno));
+    NumberLines *lines = calloc(1, sizeof *lines);
+    EvalBatch *batch = calloc(1, sizeof *batch);
+    if (lines && batch) {
+        lines->name = piped ? "standard input" : path;
+        lines->file = file;
+        result = eval_lines(lines, batch, option_given(options, "--albedo") ? &task_albedo : &task_eval,
+                            &lobe, option_given(options, "--json"));
+    } else {
+        result = report(WEFT_RESOURCES, "%s", weft_message_text(WEFT_MESSAGE_MEMORY));
+    }
+    free(batch);
+    free(lines);
+    if (!piped) close(file);
+    return result;
+}
+
+static const Option eval_options[] = {
+    OPTION_HEADING("Options"),
+    OPTION_PARAMS(""),
+    OPTION_LOBES,
+    OPTION_SWITCH("--albedo", "read cosines in (0, 1], write the directional albedo E by quadrature to 1e-4"),
+    OPTION_SWITCH("--json", "one JSON object a line instead of numbers"),
+    OPTION_END,
+};
+
+const Verb verb_eval = {
+    .name = "eval",
+    .operands = "LOBE [FILE] [options]",
+    .help = "evaluates a lobe for lines of directions",
+    .operands_least = 1,
+    .operands_most = 2,
+    .options = eval_options,
+    .notes = "Reads lines \"theta_o phi_o theta_i phi_i\" in degrees from FILE or standard input\n"
+             "and writes a line \"f_r f_g f_b pdf\" for each: in 1/sr, f without the cosine.\n"
+             "theta is measured from the normal, phi from the tangent; o is towards the\n"
+             "viewer, i towards the light. Below the horizon all is 0. Blanks, tabs and commas\n"
+             "separate; empty lines and lines that start with # are passed over. With --albedo\n"
+             "a line is a cosine and the answer is E: one number, or three where the colour is\n"
+             "not grey.\n\n"
+             "Examples\n"
+             "  echo 30 0 60 180 | weft eval charlie-neubelt -p alpha=0.25\n"
+             "  weft eval ggx -p alpha=0.1 -p color=1,0.8,0.3 angles.txt\n"
+             "  weft eval silk -p roughness=0.3 angles.txt\n"
+             "  weft eval cook-torrance -p d=charlie -p v=neubelt -p f=none angles.txt\n"
+             "  seq 0.05 0.05 1 | weft eval charlie-neubelt -p alpha=0.25 --albedo\n",
+    .run = eval_run,
+};

@@ -1,0 +1,117 @@
+/* render.c - `weft render`: a scene becomes pictures */
+#include "cli/console/interrupt.h"
+#include "cli/console/report.h"
+#include "cli/render/compare.h"
+#include "cli/render/turntable.h"
+#include "cli/verbs/verbs.h"
+#include "weft/weft.h"
+
+static void summary(const Job *job) {
+    char files[REQUEST_FILES];
+    request_outputs_text(job->request, files);
+    if (job->engine == ENGINE_RASTER) {
+        report(0, "drawn in %.2f s by %s; wrote %s", job->info.render_seconds, job->driver, files);
+        return;
+    }
+    char noise[48] = "";
+    if (!(job->noise < 0.0)) snprintf(noise, sizeof noise, ", relMSE about %.3g", job->noise);
+    report(0, "%s%.4g samples/pixel in %.2f s, %.2f M samples/s%s%s; wrote %s",
+           job->interrupted ? "interrupted at " : "", job->info.samples_per_pixel, job->info.render_seconds,
+           1e-6 * job_samples_per_second(job), noise, job->request->denoise ? " before denoising" : "",
+           files);
+}
+
+static void print_stages(const Job *job) {
+    double sum = 0.0, embree = 0.0;
+    for (int k = 0; k < job->stage_count; k++) {
+        double ns = job_stage_ns(job, k);
+        sum += ns;
+        if (job->stages[k].embree) embree += ns;
+    }
+    if (!(sum > 0.0)) return;
+    puts("stage                          ns a sample   share");
+    for (int k = 0; k < job->stage_count; k++)
+        printf("%-30s %11.1f %6.1f %%%s\n", job->stages[k].name, job_stage_ns(job, k),
+               100.0 * job_stage_ns(job, k) / sum, job->stages[k].embree ? "  Embree" : "");
+    printf("%-30s %11.1f %6.1f %%  Embree\n", "all", sum, 100.0 * embree / sum);
+}
+
+/* Only what --save asks for. */
+static int save_run(const Request *request, Warnings *warnings) {
+    Job job = {.request = request, .warnings = warnings, .engine = request->engine};
+    WeftError error = {0};
+    WeftResult result = job_open(&job, &error);
+    if (result != WEFT_OK) report_error(&error);
+    job_free(&job);
+    return (int)result;
+}
+
+static int single_run(const Request *request, Warnings *warnings) {
+    Job job = {.request = request, .warnings = warnings, .engine = request->engine};
+    WeftError error = {0};
+    WeftResult result = request->turntable ? turntable_run(&job, &error) : job_run(&job, &error);
+    if (result == WEFT_OK && !request->turntable) result = job_write(&job, NULL, &error);
+    if (result != WEFT_OK) {
+        report_error(&error);
+    } else {
+        if (!request->quiet) summary(&job);
+        if (!option_given(request->options, "--json")) print_stages(&job);
+        if (option_given(request->options, "--json")) {
+            Json json = {.stream = stdout};
+            json_open(&json, NULL, '{');
+            job_json(&job, &json);
+            json_close(&json, '}');
+        }
+        if (job.interrupted) result = WEFT_INTERRUPTED;
+    }
+    job_free(&job);
+    return (int)result;
+}
+
+static int render_run(const Options *options) {
+    Request request;
+    if (!request_read(options, &request)) return WEFT_USAGE;
+    int result = request_outputs_check(&request);
+    if (result != 0) return result;
+    interrupt_watch();
+    Warnings warnings = {.quiet = request.quiet};
+    result = !option_given(options, "-o")  ? save_run(&request, &warnings)
+             : request_count(&request) > 1 ? compare_run(&request, &warnings)
+                                           : single_run(&request, &warnings);
+    warnings_free(&warnings);
+    return result;
+}
+
+const Verb verb_render = {
+    .name = "render",
+    .operands = "SCENE -o OUT [options]",
+    .help = "renders images: path traced ground truth, or real-time OpenGL",
+    .operands_least = 1,
+    .operands_most = 1,
+    .options = request_options,
+    .notes = "SCENE is a .gltf or .glb file (glTF 2.0; docs/gltf.md has the limits) or\n"
+             "builtin:NAME. `weft models` lists all ids. --workflow, --profile, --diffuse,\n"
+             "--sheen, --layer and --set may have several values: then OUT is a sheet with a\n"
+             "picture for each and, below, how it differs from the first. Numbers and ids have\n"
+             "a comma between them, colours a semicolon, as in --set '*.sheen_color=1;1,0,0'.\n"
+             "Two such options make rows and columns. Ctrl-C writes what there is and exits\n"
+             "with 130. A picture appears under its name complete or not at all.\n\n"
+             "Examples\n"
+             "  weft render builtin:cloth -o cloth.png\n"
+             "  weft render SheenChair.glb -o chair.png -o chair.exr --spp 256\n"
+             "  weft render SheenChair.glb -o chair.png --variant \"Peacock Velvet\"\n"
+             "  weft render velvet.glb -o velvet.png --time-limit 30 --env studio.hdr\n"
+             "  weft render velvet.glb -o velvet.png --camera \"0,1,3;0,0.5,0;30\"\n"
+             "  weft render builtin:cloth -o denim.png --preset denim\n"
+             "  weft render builtin:cloth -o mine.png --material Cloth=mine.json \\\n"
+             "       --set '*.sheen_roughness=0.3'\n"
+             "  weft render chair.glb --save velvet-chair.glb --preset velvet\n"
+             "  weft render builtin:cloth -o sheet.png \\\n"
+             "       --sheen ashikhmin-neubelt,charlie-neubelt\n"
+             "  weft render builtin:spheres -o row.png --workflow disney \\\n"
+             "       --set '*.subsurface=0,0.25,0.5,0.75,1'\n"
+             "  weft render velvet.glb -o sheet.png --layer additive,albedo-max,reciprocal\n"
+             "  weft render velvet.glb -o both.png --engine both --light \"sun;-1,-2,-1;3,3,3\"\n"
+             "  weft render velvet.glb -o turn.png --engine raster --turntable 36\n",
+    .run = render_run,
+};

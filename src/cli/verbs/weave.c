@@ -1,0 +1,265 @@
+/* weave.c - `weft weave`: weaving drafts, read, described and written */
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/console/json_writer.h"
+#include "cli/console/output.h"
+#include "cli/console/path_suffix.h"
+#include "cli/console/report.h"
+#include "cli/console/two_columns.h"
+#include "cli/verbs/verbs.h"
+#include "weft/weft.h"
+
+typedef struct Weaving {
+    const Options *options;
+    const char *what, *output; /* output: NULL: none */
+    WeftDraft *draft;
+    WeftDraftInfo info;
+    WeftCloth *cloth; /* NULL: none is asked for */
+} Weaving;
+
+static int output_check(Weaving *weaving) {
+    const char *path = weaving->output = option_text(weaving->options, "-o");
+    const bool cloth = option_given(weaving->options, "--close");
+    if (!path && cloth) return report(WEFT_USAGE, "--close: the picture needs a name: -o OUT.png");
+    if (!path) return 0;
+    if (cloth && !path_ends(path, ".png")) return report(WEFT_USAGE, "%s: a cloth is drawn as .png", path);
+    if (!weft_draft_suffix_known(path))
+        return report(WEFT_USAGE, "%s: drafts are written as .wif, .png, .svg, .pdf or .txt", path);
+    return output_probe_other(weaving->options, path);
+}
+
+/* Threads per centimetre of a system. The repeat is longest across its own threads. */
+static double sett(const WeftDraftInfo *info, WeftThreads threads) {
+    return (double)info->count[threads] / (100.0 * (double)info->size[threads]);
+}
+
+static int sett_apply(Weaving *weaving) {
+    const char *text = option_text(weaving->options, "--sett");
+    double setts[2];
+    WeftError error;
+    if (!text) return 0;
+    if (!numbers_parse(text, 2, setts)) {
+        if (!numbers_parse(text, 1, setts))
+            return report(WEFT_USAGE,
+                          "--sett %.40s: one or two numbers of threads per centimetre are expected", text);
+        setts[WEFT_WEFT] = setts[WEFT_WARP];
+    }
+    for (int t = 0; t < 2; t++)
+        if (weft_draft_set_sett(weaving->draft, (WeftThreads)t, (float)(100.0 * setts[t]), &error) != WEFT_OK)
+            return report_error(&error);
+    return 0;
+}
+
+static int draft_make(Weaving *weaving) {
+    const WeftLog log = {.fn = report_warning};
+    WeftError error;
+    if (weft_draft_read(weaving->what, &weaving->draft, &log, &error) != WEFT_OK) return report_error(&error);
+    if (option_given(weaving->options, "--back")) {
+        WeftDraft *back;
+        if (weft_draft_back(weaving->draft, &back, &error) != WEFT_OK) return report_error(&error);
+        weft_draft_free(weaving->draft);
+        weaving->draft = back;
+    }
+    const int result = sett_apply(weaving);
+    weaving->info = weft_draft_info(weaving->draft);
+    if (result == 0 && !weaving->info.shafts)
+        return report(WEFT_RESOURCES, "%.300s: %s", weaving->what, weft_message_text(WEFT_MESSAGE_MEMORY));
+    return result;
+}
+
+/* The yarns of warp and weft by name. */
+static int yarns_read(const char *text, WeftYarn yarns[2]) {
+    WeftError error;
+    char name[2][64];
+    const char *comma = strchr(text, ',');
+    const int first = comma ? (int)(comma - text) : (int)strlen(text);
+    snprintf(name[0], sizeof name[0], "%.*s", first, text);
+    snprintf(name[1], sizeof name[1], "%s", comma ? comma + 1 : name[0]);
+    for (int t = 0; t < 2; t++)
+        if (weft_yarn_find(name[t], &yarns[t], &error) != WEFT_OK) return report_error(&error);
+    return 0;
+}
+
+/* A draft of many crossings is woven only if somebody asks for the cloth. */
+static int cloth_make(Weaving *weaving) {
+    const Options *options = weaving->options;
+    const bool asked = option_given(options, "--close") || option_given(options, "--bake");
+    if (!asked && (long)weaving->info.count[0] * weaving->info.count[1] > 1 << 18) return 0;
+    WeftYarn yarns[2];
+    WeftError error;
+    int seed = 0;
+    if (!option_integer(options, "--seed", &seed)) return WEFT_USAGE;
+    const int result = yarns_read(option_text(options, "--yarn"), yarns);
+    if (result != 0) return result;
+    if (weft_cloth_create(weaving->draft, yarns, (unsigned)seed, &weaving->cloth, &error) != WEFT_OK)
+        return report_error(&error);
+    return 0;
+}
+
+static int cloth_write(const Weaving *weaving) {
+    WeftImage image;
+    WeftError error;
+    double threads = 0.0;
+    int pixels = 0;
+    if (!option_number(weaving->options, "--close", &threads) ||
+        !option_integer(weaving->options, "--size", &pixels))
+        return WEFT_USAGE;
+    if (weft_cloth_draw(weaving->cloth, pixels, (float)threads, &image, &error) != WEFT_OK)
+        return report_error(&error);
+    const WeftResult result = weft_image_write(weaving->output, &image, &error);
+    weft_image_free(&image);
+    return result == WEFT_OK ? 0 : report_error(&error);
+}
+
+/* Writes the draft or the cloth, where a file for it is named. */
+static int weaving_write(const Weaving *weaving) {
+    WeftError error;
+    if (!weaving->output) return 0;
+    if (option_given(weaving->options, "--close")) return cloth_write(weaving);
+    return weft_draft_write(weaving->draft, weaving->output, &error) == WEFT_OK ? 0 : report_error(&error);
+}
+
+/* Writes the maps, their material, and a draped cloth of it as cloth.glb: one unit of its UVs is 0.5 m. */
+static int maps_write(const Weaving *weaving) {
+    const char *folder = option_text(weaving->options, "--bake");
+    char material[4096], glb[4096];
+    WeftScene *scene = NULL;
+    WeftError error;
+    int pixels = 0;
+    if (!folder) return 0;
+    if (strlen(folder) > 4000) return report(WEFT_USAGE, "--bake: the name is too long");
+    if (!option_integer(weaving->options, "--size", &pixels)) return WEFT_USAGE;
+    snprintf(material, sizeof material, "%s/material.json", folder);
+    snprintf(glb, sizeof glb, "%s/cloth.glb", folder);
+    const WeftLog log = {.fn = report_warning};
+    WeftResult result = weft_cloth_bake(weaving->cloth, pixels, 0.5, folder, &error);
+    if (result == WEFT_OK) result = weft_scene_load("builtin:cloth", &scene, &log, &error);
+    if (result == WEFT_OK) result = weft_scene_assign_material(scene, NULL, material, &log, &error);
+    if (result == WEFT_OK) result = weft_scene_save(scene, glb, &error);
+    weft_scene_free(scene);
+    return result == WEFT_OK ? 0 : report_error(&error);
+}
+
+static void endless_warn(const Weaving *weaving) {
+    static const char *const names[] = {"warp threads", "picks"};
+    for (int t = 0; t < 2; t++)
+        if (weaving->info.endless[t])
+            report(0, "warning: %.300s: %d of %d %s never change sides: the cloth would not hold together",
+                   weaving->what, weaving->info.endless[t], weaving->info.count[t], names[t]);
+}
+
+static void text_write(const Weaving *weaving) {
+    enum { COLUMN = 14 };
+    const WeftDraftInfo *info = &weaving->info;
+    char text[160];
+    printf("%s\n", info->title[0] ? info->title : weaving->what);
+    snprintf(text, sizeof text, "%d warp threads x %d picks", info->count[WEFT_WARP], info->count[WEFT_WEFT]);
+    layout_entry(stdout, COLUMN, "repeat", text);
+    snprintf(text, sizeof text, "shafts: %d, treadles: %d, at the least", info->shafts, info->treadles);
+    layout_entry(stdout, COLUMN, "loom", text);
+    snprintf(text, sizeof text, "on top at %.4g %% of the crossings", 100.0 * (double)info->warp_share);
+    layout_entry(stdout, COLUMN, "warp", text);
+    snprintf(text, sizeof text, "warp over %d picks, weft over %d threads", info->longest_float[WEFT_WARP],
+             info->longest_float[WEFT_WEFT]);
+    layout_entry(stdout, COLUMN, "longest float", text);
+    snprintf(text, sizeof text, "%.4g x %.4g per cm; the repeat is %.4g x %.4g mm", sett(info, WEFT_WARP),
+             sett(info, WEFT_WEFT), 1000.0 * (double)info->size[WEFT_WARP],
+             1000.0 * (double)info->size[WEFT_WEFT]);
+    layout_entry(stdout, COLUMN, "threads", text);
+    if (!weaving->cloth) return;
+    const WeftClothInfo cloth = weft_cloth_info(weaving->cloth);
+    snprintf(text, sizeof text, "warp %.1f %%, weft %.1f %%, gaps %.1f %%",
+             100.0 * (double)cloth.share[WEFT_WARP], 100.0 * (double)cloth.share[WEFT_WEFT],
+             100.0 * (1.0 - (double)cloth.share[WEFT_WARP] - (double)cloth.share[WEFT_WEFT]));
+    layout_entry(stdout, COLUMN, "seen", text);
+}
+
+static void json_write(const Weaving *weaving) {
+    const WeftDraftInfo *info = &weaving->info;
+    static const char *const names[] = {"warp", "weft"};
+    Json json = {.stream = stdout};
+    json_open(&json, NULL, '{');
+    json_text(&json, "draft", weaving->what);
+    json_text(&json, "title", info->title);
+    json_whole(&json, "shafts", info->shafts);
+    json_whole(&json, "treadles", info->treadles);
+    json_float(&json, "warp_share", info->warp_share);
+    if (weaving->cloth) {
+        json_float(&json, "warp_seen", weft_cloth_info(weaving->cloth).share[WEFT_WARP]);
+        json_float(&json, "weft_seen", weft_cloth_info(weaving->cloth).share[WEFT_WEFT]);
+    }
+    for (int t = 0; t < 2; t++) {
+        json_open(&json, names[t], '{');
+        json_whole(&json, "threads", info->count[t]);
+        json_float(&json, "size", info->size[t]);
+        json_whole(&json, "longest_float", info->longest_float[t]);
+        json_whole(&json, "endless", info->endless[t]);
+        json_close(&json, '}');
+    }
+    json_close(&json, '}');
+}
+
+static int weave_run(const Options *options) {
+    Weaving weaving = {.options = options, .what = options->operands[0]};
+    int result = output_check(&weaving);
+    if (result == 0) result = draft_make(&weaving);
+    if (result == 0) endless_warn(&weaving);
+    if (result == 0) result = cloth_make(&weaving);
+    if (result == 0) result = weaving_write(&weaving);
+    if (result == 0) result = maps_write(&weaving);
+    if (result == 0 && option_given(options, "--json"))
+        json_write(&weaving);
+    else if (result == 0)
+        text_write(&weaving);
+    weft_cloth_free(weaving.cloth);
+    weft_draft_free(weaving.draft);
+    return result;
+}
+
+static const Option weave_options[] = {
+    OPTION_HEADING("Cloth"),
+    OPTION_TEXT("--sett", "E[,P]", NULL, "warp threads per cm, and picks where they differ"),
+    OPTION_SWITCH("--back",
+                  "the cloth turned over: left and right change places, and so do warp and weft on top"),
+    OPTION_TEXT("--yarn", "WARP[,WEFT]", "cotton",
+                "yarn of warp and weft: cotton, linen, wool, silk, dupion, polyester"),
+    OPTION_NUMBER("--seed", "N", "0", 0, 288, "another cloth of the same draft and yarns"),
+    OPTION_HEADING("Result"),
+    OPTION_TEXT(
+        "-o", "OUT", NULL,
+        "write the draft: .wif for weaving programs and looms; .png, .svg or .pdf as weavers print it; "
+        ".txt with # where the warp is on top"),
+    OPTION_NUMBER("--close", "THREADS", NULL, 0.5, 20000,
+                  "draw the cloth itself, so many warp threads wide, as -o OUT.png"),
+    OPTION_TEXT("--bake", "DIR", NULL,
+                "write textures that tile, a material file with them, and a draped cloth of it, cloth.glb"),
+    OPTION_NUMBER("--size", "PIXELS", "800", 16, 8192,
+                  "width of that picture; textures have as many texels as a square of that side"),
+    OPTION_SWITCH("--json", "the figures as JSON on standard output"),
+    OPTION_END,
+};
+
+const Verb verb_weave = {
+    .name = "weave",
+    .operands = "DRAFT [options]",
+    .help = "reads a weaving draft (WIF, picture or words), converts it and draws it",
+    .operands_least = 1,
+    .operands_most = 1,
+    .options = weave_options,
+    .notes = "DRAFT is a WIF file (.wif), a picture of two colours (a pixel a crossing, the\n"
+             "darker where the warp is on top), or words:\n\n"
+             "  plain | houndstooth | basket N [M] | twill A/B[/A/B...] [z|s] | satin N/C |\n"
+             "  sateen N/C | herringbone A/B N | picks #.. .#. ..#\n\n"
+             "and after it, each behind a semicolon,\n\n"
+             "  warp STRIPES, weft STRIPES or both STRIPES: such as 24k 4r 8#2050a0; the word\n"
+             "      mirror at their end repeats them backwards, as in a tartan\n"
+             "  sett E [P]: threads per cm of warp and weft\n\n"
+             "docs/weave.md has the letters of colours, and what is completed in a WIF.\n\n"
+             "Examples\n"
+             "  weft weave \"twill 2/2 z\"\n"
+             "  weft weave cloth.wif -o drawdown.pdf\n"
+             "  weft weave \"twill 2/2; both 24b 4k 24g 4r mirror\" -o tartan.png\n"
+             "  weft weave flower.png --sett 60,40 -o flower.wif\n",
+    .run = weave_run,
+};

@@ -1,0 +1,71 @@
+/* Specifications: W3C, "Portable Network Graphics (PNG) Specification", 2003, section 11.2.2; ITU-T T.81,
+ * 1992, annex B (JPEG). */
+#include "gltf/asset/extent.h"
+
+#include <string.h>
+
+static size_t big16(const unsigned char *p) { return (size_t)p[0] << 8 | p[1]; }
+
+static size_t png_bytes(Span image) {
+    enum { HEADER = 26, COLOR = 2 };
+    if (image.size < HEADER) return 0;
+    const unsigned char *p = image.data + 16;
+    size_t width = big16(p) << 16 | big16(p + 2), height = big16(p + 4) << 16 | big16(p + 6);
+    size_t channels = p[9] & COLOR ? 4 : 2, depth = p[8] == 16 ? 2 : 1;
+    return width < 1 << 17 && height < 1 << 17 ? width * height * channels * depth : 0;
+}
+
+/* The first frame header; before it lie segments with a length. */
+static size_t jpeg_bytes(Span image) {
+    enum {
+        TEM = 0x01,
+        DHT = 0xc4,
+        JPG = 0xc8,
+        DAC = 0xcc,
+        SOF0 = 0xc0,
+        SOF15 = 0xcf,
+        RST0 = 0xd0,
+        SOI = 0xd8
+    };
+    const unsigned char *p = image.data;
+    size_t at = 0;
+    while (at + 10 < image.size) {
+        unsigned char marker = p[at + 1];
+        if (p[at] != 0xff || marker == 0xff || marker == 0)
+            at++; /* filling, or bytes out of place, which decoders skip */
+        else if (marker == TEM || (marker >= RST0 && marker <= SOI))
+            at += 2;
+        else if (marker < SOF0 || marker > SOF15 || marker == DHT || marker == JPG || marker == DAC)
+            at += 2 + big16(p + at + 2);
+        else
+            return big16(p + at + 5) * big16(p + at + 7) * (p[at + 9] < 4 ? p[at + 9] : 4);
+    }
+    return 0;
+}
+
+/* Runs expand a colour map's index to four bytes at most. */
+static size_t tga_bytes(Span image) {
+    enum { HEADER = 18, RUNS = 8 };
+    if (image.size < HEADER) return 0;
+    const unsigned char *p = image.data;
+    int kind = p[2] & ~RUNS;
+    if (kind < 1 || kind > 3) return 0;
+    return (p[12] | (size_t)p[13] << 8) * (p[14] | (size_t)p[15] << 8) * 4;
+}
+
+/* Returns the most pixel bytes that the image readers accept for a file of this size. */
+static size_t header_bytes(Span image) {
+    const size_t always = (size_t)512 << 20;
+    return image.size > always / 16 ? image.size * 16 : always;
+}
+
+static bool starts(Span image, const char *signature, size_t size) {
+    return image.size >= size && memcmp(image.data, signature, size) == 0;
+}
+
+size_t extent_bytes(Span image) {
+    if (starts(image, "\x89PNG", 4)) return png_bytes(image);
+    if (starts(image, "\xff\xd8\xff", 3)) return jpeg_bytes(image);
+    if (starts(image, "#?", 2) || starts(image, "\x76\x2f\x31\x01", 4)) return header_bytes(image);
+    return tga_bytes(image);
+}

@@ -1,0 +1,131 @@
+#include "gltf/read/gltf.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/fail.h"
+#include "base/file.h"
+#include "gltf/asset/accessor.h"
+#include "gltf/asset/buffer_views.h"
+#include "gltf/asset/container.h"
+#include "gltf/asset/field.h"
+#include "gltf/read/gltf_camera.h"
+#include "gltf/read/gltf_material.h"
+#include "gltf/read/gltf_texture.h"
+#include "gltf/read/light.h"
+#include "gltf/read/mesh.h"
+#include "gltf/read/node.h"
+#include "gltf/read/pose.h"
+
+static void version_check(Asset *asset) {
+    Field root = field_root(asset), info = field_member(&root, "asset"),
+          version_field = field_member(&info, "version"), least_field = field_member(&info, "minVersion");
+    if (!version_field.json) {
+        field_fail(&version_field, WEFT_MESSAGE_GLTF_VERSION, "missing a string");
+        return;
+    }
+    const char *version = field_text(&version_field, "2.0");
+    const char *least = field_text(&least_field, "2.0");
+    if (strncmp(version, "2.", 2) != 0)
+        field_fail(&version_field, WEFT_MESSAGE_GLTF_VERSION, "it is version %.20s", version);
+    else if (strcmp(least, "2.0") != 0)
+        field_fail(&least_field, WEFT_MESSAGE_GLTF_VERSION, "it needs version %.20s", least);
+}
+
+bool gltf_supports(const char *extension) {
+    static const char *const names[] = {
+        "EXT_meshopt_compression",
+        "KHR_lights_punctual",
+        "KHR_materials_anisotropy",
+        "KHR_materials_clearcoat",
+        "KHR_materials_diffuse_transmission",
+        "KHR_materials_emissive_strength",
+        "KHR_materials_ior",
+        "KHR_materials_sheen",
+        "KHR_materials_specular",
+        "KHR_materials_unlit",
+        "KHR_materials_variants",
+        "KHR_mesh_quantization",
+        "KHR_texture_transform",
+    };
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (strcmp(extension, names[i]) == 0) return true;
+    return false;
+}
+
+static void extensions_check(Asset *asset) {
+    Field root = field_root(asset), required = field_member(&root, "extensionsRequired"),
+          used = field_member(&root, "extensionsUsed");
+    size_t count = field_count(&required);
+    for (size_t i = 0; i < count; i++) {
+        Field field = field_element(&required, i);
+        const char *name = field_text(&field, "");
+        if (!gltf_supports(name) && !asset->examined)
+            asset_fail(asset, WEFT_MESSAGE_GLTF_EXTENSION, "%.80s", name);
+    }
+    count = field_count(&used);
+    for (size_t i = 0; i < count && asset->result == WEFT_OK; i++) {
+        Field field = field_element(&used, i);
+        const char *name = field_text(&field, "");
+        if (!gltf_supports(name))
+            warn(asset->log, WEFT_MESSAGE_GLTF_WARN_EXTENSION, asset->name, "%.80s", name);
+    }
+    Field animations = field_member(&root, "animations");
+    if (field_count(&animations)) field_warn(&animations, WEFT_MESSAGE_GLTF_WARN_IGNORED, "nothing moves");
+}
+
+static void skins_and_nodes_read(Asset *asset) {
+    Field root = field_root(asset), nodes = field_member(&root, "nodes");
+    skins_read(asset, field_count(&nodes));
+    if (asset->result == WEFT_OK) nodes_read(asset);
+}
+
+/* In the order in which they refer to one another. */
+static void (*const stages[])(Asset *) = {
+    version_check,  extensions_check, buffers_read, views_read,       accessors_read, textures_read,
+    materials_read, variants_read,    meshes_read,  cameras_count,    lights_count,   skins_and_nodes_read,
+    cameras_read,   lights_read,      meshes_bake,  textures_resolve,
+};
+
+static const size_t FILE_MAX = (size_t)4 << 30, LIMIT_FIRST = (size_t)256 << 20;
+
+void gltf_open(Asset *asset, const char *path, const void *data, size_t size) {
+    asset->name = path;
+    asset->in_memory = data != NULL;
+    asset->limit = LIMIT_FIRST;
+    Span bytes = {data, size};
+    if (!data && asset_progress(asset, 0.0, 0.0, 0, 1)) {
+        asset->result = file_read(path, FILE_MAX, &asset->file, asset->error);
+        bytes = (Span){asset->file.data, asset->file.size};
+    }
+    asset->input_bytes = bytes.size;
+    if (asset->result == WEFT_OK) container_read(asset, bytes);
+}
+
+void gltf_read_parts(Asset *asset) {
+    for (size_t i = 0; i < sizeof stages / sizeof *stages && asset->result == WEFT_OK; i++) stages[i](asset);
+    if (asset->result == WEFT_OK) asset_progress(asset, 1.0, 1.0, 1, 1);
+}
+
+void gltf_close(Asset *asset) {
+    buffers_free(asset);
+    json_decref(asset->root);
+    arena_free(&asset->arena);
+    free(asset->file.data);
+    *asset = (Asset){0};
+}
+
+WeftResult gltf_read(const char *path, const void *data, size_t size, WeftScene *scene, const WeftLog *log,
+                     WeftError *error) {
+    return gltf_read_watched(path, data, size, scene, NULL, NULL, log, error);
+}
+
+WeftResult gltf_read_watched(const char *path, const void *data, size_t size, WeftScene *scene,
+                             WeftProgress progress, void *user, const WeftLog *log, WeftError *error) {
+    Asset asset = {.log = log, .error = error, .progress = progress, .user = user, .scene = scene};
+    gltf_open(&asset, path, data, size);
+    gltf_read_parts(&asset);
+    WeftResult result = asset.result;
+    gltf_close(&asset);
+    return result;
+}

@@ -1,0 +1,77 @@
+/* Specification: Khronos glTF extension registry, KHR_lights_punctual. */
+#include "gltf/read/light.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/pi.h"
+#include "gltf/asset/field.h"
+
+void lights_count(Asset *asset) {
+    Field root = field_root(asset), extension = field_extension(&root, "KHR_lights_punctual"),
+          list = field_member(&extension, "lights");
+    asset->light_count = field_count(&list);
+}
+
+static LightKind kind_read(const Field *field) {
+    static const char *const names[] = {"directional", "point", "spot"};
+    const char *text = field_text(field, "");
+    for (int i = 0; i < 3; i++)
+        if (strcmp(text, names[i]) == 0) return (LightKind)i;
+    field_fail(field, WEFT_MESSAGE_GLTF_SCHEMA, "expected directional, point or spot");
+    return LIGHT_POINT;
+}
+
+static void cone_read(const Field *field, Light *light) {
+    Field spot = field_member(field, "spot"), inner_field = field_member(&spot, "innerConeAngle"),
+          outer_field = field_member(&spot, "outerConeAngle");
+    const double right_angle = 0.5 * PI_DOUBLE, narrowest = 1e-3;
+    double outer = field_number(&outer_field, 0.5 * right_angle, narrowest, right_angle);
+    double inner = field_number(&inner_field, 0.0, 0.0, right_angle);
+    if (inner > outer) inner = outer;
+    light->cos_inner = (float)cos(inner);
+    light->cos_outer = (float)cos(outer);
+}
+
+static void light_read(const Field *field, const Node *node, Light *light) {
+    Field name_field = field_member(field, "name"), type = field_member(field, "type"),
+          color = field_member(field, "color"), intensity = field_member(field, "intensity"),
+          range = field_member(field, "range");
+    const char *name = field_text(&name_field, "");
+    const Transform *world = &node->world;
+    *light = (Light){.name = asset_text(field->asset, *name ? name : node->name),
+                     .kind = kind_read(&type),
+                     .color = {1.0f, 1.0f, 1.0f},
+                     .cos_inner = 1.0f};
+    field_floats(&color, light->color, 3, 0.0f, 1.0f);
+    light->intensity = (float)field_number(&intensity, 1.0, 0.0, 1e30);
+    light->range = (float)field_number(&range, 0.0, 0.0, 1e18);
+    light->position = (Vec3){(float)world->m[0][3], (float)world->m[1][3], (float)world->m[2][3]};
+    if (light->kind != LIGHT_DIRECTIONAL && !within_reach(light->position, SCENE_REACH))
+        field_fail(field, WEFT_MESSAGE_GLTF_TOO_LARGE, "its node is too far away");
+    if (light->kind == LIGHT_SPOT) cone_read(field, light);
+    double x = -world->m[0][2], y = -world->m[1][2], z = -world->m[2][2], size = sqrt(x * x + y * y + z * z);
+    if (fabs(size - 1.0) < 5e-7)
+        size = 1.0; /* as far as floats can say, so that it is read as it was saved */
+    if (size > 0.0 && isfinite(size))
+        light->direction = (Vec3){(float)(x / size), (float)(y / size), (float)(z / size)};
+    else
+        light->direction = (Vec3){0.0f, 0.0f, -1.0f};
+}
+
+void lights_read(Asset *asset) {
+    WeftScene *scene = asset->scene;
+    Field root = field_root(asset), extension = field_extension(&root, "KHR_lights_punctual"),
+          list = field_member(&extension, "lights");
+    size_t count = 0;
+    for (size_t i = 0; i < asset->node_count; i++)
+        count += asset->nodes[i].shown && asset->nodes[i].light >= 0;
+    scene->lights = asset_array(asset, &scene->arena, count, sizeof *scene->lights);
+    for (size_t i = 0; i < asset->node_count && asset->result == WEFT_OK; i++) {
+        const Node *node = &asset->nodes[i];
+        if (!node->shown || node->light < 0) continue;
+        Field field = field_element(&list, (size_t)node->light);
+        light_read(&field, node, &scene->lights[scene->light_count++]);
+    }
+}

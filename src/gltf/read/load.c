@@ -1,0 +1,63 @@
+/* load.c - weft_scene_load: a name or a file becomes a scene */
+#include <string.h>
+
+#include "base/fail.h"
+#include "gltf/read/gltf.h"
+#include "scene/builtin/builtin.h"
+#include "scene/light/environment.h"
+
+static const char builtin_prefix[] = "builtin:";
+
+/* Who wants to know how far a load is. */
+typedef struct Watcher {
+    WeftProgress progress; /* NULL: nobody */
+    void *user;
+} Watcher;
+
+static WeftResult load_builtin(const char *path, Watcher watcher, WeftScene *scene, WeftError *error) {
+    const char *name = path + strlen(builtin_prefix);
+    for (int k = 0; builtin_at(k); k++) {
+        const Builtin *builtin = builtin_at(k);
+        if (strcmp(builtin->name, name) != 0) continue;
+        if (builtin->make) return builtin->make(scene, error);
+        return gltf_read_watched(path, builtin->glb, (size_t)(builtin->glb_end - builtin->glb), scene,
+                                 watcher.progress, watcher.user, NULL, error);
+    }
+    return fail(error, WEFT_MESSAGE_SCENE_NAME, path, "available: %s%s", builtin_prefix, builtin_at(0)->name);
+}
+
+static WeftResult load(const char *path, const void *data, size_t size, Watcher watcher, WeftScene **out,
+                       const WeftLog *log, WeftError *error) {
+    *out = NULL;
+    WeftScene *scene = scene_create(path);
+    if (!scene) return fail(error, WEFT_MESSAGE_MEMORY, path, NULL);
+    WeftResult result;
+    if (!data && strncmp(path, builtin_prefix, strlen(builtin_prefix)) == 0)
+        result = load_builtin(path, watcher, scene, error);
+    else
+        result = gltf_read_watched(path, data, size, scene, watcher.progress, watcher.user, log, error);
+    if (result == WEFT_OK) {
+        scene_bounds(scene);
+        environment_give_way(scene);
+    }
+    if (result == WEFT_OK)
+        *out = scene;
+    else
+        weft_scene_free(scene);
+    return result;
+}
+
+WeftResult weft_scene_load(const char *path, WeftScene **out, const WeftLog *log, WeftError *error) {
+    return load(path, NULL, 0, (Watcher){0}, out, log, error);
+}
+
+WeftResult weft_scene_load_watched(const char *path, WeftProgress progress, void *user, WeftScene **out,
+                                   const WeftLog *log, WeftError *error) {
+    return load(path, NULL, 0, (Watcher){progress, user}, out, log, error);
+}
+
+WeftResult weft_scene_load_memory(const void *data, size_t size, const char *name, WeftScene **out,
+                                  const WeftLog *log, WeftError *error) {
+    /* No data are an empty file, never the file of that name. */
+    return load(name, data ? data : "", data ? size : 0, (Watcher){0}, out, log, error);
+}

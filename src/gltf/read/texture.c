@@ -1,0 +1,260 @@
+#include "gltf/read/gltf_texture.h"
+
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/fail.h"
+#include "base/thread.h"
+#include "gltf/asset/asset_file.h"
+#include "gltf/asset/buffer_views.h"
+#include "gltf/asset/extent.h"
+#include "gltf/asset/field.h"
+#include "gltf/asset/uri.h"
+
+/* The image a texture names: its plain source. A container that cannot be read here is only an offer. */
+static int source_read(const Field *field) {
+    static const char *const offers[] = {"KHR_texture_basisu", "EXT_texture_webp", "EXT_texture_avif",
+                                         "MSFT_texture_dds"};
+    Field source = field_member(field, "source");
+    for (size_t i = 0; i < sizeof offers / sizeof *offers; i++) {
+        Field offer = field_extension(field, offers[i]);
+        if (offer.json)
+            field_warn(field, WEFT_MESSAGE_GLTF_WARN_IGNORED, "%s, %s", offers[i],
+                       source.json ? "its plain source is used"
+                                   : "which leaves the texture without an image");
+    }
+    return field_index(&source, field->asset->image_count);
+}
+
+void textures_read(Asset *asset) {
+    Field root = field_root(asset), images = field_member(&root, "images"),
+          samplers = field_member(&root, "samplers"), list = field_member(&root, "textures");
+    asset->image_count = field_count(&images);
+    for (size_t i = 0; i < asset->image_count; i++) {
+        Field field = field_element(&images, i), view = field_member(&field, "bufferView"),
+              uri = field_member(&field, "uri");
+        field_index(&view, asset->view_count);
+        field_text(&uri, NULL);
+    }
+    asset->sampler_count = field_count(&samplers);
+    for (size_t i = 0; i < asset->sampler_count; i++) {
+        Field field = field_element(&samplers, i);
+        field_member(&field, "wrapS");
+    }
+    asset->texture_count = field_count(&list);
+    asset->textures = asset_array(asset, &asset->arena, asset->texture_count, sizeof *asset->textures);
+    for (size_t i = 0; i < asset->texture_count && asset->result == WEFT_OK; i++) {
+        Field field = field_element(&list, i), sampler = field_member(&field, "sampler");
+        asset->textures[i] = (TextureSource){.image = source_read(&field),
+                                             .sampler = field_index(&sampler, asset->sampler_count),
+                                             .scene_texture = -1};
+    }
+}
+
+static TextureWrap wrap_read(const Field *field) {
+    enum { CLAMP_TO_EDGE = 33071, MIRRORED_REPEAT = 33648, REPEAT = 10497 };
+    size_t value = field_size(field, REPEAT, 0, SIZE_MAX);
+    switch (value) {
+    case CLAMP_TO_EDGE: return WRAP_CLAMP;
+    case MIRRORED_REPEAT: return WRAP_MIRROR;
+    case REPEAT: return WRAP_REPEAT;
+    default: field_fail(field, WEFT_MESSAGE_GLTF_SCHEMA, "%zu is not a wrapping mode", value);
+    }
+    return WRAP_REPEAT;
+}
+
+static void sampler_read(Asset *asset, int index, Texture *texture) {
+    enum { NEAREST = 9728 };
+    if (index < 0) return;
+    Field root = field_root(asset), list = field_member(&root, "samplers"),
+          field = field_element(&list, (size_t)index), wrap_s = field_member(&field, "wrapS"),
+          wrap_t = field_member(&field, "wrapT"), filter = field_member(&field, "magFilter");
+    texture->wrap_u = wrap_read(&wrap_s);
+    texture->wrap_v = wrap_read(&wrap_t);
+    texture->nearest = field_size(&filter, 0, 0, SIZE_MAX) == NEAREST;
+}
+
+/* One image to decode, and what came of it. */
+typedef struct DecodeJob {
+    Span bytes;
+    unsigned char *owned;
+    const char *name;  /* subject of messages */
+    const char *path;  /* NULL: no file of its own */
+    WeftResult result; /* first of finding its bytes, then of decoding them */
+    WeftError error;
+} DecodeJob;
+
+typedef struct Jobs {
+    Asset *asset;
+    DecodeJob *items;         /* for each image of the scene */
+    int *order;               /* of the images: the longest file first, so that it is not the last to end */
+    pthread_mutex_t log_lock; /* a log is never called by two threads at once */
+    atomic_size_t decoded;    /* bytes of files */
+    size_t encoded;           /* of all files */
+    atomic_bool stopped;
+} Jobs;
+
+static void log_locked(void *user, WeftMessage message, const char *text) {
+    Jobs *jobs = user;
+    const WeftLog *log = jobs->asset->log;
+    if (!log || !log->fn) return;
+    pthread_mutex_lock(&jobs->log_lock);
+    log->fn(log->user, message, text);
+    pthread_mutex_unlock(&jobs->log_lock);
+}
+
+static void decode(void *user, int turn, int thread) {
+    Jobs *jobs = user;
+    int item = jobs->order[turn];
+    DecodeJob *job = &jobs->items[item];
+    const WeftLog log = {log_locked, jobs};
+    if (atomic_load(&jobs->stopped) || job->result != WEFT_OK) return;
+    job->result = weft_image_read_memory(job->bytes.data, job->bytes.size, job->name,
+                                         &jobs->asset->scene->images[item], &log, &job->error);
+    size_t decoded = atomic_fetch_add(&jobs->decoded, job->bytes.size) + job->bytes.size;
+    if (thread == 0 && !asset_progress(jobs->asset, 0.5, 1.0, decoded, jobs->encoded))
+        atomic_store(&jobs->stopped, true); /* the others finish what they have begun */
+}
+
+/* All images together may hold this many times the bytes of their files, or the floor where that is less: a
+ * plain 8192 x 8192 PNG is 200 kB. What they will hold is known before the first is decoded. */
+static void sizes_check(Jobs *jobs) {
+    const size_t expansion = 64, floor = (size_t)768 << 20;
+    Asset *asset = jobs->asset;
+    size_t encoded = 0, decoded = 0;
+    for (int i = 0; i < asset->scene->image_count; i++) {
+        encoded += jobs->items[i].bytes.size;
+        decoded += extent_bytes(jobs->items[i].bytes);
+    }
+    jobs->encoded = encoded;
+    size_t room = encoded * expansion > floor ? encoded * expansion : floor;
+    if (decoded > room)
+        asset_fail(asset, WEFT_MESSAGE_GLTF_TOO_LARGE, "its images decode to %zu bytes, more than %zu",
+                   decoded, room);
+}
+
+static void order_find(Jobs *jobs) {
+    for (int i = 0; i < jobs->asset->scene->image_count; i++) {
+        int at = i;
+        for (; at > 0 && jobs->items[jobs->order[at - 1]].bytes.size < jobs->items[i].bytes.size; at--)
+            jobs->order[at] = jobs->order[at - 1];
+        jobs->order[at] = i;
+    }
+}
+
+static void images_decode(Jobs *jobs) {
+    Asset *asset = jobs->asset;
+    int count = asset->scene->image_count;
+    sizes_check(jobs);
+    order_find(jobs);
+    if (asset->result == WEFT_OK) parallel_for(0, count, decode, jobs);
+    for (int i = 0; i < count && asset->result == WEFT_OK; i++) {
+        const DecodeJob *job = &jobs->items[i];
+        if (asset->examined && job->result == WEFT_INPUT) {
+            if (asset->log && asset->log->fn)
+                asset->log->fn(asset->log->user, job->error.message, job->error.text);
+            continue;
+        }
+        asset->result = job->result;
+        if (asset->result != WEFT_OK && asset->error) *asset->error = job->error;
+    }
+}
+
+/* Returns the name of image number index in messages: its file, or the asset's name and the place in it. */
+static const char *image_name(Asset *asset, int index) {
+    size_t size = strlen(asset->name) + 32;
+    char *name = asset_array(asset, &asset->arena, size, 1);
+    if (name) snprintf(name, size, "%s: images[%d]", asset->name, index);
+    return name;
+}
+
+/* Reports an image whose bytes cannot be read to a caller that examines the asset, and goes on. */
+static void image_excuse(Asset *asset, DecodeJob *job) {
+    if (!asset->examined || asset->result != WEFT_INPUT) return;
+    job->result = asset->result;
+    if (asset->error) job->error = *asset->error;
+    asset->result = WEFT_OK;
+}
+
+/* The scene's image for glTF image number index: that of its view or file where they have one already. */
+static int image_resolve(Jobs *jobs, int index) {
+    Asset *asset = jobs->asset;
+    Field root = field_root(asset), list = field_member(&root, "images"),
+          field = field_element(&list, (size_t)index), view_field = field_member(&field, "bufferView"),
+          uri_field = field_member(&field, "uri");
+    const char *uri = field_text(&uri_field, NULL);
+    int view = field_index(&view_field, asset->view_count), none = 0, *made = &none;
+    DecodeJob job = {.name = image_name(asset, index)};
+    if (uri && uri_is_data(uri)) {
+        job.bytes.data = job.owned = uri_decode(&uri_field, uri, &job.bytes.size);
+    } else if (uri) {
+        AssetFile *file = file_refer(&asset->image_files, &uri_field, uri, SIZE_MAX);
+        if (file) {
+            job.bytes = file_bytes(&asset->image_files, asset, file);
+            job.name = job.path = file->path;
+            made = &file->image;
+        }
+    } else if (view >= 0) {
+        job.bytes = view_bytes(asset, view);
+        made = &asset->views[view].image;
+    } else {
+        field_fail(&field, WEFT_MESSAGE_GLTF_SCHEMA, "it has neither uri nor bufferView");
+    }
+    image_excuse(asset, &job);
+    if (!*made) {
+        jobs->items[asset->scene->image_count] = job;
+        *made = ++asset->scene->image_count;
+    }
+    return *made - 1;
+}
+
+/* The scene texture for a glTF texture, made when first asked for; 0 or its index + 1, as in Input. */
+static int texture_resolve(Jobs *jobs, int texture, int *image_of_source) {
+    Asset *asset = jobs->asset;
+    WeftScene *scene = asset->scene;
+    TextureSource *source = &asset->textures[texture];
+    if (source->image < 0) return 0;
+    if (source->scene_texture < 0) {
+        source->scene_texture = scene->texture_count++;
+        Texture *made = &scene->textures[source->scene_texture];
+        int *image = &image_of_source[source->image];
+        sampler_read(asset, source->sampler, made);
+        if (*image < 0) *image = image_resolve(jobs, source->image);
+        made->image = *image;
+        if (jobs->items[*image].path) made->path = asset_text(asset, jobs->items[*image].path);
+    }
+    return source->scene_texture + 1;
+}
+
+void textures_resolve(Asset *asset) {
+    WeftScene *scene = asset->scene;
+    Jobs jobs = {.asset = asset};
+    jobs.items = asset_array(asset, &asset->arena, asset->image_count, sizeof *jobs.items);
+    jobs.order = asset_array(asset, &asset->arena, asset->image_count, sizeof *jobs.order);
+    scene->textures = asset_array(asset, &scene->arena, asset->texture_count, sizeof *scene->textures);
+    scene->images = asset_array(asset, &scene->arena, asset->image_count, sizeof *scene->images);
+    int *image_of_source = asset_array(asset, &asset->arena, asset->image_count, sizeof(int));
+    if (asset->result != WEFT_OK) return;
+    for (size_t i = 0; i < asset->image_count; i++) image_of_source[i] = -1;
+
+    for (int m = 0; m < scene->material_count; m++)
+        for (int i = 0; i < INPUT_COUNT && asset->result == WEFT_OK; i++) {
+            int *texture = &scene->materials[m].inputs[i].texture;
+            if (*texture && (asset->material_shown[m] || asset->examined))
+                *texture = texture_resolve(&jobs, *texture - 1, image_of_source);
+            else
+                *texture = 0;
+        }
+
+    if (asset->result == WEFT_OK && pthread_mutex_init(&jobs.log_lock, NULL) != 0)
+        asset_fail(asset, WEFT_MESSAGE_MEMORY, NULL);
+    if (asset->result == WEFT_OK) {
+        images_decode(&jobs);
+        pthread_mutex_destroy(&jobs.log_lock);
+    }
+    for (int i = 0; i < scene->image_count; i++) free(jobs.items[i].owned);
+    files_free(&asset->image_files);
+}

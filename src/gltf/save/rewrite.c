@@ -1,0 +1,169 @@
+/* Specification: Khronos Group, "glTF 2.0 Specification", 2021, sections 2.2 (file basics), 2.8 (URIs) and 4
+ * (GLB). */
+#include "gltf/save/rewrite.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/fail.h"
+#include "base/path.h"
+#include "gltf/asset/container.h"
+#include "gltf/save/bundle.h"
+#include "gltf/save/patch.h"
+#include "gltf/save/saving.h"
+
+WeftResult rewrite_begin(Rewrite *rewrite, Asset *asset, WeftError *error) {
+    *rewrite = (Rewrite){.asset = asset, .root = json_deep_copy(asset->root)};
+    return rewrite->root ? WEFT_OK : fail(error, WEFT_MESSAGE_MEMORY, asset->name, NULL);
+}
+
+void rewrite_end(Rewrite *rewrite) {
+    for (int k = 0; k < rewrite->image_count; k++) free(rewrite->images[k].png);
+    free(rewrite->images);
+    json_decref(rewrite->root);
+    *rewrite = (Rewrite){0};
+}
+
+/* The array of that name in the document, made where there is none; borrowed, NULL where memory is short. */
+static json_t *list(json_t *root, const char *name) {
+    json_t *array = json_object_get(root, name);
+    if (!array && json_object_set_new(root, name, json_array()) == 0) array = json_object_get(root, name);
+    return array;
+}
+
+static int index_of(const json_t *array, const char *text) {
+    size_t k;
+    json_t *value;
+    json_array_foreach(array, k, value) {
+        if (json_is_string(value) && strcmp(json_string_value(value), text) == 0) return (int)k;
+    }
+    return -1;
+}
+
+WeftResult rewrite_uses(Rewrite *rewrite, const char *extension, WeftError *error) {
+    json_t *used = list(rewrite->root, "extensionsUsed");
+    if (used && index_of(used, extension) >= 0) return WEFT_OK;
+    if (used && json_array_append_new(used, json_string(extension)) == 0) return WEFT_OK;
+    return fail(error, WEFT_MESSAGE_MEMORY, rewrite->asset->name, NULL);
+}
+
+void rewrite_uses_no_more(Rewrite *rewrite, const char *extension) {
+    static const char *const names[] = {"extensionsUsed", "extensionsRequired"};
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
+        json_t *array = json_object_get(rewrite->root, names[k]);
+        int index = index_of(array, extension);
+        if (index >= 0) json_array_remove(array, (size_t)index);
+        if (index >= 0 && json_array_size(array) == 0) json_object_del(rewrite->root, names[k]);
+    }
+}
+
+/* A texture of image number `image` with the sampler of texture number `like`. */
+static json_t *texture_make(const Rewrite *rewrite, int image, int like) {
+    json_t *texture = json_object(),
+           *old = like < 0 ? NULL : json_array_get(json_object_get(rewrite->root, "textures"), (size_t)like);
+    json_t *sampler = json_object_get(old, "sampler");
+    if (sampler) json_object_set(texture, "sampler", sampler);
+    json_object_set_new(texture, "source", json_integer(image));
+    return texture;
+}
+
+int rewrite_texture(Rewrite *rewrite, const void *png, size_t size, int like, WeftError *error) {
+    json_t *images = list(rewrite->root, "images"), *textures = list(rewrite->root, "textures");
+    size_t room = (size_t)rewrite->image_count + 1;
+    NewImage *grown = realloc_array(rewrite->images, room, sizeof *grown);
+    unsigned char *copy = alloc_array(size, 1);
+    int image = (int)json_array_size(images), texture = (int)json_array_size(textures);
+    if (grown) rewrite->images = grown;
+    if (!grown || !copy || json_array_append_new(images, json_object()) != 0 ||
+        json_array_append_new(textures, texture_make(rewrite, image, like)) != 0) {
+        free(copy);
+        fail(error, WEFT_MESSAGE_MEMORY, rewrite->asset->name, NULL);
+        return -1;
+    }
+    memcpy(copy, png, size);
+    grown[rewrite->image_count++] = (NewImage){copy, size, image};
+    return texture;
+}
+
+/* Returns true if bytes of an asset in memory may become buffer 0 of a GLB. */
+static bool takes_bytes(const Saving *saving) {
+    const json_t *buffers = json_object_get(saving->root, "buffers"), *first = json_array_get(buffers, 0);
+    return saving->packed && (!first || (saving->size && !json_object_get(first, "uri")));
+}
+
+static void image_put(Saving *saving, const NewImage *image) {
+    json_t *object = json_array_get(json_object_get(saving->root, "images"), (size_t)image->index);
+    if (takes_bytes(saving)) {
+        saving_put(saving, object, "mimeType", json_string("image/png"));
+        saving_put(saving, object, "bufferView",
+                   json_integer(saving_view(saving, image->png, image->size, 0)));
+        return;
+    }
+    char end[32];
+    snprintf(end, sizeof end, "-%d.png", image->index);
+    const char *path = saving_beside(saving, end), *uri = path ? saving_uri(saving, path) : NULL;
+    if (uri) saving_put(saving, object, "uri", json_string(uri));
+    if (uri) saving_write(saving, path, image->png, image->size, NULL, 0);
+}
+
+/* The bytes of the BIN chunk go to a file. */
+static void bin_unpack(Saving *saving) {
+    json_t *first = json_array_get(json_object_get(saving->root, "buffers"), 0);
+    if (!first || json_object_get(first, "uri")) return;
+    const char *path = saving_beside(saving, ".bin"), *uri = path ? saving_uri(saving, path) : NULL;
+    if (uri) saving_put(saving, first, "uri", json_string(uri));
+    if (uri) saving_write(saving, path, saving->bytes, saving->size, NULL, 0);
+    saving->size = 0;
+}
+
+/* Buffer 0 is as long as what was put behind it made it. */
+static void length_update(Saving *saving, size_t before) {
+    if (!saving->packed || saving->size == before) return;
+    json_t *buffers = saving_list(saving, "buffers"), *first = json_array_get(buffers, 0);
+    if (!first) saving_append(saving, buffers, json_object());
+    first = json_array_get(buffers, 0);
+    saving_put(saving, first, "byteLength", json_integer((json_int_t)saving->size));
+}
+
+static void document_write(Saving *saving, const Asset *asset) {
+    size_t length = 0, head_size = 0;
+    char *text =
+        patch_text((const char *)asset->text.data, asset->text.size, asset->root, saving->root, &length);
+    unsigned char *head = NULL;
+    if (text && !saving->packed) {
+        saving_write(saving, saving->path, text, length, NULL, 0);
+    } else if (text) {
+        Span behind = asset->packed ? asset->behind : (Span){0};
+        size_t bin = saving->size;
+        if (!json_equal(asset->root, saving->root)) /* its old padding, then */
+            while (length && text[length - 1] == ' ') length--;
+        head = container_head((Span){(unsigned char *)text, length}, bin, behind.size, &head_size);
+        saving_bytes(saving, behind.data, behind.size);
+        if (head) saving_write(saving, saving->path, head, head_size, saving->bytes, bin + behind.size);
+    }
+    if (!text || (saving->packed && !head)) saving_fail(saving, WEFT_MESSAGE_MEMORY, saving->path, NULL);
+    free(head);
+    free(text);
+}
+
+WeftResult rewrite_save(const Rewrite *rewrite, const char *path, WeftError *error) {
+    const Asset *asset = rewrite->asset;
+    bool packed = path_ends(path, ".glb");
+    if (!packed && !path_ends(path, ".gltf"))
+        return fail(error, WEFT_MESSAGE_SCENE_KIND, path, "write a .glb or a .gltf");
+    Saving saving = {.path = path, .packed = packed, .error = error, .root = json_deep_copy(rewrite->root)};
+    if (!saving.root) saving_fail(&saving, WEFT_MESSAGE_MEMORY, path, NULL);
+    saving_bytes(&saving, asset->bin.data, asset->bin.size);
+    size_t before = saving.size;
+    if (packed && !asset->packed) bundle_pack(&saving, asset);
+    if (!packed && saving.size) bin_unpack(&saving);
+    for (int k = 0; k < rewrite->image_count && saving.result == WEFT_OK; k++)
+        image_put(&saving, &rewrite->images[k]);
+    length_update(&saving, before);
+    bundle_copy(&saving, asset);
+    if (saving.result == WEFT_OK) document_write(&saving, asset);
+    json_decref(saving.root);
+    free(saving.bytes);
+    arena_free(&saving.arena);
+    return saving.result;
+}

@@ -1,0 +1,115 @@
+/* texture_save.c - the textures that materials use, their samplers and images */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "gltf/save/saving.h"
+#include "image/codec.h"
+
+/* Numbers what an input looks up: in the order in which a reader comes upon it, so that it numbers alike. */
+static void number_texture(Saving *saving, const Input *input) {
+    if (!input->texture) return;
+    int texture = input->texture - 1, image = saving->scene->textures[texture].image;
+    if (saving->texture_number[texture] >= 0) return;
+    saving->texture_number[texture] = saving->texture_count;
+    saving->texture_order[saving->texture_count++] = texture;
+    if (saving->image_number[image] >= 0) return;
+    saving->image_number[image] = saving->image_count;
+    saving->image_order[saving->image_count++] = image;
+}
+
+static bool number_all(Saving *saving) {
+    const WeftScene *scene = saving->scene;
+    size_t textures = (size_t)scene->texture_count, images = (size_t)scene->image_count;
+    bool *used = arena_array(&saving->arena, (size_t)scene->material_count, sizeof *used);
+    saving->texture_order = arena_array(&saving->arena, textures, sizeof(int));
+    saving->texture_number = arena_array(&saving->arena, textures, sizeof(int));
+    saving->image_order = arena_array(&saving->arena, images, sizeof(int));
+    saving->image_number = arena_array(&saving->arena, images, sizeof(int));
+    if (!used || !saving->texture_order || !saving->texture_number || !saving->image_order ||
+        !saving->image_number)
+        return false;
+    for (size_t k = 0; k < textures; k++) saving->texture_number[k] = -1;
+    for (size_t k = 0; k < images; k++) saving->image_number[k] = -1;
+    for (int m = 0; m < scene->mesh_count; m++) {
+        const Mesh *mesh = &scene->meshes[m];
+        used[mesh->material] = true;
+        for (int v = 0; v < scene->variant_count && mesh->variant_material; v++)
+            if (mesh->variant_material[v] >= 0) used[mesh->variant_material[v]] = true;
+    }
+    for (int idle = 0; idle < 2; idle++) /* what nobody wears comes last */
+        for (int m = 0; m < scene->material_count; m++)
+            for (int k = 0; k < INPUT_COUNT && used[m] == !idle; k++)
+                number_texture(saving, &scene->materials[m].inputs[k]);
+    return true;
+}
+
+static void sampler_put(Saving *saving, const Texture *texture, json_t *object) {
+    static const int wraps[] = {10497, 33648, 33071}; /* as TextureWrap; of the specification */
+    enum { NEAREST = 9728 };
+    if (texture->wrap_u == WRAP_REPEAT && texture->wrap_v == WRAP_REPEAT && !texture->nearest) return;
+    json_t *list = saving_list(saving, "samplers"), *sampler = json_object(), *other;
+    saving_put(saving, sampler, "wrapS", json_integer(wraps[texture->wrap_u]));
+    saving_put(saving, sampler, "wrapT", json_integer(wraps[texture->wrap_v]));
+    if (texture->nearest) saving_put(saving, sampler, "magFilter", json_integer(NEAREST));
+    if (texture->nearest) saving_put(saving, sampler, "minFilter", json_integer(NEAREST));
+    size_t index;
+    json_array_foreach(list, index, other) {
+        if (json_equal(sampler, other)) break;
+    }
+    if (index < json_array_size(list))
+        json_decref(sampler);
+    else
+        saving_append(saving, list, sampler);
+    saving_put(saving, object, "sampler", json_integer((json_int_t)index));
+}
+
+/* Without loss: what has 8 or 16 bits as PNG, floats as NumPy's array. Release with free(). */
+static char *encode(Saving *saving, const WeftImage *image, size_t *size) {
+    const WeftImageWriting how = {.data = 1};
+    char *bytes = NULL;
+    FILE *stream = open_memstream(&bytes, size);
+    if (!stream) {
+        saving_fail(saving, WEFT_MESSAGE_MEMORY, saving->path, NULL);
+        return NULL;
+    }
+    WeftResult result = (image->type == WEFT_PIXEL_F32 ? image_write_npy : image_write_png)(
+        stream, saving->path, image, &how, saving->error);
+    if (saving->result == WEFT_OK) saving->result = result;
+    if (fclose(stream) != 0) saving_fail(saving, WEFT_MESSAGE_MEMORY, saving->path, NULL);
+    return bytes;
+}
+
+static void image_save(Saving *saving, int number) {
+    const WeftImage *image = &saving->scene->images[saving->image_order[number]];
+    bool floats = image->type == WEFT_PIXEL_F32;
+    json_t *object = json_object();
+    size_t size = 0;
+    char end[32], *bytes = saving->result == WEFT_OK ? encode(saving, image, &size) : NULL;
+    snprintf(end, sizeof end, "-%d.%s", number, floats ? "npy" : "png");
+    if (saving->packed) {
+        saving_put(saving, object, "mimeType",
+                   json_string(floats ? "application/octet-stream" : "image/png"));
+        saving_put(saving, object, "bufferView",
+                   json_integer(saving_view(saving, bytes ? bytes : "", size, 0)));
+    } else {
+        const char *path = saving_beside(saving, end), *uri = path ? saving_uri(saving, path) : NULL;
+        if (uri) saving_put(saving, object, "uri", json_string(uri));
+        if (uri) saving_write(saving, path, bytes, size, NULL, 0);
+    }
+    free(bytes);
+    saving_append(saving, saving_list(saving, "images"), object);
+}
+
+void textures_save(Saving *saving) {
+    if (!number_all(saving)) saving_fail(saving, WEFT_MESSAGE_MEMORY, saving->path, NULL);
+    if (saving->result != WEFT_OK) return;
+    for (int k = 0; k < saving->texture_count; k++) {
+        const Texture *texture = &saving->scene->textures[saving->texture_order[k]];
+        json_t *object = json_object();
+        saving_put(saving, object, "source", json_integer(saving->image_number[texture->image]));
+        sampler_put(saving, texture, object);
+        saving_append(saving, saving_list(saving, "textures"), object);
+    }
+    for (int k = 0; k < saving->image_count; k++) image_save(saving, k);
+}

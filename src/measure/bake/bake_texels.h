@@ -1,0 +1,78 @@
+/* bake_texels.h - parts of all kinds of baked tables: one file a kind, and the loop over texels
+ *
+ * A new kind is a file with a BakeMaker and a line in BAKE_KINDS. */
+#ifndef WEFT_MEASURE_BAKE_TEXELS_H
+#define WEFT_MEASURE_BAKE_TEXELS_H
+
+#include "shading/catalogue/albedo.h"
+#include "weft/bake.h"
+
+/* Makes the table of a checked description, whose zeros have become the defaults. info is zeroed. A failure
+ * leaves *out zeroed. */
+typedef WeftResult BakeMaker(const WeftBakeDesc *desc, WeftBakeInfo *info, WeftImage *out, WeftError *error);
+BakeMaker bake_albedo, bake_dfg, bake_solved, bake_ltc, bake_ltc_amplitude, bake_ltc_level, bake_fibre_table,
+    bake_ltc_published;
+
+/* K(id, maker, lobe, formed, width, height, help): the columns of a WeftBakeKind. */
+#define BAKE_KINDS(K)                                                                                        \
+    K("albedo", bake_albedo, 2, 1, 64, 64, "E of LOBE; the parts of f0 and f90 where it mixes two colours")  \
+    K("dfg", bake_dfg, 1, 1, 128, 128, "split sum: scale of f0 and bias of f90 of ggx, and E of LOBE")       \
+    K("ltc", bake_ltc, 2, 0, 32, 32, "linearly transformed cosines of LOBE: z, q, b, r")                     \
+    K("ltc-amplitude", bake_ltc_amplitude, 2, 0, 32, 32,                                                     \
+      "their amplitudes of both colours, and each fit's error")                                              \
+    K("ltc-level", bake_ltc_level, 2, 0, 32, 32, "the same with r = 0, in one texel: z, q, b, E of LOBE")    \
+    K("fibre-table", bake_fibre_table, 0, 0, 24, 16, "the functions of the lobe fibre-table: A, h, g, k")    \
+    K("ltc-fibre-published", bake_ltc_published, 0, 0, 32, 32,                                               \
+      "the table of the lobe ltc-fibre-published: a, b, R")                                                  \
+    K("fibre-truth", bake_solved, 1, 1, 32, 32,                                                              \
+      "R and T of the solved slab of fibres; -p density of LOBE fibre")
+
+/* Calls texel(user, x, y, thread) for all texels, on several threads (thread is below WEFT_THREADS_MAX), and
+ * progress on the caller's. What texel finds it puts into places of its own or of its thread.
+ * WEFT_INTERRUPTED where progress says so. */
+WeftResult bake_texels(int width, int height, int threads, WeftProgress progress, void *progress_user,
+                       void (*texel)(void *user, int x, int y, int thread), void *user);
+
+/* A lobe over the axes of a table. */
+typedef struct BakePlane {
+    const WeftTableForm *form;
+    int width, height;
+    Lobe lobe;
+    double tolerance; /* of the quadrature */
+    int late;         /* texels by which the parameter runs ahead of the axis */
+} BakePlane;
+
+/* The result of the quadrature at a texel. */
+typedef struct BakeTexel {
+    float part[WEFT_TABLE_PARTS]; /* by WeftTablePart: E of the white lobe, and the two it is made of */
+    double error;                 /* the quadrature's own estimate */
+    float cos_o, value;           /* of the texel; value: the lobe's first parameter */
+    bool beyond;                  /* value is beyond its hard range: the parts are for the range's end */
+} BakeTexel;
+BakeTexel bake_texel(const BakePlane *plane, int x, int y);
+
+/* Returns true if a table can be judged by E at a texel: its cosine is not 0, and its value is not beyond. Takes next to
+ * no time. */
+bool bake_judges(const BakePlane *plane, int x, int y);
+
+/* Some channels of a table, and the lobe whose parts they hold. */
+typedef struct BakeLayer {
+    Lobe lobe;
+    int channels;
+    WeftTablePart parts[2]; /* of the channels */
+} BakeLayer;
+
+/* The parts of a lobe: E, or two where it mixes two colours, as the form has them. */
+BakeLayer bake_layer(const Lobe *lobe, const WeftTableForm *form);
+
+/* Fills a new table with layers, one after another, and info but for its words. */
+WeftResult bake_layers(const WeftBakeDesc *desc, const BakeLayer *layers, int count, WeftBakeInfo *info,
+                       WeftImage *out, WeftError *error);
+
+/* Returns true if two forms have the same axes; `total` is not compared. */
+bool form_same(const WeftTableForm *a, const WeftTableForm *b);
+
+/* The lobe's first parameter at t in [0, 1] of its axis, see weft_table_form_texel. */
+float form_parameter(const WeftTableForm *form, int lobe, double t);
+
+#endif

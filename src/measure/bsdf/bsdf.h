@@ -1,0 +1,68 @@
+/* bsdf.h - the model under test of a passport: a lobe, or a whole material under a profile, behind one
+ * interface
+ *
+ * A BSDF is white, unless it is tinted and `albedo` says otherwise. It has settings: the rows of the
+ * passport, then extremes for the sweep. The calls are pointers so that a test can put a wrong one in. */
+#ifndef WEFT_MEASURE_BSDF_H
+#define WEFT_MEASURE_BSDF_H
+
+#include "measure/bsdf/weave_sum.h"
+#include "weft/measure.h"
+
+typedef struct Bsdf Bsdf;
+
+/* A BSDF at one setting, seen from one direction. */
+typedef struct BsdfView {
+    const Bsdf *bsdf;
+    Dir o;
+    Lobe lobe; /* of a lobe */
+    float second;
+    SeenStack whole[2]; /* of a material, with each of its bases */
+} BsdfView;
+
+/* Many directions: structures of arrays. */
+typedef struct Dirs {
+    size_t n;
+    const float *x, *y, *z;
+} Dirs;
+
+enum { BSDF_EXTREMES = 64 };
+
+struct Bsdf {
+    int rows, row_default;
+    float values[WEFT_PASSPORT_ROWS]; /* of the parameter */
+    const char *parameter;            /* name of the parameter, "" without one */
+    int settings;                     /* rows and extremes */
+
+    Lobe lobe;
+    float albedo; /* what a tinted lobe is made of; 1: it is white */
+    bool whole;   /* a material */
+    WeaveSum sum; /* the base, or two */
+    float first;  /* the part of the samples that the first of two draws */
+    Surface surfaces[WEFT_PASSPORT_ROWS + BSDF_EXTREMES];
+    Choices choices;
+    AlbedoTable *tables; /* of E, released by bsdf_free; that of a setting: */
+    int table_of[WEFT_PASSPORT_ROWS + BSDF_EXTREMES];
+
+    void (*prepare)(const Bsdf *bsdf, int setting, Dir o, BsdfView *view); /* o.z > 0 */
+    void (*f)(const BsdfView *view, Dirs i, float *f);                     /* 0 below the horizon */
+    void (*pdf)(const BsdfView *view, Dirs i, float *pdf);
+    Dir (*sample)(const BsdfView *view, float u, float v);
+};
+
+/* The lobe as it is given: rows run over its parameter 0. */
+void bsdf_of_lobe(Bsdf *bsdf, const Lobe *lobe, bool quick);
+
+/* The white velvet of a profile (bsdf_velvet says it in words). False when memory is short. */
+bool bsdf_of_profile(Bsdf *bsdf, int profile, bool quick, int threads);
+extern const char bsdf_velvet[];
+
+/* A woven material from afar, in its own colours. False when memory is short. */
+bool bsdf_of_weave(Bsdf *bsdf, const WeftMaterial *material, const WeftCloth *cloth, int threads);
+
+void bsdf_free(Bsdf *bsdf);
+
+/* The lobe of a setting. */
+Lobe bsdf_lobe(const Bsdf *bsdf, int setting);
+
+#endif

@@ -1,0 +1,28 @@
+/* chi_square.h - chi-square test of samples against their pdf */
+#ifndef WEFT_MEASURE_CHI_SQUARE_H
+#define WEFT_MEASURE_CHI_SQUARE_H
+
+#include "measure/bsdf/grid.h"
+
+typedef struct ChiSquare {
+    double integral; /* of the pdf over the hemisphere */
+    double p;        /* of the counts; 1 where there is only one bin to count */
+    int stray;       /* samples above the horizon with a pdf of 0 */
+} ChiSquare;
+
+/* Draws `count` samples; the pdf is integrated by `cells` by `cells` points in each of 20 by 20 bins, and by half as many
+ * at a side, whose difference tells the error. cells is even and at most 20. False when memory is short. */
+bool chi_square_measure(const BsdfView *view, int count, int cells, uint32_t seed, ChiSquare *out);
+
+/* Upper tail of the distribution. */
+double chi_square_tail(double statistic, int freedom);
+
+/* A bin: how many samples are expected, by how much that may be off, and how many are counted. */
+typedef struct Bin {
+    double expected, error, seen;
+} Bin;
+
+/* p of the counts; bins that expect little are counted together. Sorts the bins. */
+double chi_square_bins(Bin *bins, int count);
+
+#endif

@@ -1,0 +1,83 @@
+#include "measure/check/furnace.h"
+
+#include "measure/bsdf/draw.h"
+#include "measure/bsdf/grid.h"
+#include "shading/dialect/warp.h"
+
+/* All but what a random layer rule walks, as a midpoint sum. */
+static double still(const SeenStack *seen, int cells, bool random) {
+    Grid grid;
+    Ring ring;
+    double sum = 0.0;
+    grid_make(&grid, seen->view.o, cells);
+    for (int row = 0; row < cells; row++) {
+        grid_ring(&grid, row, &ring);
+        for (int c = 0; c < cells; c++) {
+            Dir i = dir(ring.x[c], ring.y[c], ring.z[c]);
+            /* seen_eval walks by the same seed */
+            float bounces =
+                random ? layer_walk_bounces(&seen->stack, &seen->view, slots_all(), i, 0).g : 0.0f;
+            sum += (double)(seen_eval(seen, i, 0).f_cos.g - bounces) * ring.area[c];
+        }
+    }
+    return sum;
+}
+
+enum { LEAST = 10000 };
+
+/* f cos / pdf: by the cosine of what a random layer rule walks; by the stack's own samples of all. */
+static double weighed(const SeenStack *seen, bool all, float u, float v, uint32_t seed) {
+    Dir i = all ? seen_sample(seen, u, v) : warp_cosine(u, v);
+    if (!all)
+        return (double)(layer_walk_bounces(&seen->stack, &seen->view, slots_all(), i, seed).g /
+                        warp_cosine_pdf(i));
+    StackValue value = seen_eval(seen, i, seed);
+    return value.pdf > 0.0f ? (double)(value.f_cos.g / value.pdf) : 0.0;
+}
+
+/* Its mean and the standard error of that. */
+static Furnace walked(const SeenStack *seen, bool all, int walks) {
+    Furnace f = {0};
+    Draw draw = draw_start(3, 0);
+    double squares = 0.0; /* of the distances from the mean: B. P. Welford, Technometrics 4, 1962 */
+    for (int n = 1; n <= walks && (n <= LEAST || f.noise > 5e-4); n++) {
+        float u = draw_unit(&draw), v = draw_unit(&draw);
+        double e = weighed(seen, all, u, v, (uint32_t)n), off = e - f.e;
+        f.e += off / n;
+        squares += off * (e - f.e);
+        f.noise = (sqrt)(squares / n / n);
+    }
+    return f;
+}
+
+Furnace furnace_measure(const Lobe *lobe, float roughness, int layer, const AlbedoTable *e, Dir o, int cells,
+                        int walks) {
+    const Rgb white = {1.0f, 1.0f, 1.0f};
+    Surface surface = {.base_color = white,
+                       .sheen_color = white,
+                       .sheen_second = white,
+                       .sheen = 1.0f,
+                       .ior = 1.0f,
+                       .sheen_roughness = roughness,
+                       .sheen_density = 1.0f,
+                       .normal = {0.0f, 0.0f, 1.0f},
+                       .clearcoat_normal = {0.0f, 0.0f, 1.0f}};
+    int tilt = weft_lobe_param_find(lobe->id, "tilt"), azimuth = weft_lobe_param_find(lobe->id, "azimuth");
+    if (tilt > 0 && azimuth > 0) {
+        surface.nap = lobe->params[tilt];
+        surface.nap_direction = dir(cos(lobe->params[azimuth]), sin(lobe->params[azimuth]), 0.0f);
+    }
+    Choices choices = choices_unmade();
+    choices.sheen_lobe = lobe->id;
+    choices.layer = layer;
+    SeenStack seen;
+    stack_make(&seen.stack, &surface, &choices, albedo_table_ref(e));
+    for (int k = 1; k < LOBE_PARAMS_MAX; k++) seen.stack.sheen.lobe.params[k] = lobe->params[k];
+    seen_prepare(&seen, o);
+
+    if (weft_lobe_info(lobe->id)->traits & TRAIT_REFERENCE) return walked(&seen, true, walks / 4);
+    bool random = layer == LAYER_STOCHASTIC;
+    Furnace f = random ? walked(&seen, false, walks) : (Furnace){0};
+    f.e += still(&seen, cells, random);
+    return f;
+}

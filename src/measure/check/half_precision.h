@@ -1,0 +1,27 @@
+/* half_precision.h - lobes evaluated in half precision */
+#ifndef WEFT_MEASURE_HALF_PRECISION_H
+#define WEFT_MEASURE_HALF_PRECISION_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* Returns true if the compiler that built this has half floats; otherwise half_eval returns 0. */
+bool half_here(void);
+
+/* A table of shading/lobe/table.h. */
+typedef struct HalfTable {
+    const float *texels;
+    int kind, rows, columns;
+    float low, high;
+} HalfTable;
+
+/* The tables that lobes read themselves: in lobe_table_refs' order. Before the first half_eval of a lobe with
+ * WEFT_LOBE_TABLE, and not while one runs. */
+void half_tables(const HalfTable *tables, int count);
+
+/* f of a white lobe without WEFT_LOBE_REFERENCE, 1/sr, for n pairs of directions; all is rounded to half
+ * first. Nothing is asked about the horizon: a cosine of 0 reaches the lobe. */
+void half_eval(int lobe, const float *params, size_t n, const float *ox, const float *oy, const float *oz,
+               const float *ix, const float *iy, const float *iz, float *f);
+
+#endif

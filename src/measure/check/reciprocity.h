@@ -1,0 +1,16 @@
+/* reciprocity.h - test of reciprocity: f with viewer and light exchanged */
+#ifndef WEFT_MEASURE_RECIPROCITY_H
+#define WEFT_MEASURE_RECIPROCITY_H
+
+#include "measure/bsdf/bsdf.h"
+
+typedef struct Reciprocity {
+    float
+        error; /* the largest |f(wo, wi) - f(wi, wo)| over the larger of the two, of 1e-3 / sr at the least */
+    WeftPlace place;
+} Reciprocity;
+
+/* Measures one setting over random pairs, half of which graze. */
+Reciprocity reciprocity_measure(const Bsdf *bsdf, int setting, int pairs);
+
+#endif

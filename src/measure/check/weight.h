@@ -1,0 +1,17 @@
+/* weight.h - variance of the weights f cos / pdf of a sampler, by quadrature */
+#ifndef WEFT_MEASURE_WEIGHT_H
+#define WEFT_MEASURE_WEIGHT_H
+
+#include "measure/bsdf/grid.h"
+
+typedef struct Weight {
+    double albedo;         /* E */
+    double own, by_cosine; /* variance of f cos / pdf: with the bsdf's sampling, with the cosine's */
+    double missed;         /* of E, from directions whose pdf is 0: no sample will find it */
+} Weight;
+
+double weight_albedo(const BsdfView *view, int cells);
+
+Weight weight_measure(const BsdfView *view, int cells);
+
+#endif

@@ -1,0 +1,147 @@
+/* doctor.h - an asset under examination: the data that the checks read, and the list that they add findings to */
+#ifndef WEFT_MEASURE_DOCTOR_H
+#define WEFT_MEASURE_DOCTOR_H
+
+#include <jansson.h>
+
+#include "gltf/asset/asset.h"
+#include "weft/doctor.h"
+
+/* The repair that --fix makes at the place of a finding. */
+typedef struct Repair {
+    enum {
+        REPAIR_NONE = 0,
+        REPAIR_NUMBER,  /* the value becomes numbers[0] */
+        REPAIR_NUMBERS, /* the value becomes an array of `count` numbers */
+        REPAIR_REMOVE,  /* the member is removed */
+        REPAIR_DECLARE, /* `extension` is added to extensionsUsed */
+        REPAIR_ALPHA    /* a new picture gets `channel` of texture number `texture` as its alpha */
+    } act;
+    double numbers[4];
+    int count, texture, channel;
+    char extension[64];
+} Repair;
+
+/* The channels of a decoded image, 0 .. 1, as R G B A. */
+typedef struct Pixels {
+    bool known; /* false: not computed yet */
+    float low[4], high[4], mean[4];
+    float linear[3]; /* mean of colours decoded from sRGB */
+} Pixels;
+
+typedef struct Energy Energy; /* both of doctor_energy.c */
+typedef struct EnergyTables EnergyTables;
+
+struct WeftDoctor {
+    Asset asset;
+    WeftScene *scene;
+    WeftLog log;           /* the caller's; `own` passes warnings on to it */
+    WeftLog own;           /* the log of the asset */
+    WeftProgress progress; /* the caller's, may be NULL */
+    void *user;            /* for progress */
+    bool examining;        /* false while the file is being read */
+    WeftError error;
+    WeftFinding *items; /* the findings, and their repairs: `count`, with memory for `room` */
+    Repair *repairs;
+    int count, room;
+    Pixels *pixels;   /* of the scene's images */
+    Energy *energies; /* one for each set of material numbers that was measured */
+    int energy_count, energy_room;
+    EnergyTables *energy_tables; /* NULL until the first measurement */
+    bool failed;                 /* memory was short */
+};
+
+/* The place of a finding. */
+typedef struct Place {
+    WeftFindingOf of;
+    int index;
+    const char *path; /* within the thing, such as "extensions/NAME/key"; NULL: the thing itself */
+} Place;
+
+/* Adds a finding. engines: a bit mask of doctor_engine, 0 for whatever reads the file. figure: the value measured, or
+ * NAN. repair: may be NULL. words: a printf format. */
+__attribute__((format(printf, 7, 8))) void doctor_found(WeftDoctor *doctor, WeftFindingKind kind, Place place,
+                                                        unsigned engines, double figure, const Repair *repair,
+                                                        const char *words, ...);
+
+/* Adds advice to the last finding; fix is a printf format. */
+__attribute__((format(printf, 2, 3))) void doctor_advise(WeftDoctor *doctor, const char *fix, ...);
+
+/* Makes the last finding a note without a repair: on a material that is no cloth the value may be intended. */
+void doctor_soften(WeftDoctor *doctor);
+
+/* Returns the value at a path such as "a/b/c" below an object, or NULL if there is none. */
+json_t *doctor_part(json_t *object, const char *path);
+
+/* Returns the last part of such a path. */
+const char *doctor_key(const char *path);
+
+/* Return the array of that name at the root of the JSON, such as "materials", and one of its items. */
+json_t *doctor_list(const WeftDoctor *doctor, const char *name);
+json_t *doctor_item(const WeftDoctor *doctor, const char *name, int index);
+
+/* Reads `count` numbers at a path, as an array or, if count is 1, as a number. Returns false and leaves `out` alone if
+ * they are not there. */
+bool doctor_numbers(json_t *object, const char *path, double *out, int count);
+
+/* Returns the index of the texture that a textureInfo names; -1 if it names no existing texture. */
+int doctor_texture(const WeftDoctor *doctor, json_t *texture_info);
+
+/* Return the decoded image that a textureInfo names, and the range and mean of its channels; NULL if none was read. */
+const WeftImage *doctor_image(WeftDoctor *doctor, json_t *texture_info);
+const Pixels *doctor_pixels(WeftDoctor *doctor, json_t *texture_info);
+
+/* Read the pixel nearest to u, v, each in [0, 1): as plain numbers, or as a linear colour. */
+void doctor_texel(const WeftImage *image, float u, float v, float rgb[3]);
+void doctor_texel_linear(const WeftDoctor *doctor, const WeftImage *image, float u, float v, float rgb[3]);
+
+/* Return a factor, clamped to 0 .. 1, times the mean of its texture: a linear colour, or one channel. absent: the
+ * factor's default. */
+void doctor_color(WeftDoctor *doctor, json_t *object, const char *factor, const char *texture, double absent,
+                  float color[3]);
+float doctor_scalar(WeftDoctor *doctor, json_t *object, const char *factor, const char *texture, int channel,
+                    double absent);
+
+/* The profiles of the engines that read KHR_materials_sheen: the bit of one by its id, the bits of all, and all ids. */
+unsigned doctor_engine(const char *profile);
+unsigned doctor_engines(void);
+extern const char *const doctor_readers[]; /* ends with NULL */
+
+/* Any material of the asset, with the numbers that the checks of sheens read: factors times the means of textures. */
+typedef struct Cloth {
+    int index;
+    json_t *json, *sheen; /* the material, and its KHR_materials_sheen or NULL */
+    float color[3];       /* colour of the sheen */
+    float roughness;      /* roughness of the sheen */
+    float base[3], metallic;
+} Cloth;
+Cloth doctor_cloth(WeftDoctor *doctor, int material);
+bool cloth_shows(const Cloth *cloth); /* true if there is a sheen that is not black */
+
+/* The checks, in doctor_NAME.c: each looks at the whole asset, at one material or at one mesh, and adds its
+ * findings to the doctor. */
+void check_extensions(
+    WeftDoctor *doctor);               /* finds extensions that weft lacks, or that are used but not listed */
+void check_spaces(WeftDoctor *doctor); /* finds images read in two colour spaces, or marked as linear */
+void check_glass(WeftDoctor *doctor);  /* finds a sheen and a transmission in one asset */
+void check_ranges(WeftDoctor *doctor, const Cloth *cloth);  /* finds factors outside their range */
+void check_factors(WeftDoctor *doctor, const Cloth *cloth); /* finds textures multiplied by 0 */
+void check_transforms(WeftDoctor *doctor,
+                      const Cloth *cloth); /* finds textures whose transform has a scale of 0 */
+void check_black(WeftDoctor *doctor, const Cloth *cloth);   /* finds sheens that are black */
+void check_channel(WeftDoctor *doctor, const Cloth *cloth); /* finds roughness whose alpha is 1 everywhere */
+void check_energy(WeftDoctor *doctor,
+                  const Cloth *cloth); /* finds engines that return too much light, or differ */
+
+/* Returns E of the whole material, strongest channel, as check_energy measures it. reader: index into
+ * doctor_readers. cosine: one that check_energy samples. Negative if not measured. */
+float doctor_albedo(WeftDoctor *doctor, const Cloth *cloth, int reader, float cosine);
+void check_neighbours(WeftDoctor *doctor, const Cloth *cloth); /* finds inputs that conflict with a sheen */
+void check_plausible(WeftDoctor *doctor, const Cloth *cloth);  /* finds numbers that no real material has */
+void check_mesh(WeftDoctor *doctor, int mesh); /* finds normals and tangents that are missing or wrong */
+
+/* Applies a repair to the JSON of a rewrite. */
+struct Rewrite;
+WeftResult doctor_repair(const WeftDoctor *doctor, struct Rewrite *rewrite, int finding, WeftError *error);
+
+#endif

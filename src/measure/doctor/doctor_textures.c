@@ -1,0 +1,196 @@
+/* doctor_textures.c - images and how they are used: colour spaces, and the channel that holds a sheen's
+ * roughness */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+#include "gltf/asset/buffer_views.h"
+#include "gltf/save/bundle.h"
+#include "measure/doctor/doctor.h"
+
+/* The encoding in which a texture is read. A texture that gives alpha alone has none. */
+typedef enum Space { SPACE_COLOR = 1, SPACE_DATA = 2 } Space;
+
+static const struct {
+    const char *path;
+    Space space;
+} uses[] = {
+    {"pbrMetallicRoughness/baseColorTexture", SPACE_COLOR},
+    {"emissiveTexture", SPACE_COLOR},
+    {"extensions/KHR_materials_sheen/sheenColorTexture", SPACE_COLOR},
+    {"extensions/KHR_materials_specular/specularColorTexture", SPACE_COLOR},
+    {"extensions/KHR_materials_diffuse_transmission/diffuseTransmissionColorTexture", SPACE_COLOR},
+    {"pbrMetallicRoughness/metallicRoughnessTexture", SPACE_DATA},
+    {"normalTexture", SPACE_DATA},
+    {"occlusionTexture", SPACE_DATA},
+    {"extensions/KHR_materials_clearcoat/clearcoatTexture", SPACE_DATA},
+    {"extensions/KHR_materials_clearcoat/clearcoatRoughnessTexture", SPACE_DATA},
+    {"extensions/KHR_materials_clearcoat/clearcoatNormalTexture", SPACE_DATA},
+    {"extensions/KHR_materials_anisotropy/anisotropyTexture", SPACE_DATA},
+    {"extensions/KHR_materials_transmission/transmissionTexture", SPACE_DATA},
+    {"extensions/KHR_materials_diffuse_transmission/diffuseTransmissionTexture", SPACE_DATA},
+    {"extensions/KHR_materials_iridescence/iridescenceTexture", SPACE_DATA},
+    {"extensions/KHR_materials_volume/thicknessTexture", SPACE_DATA},
+};
+enum { USES = sizeof uses / sizeof *uses };
+
+/* The image in the file behind a textureInfo; -1: none. */
+static int file_image(const WeftDoctor *doctor, json_t *info) {
+    int texture = doctor_texture(doctor, info);
+    return texture < 0 ? -1 : doctor->asset.textures[texture].image;
+}
+
+/* The first use of an image in either encoding; NULL: none. */
+typedef struct FirstUse {
+    const char *color, *data;
+} FirstUse;
+
+/* Returns the uses of all images of the file; owned by the caller, NULL if memory is short. */
+static FirstUse *first_uses(const WeftDoctor *doctor) {
+    FirstUse *first = alloc_array(doctor->asset.image_count, sizeof *first);
+    for (int m = 0; first && m < (int)doctor->asset.material_count; m++) {
+        json_t *material = doctor_item(doctor, "materials", m);
+        for (int k = 0; k < USES; k++) {
+            int image = file_image(doctor, doctor_part(material, uses[k].path));
+            if (image < 0) continue;
+            const char **use = uses[k].space == SPACE_COLOR ? &first[image].color : &first[image].data;
+            if (!*use) *use = doctor_key(uses[k].path);
+        }
+    }
+    return first;
+}
+
+/* Returns the encoded bytes of an image of the file. Release with free. */
+static Span image_bytes(WeftDoctor *doctor, int image, unsigned char **owned) {
+    json_t *item = doctor_item(doctor, "images", image), *view = json_object_get(item, "bufferView");
+    const char *uri = json_string_value(json_object_get(item, "uri"));
+    WeftResult result = WEFT_OK;
+    WeftError error;
+    *owned = NULL;
+    if (view && (size_t)json_number_value(view) < doctor->asset.view_count)
+        return view_bytes(&doctor->asset, (int)json_number_value(view));
+    FileBytes bytes = {0};
+    if (uri) bytes = bundle_bytes(&doctor->asset, uri, &result, &error);
+    *owned = bytes.data;
+    return (Span){bytes.data, bytes.size};
+}
+
+static bool says_linear(const unsigned char *name, size_t size) {
+    for (size_t k = 0; k + 6 <= size && name[k]; k++)
+        if (strncasecmp((const char *)name + k, "linear", 6) == 0) return true;
+    return false;
+}
+
+/* Returns the chunk by which a PNG declares its numbers linear, or NULL. W3C, "Portable Network Graphics
+ * (PNG) Specification (Third Edition)", 2025, section 11.3.2: gAMA holds 100000 times the exponent, iCCP
+ * begins with a name, cICP's second byte is the transfer function of ITU-T H.273, of which 8 is linear. */
+static const char *png_linear(Span png) {
+    size_t at = 8;
+    if (!png.data || png.size < 8 || memcmp(png.data, "\x89PNG", 4) != 0) return NULL;
+    while (png.size - at >= 12) {
+        const unsigned char *c = png.data + at;
+        size_t size = (size_t)c[0] << 24 | (size_t)c[1] << 16 | (size_t)c[2] << 8 | (size_t)c[3];
+        if (size > png.size - at - 12 || memcmp(c + 4, "IDAT", 4) == 0) return NULL;
+        if (memcmp(c + 4, "gAMA", 4) == 0 && size == 4 && memcmp(c + 8, "\0\x01\x86\xa0", 4) == 0)
+            return "a chunk gAMA of 1";
+        if (memcmp(c + 4, "cICP", 4) == 0 && size == 4 && c[9] == 8) return "a chunk cICP of linear transfer";
+        if (memcmp(c + 4, "iCCP", 4) == 0 && says_linear(c + 8, size))
+            return "a colour profile called linear";
+        at += size + 12;
+    }
+    return NULL;
+}
+
+static void check_space(WeftDoctor *doctor, int image, FirstUse use) {
+    const Place place = {WEFT_OF_IMAGE, image, NULL};
+    if (use.color && use.data) {
+        doctor_found(doctor, WEFT_FINDING_TEXTURE_TWO_SPACES, place, 0, (double)NAN, NULL,
+                     "it is used as %s, which is decoded from sRGB, and as %s, which is not: one of the "
+                     "two is wrong in every engine",
+                     use.color, use.data);
+        doctor_advise(doctor, "give each use an image of its own");
+    }
+    if (!use.color) return;
+    unsigned char *owned;
+    const char *how = png_linear(image_bytes(doctor, image, &owned));
+    free(owned);
+    if (!how) return;
+    doctor_found(doctor, WEFT_FINDING_TEXTURE_SAYS_LINEAR, place, doctor_engines(), (double)NAN, NULL,
+                 "it is used as %s and has %s; glTF ignores that and decodes sRGB, so that colours "
+                 "become too dark",
+                 use.color, how);
+    doctor_advise(doctor, "export the image in sRGB, without the chunk");
+}
+
+void check_spaces(WeftDoctor *doctor) {
+    FirstUse *first = first_uses(doctor);
+    doctor->failed |= !first;
+    for (int k = 0; first && k < (int)doctor->asset.image_count; k++) check_space(doctor, k, first[k]);
+    free(first);
+}
+
+void check_black(WeftDoctor *doctor, const Cloth *cloth) {
+    static const char path[] = "extensions/KHR_materials_sheen/sheenColorTexture";
+    json_t *info = json_object_get(cloth->sheen, "sheenColorTexture");
+    const Pixels *pixels = doctor_pixels(doctor, info);
+    double factor[3] = {0.0};
+    bool given = doctor_numbers(cloth->sheen, "sheenColorFactor", factor, 3);
+    bool zero = !(factor[0] > 0.0 || factor[1] > 0.0 || factor[2] > 0.0);
+    if (pixels && !zero && fmaxf(pixels->high[0], fmaxf(pixels->high[1], pixels->high[2])) < 1.5f / 255.0f) {
+        doctor_found(doctor, WEFT_FINDING_SHEEN_TEXTURE_BLACK, (Place){WEFT_OF_MATERIAL, cloth->index, path},
+                     0, 0.0, NULL,
+                     "every pixel of sheenColorTexture is black: there is no sheen in any engine");
+        doctor_advise(doctor,
+                      "export the texture again: exporters leave it black where they cannot bake the colour");
+    }
+    if (!cloth->sheen || info || !zero) return;
+    doctor_found(
+        doctor, WEFT_FINDING_SHEEN_BLACK,
+        (Place){WEFT_OF_MATERIAL, cloth->index, "extensions/KHR_materials_sheen/sheenColorFactor"}, 0, 0.0,
+        NULL,
+        "KHR_materials_sheen is there, but its colour is black%s: nothing of it is seen, and it is paid for",
+        given ? "" : " since sheenColorFactor is left out");
+    doctor_advise(doctor, "write sheenColorFactor, or drop the extension");
+}
+
+/* The channel that a picture of roughness was painted in: of a grey one any; else green, where glTF's other
+ * roughness is. */
+static int painted_channel(const Pixels *pixels) {
+    bool grey = true;
+    for (int c = 1; c < 3; c++)
+        grey &= fabsf(pixels->mean[c] - pixels->mean[0]) < 0.01f &&
+                fabsf(pixels->high[c] - pixels->high[0]) < 0.02f;
+    return grey ? 0 : 1;
+}
+
+void check_channel(WeftDoctor *doctor, const Cloth *cloth) {
+    static const char path[] = "extensions/KHR_materials_sheen/sheenRoughnessTexture";
+    static const char *const channels[] = {"grey", "green"};
+    json_t *info = json_object_get(cloth->sheen, "sheenRoughnessTexture");
+    const Pixels *pixels = doctor_pixels(doctor, info);
+    const Place place = {WEFT_OF_MATERIAL, cloth->index, path};
+    if (!pixels || pixels->low[3] < 0.995f) return;
+    int channel = painted_channel(pixels),
+        colors = file_image(doctor, json_object_get(cloth->sheen, "sheenColorTexture"));
+    float spread = pixels->high[channel] - pixels->low[channel];
+    if (spread > 4.0f / 255.0f && file_image(doctor, info) != colors) {
+        const Repair repair = {
+            .act = REPAIR_ALPHA, .texture = doctor_texture(doctor, info), .channel = channel};
+        doctor_found(doctor, WEFT_FINDING_SHEEN_ROUGHNESS_CHANNEL, place, doctor_engines(),
+                     (double)pixels->mean[channel], &repair,
+                     "sheenRoughnessTexture is read from alpha, which is 1 everywhere; what was painted "
+                     "(%.2g .. %.2g) is "
+                     "in its %s channel and not seen",
+                     (double)pixels->low[channel], (double)pixels->high[channel], channels[channel]);
+        doctor_advise(doctor, "move the roughness to alpha");
+        return;
+    }
+    const Repair repair = {.act = REPAIR_REMOVE};
+    doctor_found(doctor, WEFT_FINDING_SHEEN_ROUGHNESS_PLAIN, place, doctor_engines(), 1.0, &repair,
+                 "the alpha of sheenRoughnessTexture, which is all that is read of it, is 1 everywhere: the "
+                 "roughness is "
+                 "sheenRoughnessFactor alone");
+    doctor_advise(doctor, "drop sheenRoughnessTexture: the picture stays the same");
+}

@@ -1,0 +1,289 @@
+/* doctor_values.c - the numbers of a material: what glTF allows, what switches a texture off, what is
+ * plausible */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "measure/doctor/doctor.h"
+#include "scene/material/set.h"
+
+#define PBR(key)   "pbrMetallicRoughness/" key
+#define SHEEN(key) "extensions/KHR_materials_sheen/" key
+#define COAT(key)  "extensions/KHR_materials_clearcoat/" key
+
+static double clamped(double value, double low, double high) { return fmin(fmax(value, low), high); }
+
+/* Khronos Group, "glTF 2.0 Specification", 2021, and the schemas of the extensions. */
+static const struct {
+    const char *path;
+    int count;
+    double low, high;
+} ranges[] = {
+    {PBR("baseColorFactor"), 4, 0, 1},
+    {PBR("metallicFactor"), 1, 0, 1},
+    {PBR("roughnessFactor"), 1, 0, 1},
+    {"emissiveFactor", 3, 0, 1},
+    {"alphaCutoff", 1, 0, HUGE_VAL},
+    {"occlusionTexture/strength", 1, 0, 1},
+    {SHEEN("sheenColorFactor"), 3, 0, 1},
+    {SHEEN("sheenRoughnessFactor"), 1, 0, 1},
+    {COAT("clearcoatFactor"), 1, 0, 1},
+    {COAT("clearcoatRoughnessFactor"), 1, 0, 1},
+    {"extensions/KHR_materials_specular/specularFactor", 1, 0, 1},
+    {"extensions/KHR_materials_specular/specularColorFactor", 3, 0, HUGE_VAL},
+    {"extensions/KHR_materials_anisotropy/anisotropyStrength", 1, 0, 1},
+    {"extensions/KHR_materials_transmission/transmissionFactor", 1, 0, 1},
+    {"extensions/KHR_materials_diffuse_transmission/diffuseTransmissionFactor", 1, 0, 1},
+    {"extensions/KHR_materials_diffuse_transmission/diffuseTransmissionColorFactor", 3, 0, 1},
+    {"extensions/KHR_materials_volume/thicknessFactor", 1, 0, HUGE_VAL},
+    {"extensions/KHR_materials_volume/attenuationColor", 3, 0, 1},
+    {"extensions/KHR_materials_iridescence/iridescenceFactor", 1, 0, 1},
+    {"extensions/KHR_materials_emissive_strength/emissiveStrength", 1, 0, HUGE_VAL},
+};
+
+static void check_range(WeftDoctor *doctor, const Cloth *cloth, const char *path, int count, double low,
+                        double high) {
+    Repair repair = {.act = count == 1 ? REPAIR_NUMBER : REPAIR_NUMBERS, .count = count};
+    double worst = 0.0, values[4];
+    if (!doctor_numbers(cloth->json, path, values, count)) return;
+    for (int k = 0; k < count; k++) {
+        repair.numbers[k] = clamped(values[k], low, high);
+        double off = fabs(repair.numbers[k] - values[k]);
+        if (off > fabs(worst - clamped(worst, low, high))) worst = values[k];
+    }
+    if (worst >= low && worst <= high) return;
+    const Place place = {WEFT_OF_MATERIAL, cloth->index, path};
+    char limits[48];
+    if (high < HUGE_VAL)
+        snprintf(limits, sizeof limits, "in %g .. %g", low, high);
+    else
+        snprintf(limits, sizeof limits, "at least %g", low);
+    doctor_found(
+        doctor, WEFT_FINDING_VALUE_RANGE, place, 0, worst, &repair,
+        "%s is %g, but must be %s: some readers refuse the file, some clamp, and some take it as it is",
+        doctor_key(path), worst, limits);
+    doctor_advise(doctor, "write %g", clamped(worst, low, high));
+}
+
+static const char ior_path[] = "extensions/KHR_materials_ior/ior";
+
+/* An ior is 0, which stands for a mirror, or at least 1. */
+static bool bad_ior(const Cloth *cloth, double *ior) {
+    return doctor_numbers(cloth->json, ior_path, ior, 1) && *ior < 1.0 && fabs(*ior) > 0.0;
+}
+
+static void check_ior_range(WeftDoctor *doctor, const Cloth *cloth) {
+    double ior;
+    if (!bad_ior(cloth, &ior)) return;
+    const Repair repair = {.act = REPAIR_NUMBER, .numbers = {1.5}, .count = 1};
+    doctor_found(
+        doctor, WEFT_FINDING_VALUE_RANGE, (Place){WEFT_OF_MATERIAL, cloth->index, ior_path}, 0, ior, &repair,
+        "ior is %g, but must be 0 or at least 1: nothing that one meets is optically thinner than air", ior);
+    doctor_advise(doctor, "write 1.5, which is a plain dielectric's");
+}
+
+void check_ranges(WeftDoctor *doctor, const Cloth *cloth) {
+    for (size_t k = 0; k < sizeof ranges / sizeof *ranges; k++)
+        check_range(doctor, cloth, ranges[k].path, ranges[k].count, ranges[k].low, ranges[k].high);
+    check_ior_range(doctor, cloth);
+}
+
+/* A texture, and the factor on it whose default is 0. */
+static const struct {
+    const char *factor, *texture;
+    int count;
+} switches[] = {
+    {SHEEN("sheenColorFactor"), SHEEN("sheenColorTexture"), 3},
+    {SHEEN("sheenRoughnessFactor"), SHEEN("sheenRoughnessTexture"), 1},
+    {"emissiveFactor", "emissiveTexture", 3},
+    {COAT("clearcoatFactor"), COAT("clearcoatTexture"), 1},
+    {COAT("clearcoatRoughnessFactor"), COAT("clearcoatRoughnessTexture"), 1},
+    {"extensions/KHR_materials_anisotropy/anisotropyStrength",
+     "extensions/KHR_materials_anisotropy/anisotropyTexture", 1},
+    {"extensions/KHR_materials_transmission/transmissionFactor",
+     "extensions/KHR_materials_transmission/transmissionTexture", 1},
+    {"extensions/KHR_materials_diffuse_transmission/diffuseTransmissionFactor",
+     "extensions/KHR_materials_diffuse_transmission/diffuseTransmissionTexture", 1},
+    {"extensions/KHR_materials_iridescence/iridescenceFactor",
+     "extensions/KHR_materials_iridescence/iridescenceTexture", 1},
+    {"extensions/KHR_materials_volume/thicknessFactor", "extensions/KHR_materials_volume/thicknessTexture",
+     1},
+};
+
+void check_factors(WeftDoctor *doctor, const Cloth *cloth) {
+    for (size_t k = 0; k < sizeof switches / sizeof *switches; k++) {
+        const char *factor = switches[k].factor, *texture = doctor_key(switches[k].texture);
+        int count = switches[k].count;
+        double values[4] = {0.0};
+        if (!doctor_part(cloth->json, switches[k].texture)) continue;
+        bool given = doctor_numbers(cloth->json, factor, values, count);
+        if (values[0] > 0.0 || values[1] > 0.0 || values[2] > 0.0 || values[0] < 0.0) continue;
+        const Place place = {WEFT_OF_MATERIAL, cloth->index, factor};
+        if (given) {
+            doctor_found(doctor, WEFT_FINDING_TEXTURE_OFF, place, 0, 0.0, NULL,
+                         "%s does nothing: it is multiplied by %s, which is set to 0", texture,
+                         doctor_key(factor));
+            doctor_advise(doctor, "set %s, or drop the texture, which is loaded all the same",
+                          doctor_key(factor));
+            continue;
+        }
+        const Repair repair = {
+            .act = count == 1 ? REPAIR_NUMBER : REPAIR_NUMBERS, .numbers = {1.0, 1.0, 1.0}, .count = count};
+        doctor_found(doctor, WEFT_FINDING_TEXTURE_TIMES_ZERO, place, 0, 0.0, &repair,
+                     "%s does nothing: it is multiplied by %s, which is not there and then is 0, not 1",
+                     texture, doctor_key(factor));
+        doctor_advise(doctor, "write %s%s", doctor_key(factor), count == 1 ? " 1" : " [1, 1, 1]");
+    }
+}
+
+/* The limits of colours: from coal, or what a screen at sRGB 30 shows, since black cloth is darker than coal,
+ * to fresh snow (sRGB 243); of metals from sRGB 180. Sebastien Lagarde and Laurent Harduin, "The art and
+ * rendering of Remember Me", GDC Europe 2013, and the chart that Dontnod published after it, 2014. */
+static const float CLOTH_LOW = 0.0130f, CLOTH_HIGH = 0.8963f, METAL_LOW = 0.4564f;
+
+static float luminance(const float c[3]) { return 0.2126f * c[0] + 0.7152f * c[1] + 0.0722f * c[2]; }
+
+static void check_bright(WeftDoctor *doctor, const Cloth *cloth, Place place) {
+    float most = fmaxf(cloth->base[0], fmaxf(cloth->base[1], cloth->base[2]));
+    bool textured = doctor_part(cloth->json, PBR("baseColorTexture")) != NULL;
+    if (!(luminance(cloth->base) > CLOTH_HIGH) || most > 1.0f) return;
+    Repair repair = {.act = REPAIR_NUMBERS, .numbers = {1.0, 1.0, 1.0, 1.0}, .count = 4};
+    doctor_numbers(cloth->json, PBR("baseColorFactor"), repair.numbers, 4);
+    for (int c = 0; c < 3; c++) repair.numbers[c] *= 0.8 / (double)luminance(cloth->base);
+    doctor_found(
+        doctor, WEFT_FINDING_BASE_BRIGHT, place, 0, (double)luminance(cloth->base), &repair,
+        "the base colour%s reflects %.3g, more than fresh snow (%.3g): nothing that a sheen or a highlight "
+        "adds finds room, and light in folds does not fade",
+        textured ? ", in the mean of its texture," : "", (double)luminance(cloth->base), (double)CLOTH_HIGH);
+    doctor_advise(doctor, "multiply baseColorFactor by %.3g: white cotton reflects about 0.8",
+                  0.8 / (double)luminance(cloth->base));
+    if (!cloth->sheen) doctor_soften(doctor);
+}
+
+/* Returns the mean reflectance of a material where it is metal, 1 if it is metal nowhere. Base colour and metalness are
+ * looked up at the same places of an even grid, since a texture may have paint beside chrome, and the mean of
+ * both is neither. A texture transform or another set of coordinates would move one against the other: then
+ * the means of the whole have to do. */
+static float metal_luminance(WeftDoctor *doctor, const Cloth *cloth) {
+    enum { SIDE = 128 };
+    json_t *base_info = doctor_part(cloth->json, PBR("baseColorTexture")),
+           *metal_info = doctor_part(cloth->json, PBR("metallicRoughnessTexture"));
+    const WeftImage *base = doctor_image(doctor, base_info), *metal = doctor_image(doctor, metal_info);
+    bool moved = json_object_get(base_info, "extensions") || json_object_get(metal_info, "extensions") ||
+                 json_object_get(base_info, "texCoord") || json_object_get(metal_info, "texCoord");
+    if (!metal || moved) return luminance(cloth->base);
+    double metallic = 1.0, factors[3] = {1.0, 1.0, 1.0}, sum = 0.0;
+    int texels = 0;
+    doctor_numbers(cloth->json, PBR("metallicFactor"), &metallic, 1);
+    doctor_numbers(cloth->json, PBR("baseColorFactor"), factors, 3);
+    for (int k = 0; k < SIDE * SIDE; k++) {
+        const int column = k % SIDE, row = k / SIDE;
+        const float u = ((float)column + 0.5f) / SIDE, v = ((float)row + 0.5f) / SIDE;
+        float color[3] = {1.0f, 1.0f, 1.0f};
+        doctor_texel(metal, u, v, color);
+        if (!((double)color[2] * metallic > 0.5)) continue;
+        if (base) doctor_texel_linear(doctor, base, u, v, color);
+        for (int c = 0; c < 3; c++)
+            color[c] = (float)clamped(factors[c], 0.0, 1.0) * (base ? color[c] : 1.0f);
+        sum += (double)luminance(color);
+        texels++;
+    }
+    return texels ? (float)(sum / texels) : 1.0f;
+}
+
+/* Reports a metal under a sheen, unless another finding has done so. */
+static void check_metal_base(WeftDoctor *doctor, const Cloth *cloth, Place place) {
+    if (cloth->sheen) return;
+    float y = metal_luminance(doctor, cloth);
+    if (y >= METAL_LOW || y < 0.0f) return;
+    doctor_found(doctor, WEFT_FINDING_METAL_DARK, place, 0, (double)y, NULL,
+                 "a metal (metallic %.3g) whose reflectance is %.3g; metals have %.3g and more",
+                 (double)cloth->metallic, (double)y, (double)METAL_LOW);
+    doctor_advise(doctor, "brighten it; or if it is no metal, write metallicFactor 0: left out it is 1");
+}
+
+static bool glows(json_t *material) {
+    double glow[3] = {0.0};
+    doctor_numbers(material, "emissiveFactor", glow, 3);
+    return glow[0] > 0.0 || glow[1] > 0.0 || glow[2] > 0.0;
+}
+
+static void check_base(WeftDoctor *doctor, const Cloth *cloth) {
+    const Place place = {WEFT_OF_MATERIAL, cloth->index, PBR("baseColorFactor")};
+    float y = luminance(cloth->base);
+    if (doctor_part(cloth->json, "extensions/KHR_materials_unlit")) return;
+    if (cloth->metallic > 0.5f) {
+        check_metal_base(doctor, cloth, place);
+        return;
+    }
+    check_bright(doctor, cloth, place);
+    if (y >= CLOTH_LOW || y < 0.0f || glows(cloth->json)) return;
+    doctor_found(
+        doctor, WEFT_FINDING_BASE_DARK, place, 0, (double)y, NULL,
+        "the base colour reflects %.2g, less than black cloth (%.2g): folds and shadows show nothing but "
+        "highlights",
+        (double)y, (double)CLOTH_LOW);
+    doctor_advise(doctor,
+                  "begin at %.2g; velvet is dark because its sheen is at the rim, not because its base is "
+                  "black",
+                  (double)CLOTH_LOW);
+}
+
+typedef struct Hearing {
+    WeftDoctor *doctor;
+    const Cloth *cloth;
+} Hearing;
+
+static bool begins(const char *words, const char *with) { return strncmp(words, with, strlen(with)) == 0; }
+
+/* Returns true where another check of the doctor, which looks at textures too, says the same. */
+static bool said_elsewhere(const Cloth *cloth, const char *words) {
+    double ior;
+    if (begins(words, "between")) return cloth_shows(cloth);
+    if (begins(words, "reflectance of a dielectric")) return bad_ior(cloth, &ior);
+    return begins(words, "reflectance of a metal") || begins(words, "diffuse colour");
+}
+
+/* Turns a warning of plausible.c into a finding, without the names of the material and the message. */
+static void hear_plausible(void *user, WeftMessage message, const char *text) {
+    const Hearing *to = user;
+    const char *words = strstr(text, weft_message_text(message));
+    words = words ? words + strlen(weft_message_text(message)) : text;
+    while (*words == ':' || *words == ' ') words++;
+    if (said_elsewhere(to->cloth, words)) return;
+    doctor_found(to->doctor, WEFT_FINDING_IMPLAUSIBLE, (Place){WEFT_OF_MATERIAL, to->cloth->index, NULL}, 0,
+                 (double)NAN, NULL, "%s", words);
+    doctor_advise(to->doctor, "%s",
+                  begins(words, "between")
+                      ? "write metallicFactor 0 or 1: what is between is for the pixels at edges"
+                  : begins(words, "coloured") ? "write a grey specularColorFactor"
+                                              : "take an ior from 1.3 to 1.7, 1.5 where KHR_materials_ior is "
+                                                "not there, and a specularFactor of 1");
+    if (!to->cloth->sheen) doctor_soften(to->doctor);
+}
+
+void check_plausible(WeftDoctor *doctor, const Cloth *cloth) {
+    Hearing hearing = {doctor, cloth};
+    const WeftLog log = {hear_plausible, &hearing};
+    plausible_check_all(&doctor->scene->materials[cloth->index], "material", &log);
+    check_base(doctor, cloth);
+}
+
+/* Textures of a material that a transform may place. */
+void check_transforms(WeftDoctor *doctor, const Cloth *cloth) {
+    static const char *const paths[] = {
+        PBR("baseColorTexture"),    PBR("metallicRoughnessTexture"), "normalTexture",
+        SHEEN("sheenColorTexture"), SHEEN("sheenRoughnessTexture"),  "occlusionTexture"};
+    for (size_t k = 0; k < sizeof paths / sizeof *paths; k++) {
+        char scale[128];
+        double values[2];
+        snprintf(scale, sizeof scale, "%s/extensions/KHR_texture_transform/scale", paths[k]);
+        if (!doctor_numbers(cloth->json, scale, values, 2)) continue;
+        if (fabs(values[0]) > 1e-6 && fabs(values[1]) > 1e-6) continue;
+        doctor_found(doctor, WEFT_FINDING_TEXTURE_TRANSFORM, (Place){WEFT_OF_MATERIAL, cloth->index, scale},
+                     0, 0.0, NULL,
+                     "the transform of %s has the scale %g, %g: one line of the image is all that is seen",
+                     doctor_key(paths[k]), values[0], values[1]);
+        doctor_advise(doctor, "write a scale that is not 0, or drop the transform");
+    }
+}

@@ -1,0 +1,133 @@
+#include "measure/fit/blend.h"
+
+#include <math.h>
+
+#include "base/pi.h"
+
+/* Normal equations of one channel: A weights = b. */
+typedef struct Normal {
+    double a[BLEND_MOST][BLEND_MOST], b[BLEND_MOST];
+} Normal;
+
+/* Sum w x y, as LANES sums that do not wait for each other. */
+static double dot(const float *w, const float *x, const float *y, int count) {
+    enum { LANES = 8 };
+    double sums[LANES] = {0.0}, sum = 0.0;
+    int k = 0;
+    for (; k + LANES <= count; k += LANES)
+        for (int l = 0; l < LANES; l++) sums[l] += (double)(w[k + l] * x[k + l]) * (double)y[k + l];
+    for (; k < count; k++) sum += (double)(w[k] * x[k]) * (double)y[k];
+    for (int l = 0; l < LANES; l++) sum += sums[l];
+    return sum;
+}
+
+static void normal_make(Normal *normal, int columns, const float *const column[], const float *w,
+                        const float *rest, int count) {
+    for (int j = 0; j < columns; j++) {
+        normal->b[j] = dot(w, column[j], rest, count);
+        for (int l = 0; l <= j; l++) normal->a[j][l] = normal->a[l][j] = dot(w, column[j], column[l], count);
+    }
+}
+
+/* Gauss elimination of the columns in `active`, a set of bits. False where they depend on each other. */
+static bool solve_active(const Normal *normal, int columns, unsigned active, double *weights) {
+    double m[BLEND_MOST][BLEND_MOST + 1];
+    int index[BLEND_MOST], n = 0;
+    for (int j = 0; j < columns; j++) {
+        weights[j] = 0.0;
+        if (active >> j & 1u) index[n++] = j;
+    }
+    for (int r = 0; r < n; r++) {
+        for (int c = 0; c < n; c++) m[r][c] = normal->a[index[r]][index[c]];
+        m[r][n] = normal->b[index[r]];
+    }
+    for (int p = 0; p < n; p++) {
+        if (!(m[p][p] > 1e-10 * normal->a[index[p]][index[p]])) return false;
+        for (int r = p + 1; r < n; r++) {
+            double t = m[r][p] / m[p][p];
+            for (int c = p; c <= n; c++) m[r][c] -= t * m[p][c];
+        }
+    }
+    for (int r = n - 1; r >= 0; r--) {
+        double sum = m[r][n];
+        for (int c = r + 1; c < n; c++) sum -= m[r][c] * weights[index[c]];
+        weights[index[r]] = sum / m[r][r];
+    }
+    return true;
+}
+
+/* Least squares without negative weights: of so few columns every set can be tried. */
+static void solve_positive(const Normal *normal, int columns, double *weights) {
+    double least = 1e300;
+    for (unsigned active = 0; active < 1u << columns; active++) {
+        double trial[BLEND_MOST], cost = 0.0;
+        bool good = solve_active(normal, columns, active, trial);
+        for (int j = 0; good && j < columns; j++) {
+            good = !(trial[j] < 0.0);
+            for (int l = 0; l < columns; l++) cost += trial[j] * normal->a[j][l] * trial[l];
+            cost -= 2.0 * trial[j] * normal->b[j];
+        }
+        if (!good || !(cost < least)) continue;
+        least = cost;
+        for (int j = 0; j < columns; j++) weights[j] = trial[j];
+    }
+}
+
+/* x of the blend. */
+static void blend_add(const Blend *blend, int count, int c, const double *weights, float *x) {
+    const float *fixed = blend->fixed[c];
+    for (int k = 0; k < count; k++) x[k] = fixed ? fixed[k] : 0.0f;
+    for (int j = 0; j < blend->columns; j++) {
+        const float *column = blend->column[j][c];
+        float a = (float)weights[j];
+        for (int k = 0; k < count; k++) x[k] += a * column[k];
+    }
+}
+
+/* d goal / dx at x; above what is displayed some is left, so that it is not forgotten. */
+static inline float goal_slope(WeftBrdfMetric metric, float scale, float x) {
+    if (metric == WEFT_BRDF_METRIC_COSINE) return 1.0f;
+    if (metric == WEFT_BRDF_METRIC_LOG) return 1.0f / (scale + x);
+    float y = PI_FLOAT * x;
+    return y > 1.0f ? 0.1f : y <= 0.0031308f ? 40.0f : 1.381f * powf(y, -1.4f / 2.4f);
+}
+
+/* A sample's weight in least squares: so that its square counts for what its size does. `soft` keeps those that are met
+ * from counting for everything. The metric is a constant wherever this is inlined. */
+static inline void weigh_by(WeftBrdfMetric metric, const Samples *self, int count, int c, const float *x,
+                            float soft, float *w) {
+    const float *from = self->x[c], *weight = self->weight;
+    const float scale = self->scale;
+    for (int k = 0; k < count; k++) {
+        const float off = fabsf(x[k] - from[k]);
+        w[k] = weight[k] * goal_slope(metric, scale, 0.5f * (x[k] + from[k])) / (off > soft ? off : soft);
+    }
+}
+
+static void weigh(const Samples *self, int count, int c, const float *x, float soft, float *w) {
+    switch (self->metric) {
+    case WEFT_BRDF_METRIC_COSINE: weigh_by(WEFT_BRDF_METRIC_COSINE, self, count, c, x, soft, w); break;
+    case WEFT_BRDF_METRIC_LOG: weigh_by(WEFT_BRDF_METRIC_LOG, self, count, c, x, soft, w); break;
+    default: weigh_by(WEFT_BRDF_METRIC_PICTURE, self, count, c, x, soft, w);
+    }
+}
+
+double blend_solve(const Samples *self, int count, int c, const Blend *blend, double weights[BLEND_MOST]) {
+    const int rounds = count == self->count ? 9 : 5;
+    float *x = blend->work, *rest = x + self->count, *w = rest + self->count, soft = self->scale;
+    const float *columns[BLEND_MOST];
+    for (int j = 0; j < blend->columns; j++) columns[j] = blend->column[j][c], weights[j] = 0.0;
+    for (int k = 0; k < count; k++) rest[k] = self->x[c][k] - (blend->fixed[c] ? blend->fixed[c][k] : 0.0f);
+    for (int round = 0; round < rounds && blend->columns > 0; round++, soft *= 0.3f) {
+        Normal normal;
+        blend_add(blend, count, c, weights, x);
+        if (round == 0)
+            for (int k = 0; k < count; k++) w[k] = self->weight[k];
+        else
+            weigh(self, count, c, x, soft, w);
+        normal_make(&normal, blend->columns, columns, w, rest, count);
+        solve_positive(&normal, blend->columns, weights);
+    }
+    blend_add(blend, count, c, weights, x);
+    return samples_channel_error(self, count, c, x);
+}

@@ -1,0 +1,14 @@
+/* material_search.h - the inputs of a material that come closest to samples */
+#ifndef WEFT_MEASURE_MATERIAL_SEARCH_H
+#define WEFT_MEASURE_MATERIAL_SEARCH_H
+
+#include "measure/bsdf/progress_loop.h"
+#include "measure/fit/samples.h"
+
+/* Searches as weft_match_material does, starting from `material`. found->matched is the error of the result.
+ * Fails as weft_reflection_create does, or with WEFT_INTERRUPTED where item_progress (may be NULL) says that
+ * it should end. */
+WeftResult material_search_run(const Samples *samples, const int *held, ItemProgress *item_progress,
+                               WeftMaterial *material, WeftMatch *found, WeftError *error);
+
+#endif

@@ -1,0 +1,39 @@
+/* ltc_bake.h - the table of a lobe's linearly transformed cosines, over cos_o and one parameter */
+#ifndef WEFT_MEASURE_LTC_BAKE_H
+#define WEFT_MEASURE_LTC_BAKE_H
+
+#include "shading/catalogue/registry.h"
+#include "shading/ltc/ltc_table.h"
+#include "weft/ltc.h"
+
+struct WeftLtc {
+    Lobe lobe;        /* parameter 0 is not used */
+    float f0, second; /* the colours that the matrix is fitted to */
+    bool level;       /* r is 0 */
+    int norm, rows, columns;
+    float low, high; /* of parameter 0 */
+    float *texels;   /* WEFT_LTC_CHANNELS planes, as ltc_table.h has them */
+    bool cached;
+    double seconds;
+};
+
+/* Room for rows * columns cells; false when memory is short. */
+bool ltc_create(WeftLtc *ltc);
+
+static inline int ltc_cells(const WeftLtc *ltc) { return ltc->rows * ltc->columns; }
+
+/* Return the cosine of a column and the parameter of a row. */
+float ltc_cos_o(const WeftLtc *ltc, int column);
+Lobe ltc_lobe(const WeftLtc *ltc, int row);
+
+/* The table for ltc_table.h to read; it must outlive the reference. */
+LtcTable ltc_table_ref(const WeftLtc *ltc);
+
+/* Fits every cell; lobe, norm, rows, columns, low and high are set. The same numbers on any number of
+ * threads. Fails with WEFT_INTERRUPTED or WEFT_MESSAGE_MEMORY. */
+WeftResult ltc_bake(WeftLtc *ltc, const WeftLtcDesc *desc, WeftError *error);
+
+/* Returns true if f is isotropic for every value of the parameter from low to high. */
+bool ltc_isotropic(const WeftLtc *ltc);
+
+#endif

@@ -1,0 +1,12 @@
+/* complaint.h - a driver's compiler message as one line for people */
+#ifndef WEFT_RASTER_COMPLAINT_H
+#define WEFT_RASTER_COMPLAINT_H
+
+#include "text/assemble/text.h"
+
+/* Fails with WEFT_MESSAGE_GL_COMPILE and the first error of the driver's log. Where that names a line, and
+ * the text (may be NULL) knows where it comes from, file and line are the subject; else `name` is, what the
+ * shader is for. Lines behind the end of the text are the caller's own. */
+void complain(const char *name, const char *log, const Text *text, WeftError *error);
+
+#endif

@@ -1,0 +1,26 @@
+/* display.h - the pass that shows a picture: from linear colours to what a display is sent
+ *
+ * All calls are for the context that is current. */
+#ifndef WEFT_RASTER_DISPLAY_H
+#define WEFT_RASTER_DISPLAY_H
+
+#include "raster/gl/target.h"
+#include "text/assemble/text.h"
+#include "weft/raster.h"
+
+/* Zero-initialise. */
+typedef struct Display {
+    unsigned program;       /* 0 until it is needed */
+    int place, back, curve; /* locations of its uniforms */
+    bool stale;             /* true if the text may have changed */
+    WeftError error;        /* of the last attempt; the program before stays in use */
+} Display;
+
+/* Draws a target's picture. Vertices are made up: any vertex array may be bound. Leaves the framebuffer bound
+ * and its program in use. Fails with WEFT_MESSAGE_GL_COMPILE or _TEXT_DIALECT where it has never compiled. */
+WeftResult display_draw(Display *display, const TextDesc *desc, const Target *target,
+                        const WeftRasterShow *show, WeftError *error);
+
+void display_destroy(Display *display);
+
+#endif

@@ -1,0 +1,29 @@
+/* queue.h - the order in which meshes are drawn: solid ones from the front, so that what is hidden costs
+ * little, then those that blend, from the back */
+#ifndef WEFT_RASTER_QUEUE_H
+#define WEFT_RASTER_QUEUE_H
+
+#include "scene/record/camera.h"
+
+typedef struct Queue {
+    int *order; /* meshes; `solid` of them before those that blend */
+    int count, solid;
+    float *depth; /* of a mesh, as last sorted */
+    Vec3 *middle; /* of a mesh's box */
+    float *reach; /* from there to its corners */
+} Queue;
+
+/* Fails with WEFT_MESSAGE_MEMORY; it is then empty. */
+WeftResult queue_create(const WeftScene *scene, Queue *out, WeftError *error);
+void queue_destroy(Queue *queue);
+
+/* Asks the materials again which meshes blend. */
+void queue_update(Queue *queue, const WeftScene *scene);
+
+/* Takes other shapes of lights. Fails as queue_create does; it is then as it was. */
+WeftResult queue_reshape(Queue *queue, const WeftScene *scene, WeftError *error);
+
+/* Sorts for a view; allocates nothing, and takes little time where the view has moved little. */
+void queue_sort(Queue *queue, const WeftScene *scene, const View *view);
+
+#endif

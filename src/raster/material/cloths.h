@@ -1,0 +1,33 @@
+/* cloths.h - the cloths of a scene as textures: the runs and albedos of their threads, and their colours from afar
+ *
+ * All calls are for the context that is current. */
+#ifndef WEFT_RASTER_CLOTHS_H
+#define WEFT_RASTER_CLOTHS_H
+
+#include "scene/record/scene.h"
+
+typedef struct GlCloth {
+    const WeftCloth *cloth;
+    unsigned cells;  /* RGBA32F: a row of runs for each pick, then albedos, one a texel */
+    unsigned colors; /* ClothFar as an array texture with its levels */
+} GlCloth;
+
+/* Zero-initialise. */
+typedef struct GlCloths {
+    GlCloth *all; /* beside the scene's */
+    int count;
+} GlCloths;
+
+/* Uploads the cloths that are new. Fails with WEFT_MESSAGE_MEMORY or _GL_MEMORY; those before stay. */
+WeftResult cloths_update(GlCloths *cloths, const WeftScene *scene, WeftError *error);
+
+/* Binds the textures of a cloth to two units. */
+void cloths_bind(const GlCloths *cloths, int cloth, int cells_unit, int colors_unit);
+
+void cloths_destroy(GlCloths *cloths);
+
+/* The numbers of a cloth as weave.glsl reads them, and what fills their last vector of four. */
+enum { CLOTH_NUMBERS = 172 };
+void cloth_numbers(const WeftCloth *cloth, float numbers[CLOTH_NUMBERS]);
+
+#endif

@@ -1,0 +1,146 @@
+#include <stdlib.h>
+
+#include "raster/material/families.h"
+
+#include "base/fail.h"
+
+typedef struct Families {
+    const WeftScene *scene;
+    const GlTextures *textures;
+    GlMaterial *all;
+    int *head;   /* of each material: the first of its family, or -1 where it is not used */
+    int *groups; /* of textures, for each slot and material; -1: nothing there */
+} Families;
+
+/* The group that an input of a material looks into, or -1. */
+static int group_of(const Families *self, int m, int k) {
+    const Material *material = &self->scene->materials[m];
+    const Input *input = &material->inputs[k];
+    return input->texture ? textures_place(self->textures, input, textures_color(material, k)).group : -1;
+}
+
+static bool same_texel(const Material *material, int j, int k) {
+    const Input *a = &material->inputs[j], *b = &material->inputs[k];
+    if (!a->texture || !b->texture) return !a->texture == !b->texture;
+    bool same = a->texture == b->texture && a->texcoord == b->texcoord &&
+                textures_color(material, j) == textures_color(material, k);
+    for (int n = 0; n < 6; n++)
+        same &= !(a->transform[n] < b->transform[n]) && !(a->transform[n] > b->transform[n]);
+    return same;
+}
+
+/* Returns true if in every material of a family inputs k and j read the same texel, or neither has a map. */
+static bool all_like(const Families *self, int head, int j, int k) {
+    bool like = shader_same_rest(j, k);
+    for (int m = 0; m < self->scene->material_count && like; m++)
+        if (self->head[m] == head) like = same_texel(&self->scene->materials[m], j, k);
+    return like;
+}
+
+/* Returns true if a slot also serves input k: the materials that use both use the same place, and at least
+ * one uses both. */
+static bool slot_serves(const Families *self, int head, const int *slot, int k) {
+    bool some = false;
+    for (int m = 0; m < self->scene->material_count; m++) {
+        int group = self->head[m] == head ? group_of(self, m, k) : -1;
+        if (group < 0 || slot[m] < 0) continue;
+        if (group != slot[m]) return false;
+        some = true;
+    }
+    return some;
+}
+
+/* Gives each map of a family's key its slot; the number of slots, or more than there are. */
+static int find_slots(Families *self, int head, ShaderKey *key) {
+    int count = self->scene->material_count, slots = 0;
+    for (int k = 0; k < TEXTURE_SLOTS * count; k++) self->groups[k] = -1;
+    for (int k = 0; k < INPUT_COUNT; k++) {
+        ShaderInput *input = &key->inputs[k];
+        if (input->state != INPUT_MAP && input->state != INPUT_MAYBE) continue;
+        int slot = 0;
+        input->like = -1;
+        for (int j = k - 1; j >= 0; j--)
+            if (key->inputs[j].like < 0 && all_like(self, head, j, k)) input->like = (int16_t)j;
+        while (slot < slots && !slot_serves(self, head, self->groups + slot * count, k)) slot++;
+        if (slot == TEXTURE_SLOTS) return TEXTURE_SLOTS + 1;
+        if (slot == slots) slots++;
+        input->slot = (int16_t)slot;
+        for (int m = 0; m < count; m++)
+            if (self->head[m] == head && group_of(self, m, k) >= 0)
+                self->groups[slot * count + m] = group_of(self, m, k);
+    }
+    return slots;
+}
+
+/* Into the first family where that does. */
+static void join(Families *self, int m) {
+    for (int h = 0; h < m; h++) {
+        ShaderKey key = self->all[h].key;
+        if (self->head[h] != h || !shader_join(&key, &self->all[m].key)) continue;
+        self->head[m] = h;
+        if (find_slots(self, h, &key) <= TEXTURE_SLOTS) {
+            self->all[h].key = key;
+            return;
+        }
+    }
+    self->head[m] = m;
+}
+
+/* A table made for a narrow lobe also serves a broad one. */
+static void share_finest(Families *self, int head) {
+    float finest[SLOT_COUNT] = {0.0f};
+    for (int pass = 0; pass < 2; pass++)
+        for (int m = 0; m < self->scene->material_count; m++)
+            for (int k = 0; self->head[m] == head && k < SLOT_COUNT; k++) {
+                float *own = &self->all[m].finest[k];
+                if (pass)
+                    *own = finest[k];
+                else if (*own > finest[k])
+                    finest[k] = *own;
+            }
+}
+
+/* False where a material looks into too many groups. */
+static bool finish(Families *self, int head) {
+    int count = self->scene->material_count, slots = find_slots(self, head, &self->all[head].key);
+    if (slots > TEXTURE_SLOTS) return false;
+    for (int m = 0; m < count; m++) {
+        if (self->head[m] != head) continue;
+        GlMaterial *material = &self->all[m];
+        material->key = self->all[head].key;
+        material->group_count = slots;
+        for (int s = 0; s < slots; s++) {
+            const int *slot = self->groups + s * count;
+            int other = m;
+            while (slot[other] < 0) other = (other + 1) % count;
+            material->groups[s] = slot[other];
+        }
+    }
+    share_finest(self, head);
+    return true;
+}
+
+static bool make_all(Families *self) {
+    int count = self->scene->material_count;
+    bool fits = true;
+    for (int m = 0; m < count; m++) self->head[m] = -1;
+    for (int m = 0; m < count; m++)
+        if (self->all[m].used) join(self, m);
+    for (int m = 0; m < count; m++)
+        if (self->head[m] == m) fits = fits && finish(self, m);
+    return fits;
+}
+
+WeftResult families_make(const WeftScene *scene, const GlTextures *textures, GlMaterial *all,
+                         WeftError *error) {
+    size_t count = (size_t)scene->material_count;
+    Families self = {scene, textures, all, alloc_array(count, sizeof(int)),
+                     alloc_array(count, TEXTURE_SLOTS * sizeof(int))};
+    bool held = self.head && self.groups, fits = held && make_all(&self);
+    free(self.head);
+    free(self.groups);
+    if (!held) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    return fits ? WEFT_OK
+                : fail(error, WEFT_MESSAGE_GL_MEMORY, scene->name,
+                       "a material whose textures are of more than %d kinds", TEXTURE_SLOTS);
+}

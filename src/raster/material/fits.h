@@ -1,0 +1,20 @@
+/* fits.h - the tables by which lobes meet an environment (shading/ambient/ambient_fit.h), each made at its first
+ * use and kept */
+#ifndef WEFT_RASTER_FITS_H
+#define WEFT_RASTER_FITS_H
+
+#include "shading/ambient/ambient_fit.h"
+#include "weft/result.h"
+
+typedef struct Fits {
+    struct Fit *first;
+    int threads;
+    bool no_cache; /* neither read from the user's cache nor written */
+} Fits;
+
+/* The fit of a lobe over the plausible range of its first parameter, its others as they are; NULL where
+ * memory is short. Lives until fits_destroy. */
+const AmbientFit *fits_get(Fits *fits, const Lobe *lobe);
+void fits_destroy(Fits *fits);
+
+#endif

@@ -1,0 +1,11 @@
+/* gl_tables.h - the tables of a text as one array texture */
+#ifndef WEFT_RASTER_GL_TABLES_H
+#define WEFT_RASTER_GL_TABLES_H
+
+#include "text/assemble/text.h"
+
+/* A texture for weft_tables, in the context that is current: layer k holds tables[k], from its corner. 0 on
+ * failure, with WEFT_MESSAGE_GL_MEMORY or _GL_CONTEXT. count >= 1. Release with glDeleteTextures. */
+unsigned tables_create(const TextTable *tables, int count, WeftError *error);
+
+#endif

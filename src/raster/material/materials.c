@@ -1,0 +1,301 @@
+#include <stddef.h>
+#include <stdlib.h> /* before the dialect, whose abs() shadows its own */
+
+#include "raster/material/materials.h"
+
+#include <epoxy/gl.h>
+
+#include "base/fail.h"
+#include "raster/gl/gl_check.h"
+#include "raster/material/families.h"
+#include "raster/material/programs.h"
+#include "scene/light/polygons.h"
+#include "scene/record/material_at.h"
+#include "shading/weave/weave_base.h"
+#include "weave/weft_cloth.h"
+
+/* The block "Material" of shader.c. */
+typedef struct Uniforms {
+    float inputs[INPUT_COUNT][4]; /* w: 1 where it has a map */
+    float places[INPUT_COUNT][2][4];
+    float e[4];    /* layer, low, high, tilt */
+    float more[4]; /* alpha cutoff */
+    float weave[CLOTH_NUMBERS];
+    AmbientWeights fits[SLOT_COUNT * AMBIENT_BAKED];
+} Uniforms;
+
+/* OpenGL ES 3.0 promises no more. */
+_Static_assert(sizeof(Uniforms) <= 16384, "the block of a material is too large");
+
+static bool is_all(const Input *input, int count, float x) {
+    bool all = true;
+    for (int c = 0; c < count; c++) all &= !(input->value[c] < x) && !(input->value[c] > x);
+    return all;
+}
+
+static InputState state_of(const Input *input, WeftInputKind kind) {
+    int count = kind == WEFT_INPUT_COLOR ? 3 : 1;
+    if (input->texture) return INPUT_MAP;
+    if (is_all(input, count, 0.0f)) return INPUT_ZERO;
+    return kind != WEFT_INPUT_ANGLE && kind != WEFT_INPUT_DIRECTION && is_all(input, count, 1.0f)
+               ? INPUT_ONE
+               : INPUT_VALUE;
+}
+
+static void add_map(GlMaterial *self, const GlTextures *textures, const Material *material, int k,
+                    Uniforms *uniforms) {
+    const Input *input = &material->inputs[k];
+    TexturePlace at = textures_place(textures, input, textures_color(material, k));
+    self->key.inputs[k].channel = (int16_t)input->channel;
+    self->key.inputs[k].texcoord = (int16_t)input->texcoord;
+    for (int row = 0; row < 2; row++)
+        for (int c = 0; c < 3; c++) uniforms->places[k][row][c] = input->transform[3 * row + c];
+    uniforms->places[k][0][3] = (float)at.layer;
+    uniforms->inputs[k][3] = 1.0f;
+}
+
+static void add_input(GlMaterial *self, const GlTextures *textures, const Material *material, int k,
+                      Uniforms *uniforms) {
+    const Input *input = &material->inputs[k];
+    WeftInputKind kind = input_infos[k].kind;
+    self->key.inputs[k].state = (int16_t)state_of(input, kind);
+    self->key.inputs[k].like = -1;
+    for (int c = 0; c < 3; c++) uniforms->inputs[k][c] = input->value[c];
+    if (kind == WEFT_INPUT_DIRECTION) {
+        uniforms->inputs[k][0] = cos(input->value[0]);
+        uniforms->inputs[k][1] = sin(input->value[0]);
+    }
+    if (input->texture) add_map(self, textures, material, k, uniforms);
+}
+
+static void add_table(GlMaterial *self, TableRef e, int layer, Uniforms *uniforms) {
+    self->key.table_kind = e.kind;
+    self->key.table_rows = e.rows;
+    self->key.table_columns = e.columns;
+    self->key.table_tilts = e.tilts;
+    const float place[4] = {(float)layer, e.low, e.high, e.tilt};
+    memcpy(uniforms->e, place, sizeof place);
+}
+
+/* With half of what textures scale, where all that they may bring is there. */
+static Surface middle_surface(const Material *material) {
+    Material middle = *material;
+    for (int k = 0; k < INPUT_COUNT; k++)
+        for (int c = 0; c < 3 && input_infos[k].kind != WEFT_INPUT_DIRECTION; c++)
+            if (middle.inputs[k].texture) middle.inputs[k].value[c] *= 0.5f;
+    return material_plain(&middle);
+}
+
+/* The lobe of a cloth from afar, halfway between warp and weft, which reflect the smooth part of the environment
+ * alike. */
+static Lobe cloth_lobe(const WeftCloth *cloth) {
+    const Weave *m = &cloth->weave;
+    Lobe lobe =
+        weave_far(m, m->weft_far.share > m->warp_far.share, rgb_grey(0.0f), rgb_grey(0.0f), 1.0f, 1.0f).lobe;
+    lobe.params[WOVEN_SHARE] = 1.0f;
+    lobe.params[WOVEN_AZIMUTH] = 0.25f * PI;
+    return lobe;
+}
+
+/* Holds the tables of the slots whose parameters are numbers: another is made where the lobe is another. */
+static bool add_fits(GlMaterial *self, const Material *material, const WeftCloth *cloth, int threads,
+                     Uniforms *uniforms) {
+    AmbientFit *fit = alloc_array(1, sizeof *fit);
+    Surface surface = middle_surface(material);
+    Stack m;
+    if (!fit) return false;
+    stack_make(&m, &surface, &self->key.choices, (TableRef){.kind = TABLE_NONE});
+    for (int k = 0; k < SLOT_COUNT; k++) {
+        const bool woven = cloth && k == PLACE_DIFFUSE;
+        const Lobe own = woven ? cloth_lobe(cloth) : stack_slot(&m, k)->lobe, *lobe = &own;
+        if (!(woven || stack_slot(&m, k)->normal > 0.0f) || !shader_holds(&self->key, k)) continue;
+        MaterialFit *baked = &self->fits[k];
+        if (!baked->made || !ambient_alike(&baked->lobe, lobe)) {
+            ambient_fit(fit, lobe, lobe->params[0], lobe->params[0], threads);
+            ambient_bake(fit, uniforms->fits + k * AMBIENT_BAKED);
+            *baked = (MaterialFit){true, fit->turning, fit->denser > AMBIENT_DENSER, fit->finest, *lobe};
+        }
+        self->finest[k] = baked->finest;
+        self->key.turning |= baked->turning << k;
+        self->key.dense |= baked->dense << k;
+    }
+    free(fit);
+    return true;
+}
+
+/* To fit tables for a lobe's own numbers takes tens of ms. Of more materials than these all share those over
+ * the range, which know nothing of nap and anisotropy: what turns has its own all the same. */
+enum { MATERIALS_HELD = 100 };
+
+static bool is_round(const ShaderKey *key) {
+    return key->inputs[INPUT_anisotropy].state == INPUT_ZERO && key->inputs[INPUT_nap].state == INPUT_ZERO;
+}
+
+static void make_material(GlMaterial *self, const Material *material, const GlTextures *textures,
+                          Uniforms *uniforms) {
+    self->key.choices = material_choices(material);
+    self->key.alpha_mode = (int)material->alpha_mode;
+    self->key.unlit = material->unlit;
+    self->key.double_sided = material->double_sided;
+    self->key.woven = material->cloth > 0;
+    for (int k = 0; k < INPUT_COUNT; k++) add_input(self, textures, material, k, uniforms);
+    uniforms->more[0] = material->alpha_cutoff;
+}
+
+/* All materials as they are now; what old ones hold is taken over. False where memory is short. */
+static bool take(GlMaterials *self, const GlMaterials *old, const WeftScene *scene,
+                 const GlTextures *textures, int threads) {
+    bool whole = true;
+    for (int m = 0; m < scene->mesh_count; m++) {
+        int k = self->of_mesh[m] = scene->meshes[m].material;
+        self->all[k].used = true;
+        self->all[k].key.colored |= scene->meshes[m].color != NULL;
+    }
+    for (int k = 0; k < self->count; k++) {
+        Uniforms uniforms = {0};
+        GlMaterial *material = &self->all[k];
+        size_t at = (size_t)k * (size_t)self->stride;
+        if (k < old->count) {
+            memcpy(material->fits, old->all[k].fits, sizeof material->fits);
+            memcpy(uniforms.fits, old->blocks + at + offsetof(Uniforms, fits), sizeof uniforms.fits);
+        }
+        if (material->used) {
+            material->emits = material_emits(&scene->materials[k]);
+            make_material(material, &scene->materials[k], textures, &uniforms);
+            material->key.ranged = self->count > MATERIALS_HELD && is_round(&material->key);
+            add_table(material, sheen_tables_of(self->sheens, k), sheen_tables_index(self->sheens, k),
+                      &uniforms);
+            material->cloth = scene->materials[k].cloth;
+            const WeftCloth *cloth = material->cloth ? scene->cloths[material->cloth - 1] : NULL;
+            if (cloth) cloth_numbers(cloth, uniforms.weave);
+            whole &= add_fits(material, &scene->materials[k], cloth, threads, &uniforms);
+        }
+        memcpy(self->blocks + at, &uniforms, sizeof uniforms);
+    }
+    return whole;
+}
+
+static bool is_same(const GlMaterial *a, const GlMaterial *b) {
+    return memcmp((const char *)&a->key, (const char *)&b->key, sizeof a->key) == 0 &&
+           a->group_count == b->group_count && memcmp(a->groups, b->groups, sizeof a->groups) == 0 &&
+           a->used == b->used && a->emits == b->emits && a->cloth == b->cloth;
+}
+
+static void add_change(const GlMaterial *old, const GlMaterial *fresh, MaterialsChange *change) {
+    change->coverage |= old->key.alpha_mode != WEFT_ALPHA_OPAQUE ||
+                        fresh->key.alpha_mode != WEFT_ALPHA_OPAQUE ||
+                        old->key.double_sided != fresh->key.double_sided;
+    change->emission |= old->emits || fresh->emits;
+}
+
+/* Uploads changed materials, and returns the consequences. */
+static void upload(const GlMaterials *old, const GlMaterials *fresh, int own_meshes,
+                   MaterialsChange *change) {
+    static const GlMaterial none;
+    size_t used = (size_t)own_meshes * sizeof *fresh->of_mesh;
+    change->tables = !old->sheens || sheen_tables_differ(old->sheens, fresh->sheens);
+    change->coverage = change->emission = memcmp(old->of_mesh, fresh->of_mesh, used) != 0;
+    change->emission |= old->mesh_count != fresh->mesh_count;
+    glBindBuffer(GL_UNIFORM_BUFFER, fresh->uniforms);
+    for (int k = 0; k < fresh->count; k++) {
+        size_t at = (size_t)k * (size_t)fresh->stride;
+        const unsigned char *block = fresh->blocks + at;
+        const GlMaterial *before = k < old->count ? &old->all[k] : &none;
+        bool same = old->uploaded && k < old->count && memcmp(old->blocks + at, block, sizeof(Uniforms)) == 0;
+        if (!same || !is_same(before, &fresh->all[k])) add_change(before, &fresh->all[k], change);
+        if (!same || fresh->uniforms != old->uniforms)
+            glBufferSubData(GL_UNIFORM_BUFFER, (GLintptr)at, (GLsizeiptr)sizeof(Uniforms), block);
+    }
+}
+
+/* Allocates the records of materials, all zero. */
+static WeftResult hold(GlMaterials *self, const WeftScene *scene, WeftError *error) {
+    self->all = alloc_array((size_t)self->count, sizeof(GlMaterial));
+    self->blocks = alloc_array((size_t)self->count, (size_t)self->stride);
+    self->of_mesh = alloc_array((size_t)scene->mesh_count, sizeof(int));
+    self->mesh_count = scene->mesh_count;
+    bool held = self->all && self->blocks && self->of_mesh;
+    return held ? WEFT_OK : fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+}
+
+static void make_uniforms(GlMaterials *self) {
+    glGenBuffers(1, &self->uniforms);
+    glBindBuffer(GL_UNIFORM_BUFFER, self->uniforms);
+    glBufferData(GL_UNIFORM_BUFFER, (GLsizeiptr)self->count * self->stride, NULL, GL_DYNAMIC_DRAW);
+}
+
+/* All but what another has too. */
+static void let_go(GlMaterials *self, const GlMaterials *other) {
+    sheen_tables_free_but(self->sheens, other ? other->sheens : NULL);
+    free(self->all);
+    free(self->blocks);
+    free(self->of_mesh);
+}
+
+WeftResult materials_update(GlMaterials *self, const WeftScene *scene, const GlTextures *textures,
+                            int threads, MaterialsChange *change, WeftError *error) {
+    GlMaterials fresh = *self;
+    *change = (MaterialsChange){0};
+    fresh.sheens = NULL;
+    fresh.count = scene->material_count;
+    WeftResult result = hold(&fresh, scene, error);
+    if (fresh.count != self->count) make_uniforms(&fresh);
+    if (result == WEFT_OK) result = cloths_update(&self->cloths, scene, error);
+    fresh.cloths = self->cloths;
+    if (result == WEFT_OK) result = sheen_tables_renew(self->sheens, scene, threads, &fresh.sheens, error);
+    if (result == WEFT_OK && !take(&fresh, self, scene, textures, threads))
+        result = fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    if (result == WEFT_OK) result = families_make(scene, textures, fresh.all, error);
+    if (result == WEFT_OK) {
+        upload(self, &fresh, scene_own_meshes(scene), change);
+        result = gl_check(error, "materials");
+        self->uploaded = fresh.uploaded = result == WEFT_OK;
+    }
+    if (fresh.count != self->count) glDeleteBuffers(1, result == WEFT_OK ? &self->uniforms : &fresh.uniforms);
+    let_go(result == WEFT_OK ? self : &fresh, result == WEFT_OK ? &fresh : self);
+    if (result == WEFT_OK) *self = fresh;
+    return result;
+}
+
+static WeftResult make_buffer(GlMaterials *self, const WeftScene *scene, WeftError *error) {
+    GLint aligned = 256;
+    glGetIntegerv(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT, &aligned);
+    self->count = scene->material_count;
+    self->stride = ((int)sizeof(Uniforms) + aligned - 1) / aligned * aligned;
+    WeftResult result = hold(self, scene, error);
+    if (result == WEFT_OK) make_uniforms(self);
+    return result;
+}
+
+WeftResult materials_create(const WeftScene *scene, const GlTextures *textures, int threads, GlMaterials *out,
+                            WeftError *error) {
+    MaterialsChange change;
+    *out = (GlMaterials){0};
+    WeftResult result = make_buffer(out, scene, error);
+    if (result == WEFT_OK) result = materials_update(out, scene, textures, threads, &change, error);
+    if (result != WEFT_OK) materials_destroy(out);
+    return result;
+}
+
+void materials_destroy(GlMaterials *self) {
+    if (self->uniforms) glDeleteBuffers(1, &self->uniforms);
+    cloths_destroy(&self->cloths);
+    let_go(self, NULL);
+    *self = (GlMaterials){0};
+}
+
+void material_in_light(const GlMaterial *self, float env_light_kappa, ShaderKey *key) {
+    key->focus = key->narrow = 0;
+    for (int k = 0; k < SLOT_COUNT; k++) {
+        key->focus |= (self->finest[k] > AMBIENT_CLOSE - AMBIENT_BLEND) << k;
+        key->narrow |= (self->finest[k] > env_light_kappa - AMBIENT_FINER - AMBIENT_BLEND) << k;
+    }
+}
+
+void materials_bind(const GlMaterials *self, const GlTextures *textures, int material, int block) {
+    const GlMaterial *m = &self->all[material];
+    for (int k = 0; k < m->group_count; k++) textures_bind(textures, m->groups[k], k);
+    if (m->cloth) cloths_bind(&self->cloths, m->cloth - 1, UNIT_CLOTH_CELLS, UNIT_CLOTH_COLORS);
+    glBindBufferRange(GL_UNIFORM_BUFFER, (GLuint)block, self->uniforms, (GLintptr)material * self->stride,
+                      (GLsizeiptr)sizeof(Uniforms));
+}

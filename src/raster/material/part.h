@@ -1,0 +1,14 @@
+/* part.h - showing a part of the light, or a property, in place of all */
+#ifndef WEFT_RASTER_PART_H
+#define WEFT_RASTER_PART_H
+
+#include "text/assemble/text.h"
+#include "weft/part.h"
+
+/* Returns true if the part is a property and not light. */
+bool part_is_property(int part);
+
+/* Says in a fragment shader's text what of glsl/forward.glsl is shown. */
+void part_text(int part, Text *text);
+
+#endif

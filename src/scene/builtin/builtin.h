@@ -1,0 +1,16 @@
+/* builtin.h - the scenes that need no file */
+#ifndef WEFT_SCENE_BUILTIN_H
+#define WEFT_SCENE_BUILTIN_H
+
+#include "scene/record/scene.h"
+
+typedef struct Builtin {
+    const char *name, *help;
+    const unsigned char *glb, *glb_end;                     /* an embedded file, or */
+    WeftResult (*make)(WeftScene *scene, WeftError *error); /* a function that fills an empty scene */
+} Builtin;
+
+/* The built-in scene at index; NULL past the end. */
+const Builtin *builtin_at(int index);
+
+#endif

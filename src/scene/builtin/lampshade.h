@@ -1,0 +1,10 @@
+/* lampshade.h - the scene builtin:lampshade: light through cloth, of a lamp's shade and of a curtain */
+#ifndef WEFT_SCENE_LAMPSHADE_H
+#define WEFT_SCENE_LAMPSHADE_H
+
+#include "scene/record/scene.h"
+
+/* A lamp that is lit, before a curtain. Materials are named shade, curtain, bulb, stand and table. */
+WeftResult lampshade_make(WeftScene *scene, WeftError *error);
+
+#endif

@@ -1,0 +1,11 @@
+/* loom_scene.h - the scene builtin:loom: woven swatches, and denim over a bar */
+#ifndef WEFT_SCENE_LOOM_SCENE_H
+#define WEFT_SCENE_LOOM_SCENE_H
+
+#include "scene/record/scene.h"
+
+/* Six swatches of woven presets, and a seventh folded over a bar. The cameras: main; far, in whose picture lie 5,000
+ * threads of the denim side by side; near, 500; close, 50; threads, 5. */
+WeftResult loom_make(WeftScene *scene, WeftError *error);
+
+#endif

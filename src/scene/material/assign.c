@@ -1,0 +1,125 @@
+/* assign.c - assigning the material of a file, or a preset, in a scene */
+#include "scene/material/assign.h"
+#include "base/fail.h"
+#include "scene/material/material_file.h"
+#include "scene/material/pictures.h"
+#include "scene/material/set.h"
+#include "scene/record/tangents.h"
+
+static bool shows(const Material *material, InputId color) {
+    const Input *input = &material->inputs[color];
+    return input->value[0] > 0.0f || input->value[1] > 0.0f || input->value[2] > 0.0f;
+}
+
+static bool is_cloth(const WeftScene *scene, int k) {
+    bool any = false;
+    for (int m = 0; m < scene_own_materials(scene); m++)
+        any |= shows(&scene->materials[m], INPUT_sheen_color);
+    const Material *material = &scene->materials[k];
+    return any ? shows(material, INPUT_sheen_color) : !shows(material, INPUT_emission);
+}
+
+/* Lengthens the scene's lists by those of the file and gives it the images. */
+static bool adopt_textures(WeftScene *scene, MaterialFile *file) {
+    int number[INPUT_COUNT], image[INPUT_COUNT];
+    for (int k = 0; k < file->image_count; k++) image[k] = -1;
+    for (int k = 0; k < file->texture_count; k++) {
+        Texture texture = file->textures[k];
+        int from = texture.image;
+        texture.path = arena_text(&scene->arena, file->paths[from]);
+        texture.image = image[from];
+        if (!texture.path) return false;
+        number[k] = image[from] < 0 ? picture_add(scene, &file->images[from], texture)
+                                    : texture_number_of(scene, texture);
+        if (!number[k]) return false;
+        image[from] = scene->textures[number[k] - 1].image;
+    }
+    for (int k = 0; k < INPUT_COUNT; k++) {
+        int *texture = &file->material.inputs[k].texture;
+        if (*texture) *texture = number[*texture - 1];
+    }
+    return true;
+}
+
+/* Gives the scene the cloth of the file, whose material then names it. */
+static bool adopt_cloth(WeftScene *scene, MaterialFile *file) {
+    if (!file->cloth) return true;
+    file->material.cloth = scene_adopt_cloth(scene, file->cloth);
+    if (file->material.cloth) file->cloth = NULL;
+    return file->material.cloth != 0;
+}
+
+static bool adopt_measured(WeftScene *scene, MaterialFile *file) {
+    if (!file->measured) return true;
+    file->material.measured = scene_adopt_measured(scene, file->measured);
+    if (file->material.measured) file->measured = NULL;
+    return file->material.measured != 0;
+}
+
+/* Returns the material of the file. Inputs that belong to the shape stay unless the file gives them. */
+static Material assigned(const Material *old, const MaterialFile *file) {
+    static const InputId shape[] = {INPUT_normal, INPUT_occlusion, INPUT_opacity};
+    Material fresh = file->material;
+    for (size_t k = 0; k < sizeof shape / sizeof *shape; k++)
+        if (!file->named[shape[k]]) fresh.inputs[shape[k]] = old->inputs[shape[k]];
+    for (int k = 0; k < INPUT_COUNT; k++)
+        if (file->keep[k]) fresh.inputs[k] = old->inputs[k];
+    if (!file->sided_named) fresh.double_sided = old->double_sided;
+    if (!file->alpha_named) {
+        fresh.alpha_mode = old->alpha_mode;
+        fresh.alpha_cutoff = old->alpha_cutoff;
+    }
+    return fresh;
+}
+
+bool *materials_matching(WeftScene *scene, const char *material, WeftError *error) {
+    int matched = 0;
+    bool *selected = arena_array(&scene->arena, (size_t)scene->material_count, sizeof *selected);
+    if (!selected) {
+        fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+        return NULL;
+    }
+    for (int k = 0; k < scene_own_materials(scene); k++) {
+        selected[k] = material ? material_matches(scene, k, material) : is_cloth(scene, k);
+        matched += selected[k];
+    }
+    if (!material || matched) return selected;
+    char names[NAMES_SIZE];
+    fail(error, WEFT_MESSAGE_MATERIAL_NAME, material, "%s",
+         scene_names(scene, weft_scene_material_name, names));
+    return NULL;
+}
+
+static WeftResult put_on(WeftScene *scene, const char *material, MaterialFile *file, WeftError *error) {
+    WeftError said = {.result = WEFT_RESOURCES};
+    const bool *selected = materials_matching(scene, material, &said);
+    if (!selected && error) *error = said;
+    if (!selected) return said.result;
+    if (!adopt_textures(scene, file) || !adopt_cloth(scene, file) || !adopt_measured(scene, file))
+        return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    for (int k = 0; k < scene_own_materials(scene); k++)
+        if (selected[k]) scene->materials[k] = assigned(&scene->materials[k], file);
+    return tangents_complete(scene, error);
+}
+
+static WeftResult assign_from(WeftScene *scene, const char *material, MaterialFile *file, WeftResult read,
+                              WeftError *error) {
+    WeftResult result = read == WEFT_OK ? put_on(scene, material, file, error) : read;
+    material_file_free(file);
+    return result;
+}
+
+WeftResult weft_scene_assign_material_memory(WeftScene *scene, const char *material, const void *data,
+                                             size_t size, const char *name, const WeftLog *log,
+                                             WeftError *error) {
+    MaterialFile file;
+    WeftResult read = material_file_read(data ? data : "", data ? size : 0, name, NULL, &file, log, error);
+    return assign_from(scene, material, &file, read, error);
+}
+
+WeftResult weft_scene_assign_material(WeftScene *scene, const char *material, const char *path,
+                                      const WeftLog *log, WeftError *error) {
+    MaterialFile file;
+    WeftResult read = material_file_load(path, &file, log, error);
+    return assign_from(scene, material, &file, read, error);
+}

@@ -1,0 +1,12 @@
+/* assign.h - the materials that a name selects */
+#ifndef WEFT_SCENE_ASSIGN_H
+#define WEFT_SCENE_ASSIGN_H
+
+#include "scene/record/scene.h"
+
+/* Returns a flag for each material that is set if name, index or "*" selects it. NULL selects all that have a
+ * sheen or, if none has, all that emit no light. The flags live as long as the scene. Returns NULL on
+ * failure: MATERIAL_NAME or MEMORY. */
+bool *materials_matching(WeftScene *scene, const char *material, WeftError *error);
+
+#endif

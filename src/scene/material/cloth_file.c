@@ -1,0 +1,244 @@
+#define _XOPEN_SOURCE 700 /* realpath */
+#include "scene/material/cloth_file.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "base/fail.h"
+#include "base/pi.h"
+#include "scene/record/scene.h"
+#include "weave/weave_draft.h"
+#include "weave/weft_cloth.h"
+
+enum { CELLS_MAX = 1 << 20 }; /* of a draft: a cloth takes 16 bytes a crossing */
+
+/* A weave being read. The first failure stays. */
+typedef struct ClothReader {
+    const char *name, *folder;
+    const WeftLog *log;
+    WeftError *error;
+    WeftResult result;
+    WeftDraft *draft;
+    char path[4096 + 512]; /* of the draft's file; "": it is in none */
+    WeftYarn yarns[2];
+} ClothReader;
+
+static void refuse(ClothReader *r, const char *key, const char *what) {
+    if (r->result == WEFT_OK)
+        r->result = fail(r->error, WEFT_MESSAGE_MATERIAL_FILE, r->name, "weave: %.40s: %s", key, what);
+}
+
+static void keep_first(ClothReader *r, WeftResult result) {
+    if (r->result == WEFT_OK) r->result = result;
+}
+
+/* A draft as the text of a WIF, which has lines, in words, or in a file beside the material's. */
+static void read_draft(ClothReader *r, const json_t *json) {
+    const char *text = json_string_value(json);
+    struct stat file;
+    if (text && strchr(text, '\n')) {
+        keep_first(r, weft_draft_read_memory(text, strlen(text), r->name, &r->draft, r->log, r->error));
+        return;
+    }
+    if (!text || strlen(text) > 4096) {
+        refuse(r, "draft", "expected words such as \"twill 2/2\", or a file");
+        return;
+    }
+    if (r->folder && strlen(r->folder) > 511) {
+        refuse(r, "draft", "lies in a folder whose name is too long");
+        return;
+    }
+    snprintf(r->path, sizeof r->path, "%.511s%s", text[0] == '/' || !r->folder ? "" : r->folder, text);
+    if (r->folder && stat(r->path, &file) == 0) {
+        keep_first(r, weft_draft_read(r->path, &r->draft, r->log, r->error));
+    } else {
+        keep_first(r, weft_draft_parse(text, &r->draft, r->error));
+        r->path[0] = '\0';
+    }
+}
+
+/* "#rrggbb", on all threads of a system. */
+static void read_color(ClothReader *r, const json_t *json, WeftThreads threads) {
+    const char *text = json_string_value(json);
+    char *end = NULL;
+    const bool hex =
+        text && text[0] == '#' && strlen(text) == 7 && strspn(text + 1, "0123456789abcdefABCDEF") == 6;
+    const unsigned long rgb = hex ? strtoul(text + 1, &end, 16) : 0;
+    if (!end || *end) {
+        refuse(r, "color", "expected a colour such as \"#c02030\"");
+        return;
+    }
+    for (int k = 0; r->draft && k < r->draft->count[threads]; k++)
+        for (int c = 0; c < 3; c++)
+            r->draft->threads[threads][k].color[c] = (float)(rgb >> (16 - 8 * c) & 255u) / 255.0f;
+}
+
+static float *number_in(WeftYarn *yarn, const WeftYarnNumber *number) {
+    return (float *)((char *)yarn + number->offset);
+}
+
+static float scale_of(const WeftYarnNumber *number) { return number->angle ? (float)RADIANS : 1.0f; }
+
+static void read_number(ClothReader *r, const char *key, const json_t *json, WeftYarn *yarn) {
+    for (int k = 0; weft_yarn_number(k); k++) {
+        const WeftYarnNumber *number = weft_yarn_number(k);
+        if (strcmp(key, number->name) != 0) continue;
+        if (!json_is_number(json)) refuse(r, key, "expected a number");
+        *number_in(yarn, number) = scale_of(number) * (float)fmin(fmax(json_number_value(json), -1e6), 1e6);
+        return;
+    }
+    refuse(r, key, "is not a key of a yarn");
+}
+
+/* The name of a yarn, or {"yarn": NAME, "color": "#rrggbb", "alpha": 0.3, ...}. */
+static void read_yarn(ClothReader *r, const json_t *json, WeftThreads threads) {
+    WeftYarn *yarn = &r->yarns[threads];
+    const json_t *base = json_is_object(json) ? json_object_get(json, "yarn") : json;
+    const char *name = base ? json_string_value(base) : "cotton", *key;
+    json_t *value;
+    if (!name) {
+        refuse(r, "yarn", "expected the name of a yarn");
+        return;
+    }
+    keep_first(r, weft_yarn_find(name, yarn, r->error));
+    if (!json_is_object(json)) return;
+    json_object_foreach((json_t *)(uintptr_t)json, key, value) {
+        if (strcmp(key, "yarn") == 0) continue;
+        if (strcmp(key, "color") == 0)
+            read_color(r, value, threads);
+        else
+            read_number(r, key, value, yarn);
+    }
+}
+
+static double positive(ClothReader *r, const json_t *root, const char *key, double otherwise, double high) {
+    const json_t *json = json_object_get(root, key);
+    if (!json) return otherwise;
+    const double value = json_number_value(json);
+    if (!json_is_number(json) || !(value >= 0.0 && value <= high))
+        refuse(r, key, "is not a number that it can be");
+    return value;
+}
+
+static void read_keys(ClothReader *r, const json_t *json) {
+    static const char *const keys[] = {"draft", "warp", "weft", "metres", "seed"};
+    const char *key;
+    json_t *value;
+    if (!json_is_object(json)) refuse(r, "it", "expected an object with a \"draft\"");
+    json_object_foreach((json_t *)(uintptr_t)json, key, value) {
+        bool known = false;
+        for (size_t k = 0; k < sizeof keys / sizeof *keys; k++) known |= strcmp(key, keys[k]) == 0;
+        if (!known) refuse(r, key, "is not a key of a weave");
+    }
+}
+
+/* Notes what the cloth came from. Returns false if memory is short. */
+static bool keep_source(ClothReader *r, const json_t *json, WeftCloth *cloth) {
+    cloth->text = json_dumps(json, JSON_COMPACT);
+    cloth->draft = r->draft;
+    r->draft = NULL;
+    if (!r->path[0]) return cloth->text != NULL;
+    cloth->path = realpath(r->path, NULL);
+    return cloth->text && cloth->path;
+}
+
+WeftResult cloth_from_json(const json_t *json, const char *name, const char *folder, WeftCloth **out,
+                           const WeftLog *log, WeftError *error) {
+    static const char *const systems[] = {"warp", "weft"};
+    ClothReader reader = {.name = name, .folder = folder, .log = log, .error = error};
+    *out = NULL;
+    read_keys(&reader, json);
+    if (reader.result == WEFT_OK) read_draft(&reader, json_object_get(json, "draft"));
+    for (int t = 0; t < 2 && reader.result == WEFT_OK; t++) {
+        const json_t *yarn = json_object_get(json, systems[t]);
+        if (yarn)
+            read_yarn(&reader, yarn, (WeftThreads)t);
+        else
+            keep_first(&reader, weft_yarn_find("cotton", &reader.yarns[t], error));
+    }
+    if (reader.draft && (long)reader.draft->count[0] * reader.draft->count[1] > CELLS_MAX)
+        refuse(&reader, "draft", "it has more than a million crossings");
+    const double metres = positive(&reader, json, "metres", 1.0, 1e4),
+                 seed = positive(&reader, json, "seed", 0.0, 288.0);
+    if (!(metres > 0.0)) refuse(&reader, "metres", "is 0");
+    if (reader.result == WEFT_OK)
+        reader.result = weft_cloth_create(reader.draft, reader.yarns, (unsigned)seed, out, error);
+    if (*out) cloth_spread(*out, metres);
+    if (*out && !keep_source(&reader, json, *out)) {
+        weft_cloth_free(*out);
+        *out = NULL;
+        reader.result = fail(error, WEFT_MESSAGE_MEMORY, name, NULL);
+    }
+    weft_draft_free(reader.draft);
+    return reader.result;
+}
+
+json_t *cloth_to_json(const WeftCloth *cloth, const char *draft) {
+    json_t *json = json_loads(cloth->text, 0, NULL);
+    char *text = cloth->path && !draft ? wif_text(cloth->draft) : NULL;
+    if (!cloth->path) return json;
+    if (json_object_set_new(json, "draft", json_string(draft ? draft : text)) != 0) {
+        json_decref(json);
+        json = NULL;
+    }
+    free(text);
+    return json;
+}
+
+/* Writes what the yarn of a system has now into its JSON. Returns false where memory is short. */
+static bool put_yarn(json_t *weave, const char *system, WeftYarn *yarn) {
+    json_t *json = json_object_get(weave, system);
+    if (!json_is_object(json)) {
+        json = json_pack("{s:s}", "yarn", json ? json_string_value(json) : "cotton");
+        if (json_object_set_new(weave, system, json) != 0) return false;
+    }
+    for (int k = 0; weft_yarn_number(k); k++) {
+        const WeftYarnNumber *number = weft_yarn_number(k);
+        const float is = *number_in(yarn, number);
+        const double value = isfinite(is) ? (double)is / (double)scale_of(number) : 1e6; /* refused */
+        if (json_object_set_new(json, number->name, json_real(value)) != 0) return false;
+    }
+    return true;
+}
+
+static bool put_draft(json_t *weave, const WeftDraft *draft) {
+    char *text = wif_text(draft);
+    const bool put = text && json_object_set_new(weave, "draft", json_string(text)) == 0;
+    free(text);
+    return put;
+}
+
+const WeftDraft *weft_scene_cloth(const WeftScene *scene, int cloth, WeftYarn yarns[2]) {
+    if (cloth < 1 || cloth > scene->cloth_count) return NULL;
+    const WeftCloth *of = scene->cloths[cloth - 1];
+    for (int t = 0; yarns && t < 2; t++) yarns[t] = of->yarns[t];
+    return of->draft;
+}
+
+WeftResult weft_scene_set_weave(WeftScene *scene, int material, const WeftDraft *draft,
+                                const WeftYarn yarns[2], WeftError *error) {
+    const bool there = material >= 0 && material < scene_own_materials(scene);
+    const int number = there ? scene->materials[material].cloth : 0;
+    if (!number) return fail(error, WEFT_MESSAGE_DESC, "weave", "material %d is not woven", material);
+    const WeftCloth *was = scene->cloths[number - 1];
+    WeftYarn both[2] = {yarns[0], yarns[1]};
+    WeftCloth *cloth = NULL;
+    json_t *json = cloth_to_json(was, NULL);
+    bool put = json && put_yarn(json, "warp", &both[0]) && put_yarn(json, "weft", &both[1]);
+    if (put && !draft_same(draft, was->draft)) put = put_draft(json, draft);
+    WeftResult result =
+        put ? cloth_from_json(json, scene->material_names[material], NULL, &cloth, NULL, error)
+            : fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    json_decref(json);
+    if (result != WEFT_OK) return result;
+    const int fresh = scene_adopt_cloth(scene, cloth);
+    if (!fresh) {
+        weft_cloth_free(cloth);
+        return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    }
+    scene->materials[material].cloth = fresh;
+    return WEFT_OK;
+}

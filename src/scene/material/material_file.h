@@ -1,0 +1,32 @@
+/* material_file.h - a material as a small JSON file: docs/materials.md has its keys */
+#ifndef WEFT_SCENE_MATERIAL_FILE_H
+#define WEFT_SCENE_MATERIAL_FILE_H
+
+#include "scene/record/scene.h"
+
+/* The contents of a material file. Its images are those that inputs name; input.texture is an index into
+ * textures, plus 1. */
+typedef struct MaterialFile {
+    Material material;       /* defaults where the file is silent; name is "" */
+    bool named[INPUT_COUNT]; /* given by the file */
+    bool keep[INPUT_COUNT];  /* to be left as the asset has it */
+    bool alpha_named, sided_named;
+    Texture textures[INPUT_COUNT];
+    WeftImage images[INPUT_COUNT]; /* owned */
+    char *paths[INPUT_COUNT];      /* owned; of images */
+    int texture_count, image_count;
+    WeftCloth *cloth;   /* owned; NULL: none */
+    Measured *measured; /* owned; NULL: none */
+} MaterialFile;
+
+/* Reads size bytes of JSON. name is the subject of errors and warnings; folder ("" or with a slash at its
+ * end) is where textures lie, NULL: there may be none. Release with material_file_free in any case. */
+WeftResult material_file_read(const void *data, size_t size, const char *name, const char *folder,
+                              MaterialFile *out, const WeftLog *log, WeftError *error);
+
+/* Reads the file at path, whose textures are relative to it, or "preset:NAME", which gives no warning. */
+WeftResult material_file_load(const char *path, MaterialFile *out, const WeftLog *log, WeftError *error);
+
+void material_file_free(MaterialFile *file);
+
+#endif

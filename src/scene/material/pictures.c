@@ -1,0 +1,96 @@
+#include "scene/material/pictures.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/fail.h"
+#include "weft/material.h"
+
+int texture_number_of(WeftScene *scene, Texture texture) {
+    size_t count = (size_t)scene->texture_count;
+    Texture *textures = arena_array(&scene->arena, count + 1, sizeof *textures);
+    if (!textures) return 0;
+    if (count) memcpy(textures, scene->textures, count * sizeof *textures);
+    textures[count] = texture;
+    scene->textures = textures;
+    return ++scene->texture_count;
+}
+
+int picture_add(WeftScene *scene, WeftImage *image, Texture like) {
+    size_t count = (size_t)scene->image_count;
+    WeftImage *images = arena_array(&scene->arena, count + 1, sizeof *images);
+    if (!images) return 0;
+    like.image = scene->image_count;
+    int number = texture_number_of(scene, like);
+    if (!number) return 0;
+    if (count) memcpy(images, scene->images, count * sizeof *images);
+    images[count] = *image;
+    *image = (WeftImage){0};
+    scene->images = images;
+    scene->image_count++;
+    return number;
+}
+
+void picture_replace(WeftScene *scene, int image, WeftImage *fresh, const char *path) {
+    if (fresh->pixels != scene->images[image].pixels) weft_image_free(&scene->images[image]);
+    scene->images[image] = *fresh;
+    *fresh = (WeftImage){0};
+    for (int k = 0; k < scene->texture_count; k++) {
+        if (scene->textures[k].image != image) continue;
+        scene->textures[k].turn++;
+        scene->textures[k].path = path;
+    }
+}
+
+/* Refuses an invalid image here, since lookups do not check. */
+static WeftResult check_image(const WeftImage *image, WeftError *error) {
+    enum { SIDE_MAX = 65536 };
+    const char *subject = "texture";
+    if (!image->pixels) return fail(error, WEFT_MESSAGE_DESC, subject, "it has no pixels");
+    if (image->width < 1 || image->width > SIDE_MAX || image->height < 1 || image->height > SIDE_MAX)
+        return fail(error, WEFT_MESSAGE_DESC, subject, "%d x %d pixels", image->width, image->height);
+    if (image->channels < 1 || image->channels > 4 || (unsigned)image->type > WEFT_PIXEL_F32)
+        return fail(error, WEFT_MESSAGE_DESC, subject, "%d channels of type %d", image->channels,
+                    (int)image->type);
+    size_t count = (size_t)image->width * (size_t)image->height * (size_t)image->channels;
+    const float *values = image->pixels;
+    for (size_t k = 0; k < count && image->type == WEFT_PIXEL_F32; k++)
+        if (!isfinite(values[k])) return fail(error, WEFT_MESSAGE_DESC, subject, "a pixel is not finite");
+    return WEFT_OK;
+}
+
+static bool is_texture(const WeftScene *scene, int index) {
+    return index > 0 && index <= scene->texture_count;
+}
+
+const char *weft_scene_texture_path(const WeftScene *scene, int index) {
+    return is_texture(scene, index) ? scene->textures[index - 1].path : NULL;
+}
+
+WeftImage weft_scene_texture(const WeftScene *scene, int index) {
+    return is_texture(scene, index) ? scene->images[scene->textures[index - 1].image] : (WeftImage){0};
+}
+
+WeftResult weft_scene_put_texture(WeftScene *scene, int index, WeftImage *image, WeftError *error) {
+    if (!is_texture(scene, index))
+        return fail(error, WEFT_MESSAGE_DESC, "texture", "number %d does not exist", index);
+    WeftResult result = check_image(image, error);
+    if (result == WEFT_OK) picture_replace(scene, scene->textures[index - 1].image, image, NULL);
+    return result;
+}
+
+WeftResult weft_scene_read_texture(WeftScene *scene, int index, const WeftLog *log, WeftError *error) {
+    WeftImage image;
+    const char *path = weft_scene_texture_path(scene, index);
+    if (!path) return fail(error, WEFT_MESSAGE_DESC, "texture", "number %d has no file of its own", index);
+    WeftResult result = weft_image_read(path, &image, log, error);
+    if (result == WEFT_OK) picture_replace(scene, scene->textures[index - 1].image, &image, path);
+    return result;
+}
+
+int weft_scene_add_texture(WeftScene *scene, WeftImage *image, WeftError *error) {
+    if (check_image(image, error) != WEFT_OK) return 0;
+    int number = picture_add(scene, image, (Texture){0});
+    if (!number) fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    return number;
+}

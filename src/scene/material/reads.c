@@ -1,0 +1,142 @@
+/* reads.c - which inputs of a material have any influence on it
+ *
+ * Workflows, profiles and choices are text that computes, not lists of what they read. So an input is moved
+ * and what the material sends back is compared, at points that see dust from wherever it comes, into
+ * directions that see a narrow highlight and a rim. */
+#include <math.h>
+
+#include "scene/material/material_numbers.h"
+#include "scene/record/material_at.h"
+#include "shading/material/dust.h"
+#include "shading/stack/frame.h"
+
+/* A point of the world and where it is seen from. */
+typedef struct ReadProbe {
+    Dir normal, tangent, point, eye;
+} ReadProbe;
+
+static const ReadProbe probes[] = {
+    {{0.36f, 0.80f, 0.48f}, {1.0f, 0.0f, 0.0f}, {0.031f, 0.212f, 0.117f}, {0.10f, 0.55f, 0.83f}},
+    {{-0.48f, -0.36f, 0.80f}, {0.6f, 0.0f, 0.8f}, {1.373f, -0.418f, 0.702f}, {-0.78f, -0.10f, 0.62f}},
+    {{0.48f, 0.60f, -0.64f}, {0.0f, 1.0f, 0.0f}, {-0.561f, 0.933f, 2.207f}, {0.88f, 0.12f, 0.46f}},
+};
+enum { PROBES = sizeof probes / sizeof *probes, INCOMING = 5, ANSWERS = PROBES * INCOMING };
+
+typedef struct MaterialAnswer {
+    Rgb f_cos[ANSWERS];
+} MaterialAnswer;
+
+/* In place of E, which takes long, a number that depends on all that E depends on: what the sheen's lobe
+ * itself says of one pair of directions. */
+static float stand_in(const Stack *m) {
+    const Dir o = dir(0.48f, 0.36f, 0.8f), i = dir(-0.36f, 0.64f, 0.678823f);
+    float f = lobe_eval(&m->sheen.lobe, angles_between(o, i));
+    return f > 0.0f ? f / (1.0f + f) : 0.0f;
+}
+
+/* Directions of light: where a mirror sends it, just beside, far off, and the last from behind. */
+static Dir incoming(Dir o, int k) {
+    const float aside[INCOMING][2] = {
+        {0.0f, 0.0f}, {0.021f, 0.013f}, {0.43f, -0.29f}, {-0.51f, 0.37f}, {0.2f, 0.3f}};
+    float x = aside[k][0] - o.x, y = aside[k][1] - o.y, most = 0.97f; /* above the horizon */
+    float shrink = min(1.0f, sqrt(most / max(x * x + y * y, most)));
+    x *= shrink, y *= shrink;
+    return dir(x, y, (k == INCOMING - 1 ? -1.0f : 1.0f) * sqrt(1.0f - x * x - y * y));
+}
+
+static void answer_at(const ReadProbe *probe, Surface s, const Choices *choices, Rgb f_cos[INCOMING]) {
+    enum { COLUMNS = 4 };
+    const Facing at = {probe->normal, probe->normal, probe->tangent, 1.0f};
+    const TableRef none = {.kind = TABLE_NONE};
+    float e[COLUMNS + 1];
+    SeenStack seen;
+    Frame frame = frame_of(at, s, probe->eye), fixed = frame_about(frame.z, probe->tangent, 1.0f);
+    Dir o = frame_to(frame, probe->eye);
+    s = dust_accumulate(frame_surface(s), frame.z, probe->point);
+    stack_make(&seen.stack, &s, choices, none);
+    float same = stand_in(&seen.stack);
+    for (int k = 0; k <= COLUMNS; k++) e[k] = same;
+    seen_make(&seen, &s, choices, (TableRef){.texels = e, .kind = TABLE_ROOTS, .rows = 1, .columns = COLUMNS},
+              o);
+    for (int k = 0; k < INCOMING; k++) { /* the same ones in the world, however the frame is turned */
+        Dir i = frame_from(fixed, incoming(frame_to(fixed, probe->eye), k));
+        f_cos[k] = seen_eval(&seen, frame_to(frame, i), 1).f_cos;
+    }
+}
+
+static MaterialAnswer answer_of(const Surface *surface, const Choices *choices) {
+    MaterialAnswer answer;
+    for (int k = 0; k < PROBES; k++) answer_at(&probes[k], *surface, choices, answer.f_cos + k * INCOMING);
+    return answer;
+}
+
+/* Beyond what rounding does. */
+static bool is_other(float a, float b) { return fabsf(a - b) > 1e-7f + 1e-5f * max(fabsf(a), fabsf(b)); }
+
+static bool differ(const MaterialAnswer *a, const MaterialAnswer *b) {
+    bool other = false;
+    for (int k = 0; k < ANSWERS; k++)
+        other |= is_other(a->f_cos[k].r, b->f_cos[k].r) || is_other(a->f_cos[k].g, b->f_cos[k].g) ||
+                 is_other(a->f_cos[k].b, b->f_cos[k].b);
+    return other;
+}
+
+/* An input somewhere in its plausible range: of a colour each channel elsewhere. */
+static void move(Material *material, int input, float t) {
+    const WeftInputInfo *info = &input_infos[input];
+    bool angle = info->kind == WEFT_INPUT_DIRECTION || info->kind == WEFT_INPUT_ANGLE;
+    float unit = angle ? PI / 180.0f : 1.0f;
+    for (int c = 0; c < 3; c++) {
+        float share = info->kind == WEFT_INPUT_COLOR ? t * (1.0f - 0.3f * (float)c) : t;
+        material->inputs[input].value[c] = unit * mix(info->low, info->high, share);
+    }
+}
+
+/* Returns the surface with textures at their middle value and narrow lobes widened to the spacing of the
+ * directions, so that neither hides an influence. */
+static Surface middle_of(const Material *material) {
+    static const InputId widths[] = {INPUT_roughness, INPUT_clearcoat_roughness, INPUT_sheen_roughness,
+                                     INPUT_dust_roughness};
+    Material middle = *material;
+    for (size_t k = 0; k < sizeof widths / sizeof *widths; k++)
+        middle.inputs[widths[k]].value[0] = max(middle.inputs[widths[k]].value[0], 0.5f);
+    for (int k = 0; k < INPUT_COUNT; k++)
+        for (int c = 0; c < 3 && input_infos[k].kind != WEFT_INPUT_DIRECTION; c++)
+            if (middle.inputs[k].texture) middle.inputs[k].value[c] *= 0.5f;
+    return material_plain(&middle);
+}
+
+static bool moves_the_light(const Material *material, int input) {
+    const float places[] = {0.0f, 1.0f, 0.37f};
+    const Choices choices = material_choices(material);
+    const Surface surface = middle_of(material);
+    const MaterialAnswer before = answer_of(&surface, &choices);
+    bool reads = false;
+    for (size_t k = 0; k < sizeof places / sizeof *places && !reads; k++) {
+        Material moved = *material;
+        move(&moved, input, places[k]);
+        Surface other = middle_of(&moved);
+        if (input == INPUT_clearcoat_normal) other.clearcoat_normal = dir(0.36f, 0.48f, 0.8f);
+        MaterialAnswer after = answer_of(&other, &choices);
+        reads = differ(&before, &after);
+    }
+    return reads;
+}
+
+static bool is_black(const Input *input) {
+    return !(input->value[0] > 0.0f || input->value[1] > 0.0f || input->value[2] > 0.0f);
+}
+
+int weft_material_reads(const WeftMaterial *numbers, int input) {
+    if (input < 0 || input >= INPUT_COUNT) return 0;
+    const Material material = material_sound(numbers);
+    if (input == INPUT_opacity) return material.alpha_mode != WEFT_ALPHA_OPAQUE;
+    if (material.unlit) return input == INPUT_base_color;
+    switch ((InputId)input) {
+    case INPUT_normal:
+    case INPUT_occlusion: return 1;
+    case INPUT_emission: return material.inputs[INPUT_emission_strength].value[0] > 0.0f;
+    case INPUT_emission_strength: return !is_black(&material.inputs[INPUT_emission]);
+    default: return moves_the_light(&material, input);
+    }
+}

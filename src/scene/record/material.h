@@ -1,0 +1,41 @@
+/* material.h - the material of a surface: each input of shading/stack/inputs.h as a number or a texture times a
+ * number */
+#ifndef WEFT_SCENE_MATERIAL_H
+#define WEFT_SCENE_MATERIAL_H
+
+#include "scene/record/texture.h"
+#include "shading/stack/input_ids.h"
+#include "weft/material.h"
+
+/* The material of the public header is the scene's own: its inputs are indexed by InputId, its choices by ChoiceId.
+ * Past the last of either, and where an input has no number, all is zero, so that equal materials are equal bytes. */
+typedef WeftMaterial Material;
+typedef WeftInput Input;
+
+_Static_assert((int)INPUT_COUNT <= (int)WEFT_INPUTS_MAX && (int)CHOICE_COUNT <= (int)WEFT_CHOICES_MAX,
+               "weft/material.h has room for all");
+
+extern const WeftInputInfo input_infos[INPUT_COUNT];
+
+/* Returns how many numbers the value of an input has: 3 for a colour, else 1. */
+int input_value_count(InputId input);
+
+/* Returns true if both inputs' textures, sets of coordinates and placements are one. */
+bool input_same_texels(const Input *a, const Input *b);
+
+/* Returns a material with every default: identity texture transforms, no textures, opaque, single-sided, nothing
+ * chosen. */
+Material material_default(void);
+
+/* Sets the colour of an input, linear. */
+void material_set_color(Material *material, InputId input, float r, float g, float b);
+
+/* Sets the factor beside a texture that alone counts: 1, the greatest angle, or 0 added to a direction. */
+void input_set_map_factor(Input *input, InputId id);
+
+/* Makes a choice. Inputs that mean something else to a workflow (disney, and profile disney-2012: specular
+ * 0.5, sheen 0; specular and free: specular_color 0.03) move from default to default, unless they are given,
+ * hold a texture or another value. */
+void material_choose(Material *material, ChoiceId choice, int value);
+
+#endif

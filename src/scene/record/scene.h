@@ -1,0 +1,150 @@
+/* scene.h - the contents of a loaded file: world-space triangles, materials, lights, cameras, environment
+ *
+ * World space is glTF's: right-handed, +y up, metres. A scene is made by gltf/ or builtin.c and read by the
+ * renderers. All memory but the pixels is in one arena. */
+#ifndef WEFT_SCENE_SCENE_H
+#define WEFT_SCENE_SCENE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "base/memory.h"
+#include "base/vec3.h"
+#include "scene/record/material.h"
+#include "scene/record/texture.h"
+#include "weft/scene.h"
+#include "weft/weave.h"
+
+typedef struct Measured Measured; /* brdf/measured.h */
+
+/* No coordinate of a scene is larger, m: squares of coordinates must stay finite. A ray may start further
+ * out, since a camera backs off to see a scene and a parallel one looks from beside its eye, but not beyond
+ * RAY_REACH: from 1.844e18 on Embree takes a number for no number. */
+#define SCENE_REACH 1e15f
+#define RAY_REACH   1e18f
+
+/* Returns false where a coordinate is beyond reach, or is no number. */
+static inline bool within_reach(Vec3 p, float reach) {
+    return fabsf(p.x) <= reach && fabsf(p.y) <= reach && fabsf(p.z) <= reach;
+}
+
+/* One set of triangles with one material, already in world space; front faces wind counter-clockwise. */
+typedef struct Mesh {
+    const char *name; /* never NULL */
+    uint32_t vertex_count, triangle_count;
+    float *position; /* 3 a vertex */
+    float *normal;   /* 3 a vertex, unit; NULL: use the flat face normal */
+    float *tangent; /* 4 a vertex: unit xyz, w = +1 or -1 with bitangent = w cross(n, t); NULL: none needed */
+    float *texcoord[2];    /* 2 a vertex; NULL reads as (0, 0) */
+    float *color;          /* 4 a vertex, linear RGBA, multiplies base_color and opacity; NULL: white */
+    uint32_t *index;       /* 3 a triangle, each < vertex_count */
+    int material;          /* index into materials; always valid */
+    int own_material;      /* without a variant, where there are any */
+    int *variant_material; /* variant_count entries, -1: its own; NULL: all -1 */
+} Mesh;
+
+typedef enum LightKind { LIGHT_DIRECTIONAL, LIGHT_POINT, LIGHT_SPOT } LightKind;
+
+/* Radiometric: color * intensity is W/(m^2) across the beam (directional) or W/sr (point, spot). */
+typedef struct Light {
+    const char *name;
+    LightKind kind;
+    Vec3 position;  /* point, spot */
+    Vec3 direction; /* unit, the way the light travels; directional, spot */
+    float color[3], intensity;
+    float range;                /* m; 0: no limit. Window of KHR_lights_punctual */
+    float cos_inner, cos_outer; /* spot: full inside the inner cone, none outside the outer */
+} Light;
+
+/* A light that is a flat mesh. The scene's last meshes and materials are those of its polygon lights, in
+ * their order: lights.c sees to that. */
+typedef struct PolygonLight {
+    WeftLight light; /* as it was given, its defaults filled in */
+    int place;       /* among all lights as callers count them; punctual ones fill the places between */
+} PolygonLight;
+
+typedef struct Camera {
+    const char *name;
+    Vec3 eye, right, up, forward; /* right, up, forward orthonormal; the camera looks along forward */
+    bool orthographic;
+    float yfov; /* vertical field of view, radians; perspective */
+    float ymag; /* half of the visible height, m; orthographic */
+} Camera;
+
+typedef enum EnvironmentKind {
+    ENVIRONMENT_STUDIO = 0,
+    ENVIRONMENT_CONSTANT,
+    ENVIRONMENT_IMAGE
+} EnvironmentKind;
+
+/* Distant light. An image is lat-long: row 0 is +y, the middle column is -z, columns run towards +x. */
+typedef struct Environment {
+    EnvironmentKind kind;
+    float color[3];   /* CONSTANT: radiance */
+    WeftImage image;  /* IMAGE and STUDIO: F32, 1 to 4 channels, owned; all zero otherwise */
+    float rotation;   /* radians about +y, counter-clockwise seen from above */
+    float strength;   /* factor on the radiance */
+    float ambient;    /* on what diffuse lobes and dust reflect of it */
+    float reflection; /* on what all other lobes do */
+    unsigned turn;    /* another number for another image or colour */
+} Environment;
+
+struct WeftScene {
+    Arena arena; /* everything below but the pixels of images */
+    SrgbTable srgb;
+    const char *name;
+    WeftImage *images;
+    Texture *textures;
+    Material *materials;
+    WeftCloth **cloths; /* owned; NULL without any */
+    int cloth_count;
+    Measured **measured; /* owned; NULL without any */
+    int measured_count;
+    const char **material_names; /* of its own materials: never NULL, may be empty */
+    Mesh *meshes;
+    Light *lights;
+    Camera *cameras;
+    const char **variants;
+    int variant; /* number of the active variant, counted from 1; 0: none */
+    int image_count, texture_count, material_count, mesh_count, light_count, camera_count, variant_count;
+    int light_room, polygon_light_count, polygon_light_room; /* room: as many as the lists have memory for */
+    PolygonLight *polygon_lights;
+    unsigned shape_turn; /* another number for other shapes: those of lights, which alone may change */
+    Environment environment;
+    Vec3 low, high; /* bounding box of its own vertices; low > high when there are none */
+};
+
+/* Return the counts of the scene's own meshes and materials, without those of its lights. */
+static inline int scene_own_meshes(const WeftScene *scene) {
+    return scene->mesh_count - scene->polygon_light_count;
+}
+static inline int scene_own_materials(const WeftScene *scene) {
+    return scene->material_count - scene->polygon_light_count;
+}
+
+/* An empty scene with the studio environment, or NULL when memory is short. */
+WeftScene *scene_create(const char *name);
+
+/* "available: a, b, c" for people who mistyped one: the first few names that `name` gives, an unnamed thing by
+ * its index. Returns text. */
+enum { NAMES_SIZE = 256 };
+const char *scene_names(const WeftScene *scene, const char *(*name)(const WeftScene *scene, int index),
+                        char text[NAMES_SIZE]);
+
+/* Takes over a cloth and returns its number, counted from 1: that of the same cloth where the scene has it, which then
+ * takes its place. 0: memory is short, and the cloth is still the caller's. A cloth stays as long as the scene, since
+ * materials that were read from it may name it. */
+int scene_adopt_cloth(WeftScene *scene, WeftCloth *cloth);
+
+/* Takes over a measurement in the same way: that of the same file stays where the scene has one. */
+int scene_adopt_measured(WeftScene *scene, Measured *measured);
+
+/* Reads a measurement into memory of its own. Fails as measured_read, and with WEFT_MESSAGE_MEASURED where the name is
+ * of no format. Release with scene_measured_free. */
+WeftResult scene_measured_read(const char *path, Measured **out, WeftError *error);
+void scene_measured_free(Measured *measured); /* may be NULL */
+
+/* Sets low and high from the meshes. Call once all meshes stand. */
+void scene_bounds(WeftScene *scene);
+
+#endif

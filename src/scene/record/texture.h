@@ -1,0 +1,41 @@
+/* texture.h - an image with the way it is looked up */
+#ifndef WEFT_SCENE_TEXTURE_H
+#define WEFT_SCENE_TEXTURE_H
+
+#include <stdbool.h>
+
+#include "weft/image.h"
+
+typedef enum TextureWrap { WRAP_REPEAT = 0, WRAP_MIRROR, WRAP_CLAMP } TextureWrap;
+
+typedef struct Texture {
+    int image; /* index into the scene's images */
+    TextureWrap wrap_u, wrap_v;
+    bool nearest; /* no interpolation between texels */
+    /* Properties of the image, equal for all textures of it: */
+    const char *path; /* path of its file; NULL if it is not a file of its own */
+    unsigned turn;    /* another number for other pixels */
+} Texture;
+
+typedef struct Texel {
+    float c[4]; /* RGBA; a grey image gives r = g = b, a missing alpha gives 1 */
+} Texel;
+
+/* Linear value of every sRGB byte (IEC 61966-2-1), made once per scene. */
+typedef struct SrgbTable {
+    float linear[256];
+} SrgbTable;
+
+SrgbTable srgb_table(void);
+
+/* The texture's value at (u, v), v running down the image as in glTF: bilinear unless nearest. With srgb not
+ * NULL the RGB of integer images is decoded to linear Rec. 709 before it is interpolated; alpha never is.
+ * Non-finite coordinates read as 0. */
+Texel texture_fetch(const Texture *texture, const WeftImage *images, const SrgbTable *srgb, float u, float v);
+
+/* Looks up n <= ROW_MOST places (shading/stack/surface_rows.h), in arrays with room up to row_whole(n). Channel c of place k
+ * is texels[c * ROW_ROOM + k]. */
+void texture_fetch_rows(const Texture *texture, const WeftImage *images, const SrgbTable *srgb, int n,
+                        const float *u, const float *v, float *texels);
+
+#endif

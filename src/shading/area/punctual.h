@@ -1,0 +1,21 @@
+/* punctual.h - falloff of punctual lights. Khronos Group, KHR_lights_punctual, 2018-2020 */
+#ifndef WEFT_SHADING_PUNCTUAL_H
+#define WEFT_SHADING_PUNCTUAL_H
+
+#include "shading/dialect/lang.h"
+
+/* Irradiance for an intensity of 1 at the square of a distance; 0 beyond range, which is 0 where there is no
+ * end. */
+FN float punctual_distance(float d2, float range) {
+    float x = range > 0.0f ? d2 / (range * range) : 0.0f;
+    return clamp(1.0f - x * x, 0.0f, 1.0f) / d2;
+}
+
+/* Returns the falloff of a spot light at the cosine c from its axis: 1 inside the inner cone, 0 outside
+ * the outer. */
+FN float punctual_cone(float c, float cos_inner, float cos_outer) {
+    float t = clamp((c - cos_outer) / max(cos_inner - cos_outer, 1e-3f), 0.0f, 1.0f);
+    return t * t;
+}
+
+#endif

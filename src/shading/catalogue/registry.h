@@ -1,0 +1,104 @@
+/* registry.h - the catalogue as data: every lobe, its parameters, and its functions behind one signature
+ *
+ * Adding a lobe, and all it is: lobe.h. Dialect texts include this file too: in GLSL the flattener
+ * (text/) puts in its place lobe_ids.gen.h and dispatch.gen.h, for the lobes that a program needs. */
+#ifndef WEFT_SHADING_REGISTRY_H
+#define WEFT_SHADING_REGISTRY_H
+
+#include <stddef.h>
+
+/* A lobe's tables: lobe_tables.h. */
+void lobe_tables_make_for(int id);
+#undef LOBE_TABLES_MAKE
+#define LOBE_TABLES_MAKE(id) lobe_tables_make_for(id)
+
+#include "shading/lobe/traits.h"
+#include "shading/lobe_ids.gen.h"
+#include "shading/lobes.gen.h"
+#include "shading/terms/d_ggx.h"
+#include "weft/lobe.h"
+
+/* The names of things in a lobe's text: "ggx", "Ggx" and "GGX". */
+typedef struct LobeNames {
+    const char *prefix, *record, *macros;
+    bool strips; /* true if the lobe has strips (lobe.h) */
+} LobeNames;
+const LobeNames *lobe_names(int id);
+
+/* A lobe from outside the catalogue (outside.h), which lives as long as the program. */
+typedef struct OutsideLobe {
+    WeftLobeInfo info;
+    LobeNames names;
+    const struct Plugin *plugin;
+    const struct OutsideLobe *before; /* the lobe that this one replaced; set by outside_take */
+    const char *file, *text;          /* "shading/lobes/toy.h", as though it were there, and what is in it */
+} OutsideLobe;
+
+/* Adds a lobe, in place of one of the same name or behind the last. Returns false if there is no room. May be
+ * called from any thread while others use lobes. outside_lobe returns NULL if the id is not that of an
+ * outside lobe. */
+bool outside_take(OutsideLobe *lobe, int *id);
+const OutsideLobe *outside_lobe(int id);
+int outside_count(void);
+
+/* The functions of dispatch.gen.h, one copy of each. */
+#define LOBE_COPY __attribute__((noinline))
+LOBE_COPY void lobe_prepare(const Lobe *m, LobePrepared *p);
+LOBE_COPY void lobe_view(int id, const LobePrepared *p, const Dir *o, LobeView *w);
+LOBE_COPY void lobe_value_at(int id, const LobePrepared *p, const LobeView *w, const Angles *a, LobeValue *v);
+LOBE_COPY void lobe_reflect(int id, const LobePrepared *p, const LobeView *w, const Angles *a, const Rgb *f0,
+                            const Rgb *f90, LobeReflected *s);
+LOBE_COPY void lobe_sample_at(int id, const LobePrepared *p, const LobeView *w, const Dir *o, float u,
+                              float v, Dir *i);
+LOBE_COPY LobeValue lobe_value(const Lobe *m, Angles a);
+LOBE_COPY Dir lobe_sample(const Lobe *m, Dir o, float u, float v);
+LOBE_COPY Strip lobe_strip(const Lobe *m, Dir o, float u, float v);
+
+static inline Lobe lobe_fibres(Lobe lobe, float density, float tilt, float azimuth) {
+    LobeNamed n = lobe_unnamed();
+    n.density = density, n.tilt = tilt, n.azimuth = azimuth;
+    return lobe_named(lobe, n);
+}
+static inline float lobe_eval(const Lobe *lobe, Angles a) { return lobe_value(lobe, a).f; }
+static inline float lobe_pdf(const Lobe *lobe, Angles a) { return lobe_value(lobe, a).pdf; }
+
+/* Returns the ids that a parameter of a term's type, such as "DTerm", takes (WeftParamInfo); NULL for
+ * other types. */
+const char *const *lobe_choices(const char *type);
+
+/* Sets parameter k, clamped to its hard range. */
+void lobe_set(Lobe *lobe, int k, float value);
+
+/* Returns true if the lobe depends on azimuth: upright fibres and unbrushed lobes do not. */
+bool lobe_turns(const Lobe *lobe);
+
+/* The registry's lobe for a public one, its parameters clamped; false where there is none of that index. */
+bool lobe_of(const WeftLobe *public_lobe, Lobe *lobe);
+
+/* Says where a lobe computes with another number than it has: weft_lobe_fitted. */
+void lobe_fitted(const Lobe *lobe, const char *name, const WeftLog *log);
+
+/* The first parameter that it computes with. */
+float lobe_fitted_first(const Lobe *lobe);
+
+/* The cosines of name_crease (lobe.h), and their number, 0 for most lobes. */
+enum { LOBE_CREASES_MOST = 62 };
+int lobe_creases(const Lobe *lobe, float cos_o, float cosines[LOBE_CREASES_MOST]);
+
+/* E of a lobe of TRAIT_REFERENCE, from so many walks; 0 of any other. */
+LOBE_COPY float lobe_walked_albedo(const Lobe *lobe, Dir o, int walks);
+
+/* f[k] and, where s is not NULL, the share s[k] of the second colour, for n pairs of directions as structures
+ * of arrays; 0 where a direction is not above the horizon or a component is infinite or NaN. */
+void lobe_eval_n(const Lobe *lobe, size_t n, const float *ox, const float *oy, const float *oz,
+                 const float *ix, const float *iy, const float *iz, float *f, float *s);
+
+/* pdf[k] likewise. */
+void lobe_pdf_n(const Lobe *lobe, size_t n, const float *ox, const float *oy, const float *oz,
+                const float *ix, const float *iy, const float *iz, float *pdf);
+
+/* f[c][k] of a tinted lobe made of what has albedo w[c], likewise. Not for other lobes. */
+void lobe_tinted_n(const Lobe *lobe, const float w[3], size_t n, const float *ox, const float *oy,
+                   const float *oz, const float *ix, const float *iy, const float *iz, float *const f[3]);
+
+#endif

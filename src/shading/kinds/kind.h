@@ -1,0 +1,50 @@
+/* kind.h - vertices of paths shaded many at once, for the materials whose stack has a structure known before
+ *
+ * A kind is a row of kinds.list: which lobe a slot may hold, the layer rule, what dims the diffuse lobe,
+ * where E comes from. Its loops are the text of stacks (compose.h) compiled once more with these as
+ * constants, a vertex a lane: the arithmetic is that of material_stack.h but for the last bits. */
+#ifndef WEFT_SHADING_KIND_H
+#define WEFT_SHADING_KIND_H
+
+#include "shading/material/material_stack.h"
+#include "shading/stack/surface_rows.h"
+
+/* Points of threads, or facets of them from afar: the parameters of lobe yarn, and what is reflected of light that met
+ * one fibre, and of all other. */
+typedef struct YarnRows {
+    float params[LOBE_PARAMS_MAX][ROW_ROOM], once[3][ROW_ROOM], again[3][ROW_ROOM];
+} YarnRows;
+
+enum { KIND_LIGHTS = 3, KIND_DRAWN = KIND_LIGHTS, KIND_DIRECTIONS };
+
+/* Vertices of surfaces in the shading frame; each wi is unit, in [KIND_DRAWN] the one that is sampled. */
+typedef struct KindVertices {
+    SurfaceRows surface;
+    YarnRows yarn;        /* the bases, where they are woven */
+    float o[3][ROW_ROOM]; /* wo, z > 0 */
+    float u[ROW_ROOM], v[ROW_ROOM];
+    float i[KIND_DIRECTIONS][3][ROW_ROOM];
+    float f[KIND_DIRECTIONS][3][ROW_ROOM], pdf[KIND_DIRECTIONS][ROW_ROOM]; /* f cos and pdf; 0 below */
+    float e_o[ROW_ROOM], base_scale[3][ROW_ROOM], select_p[5][ROW_ROOM];   /* of the StackView */
+} KindVertices;
+
+/* The base of a woven vertex. */
+FN Lobe yarn_of_row(const YarnRows *rows, size_t k) {
+    Lobe lobe;
+    lobe.id = LOBE_YARN;
+    ROUNDS(p, LOBE_PARAMS_MAX) lobe.params[p] = rows->params[p][k];
+    return lobe;
+}
+
+typedef struct StackKind StackKind;
+
+/* The kind of a material; NULL: none has its structure. plain: its stack where all its textures are 1, which
+ * is their most. */
+const StackKind *stack_kind(const Stack *plain, const Choices *choices);
+
+/* Samples wi for the first n vertices, n a multiple of ROW_LANES, and gives f cos and pdf of it and of the
+ * directions [k] with lights[k]. e: as for stack_make. */
+void kind_shade(const StackKind *kind, KindVertices *vertices, TableRef e, const bool lights[KIND_LIGHTS],
+                int n);
+
+#endif

@@ -1,0 +1,28 @@
+/* each.h - lobes of one kind, each with numbers of its own: loops over arrays of parameters, colours and
+ * directions
+ *
+ * Every array has as many elements as are asked for, and none that is written overlaps another. */
+#ifndef WEFT_SHADING_EACH_H
+#define WEFT_SHADING_EACH_H
+
+#include <stddef.h>
+
+#include "shading/lobe/lobe.h"
+
+typedef struct Each {
+    Lobe lobe;                            /* the lobe's id and choices of terms */
+    const float *params[LOBE_PARAMS_MAX]; /* clamped; of a choice it is not read */
+    const float *f0[3], *f90[3];          /* colours, as WeftLobe has them */
+    const float *o[3], *i[3], *u, *v;     /* u and v in [0, 1) */
+    float *f[3], *pdf;                    /* f in colour; a part of those below the horizon is 0 */
+    float *drawn[3];
+} Each;
+
+/* f and pdf of o and i; 0 where a direction is not above the horizon or a component is infinite or NaN.
+ * Nothing else of the outputs is written. */
+void each_eval(const Each *e, size_t n);
+
+/* drawn from o, u and v; 0 where o does not count. */
+void each_sample(const Each *e, size_t n);
+
+#endif

@@ -1,0 +1,34 @@
+/* lobe_tables.h - tables that belong to a lobe, not to a material; each is made once, when first needed
+ *
+ * In GLSL the flattener (text/) supplies the same functions, which read layers of one array texture. */
+#ifndef WEFT_SHADING_LOBE_TABLES_H
+#define WEFT_SHADING_LOBE_TABLES_H
+
+#include "shading/lobe/table.h"
+
+/* T(name, index). charlie_neubelt: E of that lobe over its whole range of alpha. The others are of kind TABLE_PLANES.
+ * ltc_fibre_published: planes a, b, R of ltc_table_published.
+ * ltc_fibre and ltc_ggx: planes z, q, b, amplitude (E) of ltc_table_level; TableRef.low and high are square
+ * roots of alpha. fibre: A, h, g, k of lobes/fibre_table.h; low and high are log2 of alpha. */
+#define LOBE_TABLES(T)                                                                                       \
+    T(charlie_neubelt, 0)                                                                                    \
+    T(ltc_fibre, 1)                                                                                          \
+    T(fibre, 2)                                                                                              \
+    T(ltc_ggx, 3)                                                                                            \
+    T(ltc_fibre_published, 4)
+#define LOBE_TABLE_COUNT 5
+
+/* Read-only once made. Any number of threads may call lobe_tables_make at once; the functions that return a Lobe
+ * call it first. */
+extern TableRef lobe_table_refs[LOBE_TABLE_COUNT];
+void lobe_tables_make(void);
+
+/* Unpacks all baked tables; computes charlie_neubelt only if lobe `id` reads it. */
+void lobe_tables_make_for(int id);
+
+#define LOBE_TABLE_GET(name, index)                                                                          \
+    FN TableRef lobe_table_##name(void) { return lobe_table_refs[index]; }
+LOBE_TABLES(LOBE_TABLE_GET)
+#undef LOBE_TABLE_GET
+
+#endif

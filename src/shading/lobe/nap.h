@@ -1,0 +1,32 @@
+/* nap.h - the direction in which the fibres of a sheen lean, relative to a viewer
+ *
+ *   heading = cos(phi),  phi: the azimuth of a direction about the normal, from where the fibres lean
+ *
+ * 1 along the nap, 0 across it, -1 against it. */
+#ifndef WEFT_NAP_H
+#define WEFT_NAP_H
+
+#include "shading/dialect/angles.h"
+
+STRUCT(Nap) {
+    float tilt; /* from the normal, radians; 0: there is no nap */
+    float x, y; /* where to, in the tangent plane, of unit length */
+};
+
+/* A direction without length means the tangent, as in azimuth_of. */
+FN Nap nap_of(float tilt, Dir direction) {
+    float r = sqrt(direction.x * direction.x + direction.y * direction.y);
+    Nap n;
+    n.tilt = tilt;
+    n.x = r < 1e-15f ? 1.0f : direction.x / max(r, 1e-15f);
+    n.y = r < 1e-15f ? 0.0f : direction.y / max(r, 1e-15f);
+    return n;
+}
+
+/* At the normal, where there is no azimuth, it is 0. */
+FN float nap_heading(Nap n, Dir w) {
+    float r = sqrt(w.x * w.x + w.y * w.y);
+    return clamp((n.x * w.x + n.y * w.y) / max(r, 1e-15f), -1.0f, 1.0f);
+}
+
+#endif

@@ -1,0 +1,91 @@
+/* dust - dust accumulated on a surface: most where it faces up, none below, in patches
+ *
+ *   lies  = dust max(n . d, 0)^falloff (1 - noise + noise N(p))
+ *   d     = (sin(tilt) cos(direction), cos(tilt), sin(tilt) sin(direction))
+ *
+ *   n is the shading normal and p the point in the world, whose +y is up. What falls along -d meets a surface
+ * by the cosine, as light does (Johann Heinrich Lambert, "Photometria", 1760): falloff 1 is dust that stays
+ * where it fell, more is dust that slides off slopes. Whether the sky above is open is not asked: below an
+ * overhang what looks up is dusty too.
+ *   N is noise between 0 and 1 whose largest patches are `scale` metres apart. It repeats after 289 of them
+ * and is fixed to the world, so that things which move change their patches.
+ *
+ *   What lies there is a layer over the whole stack, coat and all (compose.h, dust_lobe.h). */
+#ifndef WEFT_DUST_H
+#define WEFT_DUST_H
+
+#include "shading/stack/surface.h"
+
+/* The lobe of a slab of it (dust_lobe.h). */
+#define DUST_LOBE LOBE_LTC_FIBRE
+
+/* Up to this there is none: nobody sees it, and it gets no samples. */
+#define DUST_LEAST 1e-5f
+
+/* x mod 289 of a whole number, |x| < 2^22. Exact in floats, on every machine: the half that is added is more
+ * than what the product is rounded by. */
+FN float dust_mod(float x) { return x - floor((x + 0.5f) * 0.00346020761f) * 289.0f; }
+
+/* Works as dust_mod, for a sum of two numbers below 289. */
+FN float dust_sum(float a, float b) { return a + b < 289.0f ? a + b : a + b - 289.0f; }
+
+/* A permutation of 0 .. 288: 34 x^2 + 10 x mod 17^2. Ian McEwan, David Sheets, Mark Richardson, Stefan
+ * Gustavson, "Efficient Computational Noise in GLSL", Journal of Graphics Tools 16(2), 2012. */
+FN float dust_hash(float x) { return dust_mod((34.0f * x + 10.0f) * x); }
+
+/* Between lattice points of one line, then of one plane; h is the hash of what has been hashed before. */
+FN float dust_line(float h, Dir a, Dir b, Dir t) {
+    return mix(dust_hash(dust_sum(h, a.z)), dust_hash(dust_sum(h, b.z)), t.z);
+}
+FN float dust_plane(float h, Dir a, Dir b, Dir t) {
+    return mix(dust_line(dust_hash(dust_sum(h, a.y)), a, b, t),
+               dust_line(dust_hash(dust_sum(h, b.y)), a, b, t), t.y);
+}
+
+FN float dust_ease(float t) { return t * t * (3.0f - 2.0f * t); }
+
+/* A random number at each whole point of space and a smooth course between them, in [0, 1]. */
+FN float dust_octave(Dir p) {
+    float most = 2097152.0f; /* 2^21: floats of this size have few fractions left */
+    float x = clamp(p.x, -most, most), y = clamp(p.y, -most, most), z = clamp(p.z, -most, most);
+    float i = floor(x), j = floor(y), k = floor(z);
+    Dir a = dir(dust_mod(i), dust_mod(j), dust_mod(k));
+    Dir b = dir(dust_sum(a.x, 1.0f), dust_sum(a.y, 1.0f), dust_sum(a.z, 1.0f));
+    Dir t = dir(dust_ease(x - i), dust_ease(y - j), dust_ease(z - k));
+    return mix(dust_plane(dust_hash(a.x), a, b, t), dust_plane(dust_hash(b.x), a, b, t), t.x) / 288.0f;
+}
+
+/* Three octaves, turned so that no table or wall follows the lattice, with the middle of their range spread
+ * over [0, 1]. */
+FN float dust_noise(Dir p, float scale) {
+    float k = 1.0f / max(3.0f * scale, 1e-6f); /* a texture may make scale 0 */
+    Dir q = dir((2.0f * p.x - p.y + 2.0f * p.z) * k, (2.0f * p.x + 2.0f * p.y - p.z) * k,
+                (2.0f * p.y - p.x + 2.0f * p.z) * k);
+    float n = 4.0f * dust_octave(q) +
+              2.0f * dust_octave(dir(2.0f * q.x + 31.5f, 2.0f * q.y + 7.25f, 2.0f * q.z + 19.75f)) +
+              dust_octave(dir(4.0f * q.x + 73.25f, 4.0f * q.y + 11.5f, 4.0f * q.z + 47.75f));
+    return clamp(2.0f * n / 7.0f - 0.5f, 0.0f, 1.0f);
+}
+
+FN float dust_amount(float amount, float cosine, float falloff, float mask) {
+    return cosine > 0.0f ? amount * mask * pow(min(max(cosine, 1e-6f), 1.0f), falloff) : 0.0f;
+}
+
+/* Returns the direction from which dust falls, in the world. */
+FN Dir dust_source(Surface s) {
+    float across = sin(s.dust_tilt);
+    return dir(across * s.dust_direction.x, cos(s.dust_tilt), across * s.dust_direction.y);
+}
+
+/* The surface at a point p of the world, metres, with the world's shading normal n there: its dust becomes
+ * what lies at this point. Both renderers ask before they make the stack. */
+FN Surface dust_accumulate(Surface s, Dir n, Dir p) {
+    if (s.dust <= 0.0f) return s;
+    Surface t = s;
+    float mask = 1.0f;
+    if (s.dust_noise > 0.0f) mask = 1.0f - s.dust_noise + s.dust_noise * dust_noise(p, s.dust_scale);
+    t.dust = dust_amount(s.dust, dir_dot(n, dust_source(s)), s.dust_falloff, mask);
+    return t;
+}
+
+#endif

@@ -1,0 +1,74 @@
+/* material_stack.h - the stack of compose.h in C: made, seen, evaluated, sampled */
+#ifndef WEFT_SHADING_MATERIAL_STACK_H
+#define WEFT_SHADING_MATERIAL_STACK_H
+
+#include "shading/catalogue/albedo.h"
+#include "shading/material/compose.h"
+
+/* The slots by number, in the order of SLOTS. */
+#define SLOT_PLACE(name, NAME, Name, wo) PLACE_##NAME,
+#define SLOT_NAME(name, NAME, Name, wo)  #name,
+#define SLOT_AT(name, NAME, Name, wo)    &m->name,
+enum { PLACE_NONE = -1, SLOTS(SLOT_PLACE) SLOT_COUNT };
+
+static inline const char *slot_name(int place) {
+    static const char *const names[] = {SLOTS(SLOT_NAME)};
+    return names[place];
+}
+static inline const Slot *stack_slot(const Stack *m, int place) {
+    const Slot *const slots[] = {SLOTS(SLOT_AT)};
+    return slots[place];
+}
+
+/* One copy of each: the catalogue's text in every caller would be many times the program. Records go by
+ * reference: by value they would be packed into registers and come out slower than they are computed. */
+#define ONE_COPY __attribute__((noinline))
+
+/* Fills stack for a surface, once for all directions. e is the table of the sheen's E that surface_stack asks
+ * for; one of TABLE_NONE where it asks for none or the sheen is black. */
+ONE_COPY void stack_make(Stack *stack, const Surface *surface, const Choices *choices, TableRef e);
+
+/* Fills view for wo (shading frame, z > 0), once for all wi. It holds for that stack alone. */
+ONE_COPY void stack_see(const Stack *stack, const Dir *o, StackView *view);
+
+/* f cos and pdf for wi; below the horizon of what comes through. seed: of the random walk that layer rule stochastic takes
+ * between sheen and base, where f is an unbiased estimate; pdf never depends on it. */
+ONE_COPY void stack_eval(const Stack *stack, const StackView *view, const Dir *i, uint32_t seed,
+                         StackValue *value);
+
+/* Works as stack_eval, for some of the slots, and without the walk of layer rule stochastic. */
+ONE_COPY StackValue stack_eval_of(const Stack *stack, const StackView *view, Slots only, Dir i);
+
+/* A wi for (u, v) in [0, 1)^2; where there is no sample at the horizon, or below if nothing comes through. */
+ONE_COPY void stack_sample(const Stack *stack, const StackView *view, float u, float v, Dir *i);
+
+/* The slot that u in [0, 1) picks, by its place among SLOTS, -1 where there is none; u becomes what is left
+ * of it, again in [0, 1). */
+int stack_select_slot(const StackView *view, float *u);
+
+/* layer_walk.c: of layer rule stochastic, else 0: light from wi that `last` of the slots reflected first and that
+ * then bounced at least once between the base and the sheen's underside, times the cosine of wi. */
+ONE_COPY Rgb layer_walk_bounces(const Stack *stack, const StackView *view, Slots last, Dir i, uint32_t seed);
+
+/* A stack and its view from one direction. */
+typedef struct SeenStack {
+    Stack stack;
+    StackView view;
+} SeenStack;
+void seen_make(SeenStack *seen, const Surface *surface, const Choices *choices, TableRef e, Dir o);
+/* Puts a lobe with two colours in the place of the diffuse and the specular one. */
+void stack_put_base(Stack *stack, const Lobe *lobe, Rgb f0, Rgb f90);
+/* The view of a stack whose lobes have been put in by hand. */
+void seen_prepare(SeenStack *seen, Dir o);
+static inline StackValue seen_eval(const SeenStack *seen, Dir i, uint32_t seed) {
+    StackValue value;
+    stack_eval(&seen->stack, &seen->view, &i, seed, &value);
+    return value;
+}
+static inline Dir seen_sample(const SeenStack *seen, float u, float v) {
+    Dir i;
+    stack_sample(&seen->stack, &seen->view, u, v, &i);
+    return i;
+}
+
+#endif

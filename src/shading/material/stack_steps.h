@@ -1,0 +1,76 @@
+/* stack_steps.h - a stack in C evaluated and sampled: the text of material_stack.c and of each kind */
+#ifndef WEFT_SHADING_STACK_STEPS_H
+#define WEFT_SHADING_STACK_STEPS_H
+
+#include "shading/material/material_stack.h"
+
+FN Dir from_coat(const Stack *s, Dir w) {
+    return dir(w.x * s->coat_x.x + w.y * s->coat_y.x + w.z * s->coat_z.x,
+               w.x * s->coat_x.y + w.y * s->coat_y.y + w.z * s->coat_z.y,
+               w.x * s->coat_x.z + w.y * s->coat_y.z + w.z * s->coat_z.z);
+}
+
+/* wo above the horizon, whatever the coat's own normal may see. */
+FN StackValue value_of(const Stack *stack, const StackView *view, Slots only, Dir i) {
+    if (i.z <= 0.0f && !(i.z < 0.0f && only.diffuse && HAS_TRANSMITTED(stack))) return (StackValue){0};
+    Angles a = angles_between(view->o, dir(i.x, i.y, abs(i.z))), in_coat;
+    if (i.z < 0.0f) return stack_transmitted(stack, view, &a);
+    const Angles *coat = &a;
+    if (HAS_COAT(stack)) {
+        in_coat = angles_between(view->coat_o, stack_to_coat(stack, i));
+        coat = &in_coat;
+    }
+    return stack_value_of(stack, view, only, &a, coat);
+}
+
+FN void steps_eval(const Stack *stack, const StackView *view, const Dir *i, uint32_t seed,
+                   StackValue *value) {
+    *value = (StackValue){0};
+    if (view->o.z <= 0.0f) return;
+    *value = value_of(stack, view, slots_all(), *i);
+    if (stack->layer == LAYER_STOCHASTIC && i->z > 0.0f)
+        value->f_cos = rgb_add(value->f_cos, layer_walk_bounces(stack, view, slots_all(), *i, seed));
+}
+
+#define TAKE_SLOT(name, NAME, Name, wo)                                                                      \
+    if (view->select_p.name > 0.0f && (slot < 0 || *u >= at)) {                                              \
+        slot = PLACE_##NAME;                                                                                 \
+        begin = at;                                                                                          \
+        width = view->select_p.name;                                                                         \
+        at += width;                                                                                         \
+    }
+FN int steps_select(const StackView *view, float *u) {
+    int slot = PLACE_NONE;
+    float begin = 0.0f, at = 0.0f, width = 1.0f;
+    SLOTS(TAKE_SLOT)
+    *u = min(max((*u - begin) / max(width, 1e-12f), 0.0f), 0x1.fffffep-1f); /* the rest is as good as new */
+    return slot;
+}
+
+/* Returns true for the share of the diffuse slot's samples that goes through; u becomes what is left of it. */
+FN bool steps_goes_through(const Stack *stack, float *u) {
+    float p = stack->transmitted_p, x = *u;
+    bool through = x < p;
+    *u = min(max((through ? x : x - p) / max(through ? p : 1.0f - p, 1e-12f), 0.0f), 0x1.fffffep-1f);
+    return through;
+}
+
+#define SAMPLE_SLOT(name, NAME, Name, wo)                                                                    \
+    case PLACE_##NAME:                                                                                       \
+        if (view->wo.z > 0.0f) IN_SLOT(name, sample_at)                                                      \
+        (stack->name.lobe.id, &stack->name##_prepared, &view->name##_view, &view->wo, u, v, i);              \
+        break;
+FN void steps_sample(const Stack *stack, const StackView *view, float u, float v, Dir *i) {
+    *i = dir(0.0f, 0.0f, -1.0f);
+    int slot = steps_select(view, &u);
+    if (HAS_TRANSMITTED(stack) && slot == PLACE_DIFFUSE && steps_goes_through(stack, &u)) {
+        Dir above = warp_cosine(u, v);
+        *i = dir(above.x, above.y, -above.z);
+        return;
+    }
+    switch (slot) { SLOTS(SAMPLE_SLOT) }
+    if (slot == PLACE_COAT && i->z > 0.0f) *i = from_coat(stack, *i);
+    if (HAS_TRANSMITTED(stack)) i->z = max(i->z, 0.0f); /* what a lobe draws below is no sample */
+}
+
+#endif

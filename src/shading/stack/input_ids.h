@@ -1,0 +1,21 @@
+/* input_ids.h - the inputs and choices of inputs.h by number, for those that keep them in arrays */
+#ifndef WEFT_SHADING_INPUT_IDS_H
+#define WEFT_SHADING_INPUT_IDS_H
+
+#include "shading/stack/inputs.h"
+
+typedef enum InputId {
+#define INPUT_ENUM(kind, name, def, low, high, hard_low, hard_high, help) INPUT_##name,
+    SURFACE_INPUTS(INPUT_ENUM)
+#undef INPUT_ENUM
+        INPUT_COUNT
+} InputId;
+
+typedef enum ChoiceId {
+#define CHOICE_ENUM(name, help) CHOICE_##name,
+    SURFACE_CHOICES(CHOICE_ENUM)
+#undef CHOICE_ENUM
+        CHOICE_COUNT
+} ChoiceId;
+
+#endif

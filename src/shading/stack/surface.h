@@ -1,0 +1,29 @@
+/* surface.h - a material's inputs at one point, as plain numbers; and what its choices are */
+#ifndef WEFT_SHADING_SURFACE_H
+#define WEFT_SHADING_SURFACE_H
+
+#include "shading/dialect/angles.h"
+#include "shading/stack/inputs.h"
+
+/* The kinds of inputs.h as types. */
+#define SCALAR    float
+#define COLOR     Rgb
+#define NORMAL    Dir
+#define DIRECTION Dir
+#define ANGLE     float
+
+#define SURFACE_FIELD(kind, name, def, low, high, hard_low, hard_high, help) kind name;
+STRUCT(Surface){SURFACE_INPUTS(SURFACE_FIELD)};
+
+#define CHOICE_FIELD(name, help) int name;
+STRUCT(Choices){SURFACE_CHOICES(CHOICE_FIELD)};
+
+/* Nothing chosen. */
+#define CHOICE_UNMADE(name, help) c.name = CHOICE_AUTO;
+FN Choices choices_unmade(void) {
+    Choices c;
+    SURFACE_CHOICES(CHOICE_UNMADE)
+    return c;
+}
+
+#endif

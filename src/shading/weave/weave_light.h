@@ -1,0 +1,62 @@
+/* weave_light.h - light at a point of a woven cloth, as lobe yarn reflects it there */
+#ifndef WEFT_SHADING_WEAVE_LIGHT_H
+#define WEFT_SHADING_WEAVE_LIGHT_H
+
+#include "shading/dialect/azimuth.h"
+#include "shading/dialect/rgb.h"
+#include "shading/lobes/woven.h"
+#include "shading/lobes/yarn.h"
+#include "shading/weave/weave_point.h"
+
+/* Lobe yarn at the point. */
+FN Yarn weave_yarn(const Weave *m, WeavePoint p) {
+    Yarn y;
+    y.alpha = p.weft ? m->weft.alpha : m->warp.alpha;
+    y.slope_x = p.slope_x;
+    y.slope_y = p.slope_y;
+    y.azimuth = azimuth_of(p.fibre);
+    y.roundness = p.weft ? m->weft_far.slope_across : m->warp_far.slope_across;
+    y.crimp = m->warp_far.slope_along;
+    y.cross_crimp = m->weft_far.slope_along;
+    y.share = m->warp_far.share / max(m->warp_far.share + m->weft_far.share, 1e-6f);
+    return y;
+}
+
+/* Lobe woven of one system. */
+FN Woven weave_woven(const Weave *m, bool weft) {
+    float all = max(m->warp_far.share + m->weft_far.share, 1e-6f), warp = m->warp_far.share / all;
+    float crimp = weft ? m->weft_far.crimp : m->warp_far.crimp;
+    float cross = weft ? m->warp_far.slope_along : m->weft_far.slope_along;
+    Woven w;
+    w.alpha = weft ? m->weft_far.alpha : m->warp_far.alpha;
+    w.share = clamp(weft ? 1.0f - warp : warp, 1e-3f, 1.0f);
+    w.crimp = azimuth_of(dir(1.0f, crimp, 0.0f));
+    w.azimuth = weft ? 0.0f : 0.5f * PI;
+    w.twist = weft ? m->weft.twist : m->warp.twist;
+    w.roundness = weft ? m->weft_far.roundness : m->warp_far.roundness;
+    w.floats = weft ? m->weft_far.floats : m->warp_far.floats;
+    w.cross_crimp = azimuth_of(dir(1.0f, cross, 0.0f));
+    return w;
+}
+
+/* The colours of a point in one channel: of light that met one fibre, and of all other. */
+FN float weave_once(const Weave *m, WeavePoint p, int channel) {
+    float white = p.weft ? m->weft.white : m->warp.white;
+    return min(weave_albedo(m, p, channel) + white, 1.0f) * weave_open(m, p);
+}
+FN float weave_reflectance(const Weave *m, WeavePoint p, int channel) {
+    return yarn_reflectance(weave_albedo(m, p, channel)) * weave_open(m, p);
+}
+
+/* Returns the same in all channels; a place without a thread is black. */
+FN Rgb weave_once_rgb(const Weave *m, WeavePoint p) {
+    float there = p.height > WEAVE_NONE ? 1.0f : 0.0f;
+    return rgb_scale(rgb(weave_once(m, p, 0), weave_once(m, p, 1), weave_once(m, p, 2)), there);
+}
+FN Rgb weave_again_rgb(const Weave *m, WeavePoint p) {
+    float there = p.height > WEAVE_NONE ? 1.0f : 0.0f;
+    return rgb_scale(rgb(weave_reflectance(m, p, 0), weave_reflectance(m, p, 1), weave_reflectance(m, p, 2)),
+                     there);
+}
+
+#endif

@@ -1,0 +1,153 @@
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "text/assemble/composition.h"
+
+#include "shading/catalogue/engine_tables.h"
+#include "text/assemble/tables.h"
+#include "text/source/number_text.h"
+#include "weft/lobe.h"
+
+/* A workflow or profile: its file, and what makes its stack. */
+typedef struct Composition {
+    const char *folder, *id, *stack;
+} Composition;
+
+#define WORKFLOW_ROW(id, index, stack, help) {"workflows", id, #stack},
+#define PROFILE_ROW(id, index, stack, help)  {"profiles", id, #stack},
+static const Composition workflows[] = {WEFT_WORKFLOWS(WORKFLOW_ROW)};
+static const Composition profiles[] = {WEFT_PROFILES(PROFILE_ROW)};
+
+typedef struct Formula {
+    int index;
+    const char *row;
+} Formula;
+
+#define ALBEDO_ROW(name, index, own_table, formula)                                                          \
+    {index, "F(" #name ", " #index ", " #own_table ", " #formula ")"},
+#define FORMULA_ROW(name, index, formula) {index, "F(" #name ", " #index ", " #formula ")"},
+static const Formula albedos[] = {WEFT_ALBEDO_FORMULAS(ALBEDO_ROW){-1, ""}};
+static const Formula views[] = {WEFT_VIEWS(FORMULA_ROW){-1, ""}};
+
+/* The one that a stack names, or the empty one behind. */
+static const char *formula_of(const Formula *f, int index) {
+    while (f->index >= 0 && f->index != index) f++;
+    return f->row;
+}
+
+/* Makes nothing of the inputs that are nothing. */
+static void leave_out(const bool zero[INPUT_COUNT], Surface *s){
+#define NO_SCALAR(name)    s->name = 0.0f
+#define NO_ANGLE(name)     s->name = 0.0f
+#define NO_COLOR(name)     s->name = (Rgb){0.0f, 0.0f, 0.0f}
+#define NO_NORMAL(name)    (void)0
+#define NO_DIRECTION(name) (void)0
+#define LEAVE_OUT(kind, name, def, low, high, hard_low, hard_high, help)                                     \
+    if (zero[INPUT_##name]) NO_##kind(name);
+    SURFACE_INPUTS(LEAVE_OUT)}
+
+Surface composition_surface(float x, const bool zero[INPUT_COUNT]) {
+    const Material material = material_default();
+    Surface s = material_plain(&material);
+    s.sheen_color = s.base_color = s.specular_color = (Rgb){0.5f, 0.5f, 0.5f};
+    s.clearcoat = s.dust = 1.0f;
+    s.roughness = s.sheen_roughness = s.diffuse_transmission = 0.5f;
+    s.anisotropy = s.subsurface = s.metallic = x;
+    s.sheen = s.specular = 1.0f;
+    leave_out(zero, &s);
+    return s;
+}
+
+static const Composition *composition_of(const Choices *choices) {
+    return choices->profile > 0 ? &profiles[choices->profile]
+                                : &workflows[choices->workflow < 0 ? 0 : choices->workflow];
+}
+
+const char *composition_stack(const Choices *choices) { return composition_of(choices)->stack; }
+
+static void add_lobe(CompositionSlots *self, int slot, const Slot *from) {
+    TextSlot *to = &self->slots[slot];
+    int id = from->lobe.id;
+    if (weft_lobe_info(id)->traits & TRAIT_REFERENCE || !(from->normal > 0.0f)) return;
+    for (int k = 0; k < to->count; k++)
+        if (to->lobes[k] == id) return;
+    if (!to->count) self->lobes[slot] = from->lobe;
+    to->lobes[to->count++] = id;
+}
+
+CompositionSlots composition_slots(const Choices *choices, const bool zero[INPUT_COUNT], bool whole_sheen) {
+    CompositionSlots found = {.used = true};
+    for (int x = 0; x <= (whole_sheen ? 2 : 5); x++) {
+        Stack m;
+        Surface s = composition_surface(0.5f * (float)(x % 3), zero);
+        if (x > 2) s.sheen = 0.5f; /* a profile may blend from highlight to sheen by it */
+        stack_make(&m, &s, choices, (TableRef){.kind = TABLE_NONE});
+        for (int k = 0; k < SLOT_COUNT; k++) add_lobe(&found, k, stack_slot(&m, k));
+        const Stack *made = &m;
+        found.used &= !IS_BELOW_F(made);
+        found.transmits |= HAS_TRANSMITTED(made);
+    }
+    return found;
+}
+
+/* A stack asks for LOBE_LAMBERT and LOBE_GGX even where it then takes others. */
+void text_composition_lobes(Text *text, const CompositionSlots *found, int table_kind, int table_tilts) {
+#define SLOT_HAS(name, NAME, Name, wo) "HAS_" #NAME "(m)",
+    static const char *const has[] = {SLOTS(SLOT_HAS)};
+    int ids[3 + SLOT_COUNT * LOBE_MOST] = {LOBE_LAMBERT, LOBE_GGX}, count = 2;
+    for (int k = 0; k < SLOT_COUNT; k++)
+        for (int j = 0; j < found->slots[k].count; j++) ids[count++] = found->slots[k].lobes[j];
+    char kind[16], tilts[16];
+    snprintf(kind, sizeof kind, "%d", table_kind);
+    snprintf(tilts, sizeof tilts, "%d", table_tilts);
+    text_define(text, "SHEEN_KIND(m)", kind);
+    text_define(text, "SHEEN_TILTS(m)", tilts);
+    for (int k = 0; k < SLOT_COUNT; k++) text_define(text, has[k], found->slots[k].count ? "true" : "false");
+    text_define(text, "HAS_LAYERED_SHEEN(m)",
+                found->used ? "true" : "(m.color.r + m.color.g + m.color.b > 0.0)");
+    text_define(text, "HAS_TRANSMITTED(m)", found->transmits ? "true" : "false");
+    text_dispatch(text, ids, count);
+    text_slots(text, found->slots);
+}
+
+/* The engines' tables that the composition names: each takes a while to make. */
+static void put_engines(Text *text, const char *const formulas[2]) {
+#define ENGINE_TABLE_NAME(NAME, name, side, points, sheen, shifted) "ENGINE_" #NAME,
+    static const char *const names[ENGINE_COUNT] = {ENGINE_TABLES(ENGINE_TABLE_NAME)};
+    int which[ENGINE_COUNT], count = 0;
+    for (int k = 0; k < ENGINE_COUNT; k++)
+        if (strstr(formulas[0], names[k]) || strstr(formulas[1], names[k])) which[count++] = k;
+    text_engine_tables(text, which, count);
+}
+
+/* In place of shading/material/profile.h: the one composition that this shader is for. */
+void text_composition(Text *text, const Choices *choices) {
+    const Composition *c = composition_of(choices);
+    char file[128];
+    int size = snprintf(file, sizeof file, "shading/%s/%s.h", c->folder, c->id);
+    for (int k = 0; k < size; k++)
+        if (file[k] == '-') file[k] = '_';
+    const bool none[INPUT_COUNT] = {false};
+    Surface s = composition_surface(0.5f, none);
+    Stack m;
+    compose_begin(&m, &s, *choices);
+    const char *albedo = formula_of(albedos, m.albedo), *view = formula_of(views, m.view);
+    const char *const formulas[] = {albedo, view};
+    put_engines(text, formulas);
+    text_provide(text, "shading/material/profile.h");
+    text_include(text, "shading/stack/workflow.h");
+    text_include(text, file);
+    text_line(text,
+              "\nvoid compose_begin(inout Stack m, Surface s, Choices c) {\n    stack_clear(m);\n    %s;\n}",
+              c->stack);
+    text_define(text, "WEFT_ALBEDO_FORMULAS(F)", albedo);
+    text_define(text, "WEFT_VIEWS(F)", view);
+    text_include(text, "shading/material/compose.h");
+}
+
+void text_composition_choices(Text *text, const Choices *choices) {
+    text_line(text, "\nChoices material_choices() {\n    Choices c;");
+#define PUT_CHOICE(name, help) text_line(text, "    c.%s = %d;", #name, choices->name);
+    SURFACE_CHOICES(PUT_CHOICE)
+    text_line(text, "    return c;\n}");
+}

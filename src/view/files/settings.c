@@ -1,0 +1,110 @@
+#define _POSIX_C_SOURCE 200809L
+#include "view/files/settings.h"
+
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <jansson.h>
+
+enum { SIZE_MOST = 1 << 20 };
+
+Settings settings_default(void) {
+    return (Settings){.width = 1280, .height = 720, .panel = 372.0f, .speed = 1.0f};
+}
+
+static bool place(char path[RECENT_PATH], bool make) {
+    const char *config = getenv("XDG_CONFIG_HOME"), *home = getenv("HOME");
+    char folder[RECENT_PATH - 16];
+    int used = config && config[0] == '/' ? snprintf(folder, sizeof folder, "%s", config)
+               : home                     ? snprintf(folder, sizeof folder, "%s/.config", home)
+                                          : -1;
+    if (used < 0 || used >= (int)sizeof folder - 8) return false;
+    if (make) mkdir(folder, 0755);
+    snprintf(path, RECENT_PATH, "%s/weft", folder);
+    if (make) mkdir(path, 0755);
+    snprintf(path, RECENT_PATH, "%s/weft/view.json", folder);
+    return true;
+}
+
+static void read_number(const json_t *root, const char *key, double low, double high, float *value) {
+    const json_t *v = json_object_get(root, key);
+    double x = json_number_value(v);
+    if (json_is_number(v) && x >= low && x <= high) *value = (float)x;
+}
+
+/* A plain file of a sensible size, or nothing: a pipe would keep it waiting. */
+static json_t *read_plain(const char *path) {
+    struct stat s;
+    int file = open(path, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+    bool plain = file >= 0 && fstat(file, &s) == 0 && S_ISREG(s.st_mode) && s.st_size <= SIZE_MOST;
+    json_t *root = plain ? json_loadfd(file, 0, NULL) : NULL;
+    if (file >= 0) close(file);
+    return root;
+}
+
+/* A file of its own: what has that name is not opened. */
+static bool write_new(const char *path, const json_t *root) {
+    unlink(path);
+    int file = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    bool good = file >= 0 && json_dumpfd(root, file, JSON_INDENT(2)) == 0;
+    return file >= 0 && close(file) == 0 && good;
+}
+
+void settings_read(Settings *self) {
+    char path[RECENT_PATH];
+    if (!place(path, false)) return;
+    json_t *root = read_plain(path);
+    float width = (float)self->width, height = (float)self->height;
+    read_number(root, "width", 320.0, 16384.0, &width);
+    read_number(root, "height", 240.0, 16384.0, &height);
+    read_number(root, "panel", 240.0, 900.0, &self->panel);
+    read_number(root, "speed", 0.01, 100.0, &self->speed);
+    self->width = (int)width, self->height = (int)height;
+    self->invert = json_is_true(json_object_get(root, "invert"));
+    const char *folder = json_string_value(json_object_get(root, "folder"));
+    if (folder) snprintf(self->folder, sizeof self->folder, "%s", folder);
+    const json_t *recent = json_object_get(root, "recent");
+    for (size_t k = 0; k < json_array_size(recent) && self->recent_count < RECENT_MOST; k++) {
+        const char *text = json_string_value(json_array_get(recent, k));
+        if (text && strlen(text) < RECENT_PATH)
+            snprintf(self->recent[self->recent_count++], RECENT_PATH, "%s", text);
+    }
+    json_decref(root);
+}
+
+static json_t *as_json(const Settings *self) {
+    json_t *recent = json_array();
+    for (int k = 0; k < self->recent_count; k++) {
+        json_t *path = json_string(self->recent[k]);
+        if (path) json_array_append_new(recent, path);
+    }
+    json_t *folder = json_string(self->folder); /* NULL where it is not UTF-8 */
+    return json_pack("{s:i,s:i,s:f,s:b,s:f,s:o,s:o}", "width", self->width, "height", self->height, "panel",
+                     (double)self->panel, "invert", self->invert, "speed", (double)self->speed, "folder",
+                     folder ? folder : json_string(""), "recent", recent);
+}
+
+bool settings_write(const Settings *self) {
+    char path[RECENT_PATH], part[RECENT_PATH + 8];
+    if (!place(path, true)) return false;
+    json_t *root = as_json(self);
+    snprintf(part, sizeof part, "%s.part", path);
+    bool good = root && write_new(part, root) && rename(part, path) == 0;
+    if (!good) unlink(part);
+    json_decref(root);
+    return good;
+}
+
+void settings_opened(Settings *self, const char *path) {
+    int k = 0;
+    if (strlen(path) >= RECENT_PATH) return;
+    while (k < self->recent_count && strcmp(self->recent[k], path) != 0) k++;
+    if (k == RECENT_MOST) k--;
+    if (k == self->recent_count) self->recent_count++;
+    memmove(self->recent[1], self->recent[0], (size_t)k * RECENT_PATH);
+    snprintf(self->recent[0], RECENT_PATH, "%s", path);
+}

@@ -1,0 +1,204 @@
+/* The command line that draws what the window shows. */
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/pi.h"
+#include "view/state/viewer.h"
+
+typedef struct Line {
+    char *text;
+    size_t used, size;
+    bool short_of_memory;
+} Line;
+
+static void put(Line *line, const char *format, ...) {
+    va_list list;
+    va_start(list, format);
+    int more = vsnprintf(line->text + line->used, line->size - line->used, format, list);
+    va_end(list);
+    if (more >= 0 && (size_t)more < line->size - line->used) {
+        line->used += (size_t)more;
+        return;
+    }
+    size_t size = 2 * line->size + (size_t)(more > 0 ? more : 0);
+    char *grown = realloc(line->text, size);
+    if (!grown) {
+        line->short_of_memory = true;
+        return;
+    }
+    line->text = grown, line->size = size;
+    va_start(list, format);
+    line->used += (size_t)vsnprintf(line->text + line->used, line->size - line->used, format, list);
+    va_end(list);
+}
+
+/* A word as a shell reads it. */
+static void put_word(Line *line, const char *word) {
+    if (word[0] && strspn(word, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./:=,-+%@") ==
+                       strlen(word)) {
+        put(line, " %s", word);
+        return;
+    }
+    put(line, " '");
+    for (; *word; word++)
+        if (*word == '\'')
+            put(line, "'\\''");
+        else
+            put(line, "%c", *word);
+    put(line, "'");
+}
+
+static bool differs(float a, float b) { return a < b || a > b; }
+
+static void put_input(Line *line, int material, int k, const WeftInput *input) {
+    WeftInputInfo info;
+    char word[160];
+    weft_material_input_info(k, &info);
+    const float *x = input->value;
+    double scale = info.kind == WEFT_INPUT_ANGLE || info.kind == WEFT_INPUT_DIRECTION ? 1.0 / RADIANS : 1.0;
+    if (info.kind == WEFT_INPUT_COLOR)
+        snprintf(word, sizeof word, "%d.%s=%.9g,%.9g,%.9g", material, info.name, (double)x[0], (double)x[1],
+                 (double)x[2]);
+    else
+        snprintf(word, sizeof word, "%d.%s=%.9g", material, info.name, scale * (double)x[0]);
+    put(line, " --set");
+    put_word(line, word);
+}
+
+/* Writes the changes of a material since it was read; choices first, since they move inputs. */
+static void put_material(Line *line, const Viewer *v, int index, bool *lost) {
+    WeftMaterial was = *scene_state_material(&v->edit->first, index);
+    const WeftMaterial *is = scene_state_material(&v->edit->state, index);
+    for (int k = 0; weft_material_choice_name(k); k++) {
+        if (is->choices[k] == was.choices[k]) continue;
+        const char *id = is->choices[k] < 0 ? "auto" : weft_material_choice_value(k, is->choices[k]);
+        put(line, " --set %d.%s=%s", index, weft_material_choice_name(k), id);
+        weft_material_choose(&was, k, is->choices[k]);
+    }
+    *lost |= is->alpha_mode != was.alpha_mode &&
+             !differs(is->inputs[weft_material_input_find("opacity")].value[0],
+                      was.inputs[weft_material_input_find("opacity")].value[0]);
+    *lost |= is->unlit != was.unlit || is->double_sided != was.double_sided ||
+             differs(is->alpha_cutoff, was.alpha_cutoff);
+    for (int k = 0; weft_material_input_name(k); k++) {
+        const WeftInput *a = &was.inputs[k], *b = &is->inputs[k];
+        bool changed = differs(a->value[0], b->value[0]) || differs(a->value[1], b->value[1]) ||
+                       differs(a->value[2], b->value[2]);
+        *lost |= b->texture && (changed || a->texture != b->texture); /* --set would drop the map */
+        if ((changed || a->texture != b->texture) && !b->texture) put_input(line, index, k, b);
+    }
+}
+
+static void put_light(Line *line, const WeftLight *l) {
+    const float *p = l->position, *d = l->direction, *c = l->color;
+    char word[640], place[120], way[120], color[120];
+    snprintf(place, sizeof place, "%.9g,%.9g,%.9g", (double)p[0], (double)p[1], (double)p[2]);
+    snprintf(way, sizeof way, "%.9g,%.9g,%.9g", (double)d[0], (double)d[1], (double)d[2]);
+    snprintf(color, sizeof color, "%.9g,%.9g,%.9g", (double)c[0], (double)c[1], (double)c[2]);
+    switch (l->kind) {
+    case WEFT_LIGHT_DIRECTIONAL: snprintf(word, sizeof word, "sun;%s;%s", way, color); break;
+    case WEFT_LIGHT_POINT: snprintf(word, sizeof word, "point;%s;%s", place, color); break;
+    case WEFT_LIGHT_SPOT:
+        snprintf(word, sizeof word, "spot;%s;%s;%s;%.9g,%.9g", place, way, color, (double)l->inner,
+                 (double)l->outer);
+        break;
+    case WEFT_LIGHT_POLYGON:
+        snprintf(word, sizeof word, "polygon;%s;%s;%.9g,%.9g;%s;%d,%.9g", place, way, (double)l->size[0],
+                 (double)l->size[1], color, l->corners, (double)l->roll);
+        break;
+    }
+    put(line, " --light");
+    put_word(line, word);
+}
+
+static void put_lights(Line *line, const Viewer *v) {
+    const SceneState *a = &v->edit->first, *b = &v->edit->state;
+    if (a->light_count == b->light_count &&
+        memcmp(a->lights, b->lights, (size_t)a->light_count * sizeof *a->lights) == 0)
+        return;
+    put(line, " --light none");
+    for (int k = 0; k < b->light_count; k++) put_light(line, &b->lights[k]);
+}
+
+static void put_environment(Line *line, const EnvironmentState *a) {
+    if (a->kind == ENVIRONMENT_FILE) {
+        put(line, " --env");
+        put_word(line, a->path);
+    }
+    if (a->kind == ENVIRONMENT_COLOR)
+        put(line, " --env %.9g,%.9g,%.9g", (double)a->color[0], (double)a->color[1], (double)a->color[2]);
+    if (differs(a->rotation, 0.0f)) put(line, " --env-rotation %.9g", (double)a->rotation);
+    if (differs(a->strength, 1.0f)) put(line, " --env-strength %.9g", (double)a->strength);
+    if (differs(a->ambient, 1.0f)) put(line, " --env-ambient %.9g", (double)a->ambient);
+    if (differs(a->reflection, 1.0f)) put(line, " --env-reflection %.9g", (double)a->reflection);
+}
+
+static void put_view(Line *line, const Viewer *v) {
+    static const char *const backs[] = {"auto", "environment", "transparent", "", "blurred"};
+    static const char *const curves[] = {"pbr-neutral", "aces", "none"};
+    static const char *const ambients[] = {"best", "irradiance", "mirror", "fitted", "none"};
+    char camera[ORBIT_TEXT];
+    int width, height;
+    viewer_picture_size(v, &width, &height);
+    put(line, " --width %d --height %d --camera", width, height);
+    put_word(line, orbit_text(&v->camera->orbit, camera));
+    if (v->options->background == WEFT_BACKGROUND_COLOR)
+        put(line, " --background %.9g,%.9g,%.9g", (double)v->options->background_color[0],
+            (double)v->options->background_color[1], (double)v->options->background_color[2]);
+    else if (v->options->background != WEFT_BACKGROUND_AUTO)
+        put(line, " --background %s", backs[v->options->background]);
+    if (v->options->floor.on)
+        put(line, " --floor --floor-reflection %.9g --floor-roughness %.9g",
+            (double)v->options->floor.reflection, (double)v->options->floor.roughness);
+    if (v->options->hide_lights) put(line, " --hide-lights");
+    if (differs(v->options->exposure, 0.0f)) put(line, " --exposure %.9g", (double)v->options->exposure);
+    if (v->options->tonemap != WEFT_TONEMAP_PBR_NEUTRAL)
+        put(line, " --tonemap %s", curves[v->options->tonemap]);
+    if (v->options->mode != MODE_LIVE) {
+        put(line,
+            v->options->mode == MODE_DIFFERENCE ? " --engine both --halves --spp %d" : " --halves --spp %d",
+            v->requests->traced.samples >= 1.0 ? (int)v->requests->traced.samples : 64);
+        return;
+    }
+    put(line, " --engine raster");
+    if (v->options->part != WEFT_PART_ALL) put(line, " --part %s", weft_part_name((int)v->options->part));
+    if (v->options->ambient != WEFT_AMBIENT_BEST) put(line, " --ambient %s", ambients[v->options->ambient]);
+}
+
+char *command_line(const Viewer *v, bool *lost) {
+    Line line = {.text = calloc(1, 1024), .size = 1024};
+    bool gone = false;
+    if (!line.text) return NULL;
+    put(&line, "weft render");
+    put_word(&line, v->shown->facts.path);
+    for (int k = 0; k < v->opening->lobe_count; k++) {
+        put(&line, " --lobe");
+        put_word(&line, v->opening->lobes[k]);
+    }
+    if (v->desc->options && v->desc->options[0] && strcmp(v->opening->configured, v->shown->facts.path) == 0)
+        put(&line, " %s", v->desc->options);
+    if (v->desc->materials &&
+        strcmp(v->opening->configured, v->shown->facts.path) == 0) { /* which the first look wears */
+        put(&line, " --materials");
+        put_word(&line, v->desc->materials);
+    }
+    gone |= v->edit->state.variant < 0 && v->edit->first.variant >= 0;
+    if (v->edit->state.variant != v->edit->first.variant && v->edit->state.variant >= 0) {
+        put(&line, " --variant");
+        put_word(&line, v->shown->facts.variants[v->edit->state.variant]);
+    }
+    for (int k = 0; k < v->edit->state.material_count && k < v->edit->first.material_count; k++)
+        put_material(&line, v, k, &gone);
+    for (int k = 0; k < STATE_NAPS; k++) gone |= v->edit->state.naps[k] != NULL;
+    put_lights(&line, v);
+    put_environment(&line, &v->edit->state.environment);
+    put_view(&line, v);
+    put(&line, " -o picture.png");
+    if (lost) *lost = gone;
+    if (!line.short_of_memory) return line.text;
+    free(line.text);
+    return NULL;
+}

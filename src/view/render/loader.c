@@ -1,0 +1,300 @@
+#define _POSIX_C_SOURCE 200809L
+#include "view/render/loader.h"
+
+#include <math.h>
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "view/files/paths.h"
+#include "view/files/survey.h"
+#include "weft/weft.h"
+
+struct Loader {
+    Window *window;
+    const ViewDesc *desc;
+    bool configured;
+    float aspect;
+    pthread_t thread;
+    atomic_int thousandths; /* done; -1: unknown */
+    atomic_bool done, stop;
+    Loaded loaded;
+};
+
+typedef const char *NameOf(const WeftScene *scene, int index);
+
+/* Textures, counted from 0, share files; materials do not share names. */
+static const char *file_name(const WeftScene *scene, int k) {
+    const char *path = weft_scene_texture_path(scene, k + 1);
+    return path ? path_name(path) : NULL;
+}
+
+/* One line, and no sign that means something in a label. */
+static void make_fit(char *name) {
+    for (; *name; name++)
+        if ((unsigned char)*name < 0x20 || *name == '/' || *name == '#') *name = ' ';
+}
+
+/* Names that are there already get a number. */
+static void make_unique(FactName *names, int k) {
+    for (int j = 0; j < k; j++) {
+        if (strcmp(names[j], names[k]) != 0) continue;
+        char stem[FACTS_NAME];
+        memcpy(stem, names[k], sizeof stem);
+        snprintf(names[k], FACTS_NAME, "%.48s (%d)", stem, k);
+        return;
+    }
+}
+
+static FactName *copy_names(const WeftScene *scene, int count, NameOf *name, const char *kind) {
+    FactName *names = calloc((size_t)count + 1, sizeof *names);
+    for (int k = 0; k < count && names; k++) {
+        const char *text = name(scene, k);
+        if (text && text[0])
+            snprintf(names[k], FACTS_NAME, "%s", text);
+        else
+            snprintf(names[k], FACTS_NAME, "%s %d", kind, k);
+        make_fit(names[k]);
+        if (k < FACTS_MOST && name != file_name) make_unique(names, k);
+    }
+    return names;
+}
+
+/* A texel as it is shown; of one number grey. */
+static void texel_shown(const WeftImage *image, int x, int y, unsigned char out[3]) {
+    size_t at = ((size_t)y * (size_t)image->width + (size_t)x) * (size_t)image->channels;
+    for (int c = 0; c < 3; c++) {
+        size_t k = at + (size_t)(image->channels >= 3 ? c : 0);
+        float value = image->type == WEFT_PIXEL_F32 ? ((const float *)image->pixels)[k] : 0.0f;
+        out[c] = image->type == WEFT_PIXEL_U8    ? ((const unsigned char *)image->pixels)[k]
+                 : image->type == WEFT_PIXEL_U16 ? (unsigned char)(((const uint16_t *)image->pixels)[k] >> 8)
+                                                 : (unsigned char)(255.0f * fminf(fmaxf(value, 0.0f), 1.0f));
+    }
+}
+
+/* The mean of a few texels that lie in each of its own. */
+static void make_thumb(const WeftImage *image, unsigned char *out) {
+    enum { SIDE = FACTS_THUMB, FINER = 4 };
+    for (int y = 0; y < SIDE; y++)
+        for (int x = 0; x < SIDE; x++, out += 3) {
+            int sum[3] = {0};
+            for (int k = 0; k < FINER * FINER; k++) {
+                unsigned char texel[3];
+                int across = (FINER * x + k % FINER) * 2 + 1, down = (FINER * y + k / FINER) * 2 + 1;
+                texel_shown(image, (int)((long long)across * image->width / (2 * SIDE * FINER)),
+                            (int)((long long)down * image->height / (2 * SIDE * FINER)), texel);
+                for (int c = 0; c < 3; c++) sum[c] += texel[c];
+            }
+            for (int c = 0; c < 3; c++) out[c] = (unsigned char)(sum[c] / (FINER * FINER));
+        }
+}
+
+/* There are no thumbnails if memory is short. */
+static void read_thumbs(Facts *facts, const WeftScene *scene) {
+    int count = facts->map_count < FACTS_THUMBS ? facts->map_count : FACTS_THUMBS;
+    if (!count || weft_image_create(FACTS_THUMB, FACTS_THUMB * count, 3, WEFT_PIXEL_U8, &facts->thumbs,
+                                    NULL) != WEFT_OK)
+        return;
+    for (int k = 0; k < count; k++) {
+        WeftImage image = weft_scene_texture(scene, k + 1);
+        make_thumb(&image, (unsigned char *)facts->thumbs.pixels + (size_t)k * FACTS_THUMB * FACTS_THUMB * 3);
+    }
+}
+
+static void free_cloths(Facts *facts) {
+    for (int k = 0; k < facts->cloth_count; k++) weft_draft_free(facts->cloths[k].draft);
+    free(facts->cloths);
+    facts->cloths = NULL;
+    facts->cloth_count = 0;
+}
+
+/* There are fewer if memory is short. */
+static void read_cloths(Facts *facts, const WeftScene *scene) {
+    int count = 0;
+    free_cloths(facts);
+    while (weft_scene_cloth(scene, count + 1, NULL)) count++;
+    facts->cloths = calloc((size_t)count + 1, sizeof *facts->cloths);
+    for (int k = 0; facts->cloths && k < count; k++) {
+        FactCloth *cloth = &facts->cloths[k];
+        const WeftDraft *draft = weft_scene_cloth(scene, k + 1, cloth->yarns);
+        if (weft_draft_copy(draft, &cloth->draft, NULL) != WEFT_OK) return;
+        facts->cloth_count++;
+    }
+}
+
+void facts_read_maps(Facts *facts, const WeftScene *scene) {
+    int count = 0;
+    while (weft_scene_texture(scene, count + 1).pixels) count++;
+    FactName *names = copy_names(scene, count, file_name, "map");
+    if (!names) return;
+    free(facts->maps);
+    facts->maps = names;
+    facts->map_count = count;
+    weft_image_free(&facts->thumbs);
+    read_thumbs(facts, scene);
+    read_cloths(facts, scene);
+}
+
+bool facts_read(Facts *facts, const WeftScene *scene, const char *path) {
+    *facts = (Facts){.info = weft_scene_info(scene)};
+    snprintf(facts->path, sizeof facts->path, "%s", path);
+    facts->materials = copy_names(scene, facts->info.material_count, weft_scene_material_name, "material");
+    facts->cameras = copy_names(scene, facts->info.camera_count, weft_scene_camera_name, "camera");
+    facts->variants = copy_names(scene, facts->info.variant_count, weft_scene_variant_name, "variant");
+    facts_read_maps(facts, scene);
+    if (facts->materials && facts->cameras && facts->variants) return true;
+    facts_free(facts);
+    return false;
+}
+
+void facts_free(Facts *facts) {
+    free(facts->materials);
+    free(facts->cameras);
+    free(facts->variants);
+    free(facts->maps);
+    weft_image_free(&facts->thumbs);
+    free(facts->coverage);
+    free_cloths(facts);
+    *facts = (Facts){0};
+}
+
+static void on_warning(void *user, WeftMessage message, const char *text) {
+    Loaded *loaded = user;
+    size_t used = loaded->warnings ? strlen(loaded->warnings) : 0;
+    if (used > 16384) return;
+    char *grown = realloc(loaded->warnings, used + strlen(text) + 2);
+    if (!grown) return;
+    loaded->warnings = grown;
+    sprintf(grown + used, "%s\n", text);
+}
+
+static int on_progress(void *user, double fraction) {
+    Loader *self = user;
+    atomic_store(&self->thousandths, (int)(1000.0 * fraction));
+    window_wake(self->window);
+    return atomic_load(&self->stop);
+}
+
+/* That of the command line where it was given for this scene, else a built-in scene's first one, else one
+ * that frames it all. */
+static const char *first_camera(const Loader *self) {
+    bool builtin = strncmp(self->loaded.path, "builtin:", 8) == 0;
+    if (self->configured && self->desc->camera) return self->desc->camera;
+    return builtin && self->loaded.facts.info.camera_count ? "0" : "auto";
+}
+
+/* Surveys which material covers most of the picture. A survey that fails is no failure of the load. */
+static void survey(Loader *self) {
+    Loaded *loaded = &self->loaded;
+    WeftPick *pick;
+    if (weft_pick_create(loaded->scene, &pick, NULL) != WEFT_OK) return;
+    loaded->facts.coverage = survey_take(pick, loaded->scene, loaded->camera, self->aspect);
+    weft_pick_free(pick);
+}
+
+/* A folder that is gone since, or has no maps, keeps no scene from being shown. */
+static void bind_folders(Loaded *loaded, const WeftLog *log) {
+    Folders *folders = &loaded->folders;
+    int kept = 0;
+    for (int k = 0; k < folders->count; k++) {
+        char target[16];
+        WeftError error = {0};
+        snprintf(target, sizeof target, "%d", folders->materials[k]);
+        WeftResult result = weft_scene_bind_maps(loaded->scene, folders->materials[k] < 0 ? NULL : target,
+                                                 folders->paths[k], NULL, log, &error);
+        if (result != WEFT_OK) log->fn(log->user, error.message, error.text);
+        if (result != WEFT_OK) continue;
+        memmove(folders->paths[kept], folders->paths[k], STATE_PATH);
+        folders->materials[kept++] = folders->materials[k];
+    }
+    folders->count = kept;
+}
+
+static WeftResult load(Loader *self, WeftError *error) {
+    Loaded *loaded = &self->loaded;
+    const WeftLog log = {on_warning, loaded};
+    const ViewDesc *desc = self->desc;
+    EnvironmentState environment = environment_state_studio();
+    WeftResult result = loaded->lobe[0] ? weft_lobe_load(loaded->lobe, NULL, &log, error) : WEFT_OK;
+    if (result != WEFT_OK) return result;
+    loaded->taken = loaded->lobe[0] != 0;
+    result = weft_scene_load_watched(loaded->path, on_progress, self, &loaded->scene, &log, error);
+    if (result == WEFT_OK && atomic_load(&self->stop)) result = WEFT_INTERRUPTED;
+    if (result == WEFT_OK && self->configured && desc->configure)
+        result = desc->configure(desc->user, loaded->scene, &environment, &log, error);
+    if (result != WEFT_OK) return result;
+    bind_folders(loaded, &log);
+    if (!scene_state_read(&loaded->state, loaded->scene) ||
+        !facts_read(&loaded->facts, loaded->scene, loaded->path)) {
+        snprintf(error->text, sizeof error->text, "%.300s: out of memory", loaded->path);
+        return WEFT_RESOURCES;
+    }
+    loaded->state.environment = environment;
+    loaded->camera = first_camera(self);
+    survey(self);
+    return WEFT_OK;
+}
+
+static void *work(void *user) {
+    Loader *self = user;
+    WeftError error = {0};
+    self->loaded.result = load(self, &error);
+    if (self->loaded.result != WEFT_OK) {
+        weft_scene_free(self->loaded.scene);
+        self->loaded.scene = NULL;
+        snprintf(self->loaded.failure, sizeof self->loaded.failure, "%s", error.text);
+    }
+    atomic_store(&self->done, true);
+    window_wake(self->window);
+    return NULL;
+}
+
+Loader *loader_start(Window *window, const ViewDesc *desc, const Reading *reading) {
+    Loader *self = calloc(1, sizeof *self);
+    if (!self) return NULL;
+    self->window = window;
+    self->desc = desc;
+    self->configured = reading->configured;
+    self->aspect = reading->aspect;
+    self->loaded.again = reading->again;
+    self->loaded.folders = *reading->folders;
+    snprintf(self->loaded.path, sizeof self->loaded.path, "%s", reading->path);
+    snprintf(self->loaded.lobe, sizeof self->loaded.lobe, "%s", reading->lobe ? reading->lobe : "");
+    atomic_init(&self->thousandths, -1);
+    atomic_init(&self->done, false);
+    atomic_init(&self->stop, false);
+    if (pthread_create(&self->thread, NULL, work, self) == 0) return self;
+    free(self);
+    return NULL;
+}
+
+float loader_progress(Loader *self) { return (float)atomic_load(&self->thousandths) / 1000.0f; }
+
+bool loader_done(Loader *self) { return atomic_load(&self->done); }
+
+const char *loader_path(const Loader *self, bool *again) {
+    *again = self->loaded.again;
+    return self->loaded.path;
+}
+
+void loader_stop(Loader *self) { atomic_store(&self->stop, true); }
+
+void loader_finish(Loader *self, Loaded *loaded) {
+    atomic_store(&self->stop, true);
+    pthread_join(self->thread, NULL);
+    if (loaded)
+        *loaded = self->loaded;
+    else
+        loaded_free(&self->loaded);
+    free(self);
+}
+
+void loaded_free(Loaded *loaded) {
+    weft_scene_free(loaded->scene);
+    scene_state_free(&loaded->state);
+    facts_free(&loaded->facts);
+    free(loaded->warnings);
+    *loaded = (Loaded){0};
+}

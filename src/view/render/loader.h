@@ -1,0 +1,86 @@
+/* loader.h - reads a scene in a thread of its own, with progress */
+#ifndef WEFT_VIEW_LOADER_H
+#define WEFT_VIEW_LOADER_H
+
+#include "view/render/scene_state.h"
+#include "view/render/view.h"
+#include "view/ui/window.h"
+#include "weft/weave.h"
+
+enum { FACTS_NAME = 64, FACTS_MOST = 512, FACTS_THUMB = 32, FACTS_THUMBS = 128 };
+
+typedef char FactName[FACTS_NAME];
+
+/* A cloth of the scene: a copy of its draft, owned, and its yarns. */
+typedef struct FactCloth {
+    WeftDraft *draft;
+    WeftYarn yarns[2];
+} FactCloth;
+
+/* The contents of a scene: copies, since the scene belongs to the renderer. */
+typedef struct Facts {
+    char path[STATE_PATH];
+    FactName *materials, *cameras, *variants; /* owned */
+    FactName *maps;                           /* files of textures, as it was read; owned */
+    int map_count;
+    FactCloth *cloths; /* as WeftMaterial's `cloth` counts them, from 1; owned */
+    int cloth_count;
+    WeftImage
+        thumbs; /* of the maps in the same order, FACTS_THUMB a side, one below the other: U8 RGB; owned */
+    float *
+        coverage; /* fraction of the picture by material, at the last survey (survey.h); owned, may be NULL */
+    WeftSceneInfo info;
+} Facts;
+
+/* Reads the facts of a scene from path. Returns false if memory is short. */
+bool facts_read(Facts *facts, const WeftScene *scene, const char *path);
+void facts_free(Facts *facts);
+/* Its maps and cloths anew, where pictures or weaves were put on. */
+void facts_read_maps(Facts *facts, const WeftScene *scene);
+
+typedef struct Loader Loader;
+
+/* The result of a load, or the reason of its failure. */
+typedef struct Loaded {
+    WeftScene *scene; /* owned; NULL on failure */
+    SceneState state; /* owned; what it is configured as */
+    Facts facts;      /* owned */
+    char path[STATE_PATH];
+    WeftResult result;
+    char failure[512];
+    char *warnings;        /* warnings, one a line; owned, may be NULL */
+    const char *camera;    /* through which it is seen first; a constant, or the command line's */
+    bool again;            /* the scene was read again from its file */
+    Folders folders;       /* folders of maps that are in use */
+    char lobe[STATE_PATH]; /* file of a lobe that was to be taken before; "": none */
+    bool taken;            /* the lobe was taken, even if the scene failed */
+} Loaded;
+
+/* A load as it is requested. */
+typedef struct Reading {
+    const char *path;
+    const char *lobe;       /* file of a lobe to be taken before; may be NULL */
+    bool again;             /* the scene that is there */
+    bool configured;        /* desc.configure is called, in that thread */
+    const Folders *folders; /* to be worn; those that cannot be are a warning, and dropped */
+    float aspect;           /* width / height of the picture that it will be seen in */
+} Reading;
+
+/* NULL where memory is short. */
+Loader *loader_start(Window *window, const ViewDesc *desc, const Reading *reading);
+
+/* The finished share, or -1 while it is not known. */
+float loader_progress(Loader *loader);
+bool loader_done(Loader *loader);
+
+/* The scene that it reads, as long as it is there itself; again: as in Reading. */
+const char *loader_path(const Loader *loader, bool *again);
+
+/* Asks it to end soon, without waiting. */
+void loader_stop(Loader *loader);
+
+/* Gives up what is not done, and takes what is (loaded may be NULL: dropped). The loader is gone. */
+void loader_finish(Loader *loader, Loaded *loaded);
+void loaded_free(Loaded *loaded);
+
+#endif

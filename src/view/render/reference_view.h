@@ -1,0 +1,80 @@
+/* reference_view.h - the thread that path traces the window's view (ground truth), sample upon sample
+ *
+ * The scene belongs to the renderer, which pauses this thread while it changes anything. */
+#ifndef WEFT_VIEW_REFERENCE_VIEW_H
+#define WEFT_VIEW_REFERENCE_VIEW_H
+
+#include "view/render/orbit.h"
+#include "view/ui/window.h"
+#include "weft/render.h"
+#include "weft/sheet.h"
+
+typedef struct ReferenceView ReferenceView;
+
+typedef struct ReferenceRequest {
+    bool wanted;
+    WeftRenderDesc desc; /* the camera is the text below */
+    char camera[ORBIT_TEXT];
+    WeftTonemap tonemap;
+    float exposure;
+    float behind[3]; /* light of the display, where it is transparent */
+    bool difference; /* from the picture that was handed over, in place of it */
+    float scale;     /* of the heat map; 0: the 99 of 100 pixels */
+    int samples;     /* a pixel, after which it rests */
+} ReferenceRequest;
+
+/* A picture of the path tracer: U8 RGBA. But for the first, and for a difference, its noise is taken out until
+ * it has all samples. */
+typedef struct ReferenceFrame {
+    WeftImage image;
+    unsigned number;         /* of the renderer's request in whose place it is; 0: it is wanted for itself */
+    unsigned view, state;    /* numbers of what it shows: reference_request, reference_set_state */
+    double samples, seconds; /* samples: below 1 of a first look, with fewer pixels */
+    bool denoised;           /* in part */
+    int wanted_samples;
+    WeftDifference difference; /* where one was asked for and `compared` */
+    bool compared;
+    float scale;
+    char failure[256];
+} ReferenceFrame;
+
+/* window, if there is one, must outlive it, and is woken when there is something to take. NULL where memory is short. */
+ReferenceView *reference_start(Window *window);
+void reference_stop(ReferenceView *reference);
+
+/* Holds it still: when this returns nothing reads the scene. */
+void reference_pause(ReferenceView *reference);
+/* Lets it go on with a scene (NULL: none) in which `changed` has changed, WEFT_CHANGED_MATERIALS and so on;
+ * of another scene all. */
+void reference_resume(ReferenceView *reference, const WeftScene *scene, unsigned changed);
+
+/* Gives the state that the scene has by now a number, which pictures made from now on bear. After reference_resume with a
+ * change or another scene its state has the number 0 until then. */
+void reference_set_state(ReferenceView *reference, unsigned state);
+
+/* Returns the number of the request's view, which its pictures bear: a new one if the request before had another view, or
+ * only one of the two is wanted, or is for a difference. */
+unsigned reference_request(ReferenceView *reference, const ReferenceRequest *request);
+
+/* From now on pictures are made though none is wanted, in the place of the one that the renderer cannot draw
+ * yet, whose number they bear; coarse ones at first. 0: no more. */
+void reference_stand_in(ReferenceView *reference, unsigned number);
+/* Waits for the first picture that bears the number, so long at most. */
+void reference_wait(ReferenceView *reference, unsigned number, double seconds);
+
+/* Takes the picture to compare with, and zeroes it. It is forgotten if it is not of the latest request's view, or as soon as
+ * view or scene change. */
+void reference_set_comparison(ReferenceView *reference, unsigned view, WeftImage *linear);
+
+/* The newest picture: true where it is another one; then it is the caller's to free. */
+bool reference_take_frame(ReferenceView *reference, ReferenceFrame *picture);
+
+bool reference_has_frame(ReferenceView *reference);
+
+/* The samples so far, F32 RGBA; false where there are none. */
+bool reference_image(ReferenceView *reference, WeftImage *out);
+
+/* Returns true if the path tracer is idle: it is not wanted, or has all of its samples. */
+bool reference_is_idle(ReferenceView *reference);
+
+#endif

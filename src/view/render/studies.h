@@ -1,0 +1,41 @@
+/* studies.h - a small picture of the scene with one material under every profile, one at a time, and the
+ * sheet of them all */
+#ifndef WEFT_VIEW_STUDIES_H
+#define WEFT_VIEW_STUDIES_H
+
+#include "view/render/orbit.h"
+#include "view/render/scene_state.h"
+#include "weft/raster.h"
+
+enum { STUDY_MOST = 40 };
+
+/* Zero-initialise: none is under way. */
+typedef struct Study {
+    bool under_way;
+    unsigned stamp;
+    SceneState state;
+    int material;
+    WeftRasterView view;
+    char camera[ORBIT_TEXT];
+    WeftTonemap tonemap;
+    float exposure;
+    int next; /* picture: 0 is without a profile, k that of profile k - 1 */
+    WeftImage pictures[STUDY_MOST];
+} Study;
+
+/* Starts a sheet of a state, and gives up one under way. */
+void study_start(Study *study, const SceneState *state, int material, const WeftRasterView *view,
+                 const char *camera, WeftTonemap tonemap, float exposure, unsigned stamp);
+void study_stop(Study *study);
+
+/* Return the state and the view of the next picture. The first returns false, with an empty state, if
+ * memory is short. */
+bool study_state(const Study *study, SceneState *state);
+WeftRasterView study_view(const Study *study);
+void study_add(Study *study, WeftImage *linear); /* takes it over */
+bool study_done(const Study *study);
+
+/* U8 RGB. False where memory is short. */
+bool study_sheet(const Study *study, WeftImage *sheet);
+
+#endif

@@ -1,0 +1,43 @@
+/* view.h - the window: open a cloth asset, edit every term, and compare with the path-traced reference */
+#ifndef WEFT_VIEW_VIEW_H
+#define WEFT_VIEW_VIEW_H
+
+#include <stdbool.h>
+
+#include "view/render/scene_state.h"
+#include "weft/raster.h"
+
+/* The window's initial content. Texts must outlive it. */
+typedef struct ViewDesc {
+    const char *scene; /* NULL: the built-in cloth */
+    const char
+        *options; /* how the scene is configured, as a command line has it: for the copied one; may be NULL */
+    /* Assigns materials and lights to a scene that was just loaded; `environment` receives the light from far
+     * away. May be NULL. */
+    WeftResult (*configure)(void *user, WeftScene *scene, EnvironmentState *environment, const WeftLog *log,
+                            WeftError *error);
+    void *user;
+    const char *camera; /* NULL: a built-in scene's first one, else auto */
+    WeftBackground background;
+    float background_color[3];
+    WeftFloor floor;
+    bool hide_lights;
+    WeftTonemap tonemap;
+    float exposure;
+    const char *shader_dir;   /* may be NULL */
+    const char *const *lobes; /* files of the user's lobes that were taken, ended by NULL */
+    const char *materials;    /* folder of maps to put onto the cloth; NULL: none */
+    int occlusion;
+    int width, height;  /* of the window; 0: as it was last time */
+    float scale;        /* of panels and words; 0: as the display asks, 1 without one */
+    int frames;         /* ends after so many; 0: when it is closed */
+    const char *script; /* file of actions to replay; may be NULL */
+    bool unseen;        /* without a window */
+    bool report;        /* a line of JSON on standard output whenever it comes to rest */
+    bool forget;        /* settings are neither read nor written */
+} ViewDesc;
+
+/* Runs until it is closed. Returns an exit code; what went wrong is one line in `why`. */
+int view_run(const ViewDesc *desc, char why[512]);
+
+#endif

@@ -1,0 +1,205 @@
+/* Sends requests to the renderer and the path tracer, and takes their results. */
+#define _POSIX_C_SOURCE 200809L
+#include "view/state/frame_requests.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <epoxy/gl.h>
+
+#include "base/steady_clock.h"
+#include "view/state/opening.h"
+#include "view/state/rooms.h"
+
+void requests_due(Viewer *v) { v->rooms->requests.ask = true; }
+void requests_forget_probe(Viewer *v) { v->rooms->requests.has_probe = false; }
+void requests_forget(Viewer *v) { scene_state_free(&v->rooms->requests.sent); }
+void requests_end(Viewer *v) {
+    if (v->window) glDeleteTextures(1, &v->rooms->requests.reference_texture);
+}
+
+void viewer_picture_size(const Viewer *v, int *width, int *height) {
+    *width = (int)fmaxf(v->frame->stage.width, 16.0f);
+    *height = (int)fmaxf(v->frame->stage.height, 16.0f);
+}
+
+static bool same_request(const FrameRequest *a, const FrameRequest *b) {
+    WeftRasterView x = a->view, y = b->view;
+    x.camera = y.camera = NULL;
+    bool same = a->split == b->split && a->scene == b->scene && a->tonemap == b->tonemap &&
+                a->reference == b->reference && a->compare == b->compare &&
+                strcmp(a->camera, b->camera) == 0 &&
+                memcmp((const char *)&x, (const char *)&y, sizeof x) == 0 &&
+                memcmp((const char *)a->behind, (const char *)b->behind, sizeof a->behind) == 0;
+    return same && !(a->at < b->at) && !(a->at > b->at) && !(a->exposure < b->exposure) &&
+           !(a->exposure > b->exposure);
+}
+
+/* Both states and how they are seen; the states are borrowed. */
+static FrameRequest make_request(const Viewer *v) {
+    FrameRequest request = {.scene = v->shown->number,
+                            .edited = v->edit->side,
+                            .split = v->edit->split,
+                            .at = v->options->split_at,
+                            .tonemap = v->options->tonemap,
+                            .exposure = v->options->exposure};
+    request.state = v->edit->side == 0 || v->edit->split == SPLIT_NONE ? v->edit->state : v->edit->other;
+    request.other = v->edit->side == 0 || v->edit->split == SPLIT_NONE ? v->edit->other : v->edit->state;
+    viewer_picture_size(v, &request.view.width, &request.view.height);
+    static const float dark[3] = {0.0219f, 0.0219f, 0.0246f};
+    bool color = v->options->background == WEFT_BACKGROUND_COLOR;
+    request.view.background = color ? WEFT_BACKGROUND_TRANSPARENT : v->options->background;
+    request.view.floor = v->options->floor;
+    request.view.hide_lights = v->options->hide_lights;
+    request.view.part = v->options->part;
+    request.view.ambient = v->options->ambient;
+    request.reference = v->options->mode != MODE_LIVE;
+    request.compare = v->options->mode == MODE_DIFFERENCE;
+    if (v->options->mode != MODE_LIVE) {
+        request.split = SPLIT_NONE;
+        request.edited = 0;
+        request.state = v->edit->state;
+        request.view.part = WEFT_PART_ALL;
+    }
+    request.laid_behind = color && request.view.part == WEFT_PART_ALL;
+    memcpy(request.behind, request.laid_behind ? v->options->background_color : dark, sizeof request.behind);
+    orbit_text(&v->camera->orbit, request.camera);
+    return request;
+}
+
+/* Returns the number of the view (reference_request). */
+static unsigned send_reference(Viewer *v, const FrameRequest *request) {
+    ReferenceRequest t;
+    memset(&t, 0, sizeof t); /* compared byte by byte */
+    t.wanted = v->options->mode != MODE_LIVE && v->shown->any;
+    t.desc.width = request->view.width, t.desc.height = request->view.height;
+    t.desc.background = request->view.background;
+    t.desc.floor = request->view.floor;
+    t.desc.hide_lights = request->view.hide_lights;
+    t.desc.halves = t.desc.first_hits = 1; /* to show it denoised */
+    snprintf(t.camera, sizeof t.camera, "%s", request->camera);
+    t.tonemap = request->tonemap, t.exposure = request->exposure;
+    memcpy(t.behind, request->behind, sizeof t.behind);
+    t.difference = v->options->mode == MODE_DIFFERENCE;
+    t.samples = TRACE_SAMPLES;
+    return reference_request(v->reference, &t);
+}
+
+/* Returns true if the picture shown is of the latest request but could be drawn more finely. */
+bool requests_can_refine(const Viewer *v) {
+    return v->shown->any && v->rooms->requests.rendered.number == v->rooms->requests.requested &&
+           v->rooms->requests.rendered.texture && v->rooms->requests.rendered.effort < EFFORT_SMOOTH;
+}
+
+/* Sends what is wanted where it is something else than before. */
+void requests_send(Viewer *v) {
+    if (!v->shown->any || v->frame->stage.width < 1.0f) return;
+    FrameRequest request = make_request(v);
+    const FrameRequest *last = &v->rooms->requests.request;
+    bool other_state = !scene_state_same(&v->edit->state, &v->rooms->requests.sent);
+    bool changed = v->rooms->requests.ask || other_state || !same_request(&request, last);
+    if (changed) v->rooms->requests.changed = clock_now();
+    bool finer = requests_can_refine(v) && clock_now() - v->rooms->requests.changed > 0.12;
+    if (!changed && !finer) return;
+    request.effort = finer ? (Effort)(v->rooms->requests.rendered.effort + 1) : EFFORT_COARSE;
+    request.state_number = last->state_number + (other_state ? 1 : 0);
+    request.view_number = send_reference(v, &request);
+    if (other_state || request.view_number != last->view_number)
+        v->rooms->requests.traced.samples = 0.0; /* until there are some of this view and state */
+    v->rooms->requests.requested = renderer_request(v->renderer, &request);
+    scene_state_free(&v->rooms->requests.sent);
+    if (!scene_state_copy(&v->rooms->requests.sent, &v->edit->state))
+        v->rooms->requests.sent = (SceneState){0};
+    request.state = request.other = (SceneState){0};
+    v->rooms->requests.request = request;
+    v->rooms->requests.ask = false;
+    if (changed) v->rooms->requests.has_probe = false;
+}
+
+/* The place of a camera of the scene is known once a frame was drawn through it. */
+void requests_read_camera(Viewer *v) {
+    const RenderedFrame *p = &v->rooms->requests.rendered;
+    if (!v->camera->orbit.name[0] || p->number != v->rooms->requests.requested || !p->texture) return;
+    camera_found(v, p);
+}
+
+/* A newer picture is waited for a little: of what was just asked for, or of the frame before, while the
+ * renderer is at this one's. So window and renderer work side by side, and no picture is more than two frames
+ * behind. */
+void requests_wait_frame(Viewer *v) {
+    double until = clock_now() + 0.04;
+    unsigned before = v->rooms->requests.rendered.number;
+    renderer_take_frame(v->renderer, &v->rooms->requests.rendered);
+    bool waits = v->shown->any && !v->rooms->requests.late && v->options->mode == MODE_LIVE;
+    while (waits && v->rooms->requests.rendered.number == before && before != v->rooms->requests.requested &&
+           clock_now() < until) {
+        window_wait(v->window, 0.004);
+        renderer_take_frame(v->renderer, &v->rooms->requests.rendered);
+    }
+    v->rooms->requests.late =
+        v->rooms->requests.rendered.number == before && before != v->rooms->requests.requested;
+}
+
+void requests_take_reference(Viewer *v) {
+    ReferenceFrame picture;
+    if (!reference_take_frame(v->reference, &picture)) return;
+    if (picture.image.pixels) {
+        viewer_upload(&v->rooms->requests.reference_texture, &picture.image);
+        weft_image_free(&picture.image);
+    }
+    const FrameRequest *last = &v->rooms->requests.request;
+    bool current = picture.view == last->view_number && picture.state == last->state_number;
+    if (!current) picture.samples = 0.0; /* they are of an earlier view or state */
+    v->rooms->requests.traced = picture;
+    if (picture.failure[0]) viewer_say(v, true, "%s", picture.failure);
+}
+
+void requests_take_events(Viewer *v) {
+    RenderEvent event;
+    while (renderer_take_event(v->renderer, &event)) {
+        if (event.text[0]) viewer_say(v, event.failed, "%s", event.text);
+        if (event.kind == TASK_SCENE) opening_take(v, &event);
+        if (event.scene != v->shown->number) { /* of one that is gone */
+            render_event_free(&event);
+            continue;
+        }
+        if (event.maps.maps) {
+            opening_take_maps(v, &event);
+            requests_forget(v); /* pixels are others, though the state may be the same */
+        }
+        if (event.state_changed && event.kind == TASK_LIGHT) {
+            edit_take_light(v, &event.state.environment);
+        } else if (event.state_changed) {
+            edit_take_assigned(v, &event.state, event.stamp);
+            event.state_changed = false;
+        }
+        if (event.kind == TASK_ASSIGN || event.kind == TASK_WEAVE) edit_end_assign(v, event.stamp);
+        if (event.kind == TASK_BIND_MAPS && !event.failed) opening_keep_folder(v, event.path);
+        if (event.coverage) opening_varied(v, &event.coverage);
+        if (event.kind == TASK_PROBE && !event.failed) {
+            v->rooms->requests.probe = event.probe;
+            v->rooms->requests.has_probe = event.probe.hit;
+        }
+        if (event.kind == TASK_PICK && !event.failed && event.stamp) stage_picked(v, &event);
+        if (event.kind == TASK_PROFILES && event.image.pixels) dialogs_take_profiles(v, &event.image);
+        render_event_free(&event);
+    }
+    char *warnings = renderer_take_warnings(v->renderer);
+    opening_warn(v, warnings);
+    free(warnings);
+    if (strcmp(v->rooms->requests.shader_complaint, v->rooms->requests.rendered.complaint) != 0) {
+        memcpy(v->rooms->requests.shader_complaint, v->rooms->requests.rendered.complaint,
+               sizeof v->rooms->requests.shader_complaint);
+        if (v->rooms->requests.shader_complaint[0])
+            viewer_say(v, true, "shader: %s", v->rooms->requests.shader_complaint);
+        else
+            viewer_say(v, false, "shaders compile again");
+    }
+    if (strcmp(v->rooms->requests.failure, v->rooms->requests.rendered.failure) != 0) {
+        memcpy(v->rooms->requests.failure, v->rooms->requests.rendered.failure,
+               sizeof v->rooms->requests.failure);
+        viewer_say(v, v->rooms->requests.failure[0] != '\0', "%s", v->rooms->requests.failure);
+    }
+}

@@ -1,0 +1,85 @@
+/* window.h - a window of the desktop with OpenGL 3.3 in it, or the same without a display: a picture in
+ * memory that nobody sees, for replays
+ *
+ * What the user does arrives as events, in a queue to which a replay may add its own. All calls are for the
+ * thread that opened it, but window_wake and those of the worker. */
+#ifndef WEFT_VIEW_WINDOW_H
+#define WEFT_VIEW_WINDOW_H
+
+#include "view/ui/ui.h"
+#include "weft/image.h"
+
+typedef struct Window Window;
+
+typedef struct WindowDesc {
+    const char *title;
+    int width, height; /* pixels */
+    bool unseen;       /* without a display */
+    float scale;       /* pixels a design pixel; 0: as the display says, 1 without one */
+} WindowDesc;
+
+/* NULL with one line in `why` on failure. Its context is current in this thread. */
+Window *window_open(const WindowDesc *desc, char why[256]);
+void window_close(Window *window);
+
+/* A second context that shares textures with the window's: makes it current in the thread that calls. */
+bool window_worker_begin(Window *window);
+void window_worker_end(Window *window);
+
+typedef enum EventKind {
+    EVENT_MOVE,   /* x, y */
+    EVENT_BUTTON, /* code, down */
+    EVENT_WHEEL,  /* x, y */
+    EVENT_KEY,    /* code, letter, down, again, modifiers */
+    EVENT_TYPED,  /* code: a code point */
+    EVENT_DROP,   /* path */
+    EVENT_RESIZE, /* x, y */
+    EVENT_LEAVE,  /* the mouse */
+    EVENT_FOCUS   /* lost: all is let go of */
+} EventKind;
+
+typedef struct Event {
+    EventKind kind;
+    float x, y;
+    int code;
+    char letter;
+    bool down, again, control, shift, alt;
+    char *path; /* owned by whoever takes it */
+} Event;
+
+/* Adds an event behind those that wait; a path is copied. */
+void window_push(Window *window, const Event *event);
+
+/* Takes the events since the last call into input, as far as one frame can show them: of a button or key that
+ * went down and up again the second is left for the next frame, and so is a Ctrl, Shift or Alt that changed
+ * after one of them did. Returns whether anything happened. */
+bool window_take(Window *window, UiInput *input);
+
+/* Returns true if events wait. */
+bool window_has_events(const Window *window);
+
+/* The next file that was dropped on it, NULL: none; release with free. */
+char *window_dropped(Window *window);
+
+/* Waits until something happens, window_wake is called, or so many seconds are over; 0 looks only. */
+void window_wait(Window *window, double seconds);
+void window_wake(Window *window); /* from any thread */
+
+/* Makes its framebuffer the one that is drawn into, and clears it. */
+void window_bind(Window *window);
+void window_present(Window *window);
+void window_size(const Window *window, int *width, int *height);
+float window_scale(const Window *window);
+bool window_hidden(const Window *window); /* minimised: nothing can be seen */
+bool window_closing(const Window *window);
+void window_ask_close(Window *window);
+void window_cursor(Window *window, UiCursor cursor);
+void window_title(Window *window, const char *title);
+const UiClipboard *window_clipboard(Window *window);
+
+/* Keeps the next frame that is presented, before it is: the front of a window need not be readable. */
+void window_keep(Window *window);
+/* The frame that was kept last, U8 RGB; NULL where there is none. */
+const WeftImage *window_kept(const Window *window);
+
+#endif
