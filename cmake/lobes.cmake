@@ -36,7 +36,7 @@ macro(weft_read_lobe id)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
   file(READ ${file} text)
   string(REGEX REPLACE "[][;]" " " text "${text}") # which lists take for their own
-  string(REGEX MATCH "_TRAITS [^\n]*(\\\\\n[^\n]*)*" traits "${text}")
+  string(REGEX MATCH "_TRAITS ([^\n]*\\\\\n)*[^\n]*" traits "${text}")
   foreach(trait REFERENCE TWO_COLORS TINTED TABLE)
     string(FIND "${traits}" "TRAIT_${trait}" at)
     set(is_${trait} FALSE)

@@ -25,7 +25,8 @@ enum {
     WEFT_LOBE_REFERENCE = 32,   /* f is an estimate, and its mean over near directions is meant */
     WEFT_LOBE_DIFFUSE = 64,     /* a diffuse term: may be the base of a material */
     WEFT_LOBE_TABLE = 128,      /* reads a table, which the lobe's first use makes or the library holds */
-    WEFT_LOBE_TINTED = 256      /* its colour is no factor on f but the albedo of its fibres, in [0, 1] */
+    WEFT_LOBE_TINTED = 256,     /* its colour is no factor on f but the albedo of its fibres, in [0, 1] */
+    WEFT_LOBE_SYSTEM = 512      /* one system of threads; warp and weft, both of this lobe, are a cloth */
 };
 
 /* A parameter of a lobe. */

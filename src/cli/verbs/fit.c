@@ -4,11 +4,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/path.h"
 #include "cli/console/interrupt.h"
 #include "cli/console/json_writer.h"
 #include "cli/console/names.h"
 #include "cli/console/output.h"
-#include "cli/console/path_suffix.h"
 #include "cli/console/progress.h"
 #include "cli/console/report.h"
 #include "cli/fit/fit_files.h"
@@ -195,6 +195,12 @@ static void json_write(const Fitting *fitting) {
     json_close(&json, '}');
 }
 
+/* Returns true if the base is the weft of a cloth, whose warp is of the same lobe. */
+static bool is_weave(const Fitting *fitting) {
+    const WeftLobeInfo *base = weft_lobe_info(weft_lobe_find(fitting->base));
+    return base && base->traits & WEFT_LOBE_SYSTEM;
+}
+
 /* Returns the number of fits, with the baseline. */
 static int fits_count(const Fitting *fitting, const char *only) {
     int lobes = 0, bases = 0;
@@ -203,9 +209,7 @@ static int fits_count(const Fitting *fitting, const char *only) {
         bases += (traits & WEFT_LOBE_DIFFUSE) != 0;
         lobes += !(traits & (WEFT_LOBE_DIFFUSE | WEFT_LOBE_REFERENCE));
     }
-    return (only || strcmp(fitting->base, "woven") == 0 ? 1 : lobes) *
-               (strcmp(fitting->base, "all") == 0 ? bases : 1) +
-           1;
+    return (only || is_weave(fitting) ? 1 : lobes) * (strcmp(fitting->base, "all") == 0 ? bases : 1) + 1;
 }
 
 /* Finds the best fit that a material can express: parameters without an input stay at their defaults, and the
@@ -292,12 +296,13 @@ static int lobes_check(const Fitting *fitting) {
     const char *only = option_text(fitting->options, "--lobe");
     const WeftLobeInfo *base = weft_lobe_info(weft_lobe_find(fitting->base)),
                        *lobe = only ? weft_lobe_info(weft_lobe_find(only)) : NULL;
-    const bool weave = strcmp(fitting->base, "woven") == 0;
-    if (weave && only && strcmp(only, "woven") != 0)
-        return report(WEFT_USAGE, "--base woven: is the weft; it goes with --lobe woven, the warp, alone");
+    const bool weave = is_weave(fitting);
+    if (weave && only && strcmp(only, base->id) != 0)
+        return report(WEFT_USAGE, "--base %s: is the weft; it goes with --lobe %s, the warp, alone", base->id,
+                      base->id);
     if (weave && option_given(fitting->options, "-o") && !option_given(fitting->options, "--to"))
-        return report(WEFT_USAGE,
-                      "--base woven: is fitted as two lobes, of which no material can be written");
+        return report(WEFT_USAGE, "--base %s: is fitted as two lobes, of which no material can be written",
+                      base->id);
     if (base && !weave && !(base->traits & WEFT_LOBE_DIFFUSE))
         return report(WEFT_USAGE, "--base %s: is not a diffuse lobe", base->id);
     if (lobe && lobe->traits & WEFT_LOBE_DIFFUSE)

@@ -8,13 +8,11 @@
 #include "base/fail.h"
 #include "base/memory.h"
 #include "measure/fit/data.h"
+#include "measure/fit/fitted.h"
 #include "measure/fit/lobe_search.h"
 #include "measure/fit/material_search.h"
 #include "measure/fit/weave_search.h"
 #include "shading/catalogue/registry.h"
-#include "shading/material/choice.h"
-
-/* The fit. */
 
 /* A lobe over a base, before it is fitted. */
 typedef struct Candidate {
@@ -98,28 +96,6 @@ static WeftResult fit_lobe(const LobeSearch *search, LobeFound *out) {
     return result;
 }
 
-/* The parameters that are inputs of a material by themselves. */
-static const struct {
-    const char *param;
-    InputId input;
-} named[] = {{"density", INPUT_sheen_density}, {"tilt", INPUT_nap},        {"azimuth", INPUT_nap_direction},
-             {"tail", INPUT_sheen_tail},       {"rise", INPUT_sheen_rise}, {"retro", INPUT_diffuse_retro},
-             {"lift", INPUT_diffuse_lift}};
-enum { NAMED = sizeof named / sizeof *named };
-
-/* Returns the parameters, as bits, that no input of a material sets: all but the first, which is its
- * roughness, and those that are named. Choices are inputs. */
-static unsigned unsayable(const WeftLobe *lobe) {
-    const WeftLobeInfo *info = weft_lobe_info(lobe->lobe);
-    unsigned bits = 0;
-    for (int k = 1; k < info->param_count; k++) {
-        bool said = info->params[k].choices != NULL;
-        for (size_t n = 0; n < NAMED; n++) said = said || strcmp(info->params[k].name, named[n].param) == 0;
-        if (!said) bits |= 1u << k;
-    }
-    return bits;
-}
-
 /* Fits one item of work: the last is the baseline. */
 static WeftResult fit_item(FitWork *work, int item, ItemProgress *item_progress) {
     bool baseline = item == work->count;
@@ -131,8 +107,8 @@ static WeftResult fit_item(FitWork *work, int item, ItemProgress *item_progress)
                          .isotropic = work->isotropic,
                          .item_progress = item_progress};
     if (work->desc->sayable && !baseline) {
-        search.hold |= unsayable(&found.lobe);
-        search.hold_base = unsayable(base);
+        search.hold |= params_without_input(&found.lobe);
+        search.hold_base = params_without_input(base);
     }
     WeftResult result = work->weave && !baseline ? weave_search_run(&work->samples, item_progress, &found)
                                                  : fit_lobe(&search, &found);
@@ -181,9 +157,10 @@ static WeftResult bases(FitWork *work, const char *name, WeftError *error) {
     WeftResult result = WEFT_OK;
     if (!all) {
         result = weft_lobe_init(name, &work->bases[work->base_count++], error);
-        work->weave = strcmp(name, "woven") == 0;
-        if (result == WEFT_OK && !work->weave &&
-            !(weft_lobe_info(work->bases[0].lobe)->traits & WEFT_LOBE_DIFFUSE))
+        if (result != WEFT_OK) return result;
+        unsigned traits = weft_lobe_info(work->bases[0].lobe)->traits;
+        work->weave = (traits & WEFT_LOBE_SYSTEM) != 0;
+        if (!work->weave && !(traits & WEFT_LOBE_DIFFUSE))
             return fail(error, WEFT_MESSAGE_DESC, name, "is no diffuse lobe");
     }
     for (int k = 0; all && k < weft_lobe_count() && result == WEFT_OK; k++) {
@@ -211,11 +188,11 @@ static WeftResult candidates(FitWork *work, WeftError *error) {
     if (result == WEFT_OK) result = weft_lobe_init("ggx", &work->ggx, error);
     if (result == WEFT_OK) result = bases(work, desc->base ? desc->base : "lambert", error);
     WeftLobe only = {.lobe = -1};
-    const char *id = work->weave && !desc->only ? "woven" : desc->only;
+    const char *id = work->weave && !desc->only ? weft_lobe_info(work->bases[0].lobe)->id : desc->only;
     if (result == WEFT_OK && id) result = weft_lobe_init(id, &only, error);
-    if (result == WEFT_OK && work->weave && strcmp(id, "woven") != 0)
+    if (result == WEFT_OK && work->weave && only.lobe != work->bases[0].lobe)
         return fail(error, WEFT_MESSAGE_DESC, id,
-                    "base woven, which is the weft, goes with lobe woven, the warp");
+                    "a base of threads, the weft, goes with the same lobe, the warp");
     for (int k = 0; k < weft_lobe_count() && result == WEFT_OK; k++) {
         const WeftLobeInfo *info = weft_lobe_info(k);
         if (info->traits & (WEFT_LOBE_DIFFUSE | WEFT_LOBE_REFERENCE)) continue;
@@ -250,153 +227,7 @@ static WeftResult work_run(FitWork *work, WeftFit *out, WeftError *error) {
     return WEFT_OK;
 }
 
-WeftResult weft_fit(const WeftData *data, const WeftFitDesc *desc, WeftFit *out, WeftError *error) {
-    WeftBrdfMetric metric = desc->chosen ? desc->metric : WEFT_BRDF_METRIC_LOG;
-    memset(out, 0, sizeof *out);
-    if (metric != WEFT_BRDF_METRIC_LOG && metric != WEFT_BRDF_METRIC_COSINE)
-        return fail(error, WEFT_MESSAGE_DESC, "a fit", "its metric is log or cosine");
-    FitWork *work = alloc_array(1, sizeof *work);
-    if (!work) return fail(error, WEFT_MESSAGE_MEMORY, "a fit", NULL);
-    work->desc = desc;
-    work->isotropic = data_isotropic(data);
-    WeftResult result = candidates(work, error);
-    if (result == WEFT_OK && !data_samples(data, metric, &work->samples))
-        result = fail(error, WEFT_MESSAGE_MEMORY, "a fit", NULL);
-    if (result == WEFT_OK && work->weave && (work->isotropic || !weave_search_sees(&work->samples)))
-        result = fail(error, WEFT_MESSAGE_DESC, "woven over woven",
-                      "the data are isotropic, or in one plane: they do not tell warp from weft");
-    if (result == WEFT_OK) result = work_run(work, out, error);
-    samples_free(&work->samples);
-    free(work);
-    return result;
-}
-
-/* Returns true if a parameter is not its default and lies at an end of its plausible range, or of what is possible. */
-static bool at_edge(const WeftLobe *lobe, bool hard) {
-    const WeftLobeInfo *info = weft_lobe_info(lobe->lobe);
-    for (int k = 0; k < info->param_count; k++) {
-        const WeftParamInfo *p = &info->params[k];
-        const float low = hard ? p->hard_low : p->low, high = hard ? p->hard_high : p->high;
-        float value = lobe->params[k], near = 1e-3f * (high - low);
-        bool moved = value < p->def || value > p->def;
-        if (!p->choices && moved && (value <= low + near || value >= high - near)) return true;
-    }
-    return false;
-}
-
-int weft_fitted_is_weave(const WeftFitted *fitted) {
-    return !(weft_lobe_info(fitted->base.lobe)->traits & WEFT_LOBE_DIFFUSE);
-}
-
-unsigned weft_fitted_notes(const WeftFitted *fitted) {
-    const WeftLobe *lobe = &fitted->lobe;
-    float most = 0.0f, base = 0.0f;
-    unsigned notes = 0;
-    for (int c = 0; c < 3; c++) {
-        most = fmaxf(most, lobe->f0[c]);
-        base = fmaxf(base, fitted->base.f0[c]);
-        if (weft_lobe_info(lobe->lobe)->traits & TRAIT_TWO_COLORS) most = fmaxf(most, lobe->f90[c]);
-    }
-    if (!(most > 1e-6f)) notes |= WEFT_FITTED_NOTHING;
-    if (fmaxf(most, base) > 1.0f) notes |= WEFT_FITTED_BRIGHT;
-    const bool weave = weft_fitted_is_weave(fitted) != 0;
-    if (at_edge(lobe, weave) || at_edge(&fitted->base, weave)) notes |= WEFT_FITTED_EDGE;
-    return notes;
-}
-
-/* The material. */
-
-/* The roughness of which a lobe makes that first parameter; it grows with it, or falls. */
-static float roughness_of(const WeftLobe *lobe) {
-    double low = 0.0, high = 2.0;
-    float first = lobe_rough(lobe->lobe, 0.0f).params[0], last = lobe_rough(lobe->lobe, 2.0f).params[0];
-    for (int halving = 0; halving < 50; halving++) {
-        double middle_of = 0.5 * (low + high);
-        float now = lobe_rough(lobe->lobe, (float)middle_of).params[0];
-        bool before = first < last ? now < lobe->params[0] : now > lobe->params[0];
-        *(before ? &low : &high) = middle_of;
-    }
-    return (float)(0.5 * (low + high));
-}
-
-static void input_set(WeftMaterial *material, InputId input, const float *values, int count) {
-    memcpy(material->inputs[input].value, values, (size_t)count * sizeof *values);
-    material->inputs[input].given = 1;
-}
-
-/* The terms of a lobe that is put together. */
-static void choose_terms(const WeftLobe *lobe, WeftMaterial *out) {
-    static const struct {
-        const char *param;
-        ChoiceId choice;
-    } terms[] = {{"d", CHOICE_sheen_d}, {"v", CHOICE_sheen_v}, {"f", CHOICE_sheen_f}};
-    for (size_t t = 0; t < sizeof terms / sizeof *terms; t++) {
-        int k = weft_lobe_param_find(lobe->lobe, terms[t].param);
-        if (k >= 0) weft_material_choose(out, (int)terms[t].choice, (int)lobe->params[k]);
-    }
-}
-
-/* Returns true if both have the same parameters. */
-static bool is_same(const Lobe *said, const WeftLobe *lobe) {
-    bool same = true;
-    for (int k = 0; k < weft_lobe_info(lobe->lobe)->param_count; k++)
-        same &= fabsf(said->params[k] - lobe->params[k]) <= 1e-4f * (fabsf(lobe->params[k]) + 1e-3f);
-    return same;
-}
-
-/* Sets the inputs that are parameters of a lobe by themselves, and those parameters. */
-static void say_named(const WeftLobe *lobe, Lobe *said, WeftMaterial *out) {
-    for (size_t n = 0; n < NAMED; n++) {
-        int k = weft_lobe_param_find(lobe->lobe, named[n].param);
-        if (k < 1) continue;
-        said->params[k] = lobe->params[k];
-        input_set(out, named[n].input, &lobe->params[k], 1);
-    }
-}
-
-/* Sets the inputs of the base; returns false if there are none for all of its parameters. */
-static bool say_base(const WeftLobe *base, WeftMaterial *out) {
-    const WeftLobeInfo *info = weft_lobe_info(base->lobe);
-    float roughness = info->param_count > 0 ? roughness_of(base) : 0.0f;
-    Lobe said = lobe_rough(base->lobe, roughness);
-    say_named(base, &said, out);
-    bool same = is_same(&said, base);
-    for (int c = 0; c < 3; c++) same &= base->f0[c] <= 1.0f;
-    weft_material_choose(out, CHOICE_diffuse, base->lobe);
-    input_set(out, INPUT_base_color, base->f0, 3);
-    input_set(out, weft_lobe_param_find(base->lobe, "wrap") == 0 ? INPUT_subsurface : INPUT_roughness,
-              &roughness, 1);
-    return same;
-}
-
-/* Sets the inputs of the sheen; returns false if there are none for all of its parameters. */
-static bool say_sheen(const WeftLobe *lobe, WeftMaterial *out) {
-    const WeftLobeInfo *info = weft_lobe_info(lobe->lobe);
-    float roughness = info->param_count > 0 ? roughness_of(lobe) : 0.0f;
-    Lobe said = lobe_rough(lobe->lobe, roughness);
-    say_named(lobe, &said, out);
-    for (int k = 0; k < info->param_count; k++)
-        if (info->params[k].choices) said.params[k] = lobe->params[k]; /* as choices of the material */
-    bool same = is_same(&said, lobe);
-    for (int c = 0; c < 3; c++) same &= lobe->f0[c] <= 1000.0f;
-    weft_material_choose(out, CHOICE_sheen_lobe, lobe->lobe);
-    choose_terms(lobe, out);
-    input_set(out, INPUT_sheen_color, lobe->f0, 3);
-    input_set(out, INPUT_sheen_second, lobe->f90, 3);
-    input_set(out, INPUT_sheen_roughness, &roughness, 1);
-    return same;
-}
-
-int weft_fitted_material(const WeftFitted *fitted, WeftMaterial *out) {
-    weft_material_default(out);
-    if (weft_fitted_is_weave(fitted)) return 0;
-    weft_material_choose(out, CHOICE_workflow, choice_find(CHOICE_workflow, "cloth"));
-    weft_material_choose(out, CHOICE_layer, choice_find(CHOICE_layer, "additive"));
-    bool base = say_base(&fitted->base, out), sheen = say_sheen(&fitted->lobe, out);
-    return base && sheen;
-}
-
-/* The samples by the metric of desc, which must be log or cosine. Release with samples_free in any case. */
+/* Makes samples for the metric of desc, which must be log or cosine. Release them with samples_free in any case. */
 static WeftResult samples_of(const WeftData *data, const WeftFitDesc *desc, Samples *samples,
                              WeftError *error) {
     WeftBrdfMetric metric = desc->chosen ? desc->metric : WEFT_BRDF_METRIC_LOG;
@@ -404,6 +235,23 @@ static WeftResult samples_of(const WeftData *data, const WeftFitDesc *desc, Samp
     if (metric != WEFT_BRDF_METRIC_LOG && metric != WEFT_BRDF_METRIC_COSINE)
         return fail(error, WEFT_MESSAGE_DESC, "a fit", "its metric is log or cosine");
     return data_samples(data, metric, samples) ? WEFT_OK : fail(error, WEFT_MESSAGE_MEMORY, "a fit", NULL);
+}
+
+WeftResult weft_fit(const WeftData *data, const WeftFitDesc *desc, WeftFit *out, WeftError *error) {
+    memset(out, 0, sizeof *out);
+    FitWork *work = alloc_array(1, sizeof *work);
+    if (!work) return fail(error, WEFT_MESSAGE_MEMORY, "a fit", NULL);
+    work->desc = desc;
+    work->isotropic = data_isotropic(data);
+    WeftResult result = candidates(work, error);
+    if (result == WEFT_OK) result = samples_of(data, desc, &work->samples, error);
+    if (result == WEFT_OK && work->weave && (work->isotropic || !weave_search_sees(&work->samples)))
+        result = fail(error, WEFT_MESSAGE_DESC, "woven over woven",
+                      "the data are isotropic, or in one plane: they do not tell warp from weft");
+    if (result == WEFT_OK) result = work_run(work, out, error);
+    samples_free(&work->samples);
+    free(work);
+    return result;
 }
 
 WeftResult weft_fit_material(const WeftData *data, const WeftFitDesc *desc, WeftMaterial *material,

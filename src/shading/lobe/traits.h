@@ -12,7 +12,8 @@ enum {
     TRAIT_REFERENCE = 32,
     TRAIT_DIFFUSE = 64,
     TRAIT_TABLE = 128,
-    TRAIT_TINTED = 256
+    TRAIT_TINTED = 256,
+    TRAIT_SYSTEM = 512
 };
 
 #endif

@@ -41,7 +41,8 @@
     P(float, roundness, 0.9f, 0.0f, 1.2f, 0.0f, 1.5f, "steepest slope across the yarn")                      \
     P(float, floats, 1.0f, 1.0f, 6.0f, 0.4f, 16.0f, "1 plain weave; more where yarns lie level longer")      \
     P(float, cross_crimp, 0.44f, 0.0f, 0.8f, 0.0f, 1.2f, "of the yarns at right angles, radians")
-#define WOVEN_TRAITS (TRAIT_RECIPROCAL | TRAIT_CONSERVES | TRAIT_ANISOTROPIC | TRAIT_TWO_COLORS)
+#define WOVEN_TRAITS                                                                                         \
+    (TRAIT_RECIPROCAL | TRAIT_CONSERVES | TRAIT_ANISOTROPIC | TRAIT_TWO_COLORS | TRAIT_SYSTEM)
 
 STRUCT(Woven){WOVEN_PARAMS(FIELD)};
 
