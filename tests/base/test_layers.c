@@ -103,7 +103,9 @@ static bool is_within(int room, const char *folder) {
 /* Returns true if a file of that folder may include "path". */
 static bool may_include(int room, const char *path) {
     if (strncmp(path, "weft/", 5) == 0) return true;
-    if (strcmp(path, "base/steady_clock.h") == 0 || strcmp(path, "base/pi.h") == 0) return true;
+    if (strcmp(path, "base/steady_clock.h") == 0 || strcmp(path, "base/pi.h") == 0 ||
+        strcmp(path, "base/path.h") == 0)
+        return true;
     if (strncmp(path, "half/", 5) == 0) return is_within(room, "measure"); /* generated */
     if (!strchr(path, '/')) return true;                                   /* beside the file */
     if (strstr(path, ".gen.h")) return strncmp(path, "shading/", 8) == 0;  /* generated */

@@ -2,9 +2,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "base/path.h"
 #include "cli/bake/bake.h"
 #include "cli/console/output.h"
-#include "cli/console/path_suffix.h"
 #include "cli/console/report.h"
 #include "cli/operands/command.h"
 #include "cli/operands/model.h"

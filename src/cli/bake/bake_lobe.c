@@ -3,10 +3,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/path.h"
 #include "cli/bake/bake.h"
 #include "cli/console/json_writer.h"
 #include "cli/console/output.h"
-#include "cli/console/path_suffix.h"
 #include "cli/console/report.h"
 
 /* The lobe's name, which is that of its .h; NULL after one line. */

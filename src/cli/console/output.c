@@ -10,7 +10,7 @@
 
 #include "cli/console/report.h"
 
-static int failure(const char *path) {
+static int report_unwritten(const char *path) {
     report(WEFT_RESOURCES, "%s: %s: %s", path, weft_message_text(WEFT_MESSAGE_FILE_WRITE), strerror(errno));
     return WEFT_RESOURCES;
 }
@@ -27,7 +27,7 @@ static char *find_target(const char *path) {
         return NULL;
     }
     char *target = there ? realpath(path, NULL) : strdup(path);
-    if (!target) failure(path);
+    if (!target) report_unwritten(path);
     return target;
 }
 
@@ -45,7 +45,7 @@ int output_begin(Output *output, const char *path) {
     output->temporary = malloc(size);
     if (!output->temporary) {
         forget(output);
-        return failure(path);
+        return report_unwritten(path);
     }
     snprintf(output->temporary, size, "%s.XXXXXX", output->target);
     int handle = mkstemp(output->temporary);
@@ -56,7 +56,7 @@ int output_begin(Output *output, const char *path) {
         output->stream = fdopen(handle, "w");
     }
     if (output->stream) return 0;
-    failure(path);
+    report_unwritten(path);
     if (handle >= 0) {
         close(handle);
         unlink(output->temporary);
@@ -71,7 +71,7 @@ int output_end(Output *output) {
     int result = 0;
     written = fclose(output->stream) == 0 && written;
     if (!written || rename(output->temporary, output->target) != 0) {
-        result = failure(output->path);
+        result = report_unwritten(output->path);
         unlink(output->temporary);
     }
     forget(output);

@@ -19,4 +19,23 @@ bool report_failed(void);
 /* Prints a warning in the same form: the fn of a WeftLog. user is not read. */
 void report_warning(void *user, WeftMessage message, const char *text);
 
+/* Warnings so far, each line once. */
+typedef struct Warnings {
+    bool quiet;
+    char **lines; /* owned, see warnings_free */
+    int count;
+} Warnings;
+
+/* Keeps a line for --json and prints it unless quiet; short of memory it is only printed. One that is not grave is not
+ * called a warning. */
+void warnings_add(Warnings *warnings, bool grave, const char *text);
+
+/* Adds a message of the library: the fn of a WeftLog whose user is Warnings. */
+void warnings_log(void *user, WeftMessage message, const char *text);
+
+void warnings_free(Warnings *warnings);
+
+/* Fills error with a failure of the program itself, and returns result. */
+WeftResult failure(WeftError *error, WeftResult result, const char *text);
+
 #endif

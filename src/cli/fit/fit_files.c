@@ -2,8 +2,8 @@
 
 #include <stdlib.h>
 
+#include "base/path.h"
 #include "cli/console/output.h"
-#include "cli/console/path_suffix.h"
 #include "cli/console/report.h"
 #include "cli/files/export_files.h"
 #include "cli/files/save.h"

@@ -3,11 +3,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/path.h"
 #include "cli/console/interrupt.h"
 #include "cli/console/json_writer.h"
 #include "cli/console/names.h"
 #include "cli/console/output.h"
-#include "cli/console/path_suffix.h"
 #include "cli/console/progress.h"
 #include "cli/console/report.h"
 #include "cli/match/match_verb.h"

@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/path.h"
 #include "cli/console/names.h"
-#include "cli/console/path_suffix.h"
 #include "cli/console/report.h"
 
 /* The kinds of names that are taken, in the order in which they are tried. */

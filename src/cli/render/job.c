@@ -3,47 +3,18 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/resource.h>
 
 #include "base/steady_clock.h"
 #include "cli/console/interrupt.h"
 #include "cli/console/progress.h"
-#include "cli/console/report.h"
 #include "cli/files/save.h"
 #include "weft/weft.h"
 
-/* Keeps the line for --json and shows it. Short of memory it is only shown. */
-void warnings_add(Warnings *warnings, bool grave, const char *text) {
-    for (int k = 0; k < warnings->count; k++)
-        if (strcmp(warnings->lines[k], text) == 0) return;
-    if (!warnings->quiet) report(0, "%s%s", grave ? "warning: " : "", text);
-    char **grown = realloc(warnings->lines, (size_t)(warnings->count + 1) * sizeof *grown);
-    if (!grown) return;
-    warnings->lines = grown;
-    if ((grown[warnings->count] = strdup(text))) warnings->count++;
-}
-
-void warnings_free(Warnings *warnings) {
-    for (int k = 0; k < warnings->count; k++) free(warnings->lines[k]);
-    free(warnings->lines);
-    *warnings = (Warnings){0};
-}
-
-static void warn(void *user, WeftMessage message, const char *text) {
-    warnings_add(user, message != WEFT_MESSAGE_NONE, text);
-}
-
-WeftResult failure(WeftError *error, WeftResult result, const char *text) {
-    error->result = result;
-    snprintf(error->text, sizeof error->text, "%s", text);
-    return result;
-}
-
-/* Loads the scene and dresses and lights it. */
+/* Loads the scene, and assigns its materials and lights. */
 static WeftResult scene_open(Job *job, WeftScene **scene, WeftError *error) {
     const Request *request = job->request;
     int picture = request->engine == ENGINE_BOTH ? 0 : job->number;
-    const WeftLog log = {.fn = warn, .user = job->warnings};
+    const WeftLog log = {.fn = warnings_log, .user = job->warnings};
     WeftResult result = weft_scene_load(request->scene_options.scene, scene, &log, error);
     if (result == WEFT_OK)
         result = scene_options_apply(&request->scene_options, picture, *scene, &log, error);
@@ -143,7 +114,7 @@ static void compile_early(WeftRaster *raster, WeftRasterView view) {
 
 static WeftResult raster(Job *job, const char *camera, WeftError *error) {
     const WeftRenderDesc *desc = &job->request->desc;
-    const WeftLog log = {.fn = warn, .user = job->warnings};
+    const WeftLog log = {.fn = warnings_log, .user = job->warnings};
     WeftRasterView view = {.width = desc->width,
                            .height = desc->height,
                            .samples = job->request->msaa,
@@ -264,62 +235,4 @@ WeftResult job_write(const Job *job, const char *number, WeftError *error) {
          .layers = layers,
          .layer_count = count}};
     return request_outputs_write(request, number, &outputs, error);
-}
-
-static double rate(double count, double seconds) { return seconds > 0.0 ? count / seconds : 0.0; }
-
-double job_samples_per_second(const Job *job) {
-    return rate(job->info.samples_per_pixel * job_pixels(job), job->info.render_seconds);
-}
-
-double job_stage_ns(const Job *job, int stage) {
-    return rate(1e9 * job->stages[stage].seconds, job->info.samples_per_pixel * job_pixels(job));
-}
-
-static long long peak_memory(void) {
-    struct rusage usage;
-    return getrusage(RUSAGE_SELF, &usage) == 0 ? (long long)usage.ru_maxrss * 1024 : 0; /* Linux counts KiB */
-}
-
-void job_json(const Job *job, Json *json) {
-    const Request *request = job->request;
-    const WeftRenderInfo *info = &job->info;
-    int cursor = 0;
-    json_text(json, "scene", request->scene_options.scene);
-    json_text(json, "engine", job->engine == ENGINE_RASTER ? "raster" : "trace");
-    if (job->engine == ENGINE_RASTER) json_text(json, "driver", job->driver);
-    json_whole(json, "triangles", job->triangles);
-    json_whole(json, "width", job->width);
-    json_whole(json, "height", job->height);
-    json_number(json, "samples_per_pixel", info->samples_per_pixel);
-    json_bool(json, "interrupted", job->interrupted);
-    json_open(json, "seconds", '{');
-    json_number(json, "load", job->load_seconds);
-    json_number(json, "build", info->build_seconds);
-    json_number(json, "render", info->render_seconds);
-    json_close(json, '}');
-    if (job->engine == ENGINE_TRACE) {
-        json_text(json, "isa", weft_isa());
-        json_whole(json, "rays", info->rays);
-        json_number(json, "samples_per_second", job_samples_per_second(job));
-        json_number(json, "rays_per_second", rate((double)info->rays, info->render_seconds));
-        if (!(job->noise < 0.0)) json_number(json, "noise", job->noise);
-        if (request->denoise) json_text(json, "denoised", weft_denoiser_name((int)request->denoiser));
-    }
-    if (job->stage_count) json_open(json, "stages", '{');
-    for (int k = 0; k < job->stage_count; k++) json_number(json, job->stages[k].name, job_stage_ns(job, k));
-    if (job->stage_count) json_close(json, '}');
-    json_open(json, "camera", '{');
-    json_floats(json, "eye", info->camera_eye, 3);
-    json_floats(json, "target", info->camera_target, 3);
-    json_float(json, "fov", info->camera_fov);
-    json_close(json, '}');
-    json_whole(json, "peak_memory_bytes", peak_memory());
-    json_open(json, "outputs", '[');
-    for (const char *path; (path = option_next(request->options, "-o", &cursor));)
-        json_text(json, NULL, path);
-    json_close(json, ']');
-    json_open(json, "warnings", '[');
-    for (int k = 0; k < job->warnings->count; k++) json_text(json, NULL, job->warnings->lines[k]);
-    json_close(json, ']');
 }

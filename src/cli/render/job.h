@@ -3,14 +3,8 @@
 #define WEFT_CLI_JOB_H
 
 #include "cli/console/json_writer.h"
+#include "cli/console/report.h"
 #include "cli/render/request.h"
-
-/* The warnings so far, each line once. */
-typedef struct Warnings {
-    bool quiet;
-    char **lines;
-    int count;
-} Warnings;
 
 enum { JOB_STAGES = 32 };
 
@@ -59,12 +53,5 @@ double job_stage_ns(const Job *job, int stage);
 
 /* The members of its object. */
 void job_json(const Job *job, Json *json);
-
-/* Adds and prints a line. One that is not grave is not called a warning. */
-void warnings_add(Warnings *warnings, bool grave, const char *text);
-void warnings_free(Warnings *warnings);
-
-/* A failure that is the program's own. */
-WeftResult failure(WeftError *error, WeftResult result, const char *text);
 
 #endif

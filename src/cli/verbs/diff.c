@@ -3,9 +3,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/path.h"
 #include "cli/console/json_writer.h"
 #include "cli/console/output.h"
-#include "cli/console/path_suffix.h"
 #include "cli/console/report.h"
 #include "cli/console/two_columns.h"
 #include "cli/verbs/verbs.h"

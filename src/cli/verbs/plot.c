@@ -4,9 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/path.h"
 #include "cli/console/names.h"
 #include "cli/console/output.h"
-#include "cli/console/path_suffix.h"
 #include "cli/console/report.h"
 #include "cli/console/two_columns.h"
 #include "cli/operands/lobes.h"
