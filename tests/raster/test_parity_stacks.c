@@ -81,7 +81,7 @@ static void put_stack(Text *text, int which) {
     put_all_lobes(text, which);
     text_lobe_tables(text);
     text_engine_tables(text, engines, ENGINE_COUNT);
-    text_include(text, "shading/material/compose.h");
+    text_include(text, "shading/material/stack_value.h");
     put_readers(text);
 }
 

@@ -194,7 +194,7 @@ static void text_of_a_surface_is_valid_glsl(void **state) {
         assert_int_equal(text.table_count, LOBE_TABLE_COUNT + 1);
         assert_int_equal(text_table(&text, (TextTable){.rows = 1, .columns = 1}),
                          LOBE_TABLE_COUNT + 1); /* the surface's own E */
-        text_include(&text, "shading/material/compose.h");
+        text_include(&text, "shading/material/stack_value.h");
         for (const CatalogueFile *file = catalogue_files; file->name; file++)
             if (is_below(file->name, "shading/workflows/") || is_below(file->name, "shading/profiles/"))
                 text_include(&text, file->name);
@@ -433,7 +433,7 @@ static void conditional_expression_of_records_is_absent(void **state) {
                                      "shading/layers/",
                                      "shading/workflows/",
                                      "shading/profiles/",
-                                     "shading/material/compose.h",
+                                     "shading/material/stack_value.h",
                                      "shading/area/area.h",
                                      "shading/ambient/ambient.h",
                                      "shading/stack/frame.h",
@@ -582,7 +582,7 @@ static void text_of_dust_brings_its_lobe(void **state) {
         text_dispatch(&text, (const int[]){LOBE_GGX, LOBE_LAMBERT, LOBE_LTC_FIBRE}, 2 + there);
         text_lobe_tables(&text);
         text_engine_tables(&text, NULL, 0);
-        text_include(&text, "shading/material/compose.h");
+        text_include(&text, "shading/material/stack_value.h");
         end_clean(&text, "dust");
         assert_int_equal(occurrences(text.bytes, "float dust_albedo(Lobe m, float cos_o) {"), 1);
         assert_int_equal(strstr(text.bytes, "ltc_fibre_value") != NULL, there);
@@ -693,7 +693,7 @@ static void catalogue_lines_are_found_by_file_and_line(void **state) {
     text_begin(&text, &(TextDesc){.language = TEXT_GLSL_330, .tables = true});
     text_dispatch(&text, ids, count);
     text_engine_tables(&text, NULL, 0);
-    text_include(&text, "shading/material/compose.h");
+    text_include(&text, "shading/material/stack_value.h");
     end_clean(&text, "lobes");
     for (const char *c = text.bytes; *c; line++) {
         size_t size = strcspn(c, "\n"), blank = strspn(c, " ");

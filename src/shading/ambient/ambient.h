@@ -10,7 +10,7 @@
 #define WEFT_SHADING_AMBIENT_H
 
 #include "shading/ambient/ambient_lobe.h"
-#include "shading/material/compose.h"
+#include "shading/material/stack_value.h"
 
 /* Returns what one channel of a slot reflects. The term f_quadratic takes the second colour's share from the
  * light of the whole lobe, not per direction. The light of a tinted lobe has its colour already. */

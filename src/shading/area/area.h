@@ -21,7 +21,7 @@
 #include "shading/lobe/lobe_tables.h"
 #include "shading/ltc/ltc_table.h"
 #include "shading/ltc/polygon.h"
-#include "shading/material/compose.h"
+#include "shading/material/stack_value.h"
 
 /* D: a cosine of v = (x v'_x, y v'_y, v'_z),  v' = M^-1 w. */
 STRUCT(AreaDensity) {

@@ -1,7 +1,7 @@
 /* kind.h - vertices of paths shaded many at once, for the materials whose stack has a structure known before
  *
  * A kind is a row of kinds.list: which lobe a slot may hold, the layer rule, what dims the diffuse lobe,
- * where E comes from. Its loops are the text of stacks (compose.h) compiled once more with these as
+ * where E comes from. Its loops are the text of stacks (stack_value.h) compiled once more with these as
  * constants, a vertex a lane: the arithmetic is that of material_stack.h but for the last bits. */
 #ifndef WEFT_SHADING_KIND_H
 #define WEFT_SHADING_KIND_H

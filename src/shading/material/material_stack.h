@@ -1,9 +1,9 @@
-/* material_stack.h - the stack of compose.h in C: made, seen, evaluated, sampled */
+/* material_stack.h - the stack of stack_value.h in C: made, seen, evaluated, sampled */
 #ifndef WEFT_SHADING_MATERIAL_STACK_H
 #define WEFT_SHADING_MATERIAL_STACK_H
 
 #include "shading/catalogue/albedo.h"
-#include "shading/material/compose.h"
+#include "shading/material/stack_value.h"
 
 /* The slots by number, in the order of SLOTS. */
 #define SLOT_PLACE(name, NAME, Name, wo) PLACE_##NAME,

@@ -142,7 +142,7 @@ void text_composition(Text *text, const Choices *choices) {
               c->stack);
     text_define(text, "WEFT_ALBEDO_FORMULAS(F)", albedo);
     text_define(text, "WEFT_VIEWS(F)", view);
-    text_include(text, "shading/material/compose.h");
+    text_include(text, "shading/material/stack_value.h");
 }
 
 void text_composition_choices(Text *text, const Choices *choices) {

@@ -24,7 +24,7 @@ CompositionSlots composition_slots(const Choices *choices, const bool zero[INPUT
  * sheen's table in place of what shading/stack/stack.h and table.h ask. Call it before text_composition. */
 void text_composition_lobes(Text *text, const CompositionSlots *slots, int table_kind, int table_tilts);
 
-/* In place of shading/material/profile.h: the one composition, with the tables of its engine; and shading/material/compose.h
+/* In place of shading/material/profile.h: the one composition, with the tables of its engine; and shading/material/stack_value.h
  * behind it. */
 void text_composition(Text *text, const Choices *choices);
 

@@ -1,0 +1,105 @@
+/* stack_value.h - f cos_i and the pdf of a stack in a view of it */
+#ifndef WEFT_SHADING_STACK_VALUE_H
+#define WEFT_SHADING_STACK_VALUE_H
+
+#include "shading/material/stack_view.h"
+
+/* Sets v to f and the pdf of a slot's lobe. pair: wo and wi in the slot's frame. */
+#define SLOT_VALUE(slot, pair)                                                                               \
+    IN_SLOT(slot, reflect)                                                                                   \
+    (m->slot.lobe.id, &m->slot##_prepared, &w->slot##_view, pair, &m->slot.f0, &m->slot.f90, &v);
+
+/* f of the diffuse lobe under the interface. through: what that lets through by a rule that puts it over the sheen
+ * too, which is the case if below_f. */
+FN Rgb stack_under_interface(const Stack *m, const StackView *w, const Angles *a, bool below_f, Rgb through,
+                             Rgb f) {
+    if (below_f) return rgb_mul(rgb_mul(f, through), w->base_scale);
+    if (m->base_fresnel != BASE_FRESNEL_NONE) return rgb_mul(f, stack_base_transmittance(m, w, a));
+    return f;
+}
+
+/* f of the base under the sheen, of the other rules. */
+FN Rgb stack_under_sheen(const Stack *m, const StackView *w, const Angles *a, Rgb f) {
+    Rgb base_scale = w->base_scale;
+    if (layer_asks_wi(m->layer)) {
+        SheenE e_i = sheen_e_of(0.0f);
+        if (HAS_SHEEN(m)) e_i = stack_albedo(m, a->i);
+        base_scale = stack_base_scale(m, w, e_i);
+    }
+    return rgb_mul(f, base_scale);
+}
+
+/* Works as stack_value, for the slots `only`. The other slots still dim them. */
+FN StackValue stack_value_of(const Stack *m, const StackView *w, Slots only, const Angles *a,
+                             const Angles *coat) {
+    bool layered = HAS_LAYERED_SHEEN(m), below_f = IS_BELOW_F(m) && layered;
+    Rgb f = rgb_grey(0.0f), through = f; /* transmittance of the interface over diffuse and sheen */
+    float pdf = 0.0f;
+    LobeReflected v;
+    if (below_f) through = stack_interface_transmittance(m, w, a);
+    if (only.diffuse && HAS_DIFFUSE(m)) {
+        SLOT_VALUE(diffuse, a)
+        f = rgb_scale(v.f, w->scale.diffuse);
+        pdf = w->select_p.diffuse * v.pdf;
+        if (HAS_TRANSMITTED(m)) pdf = pdf * (1.0f - m->transmitted_p);
+        f = stack_under_interface(m, w, a, below_f, through, f);
+    }
+    if (only.specular && HAS_SPECULAR(m)) {
+        if (HAS_EXTRA_F(m)) {
+            SlotColors c = stack_specular_colors(m, w);
+            IN_SLOT(specular, reflect)
+            (m->specular.lobe.id, &m->specular_prepared, &w->specular_view, a, &c.f0, &c.f90, &v);
+            v.f = rgb_add(v.f, rgb_scale(c.f_quadratic, -v.f_s2));
+        } else {
+            SLOT_VALUE(specular, a)
+        }
+        f = rgb_add(f, rgb_scale(v.f, w->scale.specular));
+        pdf = pdf + w->select_p.specular * v.pdf;
+    }
+    if (layered && !below_f) f = stack_under_sheen(m, w, a, f);
+    if (only.sheen && HAS_SHEEN(m)) {
+        SLOT_VALUE(sheen, a)
+        v.f = rgb_scale(v.f, w->scale.sheen);
+        if (below_f) v.f = rgb_mul(v.f, through);
+        f = rgb_add(f, v.f);
+        pdf = pdf + w->select_p.sheen * v.pdf;
+    }
+    if (only.dust && HAS_DUST(m)) {
+        SLOT_VALUE(dust, a)
+        f = rgb_add(f, rgb_scale(v.f, w->scale.dust));
+        pdf = pdf + w->select_p.dust * v.pdf;
+    }
+    f = rgb_scale(f, a->i.z);
+    if (only.coat && HAS_COAT(m) && coat->o.z > 0.0f && coat->i.z > 0.0f) {
+        SLOT_VALUE(coat, coat)
+        f = rgb_add(f, rgb_scale(v.f, w->scale.coat * coat->i.z));
+        pdf = pdf + w->select_p.coat * v.pdf;
+    }
+    StackValue sum;
+    sum.f_cos = f;
+    sum.pdf = pdf;
+    return sum;
+}
+
+/* Returns f cos_i and the pdf of light from below the surface. a: of its mirror image above. Of layer rule stochastic it
+ * is the first pass. */
+FN StackValue stack_transmitted(const Stack *m, const StackView *w, const Angles *a) {
+    bool layered = HAS_LAYERED_SHEEN(m), below_f = IS_BELOW_F(m) && layered;
+    float lambert = a->i.z / PI;
+    Rgb f = rgb_scale(m->transmitted, w->scale.diffuse), through = f;
+    if (below_f) through = stack_interface_transmittance(m, w, a);
+    f = stack_under_interface(m, w, a, below_f, through, f);
+    if (layered && !below_f) f = stack_under_sheen(m, w, a, f);
+    StackValue v;
+    v.f_cos = rgb_scale(f, lambert);
+    v.pdf = w->select_p.diffuse * m->transmitted_p * lambert;
+    return v;
+}
+
+/* Returns f cos_i and the pdf of wi. Both directions are above the horizon. coat: the pair in the coat's frame. */
+FN StackValue stack_value(const Stack *m, const StackView *w, const Angles *a, const Angles *coat) {
+    Slots only = slots_of(SHOWS_DIFFUSE, SHOWS_SPECULAR, SHOWS_SHEEN, SHOWS_COAT, SHOWS_DUST);
+    return stack_value_of(m, w, only, a, coat);
+}
+
+#endif
