@@ -3,7 +3,7 @@
  * cmake/generate.cmake makes them: literals end in f16 there, and this file stands in the place of lang.h.
  * Every value and every operation is rounded to 16 bits, as a shader of mediump does on hardware that has
  * them; powers, exponentials and roots are computed in single precision and rounded. Tables hold single
- * floats and are rounded when read. Only half.c includes it. */
+ * floats and are rounded when read. Only half_text.c includes it, with those copies. */
 #ifndef WEFT_HALF_LANG_H
 #define WEFT_HALF_LANG_H
 
