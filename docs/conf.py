@@ -20,7 +20,7 @@ parts = {
     "The program": ["cli", "view", "materials", "chart", "gltf", "images", "render", "raster", "check", "bake", "diff",
                     "export", "plots", "match", "rosetta", "fit", "doctor", "weave"],
     "The library": ["library", "reference", "adding-a-lobe", "architecture", "glossary"],
-    "How it works": ["fibre", "dust", "ltc", "area-lights", "environment", "cost"],
+    "How it works": ["fibre", "weave-model", "weave-evidence", "dust", "ltc", "area-lights", "environment", "cost"],
 }
 
 
