@@ -40,7 +40,7 @@ def stages(options):
 def main():
     rows = [("the cloth as it is", []), ("with a coat", ["--set", "*.clearcoat=0.5"]),
             ("light goes through", ["--set", "*.diffuse_transmission=0.5"]), ("with dust", ["--set", "*.dust=0.3"]),
-            ("light and reflections of the environment apart", ["--env-ambient", "0.5"])]
+            ("`--env-ambient 0.5`", ["--env-ambient", "0.5"])]
     for option, heading in (("workflow", "Workflows"), ("profile", "Profiles"), ("layer", "Layer rules")):
         rows += [(f"`--{option} {name}`", [f"--{option}", name]) for name in ids(heading) if name != "none"]
     rows += [(f"`--sheen {name}`", ["--sheen", name]) for name in
