@@ -482,53 +482,55 @@ static void weave_costs(Gpu *gpu) {
 int main(void) {
     Gpu gpu = {0};
     gpu_begin(&gpu);
-    printf(
-        "# What lobes and terms cost on a GPU\n\n"
-        "Use these tables to choose a BRDF for a real-time budget: they have the instructions, cycles and "
-        "registers of "
-        "every\n"
-        "lobe and term in a shader. Made by `build/release/bench/bench_gpu_cost > docs/cost.md`, without a "
-        "GPU: %s %s compiles each\n"
-        "text for %s and says what it made.\n\n"
-        "* Instructions and cycles are what the text adds to a shader that only reads the same numbers. A\n"
-        "  lobe's are of f and, where it has two colours, the share of the second, the half vector\n"
-        "  included; pdf and sampling are not. A term's are of its value alone, the half vector included\n"
-        "  where it is asked for.\n"
-        "* Cycles are the driver's estimate of how long a wave of 64 threads keeps the units that compute;\n"
-        "  waiting for memory, as for a table of E, is not in them.\n"
-        "* Registers are the vector registers of the whole shader, in the steps of 8 that the GPU gives "
-        "out.\n"
-        "* The terms of cook-torrance are those of its defaults, constants as in a program made for one\n"
-        "  material.\n"
-        "\nThree programs for each lobe: its parameters read per thread, as from textures; prepared before, "
-        "in\n"
-        "a uniform block; and known to the compiler. The loop of `woven` counts once but where its numbers "
-        "are known.\n\n"
-        "| lobe | instructions, textured | prepared | known | cycles, textured | prepared | known |"
-        " registers, textured | prepared | known |\n|---|---|---|---|---|---|---|---|---|---|\n",
-        gpu.driver.driverName, gpu.driver.driverInfo, gpu.properties.properties.deviceName);
+    printf("# What lobes and terms cost on a GPU\n\n"
+           "Use these tables to choose a BRDF for a real-time budget: they have the instructions, cycles "
+           "and registers of every lobe\n"
+           "and term in a shader. `build/release/bench/bench_gpu_cost > docs/cost.md` makes them without a "
+           "GPU: %s %s\n"
+           "compiles each shader for %s and reports the figures.\n\n"
+           "* Instructions and cycles are those that the code adds to a shader that only reads the same "
+           "numbers. For a lobe\n"
+           "  they include f, the weight of a second colour and the half vector, but not pdf and sampling; "
+           "for a term, its\n"
+           "  value and the half vector if it needs one.\n"
+           "* Cycles are the driver's estimate of how long a wave of 64 threads occupies the compute "
+           "units, without waiting\n"
+           "  for memory, such as for a table of E.\n"
+           "* Registers are the vector registers of the whole shader, allocated in steps of 8.\n"
+           "* The terms of cook-torrance are its defaults, constants as in a program made for one "
+           "material.\n\n"
+           "There are three programs for each lobe: its parameters are read per thread, as from textures; "
+           "prepared in a\n"
+           "uniform block; or compile-time constants. The loop of `woven` counts once except with "
+           "constants.\n\n"
+           "| lobe | instructions, textured | prepared | constant | cycles, textured | prepared | constant "
+           "| registers, textured | prepared | constant |\n"
+           "|---|---|---|---|---|---|---|---|---|---|\n",
+           gpu.driver.driverName, gpu.driver.driverInfo, gpu.properties.properties.deviceName);
     for (int id = 0; id < weft_lobe_count(); id++)
         if (!(weft_lobe_info(id)->traits & WEFT_LOBE_REFERENCE)) lobe_row(&gpu, id);
     printf("\n| term | instructions | cycles | registers |\n|---|---|---|---|\n");
     for (int kind = WEFT_TERM_D; kind <= WEFT_TERM_F; kind++)
         for (int term = 0; weft_term_name((WeftTermKind)kind, term); term++)
             term_row(&gpu, (WeftTermKind)kind, term);
-    printf(
-        "\n"
-        "Fibres as engines would have them: tables filtered by the GPU, four numbers a texel; what belongs\n"
-        "to the material alone in a uniform buffer. Beside the cycles those over a shader that does nothing\n"
-        "else, where whatever is busiest counts, reading too.\n\n"
-        "| fibres | instructions | cycles | over ltc | alone | over ltc | registers |\n"
-        "|---|---|---|---|---|---|---|\n");
+    printf("\n"
+           "Fibres as engines would use them: tables filtered by the GPU, four numbers per texel, and the "
+           "material in a\n"
+           "uniform buffer. *alone* has the cycles over a shader that does nothing else, where the busiest "
+           "unit counts,\n"
+           "reading included.\n\n"
+           "| fibres | instructions | cycles | over ltc | alone | over ltc | registers |\n"
+           "|---|---|---|---|---|---|---|\n");
     fibre_costs(&gpu);
-    printf(
-        "\nA point of a woven cloth (docs/weave.md): the cloth's numbers in a uniform buffer; those of "
-        "denim known to\nthe compiler; and those of denim whose threads are all alike, without streaks, "
-        "slubs, irregular dye and\nloose fibres. Loose fibres are a loop of sixteen rounds where there may "
-        "be any; its text counts once.\n\n"
-        "| point of a cloth | instructions, prepared | known | threads alike | cycles, prepared | known |"
-        " threads alike | registers, prepared | known | threads alike |\n"
-        "|---|---|---|---|---|---|---|---|---|---|\n");
+    printf("\n"
+           "A point of a woven cloth (docs/weave-model.md): with the cloth's numbers in a uniform buffer; "
+           "with those of denim as\n"
+           "constants; and with denim whose threads are all alike, without streaks, slubs, irregular dye "
+           "and loose fibres.\n"
+           "Possible loose fibres are a loop of sixteen rounds, whose code counts once.\n\n"
+           "| point of a cloth | instructions, prepared | constant | threads alike | cycles, prepared | "
+           "constant | threads alike | registers, prepared | constant | threads alike |\n"
+           "|---|---|---|---|---|---|---|---|---|---|\n");
     weave_costs(&gpu);
     gpu_end(&gpu);
     return 0;
