@@ -9,8 +9,8 @@
  * that of a frame whose draw calls do nothing. --sampled: what lobes that are sampled take under an environment
  * and no other light, against the strategy `fitted` for the same lobe (docs/environment.md). --woven: what the cloth
  * takes in denim, in both engines, against the scene as it comes, from threads close up to all of the cloth
- * (docs/weave.md). With shaders of a folder or a width (640 without) only the raster engine is measured: a graphics card
- * takes so little for 640 that the processor's part counts, so give it 3840; 16 to 16384 are taken. */
+ * (docs/weave-evidence.md). With shaders of a folder or a width (640 without) only the raster engine is measured: a
+ * graphics card takes so little for 640 that the processor's part counts, so give it 3840; 16 to 16384 are taken. */
 #define _POSIX_C_SOURCE 200809L
 #include <stdbool.h>
 #include <stdio.h>
