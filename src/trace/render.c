@@ -6,13 +6,10 @@
 #include "base/steady_clock.h"
 #include "base/thread.h"
 #include "scene/light/backdrop.h"
-#include "scene/light/polygons.h"
-#include "scene/light/sheen_tables.h"
 #include "scene/record/camera.h"
-#include "scene/record/material_at.h"
-#include "shading/stack/frame.h"
-#include "trace/film.h"
-#include "trace/lens.h"
+#include "scene/light/polygons.h"
+#include "trace/path_materials.h"
+#include "trace/tile.h"
 
 enum {
     DEFAULT_WIDTH = 960,
@@ -21,32 +18,25 @@ enum {
     SIDE_MAX = 65536,
 };
 
-/* One tile's finished work, beside its samples. Only one thread holds a tile at a time. */
+/* Counts of a tile's finished work. Only one thread works on a tile at a time. */
 typedef struct Tile {
     long long rays, non_finite;
 } Tile;
 
 struct WeftRender {
     const WeftScene *scene;
-    WeftRenderDesc desc;
     Geometry *geometry;
     Lights *lights;
     SheenTables *tables;
     PathMaterial *materials; /* their sheen_e point into tables */
     int material_count;
-    PathContext context;
     Camera camera;
-    Lens lens;
+    TracedPicture picture;
     Stream **streams; /* one a thread */
     int stream_count;
-    WeftImage blurred; /* of backdrop.h, where it is the background; its environment was that of */
-    unsigned blurred_turn;
-    int x0, y0, width, height; /* the crop */
-    int tiles_across, tile_count;
+    unsigned blurred_turn; /* of the environment that picture.blurred was made from */
     Tile *tiles;
-    Film film;
     int given[2]; /* samples that all tiles of a half have */
-    Floor floor;
     double build_seconds, render_seconds;
 };
 
@@ -79,56 +69,19 @@ static void set_defaults(WeftRenderDesc *d) {
         d->crop[2] = d->width, d->crop[3] = d->height;
 }
 
-/* Tables that still serve are kept. */
+/* Makes the materials. Tables that still serve are kept. */
 static WeftResult make_materials(WeftRender *render, WeftError *error) {
     const WeftScene *scene = render->scene;
-    size_t count = (size_t)scene->material_count;
     SheenTables *tables;
-    WeftResult result = sheen_tables_renew(render->tables, scene, render->desc.threads, &tables, error);
+    WeftResult result =
+        sheen_tables_renew(render->tables, scene, render->picture.desc.threads, &tables, error);
     if (result != WEFT_OK) return result;
     sheen_tables_free_but(render->tables, tables);
     render->tables = tables;
     free(render->materials);
-    render->material_count = (int)count;
-    render->materials = alloc_array(count, sizeof(PathMaterial));
-    if (!render->materials) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
-    for (size_t k = 0; k < count; k++) {
-        const Material *material = &scene->materials[k];
-        PathMaterial *known = &render->materials[k];
-        known->material = *material;
-        known->material.inputs[INPUT_occlusion].texture = 0; /* the paths find it out for themselves */
-        known->material.inputs[INPUT_opacity].texture = 0;   /* opacity is decided by the hit itself */
-        known->plain = material_plain(material);
-        known->choices = material_choices(material);
-        for (int input = 0; input < INPUT_COUNT; input++) {
-            const Input *of = &known->material.inputs[input];
-            known->textured |= of->texture != 0;
-            known->texcoords[of->texcoord] |= of->texture != 0;
-        }
-        known->cloth = material->cloth ? scene->cloths[material->cloth - 1] : NULL;
-        known->textured |= known->cloth != NULL;
-        known->texcoords[0] |= known->cloth != NULL;
-        known->sheen_e = sheen_tables_of(render->tables, (int)k);
-        Surface surface = frame_surface(known->plain);
-        stack_make(&known->stack, &surface, &known->choices, known->sheen_e);
-        known->transmits = known->stack.transmission > 0.0f;
-        known->measured = material->measured ? scene->measured[material->measured - 1] : NULL;
-        if (known->cloth) {
-            const Lobe yarn = lobe_default(LOBE_YARN);
-            stack_put_base(&known->stack, &yarn, rgb_grey(1.0f), rgb_grey(1.0f));
-        }
-        known->kind = known->measured ? NULL : stack_kind(&known->stack, &known->choices);
-        known->shines = material_emits(material);
-        known->bent = !known->kind || known->cloth || known->material.inputs[INPUT_normal].texture ||
-                      known->material.inputs[INPUT_clearcoat_normal].texture ||
-                      known->plain.anisotropy > 0.0f;
-    }
-    for (int k = 0; k < scene->mesh_count; k++) {
-        PathMaterial *known = &render->materials[scene->meshes[k].material];
-        known->colored |= scene->meshes[k].color != NULL;
-        known->textured |= known->colored;
-    }
-    return WEFT_OK;
+    render->material_count = scene->material_count;
+    render->materials = path_materials_create(scene, tables);
+    return render->materials ? WEFT_OK : fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
 }
 
 static void free_streams(WeftRender *render) {
@@ -140,49 +93,48 @@ static void free_streams(WeftRender *render) {
 
 /* No more than have a tile. */
 static WeftResult make_streams(WeftRender *render, WeftError *error) {
-    int wanted = render->desc.threads < render->tile_count ? render->desc.threads : render->tile_count;
+    int threads = render->picture.desc.threads, tiles = render->picture.film.tile_count;
+    int wanted = threads < tiles ? threads : tiles;
     free_streams(render);
     render->streams = alloc_array((size_t)wanted, sizeof(Stream *));
     for (int k = 0; render->streams && k < wanted; k++) {
-        render->streams[k] = stream_create(&render->context, render->scene->material_count);
+        render->streams[k] = stream_create(&render->picture.context, render->scene->material_count);
         if (!render->streams[k]) break;
         render->stream_count++;
     }
     if (render->stream_count == wanted) return WEFT_OK;
-    render->tile_count = 0; /* nothing to render */
+    render->picture.film.tile_count = 0; /* nothing to render */
     return fail(error, WEFT_MESSAGE_MEMORY, render->scene->name, NULL);
 }
 
-/* The picture's own: camera and an empty film. */
+/* Begins a picture: finds its camera and makes an empty film. */
 static WeftResult begin_picture(WeftRender *render, WeftError *error) {
-    const WeftRenderDesc *d = &render->desc;
+    TracedPicture *picture = &render->picture;
+    const WeftRenderDesc *d = &picture->desc;
+    Film *film = &picture->film;
     float aspect = (float)d->width / (float)d->height;
     WeftResult result = camera_find(render->scene, d->camera, aspect, &render->camera, error);
     if (result != WEFT_OK) return result;
-    render->lens.view = view_of(&render->camera, aspect);
-    render->lens.width = d->width, render->lens.height = d->height, render->lens.centred = d->pixel_centre;
-    render->x0 = d->crop[0], render->y0 = d->crop[1], render->width = d->crop[2], render->height = d->crop[3];
-    render->tiles_across = (render->width + STREAM_TILE - 1) / STREAM_TILE;
-    render->tile_count = render->tiles_across * ((render->height + STREAM_TILE - 1) / STREAM_TILE);
+    picture->lens.view = view_of(&render->camera, aspect);
+    picture->lens.width = d->width, picture->lens.height = d->height;
+    picture->lens.centred = d->pixel_centre;
     free(render->tiles);
-    film_free(&render->film);
-    render->floor = floor_of(render->scene, &d->floor);
-    render->tiles = alloc_array((size_t)render->tile_count, sizeof(Tile));
+    film_free(film);
+    picture->floor = floor_of(render->scene, &d->floor);
     render->render_seconds = 0.0;
     render->given[0] = render->given[1] = 0;
-    if (film_create(&render->film, render->width, render->height, d->halves, d->first_hits,
-                    render->floor.there) &&
-        render->tiles)
-        return WEFT_OK;
-    render->tile_count = 0;
+    bool made = film_create(film, d->crop[2], d->crop[3], d->halves, d->first_hits, picture->floor.there);
+    render->tiles = alloc_array((size_t)film->tile_count, sizeof(Tile));
+    if (made && render->tiles) return WEFT_OK;
+    film->tile_count = 0;
     return fail(error, WEFT_MESSAGE_MEMORY, render->scene->name, NULL);
 }
 
 static WeftResult make_geometry(WeftRender *render, WeftError *error) {
     geometry_free(render->geometry);
     render->geometry = NULL;
-    return geometry_create(render->scene, render->scene->mesh_count, render->desc.threads, &render->geometry,
-                           error);
+    return geometry_create(render->scene, render->scene->mesh_count, render->picture.desc.threads,
+                           &render->geometry, error);
 }
 
 static WeftResult make_lights(WeftRender *render, WeftError *error) {
@@ -203,10 +155,30 @@ static bool in_parts(const Environment *e) {
     return e->ambient < 1.0f || e->ambient > 1.0f || e->reflection < 1.0f || e->reflection > 1.0f;
 }
 
+static void set_context(WeftRender *render) {
+    const WeftRenderDesc *d = &render->picture.desc;
+    const View *view = &render->picture.lens.view;
+    PathContext *context = &render->picture.context;
+    *context = (PathContext){.scene = render->scene,
+                             .geometry = render->geometry,
+                             .lights = render->lights,
+                             .materials = render->materials,
+                             .max_depth = d->max_depth,
+                             .sampling = d->sampling,
+                             .roulette = !d->no_roulette,
+                             .shadows = !d->no_shadows,
+                             .lift = !d->no_lift,
+                             .stages = d->stages != 0,
+                             .sky_in_parts = in_parts(&render->scene->environment),
+                             .first_hits = d->first_hits != 0,
+                             .forward = {view->forward.x, view->forward.y, view->forward.z}};
+    context->pixel[view->orthographic ? 0 : 1] =
+        2.0f * sqrtf(vec3_dot(view->up, view->up)) / (float)d->height;
+}
+
 /* Makes what was changed, and what could not be made before. A material may be what shines, and what shadow
  * rays must ask. */
 static WeftResult build(WeftRender *render, unsigned changed, WeftError *error) {
-    const WeftRenderDesc *d = &render->desc;
     if (!render->materials || render->material_count != render->scene->material_count) changed = ~0u;
     bool shapes = changed & WEFT_CHANGED_SHAPES || !render->geometry || !geometry_serves(render->geometry);
     bool lights = changed & (WEFT_CHANGED_SHAPES | WEFT_CHANGED_LIGHTS) || !render->lights ||
@@ -215,39 +187,19 @@ static WeftResult build(WeftRender *render, unsigned changed, WeftError *error) 
     if (result == WEFT_OK && shapes) result = make_geometry(render, error);
     if (result == WEFT_OK && lights) result = make_lights(render, error);
     if (result == WEFT_OK && changed) result = make_materials(render, error);
-    if (result == WEFT_OK)
-        render->context = (PathContext){.scene = render->scene,
-                                        .geometry = render->geometry,
-                                        .lights = render->lights,
-                                        .materials = render->materials,
-                                        .max_depth = d->max_depth,
-                                        .sampling = d->sampling,
-                                        .roulette = !d->no_roulette,
-                                        .shadows = !d->no_shadows,
-                                        .lift = !d->no_lift,
-                                        .stages = d->stages != 0,
-                                        .sky_in_parts = in_parts(&render->scene->environment),
-                                        .first_hits = d->first_hits != 0,
-                                        .forward = {render->lens.view.forward.x, render->lens.view.forward.y,
-                                                    render->lens.view.forward.z}};
-    if (result == WEFT_OK) {
-        const View *view = &render->lens.view;
-        render->context.pixel[view->orthographic ? 0 : 1] =
-            2.0f * sqrtf(vec3_dot(view->up, view->up)) / (float)d->height;
-    }
+    if (result == WEFT_OK) set_context(render);
     if (result == WEFT_OK) result = make_streams(render, error);
     return result;
 }
 
-static bool has_image(const WeftScene *scene) { return scene->environment.kind != ENVIRONMENT_CONSTANT; }
-
 static WeftResult make_blurred(WeftRender *render, WeftError *error) {
     const Environment *e = &render->scene->environment;
-    if (render->desc.background != WEFT_BACKGROUND_BLURRED || !has_image(render->scene)) return WEFT_OK;
-    if (render->blurred.pixels && render->blurred_turn == e->turn) return WEFT_OK;
-    weft_image_free(&render->blurred);
+    if (render->picture.desc.background != WEFT_BACKGROUND_BLURRED || e->kind == ENVIRONMENT_CONSTANT)
+        return WEFT_OK;
+    if (render->picture.blurred.pixels && render->blurred_turn == e->turn) return WEFT_OK;
+    weft_image_free(&render->picture.blurred);
     render->blurred_turn = e->turn;
-    return backdrop_blurred(e, &render->blurred, error);
+    return backdrop_blurred(e, &render->picture.blurred, error);
 }
 
 WeftResult weft_render_restart(WeftRender *render, const WeftRenderDesc *desc, unsigned changed,
@@ -264,10 +216,10 @@ WeftResult weft_render_restart(WeftRender *render, const WeftRenderDesc *desc, u
                                                                      : WEFT_BACKGROUND_ENVIRONMENT;
     if (desc->background == WEFT_BACKGROUND_AUTO)
         for (int c = 0; c < 3; c++) d.background_color[c] = 0.62f; /* a light grey paper roll */
-    render->desc = d;
+    render->picture.desc = d;
     result = build(render, changed, error);
     if (result == WEFT_OK) result = make_blurred(render, error);
-    render->desc.camera = NULL; /* borrowed only during this call */
+    render->picture.desc.camera = NULL; /* borrowed only during this call */
     render->build_seconds = clock_now() - start;
     return result;
 }
@@ -278,7 +230,7 @@ WeftResult weft_render_create(const WeftScene *scene, const WeftRenderDesc *desc
     WeftRender *render = alloc_array(1, sizeof *render);
     if (!render) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     render->scene = scene;
-    lens_make(&render->lens);
+    lens_make(&render->picture.lens);
     WeftResult result = weft_render_restart(render, desc, 0, error);
     if (result == WEFT_OK)
         *out = render;
@@ -294,124 +246,10 @@ void weft_render_free(WeftRender *render) {
     free_streams(render);
     lights_free(render->lights);
     geometry_free(render->geometry);
-    weft_image_free(&render->blurred);
+    weft_image_free(&render->picture.blurred);
     free(render->tiles);
-    film_free(&render->film);
+    film_free(&render->picture.film);
     free(render);
-}
-
-/* Adds the background: colour and coverage. */
-static void add_background(const WeftRender *render, Vec3 direction, float *sum) {
-    const WeftRenderDesc *d = &render->desc;
-    if (d->background == WEFT_BACKGROUND_TRANSPARENT) return;
-    Rgb c = {d->background_color[0], d->background_color[1], d->background_color[2]};
-    float blurred[3];
-    if (d->background == WEFT_BACKGROUND_BLURRED && has_image(render->scene)) {
-        backdrop_at(&render->scene->environment, &render->blurred, direction, blurred);
-        c = (Rgb){blurred[0], blurred[1], blurred[2]};
-    } else if (d->background != WEFT_BACKGROUND_COLOR) {
-        c = lights_environment(render->lights, direction).radiance;
-    }
-    sum[0] += c.r, sum[1] += c.g, sum[2] += c.b, sum[3] += 1.0f;
-}
-
-/* A tile's part of a picture and of its samples. */
-static LensPart part_of(const WeftRender *render, int item, int half, int count) {
-    int x = item % render->tiles_across * STREAM_TILE, y = item / render->tiles_across * STREAM_TILE;
-    int w = render->width - x, h = render->height - y;
-    return (LensPart){render->x0 + x,
-                      render->y0 + y,
-                      w < STREAM_TILE ? w : STREAM_TILE,
-                      h < STREAM_TILE ? h : STREAM_TILE,
-                      render->film.half[half].samples[item],
-                      count,
-                      half ? hash32(render->desc.seed + 0x9e3779b9u) : render->desc.seed};
-}
-
-static size_t index_of(const WeftRender *render, const LensPart *part, int pixel) {
-    int x = part->x - render->x0 + pixel % part->width, y = part->y - render->y0 + pixel / part->width;
-    return (size_t)y * (size_t)render->width + (size_t)x;
-}
-
-static Ray ray_of(const WeftRender *render, const Paths *paths, int k) {
-    return (Ray){vec3(paths->o[0][k], paths->o[1][k], paths->o[2][k]),
-                 vec3(paths->d[0][k], paths->d[1][k], paths->d[2][k]),
-                 0.0f,
-                 INFINITY,
-                 paths->key[k],
-                 render->desc.hide_lights != 0};
-}
-
-static void trace_camera(const WeftRender *render, Stream *s, int n) {
-    const Paths *p = &s->paths[0];
-    const RayRows rays = {{p->o[0], p->o[1], p->o[2]},
-                          {p->d[0], p->d[1], p->d[2]},
-                          NULL,
-                          p->key,
-                          render->desc.hide_lights != 0,
-                          true};
-    const HitRows hits = stream_hits(s);
-    geometry_hits(render->geometry, &rays, n, &hits);
-    s->rays += n;
-}
-
-/* Lets a path go on along the mirror. */
-static void take_mirrored(Stream *s, int k, const Mirrored *m) {
-    Paths *p = &s->paths[0];
-    p->o[0][k] = m->ray.origin.x, p->o[1][k] = m->ray.origin.y, p->o[2][k] = m->ray.origin.z;
-    p->d[0][k] = m->ray.direction.x, p->d[1][k] = m->ray.direction.y, p->d[2][k] = m->ray.direction.z;
-    p->key[k] = m->ray.key;
-    for (int c = 0; c < 3; c++) p->throughput[c][k] = m->share;
-    s->t[k] = m->hit.t, s->u[k] = m->hit.u, s->v[k] = m->hit.v;
-    s->mesh[k] = m->hit.mesh, s->triangle[k] = m->hit.triangle;
-}
-
-/* The floor, where a camera ray meets it before all else; false where it does not. */
-static bool add_floor(WeftRender *render, Stream *s, const LensPart *part, Caught *film, int k,
-                      float sum[4]) {
-    uint32_t id = s->paths[0].id[k], pixel = id >> PATHS_SAMPLES_LOG2;
-    uint32_t sample = id & ((1u << PATHS_SAMPLES_LOG2) - 1u);
-    CatcherRay from = {ray_of(render, &s->paths[0], k), 0.0f, {s->keys.pixel[pixel], s->keys.sample[sample]}};
-    from.t = floor_distance(&render->floor, from.ray.origin, from.ray.direction);
-    if (from.t < 0.0f || (s->mesh[k] != GEOMETRY_NOTHING && s->t[k] < from.t)) return false;
-    float behind[4] = {0};
-    Mirrored mirrored;
-    add_background(render, from.ray.direction, behind);
-    Caught *caught = &film[index_of(render, part, (int)pixel)];
-    if (catcher_sample(&render->context, &render->floor, &from, behind, caught, sum, &mirrored, &s->rays))
-        take_mirrored(s, k, &mirrored);
-    else
-        s->mesh[k] = STREAM_DONE;
-    return true;
-}
-
-/* Adds what camera rays meet before any surface: the floor, the background. That of the environment is left to the
- * stream. */
-static void enter(WeftRender *render, Stream *s, const LensPart *part, Caught *caught, int n) {
-    bool sky = render->desc.background == WEFT_BACKGROUND_ENVIRONMENT;
-    for (int k = 0; k < n; k++) {
-        float sum[4] = {0}, seen = 0.0f;
-        if (!render->floor.there || !add_floor(render, s, part, caught, k, sum)) {
-            seen = s->mesh[k] != GEOMETRY_NOTHING ? 1.0f : 0.0f;
-            if (s->mesh[k] != GEOMETRY_NOTHING || sky) {
-                sum[3] = 1.0f;
-            } else {
-                add_background(render, ray_of(render, &s->paths[0], k).direction, sum);
-                s->mesh[k] = STREAM_DONE;
-            }
-        }
-        for (int c = 0; c < 4; c++) s->light.c[c][s->paths[0].id[k]] = sum[c];
-        for (int a = 0; s->first && a < FIRST_NUMBERS; a++)
-            s->first->number[a][s->paths[0].id[k]] = a == FIRST_SEEN ? seen : 0.0f;
-    }
-}
-
-static int sum_up(WeftRender *render, const Stream *s, const LensPart *part, int half) {
-    int non_finite = 0;
-    for (int pixel = 0; pixel < part->width * part->height; pixel++)
-        non_finite += film_add(&render->film, half, index_of(render, part, pixel), s,
-                               pixel << PATHS_SAMPLES_LOG2, part->count);
-    return non_finite;
 }
 
 typedef struct Pass {
@@ -427,7 +265,7 @@ typedef struct Pass {
 
 /* Called in the thread that called weft_render_run. */
 static void report_progress(Pass *pass, int finished) {
-    double fraction = pass->done_before + pass->share * finished / pass->render->tile_count;
+    double fraction = pass->done_before + pass->share * finished / pass->render->picture.film.tile_count;
     if (!pass->progress || !pass->progress(pass->user, fraction)) return;
     pass->asked_to_stop = true;
     atomic_store(&pass->stop, 1);
@@ -437,25 +275,10 @@ static void render_tile(void *user, int item, int thread) {
     Pass *pass = user;
     WeftRender *render = pass->render;
     if (atomic_load(&pass->stop)) return;
-    Tile tile = render->tiles[item]; /* counted in a copy: neighbours in memory belong to other threads */
     Stream *stream = render->streams[thread];
-    FilmHalf *half = &render->film.half[pass->half];
-    LensPart part = part_of(render, item, pass->half, pass->samples);
-    StageClock *clock = stream->chunk.clock;
-    stage_begin(clock);
-    int n = lens_rays(&render->lens, &part, &stream->keys, &stream->paths[0]);
-    stage_end(clock, STAGE_CAMERA);
-    stream->rays = 0;
-    trace_camera(render, stream, n);
-    stage_end(clock, STAGE_CAMERA_HITS);
-    enter(render, stream, &part, half->caught, n);
-    stage_end(clock, STAGE_ENTER);
-    stream_follow(stream, n);
-    tile.non_finite += sum_up(render, stream, &part, pass->half);
-    stage_end(clock, STAGE_FILM);
-    tile.rays += stream->rays;
-    half->samples[item] += pass->samples;
-    render->tiles[item] = tile;
+    int non_finite = tile_render(&render->picture, stream, item, pass->half, pass->samples);
+    render->tiles[item].non_finite += non_finite;
+    render->tiles[item].rays += stream->rays;
     int finished = atomic_fetch_add(&pass->finished, 1) + 1;
     if (pass->done_before > 0.0 && clock_now() > pass->deadline) atomic_store(&pass->stop, 1);
     if (thread == 0) report_progress(pass, finished);
@@ -466,7 +289,7 @@ static void render_tile(void *user, int item, int thread) {
 static void choose_pass(Pass *pass, bool first, int rest) {
     const WeftRender *render = pass->render;
     int most = first ? 1 : STREAM_SAMPLES, ahead = render->given[0] - render->given[1];
-    if (render->film.halves > 1) {
+    if (render->picture.film.halves > 1) {
         pass->half = ahead > 0 ? 1 : 0;
         rest = ahead > 0 && rest > ahead ? ahead : ahead > 0 ? rest : rest - rest / 2;
     }
@@ -478,10 +301,10 @@ enum { NOISE_SAMPLES = 16 };
 
 /* Returns true if the error of the picture is as small as asked for. */
 static bool quiet_enough(const WeftRender *render) {
-    bool halved = render->film.halves > 1 && render->given[0] == render->given[1];
-    if (!halved || !(render->desc.noise > 0.0f) || 2 * render->given[0] < NOISE_SAMPLES) return false;
-    double noise = film_noise(&render->film);
-    return noise >= 0.0 && noise <= (double)render->desc.noise;
+    bool halved = render->picture.film.halves > 1 && render->given[0] == render->given[1];
+    if (!halved || !(render->picture.desc.noise > 0.0f) || 2 * render->given[0] < NOISE_SAMPLES) return false;
+    double noise = film_noise(&render->picture.film);
+    return noise >= 0.0 && noise <= (double)render->picture.desc.noise;
 }
 
 WeftResult weft_render_run(WeftRender *render, int spp, double seconds, WeftProgress progress, void *user) {
@@ -497,9 +320,10 @@ WeftResult weft_render_run(WeftRender *render, int spp, double seconds, WeftProg
         pass.done_before = (double)done / spp;
         pass.share = (double)pass.samples / spp;
         atomic_init(&pass.finished, 0);
-        parallel_for(render->stream_count, render->tile_count, render_tile, &pass);
+        parallel_for(render->stream_count, render->picture.film.tile_count, render_tile, &pass);
         if (atomic_load(&pass.stop)) break;
-        report_progress(&pass, render->tile_count); /* the tiles that other threads finished last */
+        report_progress(&pass,
+                        render->picture.film.tile_count); /* the tiles that other threads finished last */
         render->given[pass.half] += pass.samples;
         quiet = quiet_enough(render);
     }
@@ -510,17 +334,18 @@ WeftResult weft_render_run(WeftRender *render, int spp, double seconds, WeftProg
 WeftRenderInfo weft_render_info(const WeftRender *render) {
     WeftRenderInfo info = {.build_seconds = render->build_seconds, .render_seconds = render->render_seconds};
     camera_tell(render->scene, &render->camera, info.camera_eye, info.camera_target, &info.camera_fov);
+    const Film *film = &render->picture.film;
     double samples = 0.0;
-    for (int k = 0; k < render->tile_count; k++) {
-        int x = k % render->tiles_across * STREAM_TILE, y = k / render->tiles_across * STREAM_TILE;
-        int w = render->width - x < STREAM_TILE ? render->width - x : STREAM_TILE;
-        int h = render->height - y < STREAM_TILE ? render->height - y : STREAM_TILE;
-        for (int half = 0; half < render->film.halves; half++)
-            samples += (double)render->film.half[half].samples[k] * w * h;
+    for (int k = 0; k < film->tile_count; k++) {
+        int x = k % film->tiles_across * STREAM_TILE, y = k / film->tiles_across * STREAM_TILE;
+        int w = film->width - x < STREAM_TILE ? film->width - x : STREAM_TILE;
+        int h = film->height - y < STREAM_TILE ? film->height - y : STREAM_TILE;
+        for (int half = 0; half < film->halves; half++)
+            samples += (double)film->half[half].samples[k] * w * h;
         info.rays += render->tiles[k].rays;
         info.non_finite += render->tiles[k].non_finite;
     }
-    info.samples_per_pixel = samples / ((double)render->width * render->height);
+    info.samples_per_pixel = samples / ((double)film->width * film->height);
     return info;
 }
 
@@ -534,16 +359,16 @@ int weft_render_stage(const WeftRender *render, int stage, WeftRenderStage *out)
 }
 
 WeftResult weft_render_image(const WeftRender *render, WeftImage *out, WeftError *error) {
-    return film_image(&render->film, out, error);
+    return film_image(&render->picture.film, out, error);
 }
 
-double weft_render_noise(const WeftRender *render) { return film_noise(&render->film); }
+double weft_render_noise(const WeftRender *render) { return film_noise(&render->picture.film); }
 
 WeftResult weft_render_aov(const WeftRender *render, WeftAov aov, WeftImage *out, WeftError *error) {
-    return film_aov(&render->film, aov, out, error);
+    return film_aov(&render->picture.film, aov, out, error);
 }
 
 WeftResult weft_render_denoised(const WeftRender *render, WeftDenoiser denoiser, WeftImage *out,
                                 WeftError *error) {
-    return film_denoise(&render->film, denoiser, render->desc.threads, out, error);
+    return film_denoise(&render->picture.film, denoiser, render->picture.desc.threads, out, error);
 }
