@@ -42,7 +42,7 @@ bool catcher_sample(const PathContext *context, const Floor *floor, const Catche
     Vec3 point = vec3_madd(ray->origin, ray->direction, from->t);
     float share = floor_coverage(floor, point), r = share * floor->reflection, c = 0.0f;
     for (uint32_t g = 0; g < LIGHT_GROUPS; g++)
-        if (lights_shine(context->lights, (LightGroup)g))
+        if (lights_has_group(context->lights, (LightGroup)g))
             add_light(context, (LightGroup)g, point, share, numbers(from->key, g), hash32(ray->key), caught,
                       rays);
     if (r > 0.0f && mirror(context, floor, point, ray, numbers(from->key, LIGHT_GROUPS), mirrored, rays))

@@ -37,12 +37,13 @@ static bool finite(const float c[4]) {
     return sum < INFINITY && sum > -INFINITY;
 }
 
-int film_add(Film *film, int half, size_t pixel, const Stream *s, int first_id, int count) {
+int film_add(Film *film, int half, size_t pixel, const Stream *stream, int first_id, int count) {
     FilmHalf *to = &film->half[half];
     float *sum = to->sums + 4 * pixel;
     int non_finite = 0;
     for (int id = first_id; id < first_id + count; id++) {
-        float c[4] = {s->light.c[0][id], s->light.c[1][id], s->light.c[2][id], s->light.c[3][id]};
+        float c[4] = {stream->radiance.rgba[0][id], stream->radiance.rgba[1][id],
+                      stream->radiance.rgba[2][id], stream->radiance.rgba[3][id]};
         if (!finite(c)) {
             non_finite++;
             c[0] = c[1] = c[2] = 0.0f;
@@ -51,7 +52,7 @@ int film_add(Film *film, int half, size_t pixel, const Stream *s, int first_id, 
     }
     for (int a = 0; film->hits && a < FIRST_NUMBERS; a++)
         for (int id = first_id; id < first_id + count; id++)
-            film->hits[FIRST_NUMBERS * pixel + (size_t)a] += s->first->number[a][id];
+            film->hits[FIRST_NUMBERS * pixel + (size_t)a] += stream->first->number[a][id];
     return non_finite;
 }
 

@@ -9,7 +9,7 @@ enum { FIRST_ALBEDO = 0, FIRST_NORMAL = 3, FIRST_DEPTH = 6, FIRST_SEEN = 7, FIRS
 /* By the id of a path. SEEN is 1 for a camera ray that meets a surface, else 0, and so is then all else. The
  * depth is along the camera's axis. */
 typedef struct FirstHits {
-    float number[FIRST_NUMBERS][PATHS_ROOM];
+    float number[FIRST_NUMBERS][PATHS_CAPACITY];
 } FirstHits;
 
 /* Fills in what a chunk of first hits is, of those that are seen. normal: the world's. */

@@ -50,12 +50,12 @@ LOOP(rays_of_pixel_n,
         float dx = view.forward.x + spread * ox, dy = view.forward.y + spread * oy,
               dz = view.forward.z + spread * oz, r = 1.0f / sqrt(dx * dx + dy * dy + dz * dz);
         size_t j = (size_t)at + k;
-        paths->o[0][j] = view.eye.x + parallel * ox;
-        paths->o[1][j] = view.eye.y + parallel * oy;
-        paths->o[2][j] = view.eye.z + parallel * oz;
-        paths->d[0][j] = dx * r;
-        paths->d[1][j] = dy * r;
-        paths->d[2][j] = dz * r;
+        paths->origin[0][j] = view.eye.x + parallel * ox;
+        paths->origin[1][j] = view.eye.y + parallel * oy;
+        paths->origin[2][j] = view.eye.z + parallel * oz;
+        paths->direction[0][j] = dx * r;
+        paths->direction[1][j] = dy * r;
+        paths->direction[2][j] = dz * r;
         paths->key[j] = hash32(pixel ^ sample[k]);
     }
 }

@@ -13,7 +13,7 @@ struct Lights {
     Sky sky;
     Emitters emitters;
     Distribution punctual;
-    bool shine[LIGHT_GROUPS];
+    bool has_group[LIGHT_GROUPS];
 };
 
 static LightSample sample_punctual(const Lights *lights, Vec3 point, float w) {
@@ -67,9 +67,9 @@ WeftResult lights_create(const WeftScene *scene, Lights **out, WeftError *error)
         lights_free(lights);
         return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     }
-    lights->shine[LIGHTS_SKY] = lights->sky.mean * (double)scene->environment.strength > 0.0;
-    lights->shine[LIGHTS_EMITTERS] = lights->emitters.count > 0;
-    lights->shine[LIGHTS_PUNCTUAL] = scene->light_count > 0;
+    lights->has_group[LIGHTS_SKY] = lights->sky.mean * (double)scene->environment.strength > 0.0;
+    lights->has_group[LIGHTS_EMITTERS] = lights->emitters.count > 0;
+    lights->has_group[LIGHTS_PUNCTUAL] = scene->light_count > 0;
     *out = lights;
     return WEFT_OK;
 }
@@ -84,7 +84,7 @@ static LightSample from_sky(SkyPoint p) {
     return (LightSample){p.direction, INFINITY, p.radiance, p.pdf, false, true};
 }
 
-bool lights_shine(const Lights *lights, LightGroup group) { return lights->shine[group]; }
+bool lights_has_group(const Lights *lights, LightGroup group) { return lights->has_group[group]; }
 
 /* Asks for a row of which all lanes are this point. */
 static LightSample sample_emitters(const Emitters *emitters, Vec3 point, Vec3 normal, float u, float v) {
@@ -129,12 +129,12 @@ void lights_sample_rows(const Lights *lights, LightGroup group, int n, const flo
 
 void lights_environment_rows(const Lights *lights, int n, const float *const d[3], LightRows *found) {
     sky_at_rows(&lights->sky, n, d, found);
-    for (int k = 0; !lights->shine[LIGHTS_SKY] && k < n; k++) found->pdf[k] = 0.0f;
+    for (int k = 0; !lights->has_group[LIGHTS_SKY] && k < n; k++) found->pdf[k] = 0.0f;
 }
 
 LightSample lights_environment(const Lights *lights, Vec3 direction) {
     LightSample s = from_sky(sky_at(&lights->sky, direction));
-    if (!lights->shine[LIGHTS_SKY]) s.pdf = 0.0f;
+    if (!lights->has_group[LIGHTS_SKY]) s.pdf = 0.0f;
     return s;
 }
 

@@ -17,7 +17,7 @@ WeftResult lights_create(const WeftScene *scene, Lights **out, WeftError *error)
 void lights_free(Lights *lights);
 
 /* Returns true if the group has a light. */
-bool lights_shine(const Lights *lights, LightGroup group);
+bool lights_has_group(const Lights *lights, LightGroup group);
 
 typedef struct LightSample {
     Vec3 wi;        /* unit, from the point to the light */

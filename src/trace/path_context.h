@@ -1,4 +1,4 @@
-/* path_context.h - the scene as paths of light see it */
+/* path_context.h - the scene as paths of light need it */
 #ifndef WEFT_TRACE_PATH_CONTEXT_H
 #define WEFT_TRACE_PATH_CONTEXT_H
 
@@ -11,36 +11,38 @@
 
 /* A material prepared for all its hits. */
 typedef struct PathMaterial {
-    Material material; /* the scene's, without textures that a path never looks at */
-    Surface plain;     /* all its textures left out */
+    Material material;  /* the scene's, without the textures that paths do not read */
+    Surface untextured; /* its inputs without textures */
     Choices choices;
-    bool textured;            /* has any, or a mesh that wears it has colours */
-    bool colored;             /* a mesh that wears it has colors */
-    bool texcoords[2];        /* the sets of texture coordinates that its textures use */
-    bool shines;              /* may send out light */
-    bool bent;                /* a normal map or anisotropy turns the shading frame */
-    bool transmits;           /* light goes through, and comes from all sides */
-    const WeftCloth *cloth;   /* of which the base is woven; NULL: of none */
-    const Measured *measured; /* what light is reflected by in place of the stack; NULL: the stack */
-    TableRef sheen_e;         /* TABLE_NONE without a sheen */
-    Stack stack;              /* of plain, where no point has one of its own */
+    bool textured;            /* its inputs vary: by a texture, by colours of a mesh, or as it is woven */
+    bool colored;             /* a mesh with this material has vertex colours */
+    bool texcoords[2];        /* the sets of texture coordinates that it uses */
+    bool emits;               /* may emit light */
+    bool needs_tangents;      /* its shading frame depends on a normal map, a cloth or anisotropy */
+    bool transmits;           /* transmits light: samples from both sides count */
+    const WeftCloth *cloth;   /* its base is woven of this; NULL: it is not */
+    const Measured *measured; /* reflects in place of the stack; NULL: the stack does */
+    TableRef sheen_e;         /* directional albedo of the sheen; TABLE_NONE without one */
+    Stack stack;              /* of `untextured`; points without an own stack share it */
     const StackKind *kind;    /* NULL: shaded one vertex at a time */
 } PathMaterial;
 
+/* What paths need of the scene, the camera and the settings of a render. The pointers are borrowed. */
 typedef struct PathContext {
     const WeftScene *scene;
     const Geometry *geometry;
     const Lights *lights;
-    const PathMaterial *materials; /* beside the scene's */
+    const PathMaterial *materials; /* in the order of the scene's */
     int max_depth;
     WeftSampling sampling;
-    bool roulette, shadows;
-    bool lift;         /* light and rays meet the smooth surface of a mesh, not its triangles */
-    bool stages;       /* their time is taken */
-    bool sky_in_parts; /* the factors ambient and reflection are not both 1 */
-    bool first_hits;   /* they are kept, */
-    float forward[3];  /* with depths along this axis, the camera's */
-    float pixel[2];    /* width of a pixel at the eye, and how much wider it becomes with depth */
+    bool roulette;        /* Russian roulette ends paths of little throughput */
+    bool shadows;         /* shadow rays are traced */
+    bool lift;            /* rays leave from the smooth surface of a mesh, not from its triangles */
+    bool stages;          /* stages are timed */
+    bool sky_in_parts;    /* the environment's factors `ambient` and `reflection` are not both 1 */
+    bool first_hits;      /* first hits are recorded */
+    float forward[3];     /* the camera's axis, along which their depth is measured */
+    float pixel_width[2]; /* at the eye, and how much wider it becomes with depth */
 } PathContext;
 
 /* Which random numbers a path takes (sampler.h). */

@@ -34,7 +34,7 @@ struct WeftRender {
     TracedPicture picture;
     Stream **streams; /* one a thread */
     int stream_count;
-    unsigned blurred_turn; /* of the environment that picture.blurred was made from */
+    unsigned blurred_version; /* of the environment that picture.blurred was made from */
     Tile *tiles;
     int given[2]; /* samples that all tiles of a half have */
     double build_seconds, render_seconds;
@@ -172,7 +172,7 @@ static void set_context(WeftRender *render) {
                              .sky_in_parts = in_parts(&render->scene->environment),
                              .first_hits = d->first_hits != 0,
                              .forward = {view->forward.x, view->forward.y, view->forward.z}};
-    context->pixel[view->orthographic ? 0 : 1] =
+    context->pixel_width[view->orthographic ? 0 : 1] =
         2.0f * sqrtf(vec3_dot(view->up, view->up)) / (float)d->height;
 }
 
@@ -196,9 +196,9 @@ static WeftResult make_blurred(WeftRender *render, WeftError *error) {
     const Environment *e = &render->scene->environment;
     if (render->picture.desc.background != WEFT_BACKGROUND_BLURRED || e->kind == ENVIRONMENT_CONSTANT)
         return WEFT_OK;
-    if (render->picture.blurred.pixels && render->blurred_turn == e->turn) return WEFT_OK;
+    if (render->picture.blurred.pixels && render->blurred_version == e->turn) return WEFT_OK;
     weft_image_free(&render->picture.blurred);
-    render->blurred_turn = e->turn;
+    render->blurred_version = e->turn;
     return backdrop_blurred(e, &render->picture.blurred, error);
 }
 

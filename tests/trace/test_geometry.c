@@ -211,13 +211,13 @@ static void place(const WeftScene *scene, uint32_t triangle, float u, Vec3 wo, V
     static Chunk chunk;
     static const PathKeys keys;
     const PathMaterial material = {.material = scene->materials[0],
-                                   .plain = material_plain(&scene->materials[0])};
+                                   .untextured = material_plain(&scene->materials[0])};
     const PathContext context = {.scene = scene, .materials = &material, .lift = true};
     const float t = 1.0f;
     const uint32_t mesh = 0;
     const int order[ROW_LANES] = {0};
-    paths.d[0][0] = -wo.x, paths.d[1][0] = -wo.y, paths.d[2][0] = -wo.z;
-    chunk.filled = 0;
+    paths.direction[0][0] = -wo.x, paths.direction[1][0] = -wo.y, paths.direction[2][0] = -wo.z;
+    chunk.filled_material = 0;
     chunk_place(&chunk, &(ChunkSource){.context = &context,
                                        .paths = &paths,
                                        .t = &t,

@@ -182,7 +182,7 @@ static void scene_without_light_gives_no_sample(void **state) {
     test_material(scene, 0.5f);
     test_quad(scene, vec3(-1, 0, -1), vec3(2, 0, 0), vec3(0, 0, 2));
     Lights *lights = build(scene);
-    for (int g = 0; g < LIGHT_GROUPS; g++) assert_false(lights_shine(lights, (LightGroup)g));
+    for (int g = 0; g < LIGHT_GROUPS; g++) assert_false(lights_has_group(lights, (LightGroup)g));
     assert_true(lights_environment(lights, vec3(0, 1, 0)).pdf <= 0.0f);
     lights_free(lights);
     weft_scene_free(scene);
