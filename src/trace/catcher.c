@@ -4,7 +4,7 @@
 #include "shading/terms/d_ggx.h"
 #include "trace/sampler.h"
 
-/* One light sample of a group at a point of a white floor. */
+/* Adds one light sample of a group at a point of a white floor. share: the floor's coverage there. */
 static void add_light(const PathContext *context, LightGroup group, Vec3 point, float share, Point uv,
                       uint32_t key, Caught *caught, long long *rays) {
     LightSample light = lights_sample(context->lights, group, point, vec3(0, 1, 0), uv.u, uv.v);
@@ -18,7 +18,7 @@ static void add_light(const PathContext *context, LightGroup group, Vec3 point, 
     caught->reached += hidden ? whole * (1.0f - share) : whole;
 }
 
-/* Finds what a mirror of that roughness shows; false where that is not the scene. */
+/* Traces a ray that the floor mirrors, spread by its roughness; returns false if it misses the scene. */
 static bool mirror(const PathContext *context, const Floor *floor, Vec3 point, const Ray *ray, Point uv,
                    Mirrored *found, long long *rays) {
     float alpha = max(floor->roughness * floor->roughness, 0.001f);
@@ -31,7 +31,7 @@ static bool mirror(const PathContext *context, const Floor *floor, Vec3 point, c
     return geometry_hit(context->geometry, found->ray, &found->hit);
 }
 
-static Point numbers(PathKey key, uint32_t place) {
+static Point draw_numbers(PathKey key, uint32_t place) {
     return sampler_point(key.pixel, key.sample, SAMPLER_FLOOR + place);
 }
 
@@ -43,9 +43,9 @@ bool catcher_sample(const PathContext *context, const Floor *floor, const Catche
     float share = floor_coverage(floor, point), r = share * floor->reflection, c = 0.0f;
     for (uint32_t g = 0; g < LIGHT_GROUPS; g++)
         if (lights_has_group(context->lights, (LightGroup)g))
-            add_light(context, (LightGroup)g, point, share, numbers(from->key, g), hash32(ray->key), caught,
-                      rays);
-    if (r > 0.0f && mirror(context, floor, point, ray, numbers(from->key, LIGHT_GROUPS), mirrored, rays))
+            add_light(context, (LightGroup)g, point, share, draw_numbers(from->key, g), hash32(ray->key),
+                      caught, rays);
+    if (r > 0.0f && mirror(context, floor, point, ray, draw_numbers(from->key, LIGHT_GROUPS), mirrored, rays))
         c = r;
     for (int k = 0; k < 3; k++) {
         float seen = behind[k] * (1.0f - c);

@@ -6,8 +6,7 @@
  *   chunk_make_frames    builds the shading frames and rotates wo into them
  *   chunk_shade          samples each group of lights and the material, and evaluates f cos and pdf for all of them
  *   chunk_add_light      traces the shadow rays of one group and adds the light that arrives
- *   chunk_continue       applies Russian roulette, and writes the rays of the next depth
- */
+ *   chunk_continue       applies Russian roulette, and writes the rays of the next depth */
 #ifndef WEFT_TRACE_CHUNK_H
 #define WEFT_TRACE_CHUNK_H
 
@@ -118,8 +117,8 @@ typedef struct Chunk {
     StageClock *clock; /* NULL: stages are not timed */
 } Chunk;
 
-/* The vertices of a chunk: those of n paths that hit the material, picked by `order`, which is valid up to row_whole(n).
- */
+/* The vertices of a chunk: those of n paths that hit the material, picked by `order`, which is valid up to
+ * row_whole(n). */
 typedef struct ChunkSource {
     const PathContext *context;
     const Paths *paths;
@@ -156,9 +155,9 @@ void chunk_shade(Chunk *chunk, const ChunkSource *source);
 /* Appends the rays that continue to paths, of which there are `count`; returns how many there are then (shade.c). */
 int chunk_continue(Chunk *chunk, const ChunkSource *source, Paths *paths, int count);
 
-/* Returns the MIS weight of light found along a ray that was drawn with that pdf, 0 for the camera's, where sampling lights
- * has the density light_pdf. Eric Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997, power
- * heuristic, Equation 9.13. */
+/* Returns the MIS weight of light found along a ray that was drawn with that pdf, 0 for the camera's, where sampling
+ * lights has the density light_pdf. Eric Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997,
+ * power heuristic, Equation 9.13. */
 static inline float lobe_weight(WeftSampling sampling, float pdf, float light_pdf) {
     float safe_pdf = pdf > 0.0f ? pdf : 1.0f; /* never 0 / 0: a loop evaluates both */
     float mis = safe_pdf / (safe_pdf + light_pdf * (light_pdf / safe_pdf));

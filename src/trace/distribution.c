@@ -2,11 +2,11 @@
 
 #include <stdint.h>
 
-enum { LINE = 64 };
+enum { LINE = 64 }; /* bytes of a cache line */
 
 static int padded(int n) { return (n + DISTRIBUTION_FAN - 1) / DISTRIBUTION_FAN * DISTRIBUTION_FAN; }
 
-/* The levels above n leaves; returns their floats together. */
+/* Fills the levels of a tree with n leaves; returns how many floats they need together. */
 static int lay_out(Distribution *d, int n) {
     int size = 0;
     *d = (Distribution){.n = n};
@@ -23,13 +23,13 @@ size_t distribution_size(int n) {
     return (size_t)lay_out(&d, n) + DISTRIBUTION_FAN;
 }
 
-float *distribution_room(Arena *arena, size_t floats) {
+float *distribution_alloc(Arena *arena, size_t floats) {
     char *block = arena_array(arena, floats + LINE / sizeof(float), sizeof(float));
     return block ? (float *)(void *)(block + (LINE - (uintptr_t)block % LINE) % LINE) : NULL;
 }
 
-/* From the last thing with any weight on, exactly 1, so that no u < 1 finds one without; past the end more
- * than any u. */
+/* Fills the cumulative weights. They are exactly 1 from the last thing with any weight on, so that no u < 1 finds one
+ * without, and above any u past the end. */
 static void fill_leaves(float *ends, int n, const float *weights, double sum) {
     double running = 0.0;
     for (int k = 0; k < n; k++) {
@@ -46,13 +46,13 @@ static void fill_nodes(float *nodes, int n, const float *children) {
         nodes[k] = k < n ? children[DISTRIBUTION_FAN * k + DISTRIBUTION_FAN - 1] : 2.0f;
 }
 
-double distribution_make(Distribution *distribution, int n, const float *weights, float *room) {
+double distribution_make(Distribution *distribution, int n, const float *weights, float *storage) {
     double sum = 0.0;
     for (int k = 0; k < n; k++) sum += (double)weights[k];
     lay_out(distribution, n);
     float *ends =
-        room + DISTRIBUTION_FAN; /* what lies before the first leaf keeps groups on lines of memory */
-    for (int k = 0; k < DISTRIBUTION_FAN; k++) room[k] = 0.0f;
+        storage + DISTRIBUTION_FAN; /* a 0 before the first leaf, with groups still on cache lines */
+    for (int k = 0; k < DISTRIBUTION_FAN; k++) storage[k] = 0.0f;
     fill_leaves(ends, n, weights, sum);
     for (int level = 1; level < distribution->levels; level++) {
         n = padded(n) / DISTRIBUTION_FAN;

@@ -1,8 +1,7 @@
-/* distribution.h - choosing one of n things with given weights, by inversion: well-spread u give well-spread
- * choices
+/* distribution.h - random choice of one of n things with given weights, by inversion
  *
- * The cumulative weights are the leaves of a tree in which every node has sixteen children: a search looks at
- * sixteen numbers a level and never branches on them. */
+ * Well-spread u give well-spread choices. The cumulative weights are the leaves of a tree in which every node has
+ * sixteen children: a search compares sixteen numbers a level and never branches on them. */
 #ifndef WEFT_TRACE_DISTRIBUTION_H
 #define WEFT_TRACE_DISTRIBUTION_H
 
@@ -16,31 +15,31 @@
 
 typedef struct Distribution {
     int n, levels;
-    int first[DISTRIBUTION_LEVELS]; /* of each level in ends, the leaves' first */
-    const float
-        *ends; /* of a leaf the cumulative weight with it, of a node that of its last child; 0 before them */
+    int first[DISTRIBUTION_LEVELS]; /* index in ends of each level, the leaves at first */
+    const float *ends; /* cumulative weight with a leaf, or with the last child of a node; ends[-1] is 0 */
 } Distribution;
 
-/* The floats that distribution_make needs for n things, n >= 1. */
+/* Returns the number of floats that distribution_make needs for n >= 1 things. */
 size_t distribution_size(int n);
 
-/* So many floats, so that groups of children lie on lines of memory; NULL when that is short. */
-float *distribution_room(Arena *arena, size_t floats);
+/* Returns so many floats from the arena, on cache lines as groups of children need them; NULL if memory is short. */
+float *distribution_alloc(Arena *arena, size_t floats);
 
-/* Makes the distribution of n weights >= 0 and returns their sum. room (distribution_size(n) floats) stays
- * the caller's. A sum of 0 gives equal shares. */
-double distribution_make(Distribution *distribution, int n, const float *weights, float *room);
+/* Makes the distribution of n weights >= 0 and returns their sum. If it is 0, all things are equally likely. storage:
+ * distribution_size(n) floats, which stay the caller's. */
+double distribution_make(Distribution *distribution, int n, const float *weights, float *storage);
 
-/* One of the same size, so many floats further on. */
-static inline Distribution distribution_beside(Distribution distribution, size_t floats) {
+/* Returns the distribution of the same size that lies so many floats further on. */
+static inline Distribution distribution_offset(Distribution distribution, size_t floats) {
     distribution.ends += floats;
     return distribution;
 }
 
+/* A thing chosen with u. */
 typedef struct Choice {
     int index;
     float probability;
-    float rest; /* what is left of u, uniform in [0, 1) again */
+    float rest; /* position of u within the thing's interval, uniform in [0, 1) */
 } Choice;
 
 /* Returns the number of children that end at or before u. They are compared four at a time. */
@@ -56,7 +55,7 @@ static inline int distribution_count(const float *children, float u) {
     return count[0] + count[1] + count[2] + count[3];
 }
 
-/* u in [0, 1). */
+/* Chooses a thing with u in [0, 1). */
 static inline Choice distribution_choose(const Distribution *distribution, float u) {
     int k = 0;
     for (int level = distribution->levels - 1; level >= 0; level--) {

@@ -6,15 +6,19 @@
 #include "shading/dialect/loop.h"
 #include "trace/geometry.h"
 
+/* An emissive triangle. */
 typedef struct Emitter {
     uint32_t mesh, triangle;
-    float area;
-    Vec3 a, ab, ac, normal; /* a corner, two edges; unit, or 0 */
-    bool even, two_sided;   /* even: it sends out the same everywhere */
-    Rgb radiance;           /* if it is even */
+    float area;   /* m^2 */
+    Vec3 a;       /* a corner */
+    Vec3 ab, ac;  /* two edges */
+    Vec3 normal;  /* unit, or 0 */
+    bool uniform; /* it emits the same radiance everywhere */
+    bool two_sided;
+    Rgb radiance; /* if uniform */
 } Emitter;
 
-/* The numbers of an emitter in a row. */
+/* Where the members of an emitter are in its numbers. */
 enum {
     EMITTER_A = 0,
     EMITTER_AB = 3,
@@ -44,7 +48,7 @@ static bool emits(const Material *material) {
 }
 
 /* Returns true if neither a texture nor a vertex colour changes the emission. */
-static bool is_even(const Mesh *mesh, const Material *material) {
+static bool is_uniform(const Mesh *mesh, const Material *material) {
     return !material->inputs[INPUT_emission].texture && !material->inputs[INPUT_emission_strength].texture &&
            (material->alpha_mode == WEFT_ALPHA_OPAQUE ||
             (!material->inputs[INPUT_opacity].texture && !mesh->color));
@@ -63,8 +67,8 @@ static Corners corners(const Mesh *mesh, uint32_t triangle) {
 
 static Vec3 normal_area(Corners c) { return vec3_cross(vec3_sub(c.b, c.a), vec3_sub(c.c, c.a)); }
 
-/* A tenth from the plain factor, so that a texture's dark spot is never unsampled, the rest from its value at
- * four points. */
+/* Returns the power of a triangle, W, as far as luminance goes: nine tenths from its emission at four points, and a
+ * tenth from the factor without textures, so that no bright spot between the points stays unsampled. */
 static float triangle_power(const WeftScene *scene, const Mesh *mesh, uint32_t triangle, float area) {
     static const float points[4][2] = {{0.333f, 0.333f}, {0.2f, 0.2f}, {0.6f, 0.2f}, {0.2f, 0.6f}};
     const Material *material = &scene->materials[mesh->material];
@@ -93,7 +97,7 @@ static Emitter emitter_of(const WeftScene *scene, int m, uint32_t triangle) {
                      .ab = vec3_sub(c.b, c.a),
                      .ac = vec3_sub(c.c, c.a),
                      .normal = vec3_normal_or(normal, vec3(0.0f, 0.0f, 0.0f)),
-                     .even = is_even(mesh, material),
+                     .uniform = is_uniform(mesh, material),
                      .two_sided = material->double_sided,
                      .radiance = emission(scene, material, &none)};
 }
@@ -128,8 +132,8 @@ static LightBounds bounds_of(const Emitter *e, float power) {
     return bounds;
 }
 
-/* Takes the triangles of a mesh; returns their power. */
-static float take_mesh(Emitters *emitters, int m, LightBounds *bounds) {
+/* Appends the triangles of a mesh; returns their power. */
+static float add_mesh(Emitters *emitters, int m, LightBounds *bounds) {
     const WeftScene *scene = emitters->scene;
     const Mesh *mesh = &scene->meshes[m];
     float sum = 0.0f;
@@ -138,7 +142,7 @@ static float take_mesh(Emitters *emitters, int m, LightBounds *bounds) {
         int k = emitters->count++;
         Emitter *e = &emitters->triangles[k];
         *e = emitter_of(scene, m, t);
-        emitters->even &= e->even;
+        emitters->uniform &= e->uniform;
         put_numbers(e, emitters->numbers + (size_t)EMITTER_FLOATS * (size_t)k);
         float power = e->area > 0.0f ? triangle_power(scene, mesh, t, e->area) : 0.0f;
         bounds[k] = bounds_of(e, power);
@@ -148,7 +152,7 @@ static float take_mesh(Emitters *emitters, int m, LightBounds *bounds) {
 }
 
 bool emitters_make(Emitters *emitters, const WeftScene *scene, Arena *arena) {
-    *emitters = (Emitters){.scene = scene, .even = true};
+    *emitters = (Emitters){.scene = scene, .uniform = true};
     size_t count = 0;
     for (int m = 0; m < scene->mesh_count; m++)
         if (emits(&scene->materials[scene->meshes[m].material])) count += scene->meshes[m].triangle_count;
@@ -161,7 +165,7 @@ bool emitters_make(Emitters *emitters, const WeftScene *scene, Arena *arena) {
     bool made = bounds && emitters->triangles && emitters->numbers && emitters->mesh_first;
     float power = 0.0f;
     for (int m = 0; made && m < scene->mesh_count; m++)
-        if (emits(&scene->materials[scene->meshes[m].material])) power += take_mesh(emitters, m, bounds);
+        if (emits(&scene->materials[scene->meshes[m].material])) power += add_mesh(emitters, m, bounds);
     if (!(power > 0.0f)) emitters->count = 0;
     if (emitters->count) made = light_tree_make(&emitters->tree, emitters->count, bounds, arena);
     free(bounds);
@@ -175,22 +179,25 @@ static Rgb radiance_at(const WeftScene *scene, const Emitter *emitter, float u, 
     return emission(scene, &scene->materials[mesh->material], &at);
 }
 
-/* Barycentric weights of a point of a triangle: the square folded onto it. Eric Heitz, "A Low-Distortion Map
- * Between Triangle and Square", 2019. */
+/* Gives the barycentric weights of a point of a triangle, onto which the unit square is folded. Eric Heitz, "A
+ * Low-Distortion Map Between Triangle and Square", 2019. */
 FN void fold(float u, float v, float *b1, float *b2) {
     float half = 0.5f * min(u, v);
     *b1 = u - half;
     *b2 = v - half;
 }
 
-/* Density over solid angle at distance t of a point that is chosen evenly over an area. */
+/* Returns the density over solid angle, 1/sr, of a point chosen uniformly over an area, seen from the distance t. */
 FN float solid_pdf(float t2, float area, float cosine) { return t2 / (area * max(abs(cosine), 1e-6f)); }
 
+/* Emitters chosen with u. */
 typedef struct ChosenRows {
     int emitter[ROW_ROOM];
-    float probability[ROW_ROOM], u[ROW_ROOM]; /* u: what is left of it */
+    float probability[ROW_ROOM];
+    float u[ROW_ROOM]; /* position in the emitter's interval, in [0, 1) */
 } ChosenRows;
 
+/* Samples points of the chosen emitters. */
 LOOP(sample_n,
      (const float *numbers, int n, const float *const point[3], const float *v, const ChosenRows *chosen,
       LightRows *restrict s),
@@ -214,8 +221,8 @@ LOOP(sample_n,
         s->radiance[0][k] = numbers[e + 12];
         s->radiance[1][k] = numbers[e + 13];
         s->radiance[2][k] = numbers[e + 14];
-        float shown = live ? 1.0f : 0.0f; /* a choice would put look-ups in a branch */
-        s->pdf[k] = shown * chosen->probability[k] * solid_pdf(t2, numbers[e + EMITTER_AREA], cosine);
+        float visible = live ? 1.0f : 0.0f; /* a choice would put look-ups in a branch */
+        s->pdf[k] = visible * chosen->probability[k] * solid_pdf(t2, numbers[e + EMITTER_AREA], cosine);
         s->distance[k] = t;
     }
 }
@@ -226,11 +233,11 @@ void emitters_sample_rows(const Emitters *emitters, int n, const float *const po
     memcpy(chosen.u, u, (size_t)n * sizeof *u);
     light_tree_choose_rows(&emitters->tree, n, point, normal, chosen.u, chosen.emitter, chosen.probability);
     sample_n(emitters->numbers, n, point, v, &chosen, samples);
-    for (int k = 0; !emitters->even && k < n; k++) {
+    for (int k = 0; !emitters->uniform && k < n; k++) {
         const Emitter *e = &emitters->triangles[chosen.emitter[k]];
         float b1, b2;
         fold(chosen.u[k], v[k], &b1, &b2);
-        Rgb c = e->even ? e->radiance : radiance_at(emitters->scene, e, b1, b2);
+        Rgb c = e->uniform ? e->radiance : radiance_at(emitters->scene, e, b1, b2);
         samples->radiance[0][k] = c.r, samples->radiance[1][k] = c.g, samples->radiance[2][k] = c.b;
     }
 }

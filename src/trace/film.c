@@ -58,19 +58,19 @@ int film_add(Film *film, int half, size_t pixel, const Stream *stream, int first
 
 static size_t pixel_at(const Film *film, int x, int y) { return (size_t)y * (size_t)film->width + (size_t)x; }
 
+/* Returns how many samples a pixel has in one half or FILM_BOTH. */
 static int samples_at(const Film *film, int half, int x, int y) {
     int tile = y / STREAM_TILE * film->tiles_across + x / STREAM_TILE;
     if (half != FILM_BOTH) return film->half[half].samples[tile];
     return film->half[0].samples[tile] + (film->halves > 1 ? film->half[1].samples[tile] : 0);
 }
 
-/* Adds what the floor caught of a pixel in one half. */
 static void add_caught(Caught *sum, const Caught *of) {
     for (int c = 0; c < 3; c++) sum->behind[c] += of->behind[c];
     sum->clear += of->clear, sum->whole += of->whole, sum->reached += of->reached;
 }
 
-/* Sums over a pixel's samples, with what the floor caught; returns how many samples there are. */
+/* Adds up a pixel's samples, and applies the floor's shadow; returns how many samples there are. */
 static int pixel_sum(const Film *film, int half, int x, int y, float rgba[4]) {
     size_t pixel = pixel_at(film, x, y);
     Caught caught = {0};
@@ -111,13 +111,13 @@ WeftResult film_image(const Film *film, WeftImage *out, WeftError *error) {
     return WEFT_OK;
 }
 
-/* The squares of the error of a pixel's mean, as the halves show it; 0 where there is only one. */
+/* Estimates the variance of a pixel's mean from the halves; 0 with only one. */
 static void pixel_variance(const Film *film, int x, int y, float variance[3]) {
     float a[4], b[4];
     float n = (float)film_pixel(film, 0, x, y, a), m = (float)film_pixel(film, 1, x, y, b);
     for (int c = 0; c < 3; c++) {
-        float off = a[c] - b[c];
-        variance[c] = n * m > 0.0f ? off * off * (n / (n + m)) * (m / (n + m)) : 0.0f;
+        float difference = a[c] - b[c];
+        variance[c] = n * m > 0.0f ? difference * difference * (n / (n + m)) * (m / (n + m)) : 0.0f;
     }
 }
 
@@ -142,7 +142,7 @@ static const struct {
 
 const char *weft_aov_name(int aov) { return aov >= 0 && aov < WEFT_AOV_COUNT ? aovs[aov].name : NULL; }
 
-/* The depth of nothing, which compositing programs know as the background. */
+/* The depth if nothing is hit, which compositing programs treat as the background. */
 static const float nowhere = 1e10f;
 
 static void aov_pixel(const Film *film, WeftAov aov, int x, int y, float *to) {

@@ -1,4 +1,4 @@
-/* From sums of samples to the planes of a denoiser, and back to a picture. */
+/* film_denoise.c - the sums of a film as the planes of a denoiser, and back as a picture */
 #include <stdlib.h> /* before the dialect, whose abs() shadows its own */
 
 #include "trace/film.h"
@@ -19,8 +19,8 @@ WeftResult weft_denoiser_check(WeftDenoiser denoiser, WeftError *error) {
     return denoiser == WEFT_DENOISER_OIDN ? oidn_check(error) : WEFT_OK;
 }
 
-/* A half that has no sample of a pixel yet takes the other's. */
-static void take_pixel(const Film *film, int x, int y, DenoisePlanes *planes) {
+/* Copies a pixel to the planes. A half without samples of it gets the other's mean. */
+static void put_planes(const Film *film, int x, int y, DenoisePlanes *planes) {
     size_t at = (size_t)y * planes->stride + (size_t)x;
     float rgba[4], hits[FIRST_NUMBERS];
     for (int h = 0; h < 2; h++) {
@@ -31,7 +31,7 @@ static void take_pixel(const Film *film, int x, int y, DenoisePlanes *planes) {
     for (int f = 0; f < DENOISE_FEATURES; f++) planes->feature[f][at] = hits[f];
 }
 
-/* Makes the greatest depth 1. */
+/* Scales depths so that the greatest is 1. */
 static void scale_depth(DenoisePlanes *planes) {
     float most = 1e-20f, *depth = planes->feature[FIRST_DEPTH];
     for (int y = 0; y < planes->height; y++)
@@ -41,7 +41,7 @@ static void scale_depth(DenoisePlanes *planes) {
         for (int x = 0; x < planes->width; x++) depth[(size_t)y * planes->stride + (size_t)x] /= most;
 }
 
-/* Gives the picture back: straight alpha. */
+/* Writes a denoised pixel with straight alpha. */
 static void put_pixel(const DenoisePlanes *planes, int x, int y, float *pixel) {
     size_t at = (size_t)y * planes->stride + (size_t)x;
     float alpha = fminf(fmaxf(planes->out[3][at], 0.0f), 1.0f);
@@ -57,7 +57,7 @@ static WeftResult by_regression(const Film *film, int threads, WeftImage *out, W
     if (!denoise_planes_create(&planes, film->width, film->height))
         return fail(error, WEFT_MESSAGE_MEMORY, "denoising", NULL);
     for (int y = 0; y < film->height; y++)
-        for (int x = 0; x < film->width; x++) take_pixel(film, x, y, &planes);
+        for (int x = 0; x < film->width; x++) put_planes(film, x, y, &planes);
     scale_depth(&planes);
     bool done = denoise(&planes, threads);
     float *pixel = out->pixels;
@@ -67,7 +67,7 @@ static WeftResult by_regression(const Film *film, int threads, WeftImage *out, W
     return done ? WEFT_OK : fail(error, WEFT_MESSAGE_MEMORY, "denoising", NULL);
 }
 
-/* Coverage stays as it is: the library has no place for it. */
+/* Denoises by Open Image Denoise, which takes no coverage: that stays noisy. */
 static WeftResult by_oidn(const Film *film, int threads, WeftImage *out, WeftError *error) {
     size_t pixels = (size_t)film->width * (size_t)film->height;
     float *values = alloc_array(pixels, 9 * sizeof(float)), *pixel = out->pixels, rgba[4],

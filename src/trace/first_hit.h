@@ -6,13 +6,13 @@
 
 enum { FIRST_ALBEDO = 0, FIRST_NORMAL = 3, FIRST_DEPTH = 6, FIRST_SEEN = 7, FIRST_NUMBERS = 8 };
 
-/* By the id of a path. SEEN is 1 for a camera ray that meets a surface, else 0, and so is then all else. The
- * depth is along the camera's axis. */
+/* First hits by the id of a path. FIRST_SEEN is 1 if the camera ray meets a surface, else all are 0. The depth is along
+ * the camera's axis, metres. */
 typedef struct FirstHits {
     float number[FIRST_NUMBERS][PATHS_CAPACITY];
 } FirstHits;
 
-/* Fills in what a chunk of first hits is, of those that are seen. normal: the world's. */
+/* Records the first hits of a chunk, of paths that are seen. normal: in world space. */
 void first_hits_take(FirstHits *hits, const Chunk *chunk, int n, Row normal[3], const float forward[3]);
 
 #endif

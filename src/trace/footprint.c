@@ -2,10 +2,10 @@
  *
  *   P' = a - d (n . a) / (n . d)
  *
- * is the projection of the edge a of a pixel, at right angles to the ray along d, onto the plane of a triangle with normal
- * n. Homan Igehy, "Tracing Ray Differentials", SIGGRAPH 1999, Equation 10, without its changes of direction. A camera
- * ray is as wide as its pixel. A scattered ray is a cone: each of SCATTERED directions drawn with the density p covers
- * 1 / (SCATTERED p) of the sphere. */
+ * is the projection of the edge a of a pixel, at right angles to the ray along d, onto the plane of a triangle with
+ * normal n. Homan Igehy, "Tracing Ray Differentials", SIGGRAPH 1999, Equation 10, without its changes of direction. A
+ * camera ray is as wide as its pixel. A scattered ray is a cone: each of SCATTERED directions drawn with the density p
+ * covers 1 / (SCATTERED p) of the sphere. */
 #include "shading/stack/frame.h"
 #include "shading/dialect/loop.h"
 #include "trace/chunk.h"

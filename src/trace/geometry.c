@@ -15,9 +15,9 @@ struct Geometry {
     const WeftScene *scene;
     RTCDevice device;
     RTCScene accel;
-    unsigned char *asked; /* of a mesh: see asked_of */
+    unsigned char *checks; /* by mesh, see checks_of */
     int meshes, threads;
-    atomic_int complaint; /* an RTCError: Embree's first; its own threads complain too */
+    atomic_int error; /* the first RTCError, which may come from Embree's own threads */
     bool built;
 };
 
@@ -34,9 +34,9 @@ static struct RTCRay to_embree(const Ray *ray) {
                            .id = ray->key};
 }
 
-/* Returns false for a ray of which Embree would make no sense: Debian's asserts that origin and direction are
- * numbers within RAY_REACH. Such a ray meets nothing and sees no light. */
-static bool is_sound(const Ray *ray) {
+/* Returns false for a ray that Embree cannot trace: Debian's build asserts that origin and direction are numbers within
+ * RAY_REACH. Such a ray hits nothing, and is occluded. */
+static bool is_valid(const Ray *ray) {
     return within_reach(ray->origin, RAY_REACH) && within_reach(ray->direction, RAY_REACH) &&
            ray->near <= ray->far;
 }
@@ -45,32 +45,33 @@ static Hit from_embree(const struct RTCHit *h, float t) {
     return (Hit){t, h->geomID, h->primID, h->u, h->v, {h->Ng_x, h->Ng_y, h->Ng_z}};
 }
 
-/* The questions that a mesh's material has a hit answer. */
-enum { ASKED_SIDE = 1, ASKED_OPACITY = 2 };
-static unsigned char asked_of(const WeftScene *scene, int mesh) {
+/* What decides, beside the triangle, if a ray hits a mesh of this material. */
+enum { CHECK_SIDE = 1, CHECK_OPACITY = 2 };
+static unsigned char checks_of(const WeftScene *scene, int mesh) {
     const Material *material = &scene->materials[scene->meshes[mesh].material];
-    int asked = material->double_sided ? 0 : ASKED_SIDE;
-    if (material->alpha_mode != WEFT_ALPHA_OPAQUE) asked |= ASKED_OPACITY;
-    return (unsigned char)asked;
+    int checks = material->double_sided ? 0 : CHECK_SIDE;
+    if (material->alpha_mode != WEFT_ALPHA_OPAQUE) checks |= CHECK_OPACITY;
+    return (unsigned char)checks;
 }
 
-/* A hit may only count when the surface is there for that ray, from that side and, by a coin that is a
- * function of ray and triangle, not transparent. */
-static bool present(const Geometry *geometry, const Hit *hit, Vec3 direction, uint32_t key,
-                    bool past_lights) {
+/* Returns true if a hit counts: the surface has that side, and is not transparent there. Partial opacity is decided by
+ * a random number that depends on the ray's key and the triangle. */
+static bool hit_counts(const Geometry *geometry, const Hit *hit, Vec3 direction, uint32_t key,
+                       bool past_lights) {
     const WeftScene *scene = geometry->scene;
     if (past_lights && hit->mesh >= (uint32_t)scene_own_meshes(scene)) return false;
-    int asked = asked_of(scene, (int)hit->mesh);
-    if (asked & ASKED_SIDE && vec3_dot(hit->facing, direction) > 0.0f) return false;
-    if (!(asked & ASKED_OPACITY)) return true;
+    int checks = checks_of(scene, (int)hit->mesh);
+    if (checks & CHECK_SIDE && vec3_dot(hit->facing, direction) > 0.0f) return false;
+    if (!(checks & CHECK_OPACITY)) return true;
     const Mesh *mesh = &scene->meshes[hit->mesh];
     Attributes at = geometry_attributes(mesh, hit);
     float opacity = material_opacity(scene, &scene->materials[mesh->material], at.uv, at.color[3]);
     return unit_float(hash_combine(hash_combine(key, hit->mesh), hit->triangle)) < opacity;
 }
 
+/* A call to Embree. */
 typedef struct Query {
-    struct RTCIntersectContext context; /* first: Embree hands back its address */
+    struct RTCIntersectContext context; /* the first member: filter casts its address back */
     const Geometry *geometry;
     bool past_lights;
 } Query;
@@ -94,7 +95,7 @@ static Vec3 vector_at(const void *rows, unsigned n, int row, unsigned k) {
     return vec3(number_at(rows, n, row, k), number_at(rows, n, row + 1, k), number_at(rows, n, row + 2, k));
 }
 
-/* Refuses candidates that are not there. */
+/* Rejects candidates that do not count (an Embree filter). */
 static void filter(const struct RTCFilterFunctionNArguments *a) {
     const Query *query = (const Query *)(const void *)a->context;
     for (unsigned k = 0, n = a->N; k < n; k++) {
@@ -103,7 +104,7 @@ static void filter(const struct RTCFilterFunctionNArguments *a) {
                    word_at(a->hit, n, HIT_TRIANGLE, k), number_at(a->hit, n, HIT_U, k),
                    number_at(a->hit, n, HIT_V, k),      vector_at(a->hit, n, HIT_FACING, k)};
         Vec3 direction = vector_at(a->ray, n, RAY_DIRECTION, k);
-        if (!present(query->geometry, &hit, direction, word_at(a->ray, n, RAY_ID, k), query->past_lights))
+        if (!hit_counts(query->geometry, &hit, direction, word_at(a->ray, n, RAY_ID, k), query->past_lights))
             a->valid[k] = 0;
     }
 }
@@ -111,7 +112,7 @@ static void filter(const struct RTCFilterFunctionNArguments *a) {
 bool geometry_serves(const Geometry *geometry) {
     bool serves = true;
     for (int k = 0; k < geometry->meshes && serves; k++)
-        serves = geometry->asked[k] == asked_of(geometry->scene, k);
+        serves = geometry->checks[k] == checks_of(geometry->scene, k);
     return serves;
 }
 
@@ -123,21 +124,23 @@ static bool attach(Geometry *geometry, uint32_t id) {
                                3 * sizeof(float), mesh->vertex_count);
     rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh->index, 0,
                                3 * sizeof(uint32_t), mesh->triangle_count);
-    if (geometry->asked[id]) rtcSetGeometryOccludedFilterFunction(g, filter);
+    if (geometry->checks[id]) rtcSetGeometryOccludedFilterFunction(g, filter);
     rtcCommitGeometry(g);
     rtcAttachGeometryByID(geometry->accel, g, id);
     rtcReleaseGeometry(g);
     return true;
 }
 
-/* Up to here the slower build that traces faster takes less than the eye notices. */
-enum { FINE_BUILD_TRIANGLES = 200000 };
-enum { SERIAL_BUILD_TRIANGLES = 4096 };
+enum {
+    FINE_BUILD_TRIANGLES =
+        200000, /* up to here the slower build, which traces faster, takes no noticeable time */
+    SERIAL_BUILD_TRIANGLES = 4096
+};
 
 static void note_error(void *user, enum RTCError code, const char *text) {
     Geometry *geometry = user;
     int none = RTC_ERROR_NONE;
-    atomic_compare_exchange_strong(&geometry->complaint, &none, (int)code);
+    atomic_compare_exchange_strong(&geometry->error, &none, (int)code);
 }
 
 static uint32_t count_triangles(const Geometry *geometry) {
@@ -146,14 +149,14 @@ static uint32_t count_triangles(const Geometry *geometry) {
     return count;
 }
 
-/* Makes what Embree holds; `built` where all of it stands. */
+/* Builds Embree's scene; sets `built` on success. */
 static void build(void *user) {
     Geometry *geometry = user;
     const WeftScene *scene = geometry->scene;
     const uint32_t triangles = count_triangles(geometry);
     char config[96];
-    /* Few triangles are not worth threads: and where memory runs out, tasks of Embree's may outlive the call
-     * that started them. */
+    /* Few triangles need no threads, and if memory runs out, tasks of Embree's may outlive the call that started
+     * them. */
     snprintf(config, sizeof config, "threads=%d,set_affinity=0,isa=%s",
              triangles <= SERIAL_BUILD_TRIANGLES ? 1 : geometry->threads, weft_isa());
     geometry->device = rtcNewDevice(config);
@@ -173,7 +176,7 @@ static void build(void *user) {
     if (triangles <= FINE_BUILD_TRIANGLES) rtcSetSceneBuildQuality(geometry->accel, RTC_BUILD_QUALITY_HIGH);
     rtcCommitScene(geometry->accel);
     note_error(geometry, rtcGetDeviceError(geometry->device), NULL);
-    geometry->built = geometry->complaint == RTC_ERROR_NONE;
+    geometry->built = geometry->error == RTC_ERROR_NONE;
 }
 
 static void release(void *user) {
@@ -187,28 +190,28 @@ WeftResult geometry_create(const WeftScene *scene, int meshes, int threads, Geom
     Geometry *geometry = alloc_array(1, sizeof *geometry);
     if (!geometry) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     *geometry = (Geometry){.scene = scene, .meshes = meshes, .threads = threads};
-    geometry->asked = alloc_array((size_t)meshes, sizeof *geometry->asked);
-    if (!geometry->asked) {
+    geometry->checks = alloc_array((size_t)meshes, sizeof *geometry->checks);
+    if (!geometry->checks) {
         free(geometry);
         return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     }
-    for (int k = 0; k < meshes; k++) geometry->asked[k] = asked_of(scene, k);
+    for (int k = 0; k < meshes; k++) geometry->checks[k] = checks_of(scene, k);
     bool starved;
     if (guarded(build, geometry, &starved) && geometry->built) {
         *out = geometry;
         return WEFT_OK;
     }
-    starved |= geometry->complaint == RTC_ERROR_OUT_OF_MEMORY;
+    starved |= geometry->error == RTC_ERROR_OUT_OF_MEMORY;
     geometry_free(geometry);
     return fail(error, starved ? WEFT_MESSAGE_MEMORY : WEFT_MESSAGE_RENDER_DEVICE, scene->name, NULL);
 }
 
 void geometry_free(Geometry *geometry) {
     if (!geometry) return;
-    /* Embree ends the program where it is to release a scene whose building broke off: that is left to it */
+    /* Embree ends the program if it has to release a scene whose build failed: that one stays allocated */
     bool starved;
     if (geometry->built) guarded(release, geometry, &starved);
-    free(geometry->asked);
+    free(geometry->checks);
     free(geometry);
 }
 
@@ -220,26 +223,26 @@ static bool intersect(const Geometry *geometry, const Ray *ray, Query *query, Hi
     return true;
 }
 
-/* Nearly every nearest hit is there. For the rest every candidate is asked, since another may lie at the same
- * place. */
+/* Finds the nearest hit. Nearly every one counts. For the rest Embree filters all candidates, since another may be as
+ * near. */
 bool geometry_hit(const Geometry *geometry, Ray ray, Hit *hit) {
     Query query = query_of(geometry, ray.past_lights);
-    if (!is_sound(&ray)) return false;
+    if (!is_valid(&ray)) return false;
     if (!intersect(geometry, &ray, &query, hit)) return false;
-    if (present(geometry, hit, ray.direction, ray.key, ray.past_lights)) return true;
+    if (hit_counts(geometry, hit, ray.direction, ray.key, ray.past_lights)) return true;
     query.context.filter = filter;
     return intersect(geometry, &ray, &query, hit);
 }
 
 bool geometry_occluded(const Geometry *geometry, Ray ray) {
-    if (!is_sound(&ray)) return true;
+    if (!is_valid(&ray)) return true;
     Query query = query_of(geometry, ray.past_lights);
     struct RTCRay r = to_embree(&ray);
     rtcOccluded1(geometry->accel, &query.context, &r);
     return r.tfar < 0.0f;
 }
 
-/* Sets the fields that all rays have in common. */
+/* Sets the members that all rays have in common. */
 static void start_packet(struct RTCRay16 *q) {
     for (int k = 0; k < GEOMETRY_PACKET; k++) {
         q->tnear[k] = 0.0f;
@@ -249,8 +252,8 @@ static void start_packet(struct RTCRay16 *q) {
     }
 }
 
-/* The rays from `first` on, `left` of them or as many as a packet has. Those that are not sound stay idle;
- * but with AVX2 Embree makes sure of idle rays too. A loop of vectors. */
+/* Fills a packet with the rays from `first` on, `left` of them or as many as it takes. Invalid ones are idle, and are
+ * replaced, since with AVX2 Embree asserts idle rays too. The loop is one of vectors. */
 static void fill_packet(const RayRows *rays, int first, int left, int *restrict valid,
                         struct RTCRay16 *restrict q) {
     const float *ox = rays->o[0] + first, *oy = rays->o[1] + first, *oz = rays->o[2] + first;
@@ -258,17 +261,17 @@ static void fill_packet(const RayRows *rays, int first, int left, int *restrict 
     const uint32_t *key = rays->key + first;
     for (int k = 0; k < GEOMETRY_PACKET; k++) q->tfar[k] = rays->far ? rays->far[first + k] : INFINITY;
     for (int k = 0; k < GEOMETRY_PACKET; k++) {
-        bool sound = (k < left) & (q->tfar[k] >= 0.0f) & (fabsf(ox[k]) <= RAY_REACH) &
-                     (fabsf(oy[k]) <= RAY_REACH) & (fabsf(oz[k]) <= RAY_REACH) & (fabsf(dx[k]) <= RAY_REACH) &
-                     (fabsf(dy[k]) <= RAY_REACH) & (fabsf(dz[k]) <= RAY_REACH);
-        valid[k] = sound ? -1 : 0;
-        q->org_x[k] = sound ? ox[k] : 0.0f;
-        q->org_y[k] = sound ? oy[k] : 0.0f;
-        q->org_z[k] = sound ? oz[k] : 0.0f;
-        q->dir_x[k] = sound ? dx[k] : 0.0f;
-        q->dir_y[k] = sound ? dy[k] : 0.0f;
-        q->dir_z[k] = sound ? dz[k] : 1.0f;
-        q->tfar[k] = sound ? q->tfar[k] : 0.0f;
+        bool usable = (k < left) & (q->tfar[k] >= 0.0f) & (fabsf(ox[k]) <= RAY_REACH) &
+                      (fabsf(oy[k]) <= RAY_REACH) & (fabsf(oz[k]) <= RAY_REACH) &
+                      (fabsf(dx[k]) <= RAY_REACH) & (fabsf(dy[k]) <= RAY_REACH) & (fabsf(dz[k]) <= RAY_REACH);
+        valid[k] = usable ? -1 : 0;
+        q->org_x[k] = usable ? ox[k] : 0.0f;
+        q->org_y[k] = usable ? oy[k] : 0.0f;
+        q->org_z[k] = usable ? oz[k] : 0.0f;
+        q->dir_x[k] = usable ? dx[k] : 0.0f;
+        q->dir_y[k] = usable ? dy[k] : 0.0f;
+        q->dir_z[k] = usable ? dz[k] : 1.0f;
+        q->tfar[k] = usable ? q->tfar[k] : 0.0f;
         q->id[k] = key[k];
     }
 }
@@ -280,7 +283,7 @@ static Query packet_query(const Geometry *geometry, const RayRows *rays) {
     return query;
 }
 
-static Ray ray_of_row(const RayRows *rays, int k) {
+static Ray ray_at(const RayRows *rays, int k) {
     return (Ray){vec3(rays->o[0][k], rays->o[1][k], rays->o[2][k]),
                  vec3(rays->d[0][k], rays->d[1][k], rays->d[2][k]),
                  0.0f,
@@ -297,15 +300,15 @@ static void put_hit(const HitRows *hits, int k, const Hit *hit) {
     hits->triangle[k] = hit->triangle;
 }
 
-/* Sees to the hits that must be asked whether they are there. */
-static void take_hits(const Geometry *geometry, const RayRows *rays, const struct RTCHit16 *h, const float *t,
-                      int first, int left, const HitRows *hits) {
+/* Stores the hits of a packet. One that does not count is replaced by the next that does. */
+static void put_hits(const Geometry *geometry, const RayRows *rays, const struct RTCHit16 *h, const float *t,
+                     int first, int left, const HitRows *hits) {
     for (int k = 0; k < GEOMETRY_PACKET && k < left; k++) {
         Hit hit = {t[k], h->geomID[k], h->primID[k], h->u[k], h->v[k], {h->Ng_x[k], h->Ng_y[k], h->Ng_z[k]}};
         put_hit(hits, first + k, &hit);
-        if (hit.mesh == GEOMETRY_NOTHING || (!geometry->asked[hit.mesh] && !rays->past_lights)) continue;
-        Ray ray = ray_of_row(rays, first + k);
-        if (present(geometry, &hit, ray.direction, ray.key, ray.past_lights)) continue;
+        if (hit.mesh == GEOMETRY_NOTHING || (!geometry->checks[hit.mesh] && !rays->past_lights)) continue;
+        Ray ray = ray_at(rays, first + k);
+        if (hit_counts(geometry, &hit, ray.direction, ray.key, ray.past_lights)) continue;
         if (!geometry_hit(geometry, ray, &hit)) hit.mesh = GEOMETRY_NOTHING;
         put_hit(hits, first + k, &hit);
     }
@@ -320,11 +323,11 @@ void geometry_hits(const Geometry *geometry, const RayRows *rays, int count, con
         fill_packet(rays, first, count - first, valid, &q.ray);
         for (int k = 0; k < GEOMETRY_PACKET; k++) q.hit.geomID[k] = RTC_INVALID_GEOMETRY_ID;
         rtcIntersect16(valid, geometry->accel, &query.context, &q);
-        take_hits(geometry, rays, &q.hit, q.ray.tfar, first, count - first, hits);
+        put_hits(geometry, rays, &q.hit, q.ray.tfar, first, count - first, hits);
     }
 }
 
-void geometry_occlusions(const Geometry *geometry, const RayRows *rays, int count, bool *hidden) {
+void geometry_occlusions(const Geometry *geometry, const RayRows *rays, int count, bool *occluded) {
     Query query = packet_query(geometry, rays);
     struct RTCRay16 q;
     _Alignas(64) int valid[GEOMETRY_PACKET];
@@ -333,7 +336,7 @@ void geometry_occlusions(const Geometry *geometry, const RayRows *rays, int coun
         fill_packet(rays, first, count - first, valid, &q);
         rtcOccluded16(valid, geometry->accel, &query.context, &q);
         for (int k = 0; k < GEOMETRY_PACKET && first + k < count; k++)
-            hidden[first + k] = !valid[k] || q.tfar[k] < 0.0f;
+            occluded[first + k] = !valid[k] || q.tfar[k] < 0.0f;
     }
 }
 

@@ -8,8 +8,8 @@
 extern "C" {
 #endif
 
-/* Calls call(user). Returns false if it threw, as Embree and TBB do where memory runs out in the middle of
- * their own handling of it; what they held is then lost. *starved (not NULL): it threw for want of memory. */
+/* Calls call(user). Returns false if it threw, as Embree and TBB do if memory runs out while they handle that; what
+ * they had allocated then leaks. *starved (not NULL) becomes true if it threw because memory is short. */
 bool guarded(void (*call)(void *user), void *user, bool *starved);
 
 #ifdef __cplusplus

@@ -4,9 +4,9 @@
 #include "shading/dialect/loop.h"
 #include "trace/sampler.h"
 
-/* Positions at equal steps of the integral of the Blackman-Harris window of 1.5 pixels' radius: looking one
- * up at random spreads samples as the window weighs them. Fredric J. Harris, "On the Use of Windows for
- * Harmonic Analysis with the Discrete Fourier Transform", 1978. */
+/* Fills the filter with offsets at equal steps of the integral of the Blackman-Harris window of 1.5 pixels' radius, so
+ * that a random entry is distributed by the window. Fredric J. Harris, "On the Use of Windows for Harmonic Analysis
+ * with the Discrete Fourier Transform", 1978. */
 void lens_make(Lens *lens) {
     enum { FINE = 16 * LENS_STEPS };
     const double radius = 1.5, total = 0.35875;
@@ -31,7 +31,7 @@ FN float filter_offset(const float *filter, float u) {
     return mix(filter[k], filter[k + 1], x - (float)k);
 }
 
-/* Makes the rays of one pixel; pixels do not share vectors, so that a crop has the bytes of the whole. */
+/* Makes the rays of one pixel. Pixels do not share vectors, so that a crop has the same bytes as the whole picture. */
 LOOP(rays_of_pixel_n,
      (const Lens *lens, float px, float py, uint32_t pixel, const uint32_t *sample, int at, int n,
       Paths *restrict paths),
@@ -40,7 +40,8 @@ LOOP(rays_of_pixel_n,
     const float *filter = lens->filter;
     float across = 2.0f / (float)lens->width, down = 2.0f / (float)lens->height,
           wide = lens->centred ? 0.0f : 1.0f;
-    float parallel = view.orthographic ? 1.0f : 0.0f, spread = 1.0f - parallel; /* origins, or directions */
+    float parallel = view.orthographic ? 1.0f : 0.0f,
+          spread = 1.0f - parallel; /* of origins, or of directions */
     EACH(k, (size_t)n) {
         Point p = sampler_point(pixel, sample[k], SAMPLER_PIXEL);
         float x = (px + 0.5f + wide * filter_offset(filter, p.u)) * across - 1.0f;
@@ -67,7 +68,7 @@ int lens_rays(const Lens *lens, const LensPart *part, PathKeys *keys, Paths *pat
     for (int p = 0; p < pixels; p++, at += part->count) {
         int x = part->x + p % part->width, y = part->y + p / part->width;
         keys->pixel[p] = sampler_key((uint32_t)x, (uint32_t)y, part->seed);
-        /* all ROW_LANES of them: the next pixel's take the place of what is too many */
+        /* always ROW_LANES rays: the next pixel overwrites the surplus */
         rays_of_pixel_n(lens, (float)x, (float)y, keys->pixel[p], keys->sample, at, ROW_LANES, paths);
         for (int k = 0; k < part->count; k++) paths->id[at + k] = (uint32_t)(p << PATHS_SAMPLES_LOG2 | k);
     }

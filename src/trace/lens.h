@@ -9,22 +9,22 @@ enum { LENS_STEPS = 256 };
 
 typedef struct Lens {
     View view;
-    int width, height; /* of the picture */
-    bool centred;      /* all samples at the middle of their pixel */
-    float filter[LENS_STEPS + 1];
+    int width, height;            /* of the picture */
+    bool centred;                 /* all samples are at the middle of their pixel */
+    float filter[LENS_STEPS + 1]; /* offset in pixels by its cumulative weight */
 } Lens;
 
 /* Fills the pixel filter. */
 void lens_make(Lens *lens);
 
-/* Pixels of a picture from (x, y) on, row by row, and samples of each from `first` on. */
+/* Pixels of a picture from (x, y) on, row by row, and the samples of each from `first` on. */
 typedef struct LensPart {
     int x, y, width, height; /* width height <= 256 */
     int first, count;        /* count <= 1 << PATHS_SAMPLES_LOG2 */
     uint32_t seed;
 } LensPart;
 
-/* Fills keys, and paths with their rays; returns how many. They come pixel by pixel. */
+/* Fills keys, and paths with camera rays, pixel by pixel; returns how many. */
 int lens_rays(const Lens *lens, const LensPart *part, PathKeys *keys, Paths *paths);
 
 #endif

@@ -4,8 +4,8 @@
 
 static float angle_of(float cosine) { return acosf(fminf(fmaxf(cosine, -1.0f), 1.0f)); }
 
-/* The narrowest cone around two, of which a is the wider: it leans from a towards b by half of what b reaches
- * further. */
+/* Gives the narrowest cone around those of a and b, of which a is the wider. It leans from a towards b by half the
+ * angle by which b reaches beyond a. */
 static void join_cones(const LightBounds *a, const LightBounds *b, LightBounds *both) {
     float wide = angle_of(a->cos_spread), narrow = angle_of(b->cos_spread);
     float between = angle_of(vec3_dot(a->axis, b->axis));
@@ -32,9 +32,10 @@ LightBounds light_bounds_join(LightBounds a, LightBounds b) {
     return both;
 }
 
-/* M = 2 pi (1 - cos t) + pi / 2 (2 w sin t - cos(t - 2 w) - 2 t sin t + cos t),  w = min(t + pi / 2, pi)
+/* Returns the solid angle of the cone of half angle t, plus that of the hemispheres around it weighted by the cosine:
  *
- * the solid angle of the cone of half angle t, and that of the hemispheres around it weighed by the cosine.
+ *   M = 2 pi (1 - cos t) + pi / 2 (2 w sin t - cos(t - 2 w) - 2 t sin t + cos t),  w = min(t + pi / 2, pi)
+ *
  * Conty Estevez and Kulla (light_tree.h), equation 1. */
 static float directions(float t) {
     float w = fminf(t + 0.5f * PI_FLOAT, PI_FLOAT);

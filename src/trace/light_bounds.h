@@ -9,15 +9,15 @@
 typedef struct LightBounds {
     Vec3 low, high;   /* box */
     Vec3 axis;        /* of the cone, unit */
-    float cos_spread; /* of the half angle of the cone */
-    float power;      /* 0: there is none */
+    float cos_spread; /* cosine of the half angle of the cone */
+    float power;      /* 0: the group is empty */
     bool two_sided;
 } LightBounds;
 
-/* The bounds of both. */
+/* Returns the bounds of both groups together. */
 LightBounds light_bounds_join(LightBounds a, LightBounds b);
 
-/* The cost of a group in a tree: power times the area of its box times the measure of where it shines. */
+/* Returns the cost of a group in a tree: power times the area of its box times the solid angle that it lights. */
 float light_bounds_cost(const LightBounds *bounds);
 
 #endif

@@ -4,13 +4,14 @@
 
 #include "shading/stack/surface_rows.h"
 
-/* Further than any light of a scene. */
+/* A distance beyond any light of a scene. */
 #define LIGHT_FAR 1e30f
 
 /* The members of LightSample in lights.h. */
 typedef struct LightRows {
     float wi[3][ROW_ROOM], radiance[3][ROW_ROOM];
-    float pdf[ROW_ROOM], distance[ROW_ROOM]; /* LIGHT_FAR: of the environment and directional lights */
+    float pdf[ROW_ROOM];
+    float distance[ROW_ROOM]; /* LIGHT_FAR for the environment and directional lights */
 } LightRows;
 
 #endif

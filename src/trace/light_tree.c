@@ -4,7 +4,7 @@
 
 #include "shading/dialect/loop.h"
 
-/* A node's numbers. The cone of normals has the axis w and half angle theta_o. */
+/* Where the numbers of a node are. The cone of normals has the half angle theta_o. */
 enum {
     NODE_CENTRE = 0,
     NODE_RADIUS2 = 3,
@@ -18,9 +18,9 @@ enum {
 
 FN float sin_of(float cosine) { return sqrt(max(1.0f - cosine * cosine, 0.0f)); }
 
-/* ---- making it ---- */
+/* ---- building the tree ---- */
 
-/* Below DEPTH_BALANCED nodes are halved, so that no tree is deeper than 72. */
+/* From this depth on nodes are halved, so that no tree is deeper than 72. */
 enum { BINS = 12, DEPTH_BALANCED = 40 };
 
 typedef struct Builder {
@@ -31,23 +31,24 @@ typedef struct Builder {
 } Builder;
 
 typedef struct LightSplit {
-    int axis, bin; /* the last bin of the first part */
+    int axis;
+    int bin; /* the last one of the first part */
     float cost;
 } LightSplit;
 
 static float along(Vec3 v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 
-static float place_of(const LightBounds *light, int axis) {
+static float centre_of(const LightBounds *light, int axis) {
     return 0.5f * (along(light->low, axis) + along(light->high, axis));
 }
 
-/* low and high: of the centres. */
+/* Returns the bin of a light between the lowest and highest centre. */
 static int bin_of(const LightBounds *light, int axis, float low, float high) {
-    int bin = (int)(BINS * (place_of(light, axis) - low) / (high - low));
+    int bin = (int)(BINS * (centre_of(light, axis) - low) / (high - low));
     return bin < 0 ? 0 : bin < BINS ? bin : BINS - 1;
 }
 
-/* Tries the planes between bins across an axis. longer: how many times the box is longer along another axis. */
+/* Tries the planes between bins across an axis. longer: ratio of the box's longest side to that along the axis. */
 static void try_axis(const Builder *b, int begin, int end, int axis, float low, float high, float longer,
                      LightSplit *best) {
     LightBounds bins[BINS] = {0}, above[BINS] = {0}, below = {0};
@@ -65,13 +66,13 @@ static void try_axis(const Builder *b, int begin, int end, int axis, float low, 
     }
 }
 
-/* Puts the lights of the first part first; returns where the second begins. */
-static int part_lights(const Builder *b, int begin, int end, const LightBounds *all, bool balanced) {
+/* Sorts the lights of a node into two parts; returns the beginning of the second. */
+static int split_lights(const Builder *b, int begin, int end, const LightBounds *all, bool balanced) {
     float low[3], high[3], longest = 0.0f;
     for (int a = 0; a < 3; a++) {
         low[a] = 1e30f, high[a] = -1e30f;
         for (int k = begin; k < end; k++) {
-            float place = place_of(&b->lights[b->order[k]], a);
+            float place = centre_of(&b->lights[b->order[k]], a);
             low[a] = fminf(low[a], place), high[a] = fmaxf(high[a], place);
         }
         longest = fmaxf(longest, along(all->high, a) - along(all->low, a));
@@ -120,7 +121,7 @@ static void build_node(Builder *b, int node, int begin, int end, int depth) {
         tree->leaf[b->order[begin]] = node;
         return;
     }
-    int middle = part_lights(b, begin, end, &all, depth >= DEPTH_BALANCED), first = b->nodes;
+    int middle = split_lights(b, begin, end, &all, depth >= DEPTH_BALANCED), first = b->nodes;
     b->nodes += 2;
     tree->child[node] = first;
     tree->parent[first] = tree->parent[first + 1] = node;
@@ -137,27 +138,28 @@ bool light_tree_make(LightTree *tree, int count, const LightBounds *lights, Aren
                         .leaf = arena_array(arena, (size_t)count, sizeof(int))};
     b.order = alloc_array((size_t)count, sizeof(int));
     bool made = tree->nodes && tree->child && tree->parent && tree->leaf && b.order;
-    int shining = 0;
+    int emitting = 0;
     for (int k = 0; made && k < count; k++) {
         tree->leaf[k] = -1;
-        if (lights[k].power > 0.0f) b.order[shining++] = k;
+        if (lights[k].power > 0.0f) b.order[emitting++] = k;
     }
-    if (made) build_node(&b, 0, 0, shining, 0);
+    if (made) build_node(&b, 0, 0, emitting, 0);
     free(b.order);
     return made;
 }
 
-/* ---- asking it ---- */
+/* ---- sampling it ---- */
 
-/* cos(max(a - b, 0)) and sin(max(a - b, 0)), a and b in [0, pi]. */
+/* Returns cos(max(a - b, 0)), a and b in [0, pi]. */
 FN float cos_less(float sin_a, float cos_a, float sin_b, float cos_b) {
     return cos_a > cos_b ? 1.0f : cos_a * cos_b + sin_a * sin_b;
 }
+/* Returns sin(max(a - b, 0)), a and b in [0, pi]. */
 FN float sin_less(float sin_a, float cos_a, float sin_b, float cos_b) {
     return cos_a > cos_b ? 0.0f : sin_a * cos_b - cos_a * sin_b;
 }
 
-/* I of light_tree.h. theta_u is half the angle under which the sphere is seen. */
+/* Returns I of light_tree.h. theta_u is half the angle under which the sphere is seen. */
 FN float importance(const float *nodes, int node, Dir p, Dir n) {
     int k = node * NODE_FLOATS;
     float x = p.x - nodes[k], y = p.y - nodes[k + 1], z = p.z - nodes[k + 2];
@@ -176,10 +178,10 @@ FN float importance(const float *nodes, int node, Dir p, Dir n) {
     return nodes[k + NODE_POWER] * max(cos_e, 0.0f) * max(cos_r, 0.0f) / max(max(d2, r2), 1e-30f);
 }
 
-/* The probability of the first of two children with these importances; 0 and 0 is a dead end. */
-FN float first_part(float a, float b) { return a / max(a + b, 1e-38f); }
+/* Returns the probability of the first of two children with these importances; 0 if both are 0. */
+FN float first_probability(float a, float b) { return a / max(a + b, 1e-38f); }
 
-/* One step down for all that are not at a leaf. */
+/* Steps down one level for all points that are not at a leaf. */
 LOOP(descend_n,
      (const LightTree *tree, int n, const float *const point[3], const float *const normal[3],
       float *restrict u, int *restrict at, float *restrict probability),
@@ -194,7 +196,7 @@ LOOP(descend_n,
         int first = leaf ? node : down, second = leaf ? node : down + 1;
         Dir p = dir(px[k], py[k], pz[k]), m = dir(nx[k], ny[k], nz[k]);
         float a = importance(nodes, first, p, m), b = importance(nodes, second, p, m);
-        float part = first_part(a, b), x = u[k];
+        float part = first_probability(a, b), x = u[k];
         bool left = x < part;
         float width = left ? part : a + b > 0.0f ? 1.0f - part : 0.0f;
         float rest = (left ? x : x - part) / max(width, 1e-30f);
@@ -223,7 +225,7 @@ float light_tree_probability(const LightTree *tree, int light, Vec3 point, Vec3 
     while (node > 0) {
         int up = tree->parent[node], first = tree->child[up];
         float a = importance(tree->nodes, first, p, n), b = importance(tree->nodes, first + 1, p, n);
-        float part = first_part(a, b);
+        float part = first_probability(a, b);
         probability *= node == first ? part : a + b > 0.0f ? 1.0f - part : 0.0f;
         node = up;
     }

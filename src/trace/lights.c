@@ -37,23 +37,24 @@ static LightSample sample_punctual(const Lights *lights, Vec3 point, float w) {
     return s;
 }
 
-/* A directional light's beam passes through a sphere around the scene. */
+/* Makes the distribution of punctual lights by power, W; that of a directional light is what passes through a sphere
+ * around the scene. Returns false if memory is short. */
 static bool punctual_make(Lights *lights) {
     const WeftScene *scene = lights->scene;
     int count = scene->light_count;
     if (!count) return true;
     float radius = 0.5f * vec3_length(vec3_sub(scene->high, scene->low));
     if (!(radius > 1e-6f && radius < INFINITY)) radius = 1.0f; /* a point, or nothing at all */
-    float *room = distribution_room(&lights->arena, distribution_size(count));
+    float *storage = distribution_alloc(&lights->arena, distribution_size(count));
     float *power = alloc_array((size_t)count, sizeof(float));
-    for (int k = 0; room && power && k < count; k++) {
+    for (int k = 0; storage && power && k < count; k++) {
         const Light *light = &scene->lights[k];
         const float *c = light->color;
         float spread = light->kind == LIGHT_DIRECTIONAL ? PI * radius * radius : 4.0f * PI;
         power[k] = max((c[0] + c[1] + c[2]) / 3.0f * light->intensity, 1e-6f) * spread;
     }
-    bool made = room && power;
-    if (made) distribution_make(&lights->punctual, count, power, room);
+    bool made = storage && power;
+    if (made) distribution_make(&lights->punctual, count, power, storage);
     free(power);
     return made;
 }
@@ -86,7 +87,7 @@ static LightSample from_sky(SkyPoint p) {
 
 bool lights_has_group(const Lights *lights, LightGroup group) { return lights->has_group[group]; }
 
-/* Asks for a row of which all lanes are this point. */
+/* Samples the emitters by a row of which all lanes are this point. */
 static LightSample sample_emitters(const Emitters *emitters, Vec3 point, Vec3 normal, float u, float v) {
     float same[8][ROW_LANES];
     const float of[] = {point.x, point.y, point.z, normal.x, normal.y, normal.z, u, v};

@@ -7,12 +7,11 @@
 #include "scene/record/camera.h"
 #include "trace/geometry.h"
 
-/* Rays with other keys, so that what is half there is there, and what is cut out is not. */
-enum { TRIES = 16 };
+enum { TRIES = 16 }; /* rays with different keys, so that a partly transparent surface is hit, but no hole */
 
 struct WeftPick {
     const WeftScene *scene;
-    Geometry *geometry; /* of the scene's own meshes: those of lights come, go and move */
+    Geometry *geometry; /* of the scene's own meshes, without those of lights, which may change */
 };
 
 WeftResult weft_pick_create(const WeftScene *scene, WeftPick **out, WeftError *error) {
@@ -47,7 +46,7 @@ static bool nearest(const WeftPick *self, CameraRay through, Hit *hit) {
     return any;
 }
 
-/* The change of position with u and with v on a triangle, and the UV that a metre spans. */
+/* Changes of position with u and with v on a triangle, and the length in UV of a metre. */
 typedef struct Stretch {
     Vec3 u, v;
     float uv_per_metre;
@@ -71,7 +70,7 @@ static Stretch stretch_of(const Mesh *mesh, const Hit *hit) {
     return s;
 }
 
-/* The part of a across n, of length 1. */
+/* Returns the component of a at right angles to n, normalised. */
 static Vec3 beside(Vec3 a, Vec3 n, Vec3 fallback) {
     Vec3 unit = vec3_normal_or(a, fallback);
     return vec3_normal_or(vec3_madd(unit, n, -vec3_dot(unit, n)), fallback);

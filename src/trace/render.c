@@ -1,3 +1,4 @@
+/* render.c - the API of the path tracer (weft/render.h): what a render owns, when it is rebuilt, and its passes */
 #define _POSIX_C_SOURCE 200809L
 #include <stdatomic.h>
 #include <stdlib.h>
@@ -23,6 +24,7 @@ typedef struct Tile {
     long long rays, non_finite;
 } Tile;
 
+/* A render: the scene prepared for paths, the picture that is being rendered, and one stream a thread. */
 struct WeftRender {
     const WeftScene *scene;
     Geometry *geometry;
@@ -36,7 +38,7 @@ struct WeftRender {
     int stream_count;
     unsigned blurred_version; /* of the environment that picture.blurred was made from */
     Tile *tiles;
-    int given[2]; /* samples that all tiles of a half have */
+    int samples_done[2]; /* samples a pixel that all tiles of a half have */
     double build_seconds, render_seconds;
 };
 
@@ -69,7 +71,7 @@ static void set_defaults(WeftRenderDesc *d) {
         d->crop[2] = d->width, d->crop[3] = d->height;
 }
 
-/* Makes the materials. Tables that still serve are kept. */
+/* Prepares the materials, and the sheen tables that they lack. */
 static WeftResult make_materials(WeftRender *render, WeftError *error) {
     const WeftScene *scene = render->scene;
     SheenTables *tables;
@@ -91,7 +93,7 @@ static void free_streams(WeftRender *render) {
     render->stream_count = 0;
 }
 
-/* No more than have a tile. */
+/* Creates a stream for each thread, but no more than there are tiles. */
 static WeftResult make_streams(WeftRender *render, WeftError *error) {
     int threads = render->picture.desc.threads, tiles = render->picture.film.tile_count;
     int wanted = threads < tiles ? threads : tiles;
@@ -122,7 +124,7 @@ static WeftResult begin_picture(WeftRender *render, WeftError *error) {
     film_free(film);
     picture->floor = floor_of(render->scene, &d->floor);
     render->render_seconds = 0.0;
-    render->given[0] = render->given[1] = 0;
+    render->samples_done[0] = render->samples_done[1] = 0;
     bool made = film_create(film, d->crop[2], d->crop[3], d->halves, d->first_hits, picture->floor.there);
     render->tiles = alloc_array((size_t)film->tile_count, sizeof(Tile));
     if (made && render->tiles) return WEFT_OK;
@@ -151,6 +153,7 @@ static bool any_emits(const WeftRender *render) {
     return any;
 }
 
+/* Returns true if the factors `ambient` and `reflection` are not both 1. */
 static bool in_parts(const Environment *e) {
     return e->ambient < 1.0f || e->ambient > 1.0f || e->reflection < 1.0f || e->reflection > 1.0f;
 }
@@ -176,8 +179,8 @@ static void set_context(WeftRender *render) {
         2.0f * sqrtf(vec3_dot(view->up, view->up)) / (float)d->height;
 }
 
-/* Makes what was changed, and what could not be made before. A material may be what shines, and what shadow
- * rays must ask. */
+/* Rebuilds what `changed` concerns, and what an earlier call failed to make. A changed material rebuilds the lights if
+ * it emits or did, and the geometry if its filter of hits differs. */
 static WeftResult build(WeftRender *render, unsigned changed, WeftError *error) {
     if (!render->materials || render->material_count != render->scene->material_count) changed = ~0u;
     bool shapes = changed & WEFT_CHANGED_SHAPES || !render->geometry || !geometry_serves(render->geometry);
@@ -192,6 +195,7 @@ static WeftResult build(WeftRender *render, unsigned changed, WeftError *error) 
     return result;
 }
 
+/* Blurs the environment for the background, if it is wanted and the environment has changed. */
 static WeftResult make_blurred(WeftRender *render, WeftError *error) {
     const Environment *e = &render->scene->environment;
     if (render->picture.desc.background != WEFT_BACKGROUND_BLURRED || e->kind == ENVIRONMENT_CONSTANT)
@@ -252,25 +256,29 @@ void weft_render_free(WeftRender *render) {
     free(render);
 }
 
+/* Samples that are added to all tiles between two looks at progress, noise and deadline. */
 typedef struct Pass {
     WeftRender *render;
-    int samples, half; /* per pixel in this pass, <= STREAM_SAMPLES, and for which half of the film */
-    atomic_int stop, finished;
-    double deadline; /* INFINITY: none */
+    int samples;         /* a pixel, <= STREAM_SAMPLES */
+    int half;            /* of the film */
+    atomic_int stop;     /* 1: no tile is started any more */
+    atomic_int finished; /* tiles */
+    double deadline;     /* of clock_now(); INFINITY: none */
     WeftProgress progress;
     void *user;
     double done_before, share; /* progress before this pass, and what this pass adds */
-    bool asked_to_stop;
+    bool interrupted;
 } Pass;
 
-/* Called in the thread that called weft_render_run. */
+/* Reports progress to the caller, in the thread that called weft_render_run. */
 static void report_progress(Pass *pass, int finished) {
     double fraction = pass->done_before + pass->share * finished / pass->render->picture.film.tile_count;
     if (!pass->progress || !pass->progress(pass->user, fraction)) return;
-    pass->asked_to_stop = true;
+    pass->interrupted = true;
     atomic_store(&pass->stop, 1);
 }
 
+/* Renders one tile in a thread of parallel_for; user is the Pass. */
 static void render_tile(void *user, int item, int thread) {
     Pass *pass = user;
     WeftRender *render = pass->render;
@@ -284,11 +292,11 @@ static void render_tile(void *user, int item, int thread) {
     if (thread == 0) report_progress(pass, finished);
 }
 
-/* Chooses the next pass of those that give `rest` samples. The first of a run is one sample and heeds no
- * deadline, so that even a short time shows all of the picture. Halves take turns, and are made equal. */
+/* Chooses the next pass of those that add `rest` samples. The first of a run is one sample without a deadline, so that
+ * even a short time shows the whole picture. Halves alternate, and end equal. */
 static void choose_pass(Pass *pass, bool first, int rest) {
     const WeftRender *render = pass->render;
-    int most = first ? 1 : STREAM_SAMPLES, ahead = render->given[0] - render->given[1];
+    int most = first ? 1 : STREAM_SAMPLES, ahead = render->samples_done[0] - render->samples_done[1];
     if (render->picture.film.halves > 1) {
         pass->half = ahead > 0 ? 1 : 0;
         rest = ahead > 0 && rest > ahead ? ahead : ahead > 0 ? rest : rest - rest / 2;
@@ -296,13 +304,13 @@ static void choose_pass(Pass *pass, bool first, int rest) {
     pass->samples = rest < most ? rest : most;
 }
 
-/* Fewer samples show too little to judge the error by. */
-enum { NOISE_SAMPLES = 16 };
+enum { NOISE_SAMPLES = 16 }; /* fewer do not suffice to estimate the error */
 
-/* Returns true if the error of the picture is as small as asked for. */
-static bool quiet_enough(const WeftRender *render) {
-    bool halved = render->picture.film.halves > 1 && render->given[0] == render->given[1];
-    if (!halved || !(render->picture.desc.noise > 0.0f) || 2 * render->given[0] < NOISE_SAMPLES) return false;
+/* Returns true if the estimated error of the picture is at most desc.noise. */
+static bool noise_reached(const WeftRender *render) {
+    bool halved = render->picture.film.halves > 1 && render->samples_done[0] == render->samples_done[1];
+    if (!halved || !(render->picture.desc.noise > 0.0f) || 2 * render->samples_done[0] < NOISE_SAMPLES)
+        return false;
     double noise = film_noise(&render->picture.film);
     return noise >= 0.0 && noise <= (double)render->picture.desc.noise;
 }
@@ -313,7 +321,7 @@ WeftResult weft_render_run(WeftRender *render, int spp, double seconds, WeftProg
                  .deadline = seconds > 0.0 ? start + seconds : (double)INFINITY,
                  .progress = progress,
                  .user = user};
-    bool quiet = quiet_enough(render);
+    bool quiet = noise_reached(render);
     atomic_init(&pass.stop, 0);
     for (int done = 0; done < spp && !quiet && !atomic_load(&pass.stop); done += pass.samples) {
         choose_pass(&pass, done == 0, spp - done);
@@ -324,11 +332,11 @@ WeftResult weft_render_run(WeftRender *render, int spp, double seconds, WeftProg
         if (atomic_load(&pass.stop)) break;
         report_progress(&pass,
                         render->picture.film.tile_count); /* the tiles that other threads finished last */
-        render->given[pass.half] += pass.samples;
-        quiet = quiet_enough(render);
+        render->samples_done[pass.half] += pass.samples;
+        quiet = noise_reached(render);
     }
     render->render_seconds += clock_now() - start;
-    return pass.asked_to_stop ? WEFT_INTERRUPTED : WEFT_OK;
+    return pass.interrupted ? WEFT_INTERRUPTED : WEFT_OK;
 }
 
 WeftRenderInfo weft_render_info(const WeftRender *render) {

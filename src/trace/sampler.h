@@ -1,8 +1,8 @@
 /* sampler.h - Owen-scrambled Sobol points, padded two dimensions at a time
  *
- * Point i of a pixel is, in each pair of dimensions, the (0, 2)-sequence of Sobol', its order shuffled and
- * its digits scrambled by keys made from pixel, seed and pair. A value is a function of its key: threads and
- * order do not matter, and a loop over many of them is one of vectors.
+ * In each pair of dimensions, the points of a pixel are the (0, 2)-sequence of Sobol', its order shuffled and its
+ * digits scrambled by keys made from pixel, seed and pair. A value is a function of its key: it depends neither on
+ * threads nor on order, and loops over many of them are loops of vectors.
  *
  *   I. M. Sobol', "On the distribution of points in a cube and the approximate evaluation of integrals",
  * 1967. Brent Burley, "Practical Hash-based Owen Scrambling", JCGT 9(4), 2020. */
@@ -17,15 +17,13 @@ typedef struct Point {
     float u, v; /* in [0, 1) */
 } Point;
 
-/* Pairs of dimensions, and single random numbers, that a path has: for the point of its pixel; where it meets
- * the floor; and a vertex, of which the first is at depth 0. */
+/* Pairs of dimensions of a path. */
 enum {
-    SAMPLER_PIXEL,
-    SAMPLER_FLOOR,                      /* one for each group of lights, one for the mirror */
-    SAMPLER_VERTEX = SAMPLER_FLOOR + 4, /* the same for each depth, the last for the lobe */
+    SAMPLER_PIXEL, /* the point in the pixel */
+    SAMPLER_FLOOR, /* where it meets the floor: for each group of lights, and for the mirror */
+    SAMPLER_VERTEX = SAMPLER_FLOOR + 4, /* at each depth: for each group of lights, and for the lobe */
     SAMPLER_PER_VERTEX = 4,
-    SAMPLER_CLOTH =
-        1 << 16, /* after those of all vertices: one for each depth, for what stands for a woven cloth */
+    SAMPLER_CLOTH = 1 << 16, /* at each depth: for the threads of a woven cloth */
 };
 
 static inline uint32_t reverse_bits(uint32_t x) {
@@ -36,9 +34,9 @@ static inline uint32_t reverse_bits(uint32_t x) {
     return ((x >> 1) & 0x55555555u) | ((x & 0x55555555u) << 1);
 }
 
-/* A nested uniform scramble of digits stored lowest first: each bit is flipped by a hash of the bits below
- * it. Samuli Laine, Tero Karras, "Stratified Sampling for Stochastic Transparency", EGSR 2011, with the
- * constants found by Nathan Vegdahl, "Building a Better LK Hash", 2021. */
+/* Applies a nested uniform scramble to digits stored lowest first: each bit is flipped by a hash of the bits below it.
+ * Samuli Laine, Tero Karras, "Stratified Sampling for Stochastic Transparency", EGSR 2011, with the constants of Nathan
+ * Vegdahl, "Building a Better LK Hash", 2021. */
 static inline uint32_t owen_scramble(uint32_t x, uint32_t key) {
     x ^= x * 0x3d20adeau;
     x += key;
@@ -48,8 +46,8 @@ static inline uint32_t owen_scramble(uint32_t x, uint32_t key) {
     return x;
 }
 
-/* The second dimension's generator matrix is Pascal's triangle modulo 2, the fivefold Kronecker power of
- * [1 1; 0 1]: one step a level. */
+/* Multiplies by the generator matrix of the second dimension: Pascal's triangle modulo 2, the fivefold Kronecker power
+ * of [1 1; 0 1], one step a level. */
 static inline uint32_t pascal_bits(uint32_t i) {
     i ^= (i >> 1) & 0x55555555u;
     i ^= (i >> 2) & 0x33333333u;
@@ -58,16 +56,15 @@ static inline uint32_t pascal_bits(uint32_t i) {
     return i ^ (i >> 16);
 }
 
-/* The key of a pixel, the same for all of its samples. */
+/* Returns the key of a pixel, which all of its samples share. */
 static inline uint32_t sampler_key(uint32_t x, uint32_t y, uint32_t seed) {
     return hash_combine(hash_combine(hash32(seed), x), y);
 }
 
-/* A sample of a pixel: its number, bits reversed. */
+/* Returns the index of a sample of a pixel: its number with reversed bits. */
 static inline uint32_t sampler_index(uint32_t sample) { return reverse_bits(sample); }
 
-/* Returns the point in a pair of dimensions. Each has its own shuffle of the order and its own scramble of either coordinate.
- */
+/* Returns the point in a pair of dimensions. Each pair has its own order, and its own scramble of either coordinate. */
 static inline Point sampler_point(uint32_t key, uint32_t index, uint32_t pair) {
     uint32_t own = hash32(key + 0x9e3779b9u * (pair + 1)), i = reverse_bits(owen_scramble(index, own));
     uint32_t scramble = own * 0x2c1b3c6du;
@@ -77,7 +74,7 @@ static inline Point sampler_point(uint32_t key, uint32_t index, uint32_t pair) {
     return p;
 }
 
-/* One plain random number that costs no dimension. */
+/* Returns a random number in [0, 1) without stratification, which takes no dimension. */
 static inline float sampler_random(uint32_t key, uint32_t index, uint32_t place) {
     return unit_float(hash32(key ^ hash32(index + 0x85ebca6bu * (place + 1))));
 }

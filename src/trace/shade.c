@@ -60,8 +60,8 @@ static void put_value(Chunk *chunk, int direction, int k, const Rgb *f_cos, floa
     vertices->pdf[direction][k] = pdf;
 }
 
-/* Returns f cos for light of the environment, from the f_cos that stack_eval returned with that seed: `ambient` times what
- * the diffuse lobe and dust reflect first, plus `reflection` times what the other lobes do. */
+/* Returns f cos for light of the environment, from the f_cos that stack_eval returned with that seed: `ambient` times
+ * what the diffuse lobe and dust reflect first, plus `reflection` times what the other lobes do. */
 static Rgb f_cos_of_sky(const PathContext *context, const Stack *stack, const StackView *view, Dir wi,
                         uint32_t seed, Rgb f_cos) {
     const Environment *sky = &context->scene->environment;

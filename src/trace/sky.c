@@ -8,12 +8,11 @@
 
 #define TWO_PI 6.28318530717959f
 
-/* The importance map is never finer than this: beyond, a cell has several texels. */
+/* The importance map is never finer than this: a cell of a larger image has several texels. */
 enum { MAP_WIDTH_MAX = 4096, MAP_HEIGHT_MAX = 2048 };
 
-/* acos to 1e-6 and atan to 2e-6: Milton Abramowitz, Irene A. Stegun, "Handbook of Mathematical Functions",
- * 1964, 4.4.46 and 4.4.49. A texel of a 16k map spans 4e-4 radians; the library's calls cost more than the
- * rest of a look-up. */
+/* Returns acos to 1e-6. Milton Abramowitz, Irene A. Stegun, "Handbook of Mathematical Functions", 1964, 4.4.46. A texel
+ * of a 16k map spans 4e-4 radians; the library's calls cost more than the rest of a look-up. */
 FN float fast_acos(float x) {
     float a = abs(x);
     float p = -0.0012624911f;
@@ -28,6 +27,7 @@ FN float fast_acos(float x) {
     return x < 0.0f ? PI - p : p;
 }
 
+/* Returns atan2 to 2e-6, by 4.4.49 there. */
 FN float fast_atan2(float y, float x) {
     float ax = abs(x), ay = abs(y), t = min(ax, ay) / max(max(ax, ay), 1e-30f), s = t * t;
     float p = 0.0028662257f;
@@ -44,20 +44,24 @@ FN float fast_atan2(float y, float x) {
     return y < 0.0f ? -p : p;
 }
 
-/* World direction to the image's (u, v), and back. */
+/* Converts a world direction to the image's (u, v). */
 FN void to_map(const Sky *sky, Vec3 d, float *u, float *v) {
-    float x = d.x * sky->cos_turn - d.z * sky->sin_turn, z = d.x * sky->sin_turn + d.z * sky->cos_turn;
+    float x = d.x * sky->cos_rotation - d.z * sky->sin_rotation,
+          z = d.x * sky->sin_rotation + d.z * sky->cos_rotation;
     *u = 0.5f + fast_atan2(x, -z) / TWO_PI;
     *v = fast_acos(clamp(d.y, -1.0f, 1.0f)) / PI;
 }
 
+/* Converts the image's (u, v) to a world direction. */
 static Vec3 from_map(const Sky *sky, float u, float v) {
     float phi = (u - 0.5f) * TWO_PI, theta = v * PI, s = sin(theta);
     float x = s * sin(phi), z = -s * cos(phi);
-    return vec3(x * sky->cos_turn + z * sky->sin_turn, cos(theta), -x * sky->sin_turn + z * sky->cos_turn);
+    return vec3(x * sky->cos_rotation + z * sky->sin_rotation, cos(theta),
+                -x * sky->sin_rotation + z * sky->cos_rotation);
 }
 
-/* Greg Ward, "Real Pixels", Graphics Gems II, 1991: three mantissas m and one exponent e, m 2^(e - 136). */
+/* Decodes RGBE: three mantissas m and one exponent e, m 2^(e - 136). Greg Ward, "Real Pixels", Graphics Gems II,
+ * 1991. */
 FN Rgb unpack(uint32_t p) {
     uint32_t e = p >> 24, bits = e > 9 ? (e - 9) << 23 : 0;
     float scale;
@@ -66,6 +70,7 @@ FN Rgb unpack(uint32_t p) {
                  (float)(int32_t)((p >> 16) & 255u) * scale};
 }
 
+/* Encodes RGBE. */
 static uint32_t pack(const float *c) {
     int e;
     float most = max(c[0], max(c[1], c[2]));
@@ -77,8 +82,8 @@ static uint32_t pack(const float *c) {
     return p;
 }
 
-/* The image as RGBE, when every texel comes back as it was (as those of .hdr files do): a third of the memory
- * to go through at each look-up. */
+/* Encodes the image as RGBE if every texel is the same after decoding, as those of .hdr files are. A look-up then reads
+ * a third of the memory. */
 static void pack_image(Sky *sky, Arena *arena) {
     const WeftImage *image = &sky->environment->image;
     size_t count = (size_t)image->width * (size_t)image->height;
@@ -94,11 +99,13 @@ static void pack_image(Sky *sky, Arena *arena) {
     for (size_t k = 0; sky->packed && k < count; k++) sky->packed[k] = pack(p + 3 * k);
 }
 
-/* The image as a look-up needs it: packed, or so many floats a texel of which green and blue may be red's. */
+/* The image as a look-up reads it. */
 typedef struct SkyTexels {
-    const uint32_t *packed;
+    const uint32_t *packed; /* RGBE; NULL: floats are read */
     const float *floats;
-    int width, height, stride, green, blue;
+    int width, height;
+    int stride;      /* floats a texel */
+    int green, blue; /* offsets of their floats; 0 in an image of one channel */
     float strength;
 } SkyTexels;
 
@@ -114,7 +121,7 @@ FN Rgb texel_at(SkyTexels t, bool packed, int k) {
     return (Rgb){t.floats[k * t.stride], t.floats[k * t.stride + t.green], t.floats[k * t.stride + t.blue]};
 }
 
-/* Bilinear: columns wrap, rows end. */
+/* Interpolates the image bilinearly; columns wrap around, rows are clamped. */
 FN Rgb image_at(SkyTexels t, bool packed, float u, float v) {
     float x = u * (float)t.width - 0.5f, y = v * (float)t.height - 0.5f, fx = floor(x), fy = floor(y);
     int x0 = (int)fx, y0 = (int)fy, x1 = x0 + 1, y1 = y0 + 1;
@@ -131,11 +138,12 @@ static Rgb constant(const Environment *e) {
     return (Rgb){e->color[0] * e->strength, e->color[1] * e->strength, e->color[2] * e->strength};
 }
 
+/* Returns the distribution of the columns of a row. */
 static Distribution columns_of(const Sky *sky, int row) {
-    return distribution_beside(sky->columns, (size_t)row * sky->stride);
+    return distribution_offset(sky->columns, (size_t)row * sky->stride);
 }
 
-/* Density over the sphere at a point of cell (row, column), from that on the unit square. */
+/* Returns the density over the sphere, 1/sr, at a point of cell (row, column), from that on the unit square. */
 static float map_pdf(const Sky *sky, int row, int column, float sin_theta) {
     const Distribution columns = columns_of(sky, row);
     float square = distribution_probability(&sky->rows, row) * distribution_probability(&columns, column) *
@@ -174,12 +182,12 @@ SkyPoint sky_sample(const Sky *sky, float u, float v) {
     return point;
 }
 
-/* The cells that (u, v) choose: row and column of each. Each
- * pass over the levels asks for the memory of the next. */
+/* Cells of the importance map. */
 typedef struct Cells {
     int row[ROW_ROOM], column[ROW_ROOM];
 } Cells;
 
+/* Chooses cells with (u, v). Each pass over a level prefetches the memory of the next. */
 static void choose_cells(const Sky *sky, int n, const float *u, const float *v, Cells *cells) {
     const Distribution columns = sky->columns;
     int top = columns.levels - 1;
@@ -198,8 +206,8 @@ static void choose_cells(const Sky *sky, int n, const float *u, const float *v, 
         }
 }
 
-/* Asks for the texels about each cell, which is of their size. */
-static void fetch_texels(const Sky *sky, int n, const Cells *cells) {
+/* Prefetches the texels about each cell, if cells have the size of texels. */
+static void prefetch_texels(const Sky *sky, int n, const Cells *cells) {
     SkyTexels t = sky_texels(sky);
     if (!t.packed || sky->width != t.width || sky->height != t.height) return;
     for (int k = 0; k < n; k++) {
@@ -209,13 +217,15 @@ static void fetch_texels(const Sky *sky, int n, const Cells *cells) {
     }
 }
 
+/* Samples directions in cells that were chosen with (u, v). */
 FN void sample_cells(const Sky *sky, SkyTexels t, bool packed, int n, const float *u, const float *v,
                      const Cells *cells, LightRows *restrict s) {
     const float *ends = sky->columns.ends, *row_ends = sky->rows.ends;
     const int *rows = cells->row, *columns = cells->column;
     int stride = (int)sky->stride;
     float width = (float)sky->width, height = (float)sky->height;
-    float cos_turn = sky->cos_turn, sin_turn = sky->sin_turn, scale = width * height / (TWO_PI * PI);
+    float cos_rotation = sky->cos_rotation, sin_rotation = sky->sin_rotation,
+          scale = width * height / (TWO_PI * PI);
     EACH(k, (size_t)n) {
         int row = rows[k], column = columns[k];
         int leaf = row * stride + column;
@@ -226,9 +236,9 @@ FN void sample_cells(const Sky *sky, SkyTexels t, bool packed, int n, const floa
         float phi = (mu - 0.5f) * TWO_PI, theta = mv * PI, sine = sin(theta), x = sine * sin(phi),
               z = -sine * cos(phi);
         Rgb c = image_at(t, packed, mu, mv);
-        s->wi[0][k] = x * cos_turn + z * sin_turn;
+        s->wi[0][k] = x * cos_rotation + z * sin_rotation;
         s->wi[1][k] = cos(theta);
-        s->wi[2][k] = z * cos_turn - x * sin_turn;
+        s->wi[2][k] = z * cos_rotation - x * sin_rotation;
         s->radiance[0][k] = c.r;
         s->radiance[1][k] = c.g;
         s->radiance[2][k] = c.b;
@@ -237,12 +247,13 @@ FN void sample_cells(const Sky *sky, SkyTexels t, bool packed, int n, const floa
     }
 }
 
-/* Compiled for either form of texels: a loop of vectors has no choice in it. */
+/* Samples cells of a packed image. A loop of vectors has no branch between the forms of texels. */
 LOOP(sample_packed_n,
      (const Sky *sky, int n, const float *u, const float *v, const Cells *cells, LightRows *s),
      (sky, n, u, v, cells, s)) {
     sample_cells(sky, sky_texels(sky), true, n, u, v, cells, s);
 }
+/* Samples cells of an image of floats. */
 LOOP(sample_floats_n,
      (const Sky *sky, int n, const float *u, const float *v, const Cells *cells, LightRows *s),
      (sky, n, u, v, cells, s)) {
@@ -250,7 +261,7 @@ LOOP(sample_floats_n,
 }
 
 /* Samples an environment of one colour. */
-static void sample_each(const Sky *sky, int n, const float *u, const float *v, LightRows *s) {
+static void sample_constant(const Sky *sky, int n, const float *u, const float *v, LightRows *s) {
     for (int k = 0; k < n; k++) {
         SkyPoint p = sky_sample(sky, u[k], v[k]);
         s->wi[0][k] = p.direction.x, s->wi[1][k] = p.direction.y, s->wi[2][k] = p.direction.z;
@@ -265,15 +276,15 @@ static bool has_map(const Sky *sky) { return sky->environment->kind != ENVIRONME
 void sky_sample_rows(const Sky *sky, int n, const float *u, const float *v, LightRows *samples) {
     Cells cells;
     if (!has_map(sky)) {
-        sample_each(sky, n, u, v, samples);
+        sample_constant(sky, n, u, v, samples);
         return;
     }
     choose_cells(sky, n, u, v, &cells);
-    fetch_texels(sky, n, &cells);
+    prefetch_texels(sky, n, &cells);
     (sky->packed ? sample_packed_n : sample_floats_n)(sky, n, u, v, &cells, samples);
 }
 
-/* The image coordinates of directions, and the cells there. */
+/* Image coordinates of directions, and the cells there. */
 typedef struct Places {
     float u[ROW_ROOM], v[ROW_ROOM];
     Cells cells;
@@ -282,7 +293,7 @@ typedef struct Places {
 LOOP(find_places_n,
      (const Sky *sky, int n, const float *x, const float *y, const float *z, Places *restrict at),
      (sky, n, x, y, z, at)) {
-    const Sky s = {.cos_turn = sky->cos_turn, .sin_turn = sky->sin_turn};
+    const Sky s = {.cos_rotation = sky->cos_rotation, .sin_rotation = sky->sin_rotation};
     float width = (float)sky->width, height = (float)sky->height;
     EACH(k, (size_t)n) {
         float u, v;
@@ -294,6 +305,7 @@ LOOP(find_places_n,
     }
 }
 
+/* Fills radiance and pdf at places. x, z: of the directions. */
 FN void look_up(const Sky *sky, bool packed, int n, const float *x, const float *z, const Places *at,
                 LightRows *restrict found) {
     const float *ends = sky->columns.ends, *row_ends = sky->rows.ends;
@@ -327,7 +339,7 @@ void sky_at_rows(const Sky *sky, int n, const float *const d[3], LightRows *foun
     Places at;
     if (has_map(sky)) {
         find_places_n(sky, n, d[0], d[1], d[2], &at);
-        fetch_texels(sky, n, &at.cells);
+        prefetch_texels(sky, n, &at.cells);
         (sky->packed ? look_up_packed_n : look_up_floats_n)(sky, n, d[0], d[2], &at, found);
         return;
     }
@@ -346,11 +358,11 @@ static float luminance_of(const WeftImage *image, int x, int y) {
     size_t channels = (size_t)image->channels;
     const float *p = (const float *)image->pixels + ((size_t)y * (size_t)image->width + (size_t)x) * channels;
     float luminance = channels >= 3 ? 0.2126f * p[0] + 0.7152f * p[1] + 0.0722f * p[2] : p[0];
-    return max(luminance, 0.0f); /* a file may hold negative colours */
+    return max(luminance, 0.0f); /* a file may contain negative colours */
 }
 
-/* The luminance of a row of texels, and the same on average over each texel of what is looked up bilinearly
- * along the row: 3/4 of a texel's own and 1/8 of either neighbour's. */
+/* Fills a row with the mean over each texel of the luminance interpolated along it: 3/4 of the texel's own, and 1/8 of
+ * either neighbour's. */
 static void blur_row(const WeftImage *image, int y, float *row) {
     int w = image->width;
     float first = luminance_of(image, 0, y), left = luminance_of(image, w - 1, y), own = first;
@@ -362,8 +374,8 @@ static void blur_row(const WeftImage *image, int y, float *row) {
     }
 }
 
-/* Adds to the cells of row y's texels their luminance as it is looked up, times their solid angle; rows:
- * those above, at and below y as blur_row has them. */
+/* Adds the interpolated luminance of row y's texels times their solid angle to their cells. rows: those of blur_row
+ * above, at and below y. */
 static void add_row(Sky *sky, int y, float *const rows[3], float *cells) {
     const WeftImage *image = &sky->environment->image;
     float solid = (float)sin_of_row(y, image->height);
@@ -377,7 +389,7 @@ static void add_row(Sky *sky, int y, float *const rows[3], float *cells) {
     sky->mean += sum;
 }
 
-/* Light over solid angle in each cell of the map, and its mean; lines: room for three rows of texels. */
+/* Adds up luminance times solid angle in each cell, and its mean. lines: storage for three rows of texels. */
 static void sum_cells(Sky *sky, float *lines, float *cells) {
     const WeftImage *image = &sky->environment->image;
     int last = image->height - 1;
@@ -396,7 +408,8 @@ static void sum_cells(Sky *sky, float *lines, float *cells) {
     sky->mean /= whole;
 }
 
-/* Every cell gets a little on top of its own, so that none with any light in it is hardly ever chosen. */
+/* Makes the distributions of rows and columns. Each cell gets 2 % of the mean in addition, so that no cell with any
+ * light has too small a density. */
 static void distribute(Sky *sky, float *cells, float *weights, float *rows, float *columns) {
     const WeftImage *image = &sky->environment->image;
     double texels = (double)image->width * image->height / ((double)sky->width * sky->height);
@@ -417,8 +430,8 @@ static bool map_make(Sky *sky, Arena *arena) {
     sky->height = image->height < MAP_HEIGHT_MAX ? image->height : MAP_HEIGHT_MAX;
     size_t w = (size_t)sky->width, h = (size_t)sky->height;
     sky->stride = distribution_size(sky->width);
-    float *rows = distribution_room(arena, distribution_size(sky->height));
-    float *columns = distribution_room(arena, h * sky->stride);
+    float *rows = distribution_alloc(arena, distribution_size(sky->height));
+    float *columns = distribution_alloc(arena, h * sky->stride);
     float *cells = alloc_array(w * h, sizeof(float)), *weights = alloc_array(h, sizeof(float));
     float *lines = alloc_array((size_t)image->width, 3 * sizeof(float));
     bool made = rows && columns && cells && weights && lines;
@@ -432,8 +445,8 @@ static bool map_make(Sky *sky, Arena *arena) {
 
 bool sky_make(Sky *sky, const Environment *environment, Arena *arena) {
     *sky = (Sky){.environment = environment,
-                 .cos_turn = cos(environment->rotation),
-                 .sin_turn = sin(environment->rotation)};
+                 .cos_rotation = cos(environment->rotation),
+                 .sin_rotation = sin(environment->rotation)};
     if (environment->kind == ENVIRONMENT_CONSTANT) {
         const float *c = environment->color;
         sky->mean = (double)(0.2126f * c[0] + 0.7152f * c[1] + 0.0722f * c[2]);

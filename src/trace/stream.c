@@ -36,8 +36,8 @@ static int class_of(const Stream *stream, int k) {
     return mesh == GEOMETRY_NOTHING ? 0 : 1 + stream->context->scene->meshes[mesh].material;
 }
 
-/* Sorts n paths by their classes. Each class begins at a multiple of ROW_LANES; its last path is repeated up to the next.
- */
+/* Sorts n paths by their classes. Each class begins at a multiple of ROW_LANES; its last path is repeated up to the
+ * next. */
 static void sort_by_class(Stream *stream, int n, int classes) {
     int *end = stream->end, place = 0;
     for (int hit_class = 0; hit_class < classes; hit_class++) end[hit_class] = 0;
@@ -79,8 +79,8 @@ LOOP(weigh_sky_n,
     }
 }
 
-/* Adds the environment's light along n paths that leave the scene. in_parts: they have a throughput of their own for it.
- */
+/* Adds the environment's light along n paths that leave the scene. in_parts: they have a throughput of their own for
+ * it. */
 static void add_sky(Stream *stream, const Paths *paths, bool in_parts, const int *order, int n) {
     const PathContext *context = stream->context;
     LightRows *sky = &stream->chunk.light_samples[LIGHTS_SKY];

@@ -12,13 +12,13 @@
 enum {
     STREAM_TILE = 16, /* pixels a side */
     STREAM_PIXELS = STREAM_TILE * STREAM_TILE,
-    STREAM_SAMPLES = 16, /* of a pixel at once, at most */
+    STREAM_SAMPLES = 16, /* of a pixel at a time, at most */
 };
 
 /* One thread's work on a tile. */
 typedef struct Stream {
     const PathContext *context;
-    Paths paths[2]; /* of this depth and of the next, by turns */
+    Paths paths[2]; /* of this depth and of the next, alternately */
     float t[PATHS_CAPACITY], u[PATHS_CAPACITY], v[PATHS_CAPACITY]; /* their hits, as in HitRows */
     uint32_t mesh[PATHS_CAPACITY], triangle[PATHS_CAPACITY];
     PathRadiance radiance;
@@ -38,8 +38,8 @@ void stream_free(Stream *stream);
 /* Returns the stream's hits in the form that geometry_hits fills. */
 HitRows stream_hits(Stream *stream);
 
-/* Follows the first n paths of paths[0], whose hits are filled, to their ends. A path whose mesh is STREAM_DONE has ended
- * already. */
+/* Follows the first n paths of paths[0], whose hits are filled, to their ends. A path whose mesh is STREAM_DONE has
+ * ended already. */
 #define STREAM_DONE (GEOMETRY_NOTHING - 1)
 void stream_follow(Stream *stream, int n);
 

@@ -75,8 +75,8 @@ static void put_mirrored(Stream *stream, int k, const Mirrored *mirrored) {
     stream->mesh[k] = mirrored->hit.mesh, stream->triangle[k] = mirrored->hit.triangle;
 }
 
-/* Adds the floor if camera ray k meets it before all else, else returns false. The path then ends, or continues along the
- * mirror. */
+/* Adds the floor if camera ray k meets it before all else, else returns false. The path then ends, or continues along
+ * the mirror. */
 static bool add_floor(TracedPicture *picture, Stream *stream, const LensPart *part, Caught *film, int k,
                       float sum[4]) {
     uint32_t id = stream->paths[0].id[k], pixel = id >> PATHS_SAMPLES_LOG2;
@@ -98,8 +98,8 @@ static bool add_floor(TracedPicture *picture, Stream *stream, const LensPart *pa
     return true;
 }
 
-/* Starts the sums of n paths with what camera rays meet before any surface: the floor or the background. The stream adds
- * the environment as a background. */
+/* Starts the sums of n paths with what camera rays meet before any surface: the floor or the background. The stream
+ * adds the environment as a background. */
 static void enter(TracedPicture *picture, Stream *stream, const LensPart *part, Caught *caught, int n) {
     bool sky = picture->desc.background == WEFT_BACKGROUND_ENVIRONMENT;
     for (int k = 0; k < n; k++) {

@@ -5,8 +5,8 @@
 #include "shading/stack/frame.h"
 
 /* Steps out from a coordinate p along a normal's n, by units in the last place, or by a fixed length near the world's
- * origin. Carsten Waechter, Nikolaus Binder, "A Fast and Robust Method for Avoiding Self-Intersection", Ray Tracing Gems,
- * 2019. */
+ * origin. Carsten Waechter, Nikolaus Binder, "A Fast and Robust Method for Avoiding Self-Intersection", Ray Tracing
+ * Gems, 2019. */
 FN float step_out(float p, float n) {
     const float near_origin = 1.0f / 32.0f, length = 1.0f / 65536.0f, units = 256.0f;
     int32_t bits, step = (int32_t)(units * n);
@@ -79,9 +79,9 @@ FN Dir raise(Dir p, Dir corner, Dir n, float weight) {
 }
 
 /* Returns the mean of p's projections onto the tangent planes of the corners, outward only, on the side of the corner
- * normals times `side`. It lies near the smooth surface that these normals describe, so that the triangles' edges cast no
- * shadow on it. share: 1, or 0 to leave p as it is. Johannes Hanika, "Hacking the Shadow Terminator", Ray Tracing Gems II,
- * 2021. */
+ * normals times `side`. It lies near the smooth surface that these normals describe, so that the triangles' edges cast
+ * no shadow on it. share: 1, or 0 to leave p as it is. Johannes Hanika, "Hacking the Shadow Terminator", Ray Tracing
+ * Gems II, 2021. */
 FN Dir lift(const Chunk *chunk, size_t k, Dir p, float side, float share) {
     float u = chunk->u[k] * share, v = chunk->v[k] * share, w = (1.0f - chunk->u[k] - chunk->v[k]) * share;
     Dir a = raise(p, ROW_DIR(chunk->corner[0], k), dir_scale(ROW_DIR(chunk->corner_normal[0], k), side), w);

@@ -1,4 +1,5 @@
-/* vertex_inputs.c - a material's inputs at the vertices of a chunk, from its numbers, its textures and vertex colours */
+/* vertex_inputs.c - a material's inputs at the vertices of a chunk, from its numbers, its textures and vertex
+ * colours */
 #include "trace/chunk.h"
 
 #include "shading/dialect/loop.h"
