@@ -131,7 +131,7 @@ static void one_walk(const Tubes *m, const double wo[3], uint64_t number, int ha
         for (int c = 0; c < 3; c++) p[c] += step * walker.d[c];
         if (!fibre_at(m, p, medium.axis)) continue;
         if (unit_double(stream_next(&walker.random)) >= walk_sigma(&medium, walker.d)) continue;
-        walk_turn(&medium, &walker);
+        walk_scatter(&medium, &walker);
         met++;
     }
     if (met == FLAKES_MOST) return;

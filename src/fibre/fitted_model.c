@@ -7,7 +7,7 @@
 
 #include "base/memory.h"
 
-/* A local number: a feature's factor in one of the parts, or an exponent p. */
+/* Parts of the formula: A, h, g and k of multiple scattering, the exponents p, and q, v, u and k' of colour. */
 typedef enum ModelPart {
     PART_A,
     PART_H,
@@ -21,19 +21,20 @@ typedef enum ModelPart {
     PARTS
 } ModelPart;
 
-/* Numbers of one part and kind of feature, which depend on the material by polynomials: `degree[b][c]` is how
- * many powers of t go with the power b of the tilt's measure and the power c of l. */
 enum { POWERS = 3 };
+
 typedef enum StageKind {
     UPRIGHT,
-    THIN, /* multiplied by what vanishes from alpha_thin up, so that common cloth need not pay for fine fibres
-           */
-    NAP   /* features that vanish where fibres stand upright */
+    THIN, /* times thin_of(t), 0 from alpha_thin up, so that only fine fibres pay for these numbers */
+    NAP   /* features that are 0 for upright fibres */
 } StageKind;
+
+/* Numbers of one part and kind of feature. They are polynomials of the material: `degree[b][c]` powers of t go with the
+ * power b of tilt_of and the power c of l. */
 typedef struct CoefficientGroup {
     ModelPart part;
     StageKind kind;
-    int first; /* of PART_P: which of the logarithms the first number multiplies */
+    int first; /* the logarithm that the first number of PART_P multiplies */
     int count;
     int degree[POWERS][POWERS];
 } CoefficientGroup;
@@ -71,6 +72,7 @@ enum {
     LOCALS_MAX = 128
 };
 
+/* Returns the stage that fits a group's coefficients of l^c. */
 static FibreStage stage_of(const CoefficientGroup *g, int c) {
     if (g->part >= PART_Q) return g->kind == THIN ? FIBRE_THIN_COLOR : FIBRE_COLOR;
     if (g->kind == NAP) return FIBRE_NAP;
@@ -78,7 +80,7 @@ static FibreStage stage_of(const CoefficientGroup *g, int c) {
     return g->kind == THIN ? FIBRE_THIN : FIBRE_WHITE;
 }
 
-/* ---- features: the same as shading/media/fibre_model.h, in double precision, but for its `hold` ---- */
+/* ---- features: those of shading/media/fibre_model.h in double precision, without its `hold` ---- */
 
 static const double alpha_low = 0.045, alpha_thin = 0.19, alpha_nap = 0.38;
 static double t_of(double alpha) { return 1.0 - 2.0 * log(alpha) / log(alpha_low); }
@@ -86,14 +88,15 @@ static double thin_of(double t) { return fmax(t_of(alpha_thin) - t, 0.0); }
 static double l_of(double depth) { return log(depth) / log(4.0); }
 static double tilt_of(double tilt) { return 2.0 * sin(tilt) * sin(tilt); }
 
-/* u in [-1, 1] of mu: a power, from the square root at alpha 1 to the sixth root below 0.11, straight at the
- * horizon. */
+/* Returns u in [-1, 1] of mu: a power, from the square root at alpha 1 to the sixth root below 0.11, with a finite
+ * slope at the horizon. */
 static double u_of(double mu, double t) {
     const double c = 1e-3;
     double q = 0.26 + 0.24 * fmax(t, -0.4);
     return 2.0 * (pow(mu + c, q) - pow(c, q)) / (pow(1.0 + c, q) - pow(c, q)) - 1.0;
 }
 
+/* The features of a direction. */
 typedef struct Side {
     double upright[FEATURES], nap[NAPS];
 } Side;
@@ -133,7 +136,7 @@ static void features(const SolvedSlab *reference, int k, Side *side) {
     memcpy(n, list, sizeof list);
 }
 
-/* The logarithms that the exponents p multiply; the last four vanish where fibres stand upright. */
+/* Computes the logarithms that the exponents p multiply; the last four are 0 for upright fibres. */
 enum { LOGS = 7 };
 static void logarithms(const SolvedSlab *reference, int pair, double *l) {
     double a = reference->mu[reference->i[pair]], b = reference->mu[reference->j[pair]];
@@ -151,13 +154,14 @@ static void logarithms(const SolvedSlab *reference, int pair, double *l) {
 
 /* ---- values ---- */
 
-/* Returns the place of a group's first number in theta. The forms of scattering and of colour count
+/* Returns the index of a group's first number in theta. The forms of scattering and of colour are numbered
  * separately. */
 static int first_local(int group) {
     int first = 0;
     for (int k = group >= SCATTER_GROUPS ? SCATTER_GROUPS : 0; k < group; k++) first += groups[k].count;
     return first;
 }
+/* Returns the length of theta. */
 static int locals_of(bool color) {
     int last = (color ? GROUPS : SCATTER_GROUPS) - 1;
     return first_local(last) + groups[last].count;
@@ -167,7 +171,7 @@ static const double *features_of(const Side *side, int group) {
     return groups[group].kind == NAP ? side->nap : side->upright;
 }
 
-/* The sums of features that make the parts of one direction. */
+/* Returns the sum of features that makes a part of one direction. */
 static double part_value(const Side *side, ModelPart part, const double *theta) {
     double sum = 0.0;
     for (int k = 0; k < GROUPS; k++) {
@@ -178,7 +182,7 @@ static double part_value(const Side *side, ModelPart part, const double *theta) 
     return sum;
 }
 
-/* The derivatives by a part's numbers of sign (value_i value_j): sign (f_i value_j + f_j value_i). */
+/* Computes the derivatives of sign (value_i value_j) by a part's numbers: sign (f_i value_j + f_j value_i). */
 static void part_slope(ModelPart part, double sign, const Side *i, const Side *j, double value_i,
                        double value_j, double *slope) {
     for (int k = 0; k < GROUPS; k++) {
@@ -189,7 +193,7 @@ static void part_slope(ModelPart part, double sign, const Side *i, const Side *j
     }
 }
 
-/* Every direction's features and parts. */
+/* The features and parts of all directions of a slab. */
 typedef struct Sides {
     Side *side;
     double *part[PARTS];
@@ -214,6 +218,7 @@ static void sides_free(Sides *sides) {
     free(sides->part[0]);
 }
 
+/* Evaluates log M and its derivatives (FitForm). */
 static void scatter(void *user, int slab, const SolvedSlab *reference, const double *theta, double *log_f,
                     double *slope) {
     (void)user;
@@ -245,9 +250,10 @@ static void scatter(void *user, int slab, const SolvedSlab *reference, const dou
     sides_free(&s);
 }
 
-/* The law of shading/dialect/tint.h, with its bounds: q is 0.999 at the most, and light that met two flakes or more
- * keeps no more than w^2. */
 static const double q_most = 6.9; /* log(0.999 / 0.001) */
+
+/* Evaluates log M(w) and its derivatives (FitForm) as shading/dialect/tint.h does, with its bounds: q is 0.999 at most, and
+ * multiple scattering is at most w^2 of that of white fibres. */
 static void tint(void *user, int slab, const SolvedSlab *reference, const double *theta, double *log_f,
                  double *slope) {
     (void)user;
@@ -256,7 +262,7 @@ static void tint(void *user, int slab, const SolvedSlab *reference, const double
     int n = locals_of(true);
     double w = reference->slab.albedo;
     if (sides_make(reference, theta, PART_Q, PART_C, &s)) {
-        double *r = s.part[PART_A], *r_slope = s.part[PART_H]; /* these parts are idle here */
+        double *r = s.part[PART_A], *r_slope = s.part[PART_H]; /* parts that are not used here */
         for (int k = 0; k < reference->sides; k++) {
             double q = 1.0 / (1.0 + exp(-fmin(fmax(s.part[PART_Q][k], -30.0), q_most)));
             r[k] = log1p(-q) - log1p(-w * q);
@@ -319,7 +325,7 @@ static double basis_of(const Coefficient *k, const SolvedSlab *reference) {
     return chebyshev * (is_thin ? thin : 1.0) * pow(s, k->b) * pow(l, k->c);
 }
 
-/* One stage's free coefficients are terms; those of earlier stages make what is fixed. */
+/* The form of one stage: its own coefficients are free terms, those of earlier stages are fixed. */
 typedef struct Staged {
     FitForm form;
     FitTerm **terms;
@@ -384,8 +390,7 @@ static bool staged_make(FibreStage stage, const SolvedSet *set, const Coefficien
     return true;
 }
 
-/* Returns the start of the search: a form that is roughly right, with no part at zero, since a product of two
- * zeros has no slope. */
+/* Returns the start of a coefficient: roughly right, with no part at 0, since a product of two zeros has no slope. */
 static double start_of(const Coefficient *k) {
     static const double exponent[] = {2.6, -2.1, 0.0, -0.2};
     if (k->b || k->c || groups[k->group].kind != UPRIGHT) return 0.0;
@@ -405,7 +410,7 @@ static double start_of(const Coefficient *k) {
     return 0.0;
 }
 
-/* alphas from low to 1, even in their logarithms. */
+/* Fills n alphas from low to 1, uniform in their logarithms. */
 static void alphas_fill(double low, int n, double *alpha) {
     for (int k = 0; k < n; k++) alpha[k] = exp(log(low) * (1.0 - k / (n - 1.0)));
 }
@@ -495,22 +500,22 @@ void fibre_model_free(FibreModelFit *model) {
 
 static const char *const part_letters[PARTS] = {"a", "h", "g", "k", "p", "q", "v", "u", "c"};
 
-/* The name of a group's number; those of thin fibres begin with a t, those of nap with an n. */
+/* Gives the name of a group's number. Names begin with a t for thin fibres, and with an n for nap. */
 static void name_of(int group, int number, char name[16]) {
     const CoefficientGroup *g = &groups[group];
     static const char *const kinds[] = {"", "t", "n"};
     snprintf(name, 16, "%s%s%d", kinds[g->kind], part_letters[g->part], number);
 }
 
-/* exp and log of the form become exp2 and log2: exponents are scaled by log2 e, and factors of products by
- * its root. The p, which multiply logarithms, stay, and q belongs to a logistic of its own. */
+/* Returns the factor with which exp and log of the form become exp2 and log2: log2 e for exponents, its root for
+ * factors of products. The p, which multiply logarithms, stay; q is the argument of a logistic. */
 static double scale_of(ModelPart part) {
     const double log2_e = 1.44269504088896340736;
     if (part == PART_P) return 1.0;
     return part == PART_A || part == PART_Q ? log2_e : sqrt(log2_e);
 }
 
-/* sum_a k_a T_a(t) as sum_a m_a t^a: T_0 = 1, T_1 = t, T_{a+1} = 2 t T_a - T_{a-1}. */
+/* Converts sum_a k_a T_a(t) to sum_a m_a t^a: T_0 = 1, T_1 = t, T_{a+1} = 2 t T_a - T_{a-1}. */
 static void monomials(int n, const double *chebyshev, double power[FEATURES]) {
     double before[FEATURES] = {1.0}, now[FEATURES] = {0.0, 1.0};
     memset(power, 0, FEATURES * sizeof *power);
@@ -525,7 +530,7 @@ static void monomials(int n, const double *chebyshev, double power[FEATURES]) {
     }
 }
 
-/* Horner's rule in x. */
+/* Writes a polynomial in x by Horner's rule. */
 static void write_polynomial(FILE *file, int n, const char *x, const double *chebyshev, double scale) {
     double power[FEATURES];
     monomials(n, chebyshev, power);
@@ -537,7 +542,7 @@ static void write_polynomial(FILE *file, int n, const char *x, const double *che
                 k ? ")" : "");
 }
 
-/* Returns the place of a number's first coefficient for the powers b and c. */
+/* Returns the index of a number's first coefficient for the powers b and c. */
 static int block_of(int group, int number, int b, int c) {
     int n = 0, last = group * 10000 + number * 100 + b * 10 + c;
     for (int g = 0; g < GROUPS; g++)
@@ -550,8 +555,8 @@ static int block_of(int group, int number, int b, int c) {
     return n;
 }
 
-/* Converts the sums from T_q(u) to powers of u. Each factor is a polynomial in t, l and s, whose coefficients
- * are converted one by one. Returns false if memory is short. */
+/* Converts the sums from T_q(u) to powers of u. Each factor is a polynomial in t, l and s, whose coefficients are
+ * converted one by one. Returns false if memory is short. */
 static bool powers_of_u(const FibreModelFit *model, FibreModelFit *out) {
     *out = *model;
     out->coefficients = alloc_array((size_t)model->count, sizeof(double));
@@ -571,7 +576,7 @@ static bool powers_of_u(const FibreModelFit *model, FibreModelFit *out) {
     return true;
 }
 
-/* One number as a polynomial in t, l and s, from the power `first` of l on: a sum of products. */
+/* Writes a number as a polynomial in t, l and s, with the powers first .. last of l: a sum of products. */
 static void write_number(FILE *file, const FibreModelFit *model, int group, int number, int first, int last) {
     static const char *const s[POWERS] = {"", "s * ", "s * s * "}, *const l[POWERS] = {"", "l * ",
                                                                                        "l * l * "};
@@ -594,10 +599,10 @@ static void write_kind(FILE *file, const FibreModelFit *model, StageKind kind, i
     char name[16];
     for (int g = 0; g < GROUPS; g++)
         for (int q = 0; groups[g].kind == kind && q < groups[g].count; q++) {
-            int there = 0;
+            int terms = 0;
             for (int b = 0; b < POWERS; b++)
-                for (int c = first; c <= last; c++) there += groups[g].degree[b][c];
-            if (!there) continue;
+                for (int c = first; c <= last; c++) terms += groups[g].degree[b][c];
+            if (!terms) continue;
             name_of(g, q, name);
             fprintf(file, "%*sm.%s = ", first || kind != UPRIGHT ? 8 : 4, "", name);
             if (first) fprintf(file, "m.%s + ", name);
@@ -609,7 +614,7 @@ static void write_kind(FILE *file, const FibreModelFit *model, StageKind kind, i
 
 bool fibre_model_write(const FibreModelFit *fit, const char *command, FILE *file) {
     char name[16];
-    FibreModelFit turned, *model = &turned;
+    FibreModelFit converted, *model = &converted;
     if (!powers_of_u(fit, model)) return false;
     fprintf(file, "/* %s\n", command);
     fputs(" *\n * Numbers of shading/media/fibre_model.h for a material, fitted to the solved slab: "

@@ -1,14 +1,13 @@
-/* fitted_model.h - the closed forms of light scattered more than once that shading/media/fibre_model.h evaluates, and
- * their fit
+/* fitted_model.h - fit of the polynomials of multiple scattering that shading/media/fibre_model.h evaluates
  *
  *   M = exp(A_o + A_i + h_o h_i - g_o g_i - k_o k_i (wo . wi - nu_o nu_i) - sum_b p_b L_b(o, i))       [1/sr]
  *   M(w) = w^2 M(1) r_o r_i exp((1 - w) (v_o v_i - u_o u_i - k'_o k'_i (wo . wi - nu_o nu_i))),
  *   r = (1 - q) / (1 - w q)
  *
- * A, h, g, k, q, v, u, k' are sums of features of a direction (shading/media/fibre_model.h) times numbers that
- * are polynomials in t, the logarithm of alpha, in l, that of the density, and in the sine of the tilt. They
- * are found in stages, each on top of the last and without touching it: white of
- * alpha 0.19 and up, white of thinner fibres, density, nap, colour, colour of thinner fibres. */
+ * A, h, g, k, q, v, u, k' are sums of features of a direction (shading/media/fibre_model.h) times numbers, which are
+ * polynomials in t, the logarithm of alpha, in l, the logarithm of density, and in the squared sine of the tilt. They
+ * are fitted in stages, each of which adds to the last without changing it: white of alpha 0.19 and up, white of
+ * thinner fibres, density, nap, colour, colour of thinner fibres. */
 #ifndef WEFT_FIBRE_FITTED_MODEL_H
 #define WEFT_FIBRE_FITTED_MODEL_H
 
@@ -30,16 +29,16 @@ typedef enum FibreStage {
 typedef struct FibreModelFit {
     int count;
     double *coefficients;
-    FitError errors[FIBRE_STAGES]; /* over what each was fitted to: mean of means, largest of the rest */
+    FitError errors[FIBRE_STAGES]; /* over the slabs of the fit: mean of the means, largest of the others */
 } FibreModelFit;
 
-/* Makes the reference and fits stage by stage; minutes. False where memory is short or progress says so. */
+/* Solves the slabs and fits stage by stage, which takes minutes. Returns false if memory is short or progress stops
+ * it. */
 bool fibre_model_fit(FibreStage last, int rounds, int threads, SolveProgress progress, void *user,
                      FibreModelFit *out);
 void fibre_model_free(FibreModelFit *model);
 
-/* The generated part of the catalogue: shading/tables/fibre_model.h, in the dialect. False where memory is
- * short. */
+/* Writes shading/tables/fibre_model.h, in the dialect. Returns false if memory is short. */
 bool fibre_model_write(const FibreModelFit *model, const char *command, FILE *file);
 
 /* Returns the number of coefficients that the stage adds. */

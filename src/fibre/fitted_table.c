@@ -8,15 +8,22 @@
 #include "image/half.h"
 #include "shading/media/fibre_model.h"
 
-/* Cosines and angles of a slab; slabs in a row of the table and in the middles between rows. */
-enum { PARTS = 4, RINGS = 56, SPOKES = 5, CORNERS = 4 };
+enum {
+    PARTS = 4,   /* A, h, g, k */
+    RINGS = 56,  /* cosines of a slab */
+    SPOKES = 5,  /* angles between azimuths */
+    CORNERS = 4, /* nodes around a point of the table */
+};
 
-/* The base of M and its power, as shading/lobes/fibre_table.h has them. */
+/* Returns the base of a power in M, as shading/lobes/fibre_table.h has it. */
 static double base_of(double alpha, double sum) { return sum + 0.2 * alpha; }
+
+/* Returns its exponent. */
 static double power_of(double alpha) { return 1.4 - 2.5 * log(alpha) / log(2.0); }
 
-/* Added to a cosine, whose root then gives its place among the columns. */
-static const double horizon = 1e-3;
+static const double horizon = 1e-3; /* added to a cosine before its root is taken */
+
+/* Returns the column of a cosine, in [0, 1]. */
 static double column_of(double mu) {
     return ((sqrt)(mu + horizon) - (sqrt)(horizon)) / ((sqrt)(1.0 + horizon) - (sqrt)(horizon));
 }
@@ -25,12 +32,12 @@ static double mu_of(double column) {
     return fmin(fmax(root * root - horizon, 0.0), 1.0);
 }
 
-/* alpha at y in [0, 1] of the rows. */
+/* Returns alpha at the row y in [0, 1]. */
 static double alpha_at(const FibreTableDesc *desc, double y) {
     return desc->low * (pow)(desc->high / desc->low, y);
 }
 
-/* The four nodes about a place in units of nodes, and their weights. */
+/* Gives the four nodes around a point in units of nodes, and their bilinear weights. */
 static void corners(const FibreTableDesc *desc, double x, double y, int node[CORNERS],
                     double weight[CORNERS]) {
     int column = (int)fmin(fmax((floor)(x), 0.0), desc->columns - 2),
@@ -43,7 +50,8 @@ static void corners(const FibreTableDesc *desc, double x, double y, int node[COR
     }
 }
 
-/* theta is the four functions, in exponents of 2, at every side of a slab. */
+/* Evaluates log M and its derivatives (FitForm). theta contains the four functions, in exponents of 2, at every side of
+ * a slab. */
 static void value(void *user, int slab, const SolvedSlab *t, const double *theta, double *log_f,
                   double *slope) {
     static const double ln2 = 0.693147180559945309;
@@ -87,7 +95,7 @@ static void start(const FibreTableDesc *desc, double *coefficients) {
     }
 }
 
-/* Which nodes the sides of each slab lie between: term[slab][side][part][corner]. */
+/* Fills the terms of interpolation between the nodes around each side: term[slab][side][part][corner]. */
 static void place(const SolvedSet *set, const FibreTableDesc *desc, FitTerm *term) {
     for (int slab = 0; slab < set->count; slab++) {
         const SolvedSlab *t = &set->slabs[slab];

@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-/* P_n(z) by (k + 1) P_{k+1} = (2 k + 1) z P_k - k P_{k-1}, its roots by Newton from
+/* Finds the roots of P_n(z) by Newton's method. (k + 1) P_{k+1} = (2 k + 1) z P_k - k P_{k-1}, the start is
  * z = cos(pi (j + 3/4) / (n + 1/2)),  P_n' = n (z P_n - P_{n-1}) / (z^2 - 1),  w = 2 / ((1 - z^2) P_n'^2).
  * Milton Abramowitz, Irene Stegun, "Handbook of Mathematical Functions", 1964, 22.7.10, 22.8.5, 25.4.29. */
 void gauss_legendre(int n, double *x, double *w) {

@@ -10,10 +10,9 @@
 
 static double extinction(double s, double mu) { return sqrt(1.0 - mu * mu + s * s * mu * mu); }
 
-/* The azimuthal modes of the phase function in closed form. With h not normalised, q = |wi + wo|^2 and
+/* Returns G_n, an azimuthal mode of the phase function, in closed form. With h not normalised, q = |wi + wo|^2 and
  * m = mu_i + mu_o, D = (s^3 / pi) (q / (s^2 q + (1 - s^2) m^2))^2. Let P = cos^2((ti + to) / 2) and
- * M = cos^2((ti - to) / 2), of the polar angles: m^2 = 4 P M, q = 4 (M cos^2(phi / 2) + P sin^2(phi / 2)),
- * and
+ * M = cos^2((ti - to) / 2), of the polar angles: m^2 = 4 P M, q = 4 (M cos^2(phi / 2) + P sin^2(phi / 2)), and
  *
  *   G_n = mean over phi of (q / (s^2 q + k m^2))^2 cos(n phi),   k = 1 - s^2.
  *
@@ -32,9 +31,9 @@ static double mode(double s, int n, double P, double M) {
     return pow(-r, n) * k * h / (4.0 * s * s * s * s * w * w * w) * (k * (A + n * S) - 8.0 * w * w);
 }
 
-/* The phase function of a flake from one upward direction to another (K_r), and from an upward to a downward
- * one, which is named by its antipode (K_t): K_r = (s^3 / 2) G_n(P, M); K_t has P = sin^2((ti - to) / 2), M =
- * sin^2((ti + to) / 2), and (-1)^n for the azimuth of the antipode. */
+/* Modes of a flake's phase function: up (K_r) from an upward direction to another, and down (K_t) from an upward to a
+ * downward one, which is named by its antipode. K_r = (s^3 / 2) G_n(P, M). K_t is the same with P = sin^2((ti - to) /
+ * 2) and M = sin^2((ti + to) / 2), times (-1)^n for the azimuth of the antipode. */
 typedef struct Kernels {
     double up, down;
 } Kernels;
@@ -42,9 +41,9 @@ typedef struct Kernels {
 static Kernels kernels(double s, int n, double mu_i, double mu_o) {
     double si = sqrt(1.0 - mu_i * mu_i), so = sqrt(1.0 - mu_o * mu_o), c = mu_i * mu_o, sine = si * so;
     /* cos^2(x / 2) = (1 + cos x) / 2; differences of squares where that cancels */
-    double gap = mu_i - mu_o, turn = si - so;
-    double P_up = 0.25 * ((mu_i + mu_o) * (mu_i + mu_o) + turn * turn), M_up = 0.5 * (1.0 + c + sine);
-    double P_down = 0.25 * (gap * gap + turn * turn), M_down = 0.5 * (1.0 - c + sine);
+    double gap = mu_i - mu_o, gap_sine = si - so;
+    double P_up = 0.25 * ((mu_i + mu_o) * (mu_i + mu_o) + gap_sine * gap_sine), M_up = 0.5 * (1.0 + c + sine);
+    double P_down = 0.25 * (gap * gap + gap_sine * gap_sine), M_down = 0.5 * (1.0 - c + sine);
     double scale = 0.5 * s * s * s;
     return (Kernels){scale * mode(s, n, P_up, M_up), (n & 1 ? -scale : scale) * mode(s, n, P_down, M_down)};
 }
@@ -64,7 +63,7 @@ double slab_single_mode(const Slab *slab, int m, double mu_i, double mu_o) {
     return slab->albedo * kernels(s, m, mu_i, mu_o).up * -expm1(-slab->depth * sum / (mu_i * mu_o)) / sum;
 }
 
-/* Nodes mu = x^2, x by Gauss-Legendre, crowd at the horizon; c = 2 x w mu. */
+/* Fills nodes mu = x^2, x by Gauss-Legendre, which are dense at the horizon, and c = 2 x w mu. */
 static void nodes_make(int nodes, double *mu, double *c) {
     gauss_legendre(nodes, mu, c);
     for (int j = 0; j < nodes; j++) {
@@ -74,10 +73,10 @@ static void nodes_make(int nodes, double *mu, double *c) {
     }
 }
 
-/* sum over both hemispheres of K w = sigma, but for the part of the forward peak that falls between nodes.
- * What is scattered there keeps its direction and is no event: it is left out of sigma. Otherwise light would
- * be lost or made, and a slab of white fibres doubled thirty times shows it. Returns the largest defect
- * found. */
+/* Fills lambda so that the quadrature conserves light, and returns the largest relative defect that it had. The sum of
+ * K w over both hemispheres is sigma, except for the part of the forward peak that falls between nodes. Light scattered
+ * there keeps its direction and therefore counts as not scattered: sigma is without it. Otherwise a slab of white
+ * fibres, doubled thirty times, would visibly lose or gain light. */
 static double extinctions(double s, double albedo, int nodes, int total, const double *mu, const double *c,
                           double *lambda) {
     double worst = 0.0;

@@ -10,8 +10,7 @@
  *   D(h) = s^3 / (pi (s^2 (1 - h_z^2) + h_z^2)^2),  phase p = D(h) / (4 sigma),
  *   f = (1 / 2 pi) sum_m (2 - [m = 0]) r_m(mu_i, mu_o) cos(m phi).
  *
- * Each r_m is a problem in mu alone, solved by doubling.h. Angles phi are between the azimuths of wo and wi.
- * / */
+ * Each r_m is a problem in mu alone, solved by doubling.h. Angles phi are between the azimuths of wo and wi. */
 #ifndef WEFT_FIBRE_SLAB_H
 #define WEFT_FIBRE_SLAB_H
 
@@ -20,13 +19,13 @@
 #include "fibre/doubling.h"
 
 typedef struct Slab {
-    double alpha;  /* square root of the flakes' cross-section along the fibre, (0, 1] */
+    double alpha;  /* square root of the flakes' cross-section along the fibre over that across it, (0, 1] */
     double albedo; /* of a flake, [0, 1] */
     double depth;  /* density times thickness, > 0 */
 } Slab;
 
-/* The resolution: nodes of the quadrature over mu, and halvings: the first layer is depth / 2^halvings
- * thick. */
+/* The resolution: nodes of the quadrature over mu, and halvings; the first layer has the thickness depth /
+ * 2^halvings. */
 typedef struct SlabEffort {
     int nodes, halvings;
 } SlabEffort;
@@ -34,17 +33,17 @@ typedef struct SlabEffort {
 /* Returns the resolution that gives an albedo to 1e-4 at that alpha. */
 SlabEffort slab_effort(double alpha);
 
-/* Mode m of the BRDF between `count` cosines in (0, 1], single scattering included, at depths depth / 2^(kept
- * - 1)
- * .. depth, kept >= 1; for m = 0 the integrals are R and T. defect (may be NULL): the largest relative error
- * with which the quadrature conserves light before that is repaired. False where memory is short. */
+/* Solves mode m of the BRDF between `count` cosines in (0, 1], with single scattering, at the depths
+ * depth / 2^(kept - 1) .. depth, kept >= 1. For m = 0 the integrals are R and T. *defect (may be NULL) becomes the
+ * largest relative error with which the quadrature conserves light before its correction. Returns false if memory is
+ * short. */
 bool slab_mode(const Slab *slab, SlabEffort effort, int m, int kept, int count, const double *mu,
                const Layered *out, double *defect);
 
-/* Light scattered once, exact: f in 1/sr. */
+/* Returns f of single scattering, exact, 1/sr. */
 double slab_single(const Slab *slab, double mu_i, double mu_o, double cos_phi);
 
-/* Its mode m, exact too. */
+/* Returns mode m of single scattering, exact. */
 double slab_single_mode(const Slab *slab, int m, double mu_i, double mu_o);
 
 #endif

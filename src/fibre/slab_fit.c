@@ -8,20 +8,21 @@
 #include "base/memory.h"
 #include "base/thread.h"
 
-/* One pass over the slabs: cost, and with slopes its quadratic model. Every slab has its own place, and
- * places are summed in order, so that threads change nothing. */
+/* A pass over the slabs: cost, and with slopes its quadratic model. Every slab has its own result, and results are
+ * summed in order, so that they do not depend on threads. */
 typedef struct FitPass {
     const FitForm *form;
     const SolvedSet *set;
     FitEffort effort;
     const double *coefficients;
-    double softness; /* errors below this part of f count by their square */
-    bool logs;       /* compare logarithms: for a start far away */
+    double softness; /* errors below this fraction of f count by their square */
+    bool logs;       /* compare logarithms, which converges from a distant start */
     bool slopes;
     double *cost, *gradient, *curvature; /* [slab], [slab][locals], [slab][locals^2] */
     bool failed;
 } FitPass;
 
+/* Computes the local numbers of a slab. */
 static void theta_of(const FitForm *form, int slab, const double *coefficients, double *theta) {
     memcpy(theta, form->fixed[slab], (size_t)form->locals * sizeof *theta);
     for (int k = 0; k < form->term_counts[slab]; k++) {
@@ -30,12 +31,12 @@ static void theta_of(const FitForm *form, int slab, const double *coefficients, 
     }
 }
 
-/* V, what a direction counts for in the sum. */
+/* Returns V, the weight of a direction in the sum. */
 static double side_weight(const SolvedSlab *t, int k, double grazing) {
     return 0.5 * (t->w[k] + grazing / t->sides);
 }
 
-/* curvature += S^T S and gradient += S^T r, for rows of slopes that are weighed already. */
+/* Adds S^T S to the curvature and S^T r to the gradient, for rows of weighted slopes. */
 static bool add_rows(int rows, int n, const double *slope, const double *residual, double *gradient,
                      double *curvature) {
     Matrix rows_of = {slope, n, 1}, columns_of = {slope, 1, n};
@@ -43,8 +44,8 @@ static bool add_rows(int rows, int n, const double *slope, const double *residua
            matrix_product(n, 1, rows, 1.0, columns_of, (Matrix){residual, 1, rows}, 1.0, gradient, n);
 }
 
-/* cost = sum over directions of V (x + worst x^2 / 2 + 2 albedo sqrt(dR^2 + 1e-8)), x = sum over pairs of row
- * sqrt(r^2 + e^2) / R: the direction's error. */
+/* Computes the cost of a slab, sum over directions of V (x + worst x^2 / 2 + 2 albedo sqrt(dR^2 + 1e-8)), where x, the
+ * error of a direction, is the weighted sum over its pairs of sqrt(r^2 + e^2) / R. */
 static void slab_pass(void *user, int item, int thread) {
     (void)thread;
     FitPass *pass = user;
@@ -111,6 +112,7 @@ static void slab_pass(void *user, int item, int thread) {
     free(block);
 }
 
+/* Runs a pass; returns the cost of all slabs and of the coefficients' size. */
 static double pass_run(FitPass *pass, int threads) {
     double cost = 0.0;
     for (int k = 0; k < pass->form->coefficients; k++)
@@ -120,7 +122,8 @@ static double pass_run(FitPass *pass, int threads) {
     return cost;
 }
 
-/* From theta to coefficients: H = sum B^T H_slab B, g = sum B^T g_slab, and what their size counts. */
+/* Assembles the system of the coefficients from those of theta: H = sum B^T H_slab B, g = sum B^T g_slab, and the
+ * derivatives of their size. */
 static void assemble(const FitPass *pass, double *h, double *g) {
     const FitForm *form = pass->form;
     size_t n = (size_t)form->coefficients, m = (size_t)form->movings;
@@ -148,7 +151,7 @@ static void assemble(const FitPass *pass, double *h, double *g) {
     }
 }
 
-/* (H + damping diag H) step = -g. */
+/* Solves (H + damping diag H) step = -g; returns false if that is singular. */
 static bool solve(int n, const double *h, const double *g, double damping, double *work, double *step) {
     double most = 0.0;
     memcpy(work, h, (size_t)n * (size_t)n * sizeof *work);
@@ -160,8 +163,9 @@ static bool solve(int n, const double *h, const double *g, double damping, doubl
     return matrix_factor(n, work, n) && matrix_solve(n, work, n, 1, step, n);
 }
 
-/* Kenneth Levenberg, "A Method for the Solution of Certain Non-Linear Problems in Least Squares", 1944, on
- * weights that make least squares of least absolute error. The softness sinks as the fit settles. */
+/* Minimises the cost from `at`, by least squares with weights that make it least absolute error. The softness decreases
+ * from round to round. Returns false on failure or if progress stops it. Kenneth Levenberg, "A Method for the Solution
+ * of Certain Non-Linear Problems in Least Squares", 1944. */
 static bool descend(FitPass *pass, int threads, SolveProgress progress, void *user, double *at, double *h,
                     double *g, double *work, double *step) {
     int n = pass->form->coefficients, rounds = pass->effort.rounds;

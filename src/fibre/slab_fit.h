@@ -1,10 +1,10 @@
-/* slab_fit.h - a closed form made to agree with slabs: least absolute error by reweighted Gauss-Newton
+/* slab_fit.h - fit of a formula to solved slabs: least absolute error by reweighted Gauss-Newton
  *
- * A form has local numbers theta, which hold for one slab, and these are linear in the coefficients that are
- * sought: theta[q] = fixed[q] + sum of coefficients[column] * basis. The error of a slab is what is printed
- * everywhere, integral of |f - f_true| mu over R, for each direction; the albedo's own error is weighed in,
- * and heavily where the form would reflect more than 0.96 of what it receives, so that what it
- * does between the directions of the fit stays below 1. */
+ * A form has local numbers theta, valid for one slab, which are linear in the coefficients that are fitted: theta[q] =
+ * fixed[q] + sum of coefficients[column] * basis. The error of a slab is the integral of |f - f_true| mu over R for
+ * each direction, as FitError has it. The error of the albedo counts in addition. It counts a hundredfold if the form
+ * reflects more than 0.96 of the light and too much, so that its albedo between the directions of the fit stays below
+ * 1. */
 #ifndef WEFT_FIBRE_SLAB_FIT_H
 #define WEFT_FIBRE_SLAB_FIT_H
 
@@ -16,13 +16,14 @@ typedef struct FitTerm {
     double basis;
 } FitTerm;
 
+/* A formula with free coefficients. */
 typedef struct FitForm {
     int locals, coefficients;
     int movings; /* local numbers that have free coefficients */
     const int *moving;
     void *user;
-    /* log f of every pair of slab number `slab`, and where slope is not NULL its derivatives by theta,
-     * slope[pair * locals + q]. Called from several threads at once. */
+    /* Computes log f of every pair of slab number `slab`, and if slope is not NULL its derivatives by theta,
+     * slope[pair * locals + q]. Called from several threads at the same time. */
     void (*value)(void *user, int slab, const SolvedSlab *reference, const double *theta, double *log_f,
                   double *slope);
     const FitTerm *const *terms; /* for each slab, those of free coefficients */
@@ -30,16 +31,17 @@ typedef struct FitForm {
     const double *const *fixed; /* for each slab, [locals] */
 } FitForm;
 
+/* Rounds of a fit, and the weights of its cost. */
 typedef struct FitEffort {
     int rounds;
-    double albedo;  /* how much the error of R counts */
+    double albedo;  /* weight of the error of R */
     double grazing; /* added to the weight of every direction, so that the few at the horizon count */
-    double worst;   /* an error of 1 / worst counts for one and a half times its size */
-    double size; /* how much the squares of the coefficients count, so that what nothing asks for is small */
+    double worst;   /* an error of 1 / worst counts one and a half times */
+    double size;    /* weight of the coefficients' squares, so that unconstrained ones stay small */
 } FitEffort;
 
-/* coefficients come as the start and leave as the best found. False where memory is short or progress says
- * so. */
+/* Fits the coefficients, which contain the start and become the best found. Returns false if memory is short or
+ * progress stops it. */
 bool fit_run(const FitForm *form, const SolvedSet *set, FitEffort effort, int threads, SolveProgress progress,
              void *user, double *coefficients);
 

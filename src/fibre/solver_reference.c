@@ -12,6 +12,7 @@
 
 enum { MODES = 5 };
 
+/* The work of all threads. */
 typedef struct SolveWork {
     const SolvedGrid *grid;
     SolvedSet *set;
@@ -22,17 +23,18 @@ typedef struct SolveWork {
     bool failed;
 } SolveWork;
 
-/* The sides of all slabs of one tilt, and all pairs. */
+/* The sides and pairs that all slabs share. */
 typedef struct SlabLayout {
     int sides, pairs;
     double *mu, *w, *phi;
     int *i, *j;
-    double *share, *turn;
+    double *share, *delta_phi;
 } SlabLayout;
 
 static int runs_of(const SolvedGrid *g) { return g->alphas * g->albedos * (g->tilts ? g->tilts : 1); }
 
-static bool upright(const SolveWork *work, const SlabLayout *at, const Slab *slab, SolvedSlab *slabs) {
+/* Solves the slabs of all depths with upright fibres, mode by mode; f is without single scattering. */
+static bool solve_upright(const SolveWork *work, const SlabLayout *at, const Slab *slab, SolvedSlab *slabs) {
     int kept = work->grid->kept, n = at->sides;
     size_t cells = (size_t)n * (size_t)n;
     double *r = alloc_array((size_t)kept * (cells + (size_t)n), sizeof(double));
@@ -46,9 +48,9 @@ static bool upright(const SolveWork *work, const SlabLayout *at, const Slab *sla
             if (m == 0) memcpy(slabs[k].reflected, up + (size_t)k * (size_t)n, (size_t)n * sizeof *up);
             for (int p = 0; p < at->pairs; p++) {
                 size_t cell = (size_t)k * cells + (size_t)(at->i[p] * n + at->j[p]);
-                double once = slab_single_mode(&slabs[k].slab, m, at->mu[at->i[p]], at->mu[at->j[p]]);
+                double single = slab_single_mode(&slabs[k].slab, m, at->mu[at->i[p]], at->mu[at->j[p]]);
                 slabs[k].f[p] +=
-                    (m ? 2.0 : 1.0) * (r[cell] - once) * cos(m * at->turn[p]) / (2.0 * PI_DOUBLE);
+                    (m ? 2.0 : 1.0) * (r[cell] - single) * cos(m * at->delta_phi[p]) / (2.0 * PI_DOUBLE);
             }
         }
     }
@@ -56,8 +58,9 @@ static bool upright(const SolveWork *work, const SlabLayout *at, const Slab *sla
     return done;
 }
 
-static bool leaning(const SolveWork *work, const SlabLayout *at, const Slab *slab, double tilt,
-                    SolvedSlab *slabs) {
+/* Solves the slabs of all depths with tilted fibres; f is without single scattering. */
+static bool solve_tilted(const SolveWork *work, const SlabLayout *at, const Slab *slab, double tilt,
+                         SolvedSlab *slabs) {
     int kept = work->grid->kept, n = at->sides;
     size_t cells = (size_t)n * (size_t)n;
     double *same = alloc_array((size_t)kept * (2 * cells + (size_t)n), sizeof(double));
@@ -72,8 +75,8 @@ static bool leaning(const SolveWork *work, const SlabLayout *at, const Slab *sla
             for (int p = 0; p < at->pairs; p++) {
                 size_t cell = (size_t)k * cells + (size_t)(at->i[p] * n + at->j[p]);
                 Heading o = headings[at->j[p]];
-                o.phi += at->turn[p];
-                slabs[k].f[p] = (at->turn[p] < 0.0 ? across : same)[cell] -
+                o.phi += at->delta_phi[p];
+                slabs[k].f[p] = (at->delta_phi[p] < 0.0 ? across : same)[cell] -
                                 tilted_single(&slabs[k].slab, tilt, headings[at->i[p]], o);
             }
         }
@@ -96,18 +99,18 @@ static void run(void *user, int item, int thread) {
     if (work->failed) return;
     SolvedSlab *slabs = work->set->slabs + (size_t)item * (size_t)g->kept;
     Slab slab = slabs[g->kept - 1].slab;
-    bool done =
-        g->tilts ? leaning(work, job->at, &slab, slabs->tilt, slabs) : upright(work, job->at, &slab, slabs);
+    bool done = g->tilts ? solve_tilted(work, job->at, &slab, slabs->tilt, slabs)
+                         : solve_upright(work, job->at, &slab, slabs);
     int count = __atomic_add_fetch(&work->done, 1, __ATOMIC_RELAXED);
     if (!done || (work->progress && !work->progress(work->user, count, work->runs)))
         __atomic_store_n(&work->failed, true, __ATOMIC_RELAXED);
 }
 
-/* Directions and pairs, in memory that the set owns. */
+/* Makes directions and pairs in memory that the set owns. Returns false if that is short. */
 static bool layout_make(const SolvedGrid *g, SolvedSet *set, SlabLayout *at, double **rest) {
     bool lean = g->tilts > 0;
-    int sides = lean ? g->rings * g->spokes : g->rings, turns = lean ? 2 : g->spokes;
-    int pairs = sides * (sides + 1) / 2 * turns;
+    int sides = lean ? g->rings * g->spokes : g->rings, angles = lean ? 2 : g->spokes;
+    int pairs = sides * (sides + 1) / 2 * angles;
     size_t slabs = (size_t)set->count, tilts = lean ? (size_t)g->tilts : 1;
     size_t size = 5 * (size_t)sides + 2 * (size_t)pairs + tilts * (size_t)(sides + pairs) +
                   slabs * (size_t)(pairs + sides);
@@ -129,16 +132,16 @@ static bool layout_make(const SolvedGrid *g, SolvedSet *set, SlabLayout *at, dou
     int p = 0;
     for (int i = 0; i < sides; i++)
         for (int j = i; j < sides; j++)
-            for (int k = 0; k < turns; k++, p++) {
+            for (int k = 0; k < angles; k++, p++) {
                 at->i[p] = i;
                 at->j[p] = j;
-                at->share[p] = 1.0 / turns;
-                at->turn[p] = !lean ? PI_DOUBLE * (k + 0.5) / turns : k ? -2.0 * phi[j] : 0.0;
+                at->share[p] = 1.0 / angles;
+                at->delta_phi[p] = !lean ? PI_DOUBLE * (k + 0.5) / angles : k ? -2.0 * phi[j] : 0.0;
             }
     return true;
 }
 
-/* Each slab's own place in the set, and what it is. */
+/* Fills the slabs of the set but for their results. */
 static void slabs_fill(const SolvedGrid *g, SolvedSet *set, const SlabLayout *at, double *rest) {
     int tilts = g->tilts ? g->tilts : 1, n = 0;
     for (int q = 0; q < tilts; q++) {
@@ -151,15 +154,16 @@ static void slabs_fill(const SolvedGrid *g, SolvedSet *set, const SlabLayout *at
         for (int k = 0; k < at->pairs; k++) {
             int i = at->i[k], j = at->j[k];
             double r = sqrt((1.0 - at->mu[i] * at->mu[i]) * (1.0 - at->mu[j] * at->mu[j]));
-            x[k] = r * cos(at->phi[j] + at->turn[k] - at->phi[i]) + at->mu[i] * at->mu[j] - nu[i] * nu[j];
+            x[k] =
+                r * cos(at->phi[j] + at->delta_phi[k] - at->phi[i]) + at->mu[i] * at->mu[j] - nu[i] * nu[j];
         }
         for (int a = 0; a < g->alphas; a++)
             for (int b = 0; b < g->albedos; b++)
                 for (int k = 0; k < g->kept; k++, n++) {
                     Slab slab = {g->alpha[a], g->albedo[b], ldexp(g->depth, k + 1 - g->kept)};
                     set->slabs[n] = (SolvedSlab){
-                        slab,  tilt,  at->sides, at->pairs, at->mu,    at->phi, at->w, nu,
-                        at->i, at->j, at->turn,  x,         at->share, rest,    NULL,  rest + at->pairs};
+                        slab,  tilt,  at->sides,     at->pairs, at->mu,    at->phi, at->w, nu,
+                        at->i, at->j, at->delta_phi, x,         at->share, rest,    NULL,  rest + at->pairs};
                     rest += at->pairs + at->sides;
                 }
     }
@@ -195,7 +199,7 @@ void solved_pair(const SolvedSlab *reference, int pair, double wi[3], double wo[
     int i = reference->i[pair], j = reference->j[pair];
     double ri = sqrt(1.0 - reference->mu[i] * reference->mu[i]),
            ro = sqrt(1.0 - reference->mu[j] * reference->mu[j]);
-    double phi = reference->phi[j] + reference->turn[pair];
+    double phi = reference->phi[j] + reference->delta_phi[pair];
     wi[0] = ri * cos(reference->phi[i]), wi[1] = ri * sin(reference->phi[i]), wi[2] = reference->mu[i];
     wo[0] = ro * cos(phi), wo[1] = ro * sin(phi), wo[2] = reference->mu[j];
 }
@@ -234,6 +238,6 @@ bool solved_error(const SolvedSlab *t, const double *f, FitError *out) {
 }
 
 double solved_single_scatter(const SolvedSlab *t, int p) {
-    Heading i = {t->mu[t->i[p]], t->phi[t->i[p]]}, o = {t->mu[t->j[p]], t->phi[t->j[p]] + t->turn[p]};
+    Heading i = {t->mu[t->i[p]], t->phi[t->i[p]]}, o = {t->mu[t->j[p]], t->phi[t->j[p]] + t->delta_phi[p]};
     return tilted_single(&t->slab, t->tilt, i, o);
 }

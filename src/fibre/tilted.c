@@ -21,8 +21,8 @@ static TiltedVec vec(double tilt, double mu, double phi) {
 
 static double extinction(double s, double nu) { return sqrt(1.0 - (1.0 - s * s) * nu * nu); }
 
-/* D(a + b) / 4 with the half vector not normalised; 0 for opposite directions, where its limit depends on the
- * way there. sign = -1: b is the antipode's name. */
+/* Returns D(a + b) / 4 with the half vector not normalised; 0 for opposite directions, where the limit does not exist.
+ * sign = -1: b names its antipode. */
 static double flakes(double s, TiltedVec a, TiltedVec b, double sign) {
     double x = a.x + sign * b.x, y = a.y + sign * b.y, z = a.z + sign * b.z, m = a.nu + sign * b.nu;
     double q = x * x + y * y + z * z;
@@ -44,8 +44,8 @@ typedef struct Directions {
     double *c, *lambda;
 } Directions;
 
-/* Fills the directions as slab.c does: mu = x^2; azimuths at the middles of `spokes` equal parts of half a
- * turn, which is the trapezoidal rule for what is even and periodic. */
+/* Fills the directions as slab.c does: mu = x^2. The azimuths are the middles of `spokes` equal parts of [0, pi], the
+ * trapezoidal rule for even periodic functions. */
 static void directions_fill(Directions *d, double tilt, TiltEffort effort, int count, const Heading *at,
                             double *x, double *w) {
     gauss_legendre(effort.rings, x, w);
@@ -63,7 +63,7 @@ static void directions_fill(Directions *d, double tilt, TiltEffort effort, int c
     }
 }
 
-/* The forward peak between nodes is no event, as in slab.c. */
+/* Fills lambda. The forward peak between nodes counts as not scattered, as in slab.c. */
 static void extinctions(Directions *d, double s, double albedo) {
     for (int i = 0; i < d->total; i++) {
         double sum = 0.0, sigma = extinction(s, d->v[i].nu);
@@ -75,7 +75,7 @@ static void extinctions(Directions *d, double s, double albedo) {
     }
 }
 
-/* The problem of functions even (sign 1) or odd (sign -1) in the azimuth. */
+/* Solves the problem for functions even (sign 1) or odd (sign -1) in the azimuth. */
 static bool parity(const Directions *d, const Slab *slab, int halvings, int kept, double sign, double *r,
                    double *t, const Layered *out) {
     double s = slab->alpha * slab->alpha;

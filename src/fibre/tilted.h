@@ -12,7 +12,8 @@ typedef struct Heading {
     double mu, phi;
 } Heading;
 
-/* Cosines, azimuths over half a turn, halvings as in SlabEffort: the quadrature has rings * spokes nodes. */
+/* Numbers of cosines and of azimuths over pi, and halvings as in SlabEffort: the quadrature has rings * spokes
+ * nodes. */
 typedef struct TiltEffort {
     int rings, spokes, halvings;
 } TiltEffort;
@@ -20,14 +21,14 @@ typedef struct TiltEffort {
 /* Returns the resolution that gives f to about 0.2 percent at that alpha; docs/fibre.md has its limits. */
 TiltEffort tilt_effort(double alpha);
 
-/* f between `count` directions, single scattering included, 1/sr, at depths as slab_mode has them:
- * same[k][i * count + j] for wi = at[i], wo = at[j], across[...] for wo mirrored at the plane of the tilt,
- * and reflected[k][count]: R. same and across may both be NULL, or reflected may. tilt in radians, [0, pi /
- * 2). False where memory is short. */
+/* Solves f between `count` directions, with single scattering, 1/sr, at the depths of slab_mode:
+ * same[k][i * count + j] for wi = at[i] and wo = at[j], across[...] for wo mirrored at the plane of the tilt, and
+ * reflected[k][count]: R. same and across may both be NULL, or reflected may. tilt: radians, [0, pi / 2). Returns false
+ * if memory is short. */
 bool tilted_f(const Slab *slab, double tilt, TiltEffort effort, int kept, int count, const Heading *at,
               double *same, double *across, double *reflected);
 
-/* Light scattered once, exact, for the pair of headings, phi_o of either sign. */
+/* Returns f of single scattering, exact, 1/sr, for a pair of headings; phi_o may be negative. */
 double tilted_single(const Slab *slab, double tilt, Heading i, Heading o);
 
 #endif

@@ -13,7 +13,8 @@ double truncated_phi(int column) { return (column + 0.5) / TRUNCATED_SIDE * PI_D
 
 static int cell(double part) { return part < 1.0 ? (int)(part * TRUNCATED_SIDE) : TRUNCATED_SIDE - 1; }
 
-/* A walk counts 1 / (its cell's solid angle): with 1 / sin theta of its own direction, as the talk's program does. */
+/* Adds a walk with the weight 1 / (its cell's solid angle), which uses sin theta of the walk's own direction, as the
+ * talk's program does. */
 static void count(TruncatedSlab *out, const double d[3]) {
     double sine = hypot(d[0], d[1]), theta = atan2(sine, d[2]), phi = fabs(atan2(d[1], d[0]));
     out->f[cell(theta / (0.5 * PI_DOUBLE))][cell(phi / PI_DOUBLE)] += 1.0 / fmax(sine, 1e-9);
@@ -27,10 +28,10 @@ void truncated_walk(double alpha, double mu, long long walks, TruncatedSlab *out
     for (long long n = 0; n < walks; n++) {
         Walker walker = walk_start(wo, 1, (uint64_t)n);
         for (int flake = 0; flake < FLAKES_MOST && walk_fly(&medium, &walker); flake++)
-            walk_turn(&medium, &walker);
+            walk_scatter(&medium, &walker);
         if (walker.d[2] > 0.0) count(out, walker.d);
     }
-    /* a cell is pi / 2 by pi over TRUNCATED_SIDE^2, and stands for two halves */
+    /* a cell is pi / 2 by pi over TRUNCATED_SIDE^2, and stands for both halves of the azimuth */
     double scale = TRUNCATED_SIDE * TRUNCATED_SIDE / (PI_DOUBLE * PI_DOUBLE * (double)walks), first = 0.0;
     for (int row = 0; row < TRUNCATED_SIDE; row++)
         for (int c = 0; c < TRUNCATED_SIDE; c++) out->f[row][c] *= scale;

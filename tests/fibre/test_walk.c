@@ -108,7 +108,7 @@ static void text_turn(const WalkMedium *m, const double wi[3], uint64_t number, 
 
 static void walk_away(const WalkMedium *m, const double wi[3], uint64_t number, double out[3]) {
     Walker walker = walk_start(wi, 5, number);
-    walk_turn(m, &walker);
+    walk_scatter(m, &walker);
     memcpy(out, walker.d, sizeof walker.d);
 }
 
@@ -238,7 +238,7 @@ static void walks_of_one_flake_return_single_scattering(void **state) {
                 set_direction(wi, mu, 2.0 * PI_DOUBLE * (b + 0.5) / CELLS);
                 sum += single(k, wo, wi) * mu * 2.0 * x * 2.0 * PI_DOUBLE / ((double)CELLS * CELLS);
             }
-        WalkEstimate once = walk_share(count.reflected_once, count.walks);
+        WalkEstimate once = walk_share(count.reflected_single, count.walks);
         judge(&all, slab_name(k), once.mean, sum, once.error);
     }
 }
@@ -273,7 +273,7 @@ static void every_walk_ends_above_below_or_absorbed(void **state) {
         assert_true(c.walks >= test_walks(2e4) && c.walks % WALK_BATCHES == 0);
         assert_true(c.reflected + c.transmitted + c.absorbed == c.walks);
         assert_true((c.absorbed == 0) == (slabs[k][2] >= 1.0));
-        assert_true(c.reflected_once <= c.reflected && c.reflected <= c.flakes);
+        assert_true(c.reflected_single <= c.reflected && c.reflected <= c.flakes);
     }
     /* black flakes let through what misses them, which is Beer's law; no fibres let through all */
     WalkDesc black = slab(0.5, 0.7, 0.0, 30.0 * degree);
@@ -376,7 +376,7 @@ static void walks_cut_after_16_flakes_give_the_published_table(void **state) {
         for (long long n = 0; n < walks; n++) {
             Walker walker = walk_start(desc.wo, 1, (uint64_t)n);
             int flake = 0;
-            while (flake < 16 && walk_fly(&m, &walker)) walk_turn(&m, &walker), flake++;
+            while (flake < 16 && walk_fly(&m, &walker)) walk_scatter(&m, &walker), flake++;
             up += walker.d[2] > 0.0;
             still_inside += flake == 16;
         }
