@@ -1,4 +1,4 @@
-/* cloth_maps.c - a cloth as textures that tile, for renderers that know no threads */
+/* cloth_maps.c - a cloth as tileable textures, for renderers without a model of threads */
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
@@ -15,7 +15,11 @@
 #include "weave/weft_cloth.h"
 
 enum { MAP_COLOR, MAP_NORMAL, MAP_ROUGHNESS, MAP_ANISOTROPY, MAP_HEIGHT, MAP_COUNT };
-enum { FINE = 2, CYCLE_LEAST = 16, SIDE_MAX = 8192 }; /* points along a texel's side; threads along a map's */
+enum {
+    FINE = 2,         /* points along a texel's side */
+    CYCLE_LEAST = 16, /* threads along a map's side, at least */
+    SIDE_MAX = 8192   /* texels along a map's side, at most */
+};
 
 static const struct {
     const char *file;
@@ -32,15 +36,22 @@ typedef struct MapBake {
     WeftImage maps[MAP_COUNT];
 } MapBake;
 
-/* The mean over a texel. */
+/* Sums over the points of a texel, each with the weight 1 / FINE^2. */
 typedef struct MapTexel {
-    float color[3], cover, slope[2], roughness, open, height;
-    float along[2]; /* of the fibres' direction at twice its angle, which has no sign */
+    float color[3]; /* linear reflectance */
+    float cover;    /* fraction covered by threads */
+    float slope[2];
+    float roughness;
+    float open; /* visible fraction of the sky, weave_depth */
+    float height;
+    float along
+        [2]; /* direction of the fibres as a unit vector at twice the angle, so that opposite ones agree */
 } MapTexel;
 
-/* Part of the light that fibres met once reflect, of all that they do (yarn_medium.h). */
-static float once_of(float alpha) { return 0.328f - 0.111f * alpha; }
+/* Returns the fraction of single scattering in what a white yarn reflects (yarn_medium.h). */
+static float single_fraction(float alpha) { return 0.328f - 0.111f * alpha; }
 
+/* Adds a point of the cloth to a texel. */
 static void add_point(const Weave *m, float x, float y, float spacing, MapTexel *t) {
     const WeavePoint p = weave_point(m, x, y, spacing, 0.0f);
     const float part = 1.0f / (FINE * FINE);
@@ -48,10 +59,10 @@ static void add_point(const Weave *m, float x, float y, float spacing, MapTexel 
         t->height += part * m->low;
         return;
     }
-    const float alpha = p.weft ? m->weft.alpha : m->warp.alpha, once = once_of(alpha);
+    const float alpha = p.weft ? m->weft.alpha : m->warp.alpha, single = single_fraction(alpha);
     for (int c = 0; c < 3; c++) {
         const float a = weave_albedo(m, p, c);
-        t->color[c] += part * p.lit * (a * once + yarn_reflectance(a) * (1.0f - once));
+        t->color[c] += part * p.lit * (a * single + yarn_reflectance(a) * (1.0f - single));
     }
     t->cover += part;
     t->slope[0] += part * p.slope_x;
@@ -71,12 +82,12 @@ static unsigned char *texel_at(MapBake *b, int map, int column, int row) {
     return (unsigned char *)b->maps[map].pixels + pixel * (size_t)kinds[map].channels;
 }
 
-/* Highlights of fibres are drawn out across them: KHR_materials_anisotropy has that direction, as a vector, and
- * a strength by which roughness grows that way. */
+/* Writes a texel of all maps. Highlights of fibres are elongated across them. The anisotropy map is that of
+ * KHR_materials_anisotropy: this direction as a vector, and the strength with which roughness grows along it. */
 static void put_texel(MapBake *b, const MapTexel *t, int column, int row) {
     const float cover = fmaxf(t->cover, 1e-6f), x = t->slope[0] / cover, y = t->slope[1] / cover;
     const float n = 1.0f / sqrtf(1.0f + x * x + y * y);
-    const float one = sqrtf(t->along[0] * t->along[0] + t->along[1] * t->along[1]) / cover;
+    const float alignment = sqrtf(t->along[0] * t->along[0] + t->along[1] * t->along[1]) / cover;
     const float angle = 0.5f * atan2f(t->along[1], t->along[0]) + PI / 2.0f;
     unsigned char *to = texel_at(b, MAP_COLOR, column, row);
     for (int c = 0; c < 3; c++) to[c] = byte_of(tone_encode(fminf(t->color[c] / cover, 1.0f)));
@@ -88,7 +99,7 @@ static void put_texel(MapBake *b, const MapTexel *t, int column, int row) {
     to[0] = byte_of(t->open / cover), to[1] = byte_of(t->roughness / cover), to[2] = 0;
     to = texel_at(b, MAP_ANISOTROPY, column, row);
     to[0] = byte_of(0.5f + 0.5f * cosf(angle)), to[1] = byte_of(0.5f + 0.5f * sinf(angle)),
-    to[2] = byte_of(0.9f * one);
+    to[2] = byte_of(0.9f * alignment);
     const float span = fmaxf(b->weave.high - b->weave.low, 1e-6f);
     *texel_at(b, MAP_HEIGHT, column, row) = byte_of((t->height - b->weave.low) / span);
 }
@@ -120,8 +131,7 @@ static WeftResult write_maps(MapBake *b, const char *folder, WeftError *error) {
     return result;
 }
 
-/* A material file (docs/materials.md) that lays the maps on a cloth, one unit of whose texture coordinates
- * spans so many metres. */
+/* Writes a material file (docs/materials.md) with the maps. metres: length of a unit of texture coordinates. */
 static WeftResult write_material(const MapBake *b, const WeftCloth *cloth, const double size[2],
                                  double metres, const char *folder, WeftError *error) {
     char path[4096], place[96];
@@ -154,18 +164,18 @@ static WeftResult write_material(const MapBake *b, const WeftCloth *cloth, const
     return output_commit(&file, error);
 }
 
-/* Sides of maps of about pixels^2 square texels over a cloth of that size, each 16 to SIDE_MAX: a tall repeat gets maps
- * narrower than pixels, and so takes no more memory than a wide one. */
+/* Gives the sides of maps of about pixels^2 square texels over a cloth of that size, each 16 to SIDE_MAX. A tall repeat
+ * gets maps narrower than `pixels`, so that it takes no more memory than a wide one. */
 static void sides_of(int pixels, const double size[2], int sides[2]) {
     const double q = (sqrt)(size[0] / size[1]), side = fmin(pixels, SIDE_MAX / fmax(q, 1.0 / q));
     sides[0] = (int)fmax(rint(side * q), 16.0);
     sides[1] = (int)fmax(rint(side / q), 16.0);
 }
 
-/* Whole repeats of at least CYCLE_LEAST threads. */
+/* Returns the number of threads of whole repeats, at least CYCLE_LEAST. */
 static int cycle_of(int count) { return count * ((CYCLE_LEAST + count - 1) / count); }
 
-/* Takes back a folder that was made for maps which then could not all be written. */
+/* Removes a folder that was made for maps of which not all could be written. */
 static void folder_remove(const char *folder) {
     for (int k = 0; k < MAP_COUNT; k++) {
         char path[4096];

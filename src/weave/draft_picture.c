@@ -1,5 +1,4 @@
-/* draft_picture.c - a picture of two colours as a draft, one pixel a crossing: how jacquard looms receive their
- * patterns */
+/* draft_picture.c - a picture of two colours as a draft, one pixel a crossing, as for jacquard looms */
 #include <stdint.h>
 #include <string.h>
 
@@ -26,8 +25,8 @@ static float brightness(const WeftImage *image, size_t pixel) {
     return sum;
 }
 
-/* Returns the first pixel that differs from pixel 0, or 0 where all are alike; *third is the first that
- * differs from both, 0 without one. */
+/* Returns the first pixel that differs from pixel 0, or 0 if none does; *third is the first that differs from both, 0
+ * without one. */
 static size_t second_color(const WeftImage *image, size_t pixels, size_t *third) {
     const char *bytes = image->pixels;
     const size_t size = pixel_size(image);
@@ -43,6 +42,7 @@ static size_t second_color(const WeftImage *image, size_t pixels, size_t *third)
     return second;
 }
 
+/* Makes the draft; the warp is on top at the darker colour. */
 static WeftResult from_image(const char *path, const WeftImage *image, WeftDraft **out, WeftError *error) {
     const size_t pixels = (size_t)image->width * (size_t)image->height;
     size_t third, second = second_color(image, pixels, &third);
@@ -68,9 +68,8 @@ static WeftResult from_image(const char *path, const WeftImage *image, WeftDraft
     return WEFT_OK;
 }
 
-/* The end of a message about a picture that cannot be read: ": it is WebP", or nothing for an unknown format.
- */
-static const char *format_told(const WeftError *error) {
+/* Returns the end of the message about a picture that cannot be read: ": it is WebP", or "" for an unknown format. */
+static const char *format_suffix(const WeftError *error) {
     const char *text = weft_message_text(WEFT_MESSAGE_IMAGE_FORMAT), *at = strstr(error->text, text);
     return at ? at + strlen(text) : "";
 }
@@ -83,7 +82,7 @@ WeftResult draft_from_picture(const char *path, bool text, WeftDraft **out, cons
     if (result != WEFT_OK && why.message == WEFT_MESSAGE_IMAGE_FORMAT)
         return fail(error, WEFT_MESSAGE_DRAFT, path, "%s%s",
                     text ? "it is text that does not begin with [WIF]" : "it is neither a WIF nor a picture",
-                    format_told(&why));
+                    format_suffix(&why));
     if (result != WEFT_OK && error) *error = why;
     if (result != WEFT_OK) return result;
     result = from_image(path, &image, out, error);

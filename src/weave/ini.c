@@ -8,15 +8,15 @@
 #include "base/mark.h"
 #include "base/memory.h"
 
-/* Cuts blanks off both ends of the string that ends at `end`. */
+/* Removes blanks from both ends of the string that ends at `end`; returns its start. */
 static char *trim(char *text, char *end) {
     while (end > text && strchr(" \t", end[-1])) end--;
     *end = '\0';
     return text + strspn(text, " \t");
 }
 
-/* Takes one line apart; false where memory is short. */
-static int take_line(Ini *ini, char *line, char *end, const char **section, int number) {
+/* Parses one line; returns 0 if memory is short. */
+static int parse_line(Ini *ini, char *line, char *end, const char **section, int number) {
     char *text = trim(line, end);
     if (*text == '\0' || *text == ';') return 1;
     if (*text == '[') {
@@ -48,7 +48,8 @@ WeftResult ini_read(const void *data, size_t size, const char *name, Ini *out, W
     for (int number = 1; *line; number++) {
         char *end = line + strcspn(line, "\r\n");
         char *next = end + (*end == '\r' && end[1] == '\n') + (*end != '\0');
-        if (!take_line(out, line, end, &section, number)) return fail(error, WEFT_MESSAGE_MEMORY, name, NULL);
+        if (!parse_line(out, line, end, &section, number))
+            return fail(error, WEFT_MESSAGE_MEMORY, name, NULL);
         line = next;
     }
     return WEFT_OK;

@@ -1,4 +1,4 @@
-/* ini.h - text of "[section]" and "key=value" lines, as WIF has it
+/* ini.h - text of "[section]" and "key=value" lines, the syntax of WIF
  *
  * Lines end in LF, CR LF or CR. Blanks around names and values do not count, nor does the case of names.
  * Lines that begin with ; are comments. There is no limit on the length of a line. */
@@ -27,11 +27,10 @@ typedef struct Ini {
 WeftResult ini_read(const void *data, size_t size, const char *name, Ini *out, WeftError *error);
 void ini_free(Ini *ini);
 
-/* Returns the last line of that section and key, or of that section alone if key is NULL; NULL without one.
- */
+/* Returns the last line of that section and key, or of that section if key is NULL; NULL without one. */
 const IniLine *ini_find(const Ini *ini, const char *section, const char *key);
 
-/* Returns the number that key names: 1 and above, 0 if it is none. */
+/* Returns the key as a number, 1 and above; 0 if it is none. */
 long ini_index(const IniLine *line);
 
 #endif

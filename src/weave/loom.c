@@ -6,7 +6,7 @@
 
 #include "base/memory.h"
 
-/* `count` lines of crossings; the bytes of a line stand `step` apart. */
+/* Columns or rows of a draft: `count` lines of crossings, whose bytes lie `step` apart. */
 typedef struct LoomLines {
     const unsigned char *cells;
     size_t line_step, step;
@@ -31,7 +31,8 @@ static bool same(const LoomLines *lines, int a, int b) {
     return true;
 }
 
-/* FNV-1a, Glenn Fowler, Landon Curt Noll, Kiem-Phong Vo, 1991: lines of another value differ. */
+/* Returns the hash FNV-1a of a line: lines with different hashes differ. Glenn Fowler, Landon Curt Noll, Kiem-Phong Vo,
+ * 1991. */
 static uint64_t hash_of(const LoomLines *lines, int line) {
     uint64_t hash = 0xcbf29ce484222325u;
     for (int k = 0; k < lines->length; k++)
@@ -40,8 +41,8 @@ static uint64_t hash_of(const LoomLines *lines, int line) {
     return hash;
 }
 
-/* Sets group[line] to the number of the first kind that equals it, and firsts[kind] to the first line of
- * each. Returns how many kinds there are, 0 where memory is short. */
+/* Gives each different line a number: group[line] is the kind of a line, firsts[kind] the first line of a kind. Returns
+ * how many kinds there are, 0 if memory is short. */
 static int kinds_of(const LoomLines *lines, int *group, int *firsts) {
     uint64_t *hashes = alloc_array((size_t)lines->count, sizeof *hashes);
     int kinds = 0;

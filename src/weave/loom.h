@@ -1,9 +1,11 @@
 /* loom.h - the smallest loom that weaves a draft
  *
- * Warp threads that rise together hang on one shaft; picks that lift the same shafts press one treadle. So
- *     up(warp, pick) = tieup(treadling(pick), threading(warp)),
- * with as many shafts as the draft has different columns and as many treadles as it has different rows. Both
- * are numbered from 0 in the order in which they first come. */
+ * Warp threads that rise together hang on one shaft; picks that lift the same shafts press one treadle:
+ *
+ *   up(warp, pick) = tieup(treadling(pick), threading(warp))
+ *
+ * There are as many shafts as the draft has different columns, and as many treadles as it has different rows. Both are
+ * numbered from 0 in the order of their first use. */
 #ifndef WEFT_WEAVE_LOOM_H
 #define WEFT_WEAVE_LOOM_H
 
@@ -16,7 +18,7 @@ typedef struct Loom {
     unsigned char *tieup; /* [treadle * shafts + shaft]: 1 where the treadle lifts the shaft */
 } Loom;
 
-/* Returns false where memory is short; release with loom_free in either case. */
+/* Finds the loom of a draft. Returns false if memory is short; release with loom_free in either case. */
 bool loom_of(const WeftDraft *draft, Loom *out);
 void loom_free(Loom *loom);
 

@@ -1,11 +1,11 @@
-/* notation.c - a draft in one line of words: "WEAVE[; CLAUSE ...]", docs/weave.md has the grammar
+/* notation.c - parser of drafts in one line of words: "WEAVE[; CLAUSE ...]"; docs/weave.md has the grammar
  *
  *   twill a/b z   up(i, j) = (j - i) mod (a + b) < a; s: (j + i). Longer lists alternate over and under.
  *   satin n/c     warp-faced: the weft is on top where i = c j mod n; sateen is the opposite
  *   basket n m    up(i, j) = floor(i / n) + floor(j / m) is even; plain is basket 1
  *   picks #.. .#. a word a pick, from the first one on, # where the warp is on top
- *   herringbone   n threads of a twill z, then n of its mirror image, moved by a picks so that the line
- * breaks instead of doubling a thread at the turn */
+ *   herringbone   n threads of a twill z, then n of its mirror image, moved by a picks so that the line breaks instead
+ *                 of doubling a thread where it changes direction */
 #include <stdlib.h>
 #include <string.h>
 
@@ -22,13 +22,13 @@ typedef struct Clause {
 } Clause;
 
 typedef struct Notation {
-    const char *text; /* the whole of it, the subject of errors */
+    const char *text; /* the whole line, the subject of errors */
     WeftError *error;
 } Notation;
 
 #define REFUSE(n, ...) fail((n)->error, WEFT_MESSAGE_DRAFT_NOTATION, (n)->text, __VA_ARGS__)
 
-/* Reads a whole number from 1 to most that ends where the word or a separator does. */
+/* Reads a whole number from 1 to most, and moves the cursor behind it; returns false if there is none. */
 static bool count_of(const char **cursor, long most, int *count) {
     char *end;
     if (**cursor < '0' || **cursor > '9') return false;
@@ -43,7 +43,7 @@ static bool word_count(const char *word, long most, int *count) {
     return count_of(&word, most, count) && *word == '\0';
 }
 
-/* Reads "a/b/c..." into runs; returns how many there are, 0 where it is none. */
+/* Reads "a/b/c..." into runs; returns how many there are, 0 for anything else. */
 static int runs_of(const char *word, int runs[RUNS_MAX]) {
     int count = 0;
     while (count < RUNS_MAX && count_of(&word, WEFT_DRAFT_SIDE_MAX, &runs[count])) {
@@ -54,7 +54,7 @@ static int runs_of(const char *word, int runs[RUNS_MAX]) {
     return 0;
 }
 
-/* The weave. */
+/* ---- weaves ---- */
 
 static WeftResult make_basket(const Notation *notation, int ends, int picks, WeftDraft **out) {
     WeftResult result = draft_create(notation->text, 2L * ends, 2L * picks, WEFT_MESSAGE_DRAFT_NOTATION, out,
@@ -64,7 +64,7 @@ static WeftResult make_basket(const Notation *notation, int ends, int picks, Wef
     return result;
 }
 
-/* Returns 1 where a warp thread that passes over, under, over ... picks by `runs` is on top at pick j. */
+/* Returns 1 if a warp thread that passes over, under, over ... picks by `runs` is on top at pick j. */
 static int is_over(const int *runs, int count, int length, int j) {
     int at = j % length;
     if (at < 0) at += length;
@@ -73,7 +73,7 @@ static int is_over(const int *runs, int count, int length, int j) {
     return k % 2 == 0;
 }
 
-/* Makes a twill, or with mirrored > 0 so many threads of it and their mirror image. */
+/* Makes a twill, or with mirrored > 0 that many threads of it and their mirror image. */
 static WeftResult make_twill(const Notation *notation, const char *word, int slope, int mirrored,
                              WeftDraft **out) {
     int runs[RUNS_MAX];
@@ -82,12 +82,12 @@ static WeftResult make_twill(const Notation *notation, const char *word, int slo
     if (count < 2 || count % 2)
         return REFUSE(notation, "\"%.40s\" is no twill; 2/2 or 3/1/1/3 would be", word);
     for (int k = 0; k < count; k++) length += runs[k];
-    const int warps = (int)(mirrored ? 2L * mirrored : length), turn = runs[0];
+    const int warps = (int)(mirrored ? 2L * mirrored : length), offset = runs[0];
     WeftResult result = draft_create(notation->text, mirrored ? warps : length, length,
                                      WEFT_MESSAGE_DRAFT_NOTATION, out, notation->error);
     for (int j = 0; result == WEFT_OK && j < (int)length; j++)
         for (int i = 0; i < warps; i++) {
-            const int line = mirrored && i >= mirrored ? mirrored - 1 + turn - (i - mirrored) : i;
+            const int line = mirrored && i >= mirrored ? mirrored - 1 + offset - (i - mirrored) : i;
             (*out)->up[j * warps + i] = (unsigned char)is_over(runs, count, (int)length, j - slope * line);
         }
     return result;
@@ -117,7 +117,7 @@ static WeftResult make_satin(const Notation *notation, const char *word, bool wa
     return result;
 }
 
-/* Makes what words such as "#..#" say, a pick each. */
+/* Makes the weave of words such as "#..#", one a pick. */
 static WeftResult make_picks(const Notation *notation, const Clause *clause, WeftDraft **out) {
     const size_t warps = clause->count > 1 ? strlen(clause->words[1]) : 0;
     for (int j = 1; j < clause->count; j++)
@@ -131,7 +131,7 @@ static WeftResult make_picks(const Notation *notation, const Clause *clause, Wef
     return result;
 }
 
-/* Reads "z" or "s", to the right or to the left; nothing is z. */
+/* Reads the direction of a twill, "z" or "s": 1 or -1; without a word it is z. Returns false for anything else. */
 static bool slope_of(const Clause *clause, int at, int *slope) {
     *slope = 1;
     if (at == clause->count) return true;
@@ -164,10 +164,10 @@ static WeftResult make_weave(const Notation *notation, const Clause *clause, Wef
                             "herringbone A/B N, houndstooth or picks #.. .#. ...");
 }
 
-/* Colours. */
+/* ---- colours ---- */
 
-/* The letters of tartan counts, with d (dark) or l (light) before them. sRGB-encoded; our own choice of
- * shades. */
+/* Colours by the letters of tartan counts, sRGB-encoded. d (dark) or l (light) may stand before a letter. The shades
+ * are our choice. */
 static const struct Dye {
     char letter;
     float color[3];
@@ -200,14 +200,14 @@ static bool dye_color(const char *text, float color[3]) {
     return false;
 }
 
-/* A stripe of so many threads in one colour. */
+/* Neighbouring threads of one colour. */
 typedef struct Stripe {
     int count;
     float color[3];
 } Stripe;
 
-/* Reads the stripes after the first word; "mirror" at the end appends them backwards, without the first and
- * the last. Returns how many there are, 0 after an error. */
+/* Reads the stripes after the first word. "mirror" at the end appends them in reverse order, without the first and the
+ * last. Returns how many there are, 0 after an error. */
 static int stripes_of(const Notation *notation, const Clause *clause, Stripe stripes[2 * WORDS_MAX]) {
     int count = 0;
     for (int k = 1; k < clause->count; k++) {
@@ -232,7 +232,7 @@ static int stripes_of(const Notation *notation, const Clause *clause, Stripe str
     return count;
 }
 
-/* Makes the repeat so many warp threads wide and picks high, multiples of what they are. */
+/* Repeats the weave to count[0] warp threads and count[1] picks, multiples of the present ones. */
 static WeftResult widen(const Notation *notation, WeftDraft **draft, const long count[2]) {
     const WeftDraft *from = *draft;
     const int warps = from->count[WEFT_WARP];
@@ -253,7 +253,7 @@ static WeftResult widen(const Notation *notation, WeftDraft **draft, const long 
     return WEFT_OK;
 }
 
-/* Makes a repeat in which both the weave and the stripes come out even, and dyes its threads. */
+/* Repeats the weave until a whole number of stripe sequences fits, and dyes its threads. */
 static WeftResult dye_threads(const Notation *notation, WeftDraft **draft, WeftThreads threads,
                               const Stripe *stripes, int stripe_count) {
     long length = 0;
@@ -275,7 +275,7 @@ static WeftResult dye_threads(const Notation *notation, WeftDraft **draft, WeftT
     return WEFT_OK;
 }
 
-/* "sett A [B]": threads a centimetre. */
+/* Sets the threads per centimetre, "sett A [B]". */
 static WeftResult set_sett(const Notation *notation, const Clause *clause, WeftDraft *draft) {
     int sett[2] = {0, 0};
     if (clause->count < 2 || clause->count > 3 || !word_count(clause->words[1], 1000, &sett[WEFT_WARP]) ||
@@ -304,8 +304,8 @@ static WeftResult apply_clause(const Notation *notation, const Clause *clause, W
     return result;
 }
 
-/* Cuts the clause that begins at text, which it takes apart; returns the next, NULL after the last, and false
- * in *fits if it has too many words. */
+/* Splits the clause that begins at text into words, in place. Returns the next clause, NULL after the last. *fits
+ * becomes false if it has too many words. */
 static char *next_clause(char *text, Clause *clause, bool *fits) {
     char *end = text + strcspn(text, ";"), *next = *end ? end + 1 : NULL;
     *end = '\0';

@@ -59,17 +59,16 @@ bool draft_same(const WeftDraft *a, const WeftDraft *b) {
 }
 
 void draft_title(WeftDraft *draft, const char *text) {
-    size_t size = strlen(text), room = sizeof draft->title - 1;
-    if (size > room)
-        for (size = room; size && ((unsigned char)text[size] & 0xc0) == 0x80;) size--;
+    size_t size = strlen(text), most = sizeof draft->title - 1;
+    if (size > most)
+        for (size = most; size && ((unsigned char)text[size] & 0xc0) == 0x80;) size--;
     memcpy(draft->title, text, size);
     draft->title[size] = '\0';
     for (char *c = draft->title; *c; c++)
         if ((unsigned char)*c < ' ' || *c == 0x7f) *c = ' ';
 }
 
-/* Looks for the letters with which every WIF names itself, in its first line that is neither blank nor a
- * comment. */
+/* Returns true if the first line that is neither blank nor a comment begins with [WIF]. */
 static bool is_wif(const unsigned char *data, size_t size) {
     static const char mark[] = "[wif]";
     size_t at = mark_size(data, size);
@@ -94,14 +93,15 @@ static WeftResult read_wif(const char *path, WeftDraft **out, const WeftLog *log
     return result;
 }
 
-/* Returns true if the words can only be meant as a path: they end in a suffix, which is no fraction, or are
- * one word with a slash. */
+/* Returns true if the words can only be a path: they end in a suffix that is no fraction, or are one word with a
+ * slash. */
 static bool names_file(const char *what) {
     const char *dot = strrchr(what, '.');
     if (dot && strspn(dot, ".0123456789") == strlen(dot)) return false;
     return dot ? !strpbrk(dot, " ;/") : strchr(what, '/') && !strchr(what, ' ');
 }
 
+/* Returns true if the bytes contain no control characters but white space. */
 static bool is_text(FileBytes bytes) {
     size_t at = 0;
     while (at < bytes.size && (bytes.data[at] >= ' ' || strchr("\t\r\n\f", bytes.data[at])) && bytes.data[at])
@@ -121,6 +121,7 @@ WeftResult weft_draft_read(const char *what, WeftDraft **out, const WeftLog *log
     return wif ? read_wif(what, out, log, error) : draft_from_picture(what, text, out, log, error);
 }
 
+/* Returns index modulo count, 0 .. count - 1. */
 static int wrapped(int index, int count) {
     const int k = index % count;
     return k < 0 ? k + count : k;
@@ -135,12 +136,12 @@ WeftThread weft_draft_thread(const WeftDraft *draft, WeftThreads threads, int in
     return draft->threads[threads][wrapped(index, draft->count[threads])];
 }
 
-/* Returns 1 where thread k of a system is on top at its crossing with thread c of the other. */
+/* Returns 1 if thread k of a system is on top at its crossing with thread c of the other. */
 static int on_top(const WeftDraft *draft, WeftThreads threads, int k, int c) {
     return threads == WEFT_WARP ? weft_draft_warp_up(draft, k, c) : !weft_draft_warp_up(draft, c, k);
 }
 
-/* Returns the longest run on top of one thread, cyclic; the whole length where it never goes below. */
+/* Returns the longest run on top of one thread, cyclic; the whole length if it never goes below. */
 static int longest_run(const WeftDraft *draft, WeftThreads threads, int k) {
     const int length = draft->count[!threads];
     int longest = 0, run = 0;
@@ -151,6 +152,7 @@ static int longest_run(const WeftDraft *draft, WeftThreads threads, int k) {
     return longest;
 }
 
+/* Returns true if thread k is always on top, or always below. */
 static bool is_endless(const WeftDraft *draft, WeftThreads threads, int k) {
     for (int c = 1; c < draft->count[!threads]; c++)
         if (on_top(draft, threads, k, c) != on_top(draft, threads, k, 0)) return false;

@@ -14,30 +14,29 @@ struct WeftDraft {
     WeftThread *threads[2]; /* of warp and weft */
 };
 
-/* Makes a draft without a warp on top anywhere: warp black, weft white, 20 threads a centimetre. More threads
- * or crossings than weave.h allows, or none, fail with the message `refusal`. */
+/* Makes a draft with the weft on top everywhere: warp black, weft white, 20 threads a centimetre. More threads or
+ * crossings than weave.h allows, or none, fail with the message `refusal`. */
 WeftResult draft_create(const char *name, long warps, long picks, WeftMessage refusal, WeftDraft **out,
                         WeftError *error);
 
-/* The metres from thread to thread, and the width of a thread, where nothing says otherwise. */
+/* Defaults, metres: distance from thread to thread, and width of a thread. */
 #define DRAFT_SPACING   5e-4f
 #define DRAFT_THICKNESS 5e-4f
 
-/* Copies text into the title: control characters become blanks, and what is too long is cut between
- * characters. */
+/* Copies text into the title. Control characters become blanks; a text that is too long is cut between characters. */
 void draft_title(WeftDraft *draft, const char *text);
 
 /* Returns true if both have the same threads and crossings. */
 bool draft_same(const WeftDraft *a, const WeftDraft *b);
 
-/* The reader of pictures for weft_draft_read; text: all that its file begins with is text. */
+/* Reads a draft from a picture. text: the file begins with text, which changes the error of one that is no picture. */
 WeftResult draft_from_picture(const char *path, bool text, WeftDraft **out, const WeftLog *log,
                               WeftError *error);
 
-/* Writes a WIF 1.1. WEFT_OK, or memory was short. */
+/* Writes a WIF 1.1. Fails only if memory is short. */
 WeftResult wif_write(const WeftDraft *draft, FILE *stream, const char *name, WeftError *error);
 
-/* Returns what that writes as a text, to be released with free(); NULL where memory is short. */
+/* Returns the text of wif_write, to be released with free(); NULL if memory is short. */
 char *wif_text(const WeftDraft *draft);
 
 #endif

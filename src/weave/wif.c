@@ -1,13 +1,13 @@
-/* wif.c - reads WIF, the Weaving Information File
+/* wif.c - reader of WIF, the Weaving Information File
  *
  * Ralph Nielsen et al., "Weaving Information File Version", 1.1, 20 April 1997. A shaft is a number in
  * THREADING and TIEUP, a treadle one in TREADLING:
  *
  *   up(warp, pick) = THREADING[warp] and LIFTPLAN[pick] share a shaft
- *   LIFTPLAN[pick] = all TIEUP[treadle] of TREADLING[pick], where it is not given
+ *   LIFTPLAN[pick] = all TIEUP[treadle] of TREADLING[pick], if there is none
  *
- * "Rising Shed=no" says that shafts sink, which inverts it. Programs leave out much that the format asks for;
- * docs/weave.md lists what is completed and how. */
+ * "Rising Shed=no" means that shafts sink, which inverts up. Programs leave out much that the format requires;
+ * docs/weave.md lists how it is completed. */
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -44,10 +44,10 @@ static WeftResult memory_short(const Wif *wif) {
     return fail(wif->error, WEFT_MESSAGE_MEMORY, wif->ini.name, NULL);
 }
 
-/* Numbers of a value. */
+/* ---- values ---- */
 
-/* Reads the next number of a list "1,2,3"; a comment ends it. Returns 1, or 0 at the end, or -1 where there
- * is something else. */
+/* Reads the next number of a list "1,2,3", which ends at a comment. Returns 1, 0 at the end, or -1 for anything
+ * else. */
 static int next_number(const char **cursor, long *number) {
     const char *text = *cursor + strspn(*cursor, " \t,");
     if (*text == '\0' || *text == ';') return 0;
@@ -66,6 +66,7 @@ static long whole_of(const Wif *wif, const char *section, const char *key) {
     return cursor && next_number(&cursor, &number) == 1 ? number : -1;
 }
 
+/* Returns the value of a key as a flag, or `otherwise` if it is missing or is none. */
 static bool flag_of(const Wif *wif, const char *section, const char *key, bool otherwise) {
     static const char *const yes[] = {"true", "yes", "t", "y", "on", "1"}, *const no[] = {"false", "no",
                                                                                           "f",     "n",
@@ -78,10 +79,10 @@ static bool flag_of(const Wif *wif, const char *section, const char *key, bool o
     return otherwise;
 }
 
-/* Sections of numbered lines. */
+/* ---- sections of numbered lines ---- */
 
-/* Finds the greatest key and the greatest number in the values of a section. Refuses what is no number, and
- * numbers beyond what a draft may have. */
+/* Raises *keys and *values to the greatest key and the greatest number in the values of a section. Fails if either is
+ * no number, or beyond the limits of a draft. */
 static WeftResult section_extent(const Wif *wif, const char *section, long *keys, long *values) {
     for (int k = 0; k < wif->ini.count; k++) {
         const IniLine *line = &wif->ini.lines[k];
@@ -115,8 +116,8 @@ static bool set_has(const Sets *sets, long k, long member) {
     return set_at(sets, k)[member / 64] >> (member % 64) & 1;
 }
 
-/* Reads a section into sets; 0 means none, and lines beyond the last set are passed over and counted. Returns
- * how many were. */
+/* Reads a section into sets; the number 0 stands for no member. Skips lines beyond the last set, and returns how
+ * many. */
 static int sets_fill(const Wif *wif, const char *section, Sets *sets) {
     int beyond = 0;
     for (int k = 0; k < wif->ini.count; k++) {
@@ -138,7 +139,7 @@ static bool set_is_empty(const Sets *sets, long k) {
     return true;
 }
 
-/* The shed: what is lifted. */
+/* ---- the shed ---- */
 
 typedef struct Shed {
     long warps, picks, shafts, treadles;
@@ -190,7 +191,7 @@ static WeftResult press_treadles(const Wif *wif, const Shed *shed, Sets *lift) {
     return result;
 }
 
-/* A lift plan is taken as it stands; if there is a treadling too that differs, a warning says so. */
+/* Reads the lift plan, or makes it from the treadling. Warns if there are both and they differ. */
 static WeftResult read_lift(const Wif *wif, Shed *shed) {
     if (!sets_create(&shed->lift, shed->picks, shed->shafts)) return memory_short(wif);
     if (!ini_find(&wif->ini, "LIFTPLAN", NULL)) return press_treadles(wif, shed, &shed->lift);
@@ -220,6 +221,7 @@ static void warn_of_empty(const Wif *wif, const Sets *sets, const char *format) 
     warn(wif->log, WEFT_MESSAGE_DRAFT_COMPLETED, wif->ini.name, "%s", text);
 }
 
+/* Reads the crossings of the draft. */
 static WeftResult read_shed(const Wif *wif, WeftDraft *draft, Shed *shed) {
     if (!sets_create(&shed->threading, shed->warps, shed->shafts)) return memory_short(wif);
     const int beyond = sets_fill(wif, "THREADING", &shed->threading);
@@ -242,11 +244,11 @@ static WeftResult read_shed(const Wif *wif, WeftDraft *draft, Shed *shed) {
     return WEFT_OK;
 }
 
-/* Colours. */
+/* ---- colours ---- */
 
 typedef struct Palette {
-    float low, range;
-    float (*colors)[3]; /* 1 .. count; a colour that is missing is grey */
+    float low, range;   /* of the file's numbers */
+    float (*colors)[3]; /* 1 .. count, sRGB-encoded; missing ones are grey */
     long count;
 } Palette;
 
@@ -282,8 +284,8 @@ static WeftResult read_palette(const Wif *wif, Palette *palette) {
     return WEFT_OK;
 }
 
-/* Reads "index", "index,r,g,b" (an older form, whose colour does not count) or "r,g,b". Returns false where
- * it is none, or the palette lacks it. */
+/* Reads "index", "index,r,g,b" (an older form, whose colour is ignored) or "r,g,b". Returns false for anything else, or
+ * if the palette lacks the index. */
 static bool color_of(const Palette *palette, const char *text, float color[3]) {
     float values[4];
     long index;
@@ -298,7 +300,8 @@ static bool color_of(const Palette *palette, const char *text, float color[3]) {
     return true;
 }
 
-/* A thread without a line has the colour of [WARP] or [WEFT], or else that of the thread before. */
+/* Reads the colours of threads. A thread without a line gets the colour of [WARP] or [WEFT], or else that of the thread
+ * before. */
 static WeftResult read_colors(const Wif *wif, WeftDraft *draft, WeftThreads threads, const Palette *palette) {
     static const char *const sections[] = {"WARP COLORS", "WEFT COLORS"};
     const IniLine *common = ini_find(&wif->ini, thread_sections[threads], "Color");
@@ -329,7 +332,7 @@ static WeftResult read_colors(const Wif *wif, WeftDraft *draft, WeftThreads thre
     return WEFT_OK;
 }
 
-/* Lengths. */
+/* ---- lengths ---- */
 
 /* Returns the metres of one unit of a system's lengths. A decipoint is a 720th of an inch. */
 static double unit_of(const Wif *wif, const char *section) {
@@ -339,7 +342,7 @@ static double unit_of(const Wif *wif, const char *section) {
     return 0.01;
 }
 
-/* Reads a length that a thread can have: a micrometre to a metre. */
+/* Reads a length in metres; returns false unless it is a micrometre to a metre. */
 static bool length_of(const IniLine *line, double unit, float *length) {
     float value;
     if (!line || !line->value || !number_prefix(line->value, &value)) return false;
@@ -349,6 +352,7 @@ static bool length_of(const IniLine *line, double unit, float *length) {
     return true;
 }
 
+/* Reads the spacing and thickness of threads. */
 static void read_lengths(const Wif *wif, WeftDraft *draft, WeftThreads threads) {
     static const char *const spacings[] = {"WARP SPACING", "WEFT SPACING"}, *const thicknesses[] = {
                                                                                 "WARP THICKNESS",

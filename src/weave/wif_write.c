@@ -1,4 +1,4 @@
-/* wif_write.c - writes WIF 1.1 with threading, tie-up and treadling of the smallest loom */
+/* wif_write.c - writer of WIF 1.1 with threading, tie-up and treadling of the smallest loom */
 #define _POSIX_C_SOURCE 200809L /* open_memstream */
 #include <math.h>
 #include <stdlib.h>
@@ -8,13 +8,14 @@
 #include "base/memory.h"
 #include "weave/loom.h"
 
-/* The colours of all threads, in the order in which they first come. */
+/* The colours of all threads, in the order of their first use. */
 typedef struct Colors {
-    unsigned char (*table)[3];
+    unsigned char (*table)[3]; /* sRGB */
     int count;
-    int *of[2]; /* the place of each thread's colour in the table */
+    int *of[2]; /* index in the table, by thread */
 } Colors;
 
+/* Collects the colours. Returns false if memory is short. */
 static bool colors_of(const WeftDraft *draft, Colors *out) {
     const size_t all = (size_t)draft->count[0] + (size_t)draft->count[1];
     *out = (Colors){.table = alloc_array(all, sizeof *out->table)};

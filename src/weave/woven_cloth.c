@@ -1,4 +1,4 @@
-/* woven_cloth.c - a draft becomes a cloth: its runs, the albedo of its fibres, and what is seen of either system */
+/* woven_cloth.c - makes a cloth from a draft: its runs, the albedo of its fibres, and its appearance from afar */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,12 +10,13 @@
 #include "weave/weave_draft.h"
 #include "weave/weft_cloth.h"
 
-/* Returns 1 where thread k of a system is on top at its crossing with thread c of the other. */
+/* Returns 1 if thread k of a system is on top at its crossing with thread c of the other. */
 static int on_top(const WeftDraft *draft, WeftThreads threads, int k, int c) {
     return threads == WEFT_WARP ? weft_draft_warp_up(draft, k, c) : !weft_draft_warp_up(draft, c, k);
 }
 
-/* Writes the runs of one thread: at each crossing how many came before in its run, and the run's length. */
+/* Writes the runs of one thread: at each crossing the number of crossings before it in its run, and the run's length,
+ * below 0 where the thread is below. Both are 0 if the thread never changes sides. */
 static void put_runs(WeftCloth *cloth, const WeftDraft *draft, WeftThreads threads, int k) {
     const int count = draft->count[!threads], warps = draft->count[WEFT_WARP];
     int start = 0;
@@ -38,14 +39,14 @@ static void put_runs(WeftCloth *cloth, const WeftDraft *draft, WeftThreads threa
     }
 }
 
-/* Returns the albedo of fibres of which a cloth reflects so much: A E + rho(A) (1 - E), E of white fibres once
- * met, by bisection. */
+/* Returns the albedo A of fibres in a cloth of that reflectance, A E + rho(A) (1 - E), by bisection. E is that of
+ * single scattering on white fibres. */
 static float albedo_of(float reflectance, float alpha) {
-    const float once = 0.328f - 0.111f * alpha;
+    const float single = 0.328f - 0.111f * alpha;
     float low = 0.0f, high = 1.0f;
     for (int step = 0; step < 24; step++) {
         const float a = 0.5f * (low + high);
-        if (a * once + yarn_reflectance(a) * (1.0f - once) < reflectance)
+        if (a * single + yarn_reflectance(a) * (1.0f - single) < reflectance)
             low = a;
         else
             high = a;
@@ -61,7 +62,9 @@ static void put_albedos(WeftCloth *cloth, const WeftDraft *draft) {
                 *albedo++ = albedo_of(srgb_decode(draft->threads[t][k].color[c]), cloth->yarns[t].alpha);
 }
 
-static WeaveYarn laid(const WeftYarn *yarn, float pitch, float cross_pitch, float width) {
+/* Returns the yarn of a system in the cloth. Lengths are in units of the mean pitch; width: of the draft, in
+ * pitches. */
+static WeaveYarn yarn_in_cloth(const WeftYarn *yarn, float pitch, float cross_pitch, float width) {
     const float own = yarn->width * width;
     return (WeaveYarn){.alpha = yarn->alpha,
                        .crimp = tanf(yarn->crimp),
@@ -127,8 +130,8 @@ WeftResult weft_cloth_create(const WeftDraft *draft, const WeftYarn yarns[2], un
     const float warp = (float)(pitch[0] / unit), weft = (float)(pitch[1] / unit);
     cloth->weave = (Weave){.warps = warps,
                            .picks = picks,
-                           .warp = laid(&yarns[WEFT_WARP], warp, weft, (float)width[0]),
-                           .weft = laid(&yarns[WEFT_WEFT], weft, warp, (float)width[1]),
+                           .warp = yarn_in_cloth(&yarns[WEFT_WARP], warp, weft, (float)width[0]),
+                           .weft = yarn_in_cloth(&yarns[WEFT_WEFT], weft, warp, (float)width[1]),
                            .seed = (float)(seed % 289u),
                            .runs = cloth->runs,
                            .albedos = cloth->albedos};

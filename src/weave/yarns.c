@@ -1,4 +1,4 @@
-/* yarns.c - the yarns that have a name */
+/* yarns.c - the named yarns, and the numbers of a yarn */
 #include <stddef.h>
 #include <string.h>
 
@@ -8,8 +8,8 @@
 
 #define DEGREES ((float)RADIANS)
 
-/* Y(name, help, alpha, crimp, roundness, twist, white, width, bulge, floats, streaks, dye, slub, wander, hairiness), crimp
- * and twist in degrees. */
+/* Y(name, help, alpha, crimp, roundness, twist, white, width, bulge, floats, streaks, dye, slub, wander, hairiness),
+ * crimp and twist in degrees. */
 #define YARNS(Y)                                                                                             \
     Y("cotton", "spun, matt, slightly uneven", 0.4f, 25, 0.95f, -24, 0.04f, 0.96f, 0.1f, 1.2f, 0.25f, 0.12f, \
       0.3f, 0.35f, 0.7f)                                                                                     \
