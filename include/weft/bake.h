@@ -1,8 +1,8 @@
-/* bake.h - tables precomputed from lobes for engines to read, and what a table of somebody else's is worth
+/* bake.h - look-up tables (LUTs) of lobes for engines to read, and an audit of existing tables
  *
  * A table of directional albedo is a WeftImage of F32. Its texels run over the cosine cos_o of the view along
- * one axis and over the lobe's first parameter along the other; a WeftTableForm says how. docs/bake.md shows
- * what to do with them. */
+ * one axis and over the lobe's first parameter along the other; a WeftTableForm describes both axes.
+ * docs/bake.md shows how to use them. */
 #ifndef WEFT_BAKE_H
 #define WEFT_BAKE_H
 
@@ -22,41 +22,42 @@ typedef struct WeftTableForm {
     int alpha;          /* uniform in the first parameter itself in place of roughness */
     int edges;          /* the first texel at 0 and the last at 1; else texel k of n at (k + 0.5) / n */
     int flip_x, flip_y; /* the first texel is the last */
-    int total; /* of a lobe of two colours: the part of f90 and the sum, not the parts of f0 and f90 */
+    int total; /* for a lobe of two colours: the channels are the f90 part and the sum, not the f0 and f90 parts */
 } WeftTableForm;
 
-/* The forms that engines use, by index: a name, the same in elements, and whose it is. NULL past the end. */
+/* Returns the forms that engines use, by index: the name, a line with its elements and the engines that use it, and
+ * the form. A name or line past the end is NULL. */
 WEFT_API const char *weft_table_form_name(int index);
 WEFT_API const char *weft_table_form_help(int index);
 WEFT_API WeftTableForm weft_table_form_at(int index);
 
-/* The first of them that has the same axes, whatever its `total`; -1: none. */
+/* Returns the index of the first of them that has the same axes, whatever its `total`; -1: none. */
 WEFT_API int weft_table_form_find(const WeftTableForm *form);
 
 /* Reads a name, or elements separated by commas: what runs along x and along y (cos or sqrt-cos, and
- * roughness or alpha), then as wished centres or edges, flip-x, flip-y, total. Fails with
+ * roughness or alpha), then any of centres or edges, flip-x, flip-y, total. Fails with
  * WEFT_MESSAGE_TABLE_FORM. */
 WEFT_API WeftResult weft_table_form_parse(const char *text, WeftTableForm *out, WeftError *error);
 
-/* The elements of a form, as they are read. Returns text. */
+/* Writes the elements of a form as weft_table_form_parse reads them. Returns text. */
 enum { WEFT_TABLE_FORM_TEXT = 80 };
 WEFT_API char *weft_table_form_text(const WeftTableForm *form, char text[WEFT_TABLE_FORM_TEXT]);
 
-/* Returns the place of texel (x, y) of a table of that size: cos_o in [0, 1], and the lobe's first parameter,
+/* Computes what texel (x, y) of a table of that size stands for: cos_o in [0, 1], and the lobe's first parameter,
  * which may be beyond its hard range. Roughness r means r^2 where the parameter is called alpha, r where it
  * is called roughness, and else its plausible range from low to high. A lobe without parameters has 0. */
 WEFT_API void weft_table_form_texel(const WeftTableForm *form, int lobe, int width, int height, int x, int y,
                                     float *cos_o, float *value);
 
-/* A kind of table that can be baked. `lobe`: 0 none is taken, 1 one may be given, 2 one must be. */
+/* A kind of table that can be baked. */
 typedef struct WeftBakeKind {
     const char *id, *help; /* live as long as the program */
-    int lobe;              /* 0, 1 or 2, see above */
-    int formed; /* not 0: heeds WeftTableForm; 0: has axes of its own, which WeftBakeInfo.words describe */
-    int width, height; /* where none are given */
+    int lobe;              /* 0: none is taken; 1: one may be given; 2: one must be given */
+    int formed; /* not 0: heeds WeftTableForm; 0: has axes of its own, which WeftBakeInfo.words describes */
+    int width, height; /* default size, texels */
 } WeftBakeKind;
 
-/* By index; NULL past the end. */
+/* Returns a kind by index; NULL past the end. */
 WEFT_API const WeftBakeKind *weft_bake_kind(int index);
 
 /* Sides are 1 to 65536, and a table has at most this many texels. */
@@ -67,8 +68,8 @@ typedef struct WeftBakeDesc {
     const char *kind;      /* the id of a WeftBakeKind */
     const WeftLobe *lobe;  /* counts as white */
     int width, height;     /* texels */
-    WeftTableForm form;    /* the axes; of no account where the kind is not formed */
-    double tolerance;      /* absolute, of each value's quadrature; 0: 1e-4. Floats end near 1e-6 */
+    WeftTableForm form;    /* the axes; not read where the kind is not formed */
+    double tolerance;      /* absolute, of each value's quadrature; 0: 1e-4. Floats are exact to about 1e-6 */
     int threads;           /* 0: all */
     WeftProgress progress; /* may be NULL; a result other than 0 stops */
     void *user;            /* of progress */
@@ -85,22 +86,22 @@ typedef struct WeftBakeInfo {
     float low, high;   /* the least and the largest value */
 } WeftBakeInfo;
 
-/* Makes a table: F32, released with weft_image_free. At cos_o below 1e-6 it holds what is there at 1e-6. The
- * numbers do not depend on the threads. WEFT_INTERRUPTED (without an error's text, and without a table) where
- * progress says so; fails with WEFT_MESSAGE_BAKE_KIND, _DESC or _MEMORY. info may be NULL. */
+/* Makes a table: F32, released with weft_image_free. Below 1e-6, cos_o counts as 1e-6. The numbers do not depend
+ * on the threads. Returns WEFT_INTERRUPTED, without an error's text and without a table, if progress stops it;
+ * fails with WEFT_MESSAGE_BAKE_KIND, _DESC or _MEMORY. info may be NULL. */
 WEFT_API WeftResult weft_bake(const WeftBakeDesc *desc, WeftBakeInfo *info, WeftImage *out, WeftError *error);
 
 /* The fit behind the lobe `fibre`. Zero means default, in every member. */
 typedef struct WeftFibreModelDesc {
-    int rounds;            /* of the search, each stage; 0: 120, at most 1000 */
+    int rounds;            /* of the search in each stage, at most 1000; 0: 120 */
     int threads;           /* 0: all; no influence on the numbers */
     WeftProgress progress; /* may be NULL; a result other than 0 stops */
     void *user;            /* of progress */
 } WeftFibreModelDesc;
 
-/* Solves slabs of fibres, fits the closed form to them, and writes its numbers as the header
- * shading/tables/fibre_model.h, which begins with `command`. Minutes. *text is released with free().
- * WEFT_INTERRUPTED where progress says so; fails with WEFT_MESSAGE_DESC or _MEMORY. */
+/* Solves slabs of fibres, fits the polynomial model of `fibre` to them, and writes its coefficients as the header
+ * shading/tables/fibre_model.h, which begins with `command`. Takes minutes. *text is released with free().
+ * Returns WEFT_INTERRUPTED if progress stops it; fails with WEFT_MESSAGE_DESC or _MEMORY. */
 WEFT_API WeftResult weft_bake_fibre_model(const WeftFibreModelDesc *desc, const char *command, char **text,
                                           WeftError *error);
 
@@ -108,16 +109,16 @@ WEFT_API WeftResult weft_bake_fibre_model(const WeftFibreModelDesc *desc, const 
 
 /* F(id, name in JSON): what can be wrong with a table. */
 #define WEFT_TABLE_FAULTS(F)                                                                                 \
-    F(NONE, "none")         /* as right as its numbers can be */                                             \
+    F(NONE, "none")         /* as exact as its pixel type can be */                                          \
     F(CONSTANT, "constant") /* one value everywhere, black among them, where E is not constant */            \
-    F(FORM, "axes")         /* right, but its axes are others than were said */                              \
-    F(LATE, "shifted")      /* right, but one texel late along the parameter */                              \
+    F(FORM, "axes")         /* right, but its axes are not those that were given */                          \
+    F(LATE, "shifted")      /* right, but shifted by one texel along the parameter */                        \
     F(CLIPPED, "clipped")   /* right, but cut off where E goes on */                                         \
-    F(SCALED, "scaled")     /* right, but for one factor */                                                  \
+    F(SCALED, "scaled")     /* right, but for one constant factor */                                         \
     F(ENCODED, "encoded")   /* right, but sRGB-encoded */                                                    \
     F(OTHER_LOBE, "lobe")   /* much nearer to the E of another lobe */                                       \
-    F(BIASED, "biased")     /* off by what neighbouring texels share */                                      \
-    F(NOISY, "noisy")       /* off by what they do not share */                                              \
+    F(BIASED, "biased")     /* off by an error that neighbouring texels share */                             \
+    F(NOISY, "noisy")       /* off by an error that they do not share */                                     \
     F(CORNER, "corner")     /* off in a few texels only */
 
 /* The fault of a table: WEFT_TABLE_NONE and the rest of WEFT_TABLE_FAULTS. */
@@ -128,11 +129,10 @@ typedef enum WeftTableFault {
         WEFT_TABLE_FAULT_COUNT
 } WeftTableFault;
 
-/* The name of a fault, "biased". */
+/* Returns the name of a fault, such as "biased". */
 WEFT_API const char *weft_table_fault_name(WeftTableFault fault);
 
-/* The part of the albedo that a channel holds, for a lobe of two colours. With one colour the sum is all
- * of it. */
+/* The part of the albedo that a channel holds, for a lobe of two colours; a lobe of one colour has only the sum. */
 typedef enum WeftTablePart {
     WEFT_TABLE_SUM = 0,
     WEFT_TABLE_F0,
@@ -142,54 +142,54 @@ typedef enum WeftTablePart {
 
 /* Zero means default, in every member but image. */
 typedef struct WeftAuditDesc {
-    const WeftImage *image;    /* of any type; integers are plain numbers, value / 255 or / 65535 */
+    const WeftImage *image;    /* of any type; integers are linear, value / 255 or / 65535 */
     int channel;               /* of image */
     const WeftLobe *lobe;      /* counts as white; NULL: the nearest of those with one parameter or none */
     const WeftTableForm *form; /* NULL: the best of those that engines use, or of all there are */
     double scale;              /* multiplies the image's values; 0: 1 */
-    double most;               /* an error above this is one too many; 0: 0.01 */
+    double most;               /* the largest error that passes; 0: 0.01 */
     double tolerance;          /* of the quadrature; 0: 1e-4 */
     int threads;               /* 0: all */
     WeftProgress progress;     /* may be NULL; a result other than 0 stops */
     void *user;                /* of progress */
 } WeftAuditDesc;
 
-/* A texel, and what is there. */
+/* A texel, and the values there. */
 typedef struct WeftTablePlace {
     int x, y;            /* from the top left */
     float cos_o, value;  /* value: of the lobe's first parameter */
-    float table, albedo; /* what the table says, times scale, and E */
+    float table, albedo; /* the table's value times scale, and E */
 } WeftTablePlace;
 
-/* The most findings of an audit, and the longest sentence of one, its end among the characters. */
+/* The most findings of an audit, and the size of a finding's text with its zero. */
 enum { WEFT_AUDIT_FINDINGS = 6, WEFT_AUDIT_TEXT = 320 };
 
 /* The result of an audit. */
 typedef struct WeftAudit {
-    WeftTableForm form;   /* the axes it was judged by: those said, else those found */
-    int fits;             /* 0: E in that form, or a multiple of it, is not what the table is near to */
+    WeftTableForm form;   /* the axes it was compared by: those given, else those found */
+    int fits;             /* 0: the table is near neither to E in that form nor to a multiple of it */
     WeftTablePart part;   /* what the channel holds */
-    long long texels;     /* judged: all but those at cos_o = 0 and beyond the lobe's hard range */
+    long long texels;     /* compared: all but those at cos_o = 0 and beyond the lobe's hard range */
     long long left_out;   /* the rest */
     double largest;       /* |error|, error = table - E */
-    WeftTablePlace place; /* there */
+    WeftTablePlace place; /* of the largest error */
     double rms, mean;     /* of the error; the mean with its sign */
-    double beyond;        /* the share of texels whose |error| is above `most` */
+    double beyond;        /* fraction of texels whose |error| is above `most` */
     double together;      /* correlation of the errors of neighbouring texels, in [-1, 1]: 0 noise, 1 bias */
     double step;          /* between two values that the image's type can hold; 0: float */
-    double error;         /* an estimate of how far E is off, by quadrature and between its samples */
+    double error;         /* estimated error of E itself, by quadrature and between its samples */
     int faults;           /* found, at least 1: NONE is one */
     struct {
         WeftTableFault fault;
-        char text[WEFT_AUDIT_TEXT]; /* one plain sentence */
+        char text[WEFT_AUDIT_TEXT]; /* one sentence */
     } found[WEFT_AUDIT_FINDINGS];   /* `faults` of them, the gravest first */
     int other;                      /* OTHER_LOBE: the lobe; else -1 */
     int lobe;                       /* whose E it was compared with */
 } WeftAudit;
 
 /* Compares a table with the quadrature of a lobe at the table's own texels. errors (may be NULL) becomes F32
- * of the table's size and three channels: error, table, E; all 0 where a texel is left out. WEFT_INTERRUPTED
- * and failures as weft_bake. */
+ * of the table's size and three channels: error, table, E; all 0 where a texel is left out. Is interrupted and
+ * fails as weft_bake. */
 WEFT_API WeftResult weft_audit(const WeftAuditDesc *desc, WeftAudit *out, WeftImage *errors,
                                WeftError *error);
 

@@ -26,18 +26,18 @@ typedef enum WeftChartKind {
 
 /* A material of the chart. */
 typedef struct WeftChartEntry {
-    const char *name;    /* an id, "gold"; unique in the chart */
-    const char *help;    /* what the name does not say, "" where it says all */
-    const char *source;  /* author, title, year */
-    WeftChartKind kind;  /* what base_color means */
-    float base_color[3]; /* 0 .. 1, for the input base_color of every workflow; specular: f0 of a metal is
-                            its specular_color, and its base_color black */
-    float f0[3];         /* reflectance at normal incidence, 0 .. 1; equal channels unless METAL */
-    float ior;           /* index of refraction, from which f0 follows; 0 of a METAL */
+    const char *name;   /* an id, "gold"; unique in the chart */
+    const char *help;   /* a note beside the name, or "" */
+    const char *source; /* author, title, year */
+    WeftChartKind kind; /* what base_color means */
+    /* 0 .. 1, for the input base_color; in workflow specular a metal has f0 as specular_color and base_color black */
+    float base_color[3];
+    float f0[3]; /* reflectance at normal incidence, 0 .. 1; equal channels unless METAL */
+    float ior;   /* index of refraction, from which f0 follows; 0 of a METAL */
 } WeftChartEntry;
 
-/* The entry at index, by kind and then from dark to bright: by the luminance of base_color, what is clear by
- * that of f0. NULL out of range. It lives as long as the program. */
+/* Returns the entry at index; NULL out of range. Entries are ordered by kind and then from dark to bright, by the
+ * luminance of base_color, or of f0 where base_color is white. An entry lives as long as the program. */
 WEFT_API const WeftChartEntry *weft_chart(int index);
 
 #ifdef __cplusplus

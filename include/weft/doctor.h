@@ -5,10 +5,10 @@
  *   weft_doctor_fix(doctor, "mended.glb", &error);
  *   weft_doctor_close(doctor);
  *
- * It looks at the file as it is, before a reader clamps or repairs anything. What it says of light is
- * measured on the lobes that render, at the numbers of the material; docs/doctor.md says of each finding what
- * is seen, why, and how it is known. It does not render, and does not judge by eye: that two engines differ
- * is not that one is wrong. */
+ * It examines the file as it is, before a reader clamps or repairs anything. Findings about light are measured
+ * on the lobes that render, with the parameters of the material; docs/doctor.md explains what each finding looks
+ * like, its cause, and how it is detected. The doctor does not render, and a difference between two engines does
+ * not mean that one of them is wrong. */
 #ifndef WEFT_DOCTOR_H
 #define WEFT_DOCTOR_H
 
@@ -22,13 +22,13 @@ extern "C" {
 
 /* The severity of a finding. */
 typedef enum WeftSeverity {
-    WEFT_SEVERITY_NOTE = 0, /* looks otherwise than one may think */
+    WEFT_SEVERITY_NOTE = 0, /* may look different from what the author expects */
     WEFT_SEVERITY_WARNING,  /* looks wrong in some engine */
-    WEFT_SEVERITY_ERROR     /* breaks the specification, or shows nothing of what is there */
+    WEFT_SEVERITY_ERROR     /* breaks the specification, or makes content invisible */
 } WeftSeverity;
 
-/* F(id, name, severity, fixable, help): every finding there is, by name in the order of reports. fixable: 1
- * where weft_doctor_fix can repair it, perhaps not everywhere; each finding says. */
+/* F(id, name, severity, fixable, help): every kind of finding, in the order of reports. fixable: 1 if
+ * weft_doctor_fix can repair some of that kind; WeftFinding.fixable is set on those that it can. */
 #define WEFT_FINDINGS(F)                                                                                     \
     F(EXTENSION_REQUIRED, "extension-required", ERROR, 0,                                                    \
       "an extension is required that weft does not know")                                                    \
@@ -80,13 +80,13 @@ typedef enum WeftFindingKind {
         WEFT_FINDING_COUNT
 } WeftFindingKind;
 
-/* The catalogue; NULL, or 0, out of range. */
+/* Returns the members of the catalogue above by kind; NULL, or 0, out of range. */
 WEFT_API const char *weft_finding_name(int kind);
 WEFT_API const char *weft_finding_help(int kind);
 WEFT_API WeftSeverity weft_finding_severity(int kind);
 WEFT_API int weft_finding_fixable(int kind);
 
-/* "note", "warning" or "error"; NULL out of range. */
+/* Returns "note", "warning" or "error"; NULL out of range. */
 WEFT_API const char *weft_severity_name(WeftSeverity severity);
 
 /* The part of an asset that a finding is about. */
@@ -94,26 +94,26 @@ typedef enum WeftFindingOf { WEFT_OF_ASSET = 0, WEFT_OF_MATERIAL, WEFT_OF_MESH, 
 
 /* One thing that is wrong. Owned by the doctor. */
 typedef struct WeftFinding {
-    WeftFindingKind kind;  /* what */
+    WeftFindingKind kind;  /* one of the catalogue */
     WeftSeverity severity; /* of that kind */
-    WeftFindingOf of;      /* where */
+    WeftFindingOf of;      /* the part that it is about */
     int index;             /* in the list of that name in the file; 0 of the asset */
     char subject[96];      /* name of the object, or its place, such as "materials[3]", if it has none */
-    unsigned engines;      /* bit k: weft_profile_name(k) is hurt; 0: whatever reads the file */
+    unsigned engines;      /* bit k: profile k (weft_profile_name) is affected; 0: any reader of the file */
     char words[400];       /* what is wrong, with figures: a sentence without a full stop */
     char fix[280];         /* what to do */
     int fixable;           /* weft_doctor_fix does it */
-    double figure;         /* what was measured; NAN where nothing was */
+    double figure;         /* the measured value; NAN where nothing was measured */
     char place[160];       /* a JSON pointer (RFC 6901) into the file */
 } WeftFinding;
 
 /* An asset that was examined. */
 typedef struct WeftDoctor WeftDoctor;
 
-/* Examines the .gltf or .glb at path, which must outlive the doctor. Fails as weft_scene_load does, but for
- * an extension that is required and not known and an image that is missing or cannot be read, which are
- * findings. log (may be NULL) receives the reader's
- * warnings. On success *out is owned by the caller: release it with weft_doctor_close. */
+/* Examines the .gltf or .glb at path, which must outlive the doctor. Fails as weft_scene_load does, except that
+ * an unsupported required extension and an image that is missing or cannot be read are findings. log (may be
+ * NULL) receives the reader's warnings. On success *out is owned by the caller: release it with
+ * weft_doctor_close. */
 WEFT_API WeftResult weft_doctor_open(const char *path, WeftDoctor **out, const WeftLog *log,
                                      WeftError *error);
 
@@ -123,14 +123,14 @@ WEFT_API WeftResult weft_doctor_open(const char *path, WeftDoctor **out, const W
 WEFT_API WeftResult weft_doctor_open_watched(const char *path, WeftProgress progress, void *user,
                                              WeftDoctor **out, const WeftLog *log, WeftError *error);
 
-/* weft_doctor_open of size bytes, which must outlive the doctor. */
+/* Works as weft_doctor_open, from size bytes, which must outlive the doctor. */
 WEFT_API WeftResult weft_doctor_open_memory(const void *data, size_t size, const char *name, WeftDoctor **out,
                                             const WeftLog *log, WeftError *error);
 
 WEFT_API void weft_doctor_close(WeftDoctor *doctor); /* may be NULL */
 
-/* The findings: of the asset first, then material by material, mesh by mesh, image by image. NULL out of
- * range. */
+/* Returns the number of findings, and a finding by index: first those of the asset, then by material, by mesh and
+ * by image. NULL out of range. */
 WEFT_API int weft_doctor_count(const WeftDoctor *doctor);
 WEFT_API const WeftFinding *weft_doctor_finding(const WeftDoctor *doctor, int index);
 
@@ -140,13 +140,13 @@ typedef struct WeftDoctorInfo {
     int sheen_count;                             /* materials with KHR_materials_sheen */
 } WeftDoctorInfo;
 
-/* About what was examined. */
+/* Returns the counts of the parts that were examined. */
 WEFT_API WeftDoctorInfo weft_doctor_info(const WeftDoctor *doctor);
 
-/* Writes the asset as .glb or .gltf with all that is fixable fixed, and nothing else changed: the text of its
- * JSON and all bytes stay what they are. From .gltf to .glb what it refers to moves in; in another folder it
- * is copied along. Fails with WEFT_MESSAGE_SCENE_KIND (another suffix), _FILE_OPEN, _FILE_WRITE or _MEMORY.
- */
+/* Writes the asset as .glb or .gltf with all that is fixable fixed, and nothing else changed: all other JSON text
+ * and all other bytes stay as they are. Files that the asset refers to are packed into a .glb, or copied along
+ * with a .gltf in another folder. Fails with WEFT_MESSAGE_SCENE_KIND (another suffix), _FILE_OPEN, _FILE_WRITE
+ * or _MEMORY. */
 WEFT_API WeftResult weft_doctor_fix(const WeftDoctor *doctor, const char *path, WeftError *error);
 
 #ifdef __cplusplus

@@ -5,13 +5,13 @@
  *   fwrite(text.text, 1, text.size, file);
  *   weft_export_free(&text);
  *
- * The text is that of the catalogue, so it does what this library does; it begins with what it is, its
- * conventions, its licence and how to call it. Directions are in the shading frame as weft/lobe.h has it.
+ * The text is that of the catalogue, so it computes what this library computes. Its first lines describe the
+ * model, its conventions, its licence and how to call it. Directions are in the shading frame of weft/lobe.h.
  *
- *   of a lobe       ID_eval (colour times f), ID_pdf, ID_sample, ID_default, ID_rough; ID_albedo where asked
+ *   of a lobe       ID_eval (colour times f), ID_pdf, ID_sample, ID_default, ID_rough; ID_albedo on request
  *   of a material   NAME_surface (its numbers), NAME_shade (f times the cosine)
  *
- * It does not hold textures, normal maps, emission, environments and area lights: they are the engine's. */
+ * Textures, normal maps, emission, environments and area lights are left to the engine. */
 #ifndef WEFT_EXPORT_H
 #define WEFT_EXPORT_H
 
@@ -25,7 +25,7 @@
 extern "C" {
 #endif
 
-/* The language, and what is around the functions. */
+/* The language of the text, and the code around the functions. */
 typedef enum WeftExportTarget {
     WEFT_EXPORT_GLSL = 0,  /* functions for GLSL 3.30 core and later */
     WEFT_EXPORT_ESSL,      /* for GLSL ES 3.00: OpenGL ES 3, WebGL 2 */
@@ -36,14 +36,14 @@ typedef enum WeftExportTarget {
     WEFT_EXPORT_TARGETS
 } WeftExportTarget;
 
-/* "glsl", "essl", "hlsl", "c", "shadertoy", "wgsl" and a line on each; NULL past the end. */
+/* Returns "glsl", "essl", "hlsl", "c", "shadertoy" or "wgsl", and a line on each; NULL past the end. */
 WEFT_API const char *weft_export_target_name(int target);
 WEFT_API const char *weft_export_target_help(int target);
 
 /* The form in which tables reach the program. Only PNG16 changes their numbers. */
 typedef enum WeftExportLut {
     WEFT_EXPORT_LUT_C = 0, /* arrays of C; inside the text of targets C and SHADERTOY, and of WGSL up to 2,047
-                              texels, which is as long as an array may be written there */
+                              texels, the longest array expression there */
     WEFT_EXPORT_LUT_PNG16, /* 16 bits; the text multiplies by a power of two and adds an offset */
     WEFT_EXPORT_LUT_EXR,
     WEFT_EXPORT_LUT_DDS,
@@ -51,37 +51,37 @@ typedef enum WeftExportLut {
     WEFT_EXPORT_LUTS
 } WeftExportLut;
 
-/* "c", "png16", "exr", "dds", "npy"; NULL past the end. */
+/* Returns "c", "png16", "exr", "dds" or "npy"; NULL past the end. */
 WEFT_API const char *weft_export_lut_name(int lut);
 
-/* Zero means default, in every member. Of lobe, profile and material exactly one is given, or profile and
- * material: then the text is that of a profile, for any numbers, and has the material's choices and numbers
- * for defaults. */
+/* Zero means default, in every member. Exactly one of lobe, profile and material is given, or profile and
+ * material together: then the text is that of the profile, for any inputs, with the material's choices and inputs
+ * as defaults. */
 typedef struct WeftExportDesc {
     const WeftLobe *lobe;         /* ID_default returns these parameters */
     const WeftLobe *right;        /* SHADERTOY: a second lobe, for the right half of the picture */
     const char *profile;          /* the id of an engine profile, or of a workflow */
-    const WeftMaterial *material; /* the default inputs; a part at 0 may not be in the text */
+    const WeftMaterial *material; /* the default inputs; the text may leave out a lobe whose weight is 0 */
     const char *name;             /* of the material, in names of the text; NULL: "material" */
-    WeftExportTarget target;      /* what is written */
-    WeftExportLut lut;            /* what tables are written as */
-    int albedo;                   /* not 0: of a lobe ID_albedo too, which reads a table */
-    int fold_pi;        /* not 0: f comes multiplied by pi, for lights whose unit has the 1/pi inside */
-    const char *prefix; /* of every name, a C identifier of at most 24 characters; NULL: "weft_" */
-    const char *call;   /* what made the text, for its first lines; may be NULL */
+    WeftExportTarget target;      /* language of the text */
+    WeftExportLut lut;            /* form of the tables */
+    int albedo;                   /* not 0: with ID_albedo of a lobe, which reads a table */
+    int fold_pi;                  /* not 0: f is multiplied by pi, for lights whose unit contains the 1/pi */
+    const char *prefix;           /* of every name, a C identifier of at most 24 characters; NULL: "weft_" */
+    const char *call;             /* the command that made the text, for its first lines; may be NULL */
 } WeftExportDesc;
 
-/* The most models and tables of a text, and the longest name, its end among the characters. */
+/* The most models and tables of a text, and the size of a name with its zero. */
 enum { WEFT_EXPORT_MODELS_MAX = 16, WEFT_EXPORT_TABLES_MAX = 32, WEFT_EXPORT_NAME = 96 };
 
-/* A table that the text reads: F32, one channel, to be uploaded as it is, without filtering or mipmaps. */
+/* A table that the text reads: F32, one channel. Upload it as it is, without filtering or mipmaps. */
 typedef struct WeftExportTable {
     char name[WEFT_EXPORT_NAME]; /* of the sampler, texture or array in the text */
     WeftImage texels;            /* owned */
     float scale, offset; /* PNG16: texels are in [0, 1], and the text reads texel scale + offset; else 1, 0 */
 } WeftExportTable;
 
-/* A text, and what it reads. */
+/* A text, and the tables that it reads. */
 typedef struct WeftExport {
     char *text;  /* owned; ends with a zero byte that size does not count */
     size_t size; /* bytes */
@@ -93,13 +93,13 @@ typedef struct WeftExport {
  * profile), _DESC or _MEMORY; *out is then zero. A table of E takes up to seconds. */
 WEFT_API WeftResult weft_export(const WeftExportDesc *desc, WeftExport *out, WeftError *error);
 
-/* Makes one text of `count` models, 1 to WEFT_EXPORT_MODELS_MAX, of one target, lut, prefix and fold_pi:
- * what they share is in it once, and where they differ the names of one begin with its id, as
- * WeftKhronosSurface. No two may go by one name, and a Shadertoy has one. Fails as weft_export. */
+/* Makes one text of `count` models, 1 to WEFT_EXPORT_MODELS_MAX, of one target, lut, prefix and fold_pi. Code that
+ * models share is in it once; where they differ, names begin with the model's id, such as WeftKhronosSurface. No two
+ * models may have one name, and a Shadertoy takes one model. Fails as weft_export. */
 WEFT_API WeftResult weft_export_all(const WeftExportDesc *descs, int count, WeftExport *out,
                                     WeftError *error);
 
-/* Releases what it owns and zeroes it. text may be NULL or all zero. */
+/* Releases what the export owns and zeroes it. text may be NULL or all zero. */
 WEFT_API void weft_export_free(WeftExport *text);
 
 #ifdef __cplusplus

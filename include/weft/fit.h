@@ -1,13 +1,17 @@
 /* fit.h - measured reflectance, and the lobes of the catalogue that come closest to it
  *
- * A candidate is a lobe over a diffuse base: f = base color * white base + lobe. Free are all parameters of
- * both that are numbers, within their plausible ranges; the choices of the lobe, of which all that may be put
- * together are looked at and the best searched; its colours and that of the base, which are at least 0 and
- * may pass 1 (weft_fitted_notes says so). Candidates are all lobes but diffuse ones and WEFT_LOBE_REFERENCE.
- *   A weave is lobe woven, the warp, over base woven, the weft, which are fitted where base is "woven": as materials have
- * them, the warp along the bitangent. f0 of each is the colour of light that met one fibre, f90 of all other, both factors;
- * free are those and all numbers but the azimuth, the shares together being 1, within what is possible. Data that are
- * isotropic or lie in one plane are refused with WEFT_MESSAGE_DESC: they do not tell warp from weft.
+ * A candidate is a lobe over a diffuse base: f = base color * white base + lobe. The fit varies
+ *
+ * - the parameters of both that are numbers, within their plausible ranges;
+ * - the choices of the lobe: every combination is evaluated, and the best ones are searched;
+ * - the colours of both, at least 0. A colour above 1 is noted by weft_fitted_notes.
+ *
+ * Candidates are all lobes but diffuse ones and WEFT_LOBE_REFERENCE.
+ *
+ * A weave is fitted where base is "woven": lobe woven is the warp, along the bitangent as in materials, and base woven
+ * is the weft. f0 of each is the colour of light that met one fibre, f90 that of all other light; both are factors.
+ * The fit varies these colours and all parameters but the azimuth, each within its possible range; the shares of both
+ * systems sum to 1. Data that are isotropic or lie in one plane cannot separate warp from weft: WEFT_MESSAGE_DESC.
  *
  * The error is that of match.h over the samples of the data, each of which counts alike:
  *
@@ -25,7 +29,7 @@
 extern "C" {
 #endif
 
-/* A measurement: directions and f. It does not change, so any number of threads may read it. */
+/* A measurement: pairs of directions and f. It is immutable, so any number of threads may read it. */
 typedef struct WeftData WeftData;
 
 /* Reads a measurement: ".binary", ".bsdf" or ".bin" (reflection.h has the formats), of which every bin, or every
@@ -33,19 +37,19 @@ typedef struct WeftData WeftData;
  *
  *   theta_o, phi_o, theta_i, phi_i, r, g, b        degrees, from the normal and the tangent; f in 1/sr
  *
- * separated by commas, semicolons, blanks or tabs, at most 1 million of them; empty lines and those that
- * begin with # are passed over, and so are a byte-order mark and one line of names above the numbers. Where
- * one of r, g, b is negative, nothing was measured. Fails with WEFT_MESSAGE_MEASURED, _BSDF, _UTIA, _BRDF_TABLE (which says
- * in what line), _MEMORY and with what reading a file can fail with. Release with weft_data_free. */
+ * separated by commas, semicolons, blanks or tabs, at most 1 million lines. Empty lines, lines that begin with #, a
+ * byte-order mark and one line of names above the numbers are skipped. A negative r, g or b marks an unmeasured pair.
+ * Fails with WEFT_MESSAGE_MEASURED, _BSDF, _UTIA, _BRDF_TABLE (with the number of the line), _MEMORY and as reading a
+ * file does. Release with weft_data_free. */
 WEFT_API WeftResult weft_data_read(const char *path, WeftData **out, WeftError *error);
 
 /* Works as weft_data_read, from size bytes. Errors begin with name, whose suffix names the format. */
 WEFT_API WeftResult weft_data_read_memory(const void *data, size_t size, const char *name, WeftData **out,
                                           WeftError *error);
 
-/* Makes data of count pairs of unit directions and their f, 1/sr, all copied. isotropic: not 0 if f stays the
- * same as both directions turn, which halves the work. Fails with WEFT_MESSAGE_DESC where nothing is above 0
- * or nothing is left, or _MEMORY. */
+/* Makes data of count pairs of unit directions and their f, 1/sr, all copied. isotropic: not 0 if rotating both
+ * directions about the normal leaves f unchanged, which halves the work. Fails with WEFT_MESSAGE_DESC where no f is
+ * above 0 or no sample is in use, or _MEMORY. */
 WEFT_API WeftResult weft_data_create(int count, const float (*wo)[3], const float (*wi)[3],
                                      const float (*f)[3], int isotropic, WeftData **out, WeftError *error);
 
@@ -55,29 +59,29 @@ WEFT_API void weft_data_free(WeftData *data); /* may be NULL */
  * unmeasured ones. */
 WEFT_API int weft_data_count(const WeftData *data, int *all);
 
-/* Sample k of those in use: unit directions and f, 1/sr. */
+/* Fills in sample k of those in use: unit directions and f, 1/sr. */
 WEFT_API void weft_data_sample(const WeftData *data, int k, float wo[3], float wi[3], float f[3]);
 
-/* A measurement as a lobe. */
+/* Error and colours of a measurement that was made a lobe. */
 typedef struct WeftDataLobe {
     double error;        /* LOG, of the lobe in these colours */
-    float f0[3], f90[3]; /* of the lobe, which is white in its file */
+    float f0[3], f90[3]; /* colours of the lobe, which is white in its file */
 } WeftDataLobe;
 
-/* Makes the text of a lobe's file, which weft_lobe_load takes, out of a measurement: f and the share of the
- * second colour as polynomials of half vector and difference angle (docs/measured.md); what depends on phi_d or
- * on how the pair is turned is averaged. name: of the file without .h; about: a sentence for its comment.
- * *text is owned by the caller: free it. Fails with WEFT_MESSAGE_DESC (no name of a lobe) or _MEMORY. */
+/* Makes the text of a lobe's file, for weft_lobe_load, from a measurement: f and the weight of the second colour as
+ * polynomials of half vector and difference angle (docs/measured.md), averaged over phi_d and over rotations about
+ * the normal. name: of the file without .h; about: a sentence for its comment. *text is owned by the caller: free it.
+ * Fails with WEFT_MESSAGE_DESC (name cannot name a lobe) or _MEMORY. */
 WEFT_API WeftResult weft_data_lobe(const WeftData *data, const char *name, const char *about, char **text,
                                    WeftDataLobe *out, WeftError *error);
 
 /* One candidate, fitted. */
 typedef struct WeftFitted {
-    WeftLobe lobe; /* with the parameters and colours that were found */
+    WeftLobe lobe; /* with the fitted parameters and colours */
     WeftLobe base; /* likewise; f0 and f90 are its colour, a factor on the white base; of a weave the weft */
-    int numbers;   /* free ones: parameters of both, and three a colour, or one if all is grey */
-    double error;  /* by the metric that was chosen */
-    long long evaluations; /* of the error, that it took */
+    int numbers;  /* count of fitted numbers: parameters of both, and three a colour, or one if all is grey */
+    double error; /* by the metric that was chosen */
+    long long evaluations; /* of the error during the search */
 } WeftFitted;
 
 /* Notes on a fit beside its error. */
@@ -87,7 +91,7 @@ enum {
     WEFT_FITTED_EDGE = 1 << 2     /* a number ends where its plausible range does */
 };
 
-/* Returns the notes that hold of a fit, or-ed together; 0 without any. */
+/* Returns the notes on a fit, or-ed together; 0 without any. */
 WEFT_API unsigned weft_fitted_notes(const WeftFitted *fitted);
 
 /* The most candidates of a ranking, and the most bases. */
@@ -97,7 +101,7 @@ enum { WEFT_FITTED_MOST = 768, WEFT_FITTED_BASES = 16 };
 typedef struct WeftFit {
     int count;                           /* of fitted, <= WEFT_FITTED_MOST */
     WeftFitted fitted[WEFT_FITTED_MOST]; /* the best first */
-    WeftFitted baseline;                 /* ggx over lambert, f90 = 1: what engines have for everything */
+    WeftFitted baseline;                 /* ggx over lambert, f90 = 1: the default of engines */
     double base_alone;                   /* the error of the base without a lobe */
 } WeftFit;
 
@@ -107,36 +111,36 @@ typedef struct WeftFitDesc {
     int chosen;            /* not 0: metric was chosen */
     const char *base;      /* a diffuse lobe, or "all": over each of them; NULL: lambert; "woven": a weave */
     const char *only;      /* one candidate instead of all; NULL: all */
-    int sayable;           /* not 0: parameters that no material has an input for stay at their default */
+    int expressible;       /* not 0: parameters that no material has an input for stay at their default */
     int threads;           /* 0: one a processor; no influence on the result */
     WeftProgress progress; /* may be NULL */
     void *user;            /* handed to progress */
 } WeftFitDesc;
 
-/* Fits all candidates and ranks them. The same data give the same answer. Fails with WEFT_MESSAGE_LOBE_NAME,
- * _DESC or _MEMORY; WEFT_INTERRUPTED where progress, which is asked while lobes are fitted, says so. */
+/* Fits all candidates and ranks them. The same data give the same result. Fails with WEFT_MESSAGE_LOBE_NAME,
+ * _DESC or _MEMORY; returns WEFT_INTERRUPTED if progress, which is called while lobes are fitted, stops it. */
 WEFT_API WeftResult weft_fit(const WeftData *data, const WeftFitDesc *desc, WeftFit *out, WeftError *error);
 
-/* Changes material, whose inputs and choices are where to begin, to what comes closest to the data: the free
- * inputs are those of weft_match_material, and the search has several starts besides. out->matched is the
- * error. Of desc, metric alone counts. Fails with WEFT_MESSAGE_PARAM_VALUE, _DESC or _MEMORY. */
+/* Changes material so that it comes closest to the data. The search begins at the material as given and at several
+ * other starts, and varies the inputs that weft_match_material varies. out->matched is the error. Of desc, only
+ * metric is read. Fails with WEFT_MESSAGE_PARAM_VALUE, _DESC or _MEMORY. */
 WEFT_API WeftResult weft_fit_material(const WeftData *data, const WeftFitDesc *desc, WeftMaterial *material,
                                       WeftMatch *out, WeftError *error);
 
-/* Sets *distance to the error of a reflection as it is. Of desc, metric alone counts. Fails with
+/* Sets *distance to the error of a reflection as it is. Of desc, only metric is read. Fails with
  * WEFT_MESSAGE_DESC or _MEMORY. */
 WEFT_API WeftResult weft_data_distance(const WeftData *data, const WeftFitDesc *desc,
                                        const WeftReflection *reflection, double *distance, WeftError *error);
 
-/* Returns 1 if lobe and base are warp and weft of a weave: under all else lies a diffuse base. */
+/* Returns 1 if lobe and base are warp and weft of a weave; 0 if the base is a diffuse lobe. */
 WEFT_API int weft_fitted_is_weave(const WeftFitted *fitted);
 
 /* Makes the reflection of a fit: base and lobe, or warp and weft. Fails with WEFT_MESSAGE_MEMORY. */
 WEFT_API WeftResult weft_fitted_reflection(const WeftFitted *fitted, WeftReflection **out, WeftError *error);
 
-/* The material that is exactly that base and lobe: workflow cloth, layer rule additive. Returns 0 where
- * inputs cannot say it: a lobe or base with more shape than inputs have (`sayable` fits them as they can be
- * said), or a base brighter than white. */
+/* Fills in the material that is exactly that base and lobe: workflow cloth, layer rule additive. Returns 0 if no
+ * material can express the fit: a parameter of lobe or base has no input (WeftFitDesc.expressible avoids that), or the
+ * base is brighter than white. */
 WEFT_API int weft_fitted_material(const WeftFitted *fitted, WeftMaterial *out);
 
 #ifdef __cplusplus

@@ -1,9 +1,9 @@
 /* image.h - pixels in memory, and the files they come from
  *
- * Rows run from the top, pixels from the left, channels interleaved without padding.
- * Integer pixels hold what the file holds (usually sRGB for colour, plain numbers for data: the reader does
- * not know which); float pixels are linear Rec. 709 radiance. Channels: 1 grey, 2 grey+alpha, 3 RGB, 4 RGBA;
- * alpha is straight, never premultiplied. */
+ * Rows run from the top, pixels from the left, channels interleaved without padding. Integer pixels are the
+ * values of the file, usually sRGB for colour and linear for data; the reader cannot tell which. Float pixels
+ * are linear Rec. 709 radiance. Channels: 1 grey, 2 grey+alpha, 3 RGB, 4 RGBA; alpha is straight, never
+ * premultiplied. */
 #ifndef WEFT_IMAGE_H
 #define WEFT_IMAGE_H
 
@@ -16,11 +16,11 @@
 extern "C" {
 #endif
 
-/* Unsigned bytes, unsigned 16 bit numbers of this machine's order, or 32 bit floats. */
+/* Unsigned bytes, unsigned 16 bit integers in this machine's byte order, or 32 bit floats. */
 typedef enum WeftPixelType { WEFT_PIXEL_U8 = 0, WEFT_PIXEL_U16 = 1, WEFT_PIXEL_F32 = 2 } WeftPixelType;
 
-/* A picture or a table: plain data, may be filled by hand around pixels of one's own, which are then not to
- * be given to weft_image_free. */
+/* A picture or a table. May be filled in by hand around pixels that the caller owns; do not pass such an image to
+ * weft_image_free. */
 typedef struct WeftImage {
     int width, height;  /* 1 .. 65536 */
     int channels;       /* 1 .. 4 */
@@ -28,7 +28,7 @@ typedef struct WeftImage {
     void *pixels;       /* width * height * channels of the type; owned, see weft_image_free */
 } WeftImage;
 
-/* A new zeroed image. Fails with WEFT_MESSAGE_DESC or _MEMORY. */
+/* Makes a zeroed image. Fails with WEFT_MESSAGE_DESC or _MEMORY. */
 WEFT_API WeftResult weft_image_create(int width, int height, int channels, WeftPixelType type, WeftImage *out,
                                       WeftError *error);
 
@@ -38,10 +38,10 @@ WEFT_API void weft_image_free(WeftImage *image);
 /* Reads PNG, JPEG, TGA, Radiance HDR, OpenEXR or NumPy's .npy, distinguished by content (TGA, which has no
  * signature, comes last). PNG gives U8 or U16, JPEG and TGA U8, HDR F32 RGB, EXR F32 of its display window.
  * An .npy is an array of rows by columns, by 1 to 4 channels where it has three indices: f2, f4 and f8 give
- * F32, u1 U8, u2 U16. Float values are finite. log (may be NULL) receives what was repaired, and
- * WEFT_MESSAGE_IMAGE_DENOISED where the file says so. Fails with
- * WEFT_MESSAGE_FILE_OPEN, _FILE_READ, _FILE_LARGE, _IMAGE_FORMAT, _IMAGE_SIZE, _IMAGE_DAMAGED,
- * _IMAGE_UNSUPPORTED or _MEMORY; *out is then zero. */
+ * F32, u1 U8, u2 U16. Float values are finite. log (may be NULL) receives a warning for each repair, and
+ * WEFT_MESSAGE_IMAGE_DENOISED where the file states that it was denoised. Fails with WEFT_MESSAGE_FILE_OPEN,
+ * _FILE_READ, _FILE_LARGE, _IMAGE_FORMAT, _IMAGE_SIZE, _IMAGE_DAMAGED, _IMAGE_UNSUPPORTED or _MEMORY; *out is then
+ * zero. */
 WEFT_API WeftResult weft_image_read(const char *path, WeftImage *out, const WeftLog *log, WeftError *error);
 
 /* Works as weft_image_read, from size bytes at data. Errors begin with name. */
@@ -52,60 +52,56 @@ WEFT_API WeftResult weft_image_read_memory(const void *data, size_t size, const 
  * ZIP), .hdr (F32, RGBE, no alpha), .npy (F32, as it is). The file appears complete or not at all. */
 WEFT_API WeftResult weft_image_write(const char *path, const WeftImage *image, WeftError *error);
 
-/* More channels of an .exr beside the picture's: F32 of its size, written as 32 bit floats, not multiplied by
- * alpha. */
+/* Channels of an .exr beside the picture's, written as 32 bit floats, not multiplied by alpha. */
 typedef struct WeftImageLayer {
-    const WeftImage *image;  /* the numbers, of the picture's size */
+    const WeftImage *image;  /* F32, of the picture's size */
     const char *channels[4]; /* full names, such as "albedo.R", one for each channel of image */
 } WeftImageLayer;
 
 enum { WEFT_IMAGE_LAYERS = 16 };
 
-/* Options for pixels that are data and not a picture, and what goes with them. All zero: as weft_image_write
- * does. */
+/* Options of weft_image_write_as. All zero: as weft_image_write does. */
 typedef struct WeftImageWriting {
-    int data;             /* plain numbers: a .png is not called sRGB, an .exr not multiplied by its alpha */
-    int single;           /* .exr of 32 bit floats in place of half */
+    int data;   /* not 0: linear data: a .png is not marked sRGB, an .exr not multiplied by its alpha */
+    int single; /* not 0: .exr of 32 bit floats in place of half */
     const char *comment;  /* one line kept in a .png (text chunk "Comment") or .exr (attribute "comments");
-                            the other formats have no place for it; may be NULL */
-    const char *denoised; /* how the picture was denoised, likewise in a .png ("Denoised") or .exr
-                             ("denoised"), where readers warn of it; may be NULL */
-    const WeftImageLayer
-        *layers;     /* of an .exr, at most WEFT_IMAGE_LAYERS; the other formats leave them out */
-    int layer_count; /* of layers */
-    const char *isa; /* the instructions that made it (weft_isa), kept in an .exr ("isa"); may be NULL */
+                             the other formats have no place for it; may be NULL */
+    const char *denoised; /* how the picture was denoised, kept in a .png ("Denoised") or .exr ("denoised"),
+                             where readers warn of it; may be NULL */
+    const WeftImageLayer *layers; /* of an .exr; the other formats leave them out */
+    int layer_count;              /* at most WEFT_IMAGE_LAYERS */
+    const char *isa; /* the instruction set that made it (weft_isa), kept in an .exr ("isa"); may be NULL */
 } WeftImageWriting;
 
-/* weft_image_write, but so. */
+/* Works as weft_image_write, with options. */
 WEFT_API WeftResult weft_image_write_as(const char *path, const WeftImage *image, const WeftImageWriting *how,
                                         WeftError *error);
 
-/* The first returns 1 if weft_image_write knows this suffix, the second if what it writes is linear (EXR,
- * HDR, NPY) and not display-referred; else 0. */
+/* Returns 1 if weft_image_write supports this suffix, and if the file would be linear (EXR, HDR, NPY) and not
+ * display-referred; else 0. */
 WEFT_API int weft_image_suffix_known(const char *path);
 WEFT_API int weft_image_suffix_linear(const char *path);
 
-/* Any image as F32: integers become value / 255 or / 65535, colours (not alpha) through the sRGB decoding
- * curve if srgb is not 0; F32 is copied. For environment maps that come as PNG or JPEG. out must not be in.
- */
+/* Converts any image to F32: integers become value / 255 or / 65535, colours (not alpha) then go through the sRGB
+ * decoding curve if srgb is not 0; F32 is copied. For environment maps that come as PNG or JPEG. out must not be in. */
 WEFT_API WeftResult weft_image_convert_f32(const WeftImage *in, int srgb, WeftImage *out, WeftError *error);
 
-/* The curve by which linear radiance becomes a display value in [0, 1] before the sRGB curve. */
+/* The curve that maps linear radiance to a display value in [0, 1], before the sRGB curve. */
 typedef enum WeftTonemap {
     WEFT_TONEMAP_PBR_NEUTRAL = 0, /* Khronos PBR Neutral, 2024: keeps base colours, for products */
     WEFT_TONEMAP_ACES = 1,        /* Narkowicz, "ACES Filmic Tone Mapping Curve", 2015 */
     WEFT_TONEMAP_NONE = 2         /* clamp */
 } WeftTonemap;
 
-/* Display-referred U8 (sRGB-encoded, alpha kept) from a linear F32 image of 3 or 4 channels; each colour is
- * first multiplied by 2^exposure. A tiny ordered dither breaks up banding; the same input gives the same
- * bytes. */
+/* Makes a display-referred U8 image (sRGB-encoded, alpha kept) of a linear F32 image of 3 or 4 channels; each
+ * colour is first multiplied by 2^exposure. A tiny ordered dither breaks up banding; the same input gives the
+ * same bytes. */
 WEFT_API WeftResult weft_image_tonemap(const WeftImage *linear, WeftTonemap tonemap, float exposure,
                                        WeftImage *out, WeftError *error);
 
 /* Works as weft_image_tonemap, but opaque over a background. behind is light of the display, linear in [0, 1]:
- * neither exposure nor curve change it, so that a white one is white. Light is mixed before it is encoded. Of
- * an image without alpha nothing is seen through. */
+ * neither exposure nor curve change it, so that a white one stays white. Light is blended before it is encoded. An
+ * image without alpha hides the background. */
 WEFT_API WeftResult weft_image_tonemap_over(const WeftImage *linear, WeftTonemap tonemap, float exposure,
                                             const float behind[3], WeftImage *out, WeftError *error);
 

@@ -9,7 +9,7 @@ extern "C" {
 #endif
 
 /* The content of an image: all light; one part of it, where the parts of a material's lobes sum up to all but
- * emission; or one property of the surface, as plain numbers. */
+ * emission; or one property of the surface, as linear data. */
 typedef enum WeftPart {
     WEFT_PART_ALL = 0,
     WEFT_PART_DIFFUSE,
@@ -26,7 +26,7 @@ typedef enum WeftPart {
     WEFT_PART_COUNT
 } WeftPart;
 
-/* "all", "diffuse" and so on; NULL out of range. */
+/* Returns "all", "diffuse" and so on; NULL out of range. */
 WEFT_API const char *weft_part_name(int part);
 
 #ifdef __cplusplus

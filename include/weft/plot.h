@@ -1,4 +1,4 @@
-/* plot.h - figures of what reflects: curves, lobes, slices, spheres, as pictures and as numbers
+/* plot.h - figures of reflections: curves, lobes, slices, spheres, as pictures and as numbers
  *
  *   const WeftPlotModel model = {.reflection = reflection, .label = "charlie-neubelt"};
  *   weft_plot_write(&(WeftPlotDesc){.models = &model, .count = 1}, "lobe.svg", &error);
@@ -24,15 +24,15 @@ typedef enum WeftPlotKind {
     WEFT_PLOT_LOBE3D,     /* f as a length over all wi: a surface */
     WEFT_PLOT_CARTESIAN,  /* f, and f cos, over theta_i in the plane of wo */
     WEFT_PLOT_ALBEDO,     /* E over the angle of wo, and over an artist's roughness */
-    WEFT_PLOT_FURNACE,    /* what a white cloth returns of uniform light: a lobe on white, each layer rule */
+    WEFT_PLOT_FURNACE,    /* E of a white cloth: a lobe on a white base, by each layer rule */
     WEFT_PLOT_SLICE,      /* f over theta_h and theta_d, phi_d = 90 degrees, as a picture */
     WEFT_PLOT_SPHERE,     /* a lit sphere, and more of them as the roughness grows */
-    WEFT_PLOT_SAMPLES,    /* of lobes: a histogram of what is drawn, the pdf, and their ratio */
-    WEFT_PLOT_DIFFERENCE, /* of two models: where in theta_o and theta_i f differs */
+    WEFT_PLOT_SAMPLES,    /* of lobes: a histogram of the samples, the pdf, and their ratio */
+    WEFT_PLOT_DIFFERENCE, /* of two models: the difference of f over theta_o and theta_i */
     WEFT_PLOT_KINDS
 } WeftPlotKind;
 
-/* The name of a kind, "polar", and a line on it; NULL out of range. */
+/* Returns the name of a kind, such as "polar", and a line on it; NULL out of range. */
 WEFT_API const char *weft_plot_kind_name(int kind);
 WEFT_API const char *weft_plot_kind_help(int kind);
 
@@ -47,19 +47,19 @@ typedef enum WeftPlotChannel {
 /* The most models, views, and pixels of a side. */
 enum { WEFT_PLOT_MODELS_MAX = 8, WEFT_PLOT_VIEWS_MAX = 6, WEFT_PLOT_SIDE_MAX = 8192 };
 
-/* All are the caller's and are only read. What the reflection was made of says how it looks at other
- * roughnesses; a lobe also how it is sampled. Of a lobe that walks at random (WEFT_LOBE_REFERENCE) each
- * value is a mean over near directions. */
+/* A model to plot; the caller owns all members. Figures over roughness evaluate the lobe or material that the
+ * reflection was made of, and WEFT_PLOT_SAMPLES samples the lobe. With WEFT_LOBE_REFERENCE each value is a mean over
+ * nearby directions. */
 typedef struct WeftPlotModel {
-    const WeftReflection *reflection; /* what is plotted */
-    const WeftLobe *lobe;             /* NULL: it is none */
-    const WeftMaterial *material;     /* NULL: it is none */
+    const WeftReflection *reflection; /* the model */
+    const WeftLobe *lobe;             /* if the reflection is a lobe, else NULL */
+    const WeftMaterial *material;     /* if the reflection is a material, else NULL */
     const char *label;                /* UTF-8, one line; NULL: its number */
 } WeftPlotModel;
 
 /* Zero-initialise: a polar plot, linear, of luminance. */
 typedef struct WeftPlotDesc {
-    WeftPlotKind kind;                /* what is shown */
+    WeftPlotKind kind;                /* of the figure */
     const WeftPlotModel *models;      /* count of them */
     int count;                        /* 1 .. WEFT_PLOT_MODELS_MAX; difference: 2 */
     float views[WEFT_PLOT_VIEWS_MAX]; /* theta_o in [0, 90), degrees; sphere: of the light */
@@ -85,77 +85,77 @@ typedef enum WeftPlotForm {
 typedef struct WeftPlotAxis {
     char label[64];  /* UTF-8 */
     char unit[16];   /* "" without one */
-    float low, high; /* what is shown; values may lie beyond */
-    int logarithmic; /* not 0: so */
+    float low, high; /* the range shown; values may lie beyond */
+    int logarithmic; /* not 0: a logarithmic axis */
 } WeftPlotAxis;
 
 /* A curve. */
 typedef struct WeftPlotSeries {
     int entry;          /* of the legend */
     int count;          /* of its points */
-    const float *x, *y; /* NAN: nothing there */
+    const float *x, *y; /* NAN: a gap */
 } WeftPlotSeries;
 
-/* A number that belongs to a panel. */
+/* A number that a panel shows. */
 typedef struct WeftPlotFigure {
-    char name[48], unit[16]; /* what, and in what; "" without a unit */
-    double value;            /* how much */
+    char name[48], unit[16]; /* "" without a unit */
+    double value;            /* in that unit */
 } WeftPlotFigure;
 
-/* The most numbers and marks of a panel, and entries of a legend. */
+/* The largest number of figures and marks of a panel, and of entries of a legend. */
 enum { WEFT_PLOT_FIGURES_MAX = 6, WEFT_PLOT_MARKS_MAX = 4, WEFT_PLOT_LEGEND_MAX = 24 };
 
 /* A place on the x axis with a name: the mirror direction, a view. */
 typedef struct WeftPlotMark {
     char label[16]; /* the name shown beside the mark */
-    float x;        /* where */
+    float x;        /* its place */
 } WeftPlotMark;
 
 /* One panel of a figure. */
 typedef struct WeftPlotPanel {
-    WeftPlotForm form;      /* selects the members below that count */
-    char title[192];        /* above it */
-    WeftPlotAxis x, y, z;   /* z: of the values of a map or a surface */
-    int series_count;       /* curves */
-    WeftPlotSeries *series; /* series_count of them */
-    int columns, rows;      /* of a grid; rows run with y, or from the top of a picture */
-    int channels;           /* of a grid: 1, or 3 for colours */
-    const float *values;    /* columns * rows * channels, NAN: nothing there */
-    int colored;            /* not 0: the three channels are radiance, shown times 2^exposure */
-    float exposure;         /* stops */
-    float center;           /* a map whose colours part there: below is blue, above red; NAN: they do not */
-    float view;             /* theta_o; NAN: none */
-    int entry;              /* of the legend's colours, for a surface */
-    int figure_count, mark_count;                  /* of the two below */
-    WeftPlotFigure figures[WEFT_PLOT_FIGURES_MAX]; /* numbers that belong to it */
+    WeftPlotForm form;            /* selects the members below that are used */
+    char title[192];              /* above it */
+    WeftPlotAxis x, y, z;         /* z: of the values of a map or a surface */
+    int series_count;             /* curves */
+    WeftPlotSeries *series;       /* series_count of them */
+    int columns, rows;            /* of a grid; rows run with y, or from the top of a picture */
+    int channels;                 /* of a grid: 1, or 3 for colours */
+    const float *values;          /* columns * rows * channels, NAN: a gap */
+    int colored;                  /* not 0: the three channels are radiance, shown times 2^exposure */
+    float exposure;               /* stops */
+    float center;                 /* of a diverging colour map: values below are blue, above red; NAN: none */
+    float view;                   /* theta_o; NAN: none */
+    int entry;                    /* of the legend's colours, for a surface */
+    int figure_count, mark_count; /* of the two below */
+    WeftPlotFigure figures[WEFT_PLOT_FIGURES_MAX]; /* numbers shown in it */
     WeftPlotMark marks[WEFT_PLOT_MARKS_MAX];       /* places on its x axis */
-    int cell_count;     /* of a picture: as many equal columns, each with a label below */
+    int cell_count;     /* of a picture: its equal columns, each with a label below */
     char cells[12][32]; /* these labels */
 } WeftPlotPanel;
 
 /* A figure in numbers. */
 typedef struct WeftPlotData {
     char title[192];                        /* above everything */
-    int columns;                            /* panels stand in so many */
+    int columns;                            /* of panels */
     int count;                              /* of panels */
     WeftPlotPanel *panels;                  /* row after row */
     int legend_count;                       /* of its entries */
     char legend[WEFT_PLOT_LEGEND_MAX][128]; /* in the order of colours */
     char note[256];                         /* below everything: how it was made; "" without one */
-    struct WeftPlotMemory *owned;           /* all of the above, see weft_plot_data_free */
+    struct WeftPlotMemory *owned;           /* memory of the above, see weft_plot_data_free */
 } WeftPlotData;
 
 /* Computes the numbers that a figure shows. Fails with WEFT_MESSAGE_DESC (a value out of its range; samples
- * of what is no lobe; a difference of other than two) or _MEMORY. */
+ * of a model that is not a lobe; a difference of other than two models) or _MEMORY. */
 WEFT_API WeftResult weft_plot_data(const WeftPlotDesc *desc, WeftPlotData *out, WeftError *error);
 
-/* Releases it and zeroes the struct. data may be NULL or all zero. */
+/* Releases the numbers and zeroes the struct. data may be NULL or all zero. */
 WEFT_API void weft_plot_data_free(WeftPlotData *data);
 
-/* The figure as U8 RGB. */
+/* Draws the figure as U8 RGB. Fails as weft_plot_data does. */
 WEFT_API WeftResult weft_plot_image(const WeftPlotDesc *desc, WeftImage *out, WeftError *error);
 
-/* Returns 1 if weft_plot_write knows this suffix (.png, .svg or .pdf, in any case), else 0. */
+/* Returns 1 if weft_plot_write supports this suffix (.png, .svg or .pdf, in any case), else 0. */
 WEFT_API int weft_plot_suffix_known(const char *path);
 
 /* Writes the figure by suffix; text in .svg and .pdf is outlines, so that it looks the same everywhere. The
@@ -163,8 +163,8 @@ WEFT_API int weft_plot_suffix_known(const char *path);
  * _FILE_WRITE. */
 WEFT_API WeftResult weft_plot_write(const WeftPlotDesc *desc, const char *path, WeftError *error);
 
-/* One page of HTML with every kind of figure that the models have, which needs no other file and no script;
- * kind, title and size of desc are not read. */
+/* Writes one page of HTML with every kind of figure that the models have. It needs no other file and no script. kind,
+ * title and size of desc are not read. */
 WEFT_API WeftResult weft_plot_report(const WeftPlotDesc *desc, const char *path, WeftError *error);
 
 #ifdef __cplusplus

@@ -101,7 +101,7 @@ typedef enum WeftResult {
 /* The result of warnings, which are logged and never returned. */
 #define WEFT_WARNING WEFT_OK
 
-/* Which message: WEFT_MESSAGE_NONE and the rest of WEFT_MESSAGES. */
+/* The ids of messages: WEFT_MESSAGE_NONE and the rest of WEFT_MESSAGES. */
 typedef enum WeftMessage {
 #define WEFT_MESSAGE_ENUM(id, result, text) WEFT_MESSAGE_##id,
     WEFT_MESSAGES(WEFT_MESSAGE_ENUM)
@@ -109,21 +109,21 @@ typedef enum WeftMessage {
         WEFT_MESSAGE_COUNT
 } WeftMessage;
 
-/* One failure: which message, and one line for people without a newline at its end. */
+/* One failure: its message, and one line of text without a newline at its end. */
 typedef struct WeftError {
-    WeftResult result;   /* what the call returned */
-    WeftMessage message; /* why */
+    WeftResult result;   /* that the call returned */
+    WeftMessage message; /* the reason */
     char text[512];      /* "subject: text: detail", UTF-8 */
 } WeftError;
 
 /* Receives warnings. fn may be NULL: warnings are then dropped. text lives only during the call. fn may be
  * called from a thread the library made, but never from two at once for one log. */
 typedef struct WeftLog {
-    void (*fn)(void *user, WeftMessage message, const char *text); /* receives each */
+    void (*fn)(void *user, WeftMessage message, const char *text); /* receives each warning */
     void *user;                                                    /* handed to fn as it is */
 } WeftLog;
 
-/* The text of a message without subject or detail; never NULL. */
+/* Returns the text of a message without subject or detail; never NULL. */
 WEFT_API const char *weft_message_text(WeftMessage message);
 
 #ifdef __cplusplus

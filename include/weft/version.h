@@ -1,12 +1,12 @@
-/* version.h - which weft a program was built for, and which one it runs with
+/* version.h - the version of weft that a program was built for, and the one that it runs with
  *
  *   if (strcmp(weft_version(), WEFT_VERSION) != 0) ...
  *
- * docs/library.md says what may change between versions. */
+ * docs/library.md lists what may change between versions. */
 #ifndef WEFT_VERSION_H
 #define WEFT_VERSION_H
 
-/* Stands before every call of the library: what it exports. */
+/* Marks every function that the library exports. */
 #if defined(WEFT_BUILD)
 #define WEFT_API __attribute__((visibility("default")))
 #else
@@ -17,7 +17,7 @@
 extern "C" {
 #endif
 
-/* The version that this header belongs to: to compare with by the preprocessor, and as text. */
+/* The version of this header, as numbers for the preprocessor and as text. */
 #define WEFT_VERSION_MAJOR 0
 #define WEFT_VERSION_MINOR 1
 #define WEFT_VERSION_PATCH 0
@@ -26,7 +26,7 @@ extern "C" {
 /* The number in libweft.so.NUMBER. Programs built with the same number run with this library. */
 #define WEFT_VERSION_ABI 0
 
-/* The version of the library that runs, "major.minor.patch". */
+/* Returns the version of the library that runs, "major.minor.patch". */
 WEFT_API const char *weft_version(void);
 
 #ifdef __cplusplus

@@ -1,14 +1,14 @@
-/* weave.h - weaving drafts: which thread lies on top where warp and weft cross
+/* weave.h - weaving drafts, yarns, and cloths woven from them
  *
  *   WeftDraft *draft;
  *   weft_draft_read("twill 2/2 z; both 4k 4w", &draft, NULL, &error);
  *   weft_draft_write(draft, "houndstooth.wif", &error);
  *   weft_draft_free(draft);
  *
- * A draft is one repeat of a cloth. Warp threads run along +y and are counted from 0 at the left; picks, the
- * passes of the weft, run along +x and are counted from 0 at the bottom, both as one looks at the front. The
- * file formats do not say which corner comes first: another choice swaps twills to the right (Z) and to the
- * left (S). Lengths are metres. */
+ * A draft is one repeat of a cloth: which thread lies on top at each crossing of warp and weft. Seen from the front,
+ * warp threads run along +y and are counted from 0 at the left; picks, the passes of the weft, run along +x and are
+ * counted from 0 at the bottom. The file formats do not define which corner comes first; another choice would swap
+ * twills to the right (Z) and to the left (S). Lengths are metres. */
 #ifndef WEFT_WEAVE_H
 #define WEFT_WEAVE_H
 
@@ -49,43 +49,43 @@ typedef struct WeftDraftInfo {
     int endless[2];       /* threads of each system that are on top of, or below, every crossing */
 } WeftDraftInfo;
 
-/* Makes a draft of a file or of words. A file that is there is read by content: a WIF (Weaving Information
- * File 1.1, and what programs write under that name), or a picture of two colours, one pixel a crossing,
- * where the darker has the warp on top. Anything else is notation (docs/weave.md): "plain", "twill 2/2 z",
- * "satin 5/2", "herringbone 2/2 8; warp 24k 4r". log (may be NULL) receives what was completed. Fails with
+/* Makes a draft of a file or of notation. If `what` is the path of a file, it is read by content: a WIF (Weaving
+ * Information File 1.1 and its common variants), or an image of two colours, one pixel a crossing, where the darker
+ * colour has the warp on top. Anything else is notation (docs/weave.md): "plain", "twill 2/2 z", "satin 5/2",
+ * "herringbone 2/2 8; warp 24k 4r". log (may be NULL) receives a warning for each value that was completed. Fails with
  * WEFT_MESSAGE_DRAFT, _DRAFT_NOTATION, _MEMORY, and as weft_image_read does; *out is then NULL. */
 WEFT_API WeftResult weft_draft_read(const char *what, WeftDraft **out, const WeftLog *log, WeftError *error);
 
-/* A WIF of size bytes at data; errors begin with name. */
+/* Makes a draft of a WIF of size bytes at data; errors begin with name. */
 WEFT_API WeftResult weft_draft_read_memory(const void *data, size_t size, const char *name, WeftDraft **out,
                                            const WeftLog *log, WeftError *error);
 
-/* A draft of notation alone. Fails with WEFT_MESSAGE_DRAFT_NOTATION, for too many threads too, or _MEMORY. */
+/* Makes a draft of notation. Fails with WEFT_MESSAGE_DRAFT_NOTATION, for too many threads too, or _MEMORY. */
 WEFT_API WeftResult weft_draft_parse(const char *notation, WeftDraft **out, WeftError *error);
 
-/* The cloth turned over about its warp: left and right change places, and what was on top lies below. Fails
- * with WEFT_MESSAGE_MEMORY. */
+/* Makes the draft of the back, flipped about the warp: left and right change places, and threads on top lie below.
+ * Fails with WEFT_MESSAGE_MEMORY. */
 WEFT_API WeftResult weft_draft_back(const WeftDraft *draft, WeftDraft **out, WeftError *error);
 
-/* A copy of a draft. Fails with WEFT_MESSAGE_MEMORY. */
+/* Copies a draft. Fails with WEFT_MESSAGE_MEMORY. */
 WEFT_API WeftResult weft_draft_copy(const WeftDraft *draft, WeftDraft **out, WeftError *error);
 
 /* Releases a draft. draft may be NULL. */
 WEFT_API void weft_draft_free(WeftDraft *draft);
 
-/* The figures of a draft; shafts and treadles are 0 where memory is short. */
+/* Returns the figures of a draft; shafts and treadles are 0 where memory is short. */
 WEFT_API WeftDraftInfo weft_draft_info(const WeftDraft *draft);
 
-/* Returns 1 where that warp thread lies on top of that pick, else 0. Indices wrap around: a cloth repeats. */
+/* Returns 1 if that warp thread lies on top of that pick, else 0. Indices wrap around. */
 WEFT_API int weft_draft_warp_up(const WeftDraft *draft, int warp, int pick);
 
 /* Puts the warp (1) or the weft (0) on top at one crossing; indices wrap around. */
 WEFT_API void weft_draft_set_up(WeftDraft *draft, int warp, int pick, int up);
 
-/* One thread of either system; the index wraps around. */
+/* Returns one thread of either system; the index wraps around. */
 WEFT_API WeftThread weft_draft_thread(const WeftDraft *draft, WeftThreads threads, int index);
 
-/* Sets the spacing of all threads of a system, per metre of cloth (a sett of 24 per cm is 2400), and scales
+/* Sets the spacing of all threads of a system by their number per metre (a sett of 24 per cm is 2400), and scales
  * their thickness alike. Fails with WEFT_MESSAGE_DESC unless 1 <= per_metre <= 1e6. */
 WEFT_API WeftResult weft_draft_set_sett(WeftDraft *draft, WeftThreads threads, float per_metre,
                                         WeftError *error);
@@ -97,49 +97,51 @@ WEFT_API WeftResult weft_draft_set_sett(WeftDraft *draft, WeftThreads threads, f
  * drawn), _FILE_WRITE or _MEMORY. */
 WEFT_API WeftResult weft_draft_write(const WeftDraft *draft, const char *path, WeftError *error);
 
-/* Returns 1 if weft_draft_write knows the suffix, else 0. */
+/* Returns 1 if weft_draft_write supports the suffix, else 0. */
 WEFT_API int weft_draft_suffix_known(const char *path);
 
-/* The yarn of one system, as it lies in a cloth. What varies from thread to thread is 0 .. 1, or a little more.
- */
+/* The yarn of one system, as it lies in a cloth; weft_yarn_number lists the ranges. */
 typedef struct WeftYarn {
-    float alpha;     /* of its fibres, as lobe yarn has it: silk 0.1, linen 0.3, cotton 0.4, wool 0.5 */
+    float alpha;     /* of its fibres, as in lobe yarn: silk 0.1, linen 0.3, cotton 0.4, wool 0.5 */
     float crimp;     /* steepest angle along the thread, where it dives below another, radians */
     float roundness; /* slope at the edges of a thread */
     float
-        twist; /* of the fibres about the thread, radians: 0 filament, below 0 like the stroke of a Z, above like an S's */
-    float white;             /* share of the light that one fibre reflects without its dye */
-    float width;             /* of a thread, in parts of the draft's; below 1 there are gaps */
-    float bulge;             /* how much wider the middle of a long float is */
-    float floats;            /* how level it lies: the power of its slope is 1 + floats (crossings - 1) */
-    float streaks;           /* slope at the edges of a fibre; it also turns, and takes more or less dye */
-    float dye, slub, wander; /* how far colour, thickness and place vary */
-    float hairiness;         /* of loose fibres on the cloth: 1 is one for each crossing, about */
+        twist; /* of the fibres about the thread, radians: 0 filament, below 0 a Z twist, above 0 an S twist */
+    float white;     /* fraction of the light that one fibre reflects at its surface, without its dye */
+    float width;     /* of a thread, relative to the draft's; below 1 there are gaps */
+    float bulge;     /* extra width in the middle of a long float */
+    float floats;    /* flatness of floats: the power of the slope is 1 + floats (crossings - 1) */
+    float streaks;   /* slope at the edges of a fibre, with variation of its direction and dye */
+    float dye;       /* variation of colour from thread to thread */
+    float slub;      /* variation of thickness along a thread */
+    float wander;    /* variation of a thread's place */
+    float hairiness; /* loose fibres on the cloth: 1 is about one for each crossing */
 } WeftYarn;
 
-/* The yarns that have a name, NULL past the end, and what each is. */
+/* Returns the name of a named yarn, and a line on it; NULL past the end. */
 WEFT_API const char *weft_yarn_name(int index);
 WEFT_API const char *weft_yarn_help(int index);
 
-/* A yarn by name. Fails with WEFT_MESSAGE_YARN_NAME. */
+/* Finds a yarn by name. Fails with WEFT_MESSAGE_YARN_NAME. */
 WEFT_API WeftResult weft_yarn_find(const char *name, WeftYarn *out, WeftError *error);
 
 /* A number of a yarn. */
 typedef struct WeftYarnNumber {
-    const char *name, *help; /* as a material file has it, and a line on what it does */
+    const char *name, *help; /* name in a material file, and a line on its effect */
     size_t offset;           /* in WeftYarn */
-    float low, high;         /* what is possible */
-    int angle;               /* not 0: radians, which material files have in degrees */
+    float low, high;         /* possible range */
+    int angle;               /* not 0: radians here, degrees in material files */
 } WeftYarnNumber;
 
-/* The numbers of a yarn; NULL past the end. */
+/* Returns a number of a yarn by index; NULL past the end. */
 WEFT_API const WeftYarnNumber *weft_yarn_number(int index);
 
-/* A draft woven of yarns: at each place the highest thread is seen. Opaque; release with weft_cloth_free. */
+/* A draft woven of yarns, of which the highest thread at each place is visible. Opaque; release with
+ * weft_cloth_free. */
 typedef struct WeftCloth WeftCloth;
 
-/* Weaves a draft, whose colours are the reflectance of the threads. What varies does so by seed. Fails with
- * WEFT_MESSAGE_DESC (a number that no yarn can have) or _MEMORY. The draft may be freed. */
+/* Weaves a draft, whose colours are the reflectance of the threads; seed selects the random variation. The draft may be
+ * freed. Fails with WEFT_MESSAGE_DESC (a number outside WeftYarnNumber's range) or _MEMORY. */
 WEFT_API WeftResult weft_cloth_create(const WeftDraft *draft, const WeftYarn yarns[2], unsigned seed,
                                       WeftCloth **out, WeftError *error);
 
@@ -148,29 +150,29 @@ WEFT_API void weft_cloth_free(WeftCloth *cloth);
 
 /* The figures of a cloth. */
 typedef struct WeftClothInfo {
-    float share[2]; /* of the cloth as seen from above: warp, weft; the rest is gaps */
+    float share[2]; /* visible area of warp and weft, as fractions of the cloth; the rest is gaps */
     float size[2];  /* of the repeat, metres */
 } WeftClothInfo;
 
-/* A cloth of a scene, as WeftMaterial's `cloth` counts them: the draft that it is woven of, which is the scene's, and its
- * yarns (may be NULL). NULL where there is none of that number. */
+/* Returns the draft of a cloth of a scene by its number, WeftMaterial.cloth, and fills in its yarns (may be NULL). The
+ * draft is owned by the scene. NULL where there is none of that number. */
 WEFT_API const WeftDraft *weft_scene_cloth(const WeftScene *scene, int cloth, WeftYarn yarns[2]);
 
-/* Weaves the cloth of a material anew, of another draft and other yarns. The cloth that it had stays in the scene, since
- * others may have it, and so may a copy of the material. Fails with WEFT_MESSAGE_DESC (the material is not woven, or no
- * yarn can have a number), _MATERIAL_FILE (too many crossings) or _MEMORY; the scene is then as it was. */
+/* Weaves a new cloth for a material, of another draft and other yarns. Its earlier cloth stays in the scene, since
+ * other materials and copies of this one may have it. Fails with WEFT_MESSAGE_DESC (the material is not woven, or a
+ * yarn's number is out of range), _MATERIAL_FILE (too many crossings) or _MEMORY; the scene is then as it was. */
 WEFT_API WeftResult weft_scene_set_weave(WeftScene *scene, int material, const WeftDraft *draft,
                                          const WeftYarn yarns[2], WeftError *error);
 
-/* Returns the facts of a cloth. */
+/* Returns the figures of a cloth. */
 WEFT_API WeftClothInfo weft_cloth_info(const WeftCloth *cloth);
 
-/* Writes a cloth as textures that tile into a folder, which is made if it is not there: base_color.png (sRGB,
- * coverage in alpha), normal.png, occlusion_roughness.png (occlusion in red, roughness in green),
- * anisotropy.png (as KHR_materials_anisotropy has it), height.png, and material.json, which lays them on a
- * surface whose texture coordinates span so many metres a unit. They hold whole repeats of at least 16
- * threads, in about pixels^2 texels, pixels 16 .. 8192, which are square unless a side would be shorter or longer than
- * that. Fails with WEFT_MESSAGE_DESC, _FILE_WRITE or _MEMORY. */
+/* Writes a cloth as tiling textures into a folder, which is made if it does not exist: base_color.png (sRGB, coverage
+ * in alpha), normal.png, occlusion_roughness.png (occlusion in red, roughness in green), anisotropy.png (encoded as in
+ * KHR_materials_anisotropy), height.png, and material.json, which scales them to a surface of which one unit of texture
+ * coordinates spans so many metres. The textures contain whole repeats of at least 16 threads, in about pixels^2
+ * texels, pixels 16 .. 8192. Texels are square unless a side would leave that range. Fails with WEFT_MESSAGE_DESC,
+ * _FILE_WRITE or _MEMORY. */
 WEFT_API WeftResult weft_cloth_bake(const WeftCloth *cloth, int pixels, double metres, const char *folder,
                                     WeftError *error);
 

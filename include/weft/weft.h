@@ -1,23 +1,22 @@
 /* weft.h - all of the library
  *
- * libweft is a plain C library: a catalogue of cloth shading models with eval, sample, pdf and albedo of
- * each, tables of them, scenes and their materials, a path tracer and a rasteriser, and what measures all of
- * these.
+ * libweft is a C library: a catalogue of cloth shading models with eval, sample, pdf and albedo of each,
+ * tables of them, scenes and their materials, a path tracer and a rasteriser, and measurements of all of these.
  *
  *     WeftLobe lobe;
  *     float f[3];
  *     if (weft_lobe_init("charlie-neubelt", &lobe, &error) != WEFT_OK) return error.result;
  *     weft_lobe_eval(&lobe, wo, wi, f);
  *
- * A header is about one noun and gives shapes, units, ranges, ownership and failures. These rules hold for all:
+ * Each header covers one subject and gives shapes, units, ranges, ownership and failures. These rules hold for all:
  *
- * - A call that can fail returns a WeftResult and fills a WeftError; result.h has all reasons.
- * - Descriptors are structs where zero means default: name what differs, as in (WeftRenderDesc){.width =
- * 640}.
+ * - A call that can fail returns a WeftResult and fills a WeftError; result.h lists all reasons.
+ * - Descriptors are structs where zero means default: name what differs, as in (WeftRenderDesc){.width = 640}.
  * - A call named _create, _load or _read fills a handle, which the _free beside it releases; _open has a _close.
  *   A call named _init fills a value that owns nothing.
- * - The only global state is the lobes that weft_lobe_load added, and the choice of weft_isa_use. Different objects
- *   may be used from different threads at once.
+ * - Only two calls change what others compute, for the whole process: weft_lobe_load adds a lobe, weft_isa_use picks
+ *   the instructions. Tables that lobes and profiles read are global too, and made under a lock on first use.
+ *   Different objects may be used from different threads at the same time.
  * - Directions, units and colours are those that lobe.h states; world space that of scene.h. */
 #ifndef WEFT_H
 #define WEFT_H

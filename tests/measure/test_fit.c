@@ -240,13 +240,13 @@ static void fit_for_a_material_changes_only_what_it_has_inputs_for(void **state)
     (void)state;
     static const struct {
         const char *id;
-        int numbers, sayable;
+        int numbers, expressible;
     } rows[] = {{"fabric", 15, 15}, {"silk", 14, 13}};
     for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
         WeftFitted cloth = {.lobe = coloured(weft_lobe_find(rows[k].id))};
         WeftFit fit;
         WeftMaterial material;
-        bool whole = rows[k].numbers == rows[k].sayable;
+        bool whole = rows[k].numbers == rows[k].expressible;
         assert_int_equal(weft_lobe_init("body", &cloth.base, NULL), WEFT_OK);
         memcpy(cloth.base.f0, base_color, sizeof base_color);
         cloth.base.params[0] = 0.4f;
@@ -259,11 +259,11 @@ static void fit_for_a_material_changes_only_what_it_has_inputs_for(void **state)
         assert_int_equal(fit.fitted[0].numbers, rows[k].numbers);
         assert_true(fit.fitted[0].error < 4e-3);
         assert_int_equal(weft_fitted_material(&fit.fitted[0], &material), whole);
-        desc.sayable = 1;
+        desc.expressible = 1;
         assert_int_equal(weft_fit(data, &desc, &fit, NULL), WEFT_OK);
         print_message("as a material says it: error %.5f of %d numbers\n", fit.fitted[0].error,
                       fit.fitted[0].numbers);
-        assert_int_equal(fit.fitted[0].numbers, rows[k].sayable);
+        assert_int_equal(fit.fitted[0].numbers, rows[k].expressible);
         assert_true(weft_fitted_material(&fit.fitted[0], &material));
         assert_true(fit.fitted[0].error < (whole ? 4e-3 : 0.5));
         weft_data_free(data);

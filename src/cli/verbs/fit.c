@@ -214,8 +214,8 @@ static int fits_count(const Fitting *fitting, const char *only) {
 
 /* Finds the best fit that a material can express: parameters without an input stay at their defaults, and the
  * rest is fitted again. */
-static WeftResult sayable_fit(const Fitting *fitting, WeftFit *again, WeftMaterial *material,
-                              WeftError *error) {
+static WeftResult expressible_fit(const Fitting *fitting, WeftFit *again, WeftMaterial *material,
+                                  WeftError *error) {
     const WeftFitted *best = &fitting->fit.fitted[0];
     *again = fitting->fit;
     if (weft_fitted_material(best, material)) return WEFT_OK;
@@ -223,7 +223,7 @@ static WeftResult sayable_fit(const Fitting *fitting, WeftFit *again, WeftMateri
                               .chosen = 1,
                               .base = weft_lobe_info(best->base.lobe)->id,
                               .only = weft_lobe_info(best->lobe.lobe)->id,
-                              .sayable = 1};
+                              .expressible = 1};
     WeftResult result = weft_fit(fitting->data, &desc, again, error);
     if (result == WEFT_OK && weft_fitted_material(&again->fitted[0], material))
         report(0,
@@ -238,7 +238,7 @@ static int material_write(const Fitting *fitting) {
     WeftError error;
     WeftMaterial material;
     WeftFit again;
-    WeftResult result = sayable_fit(fitting, &again, &material, &error);
+    WeftResult result = expressible_fit(fitting, &again, &material, &error);
     if (result != WEFT_OK) return report_error(&error);
     if (!weft_fitted_material(&again.fitted[0], &material))
         return report(WEFT_FAILED, "%s: no fit can be expressed by the inputs of a material", fitting->path);

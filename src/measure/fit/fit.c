@@ -106,7 +106,7 @@ static WeftResult fit_item(FitWork *work, int item, ItemProgress *item_progress)
                          .hold = baseline ? WEFT_HOLD_COLOR_2 : 0,
                          .isotropic = work->isotropic,
                          .item_progress = item_progress};
-    if (work->desc->sayable && !baseline) {
+    if (work->desc->expressible && !baseline) {
         search.hold |= params_without_input(&found.lobe);
         search.hold_base = params_without_input(base);
     }
