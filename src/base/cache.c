@@ -29,7 +29,7 @@ bool cache_path(char path[CACHE_PATH_SIZE], uint64_t key, const char *suffix) {
     return true;
 }
 
-/* Makes a folder and those it is in. What fails here fails again, with a reason, when the file is opened. */
+/* Makes a folder and its parents. A failure is reported later, when the file in it is opened. */
 static void make_folders(char *path) {
     for (char *c = path + 1; *c; c++)
         if (*c == '/') {
@@ -72,7 +72,7 @@ void cache_write(uint64_t key, const char *suffix, const void *data, size_t size
         warn(log, WEFT_MESSAGE_CACHE_IGNORED, path, "it cannot be written; the next start will be slower");
 }
 
-/* A file begins with this; the data and a hash of both follow. */
+/* The beginning of a file; the data and a hash of both follow. */
 typedef struct Head {
     char magic[8];
     uint64_t key;

@@ -1,4 +1,4 @@
-/* fail.h - making the errors and warnings of weft/result.h */
+/* fail.h - construction of the errors and warnings of weft/result.h */
 #ifndef WEFT_BASE_FAIL_H
 #define WEFT_BASE_FAIL_H
 
@@ -6,11 +6,11 @@
 
 /* Fills *error (may be NULL) with "subject: text" or, where detail is a printf format and not NULL,
  * "subject: text: detail", and returns the message's result: `return fail(error, WEFT_MESSAGE_X, path,
- * NULL);`. Control characters in the outcome become '?', so that a hostile name cannot break the line. */
+ * NULL);`. Control characters in the line become '?', so that a hostile name cannot break it. */
 __attribute__((format(printf, 4, 5))) WeftResult fail(WeftError *error, WeftMessage message,
                                                       const char *subject, const char *detail, ...);
 
-/* Returns what fail returns of a message. */
+/* Returns the result that fail returns for a message. */
 WeftResult message_result(WeftMessage message);
 
 /* Hands the same line to the log as a warning. log may be NULL. */

@@ -14,9 +14,9 @@
 #include "base/memory.h"
 #include "base/random.h"
 
-/* Opens a plain file. A pipe would make the open wait for a writer and a device might never end, so both are
- * refused, without waiting: the names come out of assets and caches that anybody may have written. */
-static WeftResult open_plain(const char *path, int *handle, struct stat *status, WeftError *error) {
+/* Opens a regular file. A pipe would make the open wait for a writer and a device might never end, so both are
+ * refused without waiting: the names come from assets and caches that anybody may have written. */
+static WeftResult open_regular(const char *path, int *handle, struct stat *status, WeftError *error) {
     *handle = open(path, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
     if (*handle < 0 || fstat(*handle, status) != 0) {
         WeftResult result = fail(error, WEFT_MESSAGE_FILE_OPEN, path, "%s", strerror(errno));
@@ -29,21 +29,21 @@ static WeftResult open_plain(const char *path, int *handle, struct stat *status,
                 S_ISDIR(status->st_mode) ? "it is a folder" : "it is not a plain file");
 }
 
-/* Reads until the end of a file, or one byte more than limit. The size that the file had is where it starts,
- * no promise: those of /proc say 0. */
+/* Reads until the end of a file, or one byte more than limit. `expected` is only the first capacity, since the size
+ * of a file is no promise: files of /proc report 0. */
 static WeftResult read_handle(int handle, size_t expected, size_t limit, FileBytes *out, const char *path,
                               WeftError *error) {
-    size_t size = 0, room = expected <= limit ? expected + 1 : limit + 1;
-    unsigned char *data = alloc_array(room + 1, 1);
+    size_t size = 0, capacity = expected <= limit ? expected + 1 : limit + 1;
+    unsigned char *data = alloc_array(capacity + 1, 1);
     while (data && size <= limit) {
-        if (size == room) {
-            unsigned char *grown = realloc_array(data, room * 2 + 1, 1);
+        if (size == capacity) {
+            unsigned char *grown = realloc_array(data, capacity * 2 + 1, 1);
             if (!grown) free(data);
             data = grown;
-            room *= 2;
+            capacity *= 2;
             continue;
         }
-        ssize_t got = read(handle, data + size, room - size);
+        ssize_t got = read(handle, data + size, capacity - size);
         if (got < 0 && errno == EINTR) continue;
         if (got < 0) {
             free(data);
@@ -57,15 +57,15 @@ static WeftResult read_handle(int handle, size_t expected, size_t limit, FileByt
     return WEFT_OK;
 }
 
-/* Reads up to limit bytes; what lies beyond is cut off or an error. */
+/* Reads up to limit bytes. Bytes beyond are dropped with `cut`, else an error. */
 static WeftResult read_limited(const char *path, size_t limit, bool cut, FileBytes *out, WeftError *error) {
     struct stat status = {0};
     int handle = -1;
     *out = (FileBytes){0};
-    WeftResult result = open_plain(path, &handle, &status, error);
+    WeftResult result = open_regular(path, &handle, &status, error);
     if (result != WEFT_OK) return result;
     size_t expected = status.st_size > 0 ? (size_t)status.st_size : 1 << 16;
-    bool large = !cut && status.st_size > 0 && expected > limit; /* known without reading */
+    bool large = !cut && status.st_size > 0 && expected > limit; /* found without reading */
     if (!large) result = read_handle(handle, expected, limit, out, path, error);
     close(handle);
     if (result != WEFT_OK) return result;
@@ -88,8 +88,8 @@ WeftResult file_read_start(const char *path, size_t most, FileBytes *out, WeftEr
     return read_limited(path, most, true, out, error);
 }
 
-/* Creates a file that was not there, named path with a random suffix, and with the permissions that the umask
- * leaves; -1 and errno where none can be made. */
+/* Creates a new file, named path with a random suffix, with the permissions that the umask leaves. Returns its
+ * handle, or -1 with errno if none can be made. */
 static int create_beside(const char *path, char *name, size_t size) {
     int handle = -1;
     for (uint32_t attempt = 0; attempt < 1000; attempt++) {
@@ -103,7 +103,7 @@ static int create_beside(const char *path, char *name, size_t size) {
     return handle;
 }
 
-/* The file that writing to path would replace: behind its links, so that they stay. Only a plain file may be
+/* Finds the file that writing to path replaces: behind its links, so that they stay. Only a regular file may be
  * replaced. */
 static WeftResult find_target(const char *path, char **target, WeftError *error) {
     struct stat status;

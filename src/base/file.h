@@ -1,4 +1,4 @@
-/* file.h - whole files in, whole files out */
+/* file.h - reading and writing of whole files */
 #ifndef WEFT_BASE_FILE_H
 #define WEFT_BASE_FILE_H
 
@@ -12,29 +12,29 @@ typedef struct FileBytes {
     size_t size;
 } FileBytes;
 
-/* Reads all of path, a plain file: a pipe or a device is refused at once, as a folder is. Fails where it has
- * more than limit bytes. */
+/* Reads all of path, a regular file: a folder, pipe or device is refused without waiting. Fails if the file has more
+ * than limit bytes. */
 WeftResult file_read(const char *path, size_t limit, FileBytes *out, WeftError *error);
 
 /* Reads the first most bytes of path, or all where it has fewer. */
 WeftResult file_read_start(const char *path, size_t most, FileBytes *out, WeftError *error);
 
-/* A file that appears under its name complete or not at all: written beside it, synced and renamed. */
+/* A file that appears under its name complete or not at all: a temporary file is written, synced and renamed. */
 typedef struct OutputFile {
     FILE *stream;     /* write here */
     const char *path; /* borrowed: must outlive the OutputFile */
     char *target;     /* the file behind path's links */
-    char *temporary;
+    char *temporary;  /* the file that is written */
 } OutputFile;
 
-/* Opens a temporary file beside path, or beside the file that path links to. Fails where path is there and is
- * no plain file: a folder, a device, a pipe. */
+/* Opens a temporary file beside path, or beside the file that path links to. Fails if path exists and is no regular
+ * file: a folder, a device, a pipe. */
 WeftResult output_open(OutputFile *file, const char *path, WeftError *error);
 
-/* Closes and renames; on any failure the temporary is gone and the old file stands. */
+/* Closes and renames; on any failure the temporary file is removed and the old file stays. */
 WeftResult output_commit(OutputFile *file, WeftError *error);
 
-/* Closes and removes the temporary. */
+/* Closes and removes the temporary file. */
 void output_discard(OutputFile *file);
 
 #endif

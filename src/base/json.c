@@ -2,7 +2,7 @@
 
 #include <pthread.h>
 
-/* The functions that jansson allocated with before: the C library's, or those that the program had set. */
+/* The functions that jansson allocated with before: those of the C library or of the program. */
 static json_malloc_t allocate;
 static json_free_t release;
 

@@ -1,7 +1,7 @@
-/* json.h - text in JSON as jansson's values, and whether memory was short for it
+/* json.h - parsing of JSON with jansson that detects a shortage of memory
  *
- * Where the buffer of a string cannot grow, jansson's parser drops characters without a word, and it clears
- * errno at every number. So its allocation is watched. */
+ * If the buffer of a string cannot grow, jansson's parser drops characters silently, and it clears errno at every
+ * number. Therefore its allocations are watched. */
 #ifndef WEFT_BASE_JSON_H
 #define WEFT_BASE_JSON_H
 
@@ -9,7 +9,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* json_loadb, but NULL also where memory was short, which *starved (not NULL) then says. */
+/* Parses as json_loadb does, but returns NULL with *starved = true if memory was short. starved must not be NULL. */
 json_t *json_parse(const char *text, size_t size, size_t flags, json_error_t *where, bool *starved);
 
 #endif

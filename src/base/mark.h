@@ -1,11 +1,11 @@
-/* mark.h - the byte-order mark U+FEFF, with which some programs begin a text in UTF-8 */
+/* mark.h - the byte-order mark U+FEFF at the beginning of a text in UTF-8 */
 #ifndef WEFT_BASE_MARK_H
 #define WEFT_BASE_MARK_H
 
 #include <stddef.h>
 #include <string.h>
 
-/* Returns how many bytes of the text the mark takes: 3 or, where there is none, 0. */
+/* Returns the size of the mark in bytes: 3, or 0 if the text has none. */
 static inline size_t mark_size(const void *text, size_t size) {
     return size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
 }

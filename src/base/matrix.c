@@ -6,9 +6,9 @@
 
 #include "base/memory.h"
 
-/* A tile of C stays in registers while k runs: TALL x WIDE sums, a column of A's panel and a row of B's at a
- * time. Panels are copied together first, so that the loop reads straight on. Kazushige Goto, Robert van de
- * Geijn, "Anatomy of High-Performance Matrix Multiplication", ACM TOMS 34(3), 2008. */
+/* A tile of C, TALL x WIDE sums, stays in registers while k runs over a column of A's panel and a row of B's at a
+ * time. Panels are copied first, so that the loop reads consecutive memory. Kazushige Goto, Robert van de Geijn,
+ * "Anatomy of High-Performance Matrix Multiplication", ACM TOMS 34(3), 2008. */
 enum { TALL = 8, WIDE = 6, LANES = 4, BLOCK = 48 };
 typedef double MatrixLanes __attribute__((vector_size(LANES * sizeof(double))));
 
@@ -26,7 +26,7 @@ static void tile(int k, const double *restrict a, const double *restrict b, doub
     memcpy(sums, sum, sizeof sum);
 }
 
-/* Rows first .. first + height of the long side, side by side for each p; what is beyond the end is 0. */
+/* Copies rows first .. first + height into a panel, side by side for each p; rows past the end are 0. */
 static void pack(int first, int count, int height, int k, const double *at, int along, int across,
                  double *out) {
     for (int p = 0; p < k; p++)
@@ -59,8 +59,8 @@ bool matrix_product(int m, int n, int k, double factor, Matrix a, Matrix b, doub
     return true;
 }
 
-/* Column blocks from the left: take off what earlier columns explain, factor the small square, solve below
- * it. */
+/* Factors blocks of columns from the left: subtracts the contribution of earlier columns, factors the square on the
+ * diagonal, and solves below it. */
 bool matrix_factor(int n, double *a, int stride) {
     for (int first = 0; first < n; first += BLOCK) {
         int width = n - first < BLOCK ? n - first : BLOCK;
@@ -82,7 +82,7 @@ bool matrix_factor(int n, double *a, int stride) {
     return true;
 }
 
-/* L Y = X from the top, L^T Z = Y from the bottom, a block of rows at a time. */
+/* Solves L Y = X from the top and L^T Z = Y from the bottom, a block of rows at a time. */
 bool matrix_solve(int n, const double *l, int stride, int count, double *x, int x_stride) {
     for (int first = 0; first < n; first += BLOCK) {
         int height = n - first < BLOCK ? n - first : BLOCK;

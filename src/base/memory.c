@@ -31,8 +31,7 @@ struct ArenaBlock {
     _Alignas(16) unsigned char bytes[];
 };
 
-/* Embree reads the last vertex of a shared buffer with a 16-byte load: the slack keeps that inside the block.
- */
+/* Embree reads the last vertex of a shared buffer with a 16-byte load: the slack keeps that inside the block. */
 enum { ARENA_BLOCK = 1 << 16, ARENA_SLACK = 16 };
 
 void *arena_array(Arena *arena, size_t count, size_t size) {
@@ -40,11 +39,11 @@ void *arena_array(Arena *arena, size_t count, size_t size) {
     size_t bytes = (count * size + 15) & ~(size_t)15;
     struct ArenaBlock *block = arena->blocks;
     if (!block || block->size - block->used < bytes) {
-        size_t room = bytes > ARENA_BLOCK ? bytes : ARENA_BLOCK;
-        struct ArenaBlock *fresh = alloc_array(1, sizeof *fresh + room + ARENA_SLACK);
+        size_t capacity = bytes > ARENA_BLOCK ? bytes : ARENA_BLOCK;
+        struct ArenaBlock *fresh = alloc_array(1, sizeof *fresh + capacity + ARENA_SLACK);
         if (!fresh) return NULL;
-        fresh->size = room;
-        /* A large array gets a block of its own behind the current one, which still has room. */
+        fresh->size = capacity;
+        /* A large array gets a block of its own behind the current one, which stays in use. */
         if (block && bytes > ARENA_BLOCK) {
             fresh->next = block->next;
             block->next = fresh;

@@ -1,20 +1,20 @@
-/* number.h - numbers as people type them */
+/* number.h - parsing of numbers that people type */
 #ifndef WEFT_BASE_NUMBER_H
 #define WEFT_BASE_NUMBER_H
 
 #include <stdbool.h>
 
-/* Reads the number that text starts with, with a point as decimal sign whatever the program's locale. Returns
- * what follows it, NULL where there is none or it is not finite. */
+/* Reads the number that text starts with, with a point as decimal sign in any locale. Returns the text after it, or
+ * NULL if there is no number or it is not finite. */
 const char *number_prefix(const char *text, float *value);
 
-/* One finite number and nothing else. */
+/* Reads one finite number and nothing else. */
 bool parse_number(const char *text, float *value);
 
-/* Exactly count finite numbers separated by commas (or any one character of `separator`). */
+/* Reads exactly count finite numbers separated by the character `separator`. */
 bool parse_numbers(const char *text, char separator, int count, float *values);
 
-/* "r,g,b", or one number for all three. */
+/* Reads "r,g,b", or one number for all three. */
 bool parse_color(const char *text, float color[3]);
 
 #endif

@@ -1,4 +1,4 @@
-/* path.h - names of files */
+/* path.h - suffixes of file names */
 #ifndef WEFT_BASE_PATH_H
 #define WEFT_BASE_PATH_H
 

@@ -1,11 +1,11 @@
-/* steady_clock.h - steady time, and waiting by it; includes nothing of weft, so that programs may include it */
+/* steady_clock.h - monotonic time, and waiting by it; includes nothing of weft, so that programs may include it */
 #ifndef WEFT_BASE_STEADY_CLOCK_H
 #define WEFT_BASE_STEADY_CLOCK_H
 
 #include <pthread.h>
 #include <time.h>
 
-/* Returns the seconds since some moment in the past, never less than before. */
+/* Returns the seconds since some moment in the past; the value never decreases. */
 static inline double clock_now(void) {
     struct timespec t;
     clock_gettime(CLOCK_MONOTONIC, &t);

@@ -43,7 +43,7 @@ void parallel_for(int threads, int items, void (*body)(void *user, int item, int
     if (threads > items) threads = items;
     ThreadLoop loop = {.body = body, .user = user, .items = items};
     Worker workers[WEFT_THREADS_MAX];
-    int started = 0; /* a thread that cannot start is no loss: the others take its items */
+    int started = 0; /* if a thread cannot start, the others take its items */
     for (int t = 1; t < threads; t++) {
         workers[t] = (Worker){.loop = &loop, .thread = t};
         if (pthread_create(&workers[t].handle, NULL, work, &workers[t]) != 0) break;

@@ -2,19 +2,18 @@
 #ifndef WEFT_BASE_THREAD_H
 #define WEFT_BASE_THREAD_H
 
-/* The number of processors this process may use; at least 1. */
+/* Returns the number of processors that this process may use; at least 1. */
 int thread_count(void);
 
-/* Calls body(user, item, thread) once for each item in [0, items), on up to `threads` threads (0:
- * thread_count()), the caller's among them; returns when all are done. thread is in [0, threads). Items start
- * in order. More than WEFT_THREADS_MAX threads are not used. */
+/* Calls body(user, item, thread) for each item in [0, items), on up to `threads` threads (0: thread_count(); at most
+ * WEFT_THREADS_MAX), including the caller's; returns when all are done. thread is in [0, threads). Items start in
+ * order. */
 void parallel_for(int threads, int items, void (*body)(void *user, int item, int thread), void *user);
 
-/* Calls body(user) in a thread of its own and returns when that is done; in the caller's where none can be
- * started. */
+/* Calls body(user) in a thread of its own, or in the caller's if none can be started; returns when it is done. */
 void run_in_thread(void (*body)(void *user), void *user);
 
-/* From now on this thread, and those that it starts, take only what others leave of the processors. */
+/* Lowers the priority of this thread, and of those that it starts, for the rest of their lives. */
 void thread_step_back(void);
 
 #endif

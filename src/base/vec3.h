@@ -19,7 +19,7 @@ static inline Vec3 vec3_madd(Vec3 a, Vec3 b, float s) {
 static inline float vec3_dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 static inline float vec3_length(Vec3 a) { return sqrtf(vec3_dot(a, a)); }
 
-/* The least, and the greatest, of each number: from infinity on, the corners of a box about points. */
+/* Returns the least or the greatest of each number. Starting from infinity, they give the bounding box of points. */
 static inline Vec3 vec3_least(Vec3 a, Vec3 b) {
     return (Vec3){fminf(a.x, b.x), fminf(a.y, b.y), fminf(a.z, b.z)};
 }
@@ -31,7 +31,7 @@ static inline Vec3 vec3_cross(Vec3 a, Vec3 b) {
     return (Vec3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/* a / |a|, or fallback where a has no direction. */
+/* Returns a / |a|, or fallback where a has no direction. */
 static inline Vec3 vec3_normal_or(Vec3 a, Vec3 fallback) {
     float s = vec3_dot(a, a);
     return s > 1e-30f && s < 1e30f ? vec3_scale(a, 1.0f / sqrtf(s)) : fallback;
