@@ -31,13 +31,14 @@
  *   c_start = log2(x_p / max Y), c_stop = log2(x_p / median Y), max(2, ceil(c_stop - c_start)) exposures
  *
  * Here the median is that of pixels with light: else a picture on black would have no c_stop. */
+#include "image/flip.h"
+
 #include <math.h>
 #include <stdlib.h>
 
 #include "base/memory.h"
 #include "base/pi.h"
 #include "base/thread.h"
-#include "image/difference.h"
 #include "image/kernel.h"
 #include "image/power.h"
 

@@ -14,12 +14,13 @@
  * variance of x - y, so that equal pictures give 1 exactly.
  * x and y are luma: 0.2126 r + 0.7152 g + 0.0722 b of sRGB-encoded values. At the edges of the picture the
  * window sees the outermost pixels repeated. */
+#include "image/ssim.h"
+
 #include <math.h>
 #include <stdlib.h>
 
 #include "base/memory.h"
 #include "base/thread.h"
-#include "image/difference.h"
 #include "image/kernel.h"
 #include "image/power.h"
 

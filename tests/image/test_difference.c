@@ -5,7 +5,7 @@
 
 #include <float.h>
 
-#include "image/difference.h"
+#include "image/pair.h"
 #include "image/power.h"
 #include "weft/diff.h"
 #include "weft/sheet.h"
