@@ -1,7 +1,7 @@
-/* codec.h - the file formats of images: each reads from memory, some write to a stream
+/* codec.h - the file formats of images: all are read from memory, some are written to a stream
  *
- * A reader leaves *out untouched or zeroed on failure, never half filled. It refuses a size that the file
- * cannot hold (image_check_header) before it allocates. */
+ * A reader leaves *out unchanged or zeroed on failure. Before it allocates, it refuses a size that the file cannot
+ * contain (image_check_header). */
 #ifndef WEFT_IMAGE_CODEC_H
 #define WEFT_IMAGE_CODEC_H
 
@@ -19,17 +19,17 @@ typedef struct ImageSource {
 
 enum { IMAGE_SIDE_MAX = 65536 };
 
-/* The media type of an image by its first bytes, as glTF or one of its extensions has it; NULL: they have
- * none. */
+/* Returns the media type of an image by its first bytes, as in glTF and its extensions; NULL for a format that they do
+ * not have. */
 const char *image_media_type(const unsigned char *data, size_t size);
 
-/* Refuses (WEFT_MESSAGE_IMAGE_SIZE) sides outside 1 .. IMAGE_SIDE_MAX and more bytes of memory than are
- * believed of a file of this size: 512 MiB, more only for a file of at least a sixteenth of it, never above 2
- * GiB. So a small hostile file cannot ask for much, and a large honest one is read. */
+/* Refuses (WEFT_MESSAGE_IMAGE_SIZE) sides outside 1 .. IMAGE_SIDE_MAX and images that are implausibly large for the
+ * file: above 512 MiB of memory if the file has less than a sixteenth of that memory, and above 2 GiB always. A small
+ * hostile file cannot request much memory, and a large valid one is read. */
 WeftResult image_check_header(const ImageSource *source, int64_t width, int64_t height,
                               int64_t bytes_per_pixel, WeftError *error);
 
-/* Refuses (WEFT_MESSAGE_IMAGE_SIZE) a file smaller than the fewest bytes its pixels can be coded in. */
+/* Refuses (WEFT_MESSAGE_IMAGE_SIZE) a file that is smaller than the least encoding of its pixels. */
 WeftResult image_reachable(const ImageSource *source, int64_t fewest_bytes, WeftError *error);
 
 /* Sets values of an F32 image that are not finite to 0, with one warning that counts them. */
@@ -42,7 +42,7 @@ WeftResult image_read_hdr(const ImageSource *source, WeftImage *out, WeftError *
 WeftResult image_read_exr(const ImageSource *source, WeftImage *out, WeftError *error);
 WeftResult image_read_npy(const ImageSource *source, WeftImage *out, WeftError *error);
 
-/* The image is of a type the format takes; name is the subject of errors. */
+/* Writes an image whose pixel type the format supports; name is the subject of errors. */
 WeftResult image_write_png(FILE *stream, const char *name, const WeftImage *image,
                            const WeftImageWriting *how, WeftError *error);
 WeftResult image_write_hdr(FILE *stream, const char *name, const WeftImage *image,

@@ -1,15 +1,15 @@
-/* About each pixel p the picture is a linear function of the features f, fitted to the pixels q of a window:
+/* Around each pixel p the picture is a linear function of the features f, fitted to the pixels q of a window:
  *
- *   beta = argmin sum_q w_pq (c_q - beta_0 - beta_1 . (f_q - f_p))^2,   and p becomes beta_0
+ *   beta = argmin sum_q w_pq (c_q - beta_0 - beta_1 . (f_q - f_p))^2,   and beta_0 is the denoised p
  *
- * The weights compare patches of colours u, the pixels p + n and q + n, with v the variance of u:
+ * The weights compare patches of colours u, at the pixels p + n and q + n, where v is the variance of u:
  *
  *   d_pq = mean_n ((u_p+n - u_q+n)^2 - (v_p+n + min(v_p+n, v_q+n))) / (eps + k^2 (v_p+n + v_q+n))
  *   w_pq = exp(-max(0, d_pq))
  *
- * The colours u are those of one half and c those of the other, so that noise does not choose its own
- * weights. v is half the mean square of the halves' difference over a patch. In place of exp(-x) stands
- * (1 - x / 8)^8, which is 0 from 8 on; squares and variances are summed over the channels. */
+ * The colours u are those of one half of the samples and c those of the other, so that weights do not depend on the
+ * noise that they average. v is half the mean square of the halves' difference over a patch. exp(-x) is approximated by
+ * (1 - x / 8)^8, which is 0 from 8 on. Squares and variances are summed over the channels. */
 #include "image/denoise.h"
 
 #include <stdlib.h>
@@ -20,8 +20,8 @@
 #include "shading/dialect/loop.h"
 
 enum {
-    WINDOW = 5, /* the radius of the window, */
-    PATCH = 3,  /* and of the patch */
+    WINDOW = 5, /* radius of the window */
+    PATCH = 3,  /* radius of a patch */
     MARGIN = WINDOW + PATCH,
     SIDE = 2 * WINDOW + 1,
     PATCH_SIDE = 2 * PATCH + 1,
@@ -31,13 +31,13 @@ enum {
     TERMS = 1 + DENOISE_FEATURES,
 };
 
-/* Between the two widths of the paper, 0.25 and 1, among which it chooses for each pixel. */
+/* A value between 0.25 and 1, the two widths among which the paper chooses for each pixel. */
 static const float k_squared = 0.6f;
 static const float ridge = 1e-4f; /* keeps the slope of a feature that does not vary at 0 */
 
 typedef float Line[TILE_W];
 
-/* One thread's: of a tile, and of a row of it. */
+/* The memory of a thread, for a tile and for one row of it. */
 typedef struct Scratch {
     float distance[TILE_H + 2 * PATCH][WIDE], column[WIDE];
     Line weight[SIDE * SIDE][TILE_H];
@@ -97,7 +97,7 @@ static void extend(const DenoisePlanes *planes, float *plane) {
     }
 }
 
-/* Finds the variance of a half's pixels, in a plane of `out` first. */
+/* Computes the variance of a half's pixels; a plane of `out` serves as scratch. */
 static void find_variance(DenoisePlanes *planes) {
     float *square = planes->out[0];
     for (int y = 0; y < planes->height; y++)
@@ -120,7 +120,7 @@ static void find_variance(DenoisePlanes *planes) {
     extend(planes, planes->variance);
 }
 
-/* Sets what d is the mean of, for the pixels from p on and those at q from them. */
+/* Computes the terms of which d is the mean, for n pixels from p on and those at the offset q from them. */
 LOOP(distance_n, (int n, const float *const u[3], const float *restrict v, ptrdiff_t q, float *restrict to),
      (n, u, v, q, to)) {
     const float *restrict r = u[0], *restrict g = u[1], *restrict b = u[2];
@@ -132,7 +132,7 @@ LOOP(distance_n, (int n, const float *const u[3], const float *restrict v, ptrdi
     }
 }
 
-/* Sets the weights: means over patches first down, then across. */
+/* Computes the weights from means over patches, which are summed first down, then across. */
 LOOP(weights_n,
      (int n, const float (*restrict distance)[WIDE], float *restrict column, float *restrict weight),
      (n, distance, column, weight)) {
@@ -151,7 +151,8 @@ LOOP(weights_n,
     }
 }
 
-/* Weighs the pixels of all windows of an area by the colours of a half. Those outside the picture count nothing. */
+/* Computes the weights of the pixels of all windows of an area from the colours of a half. Pixels outside the picture
+ * have weight 0. */
 static void weigh(const DenoisePlanes *planes, int half, const Area *area, Scratch *s) {
     for (int offset = 0; offset < SIDE * SIDE; offset++) {
         int dx = offset % SIDE - WINDOW, dy = offset / SIDE - WINDOW;
@@ -172,7 +173,7 @@ static void weigh(const DenoisePlanes *planes, int half, const Area *area, Scrat
     }
 }
 
-/* Sets the features of the pixels q beside those of p, as they are and weighted. */
+/* Computes the differences f_q - f_p of a feature, as they are and weighted. */
 LOOP(take_steps,
      (int n, const float *restrict of_p, ptrdiff_t q, const float *restrict weight, float *restrict step,
       float *restrict weighted),
@@ -184,7 +185,7 @@ LOOP(take_steps,
     }
 }
 
-/* Adds a pixel of each window to the equations. */
+/* Adds one pixel of each window to the normal equations. */
 LOOP(add_products, (int n, Scratch *s, const float *const color[DENOISE_COLORS]), (n, s, color)) {
     for (int i = 0; i < TERMS; i++) {
         const float *restrict a = s->weighted[i];

@@ -1,4 +1,4 @@
-/* denoise.h - a rendered picture without most of its noise, by regression on what is known of its surfaces
+/* denoise.h - denoising of a rendered picture by regression on albedo, normal and depth of its surfaces
  *
  * Benedikt Bitterli, Fabrice Rousselle, Bochang Moon, Jose A. Iglesias-Guitian, David Adler, Kenny Mitchell,
  * Wojciech Jarosz, Jan Novak, "Nonlinearly Weighted First-order Regression for Denoising Monte Carlo
@@ -14,7 +14,7 @@ enum {
     DENOISE_FEATURES = 7, /* albedo, normal, depth */
 };
 
-/* The planes of a picture in two independent halves: pixel (x, y) at [y * stride + x], and room around. */
+/* The planes of a picture in two independent halves: pixel (x, y) is at [y * stride + x], with a margin around. */
 typedef struct DenoisePlanes {
     int width, height;
     size_t stride;
@@ -22,14 +22,14 @@ typedef struct DenoisePlanes {
     float *feature[DENOISE_FEATURES]; /* of both halves, of about unit size */
     float *variance;                  /* of the radiance of a half, in all channels; made by denoise */
     float *out[DENOISE_COLORS];       /* the denoised picture, of both halves */
-    float *memory;                    /* all of them */
+    float *memory;                    /* of all planes */
 } DenoisePlanes;
 
-/* Zeroed planes; false where memory is short. Release with denoise_planes_free. */
+/* Makes zeroed planes; returns false if memory is short. Release with denoise_planes_free. */
 bool denoise_planes_create(DenoisePlanes *planes, int width, int height);
 void denoise_planes_free(DenoisePlanes *planes);
 
-/* Fills `out`; threads do not change a byte of it. False where memory is short. */
+/* Fills `out`, with the same bytes on any number of threads. Returns false if memory is short. */
 bool denoise(DenoisePlanes *planes, int threads);
 
 #endif

@@ -47,7 +47,7 @@ static float badness(WeftMetric metric, float value) {
     return off > 0.0f ? off : 0.0f;
 }
 
-/* The mean of a map; of ssim without the edge, where there is more than edge. */
+/* Returns the mean of a map; for ssim without the edge, unless the picture is all edge. */
 static double map_mean(const Pair *pair, const float *map, WeftMetric metric) {
     const bool inner =
         metric == WEFT_METRIC_SSIM && pair->width > 2 * SSIM_RADIUS && pair->height > 2 * SSIM_RADIUS;

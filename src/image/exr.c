@@ -1,4 +1,4 @@
-/* OpenEXR through its C library. Colours of an EXR file are multiplied by alpha; ours are not. */
+/* exr.c - OpenEXR through its C library; colours of a file are multiplied by alpha, those of a WeftImage are not */
 #include <float.h>
 #include <limits.h>
 #include <math.h>
@@ -14,14 +14,14 @@
 #include "image/codec.h"
 #include "image/half.h"
 
-/* The attribute that says how a picture was denoised. */
+/* The attribute with the denoiser of a picture. */
 static const char exr_denoised[] = "denoised";
 
 /* The state that the library's callbacks share. */
 typedef struct ExrJob {
     const ImageSource *source; /* when reading */
     FILE *stream;              /* when writing */
-    char reason[192];          /* the first thing the library complained of */
+    char reason[192];          /* the library's first error message */
 } ExrJob;
 
 static ExrJob *exr_job(exr_const_context_t exr) {
@@ -38,7 +38,7 @@ static void exr_job_error(exr_const_context_t exr, exr_result_t code, const char
         if ((unsigned char)*c >= 0x7f) *c = '?';
 }
 
-/* Zeroed, so that a chunk that decodes to less than it should shows no old memory; and of a bounded size. */
+/* Allocates memory of a bounded size, zeroed so that a chunk that decodes to too few bytes shows no old memory. */
 static void *exr_job_alloc(size_t size) { return size <= (size_t)1 << 30 ? alloc_array(size, 1) : NULL; }
 
 static int64_t exr_job_read(exr_const_context_t exr, void *user, void *to, uint64_t size, uint64_t offset,
@@ -75,7 +75,7 @@ static exr_context_initializer_t exr_job_setup(ExrJob *job) {
     return setup;
 }
 
-/* ---- reading ---- */
+/* Reading. */
 
 typedef struct Exr {
     const ImageSource *source;
@@ -84,8 +84,8 @@ typedef struct Exr {
     exr_attr_box2i_t data, display; /* windows, inclusive */
     exr_compression_t compression;
     const exr_attr_chlist_t *channels;
-    int from[4];         /* the file's channel for each of ours, -1: all 0 */
-    int count;           /* of our channels */
+    int from[4];         /* the file's channel for each channel of the image, -1: all 0 */
+    int count;           /* channels of the image */
     int64_t pixel_bytes; /* of all the file's channels */
     bool tiled;
     int32_t chunk_width, chunk_height; /* of a tile, or of a block of lines; the last ones may be smaller */
@@ -98,7 +98,7 @@ static int64_t box_height(exr_attr_box2i_t box) { return (int64_t)box.max.y - bo
 
 static int value_bytes(exr_pixel_type_t type) { return type == EXR_PIXEL_HALF ? 2 : 4; }
 
-/* The first part that is not deep, or -1. */
+/* Returns the first part that is not deep, or -1. */
 static int flat_part(exr_context_t context) {
     int count = 0;
     exr_get_count(context, &count);
@@ -111,13 +111,13 @@ static int flat_part(exr_context_t context) {
     return -1;
 }
 
-/* The length of "layer." in "layer.R"; 0 without a layer. */
+/* Returns the length of "layer." in "layer.R"; 0 without a layer. */
 static size_t layer_length(const char *channel) {
     const char *dot = strrchr(channel, '.');
     return dot ? (size_t)(dot - channel) + 1 : 0;
 }
 
-/* The index of channel `name` in the layer that is the first `length` characters of `of`, or -1. */
+/* Returns the index of channel `name` in the layer named by the first `length` characters of `of`, or -1. */
 static int channel_find(const exr_attr_chlist_t *channels, const char *of, size_t length, const char *name) {
     for (int i = 0; i < channels->num_channels; i++) {
         const char *full = channels->entries[i].name.str;
@@ -126,7 +126,7 @@ static int channel_find(const exr_attr_chlist_t *channels, const char *of, size_
     return -1;
 }
 
-/* Picks R G B (A) or Y (A) of a layer; 0 when it has neither. */
+/* Picks R G B (A) or Y (A) of a layer; returns 0 if it has neither. */
 static int layer_pick(Exr *exr, const char *of, size_t length) {
     static const char *const colors[] = {"R", "G", "B"};
     int found = 0;
@@ -145,15 +145,15 @@ static int layer_pick(Exr *exr, const char *of, size_t length) {
     return 1;
 }
 
-/* The colours without a layer, else those of the first layer that has any. Subsampling belongs to
- * luminance-chroma files; other channels that have it would upset the order of the values in a chunk. */
+/* Picks the colours without a layer, else those of the first layer that has any. Refuses subsampled channels, which
+ * luminance-chroma files have and which would change the order of the values in a chunk. */
 static WeftResult exr_channels(Exr *exr, WeftError *error) {
     const char *name = exr->source->name;
     const exr_attr_chlist_t *channels = exr->channels;
     for (int i = 0; i < channels->num_channels; i++) {
         const exr_attr_chlist_entry_t *entry = channels->entries + i;
-        const char *plain = entry->name.str + layer_length(entry->name.str);
-        if (strcmp(plain, "RY") == 0 || strcmp(plain, "BY") == 0)
+        const char *channel = entry->name.str + layer_length(entry->name.str);
+        if (strcmp(channel, "RY") == 0 || strcmp(channel, "BY") == 0)
             return fail(error, WEFT_MESSAGE_IMAGE_UNSUPPORTED, name, "EXR: luminance-chroma pixels");
         if (entry->x_sampling != 1 || entry->y_sampling != 1)
             return fail(error, WEFT_MESSAGE_IMAGE_UNSUPPORTED, name, "EXR: subsampled channels");
@@ -166,9 +166,9 @@ static WeftResult exr_channels(Exr *exr, WeftError *error) {
                   : fail(error, WEFT_MESSAGE_IMAGE_UNSUPPORTED, name, "EXR: neither R G B nor Y channels");
 }
 
-/* The most bytes of pixels that a byte of a file can become. Deflate gives 1032 (258 bytes from 2 bits),
- * before which PXR24 drops one byte of four of a float and DWA makes two bytes of 64 halves. The run lengths
- * of RLE and PIZ and the fixed blocks of B44 give less than Deflate. */
+/* Returns an upper bound of the bytes of pixels that a byte of a file decodes to. Deflate has 1032 (258 bytes from 2
+ * bits); before it PXR24 drops one byte of four of a float, and DWA codes 64 halves in two bytes. The run lengths of
+ * RLE and PIZ and the fixed blocks of B44 stay below Deflate. */
 static int64_t ratio_most(exr_compression_t compression) {
     const int64_t deflate = 1032;
     switch (compression) {
@@ -180,13 +180,14 @@ static int64_t ratio_most(exr_compression_t compression) {
     }
 }
 
-/* Far windows would overflow the library's sums; the C++ library has this limit too. */
+/* Returns false for a window so far off that it would overflow the library's sums; the C++ library has this limit
+ * too. */
 static int box_sane(exr_attr_box2i_t box) {
     const int far = INT_MAX / 2;
     return box.min.x > -far && box.min.y > -far && box.max.x < far && box.max.y < far;
 }
 
-/* Reads how the full image (level 0) is cut into chunks. */
+/* Reads the size of the chunks of the full image (level 0). */
 static exr_result_t exr_chunks(Exr *exr) {
     exr_storage_t storage = EXR_STORAGE_SCANLINE;
     exr_result_t status = exr_get_storage(exr->context, exr->part, &storage);
@@ -199,7 +200,7 @@ static exr_result_t exr_chunks(Exr *exr) {
     return status;
 }
 
-/* Fills *exr from the header and checks all that sizes depend on. */
+/* Fills *exr from the header and checks everything that sizes depend on. */
 static WeftResult exr_header(Exr *exr, WeftError *error) {
     const ImageSource *source = exr->source;
     exr->part = flat_part(exr->context);
@@ -218,7 +219,7 @@ static WeftResult exr_header(Exr *exr, WeftError *error) {
     const int64_t width = box_width(exr->data), height = box_height(exr->data);
     if (exr_chunks(exr) != EXR_ERR_SUCCESS)
         return fail(error, WEFT_MESSAGE_IMAGE_DAMAGED, source->name, "EXR: its header describes no chunks");
-    /* A chunk is in memory up to three times: packed, unpacked and between. */
+    /* A chunk is in memory up to three times: packed, in an intermediate form and unpacked. */
     result = image_check_header(source, exr->chunk_width, exr->chunk_height, 3 * exr->pixel_bytes, error);
     if (result == WEFT_OK) result = image_check_header(source, width, height, exr->pixel_bytes, error);
     if (result == WEFT_OK)
@@ -230,7 +231,7 @@ static WeftResult exr_header(Exr *exr, WeftError *error) {
     return result;
 }
 
-/* One value of the file, which is little-endian. */
+/* Returns one value of the file, which is little-endian. */
 static float value_read(const unsigned char *at, exr_pixel_type_t type) {
     if (type == EXR_PIXEL_HALF) return half_value((unsigned)at[0] | (unsigned)at[1] << 8);
     const uint32_t bits =
@@ -240,8 +241,8 @@ static float value_read(const unsigned char *at, exr_pixel_type_t type) {
     return type == EXR_PIXEL_UINT ? (float)bits : value;
 }
 
-/* Copies the channels that are ours from a line of the file, which holds one channel after another; its first
- * pixel is at column x of the image, which the line may overhang on both sides. */
+/* Copies the channels of the image from a line of the file, which contains one channel after another. Its first pixel
+ * is at column x of the image, and the line may extend beyond the image on both sides. */
 static void line_place(const Exr *exr, const unsigned char *line, int64_t width, int64_t x, float *to,
                        int64_t to_width) {
     const int64_t first = x < 0 ? -x : 0, end = x + width > to_width ? to_width - x : width;
@@ -257,8 +258,8 @@ static void line_place(const Exr *exr, const unsigned char *line, int64_t width,
 }
 
 /* Decompresses one chunk, its first pixel at (x, y) of the image, and copies it. The library only reads and
- * decompresses: its conversions (3.1.5) reverse the channels of interleaved half, and write through the null
- * pointers of channels that were not asked for when a file has three or four. */
+ * decompresses: its conversions (3.1.5) reverse the channels of interleaved half, and for a file of three or four
+ * channels write through the null pointers of those that were not requested. */
 static exr_result_t chunk_decode(Exr *exr, const exr_chunk_info_t *chunk, int64_t x, int64_t y,
                                  WeftImage *image) {
     exr_decode_pipeline_t *pipeline = &exr->pipeline;
@@ -277,7 +278,7 @@ static exr_result_t chunk_decode(Exr *exr, const exr_chunk_info_t *chunk, int64_
         pipeline->unpack_and_convert_fn = NULL;
         exr->decompress = pipeline->decompress_fn;
     }
-    /* A chunk of the full size is not compressed; the library would take B44 to be so even then. */
+    /* A chunk of the full size is not compressed; the library would decompress B44 even then. */
     pipeline->decompress_fn = chunk->packed_size == chunk->unpacked_size ? NULL : exr->decompress;
     if (status == EXR_ERR_SUCCESS) status = exr_decoding_run(exr->context, exr->part, pipeline);
     if (status != EXR_ERR_SUCCESS) return status;
@@ -289,7 +290,7 @@ static exr_result_t chunk_decode(Exr *exr, const exr_chunk_info_t *chunk, int64_
     return EXR_ERR_SUCCESS;
 }
 
-/* All chunks of the full image, its first pixel at (left, top) of ours. */
+/* Decodes all chunks of the full image, whose first pixel is at (left, top) of *image. */
 static exr_result_t chunks_decode(Exr *exr, int64_t left, int64_t top, WeftImage *image) {
     const int64_t width = exr->chunk_width, height = exr->chunk_height;
     for (int64_t y = 0; y * height < box_height(exr->data); y++)
@@ -306,7 +307,7 @@ static exr_result_t chunks_decode(Exr *exr, int64_t left, int64_t top, WeftImage
     return EXR_ERR_SUCCESS;
 }
 
-/* Divides colours by alpha. Where alpha is 0 they are light without cover and stay. */
+/* Divides colours by alpha. Where alpha is 0 they are light without coverage and stay. */
 static void alpha_straighten(WeftImage *image) {
     const int channels = image->channels;
     if (channels % 2) return;
@@ -316,7 +317,7 @@ static void alpha_straighten(WeftImage *image) {
         for (int c = 0; pixel[channels - 1] > 0.0f && c < channels - 1; c++) pixel[c] /= pixel[channels - 1];
 }
 
-/* Converts a status of the library into a result with a message. */
+/* Fails with the message for a status of the library. */
 static WeftResult exr_refuse(const ExrJob *job, exr_result_t status, WeftError *error) {
     WeftMessage message = WEFT_MESSAGE_IMAGE_DAMAGED;
     if (status == EXR_ERR_FEATURE_NOT_IMPLEMENTED) message = WEFT_MESSAGE_IMAGE_UNSUPPORTED;
@@ -363,9 +364,9 @@ WeftResult image_read_exr(const ImageSource *source, WeftImage *out, WeftError *
     return result;
 }
 
-/* ---- writing ---- */
+/* Writing. */
 
-/* Names in the alphabetical order that the format wants, and which of our channels each is. */
+/* Channels by name, in the alphabetical order that the format requires, with their index in the image. */
 static const struct {
     const char *name;
     int channel;
@@ -382,7 +383,8 @@ typedef struct ExrPlane {
     const char *name;
     const WeftImage *image;
     int channel;
-    bool covered, single; /* times alpha; 32 bits */
+    bool covered; /* multiplied by alpha */
+    bool single;  /* of 32 bits, else half */
 } ExrPlane;
 
 enum { EXR_PLANES = 4 * (1 + WEFT_IMAGE_LAYERS) };
@@ -391,7 +393,7 @@ static int compare_planes(const void *a, const void *b) {
     return strcmp(((const ExrPlane *)a)->name, ((const ExrPlane *)b)->name);
 }
 
-/* All channels, in the file's order; returns how many. */
+/* Lists all channels in the file's order; returns their number. */
 static int planes_list(const WeftImage *image, const WeftImageWriting *how, ExrPlane planes[EXR_PLANES]) {
     int count = 0, alpha = image->channels % 2 == 0 ? image->channels - 1 : -1;
     for (int c = 0; c < image->channels; c++) {
@@ -444,10 +446,10 @@ static exr_result_t exr_describe(exr_context_t exr, const WeftImage *image, cons
     return status == EXR_ERR_SUCCESS ? exr_write_header(exr) : status;
 }
 
-/* A value of at most `most`, which the file's values can hold; NaN becomes 0. */
+/* Returns x clamped to [-most, most]; NaN becomes 0. */
 static float clamped(float x, float most) { return isnan(x) ? 0.0f : fminf(fmaxf(x, -most), most); }
 
-/* Lines y .. y + lines of a channel as the file has them: colours times alpha. */
+/* Fills `to` with lines y .. y + lines of a channel for the file: colours are multiplied by alpha. */
 static void plane_fill(const ExrPlane *plane, int y, int lines, float *to) {
     const WeftImage *image = plane->image;
     const float most = plane->single ? FLT_MAX : 65504.0f;
@@ -459,8 +461,8 @@ static void plane_fill(const ExrPlane *plane, int y, int lines, float *to) {
     }
 }
 
-/* The library's compression, put right: when it gains nothing at all (3.1.5) it leaves the compressed bytes,
- * but a reader takes a chunk of the full size as not compressed. */
+/* Compresses a chunk by the library and corrects its result: if the compressed chunk is not smaller, the library
+ * (3.1.5) keeps it, but a reader takes a chunk of the full size for an uncompressed one. */
 static exr_result_t chunk_compress(exr_encode_pipeline_t *pipeline) {
     exr_result_t (*const *library)(exr_encode_pipeline_t *) = pipeline->encoding_user_data;
     exr_result_t status = (*library)(pipeline);

@@ -1,36 +1,37 @@
 /* Andersson, Nilsson, Akenine-Moeller, Oskarsson, Astroem, Fairchild, "FLIP: A Difference Evaluator for
  * Alternating Images", Proceedings of the ACM on Computer Graphics and Interactive Techniques 3 (2), 2020.
  *
- * Colour. In opponent space, Y = 116 y - 16, Cx = 500 (x - y), Cz = 200 (y - z) with x, y, z the tristimulus
- * values over those of white, each channel loses what the eye does not resolve, under sums of Gaussians over
- * the distance t in degrees, cut at three times the widest standard deviation, with a sum of 1:
+ * Colour. The opponent space is Y = 116 y - 16, Cx = 500 (x - y), Cz = 200 (y - z), where x, y, z are the tristimulus
+ * values over those of white. Each channel is blurred by the contrast sensitivity of the eye, a sum of Gaussians over
+ * the distance t in degrees, truncated at three times the widest standard deviation and normalised to a sum of 1:
  *
  *   g(t) = a1 sqrt(pi / b1) exp(-pi^2 t^2 / b1) + a2 sqrt(pi / b2) exp(-pi^2 t^2 / b2)
  *
- * The result is clamped to the cube of RGB and goes to L* a* b*, where chroma grows with lightness (Hunt):
- * a_h = a* L* / 100, b_h alike. With c = HyAB^0.7 and c_max that of green and blue,
+ * The result is clamped to the RGB cube and converted to L* a* b* with the Hunt effect, chroma that grows with
+ * lightness: a_h = a* L* / 100, b_h alike. With c = HyAB^0.7 and c_max that of green and blue,
  *
  *   HyAB = |L - L'| + sqrt((a_h - a_h')^2 + (b_h - b_h')^2)
  *   dE_c = 0.95 c / (0.4 c_max)                                  for c < 0.4 c_max, else
  *   dE_c = 0.95 + 0.05 (c - 0.4 c_max) / (c_max - 0.4 c_max)
  *
- * Features. With the first and second derivatives of a Gaussian of sigma = 0.082 / 2 degrees, their positive
- * weights of sum 1 and negative ones of sum -1, e and p are the lengths of what they make of y along x and y:
+ * Features. y is filtered by the first and second derivatives of a Gaussian of sigma = 0.082 / 2 degrees, whose
+ * positive weights sum to 1 and whose negative ones sum to -1. e and p are the lengths of the two gradients along the
+ * image's axes:
  *
  *   dE_f = (max(|e - e'|, |p - p'|) / sqrt(2))^0.5
  *   FLIP = dE_c^(1 - dE_f)
  *
- * All filters are products of one along x and one along y, or sums of such. Scale and offset of the opponent
- * space do not touch filters of sum 1: here its channels are y, x - y and y - z.
+ * All filters are separable, or sums of separable ones. Filters of sum 1 commute with scale and offset of the opponent
+ * space, so its channels here are y, x - y and y - z.
  *
- * Of radiance: Andersson, Nilsson, Shirley, Akenine-Moeller, "Visualizing Errors in Rendered High Dynamic
- * Range Images", Eurographics Short Papers, 2021. The largest FLIP over exposures c, evenly from c_start to
- * c_stop, of 2^c I, tone-mapped and clamped. With x_p the radiance that is shown as 0.85 and Y the
- * reference's luminance,
+ * Radiance: Andersson, Nilsson, Shirley, Akenine-Moeller, "Visualizing Errors in Rendered High Dynamic Range
+ * Images", Eurographics Short Papers, 2021. The map is the largest FLIP of 2^c I, tone-mapped and clamped, over evenly
+ * spaced exposures c from c_start to c_stop. Where x_p is the radiance that is displayed as 0.85 and Y the reference's
+ * luminance,
  *
  *   c_start = log2(x_p / max Y), c_stop = log2(x_p / median Y), max(2, ceil(c_stop - c_start)) exposures
  *
- * Here the median is that of pixels with light: else a picture on black would have no c_stop. */
+ * Here the median is over pixels with light; otherwise a picture on black would have no c_stop. */
 #include "image/flip.h"
 
 #include <math.h>
@@ -50,10 +51,10 @@ typedef struct ColorMatrix {
     float m[3][3];
 } ColorMatrix;
 
-/* Filters: what the eye resolves of y, of x - y and (two terms) of y - z; a Gaussian and its derivatives. */
+/* Filters: the contrast sensitivity for y, for x - y and (in two terms) for y - z; a Gaussian and its derivatives. */
 enum { SIGHT_Y, SIGHT_X, SIGHT_Z, SIGHT_Z_TOO, SMOOTH, SLOPE, CURVE, FILTERS };
 
-/* Rows of a thread: a picture filtered along y, room for four sums along x, what is seen of both pictures. */
+/* Rows of a thread: a picture filtered along y, four sums along x, and the filtered values of both pictures. */
 enum { DOWN = 0, ALONG = FILTERS, SEEN = ALONG + 4, SEEN_LINES = 5, LINES = SEEN + 2 * SEEN_LINES };
 
 typedef struct Flip {
@@ -62,14 +63,14 @@ typedef struct Flip {
     ColorMatrix to_xyz, to_rgb; /* x, y, z over white */
     float most;                 /* c_max */
     float *opponent[2][3];
-    float *lines;        /* of all threads: rows of width pixels with room on either side */
-    size_t room, stride; /* of a line */
-    bool bright;         /* the pair is radiance */
-    float gain, white;   /* 2^c, and where the tone curve has long been flat */
-    float *map;          /* grows from 0 */
+    float *lines;          /* of all threads: rows of width pixels with a margin on either side */
+    size_t margin, stride; /* of a line */
+    bool bright;           /* the pair is radiance */
+    float gain, white;     /* 2^c, and a radiance on the flat part of the tone curve */
+    float *map;            /* the largest value so far, from 0 on */
 } Flip;
 
-/* Positive weights with a sum of 1, negative ones of -1. */
+/* Normalises positive weights to a sum of 1 and negative ones to -1. */
 static void normalise(Kernel *kernel, int radius, const double *weight) {
     double up = 0.0, down = 0.0;
     kernel->radius = radius;
@@ -89,7 +90,7 @@ static void set_sight(Flip *flip, double pixels_per_degree) {
             sum[i] += weight[i][k] =
                 sqrt(a[i] * sqrt(PI_DOUBLE / b[i])) * exp(-PI_DOUBLE * PI_DOUBLE * t * t / b[i]);
         }
-    /* of y - z the squares of both terms sum to 1 */
+    /* for y - z the squares of both terms sum to 1 */
     sum[SIGHT_Z] = sum[SIGHT_Z_TOO] = hypot(sum[SIGHT_Z], sum[SIGHT_Z_TOO]);
     for (int i = 0; i < 4; i++) {
         flip->filters[SIGHT_Y + i].radius = radius;
@@ -115,7 +116,7 @@ static void set_features(Flip *flip, double pixels_per_degree) {
 
 /* Colours. */
 
-/* x, y, z over white of RGB, and back by Cramer's rule. */
+/* Makes the matrix from RGB to x, y, z over white, and its inverse by Cramer's rule. */
 static void set_colors(Flip *flip) {
     double m[3][3], determinant = 0.0;
     for (int i = 0; i < 3; i++)
@@ -145,13 +146,13 @@ static inline Triple times(const ColorMatrix *a, Triple v) {
 
 static inline float unit(float x) { return x > 0.0f ? x < 1.0f ? x : 1.0f : 0.0f; }
 
-/* CIE 15: the cube root, and a line below (6 / 29)^3. */
+/* Evaluates the function f of L* a* b* in CIE 15: the cube root, and a line below (6 / 29)^3. */
 static inline float lab_root(float t) {
     const float root = power(t, 1.0f / 3.0f), line = t * (841.0f / 108.0f) + 4.0f / 29.0f;
     return t > 216.0f / 24389.0f ? root : line;
 }
 
-/* L*, a_h, b_h of linear RGB in [0, 1]. */
+/* Returns L*, a_h, b_h of linear RGB in [0, 1]. */
 static inline Triple hunt_lab(const ColorMatrix *to_xyz, Triple rgb) {
     const Triple v = times(to_xyz, rgb);
     const float x = lab_root(v.x), y = lab_root(v.y), z = lab_root(v.z), lightness = 116.0f * y - 16.0f;
@@ -168,17 +169,17 @@ typedef struct Curve {
     float k0, k1, k3, k4, k5;
 } Curve;
 
-/* Krzysztof Narkowicz, "ACES Filmic Tone Mapping Curve", 2015, of 0.6 x. */
+/* Krzysztof Narkowicz, "ACES Filmic Tone Mapping Curve", 2015, applied to 0.6 x. */
 static const Curve aces = {0.6f * 0.6f * 2.51f, 0.6f * 0.03f, 0.6f * 0.6f * 2.43f, 0.6f * 0.59f, 0.14f};
 static const Curve same = {.k1 = 1.0f, .k5 = 1.0f};
 
-/* Radiance above `white` is as bright as that. */
+/* Returns the displayed value of a radiance, clamped to `white` from above. */
 static inline float shown(Curve k, float gain, float white, float radiance) {
     const float x = gain * (radiance > 0.0f ? radiance < white ? radiance : white : 0.0f);
     return unit((k.k0 * x * x + k.k1 * x) / (k.k3 * x * x + k.k4 * x + k.k5));
 }
 
-/* One row of both pictures, as they are shown, into opponent space. */
+/* Converts one row of both pictures, as displayed, to opponent space. */
 static void opponent_row(void *user, int y, int thread) {
     const Flip *flip = user;
     (void)thread;
@@ -205,7 +206,7 @@ static void opponent_row(void *user, int y, int thread) {
 
 /* The map. */
 
-/* Row y of a picture's planes under every filter along y, in pieces whose neighbours fit the first cache. */
+/* Applies every filter along y to row y of a picture's planes, in pieces whose neighbours fit the L1 cache. */
 static void filter_down(const Flip *flip, float *const *planes, int y, float *const *to) {
     static const struct {
         int filter, plane;
@@ -268,7 +269,7 @@ static void map_row(void *user, int y, int thread) {
     const Flip *flip = user;
     float *lines[LINES], *const *seen = lines + SEEN;
     for (int k = 0; k < LINES; k++)
-        lines[k] = flip->lines + ((size_t)thread * LINES + (size_t)k) * flip->stride + flip->room;
+        lines[k] = flip->lines + ((size_t)thread * LINES + (size_t)k) * flip->stride + flip->margin;
     const Seen p = {seen[0], seen[1], seen[2], seen[3], seen[4]},
                q = {seen[5], seen[6], seen[7], seen[8], seen[9]};
     seen_row(flip, flip->opponent[0], y, lines, &p);
@@ -296,7 +297,7 @@ static void add_exposure(Flip *flip, float stops) {
     parallel_for(flip->pair->threads, flip->pair->height, map_row, flip);
 }
 
-/* The range of exposures, from the reference; false where memory is short. */
+/* Sets the range of exposures from the reference; returns false if memory is short. */
 static bool set_exposures(const Pair *pair, WeftDiff *out) {
     const double t = 0.85, a = (double)aces.k0 - t * (double)aces.k3,
                  b = (double)aces.k1 - t * (double)aces.k4,
@@ -331,8 +332,8 @@ bool flip_map(const Pair *pair, float pixels_per_degree, bool bright, WeftDiff *
     const Triple green = hunt_lab(&flip.to_xyz, (Triple){0.0f, 1.0f, 0.0f}),
                  blue = hunt_lab(&flip.to_xyz, (Triple){0.0f, 0.0f, 1.0f});
     flip.most = power(hyab(green, blue), 0.7f);
-    flip.room = KERNEL_RADIUS;
-    flip.stride = (size_t)pair->width + 2 * flip.room;
+    flip.margin = KERNEL_RADIUS;
+    flip.stride = (size_t)pair->width + 2 * flip.margin;
     float *planes = alloc_array(pair_pixels(pair), 6 * sizeof *planes);
     flip.lines = alloc_array(flip.stride * LINES * (size_t)pair->threads, sizeof *flip.lines);
     bool ready = planes && flip.lines && (!bright || set_exposures(pair, out));

@@ -1,4 +1,4 @@
-/* half.h - floats of 16 bits, as files have them (IEEE 754, binary16) */
+/* half.h - floats of 16 bits in files (IEEE 754, binary16) */
 #ifndef WEFT_IMAGE_HALF_H
 #define WEFT_IMAGE_HALF_H
 
@@ -6,8 +6,8 @@
 #include <stdint.h>
 #include <string.h>
 
-/* The float of a half. Moved to where a float has them, its exponent and mantissa read as 2^(15 - 127) of the
- * value, also when subnormal. */
+/* Returns the float of a half. Shifted to the place of a float's, its exponent and mantissa mean 2^(15 - 127) times the
+ * value, also if it is subnormal. */
 static inline float half_value(unsigned half) {
     if ((half & 0x7c00) == 0x7c00) return NAN; /* or infinite: no reader keeps either */
     const uint32_t bits = (uint32_t)(half & 0x7fff) << 13;
@@ -17,7 +17,7 @@ static inline float half_value(unsigned half) {
     return half & 0x8000 ? -value : value;
 }
 
-/* The half nearest to x, as a float; |x| < 65504. */
+/* Returns the half nearest to x, as a float; |x| < 65504. */
 static inline float half_near(double x) {
     int exponent;
     frexp(x, &exponent);
@@ -25,12 +25,12 @@ static inline float half_near(double x) {
     return (float)((rint)(x / step) * step);
 }
 
-/* The half nearest to x, ties to even; what is too large becomes the largest, 65504. */
+/* Returns the half nearest to x, ties to even; larger values become the largest half, 65504. */
 static inline uint16_t half_bits(float x) {
     uint32_t bits, sign;
     float value = fminf(fabsf(x), 65504.0f);
     memcpy(&sign, &x, sizeof sign);
-    value *= 0x1p-112f; /* the exponent is now where a half's is read from; subnormal if the half is */
+    value *= 0x1p-112f; /* the exponent's low bits are now those of the half; subnormal if the half is */
     memcpy(&bits, &value, sizeof bits);
     bits += 0xfffu + (bits >> 13 & 1u);
     return (uint16_t)((sign >> 16 & 0x8000u) | bits >> 13);

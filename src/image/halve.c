@@ -4,7 +4,7 @@
 
 #include "image/srgb.h"
 
-/* The source texels of a texel along one axis: a side of 2 n + 1 in n parts gives each up to three texels. */
+/* The source texels of a texel along one axis; a side of 2 n + 1 in n parts gives each part up to three texels. */
 typedef struct Cover {
     int first, count;
     float part[3];
@@ -18,7 +18,7 @@ static Cover cover_at(int k, int side) {
     return (Cover){2 * k, 3, {(float)(n - k) * s, (float)n * s, (float)(k + 1) * s}};
 }
 
-/* The values of the 256 codes, and the threshold from which on each is the nearest code. */
+/* The values of the 256 codes, and the least value to which each is the nearest code. */
 typedef struct Codes {
     float value[256], from[256];
     uint8_t near[4097]; /* the code of k / 4096 */
@@ -42,7 +42,7 @@ static inline uint8_t code_of(const Codes *codes, float x) {
     return (uint8_t)code;
 }
 
-/* Four sums over what a texel covers; from has codes or, where these are NULL, floats. */
+/* Sets four sums over the texels that a texel covers. `from` contains codes or, if `color` is NULL, floats. */
 static inline void mean(const void *from, const Codes *color, const Codes *alpha, size_t width, Cover x,
                         Cover y, float sum[4]) {
     for (int c = 0; c < 4; c++) sum[c] = 0.0f;

@@ -1,5 +1,6 @@
-/* Greg Ward, "Real Pixels", Graphics Gems II, 1991, and the file formats chapter of the Radiance manual: a
- * text header, then lines of RGBE pixels, flat or in one of two run-length codes. */
+/* hdr.c - Radiance HDR: a text header, then lines of RGBE pixels, flat or in one of two run-length codes
+ *
+ * Greg Ward, "Real Pixels", Graphics Gems II, 1991, and the file formats chapter of the Radiance manual. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,13 +15,13 @@ enum { HDR_LINE_MIN = 8, HDR_LINE_MAX = 32767 }; /* the line lengths that the ne
 typedef struct Hdr {
     const ImageSource *source;
     size_t position;
-    double gain[3];    /* from what is stored to radiance */
-    int lines, length; /* of the file: a line is a column where x comes first */
-    int x_first;       /* lines run along y */
-    int from_right, from_bottom;
+    double gain[3];              /* from stored values to radiance */
+    int lines, length;           /* of the file: a line is a column if x comes first */
+    int x_first;                 /* lines run along y */
+    int from_right, from_bottom; /* direction of x and of y */
 } Hdr;
 
-/* The next line of the header, without its end, cut off at size - 1; 0 at the end of the file. */
+/* Reads the next line of the header, without its end, truncated to size - 1; returns 0 at the end of the file. */
 static int text_line(Hdr *hdr, char *line, size_t size) {
     const ImageSource *source = hdr->source;
     const unsigned char *start = source->data + hdr->position;
@@ -50,7 +51,7 @@ static int gain_divide(Hdr *hdr, const char *numbers, int count) {
     return 1;
 }
 
-/* "-Y 512 +X 1024": the slower axis first; +Y is up, +X to the right. */
+/* Reads the resolution, such as "-Y 512 +X 1024": the slower axis comes first; +Y is up, +X to the right. */
 static int resolution(Hdr *hdr, const char *line) {
     char sign[2], axis[2], rest;
     int count[2];
@@ -86,8 +87,8 @@ static WeftResult hdr_header(Hdr *hdr, WeftError *error) {
     return WEFT_OK;
 }
 
-/* One line in the new code: the four components after one another, each in runs (a count above 128 and a
- * byte) and dumps (a count and as many bytes). */
+/* Reads one line in the new code: the four components after one another, each in runs (a count above 128 and a
+ * byte) and dumps (a count and as many bytes). Returns the fault or NULL. */
 static const char *line_components(Hdr *hdr, unsigned char (*line)[4]) {
     const unsigned char *at = hdr->source->data + hdr->position, *end = hdr->source->data + hdr->source->size;
     for (int c = 0; c < 4; c++)
@@ -105,8 +106,8 @@ static const char *line_components(Hdr *hdr, unsigned char (*line)[4]) {
     return NULL;
 }
 
-/* One line flat or in the old code: a pixel 1 1 1 n repeats the one before n times; directly after another
- * such pixel n counts 256 times as much. */
+/* Reads one line, flat or in the old code: a pixel 1 1 1 n repeats the one before n times; directly after another
+ * such pixel n counts 256 times as much. Returns the fault or NULL. */
 static const char *line_pixels(Hdr *hdr, unsigned char (*line)[4]) {
     const unsigned char *at = hdr->source->data + hdr->position, *end = hdr->source->data + hdr->source->size;
     int shift = 0;
@@ -138,7 +139,7 @@ static const char *line_read(Hdr *hdr, unsigned char (*line)[4]) {
     return line_components(hdr, line);
 }
 
-/* Pixel n of the line goes where the orientation says. */
+/* Puts the pixels of a line at their places by the orientation. */
 static void line_place(const Hdr *hdr, unsigned char (*line)[4], int number, const WeftImage *image) {
     for (int n = 0; n < hdr->length; n++) {
         int x = hdr->x_first ? number : n, y = hdr->x_first ? n : number;
@@ -150,8 +151,8 @@ static void line_place(const Hdr *hdr, unsigned char (*line)[4], int number, con
     }
 }
 
-/* The fewest bytes of a line: either code, whichever is shorter. Old: a pixel and one, two or three runs (of
- * 255, 255 * 256 ...). New: its mark, then for each component a run of two bytes for 127 pixels. */
+/* Returns the fewest bytes of a line, in the shorter of both codes. Old: a pixel and one, two or three runs (of 255,
+ * 255 * 256 ...). New: its mark, then for each component a run of two bytes for 127 pixels. */
 static int64_t fewest_line_bytes(int length) {
     int64_t old = length == 1 ? 4 : length <= 256 ? 8 : 12, fresh = 4 + (length + 126) / 127 * 8;
     return fresh < old ? fresh : old;
@@ -185,8 +186,8 @@ WeftResult image_read_hdr(const ImageSource *source, WeftImage *out, WeftError *
     return result;
 }
 
-/* The nearest RGBE: an exponent that the largest component shares with the others. What cannot be said
- * becomes black (negative, NaN, below 1e-32) or the largest value (about 2^127). */
+/* Converts to the nearest RGBE, whose exponent is that of the largest component. Components that RGBE cannot represent
+ * become 0 (negative, NaN, all below 1e-32) or the largest value (about 2^127). */
 static void rgbe_pack(const float *rgb, unsigned char rgbe[4]) {
     double value[3], largest = 0.0;
     for (int c = 0; c < 3; c++) {
@@ -209,7 +210,7 @@ static int run_length(unsigned char (*line)[4], int c, int x, int length, int li
     return run;
 }
 
-/* One component of a line in the new code. A run must be of 3 at least to save anything. */
+/* Writes one component of a line in the new code. Only runs of 3 or more save anything. */
 static void component_write(FILE *stream, unsigned char (*line)[4], int c, int length) {
     for (int x = 0, start = 0; x < length; start = x) {
         const int run = run_length(line, c, x, length, 127);

@@ -72,16 +72,16 @@ void image_repair(const ImageSource *source, WeftImage *image) {
              "%zu of %zu values were not finite; 0 now", bad, count);
 }
 
-/* One format: the bytes at a place of a file by which it is known, and what weft does with it. A format without a
- * reader is refused by name, whatever the suffix says; one without a suffix is not written. */
+/* A file format. Files are recognised by their signature, whatever their suffix; a format without a reader is refused
+ * by name. */
 typedef struct Format {
     const char *name;
-    size_t at, size;
+    size_t at, size; /* of the signature, bytes */
     const char *signature;
     WeftResult (*read)(const ImageSource *source, WeftImage *out, WeftError *error);
-    const char *media_type; /* of what glTF and its extensions take */
-    const char *suffix;
-    bool linear; /* written from F32; else from U8 or U16 */
+    const char *media_type; /* of a format of glTF and its extensions, else NULL */
+    const char *suffix;     /* NULL: the format is not written */
+    bool linear;            /* written from F32; else from U8 or U16 */
     WeftResult (*write)(FILE *stream, const char *name, const WeftImage *image, const WeftImageWriting *how,
                         WeftError *error);
 } Format;
@@ -117,7 +117,7 @@ static const Format formats[] = {
 };
 enum { FORMATS = sizeof formats / sizeof *formats };
 
-/* The format of a file by its first bytes; TGA where they are no other's. */
+/* Returns the format of a file by its first bytes; TGA if no signature matches. */
 static const Format *format_of_bytes(const unsigned char *data, size_t size) {
     const Format *f = formats;
     while (f < &formats[FORMATS - 1] &&
@@ -126,7 +126,7 @@ static const Format *format_of_bytes(const unsigned char *data, size_t size) {
     return f;
 }
 
-/* The format that is written to a path; NULL where its suffix is no format's. */
+/* Returns the format to write to a path, by its suffix; NULL if there is none. */
 static const Format *format_of_path(const char *path) {
     size_t length = strlen(path);
     for (const Format *f = formats; f < &formats[FORMATS]; f++) {

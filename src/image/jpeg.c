@@ -1,3 +1,4 @@
+/* jpeg.c - JPEG through libjpeg */
 #include <setjmp.h>
 #include <stdio.h>
 #include <string.h>
@@ -8,7 +9,7 @@
 #include "base/fail.h"
 #include "image/codec.h"
 
-/* libjpeg leaves an error by longjmp: whatever must outlive that lives here, behind a pointer. */
+/* State that outlives a longjmp, by which libjpeg reports errors. */
 typedef struct JpegJob {
     struct jpeg_decompress_struct jpeg;
     struct jpeg_error_mgr errors;
@@ -52,8 +53,9 @@ static _Noreturn void jpeg_job_refuse(JpegJob *job, WeftMessage message, const c
     longjmp(job->escape, 1);
 }
 
-/* A scan of a few bytes makes the decoder visit every block of its component, so a small file with many scans
- * can take hours. Useful files have about ten scans (libjpeg's own progressive script: 10 for colour). */
+/* Refuses files with too many scans. A scan of a few bytes makes the decoder visit every block of its component, so a
+ * small file with many scans can take hours. Useful files have about ten (libjpeg's progressive script: 10 for
+ * colour). */
 static void jpeg_job_progress(j_common_ptr jpeg) {
     const int64_t scans_max = 100, visits_max = (int64_t)1 << 28;
     JpegJob *job = job_of(jpeg);
@@ -69,7 +71,8 @@ static int64_t block_count(const struct jpeg_decompress_struct *jpeg) {
     return blocks;
 }
 
-/* CMYK as Adobe writes it holds 255 - ink; others hold ink. What is left of white after both inks. */
+/* Converts CMYK to RGB, white times the transmittances of a colour ink and of black. Adobe's files contain 255 - ink,
+ * others ink. */
 static void cmyk_to_rgb(const JSAMPLE *cmyk, unsigned char *rgb, size_t count, int inverted) {
     for (size_t i = 0; i < count; i++, cmyk += 4, rgb += 3)
         for (int c = 0; c < 3; c++) {
@@ -86,8 +89,8 @@ static WeftResult jpeg_decode(JpegJob *job, const ImageSource *source, WeftError
     jpeg_read_header(jpeg, TRUE);
     if (jpeg->arith_code) jpeg_job_refuse(job, WEFT_MESSAGE_IMAGE_UNSUPPORTED, "arithmetic coding");
 
-    /* A block costs one bit at the very least, the Huffman code of its DC difference. Several scans need all
-     * coefficients in memory, 128 bytes a block. */
+    /* A block takes at least one bit, the Huffman code of its DC difference. Several scans need all coefficients in
+     * memory, 128 bytes a block. */
     job->blocks = block_count(jpeg);
     WeftResult result = image_reachable(source, job->blocks / 8, error);
     if (result != WEFT_OK) return result;
@@ -116,7 +119,7 @@ static WeftResult jpeg_decode(JpegJob *job, const ImageSource *source, WeftError
     return WEFT_OK;
 }
 
-/* Apart from the caller, whose variables a longjmp to here leaves well defined. */
+/* Decodes, or fails after a longjmp. It is separate from its caller, whose variables then stay well defined. */
 static WeftResult jpeg_read_guarded(JpegJob *job, const ImageSource *source, WeftError *error) {
     if (setjmp(job->escape)) return fail(error, job->message, source->name, "JPEG: %s", job->reason);
     return jpeg_decode(job, source, error);

@@ -1,10 +1,10 @@
-/* kernel.h - weighted sums over neighbours, along one direction at a time */
+/* kernel.h - separable filters: weighted sums over neighbours along one axis */
 #ifndef WEFT_IMAGE_KERNEL_H
 #define WEFT_IMAGE_KERNEL_H
 
 #include <stddef.h>
 
-/* Radii are at most KERNEL_RADIUS; KERNEL_STEP neighbours are taken at once. */
+/* The largest radius, and the neighbours that are summed in one pass. */
 enum { KERNEL_RADIUS = 70, KERNEL_STEP = 4, KERNEL_TAPS = 2 * KERNEL_RADIUS + KERNEL_STEP };
 
 /* weight[k] belongs to the neighbour k - radius away; all others are 0. */
@@ -13,7 +13,7 @@ typedef struct Kernel {
     float weight[KERNEL_TAPS];
 } Kernel;
 
-/* The rows that a sum for row y takes from a plane, from y - radius on. Beyond the plane its edge repeats. */
+/* Lists the rows of a plane that a sum for row y needs, from y - radius on. Beyond the plane its edge repeats. */
 static inline void kernel_rows(const float *plane, int width, int height, int y, int radius,
                                const float *rows[KERNEL_TAPS]) {
     for (int k = 0; k <= 2 * radius; k++) {
@@ -22,8 +22,8 @@ static inline void kernel_rows(const float *plane, int width, int height, int y,
     }
 }
 
-/* Fills row with the row shifted pixel by pixel, so that a sum runs along it: row[0] .. row[width - 1] with
- * radius values of room on either side, which become the row's ends. */
+/* Lists copies of a row shifted pixel by pixel, so that a sum runs along it. The row is row[0] .. row[width - 1]; the
+ * radius values before and after it are set to its ends. */
 static inline void kernel_shifts(float *row, int width, int radius, const float *rows[KERNEL_TAPS]) {
     for (int k = 1; k <= radius; k++) {
         row[-k] = row[0];
@@ -32,7 +32,7 @@ static inline void kernel_shifts(float *row, int width, int radius, const float 
     for (int k = 0; k <= 2 * radius; k++) rows[k] = row + k - radius;
 }
 
-/* to[x] = sum over k of weight[k] rows[k][x] for x in [first, end), KERNEL_STEP neighbours at a time. */
+/* Computes to[x] = sum over k of weight[k] rows[k][x] for x in [first, end). */
 static inline void kernel_sum(const Kernel *kernel, const float *const *rows, int first, int end,
                               float *restrict to) {
     const int taps = 2 * kernel->radius + 1;

@@ -1,5 +1,7 @@
-/* Robert Kern, "A Simple File Format for NumPy Arrays", NumPy Enhancement Proposal 1, 2007; versions 2.0 and
- * 3.0 differ in the width of a length and in the letters of names, which an array of numbers has none of. */
+/* npy.c - arrays of NumPy
+ *
+ * Robert Kern, "A Simple File Format for NumPy Arrays", NumPy Enhancement Proposal 1, 2007. Versions 2.0 and 3.0 differ
+ * in the width of a length, and in the encoding of names, which an array of numbers does not have. */
 #include <ctype.h>
 #include <stdbool.h>
 #include <stdlib.h>
@@ -23,7 +25,7 @@ typedef struct Npy {
     const unsigned char *data;
 } Npy;
 
-/* The header's text, a dictionary as Python writes it. */
+/* The header's text, a Python dictionary. */
 typedef struct NpyText {
     const char *at, *end;
 } NpyText;
@@ -50,7 +52,7 @@ static bool take_word(NpyText *text, const char *word) {
 
 enum { WORD = 32 };
 
-/* 'word' or "word", of less than WORD characters. */
+/* Takes 'word' or "word", of less than WORD characters. */
 static bool take_quoted(NpyText *text, char word[WORD]) {
     const char quote = take(text, '\'') ? '\'' : take(text, '"') ? '"' : '\0';
     size_t length = 0;
@@ -63,7 +65,7 @@ static bool take_quoted(NpyText *text, char word[WORD]) {
     return take(text, quote);
 }
 
-/* A whole number; one that is too large for anything is still too large. Python 2 puts an L behind it. */
+/* Takes an integer. It stops growing when it is too large for any image. Python 2 puts an L behind it. */
 static bool take_side(NpyText *text, int64_t *side) {
     const int64_t enough = INT64_C(1) << 40;
     skip_blanks(text);
@@ -83,7 +85,7 @@ static bool take_next(NpyText *text, bool first, char close, bool *broken) {
     return !closed && !*broken && (first || !take(text, close));
 }
 
-/* (4, 5) or (4,). More sides than SIDES_MAX are counted and not kept. */
+/* Takes a shape such as (4, 5) or (4,). Sides beyond SIDES_MAX are counted but not stored. */
 static bool take_shape(NpyText *text, Npy *npy) {
     bool broken = !take(text, '(');
     for (npy->sides = 0; !broken && take_next(text, npy->sides == 0, ')', &broken); npy->sides++) {
@@ -107,7 +109,7 @@ static const char *type_of(const char *word, Npy *npy) {
 
 typedef enum Wrong { FINE, DAMAGED, UNSUPPORTED } Wrong;
 
-/* Reads the dictionary; *words say what is wrong. */
+/* Reads the dictionary; sets *words to the fault. */
 static Wrong header_read(NpyText text, Npy *npy, const char **words) {
     char key[WORD], type[WORD] = "";
     *words = "its header is not a dictionary of descr, fortran_order and shape";
@@ -138,7 +140,7 @@ static Wrong header_read(NpyText text, Npy *npy, const char **words) {
     return FINE;
 }
 
-/* Finds the header's text and what follows it. */
+/* Finds the header's text and the data after it; returns false if the file ends before. */
 static bool header_find(const ImageSource *source, NpyText *text, Npy *npy) {
     const unsigned char *at = source->data + SIGNATURE + 2;
     if (source->size < SIGNATURE + 2) return false;
@@ -153,7 +155,7 @@ static bool header_find(const ImageSource *source, NpyText *text, Npy *npy) {
     return true;
 }
 
-/* The bits of value n, wherever its bytes lie. */
+/* Returns the bits of value n in this machine's byte order. */
 static uint64_t bits_at(const Npy *npy, size_t n) {
     const unsigned char *at = npy->data + n * (size_t)npy->bytes;
     uint64_t bits = 0;
@@ -174,7 +176,7 @@ static float float_of(uint64_t bits, int bytes) {
     return (float)value;
 }
 
-/* Values row by row into the image, whose first index is that of the rows, as here. */
+/* Reads the values into the image, whose first index is the row. */
 static void values_read(const Npy *npy, WeftImage *image) {
     const size_t height = (size_t)image->height, width = (size_t)image->width,
                  channels = (size_t)image->channels;
@@ -220,7 +222,7 @@ WeftResult image_read_npy(const ImageSource *source, WeftImage *out, WeftError *
     return WEFT_OK;
 }
 
-/* Blanks and a newline end the header, so that the values begin at a multiple of 64. */
+/* Writes the header, padded by blanks and a newline so that the values begin at a multiple of 64. */
 static void header_write(FILE *stream, const WeftImage *image) {
     enum { BEFORE = SIGNATURE + 4, STEP = 64 };
     char text[128], channels[16] = "";

@@ -1,5 +1,5 @@
-/* The functions are those of the C interface that versions 1 and 2 of the library share, but for two that version 2
- * has under new names. Attila T. Afra, "Intel Open Image Denoise", https://www.openimagedenoise.org. */
+/* Versions 1 and 2 of the library share these functions of its C interface; version 2 renamed two of them. Attila T.
+ * Afra, "Intel Open Image Denoise", https://www.openimagedenoise.org. */
 #include "image/oidn.h"
 
 #include <dlfcn.h>
@@ -77,7 +77,7 @@ static void run(const OidnLibrary *library, OidnDevice device, const OidnPicture
     library->release_filter(filter);
 }
 
-/* Turns a complaint of the library into a failure. */
+/* Fails with the library's error message, if there is an error. */
 static WeftResult verdict(const OidnLibrary *library, OidnDevice device, WeftError *error) {
     const char *text = NULL;
     if (!library->get_error(device, &text)) return WEFT_OK;
@@ -85,7 +85,7 @@ static WeftResult verdict(const OidnLibrary *library, OidnDevice device, WeftErr
                 text ? text : "no reason given");
 }
 
-/* Returns false, with the error, where the library is not there or lacks a function. */
+/* Opens the library. Returns false, with the error, if it is not installed or lacks a function. */
 static bool library_find(OidnLibrary *library, WeftError *error) {
     if (library_open(library)) return true;
     if (library->handle) dlclose(library->handle);
@@ -111,7 +111,7 @@ WeftResult oidn_denoise(const OidnPicture *picture, int threads, WeftError *erro
         result = verdict(&library, device, error);
         if (result == WEFT_OK) run(&library, device, picture);
     }
-    if (result == WEFT_OK) result = verdict(&library, device, error); /* of no device: why there is none */
+    if (result == WEFT_OK) result = verdict(&library, device, error); /* without a device: the reason */
     if (device) library.release_device(device);
     dlclose(library.handle);
     return result;

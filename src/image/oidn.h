@@ -11,10 +11,11 @@ typedef struct OidnPicture {
     float *albedo, *normal;
 } OidnPicture;
 
-/* Fails with WEFT_MESSAGE_DENOISER where the library is not there. */
+/* Checks that the library can be loaded. Fails with WEFT_MESSAGE_DENOISER. */
 WeftResult oidn_check(WeftError *error);
 
-/* Fails with WEFT_MESSAGE_DENOISER where the library is not there, or complains. */
+/* Denoises the colours in place. Fails with WEFT_MESSAGE_DENOISER if the library is not installed or reports an
+ * error. */
 WeftResult oidn_denoise(const OidnPicture *picture, int threads, WeftError *error);
 
 #endif

@@ -10,7 +10,7 @@
 #include "image/srgb.h"
 #include "weft/progress.h"
 
-/* Not so large that a sum of channels overflows. */
+/* Returns x, bounded so that no sum of channels overflows; 0 if it is not finite. */
 static float finite(float x) { return isfinite(x) ? fminf(fmaxf(x, -1e37f), 1e37f) : 0.0f; }
 
 /* Returns the linear values that the integers of an image stand for (alpha: unchanged), or NULL if memory
@@ -22,7 +22,7 @@ static float *decoding(WeftPixelType type) {
     return values;
 }
 
-/* Channel c of a pixel. */
+/* Returns channel c of a pixel as a linear value. */
 static float channel(const WeftImage *image, const float *decoded, size_t pixel, int c) {
     const size_t at = pixel * (size_t)image->channels + (size_t)c;
     const bool alpha = image->channels % 2 == 0 && c == image->channels - 1;
@@ -47,7 +47,7 @@ static bool over_black(const WeftImage *image, float *const linear[3]) {
     return true;
 }
 
-/* A linear image as it is shown. Tone curves take colours: grey becomes one first. */
+/* Displays a linear image by the tone curve. Tone curves take colours, so grey is first converted to one. */
 static WeftResult show(const WeftImage *image, const WeftDiffDesc *desc, WeftImage *out, WeftError *error) {
     if (image->channels >= 3) return weft_image_tonemap(image, desc->tonemap, desc->exposure, out, error);
     WeftImage color;
@@ -68,7 +68,6 @@ static WeftResult show(const WeftImage *image, const WeftDiffDesc *desc, WeftIma
 
 void pair_free(Pair *pair) { free(pair->linear[0][0]); }
 
-/* shown: linear images are tone-mapped first. */
 WeftResult pair_make(const WeftDiffDesc *desc, bool shown, Pair *pair, WeftError *error) {
     const WeftImage *const images[2] = {desc->image, desc->reference};
     *pair = (Pair){.width = desc->image->width,
@@ -97,8 +96,8 @@ WeftResult pair_make(const WeftDiffDesc *desc, bool shown, Pair *pair, WeftError
     return result;
 }
 
-/* Non-negative floats are in the order of their bits: the upper half of the one wanted is found by counting
- * all, then the lower by counting those that share the upper. */
+/* Sorts by counting, since non-negative floats have the order of their bits: the upper 16 bits of the value are found
+ * by counting all values, the lower 16 by counting those with these upper bits. */
 bool value_ranked(const float *values, size_t count, size_t rank, float *value) {
     size_t *counts = alloc_array(1 << 16, sizeof *counts);
     uint32_t found = 0;

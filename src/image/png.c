@@ -1,3 +1,4 @@
+/* png.c - PNG through libpng */
 #include <png.h>
 #include <setjmp.h>
 #include <stdbool.h>
@@ -8,18 +9,18 @@
 #include "base/memory.h"
 #include "image/codec.h"
 
-/* libpng leaves an error by longjmp: whatever must outlive that lives here, behind a pointer. */
+/* State that outlives a longjmp, by which libpng reports errors. */
 typedef struct PngJob {
     jmp_buf escape;
     char reason[160];
-    const ImageSource *source; /* when reading */
-    size_t position;
-    bool denoised; /* the file says so */
-    bool data;     /* when writing: no picture, and what its text chunks say, or NULL */
-    char *comment, *how_denoised;
+    const ImageSource *source;    /* when reading */
+    size_t position;              /* when reading */
+    bool denoised;                /* when reading: the file has a chunk of denoised_key */
+    bool data;                    /* when writing: data, not a picture */
+    char *comment, *how_denoised; /* when writing: texts, or NULL */
 } PngJob;
 
-/* The keyword of the text chunk that says how a picture was denoised. */
+/* The keyword of the text chunk with the denoiser of a picture. */
 static char denoised_key[] = "Denoised";
 
 static _Noreturn void png_job_fail(png_structp png, png_const_charp reason) {
@@ -40,7 +41,7 @@ static void png_job_read(png_structp png, png_bytep to, size_t size) {
     job->position += size;
 }
 
-/* Looks at the keyword of a text; chunks that come here are not parsed. */
+/* Reads the keyword of a text chunk, which libpng does not parse. */
 static int png_job_chunk(png_structp png, png_unknown_chunkp chunk) {
     PngJob *job = png_get_user_chunk_ptr(png);
     if (memcmp(chunk->name, "tEXt", 4) == 0 && chunk->size >= sizeof denoised_key)
@@ -48,7 +49,7 @@ static int png_job_chunk(png_structp png, png_unknown_chunkp chunk) {
     return 1;
 }
 
-/* Only what changes pixels is parsed; profiles and the like are skipped unread, texts but for their keyword. */
+/* Makes libpng parse only chunks that change pixels. Others are skipped, except that the keyword of texts is read. */
 static void skip_ancillary(png_structp png, PngJob *job) {
     static const char skipped[] =
         "bKGD\0cHRM\0cICP\0eXIf\0gAMA\0hIST\0iCCP\0iTXt\0oFFs\0pCAL\0pHYs\0sBIT\0sCAL\0"
@@ -59,7 +60,7 @@ static void skip_ancillary(png_structp png, PngJob *job) {
     png_set_read_user_chunk_fn(png, job, png_job_chunk);
 }
 
-/* Everything that can escape. */
+/* Decodes the file; all calls of libpng that may longjmp are here. */
 static WeftResult png_decode(png_structp png, png_infop info, PngJob *job, WeftImage *out, WeftError *error) {
     const ImageSource *source = job->source;
     skip_ancillary(png, job);
@@ -91,7 +92,7 @@ static WeftResult png_decode(png_structp png, png_infop info, PngJob *job, WeftI
     return WEFT_OK;
 }
 
-/* Apart from the caller, whose variables a longjmp to here leaves well defined. */
+/* Decodes, or fails after a longjmp. It is separate from its caller, whose variables then stay well defined. */
 static WeftResult png_read_guarded(PngJob *job, png_structp png, png_infop info, WeftImage *out,
                                    WeftError *error) {
     if (setjmp(job->escape))
@@ -114,9 +115,9 @@ WeftResult image_read_png(const ImageSource *source, WeftImage *out, WeftError *
     return result;
 }
 
-/* A text chunk is Latin-1: what is not ASCII is left to the reader's guess. The library copies both strings.
- */
-static void png_say(png_structp png, png_infop info, char *keyword, char *words) {
+/* Writes a text chunk, unless `words` is NULL. The format defines it as Latin-1, so readers may misread other
+ * characters than ASCII. The library copies both strings. */
+static void write_text(png_structp png, png_infop info, char *keyword, char *words) {
     if (!words) return;
     const png_text text = {.compression = PNG_TEXT_COMPRESSION_NONE,
                            .key = keyword,
@@ -134,8 +135,8 @@ static void png_encode(png_structp png, png_infop info, const WeftImage *image, 
                  color_types[image->channels], PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
                  PNG_FILTER_TYPE_DEFAULT);
     if (!job->data) png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
-    png_say(png, info, comment_key, job->comment);
-    png_say(png, info, denoised_key, job->how_denoised);
+    write_text(png, info, comment_key, job->comment);
+    write_text(png, info, denoised_key, job->how_denoised);
     png_set_compression_level(png, 3); /* a third of the time of the default, files a fifth longer */
     png_write_info(png, info);
     if (deep && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__) png_set_swap(png);
@@ -158,11 +159,11 @@ WeftResult image_write_png(FILE *stream, const char *name, const WeftImage *imag
     PngJob job = {.data = how->data != 0,
                   .comment = how->comment ? strdup(how->comment) : NULL,
                   .how_denoised = how->denoised ? strdup(how->denoised) : NULL};
-    const bool said = !how->comment == !job.comment && !how->denoised == !job.how_denoised;
+    const bool copied = !how->comment == !job.comment && !how->denoised == !job.how_denoised;
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &job, png_job_fail, png_job_warn);
     png_infop info = png ? png_create_info_struct(png) : NULL;
-    WeftResult result = info && said ? png_write_guarded(&job, png, info, stream, name, image, error)
-                                     : fail(error, WEFT_MESSAGE_MEMORY, name, NULL);
+    WeftResult result = info && copied ? png_write_guarded(&job, png, info, stream, name, image, error)
+                                       : fail(error, WEFT_MESSAGE_MEMORY, name, NULL);
     png_destroy_write_struct(&png, &info);
     free(job.comment);
     free(job.how_denoised);

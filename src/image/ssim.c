@@ -10,10 +10,9 @@
  *          mu_x^2 + mu_y^2 + C1    sigma_x^2 + sigma_y^2 + C2
  *
  * C1 = (0.01 L)^2, C2 = (0.03 L)^2 and L = 1; w is a Gaussian of sigma 1.5 on 11 x 11 pixels, whose sum is 1.
- * Either factor is 1 - (denominator - numerator) / denominator; the differences are (mu_x - mu_y)^2 and the
- * variance of x - y, so that equal pictures give 1 exactly.
- * x and y are luma: 0.2126 r + 0.7152 g + 0.0722 b of sRGB-encoded values. At the edges of the picture the
- * window sees the outermost pixels repeated. */
+ * Either factor is computed as 1 - (denominator - numerator) / denominator; the differences are (mu_x - mu_y)^2 and the
+ * variance of x - y, so that equal pictures give exactly 1. x and y are luma: 0.2126 r + 0.7152 g + 0.0722 b of
+ * sRGB-encoded values. Beyond the picture its outermost pixels repeat. */
 #include "image/ssim.h"
 
 #include <math.h>
@@ -31,7 +30,7 @@ typedef struct Ssim {
     const Pair *pair;
     Kernel kernel;
     float *planes[QUANTITIES];
-    float *lines; /* of each thread: one with room for the radius, and one for each quantity */
+    float *lines; /* of each thread: one with a margin of the radius, and one for each quantity */
     size_t stride;
     float *map;
 } Ssim;

@@ -1,4 +1,4 @@
-/* Truevision, "TGA File Format Specification", version 2.0, 1991. */
+/* tga.c - TGA: Truevision, "TGA File Format Specification", version 2.0, 1991 */
 #include <stdlib.h>
 
 #include "base/fail.h"
@@ -23,7 +23,7 @@ static int byte_count(int bits) { return (bits + 7) / 8; }
 
 static int is_color_depth(int bits) { return bits == 15 || bits == 16 || bits == 24 || bits == 32; }
 
-/* The file has no signature: what is not a possible header is no TGA. */
+/* Returns 1 if the header is possible. The format has no signature, so a file with another header is no TGA. */
 static int tga_possible(const Tga *tga, int map_type, int type) {
     if (map_type > 1 || (type & ~TGA_RLE) != tga->kind) return 0;
     switch (tga->kind) {
@@ -56,7 +56,7 @@ static WeftResult tga_header(const ImageSource *source, Tga *tga, WeftError *err
     if (!tga_possible(tga, map_type, type)) return fail(error, WEFT_MESSAGE_IMAGE_FORMAT, source->name, NULL);
     if (attributes & 0xc0)
         return fail(error, WEFT_MESSAGE_IMAGE_UNSUPPORTED, source->name, "TGA: interleaved lines");
-    /* The attribute bits say whether the spare bits of a colour are alpha; grey of 16 bits is 8 + 8. */
+    /* The attribute bits count the alpha bits of a colour; grey of 16 bits has 8 of alpha. */
     tga->has_alpha = tga->kind == TGA_GREY
                          ? tga->color_bits == 16
                          : (attributes & 15) && (tga->color_bits == 16 || tga->color_bits == 32);
@@ -73,7 +73,7 @@ static WeftResult tga_header(const ImageSource *source, Tga *tga, WeftError *err
 
 static unsigned char widened(int five_bits) { return (unsigned char)((five_bits * 255 + 15) / 31); }
 
-/* The colour at `from` (color_bits of it), blue first. */
+/* Reads the colour at `from`, of color_bits, blue first. */
 static void color_unpack(const Tga *tga, const unsigned char *from, unsigned char *to) {
     if (tga->kind == TGA_GREY) {
         to[0] = from[0];
@@ -92,7 +92,7 @@ static void color_unpack(const Tga *tga, const unsigned char *from, unsigned cha
     }
 }
 
-/* One pixel at `from`; 0 when it names a colour that the map has not. */
+/* Reads the pixel at `from`; returns 0 if its index is outside the colour map. */
 static int pixel_unpack(const Tga *tga, const unsigned char *from, unsigned char *to) {
     if (tga->kind == TGA_MAPPED) {
         const int index = (tga->pixel_bits == 8 ? from[0] : word(from)) - tga->map_first;
@@ -111,8 +111,8 @@ static unsigned char *pixel_place(const Tga *tga, const WeftImage *image, size_t
     return (unsigned char *)image->pixels + (y * width + x) * (size_t)tga->channels;
 }
 
-/* All pixels, in packets; the plain form is one packet of them all. Returns what is wrong or NULL. Packets
- * may run over the end of a line: the specification forbids it, but writers did it. */
+/* Reads all pixels; a file without packets is read as one packet of all. Returns the fault or NULL. Packets may run
+ * over the end of a line: the specification forbids it, but some writers do it. */
 static const char *tga_decode(const Tga *tga, const WeftImage *image) {
     const size_t total = (size_t)tga->width * (size_t)tga->height, step = (size_t)byte_count(tga->pixel_bits);
     const unsigned char *at = tga->pixels;
@@ -139,7 +139,7 @@ WeftResult image_read_tga(const ImageSource *source, WeftImage *out, WeftError *
     Tga tga = {.map = source->data, .pixels = source->data, .end = source->data};
     WeftResult result = tga_header(source, &tga, error);
     if (result != WEFT_OK) return result;
-    /* The longest packet holds 128 pixels in a byte and one pixel. */
+    /* The longest packet encodes 128 pixels in a byte and one pixel. */
     const int64_t pixels = (int64_t)tga.width * tga.height, step = byte_count(tga.pixel_bits);
     result = image_check_header(source, tga.width, tga.height, tga.channels, error);
     if (result == WEFT_OK)

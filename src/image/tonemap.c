@@ -1,4 +1,5 @@
-#define WEFT_LIBM /* pow of the C library: no byte of a picture hangs on the dialect's own */
+/* tonemap.c - tone mapping of linear images to display-referred bytes, with dither */
+#define WEFT_LIBM /* pow of the C library, so that pictures do not depend on the dialect's own */
 #include "shading/dialect/tone.h"
 
 #include "base/fail.h"
@@ -6,22 +7,22 @@
 
 _Static_assert(TONE_PBR_NEUTRAL == WEFT_TONEMAP_PBR_NEUTRAL && TONE_ACES == WEFT_TONEMAP_ACES, "");
 
-/* Returns the dither that is added to a value at (x, y) before it is cut to an integer: over any small
- * neighbourhood these fractions spread evenly over 0 .. 1, so the mean brightness stays right. They are
- * middles of 256 steps, so that rounding errors do not move a value that is a whole number. The sequence is
- * R2 of Martin Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018; the constants are
- * 2^32 / g and 2^32 / g^2 with g^3 = g + 1. One fraction serves all channels: grey stays grey. */
+/* Returns the dither that is added to a value at (x, y) before truncation to an integer. Over any small neighbourhood
+ * these fractions are uniform in 0 .. 1, so the mean brightness is kept. They are middles of 256 steps, so that
+ * rounding errors do not change integral values. The sequence is R2 of Martin Roberts, "The Unreasonable Effectiveness of
+ * Quasirandom Sequences", 2018; the constants are 2^32 / g and 2^32 / g^2 with g^3 = g + 1. All channels share the
+ * fraction, so that grey stays grey. */
 static float dither(unsigned x, unsigned y) {
     const unsigned step = (x * 0xc13fa9a9u + y * 0x91e10da5u) >> 24;
     return ((float)step + 0.5f) / 256.0f;
 }
 
-/* The byte of a display value; fraction is the dither. */
+/* Returns the byte of a display value; fraction is the dither. */
 static unsigned char quantized(float display, float fraction) {
     return (unsigned char)fminf(display * 255.0f + fraction, 255.0f);
 }
 
-/* behind may be NULL: then alpha is kept. */
+/* Makes the display image over `behind`; if that is NULL, alpha is kept. */
 static WeftResult map(const WeftImage *linear, WeftTonemap tonemap, float exposure, const float *behind,
                       WeftImage *out, WeftError *error) {
     *out = (WeftImage){0};
