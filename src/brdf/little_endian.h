@@ -1,4 +1,4 @@
-/* little_endian.h - numbers of files whose lowest byte comes first */
+/* little_endian.h - little-endian numbers in files */
 #ifndef WEFT_BRDF_LITTLE_ENDIAN_H
 #define WEFT_BRDF_LITTLE_ENDIAN_H
 
@@ -6,7 +6,7 @@
 #include <stdint.h>
 #include <string.h>
 
-/* count bytes, at most 8, as a number. */
+/* Returns count bytes, at most 8, as a number. */
 static inline uint64_t little_endian(const unsigned char *bytes, size_t count) {
     uint64_t value = 0;
     for (size_t k = count; k-- > 0;) value = value << 8 | bytes[k];

@@ -77,7 +77,7 @@ static HalfDiff half_diff(Dir o, Dir i, double period) {
     double flat = (sqrt)(hx * hx + hy * hy), length = (sqrt)(flat * flat + hz * hz);
     double c = flat > 1e-9 ? hx / flat : 1.0, s = flat > 1e-9 ? hy / flat : 0.0;
     double ch = hz / length, sh = flat / length;
-    /* wi turned by -phi_h about z, then by -theta_h about y */
+    /* wi rotated by -phi_h about z, then by -theta_h about y */
     double x = c * (double)i.x + s * (double)i.y, y = c * (double)i.y - s * (double)i.x, z = (double)i.z;
     double dx = ch * x - sh * z, dz = sh * x + ch * z;
     HalfDiff angles = {
@@ -87,7 +87,7 @@ static HalfDiff half_diff(Dir o, Dir i, double period) {
     return angles;
 }
 
-/* The two bins whose middles a place lies between, and the weight of the second. */
+/* The two bins between whose middles a place lies, and the weight of the second. */
 typedef struct Between {
     int bin[2];
     double weight;
@@ -108,10 +108,10 @@ bool merl_at(const Merl *merl, Dir o, Dir i, float f[3]) {
     f[0] = f[1] = f[2] = 0.0f;
     if (!(o.z > 0.0f) || !(i.z > 0.0f)) return false;
     const MerlShape s = merl->shape;
-    /* where the table has a half of the circle, f(wo, wi) = f(wi, wo) turns phi_d by pi */
+    /* if the table covers half of the circle, f(wo, wi) = f(wi, wo) adds pi to phi_d */
     const double period = s.around ? 2.0 * PI_DOUBLE : PI_DOUBLE;
     HalfDiff a = half_diff(o, i, period);
-    /* bins of theta_h are narrow near the mirror direction: uniform in its root */
+    /* bins of theta_h are uniform in its square root, so that they are narrow near the mirror direction */
     Between h = between((sqrt)(a.theta_h / (0.5 * PI_DOUBLE)) * s.theta_h, s.theta_h, false);
     Between d = between(a.theta_d / (0.5 * PI_DOUBLE) * s.theta_d, s.theta_d, false);
     Between p = between(a.phi_d / period * s.phi_d, s.phi_d, true);

@@ -1,11 +1,11 @@
 /* merl.h - a measured isotropic BRDF in the format of the MERL database
  *
  * Wojciech Matusik, Hanspeter Pfister, Matt Brand, Leonard McMillan, "A Data-Driven Reflectance Model", ACM
- * Transactions on Graphics 22(3), 2003; the file: three little-endian 32-bit integers (theta_h, theta_d,
- * phi_d: 90 90 180), then for red, green and blue so many doubles, phi_d fastest, in units of
- * 1/1500, 1.15/1500 and 1.66/1500 per steradian; a negative one was not measured. Angles are those of Szymon
- * Rusinkiewicz, "A New Change of Variables for Efficient BRDF Representation", 1998. Where phi_d has 360 bins it
- * runs all around, and f need not be reciprocal; of 180 the other half is the same. */
+ * Transactions on Graphics 22(3), 2003. The file has three little-endian 32-bit integers, the bins of theta_h, theta_d
+ * and phi_d (90 90 180), then a double for each bin, phi_d fastest, for red, green and blue, in units of 1/1500,
+ * 1.15/1500 and 1.66/1500 per steradian; negative means unmeasured. Angles are those of Szymon Rusinkiewicz, "A New
+ * Change of Variables for Efficient BRDF Representation", 1998. With 360 bins phi_d covers the whole circle, and f need
+ * not be reciprocal; with 180 the other half of the circle is equal. */
 #ifndef WEFT_BRDF_MERL_H
 #define WEFT_BRDF_MERL_H
 
@@ -35,18 +35,17 @@ typedef struct Merl {
     float *f[3];
 } Merl;
 
-/* Reads size bytes of a file. Fails with WEFT_MESSAGE_MEASURED or _MEMORY; release with merl_free in any case.
- */
+/* Reads size bytes of a file. Fails with WEFT_MESSAGE_MEASURED or _MEMORY; release with merl_free in any case. */
 WeftResult merl_read_memory(const void *data, size_t size, const char *name, Merl *out, WeftError *error);
 void merl_free(Merl *merl);
 
-/* Works as merl_read_memory, for a file with another number of bins, which the format does not have. A fuzzer needs inputs
- * smaller than 35 MB. */
+/* Works as merl_read_memory, for a file with numbers of bins that the format does not have: a fuzzer needs inputs smaller
+ * than 35 MB. */
 WeftResult merl_read_shape(const void *data, size_t size, MerlShape shape, const char *name, Merl *out,
                            WeftError *error);
 
-/* f between the middles of the bins, linear, of those that were measured. False where none was, and below the
- * horizon. */
+/* Evaluates f, linear between the middles of the bins, over those that were measured. Returns false where none was, and
+ * below the horizon. */
 bool merl_at(const Merl *merl, Dir o, Dir i, float f[3]);
 
 #endif

@@ -31,13 +31,13 @@ double rgl_table_at(const RglTable *table, SquarePoint u) {
     return square_table_at(table->value, table->width, table->height, &only, 1, 0, u);
 }
 
-/* wo, and the signs that took it into the part of the circle that was measured. */
+/* A wo, mirrored into the measured part of the circle. */
 typedef struct RglView {
-    Dir o;
-    float x, y;
-    double phi;
-    SquarePoint u; /* of wo */
-    SliceBlend blend;
+    Dir o;            /* mirrored */
+    float x, y;       /* the signs that mirror a direction */
+    double phi;       /* azimuth of o, radians */
+    SquarePoint u;    /* of o */
+    SliceBlend blend; /* slices of o */
 } RglView;
 
 static double angle_to_normal(Dir w) { return (atan2)((hypot)((double)w.x, (double)w.y), (double)w.z); }
@@ -47,7 +47,7 @@ static void view_make(const Rgl *self, Dir o, RglView *view) {
     if (self->parts > 1 && o.y > 0.0f) view->x = view->y = -1.0f;
     if (self->parts == 4) view->x = o.x > 0.0f ? -1.0f : 1.0f;
     view->o = dir(o.x * view->x, o.y * view->y, o.z);
-    /* of a part of the circle y is not above 0, and -0 where it is 0: its azimuth is -pi, not pi, behind */
+    /* if only a part was measured, y is at most -0, so that the azimuth of -x is -pi and not pi */
     double y = self->parts > 1 ? -(fabs)((double)view->o.y) : (double)view->o.y;
     view->phi = (atan2)(y, (double)view->o.x);
     double theta = angle_to_normal(o);
@@ -55,7 +55,7 @@ static void view_make(const Rgl *self, Dir o, RglView *view) {
     view->blend = slice_blend(self->phi, self->phis, self->theta, self->thetas, view->phi, theta);
 }
 
-/* u of the half vector. */
+/* Returns u of the half vector. */
 static SquarePoint square_of_half(const Rgl *self, const RglView *view, Dir i) {
     Dir m = dir(view->o.x + i.x * view->x, view->o.y + i.y * view->y, view->o.z + i.z);
     double phi = (atan2)((double)m.y, (double)m.x) - (rgl_isotropic(self) ? view->phi : 0.0);
@@ -79,7 +79,7 @@ void rgl_at(const Rgl *self, Dir o, Dir i, float f[3]) {
     }
 }
 
-/* du / dwi at a half vector of that u, whose cosine with wi is cos_d. */
+/* Returns du / dwi at the half vector of u, whose cosine with wi is cos_d. */
 static double stretch(SquarePoint u, double cos_d) {
     double theta, phi;
     rgl_angles_of(u, &theta, &phi);

@@ -7,12 +7,12 @@
 #include "base/pi.h"
 #include "base/thread.h"
 
-/* Directions of the iteration, and columns of the tables; of azimuths there is one more, as the first and the last are
- * one. Tables have two equal rows where the source is isotropic. */
+/* Directions of the iteration, and columns of the final tables. There is one more azimuth, since the first and the last
+ * are equal. Tables have two equal rows if the source is isotropic. */
 enum { ACROSS = 64, AROUND = ACROSS + 1, ROUNDS = 8, FINE = 256 };
 
-/* The share of D's peak that is even. */
-static const double even_share = 0.03;
+/* The uniform part of D, relative to its peak. */
+static const double uniform_part = 0.03;
 
 Dir rgl_direction(double theta, double phi) {
     return dir((float)((sin)(theta) * (cos)(phi)), (float)((sin)(theta) * (sin)(phi)),
@@ -21,20 +21,20 @@ Dir rgl_direction(double theta, double phi) {
 
 typedef struct Facets {
     const RglSource *source;
-    Dir way[AROUND][ACROSS]; /* at the corners of even cells of u */
-    double area[ACROSS];     /* solid angle of a facet's cell */
-    RglTable ndf;            /* of the iteration */
-    RglTable back, sigma;    /* being filled: f cos of what comes straight back, and sigma */
+    Dir normal[AROUND][ACROSS]; /* facet normals, at the corners of equal cells of u */
+    double area[ACROSS];        /* solid angle of a facet's cell */
+    RglTable ndf;               /* D of the iteration */
+    RglTable back, sigma;       /* being filled: f cos of retroreflection, and sigma */
 } Facets;
 
-static void ways_make(Facets *self) {
+static void normals_make(Facets *self) {
     for (int x = 0; x < ACROSS; x++) {
         SquarePoint u = {.x = (double)x / (ACROSS - 1)};
         double theta, phi, end = x == 0 || x == ACROSS - 1 ? 0.5 : 1.0;
         for (int y = 0; y < AROUND; y++) {
             u.y = (double)y / (AROUND - 1);
             rgl_angles_of(u, &theta, &phi);
-            self->way[y][x] = rgl_direction(theta, phi);
+            self->normal[y][x] = rgl_direction(theta, phi);
         }
         self->area[x] = end * 2.0 * PI_DOUBLE * PI_DOUBLE * u.x * (sin)(theta) / (ACROSS - 1) / (AROUND - 1);
     }
@@ -46,7 +46,7 @@ static bool table_create(RglTable *table, int width, bool isotropic) {
     return table->value != NULL;
 }
 
-/* New tables in place of back and sigma. */
+/* Replaces back and sigma by new tables. */
 static bool tables_create(Facets *self, int width) {
     free(self->back.value);
     free(self->sigma.value);
@@ -62,15 +62,15 @@ static double projected(const Facets *self, Dir w) {
     for (int y = 0; y + 1 < AROUND; y++) {
         const float *d = self->ndf.value + (size_t)(self->ndf.height == AROUND ? y : 0) * ACROSS;
         for (int x = 0; x < ACROSS; x++) {
-            double cosine = (double)dir_dot(w, self->way[y][x]);
+            double cosine = (double)dir_dot(w, self->normal[y][x]);
             if (cosine > 0.0) sum += cosine * self->area[x] * (double)d[x];
         }
     }
     return sum;
 }
 
-/* Direction of a number of a table; those of the two rows of what is isotropic are one. */
-static Dir way_of(const Facets *self, const RglTable *table, int at) {
+/* Returns the direction of an entry of a table, which is equal in both rows if the source is isotropic. */
+static Dir direction_of(const Facets *self, const RglTable *table, int at) {
     const int x = at % table->width, y = at / table->width;
     double theta, phi;
     rgl_angles_of((SquarePoint){(double)x / (table->width - 1),
@@ -82,12 +82,12 @@ static Dir way_of(const Facets *self, const RglTable *table, int at) {
 static void sigma_set(void *user, int at, int thread) {
     const Facets *self = user;
     (void)thread;
-    self->sigma.value[at] = (float)projected(self, way_of(self, &self->sigma, at));
+    self->sigma.value[at] = (float)projected(self, direction_of(self, &self->sigma, at));
 }
 
 static void back_set(void *user, int at, int thread) {
     const Facets *self = user;
-    const Dir w = way_of(self, &self->back, at);
+    const Dir w = direction_of(self, &self->back, at);
     const float o[3] = {w.x, w.y, (float)(fmax)((double)w.z, 1e-3)};
     float f[1][3];
     (void)thread;
@@ -96,18 +96,18 @@ static void back_set(void *user, int at, int thread) {
         (float)(((double)f[0][0] + (double)f[0][1] + (double)f[0][2]) / 3.0 * (double)o[2]);
 }
 
-/* Sets D of those back and sigma, which may be the table of back. */
+/* Sets D from back and sigma; ndf may be the table of back. */
 static void ndf_set(const Facets *self, RglTable *ndf) {
     double peak = 0.0;
     for (int k = 0; k < count_of(ndf); k++)
         peak = (fmax)(peak, (double)self->back.value[k] * (double)self->sigma.value[k]);
     for (int k = 0; k < count_of(ndf); k++) {
-        const double known = (double)self->back.value[k] * (double)self->sigma.value[k];
-        ndf->value[k] = (float)(peak > 0.0 ? even_share + (1.0 - even_share) * known / peak : 1.0);
+        const double d = (double)self->back.value[k] * (double)self->sigma.value[k];
+        ndf->value[k] = (float)(peak > 0.0 ? uniform_part + (1.0 - uniform_part) * d / peak : 1.0);
     }
 }
 
-/* Scales D so that sigma is 1 at the normal, and returns by what it was divided. */
+/* Scales D so that sigma is 1 at the normal, and returns the divisor. */
 static double ndf_scale(const Facets *self) {
     const double whole = projected(self, dir(0.0f, 0.0f, 1.0f));
     for (int k = 0; k < count_of(&self->ndf); k++) self->ndf.value[k] /= (float)whole;
@@ -138,7 +138,7 @@ bool rgl_facets(const RglSource *source, int threads, Rgl *out) {
     Facets *self = alloc_array(1, sizeof *self);
     if (!self) return false;
     self->source = source;
-    ways_make(self);
+    normals_make(self);
     const bool made = iterate(self, threads, &whole) && tables_create(self, FINE);
     if (made) {
         fill(self, threads);

@@ -13,7 +13,7 @@ typedef struct RglMaking {
     float *luminance; /* [slice][y][x] */
 } RglMaking;
 
-/* Direction of wo of a slice. */
+/* Returns wo of a slice. */
 static Dir slice_direction(const Rgl *rgl, int slice) {
     return rgl_direction((double)rgl->theta[slice % rgl->thetas], (double)rgl->phi[slice / rgl->thetas]);
 }
@@ -31,7 +31,7 @@ static Spread spread_at(const Rgl *rgl, Dir o, SquarePoint u) {
     return (Spread){(fmin)((fmax)(1.0 + 10.0 * height, 0.1), 1.0), (sqrt)((fmax)(q2, 0.0))};
 }
 
-/* W's density over u. */
+/* Computes the density over u whose warp is W. */
 static void normals_fill(const Rgl *rgl, int slice, float *density) {
     const Dir o = slice_direction(rgl, slice);
     const int side = rgl->side;
@@ -48,9 +48,9 @@ static void normals_fill(const Rgl *rgl, int slice, float *density) {
         }
 }
 
-/* R of a slice at all s, and the luminance there of f cos_i over the pdf of W, by which samples have even weights.
- * Below the horizon, where nothing is asked for, R goes on as if f were the same on both sides, below 0: so it is
- * straight where f cos_i crosses 0, and its steps do not show there. */
+/* Computes R of a slice at all s, and the luminance of f cos_i over the pdf of W there, which gives samples uniform
+ * weights. Below the horizon, where R is not evaluated, it continues with f of the mirrored wi and is negative, so that
+ * it is straight where f cos_i crosses 0 and linear interpolation is exact there. */
 static void colors_fill(void *user, int slice, int thread) {
     const RglMaking *making = user;
     const Rgl *rgl = making->rgl;
@@ -77,8 +77,8 @@ static void colors_fill(void *user, int slice, int thread) {
         making->source->f(making->source->user, wo, 1, wi, f);
         double scale = sigma * (double)i.z / rgl_table_at(&rgl->ndf, u);
         for (size_t c = 0; c < 3; c++) color[c * n + k] = (float)((double)f[0][c] * scale);
-        double area = u.x * (sin)(theta) *
-                      (fmax)((double)dir_dot(o, m), 0.0); /* of wi for one of u, times a constant */
+        double area =
+            u.x * (sin)(theta) * (fmax)((double)dir_dot(o, m), 0.0); /* dwi / du, up to a constant */
         double bright = 0.2126 * (double)f[0][0] + 0.7152 * (double)f[0][1] + 0.0722 * (double)f[0][2];
         luminance[k] =
             (float)((fmax)(bright * (double)i.z * area, 0.0) / square_warp_density(&rgl->normals, &own, u));
@@ -93,7 +93,7 @@ static bool axes_make(Rgl *rgl, const RglSource *source, const RglDesc *desc) {
     rgl->theta = alloc_array((size_t)rgl->thetas, sizeof *rgl->theta);
     rgl->phi = alloc_array((size_t)rgl->phis, sizeof *rgl->phi);
     if (!rgl->theta || !rgl->phi) return false;
-    for (int k = 0; k < rgl->thetas; k++) { /* denser at grazing, where f changes faster */
+    for (int k = 0; k < rgl->thetas; k++) { /* denser at grazing angles, where f changes faster */
         const double x = (double)k / (rgl->thetas - 1);
         rgl->theta[k] = (float)(89.0 * RADIANS * (0.7 * x + 0.3 * (sin)(0.5 * PI_DOUBLE * x)));
     }

@@ -1,11 +1,11 @@
-/* rgl_make.h - a BRDF as tables of the RGL format: R is what D and sigma leave of f (rgl_facets.h, rgl.h)
+/* rgl_make.h - tables of the RGL format made of a BRDF; R is the quotient of f by D and sigma (rgl_facets.h, rgl.h)
  *
- * The authors' W spreads points by q^2 = D(m) (wo . m) u_theta sin theta_m. Here it is
+ * The authors' W distributes points by the density q^2 = D(m) (wo . m) u_theta sin theta_m. Here the density is
  *
- *   k (q + Q),   k = 1 above the horizon, 0.1 well below,   Q the mean of q where k counts
+ *   k (q + Q),   k = 1 where mirroring wo at m ends above the horizon, 0.1 well below,   Q the mean of q weighted by k
  *
- * so that points are left where little comes straight back, and few lie where mirroring wo at m ends below the
- * horizon. A reader looks W up, whatever made it. Own form, by how near lobes come back (docs/measured.md). */
+ * so that there are points where little light is retroreflected, and few below the horizon. A reader of the file needs
+ * no formula for W. This density is our own, chosen by the error of the tabulated lobes (docs/measured.md). */
 #ifndef WEFT_BRDF_RGL_MAKE_H
 #define WEFT_BRDF_RGL_MAKE_H
 
@@ -13,20 +13,21 @@
 
 /* The sizes of the tables. */
 typedef struct RglDesc {
-    int thetas, phis; /* slices; phis counts where the source is not isotropic */
+    int thetas, phis; /* slices; phis is not read if the source is isotropic */
     int side;         /* of the tables of each slice */
     int threads;      /* 0: one a processor; no influence on the numbers */
 } RglDesc;
 
 enum { RGL_SIDE_MOST = 512, RGL_SLICES_MOST = 256 };
 
-/* Makes all tables but D and sigma, which out has (rgl_facets), in place of those that it has. False where memory is
+/* Makes or replaces all tables of out but D and sigma, which it must have (rgl_facets). Returns false if memory is
  * short; release with rgl_free in any case. */
 bool rgl_make(const RglSource *source, const RglDesc *desc, Rgl *out);
 
-/* Takes h^2 f'' / 12 from every number of R, along each of its four axes, h the step from node to node. Linear interpolation
- * of a function that is quadratic between nodes is off by h^2 f'' x (1 - x) / 2, at x from one node to the next, and so by a
- * twelfth in the mean. What is left cancels in the mean, over each axis. False where memory is short. */
+/* Subtracts h^2 f'' / 12 from every number of R along each of its four axes, where h is the step between nodes. Linear
+ * interpolation of a function that is quadratic between nodes has the error h^2 f'' x (1 - x) / 2 at x in [0, 1] from one
+ * node to the next, and thus h^2 f'' / 12 in the mean. The remaining error has mean 0 along each axis. Returns false if
+ * memory is short. */
 bool rgl_sharpen(Rgl *rgl);
 
 #endif

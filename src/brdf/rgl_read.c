@@ -1,3 +1,4 @@
+/* rgl_read.c - reading of files in the RGL format */
 #include <math.h>
 #include <stdlib.h>
 
@@ -8,12 +9,12 @@
 #include "brdf/spectrum.h"
 #include "brdf/tensor.h"
 
-/* A file of which one array after another is taken. */
+/* A file while it is read. */
 typedef struct RglFile {
     TensorFile tensors;
     const char *name;
     WeftError *error;
-    WeftResult result; /* the first that failed */
+    WeftResult result; /* the first failure */
 } RglFile;
 
 static void refuse(RglFile *file, const char *field, const char *why) {
@@ -21,7 +22,7 @@ static void refuse(RglFile *file, const char *field, const char *why) {
         file->result = fail(file->error, WEFT_MESSAGE_BSDF, file->name, "\"%s\" %s", field, why);
 }
 
-/* An array of floats with so many axes; NULL after one line. */
+/* Finds an array of floats with that many axes; returns NULL on failure. */
 static const Tensor *floats_of(RglFile *file, const char *field, int rank) {
     const Tensor *tensor = tensor_find(&file->tensors, field);
     if (!tensor)
@@ -33,7 +34,7 @@ static const Tensor *floats_of(RglFile *file, const char *field, int rank) {
     return NULL;
 }
 
-/* The numbers, all finite, in memory of their own. */
+/* Copies the numbers and checks that all are finite. */
 static float *copied(RglFile *file, const Tensor *tensor) {
     float *out = file->result == WEFT_OK ? alloc_array(tensor->count, sizeof *out) : NULL;
     if (!out && file->result == WEFT_OK)
@@ -45,7 +46,7 @@ static float *copied(RglFile *file, const Tensor *tensor) {
     return out;
 }
 
-/* Numbers on an axis: they ascend. */
+/* Reads the numbers of an axis, which must ascend. */
 static float *axis_of(RglFile *file, const char *field, int *count) {
     const Tensor *tensor = floats_of(file, field, 1);
     float *out = tensor ? copied(file, tensor) : NULL;
@@ -55,7 +56,7 @@ static float *axis_of(RglFile *file, const char *field, int *count) {
     return out;
 }
 
-/* The last two extents, at least 2 each. */
+/* Reads the last two extents, which must be 2 to 65536. */
 static void sides_of(RglFile *file, const Tensor *tensor, int *width, int *height) {
     size_t w = tensor->extent[tensor->rank - 1], h = tensor->extent[tensor->rank - 2];
     *width = (int)w, *height = (int)h;
@@ -70,7 +71,7 @@ static void table_of(RglFile *file, const char *field, RglTable *out) {
     out->value = copied(file, tensor);
 }
 
-/* An array with a slice for each azimuth and polar angle. */
+/* Finds an array with a slice for each azimuth and polar angle. */
 static const Tensor *sliced(RglFile *file, const Rgl *rgl, const char *field, int rank) {
     const Tensor *tensor = floats_of(file, field, rank);
     if (!tensor || file->result != WEFT_OK) return NULL;
@@ -90,7 +91,7 @@ static void warp_of(RglFile *file, const Rgl *rgl, const char *field, SquareWarp
     if (!made) file->result = fail(file->error, WEFT_MESSAGE_MEMORY, file->name, NULL);
 }
 
-/* rgb as it is. */
+/* Reads the field rgb. */
 static void colors_of(RglFile *file, Rgl *rgl) {
     const Tensor *tensor = sliced(file, rgl, "rgb", 5);
     if (!tensor) return;
@@ -98,7 +99,7 @@ static void colors_of(RglFile *file, Rgl *rgl) {
     rgl->color = copied(file, tensor);
 }
 
-/* Each number of a slice times the weights of its wavelength. */
+/* Sums the spectra to colours by the weights of the wavelengths. */
 static void sum_spectra(const Tensor *spectra, const double *weights, float *color) {
     const size_t count = spectra->extent[2], n = spectra->extent[3] * spectra->extent[4],
                  slices = spectra->extent[0] * spectra->extent[1];
@@ -111,7 +112,7 @@ static void sum_spectra(const Tensor *spectra, const double *weights, float *col
     }
 }
 
-/* Spectra as colours: what is interpolated linearly may be summed before. */
+/* Reads spectra as colours. Interpolation is linear, so it commutes with the sum over wavelengths. */
 static void spectra_of(RglFile *file, Rgl *rgl) {
     int count = 0;
     const Tensor *tensor = sliced(file, rgl, "spectra", 5);
@@ -133,7 +134,7 @@ static void spectra_of(RglFile *file, Rgl *rgl) {
     free(weights);
 }
 
-/* Alike parts of the circle, by what part of it the azimuths span. */
+/* Returns the number of equal parts of the circle, from the span of the azimuths. */
 static int parts_of(const Rgl *rgl) {
     double span = (double)rgl->phi[rgl->phis - 1] - (double)rgl->phi[0];
     double parts = rgl->phis > 2 ? 2.0 * PI_DOUBLE / span : 1.0;

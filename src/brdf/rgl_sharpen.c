@@ -1,25 +1,27 @@
+/* rgl_sharpen.c - correction of R for linear interpolation */
 #include <stdlib.h>
 
 #include "base/memory.h"
 #include "brdf/rgl_make.h"
 
-/* Numbers of R along one axis, which are `stride` apart; at: where they are, NULL if evenly. */
+/* An axis of R. */
 typedef struct TableAxis {
     size_t count, stride;
-    const float *at;
+    const float *at; /* coordinates of the nodes; NULL: uniform */
 } TableAxis;
 
 static double step(TableAxis axis, size_t k) {
     return axis.at ? (double)axis.at[k + 1] - (double)axis.at[k] : 1.0;
 }
 
-/* A node loses before (f(middle - 1) - f(middle)) + behind (f(middle + 1) - f(middle)). */
+/* The weights of the correction before (f(middle - 1) - f(middle)) + behind (f(middle + 1) - f(middle)) of a node. */
 typedef struct NodeTaps {
     size_t middle;
     double before, behind;
 } NodeTaps;
 
-/* h^2 f'' / 12, with the mean of h^2 over the steps on both sides and f'' at the node; at an end, f'' of the node beside. */
+/* Returns the weights for h^2 f'' / 12, with the mean of h^2 over the steps on both sides. At an end, f'' is that of the
+ * next node. */
 static NodeTaps taps_of(TableAxis axis, size_t k) {
     const size_t last = axis.count - 1, middle = k == 0 ? 1 : k == last ? last - 1 : k;
     const double left = step(axis, k > 0 ? k - 1 : 0), right = step(axis, k < last ? k : k - 1);

@@ -1,3 +1,4 @@
+/* rgl_write.c - writing of files in the RGL format */
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,7 +10,7 @@
 
 enum { FIELDS = 9 };
 
-/* Arrays to be written, floats as bytes in the order of the file. */
+/* The arrays of a file, with floats as little-endian bytes. */
 typedef struct Fields {
     int count;
     Tensor tensors[FIELDS];
@@ -41,7 +42,7 @@ static void add(Fields *fields, const char *name, TensorType type, const void *d
 }
 
 bool rgl_write(const Rgl *self, const char *description, FILE *stream) {
-    static const unsigned char with_jacobian = 1; /* W's density is one over u */
+    static const unsigned char with_jacobian = 1; /* the density of W is over u */
     const int p = self->phis, t = self->thetas, n = self->side, one = 1, letters = (int)strlen(description);
     const SquareWarp *w = &self->normals, *l = &self->luminance;
     Fields fields = {.count = 0};

@@ -3,13 +3,13 @@
 #include <math.h>
 #include <stddef.h>
 
-/* A Gaussian whose width is another on either side. */
+/* Evaluates a Gaussian with different widths on either side. */
 static double hump(double x, double middle, double below, double above) {
     double t = (x - middle) / (x < middle ? below : above);
     return exp(-0.5 * t * t);
 }
 
-/* The three functions at a wavelength. */
+/* Evaluates the three colour-matching functions at a wavelength. */
 static void matching(double nm, double rgb[3]) {
     double x = 1.056 * hump(nm, 599.8, 37.9, 31.0) + 0.362 * hump(nm, 442.0, 16.0, 26.7) -
                0.065 * hump(nm, 501.1, 20.4, 26.2);
@@ -20,7 +20,7 @@ static void matching(double nm, double rgb[3]) {
     rgb[2] = 0.0557 * x - 0.2040 * y + 1.0570 * z;
 }
 
-/* Half of the distance between a wavelength's neighbours. */
+/* Returns half of the distance between a wavelength's neighbours. */
 static double step_at(const float *wavelength, int count, int k) {
     int low = k > 0 ? k - 1 : 0, high = k + 1 < count ? k + 1 : count - 1;
     return count > 1 ? 0.5 * ((double)wavelength[high] - (double)wavelength[low]) : 1.0;

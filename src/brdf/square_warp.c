@@ -5,7 +5,7 @@
 
 #include "base/memory.h"
 
-/* The interval of ascending numbers that holds x, and how far into it x is, 0 .. 1. */
+/* Returns the interval of ascending numbers that contains x; *part is the place of x in it, 0 .. 1. */
 static int interval(const float *ascending, int count, double x, double *part) {
     int low = 0, high = count - 1;
     *part = 0.0;
@@ -37,7 +37,7 @@ SliceBlend slice_blend(const float *phi, int phis, const float *theta, int theta
     return blend;
 }
 
-/* Scales a slice to an integral of 1 and sums it up. */
+/* Scales a slice to an integral of 1 and fills its running integrals. */
 static void integrate(SquareWarp *self, size_t slice) {
     const size_t width = (size_t)self->width, height = (size_t)self->height, n = width * height;
     float *density = self->density + slice * n, *along = self->along + slice * n,
@@ -45,20 +45,20 @@ static void integrate(SquareWarp *self, size_t slice) {
     const double dx = 1.0 / (double)(width - 1), dy = 1.0 / (double)(height - 1);
     double most = 0.0, sum = 0.0, before = 0.0, all = 0.0;
     for (size_t k = 0; k < n; k++) most = fmax(most, (double)density[k]);
-    const bool even = !(most > 0.0);
-    for (size_t y = 0; y < height && !even; y++) {
+    const bool uniform = !(most > 0.0);
+    for (size_t y = 0; y < height && !uniform; y++) {
         const float *row = density + y * width;
         double row_sum = 0.0;
         for (size_t x = 0; x < width; x++)
             row_sum += (x > 0 && x + 1 < width ? 1.0 : 0.5) * fmax((double)row[x], 0.0) / most;
         sum += (y > 0 && y + 1 < height ? 1.0 : 0.5) * row_sum;
     }
-    const double whole = even ? 1.0 : sum * dx * dy; /* of numbers over the largest */
+    const double whole = uniform ? 1.0 : sum * dx * dy; /* integral of the numbers over the largest */
     for (size_t y = 0; y < height; y++) {
         double row_sum = 0.0;
         for (size_t x = 0; x < width; x++) {
             float *d = &density[y * width + x];
-            *d = even ? 1.0f : (float)(fmax((double)*d, 0.0) / most / whole);
+            *d = uniform ? 1.0f : (float)(fmax((double)*d, 0.0) / most / whole);
             if (x > 0) row_sum += 0.5 * dx * ((double)d[-1] + (double)*d);
             along[y * width + x] = (float)row_sum;
         }
@@ -85,7 +85,7 @@ void square_warp_free(SquareWarp *self) {
     *self = (SquareWarp){0};
 }
 
-/* Number `at` of each slice of so many numbers, blended. */
+/* Blends entry `at` of the slices, each of `size` numbers. */
 static double mixed(const float *table, size_t size, const SliceBlend *blend, size_t at) {
     double sum = 0.0;
     for (int k = 0; k < blend->count; k++)
@@ -93,7 +93,7 @@ static double mixed(const float *table, size_t size, const SliceBlend *blend, si
     return sum;
 }
 
-/* The cell of x among count - 1, and how far into it x is. */
+/* Returns the cell of x among count - 1; *part is the place of x in it, 0 .. 1. */
 static size_t cell_of(double x, int count, double *part) {
     double at = fmin(fmax(x, 0.0), 1.0) * (count - 1), low = fmin(floor(at), count - 2);
     *part = at - low;
@@ -116,14 +116,15 @@ double square_warp_density(const SquareWarp *self, const SliceBlend *blend, Squa
     return square_table_at(self->density, self->width, self->height, blend, 1, 0, at);
 }
 
-/* The integral from 0 to t of a density that runs from a to b over 0 .. 1, and where that is `area`. */
+/* Returns the integral from 0 to t of a density that is linear from a to b over 0 .. 1, and inversely the t of an
+ * integral `area`. */
 static double ramp_area(double a, double b, double t) { return t * (a + 0.5 * (b - a) * t); }
 static double ramp_place(double a, double b, double area) {
     double root = a + sqrt(fmax(a * a + 2.0 * (b - a) * area, 0.0));
     return root > 0.0 ? fmin(fmax(2.0 * area / root, 0.0), 1.0) : 0.0;
 }
 
-/* A row between two of the table: the numbers of row y and of the next, the second times t. */
+/* A row between row y of the table and the next, at t in [0, 1]. */
 typedef struct BetweenRows {
     const SquareWarp *warp;
     const SliceBlend *blend;

@@ -1,13 +1,13 @@
 /* square_warp.h - maps of the unit square onto itself that put more points where a tabulated density is high
  *
- * A slice of the table has width x height numbers, at the corners of equal cells, bilinear between. It is
- * scaled so that its integral p(x, y) over the square is 1:
+ * A slice of the table has width x height numbers at the corners of equal cells, and is bilinear between. It is scaled
+ * to a density p(x, y) with an integral of 1 over the square:
  *
  *   v = integral from 0 to y of P(y') dy',          P(y) = integral over x of p(x, y)
  *   u = integral from 0 to x of p(x', y) dx' / P(y)
  *
- * takes (x, y) to (u, v), both uniform, and the inverse gives points of density p. Slices belong to azimuths
- * and polar angles of one direction; between them density and integrals are linear in both. Jonathan Dupuy,
+ * maps (x, y) to uniform (u, v), and the inverse gives points of density p. Slices belong to azimuths and polar angles
+ * of one direction; between them density and integrals are linear in both. Jonathan Dupuy,
  * Wenzel Jakob, "An Adaptive Parameterization for Efficient Material Acquisition and Rendering", 2018,
  * section 4.3 and supplemental material. */
 #ifndef WEFT_BRDF_SQUARE_WARP_H
@@ -23,8 +23,7 @@ typedef struct SliceBlend {
     double weight[4];
 } SliceBlend;
 
-/* Blends slices at phis azimuths times thetas polar angles, both ascending. Beyond their ends the last one counts.
- */
+/* Blends slices at phis azimuths times thetas polar angles, both ascending; angles beyond the ends are clamped. */
 SliceBlend slice_blend(const float *phi, int phis, const float *theta, int thetas, double at_phi,
                        double at_theta);
 
@@ -35,24 +34,24 @@ typedef struct SquarePoint {
 
 typedef struct SquareWarp {
     int width, height;
-    float *density; /* [slice][y][x], a number that is not positive counts as 0 */
+    float *density; /* [slice][y][x], numbers below 0 count as 0 */
     float *along;   /* [slice][y][x]: the integral of the row up to x */
     float *up;      /* [slice][y]: that of all rows up to y */
 } SquareWarp;
 
-/* Integrates and scales `slices` slices of the density, which was allocated and belongs to the warp from then
- * on. A slice without any positive number becomes even. False where memory is short. */
+/* Integrates and scales `slices` slices of the density, which must be allocated and then belongs to the warp. A slice
+ * without any positive number becomes uniform. Returns false if memory is short. */
 bool square_warp_create(SquareWarp *warp, int width, int height, size_t slices, float *density);
 void square_warp_free(SquareWarp *warp);
 
-/* p at a point. */
+/* Evaluates p at a point. */
 double square_warp_density(const SquareWarp *warp, const SliceBlend *blend, SquarePoint at);
 
-/* The point of (u, v), and (u, v) of a point. */
+/* Returns the point of (u, v), and inversely (u, v) of a point. */
 SquarePoint square_warp_point(const SquareWarp *warp, const SliceBlend *blend, double u, double v);
 SquarePoint square_warp_inverse(const SquareWarp *warp, const SliceBlend *blend, SquarePoint at);
 
-/* A table of one slice alone, or number `channel` of `channels` of each slice, without a warp. */
+/* Interpolates channel `channel` of `channels` in a table of slices, without a warp. */
 double square_table_at(const float *table, int width, int height, const SliceBlend *blend, int channels,
                        int channel, SquarePoint at);
 

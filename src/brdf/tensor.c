@@ -13,7 +13,7 @@ static const size_t sizes[TENSOR_TYPES] = {0, 1, 1, 2, 2, 4, 4, 8, 8, 2, 4, 8};
 typedef struct Header {
     const unsigned char *bytes;
     size_t size, at;
-    bool ended; /* more was asked for than there is */
+    bool ended; /* the header is too short */
 } Header;
 
 static uint64_t take(Header *header, size_t count) {
@@ -31,7 +31,7 @@ static void take_name(Header *header, size_t length, char name[TENSOR_NAME]) {
     header->at += length;
 }
 
-/* The product of the extents; false where an array of that many numbers would not end within the bytes. */
+/* Sets count to the product of the extents. Returns false if an array of that many numbers would exceed the file. */
 static bool count_numbers(Tensor *tensor, uint64_t offset, size_t size) {
     const size_t each = sizes[tensor->type];
     if (offset > size) return false;

@@ -1,4 +1,4 @@
-/* tensor.h - a file of named arrays of numbers, in which the RGL database keeps its measurements
+/* tensor.h - a file of named arrays of numbers, the container of the RGL database
  *
  *   "tensor_file", 0          12 bytes
  *   1, 0                      the version, a byte each
@@ -7,7 +7,7 @@
  *
  * then the numbers, each array from its offset in the file on, the last axis fastest; all little-endian.
  * Jonathan Dupuy, Wenzel Jakob, "An Adaptive Parameterization for Efficient Material Acquisition and
- * Rendering", ACM Transactions on Graphics 37(6), 2018, and what programs that read its data agree on. */
+ * Rendering", ACM Transactions on Graphics 37(6), 2018; the details follow programs that read these files. */
 #ifndef WEFT_BRDF_TENSOR_H
 #define WEFT_BRDF_TENSOR_H
 
@@ -20,13 +20,13 @@ enum { TENSOR_AXES = 6, TENSOR_NAME = 32, TENSORS_MOST = 32 };
 
 typedef enum TensorType { TENSOR_U8 = 1, TENSOR_F32 = 10, TENSOR_TYPES = 12 } TensorType;
 
-/* One array; data lie in the bytes that were read, or are to be written. */
+/* One array. */
 typedef struct Tensor {
     char name[TENSOR_NAME];
     TensorType type;
     int rank;
     size_t extent[TENSOR_AXES], count; /* count is their product */
-    const unsigned char *data;
+    const unsigned char *data;         /* borrowed: little-endian bytes */
 } Tensor;
 
 typedef struct TensorFile {
@@ -39,13 +39,13 @@ typedef struct TensorFile {
 WeftResult tensor_file_read(const unsigned char *bytes, size_t size, const char *name, TensorFile *out,
                             WeftError *error);
 
-/* The array called so; NULL: there is none. */
+/* Returns the array of that name, or NULL. */
 const Tensor *tensor_find(const TensorFile *file, const char *name);
 
-/* Number k of an array of TENSOR_F32. */
+/* Returns number k of an array of TENSOR_F32. */
 float tensor_float(const Tensor *tensor, size_t k);
 
-/* Writes count arrays, whose data are bytes in the order of the file. Returns false where that failed. */
+/* Writes count arrays. Returns false on failure. */
 bool tensor_file_write(FILE *stream, const Tensor *tensors, int count);
 
 #endif

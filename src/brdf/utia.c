@@ -36,7 +36,7 @@ WeftResult utia_read_memory(const void *data, size_t size, const char *name, Uti
     return any ? WEFT_OK : fail(error, WEFT_MESSAGE_UTIA, name, "nothing in it is above 0");
 }
 
-/* The four measured directions that one lies between, and their weights. */
+/* The four measured directions around a direction, and their weights. */
 typedef struct Surrounding {
     size_t place[4];
     double weight[4];

@@ -1,9 +1,9 @@
-/* utia.h - a measured anisotropic BRDF as the UTIA database keeps it, ".bin"
+/* utia.h - a measured anisotropic BRDF in the format of the UTIA database, ".bin"
  *
- * Jiri Filip, Radomir Vavra, "Template-Based Sampling of Anisotropic BRDFs", Computer Graphics Forum 33(7),
- * 2014; the file: for red, green and blue 288 x 288 little-endian doubles, 1/sr, without a header: theta_i
- * in steps of 15 degrees from 0 to 75, in each phi_i in steps of 7.5 degrees, theta_v, phi_v, the last the
- * fastest. A negative one counts as 0. */
+ * Jiri Filip, Radomir Vavra, "Template-Based Sampling of Anisotropic BRDFs", Computer Graphics Forum 33(7), 2014. The
+ * file has no header, and for red, green and blue 288 x 288 little-endian doubles, 1/sr, over theta_i, phi_i, theta_v
+ * and phi_v, the last fastest. Thetas go from 0 to 75 in steps of 15 degrees, phis in steps of 7.5 degrees. Negative
+ * numbers count as 0. */
 #ifndef WEFT_BRDF_UTIA_H
 #define WEFT_BRDF_UTIA_H
 
@@ -23,7 +23,7 @@ typedef struct Utia {
 WeftResult utia_read_memory(const void *data, size_t size, const char *name, Utia *out, WeftError *error);
 void utia_free(Utia *utia);
 
-/* f, linear in the four angles; beyond 75 degrees that of 75. 0 below the horizon. */
+/* Evaluates f, linear in the four angles; beyond 75 degrees it is that of 75. 0 below the horizon. */
 void utia_at(const Utia *utia, Dir o, Dir i, float f[3]);
 
 #endif
