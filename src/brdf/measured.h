@@ -37,8 +37,8 @@ bool measured_isotropic(const Measured *measured);
 /* Evaluates f, 1/sr. Returns false, with f = 0, below the horizon and where nothing was measured. */
 bool measured_at(const Measured *measured, Dir o, Dir i, float f[3]);
 
-/* Draws a direction for two numbers in [0, 1), and returns a direction's density, 1/sr: by the sampling tables of an RGL
- * file, else by the cosine. */
+/* Draws a direction for two numbers in [0, 1), and returns a direction's density, 1/sr: by the sampling tables of an
+ * RGL file, else by the cosine. */
 Dir measured_sample(const Measured *measured, Dir o, float u, float v);
 float measured_pdf(const Measured *measured, Dir o, Dir i);
 

@@ -39,8 +39,8 @@ typedef struct Merl {
 WeftResult merl_read_memory(const void *data, size_t size, const char *name, Merl *out, WeftError *error);
 void merl_free(Merl *merl);
 
-/* Works as merl_read_memory, for a file with numbers of bins that the format does not have: a fuzzer needs inputs smaller
- * than 35 MB. */
+/* Works as merl_read_memory, for a file with numbers of bins that the format does not have: a fuzzer needs inputs
+ * smaller than 35 MB. */
 WeftResult merl_read_shape(const void *data, size_t size, MerlShape shape, const char *name, Merl *out,
                            WeftError *error);
 

@@ -17,8 +17,8 @@
  *   or spectra          P, T, L, n, n   with wavelengths, L, nm
  *   description, jacobian           u8, not needed to evaluate
  *
- * phi_i may span a half or a quarter of the circle, from -pi on: the material is then symmetric under rotation by pi, or
- * under mirroring in x and in y. The direction that the fields call i is wo here. */
+ * phi_i may span a half or a quarter of the circle, from -pi on: the material is then symmetric under rotation by pi,
+ * or under mirroring in x and in y. The direction that the fields call i is wo here. */
 #ifndef WEFT_BRDF_RGL_H
 #define WEFT_BRDF_RGL_H
 

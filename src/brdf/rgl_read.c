@@ -99,7 +99,7 @@ static void colors_of(RglFile *file, Rgl *rgl) {
     rgl->color = copied(file, tensor);
 }
 
-/* Sums the spectra to colours by the weights of the wavelengths. */
+/* Integrates the spectra to colours by the weights of the wavelengths. */
 static void sum_spectra(const Tensor *spectra, const double *weights, float *color) {
     const size_t count = spectra->extent[2], n = spectra->extent[3] * spectra->extent[4],
                  slices = spectra->extent[0] * spectra->extent[1];

@@ -20,8 +20,8 @@ typedef struct NodeTaps {
     double before, behind;
 } NodeTaps;
 
-/* Returns the weights for h^2 f'' / 12, with the mean of h^2 over the steps on both sides. At an end, f'' is that of the
- * next node. */
+/* Returns the weights for h^2 f'' / 12, with the mean of h^2 over the steps on both sides. At an end, f'' is that of
+ * the next node. */
 static NodeTaps taps_of(TableAxis axis, size_t k) {
     const size_t last = axis.count - 1, middle = k == 0 ? 1 : k == last ? last - 1 : k;
     const double left = step(axis, k > 0 ? k - 1 : 0), right = step(axis, k < last ? k : k - 1);

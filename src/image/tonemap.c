@@ -9,8 +9,8 @@ _Static_assert(TONE_PBR_NEUTRAL == WEFT_TONEMAP_PBR_NEUTRAL && TONE_ACES == WEFT
 
 /* Returns the dither that is added to a value at (x, y) before truncation to an integer. Over any small neighbourhood
  * these fractions are uniform in 0 .. 1, so the mean brightness is kept. They are middles of 256 steps, so that
- * rounding errors do not change integral values. The sequence is R2 of Martin Roberts, "The Unreasonable Effectiveness of
- * Quasirandom Sequences", 2018; the constants are 2^32 / g and 2^32 / g^2 with g^3 = g + 1. All channels share the
+ * rounding errors do not change integral values. The sequence is R2 of Martin Roberts, "The Unreasonable Effectiveness
+ * of Quasirandom Sequences", 2018; the constants are 2^32 / g and 2^32 / g^2 with g^3 = g + 1. All channels share the
  * fraction, so that grey stays grey. */
 static float dither(unsigned x, unsigned y) {
     const unsigned step = (x * 0xc13fa9a9u + y * 0x91e10da5u) >> 24;
