@@ -1,7 +1,7 @@
-/* ball.c - the rest of a Shadertoy: a lit ball for one model, or two halves for two lobes
+/* ball.c - the picture of a Shadertoy: a lit ball for one model, or two halves for two lobes
  *
- * The picture is made by weft and not taken from anywhere. A light stands where the mouse says and a second,
- * faint one behind the ball shows the rim; both are distant. Tone: sRGB of the radiance, clamped. */
+ * The picture is our own work. The mouse moves one light; a second, faint one behind the ball shows the rim. Both are
+ * distant. Tone: sRGB of the radiance, clamped. */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -22,11 +22,11 @@ static const char scene[] =
     "    vec2 mouse = iMouse.z > 0.0 || iMouse.x + iMouse.y > 0.0\n"
     "                     ? iMouse.xy / iResolution.xy : vec2(0.5 + 0.35 * sin(iTime), 0.5);\n"
     "    float roughness = mix(0.15, 1.0, clamp(mouse.y, 0.0, 1.0)); /* up and down */\n"
-    "    float turn = 6.2831853 * (mouse.x - 0.5);                   /* left and right */\n"
-    "    vec3 l = normalize(vec3(sin(turn), 0.55, cos(turn)));\n"
+    "    float azimuth = 6.2831853 * (mouse.x - 0.5);                /* left and right */\n"
+    "    vec3 l = normalize(vec3(sin(azimuth), 0.55, cos(azimuth)));\n"
     "    bool right = halves && at.x > 0.5 * iResolution.x;\n"
-    "    vec2 room = vec2(halves ? 0.5 : 1.0, 1.0) * iResolution.xy;\n"
-    "    vec2 q = (at - vec2(right ? room.x : 0.0, 0.0) - 0.5 * room) / (0.44 * min(room.x, room.y));\n"
+    "    vec2 size = vec2(halves ? 0.5 : 1.0, 1.0) * iResolution.xy;\n"
+    "    vec2 q = (at - vec2(right ? size.x : 0.0, 0.0) - 0.5 * size) / (0.44 * min(size.x, size.y));\n"
     "    vec3 color = vec3(0.022 + 0.02 * at.y / iResolution.y);\n"
     "    if (dot(q, q) < 1.0) {\n"
     "        vec3 n = vec3(q, sqrt(1.0 - dot(q, q))), v = vec3(0.0, 0.0, 1.0);\n"
@@ -41,12 +41,12 @@ static const char scene[] =
 
 static char *named(const Draft *draft, ItemKind kind, const char *id, const char *end,
                    char name[SPELL_NAME]) {
-    char plain[DRAFT_ID + 16];
-    snprintf(plain, sizeof plain, "%s%s", id, end);
-    return spell_name(&draft->speller, kind, plain, name);
+    char bare[DRAFT_ID + 16];
+    snprintf(bare, sizeof bare, "%s%s", id, end);
+    return spell_name(&draft->speller, kind, bare, name);
 }
 
-/* f times the cosine of one half's lobe. */
+/* Writes the statements that return f times the cosine of a lobe. */
 static void put_lobe(const Draft *draft, const WeftLobe *lobe, const char *id, const char *indent,
                      Buffer *out) {
     char record[SPELL_NAME], make[SPELL_NAME], eval[SPELL_NAME];
@@ -86,7 +86,7 @@ void draft_ball(const Draft *draft, Buffer *out) {
     buffer_put_text(out, scene);
 }
 
-/* An engine's defaults show no sheen: a cloth of two colours, as rough as the mouse says. */
+/* Writes inputs of a cloth of two colours, whose roughness the mouse sets; an engine's defaults have no sheen. */
 void draft_ball_inputs(const Draft *draft, Buffer *out) {
     static const char *const lines[][2] = {
         {"base_color", "    s.base_color = 0.5 * cloth;"},

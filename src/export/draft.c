@@ -72,7 +72,7 @@ void draft_identifier(const char *name, char id[DRAFT_ID]) {
     id[size] = 0;
 }
 
-/* Those of the text, under names that no other has. */
+/* Adds the tables of the text to those of all drafts, under unique names. */
 static void take_tables(Draft *draft) {
     DraftTables *to = draft->tables;
     for (int k = 0; k < draft->text.table_count; k++, to->count++) {
@@ -86,7 +86,7 @@ static void take_tables(Draft *draft) {
     }
 }
 
-/* "t.texels = 3;" of what is kept: which tables are read. */
+/* Marks the tables that kept items read, by statements such as "t.texels = 3;". */
 static void find_used(Draft *draft) {
     for (int k = 0; k < draft->items.count; k++) {
         const Item *item = &draft->items.all[k];
@@ -100,7 +100,7 @@ static void find_used(Draft *draft) {
     }
 }
 
-/* The text as it is now, in place of what it was, and what of it the roots need. */
+/* Replaces the text by `next`, cuts it into items and keeps those that the roots need. */
 static WeftResult take_text(Draft *draft, Buffer *next, WeftError *error) {
     items_free(&draft->items);
     buffer_free(&draft->folded);
@@ -115,7 +115,7 @@ static WeftResult take_text(Draft *draft, Buffer *next, WeftError *error) {
     return WEFT_OK;
 }
 
-/* WGSL has not all of the dialect. */
+/* Fails if a kept function uses a part of the dialect that WGSL lacks. */
 static WeftResult check_lacks(const Draft *draft, WeftError *error) {
     for (int k = 0; k < draft->items.count && draft->speller.language == SPELL_WGSL; k++) {
         const Item *item = &draft->items.all[k];
@@ -131,7 +131,7 @@ static WeftResult cut(Draft *draft, WeftError *error) {
     Buffer next = {0};
     fold_text(draft->text.bytes, draft->facts, draft->fact_count, &next);
     WeftResult result = take_text(draft, &next, error);
-    if (result == WEFT_OK && draft->speller.language != SPELL_C) { /* which has pointers for it */
+    if (result == WEFT_OK && draft->speller.language != SPELL_C) { /* C has pointers for results */
         returned_put(&draft->items, draft->folded.bytes, draft->speller.language == SPELL_WGSL, &next);
         result = take_text(draft, &next, error);
         if (result == WEFT_OK) result = check_lacks(draft, error);

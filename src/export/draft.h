@@ -1,4 +1,4 @@
-/* draft.h - a text for an engine while it is made: catalogue text, what of it is wanted, what is known */
+/* draft.h - a text for an engine while it is made: catalogue text, the functions that are called, and constants */
 #ifndef WEFT_EXPORT_DRAFT_H
 #define WEFT_EXPORT_DRAFT_H
 
@@ -11,11 +11,11 @@
 
 enum { DRAFT_ROOTS = 24, DRAFT_FACTS = 48, DRAFT_ID = 64, DRAFT_ALBEDOS = 2 };
 
-/* The tables that the drafts of one text read, in the layers that they name. Zero-initialise. */
+/* The tables that the drafts of one text read; a table's index is the layer in the text. Zero-initialise. */
 typedef struct DraftTables {
     TextTable all[TEXT_TABLES_MAX];
     char names[TEXT_TABLES_MAX][WEFT_EXPORT_NAME];
-    bool used[TEXT_TABLES_MAX]; /* the text still reads it in the end */
+    bool used[TEXT_TABLES_MAX]; /* the final text reads it */
     int count;
 } DraftTables;
 
@@ -23,40 +23,39 @@ typedef struct Draft {
     const WeftExportDesc *desc;
     Speller speller;
     Text text;                           /* TEXT_PLAIN */
-    char roots[DRAFT_ROOTS][SPELL_NAME]; /* what an engine calls */
+    char roots[DRAFT_ROOTS][SPELL_NAME]; /* the functions that an engine calls */
     const char *whole[5];                /* records that keep all members; ended by NULL */
-    FoldFact facts[DRAFT_FACTS];
-    AlbedoTable *albedos[DRAFT_ALBEDOS]; /* owned; text.tables looks into them */
+    FoldFact facts[DRAFT_FACTS];         /* constants that fold conditions of the text */
+    AlbedoTable *albedos[DRAFT_ALBEDOS]; /* owned; text.tables points into them */
     char albedo_names[DRAFT_ALBEDOS][SPELL_NAME];
     int root_count, fact_count, albedo_count;
-    char id[2][DRAFT_ID]; /* of a lobe, then of that on the right, or of a material: an identifier */
+    char id[2][DRAFT_ID]; /* identifier of a material, or of a lobe and of that on the right */
     DraftTables *tables;  /* of this draft and those before it; borrowed */
     Items items;
-    Buffer folded; /* what the items are cut from */
+    Buffer folded; /* the text that the items are cut from */
 } Draft;
 
-/* Both may be called in any case after one another. */
+/* Begins a draft, and releases it; draft_free may follow any other call. */
 void draft_begin(Draft *draft, const WeftExportDesc *desc, DraftTables *tables);
 void draft_free(Draft *draft);
 
-/* Text that is wanted, under a name with the id in it: draft_root(draft, "%s_eval", id). */
+/* Adds a function that an engine calls, by a name with the id in it: draft_root(draft, "%s_eval", id). */
 __attribute__((format(printf, 2, 3))) void draft_root(Draft *draft, const char *format, ...);
 
-/* path must outlive the draft. */
+/* Adds the fact that an expression such as "m.layer" has a constant value. path must outlive the draft. */
 void draft_fact(Draft *draft, const char *path, int value);
 
-/* An empty table of E to fill, NULL where memory is short. */
+/* Returns an empty table of E to fill, or NULL if memory is short. */
 AlbedoTable *draft_albedo(Draft *draft);
 
-/* Closes the text, folds it, keeps what the roots need and adds its tables to those of the drafts before. */
+/* Closes the text, folds it, keeps the items that the roots need and adds its tables to those of the drafts before. */
 WeftResult draft_cut(Draft *draft, WeftError *error);
 
-/* "a-b" as an identifier, to which a prefix and endings with '_' may be joined: '_' stands neither first nor
- * last nor twice in a row, since GLSL keeps names with "__" for itself (OpenGL Shading Language 4.60,
- * section 3.7). */
+/* Converts a name such as "a-b" to an identifier, to which a prefix and endings with '_' may be joined: '_' is neither
+ * first nor last nor repeated, since GLSL reserves names with "__" (OpenGL Shading Language 4.60, section 3.7). */
 void draft_identifier(const char *name, char id[DRAFT_ID]);
 
-/* A lobe's functions; which: 0, or 1 for that on the right. */
+/* Adds a lobe's functions. which: 0, or 1 for the lobe on the right. */
 void draft_lobe(Draft *draft, const WeftLobe *lobe, int which);
 
 /* Returns true if the first parameter of the lobe's record is set from an artist's roughness. */
@@ -65,32 +64,32 @@ bool draft_lobe_rough(const WeftLobe *lobe);
 /* Returns the name of a lobe's record. */
 const char *draft_lobe_record(int lobe);
 
-/* A profile's, a workflow's or a material's functions. */
+/* Adds the functions of a profile, a workflow or a material. */
 WeftResult draft_material(Draft *draft, WeftError *error);
 
-/* The tables in the words of the target: samplers or arrays, and the function that reads a texel. */
-void draft_tables(const Draft *draft, Buffer *out); /* any draft: the tables are those of all */
+/* Writes the tables of all drafts in the target's language: samplers or arrays, and the function that reads a texel. */
+void draft_tables(const Draft *draft, Buffer *out);
 
 /* Lists the tables that the program must upload, in the order in which the text names them. */
 WeftResult draft_uploads(const Draft *draft, WeftExport *out, WeftError *error);
 
-/* The comment at the top. */
+/* Writes the comment at the top. */
 void drafts_head(const Draft *drafts, int count, const WeftExport *uploads, Buffer *out);
 
-/* Keeps one copy of the items that drafts share. Items of one name that differ are marked `own`: they go by
- * the id of their draft. Call it when all drafts are cut. */
+/* Keeps one copy of the items that drafts share. Items of one name that differ are marked `own`: their names get the id
+ * of their draft. Call it when all drafts are cut. */
 void drafts_merge(Draft *drafts, int count);
 
-/* Puts the items: first those that several drafts share or one alone has, then each draft's own. */
+/* Writes the items: first those that several drafts share or only one has, then each draft's own. */
 void drafts_spell(Draft *drafts, int count, Buffer *out);
 
-/* Shadertoy's: the ball and its light, behind the functions. */
+/* Writes the ball and its light behind the functions of a Shadertoy. */
 void draft_ball(const Draft *draft, Buffer *out);
 
-/* Lines that give an engine profile a cloth to show. */
+/* Writes the lines that give an engine profile a cloth to show. */
 void draft_ball_inputs(const Draft *draft, Buffer *out);
 
-/* Lines as printf makes them. */
+/* Writes a line as printf does, and a newline. */
 __attribute__((format(printf, 2, 3))) void put_line(Buffer *out, const char *format, ...);
 
 #endif

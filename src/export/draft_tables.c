@@ -1,4 +1,4 @@
-/* draft_tables.c - the tables that a text reads: as samplers of one channel each, or as arrays in the text */
+/* draft_tables.c - the tables that a text reads, as samplers of one channel each or as arrays in the text */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -6,7 +6,7 @@
 #include "export/draft.h"
 #include "text/source/number_text.h"
 
-/* The most that WGSL takes between the brackets of an array: "WebGPU Shading Language", section 2.3. */
+/* The most elements of a WGSL array expression: "WebGPU Shading Language", section 2.3. */
 enum { WGSL_ARRAY = 2047 };
 
 static bool in_text(const Draft *draft, int k) {
@@ -18,9 +18,9 @@ static bool in_text(const Draft *draft, int k) {
 }
 
 static char *table_name(const Draft *draft, int k, char name[SPELL_NAME]) {
-    char plain[WEFT_EXPORT_NAME];
-    snprintf(plain, sizeof plain, "texels_%s", draft->tables->all[k].name);
-    return spell_name(&draft->speller, ITEM_FUNCTION, plain, name);
+    char bare[WEFT_EXPORT_NAME];
+    snprintf(bare, sizeof bare, "texels_%s", draft->tables->all[k].name);
+    return spell_name(&draft->speller, ITEM_FUNCTION, bare, name);
 }
 
 /* The factor and offset of a texel of 16 bits, 0 to 1: powers of two, or 1 and 0. */
@@ -58,7 +58,7 @@ static void put_numbers(const TextTable *t, const char *suffix, Buffer *out) {
     buffer_put_text(out, "\n");
 }
 
-/* A table inside the text. */
+/* Writes a table inside the text. */
 static void put_array(const Draft *draft, const TextTable *t, const char *name, Buffer *out) {
     int size = t->rows * t->columns;
     bool c = draft->desc->target == WEFT_EXPORT_C;
@@ -72,7 +72,7 @@ static void put_array(const Draft *draft, const TextTable *t, const char *name, 
     put_line(out, c ? "};" : ");");
 }
 
-/* Its place among those that are beside the text. */
+/* Returns the index of a table among those outside the text. */
 static int binding_of(const Draft *draft, int k) {
     int place = 0;
     for (int j = 0; j < k; j++) place += draft->tables->used[j] && !in_text(draft, j);
@@ -96,7 +96,7 @@ static void put_declaration(const Draft *draft, int k, Buffer *out) {
         put_line(out, "uniform highp sampler2D %s;", name);
 }
 
-/* Writes the function that reads a texel; row, column and stride have these names. */
+/* Writes the expression that reads a texel from variables row, column and stride. */
 static void put_texel(const Draft *draft, int k, Buffer *out) {
     char name[SPELL_NAME];
     buffer_put_text(out, table_name(draft, k, name));

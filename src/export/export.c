@@ -33,7 +33,7 @@ static bool is_prefix(const char *prefix) {
     size_t size = strlen(prefix);
     bool good = size <= 24 && !(size && is_digit(prefix[0]));
     for (size_t k = 0; k < size; k++) good &= is_name(prefix[k]);
-    return good && strncmp(prefix, "gl_", 3) != 0 && !strstr(prefix, "__"); /* GLSL keeps those for itself */
+    return good && strncmp(prefix, "gl_", 3) != 0 && !strstr(prefix, "__"); /* GLSL reserves these */
 }
 
 static WeftResult check_lobe(const WeftLobe *lobe, WeftError *error) {
@@ -57,7 +57,7 @@ static WeftResult check(const WeftExportDesc *desc, WeftError *error) {
     return result == WEFT_OK && desc->right ? check_lobe(desc->right, error) : result;
 }
 
-/* With its parameters in their hard range, and choices whole. */
+/* Returns the lobe with its parameters clamped to their hard ranges, and choices rounded. */
 static WeftLobe clamped(const WeftLobe *lobe) {
     WeftLobe out = *lobe;
     Lobe inner;
@@ -81,12 +81,12 @@ static WeftResult make_draft(Draft *draft, WeftError *error) {
     return result == WEFT_OK ? draft_cut(draft, error) : result;
 }
 
-/* In C the header guards itself, and includes what it calls. */
+/* Writes the include guard of C, with the headers that it needs. */
 static void put_guard(const Draft *draft, bool open, Buffer *out) {
-    char name[SPELL_NAME], plain[DRAFT_ID + 8];
+    char name[SPELL_NAME], bare[DRAFT_ID + 8];
     if (draft->desc->target != WEFT_EXPORT_C) return;
-    snprintf(plain, sizeof plain, "%s_H", draft->id[0]);
-    spell_name(&draft->speller, ITEM_CONSTANT, plain, name);
+    snprintf(bare, sizeof bare, "%s_H", draft->id[0]);
+    spell_name(&draft->speller, ITEM_CONSTANT, bare, name);
     for (char *c = name; *c; c++) *c = (char)(*c >= 'a' && *c <= 'z' ? *c - 'a' + 'A' : *c);
     if (open)
         put_line(out, "#ifndef %s\n#define %s\n\n#include <math.h>\n#include <stdbool.h>\n", name, name);
@@ -96,7 +96,7 @@ static void put_guard(const Draft *draft, bool open, Buffer *out) {
 
 static void put_all(Draft *drafts, int count, const WeftExport *uploads, Buffer *out) {
     const Items *texts[WEFT_EXPORT_MODELS_MAX];
-    const Token fetch = {TOKEN_NAME, "table_fetch", 11}; /* the name table_fetch, which is replaced */
+    const Token fetch = {TOKEN_NAME, "table_fetch", 11}; /* the function that draft_tables replaces */
     for (int d = 0; d < count; d++) {
         texts[d] = &drafts[d].items;
         for (int k = 0; k < drafts[d].items.count; k++)
@@ -114,7 +114,7 @@ static void put_all(Draft *drafts, int count, const WeftExport *uploads, Buffer 
 
 static bool same_words(const char *a, const char *b) { return strcmp(a ? a : "", b ? b : "") == 0; }
 
-/* The models of one text agree in target, tables, pi and prefix, for it has one head. */
+/* Checks that the models of one text agree in target, tables, pi and prefix, which its head states. */
 static WeftResult check_all(const WeftExportDesc *descs, int count, WeftError *error) {
     const char *model = "export";
     if (!descs || count < 1 || count > WEFT_EXPORT_MODELS_MAX)
@@ -163,7 +163,7 @@ WeftResult weft_export_all(const WeftExportDesc *descs, int count, WeftExport *o
     for (int k = 0; k < count; k++) draft_free(&drafts[k]);
     free(drafts);
     if (result == WEFT_OK) {
-        out->text = text.bytes; /* free() releases it, as the whole buffer */
+        out->text = text.bytes; /* free() releases the whole buffer */
         out->size = text.size;
         text.bytes = NULL;
     } else {

@@ -1,4 +1,4 @@
-/* head.c - the comment that a text begins with: what it is, whose, what its numbers mean, how to call it */
+/* head.c - the comment that a text begins with: model, licence, conventions, and how to call it */
 #include <stdio.h>
 
 #include "export/draft.h"
@@ -15,9 +15,9 @@ static const char *word(const Draft *draft, const char *type) {
 }
 
 static char *function(const Draft *draft, const char *end, char name[SPELL_NAME]) {
-    char plain[DRAFT_ID + 16];
-    snprintf(plain, sizeof plain, "%s_%s", draft->id[0], end);
-    return spell_item(&draft->speller, &draft->items, ITEM_FUNCTION, plain, name);
+    char bare[DRAFT_ID + 16];
+    snprintf(bare, sizeof bare, "%s_%s", draft->id[0], end);
+    return spell_item(&draft->speller, &draft->items, ITEM_FUNCTION, bare, name);
 }
 
 static void put_conventions(const Draft *draft, Buffer *out) {

@@ -1,4 +1,4 @@
-/* lobe_text.c - a lobe behind functions that an engine calls: colour in, directions in, no record of angles */
+/* lobe_text.c - the functions of a lobe that an engine calls, with a colour and two directions as arguments */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -16,7 +16,7 @@ bool draft_lobe_rough(const WeftLobe *lobe) {
     return info->param_count > 0 && !info->params[0].choices;
 }
 
-/* The name of the lobe's own sampler makes room for that which an engine calls. */
+/* Renames the lobe's own sampler, since an engine calls another function by that name. */
 static void rename_own(Text *text, const char *name) {
     char from[96], to[96];
     snprintf(from, sizeof from, "%s_sample", name);
@@ -56,14 +56,14 @@ static void put_rough(Text *text, const WeftLobe *lobe, const LobeNames *own) {
               number(p->hard_low).text, number(p->hard_high).text);
 }
 
-/* Every function below begins with this: the lobe prepared for wo. */
+/* Writes the statements that prepare the lobe for wo, with which every function below begins. */
 static void put_seen(Text *text, const LobeNames *own) {
     const char *p = own->prefix, *r = own->record;
     text_line(text, "    %sPrepared p;\n    %sView w;\n    %s_prepare(m, p);\n    %s_view(p, wo, w);", r, r,
               p, p);
 }
 
-/* Returns true where the second colour is made, and not the user's own. */
+/* Returns true if the lobe derives its second colour from the user's. */
 static bool has_second(const LobeNames *own) {
     char file[96], function[96];
     snprintf(file, sizeof file, "lobes/%s.h", own->prefix);
@@ -71,7 +71,7 @@ static bool has_second(const LobeNames *own) {
     return strstr(weft_catalogue_text(file), function) != NULL;
 }
 
-/* f in a colour: a factor, a mixture of two, or what fibres of that albedo make of it. */
+/* Writes the function of f in a colour: a factor, a mixture of two, or the albedo of fibres. */
 static void put_eval(Text *text, const WeftLobe *lobe, const LobeNames *own, bool folded) {
     unsigned traits = weft_lobe_info(lobe->lobe)->traits;
     const char *p = own->prefix, *pi = folded ? "PI * " : "";
@@ -127,7 +127,7 @@ static void put_sample(Text *text, const LobeNames *own) {
     text_line(text, "    return %s_sample_seen(p, w, wo, u, v);\n}", own->prefix);
 }
 
-/* E of the white lobe, over its first parameter. */
+/* Writes the function of E of the white lobe, over its first parameter. */
 static void put_albedo(Draft *draft, const WeftLobe *lobe, const LobeNames *own) {
     const WeftLobeInfo *info = weft_lobe_info(lobe->lobe);
     AlbedoTable *table = draft_albedo(draft);

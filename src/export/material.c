@@ -1,4 +1,4 @@
-/* material.c - a profile, a workflow or a material as two functions: its numbers, and f times the cosine */
+/* material.c - a profile, a workflow or a material as two functions: its inputs, and f times the cosine */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -23,15 +23,15 @@ typedef struct ExportModel {
     Material material;
     Surface surface;
     Choices choices;
-    bool zero[INPUT_COUNT]; /* inputs that the material has at nothing */
-    Stack stack;            /* what its choices come to */
-    bool one_layer,
-        chosen; /* one_layer: the rule is equal for all surfaces; chosen: a choice is made beside the profile */
+    bool zero[INPUT_COUNT]; /* inputs that are 0 for all surfaces */
+    Stack stack;            /* of the choices */
+    bool one_layer;         /* the layer rule is equal for all surfaces */
+    bool chosen;            /* a choice is made beside the profile */
     CompositionSlots slots;
-    AlbedoTable *table; /* of its sheen, NULL: none is asked for */
+    AlbedoTable *table; /* of E of the sheen; NULL: the text reads none */
 } ExportModel;
 
-/* The ids of a list as a choice has them. */
+/* Makes the material of a profile or workflow by id. */
 static WeftResult find_profile(const char *id, Material *out, WeftError *error) {
     int profile = choice_find(CHOICE_profile, id), workflow = choice_find(CHOICE_workflow, id);
     *out = material_default();
@@ -46,7 +46,7 @@ static WeftResult find_profile(const char *id, Material *out, WeftError *error) 
 
 static bool is_walk(int lobe) { return lobe >= 0 && weft_lobe_info(lobe)->traits & WEFT_LOBE_REFERENCE; }
 
-/* Inputs of a material that are nothing and stay so; of a profile all may be something. */
+/* Finds the inputs that are 0 for all surfaces: those at 0 without a texture. For a profile any input may be set. */
 static void find_zeros(const Draft *draft, ExportModel *model) {
     for (int k = 0; k < INPUT_COUNT; k++) {
         const Input *input = &model->material.inputs[k];
@@ -55,10 +55,10 @@ static void find_zeros(const Draft *draft, ExportModel *model) {
         for (int c = 0; c < input_value_count((InputId)k); c++) some |= input->value[c] > 0.0f;
         model->zero[k] = number && !some;
     }
-    if (draft->desc->profile) model->zero[INPUT_dust] = true; /* no engine has it */
+    if (draft->desc->profile) model->zero[INPUT_dust] = true; /* no engine has dust */
 }
 
-/* Finds the facts that hold for all surfaces, for the conditions of the text. */
+/* Finds the facts that are true for all surfaces, to fold the conditions of the text. */
 static void find_facts(Draft *draft, ExportModel *model) {
     const Choices *c = &model->choices;
     Stack m[3];
@@ -82,7 +82,7 @@ static void find_facts(Draft *draft, ExportModel *model) {
     if (under) draft_fact(draft, "m.base_fresnel", m[0].base_fresnel);
     if (view) draft_fact(draft, "m.view", m[0].view);
     if (coat) draft_fact(draft, "m.coat_rule", m[0].coat_rule);
-    if (albedo && !layer_asks_average(c->layer)) /* these may change it on the way */
+    if (albedo && !layer_asks_average(c->layer)) /* such a rule may change it on the way */
         draft_fact(draft, "m.albedo", m[0].albedo);
 #define CHOICE_FACT(name, help) draft_fact(draft, "c." #name, c->name);
     SURFACE_CHOICES(CHOICE_FACT)
@@ -125,7 +125,7 @@ static bool needs_table(const ExportModel *model) {
     return needs_e(model) && albedo_is_own(model->stack.albedo);
 }
 
-/* In place of shading/stack/layer.h: the one rule. */
+/* Writes the one layer rule in place of shading/stack/layer.h. */
 static void put_layer(Text *text, int layer) {
     char file[96];
     text_provide(text, "shading/stack/layer.h");
@@ -200,7 +200,7 @@ static void put_shade(Draft *draft, const ExportModel *model) {
             "    m.e_avg = table_sheen_nap_average(m.table, m.nap, table_rows(m.table, m.albedo_coord));");
     if (model->stack.layer == LAYER_MULTIPLICATIVE)
         text_line(text, "    m.sheen.f0 = rgb_grey(0.0);\n    m.sheen.f90 = m.sheen.f0;");
-    /* A lobe that a slot does not hold leaves its part of the view alone, of which a compiler of C warns. */
+    /* The view of a lobe that no slot has stays uninitialised, of which C compilers warn. */
     bool c = draft->desc->target == WEFT_EXPORT_C;
     text_line(text, "    stack_prepare(m);\n%s    StackView w%s;\n    view_begin(m, wo, w);",
               c ? "    static StackView nothing;\n" : "", c ? " = nothing" : "");

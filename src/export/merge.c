@@ -1,14 +1,13 @@
-/* merge.c - several drafts as one text: what is the same in them comes once, what differs goes by its draft's
- * id */
+/* merge.c - several drafts as one text: equal items are written once, different ones get the id of their draft */
 #include "export/draft.h"
 
-/* Calls a kept item with each other item that its code names, until one answers true. */
-static bool any_named(const Items *items, const Item *item, bool (*ask)(const Item *named)) {
+/* Returns true if `test` is true for any other kept item that the code of an item names. */
+static bool any_named(const Items *items, const Item *item, bool (*test)(const Item *named)) {
     bool member = false;
     const char *c = item->code;
     for (Token token; (token = token_next(&c, item->end)).kind != TOKEN_NONE;) {
         const Item *named = token.kind == TOKEN_NAME && !member ? items_find(items, token) : NULL;
-        if (named && named != item && ask(named)) return true;
+        if (named && named != item && test(named)) return true;
         if (token.kind != TOKEN_BLANK) member = token_is(token, ".");
     }
     return false;
@@ -17,7 +16,7 @@ static bool any_named(const Items *items, const Item *item, bool (*ask)(const It
 static bool is_own(const Item *item) { return item->own; }
 static bool is_late(const Item *item) { return item->own || item->late; }
 
-/* The kept item of that name, NULL: none. */
+/* Returns the kept item of that name, or NULL. */
 static Item *find_kept(Draft *draft, Token name) {
     for (int k = 0; k < draft->items.count; k++)
         if (draft->items.all[k].kept && token_same(draft->items.all[k].name, name))
@@ -30,8 +29,8 @@ static bool same_code(const Item *a, const Item *b) {
     return size == (size_t)(b->end - b->code) && memcmp(a->code, b->code, size) == 0;
 }
 
-/* Items of one name in two drafts are each its draft's own where their texts differ, or what these name does.
- * True where one became so. */
+/* Marks items of one name in two drafts as their draft's own if their code, or the code of items that it names,
+ * differs. Returns true if an item was marked. */
 static bool part(Draft *a, Draft *b) {
     bool any = false;
     for (int k = 0; k < a->items.count; k++) {
@@ -45,8 +44,8 @@ static bool part(Draft *a, Draft *b) {
     return any;
 }
 
-/* Drops the items that an earlier draft has put. */
-static void drop_again(Draft *drafts, int which) {
+/* Drops the items that an earlier draft writes. */
+static void drop_repeated(Draft *drafts, int which) {
     for (int k = 0; k < drafts[which].items.count; k++) {
         Item *item = &drafts[which].items.all[k];
         for (int j = 0; j < which && item->kept && !item->late; j++) {
@@ -57,20 +56,20 @@ static void drop_again(Draft *drafts, int which) {
 }
 
 void drafts_merge(Draft *drafts, int count) {
-    for (bool again = true; again;) {
-        again = false;
+    for (bool changed = true; changed;) {
+        changed = false;
         for (int a = 0; a < count; a++)
-            for (int b = a + 1; b < count; b++) again |= part(&drafts[a], &drafts[b]);
+            for (int b = a + 1; b < count; b++) changed |= part(&drafts[a], &drafts[b]);
     }
     for (int d = 0; d < count; d++)
-        for (int k = 0; k < drafts[d].items.count; k++) { /* what an item names stands before it */
+        for (int k = 0; k < drafts[d].items.count; k++) { /* items that an item names are written before it */
             Item *item = &drafts[d].items.all[k];
             item->late = item->own || (item->kept && any_named(&drafts[d].items, item, is_late));
         }
-    for (int d = count - 1; d > 0; d--) drop_again(drafts, d);
+    for (int d = count - 1; d > 0; d--) drop_repeated(drafts, d);
 }
 
-/* Drops the comments at the top of files whose first item has been put. */
+/* Drops the comments at the top of files whose first item has been written. */
 static void drop_heads(Draft *drafts, int count, const Draft *from, bool late) {
     for (int k = 0; k < from->items.count; k++) {
         const Item *item = &from->items.all[k];

@@ -4,8 +4,8 @@
 
 #include "shading/material/material_stack.h"
 
-/* Fills the table of E of the surface's sheen, over all that its parameter can be while the inputs that it
- * comes from run from 0 to 1. */
+/* Fills the table of E of the surface's sheen, over the range of its parameter when the inputs that determine it run
+ * from 0 to 1. */
 void sheen_table_fill(const Surface *surface, const Choices *choices, AlbedoTable *out);
 
 #endif
