@@ -1,7 +1,7 @@
 /* merge.c - several drafts as one text: equal items are written once, different ones get the id of their draft */
 #include "export/draft.h"
 
-/* Returns true if `test` is true for any other kept item that the code of an item names. */
+/* Returns true if `test` is true for any other item that the code of an item names. */
 static bool any_named(const Items *items, const Item *item, bool (*test)(const Item *named)) {
     bool member = false;
     const char *c = item->code;

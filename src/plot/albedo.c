@@ -4,7 +4,7 @@
 #include "base/thread.h"
 #include "plot/making.h"
 
-enum { ANGLES = 24, ROUGHS = 20, QUICK = 3 }; /* QUICK: every third alone */
+enum { ANGLES = 24, ROUGHS = 20, QUICK = 3 }; /* QUICK: only every third */
 
 static const float angles[ANGLES] = {0.0f,  5.0f,  10.0f, 15.0f, 20.0f, 25.0f, 30.0f, 35.0f,
                                      40.0f, 45.0f, 50.0f, 55.0f, 60.0f, 65.0f, 70.0f, 74.0f,
@@ -67,7 +67,7 @@ static bool rough_series(Making *making, WeftPlotPanel *panel, int model, float 
     return true;
 }
 
-/* From 0 to above both 1 and all that is there. */
+/* Sets the range of E from 0 to above 1 and all values. */
 static void range_of_albedo(WeftPlotData *data, bool logarithmic) {
     double most = 1.0, least = 1.0;
     for (int p = 0; p < data->count; p++)
@@ -102,7 +102,7 @@ WeftResult kind_albedo(Making *making) {
         else
             making_axis(&panel->x, "\xce\xb8\xe2\x82\x92", "\xc2\xb0", 0.0f, 90.0f);
         making_axis(&panel->y, "directional albedo E", "", 0.0f, 1.0f);
-        if (!making_series_room(making, panel, making->desc->count)) return making_short(making);
+        if (!making_series_space(making, panel, making->desc->count)) return making_short(making);
         for (int n = 0; n < making->desc->count; n++)
             if (!(p ? rough_series(making, panel, n, view) : angle_series(making, panel, n)))
                 return making_short(making);

@@ -30,11 +30,11 @@ void axis_text(const WeftPlotAxis *axis, char text[96]) {
         snprintf(text, 96, "%s", axis->label);
 }
 
-/* A minus sign in place of a hyphen. */
-static void typeset(const char *plain, char text[24]) {
+/* Replaces hyphens before a number by minus signs. */
+static void typeset(const char *ascii, char text[24]) {
     size_t used = 0;
-    for (const char *s = plain; *s && used + 4 < 24; s++) {
-        if (*s == '-' && (s == plain || s[-1] == 'e')) {
+    for (const char *s = ascii; *s && used + 4 < 24; s++) {
+        if (*s == '-' && (s == ascii || s[-1] == 'e')) {
             memcpy(text + used, "\xe2\x88\x92", 3);
             used += 3;
         } else {
@@ -45,14 +45,14 @@ static void typeset(const char *plain, char text[24]) {
 }
 
 void value_text(double value, int digits, char text[24]) {
-    char plain[24];
+    char ascii[24];
     double size = fabs(value);
     bool whole = size < 1e9 && !(size > floor(size));
     if (whole || (size >= 999.5 && size < 99999.5))
-        snprintf(plain, sizeof plain, "%.0f", value);
+        snprintf(ascii, sizeof ascii, "%.0f", value);
     else
-        snprintf(plain, sizeof plain, "%.*g", digits, value);
-    char *e = strchr(plain, 'e');
+        snprintf(ascii, sizeof ascii, "%.*g", digits, value);
+    char *e = strchr(ascii, 'e');
     if (e) { /* "1.3e+05" becomes "1.3e5" */
         char *from = e + 1, *to = e + 1;
         if (*from == '-') *to++ = '-';
@@ -60,10 +60,10 @@ void value_text(double value, int digits, char text[24]) {
         while (*from == '0' && from[1]) from++;
         memmove(to, from, strlen(from) + 1);
     }
-    typeset(plain, text);
+    typeset(ascii, text);
 }
 
-/* Powers of ten: plain where they are short, else with a raised exponent. */
+/* Writes a power of ten, in digits if short, else with a raised exponent. */
 static void decade_text(int exponent, char text[24]) {
     static const char *const raised[10] = {"\xe2\x81\xb0", "\xc2\xb9",     "\xc2\xb2",     "\xc2\xb3",
                                            "\xe2\x81\xb4", "\xe2\x81\xb5", "\xe2\x81\xb6", "\xe2\x81\xb7",
@@ -79,8 +79,8 @@ static void decade_text(int exponent, char text[24]) {
 static int decades(const Scale *scale, double spacing, Tick ticks[TICKS_MAX]) {
     int first = (int)lround(ceil(log10(scale->low) - 1e-6)),
         last = (int)lround(floor(log10(scale->high) + 1e-6));
-    double room = fabs(scale->to - scale->from) / fmax(log10(scale->high / scale->low), 1e-3);
-    int step = (int)ceil(spacing / room), count = 0;
+    double decade = fabs(scale->to - scale->from) / fmax(log10(scale->high / scale->low), 1e-3);
+    int step = (int)ceil(spacing / decade), count = 0;
     if (step < 1) step = 1;
     for (int e = first - 1; e <= last && count < TICKS_MAX - 9; e++) {
         if (e >= first) {
@@ -118,21 +118,19 @@ int ticks_make(const Scale *scale, bool degrees, double spacing, Tick ticks[TICK
     double most = fmax(fabs(scale->low), fabs(scale->high));
     for (double k = ceil(scale->low / step - 1e-6);
          k * step <= scale->high + 1e-6 * step && count < TICKS_MAX; k += 1.0) {
-        char plain[24];
+        char ascii[24];
         double value = fabs(k) < 0.5 ? 0.0 : k * step;
         ticks[count].value = value;
         if (most >= 1e5 || places > 4) {
             value_text(value, 3, ticks[count].text);
         } else {
-            snprintf(plain, sizeof plain, "%.*f", places, value);
-            typeset(plain, ticks[count].text);
+            snprintf(ascii, sizeof ascii, "%.*f", places, value);
+            typeset(ascii, ticks[count].text);
         }
         count++;
     }
     return count;
 }
-
-/* Drawing. */
 
 static double widest(const Page *page, const Tick *ticks, int count) {
     double most = 0.0;

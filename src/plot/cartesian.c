@@ -14,7 +14,7 @@ static WeftPlotPanel *one_panel(Making *making, float view, bool cosine) {
     panel->view = view;
     making_mark(panel, -view, "\xcf\x89\xe2\x82\x92");
     if (view > 0.0f) making_mark(panel, view, "mirror");
-    return making_series_room(making, panel, making->desc->count) ? panel : NULL;
+    return making_series_space(making, panel, making->desc->count) ? panel : NULL;
 }
 
 static bool both_series(Making *making, WeftPlotPanel *const panels[2], int model, float view) {

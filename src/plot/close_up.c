@@ -1,7 +1,7 @@
-/* close_up.c - a cloth from above, so near that its threads are seen
+/* close_up.c - a cloth from above, so near that its threads are visible
  *
- * A directional light of irradiance pi from the upper left, 35 degrees above the cloth, and a third as much
- * from all around. */
+ * It is lit by a directional light of irradiance pi from the upper left, 35 degrees above the cloth, and by a third as
+ * much uniform light. */
 #include <math.h>
 
 #include "base/fail.h"
@@ -20,7 +20,7 @@ typedef struct CloseUp {
 
 static const Dir light = {-0.579f, 0.579f, 0.574f};
 
-/* Adds what one point of the cloth reflects towards the viewer above it. */
+/* Adds the radiance that one point of the cloth reflects towards the viewer above it. */
 static void add_point(const Weave *m, float x, float y, float spacing, float across, float sum[3]) {
     const Dir o = {0.0f, 0.0f, 1.0f};
     const WeavePoint point = weave_point(m, x, y, spacing, across);
@@ -31,9 +31,9 @@ static void add_point(const Weave *m, float x, float y, float spacing, float acr
     yarn_view(&yarn, o, &view);
     const LobeValue value = yarn_value(&yarn, &view, angles_between(o, light));
     for (int c = 0; c < 3; c++) {
-        const float once = weave_once(m, point, c), again = weave_reflectance(m, point, c);
-        const float f = value.f * (once + (again - once) * value.s);
-        sum[c] += PI * f * light.z * 1.25f + 0.3f * (0.3f * once + 0.7f * again) * weave_open(m, point);
+        const float single = weave_once(m, point, c), multiple = weave_reflectance(m, point, c);
+        const float f = value.f * (single + (multiple - single) * value.s);
+        sum[c] += PI * f * light.z * 1.25f + 0.3f * (0.3f * single + 0.7f * multiple) * weave_open(m, point);
     }
 }
 

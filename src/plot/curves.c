@@ -4,7 +4,7 @@
 
 #include "plot/axes.h"
 
-/* The pen goes along a series, and is lifted where there is nothing. */
+/* Draws the line of a series, with gaps where it has no value. */
 static void trace(const Page *page, const WeftPlotSeries *series, const Scale *x, const Scale *y) {
     bool down = false;
     for (int k = 0; k < series->count; k++) {
@@ -12,7 +12,7 @@ static void trace(const Page *page, const WeftPlotSeries *series, const Scale *x
             down = false;
             continue;
         }
-        /* far out is as good as very far out, and keeps within what Cairo can say */
+        /* coordinates far outside are clamped to what Cairo can represent */
         double at = fmin(fmax(scale_place(y, (double)series->y[k]), -1e4), 3e4);
         if (down)
             cairo_line_to(page->cairo, scale_place(x, (double)series->x[k]), at);
@@ -23,7 +23,7 @@ static void trace(const Page *page, const WeftPlotSeries *series, const Scale *x
     cairo_stroke(page->cairo);
 }
 
-/* A triangle at the top of the frame over what is beyond it, with the largest value. */
+/* Draws a triangle at the top of the frame if a series exceeds it, with the largest value. Returns true if so. */
 static bool mark_beyond(const Page *page, const WeftPlotPanel *panel, const WeftPlotSeries *series,
                         PageBox in, int row) {
     const double type = page->type;
@@ -72,7 +72,7 @@ WeftResult draw_curves(const Page *page, const WeftPlotPanel *panel, PageBox box
     PageBox in = axes_draw(page, panel, (PageBox){box.x, box.y + head, box.width, box.height - head});
     Scale x = scale_of(&panel->x, in.x, in.x + in.width), y = scale_of(&panel->y, in.y + in.height, in.y);
     draw_marks(page, panel, in);
-    if (panel->y.high > 1.0f && panel->y.low < 1.0f && panel->y.unit[0] == '\0') /* what E must not pass */
+    if (panel->y.high > 1.0f && panel->y.low < 1.0f && panel->y.unit[0] == '\0') /* the limit of E */
         rule(page, ink_dark, 0.09, in.x, scale_place(&y, 1.0), in.x + in.width, scale_place(&y, 1.0));
     cairo_save(page->cairo);
     cairo_rectangle(page->cairo, in.x, in.y, in.width, in.height);

@@ -1,3 +1,4 @@
+/* difference.c - the difference of two images, and its colours */
 #include <math.h>
 #include <stdlib.h>
 
@@ -27,13 +28,13 @@ static WeftResult check(const WeftImage *a, const WeftImage *b, WeftError *error
 
 static size_t pixel_count(const WeftImage *image) { return (size_t)image->width * (size_t)image->height; }
 
-/* A colour times its alpha. */
+/* Returns a channel of a pixel times its alpha. */
 static float shown(const WeftImage *image, size_t pixel, int c) {
     const float *p = (const float *)image->pixels + pixel * (size_t)image->channels;
     return image->channels == 4 ? p[c] * p[3] : p[c];
 }
 
-/* The channel that differs most, with its sign. */
+/* Returns the difference of the channel that differs most, with its sign. */
 static float pixel_difference(const WeftImage *a, const WeftImage *b, size_t pixel) {
     float most = 0.0f;
     for (int c = 0; c < 3; c++) {

@@ -5,7 +5,7 @@
 
 #include "plot/making.h"
 
-/* Middles of cells: theta_i from -90 to 90 degrees, theta_o from 0 to 90. */
+/* Cells of theta_i from -90 to 90 degrees and theta_o from 0 to 90; f is evaluated at their middles. */
 enum { COLUMNS = 180, ROWS = 90, WALKS = 64 };
 
 static bool fill(Making *making, int model, float *values) {
@@ -28,7 +28,7 @@ static int compare(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-/* A round number that 98 of 100 differences keep within. */
+/* Returns a round number that 98 of 100 differences do not exceed. */
 static float reach(const float *values, float *scratch) {
     int count = 0;
     for (int k = 0; k < COLUMNS * ROWS; k++)
@@ -40,7 +40,7 @@ static float reach(const float *values, float *scratch) {
     return high > 0.0f ? (float)round_up((double)high) : 1.0f;
 }
 
-/* Mean and largest size, and where. */
+/* Adds the mean and the largest absolute difference, and the place of the largest. */
 static void add_figures(WeftPlotPanel *panel, const char *unit) {
     double sum = 0.0, most = 0.0;
     int count = 0, at = 0;

@@ -1,7 +1,7 @@
 /* drawdown.c - a weaving draft as weavers print it, and the files of drafts
  *
- * The threading stands above, shaft 1 at the bottom; the treadling at the right, treadle 1 at the left; the
- * tie-up in the corner between them; and the drawdown in the colours of the threads, the first pick at the
+ * The threading is above, with shaft 1 at the bottom; the treadling is at the right, with treadle 1 at the left; the
+ * tie-up is in the corner between them. The drawdown has the colours of the threads, with the first pick at the
  * bottom. */
 #include <math.h>
 #include <stdio.h>
@@ -18,9 +18,9 @@ enum {
     TYPE = 14,
     FOOT = 2 * TYPE,     /* the line of figures below */
     GAP = 1,             /* cells between the parts */
-    LOOM_MAX = 48,       /* shafts and treadles, above which the drawdown stands alone */
+    LOOM_MAX = 48,       /* with more shafts or treadles only the drawdown is drawn */
     CELLS_MAX = 1 << 20, /* the most crossings that are drawn */
-    SIDE = 1100          /* pixels that a drawdown is to have about */
+    SIDE = 1100          /* approximate size of a drawdown, pixels */
 };
 
 typedef struct DraftPage {
@@ -40,7 +40,7 @@ static void fill(cairo_t *cairo, const DraftPage *page, int column, int row, int
     cairo_fill(cairo);
 }
 
-/* Draws the lines between the cells of a part, where cells are large enough to need them. */
+/* Draws the lines between the cells of a part, if cells are large enough. */
 static void draw_grid(cairo_t *cairo, const DraftPage *page, int column, int row, int columns, int rows) {
     const double x = page->left + column * page->cell, y = page->top + row * page->cell,
                  width = columns * page->cell, height = rows * page->cell;
@@ -68,7 +68,7 @@ static bool same_color(const float a[3], const float b[3]) {
     return fabsf(a[0] - b[0]) + fabsf(a[1] - b[1]) + fabsf(a[2] - b[2]) < 1e-6f;
 }
 
-/* Neighbours of one colour are one rectangle. */
+/* Draws the crossings; neighbours of one colour are one rectangle. */
 static void draw_drawdown(cairo_t *cairo, const DraftPage *page) {
     const WeftDraft *draft = page->draft;
     const int warps = draft->count[WEFT_WARP], picks = draft->count[WEFT_WEFT];

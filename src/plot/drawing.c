@@ -55,7 +55,7 @@ static WeftResult draw_lines(const Drawing *drawing, bool pdf, Vector *out, Weft
     cairo_surface_t *surface = pdf ? cairo_pdf_surface_create_for_stream(append, out, width, height)
                                    : cairo_svg_surface_create_for_stream(append, out, width, height);
     if (pdf) {
-        /* the day is none of what is drawn: the same figure is the same file */
+        /* a constant date, so that the same figure is the same file */
         cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, "2000-01-01T00:00:00Z");
         char title[TEXT_SIZE];
         drawable(drawing->title, title);

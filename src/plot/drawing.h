@@ -1,4 +1,4 @@
-/* drawing.h - Cairo drawings, as pixels, as lines, and as files */
+/* drawing.h - Cairo drawings as images, as SVG, and as files */
 #ifndef WEFT_PLOT_DRAWING_H
 #define WEFT_PLOT_DRAWING_H
 
@@ -7,7 +7,7 @@
 #include "plot/vector.h"
 #include "weft/image.h"
 
-/* Something that draws itself on a page of so many pixels, 96 to the inch. */
+/* A drawing of so many pixels, 96 to the inch. */
 typedef struct Drawing {
     int width, height;
     const char *title; /* of a .pdf or .svg */
@@ -15,7 +15,7 @@ typedef struct Drawing {
     void *user;
 } Drawing;
 
-/* Draws it as an U8 RGB image. */
+/* Draws it as a U8 RGB image. */
 WeftResult drawing_image(const Drawing *drawing, WeftImage *out, WeftError *error);
 
 /* Draws it as the bytes of a .svg. */

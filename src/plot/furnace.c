@@ -10,8 +10,8 @@
 #include "measure/check/furnace.h"
 #include "plot/making.h"
 
-/* WALKS: of a rule or a lobe that walks at random, at most. */
-enum { ANGLES = 14, CELLS = 80, WALKS = 40000, QUICK = 3 }; /* QUICK: every third angle alone */
+/* WALKS: at most, for a rule or a lobe that walks at random. QUICK: only every third angle. */
+enum { ANGLES = 14, CELLS = 80, WALKS = 40000, QUICK = 3 };
 
 static const float angles[ANGLES] = {0.0f,  15.0f, 30.0f, 40.0f, 50.0f, 60.0f, 67.0f,
                                      73.0f, 78.0f, 82.0f, 85.0f, 87.0f, 88.5f, 89.5f};
@@ -27,10 +27,10 @@ typedef struct FurnaceWork {
 
 static int count_of(const Making *making) { return making->desc->quick ? ANGLES / QUICK : ANGLES; }
 
-/* Angle k of so many. */
+/* Returns angle k of count_of, degrees. */
 static float angle_of(const Making *making, int k) { return angles[making->desc->quick ? QUICK * k + 2 : k]; }
 
-/* The roughness that gives a lobe its first parameter: lobe_rough rises or falls with it. */
+/* Returns the roughness for which lobe_rough gives the lobe's first parameter, which is monotonic, by bisection. */
 static float roughness_of(const Lobe *lobe) {
     float low = 0.0f, high = 1.0f, wanted = lobe->params[0];
     bool rises = lobe_rough(lobe->id, 1.0f).params[0] >= lobe_rough(lobe->id, 0.0f).params[0];
@@ -59,24 +59,24 @@ static bool of_lobe(Making *making, WeftPlotPanel *panel, const WeftLobe *given,
     FurnaceWork work = {.cells = making->desc->quick ? CELLS / 2 : CELLS,
                         .walks = making->desc->quick ? WALKS / 4 : WALKS};
     AlbedoTable *table = malloc(sizeof *table);
-    bool held = table && making_series_room(making, panel, LAYER_COUNT);
+    bool ready = table && making_series_space(making, panel, LAYER_COUNT);
     work.lobe = lobe_default(given->lobe);
     for (int k = 0; k < weft_lobe_info(given->lobe)->param_count; k++)
         lobe_set(&work.lobe, k, given->params[k]);
     work.roughness = roughness_of(&work.lobe);
     work.table = table;
-    for (int layer = 0; held && layer < LAYER_COUNT; layer++) {
+    for (int layer = 0; ready && layer < LAYER_COUNT; layer++) {
         float *x;
-        held = making_series(making, panel, first_entry + layer, count, &x, &work.y[layer]) != NULL;
-        for (int k = 0; held && k < count; k++) x[k] = angle_of(making, k);
+        ready = making_series(making, panel, first_entry + layer, count, &x, &work.y[layer]) != NULL;
+        for (int k = 0; ready && k < count; k++) x[k] = angle_of(making, k);
         work.x = x;
     }
-    if (held) {
+    if (ready) {
         albedo_table_fill(table, &work.lobe, work.lobe.params[0], work.lobe.params[0], 0);
         parallel_for(0, LAYER_COUNT * count, measure, &work);
     }
     free(table);
-    return held;
+    return ready;
 }
 
 static bool as_a_whole(Making *making, WeftPlotPanel *panel, int model, int entry) {
@@ -100,7 +100,7 @@ static WeftPlotPanel *one_panel(Making *making, const char *title) {
     return panel;
 }
 
-/* All that is there and 1, from a round number to a round number. */
+/* Sets the range to round numbers that enclose 1 and all values. */
 static void set_range(WeftPlotData *data) {
     double low = 0.95, high = 1.05;
     for (int p = 0; p < data->count; p++)
@@ -128,7 +128,7 @@ WeftResult kind_furnace(Making *making) {
             !of_lobe(making, one_panel(making, making_label(making, n)), desc->models[n].lobe, 0))
             return making_short(making);
     WeftPlotPanel *panel = wholes ? one_panel(making, "whole materials, as they are") : NULL;
-    if (panel && !making_series_room(making, panel, wholes)) return making_short(making);
+    if (panel && !making_series_space(making, panel, wholes)) return making_short(making);
     for (int n = 0; n < desc->count; n++)
         if (!desc->models[n].lobe &&
             !as_a_whole(making, panel, n, making_legend(making, making_label(making, n))))

@@ -23,7 +23,7 @@ static bool one_surface(Making *making, WeftPlotPanel *panel, int model, float v
     if (!values || !wi || !f) return false;
     for (int row = 0; row < thetas; row++)
         for (int k = 0; k < phis; k++) {
-            /* the horizon itself is dark: the last row lies just above it */
+            /* f is 0 at the horizon itself: the last row is just above it */
             double theta = fmin(90.0 * row / (thetas - 1), 89.7) * RADIANS;
             double phi = 360.0 * k / (phis - 1) * RADIANS, s = sin(theta);
             float *w = wi[row * phis + k];
@@ -37,8 +37,8 @@ static bool one_surface(Making *making, WeftPlotPanel *panel, int model, float v
     return true;
 }
 
-/* The largest value, and what is shown. A peak so narrow that less than two in a thousand nodes are in its
- * upper half would be a needle that nobody sees: it is cut off where it is as wide as that. */
+/* Sets the range of lengths. A peak of which less than two in a thousand nodes are in the upper half would be an
+ * invisible needle: it is cut off at the height where it is that wide. */
 static void set_range(const Making *making, WeftPlotPanel *panel, float *scratch) {
     int count = 0;
     for (int k = 0; k < panel->columns * panel->rows; k++)

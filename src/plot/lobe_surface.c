@@ -1,7 +1,7 @@
-/* lobe_surface.c - a panel of a surface over the ground: lengths by direction, seen from above and aside
+/* lobe_surface.c - a panel of a surface over the ground: lengths by direction, seen obliquely from above
  *
- * Triangles go through a depth buffer of a picture that is SAMPLES times as fine as the page, and then lies
- * over the ground, which Cairo draws: nothing of the ground is in front, for it is seen from above. */
+ * Triangles are drawn with a depth buffer at SAMPLES times the resolution of the page. The result is laid over the
+ * ground, which Cairo draws; from above no part of the ground can cover the surface. */
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -14,15 +14,15 @@
 
 enum { SAMPLES = 3, SIDE_MOST = 3000 };
 
-/* Parallel projection, the viewer 35 degrees to the side of the plane of wo and 28 above the ground. */
-static const double turn = 0.61, rise = 0.49;
+/* The viewer of the parallel projection, radians: 35 degrees to the side of the plane of wo, 28 above the ground. */
+static const double azimuth = 0.61, rise = 0.49;
 
 typedef struct SurfacePoint {
     double x, y, depth; /* on the page; depth grows away from the viewer */
 } SurfacePoint;
 
 typedef struct PlotStage {
-    double x, y, radius; /* of the ground's circle, which stands for the largest value */
+    double x, y, radius; /* of the ground's circle; the radius is the length of the largest value */
     Scale scale;         /* from values to lengths on the page */
     PageBox box;
     int width, height; /* of the buffers */
@@ -31,7 +31,8 @@ typedef struct PlotStage {
 } PlotStage;
 
 static SurfacePoint project(const PlotStage *stage, const double p[3]) {
-    double along = p[0] * cos(turn) + p[1] * sin(turn), across = p[1] * cos(turn) - p[0] * sin(turn);
+    double along = p[0] * cos(azimuth) + p[1] * sin(azimuth),
+           across = p[1] * cos(azimuth) - p[0] * sin(azimuth);
     return (SurfacePoint){stage->x + across, stage->y - p[2] * cos(rise) + along * sin(rise),
                           -(along * cos(rise) + p[2] * sin(rise))};
 }
@@ -40,7 +41,7 @@ static double length_of(const PlotStage *stage, float value) {
     return fmin(fmax(scale_place(&stage->scale, (double)value), 0.0), stage->radius);
 }
 
-/* A node of the grid in the stage's space. */
+/* Computes the position of a node of the grid in the stage's space. */
 static void node(const PlotStage *stage, const WeftPlotPanel *panel, int row, int column, double p[3]) {
     float value = panel->values[row * panel->columns + column];
     double theta = 0.5 * PI_DOUBLE * row / (panel->rows - 1);
@@ -57,7 +58,7 @@ static void normal_of(const double a[3], const double b[3], const double c[3], d
     for (int k = 0; k < 3; k++) n[k] /= fmax(length, 1e-30);
 }
 
-/* Light from the viewer's upper left; both sides are lit. */
+/* Returns the brightness of a normal in light from the viewer's upper left, which lights both sides. */
 static double shade(const double n[3]) {
     static const double light[3] = {0.62, -0.28, 0.73};
     return 0.45 + 0.55 * fabs(n[0] * light[0] + n[1] * light[1] + n[2] * light[2]);
@@ -67,7 +68,7 @@ static double edge(SurfacePoint a, SurfacePoint b, double x, double y) {
     return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x);
 }
 
-/* A corner of a triangle: where it is in its cell is for the mesh. */
+/* A corner of a triangle, with its place in the cell of the mesh. */
 typedef struct PlotCorner {
     SurfacePoint at;
     double across, along;
@@ -100,7 +101,7 @@ static void fill(const PlotStage *stage, const PlotCorner corner[3], const float
         }
 }
 
-/* A place on the page in the buffers. */
+/* Projects a point to pixels of the buffers. */
 static SurfacePoint fine_point(const PlotStage *stage, const double p[3]) {
     SurfacePoint point = project(stage, p);
     point.x = (point.x - stage->box.x) * stage->fine;
@@ -108,7 +109,7 @@ static SurfacePoint fine_point(const PlotStage *stage, const double p[3]) {
     return point;
 }
 
-/* Every fifteen degrees the surface is darker: that makes a mesh of it. */
+/* Returns true if node k lies on a line of the mesh: every fifteen degrees the surface is darker. */
 static bool on_mesh(int k, int nodes, int degrees) {
     int step = (nodes - 1) * 15 / degrees;
     return step > 0 && k % step == 0;
@@ -169,7 +170,7 @@ static void draw_ground(const Page *page, const WeftPlotPanel *panel, const Plot
     cairo_stroke(page->cairo);
 }
 
-/* Values and azimuths at the rim, outside what the surface can cover. */
+/* Draws a ruler with the values below the ground, where the surface cannot cover it. */
 static void draw_labels(const Page *page, const WeftPlotPanel *panel, const PlotStage *stage) {
     const double type = page->type;
     Tick ticks[TICKS_MAX];
@@ -193,7 +194,7 @@ static void draw_labels(const Page *page, const WeftPlotPanel *panel, const Plot
     place_text(page->cairo, ink_dark, stage->x - 1.8 * type, base + 0.6 * type, 1.0, label);
 }
 
-/* The arrow towards the viewer, where nothing is before it. */
+/* Draws the parts of the arrow towards the viewer that the surface does not cover. */
 static void draw_arrow(const Page *page, const WeftPlotPanel *panel, const PlotStage *stage) {
     enum { PARTS = 400 };
     const double type = page->type, angle = (double)panel->view * RADIANS;
@@ -227,7 +228,7 @@ static void draw_arrow(const Page *page, const WeftPlotPanel *panel, const PlotS
                "\xcf\x89\xe2\x82\x92");
 }
 
-/* The fine buffer over the page, averaged to its own resolution, with what it does not cover left clear. */
+/* Paints the fine buffer over the page, averaged to the page's resolution; pixels without surface are transparent. */
 static WeftResult lay_over(const Page *page, const PlotStage *stage) {
     cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, stage->width, stage->height);
     if (cairo_surface_status(surface) != CAIRO_STATUS_SUCCESS) {
@@ -273,11 +274,11 @@ static double reach_up(const WeftPlotPanel *panel) {
 
 /* Returns the stage, as large as width and height allow and centred. */
 static PlotStage stage_of(const Page *page, const WeftPlotPanel *panel, PageBox box) {
-    const double type = page->type, room = box.height - 5.0 * type, up = reach_up(panel);
+    const double type = page->type, height = box.height - 5.0 * type, up = reach_up(panel);
     PlotStage stage = {.box = box};
-    stage.radius = fmax(fmin(0.5 * box.width - 2.0 * type, room / (up + sin(rise))), type);
+    stage.radius = fmax(fmin(0.5 * box.width - 2.0 * type, height / (up + sin(rise))), type);
     stage.x = box.x + 0.5 * box.width;
-    stage.y = box.y + 2.0 * type + 0.5 * (room - stage.radius * (up + sin(rise))) + stage.radius * up;
+    stage.y = box.y + 2.0 * type + 0.5 * (height - stage.radius * (up + sin(rise))) + stage.radius * up;
     stage.scale = scale_of(&panel->z, 0.0, stage.radius);
     stage.fine = fmin(SAMPLES, SIDE_MOST / fmax(box.width, box.height));
     stage.width = (int)fmax(box.width * stage.fine, 1.0);
@@ -290,9 +291,9 @@ WeftResult draw_surface(const Page *page, const WeftPlotPanel *panel, PageBox bo
     const size_t count = (size_t)stage.width * (size_t)stage.height;
     stage.depth = alloc_array(count, sizeof *stage.depth);
     stage.color = alloc_array(count, sizeof *stage.color);
-    bool held = stage.depth && stage.color;
-    WeftResult result = held ? WEFT_OK : fail(page->error, WEFT_MESSAGE_MEMORY, "plot", NULL);
-    if (held) {
+    WeftResult result =
+        stage.depth && stage.color ? WEFT_OK : fail(page->error, WEFT_MESSAGE_MEMORY, "plot", NULL);
+    if (result == WEFT_OK) {
         for (size_t k = 0; k < count; k++) stage.depth[k] = HUGE_VALF;
         for (int row = 0; row + 1 < panel->rows; row++)
             for (int column = 0; column + 1 < panel->columns; column++) fill_cell(&stage, panel, row, column);

@@ -16,14 +16,14 @@ WeftResult making_short(const Making *making) {
 }
 
 bool making_panels(Making *making, int most, int columns) {
-    making->room = most;
+    making->panels_max = most;
     making->data->columns = columns;
     making->data->panels = arena_array(making->arena, (size_t)most, sizeof *making->data->panels);
     return making->data->panels != NULL;
 }
 
 WeftPlotPanel *making_panel(Making *making, WeftPlotForm form, const char *title, ...) {
-    if (making->data->count >= making->room) return NULL;
+    if (making->data->count >= making->panels_max) return NULL;
     WeftPlotPanel *panel = &making->data->panels[making->data->count++];
     panel->form = form;
     panel->view = panel->center = NAN;
@@ -34,7 +34,7 @@ WeftPlotPanel *making_panel(Making *making, WeftPlotForm form, const char *title
     return panel;
 }
 
-bool making_series_room(Making *making, WeftPlotPanel *panel, int most) {
+bool making_series_space(Making *making, WeftPlotPanel *panel, int most) {
     panel->series = arena_array(making->arena, (size_t)most, sizeof *panel->series);
     return panel->series != NULL;
 }
@@ -109,7 +109,7 @@ float making_view(const Making *making, int k, float usual) {
     return making->desc->view_count > 0 ? making->desc->views[k] : usual;
 }
 
-/* The cosine is the sine of the rest to 90, so that it is exactly 0 there. */
+/* Computes sine and cosine of an angle; the cosine is the sine of the complement, so that it is exactly 0 at 90. */
 static void polar(float degrees, float *sine, float *cosine) {
     const double radians = RADIANS;
     *sine = (float)sin((double)degrees * radians);
@@ -138,7 +138,7 @@ typedef struct Evaluation {
 
 enum { BLOCK = 64 };
 
-/* w moved by up to a degree: a point of the unit square decides where to. */
+/* Moves w by up to a degree, as a point of the unit square selects. */
 static void move(const float w[3], float u, float v, float moved[3]) {
     float radius = 0.0175f * sqrtf(u), angle = 2.0f * PI_FLOAT * v;
     moved[0] = w[0] + radius * cosf(angle);
@@ -202,7 +202,6 @@ static int compare_floats(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-/* Middles of half degrees, and the mirror direction with halving distances to both sides. */
 void plane_angles(float mirror, float theta[PLANE_ANGLES]) {
     int n = 0;
     for (int k = 0; k < PLANE_STEPS; k++)

@@ -1,6 +1,6 @@
-/* making.h - the numbers of a figure as they are made: panels, series and grids in one arena
+/* making.h - construction of a figure's numbers: panels, series and grids in one arena
  *
- * What needs memory returns NULL where that is short; the kind then returns making_short. */
+ * Functions that need memory return NULL or false if it is short; the kind then returns making_short. */
 #ifndef WEFT_PLOT_MAKING_H
 #define WEFT_PLOT_MAKING_H
 
@@ -14,10 +14,10 @@ typedef struct Making {
     WeftPlotData *data;
     Arena *arena;
     WeftError *error;
-    int room; /* for panels */
+    int panels_max; /* capacity of data->panels */
 } Making;
 
-/* The kinds: each fills making->data, a file each. */
+/* Fills making->data for a kind of figure; each kind has a file. */
 WeftResult kind_polar(Making *making);
 WeftResult kind_lobe3d(Making *making);
 WeftResult kind_cartesian(Making *making);
@@ -30,23 +30,23 @@ WeftResult kind_difference(Making *making);
 
 WeftResult making_short(const Making *making);
 
-/* Room for so many panels, all that there will be, in so many columns. */
+/* Allocates panels, at most `most` in all, in so many columns. */
 bool making_panels(Making *making, int most, int columns);
 
-/* The next of them. */
+/* Adds a panel. */
 __attribute__((format(printf, 3, 4))) WeftPlotPanel *making_panel(Making *making, WeftPlotForm form,
                                                                   const char *title, ...);
 
-/* Room for so many series of a panel, and the next of them with its x and y, which are the caller's to fill.
- */
-bool making_series_room(Making *making, WeftPlotPanel *panel, int most);
+/* Allocates space for so many series of a panel (making_series_space), and adds a series, whose x and y the caller
+ * fills (making_series). */
+bool making_series_space(Making *making, WeftPlotPanel *panel, int most);
 WeftPlotSeries *making_series(Making *making, WeftPlotPanel *panel, int entry, int count, float **x,
                               float **y);
 
-/* A grid of values for the caller to fill. */
+/* Adds the grid of values of a panel for the caller to fill. */
 float *making_grid(Making *making, WeftPlotPanel *panel, int columns, int rows, int channels);
 
-/* One more line of the legend; its number. All models have theirs first. */
+/* Adds a line to the legend and returns its number. making_models adds the models, which come first. */
 int making_legend(Making *making, const char *text);
 void making_models(Making *making);
 const char *making_label(const Making *making, int model);
@@ -55,50 +55,54 @@ void making_axis(WeftPlotAxis *axis, const char *label, const char *unit, float 
 __attribute__((format(printf, 3, 4))) void making_mark(WeftPlotPanel *panel, float x, const char *label, ...);
 void making_figure(WeftPlotPanel *panel, const char *name, const char *unit, double value);
 
-/* Return the number of views, and theta_o of one in degrees; `usual` if none was given. */
+/* Returns the number of views, and theta_o of one in degrees; `usual` if none was given. */
 int making_view_count(const Making *making);
 float making_view(const Making *making, int k, float usual);
 
-/* wo = (sin, 0, cos) of degrees, exact at both ends; wi of plane angles: in the plane of wo, beyond the
- * normal where theta > 0; across it, towards y. */
+/* Computes wo = (sin, 0, cos) of an angle in degrees, exact at both ends; and wi of a plane angle: in the plane of wo,
+ * beyond the normal if it is positive, or across that plane, towards y. */
 void direction_of_view(float degrees, float w[3]);
 void direction_in_plane(float degrees, float w[3]);
 void direction_across(float degrees, float w[3]);
 
-/* f of many directions. Of what walks at random each is the mean of `walks` pairs within a degree. */
+/* Evaluates f for many directions. For a lobe that walks at random each f is the mean of `walks` pairs within a
+ * degree. */
 void making_eval(const WeftPlotModel *model, const float wo[3], int count, const float (*wi)[3], int walks,
                  float (*f)[3]);
 
-/* So many, or a part of that where a first look is asked for. */
+/* Returns `walks`, or an eighth of it for a quick figure. */
 int making_walks(const Making *making, int walks);
 
 /* Returns the value of the descriptor's channel for a colour. */
 float making_value(const Making *making, const float color[3]);
 
-/* The name of what is plotted: "f", "f cos". */
+/* Returns the name of the plotted quantity: "f" or "f cos" with a subscript. */
 const char *making_f(const Making *making);
 
-/* theta_i from -90 to 90 degrees, closer about the mirror direction: PLANE_ANGLES of them. */
+/* Fills theta with theta_i from -90 to 90 degrees: middles of half degrees, the mirror direction, and angles at halving
+ * distances from it on both sides. */
 enum { PLANE_STEPS = 360, PLANE_NEAR = 10, PLANE_ANGLES = PLANE_STEPS + 2 * PLANE_NEAR + 1 };
 void plane_angles(float mirror, float theta[PLANE_ANGLES]);
 
-/* A model at another of an artist's roughness: the first parameter of a lobe, sheen_roughness of a material
- * that has a sheen, else roughness. Made in `out`, which has no label, and released with rough_free. False
- * where the model has none, or memory is short. */
+/* A model at another roughness. */
 typedef struct Rough {
     WeftLobe lobe;
     WeftReflection *reflection;
     WeftPlotModel model;
 } Rough;
+
+/* Makes a model at an artist's roughness, which sets the first parameter of a lobe, sheen_roughness of a material that
+ * has a sheen, else roughness. Returns false if the model has no roughness or memory is short; release with rough_free
+ * in any case. */
 bool rough_make(const WeftPlotModel *model, float roughness, Rough *out);
 void rough_free(Rough *rough);
 
-/* Sets high, and low of a logarithmic axis, of the y of all panels of one form so that they show their series
- * and can be compared. What towers over all else is cut off: curves thirty times as high as the next
- * lower one, unless they are more than half, and what f does within five degrees of the horizon. */
+/* Sets high, and low of a logarithmic axis, of the y of all panels of one form, so that they show their series and can
+ * be compared. Outliers are cut off: curves thirty times as high as the next lower one, unless they are more than half,
+ * and f within five degrees of the horizon. */
 void range_of_f(WeftPlotData *data, WeftPlotForm form, bool logarithmic);
 
-/* 1, 2, 2.5 or 5 times a power of ten, at x or above. */
+/* Returns the least 1, 2, 2.5 or 5 times a power of ten that is not below x. */
 double round_up(double x);
 
 #endif

@@ -1,4 +1,4 @@
-/* map.c - a panel of a grid of values, in the house's colours, and one of colours as they are */
+/* map.c - a panel of a grid of values in false colours, and one of a picture */
 #include <math.h>
 #include <stdint.h>
 
@@ -20,7 +20,7 @@ static float color_place(const WeftPlotPanel *panel, float value) {
     return fminf(fmaxf((at - low) / (high - low), 0.0f), 1.0f);
 }
 
-/* Row 0 is at the bottom of the axes. */
+/* Converts the values to colours; row 0 is at the bottom of the axes. */
 static void map_pixels(const WeftPlotPanel *panel, WeftImage *image) {
     uint8_t *pixel = image->pixels;
     for (int row = panel->rows - 1; row >= 0; row--)
@@ -34,7 +34,7 @@ static void map_pixels(const WeftPlotPanel *panel, WeftImage *image) {
         }
 }
 
-/* Colours, tone-mapped. */
+/* Converts the colours of a panel by the tone curve. */
 static WeftResult color_pixels(const WeftPlotPanel *panel, bool upward, WeftImage *image, WeftError *error) {
     WeftImage linear;
     WeftResult result = weft_image_create(panel->columns, panel->rows, 3, WEFT_PIXEL_F32, &linear, error);
@@ -61,7 +61,8 @@ static void draw_bar(const Page *page, const WeftPlotPanel *panel, PageBox bar) 
         cairo_set_source_rgb(page->cairo, (double)rgb[0], (double)rgb[1], (double)rgb[2]);
         double high = bar.y + bar.height * (1.0 - (double)k / steps);
         cairo_rectangle(page->cairo, bar.x, high - 1.6 * bar.height / steps, bar.width,
-                        1.6 * bar.height / steps); /* over the next one, so that no seam is seen */
+                        1.6 * bar.height /
+                            steps); /* overlaps the next one, so that there is no visible seam */
         if (k + 1 == steps) {
             cairo_new_path(page->cairo);
             cairo_rectangle(page->cairo, bar.x, bar.y, bar.width, bar.height / steps);

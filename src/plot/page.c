@@ -11,9 +11,9 @@
 const double ink_dark[3] = {0.10, 0.10, 0.11}, ink_dim[3] = {0.38, 0.39, 0.41},
              ink_grid[3] = {0.84, 0.84, 0.85}, ink_none[3] = {0.55, 0.55, 0.56};
 
-/* Colours that the colour-blind can distinguish too: Masataka Okabe and Kei Ito, "Color Universal Design",
- * 2008, in an order that begins with what is darkest on white; their yellow, which is not dark enough for a
- * line, is grey. The dashes differ as well, so that a print without colour can be read. */
+/* Colours that colour-blind people can distinguish: Masataka Okabe and Kei Ito, "Color Universal Design", 2008, in an
+ * order that begins with the darkest; their yellow, which is too bright for a line, is replaced by grey. The dashes
+ * differ as well, so that a print without colour can be read. */
 static const double colors[8][3] = {{0.000, 0.447, 0.698}, {0.835, 0.369, 0.000}, {0.000, 0.620, 0.451},
                                     {0.800, 0.475, 0.655}, {0.050, 0.050, 0.050}, {0.902, 0.624, 0.000},
                                     {0.337, 0.706, 0.914}, {0.500, 0.500, 0.500}};
@@ -73,11 +73,11 @@ WeftResult place_image(const Page *page, const WeftImage *image, PageBox box, bo
     return WEFT_OK;
 }
 
-/* The layout: a title, panels in rows of equal height, the legend, a note. In sizes of type. */
+/* The layout, in units of the type's size: a title, panels in rows of equal height, the legend, a note. */
 
 static const double natural_type = 13.0;
 
-/* Returns the size that a panel wants, with its title and figures. */
+/* Computes the natural size of a panel with its title and figures. */
 static void natural_panel(const WeftPlotPanel *panel, double *width, double *height) {
     *width = 37.0;
     *height = panel->form == WEFT_PLOT_ROSE      ? 22.6
@@ -95,8 +95,8 @@ static int columns_of(const WeftPlotData *data) {
     return data->count < data->columns ? data->count : data->columns;
 }
 
-/* Entries of the legend beside each other; widths are guessed by letters, so that the page's size needs no
- * surface. */
+/* Returns the number of the legend's columns. Widths are estimated from the number of letters, so that the page's size
+ * needs no surface. */
 static int legend_columns(const WeftPlotData *data, double width) {
     size_t longest = 4;
     for (int k = 0; k < data->legend_count; k++)
@@ -164,7 +164,7 @@ static void draw_legend(const Page *page, double top) {
     }
 }
 
-/* "mean 0.12 1/sr, most 0.5 1/sr". */
+/* Writes the figures of a panel, such as "mean 0.12 1/sr,  most 0.5 1/sr". */
 static void figures_text(const WeftPlotPanel *panel, char *text, size_t size) {
     text[0] = '\0';
     for (int k = 0; k < panel->figure_count; k++) {
@@ -180,15 +180,15 @@ static void figures_text(const WeftPlotPanel *panel, char *text, size_t size) {
 static WeftResult draw_panel(const Page *page, const WeftPlotPanel *panel, PageBox box) {
     static WeftResult (*const draw[])(const Page *, const WeftPlotPanel *, PageBox) = {
         draw_curves, draw_rose, draw_map, draw_surface, draw_picture};
-    const double type = page->type, room = box.width - type;
+    const double type = page->type, width = box.width - type;
     char figures[320];
     figures_text(panel, figures, sizeof figures);
     set_font(page->cairo, type, true);
-    write_text(page->cairo, ink_dark, box.x + 0.5 * type, box.y + type, room, panel->title);
+    write_text(page->cairo, ink_dark, box.x + 0.5 * type, box.y + type, width, panel->title);
     double head = 1.7 * type;
     if (figures[0]) {
         set_font(page->cairo, 0.85 * type, false);
-        write_text(page->cairo, ink_dim, box.x + 0.5 * type, box.y + 2.3 * type, room, figures);
+        write_text(page->cairo, ink_dim, box.x + 0.5 * type, box.y + 2.3 * type, width, figures);
         head += 1.3 * type;
     }
     PageBox inner = {box.x + 0.3 * type, box.y + head, box.width - 0.6 * type,

@@ -22,34 +22,34 @@ typedef struct Page {
     WeftError *error;
 } Page;
 
-/* The page's size where none was asked for, and the size of type in one that was. */
+/* Computes the natural size of a page, and the size of type on a page of a given size. */
 void page_natural(const WeftPlotData *data, int *width, int *height);
 double page_type(const WeftPlotData *data, int width, int height);
 
-/* Draws all of it. WEFT_OK, or memory was short. */
+/* Draws the page. Fails with WEFT_MESSAGE_MEMORY. */
 WeftResult page_draw(const Page *page);
 
-/* One panel each, inside its box. */
+/* Draws a panel of one form inside its box. */
 WeftResult draw_curves(const Page *page, const WeftPlotPanel *panel, PageBox box);
 WeftResult draw_rose(const Page *page, const WeftPlotPanel *panel, PageBox box);
 WeftResult draw_map(const Page *page, const WeftPlotPanel *panel, PageBox box);
 WeftResult draw_surface(const Page *page, const WeftPlotPanel *panel, PageBox box);
 WeftResult draw_picture(const Page *page, const WeftPlotPanel *panel, PageBox box);
 
-/* Inks: text and frames, what explains, and grid lines. */
+/* Inks: of text and frames, of annotations, and of grid lines. */
 extern const double ink_dark[3], ink_dim[3], ink_grid[3];
 
-/* Colour and dashes of an entry of the legend, for the lines that follow. */
+/* Sets the colour and dashes of an entry of the legend for the lines that follow; entry_color returns the colour. */
 void set_entry(const Page *page, int entry);
 const double *entry_color(int entry);
 
-/* A line from one place to another, so many parts of the type's size wide. */
+/* Draws a line; width is in units of the type's size. */
 void rule(const Page *page, const double color[3], double width, double x0, double y0, double x1, double y1);
 
-/* Rows from the top, an U8 RGB picture over a box; smooth: between its pixels. */
+/* Draws a U8 RGB picture over a box, its rows from the top. smooth: pixels are interpolated. */
 WeftResult place_image(const Page *page, const WeftImage *image, PageBox box, bool smooth);
 
-/* The sheet's dark grey where a map has no value or a picture nothing to show. */
+/* The grey of a map where it has no value. */
 extern const double ink_none[3];
 
 #endif

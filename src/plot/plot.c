@@ -1,4 +1,4 @@
-/* plot.c - figures from descriptors: checked, made, drawn and written */
+/* plot.c - the API of figures: checking of descriptors, numbers, drawing and writing */
 #include "weft/plot.h"
 
 #include <math.h>
@@ -74,7 +74,7 @@ static const char *complaint(const WeftPlotDesc *desc) {
     return NULL;
 }
 
-/* The kind's own title names the one model there is. */
+/* Makes the title: that of the descriptor, else the kind's, with the label of a single model. */
 static void make_title(const WeftPlotDesc *desc, WeftPlotData *data) {
     const char *own = kinds[desc->kind].title;
     if (desc->title)
@@ -104,8 +104,6 @@ void weft_plot_data_free(WeftPlotData *data) {
     free(data->owned);
     memset(data, 0, sizeof *data);
 }
-
-/* Drawing. */
 
 static void page_size(const WeftPlotDesc *desc, const WeftPlotData *data, int *width, int *height) {
     page_natural(data, width, height);

@@ -1,4 +1,4 @@
-/* plot_report.c - one page of HTML with every figure in it: no script, and nothing to fetch */
+/* plot_report.c - one page of HTML that contains every figure, without a script or other files */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -35,7 +35,7 @@ static bool base64(Vector *out, const unsigned char *bytes, size_t size) {
     return true;
 }
 
-/* The figure as the bytes of a .png. */
+/* Draws the figure as the bytes of a .png. */
 static WeftResult png_bytes(const WeftPlotDesc *desc, char **bytes, size_t *size, WeftError *error) {
     WeftImage image;
     WeftResult result = weft_plot_image(desc, &image, error);
@@ -49,7 +49,7 @@ static WeftResult png_bytes(const WeftPlotDesc *desc, char **bytes, size_t *size
     return result;
 }
 
-/* Lines are drawn as lines, all else in pixels. */
+/* Writes the figure as SVG if it consists of lines, else as PNG. */
 static WeftResult image_put(Vector *page, const WeftPlotDesc *desc, WeftError *error) {
     const bool lines = desc->kind == WEFT_PLOT_POLAR || desc->kind == WEFT_PLOT_CARTESIAN ||
                        desc->kind == WEFT_PLOT_ALBEDO || desc->kind == WEFT_PLOT_FURNACE;
@@ -96,7 +96,7 @@ static WeftResult figure_put(Vector *page, const WeftPlotDesc *desc, WeftError *
     return result;
 }
 
-/* E of every model, as one reads it off the figure. */
+/* Writes the table of E of every model. */
 static void table_put(Vector *page, const WeftPlotDesc *desc) {
     static const float angles[] = {0.0f, 30.0f, 45.0f, 60.0f, 75.0f, 85.0f};
     enum { ANGLES = sizeof angles / sizeof *angles };
@@ -172,7 +172,7 @@ static WeftResult page_make(const WeftPlotDesc *desc, Vector *page, WeftError *e
         WeftPlotDesc one = *desc;
         one.kind = (WeftPlotKind)k;
         one.title = "";
-        one.width = 1600; /* of what is made of pixels: sharp on fine screens too */
+        one.width = 1600; /* of .png figures: sharp on fine screens too */
         one.height = 0;
         if (serves(&one, chosen)) result = figure_put(page, &one, error);
     }
@@ -184,7 +184,7 @@ WeftResult weft_plot_report(const WeftPlotDesc *desc, const char *path, WeftErro
     Vector page = {0};
     WeftPlotDesc probe = *desc;
     WeftPlotData data;
-    probe.kind = WEFT_PLOT_ALBEDO; /* what holds of all descriptors is found out before all is drawn */
+    probe.kind = WEFT_PLOT_ALBEDO; /* faults of the descriptor are found before anything is drawn */
     probe.width = probe.height = 0;
     WeftResult result = weft_plot_data(&probe, &data, error);
     if (result != WEFT_OK) return result;

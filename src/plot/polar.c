@@ -38,7 +38,7 @@ WeftResult kind_polar(Making *making) {
         making_axis(&panel->x, "\xce\xb8\xe1\xb5\xa2", "\xc2\xb0", -90.0f, 90.0f);
         making_axis(&panel->y, making_f(making), "1/sr", 0.0f, 1.0f);
         panel->view = across ? NAN : view;
-        if (!making_series_room(making, panel, making->desc->count)) return making_short(making);
+        if (!making_series_space(making, panel, making->desc->count)) return making_short(making);
         for (int n = 0; n < making->desc->count; n++)
             if (!one_series(making, panel, n, view, across)) return making_short(making);
     }

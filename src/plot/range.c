@@ -18,7 +18,8 @@ typedef struct Reach {
     double most, least; /* least: above 0 */
 } Reach;
 
-/* At most four times what f is within 85 degrees of the normal, unless the mirror direction is beyond. */
+/* Returns the range of a curve. Its top is at most four times the largest f within 85 degrees of the normal, unless
+ * `view` is above 80 degrees. */
 static Reach reach_of(const WeftPlotSeries *series, float view) {
     double most = 0.0, inner = 0.0, least = HUGE_VAL;
     for (int k = 0; k < series->count; k++) {
@@ -37,9 +38,9 @@ static int compare(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-/* The top and the bottom of all that is to be seen of panels with one quantity; whole: of all that there is.
- * What belongs to one entry of the legend is as high as its highest. Where a gap parts the lower half, or
- * more, from what towers over it, that is left out. */
+/* Returns the range of the panels that plot one quantity; with `whole` that of all values. All curves of one entry of
+ * the legend count as high as the highest. If a gap separates the lower half or more from higher entries, these are
+ * left out. */
 static Reach reach_of_all(const WeftPlotData *data, WeftPlotForm form, const char *label, bool whole) {
     double tops[WEFT_PLOT_LEGEND_MAX] = {0.0}, sorted[WEFT_PLOT_LEGEND_MAX], least = HUGE_VAL, most = 0.0;
     const double gap = 30.0;
@@ -84,7 +85,7 @@ void range_of_f(WeftPlotData *data, WeftPlotForm form, bool logarithmic) {
         axis->low = 0.0f;
         axis->high = (float)(1.04 * reach.most);
         if (form == WEFT_PLOT_CURVES && goes_beyond(data, axis->label, reach.most))
-            axis->high *= 1.15f; /* room for a mark */
+            axis->high *= 1.15f; /* space for a mark */
         axis->logarithmic = logarithmic;
         if (!logarithmic) continue;
         double high = ceil(log10(reach.most)), low = floor(log10(fmin(reach.least, reach.most)));

@@ -69,7 +69,7 @@ static void draw_grid(const Page *page, const WeftPlotPanel *panel, const Rose *
     place_text(page->cairo, ink_dark, rose->x + 0.5 * rose->radius, rose->y + 2.7 * type, 0.5, label);
 }
 
-/* An arrow from the rim outwards, in the direction of the viewer. */
+/* Draws an arrow from the centre to the rim, in the direction of the viewer. */
 static void draw_view(const Page *page, const Rose *rose, double view) {
     const double type = page->type, tip = rose->radius - 0.2 * type;
     double x[2], y[2], ax, ay;
@@ -104,7 +104,7 @@ static void trace(const Page *page, const Rose *rose, const WeftPlotSeries *seri
     cairo_stroke(page->cairo);
 }
 
-/* Inside the rim, a triangle where a curve is furthest beyond it, with its largest value. */
+/* Draws a triangle inside the rim where a curve exceeds it most, with the largest value. */
 static void mark_beyond(const Page *page, const WeftPlotPanel *panel, const WeftPlotSeries *series,
                         const Rose *rose) {
     const double type = page->type, inner = rose->radius - 0.9 * type;

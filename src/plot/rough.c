@@ -1,4 +1,4 @@
-/* rough.c - the same cloth, rougher or smoother */
+/* rough.c - a model at another roughness */
 #include "plot/making.h"
 #include "shading/catalogue/registry.h"
 

@@ -9,7 +9,7 @@
 #include "plot/making.h"
 #include "shading/lobe/lobe_tables.h"
 
-/* Cells over phi and theta; POINTS along each side of one, where the pdf is asked. */
+/* Cells over phi and theta; POINTS along each side of one, at which the pdf is evaluated. */
 enum { PHIS = 60, THETAS = 30, POINTS = 12, COUNT = 1 << 20, COUNT_QUICK = 1 << 17, TESTED = 60000 };
 
 typedef struct Histogram {
@@ -23,7 +23,7 @@ static double cell_solid_angle(int row) {
     return ((cos)(row * step) - (cos)((row + 1) * step)) * 2.0 * PI_DOUBLE / PHIS;
 }
 
-/* Which cell; phi from -180 degrees, 0 being the side beyond the normal. */
+/* Returns the cell of a direction; phi runs from -180 degrees, and 0 is beyond the normal. */
 static int cell_of(const float w[3]) {
     double theta = (atan2)(hypot((double)w[0], (double)w[1]), (double)w[2]),
            phi = atan2(-(double)w[1], -(double)w[0]);
@@ -37,7 +37,7 @@ static int cell_of(const float w[3]) {
 static void draw_all(const WeftPlotModel *model, const float wo[3], Histogram *out) {
     double sum = 0.0;
     for (uint32_t k = 0; k < (uint32_t)out->count; k++) {
-        /* strata in u, a hash in v: a histogram with less noise of its own */
+        /* u is stratified, v is hashed: that makes less noise in the histogram */
         float u[2] = {((float)k + unit_float(hash_combine(k, 11))) / (float)out->count,
                       unit_float(hash_combine(k, 12))};
         float wi[1][3], f[1][3];
@@ -52,7 +52,7 @@ static void draw_all(const WeftPlotModel *model, const float wo[3], Histogram *o
     out->weight = sum / out->count;
 }
 
-/* The mean of the pdf over a cell. */
+/* Returns the mean of the pdf over a cell. */
 static double cell_pdf(const WeftLobe *lobe, const float wo[3], int points, int row, int column) {
     double sum = 0.0;
     const double low = (cos)(0.5 * PI_DOUBLE * row / THETAS),
@@ -68,7 +68,7 @@ static double cell_pdf(const WeftLobe *lobe, const float wo[3], int points, int 
 }
 
 static void compare_all(const WeftPlotModel *model, const float wo[3], Histogram *out) {
-    const float least = 50.0f; /* samples expected in a cell for a ratio to say something */
+    const float least = 50.0f; /* expected samples in a cell, below which the ratio is only noise */
     for (int row = 0; row < THETAS; row++)
         for (int k = 0; k < PHIS; k++) {
             const int at = row * PHIS + k;
@@ -81,7 +81,7 @@ static void compare_all(const WeftPlotModel *model, const float wo[3], Histogram
         }
 }
 
-/* p of the passport's test, whose bins crowd where the lobe is narrow. */
+/* Returns p of the passport's chi-square test, whose bins are denser where the lobe is narrow; NAN on failure. */
 static double test(const WeftLobe *given, float view, int count) {
     Bsdf *model = alloc_array(1, sizeof *model);
     ChiSquare found = {.p = (double)NAN};

@@ -2,7 +2,7 @@
 #ifndef WEFT_PLOT_SCALE_H
 #define WEFT_PLOT_SCALE_H
 
-/* The sRGB-encoded colour, 0 .. 1, of t in [-1, 1]: darker is blue, brighter is red, none is black. */
+/* Returns the sRGB-encoded colour, 0 .. 1, of t in [-1, 1]: blue below 0, black at 0, red above. */
 void scale_color(float t, float rgb[3]);
 
 #endif

@@ -15,29 +15,28 @@ enum { SIDE_MAX = 32767 }; /* of a Cairo surface, pixels */
 static const double background[3] = {0.086, 0.090, 0.098}, bright[3] = {0.92, 0.92, 0.93},
                     dim[3] = {0.58, 0.60, 0.63};
 
-/* Places in pixels; everything follows from the size of the type. */
+/* Sizes in pixels; all depend on the size of the type. */
 typedef struct SheetLayout {
     int columns, rows;
     double type;                    /* size of titles */
     int column_width, image_height; /* of the largest panel */
     int margin, gap, caption, label;
-    int legend;   /* below labels: the colours of a map */
-    bool stacked; /* notes stand below titles: side by side they would not fit */
+    int legend;   /* height of the colours of a map, below labels */
+    bool stacked; /* notes are below titles, since they do not fit side by side */
     bool wrapped; /* a title takes two lines */
     int width, height;
 } SheetLayout;
 
 static double note_size(const SheetLayout *layout) { return 0.82 * layout->type; }
 
-/* Cuts a title that is wider than room at a blank; the second line, NULL where there is none. line becomes
- * what is to be drawn first. */
-static const char *wrap(cairo_t *cairo, double room, const char *title, char line[TEXT_SIZE]) {
+/* Breaks a title that is wider than width at a blank. Sets line to the first line and returns the second, or NULL. */
+static const char *wrap(cairo_t *cairo, double width, const char *title, char line[TEXT_SIZE]) {
     drawable(title, line);
-    if (text_width(cairo, line) <= room) return NULL;
+    if (text_width(cairo, line) <= width) return NULL;
     for (size_t k = strlen(line); k-- > 1;) {
         if (line[k] != ' ') continue;
         line[k] = '\0';
-        if (text_width(cairo, line) <= room) return line + k + 1;
+        if (text_width(cairo, line) <= width) return line + k + 1;
         line[k] = ' ';
     }
     return NULL;
@@ -102,21 +101,21 @@ static SheetLayout layout_of(const WeftSheetDesc *desc, cairo_t *cairo) {
 
 static void draw_label(cairo_t *cairo, const SheetLayout *layout, const WeftPanel *panel, double x,
                        double y) {
-    double baseline = y + 1.35 * layout->type, room = layout->column_width;
+    double baseline = y + 1.35 * layout->type, width = layout->column_width;
     if (panel->title) {
         char line[TEXT_SIZE];
         set_font(cairo, layout->type, true);
-        const char *second = wrap(cairo, room, panel->title, line);
-        write_text(cairo, bright, x, baseline, room, line);
-        if (second) write_text(cairo, bright, x, baseline += 1.2 * layout->type, room, second);
+        const char *second = wrap(cairo, width, panel->title, line);
+        write_text(cairo, bright, x, baseline, width, line);
+        if (second) write_text(cairo, bright, x, baseline += 1.2 * layout->type, width, second);
     }
     if (!panel->note) return;
     set_font(cairo, note_size(layout), false);
-    double at = layout->stacked || !panel->title ? x : fmax(x, x + room - text_width(cairo, panel->note));
-    write_text(cairo, dim, at, baseline + (layout->stacked ? 1.2 * layout->type : 0.0), room, panel->note);
+    double at = layout->stacked || !panel->title ? x : fmax(x, x + width - text_width(cairo, panel->note));
+    write_text(cairo, dim, at, baseline + (layout->stacked ? 1.2 * layout->type : 0.0), width, panel->note);
 }
 
-/* A bar of the scale's colours from t = low to 1. */
+/* Draws a bar of the scale's colours from t = low to 1. */
 static void draw_bar(cairo_t *cairo, double left, double top, double width, double height, float low) {
     int steps = (int)width;
     for (int k = 0; k < steps; k++) {
@@ -128,7 +127,7 @@ static void draw_bar(cairo_t *cairo, double left, double top, double width, doub
     }
 }
 
-/* The colours of a map below its label. */
+/* Draws the colours of a map below its label. */
 static void draw_legend(cairo_t *cairo, const SheetLayout *layout, const WeftPanel *panel, double x,
                         double y) {
     double width = layout->column_width, height = 0.7 * layout->type;
@@ -147,7 +146,7 @@ static void draw_legend(cairo_t *cairo, const SheetLayout *layout, const WeftPan
     }
 }
 
-/* A bar in the middle of a panel, with words and numbers at its ends. */
+/* Draws a bar in the middle of a panel, with words and numbers at its ends. */
 static void draw_scale(cairo_t *cairo, const SheetLayout *layout, float scale, double x, double y) {
     double width = 0.7 * layout->column_width, height = 0.9 * layout->type;
     double left = x + 0.5 * (layout->column_width - width), top = y + 0.5 * (layout->image_height - height);
@@ -169,8 +168,7 @@ static void draw_scale(cairo_t *cairo, const SheetLayout *layout, float scale, d
     }
 }
 
-/* The pixels themselves, so that what is seen is what was rendered. RGB24: a 32-bit word a pixel, 0x00rrggbb.
- */
+/* Copies an image pixel by pixel, without resampling. RGB24 has a 32-bit word a pixel, 0x00rrggbb. */
 static void copy_image(const WeftImage *image, unsigned char *pixels, int stride, int x, int y) {
     const uint8_t *from = image->pixels;
     for (int row = 0; row < image->height; row++)
@@ -184,7 +182,7 @@ static void copy_image(const WeftImage *image, unsigned char *pixels, int stride
         }
 }
 
-/* Sets the corner of panel k. */
+/* Computes the corner of panel k. */
 static void panel_place(const SheetLayout *layout, int k, int *x, int *y) {
     *x = layout->margin + k % layout->columns * (layout->column_width + layout->gap);
     *y = layout->margin + layout->caption +

@@ -1,8 +1,8 @@
 /* slice.c - f over theta_h and theta_d at phi_d = 90 degrees
  *
- * The picture that says most of a measured BRDF at one glance: the mirror peak at the left, Fresnel's at the
- * top, the sheen at the right (Brent Burley, "Physically-Based Shading at Disney", 2012, section 3; angles:
- * Szymon Rusinkiewicz, "A New Change of Variables for Efficient BRDF Representation", 1998). */
+ * One slice shows the main features of a measured BRDF: the specular peak at the left, the Fresnel peak at the top, the
+ * sheen at the right (Brent Burley, "Physically-Based Shading at Disney", 2012, section 3; angles: Szymon Rusinkiewicz,
+ * "A New Change of Variables for Efficient BRDF Representation", 1998). */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,7 +13,8 @@
 enum { SIDE = 128, SIDE_QUICK = 48, WALKS = 128 };
 static int side_of(const Making *making) { return making->desc->quick ? SIDE_QUICK : SIDE; }
 
-/* h = (sin theta_h, 0, cos theta_h); wi and wo to both sides of the plane of h and the normal. */
+/* Computes wo and wi of a cell: h = (sin theta_h, 0, cos theta_h), and both lie on either side of the plane of h and
+ * the normal. */
 static void pair(int side, int row, int column, float wo[3], float wi[3]) {
     const double step = 0.5 * PI_DOUBLE / side, h = (column + 0.5) * step, d = (row + 0.5) * step;
     wi[0] = wo[0] = (float)(sin(h) * cos(d));
@@ -48,8 +49,8 @@ static int compare(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-/* Values above 0 of all panels that are a share of the way up; 0 where there are none. */
-static float share_of_all(const Making *making, double share) {
+/* Returns a quantile, 0 .. 1, of the positive values of all panels; 0 if there are none. */
+static float quantile_of_all(const Making *making, double quantile) {
     int count = 0, all = making->data->count * SIDE * SIDE * 3;
     float *sorted = arena_array(making->arena, (size_t)all, sizeof *sorted);
     if (!sorted) return 0.0f;
@@ -60,13 +61,13 @@ static float share_of_all(const Making *making, double share) {
     }
     if (count == 0) return 0.0f;
     qsort(sorted, (size_t)count, sizeof *sorted, compare);
-    return sorted[(int)(share * (count - 1))];
+    return sorted[(int)(quantile * (count - 1))];
 }
 
-/* One exposure for all, in whole stops, and one scale. */
+/* Sets one exposure, in whole stops, and one range for all panels. */
 static void set_ranges(Making *making) {
-    float middle = share_of_all(making, 0.8), least = share_of_all(making, 0.02),
-          most = share_of_all(making, 0.98);
+    float middle = quantile_of_all(making, 0.8), least = quantile_of_all(making, 0.02),
+          most = quantile_of_all(making, 0.98);
     float stops = middle > 0.0f ? fminf(fmaxf(roundf(log2f(0.5f / middle)), -12.0f), 12.0f) + 0.0f : 0.0f;
     double high = most > 0.0f ? ceil(log10((double)most)) : 0.0;
     double low = least > 0.0f ? fmax(floor(log10((double)least)), high - 5.0) : high - 3.0;

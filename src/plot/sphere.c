@@ -1,8 +1,8 @@
-/* sphere.c - a sphere in the light of one direction, as each model reflects it, and at other roughnesses;
- * what has none, as a measurement, in other lights
+/* sphere.c - spheres of each model under a directional light, as given and at other roughnesses; spheres of a model
+ * without a roughness, such as a measurement, under other lights
  *
- * Seen from far away; the light lies above to the left and gives pi of irradiance, so that white Lambert is 1
- * where it falls straight. The tangent runs around the sphere's upright axis. */
+ * The sphere is seen from far away. The light is above to the left and has irradiance pi, so that white Lambert is 1
+ * where the light is normal to the surface. The tangent runs around the sphere's vertical axis. */
 #include <math.h>
 #include <stdio.h>
 
@@ -13,7 +13,7 @@
 enum { SIDE = 144, SIDE_QUICK = 40, FINE = 2, ROUGHS = 6, CELLS = 1 + ROUGHS, WALKS = 12 };
 
 static const float roughs[ROUGHS] = {0.15f, 0.3f, 0.45f, 0.6f, 0.8f, 1.0f};
-/* what has no roughness is shown in other lights, degrees from the viewer */
+/* other lights for models without a roughness, degrees from the viewer */
 static const float lights[ROUGHS] = {0.0f, 25.0f, 75.0f, 100.0f, 125.0f, 150.0f};
 static const float backdrop = 0.02f;
 
@@ -27,7 +27,7 @@ typedef struct Ball {
 
 static float dot(const float a[3], const float b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-/* Radiance towards the viewer from where (x, y) of the unit disc is on the sphere. */
+/* Computes the radiance towards the viewer from the point of the sphere at (x, y) of the unit disc. */
 static void radiance(const Ball *ball, float x, float y, float color[3]) {
     const float view[3] = {0.0f, 0.0f, 1.0f};
     float n[3] = {x, y, sqrtf(fmaxf(1.0f - x * x - y * y, 0.0f))};
@@ -57,7 +57,7 @@ static void one_row(void *user, int row, int thread) {
                 radiance(ball, x, y, color);
             else
                 color[0] = color[1] = color[2] = backdrop;
-            /* what is brighter than 8 would leave jags at its edge */
+            /* pixels much brighter than white would have jagged edges */
             for (int c = 0; c < 3; c++) sum[c] += fminf(color[c], 8.0f) / (FINE * FINE);
         }
         float value = making_value(ball->making, sum);
@@ -74,7 +74,7 @@ static void set_light(Ball *ball, float angle) {
     ball->light[2] = (float)cos(radians);
 }
 
-/* One ball of a strip: the model as it is, then at other roughnesses or in other lights. */
+/* Draws one ball of a strip: the model as it is, then at other roughnesses or under other lights. */
 static void one_ball(Ball *ball, WeftPlotPanel *panel, const WeftPlotModel *model, int k, float angle) {
     Rough rough = {.reflection = NULL};
     bool rougher = k > 0 && rough_make(model, roughs[k - 1], &rough);

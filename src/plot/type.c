@@ -9,7 +9,7 @@ void set_font(cairo_t *cairo, double size, bool bold) {
     cairo_set_font_size(cairo, size);
 }
 
-/* The bytes of a well-formed UTF-8 sequence, or 0. Cairo takes nothing else. */
+/* Returns the length of a well-formed UTF-8 sequence, or 0. Cairo accepts only well-formed text. */
 static size_t utf8_length(const unsigned char *s) {
     static const unsigned least[5] = {0, 0, 0x80, 0x800, 0x10000};
     if (s[0] < 0x80) return 1;
@@ -45,10 +45,10 @@ double text_width(cairo_t *cairo, const char *text) {
     return extents.x_advance;
 }
 
-void write_text(cairo_t *cairo, const double color[3], double x, double y, double room, const char *text) {
+void write_text(cairo_t *cairo, const double color[3], double x, double y, double width, const char *text) {
     char line[TEXT_SIZE];
     drawable(text, line);
-    for (size_t length = strlen(line); length > 0 && text_width(cairo, line) > room;) {
+    for (size_t length = strlen(line); length > 0 && text_width(cairo, line) > width;) {
         do length--;
         while (length > 0 && ((unsigned char)line[length] & 0xc0) == 0x80);
         memcpy(line + length, "\xe2\x80\xa6", ELLIPSIS + 1);

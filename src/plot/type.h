@@ -1,4 +1,4 @@
-/* type.h - one line of text on a Cairo surface, whatever its bytes */
+/* type.h - one line of text on a Cairo surface, of any bytes */
 #ifndef WEFT_PLOT_TYPE_H
 #define WEFT_PLOT_TYPE_H
 
@@ -9,13 +9,13 @@ enum { TEXT_MAX = 256, ELLIPSIS = 3, TEXT_SIZE = TEXT_MAX + ELLIPSIS + 1 };
 
 void set_font(cairo_t *cairo, double size, bool bold);
 
-/* A copy of text fit to be drawn: at most TEXT_MAX bytes, without control characters and damage. */
+/* Copies text so that Cairo can draw it: at most TEXT_MAX bytes, without control characters and malformed UTF-8. */
 void drawable(const char *text, char line[TEXT_SIZE]);
 
 double text_width(cairo_t *cairo, const char *text);
 
-/* Writes text from x on; what does not fit into `room` ends in an ellipsis. */
-void write_text(cairo_t *cairo, const double color[3], double x, double y, double room, const char *text);
+/* Writes text from x on; a text wider than `width` is shortened with an ellipsis. */
+void write_text(cairo_t *cairo, const double color[3], double x, double y, double width, const char *text);
 
 /* Works as write_text, with x at `share` of the text's width: 0 is its left end, 0.5 its middle, 1 its right
  * end. */

@@ -11,13 +11,13 @@
 
 bool vector_append(Vector *vector, const void *bytes, size_t count) {
     if (vector->broken) return false;
-    if (!vector->text || vector->room - vector->size < count + 1) {
-        size_t room = 2 * (vector->room + count) + 4096;
-        char *more = realloc_array(vector->text, room, 1);
+    if (!vector->text || vector->capacity - vector->size < count + 1) {
+        size_t capacity = 2 * (vector->capacity + count) + 4096;
+        char *more = realloc_array(vector->text, capacity, 1);
         vector->broken = !more;
         if (!more) return false;
         vector->text = more;
-        vector->room = room;
+        vector->capacity = capacity;
     }
     memcpy(vector->text + vector->size, bytes, count);
     vector->size += count;
@@ -50,7 +50,7 @@ bool vector_escaped(Vector *vector, const char *text) {
     return true;
 }
 
-/* The number that follows in the order of appearance. */
+/* The names of an SVG in the order of appearance, which is their new number. */
 typedef struct Names {
     char seen[256][24];
     int count;
@@ -65,7 +65,8 @@ static int names_number(Names *names, const char *name, size_t length) {
     return ++names->count;
 }
 
-/* The length of a name that Cairo numbered, "surface17" or "image4", behind a quote or a hash; 0: none. */
+/* Returns the length of a name that Cairo numbered, such as "surface17" or "image4", and sets *word to that of the
+ * word; returns 0 if text does not begin with one. */
 static size_t numbered(const char *text, size_t *word) {
     static const char *const words[] = {"surface", "image", "mask", "clip", "pattern", "source"};
     for (size_t k = 0; k < sizeof words / sizeof *words; k++) {

@@ -1,4 +1,4 @@
-/* vector.h - files of lines: what Cairo writes, kept in memory and made the same in every run */
+/* vector.h - vector graphics files in memory, made reproducible */
 #ifndef WEFT_PLOT_VECTOR_H
 #define WEFT_PLOT_VECTOR_H
 
@@ -10,7 +10,7 @@
 /* Bytes that grow. Zero-initialise; release text with free. */
 typedef struct Vector {
     char *text;
-    size_t size, room;
+    size_t size, capacity;
     bool broken; /* memory was short */
 } Vector;
 
@@ -20,11 +20,12 @@ __attribute__((format(printf, 2, 3))) bool vector_print(Vector *vector, const ch
 /* Appends text with <, >, & and quotes escaped for HTML and XML. */
 bool vector_escaped(Vector *vector, const char *text);
 
-/* Cairo numbers surfaces through the life of a program: here they count from 1. A title for those who hear
- * rather than see is put in. */
+/* Renumbers the names in an SVG from 1, since Cairo counts surfaces over the life of a program, and inserts a title for
+ * screen readers. Returns false if memory is short. */
 bool vector_finish_svg(Vector *svg, const char *title);
 
-/* A figure of numbers that are there as SVG, and a file from bytes, whole or not at all. */
+/* Draws a figure from its numbers as SVG (plot_svg), and writes bytes as a file, complete or not at all
+ * (plot_write_bytes). */
 WeftResult plot_svg(const WeftPlotDesc *desc, const WeftPlotData *data, Vector *out, WeftError *error);
 WeftResult plot_write_bytes(const char *path, const Vector *bytes, WeftError *error);
 
