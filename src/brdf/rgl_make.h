@@ -26,8 +26,8 @@ bool rgl_make(const RglSource *source, const RglDesc *desc, Rgl *out);
 
 /* Subtracts h^2 f'' / 12 from every number of R along each of its four axes, where h is the step between nodes. Linear
  * interpolation of a function that is quadratic between nodes has the error h^2 f'' x (1 - x) / 2 at x in [0, 1] from
- * one node to the next, and thus h^2 f'' / 12 in the mean. The remaining error has mean 0 along each axis. Returns false if
- * memory is short. */
+ * one node to the next, and thus h^2 f'' / 12 in the mean. The remaining error has mean 0 along each axis. Returns
+ * false if memory is short. */
 bool rgl_sharpen(Rgl *rgl);
 
 #endif
