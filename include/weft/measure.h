@@ -97,8 +97,8 @@ typedef struct WeftPassport {
     long long half_count, half_bad; /* without floors, over all rows */
     int half_floor[WEFT_PASSPORT_ROWS];
     WeftPlace half_place; /* a pair that no floor makes finite; all 0 where there is none */
-    /* As the parameter decreases from its plausible high end to its hard low end: the least value down to which a
-     * floor keeps all finite, whether that is the hard end, and the exponent of the smallest such floor; 0: none. */
+    /* The parameter decreases from its plausible high end to its hard low end. These are the least value down to which
+     * a floor keeps all finite, whether that is the hard end, and the exponent of the smallest such floor; 0: none. */
     float half_parameter;
     int half_whole, half_cosine;
     /* For each row, of 4,096 pairs with both cosines at least 0.1: the fraction where f is 0 in half but not in

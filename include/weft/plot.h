@@ -108,7 +108,7 @@ enum { WEFT_PLOT_FIGURES_MAX = 6, WEFT_PLOT_MARKS_MAX = 4, WEFT_PLOT_LEGEND_MAX 
 /* A place on the x axis with a name: the mirror direction, a view. */
 typedef struct WeftPlotMark {
     char label[16]; /* the name shown beside the mark */
-    float x;        /* its place */
+    float x;        /* place on the axis */
 } WeftPlotMark;
 
 /* One panel of a figure. */

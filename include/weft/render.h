@@ -64,7 +64,7 @@ typedef struct WeftRenderDesc {
     int first_hits; /* not 0: albedo, normal and depth are recorded, which weft_render_denoised needs too */
     float noise;    /* weft_render_run stops when the estimated relMSE is at most this; 0: it does not */
     int stages;     /* not 0: stages are timed for weft_render_stage */
-    /* not 0: rays start on the flat triangles and not on the smooth surface that their normals describe, so that
+    /* not 0: light and rays meet the flat triangles and not the smooth surface that their normals describe, so that
      * coarse meshes are dark where light grazes them; to show the effect of the shading-terminator offset */
     int no_lift;
 } WeftRenderDesc;

@@ -111,7 +111,7 @@ typedef enum WeftMessage {
 
 /* One failure: its message, and one line of text without a newline at its end. */
 typedef struct WeftError {
-    WeftResult result;   /* that the call returned */
+    WeftResult result;   /* result of the call */
     WeftMessage message; /* the reason */
     char text[512];      /* "subject: text: detail", UTF-8 */
 } WeftError;
