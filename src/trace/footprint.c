@@ -6,8 +6,8 @@
  * normal n. Homan Igehy, "Tracing Ray Differentials", SIGGRAPH 1999, Equation 10, without its changes of direction. A
  * camera ray is as wide as its pixel. A scattered ray is a cone: each of SCATTERED directions drawn with the density p
  * covers 1 / (SCATTERED p) of the sphere. */
-#include "shading/stack/frame.h"
 #include "shading/dialect/loop.h"
+#include "shading/stack/frame.h"
 #include "trace/chunk.h"
 #include "trace/sampler.h"
 

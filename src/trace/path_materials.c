@@ -1,8 +1,8 @@
 #include "trace/path_materials.h"
 
-#include "scene/material_at.h"
-#include "scene/polygons.h"
-#include "shading/frame.h"
+#include "scene/light/polygons.h"
+#include "scene/record/material_at.h"
+#include "shading/stack/frame.h"
 
 static void prepare(const WeftScene *scene, const Material *material, TableRef sheen_e,
                     PathMaterial *prepared) {

@@ -2,7 +2,7 @@
 #ifndef WEFT_TRACE_PATH_MATERIALS_H
 #define WEFT_TRACE_PATH_MATERIALS_H
 
-#include "scene/sheen_tables.h"
+#include "scene/light/sheen_tables.h"
 #include "trace/path_context.h"
 
 /* Returns the scene's materials in their order, an array that the caller frees; NULL if memory is short. Their sheen_e

@@ -7,8 +7,8 @@
 #include "base/steady_clock.h"
 #include "base/thread.h"
 #include "scene/light/backdrop.h"
-#include "scene/record/camera.h"
 #include "scene/light/polygons.h"
+#include "scene/record/camera.h"
 #include "trace/path_materials.h"
 #include "trace/tile.h"
 

@@ -1,6 +1,6 @@
 #include "trace/tile.h"
 
-#include "scene/backdrop.h"
+#include "scene/light/backdrop.h"
 
 /* Adds the background along a camera ray: colour and coverage. */
 static void add_background(const TracedPicture *picture, Vec3 direction, float *sum) {

@@ -256,7 +256,7 @@ static void an_upward_include_is_found(void **state) {
     assert_false(wrong_include(catalogue, "#include \"shading/lobes.gen.h\"\n", bad));
     assert_true(wrong_include(catalogue, "#include \"shading/material/compose.h\"\n", bad));
     assert_false(wrong_include(image, "#include \"codec.h\"\n", bad));
-    assert_true(wrong_include(image, "#include \"../scene/scene.h\"\n", bad));
+    assert_true(wrong_include(image, "#include \"../scene/record/scene.h\"\n", bad));
     assert_true(wrong_include(image, "#include \"nowhere/x.h\"\n", bad));
     assert_false(wrong_include(verbs, "#include \"cli/console/options.h\"\n#include \"weft/weft.h\"\n", bad));
     assert_true(wrong_include(verbs, "#include \"base/fail.h\"\n", bad));
