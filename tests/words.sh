@@ -48,6 +48,10 @@ check 'a function whose name is a participle' \
 check 'a message that is no plain English' \
     '"[^"]*(can(not)? be (had|meant)|in vain|that there is not|not asked for|gave out|tells all|there is none)[^"]*"'
 
+# A comment above a function begins with a verb.
+hit=$(sources | xargs perl tests/verbs.pl || true)
+[ -z "$hit" ] || found "$hit"
+
 # A header has a name of its own, but for a lobe or model beside its table of numbers.
 twice=$(find src -name '*.h' ! -path '*/tables/*' -exec basename {} \; | sort | uniq -d)
 [ -z "$twice" ] || found "two headers of one name: $twice"
