@@ -288,7 +288,7 @@ static AmbientTable table_of(Baked *baked, int slot, const Lobe *lobe) {
     ambient_fit(&baked->fit, lobe, lobe->params[0], lobe->params[0], 1);
     ambient_bake(&baked->fit, baked->polynomials + slot * AMBIENT_BAKED);
     t.focus = baked->fit.finest > AMBIENT_CLOSE - AMBIENT_BLEND;
-    t.turning = baked->fit.turning;
+    t.turning = baked->fit.by_azimuth;
     t.strips = lobe_names(lobe->id)->strips;
     t.lossless = false;
     t.baked = slot * AMBIENT_BAKED;
@@ -377,7 +377,7 @@ static int best_of(int model, int r) {
     Stack m = model_stack(model, 0.1f * (float)(r + 1), dir(0.0f, 0.0f, 1.0f), NULL).stack;
     Lobe lobe = HAS_SHEEN(&m) ? m.sheen.lobe : m.specular.lobe;
     ambient_fit(&fit, &lobe, lobe.params[0], lobe.params[0], 0);
-    return ambient_strategy(lobe.id, fit.turning, fit.denser > AMBIENT_DENSER);
+    return ambient_strategy(lobe.id, fit.by_azimuth, fit.denser > AMBIENT_DENSER);
 }
 
 static bool by_row; /* one line a roughness */

@@ -70,7 +70,7 @@ static void even_environment_returns_the_albedo(void **state) {
     for (int id = 0; id < LOBE_COUNT; id++) {
         if (!asked(id) || !test_turn(&at, 1, 7)) continue;
         fit(&table, id);
-        int headings = table.turning ? AMBIENT_HEADINGS : 1;
+        int headings = table.by_azimuth ? AMBIENT_HEADINGS : 1;
         for (int plane = 0; plane < headings * AMBIENT_PLANES; plane++)
             for (int row = 0; row < table.rows; row++)
                 for (int column = 0; column < AMBIENT_COLUMNS; column++) {
@@ -508,13 +508,13 @@ static void stretched_terms_are_sampled(void **state) {
     static AmbientFit table;
     Lobe lobe = lobe_rough(LOBE_COOK_TORRANCE, 0.3f);
     ambient_fit(&table, &lobe, lobe.params[0], lobe.params[0], 0);
-    assert_false(table.turning);
-    assert_int_equal(ambient_strategy(lobe.id, table.turning, false), AMBIENT_FITTED);
+    assert_false(table.by_azimuth);
+    assert_int_equal(ambient_strategy(lobe.id, table.by_azimuth, false), AMBIENT_FITTED);
     lobe.params[COOK_TORRANCE_STRETCH] = 5.0f;
     lobe.params[COOK_TORRANCE_D] = to_float(D_GGX_ANISO);
     ambient_fit(&table, &lobe, lobe.params[0], lobe.params[0], 0);
-    assert_true(table.turning);
-    assert_int_equal(ambient_strategy(lobe.id, table.turning, false), AMBIENT_SAMPLED);
+    assert_true(table.by_azimuth);
+    assert_int_equal(ambient_strategy(lobe.id, table.by_azimuth, false), AMBIENT_SAMPLED);
 }
 
 static void sharp_environment_is_within_the_stated_error(void **state) {

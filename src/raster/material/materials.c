@@ -113,10 +113,10 @@ static bool add_fits(GlMaterial *self, const Material *material, const WeftCloth
         if (!baked->made || !ambient_alike(&baked->lobe, lobe)) {
             ambient_fit(fit, lobe, lobe->params[0], lobe->params[0], threads);
             ambient_bake(fit, uniforms->fits + k * AMBIENT_BAKED);
-            *baked = (MaterialFit){true, fit->turning, fit->denser > AMBIENT_DENSER, fit->finest, *lobe};
+            *baked = (MaterialFit){true, fit->by_azimuth, fit->denser > AMBIENT_DENSER, fit->finest, *lobe};
         }
         self->finest[k] = baked->finest;
-        self->key.turning |= baked->turning << k;
+        self->key.turning |= baked->by_azimuth << k;
         self->key.dense |= baked->dense << k;
     }
     free(fit);

@@ -11,9 +11,9 @@
 
 /* The table of a slot that is baked in the uniforms, or was when the slot last asked for one. */
 typedef struct MaterialFit {
-    bool made, turning; /* as AmbientFit has it */
-    bool dense;         /* true if the fit's `denser` exceeds AMBIENT_DENSER */
-    float finest;       /* as AmbientFit has it */
+    bool made, by_azimuth; /* as AmbientFit has it */
+    bool dense;            /* true if the fit's `denser` exceeds AMBIENT_DENSER */
+    float finest;          /* as AmbientFit has it */
     Lobe lobe;
 } MaterialFit;
 

@@ -1,163 +1,200 @@
+/* ambient_fit.c - fits the weights of a lobe's look-ups, its mean direction and its width, at every node of a table
+ *
+ * The weights w_k >= 0 make sum_k w_k (look-up k of L) as close as possible to the light that a lobe reflects, in the
+ * mean square over environments L. With G_k the filter of look-up k, the error in one environment is
+ *
+ *   integral of L (f cos - sum_k w_k G_k)
+ *
+ * If L is rotated at random, the mean of L(x) L(y) is sum_l (2l + 1) / (4 pi) C_l P_l(x . y), with the spectrum C_l of
+ * L and the Legendre polynomials P_l. So the mean square of the error is
+ *
+ *   w^T A w - 2 w^T b + const
+ *   A_jk = sum_l (2l + 1) / (4 pi) C_l a_jl a_kl P_l(axis_j . axis_k)
+ *   b_k  = integral of f cos(i) S_k(i . axis_k),   S_k(mu) = sum_l (2l + 1) / (4 pi) C_l a_kl P_l(mu)
+ *
+ * where a_kl are the Legendre coefficients of G_k about its axis. C_l falls as (l + 1)^-2.5: Ron Dror,
+ * Alan Willsky, Edward Adelson, "Statistical Characterization of Real-World Illumination", Journal of Vision 4(9),
+ * 2004, find powers between 2 and 3. */
 #include "shading/ambient/ambient_fit.h"
 
 #include "base/matrix.h"
 #include "base/thread.h"
 
-/* Wanted: w >= 0 that makes least, on average over environments, the square of
- *
- *   integral of L (f cos - sum_k w_k G_k)
- *
- * An environment turned at random has E[L(x) L(y)] = sum_l (2l + 1) / (4 pi) C_l P_l(x . y), so that is
- *
- *   w^T A w - 2 w^T b + const,   b_k = integral of f cos S_k(i . axis_k),  A_jk = sum_l C_l a_jl a_kl Q_l
- *   S_k(mu) = sum_l (2l + 1) / (4 pi) C_l a_kl P_l(mu),                    Q_l = (2l + 1) / (4 pi) P_l(axes)
- *
- * with a_kl the Legendre coefficients of G_k about its axis. C_l falls as (l + 1)^-2.5: Ron Dror, Alan
- * Willsky, Edward Adelson, "Statistical Characterization of Real-World Illumination", Journal of Vision 4(9),
- * 2004, find powers between 2 and 3. */
-enum { PLANE_AXIS = 4 * AMBIENT_GROUP_SHAPE, PLANE_KAPPA, PLANE_TAIL, PLANE_DENSE };
-enum { BANDS = 24, GRAIN = 256, KERNELS = 3, ATOMS = 4, SAMPLES = 1024 };
+enum { PLANE_AXIS = 4 * AMBIENT_GROUP_SHAPE, PLANE_KAPPA, PLANE_TAIL, PLANE_DENSITY };
+enum { LOOKUPS = 4, BANDS = 24, STEPS = 256, SAMPLES = 1024 };
 
-typedef struct FitKernel {
-    double a[BANDS];
-    double s[GRAIN + 1]; /* S over mu, even from -1 to 1 */
-} FitKernel;
+/* A look-up of the residual; one with two axes is the mean of both. */
+typedef struct Lookup {
+    double kappa; /* 0: a cosine */
+    int axes;
+    Dir axis[2]; /* x towards wo */
+} Lookup;
 
-typedef struct Atom {
-    int kernel, axes; /* with two axes each has half of the weight */
-    Dir axis[2];
-} Atom;
+/* The look-ups of ambient_residual_lookups. */
+static const Lookup lookups[LOOKUPS] = {
+    {0.0, 1, {{AMBIENT_AXIS_0}}},
+    {AMBIENT_KAPPA_1, 2, {{AMBIENT_AXIS_1_LEFT}, {AMBIENT_AXIS_1_RIGHT}}},
+    {AMBIENT_KAPPA_2, 1, {{AMBIENT_AXIS_2}}},
+    {AMBIENT_KAPPA_3, 2, {{AMBIENT_AXIS_3_LEFT}, {AMBIENT_AXIS_3_RIGHT}}},
+};
+
+/* The filter G of a look-up. */
+typedef struct Filter {
+    double a[BANDS];     /* Legendre coefficients, for a mean of 1 */
+    double s[STEPS + 1]; /* S at even steps of mu from -1 to 1 */
+} Filter;
 
 typedef struct Fitter {
-    FitKernel kernels[KERNELS];
-    double a[ATOMS][ATOMS];
+    Filter filters[LOOKUPS];
+    double a[LOOKUPS][LOOKUPS]; /* A */
     AmbientFit *fit;
 } Fitter;
 
-/* The directions and widths of the look-ups of ambient_broad_light. */
-static const Atom atoms[ATOMS] = {
-    {2, 1, {{0.0f, 0.0f, 1.0f}}},
-    {1, 2, {{0.612372436f, 0.612372436f, 0.5f}, {0.612372436f, -0.612372436f, 0.5f}}},
-    {0, 1, {{-0.866025404f, 0.0f, 0.5f}}},
-    {0, 2, {{-0.696364240f, 0.696364240f, 0.173648178f}, {-0.696364240f, -0.696364240f, 0.173648178f}}}};
-
-/* P_0 .. P_(BANDS - 1) of mu. */
+/* Fills p with P_0 to P_(BANDS - 1) of mu. */
 static void legendre(double mu, double p[BANDS]) {
     p[0] = 1.0;
     p[1] = mu;
     for (int l = 2; l < BANDS; l++) p[l] = ((2 * l - 1) * mu * p[l - 1] - (l - 1) * p[l - 2]) / l;
 }
 
+/* Returns (2l + 1) / (4 pi) C_l. */
 static double band_weight(int l) { return (2 * l + 1) / 12.5663706143592 * (pow)(l + 1.0, -2.5); }
 
-/* The concentrations of the look-ups of ambient_residual. */
-static const double kappas[KERNELS] = {12.5, 3.125, 0.0};
-static double weight_at(double kappa, double mu) {
+static double filter_at(double kappa, double mu) {
     return kappa > 0.0 ? (exp)(kappa * (mu - 1.0)) : fmax(mu, 0.0);
 }
 
-static void make_kernel(FitKernel *kernel, double kappa) {
-    enum { STEPS = 2000 };
+static void make_filter(Filter *filter, double kappa) {
+    enum { NODES = 2000 }; /* of the quadrature */
     double p[BANDS], sum = 0.0;
-    for (int k = 0; k < STEPS; k++) {
-        double mu = 2.0 * (k + 0.5) / STEPS - 1.0, w = weight_at(kappa, mu);
+    for (int k = 0; k < NODES; k++) {
+        double mu = 2.0 * (k + 0.5) / NODES - 1.0, g = filter_at(kappa, mu);
         legendre(mu, p);
-        sum += w;
-        for (int l = 0; l < BANDS; l++) kernel->a[l] += w * p[l];
+        sum += g;
+        for (int l = 0; l < BANDS; l++) filter->a[l] += g * p[l];
     }
-    for (int l = 0; l < BANDS; l++) kernel->a[l] /= sum;
-    for (int k = 0; k <= GRAIN; k++) {
-        legendre(2.0 * k / GRAIN - 1.0, p);
-        for (int l = 0; l < BANDS; l++) kernel->s[k] += band_weight(l) * kernel->a[l] * p[l];
+    for (int l = 0; l < BANDS; l++) filter->a[l] /= sum;
+    for (int k = 0; k <= STEPS; k++) {
+        legendre(2.0 * k / STEPS - 1.0, p);
+        for (int l = 0; l < BANDS; l++) filter->s[k] += band_weight(l) * filter->a[l] * p[l];
     }
 }
 
-static double kernel_at(const FitKernel *kernel, double mu) {
-    double x = fmin(fmax(0.5 * (mu + 1.0), 0.0), 1.0) * GRAIN;
-    int k = x < GRAIN - 1 ? (int)x : GRAIN - 1;
-    return kernel->s[k] + (kernel->s[k + 1] - kernel->s[k]) * (x - k);
+/* Returns S at mu, linear between steps. */
+static double s_at(const Filter *filter, double mu) {
+    double x = fmin(fmax(0.5 * (mu + 1.0), 0.0), 1.0) * STEPS;
+    int k = x < STEPS - 1 ? (int)x : STEPS - 1;
+    return filter->s[k] + (filter->s[k + 1] - filter->s[k]) * (x - k);
 }
 
-static double product(const Fitter *fitter, const Atom *x, const Atom *y) {
+/* Returns A_mn, the mean over the axes of look-ups m and n. */
+static double a_of(const Fitter *fitter, int m, int n) {
+    const Lookup *x = &lookups[m], *y = &lookups[n];
     double p[BANDS], sum = 0.0;
     for (int j = 0; j < x->axes; j++)
         for (int k = 0; k < y->axes; k++) {
             legendre((double)dir_dot(x->axis[j], y->axis[k]), p);
             for (int l = 0; l < BANDS; l++)
-                sum +=
-                    band_weight(l) * fitter->kernels[x->kernel].a[l] * fitter->kernels[y->kernel].a[l] * p[l];
+                sum += band_weight(l) * fitter->filters[m].a[l] * fitter->filters[n].a[l] * p[l];
         }
     return sum / (x->axes * y->axes);
 }
 
-/* The light that a lobe reflects from one wo, as weighted directions with x towards wo. */
-typedef struct Cloud {
+/* The light that a lobe reflects from one wo, as weighted directions: a mean over them stands for the integral of f
+ * cos. */
+typedef struct Reflected {
     int count;
-    Dir i[SAMPLES];
-    float w[2][SAMPLES]; /* of the first colour and of the second */
-    double e[2];
-    double dense; /* mean of log2(f cos_i) over all that is sent on */
-} Cloud;
+    Dir i[SAMPLES];      /* x towards wo */
+    float w[2][SAMPLES]; /* weights, of the first colour and of the second */
+    double e[2];         /* E: the sums of the weights */
+    double log2_density; /* mean of log2(f cos_i) over the reflected light */
+} Reflected;
 
-/* The bits of k mirrored behind the point, for Hammersley's points. J. M. Hammersley, "Monte Carlo Methods
- * for Solving Multivariable Problems", 1960. */
-static float mirrored(uint32_t k) {
+/* Returns k with its binary digits mirrored at the point, the second coordinate of Hammersley's points. J. M.
+ * Hammersley, "Monte Carlo Methods for Solving Multivariable Problems", 1960. */
+static float radical_inverse(uint32_t k) {
     float x = 0.0f;
     for (float place = 0.5f; k; k >>= 1, place *= 0.5f)
         if (k & 1) x += place;
     return x;
 }
 
-/* Seen at that azimuth, and, where the lobe turns, half of it at the opposite one: a table knows only the cosine of
- * the azimuth, and a lobe need not be the same on both sides, as a yarn that runs athwart is not. */
-static void make_cloud(Cloud *cloud, const Lobe *lobe, float cos_o, float azimuth, bool turning) {
-    const float s = sqrt(max(1.0f - cos_o * cos_o, 0.0f)), tx = cos(azimuth), side = sin(azimuth);
-    cloud->count = 0;
-    cloud->e[0] = cloud->e[1] = cloud->dense = 0.0;
+/* Samples the light that a lobe reflects from wo. azimuth: of wo. If the lobe depends on it, half of the samples are
+ * for the opposite azimuth: tables are read by its cosine, and a lobe may differ between both sides, as a yarn across
+ * wo does. */
+static void reflect(Reflected *light, const Lobe *lobe, float cos_o, float azimuth, bool by_azimuth) {
+    const float sin_o = sqrt(max(1.0f - cos_o * cos_o, 0.0f)), tx = cos(azimuth), side = sin(azimuth);
+    light->count = 0;
+    light->e[0] = light->e[1] = light->log2_density = 0.0;
     for (int k = 0; k < SAMPLES; k++) {
-        const float ty = turning && k & 1 ? -side : side;
-        Dir o = dir(s * tx, s * ty, cos_o);
-        Dir i = lobe_sample(lobe, o, ((float)k + 0.5f) / SAMPLES, mirrored((uint32_t)(turning ? k / 2 : k)));
+        const float ty = by_azimuth && k & 1 ? -side : side;
+        const int pair = by_azimuth ? k / 2 : k;
+        Dir o = dir(sin_o * tx, sin_o * ty, cos_o);
+        Dir i = lobe_sample(lobe, o, ((float)k + 0.5f) / SAMPLES, radical_inverse((uint32_t)pair));
         if (!(i.z > 0.0f)) continue;
         LobeValue value = lobe_value(lobe, angles_between(o, i));
         if (!(value.pdf > 0.0f)) continue;
         float w = value.f * i.z / (value.pdf * SAMPLES);
-        int n = cloud->count++;
-        cloud->i[n] = dir(i.x * tx + i.y * ty, i.y * tx - i.x * ty, i.z);
-        cloud->w[0][n] = w * (1.0f - fresnel_weight_plain(value.s));
-        cloud->w[1][n] = w * fresnel_weight_plain(value.s);
-        for (int c = 0; c < 2; c++) cloud->e[c] += (double)cloud->w[c][n];
-        cloud->dense += (double)(w * log2(max(value.f * i.z, 1e-30f)));
+        int n = light->count++;
+        light->i[n] = dir(i.x * tx + i.y * ty, i.y * tx - i.x * ty, i.z);
+        light->w[0][n] = w * (1.0f - fresnel_weight_plain(value.s));
+        light->w[1][n] = w * fresnel_weight_plain(value.s);
+        for (int c = 0; c < 2; c++) light->e[c] += (double)light->w[c][n];
+        light->log2_density += (double)(w * log2(max(value.f * i.z, 1e-30f)));
     }
-    cloud->dense /= fmax(cloud->e[0] + cloud->e[1], 1e-30);
+    light->log2_density /= fmax(light->e[0] + light->e[1], 1e-30);
 }
 
-/* The least of w^T A w - 2 w^T b over w >= 0, one after the other until none moves; then their sum is made e.
- * C. L. Lawson, R. J. Hanson, "Solving Least Squares Problems", 1974, chapter 23, has the problem. */
-static void solve(const Fitter *fitter, const double b[ATOMS], double e, double w[ATOMS]) {
+/* Sets b of both colours. */
+static void fill_b(const Fitter *fitter, const Reflected *light, double b[2][LOOKUPS]) {
+    memset(b, 0, 2 * sizeof b[0]);
+    for (int n = 0; n < light->count; n++)
+        for (int k = 0; k < LOOKUPS; k++) {
+            double s = 0.0;
+            for (int j = 0; j < lookups[k].axes; j++)
+                s += s_at(&fitter->filters[k], (double)dir_dot(lookups[k].axis[j], light->i[n]));
+            for (int c = 0; c < 2; c++) b[c][k] += (double)light->w[c][n] * s / lookups[k].axes;
+        }
+}
+
+/* Sets w to the least of w^T A w - 2 w^T b over w >= 0, then scales it to the sum e. One weight after the other is set
+ * to its best value until none changes. C. L. Lawson, R. J. Hanson, "Solving Least Squares Problems", 1974, chapter 23,
+ * has the problem. */
+static void solve(const Fitter *fitter, const double b[LOOKUPS], double e, double w[LOOKUPS]) {
     double sum = 0.0, moved = 1.0;
-    for (int k = 0; k < ATOMS; k++) w[k] = e / ATOMS;
+    for (int k = 0; k < LOOKUPS; k++) w[k] = e / LOOKUPS;
     for (int round = 0; round < 2000 && moved > 1e-9 * e; round++) {
         moved = 0.0;
-        for (int k = 0; k < ATOMS; k++) {
+        for (int k = 0; k < LOOKUPS; k++) {
             double rest = b[k];
-            for (int j = 0; j < ATOMS; j++) rest -= j == k ? 0.0 : fitter->a[k][j] * w[j];
+            for (int j = 0; j < LOOKUPS; j++) rest -= j == k ? 0.0 : fitter->a[k][j] * w[j];
             double x = fmax(rest / fitter->a[k][k], 0.0);
             moved = fmax(moved, fabs(x - w[k]));
             w[k] = x;
         }
     }
-    for (int k = 0; k < ATOMS; k++) sum += w[k];
-    for (int k = 0; k < ATOMS; k++) w[k] = sum > 0.0 ? w[k] * e / sum : e / ATOMS;
+    for (int k = 0; k < LOOKUPS; k++) sum += w[k];
+    for (int k = 0; k < LOOKUPS; k++) w[k] = sum > 0.0 ? w[k] * e / sum : e / LOOKUPS;
 }
 
-/* 1 - mu about the axis within which that part of the cloud is. */
-static double cloud_within(const Cloud *cloud, Dir axis, double part) {
+/* Returns the mean direction of the light, within the plane of wo. */
+static Dir mean_direction(const Reflected *light) {
+    Dir mean = dir(0.0f, 0.0f, 1e-20f);
+    for (int n = 0; n < light->count; n++) {
+        float w = light->w[0][n] + light->w[1][n];
+        mean = dir(mean.x + w * light->i[n].x, mean.y, mean.z + w * light->i[n].z);
+    }
+    float r = 1.0f / sqrt(mean.x * mean.x + mean.z * mean.z);
+    return dir(mean.x * r, 0.0f, mean.z * r);
+}
+
+/* Returns the 1 - mu about the axis within which that part of the light is. */
+static double distance_of_part(const Reflected *light, Dir axis, double part) {
     enum { BINS = 96 }; /* four an octave, from 2^-22 up */
     double bins[BINS] = {0}, all = 0.0, sum = 0.0;
-    for (int n = 0; n < cloud->count; n++) {
-        double t = fmax(1.0 - (double)dir_dot(axis, cloud->i[n]), 0x1p-22);
-        double w = (double)cloud->w[0][n] + (double)cloud->w[1][n];
+    for (int n = 0; n < light->count; n++) {
+        double t = fmax(1.0 - (double)dir_dot(axis, light->i[n]), 0x1p-22);
+        double w = (double)light->w[0][n] + (double)light->w[1][n];
         int bin = (int)(4.0f * (log2((float)t) + 22.0f));
         bins[bin < BINS - 1 ? bin : BINS - 1] += w;
         all += w;
@@ -168,68 +205,73 @@ static double cloud_within(const Cloud *cloud, Dir axis, double part) {
     return (double)exp2((float)(0.25 * (k + rest) - 22.0));
 }
 
-/* A node of a plane. */
-static float *entry(AmbientFit *fit, int heading, int plane, int row, int column) {
-    return &fit->texels[(heading * AMBIENT_PLANES + plane) * fit->rows + row][column];
+/* A node of a table. */
+typedef struct Node {
+    int heading, row, column;
+} Node;
+
+static float *entry(AmbientFit *fit, Node at, int plane) {
+    return &fit->texels[(at.heading * AMBIENT_PLANES + plane) * fit->rows + at.row][at.column];
 }
 
-/* Half of what exp(kappa (mu - 1)) weighs is within kappa (1 - mu) = ln 2, and three quarters within twice
- * that, of ggx within thrice. Of its density, the mean of the logarithm by
- * itself is ln(kappa / (2 pi e)). */
-static void fit_width(AmbientFit *fit, const Cloud *cloud, Dir axis, int row, int column, int heading) {
-    if (!(cloud->e[0] + cloud->e[1] > 0.0)) return; /* there is nothing to be narrow */
-    double half = cloud_within(cloud, axis, 0.5), more = cloud_within(cloud, axis, 0.75);
-    double e = cloud->e[0] + cloud->e[1];
-    *entry(fit, heading, PLANE_AXIS, row, column) = axis.x;
-    *entry(fit, heading, PLANE_KAPPA, row, column) = log2((float)(0.693147180559945 / half));
-    *entry(fit, heading, PLANE_TAIL, row, column) = (float)fmin(fmax(more / half - 2.0, 0.0), 1.0);
-    *entry(fit, heading, PLANE_DENSE, row, column) =
-        (float)cloud->dense + log2((float)(17.0794684453471 / e));
+/* Sets the planes of the lobe's shape; a lobe that reflects nothing has none. exp(kappa (mu - 1)) has half of its
+ * weight within kappa (1 - mu) = ln 2, and three quarters within twice that. ggx has three quarters within three times
+ * its half: the tail is 0 for twice and 1 for three times. The density of exp(kappa (mu - 1)), scaled to a sum of 1,
+ * has a logarithm of ln(kappa / (2 pi e)) on the mean over itself; 2 pi e = 17.079... */
+static void fit_shape(AmbientFit *fit, const Reflected *light, Node at) {
+    double e = light->e[0] + light->e[1];
+    if (!(e > 0.0)) return;
+    Dir axis = mean_direction(light);
+    double half = distance_of_part(light, axis, 0.5), more = distance_of_part(light, axis, 0.75);
+    *entry(fit, at, PLANE_AXIS) = axis.x;
+    *entry(fit, at, PLANE_KAPPA) = log2((float)(0.693147180559945 / half));
+    *entry(fit, at, PLANE_TAIL) = (float)fmin(fmax(more / half - 2.0, 0.0), 1.0);
+    *entry(fit, at, PLANE_DENSITY) = (float)light->log2_density + log2((float)(17.0794684453471 / e));
 }
 
-static void fit_node(const Fitter *fitter, Cloud *cloud, int row, int column, int heading) {
+/* Sets the planes of the weights and of E. */
+static void fit_weights(const Fitter *fitter, const Reflected *light, Node at) {
+    AmbientFit *fit = fitter->fit;
+    double b[2][LOOKUPS], w[LOOKUPS];
+    fill_b(fitter, light, b);
+    solve(fitter, b[0], light->e[0], w);
+    for (int k = 1; k < LOOKUPS; k++) {
+        double part = light->e[0] > 0.0 ? w[k] / light->e[0] : 1.0 / LOOKUPS;
+        *entry(fit, at, 4 * AMBIENT_GROUP_FIRST + k - 1) = (float)part;
+    }
+    *entry(fit, at, AMBIENT_PLANE_E) = (float)light->e[0];
+    solve(fitter, b[1], light->e[1], w);
+    for (int k = 0; k < LOOKUPS; k++) *entry(fit, at, 4 * AMBIENT_GROUP_SECOND + k) = (float)w[k];
+    *entry(fit, at, AMBIENT_PLANE_E_SECOND) = (float)light->e[1];
+}
+
+/* Returns the number of headings that have entries. */
+static int heading_count(const AmbientFit *fit) { return fit->by_azimuth ? AMBIENT_HEADINGS : 1; }
+
+/* Returns the square root of cos_o at a column. */
+static float root_cos_at(int column) {
+    float y = 1.0f - (float)column / (AMBIENT_COLUMNS - 1);
+    return 1.0f - y * y;
+}
+
+static void fit_node(const Fitter *fitter, Reflected *light, Node at) {
     AmbientFit *fit = fitter->fit;
     Lobe lobe = fit->lobe;
-    float root = fit->root_low, y = 1.0f - (float)column / (AMBIENT_COLUMNS - 1);
-    float x = 1.0f - y * y;
-    if (fit->rows > 1) root = mix(root, fit->root_high, (float)row / (AMBIENT_ROWS - 1));
+    float root = fit->root_low, x = root_cos_at(at.column);
+    if (fit->rows > 1) root = mix(root, fit->root_high, (float)at.row / (AMBIENT_ROWS - 1));
     if (weft_lobe_info(lobe.id)->param_count > 0) lobe_set(&lobe, 0, root * root);
-    make_cloud(cloud, &lobe, max(x * x, 1e-4f), (float)heading * 0.25f * PI, fit->turning);
-    Dir mean = dir(0.0f, 0.0f, 1e-20f);
-    double b[2][ATOMS] = {{0.0}};
-    for (int n = 0; n < cloud->count; n++) {
-        float w = cloud->w[0][n] + cloud->w[1][n];
-        mean = dir(mean.x + w * cloud->i[n].x, mean.y, mean.z + w * cloud->i[n].z);
-        for (int k = 0; k < ATOMS; k++) {
-            double s = 0.0;
-            for (int j = 0; j < atoms[k].axes; j++)
-                s += kernel_at(&fitter->kernels[atoms[k].kernel],
-                               (double)dir_dot(atoms[k].axis[j], cloud->i[n]));
-            for (int c = 0; c < 2; c++) b[c][k] += (double)cloud->w[c][n] * s / atoms[k].axes;
-        }
-    }
-    float r = 1.0f / sqrt(mean.x * mean.x + mean.z * mean.z);
-    Dir axis = dir(mean.x * r, 0.0f, mean.z * r);
-    double w[ATOMS];
-    solve(fitter, b[0], cloud->e[0], w);
-    for (int k = 1; k < ATOMS; k++) {
-        double part = cloud->e[0] > 0.0 ? w[k] / cloud->e[0] : 1.0 / ATOMS;
-        *entry(fit, heading, 4 * AMBIENT_GROUP_FIRST + k - 1, row, column) = (float)part;
-    }
-    *entry(fit, heading, AMBIENT_PLANE_E, row, column) = (float)cloud->e[0];
-    solve(fitter, b[1], cloud->e[1], w);
-    for (int k = 0; k < ATOMS; k++)
-        *entry(fit, heading, 4 * AMBIENT_GROUP_SECOND + k, row, column) = (float)w[k];
-    *entry(fit, heading, AMBIENT_PLANE_E_SECOND, row, column) = (float)cloud->e[1];
-    fit_width(fit, cloud, axis, row, column, heading);
+    reflect(light, &lobe, max(x * x, 1e-4f), (float)at.heading * 0.25f * PI, fit->by_azimuth);
+    fit_weights(fitter, light, at);
+    fit_shape(fit, light, at);
 }
 
 static void fit_column(void *user, int column, int thread) {
     (void)thread;
     const Fitter *fitter = user;
-    Cloud cloud;
-    for (int heading = 0; heading < (fitter->fit->turning ? AMBIENT_HEADINGS : 1); heading++)
-        for (int row = 0; row < fitter->fit->rows; row++) fit_node(fitter, &cloud, row, column, heading);
+    Reflected light;
+    for (int heading = 0; heading < heading_count(fitter->fit); heading++)
+        for (int row = 0; row < fitter->fit->rows; row++)
+            fit_node(fitter, &light, (Node){heading, row, column});
 }
 
 int ambient_lean_azimuth(int lobe) {
@@ -241,7 +283,7 @@ void ambient_fit_shape(AmbientFit *fit, const Lobe *lobe, float low, float high)
     int azimuth = ambient_lean_azimuth(lobe->id);
     fit->lobe = *lobe;
     if (azimuth > 0) lobe_set(&fit->lobe, azimuth, 0.0f);
-    fit->turning = lobe_turns(lobe);
+    fit->by_azimuth = lobe_turns(lobe);
     fit->low = low;
     fit->high = high;
     if (info->param_count > 0) {
@@ -256,17 +298,18 @@ void ambient_fit_shape(AmbientFit *fit, const Lobe *lobe, float low, float high)
 void ambient_fit_finish(AmbientFit *fit) {
     float denser = 0.0f, light = 1e-20f;
     fit->finest = -100.0f;
-    /* between those along and across the mean direction is beside the plane of wo: an axis in it says nothing */
-    for (int heading = 0; heading < (fit->turning ? AMBIENT_HEADINGS : 1); heading += 2)
+    /* Headings 1 and 3 are left out: between along and across, the mean direction is beside the plane of wo, and a
+     * width about an axis in that plane means nothing. */
+    for (int heading = 0; heading < heading_count(fit); heading += 2)
         for (int row = 0; row < fit->rows; row++)
             for (int column = 0; column < AMBIENT_COLUMNS; column++) {
-                float kappa = *entry(fit, heading, PLANE_KAPPA, row, column);
-                float y = 1.0f - (float)column / (AMBIENT_COLUMNS - 1), x = 1.0f - y * y;
-                float e = *entry(fit, heading, AMBIENT_PLANE_E, row, column) +
-                          *entry(fit, heading, AMBIENT_PLANE_E_SECOND, row, column);
-                float part = e * x * x * x * y; /* of the light of a sphere: cos_o = x^2 */
+                const Node at = {heading, row, column};
+                float kappa = *entry(fit, at, PLANE_KAPPA);
+                float y = 1.0f - (float)column / (AMBIENT_COLUMNS - 1), x = root_cos_at(column);
+                float e = *entry(fit, at, AMBIENT_PLANE_E) + *entry(fit, at, AMBIENT_PLANE_E_SECOND);
+                float part = e * x * x * x * y; /* of the light of a sphere, by column */
                 fit->finest = max(fit->finest, kappa);
-                denser += part * (*entry(fit, heading, PLANE_DENSE, row, column) - kappa);
+                denser += part * (*entry(fit, at, PLANE_DENSITY) - kappa);
                 light += part;
             }
     fit->denser = denser / light;
@@ -275,16 +318,16 @@ void ambient_fit_finish(AmbientFit *fit) {
 void ambient_fit(AmbientFit *fit, const Lobe *lobe, float low, float high, int threads) {
     Fitter fitter = {.fit = fit};
     ambient_fit_shape(fit, lobe, low, high);
-    for (int k = 0; k < KERNELS; k++) make_kernel(&fitter.kernels[k], kappas[k]);
-    for (int j = 0; j < ATOMS; j++)
-        for (int k = 0; k < ATOMS; k++) fitter.a[j][k] = product(&fitter, &atoms[j], &atoms[k]);
+    for (int k = 0; k < LOOKUPS; k++) make_filter(&fitter.filters[k], lookups[k].kappa);
+    for (int j = 0; j < LOOKUPS; j++)
+        for (int k = 0; k < LOOKUPS; k++) fitter.a[j][k] = a_of(&fitter, j, k);
     parallel_for(threads, AMBIENT_COLUMNS, fit_column, &fitter);
     ambient_fit_finish(fit);
 }
 
 static bool same(float a, float b) { return !(a < b) && !(a > b); }
 
-/* From parameter `first` on. */
+/* Returns true if the lobes have the same id and the same parameters from `first` on, apart from the azimuth. */
 static bool alike_from(const Lobe *a, const Lobe *b, int first) {
     if (a->id != b->id) return false;
     for (int k = first; k < weft_lobe_info(a->id)->param_count; k++)
@@ -300,7 +343,7 @@ bool ambient_fit_serves(const AmbientFit *fit, const Lobe *lobe, float low, floa
 
 /* Returns true if E is 1 for every wo. */
 static bool is_flat(const AmbientFit *fit) {
-    for (int heading = 0; heading < (fit->turning ? AMBIENT_HEADINGS : 1); heading++)
+    for (int heading = 0; heading < heading_count(fit); heading++)
         for (int row = 0; row < fit->rows; row++)
             for (int column = 0; column < AMBIENT_COLUMNS; column++) {
                 const float *plane =
@@ -322,38 +365,40 @@ AmbientTable ambient_table(const AmbientFit *fit, int strategy) {
                           .second = second,
                           .lossless = !second && is_flat(fit),
                           .strips = lobe_names(fit->lobe.id)->strips,
-                          .turning = fit->turning,
+                          .turning = fit->by_azimuth,
                           .strategy = strategy,
                           .baked = -1};
 }
 
-enum { TERMS = AMBIENT_DEGREE + 1, PLANES_HELD = 4 * AMBIENT_GROUPS };
+enum { TERMS = AMBIENT_DEGREE + 1, PLANES_BAKED = 4 * AMBIENT_GROUPS };
 
-/* Errors count by the E that they are of, down to this part of the greatest: where a lobe fades away an error
- * that is small elsewhere would be all there is. */
+/* Errors of E count relative to E, down to this part of the greatest E: where a lobe fades away, an absolute error that
+ * is small elsewhere would be as large as E itself. */
 static const double FADED = 0.01;
 
-static double node(const AmbientFit *fit, int heading, int plane, int column) {
+static double value_at(const AmbientFit *fit, int heading, int plane, int column) {
     return (double)fit->texels[heading * AMBIENT_PLANES + plane][column];
 }
 static double albedo_at(const AmbientFit *fit, int heading, int column) {
-    return node(fit, heading, AMBIENT_PLANE_E, column) + node(fit, heading, AMBIENT_PLANE_E_SECOND, column);
+    return value_at(fit, heading, AMBIENT_PLANE_E, column) +
+           value_at(fit, heading, AMBIENT_PLANE_E_SECOND, column);
 }
 
-/* Coefficients of planes first .. end - 1 by weighted least squares, into members of the groups. */
-static void hold_planes(const AmbientFit *fit, int heading, int first, int end,
+/* Sets the coefficients of planes first .. end - 1, by least squares with a weight for each column. Element k of out
+ * has coefficient k % TERMS of the four planes of group k / TERMS. */
+static void bake_planes(const AmbientFit *fit, int heading, int first, int end,
                         const double weight[AMBIENT_COLUMNS], AmbientWeights out[AMBIENT_HEADING]) {
-    double a[TERMS][TERMS] = {{0.0}}, b[PLANES_HELD][TERMS] = {{0.0}};
+    double a[TERMS][TERMS] = {{0.0}}, b[PLANES_BAKED][TERMS] = {{0.0}};
     for (int column = 0; column < AMBIENT_COLUMNS; column++) {
         double power[TERMS] = {1.0}, t = 2.0 * column / (AMBIENT_COLUMNS - 1) - 1.0;
         for (int k = 1; k < TERMS; k++) power[k] = power[k - 1] * t;
         for (int j = 0; j < TERMS; j++) {
             for (int k = 0; k < TERMS; k++) a[j][k] += weight[column] * power[j] * power[k];
             for (int n = first; n < end; n++)
-                b[n][j] += weight[column] * power[j] * node(fit, heading, n, column);
+                b[n][j] += weight[column] * power[j] * value_at(fit, heading, n, column);
         }
     }
-    if (!matrix_factor(TERMS, a[0], TERMS) || !matrix_solve(TERMS, a[0], TERMS, PLANES_HELD, b[0], TERMS))
+    if (!matrix_factor(TERMS, a[0], TERMS) || !matrix_solve(TERMS, a[0], TERMS, PLANES_BAKED, b[0], TERMS))
         memset(b, 0, sizeof b); /* nothing has weight */
     for (int k = 0; k < AMBIENT_HEADING; k++) {
         float *to[4] = {&out[k].a, &out[k].b, &out[k].c, &out[k].d};
@@ -364,10 +409,10 @@ static void hold_planes(const AmbientFit *fit, int heading, int first, int end,
     }
 }
 
-/* The shape of a lobe, and how it is spread, count where it is to be seen, up to a hair for what fades away.
- */
-static void hold_heading(const AmbientFit *fit, int heading, AmbientWeights out[AMBIENT_HEADING]) {
-    double most = 1e-9, value[AMBIENT_COLUMNS], shape[AMBIENT_COLUMNS];
+/* Sets the coefficients of a heading. The division of E and the shape of the lobe count where the lobe is bright, and
+ * only a little where it fades away. */
+static void bake_heading(const AmbientFit *fit, int heading, AmbientWeights out[AMBIENT_HEADING]) {
+    double most = 1e-9, value[AMBIENT_COLUMNS], shape[AMBIENT_COLUMNS]; /* weights for E, and for the rest */
     for (int column = 0; column < AMBIENT_COLUMNS; column++)
         most = fmax(most, albedo_at(fit, heading, column));
     for (int column = 0; column < AMBIENT_COLUMNS; column++) {
@@ -375,17 +420,17 @@ static void hold_heading(const AmbientFit *fit, int heading, AmbientWeights out[
         value[column] = 1.0 / ((e + FADED) * (e + FADED));
         shape[column] = fmin(e, 0.1) + 1e-9;
     }
-    hold_planes(fit, heading, 0, AMBIENT_PLANE_E, shape, out);
-    hold_planes(fit, heading, AMBIENT_PLANE_E, AMBIENT_PLANE_E + 1, value, out);
-    hold_planes(fit, heading, PLANE_AXIS, PLANE_TAIL + 1, shape, out);
-    hold_planes(fit, heading, 4 * AMBIENT_GROUP_SECOND, PLANES_HELD, value, out);
+    bake_planes(fit, heading, 0, AMBIENT_PLANE_E, shape, out);
+    bake_planes(fit, heading, AMBIENT_PLANE_E, AMBIENT_PLANE_E + 1, value, out);
+    bake_planes(fit, heading, PLANE_AXIS, PLANE_TAIL + 1, shape, out);
+    bake_planes(fit, heading, 4 * AMBIENT_GROUP_SECOND, PLANES_BAKED, value, out);
 }
 
 void ambient_bake(const AmbientFit *fit, AmbientWeights out[AMBIENT_BAKED]) {
     for (int heading = 0; heading < AMBIENT_HEADINGS; heading++)
-        hold_heading(fit, fit->turning ? heading : 0, out + heading * AMBIENT_HEADING);
+        bake_heading(fit, fit->by_azimuth ? heading : 0, out + heading * AMBIENT_HEADING);
 }
 
-int ambient_strategy(int lobe, bool turning, bool dense) {
-    return dense || (turning && lobe_names(lobe)->strips) ? AMBIENT_SAMPLED : AMBIENT_FITTED;
+int ambient_strategy(int lobe, bool by_azimuth, bool dense) {
+    return dense || (by_azimuth && lobe_names(lobe)->strips) ? AMBIENT_SAMPLED : AMBIENT_FITTED;
 }

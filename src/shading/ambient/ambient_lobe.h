@@ -75,6 +75,17 @@ FN Rgb ambient_visible_residual(AmbientSource s, AmbientView v, Dir w, float kap
     return rgb_scale(ambient_residual(s, bent, kappa), open);
 }
 
+/* Axes and filters of the six look-ups above, in the frame whose x axis points towards wo. */
+#define AMBIENT_AXIS_0       0.0f, 0.0f, 1.0f
+#define AMBIENT_AXIS_1_LEFT  0.612372436f, 0.612372436f, 0.5f
+#define AMBIENT_AXIS_1_RIGHT 0.612372436f, -0.612372436f, 0.5f
+#define AMBIENT_AXIS_2       -0.866025404f, 0.0f, 0.5f
+#define AMBIENT_AXIS_3_LEFT  -0.696364240f, 0.696364240f, 0.173648178f
+#define AMBIENT_AXIS_3_RIGHT -0.696364240f, -0.696364240f, 0.173648178f
+#define AMBIENT_KAPPA_1      3.125f
+#define AMBIENT_KAPPA_2      12.5f
+#define AMBIENT_KAPPA_3      12.5f
+
 /* The look-ups of the residual for the weights w_0 to w_3. Lobes with the same shading frame share them; the
  * coat has its own. */
 STRUCT(AmbientLookups) { Rgb a, b, c, d; };
@@ -82,14 +93,14 @@ STRUCT(AmbientLookups) { Rgb a, b, c, d; };
 FN AmbientLookups ambient_residual_lookups(AmbientSource s, AmbientView v) {
     AmbientLookups l;
     l.a = rgb_scale(ambient_residual(s, v.z, 0.0f), v.occlusion);
-    l.b = rgb_add(ambient_visible_residual(s, v, dir(0.612372436f, 0.612372436f, 0.5f), 3.125f,
+    l.b = rgb_add(ambient_visible_residual(s, v, dir(AMBIENT_AXIS_1_LEFT), AMBIENT_KAPPA_1,
                                            dir(0.3984f, 0.3984f, 0.5224f)),
-                  ambient_visible_residual(s, v, dir(0.612372436f, -0.612372436f, 0.5f), 3.125f,
+                  ambient_visible_residual(s, v, dir(AMBIENT_AXIS_1_RIGHT), AMBIENT_KAPPA_1,
                                            dir(0.3984f, -0.3984f, 0.5224f)));
-    l.c = ambient_visible_residual(s, v, dir(-0.866025404f, 0.0f, 0.5f), 12.5f, dir(-0.791f, 0.0f, 0.483f));
-    l.d = rgb_add(ambient_visible_residual(s, v, dir(-0.696364240f, 0.696364240f, 0.173648178f), 12.5f,
+    l.c = ambient_visible_residual(s, v, dir(AMBIENT_AXIS_2), AMBIENT_KAPPA_2, dir(-0.791f, 0.0f, 0.483f));
+    l.d = rgb_add(ambient_visible_residual(s, v, dir(AMBIENT_AXIS_3_LEFT), AMBIENT_KAPPA_3,
                                            dir(-0.6334f, 0.6334f, 0.2856f)),
-                  ambient_visible_residual(s, v, dir(-0.696364240f, -0.696364240f, 0.173648178f), 12.5f,
+                  ambient_visible_residual(s, v, dir(AMBIENT_AXIS_3_RIGHT), AMBIENT_KAPPA_3,
                                            dir(-0.6334f, -0.6334f, 0.2856f)));
     l.b = rgb_scale(l.b, 0.5f);
     l.d = rgb_scale(l.d, 0.5f);
