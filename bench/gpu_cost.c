@@ -387,7 +387,8 @@ static void fibre_costs(Gpu *gpu) {
 #define LIT                                                                                                  \
     "    YarnPrepared q;\n    YarnView w;\n    yarn_prepare(weave_yarn(m, p), q);\n    q.axis = p.fibre;\n"  \
     "    yarn_view(q, a.o, w);\n"                                                                            \
-    "    LobeReflected x = lobe_reflected(yarn_value(q, w, a), weave_once_rgb(m, p), weave_again_rgb(m, "    \
+    "    LobeReflected x = lobe_reflected(yarn_value(q, w, a), weave_single_rgb(m, p), "                     \
+    "weave_multiple_rgb(m, "                                                                                 \
     "p));\n"                                                                                                 \
     "    f = x.f.r;\n    s = x.f.g + x.f.b;\n"
 static const struct {
@@ -396,12 +397,12 @@ static const struct {
     {"place and slopes of the thread on top", CLOTH "    WeavePoint p = weave_top(m, u[6], u[7]);\n"
                                                     "    f = p.slope_x + p.height;\n    s = p.slope_y;\n"},
     {"the same with its fibres and colours",
-     CLOTH "    WeavePoint p = weave_bound(m, u[6], u[7], u[8], u[9]);\n"
-           "    Rgb once = weave_once_rgb(m, p), again = weave_again_rgb(m, p);\n"
+     CLOTH "    WeavePoint p = weave_point_bound(m, u[6], u[7], u[8], u[9]);\n"
+           "    Rgb once = weave_single_rgb(m, p), again = weave_multiple_rgb(m, p);\n"
            "    f = p.slope_x + p.height + once.r + once.g + once.b;\n"
            "    s = p.slope_y + dir_dot(p.fibre, dir(1.0, 2.0, 3.0)) + again.r + again.g + again.b;\n"},
     {"the same, lit by lobe `yarn`",
-     ANGLES CLOTH "    WeavePoint p = weave_bound(m, u[6], u[7], u[8], u[9]);\n" LIT},
+     ANGLES CLOTH "    WeavePoint p = weave_point_bound(m, u[6], u[7], u[8], u[9]);\n" LIT},
     {"the same under loose fibres",
      ANGLES CLOTH "    WeavePoint p = weave_point(m, u[6], u[7], u[8], u[9]);\n" LIT},
 };

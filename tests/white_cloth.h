@@ -16,7 +16,7 @@ static inline float white_system(const WeftCloth *cloth, int system, Dir o, Dir 
     woven_view(p, o, &w);
     const LobeValue v = woven_value(p, &w, angles_between(o, i));
     assert_true(v.f >= 0.0f && v.f < 1e8f && v.s >= 0.0f && v.s <= 1.0f && v.pdf >= 0.0f);
-    return v.f * (far->once * (1.0f - v.s) + far->again * v.s);
+    return v.f * (far->single * (1.0f - v.s) + far->multiple * v.s);
 }
 
 /* Returns f of both systems. */

@@ -31,7 +31,7 @@ static void add_point(const Weave *m, float x, float y, float spacing, float acr
     yarn_view(&yarn, o, &view);
     const LobeValue value = yarn_value(&yarn, &view, angles_between(o, light));
     for (int c = 0; c < 3; c++) {
-        const float single = weave_once(m, point, c), multiple = weave_reflectance(m, point, c);
+        const float single = weave_single(m, point, c), multiple = weave_multiple(m, point, c);
         const float f = value.f * (single + (multiple - single) * value.s);
         sum[c] += PI * f * light.z * 1.25f + 0.3f * (0.3f * single + 0.7f * multiple) * weave_open(m, point);
     }

@@ -1,15 +1,16 @@
+/* cloth_base.c - points of a woven cloth, a vertex a lane: near ones are points of threads, far ones facets */
 #include "weave/cloth_base.h"
 
 #include "shading/dialect/loop.h"
 
-/* The samples of a pixel average points and crossings, without an error: so the mean takes their place from 1.7
- * threads a pixel on, completely at four, and its colours are those of a quarter of the pixel. Fibres fade until they are a
- * quarter as wide as a pixel. */
+/* The samples of a pixel average points without an error. So facets stand for points only at LATER times the pixel size
+ * at which the raster engine goes over: from 1.7 threads a pixel on, completely at 4. Their colours are averaged over a
+ * FINER-th of the pixel. Fibres fade as if points were a POINTS-th of the pixel apart. */
 enum { LATER = 2, FINER = 4, POINTS = 4 };
 
-/* Rows of picks run up the cloth, v runs down it. */
+/* Returns the place of texture coordinates, in threads. Picks count up the cloth, v runs down. */
 FN Dir place_of(const float per_uv[2], float u, float v) {
-    return dir(weave_bounded(u * per_uv[WEFT_WARP]), weave_bounded(-v * per_uv[WEFT_WEFT]), 0.0f);
+    return dir(weave_in_range(u * per_uv[WEFT_WARP]), weave_in_range(-v * per_uv[WEFT_WEFT]), 0.0f);
 }
 
 bool cloth_is_gap(const WeftCloth *cloth, const float uv[2]) {
@@ -19,26 +20,31 @@ bool cloth_is_gap(const WeftCloth *cloth, const float uv[2]) {
 
 WeaveBase cloth_base_far(const WeftCloth *cloth, bool weft) {
     int w, h;
-    const float *once = cloth_far_level(&cloth->far, cloth->far.levels - 1, &w, &h) +
-                        4 * (weft ? FAR_WEFT_ONCE : FAR_WARP_ONCE),
-                *again = once + 4;
-    WeaveBase base = weave_far(&cloth->weave, weft, rgb(once[0], once[1], once[2]),
-                               rgb(again[0], again[1], again[2]), once[3], 1.0f);
+    const float *single = cloth_far_level(&cloth->far, cloth->far.levels - 1, &w, &h) +
+                          4 * (weft ? FAR_WEFT_SINGLE : FAR_WARP_SINGLE),
+                *multiple = single + 4;
+    WeaveBase base = weave_far(&cloth->weave, weft, rgb(single[0], single[1], single[2]),
+                               rgb(multiple[0], multiple[1], multiple[2]), single[3], 1.0f);
     const float part =
-        1.0f / base.lobe.params[WOVEN_SHARE]; /* the colours have the share, and so has the lobe */
-    base.once = rgb_scale(base.once, part);
-    base.again = rgb_scale(base.again, part);
+        1.0f / base.lobe.params[WOVEN_SHARE]; /* the colours contain the share, which the lobe applies too */
+    base.single = rgb_scale(base.single, part);
+    base.multiple = rgb_scale(base.multiple, part);
     return base;
 }
 
-/* Those of the looks that are all near, or all far, one behind the other, and what is there. */
+/* The points that are near, or those that are far, side by side. */
 typedef struct Part {
-    int count, at[ROW_ROOM]; /* their places among all */
-    float x[ROW_ROOM], y[ROW_ROOM], footprint_x[ROW_ROOM], footprint_y[ROW_ROOM], facet[ROW_ROOM];
-    float spacing[ROW_ROOM], height[ROW_ROOM], hair[ROW_ROOM]; /* of points near by; the loose fibre on top */
+    int count, at[ROW_ROOM];                            /* indices among all points */
+    float x[ROW_ROOM], y[ROW_ROOM];                     /* place, in threads */
+    float footprint_x[ROW_ROOM], footprint_y[ROW_ROOM]; /* as ClothLooks has them */
+    float facet[ROW_ROOM];   /* the random number; then the index among both systems' facets */
+    float spacing[ROW_ROOM]; /* near: from point to point, in threads */
+    float height[ROW_ROOM];  /* near: of the thread */
+    float hair[ROW_ROOM];    /* near: number of the loose fibre on top; -1: none */
     YarnRows yarn;
 } Part;
 
+/* Sets the places, and `far` to 1 where a facet is to stand for the cloth. */
 LOOP(place_n,
      (const ClothLooks *looks, const float per_uv[2], int n, float *restrict x, float *restrict y,
       float *restrict far),
@@ -56,7 +62,7 @@ LOOP(place_n,
     }
 }
 
-/* Fills the last group of lanes with the first look again. */
+/* Fills the last group of lanes with copies of the first point. */
 static void pad(Part *part) {
     for (int k = part->count; k < row_whole(part->count); k++) {
         part->x[k] = part->x[0], part->y[k] = part->y[0], part->facet[k] = part->facet[0];
@@ -65,6 +71,7 @@ static void pad(Part *part) {
     }
 }
 
+/* Sorts points into near (0) and far (1). */
 static void split(const WeftCloth *cloth, const ClothLooks *looks, int n, Part parts[2]) {
     float x[ROW_ROOM], y[ROW_ROOM], far[ROW_ROOM];
     place_n(looks, cloth->per_uv, n, x, y, far);
@@ -80,15 +87,15 @@ static void split(const WeftCloth *cloth, const ClothLooks *looks, int n, Part p
     pad(&parts[0]), pad(&parts[1]);
 }
 
-FN void put_base(YarnRows *restrict out, size_t k, Yarn y, Rgb once, Rgb again) {
+FN void put_base(YarnRows *restrict out, size_t k, Yarn y, Rgb single, Rgb multiple) {
 #define PUT_PARAM(type, name, def, low, high, hard_low, hard_high, help) out->params[p++][k] = y.name;
     int p = 0;
     YARN_PARAMS(PUT_PARAM)
-    out->once[0][k] = once.r, out->once[1][k] = once.g, out->once[2][k] = once.b;
-    out->again[0][k] = again.r, out->again[1][k] = again.g, out->again[2][k] = again.b;
+    out->single[0][k] = single.r, out->single[1][k] = single.g, out->single[2][k] = single.b;
+    out->multiple[0][k] = multiple.r, out->multiple[1][k] = multiple.g, out->multiple[2][k] = multiple.b;
 }
 
-/* The weave as it is, since only maps come again; but known before a loop, which then asks for it nowhere. */
+/* Returns the weave. Only maps have a cycle, so it is 0 already: as a constant it costs a loop nothing. */
 FN Weave without_cycle(const Weave *weave) {
     Weave m = *weave;
     m.cycle_x = m.cycle_y = 0.0f;
@@ -96,58 +103,60 @@ FN Weave without_cycle(const Weave *weave) {
 }
 
 FN void put_point(YarnRows *restrict out, size_t k, const Weave *m, WeavePoint p) {
-    put_base(out, k, weave_yarn(m, p), weave_once_rgb(m, p), weave_again_rgb(m, p));
+    put_base(out, k, weave_yarn(m, p), weave_single_rgb(m, p), weave_multiple_rgb(m, p));
 }
 
+/* Sets points of threads, without loose fibres. */
 LOOP(bind_n, (const Weave *weave, Part *restrict part, int n), (weave, part, n)) {
     Weave m = without_cycle(weave);
     EACH(k, (size_t)n) {
         WeavePoint p =
-            weave_bound(&m, part->x[k], part->y[k], part->spacing[k], 2.0f * part->facet[k] - 1.0f);
+            weave_point_bound(&m, part->x[k], part->y[k], part->spacing[k], 2.0f * part->facet[k] - 1.0f);
         part->height[k] = p.height;
         put_point(&part->yarn, k, &m, p);
     }
 }
 
+/* Finds the loose fibres on top. */
 LOOP(find_n, (const Weave *weave, Part *restrict part, int n), (weave, part, n)) {
     Weave m = without_cycle(weave);
     EACH(k, (size_t)n) {
-        float radius = weave_hair_reach(&m, part->height[k], part->spacing[k]);
+        float radius = weave_hair_radius_over(&m, part->height[k], part->spacing[k]);
         part->hair[k] = to_float(weave_hair_at(&m, part->x[k], part->y[k], radius, WEAVE_HAIRS_NEAR));
     }
 }
 
-/* Lays loose fibres over points, of which a few are under any. */
-static void loosen(const Weave *m, Part *part) {
+/* Lays loose fibres over the points that are below one, which are few. */
+static void add_hairs(const Weave *m, Part *part) {
     bool seen = false;
     for (int k = 0; k < part->count; k++)
-        seen |= weave_hair_reach(m, part->height[k], part->spacing[k]) > 0.0f;
+        seen |= weave_hair_radius_over(m, part->height[k], part->spacing[k]) > 0.0f;
     if (!seen) return;
     find_n(m, part, row_whole(part->count));
     for (int k = 0; k < part->count; k++) {
         WeavePoint p = {.height = part->height[k]};
         if (part->hair[k] < 0.0f) continue;
-        const float radius = weave_hair_reach(m, p.height, part->spacing[k]);
+        const float radius = weave_hair_radius_over(m, p.height, part->spacing[k]);
         weave_lay(weave_hair(m, (int)part->hair[k], part->x[k], part->y[k], radius), &p);
         put_point(&part->yarn, (size_t)k, m, p);
     }
 }
 
-/* Four numbers in a row. */
 FN Rgb color_at(const float *texels, int at) { return rgb(texels[at], texels[at + 1], texels[at + 2]); }
 
-/* The texel of so many in a row that is that part of a repeat from the first. */
+/* Returns the texel at a fraction of the repeat, among `side` texels. */
 FN int texel_at(float part, int side) {
     int texel = to_int((part - floor(part)) * to_float(side));
     return texel < side ? texel : side - 1;
 }
 
-/* Returns what a system reflects, in parts of the cloth, with so much more dye. */
+/* Returns a texel's colour for dye times as much dye, times scale. */
 FN Rgb dyed(const float *texels, int at, float covers, float dye, float scale) {
     return rgb_scale(weave_dyed_rgb(color_at(texels, at), covers, dye), scale);
 }
 
-/* Chooses a system by what it reflects, and the facet that stands for it. scale: of all colours. */
+/* Chooses a system by what it reflects, and one of its facets, and sets colours and the yarn without its slopes. A
+ * system that is chosen with chance c has colours / c. scale: factor of all colours. */
 LOOP(choose_n, (const WeftCloth *cloth, Part *restrict part, float scale, int n), (cloth, part, scale, n)) {
     Weave m = without_cycle(&cloth->weave);
     const float *texels = cloth->far.texels;
@@ -168,56 +177,57 @@ LOOP(choose_n, (const WeftCloth *cloth, Part *restrict part, float scale, int n)
         int layer = 4 * w * h, at = starts[level] + 4 * (texel_at(y / picks, h) * w + texel_at(x / warps, w));
         float warp_dye = weave_far_dye(&m, false, x, f.x / FINER),
               weft_dye = weave_far_dye(&m, true, y, f.y / FINER);
-        float warp_covers = texels[at + 3], weft_covers = texels[at + FAR_WEFT_ONCE * layer + 3];
-        Rgb warp_once = dyed(texels, at, warp_covers, warp_dye, scale),
-            warp_again = dyed(texels, at + FAR_WARP_AGAIN * layer, warp_covers, warp_dye, scale),
-            weft_once = dyed(texels, at + FAR_WEFT_ONCE * layer, weft_covers, weft_dye, scale),
-            weft_again = dyed(texels, at + FAR_WEFT_AGAIN * layer, weft_covers, weft_dye, scale);
-        float a = 0.3f * rgb_mean(warp_once) + 0.7f * rgb_mean(warp_again),
-              b = 0.3f * rgb_mean(weft_once) + 0.7f * rgb_mean(weft_again);
+        float warp_covers = texels[at + 3], weft_covers = texels[at + FAR_WEFT_SINGLE * layer + 3];
+        Rgb warp_single = dyed(texels, at, warp_covers, warp_dye, scale),
+            warp_multiple = dyed(texels, at + FAR_WARP_MULTIPLE * layer, warp_covers, warp_dye, scale),
+            weft_single = dyed(texels, at + FAR_WEFT_SINGLE * layer, weft_covers, weft_dye, scale),
+            weft_multiple = dyed(texels, at + FAR_WEFT_MULTIPLE * layer, weft_covers, weft_dye, scale);
+        float a = 0.3f * rgb_mean(warp_single) + 0.7f * rgb_mean(warp_multiple),
+              b = 0.3f * rgb_mean(weft_single) + 0.7f * rgb_mean(weft_multiple);
         float chance = a + b > 0.0f ? a / (a + b) : 1.0f, u = part->facet[k];
         bool weft = u >= chance;
-        float worth = 1.0f / max(weft ? 1.0f - chance : chance, 1e-6f),
-              rest = (weft ? u - chance : u) * worth;
+        float per_chance = 1.0f / max(weft ? 1.0f - chance : chance, 1e-6f),
+              rest = (weft ? u - chance : u) * per_chance;
         float count = weft ? weft_count : warp_count, facet = floor(min(rest * count, count - 1.0f));
         part->facet[k] = weft ? to_float(FACETS_MOST) + facet : facet;
         WeavePoint p;
         p.weft = weft;
         p.slope_x = p.slope_y = 0.0f;
         p.fibre = dir(1.0f, 0.0f, 0.0f);
-        Rgb once = rgb(weft ? weft_once.r : warp_once.r, weft ? weft_once.g : warp_once.g,
-                       weft ? weft_once.b : warp_once.b);
-        Rgb again = rgb(weft ? weft_again.r : warp_again.r, weft ? weft_again.g : warp_again.g,
-                        weft ? weft_again.b : warp_again.b);
-        put_base(yarn, k, weave_yarn(&m, p), rgb_scale(once, worth), rgb_scale(again, worth));
+        Rgb single = rgb(weft ? weft_single.r : warp_single.r, weft ? weft_single.g : warp_single.g,
+                         weft ? weft_single.b : warp_single.b);
+        Rgb multiple = rgb(weft ? weft_multiple.r : warp_multiple.r, weft ? weft_multiple.g : warp_multiple.g,
+                           weft ? weft_multiple.b : warp_multiple.b);
+        put_base(yarn, k, weave_yarn(&m, p), rgb_scale(single, per_chance), rgb_scale(multiple, per_chance));
     }
 }
 
-/* Lays the yarns that were chosen as their facets lie. */
+/* Gives each yarn the slopes of its facet, and its factors on the colours. */
 LOOP(lay_n, (const ClothFacet *facets, Part *restrict part, int n), (facets, part, n)) {
     YarnRows *yarn = &part->yarn;
     EACH(k, (size_t)n) {
         int at = to_int(part->facet[k]);
-        float once = facets[at].once, again = facets[at].again;
+        float single = facets[at].single, multiple = facets[at].multiple;
         yarn->params[YARN_SLOPE_X][k] = facets[at].slope_x;
         yarn->params[YARN_SLOPE_Y][k] = facets[at].slope_y;
         yarn->params[YARN_AZIMUTH][k] = facets[at].azimuth;
-        yarn->once[0][k] *= once;
-        yarn->once[1][k] *= once;
-        yarn->once[2][k] *= once;
-        yarn->again[0][k] *= again;
-        yarn->again[1][k] *= again;
-        yarn->again[2][k] *= again;
+        yarn->single[0][k] *= single;
+        yarn->single[1][k] *= single;
+        yarn->single[2][k] *= single;
+        yarn->multiple[0][k] *= multiple;
+        yarn->multiple[1][k] *= multiple;
+        yarn->multiple[2][k] *= multiple;
     }
 }
 
-static void give(const Part *part, YarnRows *out) {
+/* Writes the yarns to their places among all points. */
+static void put_all(const Part *part, YarnRows *out) {
     for (int p = 0; p < LOBE_PARAMS_MAX; p++)
         for (int k = 0; k < part->count; k++) out->params[p][part->at[k]] = part->yarn.params[p][k];
     for (int c = 0; c < 3; c++)
         for (int k = 0; k < part->count; k++) {
-            out->once[c][part->at[k]] = part->yarn.once[c][k];
-            out->again[c][part->at[k]] = part->yarn.again[c][k];
+            out->single[c][part->at[k]] = part->yarn.single[c][k];
+            out->multiple[c][part->at[k]] = part->yarn.multiple[c][k];
         }
 }
 
@@ -228,9 +238,9 @@ void cloth_bases(const WeftCloth *cloth, const ClothLooks *looks, int n, YarnRow
     const float scale = looks->holed ? 1.0f / max(m->warp_far.share + m->weft_far.share, 1e-3f) : 1.0f;
     split(cloth, looks, n, parts);
     if (near->count) bind_n(m, near, row_whole(near->count));
-    loosen(m, near);
+    add_hairs(m, near);
     if (far->count) choose_n(cloth, far, scale, row_whole(far->count));
     if (far->count) lay_n(cloth->facets[0], far, row_whole(far->count));
-    give(near, out);
-    give(far, out);
+    put_all(near, out);
+    put_all(far, out);
 }

@@ -1,4 +1,4 @@
-/* cloth_base.h - the base of a material that is woven, at points */
+/* cloth_base.h - the base of a material that is woven, at points of its cloth */
 #ifndef WEFT_SCENE_CLOTH_BASE_H
 #define WEFT_SCENE_CLOTH_BASE_H
 
@@ -8,20 +8,22 @@
 #include "shading/weave/weave_base.h"
 #include "weave/weft_cloth.h"
 
-/* Looks at a cloth: texture coordinates, footprints (WeaveFootprint), and two random numbers in [0, 1) each: `level`
- * chooses between near and far, `facet` is near by the place across a fibre, and from afar what stands for the cloth. */
+/* Points of a cloth, each seen by a pixel. */
 typedef struct ClothLooks {
-    float uv[2][ROW_ROOM], footprint_x[ROW_ROOM], footprint_y[ROW_ROOM], longest[ROW_ROOM];
-    float level[ROW_ROOM], facet[ROW_ROOM];
-    bool holed; /* gaps between threads are holes, not black */
+    float uv[2][ROW_ROOM];                                                 /* texture coordinates */
+    float footprint_x[ROW_ROOM], footprint_y[ROW_ROOM], longest[ROW_ROOM]; /* WeaveFootprint of the pixel */
+    float level[ROW_ROOM]; /* random, in [0, 1): chooses between near and far */
+    float facet[ROW_ROOM]; /* random, in [0, 1): near, the place across a fibre; far, the facet */
+    bool holed;            /* gaps between threads are holes, not black */
 } ClothLooks;
 
-/* Gives what is at the first n places: a point of a thread, or from afar any point of one system's threads in the colours
- * of all, by which system in proportion to what they reflect. The mean over the random numbers is the cloth. */
+/* Sets the bases at the first n points. Near, a base is the point of a thread. From afar it is a random facet of one
+ * system in the colours of all its threads; a system is chosen in proportion to what it reflects. The mean over the
+ * random numbers is the cloth. */
 void cloth_bases(const WeftCloth *cloth, const ClothLooks *looks, int n, YarnRows *out);
 
-/* Returns what the threads of one system reflect on the mean over the whole repeat: lobe woven and its colours, of the
- * light that falls on the cloth, so that the cloth is the sum of both systems. */
+/* Returns lobe woven of one system and its mean colours over the whole repeat. The lobes of both systems add up to the
+ * cloth. */
 WeaveBase cloth_base_far(const WeftCloth *cloth, bool weft);
 
 /* Returns true if there is no thread. */

@@ -1,11 +1,13 @@
-/* cloth_far.c - a cloth from afar: yarns of lobe woven that reflect as the visible points of either system do on the
- * mean, and the colours of its crossings, ever coarser
+/* cloth_far.c - a cloth from afar: a lobe woven for each system that reflects as its visible points do on the mean, and
+ * the colours of the crossings as mipmaps
  *
  *   E[s_x^2] = across^2 / 3,  E[s_y^2] = along^2 / 3
  *
- * are solved for the slopes by which yarns hide each other. The lobe is fitted (woven_fit.c) to the mean of what points
- * reflect between pairs of directions, in which threads hide the ends of others, crevices are dark and fibres rise or
- * lie loose. What is left is one factor for each system and each kind of light, which goes into the colours. */
+ * give the slopes `across` and `along` by which yarns hide each other, from the slopes s_x and s_y of points: uniform
+ * slopes up to these have the same mean squares. The lobe is fitted (woven_fit.c) to the mean of what the points
+ * reflect between pairs of directions. In these points threads hide the ends of others, crevices are dark, and fibres
+ * rise or lie loose. The rest of the difference is one factor for each system and each kind of light, which goes into
+ * the colours. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -14,108 +16,117 @@
 #include "weave/woven_fit.h"
 
 enum {
-    PIECE = 4800,  /* threads of a piece of cloth, */
-    LOOKS = 48000, /* places at which it is looked at */
-    FAR_SIDE_MAX = 512,
+    PIECE = 4800,       /* least threads along either side of the piece of cloth that is looked at */
+    PLACES = 48000,     /* on that piece */
+    FAR_SIDE_MAX = 512, /* texels */
 };
 _Static_assert(1 << (FAR_LEVELS_MOST - 1) == FAR_SIDE_MAX, "a level for each halving, and the first");
 
-/* The spacing of points from afar, in threads. */
+/* Spacing of the points, in threads: so far apart that single fibres fade. */
 static const float FAR_SPACING = 1.0f;
 
-/* The points of one system that were seen. */
+/* One system at all places. [0] is where it is below at the crossing, [1] where it is on top. */
 typedef struct SystemSeen {
-    int count, crossings[2], on[2]; /* places where it is above or below, and those at which it is seen */
-    double run, across, along;      /* sums of k, s_x^2 and s_y^2 */
-    double height, square;          /* of heights, and of their squares */
+    int count;            /* visible points */
+    int crossings[2];     /* places by crossing */
+    int on[2];            /* visible points by crossing */
+    double k_sum;         /* of k, the power of the slope along the yarn */
+    double across2_sum;   /* of the squared slope across the yarn, */
+    double along2_sum;    /* and along it */
+    double z_sum, z2_sum; /* of heights, and of their squares */
 } SystemSeen;
 
-/* Returns about how many threads are looked at, in whole repeats. */
-static double looked_at(int count) {
+/* Returns the threads along a side of the piece: whole repeats, at least PIECE. */
+static double piece_side(int count) {
     const int repeats = (PIECE + count - 1) / count;
     return (double)(count * repeats);
 }
 
-/* Place k of evenly spread ones, and the thread there, its fibres told by their slopes alone: the root of 2 spreads places
- * across them. Martin Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018. */
-static WeavePoint look(const Weave *m, int k, float *x, float *y) {
-    *x = (float)(fmod(0.7548776662466927 * (k + 1), 1.0) * looked_at(m->warps));
-    *y = (float)(fmod(0.5698402909980532 * (k + 1), 1.0) * looked_at(m->picks));
-    return weave_bound(m, *x, *y, FAR_SPACING, 2.0f * (float)fmod(1.4142135623730951 * (k + 1), 1.0) - 1.0f);
+/* Returns the point at place k of an evenly spread sequence, without loose fibres, and sets the place. Multiples of the
+ * root of 2 are the places across a fibre. Martin Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences",
+ * 2018. */
+static WeavePoint point_at(const Weave *m, int k, float *x, float *y) {
+    *x = (float)(fmod(0.7548776662466927 * (k + 1), 1.0) * piece_side(m->warps));
+    *y = (float)(fmod(0.5698402909980532 * (k + 1), 1.0) * piece_side(m->picks));
+    return weave_point_bound(m, *x, *y, FAR_SPACING,
+                             2.0f * (float)fmod(1.4142135623730951 * (k + 1), 1.0) - 1.0f);
 }
 
+/* Returns 1 if the thread of a system is on top at the crossing there. */
 static int is_up(const Weave *m, float x, float y, int weft) {
     const WeaveCell cell = weave_cell(m, floorf(x), floorf(y));
     return (weft ? cell.weft_run : cell.warp_run) > 0.0f;
 }
 
+/* Fills seen, and sets the heights of m. */
 static void see(Weave *m, SystemSeen seen[2]) {
     m->low = HUGE_VALF;
     m->high = -HUGE_VALF;
-    for (int k = 0; k < LOOKS; k++) {
+    for (int k = 0; k < PLACES; k++) {
         float x, y;
-        const WeavePoint p = look(m, k, &x, &y);
+        const WeavePoint p = point_at(m, k, &x, &y);
         for (int t = 0; t < 2; t++) seen[t].crossings[is_up(m, x, y, t)]++;
         if (p.height <= WEAVE_NONE) continue;
         SystemSeen *of = &seen[p.weft];
         const float across = p.weft ? p.slope_y : p.slope_x, along = p.weft ? p.slope_x : p.slope_y;
         of->count++;
         of->on[is_up(m, x, y, p.weft)]++;
-        of->run += (double)p.k;
-        of->across += (double)(across * across);
-        of->along += (double)(along * along);
-        of->height += (double)p.height;
-        of->square += (double)p.height * (double)p.height;
+        of->k_sum += (double)p.k;
+        of->across2_sum += (double)(across * across);
+        of->along2_sum += (double)(along * along);
+        of->z_sum += (double)p.height;
+        of->z2_sum += (double)p.height * (double)p.height;
         m->low = fminf(m->low, p.height);
         m->high = fmaxf(m->high, p.height);
     }
     if (m->low > m->high) m->low = m->high = 0.0f;
 }
 
-/* The mean of weave_depth, 1 - WEAVE_SHADE ((high - z) / (high - low))^2, from the sums of z and z^2. */
+/* Returns the mean of weave_depth, 1 - WEAVE_SHADE ((high - z) / (high - low))^2, from the sums of z and z^2. */
 static float open_mean(const Weave *m, const SystemSeen seen[2]) {
     const double count = (double)(seen[0].count + seen[1].count), high = (double)m->high;
     const double range = fmax(high - (double)m->low, 1e-6);
     if (count < 1.0) return 1.0f;
-    const double z = (seen[0].height + seen[1].height) / count,
-                 z2 = (seen[0].square + seen[1].square) / count;
+    const double z = (seen[0].z_sum + seen[1].z_sum) / count, z2 = (seen[0].z2_sum + seen[1].z2_sum) / count;
     return (float)(1.0 - (double)WEAVE_SHADE * (high * high - 2.0 * high * z + z2) / (range * range));
 }
 
-/* Fibres turn by 0.35 streaks times noise whose variance is 0.18 (weave_finish), which widens D. */
+/* Returns the moments of visible points as parameters of lobe woven, or those of the yarn if no point is visible.
+ * Fibres are rotated by 0.35 streaks times noise whose variance is 0.18 (weave_add_fibres), which widens the lobe. */
 static WeaveFar far_of(const WeaveYarn *y, const SystemSeen *seen) {
-    const float turn = 0.35f * y->streaks, a2 = y->alpha * y->alpha;
-    WeaveFar far = {.alpha = sqrtf(a2 + (1.0f - a2) * fminf(0.18f * turn * turn, 1.0f)),
+    const float angle = 0.35f * y->streaks, a2 = y->alpha * y->alpha;
+    WeaveFar far = {.alpha = sqrtf(a2 + (1.0f - a2) * fminf(0.18f * angle * angle, 1.0f)),
                     .crimp = fminf(y->crimp, CRIMP_MOST),
                     .roundness = y->roundness,
                     .floats = 1.0f,
                     .slope_across = y->roundness,
                     .slope_along = y->crimp,
-                    .share = (float)seen->count / LOOKS,
-                    .once = 1.0f,
-                    .again = 1.0f};
+                    .share = (float)seen->count / PLACES,
+                    .single = 1.0f,
+                    .multiple = 1.0f};
     if (!seen->count) return far;
-    far.floats = fminf((float)(seen->run / seen->count), FLOATS_MOST);
-    far.slope_across = fminf((float)(sqrt)(3.0 * seen->across / seen->count), ROUNDNESS_MOST);
+    far.floats = fminf((float)(seen->k_sum / seen->count), FLOATS_MOST);
+    far.slope_across = fminf((float)(sqrt)(3.0 * seen->across2_sum / seen->count), ROUNDNESS_MOST);
     far.roundness = far.slope_across;
-    far.slope_along = (float)(sqrt)(3.0 * seen->along / seen->count);
+    far.slope_along = (float)(sqrt)(3.0 * seen->along2_sum / seen->count);
     far.crimp = fminf(far.slope_along * sqrtf((2.0f * far.floats + 1.0f) / 3.0f), CRIMP_MOST);
     return far;
 }
 
-/* The share that a system covers of crossings where it is below, or above. */
+/* Returns the share that a system covers of the crossings where it is below (up 0) or on top (up 1). */
 static float covers(const SystemSeen *seen, int up) {
     return seen->crossings[up] ? (float)seen->on[up] / (float)seen->crossings[up] : 0.0f;
 }
 
-/* A thread's colour in light that met one fibre, and in all other, without irregular dye. */
-static float color_of(const Weave *m, int t, int thread, int c, bool again) {
+/* Returns one channel of a thread's colour without irregular dye, in light that met one fibre or in all other light. t:
+ * 1 for the weft. */
+static float color_of(const Weave *m, int t, int thread, int c, bool multiple) {
     const float a = m->albedos[3 * ((t ? m->warps : 0) + thread) + c],
                 white = t ? m->weft.white : m->warp.white;
-    return again ? yarn_reflectance(a) : fminf(a + white, 1.0f);
+    return multiple ? yarn_reflectance(a) : fminf(a + white, 1.0f);
 }
 
-/* Adds a crossing to the texels of the first level that it overlaps. */
+/* Adds a crossing to the texels of level 0 that it overlaps, in proportion to the overlap. */
 static void add_crossing(ClothFar *far, const Weave *m, const SystemSeen seen[2], int i, int j) {
     const float across = (float)far->width / (float)m->warps, along = (float)far->height / (float)m->picks;
     const float x0 = (float)i * across, x1 = x0 + across, y0 = (float)j * along, y1 = y0 + along;
@@ -144,7 +155,7 @@ const float *cloth_far_level(const ClothFar *far, int level, int *width, int *he
     return far->texels + far->starts[level];
 }
 
-/* Makes a level of the one before it. */
+/* Fills a level with means of the one before it. */
 static void halve(ClothFar *far, int level) {
     int w, h, width, height;
     const float *from = cloth_far_level(far, level - 1, &width, &height);
@@ -163,13 +174,14 @@ static void halve(ClothFar *far, int level) {
             }
 }
 
-/* A power of 2 that has a texel for each thread, as far as there is room. */
+/* Returns a power of 2 that has a texel for each thread, up to FAR_SIDE_MAX. */
 static int far_side(int threads) {
     int side = 1;
     while (side < threads && side < FAR_SIDE_MAX) side *= 2;
     return side;
 }
 
+/* Allocates and fills the colours. Returns false where memory is short. */
 static bool make_colors(WeftCloth *cloth, const SystemSeen seen[2]) {
     const Weave *m = &cloth->weave;
     ClothFar *far = &cloth->far;
@@ -191,47 +203,47 @@ static bool make_colors(WeftCloth *cloth, const SystemSeen seen[2]) {
 
 static void yarn_pairs(YarnPrepared p, const Lit *lit, PairsLit *restrict out) { EACH_LIT(yarn, Yarn) }
 
-/* Light that points of one system reflect between pairs of directions, loose fibres among them, the mean over channels; and
- * the mean colours of its points without loose fibres, in parts of the cloth, since textures and facets have these. What loose
- * fibres add is in the factors of WeaveFar. Over a gap there are none. */
+/* The light that points of one system reflect, in parts of the cloth. Textures and facets have the mean colours, which
+ * are without loose fibres. What loose fibres add becomes the factors of WeaveFar. */
 typedef struct SystemLit {
-    Lit lit;
-    double once[3], again[3];
+    Lit lit; /* with loose fibres, the mean over channels */
+    double single[3], multiple[3];
 } SystemLit;
 
 static double channel_mean(const double color[3]) { return (color[0] + color[1] + color[2]) / 3.0; }
 
-static void color_of_point(const Weave *m, WeavePoint p, double once[3], double again[3]) {
+static void color_of_point(const Weave *m, WeavePoint p, double single[3], double multiple[3]) {
     for (int c = 0; c < 3; c++) {
-        once[c] = (double)weave_once(m, p, c);
-        again[c] = (double)weave_reflectance(m, p, c);
+        single[c] = (double)weave_single(m, p, c);
+        multiple[c] = (double)weave_multiple(m, p, c);
     }
 }
 
-/* Adds a point to those that stand for its system. Its colours are in parts of its thread's. */
-static void add_facet(WeftCloth *cloth, WeavePoint p, double once, double again) {
+/* Adds a point to the facets of its system, unless they are complete. single, multiple: its colours, which the facet
+ * has in parts of its thread's. */
+static void add_facet(WeftCloth *cloth, WeavePoint p, double single, double multiple) {
     const Weave *m = &cloth->weave;
     const Yarn yarn = weave_yarn(m, p);
     int *count = &cloth->facet_count[p.weft];
     if (*count == FACETS_MOST) return;
     const int threads = p.weft ? m->picks : m->warps, thread = (int)weave_mod(p.thread, (float)threads);
-    double own[2] = {0.0, 0.0};
+    double own[2] = {0.0, 0.0}; /* colours of the thread */
     for (int c = 0; c < 3; c++)
         for (int kind = 0; kind < 2; kind++)
             own[kind] += (double)color_of(m, p.weft, thread, c, kind == 1) / 3.0;
     cloth->facets[p.weft][(*count)++] = (ClothFacet){.slope_x = yarn.slope_x,
                                                      .slope_y = yarn.slope_y,
                                                      .azimuth = yarn.azimuth,
-                                                     .once = (float)(once / fmax(own[0], 1e-9)),
-                                                     .again = (float)(again / fmax(own[1], 1e-9))};
+                                                     .single = (float)(single / fmax(own[0], 1e-9)),
+                                                     .multiple = (float)(multiple / fmax(own[1], 1e-9))};
 }
 
 static int order_of(float a, float b) { return (a > b) - (a < b); }
 
-/* Facets of equal slopes have an order too, so that it is the same with any C library. */
+/* Compares facets of equal slopes too, so that their order is the same with any C library. */
 static int by_rest(const ClothFacet *a, const ClothFacet *b) {
-    const int azimuth = order_of(a->azimuth, b->azimuth), once = order_of(a->once, b->once);
-    return azimuth ? azimuth : once ? once : order_of(a->again, b->again);
+    const int azimuth = order_of(a->azimuth, b->azimuth), single = order_of(a->single, b->single);
+    return azimuth ? azimuth : single ? single : order_of(a->multiple, b->multiple);
 }
 static int by_slope_x(const void *p, const void *q) {
     const ClothFacet *a = p, *b = q;
@@ -244,9 +256,9 @@ static int by_slope_y(const void *p, const void *q) {
     return y ? y : by_slope_x(p, q);
 }
 
-/* Orders facets as the leaves of a k-d tree of their slopes, so that those side by side have like slopes, and numbers that are
- * evenly spread, as those of a pixel's samples, choose facets that are. Jon Louis Bentley, "Multidimensional Binary Search
- * Trees Used for Associative Searching", 1975. */
+/* Orders facets as the leaves of a k-d tree of their slopes. Facets side by side then have similar slopes, so that
+ * evenly spread numbers, as the samples of a pixel have them, choose evenly spread slopes. Jon Louis Bentley,
+ * "Multidimensional Binary Search Trees Used for Associative Searching", 1975. */
 static void order_facets(ClothFacet *facets, int count) {
     if (count < 3) return;
     float low[2] = {facets->slope_x, facets->slope_y}, high[2] = {low[0], low[1]};
@@ -260,54 +272,56 @@ static void order_facets(ClothFacet *facets, int count) {
     order_facets(facets + count / 2, count - count / 2);
 }
 
-/* Makes the factors 1 on the mean, and orders the facets. */
+/* Scales the factors to a mean of 1, and orders the facets. */
 static void finish_facets(ClothFacet *facets, int *count) {
-    double once = 0.0, again = 0.0;
+    double single = 0.0, multiple = 0.0;
     for (int k = 0; k < *count; k++) {
-        once += (double)facets[k].once / *count;
-        again += (double)facets[k].again / *count;
+        single += (double)facets[k].single / *count;
+        multiple += (double)facets[k].multiple / *count;
     }
     for (int k = 0; k < *count; k++) {
-        facets[k].once /= (float)fmax(once, 1e-9);
-        facets[k].again /= (float)fmax(again, 1e-9);
+        facets[k].single /= (float)fmax(single, 1e-9);
+        facets[k].multiple /= (float)fmax(multiple, 1e-9);
     }
     order_facets(facets, *count);
     if (*count == 0) *count = 1; /* of a system that is never seen, black */
 }
 
-/* Adds a point, as it reflects its part of the light. */
+/* Adds what a point reflects, as one of PLACES. */
 static void light_point(Lit *near, const Weave *m, WeavePoint point) {
-    double once[3], again[3];
+    double single[3], multiple[3];
     YarnPrepared p;
     PairsLit pairs;
-    color_of_point(m, point, once, again);
+    color_of_point(m, point, single, multiple);
     yarn_prepare(weave_yarn(m, point), &p);
     yarn_pairs(p, near, &pairs);
-    lit_add(near, &pairs, channel_mean(once) / LOOKS, channel_mean(again) / LOOKS);
+    lit_add(near, &pairs, channel_mean(single) / PLACES, channel_mean(multiple) / PLACES);
 }
 
+/* Adds what all points reflect, and makes the facets. */
 static void light_points(WeftCloth *cloth, SystemLit near[2]) {
     const Weave *m = &cloth->weave;
-    for (int at = 0; at < LOOKS; at++) {
+    for (int at = 0; at < PLACES; at++) {
         float x, y;
-        double once[3], again[3];
-        const WeavePoint bound = look(m, at, &x, &y);
+        double single[3], multiple[3];
+        const WeavePoint bound = point_at(m, at, &x, &y);
         if (bound.height <= WEAVE_NONE) continue;
-        color_of_point(m, bound, once, again);
+        color_of_point(m, bound, single, multiple);
         for (int c = 0; c < 3; c++) {
-            near[bound.weft].once[c] += once[c] / LOOKS;
-            near[bound.weft].again[c] += again[c] / LOOKS;
+            near[bound.weft].single[c] += single[c] / PLACES;
+            near[bound.weft].multiple[c] += multiple[c] / PLACES;
         }
-        add_facet(cloth, bound, channel_mean(once), channel_mean(again));
+        add_facet(cloth, bound, channel_mean(single), channel_mean(multiple));
         const WeavePoint point = weave_point(m, x, y, 0.0f, 0.0f); /* with loose fibres */
         light_point(&near[point.weft].lit, m, point);
     }
     for (int t = 0; t < 2; t++) finish_facets(cloth->facets[t], &cloth->facet_count[t]);
 }
 
+/* Returns near / far, 0 if either is. */
 static float ratio(double near, double far) { return near > 0.0 && far > 0.0 ? (float)(near / far) : 0.0f; }
 
-/* Makes the mean of a layer over the repeat that colour. */
+/* Scales a layer so that its mean over the repeat is that colour. */
 static void scale_layer(ClothFar *far, int layer, const double color[3]) {
     int w, h;
     float factor[3];
@@ -321,19 +335,20 @@ static void scale_layer(ClothFar *far, int layer, const double color[3]) {
     }
 }
 
-/* Scales the colours of a system to those of its points, and fits its lobe with factors on them. */
+/* Scales the colours of a system to those of its points, fits its lobe, and sets the factors that remain. */
 static void fit_system(WeftCloth *cloth, bool weft, const SystemLit *near) {
     WeaveFar *far = weft ? &cloth->weave.weft_far : &cloth->weave.warp_far;
-    scale_layer(&cloth->far, weft ? FAR_WEFT_ONCE : FAR_WARP_ONCE, near->once);
-    scale_layer(&cloth->far, weft ? FAR_WEFT_AGAIN : FAR_WARP_AGAIN, near->again);
+    scale_layer(&cloth->far, weft ? FAR_WEFT_SINGLE : FAR_WARP_SINGLE, near->single);
+    scale_layer(&cloth->far, weft ? FAR_WEFT_MULTIPLE : FAR_WARP_MULTIPLE, near->multiple);
     const Lit lobe = woven_fit(&cloth->weave, weft, &near->lit, &cloth->far.woven[weft]);
     const double share = (double)cloth->far.woven[weft].share;
-    far->once = ratio(lit_sum(near->lit.once) * share, lit_sum(lobe.once) * channel_mean(near->once));
-    far->again = ratio(lit_sum(near->lit.again) * share, lit_sum(lobe.again) * channel_mean(near->again));
+    far->single = ratio(lit_sum(near->lit.single) * share, lit_sum(lobe.single) * channel_mean(near->single));
+    far->multiple =
+        ratio(lit_sum(near->lit.multiple) * share, lit_sum(lobe.multiple) * channel_mean(near->multiple));
 }
 
 static void fit_far(WeftCloth *cloth) {
-    SystemLit near[2] = {{.once = {0.0}}};
+    SystemLit near[2] = {{.single = {0.0}}};
     for (int t = 0; t < 2; t++) lit_start(&near[t].lit);
     light_points(cloth, near);
     for (int t = 0; t < 2; t++) fit_system(cloth, t == 1, &near[t]);

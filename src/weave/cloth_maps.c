@@ -48,8 +48,8 @@ typedef struct MapTexel {
         [2]; /* direction of the fibres as a unit vector at twice the angle, so that opposite ones agree */
 } MapTexel;
 
-/* Returns the fraction of single scattering in what a white yarn reflects (yarn_medium.h). */
-static float single_fraction(float alpha) { return 0.328f - 0.111f * alpha; }
+/* Returns the part of light that leaves white fibres after it met one of them (yarn_medium.h). */
+static float single_of(float alpha) { return 0.328f - 0.111f * alpha; }
 
 /* Adds a point of the cloth to a texel. */
 static void add_point(const Weave *m, float x, float y, float spacing, MapTexel *t) {
@@ -59,7 +59,7 @@ static void add_point(const Weave *m, float x, float y, float spacing, MapTexel 
         t->height += part * m->low;
         return;
     }
-    const float alpha = p.weft ? m->weft.alpha : m->warp.alpha, single = single_fraction(alpha);
+    const float alpha = p.weft ? m->weft.alpha : m->warp.alpha, single = single_of(alpha);
     for (int c = 0; c < 3; c++) {
         const float a = weave_albedo(m, p, c);
         t->color[c] += part * p.lit * (a * single + yarn_reflectance(a) * (1.0f - single));

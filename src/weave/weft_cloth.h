@@ -6,31 +6,30 @@
 #include "shading/weave/weave_point.h"
 #include "weft/weave.h"
 
-/* Layers of a level of ClothFar: reflectance of the warp at a place by single scattering (ONCE) and by multiple
- * scattering (AGAIN), as fractions of the light on the cloth, and the same of the weft. Alpha is the fraction that the
- * system covers. */
-enum { FAR_WARP_ONCE, FAR_WARP_AGAIN, FAR_WEFT_ONCE, FAR_WEFT_AGAIN, FAR_LAYERS };
+/* The colours of a repeat as mipmaps: grids of a power of 2 columns and rows, each level half as wide and high as the
+ * one before. A level has FAR_LAYERS layers of RGBA: the part of light that the warp reflects there, of light that met
+ * one fibre and of all other light, and the same of the weft. Alpha is the share that the system covers. */
+enum { FAR_WARP_SINGLE, FAR_WARP_MULTIPLE, FAR_WEFT_SINGLE, FAR_WEFT_MULTIPLE, FAR_LAYERS };
 enum { FAR_LEVELS_MOST = 10 };
 
 /* The mip levels of a repeat's colours: grids whose sides are powers of 2, each level half of the one before. */
 typedef struct ClothFar {
-    int width, height; /* of the first level */
-    int levels;
-    int starts[FAR_LEVELS_MOST]; /* of each level, index in texels */
-    float *texels;               /* RGBA by level and layer */
-    WovenPrepared woven[2]; /* the lobes of warp and weft: weave_woven, fitted to their yarns (woven_fit.h) */
+    int width, height, levels;
+    int starts[FAR_LEVELS_MOST]; /* index of the first number of each level */
+    float *texels;
+    WovenPrepared woven[2]; /* lobes of warp and weft, fitted (woven_fit.h) */
 } ClothFar;
 
-/* A point of one system that stands for the cloth from afar: slopes and azimuth as in lobe yarn, and factors on the
- * colours, 1 in the mean. The points of a system are evenly spread over a piece of the cloth. Neighbours have similar
- * slopes, since they are the leaves of a k-d tree. */
+/* A point of one system that may stand for all of them from afar. Points are evenly spread over a piece of the cloth,
+ * and ordered as the leaves of a k-d tree of their slopes, so that neighbours have similar slopes. */
 typedef struct ClothFacet {
-    float slope_x, slope_y, azimuth, once, again;
+    float slope_x, slope_y, azimuth; /* as lobe yarn has them */
+    float single, multiple;          /* factors on the colours, 1 on the mean */
 } ClothFacet;
 enum { FACETS_MOST = 4096 };
 
 struct WeftCloth {
-    Weave weave; /* with the two tables below */
+    Weave weave; /* with runs and albedos below as tables */
     ClothFar far;
     int facet_count[2]; /* by system, at least 1 */
     ClothFacet facets[2][FACETS_MOST];
@@ -49,10 +48,10 @@ void cloth_spread(WeftCloth *cloth, double metres);
 /* Returns true if both came from the same text, and from the same draft if that is in a file. */
 bool cloth_same(const WeftCloth *a, const WeftCloth *b);
 
-/* Makes weave.warp_far, weave.weft_far, far and facets (cloth_far.c). Returns false if memory is short. */
+/* Makes weave.warp_far and weft_far, far and facets. Returns false where memory is short. */
 bool cloth_far_make(WeftCloth *cloth);
 
-/* Returns the side of a level from that of the first. */
+/* Returns the side of a level, in texels. side: that of level 0. */
 static inline int cloth_far_side(int side, int level) { return side >> level > 0 ? side >> level : 1; }
 
 /* Returns the texels of a level, all layers one after the other. */

@@ -39,8 +39,8 @@ static void put_runs(WeftCloth *cloth, const WeftDraft *draft, WeftThreads threa
     }
 }
 
-/* Returns the albedo A of fibres in a cloth of that reflectance, A E + rho(A) (1 - E), by bisection. E is that of
- * single scattering on white fibres. */
+/* Returns the albedo A of fibres that make a cloth of that reflectance, A E + rho(A) (1 - E), by bisection. E is the
+ * part of light that leaves white fibres after it met one of them. */
 static float albedo_of(float reflectance, float alpha) {
     const float single = 0.328f - 0.111f * alpha;
     float low = 0.0f, high = 1.0f;
@@ -81,7 +81,7 @@ static WeaveYarn yarn_in_cloth(const WeftYarn *yarn, float pitch, float cross_pi
                        .slub = yarn->slub,
                        .wander = yarn->wander,
                        .hairiness = yarn->hairiness,
-                       .over_width = 1.0f / own,
+                       .per_width = 1.0f / own,
                        .cos_twist = cosf(yarn->twist),
                        .sin_twist = sinf(yarn->twist),
                        .crossing = cross_pitch / pitch};

@@ -1,12 +1,14 @@
-/* woven_fit.c - lobe woven of one system, and what its formula does not know of yarns between others
+/* woven_fit.c - lobe woven of one system, fitted to yarns that lie between others
  *
- *   wide = r (1 - narrow m^2),  middle = lean m,  gain = g_k times that of an arc
+ *   width = r (1 - taper m^2),  middle = lean m,  weight = g_k times that of an arc
  *
- * of bin k, where m is its mean slope over the steepest and r the lobe's roundness. Other yarns cross over both ends of
- * the visible part of a yarn, so that it is narrower there; in a twill they cover one corner more than the other, so that
- * it leans; and its slopes are not as frequent as those of an arc. The lobe's alpha, crimp, roundness and floats, narrow and
- * lean make a shape, which is searched for. The light of each bin is a term of a sum, so that the gains g_k of a shape are
- * those of least squares. The slopes by which yarns hide each other are those of points. */
+ * of the slopes across bin k (WovenSlopes), where m is its slope along the yarn, 0 to 1, and r the roundness of the
+ * lobe. The formula of the lobe describes a yarn alone. In a cloth other yarns cover both ends of its visible part, so
+ * that it is narrower there (taper). In a twill they cover one corner more than the other (lean). And its slopes are
+ * not as frequent as those of an arc (g_k).
+ *   The lobe's alpha, crimp, roundness and floats make a shape together with taper and lean. A search finds the shape.
+ * For each shape that it tries, the gains g_k are those of least squares, since light is linear in them. The slopes by
+ * which yarns hide each other are those of the points. */
 #include "weave/woven_fit.h"
 
 #include <math.h>
@@ -15,13 +17,14 @@
 
 enum {
     SHAPE_NUMBERS = 6,
-    SHAPES_MOST = 600, /* looks at what a shape reflects, */
-    GAIN_ROUNDS = 200, /* and at each of its gains */
+    SHAPES_MOST = 600, /* tried by the search */
+    GAIN_ROUNDS = 200, /* over the gains of a shape */
 };
 
-/* Directions within 80 degrees of the normal, evenly by their cosine. */
-static Dir direction_of(double mu, double turn) {
-    const double z = 0.17 + 0.83 * mu, r = (sqrt)(1.0 - z * z), phi = 2.0 * (double)PI * turn;
+/* Returns a direction within 80 degrees of the normal. height: 0 to 1, uniform in the cosine; part: of a full
+ * circle. */
+static Dir direction_of(double height, double part) {
+    const double z = 0.17 + 0.83 * height, r = (sqrt)(1.0 - z * z), phi = 2.0 * (double)PI * part;
     return dir((float)(r * (cos)(phi)), (float)(r * (sin)(phi)), (float)z);
 }
 
@@ -32,14 +35,14 @@ void lit_start(Lit *lit) {
         const double n = (double)k + 0.5;
         put(lit->o, k, direction_of(n / LIT_PAIRS, fmod(0.7548776662 * n, 1.0)));
         put(lit->i, k, direction_of(fmod(0.5698402910 * n, 1.0), fmod(0.3819660113 * n, 1.0)));
-        lit->once[k] = lit->again[k] = 0.0;
+        lit->single[k] = lit->multiple[k] = 0.0;
     }
 }
 
-void lit_add(Lit *lit, const PairsLit *pairs, double once, double again) {
+void lit_add(Lit *lit, const PairsLit *pairs, double single, double multiple) {
     for (int k = 0; k < LIT_PAIRS; k++) {
-        lit->once[k] += (double)pairs->once[k] * once;
-        lit->again[k] += (double)pairs->again[k] * again;
+        lit->single[k] += (double)pairs->single[k] * single;
+        lit->multiple[k] += (double)pairs->multiple[k] * multiple;
     }
 }
 
@@ -49,74 +52,76 @@ double lit_sum(const double values[LIT_PAIRS]) {
     return sum;
 }
 
-/* lean: in parts of the most that there is room for. */
 typedef struct SystemFit {
     const Weave *weave;
     bool weft;
-    WeaveFar *far; /* of the weave */
-    const Lit *near;
-    float narrow, lean, gains[WOVEN_BINS];
+    WeaveFar *far;   /* the system's, in weave: alpha, crimp, roundness and floats of the shape */
+    const Lit *near; /* what the points reflect */
+    float taper;
+    float lean; /* -1 to 1, of the most that is possible */
+    float gains[WOVEN_BINS];
 } SystemFit;
 
-/* The lobe of the shape, without gains. |s_x| stays within 1.5, as far as woven_flat is good, and within 1.8 r, beyond which
- * the weight 1 - 0.3 (s_x / r)^2 would be negative. */
+/* Prepares the lobe of the shape, without gains. |s_x| stays within ROUNDNESS_MOST, where woven_inverse_root is
+ * accurate, and within 1.8 r, beyond which the weight 1 - 0.3 (s_x / r)^2 would be negative. */
 static void prepare_shape(const SystemFit *fit, WovenPrepared *p) {
     woven_prepare(weave_woven(fit->weave, fit->weft), p);
-    const float r = p->wide, most = min(1.8f * r, ROUNDNESS_MOST);
-    p->roundness = max(fit->far->slope_across, 1e-2f);
-    p->crimp = fit->far->slope_along;
+    const float r = p->width, most = min(1.8f * r, ROUNDNESS_MOST);
+    p->v_roundness = max(fit->far->slope_across, 1e-2f);
+    p->v_crimp = fit->far->slope_along;
     p->lean = fit->lean * min(0.5f * r, most - r);
-    p->narrow = max(fit->narrow * r, r + abs(p->lean) - most);
+    p->taper = max(fit->taper * r, r + abs(p->lean) - most);
 }
 
-#define BIN_PLACE(name) &p->name,
+#define BIN_PLACE(name) &p->bins.name,
 static void prepare_fitted(const SystemFit *fit, WovenPrepared *p) {
     prepare_shape(fit, p);
     WovenBin *const bins[] = {WOVEN_EACH_BIN(BIN_PLACE)};
     p->level *= fit->gains[0];
-    for (int k = 1; k < WOVEN_BINS; k++) bins[k - 1]->gain *= fit->gains[k];
+    for (int k = 1; k < WOVEN_BINS; k++) bins[k - 1]->weight *= fit->gains[k];
 }
 
-/* Light that met one fibre, of each bin without the others, with a gain of 1. last: the part of the last bin that there
- * is. */
+/* f cos_i of each bin alone, of light that met one fibre, with a gain of 1. */
 typedef struct BinsLit {
     int count;
-    double last;
-    float once[WOVEN_BINS][LIT_PAIRS];
+    double last; /* the part of the last bin that there is, 0 to 1 */
+    float single[WOVEN_BINS][LIT_PAIRS];
 } BinsLit;
 
-static void light_bin(const WovenPrepared *p, WovenBin b, const Lit *lit, float *restrict once) {
-    const WovenSlopes s = woven_slopes(p, b.mean), opposite = woven_opposite(s);
+static void light_bin(const WovenPrepared *p, WovenBin b, const Lit *lit, float *restrict single) {
+    const WovenSlopes s = woven_slopes(p, b.slope), opposite = woven_opposite(s);
     for (int k = 0; k < LIT_PAIRS; k++) {
         const Dir o = {lit->o[0][k], lit->o[1][k], lit->o[2][k]};
         const Dir i = {lit->i[0][k], lit->i[1][k], lit->i[2][k]};
-        const WovenView v = woven_look(p, o), w = woven_look(p, i);
-        const float q = yarn_half(angles_between(o, i));
-        const float rows = woven_row(p, s, &v, &w, q) + woven_row(p, opposite, &v, &w, q);
-        once[k] = p->part * b.gain * rows * v.over_seen * w.over_seen * i.z;
+        const WovenView v = woven_view_of(p, o), w = woven_view_of(p, i);
+        const float q = yarn_per_sum2(angles_between(o, i));
+        const float both = woven_across(p, s, &v, &w, q) + woven_across(p, opposite, &v, &w, q);
+        single[k] = p->scale * b.weight * both * v.per_v * w.per_v * i.z;
     }
 }
 
-#define BIN_OF(name) p.name,
+#define BIN_OF(name) p.bins.name,
 static void light_bins(const SystemFit *fit, BinsLit *bins) {
     WovenPrepared p;
     prepare_shape(fit, &p);
-    const WovenBin level = {.mean = 0.0f, .gain = 0.5f * p.level}; /* twice, as its own opposite */
+    const WovenBin level = {.slope = 0.0f, .weight = 0.5f * p.level}; /* light_bin adds it twice */
     const WovenBin all[] = {level, WOVEN_EACH_BIN(BIN_OF)};
     bins->count = (int)p.count;
     bins->last = (double)woven_count(weave_woven(fit->weave, fit->weft)) - (double)(bins->count - 1);
-    for (int k = 0; k < bins->count; k++) light_bin(&p, all[k], fit->near, bins->once[k]);
+    for (int k = 0; k < bins->count; k++) light_bin(&p, all[k], fit->near, bins->single[k]);
 }
 
-/* The weight of a pair's square: between squares of errors and of errors in parts of a pair's light. */
+/* Returns the weight of a pair's squared error: between weights for absolute errors, and for errors relative to the
+ * light of the pair. */
 static double weight_of(const Lit *near, int k) {
-    return 1.0 / (near->once[k] + 0.1 * near->again[k] + 1e-9);
+    return 1.0 / (near->single[k] + 0.1 * near->multiple[k] + 1e-9);
 }
 
-/* m g = v of the gains g for which
+/* The equations m g = v of the gains g that make
  *   sum over pairs of weight (sum_k g_k bin_k - near)^2  +  sum_k d_k m_kk (g_k - even)^2
- * is least, where no gain is negative; `even` is the gain that all would have. d_k is 1e-4, which keeps bins alike that pairs
- * cannot tell apart, but more for a last bin of which there is only a part: it comes into the sum by degrees. */
+ * least. `even` is the gain that all bins would have if they had one in common. d_k is 1e-4, so that bins which pairs
+ * cannot tell apart stay alike. For a fraction of a last bin it is larger, so that the bin becomes effective by
+ * degrees. */
 typedef struct Gains {
     double m[WOVEN_BINS][WOVEN_BINS], v[WOVEN_BINS], even;
 } Gains;
@@ -124,26 +129,27 @@ typedef struct Gains {
 static void gains_start(Gains *g, const BinsLit *bins, const Lit *near) {
     double sum = 0.0;
     for (int i = 0; i < bins->count; i++)
-        for (int k = 0; k < LIT_PAIRS; k++) sum += (double)bins->once[i][k];
-    g->even = lit_sum(near->once) / fmax(sum, 1e-30);
+        for (int k = 0; k < LIT_PAIRS; k++) sum += (double)bins->single[i][k];
+    g->even = lit_sum(near->single) / fmax(sum, 1e-30);
     for (int i = 0; i < bins->count; i++) {
         double weighted[LIT_PAIRS];
-        for (int k = 0; k < LIT_PAIRS; k++) weighted[k] = weight_of(near, k) * (double)bins->once[i][k];
+        for (int k = 0; k < LIT_PAIRS; k++) weighted[k] = weight_of(near, k) * (double)bins->single[i][k];
         for (int j = 0; j <= i; j++) {
             double product = 0.0;
-            for (int k = 0; k < LIT_PAIRS; k++) product += weighted[k] * (double)bins->once[j][k];
+            for (int k = 0; k < LIT_PAIRS; k++) product += weighted[k] * (double)bins->single[j][k];
             g->m[i][j] = g->m[j][i] = product;
         }
         const double part = i < bins->count - 1 ? 1.0 : fmax(bins->last, 1e-6);
         const double d = 1e-4 / part * g->m[i][i] + 1e-30;
         g->v[i] = d * g->even;
-        for (int k = 0; k < LIT_PAIRS; k++) g->v[i] += weighted[k] * near->once[k];
+        for (int k = 0; k < LIT_PAIRS; k++) g->v[i] += weighted[k] * near->single[k];
         g->m[i][i] += d;
     }
 }
 
-/* One gain after the other is made the best that it can be beside the others, until they hardly move: Vojtech Franc, Vaclav
- * Hlavac, Mirko Navara, "Sequential Coordinate-Wise Algorithm for the Non-negative Least Squares Problem", 2005. */
+/* Solves for gains that are not negative. One gain after the other is set to the best value beside the others, until
+ * they hardly change: Vojtech Franc, Vaclav Hlavac, Mirko Navara, "Sequential Coordinate-Wise Algorithm for the
+ * Non-negative Least Squares Problem", 2005. */
 static void gains_solve(const Gains *g, int count, double gains[WOVEN_BINS]) {
     double moved = 1.0;
     for (int i = 0; i < count; i++) gains[i] = g->even;
@@ -159,7 +165,8 @@ static void gains_solve(const Gains *g, int count, double gains[WOVEN_BINS]) {
     }
 }
 
-/* The weighted squares that a shape leaves with its gains, which become those of the fit. */
+/* Returns the weighted sum of squared errors of a shape x with its best gains. Sets shape and gains of the fit, which
+ * is user. */
 static double shape_error(unsigned n, const double *x, double *gradient, void *user) {
     SystemFit *fit = user;
     BinsLit bins;
@@ -167,24 +174,24 @@ static double shape_error(unsigned n, const double *x, double *gradient, void *u
     double gains[WOVEN_BINS], error = 0.0;
     (void)n, (void)gradient;
     fit->far->alpha = (float)x[0], fit->far->crimp = (float)x[1], fit->far->roundness = (float)x[2];
-    fit->far->floats = (float)x[3], fit->narrow = (float)x[4], fit->lean = (float)x[5];
+    fit->far->floats = (float)x[3], fit->taper = (float)x[4], fit->lean = (float)x[5];
     light_bins(fit, &bins);
     gains_start(&g, &bins, fit->near);
     gains_solve(&g, bins.count, gains);
     for (int k = 0; k < LIT_PAIRS; k++) {
-        double off = -fit->near->once[k];
-        for (int i = 0; i < bins.count; i++) off += gains[i] * (double)bins.once[i][k];
+        double off = -fit->near->single[k];
+        for (int i = 0; i < bins.count; i++) off += gains[i] * (double)bins.single[i][k];
         error += weight_of(fit->near, k) * off * off;
     }
     for (int i = 0; i < bins.count; i++) fit->gains[i] = (float)gains[i];
     return error;
 }
 
-/* Searches for the shape: M. J. D. Powell, "The BOBYQA Algorithm for Bound Constrained Optimization without Derivatives",
- * 2009, as NLopt has it. Gains could make up for any crimp and floats, so these have bounds: bins beyond what the yarn has
- * would take time for nothing. Yarns that float look steeper and less level than their moments, so the search starts there,
- * and does not stop at shapes that are best only near the moments. Returns false where it fails, as it does where memory is
- * short. */
+/* Searches for the shape: M. J. D. Powell, "The BOBYQA Algorithm for Bound Constrained Optimization without
+ * Derivatives", 2009, as NLopt has it. Crimp and floats are bounded near the moments: gains could make up for other
+ * values, but bins beyond the slopes of the yarn would cost time for nothing. Yarns that float look steeper and less
+ * level than their moments. The search starts there, so that it does not end at a shape which is the best only near the
+ * moments. Returns false where it fails, as it does where memory is short. */
 static bool fit_shape(SystemFit *fit) {
     const WeaveFar *far = fit->far;
     const double crimp = (double)far->crimp, floats = (double)far->floats;
@@ -220,22 +227,22 @@ static void woven_pairs(WovenPrepared p, const Lit *lit, PairsLit *out) { EACH_L
 static void light_lobe(const WovenPrepared *p, Lit *far) {
     PairsLit pairs;
     woven_pairs(*p, far, &pairs);
-    for (int k = 0; k < LIT_PAIRS; k++) far->once[k] = far->again[k] = 0.0;
+    for (int k = 0; k < LIT_PAIRS; k++) far->single[k] = far->multiple[k] = 0.0;
     lit_add(far, &pairs, 1.0, 1.0);
 }
 
-/* Makes the lobe as bright, in light that met one fibre, as the one of its numbers alone, for which the environment is
- * convolved (raster/material/materials.c). */
+/* Scales the gains so that light that met one fibre is as bright as without them: the environment is convolved with the
+ * lobe without gains (raster/material/materials.c). */
 static void level_gains(SystemFit *fit) {
     Lit lobe = *fit->near;
     WovenPrepared p;
     woven_prepare(weave_woven(fit->weave, fit->weft), &p);
     light_lobe(&p, &lobe);
-    const double plain = lit_sum(lobe.once);
+    const double without = lit_sum(lobe.single);
     prepare_fitted(fit, &p);
     light_lobe(&p, &lobe);
-    const double fitted = lit_sum(lobe.once);
-    for (int k = 0; k < WOVEN_BINS && fitted > 0.0; k++) fit->gains[k] *= (float)(plain / fitted);
+    const double fitted = lit_sum(lobe.single);
+    for (int k = 0; k < WOVEN_BINS && fitted > 0.0; k++) fit->gains[k] *= (float)(without / fitted);
 }
 
 Lit woven_fit(Weave *m, bool weft, const Lit *near, WovenPrepared *woven) {
@@ -243,13 +250,13 @@ Lit woven_fit(Weave *m, bool weft, const Lit *near, WovenPrepared *woven) {
     SystemFit fit = {.weave = m, .weft = weft, .far = far, .near = near};
     Lit lobe = *near;
     for (int k = 0; k < WOVEN_BINS; k++) fit.gains[k] = 1.0f;
-    const SystemFit plain = fit;
+    const SystemFit start = fit;
     const WeaveFar moments = *far;
-    if (lit_sum(near->once) > 0.0 && fit_shape(&fit)) {
+    if (lit_sum(near->single) > 0.0 && fit_shape(&fit)) {
         level_gains(&fit);
     } else {
         *far = moments;
-        fit = plain;
+        fit = start;
     }
     prepare_fitted(&fit, woven);
     light_lobe(woven, &lobe);

@@ -101,8 +101,8 @@ static WeftLobe lobe_alone(const WeftCloth *cloth, bool weft) {
     WeftLobe lobe;
     assert_int_equal(weft_lobe_init("woven", &lobe, NULL), WEFT_OK);
     memcpy(lobe.params, base.lobe.params, sizeof base.lobe.params);
-    memcpy(lobe.f0, (float[3]){base.once.r, base.once.g, base.once.b}, sizeof lobe.f0);
-    memcpy(lobe.f90, (float[3]){base.again.r, base.again.g, base.again.b}, sizeof lobe.f90);
+    memcpy(lobe.f0, (float[3]){base.single.r, base.single.g, base.single.b}, sizeof lobe.f0);
+    memcpy(lobe.f90, (float[3]){base.multiple.r, base.multiple.g, base.multiple.b}, sizeof lobe.f90);
     return lobe;
 }
 

@@ -201,8 +201,8 @@ static void see_pixel(const WeftCloth *cloth, float x, float y, float side, Dir 
         const Lobe lobe = yarn_of_row(&yarn, (size_t)n);
         const LobeValue value = lobe_value(&lobe, a);
         const double f = part * 3.0 * (double)(value.f * sun.z) / POINTS, s = (double)value.s;
-        sum[0] += f * ((double)yarn.once[0][n] * (1.0 - s) + (double)yarn.again[0][n] * s);
-        sum[1] += f * ((double)yarn.once[2][n] * (1.0 - s) + (double)yarn.again[2][n] * s);
+        sum[0] += f * ((double)yarn.single[0][n] * (1.0 - s) + (double)yarn.multiple[0][n] * s);
+        sum[1] += f * ((double)yarn.single[2][n] * (1.0 - s) + (double)yarn.multiple[2][n] * s);
     }
 }
 

@@ -55,7 +55,7 @@ static void cloth_base(const WeftCloth *cloth, const ClothLook *look, Stack *sta
     looks.level[0] = look->level, looks.facet[0] = look->facet;
     cloth_bases(cloth, &looks, 1, &yarn);
     const Lobe lobe = yarn_of_row(&yarn, 0);
-    stack_put_base(stack, &lobe, ROW_RGB(yarn.once, 0), ROW_RGB(yarn.again, 0));
+    stack_put_base(stack, &lobe, ROW_RGB(yarn.single, 0), ROW_RGB(yarn.multiple, 0));
 }
 
 /* The weave of a preset. */
@@ -243,8 +243,8 @@ static void looks_are_the_same_alone_and_among_others(void **state) {
                                     .facet = looks.facet[k]};
             cloth_base(cloth, &look, &stack);
             assert_float_equal(stack.diffuse.lobe.params[YARN_SLOPE_X], rows.params[YARN_SLOPE_X][k], 1e-3f);
-            assert_float_equal(stack.diffuse.f0.r, rows.once[0][k], 1e-3f);
-            assert_float_equal(stack.diffuse.f90.b, rows.again[2][k], 1e-3f);
+            assert_float_equal(stack.diffuse.f0.r, rows.single[0][k], 1e-3f);
+            assert_float_equal(stack.diffuse.f90.b, rows.multiple[2][k], 1e-3f);
             if (k % 2) continue;
             const float x = looks.uv[0][k] * cloth->per_uv[WEFT_WARP],
                         y = -looks.uv[1][k] * cloth->per_uv[WEFT_WEFT];

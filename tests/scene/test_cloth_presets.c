@@ -60,7 +60,7 @@ static void points_reflect(const Weave *m, const Pairs *pairs, double lit[PAIRS]
                     y = (float)(PIECE * fmod(0.5698402909980532 * (n + OTHERS), 1.0));
         const WeavePoint p = weave_point(m, x, y, 0.0f, 0.0f);
         if (p.height <= WEAVE_NONE) continue;
-        const Rgb once = weave_once_rgb(m, p), again = weave_again_rgb(m, p);
+        const Rgb once = weave_single_rgb(m, p), again = weave_multiple_rgb(m, p);
         YarnPrepared yarn;
         YarnView view;
         yarn_prepare(weave_yarn(m, p), &yarn);

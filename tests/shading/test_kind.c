@@ -61,8 +61,8 @@ static void weave_both(Random *random, YarnRows *rows, size_t k, SeenStack *any,
     yarn.params[YARN_AZIMUTH] = 6.0f * random_unit(random);
     const Rgb once = rgb(random_unit(random), random_unit(random), 0.0f), again = rgb(0.3f, 0.0f, once.r);
     for (int p = 0; p < LOBE_PARAMS_MAX; p++) rows->params[p][k] = yarn.params[p];
-    rows->once[0][k] = once.r, rows->once[1][k] = once.g, rows->once[2][k] = once.b;
-    rows->again[0][k] = again.r, rows->again[1][k] = again.g, rows->again[2][k] = again.b;
+    rows->single[0][k] = once.r, rows->single[1][k] = once.g, rows->single[2][k] = once.b;
+    rows->multiple[0][k] = again.r, rows->multiple[1][k] = again.g, rows->multiple[2][k] = again.b;
     stack_put_base(&any->stack, &yarn, once, again);
     stack_see(&any->stack, &o, &any->view);
 }

@@ -44,7 +44,7 @@ static Yarn point_of(const Woven *m, float r, float s) {
 }
 
 typedef struct Mean {
-    double once, many, seen; /* of both kinds of light, and of P / V towards wo */
+    double single, multiple, seen; /* of both kinds of light, and of P / V towards wo */
 } Mean;
 
 /* Light that met one fibre counts less at the sides of a yarn, as in the lobe. */
@@ -58,9 +58,9 @@ static Mean mean_of(const Woven *m, Dir o, Dir i, int side) {
         yarn_prepare(point_of(m, r, s), &p);
         yarn_view(&p, o, &w);
         const LobeValue v = yarn_value(&p, &w, angles_between(o, i));
-        mean.once += (double)(v.f * (1.0f - v.s) * (1.0f - 0.3f * r * r) / 0.9f) / (side * side);
-        mean.many += (double)(v.f * v.s) / (side * side);
-        mean.seen += (double)(w.p * w.over_seen) / (side * side);
+        mean.single += (double)(v.f * (1.0f - v.s) * (1.0f - 0.3f * r * r) / 0.9f) / (side * side);
+        mean.multiple += (double)(v.f * v.s) / (side * side);
+        mean.seen += (double)(w.p * w.per_v) / (side * side);
     }
     return mean;
 }
@@ -88,21 +88,21 @@ typedef struct Apart {
 } Apart;
 
 static Apart apart_of(const Woven *m, int side, Random random) {
-    double once[PAIRS], off[PAIRS], apart = 0.0, sum = 0.0, most = 0.0;
+    double single[PAIRS], off[PAIRS], apart = 0.0, sum = 0.0, most = 0.0;
     Apart a = {0.0, 0.0, 0.0};
     for (int k = 0; k < PAIRS; k++) {
         const Dir o = above(&random, 0.15), i = above(&random, 0.15);
         const Mean near = mean_of(m, o, i, side);
         const LobeValue far = far_value(m, o, i);
-        once[k] = near.once;
-        off[k] = fabs((double)(far.f * (1.0f - far.s)) - near.once);
+        single[k] = near.single;
+        off[k] = fabs((double)(far.f * (1.0f - far.s)) - near.single);
         apart += off[k];
-        sum += near.once;
-        most = fmax(most, near.once);
-        a.many = fmax(a.many, fabs((double)(far.f * far.s) / near.many - 1.0));
+        sum += near.single;
+        most = fmax(most, near.single);
+        a.many = fmax(a.many, fabs((double)(far.f * far.s) / near.multiple - 1.0));
     }
     for (int k = 0; k < PAIRS; k++)
-        if (once[k] > 0.05 * most) a.worst = fmax(a.worst, off[k] / once[k]);
+        if (single[k] > 0.05 * most) a.worst = fmax(a.worst, off[k] / single[k]);
     a.mean = apart / sum;
     return a;
 }
@@ -236,10 +236,11 @@ static void tilt_of_fibres_is_within_a_thousandth(void **state) {
     (void)state;
     double most = 0.0;
     for (int k = 0; k <= 1000; k++) {
-        const double q = 2.25 * k / 1000.0, off = fabs((double)woven_flat((float)q) - 1.0 / (sqrt)(1.0 + q));
+        const double q = 2.25 * k / 1000.0,
+                     off = fabs((double)woven_inverse_root((float)q) - 1.0 / (sqrt)(1.0 + q));
         most = fmax(most, off);
     }
-    printf("woven_flat is at most %.5f off\n", most);
+    printf("woven_inverse_root is at most %.5f off\n", most);
     assert_true(most < 1e-3);
 }
 

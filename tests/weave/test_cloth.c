@@ -132,7 +132,7 @@ static double most_alike(const float x[THREADS]) {
 static float dye_of(const Weave *m, bool weft, float thread) {
     for (int cross = 0; cross < 2; cross++) {
         const float u = thread + 0.5f, v = (float)cross + 0.5f;
-        const WeavePoint p = weave_bound(m, weft ? v : u, weft ? u : v, 0.0f, 0.0f);
+        const WeavePoint p = weave_point_bound(m, weft ? v : u, weft ? u : v, 0.0f, 0.0f);
         if (p.weft == weft && p.thread == thread) return (1.0f - p.dye) / (weft ? m->weft.dye : m->warp.dye);
     }
     fail_msg("thread %g is on top of neither of two", (double)thread);
@@ -253,8 +253,8 @@ static void fibres_leave_the_mean_as_it_is(void **state) {
             dye += (double)(fine.dye - 1.0f) / PLACES;
             slope[0] += (double)(fine.slope_x - coarse.slope_x) / PLACES;
             slope[1] += (double)(fine.slope_y - coarse.slope_y) / PLACES;
-            color[0] += (double)weave_reflectance(&cloth->weave, fine, 0);
-            color[1] += (double)weave_reflectance(&cloth->weave, coarse, 0);
+            color[0] += (double)weave_multiple(&cloth->weave, fine, 0);
+            color[1] += (double)weave_multiple(&cloth->weave, coarse, 0);
         }
         print_message("cotton, streaks %.1f: light %+.4f, dye %+.4f, slopes %+.4f %+.4f, colour %+.4f\n",
                       (double)most[n], lit, dye, slope[0], slope[1], color[0] / color[1] - 1.0);

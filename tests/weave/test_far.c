@@ -52,26 +52,26 @@ static Dir any_above(void) {
     return direction_cos(z, 2.0 * PI_DOUBLE * any_unit());
 }
 
-#define BIN_OF(name) p->name,
+#define BIN_OF(name) p->bins.name,
 static void check_numbers(const WovenPrepared *p) {
     const WovenBin bins[] = {WOVEN_EACH_BIN(BIN_OF)};
-    assert_true(p->level >= 0.0f && isfinite(p->level) && isfinite(p->steep) && p->e >= 0.0f);
-    assert_true(p->wide > 0.0f && p->wide <= ROUNDNESS_MOST);
+    assert_true(p->level >= 0.0f && isfinite(p->level) && isfinite(p->steepest) && p->e >= 0.0f);
+    assert_true(p->width > 0.0f && p->width <= ROUNDNESS_MOST);
     for (int k = 0; k < WOVEN_BINS - 1; k++) {
-        const WovenSlopes slopes = woven_slopes(p, bins[k].mean);
-        const float reach = fabsf(slopes.middle) + slopes.wide;
-        assert_true(slopes.wide > 0.0f && reach <= ROUNDNESS_MOST + 1e-6f);
+        const WovenSlopes slopes = woven_slopes(p, bins[k].slope);
+        const float reach = fabsf(slopes.middle) + slopes.width;
+        assert_true(slopes.width > 0.0f && reach <= ROUNDNESS_MOST + 1e-6f);
         assert_true(1.0f + p->edge * reach * reach >= 0.0f); /* the weight */
-        assert_true(bins[k].gain >= 0.0f && isfinite(bins[k].gain));
-        assert_true(bins[k].mean >= 0.0f && bins[k].mean <= 1.0f && slopes.c > 0.0f && slopes.c <= 1.0f);
+        assert_true(bins[k].weight >= 0.0f && isfinite(bins[k].weight));
+        assert_true(bins[k].slope >= 0.0f && bins[k].slope <= 1.0f && slopes.c > 0.0f && slopes.c <= 1.0f);
     }
 }
 
 /* Returns 1 for a lobe that is not the one of its numbers alone. */
 static int is_fitted(const WovenPrepared *p, Woven m) {
-    WovenPrepared plain;
-    woven_prepare(m, &plain);
-    return p->level != plain.level || p->b1.gain != plain.b1.gain || p->narrow != plain.narrow;
+    WovenPrepared lobe;
+    woven_prepare(m, &lobe);
+    return p->level != lobe.level || p->bins.b1.weight != lobe.bins.b1.weight || p->taper != lobe.taper;
 }
 
 static double most_back, most_apart;

@@ -105,8 +105,8 @@ static Lit lit_cloth(const WeftCloth *cloth, int kind) {
     for (int t = 0; t < 2; t++) {
         lit.lobes[t] = cloth->far.woven[t];
         const double share = (double)lit.lobes[t].share;
-        lit.once[t] = layer_mean(cloth, t ? FAR_WEFT_ONCE : FAR_WARP_ONCE) / share;
-        lit.again[t] = kind ? layer_mean(cloth, t ? FAR_WEFT_AGAIN : FAR_WARP_AGAIN) / share : 0.0;
+        lit.once[t] = layer_mean(cloth, t ? FAR_WEFT_SINGLE : FAR_WARP_SINGLE) / share;
+        lit.again[t] = kind ? layer_mean(cloth, t ? FAR_WEFT_MULTIPLE : FAR_WARP_MULTIPLE) / share : 0.0;
     }
     return lit;
 }

@@ -146,8 +146,8 @@ WeftResult weft_reflection_of_lobe(const WeftLobe *lobe, WeftReflection **out, W
 
 /* The lobe of a system, with both colours. */
 static WeaveBase fitted_threads(const WeftLobe *lobe) {
-    WeaveBase threads = {.once = rgb(lobe->f0[0], lobe->f0[1], lobe->f0[2]),
-                         .again = rgb(lobe->f90[0], lobe->f90[1], lobe->f90[2])};
+    WeaveBase threads = {.single = rgb(lobe->f0[0], lobe->f0[1], lobe->f0[2]),
+                         .multiple = rgb(lobe->f90[0], lobe->f90[1], lobe->f90[2])};
     lobe_of(lobe, &threads.lobe);
     return threads;
 }

@@ -25,7 +25,7 @@ void weave_sum_see(const WeaveSum *self, int base, const Surface *surface, const
     const WeaveBase *threads = &self->threads[base];
     stack_make(&seen->stack, surface, choices, e);
     if (self->bases > 1) {
-        stack_put_base(&seen->stack, &threads->lobe, threads->once, threads->again);
+        stack_put_base(&seen->stack, &threads->lobe, threads->single, threads->multiple);
         seen->stack.diffuse_prepared.woven = self->woven[base];
     }
     stack_see(&seen->stack, &o, &seen->view);
@@ -37,7 +37,7 @@ Slots weave_sum_slots(int base, Slots slots) {
 
 /* About what threads send back of the light on the cloth. */
 static float bright(const WeaveBase *threads) {
-    return threads->lobe.params[WOVEN_SHARE] * (rgb_mean(threads->once) + rgb_mean(threads->again));
+    return threads->lobe.params[WOVEN_SHARE] * (rgb_mean(threads->single) + rgb_mean(threads->multiple));
 }
 
 float weave_sum_first(const WeaveSum *self) {

@@ -61,8 +61,8 @@ Weave material_cloth() {
 
 /* A fragment on the cloth: warp threads from the left, picks from the bottom. */
 vec2 weave_place() {
-    return vec2(weave_bounded(texcoord_0.x * weave_number(CLOTH_PER_U)),
-                weave_bounded(-texcoord_0.y * weave_number(CLOTH_PER_V)));
+    return vec2(weave_in_range(texcoord_0.x * weave_number(CLOTH_PER_U)),
+                weave_in_range(-texcoord_0.y * weave_number(CLOTH_PER_V)));
 }
 
 /* Returns true between threads. */

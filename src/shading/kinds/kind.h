@@ -9,10 +9,11 @@
 #include "shading/material/material_stack.h"
 #include "shading/stack/surface_rows.h"
 
-/* Points of threads, or facets of them from afar: the parameters of lobe yarn, and what is reflected of light that met
- * one fibre, and of all other. */
+/* Points of threads, or facets that stand for them from afar. */
 typedef struct YarnRows {
-    float params[LOBE_PARAMS_MAX][ROW_ROOM], once[3][ROW_ROOM], again[3][ROW_ROOM];
+    float params[LOBE_PARAMS_MAX][ROW_ROOM]; /* of lobe yarn */
+    float single[3][ROW_ROOM];               /* colour of light that met one fibre, */
+    float multiple[3][ROW_ROOM];             /* and of all other light */
 } YarnRows;
 
 enum { KIND_LIGHTS = 3, KIND_DRAWN = KIND_LIGHTS, KIND_DIRECTIONS };

@@ -26,8 +26,8 @@ static Choices known_choices(void) {
     Stack m;                                                                                                 \
     compose_stack(&m, &s, known_choices(), e);                                                               \
     if (KIND_WOVEN)                                                                                          \
-        compose_base(&m, yarn_of_row(&(v)->yarn, k), ROW_RGB((v)->yarn.once, k),                             \
-                     ROW_RGB((v)->yarn.again, k));                                                           \
+        compose_base(&m, yarn_of_row(&(v)->yarn, k), ROW_RGB((v)->yarn.single, k),                           \
+                     ROW_RGB((v)->yarn.multiple, k));                                                        \
     m.coat.normal = coated ? m.coat.normal : 0.0f
 
 #define PUT_SELECT_P(name, NAME, Name, wo) v->select_p[place++][k] = w.select_p.name;

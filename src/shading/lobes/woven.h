@@ -1,19 +1,21 @@
 /* woven - the yarns of one direction in a woven cloth, from afar: streaks across the yarn on a soft ground
  *
- *   f = part (A <single> + rho(A) many)                                                           [1/sr]
- *   part: the share, of the cloth that these yarns cover
- *   <single>: the mean over slopes s_x = roundness r, s_y = tan(crimp) s |s|^(floats - 1), r and s in [-1, 1],
- *     with the weight 1 - 0.3 r^2
+ *   f = share (A <single> + rho(A) multiple)                                                      [1/sr]
+ *   <single> = the mean over s and r in [-1, 1], with the weight (1 - 0.3 r^2) / 0.9, of single at the slopes
+ *     s_x = roundness r  across the yarn,  s_y = tan(crimp) s |s|^(floats - 1)  along it
  *
- *   The yarn, its fibres and what hides it are those of shading/media/yarn_medium.h: flakes of Eric Heitz, Jonathan
- * Dupuy, Cyril Crassin, Carsten Dachsbacher, "The SGGX Microflake Distribution", ACM TOG 34(4), 2015, along
- * yarns as Piti Irawan, Steve Marschner, "Specular Reflection from Woven Cloth", ACM TOG 31(1), 2012, have
- * them. A yarn that goes over one is an arc; one that floats is level for a while: floats is the power of its
- * slope. Fibres run along the yarn, or turn about it by the twist.
- *   The mean is a sum over 5 to 33 slopes s_y, the more the narrower D is and the steeper the yarn, which vary as all of
- * the yarn do, and over 3 r of those that face both directions; where 33 are too few, D is wider instead. Errors:
- * docs/weave.md.
- * The weight is our own: of threads in woven cloth the neighbours hide more of the sides than of the middle.
+ *   From afar a yarn shows all of its slopes at once. Where it passes over one other yarn it is an arc, on which s_y is
+ * uniform (floats 1); where it passes over several it lies level in the middle and falls at its ends (floats above 1).
+ * Its fibres run along it, or wind around it by the twist. So light that met one fibre makes streaks across the yarn:
+ * Piti Irawan, Steve Marschner, "Specular Reflection from Woven Cloth", ACM TOG 31(1), 2012. The weight is our own:
+ * neighbours in a cloth hide more of a thread's sides than of its middle.
+ *   single is light that met one fibre, multiple all other light (shading/media/yarn_medium.h). The fibres are flakes with
+ * the distribution D of Eric Heitz, Jonathan Dupuy, Cyril Crassin, Carsten Dachsbacher, "The SGGX Microflake
+ * Distribution", ACM TOG 34(4), 2015. Below, P is the area of a yarn that a direction sees, per area of cloth, and V
+ * the mean of P over all yarns. R is the part of light that single scattering leaves to multiple scattering.
+ *   The mean is a sum over 5 to 33 slopes s_y (shading/woven_bins.h), more for a steep yarn with a narrow highlight,
+ * and for each of them over three s_x that face both wo and wi. Where 33 slopes are too few, D is wider instead.
+ * docs/weave.md has the errors.
  *   color: the albedo A of the fibres. The first colour dims light that met one of them, the second, rho(A),
  *     all other light. A cloth of two yarns is two of these lobes, at right angles.
  *   roughness: alpha = roughness^2, the width of the highlight across the fibres' direction: silk 0.1, linen
@@ -30,6 +32,7 @@
 #define WEFT_WOVEN_H
 
 #include "shading/lobe/lobe.h"
+#include "shading/woven_bins.h"
 #include "shading/media/yarn_draw.h"
 
 #define WOVEN_PARAMS(P)                                                                                      \
@@ -46,269 +49,238 @@
 
 STRUCT(Woven){WOVEN_PARAMS(FIELD)};
 
-/* roundness, crimp, cross_crimp: slopes by which yarns hide each other, as yarn_area takes them; of a cloth those of its
- * points, where what else is here is fitted (weave/woven_fit.c). edge: of the weight 1 + edge s_x^2. count: of bins, the
- * level part among them. part: the share; 1 where colours hold it (raster/glsl/weave.glsl). again: of many, beside what
- * directions add. e: of D, as yarn_met_once has it. steep: s_y where mean is 1. level: the gain of the level part. wide,
- * lean, narrow: of WovenSlopes. */
+/* The numbers of a prepared lobe. Those of a cloth are fitted to its points (weave/woven_fit.c), and other than the
+ * ones that woven_prepare makes. */
 #define WOVEN_NUMBERS(N)                                                                                     \
-    N(alpha)                                                                                                 \
-    N(share)                                                                                                 \
-    N(roundness)                                                                                             \
-    N(edge)                                                                                                  \
-    N(count)                                                                                                 \
-    N(part)                                                                                                  \
-    N(crimp)                                                                                                 \
-    N(cross_crimp)                                                                                           \
-    N(cos_a) N(sin_a) N(cos_t) N(sin_t) N(again) N(e) N(steep) N(level) N(wide) N(lean) N(narrow)
-
-/* A part of the yarn: s between two bounds, or between their opposites. The first lies on both sides of 0 and is level, and
- * stands in WOVEN_NUMBERS; the others follow it here.
- *   mean: of s_y, over steep. gain: of its weight in the mean over s, and of D; 0: no part. */
-#define WOVEN_BIN_NUMBERS(N) N(mean) N(gain)
-#define WOVEN_EACH_BIN(N)                                                                                    \
-    N(b1) N(b2) N(b3) N(b4) N(b5) N(b6) N(b7) N(b8) N(b9) N(b10) N(b11) N(b12) N(b13) N(b14) N(b15) N(b16)
+    N(alpha)         /* of the fibres */                                                                     \
+    N(share)         /* of the cloth that these yarns cover */                                               \
+    N(scale)         /* factor of f: the share, or 1 if the colours contain it */                            \
+    N(v_roundness)   /* for V: steepest slope across the yarns of both directions */                         \
+    N(v_crimp)       /* for V: steepest slope along these yarns */                                           \
+    N(v_cross_crimp) /* for V: steepest slope along the yarns at right angles */                             \
+    N(cos_a)         /* cosine of the yarn's azimuth */                                                      \
+    N(sin_a)         /* sine of it */                                                                        \
+    N(cos_t)         /* cosine of the twist */                                                               \
+    N(sin_t)         /* sine of it */                                                                        \
+    N(multiple)      /* factor of multiple that does not depend on directions */                             \
+    N(e)             /* (1 - a^2) / a^2, where a is the alpha of D, which may be wider than the fibres' */   \
+    N(edge)          /* the weight of s_x is 1 + edge s_x^2 */                                               \
+    N(steepest)      /* s_y of a bin with slope 1 */                                                         \
+    N(width)         /* s_x of a level bin lies between -width and width */                                  \
+    N(taper)         /* at slope 1 the range of s_x is narrower by this on either side */                    \
+    N(lean)          /* at slope 1 the middle of the range */                                                \
+    N(level)         /* weight of the level bin */                                                           \
+    N(count)         /* of bins, the level one among them */
 #define WOVEN_NUMBER(name) float name;
-#define WOVEN_BIN(name)    WovenBin name;
-STRUCT(WovenBin){WOVEN_BIN_NUMBERS(WOVEN_NUMBER)};
-STRUCT(WovenPrepared){WOVEN_NUMBERS(WOVEN_NUMBER) WOVEN_EACH_BIN(WOVEN_BIN)};
+STRUCT(WovenPrepared) {
+    WOVEN_NUMBERS(WOVEN_NUMBER)
+    WovenBins bins; /* without the level one */
+};
 
-#define WOVEN_BINS 17 /* with the level one; ROUNDS writes out the others, up to 16 */
+/* Returns how many bins the yarn needs. */
+FN float woven_needed(Woven m) { return woven_bins_needed(m.alpha, m.crimp, m.floats); }
 
-/* There are 2 n - 1 parts. t: how many of its widths D would move along the yarn at the pace that it has at the end. n grows
- * with t, and a little with t^2. Yarns that are steep and rough need more parts than D asks for. n need not be whole: the
- * last bin is as much narrower, so that f does not jump. Own fit. */
-FN float woven_needed(Woven m) {                                /* n, however many bins that asks for */
-    float turn = 1.5f * m.floats / (m.floats + 0.5f) * m.crimp; /* at the end of the yarn, where x is 1 */
-    float t = turn / max(m.alpha, 1e-3f);
-    return max(max(t * (1.55f + 0.06f * t) + 1.0f, 9.0f * (turn - 0.65f) + 3.0f), 3.0f);
-}
+/* Returns how many bins it has; the last may be a fraction of one. */
 FN float woven_count(Woven m) { return min(woven_needed(m), to_float(WOVEN_BINS)); }
 
-/* Bin k reaches from x_k to x_(k + 1), s = x^(1.5 (1 + 0.05 crimp^2) / (floats + 0.5)), x_0 = 0, x_1 = 1.2 / (2 n - 1), and
- * the others are even, up to 1. Bin 0 and its opposite are one part, level on the mean. In x that part is a little wider:
- * where light grazes the others turn away one by one, and it never does. Steep yarns have their bins closer to it. Own fit to
- * means over points. */
-FN float woven_place(float n, float k) { /* x_k, k > 0 */
-    float first = 1.2f / (2.0f * n - 1.0f), next = (1.0f - first) / (n - 1.0f);
-    return min(first + (k - 1.0f) * next, 1.0f);
+FN WovenCut woven_cut(Woven m) {
+    WovenCut c;
+    c.floats = m.floats;
+    c.power = 1.5f * (1.0f + 0.05f * m.crimp * m.crimp) / (m.floats + 0.5f);
+    c.n = woven_count(m);
+    return c;
 }
 
-/* s at the upper end of bin k, the part of the yarn up to there, and s^(floats + 1), floats + 1 times what its slopes sum up
- * to. */
-STRUCT(WovenEnd) { float s, sum; };
-FN WovenEnd woven_end(Woven m, float n, float k) {
-    WovenEnd e;
-    e.s = pow(woven_place(n, k + 1.0f), 1.5f * (1.0f + 0.05f * m.crimp * m.crimp) / (m.floats + 0.5f));
-    e.sum = e.s * pow(e.s, m.floats);
-    return e;
-}
-FN WovenBin woven_bin(Woven m, WovenEnd low, WovenEnd high) {
-    WovenBin b;
-    b.gain = max(high.s - low.s, 0.0f); /* the width in s, of which WOVEN_SCALE makes the gain */
-    b.mean = min((high.sum - low.sum) / ((m.floats + 1.0f) * max(b.gain, 1e-4f)), 1.0f);
-    return b;
-}
+/* Three s_x stand for the mean over a range of s_x: its middle, and the two at g of the way from there to its ends.
+ * These have the weight 1 / (6 g^2), the middle has the rest, so that the mean is exact for cubic functions. Gauss has
+ * g^2 = 0.6, exact up to fifth powers, but its error is at least 1.5 times as large where fibres are twisted by 30
+ * degrees. Own fit. */
+#define WOVEN_G2 0.545f
 
-/* The mean slopes of bins vary less than all slopes, whose mean square is 1 / (2 floats + 1) of the largest one's. Where
- * there are enough bins, all are moved outwards by one factor, which makes up for it. Where D asks for more, D is wider
- * instead. widened goes from the first, 0, to the second, 1, as D asks for up to 1.5 times the bins; between, each
- * makes up for its part. A bin and its opposite are half of the mean each, 1 / (6 g^2) is the outer weight of woven_row, and
- * 0.9 is the mean of 1 - 0.3 r^2. */
-#define WOVEN_GAIN (0.5f / (6.0f * WOVEN_G2 * 0.9f) / (4.0f * PI))
-#define WOVEN_G2   0.545f
-#define WOVEN_MAKE(name)                                                                                     \
-    next = woven_end(m, n, k);                                                                               \
-    p->name = woven_bin(m, end, next);                                                                       \
-    vary = vary + p->name.gain * p->name.mean * p->name.mean;                                                \
-    end = next;                                                                                              \
-    k = k + 1.0f;
-#define WOVEN_SCALE(name) p->name.gain = p->name.gain * gain;
+/* <single> is this factor / (a^2 width) times the sum over bins of their widths in s times woven_across. It has
+ * 1 / 2 for s from -1 to 1, 1 / (6 g^2) for the outer s_x, 1 / 0.9 for the weight of s_x, and 1 / (4 pi) for
+ * yarn_single. */
+#define WOVEN_FACTOR (0.5f / (6.0f * WOVEN_G2 * 0.9f) / (4.0f * PI))
+
+/* Prepares the lobe. The mean of s_y^2 is 1 / (2 floats + 1) of the largest, and that of the bins is smaller.
+ * If the yarn has as many bins as it needs, all their slopes are scaled to the true mean square. If it needs 1.5 times
+ * as many as it has, D is wider by the missing variance instead. `widening` blends from the first, 0, to the second,
+ * 1. */
 FN void woven_prepare(Woven m, WovenPrepared *p) {
-    float tan_crimp = sin(m.crimp) / cos(m.crimp), n = woven_count(m),
-          slopes = 1.0f / (2.0f * m.floats + 1.0f);
+    float tan_crimp = sin(m.crimp) / cos(m.crimp), square = 1.0f / (2.0f * m.floats + 1.0f);
+    WovenCut cut = woven_cut(m);
     p->alpha = m.alpha;
     p->share = m.share;
-    p->part = m.share;
-    p->roundness = max(m.roundness, 1e-2f); /* so that edge fits a half float */
-    p->edge = -0.3f / (p->roundness * p->roundness);
-    p->count = -floor(-n);
-    p->crimp = tan_crimp * sqrt(3.0f * slopes);
-    p->cross_crimp = sin(m.cross_crimp) / cos(m.cross_crimp);
+    p->scale = m.share;
+    p->v_roundness = max(m.roundness, 1e-2f); /* so that edge fits a half float */
+    p->v_crimp = tan_crimp * sqrt(3.0f * square);
+    p->v_cross_crimp = sin(m.cross_crimp) / cos(m.cross_crimp);
     p->cos_a = cos(m.azimuth);
     p->sin_a = sin(m.azimuth);
     p->cos_t = cos(m.twist);
     p->sin_t = sin(m.twist);
-    p->again = 0.5f / (PI * yarn_left_mean(m.alpha));
-    p->wide = p->roundness;
+    p->multiple = 0.5f / (PI * yarn_remainder_mean(m.alpha));
+    p->edge = -0.3f / (p->v_roundness * p->v_roundness);
+    p->width = p->v_roundness;
+    p->taper = 0.0f;
     p->lean = 0.0f;
-    p->narrow = 0.0f;
-    WovenEnd end = woven_end(m, n, 0.0f), next;
-    p->level = end.s;
-    float k = 1.0f, vary = 0.0f;
-    WOVEN_EACH_BIN(WOVEN_MAKE)
-    float widened = clamp(2.0f * (woven_needed(m) / n - 1.0f), 0.0f, 1.0f);
-    p->steep = tan_crimp * mix(sqrt(slopes / vary), 1.0f, widened);
+    p->count = -floor(-cut.n);
+
+    WovenBins bins = woven_bins_cut(cut);
+    float bins_square = woven_bins_square(&bins);
+    float widening = clamp(2.0f * (woven_needed(m) / cut.n - 1.0f), 0.0f, 1.0f);
+    p->steepest = tan_crimp * mix(sqrt(square / bins_square), 1.0f, widening);
     float a2 = max(m.alpha * m.alpha, 1e-6f);
-    float spread = tan_crimp / (1.0f + tan_crimp * tan_crimp * slopes); /* of angles, by that of slopes */
-    a2 = a2 + (1.0f - a2) * widened * spread * spread * max(slopes - vary, 0.0f);
+    float angle = tan_crimp / (1.0f + tan_crimp * tan_crimp * square); /* of the yarn, per slope of a bin */
+    a2 = a2 + (1.0f - a2) * widening * angle * angle * max(square - bins_square, 0.0f);
     p->e = (1.0f - a2) / a2;
-    float gain = WOVEN_GAIN / a2 / p->wide;
-    p->level = 2.0f * gain * p->level;
-    WOVEN_EACH_BIN(WOVEN_SCALE)
+    float factor = WOVEN_FACTOR / a2 / p->width;
+    p->level = 2.0f * factor * woven_bin_end(cut, 1.0f).s;
+    p->bins = woven_bins_scaled(&bins, factor);
 }
 FN float woven_second(Woven m, float f0, float f90) { return yarn_reflectance(f0); }
 
-/* A direction in the frame of the yarn, which runs along y. */
-FN Dir woven_turn(const WovenPrepared *p, Dir w) {
+/* Returns a direction in the yarn's frame: x across the yarn, y along it. */
+FN Dir woven_to_yarn(const WovenPrepared *p, Dir w) {
     return dir(p->sin_a * w.x - p->cos_a * w.y, p->cos_a * w.x + p->sin_a * w.y, w.z);
 }
 
 /* A direction over the cloth. */
 STRUCT(WovenView) {
-    Dir w;        /* in the yarn's frame */
-    float over_x; /* 1 / w.x */
-    float over_seen, left;
-    float shown; /* the mean of P / V over these yarns */
+    Dir w;           /* in the yarn's frame */
+    float per_x;     /* 1 / w.x */
+    float per_v;     /* 1 / V */
+    float seen;      /* mean of P / V over these yarns */
+    float remainder; /* R */
 };
-FN WovenView woven_look(const WovenPrepared *p, Dir w) {
+/* Returns the view of w. The mean of P over some yarns is w_z and the mean area of them that faces away from w. */
+FN WovenView woven_view_of(const WovenPrepared *p, Dir w) {
     WovenView v;
-    v.w = woven_turn(p, w);
-    v.over_x = 1.0f / (abs(v.w.x) < 1e-4f ? 1e-4f : v.w.x);
-    float own = yarn_hidden(v.w.x, v.w.y, w.z, p->roundness, p->crimp);
-    float cross = yarn_hidden(v.w.y, v.w.x, w.z, p->roundness, p->cross_crimp);
-    v.over_seen = 1.0f / max(w.z + p->share * own + (1.0f - p->share) * cross, 1e-4f);
-    v.shown = (w.z + own) * v.over_seen;
-    v.left = yarn_left(p->alpha, w.z);
+    v.w = woven_to_yarn(p, w);
+    v.per_x = 1.0f / (abs(v.w.x) < 1e-4f ? 1e-4f : v.w.x);
+    float own = yarn_averted_area(v.w.x, v.w.y, w.z, p->v_roundness, p->v_crimp);
+    float cross = yarn_averted_area(v.w.y, v.w.x, w.z, p->v_roundness, p->v_cross_crimp);
+    v.per_v = 1.0f / max(w.z + p->share * own + (1.0f - p->share) * cross, 1e-4f);
+    v.seen = (w.z + own) * v.per_v;
+    v.remainder = yarn_remainder(p->alpha, w.z);
     return v;
 }
-FN void woven_view(const WovenPrepared *p, Dir o, WovenView *w) { *w = woven_look(p, o); }
+FN void woven_view(const WovenPrepared *p, Dir o, WovenView *w) { *w = woven_view_of(p, o); }
 
-/* A direction over yarn of one slope along it: P = p + s_x x and t . w = along + n (s_x turn - side), of
- * t = cos twist T + sin twist (N x T),  T = c (0, 1, -s_y),  N = n (s_x, s_y, 1). */
-STRUCT(WovenLine) {
-    float x, p, end; /* end: the s_x from which on P is 0 */
-    float along, turn, side;
+/* The slopes of one bin: one s_y, and s_x from middle - width to middle + width. */
+STRUCT(WovenSlopes) {
+    float s_y, middle, width;
+    float c; /* 1 / sqrt(1 + s_y^2) */
 };
-FN WovenLine woven_line(const WovenPrepared *p, float slope, float c, const WovenView *v) {
-    WovenLine l;
-    l.x = v->w.x;
-    l.p = v->w.z + slope * v->w.y;
-    l.end = -l.p * v->over_x;
-    l.along = p->cos_t * c * (v->w.y - slope * v->w.z);
-    l.turn = p->sin_t * c * l.p;
-    l.side = p->sin_t * c * (1.0f + slope * slope) * l.x;
-    return l;
-}
-
-/* n = 1 / |(s_x, s_y, 1)| over c, from q = (c s_x)^2, without a root: within 0.001 up to the steepest roundness, own fit. */
-FN float woven_flat(float q) {
-    return 1.0f + q * (-0.483265f + q * (0.276777f + q * (-0.10213f + q * 0.0158065f)));
-}
-
-/* The slopes of a bin: s_y is slope, and s_x lies within wide of middle; at the opposite slope within wide of its opposite.
- * wide is that of p less narrow mean^2, and middle is lean mean. c: 1 / sqrt(1 + slope^2). */
-STRUCT(WovenSlopes) { float slope, middle, wide, c; };
-FN WovenSlopes woven_slopes(const WovenPrepared *p, float mean) {
+FN WovenSlopes woven_slopes(const WovenPrepared *p, float slope) {
     WovenSlopes b;
-    b.slope = p->steep * mean;
-    b.middle = p->lean * mean;
-    b.wide = p->wide - p->narrow * mean * mean;
-    b.c = 1.0f / sqrt(1.0f + b.slope * b.slope);
+    b.s_y = p->steepest * slope;
+    b.middle = p->lean * slope;
+    b.width = p->width - p->taper * slope * slope;
+    b.c = 1.0f / sqrt(1.0f + b.s_y * b.s_y);
     return b;
 }
 FN WovenSlopes woven_opposite(WovenSlopes b) {
-    b.slope = -b.slope;
+    b.s_y = -b.s_y;
     b.middle = -b.middle;
     return b;
 }
 
-/* yarn_met_once of one facet, by its part of the yarn. P is not below 0 where the facet counts, and abs keeps it so where
- * reach is 0. t . (wo + wi) is summed term by term, so that vectors and single calls round alike where the two nearly
- * cancel, as light does that goes straight on along the cloth. */
-FN float woven_facet(const WovenPrepared *p, float c, float x, const WovenLine *o, const WovenLine *i,
+/* A direction w over the slopes of a bin. The yarn has the normal N = n (s_x, s_y, 1) and the direction
+ * T = c (0, 1, -s_y), and its fibres run along t = cos twist T + sin twist (N x T). So P and t . w are, by s_x,
+ *   P = p + s_x w_x,  t . w = t_along + n (s_x t_slope - t_side) */
+STRUCT(WovenLine) {
+    float x;   /* w_x */
+    float p;   /* P where s_x is 0 */
+    float end; /* the s_x where P is 0 */
+    float t_along, t_slope, t_side;
+};
+FN WovenLine woven_line(const WovenPrepared *p, WovenSlopes b, const WovenView *v) {
+    WovenLine l;
+    l.x = v->w.x;
+    l.p = v->w.z + b.s_y * v->w.y;
+    l.end = -l.p * v->per_x;
+    l.t_along = p->cos_t * b.c * (v->w.y - b.s_y * v->w.z);
+    l.t_slope = p->sin_t * b.c * l.p;
+    l.t_side = p->sin_t * b.c * (1.0f + b.s_y * b.s_y) * l.x;
+    return l;
+}
+
+/* Returns 1 / sqrt(1 + q) within 0.001 for q up to 2.25. Own fit. */
+FN float woven_inverse_root(float q) {
+    return 1.0f + q * (-0.483265f + q * (0.276777f + q * (-0.10213f + q * 0.0158065f)));
+}
+
+/* Returns single at s_x, times 4 pi a^2 V_i V_o and the weight of s_x. c: of the slopes; q: 1 / |wi + wo|^2. P is
+ * positive where the facet counts; abs keeps it so where the range of s_x is empty. t . (wo + wi) is summed term by
+ * term: so vectors and single calls round alike where wi and wo nearly cancel, in light that goes straight on along the
+ * cloth. */
+FN float woven_facet(const WovenPrepared *p, float c, float s_x, const WovenLine *o, const WovenLine *i,
                      float q) {
-    float x2 = x * x, n = c * woven_flat(c * c * x2);
-    float p_o = abs(o->p + x * o->x), p_i = abs(i->p + x * i->x);
-    float m = (o->along + i->along) + n * (x * (o->turn + i->turn) - (o->side + i->side));
-    float t_o = o->along + n * (x * o->turn - o->side);
-    return (1.0f + p->edge * x2) * yarn_met_once(p->e, q, m, p_o, p_i, t_o, m - t_o);
+    float x2 = s_x * s_x, n = c * woven_inverse_root(c * c * x2);
+    float p_o = abs(o->p + s_x * o->x), p_i = abs(i->p + s_x * i->x);
+    float m = (o->t_along + i->t_along) + n * (s_x * (o->t_slope + i->t_slope) - (o->t_side + i->t_side));
+    float t_o = o->t_along + n * (s_x * o->t_slope - o->t_side);
+    return (1.0f + p->edge * x2) * yarn_single(p->e, q, m, p_o, p_i, t_o, m - t_o);
 }
 
-/* The mean over s_x, by three nodes on the part of it that faces both directions: beyond, the sum would meet an edge.
- * The outer ones, at g of the way to its ends, have the weight 1 / (6 g^2), so that the rule is right for cubes, and the
- * middle one 6 g^2 - 2 times that. g^2 is 0.545: Gauss's 0.6 would be right up to fifth powers, but errs by half as much
- * again and more where fibres turn by 30 degrees (own fit). */
-FN float woven_row(const WovenPrepared *p, WovenSlopes b, const WovenView *o, const WovenView *i, float q) {
-    WovenLine l = woven_line(p, b.slope, b.c, o), n = woven_line(p, b.slope, b.c, i);
-    float least = b.middle - b.wide, most = b.middle + b.wide;
-    float low = clamp(max(o->over_x > 0.0f ? l.end : least, i->over_x > 0.0f ? n.end : least), least, most);
-    float high = clamp(min(o->over_x > 0.0f ? most : l.end, i->over_x > 0.0f ? most : n.end), least, most);
+/* Returns the integral of woven_facet over the s_x of a bin, times 3 g^2. Only the s_x that face wo and wi count: a sum
+ * over all of them would have a step where the yarn faces away. */
+FN float woven_across(const WovenPrepared *p, WovenSlopes b, const WovenView *o, const WovenView *i,
+                      float q) {
+    WovenLine l = woven_line(p, b, o), k = woven_line(p, b, i);
+    float least = b.middle - b.width, most = b.middle + b.width;
+    float low = clamp(max(o->per_x > 0.0f ? l.end : least, i->per_x > 0.0f ? k.end : least), least, most);
+    float high = clamp(min(o->per_x > 0.0f ? most : l.end, i->per_x > 0.0f ? most : k.end), least, most);
     float reach = 0.5f * max(high - low, 0.0f), middle = 0.5f * (high + low), g = sqrt(WOVEN_G2) * reach;
-    float sides = woven_facet(p, b.c, middle - g, &l, &n, q) + woven_facet(p, b.c, middle + g, &l, &n, q);
-    return reach * (sides + (6.0f * WOVEN_G2 - 2.0f) * woven_facet(p, b.c, middle, &l, &n, q));
+    float sides = woven_facet(p, b.c, middle - g, &l, &k, q) + woven_facet(p, b.c, middle + g, &l, &k, q);
+    return reach * (sides + (6.0f * WOVEN_G2 - 2.0f) * woven_facet(p, b.c, middle, &l, &k, q));
 }
 
-FN float woven_pick(int k, float a, float b, float c, float d, float e, float f, float g, float h) {
-    float low = k < 2 ? (k < 1 ? a : b) : (k < 3 ? c : d), high = k < 6 ? (k < 5 ? e : f) : (k < 7 ? g : h);
-    return k < 4 ? low : high;
-}
-#define WOVEN_PICK(of)                                                                                       \
-    low = woven_pick(k, p->b1.of, p->b2.of, p->b3.of, p->b4.of, p->b5.of, p->b6.of, p->b7.of, p->b8.of);     \
-    high = woven_pick(k - 8, p->b9.of, p->b10.of, p->b11.of, p->b12.of, p->b13.of, p->b14.of, p->b15.of,     \
-                      p->b16.of);                                                                            \
-    b.of = k < 8 ? low : high;
-FN WovenBin woven_part(const WovenPrepared *p, int k) {
-    WovenBin b;
-    float low, high;
-    WOVEN_BIN_NUMBERS(WOVEN_PICK)
-    return b;
-}
-
-/* The mean of single: of the level part, and of the others by twos. */
-FN float woven_once(const WovenPrepared *p, const WovenView *o, const WovenView *i, float q) {
-    WovenSlopes level; /* known, so that the compiler leaves out what its zeros multiply */
-    level.slope = 0.0f;
+/* Returns <single>. The level bin has its slopes as constants, so that the compiler drops what they multiply by 0. */
+FN float woven_single(const WovenPrepared *p, const WovenView *o, const WovenView *i, float q) {
+    WovenSlopes level;
+    level.s_y = 0.0f;
     level.middle = 0.0f;
-    level.wide = p->wide;
+    level.width = p->width;
     level.c = 1.0f;
-    float sum = p->level * woven_row(p, level, o, i, q);
+    float sum = p->level * woven_across(p, level, o, i, q);
     ROUNDS_OF(k, to_int(p->count) - 1, WOVEN_BINS - 1) {
-        WovenBin b = woven_part(p, k);
-        WovenSlopes s = woven_slopes(p, b.mean);
-        sum = sum + b.gain * (woven_row(p, s, o, i, q) + woven_row(p, woven_opposite(s), o, i, q));
+        WovenBin b = woven_bin_at(&p->bins, k);
+        WovenSlopes s = woven_slopes(p, b.slope);
+        sum = sum + b.weight * (woven_across(p, s, o, i, q) + woven_across(p, woven_opposite(s), o, i, q));
     }
-    return sum * o->over_seen * i->over_seen;
+    return sum * o->per_v * i->per_v;
 }
 
-/* The level surface that directions are drawn at: a'^2 = a^2 + (1 - a^2) (crimp^2 + sin^2 twist roundness^2) / 3, crimp as
- * yarn_area takes it. */
+/* Returns the level surface on which directions are sampled. Slopes and twist spread its flakes:
+ *   a'^2 = a^2 + (1 - a^2) (crimp^2 + (sin twist roundness)^2) / 3,  roundness and crimp those of V */
 FN YarnSurface woven_surface(const WovenPrepared *p) {
-    float a2 = p->alpha * p->alpha, lean = p->sin_t * p->roundness;
-    float spread = min((p->crimp * p->crimp + lean * lean) / 3.0f, 1.0f);
+    float a2 = p->alpha * p->alpha, twisted = p->sin_t * p->v_roundness;
+    float spread = min((p->v_crimp * p->v_crimp + twisted * twisted) / 3.0f, 1.0f);
     YarnSurface s;
     s.axis = dir(p->cos_a * p->cos_t - p->sin_a * p->sin_t, p->sin_a * p->cos_t + p->cos_a * p->sin_t, 0.0f);
     s.alpha = sqrt(a2 + (1.0f - a2) * spread);
     s.slope_x = 0.0f;
     s.slope_y = 0.0f;
-    s.over_n = 1.0f;
+    s.per_n = 1.0f;
     return s;
 }
 FN YarnProposal woven_proposal(YarnSurface s, const WovenView *w, Dir o) {
     YarnProposal d;
     d.along = dir_dot(o, s.axis);
-    d.flakes = yarn_by_flakes(s.alpha, o.z, w->left);
-    d.slope = 0.0f;
+    d.c = yarn_flake_chance(s.alpha, o.z, w->remainder); /* of a sample by flakes */
+    d.q = 0.0f;                                          /* the others are a cosine about z */
     return d;
 }
 
 FN LobeValue woven_value(const WovenPrepared *p, const WovenView *w, Angles a) {
-    WovenView v = woven_look(p, a.i);
-    float once = woven_once(p, w, &v, yarn_half(a));
-    float many = p->again * w->left * v.left * (w->shown + v.shown);
-    float f = p->part * (once + many);
+    WovenView v = woven_view_of(p, a.i);
+    float single = woven_single(p, w, &v, yarn_per_sum2(a));
+    float multiple = p->multiple * w->remainder * v.remainder * (w->seen + v.seen);
+    float f = p->scale * (single + multiple);
     YarnSurface s = woven_surface(p);
-    return lobe_value_of(f, many / (once + many), yarn_draw_pdf(s, woven_proposal(s, w, a.o), a));
+    return lobe_value_of(f, multiple / (single + multiple), yarn_draw_pdf(s, woven_proposal(s, w, a.o), a));
 }
 FN Dir woven_sample(const WovenPrepared *p, const WovenView *w, Dir o, float u, float v) {
     YarnSurface s = woven_surface(p);

@@ -1,12 +1,12 @@
 /* yarn - a point on a thread of cloth, near enough to tell threads apart
  *
- *   f = A single + rho(A) many:  yarn_medium.h, at slopes s_x, s_y                                      [1/sr]
+ *   f = A single + rho(A) multiple,  at the slopes s_x, s_y of the yarn                                [1/sr]
  *   t = (cos azimuth, sin azimuth, -s_x cos azimuth - s_y sin azimuth), normalised
  *
- *   The surface of a yarn and what hides it are those of shading/media/yarn_medium.h; its fibres are flakes of Eric
- * Heitz, Jonathan Dupuy, Cyril Crassin, Carsten Dachsbacher, "The SGGX Microflake Distribution", ACM TOG
- * 34(4), 2015. This is the lobe that changes from
- * point to point of a thread; its mean over threads of two families is that of two lobes woven.
+ *   shading/media/yarn_medium.h has single, multiple and rho: light on a yarn that is filled with fibres along t and partly
+ * hidden by the yarns around. The fibres are flakes of Eric Heitz, Jonathan Dupuy, Cyril Crassin, Carsten Dachsbacher,
+ * "The SGGX Microflake Distribution", ACM TOG 34(4), 2015. Slopes and azimuth change from point to point of a thread;
+ * the mean of this lobe over threads of two directions is that of two lobes woven.
  *   color: the albedo A of the fibres. The first colour dims light that met one of them, the second, rho(A),
  *     all other light.
  *   roughness: alpha = roughness^2, the width of the highlight across the fibres' direction: silk 0.1, linen
@@ -40,35 +40,41 @@ STRUCT(Yarn){YARN_PARAMS(FIELD)};
 
 STRUCT(YarnPrepared) {
     Yarn m;
-    Dir axis;          /* of the fibres, unit */
-    float e;           /* (1 - a^2) / a^2 */
-    float over_n;      /* 1 / |(s_x, s_y, 1)| */
-    float once, again; /* what single and many are of the numbers that directions add */
+    Dir axis;       /* t */
+    float e;        /* (1 - alpha^2) / alpha^2 */
+    float per_n;    /* 1 / |(s_x, s_y, 1)| */
+    float single;   /* factor of single that depends on alpha alone */
+    float multiple; /* factor of multiple that depends on alpha alone */
 };
 FN void yarn_prepare(Yarn m, YarnPrepared *p) {
     float c = cos(m.azimuth), s = sin(m.azimuth), z = -(m.slope_x * c + m.slope_y * s);
     float r = 1.0f / sqrt(1.0f + z * z);
     p->m = m;
     p->axis = dir(c * r, s * r, z * r);
-    float a2 = max(m.alpha * m.alpha, 1e-6f); /* lanes of other lobes have 0 */
+    float a2 = max(m.alpha * m.alpha, 1e-6f); /* vector lanes of other lobes have alpha 0 */
     p->e = (1.0f - a2) / a2;
-    p->over_n = 1.0f / sqrt(1.0f + m.slope_x * m.slope_x + m.slope_y * m.slope_y);
-    p->once = 1.0f / (4.0f * PI * a2);
-    p->again = 0.5f / (PI * yarn_left_mean(m.alpha));
+    p->per_n = 1.0f / sqrt(1.0f + m.slope_x * m.slope_x + m.slope_y * m.slope_y);
+    p->single = 1.0f / (4.0f * PI * a2);
+    p->multiple = 0.5f / (PI * yarn_remainder_mean(m.alpha));
 }
 FN float yarn_second(Yarn m, float f0, float f90) { return yarn_reflectance(f0); }
 
-/* A direction at the point: P, 1 / V, t . w and the light that one fibre leaves. */
-STRUCT(YarnView) { float p, over_seen, along, left; };
-FN YarnView yarn_look(const YarnPrepared *p, Dir w) {
+/* A direction w at the point. */
+STRUCT(YarnView) {
+    float p;         /* P, the area of the yarn that w sees */
+    float per_v;     /* 1 / V, V the mean of P over all yarns */
+    float along;     /* t . w */
+    float remainder; /* R, what single scattering leaves of light from w */
+};
+FN YarnView yarn_view_of(const YarnPrepared *p, Dir w) {
     YarnView v;
-    v.p = yarn_facet(w, p->m.slope_x, p->m.slope_y);
-    v.over_seen = 1.0f / max(yarn_area(w, p->m.share, p->m.roundness, p->m.crimp, p->m.cross_crimp), 1e-4f);
+    v.p = yarn_seen_area(w, p->m.slope_x, p->m.slope_y);
+    v.per_v = 1.0f / max(yarn_mean_area(w, p->m.share, p->m.roundness, p->m.crimp, p->m.cross_crimp), 1e-4f);
     v.along = dir_dot(w, p->axis);
-    v.left = yarn_left(p->m.alpha, w.z);
+    v.remainder = yarn_remainder(p->m.alpha, w.z);
     return v;
 }
-FN void yarn_view(const YarnPrepared *p, Dir o, YarnView *w) { *w = yarn_look(p, o); }
+FN void yarn_view(const YarnPrepared *p, Dir o, YarnView *w) { *w = yarn_view_of(p, o); }
 
 FN YarnSurface yarn_surface(const YarnPrepared *p) {
     YarnSurface s;
@@ -76,23 +82,23 @@ FN YarnSurface yarn_surface(const YarnPrepared *p) {
     s.alpha = p->m.alpha;
     s.slope_x = p->m.slope_x;
     s.slope_y = p->m.slope_y;
-    s.over_n = p->over_n;
+    s.per_n = p->per_n;
     return s;
 }
 FN YarnProposal yarn_proposal(const YarnPrepared *p, const YarnView *w) {
     YarnProposal d;
     d.along = w->along;
-    d.flakes = yarn_by_flakes(p->m.alpha, w->p, w->left);
-    d.slope = 1.0f / (1.0f + 2.0f * w->p * w->over_seen);
+    d.c = yarn_flake_chance(p->m.alpha, w->p, w->remainder);
+    d.q = 1.0f / (1.0f + 2.0f * w->p * w->per_v);
     return d;
 }
 
 FN LobeValue yarn_value(const YarnPrepared *p, const YarnView *w, Angles a) {
-    YarnView v = yarn_look(p, a.i);
-    float met = yarn_met_once(p->e, yarn_half(a), w->along + v.along, w->p, v.p, w->along, v.along);
-    float once = met * (p->once * w->over_seen) * v.over_seen;
-    float many = p->again * w->left * v.left * (w->p * w->over_seen + v.p * v.over_seen);
-    return lobe_value_of(once + many, many / max(once + many, 1e-6f),
+    YarnView v = yarn_view_of(p, a.i);
+    float by_flake = yarn_single(p->e, yarn_per_sum2(a), w->along + v.along, w->p, v.p, w->along, v.along);
+    float single = by_flake * (p->single * w->per_v) * v.per_v;
+    float multiple = p->multiple * w->remainder * v.remainder * (w->p * w->per_v + v.p * v.per_v);
+    return lobe_value_of(single + multiple, multiple / max(single + multiple, 1e-6f),
                          yarn_draw_pdf(yarn_surface(p), yarn_proposal(p, w), a));
 }
 

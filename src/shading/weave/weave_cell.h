@@ -4,8 +4,13 @@
 
 #include "shading/dialect/lang.h"
 
-/* Counts the crossings since the runs of the warp and of the weft there began, and those of the runs, negative where they
- * lie below; a run that never ends has length 0. */
-STRUCT(WeaveCell) { float warp_since, warp_run, weft_since, weft_run; };
+/* A run is the crossings in a row at which a thread stays on top, or below. */
+STRUCT(WeaveCell) {
+    float warp_since; /* crossings since the run of the warp thread began */
+    float
+        warp_run; /* length of that run, in crossings; negative: the thread is below; 0: the run never ends */
+    float weft_since; /* the same of the weft thread */
+    float weft_run;
+};
 
 #endif

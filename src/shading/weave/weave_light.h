@@ -8,7 +8,7 @@
 #include "shading/lobes/yarn.h"
 #include "shading/weave/weave_point.h"
 
-/* Lobe yarn at the point. */
+/* Returns lobe yarn at a point. */
 FN Yarn weave_yarn(const Weave *m, WeavePoint p) {
     Yarn y;
     y.alpha = p.weft ? m->weft.alpha : m->warp.alpha;
@@ -22,7 +22,7 @@ FN Yarn weave_yarn(const Weave *m, WeavePoint p) {
     return y;
 }
 
-/* Lobe woven of one system. */
+/* Returns lobe woven of one system, by its parameters alone. */
 FN Woven weave_woven(const Weave *m, bool weft) {
     float all = max(m->warp_far.share + m->weft_far.share, 1e-6f), warp = m->warp_far.share / all;
     float crimp = weft ? m->weft_far.crimp : m->warp_far.crimp;
@@ -39,24 +39,24 @@ FN Woven weave_woven(const Weave *m, bool weft) {
     return w;
 }
 
-/* The colours of a point in one channel: of light that met one fibre, and of all other. */
-FN float weave_once(const Weave *m, WeavePoint p, int channel) {
+/* Returns what the fibres at a point reflect in one channel of light that met one of them (single) or several
+ * (multiple), times the light that reaches the point. */
+FN float weave_single(const Weave *m, WeavePoint p, int channel) {
     float white = p.weft ? m->weft.white : m->warp.white;
     return min(weave_albedo(m, p, channel) + white, 1.0f) * weave_open(m, p);
 }
-FN float weave_reflectance(const Weave *m, WeavePoint p, int channel) {
+FN float weave_multiple(const Weave *m, WeavePoint p, int channel) {
     return yarn_reflectance(weave_albedo(m, p, channel)) * weave_open(m, p);
 }
 
-/* Returns the same in all channels; a place without a thread is black. */
-FN Rgb weave_once_rgb(const Weave *m, WeavePoint p) {
+/* Returns the same in all channels; black where there is no thread. */
+FN Rgb weave_single_rgb(const Weave *m, WeavePoint p) {
     float there = p.height > WEAVE_NONE ? 1.0f : 0.0f;
-    return rgb_scale(rgb(weave_once(m, p, 0), weave_once(m, p, 1), weave_once(m, p, 2)), there);
+    return rgb_scale(rgb(weave_single(m, p, 0), weave_single(m, p, 1), weave_single(m, p, 2)), there);
 }
-FN Rgb weave_again_rgb(const Weave *m, WeavePoint p) {
+FN Rgb weave_multiple_rgb(const Weave *m, WeavePoint p) {
     float there = p.height > WEAVE_NONE ? 1.0f : 0.0f;
-    return rgb_scale(rgb(weave_reflectance(m, p, 0), weave_reflectance(m, p, 1), weave_reflectance(m, p, 2)),
-                     there);
+    return rgb_scale(rgb(weave_multiple(m, p, 0), weave_multiple(m, p, 1), weave_multiple(m, p, 2)), there);
 }
 
 #endif
