@@ -24,14 +24,14 @@ enum { PLANE_AXIS = 4 * AMBIENT_GROUP_SHAPE, PLANE_KAPPA, PLANE_TAIL, PLANE_DENS
 enum { LOOKUPS = 4, BANDS = 24, STEPS = 256, SAMPLES = 1024 };
 
 /* A look-up of the residual; one with two axes is the mean of both. */
-typedef struct Lookup {
+typedef struct AmbientLookup {
     double kappa; /* 0: a cosine */
     int axes;
     Dir axis[2]; /* x towards wo */
-} Lookup;
+} AmbientLookup;
 
 /* The look-ups of ambient_residual_lookups. */
-static const Lookup lookups[LOOKUPS] = {
+static const AmbientLookup lookups[LOOKUPS] = {
     {0.0, 1, {{AMBIENT_AXIS_0}}},
     {AMBIENT_KAPPA_1, 2, {{AMBIENT_AXIS_1_LEFT}, {AMBIENT_AXIS_1_RIGHT}}},
     {AMBIENT_KAPPA_2, 1, {{AMBIENT_AXIS_2}}},
@@ -89,7 +89,7 @@ static double s_at(const Filter *filter, double mu) {
 
 /* Returns A_mn, the mean over the axes of look-ups m and n. */
 static double a_of(const Fitter *fitter, int m, int n) {
-    const Lookup *x = &lookups[m], *y = &lookups[n];
+    const AmbientLookup *x = &lookups[m], *y = &lookups[n];
     double p[BANDS], sum = 0.0;
     for (int j = 0; j < x->axes; j++)
         for (int k = 0; k < y->axes; k++) {
@@ -206,11 +206,11 @@ static double distance_of_part(const Reflected *light, Dir axis, double part) {
 }
 
 /* A node of a table. */
-typedef struct Node {
+typedef struct FitNode {
     int heading, row, column;
-} Node;
+} FitNode;
 
-static float *entry(AmbientFit *fit, Node at, int plane) {
+static float *entry(AmbientFit *fit, FitNode at, int plane) {
     return &fit->texels[(at.heading * AMBIENT_PLANES + plane) * fit->rows + at.row][at.column];
 }
 
@@ -218,7 +218,7 @@ static float *entry(AmbientFit *fit, Node at, int plane) {
  * weight within kappa (1 - mu) = ln 2, and three quarters within twice that. ggx has three quarters within three times
  * its half: the tail is 0 for twice and 1 for three times. The density of exp(kappa (mu - 1)), scaled to a sum of 1,
  * has a logarithm of ln(kappa / (2 pi e)) on the mean over itself; 2 pi e = 17.079... */
-static void fit_shape(AmbientFit *fit, const Reflected *light, Node at) {
+static void fit_shape(AmbientFit *fit, const Reflected *light, FitNode at) {
     double e = light->e[0] + light->e[1];
     if (!(e > 0.0)) return;
     Dir axis = mean_direction(light);
@@ -230,7 +230,7 @@ static void fit_shape(AmbientFit *fit, const Reflected *light, Node at) {
 }
 
 /* Sets the planes of the weights and of E. */
-static void fit_weights(const Fitter *fitter, const Reflected *light, Node at) {
+static void fit_weights(const Fitter *fitter, const Reflected *light, FitNode at) {
     AmbientFit *fit = fitter->fit;
     double b[2][LOOKUPS], w[LOOKUPS];
     fill_b(fitter, light, b);
@@ -254,7 +254,7 @@ static float root_cos_at(int column) {
     return 1.0f - y * y;
 }
 
-static void fit_node(const Fitter *fitter, Reflected *light, Node at) {
+static void fit_node(const Fitter *fitter, Reflected *light, FitNode at) {
     AmbientFit *fit = fitter->fit;
     Lobe lobe = fit->lobe;
     float root = fit->root_low, x = root_cos_at(at.column);
@@ -271,7 +271,7 @@ static void fit_column(void *user, int column, int thread) {
     Reflected light;
     for (int heading = 0; heading < heading_count(fitter->fit); heading++)
         for (int row = 0; row < fitter->fit->rows; row++)
-            fit_node(fitter, &light, (Node){heading, row, column});
+            fit_node(fitter, &light, (FitNode){heading, row, column});
 }
 
 int ambient_lean_azimuth(int lobe) {
@@ -303,7 +303,7 @@ void ambient_fit_finish(AmbientFit *fit) {
     for (int heading = 0; heading < heading_count(fit); heading += 2)
         for (int row = 0; row < fit->rows; row++)
             for (int column = 0; column < AMBIENT_COLUMNS; column++) {
-                const Node at = {heading, row, column};
+                const FitNode at = {heading, row, column};
                 float kappa = *entry(fit, at, PLANE_KAPPA);
                 float y = 1.0f - (float)column / (AMBIENT_COLUMNS - 1), x = root_cos_at(column);
                 float e = *entry(fit, at, AMBIENT_PLANE_E) + *entry(fit, at, AMBIENT_PLANE_E_SECOND);
