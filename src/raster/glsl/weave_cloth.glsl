@@ -3,20 +3,20 @@ uniform highp sampler2D weave_cells;
 
 #include "shading/weave/weave_cell.h"
 
-/* Places of cloth_numbers (raster/material/cloths.h), behind the yarns. */
+/* Indices in the array that cloth_numbers fills (raster/material/cloths.h); the yarns come before. */
 const int CLOTH_SEED = 56, CLOTH_LOW = 57, CLOTH_HIGH = 58, CLOTH_OPENNESS = 59, CLOTH_WARPS = 60, CLOTH_PICKS = 61,
           CLOTH_FAR_WIDTH = 62, CLOTH_FAR_HEIGHT = 63, CLOTH_PER_U = 64, CLOTH_PER_V = 65;
 
 float weave_number(int k) { return material_weave[k / 4][k - 4 * (k / 4)]; }
 
-/* A cell of the runs. */
+/* Returns a cell of the runs. */
 WeaveCell weave_fetch_cell(int row, int at) {
     vec4 c = texelFetch(weave_cells, ivec2(at, row), 0);
     return WeaveCell(c.x, c.y, c.z, c.w);
 }
 
-/* A channel of an albedo. Rows of texels are divided as floats, which holds up to 2^22 threads: software drivers divide whole
- * numbers pixel by pixel. */
+/* Returns a channel of an albedo. The division is one of floats, exact for up to 2^22 threads, since software drivers
+ * divide whole numbers pixel by pixel. */
 float weave_fetch(int row, int channel) {
     int warps = int(weave_number(CLOTH_WARPS)), picks = int(weave_number(CLOTH_PICKS));
     int up = int((float(row) + 0.5) / float(warps));
@@ -25,7 +25,7 @@ float weave_fetch(int row, int channel) {
 
 #include "shading/weave/weave_point.h"
 
-/* Each takes its numbers from the k-th on, which moves behind them. */
+/* Returns the numbers from index k on, and moves k behind them. */
 #define WEAVE_TAKE(name) taken.name = weave_number(k++);
 WeaveYarn weave_yarn_from(inout int k) {
     WeaveYarn taken;
@@ -59,7 +59,7 @@ Weave material_cloth() {
     return m;
 }
 
-/* A fragment on the cloth: warp threads from the left, picks from the bottom. */
+/* Returns the place of the fragment on the cloth: warp threads from the left, picks from the bottom. */
 vec2 weave_place() {
     return vec2(weave_in_range(texcoord_0.x * weave_number(CLOTH_PER_U)),
                 weave_in_range(-texcoord_0.y * weave_number(CLOTH_PER_V)));
