@@ -101,7 +101,7 @@ if(WEFT_HAS_HALF)
   file(GLOB WEFT_HALF_FILES CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}/src
     src/shading/lobes/*.h src/shading/terms/*.h src/shading/tables/*.h)
   foreach(file dialect/angles dialect/proxy dialect/rgb dialect/tint dialect/warp lobe/fresnel_weight lobe/lobe lobe/lobe_tables lobe/lobe_value lobe/nap lobe/table lobe/terms
-          ltc/ltc ltc/ltc_sheen ltc/ltc_table media/fibre_medium media/fibre_model media/yarn_draw media/yarn_medium)
+          ltc/ltc ltc/ltc_sheen ltc/ltc_table media/fibre_medium media/fibre_model media/woven_bins media/yarn_draw media/yarn_medium)
     list(APPEND WEFT_HALF_FILES shading/${file}.h)
   endforeach()
   foreach(file ${WEFT_HALF_FILES} shading/lobes.gen.h shading/dispatch.gen.h)

@@ -83,7 +83,7 @@ static const Stack *stack_at(Chunk *chunk, const PathMaterial *material, int k) 
     if (material->cloth) {
         const YarnRows *yarn = &chunk->vertices.yarn;
         const Lobe lobe = yarn_of_row(yarn, (size_t)k);
-        stack_put_base(&c->stack, &lobe, ROW_RGB(yarn->single, k), ROW_RGB(yarn->multiple, k));
+        stack_put_base(&chunk->stack, &lobe, ROW_RGB(yarn->single, k), ROW_RGB(yarn->multiple, k));
     }
     return &chunk->stack;
 }

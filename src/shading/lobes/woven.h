@@ -13,7 +13,7 @@
  * the distribution D of Eric Heitz, Jonathan Dupuy, Cyril Crassin, Carsten Dachsbacher, "The SGGX Microflake
  * Distribution", ACM TOG 34(4), 2015. Below, P is the area of a yarn that a direction sees, per area of cloth, and V
  * the mean of P over all yarns. R is the part of light that single scattering leaves to multiple scattering.
- *   The mean is a sum over 5 to 33 slopes s_y (shading/woven_bins.h), more for a steep yarn with a narrow highlight,
+ *   The mean is a sum over 5 to 33 slopes s_y (shading/media/woven_bins.h), more for a steep yarn with a narrow highlight,
  * and for each of them over three s_x that face both wo and wi. Where 33 slopes are too few, D is wider instead.
  * docs/weave.md has the errors.
  *   color: the albedo A of the fibres. The first colour dims light that met one of them, the second, rho(A),
@@ -32,7 +32,7 @@
 #define WEFT_WOVEN_H
 
 #include "shading/lobe/lobe.h"
-#include "shading/woven_bins.h"
+#include "shading/media/woven_bins.h"
 #include "shading/media/yarn_draw.h"
 
 #define WOVEN_PARAMS(P)                                                                                      \

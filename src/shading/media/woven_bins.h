@@ -13,7 +13,7 @@
 #ifndef WEFT_SHADING_WOVEN_BINS_H
 #define WEFT_SHADING_WOVEN_BINS_H
 
-#include "shading/lang.h"
+#include "shading/dialect/lang.h"
 
 #define WOVEN_BINS 17 /* the most: the level one, and 16 in the list, as many rounds as ROUNDS unrolls */
 
