@@ -9,7 +9,7 @@
 #include "scene/record/camera.h"
 #include "scene/record/scene.h"
 #include "shading/material/choice.h"
-#include "trace/geometry.h"
+#include "trace/geometry/geometry.h"
 #include "weft/weft.h"
 
 enum { WIDTH = 320, HEIGHT = 180, PIXELS = WIDTH * HEIGHT };

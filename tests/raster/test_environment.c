@@ -49,7 +49,7 @@ static Vec3 point(int k) {
     return vec3(s * cosf(a), y, s * sinf(a));
 }
 
-/* Into the image, as trace/sky.h has it. */
+/* Into the image, as trace/light/sky.h has it. */
 static Vec3 turned(const Environment *e, Vec3 d) {
     float c = cosf(e->rotation), s = sinf(e->rotation);
     return vec3(d.x * c - d.z * s, d.y, d.x * s + d.z * c);

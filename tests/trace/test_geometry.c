@@ -9,8 +9,8 @@
 #include "base/random.h"
 #include "scene/record/material_at.h"
 #include "scenes.h"
-#include "trace/chunk.h"
-#include "trace/geometry.h"
+#include "trace/geometry/geometry.h"
+#include "trace/path/chunk.h"
 #include "weft/weft.h"
 
 static Geometry *build(WeftScene *scene) {

@@ -8,8 +8,8 @@
 
 #include "base/random.h"
 #include "scenes.h"
-#include "trace/light_tree.h"
-#include "trace/lights.h"
+#include "trace/light/light_tree.h"
+#include "trace/light/lights.h"
 
 enum { LIGHTS = 300, POINTS = 200 };
 

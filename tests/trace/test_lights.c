@@ -8,7 +8,7 @@
 #include "base/pi.h"
 #include "base/random.h"
 #include "scenes.h"
-#include "trace/lights.h"
+#include "trace/light/lights.h"
 
 #undef sin /* of the dialect, which is single precision */
 #undef cos

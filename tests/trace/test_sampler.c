@@ -7,8 +7,8 @@
 
 #include <cmocka.h>
 
-#include "trace/distribution.h"
-#include "trace/sampler.h"
+#include "trace/geometry/sampler.h"
+#include "trace/light/distribution.h"
 
 /* Bit j of the second Sobol dimension's k-th direction number is (k choose j) mod 2, by the recurrence of its
  * primitive polynomial x + 1: v_k = v_{k-1} xor (v_{k-1} >> 1). */

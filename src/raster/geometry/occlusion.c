@@ -12,7 +12,7 @@
 #include "base/thread.h"
 #include "shading/dialect/warp.h"
 #include "shading/stack/frame.h"
-#include "trace/geometry.h"
+#include "trace/geometry/geometry.h"
 
 enum { BLOCK = 256 }; /* vertices in one go */
 

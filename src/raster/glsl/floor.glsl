@@ -1,7 +1,7 @@
 /* floor.glsl - the floor: what the scene keeps of the light from it, and the scene mirrored over that
  *
  * With V the part of the light, in luminance, that reaches it, and M the mirrored scene with coverage c, both
- * times the share of the mirror, what is behind is seen times V (1 - c), and M is added: trace/catcher.h. */
+ * times the share of the mirror, what is behind is seen times V (1 - c), and M is added: trace/path/catcher.h. */
 in highp vec3 from_eye;
 out highp vec4 fragment;
 

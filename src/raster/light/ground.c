@@ -8,7 +8,7 @@
 #include "base/thread.h"
 #include "raster/gl/gl_check.h"
 #include "shading/dialect/rgb.h"
-#include "trace/sky.h"
+#include "trace/light/sky.h"
 
 enum { SIDE = 96, RAYS = 256 };
 

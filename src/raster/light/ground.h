@@ -6,7 +6,7 @@
 
 #include "scene/light/floor.h"
 #include "scene/record/camera.h"
-#include "trace/geometry.h"
+#include "trace/geometry/geometry.h"
 
 typedef struct Ground {
     Geometry *geometry; /* of the scene's own meshes, NULL until it is needed */

@@ -1,0 +1,18 @@
+/* first_hit.h - albedo, normal and depth of the surfaces that camera rays meet first */
+#ifndef WEFT_TRACE_FIRST_HIT_H
+#define WEFT_TRACE_FIRST_HIT_H
+
+#include "trace/path/chunk.h"
+
+enum { FIRST_ALBEDO = 0, FIRST_NORMAL = 3, FIRST_DEPTH = 6, FIRST_SEEN = 7, FIRST_NUMBERS = 8 };
+
+/* First hits by the id of a path. FIRST_SEEN is 1 if the camera ray meets a surface, else all are 0. The depth is along
+ * the camera's axis, metres. */
+typedef struct FirstHits {
+    float number[FIRST_NUMBERS][PATHS_CAPACITY];
+} FirstHits;
+
+/* Records the first hits of a chunk, of paths that are seen. normal: in world space. */
+void first_hits_take(FirstHits *hits, const Chunk *chunk, int n, Row normal[3], const float forward[3]);
+
+#endif

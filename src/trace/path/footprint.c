@@ -1,0 +1,114 @@
+/* footprint.c - the part of a woven cloth that a path covers where it meets it
+ *
+ *   P' = a - d (n . a) / (n . d)
+ *
+ * is the projection of the edge a of a pixel, at right angles to the ray along d, onto the plane of a triangle with
+ * normal n. Homan Igehy, "Tracing Ray Differentials", SIGGRAPH 1999, Equation 10, without its changes of direction. A
+ * camera ray is as wide as its pixel. A scattered ray is a cone: each of SCATTERED directions drawn with the density p
+ * covers 1 / (SCATTERED p) of the sphere. */
+#include "shading/dialect/loop.h"
+#include "shading/stack/frame.h"
+#include "trace/geometry/sampler.h"
+#include "trace/path/chunk.h"
+
+enum { SCATTERED = 16 };
+
+/* Returns the width of path k across its ray, metres. */
+FN float width_of(const Chunk *chunk, const float forward[3], const float pixel[2], bool scattered,
+                  size_t k) {
+    float p = chunk->pdf[k], t = chunk->t[k];
+    float depth =
+        -t * (chunk->wo[0][k] * forward[0] + chunk->wo[1][k] * forward[1] + chunk->wo[2][k] * forward[2]);
+    float seen = pixel[0] + pixel[1] * abs(scattered ? t : depth);
+    float spread = t * min(sqrt(1.0f / ((float)SCATTERED * max(p, 1e-20f))), 1.0f);
+    bool spreads = scattered & (p > 0.0f);
+    return spreads ? spread : seen;
+}
+
+FN Dir minus(Dir a, Dir b) { return dir(a.x - b.x, a.y - b.y, a.z - b.z); }
+
+/* The plane of a triangle: two edges from the first corner, and the texture coordinates along each. */
+typedef struct UvPlane {
+    Dir first, second, normal; /* the edges and their cross product */
+    float u[2], v[2];          /* by edge */
+} UvPlane;
+
+FN UvPlane plane_of(const Chunk *chunk, size_t k) {
+    Dir a = ROW_DIR(chunk->corner[0], k);
+    UvPlane p;
+    p.first = minus(ROW_DIR(chunk->corner[1], k), a);
+    p.second = minus(ROW_DIR(chunk->corner[2], k), a);
+    p.normal = dir_cross(p.first, p.second);
+    p.u[0] = chunk->uv_edge[0][0][k];
+    p.v[0] = chunk->uv_edge[0][1][k];
+    p.u[1] = chunk->uv_edge[1][0][k];
+    p.v[1] = chunk->uv_edge[1][1][k];
+    return p;
+}
+
+/* The edge of a pixel on the plane, in texture coordinates. */
+typedef struct UvEdge {
+    float u, v;
+} UvEdge;
+
+/* Projects the edge of a pixel along d onto the plane. At grazing angles d counts as 0.01 from the plane. */
+FN UvEdge project(UvPlane p, Dir d, Dir edge) {
+    float square = max(dir_dot(p.normal, p.normal), 1e-30f), facing = dir_dot(p.normal, d);
+    float least = 1e-2f * sqrt(square), by = abs(facing) > least ? facing : facing < 0.0f ? -least : least;
+    Dir on = minus(edge, dir_scale(d, dir_dot(p.normal, edge) / by));
+    float b = dir_dot(dir_cross(on, p.second), p.normal) / square,
+          c = dir_dot(dir_cross(p.first, on), p.normal) / square;
+    UvEdge e = {b * p.u[0] + c * p.u[1], b * p.v[0] + c * p.v[1]};
+    return e;
+}
+
+/* Gathers the differences of texture coordinates along two edges of the triangles. */
+static void gather_uv_edges(Chunk *chunk, const WeftScene *scene, int n) {
+    for (int k = 0; k < n; k++) {
+        const Mesh *mesh = &scene->meshes[chunk->mesh[k]];
+        const uint32_t *index = mesh->index + 3 * (size_t)chunk->triangle[k];
+        for (int edge = 0; edge < 2; edge++)
+            for (int a = 0; a < 2; a++)
+                chunk->uv_edge[edge][a][k] = mesh->texcoord[0]
+                                                 ? mesh->texcoord[0][2 * index[edge + 1] + (uint32_t)a] -
+                                                       mesh->texcoord[0][2 * index[0] + (uint32_t)a]
+                                                 : 0.0f;
+    }
+}
+
+/* Fills where and how finely the cloth is looked up. per_uv: threads per unit of texture coordinates. */
+LOOP(footprints_n,
+     (Chunk *restrict chunk, const PathContext *context, const float per_uv[2], int depth, int n),
+     (chunk, context, per_uv, depth, n)) {
+    ClothLooks *to = &chunk->cloth_points;
+    const float forward[3] = {context->forward[0], context->forward[1], context->forward[2]};
+    const float pixel[2] = {context->pixel_width[0], context->pixel_width[1]};
+    float per_u = per_uv[0], per_v = per_uv[1];
+    uint32_t pair = SAMPLER_CLOTH + (uint32_t)depth;
+    EACH(k, (size_t)n) {
+        UvPlane plane = plane_of(chunk, k);
+        Dir d = dir_scale(ROW_DIR(chunk->wo, k), -1.0f);
+        bool level = abs(d.y) < 0.9f;
+        Dir side = dir_normal_or(dir_cross(d, dir(level ? 0.0f : 1.0f, level ? 1.0f : 0.0f, 0.0f)), d);
+        float width = width_of(chunk, forward, pixel, depth > 0, k);
+        UvEdge a = project(plane, d, dir_scale(side, width)),
+               b = project(plane, d, dir_scale(dir_cross(side, d), width));
+        WeaveFootprint f = weave_footprint(a.u * per_u, a.v * per_v, b.u * per_u, b.v * per_v);
+        to->uv[0][k] = chunk->textures.uv[0][0][k];
+        to->uv[1][k] = chunk->textures.uv[0][1][k];
+        to->footprint_x[k] = f.x;
+        to->footprint_y[k] = f.y;
+        to->longest[k] = f.longest;
+        Point p = sampler_point(chunk->pixel[k], chunk->sample[k], pair);
+        to->level[k] = p.u;
+        to->facet[k] = p.v;
+    }
+}
+
+void chunk_find_threads(Chunk *chunk, const ChunkSource *source, int n) {
+    const PathMaterial *material = &source->context->materials[source->material];
+    gather_uv_edges(chunk, source->context->scene, n);
+    footprints_n(chunk, source->context, material->cloth->per_uv, source->depth, n);
+    chunk->cloth_points.holed = material->material.alpha_mode != WEFT_ALPHA_OPAQUE;
+    cloth_bases(material->cloth, &chunk->cloth_points, n, &chunk->vertices.yarn);
+}

@@ -1,0 +1,53 @@
+/* path_context.h - the scene as paths of light need it */
+#ifndef WEFT_TRACE_PATH_CONTEXT_H
+#define WEFT_TRACE_PATH_CONTEXT_H
+
+#include "brdf/measured.h"
+#include "scene/record/material.h"
+#include "shading/kinds/kind.h"
+#include "trace/geometry/geometry.h"
+#include "trace/light/lights.h"
+#include "weft/render.h"
+
+/* A material prepared for all its hits. */
+typedef struct PathMaterial {
+    Material material;  /* the scene's, without the textures that paths do not read */
+    Surface untextured; /* its inputs without textures */
+    Choices choices;
+    bool textured;            /* its inputs vary: by a texture, by colours of a mesh, or as it is woven */
+    bool colored;             /* a mesh with this material has vertex colours */
+    bool texcoords[2];        /* the sets of texture coordinates that it uses */
+    bool emits;               /* may emit light */
+    bool needs_tangents;      /* its shading frame depends on a normal map, a cloth or anisotropy */
+    bool transmits;           /* transmits light: samples from both sides count */
+    const WeftCloth *cloth;   /* its base is woven of this; NULL: it is not */
+    const Measured *measured; /* reflects in place of the stack; NULL: the stack does */
+    TableRef sheen_e;         /* directional albedo of the sheen; TABLE_NONE without one */
+    Stack stack;              /* of `untextured`; points without an own stack share it */
+    const StackKind *kind;    /* NULL: shaded one vertex at a time */
+} PathMaterial;
+
+/* What paths need of the scene, the camera and the settings of a render. The pointers are borrowed. */
+typedef struct PathContext {
+    const WeftScene *scene;
+    const Geometry *geometry;
+    const Lights *lights;
+    const PathMaterial *materials; /* in the order of the scene's */
+    int max_depth;
+    WeftSampling sampling;
+    bool roulette;        /* Russian roulette ends paths of little throughput */
+    bool shadows;         /* shadow rays are traced */
+    bool lift;            /* rays leave from the smooth surface of a mesh, not from its triangles */
+    bool stages;          /* stages are timed */
+    bool sky_in_parts;    /* the environment's factors `ambient` and `reflection` are not both 1 */
+    bool first_hits;      /* first hits are recorded */
+    float forward[3];     /* the camera's axis, along which their depth is measured */
+    float pixel_width[2]; /* at the eye, and how much wider it becomes with depth */
+} PathContext;
+
+/* Which random numbers a path takes (sampler.h). */
+typedef struct PathKey {
+    uint32_t pixel, sample;
+} PathKey;
+
+#endif

@@ -1,0 +1,50 @@
+#include "trace/path/path_materials.h"
+
+#include "scene/light/polygons.h"
+#include "scene/record/material_at.h"
+#include "shading/stack/frame.h"
+
+static void prepare(const WeftScene *scene, const Material *material, TableRef sheen_e,
+                    PathMaterial *prepared) {
+    prepared->material = *material;
+    prepared->material.inputs[INPUT_occlusion].texture = 0; /* paths trace it */
+    prepared->material.inputs[INPUT_opacity].texture = 0;   /* a ray that hits has decided it */
+    prepared->untextured = material_plain(material);
+    prepared->choices = material_choices(material);
+    for (int input = 0; input < INPUT_COUNT; input++) {
+        const Input *of = &prepared->material.inputs[input];
+        prepared->textured |= of->texture != 0;
+        prepared->texcoords[of->texcoord] |= of->texture != 0;
+    }
+    prepared->cloth = material->cloth ? scene->cloths[material->cloth - 1] : NULL;
+    prepared->textured |= prepared->cloth != NULL;
+    prepared->texcoords[0] |= prepared->cloth != NULL;
+    prepared->sheen_e = sheen_e;
+    Surface surface = frame_surface(prepared->untextured);
+    stack_make(&prepared->stack, &surface, &prepared->choices, prepared->sheen_e);
+    prepared->transmits = prepared->stack.transmission > 0.0f;
+    prepared->measured = material->measured ? scene->measured[material->measured - 1] : NULL;
+    if (prepared->cloth) {
+        const Lobe yarn = lobe_default(LOBE_YARN);
+        stack_put_base(&prepared->stack, &yarn, rgb_grey(1.0f), rgb_grey(1.0f));
+    }
+    prepared->kind = prepared->measured ? NULL : stack_kind(&prepared->stack, &prepared->choices);
+    prepared->emits = material_emits(material);
+    prepared->needs_tangents =
+        !prepared->kind || prepared->cloth || prepared->material.inputs[INPUT_normal].texture ||
+        prepared->material.inputs[INPUT_clearcoat_normal].texture || prepared->untextured.anisotropy > 0.0f;
+}
+
+PathMaterial *path_materials_create(const WeftScene *scene, const SheenTables *tables) {
+    size_t count = (size_t)scene->material_count;
+    PathMaterial *materials = alloc_array(count, sizeof(PathMaterial));
+    if (!materials) return NULL;
+    for (size_t k = 0; k < count; k++)
+        prepare(scene, &scene->materials[k], sheen_tables_of(tables, (int)k), &materials[k]);
+    for (int k = 0; k < scene->mesh_count; k++) {
+        PathMaterial *prepared = &materials[scene->meshes[k].material];
+        prepared->colored |= scene->meshes[k].color != NULL;
+        prepared->textured |= prepared->colored;
+    }
+    return materials;
+}

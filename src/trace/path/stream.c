@@ -1,0 +1,188 @@
+#include <stdlib.h> /* before the dialect, whose abs() shadows its own */
+
+#include "trace/path/stream.h"
+
+#include "shading/dialect/loop.h"
+
+Stream *stream_create(const PathContext *context, int materials) {
+    Stream *stream = alloc_array(1, sizeof *stream);
+    if (!stream) return NULL;
+    size_t classes = (size_t)materials + 1;
+    stream->context = context;
+    stream->chunk.clock = context->stages ? &stream->clock : NULL;
+    stream->end = alloc_array(classes, sizeof(int));
+    stream->order = alloc_array(PATHS_MAX + classes * ROW_LANES, sizeof(int));
+    stream->first = context->first_hits ? alloc_array(1, sizeof(FirstHits)) : NULL;
+    if (stream->end && stream->order && !stream->first == !context->first_hits) return stream;
+    stream_free(stream);
+    return NULL;
+}
+
+void stream_free(Stream *stream) {
+    if (!stream) return;
+    free(stream->end);
+    free(stream->order);
+    free(stream->first);
+    free(stream);
+}
+
+HitRows stream_hits(Stream *stream) {
+    return (HitRows){stream->t, stream->u, stream->v, stream->mesh, stream->triangle};
+}
+
+/* Returns the class of path k: 0 if its ray hits nothing, else 1 + the material. */
+static int class_of(const Stream *stream, int k) {
+    uint32_t mesh = stream->mesh[k];
+    return mesh == GEOMETRY_NOTHING ? 0 : 1 + stream->context->scene->meshes[mesh].material;
+}
+
+/* Sorts n paths by their classes. Each class begins at a multiple of ROW_LANES; its last path is repeated up to the
+ * next. */
+static void sort_by_class(Stream *stream, int n, int classes) {
+    int *end = stream->end, place = 0;
+    for (int hit_class = 0; hit_class < classes; hit_class++) end[hit_class] = 0;
+    for (int k = 0; k < n; k++)
+        if (stream->mesh[k] != STREAM_DONE) end[class_of(stream, k)]++;
+    for (int hit_class = 0; hit_class < classes; hit_class++) {
+        int count = end[hit_class];
+        end[hit_class] = place;
+        place += row_whole(count);
+    }
+    for (int k = 0; k < n; k++)
+        if (stream->mesh[k] != STREAM_DONE) stream->order[end[class_of(stream, k)]++] = k;
+    for (int hit_class = 0; hit_class < classes; hit_class++)
+        for (int k = end[hit_class]; k % ROW_LANES; k++) stream->order[k] = stream->order[k - 1];
+    stage_end(stream->chunk.clock, STAGE_SORT);
+}
+
+LOOP(gather_directions, (const Paths *paths, const int *order, int n, Row d[3]), (paths, order, n, d)) {
+    for (int c = 0; c < 3; c++) {
+        const float *from = paths->direction[c];
+        float *to = d[c];
+        EACH(k, (size_t)n) to[k] = from[order[k]];
+    }
+}
+
+/* Multiplies the environment's radiance along n paths by their throughputs and MIS weights. */
+LOOP(weigh_sky_n,
+     (const Paths *paths, bool in_parts, WeftSampling sampling, const int *order, int n,
+      LightRows *restrict sky),
+     (paths, in_parts, sampling, order, n, sky)) {
+    const float(*throughput)[PATHS_CAPACITY] = in_parts ? paths->sky_throughput : paths->throughput;
+    const float *r = throughput[0], *g = throughput[1], *b = throughput[2], *pdf = paths->pdf;
+    EACH(k, (size_t)n) {
+        int j = order[k];
+        float weight = lobe_weight(sampling, pdf[j], sky->pdf[k]);
+        sky->radiance[0][k] = r[j] * (sky->radiance[0][k] * weight);
+        sky->radiance[1][k] = g[j] * (sky->radiance[1][k] * weight);
+        sky->radiance[2][k] = b[j] * (sky->radiance[2][k] * weight);
+    }
+}
+
+/* Adds the environment's light along n paths that leave the scene. in_parts: they have a throughput of their own for
+ * it. */
+static void add_sky(Stream *stream, const Paths *paths, bool in_parts, const int *order, int n) {
+    const PathContext *context = stream->context;
+    LightRows *sky = &stream->chunk.light_samples[LIGHTS_SKY];
+    Row *d = stream->chunk.wo;
+    int whole = row_whole(n);
+    gather_directions(paths, order, whole, d);
+    const float *const along[3] = {d[0], d[1], d[2]};
+    lights_environment_rows(context->lights, whole, along, sky);
+
+    weigh_sky_n(paths, in_parts, context->sampling, order, whole, sky);
+    for (int c = 0; c < 3; c++)
+        for (int k = 0; k < n; k++) stream->radiance.rgba[c][paths->id[order[k]]] += sky->radiance[c][k];
+}
+
+/* Shades a chunk, and appends the paths that continue to `next`, which has `count`; returns how many it has then. */
+static int shade_chunk(Stream *stream, const ChunkSource *source, Paths *next, int count) {
+    const PathContext *context = source->context;
+    const PathMaterial *material = &context->materials[source->material];
+    Chunk *chunk = &stream->chunk;
+    chunk_place(chunk, source);
+    if (material->emits || material->material.unlit) chunk_add_emission(chunk, source, &stream->radiance);
+    bool ends = source->depth == context->max_depth || material->material.unlit;
+    if (!ends) chunk_make_frames(chunk, source);
+    if (stream->first && source->depth == 0)
+        first_hits_take(stream->first, chunk, source->n, ends ? chunk->normal : chunk->frame[2],
+                        context->forward);
+    stage_end(chunk->clock, STAGE_FRAMES);
+    if (ends) return count;
+    chunk_shade(chunk, source);
+    for (int g = 0; g < LIGHT_GROUPS; g++)
+        if (lights_has_group(context->lights, (LightGroup)g))
+            stream->rays += chunk_add_light(chunk, source, (LightGroup)g, &stream->radiance);
+    count = chunk_continue(chunk, source, next, count);
+    stage_end(chunk->clock, STAGE_CONTINUE);
+    return count;
+}
+
+/* Shades the paths order[begin .. end - 1], all of one class, chunk by chunk; count and result are shade_chunk's. */
+static int shade_class(Stream *stream, ChunkSource source, int begin, int end, Paths *next, int count) {
+    for (int first = begin; first < end; first += ROW_MOST) {
+        source.order = stream->order + first;
+        source.n = end - first < ROW_MOST ? end - first : ROW_MOST;
+        count = shade_chunk(stream, &source, next, count);
+    }
+    return count;
+}
+
+/* Finds the nearest hits of n paths. */
+static void trace(Stream *stream, const Paths *paths, int n) {
+    const RayRows rays = {{paths->origin[0], paths->origin[1], paths->origin[2]},
+                          {paths->direction[0], paths->direction[1], paths->direction[2]},
+                          NULL,
+                          paths->key,
+                          false,
+                          false};
+    const HitRows hits = stream_hits(stream);
+    geometry_hits(stream->context->geometry, &rays, n, &hits);
+    stream->rays += n;
+    stage_end(stream->chunk.clock, STAGE_HITS);
+}
+
+/* Adds the environment along the rays that leave the scene. Without shadows it reaches a surface along every ray that
+ * leaves it, whatever that hits. */
+static void add_misses(Stream *stream, const Paths *paths, int depth, int classes) {
+    const PathContext *context = stream->context;
+    const int *end = stream->end, reached = depth > 0 && !context->shadows ? classes : 1;
+    for (int hit_class = 0; hit_class < reached; hit_class++)
+        for (int k = hit_class ? row_whole(end[hit_class - 1]) : 0; k < end[hit_class]; k += ROW_MOST)
+            add_sky(stream, paths, depth > 0 && context->sky_in_parts, stream->order + k,
+                    end[hit_class] - k < ROW_MOST ? end[hit_class] - k : ROW_MOST);
+    stage_end(stream->chunk.clock, STAGE_MISSES);
+}
+
+/* Shades all paths that hit something; returns how many of them continue in `next`. */
+static int shade_hits(Stream *stream, const Paths *paths, int depth, int classes, Paths *next) {
+    const int *end = stream->end;
+    int count = 0;
+    ChunkSource source = {.context = stream->context,
+                          .paths = paths,
+                          .t = stream->t,
+                          .u = stream->u,
+                          .v = stream->v,
+                          .mesh = stream->mesh,
+                          .triangle = stream->triangle,
+                          .keys = &stream->keys,
+                          .depth = depth};
+    for (int hit_class = 1; hit_class < classes; hit_class++) {
+        source.material = hit_class - 1;
+        count = shade_class(stream, source, row_whole(end[hit_class - 1]), end[hit_class], next, count);
+    }
+    return count;
+}
+
+void stream_follow(Stream *stream, int n) {
+    int classes = stream->context->scene->material_count + 1;
+    stream->chunk.filled_material = 0;
+    for (int depth = 0; n > 0; depth++) {
+        const Paths *paths = &stream->paths[depth % 2];
+        Paths *next = &stream->paths[(depth + 1) % 2];
+        if (depth > 0) trace(stream, paths, n);
+        sort_by_class(stream, n, classes);
+        add_misses(stream, paths, depth, classes);
+        n = shade_hits(stream, paths, depth, classes, next);
+    }
+}
