@@ -7,7 +7,7 @@
 
 /* A picture that is rendered tile by tile. */
 typedef struct TracedPicture {
-    WeftRenderDesc desc; /* its defaults are filled in */
+    WeftRenderDesc desc; /* defaults are filled in */
     PathContext context;
     Lens lens;
     Floor floor;

@@ -45,7 +45,7 @@ static Hit from_embree(const struct RTCHit *h, float t) {
     return (Hit){t, h->geomID, h->primID, h->u, h->v, {h->Ng_x, h->Ng_y, h->Ng_z}};
 }
 
-/* What decides, beside the triangle, if a ray hits a mesh of this material. */
+/* The data of a material that decide, beside the triangle, if a ray hits. */
 enum { CHECK_SIDE = 1, CHECK_OPACITY = 2 };
 static unsigned char checks_of(const WeftScene *scene, int mesh) {
     const Material *material = &scene->materials[scene->meshes[mesh].material];

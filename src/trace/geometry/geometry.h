@@ -19,7 +19,7 @@ typedef struct Ray {
     Vec3 direction;   /* unit */
     float near, far;  /* distances between which hits count */
     uint32_t key;     /* decides, together with the triangle, if a partly transparent surface is hit */
-    bool past_lights; /* it passes through the shapes of polygon lights */
+    bool past_lights; /* the ray passes through the shapes of polygon lights */
 } Ray;
 
 typedef struct Hit {

@@ -18,7 +18,7 @@ typedef struct Emitter {
     Rgb radiance; /* if uniform */
 } Emitter;
 
-/* Where the members of an emitter are in its numbers. */
+/* The columns of an emitter in its row of numbers. */
 enum {
     EMITTER_A = 0,
     EMITTER_AB = 3,

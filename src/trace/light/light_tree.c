@@ -4,7 +4,7 @@
 
 #include "shading/dialect/loop.h"
 
-/* Where the numbers of a node are. The cone of normals has the half angle theta_o. */
+/* The columns of a node in the table of nodes. The cone of normals has the half angle theta_o. */
 enum {
     NODE_CENTRE = 0,
     NODE_RADIUS2 = 3,

@@ -33,7 +33,7 @@ typedef struct Paths {
     float horizon_normal[3][PATHS_CAPACITY]; /* of the vertex at the origin (see Chunk), if pdf > 0 */
 } Paths;
 
-/* What paths have brought so far, by their ids: radiance times coverage, and coverage. */
+/* The sums of finished paths, by their ids: radiance times coverage, and coverage. */
 typedef struct PathRadiance {
     float rgba[4][PATHS_CAPACITY];
 } PathRadiance;

@@ -12,22 +12,22 @@
 /* A material prepared for all its hits. */
 typedef struct PathMaterial {
     Material material;  /* the scene's, without the textures that paths do not read */
-    Surface untextured; /* its inputs without textures */
+    Surface untextured; /* inputs without textures */
     Choices choices;
-    bool textured;            /* its inputs vary: by a texture, by colours of a mesh, or as it is woven */
+    bool textured;            /* inputs vary: by a texture, by colours of a mesh, or as it is woven */
     bool colored;             /* a mesh with this material has vertex colours */
     bool texcoords[2];        /* the sets of texture coordinates that it uses */
     bool emits;               /* may emit light */
-    bool needs_tangents;      /* its shading frame depends on a normal map, a cloth or anisotropy */
+    bool needs_tangents;      /* the shading frame depends on a normal map, a cloth or anisotropy */
     bool transmits;           /* transmits light: samples from both sides count */
-    const WeftCloth *cloth;   /* its base is woven of this; NULL: it is not */
+    const WeftCloth *cloth;   /* the base is woven of this; NULL: not woven */
     const Measured *measured; /* reflects in place of the stack; NULL: the stack does */
     TableRef sheen_e;         /* directional albedo of the sheen; TABLE_NONE without one */
     Stack stack;              /* of `untextured`; points without an own stack share it */
     const StackKind *kind;    /* NULL: shaded one vertex at a time */
 } PathMaterial;
 
-/* What paths need of the scene, the camera and the settings of a render. The pointers are borrowed. */
+/* The scene, the camera and the settings of a render, as paths read them. The pointers are borrowed. */
 typedef struct PathContext {
     const WeftScene *scene;
     const Geometry *geometry;
