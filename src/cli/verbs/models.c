@@ -26,7 +26,6 @@ static const struct {
     {WEFT_LOBE_DIFFUSE, "diffuse", "a diffuse term"},
     {WEFT_LOBE_TABLE, "table", "reads a table"},
     {WEFT_LOBE_TINTED, "tinted", "its colour is the albedo of fibres, no factor"},
-    {WEFT_LOBE_SYSTEM, "system", "one system of threads; warp and weft, both of this lobe, are a cloth"},
 };
 enum { TRAIT_COUNT = sizeof traits / sizeof *traits, COLUMN = 32 };
 

@@ -13,7 +13,7 @@ typedef struct Emitter {
     Vec3 a;       /* a corner */
     Vec3 ab, ac;  /* two edges */
     Vec3 normal;  /* unit, or 0 */
-    bool uniform; /* it emits the same radiance everywhere */
+    bool uniform; /* emits the same radiance everywhere */
     bool two_sided;
     Rgb radiance; /* if uniform */
 } Emitter;
