@@ -21,8 +21,9 @@ FN float width_of(const Chunk *chunk, const float forward[3], const float pixel[
         -t * (chunk->wo[0][k] * forward[0] + chunk->wo[1][k] * forward[1] + chunk->wo[2][k] * forward[2]);
     float seen = pixel[0] + pixel[1] * abs(scattered ? t : depth);
     float spread = t * min(sqrt(1.0f / ((float)SCATTERED * max(p, 1e-20f))), 1.0f);
-    bool spreads = scattered & (p > 0.0f);
-    return spreads ? spread : seen;
+    float least =
+        scattered ? 0.0f : 3e38f; /* a bool that is the same for all would keep the loop from vectors */
+    return p > least ? spread : seen;
 }
 
 FN Dir minus(Dir a, Dir b) { return dir(a.x - b.x, a.y - b.y, a.z - b.z); }
