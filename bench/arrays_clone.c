@@ -1,4 +1,4 @@
-/* arrays_clone.c - src/shading/catalogue/arrays.c for one set of instructions, and the fastest loops that it can run
+/* arrays_clone.c - the loops over pairs of all lobes for one set of instructions, and the fastest loops that it can run
  *
  * Compiled once for each column of arrays.c: CLONE is its name there. The loops stand in a section of that
  * name, where arrays.c counts their instructions. */
@@ -9,9 +9,17 @@
 #define ALONE(clone)                      __attribute__((noinline, section(SECTION(clone))))
 #define LOOP(name, parameters, arguments) ALONE(CLONE) static void name parameters
 
-#define lobe_eval_n   NAMED(lobe_eval_n, CLONE)
-#define lobe_pdf_n    NAMED(lobe_pdf_n, CLONE)
-#define lobe_tinted_n NAMED(lobe_tinted_n, CLONE)
+#define lobe_eval_n         NAMED(lobe_eval_n, CLONE)
+#define lobe_pdf_n          NAMED(lobe_pdf_n, CLONE)
+#define lobe_tinted_n       NAMED(lobe_tinted_n, CLONE)
+#define cook_torrance_loops NAMED(cook_torrance_loops, CLONE)
+#define each_eval           NAMED(each_eval, CLONE)
+#define each_sample         NAMED(each_sample, CLONE)
+#include "shading/catalogue/arrays_terms.c"
+#include "shading/loops.gen.h"
+#define LOOPS_HERE(name, Name, NAME, kind)                                                                   \
+    PAIR_LOOPS_##kind(name, Name) static const LobeLoops name##_loops = {PAIR_PLACES_##kind(name), NULL};
+CATALOGUE_LOOPS(LOOPS_HERE)
 #include "shading/catalogue/arrays.c"
 
 #ifdef __FMA__

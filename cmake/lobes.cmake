@@ -6,9 +6,10 @@
 #                     the dialect
 #   dispatch.gen.h    all of them behind one signature; in the dialect
 #   lobe_infos.gen.h  their tables as data, for registry.c
-#   loops.gen.h       their loops over arrays, for arrays.c
-#   each.gen.h        those with parameters of each element, for arrays_each.c
+#   loops.gen.h       their loops over arrays as rows, for arrays.c
 #
+# and for each lobe loops_NAME.c, over pairs of directions, and each_NAME.c, in which each element has numbers of its own. They
+# are files of their own since they take long to compile.
 # A line that is one lobe's alone names its LOBE_ constant: of those in the dialect src/text/assemble/dispatch.c takes the lines
 # of lobes that a shader needs.
 
@@ -154,7 +155,6 @@ function(weft_dispatch folder outside)
   configure_file(cmake/dispatch.h.in ${folder}/dispatch.gen.h @ONLY)
 endfunction()
 
-set(pairs "n, ox, oy, oz, ix, iy, iz")
 set(count 0)
 foreach(id ${WEFT_LOBE_IDS})
   weft_read_lobe(${id})
@@ -180,36 +180,30 @@ foreach(id ${WEFT_LOBE_IDS})
     continue()
   endif()
   list(APPEND WEFT_TEXT_LOBE_IDS ${id})
-  string(FIND "${types}" "Term" composed) # of choices, which arrays.c makes apart
-  if(composed EQUAL -1)
-    set(rounds ITS_ROUNDS)
-    string(APPEND loops "LOBE_LOOP(pdf, ${name}, ${Name})\n")
-    if(counted)
-      set(rounds ALL_ROUNDS)
-      string(APPEND loops "COUNTED_LOOPS(${name}, ${Name})\n")
-    else()
-      string(APPEND loops "LOBE_LOOP(f, ${name}, ${Name})\n")
-      if(is_TWO_COLORS)
-        string(APPEND loops "SHARES_LOOP(${name}, ${Name})\n")
-      endif()
-    endif()
-    set(second_color EACH_F90)
-    if(NOT second EQUAL -1)
-      set(second_color ${name}_second)
-    endif()
-    string(APPEND each_loops "EACH_LOOPS(${name}, ${Name}, ${NAME}, ${second_color}, ${rounds})\n")
+  set(kind single)
+  set(rounds ITS_ROUNDS)
+  if(counted)
+    set(kind rounds)
+    set(rounds ALL_ROUNDS)
+  elseif(is_TWO_COLORS)
+    set(kind shares)
+  elseif(is_TINTED)
+    set(kind tinted)
   endif()
-  weft_case(each_cases "${name}_each_n(e, n); break;")
-  weft_case(drawn_each_cases "${name}_drawn_each_n(e, n); break;")
-  weft_case(f_cases "${name}_f_n(m, ${pairs}, f); break;")
-  weft_case(pdf_cases "${name}_pdf_n(m, ${pairs}, pdf); break;")
-  if(is_TWO_COLORS)
-    weft_case(shares_cases "${name}_shares_n(m, ${pairs}, f, s); break;")
+  set(second_color EACH_F90)
+  if(NOT second EQUAL -1)
+    set(second_color ${name}_second)
   endif()
-  if(is_TINTED)
-    string(APPEND loops "TINTED_LOOP(${name}, ${Name})\n")
-    weft_case(tinted_cases "${name}_tinted_n(m, c, ${pairs}, f[0], f[1], f[2]); break;")
+  set(loops "${name}, ${Name}, ${NAME}, ${kind}")
+  if("${types}" MATCHES "Term") # of choices, whose loops arrays_terms.c makes
+    string(APPEND composed_loops " \\\n    L(${loops})")
+    continue()
   endif()
+  string(APPEND catalogue_loops " \\\n    L(${loops})")
+  foreach(file loops each)
+    configure_file(cmake/${file}.c.in ${WEFT_GENERATED_DIR}/${file}_${name}.c @ONLY)
+    list(APPEND WEFT_GENERATED ${WEFT_GENERATED_DIR}/${file}_${name}.c)
+  endforeach()
 endforeach()
 
 file(CONFIGURE OUTPUT ${WEFT_GENERATED_DIR}/shading/lobe_ids.gen.h @ONLY CONTENT
@@ -242,7 +236,12 @@ static float crease_of(const Lobe *m, float cos_o, int k) {
     }
 }
 ")
-configure_file(cmake/loops.h.in ${WEFT_GENERATED_DIR}/shading/loops.gen.h @ONLY)
-configure_file(cmake/each.h.in ${WEFT_GENERATED_DIR}/shading/each.gen.h @ONLY)
+file(CONFIGURE OUTPUT ${WEFT_GENERATED_DIR}/shading/loops.gen.h @ONLY CONTENT
+"/* loops.gen.h - made by cmake/lobes.cmake of lobes.list: a row for the loops of each lobe */
+#define CATALOGUE_LOOPS(L)@catalogue_loops@
+
+/* Of lobes with a choice of terms (arrays_terms.c). */
+#define COMPOSED_LOOPS(L)@composed_loops@
+")
 weft_dispatch(${WEFT_GENERATED_DIR}/shading "#include \"shading/catalogue/outside.h\"\n" ${WEFT_LOBE_IDS})
 weft_dispatch(${WEFT_GENERATED_DIR}/text/shading "" ${WEFT_TEXT_LOBE_IDS}) # for half floats

@@ -1,4 +1,4 @@
-/* ltc_fit.c - compiled with -ffinite-math-only, as arrays.c is (CMakeLists.txt) */
+/* ltc_fit.c - compiled with -ffinite-math-only, as loops over arrays are (CMakeLists.txt) */
 #include <stdlib.h>
 
 #include <nlopt.h>

@@ -3,7 +3,7 @@
 #include "shading/catalogue/albedo.h"
 #include "weft/arrays.h"
 
-/* The loops of arrays.c may round a pair differently in their vector body and in what is left at their end.
+/* The loops of a lobe may round a pair differently in their vector body and in what is left at their end.
  * So they are only ever given whole groups of LANES, which leave nothing at the end. */
 enum { LANES = 64, BLOCK = 512 };
 

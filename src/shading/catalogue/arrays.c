@@ -1,7 +1,21 @@
-/* arrays.c - the same text over arrays: one loop per lobe for f, f and share, and pdf, the widest instructions chosen at
- * start-up */
+/* arrays.c - arrays of pairs of directions and of elements, put to the loops of their lobe
+ *
+ * No loops of vectors: a lobe that walks has none, and is asked for one pair after the other. */
 #include "shading/catalogue/registry.h"
-#include "shading/lobe/lobe_loop.h"
+#include "shading/lobe/each_loop.h"
+#include "shading/loops.gen.h"
+
+#define LOOPS_DECLARED(name, ...) extern const LobeLoops name##_loops;
+CATALOGUE_LOOPS(LOOPS_DECLARED)
+COMPOSED_LOOPS(LOOPS_DECLARED)
+
+/* Returns the loops of a lobe; NULL for one that walks. */
+static const LobeLoops *loops_of(int id) {
+#define LOOPS_PLACED(name, Name, NAME, ...) [LOBE_##NAME] = &name##_loops,
+    static const LobeLoops *const own[LOBE_COUNT] = {CATALOGUE_LOOPS(LOOPS_PLACED)
+                                                         COMPOSED_LOOPS(LOOPS_PLACED)};
+    return id < LOBE_COUNT ? own[id] : outside_loops(id);
+}
 
 /* One pair after the other. */
 #define EACH_ONE(ask, out)                                                                                   \
@@ -10,69 +24,85 @@
         out[k] = counts ? ask(m, angles_between(o, i)) : 0.0f;                                               \
     }
 
-/* The composed lobe, one term at a time with its number a constant: a loop with a chain of terms in it stays
- * scalar, which is ten times slower. */
-#define TERM_N(question, choice, NAME, value)                                                                \
-    LOOP(question##_##NAME##_n, (const Lobe *lobe, size_t n, PAIRS, float *restrict f),                      \
-         (lobe, n, PAIR_NAMES, f)) {                                                                         \
-        CookTorrance m = cook_torrance_of(lobe);                                                             \
-        m.choice = NAME;                                                                                     \
-        EACH(k, n) {                                                                                         \
-            TAKE_PAIR(o, i, counts);                                                                         \
-            Angles a = angles_between(o, i);                                                                 \
-            float e = value;                                                                                 \
-            f[k] = counts ? e : 0.0f;                                                                        \
-        }                                                                                                    \
-    }
-#define SPREAD_N(id, NAME, ...) TERM_N(spread, d, NAME, cook_torrance_spread(m, a))
-#define SHADOW_N(id, NAME, ...) TERM_N(shadow, v, NAME, f[k] * cook_torrance_shadow(m, a))
-#define MIXED_N(id, NAME, ...)  TERM_N(mixed, f, NAME, cook_torrance_fresnel_weight(m, a))
-#define DRAWN_N(id, NAME, ...)                                                                               \
-    TERM_N(drawn, d, NAME, cook_torrance_sample_pdf(m, cook_torrance_spread(m, a), a))
-WEFT_D_TERMS(SPREAD_N)
-WEFT_V_TERMS(SHADOW_N)
-WEFT_F_TERMS(MIXED_N)
-WEFT_D_TERMS(DRAWN_N)
-
-#define TERM_CALL(question, NAME)                                                                            \
-    case NAME:                                                                                               \
-        question##_##NAME##_n(m, n, ox, oy, oz, ix, iy, iz, f);                                              \
-        break;
-#define CALL_SPREAD(id, NAME, ...) TERM_CALL(spread, NAME)
-#define CALL_SHADOW(id, NAME, ...) TERM_CALL(shadow, NAME)
-#define CALL_MIXED(id, NAME, ...)  TERM_CALL(mixed, NAME)
-#define CALL_DRAWN(id, NAME, ...)  TERM_CALL(drawn, NAME)
-
-static void cook_torrance_f_n(const Lobe *m, size_t n, PAIRS, float *restrict f) {
-    switch (cook_torrance_of(m).d) { WEFT_D_TERMS(CALL_SPREAD) }
-    switch (cook_torrance_of(m).v) { WEFT_V_TERMS(CALL_SHADOW) }
-}
-static void cook_torrance_mixed_n(const Lobe *m, size_t n, PAIRS, float *restrict f) {
-    switch (cook_torrance_of(m).f) { WEFT_F_TERMS(CALL_MIXED) }
-}
-static void cook_torrance_shares_n(const Lobe *m, size_t n, PAIRS, float *restrict f, float *restrict s) {
-    cook_torrance_f_n(m, n, ox, oy, oz, ix, iy, iz, f);
-    cook_torrance_mixed_n(m, n, ox, oy, oz, ix, iy, iz, s);
-}
-static void cook_torrance_pdf_n(const Lobe *m, size_t n, PAIRS, float *restrict f) {
-    switch (cook_torrance_of(m).d) { WEFT_D_TERMS(CALL_DRAWN) }
-}
-
-#include "shading/loops.gen.h"
-
-void lobe_eval_n(const Lobe *m, size_t n, PAIRS, float *restrict f, float *restrict s) {
-    if (s)
-        lobe_shares_n(m, n, ox, oy, oz, ix, iy, iz, f, s);
+void lobe_pdf_n(const Lobe *m, size_t n, LOOP_PAIRS, float *restrict pdf) {
+    const LobeLoops *loops = loops_of(m->id);
+    if (loops)
+        loops->pdf(m, n, LOOP_NAMES, pdf);
     else
-        lobe_f_n(m, n, ox, oy, oz, ix, iy, iz, f);
+        EACH_ONE(lobe_pdf, pdf);
 }
 
-void lobe_tinted_n(const Lobe *m, const float w[3], size_t n, PAIRS, float *const f[3]) {
+void lobe_eval_n(const Lobe *m, size_t n, LOOP_PAIRS, float *restrict f, float *restrict s) {
+    const LobeLoops *loops = loops_of(m->id);
+    if (s && loops && loops->shares) {
+        loops->shares(m, n, LOOP_NAMES, f, s);
+        return;
+    }
+    if (loops)
+        loops->f(m, n, LOOP_NAMES, f);
+    else
+        EACH_ONE(lobe_eval, f);
+    if (s) memset(s, 0, n * sizeof *s);
+}
+
+void lobe_tinted_n(const Lobe *m, const float w[3], size_t n, LOOP_PAIRS, float *const f[3]) {
+    const LobeLoops *loops = loops_of(m->id);
     if (w[0] >= 1.0f && w[1] >= 1.0f && w[2] >= 1.0f) { /* white is quicker by itself */
-        lobe_f_n(m, n, ox, oy, oz, ix, iy, iz, f[0]);
+        lobe_eval_n(m, n, LOOP_NAMES, f[0], NULL);
         memcpy(f[1], f[0], n * sizeof *f[1]);
         memcpy(f[2], f[0], n * sizeof *f[2]);
+    } else if (loops && loops->tinted) {
+        loops->tinted(m, w, n, LOOP_NAMES, f[0], f[1], f[2]);
     } else {
-        lobe_tinted_of_n(m, w, n, ox, oy, oz, ix, iy, iz, f);
+        for (int k = 0; k < 3; k++) memset(f[k], 0, n * sizeof *f[k]);
     }
+}
+
+/* Returns the lobe of element k. */
+static Lobe lobe_of_each(const Each *e, size_t k) {
+    Lobe m = e->lobe;
+    for (int p = 0; p < LOBE_PARAMS_MAX; p++)
+        if (e->params[p]) m.params[p] = e->params[p][k];
+    return m;
+}
+
+static void walk_each_n(const Each *e, size_t n) {
+    TAKE_PAIRS(e);
+    TAKE_COLORS(e);
+    float *pdf = e->pdf;
+    for (size_t k = 0; k < n; k++) {
+        TAKE_PAIR(o, i, counts);
+        Lobe m = lobe_of_each(e, k);
+        LobeValue v = lobe_value(&m, angles_between(o, i));
+        float f = counts ? v.f : 0.0f;
+#define WALKED_COLOR(first, second) lobe_color(v, first, lobe_second(&m, first, second))
+        PUT_COLORS(f, WALKED_COLOR);
+        pdf[k] = counts ? v.pdf : 0.0f;
+    }
+}
+
+static void walk_drawn_each_n(const Each *e, size_t n) {
+    TAKE_DRAWS(e);
+    for (size_t k = 0; k < n; k++) {
+        TAKE_ONE(o, counts);
+        Lobe m = lobe_of_each(e, k);
+        Dir i = lobe_sample(&m, o, us[k], vs[k]);
+        PUT_DRAWN(i, counts);
+    }
+}
+
+void each_eval(const Each *e, size_t n) {
+    const LobeLoops *loops = loops_of(e->lobe.id);
+    if (loops)
+        loops->each->eval(e, n);
+    else
+        walk_each_n(e, n);
+}
+
+void each_sample(const Each *e, size_t n) {
+    const LobeLoops *loops = loops_of(e->lobe.id);
+    if (loops)
+        loops->each->sample(e, n);
+    else
+        walk_drawn_each_n(e, n);
 }

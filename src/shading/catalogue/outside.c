@@ -5,7 +5,6 @@
 #include "shading/catalogue/outside.h"
 
 #include "shading/catalogue/registry.h"
-#include "shading/dialect/loop.h"
 
 static _Atomic(const OutsideLobe *) taken[OUTSIDE_MOST];
 static atomic_int taken_count;
@@ -116,13 +115,15 @@ Proxy outside_proxies(const Lobe *m) {
 }
 
 /* The loop of an id without a lobe. */
-static void no_loop(const Lobe *m, size_t n, PAIRS, float *restrict out) { memset(out, 0, n * sizeof *out); }
-static void no_shares(const Lobe *m, size_t n, PAIRS, float *restrict f, float *restrict s) {
+static void no_loop(const Lobe *m, size_t n, LOOP_PAIRS, float *restrict out) {
+    memset(out, 0, n * sizeof *out);
+}
+static void no_shares(const Lobe *m, size_t n, LOOP_PAIRS, float *restrict f, float *restrict s) {
     no_loop(m, n, ox, oy, oz, ix, iy, iz, f);
     no_loop(m, n, ox, oy, oz, ix, iy, iz, s);
 }
-static void no_tinted(const Lobe *m, const float c[3], size_t n, PAIRS, float *restrict r, float *restrict g,
-                      float *restrict b) {
+static void no_tinted(const Lobe *m, const float c[3], size_t n, LOOP_PAIRS, float *restrict r,
+                      float *restrict g, float *restrict b) {
     no_loop(m, n, ox, oy, oz, ix, iy, iz, r);
     no_loop(m, n, ox, oy, oz, ix, iy, iz, g);
     no_loop(m, n, ox, oy, oz, ix, iy, iz, b);
@@ -136,8 +137,9 @@ static void no_drawn(const Each *e, size_t n) {
     for (int c = 0; c < 3; c++) memset(e->drawn[c], 0, n * sizeof *e->drawn[c]);
 }
 
-const PluginLoops *outside_loops(int id) {
-    static const PluginLoops none = {no_loop, no_loop, no_shares, no_tinted, no_each, no_drawn};
+const LobeLoops *outside_loops(int id) {
+    static const EachLoops each = {no_each, no_drawn};
+    static const LobeLoops none = {no_loop, no_loop, no_shares, no_tinted, &each};
     const Plugin *plugin = plugin_of(id);
     return plugin ? plugin->loops : &none;
 }

@@ -5,7 +5,7 @@
 #include <stddef.h>
 
 #include "shading/dialect/isa.h"
-#include "shading/lobe/each.h"
+#include "shading/lobe/loops.h"
 #include "shading/lobe/traits.h"
 #include "shading/terms/d_ggx.h"
 
@@ -14,27 +14,6 @@ typedef struct PluginParam {
     const char *type, *name, *help;
     float def, low, high, hard_low, hard_high;
 } PluginParam;
-
-/* Loops over n pairs of directions, as lobe_eval_n has them; c is what a tinted lobe is made of. */
-typedef void PluginLoop(const Lobe *m, size_t n, const float *restrict ox, const float *restrict oy,
-                        const float *restrict oz, const float *restrict ix, const float *restrict iy,
-                        const float *restrict iz, float *restrict out);
-typedef void PluginShares(const Lobe *m, size_t n, const float *restrict ox, const float *restrict oy,
-                          const float *restrict oz, const float *restrict ix, const float *restrict iy,
-                          const float *restrict iz, float *restrict f, float *restrict s);
-typedef void PluginTinted(const Lobe *m, const float c[3], size_t n, const float *restrict ox,
-                          const float *restrict oy, const float *restrict oz, const float *restrict ix,
-                          const float *restrict iy, const float *restrict iz, float *restrict r,
-                          float *restrict g, float *restrict b);
-
-typedef void PluginEach(const Each *e, size_t n); /* each.h */
-
-typedef struct PluginLoops {
-    PluginLoop *f, *pdf;
-    PluginShares *shares;
-    PluginTinted *tinted;
-    PluginEach *each, *drawn_each;
-} PluginLoops;
 
 /* p and w are records of the lobe's own, of these sizes; the calls are those of lobe.h. */
 typedef struct Plugin {
@@ -49,14 +28,14 @@ typedef struct Plugin {
     float (*second)(const Lobe *m, float f0, float f90);                    /* NULL: it is f90 */
     void (*strip)(const void *p, const Dir *o, float u, float v, Strip *s); /* NULL: it has none */
     Proxy (*proxy)(const Lobe *m);                                          /* NULL: a cosine */
-    const PluginLoops *loops;
+    const LobeLoops *loops;
 } Plugin;
 
 /* The only name that a plugin shows. Its loops run with the instructions that isa says at each call. */
 typedef const Plugin *PluginEntry(const Isa *isa);
 #define PLUGIN_ENTRY "weft_lobe_plugin"
 PluginEntry weft_lobe_plugin;
-extern const PluginLoops weft_lobe_loops;
+extern const LobeLoops weft_lobe_loops;
 extern const Isa *plugin_isa;
 
 #endif

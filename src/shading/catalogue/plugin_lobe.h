@@ -1,7 +1,7 @@
 /* plugin_lobe.h - makes a plugin of a lobe's file
  *
  * text/plugin/plugin_compile.c puts the file and this one into one text of C, which is compiled twice: with PLUGIN_LOOPS as
- * arrays.c is, else as registry.c is, so that a lobe gives the same numbers here and in lobes.list. */
+ * loops of the catalogue are, else as registry.c is, so that a lobe gives the same numbers here and in lobes.list. */
 #ifndef WEFT_SHADING_PLUGIN_LOBE_H
 #define WEFT_SHADING_PLUGIN_LOBE_H
 
@@ -29,8 +29,9 @@
     TINTED_LOOP(name, Name)                                                                                  \
     EACH_LOOPS(name, Name, NAME, second, ITS_ROUNDS)                                                         \
     const Isa *plugin_isa;                                                                                   \
-    const PluginLoops weft_lobe_loops = {name##_f_n,      name##_pdf_n,  name##_shares_n,                    \
-                                         name##_tinted_n, name##_each_n, name##_drawn_each_n};
+    static const EachLoops plugin_each = {name##_each_n, name##_drawn_each_n};                               \
+    const LobeLoops weft_lobe_loops = {name##_f_n, name##_pdf_n, name##_shares_n, name##_tinted_n,           \
+                                       &plugin_each};
 
 #define PLUGIN_SECOND(name)                                                                                  \
     static float plugin_second(const Lobe *m, float f0, float f90) {                                         \

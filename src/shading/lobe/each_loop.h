@@ -1,5 +1,8 @@
-/* each_loop.h - the two loops of a lobe in which each element has numbers of its own, for arrays_each.c and
- * plugins (plugin.h) */
+/* each_loop.h - the two loops of a lobe in which each element has numbers of its own, for each_NAME.c (cmake/lobes.cmake)
+ * and plugins (plugin.h)
+ *
+ * What depends on parameters alone is made anew for each element, so these take longer than those of lobe_loop.h, which
+ * make it once. */
 #ifndef WEFT_SHADING_EACH_LOOP_H
 #define WEFT_SHADING_EACH_LOOP_H
 

@@ -39,7 +39,7 @@ SEEN_AS_IT_IS(cook_torrance, CookTorrance)
 
 FN float cook_torrance_ax(CookTorrance m) { return m.alpha * m.stretch; }
 
-/* The two factors apart, as arrays.c takes them. */
+/* The two factors apart, as arrays_terms.c takes them. */
 FN float cook_torrance_spread(CookTorrance m, Angles a) {
     return term_d(m.d, m.alpha, cook_torrance_ax(m), m.alpha, a.h);
 }

@@ -1,13 +1,8 @@
-/* arrays_each.c - the loops over arrays in which each element is a lobe of its own: one that evaluates and
- * one that samples for each kind of lobe
- *
- * What depends on parameters alone is made anew for each element, so these take longer than those of
- * arrays.c, which make it once. */
+/* arrays_terms_each.c - the loops of the composed lobe, cook-torrance, in which each element has numbers of its own */
 #define FN_NOINLINE FN /* no loop of vectors has a call */
-#include "shading/catalogue/registry.h"
-#include "shading/lobe/each_loop.h"
+#include "shading/catalogue/arrays_terms.h"
 
-/* The composed lobe, one term at a time as in arrays.c. */
+/* One term at a time, as in arrays_terms.c. */
 #define TAKE_TERMS(e)                                                                                        \
     CookTorrance terms = cook_torrance_of(&(e)->lobe);                                                       \
     const float *alpha = (e)->params[COOK_TORRANCE_ALPHA], *stretch = (e)->params[COOK_TORRANCE_STRETCH],    \
@@ -96,37 +91,4 @@ static void cook_torrance_drawn_each_n(const Each *e, size_t n) {
     switch (cook_torrance_of(&e->lobe).d) { WEFT_D_TERMS(CALL_DRAWN) }
 }
 
-/* A walk is no loop of vectors. */
-static Lobe lobe_of_each(const Each *e, size_t k) {
-    Lobe m = e->lobe;
-    for (int p = 0; p < LOBE_PARAMS_MAX; p++)
-        if (e->params[p]) m.params[p] = e->params[p][k];
-    return m;
-}
-
-static void walk_each_n(const Each *e, size_t n) {
-    TAKE_PAIRS(e);
-    TAKE_COLORS(e);
-    float *pdf = e->pdf;
-    for (size_t k = 0; k < n; k++) {
-        TAKE_PAIR(o, i, counts);
-        Lobe m = lobe_of_each(e, k);
-        LobeValue v = lobe_value(&m, angles_between(o, i));
-        float f = counts ? v.f : 0.0f;
-#define WALKED_COLOR(first, second) lobe_color(v, first, lobe_second(&m, first, second))
-        PUT_COLORS(f, WALKED_COLOR);
-        pdf[k] = counts ? v.pdf : 0.0f;
-    }
-}
-
-static void walk_drawn_each_n(const Each *e, size_t n) {
-    TAKE_DRAWS(e);
-    for (size_t k = 0; k < n; k++) {
-        TAKE_ONE(o, counts);
-        Lobe m = lobe_of_each(e, k);
-        Dir i = lobe_sample(&m, o, us[k], vs[k]);
-        PUT_DRAWN(i, counts);
-    }
-}
-
-#include "shading/each.gen.h"
+const EachLoops cook_torrance_each_loops = {cook_torrance_each_n, cook_torrance_drawn_each_n};
