@@ -6,7 +6,7 @@
 
 /* Loops run over whole groups of LANES, as in lobe_arrays.c, so that a result does not depend on its
  * place. */
-enum { LANES = 64, BLOCK = 256 };
+enum { LANES = EACH_GROUP, BLOCK = 256 };
 
 /* Rows that the loops read where the caller's are missing, too short, or not within their range; and rows
  * that they write where nobody wants them. */

@@ -16,7 +16,7 @@
         TAKE_PAIRS(e);                                                                                       \
         float *pdf = e->pdf;                                                                                 \
         TAKE_TERMS(e);                                                                                       \
-        EACH(k, n) {                                                                                         \
+        EACH(k, EACH_WHOLE(n)) {                                                                             \
             TAKE_PAIR(o, i, counts);                                                                         \
             TAKE_OWN_TERMS(d, NAME);                                                                         \
             Angles a = angles_between(o, i);                                                                 \
@@ -29,7 +29,7 @@
     LOOP(shadow_##NAME##_each_n, (const Each *e, size_t n), (e, n)) {                                        \
         TAKE_PAIRS(e);                                                                                       \
         TAKE_TERMS(e);                                                                                       \
-        EACH(k, n) {                                                                                         \
+        EACH(k, EACH_WHOLE(n)) {                                                                             \
             TAKE_PAIR(o, i, counts);                                                                         \
             TAKE_OWN_TERMS(v, NAME);                                                                         \
             float shadow = cook_torrance_shadow(m, angles_between(o, i));                                    \
@@ -42,7 +42,7 @@
         TAKE_PAIRS(e);                                                                                       \
         TAKE_COLORS(e);                                                                                      \
         TAKE_TERMS(e);                                                                                       \
-        EACH(k, n) {                                                                                         \
+        EACH(k, EACH_WHOLE(n)) {                                                                             \
             TAKE_PAIR(o, i, counts);                                                                         \
             TAKE_OWN_TERMS(f, NAME);                                                                         \
             float s = cook_torrance_fresnel_weight(m, angles_between(o, i)), f = counts ? r[k] : 0.0f;       \
@@ -53,7 +53,7 @@
     LOOP(drawn_##NAME##_each_n, (const Each *e, size_t n), (e, n)) {                                         \
         TAKE_DRAWS(e);                                                                                       \
         TAKE_TERMS(e);                                                                                       \
-        EACH(k, n) {                                                                                         \
+        EACH(k, EACH_WHOLE(n)) {                                                                             \
             TAKE_ONE(o, counts);                                                                             \
             TAKE_OWN_TERMS(d, NAME);                                                                         \
             CookTorrancePrepared p = {m};                                                                    \

@@ -64,7 +64,9 @@
     Name##View w;                                                                                            \
     name##_view(&p, o, &w)
 
-/* second: name_second, or EACH_F90. */
+/* second: name_second, or EACH_F90. n is a multiple of EACH_GROUP (each.h): half of a loop's code would be for what is left
+ * otherwise. */
+#define EACH_WHOLE(n)        ((n) & ~(size_t)(EACH_GROUP - 1))
 #define EACH_F90(m, f0, f90) (f90)
 #define EACH_LOOPS(name, Name, NAME, second, rounds)                                                         \
     FN float name##_each_color(Name m, LobeValue v, float f0, float f90) {                                   \
@@ -76,7 +78,7 @@
         TAKE_COLORS(e);                                                                                      \
         float *pdf = e->pdf;                                                                                 \
         TAKE_OWN(name, Name, NAME)                                                                           \
-        EACH(k, n) {                                                                                         \
+        EACH(k, EACH_WHOLE(n)) {                                                                             \
             TAKE_PAIR(o, i, counts);                                                                         \
             TAKE_VIEW(name, Name, NAME, rounds);                                                             \
             LobeValue v = name##_value(&p, &w, angles_between(o, i));                                        \
@@ -90,7 +92,7 @@
     LOOP(name##_drawn_each_n, (const Each *e, size_t n), (e, n)) {                                           \
         TAKE_DRAWS(e);                                                                                       \
         TAKE_OWN(name, Name, NAME)                                                                           \
-        EACH(k, n) {                                                                                         \
+        EACH(k, EACH_WHOLE(n)) {                                                                             \
             TAKE_ONE(o, counts);                                                                             \
             TAKE_VIEW(name, Name, NAME, rounds);                                                             \
             Dir i = name##_sample(&p, &w, o, us[k], vs[k]);                                                  \
