@@ -1,7 +1,7 @@
 /* isa.h - the set of instructions that loops over arrays run with
  *
- * Loops (loop.h) are compiled once for each set, and a call runs the one in use: the widest that the processor has,
- * unless weft_isa_use pinned another. */
+ * Loops (loop.h) are compiled once for each set, or for one alone (WEFT_ISA in cmake/isa.cmake), and a call runs the one in
+ * use: the widest that the processor has, unless weft_isa_use pinned another. */
 #ifndef WEFT_SHADING_ISA_H
 #define WEFT_SHADING_ISA_H
 

@@ -11,16 +11,30 @@
 #include "shading/dialect/isa.h"
 
 /* LOOP(name, (parameters), (arguments)) { ... } is a function without a result whose text is compiled once for each
- * set of instructions; a call runs the one in use. What its file is compiled for is the least set (CMakeLists.txt). */
+ * set of instructions; a call runs the one in use. What its file is compiled for is the least set (CMakeLists.txt).
+ * Where the build has one set alone (WEFT_ISA), WEFT_ONE_ISA is sse2, avx2 or avx512. */
 #if defined(LOOP) /* bench/ makes each by itself */
 #elif defined(__x86_64__) && !defined(WEFT_OUTLINED)
-#define LOOP_AVX2   __attribute__((noinline, target("arch=x86-64-v3")))
-#define LOOP_AVX512 __attribute__((noinline, target("arch=x86-64-v4")))
+#define LOOP_sse2   __attribute__((noinline))
+#define LOOP_avx2   __attribute__((noinline, target("arch=x86-64-v3")))
+#define LOOP_avx512 __attribute__((noinline, target("arch=x86-64-v4")))
+#define LOOP_SET(set, name, parameters, arguments)                                                           \
+    LOOP_##set static void name##_##set parameters { name##_text arguments; }
+#ifdef WEFT_ONE_ISA
+#define LOOP_IN(set, name, parameters, arguments)                                                            \
+    LOOP_SET(set, name, parameters, arguments)                                                               \
+    static void name parameters { name##_##set arguments; }
+#define LOOP_ONE(set, ...) LOOP_IN(set, __VA_ARGS__)
 #define LOOP(name, parameters, arguments)                                                                    \
     FN void name##_text parameters;                                                                          \
-    __attribute__((noinline)) static void name##_sse2 parameters { name##_text arguments; }                  \
-    LOOP_AVX2 static void name##_avx2 parameters { name##_text arguments; }                                  \
-    LOOP_AVX512 static void name##_avx512 parameters { name##_text arguments; }                              \
+    LOOP_ONE(WEFT_ONE_ISA, name, parameters, arguments)                                                      \
+    FN void name##_text parameters
+#else
+#define LOOP(name, parameters, arguments)                                                                    \
+    FN void name##_text parameters;                                                                          \
+    LOOP_SET(sse2, name, parameters, arguments)                                                              \
+    LOOP_SET(avx2, name, parameters, arguments)                                                              \
+    LOOP_SET(avx512, name, parameters, arguments)                                                            \
     static void name parameters {                                                                            \
         if (isa_used == ISA_AVX512)                                                                          \
             name##_avx512 arguments;                                                                         \
@@ -30,6 +44,7 @@
             name##_sse2 arguments;                                                                           \
     }                                                                                                        \
     FN void name##_text parameters
+#endif
 #else
 #define LOOP(name, parameters, arguments) static void name parameters
 #endif

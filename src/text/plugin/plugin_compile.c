@@ -96,9 +96,16 @@ static void put_plugin(Flat *flat, const LobeNames *names, const char *bytes) {
 #define COMMON                                                                                               \
     "-std=c11", "-O3", "-fPIC", "-fvisibility=hidden", "-Werror=implicit-function-declaration",              \
         "-fno-math-errno", "-fno-trapping-math", "-fno-signed-zeros", "-ffinite-math-only"
-static const char *const half_flags[2][16] = {
-    {COMMON, "-fopenmp-simd", "-ffp-contract=fast", "-DPLUGIN_LOOPS", "-DFN_NOINLINE=FN", "-c"},
-    {COMMON, ARCH "-ffp-contract=off", "-shared"}};
+#ifdef WEFT_ONE_ISA
+#define ISA_TEXT(set)   "-DWEFT_ONE_ISA=" #set,
+#define ISA_OPTION(set) ISA_TEXT(set)
+#else
+#define ISA_OPTION(set)
+#endif
+static const char *const half_flags[2][20] = {{COMMON, "-fopenmp-simd", "-ffp-contract=fast",
+                                               "-DPLUGIN_LOOPS", "-DFN_NOINLINE=FN",
+                                               ISA_OPTION(WEFT_ONE_ISA) "-c"},
+                                              {COMMON, ARCH "-ffp-contract=off", "-shared"}};
 
 enum { COMPILER_SIZE = 256, COMPILER_WORDS = 8, PATH_SIZE = CACHE_PATH_SIZE + 32 };
 
