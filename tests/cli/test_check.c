@@ -1,4 +1,6 @@
-/* `weft check`: the passport as text, JSON and page; bounds and complaints */
+/* `weft check`: the passport as text, JSON and page; bounds and complaints
+ *
+ * Labels: unsanitized */
 #include "base/pi.h"
 #include "run.h"
 

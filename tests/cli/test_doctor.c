@@ -1,4 +1,6 @@
-/* `weft doctor`: what it prints and writes, and how it ends. */
+/* `weft doctor`: what it prints and writes, and how it ends.
+ *
+ * Labels: unsanitized */
 #include "run.h"
 
 #include <jansson.h>

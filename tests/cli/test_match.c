@@ -1,4 +1,6 @@
-/* `weft match`: what it prints and writes, and how it ends. */
+/* `weft match`: what it prints and writes, and how it ends.
+ *
+ * Labels: unsanitized */
 #include "run.h"
 
 #include <math.h>

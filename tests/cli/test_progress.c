@@ -1,4 +1,6 @@
-/* The progress line, seen through a pseudo-terminal. */
+/* The progress line, seen through a pseudo-terminal.
+ *
+ * Labels: unsanitized */
 #define _XOPEN_SOURCE 700 /* posix_openpt */
 
 #include "run.h"

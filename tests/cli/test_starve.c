@@ -1,6 +1,7 @@
 /* Memory that runs out, at one allocation after another: exit 4 and one line that says so, or as if nothing
  * had been; no signal. starve/starve.cpp makes it run out; with WEFT_TEST_LONG=1 every allocation fails once.
- */
+ *
+ * Labels: slow */
 #include "run.h"
 
 #include <limits.h>

@@ -1,5 +1,7 @@
 /* The texts for C compile with gcc and clang, as C99, C11 and C++, without a warning, all in one file under
- * prefixes of their own; and answer as the library does. */
+ * prefixes of their own; and answer as the library does.
+ *
+ * Labels: unsanitized */
 #include "export/models.h"
 #include "scratch.h"
 

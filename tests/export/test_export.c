@@ -1,5 +1,7 @@
 /* What weft_export promises of every text: it says what it is, is readable, has what is needed and nothing
- * else; folded or explicit, pi gives one picture; a descriptor that makes no sense is refused */
+ * else; folded or explicit, pi gives one picture; a descriptor that makes no sense is refused
+ *
+ * Labels: unsanitized */
 #include "base/pi.h"
 #include "export/models.h"
 #include "scratch.h"

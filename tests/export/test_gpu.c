@@ -1,7 +1,9 @@
 /* The texts for GPUs compile (glslangValidator, and the driver) and answer as the library does: GLSL and ESSL
  * as they are, HLSL by way of SPIR-V. Every lobe, workflow and profile; presets in the long runs.
  *
- * What is put in place of a text's samplers are layers of one array texture, which is what compute.h has. */
+ * What is put in place of a text's samplers are layers of one array texture, which is what compute.h has.
+ *
+ * Labels: slow unsanitized */
 #include "export/models.h"
 
 #include <unistd.h>

@@ -1,6 +1,8 @@
 /* Every text of WGSL reads as WGSL: none of its reserved words, no word or mark of the other languages,
  * braces behind every condition, names that are declared once. Whether a compiler takes it is asked in a
- * browser (tests/extra/wgsl.sh). */
+ * browser (tests/extra/wgsl.sh).
+ *
+ * Labels: unsanitized */
 #include "export/models.h"
 
 static Exported models[MODELS_MAX];

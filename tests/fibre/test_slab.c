@@ -1,5 +1,7 @@
 /* The solved slab against what is known: its phase function, conservation, both ways of solving, figures of
- * finer quadratures, and the random walk */
+ * finer quadratures, and the random walk
+ *
+ * Labels: unsanitized */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

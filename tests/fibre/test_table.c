@@ -1,5 +1,7 @@
 /* The baked tables of fibres: that of the catalogue against the solved slab where nothing was fitted, a small
- * one made anew, the transformed cosines of ltc-fibre fitted again, and those of ltc-fibre-published walked again */
+ * one made anew, the transformed cosines of ltc-fibre fitted again, and those of ltc-fibre-published walked again
+ *
+ * Labels: slow unsanitized */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

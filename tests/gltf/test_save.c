@@ -1,5 +1,7 @@
 /* What is saved as glTF comes back: the same picture byte by byte, the same materials; and what cannot be
- * written leaves nothing. */
+ * written leaves nothing.
+ *
+ * Labels: unsanitized */
 #include <math.h>
 #include <setjmp.h>
 #include <signal.h>

@@ -1,4 +1,6 @@
-/* Tables that are wrong in known ways, made here by code of their own, and what the audit says of them */
+/* Tables that are wrong in known ways, made here by code of their own, and what the audit says of them
+ *
+ * Labels: unsanitized */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,5 +1,7 @@
 /* The doctor: for every finding an asset that has it and nothing else, one that has none; what is fixed stays
- * fixed and nothing else changes; real files and broken ones. */
+ * fixed and nothing else changes; real files and broken ones.
+ *
+ * Labels: unsanitized */
 #include <dirent.h>
 #include <math.h>
 #include <time.h>

@@ -1,4 +1,6 @@
-/* Fits: a lobe is found again in what it made, with and without noise; measured fabrics; bad files. */
+/* Fits: a lobe is found again in what it made, with and without noise; measured fabrics; bad files.
+ *
+ * Labels: unsanitized */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

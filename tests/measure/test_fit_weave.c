@@ -1,5 +1,7 @@
 /* Fits of weaves: what woven presets reflect from afar is found again, with their numbers where light tells them; data
- * that cannot tell warp from weft is refused. */
+ * that cannot tell warp from weft is refused.
+ *
+ * Labels: slow */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,6 +1,8 @@
 /* Linearly transformed cosines of the catalogue: the fit finds what is there and nothing nearby is better, E
  * and error agree with other quadratures, tables are regular between their nodes, and what the cache gives
- * back is what went in */
+ * back is what went in
+ *
+ * Labels: unsanitized */
 #include "../shading/cases.h"
 
 #include <sys/stat.h>

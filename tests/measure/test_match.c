@@ -1,5 +1,7 @@
 /* Matches: nothing is between a thing and itself, what made a reflection is found again, and what is found is
- * never worse than the numbers as they were. */
+ * never worse than the numbers as they were.
+ *
+ * Labels: unsanitized */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

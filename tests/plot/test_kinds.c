@@ -1,4 +1,6 @@
-/* Every kind of figure of every lobe and of every profile: valid and not empty. */
+/* Every kind of figure of every lobe and of every profile: valid and not empty.
+ *
+ * Labels: unsanitized */
 #include "plot/cloth.h"
 
 /* Pixels with a colour, and how many different ones there are up to a limit. */

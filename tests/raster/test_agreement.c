@@ -1,6 +1,8 @@
 /* Both engines make the same picture of one light without shadows: with every lobe, layer rule, workflow and
  * profile on spheres, and with a dozen of them on a textured cloth. They share the text: anything else is a
- * fault. Random rules are left out, and pixels at outlines, where the engines may see different surfaces. */
+ * fault. Random rules are left out, and pixels at outlines, where the engines may see different surfaces.
+ *
+ * Labels: slow unsanitized */
 #include "shading/cases.h"
 
 #include "raster/gl.h"

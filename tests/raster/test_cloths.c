@@ -1,5 +1,7 @@
 /* Both engines weave the same cloth: near by pixel for pixel, and from afar as bright on the mean. At every distance the
- * pixels of the raster engine are as bright as those of many points of threads, and vary as they do. */
+ * pixels of the raster engine are as bright as those of many points of threads, and vary as they do.
+ *
+ * Labels: slow */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,5 +1,7 @@
 /* Materials that share a program look as each does with its own; several programs at once are as those made
- * one by one */
+ * one by one
+ *
+ * Labels: slow unsanitized */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

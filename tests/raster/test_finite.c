@@ -1,5 +1,7 @@
 /* The raster engine draws numbers for every sheen lobe under the sky: for half of them at their least roughness, where
- * their light is next to nothing, and for all in long runs. */
+ * their light is next to nothing, and for all in long runs.
+ *
+ * Labels: slow unsanitized */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

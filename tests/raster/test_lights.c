@@ -1,5 +1,7 @@
 /* Polygon lights that a caller adds, moves and takes away: the path tracer and the rasteriser see the same,
- * and after each update a picture is that of a new raster. */
+ * and after each update a picture is that of a new raster.
+ *
+ * Labels: slow unsanitized */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

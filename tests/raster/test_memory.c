@@ -1,5 +1,6 @@
 /* A raster lets go of what nothing draws with any more: memory does not grow with every term that was tried.
- */
+ *
+ * Labels: slow */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

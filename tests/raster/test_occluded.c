@@ -1,5 +1,7 @@
 /* What neighbours and the floor leave of a sheen's light from a map: as bright in all as the path tracer's
- * direct light */
+ * direct light
+ *
+ * Labels: slow unsanitized */
 #include <unistd.h>
 
 #include "shading/cases.h"

@@ -1,5 +1,7 @@
 /* Every lobe that the GPU has, every term and every table of albedos, over random directions and over all that
- * their numbers may be; and a wrong text, which is found */
+ * their numbers may be; and a wrong text, which is found
+ *
+ * Labels: unsanitized */
 #include "raster/parity.h"
 
 #include <sys/stat.h>

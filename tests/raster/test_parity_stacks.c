@@ -1,5 +1,7 @@
 /* All that a renderer asks of a surface, over random directions and over all that its numbers may be: layer
- * rules, stacks of every workflow and profile, dust */
+ * rules, stacks of every workflow and profile, dust
+ *
+ * Labels: slow unsanitized */
 #include "raster/parity.h"
 
 #include "shading/catalogue/engine_tables.h"

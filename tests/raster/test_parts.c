@@ -1,5 +1,7 @@
 /* The parts of the light sum up to all of it, under every kind of light and for the whole catalogue; what is
- * no light is shown as it is; a crop is drawn as it is in the whole picture. */
+ * no light is shown as it is; a crop is drawn as it is in the whole picture.
+ *
+ * Labels: slow unsanitized */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,5 +1,7 @@
 /* After an update a raster draws what a new one would, byte for byte, whatever was changed; and it compiles
- * what is needed, nothing twice */
+ * what is needed, nothing twice
+ *
+ * Labels: slow unsanitized */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -1,5 +1,7 @@
 /* E by weft_albedo_n against an adaptive quadrature that shares nothing with albedo.c: where the answers of a
- * fine and a coarse rule differ, a rectangle of (theta_i, phi) is cut */
+ * fine and a coarse rule differ, a rectangle of (theta_i, phi) is cut
+ *
+ * Labels: unsanitized */
 #include "cases.h"
 #include "weft/arrays.h"
 

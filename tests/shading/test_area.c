@@ -1,5 +1,7 @@
 /* A surface under polygon lights: what whole stacks reflect, against brute force in double; nothing infinite
- * in hostile poses; the same in GLSL and on a GPU */
+ * in hostile poses; the same in GLSL and on a GPU
+ *
+ * Labels: unsanitized */
 #include "cases.h"
 #include "lights.h"
 

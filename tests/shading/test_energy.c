@@ -1,4 +1,6 @@
-/* E by quadrature, by other means, by closed forms and by table; and what the lobes claim about it */
+/* E by quadrature, by other means, by closed forms and by table; and what the lobes claim about it
+ *
+ * Labels: slow unsanitized */
 #include "cases.h"
 #include "shading/dialect/warp.h"
 

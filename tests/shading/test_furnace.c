@@ -1,4 +1,6 @@
-/* Whole materials in a white furnace */
+/* Whole materials in a white furnace
+ *
+ * Labels: unsanitized */
 #include "cases.h"
 
 /* What a stack reflects of a uniform light, per channel. Midpoint sum on the grid of cases.h. */

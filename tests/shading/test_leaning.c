@@ -1,4 +1,6 @@
-/* Fibres that lean: what layer rules take from the base, by the azimuth of the viewer about the nap */
+/* Fibres that lean: what layer rules take from the base, by the azimuth of the viewer about the nap
+ *
+ * Labels: unsanitized */
 #include "base/pi.h"
 #include "cases.h"
 

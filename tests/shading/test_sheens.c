@@ -1,5 +1,7 @@
 /* The sheen and cloth lobes against their papers' formulas in double precision, written from the papers:
- * other angles, other order, integrals instead of closed forms */
+ * other angles, other order, integrals instead of closed forms
+ *
+ * Labels: unsanitized */
 #include "cases.h"
 #include "shading/catalogue/albedo.h"
 

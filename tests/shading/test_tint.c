@@ -1,4 +1,6 @@
-/* Colour that is no factor: its law, f and E of tinted lobes in colours, and what layer rules make of it */
+/* Colour that is no factor: its law, f and E of tinted lobes in colours, and what layer rules make of it
+ *
+ * Labels: unsanitized */
 #include "cases.h"
 #include "weft/arrays.h"
 

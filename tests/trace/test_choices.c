@@ -1,5 +1,6 @@
 /* Whatever can be chosen, and every preset, makes a picture; the parameters of the principled BRDF all show.
- */
+ *
+ * Labels: unsanitized */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

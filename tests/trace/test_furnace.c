@@ -1,4 +1,6 @@
-/* The path tracer against integrals that are known: white furnaces and directional albedo. */
+/* The path tracer against integrals that are known: white furnaces and directional albedo.
+ *
+ * Labels: unsanitized */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdlib.h>

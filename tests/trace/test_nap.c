@@ -1,4 +1,6 @@
-/* The nap of a fibre sheen: what numbers and maps say is what its lobe gets, in the directions meant */
+/* The nap of a fibre sheen: what numbers and maps say is what its lobe gets, in the directions meant
+ *
+ * Labels: unsanitized */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdlib.h>

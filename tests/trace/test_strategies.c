@@ -1,4 +1,6 @@
-/* Light sampling, lobe sampling and MIS find the same picture; threads and tiles do not change a byte. */
+/* Light sampling, lobe sampling and MIS find the same picture; threads and tiles do not change a byte.
+ *
+ * Labels: unsanitized */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdlib.h>

@@ -1,4 +1,6 @@
-/* The brush lays the nap, and undo takes it back. */
+/* The brush lays the nap, and undo takes it back.
+ *
+ * Labels: slow unsanitized */
 #include "drive.h"
 
 static void brushed_nap_is_saved_and_drawn_by_both_engines(void **state) {

@@ -1,5 +1,7 @@
 /* Things that a hand could do, at random, ten thousand in a long run: nothing may come of it but what is
- * shown. */
+ * shown.
+ *
+ * Labels: slow */
 #include "drive.h"
 
 static uint64_t seed = 20240811;

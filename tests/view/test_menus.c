@@ -1,4 +1,6 @@
-/* Every menu of the material's model, through all of its values. */
+/* Every menu of the material's model, through all of its values.
+ *
+ * Labels: slow unsanitized */
 #include "drive.h"
 
 /* "sheen lobe" of "sheen_lobe". */

@@ -1,4 +1,6 @@
-/* What is opened: scenes that are not there, lights that cannot be read, and which material is chosen. */
+/* What is opened: scenes that are not there, lights that cannot be read, and which material is chosen.
+ *
+ * Labels: slow unsanitized */
 #include "drive.h"
 
 /* ---- what is not there ---- */

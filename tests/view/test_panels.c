@@ -1,5 +1,7 @@
 /* What the panels offer: variants and presets that undo brings back, folders that stay on a scene that is
- * read again, maps for every number, reference materials, the doctor's findings. */
+ * read again, maps for every number, reference materials, the doctor's findings.
+ *
+ * Labels: slow unsanitized */
 #include "drive.h"
 
 static const char quads[] =

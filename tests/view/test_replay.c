@@ -1,4 +1,6 @@
-/* The window without a display, driven by scripts: what it does, says and leaves on disk. */
+/* The window without a display, driven by scripts: what it does, says and leaves on disk.
+ *
+ * Labels: slow unsanitized */
 #include "drive.h"
 
 /* ---- materials ---- */

@@ -1,4 +1,6 @@
-/* Files that change while the window runs: textures, folders of maps, shader text. */
+/* Files that change while the window runs: textures, folders of maps, shader text.
+ *
+ * Labels: slow unsanitized */
 #include "drive.h"
 
 static void write_texture(const char *path, int red, int green) {

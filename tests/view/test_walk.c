@@ -1,6 +1,8 @@
 /* The walk of somebody who has an asset: variants and a folder of TGA maps are put on, numbers changed, all
  * of it saved and opened again; and the first minute with an asset of several materials. In a real window;
- * what it looked like stays beside the tests. */
+ * what it looked like stays beside the tests.
+ *
+ * Labels: unsanitized */
 #include "display.h"
 
 /* Of the asset. */
