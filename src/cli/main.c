@@ -14,13 +14,8 @@
 #include "man.h"
 #include "weft/version.h"
 
-static const Verb *const verbs[] = {&verb_render,
-#ifdef WEFT_VIEW
-                                    &verb_view,
-#endif
-                                    &verb_models, &verb_eval,   &verb_check, &verb_plot,
-                                    &verb_bake,   &verb_export, &verb_match, &verb_fit,
-                                    &verb_diff,   &verb_doctor, &verb_weave, NULL};
+#define VERB_PLACED(name) &verb_##name,
+static const Verb *const verbs[] = {VERBS(VERB_PLACED) NULL};
 
 static const ExitCode codes[] = {{"0", "done"},
                                  {"1", "a check or a comparison did not hold"},

@@ -1,13 +1,32 @@
-/* verbs.h - the commands of the program: one table and one file each */
+/* verbs.h - the commands of the program: one row and one file each */
 #ifndef WEFT_CLI_VERBS_H
 #define WEFT_CLI_VERBS_H
 
 #include "cli/console/options.h"
 
-extern const Verb verb_render, verb_models, verb_eval, verb_check, verb_plot, verb_bake, verb_export,
-    verb_diff, verb_doctor, verb_match, verb_fit, verb_weave;
 #ifdef WEFT_VIEW
-extern const Verb verb_view;
+#define VERB_VIEW(V) V(view)
+#else
+#define VERB_VIEW(V)
 #endif
+
+/* V(name): verb_name of the file name.c, in the order of `weft --help`. */
+#define VERBS(V)                                                                                             \
+    V(render)                                                                                                \
+    VERB_VIEW(V)                                                                                             \
+    V(models)                                                                                                \
+    V(eval)                                                                                                  \
+    V(check)                                                                                                 \
+    V(plot)                                                                                                  \
+    V(bake)                                                                                                  \
+    V(export)                                                                                                \
+    V(match)                                                                                                 \
+    V(fit)                                                                                                   \
+    V(diff)                                                                                                  \
+    V(doctor)                                                                                                \
+    V(weave)
+
+#define VERB_DECLARED(name) extern const Verb verb_##name;
+VERBS(VERB_DECLARED)
 
 #endif
