@@ -90,7 +90,7 @@ static void small_table_is_baked_the_same_again(void **state) {
 static void transformed_cosines_keep_the_albedo(void **state) {
     (void)state;
     lobe_tables_make();
-    TableRef t = lobe_table_refs[1];
+    TableRef t = lobe_table_refs[LOBE_TABLE_ltc_fibre];
     int rows = t.rows / 4, cells = rows * t.columns;
     for (int row = 0; row < rows; row += 5)
         for (int column = 1; column < t.columns; column += 6) {
@@ -114,7 +114,7 @@ static void table_file_is_what_its_command_makes(void **state) {
     setenv("XDG_CACHE_HOME", "/dev/null", 1); /* no fit that was kept */
     WeftLobe lobe;
     lobe_tables_make();
-    TableRef t = lobe_table_refs[1];
+    TableRef t = lobe_table_refs[LOBE_TABLE_ltc_fibre];
     int rows = t.rows / 4, cells = rows * t.columns;
     assert_int_equal(weft_lobe_init("fibre", &lobe, NULL), WEFT_OK);
     WeftImage again = baked("ltc-level", &lobe, t.columns, rows, 0);
@@ -132,7 +132,7 @@ static void table_of_the_catalogue_is_what_its_command_makes(void **state) {
     (void)state;
     if (!getenv("WEFT_TEST_LONG")) skip();
     lobe_tables_make();
-    TableRef t = lobe_table_refs[2];
+    TableRef t = lobe_table_refs[LOBE_TABLE_fibre];
     int rows = t.rows / 4, cells = rows * t.columns;
     WeftImage again = baked("fibre-table", NULL, t.columns, rows, 0);
     const float *texels = again.pixels;
@@ -143,9 +143,9 @@ static void table_of_the_catalogue_is_what_its_command_makes(void **state) {
 
 /* ---- ltc-fibre-published ------------------------------------------------------------------------------- */
 
-enum { PUBLISHED = 4, NODES = 32 };
+enum { NODES = 32 };
 static float published(int channel, int row, int column) {
-    return lobe_table_refs[PUBLISHED].texels[(channel * NODES + row) * NODES + column];
+    return lobe_table_refs[LOBE_TABLE_ltc_fibre_published].texels[(channel * NODES + row) * NODES + column];
 }
 
 /* Entries of Zeltner, Burley and Chiang's table (the program is published with the talk): alpha and cos_o in steps of

@@ -54,13 +54,13 @@ static TableRef make_fibre(void) {
 }
 
 static void make_baked(void) {
-    lobe_table_refs[1] = make_ltc_fibre();
-    lobe_table_refs[2] = make_fibre();
-    lobe_table_refs[3] = make_ltc_ggx();
-    lobe_table_refs[4] = make_ltc_fibre_published();
+    lobe_table_refs[LOBE_TABLE_ltc_fibre] = make_ltc_fibre();
+    lobe_table_refs[LOBE_TABLE_fibre] = make_fibre();
+    lobe_table_refs[LOBE_TABLE_ltc_ggx] = make_ltc_ggx();
+    lobe_table_refs[LOBE_TABLE_ltc_fibre_published] = make_ltc_fibre_published();
 }
 
-static void make_computed(void) { lobe_table_refs[0] = make_charlie_neubelt(); }
+static void make_computed(void) { lobe_table_refs[LOBE_TABLE_charlie_neubelt] = make_charlie_neubelt(); }
 
 /* The lobe that reads the table which takes a while to make. */
 static const int computed_for = LOBE_CHARLIE_NEUBELT_NORMALISED;

@@ -1,57 +1,20 @@
 /* terms.h - the terms by name: D, V and F to compose a lobe of (lobes/cook_torrance.h)
  *
  * Dialect, like the terms. A row of a list is one term: id, number, calls, a line of help. A new term needs a file in
- * terms/, and here its include, its number, the count and a row; if its number is the last, the range in
- * lobes/cook_torrance.h ends with it (CONTRIBUTING.md has an example). Tests need the formula a second time. The
- * numbers are constants in GLSL, where a chain of conditions folds to one term. */
+ * terms/ and a row here (CONTRIBUTING.md has an example); cmake/terms.cmake makes terms.gen.h of both, with all files and
+ * the numbers, which are the places of the rows. Tests need the formula a second time. The numbers are constants in GLSL,
+ * where a chain of conditions folds to one term. */
 #ifndef WEFT_SHADING_TERMS_H
 #define WEFT_SHADING_TERMS_H
 
 #include "shading/dialect/proxy.h"
 #include "shading/lobe/fresnel_weight.h"
-#include "shading/terms/d_ashikhmin.h"
-#include "shading/terms/d_beckmann.h"
-#include "shading/terms/d_blinn_phong.h"
-#include "shading/terms/d_charlie_floored.h"
-#include "shading/terms/d_ggx_aniso.h"
-#include "shading/terms/d_gtr1.h"
-#include "shading/terms/d_inverse_ggx.h"
-#include "shading/terms/f_conductor.h"
-#include "shading/terms/f_cook_torrance.h"
-#include "shading/terms/f_dielectric.h"
-#include "shading/terms/f_schlick.h"
-#include "shading/terms/f_schlick_gaussian.h"
-#include "shading/terms/v_conty_kulla_clamped.h"
-#include "shading/terms/v_conty_kulla_soft.h"
-#include "shading/terms/v_cook_torrance.h"
-#include "shading/terms/v_implicit.h"
-#include "shading/terms/v_kelemen.h"
-#include "shading/terms/v_neubelt_clamped.h"
-#include "shading/terms/v_neumann.h"
-#include "shading/terms/v_schlick_ggx.h"
-#include "shading/terms/v_smith_beckmann.h"
-#include "shading/terms/v_smith_ggx.h"
-#include "shading/terms/v_smith_ggx_aniso.h"
-#include "shading/terms/v_smith_ggx_aniso_separate.h"
-#include "shading/terms/v_smith_ggx_fast.h"
-#include "shading/terms/v_urp.h"
+#include "shading/terms.gen.h"
 
 /* The types of a parameter that is one of these; its value is the number of a row. */
 #define DTerm int
 #define VTerm int
 #define FTerm int
-
-#define D_BLINN_PHONG     0
-#define D_BECKMANN        1
-#define D_GGX             2
-#define D_GGX_ANISO       3
-#define D_GTR1            4
-#define D_ASHIKHMIN       5
-#define D_CHARLIE         6
-#define D_CHARLIE_FLOORED 7
-#define D_INVERSE_GGX     8
-#define D_VELVET          9
-#define D_COUNT           10
 
 /* T(id, number, D(h), h drawn from D cos_h by u and v, its proxy, help); distributions of cloth are broad */
 #define WEFT_D_TERMS(T)                                                                                      \
@@ -75,26 +38,6 @@
       "an even floor and a soft rim, Unreal's cloth")                                                        \
     T("velvet", D_VELVET, velvet_d(alpha, h), velvet_facet(alpha, u, v), proxy_cosine(),                     \
       "the rim of ashikhmin alone, Cycles' old velvet")
-
-#define V_IMPLICIT                 0
-#define V_NEUMANN                  1
-#define V_COOK_TORRANCE            2
-#define V_KELEMEN                  3
-#define V_SMITH_BECKMANN           4
-#define V_SMITH_GGX                5
-#define V_SMITH_GGX_CORRELATED     6
-#define V_SMITH_GGX_FAST           7
-#define V_SCHLICK_BECKMANN         8
-#define V_SCHLICK_GGX              9
-#define V_SMITH_GGX_ANISO          10
-#define V_SMITH_GGX_ANISO_SEPARATE 11
-#define V_URP                      12
-#define V_NEUBELT                  13
-#define V_NEUBELT_CLAMPED          14
-#define V_CONTY_KULLA              15
-#define V_CONTY_KULLA_CLAMPED      16
-#define V_CONTY_KULLA_SOFT         17
-#define V_COUNT                    18
 
 /* T(id, number, V, help). 1 / (4 cos_o cos_i) is inside. */
 #define WEFT_V_TERMS(T)                                                                                      \
@@ -124,15 +67,6 @@
       "conty-kulla at most 1, as glTF's viewer has it")                                                      \
     T("conty-kulla-soft", V_CONTY_KULLA_SOFT, conty_kulla_soft_v(alpha, a.o.z, a.i.z),                       \
       "conty-kulla without a hard terminator; not reciprocal")
-
-#define F_NONE             0
-#define F_SCHLICK          1
-#define F_SCHLICK_F90      2
-#define F_SCHLICK_GAUSSIAN 3
-#define F_COOK_TORRANCE    4
-#define F_DIELECTRIC       5
-#define F_CONDUCTOR        6
-#define F_COUNT            7
 
 /* T(id, number, share s of the second colour, the second colour, help):  F = f0 (1 - s) + second s, or with
  * a cosine for a share what fresnel_weight.h makes of it */

@@ -24,10 +24,9 @@
 
 #define COOK_TORRANCE_PARAMS(P)                                                                              \
     P(float, alpha, 0.25f, 0.01f, 1.0f, 0.005f, 1.0f, "width of D, and of the V that have one")              \
-    P(DTerm, d, D_GGX, 0, D_VELVET, 0, D_VELVET, "distribution of half vectors")                             \
-    P(VTerm, v, V_SMITH_GGX_CORRELATED, 0, V_CONTY_KULLA_SOFT, 0, V_CONTY_KULLA_SOFT,                        \
-      "shadowing and masking, over 4 cos_o cos_i")                                                           \
-    P(FTerm, f, F_SCHLICK, 0, F_CONDUCTOR, 0, F_CONDUCTOR, "reflectance from normal to grazing")             \
+    P(DTerm, d, D_GGX, 0, D_LAST, 0, D_LAST, "distribution of half vectors")                                 \
+    P(VTerm, v, V_SMITH_GGX_CORRELATED, 0, V_LAST, 0, V_LAST, "shadowing and masking, over 4 cos_o cos_i")   \
+    P(FTerm, f, F_SCHLICK, 0, F_LAST, 0, F_LAST, "reflectance from normal to grazing")                       \
     P(float, stretch, 1.0f, 1.0f, 10.0f, 0.01f, 100.0f, "of ggx-aniso and smith-ggx-aniso along x")          \
     P(float, ior, 1.5f, 1.0f, 3.0f, 0.05f, 10.0f, "index of refraction for F = dielectric and conductor")    \
     P(float, k, 3.0f, 0.0f, 8.0f, 0.0f, 20.0f, "extinction of F = conductor")

@@ -23,7 +23,7 @@ void text_lobe_tables(Text *text) {
     if (!text_provide(text, "shading/lobe/lobe_tables.h")) return;
     text_include(text, "shading/lobe/table.h");
     lobe_tables_make_for(-1);
-#define LOBE_TABLE_NAME(name, index) [index] = #name,
+#define LOBE_TABLE_NAME(name) #name,
     static const char *const names[LOBE_TABLE_COUNT] = {LOBE_TABLES(LOBE_TABLE_NAME)};
     for (int k = 0; k < LOBE_TABLE_COUNT; k++) {
         if (!lobe_table_refs[k].texels) continue;
