@@ -26,7 +26,7 @@ page="$source/docs/adding-a-lobe.md"
 listing() { awk -v n="$1" '/^```$/ { on = 0 } on; /^```c$/ { on = ++k == n }' "$page"; }
 
 mkdir "$work/weft"
-for part in CMakeLists.txt bench cmake docs include scenes script src tests; do
+for part in CMakeLists.txt bench cmake docs include scenes script src study tests; do
     cp -R "$source/$part" "$work/weft/"
 done
 cd "$work/weft"

@@ -1,6 +1,6 @@
 /* lights.h - polygon lights over a floor and a sphere, and what they send by brute force, in double
  *
- * For the tests and for bench/area.c. A point on the floor or on the sphere is seen from one eye; a light is
+ * For the tests and for study/area.c. A point on the floor or on the sphere is seen from one eye; a light is
  * four corners relative to it, in its shading frame. */
 #ifndef WEFT_TEST_SHADING_LIGHTS_H
 #define WEFT_TEST_SHADING_LIGHTS_H

@@ -1,4 +1,4 @@
-/* Cloth from afar, as it is drawn, against light that was walked through tubes of fibres (bench/yarn.c). */
+/* Cloth from afar, as it is drawn, against light that was walked through tubes of fibres (study/yarn.c). */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

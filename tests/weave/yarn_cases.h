@@ -1,6 +1,6 @@
 /* yarn_cases.h - cloths of fibre tubes through which light was walked, and the bins in which it came out
  *
- * bench/yarn.c walks; tests/weave/yarn_truth.txt keeps what it prints; tests/weave/test_truth.c compares. */
+ * study/yarn.c walks; tests/weave/yarn_truth.txt keeps what it prints; tests/weave/test_truth.c compares. */
 #ifndef WEFT_TESTS_WEAVE_YARN_CASES_H
 #define WEFT_TESTS_WEAVE_YARN_CASES_H
 

@@ -81,7 +81,7 @@ WeftResult bake_solved(const WeftBakeDesc *desc, WeftBakeInfo *info, WeftImage *
         }
     snprintf(info->words, sizeof info->words, "the solved slab of white fibres of density %g", t.density);
     snprintf(info->channels, sizeof info->channels, "reflected R, through T");
-    info->error = 1e-4; /* for alpha from 0.065, see bench_fibre */
+    info->error = 1e-4; /* for alpha from 0.065, see study_fibre */
     free(block);
     return result;
 }

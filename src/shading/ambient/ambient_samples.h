@@ -23,7 +23,7 @@
 #define AMBIENT_STRIP_SAMPLES 24
 #define AMBIENT_STRIP_STEP    (7.0f / 24.0f)
 
-/* Factor on the density of samples in the power heuristic, fitted with bench_ambient. It favours samples, which follow
+/* Factor on the density of samples in the power heuristic, fitted with study_ambient. It favours samples, which follow
  * the lobe; points only follow the lights. A strip is narrower than the space between points for longer. */
 #define AMBIENT_SAMPLE_TRUST 4.0f
 #define AMBIENT_STRIP_TRUST  6.0f
@@ -107,7 +107,7 @@ FN LobeLight ambient_sample_lobe(AmbientSource s, AmbientView v, Lobe lobe, Rgb 
             float kappa = clamp((strips ? 2.0f * PI : PI) * density, 0.5f, 1e4f);
             Dir w = ambient_to_source(v, i);
             Rgb all = ambient_radiance(s, w, kappa);
-            /* as wide as the lobe: with kappa of one sample light of fibres past folds is further off (bench_occluded) */
+            /* as wide as the lobe: with kappa of one sample light of fibres past folds is further off (study_occluded) */
             float open = ambient_sky_visibility(s, w, 0.0f, i.z, v.occlusion);
             float lights = ambient_sample_weight(s, w, density * ambient_sample_trust(strips), open);
             Rgb l = rgb_scale(ambient_visible_radiance(s, w, all, kappa, lights, open), weight);

@@ -43,7 +43,7 @@ FN AreaDensity area_cosine(Dir o) { return area_of(ltc_of(1.0f, 1.0f, 0.0f, 0.0f
 
 /* In a mirror's limit v_xy / v_z is the slope of the half vector over alpha: so x and y stretch it along
  * each axis, and go beyond the least alpha that the table has. The rougher it is, the less that holds, and
- * the less is stretched: the power is chosen by bench_area. */
+ * the less is stretched: the power is chosen by study_area. */
 FN AreaDensity area_facets(float ax, float ay, Dir o) {
     TableRef e = lobe_table_ltc_ggx();
     float alpha = sqrt(ax * ay), known = clamp(alpha, e.low * e.low, e.high * e.high);

@@ -1,7 +1,7 @@
 /* area - prints how far polygon lights are off, for each lobe: one linearly transformed cosine of its own
  * alone, and stack_polygon; and what that costs
  *
- *   bench_area [LOBE]
+ *   study_area [LOBE]
  *
  * Errors are sums of differences in hundredths of the sum, over twenty lights and points on a floor and a
  * sphere (tests/shading/lights.h); the reference is brute force. In brackets the worst light. */
@@ -135,7 +135,7 @@ static void print_layers(void) {
 
 int main(int argc, char **argv) {
     if (argc > 2) {
-        fputs("bench_area [LOBE]\n", stderr);
+        fputs("study_area [LOBE]\n", stderr);
         return WEFT_USAGE;
     }
     lobe_tables_make();

@@ -1,7 +1,7 @@
 /* Prints how near the closed forms of fibres are to the solved slab, how long the solver takes, and how well
  * it holds. Directions and alphas are none that anything was fitted to.
  *
- *   build/release/bench/bench_fibre [solver|models|tiers|sampling] */
+ *   build/release/study/study_fibre [solver|models|tiers|sampling] */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -149,7 +149,7 @@ static void between(double low, int n, double *alpha) { alphas_from(low, 1.0, n,
 
 static void make(const SolvedGrid *grid, SolvedSet *slabs) {
     if (solved_set_make(grid, 0, NULL, NULL, slabs)) return;
-    fputs("bench_fibre: out of memory\n", stderr);
+    fputs("study_fibre: out of memory\n", stderr);
     exit(1);
 }
 

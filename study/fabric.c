@@ -1,6 +1,6 @@
 /* fabric.c - which form of lobe fits measured fabrics: the figures of docs/fabrics.md
  *
- *   bench_fabric a.binary b.binary ...      measurements as weft fit takes them, at most 16
+ *   study_fabric a.binary b.binary ...      measurements as weft fit takes them, at most 16
  *
  * Prints the error of each form on each fabric, all numbers free that it has; and the choice by
  * leave-one-out: for each fabric the form that is best in the mean of all others, and what that comes to on
@@ -212,7 +212,7 @@ static void print_all(const Work *work) {
 int main(int argc, char **argv) {
     static Work work;
     if (argc < 3 || argc > FABRICS + 1) {
-        fprintf(stderr, "usage: bench_fabric a.binary b.binary ...: two to %d measurements\n", FABRICS);
+        fprintf(stderr, "usage: study_fabric a.binary b.binary ...: two to %d measurements\n", FABRICS);
         return 2;
     }
     for (int k = 1; k < argc; k++)

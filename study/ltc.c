@@ -1,7 +1,7 @@
 /* ltc - prints how far the linearly transformed cosines of each lobe stay from it, and what they cost:
  *
- *   bench_ltc [SIDE]        a table of SIDE by SIDE nodes for each lobe, 32 unless said
- *   bench_ltc norms [SIDE]  the mean error, and the mean of the third norm, when the first, the second or the
+ *   study_ltc [SIDE]        a table of SIDE by SIDE nodes for each lobe, 32 unless said
+ *   study_ltc norms [SIDE]  the mean error, and the mean of the third norm, when the first, the second or the
  *                           third norm of the difference is made least
  *
  * Errors are in hundredths of E: the integral of |f cos_i - amplitude D| over wi, where E >= 1e-3. */
@@ -134,11 +134,11 @@ int main(int argc, char **argv) {
     int at = norms ? 2 : 1, side = argc > at ? atoi(argv[at]) : 32;
     LtcTarget target;
     if (argc > at + 1 || side < 4 || side > 256) {
-        fputs("bench_ltc [norms] [SIDE], SIDE 4 to 256\n", stderr);
+        fputs("study_ltc [norms] [SIDE], SIDE 4 to 256\n", stderr);
         return WEFT_USAGE;
     }
     if (!ltc_target_create(&target, CELLS)) {
-        fputs("bench_ltc: out of memory\n", stderr);
+        fputs("study_ltc: out of memory\n", stderr);
         return WEFT_RESOURCES;
     }
     if (norms)

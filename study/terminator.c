@@ -1,6 +1,6 @@
 /* terminator - prints how far coarse meshes are off where light grazes them, and shows it
  *
- *   bench_terminator [SHEET.png]
+ *   study_terminator [SHEET.png]
  *
  * A matt ball of 12 rings under a sun from the side, whose terminator goes down its middle, is rendered with light
  * that meets its triangles, and with light that meets the smooth surface that their normals describe, as docs/render.md

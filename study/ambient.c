@@ -1,6 +1,6 @@
 /* ambient - prints how far real-time environment light stays from the truth, for each lobe and strategy:
  *
- *   bench_ambient [--lights N] [--quick] [--only LOBE]... [--tables] [--rows] MAP.hdr ...
+ *   study_ambient [--lights N] [--quick] [--only LOBE]... [--tables] [--rows] MAP.hdr ...
  *
  * Error: sum |difference| / sum reference over the pixels of a sphere seen from two sides, in hundredths;
  * over roughness 0.1 .. 1 together, and of the default strategy the roughness with the greatest, which for a
@@ -430,7 +430,7 @@ static bool load(Map *map, const char *path) {
             return false;
         for (int k = 0; k < 6; k++) ((float *)scene->environment.image.pixels)[k] = 1.0f;
     } else if (!scene || weft_scene_set_environment_file(scene, path, NULL, &error) != WEFT_OK) {
-        fprintf(stderr, "bench_ambient: %s\n", scene ? error.text : "out of memory");
+        fprintf(stderr, "study_ambient: %s\n", scene ? error.text : "out of memory");
         return false;
     }
     const char *slash = path ? strrchr(path, '/') : NULL;

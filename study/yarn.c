@@ -1,6 +1,6 @@
 /* yarn.c - light walked through cloth of fibre tubes, which lobe woven is measured by
  *
- *   bench_yarn [WALKS] > tests/weave/yarn_truth.txt
+ *   study_yarn [WALKS] > tests/weave/yarn_truth.txt
  *
  * A thread is a tube about a chain of arcs, over and under; its section is a lens,
  *
@@ -181,7 +181,7 @@ int main(int argc, char **argv) {
     static Tubes tubes;
     static Walking walking;
     if (walks < BATCHES) return 2;
-    printf("# bench_yarn %ld\n", walks);
+    printf("# study_yarn %ld\n", walks);
     for (int k = 0; k < YARN_CASES; k++) {
         const double theta = yarn_cases[k].theta * RADIANS, phi = yarn_azimuth * RADIANS;
         if (!tubes_make(&tubes, &yarn_cases[k])) return 3;

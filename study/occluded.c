@@ -1,7 +1,7 @@
 /* occluded - prints what neighbours leave of a sheen's light from an environment: how the raster engine's sum
  * over a picture differs from the path tracer's direct light, in hundredths
  *
- *   bench_occluded [--only LOBE]... [--rays N] [--width N] [--fine N] [--centre] MAP.hdr|white ...
+ *   study_occluded [--only LOBE]... [--rays N] [--width N] [--fine N] [--centre] MAP.hdr|white ...
  *
  * Scenes: builtin:spheres and builtin:cloth, without lights, with black base and specular; their sheens have the
  * lobe. `sum` is the difference of the sums, below 0 where the raster image is darker. `apart` is sum |difference|
@@ -30,7 +30,7 @@ typedef struct How {
 
 static void check(WeftResult result, const WeftError *error) {
     if (result == WEFT_OK) return;
-    fprintf(stderr, "bench_occluded: %s\n", error->text);
+    fprintf(stderr, "study_occluded: %s\n", error->text);
     exit(1);
 }
 
