@@ -19,7 +19,7 @@ static size_t component_size(Component component) {
     return 4;
 }
 
-/* From one column to the next: those of matrices start at multiples of 4 bytes. */
+/* Returns the bytes from one column to the next: the columns of a matrix start at multiples of 4 bytes. */
 static size_t column_size(const Accessor *a) {
     size_t size = component_size(a->component) * a->rows;
     return a->columns > 1 ? (size + 3) & ~(size_t)3 : size;
@@ -63,13 +63,14 @@ static void shape_read(const Field *field, Accessor *a) {
 static void check_bounds(const Field *field, int view, size_t offset, size_t count, size_t size,
                          size_t stride) {
     if (view < 0 || field->asset->result != WEFT_OK) return;
-    size_t room = field->asset->views[view].span.size;
+    size_t available = field->asset->views[view].span.size;
     if (stride < size)
         field_fail(field, WEFT_MESSAGE_GLTF_SCHEMA, "%zu bytes an element, but a stride of %zu", size,
                    stride);
-    else if (offset > room || size > room - offset || count - 1 > (room - offset - size) / stride)
+    else if (offset > available || size > available - offset ||
+             count - 1 > (available - offset - size) / stride)
         field_fail(field, WEFT_MESSAGE_GLTF_BOUNDS, "%zu elements from byte %zu on, in %zu bytes", count,
-                   offset, room);
+                   offset, available);
 }
 
 static size_t stride_of(const Asset *asset, int view, size_t size) {
@@ -166,7 +167,7 @@ static float load_float(const unsigned char *p, Component component, bool normal
     return normalized ? fmaxf(value / unit, -1.0f) : value;
 }
 
-/* Four bytes of out for each component of an element: a float, or with integers the number itself. */
+/* Writes 4 bytes to out for each component of an element: a float, or, with integers, the number itself. */
 static void element_load(const Accessor *a, const unsigned char *p, bool integers, void *out) {
     size_t size = component_size(a->component), column = column_size(a);
     unsigned char *to = out;

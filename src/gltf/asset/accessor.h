@@ -4,14 +4,14 @@
 
 #include "gltf/asset/asset.h"
 
-/* Every accessor's record, its types, references and bounds checked. */
+/* Reads the record of every accessor and checks its types, references and bounds. */
 void accessors_read(Asset *asset);
 
-/* The accessor's elements as floats, columns * rows each (matrices column by column), integers divided by
- * their range where normalized. NULL after a sticky failure. */
+/* Decodes an accessor into columns * rows floats an element (matrices column by column); normalized integers
+ * are divided by their range. Returns NULL after a sticky failure. */
 float *accessor_floats(Asset *asset, Arena *arena, int accessor);
 
-/* A scalar or vector accessor of integers as they are. NULL after a sticky failure. */
+/* Decodes a scalar or vector accessor of integers without conversion. Returns NULL after a sticky failure. */
 uint32_t *accessor_integers(Asset *asset, Arena *arena, int accessor);
 
 #endif

@@ -1,9 +1,9 @@
-/* asset.h - one glTF file while it is read: what its parts have become so far, and what may still be spent
+/* asset.h - one glTF file while it is read: the records of its parts, and how much decoding may still use
  *
- * Reading is in two passes. The first turns the JSON into the records below, checking every type, range and
- * reference, used or not (but for cameras, lights, samplers and images, which are checked when shown). The
- * second bakes what the scene shows. Errors are sticky: the first failure is kept in `result`, readers go on
- * with harmless values, and each stage ends by asking asset->result. */
+ * A file is read in two passes. The first turns the JSON into the records below and checks every type,
+ * range and reference, used or not; cameras, lights, samplers and images are checked only if they are shown.
+ * The second bakes what the scene shows. Errors are sticky: `result` keeps the first failure, readers go on
+ * with harmless values, and each stage ends with a test of asset->result. */
 #ifndef WEFT_GLTF_ASSET_H
 #define WEFT_GLTF_ASSET_H
 
@@ -19,9 +19,9 @@
 #include "scene/record/scene.h"
 #include "weft/result.h"
 
-/* Bytes that belong to somebody else. */
+/* Borrowed bytes. */
 typedef struct Span {
-    const unsigned char *data; /* NULL: there are none, whatever size says */
+    const unsigned char *data; /* NULL: no bytes, whatever size is */
     size_t size;
 } Span;
 
@@ -30,15 +30,15 @@ typedef struct AssetFile {
     const char *path;
     dev_t device;
     ino_t node;
-    size_t size, wanted; /* bytes: there; of them, to be read */
-    FileBytes bytes;     /* owned */
+    size_t size, wanted; /* bytes in the file; bytes that are needed */
+    FileBytes bytes;     /* NULL: not read yet; owned */
     int image;           /* of the scene, + 1; 0: none */
 } AssetFile;
 
-/* Distinct files: one that is referred to by several names is here once. */
+/* Distinct files: a file that several names refer to has one record. */
 typedef struct FileTable {
     AssetFile *items;
-    size_t count, bytes; /* how many; how much of them was read */
+    size_t count, bytes; /* number of items; bytes read so far */
 } FileTable;
 
 typedef struct AssetBuffer {
@@ -84,7 +84,7 @@ typedef struct Accessor {
     Component index_component;
 } Accessor;
 
-/* KHR_texture_basisu and the like leave image at -1 where they are the only source. */
+/* A glTF texture. `image` is -1 if only an extension such as KHR_texture_basisu names a source. */
 typedef struct TextureSource {
     int image, sampler;
     int scene_texture; /* index into the scene's textures, -1 until something shown needs it */
@@ -93,7 +93,7 @@ typedef struct TextureSource {
 enum { SKIN_SETS = 2, TARGET_ATTRIBUTES = 3 };
 
 typedef struct Primitive {
-    int mode; /* of the specification: 4 triangles, 5 strip, 6 fan; the others are not surfaces */
+    int mode; /* of the specification: 4 triangles, 5 strip, 6 fan; the others have no surface */
     int position, normal, tangent, texcoord[2], color, index; /* accessors, -1: absent */
     int joints[SKIN_SETS], weights[SKIN_SETS];
     int material;                      /* of the scene */
@@ -121,34 +121,35 @@ typedef struct Node {
     const char *name;
     int parent, mesh, skin, camera, light; /* -1: none */
     bool shown;                            /* reached from the scene that is shown */
-    float *weights;                        /* instead of the mesh's; NULL: none */
+    float *weights;                        /* replace those of the mesh; NULL: none */
     size_t weight_count;
     Transform local, world;
 } Node;
 
 typedef struct Asset {
     const char *name; /* subject of messages */
-    bool in_memory;   /* then files beside it are refused */
-    bool examined;    /* by who shows nothing: no extension is refused, nobody's textures are read too, and an
-                         image that cannot be read is a warning */
+    bool in_memory;   /* files beside it are refused */
+    bool examined;    /* for the doctor: no extension is refused, the textures of unused materials are read
+                         too, and an image that cannot be read is a warning */
     const WeftLog *log;
     WeftError *error;
     WeftResult result;     /* of the first failure */
-    WeftProgress progress; /* NULL: nobody watches */
+    WeftProgress progress; /* may be NULL */
     void *user;            /* of progress */
     WeftScene *scene;
-    Arena arena; /* dies with the read */
+    Arena arena; /* freed when the read ends */
 
     FileBytes file; /* the asset's own bytes, owned; empty where they are the caller's */
     json_t *root;
-    Span text;   /* what root was read from */
+    Span text;   /* the text of root */
     Span bin;    /* BIN chunk of a GLB */
-    Span behind; /* the chunks of a GLB that nobody knows, with their headers */
+    Span behind; /* the other chunks of a GLB, with their headers */
     bool packed; /* true for a GLB */
 
     FileTable buffer_files, image_files;
 
-    /* Bytes that decoding may produce in all. A small hostile file must not become a large scene. */
+    /* Decoding may produce at most `limit` bytes in all, so that a small hostile file does not become a large
+     * scene. */
     size_t input_bytes, limit, spent;
     size_t triangles;
 
@@ -165,22 +166,22 @@ typedef struct Asset {
     bool *material_shown; /* material_count + 1, the last for surfaces without a material */
 } Asset;
 
-/* The sticky failure: keeps the first. detail is a printf format or NULL. */
+/* Records a sticky failure, of which the first is kept. detail is a printf format or NULL. */
 __attribute__((format(printf, 3, 4))) void asset_fail(Asset *asset, WeftMessage message, const char *detail,
                                                       ...);
 
-/* Tells whoever watches what share of the read is done, of the part that runs from low to high; false, with a
- * sticky WEFT_INTERRUPTED, where it is to stop. For the thread that made the call alone. */
+/* Reports the progress of the part of the read that runs from low to high. Returns false, with a sticky
+ * WEFT_INTERRUPTED, if the read has to stop. Only the thread that called the reader may call it. */
 bool asset_progress(Asset *asset, double low, double high, size_t done, size_t of);
 
-/* Charges count * size bytes to the limit for good; false after a sticky GLTF_TOO_LARGE. */
+/* Charges count * size bytes to the limit for good. Returns false after a sticky GLTF_TOO_LARGE. */
 bool asset_charge(Asset *asset, size_t count, size_t size);
 
-/* count * size zeroed bytes from an arena (the asset's or the scene's), charged to the limit for good; NULL
- * after a sticky GLTF_TOO_LARGE or MEMORY. */
+/* Allocates count * size zeroed bytes from an arena (the asset's or the scene's) and charges them to the
+ * limit for good. Returns NULL after a sticky GLTF_TOO_LARGE or MEMORY. */
 void *asset_array(Asset *asset, Arena *arena, size_t count, size_t size);
 
-/* A copy in the scene's arena; "" after a sticky failure. */
+/* Copies a text to the scene's arena. Returns "" after a sticky failure. */
 const char *asset_text(Asset *asset, const char *text);
 
 #endif

@@ -12,7 +12,7 @@ enum { FILES_MAX = 4096 };
 
 static const size_t FILES_SIZE_MAX = (size_t)4 << 30;
 
-/* The record of what status describes: an old one, for one file has many names, or a new one. */
+/* Finds the record of the file that status describes, or adds one: a file can have many names. */
 static AssetFile *file_find(FileTable *table, Asset *asset, const char *path, const struct stat *status) {
     for (size_t i = 0; i < table->count; i++)
         if (table->items[i].node == status->st_ino && table->items[i].device == status->st_dev)
@@ -44,10 +44,10 @@ AssetFile *file_refer(FileTable *table, const Field *field, const char *uri, siz
 }
 
 Span file_bytes(FileTable *table, Asset *asset, AssetFile *file) {
-    size_t room = FILES_SIZE_MAX - table->bytes;
+    size_t available = FILES_SIZE_MAX - table->bytes;
     if (!file->bytes.data && asset->result == WEFT_OK) {
         size_t most = file->wanted < file->size ? file->wanted : file->size;
-        if (most > room)
+        if (most > available)
             asset_fail(asset, WEFT_MESSAGE_GLTF_TOO_LARGE, "its files have more than %zu bytes",
                        FILES_SIZE_MAX);
         else

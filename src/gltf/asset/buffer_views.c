@@ -45,7 +45,8 @@ static void buffer_read(const Field *field, AssetBuffer *buffer, bool first) {
     }
 }
 
-/* Files are read once it is known how much of each is wanted. */
+/* Reads the files after all buffers have been seen, because only then it is clear how many bytes of each are
+ * needed. */
 void buffers_read(Asset *asset) {
     Field root = field_root(asset), list = field_member(&root, "buffers");
     asset->buffer_count = field_count(&list);
@@ -69,7 +70,7 @@ void buffers_free(Asset *asset) {
     files_free(&asset->buffer_files);
 }
 
-/* The byteOffset and byteLength of field, within its buffer. */
+/* Returns the bytes that byteOffset and byteLength of field select in its buffer. */
 static Span section(const Field *field) {
     Asset *asset = field->asset;
     Field buffer_field = field_member(field, "buffer"), offset_field = field_member(field, "byteOffset"),
@@ -88,7 +89,7 @@ static Span section(const Field *field) {
     return (Span){all.data ? all.data + offset : NULL, length};
 }
 
-/* The index of text among count names; a sticky failure where it is none of them. */
+/* Returns the index of the text of field among count names, and fails (sticky) if it is none of them. */
 static int choice(const Field *field, const char *absent, const char *const *names, int count) {
     const char *text = field_text(field, absent);
     for (int i = 0; text && i < count; i++)

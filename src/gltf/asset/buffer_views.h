@@ -9,7 +9,7 @@ void buffers_read(Asset *asset);
 
 void views_read(Asset *asset);
 
-/* The bytes of a view, decompressed where needed; data is NULL after a sticky failure. */
+/* Returns the bytes of a view, decompressed where needed. `data` is NULL after a sticky failure. */
 Span view_bytes(Asset *asset, int view);
 
 void buffers_free(Asset *asset);

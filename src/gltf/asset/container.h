@@ -1,4 +1,4 @@
-/* container.h - the outside of a glTF file: GLB chunks or plain JSON */
+/* container.h - the container of a glTF file: GLB chunks or bare JSON */
 #ifndef WEFT_GLTF_CONTAINER_H
 #define WEFT_GLTF_CONTAINER_H
 
@@ -8,8 +8,8 @@
  * failures: SCENE_KIND, GLTF_CONTAINER, GLTF_JSON, GLTF_VERSION (of the container), GLTF_TOO_LARGE. */
 void container_read(Asset *asset, Span data);
 
-/* The first bytes of a GLB: all before the bytes of its BIN chunk, of which there are bin (0: there is no
- * such chunk), a multiple of 4, before as many as `behind` of other chunks. NULL where memory is short.
+/* Makes the head of a GLB: all before the data of its BIN chunk, which has `bin` bytes (a multiple of 4; 0:
+ * there is no such chunk) and which `behind` bytes of other chunks follow. Returns NULL if memory is short.
  * Release with free(). */
 unsigned char *container_head(Span text, size_t bin, size_t behind, size_t *size);
 

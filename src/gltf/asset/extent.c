@@ -15,7 +15,7 @@ static size_t png_bytes(Span image) {
     return width < 1 << 17 && height < 1 << 17 ? width * height * channels * depth : 0;
 }
 
-/* The first frame header; before it lie segments with a length. */
+/* Reads the first frame header and skips the segments before it, whose lengths are given. */
 static size_t jpeg_bytes(Span image) {
     enum {
         TEM = 0x01,
@@ -43,7 +43,7 @@ static size_t jpeg_bytes(Span image) {
     return 0;
 }
 
-/* Runs expand a colour map's index to four bytes at most. */
+/* Counts four bytes a pixel, because a colour map has at most four bytes an entry. */
 static size_t tga_bytes(Span image) {
     enum { HEADER = 18, RUNS = 8 };
     if (image.size < HEADER) return 0;

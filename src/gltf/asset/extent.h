@@ -4,8 +4,9 @@
 
 #include "gltf/asset/asset.h"
 
-/* An upper bound of the bytes of its pixels once decoded, exact but for the channels; for Radiance HDR and
- * OpenEXR the most that is decoded of a file of this size. 0 where it certainly does not decode. */
+/* Returns an upper bound of the bytes of the decoded pixels, exact but for the number of channels. For
+ * Radiance HDR and OpenEXR it is the most that the readers decode of a file of this size. 0: the image
+ * certainly does not decode. */
 size_t extent_bytes(Span image);
 
 #endif

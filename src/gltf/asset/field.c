@@ -9,19 +9,19 @@
 
 Field field_root(Asset *asset) { return (Field){.asset = asset, .json = asset->root}; }
 
-/* The path, root first, cut short where it does not fit; the number of characters used. */
+/* Writes the path, root first, cut short where it does not fit. Returns the number of characters used. */
 static size_t path(const Field *field, char *out, size_t size) {
     if (!field->parent) {
         out[0] = 0;
         return 0;
     }
-    size_t used = path(field->parent, out, size), room = size - used;
+    size_t used = path(field->parent, out, size), left = size - used;
     const char *dot = used ? "." : "";
-    int wrote = !field->key        ? snprintf(out + used, room, "[%zu]", field->index)
-                : field->extension ? snprintf(out + used, room, "%sextensions.%s", dot, field->key)
-                                   : snprintf(out + used, room, "%s%s", dot, field->key);
+    int wrote = !field->key        ? snprintf(out + used, left, "[%zu]", field->index)
+                : field->extension ? snprintf(out + used, left, "%sextensions.%s", dot, field->key)
+                                   : snprintf(out + used, left, "%s%s", dot, field->key);
     if (wrote < 0) wrote = 0;
-    return (size_t)wrote < room ? used + (size_t)wrote : size - 1;
+    return (size_t)wrote < left ? used + (size_t)wrote : size - 1;
 }
 
 enum { PATH_SIZE = 160, LINE_SIZE = 400 };

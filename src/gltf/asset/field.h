@@ -1,9 +1,9 @@
-/* field.h - a place in the JSON of a glTF file: typed reading that knows its own path for messages
+/* field.h - a place in the JSON of a glTF file: typed reading, with the path of the place in messages
  *
  * A Field is a value on the stack that points at its parent's Field, which must outlive it. An absent field
- * reads as its default. A wrong type is a sticky GLTF_SCHEMA failure that names the path, as in
- * "materials[3].pbrMetallicRoughness.roughnessFactor: expected a number"; a number outside the schema's
- * range is clamped with a warning. */
+ * reads as its default. A wrong type is a sticky GLTF_SCHEMA failure with the path, as in
+ * "materials[3].pbrMetallicRoughness.roughnessFactor: expected a number"; a number outside the schema's range
+ * is clamped with a warning. */
 #ifndef WEFT_GLTF_FIELD_H
 #define WEFT_GLTF_FIELD_H
 
@@ -22,16 +22,16 @@ Field field_root(Asset *asset);
 Field field_member(const Field *object, const char *key);
 Field field_element(const Field *array, size_t index);
 
-/* object.extensions.NAME */
+/* Returns object.extensions.NAME. */
 Field field_extension(const Field *object, const char *name);
 
-/* The elements of an array; 0 where absent. */
+/* Returns the number of elements of an array, 0 if it is absent. */
 size_t field_count(const Field *array);
 
-/* An integer in [low, high]; outside it is a failure. Reals with an integer value count as integers. */
+/* Returns an integer in [low, high] and fails (sticky) outside. Reals with an integer value count as integers. */
 size_t field_size(const Field *field, size_t absent, size_t low, size_t high);
 
-/* An index below count, -1 where absent, else GLTF_REFERENCE. */
+/* Returns an index below count, or -1 if it is absent. Fails with GLTF_REFERENCE if it is not below count. */
 int field_index(const Field *field, size_t count);
 
 /* Works as field_index, but fails if the field is absent. */
@@ -41,11 +41,12 @@ bool field_bool(const Field *field, bool absent);
 const char *field_text(const Field *field, const char *absent);
 double field_number(const Field *field, double absent, double low, double high);
 
-/* Exactly count numbers into out, which keeps its values where the field is absent; whether it is there. */
+/* Reads exactly count numbers into out, which keeps its values if the field is absent. Returns true if it is
+ * present. */
 bool field_floats(const Field *field, float *out, size_t count, float low, float high);
 bool field_doubles(const Field *field, double *out, size_t count);
 
-/* A failure or warning whose detail starts with the field's path. */
+/* Fails or warns with a text that starts with the field's path. */
 __attribute__((format(printf, 3, 4))) void field_fail(const Field *field, WeftMessage message,
                                                       const char *detail, ...);
 __attribute__((format(printf, 3, 4))) void field_warn(const Field *field, WeftMessage message,

@@ -6,8 +6,8 @@
 
 #include "gltf/asset/asset.h"
 
-/* Why a compressed view of `size` decoded bytes breaks the specification, or NULL. The decoder asserts these,
- * so that meshopt_decode must not be called where this is not NULL. */
+/* Returns how a compressed view of `size` decoded bytes breaks the specification, or NULL if it does not. The
+ * decoder asserts these rules: do not call meshopt_decode unless this is NULL. */
 const char *meshopt_reason(const Compression *compression, size_t size);
 
 /* Decodes count * stride bytes into out and applies the filter; false where the data are damaged. */

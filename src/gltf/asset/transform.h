@@ -1,15 +1,15 @@
-/* transform.h - affine maps of 3-space, in double: node trees multiply many of them */
+/* transform.h - affine maps of 3-space, in double precision because node trees multiply many of them */
 #ifndef WEFT_GLTF_TRANSFORM_H
 #define WEFT_GLTF_TRANSFORM_H
 
-/* Row r maps (x, y, z) to m[r][0] x + m[r][1] y + m[r][2] z + m[r][3]. */
+/* An affine map: component r of the result is m[r][0] x + m[r][1] y + m[r][2] z + m[r][3]. */
 typedef struct Transform {
     double m[3][4];
 } Transform;
 
 static const Transform transform_identity = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
 
-/* First b, then a. */
+/* Returns the map that applies b, then a. */
 static inline Transform transform_product(const Transform *a, const Transform *b) {
     Transform p;
     for (int r = 0; r < 3; r++)
@@ -20,8 +20,8 @@ static inline Transform transform_product(const Transform *a, const Transform *b
     return p;
 }
 
-/* The cofactors of the linear part: determinant times inverse transpose, defined for singular maps too. It
- * takes normals to normals, turned around where the determinant is negative. */
+/* Returns the cofactors of the linear part: determinant times inverse transpose, which exist for singular
+ * maps too. They map normals to normals, reversed if the determinant is negative. */
 static inline Transform transform_cofactors(const Transform *t) {
     Transform c = {{{0}}};
     for (int i = 0; i < 3; i++)
@@ -37,7 +37,7 @@ static inline double transform_determinant(const Transform *t) {
     return t->m[0][0] * c.m[0][0] + t->m[0][1] * c.m[0][1] + t->m[0][2] * c.m[0][2];
 }
 
-/* The linear part applied to v, and with w = 1 the translation too. In place. */
+/* Applies the linear part to v in place, and with w = 1 the translation too. */
 static inline void transform_apply(const Transform *t, double v[3], double w) {
     double x = v[0], y = v[1], z = v[2];
     for (int r = 0; r < 3; r++) v[r] = t->m[r][0] * x + t->m[r][1] * y + t->m[r][2] * z + t->m[r][3] * w;

@@ -10,14 +10,14 @@
 
 bool uri_is_data(const char *uri);
 
-/* The bytes of a data URI, to be released with free(); NULL after a sticky failure on field. */
+/* Decodes a data URI. Release the bytes with free(); NULL after a sticky failure on field. */
 unsigned char *uri_decode(const Field *field, const char *uri, size_t *size);
 
 /* Decodes percent-encoding in place; false where a % is not followed by two hexadecimal digits or hides a
  * zero byte. */
 bool uri_unescape(char *text);
 
-/* The path of a file URI, in the asset's arena; NULL after a sticky failure on field. */
+/* Returns the path of a file URI, in the asset's arena; NULL after a sticky failure on field. */
 char *uri_path(const Field *field, const char *uri);
 
 #endif
