@@ -32,9 +32,9 @@ static bool is_frame(const Transform *t) {
     return frame && fabs(across - t->m[0][2]) < slack;
 }
 
-/* Places a camera that stands at the origin and looks along -z with +y up; scale is ignored. Returns false if
- * the transform leaves no direction. */
-static bool stand(const Transform *world, Camera *camera) {
+/* Sets the frame of the camera: at the origin of the node, looking along -z with +y up; scale is ignored.
+ * Returns false if the transform has no direction. */
+static bool camera_place(const Transform *world, Camera *camera) {
     Transform frame = transform_identity; /* columns right, up, back */
     double back[3], up[3];
     camera->eye = column(world, 3);
@@ -81,7 +81,7 @@ static void camera_read(const Field *field, const Node *node, Camera *camera) {
         field_fail(&type_field, WEFT_MESSAGE_GLTF_SCHEMA, "expected perspective or orthographic");
     const Field *needed = camera->orthographic ? &ymag : &yfov;
     if (!needed->json) field_fail(needed, WEFT_MESSAGE_GLTF_SCHEMA, "missing a number");
-    /* Mirrored magnifications exist; the sign says nothing here. */
+    /* Files with negative magnifications exist; the sign does not matter here. */
     camera->ymag = (float)fabs(field_number(&ymag, 1.0, -1e15, 1e15));
     camera->yfov = (float)field_number(&yfov, 1.0, 1e-4, 3.1415);
     if (!(camera->ymag > 0.0f)) field_fail(&ymag, WEFT_MESSAGE_GLTF_SCHEMA, "must not be 0");
@@ -100,10 +100,10 @@ void cameras_read(Asset *asset) {
         Field field = field_element(&list, (size_t)node->camera);
         Camera *camera = &scene->cameras[scene->camera_count];
         camera_read(&field, node, camera);
-        bool stands = stand(&node->world, camera);
+        bool placed = camera_place(&node->world, camera);
         if (!within_reach(camera->eye, SCENE_REACH))
             field_fail(&field, WEFT_MESSAGE_GLTF_TOO_LARGE, "its node is too far away");
-        if (stands)
+        if (placed)
             scene->camera_count++;
         else
             field_warn(&field, WEFT_MESSAGE_GLTF_WARN_IGNORED, "its node's transform is singular");

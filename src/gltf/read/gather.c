@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-/* NULL stays NULL. */
+/* Copies the values of the vertices in source. Returns NULL if values is NULL or after a sticky failure. */
 static float *gather(Asset *asset, const float *values, size_t width, const uint32_t *source, size_t count) {
     if (!values) return NULL;
     float *out = asset_array(asset, &asset->scene->arena, count, width * sizeof *out);

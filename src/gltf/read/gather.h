@@ -1,11 +1,11 @@
-/* gather.h - meshes with their vertices picked and arranged anew */
+/* gather.h - copies of chosen vertices of a mesh */
 #ifndef WEFT_GLTF_GATHER_H
 #define WEFT_GLTF_GATHER_H
 
 #include "gltf/asset/asset.h"
 
-/* Gives the mesh, in the scene's arena, the vertices 0 to count - 1 of which each is what vertex source[i]
- * was. The index is the caller's. Sticky failures: MEMORY, GLTF_TOO_LARGE. */
+/* Replaces the vertices of the mesh, in the scene's arena: vertex i, of 0 to count - 1, becomes the old
+ * vertex source[i]. The caller updates the index. Sticky failures: MEMORY, GLTF_TOO_LARGE. */
 void mesh_gather(Asset *asset, Mesh *mesh, const uint32_t *source, size_t count);
 
 #endif

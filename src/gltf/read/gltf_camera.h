@@ -4,7 +4,7 @@
 
 #include "gltf/asset/asset.h"
 
-/* Only counts them, for the nodes. */
+/* Counts the cameras, before the nodes that refer to them are read. */
 void cameras_count(Asset *asset);
 
 /* Adds the cameras of the shown nodes to the scene, in the order of nodes. */

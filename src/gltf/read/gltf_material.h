@@ -1,11 +1,12 @@
-/* gltf_material.h - glTF materials into the scene's table of inputs */
+/* gltf_material.h - reads glTF materials into the inputs of scene materials */
 #ifndef WEFT_GLTF_GLTF_MATERIAL_H
 #define WEFT_GLTF_GLTF_MATERIAL_H
 
 #include "gltf/asset/asset.h"
 
-/* Reads all materials, and one more for surfaces without (white, rough metal: the specification's defaults)
- * at index asset->material_count. Inputs hold indices of glTF textures until textures_resolve. */
+/* Reads all materials, and one more at index asset->material_count for surfaces without a material (white,
+ * rough metal: the defaults of the specification). Inputs have indices of glTF textures until
+ * textures_resolve. */
 void materials_read(Asset *asset);
 
 #endif

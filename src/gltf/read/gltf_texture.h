@@ -4,12 +4,12 @@
 
 #include "gltf/asset/asset.h"
 
-/* The records of textures; checks the images and samplers too. */
+/* Reads the records of textures; checks the images and samplers too. */
 void textures_read(Asset *asset);
 
-/* Turns the inputs of the scene's materials, which hold indices of glTF textures, into those of scene
- * textures and decodes the images behind them, each once, in parallel. Materials that nothing shown wears
- * lose their textures. */
+/* Replaces the indices of glTF textures in the inputs of the scene's materials by those of scene textures,
+ * and decodes their images, each only once, in parallel. Materials that nothing shown uses lose their
+ * textures. */
 void textures_resolve(Asset *asset);
 
 #endif

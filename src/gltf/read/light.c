@@ -53,7 +53,7 @@ static void light_read(const Field *field, const Node *node, Light *light) {
     if (light->kind == LIGHT_SPOT) cone_read(field, light);
     double x = -world->m[0][2], y = -world->m[1][2], z = -world->m[2][2], size = sqrt(x * x + y * y + z * z);
     if (fabs(size - 1.0) < 5e-7)
-        size = 1.0; /* as far as floats can say, so that it is read as it was saved */
+        size = 1.0; /* within float precision, so that a saved light is read back exactly */
     if (size > 0.0 && isfinite(size))
         light->direction = (Vec3){(float)(x / size), (float)(y / size), (float)(z / size)};
     else

@@ -1,4 +1,4 @@
-/* load.c - weft_scene_load: a name or a file becomes a scene */
+/* load.c - weft_scene_load: reads a scene from a file, from memory or by the name of a built-in one */
 #include <string.h>
 
 #include "base/fail.h"
@@ -8,9 +8,9 @@
 
 static const char builtin_prefix[] = "builtin:";
 
-/* Who wants to know how far a load is. */
+/* The receiver of progress. */
 typedef struct Watcher {
-    WeftProgress progress; /* NULL: nobody */
+    WeftProgress progress; /* may be NULL */
     void *user;
 } Watcher;
 
@@ -58,6 +58,6 @@ WeftResult weft_scene_load_watched(const char *path, WeftProgress progress, void
 
 WeftResult weft_scene_load_memory(const void *data, size_t size, const char *name, WeftScene **out,
                                   const WeftLog *log, WeftError *error) {
-    /* No data are an empty file, never the file of that name. */
+    /* NULL is an empty file, never the file of that name. */
     return load(name, data ? data : "", data ? size : 0, (Watcher){0}, out, log, error);
 }

@@ -19,7 +19,8 @@ void variants_read(Asset *asset) {
     scene->variant_count = asset->result == WEFT_OK ? (int)count : 0;
 }
 
-/* An accessor of vectors of low to high components, as many as there are positions (count 0: any number). */
+/* Returns the accessor of an attribute: vectors of low to high components, as many as there are positions
+ * (count 0: any number). Returns -1 if the attribute is absent or after a sticky failure. */
 static int attribute_read(const Field *attributes, const char *name, int low, int high, size_t count) {
     Asset *asset = attributes->asset;
     Field field = field_member(attributes, name);

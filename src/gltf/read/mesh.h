@@ -4,13 +4,14 @@
 
 #include "gltf/asset/asset.h"
 
-/* The names of KHR_materials_variants. Call before meshes_read. */
+/* Reads the names of KHR_materials_variants. Call it before meshes_read. */
 void variants_read(Asset *asset);
 
-/* The record of every mesh: attributes with their types and counts, materials, variants, morph targets. */
+/* Reads the record of every mesh: attributes with their types and counts, materials, variants, morph
+ * targets. */
 void meshes_read(Asset *asset);
 
-/* Adds to the scene every surface of every shown node. Sets asset->material_shown. */
+/* Adds every surface of every shown node to the scene. Sets asset->material_shown. */
 void meshes_bake(Asset *asset);
 
 #endif

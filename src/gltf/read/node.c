@@ -5,7 +5,7 @@
 
 #include "gltf/asset/field.h"
 
-/* A unit quaternion x, y, z, w as a rotation; zero is none. */
+/* Returns the rotation of a quaternion x, y, z, w of any length; the identity if it is 0 or not finite. */
 static Transform rotation(const double q[4]) {
     double length = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
     if (!(length > 0.0) || !isfinite(length)) return transform_identity;
@@ -17,10 +17,10 @@ static Transform rotation(const double q[4]) {
 
 static Transform local_read(const Field *field) {
     Field matrix = field_member(field, "matrix"), translation = field_member(field, "translation"),
-          turn = field_member(field, "rotation"), scale = field_member(field, "scale");
+          rotation_field = field_member(field, "rotation"), scale = field_member(field, "scale");
     double m[16], t[3] = {0, 0, 0}, q[4] = {0, 0, 0, 1}, s[3] = {1, 1, 1};
     field_doubles(&translation, t, 3);
-    field_doubles(&turn, q, 4);
+    field_doubles(&rotation_field, q, 4);
     field_doubles(&scale, s, 3);
     Transform local = rotation(q);
     for (int r = 0; r < 3; r++) {
@@ -59,7 +59,7 @@ static void node_read(const Field *field, Node *node) {
     node->weights = weights_read(&weights, &node->weight_count);
 }
 
-/* Who is whose child. A node has one parent at most. */
+/* Sets the parent of every node, and fails if a node has two. */
 static void parents_read(Asset *asset, const Field *list) {
     for (size_t i = 0; i < asset->node_count && asset->result == WEFT_OK; i++) {
         Field field = field_element(list, i), children = field_member(&field, "children");
@@ -75,12 +75,12 @@ static void parents_read(Asset *asset, const Field *list) {
     }
 }
 
-/* Sorts parents before children. Every node's way up either ends at a root or, in a cycle, never does; a walk
- * climbs until it meets a node already placed, so that the whole is linear and needs no stack. */
+/* Sorts parents before children. The way up from a node ends at a root, or never in a cycle. Each walk stops
+ * at the first node whose depth is already set, so that the whole is linear and needs no stack. */
 static void order_nodes(Asset *asset) {
     int count = (int)asset->node_count;
     int *order = asset_array(asset, &asset->arena, asset->node_count, sizeof *order);
-    int *depth = asset_array(asset, &asset->arena, asset->node_count, sizeof *depth); /* 0: not known yet */
+    int *depth = asset_array(asset, &asset->arena, asset->node_count, sizeof *depth); /* 0: not set yet */
     int *tally = asset_array(asset, &asset->arena, asset->node_count + 2, sizeof *tally);
     if (asset->result != WEFT_OK) return;
     for (int i = 0; i < count; i++) {

@@ -33,7 +33,7 @@ void skins_read(Asset *asset, size_t node_count) {
     }
 }
 
-/* joint world times inverse bind, for each joint. */
+/* Returns the world transform of each joint times its inverse bind matrix. */
 static Transform *joints_bind(Asset *asset, Arena *scratch, const Skin *skin) {
     Transform *bound = asset_array(asset, scratch, skin->joint_count, sizeof *bound);
     const float *inverse =

@@ -4,23 +4,24 @@
 
 #include "gltf/asset/asset.h"
 
-/* The records of skins. Nodes must be counted, and are checked, by the caller afterwards. */
+/* Reads the records of skins. The caller counts the nodes before and checks them afterwards. */
 void skins_read(Asset *asset, size_t node_count);
 
-/* Transforms the vertices of one primitive under one node to the world. */
+/* The transforms of the vertices of one primitive under one node to the world. */
 typedef struct Pose {
-    Transform world;   /* without a skin: the node's */
-    Transform *joints; /* with one: from the mesh at bind time to the world, for each joint; else NULL */
+    Transform world;   /* without a skin: of the node */
+    Transform *joints; /* with a skin: of each joint, from the mesh at bind time to the world; else NULL */
     uint32_t *index[SKIN_SETS];
     float *weight[SKIN_SETS];
-    bool mirrored; /* front faces turn around */
+    bool mirrored; /* the winding of front faces is reversed */
 } Pose;
 
-/* Decodes into scratch. Fails (sticky) where a joint is out of range. A skinned mesh ignores its node's own
- * transform. */
+/* Makes the pose, with arrays in scratch. Fails (sticky) if a joint is out of range. A skinned mesh ignores
+ * the transform of its own node. */
 Pose pose_prepare(Asset *asset, Arena *scratch, const Node *node, const Primitive *primitive);
 
-/* The map of one vertex: the pose's own, or with a skin a blend made in *blend. */
+/* Returns the transform of one vertex: the pose's own, or with a skin a blend of the joints, made in
+ * *blend. */
 const Transform *pose_at(const Pose *pose, size_t vertex, Transform *blend);
 
 /* Adds the morph targets of attribute (0 position, 1 normal, 2 tangent) to the first three of every `stride`

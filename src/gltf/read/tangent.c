@@ -12,7 +12,7 @@ typedef struct GltfVec2 {
 
 static Vec3 vec3_at(const float *values, size_t i) { return vec3_load(values + 3 * i); }
 
-/* a scaled to unit length, or zero where it has no direction. The first step keeps squares in range. */
+/* Returns a at unit length, or zero if it has no direction. The first step keeps the squares in range. */
 static Vec3 unit(Vec3 a) {
     float most = fmaxf(fabsf(a.x), fmaxf(fabsf(a.y), fabsf(a.z)));
     if (!(most > 0.0f) || !isfinite(most)) return (Vec3){0.0f, 0.0f, 0.0f};
@@ -20,18 +20,18 @@ static Vec3 unit(Vec3 a) {
     return vec3_scale(a, 1.0f / sqrtf(vec3_dot(a, a)));
 }
 
-/* a without its part along the unit vector n, at unit length. */
+/* Returns a without its part along the unit vector n, at unit length. */
 static Vec3 tangential(Vec3 a, Vec3 n) {
     return unit(vec3_sub(unit(a), vec3_scale(n, vec3_dot(unit(a), n))));
 }
 
-/* Some unit vector across n. */
+/* Returns a unit vector perpendicular to n. */
 static Vec3 any_across(Vec3 n) {
     Vec3 axis = fabsf(n.x) < 0.7f ? (Vec3){1.0f, 0.0f, 0.0f} : (Vec3){0.0f, 1.0f, 0.0f};
     return tangential(axis, n);
 }
 
-/* Three vertices of its own for every triangle, with the face's normal. */
+/* Gives every triangle three vertices of its own, with the normal of the face. */
 static void flatten(Asset *asset, Mesh *mesh) {
     size_t count = (size_t)3 * mesh->triangle_count;
     mesh_gather(asset, mesh, mesh->index, count);
@@ -57,17 +57,17 @@ static GltfVec2 *coordinates(Asset *asset, Arena *scratch, const Mesh *mesh, con
     return out;
 }
 
-/* The bits of what a vertex is for the smoothing: position, normal, coordinates. */
+/* Copies the bits that make a vertex the same as another for smoothing: position, normal, coordinates. */
 static void vertex_key(const Mesh *mesh, const GltfVec2 *uv, size_t i, uint32_t key[8]) {
     memcpy(key, mesh->position + 3 * i, 12);
     memcpy(key + 3, mesh->normal + 3 * i, 12);
     memcpy(key + 6, &uv[i], 8);
 }
 
-/* Vertices with equal keys share the smoothing: the first of them stands for all. An open-addressing hash
- * table over at most half-full slots. Its longest run is some 100 slots for as many vertices as there can be
- * (Donald Knuth, "The Art of Computer Programming" 3, section 6.4, 1998); a file made to have more than
- * PROBES_MAX loses smoothing there, not time. */
+/* Returns the leader of each vertex: the first vertex with an equal key, for which all of them are smoothed
+ * as one. The table is an open-addressing hash table, at most half full. Its longest run is some 100 slots
+ * for as many vertices as there can be (Donald Knuth, "The Art of Computer Programming" 3, section 6.4,
+ * 1998); a file made to have more than PROBES_MAX loses smoothing there, not time. */
 static uint32_t *weld(Asset *asset, Arena *scratch, const Mesh *mesh, const GltfVec2 *uv) {
     enum { PROBES_MAX = 256 };
     size_t slots = 16;
@@ -92,22 +92,23 @@ static uint32_t *weld(Asset *asset, Arena *scratch, const Mesh *mesh, const Gltf
     return leader;
 }
 
-/* Which way the map lies on a triangle: 0 as seen from the front, 1 mirrored, -1 on a line or point. Images
- * run down, so that upright means that (u, -v) turns as the corners do. */
+/* Returns how the map lies on a triangle: 0 as seen from the front, 1 mirrored, -1 on a line or point. The v
+ * of images grows downwards, so that upright means that (u, -v) has the winding of the corners. */
 static int orientation(const GltfVec2 uv[3]) {
     double area = (double)(uv[1].u - uv[0].u) * (double)(uv[2].v - uv[0].v) -
                   (double)(uv[2].u - uv[0].u) * (double)(uv[1].v - uv[0].v);
     return area < 0.0 ? 0 : area > 0.0 ? 1 : -1;
 }
 
-/* The direction of growing u on a triangle. */
+/* Returns the direction of growing u on a triangle. */
 static Vec3 direction_of_u(const Vec3 p[3], const GltfVec2 uv[3], int side) {
     Vec3 e1 = vec3_sub(p[1], p[0]), e2 = vec3_sub(p[2], p[0]);
     float v1 = uv[1].v - uv[0].v, v2 = uv[2].v - uv[0].v, sign = side ? 1.0f : -1.0f;
     return unit(vec3_sub(vec3_scale(e1, sign * v2), vec3_scale(e2, sign * v1)));
 }
 
-/* Adds each triangle's direction to its corners' sums, which are apart for upright and mirrored ones. */
+/* Adds the direction of each triangle to the sums of its corners, separate for upright and mirrored
+ * triangles. */
 static void accumulate(const Mesh *mesh, const GltfVec2 *uv, const uint32_t *leader, Vec3 *sums[2]) {
     for (size_t t = 0; t < mesh->triangle_count; t++) {
         const uint32_t *corner = mesh->index + 3 * t;
@@ -131,8 +132,8 @@ static void accumulate(const Mesh *mesh, const GltfVec2 *uv, const uint32_t *lea
     }
 }
 
-/* Splits the vertices that meet both orientations: source gets, behind the old vertices, where each new one
- * comes from, and side every vertex's orientation. The number of vertices then. */
+/* Splits the vertices that belong to both orientations. Appends to source the old vertex of each new one, and
+ * sets the orientation of every vertex in side. Returns the new number of vertices. */
 static size_t split(Mesh *mesh, const GltfVec2 *uv, uint32_t *source, int8_t *side, uint32_t *twin) {
     size_t count = mesh->vertex_count;
     for (size_t i = 0; i < count; i++) {
@@ -142,13 +143,13 @@ static size_t split(Mesh *mesh, const GltfVec2 *uv, uint32_t *source, int8_t *si
     for (size_t t = 0; t < mesh->triangle_count; t++) {
         uint32_t *corner = mesh->index + 3 * t;
         const GltfVec2 c[3] = {uv[corner[0]], uv[corner[1]], uv[corner[2]]};
-        int turn = orientation(c);
-        for (int k = 0; k < 3 && turn >= 0; k++) {
+        int facing = orientation(c);
+        for (int k = 0; k < 3 && facing >= 0; k++) {
             uint32_t v = corner[k];
-            if (side[v] < 0) side[v] = (int8_t)turn;
-            if (side[v] == turn) continue;
+            if (side[v] < 0) side[v] = (int8_t)facing;
+            if (side[v] == facing) continue;
             if (!twin[v]) {
-                side[count] = (int8_t)turn;
+                side[count] = (int8_t)facing;
                 source[count] = v;
                 twin[v] = (uint32_t)count++;
             }

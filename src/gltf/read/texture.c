@@ -14,7 +14,8 @@
 #include "gltf/asset/field.h"
 #include "gltf/asset/uri.h"
 
-/* The image a texture names: its plain source. A container that cannot be read here is only an offer. */
+/* Returns the image of a texture: its `source`. Extensions whose image format cannot be read here are ignored
+ * with a warning. */
 static int source_read(const Field *field) {
     static const char *const offers[] = {"KHR_texture_basisu", "EXT_texture_webp", "EXT_texture_avif",
                                          "MSFT_texture_dds"};
@@ -77,20 +78,20 @@ static void sampler_read(Asset *asset, int index, Texture *texture) {
     texture->nearest = field_size(&filter, 0, 0, SIZE_MAX) == NEAREST;
 }
 
-/* One image to decode, and what came of it. */
+/* One image to decode, and the result. */
 typedef struct DecodeJob {
     Span bytes;
     unsigned char *owned;
-    const char *name;  /* subject of messages */
+    const char *name;  /* named in messages */
     const char *path;  /* NULL: no file of its own */
-    WeftResult result; /* first of finding its bytes, then of decoding them */
+    WeftResult result; /* of finding its bytes, then of decoding them */
     WeftError error;
 } DecodeJob;
 
 typedef struct Jobs {
     Asset *asset;
-    DecodeJob *items;         /* for each image of the scene */
-    int *order;               /* of the images: the longest file first, so that it is not the last to end */
+    DecodeJob *items;         /* one for each image of the scene */
+    int *order;               /* of the images: the longest file first, so that it does not end last */
     pthread_mutex_t log_lock; /* a log is never called by two threads at once */
     atomic_size_t decoded;    /* bytes of files */
     size_t encoded;           /* of all files */
@@ -106,9 +107,9 @@ static void log_locked(void *user, WeftMessage message, const char *text) {
     pthread_mutex_unlock(&jobs->log_lock);
 }
 
-static void decode(void *user, int turn, int thread) {
+static void decode(void *user, int place, int thread) {
     Jobs *jobs = user;
-    int item = jobs->order[turn];
+    int item = jobs->order[place];
     DecodeJob *job = &jobs->items[item];
     const WeftLog log = {log_locked, jobs};
     if (atomic_load(&jobs->stopped) || job->result != WEFT_OK) return;
@@ -119,8 +120,9 @@ static void decode(void *user, int turn, int thread) {
         atomic_store(&jobs->stopped, true); /* the others finish what they have begun */
 }
 
-/* All images together may hold this many times the bytes of their files, or the floor where that is less: a
- * plain 8192 x 8192 PNG is 200 kB. What they will hold is known before the first is decoded. */
+/* Fails if the images together decode to more than `expansion` times the bytes of their files, or than the
+ * floor if that is more: a blank 8192 x 8192 PNG has 200 kB. The sizes come from the headers, before the
+ * first image is decoded. */
 static void sizes_check(Jobs *jobs) {
     const size_t expansion = 64, floor = (size_t)768 << 20;
     Asset *asset = jobs->asset;
@@ -130,10 +132,10 @@ static void sizes_check(Jobs *jobs) {
         decoded += extent_bytes(jobs->items[i].bytes);
     }
     jobs->encoded = encoded;
-    size_t room = encoded * expansion > floor ? encoded * expansion : floor;
-    if (decoded > room)
+    size_t allowed = encoded * expansion > floor ? encoded * expansion : floor;
+    if (decoded > allowed)
         asset_fail(asset, WEFT_MESSAGE_GLTF_TOO_LARGE, "its images decode to %zu bytes, more than %zu",
-                   decoded, room);
+                   decoded, allowed);
 }
 
 static void order_find(Jobs *jobs) {
@@ -179,7 +181,8 @@ static void image_excuse(Asset *asset, DecodeJob *job) {
     asset->result = WEFT_OK;
 }
 
-/* The scene's image for glTF image number index: that of its view or file where they have one already. */
+/* Returns the scene's image for glTF image number index: that of its view or file if they have one
+ * already. */
 static int image_resolve(Jobs *jobs, int index) {
     Asset *asset = jobs->asset;
     Field root = field_root(asset), list = field_member(&root, "images"),
@@ -211,7 +214,7 @@ static int image_resolve(Jobs *jobs, int index) {
     return *made - 1;
 }
 
-/* The scene texture for a glTF texture, made when first asked for; 0 or its index + 1, as in Input. */
+/* Returns the scene texture for a glTF texture, made on first use: 0 or its index + 1, as in Input. */
 static int texture_resolve(Jobs *jobs, int texture, int *image_of_source) {
     Asset *asset = jobs->asset;
     WeftScene *scene = asset->scene;

@@ -1,4 +1,4 @@
-/* Surfaces of shown nodes into world-space meshes of the scene. */
+/* world_meshes.c - bakes the surfaces of shown nodes into world-space meshes of the scene */
 #include <math.h>
 
 #include "base/fail.h"
@@ -35,7 +35,7 @@ static void bake_warn(const MeshBake *bake, const char *what) {
          (int)(bake->primitive - bake->asset->meshes[bake->node->mesh].primitives), what);
 }
 
-/* The corners of triangle t as places in the list of indices. */
+/* Finds the corners of triangle t, as places in the list of indices. */
 static void corners(int mode, size_t t, size_t out[3]) {
     enum { STRIP = 5, FAN = 6 };
     size_t odd = t % 2;
@@ -54,7 +54,7 @@ static bool has_area(const float *position, const uint32_t corner[3]) {
     return a[1] * b[2] != a[2] * b[1] || a[2] * b[0] != a[0] * b[2] || a[0] * b[1] != a[1] * b[0];
 }
 
-/* The mesh's triangles, without those that have no area, front faces counter-clockwise. */
+/* Makes the triangles of the mesh, front faces counter-clockwise, and leaves out those without area. */
 static void bake_triangles(MeshBake *bake) {
     Asset *asset = bake->asset;
     Mesh *mesh = bake->mesh;
@@ -83,7 +83,7 @@ static void bake_triangles(MeshBake *bake) {
     }
 }
 
-/* Positions in the world; all must be finite and within reach. */
+/* Transforms the positions to the world; fails if one is not finite or beyond SCENE_REACH. */
 static void bake_positions(MeshBake *bake) {
     Mesh *mesh = bake->mesh;
     mesh->position = accessor_floats(bake->asset, &bake->scratch, bake->primitive->position);
@@ -105,8 +105,8 @@ static void bake_positions(MeshBake *bake) {
     }
 }
 
-/* v to unit length in out; zeros where it has none. What is of that length as far as floats can say stays, so
- * that a scene that was saved is read as it was. */
+/* Writes v at unit length to out, or zeros if it has no direction; returns whether it has one. A length of 1
+ * within float precision is kept, so that a saved scene is read back exactly. */
 static bool store_unit(const double v[3], float out[3]) {
     double length = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
     bool good = length > 1e-150 && isfinite(length);
@@ -115,7 +115,7 @@ static bool store_unit(const double v[3], float out[3]) {
     return good;
 }
 
-/* Gives the vertices whose normal is zero that of the faces around them. */
+/* Replaces normals that are zero by those of the faces around the vertex. */
 static void repair_normals(MeshBake *bake) {
     Mesh *mesh = bake->mesh;
     double(*sum)[3] = asset_array(bake->asset, &bake->scratch, mesh->vertex_count, sizeof *sum);
@@ -158,7 +158,7 @@ static void bake_normals(MeshBake *bake) {
     repair_normals(bake);
 }
 
-/* The file's tangents, made to stand across the normals. */
+/* Reads the tangents of the file and makes them perpendicular to the normals. */
 static void bake_tangents(MeshBake *bake) {
     Mesh *mesh = bake->mesh;
     if (bake->primitive->tangent < 0 || !mesh->normal) return;
@@ -275,7 +275,8 @@ static bool bake_primitive(MeshBake *bake) {
     return true;
 }
 
-/* The surfaces of all shown nodes, at most; warns of what will not move. */
+/* Returns an upper bound of the number of surfaces of all shown nodes; warns of skins and morph targets,
+ * which do not move. */
 static size_t count_surfaces(Asset *asset) {
     bool skins = false, morphs = false;
     size_t count = 0;
