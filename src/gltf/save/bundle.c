@@ -16,11 +16,11 @@ static Asset folder_of(const char *path, bool in_memory, WeftError *error) {
     return (Asset){.name = path, .in_memory = in_memory, .error = error};
 }
 
-/* The path of a URI, in the arena of base; NULL where it names no file. */
+/* Returns the path of a URI, in the arena of base, or NULL if it names no file. */
 static char *file_path(Asset *base, const char *uri) {
     Field field = {.asset = base};
     char *path = uri_is_data(uri) ? NULL : uri_path(&field, uri);
-    base->result = WEFT_OK; /* what names no file stays what it is */
+    base->result = WEFT_OK; /* a URI that names no file is kept */
     return path;
 }
 
@@ -38,12 +38,12 @@ FileBytes bundle_bytes(const Asset *asset, const char *uri, WeftResult *result, 
     return bytes;
 }
 
-/* The new place of an old buffer's bytes. */
+/* The new place of an old buffer: the number of its buffer, and the offset of its bytes there. */
 typedef struct Moved {
     json_int_t number, shift;
 } Moved;
 
-/* Integers may be written as reals. */
+/* Returns a number, since integers may be written as reals; 0 if it is absent. */
 static double number_at(const json_t *object, const char *key) {
     return json_number_value(json_object_get(object, key));
 }
@@ -70,7 +70,7 @@ static void references_move(Saving *saving, const Moved *moved, size_t count) {
     }
 }
 
-/* All buffers that have bytes become the first. */
+/* Appends the bytes of all buffers to the first. */
 static void buffers_pack(Saving *saving, const Asset *asset) {
     json_t *buffers = json_object_get(saving->root, "buffers"), *kept = json_array(), *buffer;
     size_t count = json_array_size(buffers), k;
@@ -139,7 +139,7 @@ static bool same_folder(const char *a, const char *b) {
 static void folders_make(char *path, size_t from) {
     for (char *slash = path + from; (slash = strchr(slash, '/')); slash++) {
         *slash = 0;
-        mkdir(path, 0777); /* where it fails, so does writing the file */
+        mkdir(path, 0777); /* if it fails, writing the file fails too */
         *slash = '/';
     }
 }
@@ -173,7 +173,7 @@ static void uri_copy(Saving *saving, const Asset *asset, const char *uri) {
     arena_free(&there.arena);
 }
 
-/* Everything that is called "uri", since extensions refer to files too. */
+/* Copies every file named by a member "uri", at any depth, since extensions refer to files too. */
 static void copy_below(Saving *saving, const Asset *asset, json_t *value) {
     size_t k;
     json_t *part;

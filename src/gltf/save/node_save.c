@@ -8,7 +8,8 @@
 
 enum { VERTICES = 34962, INDICES = 34963, FLOAT = 5126, UNSIGNED_INT = 5125 };
 
-/* An accessor of count values of so many floats: its index. bounds: with the least and greatest of each. */
+/* Saves count values of `width` floats as an accessor and returns its index. bounds: with the minimum and
+ * maximum of each component. */
 static int floats_save(Saving *saving, const float *values, size_t count, int width, bool bounds) {
     static const char *const types[] = {"", "SCALAR", "VEC2", "VEC3", "VEC4"};
     json_t *list = saving_list(saving, "accessors"), *object = json_object();
@@ -62,7 +63,8 @@ static bool needs_set(const WeftScene *scene, const Mesh *mesh, int set) {
     return needs;
 }
 
-/* Zeros stand in for a set that there is not and that a map needs, or the set behind it: so it reads. */
+/* Finds the sets of texture coordinates to save. A missing set is filled with zeros if a map needs it, or if
+ * set 1 exists without set 0, since readers need the sets in sequence. */
 static void texcoords_find(Saving *saving, const Mesh *mesh, const float *sets[2]) {
     for (int k = 1; k >= 0; k--) {
         sets[k] = mesh->texcoord[k];
@@ -85,7 +87,7 @@ static json_t *attributes_save(Saving *saving, const Mesh *mesh) {
     return attributes;
 }
 
-/* Which material each variant puts on a mesh: one mapping a material. */
+/* Saves the material of each variant on a mesh, one mapping a material. */
 static void mappings_put(Saving *saving, const Mesh *mesh, json_t *primitive) {
     const WeftScene *scene = saving->scene;
     json_t *mappings = json_array();
@@ -110,7 +112,7 @@ static void mappings_put(Saving *saving, const Mesh *mesh, json_t *primitive) {
     saving_extend(saving, primitive, "KHR_materials_variants", extension);
 }
 
-/* A node, and its number on the list of the scene that is shown. */
+/* Appends a node, and its number to the list of the scene that is shown. */
 static void node_append(Saving *saving, json_t *node) {
     json_t *nodes = saving_list(saving, "nodes"), *shown = json_array_get(saving_list(saving, "scenes"), 0);
     saving_append(saving, nodes, node);
@@ -135,14 +137,14 @@ static void mesh_save(Saving *saving, const Mesh *mesh) {
     node_append(saving, node);
 }
 
-/* The matrix of a node by its columns. */
+/* Returns the matrix of a node from its columns. */
 static json_t *matrix(Vec3 x, Vec3 y, Vec3 z, Vec3 at) {
     const float m[16] = {x.x, x.y, x.z, 0.0f, y.x,  y.y,  y.z,  0.0f,
                          z.x, z.y, z.z, 0.0f, at.x, at.y, at.z, 1.0f};
     return saving_floats(m, 16);
 }
 
-/* One that looks along -z from there, with whatever is up. */
+/* Returns the matrix of a node at `at` whose -z is direction, with any up. */
 static json_t *aimed(Vec3 at, Vec3 direction) {
     Vec3 back = vec3_scale(direction, -1.0f);
     Vec3 up = fabsf(back.y) < 0.9f ? vec3(0.0f, 1.0f, 0.0f) : vec3(1.0f, 0.0f, 0.0f);
@@ -150,16 +152,16 @@ static json_t *aimed(Vec3 at, Vec3 direction) {
     return matrix(right, vec3_cross(back, right), back, at);
 }
 
-/* A cone's half angle whose cosine in float is that number. */
+/* Returns the half angle of a cone, whose cosine in float is that number. */
 static double cone(float cosine) { return fmin(acos((double)cosine), 0.5 * PI_DOUBLE); }
 
 static json_t *light_object(Saving *saving, const Light *light) {
-    static const char *const types[] = {"directional", "point", "spot"}; /* as LightKind */
+    static const char *const types[] = {"directional", "point", "spot"}; /* indexed by LightKind */
     float color[3];
     double intensity = (double)light->intensity;
     json_t *object = json_object();
     memcpy(color, light->color, sizeof color);
-    /* a colour is in [0, 1]; halving loses nothing */
+    /* a colour is in [0, 1]; halving is exact */
     while (fmaxf(color[0], fmaxf(color[1], color[2])) > 1.0f) {
         for (int c = 0; c < 3; c++) color[c] *= 0.5f;
         intensity *= 2.0;
@@ -174,7 +176,7 @@ static json_t *light_object(Saving *saving, const Light *light) {
     json_t *spot = json_object();
     double outer = cone(light->cos_outer);
     saving_put(saving, spot, "outerConeAngle", json_real(outer));
-    /* it must be less, by what makes no other float */
+    /* it must be less, by an amount that does not change the cosine in float */
     saving_put(saving, spot, "innerConeAngle",
                json_real(fmax(fmin(cone(light->cos_inner), outer - 1e-9), 0.0)));
     saving_put(saving, object, "spot", spot);
@@ -206,7 +208,7 @@ static void lights_save(Saving *saving) {
     saving_extend(saving, saving->root, "KHR_lights_punctual", extension);
 }
 
-/* glTF requires a near plane, which nothing here needs. */
+/* Saves a camera. glTF requires a near plane, which nothing here needs. */
 static void camera_save(Saving *saving, const Camera *camera) {
     json_t *list = saving_list(saving, "cameras"), *object = json_object(), *lens = json_object(),
            *node = json_object();

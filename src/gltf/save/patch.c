@@ -1,5 +1,5 @@
 /* IETF, RFC 8259 "The JavaScript Object Notation (JSON) Data Interchange Format", 2017. The text has been
- * parsed before, so that only the ends of values need to be found here, never their errors. */
+ * parsed before, so that only the ends of values are sought here, never errors. */
 #include "gltf/save/patch.h"
 
 #include <stdbool.h>
@@ -9,7 +9,7 @@
 
 #include "base/json.h"
 
-/* Text that is read through once, and what is written meanwhile. */
+/* The text, read from its start to its end, and the stream that the result is written to. */
 typedef struct JsonPatch {
     const char *at, *end;
     FILE *out;
@@ -25,14 +25,14 @@ static const char *skip_blank(const JsonPatch *patch, const char *at) {
     return at;
 }
 
-/* Behind the string that begins at `at`. */
+/* Returns the end of the string that begins at `at`. */
 static const char *skip_string(const JsonPatch *patch, const char *at) {
     for (at++; at < patch->end && *at != '"'; at++)
         if (*at == '\\') at++;
     return at < patch->end ? at + 1 : patch->end;
 }
 
-/* Behind the value that begins at `at`. */
+/* Returns the end of the value that begins at `at`. */
 static const char *skip_value(const JsonPatch *patch, const char *at) {
     int depth = 0;
     while (at < patch->end) {
@@ -54,7 +54,7 @@ static const char *skip_value(const JsonPatch *patch, const char *at) {
     return at;
 }
 
-/* A value as text of its own, in the fewest digits that read back as the same numbers. */
+/* Writes a value in the fewest digits that read back as the same numbers. */
 static void put_value(JsonPatch *patch, const json_t *value) {
     for (size_t digits = 6; digits <= 17; digits++) {
         const size_t flags = JSON_ENCODE_ANY | JSON_REAL_PRECISION(digits);
@@ -78,12 +78,13 @@ static void put_key(JsonPatch *patch, const char *key) {
     json_decref(text);
 }
 
-/* The white space of an object or array: before its first part, and after its last. */
+/* The white space of an object or array: from open to first, before its first part, and from last to
+ * close. */
 typedef struct JsonSetting {
     const char *open, *first, *last, *close;
 } JsonSetting;
 
-/* The number of parts of the object or array at `at`, and its setting. */
+/* Counts the parts of the object or array at `at`, and finds its white space. */
 static size_t survey(const JsonPatch *patch, const char *at, bool object, JsonSetting *setting) {
     size_t count = 0;
     setting->open = at + 1;
@@ -110,7 +111,7 @@ static void put_gap(JsonPatch *patch, const JsonSetting *setting) {
     put(patch, setting->open, setting->first);
 }
 
-/* A key's value from the text of its string. */
+/* Returns the value of a key from the text of its string. */
 static json_t *key_read(JsonPatch *patch, const char *from, const char *to) {
     bool starved;
     json_t *key = json_parse(from, (size_t)(to - from), JSON_DECODE_ANY, NULL, &starved);
@@ -118,8 +119,8 @@ static json_t *key_read(JsonPatch *patch, const char *from, const char *to) {
     return key;
 }
 
-/* The member at patch->at: copied or changed, with what stands before it from `gap` on; or, where it is gone,
- * left out. Whether it was written. */
+/* Writes the member at patch->at, copied or changed, after the text from `gap` on. Leaves it out if `now`
+ * lacks it. Returns true if it was written. */
 static bool put_member(JsonPatch *patch, const char *gap, json_t *was, json_t *now) {
     const char *start = patch->at, *key_end = skip_string(patch, start);
     const char *value = skip_blank(patch, skip_blank(patch, key_end) + 1);
@@ -137,7 +138,7 @@ static bool put_member(JsonPatch *patch, const char *gap, json_t *was, json_t *n
     return after != NULL;
 }
 
-/* Past the comma to the next part, if there is one. */
+/* Moves patch->at past the comma to the next part, if there is one. */
 static void step(JsonPatch *patch, const JsonSetting *setting) {
     patch->at = skip_blank(patch, patch->at);
     if (patch->at < setting->close) patch->at = skip_blank(patch, patch->at + 1);
@@ -190,7 +191,7 @@ static void put_array(JsonPatch *patch, const JsonSetting *setting, json_t *was,
     patch->at = setting->close + 1;
 }
 
-/* The value at patch->at, which is `was`, as `now`. */
+/* Writes the value at patch->at, which is `was`, as `now`. */
 static void put_changed(JsonPatch *patch, json_t *was, json_t *now) {
     const char *start = patch->at;
     JsonSetting setting;
@@ -202,7 +203,7 @@ static void put_changed(JsonPatch *patch, json_t *was, json_t *now) {
         put_object(patch, &setting, was, now);
     } else if (arrays && survey(patch, start, false, &setting) == json_array_size(was)) {
         put_array(patch, &setting, was, now);
-    } else { /* another value; or an object with a key twice, of which the last counts */
+    } else { /* another value; or an object that has a key twice, of which the last counts */
         patch->at = skip_value(patch, start);
         put_value(patch, now);
     }

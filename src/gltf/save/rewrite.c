@@ -24,7 +24,8 @@ void rewrite_end(Rewrite *rewrite) {
     *rewrite = (Rewrite){0};
 }
 
-/* The array of that name in the document, made where there is none; borrowed, NULL where memory is short. */
+/* Returns the array of that name in the document, created if it is missing; borrowed, NULL if memory is
+ * short. */
 static json_t *list(json_t *root, const char *name) {
     json_t *array = json_object_get(root, name);
     if (!array && json_object_set_new(root, name, json_array()) == 0) array = json_object_get(root, name);
@@ -57,7 +58,7 @@ void rewrite_uses_no_more(Rewrite *rewrite, const char *extension) {
     }
 }
 
-/* A texture of image number `image` with the sampler of texture number `like`. */
+/* Makes a texture of image number `image` with the sampler of texture number `like`. */
 static json_t *texture_make(const Rewrite *rewrite, int image, int like) {
     json_t *texture = json_object(),
            *old = like < 0 ? NULL : json_array_get(json_object_get(rewrite->root, "textures"), (size_t)like);
@@ -69,8 +70,8 @@ static json_t *texture_make(const Rewrite *rewrite, int image, int like) {
 
 int rewrite_texture(Rewrite *rewrite, const void *png, size_t size, int like, WeftError *error) {
     json_t *images = list(rewrite->root, "images"), *textures = list(rewrite->root, "textures");
-    size_t room = (size_t)rewrite->image_count + 1;
-    NewImage *grown = realloc_array(rewrite->images, room, sizeof *grown);
+    size_t count = (size_t)rewrite->image_count + 1;
+    NewImage *grown = realloc_array(rewrite->images, count, sizeof *grown);
     unsigned char *copy = alloc_array(size, 1);
     int image = (int)json_array_size(images), texture = (int)json_array_size(textures);
     if (grown) rewrite->images = grown;
@@ -106,7 +107,7 @@ static void image_put(Saving *saving, const NewImage *image) {
     if (uri) saving_write(saving, path, image->png, image->size, NULL, 0);
 }
 
-/* The bytes of the BIN chunk go to a file. */
+/* Writes the bytes of the BIN chunk to a file. */
 static void bin_unpack(Saving *saving) {
     json_t *first = json_array_get(json_object_get(saving->root, "buffers"), 0);
     if (!first || json_object_get(first, "uri")) return;
@@ -116,7 +117,7 @@ static void bin_unpack(Saving *saving) {
     saving->size = 0;
 }
 
-/* Buffer 0 is as long as what was put behind it made it. */
+/* Updates the length of buffer 0 after bytes were appended to it. */
 static void length_update(Saving *saving, size_t before) {
     if (!saving->packed || saving->size == before) return;
     json_t *buffers = saving_list(saving, "buffers"), *first = json_array_get(buffers, 0);
@@ -135,7 +136,7 @@ static void document_write(Saving *saving, const Asset *asset) {
     } else if (text) {
         Span behind = asset->packed ? asset->behind : (Span){0};
         size_t bin = saving->size;
-        if (!json_equal(asset->root, saving->root)) /* its old padding, then */
+        if (!json_equal(asset->root, saving->root)) /* without its old padding */
             while (length && text[length - 1] == ' ') length--;
         head = container_head((Span){(unsigned char *)text, length}, bin, behind.size, &head_size);
         saving_bytes(saving, behind.data, behind.size);

@@ -1,4 +1,4 @@
-/* save.c - weft_scene_save: a scene becomes a .glb, or a .gltf with files beside it
+/* save.c - weft_scene_save: writes a scene as a .glb, or as a .gltf with files beside it
  *
  * Specification: Khronos Group, "glTF 2.0 Specification", 2021, and its extension registry. */
 #include "weft/save.h"
@@ -24,7 +24,7 @@ static void root_save(Saving *saving) {
 
 static void buffer_save(Saving *saving) {
     json_t *buffer = json_object();
-    if (!saving->size) { /* which would be an empty buffer */
+    if (!saving->size) { /* glTF forbids an empty buffer */
         json_decref(buffer);
         return;
     }
@@ -49,7 +49,7 @@ static void container_write(Saving *saving, const char *text) {
     free(head);
 }
 
-/* The file that names all others comes last. */
+/* Writes the file that names all others, after them. */
 static void file_write(Saving *saving) {
     size_t layout = saving->packed ? JSON_COMPACT : JSON_INDENT(1);
     char *text = json_dumps(saving->root, layout | JSON_REAL_PRECISION(17));

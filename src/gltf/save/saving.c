@@ -25,7 +25,7 @@ void saving_append(Saving *saving, json_t *array, json_t *value) {
 }
 
 void saving_name(Saving *saving, json_t *object, const char *name) {
-    json_t *text = name[0] ? json_string(name) : NULL; /* NULL too of what is no UTF-8 */
+    json_t *text = name[0] ? json_string(name) : NULL; /* NULL also if it is no UTF-8 */
     if (text) saving_put(saving, object, "name", text);
 }
 
@@ -39,7 +39,7 @@ json_t *saving_floats(const float *values, int count) {
     return array;
 }
 
-/* A member of that kind, made where there is none. */
+/* Returns a member of an object, created with make if it is missing. */
 static json_t *member(Saving *saving, json_t *object, const char *key, json_t *(*make)(void)) {
     if (!json_object_get(object, key)) saving_put(saving, object, key, make());
     return json_object_get(object, key);
@@ -63,28 +63,28 @@ void saving_extend(Saving *saving, json_t *object, const char *name, json_t *val
     saving_put(saving, member(saving, object, "extensions", json_object), name, value);
 }
 
-/* Makes room for `more` bytes; returns false if memory is short. */
-static bool make_room(Saving *saving, size_t more) {
+/* Allocates space for `more` bytes. Returns false if memory is short. */
+static bool grow(Saving *saving, size_t more) {
     const size_t most = (size_t)4000 << 20; /* of a .glb, whose sizes are 32-bit numbers */
     if (more > most - saving->size) {
         saving_fail(saving, WEFT_MESSAGE_FILE_WRITE, saving->path, "it would have more than 4 GB");
         return false;
     }
-    if (saving->size + more <= saving->room) return true;
-    size_t room = 2 * saving->room > saving->size + more ? 2 * saving->room : saving->size + more;
-    unsigned char *grown = realloc_array(saving->bytes, room, 1);
+    if (saving->size + more <= saving->capacity) return true;
+    size_t capacity = 2 * saving->capacity > saving->size + more ? 2 * saving->capacity : saving->size + more;
+    unsigned char *grown = realloc_array(saving->bytes, capacity, 1);
     if (!grown) {
         no_memory(saving);
         return false;
     }
     saving->bytes = grown;
-    saving->room = room;
+    saving->capacity = capacity;
     return true;
 }
 
 void saving_bytes(Saving *saving, const void *data, size_t size) {
     size_t padding = (4 - size % 4) % 4;
-    if (!size || saving->result != WEFT_OK || !make_room(saving, size + padding)) return;
+    if (!size || saving->result != WEFT_OK || !grow(saving, size + padding)) return;
     memcpy(saving->bytes + saving->size, data, size);
     memset(saving->bytes + saving->size + size, 0, padding);
     saving->size += size + padding;
@@ -110,7 +110,8 @@ char *saving_beside(Saving *saving, const char *end) {
     return path;
 }
 
-/* IETF, RFC 3986 "Uniform Resource Identifier", 2005, section 2.3: what need not be encoded. */
+/* Returns true if a character need not be encoded: IETF, RFC 3986 "Uniform Resource Identifier", 2005,
+ * section 2.3. */
 static bool is_unreserved(unsigned char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
            (c && strchr("-._~", c));

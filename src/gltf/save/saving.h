@@ -1,6 +1,7 @@
-/* saving.h - one scene while it is written as glTF: the JSON so far, and the bytes it speaks of
+/* saving.h - a scene while it is written as glTF: the JSON so far, and the bytes of its buffer
  *
- * Failures are sticky, as in asset.h: the first is kept, writers go on, and the end asks saving->result. */
+ * Failures are sticky, as in asset.h: saving->result keeps the first, writers go on, and the caller tests it
+ * at the end. */
 #ifndef WEFT_GLTF_SAVING_H
 #define WEFT_GLTF_SAVING_H
 
@@ -11,58 +12,60 @@
 typedef struct Saving {
     const WeftScene *scene;
     const char *path;
-    bool packed; /* .glb: everything is in one file; else a .bin and pictures are beside it */
+    bool packed; /* .glb: everything is in one file; else a .bin and images are beside it */
     WeftResult result;
     WeftError *error;
     json_t *root;
-    unsigned char *bytes; /* of the buffer */
-    size_t size, room;
+    unsigned char *bytes; /* of the buffer; `capacity` of them are allocated */
+    size_t size, capacity;
     Arena arena;
-    int *texture_order,
-        *texture_number;             /* the scene's textures that are used; of each its number here, or -1 */
-    int *image_order, *image_number; /* the same of images */
+    int *texture_order;  /* the textures of the scene that are used, in the order of the file */
+    int *texture_number; /* of each texture of the scene, its number in the file, or -1 */
+    int *image_order;    /* the same for images */
+    int *image_number;
     int texture_count, image_count;
 } Saving;
 
 void saving_fail(Saving *saving, WeftMessage message, const char *subject, const char *detail);
 
-/* object[key] = value, which is taken over; NULL is a want of memory. */
+/* Sets object[key] to value, which it takes over. A value of NULL is a failure to allocate. */
 void saving_put(Saving *saving, json_t *object, const char *key, json_t *value);
 void saving_append(Saving *saving, json_t *array, json_t *value);
 
-/* "name", unless it is empty. */
+/* Sets object.name, unless name is empty or no UTF-8. */
 void saving_name(Saving *saving, json_t *object, const char *name);
 
-/* count numbers, exactly. */
+/* Returns an array of count numbers, each the exact value of the float. */
 json_t *saving_floats(const float *values, int count);
 
-/* The list of that name at the root, made when first asked for; borrowed, NULL after a failure. */
+/* Returns the array of that name at the root, created on first use; borrowed, NULL after a failure. */
 json_t *saving_list(Saving *saving, const char *name);
 
-/* Notes that an extension is used, once. */
+/* Adds an extension to extensionsUsed, unless it is there. */
 void saving_uses(Saving *saving, const char *extension);
 
-/* object.extensions[name] = value. */
+/* Sets object.extensions[name] to value, and adds the extension to extensionsUsed. */
 void saving_extend(Saving *saving, json_t *object, const char *name, json_t *value);
 
-/* Puts bytes at the end of the buffer, and zeros up to a multiple of 4. */
+/* Appends bytes to the buffer, and zeros up to a multiple of 4. */
 void saving_bytes(Saving *saving, const void *data, size_t size);
 
-/* Puts bytes at the end of the buffer, aligned to 4, as a view of their own: its index. target: of the
+/* Appends bytes to the buffer, aligned to 4, with a view of their own, whose index it returns. target: of the
  * specification, 0: none. */
 int saving_view(Saving *saving, const void *data, size_t size, int target);
 
-/* The parts, in the order in which they refer to one another. */
+/* Saves the parts, which are called in this order, because later ones refer to earlier ones. */
 void textures_save(Saving *saving);
 void materials_save(Saving *saving);
 void nodes_save(Saving *saving);
 
-/* A file beside the one that is written, called like it but for `end` in the place of its suffix, in the
- * arena; and how its JSON calls it. */
+/* Returns the path of a file beside the one that is written, with the same name but `end` instead of its
+ * suffix; the second function returns how the JSON refers to a path. Both are in the arena, NULL after a
+ * failure. */
 char *saving_beside(Saving *saving, const char *end);
 char *saving_uri(Saving *saving, const char *path);
 
-/* Writes a whole file, complete or not at all. */
+/* Writes a file, completely or not at all. */
 void saving_write(Saving *saving, const char *path, const void *head, size_t head_size, const void *body,
                   size_t body_size);
 

@@ -6,7 +6,8 @@
 #include "gltf/save/saving.h"
 #include "image/codec.h"
 
-/* Numbers what an input looks up: in the order in which a reader comes upon it, so that it numbers alike. */
+/* Gives numbers to the texture and the image of an input, in the order in which a reader finds them, so that
+ * it numbers them alike. */
 static void number_texture(Saving *saving, const Input *input) {
     if (!input->texture) return;
     int texture = input->texture - 1, image = saving->scene->textures[texture].image;
@@ -37,7 +38,7 @@ static bool number_all(Saving *saving) {
         for (int v = 0; v < scene->variant_count && mesh->variant_material; v++)
             if (mesh->variant_material[v] >= 0) used[mesh->variant_material[v]] = true;
     }
-    for (int idle = 0; idle < 2; idle++) /* what nobody wears comes last */
+    for (int idle = 0; idle < 2; idle++) /* unused materials come last */
         for (int m = 0; m < scene->material_count; m++)
             for (int k = 0; k < INPUT_COUNT && used[m] == !idle; k++)
                 number_texture(saving, &scene->materials[m].inputs[k]);
@@ -45,7 +46,7 @@ static bool number_all(Saving *saving) {
 }
 
 static void sampler_put(Saving *saving, const Texture *texture, json_t *object) {
-    static const int wraps[] = {10497, 33648, 33071}; /* as TextureWrap; of the specification */
+    static const int wraps[] = {10497, 33648, 33071}; /* indexed by TextureWrap; of the specification */
     enum { NEAREST = 9728 };
     if (texture->wrap_u == WRAP_REPEAT && texture->wrap_v == WRAP_REPEAT && !texture->nearest) return;
     json_t *list = saving_list(saving, "samplers"), *sampler = json_object(), *other;
@@ -64,7 +65,7 @@ static void sampler_put(Saving *saving, const Texture *texture, json_t *object) 
     saving_put(saving, object, "sampler", json_integer((json_int_t)index));
 }
 
-/* Without loss: what has 8 or 16 bits as PNG, floats as NumPy's array. Release with free(). */
+/* Encodes an image without loss: 8 or 16 bits as PNG, floats as a NumPy array. Release with free(). */
 static char *encode(Saving *saving, const WeftImage *image, size_t *size) {
     const WeftImageWriting how = {.data = 1};
     char *bytes = NULL;
