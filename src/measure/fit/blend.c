@@ -9,7 +9,7 @@ typedef struct Normal {
     double a[BLEND_MOST][BLEND_MOST], b[BLEND_MOST];
 } Normal;
 
-/* Sum w x y, as LANES sums that do not wait for each other. */
+/* Returns the sum of w x y, computed as LANES independent sums. */
 static double dot(const float *w, const float *x, const float *y, int count) {
     enum { LANES = 8 };
     double sums[LANES] = {0.0}, sum = 0.0;
@@ -29,7 +29,8 @@ static void normal_make(Normal *normal, int columns, const float *const column[]
     }
 }
 
-/* Gauss elimination of the columns in `active`, a set of bits. False where they depend on each other. */
+/* Solves for the columns in `active`, a set of bits, by Gauss elimination. Returns false if they are linearly
+ * dependent. */
 static bool solve_active(const Normal *normal, int columns, unsigned active, double *weights) {
     double m[BLEND_MOST][BLEND_MOST + 1];
     int index[BLEND_MOST], n = 0;
@@ -56,7 +57,7 @@ static bool solve_active(const Normal *normal, int columns, unsigned active, dou
     return true;
 }
 
-/* Least squares without negative weights: of so few columns every set can be tried. */
+/* Solves least squares without negative weights, by trying every set of columns, since there are few. */
 static void solve_positive(const Normal *normal, int columns, double *weights) {
     double least = 1e300;
     for (unsigned active = 0; active < 1u << columns; active++) {
@@ -73,7 +74,7 @@ static void solve_positive(const Normal *normal, int columns, double *weights) {
     }
 }
 
-/* x of the blend. */
+/* Computes x of the blend. */
 static void blend_add(const Blend *blend, int count, int c, const double *weights, float *x) {
     const float *fixed = blend->fixed[c];
     for (int k = 0; k < count; k++) x[k] = fixed ? fixed[k] : 0.0f;
@@ -84,7 +85,8 @@ static void blend_add(const Blend *blend, int count, int c, const double *weight
     }
 }
 
-/* d goal / dx at x; above what is displayed some is left, so that it is not forgotten. */
+/* Returns d goal / dx at x. Above the displayable range a small slope remains, so that such samples are not
+ * ignored. */
 static inline float goal_slope(WeftBrdfMetric metric, float scale, float x) {
     if (metric == WEFT_BRDF_METRIC_COSINE) return 1.0f;
     if (metric == WEFT_BRDF_METRIC_LOG) return 1.0f / (scale + x);
@@ -92,8 +94,9 @@ static inline float goal_slope(WeftBrdfMetric metric, float scale, float x) {
     return y > 1.0f ? 0.1f : y <= 0.0031308f ? 40.0f : 1.381f * powf(y, -1.4f / 2.4f);
 }
 
-/* A sample's weight in least squares: so that its square counts for what its size does. `soft` keeps those that are met
- * from counting for everything. The metric is a constant wherever this is inlined. */
+/* Computes the weights of samples in least squares, so that a square counts like an absolute difference.
+ * `soft` limits the weight of samples that are already matched. The metric is a constant wherever this is
+ * inlined. */
 static inline void weigh_by(WeftBrdfMetric metric, const Samples *self, int count, int c, const float *x,
                             float soft, float *w) {
     const float *from = self->x[c], *weight = self->weight;

@@ -13,7 +13,8 @@
 
 enum { NUMBERS = 7, LINE_MOST = 400 };
 
-/* Direction from degrees; the cosine is the sine of the rest to 90, so that it is exactly 0 there. */
+/* Returns a direction from degrees. The cosine is computed as the sine of 90 - theta, so that it is exactly 0
+ * at 90. */
 static void direction(double theta, double phi, float w[3]) {
     const double radians = RADIANS;
     w[0] = (float)(sin(theta * radians) * cos(phi * radians));
@@ -41,7 +42,7 @@ static int line_numbers(const char *line, float numbers[NUMBERS], const char **r
     }
 }
 
-/* A line of names, which may stand above the numbers. */
+/* Returns true if a line has names, which may be above the numbers. */
 static bool is_header(const char *line) {
     return strchr("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_\"", line[strspn(line, " \t\r")]) !=
            NULL;
@@ -84,8 +85,8 @@ static WeftResult take_line(BrdfTable *table, const char *line, int number, bool
     return WEFT_OK;
 }
 
-/* Room for so many samples is enough: of each line at most one, and of all no more than a table may have. */
-static size_t room_for(const char *text, size_t size) {
+/* Returns a number of samples that is enough: at most one a line, and no more than a table may have. */
+static size_t capacity_for(const char *text, size_t size) {
     size_t count = 1;
     for (size_t k = 0; k < size && count < BRDF_TABLE_ROWS; k++) count += text[k] == '\n';
     return count;
@@ -113,10 +114,10 @@ static WeftResult take_lines(BrdfTable *table, const char *text, size_t size, co
 WeftResult brdf_table_read(const char *text, size_t size, const char *name, BrdfTable *out,
                            WeftError *error) {
     *out = (BrdfTable){0};
-    size_t mark = mark_size(text, size), room = room_for(text, size);
-    out->wo = alloc_array(room, sizeof *out->wo);
-    out->wi = alloc_array(room, sizeof *out->wi);
-    out->f = alloc_array(room, sizeof *out->f);
+    size_t mark = mark_size(text, size), capacity = capacity_for(text, size);
+    out->wo = alloc_array(capacity, sizeof *out->wo);
+    out->wi = alloc_array(capacity, sizeof *out->wi);
+    out->f = alloc_array(capacity, sizeof *out->f);
     if (!out->wo || !out->wi || !out->f) return fail(error, WEFT_MESSAGE_MEMORY, name, NULL);
     return take_lines(out, text + mark, size - mark, name, error);
 }

@@ -6,7 +6,7 @@
 
 #include "weft/result.h"
 
-/* wo, wi and f of each line; f is -1 in all channels where one of its numbers is negative. */
+/* The wo, wi and f of each line. f is -1 in all channels if one of its numbers is negative. */
 typedef struct BrdfTable {
     int count;
     float (*wo)[3], (*wi)[3], (*f)[3];
@@ -14,7 +14,7 @@ typedef struct BrdfTable {
 
 enum { BRDF_TABLE_ROWS = 1000000 };
 
-/* Fails with WEFT_MESSAGE_BRDF_TABLE or _MEMORY; release with brdf_table_free in any case. */
+/* Reads a table. Fails with WEFT_MESSAGE_BRDF_TABLE or _MEMORY; release with brdf_table_free in any case. */
 WeftResult brdf_table_read(const char *text, size_t size, const char *name, BrdfTable *out, WeftError *error);
 void brdf_table_free(BrdfTable *table);
 

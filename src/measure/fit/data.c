@@ -17,7 +17,7 @@ struct WeftData {
     float (*wo)[3], (*wi)[3], (*f)[3];
 };
 
-/* The cosine of 80 degrees: what is lower grazes. */
+/* The cosine of 80 degrees: samples at smaller cosines are skipped. */
 static const float cosine_least = 0.17364818f;
 enum { SAMPLES_LEAST = 16 };
 
@@ -40,7 +40,7 @@ int weft_data_count(const WeftData *self, int *all) {
     return self->count;
 }
 
-/* A step that meets every one of count before any for the second time. */
+/* Returns a step that visits each of count items before any for the second time. */
 static size_t step_through(size_t count) {
     size_t step = (size_t)((double)count * 0.6180339887498949) | 1u;
     for (;; step++) {
@@ -58,13 +58,13 @@ static bool is_measured(const float f[3]) {
     return f[0] >= 0.0f && f[1] >= 0.0f && f[2] >= 0.0f && f[0] + f[1] + f[2] < 1e30f;
 }
 
-/* The skipped samples, and whether any other is above 0. */
+/* The numbers of skipped samples, and whether any other is above 0. */
 typedef struct Passed {
     int unmeasured, grazing;
     bool any;
 } Passed;
 
-/* In an order in which any first part stands for all. */
+/* Copies the samples in an order in which any first part is representative of all. */
 static Passed take_samples(WeftData *self, const float (*wo)[3], const float (*wi)[3], const float (*f)[3]) {
     size_t n = (size_t)self->all, step = step_through(n), at = 0;
     Passed passed = {.any = false};
@@ -99,7 +99,7 @@ static WeftResult check_samples(const WeftData *self, const Passed *passed, cons
     return WEFT_OK;
 }
 
-/* Makes data from a file of that name, or from a caller if message is DESC. */
+/* Makes data from samples that a file of that name or, if message is DESC, a caller has. */
 static WeftResult data_make(int count, const float (*wo)[3], const float (*wi)[3], const float (*f)[3],
                             bool isotropic, const char *name, WeftMessage message, WeftData **out,
                             WeftError *error) {
@@ -131,8 +131,8 @@ WeftResult weft_data_create(int count, const float (*wo)[3], const float (*wi)[3
     return data_make(count, wo, wi, f, isotropic != 0, "samples", WEFT_MESSAGE_DESC, out, error);
 }
 
-/* The directions of a place in MERL's coordinates, turned about the normal by phi. Szymon Rusinkiewicz, "A
- * New Change of Variables for Efficient BRDF Representation", 1998. */
+/* Finds the directions of a place in MERL's coordinates, rotated about the normal by phi. Szymon
+ * Rusinkiewicz, "A New Change of Variables for Efficient BRDF Representation", 1998. */
 static void rusinkiewicz(double th, double td, double pd, double phi, float wo[3], float wi[3]) {
     double x = (sin)(td) * (cos)(pd), y = (sin)(td) * (sin)(pd), z = (cos)(td);
     double i[3] = {(cos)(th)*x + (sin)(th)*z, y, (cos)(th)*z - (sin)(th)*x};
@@ -145,14 +145,15 @@ static void rusinkiewicz(double th, double td, double pd, double phi, float wo[3
 
 enum { SIDE_H = 24, SIDE_D = 24, SIDE_P = 12, SAMPLES = SIDE_H * SIDE_D * SIDE_P };
 
-/* The middle of the bin that stands for cell k of n. */
+/* Returns the middle of the bin that represents cell k of n. */
 static double middle(int k, int n, int bins, int *bin) {
     *bin = (int)((k + 0.5) * bins / n);
     return (*bin + 0.5) / bins;
 }
 
-/* f at a grid of half vectors and differences, of which each pair is turned by another azimuth: what is not
- * isotropic will not fit by chance. Of MERL's the bins themselves. */
+/* Fills samples of f at a grid of half vectors and differences. Each pair is rotated by another azimuth, so
+ * that data that are not isotropic do not fit an isotropic lobe by chance. For MERL the values are those of
+ * the bins. */
 static void grid_samples(const Measured *measured, float (*wo)[3], float (*wi)[3], float (*f)[3]) {
     const Merl *merl = &measured->merl;
     const double half_pi = 0.5 * PI_DOUBLE;

@@ -9,7 +9,7 @@
 
 enum { UNKNOWNS = SHAPE_TERMS * SHAPE_TERMS };
 
-/* A sample: where it is in the square, f cos_i, and what it weighs in a least square. */
+/* A sample: its place in the square, its f, the mean of f, and its weight in least squares. */
 typedef struct LobePoint {
     double x, y, cos_i, f[3], mean, weight;
 } LobePoint;
@@ -19,13 +19,14 @@ static void square_of(double sin2_h, double cos_d, double *x, double *y) {
     *y = 2.0 * sqrt(fmin(fmax(1.0 - cos_d, 0.0), 1.0)) - 1.0;
 }
 
-/* T_0 .. of x, of the first kind: polynomials of which none is nearly a sum of the others. */
+/* Evaluates the Chebyshev polynomials T_0 .. T_(count - 1) at x, none of which is nearly a sum of the
+ * others. */
 static void chebyshev(double x, int count, double *t) {
     t[0] = 1.0, t[1] = x;
     for (int k = 2; k < count; k++) t[k] = 2.0 * x * t[k - 1] - t[k - 2];
 }
 
-/* Normal equations of a polynomial of terms x terms, kept tame where there are no samples. */
+/* Normal equations of a polynomial of terms x terms, regularized where there are no samples. */
 typedef struct Equations {
     int terms;
     double a[UNKNOWNS][UNKNOWNS], b[UNKNOWNS];
@@ -43,7 +44,8 @@ static void equations_add(Equations *self, const LobePoint *point, double weight
     }
 }
 
-/* Andre-Louis Cholesky's factors; a share of each diagonal that grows with the degree is added first. */
+/* Solves the equations by Andre-Louis Cholesky's factors, after adding to each diagonal a part that grows
+ * with the degree. */
 static void equations_solve(Equations *self, double *x) {
     const int n = self->terms * self->terms;
     double mean = 0.0;
@@ -70,7 +72,7 @@ static void equations_solve(Equations *self, double *x) {
     }
 }
 
-/* Sums of Chebyshev's polynomials as powers, which a text multiplies out. */
+/* Converts sums of Chebyshev polynomials to sums of powers, which the lobe's text contains. */
 static void powers_of(const double *x, int terms, double *out) {
     double t[SHAPE_TERMS][SHAPE_TERMS] = {{1.0}, {0.0, 1.0}};
     for (int k = 2; k < terms; k++)
@@ -125,7 +127,7 @@ static LobePoint point_of(const WeftData *data, int k) {
     return point;
 }
 
-/* The fit at work. */
+/* The state of a fit. */
 typedef struct LobeFitting {
     int count;
     LobePoint *points;
@@ -133,8 +135,8 @@ typedef struct LobeFitting {
     Equations equations;
 } LobeFitting;
 
-/* ln f, by least absolute differences of g = ln(1 + f cos_i / m): squares of ln f, weighed anew some times by
- * the slope of g and by how far each was off. */
+/* Fits P to ln f, with least absolute differences of g = ln(1 + f cos_i / m): least squares of ln f, repeated
+ * with weights from the slope of g and the previous residuals. */
 static void shape_fit(LobeFitting *self, DataLobe *out) {
     enum { ROUNDS = 8 };
     double x[UNKNOWNS];
@@ -154,7 +156,7 @@ static void shape_fit(LobeFitting *self, DataLobe *out) {
     }
 }
 
-/* The two colours for given shares, by least squares of the samples' colours over their mean. */
+/* Fits the two colours for given shares, by least squares of the colours of the samples over their mean. */
 static void colors_fit(const LobeFitting *self, DataLobe *out) {
     double a = 0.0, b = 0.0, c = 0.0, p[3] = {0.0}, q[3] = {0.0};
     for (int k = 0; k < self->count; k++) {
@@ -175,7 +177,7 @@ static void colors_fit(const LobeFitting *self, DataLobe *out) {
     }
 }
 
-/* The shares for given colours: where each sample's colour is nearest to the line between them. */
+/* Fits the shares for given colours: for each sample the nearest point on the line between them. */
 static void shares_fit(LobeFitting *self, DataLobe *out) {
     double x[UNKNOWNS] = {0.0}, across = 0.0;
     for (int c = 0; c < 3; c++) across += (out->f90[c] - out->f0[c]) * (out->f90[c] - out->f0[c]);
@@ -207,19 +209,19 @@ static double error_of(const LobeFitting *self, const DataLobe *lobe) {
     return off / all;
 }
 
-/* Directions of the hemisphere, even in solid angle, and sums over them. */
-enum { RINGS = 64, TURNS = 64 };
+/* Directions of the hemisphere, uniform in solid angle, and sums over them. */
+enum { RINGS = 64, AZIMUTHS = 64 };
 typedef struct LobeSums {
-    double e, squares; /* E, and the mean square of f cos_i / pdf */
+    double e, squares; /* E, and the integral of (f cos_i)^2 / pdf */
 } LobeSums;
 
 static LobeSums sums_at(const DataLobe *lobe, double cos_o, double alpha) {
     LobeSums sums = {0.0, 0.0};
-    const double area = 2.0 * PI_DOUBLE / (RINGS * TURNS), sin_o = sqrt(1.0 - cos_o * cos_o),
+    const double area = 2.0 * PI_DOUBLE / (RINGS * AZIMUTHS), sin_o = sqrt(1.0 - cos_o * cos_o),
                  a2 = alpha * alpha;
-    for (int k = 0; k < RINGS * TURNS; k++) {
-        const int ring = k / TURNS;
-        const double z = (ring + 0.5) / RINGS, phi = 2.0 * PI_DOUBLE * (k % TURNS + 0.5) / TURNS,
+    for (int k = 0; k < RINGS * AZIMUTHS; k++) {
+        const int ring = k / AZIMUTHS;
+        const double z = (ring + 0.5) / RINGS, phi = 2.0 * PI_DOUBLE * (k % AZIMUTHS + 0.5) / AZIMUTHS,
                      r = sqrt(1.0 - z * z);
         const double hx = r * cos(phi) + sin_o, hy = r * sin(phi), hz = z + cos_o,
                      length2 = hx * hx + hy * hy + hz * hz, cos2 = hz * hz / length2;
@@ -232,7 +234,7 @@ static LobeSums sums_at(const DataLobe *lobe, double cos_o, double alpha) {
     return sums;
 }
 
-/* k, and the width of samples with the least variance over some directions. */
+/* Sets k, and the width of sampling that has the least variance over some directions. */
 static void scale_and_width(DataLobe *lobe) {
     static const double cosines[] = {1.0, 0.9, 0.7, 0.5, 0.3, 0.15, 0.07, 0.03, 0.01},
                         widths[] = {0.08, 0.15, 0.25, 0.4, 0.6, 0.9};
@@ -252,7 +254,7 @@ static void scale_and_width(DataLobe *lobe) {
 }
 
 static void fit(LobeFitting *self, DataLobe *out) {
-    enum { TURNS_ABOUT = 6 };
+    enum { ALTERNATIONS = 6 };
     double low = 1e300, high = 0.0;
     for (int k = 0; k < self->count; k++) {
         self->middle += self->points[k].mean * self->points[k].cos_i / self->count;
@@ -261,8 +263,8 @@ static void fit(LobeFitting *self, DataLobe *out) {
     }
     *out = (DataLobe){.low = log(fmax(low, 1e-4 * self->middle)), .high = log(high)};
     shape_fit(self, out);
-    out->share[0][0] = 0.5, out->share[1][0] = 0.5; /* at first as theta_d grows */
-    for (int turn = 0; turn < TURNS_ABOUT; turn++) {
+    out->share[0][0] = 0.5, out->share[1][0] = 0.5; /* at first s grows with theta_d */
+    for (int k = 0; k < ALTERNATIONS; k++) {
         colors_fit(self, out);
         shares_fit(self, out);
     }

@@ -15,19 +15,20 @@
 enum { SHAPE_TERMS = 8, SHARE_TERMS = 4 };
 
 typedef struct DataLobe {
-    double shape[SHAPE_TERMS][SHAPE_TERMS]; /* of P: [power of y][power of x] */
-    double share[SHARE_TERMS][SHARE_TERMS]; /* of Q */
-    double low, high;                       /* ln f of the data: P ends there */
+    double shape[SHAPE_TERMS][SHAPE_TERMS]; /* P: [power of y][power of x] */
+    double share[SHARE_TERMS][SHARE_TERMS]; /* Q */
+    double low, high;                       /* range of ln f in the data, to which P is clamped */
     double scale;                           /* k */
     double f0[3], f90[3];
-    double alpha; /* of half the samples: half vectors by ggx; the rest by the cosine */
-    double error; /* the log error of weft/fit.h */
+    double alpha; /* of sampling: half by half vectors of ggx, half by the cosine */
+    double error; /* the log error, as in weft/fit.h */
 } DataLobe;
 
-/* Fits the polynomials and colours. False where memory is short. */
+/* Fits the polynomials and colours. Returns false if memory is short. */
 bool data_lobe_fit(const WeftData *data, DataLobe *out);
 
-/* exp(P) and s at a pair with wi . h = cos_d and that squared sine of theta_h. */
+/* Returns exp(P), and the second function s, at a pair with wi . h = cos_d and the squared sine sin2_h of
+ * theta_h. */
 double data_lobe_shape(const DataLobe *lobe, double sin2_h, double cos_d);
 double data_lobe_share(const DataLobe *lobe, double sin2_h, double cos_d);
 

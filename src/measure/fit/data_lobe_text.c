@@ -1,4 +1,4 @@
-/* data_lobe_text.c - a fitted measurement as the file of a lobe, which --lobe takes */
+/* data_lobe_text.c - the text of a lobe's file for a fitted measurement, which --lobe reads */
 #include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,7 +12,8 @@ typedef struct DataLobeNames {
     char low[48], upper[48], record[48];
 } DataLobeNames;
 
-/* Letters, digits and _ that begin with a letter, as a lobe's file is called. */
+/* Derives the names of a lobe's file: letters, digits and _, a letter first. Returns false if the name is not
+ * of this form. */
 static bool names_of(const char *name, DataLobeNames *out) {
     size_t length = strlen(name), r = 0;
     bool next = true;
@@ -29,7 +30,7 @@ static bool names_of(const char *name, DataLobeNames *out) {
     return true;
 }
 
-/* Rows of Horner's rule over x, and one over y of the rows. */
+/* Writes a polynomial by Horner's rule: a row in x for each power of y, and their sum. */
 static void put_polynomial(FILE *out, const char *rows, const char *result, const double *powers, int terms) {
     for (int j = 0; j < terms; j++) {
         fprintf(out, "    float %s%d = ", rows, j);
@@ -44,8 +45,8 @@ static void put_polynomial(FILE *out, const char *rows, const char *result, cons
     fputs(";\n", out);
 }
 
-/* Words within a comment: none may end it. */
-static void put_words(FILE *out, const char *words) {
+/* Writes words within a comment, without the characters that can end it. */
+static void put_text(FILE *out, const char *words) {
     for (size_t k = 0; words[k] && k < 400; k++)
         fputc(iscntrl((unsigned char)words[k]) || words[k] == '*' ? '?' : words[k], out);
 }
@@ -56,7 +57,7 @@ static void put_comment(FILE *out, const DataLobeNames *names, const char *about
             " *   f = k exp(P(x, y)) (f0 (1 - s) + f90 s),   s = Q(x, y) in [0, 1]                [1/sr]\n"
             " *   x = 2 sqrt(sin_h) - 1,   y = 2 sqrt(1 - wi . h) - 1\n *\n");
     fputs(" *   ", out);
-    put_words(out, about);
+    put_text(out, about);
     fprintf(out,
             ", 2026. The polynomials P and Q are fitted;\n"
             " * the log error of the fit over the data is %.4f.\n",

@@ -29,7 +29,7 @@ typedef struct FitWork {
     int count;
     WeftFitted fitted[WEFT_FITTED_MOST + 1]; /* the last is the baseline */
     WeftResult results[WEFT_FITTED_MOST + 1];
-    bool isotropic, weave; /* weave: the one candidate is warp and weft, both of lobe woven */
+    bool isotropic, weave; /* weave: the only candidate is warp over weft, both of lobe woven */
     LoopWatch watch;
 } FitWork;
 
@@ -49,7 +49,7 @@ static void finalists_add(Finalists *self, const LobeFound *found) {
     self->found[at] = *found;
 }
 
-/* The next of all that choices may be put together to; false after the last. */
+/* Steps the lobe to the next combination of its choices. Returns false after the last. */
 static bool next_choices(WeftLobe *lobe) {
     const WeftLobeInfo *info = weft_lobe_info(lobe->lobe);
     for (int k = 0; k < info->param_count; k++) {
@@ -62,7 +62,7 @@ static bool next_choices(WeftLobe *lobe) {
     return false;
 }
 
-/* Picks the terms that a lobe may be put together of: D, V and F. */
+/* Picks the best combinations of choices of a composed lobe: D, V and F. */
 static WeftResult pick_choices(const LobeSearch *search, const WeftLobe *lobe, Finalists *best) {
     const WeftLobeInfo *info = weft_lobe_info(lobe->lobe);
     LobeFound found = {.lobe = *lobe};
@@ -82,7 +82,7 @@ static WeftResult pick_choices(const LobeSearch *search, const WeftLobe *lobe, F
     return result;
 }
 
-/* The best that a lobe can do, with its choices as they are or as others. */
+/* Fits a lobe, with the choices that it has and with the best others. */
 static WeftResult fit_lobe(const LobeSearch *search, LobeFound *out) {
     Finalists best;
     WeftResult result = pick_choices(search, &out->lobe, &best);
@@ -227,7 +227,8 @@ static WeftResult work_run(FitWork *work, WeftFit *out, WeftError *error) {
     return WEFT_OK;
 }
 
-/* Makes samples for the metric of desc, which must be log or cosine. Release them with samples_free in any case. */
+/* Makes samples for the metric of desc, which must be log or cosine. Release them with samples_free in any
+ * case. */
 static WeftResult samples_of(const WeftData *data, const WeftFitDesc *desc, Samples *samples,
                              WeftError *error) {
     WeftBrdfMetric metric = desc->chosen ? desc->metric : WEFT_BRDF_METRIC_LOG;
@@ -272,7 +273,7 @@ WeftResult weft_data_distance(const WeftData *data, const WeftFitDesc *desc, con
     if (result == WEFT_OK && !samples_create(&other, samples.count, samples.metric))
         result = fail(error, WEFT_MESSAGE_MEMORY, "a fit", NULL);
     if (result == WEFT_OK) {
-        samples_ask(&samples, reflection, WEFT_PART_ALL, other.x);
+        samples_eval(&samples, reflection, WEFT_PART_ALL, other.x);
         *distance = samples_distance(&samples, samples.count, (const float *const *)other.x);
     }
     samples_free(&samples);

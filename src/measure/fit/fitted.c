@@ -1,4 +1,4 @@
-/* fitted.c - a fitted lobe over its base: what is worth a note about it, and the material that has it */
+/* fitted.c - a fitted lobe over its base: notes on its plausibility, and the material that has it */
 #include "measure/fit/fitted.h"
 
 #include <math.h>
@@ -7,7 +7,7 @@
 #include "shading/catalogue/registry.h"
 #include "shading/material/choice.h"
 
-/* Parameters that are inputs of a material by themselves. */
+/* Parameters that have an input of their own. */
 static const struct {
     const char *param;
     InputId input;
@@ -20,14 +20,15 @@ unsigned params_without_input(const WeftLobe *lobe) {
     const WeftLobeInfo *info = weft_lobe_info(lobe->lobe);
     unsigned bits = 0;
     for (int k = 1; k < info->param_count; k++) {
-        bool said = info->params[k].choices != NULL;
-        for (size_t n = 0; n < NAMED; n++) said = said || strcmp(info->params[k].name, named[n].param) == 0;
-        if (!said) bits |= 1u << k;
+        bool has_input = info->params[k].choices != NULL;
+        for (size_t n = 0; n < NAMED; n++) has_input |= strcmp(info->params[k].name, named[n].param) == 0;
+        if (!has_input) bits |= 1u << k;
     }
     return bits;
 }
 
-/* Returns true if a parameter is not its default and lies at an end of its plausible range, or of what is possible. */
+/* Returns true if a parameter is not its default and lies at an end of its plausible range or, with `hard`,
+ * of its hard range. */
 static bool at_edge(const WeftLobe *lobe, bool hard) {
     const WeftLobeInfo *info = weft_lobe_info(lobe->lobe);
     for (int k = 0; k < info->param_count; k++) {
@@ -60,7 +61,8 @@ unsigned weft_fitted_notes(const WeftFitted *fitted) {
     return notes;
 }
 
-/* The roughness of which a lobe makes that first parameter; it grows with it, or falls. */
+/* Returns the roughness at which lobe_rough gives the lobe its first parameter, which grows or falls with
+ * roughness. */
 static float roughness_of(const WeftLobe *lobe) {
     double low = 0.0, high = 2.0;
     float first = lobe_rough(lobe->lobe, 0.0f).params[0], last = lobe_rough(lobe->lobe, 2.0f).params[0];
@@ -78,7 +80,7 @@ static void input_set(WeftMaterial *material, InputId input, const float *values
     material->inputs[input].given = 1;
 }
 
-/* The terms of a lobe that is put together. */
+/* Chooses the terms of a composed lobe: D, V and F. */
 static void choose_terms(const WeftLobe *lobe, WeftMaterial *out) {
     static const struct {
         const char *param;
@@ -90,31 +92,32 @@ static void choose_terms(const WeftLobe *lobe, WeftMaterial *out) {
     }
 }
 
-/* Returns true if both have the same parameters. */
-static bool is_same(const Lobe *said, const WeftLobe *lobe) {
+/* Returns true if both have the same parameters, within 1e-4. */
+static bool is_same(const Lobe *expressed, const WeftLobe *lobe) {
     bool same = true;
     for (int k = 0; k < weft_lobe_info(lobe->lobe)->param_count; k++)
-        same &= fabsf(said->params[k] - lobe->params[k]) <= 1e-4f * (fabsf(lobe->params[k]) + 1e-3f);
+        same &= fabsf(expressed->params[k] - lobe->params[k]) <= 1e-4f * (fabsf(lobe->params[k]) + 1e-3f);
     return same;
 }
 
-/* Sets the inputs that are parameters of a lobe by themselves, and those parameters. */
-static void say_named(const WeftLobe *lobe, Lobe *said, WeftMaterial *out) {
+/* Sets the inputs of parameters that have their own, and these parameters of `expressed`, the lobe that the
+ * material has. */
+static void set_named_inputs(const WeftLobe *lobe, Lobe *expressed, WeftMaterial *out) {
     for (size_t n = 0; n < NAMED; n++) {
         int k = weft_lobe_param_find(lobe->lobe, named[n].param);
         if (k < 1) continue;
-        said->params[k] = lobe->params[k];
+        expressed->params[k] = lobe->params[k];
         input_set(out, named[n].input, &lobe->params[k], 1);
     }
 }
 
-/* Sets the inputs of the base; returns false if there are none for all of its parameters. */
-static bool say_base(const WeftLobe *base, WeftMaterial *out) {
+/* Sets the inputs of the base. Returns false if they do not express all of its parameters. */
+static bool set_base_inputs(const WeftLobe *base, WeftMaterial *out) {
     const WeftLobeInfo *info = weft_lobe_info(base->lobe);
     float roughness = info->param_count > 0 ? roughness_of(base) : 0.0f;
-    Lobe said = lobe_rough(base->lobe, roughness);
-    say_named(base, &said, out);
-    bool same = is_same(&said, base);
+    Lobe expressed = lobe_rough(base->lobe, roughness);
+    set_named_inputs(base, &expressed, out);
+    bool same = is_same(&expressed, base);
     for (int c = 0; c < 3; c++) same &= base->f0[c] <= 1.0f;
     weft_material_choose(out, CHOICE_diffuse, base->lobe);
     input_set(out, INPUT_base_color, base->f0, 3);
@@ -123,15 +126,15 @@ static bool say_base(const WeftLobe *base, WeftMaterial *out) {
     return same;
 }
 
-/* Sets the inputs of the sheen; returns false if there are none for all of its parameters. */
-static bool say_sheen(const WeftLobe *lobe, WeftMaterial *out) {
+/* Sets the inputs of the sheen. Returns false if they do not express all of its parameters. */
+static bool set_sheen_inputs(const WeftLobe *lobe, WeftMaterial *out) {
     const WeftLobeInfo *info = weft_lobe_info(lobe->lobe);
     float roughness = info->param_count > 0 ? roughness_of(lobe) : 0.0f;
-    Lobe said = lobe_rough(lobe->lobe, roughness);
-    say_named(lobe, &said, out);
+    Lobe expressed = lobe_rough(lobe->lobe, roughness);
+    set_named_inputs(lobe, &expressed, out);
     for (int k = 0; k < info->param_count; k++)
-        if (info->params[k].choices) said.params[k] = lobe->params[k]; /* as choices of the material */
-    bool same = is_same(&said, lobe);
+        if (info->params[k].choices) expressed.params[k] = lobe->params[k]; /* as choices of the material */
+    bool same = is_same(&expressed, lobe);
     for (int c = 0; c < 3; c++) same &= lobe->f0[c] <= 1000.0f;
     weft_material_choose(out, CHOICE_sheen_lobe, lobe->lobe);
     choose_terms(lobe, out);
@@ -146,6 +149,6 @@ int weft_fitted_material(const WeftFitted *fitted, WeftMaterial *out) {
     if (weft_fitted_is_weave(fitted)) return 0;
     weft_material_choose(out, CHOICE_workflow, choice_find(CHOICE_workflow, "cloth"));
     weft_material_choose(out, CHOICE_layer, choice_find(CHOICE_layer, "additive"));
-    bool base = say_base(&fitted->base, out), sheen = say_sheen(&fitted->lobe, out);
+    bool base = set_base_inputs(&fitted->base, out), sheen = set_sheen_inputs(&fitted->lobe, out);
     return base && sheen;
 }

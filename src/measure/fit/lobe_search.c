@@ -15,12 +15,12 @@ static const float tints[TINTS] = {0.1f, 0.3f, 0.5f, 0.7f, 0.85f, 0.97f};
 typedef struct LobeWalker {
     const LobeSearch *search;
     WeftLobe start;
-    bool tinted, second; /* tinted: colour is no factor; second: two colours are */
+    bool tinted, second; /* tinted: colour is no factor; second: there are two colours */
     int free[WEFT_LOBE_PARAMS_MAX], frees;
-    WeftLobe ground; /* the white base */
-    int ground_free[WEFT_LOBE_PARAMS_MAX], ground_frees,
-        ground_first; /* the base's numbers follow those in x */
-    /* x: of f0, of f90 and without either, or of a colour's channels, or of tints */
+    WeftLobe white_base;
+    int base_free[WEFT_LOBE_PARAMS_MAX], base_frees,
+        base_first; /* index in x of the first parameter of the base */
+    /* [f0, f90, neither], or the channels of a colour, or the tints: x of the samples */
     float *column[TINTS];
     float *base, *fixed[3], *work, *block;
     double weights[3][BLEND_MOST]; /* of the latest evaluation: [channel], base, f0, f90 */
@@ -28,8 +28,8 @@ typedef struct LobeWalker {
 
 static const WeftLobeInfo *info_of(const LobeWalker *self) { return weft_lobe_info(self->start.lobe); }
 
-/* x of a lobe in three channels, or in the first alone. */
-static void ask(const Samples *s, const WeftLobe *lobe, int count, float *r, float *g, float *b) {
+/* Evaluates x of a lobe in three channels, or in the first alone. */
+static void eval(const Samples *s, const WeftLobe *lobe, int count, float *r, float *g, float *b) {
     const WeftDirections o = {s->o[0], s->o[1], s->o[2]}, i = {s->i[0], s->i[1], s->i[2]};
     weft_eval_n(lobe, (size_t)count, o, i, (WeftColors){r, g, b}, NULL);
     float *const x[3] = {r, g, b};
@@ -37,15 +37,15 @@ static void ask(const Samples *s, const WeftLobe *lobe, int count, float *r, flo
         for (int k = 0; x[c] && k < count; k++) x[c][k] *= s->i[2][k];
 }
 
-/* Adds the contribution of a fixed colour. A free one is a column of the blend. */
+/* Adds the contribution of a locked colour. A free one is a column of the blend. */
 static void add_color(const LobeWalker *self, Blend *blend, int part, int count) {
-    bool held = (self->search->hold & (part ? WEFT_HOLD_COLOR_2 : WEFT_HOLD_COLOR)) != 0;
+    bool locked = (self->search->hold & (part ? WEFT_HOLD_COLOR_2 : WEFT_HOLD_COLOR)) != 0;
     const float *color = part ? self->start.f90 : self->start.f0, *column = self->column[part];
     for (int c = 0; c < 3; c++) {
-        if (!held) blend->column[blend->columns][c] = column;
-        for (int k = 0; held && k < count; k++) self->fixed[c][k] += color[c] * column[k];
+        if (!locked) blend->column[blend->columns][c] = column;
+        for (int k = 0; locked && k < count; k++) self->fixed[c][k] += color[c] * column[k];
     }
-    if (!held) blend->columns++;
+    if (!locked) blend->columns++;
 }
 
 static Blend blend_of(const LobeWalker *self, int count) {
@@ -73,10 +73,10 @@ static WeftLobe lobe_at(const LobeWalker *self, const double *x) {
 }
 
 /* Evaluates the white base with the parameters in x. */
-static void ask_ground(LobeWalker *self, const double *x, int count) {
-    for (int k = 0; k < self->ground_frees; k++)
-        self->ground.params[self->ground_free[k]] = (float)x[self->ground_first + k];
-    ask(self->search->samples, &self->ground, count, self->base, NULL, NULL);
+static void eval_base(LobeWalker *self, const double *x, int count) {
+    for (int k = 0; k < self->base_frees; k++)
+        self->white_base.params[self->base_free[k]] = (float)x[self->base_first + k];
+    eval(self->search->samples, &self->white_base, count, self->base, NULL, NULL);
 }
 
 /* Sets x to the best of some tints for each channel. */
@@ -86,7 +86,7 @@ static double try_tints(LobeWalker *self, double *x) {
     double sum = 0.0, weights[BLEND_MOST];
     for (int first = 0; first < TINTS; first += 3) {
         memcpy(lobe.f0, tints + first, sizeof lobe.f0);
-        ask(s, &lobe, s->first, self->column[first], self->column[first + 1], self->column[first + 2]);
+        eval(s, &lobe, s->first, self->column[first], self->column[first + 1], self->column[first + 2]);
     }
     for (int c = 0; c < s->channels; c++) {
         double least = 1e30;
@@ -102,10 +102,10 @@ static double try_tints(LobeWalker *self, double *x) {
     return sum;
 }
 
-/* x without colour, and what f0 and f90 add: f is a sum of the three. */
-static void ask_parts(const LobeWalker *self, WeftLobe lobe, int count) {
+/* Evaluates x without colour, and what f0 and f90 add: f is the sum of the three. */
+static void eval_parts(const LobeWalker *self, WeftLobe lobe, int count) {
     for (int c = 0; c < 3; c++) lobe.f0[c] = c == 0, lobe.f90[c] = c == 1;
-    ask(self->search->samples, &lobe, count, self->column[0], self->column[1], self->column[2]);
+    eval(self->search->samples, &lobe, count, self->column[0], self->column[1], self->column[2]);
     for (int part = 0; part < 2; part++)
         for (int k = 0; k < count; k++)
             self->column[part][k] = fmaxf(self->column[part][k] - self->column[2][k], 0.0f);
@@ -115,16 +115,16 @@ static double error_at(void *user, double *x, SearchCare care) {
     LobeWalker *self = user;
     const Samples *s = self->search->samples;
     int count = care == SEARCH_FULL ? s->count : s->first;
-    /* of a million samples one evaluation takes seconds: it ends halfway */
+    /* one evaluation of a million samples takes seconds, so it can end halfway */
     if (!progress_report(self->search->item_progress, 0.0)) return 1e30;
-    if (self->ground_frees) ask_ground(self, x, count);
+    if (self->base_frees) eval_base(self, x, count);
     bool painted = self->tinted && !(self->search->hold & WEFT_HOLD_COLOR);
     if (care == SEARCH_GLANCE && painted) return try_tints(self, x);
     WeftLobe lobe = lobe_at(self, x);
     if (self->tinted)
-        ask(s, &lobe, count, self->column[0], self->column[1], self->column[2]);
+        eval(s, &lobe, count, self->column[0], self->column[1], self->column[2]);
     else
-        ask_parts(self, lobe, count);
+        eval_parts(self, lobe, count);
     Blend blend = blend_of(self, count);
     double sum = 0.0;
     for (int c = 0; c < s->channels && progress_report(self->search->item_progress, 0.0); c++)
@@ -132,17 +132,17 @@ static double error_at(void *user, double *x, SearchCare care) {
     return sum;
 }
 
-/* x of some samples, and of the same pairs turned about the normal. */
-enum { LOOKS = 64 };
-static int look(const Samples *s, const WeftLobe *lobe, bool turned, float x[LOOKS]) {
+/* Evaluates x of some samples, or of the same pairs rotated about the normal. Returns their number. */
+enum { TRIED = 64 };
+static int eval_some(const Samples *s, const WeftLobe *lobe, bool rotated, float x[TRIED]) {
     const float c = 0.28f, t = 0.96f;
-    float o[2][LOOKS], i[2][LOOKS];
-    int count = s->count < LOOKS ? s->count : LOOKS;
+    float o[2][TRIED], i[2][TRIED];
+    int count = s->count < TRIED ? s->count : TRIED;
     for (int k = 0; k < count; k++) {
-        o[0][k] = turned ? c * s->o[0][k] - t * s->o[1][k] : s->o[0][k];
-        o[1][k] = turned ? t * s->o[0][k] + c * s->o[1][k] : s->o[1][k];
-        i[0][k] = turned ? c * s->i[0][k] - t * s->i[1][k] : s->i[0][k];
-        i[1][k] = turned ? t * s->i[0][k] + c * s->i[1][k] : s->i[1][k];
+        o[0][k] = rotated ? c * s->o[0][k] - t * s->o[1][k] : s->o[0][k];
+        o[1][k] = rotated ? t * s->o[0][k] + c * s->o[1][k] : s->o[1][k];
+        i[0][k] = rotated ? c * s->i[0][k] - t * s->i[1][k] : s->i[0][k];
+        i[1][k] = rotated ? t * s->i[0][k] + c * s->i[1][k] : s->i[1][k];
     }
     weft_eval_n(lobe, (size_t)count, (WeftDirections){o[0], o[1], s->o[2]},
                 (WeftDirections){i[0], i[1], s->i[2]}, (WeftColors){x, NULL, NULL}, NULL);
@@ -155,23 +155,24 @@ static bool differ(const float *a, const float *b, int count, float most) {
     return false;
 }
 
-static bool turns(const Samples *s, const WeftLobe *lobe) {
-    float x[LOOKS], y[LOOKS];
-    int count = look(s, lobe, false, x);
-    look(s, lobe, true, y);
+static bool is_anisotropic(const Samples *s, const WeftLobe *lobe) {
+    float x[TRIED], y[TRIED];
+    int count = eval_some(s, lobe, false, x);
+    eval_some(s, lobe, true, y);
     return differ(x, y, count, 1e-3f);
 }
 
-/* Parameters that would make what is isotropic something that is not, when only isotropic will do. */
-static unsigned hold_turning(const LobeWalker *self) {
+/* Returns the parameters to lock: also those that would make an isotropic lobe anisotropic, if the goal is
+ * isotropic. */
+static unsigned locked_params(const LobeWalker *self) {
     const WeftLobeInfo *info = info_of(self);
     unsigned hold = self->search->hold;
-    if (!self->search->isotropic || turns(self->search->samples, &self->start)) return hold;
+    if (!self->search->isotropic || is_anisotropic(self->search->samples, &self->start)) return hold;
     for (int k = 0; k < info->param_count; k++) {
         WeftLobe lobe = self->start;
         if (info->params[k].choices) continue;
         lobe.params[k] = info->params[k].high;
-        if (turns(self->search->samples, &lobe)) hold |= 1u << k;
+        if (is_anisotropic(self->search->samples, &lobe)) hold |= 1u << k;
     }
     return hold;
 }
@@ -180,31 +181,31 @@ static unsigned hold_turning(const LobeWalker *self) {
 static bool has_influence(const Samples *s, const WeftLobe *start, int param, unsigned hold) {
     enum { SETTINGS = 3 };
     const WeftLobeInfo *info = weft_lobe_info(start->lobe);
-    float x[LOOKS], y[LOOKS];
+    float x[TRIED], y[TRIED];
     for (int setting = 0; setting < SETTINGS; setting++) {
         WeftLobe lobe = *start;
-        lobe.f90[0] = 0.5f * lobe.f0[0]; /* a number may say how two colours mix, and no more */
+        lobe.f90[0] = 0.5f * lobe.f0[0]; /* a parameter may only mix two colours */
         float t = 0.3f + 0.25f * (float)setting;
         for (int k = 0; k < info->param_count; k++)
             if (!info->params[k].choices && !(hold >> k & 1u))
                 lobe.params[k] = info->params[k].low + t * (info->params[k].high - info->params[k].low);
-        int count = look(s, &lobe, false, x);
+        int count = eval_some(s, &lobe, false, x);
         lobe.params[param] = info->params[param].high;
-        look(s, &lobe, false, y);
+        eval_some(s, &lobe, false, y);
         if (differ(x, y, count, 1e-6f)) return true;
     }
     return false;
 }
 
 /* Finds out whether f is linear in f0 and f90, and whether it depends on f90. */
-static void look_at_colors(LobeWalker *self) {
+static void examine_colors(LobeWalker *self) {
     const Samples *s = self->search->samples;
-    int count = s->count < LOOKS ? s->count : LOOKS;
-    float f[2][3][LOOKS];
+    int count = s->count < TRIED ? s->count : TRIED;
+    float f[2][3][TRIED];
     WeftLobe lobe = self->start;
     for (int second = 0; second < 2; second++) {
         for (int c = 0; c < 3; c++) lobe.f0[c] = 0.5f * (float)c, lobe.f90[c] = (float)second;
-        ask(s, &lobe, count, f[second][0], f[second][1], f[second][2]);
+        eval(s, &lobe, count, f[second][0], f[second][1], f[second][2]);
     }
     for (int k = 0; k < count; k++) {
         float middle = 0.5f * (f[0][0][k] + f[0][2][k]);
@@ -218,7 +219,7 @@ static SearchAxis axis_of(double low, double high, double start) {
     return (SearchAxis){fmin(low, start), fmax(high, start)};
 }
 
-/* Adds an axis for each parameter of a lobe that is free and has an influence; returns how many. */
+/* Adds an axis for each free parameter of a lobe that has an influence. Returns their number. */
 static int add_axes(const Samples *s, const WeftLobe *lobe, unsigned hold, Search *search, double *x,
                     int free[WEFT_LOBE_PARAMS_MAX]) {
     const WeftLobeInfo *info = weft_lobe_info(lobe->lobe);
@@ -242,18 +243,18 @@ static Search make_search(LobeWalker *self, double *x) {
                      .descents = 3,
                      .most = 1000,
                      .item_progress = self->search->item_progress};
-    self->frees = add_axes(s, &self->start, hold_turning(self), &search, x, self->free);
+    self->frees = add_axes(s, &self->start, locked_params(self), &search, x, self->free);
     bool painted = self->tinted && !(self->search->hold & WEFT_HOLD_COLOR);
     for (int c = 0; painted && c < s->channels; c++) {
         x[search.axes] = (double)self->start.f0[c];
         search.axis[search.axes] = axis_of(0.0, 1.0, x[search.axes]);
         search.axes++;
     }
-    self->ground_first = search.axes;
+    self->base_first = search.axes;
     if (self->search->base)
-        self->ground_frees =
-            add_axes(s, &self->ground, self->search->hold_base, &search, x, self->ground_free);
-    int numbers = self->frees + self->ground_frees;
+        self->base_frees =
+            add_axes(s, &self->white_base, self->search->hold_base, &search, x, self->base_free);
+    int numbers = self->frees + self->base_frees;
     search.grid = grids[numbers < 6 ? numbers : 6];
     if (painted && search.grid < 24) search.grid = 24;
     return search;
@@ -262,7 +263,7 @@ static Search make_search(LobeWalker *self, double *x) {
 static bool walker_make(LobeWalker *self, const LobeSearch *search, const WeftLobe *start) {
     size_t n = (size_t)search->samples->count;
     *self = (LobeWalker){.search = search, .start = *start};
-    look_at_colors(self);
+    examine_colors(self);
     self->block = alloc_array((TINTS + 7) * n, sizeof(float));
     if (!self->block) return false;
     for (int k = 0; k < TINTS; k++) self->column[k] = self->block + (size_t)k * n;
@@ -270,9 +271,9 @@ static bool walker_make(LobeWalker *self, const LobeSearch *search, const WeftLo
     self->base = self->block + (TINTS + 3) * n;
     self->work = self->base + n;
     if (!search->base) return true;
-    self->ground = *search->base;
-    for (int c = 0; c < 3; c++) self->ground.f0[c] = self->ground.f90[c] = 1.0f;
-    ask(search->samples, &self->ground, search->samples->count, self->base, NULL, NULL);
+    self->white_base = *search->base;
+    for (int c = 0; c < 3; c++) self->white_base.f0[c] = self->white_base.f90[c] = 1.0f;
+    eval(search->samples, &self->white_base, search->samples->count, self->base, NULL, NULL);
     return true;
 }
 
@@ -282,8 +283,8 @@ static void colors_of(const LobeWalker *self, LobeFound *out) {
     bool painted = !(search->hold & WEFT_HOLD_COLOR);
     bool second = self->second && !(search->hold & WEFT_HOLD_COLOR_2);
     int colors = (search->base != NULL) + painted + second;
-    out->numbers = self->frees + self->ground_frees + colors * search->samples->channels;
-    if (search->base) out->base = self->ground;
+    out->numbers = self->frees + self->base_frees + colors * search->samples->channels;
+    if (search->base) out->base = self->white_base;
     for (int c = 0; c < 3; c++) {
         const double *weights = self->weights[c < search->samples->channels ? c : 0];
         int k = 0;

@@ -17,11 +17,11 @@
 static const InputId inputs[] = {INPUT_sheen_roughness, INPUT_roughness,     INPUT_specular,
                                  INPUT_sheen,           INPUT_sheen_tint,    INPUT_base_color,
                                  INPUT_sheen_color,     INPUT_specular_color};
-/* A highlight that is narrower falls between the directions. */
+/* A narrower highlight falls between the directions. */
 static const double roughness_least = 0.25;
 enum { INPUTS = sizeof inputs / sizeof *inputs, PARTS = 2 };
 
-/* An axis is an input's channel, or all three of a colour that stays grey. */
+/* An axis: a channel of an input, or all three of a colour that stays grey. */
 typedef struct Axis {
     InputId input;
     int channel; /* -1: all */
@@ -37,17 +37,17 @@ typedef struct MaterialWalker {
     float *x[3], *part[PARTS][3], *rest[3], *work, *block;
 } MaterialWalker;
 
-static bool reads(const WeftMaterial *material, InputId input) {
+static bool uses(const WeftMaterial *material, InputId input) {
     return weft_material_reads(material, (int)input) != 0;
 }
 
 int weft_match_is_free(const WeftMaterial *material, int input) {
     bool one = false;
     for (int k = 0; k < INPUTS; k++) one |= (int)inputs[k] == input;
-    if (!one || !reads(material, (InputId)input)) return 0;
+    if (!one || !uses(material, (InputId)input)) return 0;
     switch ((InputId)input) {
     case INPUT_sheen:
-    case INPUT_sheen_tint: return !reads(material, INPUT_sheen_color);
+    case INPUT_sheen_tint: return !uses(material, INPUT_sheen_color);
     case INPUT_specular_color:
         return material->choices[CHOICE_profile] <= 0 &&
                material->choices[CHOICE_workflow] == choice_find(CHOICE_workflow, "specular");
@@ -80,19 +80,19 @@ static double distance_at(MaterialWalker *self, const double *x, int count) {
     reflection_change(self->reflection, &material, self->table);
     Samples some = *self->samples;
     some.count = count;
-    samples_ask(&some, self->reflection, WEFT_PART_ALL, self->x);
+    samples_eval(&some, self->reflection, WEFT_PART_ALL, self->x);
     return samples_distance(self->samples, count, (const float *const *)self->x);
 }
 
-/* Scales the colours of base and sheen as if what each reflects were in proportion to them: nearly right,
- * and right where a sheen takes nothing from what is below it. */
+/* Scales the colours of base and sheen as if their reflection were in proportion to them. This is nearly
+ * right, and exact if the sheen takes nothing from the base. */
 static void scale_colors(MaterialWalker *self, double *x) {
     static const int parts[PARTS] = {WEFT_PART_DIFFUSE, WEFT_PART_SHEEN};
     static const InputId colors[PARTS] = {INPUT_base_color, INPUT_sheen_color};
     const Samples *s = self->samples;
     Samples few = *s;
     few.count = few.first;
-    for (int p = 0; p < PARTS; p++) samples_ask(&few, self->reflection, parts[p], self->part[p]);
+    for (int p = 0; p < PARTS; p++) samples_eval(&few, self->reflection, parts[p], self->part[p]);
     for (int c = 0; c < s->channels; c++) {
         for (int k = 0; k < few.count; k++)
             self->rest[c][k] = self->x[c][k] - self->part[0][c][k] - self->part[1][c][k];
@@ -129,7 +129,7 @@ static double error_at(void *user, double *x, SearchCare care) {
     return error;
 }
 
-static Search make_search(MaterialWalker *self, const int *held, double *x) {
+static Search make_search(MaterialWalker *self, const int *locked, double *x) {
     static const int grids[] = {0, 8, 16, 32, 48, 64};
     Search search = {.error = error_at, .user = self, .descents = 1, .most = 600};
     bool grey = self->samples->channels == 1;
@@ -138,7 +138,7 @@ static Search make_search(MaterialWalker *self, const int *held, double *x) {
     for (int k = 0; k < INPUTS; k++) {
         WeftInputInfo info;
         InputId input = inputs[k];
-        if ((held && held[input]) || !weft_match_is_free(&self->material, (int)input)) continue;
+        if ((locked && locked[input]) || !weft_match_is_free(&self->material, (int)input)) continue;
         weft_material_input_info((int)input, &info);
         int channels = is_color(input) && !grey ? 3 : 1;
         for (int c = 0; c < channels && search.axes < SEARCH_MOST; c++) {
@@ -169,26 +169,26 @@ static WeftResult walker_make(MaterialWalker *self, const Samples *samples, cons
     return weft_reflection_create(material, &self->reflection, error);
 }
 
-/* The error of a material with E as it is. */
+/* Computes the error of a material with its exact E, not the table. */
 static WeftResult exact_distance(MaterialWalker *self, const WeftMaterial *material, double *distance,
                                  WeftError *error) {
     const Samples *s = self->samples;
     WeftReflection *exact;
     WeftResult result = weft_reflection_create(material, &exact, error);
     if (result != WEFT_OK) return result;
-    samples_ask(s, exact, WEFT_PART_ALL, self->x);
+    samples_eval(s, exact, WEFT_PART_ALL, self->x);
     *distance = samples_distance(s, s->count, (const float *const *)self->x);
     weft_reflection_free(exact);
     return WEFT_OK;
 }
 
-WeftResult material_search_run(const Samples *samples, const int *held, ItemProgress *item_progress,
+WeftResult material_search_run(const Samples *samples, const int *locked, ItemProgress *item_progress,
                                WeftMaterial *material, WeftMatch *found, WeftError *error) {
     MaterialWalker self;
     double x[SEARCH_MOST] = {0.0};
     WeftResult result = walker_make(&self, samples, material, error);
     if (result == WEFT_OK) {
-        Search search = make_search(&self, held, x);
+        Search search = make_search(&self, locked, x);
         search.item_progress = item_progress;
         search_run(&search, x, &found->evaluations);
         if (!progress_report(item_progress, 0.0)) result = WEFT_INTERRUPTED;

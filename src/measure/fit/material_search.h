@@ -5,10 +5,10 @@
 #include "measure/bsdf/progress_loop.h"
 #include "measure/fit/samples.h"
 
-/* Searches as weft_match_material does, starting from `material`. found->matched is the error of the result.
- * Fails as weft_reflection_create does, or with WEFT_INTERRUPTED where item_progress (may be NULL) says that
- * it should end. */
-WeftResult material_search_run(const Samples *samples, const int *held, ItemProgress *item_progress,
+/* Searches as weft_match_material does, starting from `material`. locked (may be NULL): one flag for each
+ * input. found->matched is the error of the result. Fails as weft_reflection_create does, or with
+ * WEFT_INTERRUPTED if item_progress (may be NULL) stops it. */
+WeftResult material_search_run(const Samples *samples, const int *locked, ItemProgress *item_progress,
                                WeftMaterial *material, WeftMatch *found, WeftError *error);
 
 #endif

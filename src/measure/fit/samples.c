@@ -32,7 +32,8 @@ void samples_free(Samples *self) {
     *self = (Samples){0};
 }
 
-/* Half vectors of distribution ggx, each mirroring wo: narrow enough for a highlight, wide enough for all. */
+/* The roughnesses of half vectors distributed by ggx, each mirroring wo: from narrow ones for a highlight to
+ * wide ones. */
 enum { LOBES = 3 };
 static const double alphas[LOBES] = {0.5, 0.12, 0.03};
 
@@ -41,7 +42,7 @@ static double ggx(double alpha, double cos_h) {
     return alpha * alpha / (PI_DOUBLE * t * t);
 }
 
-/* The density of a wi: half by the cosine, the rest about the mirror direction. */
+/* Returns the density of a wi: half by the cosine, half about the mirror direction. */
 static double density(const double o[3], const double i[3]) {
     double h[3] = {o[0] + i[0], o[1] + i[1], o[2] + i[2]};
     double length = sqrt(h[0] * h[0] + h[1] * h[1] + h[2] * h[2]), cos_h = h[2] / length;
@@ -72,7 +73,8 @@ static void put(Samples *self, int k, const double o[3], const double i[3], doub
     self->weight[k] = (float)(above ? weight : 0.0);
 }
 
-/* wo uniform in cos_o^2, which is what a sphere shows, at the middles of strata, in azimuths all around. */
+/* Spreads samples over the hemisphere. wo are uniform in cos_o^2, as on the image of a sphere, at the middles
+ * of strata, with azimuths all around. */
 static bool spread_wide(Samples *self, WeftBrdfMetric metric) {
     enum { OUTS = 16, INS = 256 };
     if (!samples_create(self, OUTS * INS, metric)) return false;
@@ -82,7 +84,7 @@ static bool spread_wide(Samples *self, WeftBrdfMetric metric) {
         int out = k % OUTS, in = k / OUTS;
         double z2 = (out + 0.5) / OUTS, r = sqrt(1.0 - z2), phi = 2.0 * PI_DOUBLE * halton(out + 1, 2), i[3];
         const double o[3] = {r * cos(phi), r * sin(phi), sqrt(z2)};
-        /* every wo has the sequence from another place */
+        /* every wo has another part of the sequence */
         int at = in + INS * out + 1;
         draw(o, (in + 0.5) * 0.6180339887498949 - floor((in + 0.5) * 0.6180339887498949), halton(at, 2),
              halton(at, 3), i);
@@ -91,12 +93,12 @@ static bool spread_wide(Samples *self, WeftBrdfMetric metric) {
     return true;
 }
 
-/* Pixels of a square about the disk. A light stands in the plane of view and up, at an angle off the viewer.
- */
+/* Makes samples of the pixels of spheres in a square. A light is in the plane of view and up, at an angle off
+ * the viewer. */
 static bool spread_pictures(Samples *self) {
-    enum { SIDE = 15, LIGHTS = 4, ROOM = SIDE * SIDE * LIGHTS };
+    enum { SIDE = 15, LIGHTS = 4, SAMPLES = SIDE * SIDE * LIGHTS };
     static const double degrees[LIGHTS] = {15.0, 60.0, 105.0, 150.0};
-    if (!samples_create(self, ROOM, WEFT_BRDF_METRIC_PICTURE)) return false;
+    if (!samples_create(self, SAMPLES, WEFT_BRDF_METRIC_PICTURE)) return false;
     int outs = 0;
     double normals[SIDE * SIDE][3];
     for (int p = 0; p < SIDE * SIDE; p++) {
@@ -111,7 +113,7 @@ static bool spread_pictures(Samples *self) {
     for (int k = 0; k < self->count; k++) {
         const double *n = normals[k % outs], a = degrees[k / outs] * PI_DOUBLE / 180.0;
         const double light[3] = {sin(a) * 0.8, sin(a) * 0.6, cos(a)};
-        double s = hypot(n[0], n[2]), t[3] = {n[2] / s, 0.0, -n[0] / s}; /* level */
+        double s = hypot(n[0], n[2]), t[3] = {n[2] / s, 0.0, -n[0] / s}; /* horizontal */
         const double b[3] = {n[1] * t[2] - n[2] * t[1], n[2] * t[0] - n[0] * t[2], n[0] * t[1] - n[1] * t[0]};
         const double o[3] = {t[2], b[2], n[2]};
         const double i[3] = {light[0] * t[0] + light[1] * t[1] + light[2] * t[2],
@@ -126,8 +128,8 @@ bool samples_spread(Samples *self, WeftBrdfMetric metric) {
     return metric == WEFT_BRDF_METRIC_PICTURE ? spread_pictures(self) : spread_wide(self, metric);
 }
 
-/* Asks for samples that each have their own wo. */
-static void ask_each(const Samples *self, const WeftReflection *reflection, int part, float *const x[3]) {
+/* Evaluates samples that each have their own wo. */
+static void eval_each(const Samples *self, const WeftReflection *reflection, int part, float *const x[3]) {
     for (int k = 0; k < self->count; k++) {
         const float wo[3] = {self->o[0][k], self->o[1][k], self->o[2][k]};
         const float wi[1][3] = {{self->i[0][k], self->i[1][k], self->i[2][k]}};
@@ -137,9 +139,9 @@ static void ask_each(const Samples *self, const WeftReflection *reflection, int 
     }
 }
 
-void samples_ask(const Samples *self, const WeftReflection *reflection, int part, float *const x[3]) {
+void samples_eval(const Samples *self, const WeftReflection *reflection, int part, float *const x[3]) {
     float wi[256][3], f[256][3];
-    if (self->outs == 0) ask_each(self, reflection, part, x);
+    if (self->outs == 0) eval_each(self, reflection, part, x);
     for (int out = 0; out < self->outs; out++) {
         const float wo[3] = {self->o[0][out], self->o[1][out], self->o[2][out]};
         for (int first = out; first < self->count;) {
@@ -154,16 +156,16 @@ void samples_ask(const Samples *self, const WeftReflection *reflection, int part
 }
 
 bool samples_isotropic(const Samples *self, const WeftReflection *reflection) {
-    enum { LOOKS = 64 };
-    for (int k = 0; k < self->count && k < LOOKS; k++) {
+    enum { TRIED = 64 };
+    for (int k = 0; k < self->count && k < TRIED; k++) {
         float f[2][1][3];
-        for (int turned = 0; turned < 2; turned++) {
-            float c = turned ? 0.28f : 1.0f, s = turned ? 0.96f : 0.0f;
+        for (int rotated = 0; rotated < 2; rotated++) {
+            float c = rotated ? 0.28f : 1.0f, s = rotated ? 0.96f : 0.0f;
             const float *o[3] = {self->o[0] + k, self->o[1] + k, self->o[2] + k};
             const float *i[3] = {self->i[0] + k, self->i[1] + k, self->i[2] + k};
             const float wo[3] = {c * *o[0] - s * *o[1], s * *o[0] + c * *o[1], *o[2]};
             const float wi[1][3] = {{c * *i[0] - s * *i[1], s * *i[0] + c * *i[1], *i[2]}};
-            weft_reflection_eval(reflection, WEFT_PART_ALL, wo, 1, wi, f[turned]);
+            weft_reflection_eval(reflection, WEFT_PART_ALL, wo, 1, wi, f[rotated]);
         }
         for (int c = 0; c < 3; c++)
             if (fabsf(f[0][0][c] - f[1][0][c]) > 1e-3f * (fabsf(f[0][0][c]) + 1e-6f)) return false;
@@ -171,7 +173,7 @@ bool samples_isotropic(const Samples *self, const WeftReflection *reflection) {
     return true;
 }
 
-/* The curve of IEC 61966-2-1. */
+/* Returns the sRGB curve of IEC 61966-2-1. */
 static float display(float linear) {
     float x = fminf(fmaxf(linear, 0.0f), 1.0f);
     return x <= 0.0031308f ? 12.92f * x : 1.055f * powf(x, 1.0f / 2.4f) - 0.055f;

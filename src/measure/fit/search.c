@@ -20,7 +20,7 @@ typedef struct SearchDescent {
     SearchCare care;
     SearchPlace best;
     long long evaluations;
-    nlopt_opt method; /* of the descent that is under way */
+    nlopt_opt method; /* of the current descent */
     bool stopped;
 } SearchDescent;
 
@@ -48,12 +48,12 @@ static void places_of(const Search *search, const double *x, double *at) {
     for (int k = 0; k < search->axes; k++) at[k] = place_of(&search->axis[k], x[k]);
 }
 
-/* The most evaluations that a search takes. */
+/* Returns the most evaluations that a search takes. */
 static double evaluations_most(const Search *search) {
     return 1.0 + search->grid + (1.0 + search->descents) * search->most + 3.0 * search->most;
 }
 
-/* 1e30 for everything once it should end. */
+/* Evaluates the error, or returns 1e30 if the search should end. */
 static double error_at(SearchDescent *walk, const double *at, SearchCare care, double *x) {
     values_of(walk->search, at, x);
     walk->stopped =
@@ -77,8 +77,9 @@ static double objective(unsigned n, const double *at, double *gradient, void *us
     return error;
 }
 
-/* Thomas Harvey Rowan, "Functional Stability Analysis of Numerical Algorithms", PhD thesis, University of
- * Texas at Austin, 1990, as Steven G. Johnson wrote it for NLopt: no random numbers. */
+/* Descends once by NLopt's Subplex, which uses no random numbers: Thomas Harvey Rowan, "Functional Stability
+ * Analysis of Numerical Algorithms", PhD thesis, University of Texas at Austin, 1990, as reimplemented by
+ * Steven G. Johnson. */
 static void descend_once(SearchDescent *walk, const double *from, double step) {
     unsigned n = (unsigned)walk->search->axes;
     double at[SEARCH_MOST], least;
@@ -98,7 +99,7 @@ static void descend_once(SearchDescent *walk, const double *from, double step) {
     nlopt_destroy(method);
 }
 
-/* A simplex that has shrunk along a valley is opened again, where it stands. */
+/* Descends in rounds: a simplex that has shrunk along a valley is opened again at its place. */
 static SearchPlace descend(SearchDescent *walk, const SearchPlace *from, SearchCare care) {
     double step = care == SEARCH_FULL ? 0.03 : 0.1;
     int rounds = care == SEARCH_FULL ? 6 : 1;
@@ -122,8 +123,8 @@ static double distance(const SearchPlace *a, const SearchPlace *b, int axes) {
     return most;
 }
 
-/* Keeps a point among the best, of which none is near another. */
-static void keep(SearchPlace *best, int *count, int room, int axes, const SearchPlace *place) {
+/* Keeps a place among the best ones, no two of which are near each other. */
+static void keep(SearchPlace *best, int *count, int capacity, int axes, const SearchPlace *place) {
     for (int k = 0; k < *count; k++) {
         if (distance(&best[k], place, axes) >= 0.1) continue;
         if (place->error < best[k].error) best[k] = *place;
@@ -132,24 +133,24 @@ static void keep(SearchPlace *best, int *count, int room, int axes, const Search
     int worst = 0;
     for (int k = 1; k < *count; k++)
         if (best[k].error > best[worst].error) worst = k;
-    if (*count < room)
+    if (*count < capacity)
         best[(*count)++] = *place;
     else if (place->error < best[worst].error)
         best[worst] = *place;
 }
 
-/* The best of the rough descents. */
+/* Returns the best of the rough descents. */
 static SearchPlace roughly(SearchDescent *walk, const SearchPlace *start) {
     const Search *search = walk->search;
     SearchPlace starts[DESCENTS_MOST], place;
-    int count = 0, room = search->descents < DESCENTS_MOST ? search->descents : DESCENTS_MOST;
+    int count = 0, capacity = search->descents < DESCENTS_MOST ? search->descents : DESCENTS_MOST;
     int grid = search->grid < GRID_MOST ? search->grid : GRID_MOST;
-    for (int k = 0; k < grid && room > 0 && !walk->stopped; k++) {
+    for (int k = 0; k < grid && capacity > 0 && !walk->stopped; k++) {
         double x[SEARCH_MOST];
         for (int a = 0; a < search->axes; a++) place.at[a] = halton(k + 1, primes[a]);
         place.error = error_at(walk, place.at, SEARCH_GLANCE, x);
         places_of(search, x, place.at);
-        keep(starts, &count, room, search->axes, &place);
+        keep(starts, &count, capacity, search->axes, &place);
     }
     SearchPlace best = descend(walk, start, SEARCH_ROUGH);
     for (int k = 0; k < count && best.error > 1e-7 && !walk->stopped; k++) {

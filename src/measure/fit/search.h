@@ -1,8 +1,8 @@
-/* search.h - the least error over a few numbers, each within its range
+/* search.h - the minimum of an error over a few numbers, each within its range
  *
- * A grid of points finds where to begin; a simplex search goes on, roughly, from the best of them and from
- * where the caller begins, and then with all care from the best of what that found. Nothing is drawn at
- * random: the same question has the same answer. */
+ * A grid of points finds where to begin. A simplex search goes on, roughly, from the best of them and from
+ * the start of the caller, and then accurately from the best place that it found. No random numbers are used:
+ * the same input gives the same result. */
 #ifndef WEFT_MEASURE_SEARCH_H
 #define WEFT_MEASURE_SEARCH_H
 
@@ -10,7 +10,7 @@
 
 enum { SEARCH_MOST = 16 };
 
-/* A number and its range. Where low is above 0 and high ten times that or more, steps are steps of its
+/* A number and its range. If low is above 0 and high at least ten times as much, steps are steps of its
  * logarithm. */
 typedef struct SearchAxis {
     double low, high;
@@ -18,9 +18,9 @@ typedef struct SearchAxis {
 
 /* The accuracy to which an error is computed. */
 typedef enum SearchCare {
-    SEARCH_GLANCE, /* of a point of the grid: quickly; x may be changed to something better nearby */
-    SEARCH_ROUGH,  /* on the way */
-    SEARCH_FULL    /* in the end */
+    SEARCH_GLANCE, /* for a point of the grid, fast; x may be changed to something better nearby */
+    SEARCH_ROUGH,  /* for a rough descent */
+    SEARCH_FULL    /* for the final descent and the result */
 } SearchCare;
 
 typedef struct Search {
@@ -28,17 +28,17 @@ typedef struct Search {
     SearchAxis axis[SEARCH_MOST];
     double (*error)(void *user, double *x, SearchCare care); /* at x[axes] */
     void *user;
-    int grid;     /* points of it, 0: none */
-    int descents; /* rough ones, from so many of the best, and from the caller's start */
-    int most;     /* evaluations of a rough descent; careful: half of that, six times at most */
-    ItemProgress *item_progress; /* may be NULL; where it says that the item should end, the search does */
+    int grid;     /* points of the grid, 0: none */
+    int descents; /* rough descents, from so many of the best points and from the caller's start */
+    int most;     /* most evaluations of a rough descent; an accurate one has half of it, six times at most */
+    ItemProgress *item_progress; /* may be NULL; can stop the search */
 } Search;
 
-/* x comes as the start and leaves as the best that was found; returns its error. *evaluations (may be NULL)
- * grows by what it took. */
+/* Searches from x, sets x to the best place found and returns the error there. Adds the number of evaluations
+ * to *evaluations (may be NULL). */
 double search_run(const Search *search, double *x, long long *evaluations);
 
-/* The least error of so many points of the grid, computed roughly: for a choice between searches. */
+/* Returns the least error of `points` points of the grid, computed roughly, to choose between searches. */
 double search_glance(const Search *search, int points, long long *evaluations);
 
 #endif

@@ -11,13 +11,14 @@
 #include "measure/fit/blend.h"
 #include "shading/catalogue/registry.h"
 
-/* COLUMNS: of a system's two kinds of light, of both. UNKNOWNS: numbers, and colours of three channels. */
+/* COLUMNS: single and multiple scattering of each of two systems. UNKNOWNS: parameters, and the colours of
+ * three channels. */
 enum { NUMBERS = 13, COLUMNS = 4, UNKNOWNS = NUMBERS + 3 * COLUMNS };
 enum { GRID = 512, STARTS = 16, ROUGH_STEPS = 20, FULL_STEPS = 180, FINISHED = 4 };
 
-/* A number: of which lobe it is, between which ends, and whether steps are those of its logarithm. */
+/* A parameter: its lobe, its range, and whether steps are those of its logarithm. */
 typedef struct WeaveNumber {
-    int system, param; /* system 2: of both */
+    int system, param; /* system 2: both */
     double low, high;
     bool log;
 } WeaveNumber;
@@ -34,7 +35,7 @@ static const WeaveNumber numbers[NUMBERS] = {
     {2, WOVEN_SHARE, 0.02, 0.98, false},
 };
 
-/* A place: each number between its ends, 0 .. 1, and the colours, [channel][column]. */
+/* A place: each parameter within its range, 0 .. 1, and the colours, [channel][column]. */
 typedef struct WeavePlace {
     double x[UNKNOWNS], cost;
 } WeavePlace;
@@ -42,10 +43,10 @@ typedef struct WeavePlace {
 typedef struct WeaveWalker {
     const Samples *samples;
     ItemProgress *item_progress;
-    int count;                       /* of the samples, in use */
+    int count;                       /* number of samples in use */
     double soft;                     /* e of the cost */
-    float *column[COLUMNS];          /* x of one colour, 1 */
-    float *turned[NUMBERS][COLUMNS]; /* how a number changes it */
+    float *column[COLUMNS];          /* x for the colour 1 */
+    float *slopes[NUMBERS][COLUMNS]; /* derivative of the columns by each parameter */
     float *work, *block;
     long long evaluations;
 } WeaveWalker;
@@ -69,31 +70,31 @@ static void lobes_at(const double *x, WeftLobe lobes[2]) {
     }
 }
 
-/* Fills the columns of one system: light that met one fibre, and all other. */
-static void ask(WeaveWalker *self, const WeftLobe *threads, float *once, float *again) {
+/* Fills the columns of one system: single scattering, and multiple scattering. */
+static void eval(WeaveWalker *self, const WeftLobe *threads, float *single, float *multiple) {
     const Samples *s = self->samples;
     Lobe lobe;
     lobe_of(threads, &lobe);
-    lobe_eval_n(&lobe, (size_t)self->count, s->o[0], s->o[1], s->o[2], s->i[0], s->i[1], s->i[2], once,
-                again);
+    lobe_eval_n(&lobe, (size_t)self->count, s->o[0], s->o[1], s->o[2], s->i[0], s->i[1], s->i[2], single,
+                multiple);
     for (int k = 0; k < self->count; k++) {
-        const float x = once[k] * s->i[2][k], share = again[k];
-        once[k] = x * (1.0f - share), again[k] = x * share;
+        const float x = single[k] * s->i[2][k], share = multiple[k];
+        single[k] = x * (1.0f - share), multiple[k] = x * share;
     }
     self->evaluations++;
 }
 
-static void ask_columns(WeaveWalker *self, const double *x, float *const column[COLUMNS]) {
+static void eval_columns(WeaveWalker *self, const double *x, float *const column[COLUMNS]) {
     WeftLobe lobes[2];
     lobes_at(x, lobes);
-    for (int t = 0; t < 2; t++) ask(self, &lobes[t], column[2 * t], column[2 * t + 1]);
+    for (int t = 0; t < 2; t++) eval(self, &lobes[t], column[2 * t], column[2 * t + 1]);
 }
 
 /* Sets the colours to the best for these numbers, and returns the error. */
 static double paint(WeaveWalker *self, double *x) {
     double sum = 0.0;
     Blend blend = {.columns = COLUMNS, .work = self->work};
-    ask_columns(self, x, self->column);
+    eval_columns(self, x, self->column);
     for (int c = 0; c < self->samples->channels; c++) {
         for (int j = 0; j < COLUMNS; j++) blend.column[j][c] = self->column[j];
         sum += blend_solve(self->samples, self->count, c, &blend, x + NUMBERS + c * COLUMNS);
@@ -108,12 +109,12 @@ static float x_of(const WeaveWalker *self, const double *x, int c, int k) {
     return (float)sum;
 }
 
-/* dg / dx. */
+/* Returns dg / dx. */
 static double slope(const Samples *s, float x) {
     return s->metric == WEFT_BRDF_METRIC_LOG ? 1.0 / (double)(s->scale + x) : 1.0;
 }
 
-/* Sum sqrt(r^2 + e^2) - e, r = g(x) - goal, with the columns as they are. */
+/* Returns sum sqrt(r^2 + e^2) - e, r = g(x) - goal, for the columns in place. */
 static double cost_of(const WeaveWalker *self, const double *x) {
     const Samples *s = self->samples;
     double sum = 0.0;
@@ -126,11 +127,11 @@ static double cost_of(const WeaveWalker *self, const double *x) {
 }
 
 static double cost_at(WeaveWalker *self, const double *x) {
-    ask_columns(self, x, self->column);
+    eval_columns(self, x, self->column);
     return cost_of(self, x);
 }
 
-/* Fills `turned`: differences towards the middle of each number's range, with `column` as it is at x. */
+/* Fills `slopes` with differences towards the middle of each parameter's range; `column` must be at x. */
 static void differentiate(WeaveWalker *self, const double *x) {
     for (int n = 0; n < NUMBERS; n++) {
         const double h = x[n] < 0.5 ? 2e-3 : -2e-3;
@@ -140,12 +141,12 @@ static void differentiate(WeaveWalker *self, const double *x) {
         moved[n] += h;
         lobes_at(moved, lobes);
         for (int t = 0; t < 2; t++) {
-            float **turned = &self->turned[n][(ptrdiff_t)2 * t];
+            float **slopes = &self->slopes[n][(ptrdiff_t)2 * t];
             const bool moves = numbers[n].system == 2 || numbers[n].system == t;
-            if (moves) ask(self, &lobes[t], turned[0], turned[1]);
+            if (moves) eval(self, &lobes[t], slopes[0], slopes[1]);
             for (int j = 0; j < 2; j++)
                 for (int k = 0; k < self->count; k++)
-                    turned[j][k] = moves ? (turned[j][k] - self->column[2 * t + j][k]) / (float)h : 0.0f;
+                    slopes[j][k] = moves ? (slopes[j][k] - self->column[2 * t + j][k]) / (float)h : 0.0f;
         }
     }
 }
@@ -155,7 +156,8 @@ typedef struct WeaveNormal {
     double a[UNKNOWNS][UNKNOWNS], b[UNKNOWNS];
 } WeaveNormal;
 
-/* Squares are weighed so that they count for what sizes do: weight 1 / sqrt(r^2 + e^2). */
+/* Makes the normal equations. A square counts like an absolute difference: its weight is 1 / sqrt(r^2 +
+ * e^2). */
 static void normal_make(const WeaveWalker *self, const double *x, WeaveNormal *normal) {
     const Samples *s = self->samples;
     memset(normal, 0, sizeof *normal);
@@ -168,7 +170,7 @@ static void normal_make(const WeaveWalker *self, const double *x, WeaveNormal *n
             const double w = (double)s->weight[k] / (sqrt)(r * r + self->soft * self->soft);
             for (int n = 0; n < NUMBERS; n++) {
                 row[n] = 0.0;
-                for (int j = 0; j < COLUMNS; j++) row[n] += g * color[j] * (double)self->turned[n][j][k];
+                for (int j = 0; j < COLUMNS; j++) row[n] += g * color[j] * (double)self->slopes[n][j][k];
             }
             for (int j = 0; j < COLUMNS; j++) row[NUMBERS + j] = g * (double)self->column[j][k];
             for (int m = 0; m < NUMBERS + COLUMNS; m++) {
@@ -183,19 +185,19 @@ static void normal_make(const WeaveWalker *self, const double *x, WeaveNormal *n
 
 static int unknowns(const WeaveWalker *self) { return NUMBERS + COLUMNS * self->samples->channels; }
 
-static bool is_held(const WeaveNormal *normal, const double *x, int p) {
+static bool is_locked(const WeaveNormal *normal, const double *x, int p) {
     const bool low = x[p] <= 0.0 && normal->b[p] > 0.0;
     const bool high = p < NUMBERS && x[p] >= 1.0 && normal->b[p] < 0.0;
     return low || high || !(normal->a[p][p] > 0.0);
 }
 
-/* Moves x by the step of a damped least-squares problem; what would leave its range stays at its end. Donald W. Marquardt,
- * "An Algorithm for Least-Squares Estimation of Nonlinear Parameters", 1963. */
+/* Moves x by the step of a damped least-squares problem, clamped to the ranges. Donald W. Marquardt, "An
+ * Algorithm for Least-Squares Estimation of Nonlinear Parameters", 1963. */
 static bool take_step(const WeaveWalker *self, const WeaveNormal *normal, double damp, double *x) {
     double a[UNKNOWNS * UNKNOWNS], step[UNKNOWNS];
     int index[UNKNOWNS], n = 0;
     for (int p = 0; p < unknowns(self); p++)
-        if (!is_held(normal, x, p)) index[n++] = p;
+        if (!is_locked(normal, x, p)) index[n++] = p;
     for (int c = 0; c < n; c++) {
         for (int r = c; r < n; r++) a[c * n + r] = normal->a[index[r]][index[c]];
         a[c * n + c] *= 1.0 + damp;
@@ -209,7 +211,7 @@ static bool take_step(const WeaveWalker *self, const WeaveNormal *normal, double
     return true;
 }
 
-/* Goes down from a place, in so many steps at most. */
+/* Descends from a place, in `steps` steps at most. */
 static void descend(WeaveWalker *self, WeavePlace *place, int steps) {
     double damp = 1e-2;
     place->cost = cost_at(self, place->x);
@@ -227,11 +229,12 @@ static void descend(WeaveWalker *self, WeavePlace *place, int steps) {
             damp = fmax(damp * 0.1, 1e-9);
             break;
         }
-        if (!(place->cost < before * (1.0 - 1e-5))) break; /* else the columns are of this place, met last */
+        if (!(place->cost < before * (1.0 - 1e-5)))
+            break; /* else the columns are those of this place, which was evaluated last */
     }
 }
 
-/* Keeps the best places of a grid, the best first. */
+/* Keeps the best places of a grid, sorted by cost. */
 static void keep(WeavePlace *best, const WeavePlace *place) {
     int at = STARTS;
     while (at > 0 && place->cost < best[at - 1].cost) at--;
@@ -240,7 +243,7 @@ static void keep(WeavePlace *best, const WeavePlace *place) {
     best[at] = *place;
 }
 
-/* Fills the starts with the best of a grid in the middle of all ranges. */
+/* Fills the starts with the best points of a grid in the middle of all ranges. */
 static void find_starts(WeaveWalker *self, WeavePlace starts[STARTS]) {
     static const int primes[NUMBERS] = {2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41};
     for (int k = 0; k < STARTS; k++) starts[k].cost = HUGE_VAL;
@@ -259,7 +262,7 @@ static bool walker_make(WeaveWalker *self, const Samples *samples, ItemProgress 
     if (!self->block) return false;
     float *at = self->block;
     for (int j = 0; j < COLUMNS; j++, at += n) self->column[j] = at;
-    for (int k = 0; k < NUMBERS * COLUMNS; k++, at += n) self->turned[k / COLUMNS][k % COLUMNS] = at;
+    for (int k = 0; k < NUMBERS * COLUMNS; k++, at += n) self->slopes[k / COLUMNS][k % COLUMNS] = at;
     self->work = at;
     return true;
 }
@@ -271,7 +274,7 @@ static double mean_goal(const Samples *s) {
     return sum / s->channels / s->count;
 }
 
-static void give(const WeaveWalker *self, const double *x, LobeFound *out) {
+static void set_found(const WeaveWalker *self, const double *x, LobeFound *out) {
     WeftLobe lobes[2];
     lobes_at(x, lobes);
     for (int t = 0; t < 2; t++)
@@ -290,14 +293,14 @@ static int by_cost(const void *a, const void *b) {
     return (x->cost > y->cost) - (x->cost < y->cost);
 }
 
-/* Goes down with all samples, by squares and ever more by sizes. */
+/* Descends with all samples, at first by squares and then more and more by absolute differences. */
 static void finish(WeaveWalker *self, WeavePlace *place, double soft) {
     self->soft = soft;
     for (int k = 0; k < 3; k++, self->soft *= 0.1) descend(self, place, FULL_STEPS / 3);
 }
 
-/* Roughly, from several starts and few samples, and from the best of them with all, since a valley that is the deepest with
- * few samples need not be with all. */
+/* Searches roughly from several starts with few samples, then accurately from the best of them with all
+ * samples: the deepest valley with few samples need not be the deepest with all. */
 WeftResult weave_search_run(const Samples *samples, ItemProgress *item_progress, LobeFound *out) {
     WeaveWalker self;
     WeavePlace starts[STARTS];
@@ -315,17 +318,18 @@ WeftResult weave_search_run(const Samples *samples, ItemProgress *item_progress,
         finish(&self, &starts[k], soft);
     qsort(starts, FINISHED, sizeof *starts, by_cost);
     out->error = paint(&self, starts[0].x);
-    give(&self, starts[0].x, out);
+    set_found(&self, starts[0].x, out);
     free(self.block);
     return progress_report(item_progress, 0.0) ? WEFT_OK : WEFT_INTERRUPTED;
 }
 
-/* The length of the mean of e^(2 i phi) over all directions, in parts of that in one plane, is 1 in one plane. */
+/* Measures the spread of azimuths: the length of the mean of e^(2 i phi) over all directions, which is 1 if
+ * they lie in one plane. */
 bool weave_search_sees(const Samples *samples) {
     double sum[3] = {0.0};
     for (int k = 0; k < samples->count; k++)
-        for (int way = 0; way < 2; way++) {
-            const float *const *w = (const float *const *)(way ? samples->i : samples->o);
+        for (int both = 0; both < 2; both++) {
+            const float *const *w = (const float *const *)(both ? samples->i : samples->o);
             const double x = (double)w[0][k], y = (double)w[1][k], r = hypot(x, y);
             if (!(r > 1e-6)) continue;
             sum[0] += (x * x - y * y) / r, sum[1] += 2.0 * x * y / r, sum[2] += r;

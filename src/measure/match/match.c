@@ -27,7 +27,7 @@ static WeftResult samples_from(Samples *samples, const WeftReflection *from, int
     *samples = (Samples){0};
     if (!weft_brdf_metric_name(metric)) return fail(error, WEFT_MESSAGE_DESC, number, NULL);
     if (!samples_spread(samples, metric)) return short_of_memory(error);
-    samples_ask(samples, from, part, samples->x);
+    samples_eval(samples, from, part, samples->x);
     samples_finish(samples);
     return WEFT_OK;
 }
@@ -37,7 +37,7 @@ static WeftResult distance_of(const Samples *samples, const WeftReflection *to, 
     Samples other;
     bool made = samples_create(&other, samples->count, samples->metric);
     if (made) {
-        samples_ask(samples, to, part, other.x);
+        samples_eval(samples, to, part, other.x);
         *distance = samples_distance(samples, samples->count, (const float *const *)other.x);
     }
     samples_free(&other);
@@ -109,7 +109,7 @@ WeftResult weft_match_lobe(const WeftReflection *from, WeftBrdfMetric metric, un
 }
 
 /* Works as search_lobe, for a material. */
-static WeftResult search_material(const Samples *samples, const int *held, ItemProgress *item_progress,
+static WeftResult search_material(const Samples *samples, const int *locked, ItemProgress *item_progress,
                                   WeftMaterial *material, WeftMatch *out, WeftError *error) {
     WeftReflection *copy;
     WeftMaterial changed = *material;
@@ -120,7 +120,7 @@ static WeftResult search_material(const Samples *samples, const int *held, ItemP
     weft_reflection_free(copy);
     out->matched = out->copied;
     if (result != WEFT_OK || out->copied < 1e-7) return result;
-    result = material_search_run(samples, held, item_progress, &changed, &found, error);
+    result = material_search_run(samples, locked, item_progress, &changed, &found, error);
     out->evaluations = found.evaluations;
     if (result != WEFT_OK || !(found.matched < out->copied)) return result;
     out->matched = found.matched;
@@ -128,14 +128,14 @@ static WeftResult search_material(const Samples *samples, const int *held, ItemP
     return WEFT_OK;
 }
 
-WeftResult match_material(const WeftReflection *from, WeftBrdfMetric metric, const int *held,
+WeftResult match_material(const WeftReflection *from, WeftBrdfMetric metric, const int *locked,
                           ItemProgress *item_progress, WeftMaterial *material, WeftMatch *out,
                           WeftError *error) {
     Samples samples;
     *out = (WeftMatch){.copied = 0.0};
     if (reflection_walks(from)) return walks_refused(reflection_walks(from), error);
     WeftResult result = samples_from(&samples, from, WEFT_PART_ALL, metric, error);
-    if (result == WEFT_OK) result = search_material(&samples, held, item_progress, material, out, error);
+    if (result == WEFT_OK) result = search_material(&samples, locked, item_progress, material, out, error);
     samples_free(&samples);
     return result;
 }

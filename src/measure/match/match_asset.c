@@ -32,7 +32,8 @@ enum { FACTORS = sizeof factors / sizeof *factors };
 static double linear_of(double x) { return x <= 0.04045 ? x / 12.92 : pow((x + 0.055) / 1.055, 2.4); }
 
 /* Returns the place of red, green, blue or alpha among an image's channels, -1 if there is none. With one
- * channel or two, the first is grey and stands for all three colours; with two or four, the last is alpha. */
+ * channel or two, the first is grey and is used for all three colours; with two or four, the last is
+ * alpha. */
 static int place_of(int channel, int channels) {
     if (channel == 3) return channels & 1 ? -1 : channels - 1;
     return channels < 3 ? 0 : channel;
@@ -56,7 +57,7 @@ static double texture_mean(WeftImage image, int channel, bool color) {
 
 /* A mean of a texture, kept for all materials that read it. */
 typedef struct Mean {
-    bool known;
+    bool done;
     double mean;
 } Mean;
 
@@ -77,13 +78,13 @@ typedef struct AverageSearch {
 
 typedef struct AssetSearch {
     WeftScene *scene;
-    int from, to;              /* profiles */
-    int held[WEFT_INPUTS_MAX]; /* not 0: the input keeps its value */
+    int from, to;                /* profiles */
+    int locked[WEFT_INPUTS_MAX]; /* not 0: the input keeps its value */
     WeftBrdfMetric metric;
     WeftProgress progress; /* may be NULL */
     void *user;
     LoopWatch watch;
-    Mean (*means)[2][4];      /* [texture - 1][0: plain numbers, 1: sRGB colours][channel] */
+    Mean (*means)[2][4];      /* [texture - 1][0: data, 1: sRGB colours][channel] */
     AssetMaterial *materials; /* `count` */
     AverageSearch *searches;  /* `search_count`, at most `count` */
     WeftAssetMatch *matches;
@@ -93,7 +94,7 @@ typedef struct AssetSearch {
 static double mean_of(AssetSearch *self, const WeftInput *input, int channel, bool color) {
     if (!input->texture) return 1.0;
     Mean *kept = &self->means[input->texture - 1][color][channel];
-    if (!kept->known)
+    if (!kept->done)
         *kept = (Mean){true, texture_mean(weft_scene_texture(self->scene, input->texture), channel, color)};
     return kept->mean;
 }
@@ -142,7 +143,7 @@ static json_t *member_object(json_t *object, const char *name) {
     return json_object_get(object, name);
 }
 
-/* Puts a factor that has changed into the JSON. */
+/* Writes a factor that has changed to the JSON. */
 static WeftResult factor_write(Rewrite *rewrite, json_t *material, const Factor *factor, const float *value,
                                WeftError *error) {
     json_t *home = factor->extension ? member_object(member_object(material, "extensions"), factor->extension)
@@ -183,12 +184,12 @@ static WeftResult material_write(Rewrite *rewrite, int index, const WeftAssetMat
     return result;
 }
 
-/* Sets held for every input but those of `factors`. */
-static void hold_rest(int held[WEFT_INPUTS_MAX]) {
+/* Locks every input but those of `factors`. */
+static void lock_rest(int locked[WEFT_INPUTS_MAX]) {
     for (int k = 0; k < WEFT_INPUTS_MAX; k++) {
-        held[k] = 1;
+        locked[k] = 1;
         for (int f = 0; f < FACTORS; f++)
-            if ((int)factors[f].input == k) held[k] = 0;
+            if ((int)factors[f].input == k) locked[k] = 0;
     }
 }
 
@@ -237,14 +238,14 @@ static void search_run(void *user, int item, int thread) {
     search->result = weft_reflection_create(&search->average, &original, &search->error);
     if (search->result != WEFT_OK) return;
     weft_material_choose(&search->average, CHOICE_profile, self->to);
-    search->result = match_material(original, self->metric, self->held, &item_progress, &search->average,
+    search->result = match_material(original, self->metric, self->locked, &item_progress, &search->average,
                                     &search->found, &search->error);
     weft_reflection_free(original);
     progress_report(&item_progress, 1.0);
 }
 
 static WeftResult search_all(AssetSearch *self, WeftError *error) {
-    hold_rest(self->held);
+    lock_rest(self->locked);
     if (!watch_loop(&self->watch, 0, self->search_count, search_run, self, self->progress, self->user))
         return WEFT_INTERRUPTED;
     for (int k = 0; k < self->search_count; k++) {
@@ -298,7 +299,8 @@ static WeftResult asset_write(const AssetSearch *self, Asset *asset, const char 
     return result;
 }
 
-/* Reading takes little time beside the searches and does not count in the progress. */
+/* Reports no progress while the file is read, which takes little time beside the searches, but passes on a
+ * stop. */
 static int while_reading(void *user, double fraction) {
     AssetSearch *self = user;
     (void)fraction;
