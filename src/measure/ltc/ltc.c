@@ -1,4 +1,4 @@
-/* ltc.c - the public face of the LTC tables */
+/* ltc.c - the public functions of LTC tables (weft/ltc.h) */
 #include <stdlib.h>
 
 #include "base/fail.h"
@@ -13,7 +13,7 @@ const char *weft_ltc_channel_name(int channel) {
     return channel >= 0 && channel < WEFT_LTC_CHANNELS ? names[channel] : NULL;
 }
 
-/* Takes what the descriptor says. */
+/* Sets the table from the descriptor and allocates it. */
 static WeftResult describe(WeftLtc *ltc, const WeftLobe *lobe, const WeftLtcDesc *desc, WeftError *error) {
     const WeftLobeInfo *info = weft_lobe_info(lobe->lobe);
     if (!info || !lobe_of(lobe, &ltc->lobe))
@@ -36,9 +36,9 @@ static WeftResult describe(WeftLtc *ltc, const WeftLobe *lobe, const WeftLtcDesc
     ltc->columns = desc->columns ? desc->columns : 32;
     ltc->lobe.params[0] = 0.0f;
     if (p) {
-        bool asked = desc->low < 0.0f || desc->low > 0.0f || desc->high < 0.0f || desc->high > 0.0f;
-        ltc->low = clamp(asked ? desc->low : p->low, p->hard_low, p->hard_high);
-        ltc->high = clamp(asked ? desc->high : p->high, p->hard_low, p->hard_high);
+        bool has_range = desc->low < 0.0f || desc->low > 0.0f || desc->high < 0.0f || desc->high > 0.0f;
+        ltc->low = clamp(has_range ? desc->low : p->low, p->hard_low, p->hard_high);
+        ltc->high = clamp(has_range ? desc->high : p->high, p->hard_low, p->hard_high);
         if (!(desc->low <= desc->high) || !(ltc->low >= 0.0f))
             return fail(error, WEFT_MESSAGE_DESC, p->name, "%g .. %g is no range of %s", (double)desc->low,
                         (double)desc->high, info->id);
@@ -89,7 +89,7 @@ const float *weft_ltc_channel(const WeftLtc *ltc, int channel) {
 float weft_ltc_cos_o(const WeftLtc *ltc, int column) { return ltc_cos_o(ltc, column); }
 float weft_ltc_value(const WeftLtc *ltc, int row) { return ltc_lobe(ltc, row).params[0]; }
 
-/* E of a node, in the colours that were fitted. */
+/* Returns E of a node, in the colours that were fitted. */
 static float albedo(const WeftLtc *ltc, int cell) {
     const float *t = ltc->texels + cell;
     int plane = ltc_cells(ltc);

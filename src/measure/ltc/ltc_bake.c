@@ -11,10 +11,10 @@
 #include "measure/bsdf/grid.h"
 #include "measure/ltc/ltc_fit.h"
 
-/* The error is measured on more directions than the fit has seen. */
+/* The error is measured on more directions than the fit uses. */
 enum { FIT_CELLS = 96, ERROR_CELLS = 192 };
 
-/* Below this a lobe sends on nothing whose shape could count; underflow is near. */
+/* A lobe with a smaller E reflects nothing whose shape could matter, and underflow is near. */
 static const double nothing = 1e-20;
 
 bool ltc_create(WeftLtc *ltc) {
@@ -47,8 +47,8 @@ bool ltc_isotropic(const WeftLtc *ltc) {
         double z[2], phi = 0.0, f[2];
         for (int d = 0; d < 2; d++) z[d] = 1.0 - (double)draw_unit(&draw);
         double between = 2.0 * PI_DOUBLE * (double)draw_unit(&draw);
-        for (int turn = 0; turn < 2; turn++, phi = 2.0 * PI_DOUBLE * (double)draw_unit(&draw))
-            f[turn] = (double)lobe_eval(
+        for (int rotation = 0; rotation < 2; rotation++, phi = 2.0 * PI_DOUBLE * (double)draw_unit(&draw))
+            f[rotation] = (double)lobe_eval(
                 &lobe, angles_between(grid_direction(z[0], phi), grid_direction(z[1], phi + between)));
         /* floats leave a few thousandths where a sharp lobe is steep */
         if (fabs(f[0] - f[1]) > 0.02 * fmax(f[0], f[1]) + 1e-6) return false;
@@ -78,8 +78,8 @@ static void set_entries(WeftLtc *ltc, int row, int column, LtcEntries e) {
     *texel(ltc, WEFT_LTC_R, row, column) = e.r;
 }
 
-/* Each cell starts from its neighbours towards rough and towards normal incidence, which the diagonals before
- * it hold. */
+/* Bakes a cell. The fit starts from the neighbours towards rough and towards normal incidence, which belong
+ * to earlier diagonals. */
 static bool bake_cell(WeftLtc *ltc, int row, int column) {
     LtcTarget coarse, fine;
     bool made = ltc_target_create(&coarse, FIT_CELLS), both = ltc_target_create(&fine, ERROR_CELLS) && made;
@@ -111,7 +111,7 @@ static bool bake_cell(WeftLtc *ltc, int row, int column) {
     return both;
 }
 
-/* Cell `item` of a diagonal: rows from the last, columns from normal incidence. */
+/* Bakes cell `item` of a diagonal: rows from the last, columns from normal incidence. */
 static void bake_item(void *user, int item, int thread) {
     Bake *bake = user;
     WeftLtc *ltc = bake->ltc;
@@ -120,8 +120,9 @@ static void bake_item(void *user, int item, int thread) {
     if (!bake_cell(ltc, ltc->rows - 1 - up, ltc->columns - 1 - left)) bake->short_of_memory = true;
 }
 
-/* At normal incidence only z is seen. What the mixing with the next column takes from there goes on from the
- * columns beside it, in a straight line over the nodes; where the lobe sends on nothing at all, so does z. */
+/* Extrapolates q, b and r to normal incidence, where only z matters, in a straight line over the nodes of the
+ * columns beside it, since interpolation with the next column reads them. If the lobe reflects nothing there,
+ * z is copied. */
 static void continue_to_normal(WeftLtc *ltc, int row) {
     int last = ltc->columns - 1;
     LtcEntries own = entries(ltc, row, last), a = entries(ltc, row, last - 1), b = a;

@@ -6,7 +6,7 @@
 #include "text/assemble/catalogue.h"
 #include "text/assemble/dispatch.h"
 
-/* Raised whenever the same lobe would be fitted otherwise. */
+/* Increased whenever the fit of the same lobe changes. */
 enum { FITTER = 3 };
 
 WeftResult ltc_key(const WeftLtc *ltc, uint64_t *key, WeftError *error) {
@@ -30,8 +30,8 @@ WeftResult ltc_key(const WeftLtc *ltc, uint64_t *key, WeftError *error) {
     return result;
 }
 
-/* Returns true if a number meets the conditions of ltc_table.h and products of three are finite. */
-static bool may_be(int plane, float value) {
+/* Returns true if a value meets the conditions of ltc_table.h and products of three are finite. */
+static bool is_sound(int plane, float value) {
     if (!(fabsf(value) < 1e9f)) return false;
     return plane == WEFT_LTC_B || (plane == WEFT_LTC_Z ? value > 0.0f : value >= 0.0f);
 }
@@ -39,7 +39,7 @@ static bool may_be(int plane, float value) {
 bool ltc_is_sound(const WeftLtc *ltc) {
     size_t plane = (size_t)ltc_cells(ltc), count = plane * WEFT_LTC_CHANNELS;
     bool sound = true;
-    for (size_t k = 0; k < count; k++) sound = sound && may_be((int)(k / plane), ltc->texels[k]);
+    for (size_t k = 0; k < count; k++) sound = sound && is_sound((int)(k / plane), ltc->texels[k]);
     return sound;
 }
 

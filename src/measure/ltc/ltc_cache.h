@@ -4,11 +4,12 @@
 
 #include "measure/ltc/ltc_bake.h"
 
-/* All that a table depends on: the lobe's text with the terms and tables it reads, its parameters, the text
- * of the transform, the descriptor, the version of the fitter. Fails with WEFT_MESSAGE_MEMORY. */
+/* Hashes all that a table depends on: the text of the lobe with the terms and tables that it reads, its
+ * parameters, the text of the transform, the descriptor, the version of the fitter. Fails with
+ * WEFT_MESSAGE_MEMORY. */
 WeftResult ltc_key(const WeftLtc *ltc, uint64_t *key, WeftError *error);
 
-/* Returns true if the texels meet the conditions of ltc_table.h, so that they can be looked up in. */
+/* Returns true if the texels meet the conditions of ltc_table.h for lookups. */
 bool ltc_is_sound(const WeftLtc *ltc);
 
 /* Fills the texels and returns true if the cache has a sound table of that key and size. */
