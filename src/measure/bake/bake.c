@@ -1,4 +1,4 @@
-/* bake.c - the table of kinds, and what is checked and looped over for all of them */
+/* bake.c - weft_bake: the table of kinds, and the checks that all of them share */
 #include "measure/bake/bake_texels.h"
 
 #include "base/fail.h"

@@ -2,7 +2,7 @@
  *
  *   E(cos_o) = integral over the hemisphere of f(wo, wi) cos_i dwi
  *
- * Of a lobe of two colours, f0 and f90, the same for the two weights that they have. */
+ * For a lobe of two colours, f0 and f90, these are the integrals of their two weights. */
 #include <stdio.h>
 
 #include "measure/bake/bake_texels.h"

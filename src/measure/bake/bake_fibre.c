@@ -9,9 +9,9 @@
 #include "measure/bake/bake_texels.h"
 
 enum { SIDE_MOST = 64, ROUNDS = 60 };
-static const double alpha_low = 0.19; /* of the lobe */
+static const double alpha_low = 0.19; /* the least alpha of the lobe */
 
-/* SolvedSets, then rounds: a phase ends where its count is full. */
+/* Progress over two phases, solved sets and rounds: a phase ends when its count is full. */
 typedef struct Counter {
     const WeftBakeDesc *desc;
     int phases;

@@ -39,7 +39,7 @@ WeftResult bake_texels(int width, int height, int threads, WeftProgress progress
     return texels.stopped ? WEFT_INTERRUPTED : WEFT_OK;
 }
 
-/* Finds all of a texel but its parts, and the lobe there. */
+/* Finds all of a texel except its parts, and the lobe there. */
 static BakeTexel texel_place(const BakePlane *plane, int x, int y, Lobe *lobe) {
     BakeTexel texel = {0};
     *lobe = plane->lobe;
@@ -81,23 +81,23 @@ BakeLayer bake_layer(const Lobe *lobe, const WeftTableForm *form) {
     return (BakeLayer){*lobe, 2, {WEFT_TABLE_F0, WEFT_TABLE_F90}};
 }
 
-/* The extremes that one thread has met so far. Merged, they do not depend on how work was divided. */
-typedef struct Met {
+/* The extremes that one thread has found. Merged, they do not depend on how work was divided. */
+typedef struct LayerExtremes {
     double error;
     long long unmet, beyond;
-} Met;
+} LayerExtremes;
 
 typedef struct LayerFill {
     const WeftBakeDesc *desc;
     const BakeLayer *layers;
     int count;
     WeftImage *out;
-    Met met[WEFT_THREADS_MAX];
+    LayerExtremes extremes[WEFT_THREADS_MAX];
 } LayerFill;
 
 static void fill_texel(void *user, int x, int y, int thread) {
     LayerFill *fill = user;
-    Met *met = &fill->met[thread];
+    LayerExtremes *extremes = &fill->extremes[thread];
     const WeftImage *out = fill->out;
     float *to = (float *)out->pixels + ((size_t)y * (size_t)out->width + (size_t)x) * (size_t)out->channels;
     bool beyond = false;
@@ -110,11 +110,11 @@ static void fill_texel(void *user, int x, int y, int thread) {
                                  .tolerance = fill->desc->tolerance};
         const BakeTexel texel = bake_texel(&plane, x, y);
         for (int c = 0; c < layer->channels; c++) *to++ = texel.part[layer->parts[c]];
-        if (exceeds_or_nan(texel.error, met->error)) met->error = texel.error;
-        met->unmet += !(texel.error <= plane.tolerance);
+        if (exceeds_or_nan(texel.error, extremes->error)) extremes->error = texel.error;
+        extremes->unmet += !(texel.error <= plane.tolerance);
         beyond |= texel.beyond;
     }
-    met->beyond += beyond;
+    extremes->beyond += beyond;
 }
 
 WeftResult bake_layers(const WeftBakeDesc *desc, const BakeLayer *layers, int count, WeftBakeInfo *info,
@@ -132,10 +132,10 @@ WeftResult bake_layers(const WeftBakeDesc *desc, const BakeLayer *layers, int co
     result =
         bake_texels(desc->width, desc->height, desc->threads, desc->progress, desc->user, fill_texel, fill);
     for (int k = 0; k < WEFT_THREADS_MAX; k++) {
-        const Met *met = &fill->met[k];
-        if (exceeds_or_nan(met->error, info->error)) info->error = met->error;
-        info->unmet += met->unmet;
-        info->beyond += met->beyond;
+        const LayerExtremes *extremes = &fill->extremes[k];
+        if (exceeds_or_nan(extremes->error, info->error)) info->error = extremes->error;
+        info->unmet += extremes->unmet;
+        info->beyond += extremes->beyond;
     }
     free(fill);
     if (result != WEFT_OK) weft_image_free(out);

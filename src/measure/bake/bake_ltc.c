@@ -7,7 +7,7 @@
 #include "measure/bake/bake_texels.h"
 #include "weft/ltc.h"
 
-/* Channels `channels[0 .. count - 1]` of ltc.h; level: r is 0. */
+/* Bakes the channels `channels[0 .. count - 1]` of ltc.h; level: r is 0. */
 static WeftResult bake(const WeftBakeDesc *desc, const int *channels, int count, bool level,
                        WeftBakeInfo *info, WeftImage *out, WeftError *error) {
     WeftLtc *ltc;

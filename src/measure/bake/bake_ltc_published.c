@@ -1,14 +1,15 @@
-/* bake_ltc_published.c - kind "ltc-fibre-published": the table of the lobe of that name (fibre/truncated_walk.h)
+/* bake_ltc_published.c - kind "ltc-fibre-published", the table of that lobe (fibre/truncated_walk.h)
  *
- * Columns are uniform in cos_o and rows in alpha, both from 0 to 1, of which 0.01 is the least. A texel is
+ * Columns are uniform in cos_o and rows in alpha, both from 0 to 1, with 0.01 as the least value. A texel is
  *
- *            ( a  0  b )
- *   M^-1  =  ( 0  a  0 )    and R,    f cos_i = R D,  D = a^2 w'_z / (pi |w'|^4),  w' = M^-1 wi
- *            ( 0  0  1 )
+ *           ( a  0  b )
+ *   M^-1 =  ( 0  a  0 )    and R,    f cos_i = R D,  D = a^2 w'_z / (pi |w'|^4),  w' = M^-1 wi
+ *           ( 0  0  1 )
  *
- * with x along wo. R is counted, and a and b have the least sum of |f cos_i - R D|^3 over the middles of cells of equal
- * theta and phi: so Tizian Zeltner, Brent Burley, Matt Jen-Yuan Chiang, "Practical Multiple-Scattering Sheen Using
- * Linearly Transformed Cosines", SIGGRAPH Talks 2022, made their table, from the roughest row to the first. */
+ * with x along wo. R is counted. a and b have the least sum of |f cos_i - R D|^3 over the middles of cells of
+ * equal theta and phi. The table was made in this way, from the roughest row to the first, by Tizian Zeltner,
+ * Brent Burley, Matt Jen-Yuan Chiang, "Practical Multiple-Scattering Sheen Using Linearly Transformed
+ * Cosines", SIGGRAPH Talks 2022. */
 #include <math.h>
 #include <stdatomic.h>
 #include <stdio.h>
@@ -21,7 +22,8 @@
 #include "fibre/truncated_walk.h"
 #include "measure/bake/bake_texels.h"
 
-/* Fewer walks that come up than `SEEN_LEAST` have no shape: the next row's is taken. */
+/* With fewer than `SEEN_LEAST` walks that leave upwards a texel has no shape: it keeps that of the row
+ * before. */
 enum { WALKS = 1000000, SEEN_LEAST = 1000, EVALUATIONS_MOST = 2000, CHANNELS = 3 };
 static const double least = 0.01;
 
@@ -29,7 +31,7 @@ typedef struct TalkTable {
     const WeftBakeDesc *desc;
     float *texels;
     atomic_int done;
-    atomic_bool stopped, unfitted; /* unfitted: for want of memory */
+    atomic_bool stopped, unfitted; /* unfitted: memory was short */
 } TalkTable;
 
 static double transformed(double a, double b, double theta, double phi) {
@@ -51,7 +53,7 @@ static double cubes(unsigned n, const double *at, double *gradient, void *user) 
     return sum;
 }
 
-/* Starts where `at` is; false for want of memory. */
+/* Fits from `at`. Returns false if memory is short. */
 static bool fit(const TruncatedSlab *slab, double at[2]) {
     static const double low[] = {1e-3, -2.0}, high[] = {4.0, 2.0}, step[] = {0.1, 0.05};
     nlopt_opt method = nlopt_create(NLOPT_LN_NELDERMEAD, 2);
@@ -70,7 +72,8 @@ static bool fit(const TruncatedSlab *slab, double at[2]) {
 
 static double along(int k, int count) { return fmax((double)k / (count - 1), least); }
 
-/* One column, from the roughest row to the first. At the normal no direction is x, and b is 0. */
+/* Bakes one column, from the roughest row to the first. At normal incidence x has no direction, and b is
+ * 0. */
 static void column(void *user, int x, int thread) {
     TalkTable *table = user;
     const WeftBakeDesc *desc = table->desc;

@@ -5,10 +5,10 @@
 #include "fibre/fitted_model.h"
 #include "weft/bake.h"
 
-/* SolvedSets and rounds of all stages, by about what they cost. */
+/* Progress over the solved sets and the rounds of all stages, by their approximate cost. */
 typedef struct FitCounter {
     const WeftFibreModelDesc *desc;
-    int phases; /* reference and fit of each stage: a phase ends where its count is full */
+    int phases; /* reference and fit of each stage: a phase ends when its count is full */
     bool stopped;
 } FitCounter;
 

@@ -1,6 +1,6 @@
 /* bake_solved.c - kind "fibre-truth": what the solved slab of fibres reflects (fibre/slab.h), without noise
  *
- * R over cos_o and alpha, and T, what goes through. Density is that of the lobe, where one is given. */
+ * R over cos_o and alpha, and T, the transmitted light. The density is that of the lobe, if one is given. */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -14,8 +14,8 @@ typedef struct SolvedSets {
     const WeftBakeDesc *desc;
     WeftImage *out;
     double density;
-    const double *mu;    /* of every column or row that cos_o runs along */
-    const double *alpha; /* of every other */
+    const double *mu;    /* cos_o of each column, or row if transposed */
+    const double *alpha; /* alpha of each row, or column if transposed */
     int mus, alphas;
     double *found;                 /* [alphas][2][mus] */
     bool short_of_memory, stopped; /* set from any thread, never cleared */

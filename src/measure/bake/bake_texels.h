@@ -1,4 +1,4 @@
-/* bake_texels.h - parts of all kinds of baked tables: one file a kind, and the loop over texels
+/* bake_texels.h - what all kinds of baked tables share: the list of kinds, and the loop over texels
  *
  * A new kind is a file with a BakeMaker and a line in BAKE_KINDS. */
 #ifndef WEFT_MEASURE_BAKE_TEXELS_H
@@ -7,8 +7,8 @@
 #include "shading/catalogue/albedo.h"
 #include "weft/bake.h"
 
-/* Makes the table of a checked description, whose zeros have become the defaults. info is zeroed. A failure
- * leaves *out zeroed. */
+/* Makes the table of a checked description, whose zeros have been replaced by the defaults. info is zeroed. A
+ * failure leaves *out zeroed. */
 typedef WeftResult BakeMaker(const WeftBakeDesc *desc, WeftBakeInfo *info, WeftImage *out, WeftError *error);
 BakeMaker bake_albedo, bake_dfg, bake_solved, bake_ltc, bake_ltc_amplitude, bake_ltc_level, bake_fibre_table,
     bake_ltc_published;
@@ -28,8 +28,8 @@ BakeMaker bake_albedo, bake_dfg, bake_solved, bake_ltc, bake_ltc_amplitude, bake
       "R and T of the solved slab of fibres; -p density of LOBE fibre")
 
 /* Calls texel(user, x, y, thread) for all texels, on several threads (thread is below WEFT_THREADS_MAX), and
- * progress on the caller's. What texel finds it puts into places of its own or of its thread.
- * WEFT_INTERRUPTED where progress says so. */
+ * progress on the caller's. texel writes only to places of its own texel or thread. Fails with
+ * WEFT_INTERRUPTED if progress stops it. */
 WeftResult bake_texels(int width, int height, int threads, WeftProgress progress, void *progress_user,
                        void (*texel)(void *user, int x, int y, int thread), void *user);
 
@@ -39,40 +39,40 @@ typedef struct BakePlane {
     int width, height;
     Lobe lobe;
     double tolerance; /* of the quadrature */
-    int late;         /* texels by which the parameter runs ahead of the axis */
+    int late;         /* texels by which the parameter is ahead of the axis */
 } BakePlane;
 
 /* The result of the quadrature at a texel. */
 typedef struct BakeTexel {
-    float part[WEFT_TABLE_PARTS]; /* by WeftTablePart: E of the white lobe, and the two it is made of */
-    double error;                 /* the quadrature's own estimate */
-    float cos_o, value;           /* of the texel; value: the lobe's first parameter */
-    bool beyond;                  /* value is beyond its hard range: the parts are for the range's end */
+    float part[WEFT_TABLE_PARTS]; /* by WeftTablePart: E of the white lobe, and the two parts of it */
+    double error;                 /* the estimate of the quadrature */
+    float cos_o, value;           /* value: first parameter of the lobe */
+    bool beyond; /* value is beyond its hard range, and the parts are those at the end of the range */
 } BakeTexel;
 BakeTexel bake_texel(const BakePlane *plane, int x, int y);
 
-/* Returns true if a table can be judged by E at a texel: its cosine is not 0, and its value is not beyond. Takes next to
- * no time. */
+/* Returns true if a table can be judged by E at a texel: its cosine is not 0, and its value is not beyond.
+ * This takes almost no time. */
 bool bake_judges(const BakePlane *plane, int x, int y);
 
-/* Some channels of a table, and the lobe whose parts they hold. */
+/* Some channels of a table, and the lobe whose parts they store. */
 typedef struct BakeLayer {
     Lobe lobe;
     int channels;
     WeftTablePart parts[2]; /* of the channels */
 } BakeLayer;
 
-/* The parts of a lobe: E, or two where it mixes two colours, as the form has them. */
+/* Returns the parts of a lobe: E, or two if it mixes two colours, as the form requires. */
 BakeLayer bake_layer(const Lobe *lobe, const WeftTableForm *form);
 
-/* Fills a new table with layers, one after another, and info but for its words. */
+/* Fills a new table with layers, one after another, and info without its words. */
 WeftResult bake_layers(const WeftBakeDesc *desc, const BakeLayer *layers, int count, WeftBakeInfo *info,
                        WeftImage *out, WeftError *error);
 
 /* Returns true if two forms have the same axes; `total` is not compared. */
 bool form_same(const WeftTableForm *a, const WeftTableForm *b);
 
-/* The lobe's first parameter at t in [0, 1] of its axis, see weft_table_form_texel. */
+/* Returns the first parameter of the lobe at t in [0, 1] of its axis, see weft_table_form_texel. */
 float form_parameter(const WeftTableForm *form, int lobe, double t);
 
 #endif

@@ -1,12 +1,13 @@
-/* table_form.c - the meaning of a table's axes: forms that engines use, their words, and places of texels */
+/* table_form.c - the meaning of a table's axes: forms that engines use, their text, and the places of
+ * texels */
 #include <stdio.h>
 
 #include "base/fail.h"
 #include "measure/bake/bake_texels.h"
 
-/* Who reads a table so. Of a table over cos_o and roughness alone, Unreal, the glTF viewer and HDRP's cloth
- * agree. Sources: glTF-Sample-Renderer, source/Renderer/shaders/ibl.glsl; Filament, libs/ibl/src/
- * CubemapIBL.cpp, DFG; three.js, lights_physical_pars_fragment.glsl.js; MaterialX,
+/* The engines and their forms. For a table over cos_o and roughness alone, Unreal, the glTF viewer and HDRP's
+ * cloth agree. Sources: glTF-Sample-Renderer, source/Renderer/shaders/ibl.glsl; Filament,
+ * libs/ibl/src/CubemapIBL.cpp, DFG; three.js, lights_physical_pars_fragment.glsl.js; MaterialX,
  * mx_microfacet_specular.glsl; HDRP, PreIntegratedFGD.hlsl; Cycles, bsdf_microfacet.h and bsdf_sheen.h. */
 static const struct {
     const char *name, *help;
@@ -57,7 +58,7 @@ static int axis_of(const char *word) {
     return AXIS_NONE;
 }
 
-/* Sets what a word further back says; false: it says nothing. */
+/* Sets what a word after the axes means. Returns false if it has no meaning. */
 static bool element(WeftTableForm *form, const char *word) {
     const struct {
         const char *word;
