@@ -1,8 +1,9 @@
 /* bsdf.h - the model under test of a passport: a lobe, or a whole material under a profile, behind one
  * interface
  *
- * A BSDF is white, unless it is tinted and `albedo` says otherwise. It has settings: the rows of the
- * passport, then extremes for the sweep. The calls are pointers so that a test can put a wrong one in. */
+ * A BSDF is white, unless it is tinted and `albedo` is less than 1. It has settings: the rows of the
+ * passport, then extremes for the sweep. The calls are pointers so that a test can replace them by wrong
+ * ones. */
 #ifndef WEFT_MEASURE_BSDF_H
 #define WEFT_MEASURE_BSDF_H
 
@@ -30,18 +31,18 @@ enum { BSDF_EXTREMES = 64 };
 
 struct Bsdf {
     int rows, row_default;
-    float values[WEFT_PASSPORT_ROWS]; /* of the parameter */
+    float values[WEFT_PASSPORT_ROWS]; /* of the parameter, by row */
     const char *parameter;            /* name of the parameter, "" without one */
     int settings;                     /* rows and extremes */
 
     Lobe lobe;
-    float albedo; /* what a tinted lobe is made of; 1: it is white */
+    float albedo; /* albedo of a tinted lobe; 1: it is white */
     bool whole;   /* a material */
     WeaveSum sum; /* the base, or two */
-    float first;  /* the part of the samples that the first of two draws */
+    float first;  /* the fraction of the samples that the first of two bases draws */
     Surface surfaces[WEFT_PASSPORT_ROWS + BSDF_EXTREMES];
     Choices choices;
-    AlbedoTable *tables; /* of E, released by bsdf_free; that of a setting: */
+    AlbedoTable *tables; /* of E, released by bsdf_free; table_of: index of the table of a setting */
     int table_of[WEFT_PASSPORT_ROWS + BSDF_EXTREMES];
 
     void (*prepare)(const Bsdf *bsdf, int setting, Dir o, BsdfView *view); /* o.z > 0 */
@@ -50,19 +51,20 @@ struct Bsdf {
     Dir (*sample)(const BsdfView *view, float u, float v);
 };
 
-/* The lobe as it is given: rows run over its parameter 0. */
+/* Makes a BSDF of a lobe: rows run over its parameter 0. */
 void bsdf_of_lobe(Bsdf *bsdf, const Lobe *lobe, bool quick);
 
-/* The white velvet of a profile (bsdf_velvet says it in words). False when memory is short. */
+/* Makes the BSDF of the white velvet of a profile, which the text bsdf_velvet describes. Returns false if
+ * memory is short. */
 bool bsdf_of_profile(Bsdf *bsdf, int profile, bool quick, int threads);
 extern const char bsdf_velvet[];
 
-/* A woven material from afar, in its own colours. False when memory is short. */
+/* Makes the BSDF of a woven material from afar, in its own colours. Returns false if memory is short. */
 bool bsdf_of_weave(Bsdf *bsdf, const WeftMaterial *material, const WeftCloth *cloth, int threads);
 
 void bsdf_free(Bsdf *bsdf);
 
-/* The lobe of a setting. */
+/* Returns the lobe of a setting. */
 Lobe bsdf_lobe(const Bsdf *bsdf, int setting);
 
 #endif

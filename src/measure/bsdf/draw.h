@@ -1,4 +1,4 @@
-/* draw.h - numbers in [0, 1) by seed and index: the same in every run and on every thread */
+/* draw.h - numbers in [0, 1) by seed and index, the same in every run and on every thread */
 #ifndef WEFT_MEASURE_DRAW_H
 #define WEFT_MEASURE_DRAW_H
 

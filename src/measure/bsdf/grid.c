@@ -2,7 +2,7 @@
 
 #include "base/pi.h"
 
-/* x in (0, 1) to (0, 1), flat at both ends; its derivative; its inverse. */
+/* Maps x in (0, 1) to (0, 1), flat at both ends. Its derivative and its inverse follow. */
 static double stretch(double x) {
     double a = x * x * x * x, y = 1.0 - x, b = y * y * y * y;
     return a / (a + b);
@@ -36,7 +36,7 @@ GridLine grid_row(const Grid *grid, double s) {
                       range * stretch_slope(fabs(s)) * (sin)(theta)};
 }
 
-/* The middle of a cell along a side. */
+/* Returns the middle of a cell along a side. */
 static double middle(int k, int cells) { return -1.0 + 2.0 * (k + 0.5) / cells; }
 
 void grid_make(Grid *grid, Dir o, int cells) {

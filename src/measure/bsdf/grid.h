@@ -1,7 +1,7 @@
-/* grid.h - the hemisphere of wi cut into cells that crowd where lobes change fast
+/* grid.h - the hemisphere of wi cut into cells that are small where lobes change fast
  *
  * A square [-1, 1]^2 is stretched about the direction that mirrors wo: theta and phi move slowly there, and
- * again at the far ends (normal, horizon, backscatter). Integrals are midpoint sums over it. */
+ * also at the far ends (normal, horizon, backscatter). Integrals are midpoint sums over it. */
 #ifndef WEFT_MEASURE_GRID_H
 #define WEFT_MEASURE_GRID_H
 
@@ -13,7 +13,7 @@ typedef struct Grid {
     int cells;         /* along one side */
     double theta, phi; /* of the mirror direction */
     float cos_phi[GRID_MAX], sin_phi[GRID_MAX];
-    double width[GRID_MAX]; /* in phi, of a column */
+    double width[GRID_MAX]; /* of a column, in phi */
 } Grid;
 
 /* One row of cells: a ring of constant theta. */
@@ -24,24 +24,24 @@ typedef struct Ring {
 
 void grid_make(Grid *grid, Dir o, int cells);
 
-/* A line of the square: cosine and sine of phi, or of theta; and the derivative of phi, or of -cos theta, along the
- * square's side. So ds dt of the square is row.slope column.slope sr. */
+/* A line of the square: cosine and sine of phi, or of theta, and the derivative of phi, or of -cos theta,
+ * along the side of the square. ds dt of the square is row.slope column.slope sr. */
 typedef struct GridLine {
     float cosine, sine;
     double slope;
 } GridLine;
 
-/* t and s are places in [-1, 1]. */
+/* Returns the line at a place t or s in [-1, 1]. */
 GridLine grid_column(const Grid *grid, double t);
 GridLine grid_row(const Grid *grid, double s);
 
 /* Fills row k and returns its directions. */
 Dirs grid_ring(const Grid *grid, int k, Ring *ring);
 
-/* The cell of a direction when each side is cut into `bins`: row * bins + column. */
+/* Returns the cell of a direction if each side is cut into `bins`: row * bins + column. */
 int grid_bin(const Grid *grid, Dir i, int bins);
 
-/* A direction by its cosine, exact near both ends, at an azimuth in radians. */
+/* Returns a direction by its cosine, exact near both ends, at an azimuth in radians. */
 Dir grid_direction(double cosine, double phi);
 
 #endif

@@ -33,7 +33,7 @@ typedef struct LoopRun {
     bool over;
 } LoopRun;
 
-static void ask(LoopRun *run) {
+static void report(LoopRun *run) {
     double fraction = (double)atomic_load(&run->watch->done) / ((double)WHOLE * run->items);
     if (run->progress(run->progress_user, fmin(fraction, 1.0)) != 0) atomic_store(&run->watch->stopped, true);
 }
@@ -63,12 +63,12 @@ static void watched(LoopRun *run) {
     pthread_mutex_init(&run->lock, NULL);
     clock_condition(&run->ended);
     if (pthread_create(&thread, NULL, run_loop, run) == 0) {
-        while (!wait_for_end(run)) ask(run);
+        while (!wait_for_end(run)) report(run);
         pthread_join(thread, NULL);
     } else {
         for (int item = 0; item < run->items; item++) {
             run->body(run->user, item, 0);
-            ask(run);
+            report(run);
         }
     }
     pthread_cond_destroy(&run->ended);

@@ -8,22 +8,22 @@
 #include "weft/progress.h"
 
 typedef struct LoopWatch {
-    atomic_bool stopped; /* items that have not begun do nothing, and those that have end soon */
-    atomic_llong done;   /* of each item so many millionths */
+    atomic_bool stopped; /* items that have not begun are skipped, and those that have end soon */
+    atomic_llong done;   /* sum over the items, in millionths of one */
 } LoopWatch;
 
 /* The progress of one item. */
 typedef struct ItemProgress {
-    LoopWatch *watch; /* NULL: nobody watches */
+    LoopWatch *watch; /* may be NULL */
     long long reported;
 } ItemProgress;
 
-/* Records that this fraction of the item is done, where that is more than was said before. False where the item
- * should end. item_progress may be NULL. */
+/* Records that this fraction of the item is done, if that is more than was reported before. Returns false if
+ * the item should end. item_progress may be NULL. */
 bool progress_report(ItemProgress *item_progress, double fraction);
 
-/* parallel_for, while the caller's thread asks progress (may be NULL), twenty times a second. Without a
- * second thread it is asked between items. False where it was stopped. */
+/* Runs parallel_for while the caller's thread calls progress (may be NULL) twenty times a second. Without a
+ * second thread it is called between items. Returns false if it was stopped. */
 bool watch_loop(LoopWatch *watch, int threads, int items, void (*body)(void *user, int item, int thread),
                 void *user, WeftProgress progress, void *progress_user);
 

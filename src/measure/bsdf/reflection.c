@@ -17,7 +17,7 @@
 #include "weft/fit.h"
 #include "weft/reflection.h"
 
-/* WALKS: of layer rule stochastic for one pair of directions. */
+/* WALKS: of layer rule stochastic, for one pair of directions. DRAWS: directions for E. */
 enum { WALKS = 16, DRAWS = 1024 };
 
 /* A material as a whole. */
@@ -35,14 +35,14 @@ typedef enum ReflectionKind { REFLECTION_WHOLE, REFLECTION_LOBE, REFLECTION_MEAS
 struct WeftReflection {
     ReflectionKind kind;
     Whole whole;
-    WeftLobe lobe, under; /* under: a second lobe, that is added */
+    WeftLobe lobe, under; /* under: a second lobe, which is added if `based` */
     bool based;
     Measured measured;
 };
 
 /* Returns true if E of the sheen comes from a table of its lobe, and sets the stack that reads it. Tables of
  * engines are made beforehand. */
-static bool asks_for_table(const Whole *self, Stack *stack) {
+static bool needs_table(const Whole *self, Stack *stack) {
     stack_make(stack, &self->surface, &self->choices, (TableRef){.kind = TABLE_NONE});
     if (!HAS_SHEEN(stack) && stack->layer != LAYER_MULTIPLICATIVE) return false;
     if (albedo_is_own(stack->albedo)) return true;
@@ -52,7 +52,7 @@ static bool asks_for_table(const Whole *self, Stack *stack) {
 
 static bool make_table(Whole *self) {
     Stack stack;
-    if (!asks_for_table(self, &stack)) return true;
+    if (!needs_table(self, &stack)) return true;
     self->own = alloc_array(1, sizeof *self->own);
     if (!self->own) return false;
     albedo_table_fill(self->own, &stack.sheen.lobe, stack.albedo_coord, stack.albedo_coord, 0);
@@ -75,14 +75,14 @@ static bool whole_make(Whole *self, const Material *material) {
     return make_table(self);
 }
 
-/* Widens low .. high to where the parameter that E is asked for runs while roughnesses run from 0 to 1. */
+/* Widens low .. high to the range of the parameter of E when roughnesses run from 0 to 1. */
 static void widest(const Whole *self, float *low, float *high) {
     for (int ends = 0; ends < 4; ends++) {
         Whole end = *self;
         Stack stack;
         end.surface.sheen_roughness = ends & 1 ? 1.0f : 0.0f;
         end.surface.roughness = ends & 2 ? 1.0f : 0.0f;
-        asks_for_table(&end, &stack);
+        needs_table(&end, &stack);
         *low = fminf(*low, stack.albedo_coord);
         *high = fmaxf(*high, stack.albedo_coord);
     }
@@ -92,7 +92,7 @@ void reflection_change(WeftReflection *self, const WeftMaterial *material, Albed
     Stack stack;
     const Material taken = material_sound(material);
     whole_set(&self->whole, &taken);
-    if (!asks_for_table(&self->whole, &stack) || stack.layer == LAYER_ADDITIVE) return;
+    if (!needs_table(&self->whole, &stack) || stack.layer == LAYER_ADDITIVE) return;
     float low = stack.albedo_coord, high = stack.albedo_coord;
     widest(&self->whole, &low, &high);
     if (!shared->rows || !albedo_table_serves(shared, &stack.sheen.lobe, low, high, false))
@@ -110,7 +110,7 @@ static WeftReflection *reflection_of_kind(ReflectionKind kind, WeftReflection **
     return *out;
 }
 
-/* Returns what was begun, or frees it after a failure. */
+/* Passes the result on, and frees the reflection after a failure. */
 static WeftResult finish(WeftReflection **out, WeftResult result) {
     if (result == WEFT_OK) return WEFT_OK;
     weft_reflection_free(*out);
@@ -144,7 +144,7 @@ WeftResult weft_reflection_of_lobe(const WeftLobe *lobe, WeftReflection **out, W
     return WEFT_OK;
 }
 
-/* The lobe of a system, with both colours. */
+/* Returns the lobe of a system, with both colours. */
 static WeaveBase fitted_threads(const WeftLobe *lobe) {
     WeaveBase threads = {.single = rgb(lobe->f0[0], lobe->f0[1], lobe->f0[2]),
                          .multiple = rgb(lobe->f90[0], lobe->f90[1], lobe->f90[2])};
@@ -183,7 +183,7 @@ const char *reflection_walks(const WeftReflection *self) {
     if (self->kind == REFLECTION_LOBE) lobe = self->lobe.lobe;
     if (self->kind == REFLECTION_WHOLE) {
         Stack stack;
-        asks_for_table(&self->whole, &stack);
+        needs_table(&self->whole, &stack);
         if (HAS_SHEEN(&stack)) lobe = stack.sheen.lobe.id;
     }
     const WeftLobeInfo *info = weft_lobe_info(lobe);
@@ -211,8 +211,8 @@ static Slots slots_of_part(int part) {
 static StackValue value_of(const SeenStack *seen, int part, int base, Dir i, uint32_t first, uint32_t walks) {
     const Stack *stack = &seen->stack;
     StackValue sum = stack_eval_of(stack, &seen->view, weave_sum_slots(base, slots_of_part(part)), i);
-    bool walk = part == WEFT_PART_ALL && stack->layer == LAYER_STOCHASTIC && HAS_SHEEN(stack);
-    for (uint32_t k = 0; walk && i.z > 0.0f && k < walks; k++) {
+    bool walks_at_random = part == WEFT_PART_ALL && stack->layer == LAYER_STOCHASTIC && HAS_SHEEN(stack);
+    for (uint32_t k = 0; walks_at_random && i.z > 0.0f && k < walks; k++) {
         Rgb bounces = layer_walk_bounces(stack, &seen->view, slots_all(), i, first + k);
         sum.f_cos = rgb_add(sum.f_cos, rgb_scale(bounces, 1.0f / (float)walks));
     }
@@ -263,7 +263,8 @@ void weft_reflection_eval(const WeftReflection *self, int part, const float wo[3
             measured_at(&self->measured, dir(wo[0], wo[1], wo[2]), dir(wi[k][0], wi[k][1], wi[k][2]), f[k]);
 }
 
-/* Directions as the lobes spread them: however narrow these are, few will do. */
+/* Estimates E by directions distributed like the lobes, so that few are enough however narrow the lobes
+ * are. */
 static void whole_albedo(const Whole *self, int part, const float wo[3], float albedo[3]) {
     SeenStack seen;
     Dir o = to_frame(self, wo);
@@ -282,7 +283,7 @@ static void whole_albedo(const Whole *self, int part, const float wo[3], float a
     for (int c = 0; c < 3; c++) albedo[c] = (float)sum[c];
 }
 
-/* Directions as the measurement's sampling spreads them. */
+/* Estimates E by directions from the sampling of the measurement. */
 static void measured_albedo(const Measured *measured, const float wo[3], float albedo[3]) {
     const Dir o = dir(wo[0], wo[1], wo[2]);
     double sum[3] = {0.0};

@@ -1,4 +1,4 @@
-/* reflection_write.c - any reflection as a file of RGL's format */
+/* reflection_write.c - writes any reflection as a file of RGL's format */
 #include <math.h>
 #include <stdint.h>
 
@@ -11,23 +11,24 @@
 #include "measure/bsdf/reflection.h"
 #include "weft/reflection.h"
 
-/* The most numbers of a file: with D, sigma and the axes it stays within MEASURED_MOST, beyond which it is not read. */
+/* The most numbers of a file: with D, sigma and the axes it stays within MEASURED_MOST, the limit of the
+ * reader. */
 enum { POINTS_MOST = MEASURED_MOST / 4 - (1 << 18) };
 
 static void source_f(void *user, const float wo[3], int count, const float (*wi)[3], float (*f)[3]) {
     weft_reflection_eval(user, WEFT_PART_ALL, wo, count, wi, f);
 }
 
-/* Returns true if f of some pairs stays the same as both go through a map of the plane: x to a x + b y, y to c x + d y.
- */
-static bool stays(const WeftReflection *reflection, float a, float b, float c, float d) {
-    static const float ways[][3] = {
+/* Returns true if f of some pairs does not change when both directions are mapped in the plane: x to a x + b
+ * y, y to c x + d y. */
+static bool is_symmetric(const WeftReflection *reflection, float a, float b, float c, float d) {
+    static const float directions[][3] = {
         {0.6f, 0.0f, 0.8f}, {0.64f, 0.48f, 0.6f}, {-0.28f, 0.0f, 0.96f}, {-0.48f, 0.36f, 0.8f}};
-    enum { WAYS = sizeof ways / sizeof *ways };
+    enum { DIRECTIONS = sizeof directions / sizeof *directions };
     bool same = true;
-    for (int pair = 0; pair < WAYS * WAYS; pair++) {
-        const int at = pair / WAYS;
-        const float *o = ways[at], *i = ways[pair % WAYS];
+    for (int pair = 0; pair < DIRECTIONS * DIRECTIONS; pair++) {
+        const int at = pair / DIRECTIONS;
+        const float *o = directions[at], *i = directions[pair % DIRECTIONS];
         const float wo[3] = {a * o[0] + b * o[1], c * o[0] + d * o[1], o[2]};
         const float wi[2][3] = {{i[0], i[1], i[2]}, {a * i[0] + b * i[1], c * i[0] + d * i[1], i[2]}};
         float f[1][3], mapped[1][3];
@@ -40,12 +41,12 @@ static bool stays(const WeftReflection *reflection, float a, float b, float c, f
 
 static RglSource source_of(const WeftReflection *reflection) {
     RglSource source = {.f = source_f, .user = (void *)(uintptr_t)reflection, .isotropic = true};
-    for (int turn = 1; turn < 5; turn++) {
-        const float c = cosf(1.1f * (float)turn), s = sinf(1.1f * (float)turn);
-        source.isotropic &= stays(reflection, c, -s, s, c);
+    for (int k = 1; k < 5; k++) {
+        const float c = cosf(1.1f * (float)k), s = sinf(1.1f * (float)k);
+        source.isotropic &= is_symmetric(reflection, c, -s, s, c);
     }
-    const bool half = stays(reflection, -1.0f, 0.0f, 0.0f, -1.0f);
-    source.parts = !half ? 1 : stays(reflection, 1.0f, 0.0f, 0.0f, -1.0f) ? 4 : 2;
+    const bool half = is_symmetric(reflection, -1.0f, 0.0f, 0.0f, -1.0f);
+    source.parts = !half ? 1 : is_symmetric(reflection, 1.0f, 0.0f, 0.0f, -1.0f) ? 4 : 2;
     return source;
 }
 
@@ -60,8 +61,8 @@ static float nearest_slice(const Rgl *slices, float theta) {
     return slices->theta[k];
 }
 
-/* The mean difference of f over the mean of a's f, of pairs up to 80 degrees; wo at slices of the tables, where these
- * are given. */
+/* Returns the mean difference of f over the mean of a's f, for pairs up to 80 degrees; wo is at slices of the
+ * tables, if these are given. */
 static double difference(const RglSource *a, const RglSource *b, const Rgl *slices) {
     enum { PAIRS = 4096 };
     double sum = 0.0, off = 0.0;
@@ -73,9 +74,9 @@ static double difference(const RglSource *a, const RglSource *b, const Rgl *slic
             phi = slices->phi[(int)(v * (float)slices->phis)];
         }
         const float z = 0.1737f + 0.8263f * (float)halton(n, 5), r = sqrtf(1.0f - z * z),
-                    turn = 2.0f * PI_FLOAT * (float)halton(n, 7);
+                    azimuth = 2.0f * PI_FLOAT * (float)halton(n, 7);
         const float wo[3] = {sinf(theta) * cosf(phi), sinf(theta) * sinf(phi), cosf(theta)},
-                    wi[1][3] = {{r * cosf(turn), r * sinf(turn), z}};
+                    wi[1][3] = {{r * cosf(azimuth), r * sinf(azimuth), z}};
         float f[1][3], g[1][3];
         a->f(a->user, wo, 1, wi, f);
         b->f(b->user, wo, 1, wi, g);
@@ -94,22 +95,22 @@ static long long numbers_of(const RglDesc *desc, bool isotropic) {
     return 5LL * desc->thetas * (isotropic ? 1 : desc->phis) * desc->side * desc->side;
 }
 
-/* A fifth more, as tables that err by the square of their steps may need. */
+/* Returns a fifth more, since tables whose error falls with the square of their steps may need no more. */
 static int finer_count(int count, int most) {
     const int more = count + count / 5;
     return more < most ? more : most;
 }
 
-/* A little below 1e-3, which other pairs may find. */
+/* A little below 1e-3, because other pairs may differ more. */
 static const double near_enough = 9.5e-4;
 
-/* Makes all tables of that size but D and sigma. */
+/* Makes all tables of that size except D and sigma. */
 static bool tables_make(const RglSource *source, const RglDesc *desc, Rgl *out) {
     return rgl_make(source, desc, out) && rgl_sharpen(out);
 }
 
-/* Makes the tables finer, slices or sides by what lacks more before they are sharpened, until f comes back within 1e-3
- * of its mean. The next step would be past the most when it ends otherwise. False where memory is short. */
+/* Refines the tables until f comes back within 1e-3 of its mean, or the next step would exceed the largest
+ * size. Refines slices or sides, whichever errs more before sharpening. Returns false if memory is short. */
 static bool refine(const RglSource *source, RglDesc *desc, Rgl *out) {
     const RglSource tables = {.f = tables_f, .user = out};
     for (;;) {

@@ -1,4 +1,4 @@
-/* sphere.c - a sphere of a reflection under lights that have no size: every pixel is a sum of three */
+/* sphere.c - an image of a sphere with a reflection, under three lights without size */
 #include <math.h>
 #include <stdio.h>
 
@@ -6,14 +6,14 @@
 #include "base/thread.h"
 #include "weft/reflection.h"
 
-/* Edges are smooth by so many rays a pixel, squared. */
+/* RAYS: of a pixel along each side, for smooth edges. */
 enum { LIGHTS = 3, RAYS = 2 };
 
 typedef struct SphereLight {
     double direction[3], irradiance;
 } SphereLight;
 
-/* x right, y up, z towards the viewer. */
+/* x right, y up, z towards the viewer */
 static const SphereLight lights[LIGHTS] = {
     {{0.424264, 0.565685, 0.707107}, 2.0}, {{-0.692820, 0.519615, -0.5}, 2.0}, {{0.0, 0.0, 1.0}, 0.6}};
 
@@ -22,7 +22,7 @@ typedef struct Sphere {
     const WeftImage *image;
 } Sphere;
 
-/* The radiance that a point of the unit sphere sends to the viewer. */
+/* Adds the radiance that a point of the unit sphere sends to the viewer. */
 static void shade(const WeftReflection *reflection, double x, double y, double radiance[3]) {
     double z = sqrt(fmax(1.0 - x * x - y * y, 0.0)), s = fmax(hypot(x, z), 1e-9);
     const double n[3] = {x, y, z}, t[3] = {z / s, 0.0, -x / s};

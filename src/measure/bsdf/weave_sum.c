@@ -35,12 +35,12 @@ Slots weave_sum_slots(int base, Slots slots) {
     return base == 0 ? slots : slots_of(slots.diffuse, false, false, false, false);
 }
 
-/* About what threads send back of the light on the cloth. */
-static float bright(const WeaveBase *threads) {
-    return threads->lobe.params[WOVEN_SHARE] * (rgb_mean(threads->single) + rgb_mean(threads->multiple));
+/* Estimates the reflected part of the light on the cloth. */
+static float brightness(const WeaveBase *threads) {
+    return threads->lobe.params[WOVEN_SHARE] * (rgb_mean(threads->once) + rgb_mean(threads->again));
 }
 
 float weave_sum_first(const WeaveSum *self) {
-    const float warp = bright(&self->threads[0]), weft = bright(&self->threads[1]);
+    const float warp = brightness(&self->threads[0]), weft = brightness(&self->threads[1]);
     return warp / max(warp + weft, 1e-6f);
 }

@@ -1,8 +1,9 @@
-/* weave_sum.h - the bases of a material: its own, or warp and weft of a weave in its place, whose sum it is from afar
+/* weave_sum.h - the bases of a material: its own, or the warp and weft of a weave, whose sum is the base from
+ * afar
  *
  *   f = f(base 0, and what lies on it) + f(base 1)
  *
- * Sheen, coat and dust lie on the cloth as a whole: they count once, with base 0. */
+ * Sheen, coat and dust lie on the whole cloth: they are counted only with base 0. */
 #ifndef WEFT_MEASURE_WEAVE_SUM_H
 #define WEFT_MEASURE_WEAVE_SUM_H
 
@@ -10,25 +11,25 @@
 #include "weave/cloth_base.h"
 
 typedef struct WeaveSum {
-    int bases;              /* 1, the material's own, or 2 */
-    WeaveBase threads[2];   /* of 2: warp and weft */
-    WovenPrepared woven[2]; /* and their lobes, prepared */
+    int bases;              /* 1, of the material, or 2 */
+    WeaveBase threads[2];   /* warp and weft, if there are 2 */
+    WovenPrepared woven[2]; /* their prepared lobes */
 } WeaveSum;
 
-/* The systems of a cloth; NULL: the material's own base. */
+/* Returns the systems of a cloth; NULL: the base of the material. */
 WeaveSum weave_sum_of(const WeftCloth *cloth);
 
-/* The sum of two lobes woven as their numbers alone say them, unlike those of a cloth. */
+/* Returns the sum of two lobes woven with their own parameters, unlike those of a cloth. */
 WeaveSum weave_sum_of_lobes(const WeaveBase threads[2]);
 
-/* Sees base number so, and what lies on it, from o. e: as stack_make has it. */
+/* Sees base number `base`, and what lies on it, from o. e: as in stack_make. */
 void weave_sum_see(const WeaveSum *self, int base, const Surface *surface, const Choices *choices, TableRef e,
                    Dir o, SeenStack *seen);
 
-/* Returns those of the slots that count with a base. */
+/* Returns those of the slots that are counted with a base. */
 Slots weave_sum_slots(int base, Slots slots);
 
-/* Returns about what part of what both systems send back comes from the first. */
+/* Returns approximately the fraction of the light reflected by both systems that comes from the first. */
 float weave_sum_first(const WeaveSum *self);
 
 #endif
