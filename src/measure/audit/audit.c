@@ -1,4 +1,4 @@
-/* audit.c - somebody else's table of E against quadrature: the errors, and what would explain them */
+/* audit.c - compares a given table of E with quadrature: the errors, and what would explain them */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -8,18 +8,18 @@
 #include "measure/audit/audit_words.h"
 #include "measure/bsdf/exceeds.h"
 
-/* An explanation must leave less than this share of the error. */
+/* An explanation must leave less than this fraction of the error. */
 static const double explained = 0.25;
 
 typedef struct AuditWork {
     const WeftAuditDesc *desc;
     double most, tolerance;
     int width, height;
-    int step;      /* texels that a cell of the map is wide */
-    float *values; /* of the channel, times scale */
+    int step;      /* width of a cell of the map, in texels */
+    float *values; /* values of the channel, times scale */
     Lobe lobe;
     TableProbe probe;
-    ProbeReading reading; /* what the table is judged by */
+    ProbeReading reading; /* the reading by which the table is judged */
     BakePlane plane;
     WeftImage *errors;            /* error, table, E; E below 0 while a texel is not judged */
     double met[WEFT_THREADS_MAX]; /* the largest estimate of the quadrature's error, by thread */
@@ -66,34 +66,35 @@ static float *map_at(const AuditWork *work, int x, int y) {
 
 enum { CELL = 64, NODES = (CELL + 1) * (CELL + 1), EXACT_TEXELS = 128 * 128 };
 
-/* The texels along a side of a cell: a sixteenth of the shorter side of a large table, within bounds. */
+/* Returns the number of texels along a side of a cell: a sixteenth of the shorter side of a large table,
+ * within bounds. */
 static int cell_size(const AuditWork *work) {
     const int side = work->width < work->height ? work->width : work->height;
     if (work->width * work->height <= EXACT_TEXELS) return 1;
     return side / 16 < CELL / 2 ? CELL / 2 : side / 16 > CELL ? CELL : side / 16;
 }
 
-/* A square of a large table, its last column and row those where its neighbours begin. */
+/* A square of a large table. Its last column and row are the first of its neighbours. */
 typedef struct Cell {
     AuditWork *work;
     int thread, x, y; /* of its first texel */
-    float e[NODES];   /* below 0 where a texel is not judged */
-    bool known[NODES];
+    float e[NODES];   /* below 0 if a texel is not judged */
+    bool done[NODES];
 } Cell;
 
 static float cell_exact(Cell *cell, int i, int j) {
     AuditWork *work = cell->work;
     const int n = j * (CELL + 1) + i;
-    if (cell->known[n]) return cell->e[n];
-    cell->known[n] = true;
+    if (cell->done[n]) return cell->e[n];
+    cell->done[n] = true;
     if (!bake_judges(&work->plane, cell->x + i, cell->y + j)) return cell->e[n] = -1.0f;
     const BakeTexel texel = bake_texel(&work->plane, cell->x + i, cell->y + j);
     if (exceeds_or_nan(texel.error, work->met[cell->thread])) work->met[cell->thread] = texel.error;
     return cell->e[n] = texel.part[work->reading.part];
 }
 
-/* Columns i[0] .. i[2] and rows j[0] .. j[2] of a cell, the middle ones at 1: E is known where they cross, and taken
- * as biquadratic between. */
+/* Columns i[0] .. i[2] and rows j[0] .. j[2] of a cell, the middle ones at 1. E is evaluated where they
+ * cross, and interpolated biquadratically between. */
 typedef struct TexelPatch {
     int i[3], j[3];
 } TexelPatch;
@@ -102,7 +103,7 @@ static TexelPatch patch_of(int i0, int i1, int j0, int j1) {
     return (TexelPatch){{i0, (i0 + i1) / 2, i1}, {j0, (j0 + j1) / 2, j1}};
 }
 
-/* Lagrange's weights of three places at x; of two, where the middle one is the first. */
+/* Computes Lagrange's weights of three places at x, or of two if the middle one is the first. */
 static void weights_at(const int places[3], int x, float weight[3]) {
     const float a = (float)(x - places[0]), b = (float)(x - places[1]), c = (float)(x - places[2]),
                 ab = (float)(places[1] - places[0]), bc = (float)(places[2] - places[1]), ac = ab + bc;
@@ -122,16 +123,16 @@ static float patch_at(Cell *cell, const TexelPatch *p, int i, int j) {
     return e;
 }
 
-/* Returns how far E in a place of the cell is from what lies between the nine places of the patch. */
+/* Returns the difference of E at a place of the cell from the interpolation over the patch. */
 static float patch_error(Cell *cell, const TexelPatch *p, int i, int j) {
     return fabsf(cell_exact(cell, i, j) - patch_at(cell, p, i, j));
 }
 
 static int quarter(const int places[3], int k) { return (places[k] + places[k + 1]) / 2; }
 
-/* Returns the most that a patch is off half-way between its places, in each row or in each column. These are places of its
- * halves. */
-static float patch_bend(Cell *cell, const TexelPatch *p, bool down) {
+/* Returns the largest error of a patch half-way between its places, in each row or in each column. These are
+ * places of its halves. */
+static float patch_curvature(Cell *cell, const TexelPatch *p, bool down) {
     float most = 0.0f;
     for (int k = 0; k < 6; k++)
         most = fmaxf(most, down ? patch_error(cell, p, p->i[k >> 1], quarter(p->j, k & 1))
@@ -139,18 +140,19 @@ static float patch_bend(Cell *cell, const TexelPatch *p, bool down) {
     return most;
 }
 
-/* Returns true if E in the middles of the patch's quarters is what lies between its nine places; of rows or columns
- * without any between, which need not have to do with each other, in each. */
+/* Returns true if the interpolation over the patch holds in the middles of its quarters. If it has no rows or
+ * columns between its places, each line is tested by itself, since neighbours may be unrelated. */
 static bool patch_holds(Cell *cell, const TexelPatch *p, bool wide, bool high) {
     const float allowed = (float)(2.0 * cell->work->tolerance);
     bool holds = true;
-    if (!wide || !high) return patch_bend(cell, p, high) <= allowed;
+    if (!wide || !high) return patch_curvature(cell, p, high) <= allowed;
     for (int k = 0; k < 4; k++)
         holds &= patch_error(cell, p, quarter(p->i, k & 1), quarter(p->j, k >> 1)) <= allowed;
     return holds;
 }
 
-/* Some of the patch's places beside each other, or below each other, are judged and some are not. */
+/* Returns true if, in a row or, with `below`, in a column of the patch, some places are judged and some are
+ * not. */
 static bool patch_is_mixed(Cell *cell, const TexelPatch *p, bool below) {
     bool mixed = false;
     for (int k = 0; k < 3; k++) {
@@ -166,14 +168,14 @@ static void patch_take(Cell *cell, const TexelPatch *p) {
     for (int j = p->j[0]; j <= p->j[2]; j++)
         for (int i = p->i[0]; i <= p->i[2]; i++) {
             const int n = j * (CELL + 1) + i;
-            if (!cell->known[n]) cell->e[n] = patch_at(cell, p, i, j);
-            cell->known[n] = true;
+            if (!cell->done[n]) cell->e[n] = patch_at(cell, p, i, j);
+            cell->done[n] = true;
         }
 }
 
-/* Fills a patch: as it is where it holds, else half by half, down to the texel. E may bend in one direction alone, as
- * where views graze, or end in one, as beyond the range of a lobe: halves are cut there. A patch of which nothing is
- * judged is left at that. */
+/* Fills a patch by interpolation if that holds, and otherwise half by half, down to the texel. E may be
+ * curved in one direction only, as at grazing views, or end in one, as beyond the range of a lobe: the halves
+ * are cut there. A patch of which nothing is judged is not cut. */
 static void patch_fill(Cell *cell, TexelPatch p) {
     const bool wide = p.i[2] - p.i[0] > 2, high = p.j[2] - p.j[0] > 2;
     const bool mixed = wide && patch_is_mixed(cell, &p, false),
@@ -182,9 +184,10 @@ static void patch_fill(Cell *cell, TexelPatch p) {
         patch_take(cell, &p);
         return;
     }
-    const bool cut_down = mixed != mixed_down
-                              ? mixed_down
-                              : high && (!wide || patch_bend(cell, &p, true) > patch_bend(cell, &p, false));
+    const bool cut_down =
+        mixed != mixed_down
+            ? mixed_down
+            : high && (!wide || patch_curvature(cell, &p, true) > patch_curvature(cell, &p, false));
     for (int half = 0; half < 2; half++)
         patch_fill(cell, cut_down ? patch_of(p.i[0], p.i[2], p.j[half], p.j[half + 1])
                                   : patch_of(p.i[half], p.i[half + 1], p.j[0], p.j[2]));
@@ -199,7 +202,7 @@ static void map_put(AuditWork *work, int x, int y, float e) {
     to[2] = e;
 }
 
-/* Texels of a small table are measured one by one; of a large one E is measured where it bends. */
+/* Measures the texels of a small table one by one, and those of a large one where E is curved. */
 static void map_cell(void *user, int column, int row, int thread) {
     AuditWork *work = user;
     const int step = work->step, x = column * step, y = row * step;
@@ -269,7 +272,7 @@ static double mean_value(const AuditWork *work) {
     return sum / (double)count;
 }
 
-/* The table is one value. */
+/* Reports a table that is one value. */
 static bool find_constant(const AuditWork *work, WeftAudit *out) {
     const size_t count = (size_t)work->width * (size_t)work->height;
     float low = work->values[0], high = low;
@@ -283,7 +286,8 @@ static bool find_constant(const AuditWork *work, WeftAudit *out) {
     return true;
 }
 
-/* The form of an engine that fits best; where none fits, the commonest unless another is much nearer. */
+/* Returns the form of an engine that fits best; if none fits, the commonest, unless another is much
+ * nearer. */
 static ProbeReading guess_form(const AuditWork *work, double enough) {
     ProbeReading common = work->reading;
     probe_read(&work->probe, &common);
@@ -292,12 +296,12 @@ static ProbeReading guess_form(const AuditWork *work, double enough) {
     return best.distance <= enough || best.distance < 0.5 * common.distance ? best : common;
 }
 
-/* Decides how the table is read: as said, or as it fits best. */
+/* Decides how the table is read: as stated, or as it fits best. */
 static void choose_form(AuditWork *work, WeftAudit *out) {
     const double enough = 1e-3 + work->probe.step;
-    const bool said = work->desc->form;
+    const bool stated = work->desc->form;
     ProbeReading *reading = &work->reading;
-    if (said) {
+    if (stated) {
         reading->form = *work->desc->form;
         probe_read(&work->probe, reading);
     } else {
@@ -306,10 +310,10 @@ static void choose_form(AuditWork *work, WeftAudit *out) {
     out->fits = reading->distance <= enough;
     if (out->fits) return;
     ProbeReading best = probe_best_form(&work->probe, reading, false, false);
-    if (!said && best.distance >= explained * reading->distance) /* a factor may hide the axes */
+    if (!stated && best.distance >= explained * reading->distance) /* a factor may hide the axes */
         best = probe_best_form(&work->probe, reading, true, true);
     if (best.distance >= explained * reading->distance) return;
-    if (said) {
+    if (stated) {
         find(out, WEFT_TABLE_FORM);
         words_form(last_text(out), reading, &best, enough);
     } else {
@@ -319,7 +323,7 @@ static void choose_form(AuditWork *work, WeftAudit *out) {
     }
 }
 
-/* Takes the lobe and the axes to which the table is nearest, be it encoded or not; find_cause then says
+/* Chooses the lobe and the axes to which the table is nearest, encoded or not; find_cause then decides
  * which. */
 static void choose_lobe(AuditWork *work) {
     const ProbeReading best = probe_any(&work->probe, work->desc->form);
@@ -327,7 +331,7 @@ static void choose_lobe(AuditWork *work) {
     work->reading = (ProbeReading){.lobe = best.lobe, .form = best.form, .factor = 1.0};
 }
 
-/* Values cut off at the largest that the table has: all but few of those that are wrong. */
+/* Reports values cut off at the largest of the table, if they are almost all of those that are wrong. */
 static bool find_clipped(const AuditWork *work, WeftAudit *out) {
     const size_t count = (size_t)work->width * (size_t)work->height;
     float top = work->values[0], highest = 0.0f;
@@ -387,8 +391,8 @@ static int compare_floats(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-/* table / E at a tenth, half and nine tenths of the texels where E is not small. False where memory is short.
- */
+/* Computes table / E at a tenth, half and nine tenths of the texels whose E is not small. Returns false if
+ * memory is short. */
 static bool ratios_find(const AuditWork *work, double ratios[3]) {
     const size_t count = (size_t)work->width * (size_t)work->height;
     float *all = alloc_array(count, sizeof *all);
@@ -439,7 +443,8 @@ static WeftResult map_make(AuditWork *work, WeftError *error) {
     result =
         bake_texels((work->width + work->step - 1) / work->step, (work->height + work->step - 1) / work->step,
                     desc->threads, desc->progress, desc->user, map_cell, work);
-    if (work->step > 1) work->met[0] += 2.0 * work->tolerance; /* of patches, tested in four places */
+    if (work->step > 1)
+        work->met[0] += 2.0 * work->tolerance; /* of patches, which are tested in four places */
     return result;
 }
 
@@ -477,7 +482,7 @@ static WeftResult audit(AuditWork *work, WeftAudit *out, WeftError *error) {
     return WEFT_OK;
 }
 
-/* Texels that were not judged become 0 in all channels. */
+/* Sets texels that were not judged to 0 in all channels. */
 static void map_finish(WeftImage *errors) {
     float *texel = errors->pixels;
     for (size_t n = (size_t)errors->width * (size_t)errors->height; n > 0; n--, texel += 3)

@@ -3,7 +3,7 @@
 #include "base/thread.h"
 #include "image/srgb.h"
 
-/* Index k of `count` evenly spread over [0, size), the same from either end. */
+/* Returns index k of `count` evenly spread over [0, size), symmetric about the middle. */
 static int spread(int k, int count, int size) {
     if (k >= count - k) return size - 1 - spread(count - 1 - k, count, size);
     return count > 1 ? (int)((double)k * (size - 1) / (count - 1) + 0.5) : 0;
@@ -37,10 +37,10 @@ static TableProbe coarse_of(const TableProbe *probe) {
     return coarse;
 }
 
-/* A reading whose distance by a coarse probe is so many times the least is not looked at further. */
+/* A reading whose distance by a coarse probe exceeds the least by this factor is dropped. */
 static const double hopeless = 2.0;
 
-/* E at the probed texels of a form, which has no flips: those only change places. */
+/* E at the probed texels of a form without flips, which only permute them. */
 typedef struct Albedos {
     const TableProbe *probe;
     BakePlane plane;
@@ -54,7 +54,7 @@ static void albedo_find(void *user, int item, int thread) {
     e->at[item] = bake_texel(&e->plane, e->probe->x[i], e->probe->y[j]);
 }
 
-/* Uses form and late of the reading; its form must outlive the result. */
+/* Evaluates E with form and late of the reading. `form` must outlive the result. */
 static void albedos_find(const TableProbe *probe, const ProbeReading *reading, WeftTableForm *form,
                          Albedos *e) {
     *form = reading->form;
@@ -64,7 +64,7 @@ static void albedos_find(const TableProbe *probe, const ProbeReading *reading, W
                            .width = probe->width,
                            .height = probe->height,
                            .lobe = reading->lobe,
-                           .tolerance = 3e-3, /* the distances of wrong readings are above that */
+                           .tolerance = 3e-3, /* the distances of wrong readings are larger */
                            .late = reading->late};
     parallel_for(probe->threads, probe->columns * probe->rows, albedo_find, e);
 }
@@ -125,7 +125,7 @@ static double factor_find(const TableProbe *probe, const Albedos *e, const Probe
     return along > 0.0 ? across / along : 1.0;
 }
 
-/* The nearest part, with the best factor where `scaled`. */
+/* Finds the nearest part, with the best factor if `scaled`. */
 static void part_find(const TableProbe *probe, const Albedos *e, ProbeReading *reading, bool scaled) {
     const bool two = weft_lobe_info(reading->lobe.id)->traits & TRAIT_TWO_COLORS;
     ProbeReading best = *reading;
@@ -158,9 +158,9 @@ ProbeReading probe_scaled(const TableProbe *probe, const ProbeReading *reading) 
 /* Returns true if an engine uses these axes, apart from flips. */
 static bool is_base(WeftTableForm form) {
     for (int k = 0; weft_table_form_name(k); k++) {
-        WeftTableForm known = weft_table_form_at(k);
-        known.flip_x = known.flip_y = 0;
-        if (form_same(&form, &known)) return true;
+        WeftTableForm engine = weft_table_form_at(k);
+        engine.flip_x = engine.flip_y = 0;
+        if (form_same(&form, &engine)) return true;
     }
     return false;
 }
@@ -215,21 +215,21 @@ ProbeReading probe_best_lobe(const TableProbe *probe, const ProbeReading *readin
     return best;
 }
 
-/* Tries both ways to take the numbers, in the flips that are asked for: both of each where `flips`. */
+/* Tries the numbers as they are and decoded, and with `flips` in all flips. */
 static void try_forms(const TableProbe *probe, const Albedos *e, ProbeReading now, bool flips,
                       ProbeReading best[2]) {
     const WeftTableForm form = now.form;
-    for (int way = 0; way < (flips ? 8 : 2); way++) {
+    for (int k = 0; k < (flips ? 8 : 2); k++) {
         now.form = form;
-        now.decoded = way & 1;
-        if (flips) now.form.flip_x = way >> 1 & 1, now.form.flip_y = way >> 2;
+        now.decoded = k & 1;
+        if (flips) now.form.flip_x = k >> 1 & 1, now.form.flip_y = k >> 2;
         part_find(probe, e, &now, false);
         ProbeReading *nearest = &best[now.decoded];
         if (now.distance < 0.95 * nearest->distance - nothing(probe)) *nearest = now;
     }
 }
 
-/* Tries a form and, where `all`, the one with its axes exchanged, each in all flips. */
+/* Tries a form and, with `all`, the one with its axes exchanged, each in all flips. */
 static void try_pair(const TableProbe *probe, ProbeReading now, bool all, ProbeReading best[2]) {
     Albedos e;
     WeftTableForm bare;
@@ -249,7 +249,7 @@ static bool is_hopeless(const TableProbe *coarse, const ProbeReading *now, bool 
 }
 
 ProbeReading probe_any(const TableProbe *probe, const WeftTableForm *form) {
-    const double explained = 0.25; /* as in audit.c: less is no explanation */
+    const double explained = 0.25; /* as in audit.c */
     const TableProbe coarse = coarse_of(probe);
     ProbeReading best[2] = {{.distance = HUGE_VAL}, {.distance = HUGE_VAL}};
     for (int id = 0; id < weft_lobe_count(); id++) {

@@ -1,6 +1,6 @@
-/* audit_probe.h - a few texels of a table, read in all ways it may be meant in
+/* audit_probe.h - a few texels of a table, and the ways in which they can be read
  *
- * The ways are compared with E at those texels alone, so that trying them costs little. */
+ * The ways are compared with E at these texels alone, so that each costs little. */
 #ifndef WEFT_MEASURE_AUDIT_PROBE_H
 #define WEFT_MEASURE_AUDIT_PROBE_H
 
@@ -8,20 +8,19 @@
 
 enum { PROBE_SIDE = 8, PROBE_TEXELS = PROBE_SIDE * PROBE_SIDE };
 
-/* Texels of some columns and rows, the outermost among them, the same ones from either end: PROBE_SIDE is
- * even. */
+/* Texels of some columns and rows, including the outermost, chosen symmetrically: PROBE_SIDE is even. */
 typedef struct TableProbe {
-    int width, height; /* of the table */
+    int width, height; /* size of the table */
     int columns, rows, x[PROBE_SIDE], y[PROBE_SIDE];
     float table[PROBE_TEXELS];
-    double step; /* between two values that the table's type can hold */
+    double step; /* between two neighbouring values of the table's type */
     int threads;
 } TableProbe;
 
-/* values: of the table's one channel, width * height. */
+/* Takes the texels from `values`, the width * height values of the table's one channel. */
 void probe_take(TableProbe *probe, const float *values, int width, int height);
 
-/* A way to read a table. */
+/* A way to read a table (an interpretation). */
 typedef struct ProbeReading {
     WeftTableForm form;
     WeftTablePart part;
@@ -29,25 +28,25 @@ typedef struct ProbeReading {
     int late;        /* texels, along the parameter */
     bool decoded;    /* from sRGB */
     double factor;   /* multiplies the values */
-    double distance; /* mean |value - E|; infinite where no texel can be judged */
+    double distance; /* mean |value - E|; infinite if no texel can be judged */
 } ProbeReading;
 
 /* Finds part and distance of a reading whose other members are given. */
 void probe_read(const TableProbe *probe, ProbeReading *reading);
 
-/* The nearest reading of those in other forms, which engines use or which there are; where `scaled`, each
- * with the factor that brings it nearest. */
+/* Returns the nearest reading in another form, of those that engines use or of all; with `scaled`, each with
+ * the factor that brings it nearest. */
 ProbeReading probe_best_form(const TableProbe *probe, const ProbeReading *reading, bool engines, bool scaled);
 
-/* The nearest reading with another lobe of one parameter, or none, in the same form; where `forms`, in any
- * form that engines use. */
+/* Returns the nearest reading with another lobe of at most one parameter, in the same form, or with `forms`
+ * in any form that engines use. */
 ProbeReading probe_best_lobe(const TableProbe *probe, const ProbeReading *reading, bool forms);
 
-/* The nearest reading of all lobes of one parameter, or none, in a form (NULL: in all that there are),
- * decoded or not. */
+/* Returns the nearest reading of all lobes of at most one parameter, in a form (NULL: in all forms), decoded
+ * or not. */
 ProbeReading probe_any(const TableProbe *probe, const WeftTableForm *form);
 
-/* The reading with the factor that brings its values nearest to E, in least squares. */
+/* Returns the reading with the factor that brings its values nearest to E, in least squares. */
 ProbeReading probe_scaled(const TableProbe *probe, const ProbeReading *reading);
 
 /* Returns true if E of the lobe is constant over views and parameters to 1e-3. */

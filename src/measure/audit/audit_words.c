@@ -30,14 +30,14 @@ void words_clipped(char *text, double top, double highest, size_t texels) {
         highest);
 }
 
-/* One more difference of axes. */
+/* Appends a difference of the axes. */
 static void differ(char *text, int *count, bool differs, const char *words) {
     if (!differs) return;
     add(text, "%s%s", (*count)++ ? " and " : "", words);
 }
 
-void words_form(char *text, const ProbeReading *said, const ProbeReading *found, double enough) {
-    const WeftTableForm *a = &said->form, *b = &found->form;
+void words_form(char *text, const ProbeReading *stated, const ProbeReading *found, double enough) {
+    const WeftTableForm *a = &stated->form, *b = &found->form;
     char elements[WEFT_TABLE_FORM_TEXT];
     int count = 0;
     add(text, "%s, but ", found->distance < enough ? "it is right" : "it fits better read otherwise");
@@ -53,44 +53,45 @@ void words_form(char *text, const ProbeReading *said, const ProbeReading *found,
     differ(text, &count, !a->edges && b->edges, "its outer texels are at 0 and 1, not half a texel inside");
     differ(text, &count, a->edges && !b->edges, "its outer texels are half a texel inside, not at 0 and 1");
     add(text, " (%s: mean error %.2g, not %.2g)", weft_table_form_text(b, elements), found->distance,
-        said->distance);
+        stated->distance);
 }
 
-void words_late(char *text, const ProbeReading *said, const ProbeReading *found) {
+void words_late(char *text, const ProbeReading *stated, const ProbeReading *found) {
     add(text,
         "it is right, but shifted: each texel holds what belongs to the %s (mean error %.2g there, %.2g "
         "here)",
         found->late > 0 ? "next one up the parameter" : "one before along the parameter", found->distance,
-        said->distance);
+        stated->distance);
 }
 
-void words_encoded(char *text, const ProbeReading *said, const ProbeReading *found) {
+void words_encoded(char *text, const ProbeReading *stated, const ProbeReading *found) {
     add(text,
         "it is right, but sRGB-encoded as if it were a picture (mean error %.2g decoded, %.2g as it is)",
-        found->distance, said->distance);
+        found->distance, stated->distance);
 }
 
-void words_scaled(char *text, const ProbeReading *said, const ProbeReading *found) {
+void words_scaled(char *text, const ProbeReading *stated, const ProbeReading *found) {
     const struct {
         double factor;
         const char *words;
-    } known[] = {{PI_DOUBLE, "pi"},
-                 {2.0 * PI_DOUBLE, "2 pi"},
-                 {4.0 * PI_DOUBLE, "4 pi"},
-                 {1.0 / PI_DOUBLE, "1 / pi"},
-                 {0.5 / PI_DOUBLE, "1 / (2 pi)"}};
+    } factors[] = {{PI_DOUBLE, "pi"},
+                   {2.0 * PI_DOUBLE, "2 pi"},
+                   {4.0 * PI_DOUBLE, "4 pi"},
+                   {1.0 / PI_DOUBLE, "1 / pi"},
+                   {0.5 / PI_DOUBLE, "1 / (2 pi)"}};
     add(text, "it is right, but for one factor: E is the table times %.5g", found->factor);
-    for (size_t k = 0; k < sizeof known / sizeof known[0]; k++)
-        if (fabs(found->factor / known[k].factor - 1.0) < 2e-3) add(text, ", which is %s", known[k].words);
-    add(text, " (mean error %.2g so, %.2g as it is)", found->distance, said->distance);
+    for (size_t k = 0; k < sizeof factors / sizeof factors[0]; k++)
+        if (fabs(found->factor / factors[k].factor - 1.0) < 2e-3)
+            add(text, ", which is %s", factors[k].words);
+    add(text, " (mean error %.2g so, %.2g as it is)", found->distance, stated->distance);
 }
 
-void words_lobe(char *text, const ProbeReading *said, const ProbeReading *found) {
+void words_lobe(char *text, const ProbeReading *stated, const ProbeReading *found) {
     char elements[WEFT_TABLE_FORM_TEXT];
     add(text, "it is much nearer to the E of %s (mean error %.2g) than to that of %s (%.2g)",
-        weft_lobe_info(found->lobe.id)->id, found->distance, weft_lobe_info(said->lobe.id)->id,
-        said->distance);
-    if (!form_same(&said->form, &found->form))
+        weft_lobe_info(found->lobe.id)->id, found->distance, weft_lobe_info(stated->lobe.id)->id,
+        stated->distance);
+    if (!form_same(&stated->form, &found->form))
         add(text, ", read as %s", weft_table_form_text(&found->form, elements));
 }
 
