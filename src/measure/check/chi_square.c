@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "measure/bsdf/draw.h"
 
-/* Edwin B. Wilson, Margaret M. Hilferty, "The Distribution of Chi-square", 1931. */
+/* Approximates the tail: Edwin B. Wilson, Margaret M. Hilferty, "The Distribution of Chi-square", 1931. */
 double chi_square_tail(double statistic, int freedom) {
     double v = 2.0 / (9.0 * freedom), z = (cbrt(statistic / freedom) - (1.0 - v)) / (sqrt)(v);
     return 0.5 * erfc(z / (sqrt)(2.0));
@@ -18,8 +18,8 @@ static int by_expectation(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-/* The statistic is the sum of (seen - expected)^2 over the variance: of a count, which is what is expected, and the square
- * of the error. */
+/* Returns p of the sum of (seen - expected)^2 over the variance: that of a count, which is the expected
+ * number, plus the square of the error. */
 double chi_square_bins(Bin *bins, int count) {
     const double least = 8.0; /* expected in a bin, for the distribution to hold */
     qsort(bins, (size_t)count, sizeof *bins, by_expectation);
@@ -42,17 +42,18 @@ double chi_square_bins(Bin *bins, int count) {
     return used > 1 ? chi_square_tail(statistic, used - 1) : 1.0;
 }
 
-/* Bins along a side of the grid; the last of all counts "no sample". */
+/* Bins along a side of the grid; the last of all counts samples that are none. */
 enum { BINS = 20, ALL_BINS = BINS * BINS + 1, LINES_MOST = BINS * GRID_MAX };
 
-/* The points of a bin: n by n, one in each cell, no two of them in one row or in one column of the n^2 that a side of the
- * bin is cut into. With n at a side an edge of the pdf along a row or a column would pass between two rows of points
- * unseen, in all bins that it crosses; here no line of points lies along either.
+/* The points of a bin: n by n, one in each cell, and no two of them in one row or one column of the n^2 into
+ * which a side of the bin is cut. With only n rows of points an edge of the pdf along a row or a column could
+ * pass between two of them undetected, in all bins that it crosses.
  *
  *   s = (i + (p_j + 1/2) / n) / n,  t = (j + (n - 1/2 - p_i) / n) / n,  i, j = 0 .. n - 1,  p_k = m k mod n
  *
- * m is the first from n / golden ratio^2 up that is prime to n, so that neighbours lie far apart: a rank-1 lattice in each
- * row. What the shifts of rows would add to the integral of s t, those of the columns take away. */
+ * m is the first number from n / golden ratio^2 up that is coprime to n, so that neighbours lie far apart: a
+ * rank-1 lattice in each row. The shifts of columns cancel what the shifts of rows add to the integral of s
+ * t. */
 typedef struct Net {
     int n, place[GRID_MAX]; /* p */
     GridLine rows[LINES_MOST], columns[LINES_MOST];
@@ -118,7 +119,7 @@ static double expect(const BsdfView *view, Net *net, const Grid *grid, int n, in
     return all;
 }
 
-/* A block of samples' pdf at once. */
+/* Counts a block of samples, whose pdf is evaluated at once. */
 static void count_block(const BsdfView *view, const Grid *grid, Dirs dirs, Bin *bins, ChiSquare *out) {
     float pdf[GRID_MAX];
     view->bsdf->pdf(view, dirs, pdf);
@@ -133,14 +134,14 @@ bool chi_square_measure(const BsdfView *view, int count, int cells, uint32_t see
     Ring block;
     Net *net = alloc_array(1, sizeof *net);
     Bin *bins = alloc_array(ALL_BINS, sizeof *bins);
-    bool held = net && bins;
-    if (held) {
+    bool allocated = net && bins;
+    if (allocated) {
         grid_make(&grid, view->o, BINS);
         *out = (ChiSquare){.integral = expect(view, net, &grid, cells, count, bins)};
     }
     Draw draw = draw_start(seed, 1);
     int above = 0, waiting = 0;
-    for (int k = 0; held && k < count; k++) {
+    for (int k = 0; allocated && k < count; k++) {
         float u = draw_unit(&draw), v = draw_unit(&draw);
         Dir i = view->bsdf->sample(view, u, v);
         if (i.z > 0.0f) {
@@ -152,11 +153,11 @@ bool chi_square_measure(const BsdfView *view, int count, int cells, uint32_t see
             waiting = 0;
         }
     }
-    if (held) {
+    if (allocated) {
         bins[ALL_BINS - 1].seen = (double)(count - above);
         out->p = chi_square_bins(bins, ALL_BINS);
     }
     free(bins);
     free(net);
-    return held;
+    return allocated;
 }

@@ -6,23 +6,24 @@
 
 typedef struct ChiSquare {
     double integral; /* of the pdf over the hemisphere */
-    double p;        /* of the counts; 1 where there is only one bin to count */
+    double p;        /* of the counts; 1 if there is only one bin to count */
     int stray;       /* samples above the horizon with a pdf of 0 */
 } ChiSquare;
 
-/* Draws `count` samples; the pdf is integrated by `cells` by `cells` points in each of 20 by 20 bins, and by half as many
- * at a side, whose difference tells the error. cells is even and at most 20. False when memory is short. */
+/* Draws `count` samples and compares them with the pdf, which is integrated by `cells` by `cells` points in
+ * each of 20 by 20 bins, and by half as many at a side to estimate the error. cells is even and at most 20.
+ * Returns false if memory is short. */
 bool chi_square_measure(const BsdfView *view, int count, int cells, uint32_t seed, ChiSquare *out);
 
-/* Upper tail of the distribution. */
+/* Returns the upper tail of the chi-square distribution. */
 double chi_square_tail(double statistic, int freedom);
 
-/* A bin: how many samples are expected, by how much that may be off, and how many are counted. */
+/* A bin: the expected number of samples, its error, and the counted number. */
 typedef struct Bin {
     double expected, error, seen;
 } Bin;
 
-/* p of the counts; bins that expect little are counted together. Sorts the bins. */
+/* Returns p of the counts. Bins that expect few samples are counted together. Sorts the bins. */
 double chi_square_bins(Bin *bins, int count);
 
 #endif

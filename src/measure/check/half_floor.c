@@ -9,7 +9,7 @@
 #include "measure/check/sweep.h"
 #include "shading/lobe/lobe_tables.h"
 
-static void hand_tables_over(void) {
+static void set_tables(void) {
     enum { COUNT = sizeof lobe_table_refs / sizeof lobe_table_refs[0] };
     HalfTable tables[COUNT];
     lobe_tables_make();
@@ -23,7 +23,7 @@ static void hand_tables_over(void) {
     half_tables(tables, COUNT);
 }
 
-/* The direction with its cosine raised to the floor, its tangential part shortened to match. */
+/* Returns the direction with its cosine raised to the floor and its tangential part shortened to match. */
 static Dir raised(Dir w, double floor_z) {
     double z = (double)w.z;
     if (z >= floor_z) return w;
@@ -31,8 +31,8 @@ static Dir raised(Dir w, double floor_z) {
     return dir((float)((double)w.x * k), (float)((double)w.y * k), (float)floor_z);
 }
 
-/* Pairs of the sweep that are not finite or negative; `place` becomes the one farthest from grazing. Where
- * that is NULL, whether there is one. */
+/* Counts the pairs of the sweep whose f is not finite or negative; `place` becomes the one farthest from
+ * grazing. If place is NULL, stops at the first. */
 static long long bad_pairs(const Lobe *lobe, double floor_z, WeftPlace *place) {
     long long bad = 0;
     for (int k = 0; k < SWEEP_DIRS && (place || !bad); k++) {
@@ -57,21 +57,22 @@ static long long bad_pairs(const Lobe *lobe, double floor_z, WeftPlace *place) {
     return bad;
 }
 
-/* The exponent of the smallest floor that helps, WEFT_HALF_FREE where none is needed, 0 where none helps. */
+/* Returns the exponent of the smallest floor that helps, WEFT_HALF_FREE if none is needed, 0 if none
+ * helps. */
 static int least_floor(const Lobe *lobe) {
     for (int e = WEFT_HALF_FREE; e >= WEFT_HALF_MOST; e--)
         if (bad_pairs(lobe, e == WEFT_HALF_FREE ? 0.0 : ldexp(1.0, -e), NULL) == 0) return e;
     return 0;
 }
 
-/* A direction of cosine 0.1 to 1, even in solid angle. */
+/* Returns a direction of cosine 0.1 to 1, uniform in solid angle. */
 static Dir ordinary_dir(uint32_t k) {
     float z = 0.1f + 0.9f * unit_float(hash32(k)), phi = 2.0f * PI_FLOAT * unit_float(hash32(k + 1u));
     float s = (sqrtf)(1.0f - z * z);
     return dir(s * (cosf)(phi), s * (sinf)(phi), z);
 }
 
-/* Shares of ordinary pairs: f is 0 in half alone, and f is off by more than 1 %. */
+/* Finds the fractions of ordinary pairs whose f is 0 in half alone, and whose f is off by more than 1 %. */
 static void find_losses(const Lobe *lobe, float *zero, float *off) {
     enum { PAIRS = 4096 };
     static const float tolerance = 0.01f;
@@ -111,8 +112,8 @@ static void measure_row(void *user, int row, int thread) {
     if (!rows->out->half_floor[row]) bad_pairs(&lobe, ldexp(1.0, -WEFT_HALF_MOST), &rows->place[row]);
 }
 
-/* From the high end of what is plausible downwards, in steps of 2^(1/4), or of 1/64 of the range where that
- * starts at 0, to the end of the hard range or to the first value that no floor saves. */
+/* Searches the parameter from the high end of its plausible range downwards, in steps of 2^(1/4), or of 1/64
+ * of the range if it starts at 0, to the end of the hard range or to the first value that no floor saves. */
 static void find_pair(const Lobe *given, const WeftParamInfo *p, WeftPassport *out) {
     for (int k = 0; k < 256; k++) {
         float value =
@@ -133,9 +134,9 @@ void half_floor_measure(const Bsdf *bsdf, WeftPassport *out, int threads) {
     static pthread_once_t once = PTHREAD_ONCE_INIT;
     unsigned traits = bsdf->whole ? 0u : weft_lobe_info(bsdf->lobe.id)->traits;
     out->half_measured = half_here() && !bsdf->whole && !(traits & TRAIT_REFERENCE) &&
-                         !outside_lobe(bsdf->lobe.id); /* outside lobes are compiled as they are */
+                         !outside_lobe(bsdf->lobe.id); /* outside lobes have no copy in half floats */
     if (!out->half_measured) return;
-    if (traits & TRAIT_TABLE) pthread_once(&once, hand_tables_over);
+    if (traits & TRAIT_TABLE) pthread_once(&once, set_tables);
     FloorRows rows = {.bsdf = bsdf, .out = out};
     parallel_for(threads, bsdf->rows, measure_row, &rows);
     out->half_count = (long long)bsdf->rows * SWEEP_DIRS * (SWEEP_DIRS + 16);

@@ -1,9 +1,9 @@
-/* half_lang.h - lang.h once more, for the copies of the shading texts in which every number is a half float
+/* half_lang.h - lang.h for the copies of the shading texts in which every number is a half float
  *
- * cmake/generate.cmake makes them: literals end in f16 there, and this file stands in the place of lang.h.
- * Every value and every operation is rounded to 16 bits, as a shader of mediump does on hardware that has
- * them; powers, exponentials and roots are computed in single precision and rounded. Tables hold single
- * floats and are rounded when read. Only half_text.c includes it, with those copies. */
+ * cmake/generate.cmake makes the copies: their literals end in f16, and they include this file instead of
+ * lang.h. Every value and every operation is rounded to 16 bits, as a shader of mediump does on hardware that
+ * has them; powers, exponentials and roots are computed in single precision and rounded. Tables store single
+ * floats and are rounded when read. half_text.c includes it with those copies. */
 #ifndef WEFT_HALF_LANG_H
 #define WEFT_HALF_LANG_H
 

@@ -15,12 +15,12 @@ typedef struct HalfTable {
     float low, high;
 } HalfTable;
 
-/* The tables that lobes read themselves: in lobe_table_refs' order. Before the first half_eval of a lobe with
- * WEFT_LOBE_TABLE, and not while one runs. */
+/* Sets the tables that lobes read, in the order of lobe_table_refs. Call it before the first half_eval of a
+ * lobe with WEFT_LOBE_TABLE, and not while one runs. */
 void half_tables(const HalfTable *tables, int count);
 
-/* f of a white lobe without WEFT_LOBE_REFERENCE, 1/sr, for n pairs of directions; all is rounded to half
- * first. Nothing is asked about the horizon: a cosine of 0 reaches the lobe. */
+/* Evaluates f of a white lobe without WEFT_LOBE_REFERENCE, in 1/sr, for n pairs of directions; all values are
+ * rounded to half first. The horizon is not tested: a cosine of 0 reaches the lobe. */
 void half_eval(int lobe, const float *params, size_t n, const float *ox, const float *oy, const float *oz,
                const float *ix, const float *iy, const float *iz, float *f);
 

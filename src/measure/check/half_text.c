@@ -1,6 +1,8 @@
-/* half_text.c - the shading texts compiled for half floats. -Wpedantic, -Wdouble-promotion and the like are off
- * for this file (CMakeLists.txt): _Float16 is no C11, integer rows of parameter tables become halves, and
- * that floors such as 1e-30 vanish is what is looked for. */
+/* half_text.c - the shading texts compiled for half floats
+ *
+ * -Wpedantic, -Wdouble-promotion and others are off for this file (CMakeLists.txt): _Float16 is not in C11,
+ * integer rows of parameter tables become halves, and that floors such as 1e-30 vanish is what the check is
+ * for. */
 #include "measure/check/half_precision.h"
 
 #include "weft/lobe.h"
@@ -31,7 +33,7 @@ void half_tables(const HalfTable *tables, int count) {
                                         .high = (Half)tables[k].high};
 }
 
-/* A tinted one in a middle colour: white would not ask for the tint. */
+/* Evaluates a tinted lobe in a middle colour, since a white one would not use the tint. */
 void half_eval(int lobe, const Single *params, size_t n, const Single *ox, const Single *oy, const Single *oz,
                const Single *ix, const Single *iy, const Single *iz, Single *f) {
     Lobe m = {.id = lobe};

@@ -21,7 +21,7 @@ static const char body[] =
     "    out0 = vec4(v.f * lobe_color(v, 1.0, lobe_second(m, 1.0, 1.0)), v.pdf,\n"
     "                v.f * lobe_color(v, 0.5, lobe_second(m, 0.5, 1.0)), 0.0);\n";
 
-/* Any direction; one in four grazes, down to a cosine of 1e-4. */
+/* Draws a direction; one in four grazes, down to a cosine of 1e-4. */
 static Dir any_direction(Draw *draw) {
     double z = 1.0 - (double)draw_unit(draw), phi = 2.0 * PI_DOUBLE * (double)draw_unit(draw);
     return grid_direction(draw_unit(draw) < 0.25f ? (exp2)(-13.0 * z) : z, phi);
@@ -47,7 +47,7 @@ static void fill(const Bsdf *bsdf, Arrays *arrays) {
 }
 
 static void compare(const Bsdf *bsdf, const Arrays *arrays, WeftPassport *out) {
-    const double tolerance = 5e-4, least = 1e-5; /* relative; where f is small, absolute */
+    const double tolerance = 5e-4, least = 1e-5; /* relative; absolute if f is small */
     double worst = 0.0;
     int beyond = 0;
     for (size_t k = 0; k < PAIRS; k++) {
@@ -99,16 +99,16 @@ void parity_measure(const Bsdf *bsdf, WeftPassport *out) {
     WeftResult result = context_create(TEXT_GLSL_330, &context, &error);
     if (result == WEFT_OK) {
         Arrays arrays = {.out = alloc_array(PAIRS, 4 * sizeof(float))};
-        bool held = arrays.out != NULL;
+        bool allocated = arrays.out != NULL;
         for (int k = 0; k < INPUTS; k++) {
             arrays.in[k] = alloc_array(PAIRS, 4 * sizeof(float));
-            held = held && arrays.in[k];
+            allocated = allocated && arrays.in[k];
         }
-        if (held) {
+        if (allocated) {
             fill(bsdf, &arrays);
             result = run(context, bsdf, &arrays, &error);
         }
-        out->parity_measured = held && result == WEFT_OK;
+        out->parity_measured = allocated && result == WEFT_OK;
         if (out->parity_measured) {
             compare(bsdf, &arrays, out);
             snprintf(out->parity_words, sizeof out->parity_words, "%s", context_driver(context));

@@ -31,7 +31,7 @@ typedef struct PassportWork {
     const Bsdf *bsdf;
     const WeftPassportDesc *desc;
     WeftPassport *out;
-    Bsdf *colored; /* the BSDF in a middle colour, where it is tinted; else NULL */
+    Bsdf *colored; /* the BSDF in a middle colour, if it is tinted; else NULL */
     atomic_bool short_of_memory;
 
     Reciprocity reciprocity[WEFT_PASSPORT_ROWS];
@@ -75,7 +75,7 @@ static void find_albedo(PassportWork *work) {
         for (int c = 0; c < WEFT_PASSPORT_COSINES; c++) {
             float e = out->albedo[row][c];
             out->albedo_above += !(e <= 1.001f);
-            /* equal but for the last digits is not more: else rounding would choose the place */
+            /* equal up to rounding is not more: else rounding would choose the place */
             if (row + c > 0 && !exceeds_or_nan((double)e, (double)out->albedo_most * 1.0002)) continue;
             out->albedo_most = e;
             out->albedo_place = (WeftPlace){.value = out->values[row], .cos_o = cosines[c]};
@@ -120,7 +120,7 @@ static void measure_furnace(void *user, int item, int thread) {
     PassportWork *work = user;
     int view = item % WEFT_PASSPORT_VIEWS, k = item / WEFT_PASSPORT_VIEWS % WEFT_PASSPORT_SHEENS;
     int layer = item / (WEFT_PASSPORT_VIEWS * WEFT_PASSPORT_SHEENS);
-    double azimuth = lobe_turns(&work->bsdf->lobe) ? 0.4 + view : 0.0; /* each from another side, as below */
+    double azimuth = lobe_turns(&work->bsdf->lobe) ? 0.4 + view : 0.0; /* each at another azimuth, as below */
     Dir o = grid_direction((double)views[view], azimuth);
     Furnace f = furnace_measure(&work->bsdf->lobe, sheens[k], layer, &work->sheens[k], o, FURNACE_CELLS,
                                 work->desc->quick ? 10000 : 300000);
@@ -128,7 +128,7 @@ static void measure_furnace(void *user, int item, int thread) {
     work->out->furnace_noise[layer][k][view] = (float)f.noise;
 }
 
-/* Which layer rules promise to conserve energy. */
+/* The layer rules that promise to conserve energy. */
 #define LAYER_PROMISE(id, index, base, asks_wi, asks_average, conserves, help) [index] = conserves,
 static const bool conserves[LAYER_COUNT] = {WEFT_LAYERS(LAYER_PROMISE)};
 
@@ -170,7 +170,7 @@ static void measure_sampling(void *user, int item, int thread) {
         work->short_of_memory = true;
 }
 
-/* own / by_cosine of a row, where neither scatters 1: a variance of 1e-3 is a deviation of 3 % a sample. */
+/* Returns own / by_cosine of a row, both at least 1e-3: a variance of 1e-3 is a deviation of 3 % a sample. */
 static double row_ratio(const WeftPassport *out, int row) {
     double own = 0.0, by_cosine = 0.0;
     for (int v = 0; v < WEFT_PASSPORT_VIEWS; v++) {
@@ -184,7 +184,7 @@ static void find_sampling(PassportWork *work) {
     const Bsdf *bsdf = work->bsdf;
     WeftPassport *out = work->out;
     memcpy(out->views, views, sizeof views);
-    for (int row = 0; row < out->rows; row++) /* a material's take long: the ends and the default */
+    for (int row = 0; row < out->rows; row++) /* materials take long: only the ends and the default */
         work->drawn[row] = !work->desc->brief &&
                            (!bsdf->whole || row == 0 || row == bsdf->row_default || row == out->rows - 1);
     parallel_for(work->desc->threads, out->rows * WEFT_PASSPORT_VIEWS, measure_sampling, work);
@@ -244,7 +244,7 @@ static void find_sweep(PassportWork *work) {
     }
 }
 
-/* The BSDF again, of what keeps half of the light. False when memory is short. */
+/* Copies a tinted BSDF with an albedo of 0.5. Returns false if memory is short. */
 static bool color_tinted(PassportWork *work) {
     const Bsdf *bsdf = work->bsdf;
     if (bsdf->whole || !(weft_lobe_info(bsdf->lobe.id)->traits & TRAIT_TINTED)) return true;
@@ -279,10 +279,10 @@ bool passport_measure(const Bsdf *bsdf, const WeftPassportDesc *desc, WeftPasspo
         snprintf(out->parity_words, sizeof out->parity_words, "skipped (--no-gpu)");
     else
         parity_measure(bsdf, out);
-    bool held = !work->short_of_memory;
+    bool done = !work->short_of_memory;
     free(work->colored);
     free(work);
-    return held;
+    return done;
 }
 
 WeftResult weft_passport_measure(const WeftPassportDesc *desc, WeftPassport *out, WeftError *error) {
@@ -300,23 +300,23 @@ WeftResult weft_passport_measure(const WeftPassportDesc *desc, WeftPassport *out
              : profile >= 0 ? weft_profile_name(profile)
                             : weft_lobe_info(lobe)->id);
     Bsdf *bsdf = calloc(1, sizeof *bsdf);
-    bool held = bsdf != NULL;
-    if (held && woven) {
-        held = bsdf_of_weave(bsdf, desc->material, desc->cloth, desc->threads);
+    bool done = bsdf != NULL;
+    if (done && woven) {
+        done = bsdf_of_weave(bsdf, desc->material, desc->cloth, desc->threads);
         snprintf(out->surface, sizeof out->surface, "a woven material from afar, in its own colours");
-    } else if (held && profile >= 0) {
-        held = bsdf_of_profile(bsdf, profile, desc->quick != 0, desc->threads);
+    } else if (done && profile >= 0) {
+        done = bsdf_of_profile(bsdf, profile, desc->quick != 0, desc->threads);
         snprintf(out->surface, sizeof out->surface, "%s", bsdf_velvet);
-    } else if (held) {
+    } else if (done) {
         Lobe inner = lobe_default(lobe);
         if (given) lobe_of(given, &inner);
         out->traits = weft_lobe_info(lobe)->traits;
         bsdf_of_lobe(bsdf, &inner, desc->quick != 0);
     }
-    held = held && passport_measure(bsdf, desc, out);
+    done = done && passport_measure(bsdf, desc, out);
     if (bsdf) bsdf_free(bsdf);
     free(bsdf);
-    return held ? WEFT_OK : fail(error, WEFT_MESSAGE_MEMORY, out->id, NULL);
+    return done ? WEFT_OK : fail(error, WEFT_MESSAGE_MEMORY, out->id, NULL);
 }
 
 double weft_passport_significance(double p, int tests) {

@@ -1,10 +1,10 @@
-/* sweep.h - directions that are hard on formulas, and what comes of them */
+/* sweep.h - directions that are hard on formulas, and a count of bad results */
 #ifndef WEFT_MEASURE_SWEEP_H
 #define WEFT_MEASURE_SWEEP_H
 
 #include "measure/bsdf/bsdf.h"
 
-/* By its bits: no compiler option can fold the question away. */
+/* Returns true if x is finite, by its bits: no compiler option can fold the test away. */
 static inline bool sweep_finite(float x) {
     uint32_t bits;
     memcpy(&bits, &x, 4);
@@ -13,11 +13,11 @@ static inline bool sweep_finite(float x) {
 
 enum { SWEEP_DIRS = 72, SWEEP_PARTNERS = 96, SWEEP_PAIRS = SWEEP_DIRS * SWEEP_PARTNERS };
 
-/* Direction k: from cosine 1e-30 to 1, at azimuths that are axes and that are not. */
+/* Returns direction k: cosines from 1e-30 to 1, at azimuths that are axes and others. */
 Dir sweep_dir(int k);
 
-/* Partners for o: every sweep_dir, o itself, its mirror image, what is nearly opposite, some that are random,
- * and, where `below`, some that are not above the horizon. */
+/* Partners for o: every sweep_dir, o itself, its mirror image, nearly opposite ones, some random ones and,
+ * with `below`, some that are not above the horizon. */
 typedef struct Partners {
     int count;
     float x[SWEEP_PARTNERS], y[SWEEP_PARTNERS], z[SWEEP_PARTNERS];
@@ -28,7 +28,7 @@ typedef struct Sweep {
     long long count, infinite, negative, below;
 } Sweep;
 
-/* All pairs, and samples, of one setting. */
+/* Evaluates all pairs, and samples, of one setting. */
 Sweep sweep_setting(const Bsdf *bsdf, int setting);
 
 #endif

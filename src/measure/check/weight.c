@@ -16,12 +16,12 @@ double weight_albedo(const BsdfView *view, int cells) {
     return sum;
 }
 
-/* With w = f cos / pdf and P the integral of the pdf:
+/* Measures the variance. With w = f cos / pdf and P the integral of the pdf:
  *
  *   variance = integral of pdf (w - E)^2 + (1 - P) E^2
  *
- * where 1 - P are the samples that find nothing. Written so that it is 0, not a difference, where w is
- * constant. */
+ * The fraction 1 - P of the samples finds nothing. In this form a constant w gives exactly 0, not a
+ * difference. */
 Weight weight_measure(const BsdfView *view, int cells) {
     Grid grid;
     Ring ring;

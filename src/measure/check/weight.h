@@ -6,8 +6,8 @@
 
 typedef struct Weight {
     double albedo;         /* E */
-    double own, by_cosine; /* variance of f cos / pdf: with the bsdf's sampling, with the cosine's */
-    double missed;         /* of E, from directions whose pdf is 0: no sample will find it */
+    double own, by_cosine; /* variance of f cos / pdf: with the sampling of the BSDF, and of the cosine */
+    double missed;         /* the part of E from directions whose pdf is 0, which no sample finds */
 } Weight;
 
 double weight_albedo(const BsdfView *view, int cells);
