@@ -59,33 +59,33 @@ static void name_subject(const WeftDoctor *doctor, WeftFinding *finding) {
 
 static void name_place(WeftFinding *finding, const char *path) {
     char *to = finding->place;
-    size_t room = sizeof finding->place;
+    size_t capacity = sizeof finding->place;
     const char *slash = path && path[0] ? "/" : "";
     if (!path) path = "";
     if (finding->of == WEFT_OF_ASSET)
-        snprintf(to, room, "%s%s", slash, path);
+        snprintf(to, capacity, "%s%s", slash, path);
     else
-        snprintf(to, room, "/%s/%d%s%s", list_name(finding->of), finding->index, slash, path);
+        snprintf(to, capacity, "/%s/%d%s%s", list_name(finding->of), finding->index, slash, path);
 }
 
-/* Makes room for one more finding; returns false if there are too many or memory is short. */
-static bool make_room(WeftDoctor *doctor) {
+/* Allocates space for one more finding. Returns false if there are too many or memory is short. */
+static bool reserve(WeftDoctor *doctor) {
     enum { FINDINGS_MAX = 10000 };
-    if (doctor->count < doctor->room) return true;
+    if (doctor->count < doctor->capacity) return true;
     if (doctor->count >= FINDINGS_MAX) return false; /* more than anyone would read */
-    size_t room = doctor->room ? 2 * (size_t)doctor->room : 32;
-    WeftFinding *items = realloc_array(doctor->items, room, sizeof *items);
+    size_t capacity = doctor->capacity ? 2 * (size_t)doctor->capacity : 32;
+    WeftFinding *items = realloc_array(doctor->items, capacity, sizeof *items);
     if (items) doctor->items = items;
-    Repair *repairs = realloc_array(doctor->repairs, room, sizeof *repairs);
+    Repair *repairs = realloc_array(doctor->repairs, capacity, sizeof *repairs);
     if (repairs) doctor->repairs = repairs;
-    if (items && repairs) doctor->room = (int)room;
+    if (items && repairs) doctor->capacity = (int)capacity;
     doctor->failed |= !items || !repairs;
     return items && repairs;
 }
 
 void doctor_found(WeftDoctor *doctor, WeftFindingKind kind, Place place, unsigned engines, double figure,
                   const Repair *repair, const char *words, ...) {
-    if (!make_room(doctor)) return;
+    if (!reserve(doctor)) return;
     WeftFinding *finding = &doctor->items[doctor->count];
     *finding = (WeftFinding){.kind = kind,
                              .severity = catalogue[kind].severity,
@@ -162,7 +162,7 @@ static void on_warning(void *user, WeftMessage message, const char *text) {
     if (!unread && doctor->log.fn) doctor->log.fn(doctor->log.user, message, text);
 }
 
-/* Reading takes little time beside the checks and does not count in the progress. */
+/* Reports progress. Reading takes little time beside the checks and counts as 0. */
 static int report_progress(void *user, double fraction) {
     const WeftDoctor *doctor = user;
     return doctor->progress ? doctor->progress(doctor->user, doctor->examining ? fraction : 0.0) : 0;
@@ -319,8 +319,8 @@ static bool can_fix(const WeftDoctor *doctor) {
     return any;
 }
 
-/* A repair may switch a sheen on, which then has findings of its own. So the written file is examined and repaired
- * again, in ROUNDS rounds at most. */
+/* Repairs in up to ROUNDS rounds, and examines the written file after each: a repair may switch a sheen on,
+ * which then has findings of its own. */
 WeftResult weft_doctor_fix(const WeftDoctor *doctor, const char *path, WeftError *error) {
     enum { ROUNDS = 4 };
     WeftResult result = fix_once(doctor, path, error);

@@ -24,7 +24,7 @@ typedef struct Repair {
 
 /* The channels of a decoded image, 0 .. 1, as R G B A. */
 typedef struct Pixels {
-    bool known; /* false: not computed yet */
+    bool done; /* true once computed */
     float low[4], high[4], mean[4];
     float linear[3]; /* mean of colours decoded from sRGB */
 } Pixels;
@@ -41,12 +41,12 @@ struct WeftDoctor {
     void *user;            /* for progress */
     bool examining;        /* false while the file is being read */
     WeftError error;
-    WeftFinding *items; /* the findings, and their repairs: `count`, with memory for `room` */
+    WeftFinding *items; /* the findings, and their repairs: `count`, with memory for `capacity` */
     Repair *repairs;
-    int count, room;
+    int count, capacity;
     Pixels *pixels;   /* of the scene's images */
     Energy *energies; /* one for each set of material numbers that was measured */
-    int energy_count, energy_room;
+    int energy_count, energy_capacity;
     EnergyTables *energy_tables; /* NULL until the first measurement */
     bool failed;                 /* memory was short */
 };
@@ -76,7 +76,8 @@ json_t *doctor_part(json_t *object, const char *path);
 /* Returns the last part of such a path. */
 const char *doctor_key(const char *path);
 
-/* Return the array of that name at the root of the JSON, such as "materials", and one of its items. */
+/* Returns the array of that name at the root of the JSON, such as "materials"; the second function, one of
+ * its items. */
 json_t *doctor_list(const WeftDoctor *doctor, const char *name);
 json_t *doctor_item(const WeftDoctor *doctor, const char *name, int index);
 
@@ -87,22 +88,24 @@ bool doctor_numbers(json_t *object, const char *path, double *out, int count);
 /* Returns the index of the texture that a textureInfo names; -1 if it names no existing texture. */
 int doctor_texture(const WeftDoctor *doctor, json_t *texture_info);
 
-/* Return the decoded image that a textureInfo names, and the range and mean of its channels; NULL if none was read. */
+/* Returns the decoded image that a textureInfo names; the second function, the range and mean of its
+ * channels. NULL if none was read. */
 const WeftImage *doctor_image(WeftDoctor *doctor, json_t *texture_info);
 const Pixels *doctor_pixels(WeftDoctor *doctor, json_t *texture_info);
 
-/* Read the pixel nearest to u, v, each in [0, 1): as plain numbers, or as a linear colour. */
+/* Reads the pixel nearest to u, v, each in [0, 1): as data, or as a linear colour. */
 void doctor_texel(const WeftImage *image, float u, float v, float rgb[3]);
 void doctor_texel_linear(const WeftDoctor *doctor, const WeftImage *image, float u, float v, float rgb[3]);
 
-/* Return a factor, clamped to 0 .. 1, times the mean of its texture: a linear colour, or one channel. absent: the
- * factor's default. */
+/* Returns a factor, clamped to 0 .. 1, times the mean of its texture: a linear colour, or one channel.
+ * absent: the default of the factor. */
 void doctor_color(WeftDoctor *doctor, json_t *object, const char *factor, const char *texture, double absent,
                   float color[3]);
 float doctor_scalar(WeftDoctor *doctor, json_t *object, const char *factor, const char *texture, int channel,
                     double absent);
 
-/* The profiles of the engines that read KHR_materials_sheen: the bit of one by its id, the bits of all, and all ids. */
+/* Returns the bit of a profile by its id, and the bits of all profiles of engines that read
+ * KHR_materials_sheen; doctor_readers are their ids. */
 unsigned doctor_engine(const char *profile);
 unsigned doctor_engines(void);
 extern const char *const doctor_readers[]; /* ends with NULL */
@@ -118,27 +121,36 @@ typedef struct Cloth {
 Cloth doctor_cloth(WeftDoctor *doctor, int material);
 bool cloth_shows(const Cloth *cloth); /* true if there is a sheen that is not black */
 
-/* The checks, in doctor_NAME.c: each looks at the whole asset, at one material or at one mesh, and adds its
+/* The checks, in doctor_NAME.c: each examines the whole asset, one material or one mesh, and adds its
  * findings to the doctor. */
-void check_extensions(
-    WeftDoctor *doctor);               /* finds extensions that weft lacks, or that are used but not listed */
-void check_spaces(WeftDoctor *doctor); /* finds images read in two colour spaces, or marked as linear */
-void check_glass(WeftDoctor *doctor);  /* finds a sheen and a transmission in one asset */
-void check_ranges(WeftDoctor *doctor, const Cloth *cloth);  /* finds factors outside their range */
-void check_factors(WeftDoctor *doctor, const Cloth *cloth); /* finds textures multiplied by 0 */
-void check_transforms(WeftDoctor *doctor,
-                      const Cloth *cloth); /* finds textures whose transform has a scale of 0 */
-void check_black(WeftDoctor *doctor, const Cloth *cloth);   /* finds sheens that are black */
-void check_channel(WeftDoctor *doctor, const Cloth *cloth); /* finds roughness whose alpha is 1 everywhere */
-void check_energy(WeftDoctor *doctor,
-                  const Cloth *cloth); /* finds engines that return too much light, or differ */
+/* Finds extensions that weft lacks, or that are used but not listed. */
+void check_extensions(WeftDoctor *doctor);
+/* Finds images that are read in two colour spaces, or marked as linear. */
+void check_spaces(WeftDoctor *doctor);
+/* Finds a sheen and a transmission in one asset. */
+void check_glass(WeftDoctor *doctor);
+/* Finds factors outside their range. */
+void check_ranges(WeftDoctor *doctor, const Cloth *cloth);
+/* Finds textures that are multiplied by 0. */
+void check_factors(WeftDoctor *doctor, const Cloth *cloth);
+/* Finds textures whose transform has a scale of 0. */
+void check_transforms(WeftDoctor *doctor, const Cloth *cloth);
+/* Finds sheens that are black. */
+void check_black(WeftDoctor *doctor, const Cloth *cloth);
+/* Finds a texture of roughness whose alpha is 1 everywhere. */
+void check_channel(WeftDoctor *doctor, const Cloth *cloth);
+/* Finds engines that return too much light, or that differ. */
+void check_energy(WeftDoctor *doctor, const Cloth *cloth);
+/* Finds inputs that conflict with a sheen. */
+void check_neighbours(WeftDoctor *doctor, const Cloth *cloth);
+/* Finds numbers that no real material has. */
+void check_plausible(WeftDoctor *doctor, const Cloth *cloth);
+/* Finds normals, tangents and texture coordinates that are missing, and open edges of single-sided cloth. */
+void check_mesh(WeftDoctor *doctor, int mesh);
 
 /* Returns E of the whole material, strongest channel, as check_energy measures it. reader: index into
  * doctor_readers. cosine: one that check_energy samples. Negative if not measured. */
 float doctor_albedo(WeftDoctor *doctor, const Cloth *cloth, int reader, float cosine);
-void check_neighbours(WeftDoctor *doctor, const Cloth *cloth); /* finds inputs that conflict with a sheen */
-void check_plausible(WeftDoctor *doctor, const Cloth *cloth);  /* finds numbers that no real material has */
-void check_mesh(WeftDoctor *doctor, int mesh); /* finds normals and tangents that are missing or wrong */
 
 /* Applies a repair to the JSON of a rewrite. */
 struct Rewrite;

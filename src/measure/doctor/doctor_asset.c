@@ -44,12 +44,12 @@ bool doctor_numbers(json_t *object, const char *path, double *out, int count) {
 }
 
 int doctor_texture(const WeftDoctor *doctor, json_t *info) {
-    double index = -1.0; /* of an extension that the reader does not know it may be anything */
+    double index = -1.0; /* an unsupported extension may have anything here */
     doctor_numbers(info, "index", &index, 1);
     return index >= 0.0 && index < (double)doctor->asset.texture_count ? (int)index : -1;
 }
 
-/* The scene's image behind a textureInfo, or -1. */
+/* Returns the scene's image of a textureInfo, or -1. */
 static int image_of(const WeftDoctor *doctor, json_t *info) {
     int index = doctor_texture(doctor, info);
     int texture = index < 0 ? -1 : doctor->asset.textures[index].scene_texture;
@@ -67,7 +67,7 @@ static float pixel_value(const WeftImage *image, size_t k) {
     return ((const float *)image->pixels)[k];
 }
 
-/* One pixel as R G B A. */
+/* Reads one pixel as R G B A. */
 static void pixel_read(const WeftImage *image, size_t pixel, float rgba[4]) {
     size_t at = pixel * (size_t)image->channels;
     bool grey = image->channels < 3;
@@ -85,7 +85,7 @@ void doctor_texel(const WeftImage *image, float u, float v, float rgb[3]) {
     memcpy(rgb, rgba, 3 * sizeof *rgb);
 }
 
-/* A number of a colour, decoded from sRGB where the image holds integers. */
+/* Returns a component of a colour, decoded from sRGB if the image has integers. */
 static float linear_of(const SrgbTable *srgb, const WeftImage *image, float value) {
     bool integer = image->type != WEFT_PIXEL_F32;
     int step = integer ? (int)(value * 255.0f + 0.5f) : 0;
@@ -113,14 +113,14 @@ static void pixels_survey(const SrgbTable *srgb, const WeftImage *image, Pixels 
     }
     for (int c = 0; c < 4; c++) out->mean[c] = (float)(sum[c] / (double)count);
     for (int c = 0; c < 3; c++) out->linear[c] = (float)(linear[c] / (double)count);
-    out->known = true;
+    out->done = true;
 }
 
 const Pixels *doctor_pixels(WeftDoctor *doctor, json_t *info) {
     int image = image_of(doctor, info);
     if (image < 0 || !doctor->scene->images[image].pixels) return NULL;
     Pixels *pixels = &doctor->pixels[image];
-    if (!pixels->known) pixels_survey(&doctor->scene->srgb, &doctor->scene->images[image], pixels);
+    if (!pixels->done) pixels_survey(&doctor->scene->srgb, &doctor->scene->images[image], pixels);
     return pixels;
 }
 
@@ -143,7 +143,7 @@ float doctor_scalar(WeftDoctor *doctor, json_t *object, const char *factor, cons
     return clamped((float)number) * (pixels ? pixels->mean[channel] : 1.0f);
 }
 
-/* Those of the catalogue that are engines' readings of KHR_materials_sheen. */
+/* The profiles of the catalogue that are engines' versions of KHR_materials_sheen. */
 const char *const doctor_readers[] = {"khronos", "three", "babylon", "filament-sheen", "materialx", NULL};
 
 unsigned doctor_engine(const char *profile) { return 1u << choice_find(CHOICE_profile, profile); }

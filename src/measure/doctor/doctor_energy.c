@@ -132,12 +132,12 @@ static void base_add(const SeenStack *whole, int slot, Base *base) {
  * Returns false if a number is not finite. */
 static bool case_make(const WeftDoctor *doctor, const Cloth *cloth, int reader, Case *self) {
     static const float black[3] = {0.0f, 0.0f, 0.0f};
-    WeftMaterial numbers, plain;
+    WeftMaterial numbers, defaults;
     WeftError error;
     if (!mean_material(doctor, cloth, black, 0.0f, doctor_readers[reader], &numbers)) return false;
-    weft_material_default(&plain);
-    plain.choices[CHOICE_profile] = numbers.choices[CHOICE_profile];
-    memcpy(numbers.choices, plain.choices, sizeof numbers.choices);
+    weft_material_default(&defaults);
+    defaults.choices[CHOICE_profile] = numbers.choices[CHOICE_profile];
+    memcpy(numbers.choices, defaults.choices, sizeof numbers.choices);
     if (numbers_sound(&numbers, &error) != WEFT_OK) return false;
     const Material material = material_sound(&numbers);
     const Surface surface = material_plain(&material);
@@ -291,17 +291,17 @@ static void report_gain(WeftDoctor *doctor, const Cloth *cloth, unsigned engines
     bool textured = json_object_get(cloth->sheen, "sheenRoughnessTexture") != NULL;
     const Answer *answers = energy->answers;
     const float least = energy->least;
-    bool mends = least > 0.0f && !textured, given = json_object_get(cloth->sheen, "sheenRoughnessFactor");
+    bool helps = least > 0.0f && !textured, given = json_object_get(cloth->sheen, "sheenRoughnessFactor");
     const Repair repair = {.act = REPAIR_NUMBER, .numbers = {(double)least}, .count = 1};
     doctor_found(doctor, WEFT_FINDING_SHEEN_GAINS, (Place){WEFT_OF_MATERIAL, cloth->index, path}, engines,
-                 (double)answers[worst].with[where], mends ? &repair : NULL,
+                 (double)answers[worst].with[where], helps ? &repair : NULL,
                  "at sheen roughness %.2g%s the material returns %.3g times the light it receives, seen at "
                  "%.0f degrees in %s "
                  "(without the sheen %.3g; its white sheen alone returns %.3g): rims glow",
                  (double)cloth->roughness, given ? "" : " (it is left out, and then is 0)",
                  (double)answers[worst].with[where], degrees(cosines[where]), doctor_readers[worst],
                  (double)answers[worst].without[where], (double)answers[worst].alone[where]);
-    if (mends)
+    if (helps)
         doctor_advise(
             doctor,
             "raise sheenRoughnessFactor to %.2g, or darken the colour: from there on no engine returns more "
@@ -403,13 +403,13 @@ static const Energy *energy_find(const WeftDoctor *doctor, const MaterialKey *ke
 
 /* Adds an Energy to the list of the doctor; returns NULL if memory is short. */
 static Energy *energy_add(WeftDoctor *doctor) {
-    if (doctor->energy_count == doctor->energy_room) {
-        size_t room = doctor->energy_room ? 2 * (size_t)doctor->energy_room : 8;
-        Energy *energies = realloc_array(doctor->energies, room, sizeof *energies);
+    if (doctor->energy_count == doctor->energy_capacity) {
+        size_t capacity = doctor->energy_capacity ? 2 * (size_t)doctor->energy_capacity : 8;
+        Energy *energies = realloc_array(doctor->energies, capacity, sizeof *energies);
         doctor->failed |= !energies;
         if (!energies) return NULL;
         doctor->energies = energies;
-        doctor->energy_room = (int)room;
+        doctor->energy_capacity = (int)capacity;
     }
     return &doctor->energies[doctor->energy_count++];
 }
@@ -430,8 +430,8 @@ static bool energy_measure(const WeftDoctor *doctor, const Cloth *cloth, Energy 
 static const Energy *energy_of(WeftDoctor *doctor, const Cloth *cloth) {
     MaterialKey key;
     if (!key_of(doctor, cloth, &key)) return NULL;
-    const Energy *known = energy_find(doctor, &key);
-    if (known) return known;
+    const Energy *measured = energy_find(doctor, &key);
+    if (measured) return measured;
     if (!doctor->energy_tables) doctor->energy_tables = alloc_array(1, sizeof *doctor->energy_tables);
     doctor->failed |= !doctor->energy_tables;
     Energy energy = {.key = key};

@@ -15,7 +15,7 @@ static json_t *material_of(const WeftDoctor *doctor, const Primitive *p) {
     return doctor_item(doctor, "materials", p->material);
 }
 
-/* The UV set of a textureInfo: its transform may name another. */
+/* Returns the UV set of a textureInfo, which its transform may replace; -1 if it is invalid. */
 static int set_of(json_t *info) {
     double set = 0.0;
     doctor_numbers(info, "texCoord", &set, 1);
@@ -66,7 +66,7 @@ static void check_attributes(WeftDoctor *doctor, int mesh, int number, const Pri
     }
 }
 
-/* Which texture of a material is read in the tangent frame; NULL: none. */
+/* Returns which input of a material needs tangents; NULL if none does. */
 static const char *needs_tangents(json_t *material) {
     double strength = 0.0;
     if (doctor_part(material, "normalTexture")) return "normalTexture";
@@ -111,8 +111,7 @@ static int compare_corners(const void *a, const void *b) {
     return 0;
 }
 
-/* The corners of the triangles of a mesh, of all its primitives, as numbers that are alike where the place is
- * alike. */
+/* Gives numbers to the corners of all triangles of a mesh, equal where the places are equal. */
 static uint32_t *weld(Corner *corners, size_t count, Arena *arena) {
     uint32_t *place = arena_array(arena, count, sizeof *place), next = 0;
     if (!place) return NULL;
@@ -161,25 +160,25 @@ static bool gather(WeftDoctor *doctor, const Primitive *p, Corner *corners, size
 
 static double mesh_open(WeftDoctor *doctor, const MeshSource *mesh) {
     enum { CORNERS_MAX = 6000000 };
-    size_t room = 0, count = 0;
+    size_t capacity = 0, count = 0;
     Arena arena = {0};
     bool whole = true;
     for (size_t k = 0; k < mesh->primitive_count; k++) {
         const Primitive *p = &mesh->primitives[k];
         if (p->mode != TRIANGLES || p->position < 0) return 0.0;
-        room += doctor->asset.accessors[p->index < 0 ? p->position : p->index].count;
+        capacity += doctor->asset.accessors[p->index < 0 ? p->position : p->index].count;
     }
-    if (!room || room > CORNERS_MAX) return 0.0;
-    Corner *corners = arena_array(&arena, room, sizeof *corners);
+    if (!capacity || capacity > CORNERS_MAX) return 0.0;
+    Corner *corners = arena_array(&arena, capacity, sizeof *corners);
     for (size_t k = 0; corners && k < mesh->primitive_count && whole; k++)
-        whole = gather(doctor, &mesh->primitives[k], corners, &count, room, &arena);
+        whole = gather(doctor, &mesh->primitives[k], corners, &count, capacity, &arena);
     uint32_t *place = corners && whole ? weld(corners, count, &arena) : NULL;
     double share = place ? open_share(place, count, &arena) : 0.0;
     arena_free(&arena);
     return share;
 }
 
-/* A cloth of one layer is seen from behind. */
+/* Reports cloth of a single layer that is not double-sided, since it is seen from behind. */
 static void check_back(WeftDoctor *doctor, int mesh) {
     const MeshSource *source = &doctor->asset.meshes[mesh];
     int cloth = -1;

@@ -16,9 +16,9 @@ static json_t *step(json_t *from, const char *key, bool make) {
     return json_object_get(from, key);
 }
 
-/* The object that holds the last key of a pointer, which goes to key. The doctor's pointers need no escapes.
- */
-static json_t *holder(json_t *root, const char *pointer, char key[64]) {
+/* Returns the object that has the last key of a pointer, and sets key to it. The doctor's pointers need no
+ * escapes. */
+static json_t *parent_of(json_t *root, const char *pointer, char key[64]) {
     json_t *at = root;
     while (at && *pointer == '/') {
         size_t length = strcspn(++pointer, "/");
@@ -29,8 +29,7 @@ static json_t *holder(json_t *root, const char *pointer, char key[64]) {
     return at;
 }
 
-/* A number as JSON that is short to write: 0.42, not 0.41999998688697815; or the old one where that says the
- * same. */
+/* Returns a number as short JSON: 0.42, not 0.41999998688697815; or the old value if it is equal. */
 static json_t *number(double value, json_t *old) {
     char text[32];
     snprintf(text, sizeof text, "%.6g", value);
@@ -46,7 +45,7 @@ static json_t *numbers(const Repair *repair, const json_t *old) {
     return array;
 }
 
-/* One channel as alpha, and as grey, so that a person sees it too. */
+/* Makes an image of one channel, as alpha and as grey, so that a person sees it too. */
 static WeftResult alpha_image(const WeftImage *from, int channel, const char *name, WeftImage *out,
                               WeftError *error) {
     WeftPixelType type = from->type == WEFT_PIXEL_U16 ? WEFT_PIXEL_U16 : WEFT_PIXEL_U8;
@@ -86,19 +85,19 @@ static bool same_move(const WeftDoctor *doctor, const Repair *a, const Repair *b
     return x->image == y->image && x->sampler == y->sampler;
 }
 
-/* The texture that an earlier finding of the same picture was given, so that materials share it still; -1:
- * there is none. */
+/* Returns the texture that an earlier finding about the same image was given, so that materials still share
+ * it; -1 if there is none. */
 static int moved_before(const WeftDoctor *doctor, const Rewrite *rewrite, int finding) {
     for (int k = 0; k < finding; k++) {
         char key[64] = "";
         if (!same_move(doctor, &doctor->repairs[k], &doctor->repairs[finding])) continue;
-        json_t *object = holder(rewrite->root, doctor->items[k].place, key);
+        json_t *object = parent_of(rewrite->root, doctor->items[k].place, key);
         return (int)json_integer_value(json_object_get(json_object_get(object, key), "index"));
     }
     return -1;
 }
 
-/* A texture of its own for a repair, sampled as before; its index goes to made. */
+/* Makes a texture for a repair, sampled as before, and sets *made to its index. */
 static WeftResult alpha_texture(const WeftDoctor *doctor, Rewrite *rewrite, const Repair *repair, int *made,
                                 WeftError *error) {
     const char *name = doctor->asset.name;
@@ -131,7 +130,7 @@ WeftResult doctor_repair(const WeftDoctor *doctor, Rewrite *rewrite, int finding
     char key[64] = "";
     if (repair->act == REPAIR_NONE) return WEFT_OK;
     if (repair->act == REPAIR_DECLARE) return rewrite_uses(rewrite, repair->extension, error);
-    json_t *object = holder(rewrite->root, doctor->items[finding].place, key);
+    json_t *object = parent_of(rewrite->root, doctor->items[finding].place, key);
     int failed = 0;
     switch (repair->act) {
     case REPAIR_NUMBER: failed = json_object_set_new(object, key, number(repair->numbers[0], NULL)); break;

@@ -16,7 +16,7 @@ static bool in_list(json_t *list, const char *name) {
     return false;
 }
 
-/* Reports an extension that extensionsUsed lacks, once. */
+/* Reports an extension that extensionsUsed lacks, if it is not reported yet. */
 static void declare(WeftDoctor *doctor, const char *name) {
     if (in_list(doctor_list(doctor, "extensionsUsed"), name)) return;
     for (int k = 0; k < doctor->count; k++)
