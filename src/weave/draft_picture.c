@@ -2,6 +2,7 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "base/equal.h"
 #include "base/fail.h"
 #include "weave/weave_draft.h"
 #include "weft/image.h"
@@ -54,7 +55,7 @@ static WeftResult from_image(const char *path, const WeftImage *image, WeftDraft
     WeftResult result = draft_create(path, image->width, image->height, WEFT_MESSAGE_DRAFT, out, error);
     if (result != WEFT_OK) return result;
     const float first = brightness(image, 0), other = brightness(image, second);
-    if (second && !(first < other) && !(first > other)) {
+    if (second && is_equal(first, other)) {
         weft_draft_free(*out);
         *out = NULL;
         return fail(error, WEFT_MESSAGE_DRAFT, path, "its two colours are equally bright");

@@ -2,6 +2,7 @@
 
 #include "raster/material/families.h"
 
+#include "base/equal.h"
 #include "base/fail.h"
 
 typedef struct Families {
@@ -24,8 +25,7 @@ static bool same_texel(const Material *material, int j, int k) {
     if (!a->texture || !b->texture) return !a->texture == !b->texture;
     bool same = a->texture == b->texture && a->texcoord == b->texcoord &&
                 textures_color(material, j) == textures_color(material, k);
-    for (int n = 0; n < 6; n++)
-        same &= !(a->transform[n] < b->transform[n]) && !(a->transform[n] > b->transform[n]);
+    for (int n = 0; n < 6; n++) same &= is_equal(a->transform[n], b->transform[n]);
     return same;
 }
 

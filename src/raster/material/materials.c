@@ -5,6 +5,7 @@
 
 #include <epoxy/gl.h>
 
+#include "base/equal.h"
 #include "base/fail.h"
 #include "raster/gl/gl_check.h"
 #include "raster/material/families.h"
@@ -29,7 +30,7 @@ _Static_assert(sizeof(Uniforms) <= 16384, "the block of a material is too large"
 
 static bool is_all(const Input *input, int count, float x) {
     bool all = true;
-    for (int c = 0; c < count; c++) all &= !(input->value[c] < x) && !(input->value[c] > x);
+    for (int c = 0; c < count; c++) all &= is_equal(input->value[c], x);
     return all;
 }
 

@@ -3,6 +3,7 @@
 
 #include "raster/material/shader.h"
 
+#include "base/equal.h"
 #include "raster/light/gl_environment.h"
 #include "raster/material/cloths.h"
 #include "raster/material/part.h"
@@ -60,8 +61,7 @@ bool shader_holds(const ShaderKey *key, int slot) {
         lobes[k] = stack_slot(&m, slot)->lobe;
         if (!(stack_slot(&m, slot)->normal > 0.0f)) return false;
     }
-    bool same = !(lobes[0].params[0] < lobes[1].params[0]) && !(lobes[0].params[0] > lobes[1].params[0]);
-    return lobes[0].id == lobes[1].id && same;
+    return lobes[0].id == lobes[1].id && is_equal(lobes[0].params[0], lobes[1].params[0]);
 }
 
 /* One vec4 an input, two for where its texture lies, and the sheen's table: material.c fills them. */
@@ -238,7 +238,7 @@ static bool same_slots(const CompositionSlots *a, const CompositionSlots *b) {
         same = same && s->count == t->count;
         for (int j = 0; same && j < s->count; j++) same = s->lobes[j] == t->lobes[j];
         const float *p = a->lobes[k].params, *q = b->lobes[k].params;
-        for (int j = 0; same && s->count && j < LOBE_PARAMS_MAX; j++) same = !(p[j] < q[j]) && !(p[j] > q[j]);
+        for (int j = 0; same && s->count && j < LOBE_PARAMS_MAX; j++) same = is_equal(p[j], q[j]);
     }
     return same;
 }

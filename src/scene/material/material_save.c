@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/equal.h"
 #include "base/fail.h"
 #include "base/file.h"
 #include "base/pi.h"
@@ -42,7 +43,7 @@ static json_t *number(float value) {
         char text[32];
         snprintf(text, sizeof text, "%.*g", digits, (double)value);
         shortest = strtod(text, NULL);
-        if (!((float)shortest < value) && !((float)shortest > value)) break;
+        if (is_equal((float)shortest, value)) break;
     }
     return json_real(shortest);
 }
@@ -133,7 +134,7 @@ static void place_put(Writer *w, json_t *object, const float m[6]) {
     static const float identity[6] = {1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f};
     const float scale[2] = {m[0], m[4]}, offset[2] = {m[2], m[5]};
     bool same = true, turned = m[1] < 0.0f || m[1] > 0.0f || m[3] < 0.0f || m[3] > 0.0f;
-    for (int k = 0; k < 6; k++) same &= !(m[k] < identity[k]) && !(m[k] > identity[k]);
+    for (int k = 0; k < 6; k++) same &= is_equal(m[k], identity[k]);
     if (same) return;
     if (turned) {
         put(w, object, "transform", numbers(w, m, 6));

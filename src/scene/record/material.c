@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/equal.h"
 #include "base/pi.h"
 #include "scene/record/material_at.h"
 #include "shading/dialect/texel.h"
@@ -80,8 +81,7 @@ static bool is_default(const Material *material, InputId id) {
     const Input *input = &material->inputs[id];
     float def = input_default(material, id);
     bool same = !input->texture && !input->given;
-    for (int c = 0; c < input_value_count(id); c++)
-        same &= !(input->value[c] < def) && !(input->value[c] > def);
+    for (int c = 0; c < input_value_count(id); c++) same &= is_equal(input->value[c], def);
     return same;
 }
 

@@ -1,5 +1,6 @@
 #include "scene/record/tangents.h"
 
+#include "base/equal.h"
 #include "base/fail.h"
 
 const Input *tangents_input(const Material *material) {
@@ -17,7 +18,7 @@ bool tangents_possible(const Mesh *mesh, const Input *input) {
     const float *uv = mesh->texcoord[input->texcoord];
     bool same = true;
     for (size_t k = 2; uv && same && k < 2 * (size_t)mesh->vertex_count; k++)
-        same = !(uv[k] < uv[k % 2]) && !(uv[k] > uv[k % 2]);
+        same = is_equal(uv[k], uv[k % 2]);
     return uv && !same;
 }
 

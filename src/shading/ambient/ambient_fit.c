@@ -17,6 +17,7 @@
  * 2004, find powers between 2 and 3. */
 #include "shading/ambient/ambient_fit.h"
 
+#include "base/equal.h"
 #include "base/matrix.h"
 #include "base/thread.h"
 
@@ -325,20 +326,18 @@ void ambient_fit(AmbientFit *fit, const Lobe *lobe, float low, float high, int t
     ambient_fit_finish(fit);
 }
 
-static bool same(float a, float b) { return !(a < b) && !(a > b); }
-
-/* Returns true if the lobes have the same id and the same parameters from `first` on, apart from the azimuth. */
+/* From parameter `first` on. */
 static bool alike_from(const Lobe *a, const Lobe *b, int first) {
     if (a->id != b->id) return false;
     for (int k = first; k < weft_lobe_info(a->id)->param_count; k++)
-        if (k != ambient_lean_azimuth(a->id) && !same(a->params[k], b->params[k])) return false;
+        if (k != ambient_lean_azimuth(a->id) && !is_equal(a->params[k], b->params[k])) return false;
     return true;
 }
 
 bool ambient_alike(const Lobe *a, const Lobe *b) { return alike_from(a, b, 0); }
 
 bool ambient_fit_serves(const AmbientFit *fit, const Lobe *lobe, float low, float high) {
-    return alike_from(&fit->lobe, lobe, 1) && same(fit->low, low) && same(fit->high, high);
+    return alike_from(&fit->lobe, lobe, 1) && is_equal(fit->low, low) && is_equal(fit->high, high);
 }
 
 /* Returns true if E is 1 for every wo. */

@@ -1,5 +1,6 @@
 #include "shading/catalogue/albedo.h"
 
+#include "base/equal.h"
 #include "base/pi.h"
 #include "base/thread.h"
 #include "shading/lobe/lobe_tables.h"
@@ -395,14 +396,12 @@ void albedo_table_fill_tilts(AlbedoTable *table, const Lobe *lobe, float low, fl
     table_fill(table, lobe, low, high, true, threads);
 }
 
-static bool same(float a, float b) { return !(a < b) && !(a > b); }
-
 bool albedo_table_serves(const AlbedoTable *table, const Lobe *lobe, float low, float high, bool scaled) {
     if (table->lobe.id != lobe->id) return false;
     int azimuth = weft_lobe_param_find(lobe->id, "tilt") > 0 ? weft_lobe_param_find(lobe->id, "azimuth") : -1;
     for (int k = 1; k < weft_lobe_info(lobe->id)->param_count; k++)
-        if (k != azimuth && !same(table->lobe.params[k], lobe->params[k])) return false;
-    return table->tilts == tilts_of(lobe, scaled) && same(table->low, low) && same(table->high, high);
+        if (k != azimuth && !is_equal(table->lobe.params[k], lobe->params[k])) return false;
+    return table->tilts == tilts_of(lobe, scaled) && is_equal(table->low, low) && is_equal(table->high, high);
 }
 
 TableRef albedo_table_ref(const AlbedoTable *table) {

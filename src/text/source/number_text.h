@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/equal.h"
+
 typedef struct Number {
     char text[32];
 } Number;
@@ -18,7 +20,7 @@ static inline Number number(float value) {
     for (int digits = 6; digits <= 9; digits++) {
         size = snprintf(n.text, sizeof n.text - 2, "%.*g", digits, (double)value);
         float read = strtof(n.text, NULL);
-        if (!(read < value) && !(read > value)) break;
+        if (is_equal(read, value)) break;
     }
     if (!strpbrk(n.text, ".e")) memcpy(n.text + size, ".0", 3);
     return n;
