@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/equal.h"
 #include "gltf/read/gltf_material.h"
 #include "gltf/save/saving.h"
 #include "scene/material/cloth_file.h"
@@ -30,7 +31,7 @@ static bool is_black(const Material *material, InputId id) {
 static void transform_put(Saving *saving, json_t *info, const float m[6]) {
     static const float identity[6] = {1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f};
     bool same = true;
-    for (int k = 0; k < 6; k++) same &= !(m[k] < identity[k]) && !(m[k] > identity[k]);
+    for (int k = 0; k < 6; k++) same &= is_equal(m[k], identity[k]);
     if (same) return;
     json_t *object = json_object();
     float angle = m[3] < 0.0f || m[3] > 0.0f ? atan2f(-m[3], m[0]) : 0.0f, c = cosf(angle), s = sinf(angle);

@@ -2,6 +2,7 @@
 
 #include "measure/bsdf/bsdf.h"
 
+#include "base/equal.h"
 #include "base/memory.h"
 #include "base/thread.h"
 #include "scene/material/material_numbers.h"
@@ -210,9 +211,8 @@ typedef struct Sheen {
 } Sheen;
 
 static bool same_sheen(const Sheen *a, const Sheen *b) {
-    bool same = a->lobe.id == b->lobe.id && !(a->at < b->at) && !(a->at > b->at);
-    for (int k = 0; k < LOBE_PARAMS_MAX; k++)
-        same &= !(a->lobe.params[k] < b->lobe.params[k]) && !(a->lobe.params[k] > b->lobe.params[k]);
+    bool same = a->lobe.id == b->lobe.id && is_equal(a->at, b->at);
+    for (int k = 0; k < LOBE_PARAMS_MAX; k++) same &= is_equal(a->lobe.params[k], b->lobe.params[k]);
     return same;
 }
 
