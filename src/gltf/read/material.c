@@ -14,8 +14,8 @@
 #include "scene/material/set.h"
 #include "weave/weft_cloth.h"
 
-/* KHR_texture_transform: T R S. The asset TextureTransformTest shows which way the rotation turns: v runs
- * down, so that counter-clockwise is (c u + s v, c v - s u). */
+/* Reads KHR_texture_transform: T R S. The asset TextureTransformTest shows the sense of the rotation: v grows
+ * downwards, so that counter-clockwise is (c u + s v, c v - s u). */
 static void transform_read(const Field *field, Input *input) {
     Field offset_field = field_member(field, "offset"), scale_field = field_member(field, "scale"),
           rotation = field_member(field, "rotation"), texcoord = field_member(field, "texCoord");
@@ -29,7 +29,7 @@ static void transform_read(const Field *field, Input *input) {
     input->texcoord = (int)field_size(&texcoord, (size_t)input->texcoord, 0, UINT8_MAX);
 }
 
-/* A textureInfo, where there is one; channel matters to scalars only. */
+/* Reads a textureInfo, if there is one; channel matters to scalars only. */
 static void texture_read(const Field *field, Input *input, uint8_t channel) {
     if (!field->json) return;
     Field index = field_member(field, "index"), texcoord = field_member(field, "texCoord");
@@ -48,7 +48,7 @@ static void texture_read(const Field *field, Input *input, uint8_t channel) {
 
 enum { R, G, B, A };
 
-/* object[factor] times a channel of object[texture]. */
+/* Reads object[factor], which is multiplied by a channel of object[texture]. */
 static void scalar_read(const Field *object, Input *input, const char *factor, float absent, float high,
                         const char *texture, uint8_t channel) {
     Field factor_field = field_member(object, factor);
@@ -66,7 +66,7 @@ static void color_read(const Field *object, Input *input, const char *factor, fl
     texture_read(&texture_field, input, 0);
 }
 
-/* A normal texture, whose info holds its scale itself. */
+/* Reads a normal texture, whose textureInfo contains its scale. */
 static void normal_read(const Field *object, Input *input, const char *texture) {
     Field field = field_member(object, texture), scale = field_member(&field, "scale");
     input->value[0] = (float)field_number(&scale, 1.0, -1e3, 1e3);
@@ -102,7 +102,7 @@ static void specular_read(const Field *material, Input *inputs) {
     scalar_read(&ior_field, &inputs[INPUT_ior], "ior", 1.5f, FLT_MAX, NULL, 0);
     float *ior = &inputs[INPUT_ior].value[0];
     if (*ior == 0.0f) {
-        *ior = 1e6f; /* the extension's way to say that all is reflected */
+        *ior = 1e6f; /* the extension's value for a base that reflects everything */
     } else if (*ior < 1.0f) {
         field_warn(&ior_field, WEFT_MESSAGE_GLTF_WARN_REPAIRED, "ior %g is taken as 1", (double)*ior);
         *ior = 1.0f;
@@ -145,7 +145,7 @@ static void sheen_read(const Field *material, Input *inputs) {
                 "sheenRoughnessTexture", A);
 }
 
-/* An input that extras.weft has as a number or, of a colour, as three: radians where it is an angle. */
+/* Reads an input of extras.weft: a number, or three for a colour; an angle is in radians. */
 static void own_read(const Field *weft, Input *inputs, const char *key, InputId id) {
     const WeftInputInfo *info = &input_infos[id];
     bool angle = info->kind == WEFT_INPUT_ANGLE || info->kind == WEFT_INPUT_DIRECTION;
@@ -168,7 +168,7 @@ static const struct {
            {"dustScale", INPUT_dust_scale}};
 enum { OWN = sizeof own / sizeof own[0] };
 
-/* One of extras.weft.inputs, which says all of an input: what is not there is as it is by default. */
+/* Reads a member of extras.weft.inputs, which describes a whole input: what it lacks has its default. */
 static void whole_input_read(const Field *field, InputId id, Input *input) {
     const float most = FLT_MAX;
     Field value = field_member(field, "value"), texture = field_member(field, "texture"),
@@ -185,7 +185,7 @@ static void whole_input_read(const Field *field, InputId id, Input *input) {
     input->given = field_bool(&given, false);
 }
 
-/* A choice by its id; one that a later version has is left to what the workflow says. */
+/* Reads a choice by its id. An unknown id, as of a later version, is left to the workflow with a warning. */
 static void choice_read(const Field *field, ChoiceId choice, Material *material) {
     WeftError error;
     if (!field->json) return;
@@ -213,7 +213,8 @@ static void saved_read(const Field *weft, Material *material) {
 
 enum { WEAVES_MOST = 256 }; /* of a scene: each takes its time to be woven */
 
-/* A weave as a material file has it, whose draft is never in a file. One that makes no sense is left out. */
+/* Reads a weave as in a material file, but with its draft inside. A weave that makes no sense is left out
+ * with a warning. */
 static void weave_read(const Field *weft, Material *material) {
     Field field = field_member(weft, "weave");
     WeftScene *scene = field.asset->scene;
@@ -237,7 +238,7 @@ static void weave_read(const Field *weft, Material *material) {
     if (!material->cloth) weft_cloth_free(cloth);
 }
 
-/* extras.weft: what no extension of glTF says. Other extras are for others. */
+/* Reads extras.weft: what no extension of glTF can express. Other extras belong to other programs. */
 static void extras_read(const Field *field, Material *material) {
     static const char *const keys[] = {"nap",     "napRotation", "napTexture",  "dustTexture",
                                        "choices", "inputs",      "alphaCutoff", "weave"};

@@ -1,8 +1,8 @@
-/* material_save.c - materials as other programs read them, and in extras.weft what these do not say
+/* material_save.c - materials as other programs read them, and in extras.weft what glTF cannot express
  *
- * What is written for others is read back at once, as a reader of this library would; where that gives
- * another input than there is, the whole input is written. So what comes back is what was, whatever a
- * workflow or a profile makes of its inputs and however well glTF says it. */
+ * What is written for others is read back at once, as a reader of this library would. Where that gives
+ * another input, the whole input is written. So a material comes back unchanged, whatever a workflow or a
+ * profile makes of its inputs and however well glTF expresses it. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -27,7 +27,7 @@ static bool is_black(const Material *material, InputId id) {
     return !(v[0] > 0.0f || v[1] > 0.0f || v[2] > 0.0f);
 }
 
-/* KHR_texture_transform of a matrix that is scale, turn and shift; others are approximated. */
+/* Saves KHR_texture_transform of a matrix of scale, rotation and shift; others are approximated. */
 static void transform_put(Saving *saving, json_t *info, const float m[6]) {
     static const float identity[6] = {1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f};
     bool same = true;
@@ -42,7 +42,7 @@ static void transform_put(Saving *saving, json_t *info, const float m[6]) {
     saving_extend(saving, info, "KHR_texture_transform", object);
 }
 
-/* A textureInfo, NULL: there is none, or one of floats, which others do not read. */
+/* Makes a textureInfo; NULL if there is no texture, or one of floats, which other programs do not read. */
 static json_t *texture_info(Saving *saving, const Input *input) {
     if (!input->texture) return NULL;
     const WeftScene *scene = saving->scene;
@@ -55,7 +55,7 @@ static json_t *texture_info(Saving *saving, const Input *input) {
     return info;
 }
 
-/* object[key] = the textureInfo, where there is one and it is read by that channel. */
+/* Sets object[key] to the textureInfo, if there is one and it is read by that channel. */
 static void texture_put(Saving *saving, json_t *object, const char *key, const Input *input, int channel) {
     json_t *info = channel < 0 || input->channel == channel ? texture_info(saving, input) : NULL;
     if (info) saving_put(saving, object, key, info);
@@ -88,7 +88,7 @@ static void base_save(Saving *saving, json_t *object, const Material *material) 
     saving_put(saving, object, "pbrMetallicRoughness", pbr);
 }
 
-/* A normal map with its strength, or occlusion with its own. */
+/* Saves a normal map with its strength, or occlusion with its own. */
 static void scaled_save(Saving *saving, json_t *object, const char *key, const char *factor,
                         const Material *material, InputId id) {
     const Input *input = &material->inputs[id];
@@ -213,7 +213,7 @@ static bool is_same(const Input *a, const Input *b, int count) {
            memcmp((const char *)a->transform, (const char *)b->transform, sizeof a->transform) == 0;
 }
 
-/* All of an input that is not so by default. */
+/* Saves all members of an input that are not their defaults. */
 static json_t *input_save(Saving *saving, const Input *input, int count) {
     static const float identity[6] = {1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f};
     json_t *object = json_object();

@@ -12,8 +12,8 @@
 
 static bool is_number(const WeftLobeInfo *info) { return info->param_count > 0 && !info->params[0].choices; }
 
-/* Extremes of a lobe: all parameters at their hard ends together, then each alone. A choice is tried at each
- * of its ids, with the others as they are. */
+/* Sets *out to extreme k of a lobe: all parameters at their hard ends together, then each alone. A choice is
+ * tried at each of its ids, with the others as they are. Returns false after the last. */
 static bool extreme(const Lobe *lobe, int k, Lobe *out) {
     const WeftLobeInfo *info = weft_lobe_info(lobe->id);
     *out = *lobe;
@@ -155,7 +155,7 @@ static const Surface velvet = {.base_color = {1.0f, 1.0f, 1.0f},
                                .sheen_color = {1.0f, 1.0f, 1.0f},
                                .sheen_density = 1.0f};
 
-/* Roughnesses at their ends, metal or not, a coat or not, a sheen or not. */
+/* Returns extreme k of the velvet: roughnesses at their ends, metal or not, a coat or not, a sheen or not. */
 static Surface extreme_velvet(int k) {
     static const float ends[4] = {0.0f, 1.0f, 0.02f, 2.0f};
     Surface s = velvet;
@@ -204,7 +204,7 @@ static Dir whole_sample(const BsdfView *view, float u, float v) {
                      : seen_sample(&view->whole[1], min((u - first) / (1.0f - first), 0x1.fffffep-1f), v);
 }
 
-/* A sheen's lobe and the parameter with which E is asked for. */
+/* A sheen's lobe, and the parameter at which E is looked up. */
 typedef struct Sheen {
     Lobe lobe;
     float at;
@@ -234,7 +234,7 @@ static void fill_table(void *user, int k, int thread) {
                       1);
 }
 
-/* One table for all settings of the same sheen. False when memory is short. */
+/* Fills one table for all settings of the same sheen. Returns false if memory is short. */
 static bool fill_tables(Bsdf *bsdf, int threads) {
     TableFill fill = {.bsdf = bsdf};
     int count = 0;

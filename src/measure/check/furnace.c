@@ -4,7 +4,7 @@
 #include "measure/bsdf/grid.h"
 #include "shading/dialect/warp.h"
 
-/* All but what a random layer rule walks, as a midpoint sum. */
+/* Returns the reflected light as a midpoint sum, without the part that a random layer rule walks. */
 static double still(const SeenStack *seen, int cells, bool random) {
     Grid grid;
     Ring ring;
@@ -25,7 +25,8 @@ static double still(const SeenStack *seen, int cells, bool random) {
 
 enum { LEAST = 10000 };
 
-/* f cos / pdf: by the cosine of what a random layer rule walks; by the stack's own samples of all. */
+/* Returns f cos / pdf of one sample: of all light by the stack's own sampling, or of what a random layer rule
+ * walks by the cosine. */
 static double weighed(const SeenStack *seen, bool all, float u, float v, uint32_t seed) {
     Dir i = all ? seen_sample(seen, u, v) : warp_cosine(u, v);
     if (!all)
@@ -35,7 +36,7 @@ static double weighed(const SeenStack *seen, bool all, float u, float v, uint32_
     return value.pdf > 0.0f ? (double)(value.f_cos.g / value.pdf) : 0.0;
 }
 
-/* Its mean and the standard error of that. */
+/* Returns the mean of the samples and its standard error. */
 static Furnace walked(const SeenStack *seen, bool all, int walks) {
     Furnace f = {0};
     Draw draw = draw_start(3, 0);

@@ -36,7 +36,7 @@ static const struct {
 };
 enum { USES = sizeof uses / sizeof *uses };
 
-/* The image in the file behind a textureInfo; -1: none. */
+/* Returns the image of the file that a textureInfo names; -1 if there is none. */
 static int file_image(const WeftDoctor *doctor, json_t *info) {
     int texture = doctor_texture(doctor, info);
     return texture < 0 ? -1 : doctor->asset.textures[texture].image;
@@ -155,8 +155,8 @@ void check_black(WeftDoctor *doctor, const Cloth *cloth) {
     doctor_advise(doctor, "write sheenColorFactor, or drop the extension");
 }
 
-/* The channel that a picture of roughness was painted in: of a grey one any; else green, where glTF's other
- * roughness is. */
+/* Returns the channel that an image of roughness was painted in: any of a grey one; else green, where glTF's
+ * other roughness is. */
 static int painted_channel(const Pixels *pixels) {
     bool grey = true;
     for (int c = 1; c < 3; c++)

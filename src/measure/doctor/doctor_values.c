@@ -67,7 +67,7 @@ static void check_range(WeftDoctor *doctor, const Cloth *cloth, const char *path
 
 static const char ior_path[] = "extensions/KHR_materials_ior/ior";
 
-/* An ior is 0, which stands for a mirror, or at least 1. */
+/* Returns true if an ior is present and is neither 0, which stands for a mirror, nor at least 1. */
 static bool bad_ior(const Cloth *cloth, double *ior) {
     return doctor_numbers(cloth->json, ior_path, ior, 1) && *ior < 1.0 && fabs(*ior) > 0.0;
 }
@@ -269,7 +269,7 @@ void check_plausible(WeftDoctor *doctor, const Cloth *cloth) {
     check_base(doctor, cloth);
 }
 
-/* Textures of a material that a transform may place. */
+/* Finds textures of a material whose transform has a scale of 0. */
 void check_transforms(WeftDoctor *doctor, const Cloth *cloth) {
     static const char *const paths[] = {
         PBR("baseColorTexture"),    PBR("metallicRoughnessTexture"), "normalTexture",
