@@ -148,8 +148,7 @@ typedef struct Asset {
 
     FileTable buffer_files, image_files;
 
-    /* Decoding may produce at most `limit` bytes in all, so that a small hostile file does not become a large
-     * scene. */
+    /* Decoding may produce at most `limit` bytes in all, so that a small hostile file does not become a large scene. */
     size_t input_bytes, limit, spent;
     size_t triangles;
 

@@ -8,9 +8,8 @@
 #include "gltf/asset/meshopt.h"
 #include "gltf/asset/uri.h"
 
-/* The limit on decoded bytes: instances, sparse zeros and compression make a scene larger than its file. Any
- * file may use the floor, a small one a thousand times its size up to 256 MiB, a large one 64 times up to 4
- * GiB. */
+/* The limit on decoded bytes: instances, sparse zeros and compression make a scene larger than its file. Any file may
+ * use the floor, a small one a thousand times its size up to 256 MiB, a large one 64 times up to 4 GiB. */
 static const size_t MIB = (size_t)1 << 20;
 
 static size_t decoding_limit(size_t input) {
@@ -45,8 +44,7 @@ static void buffer_read(const Field *field, AssetBuffer *buffer, bool first) {
     }
 }
 
-/* Reads the files after all buffers have been seen, because only then it is clear how many bytes of each are
- * needed. */
+/* Reads the files after all buffers have been seen, because only then it is clear how many bytes of each are needed. */
 void buffers_read(Asset *asset) {
     Field root = field_root(asset), list = field_member(&root, "buffers");
     asset->buffer_count = field_count(&list);

@@ -10,7 +10,7 @@
  * decoder asserts these rules: do not call meshopt_decode unless this is NULL. */
 const char *meshopt_reason(const Compression *compression, size_t size);
 
-/* Decodes count * stride bytes into out and applies the filter; false where the data are damaged. */
+/* Decodes count * stride bytes into out and applies the filter. Returns false if the data are damaged. */
 bool meshopt_decode(const Compression *compression, unsigned char *out);
 
 #endif

@@ -13,8 +13,7 @@ bool uri_is_data(const char *uri);
 /* Decodes a data URI. Release the bytes with free(); NULL after a sticky failure on field. */
 unsigned char *uri_decode(const Field *field, const char *uri, size_t *size);
 
-/* Decodes percent-encoding in place; false where a % is not followed by two hexadecimal digits or hides a
- * zero byte. */
+/* Decodes percent-encoding in place. Returns false if a % is not followed by two hexadecimal digits, or is %00. */
 bool uri_unescape(char *text);
 
 /* Returns the path of a file URI, in the asset's arena; NULL after a sticky failure on field. */

@@ -1,4 +1,6 @@
-/* Specification: Khronos Group, "glTF 2.0 Specification", 2021, section 3.10 (cameras). */
+/* camera.c - cameras of glTF nodes
+ *
+ * Specification: Khronos Group, "glTF 2.0 Specification", 2021, section 3.10 (cameras). */
 #include "gltf/read/gltf_camera.h"
 
 #include <float.h>

@@ -1,7 +1,6 @@
 /* gltf.h - reads glTF 2.0 files into scenes
  *
- * Specification: Khronos Group, "glTF 2.0 Specification", 2021 (ISO/IEC 12113:2022), and its extension
- * registry. */
+ * Specification: Khronos Group, "glTF 2.0 Specification", 2021 (ISO/IEC 12113:2022), and its extension registry. */
 #ifndef WEFT_GLTF_GLTF_H
 #define WEFT_GLTF_GLTF_H
 
@@ -19,10 +18,9 @@ WeftResult gltf_read(const char *path, const void *data, size_t size, WeftScene 
 WeftResult gltf_read_watched(const char *path, const void *data, size_t size, WeftScene *scene,
                              WeftProgress progress, void *user, const WeftLog *log, WeftError *error);
 
-/* Reads like gltf_read, in three steps, for callers that need more than the scene. The caller sets log,
- * error, progress and user, and scene before the second step; the rest of asset is 0. gltf_open sets root,
- * text, bin and packed. gltf_read_parts fills all records. gltf_close is due whatever failed, before the
- * scene is freed. */
+/* Reads like gltf_read, in three steps, for callers that need more than the scene. The caller sets log, error, progress
+ * and user, and scene before the second step; the rest of asset is 0. gltf_open sets root, text, bin and packed.
+ * gltf_read_parts fills all records. gltf_close is due whatever failed, before the scene is freed. */
 void gltf_open(Asset *asset, const char *path, const void *data, size_t size);
 void gltf_read_parts(Asset *asset);
 void gltf_close(Asset *asset);

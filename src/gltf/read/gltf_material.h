@@ -4,9 +4,8 @@
 
 #include "gltf/asset/asset.h"
 
-/* Reads all materials, and one more at index asset->material_count for surfaces without a material (white,
- * rough metal: the defaults of the specification). Inputs have indices of glTF textures until
- * textures_resolve. */
+/* Reads all materials, and one more at index asset->material_count for surfaces without a material (white, rough metal:
+ * the defaults of the specification). Inputs have indices of glTF textures until textures_resolve. */
 void materials_read(Asset *asset);
 
 #endif

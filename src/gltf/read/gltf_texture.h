@@ -7,9 +7,8 @@
 /* Reads the records of textures; checks the images and samplers too. */
 void textures_read(Asset *asset);
 
-/* Replaces the indices of glTF textures in the inputs of the scene's materials by those of scene textures,
- * and decodes their images, each only once, in parallel. Materials that nothing shown uses lose their
- * textures. */
+/* Replaces the indices of glTF textures in the inputs of the scene's materials by those of scene textures, and decodes
+ * their images, each only once, in parallel. Materials that nothing shown uses lose their textures. */
 void textures_resolve(Asset *asset);
 
 #endif

@@ -7,8 +7,7 @@
 /* Reads the names of KHR_materials_variants. Call it before meshes_read. */
 void variants_read(Asset *asset);
 
-/* Reads the record of every mesh: attributes with their types and counts, materials, variants, morph
- * targets. */
+/* Reads the record of every mesh: attributes with their types and counts, materials, variants, morph targets. */
 void meshes_read(Asset *asset);
 
 /* Adds every surface of every shown node to the scene. Sets asset->material_shown. */

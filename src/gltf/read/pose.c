@@ -1,5 +1,4 @@
-/* Specification: Khronos Group, "glTF 2.0 Specification", 2021, sections 3.7.2.2 (morph targets) and 3.7.3
- * (skins). */
+/* Specification: Khronos Group, "glTF 2.0 Specification", 2021, sections 3.7.2.2 (morph targets) and 3.7.3 (skins). */
 #include "gltf/read/pose.h"
 
 #include "gltf/asset/accessor.h"

@@ -20,8 +20,7 @@ typedef struct Pose {
  * the transform of its own node. */
 Pose pose_prepare(Asset *asset, Arena *scratch, const Node *node, const Primitive *primitive);
 
-/* Returns the transform of one vertex: the pose's own, or with a skin a blend of the joints, made in
- * *blend. */
+/* Returns the transform of one vertex: the pose's own, or with a skin a blend of the joints, made in *blend. */
 const Transform *pose_at(const Pose *pose, size_t vertex, Transform *blend);
 
 /* Adds the morph targets of attribute (0 position, 1 normal, 2 tangent) to the first three of every `stride`

@@ -107,8 +107,7 @@ static Vec3 direction_of_u(const Vec3 p[3], const GltfVec2 uv[3], int side) {
     return unit(vec3_sub(vec3_scale(e1, sign * v2), vec3_scale(e2, sign * v1)));
 }
 
-/* Adds the direction of each triangle to the sums of its corners, separate for upright and mirrored
- * triangles. */
+/* Adds the direction of each triangle to the sums of its corners, separate for upright and mirrored triangles. */
 static void accumulate(const Mesh *mesh, const GltfVec2 *uv, const uint32_t *leader, Vec3 *sums[2]) {
     for (size_t t = 0; t < mesh->triangle_count; t++) {
         const uint32_t *corner = mesh->index + 3 * t;

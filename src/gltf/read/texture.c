@@ -1,3 +1,4 @@
+/* texture.c - reads textures and samplers, and decodes the images of those that are used */
 #include "gltf/read/gltf_texture.h"
 
 #include <pthread.h>
@@ -181,8 +182,7 @@ static void image_excuse(Asset *asset, DecodeJob *job) {
     asset->result = WEFT_OK;
 }
 
-/* Returns the scene's image for glTF image number index: that of its view or file if they have one
- * already. */
+/* Returns the scene's image for glTF image number index: that of its view or file if they have one already. */
 static int image_resolve(Jobs *jobs, int index) {
     Asset *asset = jobs->asset;
     Field root = field_root(asset), list = field_member(&root, "images"),

@@ -14,9 +14,8 @@ FileBytes bundle_bytes(const Asset *asset, const char *uri, WeftResult *result, 
  * the first has no bytes. */
 void bundle_pack(Saving *saving, const Asset *asset);
 
-/* Copies the files to which saving->root still refers from the asset's folder to that of saving->path, unless
- * the folders are the same. A missing file is no error; a file that is already there must have the same
- * bytes. */
+/* Copies the files to which saving->root still refers from the asset's folder to that of saving->path, unless the
+ * folders are the same. A missing file is no error; a file that is already there must have the same bytes. */
 void bundle_copy(Saving *saving, const Asset *asset);
 
 #endif

@@ -78,8 +78,7 @@ static void put_key(JsonPatch *patch, const char *key) {
     json_decref(text);
 }
 
-/* The white space of an object or array: from open to first, before its first part, and from last to
- * close. */
+/* The white space of an object or array: from open to first, before its first part, and from last to close. */
 typedef struct JsonSetting {
     const char *open, *first, *last, *close;
 } JsonSetting;

@@ -1,5 +1,4 @@
-/* Specification: Khronos Group, "glTF 2.0 Specification", 2021, sections 2.2 (file basics), 2.8 (URIs) and 4
- * (GLB). */
+/* Specification: Khronos Group, "glTF 2.0 Specification", 2021, sections 2.2 (file basics), 2.8 (URIs) and 4 (GLB). */
 #include "gltf/save/rewrite.h"
 
 #include <stdlib.h>
@@ -24,8 +23,7 @@ void rewrite_end(Rewrite *rewrite) {
     *rewrite = (Rewrite){0};
 }
 
-/* Returns the array of that name in the document, created if it is missing; borrowed, NULL if memory is
- * short. */
+/* Returns the array of that name in the document, created if it is missing; borrowed, NULL if memory is short. */
 static json_t *list(json_t *root, const char *name) {
     json_t *array = json_object_get(root, name);
     if (!array && json_object_set_new(root, name, json_array()) == 0) array = json_object_get(root, name);

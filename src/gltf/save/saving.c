@@ -110,8 +110,7 @@ char *saving_beside(Saving *saving, const char *end) {
     return path;
 }
 
-/* Returns true if a character need not be encoded: IETF, RFC 3986 "Uniform Resource Identifier", 2005,
- * section 2.3. */
+/* Returns true if a character need not be encoded: IETF, RFC 3986 "Uniform Resource Identifier", 2005, section 2.3. */
 static bool is_unreserved(unsigned char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
            (c && strchr("-._~", c));

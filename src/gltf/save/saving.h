@@ -59,9 +59,8 @@ void textures_save(Saving *saving);
 void materials_save(Saving *saving);
 void nodes_save(Saving *saving);
 
-/* Returns the path of a file beside the one that is written, with the same name but `end` instead of its
- * suffix; the second function returns how the JSON refers to a path. Both are in the arena, NULL after a
- * failure. */
+/* Returns the path of a file beside the one that is written, with the same name but `end` instead of its suffix; the
+ * second function returns how the JSON refers to a path. Both are in the arena, NULL after a failure. */
 char *saving_beside(Saving *saving, const char *end);
 char *saving_uri(Saving *saving, const char *path);
 

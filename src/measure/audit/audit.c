@@ -151,8 +151,7 @@ static bool patch_holds(Cell *cell, const TexelPatch *p, bool wide, bool high) {
     return holds;
 }
 
-/* Returns true if, in a row or, with `below`, in a column of the patch, some places are judged and some are
- * not. */
+/* Returns true if, in a row or, with `below`, in a column of the patch, some places are judged and some are not. */
 static bool patch_is_mixed(Cell *cell, const TexelPatch *p, bool below) {
     bool mixed = false;
     for (int k = 0; k < 3; k++) {
@@ -286,8 +285,7 @@ static bool find_constant(const AuditWork *work, WeftAudit *out) {
     return true;
 }
 
-/* Returns the form of an engine that fits best; if none fits, the commonest, unless another is much
- * nearer. */
+/* Returns the form of an engine that fits best; if none fits, the commonest, unless another is much nearer. */
 static ProbeReading guess_form(const AuditWork *work, double enough) {
     ProbeReading common = work->reading;
     probe_read(&work->probe, &common);
@@ -323,8 +321,7 @@ static void choose_form(AuditWork *work, WeftAudit *out) {
     }
 }
 
-/* Chooses the lobe and the axes to which the table is nearest, encoded or not; find_cause then decides
- * which. */
+/* Chooses the lobe and the axes to which the table is nearest, encoded or not; find_cause then decides which. */
 static void choose_lobe(AuditWork *work) {
     const ProbeReading best = probe_any(&work->probe, work->desc->form);
     work->lobe = best.lobe;

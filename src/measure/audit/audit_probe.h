@@ -42,8 +42,7 @@ ProbeReading probe_best_form(const TableProbe *probe, const ProbeReading *readin
  * in any form that engines use. */
 ProbeReading probe_best_lobe(const TableProbe *probe, const ProbeReading *reading, bool forms);
 
-/* Returns the nearest reading of all lobes of at most one parameter, in a form (NULL: in all forms), decoded
- * or not. */
+/* Returns the nearest reading of all lobes of at most one parameter, in a form (NULL: in all forms), decoded or not. */
 ProbeReading probe_any(const TableProbe *probe, const WeftTableForm *form);
 
 /* Returns the reading with the factor that brings its values nearest to E, in least squares. */

@@ -1,5 +1,4 @@
-/* bake_ltc.c - kinds "ltc", "ltc-amplitude" and "ltc-level": linearly transformed cosines of a lobe
- * (weft/ltc.h)
+/* bake_ltc.c - kinds "ltc", "ltc-amplitude" and "ltc-level": linearly transformed cosines of a lobe (weft/ltc.h)
  *
  * The table has axes of its own, columns uniform in the root of cos_o and rows in that of the parameter. */
 #include <stdio.h>

@@ -22,8 +22,7 @@
 #include "fibre/truncated_walk.h"
 #include "measure/bake/bake_texels.h"
 
-/* With fewer than `SEEN_LEAST` walks that leave upwards a texel has no shape: it keeps that of the row
- * before. */
+/* With fewer than `SEEN_LEAST` walks that leave upwards a texel has no shape: it keeps that of the row before. */
 enum { WALKS = 1000000, SEEN_LEAST = 1000, EVALUATIONS_MOST = 2000, CHANNELS = 3 };
 static const double least = 0.01;
 
@@ -72,8 +71,7 @@ static bool fit(const TruncatedSlab *slab, double at[2]) {
 
 static double along(int k, int count) { return fmax((double)k / (count - 1), least); }
 
-/* Bakes one column, from the roughest row to the first. At normal incidence x has no direction, and b is
- * 0. */
+/* Bakes one column, from the roughest row to the first. At normal incidence x has no direction, and b is 0. */
 static void column(void *user, int x, int thread) {
     TalkTable *table = user;
     const WeftBakeDesc *desc = table->desc;

@@ -1,3 +1,4 @@
+/* bake_model.c - weft_bake_fibre_model: fits the model of the lobe fibre and returns its text */
 #include <stdio.h>
 #include <stdlib.h>
 

@@ -1,5 +1,4 @@
-/* table_form.c - the meaning of a table's axes: forms that engines use, their text, and the places of
- * texels */
+/* table_form.c - the meaning of a table's axes: forms that engines use, their text, and the places of texels */
 #include <stdio.h>
 
 #include "base/fail.h"

@@ -1,9 +1,7 @@
-/* bsdf.h - the model under test of a passport: a lobe, or a whole material under a profile, behind one
- * interface
+/* bsdf.h - the model under test of a passport: a lobe, or a whole material under a profile, behind one interface
  *
- * A BSDF is white, unless it is tinted and `albedo` is less than 1. It has settings: the rows of the
- * passport, then extremes for the sweep. The calls are pointers so that a test can replace them by wrong
- * ones. */
+ * A BSDF is white, unless it is tinted and `albedo` is less than 1. It has settings: the rows of the passport, then
+ * extremes for the sweep. The calls are pointers so that a test can replace them by wrong ones. */
 #ifndef WEFT_MEASURE_BSDF_H
 #define WEFT_MEASURE_BSDF_H
 

@@ -263,8 +263,7 @@ void weft_reflection_eval(const WeftReflection *self, int part, const float wo[3
             measured_at(&self->measured, dir(wo[0], wo[1], wo[2]), dir(wi[k][0], wi[k][1], wi[k][2]), f[k]);
 }
 
-/* Estimates E by directions distributed like the lobes, so that few are enough however narrow the lobes
- * are. */
+/* Estimates E by directions distributed like the lobes, so that few are enough however narrow the lobes are. */
 static void whole_albedo(const Whole *self, int part, const float wo[3], float albedo[3]) {
     SeenStack seen;
     Dir o = to_frame(self, wo);

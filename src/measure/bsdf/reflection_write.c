@@ -11,8 +11,7 @@
 #include "measure/bsdf/reflection.h"
 #include "weft/reflection.h"
 
-/* The most numbers of a file: with D, sigma and the axes it stays within MEASURED_MOST, the limit of the
- * reader. */
+/* The most numbers of a file: with D, sigma and the axes it stays within MEASURED_MOST, the limit of the reader. */
 enum { POINTS_MOST = MEASURED_MOST / 4 - (1 << 18) };
 
 static void source_f(void *user, const float wo[3], int count, const float (*wi)[3], float (*f)[3]) {

@@ -1,5 +1,4 @@
-/* weave_sum.h - the bases of a material: its own, or the warp and weft of a weave, whose sum is the base from
- * afar
+/* weave_sum.h - the bases of a material: its own, or the warp and weft of a weave, whose sum is the base from afar
  *
  *   f = f(base 0, and what lies on it) + f(base 1)
  *

@@ -45,15 +45,14 @@ double chi_square_bins(Bin *bins, int count) {
 /* Bins along a side of the grid; the last of all counts samples that are none. */
 enum { BINS = 20, ALL_BINS = BINS * BINS + 1, LINES_MOST = BINS * GRID_MAX };
 
-/* The points of a bin: n by n, one in each cell, and no two of them in one row or one column of the n^2 into
- * which a side of the bin is cut. With only n rows of points an edge of the pdf along a row or a column could
- * pass between two of them undetected, in all bins that it crosses.
+/* The points of a bin: n by n, one in each cell, and no two of them in one row or one column of the n^2 into which a
+ * side of the bin is cut. With only n rows of points an edge of the pdf along a row or a column could pass between two
+ * of them undetected, in all bins that it crosses.
  *
  *   s = (i + (p_j + 1/2) / n) / n,  t = (j + (n - 1/2 - p_i) / n) / n,  i, j = 0 .. n - 1,  p_k = m k mod n
  *
- * m is the first number from n / golden ratio^2 up that is coprime to n, so that neighbours lie far apart: a
- * rank-1 lattice in each row. The shifts of columns cancel what the shifts of rows add to the integral of s
- * t. */
+ * m is the first number from n / golden ratio^2 up that is coprime to n, so that neighbours lie far apart: a rank-1
+ * lattice in each row. The shifts of columns cancel what the shifts of rows add to the integral of s t. */
 typedef struct Net {
     int n, place[GRID_MAX]; /* p */
     GridLine rows[LINES_MOST], columns[LINES_MOST];

@@ -57,8 +57,7 @@ static long long bad_pairs(const Lobe *lobe, double floor_z, WeftPlace *place) {
     return bad;
 }
 
-/* Returns the exponent of the smallest floor that helps, WEFT_HALF_FREE if none is needed, 0 if none
- * helps. */
+/* Returns the exponent of the smallest floor that helps, WEFT_HALF_FREE if none is needed, 0 if none helps. */
 static int least_floor(const Lobe *lobe) {
     for (int e = WEFT_HALF_FREE; e >= WEFT_HALF_MOST; e--)
         if (bad_pairs(lobe, e == WEFT_HALF_FREE ? 0.0 : ldexp(1.0, -e), NULL) == 0) return e;

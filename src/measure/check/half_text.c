@@ -1,8 +1,7 @@
 /* half_text.c - the shading texts compiled for half floats
  *
- * -Wpedantic, -Wdouble-promotion and others are off for this file (CMakeLists.txt): _Float16 is not in C11,
- * integer rows of parameter tables become halves, and that floors such as 1e-30 vanish is what the check is
- * for. */
+ * -Wpedantic, -Wdouble-promotion and others are off for this file (CMakeLists.txt): _Float16 is not in C11, integer
+ * rows of parameter tables become halves, and that floors such as 1e-30 vanish is what the check is for. */
 #include "measure/check/half_precision.h"
 
 #include "weft/lobe.h"

@@ -20,8 +20,7 @@ double weight_albedo(const BsdfView *view, int cells) {
  *
  *   variance = integral of pdf (w - E)^2 + (1 - P) E^2
  *
- * The fraction 1 - P of the samples finds nothing. In this form a constant w gives exactly 0, not a
- * difference. */
+ * The fraction 1 - P of the samples finds nothing. In this form a constant w gives exactly 0, not a difference. */
 Weight weight_measure(const BsdfView *view, int cells) {
     Grid grid;
     Ring ring;

@@ -16,8 +16,7 @@ static json_t *step(json_t *from, const char *key, bool make) {
     return json_object_get(from, key);
 }
 
-/* Returns the object that has the last key of a pointer, and sets key to it. The doctor's pointers need no
- * escapes. */
+/* Returns the object that has the last key of a pointer, and sets key to it. The doctor's pointers need no escapes. */
 static json_t *parent_of(json_t *root, const char *pointer, char key[64]) {
     json_t *at = root;
     while (at && *pointer == '/') {

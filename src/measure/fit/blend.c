@@ -85,8 +85,7 @@ static void blend_add(const Blend *blend, int count, int c, const double *weight
     }
 }
 
-/* Returns d goal / dx at x. Above the displayable range a small slope remains, so that such samples are not
- * ignored. */
+/* Returns d goal / dx at x. Above the displayable range a small slope remains, so that such samples are not ignored. */
 static inline float goal_slope(WeftBrdfMetric metric, float scale, float x) {
     if (metric == WEFT_BRDF_METRIC_COSINE) return 1.0f;
     if (metric == WEFT_BRDF_METRIC_LOG) return 1.0f / (scale + x);
@@ -94,9 +93,8 @@ static inline float goal_slope(WeftBrdfMetric metric, float scale, float x) {
     return y > 1.0f ? 0.1f : y <= 0.0031308f ? 40.0f : 1.381f * powf(y, -1.4f / 2.4f);
 }
 
-/* Computes the weights of samples in least squares, so that a square counts like an absolute difference.
- * `soft` limits the weight of samples that are already matched. The metric is a constant wherever this is
- * inlined. */
+/* Computes the weights of samples in least squares, so that a square counts like an absolute difference. `soft` limits
+ * the weight of samples that are already matched. The metric is a constant wherever this is inlined. */
 static inline void weigh_by(WeftBrdfMetric metric, const Samples *self, int count, int c, const float *x,
                             float soft, float *w) {
     const float *from = self->x[c], *weight = self->weight;

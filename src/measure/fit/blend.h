@@ -1,5 +1,4 @@
-/* blend.h - non-negative weights of sums of columns that come closest to samples, separately in each
- * channel */
+/* blend.h - non-negative weights of sums of columns that come closest to samples, separately in each channel */
 #ifndef WEFT_MEASURE_BLEND_H
 #define WEFT_MEASURE_BLEND_H
 

@@ -13,8 +13,7 @@
 
 enum { NUMBERS = 7, LINE_MOST = 400 };
 
-/* Returns a direction from degrees. The cosine is computed as the sine of 90 - theta, so that it is exactly 0
- * at 90. */
+/* Returns a direction from degrees. The cosine is computed as the sine of 90 - theta, so that it is exactly 0 at 90. */
 static void direction(double theta, double phi, float w[3]) {
     const double radians = RADIANS;
     w[0] = (float)(sin(theta * radians) * cos(phi * radians));

@@ -151,9 +151,8 @@ static double middle(int k, int n, int bins, int *bin) {
     return (*bin + 0.5) / bins;
 }
 
-/* Fills samples of f at a grid of half vectors and differences. Each pair is rotated by another azimuth, so
- * that data that are not isotropic do not fit an isotropic lobe by chance. For MERL the values are those of
- * the bins. */
+/* Fills samples of f at a grid of half vectors and differences. Each pair is rotated by another azimuth, so that data
+ * that are not isotropic do not fit an isotropic lobe by chance. For MERL the values are those of the bins. */
 static void grid_samples(const Measured *measured, float (*wo)[3], float (*wi)[3], float (*f)[3]) {
     const Merl *merl = &measured->merl;
     const double half_pi = 0.5 * PI_DOUBLE;

@@ -19,8 +19,7 @@ static void square_of(double sin2_h, double cos_d, double *x, double *y) {
     *y = 2.0 * sqrt(fmin(fmax(1.0 - cos_d, 0.0), 1.0)) - 1.0;
 }
 
-/* Evaluates the Chebyshev polynomials T_0 .. T_(count - 1) at x, none of which is nearly a sum of the
- * others. */
+/* Evaluates the Chebyshev polynomials T_0 .. T_(count - 1) at x, none of which is nearly a sum of the others. */
 static void chebyshev(double x, int count, double *t) {
     t[0] = 1.0, t[1] = x;
     for (int k = 2; k < count; k++) t[k] = 2.0 * x * t[k - 1] - t[k - 2];

@@ -27,8 +27,7 @@ typedef struct DataLobe {
 /* Fits the polynomials and colours. Returns false if memory is short. */
 bool data_lobe_fit(const WeftData *data, DataLobe *out);
 
-/* Returns exp(P), and the second function s, at a pair with wi . h = cos_d and the squared sine sin2_h of
- * theta_h. */
+/* Returns exp(P), and the second function s, at a pair with wi . h = cos_d and the squared sine sin2_h of theta_h. */
 double data_lobe_shape(const DataLobe *lobe, double sin2_h, double cos_d);
 double data_lobe_share(const DataLobe *lobe, double sin2_h, double cos_d);
 

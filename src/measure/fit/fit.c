@@ -1,3 +1,4 @@
+/* fit.c - weft_fit: fits lobes over bases, or warp over weft, to measured data, and sorts them by error */
 #include "weft/fit.h"
 
 #include <math.h>
@@ -227,8 +228,7 @@ static WeftResult work_run(FitWork *work, WeftFit *out, WeftError *error) {
     return WEFT_OK;
 }
 
-/* Makes samples for the metric of desc, which must be log or cosine. Release them with samples_free in any
- * case. */
+/* Makes samples for the metric of desc, which must be log or cosine. Release them with samples_free in any case. */
 static WeftResult samples_of(const WeftData *data, const WeftFitDesc *desc, Samples *samples,
                              WeftError *error) {
     WeftBrdfMetric metric = desc->chosen ? desc->metric : WEFT_BRDF_METRIC_LOG;

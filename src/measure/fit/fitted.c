@@ -61,8 +61,7 @@ unsigned weft_fitted_notes(const WeftFitted *fitted) {
     return notes;
 }
 
-/* Returns the roughness at which lobe_rough gives the lobe its first parameter, which grows or falls with
- * roughness. */
+/* Returns the roughness at which lobe_rough gives the lobe its first parameter, which grows or falls with roughness. */
 static float roughness_of(const WeftLobe *lobe) {
     double low = 0.0, high = 2.0;
     float first = lobe_rough(lobe->lobe, 0.0f).params[0], last = lobe_rough(lobe->lobe, 2.0f).params[0];

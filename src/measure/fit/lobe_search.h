@@ -1,8 +1,7 @@
-/* lobe_search.h - the parameters and colours of a lobe, alone or over a diffuse base, that come closest to
- * samples
+/* lobe_search.h - the parameters and colours of a lobe, alone or over a diffuse base, that come closest to samples
  *
- * Colours are factors on f, so the best ones for given parameters follow at once (blend_solve). Only the
- * parameters of lobe and base are searched, and the colour of a tinted lobe, which is no factor. */
+ * Colours are factors on f, so the best ones for given parameters follow at once (blend_solve). Only the parameters of
+ * lobe and base are searched, and the colour of a tinted lobe, which is no factor. */
 #ifndef WEFT_MEASURE_LOBE_SEARCH_H
 #define WEFT_MEASURE_LOBE_SEARCH_H
 
@@ -26,8 +25,7 @@ typedef struct LobeFound {
     long long evaluations;
 } LobeFound;
 
-/* Searches from out->lobe. Fails with WEFT_RESOURCES if memory is short, WEFT_INTERRUPTED if item_progress
- * stops it. */
+/* Searches from out->lobe. Fails with WEFT_RESOURCES if memory is short, WEFT_INTERRUPTED if item_progress stops it. */
 WeftResult lobe_search_run(const LobeSearch *search, LobeFound *out);
 
 /* Estimates the error that a search would find for out->lobe, in far less time; adds to out->evaluations.

@@ -23,8 +23,7 @@ typedef struct Samples {
     float *block;
 } Samples;
 
-/* Allocates count samples, all zero. Returns false if memory is short; release with samples_free in any
- * case. */
+/* Allocates count samples, all zero. Returns false if memory is short; release with samples_free in any case. */
 bool samples_create(Samples *samples, int count, WeftBrdfMetric metric);
 void samples_free(Samples *samples);
 
@@ -37,8 +36,7 @@ void samples_eval(const Samples *samples, const WeftReflection *reflection, int 
 /* Returns true if the reflection is isotropic. */
 bool samples_isotropic(const Samples *samples, const WeftReflection *reflection);
 
-/* Computes all that follows from directions, weights and x. Call it when these are set, before the functions
- * below. */
+/* Computes all that follows from directions, weights and x. Call it when these are set, before the functions below. */
 void samples_finish(Samples *samples);
 
 /* Returns g(x). */

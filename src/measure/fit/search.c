@@ -77,9 +77,8 @@ static double objective(unsigned n, const double *at, double *gradient, void *us
     return error;
 }
 
-/* Descends once by NLopt's Subplex, which uses no random numbers: Thomas Harvey Rowan, "Functional Stability
- * Analysis of Numerical Algorithms", PhD thesis, University of Texas at Austin, 1990, as reimplemented by
- * Steven G. Johnson. */
+/* Descends once by NLopt's Subplex, which uses no random numbers: Thomas Harvey Rowan, "Functional Stability Analysis
+ * of Numerical Algorithms", PhD thesis, University of Texas at Austin, 1990, as reimplemented by Steven G. Johnson. */
 static void descend_once(SearchDescent *walk, const double *from, double step) {
     unsigned n = (unsigned)walk->search->axes;
     double at[SEARCH_MOST], least;

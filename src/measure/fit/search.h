@@ -10,8 +10,7 @@
 
 enum { SEARCH_MOST = 16 };
 
-/* A number and its range. If low is above 0 and high at least ten times as much, steps are steps of its
- * logarithm. */
+/* A number and its range. If low is above 0 and high at least ten times as much, steps are steps of its logarithm. */
 typedef struct SearchAxis {
     double low, high;
 } SearchAxis;

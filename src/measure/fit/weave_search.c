@@ -156,8 +156,7 @@ typedef struct WeaveNormal {
     double a[UNKNOWNS][UNKNOWNS], b[UNKNOWNS];
 } WeaveNormal;
 
-/* Makes the normal equations. A square counts like an absolute difference: its weight is 1 / sqrt(r^2 +
- * e^2). */
+/* Makes the normal equations. A square counts like an absolute difference: its weight is 1 / sqrt(r^2 + e^2). */
 static void normal_make(const WeaveWalker *self, const double *x, WeaveNormal *normal) {
     const Samples *s = self->samples;
     memset(normal, 0, sizeof *normal);

@@ -120,9 +120,8 @@ static void bake_item(void *user, int item, int thread) {
     if (!bake_cell(ltc, ltc->rows - 1 - up, ltc->columns - 1 - left)) bake->short_of_memory = true;
 }
 
-/* Extrapolates q, b and r to normal incidence, where only z matters, in a straight line over the nodes of the
- * columns beside it, since interpolation with the next column reads them. If the lobe reflects nothing there,
- * z is copied. */
+/* Extrapolates q, b and r to normal incidence, where only z matters, in a straight line over the nodes of the columns
+ * beside it, since interpolation with the next column reads them. If the lobe reflects nothing there, z is copied. */
 static void continue_to_normal(WeftLtc *ltc, int row) {
     int last = ltc->columns - 1;
     LtcEntries own = entries(ltc, row, last), a = entries(ltc, row, last - 1), b = a;

@@ -4,9 +4,8 @@
 
 #include "measure/ltc/ltc_bake.h"
 
-/* Hashes all that a table depends on: the text of the lobe with the terms and tables that it reads, its
- * parameters, the text of the transform, the descriptor, the version of the fitter. Fails with
- * WEFT_MESSAGE_MEMORY. */
+/* Hashes all that a table depends on: the text of the lobe with the terms and tables that it reads, its parameters, the
+ * text of the transform, the descriptor, the version of the fitter. Fails with WEFT_MESSAGE_MEMORY. */
 WeftResult ltc_key(const WeftLtc *ltc, uint64_t *key, WeftError *error);
 
 /* Returns true if the texels meet the conditions of ltc_table.h for lookups. */

@@ -97,14 +97,12 @@ double ltc_error(const LtcTarget *target, LtcEntries at, int norm) {
     }
 }
 
-/* The coordinates of the search: numbers that mean the same for sharp and for blunt lobes, each in a unit of
- * its own.
+/* The coordinates of the search: numbers that mean the same for sharp and for blunt lobes, each in a unit of its own.
  *
  *   tilt   phi of the lobe's peak, where v_xy = 0: tan phi = b s / m11, against o
  *   q      as m11 = cos_o^2 + q s^2, which makes the width at the peak in the plane of incidence: along = v_z
- * / (d v_x / d phi) = across cos phi / m11 across ln of the width across that plane: v_z / (d v_y / d w_y) =
- * cos phi |M^-1| / m11 lean   how far the pole of the hemisphere follows the peak: tan of its angle over tan
- * phi, r m11 / z
+ * / (d v_x / d phi) = across cos phi / m11 across ln of the width across that plane: v_z / (d v_y / d w_y) = cos phi
+ * |M^-1| / m11 lean   how far the pole of the hemisphere follows the peak: tan of its angle over tan phi, r m11 / z
  *
  * At normal incidence there is one width. */
 enum { TILT, Q, ACROSS, LEAN, STEPS };
@@ -129,7 +127,7 @@ static LtcEntries entries_at(const LtcSearch *search, const double *step) {
     return (LtcEntries){(float)z, (float)q, (float)(m11 * t / s), (float)(step[LEAN] * z / m11)};
 }
 
-/* From a peak at phi with these widths. A unit is a width, or what changes one. */
+/* Begins a search from a peak at phi with these widths. The unit of a coordinate is a width, or what changes one. */
 static LtcSearch search_from(const LtcTarget *target, int norm, double phi, double along, double across,
                              double lean) {
     double s = (double)target->o.x, c2 = (double)target->o.z * (double)target->o.z;

@@ -64,8 +64,7 @@ static WeftResult lobe_distance(const Samples *samples, const WeftLobe *lobe, do
     return result;
 }
 
-/* Searches for parameters; the lobe stays as it is unless they bring it nearer. hold: as in
- * weft_match_lobe. */
+/* Searches for parameters; the lobe stays as it is unless they bring it nearer. hold: as in weft_match_lobe. */
 static WeftResult search_lobe(const Samples *samples, const WeftReflection *from, unsigned hold,
                               ItemProgress *item_progress, WeftLobe *lobe, WeftMatch *out, WeftError *error) {
     const LobeSearch search = {.samples = samples,

@@ -31,9 +31,8 @@ enum { FACTORS = sizeof factors / sizeof *factors };
 
 static double linear_of(double x) { return x <= 0.04045 ? x / 12.92 : pow((x + 0.055) / 1.055, 2.4); }
 
-/* Returns the place of red, green, blue or alpha among an image's channels, -1 if there is none. With one
- * channel or two, the first is grey and is used for all three colours; with two or four, the last is
- * alpha. */
+/* Returns the place of red, green, blue or alpha among an image's channels, -1 if there is none. With one channel or
+ * two, the first is grey and is used for all three colours; with two or four, the last is alpha. */
 static int place_of(int channel, int channels) {
     if (channel == 3) return channels & 1 ? -1 : channels - 1;
     return channels < 3 ? 0 : channel;
@@ -299,8 +298,7 @@ static WeftResult asset_write(const AssetSearch *self, Asset *asset, const char 
     return result;
 }
 
-/* Reports no progress while the file is read, which takes little time beside the searches, but passes on a
- * stop. */
+/* Reports no progress while the file is read, which takes little time beside the searches, but passes on a stop. */
 static int while_reading(void *user, double fraction) {
     AssetSearch *self = user;
     (void)fraction;
