@@ -9,7 +9,7 @@
 
 enum { UNKNOWNS = SHAPE_TERMS * SHAPE_TERMS };
 
-/* A sample: its place in the square, its f, the mean of f, and its weight in least squares. */
+/* A sample: its place in the square, cos_i, f and its mean, and its weight in least squares. */
 typedef struct LobePoint {
     double x, y, cos_i, f[3], mean, weight;
 } LobePoint;
