@@ -1,4 +1,4 @@
-/* bake_texels.h - what all kinds of baked tables share: the list of kinds, and the loop over texels
+/* bake_texels.h - the common parts of all kinds of baked tables: the list of kinds, and the loop over texels
  *
  * A new kind is a file with a BakeMaker and a line in BAKE_KINDS. */
 #ifndef WEFT_MEASURE_BAKE_TEXELS_H
