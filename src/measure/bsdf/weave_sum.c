@@ -37,7 +37,7 @@ Slots weave_sum_slots(int base, Slots slots) {
 
 /* Estimates the reflected part of the light on the cloth. */
 static float brightness(const WeaveBase *threads) {
-    return threads->lobe.params[WOVEN_SHARE] * (rgb_mean(threads->once) + rgb_mean(threads->again));
+    return threads->lobe.params[WOVEN_SHARE] * (rgb_mean(threads->single) + rgb_mean(threads->multiple));
 }
 
 float weave_sum_first(const WeaveSum *self) {
