@@ -6,7 +6,7 @@
 #include "shading/catalogue/registry.h"
 #include "weft/lobe.h"
 
-/* Returns the header with the base name of `name` in any folder of shading/ but tables/, or NULL. */
+/* Returns the header with the base name of `name` in any folder of shading/ except tables/, or NULL. */
 static const CatalogueFile *find_anywhere(const char *name) {
     const char *base = strrchr(name, '/');
     if (!base || strncmp(name, "shading/", 8) != 0) return NULL;

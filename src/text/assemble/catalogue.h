@@ -13,9 +13,9 @@ typedef struct CatalogueFile {
 /* Every header below src/shading and every text of src/raster/glsl; ends with a NULL name. */
 extern const CatalogueFile catalogue_files[];
 
-/* Finds a file by its name, among these or the lobes from outside ("shading/lobes/toy.h"). A header of shading/ is also found
- * as "shading/lobe.h", without its folder, as lobes from outside include it: headers have names of their own. Returns false
- * if there is none. */
+/* Finds a file by its name, among these or the lobes from outside ("shading/lobes/toy.h"). A header of shading/ is also
+ * found as "shading/lobe.h", without its folder, as lobes from outside include it: headers have names of their own.
+ * Returns false if there is none. */
 bool catalogue_find(const char *name, CatalogueFile *out);
 
 #endif

@@ -5,33 +5,34 @@
 #include "scene/record/material_at.h"
 #include "text/assemble/dispatch.h"
 
-/* A surface in which every lobe of a stack shows, but for the inputs that are zero; x is 0, 1/2 or 1 for what
- * a stack may make a choice of. */
+/* Returns a surface in which every lobe of a stack has weight, except by inputs that are zero. x, 0, 1/2 or 1, is the
+ * value of inputs by which a stack may choose lobes. */
 Surface composition_surface(float x, const bool zero[INPUT_COUNT]);
 
 /* The possible contents of a stack's slots: ids, and the first lobe of each with its parameters. */
 typedef struct CompositionSlots {
     TextSlot slots[SLOT_COUNT];
     Lobe lobes[SLOT_COUNT];
-    bool used;      /* no layer rule could do without a sheen */
-    bool transmits; /* a base lets light through */
+    bool used;      /* no layer rule may leave out a black sheen (IS_BELOW_F) */
+    bool transmits; /* a base transmits light */
 } CompositionSlots;
 
-/* whole_sheen: input sheen is 1 everywhere. */
+/* Returns the possible contents of a stack's slots, for choices and the inputs that are zero. whole_sheen: input sheen
+ * is 1 everywhere. */
 CompositionSlots composition_slots(const Choices *choices, const bool zero[INPUT_COUNT], bool whole_sheen);
 
-/* The lobes of these slots, in place of what shading/stack/slots.h has, and what is known of them and of the
- * sheen's table in place of what shading/stack/stack.h and table.h ask. Call it before text_composition. */
+/* Writes the lobes of these slots in place of shading/stack/slots.h, and defines the constants about them and the
+ * sheen's table that shading/stack/stack.h and table.h read. Call it before text_composition. */
 void text_composition_lobes(Text *text, const CompositionSlots *slots, int table_kind, int table_tilts);
 
-/* In place of shading/material/profile.h: the one composition, with the tables of its engine; and shading/material/stack_value.h
- * behind it. */
+/* Writes the one composition in place of shading/material/profile.h, with the tables of its engine, and then
+ * shading/material/compose.h. */
 void text_composition(Text *text, const Choices *choices);
 
-/* Choices material_choices(): these. */
+/* Writes the function Choices material_choices(), which returns these. */
 void text_composition_choices(Text *text, const Choices *choices);
 
-/* The call that makes its stack, "khronos_stack(m, s)". */
+/* Returns the call that makes the stack of a composition, such as "khronos_stack(m, s)". */
 const char *composition_stack(const Choices *choices);
 
 #endif

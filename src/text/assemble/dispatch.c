@@ -30,7 +30,7 @@ bool text_weight_is_cosine(int id) {
     return strstr(text, "fresnel_weight_of_cosine(") || strstr(text, "term_f(");
 }
 
-/* The lobe whose LOBE_ constant a line names, in a comment too; -1: it is not one lobe's alone. */
+/* Returns the lobe whose LOBE_ constant a line names, in code or a comment, or -1. */
 static int owner_of(const char *c, const char *end) {
     for (; c + 5 < end; c++) {
         if (is_name(*c) && memcmp(c, "LOBE_", 5) == 0) {
@@ -44,7 +44,7 @@ static int owner_of(const char *c, const char *end) {
     return -1;
 }
 
-/* A "#define" of a number becomes a macro. */
+/* Defines the macro of a line "#define NAME number". */
 static void define_line(Text *text, const char *c, const char *end) {
     char name[96], value[16];
     if (!token_is(token_solid(&c, end), "#") || !token_is(token_solid(&c, end), "define")) return;
@@ -54,9 +54,9 @@ static void define_line(Text *text, const char *c, const char *end) {
     text_define(text, name, value);
 }
 
-/* The lines of a generated file that belong to no lobe or to one of these; numbers of others stay known. From
- * the first that has the words `first` on and before `last`, NULL: all. An empty comment holds the place of a
- * line that is left out, so that the others are where they were. */
+/* Writes the lines of a generated file that belong to no lobe or to one of `there`; the ids of others become macros.
+ * Only lines from the first that contains `first` (NULL: from the top) to before `last` (NULL: to the end). An empty
+ * comment replaces a removed line, so that the others keep their line numbers. */
 static void put_lines(Text *text, const char *file, const char *first, const char *last,
                       const bool there[LOBE_MOST]) {
     Buffer chosen = {0};
@@ -111,7 +111,7 @@ void text_dispatch(Text *text, const int *lobes, int lobe_count) {
         there[lobes[k]] = true;
         tinted |= has(lobes[k], TRAIT_TINTED);
         cosine |= text_weight_is_cosine(lobes[k]);
-        lobe_tables_make_for(lobes[k]); /* before the first asks for all there are */
+        lobe_tables_make_for(lobes[k]); /* before text_lobe_tables, which writes all that are made */
     }
     for (int k = 0; k < lobe_count; k++)
         if (has(lobes[k], TRAIT_TABLE)) text_lobe_tables(text);

@@ -8,33 +8,32 @@
 #include "shading/catalogue/registry.h"
 #include "shading/material/material_stack.h"
 
-/* The lobe's file. One with TRAIT_TABLE reads weft_tables, so it needs TextDesc.tables (see tables.h). */
+/* Includes a lobe's file. A lobe with TRAIT_TABLE reads weft_tables, so it needs TextDesc.tables (see tables.h). */
 void text_lobe(Text *text, int id);
 
 /* Returns true if the lobe's Fresnel weight may be a cosine (shading/lobe/fresnel_weight.h). */
 bool text_weight_is_cosine(int id);
 
-/* The lobes behind one signature, as registry.h has them for C, whose place this takes; call it once:
+/* Writes lobes behind one signature, in place of registry.h, which has them for C; call it once:
  *
  *   const int LOBE_GGX = ..., GGX_ANISOTROPY = ...;
  *   Lobe, LobeValue                                    lobe.h
  *   LobePrepared, LobeView, lobe_prepare, lobe_view, lobe_value_at, lobe_sample_at
  *   lobe_default, lobe_rough, lobe_fibres, lobe_value, lobe_sample, lobe_second
  *
- * and f, s and pdf of lobe_value alone as lobe_f, lobe_fresnel_weight and lobe_pdf. Of a lobe that is not among these,
- * lobe_value is 0, lobe_second is f0, and there is no sample. A surface (compose.h) asks for LOBE_LAMBERT and
- * LOBE_GGX even where its profile then takes others in their place; and for DUST_LOBE where it has dust, of
- * which nothing is seen without. */
+ * and f, s and pdf of lobe_value alone as lobe_f, lobe_fresnel_weight and lobe_pdf. For another lobe lobe_value is 0,
+ * lobe_second is f0, and there is no sample. A surface (compose.h) names LOBE_LAMBERT and LOBE_GGX even if its profile
+ * replaces them, and DUST_LOBE if it has dust, which is not drawn without that lobe. */
 void text_dispatch(Text *text, const int *lobes, int lobe_count);
 
-/* The lobes that a slot of a stack may hold. */
+/* The lobes that a slot of a stack may have. */
 typedef struct TextSlot {
     int lobes[LOBE_MOST];
     int count;
 } TextSlot;
 
-/* The records and functions of shading/stack/slots.h for each slot, in the order of SLOTS, which know only these
- * lobes. Call it once, behind text_dispatch, which has all of them. */
+/* Writes the records and functions of shading/stack/slots.h for each slot, in the order of SLOTS, with only these
+ * lobes. Call it once, after text_dispatch, which has all of them. */
 void text_slots(Text *text, const TextSlot slots[SLOT_COUNT]);
 
 #endif

@@ -7,7 +7,7 @@
 #include "text/assemble/dispatch.h"
 #include "text/source/number_text.h"
 
-/* Its record from an array of parameters, and the array with its defaults. */
+/* Writes the functions that make a lobe's record from its array of parameters, and fill the array with defaults. */
 static void put_params(const OutsideLobe *lobe, Buffer *out) {
     const char *name = lobe->names.prefix, *record = lobe->names.record;
     buffer_print(out, "FN %s %s_of(const Lobe *m) {\n    %s r;\n", record, name, record);
@@ -26,7 +26,8 @@ static void put_clamped(const WeftParamInfo *p, int k, const char *value, Buffer
                  number(p->hard_high).text);
 }
 
-/* Its parameters from what any lobe may be asked for, as cmake/lobes.cmake has it. */
+/* Writes the functions that set a lobe's parameters from a roughness and from common names, as cmake/lobes.cmake
+ * does. */
 static void put_common(const OutsideLobe *lobe, Buffer *out) {
 #define NAME_AND_BLANK(name) #name " "
     static const char every[] = " " LOBE_NAMES(NAME_AND_BLANK);

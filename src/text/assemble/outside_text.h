@@ -5,10 +5,10 @@
 #include "shading/catalogue/outside.h"
 #include "text/assemble/text.h"
 
-/* Those of `there`: their ids, their files, and what the lines of dispatch.gen.h ask of each. */
+/* Writes the outside lobes of `there`: their ids, their files, and the functions that lines of dispatch.gen.h call. */
 void text_outside(Text *text, const bool there[LOBE_MOST]);
 
-/* From here on the lines of dispatch.gen.h and lobes.gen.h are of these lobes. */
+/* Defines the macro by which lines of dispatch.gen.h and lobes.gen.h contain these lobes. */
 void text_outside_lines(Text *text, const bool there[LOBE_MOST]);
 
 #endif

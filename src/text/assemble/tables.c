@@ -8,7 +8,7 @@
 #include "shading/lobe/lobe_tables.h"
 #include "text/source/number_text.h"
 
-/* Lines that fill `t` with what e is, the table being a layer of its own of so many rows. */
+/* Writes lines that make `t` the table e, which becomes a layer of `rows` rows. */
 static void put_reference(Text *text, const TableRef *e, int rows, const char *name, const char *indent) {
     bool own = e->kind == TABLE_ROOTS || e->kind == TABLE_TINTED;
     int layer = text_table(text, (TextTable){e->texels, rows, own ? e->columns + 1 : e->columns, name});
@@ -40,7 +40,7 @@ void text_albedo_table(Text *text, const char *function, const char *name, const
     text_line(text, "    return t;\n}");
 }
 
-/* An engine's table at `side` by `side` texel centres of its own. */
+/* Returns an engine's table resampled to table_side by table_side texels, if it is larger and that is not 0. */
 static TableRef smaller(Text *text, TableRef e) {
     int side = text->desc.table_side;
     if (!side || (e.rows <= side && e.columns <= side)) return e;

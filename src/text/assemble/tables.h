@@ -5,8 +5,8 @@
 #include "shading/catalogue/albedo.h"
 #include "text/assemble/text.h"
 
-/* The functions of shading/lobe/lobe_tables.h, whose place this takes, for the tables that are made by now; those
- * that are baked always are. text_lobe calls it where it must. */
+/* Writes the functions of shading/lobe/lobe_tables.h, in its place, for the tables that are made by now; baked ones
+ * always are. text_lobe calls it if a lobe needs it. */
 void text_lobe_tables(Text *text);
 
 /* Defines a function without parameters that returns the table, which must outlive the text. */

@@ -19,12 +19,12 @@ typedef struct TextName {
 
 enum { CONDITIONS_MAX = 16, CONDITION_LIMIT = 1024, FILE_LIMIT = 1 << 20, INCLUDES_MAX = 32 };
 
-/* The #if lines around a place. */
+/* The open #if lines at a place. */
 typedef struct Conditions {
     int depth;
     Origin opened[CONDITIONS_MAX];
-    bool on[CONDITIONS_MAX];    /* this branch, and those around it, are taken */
-    bool spent[CONDITIONS_MAX]; /* a branch of it was taken, or none may be */
+    bool on[CONDITIONS_MAX];    /* true if this branch and those around it are taken */
+    bool spent[CONDITIONS_MAX]; /* true if no later branch may be taken */
 } Conditions;
 
 static bool failed(const Text *text) { return text->error.result != WEFT_OK; }
@@ -107,7 +107,7 @@ void text_line(Text *text, const char *format, ...) {
     va_end(arguments);
 }
 
-/* True where the text did not have it yet. */
+/* Records that the text has a file. Returns false if it was recorded before, or on failure. */
 static bool include_first(Text *text, const char *file) {
     if (failed(text)) return false;
     for (TextName *name = text->included; name; name = name->next)
@@ -125,7 +125,8 @@ static bool include_first(Text *text, const char *file) {
 
 bool text_provide(Text *text, const char *file) { return include_first(text, file); }
 
-/* "typedef A B, C;" makes B and C names of A; "typedef enum A { ... } A;" makes A a name of int. */
+/* Defines the names of types as macros: "typedef A B, C;" makes B and C names of A, "typedef enum A { ... } A;" makes A
+ * a name of int. */
 static void define_types(Text *text, const char *c, const char *end) {
     while (c < end) {
         if (!token_is(token_next(&c, end), "typedef")) continue;
@@ -159,7 +160,7 @@ static void put_head(Text *text, const char *file, const Buffer *source) {
     text->headed = name;
 }
 
-/* A comment that says whose the next items are, and with the first of them what their file begins with. */
+/* Writes a comment with the file of the next items, and before the first of them the file's opening comment. */
 static void put_marks(Text *text, const char *file, const Buffer *source) {
     if (text->marked == file) return;
     bool first = source->bytes && is_comment(source->bytes, source->bytes + source->size);
@@ -169,8 +170,7 @@ static void put_marks(Text *text, const char *file, const Buffer *source) {
     text->marked = file;
 }
 
-/* The declarations between two directives of source. What a macro stands for comes from where it is called.
- */
+/* Writes the declarations between two directives of source. The expansion of a macro has the origin of its call. */
 static void put_chunk(Text *text, const Buffer *source, const char *chunk, const char *end) {
     if (text->desc.comments && blank_end(chunk, end) < end)
         put_marks(text, buffer_origin(source, 0).file, source);
@@ -182,18 +182,18 @@ static void put_chunk(Text *text, const Buffer *source, const char *chunk, const
     }
     if (expanded.failed) fail_memory(text);
     check_macros(text);
-    Buffer plain = {0};
-    if (!failed(text) && expanded.bytes) reference_put(&expanded, &plain);
-    if (plain.failed) fail_memory(text);
-    if (!failed(text) && plain.bytes) {
-        const char *wrong = layout_put(&plain, &text->gap, &text->buffer);
+    Buffer glsl = {0};
+    if (!failed(text) && expanded.bytes) reference_put(&expanded, &glsl);
+    if (glsl.failed) fail_memory(text);
+    if (!failed(text) && glsl.bytes) {
+        const char *wrong = layout_put(&glsl, &text->gap, &text->buffer);
         if (wrong) fail_dialect(text, wrong);
     }
-    buffer_free(&plain);
+    buffer_free(&glsl);
     buffer_free(&expanded);
 }
 
-/* A #define of a number stays in the text under its name; true where it was one. */
+/* Writes a #define of a number as a constant. Returns false if it is another #define. */
 static bool put_constant(Text *text, const char *c, const char *end) {
     Token name = token_solid(&c, end);
     if (c < end && *c == '(') return false;
@@ -263,7 +263,7 @@ static bool condition(Text *text, const char *c, const char *end) {
     return any;
 }
 
-/* #include "name": from src/, or beside the file where it names no folder. */
+/* Includes the file of #include "name": from src/, or from the including file's folder if the name has none. */
 static void include_line(Text *text, const char *file, const char *c, const char *end) {
     Token name = token_solid(&c, end);
     if (name.kind != TOKEN_STRING || name.size < 3) {
@@ -281,7 +281,7 @@ static bool is_on(const Conditions *conditions) {
     return conditions->depth == 0 || conditions->on[conditions->depth - 1];
 }
 
-/* The lines that choose what follows; false where it is none of them. */
+/* Takes #if, #ifdef, #ifndef, #elif, #else and #endif. Returns false for other directives. */
 static bool take_condition(Text *text, Token word, const char *c, const char *end, Conditions *conditions) {
     bool negative = token_is(word, "ifndef"), defined = negative || token_is(word, "ifdef");
     if (defined || token_is(word, "if")) {
@@ -311,7 +311,7 @@ static bool take_condition(Text *text, Token word, const char *c, const char *en
     return true;
 }
 
-/* c is behind the #. */
+/* Takes a directive; c is after its "#". */
 static void take_directive(Text *text, const char *file, const char *c, const char *end,
                            Conditions *conditions) {
     Token word = token_solid(&c, end);
@@ -332,7 +332,7 @@ static const char *line_end(const char *c, const char *end) {
     return c;
 }
 
-/* source has no comments. */
+/* Writes a file, whose source has no comments. */
 static void put_file(Text *text, const char *file, const Buffer *source) {
     Conditions conditions = {0};
     const char *chunk = source->bytes, *end = chunk + source->size;
@@ -364,7 +364,7 @@ static void put_file(Text *text, const char *file, const Buffer *source) {
 typedef struct Source {
     const char *path; /* the path shown to people */
     const char *bytes, *end;
-    unsigned char *own; /* to be freed */
+    unsigned char *own; /* owned, may be NULL */
 } Source;
 
 static void fail_missing(Text *text, const char *file) {
@@ -376,7 +376,7 @@ static void fail_missing(Text *text, const char *file) {
         fail(&text->error, WEFT_MESSAGE_TEXT_NAME, file, NULL);
 }
 
-/* The file, from the folder or the library. */
+/* Finds a file in the folder, else in the library. Returns false on failure. */
 static bool find_file(Text *text, const char *file, Source *out) {
     char path[1024];
     struct stat status;

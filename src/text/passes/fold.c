@@ -8,7 +8,7 @@
 enum { LOCALS_MAX = 16, CONSTANTS_MAX = 512, PATH_SIZE = 64 };
 
 typedef struct Value {
-    bool known;
+    bool constant;
     long value;
 } Value;
 
@@ -26,9 +26,9 @@ typedef struct Fold {
     int local_count;
 } Fold;
 
-static const Value UNKNOWN = {false, 0};
+static const Value VARIABLE = {false, 0};
 
-static Value known(long value) { return (Value){true, value}; }
+static Value constant_value(long value) { return (Value){true, value}; }
 
 static const Name *find_name(const Name *names, int count, Token name) {
     for (int k = 0; k < count; k++)
@@ -36,16 +36,16 @@ static const Name *find_name(const Name *names, int count, Token name) {
     return NULL;
 }
 
-/* "m.layer", cut out of the text. */
+/* Returns the value of a path such as "m.layer", which begins with `first`. */
 static Value find_path(const Fold *fold, Token first, const char *end) {
     char path[PATH_SIZE];
     snprintf(path, sizeof path, "%.*s", (int)(end - first.at), first.at);
     for (int k = 0; k < fold->fact_count; k++)
-        if (strcmp(fold->facts[k].path, path) == 0) return known(fold->facts[k].value);
-    if ((size_t)(end - first.at) != first.size) return UNKNOWN;
+        if (strcmp(fold->facts[k].path, path) == 0) return constant_value(fold->facts[k].value);
+    if ((size_t)(end - first.at) != first.size) return VARIABLE;
     const Name *name = find_name(fold->locals, fold->local_count, first);
     if (!name) name = find_name(fold->constants, fold->constant_count, first);
-    return name ? name->value : UNKNOWN;
+    return name ? name->value : VARIABLE;
 }
 
 static bool take(const char **cursor, const char *end, const char *mark) {
@@ -61,7 +61,7 @@ static bool take(const char **cursor, const char *end, const char *mark) {
 static Value read_or(const Fold *fold, const char **c, const char *end);
 
 static Value read_name(const Fold *fold, Token first, const char **c, const char *end) {
-    if (token_is(first, "true") || token_is(first, "false")) return known(first.size == 4);
+    if (token_is(first, "true") || token_is(first, "false")) return constant_value(first.size == 4);
     const char *stop = first.at + first.size;
     while (stop < end && *stop == '.') {
         *c = stop + 1;
@@ -70,18 +70,18 @@ static Value read_name(const Fold *fold, Token first, const char **c, const char
     Token next = token_peek(*c, end);
     if (!token_is(next, "(") && !token_is(next, "[")) return find_path(fold, first, stop);
     *c = token_closed(next.at, end);
-    return UNKNOWN;
+    return VARIABLE;
 }
 
 static Value read_one(const Fold *fold, const char **c, const char *end) {
     Token token = token_solid(c, end);
     if (token_is(token, "!")) {
         Value v = read_one(fold, c, end);
-        return v.known ? known(!v.value) : v;
+        return v.constant ? constant_value(!v.value) : v;
     }
     if (token_is(token, "-")) {
         Value v = read_one(fold, c, end);
-        return v.known ? known(-v.value) : v;
+        return v.constant ? constant_value(-v.value) : v;
     }
     if (token_is(token, "(")) {
         Value v = read_or(fold, c, end);
@@ -90,19 +90,19 @@ static Value read_one(const Fold *fold, const char **c, const char *end) {
     }
     if (token.kind == TOKEN_NUMBER) {
         for (size_t k = 0; k < token.size; k++)
-            if (!is_digit(token.at[k])) return UNKNOWN;
-        return known(strtol(token.at, NULL, 10));
+            if (!is_digit(token.at[k])) return VARIABLE;
+        return constant_value(strtol(token.at, NULL, 10));
     }
-    return token.kind == TOKEN_NAME ? read_name(fold, token, c, end) : UNKNOWN;
+    return token.kind == TOKEN_NAME ? read_name(fold, token, c, end) : VARIABLE;
 }
 
-/* The value of an operand is known only if no operator follows. */
+/* Reads a sum. Its value is constant only if it is a single operand. */
 static Value read_sum(const Fold *fold, const char **c, const char *end) {
     Value v = read_one(fold, c, end);
     for (;;) {
         if (!take(c, end, "+") && !take(c, end, "-") && !take(c, end, "*") && !take(c, end, "/")) return v;
         read_one(fold, c, end);
-        v = UNKNOWN;
+        v = VARIABLE;
     }
 }
 
@@ -112,10 +112,10 @@ static Value read_compared(const Fold *fold, const char **c, const char *end) {
     for (int k = 0; k < 6; k++) {
         if (!take(c, end, marks[k])) continue;
         Value b = read_sum(fold, c, end);
-        if (!a.known || !b.known) return UNKNOWN;
+        if (!a.constant || !b.constant) return VARIABLE;
         const bool answers[] = {a.value == b.value, a.value != b.value, a.value <= b.value,
                                 a.value >= b.value, a.value<b.value, a.value> b.value};
-        return known(answers[k]);
+        return constant_value(answers[k]);
     }
     return a;
 }
@@ -124,10 +124,10 @@ static Value read_and(const Fold *fold, const char **c, const char *end) {
     Value all = read_compared(fold, c, end);
     while (take(c, end, "&&")) {
         Value v = read_compared(fold, c, end);
-        if ((all.known && !all.value) || (v.known && !v.value))
-            all = known(0);
+        if ((all.constant && !all.value) || (v.constant && !v.value))
+            all = constant_value(0);
         else
-            all = all.known && v.known ? known(1) : UNKNOWN;
+            all = all.constant && v.constant ? constant_value(1) : VARIABLE;
     }
     return all;
 }
@@ -136,21 +136,21 @@ static Value read_or(const Fold *fold, const char **c, const char *end) {
     Value any = read_and(fold, c, end);
     while (take(c, end, "||")) {
         Value v = read_and(fold, c, end);
-        if ((any.known && any.value) || (v.known && v.value))
-            any = known(1);
+        if ((any.constant && any.value) || (v.constant && v.value))
+            any = constant_value(1);
         else
-            any = any.known && v.known ? known(0) : UNKNOWN;
+            any = any.constant && v.constant ? constant_value(0) : VARIABLE;
     }
     return any;
 }
 
-/* All of [c, end). */
+/* Returns the value of the expression [c, end). */
 static Value read_all(const Fold *fold, const char *c, const char *end) {
     Value v = read_or(fold, &c, end);
-    return blank_end(c, end) == end ? v : UNKNOWN;
+    return blank_end(c, end) == end ? v : VARIABLE;
 }
 
-/* Behind the statement at c, with all its branches. */
+/* Returns the end of the statement at c, with all its branches. */
 static const char *statement_end(const char *c, const char *end) {
     const char *cursor = c;
     Token first = token_solid(&cursor, end);
@@ -182,7 +182,7 @@ static bool declares(const char *c, const char *end) {
 
 static void fold_range(Fold *fold, const char *c, const char *end, Buffer *out);
 
-/* Takes back the blanks of a line that has nothing else yet, and says where what follows begins. */
+/* Removes the blanks at the end of out if its line has nothing else yet. Returns the place from which to go on. */
 static const char *drop_line(const char *c, const char *end, Buffer *out) {
     while (out->size && (out->bytes[out->size - 1] == ' ' || out->bytes[out->size - 1] == '\t')) out->size--;
     if (out->size && out->bytes[out->size - 1] != '\n') return c;
@@ -190,7 +190,7 @@ static const char *drop_line(const char *c, const char *end, Buffer *out) {
     return c < end && *c == '\n' ? c + 1 : c;
 }
 
-/* The statement, a block without its braces where nothing is declared in it. */
+/* Writes a statement; unwrap: a block without its braces, if nothing is declared in it. */
 static void put_chosen(Fold *fold, const char *c, const char *end, bool unwrap, Buffer *out) {
     while (c < end && is_blank(*c)) c++;
     if (!unwrap || c == end || *c != '{' || declares(c + 1, end - 1)) {
@@ -212,7 +212,7 @@ static void put_chosen(Fold *fold, const char *c, const char *end, bool unwrap, 
     buffer_free(&inner);
 }
 
-/* The parts of a condition, && between, that are not known to hold. */
+/* Writes those parts of a condition, with && between, that are not constant. */
 static void put_condition(Fold *fold, const char *c, const char *end, Buffer *out) {
     const char *part = c;
     bool first = true, whole = true;
@@ -227,7 +227,7 @@ static void put_condition(Fold *fold, const char *c, const char *end, Buffer *ou
         bool last = token.kind == TOKEN_NONE, cut = token_is(token, "&");
         if (!last && !cut) continue;
         const char *stop = last ? end : token.at;
-        if (!read_all(fold, part, stop).known) {
+        if (!read_all(fold, part, stop).constant) {
             while (part < stop && is_blank(*part)) part++;
             while (stop > part && is_blank(stop[-1])) stop--;
             if (!first) buffer_put_text(out, " && ");
@@ -241,13 +241,13 @@ static void put_condition(Fold *fold, const char *c, const char *end, Buffer *ou
     if (!whole) fold_range(fold, c, end, out);
 }
 
-/* An if at c, whose condition is known: what it chooses. Returns where to go on. */
+/* Writes the branch that the if at c chooses, if its condition is constant. Returns the place from which to go on. */
 static const char *fold_if(Fold *fold, const char *c, const char *end, bool unwrap, bool *done, Buffer *out) {
     const char *open = token_peek(c, end).at, *close = token_closed(open, end);
     Value v = read_all(fold, open + 1, close - 1);
     const char *stop = statement_end(close, end), *next = stop, *other = NULL;
-    *done = v.known;
-    if (!v.known) {
+    *done = v.constant;
+    if (!v.constant) {
         buffer_put_text(out, "if (");
         put_condition(fold, open + 1, close - 1, out);
         buffer_put_text(out, ")");
@@ -272,7 +272,7 @@ static const char *fold_if(Fold *fold, const char *c, const char *end, bool unwr
     return end;
 }
 
-/* "a ? b : c" at c, where an expression begins and a is known; c itself where it is none. */
+/* Writes the branch of "a ? b : c" at c, where an expression begins, if a is constant. Returns the end of it, or c. */
 static const char *fold_choice(Fold *fold, const char *c, const char *end, Buffer *out) {
     const char *k = c, *mark = NULL, *colon = NULL, *stop = end;
     int nested = 0;
@@ -298,8 +298,8 @@ static const char *fold_choice(Fold *fold, const char *c, const char *end, Buffe
             if (token_is(token, "{")) return c;
         }
     }
-    Value v = mark && colon ? read_all(fold, c, mark) : UNKNOWN;
-    if (!v.known) return c;
+    Value v = mark && colon ? read_all(fold, c, mark) : VARIABLE;
+    if (!v.constant) return c;
     const char *from = v.value ? mark + 1 : colon + 1, *to = v.value ? colon : stop;
     while (from < to && is_blank(*from)) from++;
     while (to > from && is_blank(to[-1])) to--;
@@ -308,7 +308,7 @@ static const char *fold_choice(Fold *fold, const char *c, const char *end, Buffe
     return stop;
 }
 
-/* "bool x = known;" becomes a fact; true where it was one. */
+/* Takes "bool x = a;" with a constant a as a fact. Returns false if it is not one. */
 static bool take_local(Fold *fold, Token type, const char **cursor, const char *end) {
     const char *c = *cursor;
     if (!token_is(type, "bool")) return false;
@@ -317,7 +317,7 @@ static bool take_local(Fold *fold, Token type, const char **cursor, const char *
     const char *stop = c;
     while (stop < end && *stop != ';' && *stop != ',') stop++;
     Value v = read_all(fold, c, stop);
-    if (!v.known || stop == end || *stop != ';' || fold->local_count == LOCALS_MAX) return false;
+    if (!v.constant || stop == end || *stop != ';' || fold->local_count == LOCALS_MAX) return false;
     fold->locals[fold->local_count++] = (Name){name, v};
     *cursor = stop + 1;
     return true;
@@ -339,7 +339,7 @@ static void fold_range(Fold *fold, const char *c, const char *end, Buffer *out) 
             if (is_if) {
                 Value v = read_all(fold, open + 1, token_closed(open, end) - 1);
                 const char *stop = statement_end(token_closed(open, end), end);
-                if (v.known && !v.value && !token_is(token_peek(stop, end), "else")) {
+                if (v.constant && !v.value && !token_is(token_peek(stop, end), "else")) {
                     c = drop_line(stop, end, out);
                     continue;
                 }
@@ -376,7 +376,7 @@ static void fold_range(Fold *fold, const char *c, const char *end, Buffer *out) 
 /* One of "x = ..., y = ..." in a declaration. */
 typedef struct Declared {
     const char *start, *end;
-    bool read; /* or set to what has brackets: a call may write to something else: see unused.h */
+    bool read; /* or its value contains brackets: a call may write to something else, see unused.h */
 } Declared;
 
 enum { DECLARED_MAX = 16 };
@@ -408,8 +408,8 @@ static int find_declared(const char *c, const char *end, Declared all[DECLARED_M
     return count;
 }
 
-/* The declaration at c without the locals that nothing asks for any more; where to go on, c itself where all
- * of it is read. */
+/* Writes the declaration at c without the variables that are never read. Returns the end of it, or c if all are
+ * read. */
 static const char *put_declared(const char *c, const char *end, Buffer *out) {
     Declared all[DECLARED_MAX];
     const char *stop = c;
@@ -445,7 +445,7 @@ static void put_read(const Buffer *body, Buffer *out) {
     }
 }
 
-/* "const int NAME = 3;" */
+/* Adds the constants of the text: "const int NAME = 3;". */
 static void find_constants(Fold *fold, const char *c, const char *end) {
     while (c < end && fold->constant_count < CONSTANTS_MAX) {
         if (!token_is(token_next(&c, end), "const")) continue;
@@ -454,7 +454,7 @@ static void find_constants(Fold *fold, const char *c, const char *end) {
         const char *stop = c;
         while (stop < end && *stop != ';') stop++;
         Value v = read_all(fold, c, stop);
-        if (v.known) fold->constants[fold->constant_count++] = (Name){name, v};
+        if (v.constant) fold->constants[fold->constant_count++] = (Name){name, v};
     }
 }
 

@@ -4,7 +4,7 @@
 
 enum { ITEMS_MAX = 4096, FILES_MAX = 256 };
 
-/* Behind the declaration at c: the brace of a function, the semicolon of all else. */
+/* Returns the end of the declaration at c: after the brace of a function, else after the semicolon. */
 static const char *item_end(const char *c, const char *end, bool record) {
     int depth = 0;
     for (Token token; (token = token_next(&c, end)).kind != TOKEN_NONE;) {
@@ -15,7 +15,7 @@ static const char *item_end(const char *c, const char *end, bool record) {
     return end;
 }
 
-/* The name that an item gives to the world, and what it is. False of a function without a body. */
+/* Sets the name and kind of an item. Returns false for a function without a body. */
 static bool name_item(Item *item) {
     const char *c = item->code;
     Token first = token_solid(&c, item->end), second = token_solid(&c, item->end);
@@ -49,7 +49,7 @@ static void put_file(Items *items, const char *c, const char *stop) {
     items->files[items->file_count++] = (ItemFile){name, NULL, NULL};
 }
 
-/* The blanks and comments in front of an item: takes marks, and returns where the item's own comment is. */
+/* Takes the blanks, comments and marks before an item. Returns the item's own comment, or NULL. */
 static const char *take_comments(Items *items, const char **cursor, const char *end) {
     const char *c = *cursor, *own = NULL;
     while (c < end && (is_blank(*c) || is_comment(c, end))) {
@@ -105,7 +105,7 @@ const Item *items_find(const Items *items, Token name) {
     return NULL;
 }
 
-/* All items of that name; true where there is one. */
+/* Keeps all items of a name and what they need. Returns false if there is none. */
 static bool keep_named(Items *items, Token name) {
     bool found = false;
     for (int k = 0; k < items->count; k++) {
@@ -125,6 +125,6 @@ static bool keep_named(Items *items, Token name) {
 }
 
 bool items_keep(Items *items, const char *name) {
-    for (int k = 0; k < items->count; k++) items->all[k].asked |= token_is(items->all[k].name, name);
+    for (int k = 0; k < items->count; k++) items->all[k].named |= token_is(items->all[k].name, name);
     return keep_named(items, (Token){TOKEN_NAME, name, strlen(name)});
 }

@@ -1,4 +1,4 @@
-/* items.h - a text cut into its declarations and functions, and those of them that something needs */
+/* items.h - a text cut into its declarations and functions, and the selection of those that are needed */
 #ifndef WEFT_TEXT_ITEMS_H
 #define WEFT_TEXT_ITEMS_H
 
@@ -12,11 +12,11 @@ typedef struct Item {
     Token name;
     const char *comment; /* the item's comment, if any: [comment, code) */
     const char *code, *end;
-    int file; /* index into files, -1: none */
-    bool kept;
-    bool asked; /* kept for whoever uses the text */
-    bool own;   /* goes by a name of this text alone */
-    bool late;  /* stands behind what several texts share */
+    int file;   /* index into files, -1: none */
+    bool kept;  /* needed */
+    bool named; /* kept by name, for users of the text */
+    bool own;   /* has a name of this text alone */
+    bool late;  /* is placed after the items that several texts share */
 } Item;
 
 /* A file of the catalogue that items come from. */
@@ -31,7 +31,7 @@ typedef struct Items {
     Item *all;
     ItemFile *files;
     int count, file_count;
-    int file; /* whose items are being cut */
+    int file; /* index of the file whose items are being cut */
     bool short_of_memory;
 } Items;
 
@@ -40,10 +40,10 @@ typedef struct Items {
 void items_cut(const char *text, Items *out);
 void items_free(Items *items);
 
-/* Keeps the item of that name and all it needs; false where there is none. */
+/* Keeps the item of that name and all it needs. Returns false if there is none. */
 bool items_keep(Items *items, const char *name);
 
-/* The item of a name, NULL: none. */
+/* Returns the item of a name, or NULL. */
 const Item *items_find(const Items *items, Token name);
 
 #endif

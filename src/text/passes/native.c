@@ -5,7 +5,7 @@
 /* The precedence of an expression. */
 typedef enum Bond { BOND_CHOICE, BOND_SUM, BOND_PRODUCT, BOND_CALL } Bond;
 
-/* A call, and what it is with the arguments in place of A, B and C. */
+/* A call, and the expression that replaces it, with the arguments in place of A, B and C. */
 typedef struct Form {
     const char *call, *form;
     Bond bond;
@@ -38,7 +38,7 @@ static Bond bond_of(Token mark) {
 
 static Bond put_range(const char *c, const char *end, Buffer *out);
 
-/* An operand of something that binds so: in parentheses where it holds together less. */
+/* Writes an operand, in parentheses if its precedence is less than `bond`. */
 static void put_operand(Piece piece, Bond bond, Buffer *out) {
     Buffer words = {0};
     bool bracketed = put_range(piece.at, piece.end, &words) < bond;
@@ -74,13 +74,13 @@ static Bond bond_between(Token before, Token after) {
     return token_is(before, "+") || token_is(after, "+") || token_is(after, "-") ? BOND_SUM : BOND_CHOICE;
 }
 
-/* A function's definition has its type before its name. */
+/* Returns true if a name is that of a call. In a definition its type is before it. */
 static bool is_call(Token before, Token name, const char *c, const char *end) {
     bool defined = before.kind == TOKEN_NAME && !token_is(before, "return") && !token_is(before, "else");
     return name.kind == TOKEN_NAME && !defined && token_is(token_peek(c, end), "(");
 }
 
-/* Returns how tightly what was put holds together. */
+/* Writes a range of text with its calls replaced. Returns the precedence of the written expression. */
 static Bond put_range(const char *c, const char *end, Buffer *out) {
     Bond bond = BOND_CALL;
     int depth = 0;

@@ -8,7 +8,7 @@ enum { FILLERS_MAX = 256 };
 typedef struct Filler {
     const Item *function;
     Parameter filled;
-    int place;  /* of that among the parameters */
+    int place;  /* of `filled` among the parameters */
     bool takes; /* true if the function may read earlier contents and so keeps the parameter */
     List parameters;
     const char *body;
@@ -29,11 +29,11 @@ static const Filler *find_filler(const Returned *self, Token name) {
     return NULL;
 }
 
-/* Those that could be by their parameters. */
+/* Lists the functions that fill a record by their parameters. */
 static void list_fillers(Returned *self) {
     for (int k = 0; k < self->items->count && self->count < FILLERS_MAX; k++) {
         const Item *item = &self->items->all[k];
-        if (!item->kept || item->asked || item->kind != ITEM_FUNCTION ||
+        if (!item->kept || item->named || item->kind != ITEM_FUNCTION ||
             !token_is(token_peek(item->code, item->end), "void"))
             continue;
         Filler filler = {.function = item};
@@ -127,7 +127,8 @@ static bool call_at(const Returned *self, Token before, Token token, const char 
     return true;
 }
 
-/* Those of which a call passes what may be read are struck out, or take it. True where there is a new one. */
+/* Strikes out functions of which a call passes a record that may have contents; with self->all they keep the parameter
+ * instead. Returns true if there was one. */
 static bool strike(Returned *self) {
     bool any = false;
     for (int k = 0; k < self->items->count; k++) {
@@ -154,7 +155,7 @@ static bool strike(Returned *self) {
     return any;
 }
 
-/* The pieces of words that an edit puts, in place of [at, end). */
+/* Adds an edit that replaces [at, end) by several words. */
 static void put(Returned *self, const char *at, const char *end, const Token *words, int count) {
     size_t size = 0;
     char text[512];
@@ -169,7 +170,7 @@ static void put(Returned *self, const char *at, const char *end, const Token *wo
 
 static Token word(const char *text) { return (Token){TOKEN_NAME, text, strlen(text)}; }
 
-/* "p = x;" as the only statement that names what is filled: "return x;". */
+/* Makes "return x;" of "p = x;" if no other statement names the filled record. Returns false if another does. */
 static bool return_value(Returned *self, const Filler *filler) {
     const char *end = filler->function->end - 1, *c = filler->body + 1, *stored;
     Token name = filler->filled.name, before = {TOKEN_MARK, "{", 1};
@@ -194,16 +195,16 @@ static bool return_value(Returned *self, const Filler *filler) {
 /* Returns true if a body ends with an unconditional return. */
 static bool returns_last(const char *open, const char *last) {
     Token before = {TOKEN_MARK, "{", 1}, token;
-    bool plain = false;
+    bool returns = false;
     for (const char *c = open; (token = token_next(&c, last)).kind != TOKEN_NONE;) {
         if (token.kind == TOKEN_BLANK) continue;
-        if (types_begins(before)) plain = token_is(token, "return");
+        if (types_begins(before)) returns = token_is(token, "return");
         before = token;
     }
-    return plain && token_is(before, ";");
+    return returns && token_is(before, ";");
 }
 
-/* Its body declares what it fills, but for a parameter, and returns it. */
+/* Makes the body declare the filled record, unless it stays a parameter, and return it. */
 static void return_filled(Returned *self, const Filler *filler) {
     const char *open = filler->body + 1, *close = filler->function->end - 1, *c = open;
     bool line = !memchr(open, '\n', (size_t)(close - open));

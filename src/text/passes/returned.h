@@ -1,4 +1,4 @@
-/* returned.h - functions that fill a record return it
+/* returned.h - rewrites functions that fill a record so that they return it
  *
  *   void ggx_prepare(Ggx m, inout GgxPrepared p) { ... }     GgxPrepared ggx_prepare(Ggx m) { ... }
  *   GgxPrepared p;                                           GgxPrepared p = ggx_prepare(m);
@@ -9,11 +9,11 @@
 #include "text/passes/items.h"
 #include "text/source/buffer.h"
 
-/* Appends the text that the items were cut from. A function fills a record if its last parameter is its only
- * written one, it returns nothing else, and whatever calls it passes what nothing was written to before.
+/* Appends the rewritten text that the items were cut from. A function fills a record if its last parameter is the only
+ * one that it writes to, it returns nothing, and every call passes a record that nothing was written to before.
  *
- * all: so does each other function that writes to one parameter and returns nothing, for languages without
- * references. It takes what was written before:
+ * all: rewrites each other function that writes to one parameter and returns nothing, for languages without references.
+ * It keeps the parameter, for the earlier contents:
  *
  *   void slot_add(inout Slot s, float x) { ... }             Slot slot_add(Slot s, float x) { ... return s; }
  *   slot_add(m.coat, x);                                     m.coat = slot_add(m.coat, x); */

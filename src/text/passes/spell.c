@@ -6,7 +6,7 @@
 #include "text/passes/wgsl.h"
 
 typedef struct Word {
-    const char *plain, *spelt;
+    const char *dialect, *spelt; /* name in the dialect and in the language */
 } Word;
 
 /* The words that a language spells differently. */
@@ -32,7 +32,7 @@ static bool is_vector(const Speller *speller, Token name) {
 
 static char upper(char c) { return c >= 'a' && c <= 'z' ? (char)(c - 'a' + 'A') : c; }
 
-char *spell_name(const Speller *speller, ItemKind kind, const char *plain, char name[SPELL_NAME]) {
+char *spell_name(const Speller *speller, ItemKind kind, const char *dialect, char name[SPELL_NAME]) {
     int size = 0;
     bool first = true;
     for (const char *c = speller->prefix; *c; c++) {
@@ -43,16 +43,16 @@ char *spell_name(const Speller *speller, ItemKind kind, const char *plain, char 
         name[size++] = kind == ITEM_CONSTANT || (kind == ITEM_RECORD && first) ? upper(*c) : *c;
         first = false;
     }
-    snprintf(name + size, (size_t)(SPELL_NAME - size), "%s", plain);
+    snprintf(name + size, (size_t)(SPELL_NAME - size), "%s", dialect);
     return name;
 }
 
-char *spell_item(const Speller *speller, const Items *items, ItemKind kind, const char *plain,
+char *spell_item(const Speller *speller, const Items *items, ItemKind kind, const char *dialect,
                  char name[SPELL_NAME]) {
-    const Item *item = items_find(items, (Token){TOKEN_NAME, plain, strlen(plain)});
+    const Item *item = items_find(items, (Token){TOKEN_NAME, dialect, strlen(dialect)});
     Speller own = *speller;
     if (item && item->own) memcpy(own.prefix, own.own, sizeof own.prefix);
-    return spell_name(&own, kind, plain, name);
+    return spell_name(&own, kind, dialect, name);
 }
 
 static void put_name(const Speller *speller, const Item *item, Buffer *out) {
@@ -64,12 +64,12 @@ static void put_name(const Speller *speller, const Item *item, Buffer *out) {
 }
 
 static const Word *find_word(const Word *words, Token name) {
-    for (; words->plain; words++)
-        if (token_is(name, words->plain)) return words;
+    for (; words->dialect; words++)
+        if (token_is(name, words->dialect)) return words;
     return NULL;
 }
 
-/* A float in C ends in f, or is a double. */
+/* Writes a number. A float in C ends in f. */
 static void put_number(const Speller *speller, Token number, Buffer *out) {
     bool real = false, f = number.at[number.size - 1] == 'f';
     for (size_t k = 0; k < number.size; k++) real |= number.at[k] == '.' || number.at[k] == 'e';
@@ -77,7 +77,7 @@ static void put_number(const Speller *speller, Token number, Buffer *out) {
     if (speller->language == SPELL_C && real) buffer_put(out, "f", 1);
 }
 
-/* HLSL makes no vector of one number but by a cast. */
+/* Writes the type of a vector, or the name of a call that makes one, which in HLSL is a cast for a single number. */
 static void put_vector(const Speller *speller, const char *spelt, bool made, const char *c, const char *end,
                        Buffer *out) {
     bool cast = speller->language == SPELL_HLSL && made && list_of(c, end).count == 1;
@@ -86,13 +86,13 @@ static void put_vector(const Speller *speller, const char *spelt, bool made, con
     if (cast) buffer_put_text(out, ")");
 }
 
-/* A name that is no member's. c is behind it. */
+/* Writes a name that is no member's and that ends at c. */
 static void put_word(const Speller *speller, const Items *items, Token name, const char *c, const char *end,
                      Buffer *out) {
     bool call = token_is(token_solid(&c, end), "(");
     const Word *word = find_word(words_of[speller->language], name);
     bool vector = is_vector(speller, name), cast = token_is(name, "float") || token_is(name, "int");
-    bool type = speller->language == SPELL_WGSL; /* as all of its words are */
+    bool type = speller->language == SPELL_WGSL; /* all of its words are types */
     const Item *item = vector ? NULL : items_find(items, name);
     if (word && (call || vector || type))
         put_vector(speller, word->spelt, vector && call, c, end, out);
@@ -134,7 +134,7 @@ static bool is_type(const Speller *speller, Token before, const char *c, const c
     return token_is(before, "{") || token_is(before, ";") || token_is(before, "[");
 }
 
-/* Members keep their names; of a record's list that is all but its types. */
+/* Writes code with its names spelt. Members keep their names; in a record only the types are spelt. */
 static void put_code(const Speller *speller, const Items *items, const char *c, const char *end, bool record,
                      Buffer *out) {
     Token before = {TOKEN_NONE, "", 0};
@@ -157,7 +157,8 @@ static const char *find(const char *c, const char *end, const char *mark) {
     return end;
 }
 
-/* "inout Name x" at c, behind the first word: a pointer. Returns where to go on. */
+/* Writes the parameter "inout Name x", whose first word ends at c, as a pointer. Returns the place from which to go
+ * on. */
 static const char *put_pointer(const Speller *speller, const Items *items, const char *c, const char *end,
                                Buffer *out) {
     Token type = token_solid(&c, end);
@@ -166,7 +167,7 @@ static const char *put_pointer(const Speller *speller, const Items *items, const
     return blank_end(c, end);
 }
 
-/* The arguments that are being put, of calls inside each other. */
+/* The nested calls around a place, each with the number of the argument. */
 typedef struct Calls {
     struct {
         const Item *function;
@@ -185,7 +186,7 @@ static void calls_follow(Calls *calls, const Items *items, Token before, Token t
     if (token_is(token, ",") && calls->depth >= 0 && calls->depth < 64) calls->open[calls->depth].place++;
 }
 
-/* C: a function with its references as pointers. */
+/* Writes code of a function in C, with its references as pointers. */
 static void put_c_code(const Speller *speller, const Items *items, const Item *function, const char *c,
                        const char *end, Buffer *out) {
     Calls calls = {0};
@@ -221,7 +222,7 @@ static void put_c_code(const Speller *speller, const Items *items, const Item *f
     }
 }
 
-/* C: the function, where a parameter that it does not look at is named as such. */
+/* Writes a function in C, with a statement that names each unread parameter. */
 static void put_c_function(const Speller *speller, const Items *items, const Item *item, Buffer *out) {
     const char *open = find(item->code, item->end, "("), *close = find(open, item->end, ")");
     const char *body = find(close, item->end, "{"), *c = open + 1;
@@ -242,7 +243,7 @@ static void put_c_function(const Speller *speller, const Items *items, const Ite
     put_c_code(speller, items, item, body + 1, item->end, out);
 }
 
-/* WGSL: an item in its syntax, then its names. */
+/* Writes an item in WGSL: first in its syntax, then with its names spelt. */
 static void put_wgsl(const Speller *speller, const Items *items, const Item *item, Buffer *out) {
     Buffer words = {0};
     bool record = item->kind == ITEM_RECORD;
@@ -304,8 +305,8 @@ static bool is_called(const Items *const *texts, int count, Token name) {
 
 void spell_helpers(const Speller *speller, const Items *const *texts, int count, Buffer *out) {
     if (speller->language != SPELL_C) return;
-    for (const Word *helper = c_helpers; helper->plain; helper++) {
-        const Token name = {TOKEN_NAME, helper->plain, strlen(helper->plain)};
+    for (const Word *helper = c_helpers; helper->dialect; helper++) {
+        const Token name = {TOKEN_NAME, helper->dialect, strlen(helper->dialect)};
         if (!is_called(texts, count, name)) continue;
         buffer_put_text(out, "static inline float ");
         put_name(speller, &(Item){.kind = ITEM_FUNCTION, .name = name}, out);

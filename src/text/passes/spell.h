@@ -1,4 +1,4 @@
-/* spell.h - a plain text (TEXT_PLAIN) in the words of a language, under names of its own
+/* spell.h - a text of TEXT_PLAIN in the words of a language, under names of its own
  *
  *   Dir, Rgb        vec3, float3 or vec3f; records in C
  *   charlie_d       weft_charlie_d, and so every function, record (WeftAngles) and constant (WEFT_PI) */
@@ -23,18 +23,18 @@ typedef struct Speller {
     char own[SPELL_PREFIX];    /* "weft_khronos_", of items that are the text's own */
 } Speller;
 
-/* Appends the items that are kept, late or not, in their order, each behind its comment. */
+/* Appends the kept items, either those that are late or the others, in their order, each after its comment. */
 void spell_items(const Speller *speller, const Items *items, bool late, Buffer *out);
 
-/* Appends the functions of C that stand for what shading languages have, where kept items of any of the texts
- * call them; to stand before all. */
+/* Appends C functions for built-in functions of shading languages that kept items of any of the texts call. They belong
+ * before all items. */
 void spell_helpers(const Speller *speller, const Items *const *texts, int count, Buffer *out);
 
-/* The name that an item of that kind gets. Returns name. */
-char *spell_name(const Speller *speller, ItemKind kind, const char *plain, char name[SPELL_NAME]);
+/* Writes the name of an item of that kind in the text's language. Returns name. */
+char *spell_name(const Speller *speller, ItemKind kind, const char *dialect, char name[SPELL_NAME]);
 
 /* Works as spell_name, for the item of that name among these if there is one. */
-char *spell_item(const Speller *speller, const Items *items, ItemKind kind, const char *plain,
+char *spell_item(const Speller *speller, const Items *items, ItemKind kind, const char *dialect,
                  char name[SPELL_NAME]);
 
 #endif

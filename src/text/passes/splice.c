@@ -6,15 +6,15 @@
 #include "text/source/token.h"
 
 void edit_put(Edits *edits, const char *at, const char *end, const char *with) {
-    if (edits->count == edits->room) {
-        size_t room = edits->room ? 2 * edits->room : 64;
-        Edit *all = realloc_array(edits->all, room, sizeof *all);
+    if (edits->count == edits->capacity) {
+        size_t capacity = edits->capacity ? 2 * edits->capacity : 64;
+        Edit *all = realloc_array(edits->all, capacity, sizeof *all);
         if (!all) {
             edits->failed = true;
             return;
         }
         edits->all = all;
-        edits->room = room;
+        edits->capacity = capacity;
     }
     size_t from = edits->words.size;
     if (with) buffer_put_text(&edits->words, with);
@@ -33,7 +33,7 @@ void edit_drop(Edits *edits, const char *at, const char *end) {
     if (edits->count > count) edits->all[count].dropped = true;
 }
 
-/* Those that begin first come first, and of them the longest. */
+/* Compares edits by their beginning, then the longest first. */
 static int order(const void *left, const void *right) {
     const Edit *a = left, *b = right;
     if (a->at != b->at) return a->at < b->at ? -1 : 1;
@@ -43,7 +43,7 @@ static int order(const void *left, const void *right) {
 
 static bool is_space(char c) { return c == ' ' || c == '\t'; }
 
-/* To the line that has nothing else, or the blanks before it. */
+/* Widens a removed piece to its line if that has nothing else, else by the blanks before it. */
 static void widen(const char *text, const char **at, const char **end) {
     const char *first = *at, *last = *end;
     while (first > text && is_space(first[-1])) first--;
@@ -59,8 +59,8 @@ static void widen(const char *text, const char **at, const char **end) {
     }
 }
 
-/* Takes the statements that go beside each other from edit k on; one inside another is lost. Returns the
- * next. */
+/* Joins edit k with those inside it, and with removed statements next to each other. Sets the end of the joined piece
+ * and returns the next edit. */
 static size_t run_end(const Edits *edits, size_t k, const char **end) {
     const bool dropped = edits->all[k].dropped;
     *end = edits->all[k].end;

@@ -12,7 +12,7 @@ static void list_put(List *list, const char *at, const char *end) {
     }
 }
 
-/* Up to the mark that ends it. */
+/* Returns the list from c up to the mark that closes it. */
 static List list_cut(const char *c, const char *end, const char *close) {
     List list = {.open = c, .close = end};
     const char *from = c;
@@ -138,7 +138,7 @@ static void add_symbol(Symbols *symbols, Token name, Token type) {
         if (!token_same(symbols->all[k].type, type)) symbols->all[k].type = NOTHING;
         return;
     }
-    if (symbols->count == SYMBOLS_MAX) return; /* of what is left out no record is known */
+    if (symbols->count == SYMBOLS_MAX) return; /* the record of a further name is unknown */
     symbols->all[symbols->count].name = name;
     symbols->all[symbols->count++].type = type;
 }
@@ -185,7 +185,8 @@ static void take_member(Walk *walk, Token member, const char *statement, const c
     walk->type = types_member(walk->items, walk->type, member);
 }
 
-/* Brackets keep what stands before them: of a call its result, of an index the array's own type. */
+/* Updates the type at a bracket. An opening one stores the type of the expression before it, which its closing one
+ * restores: the result of a call, or the array's type for an index. */
 static void take_bracket(Walk *walk, Token before, Token bracket) {
     bool open = token_is(bracket, "(") || token_is(bracket, "[");
     if (open) {

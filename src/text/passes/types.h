@@ -17,13 +17,13 @@ typedef struct List {
     const char *open, *close; /* the brackets */
 } List;
 
-/* c is at the opening bracket. What is more than a list holds is not counted: its length is then 0. */
+/* Returns the list whose opening bracket is at c. A list of more than LIST_MAX pieces has a count of 0. */
 List list_of(const char *c, const char *end);
 
-/* Behind the bracket that closes it, or end. */
+/* Returns the end of the bracket that closes a list, or end. */
 const char *list_end(const List *list, const char *end);
 
-/* The parameters of a function, and the brace that its body begins with. */
+/* Returns the parameters of a function, and sets the brace that opens its body. */
 List types_parameters(const Item *function, const char **body);
 
 /* "inout T name" and "T name". */
@@ -36,33 +36,33 @@ Parameter types_parameter(const List *list, int place);
 /* Returns true if the function writes through a parameter. */
 bool types_writes(const Item *function);
 
-/* The type of a member, and of what a function returns: a token of kind TOKEN_NONE where there is none. */
+/* Return the type of a member, and of a function's result; a token of kind TOKEN_NONE if there is none. */
 Token types_member(const Items *items, Token record, Token member);
 Token types_result(const Items *items, Token function);
 
 /* A member that a function names. */
 typedef struct Access {
-    Token record; /* TOKEN_NONE: of which record is not known */
+    Token record; /* TOKEN_NONE: unknown */
     Token member;
     const char *statement,
         *statement_end; /* the statement that writes to the whole or a part; NULL: a read */
 } Access;
 
-/* Calls visit with each of them, in their order. */
+/* Calls visit with each access of a function, in their order. */
 void types_accesses(const Items *items, const Item *function, void (*visit)(void *user, const Access *access),
                     void *user);
 
-/* "T a = 1, b, c[2];" at c where a statement begins: its names, each [at, end) with what it is set to.
- * A length of 0 where it declares nothing. */
+/* Returns the names that the statement at c declares, as "T a = 1, b, c[2];" does, each piece with its value, and sets
+ * their type. The count is 0 if it is no declaration. */
 List types_declared(const char *c, const char *end, Token *type);
 
-/* Behind the semicolon of the plain statement at c. */
+/* Returns the end of the statement at c, which has no block: after its semicolon. */
 const char *types_statement_end(const char *c, const char *end);
 
 /* Returns true if a statement of a block may begin after this token. */
 bool types_begins(Token before);
 
-/* "a.b[2].c = ...;" at c where a statement begins: behind its path, or NULL. */
+/* Returns the end of the path that the statement at c writes to, as "a.b[2].c = ...;" does, or NULL. */
 const char *types_stored(const char *c, const char *end);
 
 #endif

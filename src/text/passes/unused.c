@@ -45,14 +45,14 @@ static bool has_effect(const Items *items, const char *c, const char *end, int o
     return false;
 }
 
-/* The first piece of a list goes with the comma behind it, another one with that before it. */
+/* Removes a piece of a list: the first with the comma after it, another with the comma before it. */
 static void drop_piece(Unused *self, List list, int place) {
     const char *from = place ? list.all[place - 1].end : list.all[0].at;
     const char *to = place || list.count == 1 ? list.all[place].end : list.all[1].at;
     edit_put(&self->edits, from, to, NULL);
 }
 
-/* A statement that declares one name or more loses that one. */
+/* Removes one name from a declaration, or the declaration if it has no other. */
 static void drop_declared(Unused *self, const char *statement, List names, int place, const char *end) {
     if (names.count == 1)
         edit_drop(&self->edits, statement, types_statement_end(statement, end));
@@ -79,7 +79,7 @@ static Member *find_member(Unused *self, Token record, Token name) {
     return NULL;
 }
 
-/* If the record is unknown, all members of that name count as read. */
+/* Marks a member that is read. If its record is unknown, all members of that name are marked. */
 static void visit_read(void *user, const Access *access) {
     Unused *self = user;
     if (access->statement) return;
@@ -96,8 +96,8 @@ static void visit_stored(void *user, const Access *access) {
     if (member && !member->read) edit_drop(&self->edits, access->statement, access->statement_end);
 }
 
-/* A write through a path of an unknown record may be one to a removed member; and a statement that does more
- * than write stays, with its member. */
+/* Marks a member as read if a statement that writes to it cannot be removed: the path may lead through another unread
+ * member of an unknown record, or the statement does more than write. */
 static void visit_unknown(void *user, const Access *access) {
     const Unused *self = user;
     if (access->statement && (access->record.kind != TOKEN_NAME ||
@@ -112,7 +112,7 @@ static void visit_all(Unused *self, void (*visit)(void *user, const Access *acce
     }
 }
 
-/* Every record keeps a member. */
+/* Marks one member of each record as read, so that no record becomes empty. */
 static void keep_one(Unused *self) {
     for (int k = 0, read = 0, first = 0; k < self->member_count; k++) {
         if (!token_same(self->members[k].record, self->members[first].record)) first = k, read = 0;
@@ -146,8 +146,8 @@ static void drop_members(Unused *self, const Item *record) {
     }
 }
 
-/* Those of one pass lose at most one name of each statement; the members that stay until the next pass are
- * not written to then, which does no harm. */
+/* Removes unread members with the statements that write to them, at most one name of each declaration. The others stay
+ * until the next pass, without being written to, which does no harm. */
 static void cut_members(Unused *self, const char *const *whole) {
     for (int k = 0; k < self->items->count; k++) {
         const Item *item = &self->items->all[k];
@@ -183,12 +183,12 @@ static bool take_arguments(Unused *self, const Item *function, int place, bool d
     return true;
 }
 
-/* One a function: the places of the others move. */
+/* Removes at most one unread parameter of each function, since the places of the others then change. */
 static void cut_parameters(Unused *self) {
     for (int k = 0; k < self->items->count; k++) {
         const Item *item = &self->items->all[k];
         const char *body;
-        if (!item->kept || item->asked || item->kind != ITEM_FUNCTION) continue;
+        if (!item->kept || item->named || item->kind != ITEM_FUNCTION) continue;
         List parameters = types_parameters(item, &body);
         for (int n = 0; n < parameters.count; n++) {
             if (token_found(body, item->end, types_parameter(&parameters, n).name)) continue;
@@ -203,8 +203,8 @@ static void cut_parameters(Unused *self) {
 /* A variable of a function. */
 typedef struct Use {
     Token name;
-    /* how often it is named behind its declaration, and written to by a statement that does nothing else; a
-     * declaration that does more names it too */
+    /* counts after its declaration: of its name, and of statements that only write to it; a declaration with a side
+     * effect counts as a name too */
     int named, stored;
 } Use;
 
@@ -268,7 +268,7 @@ static void list_uses(const Items *items, const char *c, const char *end, Uses *
     }
 }
 
-/* Variables that nothing but statements that write to them names, one of those that a statement declares. */
+/* Removes variables that only statements which write to them name, at most one of each declaration. */
 static void cut_variables(Unused *self, const Item *function) {
     const char *c, *end = function->end;
     Token before = {TOKEN_NONE, "", 0}, token;
@@ -291,7 +291,7 @@ static void cut_variables(Unused *self, const Item *function) {
     }
 }
 
-/* "T x = a; ... x = b;" where nothing names x in between: "T x = b;". */
+/* Makes of "T x = a; ... x = b;" the declaration "T x = b;" if nothing names x in between. */
 static void cut_value(Unused *self, const Statement *declared, const char *end) {
     const char *c = types_statement_end(declared->at, end), *piece = declared->names.all[0].at;
     Token name = token_solid(&piece, declared->names.all[0].end), before = {TOKEN_MARK, ";", 1}, token;
@@ -328,7 +328,7 @@ static void cut_values(Unused *self, const Item *function) {
     }
 }
 
-/* Calls of functions that have nothing left to do. */
+/* Removes calls of functions that have no effect any more. */
 static void cut_calls(Unused *self, const Item *function) {
     const char *c;
     Token before = {TOKEN_NONE, "", 0}, token;

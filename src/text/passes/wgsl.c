@@ -18,7 +18,7 @@ static const char *trimmed_end(const char *c, const char *end) {
     return end;
 }
 
-/* The first such mark outside of brackets, or end. */
+/* Returns the first such mark outside of brackets, or end. */
 static const char *find_mark(const char *c, const char *end, const char *mark) {
     for (Token token; (token = token_next(&c, end)).kind != TOKEN_NONE;) {
         if (token_is(token, mark)) return token.at;
@@ -27,7 +27,7 @@ static const char *find_mark(const char *c, const char *end, const char *mark) {
     return end;
 }
 
-/* The colon of the choice whose mark is at c. */
+/* Returns the colon of the choice whose "?" is at c. */
 static const char *find_colon(const char *c, const char *end) {
     int depth = 0;
     for (Token token; (token = token_next(&c, end)).kind != TOKEN_NONE;) {
@@ -40,13 +40,13 @@ static const char *find_colon(const char *c, const char *end) {
 
 static bool is_label(Token token) { return token_is(token, "case") || token_is(token, "default"); }
 
-/* Behind the colon of the label whose word ends at c. */
+/* Returns the end of the label whose first word ends at c. */
 static const char *label_end(const char *c, const char *end) {
     const char *colon = find_mark(c, end, ":");
     return colon < end ? colon + 1 : end;
 }
 
-/* The first "||" outside of brackets, or end. */
+/* Returns the first "||" outside of brackets, or end. */
 static const char *find_or(const char *c, const char *end) {
     while ((c = find_mark(c, end, "|")) < end && (c + 1 == end || c[1] != '|')) c++;
     return c;
@@ -76,7 +76,8 @@ static void put_tokens(const char *c, const char *end, Buffer *out) {
     }
 }
 
-/* WGSL does not say which of && and || binds closer. */
+/* Writes alternatives with "||" between, each in parentheses if it contains "&&": WGSL does not allow both without
+ * them. */
 static void put_alternatives(const char *c, const char *end, Buffer *out) {
     const char *bar = find_or(c, end);
     bool several = bar < end;
@@ -95,7 +96,7 @@ static void put_alternatives(const char *c, const char *end, Buffer *out) {
     }
 }
 
-/* With the blanks around it. */
+/* Writes an expression with the blanks around it. */
 static void put_expression(const char *c, const char *end, Buffer *out) {
     const char *mark = find_mark(c, end, "?");
     if (mark == end) {
@@ -148,7 +149,7 @@ static bool is_written(const Item *function, Token name) {
     return false;
 }
 
-/* The blanks that the line of c begins with; none where something else does. */
+/* Returns the blanks before c if its line begins with them, else nothing. */
 static Piece indent_of(const FunctionBody *body, const char *c) {
     const char *first = c;
     while (first > body->function->code && (first[-1] == ' ' || first[-1] == '\t')) first--;
@@ -156,14 +157,14 @@ static Piece indent_of(const FunctionBody *body, const char *c) {
     return line ? (Piece){first, c} : (Piece){c, c};
 }
 
-/* To a new line where the statement at c begins one. */
+/* Writes a new line if the statement at c begins one, else a space. */
 static void put_break(const FunctionBody *body, const char *c) {
     Piece indent = indent_of(body, c);
     buffer_put_text(body->out, indent.at < indent.end ? "\n" : " ");
     put(body->out, indent.at, indent.end);
 }
 
-/* "x[4]" of that type. */
+/* Writes the type of a variable; that of "x[4]" is an array. */
 static void put_type(Token type, const char *c, const char *end, Buffer *out) {
     Token bracket = token_solid(&c, end);
     bool array = token_is(bracket, "[");
@@ -175,7 +176,7 @@ static void put_type(Token type, const char *c, const char *end, Buffer *out) {
     buffer_put_text(out, ">");
 }
 
-/* One of the names of a declaration: "x = 1.0", "x" or "x[4]". */
+/* Writes the declaration of one name: "x = 1.0", "x" or "x[4]". */
 static void put_variable(const FunctionBody *body, Token type, Piece piece) {
     const char *c = piece.at, *value = find_mark(c, piece.end, "=");
     Token name = token_solid(&c, piece.end);
@@ -199,7 +200,7 @@ static void put_declaration(const FunctionBody *body, const char *c, Token type,
     }
 }
 
-/* "a = b" and "f(a)", without a semicolon. */
+/* Writes a statement without its semicolon: a declaration, "a = b" or "f(a)". */
 static void put_action(const FunctionBody *body, const char *c, const char *end) {
     const char *from = c;
     Token type, first = token_peek(c, end);
@@ -218,7 +219,7 @@ static void put_action(const FunctionBody *body, const char *c, const char *end)
 
 static const char *put_statement(const FunctionBody *body, const char *c, const char *from);
 
-/* Statements and what is between them, up to a brace or a case. */
+/* Writes statements and the blanks between them, up to a brace or a case. Returns the end of what was read. */
 static const char *put_statements(const FunctionBody *body, const char *c, const char *end) {
     for (;;) {
         const char *first = blank_end(c, end);
@@ -274,7 +275,7 @@ static const char *put_for(const FunctionBody *body, const char *c, const char *
     return put_branch(body, close, from);
 }
 
-/* "case A: default:" at c as "case A, default: {"; behind it. */
+/* Writes "case A: default:" at c as "case A, default: {". Returns the end of the labels. */
 static const char *put_labels(const FunctionBody *body, const char *c, const char *end) {
     Token label = token_solid(&c, end);
     const char *next = label_end(c, end);
@@ -295,7 +296,7 @@ static const char *put_labels(const FunctionBody *body, const char *c, const cha
     return next;
 }
 
-/* A case has braces, and nothing falls out of it. */
+/* Writes a case in braces and without its break, since cases of WGSL do not fall through. Returns the end of it. */
 static const char *put_case(const FunctionBody *body, const char *c, const char *end) {
     size_t size;
     Piece indent = indent_of(body, c);
@@ -343,7 +344,7 @@ static const char *put_while(const FunctionBody *body, const char *c, const char
     return put_branch(body, token_closed(open, end), from);
 }
 
-/* The statement at c; behind it. */
+/* Writes the statement at c. Returns the end of it. */
 static const char *put_statement(const FunctionBody *body, const char *c, const char *from) {
     const char *end = body->function->end, *stop;
     Token first = token_peek(c, end);
@@ -377,7 +378,7 @@ static void put_parameters(const Item *function, const List *list, Buffer *out) 
     put(out, c, list_end(list, function->end));
 }
 
-/* "var x = x_in;" of what is written to. */
+/* Writes "var x = x_in;" for each parameter that the body writes to. */
 static void put_copies(const Item *function, const List *list, const char *body, Buffer *out) {
     bool line = !memchr(body, '\n', (size_t)(function->end - body));
     for (int k = 0; k < list->count; k++) {
@@ -409,7 +410,7 @@ void wgsl_put_function(const Item *function, Buffer *out) {
     put(out, put_statements(&body, open + 1, function->end - 1), function->end);
 }
 
-/* "float a, b" as "a: float, b: float". */
+/* Writes "float a, b" as "a: float, b: float". */
 static void put_member(const char *c, const char *end, Buffer *out) {
     Token type = token_solid(&c, end);
     for (const char *comma; c < end; c = comma + 1) {
@@ -436,7 +437,7 @@ void wgsl_put_members(const Item *record, Buffer *out) {
     put(out, c, close + 1);
 }
 
-/* Takes a statement. Returns true if control never reaches the one behind it in its case. */
+/* Takes a statement. Returns true if control never reaches the next one in its case. */
 static bool take_leaving(const char **c, const char *end) {
     const char *first = blank_end(*c, end);
     Token token = token_solid(c, end), next = token_peek(*c, end);

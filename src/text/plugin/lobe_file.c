@@ -13,7 +13,7 @@
 #include "text/assemble/text.h"
 #include "text/plugin/plugin_compile.h"
 
-/* All that a lobe keeps, in one piece. */
+/* A loaded lobe with its strings, in one allocation. */
 typedef struct LobeFile {
     OutsideLobe lobe;
     WeftParamInfo params[LOBE_PARAMS_MAX];
@@ -27,7 +27,8 @@ static WeftResult refuse(WeftError *error, const char *path, const char *why) {
     return fail(error, WEFT_MESSAGE_LOBE_FILE, path, "%s", why);
 }
 
-/* The name in front of ".h", in which an id, functions and macros can be called; false where it is none. */
+/* Sets the name before ".h", from which the names of id, functions and macros are made. Returns false if it does not
+ * serve. */
 static bool name_of(const char *path, char name[NAME_MOST + 1]) {
     const char *slash = strrchr(path, '/'), *base = slash ? slash + 1 : path;
     size_t size = strlen(base);
@@ -40,7 +41,8 @@ static bool name_of(const char *path, char name[NAME_MOST + 1]) {
     return !strstr(name, "__") && name[strlen(name) - 1] != '_'; /* "a_" and "a__b" would have A and AB */
 }
 
-/* "two_words": two-words, TwoWords and TWO_WORDS, as cmake/lobes.cmake has them. */
+/* Sets the names of a lobe: those of "two_words" are two-words, TwoWords and TWO_WORDS, as cmake/lobes.cmake makes
+ * them. */
 static void set_names(LobeFile *own, const char *name) {
     char *record = own->record;
     bool first = true;
@@ -88,7 +90,7 @@ static bool is_defined(const LobeFile *own, const char *text) {
     return strstr(text, words) != NULL;
 }
 
-/* Its names are those of no other lobe, nor of the dialect. */
+/* Fails if a name of the lobe is one of another lobe or of the dialect. */
 static WeftResult check_names(const LobeFile *own, const char *path, WeftError *error) {
     int id = weft_lobe_find(own->id);
     if (id >= 0 && id < LOBE_COUNT)
@@ -109,7 +111,7 @@ static WeftResult check_names(const LobeFile *own, const char *path, WeftError *
     return WEFT_OK;
 }
 
-/* Tests that the file has all the parts of a lobe, and names a part that is missing. */
+/* Fails if the file lacks a part of a lobe, with its name. */
 static WeftResult check_parts(const LobeFile *own, const char *path, WeftError *error) {
     const char *const parts[][2] = {{own->macros, "_PARAMS("},
                                     {own->macros, "_TRAITS"},
@@ -127,7 +129,7 @@ static WeftResult check_parts(const LobeFile *own, const char *path, WeftError *
                : WEFT_OK;
 }
 
-/* Tests that the file is in the shading dialect, from which a shader can be made. */
+/* Fails if the file is not in the shading dialect, from which a shader can be made. */
 static WeftResult check_dialect(const LobeFile *own, const char *path, WeftError *error) {
     Text text;
     Buffer bytes = {0};
@@ -140,21 +142,21 @@ static WeftResult check_dialect(const LobeFile *own, const char *path, WeftError
     return result;
 }
 
-/* It is written into the comments of what is exported. */
+/* Returns true if a help text can be written into the comments of exported text. */
 static bool fits_comment(const char *help) {
     for (const char *c = help; *c; c++)
         if ((unsigned char)*c < 0x20 || *c == 0x7f) return false;
     return !strstr(help, "*/");
 }
 
-/* A whole number among the choices, in all its range. */
+/* Returns true if the range of a parameter is within its choices and its default is an integer. */
 static bool is_choice(const PluginParam *p, const char *const *choices) {
     int count = 0;
     while (choices[count]) count++;
     return p->hard_low >= 0.0f && p->hard_high < (float)count && !(floorf(p->def) < p->def);
 }
 
-/* Why it is no parameter; NULL where it is one. */
+/* Returns the reason why a parameter is refused, or NULL. */
 static const char *fault_of(const PluginParam *p, const char *const *choices) {
     const float numbers[] = {p->def, p->low, p->high, p->hard_low, p->hard_high};
     for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
@@ -182,7 +184,7 @@ static WeftResult take_params(LobeFile *own, const Plugin *plugin, const char *p
     return WEFT_OK;
 }
 
-/* A record of so many bytes in a place of so many floats. */
+/* Fails if a record of `size` bytes does not fit into `most` floats. */
 static WeftResult check_size(const char *record, const char *kind, size_t size, size_t most, const char *path,
                              WeftError *error) {
     if (size <= most * sizeof(float)) return WEFT_OK;

@@ -27,7 +27,7 @@ typedef struct Flat {
 
 static void put_file(Flat *flat, const char *file, const char *bytes);
 
-/* A file of the catalogue, once. */
+/* Appends a file of the catalogue, unless the text has it. */
 static void put_included(Flat *flat, const char *file) {
     CatalogueFile found;
     if (!catalogue_find(file, &found) || flat->count == INCLUDED_MAX) {
@@ -40,7 +40,7 @@ static void put_included(Flat *flat, const char *file) {
     put_file(flat, found.name, found.bytes);
 }
 
-/* A file, and what it includes in its place. */
+/* Appends a file, with included files in place of their #include. */
 static void put_file(Flat *flat, const char *file, const char *bytes) {
     int line = 1;
     buffer_print(&flat->text, "#line 1 \"%s\"\n", file);
@@ -64,7 +64,7 @@ static bool has_function(const LobeNames *names, const char *bytes, const char *
     return strstr(bytes, head) != NULL;
 }
 
-/* Both halves of a plugin. */
+/* Appends both halves of a plugin: its loops, which are compiled with PLUGIN_LOOPS, and the rest. */
 static void put_plugin(Flat *flat, const LobeNames *names, const char *bytes) {
     const char *name = names->prefix, *record = names->record, *macros = names->macros;
     bool second = has_function(names, bytes, "float", "second");
@@ -122,7 +122,8 @@ static void work_name(CompileWork *work) {
     snprintf(work->log, sizeof work->log, "%s/log", work->folder);
 }
 
-/* Beside the cache's file, which the library is to become by a change of its name; or in /tmp. */
+/* Makes the folder of a compilation, beside the cache's file, so that the library can be renamed to it; without one in
+ * /tmp. Returns false on failure. */
 static bool work_begin(CompileWork *work, const char *cached) {
     const char *slash = cached ? strrchr(cached, '/') : NULL;
     snprintf(work->folder, sizeof work->folder, "%.*s/lobe-XXXXXX", slash ? (int)(slash - cached) : 4,
@@ -163,7 +164,7 @@ typedef struct Compiler {
     int count;
 } Compiler;
 
-/* $CC, in words, or cc; false where it is too long. */
+/* Splits $CC, or "cc" without it, into words. Returns false if it is too long. */
 static bool compiler_choose(Compiler *compiler) {
     const char *chosen = getenv("CC");
     char *rest = NULL;
@@ -177,7 +178,7 @@ static bool compiler_choose(Compiler *compiler) {
     return true;
 }
 
-/* Half 0, the loops, or 1, all the rest with them. */
+/* Compiles half 0, the loops, or half 1, the rest, and links it with the loops. Returns the compiler's exit status. */
 static int compile_half(const CompileWork *work, const Compiler *compiler, int half) {
     const char *arguments[40] = {0};
     int count = compiler->count;
@@ -192,16 +193,16 @@ static int compile_half(const CompileWork *work, const Compiler *compiler, int h
 
 /* Errors. */
 
-/* "toy.h:12:5: error: WORDS" becomes "PATH:12: does not compile: WORDS". */
+/* Fails with a compiler's error: "toy.h:12:5: error: WORDS" becomes "PATH:12: does not compile: WORDS". */
 static WeftResult fail_line(const char *line, const char *path, const char *file, int more,
                             WeftError *error) {
     char place[400], others[40] = "", words[300];
     int number = 0;
     size_t size = strlen(file);
-    const char *said = strstr(line, "error: ") + strlen("error: ");
-    const char *option = strstr(said, " [-W"); /* of the compiler, which nobody has typed */
-    int length = (int)(option ? (size_t)(option - said) : strlen(said));
-    snprintf(words, sizeof words, "%.*s", length, said);
+    const char *message = strstr(line, "error: ") + strlen("error: ");
+    const char *option = strstr(message, " [-W"); /* an option that the user has not typed */
+    int length = (int)(option ? (size_t)(option - message) : strlen(message));
+    snprintf(words, sizeof words, "%.*s", length, message);
     if (more) snprintf(others, sizeof others, "; and %d more error%s", more, more > 1 ? "s" : "");
     if (strncmp(line, file, size) != 0 || sscanf(line + size, ":%d", &number) != 1)
         return fail(error, WEFT_MESSAGE_LOBE_COMPILE, path, "%.*s: %s%s", (int)strcspn(line, ":"), line,
@@ -210,7 +211,7 @@ static WeftResult fail_line(const char *line, const char *path, const char *file
     return fail(error, WEFT_MESSAGE_LOBE_COMPILE, place, "%s%s", words, others);
 }
 
-/* Returns the compiler's first error, else its last line. */
+/* Fails with the compiler's first error, else its last line. */
 static WeftResult fail_compile(const CompileWork *work, const char *path, const char *file,
                                WeftError *error) {
     FileBytes log;
@@ -251,9 +252,9 @@ static WeftResult compile(const CompileWork *work, const Compiler *compiler, con
 
 /* Loading it. */
 
-/* NULL where it cannot be: dlerror says why. */
+/* Loads a library. Returns NULL on failure, with the reason in dlerror. */
 static const Plugin *load(const char *library) {
-    void *handle = dlopen(library, RTLD_NOW | RTLD_LOCAL); /* never closed: stacks hold its functions */
+    void *handle = dlopen(library, RTLD_NOW | RTLD_LOCAL); /* never closed: stacks contain its functions */
     void *symbol = handle ? dlsym(handle, PLUGIN_ENTRY) : NULL;
     PluginEntry *entry;
     memcpy(&entry, &symbol, sizeof entry);
@@ -270,8 +271,8 @@ static uint64_t key_of(const Buffer *text, const Compiler *compiler) {
     return hash;
 }
 
-/* Finds the place in the cache. Returns false if there is no cache or others can write to it, since a loaded
- * file is run. / */
+/* Sets the library's path in the cache. Returns false if there is no cache, or others can write to it, since a loaded
+ * file is run. */
 static bool find_place(char cached[CACHE_PATH_SIZE], uint64_t key) {
     if (!cache_folder_make() || !cache_path(cached, key, "so")) return false;
     char *slash = strrchr(cached, '/');
@@ -282,7 +283,7 @@ static bool find_place(char cached[CACHE_PATH_SIZE], uint64_t key) {
     return is_private;
 }
 
-/* A library that is not kept is made again. */
+/* Moves a library to the cache; warns on failure, since it is then compiled again each time. */
 static void keep(const char *library, const char *cached, const WeftLog *log) {
     if (chmod(library, 0700) != 0 || rename(library, cached) != 0)
         warn(log, WEFT_MESSAGE_CACHE_IGNORED, cached,

@@ -7,14 +7,14 @@
 
 #include "base/memory.h"
 
-/* From this place on, up to the next mark, bytes have one origin. */
+/* The origin of the bytes from a place up to the next mark. */
 typedef struct BufferMark {
     size_t at;
     Origin origin;
 } BufferMark;
 
-/* The first mark behind that place. */
-static size_t mark_behind(const Buffer *buffer, size_t at) {
+/* Returns the index of the first mark after a place. */
+static size_t mark_after(const Buffer *buffer, size_t at) {
     size_t low = 0, high = buffer->mark_count;
     while (low < high) {
         size_t middle = (low + high) / 2;
@@ -27,26 +27,26 @@ static size_t mark_behind(const Buffer *buffer, size_t at) {
 }
 
 Origin buffer_origin(const Buffer *buffer, size_t at) {
-    size_t behind = mark_behind(buffer, at);
-    return behind ? buffer->marks[behind - 1].origin : (Origin){0};
+    size_t next = mark_after(buffer, at);
+    return next ? buffer->marks[next - 1].origin : (Origin){0};
 }
 
-/* Says where the bytes put at the end come from, and forgets it of those that were there before. */
+/* Records the origin of the bytes that are put next, and drops marks of bytes that were removed. */
 static void put_mark(Buffer *buffer) {
     while (buffer->mark_count && buffer->marks[buffer->mark_count - 1].at >= buffer->size)
         buffer->mark_count--;
     Origin last = {0}, now = buffer->origin;
     if (buffer->mark_count) last = buffer->marks[buffer->mark_count - 1].origin;
     if (last.file == now.file && last.line == now.line) return;
-    if (buffer->mark_count == buffer->mark_room) {
-        size_t room = 2 * buffer->mark_room + 16;
-        BufferMark *grown = realloc_array(buffer->marks, room, sizeof *grown);
+    if (buffer->mark_count == buffer->mark_capacity) {
+        size_t capacity = 2 * buffer->mark_capacity + 16;
+        BufferMark *grown = realloc_array(buffer->marks, capacity, sizeof *grown);
         if (!grown) {
             buffer->failed = true;
             return;
         }
         buffer->marks = grown;
-        buffer->mark_room = room;
+        buffer->mark_capacity = capacity;
     }
     buffer->marks[buffer->mark_count++] = (BufferMark){buffer->size, now};
 }
@@ -57,15 +57,15 @@ void buffer_put(Buffer *buffer, const char *bytes, size_t size) {
         buffer->failed = true;
         return;
     }
-    if (buffer->size + size + 1 > buffer->room) {
-        size_t room = 2 * (buffer->size + size + 1);
-        char *grown = realloc_array(buffer->bytes, room, 1);
+    if (buffer->size + size + 1 > buffer->capacity) {
+        size_t capacity = 2 * (buffer->size + size + 1);
+        char *grown = realloc_array(buffer->bytes, capacity, 1);
         if (!grown) {
             buffer->failed = true;
             return;
         }
         buffer->bytes = grown;
-        buffer->room = room;
+        buffer->capacity = capacity;
     }
     put_mark(buffer);
     memcpy(buffer->bytes + buffer->size, bytes, size);

@@ -1,4 +1,4 @@
-/* buffer.h - text that grows, and remembers where each of its bytes comes from */
+/* buffer.h - text that grows, and stores the origin of each of its bytes */
 #ifndef WEFT_TEXT_BUFFER_H
 #define WEFT_TEXT_BUFFER_H
 
@@ -12,14 +12,14 @@ typedef struct Origin {
 } Origin;
 
 /* Zero-initialise. bytes ends with a zero byte that size does not count, and is NULL until something is put.
- * The owner may make size smaller: what is put next takes the place of the rest. */
+ * The owner may make size smaller, which removes the bytes after it. */
 typedef struct Buffer {
     char *bytes;
-    size_t size, room;
+    size_t size, capacity;
     bool failed;   /* memory ran out, or the text passed BUFFER_LIMIT; nothing more is put */
-    Origin origin; /* of what is put from now on; the owner sets it */
+    Origin origin; /* of the bytes put from now on; the owner sets it */
     struct BufferMark *marks;
-    size_t mark_count, mark_room;
+    size_t mark_count, mark_capacity;
 } Buffer;
 
 enum { BUFFER_LIMIT = 1 << 24 };

@@ -61,8 +61,8 @@ void layout_strip(const char *source, const char *end, bool keep, Buffer *out) {
     }
 }
 
-/* One declaration or function: up to the brace that closes it or, for a record or a block of uniforms, to the
- * semicolon behind. */
+/* Returns the end of the declaration or function at c: the brace that closes it or, for a record or a block of
+ * uniforms, the semicolon after that. */
 static const char *item_end(const char *c, const char *end) {
     const char *first = c;
     Token keyword = token_next(&first, end);
@@ -105,7 +105,7 @@ static void set_origin(const Buffer *source, const char *c, Buffer *out) {
     out->origin = buffer_origin(source, (size_t)(c - source->bytes));
 }
 
-/* struct Name { members }; a line each where there are several. */
+/* Writes "struct Name { members };", with a line a member if there are several. */
 static void put_record(const Buffer *source, const char *c, const char *end, Buffer *out) {
     const char *open = find_mark(c, end, "{"), *close = end;
     while (close > open && *close != '}') close--;
@@ -132,7 +132,7 @@ static bool has_comment(const char *c, const char *end) {
     return c < end;
 }
 
-/* enum { A, B = 4, C } as constants; GLSL has no enumerations. */
+/* Writes enum { A, B = 4, C } as constants, since GLSL has no enumerations. */
 static void put_enumeration(const Buffer *source, const char *c, const char *end, Buffer *out) {
     const char *m = find_mark(c, end, "{") + 1, *close = find_mark(m, end, "}");
     char last[64] = "";
@@ -175,8 +175,8 @@ static const char *wrong_in(const Buffer *source, const char *c, const char *end
     return NULL;
 }
 
-/* The text as it is, without blanks at line ends. */
-static void put_plain(const Buffer *source, const char *c, const char *end, Buffer *out) {
+/* Writes the text without blanks at line ends. */
+static void put_trimmed(const Buffer *source, const char *c, const char *end, Buffer *out) {
     while (c < end) {
         const char *stop = find_mark(c, end, "\n"), *solid = stop;
         while (solid > c && is_blank(solid[-1])) solid--;
@@ -209,14 +209,14 @@ const char *layout_put(const Buffer *source, bool *gap, Buffer *out) {
         }
         if ((*gap || newlines > 1) && out->size) buffer_put(out, "\n", 1);
         *gap = false;
-        put_plain(source, comment, c, out);
+        put_trimmed(source, comment, c, out);
         set_origin(source, c, out);
         if (record && !has_comment(c, stop))
             put_record(source, c, stop - 1, out);
         else if (enumeration)
             put_enumeration(source, c, stop, out);
         else
-            put_plain(source, c, stop, out);
+            put_trimmed(source, c, stop, out);
         buffer_put(out, "\n", 1);
         c = stop;
     }

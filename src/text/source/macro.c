@@ -2,7 +2,7 @@
 
 #include <stdio.h>
 
-/* Far more than any table needs: what passes these expands without end. */
+/* Limits far above the needs of any table: a macro that exceeds them expands without end. */
 enum { PARAMS_MAX = 16, DEPTH_MAX = 256, STEPS_MAX = 1 << 20, BYTES_MAX = 1 << 22 };
 
 typedef struct Macro {
@@ -35,8 +35,8 @@ void macro_undefine(Macros *macros, Token name) {
     if (macro) macro->gone = true;
 }
 
-/* The definition on lines of its own: continued lines become plain ones, indented as the rows of a table are.
- */
+/* Copies a definition with its continued lines as ordinary ones, indented as the rows of a table are. Returns NULL if
+ * memory is short. */
 static char *copy_joined(Macros *macros, const char *c, size_t size) {
     char *copy = arena_array(&macros->arena, 4 * size + 1, 1), *out = copy;
     if (!copy) return NULL;
@@ -93,7 +93,8 @@ void macro_define(Macros *macros, const char *definition, size_t size) {
     macros->newest = macro;
 }
 
-/* The arguments of a call as they are written, the cursor behind the opening parenthesis; how many, or -1. */
+/* Takes the unexpanded arguments of a call from the cursor, which is after the opening parenthesis. Returns their
+ * number, or -1 if the call does not end or has too many. */
 static int take_arguments(const char **cursor, const char *end, Token arguments[PARAMS_MAX]) {
     int count = 0, depth = 0;
     const char *start = *cursor;
@@ -125,7 +126,7 @@ static bool pastes_next(const char *cursor, const char *end) {
     return token_is(token_solid(&cursor, end), "##");
 }
 
-/* Appends the body with arguments in place of parameters. Beside ## an argument is taken as it is written. */
+/* Appends the body with arguments in place of parameters. Beside ## arguments are not expanded. */
 static void substitute(Macros *macros, const Macro *macro, const Token *arguments, Buffer *out) {
     bool pasted = false;
     for (const char *c = macro->body; c < macro->end;) {
@@ -135,7 +136,7 @@ static void substitute(Macros *macros, const Macro *macro, const Token *argument
             pasted = true;
             continue;
         }
-        if (token_is(token, "#") && c < macro->end) { /* text of an argument: only ever for C */
+        if (token_is(token, "#") && c < macro->end) { /* an argument as a string, which only C reads */
             token_next(&c, macro->end);
             buffer_put_text(out, "\"\"");
             continue;
@@ -182,7 +183,7 @@ static bool expand_call(Macros *macros, Macro *macro, const char **cursor, const
     return true;
 }
 
-/* Behind an expansion to nothing: a line that held only that is gone, and so is the space that followed. */
+/* Removes, after an empty expansion, the line if it contained nothing else, or else the space after the macro. */
 static void close_gap(const char **source, const char *end, Buffer *out) {
     const char *next = *source;
     size_t line = out->size;

@@ -1,6 +1,6 @@
-/* macro.h - the macros of shading text, defined and expanded as C does: tables of rows, token pasting, calls
- * in arguments. Not there, since no table needs it: variable arguments, and a call whose name and parenthesis
- * come from different macros. */
+/* macro.h - the macros of shading text, defined and expanded as in C: tables of rows, token pasting, calls in arguments
+ *
+ * DOES NOT: have variable arguments, or calls whose name and parenthesis come from different macros; none is needed. */
 #ifndef WEFT_TEXT_MACRO_H
 #define WEFT_TEXT_MACRO_H
 
@@ -13,18 +13,19 @@ typedef struct Macros {
     Arena arena;
     struct Macro *newest;
     bool short_of_memory;
-    int depth, steps; /* calls inside each other now; expansions so far */
-    size_t bytes;     /* of what macros stood for so far */
-    char wrong[96];   /* what cannot be a macro or a call; empty while all is well */
+    int depth;      /* nested calls now */
+    int steps;      /* expansions so far */
+    size_t bytes;   /* of expanded text so far */
+    char wrong[96]; /* message on the first bad definition or call; empty without one */
 } Macros;
 
-/* Takes what follows "#define", which may run over several lines. A later definition wins. */
+/* Defines a macro from the text after "#define", which may have several lines. A later definition wins. */
 void macro_define(Macros *macros, const char *definition, size_t size);
 
 void macro_undefine(Macros *macros, Token name);
 bool macro_defined(const Macros *macros, Token name);
 
-/* Takes one token from [*source, end), or the call that it begins, and appends what that stands for. */
+/* Takes one token from [*source, end), or the call that it begins, and appends its expansion. */
 void macro_next(Macros *macros, const char **source, const char *end, Buffer *out);
 
 /* Appends [source, end) with every macro expanded. */

@@ -8,8 +8,8 @@ static void put(const Buffer *source, Token token, Buffer *out) {
     buffer_put(out, token.at, token.size);
 }
 
-/* "const T *" or "T *" at c, in a list of parameters: its type, with inout where it is written. Behind it, or
- * c itself where there is none. */
+/* Writes "const T *" at c, in a list of parameters, as "T", and "T *" as "inout T". Returns the end of it, or c if
+ * there is none. */
 static const char *put_parameter(const Buffer *source, const char *c, const char *end, Buffer *out) {
     const char *cursor = c;
     Token type = token_solid(&cursor, end);
@@ -23,19 +23,20 @@ static const char *put_parameter(const Buffer *source, const char *c, const char
     return cursor;
 }
 
-/* An operator behind this has one operand. */
+/* Returns true if an operator after this token has one operand. */
 static bool is_open(Token last) {
     if (last.kind == TOKEN_NAME)
         return token_is(last, "return") || token_is(last, "else") || token_is(last, "do");
     return last.kind == TOKEN_MARK && !token_is(last, ")") && !token_is(last, "]");
 }
 
-/* After this token, brackets hold a condition and not an operand. */
+/* Returns true if brackets after this token contain a condition and not an operand. */
 static bool has_condition(Token last) {
     return token_is(last, "if") || token_is(last, "for") || token_is(last, "while");
 }
 
-/* A token of a function's body, without what makes or follows a reference. Returns where to go on. */
+/* Writes a token of a function's body, without operators that make or follow a reference. Returns the end of the source
+ * that was read. */
 static const char *put_body(const Buffer *source, Token token, Token last, const char *c, const char *end,
                             Buffer *out) {
     bool same = c < end && *c == *token.at;
@@ -44,7 +45,7 @@ static const char *put_body(const Buffer *source, Token token, Token last, const
         buffer_put_text(out, ".");
         return c + 1;
     }
-    if (token_is(token, "&") && same) { /* a condition's */
+    if (token_is(token, "&") && same) { /* && of a condition */
         token.size = 2;
         put(source, token, out);
         return c + 1;

@@ -1,15 +1,14 @@
 /* reference.h - the references of the dialect (shading/dialect/lang.h) as GLSL has them
  *
  *   const T *m    T m           a parameter that is read
- *   T *m          inout T m     one that is written
+ *   T *m          inout T m     a parameter that is written
  *   m->x, &x, *m  m.x, x, m */
 #ifndef WEFT_TEXT_REFERENCE_H
 #define WEFT_TEXT_REFERENCE_H
 
 #include "text/source/buffer.h"
 
-/* Appends the declarations and functions of source, in which nothing is left to expand; each byte keeps its
- * origin. */
+/* Appends the declarations and functions of source, in which macros are expanded; each byte keeps its origin. */
 void reference_put(const Buffer *source, Buffer *out);
 
 #endif

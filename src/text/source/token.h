@@ -15,8 +15,7 @@ typedef enum TokenKind {
     TOKEN_MARK
 } TokenKind;
 
-/* A piece of the text it was cut from. A TOKEN_MARK is one character, or "##". What comments are there count
- * as blank. */
+/* A piece of the text it was cut from. A TOKEN_MARK is one character, or "##". Comments count as blank. */
 typedef struct Token {
     TokenKind kind;
     const char *at;
@@ -29,7 +28,7 @@ static inline bool is_name(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || is_digit(c);
 }
 
-/* Returns the last character of the string that opens at c, or end. */
+/* Returns the end of the string that opens at c, or end. */
 static inline const char *string_end(const char *c, const char *end) {
     for (c++; c < end && *c != '"'; c++)
         if (*c == '\\' && c + 1 < end) c++;
@@ -40,13 +39,13 @@ static inline bool is_comment(const char *c, const char *end) {
     return c + 1 < end && c[0] == '/' && c[1] == '*';
 }
 
-/* Behind the comment that opens at c, or end. */
+/* Returns the end of the comment that opens at c, or end. */
 static inline const char *comment_end(const char *c, const char *end) {
     for (c += 2; c + 1 < end && (c[0] != '*' || c[1] != '/');) c++;
     return c + 1 < end ? c + 2 : end;
 }
 
-/* Behind the blanks and comments at c, or end. */
+/* Returns the end of the blanks and comments at c, or end. */
 static inline const char *blank_end(const char *c, const char *end) {
     while (c < end && (is_blank(*c) || is_comment(c, end))) c = is_blank(*c) ? c + 1 : comment_end(c, end);
     return c;
@@ -79,7 +78,7 @@ static inline Token token_next(const char **cursor, const char *end) {
     return token;
 }
 
-/* The next token that is not blank. */
+/* Takes the next token that is not blank. */
 static inline Token token_solid(const char **cursor, const char *end) {
     Token token = token_next(cursor, end);
     return token.kind == TOKEN_BLANK ? token_next(cursor, end) : token;
@@ -93,7 +92,7 @@ static inline bool token_same(Token a, Token b) {
     return a.size == b.size && memcmp(a.at, b.at, a.size) == 0;
 }
 
-/* The next solid token, which is not taken. */
+/* Returns the next token that is not blank, without taking it. */
 static inline Token token_peek(const char *c, const char *end) { return token_solid(&c, end); }
 
 static inline int token_depth(Token token) {
@@ -102,7 +101,7 @@ static inline int token_depth(Token token) {
            (*token.at == ')' || *token.at == '}' || *token.at == ']');
 }
 
-/* Behind the bracket that closes the one at c. */
+/* Returns the end of the bracket that closes the one at c, or end. */
 static inline const char *token_closed(const char *c, const char *end) {
     int depth = 0;
     for (Token token; (token = token_next(&c, end)).kind != TOKEN_NONE;) {
