@@ -33,8 +33,8 @@ void weft_scene_free(WeftScene *scene) {
     free(scene);
 }
 
-/* Returns the list with room for one more, which it has up to each power of two; NULL: memory is short. */
-static void *with_room(WeftScene *scene, void *list, int count) {
+/* Returns the list with capacity for one more entry; it grows at each power of two. Returns NULL if memory is short. */
+static void *with_capacity(WeftScene *scene, void *list, int count) {
     const size_t had = (size_t)count;
     if ((had & (had - 1)) != 0) return list;
     void **longer = arena_array(&scene->arena, 2 * had + 1, sizeof *longer);
@@ -48,7 +48,7 @@ int scene_adopt_cloth(WeftScene *scene, WeftCloth *cloth) {
             weft_cloth_free(cloth);
             return k + 1;
         }
-    WeftCloth **cloths = with_room(scene, scene->cloths, scene->cloth_count);
+    WeftCloth **cloths = with_capacity(scene, scene->cloths, scene->cloth_count);
     if (!cloths) return 0;
     scene->cloths = cloths;
     scene->cloths[scene->cloth_count] = cloth;
@@ -63,7 +63,7 @@ int scene_adopt_measured(WeftScene *scene, Measured *measured) {
             return k + 1;
         }
     }
-    Measured **list = with_room(scene, scene->measured, scene->measured_count);
+    Measured **list = with_capacity(scene, scene->measured, scene->measured_count);
     if (!list) return 0;
     scene->measured = list;
     scene->measured[scene->measured_count] = measured;
@@ -145,7 +145,7 @@ const char *scene_names(const WeftScene *scene, const char *(*name)(const WeftSc
     return text;
 }
 
-/* From -1, none. */
+/* Sets the materials of variant v; -1: none. */
 static void use_variant(WeftScene *scene, int v) {
     scene->variant = v + 1;
     for (int m = 0; m < scene->mesh_count; m++) {
@@ -185,7 +185,7 @@ WeftResult weft_scene_set_environment_file(WeftScene *scene, const char *path, c
     weft_image_free(&scene->environment.image);
     scene->environment.image = linear;
     scene->environment.kind = ENVIRONMENT_IMAGE;
-    scene->environment.turn++;
+    scene->environment.version++;
     return WEFT_OK;
 }
 
@@ -195,7 +195,7 @@ WeftResult weft_scene_set_environment_color(WeftScene *scene, const float color[
             return fail(error, WEFT_MESSAGE_DESC, "environment color", "%g", (double)color[c]);
     weft_image_free(&scene->environment.image);
     scene->environment.kind = ENVIRONMENT_CONSTANT;
-    scene->environment.turn++;
+    scene->environment.version++;
     memcpy(scene->environment.color, color, sizeof scene->environment.color);
     return WEFT_OK;
 }
@@ -207,7 +207,7 @@ WeftResult weft_scene_set_environment_studio(WeftScene *scene, WeftError *error)
     weft_image_free(&scene->environment.image);
     scene->environment.kind = ENVIRONMENT_STUDIO;
     scene->environment.image = image;
-    scene->environment.turn++;
+    scene->environment.version++;
     environment_give_way(scene);
     return WEFT_OK;
 }

@@ -58,7 +58,7 @@ static WeftScene *shaded(bool slab) {
     weft_image_free(&scene->environment.image);
     scene->environment.image = sky;
     scene->environment.kind = ENVIRONMENT_IMAGE;
-    scene->environment.turn++;
+    scene->environment.version++;
     return scene;
 }
 

@@ -82,7 +82,7 @@ static void put_sky(WeftScene *scene, float blue) {
     weft_image_free(&scene->environment.image);
     scene->environment.image = sky;
     scene->environment.kind = ENVIRONMENT_IMAGE;
-    scene->environment.turn++;
+    scene->environment.version++;
 }
 
 /* Two balls with a gloss and a sheen of other roughnesses, which share a program. */

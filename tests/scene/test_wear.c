@@ -85,13 +85,13 @@ static void picture_is_bound_to_an_input(void **state) {
     assert_null(weft_scene_texture(scene, 0).pixels);
     /* the same file again, for another input: read again, once in the scene */
     draw("a.png", 6, 50);
-    unsigned turn = scene->textures[input->texture - 1].turn;
+    unsigned version = scene->textures[input->texture - 1].version;
     assert_int_equal(weft_scene_set_texture(scene, "*.nap", in_folder("a.png"), NULL, &error), WEFT_OK);
     assert_int_equal(scene->image_count, images + 1);
     assert_int_equal(named(scene, "light-2")->inputs[INPUT_nap].texture, input->texture);
     assert_true(fabsf(named(scene, "light-2")->inputs[INPUT_nap].value[0] - 0.785398f) < 1e-6f);
     assert_int_equal(weft_scene_texture(scene, input->texture).width, 6);
-    assert_int_equal(scene->textures[input->texture - 1].turn, turn + 1);
+    assert_int_equal(scene->textures[input->texture - 1].version, version + 1);
     assert_int_equal(weft_scene_set_texture(scene, "dark-1.opacity", in_folder("a.png"), NULL, &error),
                      WEFT_OK);
     assert_int_equal(named(scene, "dark-1")->alpha_mode, WEFT_ALPHA_BLEND);

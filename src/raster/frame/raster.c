@@ -84,12 +84,12 @@ static WeftResult update_environment(WeftRaster *self, const WeftLog *log, WeftE
                                 .user = &watched};
     self->shines = environment_shines(environment);
     if (!self->shines) return WEFT_OK;
-    if (self->environment.buffer && self->turn == environment->turn) {
+    if (self->environment.buffer && self->turn == environment->version) {
         environment_place(&self->environment, environment);
         return gl_check(error, "an environment");
     }
     environment_destroy(&self->environment);
-    self->turn = environment->turn;
+    self->turn = environment->version;
     WeftResult result = environment_create(environment, &how, &self->environment, log, error);
     self->shines = result == WEFT_OK;
     return result;
@@ -106,7 +106,7 @@ static WeftResult upload(WeftRaster *self, const WeftLog *log, WeftError *error)
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     WeftResult result = lookout_create(&self->lookout, scene, self->desc.occlusion, threads, error);
     if (result == WEFT_OK) result = meshes_create(scene, &self->lookout.refinement, &self->meshes, error);
-    self->shape_turn = scene->shape_turn;
+    self->shape_turn = scene->shape_version;
     if (result == WEFT_OK) result = textures_create(scene, threads, &self->textures, log, error);
     if (result == WEFT_OK)
         result = materials_create(scene, &self->textures, threads, &self->materials, error);
@@ -515,7 +515,7 @@ static WeftResult draw_all(WeftRaster *self, const View *seen, const WeftRasterV
 
 /* Uploads nothing where shapes of lights have changed, before the update that takes them. */
 static WeftResult take_occlusion(WeftRaster *self, bool wait, WeftError *error) {
-    if (self->shape_turn != self->scene->shape_turn) return WEFT_OK;
+    if (self->shape_turn != self->scene->shape_version) return WEFT_OK;
     return lookout_take(&self->lookout, &self->meshes, wait, error);
 }
 
@@ -568,7 +568,7 @@ static WeftResult update_materials(WeftRaster *self, MaterialsChange *change, co
 
 /* Takes other shapes of lights, whose maps see each other. */
 static WeftResult update_shapes(WeftRaster *self, WeftError *error) {
-    if (self->shape_turn == self->scene->shape_turn) return WEFT_OK;
+    if (self->shape_turn == self->scene->shape_version) return WEFT_OK;
     WeftResult result = meshes_reshape(&self->meshes, self->scene, error);
     if (result == WEFT_OK) result = queue_reshape(&self->queue, self->scene, error);
     self->shadows.drawn = false;
@@ -577,13 +577,13 @@ static WeftResult update_shapes(WeftRaster *self, WeftError *error) {
 
 static WeftResult update_lights(WeftRaster *self, const MaterialsChange *change, WeftError *error) {
     LightPolygons polygons;
-    if (change->emission || self->shape_turn != self->scene->shape_turn) {
+    if (change->emission || self->shape_turn != self->scene->shape_version) {
         if (!light_polygons_find(&polygons, self->scene, PICTURE_POLYGONS_MOST))
             return fail(error, WEFT_MESSAGE_MEMORY, self->scene->name, NULL);
         light_polygons_free(&self->polygons);
         self->polygons = polygons;
     }
-    self->shape_turn = self->scene->shape_turn;
+    self->shape_turn = self->scene->shape_version;
     if (change->coverage) self->shadows.drawn = false;
     return shadows_update(&self->shadows, self->scene, &self->polygons, error);
 }
@@ -756,9 +756,9 @@ WeftRasterInfo weft_raster_info(const WeftRaster *self) {
                            .samples = self->target.samples,
                            .compile_seconds = self->compile_seconds};
     info.making = self->lookout.occlusion != NULL;
-    info.made = self->shape_turn == self->scene->shape_turn && self->lookout.occlusion &&
+    info.made = self->shape_turn == self->scene->shape_version && self->lookout.occlusion &&
                 occlusion_values(self->lookout.occlusion, false);
-    camera_tell(self->scene, &self->camera, info.camera_eye, info.camera_target, &info.camera_fov);
+    camera_describe(self->scene, &self->camera, info.camera_eye, info.camera_target, &info.camera_fov);
     for (const Program *p = self->programs.first; p; p = p->next) {
         info.programs += p->name != 0;
         if (p->samplers > info.samplers) info.samplers = p->samplers;

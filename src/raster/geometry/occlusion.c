@@ -85,7 +85,7 @@ static void place_brightness(Occlusion *self, const OcclusionHow *how) {
         const float side = face % 2 ? -1.0f : 1.0f;
         const Vec3 at[3] = {{side, u, v}, {v, side, u}, {u, v, side}};
         Vec3 w = vec3_normal_or(at[face / 2], vec3(0.0f, 1.0f, 0.0f));
-        float l = how->rest ? ambient_rest_at(how->rest, latlong_turned(w, -how->rotation)) : 1.0f;
+        float l = how->rest ? ambient_rest_at(how->rest, latlong_rotated(w, -how->rotation)) : 1.0f;
         self->bright[face][k / BRIGHT % BRIGHT][k % BRIGHT] = l;
         mean += l / (6 * BRIGHT * BRIGHT);
     }

@@ -370,7 +370,7 @@ void environment_place(const GlEnvironment *self, const Environment *e) {
 int environment_lights(const GlEnvironment *self, float rotation, EnvLight env_lights[AMBIENT_LIGHTS_MAX]) {
     for (int k = 0; k < self->parts.env_light_count; k++) {
         env_lights[k] = self->parts.env_lights[k];
-        env_lights[k].direction = latlong_turned(env_lights[k].direction, rotation);
+        env_lights[k].direction = latlong_rotated(env_lights[k].direction, rotation);
     }
     return self->parts.env_light_count;
 }
@@ -378,7 +378,7 @@ int environment_lights(const GlEnvironment *self, float rotation, EnvLight env_l
 int environment_points(const GlEnvironment *self, float rotation, EnvPoint env_points[AMBIENT_POINTS_MAX]) {
     for (int k = 0; k < self->parts.point_count; k++) {
         env_points[k] = self->parts.points[k];
-        env_points[k].direction = latlong_turned(env_points[k].direction, rotation);
+        env_points[k].direction = latlong_rotated(env_points[k].direction, rotation);
     }
     return self->parts.point_count;
 }

@@ -74,7 +74,7 @@ static void upload(Ground *self, const float *texels) {
 }
 
 static bool is_known(const Ground *self, const Environment *e, const Floor *floor) {
-    return self->known && !self->stale && self->turn == e->turn && !(self->rotation < e->rotation) &&
+    return self->known && !self->stale && self->turn == e->version && !(self->rotation < e->rotation) &&
            !(self->rotation > e->rotation) && !(self->strength < e->strength) &&
            !(self->strength > e->strength) && !(self->floor.radius < floor->radius) &&
            !(self->floor.radius > floor->radius);
@@ -99,7 +99,7 @@ WeftResult ground_look(Ground *self, const WeftScene *scene, const Floor *floor,
         return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     }
     self->floor = *floor;
-    self->turn = e->turn;
+    self->turn = e->version;
     self->rotation = e->rotation;
     self->strength = e->strength;
     self->light = lights.whole;

@@ -245,7 +245,7 @@ static WeftResult fill_groups(GlTextures *self, const Plan *plan, bool stale, in
         }
     }
     for (int k = 0; k < self->texture_count && result == WEFT_OK; k++)
-        self->turns[k] = scene->textures[k].turn;
+        self->turns[k] = scene->textures[k].version;
     return result == WEFT_OK ? gl_check(error, "textures") : result;
 }
 
@@ -300,7 +300,7 @@ void textures_destroy(GlTextures *self) {
 }
 
 bool textures_stale(const GlTextures *self, const WeftScene *scene, int texture) {
-    return texture < self->texture_count && self->turns[texture] != scene->textures[texture].turn;
+    return texture < self->texture_count && self->turns[texture] != scene->textures[texture].version;
 }
 
 /* Returns true if the texture as it is now fits in its place. */

@@ -10,7 +10,7 @@ typedef struct Builtin {
     WeftResult (*make)(WeftScene *scene, WeftError *error); /* a function that fills an empty scene */
 } Builtin;
 
-/* The built-in scene at index; NULL past the end. */
+/* Returns the built-in scene at index, or NULL past the end. */
 const Builtin *builtin_at(int index);
 
 #endif

@@ -3,9 +3,8 @@
  *   f0 = ((ior - 1) / (ior + 1))^2   of a dielectric (Fresnel, at normal incidence)
  *
  *   Augustin Fresnel, "Memoire sur la loi des modifications que la reflexion imprime a la lumiere polarisee",
- * 1823. Where a source gives the brightness of a grey material alone, base_color is grey. A dielectric whose
- * index no source gives has 1.5, as the data base of Palmqvist has it. The index of a fibre is the mean of
- * that along it and twice that across. */
+ * 1823. Where a source gives the brightness of a grey material alone, base_color is grey. A dielectric whose index no
+ * source gives has 1.5, as in the data base of Palmqvist. The index of a fibre is (n_along + 2 n_across) / 3. */
 #include "weft/chart.h"
 
 #include <stddef.h>

@@ -21,7 +21,7 @@ static Vec3 curtain_point(float u, float v) {
     return (Vec3){x, 1.1f * (1.0f - v), -0.42f + (0.012f + 0.016f * v) * fold};
 }
 
-/* Foot and stem, by the way from the middle of the table up and in. */
+/* Returns a point of foot and stem, whose profile runs from the middle of the table outwards, up and in. */
 static Vec3 stand_point(float u, float v) {
     static const float profile[][2] = {{0.0f, 0.0f},     {0.085f, 0.0f},  {0.09f, 0.006f}, {0.085f, 0.014f},
                                        {0.03f, 0.03f},   {0.01f, 0.06f},  {0.008f, 0.12f}, {0.008f, 0.37f},
@@ -36,7 +36,7 @@ static Vec3 stand_point(float u, float v) {
 
 static Vec3 table_point(float u, float v) { return (Vec3){8.0f * (u - 0.5f), 0.0f, 8.0f * (v - 0.5f)}; }
 
-/* Four upright sides, which both engines know for polygons that shine. */
+/* Returns a point of the bulb: four upright sides, which both engines treat as polygon lights. */
 static Vec3 bulb_point(float u, float v) {
     static const float side = 0.025f;
     int corner = (int)(4.0f * u + 0.5f) & 3;
@@ -50,7 +50,7 @@ static const Lattice lattices[THINGS] = {
     [STAND] = {.across = 64, .down = 40, .point = stand_point, .smooth = true},
     [TABLE] = {.across = 1, .down = 1, .point = table_point}};
 
-/* Cloth that reflects one colour and lets another through. */
+/* Returns cloth that reflects one colour and transmits another. */
 static Material thin_cloth(float share, Vec3 color, Vec3 through) {
     Material m = material_default();
     m.double_sided = true;

@@ -4,7 +4,7 @@
 
 #include "scene/record/scene.h"
 
-/* A lamp that is lit, before a curtain. Materials are named shade, curtain, bulb, stand and table. */
+/* Makes a lit table lamp in front of a curtain. Materials are named shade, curtain, bulb, stand and table. */
 WeftResult lampshade_make(WeftScene *scene, WeftError *error);
 
 #endif

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-/* The normal of a smooth sheet, by differences. */
+/* Returns the normal of a smooth sheet, by differences. */
 static Vec3 normal_at(const Lattice *lattice, float u, float v) {
     const float step = 1e-3f, v0 = fmaxf(v - step, 0.0f), v1 = fminf(v + step, 1.0f);
     Vec3 along = vec3_sub(lattice->point(u + step, v), lattice->point(u - step, v));

@@ -8,7 +8,7 @@
 #include "scene/builtin/lattice.h"
 #include "scene/record/camera.h"
 
-/* Cloths first: each is named as its preset is behind "woven-". */
+/* Cloths first: each has the name of its preset without "woven-". */
 enum { DENIM, LINEN, TARTAN, SHOT_SILK, CHARMEUSE, VELVET, CORDUROY, CLOTHS };
 enum { BAR = CLOTHS, LEFT_POST, RIGHT_POST, SWEEP, SOFTBOX, THINGS };
 static const char *const names[THINGS] = {"denim",     "linen",      "tartan",   "shot-silk",
@@ -17,7 +17,7 @@ static const char *const names[THINGS] = {"denim",     "linen",      "tartan",  
 
 static const float unit = 0.5f; /* metres that a unit of texture coordinates spans in these presets */
 
-/* A swatch bent over the upper part of a cylinder; all of its threads lie as long as they are. */
+/* A swatch bent over the upper part of a cylinder, without stretching its threads. */
 static const float swatch_width = 0.2f, swatch_bend = 0.55f, swatch_radius = 0.16f;
 
 static Vec3 swatch_point(float u, float v) {
@@ -47,7 +47,7 @@ static Vec3 hang_point(float u, float v) {
 }
 
 static Vec3 bar_point(float u, float v) {
-    const float phi = -2.0f * PI_FLOAT * v, r = 0.9f * bar_radius; /* room between them for depth buffers */
+    const float phi = -2.0f * PI_FLOAT * v, r = 0.9f * bar_radius; /* a gap between them for depth buffers */
     return (Vec3){0.6f * (u - 0.5f), bar_height + r * cosf(phi), -r * sinf(phi)};
 }
 
@@ -56,7 +56,7 @@ static Vec3 post_point(float u, float v) {
     return (Vec3){r * sinf(phi), bar_height * (1.0f - v), r * cosf(phi)};
 }
 
-/* A photographer's sweep: a wall, a bend and the floor. */
+/* Returns a point of a photographer's sweep: a wall, a bend and the floor. */
 static Vec3 sweep_point(float u, float v) {
     const float wall = 1.6f, bend = 0.5f, s = v * 4.6f, x = 8.0f * (u - 0.5f);
     const float a = fminf(fmaxf((s - wall) / bend, 0.0f), 0.5f * PI_FLOAT);
@@ -64,7 +64,7 @@ static Vec3 sweep_point(float u, float v) {
                   -0.5f - bend * cosf(a) + fmaxf(s - wall - 0.5f * PI_FLOAT * bend, 0.0f)};
 }
 
-/* A square lamp at the upper left, which shines upon the cloths from the side. */
+/* Returns a point of a square light at the upper left, which lights the cloths from the side. */
 static Vec3 softbox_point(float u, float v) {
     static const float side = 0.5f;
     const Vec3 middle = {-1.0f, 1.1f, 0.45f}, aim = {0.0f, 0.15f, 0.1f}, up = {0.0f, 1.0f, 0.0f};
@@ -73,7 +73,7 @@ static Vec3 softbox_point(float u, float v) {
     return vec3_madd(vec3_madd(middle, along, side * (u - 0.5f)), down, side * (v - 0.5f));
 }
 
-/* Swatches lie in two rows before the bar. */
+/* Returns the lattice of object k. Swatches lie in two rows before the bar. */
 static Lattice lattice_of(int k) {
     const Lattice others[] = {
         [BAR] = {.across = 1, .down = 48, .point = bar_point, .smooth = true},
@@ -116,7 +116,7 @@ static void materials_make(Material *m) {
     m[SOFTBOX].inputs[INPUT_emission_strength].value[0] = 34.0f;
 }
 
-/* Looks at the denim, so that so many of its 2,600 threads a metre lie in a picture of 4 by 3. */
+/* Returns a camera whose picture of 4 by 3 is `threads` threads of the denim wide, which has 2,600 a metre. */
 static Camera camera_over(const char *name, float threads, float distance) {
     const Vec3 target = {0.012f, 0.3f, 0.03f};
     const float height = 0.75f * threads / 2600.0f;

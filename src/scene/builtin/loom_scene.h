@@ -4,8 +4,8 @@
 
 #include "scene/record/scene.h"
 
-/* Six swatches of woven presets, and a seventh folded over a bar. The cameras: main; far, in whose picture lie 5,000
- * threads of the denim side by side; near, 500; close, 50; threads, 5. */
+/* Makes six swatches of woven presets, and a seventh cloth over a bar. The cameras are main; far, whose picture is
+ * 5,000 threads of the denim wide; near, 500; close, 50; threads, 5. */
 WeftResult loom_make(WeftScene *scene, WeftError *error);
 
 #endif

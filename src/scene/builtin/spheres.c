@@ -9,7 +9,7 @@
 enum { COLUMNS = 5, ROWS = 2, RINGS = 64, SECTORS = 128 };
 static const float radius = 0.45f, spacing = 1.06f;
 
-/* A latitude-longitude sphere whose texture wraps once; tangents run along the parallels. */
+/* Makes a latitude-longitude sphere whose texture wraps once; tangents run along the parallels. */
 static bool sphere(Arena *arena, Mesh *mesh, Vec3 centre) {
     uint32_t across = SECTORS + 1;
     mesh->vertex_count = (RINGS + 1) * across;
@@ -77,7 +77,7 @@ static Camera camera_of(float height, float distance, float pitch, float yfov) {
                     .yfov = yfov};
 }
 
-/* Balls, of which each has its own material, and a floor, seen by one camera. */
+/* Balls, each with its own material, a floor, and one camera. */
 typedef struct Arrangement {
     int count;
     Vec3 (*centre)(int k);

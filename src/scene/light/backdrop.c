@@ -36,6 +36,6 @@ WeftResult backdrop_blurred(const Environment *environment, WeftImage *out, Weft
 }
 
 void backdrop_at(const Environment *environment, const WeftImage *blurred, Vec3 d, float color[3]) {
-    latlong_at(blurred, latlong_turned(d, -environment->rotation), color);
+    latlong_at(blurred, latlong_rotated(d, -environment->rotation), color);
     for (int k = 0; k < 3; k++) color[k] *= environment->strength;
 }

@@ -25,13 +25,13 @@ typedef struct Faces {
     bool shorter; /* true for the shorter kind of names */
 } Faces;
 
-/* The face that a file name without its folder is called like, or -1. */
+/* Returns the face that a file name without its folder stands for, or -1. */
 static int face_named(const char *name, bool shorter) {
     const char *dot = strrchr(name, '.');
-    size_t stem = dot ? (size_t)(dot - name) : 0, known = 0;
+    size_t stem = dot ? (size_t)(dot - name) : 0, matches = 0;
     for (size_t k = 0; dot && k < sizeof suffixes / sizeof suffixes[0]; k++)
-        known += strcasecmp(dot + 1, suffixes[k]) == 0;
-    for (int k = 0; known && k < FACES; k++) {
+        matches += strcasecmp(dot + 1, suffixes[k]) == 0;
+    for (int k = 0; matches && k < FACES; k++) {
         const char *face = shorter ? short_names[k] : long_names[k];
         if (strlen(face) == stem && strncasecmp(name, face, stem) == 0) return k;
     }
@@ -53,7 +53,7 @@ bool cubemap_named(const char *path) {
     return is_folder(path) || face_named(name, false) >= 0 || face_named(name, true) >= 0;
 }
 
-/* Looks through the folder for faces of one kind of names; how many there are, or -1 after a failure. */
+/* Finds the faces in a folder by one kind of names. Returns their number, or -1 after a failure. */
 static int look_through(const char *folder, bool shorter, Faces *faces, WeftError *error) {
     DIR *list = opendir(folder);
     int found = 0;
@@ -124,7 +124,7 @@ static WeftResult read_face(const char *path, int side, WeftImage *out, const We
     return result;
 }
 
-/* The face that d goes through, and where: from -1 to 1 towards the right and down. */
+/* Returns the face that direction d meets, and sets the place on it, from -1 to 1 towards the right and down. */
 static int face_at(Vec3 d, float *right, float *down) {
     float x = fabsf(d.x), y = fabsf(d.y), z = fabsf(d.z);
     if (x >= y && x >= z) {
@@ -142,7 +142,7 @@ static int face_at(Vec3 d, float *right, float *down) {
     return d.z > 0.0f ? 4 : 5;
 }
 
-/* Adds what is seen along d, bilinear within a face. */
+/* Adds the radiance from direction d, bilinear within a face, times scale. */
 static void add_radiance(const WeftImage faces[FACES], Vec3 d, float scale, float *to) {
     float right, down;
     const WeftImage *face = &faces[face_at(d, &right, &down)];
@@ -162,7 +162,7 @@ static void add_radiance(const WeftImage faces[FACES], Vec3 d, float scale, floa
     }
 }
 
-/* Four looks a texel: those of a face's corners are smaller than those of the image. */
+/* Fills the image from four look-ups a texel, since texels at a face's corners are smaller than those of the image. */
 static void resample(const WeftImage faces[FACES], WeftImage *out) {
     float *p = out->pixels;
     for (int y = 0; y < out->height; y++)

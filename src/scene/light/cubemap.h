@@ -1,4 +1,4 @@
-/* cubemap.h - six square pictures of the light around a scene, as one lat-long image
+/* cubemap.h - a cube map of the light around a scene, read as one lat-long image
  *
  * Faces are called posx negx posy negy posz negz, or px nx py ny pz nz, in any case, each with any suffix of
  * image/. They lie as OpenGL has them ("OpenGL 3.3 Core Profile", 3.8.9, table 3.20): posx is seen from
@@ -13,10 +13,11 @@
 /* Returns true if the path is a folder or is named like a face of a cube map. */
 bool cubemap_named(const char *path);
 
-/* From the folder, or from the one the face is in: F32 RGB of 4 n by 2 n for faces of n by n, at most
- * CUBEMAP_WIDTH wide. Integers go through the sRGB curve. Fails as weft_image_read does, or with
- * WEFT_MESSAGE_CUBEMAP where a face is missing, there twice, not square, or of another size than the rest. */
 enum { CUBEMAP_WIDTH = 8192 };
+
+/* Reads the cube map of a folder, or of a face's folder, as F32 RGB of 4 n by 2 n for faces of n by n, at most
+ * CUBEMAP_WIDTH wide. Integers are decoded from sRGB. Fails as weft_image_read does, or with WEFT_MESSAGE_CUBEMAP if a
+ * face is missing, there twice, not square, or of another size than the rest. */
 WeftResult cubemap_read(const char *path, WeftImage *out, const WeftLog *log, WeftError *error);
 
 #endif

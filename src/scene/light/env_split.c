@@ -14,18 +14,18 @@ Vec3 latlong_direction(double u, double v) {
     return vec3((float)(sin(theta) * sin(phi)), (float)cos(theta), (float)(-sin(theta) * cos(phi)));
 }
 
-Vec3 latlong_turned(Vec3 d, float turn) {
-    float c = cosf(turn), s = sinf(turn);
+Vec3 latlong_rotated(Vec3 d, float rotation) {
+    float c = cosf(rotation), s = sinf(rotation);
     return vec3(d.x * c + d.z * s, d.y, d.z * c - d.x * s);
 }
 
-/* The point of the image where a unit direction is, u and v in [0, 1]. */
+/* Sets the point of the image in a unit direction, u and v in [0, 1]. */
 static void latlong_point(Vec3 d, float *u, float *v) {
     *u = 0.5f + atan2f(d.x, -d.z) / (float)(2.0 * PI_DOUBLE);
     *v = acosf(fminf(fmaxf(d.y, -1.0f), 1.0f)) / PI_FLOAT;
 }
 
-/* Texel (x, y) as three colours; grey where there are fewer. */
+/* Sets the colour of texel (x, y), not below 0; grey from an image of fewer than three channels. */
 static void texel(const WeftImage *image, int x, int y, float color[3]) {
     const float *p = (const float *)image->pixels +
                      ((size_t)y * (size_t)image->width + (size_t)x) * (size_t)image->channels;
@@ -115,8 +115,8 @@ void ambient_polynomials(Vec3 n, float p[AMBIENT_TERMS]) {
     memcpy(p, all, sizeof all);
 }
 
-/* Squares of the factors that make the polynomials orthonormal, times 4 pi; the degree of each; and of a
- * degree the cosine's Legendre coefficient over pi. */
+/* Squares of the factors that make the polynomials orthonormal, times 4 pi; the degree of each; and for each degree the
+ * cosine's Legendre coefficient over pi. */
 static const double squares[AMBIENT_TERMS] = {
     1.0,      3.0,      3.0,      3.0,      15.0,      15.0,      15.0,      15.0 / 4,  5.0 / 4,
     35.0 / 8, 105.0,    21.0 / 8, 7.0 / 4,  21.0 / 8,  105.0 / 4, 35.0 / 8,  315.0 / 4, 315.0 / 8,
@@ -124,7 +124,7 @@ static const double squares[AMBIENT_TERMS] = {
 static int degree(int k) { return k < 1 ? 0 : k < 4 ? 1 : k < 9 ? 2 : k < 16 ? 3 : 4; }
 static const double cosines[5] = {1.0, 2.0 / 3, 1.0 / 4, 0.0, -1.0 / 24};
 
-/* Radiance by the polynomials. */
+/* Projects the radiance of an image onto the polynomials. */
 static void project(const WeftImage *image, float terms[AMBIENT_TERMS][3]) {
     double sums[AMBIENT_TERMS][3] = {{0.0}};
     const float *p = image->pixels;
@@ -178,10 +178,11 @@ float ambient_rest_at(const AmbientRest *rest, Vec3 d) {
     return rest->luminance[y < AMBIENT_REST_HEIGHT ? y : AMBIENT_REST_HEIGHT - 1][x % AMBIENT_REST_WIDTH];
 }
 
-/* The brighter part of a texel: where it comes from and how much it is. */
+/* The part of a texel that goes to the lights. */
 typedef struct Spark {
     Vec3 direction;
-    float color[3], energy; /* irradiance on what faces it; its luminance */
+    float color[3]; /* irradiance on a plane that faces it */
+    float energy;   /* luminance of color */
 } Spark;
 
 typedef struct Sparks {
@@ -190,7 +191,7 @@ typedef struct Sparks {
     double energy;
 } Sparks;
 
-/* Takes from `image` what goes to the lights. */
+/* Moves the bright part of an image to sparks. */
 static void take_sparks(WeftImage *image, Sparks *sparks) {
     double mean = 0.0, all = 0.0;
     float *p = image->pixels;
@@ -232,8 +233,8 @@ static int nearest(const Vec3 *centres, int count, Vec3 d, float *cosine_to) {
     return best;
 }
 
-/* First centres: each a spark by its energy times the squared distance to those before it. David Arthur,
- * Sergei Vassilvitskii, "k-means++: The Advantages of Careful Seeding", SODA 2007. */
+/* Draws the first centres: each is a spark, drawn by its energy times the squared distance to the centres before it.
+ * David Arthur, Sergei Vassilvitskii, "k-means++: The Advantages of Careful Seeding", SODA 2007. */
 static void seed(const Sparks *sparks, int count, uint64_t start, Vec3 *centres) {
     uint64_t stream = stream_start(start, 1);
     for (int k = 0; k < count; k++) {
@@ -255,8 +256,8 @@ static void seed(const Sparks *sparks, int count, uint64_t start, Vec3 *centres)
     }
 }
 
-/* Stuart Lloyd, "Least Squares Quantization in PCM", IEEE Transactions on Information Theory 28(2), 1982. The
- * sum of energy times squared distance that is left. */
+/* Improves the centres and makes their lights: Stuart Lloyd, "Least Squares Quantization in PCM", IEEE Transactions on
+ * Information Theory 28(2), 1982. Returns the remaining sum of energy times squared distance. */
 static double assign_texels(const Sparks *sparks, int count, Vec3 *centres, EnvLight *env_lights) {
     double left = 0.0;
     for (int round = 0; round < ROUNDS; round++) {
@@ -284,7 +285,7 @@ static double assign_texels(const Sparks *sparks, int count, Vec3 *centres, EnvL
     return left;
 }
 
-/* The best of some starts with so many lights. */
+/* Finds `count` lights, the best of several starts. */
 static void find_some(const Sparks *sparks, int count, AmbientParts *parts) {
     double best = (double)INFINITY;
     for (int start = 0; start < STARTS; start++) {
@@ -303,7 +304,7 @@ static void find_some(const Sparks *sparks, int count, AmbientParts *parts) {
     }
 }
 
-/* Finds as few lights as are enough. */
+/* Finds the fewest lights that reach AMBIENT_LIGHT_KAPPA, at most `most`. */
 static void find_env_lights(const Sparks *sparks, int most, AmbientParts *parts) {
     if (!sparks->count || !(sparks->energy > 0.0)) return;
     for (int count = 2; count <= most; count++) {
@@ -316,7 +317,7 @@ float env_light_density(const EnvLight *light) {
     return 2.0f * (float)light->points / (PI_FLOAT * fmaxf(light->spread, 1e-5f));
 }
 
-/* Divides light k, which `own` is of, into points; `all` is the energy of all lights. */
+/* Divides light k, whose sparks are `own`, into points; `all` is the energy of all lights. */
 static void divide_light(const Sparks *own, int k, double all, AmbientParts *parts) {
     Vec3 centres[AMBIENT_POINTS_MAX];
     EnvLight found[AMBIENT_POINTS_MAX];

@@ -1,8 +1,9 @@
-/* env_split.h - an environment taken apart for real-time light: lights for what is bright, and an even residual
+/* env_split.h - an environment split for real-time lighting: directional lights for its bright parts, and a smooth
+ * residual
  *
- * Of a texel of luminance Y the part min(1, AMBIENT_CLIP mean(Y) / Y) is the residual's; what is above goes to
- * the lights, by k-means over directions: each stands where the light of its texels has its mean. Directions
- * are those of the image, before Environment.rotation; colours do without Environment.strength. */
+ * A texel of luminance Y gives the fraction min(1, AMBIENT_CLIP mean(Y) / Y) to the residual, and the rest to the
+ * lights, by k-means over directions: each light has the mean direction of its texels' light. Directions are those of
+ * the image, before Environment.rotation; colours are without Environment.strength. */
 #ifndef WEFT_SCENE_ENV_SPLIT_H
 #define WEFT_SCENE_ENV_SPLIT_H
 
@@ -10,21 +11,21 @@
 
 enum { AMBIENT_LIGHTS_MAX = 16, AMBIENT_LIGHTS = 8, AMBIENT_TERMS = 25, AMBIENT_RESIDUAL_TERMS = 16 };
 
-/* Points that all lights together are divided into, by their luminance. Each light has at least one. */
+/* Points into which all lights together are divided, by their luminance. Each light has at least one. */
 enum { AMBIENT_POINTS = 48, AMBIENT_POINTS_MAX = AMBIENT_POINTS + AMBIENT_LIGHTS_MAX };
 
 #define AMBIENT_CLIP 1.25
 
-/* log2 kappa of lights that is fine enough: then there are no more of them. */
+/* log2 kappa of lights from which on no more are added. */
 #define AMBIENT_LIGHT_KAPPA 9.0f
 
-/* The residual has no more terms than that. */
+/* log2 kappa that the terms of the residual can represent. */
 #define AMBIENT_EVEN_KAPPA 6.0f
 
 typedef struct EnvLight {
     Vec3 direction; /* towards it, unit */
     float color[3]; /* irradiance on what faces it */
-    float spread;   /* mean squared distance of its light from it, on the unit sphere */
+    float spread;   /* mean squared distance of its texels' light from `direction`, on the unit sphere */
     int points;     /* number of points that it is divided into, 1 or more */
 } EnvLight;
 
@@ -46,48 +47,48 @@ typedef struct AmbientParts {
     int env_light_count;
     EnvPoint points[AMBIENT_POINTS_MAX]; /* sorted by light */
     int point_count;
-    /* log2 of it: 2 over the mean squared distance of light to its light; AMBIENT_EVEN_KAPPA where all is even
-     * and there is none. */
+    /* log2 of 2 over the mean spread of the lights; AMBIENT_EVEN_KAPPA without lights. */
     float env_light_kappa;
-    /* Irradiance over pi of all of the environment, lights and residual: sum_k terms[k] p_k(n), p of
+    /* Irradiance over pi of the whole environment, lights and residual: sum_k terms[k] p_k(n), p of
      * ambient_polynomials. */
     float terms[AMBIENT_TERMS][3];
-    float residual_sh[AMBIENT_TERMS][3]; /* radiance of the residual */
-    AmbientRest rest;                    /* the residual, less smooth */
+    float residual_sh[AMBIENT_TERMS][3]; /* radiance of the residual, likewise */
+    AmbientRest rest;                    /* luminance of the residual, with more detail */
 } AmbientParts;
 
-/* Splits the environment into as many lights as are enough, at most env_lights (0, or 2 ..
- * AMBIENT_LIGHTS_MAX), and a residual. Fails with WEFT_MESSAGE_MEMORY. */
+/* Splits an environment into lights, at most env_lights (0, or 2 .. AMBIENT_LIGHTS_MAX), and a residual. Fails with
+ * WEFT_MESSAGE_MEMORY. */
 WeftResult ambient_split(const Environment *environment, int env_lights, AmbientParts *out, WeftError *error);
 
-/* Returns the density, in 1/sr, at which directions stand for as much solid angle as a point of this light:
- * points kappa / pi, kappa = 2 / spread. exp(kappa (mu - 1)) covers 2 pi / kappa, twice that of a light. */
+/* Returns the density of directions, 1/sr, of which each covers the solid angle of a point of this light: points kappa
+ * / pi, kappa = 2 / spread. exp(kappa (mu - 1)) covers 2 pi / kappa, twice that of a light. */
 float env_light_density(const EnvLight *light);
 
-/* Spherical harmonics of degrees 0 to 4, without their factors. The cosine has none of degree 3, and of
- * degree 6 a thousandth: Ravi Ramamoorthi, Pat Hanrahan, "On the Relationship between Radiance and
- * Irradiance", JOSA A 18(10), 2001. */
+/* Evaluates the spherical harmonics of degrees 0 to 4, without their factors. The clamped cosine has no degree 3, and a
+ * thousandth of degree 6: Ravi Ramamoorthi, Pat Hanrahan, "On the Relationship between Radiance and Irradiance", JOSA A
+ * 18(10), 2001. */
 void ambient_polynomials(Vec3 n, float p[AMBIENT_TERMS]);
 
-/* ambient_residual of ambient_source.h by the first AMBIENT_RESIDUAL_TERMS of the residual's terms. exp(kappa mu) has the
- * Legendre coefficients a_0 = 1, a_1 = coth kappa - 1 / kappa, a_(l+1) = a_(l-1) - (2 l + 1) / kappa a_l. */
+/* Evaluates ambient_residual of ambient_source.h, from the first AMBIENT_RESIDUAL_TERMS of the residual's terms.
+ * exp(kappa mu) has the Legendre coefficients a_0 = 1, a_1 = coth kappa - 1 / kappa, a_(l+1) = a_(l-1) - (2 l + 1) /
+ * kappa a_l. */
 void ambient_rest_about(const AmbientParts *parts, Vec3 w, float kappa, float color[3]);
 
-/* Luminance along a unit direction, of the texel that it meets. */
+/* Returns the luminance of the texel along a unit direction. */
 float ambient_rest_at(const AmbientRest *rest, Vec3 direction);
 
-/* Radiance of an F32 lat-long image along a unit direction of its own frame, bilinear. */
+/* Sets the radiance of an F32 lat-long image along a unit direction of its own frame, bilinear. */
 void latlong_at(const WeftImage *image, Vec3 direction, float color[3]);
 
-/* The image in another size, F32 RGB: each texel the mean over solid angle of those that it covers, or, where
- * either side grows, bilinear. */
+/* Resizes an image to F32 RGB: each texel is the mean over solid angle of those that it covers, or bilinear if either
+ * side grows. Fails with WEFT_MESSAGE_MEMORY. */
 WeftResult latlong_resize(const WeftImage *image, int width, int height, WeftImage *out, WeftError *error);
 
-/* The unit direction of a point of the image, u and v in [0, 1]. */
+/* Returns the unit direction of a point of the image, u and v in [0, 1]. */
 Vec3 latlong_direction(double u, double v);
 
-/* A direction of the image in the world, where the environment is turned so far, Environment.rotation; by its negative
- * the other way. */
-Vec3 latlong_turned(Vec3 direction, float rotation);
+/* Returns a direction of the image in the world, for Environment.rotation in radians; the negative rotation converts
+ * back. */
+Vec3 latlong_rotated(Vec3 direction, float rotation);
 
 #endif

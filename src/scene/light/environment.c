@@ -63,7 +63,7 @@ void environment_give_way(WeftScene *scene) {
     for (int m = 0; m < scene->mesh_count; m++) {
         const Input *inputs = scene->materials[scene->meshes[m].material].inputs;
         const float *e = inputs[INPUT_emission].value;
-        /* brighter than a surface in the studio can be: a lamp, not a glowing sign */
+        /* brighter than a surface in the studio can be: a light source, not a glowing sign */
         lit = lit || fmaxf(e[0], fmaxf(e[1], e[2])) * inputs[INPUT_emission_strength].value[0] > 4.0f;
     }
     float *p = scene->environment.image.pixels;

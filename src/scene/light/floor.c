@@ -16,7 +16,7 @@ Floor floor_of(const WeftScene *scene, const WeftFloor *wanted) {
     Vec3 low = scene->low, high = scene->high, middle = vec3_scale(vec3_add(low, high), 0.5f);
     float across = vec3_length(vec3_sub(high, low));
     if (!wanted->on || !(across >= 0.0f && across < INFINITY)) return (Floor){0};
-    /* a hair lower than what stands on it, so that no two surfaces coincide in either engine / */
+    /* slightly below the objects that stand on it, so that no two surfaces coincide */
     return (Floor){.there = low.y <= high.y,
                    .middle = {middle.x, low.y - 1e-4f * across, middle.z},
                    .radius = FLOOR_REACH * 0.5f * across,

@@ -1,7 +1,7 @@
-/* light_list.c - the lights of a scene: to add, to read, to change, to take away
+/* light_list.c - the lights of a scene: adding, reading, changing and removing them
  *
- * A viewer drags lights for minutes: lists keep their memory when they shrink, and a polygon's vertices are
- * written in place. */
+ * Lights may be dragged for minutes: lists keep their memory when they shrink, and a polygon's vertices are written in
+ * place. */
 #include <math.h>
 #include <string.h>
 
@@ -52,7 +52,7 @@ static Light punctual_of(const WeftLight *l, const char *name) {
     return light;
 }
 
-static WeftLight told_of(const Light *light) {
+static WeftLight public_of(const Light *light) {
     const Vec3 p = light->position, d = light->direction;
     WeftLight l = {.kind = (WeftLightKind)light->kind,
                    .position = {p.x, p.y, p.z},
@@ -67,7 +67,7 @@ static WeftLight told_of(const Light *light) {
 
 /* Polygons. */
 
-/* Counter-clockwise as seen from the side that shines; whether they are all finite. */
+/* Finds the corners, counter-clockwise as seen from the side that emits. Returns false if one is not finite. */
 static bool find_corners(const WeftLight *l, Vec3 corners[LIGHT_CORNERS]) {
     Vec3 n = vec3_normal_or(vec3_load(l->direction), vec3(0.0f, -1.0f, 0.0f));
     Vec3 level = vec3_normal_or(vec3_cross(vec3(0.0f, 1.0f, 0.0f), n), vec3(1.0f, 0.0f, 0.0f));
@@ -88,8 +88,8 @@ static bool find_corners(const WeftLight *l, Vec3 corners[LIGHT_CORNERS]) {
     return isfinite(finite);
 }
 
-/* Black, and shines from its front alone. */
-static Material shining(const float color[3]) {
+/* Returns a black material that emits light from its front. */
+static Material light_material(const float color[3]) {
     Material material = material_default();
     for (int c = 0; c < 3; c++) {
         material.inputs[INPUT_base_color].value[c] = 0.0f;
@@ -99,7 +99,7 @@ static Material shining(const float color[3]) {
     return material;
 }
 
-/* Fills mesh k of the polygon lights in the memory that it has. */
+/* Fills mesh k of the polygon lights in its own memory. */
 static void shape(WeftScene *scene, int k, const WeftLight *l, const Vec3 corners[LIGHT_CORNERS]) {
     int material = scene_own_materials(scene) + k;
     Mesh *mesh = &scene->meshes[scene_own_meshes(scene) + k];
@@ -107,13 +107,13 @@ static void shape(WeftScene *scene, int k, const WeftLight *l, const Vec3 corner
     mesh->triangle_count = (uint32_t)l->corners - 2;
     mesh->material = material;
     memcpy(mesh->position, corners, (size_t)l->corners * sizeof *corners);
-    scene->materials[material] = shining(l->color);
+    scene->materials[material] = light_material(l->color);
     scene->polygon_lights[k].light = *l;
-    scene->shape_turn++;
+    scene->shape_version++;
 }
 
-/* A mesh that has memory for any polygon. */
-static bool hold_mesh(Arena *arena, Mesh *mesh) {
+/* Makes a mesh with memory for any polygon. Returns false if memory is short. */
+static bool make_mesh(Arena *arena, Mesh *mesh) {
     *mesh = (Mesh){.name = "light",
                    .position = arena_array(arena, LIGHT_CORNERS, 3 * sizeof(float)),
                    .index = arena_array(arena, LIGHT_CORNERS - 2, 3 * sizeof(uint32_t))};
@@ -124,25 +124,25 @@ static bool hold_mesh(Arena *arena, Mesh *mesh) {
     return mesh->position && mesh->index;
 }
 
-/* Longer lists of meshes, materials and polygon lights, where they are full. */
-static bool polygon_room(WeftScene *scene) {
+/* Grows the lists of meshes, materials and polygon lights if they are full. Returns false if memory is short. */
+static bool reserve_polygon(WeftScene *scene) {
     Arena *arena = &scene->arena;
     size_t count = (size_t)scene->polygon_light_count, more = count < 4 ? 4 : count;
     size_t meshes = (size_t)scene->mesh_count, materials = (size_t)scene->material_count;
-    if (scene->polygon_light_count < scene->polygon_light_room) return true;
+    if (scene->polygon_light_count < scene->polygon_light_capacity) return true;
     Mesh *all_meshes = arena_array(arena, meshes + more, sizeof *all_meshes);
     Material *all_materials = arena_array(arena, materials + more, sizeof *all_materials);
     PolygonLight *all_lights = arena_array(arena, count + more, sizeof *all_lights);
-    bool held = all_meshes && all_materials && all_lights;
-    for (size_t k = 0; held && k < more; k++) held = hold_mesh(arena, &all_meshes[meshes + k]);
-    if (!held) return false;
+    bool made = all_meshes && all_materials && all_lights;
+    for (size_t k = 0; made && k < more; k++) made = make_mesh(arena, &all_meshes[meshes + k]);
+    if (!made) return false;
     if (meshes) memcpy(all_meshes, scene->meshes, meshes * sizeof *all_meshes);
     if (materials) memcpy(all_materials, scene->materials, materials * sizeof *all_materials);
     if (count) memcpy(all_lights, scene->polygon_lights, count * sizeof *all_lights);
     scene->meshes = all_meshes;
     scene->materials = all_materials;
     scene->polygon_lights = all_lights;
-    scene->polygon_light_room += (int)more;
+    scene->polygon_light_capacity += (int)more;
     return true;
 }
 
@@ -154,7 +154,7 @@ static void add_polygon(WeftScene *scene, int place, const WeftLight *l, const V
     shape(scene, k, l, corners);
 }
 
-/* Its mesh goes behind the others, where the next one finds its memory. */
+/* Removes polygon light k. Its mesh moves behind the others, where the next light reuses its memory. */
 static void drop_polygon(WeftScene *scene, int k) {
     int last = scene->polygon_light_count - 1, own_materials = scene_own_materials(scene);
     Mesh *meshes = scene->meshes + scene_own_meshes(scene), gone = meshes[k];
@@ -168,19 +168,20 @@ static void drop_polygon(WeftScene *scene, int k) {
     scene->polygon_light_count--;
     scene->mesh_count--;
     scene->material_count--;
-    scene->shape_turn++;
+    scene->shape_version++;
 }
 
 /* Punctual lights. */
 
-static bool punctual_room(WeftScene *scene) {
+/* Grows the list of punctual lights if it is full. Returns false if memory is short. */
+static bool reserve_punctual(WeftScene *scene) {
     size_t count = (size_t)scene->light_count, more = count < 4 ? 4 : count;
-    if (scene->light_count < scene->light_room) return true;
+    if (scene->light_count < scene->light_capacity) return true;
     Light *lights = arena_array(&scene->arena, count + more, sizeof *lights);
     if (!lights) return false;
     if (count) memcpy(lights, scene->lights, count * sizeof *lights);
     scene->lights = lights;
-    scene->light_room = (int)(count + more);
+    scene->light_capacity = (int)(count + more);
     return true;
 }
 
@@ -199,7 +200,7 @@ static void drop_punctual(WeftScene *scene, int k) {
 
 /* Both. */
 
-/* The light at an index: one of the two is -1. */
+/* The light at an index: one of the two indices is -1. */
 typedef struct FoundLight {
     int polygon, punctual;
 } FoundLight;
@@ -218,7 +219,7 @@ static WeftResult check_place(const WeftScene *scene, int index, WeftError *erro
     return there ? WEFT_OK : fail(error, WEFT_MESSAGE_DESC, "light", "there is no light %d", index);
 }
 
-/* A light that can be, its defaults filled in, and the memory for it. */
+/* Checks a light, sets its defaults and corners, and reserves memory for it. */
 static WeftResult ready(WeftScene *scene, WeftLight *l, Vec3 corners[LIGHT_CORNERS], WeftError *error) {
     const char *wrong = wrong_light(l);
     bool polygon = l->kind == WEFT_LIGHT_POLYGON;
@@ -227,8 +228,8 @@ static WeftResult ready(WeftScene *scene, WeftLight *l, Vec3 corners[LIGHT_CORNE
         if (!find_corners(l, corners)) wrong = "size";
     }
     if (wrong) return fail(error, WEFT_MESSAGE_DESC, "light", "%s", wrong);
-    bool held = polygon ? polygon_room(scene) : punctual_room(scene);
-    return held ? WEFT_OK : fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    bool reserved = polygon ? reserve_polygon(scene) : reserve_punctual(scene);
+    return reserved ? WEFT_OK : fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
 }
 
 static void insert(WeftScene *scene, int place, const WeftLight *l, const Vec3 corners[LIGHT_CORNERS]) {
@@ -252,7 +253,7 @@ WeftResult weft_scene_light(const WeftScene *scene, int index, WeftLight *out, W
     if (result != WEFT_OK) return result;
     FoundLight found = find(scene, index);
     *out = found.polygon >= 0 ? scene->polygon_lights[found.polygon].light
-                              : told_of(&scene->lights[found.punctual]);
+                              : public_of(&scene->lights[found.punctual]);
     return WEFT_OK;
 }
 

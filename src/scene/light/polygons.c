@@ -54,7 +54,8 @@ static int compare_spots(const void *a, const void *b) {
     return order ? order : s->vertex < t->vertex ? -1 : s->vertex > t->vertex;
 }
 
-/* Vertices that differ in normal or texture only are one place. */
+/* Gives vertices at the same position one place, even if normals or texture coordinates differ. Returns false if memory
+ * is short. */
 static bool weld(Patch *patch) {
     uint32_t n = patch->mesh->vertex_count;
     Spot *spots = alloc_array(n, sizeof *spots);
@@ -76,7 +77,7 @@ static bool weld(Patch *patch) {
     return true;
 }
 
-/* Emission times opacity at a point of a triangle, b from its second and c from its third corner. */
+/* Returns emission times opacity at a point of a triangle with weights b and c of its second and third corner. */
 static Rgb emission_at(const Patch *patch, const uint32_t *index, float b, float c) {
     const Mesh *mesh = patch->mesh;
     const Material *material = &patch->scene->materials[mesh->material];
@@ -95,7 +96,7 @@ static Rgb emission_at(const Patch *patch, const uint32_t *index, float b, float
     return rgb_scale(s.emission, s.emission_strength * opacity);
 }
 
-/* Its mean over a triangle: the middles of side^2 triangles of equal size. */
+/* Returns the mean emission of a triangle over the middles of side^2 triangles of equal size. */
 static Rgb mean_emission(const Patch *patch, const uint32_t *index) {
     int side = patch->mesh->triangle_count <= 1024 ? 16 : 3;
     float step = 1.0f / (float)side;
@@ -111,7 +112,7 @@ static Rgb mean_emission(const Patch *patch, const uint32_t *index) {
     return rgb_scale(sum, step * step);
 }
 
-/* A face for each triangle that has an area and shines. */
+/* Makes a face of each triangle that has an area and emits light. Returns false if memory is short. */
 static bool begin_faces(Patch *patch) {
     const Mesh *mesh = patch->mesh;
     patch->faces = alloc_array(mesh->triangle_count, sizeof *patch->faces);
@@ -154,7 +155,7 @@ static void list_edges(Patch *patch) {
     qsort(patch->edges, patch->edge_count, sizeof *patch->edges, compare_edges);
 }
 
-/* The face across that edge; NULL where there is none, or more than one. */
+/* Returns the face across an edge, or NULL if there is none, or more than one. */
 static Face *across(const Patch *patch, uint32_t from, uint32_t to) {
     size_t low = 0, high = patch->edge_count;
     while (low < high) {
@@ -181,7 +182,7 @@ static bool in_one_plane(const Patch *patch, const Face *a, const Face *b) {
     return true;
 }
 
-/* Drops the corners of a ring that lie on a straight side; -1 where the ring is not convex. */
+/* Removes the corners of a ring that lie on a straight side. Returns their number, or -1 if the ring is not convex. */
 static int straighten(const Patch *patch, Vec3 normal, uint32_t *ring, int count) {
     uint32_t kept[2 * LIGHT_CORNERS];
     int n = 0;
@@ -189,9 +190,9 @@ static int straighten(const Patch *patch, Vec3 normal, uint32_t *ring, int count
         Vec3 at = place_at(patch, ring[k]);
         Vec3 in = vec3_sub(at, place_at(patch, ring[(k + count - 1) % count]));
         Vec3 out = vec3_sub(place_at(patch, ring[(k + 1) % count]), at);
-        float turn = vec3_dot(vec3_cross(in, out), normal), most = vec3_length(in) * vec3_length(out);
-        if (turn < -1e-4f * most) return -1;
-        if (turn > 1e-4f * most)
+        float sine = vec3_dot(vec3_cross(in, out), normal), most = vec3_length(in) * vec3_length(out);
+        if (sine < -1e-4f * most) return -1;
+        if (sine > 1e-4f * most)
             kept[n++] = ring[k];
         else if (vec3_dot(in, out) < 0.0f)
             return -1; /* back along itself */
@@ -200,7 +201,8 @@ static int straighten(const Patch *patch, Vec3 normal, uint32_t *ring, int count
     return n;
 }
 
-/* The ring of a with b, which is behind its side k; 0 corners where that is no convex polygon. */
+/* Makes the ring of face a with face b across its side k. Returns the number of corners, or 0 if it is no convex
+ * polygon of at most LIGHT_CORNERS. */
 static int joined(const Patch *patch, const Face *a, int k, const Face *b, uint32_t *ring) {
     int n = 0, at = 0;
     while (at < b->count && b->corners[at] != a->corners[k]) at++;
@@ -217,8 +219,9 @@ typedef struct Join {
     uint32_t ring[2 * LIGHT_CORNERS];
 } Join;
 
-/* The neighbour with which a face has the fewest corners, and of those the longest side: so that triangles
- * become the squares that they came from. Those that grew this round are passed over: their sides changed. */
+/* Finds the neighbour with which a face has the fewest corners, and among those the longest common side, so that
+ * triangles become the squares that they were cut from. Neighbours that grew in this round are left out, since their
+ * sides changed. */
 static Join best_join(const Patch *patch, const Face *face, int round) {
     Join best = {.count = LIGHT_CORNERS + 1};
     for (int k = 0; k < face->count; k++) {
@@ -235,8 +238,8 @@ static Join best_join(const Patch *patch, const Face *face, int round) {
     return best;
 }
 
-/* Each face takes in at most one other a round, so that they grow alike: triangles to squares, squares to
- * rows, rows to grids. Returns whether any did. */
+/* Joins each face with at most one other, so that faces grow alike: triangles to squares, squares to rows, rows to
+ * grids. Returns false if none was joined. */
 static bool grow(Patch *patch, int round) {
     bool any = false;
     list_edges(patch);

@@ -14,15 +14,15 @@ struct SheenTables {
     int table_count;
 };
 
-/* The stack of a material without its textures. */
-static Stack plain_stack(const Surface *surface, const Choices *choices) {
+/* Returns the stack of a surface without a table. */
+static Stack stack_of(const Surface *surface, const Choices *choices) {
     Stack stack;
     stack_make(&stack, surface, choices, (TableRef){.kind = TABLE_NONE});
     return stack;
 }
 
-/* The inputs from which the stacks of workflows and profiles take the parameter that E is asked for; and the
- * least that a texture makes of them. Beta is asked for as it is, and of 0 it would be the roughness. */
+/* The inputs that set the parameter by which workflows and profiles look up E, with their least value under a texture.
+ * A beta of 0 would stand for the roughness. */
 static const struct {
     InputId input;
     size_t member; /* of Surface */
@@ -33,14 +33,13 @@ static const struct {
               {INPUT_sheen_beta, offsetof(Surface, sheen_beta), 1e-6f}};
 enum { SHAPES = sizeof shapes / sizeof shapes[0] };
 
-/* Finds the range of that parameter while textures scale their inputs from 0 to 1, or with `all` over the
- * range of all inputs. / */
+/* Finds the range of that parameter for textures from 0 to 1, or with `all` over the range of all inputs. */
 static void table_range(const Material *material, bool all, float *low, float *high) {
-    const Surface plain = material_plain(material);
+    const Surface untextured = material_plain(material);
     const Choices choices = material_choices(material);
-    *low = *high = plain_stack(&plain, &choices).albedo_coord;
+    *low = *high = stack_of(&untextured, &choices).albedo_coord;
     for (int ends = 0; ends < 1 << SHAPES; ends++) {
-        Surface surface = plain;
+        Surface surface = untextured;
         for (int k = 0; k < SHAPES; k++) {
             float *value = (float *)((char *)&surface + shapes[k].member);
             bool upper = ends >> k & 1;
@@ -49,27 +48,27 @@ static void table_range(const Material *material, bool all, float *low, float *h
             else if (material->inputs[shapes[k].input].texture && !upper)
                 *value = shapes[k].least;
         }
-        float at = plain_stack(&surface, &choices).albedo_coord;
+        float at = stack_of(&surface, &choices).albedo_coord;
         *low = min(*low, at);
         *high = max(*high, at);
     }
 }
 
-/* The table that a sheen asks for, or -1. */
+/* Returns the index of a table that serves a sheen, or -1. */
 static int table_that_serves(const SheenTables *self, const Lobe *lobe, float low, float high, bool scaled) {
     for (int k = 0; self && k < self->table_count; k++)
         if (albedo_table_serves(self->tables[k], lobe, low, high, scaled)) return k;
     return -1;
 }
 
-/* The table that the sheen of a material asks for: made, that of an earlier material with the same sheen
- * over the same range, or one of those before, which may be NULL. */
+/* Sets the index of the table of a material's sheen, or -1. The table is that of an earlier material with the same
+ * sheen over the same range, or one of `before`, which may be NULL, or is made. */
 static WeftResult find_table(SheenTables *self, const SheenTables *before, const Material *material,
                              int threads, int *index, WeftError *error) {
-    const Surface plain = material_plain(material);
+    const Surface untextured = material_plain(material);
     const Choices choices = material_choices(material);
     *index = -1;
-    Stack most = plain_stack(&plain, &choices);
+    Stack most = stack_of(&untextured, &choices);
     if (!HAS_SHEEN(&most) && most.layer != LAYER_MULTIPLICATIVE) return WEFT_OK;
     if (!albedo_is_own(most.albedo)) {
         stack_albedo(&most, dir(0.0f, 0.0f, 1.0f)); /* an engine's own, made before any threads start */
@@ -90,7 +89,7 @@ static WeftResult find_table(SheenTables *self, const SheenTables *before, const
     return WEFT_OK;
 }
 
-/* used: by some mesh. */
+/* Finds the tables of all used materials. used: zero flags, set for materials of meshes. */
 static WeftResult find_all(SheenTables *self, const SheenTables *before, const WeftScene *scene, bool *used,
                            int threads, WeftError *error) {
     WeftResult result = WEFT_OK;
@@ -123,9 +122,9 @@ WeftResult sheen_tables_renew(const SheenTables *before, const WeftScene *scene,
         self->tables = alloc_array(count, sizeof(AlbedoTable *));
         self->index = alloc_array(count, sizeof(int));
     }
-    bool held = used && self && self->tables && self->index;
-    WeftResult result = held ? find_all(self, before, scene, used, threads, error)
-                             : fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    bool allocated = used && self && self->tables && self->index;
+    WeftResult result = allocated ? find_all(self, before, scene, used, threads, error)
+                                  : fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     free(used);
     if (result != WEFT_OK) {
         sheen_tables_free_but(self, before);

@@ -22,7 +22,7 @@ typedef struct ClothReader {
     WeftError *error;
     WeftResult result;
     WeftDraft *draft;
-    char path[4096 + 512]; /* of the draft's file; "": it is in none */
+    char path[4096 + 512]; /* of the draft's file; "": none */
     WeftYarn yarns[2];
 } ClothReader;
 
@@ -35,7 +35,7 @@ static void keep_first(ClothReader *r, WeftResult result) {
     if (r->result == WEFT_OK) r->result = result;
 }
 
-/* A draft as the text of a WIF, which has lines, in words, or in a file beside the material's. */
+/* Reads a draft: the text of a WIF, which has several lines, or words, or a file beside the material's. */
 static void read_draft(ClothReader *r, const json_t *json) {
     const char *text = json_string_value(json);
     struct stat file;
@@ -60,7 +60,7 @@ static void read_draft(ClothReader *r, const json_t *json) {
     }
 }
 
-/* "#rrggbb", on all threads of a system. */
+/* Reads "#rrggbb" as the colour of all threads of a system. */
 static void read_color(ClothReader *r, const json_t *json, WeftThreads threads) {
     const char *text = json_string_value(json);
     char *end = NULL;
@@ -93,7 +93,7 @@ static void read_number(ClothReader *r, const char *key, const json_t *json, Wef
     refuse(r, key, "is not a key of a yarn");
 }
 
-/* The name of a yarn, or {"yarn": NAME, "color": "#rrggbb", "alpha": 0.3, ...}. */
+/* Reads the name of a yarn, or {"yarn": NAME, "color": "#rrggbb", "alpha": 0.3, ...}. */
 static void read_yarn(ClothReader *r, const json_t *json, WeftThreads threads) {
     WeftYarn *yarn = &r->yarns[threads];
     const json_t *base = json_is_object(json) ? json_object_get(json, "yarn") : json;
@@ -129,13 +129,13 @@ static void read_keys(ClothReader *r, const json_t *json) {
     json_t *value;
     if (!json_is_object(json)) refuse(r, "it", "expected an object with a \"draft\"");
     json_object_foreach((json_t *)(uintptr_t)json, key, value) {
-        bool known = false;
-        for (size_t k = 0; k < sizeof keys / sizeof *keys; k++) known |= strcmp(key, keys[k]) == 0;
-        if (!known) refuse(r, key, "is not a key of a weave");
+        bool exists = false;
+        for (size_t k = 0; k < sizeof keys / sizeof *keys; k++) exists |= strcmp(key, keys[k]) == 0;
+        if (!exists) refuse(r, key, "is not a key of a weave");
     }
 }
 
-/* Notes what the cloth came from. Returns false if memory is short. */
+/* Stores the source of a cloth in it. Returns false if memory is short. */
 static bool keep_source(ClothReader *r, const json_t *json, WeftCloth *cloth) {
     cloth->text = json_dumps(json, JSON_COMPACT);
     cloth->draft = r->draft;
@@ -188,7 +188,7 @@ json_t *cloth_to_json(const WeftCloth *cloth, const char *draft) {
     return json;
 }
 
-/* Writes what the yarn of a system has now into its JSON. Returns false where memory is short. */
+/* Writes the present numbers of a system's yarn into its JSON. Returns false if memory is short. */
 static bool put_yarn(json_t *weave, const char *system, WeftYarn *yarn) {
     json_t *json = json_object_get(weave, system);
     if (!json_is_object(json)) {

@@ -1,4 +1,4 @@
-/* convert.c - turning a scene's materials from workflow metallic to specular and back */
+/* convert.c - converting a scene's materials from workflow metallic to specular and back */
 #include <string.h>
 
 #include "base/fail.h"
@@ -17,14 +17,14 @@ static float greatest_loss(const WeftScene *scene, const Material *material) {
     enum { GRID = 256 };
     static const float white[4] = {1.0f, 1.0f, 1.0f, 1.0f};
     Choices choices = material_choices(material);
-    Surface plain = material_plain(material);
-    if (!textured(material)) return convert_loss(plain, choices);
+    Surface untextured = material_plain(material);
+    if (!textured(material)) return convert_loss(untextured, choices);
     float loss = 0.0f;
     for (int k = 0; k < GRID * GRID; k++) {
         int row = k / GRID, column = k % GRID;
         float u = (to_float(column) + 0.5f) / GRID, v = (to_float(row) + 0.5f) / GRID;
         float uv[2][2] = {{u, v}, {u, v}};
-        Surface surface = plain;
+        Surface surface = untextured;
         material_textures(scene, material, uv, white, &surface);
         loss = max(loss, convert_loss(surface, choices));
     }

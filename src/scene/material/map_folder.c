@@ -50,7 +50,7 @@ static bool take_over(WeftScene *scene, MapPicture *picture) {
     }
     int image = scene->textures[before].image, plain = find_plain(scene, image);
     Texture texture = {
-        .image = image, .path = scene->textures[before].path, .turn = scene->textures[before].turn};
+        .image = image, .path = scene->textures[before].path, .version = scene->textures[before].version};
     picture->texture = plain < 0 ? texture_number_of(scene, texture) : plain + 1;
     if (picture->texture) picture_replace(scene, image, &picture->image, texture.path);
     return picture->texture != 0;

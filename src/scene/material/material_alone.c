@@ -18,7 +18,7 @@ const char *weft_preset_text(int index) { return preset_at(index) ? preset_at(in
 static WeftResult load_preset(const char *name, MaterialFile *out, WeftError *error) {
     for (int k = 0; preset_at(k); k++) {
         const Preset *preset = preset_at(k);
-        if (strcmp(preset->name, name) == 0) /* no word on what we ship */
+        if (strcmp(preset->name, name) == 0) /* without warnings on embedded presets */
             return material_file_read(preset->text, strlen(preset->text), name, NULL, out, NULL, error);
     }
     return fail(error, WEFT_MESSAGE_PRESET_NAME, name, "`weft models` lists them");
@@ -43,7 +43,7 @@ WeftResult material_file_load(const char *path, MaterialFile *out, const WeftLog
 
 void weft_material_default(WeftMaterial *out) { *out = material_default(); }
 
-/* cloth: NULL: a weave is left out. */
+/* Reads the material of a file or preset. cloth: NULL leaves out a weave. */
 static WeftResult read_alone(const char *path, WeftMaterial *out, WeftCloth **cloth, const WeftLog *log,
                              WeftError *error) {
     MaterialFile file;

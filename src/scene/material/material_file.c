@@ -16,7 +16,7 @@
 
 /* A file being read. The first failure stays. */
 typedef struct Reader {
-    const char *name, *folder, *key; /* key: where we are, for messages */
+    const char *name, *folder, *key; /* key: being read, for messages */
     MaterialFile *out;
     const WeftLog *log;
     WeftError *error;
@@ -36,13 +36,13 @@ __attribute__((format(printf, 2, 3))) static void refuse(Reader *r, const char *
 
 enum { SUBJECT = 160 };
 
-/* "FILE: KEY", what a warning is about. */
+/* Writes "FILE: KEY", the subject of a warning. */
 static const char *subject(const Reader *r, const char *key, char text[SUBJECT]) {
     snprintf(text, SUBJECT, "%.120s: %.36s", r->name, key);
     return text;
 }
 
-/* A number as a float: what is too large for one is as good as the largest. */
+/* Returns a number as a float; one that is too large becomes the largest. */
 static float number(Reader *r, const json_t *json, const char *what) {
     if (!json_is_number(json)) {
         refuse(r, "%s is not a number", what);
@@ -58,7 +58,7 @@ static int hex_digit(char c) {
     return at ? (int)(at - digits) : -1;
 }
 
-/* "#rrggbb", as pictures are encoded. */
+/* Reads "#rrggbb", which is encoded in sRGB. */
 static void hex_color(Reader *r, const char *text, float v[3]) {
     SrgbTable srgb = srgb_table();
     bool good = strlen(text) == 7 && text[0] == '#';
@@ -70,7 +70,7 @@ static void hex_color(Reader *r, const char *text, float v[3]) {
     if (!good) refuse(r, "\"%.40s\" is not a color such as \"#c02030\"", text);
 }
 
-/* A value without a texture: a number and, for a color, [r, g, b] or "#rrggbb". */
+/* Reads a value without a texture: a number or, for a colour, [r, g, b] or "#rrggbb". */
 static void read_value(Reader *r, const json_t *json, InputId id, float v[3]) {
     const WeftInputInfo *info = &input_infos[id];
     bool color = info->kind == WEFT_INPUT_COLOR;
@@ -91,7 +91,7 @@ static void read_value(Reader *r, const json_t *json, InputId id, float v[3]) {
         v[c] = input_ranged(id, v[c], about, r->log);
 }
 
-/* The index of a text among names, which end with NULL. */
+/* Returns the index of a text among names, which end with NULL. Fails if it is none of them. */
 static int one_of(Reader *r, const json_t *json, const char *what, const char *const *names) {
     const char *text = json_string_value(json);
     char list[128] = "";
@@ -103,7 +103,7 @@ static int one_of(Reader *r, const json_t *json, const char *what, const char *c
     return 0;
 }
 
-/* The image of a file: read once, however many inputs look at it. */
+/* Returns the index of a file's image, which is read once for all inputs. */
 static int image_index(Reader *r, const char *file) {
     MaterialFile *out = r->out;
     if (!r->folder) {
@@ -122,7 +122,7 @@ static int image_index(Reader *r, const char *file) {
             free(path);
             return k;
         }
-    out->paths[out->image_count] = path; /* of at most one image an input, so there is room */
+    out->paths[out->image_count] = path; /* never full: at most one image an input */
     WeftResult result = weft_image_read(path, &out->images[out->image_count], r->log, r->error);
     if (r->result == WEFT_OK) r->result = result;
     return out->image_count++;
@@ -138,7 +138,7 @@ static void pair(Reader *r, const json_t *json, const char *what, float v[2]) {
     }
 }
 
-/* Places a texture as KHR_texture_transform does: scale, then rotate, then offset. */
+/* Sets the placement of a texture as in KHR_texture_transform: scale, then rotate, then offset. */
 static void place(Input *input, const float scale[2], float degrees, const float offset[2]) {
     float angle = degrees * (PI_FLOAT / 180.0f), c = cosf(angle), s = sinf(angle);
     const float m[6] = {c * scale[0], s * scale[1], offset[0], 0.0f - s * scale[0], c * scale[1], offset[1]};
@@ -151,7 +151,7 @@ static void six(Reader *r, const json_t *json, const char *what, float m[6]) {
         m[k] = number(r, json_array_get(json, k), what);
 }
 
-/* One word, or one along u and one along v. */
+/* Reads one word, or one for u and one for v. */
 static void read_wrap(Reader *r, const json_t *json, Texture *texture) {
     static const char *const wraps[] = {"repeat", "mirror", "clamp", NULL}; /* as TextureWrap */
     bool two = json_is_array(json) && json_array_size(json) == 2;
@@ -190,7 +190,7 @@ static void check_placing(Reader *r, const Placing *placing) {
             refuse(r, "it is placed beyond 1e6");
 }
 
-/* {"texture": FILE, ...} */
+/* Reads {"texture": FILE, ...}. */
 static void read_texture(Reader *r, json_t *object, InputId id, Input *input) {
     static const char *const channels[] = {"r", "g", "b", "a", NULL};
     MaterialFile *out = r->out;
@@ -267,7 +267,7 @@ static void read_keep(Reader *r, const json_t *json) {
     }
 }
 
-/* A measurement in a file beside the material's. */
+/* Reads a measurement from a file beside the material's. */
 static void read_measured(Reader *r, const json_t *json) {
     const char *text = json_string_value(json);
     char path[4096 + 512];
@@ -313,7 +313,7 @@ static void read_rest(Reader *r, const json_t *json) {
     }
 }
 
-/* Choices come first: a workflow has defaults of its own, which inputs then replace. */
+/* Reads a material. Choices come first, since a workflow has defaults of its own, which inputs then replace. */
 static void read_object(Reader *r, json_t *root) {
     const char *key;
     json_t *value;

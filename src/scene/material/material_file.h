@@ -4,10 +4,9 @@
 
 #include "scene/record/scene.h"
 
-/* The contents of a material file. Its images are those that inputs name; input.texture is an index into
- * textures, plus 1. */
+/* The contents of a material file. input.texture is an index into textures, plus 1. */
 typedef struct MaterialFile {
-    Material material;       /* defaults where the file is silent; name is "" */
+    Material material;       /* defaults for keys that the file lacks; name is "" */
     bool named[INPUT_COUNT]; /* given by the file */
     bool keep[INPUT_COUNT];  /* to be left as the asset has it */
     bool alpha_named, sided_named;
@@ -19,12 +18,12 @@ typedef struct MaterialFile {
     Measured *measured; /* owned; NULL: none */
 } MaterialFile;
 
-/* Reads size bytes of JSON. name is the subject of errors and warnings; folder ("" or with a slash at its
- * end) is where textures lie, NULL: there may be none. Release with material_file_free in any case. */
+/* Reads size bytes of JSON. name is the subject of errors and warnings; folder ("" or with a slash at its end) that of
+ * textures, NULL: textures are refused. Release with material_file_free in any case. */
 WeftResult material_file_read(const void *data, size_t size, const char *name, const char *folder,
                               MaterialFile *out, const WeftLog *log, WeftError *error);
 
-/* Reads the file at path, whose textures are relative to it, or "preset:NAME", which gives no warning. */
+/* Reads the file at path, whose textures are relative to it, or "preset:NAME", without warnings. */
 WeftResult material_file_load(const char *path, MaterialFile *out, const WeftLog *log, WeftError *error);
 
 void material_file_free(MaterialFile *file);

@@ -12,18 +12,17 @@
 #include "shading/material/choice.h"
 
 static bool is_choice(int choice, int value) {
-    bool known = value >= 0 && choice_id((ChoiceId)choice, value) && choice_fits((ChoiceId)choice, value);
-    return known || value == CHOICE_AUTO;
+    bool exists = value >= 0 && choice_id((ChoiceId)choice, value) && choice_fits((ChoiceId)choice, value);
+    return exists || value == CHOICE_AUTO;
 }
 
 float input_clamped(InputId input, float value) {
     const WeftInputInfo *info = &input_infos[input];
     bool angle = info->kind == WEFT_INPUT_DIRECTION || info->kind == WEFT_INPUT_ANGLE;
-    float unit = angle ? PI_FLOAT / 180.0f : 1.0f; /* of what input_ranged makes of the hard range */
+    float unit = angle ? PI_FLOAT / 180.0f : 1.0f; /* as input_ranged converts the hard range */
     return fminf(fmaxf(value, info->hard_low * unit), info->hard_high * unit);
 }
 
-/* Past the last choice and input, and where an input has no number, all is zero. */
 Material material_sound(const WeftMaterial *numbers) {
     Material material = material_default();
     material.alpha_mode =

@@ -1,12 +1,13 @@
-/* material_numbers.h - checking a material that a caller hands over */
+/* material_numbers.h - checking the numbers of a caller's material */
 #ifndef WEFT_SCENE_MATERIAL_NUMBERS_H
 #define WEFT_SCENE_MATERIAL_NUMBERS_H
 
 #include "scene/record/scene.h"
 #include "weft/material.h"
 
-/* Returns a material as the library may use it: numbers are finite and within their hard ranges, choices and modes
- * that do not exist are auto and opaque. Textures are not looked at. */
+/* Returns a material that the library can use: finite numbers within their hard ranges, auto and opaque for choices and
+ * modes that do not exist, and 0 past the last choice and input and where an input has no number. Textures are
+ * not checked. */
 Material material_sound(const WeftMaterial *numbers);
 
 /* Fails with WEFT_MESSAGE_PARAM_VALUE unless all choices exist and all values are finite. */

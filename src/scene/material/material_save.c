@@ -1,4 +1,4 @@
-/* material_save.c - a material becomes a file of docs/materials.md, which material_file.c reads */
+/* material_save.c - writing a material file (docs/materials.md), which material_file.c reads */
 #define _XOPEN_SOURCE 700 /* realpath */
 #include <jansson.h>
 #include <math.h>
@@ -36,7 +36,7 @@ static void put(Writer *w, json_t *object, const char *key, json_t *value) {
     if (json_object_set_new(object, key, value) != 0) no_memory(w);
 }
 
-/* The shortest decimal that is read as that float. */
+/* Returns the shortest decimal that is read as this float. */
 static json_t *number(float value) {
     double shortest = (double)value;
     for (int digits = 6; digits <= 9; digits++) {
@@ -48,7 +48,7 @@ static json_t *number(float value) {
     return json_real(shortest);
 }
 
-/* The degrees that are read as these radians, or nearest to them. */
+/* Returns the degrees that are read as these radians, or come nearest. */
 static float degrees(float radians) {
     const float unit = PI_FLOAT / 180.0f;
     float best = radians / unit, near = best;
@@ -73,7 +73,7 @@ static json_t *value_json(Writer *w, const Input *input, WeftInputKind kind) {
     return number(angle ? degrees(v[0]) : v[0]);
 }
 
-/* A folder with a slash at its end, as the file system calls it; NULL: there is none. */
+/* Returns the absolute folder of a path, with a slash at its end, or NULL. The caller frees it. */
 static char *folder_of(const char *path) {
     const char *slash = strrchr(path, '/');
     char *name = slash ? strndup(path, (size_t)(slash - path) + 1) : strdup("."),
@@ -98,7 +98,7 @@ static char *relative(Writer *w, const char *folder, const char *file) {
     return path;
 }
 
-/* Writes a picture that has no file beside ours: what has 8 or 16 bits as .png, floats as .npy. Its name. */
+/* Writes an image beside the material file: integers as .png, floats as .npy. Returns its name. */
 static const char *write_picture(Writer *w, const WeftImage *image, InputId id) {
     const char *dot = strrchr(w->path, '.'), *slash = strrchr(w->path, '/');
     int stem = dot && (!slash || dot > slash) ? (int)(dot - w->path) : (int)strlen(w->path);
@@ -115,7 +115,7 @@ static const char *write_picture(Writer *w, const WeftImage *image, InputId id) 
     return slash ? path + (slash + 1 - w->path) : path;
 }
 
-/* The file of a texture as ours names it: written once, however many inputs look at the picture. */
+/* Returns the file of a texture relative to the material file. An image without a file is written once. */
 static const char *file_of(Writer *w, const Material *material, InputId id) {
     const Texture *texture = &w->scene->textures[material->inputs[id].texture - 1];
     for (int k = 0; k < (int)id; k++) {
@@ -133,10 +133,10 @@ static const char *file_of(Writer *w, const Material *material, InputId id) {
 static void place_put(Writer *w, json_t *object, const float m[6]) {
     static const float identity[6] = {1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f};
     const float scale[2] = {m[0], m[4]}, offset[2] = {m[2], m[5]};
-    bool same = true, turned = m[1] < 0.0f || m[1] > 0.0f || m[3] < 0.0f || m[3] > 0.0f;
+    bool same = true, rotated = m[1] < 0.0f || m[1] > 0.0f || m[3] < 0.0f || m[3] > 0.0f;
     for (int k = 0; k < 6; k++) same &= is_equal(m[k], identity[k]);
     if (same) return;
-    if (turned) {
+    if (rotated) {
         put(w, object, "transform", numbers(w, m, 6));
     } else {
         put(w, object, "scale", numbers(w, scale, 2));
@@ -188,7 +188,7 @@ static void write_inputs(Writer *w, const Material *material) {
     }
 }
 
-/* A weave whose draft is in a file names it by its place from ours. */
+/* Returns the JSON of a weave, with the file of its draft relative to the material file. */
 static json_t *weave_json(Writer *w, const WeftCloth *cloth) {
     char *folder = cloth->path ? folder_of(w->path) : NULL;
     const char *draft = folder ? relative(w, folder, cloth->path) : NULL;
@@ -196,7 +196,7 @@ static json_t *weave_json(Writer *w, const WeftCloth *cloth) {
     return cloth_to_json(cloth, draft);
 }
 
-/* A measurement by its place from ours. */
+/* Returns the path of a measurement relative to the material file. */
 static json_t *measured_json(Writer *w, const Measured *measured) {
     char *folder = measured->path ? folder_of(w->path) : NULL;
     const char *path = folder ? relative(w, folder, measured->path) : measured->path;

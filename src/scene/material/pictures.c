@@ -37,12 +37,12 @@ void picture_replace(WeftScene *scene, int image, WeftImage *fresh, const char *
     *fresh = (WeftImage){0};
     for (int k = 0; k < scene->texture_count; k++) {
         if (scene->textures[k].image != image) continue;
-        scene->textures[k].turn++;
+        scene->textures[k].version++;
         scene->textures[k].path = path;
     }
 }
 
-/* Refuses an invalid image here, since lookups do not check. */
+/* Fails for an invalid image, since look-ups do not check. */
 static WeftResult check_image(const WeftImage *image, WeftError *error) {
     enum { SIDE_MAX = 65536 };
     const char *subject = "texture";

@@ -7,7 +7,7 @@ typedef struct Preset {
     const char *text; /* a material file, zero-terminated */
 } Preset;
 
-/* The preset at index, NULL past the end; generated. */
+/* Returns the preset at index, or NULL past the end. The function is generated. */
 const Preset *preset_at(int index);
 
 #endif

@@ -1,8 +1,7 @@
-/* reads.c - which inputs of a material have any influence on it
+/* reads.c - finds the inputs that have an influence on a material
  *
- * Workflows, profiles and choices are text that computes, not lists of what they read. So an input is moved
- * and what the material sends back is compared, at points that see dust from wherever it comes, into
- * directions that see a narrow highlight and a rim. */
+ * Workflows, profiles and choices are code, not lists of the inputs that they read. So an input is changed and the
+ * reflected light is compared, at points with dust from any side, in directions of a narrow highlight and of a rim. */
 #include <math.h>
 
 #include "scene/material/material_numbers.h"
@@ -10,7 +9,7 @@
 #include "shading/material/dust.h"
 #include "shading/stack/frame.h"
 
-/* A point of the world and where it is seen from. */
+/* A point of the world with the direction to the eye. */
 typedef struct ReadProbe {
     Dir normal, tangent, point, eye;
 } ReadProbe;
@@ -26,15 +25,15 @@ typedef struct MaterialAnswer {
     Rgb f_cos[ANSWERS];
 } MaterialAnswer;
 
-/* In place of E, which takes long, a number that depends on all that E depends on: what the sheen's lobe
- * itself says of one pair of directions. */
+/* Returns a number in place of E, which takes long, that depends on the same parameters: the sheen's lobe for one pair
+ * of directions. */
 static float stand_in(const Stack *m) {
     const Dir o = dir(0.48f, 0.36f, 0.8f), i = dir(-0.36f, 0.64f, 0.678823f);
     float f = lobe_eval(&m->sheen.lobe, angles_between(o, i));
     return f > 0.0f ? f / (1.0f + f) : 0.0f;
 }
 
-/* Directions of light: where a mirror sends it, just beside, far off, and the last from behind. */
+/* Returns direction k of light: the mirror direction, one just beside, two far off, and the last from behind. */
 static Dir incoming(Dir o, int k) {
     const float aside[INCOMING][2] = {
         {0.0f, 0.0f}, {0.021f, 0.013f}, {0.43f, -0.29f}, {-0.51f, 0.37f}, {0.2f, 0.3f}};
@@ -58,7 +57,7 @@ static void answer_at(const ReadProbe *probe, Surface s, const Choices *choices,
     for (int k = 0; k <= COLUMNS; k++) e[k] = same;
     seen_make(&seen, &s, choices, (TableRef){.texels = e, .kind = TABLE_ROOTS, .rows = 1, .columns = COLUMNS},
               o);
-    for (int k = 0; k < INCOMING; k++) { /* the same ones in the world, however the frame is turned */
+    for (int k = 0; k < INCOMING; k++) { /* the same directions in the world for any rotation of the frame */
         Dir i = frame_from(fixed, incoming(frame_to(fixed, probe->eye), k));
         f_cos[k] = seen_eval(&seen, frame_to(frame, i), 1).f_cos;
     }
@@ -70,7 +69,7 @@ static MaterialAnswer answer_of(const Surface *surface, const Choices *choices) 
     return answer;
 }
 
-/* Beyond what rounding does. */
+/* Returns true if two numbers differ by more than rounding. */
 static bool is_other(float a, float b) { return fabsf(a - b) > 1e-7f + 1e-5f * max(fabsf(a), fabsf(b)); }
 
 static bool differ(const MaterialAnswer *a, const MaterialAnswer *b) {
@@ -81,7 +80,7 @@ static bool differ(const MaterialAnswer *a, const MaterialAnswer *b) {
     return other;
 }
 
-/* An input somewhere in its plausible range: of a colour each channel elsewhere. */
+/* Sets an input to a place t in its plausible range; channels of a colour get different values. */
 static void move(Material *material, int input, float t) {
     const WeftInputInfo *info = &input_infos[input];
     bool angle = info->kind == WEFT_INPUT_DIRECTION || info->kind == WEFT_INPUT_ANGLE;

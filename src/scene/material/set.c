@@ -110,7 +110,7 @@ void material_set(Material *material, const Setting *setting) {
     memcpy(slot->value, setting->v, sizeof setting->v);
     slot->given = true;
     if (setting->input == INPUT_opacity && material->alpha_mode == WEFT_ALPHA_OPAQUE)
-        material->alpha_mode = WEFT_ALPHA_BLEND; /* else it would say nothing */
+        material->alpha_mode = WEFT_ALPHA_BLEND; /* else opacity would have no effect */
     if (input_infos[setting->input].kind != WEFT_INPUT_NORMAL) slot->texture = 0;
 }
 
@@ -122,7 +122,7 @@ static bool has_sheen(const Material *material) {
     return HAS_SHEEN(&stack);
 }
 
-/* Returns true for a setting that does something to a sheen alone. */
+/* Returns true for a setting that affects nothing but a sheen. */
 static bool wants_sheen(const Setting *setting) {
     static const ChoiceId choices[] = {CHOICE_sheen_lobe, CHOICE_sheen_d, CHOICE_sheen_v, CHOICE_sheen_f,
                                        CHOICE_layer};

@@ -1,4 +1,4 @@
-/* set.h - giving a material's inputs and choices values, with a word on those that are hardly real */
+/* set.h - setting a material's inputs and choices, with warnings about implausible values */
 #ifndef WEFT_SCENE_SET_H
 #define WEFT_SCENE_SET_H
 
@@ -7,11 +7,11 @@
 /* Returns true if name is that of material k, its decimal index, or "*". */
 bool material_matches(const WeftScene *scene, int k, const char *name);
 
-/* The value of a choice from an id, an alias or "auto". Fails with PARAM_VALUE. */
+/* Sets the value of a choice from an id, an alias or "auto". Fails with WEFT_MESSAGE_PARAM_VALUE. */
 WeftResult choice_value(ChoiceId choice, const char *id, int *value, WeftError *error);
 
-/* Converts a number given for an input: clamps it to the hard range, warns about target if it is beyond the
- * plausible range or the limit, and turns degrees into radians. Any DIRECTION is plausible. / */
+/* Converts a number given for an input: clamps it to the hard range, warns about target if it is beyond the plausible
+ * range or the limit, and converts degrees to radians. Any DIRECTION is plausible. */
 float input_ranged(InputId input, float value, const char *target, const WeftLog *log);
 
 /* The input or the choice that a setting names; the other is -1. */
@@ -20,13 +20,13 @@ typedef struct Setting {
     float v[3];
 } Setting;
 
-/* Reads what an input or choice called name is to be. Fails with PARAM_NAME or PARAM_VALUE; warnings are
- * about target. */
+/* Reads the value for an input or choice called name. Fails with WEFT_MESSAGE_PARAM_NAME or _PARAM_VALUE; target is the
+ * subject of warnings. */
 WeftResult setting_read(const char *name, const char *value, const char *target, Setting *setting,
                         const WeftLog *log, WeftError *error);
 void material_set(Material *material, const Setting *setting);
 
-/* Says what is hardly real in a material, of all that one setting has to do with: input or choice is -1. */
+/* Warns about implausible values of a material that involve one setting, an input or a choice; the other is -1. */
 void plausible_check(const Material *material, int input, int choice, const char *target, const WeftLog *log);
 
 /* Checks the inputs that a file names, a flag for each of SURFACE_INPUTS, and reports each finding once. */

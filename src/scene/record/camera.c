@@ -87,7 +87,7 @@ static bool starts_within_reach(const Camera *camera, float aspect) {
            within_reach(vec3_sub(view.eye, beside), RAY_REACH);
 }
 
-/* The scene's camera of that name or index; NULL: it has none. */
+/* Returns the scene's camera of that name or index, or NULL. */
 static const Camera *own_camera(const WeftScene *scene, const char *text) {
     for (int k = 0; k < scene->camera_count; k++) {
         char index[16];
@@ -117,7 +117,8 @@ WeftResult camera_find(const WeftScene *scene, const char *text, float aspect, C
     return wrong ? fail(error, WEFT_MESSAGE_CAMERA_NAME, framed ? "auto" : text, "%s", wrong) : WEFT_OK;
 }
 
-void camera_tell(const WeftScene *scene, const Camera *camera, float eye[3], float target[3], float *fov) {
+void camera_describe(const WeftScene *scene, const Camera *camera, float eye[3], float target[3],
+                     float *fov) {
     Vec3 middle = vec3_scale(vec3_add(scene->low, scene->high), 0.5f);
     float depth = fmaxf(vec3_dot(vec3_sub(middle, camera->eye), camera->forward), 1e-3f);
     Vec3 at = vec3_madd(camera->eye, camera->forward, depth);
@@ -135,7 +136,7 @@ WeftResult weft_scene_camera(const WeftScene *scene, const char *text, float asp
         return fail(error, WEFT_MESSAGE_DESC, "camera", "aspect %g", (double)aspect);
     WeftResult result = camera_find(scene, text, aspect, &camera, error);
     if (result != WEFT_OK) return result;
-    camera_tell(scene, &camera, out->eye, out->target, &out->fov);
+    camera_describe(scene, &camera, out->eye, out->target, &out->fov);
     const float up[3] = {camera.up.x, camera.up.y, camera.up.z};
     memcpy(out->up, up, sizeof up);
     if (camera.orthographic) out->fov = 0.0f;

@@ -1,20 +1,20 @@
-/* camera.h - choosing a camera by what a person types, and framing a scene without one */
+/* camera.h - finding a camera by its name or by text, and framing a scene without one */
 #ifndef WEFT_SCENE_CAMERA_H
 #define WEFT_SCENE_CAMERA_H
 
 #include "scene/record/scene.h"
 
-/* NULL or "auto": a three-quarter view from slightly above through a long lens, all of the scene in the
- * picture. Else a camera's name, its index, or "eye;target;fov" as "x,y,z;x,y,z;degrees". aspect is width /
- * height. Fails with WEFT_MESSAGE_CAMERA_NAME. */
+/* Finds the camera of a text: NULL or "auto" is a three-quarter view from slightly above through a long lens, with all
+ * of the scene in the picture; else a camera's name, its index, or "eye;target;fov" as "x,y,z;x,y,z;degrees". aspect is
+ * width / height. Fails with WEFT_MESSAGE_CAMERA_NAME or _SCENE_EMPTY. */
 WeftResult camera_find(const WeftScene *scene, const char *text, float aspect, Camera *out, WeftError *error);
 
-/* A perspective camera at eye that looks at target, upright; yfov: vertical, radians. name is not copied. */
+/* Returns an upright perspective camera at eye that looks at target; yfov: vertical, radians. name is not copied. */
 Camera camera_towards(const char *name, Vec3 eye, Vec3 target, float yfov);
 
-/* A camera as a person would type it: target is the point of its axis beside the scene's middle, fov
- * vertical, degrees. */
-void camera_tell(const WeftScene *scene, const Camera *camera, float eye[3], float target[3], float *fov);
+/* Sets eye, target and vertical field of view, degrees, of a camera. The target is the point of its axis nearest to the
+ * scene's middle. */
+void camera_describe(const WeftScene *scene, const Camera *camera, float eye[3], float target[3], float *fov);
 
 /* The rays of a picture through a camera. */
 typedef struct View {
@@ -29,7 +29,7 @@ typedef struct CameraRay {
     Vec3 origin, direction; /* direction is unit */
 } CameraRay;
 
-/* The ray through (x, y) in [-1, 1]^2, +y up; beyond for points outside the picture. */
+/* Returns the ray through (x, y) in [-1, 1]^2, +y up, or outside of that beside the picture. */
 static inline CameraRay view_ray(const View *view, float x, float y) {
     Vec3 offset = vec3_madd(vec3_scale(view->across, x), view->up, y);
     if (view->orthographic) return (CameraRay){vec3_add(view->eye, offset), view->forward};

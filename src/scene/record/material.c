@@ -56,23 +56,24 @@ void input_set_map_factor(Input *input, InputId id) {
     for (int c = 0; c < input_value_count(id); c++) input->value[c] = factor;
 }
 
-/* Inputs for which some have a default of their own: the principled BRDF a fainter highlight and no sheen,
- * workflow specular the reflectance that a dielectric has elsewhere. */
+/* Inputs whose default depends on workflow or profile: the principled BRDF has a fainter highlight and no sheen,
+ * workflow specular the reflectance of a dielectric. */
 static const InputId redefaulted[] = {INPUT_specular, INPUT_sheen, INPUT_specular_color};
 enum { REDEFAULTED = sizeof redefaulted / sizeof redefaulted[0] };
 
-static bool chosen(const Material *material, ChoiceId choice, const char *id) {
+static bool has_choice(const Material *material, ChoiceId choice, const char *id) {
     const char *value = choice_id(choice, material->choices[choice]);
     return value && strcmp(value, id) == 0;
 }
 
 static float input_default(const Material *material, InputId id) {
     bool engine = material->choices[CHOICE_profile] > 0;
-    bool disney = engine ? chosen(material, CHOICE_profile, "disney-2012")
-                         : chosen(material, CHOICE_workflow, "disney");
+    bool disney = engine ? has_choice(material, CHOICE_profile, "disney-2012")
+                         : has_choice(material, CHOICE_workflow, "disney");
     if (disney && id == INPUT_specular) return 0.5f;
     if (disney && id == INPUT_sheen) return 0.0f;
-    bool bare = chosen(material, CHOICE_workflow, "specular") || chosen(material, CHOICE_workflow, "free");
+    bool bare =
+        has_choice(material, CHOICE_workflow, "specular") || has_choice(material, CHOICE_workflow, "free");
     if (!engine && bare && id == INPUT_specular_color) return 0.03f;
     return input_infos[id].initial;
 }

@@ -13,29 +13,29 @@ typedef WeftMaterial Material;
 typedef WeftInput Input;
 
 _Static_assert((int)INPUT_COUNT <= (int)WEFT_INPUTS_MAX && (int)CHOICE_COUNT <= (int)WEFT_CHOICES_MAX,
-               "weft/material.h has room for all");
+               "weft/material.h has too few inputs or choices");
 
 extern const WeftInputInfo input_infos[INPUT_COUNT];
 
-/* Returns how many numbers the value of an input has: 3 for a colour, else 1. */
+/* Returns the count of numbers in the value of an input: 3 for a colour, else 1. */
 int input_value_count(InputId input);
 
-/* Returns true if both inputs' textures, sets of coordinates and placements are one. */
+/* Returns true if both inputs have the same texture, set of coordinates and placement. */
 bool input_same_texels(const Input *a, const Input *b);
 
-/* Returns a material with every default: identity texture transforms, no textures, opaque, single-sided, nothing
- * chosen. */
+/* Returns a material with all defaults: no textures, identity transforms, opaque, single-sided, all choices
+ * automatic. */
 Material material_default(void);
 
 /* Sets the colour of an input, linear. */
 void material_set_color(Material *material, InputId input, float r, float g, float b);
 
-/* Sets the factor beside a texture that alone counts: 1, the greatest angle, or 0 added to a direction. */
+/* Sets an input's number so that its texture alone counts: 1, the greatest angle, or 0 added to a direction. */
 void input_set_map_factor(Input *input, InputId id);
 
-/* Makes a choice. Inputs that mean something else to a workflow (disney, and profile disney-2012: specular
- * 0.5, sheen 0; specular and free: specular_color 0.03) move from default to default, unless they are given,
- * hold a texture or another value. */
+/* Sets a choice. Inputs with other defaults in a workflow (disney, and profile disney-2012: specular 0.5, sheen 0;
+ * specular and free: specular_color 0.03) change from default to default, unless they are given, have a texture or
+ * another value. */
 void material_choose(Material *material, ChoiceId choice, int value);
 
 #endif

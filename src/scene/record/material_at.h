@@ -5,17 +5,18 @@
 #include "scene/record/scene.h"
 #include "shading/material/material_stack.h"
 
-/* The material's inputs without its textures: the same everywhere, so it need be made only once. */
+/* Returns the material's inputs without its textures: the same at every point, so one call a material is enough. */
 Surface material_plain(const Material *material);
 
 /* Returns the choices of a material. */
 Choices material_choices(const Material *material);
 
-/* Puts in what its textures say at a point: uv holds the two UV sets, color the linear vertex colour. */
+/* Sets the textured inputs of a surface at a point, and multiplies base_color and opacity by the linear vertex colour.
+ * uv: the two UV sets. */
 void material_textures(const WeftScene *scene, const Material *material, float uv[2][2], const float color[4],
                        Surface *surface);
 
-/* Only the opacity there, after the alpha mode's rule (MASK gives 0 or 1); 1 for OPAQUE. */
+/* Returns the opacity at a point, after the alpha mode's rule (MASK gives 0 or 1); 1 for OPAQUE. */
 float material_opacity(const WeftScene *scene, const Material *material, float uv[2][2], float vertex_alpha);
 
 #endif

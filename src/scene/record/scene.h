@@ -1,7 +1,7 @@
 /* scene.h - the contents of a loaded file: world-space triangles, materials, lights, cameras, environment
  *
- * World space is glTF's: right-handed, +y up, metres. A scene is made by gltf/ or builtin.c and read by the
- * renderers. All memory but the pixels is in one arena. */
+ * World space is glTF's: right-handed, +y up, metres. gltf/ or builtin/ make a scene, the renderers read it. All memory
+ * except pixels is in one arena. */
 #ifndef WEFT_SCENE_SCENE_H
 #define WEFT_SCENE_SCENE_H
 
@@ -17,13 +17,13 @@
 
 typedef struct Measured Measured; /* brdf/measured.h */
 
-/* No coordinate of a scene is larger, m: squares of coordinates must stay finite. A ray may start further
- * out, since a camera backs off to see a scene and a parallel one looks from beside its eye, but not beyond
- * RAY_REACH: from 1.844e18 on Embree takes a number for no number. */
+/* Limits of coordinates, m. Squares of a scene's coordinates must stay finite. A ray may start further out, up to
+ * RAY_REACH, since a camera backs off to see a scene and rays of a parallel one start beside its eye; from 1.844e18 on
+ * Embree treats a number as NaN. */
 #define SCENE_REACH 1e15f
 #define RAY_REACH   1e18f
 
-/* Returns false where a coordinate is beyond reach, or is no number. */
+/* Returns false if a coordinate is beyond reach or NaN. */
 static inline bool within_reach(Vec3 p, float reach) {
     return fabsf(p.x) <= reach && fabsf(p.y) <= reach && fabsf(p.z) <= reach;
 }
@@ -56,8 +56,8 @@ typedef struct Light {
     float cos_inner, cos_outer; /* spot: full inside the inner cone, none outside the outer */
 } Light;
 
-/* A light that is a flat mesh. The scene's last meshes and materials are those of its polygon lights, in
- * their order: lights.c sees to that. */
+/* A light that is a flat mesh. The scene's last meshes and materials are those of its polygon lights, in their order,
+ * which light_list.c maintains. */
 typedef struct PolygonLight {
     WeftLight light; /* as it was given, its defaults filled in */
     int place;       /* among all lights as callers count them; punctual ones fill the places between */
@@ -84,9 +84,9 @@ typedef struct Environment {
     WeftImage image;  /* IMAGE and STUDIO: F32, 1 to 4 channels, owned; all zero otherwise */
     float rotation;   /* radians about +y, counter-clockwise seen from above */
     float strength;   /* factor on the radiance */
-    float ambient;    /* on what diffuse lobes and dust reflect of it */
-    float reflection; /* on what all other lobes do */
-    unsigned turn;    /* another number for another image or colour */
+    float ambient;    /* factor on the light that diffuse lobes and dust reflect of it */
+    float reflection; /* factor on the light that all other lobes reflect of it */
+    unsigned version; /* counts changes of image or colour */
 } Environment;
 
 struct WeftScene {
@@ -107,9 +107,10 @@ struct WeftScene {
     const char **variants;
     int variant; /* number of the active variant, counted from 1; 0: none */
     int image_count, texture_count, material_count, mesh_count, light_count, camera_count, variant_count;
-    int light_room, polygon_light_count, polygon_light_room; /* room: as many as the lists have memory for */
+    int light_capacity, polygon_light_count,
+        polygon_light_capacity; /* capacity: entries that a list has memory for */
     PolygonLight *polygon_lights;
-    unsigned shape_turn; /* another number for other shapes: those of lights, which alone may change */
+    unsigned shape_version; /* counts changes of shapes; only those of lights may change */
     Environment environment;
     Vec3 low, high; /* bounding box of its own vertices; low > high when there are none */
 };
@@ -122,21 +123,21 @@ static inline int scene_own_materials(const WeftScene *scene) {
     return scene->material_count - scene->polygon_light_count;
 }
 
-/* An empty scene with the studio environment, or NULL when memory is short. */
+/* Returns an empty scene with the studio environment, or NULL if memory is short. */
 WeftScene *scene_create(const char *name);
 
-/* "available: a, b, c" for people who mistyped one: the first few names that `name` gives, an unnamed thing by
- * its index. Returns text. */
+/* Writes "available: a, b, c" for messages: the first few names that `name` returns, or the index of an unnamed one.
+ * Returns text. */
 enum { NAMES_SIZE = 256 };
 const char *scene_names(const WeftScene *scene, const char *(*name)(const WeftScene *scene, int index),
                         char text[NAMES_SIZE]);
 
-/* Takes over a cloth and returns its number, counted from 1: that of the same cloth where the scene has it, which then
- * takes its place. 0: memory is short, and the cloth is still the caller's. A cloth stays as long as the scene, since
- * materials that were read from it may name it. */
+/* Takes over a cloth and returns its number, counted from 1. If the scene has the same cloth this is its number, and
+ * the new one is freed. Returns 0 if memory is short; the cloth is then still the caller's. A cloth stays as long as
+ * the scene, since materials may refer to it. */
 int scene_adopt_cloth(WeftScene *scene, WeftCloth *cloth);
 
-/* Takes over a measurement in the same way: that of the same file stays where the scene has one. */
+/* Takes over a measurement in the same way; one of the same file stays in its place. */
 int scene_adopt_measured(WeftScene *scene, Measured *measured);
 
 /* Reads a measurement into memory of its own. Fails as measured_read, and with WEFT_MESSAGE_MEASURED where the name is

@@ -1,22 +1,22 @@
-/* tangents.h - a direction of growing u for meshes that came without, once a material asks for one
+/* tangents.h - tangents, in the direction of growing u, for meshes without, once a material needs them
  *
- * A scene file's own needs are met when it is read. A material that is dressed or set later may be the first
- * to be brushed or to have a normal map. */
+ * Reading a file makes the tangents that its materials need. A material that is assigned or set later may be the first
+ * to have anisotropy or a normal map. */
 #ifndef WEFT_SCENE_TANGENTS_H
 #define WEFT_SCENE_TANGENTS_H
 
 #include "scene/record/scene.h"
 
-/* The input whose map tangents of this material are for, or NULL where it needs none. */
+/* Returns the input for whose map a material needs tangents, or NULL if it needs none. */
 const Input *tangents_input(const Material *material);
 
-/* Returns true if the mesh has texture coordinates for the input from which the direction of u follows:
- * they must not all be equal. */
+/* Returns true if the mesh has texture coordinates for the input that give a direction of u, which are not all
+ * equal. */
 bool tangents_possible(const Mesh *mesh, const Input *input);
 
-/* Gives every mesh that needs tangents, has texture coordinates and no tangents, some: at each vertex the sum
- * over its triangles, each weighted by its size. A map that is mirrored across an edge needs vertices of its
- * own on either side, as files have them. Fails with MEMORY. */
+/* Makes the tangents of every mesh that needs them, has texture coordinates, and has no tangents: at each vertex the
+ * sum over its triangles, weighted by size. A map that is mirrored across an edge needs separate vertices on either
+ * side, as files have them. Fails with WEFT_MESSAGE_MEMORY. */
 WeftResult tangents_complete(WeftScene *scene, WeftError *error);
 
 #endif

@@ -20,7 +20,7 @@ typedef struct TexelSpan {
     float t;
 } TexelSpan;
 
-/* One step over either end comes back in at the other, or stays. */
+/* Returns a texel index after a step over either end: the other end if the texture repeats, else the same end. */
 FN int step_in(int texel, int last, TextureWrap wrap) {
     int low = wrap == WRAP_REPEAT ? last : 0, high = wrap == WRAP_REPEAT ? 0 : last;
     return texel < 0 ? low : texel > last ? high : texel;

@@ -1,4 +1,4 @@
-/* texture.h - an image with the way it is looked up */
+/* texture.h - an image with its wrapping and filter */
 #ifndef WEFT_SCENE_TEXTURE_H
 #define WEFT_SCENE_TEXTURE_H
 
@@ -14,7 +14,7 @@ typedef struct Texture {
     bool nearest; /* no interpolation between texels */
     /* Properties of the image, equal for all textures of it: */
     const char *path; /* path of its file; NULL if it is not a file of its own */
-    unsigned turn;    /* another number for other pixels */
+    unsigned version; /* counts changes of the pixels */
 } Texture;
 
 typedef struct Texel {
@@ -28,12 +28,12 @@ typedef struct SrgbTable {
 
 SrgbTable srgb_table(void);
 
-/* The texture's value at (u, v), v running down the image as in glTF: bilinear unless nearest. With srgb not
+/* Returns the texture's value at (u, v), v running down the image as in glTF: bilinear unless nearest. If srgb is not
  * NULL the RGB of integer images is decoded to linear Rec. 709 before it is interpolated; alpha never is.
  * Non-finite coordinates read as 0. */
 Texel texture_fetch(const Texture *texture, const WeftImage *images, const SrgbTable *srgb, float u, float v);
 
-/* Looks up n <= ROW_MOST places (shading/stack/surface_rows.h), in arrays with room up to row_whole(n). Channel c of place k
+/* Looks up n <= ROW_MOST places (shading/stack/surface_rows.h), in arrays of row_whole(n) entries. Channel c of place k
  * is texels[c * ROW_ROOM + k]. */
 void texture_fetch_rows(const Texture *texture, const WeftImage *images, const SrgbTable *srgb, int n,
                         const float *u, const float *v, float *texels);

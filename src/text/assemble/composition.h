@@ -26,7 +26,7 @@ CompositionSlots composition_slots(const Choices *choices, const bool zero[INPUT
 void text_composition_lobes(Text *text, const CompositionSlots *slots, int table_kind, int table_tilts);
 
 /* Writes the one composition in place of shading/material/profile.h, with the tables of its engine, and then
- * shading/material/compose.h. */
+ * shading/material/stack_value.h. */
 void text_composition(Text *text, const Choices *choices);
 
 /* Writes the function Choices material_choices(), which returns these. */

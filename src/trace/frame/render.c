@@ -200,9 +200,9 @@ static WeftResult make_blurred(WeftRender *render, WeftError *error) {
     const Environment *e = &render->scene->environment;
     if (render->picture.desc.background != WEFT_BACKGROUND_BLURRED || e->kind == ENVIRONMENT_CONSTANT)
         return WEFT_OK;
-    if (render->picture.blurred.pixels && render->blurred_version == e->turn) return WEFT_OK;
+    if (render->picture.blurred.pixels && render->blurred_version == e->version) return WEFT_OK;
     weft_image_free(&render->picture.blurred);
-    render->blurred_version = e->turn;
+    render->blurred_version = e->version;
     return backdrop_blurred(e, &render->picture.blurred, error);
 }
 
@@ -341,7 +341,7 @@ WeftResult weft_render_run(WeftRender *render, int spp, double seconds, WeftProg
 
 WeftRenderInfo weft_render_info(const WeftRender *render) {
     WeftRenderInfo info = {.build_seconds = render->build_seconds, .render_seconds = render->render_seconds};
-    camera_tell(render->scene, &render->camera, info.camera_eye, info.camera_target, &info.camera_fov);
+    camera_describe(render->scene, &render->camera, info.camera_eye, info.camera_target, &info.camera_fov);
     const Film *film = &render->picture.film;
     double samples = 0.0;
     for (int k = 0; k < film->tile_count; k++) {
