@@ -11,7 +11,7 @@
 #include "raster/gl/program.h"
 #include "raster/material/gl_tables.h"
 
-/* Samples lie in rows of a texture; what does not fit takes another round. */
+/* Samples lie in rows of a texture. More samples than WIDTH * HEIGHT take several runs. */
 enum { WIDTH = 1024, HEIGHT = 256, TARGETS = 4, PASSES_MAX = COMPUTE_OUTPUTS_MAX / TARGETS };
 
 struct Compute {
@@ -32,7 +32,7 @@ static const char *version_line(TextLanguage language) {
     return language == TEXT_GLSL_ES_300 ? "#version 300 es\n" : "#version 330 core\n";
 }
 
-/* The caller's text, and a main around the body that writes the outputs of that pass. */
+/* Appends the caller's text, and a main around the body that writes the outputs of a pass. */
 static void put_fragment(Buffer *out, const ComputeDesc *desc, int pass) {
     char line[160];
     int first = pass * TARGETS, last = first + TARGETS < desc->outputs ? first + TARGETS : desc->outputs;
@@ -90,8 +90,8 @@ static WeftResult build_programs(Compute *self, const ComputeDesc *desc, WeftErr
     return result;
 }
 
-/* Room for n samples, up to WIDTH * HEIGHT at a time. */
-static WeftResult make_room(Compute *self, size_t n, WeftError *error) {
+/* Makes the textures large enough for n samples, at most WIDTH * HEIGHT. Fails as compute_run does. */
+static WeftResult reserve(Compute *self, size_t n, WeftError *error) {
     size_t rows = (n + WIDTH - 1) / WIDTH;
     int height = rows < HEIGHT ? (int)rows : HEIGHT;
     if (height <= self->height) return WEFT_OK;
@@ -120,11 +120,11 @@ static void make_objects(Compute *self) {
     glGenFramebuffers(1, &self->framebuffer);
     glGenTextures(1, &self->input);
     glBindTexture(GL_TEXTURE_2D_ARRAY, self->input);
-    texture_plain(GL_TEXTURE_2D_ARRAY);
+    texture_unfiltered(GL_TEXTURE_2D_ARRAY);
     glGenTextures(TARGETS, self->targets);
     for (int k = 0; k < TARGETS; k++) {
         glBindTexture(GL_TEXTURE_2D, self->targets[k]);
-        texture_plain(GL_TEXTURE_2D);
+        texture_unfiltered(GL_TEXTURE_2D);
     }
 }
 
@@ -184,7 +184,7 @@ WeftResult compute_tables(Compute *self, const TextTable *tables, int count, Wef
     return local.result;
 }
 
-/* Samples [first, first + count): the full rows, then the row that is left. */
+/* Uploads samples [first, first + count): the full rows, then the row that is left. */
 static void upload(Compute *self, size_t first, int count, const float *const in[]) {
     int full = count / WIDTH, rest = count % WIDTH;
     glActiveTexture(GL_TEXTURE0);
@@ -220,7 +220,7 @@ WeftResult compute_run(Compute *self, size_t n, const float *const in[], float *
     if (!context_enter(self->context, &outer))
         return fail(error, WEFT_MESSAGE_GL_CONTEXT, "a computation", "its context is in use");
     glActiveTexture(GL_TEXTURE0);
-    WeftResult result = make_room(self, n, error);
+    WeftResult result = reserve(self, n, error);
     glBindFramebuffer(GL_FRAMEBUFFER, self->framebuffer);
     glBindVertexArray(self->vertices);
     glDisable(GL_BLEND);

@@ -26,15 +26,15 @@ typedef struct ComputeDesc {
  * WEFT_MESSAGE_GL_COMPILE, _GL_CONTEXT, _MEMORY, or _DESC where a number is out of range. */
 WeftResult compute_create(GlContext *context, const ComputeDesc *desc, Compute **out, WeftError *error);
 
-/* NULL is fine. */
+/* Releases it; compute may be NULL. */
 void compute_destroy(Compute *compute);
 
 /* Sets the contents of weft_tables (TextDesc.tables): the tables of the text, and any others; none if count
  * is 0. Replaces earlier ones. Fails with WEFT_MESSAGE_GL_MEMORY. */
 WeftResult compute_tables(Compute *compute, const TextTable *tables, int count, WeftError *error);
 
-/* Runs the body for n samples: in[k] and out[k] hold n vec4 each, 4 n floats. Fails with
- * WEFT_MESSAGE_GL_MEMORY or _GL_CONTEXT; what is in out is then not to be used. */
+/* Runs the body for n samples: in[k] and out[k] have n vec4 each, 4 n floats. Fails with WEFT_MESSAGE_GL_MEMORY or
+ * _GL_CONTEXT; the contents of out are then undefined. */
 WeftResult compute_run(Compute *compute, size_t n, const float *const in[], float *const out[],
                        WeftError *error);
 

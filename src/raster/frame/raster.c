@@ -301,7 +301,7 @@ static void begin(WeftRaster *self, const WeftRasterView *view, const int box[4]
 /* Binds the textures and blocks that all meshes share. */
 static void bind_light(WeftRaster *self, const WeftRasterView *view) {
     bool plain = view->plain_textures != 0;
-    if (plain != self->plain) textures_filter(&self->textures, plain);
+    if (plain != self->plain) textures_filter(&self->textures, !plain);
     self->plain = plain;
     if (self->shines) environment_bind(&self->environment, UNIT_ENVIRONMENT, BLOCK_ENVIRONMENT);
     glActiveTexture(GL_TEXTURE0);
@@ -562,7 +562,7 @@ static WeftResult update_materials(WeftRaster *self, MaterialsChange *change, co
     change->coverage |= stale.coverage;
     change->emission |= stale.emission;
     self->programs.sheens = self->materials.sheens;
-    self->programs.turn += change->tables;
+    self->programs.sheens_version += change->tables;
     return result;
 }
 

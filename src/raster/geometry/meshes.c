@@ -33,8 +33,8 @@ static uint32_t own_vertices(const Refinement *refinement, const WeftScene *scen
     return count;
 }
 
-/* One attribute of all meshes, one after the other; 0, or white, where a mesh has none. An attribute that no
- * mesh has takes no memory: the shader reads the constant that meshes_bind sets. */
+/* Uploads an attribute of all meshes, one after the other; a mesh without it has 0, or white. An attribute that no mesh
+ * has takes no memory: the shader reads the constant that meshes_bind sets. */
 static WeftResult upload(const GlMeshes *self, const WeftScene *scene, int attribute, WeftError *error) {
     size_t count = self->vertex_count;
     size_t width = (size_t)components[attribute];

@@ -30,36 +30,37 @@ typedef struct GlMeshes {
     const Refinement *refinement;     /* of the scene's own meshes */
 } GlMeshes;
 
-/* Uploads all meshes, its own as they are refined; the refinement must live as long. Zero on failure:
- * WEFT_MESSAGE_MEMORY, _GL_MEMORY, the latter beyond 2^31 corners too. */
+/* Uploads all meshes, the scene's own as they are refined; the refinement must live as long. Fails with
+ * WEFT_MESSAGE_MEMORY, or _GL_MEMORY, also beyond 2^31 corners; *out is then zero. */
 WeftResult meshes_create(const WeftScene *scene, const Refinement *refinement, GlMeshes *out,
                          WeftError *error);
 void meshes_destroy(GlMeshes *meshes);
 
-/* Uploads all meshes once more, refined in another way; nothing is known of what vertices see. Fails as meshes_create
- * does; it is then as it was. */
+/* Uploads all meshes again with another refinement. Vertices have no occlusion until it is set again. Fails as
+ * meshes_create does; the meshes are then as they were. */
 WeftResult meshes_refine(GlMeshes *meshes, const WeftScene *scene, const Refinement *refinement,
                          WeftError *error);
 
-/* Gives each vertex of the scene's own meshes what it sees of the sky and of lights, as occlusion_values has
- * it; others, and all until then, see all of the sky, and of lights nothing is known. */
+/* Sets the occlusion of each vertex of the scene's own meshes to that of occlusion_values. Other vertices, and all
+ * until then, see the whole sky, and have no values for lights. */
 WeftResult meshes_occlusion(GlMeshes *meshes, const float *values, WeftError *error);
 
-/* From now on nothing is known of lights, which are others. */
+/* Drops the vertices' values for lights, after these have changed. */
 void meshes_forget_lights(GlMeshes *meshes);
 
-/* Uploads tangents, which setting a material may have given to meshes. Fails as meshes_create does; it is
- * then as it was. */
+/* Uploads the tangents of meshes, which setting a material may have made. Fails as meshes_create does; the meshes are
+ * then as they were. */
 WeftResult meshes_update(GlMeshes *meshes, const WeftScene *scene, WeftError *error);
 
-/* Takes other shapes of lights; what vertices see stays. Where there are as many vertices and triangles, only
- * the places of the lights' vertices are uploaded. Fails as meshes_create does; it is then as it was. */
+/* Uploads changed shapes of lights and keeps the vertices' occlusion. If numbers of vertices and triangles are
+ * unchanged, only the positions of the lights' vertices are uploaded. Fails as meshes_create does; the meshes are then
+ * as they were. */
 WeftResult meshes_reshape(GlMeshes *meshes, const WeftScene *scene, WeftError *error);
 
-/* Binds the vertex array, and sets the constants that stand for what is not in it. */
+/* Binds the vertex array, and sets constants for the attributes that are not in it. */
 void meshes_bind(const GlMeshes *meshes);
 
-/* Draws the triangles of one mesh; they must be bound. */
+/* Draws the triangles of one mesh; the vertex array must be bound. */
 void meshes_draw(const GlMeshes *meshes, int mesh);
 
 #endif

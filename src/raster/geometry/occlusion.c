@@ -16,42 +16,45 @@
 
 enum { BLOCK = 256 }; /* vertices in one go */
 
-/* One in so many rays of a light is sent first, the others follow where those do not agree. */
+/* One in FIRST rays of a light is sent first; the others follow if these do not agree. */
 enum { FIRST = 4 };
 
-/* Edges are halved so often where their ends see that much that is different, in parts of the light. */
+/* Edges are halved up to ROUNDS times if the light that their ends see differs by more than the fraction DIFFERENT. */
 enum { ROUNDS = 2 };
 #define DIFFERENT 0.16f
 
-/* Raised whenever the same scene would give other values. */
-enum { LOOK = 9 };
+/* Version of the search: raised whenever the same scene would give other values. */
+enum { SEARCH = 9 };
 
-/* All vertices, of the meshes as they are refined, and what they see. */
+/* All vertices of the refined meshes, and what they see. */
 typedef struct Outlook {
     Refinement refinement;
-    float *values;
-    float *position, *normal; /* 3 a vertex; a normal of 0 looks nowhere */
-    uint32_t *first, *known;  /* vertex of a mesh; how many of a mesh have been looked from */
+    float *values;    /* OCCLUSION_VALUES a vertex */
+    float *position;  /* 3 a vertex */
+    float *normal;    /* 3 a vertex; 0: not searched from */
+    uint32_t *first;  /* a mesh's first vertex */
+    uint32_t *solved; /* number of a mesh's vertices that have values */
 } Outlook;
 
 /* Texels along a side of a face of a cube. */
 enum { BRIGHT = 16 };
 
 struct Occlusion {
-    WeftScene scene; /* as it was, without the meshes of its lights: what its lists hold stays, those of
-                        meshes and materials are copies */
+    WeftScene
+        scene; /* copy without the meshes of lights; lists of meshes and materials are copies, others are shared */
     Geometry *geometry;
     Outlook at;
     int round, rays, threads;
-    Dir *sky, *toward;               /* rays: of the sky about the normal, and in the world to each light */
-    float bright[6][BRIGHT][BRIGHT]; /* of a cube: the environment without its lights, 1 in the mean */
+    Dir *sky;                        /* rays about the normal */
+    Dir *toward;                     /* `rays` directions in the world to each light */
+    float bright[6][BRIGHT][BRIGHT]; /* cube: radiance of the environment without its lights, mean 1 */
     bool no_cache;
     EnvLight env_lights[OCCLUSION_LIGHTS];
     int env_light_count;
     EnvPoint env_points[AMBIENT_POINTS_MAX + OCCLUSION_LIGHTS];
-    int first_point[OCCLUSION_LIGHTS + 1]; /* of a light */
-    float share[OCCLUSION_LIGHTS];         /* of all lights' light */
-    uint64_t key;                          /* of the values in the cache, with the round */
+    int first_point[OCCLUSION_LIGHTS + 1]; /* a light's first point */
+    float share[OCCLUSION_LIGHTS];         /* a light's fraction of the light of all */
+    uint64_t key;                          /* with the round: of the values in the cache */
     atomic_int stop, done;
     bool joined;
     pthread_t thread;
@@ -59,7 +62,7 @@ struct Occlusion {
 
 static Dir dir_of(Vec3 v) { return dir(v.x, v.y, v.z); }
 
-/* The face of a cube that a direction meets, and where, both coordinates from -1 to 1. */
+/* Returns the face of a cube that a direction meets, and sets the place on it, both coordinates from -1 to 1. */
 static int face_of(Dir w, float *u, float *v) {
     float x = abs(w.x), y = abs(w.y), z = abs(w.z);
     if (x >= y && x >= z) return *u = w.y / x, *v = w.z / x, w.x < 0.0f;
@@ -74,7 +77,8 @@ static float brightness(const Occlusion *self, Dir w) {
     return self->bright[face][y < BRIGHT ? y : BRIGHT - 1][x < BRIGHT ? x : BRIGHT - 1];
 }
 
-/* Fills the cube. Dark directions count a little too, since lights are dimmed as the sky is until they are found. */
+/* Fills the cube. Dark directions count a little too, since until their own values are found lights are dimmed as the
+ * sky is. */
 static void place_brightness(Occlusion *self, const OcclusionHow *how) {
     const float dark = 0.05f;
     float mean = 0.0f;
@@ -95,15 +99,15 @@ static void place_brightness(Occlusion *self, const OcclusionHow *how) {
     }
 }
 
-/* The ramp c . b, b = (1, w.x, w.y, w.z), nearest to what is seen, V: the sum over the rays of g (c . b - V)^2 is least
- * where c = (sum g b b^T)^-1 sum g b V. g = L / (w.z + 0.07), L the light from there, since a sheen looks along the
- * horizon: then the sum of g c . b is that of g V, so what is seen of such a lobe's light is right whatever hides the
- * rest. A ramp that is fitted as it is cut off at 0 and 1 is nearer at a vertex, but steep, and further off between
- * vertices. */
+/* Fits the ramp c . b, b = (1, w.x, w.y, w.z), to the visibility V of the rays: the sum over the rays of g (c . b -
+ * V)^2 is least for c = (sum g b b^T)^-1 sum g b V. g = L / (w.z + 0.07), L the radiance, since a sheen reflects light
+ * from the horizon. The sums of g c . b and of g V are then equal, so the light of such a lobe is right whatever hides
+ * the rest. A ramp fitted with its clamping to 0 and 1 would have less error at a vertex, but be steep, with more error
+ * between vertices. */
 static void fit_ramp(const Occlusion *self, const float *g, const bool *hidden, double c[4]) {
     double m[4][4] = {{0.0}};
     memset(c, 0, 4 * sizeof *c);
-    for (int i = 0; i < 4; i++) m[i][i] = 1e-6 * self->rays; /* fewer than four rays leave it open */
+    for (int i = 0; i < 4; i++) m[i][i] = 1e-6 * self->rays; /* m is singular with fewer than four rays */
     for (int k = 0; k < self->rays; k++) {
         Dir w = self->sky[k];
         const double b[4] = {1.0, (double)w.x, (double)w.y, (double)w.z};
@@ -114,12 +118,12 @@ static void fit_ramp(const Occlusion *self, const float *g, const bool *hidden, 
         }
     }
     if (matrix_factor(4, m[0], 4) && matrix_solve(4, m[0], 4, 1, c, 4)) return;
-    c[0] = 0.5; /* level, where it is to be shifted from */
+    c[0] = 0.5; /* a level ramp, to be shifted */
     c[1] = c[2] = c[3] = 0.0;
 }
 
-/* Shifts the ramp so that the sum of g clamp(c . b) over the rays is that of g V: a ramp that is cut off at 0 and 1 is
- * brighter or darker than it was. Newton's method, whose slope is the part of the light where it is not cut off. */
+/* Shifts the ramp by Newton's method so that the sum of g clamp(c . b) over the rays is that of g V, since clamping to
+ * 0 and 1 changes the sum. The slope is the fraction of the light where the ramp is not clamped. */
 static void shift_ramp(const Occlusion *self, const float *g, const bool *hidden, double c[4]) {
     enum { STEPS = 4 };
     for (int step = 0; step < STEPS; step++) {
@@ -135,8 +139,8 @@ static void shift_ramp(const Occlusion *self, const float *g, const bool *hidden
     }
 }
 
-/* Directions are even over the hemisphere by the golden ratio. All vertices have the same, so that what they err by
- * is nearly the same for neighbours, and does not show. */
+/* Fills the directions about the normal, even over the hemisphere by the golden ratio. All vertices have the same ones,
+ * so that neighbours have nearly the same errors, which do not show. */
 static void place_sky(Occlusion *self) {
     for (int k = 0; k < self->rays; k++) {
         float v = (float)k * 0.618033989f;
@@ -144,11 +148,11 @@ static void place_sky(Occlusion *self) {
     }
 }
 
-/* The frame of a normal, x upwards: so it turns little from vertex to vertex, but beside the poles. */
+/* Returns the frame of a normal with x upwards, which varies little from vertex to vertex, except near the poles. */
 static Frame frame_upright(Vec3 n) { return frame_about(dir_of(n), dir(0.0f, 1.0f, 0.0f), 1.0f); }
 
-/* Sets hidden[k] where something lies on the way from a point. */
-static void look_along(const Occlusion *self, Vec3 from, const Dir *ways, int count, uint32_t vertex,
+/* Traces rays from a point; sets hidden[k] if something lies on direction k. */
+static void trace_rays(const Occlusion *self, Vec3 from, const Dir *ways, int count, uint32_t vertex,
                        bool *hidden) {
     float o[3][OCCLUSION_RAYS_MAX], d[3][OCCLUSION_RAYS_MAX];
     uint32_t key[OCCLUSION_RAYS_MAX];
@@ -161,15 +165,16 @@ static void look_along(const Occlusion *self, Vec3 from, const Dir *ways, int co
     geometry_occlusions(self->geometry, &rays, count, hidden);
 }
 
-/* The part of the cosine-weighted sky above n that a point sees, and which. */
-static float seen_from(const Occlusion *self, Vec3 p, Vec3 n, float reach, uint32_t vertex, float open[4]) {
+/* Returns the fraction of the cosine-weighted sky above n that a point sees, and sets the ramp of its visibility. */
+static float sky_visibility(const Occlusion *self, Vec3 p, Vec3 n, float reach, uint32_t vertex,
+                            float open[4]) {
     bool hidden[OCCLUSION_RAYS_MAX];
     Dir ways[OCCLUSION_RAYS_MAX];
     Frame frame = frame_upright(n);
     float g[OCCLUSION_RAYS_MAX], sum = 0.0f, all = 1e-6f; /* g: of fit_ramp */
     double c[4];
     for (int k = 0; k < self->rays; k++) ways[k] = frame_from(frame, self->sky[k]);
-    look_along(self, vec3_madd(p, n, reach), ways, self->rays, vertex, hidden);
+    trace_rays(self, vec3_madd(p, n, reach), ways, self->rays, vertex, hidden);
     for (int k = 0; k < self->rays; k++) {
         const float light = brightness(self, ways[k]), falls = self->sky[k].z * light;
         sum += hidden[k] ? 0.0f : falls;
@@ -192,9 +197,9 @@ static float fraction(float x) { return x - floor(x); }
 
 static int first_rays(const Occlusion *self) { return (self->rays + FIRST - 1) / FIRST; }
 
-/* Places rays of a light from `begin` on, which are even over the light of its points; about a point that stands for
- * 1 / m of the light they are spread by exp(kappa (mu - 1)), whose mean squared distance 2 / kappa is a share 1 / m of
- * the light's: so they have its shape, as that of a glow along the horizon. */
+/* Fills rays `begin` to `end` of a light, even over the light of its m points. About a point they have the density
+ * exp(kappa (mu - 1)), whose mean squared distance 2 / kappa is 1 / m of the light's: so the rays have the light's
+ * shape, such as that of a glow along the horizon. */
 static void place_toward(Occlusion *self, int light, int begin, int end) {
     int at = self->first_point[light], last = self->first_point[light + 1] - 1;
     float total = self->share[light], before = 0.0f;
@@ -211,8 +216,7 @@ static void place_toward(Occlusion *self, int light, int begin, int end) {
     }
 }
 
-/* Places all rays to lights; share becomes that of the light of all that are
- * looked for. */
+/* Fills all rays to lights, and each light's share of the light of all. */
 static void place_lights(Occlusion *self) {
     float total = 0.0f;
     for (int k = 0; k < self->env_light_count; k++) {
@@ -226,7 +230,7 @@ static void place_lights(Occlusion *self) {
     for (int k = 0; k < self->env_light_count && total > 0.0f; k++) self->share[k] /= total;
 }
 
-/* The part of a light above the horizon that p sees, 1 if none is. */
+/* Returns the visible fraction of a light's part above the horizon of n; 1 if all of it is below. */
 static float env_light_visibility(const Occlusion *self, int light, Vec3 p, Vec3 n, float reach,
                                   uint32_t vertex) {
     const Dir *toward = self->toward + light * self->rays;
@@ -238,7 +242,7 @@ static float env_light_visibility(const Occlusion *self, int light, Vec3 p, Vec3
         int count = 0;
         for (int k = begin; k < end; k++)
             if (dir_dot(toward[k], dir_of(n)) > 0.0f) ways[count++] = toward[k];
-        look_along(self, from, ways, count, vertex, hidden);
+        trace_rays(self, from, ways, count, vertex, hidden);
         for (int k = 0; k < count; k++) seen += !hidden[k];
         above += count;
         if (above && (seen == 0 || seen == above)) break;
@@ -251,7 +255,8 @@ void occlusion_nothing(float values[OCCLUSION_VALUES]) {
     values[0] = values[1] = values[OCCLUSION_OPEN] = values[OCCLUSION_OPEN + 4] = 1.0f;
 }
 
-static void look(void *user, int item, int thread) {
+/* Finds the values of a block of vertices. */
+static void search_block(void *user, int item, int thread) {
     Occlusion *self = user;
     const WeftScene *scene = &self->scene;
     const Outlook *at = &self->at;
@@ -261,15 +266,15 @@ static void look(void *user, int item, int thread) {
     int m = 0;
     for (uint32_t k = begin; k < end && !atomic_load(&self->stop); k++) {
         while (at->first[m + 1] <= k) m++;
-        if (k - at->first[m] < at->known[m]) continue;
+        if (k - at->first[m] < at->solved[m]) continue;
         bool two_sided = scene->materials[scene->meshes[m].material].double_sided;
         float *to = at->values + OCCLUSION_VALUES * (size_t)k;
         occlusion_nothing(to);
         Vec3 p = vec3_load(at->position + 3 * (size_t)k), n = vec3_load(at->normal + 3 * (size_t)k);
         if (!(vec3_dot(n, n) > 0.0f)) continue;
         Vec3 back = vec3_scale(n, -1.0f);
-        to[0] = seen_from(self, p, n, reach, k, to + OCCLUSION_OPEN);
-        if (two_sided) to[1] = seen_from(self, p, back, reach, k, to + OCCLUSION_OPEN + 4);
+        to[0] = sky_visibility(self, p, n, reach, k, to + OCCLUSION_OPEN);
+        if (two_sided) to[1] = sky_visibility(self, p, back, reach, k, to + OCCLUSION_OPEN + 4);
         for (int j = 0; j < self->env_light_count; j++) {
             bool behind = two_sided && vec3_dot(self->env_lights[j].direction, n) < 0.0f;
             to[OCCLUSION_LIGHT + j] = env_light_visibility(self, j, p, behind ? back : n, reach, k);
@@ -277,7 +282,7 @@ static void look(void *user, int item, int thread) {
     }
 }
 
-/* Returns true if all materials are opaque. Others hide by their textures, which are too much to hash. */
+/* Returns true if all materials are opaque. What others hide depends on their textures, which are too large to hash. */
 static bool is_opaque(const WeftScene *scene) {
     bool opaque = true;
     for (int m = 0; m < scene_own_meshes(scene); m++)
@@ -285,10 +290,10 @@ static bool is_opaque(const WeftScene *scene) {
     return opaque;
 }
 
-/* All that the values of an opaque scene depend on. */
+/* Returns a hash of everything that the values of an opaque scene depend on. */
 static uint64_t values_key(const Occlusion *self) {
     const WeftScene *scene = &self->scene;
-    const int how[] = {LOOK, self->rays, scene->mesh_count, self->env_light_count};
+    const int how[] = {SEARCH, self->rays, scene->mesh_count, self->env_light_count};
     uint64_t hash = cache_hash(CACHE_HASH, how, sizeof how);
     for (int k = 0; k < self->env_light_count; k++) {
         hash = cache_hash(hash, &self->env_lights[k].direction, sizeof self->env_lights[k].direction);
@@ -311,28 +316,29 @@ static uint64_t values_key(const Occlusion *self) {
 }
 
 static bool in_range(const float *values, size_t count) {
-    const float most = 16.0f; /* several times what a ramp ever has */
+    const float most = 16.0f; /* several times the largest number of a ramp */
     bool good = true;
     for (size_t k = 0; k < count; k++)
         good &= fabsf(values[k]) <= (k % OCCLUSION_VALUES - OCCLUSION_OPEN < 8 ? most : 1.0f);
     return good;
 }
 
-/* The numbers of vertices that are not known yet, in one piece, which the caller frees. */
+/* Allocates space for the values of all unsolved vertices, and sets its number of floats. Returns NULL if memory is
+ * short. The caller frees it. */
 static float *fresh_values(const Occlusion *self, size_t *count) {
     const Outlook *at = &self->at;
     size_t vertices = 0;
     for (int m = 0; m < self->scene.mesh_count; m++)
-        vertices += at->first[m + 1] - at->first[m] - at->known[m];
+        vertices += at->first[m + 1] - at->first[m] - at->solved[m];
     *count = vertices * OCCLUSION_VALUES;
     return alloc_array(*count, sizeof(float));
 }
 
-/* Puts them there, or takes them from there. */
+/* Copies the values of unsolved vertices from `fresh`, or to it. */
 static void move_fresh(Occlusion *self, float *fresh, bool put) {
     const Outlook *at = &self->at;
     for (int m = 0; m < self->scene.mesh_count; m++) {
-        size_t begin = at->first[m] + at->known[m], floats = (at->first[m + 1] - begin) * OCCLUSION_VALUES;
+        size_t begin = at->first[m] + at->solved[m], floats = (at->first[m + 1] - begin) * OCCLUSION_VALUES;
         float *own = at->values + begin * OCCLUSION_VALUES;
         memcpy(put ? own : fresh, put ? fresh : own, floats * sizeof(float));
         fresh += floats;
@@ -343,7 +349,7 @@ static uint64_t round_key(const Occlusion *self) {
     return cache_hash(self->key, &self->round, sizeof self->round);
 }
 
-/* Returns true if the cache of an earlier run has what is not known yet. */
+/* Reads the values of unsolved vertices from the user's cache. Returns false if it does not have them. */
 static bool find(Occlusion *self, const WeftLog *log) {
     size_t count;
     if (self->no_cache) return false;
@@ -355,7 +361,8 @@ static bool find(Occlusion *self, const WeftLog *log) {
     return found;
 }
 
-/* In silence: a log is for the thread that made this. */
+/* Writes the new values to the user's cache. Warnings are dropped, since only the thread that made this may use the
+ * log. */
 static void keep(Occlusion *self) {
     size_t count;
     if (self->no_cache || atomic_load(&self->stop)) return;
@@ -379,7 +386,7 @@ static bool copy_scene(Occlusion *self, const WeftScene *scene) {
     return true;
 }
 
-/* Sums the normals of the triangles about each vertex, weighted by area; 0 where they differ. */
+/* Sets the normal of each vertex to the mean of its triangles' normals, weighted by area; to 0 if these differ. */
 static bool add_face_normals(const RefinedMesh *refined, const float *position, float *normal) {
     float *area = alloc_array(refined->vertex_count, sizeof *area);
     for (size_t k = 0; area && k < 3 * (size_t)refined->triangle_count; k++) {
@@ -400,7 +407,7 @@ static bool add_face_normals(const RefinedMesh *refined, const float *position, 
     return area != NULL;
 }
 
-/* A light without points is one point. */
+/* Copies the lights with their points; a light without points becomes one point. */
 static void copy_env_lights(Occlusion *self, const OcclusionHow *how) {
     int count = 0;
     for (int k = 0; k < self->env_light_count; k++) {
@@ -420,15 +427,15 @@ static void outlook_free(Outlook *at) {
     free(at->position);
     free(at->normal);
     free(at->first);
-    free(at->known);
+    free(at->solved);
     *at = (Outlook){0};
 }
 
-/* Gives the vertices of the refined meshes places and unit normals. */
+/* Sets positions and unit normals of the refined meshes' vertices. Returns false if memory is short. */
 static bool place_vertices(const WeftScene *scene, Outlook *at) {
     size_t count = at->first[scene->mesh_count];
-    bool held = true;
-    for (int m = 0; held && m < scene->mesh_count; m++) {
+    bool made = true;
+    for (int m = 0; made && m < scene->mesh_count; m++) {
         const Mesh *mesh = &scene->meshes[m];
         const RefinedMesh refined = refinement_mesh(&at->refinement, scene, m);
         float *position = at->position + 3 * (size_t)at->first[m],
@@ -437,26 +444,26 @@ static bool place_vertices(const WeftScene *scene, Outlook *at) {
         if (mesh->normal)
             refined_fill(&refined, mesh, mesh->normal, 3, normal);
         else
-            held = add_face_normals(&refined, position, normal);
+            made = add_face_normals(&refined, position, normal);
     }
-    for (size_t k = 0; held && k < count; k++) {
+    for (size_t k = 0; made && k < count; k++) {
         Vec3 n = vec3_normal_or(vec3_load(at->normal + 3 * k), vec3(0.0f, 0.0f, 0.0f));
         at->normal[3 * k] = n.x, at->normal[3 * k + 1] = n.y, at->normal[3 * k + 2] = n.z;
     }
-    return held;
+    return made;
 }
 
-/* Lays out the vertices of a refinement, of which nothing is known but what `before` knows, unless that is NULL. The
- * refinement is the outlook's from then on; false for want of memory. */
+/* Makes the vertices of a refinement, with the values of `before`, which may be NULL, as the only ones solved. Takes
+ * over the refinement, in any case. Returns false if memory is short. */
 static bool outlook_make(const WeftScene *scene, const Refinement *refinement, const Outlook *before,
                          Outlook *at) {
     *at = (Outlook){.refinement = *refinement};
     at->first = alloc_array((size_t)scene->mesh_count + 1, sizeof(uint32_t));
-    at->known = alloc_array((size_t)scene->mesh_count, sizeof(uint32_t));
-    if (!at->first || !at->known) return false;
+    at->solved = alloc_array((size_t)scene->mesh_count, sizeof(uint32_t));
+    if (!at->first || !at->solved) return false;
     for (int m = 0; m < scene->mesh_count; m++) {
         at->first[m + 1] = at->first[m] + refinement_mesh(refinement, scene, m).vertex_count;
-        if (before) at->known[m] = before->first[m + 1] - before->first[m];
+        if (before) at->solved[m] = before->first[m + 1] - before->first[m];
     }
     size_t count = at->first[scene->mesh_count];
     at->values = alloc_array(count, OCCLUSION_VALUES * sizeof(float));
@@ -466,12 +473,12 @@ static bool outlook_make(const WeftScene *scene, const Refinement *refinement, c
     for (int m = 0; before && m < scene->mesh_count; m++)
         memcpy(at->values + (size_t)OCCLUSION_VALUES * at->first[m],
                before->values + (size_t)OCCLUSION_VALUES * before->first[m],
-               (size_t)at->known[m] * OCCLUSION_VALUES * sizeof(float));
+               (size_t)at->solved[m] * OCCLUSION_VALUES * sizeof(float));
     return place_vertices(scene, at);
 }
 
-/* Returns true where the rim of a shadow lies between two vertices: of the sky, or of lights, each by its share of all
- * lights' light and by the cosine at which it falls on the end that has more of it: copies of an edge at a seam are then
+/* Returns true if the rim of a shadow lies between two vertices: if their fractions of the sky, or of lights, differ. A
+ * light counts by its share and by its cosine at the end where that is greater, so that copies of an edge at a seam are
  * cut alike. */
 static bool differ(const void *user, int mesh, uint32_t a, uint32_t b) {
     const Occlusion *self = user;
@@ -490,7 +497,7 @@ static bool differ(const void *user, int mesh, uint32_t a, uint32_t b) {
     return max(lights, max(fabsf(p[0] - q[0]), fabsf(p[1] - q[1]))) > DIFFERENT;
 }
 
-/* Cuts where what vertices see differs; false if there is nothing more to look from. */
+/* Halves edges whose ends see different light. Returns false if no vertex was added. */
 static bool cut(Occlusion *self) {
     const EdgeTest test = {.differ = differ, .user = self};
     Refinement finer;
@@ -510,10 +517,10 @@ static bool cut(Occlusion *self) {
 
 static void *work(void *user) {
     Occlusion *self = user;
-    thread_step_back(); /* for those who draw meanwhile, or compile programs */
+    thread_step_back(); /* lets threads that draw or compile go first */
     do {
         uint32_t count = self->at.first[self->scene.mesh_count];
-        parallel_for(self->threads, (int)((count + BLOCK - 1) / BLOCK), look, self);
+        parallel_for(self->threads, (int)((count + BLOCK - 1) / BLOCK), search_block, self);
         keep(self);
     } while (!atomic_load(&self->stop) && cut(self));
     atomic_store(&self->done, 1);
@@ -525,7 +532,7 @@ static WeftResult begin(Occlusion *self, WeftError *error) {
         geometry_create(&self->scene, self->scene.mesh_count, self->threads, &self->geometry, error);
     if (result != WEFT_OK) return result;
     self->joined = pthread_create(&self->thread, NULL, work, self) != 0;
-    if (self->joined) work(self); /* no thread to be had: now, then */
+    if (self->joined) work(self); /* no thread could be made */
     return WEFT_OK;
 }
 
@@ -544,9 +551,9 @@ WeftResult occlusion_start(const WeftScene *scene, const Refinement *refinement,
     self->sky = alloc_array((size_t)self->rays, sizeof(Dir));
     self->toward = alloc_array((size_t)self->rays * OCCLUSION_LIGHTS, sizeof(Dir));
     Refinement own;
-    bool held = self->sky && self->toward && copy_scene(self, scene) &&
+    bool made = self->sky && self->toward && copy_scene(self, scene) &&
                 refinement_copy(scene, refinement, &own) && outlook_make(&self->scene, &own, NULL, &self->at);
-    if (!held) {
+    if (!made) {
         occlusion_free(self);
         return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     }

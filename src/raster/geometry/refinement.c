@@ -21,20 +21,20 @@ static float box_distance(const Box *a, const Box *b) {
                             gap(a->low.z, a->high.z, b->low.z, b->high.z)));
 }
 
-/* The longest edge of about that middle which box b allows, before what its ends see is known. */
+/* Returns the longest edge with its middle in a box that box b allows, before occlusion is considered. */
 static float longest(const Box *middle, const Box *b) {
     return fmaxf(0.5f * box_distance(middle, b), box_size(*b) / 24.0f);
 }
 
-/* By how much an edge may be shorter. */
+/* Returns the factor by which an edge that is halved may be shorter. */
 static float finer(const EdgeTest *test) { return test ? REFINEMENT_FINER : 1.0f; }
 
 /* A mesh that is being refined. */
 typedef struct Refiner {
     RefinedMesh out;
     float *position;
-    uint32_t own_count;
-    const Box *near; /* of meshes that may halve its edges */
+    uint32_t own_count; /* vertices of the mesh itself */
+    const Box *near;    /* boxes of the meshes that may halve its edges */
     int near_count;
     const EdgeTest *test; /* NULL: only the boxes decide */
 } Refiner;
@@ -98,13 +98,13 @@ static uint32_t *put(uint32_t *to, uint32_t a, uint32_t b, uint32_t c) {
     return to + 3;
 }
 
-/* Cuts triangle v. h: the middles of the edges from v[0], v[1] and v[2], or NOT_HALVED. Returns the end of what it
- * writes, which are up to four triangles. */
+/* Cuts triangle v into one to four. h: the middles of the edges from v[0], v[1] and v[2], or NOT_HALVED. Returns the
+ * end of the written indices. */
 static uint32_t *cut(const uint32_t v[3], const uint32_t h[3], uint32_t *to) {
     int halved = 0, first = 0;
     for (int k = 0; k < 3; k++) halved += h[k] != NOT_HALVED;
     if (halved == 0) return put(to, v[0], v[1], v[2]);
-    /* turned so that with one middle it is the first, with two the last is missing */
+    /* the corners are rotated so that a single middle is the first, and with two the last is missing */
     while (halved < 3 && !(h[first] != NOT_HALVED && (h[(first + 2) % 3] == NOT_HALVED))) first++;
     uint32_t a = v[first], b = v[(first + 1) % 3], c = v[(first + 2) % 3];
     uint32_t ab = h[first], bc = h[(first + 1) % 3], ca = h[(first + 2) % 3];
@@ -113,7 +113,7 @@ static uint32_t *cut(const uint32_t v[3], const uint32_t h[3], uint32_t *to) {
     return put(put(to, a, ab, ca), ca, bc, c);
 }
 
-/* Halves all edges that are too long once; *any is set if there was one. */
+/* Halves each edge that is too long once, and sets *any if there was one. Returns false if memory is short. */
 static bool refine_once(Refiner *self, bool *any) {
     RefinedMesh *out = &self->out;
     uint32_t corners = 3 * out->triangle_count, long_count = 0;
@@ -157,7 +157,8 @@ static float longest_edge(const Mesh *mesh) {
     return most;
 }
 
-/* Refines mesh m further in so many rounds. boxes: of all meshes. near: room for as many. *any is set if it was cut. */
+/* Refines mesh m further in at most `rounds` rounds, and sets *any if it was cut. boxes: of all meshes; near: scratch
+ * space of as many. Returns false if memory is short. */
 static bool refine(const WeftScene *scene, int m, const Box *boxes, Box *near, const EdgeTest *test,
                    int rounds, RefinedMesh *refined, bool *any) {
     const Mesh *mesh = &scene->meshes[m];
@@ -183,7 +184,8 @@ static bool refine(const WeftScene *scene, int m, const Box *boxes, Box *near, c
     return made;
 }
 
-/* Refines all meshes. test: NULL, or what decides beside the boxes, its mesh of no account. */
+/* Refines all meshes. test, without its mesh, decides together with the boxes; may be NULL. Returns false if memory is
+ * short. */
 static bool refine_all(const WeftScene *scene, Refinement *self, const EdgeTest *test, int rounds,
                        bool *any) {
     int count = scene_own_meshes(scene);
@@ -199,7 +201,7 @@ static bool refine_all(const WeftScene *scene, Refinement *self, const EdgeTest 
     return made;
 }
 
-/* All meshes as they are. */
+/* Makes a refinement that leaves all meshes as they are. Returns false if memory is short. */
 static bool start(const WeftScene *scene, Refinement *out) {
     int count = scene_own_meshes(scene);
     *out = (Refinement){alloc_array((size_t)count, sizeof(RefinedMesh)), count};
@@ -216,7 +218,7 @@ WeftResult refinement_make(const WeftScene *scene, Refinement *out, WeftError *e
     return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
 }
 
-/* Fills a mesh of its own with another's. */
+/* Copies a refined mesh. Returns false if memory is short. */
 static bool copy(const RefinedMesh *from, uint32_t own_count, RefinedMesh *to) {
     size_t added = from->vertex_count - own_count, corners = 3 * (size_t)from->triangle_count;
     *to = (RefinedMesh){from->vertex_count, from->triangle_count, NULL, NULL};

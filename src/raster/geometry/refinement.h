@@ -1,16 +1,16 @@
-/* refinement.h - the triangles of a scene, cut so small that what vertices see of the sky may be interpolated
+/* refinement.h - the triangles of a scene, cut so small that the occlusion of vertices may be interpolated
  *
- * Rays find at vertices what hides the sky (occlusion.h). A floor of two triangles has no vertex below what stands on
- * it, and would show no shadow. So an edge of a mesh is halved while it is longer than
+ * Rays find the occlusion at vertices (occlusion.h). A floor of two triangles has no vertex below what stands on it,
+ * and would show no shadow. So an edge of a mesh is halved while it is longer than
  *
  *   max(distance from its middle to the box of another mesh / 2, diagonal of that box / 24)
  *
  * for any other of the scene's own meshes. A triangle is cut through those of its edges that are halved. An edge is
- * halved by its own ends alone, so triangles that share it agree, and also where a seam has its vertices twice.
- * All attributes of a new vertex are the means of its two ends, which is what the triangle had there.
+ * halved by its own ends alone, so triangles that share it agree, and also where a seam has its vertices twice. All
+ * attributes of a new vertex are the means of its two ends, which is what the triangle had there.
  *
- * What their ends then see decides further: an edge up to REFINEMENT_FINER times as short is halved too if its ends
- * differ, which is where a shadow has its rim.
+ * Then occlusion decides: an edge up to REFINEMENT_FINER times as short is halved too if its ends see different light,
+ * as at the rim of a shadow.
  *
  * Departures: parts of one mesh do not refine each other. At a crease, which has its vertices twice, two meshes of one
  * edge may differ. */
@@ -36,19 +36,19 @@ typedef struct Refinement {
 WeftResult refinement_make(const WeftScene *scene, Refinement *out, WeftError *error);
 void refinement_free(Refinement *refinement);
 
-/* Returns false for want of memory; `out` is then zero. */
+/* Copies a refinement. Returns false if memory is short; `out` is then zero. */
 bool refinement_copy(const WeftScene *scene, const Refinement *from, Refinement *out);
 
 #define REFINEMENT_FINER 4.0f
 
-/* Says which edges of mesh `mesh` have ends a and b that differ; `mesh` is set by whoever asks. */
+/* A test whether the ends a and b of an edge see different light. Callers set `mesh`. */
 typedef struct EdgeTest {
     bool (*differ)(const void *user, int mesh, uint32_t a, uint32_t b);
     const void *user;
     int mesh;
 } EdgeTest;
 
-/* Makes of a refinement one whose edges are halved once more where a test says so. Returns false if there are none, or
+/* Copies a refinement and halves the edges that a test chooses once more. Returns false if there are none, or
  * for want of memory; `out` is then zero. */
 bool refinement_halve(const WeftScene *scene, const Refinement *from, const EdgeTest *test, Refinement *out);
 

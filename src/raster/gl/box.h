@@ -17,7 +17,7 @@ static inline void box_add(Box *box, Vec3 p) {
     box->high = vec3_most(box->high, p);
 }
 
-/* Corner k of 8. */
+/* Returns corner k of 8. */
 static inline Vec3 box_corner(Box box, int k) {
     return vec3(k & 1 ? box.high.x : box.low.x, k & 2 ? box.high.y : box.low.y,
                 k & 4 ? box.high.z : box.low.z);

@@ -6,7 +6,7 @@
 
 #include "base/fail.h"
 
-/* The line of the text that these words are about, and sets the words behind it; 0 where they name none.
+/* Returns the line of the text that a driver's message names, and sets `words` to what follows; 0 if it names none.
  *
  *   0:11(1): error: WORDS          Mesa: string, line, column
  *   0(11) : error C1008: WORDS     NVIDIA
@@ -24,18 +24,18 @@ static int line_of(const char *c, const char **words) {
     return line < INT_MAX ? (int)line : 0;
 }
 
-static bool says(const char *line, size_t size, const char *word) {
+static bool contains(const char *line, size_t size, const char *word) {
     const char *found = strstr(line, word);
     return found && found < line + size;
 }
 
-/* The first line that is about an error and names its place; else the first about an error; else the first of
- * all. */
+/* Returns the first line of a log that names an error and its line; else the first that names an error; else the
+ * log. */
 static const char *find_error(const char *log) {
     const char *best = NULL, *words;
     for (const char *line = log; *line;) {
         size_t size = strcspn(line, "\r\n");
-        if (says(line, size, "error") || says(line, size, "ERROR")) {
+        if (contains(line, size, "error") || contains(line, size, "ERROR")) {
             if (line_of(line, &words)) return line;
             if (!best) best = line;
         }

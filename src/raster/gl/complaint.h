@@ -4,9 +4,9 @@
 
 #include "text/assemble/text.h"
 
-/* Fails with WEFT_MESSAGE_GL_COMPILE and the first error of the driver's log. Where that names a line, and
- * the text (may be NULL) knows where it comes from, file and line are the subject; else `name` is, what the
- * shader is for. Lines behind the end of the text are the caller's own. */
+/* Fails with WEFT_MESSAGE_GL_COMPILE and the first error of the driver's log. The subject is the file and line where
+ * the error is, if the log names a line and the text (may be NULL) has its origin; else `name`, what the shader is for.
+ * Lines after the end of the text are the caller's own. */
 void complain(const char *name, const char *log, const Text *text, WeftError *error);
 
 #endif

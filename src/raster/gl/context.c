@@ -17,7 +17,7 @@ enum { DEVICES_MAX = 16 };
 typedef void *(*Current)(void);
 
 struct GlContext {
-    Current adopted; /* by whom to ask for it; NULL: it is ours, through EGL */
+    Current adopted; /* returns the current context, if this one was adopted; NULL: our own, through EGL */
     EGLDisplay display;
     EGLContext context;
     EGLConfig config;
@@ -40,7 +40,7 @@ static bool has_library(const char *name) {
     return library != NULL;
 }
 
-/* Asked beforehand, since libepoxy ends the process where a library is missing. */
+/* Returns a message if a library is missing, else NULL. Called first, since libepoxy ends the process if one is. */
 static const char *missing_library(TextLanguage language) {
     if (!epoxy_has_egl()) return "libEGL is not installed";
     if (language == TEXT_GLSL_ES_300)
@@ -48,8 +48,8 @@ static const char *missing_library(TextLanguage language) {
     return has_library("libGL.so.1") || has_library("libOpenGL.so.0") ? NULL : "libGL is not installed";
 }
 
-/* A display is the process's, not ours: eglTerminate would end the contexts of everyone else on it. So it is
- * initialised, which may be done again and again, and left. */
+/* Initialises a display, which may be done any number of times. It is never terminated, since all of the process shares
+ * it: eglTerminate would end the contexts of other users too. */
 static bool display_begin(EGLDisplay display) {
     EGLint major, minor;
     return display != EGL_NO_DISPLAY && eglInitialize(display, &major, &minor);
@@ -100,8 +100,8 @@ static bool make_on(GlContext *self, EGLDisplay display) {
     return make_context(self, EGL_NO_CONTEXT, pixel);
 }
 
-/* Tries what needs no screen first: no surfaces at all, then each device, then what the system takes for the
- * display. */
+/* Fills in a context, first on displays that need no screen: Mesa's without surfaces, then each device, then the
+ * system's default display. */
 static bool make_anywhere(GlContext *self) {
     if (epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_platform_base")) {
         if (epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless") &&
@@ -121,8 +121,8 @@ static bool make_anywhere(GlContext *self) {
 
 static void *egl_current(void) { return eglGetCurrentContext(); }
 
-/* GLX's own answer. Windows may come from there, and libepoxy, which ends the process where no context is
- * current, does not report it. The library is not loaded for that: who has a context has it loaded. */
+/* Returns the function of GLX that returns the current context, or NULL if GLX is not loaded, as it is if a window has
+ * a context of GLX. libepoxy has no such call: it ends the process if no context is current. */
 static Current glx_current(void) {
     static const char *const names[] = {"libGLX.so.0", "libGL.so.1"};
     Current found = NULL;
@@ -194,7 +194,8 @@ WeftResult context_create(TextLanguage language, GlContext **out, WeftError *err
     return WEFT_OK;
 }
 
-/* The configuration of someone else's context, which may have none. */
+/* Sets the configuration of a context that was made elsewhere, which may have none. Returns false if EGL does not find
+ * it. */
 static bool find_config(GlContext *self) {
     EGLint id = 0, count = 0;
     self->config = EGL_NO_CONFIG_KHR;
@@ -207,16 +208,16 @@ GlContext *context_share(const GlContext *of) {
     GlContext *self = of->adopted && of->adopted != egl_current ? NULL : alloc_array(1, sizeof *self);
     if (!self) return NULL;
     GlOuter outer = outer_now();
-    bool pixel = of->surface != EGL_NO_SURFACE, known = true;
+    bool pixel = of->surface != EGL_NO_SURFACE, found = true;
     *self = *of;
     if (of->adopted) {
         self->adopted = NULL;
         self->display = eglGetCurrentDisplay();
-        known = find_config(self);
+        found = find_config(self);
         pixel = !epoxy_has_egl_extension(self->display, "EGL_KHR_surfaceless_context");
     }
     eglBindAPI(api_of(self->language));
-    bool made = known && make_context(self, of->context, pixel);
+    bool made = found && make_context(self, of->context, pixel);
     eglBindAPI(outer.api);
     if (made) return self;
     free(self);

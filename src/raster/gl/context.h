@@ -11,26 +11,24 @@
 
 typedef struct GlContext GlContext;
 
-/* A context for shaders of that language: desktop OpenGL 3.3 core (TEXT_GLSL_330), or OpenGL ES 3.0 with
- * targets of floats (TEXT_GLSL_ES_300); a driver may give a later version. Fails with WEFT_MESSAGE_GL_CONTEXT
- * where there is no EGL, no driver, or no such version. */
+/* Creates a context for shaders of a language: desktop OpenGL 3.3 core (TEXT_GLSL_330), or OpenGL ES 3.0 with
+ * floating-point targets (TEXT_GLSL_ES_300); a driver may give a later version. Fails with WEFT_MESSAGE_GL_CONTEXT
+ * if there is no EGL, no driver, or no such version, and with _MEMORY. */
 WeftResult context_create(TextLanguage language, GlContext **out, WeftError *error);
 
-/* Another context that has the same textures, buffers and programs (not framebuffers nor vertex arrays), for
- * work in another thread: what is made there is there for all once glFinish and whatever joins the threads
- * are past. NULL where the driver or memory refuses, and of one that was adopted from GLX, which makes
+/* Creates a context that shares textures, buffers and programs with another (not framebuffers nor vertex arrays), for
+ * work in another thread. An object made there is complete for all contexts once glFinish has returned and the threads
+ * are joined. Returns NULL if the driver refuses or memory is short, and for a context adopted from GLX, which makes
  * contexts for a screen's visual that it does not report. Release with context_destroy. */
 GlContext *context_share(const GlContext *context);
 
-/* The context that is current in this thread, whatever made it; it stays its owner's, and context_enter asks
- * that it be current. Fails with WEFT_MESSAGE_GL_CONTEXT where there is none, or it is older than those
- * above.
- */
+/* Adopts the context that is current in this thread, whatever made it. It stays its owner's, and context_enter requires
+ * it to be current. Fails with WEFT_MESSAGE_GL_CONTEXT if there is none, or its version is lower than those above. */
 WeftResult context_adopt(GlContext **out, WeftError *error);
 bool context_adopted(const GlContext *context);
 
-/* Makes it current nowhere and releases it, but for one that was adopted; NULL is fine. What was made in it
- * must be destroyed before. */
+/* Releases a context, except an adopted one, which only loses its record; may be NULL. Objects made in it must be
+ * destroyed before. */
 void context_destroy(GlContext *context);
 
 /* The context that was current in a thread before. */
@@ -42,18 +40,18 @@ typedef struct GlOuter {
 
 /* Makes the context current in this thread until context_leave(outer). Pairs may lie inside each other,
  * but not of one that was adopted, whose state is brought to that of a new context at either end (state.h).
- * False where the driver refuses, since the context is in use in another thread, or where an adopted one is
- * not current. */
+ * Returns false if the driver refuses, since the context is in use in another thread, or if an adopted one is not
+ * current. */
 bool context_enter(GlContext *context, GlOuter *outer);
 void context_leave(GlContext *context, const GlOuter *outer);
 
-/* Lets go of what EGL keeps for this thread, which then ends. */
+/* Releases what EGL keeps for this thread; called before the thread ends. */
 void context_thread_ends(void);
 
-/* The language it was made for. */
+/* Returns the language of its shaders. */
 TextLanguage context_language(const GlContext *context);
 
-/* The driver's own name for itself ("llvmpipe (LLVM 15.0.6, 256 bits)"); lives as long as the context. */
+/* Returns the driver's name ("llvmpipe (LLVM 15.0.6, 256 bits)"), which lives as long as the context. */
 const char *context_driver(const GlContext *context);
 
 #endif

@@ -17,16 +17,16 @@ static void set_program(Display *self, GLuint program) {
     glUniform1i(glGetUniformLocation(program, "picture_mean"), 0);
 }
 
-/* Compiles; what was there before stays where that fails. */
+/* Compiles the program. If that fails, the one before stays in use. */
 static void build(Display *self, const TextDesc *desc) {
-    const TextDesc plain = {.language = desc->language, .folder = desc->folder};
+    const TextDesc no_tables = {.language = desc->language, .folder = desc->folder};
     Text vertex, fragment;
     GLuint made = 0;
     self->stale = false;
     self->error = (WeftError){0};
-    text_begin(&vertex, &plain);
+    text_begin(&vertex, &no_tables);
     text_include(&vertex, "raster/glsl/screen.glsl");
-    text_begin(&fragment, &plain);
+    text_begin(&fragment, &no_tables);
     text_include(&fragment, "raster/glsl/display.glsl");
     if (text_end(&vertex, &self->error) == WEFT_OK && text_end(&fragment, &self->error) == WEFT_OK)
         made = program_create("display", (ShaderSource){vertex.bytes, &vertex},

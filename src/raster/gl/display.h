@@ -1,4 +1,4 @@
-/* display.h - the pass that shows a picture: from linear colours to what a display is sent
+/* display.h - the pass that shows a picture: from linear colours to those of a display
  *
  * All calls are for the context that is current. */
 #ifndef WEFT_RASTER_DISPLAY_H
@@ -16,8 +16,9 @@ typedef struct Display {
     WeftError error;        /* of the last attempt; the program before stays in use */
 } Display;
 
-/* Draws a target's picture. Vertices are made up: any vertex array may be bound. Leaves the framebuffer bound
- * and its program in use. Fails with WEFT_MESSAGE_GL_COMPILE or _TEXT_DIALECT where it has never compiled. */
+/* Draws a target's picture. The vertex shader makes the vertices, so any vertex array may be bound. Leaves the
+ * framebuffer bound and the program in use. Fails with WEFT_MESSAGE_GL_COMPILE or _TEXT_DIALECT if no version has ever
+ * compiled. */
 WeftResult display_draw(Display *display, const TextDesc *desc, const Target *target,
                         const WeftRasterShow *show, WeftError *error);
 

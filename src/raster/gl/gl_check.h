@@ -1,14 +1,13 @@
-/* gl_check.h - helpers of all passes: errors of the driver, textures that are read texel by texel */
+/* gl_check.h - helpers of all passes: errors of the driver, textures without a filter */
 #ifndef WEFT_RASTER_GL_CHECK_H
 #define WEFT_RASTER_GL_CHECK_H
 
 #include "weft/result.h"
 
-/* Fails with WEFT_MESSAGE_GL_MEMORY, or _GL_CONTEXT for what should not happen, where a call since the last
- * check did. */
+/* Fails if an OpenGL call since the last check did: with WEFT_MESSAGE_GL_MEMORY, or _GL_CONTEXT for any other error. */
 WeftResult gl_check(WeftError *error, const char *what);
 
-/* No filter, and no smaller copies, without which a texture would count as not complete. */
-void texture_plain(unsigned target);
+/* Sets nearest-neighbour look-up without mipmaps, and clamping at the edges, for the texture bound to `target`. */
+void texture_unfiltered(unsigned target);
 
 #endif

@@ -32,14 +32,14 @@ WeftResult queue_create(const WeftScene *scene, Queue *out, WeftError *error) {
 }
 
 /* Returns true if opaque meshes still come before blended ones. */
-static bool serves(const Queue *self, const WeftScene *scene) {
+static bool is_partitioned(const Queue *self, const WeftScene *scene) {
     bool good = self->count == scene->mesh_count;
     for (int k = 0; k < self->count; k++) good &= blends(scene, self->order[k]) == (k >= self->solid);
     return good;
 }
 
 void queue_update(Queue *self, const WeftScene *scene) {
-    if (serves(self, scene)) return;
+    if (is_partitioned(self, scene)) return;
     self->count = 0;
     for (int m = 0; m < scene->mesh_count; m++)
         if (!blends(scene, m)) self->order[self->count++] = m;
@@ -69,7 +69,7 @@ void queue_destroy(Queue *self) {
     *self = (Queue){0};
 }
 
-/* By insertion: the order is nearly that of the picture before. */
+/* Sorts by insertion, which is fast since the order is nearly that of the picture before. */
 static void sort(Queue *self, int first, int end, float sign) {
     for (int k = first + 1; k < end; k++) {
         int mesh = self->order[k], j = k;
@@ -79,10 +79,10 @@ static void sort(Queue *self, int first, int end, float sign) {
     }
 }
 
-/* Solid meshes by their far ends, which puts a floor last though it begins before all else. */
 void queue_sort(Queue *self, const WeftScene *scene, const View *view) {
     for (int m = 0; m < self->count; m++) {
         float depth = vec3_dot(vec3_sub(self->middle[m], view->eye), view->forward);
+        /* solid meshes by their far ends, so that a floor comes last though it begins nearest */
         self->depth[m] = blends(scene, m) ? depth : depth + self->reach[m];
     }
     sort(self, 0, self->solid, 1.0f);

@@ -88,7 +88,7 @@ static void reset(bool desktop) {
 
 void state_begin(GlPlace *place) {
     bool desktop = epoxy_is_desktop_gl();
-    /* a driver may hold one of each kind; a lost context answers for ever */
+    /* a driver may have one pending of each kind; a lost context reports errors for ever */
     for (int k = 0; k < 8 && glGetError() != GL_NO_ERROR; k++) continue;
     glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &place->draw);
     glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &place->read);

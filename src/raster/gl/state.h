@@ -10,11 +10,11 @@ typedef struct GlPlace {
     int viewport[4], scissor[4];
 } GlPlace;
 
-/* Notes the place, forgets errors that nobody asked for, and brings all else that this folder relies on or
- * changes to what a new context has. */
+/* Saves the place, clears pending OpenGL errors, and resets all other state that this folder relies on or changes to
+ * that of a new context. */
 void state_begin(GlPlace *place);
 
-/* Brings it there again and returns to the place. */
+/* Resets the state once more and restores the place. */
 void state_end(const GlPlace *place);
 
 #endif

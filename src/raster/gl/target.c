@@ -9,7 +9,8 @@
 
 #include <stdlib.h>
 
-static int samples_there_are(int wanted) {
+/* Returns the wanted number of samples, or the most that the driver has. */
+static int available_samples(int wanted) {
     GLint most = 1;
     glGetInternalformativ(GL_RENDERBUFFER, GL_RGBA16F, GL_SAMPLES, 1, &most); /* the most come first */
     return wanted < most ? wanted : most > 1 ? most : 1;
@@ -18,7 +19,7 @@ static int samples_there_are(int wanted) {
 static void make_mean(Target *self) {
     glGenTextures(1, &self->mean);
     glBindTexture(GL_TEXTURE_2D, self->mean);
-    texture_plain(GL_TEXTURE_2D);
+    texture_unfiltered(GL_TEXTURE_2D);
     glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16F, self->width, self->height, 0, GL_RGBA, GL_HALF_FLOAT, NULL);
     glGenFramebuffers(1, &self->resolved);
     glBindFramebuffer(GL_FRAMEBUFFER, self->resolved);
@@ -45,7 +46,7 @@ static void make_drawn(Target *self) {
 }
 
 WeftResult target_resize(Target *self, int width, int height, int samples, WeftError *error) {
-    samples = samples > 1 ? samples_there_are(samples) : 1;
+    samples = samples > 1 ? available_samples(samples) : 1;
     if (self->drawn && self->width == width && self->height == height && self->samples == samples)
         return WEFT_OK;
     target_destroy(self);
@@ -79,7 +80,7 @@ void target_resolve(const Target *self, const int box[4]) {
                       GL_NEAREST);
 }
 
-/* The driver's rows run from the bottom. */
+/* Flips the rows, which the driver has from the bottom. */
 static void put_upright(float *pixels, int width, int height) {
     size_t row = 4 * (size_t)width;
     for (int y = 0; y < height / 2; y++) {

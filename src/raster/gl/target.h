@@ -14,15 +14,15 @@ typedef struct Target {
     unsigned mean;            /* texture of resolved */
 } Target;
 
-/* Makes it as asked; does nothing where it is so already. samples is cut to what the driver has. Fails with
- * WEFT_MESSAGE_GL_MEMORY or _GL_CONTEXT; it is then empty. */
+/* Gives the target a size and number of samples a pixel, which is reduced to what the driver has. Does nothing if it
+ * has these. Fails with WEFT_MESSAGE_GL_MEMORY or _GL_CONTEXT; the target is then empty. */
 WeftResult target_resize(Target *target, int width, int height, int samples, WeftError *error);
 void target_destroy(Target *target);
 
-/* Makes the mean of the samples, which `resolved` then holds, in a box: x, y from below, width, height. */
+/* Averages the samples into `resolved` within a box: x, y from below, width, height. */
 void target_resolve(const Target *target, const int box[4]);
 
-/* F32 RGBA, premultiplied colours divided by their alpha. */
+/* Reads the picture as F32 RGBA with straight alpha. Fails with WEFT_MESSAGE_MEMORY, _GL_MEMORY or _GL_CONTEXT. */
 WeftResult target_read(const Target *target, WeftImage *out, WeftError *error);
 
 #endif

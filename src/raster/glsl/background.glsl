@@ -1,7 +1,7 @@
-/* background.glsl - the environment as it is seen, sharp */
+/* background.glsl - the unfiltered environment */
 uniform highp sampler2D environment_map;
 
-/* Returns the place of the look-up, in texels from the middle of the map: `place` is environment_place. */
+/* Returns the radiance from a direction in the world. place: cosine and sine of the rotation, factor on radiance. */
 vec3 environment_background(vec3 world, vec4 place) {
     vec3 d = normalize(world);
     float x = d.x * place.x - d.z * place.y, z = d.x * place.y + d.z * place.x;

@@ -1,4 +1,4 @@
-/* behind.glsl - the environment behind everything */
+/* behind.glsl - the environment behind the scene */
 #include "raster/glsl/picture.glsl"
 #include "raster/glsl/background.glsl"
 
@@ -7,8 +7,8 @@ out highp vec4 fragment;
 
 uniform highp vec4 background_place; /* cosine and sine of the rotation, factor on radiance */
 
-/* to_clip has across / |across|^2 in its first row, and up likewise in its second. */
 void main() {
+    /* to_clip has across / |across|^2 in its first row, and up likewise in its second */
     vec3 x = vec3(to_clip[0].x, to_clip[1].x, to_clip[2].x), y = vec3(to_clip[0].y, to_clip[1].y, to_clip[2].y);
     vec3 ray = forward.xyz;
     if (eye.w > 0.5) ray = ray + screen.x * x / dot(x, x) + screen.y * y / dot(y, y);

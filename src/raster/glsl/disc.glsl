@@ -1,6 +1,6 @@
-/* disc.glsl - looking around a place */
+/* disc.glsl - points on a disc */
 
-/* Point k of n on a disc: Helmut Vogel, "A better way to construct the sunflower head",
+/* Returns point k of n on a disc: Helmut Vogel, "A better way to construct the sunflower head",
  * Mathematical Biosciences 44, 1979. */
 vec2 disc_point(float k, float n) {
     float angle = k * 2.39996323;

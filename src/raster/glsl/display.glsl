@@ -1,16 +1,16 @@
-/* display.glsl - the picture as a display shows it: exposure, tone curve, sRGB encoding, what is behind it */
+/* display.glsl - the picture for a display: over a background, with exposure, tone curve and sRGB encoding */
 #include "shading/dialect/tone.h"
 
 uniform highp sampler2D picture_mean;
 uniform highp vec4 show_place; /* the picture's corner and size in the framebuffer */
-uniform highp vec4 show_back;  /* light of what is behind it; w: the gain */
+uniform highp vec4 show_back;  /* linear colour of the background; w: the gain */
 uniform int show_curve;
 out highp vec4 shown;
 
-/* Dithers as image/tonemap.c does; pixels count from the top left. */
+/* Returns the dither of a pixel, counted from the top left, as image/tonemap.c has it. */
 float show_dither(ivec2 at) {
-    uint turn = uint(at.x) * 0xc13fa9a9u + uint(at.y) * 0x91e10da5u;
-    return (float(turn >> 24) + 0.5) / 256.0;
+    uint hash = uint(at.x) * 0xc13fa9a9u + uint(at.y) * 0x91e10da5u;
+    return (float(hash >> 24) + 0.5) / 256.0;
 }
 
 void main() {

@@ -1,9 +1,9 @@
 /* environment.glsl - the light around a scene, for shading/ambient/ambient.h: a filtered cube, terms and lights
  *
- * A source is the frame that directions are given in. Of environment_cube level m holds the radiance weighted
- * by exp(3200 / 4^m (mu - 1)). Terms, those of scene/light/env_split.h: environment_terms of irradiance over pi,
- * without degree 3; environment_residual of what the lights leave. All are of the image as it is, lights too.
- * ambient_baked is whoever's who has baked tables, ambient_light_visibility whoever's who knows what hides lights. */
+ * The source of ambient.h is here the frame that directions are given in. Level m of environment_cube is the radiance
+ * filtered by exp(3200 / 4^m (mu - 1)). The terms are those of scene/light/env_split.h: environment_terms of the whole
+ * image's irradiance over pi, without degree 3; environment_residual of the image without its lights. The texts around
+ * this one define ambient_baked and ambient_light_visibility. */
 #include "shading/stack/frame.h"
 #include "shading/dialect/rgb.h"
 
@@ -27,7 +27,7 @@ struct AmbientLight {
     int light;
 };
 
-/* From the image to the world, and back. */
+/* Return a direction of the image in the world, and a direction of a frame in the image. */
 vec3 environment_world(vec3 d) {
     return vec3(d.x * environment_place.x + d.z * environment_place.y, d.y,
                 d.z * environment_place.x - d.x * environment_place.y);
@@ -47,7 +47,8 @@ Rgb ambient_radiance(Frame f, Dir w, float kappa) {
     return environment_rgb(textureLod(environment_cube, environment_image(f, w), max(level, 0.0)).rgb);
 }
 
-/* Degrees 0 to 3, each times the weight's Legendre coefficient: ambient_rest_about (scene/light/env_split.h). */
+/* Returns the radiance of the image without its lights, filtered about w: degrees 0 to 3, each times the Legendre
+ * coefficient of the filter, as ambient_rest_about (scene/light/env_split.h) has it. */
 Rgb ambient_residual(Frame f, Dir w, float kappa) {
     float k = max(kappa, 0.25), q = 1.0 / k, a = 1.0 + 2.0 / (exp(min(2.0 * k, 60.0)) - 1.0) - q, b = 1.0 - 3.0 * q * a;
     vec3 d = kappa > 0.0 ? vec3(a, b, a - 5.0 * q * b) : vec3(2.0 / 3.0, 0.25, 0.0);
@@ -89,8 +90,8 @@ int ambient_light_count(Frame f) { return int(environment_place.w); }
 float ambient_diffuse(Frame f) { return environment_parts.x; }
 float ambient_reflection(Frame f) { return environment_parts.y; }
 
-/* The number of rounds is a constant, so that compilers unroll them: an index that a loop counts costs a software driver
- * a load for each pixel. */
+/* Returns the index of the light nearest to w, or -1. The number of rounds is constant, so that compilers unroll them:
+ * a variable index costs a software driver a load for each pixel. */
 int ambient_nearest_light(Frame f, Dir w) {
     vec3 d = environment_image(f, w);
     float most = -2.0;

@@ -2,7 +2,7 @@
  *
  *   L(d) = sum w L_texel / sum w,   w = sin(theta) exp(kappa (mu - 1)),  mu = d . texel
  *
- * Only texels within `reach` of d are asked: beyond it w is below a three-thousandth. */
+ * Only texels within `reach` of d are read: beyond it w is below a three-thousandth. */
 uniform highp sampler2D source;
 uniform highp mat3 face;  /* axes of the face as columns: towards the right, down, and out */
 uniform highp vec4 how;   /* texels across the face, level of the source, kappa, cosine of reach */
@@ -19,23 +19,23 @@ void main() {
     float across = sqrt(max(1.0 - d.y * d.y, 0.0)), rows = float(size.y), columns = float(size.x);
     int top = max(int(floor((theta - reach) / pi * rows)), 0);
     int bottom = min(int(floor((theta + reach) / pi * rows)), size.y - 1);
-    float turn = 2.0 * pi / columns, turn_cos = cos(turn), turn_sin = sin(turn);
+    float step_angle = 2.0 * pi / columns, step_cos = cos(step_angle), step_sin = sin(step_angle);
     vec4 sum = vec4(0.0);
     for (int y = top; y <= bottom; y++) {
         float at = (float(y) + 0.5) * pi / rows, s = sin(at), c = cos(at);
         /* cos(reach) = c d.y + s across cos(phi - phi_texel) at the ends of the row's part within reach */
         float edge = (how.w - c * d.y) / max(s * across, 1e-6);
-        float half_turn = edge <= -1.0 ? pi : edge >= 1.0 ? turn : acos(edge) + turn;
-        int first = int(floor((phi - half_turn) / turn + 0.5 * columns));
-        int count = min(int(ceil(2.0 * half_turn / turn)), size.x);
-        float from = (float(first) + 0.5 - 0.5 * columns) * turn - phi;
+        float half_angle = edge <= -1.0 ? pi : edge >= 1.0 ? step_angle : acos(edge) + step_angle;
+        int first = int(floor((phi - half_angle) / step_angle + 0.5 * columns));
+        int count = min(int(ceil(2.0 * half_angle / step_angle)), size.x);
+        float from = (float(first) + 0.5 - 0.5 * columns) * step_angle - phi;
         vec2 now = vec2(cos(from), sin(from));
         int x = first < 0 ? first + size.x : first;
         for (int k = 0; k < count; k++) {
             float mu = c * d.y + s * across * now.x;
             float w = s * exp(how.z * (mu - 1.0));
             sum += w * vec4(texelFetch(source, ivec2(x, y), level).rgb, 1.0);
-            now = vec2(now.x * turn_cos - now.y * turn_sin, now.y * turn_cos + now.x * turn_sin);
+            now = vec2(now.x * step_cos - now.y * step_sin, now.y * step_cos + now.x * step_sin);
             x = x + 1 < size.x ? x + 1 : 0;
         }
     }

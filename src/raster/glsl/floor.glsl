@@ -1,7 +1,7 @@
-/* floor.glsl - the floor: what the scene keeps of the light from it, and the scene mirrored over that
+/* floor.glsl - the floor: the scene's shadow and its mirror image
  *
- * With V the part of the light, in luminance, that reaches it, and M the mirrored scene with coverage c, both
- * times the share of the mirror, what is behind is seen times V (1 - c), and M is added: trace/path/catcher.h. */
+ * The background is multiplied by V (1 - c), and M is added: V is the fraction of the light, in luminance, that reaches
+ * the floor; M is the mirrored scene and c its coverage, both times the reflection of the floor (trace/path/catcher.h). */
 in highp vec3 from_eye;
 out highp vec4 fragment;
 
@@ -9,9 +9,9 @@ out highp vec4 fragment;
 #include "raster/glsl/light.glsl"
 #include "shading/ltc/polygon.h"
 
-uniform highp sampler2D floor_sky;    /* part of the environment's light that arrives: raster/light/ground.h */
-uniform highp sampler2D floor_mirror; /* the scene from below, premultiplied, with smaller copies */
-uniform highp sampler2D floor_depth;  /* of that */
+uniform highp sampler2D floor_sky;    /* fraction of the environment's light that arrives: raster/light/ground.h */
+uniform highp sampler2D floor_mirror; /* the scene from below, premultiplied, with mipmaps */
+uniform highp sampler2D floor_depth;  /* depth of floor_mirror */
 
 float whole = 0.0, reached = 0.0;
 void add_light(float light, float reaches) {
@@ -28,7 +28,7 @@ void add_lights() {
 }
 
 #ifdef POLYGONS
-/* Corners in the floor's frame, where z is up. */
+/* Adds the light of polygon k, with corners in the floor's frame, where z is up. */
 void add_polygon(int k, int corners, bool two_sided, int map) {
     vec3 here = eye.xyz + from_eye, c = polygon_radiance[k].rgb;
     Polygon p;
@@ -47,15 +47,17 @@ void add_polygons() { EACH_POLYGON(ONE_POLYGON) }
 void add_polygons() {}
 #endif
 
-/* The texture is finer towards the middle: a point q of its disc is |q| q of the floor's. */
+/* Returns the fraction of the environment's light that reaches point p of the floor, in units of its radius. The
+ * texture is finer towards the middle: point q of its disc is point |q| q of the floor. */
 float sky_reaches(vec2 p) { return texture(floor_sky, 0.5 + 0.5 * p / sqrt(max(length(p), 1e-6))).r; }
 
-/* The mean of what a rough mirror shows. A cone of half width h, from a point w away to what is w' away on the
- * mirrored way, is h (1 - w / w') wide as the eye sees it; its middle w' is looked for first. */
+/* Returns the mean of the mirror image over the cone of a rough floor, with its coverage. A cone of half width h, from
+ * a point at distance w to an object at distance w' along the mirrored ray, appears h (1 - w / w') wide to the eye; the
+ * mean of that is found first. */
 vec4 mirrored() {
     vec4 clip = to_clip * vec4(from_eye, 1.0);
     vec2 at = 0.5 + 0.5 * clip.xy / clip.w, aspect = vec2(1.0, floor_lens.w);
-    at.x = 1.0 - at.x; /* the other way round, as mirrors are */
+    at.x = 1.0 - at.x; /* ground_view mirrors x */
     float w = eye.w > 0.5 ? clip.w : dot(forward.xyz, from_eye);
     float found = 0.0, sum = 0.0, half_width = min(floor_lens.z, 0.25 / max(aspect.y, 1.0));
     for (int k = 0; k < 12; k++) {

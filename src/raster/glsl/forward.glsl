@@ -1,10 +1,10 @@
-/* forward.glsl - a fragment: its surface, its stack of lobes, and the light that they send to the eye
+/* forward.glsl - a fragment: its surface, its stack of lobes, and the light that they reflect to the eye
  *
  * The text before it supplies MATERIAL_..., material_surface, material_choices and material_table, SHOWS_... of
  * a part of the light, and PROPERTY where a property is shown in its place. */
 in highp vec3 from_eye;
-centroid in highp vec3 vertex_normal; /* where a pixel of the outline is covered, not outside of the triangle */
-#ifdef TURNS
+centroid in highp vec3 vertex_normal; /* centroid: inside the triangle at outlines too */
+#ifdef NEEDS_TANGENT
 in highp vec4 vertex_tangent;
 #else
 const vec4 vertex_tangent = vec4(0.0, 0.0, 0.0, 1.0);
@@ -14,7 +14,8 @@ out highp vec4 fragment;
 #include "raster/glsl/light.glsl"
 #include "shading/material/dust.h"
 
-/* The geometric normal is that of the plane through neighbouring pixels, which faces the eye. */
+/* Returns normals and tangent of the side that is seen. The geometric normal is that of the plane through neighbouring
+ * pixels, towards the eye. */
 Facing fragment_facing(Dir wo) {
     float side = gl_FrontFacing ? 1.0 : -1.0;
     Facing at;
@@ -32,7 +33,7 @@ StackValue stack_seen_through(Stack m, StackView w, Slots only, Angles a) {
     return v;
 }
 
-/* From light k, which is of that kind and has that shadow map, or -1, by the slots in only. */
+/* Returns the light of punctual light k that the slots in `only` reflect or transmit. map: its shadow map, or -1. */
 Rgb light_from(int k, int kind, int map, Stack m, StackView w, Slots only, Facing at, Frame f) {
     Beam beam = light_beam(k, kind);
     Dir i = frame_to(f, beam.wi);
@@ -42,7 +43,7 @@ Rgb light_from(int k, int kind, int map, Stack m, StackView w, Slots only, Facin
     i.z = side * i.z;
     cosine = side * cosine;
     bool lit = i.z > 0.0 && cosine > 0.0;
-    i.z = max(i.z, 1e-6); /* what is not lit is worked out and left out: a branch costs more */
+    i.z = max(i.z, 1e-6); /* an unlit point is evaluated and then dropped: a branch costs more */
     Angles a = angles_between(w.o, i), coat = a;
     if (HAS_COAT(m)) coat = angles_between(w.coat_o, stack_to_coat(m, i));
     StackValue v = stack_value_of(m, w, only, a, coat);
@@ -73,15 +74,15 @@ Rgb polygon_light(Stack m, StackView w, PolygonReach reach, Frame f) { return rg
 #endif
 
 #ifdef AMBIENT
-/* Returns how much of the sky is seen on this side and behind. The texture's occlusion is of the material's own bumps,
- * the vertex's of all else; where both know the same crease the lesser is right. */
+/* Returns the visible fraction of the sky on this side and behind. The texture has the material's own bumps, the vertex
+ * the rest of the scene. If both contain the same crease the smaller is right. */
 vec2 sky_open() { return min(vec2(texture_occlusion), gl_FrontFacing ? vertex_occlusion : vertex_occlusion.yx); }
 #endif
 
 #ifdef WOVEN
 #include "raster/glsl/weave.glsl"
 #else
-/* All light that a stack sends towards o, but for what it emits. */
+/* Returns the light that a stack reflects and transmits towards o. */
 Rgb stack_light(Stack m, Dir o, Facing at, Frame f, float occlusion) {
     StackView w;
     stack_view(m, o, w);
@@ -111,8 +112,8 @@ void main() {
 #else
     Rgb sum = rgb_scale(s.base_color, SHOWS_EMISSION);
     if (!MATERIAL_UNLIT) {
-        float shines = gl_FrontFacing || MATERIAL_DOUBLE_SIDED ? s.emission_strength : 0.0;
-        sum = rgb_scale(s.emission, SHOWS_EMISSION * shines);
+        float strength = gl_FrontFacing || MATERIAL_DOUBLE_SIDED ? s.emission_strength : 0.0;
+        sum = rgb_scale(s.emission, SHOWS_EMISSION * strength);
         Dir o = frame_to(f, wo);
         s = dust_accumulate(frame_surface(s), f.z, dir_of(eye.xyz + from_eye));
         Stack m;
@@ -132,6 +133,6 @@ void main() {
     fragment = vec4(vec_of(sum) * opacity, opacity);
 #endif
 #ifdef MASKED
-    if (opacity < 0.5) discard; /* last: until here its neighbours may ask for what it sees */
+    if (opacity < 0.5) discard; /* last, since derivatives of its neighbours need it until here */
 #endif
 }

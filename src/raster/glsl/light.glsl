@@ -1,6 +1,6 @@
-/* light.glsl - what arrives at a fragment from lights, and how much of it is not in shadow
+/* light.glsl - the light that arrives at a fragment from punctual lights, and the fraction that is not in shadow
  *
- * The text before it has EACH_LIGHT, and SHADOWED where there are shadow maps. */
+ * The text before it defines EACH_LIGHT, and SHADOWED if there are shadow maps. */
 #include "raster/glsl/picture.glsl"
 #include "shading/stack/frame.h"
 #include "shading/area/punctual.h"

@@ -1,5 +1,5 @@
-/* light_visibility.glsl - what a fragment sees of the sky and of the environment's lights, of which there are eight:
- * raster/geometry/occlusion.h */
+/* light_visibility.glsl - the visibility of the sky and of the environment's lights, of which there are eight
+ * (raster/geometry/occlusion.h) */
 #include "shading/ambient/occlusion_cone.h"
 
 in highp vec2 vertex_occlusion;
@@ -11,21 +11,23 @@ in highp vec4 vertex_lights_1;
 /* Visible fraction of the sky by the occlusion texture, which has the material's own bumps. */
 float texture_occlusion = 1.0;
 
-/* The normal that a material's map leaves as it is, on the viewer's side. */
+/* The interpolated normal, not perturbed by a map, on the viewer's side. */
 Dir smooth_normal;
 
 vec4 fragment_open() { return gl_FrontFacing ? vertex_open_front : vertex_open_back; }
 
-/* The part of light about d that comes from above the smooth surface, and not only from above a shading normal that is bent
- * away from it: as at a silhouette, whose smooth normal the eye does not see. blur: how far about d it comes from. */
+/* Returns the fraction of the light about d that comes from above the smooth surface, if the shading normal is rotated
+ * away from its normal, as at a silhouette, whose smooth normal faces away from the eye. blur: cosine over which it
+ * fades. */
 float above_smooth(Frame f, Dir d, float blur) {
     return clamp((dir_dot(d, smooth_normal) + blur) / (max(dir_dot(d, f.z), 0.0) + blur), 0.0, 1.0);
 }
 
-/* A vertex knows what it sees as a ramp over directions, near a least-squares fit: of a sky that is half hidden by an edge
- * that has a slope of 3/4. A filter of that kappa shows such an edge with a slope of sqrt(kappa / (2 pi)). So the ramp is
- * steepened for narrow ones, the more the steeper it is: a level ramp has no edge. Not beyond the narrowest of the look-ups,
- * since the edge is somewhere else at the next vertex. What passes in all is then no longer that of the rays. */
+/* Returns the factor by which a ramp is steepened for a filter of concentration kappa. A vertex has its visibility as a
+ * ramp over directions, near a least-squares fit, which for an edge that hides half of the sky has slope 3/4. A filter
+ * of that kappa shows the edge with slope sqrt(kappa / (2 pi)). The factor is greater for steeper ramps, since a level
+ * ramp has no edge, and limited to that of the narrowest look-ups, since the edge lies elsewhere at the next vertex.
+ * The steepened ramp does not preserve the total light of the rays. */
 float steepness(vec3 slope, float kappa) {
     float edge = min(length(slope) / 0.75, 1.0);
     return mix(1.0, clamp(0.532 * sqrt(kappa), 1.0, 1.88), edge);
@@ -39,8 +41,8 @@ float ambient_sky_visibility(Frame f, Dir w, float kappa, float cos_i, float occ
     return min(seen * above_smooth(f, d, 0.02), occlusion_cone(texture_occlusion, cos_i));
 }
 
-/* A Gaussian of variance 1 / kappa times V = open + c . x has its mean at c / (kappa open); cut off where V
- * is, it is not beyond a deviation. */
+/* Returns direction w deflected towards the visible sky. A Gaussian of variance 1 / kappa times V = open + c . x has
+ * its mean at c / (kappa open); with V clamped to 0 and 1, at most one standard deviation away. */
 Dir ambient_bent_direction(Frame f, Dir w, float kappa, float open) {
     vec3 c = fragment_open().yzw;
     c *= steepness(c, kappa);
@@ -49,7 +51,8 @@ Dir ambient_bent_direction(Frame f, Dir w, float kappa, float open) {
     return dir_normal_or(dir_add(w, dir_scale(slope, open < 1.0 ? by : 0.0)), w);
 }
 
-/* -1 is unknown; beside their triangle fragments are a little out of range. */
+/* Returns the visible fraction of light k, below 0 without a value. Fragments beside their triangle are a little out of
+ * range. */
 float env_light_seen(int k) { return k < 0 ? -1.0 : k < 4 ? vertex_lights_0[k] : vertex_lights_1[k - 4]; }
 
 float ambient_light_visibility(Frame f, int k, float occlusion) {

@@ -3,16 +3,17 @@
 #include "shading/area/area.h"
 #include "shading/stack/frame.h"
 
-/* How much of each polygon's light reaches a pixel, on its side and on the other; nothing behind the back of a polygon of
- * one side. The same at all points of the pixel. */
+/* The fraction of each polygon's light that reaches a pixel on its side and on the other; 0 behind a one-sided
+ * polygon. */
 struct PolygonReach {
     float front[POLYGONS], behind[POLYGONS];
 };
 
-/* The text before it has POLYGONS, how many there are, CORNERS_OF(k), and EACH_POLYGON(L), which is L(k, corners,
+/* The text before it defines POLYGONS, their number, CORNERS_OF(k), and EACH_POLYGON(L), which is L(k, corners,
  * two_sided, map) for each. */
 #define ONE_REACH(k, corners, two_sided, map)                                                                \
-    if (two_sided || dot(polygon_normals[k].xyz, here - polygon_corners[8 * k].xyz) > 0.0) {                 \
+    if (two_sided ||                                                                                         \
+        dot(polygon_normals[k].xyz, here - polygon_corners[8 * k].xyz) > 0.0) {                \
         reach.front[k] = polygon_reaches(map, normal, polygon_normals[k].xyz);                               \
         if (transmits) reach.behind[k] = polygon_reaches(map, -normal, polygon_normals[k].xyz);              \
     }
@@ -24,7 +25,8 @@ PolygonReach polygon_reach(bool transmits, Facing at) {
     return reach;
 }
 
-/* From polygon k, which has so many corners; the surface's own plane parts what is reflected from what comes through. */
+/* Returns the light of polygon k that a stack reflects and transmits. front, behind: fractions that reach either side
+ * of the surface's plane, which cuts the polygon. */
 Rgb polygon_from(int k, int corners, float front, float behind, Stack m, StackView w, Frame f) {
     vec3 here = eye.xyz + from_eye, c = polygon_radiance[k].rgb;
     Polygon p;
@@ -39,7 +41,8 @@ Rgb polygon_from(int k, int corners, float front, float behind, Stack m, StackVi
     return rgb_mul(sum, rgb(c.r, c.g, c.b));
 }
 
-/* This is a loop, since a copy of the stack for each polygon would take compilers a second each. */
+/* Returns the light of all polygons. It is a loop, since compilers take a second for each unrolled copy of the
+ * stack. */
 Rgb polygon_light(Stack m, StackView w, PolygonReach reach, Frame f) {
     Rgb sum = rgb_grey(0.0);
     for (int k = 0; k < POLYGONS; k++)

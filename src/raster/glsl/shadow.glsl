@@ -1,11 +1,11 @@
-/* shadow.glsl - how much of a light reaches a point, by a shadow map */
+/* shadow.glsl - the fraction of a punctual light that reaches a point, by its shadow map */
 #include "raster/glsl/picture.glsl"
 
 uniform highp sampler2DArrayShadow shadow_map;
 
-/* The mean of four comparisons on a turned square, each itself a mean of four texels. The point is moved out along its
- * normal, further where light grazes, so that a surface does not shade itself: Daniel Holbert, "Normal Offset Shadows",
- * GDC 2011. */
+/* Returns the mean of four comparisons on a rotated square, each itself a mean of four texels. The point is moved out
+ * along its normal, further for grazing light, so that a surface does not shade itself: Daniel Holbert, "Normal Offset
+ * Shadows", GDC 2011. */
 float shadow_light(int map, vec3 normal, float cosine) {
     vec3 p = eye.xyz + from_eye - shadow_eye[map].xyz;
     float texel = shadow_eye[map].w;
@@ -14,7 +14,7 @@ float shadow_light(int map, vec3 normal, float cosine) {
     vec4 clip = shadow_clip[map] * vec4(p, 1.0);
     vec3 at = 0.5 + 0.5 * clip.xyz / clip.w;
     if (clip.w <= 0.0 || abs(at.x - 0.5) > 0.5 || abs(at.y - 0.5) > 0.5) return 1.0;
-    at.z = min(at.z, 1.0); /* what is beyond the map's depths */
+    at.z = min(at.z, 1.0); /* a point beyond the map's depths */
     float step = 1.0 / 2048.0, layer = float(map), sum = 0.0;
     sum += texture(shadow_map, vec4(at.x - 0.4 * step, at.y - 1.1 * step, layer, at.z));
     sum += texture(shadow_map, vec4(at.x + 1.1 * step, at.y - 0.4 * step, layer, at.z));

@@ -1,16 +1,16 @@
-/* soft_shadow.glsl - how much of a polygon's light reaches a point
+/* soft_shadow.glsl - the fraction of a polygon's light that reaches a point
  *
- * The mean over points of the light of what is seen of each, weighted by what it sends,
- * w = (n.d) (l.d) / |d|^4, d from here to there and n and l the normals: the share of the light that is not in
- * shadow, by which the light without shadows is multiplied. Eric Heitz, Stephen Hill and Morgan McGuire, "Combining
- * Analytic Direct Illumination and Stochastic Shadows", I3D 2018. */
+ * It is the mean visibility of points on the polygon, weighted by the light that they send, w = (n.d) (l.d) / |d|^4,
+ * with d from here to the point and the normals n here and l there. The light without shadows is multiplied by it. Eric
+ * Heitz, Stephen Hill and Morgan McGuire, "Combining Analytic Direct Illumination and Stochastic Shadows", I3D 2018. */
 #include "raster/glsl/picture.glsl"
 
 uniform highp sampler2DArrayShadow soft_map;
 
-/* Axes are those of the light's view. With all x and y divided by half the width of the map at distance 1, h, a point
- * o of the light sees q at ((q - o).xy / (q - o).z + o.xy / (d - o.z)); depth = a + b / (q - o).z in clip space, which the
- * map holds in steps of 1 / 65535. */
+/* Returns the fraction by map `map`. Axes are those of the light's view. With all x and y divided by half the width of
+ * the map at distance 1, h, a point o of the light sees q at ((q - o).xy / (q - o).z + o.xy / (d - o.z)), d the
+ * distance of the plane that all maps have at the same place; the depth in clip space is a + b / (q - o).z, stored in
+ * steps of 1 / 65535. */
 float soft_shadow(int map, vec3 normal, vec3 light_normal) {
     float h = shadow_soft[map].x;
     mat4 m = shadow_clip[map];

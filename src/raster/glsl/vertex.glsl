@@ -1,4 +1,4 @@
-/* vertex.glsl - a vertex, which is in the world already */
+/* vertex.glsl - a vertex, given in world space */
 #include "raster/glsl/picture.glsl"
 
 layout(location = 0) in highp vec3 at_position;

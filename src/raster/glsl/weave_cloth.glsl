@@ -3,7 +3,7 @@ uniform highp sampler2D weave_cells;
 
 #include "shading/weave/weave_cell.h"
 
-/* Indices in the array that cloth_numbers fills (raster/material/cloths.h); the yarns come before. */
+/* Indices in cloth_numbers (raster/material/cloths.h), after the yarns. */
 const int CLOTH_SEED = 56, CLOTH_LOW = 57, CLOTH_HIGH = 58, CLOTH_OPENNESS = 59, CLOTH_WARPS = 60, CLOTH_PICKS = 61,
           CLOTH_FAR_WIDTH = 62, CLOTH_FAR_HEIGHT = 63, CLOTH_PER_U = 64, CLOTH_PER_V = 65;
 
@@ -15,8 +15,8 @@ WeaveCell weave_fetch_cell(int row, int at) {
     return WeaveCell(c.x, c.y, c.z, c.w);
 }
 
-/* Returns a channel of an albedo. The division is one of floats, exact for up to 2^22 threads, since software drivers
- * divide whole numbers pixel by pixel. */
+/* Returns a channel of an albedo. The row is divided as a float, which is exact up to 2^22 threads, since software
+ * drivers divide integers pixel by pixel. */
 float weave_fetch(int row, int channel) {
     int warps = int(weave_number(CLOTH_WARPS)), picks = int(weave_number(CLOTH_PICKS));
     int up = int((float(row) + 0.5) / float(warps));
@@ -25,7 +25,7 @@ float weave_fetch(int row, int channel) {
 
 #include "shading/weave/weave_point.h"
 
-/* Returns the numbers from index k on, and moves k behind them. */
+/* Return the yarn, or its numbers from afar, that begin at number k, and move k behind them. */
 #define WEAVE_TAKE(name) taken.name = weave_number(k++);
 WeaveYarn weave_yarn_from(inout int k) {
     WeaveYarn taken;
@@ -59,13 +59,13 @@ Weave material_cloth() {
     return m;
 }
 
-/* Returns the place of the fragment on the cloth: warp threads from the left, picks from the bottom. */
+/* Returns the place of a fragment on the cloth, in warp threads from the left and picks from the bottom. */
 vec2 weave_place() {
     return vec2(weave_in_range(texcoord_0.x * weave_number(CLOTH_PER_U)),
                 weave_in_range(-texcoord_0.y * weave_number(CLOTH_PER_V)));
 }
 
-/* Returns true between threads. */
+/* Returns true if the fragment lies in a gap between threads. */
 bool weave_is_gap() {
     vec2 place = weave_place();
     return weave_gap(material_cloth(), place.x, place.y);

@@ -1,4 +1,4 @@
-/* depths.h - between which depths things lie along the axis of a view */
+/* depths.h - nearest and farthest depth of objects along the axis of a view */
 #ifndef WEFT_RASTER_DEPTHS_H
 #define WEFT_RASTER_DEPTHS_H
 
@@ -9,7 +9,7 @@ typedef struct Depths {
     float near, far; /* m, from the eye */
 } Depths;
 
-/* The unit vector across a view's picture, away from its eye: its forward, unless it is sheared. */
+/* Returns the unit normal of a view's picture plane, away from the eye: its forward, unless the view is sheared. */
 static inline Vec3 view_axis(const View *view) {
     return vec3_normal_or(vec3_cross(view->up, view->across), view->forward);
 }
@@ -34,8 +34,8 @@ static inline void depths_add_scene(Depths *depths, const View *view, const Weft
             depths_add(depths, view, vec3_load(scene->meshes[m].position + 3 * (size_t)k));
 }
 
-/* Widens depths by what rounding may take from them: a plane that faces the eye has none of its own. With perspective
- * they then start at the least or behind, above 0 since it is divided by them, and end behind it. */
+/* Widens depths by a margin for rounding, since a plane that faces the eye has no depth of its own. With perspective
+ * they then begin at `least`, above 0, or beyond. */
 static inline void depths_widen(Depths *depths, const View *view, float least) {
     const float rounding = 1e-5f * fmaxf(fabsf(depths->near), fabsf(depths->far));
     const float margin = 1e-3f * (depths->far - depths->near) + rounding + 1e-6f;

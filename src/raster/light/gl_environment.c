@@ -32,23 +32,23 @@ typedef struct Block {
         env_lights[2 * AMBIENT_LIGHTS_MAX][4], points[2 * AMBIENT_POINTS_MAX][4];
 } Block;
 
-/* One level of a cube, and where it comes from. */
+/* One level of a cube, and its source. */
 typedef struct Level {
     int level, side;
     int source; /* level of the source texture */
     float kappa;
 } Level;
 
-/* Texels of the source are about 0.7 of the width 1 / sqrt(kappa) that they are asked for: a sum over such
- * steps is the integral to far below 1e-6 (Poisson's formula), and what the steps blur is taken off kappa. */
+/* Returns level k. The texels of its source are about 0.7 of the filter's width 1 / sqrt(kappa): a sum over such steps
+ * is within far less than 1e-6 of the integral (Poisson's formula), and `sharpened` corrects kappa for their blur. */
 static Level level_at(int k) {
     int source = k < SOURCE_LEVELS ? k : SOURCE_LEVELS - 1;
     return (Level){k, ENVIRONMENT_SIDE >> k, source, ldexpf(ENVIRONMENT_KAPPA, -2 * k)};
 }
 
-/* kappa to filter by, so that a look-up has that of the level: a source texel of height a is a box of
- * variance a^2 / 12 along each axis, and interpolation between texels b apart a tent of b^2 / 6, which on a
- * face of n by n is at the mean b^2 = 4 pi / (6 n^2). */
+/* Returns the kappa to filter by, so that a look-up has the level's kappa: a source texel of height a is a box of
+ * variance a^2 / 12 along each axis, and interpolation between texels a distance b apart a tent of variance b^2 / 6; on
+ * a face of n by n the mean of b^2 is 4 pi / (6 n^2). */
 static float sharpened(const Level *level) {
     float a = 2.0f * PI_FLOAT / (float)(SOURCE_WIDTH >> level->source);
     float b2 = 4.0f * PI_FLOAT / (6.0f * (float)(level->side * level->side));
@@ -69,7 +69,7 @@ static bool is_sound(const uint16_t *texels) {
     return sound;
 }
 
-/* All that the cube depends on: the pixels, or the colour; and the filter. */
+/* Returns a hash of everything that the cube depends on: the pixels, or the colour; and the filter. */
 static uint64_t cube_key(const Environment *e) {
     const int sizes[] = {FILTER, (int)e->kind == ENVIRONMENT_CONSTANT, e->image.width, e->image.height,
                          e->image.channels};
@@ -92,13 +92,13 @@ static void upload_source(const WeftImage *image, int level) {
     free(rgba);
 }
 
-/* The image in halving sizes, for texelFetch alone. */
+/* Uploads the image with mipmaps, for texelFetch alone. */
 static WeftResult make_source(const Environment *e, unsigned *texture, WeftError *error) {
     WeftImage now = {0}, next;
     WeftResult result = WEFT_OK;
     glGenTextures(1, texture);
     glBindTexture(GL_TEXTURE_2D, *texture);
-    texture_plain(GL_TEXTURE_2D);
+    texture_unfiltered(GL_TEXTURE_2D);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST_MIPMAP_NEAREST);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, SOURCE_LEVELS - 1);
     for (int level = 0; level < SOURCE_LEVELS && result == WEFT_OK; level++) {
@@ -186,7 +186,7 @@ static unsigned make_program(const EnvironmentHow *how, WeftError *error) {
     return program;
 }
 
-/* Draws one level, and takes it back for the cache. */
+/* Draws one level of the cube, and reads it back into texels, which may be NULL. */
 static void filter_level(unsigned program, const Level *level, unsigned cube, unsigned source,
                          uint16_t *texels) {
     float kappa = sharpened(level);
@@ -215,7 +215,7 @@ static bool stopped(const EnvironmentHow *how, float done) {
     return how->progress && how->progress(how->user, done);
 }
 
-/* texels may be NULL. */
+/* Draws all levels of the cube, and reads them back into texels, which may be NULL. */
 static WeftResult filter_all(const GlEnvironment *self, const EnvironmentHow *how, unsigned source,
                              uint16_t *texels, WeftError *error) {
     GLuint framebuffer, vertices;
@@ -251,7 +251,7 @@ static WeftResult filter_all(const GlEnvironment *self, const EnvironmentHow *ho
     return result;
 }
 
-/* A picture of the one colour there is. */
+/* Makes an image of one colour. */
 static WeftResult constant_image(const float color[3], WeftImage *out, WeftError *error) {
     WeftResult result = weft_image_create(2, 1, 3, WEFT_PIXEL_F32, out, error);
     for (int k = 0; result == WEFT_OK && k < 6; k++) ((float *)out->pixels)[k] = color[k % 3];
@@ -260,13 +260,13 @@ static WeftResult constant_image(const float color[3], WeftImage *out, WeftError
 
 static WeftResult filter_cube(GlEnvironment *self, const Environment *environment, const EnvironmentHow *how,
                               uint16_t *texels, WeftError *error) {
-    Environment plain = *environment;
+    Environment copy = *environment;
     unsigned source = 0;
-    bool one = plain.kind == ENVIRONMENT_CONSTANT;
-    WeftResult result = one ? constant_image(plain.color, &plain.image, error) : WEFT_OK;
+    bool one = copy.kind == ENVIRONMENT_CONSTANT;
+    WeftResult result = one ? constant_image(copy.color, &copy.image, error) : WEFT_OK;
     self->cube = make_cube(NULL);
-    if (result == WEFT_OK) result = make_source(&plain, &source, error);
-    if (one) weft_image_free(&plain.image);
+    if (result == WEFT_OK) result = make_source(&copy, &source, error);
+    if (one) weft_image_free(&copy.image);
     if (result == WEFT_OK && stopped(how, 0.2f)) result = WEFT_INTERRUPTED;
     if (result == WEFT_OK) result = filter_all(self, how, source, texels, error);
     glDeleteTextures(1, &source);

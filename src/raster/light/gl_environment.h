@@ -2,7 +2,7 @@
  *
  *   environment_text(&text);                          before it includes shading/ambient/ambient.h
  *   environment_program(program, cube, block);        once a program: its unit and its block's binding
- *   environment_place(env, environment);              when it is turned or scaled; nothing is filtered again
+ *   environment_place(env, environment);              when it is rotated or scaled; nothing is filtered again
  *   environment_bind(env, cube, block);               once a frame
  *
  * All calls are for the context that is current. */
@@ -20,7 +20,7 @@ enum { ENVIRONMENT_LEVELS = 7, ENVIRONMENT_SIDE = 256 };
 typedef struct GlEnvironment {
     AmbientParts parts;
     unsigned cube;
-    unsigned map;     /* the image as it is, for environment_background; 0 where it is one colour */
+    unsigned map;     /* the unfiltered image, for environment_background; 0 for one colour */
     unsigned blurred; /* the image blurred by backdrop.h; 0 until first used */
     unsigned buffer;  /* uniform block Environment */
     bool cached;      /* the cube came from the cache */
@@ -30,32 +30,33 @@ typedef struct GlEnvironment {
 typedef struct EnvironmentHow {
     TextLanguage language; /* of the context */
     const char *folder;    /* TextDesc.folder; may be NULL */
-    int env_lights;        /* 0: AMBIENT_LIGHTS; below 0: none, all light is the residual's */
+    int env_lights;        /* most lights; 0: AMBIENT_LIGHTS; below 0: none, all light is in the residual */
     bool no_cache;
     bool (*progress)(void *user, float done); /* between steps, done in [0, 1]; true to stop. May be NULL */
     void *user;
 } EnvironmentHow;
 
-/* Filters the cube or takes it from the user's cache, where a file is named by the hash of the pixels;
- * what cannot be read or written there is a warning (WEFT_MESSAGE_CACHE_IGNORED). Its rotation and factors
- * are those of `environment`. Leaves framebuffer 0 bound and no program in use. Zero on failure:
- * WEFT_MESSAGE_MEMORY, _GL_MEMORY, _GL_COMPILE, or WEFT_INTERRUPTED. */
+/* Splits an environment into lights and a rest, and filters the cube or reads it from the user's cache, where its file
+ * is named by the hash of the pixels; a file that cannot be read or written is a warning (WEFT_MESSAGE_CACHE_IGNORED).
+ * Rotation and factors are those of `environment`. Leaves framebuffer 0 bound and no program in use. Fails with
+ * WEFT_MESSAGE_MEMORY, _GL_MEMORY, _GL_COMPILE, or WEFT_INTERRUPTED; *out is then zero. */
 WeftResult environment_create(const Environment *environment, const EnvironmentHow *how, GlEnvironment *out,
                               const WeftLog *log, WeftError *error);
 
-/* Makes `blurred` where it is not there yet, of an environment that has an image. */
+/* Makes the texture `blurred` of an environment that has an image, unless it is made already. Fails with
+ * WEFT_MESSAGE_MEMORY or _GL_MEMORY. */
 WeftResult environment_blur(GlEnvironment *self, const Environment *environment, WeftError *error);
 
 void environment_destroy(GlEnvironment *environment);
 
-/* Takes over the rotation and the factors of `environment`. */
+/* Uploads the rotation and the factors of `environment`. */
 void environment_place(const GlEnvironment *self, const Environment *environment);
 
-/* The lights in the world, of an environment so rotated; how many there are. */
+/* Fills in the lights in world space, for a rotation of the environment in radians, and returns their number. */
 int environment_lights(const GlEnvironment *environment, float rotation,
                        EnvLight env_lights[AMBIENT_LIGHTS_MAX]);
 
-/* Likewise fills in the points that they are divided into, and returns their number. */
+/* Fills in the points of these lights likewise, and returns their number. */
 int environment_points(const GlEnvironment *environment, float rotation,
                        EnvPoint env_points[AMBIENT_POINTS_MAX]);
 
@@ -64,7 +65,7 @@ int environment_points(const GlEnvironment *environment, float rotation,
  * ambient_light_visibility(Frame, int, float). */
 void environment_text(Text *text);
 
-/* Texture unit, and the binding of the uniform block; of a program that lacks them nothing is asked. */
+/* Sets the texture unit of the cube and the binding of the block in a program, if it has them. */
 void environment_program(unsigned program, int cube, int block);
 void environment_bind(const GlEnvironment *environment, int cube, int block);
 

@@ -12,10 +12,11 @@
 
 enum { SIDE = 96, RAYS = 256 };
 
-/* The sky as so many lights, by its radiance: w is the light of each on a level plane. */
+/* Samples of the sky by its radiance. */
 typedef struct SkyLights {
     Vec3 wi[RAYS];
-    float w[RAYS], whole;
+    float w[RAYS]; /* luminance of a sample's irradiance on a level plane */
+    float whole;   /* sum of w */
 } SkyLights;
 
 typedef struct GroundRow {
@@ -30,12 +31,12 @@ static bool find_sky_lights(SkyLights *lights, const WeftScene *scene) {
     bool made = sky_make(&sky, &scene->environment, &arena);
     lights->whole = 0.0f;
     for (int k = 0; made && k < RAYS; k++) {
-        float turn = (float)k * 0.618033989f;
-        SkyPoint p = sky_sample(&sky, ((float)k + 0.5f) / RAYS, turn - floorf(turn));
+        float v = (float)k * 0.618033989f;
+        SkyPoint p = sky_sample(&sky, ((float)k + 0.5f) / RAYS, v - floorf(v));
         float light = rgb_luminance(p.radiance);
-        bool shines = p.pdf > 0.0f && p.direction.y > 0.0f && light > 0.0f;
+        bool counts = p.pdf > 0.0f && p.direction.y > 0.0f && light > 0.0f;
         lights->wi[k] = p.direction;
-        lights->w[k] = shines ? light * p.direction.y / (p.pdf * RAYS) : 0.0f;
+        lights->w[k] = counts ? light * p.direction.y / (p.pdf * RAYS) : 0.0f;
         lights->whole += lights->w[k];
     }
     arena_free(&arena);
@@ -73,8 +74,8 @@ static void upload(Ground *self, const float *texels) {
     glBindTexture(GL_TEXTURE_2D, 0);
 }
 
-static bool is_known(const Ground *self, const Environment *e, const Floor *floor) {
-    return self->known && !self->stale && self->turn == e->version && !(self->rotation < e->rotation) &&
+static bool is_solved(const Ground *self, const Environment *e, const Floor *floor) {
+    return self->solved && !self->stale && self->version == e->version && !(self->rotation < e->rotation) &&
            !(self->rotation > e->rotation) && !(self->strength < e->strength) &&
            !(self->strength > e->strength) && !(self->floor.radius < floor->radius) &&
            !(self->floor.radius > floor->radius);
@@ -85,8 +86,8 @@ WeftResult ground_look(Ground *self, const WeftScene *scene, const Floor *floor,
     const Environment *e = &scene->environment;
     WeftResult result = WEFT_OK;
     SkyLights lights;
-    if (is_known(self, e, floor)) return WEFT_OK;
-    self->known = false;
+    if (is_solved(self, e, floor)) return WEFT_OK;
+    self->solved = false;
     if (self->stale) geometry_free(self->geometry), self->geometry = NULL;
     self->stale = false;
     if (threads <= 0) threads = thread_count();
@@ -99,7 +100,7 @@ WeftResult ground_look(Ground *self, const WeftScene *scene, const Floor *floor,
         return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     }
     self->floor = *floor;
-    self->turn = e->version;
+    self->version = e->version;
     self->rotation = e->rotation;
     self->strength = e->strength;
     self->light = lights.whole;
@@ -107,7 +108,7 @@ WeftResult ground_look(Ground *self, const WeftScene *scene, const Floor *floor,
     upload(self, texels);
     free(texels);
     result = gl_check(error, "a floor");
-    self->known = result == WEFT_OK;
+    self->solved = result == WEFT_OK;
     return result;
 }
 
@@ -118,7 +119,7 @@ View ground_view(const Floor *floor, const View *view) {
     below.eye = vec3_add(from_below(view->eye, 1.0f), vec3(0.0f, 2.0f * floor->middle.y, 0.0f));
     below.forward = from_below(view->forward, 1.0f);
     below.up = from_below(view->up, 1.0f);
-    below.across = from_below(view->across, -1.0f); /* so that fronts stay fronts */
+    below.across = from_below(view->across, -1.0f); /* keeps front faces front */
     return below;
 }
 

@@ -1,4 +1,4 @@
-/* ground.h - the floor in the driver's memory: how much of the sky's light reaches it, and a mirror
+/* ground.h - the floor on the GPU: the fraction of the sky's light that reaches it, and its mirror image
  *
  * All calls are for the context that is current. */
 #ifndef WEFT_RASTER_GROUND_H
@@ -10,31 +10,30 @@
 
 typedef struct Ground {
     Geometry *geometry; /* of the scene's own meshes, NULL until it is needed */
-    bool stale;         /* light may pass elsewhere than when that was made or looked through */
-    bool known;         /* sky and light are of the floor and the environment below */
+    bool stale;         /* meshes let light pass at other places than when geometry and sky were made */
+    bool solved;        /* sky and light are those of the floor and environment below */
     Floor floor;
-    unsigned turn;
+    unsigned version; /* of the environment */
     float rotation, strength;
-    unsigned
-        sky; /* texture: part of the environment's light that reaches a point, by raster/glsl/floor.glsl */
-    float light; /* luminance of all of the environment's light that falls on a level plane */
-    unsigned framebuffer, color, depth; /* of the mirror, so wide and high; 0 until it is needed */
-    int width, height;
+    unsigned sky; /* texture: fraction of the environment's light, mapped as in glsl/floor.glsl */
+    float light;  /* luminance of the environment's irradiance on a level plane */
+    unsigned framebuffer, color, depth; /* of the mirror; 0 until it is needed */
+    int width, height;                  /* of the mirror, texels */
 } Ground;
 
-/* Finds out how much of the environment's light reaches the floor, on `threads` threads; does nothing where
- * that is known. Fails with WEFT_MESSAGE_MEMORY, _RENDER_DEVICE or _GL_MEMORY. */
+/* Finds the fraction of the environment's light that reaches the floor, on `threads` threads (0: all); does nothing if
+ * it is solved. Fails with WEFT_MESSAGE_MEMORY, _RENDER_DEVICE or _GL_MEMORY. */
 WeftResult ground_look(Ground *ground, const WeftScene *scene, const Floor *floor, int threads,
                        WeftError *error);
 
-/* The scene as the floor shows it: what a view shows of it from below, mirrored in `across` too. */
+/* Returns the view of the scene in the floor's mirror: from below the floor, and mirrored in `across` too. */
 View ground_view(const Floor *floor, const View *view);
 
-/* Makes the mirror the target, with the same rows of half the picture as `box`, x, y, width and height from
- * below, has, and some more, empty. Fails with WEFT_MESSAGE_GL_MEMORY. */
+/* Binds the mirror, of half the picture's size, as the framebuffer, and clears the rows of `box` (x, y, width and
+ * height from below) and some more. Fails with WEFT_MESSAGE_GL_MEMORY. */
 WeftResult ground_mirror(Ground *ground, int width, int height, const int box[4], WeftError *error);
 
-/* Makes the smaller copies of what was drawn into it. */
+/* Makes the mipmaps of the mirror, once it is drawn. */
 void ground_mirrored(const Ground *ground);
 
 /* Binds sky, mirror and depth of the mirror to units from `unit` on. */

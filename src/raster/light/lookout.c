@@ -20,8 +20,8 @@ static bool is_same_place(const EnvLight *a, const EnvLight *b) {
            memcmp((const char *)&a->spread, (const char *)&b->spread, sizeof a->spread) == 0;
 }
 
-/* Returns true if the environment without its lights is another, or turned; not if it is the same but for its strength,
- * since only parts of its light count. */
+/* Returns true if the environment without its lights has changed, or its rotation. A change of strength does not count,
+ * since only fractions of the light are used. */
 static bool find_rest(Lookout *self, const GlEnvironment *environment, float rotation) {
     enum { TEXELS = AMBIENT_REST_HEIGHT * AMBIENT_REST_WIDTH };
     AmbientRest rest = environment->parts.rest;
@@ -39,7 +39,7 @@ static bool find_rest(Lookout *self, const GlEnvironment *environment, float rot
     return true;
 }
 
-/* Returns true if lights, or what is left, have moved. */
+/* Returns true if lights, or the environment without them, have moved. */
 static bool find_lights(Lookout *self, const GlEnvironment *environment) {
     EnvLight lights[AMBIENT_LIGHTS_MAX];
     const float rotation = self->scene->environment.rotation;
@@ -53,7 +53,7 @@ static bool find_lights(Lookout *self, const GlEnvironment *environment) {
     return find_rest(self, environment, rotation) || !same;
 }
 
-static WeftResult look(Lookout *self, bool no_cache, const WeftLog *log, WeftError *error) {
+static WeftResult start_search(Lookout *self, bool no_cache, const WeftLog *log, WeftError *error) {
     const OcclusionHow how = {.rays = self->rays,
                               .threads = self->threads,
                               .no_cache = no_cache,
@@ -72,7 +72,7 @@ WeftResult lookout_start(Lookout *self, const GlEnvironment *environment, bool n
                          WeftError *error) {
     if (!self->rays) return WEFT_OK;
     find_lights(self, environment);
-    return look(self, no_cache, log, error);
+    return start_search(self, no_cache, log, error);
 }
 
 WeftResult lookout_update(Lookout *self, const GlEnvironment *environment, GlMeshes *meshes,
@@ -82,10 +82,10 @@ WeftResult lookout_update(Lookout *self, const GlEnvironment *environment, GlMes
         meshes_forget_lights(meshes);
         self->again = true;
     }
-    return self->again && !self->occlusion ? look(self, true, log, error) : WEFT_OK;
+    return self->again && !self->occlusion ? start_search(self, true, log, error) : WEFT_OK;
 }
 
-/* Uploads the scene's meshes as the background has refined them. */
+/* Uploads the scene's meshes as the search has refined them. */
 static WeftResult take_refinement(Lookout *self, GlMeshes *meshes, WeftError *error) {
     Refinement before = self->finer;
     self->finer = occlusion_take_refinement(self->occlusion);
@@ -109,5 +109,5 @@ WeftResult lookout_take(Lookout *self, GlMeshes *meshes, bool wait, WeftError *e
     if (result != WEFT_OK) self->again = true;
     if (!self->again || result != WEFT_OK) return result;
     meshes_forget_lights(meshes);
-    return look(self, true, NULL, error);
+    return start_search(self, true, NULL, error);
 }

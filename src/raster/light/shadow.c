@@ -10,7 +10,7 @@
 #include "raster/gl/box.h"
 #include "raster/gl/gl_check.h"
 
-/* Returns true if some of a mesh is on a side of a polygon that shines; the polygon's own mesh is not. */
+/* Returns true if some of a mesh is on a side of a polygon that emits light; the polygon's own mesh is not. */
 static bool is_lit(const Mesh *mesh, const LightPolygon *polygon) {
     const float least = 1e-3f * sqrtf(polygon->area);
     for (uint32_t k = 0; k < mesh->vertex_count; k++) {
@@ -21,8 +21,8 @@ static bool is_lit(const Mesh *mesh, const LightPolygon *polygon) {
     return false;
 }
 
-/* The box of the scene's own meshes smaller than a size, and the largest among them; of those that a polygon lights
- * unless it is NULL. */
+/* Returns the box of the scene's own meshes smaller than a size, and sets the size of the largest among them. Only
+ * those that a polygon lights count, unless it is NULL. */
 static Box smaller_box(const WeftScene *scene, const LightPolygon *polygon, float size, float *largest) {
     Box sum = box_empty();
     *largest = 0.0f;
@@ -37,9 +37,9 @@ static Box smaller_box(const WeftScene *scene, const LightPolygon *polygon, floa
     return sum;
 }
 
-/* Returns the box that shadow maps cover: the scene without its stage, a mesh many times as large as all
- * others together, such as a floor to the horizon, and without what a polygon does not light. The origin where there is
- * nothing. */
+/* Returns the box that shadow maps cover: the scene without its stage, a mesh at least four times as large as all
+ * others together, such as a floor to the horizon, and without meshes that a polygon does not light. The origin if
+ * there is none. */
 static Box find_casters(const WeftScene *scene, const LightPolygon *polygon) {
     const float stage = 4.0f;
     float largest, next;
@@ -53,9 +53,9 @@ static Box find_casters(const WeftScene *scene, const LightPolygon *polygon) {
     }
 }
 
-/* From the nearest to the farthest of the scene and its lights, as all points see them, which look along one axis. With
- * perspective most depths are spent where it is near, so they start at a share of the way to the farthest caster,
- * however far a stage reaches. */
+/* Returns the depths of the scene and its lights from all points of a light, which look along one axis. With
+ * perspective most of the precision is near the eye, so depths begin at 1e-2 of the distance to the farthest caster at
+ * least, however far a stage reaches. */
 static Depths depths_of(const WeftScene *scene, const Shadow *shadow, Box casters) {
     const float least = 1e-2f;
     Depths all = depths_none(), here = depths_none();
@@ -72,7 +72,7 @@ static Depths depths_of(const WeftScene *scene, const Shadow *shadow, Box caster
     return all;
 }
 
-/* Two axes across a direction. */
+/* Sets two axes across a direction. */
 static void across(Vec3 forward, Vec3 *right, Vec3 *up) {
     Vec3 pole = fabsf(forward.y) < 0.99f ? vec3(0.0f, 1.0f, 0.0f) : vec3(1.0f, 0.0f, 0.0f);
     *right = vec3_normal_or(vec3_cross(forward, pole), vec3(1.0f, 0.0f, 0.0f));
@@ -112,8 +112,8 @@ static float strength(const Light *light) {
                : light->intensity * (light->color[0] + light->color[1] + light->color[2]);
 }
 
-/* The strongest of a kind that is not there yet, or -1. A sun and a spot cannot be compared, so kinds take
- * turns. */
+/* Returns the strongest light of a kind that has no map yet, or -1. The kinds are chosen in turn, since a sun and a
+ * spot cannot be compared. */
 static int strongest(const WeftScene *scene, const Shadows *shadows, LightKind kind) {
     int best = -1;
     for (int k = 0; k < scene->light_count; k++) {
@@ -133,8 +133,8 @@ static void add(Shadows *self, const WeftScene *scene, Box casters, Shadow shado
 }
 
 static void choose_lights(const WeftScene *scene, int most, Box casters, Shadows *self) {
-    for (int turn = 0, missed = 0; self->count < most && missed < 2; turn++) {
-        LightKind kind = turn % 2 ? LIGHT_SPOT : LIGHT_DIRECTIONAL;
+    for (int n = 0, missed = 0; self->count < most && missed < 2; n++) {
+        LightKind kind = n % 2 ? LIGHT_SPOT : LIGHT_DIRECTIONAL;
         int k = strongest(scene, self, kind);
         missed = k < 0 ? missed + 1 : 0;
         if (k < 0) continue;
@@ -144,8 +144,9 @@ static void choose_lights(const WeftScene *scene, int most, Box casters, Shadows
     }
 }
 
-/* A point of a polygon for two numbers in [0, 1): of a parallelogram along its sides; else a triangle of the fan about
- * the first corner, and a point in it. Greg Turk, "Generating Random Points in Triangles", Graphics Gems, 1990. */
+/* Returns a point of a polygon for two numbers in [0, 1). They run along the sides of a parallelogram; else they choose
+ * a triangle of the fan about the first corner and a point in it: Greg Turk, "Generating Random Points in Triangles",
+ * Graphics Gems, 1990. */
 static Vec3 point_on(const LightPolygon *polygon, float u, float v) {
     const Vec3 *corners = polygon->corners;
     Vec3 a = corners[0], across = vec3_sub(corners[1], a), up = vec3_sub(corners[polygon->count - 1], a);
@@ -169,9 +170,9 @@ float shadow_slope(const Shadow *self, int point) {
     return self->meeting / (1.0f - self->point[point].z * self->meeting);
 }
 
-/* Returns half the width at distance 1 of the map in which every point o sees all corners c of a box. With axes as in
- * glsl/soft_shadow.glsl and d the distance of the plane on which all see the same, that of c is
- * (c - o).xy / (c - o).z + o.xy / (d - o.z). 0 where a corner is not before a point. */
+/* Returns half the width at distance 1 of the map in which every point o sees all corners c of a box, or 0 if a corner
+ * is behind a point. With axes as in glsl/soft_shadow.glsl and d = 1 / meeting, the place of c is (c - o).xy / (c -
+ * o).z + o.xy / (d - o.z). */
 static float half_width(const Shadow *self, const Vec3 corners[8]) {
     float half = 0.0f;
     for (int k = 0; k < 8 * self->points; k++) {
@@ -183,7 +184,8 @@ static float half_width(const Shadow *self, const Vec3 corners[8]) {
     return half;
 }
 
-/* From the middle of the polygon towards the casters, all of which it sees unless it is among them. */
+/* Returns the shadow map of a polygon, from its middle towards the casters. It contains all of them, unless the polygon
+ * is among them. */
 static Shadow of_polygon(const LightPolygon *polygon, Box casters) {
     const float most = 6.0f;
     Vec3 eye = {0}, right, up, corners[8], middle = vec3_scale(vec3_add(casters.low, casters.high), 0.5f);
@@ -209,8 +211,6 @@ static Shadow of_polygon(const LightPolygon *polygon, Box casters) {
     return self;
 }
 
-/* Its axis is that of the middle's view. It is sheared, so that what lies on the plane where all meet is at one place
- * of all maps. */
 View shadow_view(const Shadow *self, int point) {
     View view = self->view;
     if (!self->points) return view;
@@ -232,7 +232,7 @@ static void choose(const WeftScene *scene, const LightPolygons *polygons, Shadow
     }
 }
 
-static bool sees_the_same(const Shadow *a, const Shadow *b) {
+static bool same_map(const Shadow *a, const Shadow *b) {
     bool same = memcmp(&a->view, &b->view, offsetof(View, orthographic)) == 0 &&
                 a->view.orthographic == b->view.orthographic && a->points == b->points;
     for (int k = 0; k < a->points && same; k++)
@@ -256,7 +256,7 @@ static unsigned make_layers(GLint format, GLenum type, int side, int layers) {
     if (!layers) return 0;
     glGenTextures(1, &texture);
     glBindTexture(GL_TEXTURE_2D_ARRAY, texture);
-    texture_plain(GL_TEXTURE_2D_ARRAY);
+    texture_unfiltered(GL_TEXTURE_2D_ARRAY);
     glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, format, side, side, layers, 0, GL_DEPTH_COMPONENT, type, NULL);
     return texture;
 }
@@ -286,7 +286,7 @@ WeftResult shadows_update(Shadows *self, const WeftScene *scene, const LightPoly
     Shadows old = *self;
     self->count = self->polygons = 0;
     choose(scene, polygons, self);
-    for (int k = 0; k < self->count; k++) self->drawn &= sees_the_same(&self->all[k], &old.all[k]);
+    for (int k = 0; k < self->count; k++) self->drawn &= same_map(&self->all[k], &old.all[k]);
     if (self->count == old.count && self->polygons == old.polygons) return WEFT_OK;
     delete_objects(self);
     if (self->count) make_objects(self);

@@ -1,4 +1,4 @@
-/* shadow.h - shadow maps: what the lights that cast shadows see, as layers of depth textures
+/* shadow.h - shadow maps: the depths that lights see, as layers of depth textures
  *
  * A polygon has a map for each of some points on it: the mean over them is its soft shadow. Paul Heckbert and Michael
  * Herf, "Simulating Soft Shadows with Graphics Hardware", Carnegie Mellon University, CMU-CS-97-104, 1997.
@@ -12,51 +12,51 @@
 
 enum { SHADOWS_MOST = 4, SHADOW_SIDE = 2048, SHADOW_POINTS = 55, SHADOW_POINT_SIDE = 512 };
 
-/* A light that casts one. */
+/* The shadow map of a light. */
 typedef struct Shadow {
-    View view;                 /* the light's: what it sees lies in [-1, 1]^2; of a polygon from its middle */
+    View view;                 /* of the light, with the map in [-1, 1]^2; of a polygon from its middle */
     float texel;               /* width of a texel, m; of a view with perspective at distance 1 */
-    int points;                /* of a polygon: SHADOW_POINTS; else 0 */
+    int points;                /* SHADOW_POINTS for a polygon, else 0 */
     Vec3 point[SHADOW_POINTS]; /* from the eye, m: along across, up and forward */
-    float meeting; /* 1 / distance of the plane on which all of them see the same, 1/m; 0 where that is far */
-    Depths
-        depths; /* Between these a map holds what casts a shadow; a thing beyond is shaded and casts none. */
+    float meeting; /* 1 / distance of the plane that all maps have at the same place, 1/m; 0: far */
+    Depths depths; /* range of the map's depths: an object beyond it receives shadows and casts none */
 } Shadow;
 
 typedef struct Shadows {
     Shadow all[SHADOWS_MOST];
     int count;
     int of_light[SHADOWS_MOST];   /* index of the punctual light, or -1 */
-    int of_polygon[SHADOWS_MOST]; /* of the polygon, or -1 */
-    int polygons;                 /* how many are of polygons: the last ones */
+    int of_polygon[SHADOWS_MOST]; /* index of the polygon, or -1 */
+    int polygons;                 /* number of maps of polygons, which are the last */
     unsigned hard, soft; /* array textures: a layer a punctual light, and SHADOW_POINTS layers a polygon */
     unsigned framebuffer, compare; /* compare: the sampler */
-    bool drawn;                    /* the textures hold what the lights see */
+    bool drawn;                    /* the textures are up to date */
 } Shadows;
 
-/* Chooses the lights: the strongest directional and spot lights, and the strongest polygons, which get at
- * least half of the maps. The driver's objects are made when there is one. Fails with WEFT_MESSAGE_GL_MEMORY
- * or _GL_CONTEXT. */
+/* Chooses the lights: the strongest directional and spot lights, and the strongest polygons, for which at least half of
+ * the maps are reserved. OpenGL objects are made only if there is a light. Fails with WEFT_MESSAGE_GL_MEMORY or
+ * _GL_CONTEXT. */
 WeftResult shadows_create(const WeftScene *scene, const LightPolygons *polygons, Shadows *out,
                           WeftError *error);
 void shadows_destroy(Shadows *shadows);
 
-/* Chooses again, for other lights; maps that see something else are to be drawn anew.
- * Fails as shadows_create does, and there are then none. */
+/* Chooses the lights again, and clears `drawn` if a map has changed. Fails as shadows_create does; there are then no
+ * maps. */
 WeftResult shadows_update(Shadows *shadows, const WeftScene *scene, const LightPolygons *polygons,
                           WeftError *error);
 
-/* By how much x and y of what a point of a polygon sees are moved, in parts of where the point is, 1/m: so much that all
- * see the same on the plane where they meet. */
+/* Returns the shift of x and y in the map of a point of a polygon, over x and y of the point itself, 1/m. With it all
+ * maps have the plane `meeting` at the same place. */
 float shadow_slope(const Shadow *shadow, int point);
 
-/* The view from a point of a polygon; of another light, its one view. */
+/* Returns the view of the map of a point of a polygon, or the one view of another light. The axis is that of the
+ * middle's view; the view is sheared by shadow_slope. */
 View shadow_view(const Shadow *shadow, int point);
 
-/* Makes the map of light `k` from a point the target, empty. */
+/* Binds the map of shadow `k` from a point as the framebuffer and clears it. */
 void shadows_begin(const Shadows *shadows, int k, int point);
 
-/* Binds the textures to two units, to compare with. */
+/* Binds the textures to two units, for comparing look-ups. */
 void shadows_bind(const Shadows *shadows, int hard_unit, int soft_unit);
 
 #endif

@@ -10,7 +10,7 @@
 #include "shading/weave/weave_light.h"
 #include "weave/weft_cloth.h"
 
-/* Returns the texels of a row of a width for so many threads. */
+/* Returns the rows of texels that so many threads take. */
 static int rows_for(int threads, int width) { return (threads + width - 1) / width; }
 
 static bool upload_cells(const WeftCloth *cloth, unsigned texture) {
@@ -24,7 +24,7 @@ static bool upload_cells(const WeftCloth *cloth, unsigned texture) {
         memcpy(texels + 4 * (cells + (size_t)k), cloth->albedos + 3 * (size_t)k, 3 * sizeof(float));
     glBindTexture(GL_TEXTURE_2D, texture);
     glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, m->warps, rows, 0, GL_RGBA, GL_FLOAT, texels);
-    texture_plain(GL_TEXTURE_2D);
+    texture_unfiltered(GL_TEXTURE_2D);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
     free(texels);
     return true;
@@ -48,24 +48,24 @@ static void upload_colors(const ClothFar *far, unsigned texture) {
 WeftResult cloths_update(GlCloths *self, const WeftScene *scene, WeftError *error) {
     if (self->count >= scene->cloth_count) return WEFT_OK;
     GlCloth *all = alloc_array((size_t)scene->cloth_count, sizeof *all);
-    bool held = all != NULL;
-    for (int k = 0; held && k < self->count; k++) all[k] = self->all[k];
-    if (held) {
+    bool made = all != NULL;
+    for (int k = 0; made && k < self->count; k++) all[k] = self->all[k];
+    if (made) {
         free(self->all);
         self->all = all;
     }
     glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-    while (held && self->count < scene->cloth_count) {
+    while (made && self->count < scene->cloth_count) {
         GlCloth *one = &self->all[self->count];
         one->cloth = scene->cloths[self->count];
         glGenTextures(1, &one->cells);
         glGenTextures(1, &one->colors);
         upload_colors(&one->cloth->far, one->colors);
-        held = upload_cells(one->cloth, one->cells);
+        made = upload_cells(one->cloth, one->cells);
         self->count++;
     }
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    return held ? gl_check(error, "cloths") : fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    return made ? gl_check(error, "cloths") : fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
 }
 
 void cloths_bind(const GlCloths *self, int cloth, int cells_unit, int colors_unit) {
@@ -97,7 +97,7 @@ void cloth_numbers(const WeftCloth *cloth, float numbers[CLOTH_NUMBERS]) {
                           (float)cloth->far.height,
                           cloth->per_uv[WEFT_WARP],
                           cloth->per_uv[WEFT_WEFT]};
-    enum { AFAR = 68 }; /* the place of what does, CLOTH_AFAR of glsl/weave.glsl */
+    enum { AFAR = 68 }; /* index of the numbers of far.woven: CLOTH_AFAR of glsl/weave.glsl */
     _Static_assert((2 * sizeof(WeaveYarn) + 2 * sizeof(WeaveFar) + sizeof rest + 3 * sizeof(float)) /
                            (4 * sizeof(float)) ==
                        AFAR / 4,

@@ -14,7 +14,7 @@ typedef struct GlCloth {
 
 /* Zero-initialise. */
 typedef struct GlCloths {
-    GlCloth *all; /* beside the scene's */
+    GlCloth *all; /* one a cloth of the scene */
     int count;
 } GlCloths;
 
@@ -26,8 +26,9 @@ void cloths_bind(const GlCloths *cloths, int cloth, int cells_unit, int colors_u
 
 void cloths_destroy(GlCloths *cloths);
 
-/* The numbers of a cloth as weave.glsl reads them, and what fills their last vector of four. */
-enum { CLOTH_NUMBERS = 172 };
+enum { CLOTH_NUMBERS = 172 }; /* rounded up to vectors of four */
+
+/* Writes the numbers of a cloth in the order in which weave_cloth.glsl and weave.glsl read them. */
 void cloth_numbers(const WeftCloth *cloth, float numbers[CLOTH_NUMBERS]);
 
 #endif

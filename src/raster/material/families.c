@@ -13,7 +13,7 @@ typedef struct Families {
     int *groups; /* of textures, for each slot and material; -1: nothing there */
 } Families;
 
-/* The group that an input of a material looks into, or -1. */
+/* Returns the group of an input's texture, or -1. */
 static int group_of(const Families *self, int m, int k) {
     const Material *material = &self->scene->materials[m];
     const Input *input = &material->inputs[k];
@@ -31,7 +31,7 @@ static bool same_texel(const Material *material, int j, int k) {
 
 /* Returns true if in every material of a family inputs k and j read the same texel, or neither has a map. */
 static bool all_like(const Families *self, int head, int j, int k) {
-    bool like = shader_same_rest(j, k);
+    bool like = shader_same_neutral(j, k);
     for (int m = 0; m < self->scene->material_count && like; m++)
         if (self->head[m] == head) like = same_texel(&self->scene->materials[m], j, k);
     return like;
@@ -50,7 +50,7 @@ static bool slot_serves(const Families *self, int head, const int *slot, int k) 
     return some;
 }
 
-/* Gives each map of a family's key its slot; the number of slots, or more than there are. */
+/* Gives each map of a family's key its slot. Returns the number of slots, or TEXTURE_SLOTS + 1 if there are too few. */
 static int find_slots(Families *self, int head, ShaderKey *key) {
     int count = self->scene->material_count, slots = 0;
     for (int k = 0; k < TEXTURE_SLOTS * count; k++) self->groups[k] = -1;
@@ -72,7 +72,7 @@ static int find_slots(Families *self, int head, ShaderKey *key) {
     return slots;
 }
 
-/* Into the first family where that does. */
+/* Puts a material into the first family that it fits, or into one of its own. */
 static void join(Families *self, int m) {
     for (int h = 0; h < m; h++) {
         ShaderKey key = self->all[h].key;
@@ -86,7 +86,8 @@ static void join(Families *self, int m) {
     self->head[m] = m;
 }
 
-/* A table made for a narrow lobe also serves a broad one. */
+/* Gives all materials of a family the finest detail of their tables, since one program serves narrow and broad
+ * lobes. */
 static void share_finest(Families *self, int head) {
     float finest[SLOT_COUNT] = {0.0f};
     for (int pass = 0; pass < 2; pass++)
@@ -100,7 +101,7 @@ static void share_finest(Families *self, int head) {
             }
 }
 
-/* False where a material looks into too many groups. */
+/* Gives the materials of a family its key and groups. Returns false if they need more than TEXTURE_SLOTS groups. */
 static bool finish(Families *self, int head) {
     int count = self->scene->material_count, slots = find_slots(self, head, &self->all[head].key);
     if (slots > TEXTURE_SLOTS) return false;
@@ -136,10 +137,10 @@ WeftResult families_make(const WeftScene *scene, const GlTextures *textures, GlM
     size_t count = (size_t)scene->material_count;
     Families self = {scene, textures, all, alloc_array(count, sizeof(int)),
                      alloc_array(count, TEXTURE_SLOTS * sizeof(int))};
-    bool held = self.head && self.groups, fits = held && make_all(&self);
+    bool allocated = self.head && self.groups, fits = allocated && make_all(&self);
     free(self.head);
     free(self.groups);
-    if (!held) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    if (!allocated) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     return fits ? WEFT_OK
                 : fail(error, WEFT_MESSAGE_GL_MEMORY, scene->name,
                        "a material whose textures are of more than %d kinds", TEXTURE_SLOTS);

@@ -12,10 +12,10 @@ typedef struct Fit {
     AmbientFit fit;
 } Fit;
 
-/* Raised whenever the same lobe would give other tables. */
+/* Version of the fit: raised whenever the same lobe would give other tables. */
 enum { FITS = 6 };
 
-/* All that a table depends on: see ambient_fit_serves. */
+/* Returns a hash of everything that a table depends on: see ambient_fit_serves. */
 static uint64_t fit_key(const Lobe *lobe, float low, float high) {
     const WeftLobeInfo *info = weft_lobe_info(lobe->id);
     int azimuth = ambient_lean_azimuth(lobe->id);
@@ -40,7 +40,7 @@ static bool is_sound(const AmbientFit *fit) {
     return sound;
 }
 
-/* From the user's cache where it is there. */
+/* Fits the tables of a lobe, or reads them from the user's cache. */
 static void make(AmbientFit *fit, const Lobe *lobe, float low, float high, const Fits *how) {
     uint64_t key = fit_key(lobe, low, high);
     ambient_fit_shape(fit, lobe, low, high);

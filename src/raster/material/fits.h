@@ -1,5 +1,5 @@
-/* fits.h - the tables by which lobes meet an environment (shading/ambient/ambient_fit.h), each made at its first
- * use and kept */
+/* fits.h - tables for the light that lobes reflect of an environment (shading/ambient/ambient_fit.h), each made at its
+ * first use and kept */
 #ifndef WEFT_RASTER_FITS_H
 #define WEFT_RASTER_FITS_H
 
@@ -12,8 +12,8 @@ typedef struct Fits {
     bool no_cache; /* neither read from the user's cache nor written */
 } Fits;
 
-/* The fit of a lobe over the plausible range of its first parameter, its others as they are; NULL where
- * memory is short. Lives until fits_destroy. */
+/* Returns the fit of a lobe over the plausible range of its first parameter, with its other parameters; NULL if memory
+ * is short. Lives until fits_destroy. */
 const AmbientFit *fits_get(Fits *fits, const Lobe *lobe);
 void fits_destroy(Fits *fits);
 

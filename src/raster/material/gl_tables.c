@@ -13,7 +13,7 @@ unsigned tables_create(const TextTable *tables, int count, WeftError *error) {
     GLuint texture;
     glGenTextures(1, &texture);
     glBindTexture(GL_TEXTURE_2D_ARRAY, texture);
-    texture_plain(GL_TEXTURE_2D_ARRAY);
+    texture_unfiltered(GL_TEXTURE_2D_ARRAY);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
     glTexImage3D(GL_TEXTURE_2D_ARRAY, 0, GL_R32F, columns, rows, count, 0, GL_RED, GL_FLOAT, NULL);
     for (int k = 0; k < count; k++)

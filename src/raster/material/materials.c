@@ -25,7 +25,7 @@ typedef struct Uniforms {
     AmbientWeights fits[SLOT_COUNT * AMBIENT_BAKED];
 } Uniforms;
 
-/* OpenGL ES 3.0 promises no more. */
+/* OpenGL ES 3.0 guarantees no more. */
 _Static_assert(sizeof(Uniforms) <= 16384, "the block of a material is too large");
 
 static bool is_all(const Input *input, int count, float x) {
@@ -78,7 +78,7 @@ static void add_table(GlMaterial *self, TableRef e, int layer, Uniforms *uniform
     memcpy(uniforms->e, place, sizeof place);
 }
 
-/* With half of what textures scale, where all that they may bring is there. */
+/* Returns the surface of a material with half of each textured number, the middle of what its textures may give. */
 static Surface middle_surface(const Material *material) {
     Material middle = *material;
     for (int k = 0; k < INPUT_COUNT; k++)
@@ -87,8 +87,8 @@ static Surface middle_surface(const Material *material) {
     return material_plain(&middle);
 }
 
-/* The lobe of a cloth from afar, halfway between warp and weft, which reflect the smooth part of the environment
- * alike. */
+/* Returns the lobe of a cloth from afar, halfway between warp and weft, since both reflect the smooth part of the
+ * environment alike. */
 static Lobe cloth_lobe(const WeftCloth *cloth) {
     const Weave *m = &cloth->weave;
     Lobe lobe =
@@ -98,7 +98,8 @@ static Lobe cloth_lobe(const WeftCloth *cloth) {
     return lobe;
 }
 
-/* Holds the tables of the slots whose parameters are numbers: another is made where the lobe is another. */
+/* Bakes the tables of the slots whose first parameter is constant, unless the lobe is as before. Returns false if
+ * memory is short. */
 static bool add_fits(GlMaterial *self, const Material *material, const WeftCloth *cloth, int threads,
                      Uniforms *uniforms) {
     AmbientFit *fit = alloc_array(1, sizeof *fit);
@@ -109,7 +110,7 @@ static bool add_fits(GlMaterial *self, const Material *material, const WeftCloth
     for (int k = 0; k < SLOT_COUNT; k++) {
         const bool woven = cloth && k == PLACE_DIFFUSE;
         const Lobe own = woven ? cloth_lobe(cloth) : stack_slot(&m, k)->lobe, *lobe = &own;
-        if (!(woven || stack_slot(&m, k)->normal > 0.0f) || !shader_holds(&self->key, k)) continue;
+        if (!(woven || stack_slot(&m, k)->normal > 0.0f) || !shader_bakes(&self->key, k)) continue;
         MaterialFit *baked = &self->fits[k];
         if (!baked->made || !ambient_alike(&baked->lobe, lobe)) {
             ambient_fit(fit, lobe, lobe->params[0], lobe->params[0], threads);
@@ -124,11 +125,11 @@ static bool add_fits(GlMaterial *self, const Material *material, const WeftCloth
     return true;
 }
 
-/* To fit tables for a lobe's own numbers takes tens of ms. Of more materials than these all share those over
- * the range, which know nothing of nap and anisotropy: what turns has its own all the same. */
-enum { MATERIALS_HELD = 100 };
+/* Fitting tables for a lobe's own numbers takes tens of ms. With more materials than these, all share tables over the
+ * range of the parameter; these have no nap and anisotropy, so materials with either are baked all the same. */
+enum { MATERIALS_BAKED = 100 };
 
-static bool is_round(const ShaderKey *key) {
+static bool is_isotropic(const ShaderKey *key) {
     return key->inputs[INPUT_anisotropy].state == INPUT_ZERO && key->inputs[INPUT_nap].state == INPUT_ZERO;
 }
 
@@ -143,7 +144,7 @@ static void make_material(GlMaterial *self, const Material *material, const GlTe
     uniforms->more[0] = material->alpha_cutoff;
 }
 
-/* All materials as they are now; what old ones hold is taken over. False where memory is short. */
+/* Makes keys and uniforms of all materials, with the fits of the old ones. Returns false if memory is short. */
 static bool take(GlMaterials *self, const GlMaterials *old, const WeftScene *scene,
                  const GlTextures *textures, int threads) {
     bool whole = true;
@@ -163,7 +164,7 @@ static bool take(GlMaterials *self, const GlMaterials *old, const WeftScene *sce
         if (material->used) {
             material->emits = material_emits(&scene->materials[k]);
             make_material(material, &scene->materials[k], textures, &uniforms);
-            material->key.ranged = self->count > MATERIALS_HELD && is_round(&material->key);
+            material->key.ranged = self->count > MATERIALS_BAKED && is_isotropic(&material->key);
             add_table(material, sheen_tables_of(self->sheens, k), sheen_tables_index(self->sheens, k),
                       &uniforms);
             material->cloth = scene->materials[k].cloth;
@@ -189,7 +190,7 @@ static void add_change(const GlMaterial *old, const GlMaterial *fresh, Materials
     change->emission |= old->emits || fresh->emits;
 }
 
-/* Uploads changed materials, and returns the consequences. */
+/* Uploads changed materials, and sets what has changed. */
 static void upload(const GlMaterials *old, const GlMaterials *fresh, int own_meshes,
                    MaterialsChange *change) {
     static const GlMaterial none;
@@ -210,13 +211,13 @@ static void upload(const GlMaterials *old, const GlMaterials *fresh, int own_mes
 }
 
 /* Allocates the records of materials, all zero. */
-static WeftResult hold(GlMaterials *self, const WeftScene *scene, WeftError *error) {
+static WeftResult allocate(GlMaterials *self, const WeftScene *scene, WeftError *error) {
     self->all = alloc_array((size_t)self->count, sizeof(GlMaterial));
     self->blocks = alloc_array((size_t)self->count, (size_t)self->stride);
     self->of_mesh = alloc_array((size_t)scene->mesh_count, sizeof(int));
     self->mesh_count = scene->mesh_count;
-    bool held = self->all && self->blocks && self->of_mesh;
-    return held ? WEFT_OK : fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    bool allocated = self->all && self->blocks && self->of_mesh;
+    return allocated ? WEFT_OK : fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
 }
 
 static void make_uniforms(GlMaterials *self) {
@@ -225,8 +226,8 @@ static void make_uniforms(GlMaterials *self) {
     glBufferData(GL_UNIFORM_BUFFER, (GLsizeiptr)self->count * self->stride, NULL, GL_DYNAMIC_DRAW);
 }
 
-/* All but what another has too. */
-static void let_go(GlMaterials *self, const GlMaterials *other) {
+/* Frees everything that another record does not have too. */
+static void free_unshared(GlMaterials *self, const GlMaterials *other) {
     sheen_tables_free_but(self->sheens, other ? other->sheens : NULL);
     free(self->all);
     free(self->blocks);
@@ -239,7 +240,7 @@ WeftResult materials_update(GlMaterials *self, const WeftScene *scene, const GlT
     *change = (MaterialsChange){0};
     fresh.sheens = NULL;
     fresh.count = scene->material_count;
-    WeftResult result = hold(&fresh, scene, error);
+    WeftResult result = allocate(&fresh, scene, error);
     if (fresh.count != self->count) make_uniforms(&fresh);
     if (result == WEFT_OK) result = cloths_update(&self->cloths, scene, error);
     fresh.cloths = self->cloths;
@@ -253,7 +254,7 @@ WeftResult materials_update(GlMaterials *self, const WeftScene *scene, const GlT
         self->uploaded = fresh.uploaded = result == WEFT_OK;
     }
     if (fresh.count != self->count) glDeleteBuffers(1, result == WEFT_OK ? &self->uniforms : &fresh.uniforms);
-    let_go(result == WEFT_OK ? self : &fresh, result == WEFT_OK ? &fresh : self);
+    free_unshared(result == WEFT_OK ? self : &fresh, result == WEFT_OK ? &fresh : self);
     if (result == WEFT_OK) *self = fresh;
     return result;
 }
@@ -263,7 +264,7 @@ static WeftResult make_buffer(GlMaterials *self, const WeftScene *scene, WeftErr
     glGetIntegerv(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT, &aligned);
     self->count = scene->material_count;
     self->stride = ((int)sizeof(Uniforms) + aligned - 1) / aligned * aligned;
-    WeftResult result = hold(self, scene, error);
+    WeftResult result = allocate(self, scene, error);
     if (result == WEFT_OK) make_uniforms(self);
     return result;
 }
@@ -281,7 +282,7 @@ WeftResult materials_create(const WeftScene *scene, const GlTextures *textures, 
 void materials_destroy(GlMaterials *self) {
     if (self->uniforms) glDeleteBuffers(1, &self->uniforms);
     cloths_destroy(&self->cloths);
-    let_go(self, NULL);
+    free_unshared(self, NULL);
     *self = (GlMaterials){0};
 }
 

@@ -9,7 +9,7 @@
 #include "raster/material/textures.h"
 #include "scene/light/sheen_tables.h"
 
-/* The table of a slot that is baked in the uniforms, or was when the slot last asked for one. */
+/* The baked table of a slot, or the last one that the slot needed. */
 typedef struct MaterialFit {
     bool made, by_azimuth; /* as AmbientFit has it */
     bool dense;            /* true if the fit's `denser` exceeds AMBIENT_DENSER */
@@ -21,10 +21,11 @@ typedef struct GlMaterial {
     ShaderKey key;
     int groups[TEXTURE_SLOTS]; /* of textures, bound to the samplers in this order */
     int group_count;
-    bool used;                /* by some mesh */
-    bool emits;               /* light */
-    int cloth;                /* of the scene, counted from 1; 0: none */
-    float finest[SLOT_COUNT]; /* of the tables that are baked, or a finer one's; 0 where none is */
+    bool used;  /* by some mesh */
+    bool emits; /* true if it emits light */
+    int cloth;  /* number of the scene's cloth, from 1; 0: none */
+    float finest
+        [SLOT_COUNT]; /* AmbientFit.finest of baked tables, the greatest of the family; 0 without a table */
     MaterialFit fits[SLOT_COUNT];
 } GlMaterial;
 
@@ -33,35 +34,34 @@ typedef struct GlMaterials {
     int count;
     unsigned uniforms; /* buffer of one block a material, `stride` bytes apart */
     int stride;
-    unsigned char *blocks; /* what is in it, once it is uploaded */
+    unsigned char *blocks; /* contents of the buffer, if uploaded */
     bool uploaded;
-    int *of_mesh; /* the material of each mesh, of which there are so many */
+    int *of_mesh; /* material of each of mesh_count meshes */
     int mesh_count;
-    SheenTables *sheens; /* what programs read behind their own tables */
+    SheenTables *sheens; /* programs read them behind their own tables */
     GlCloths cloths;
 } GlMaterials;
 
-/* Zero on failure: WEFT_MESSAGE_MEMORY or _GL_MEMORY. */
+/* Uploads a scene's materials. Fails with WEFT_MESSAGE_MEMORY or _GL_MEMORY; *out is then zero. */
 WeftResult materials_create(const WeftScene *scene, const GlTextures *textures, int threads, GlMaterials *out,
                             WeftError *error);
 
 /* The changes that an update has found. */
 typedef struct MaterialsChange {
-    bool tables;   /* the sheens' are others */
-    bool coverage; /* light may pass where it did not, or the other way round */
-    bool emission; /* what sends out light is another, or does it otherwise */
+    bool tables;   /* tables of sheens */
+    bool coverage; /* where light passes through meshes */
+    bool emission; /* what emits light, or how */
 } MaterialsChange;
 
-/* Takes the materials as they are now, of which only lights' may come and go; textures must serve them. What
- * is the same is neither fitted nor uploaded again. Fails as materials_create does; the materials are then as
- * they were.
- */
+/* Uploads changed materials; only those of lights may be added or removed, and textures_serve must be true. Unchanged
+ * tables and blocks are neither fitted nor uploaded again. Fails as materials_create does; the materials are then as
+ * they were. */
 WeftResult materials_update(GlMaterials *materials, const WeftScene *scene, const GlTextures *textures,
                             int threads, MaterialsChange *change, WeftError *error);
 
 void materials_destroy(GlMaterials *materials);
 
-/* Sets the part of a key that depends on the environment's lights; env_light_kappa is log2 of their kappa. */
+/* Sets the members of a key that depend on the environment's lights; env_light_kappa is log2 of their kappa. */
 void material_in_light(const GlMaterial *material, float env_light_kappa, ShaderKey *key);
 
 /* Binds a material's uniforms to block `block` and its textures to units from 0 on. */

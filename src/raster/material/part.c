@@ -1,6 +1,6 @@
 #include "raster/material/part.h"
 
-/* The slot of a stack that a part of the light is; or what a property is in glsl/forward.glsl. */
+/* A part of the light with the macro of its slot, or a property with its expression in glsl/forward.glsl. */
 typedef struct PartView {
     const char *name, *slot, *property;
 } PartView;

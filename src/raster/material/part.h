@@ -8,7 +8,7 @@
 /* Returns true if the part is a property and not light. */
 bool part_is_property(int part);
 
-/* Says in a fragment shader's text what of glsl/forward.glsl is shown. */
+/* Defines in a fragment shader's text the part that glsl/forward.glsl shows. */
 void part_text(int part, Text *text);
 
 #endif

@@ -25,7 +25,8 @@ static const TextureSampler samplers[] = {
     {"floor_sky", UNIT_FLOOR},         {"floor_mirror", UNIT_FLOOR + 1},
     {"floor_depth", UNIT_FLOOR + 2}};
 
-/* Leaves the program in use: the one that was may be the one it replaces, and be gone. */
+/* Sets the texture units of a program's samplers and counts these. Leaves the program in use, since the one in use
+ * before may be the one it replaces, which is deleted. */
 static void set_units(Program *self) {
     static const int units[UNIT_TABLES] = {0, 1, 2, 3, 4, 5, 6, 7};
     GLint maps = glGetUniformLocation(self->name, "material_maps");
@@ -57,7 +58,8 @@ static void bind_blocks(GLuint program) {
     if (material != GL_INVALID_INDEX) glUniformBlockBinding(program, material, BLOCK_MATERIAL);
 }
 
-/* The program's own tables, then those of the sheens; 0 where there are none, or on failure. */
+/* Returns an array texture of the program's own tables, then those of the sheens; 0 if there are none, or on
+ * failure. */
 static GLuint make_tables(const Programs *programs, const TextTable *own, int own_count, WeftError *error) {
     int count = sheen_tables_count(programs->sheens), all = own_count + count;
     if (!all) return 0;
@@ -82,7 +84,7 @@ static void drop(Program *self) {
     glDeleteTextures(1, &self->tables);
 }
 
-/* One to compile. */
+/* A program to compile, with its text. */
 typedef struct CompileJob {
     Program *program;
     Text vertex, fragment;
@@ -133,7 +135,7 @@ static void take(Programs *programs, CompileJob *job) {
         self->name = job->made;
         self->tables = tables;
         self->own_count = text->table_count;
-        self->turn = programs->turn;
+        self->sheens_version = programs->sheens_version;
         memcpy(self->own, text->tables, sizeof self->own);
         bind_blocks(self->name);
         set_units(self);
@@ -144,7 +146,7 @@ static void take(Programs *programs, CompileJob *job) {
     text_free(&job->fragment);
 }
 
-/* Makes the tables of a program again, behind whose own there are other sheens. */
+/* Makes the tables of a program again, with changed ones of the sheens behind its own. */
 static bool take_sheens(const Programs *programs, Program *self, WeftError *error) {
     WeftError said = {0};
     GLuint tables = make_tables(programs, self->own, self->own_count, &said);
@@ -154,11 +156,11 @@ static bool take_sheens(const Programs *programs, Program *self, WeftError *erro
     }
     glDeleteTextures(1, &self->tables);
     self->tables = tables;
-    self->turn = programs->turn;
+    self->sheens_version = programs->sheens_version;
     return true;
 }
 
-/* One to compile in; NULL where there is none, or none that can be entered. */
+/* Returns a context to compile in, or NULL if none can be shared, or entered. */
 static GlContext *share_context(const GlContext *context) {
     GlOuter outer;
     GlContext *self = context_share(context);
@@ -183,9 +185,9 @@ static void compile_all(void *user) {
     parallel_for(batch->threads, batch->count, compile_in_thread, batch);
 }
 
-/* Drivers compile and link in the thread that asks, for as long as all else takes together; so several ask.
- * None of them is the caller's: a thread has its part of the heap for itself, so that the little that a
- * compiler keeps of much does not lie strewn among all else, where it would hold whole pages. */
+/* Compiles the jobs in several threads. Drivers compile and link in the calling thread, which takes as long as
+ * everything else together. The caller's thread does not compile: each thread has its own part of the heap, so that the
+ * few blocks which a compiler keeps do not lie among the caller's and hold whole pages. */
 static void build(Programs *programs, const GlContext *context, CompileJob *jobs, int count) {
     CompileBatch batch = {.jobs = jobs, .count = count};
     for (int k = 0; k < count; k++) write_text(programs, &jobs[k]);
@@ -200,16 +202,16 @@ static void build(Programs *programs, const GlContext *context, CompileJob *jobs
     memory_return();
 }
 
-/* NULL where there is none. */
-static Program *known(const Programs *programs, const ShaderKey *key) {
+/* Returns the program of a key, or NULL. */
+static Program *find(const Programs *programs, const ShaderKey *key) {
     Program *p = programs->first;
     while (p && memcmp((const char *)&p->key, (const char *)key, sizeof *key) != 0) p = p->next;
     return p;
 }
 
-/* That of a key, or a new one that is stale; NULL where memory is short. */
-static Program *find(Programs *programs, const ShaderKey *key) {
-    Program *p = known(programs, key);
+/* Returns the program of a key, or a new one that is stale; NULL if memory is short. */
+static Program *find_or_add(Programs *programs, const ShaderKey *key) {
+    Program *p = find(programs, key);
     if (p) return p;
     p = alloc_array(1, sizeof *p);
     if (!p) return NULL;
@@ -221,7 +223,7 @@ static Program *find(Programs *programs, const ShaderKey *key) {
 }
 
 bool programs_want(Programs *programs, const ShaderKey *key) {
-    Program *p = find(programs, key);
+    Program *p = find_or_add(programs, key);
     if (!p) return false;
     p->used = programs->tick;
     if (p->stale && !p->wanted) programs->wanted++;
@@ -230,11 +232,11 @@ bool programs_want(Programs *programs, const ShaderKey *key) {
 }
 
 bool programs_has(Programs *programs, const ShaderKey *key) {
-    const Program *p = known(programs, key);
+    const Program *p = find(programs, key);
     return p && !p->stale;
 }
 
-/* Drops the program that was drawn with longest ago; false where all that are left were of late. */
+/* Deletes the program that was used longest ago. Returns false if all were used in the last PROGRAMS_LATE pictures. */
 static bool forget_oldest(Programs *programs) {
     Program **oldest = NULL;
     for (Program **at = &programs->first; *at; at = &(*at)->next)
@@ -247,7 +249,7 @@ static bool forget_oldest(Programs *programs) {
     return true;
 }
 
-/* Those to be compiled are in the list already. */
+/* Deletes programs until PROGRAMS_KEPT are left, among which are those to be compiled. */
 static void forget(Programs *programs) {
     int count = 0;
     for (const Program *p = programs->first; p; p = p->next) count++;
@@ -272,9 +274,10 @@ bool programs_build(Programs *programs, const GlContext *context) {
 }
 
 const Program *programs_get(Programs *programs, const ShaderKey *key, WeftError *error) {
-    Program *p = known(programs, key);
+    Program *p = find(programs, key);
     if (!p) return NULL;
-    if (p->name && p->turn != programs->turn && !take_sheens(programs, p, error)) return NULL;
+    if (p->name && p->sheens_version != programs->sheens_version && !take_sheens(programs, p, error))
+        return NULL;
     *error = p->error;
     return p->name ? p : NULL;
 }

@@ -29,12 +29,12 @@ typedef struct Program {
     unsigned tables;                /* array texture for weft_tables, 0 where the program has none */
     TextTable own[TEXT_TABLES_MAX]; /* the first of its layers; the sheens' are behind them */
     int own_count;
-    unsigned turn;   /* of the sheens that it holds */
-    int samplers;    /* array elements counted one by one */
-    bool stale;      /* true if the text may have changed */
-    bool wanted;     /* and it is to be compiled */
-    unsigned used;   /* tick of the picture that it was last drawn with */
-    WeftError error; /* of the last attempt; its program before stays in use */
+    unsigned sheens_version; /* of the sheens' tables behind its own */
+    int samplers;            /* array elements counted one by one */
+    bool stale;              /* true if the text may have changed */
+    bool wanted;             /* and it is to be compiled */
+    unsigned used;           /* tick of the picture that it was last drawn with */
+    WeftError error;         /* of the last attempt; its program before stays in use */
 } Program;
 
 typedef struct Programs {
@@ -42,37 +42,37 @@ typedef struct Programs {
     TextDesc desc;             /* of all texts */
     Fits fits;                 /* for their light from the environment */
     const SheenTables *sheens; /* of the scene: behind each program's own tables */
-    unsigned turn;             /* another number for others, which programs take at their next use */
+    unsigned sheens_version;   /* counts changes of them, which programs take at their next use */
     int compiled;              /* so far */
     int wanted;                /* in the list */
     unsigned tick;             /* pictures so far */
 } Programs;
 
-/* So many programs are kept, those of the last few pictures in any case: each may be some ten megabytes of
- * code. */
+/* Programs that are kept, and the number of last pictures whose programs are kept in any case. A program may be some
+ * ten megabytes of code. */
 enum { PROGRAMS_KEPT = 7, PROGRAMS_LATE = 3 };
 
-/* Notes that a key will be drawn with; false where memory is short. */
+/* Records that a picture will be drawn with a key. Returns false if memory is short. */
 bool programs_want(Programs *programs, const ShaderKey *key);
 
 /* Returns true if the key's program was built from the current text. */
 bool programs_has(Programs *programs, const ShaderKey *key);
 
-/* Compiles those noted that are new or stale, several at once, in threads with contexts that share the
- * objects of `context`, which is current. Does nothing where there are none; else it changes which program is
- * in use. False where memory is short. */
+/* Compiles the recorded programs that are new or stale, several at once, in threads with contexts that share the
+ * objects of `context`, which is current. Does nothing if there are none; else it changes which program is
+ * in use. Returns false if memory is short. */
 bool programs_build(Programs *programs, const GlContext *context);
 
-/* The program for a key that was noted and built. NULL where it has never compiled, with what the compiler
- * says in error; an earlier version stays in use, and error reports the failure all the same: *error is
- * WEFT_OK only where all is well. */
+/* Returns the program of a key that was recorded and built, or NULL if it has never compiled. If its last text did not
+ * compile, an earlier version stays in use, and *error has the compiler's message all the same; else *error is
+ * WEFT_OK. */
 const Program *programs_get(Programs *programs, const ShaderKey *key, WeftError *error);
 
-/* The program that draws the environment behind everything; 0 on failure, with what the compiler says in
- * error. Release with glDeleteProgram. */
+/* Compiles the program that draws the environment behind the scene. Returns 0 on failure, with the compiler's message
+ * in error. Release with glDeleteProgram. */
 unsigned programs_background(const Programs *programs, WeftError *error);
 
-/* From now on all are compiled again at their next use. */
+/* Marks all programs as stale: they are compiled again at their next use. */
 void programs_refresh(Programs *programs);
 
 /* Returns the compiler's message for the first program that failed at its last use; empty if none did. */

@@ -35,7 +35,7 @@ static bool is_mapped(const ShaderInput *input) {
     return input->state == INPUT_MAP || input->state == INPUT_MAYBE;
 }
 
-/* Puts x in for whatever a texture says. */
+/* Sets all textured numbers of a surface to x. */
 static void vary(const ShaderKey *key, Surface *s, float x) {
 #define VARY_SCALAR(name)    s->name = x
 #define VARY_ANGLE(name)     (void)0
@@ -47,7 +47,7 @@ static void vary(const ShaderKey *key, Surface *s, float x) {
     SURFACE_INPUTS(VARY)
 }
 
-bool shader_holds(const ShaderKey *key, int slot) {
+bool shader_bakes(const ShaderKey *key, int slot) {
     Lobe lobes[2];
     bool zero[INPUT_COUNT];
     if (key->ranged || (key->woven && slot == PLACE_SPECULAR)) return false;
@@ -64,7 +64,8 @@ bool shader_holds(const ShaderKey *key, int slot) {
     return lobes[0].id == lobes[1].id && is_equal(lobes[0].params[0], lobes[1].params[0]);
 }
 
-/* One vec4 an input, two for where its texture lies, and the sheen's table: material.c fills them. */
+/* Writes the block Material and its samplers: a vec4 an input, two for the place of its texture, the sheen's table, a
+ * cloth, fits. The record Uniforms of materials.c has the same members. */
 static void put_uniforms(Text *text, const ShaderKey *key) {
     text_line(text, "\nlayout(std140) uniform Material {");
     for (int k = 0; k < INPUT_COUNT; k++) text_line(text, "    highp vec4 material_%s;", input_infos[k].name);
@@ -93,22 +94,24 @@ static void put_table(Text *text, const ShaderKey *key) {
                     "    return t;\n}");
 }
 
-/* The texel that changes nothing. */
-static const char *rest_of(int input) {
+/* Returns the texel that leaves an input's number as it is. */
+static const char *neutral_texel(int input) {
     WeftInputKind kind = input_infos[input].kind;
     return kind == WEFT_INPUT_NORMAL || kind == WEFT_INPUT_DIRECTION ? "vec4(0.5, 0.5, 1.0, 1.0)"
                                                                      : "vec4(1.0)";
 }
 
-bool shader_same_rest(int input, int other) { return strcmp(rest_of(input), rest_of(other)) == 0; }
+bool shader_same_neutral(int input, int other) {
+    return strcmp(neutral_texel(input), neutral_texel(other)) == 0;
+}
 
-/* The texel of a map, unless an earlier input has it. */
+/* Writes the look-up of a map, unless an earlier input reads the same texel. */
 static void put_texel(Text *text, const ShaderKey *key, int k) {
     const ShaderInput *input = &key->inputs[k];
     const char *name = input_infos[k].name;
     if (!is_mapped(input) || input->like >= 0) return;
     text_line(text, "    vec3 at_%s = vec3(texcoord_%d, 1.0);\n    vec4 map_%s = %s;", name, input->texcoord,
-              name, rest_of(k));
+              name, neutral_texel(k));
     if (input->state == INPUT_MAYBE) text_line(text, "    if (material_%s.w > 0.5)", name);
     text_line(text,
               "    map_%s = texture(material_maps[%d], vec3(dot(material_places[%d].xyz, at_%s), "
@@ -219,12 +222,12 @@ static void put_lights(Text *text, const ShaderKey *key) {
 }
 
 /* Returns true if a pixel depends on the tangent. */
-static bool turns(const ShaderKey *key, const CompositionSlots *found) {
-    static const InputId turning[] = {INPUT_normal, INPUT_clearcoat_normal, INPUT_anisotropy, INPUT_nap};
+static bool needs_tangent(const ShaderKey *key, const CompositionSlots *found) {
+    static const InputId inputs[] = {INPUT_normal, INPUT_clearcoat_normal, INPUT_anisotropy, INPUT_nap};
     if (key->woven) return true;
-    for (size_t k = 0; k < sizeof turning / sizeof turning[0]; k++) {
-        const ShaderInput *input = &key->inputs[turning[k]];
-        bool number = input_infos[turning[k]].kind != WEFT_INPUT_NORMAL;
+    for (size_t k = 0; k < sizeof inputs / sizeof inputs[0]; k++) {
+        const ShaderInput *input = &key->inputs[inputs[k]];
+        bool number = input_infos[inputs[k]].kind != WEFT_INPUT_NORMAL;
         if (is_mapped(input) || (number && input->state != INPUT_ZERO)) return true;
     }
     return found->slots[PLACE_SHEEN].count &&
@@ -243,21 +246,22 @@ static bool same_slots(const CompositionSlots *a, const CompositionSlots *b) {
     return same;
 }
 
-/* Returns true if one table over a parameter, made without regard to the others, suits both keys. / */
+/* Returns true if both keys bake the same tables, or have neither nap nor anisotropy, which tables that are not baked
+ * lack. */
 static bool same_tables(const ShaderKey *a, const ShaderKey *b) {
-    bool same = true, turned = false;
-    for (int k = 0; k < SLOT_COUNT; k++) same &= shader_holds(a, k) == shader_holds(b, k);
+    bool same = true, anisotropic = false;
+    for (int k = 0; k < SLOT_COUNT; k++) same &= shader_bakes(a, k) == shader_bakes(b, k);
     for (int x = 0; x < 2; x++) {
         const ShaderInput *inputs = x ? a->inputs : b->inputs;
-        turned |= inputs[INPUT_nap].state != INPUT_ZERO || inputs[INPUT_anisotropy].state != INPUT_ZERO;
+        anisotropic |= inputs[INPUT_nap].state != INPUT_ZERO || inputs[INPUT_anisotropy].state != INPUT_ZERO;
     }
-    return same || !turned;
+    return same || !anisotropic;
 }
 
 /* Returns true if two keys omit and bake the same things. */
 static bool same_extent(const ShaderKey *a, const ShaderKey *b) {
     const CompositionSlots x = find_slots(a), y = find_slots(b);
-    return same_slots(&x, &y) && turns(a, &x) == turns(b, &y) && same_tables(a, b);
+    return same_slots(&x, &y) && needs_tangent(a, &x) == needs_tangent(b, &y) && same_tables(a, b);
 }
 
 static bool join_input(ShaderInput *a, const ShaderInput *b) {
@@ -275,7 +279,7 @@ static bool join_input(ShaderInput *a, const ShaderInput *b) {
 bool shader_join(ShaderKey *key, const ShaderKey *other) {
     ShaderKey joined = *key, rest = *other;
     memcpy(rest.inputs, key->inputs, sizeof rest.inputs);
-    rest.turning = key->turning; /* what does for a lobe that turns does for a round one */
+    rest.turning = key->turning; /* a table with azimuth dependence serves a lobe without */
     joined.turning |= other->turning;
     bool same = memcmp((const char *)&rest, (const char *)key, sizeof rest) == 0;
     for (int k = 0; same && k < INPUT_COUNT; k++) same = join_input(&joined.inputs[k], &other->inputs[k]);
@@ -284,13 +288,13 @@ bool shader_join(ShaderKey *key, const ShaderKey *other) {
     return true;
 }
 
-/* Texels of a cloth's tables come from a texture of its own. */
+/* Defines the look-ups of shading/weave/ as those of the cloth's texture in weave_cloth.glsl. */
 static void define_weave(Text *text) {
     text_define(text, "weave_texel(t, stride, row, column)", "weave_fetch(row, column)");
     text_define(text, "weave_cell_texel(t, stride, row, at)", "weave_fetch_cell(row, at)");
 }
 
-/* Nothing but what is there: holes, gaps between threads and what is less than half there let light through. */
+/* Writes the shader of a shadow map: gaps between threads and coverage below a half let light through. */
 static void depth_text(const ShaderKey *key, Text *text) {
     text_include(text, "shading/stack/surface.h");
     text_include(text, "shading/dialect/rgb.h");
@@ -313,7 +317,7 @@ static void floor_text(const ShaderKey *key, Text *text) {
 
 static const char *boolean(bool x) { return x ? "true" : "false"; }
 
-/* One slot's table, baked where `baked` is not below 0, else a layer of the program's tables. */
+/* The table of one slot: baked into uniforms if table.baked is not below 0, else a layer of the program's tables. */
 typedef struct AmbientEntry {
     AmbientTable table;
     int layer;
@@ -332,13 +336,13 @@ static void put_ambient_table(Text *text, const char *slot, const AmbientEntry *
               boolean(t.turning), slot, boolean(t.lossless), slot, t.baked);
 }
 
-/* Returns the table of a slot; an empty slot has one too, which is never read. The text is told if memory is short. */
+/* Returns the table of a slot; that of an empty slot is never read. Marks the text as failed if memory is short. */
 static AmbientEntry find_ambient_table(Text *text, const ShaderKey *key, int slot, const Lobe *lobe,
                                        Fits *fits) {
     AmbientTable t = {.rows = 1, .columns = AMBIENT_COLUMNS};
     int layer = 0;
     bool dense = key->dense >> slot & 1;
-    if (lobe && !shader_holds(key, slot)) {
+    if (lobe && !shader_bakes(key, slot)) {
         const AmbientFit *fit = fits_get(fits, lobe);
         if (!fit) {
             text->macros.short_of_memory = true;
@@ -364,7 +368,8 @@ static AmbientEntry find_ambient_table(Text *text, const ShaderKey *key, int slo
     return (AmbientEntry){.table = t, .layer = layer};
 }
 
-/* Tells shading/ambient/ambient_lobe.h what serves each slot, and which strategies no slot has. */
+/* Defines for shading/ambient/ambient_lobe.h the function that lights each slot, and the strategies that no slot
+ * has. */
 static void define_strategies(Text *text, const AmbientEntry entries[SLOT_COUNT]) {
     bool there[AMBIENT_STRATEGIES] = {false};
     for (int k = 0; k < SLOT_COUNT; k++) {
@@ -406,7 +411,7 @@ void shader_text(const ShaderKey *key, const TextDesc *desc, Fits *fits, Text *t
     if (key->depth || key->floor) return;
     const CompositionSlots found = find_slots(key);
     if (key->shadowed) text_define(text, "SHADOWED", "1");
-    if (turns(key, &found)) text_define(text, "TURNS", "1");
+    if (needs_tangent(key, &found)) text_define(text, "NEEDS_TANGENT", "1");
     if (key->woven) {
         text_define(text, "WOVEN", "1");
         define_weave(text);
@@ -430,9 +435,9 @@ void shader_vertex_text(const ShaderKey *key, const TextDesc *desc, Text *text) 
 }
 
 void shader_background_text(const TextDesc *desc, Text *vertex, Text *fragment) {
-    const TextDesc plain = {.language = desc->language, .folder = desc->folder};
-    text_begin(vertex, &plain);
+    const TextDesc no_tables = {.language = desc->language, .folder = desc->folder};
+    text_begin(vertex, &no_tables);
     text_include(vertex, "raster/glsl/screen.glsl");
-    text_begin(fragment, &plain);
+    text_begin(fragment, &no_tables);
     text_include(fragment, "raster/glsl/behind.glsl");
 }

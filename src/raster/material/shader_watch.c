@@ -12,10 +12,10 @@ typedef struct WatchedFile {
     const char *path;
     struct timespec time; /* of its last change */
     off_t size;
-    ino_t number; /* another one where a file was put in its place */
+    ino_t number; /* differs if another file has replaced it */
 } WatchedFile;
 
-/* A look being taken. */
+/* A scan in progress. */
 typedef struct FolderScan {
     FolderWatch seen;
     int entries; /* of all folders so far */
@@ -36,7 +36,7 @@ static void add(FolderScan *look, const char *path, const struct stat *status) {
         seen->files[seen->count++] = (WatchedFile){copy, status->st_mtim, status->st_size, status->st_ino};
 }
 
-/* Links to folders are followed, so what bounds a circle of them is the depth and the number of entries. */
+/* Adds the files of a folder. Links to folders are followed; a circle of them ends by depth or number of entries. */
 static void look_into(FolderScan *look, const char *folder, int depth) {
     char path[1024];
     struct stat status;

@@ -1,7 +1,7 @@
-/* shader_watch.h - a watch on the shader text in a folder
+/* shader_watch.h - finds changed shader files in a folder
  *
- * DOES NOT: notice a file that changed twice within one tick of the file system's clock, between which it was
- * looked at, and kept its size. */
+ * DOES NOT: notice the second of two changes of a file, with a scan between them, within one tick of the file system's
+ * clock and without a change of size. */
 #ifndef WEFT_RASTER_SHADER_WATCH_H
 #define WEFT_RASTER_SHADER_WATCH_H
 
@@ -14,10 +14,9 @@ typedef struct FolderWatch {
     int count;
 } FolderWatch;
 
-/* Looks at the files .h and .glsl in the folder and in those below it, down to WATCH_DEPTH and as many as
- * WATCH_FILES, but not where a name starts with a dot. Returns how many were made, changed or removed since
- * the last look; 0 where memory is short, and then this look counts for nothing. A folder that is not there
- * is empty. */
+/* Scans the files .h and .glsl in the folder and in those below it, down to WATCH_DEPTH and at most WATCH_FILES,
+ * without names that start with a dot. Returns the number of files that were made, changed or removed since the last
+ * scan; 0 if memory is short, and this scan is then dropped. A missing folder counts as empty. */
 int watch_poll(FolderWatch *watch, const char *folder);
 
 enum { WATCH_DEPTH = 8, WATCH_FILES = 1024 };

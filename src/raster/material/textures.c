@@ -38,7 +38,7 @@ static bool same_group(bool one_size, const TextureGroup *a, const TextureGroup 
            a->nearest == b->nearest;
 }
 
-/* The group that a texture asks for. */
+/* Returns the properties of the group that a texture needs. */
 static TextureGroup group_for(const WeftScene *scene, int texture, bool color, int side_most) {
     const Texture *t = &scene->textures[texture];
     const WeftImage *image = &scene->images[t->image];
@@ -65,7 +65,7 @@ static void place(Plan *plan, int texture, bool color) {
     *at = (TexturePlace){k, home->layers++};
 }
 
-/* The groups that a material looks into; -1: into something that has none. */
+/* Returns the number of groups that a material's maps are in, or -1 if one of them is in none. */
 static int count_groups(const TexturePlace *places, int texture_count, const Material *material) {
     int groups[INPUT_COUNT], count = 0;
     for (int k = 0; k < INPUT_COUNT; k++) {
@@ -80,7 +80,7 @@ static int count_groups(const TexturePlace *places, int texture_count, const Mat
     return count;
 }
 
-/* Places everything; the most groups that one material needs. */
+/* Places all textures of materials in groups. Returns the most groups that one material needs. */
 static int make_plan(Plan *plan) {
     const WeftScene *scene = plan->scene;
     int most = 0;
@@ -126,7 +126,7 @@ static void make_group(GLuint texture, const TextureGroup *group) {
     glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAX_LEVEL, levels - 1);
 }
 
-/* An image of 8 bits as four channels, as texture_fetch reads them. */
+/* Expands an image of 8 bits to four channels, as texture_fetch reads them. */
 static void spread(const WeftImage *image, unsigned char *to) {
     const unsigned char *p = image->pixels;
     size_t count = (size_t)image->width * (size_t)image->height, channels = (size_t)image->channels;
@@ -139,8 +139,8 @@ static void spread(const WeftImage *image, unsigned char *to) {
     }
 }
 
-/* Any image as four channels of the group's size: integers of 8 bits stay, others become floats, a colour of
- * 16 bits decoded. texture_fetch scales. */
+/* Writes an image as four channels in the group's size, which texture_fetch scales it to. Integers of 8 bits stay;
+ * others become floats, with colours of 16 bits decoded from sRGB. */
 static void put_texels(const WeftScene *scene, int texture, bool color, const TextureGroup *group,
                        void *texels) {
     const WeftImage *image = &scene->images[scene->textures[texture].image];
@@ -166,7 +166,7 @@ static void put_texels(const WeftScene *scene, int texture, bool color, const Te
         }
 }
 
-/* One layer with its smaller copies, one after the other. */
+/* One layer with its mipmaps, one after the other. */
 typedef struct Layer {
     int place; /* of GlTextures.places */
     void *texels;
@@ -221,8 +221,7 @@ static bool is_wanted(const GlTextures *self, const Plan *plan, int place, bool 
     return self->places[place].group >= 0 && (!stale || textures_stale(self, plan->scene, place / 2));
 }
 
-/* All that is placed, or of that what is stale. As many at once as there are threads, so that no more are
- * held than that. */
+/* Uploads all placed textures, or only the stale ones. As many layers are in memory at once as there are threads. */
 static WeftResult fill_groups(GlTextures *self, const Plan *plan, bool stale, int threads, WeftError *error) {
     const WeftScene *scene = plan->scene;
     const int places = 2 * self->texture_count;
@@ -245,7 +244,7 @@ static WeftResult fill_groups(GlTextures *self, const Plan *plan, bool stale, in
         }
     }
     for (int k = 0; k < self->texture_count && result == WEFT_OK; k++)
-        self->turns[k] = scene->textures[k].version;
+        self->versions[k] = scene->textures[k].version;
     return result == WEFT_OK ? gl_check(error, "textures") : result;
 }
 
@@ -280,12 +279,12 @@ WeftResult textures_create(const WeftScene *scene, int threads, GlTextures *out,
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &plan.side_most);
     glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &plan.layers_most);
     out->kinds = plan.groups = alloc_array(count, sizeof(TextureGroup));
-    out->turns = alloc_array(count, sizeof(unsigned));
+    out->versions = alloc_array(count, sizeof(unsigned));
     out->places = plan.places = alloc_array(count, sizeof(TexturePlace));
     out->groups = alloc_array(count, sizeof(GLuint));
-    bool held = plan.groups && plan.places && out->groups && out->turns;
-    WeftResult result =
-        held ? upload(out, &plan, threads, log, error) : fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    bool allocated = plan.groups && plan.places && out->groups && out->versions;
+    WeftResult result = allocated ? upload(out, &plan, threads, log, error)
+                                  : fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     if (result != WEFT_OK) textures_destroy(out);
     return result;
 }
@@ -294,13 +293,13 @@ void textures_destroy(GlTextures *self) {
     if (self->group_count) glDeleteTextures(self->group_count, self->groups);
     free(self->groups);
     free(self->kinds);
-    free(self->turns);
+    free(self->versions);
     free(self->places);
     *self = (GlTextures){0};
 }
 
 bool textures_stale(const GlTextures *self, const WeftScene *scene, int texture) {
-    return texture < self->texture_count && self->turns[texture] != scene->textures[texture].version;
+    return texture < self->texture_count && self->versions[texture] != scene->textures[texture].version;
 }
 
 /* Returns true if the texture as it is now fits in its place. */
@@ -336,12 +335,12 @@ void textures_bind(const GlTextures *self, int group, int unit) {
     glBindTexture(GL_TEXTURE_2D_ARRAY, self->groups[group]);
 }
 
-void textures_filter(const GlTextures *self, bool plain) {
+void textures_filter(const GlTextures *self, bool mipmaps) {
     for (int g = 0; g < self->group_count; g++) {
         GLint magnified;
         glBindTexture(GL_TEXTURE_2D_ARRAY, self->groups[g]);
         glGetTexParameteriv(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, &magnified);
         glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER,
-                        plain || magnified == GL_NEAREST ? magnified : GL_LINEAR_MIPMAP_LINEAR);
+                        mipmaps && magnified != GL_NEAREST ? GL_LINEAR_MIPMAP_LINEAR : magnified);
     }
 }
