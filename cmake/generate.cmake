@@ -67,7 +67,7 @@ weft_embedded(presets ${files})
 
 # catalogue.c holds the shading headers, and what is GLSL alone, as they are, by name: src/text makes shaders and pages
 # of them.
-file(GLOB_RECURSE files CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}/src src/shading/*.h src/raster/glsl/*.glsl)
+file(GLOB_RECURSE files CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}/src src/shading/*.h src/raster/glsl/*.glsl src/raster/glsl/*.h)
 set(assembly "")
 set(names "")
 set(rows "")

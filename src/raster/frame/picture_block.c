@@ -6,9 +6,10 @@
 #include "raster/light/depths.h"
 #include "raster/light/ground.h"
 
-/* From the nearest to the farthest of the scene, of its lights and of the floor. Cameras come close. */
+/* Returns the depths of the scene, its lights and the floor in a camera's view. The least depth is 1e-4 of the
+ * greatest, since cameras come close. */
 static Depths camera_depths(const WeftScene *scene, const View *view, const Floor *floor) {
-    const float least = 1e-4f; /* of the farthest */
+    const float least = 1e-4f;
     Depths depths = depths_none();
     depths_add_scene(&depths, view, scene);
     for (int k = 0; k < 4 && floor->there; k++)
@@ -19,7 +20,7 @@ static Depths camera_depths(const WeftScene *scene, const View *view, const Floo
     return depths;
 }
 
-/* The depth in clip space of a distance w along the axis: a w + b, to be divided by w with perspective. */
+/* The depth in clip space of a distance w along the axis: a w + b, divided by w with perspective. */
 typedef struct Depth {
     float a, b;
 } Depth;
@@ -30,7 +31,8 @@ static Depth depth_of(const View *view, Depths r) {
                               : (Depth){(r.far + r.near) / span, -2.0f * r.far * r.near / span};
 }
 
-/* q, from the eye, to clip space: x = (q - w forward).across / |across|^2, likewise y, w the depth. */
+/* Writes the matrix from world space less the eye to clip space: x = (q - w forward).across / |across|^2, y likewise, w
+ * the depth of q. */
 static void put_matrix(const View *view, Depths r, float m[16]) {
     Vec3 f = view_axis(view);
     Vec3 x = vec3_scale(view->across, 1.0f / vec3_dot(view->across, view->across));
@@ -48,7 +50,7 @@ static void put_matrix(const View *view, Depths r, float m[16]) {
         for (int column = 0; column < 4; column++) m[4 * column + row] = rows[row][column];
 }
 
-static void put_light(const Light *light, float to[4][4]) {
+static void put_light(const Light *light, uniform_vec4 to[4]) {
     const float place[4] = {light->position.x, light->position.y, light->position.z, (float)light->kind};
     const float along[4] = {light->direction.x, light->direction.y, light->direction.z, light->range};
     const float *c = light->color;
@@ -64,13 +66,13 @@ static void put_polygon(const LightPolygon *polygon, int k, Picture *out) {
     const float normal[4] = {polygon->normal.x, polygon->normal.y, polygon->normal.z, 0.0f};
     for (int j = 0; j < polygon->count; j++) {
         const float corner[4] = {polygon->corners[j].x, polygon->corners[j].y, polygon->corners[j].z, 0.0f};
-        memcpy(out->polygon_corners[k][j], corner, sizeof corner);
+        memcpy(out->polygon_corners[PICTURE_CORNERS * k + j], corner, sizeof corner);
     }
     memcpy(out->polygon_normals[k], normal, sizeof normal);
     memcpy(out->polygon_radiance[k], polygon->radiance, sizeof polygon->radiance);
 }
 
-/* `first` is the first layer of a polygon. */
+/* Writes the uniforms of shadow map k; `first` is the first layer of a polygon's map. */
 static void put_shadow(const Shadow *shadow, int k, int first, Picture *out) {
     const View *view = &shadow->view;
     const float place[4] = {view->eye.x, view->eye.y, view->eye.z,
@@ -82,11 +84,12 @@ static void put_shadow(const Shadow *shadow, int k, int first, Picture *out) {
     for (int j = 0; j < shadow->points; j++) {
         Vec3 o = shadow->point[j];
         const float point[4] = {o.x / half, o.y / half, o.z, shadow_slope(shadow, j)};
-        memcpy(out->shadow_points[k][j], point, sizeof point);
+        memcpy(out->shadow_points[SHADOW_POINTS * k + j], point, sizeof point);
     }
 }
 
-/* A facet whose slope is alpha at most turns what it mirrors by twice as much. */
+/* Writes the uniforms of the floor. The cone of its mirror has slope 2 alpha, since a facet of slope alpha deflects a
+ * ray by twice its own angle. */
 static void put_floor(const WeftScene *scene, const View *view, const Floor *floor, Picture *out) {
     View below = ground_view(floor, view);
     Depth depth = depth_of(view, camera_depths(scene, &below, floor));
@@ -101,7 +104,7 @@ static void put_floor(const WeftScene *scene, const View *view, const Floor *flo
 
 void picture_make(const WeftScene *scene, const View *view, const LightPolygons *polygons,
                   const Shadows *shadows, const Floor *floor, Picture *out) {
-    int lights = scene->light_count < PICTURE_LIGHTS_MOST ? scene->light_count : PICTURE_LIGHTS_MOST;
+    int lights = scene->light_count < PICTURE_LIGHTS ? scene->light_count : PICTURE_LIGHTS;
     const float eye[4] = {view->eye.x, view->eye.y, view->eye.z, view->orthographic ? 0.0f : 1.0f};
     const float forward[4] = {view->forward.x, view->forward.y, view->forward.z, (float)lights};
     *out = (Picture){0};
@@ -109,13 +112,13 @@ void picture_make(const WeftScene *scene, const View *view, const LightPolygons 
     memcpy(out->eye, eye, sizeof eye);
     memcpy(out->forward, forward, sizeof forward);
     if (floor->there) put_floor(scene, view, floor, out);
-    for (int k = 0; k < lights; k++) put_light(&scene->lights[k], out->lights[k]);
+    for (int k = 0; k < lights; k++) put_light(&scene->lights[k], &out->lights[4 * k]);
     for (int k = 0; k < polygons->count; k++) put_polygon(&polygons->items[k], k, out);
     for (int k = 0; k < shadows->count; k++) {
         int light = shadows->of_light[k];
         int hard = shadows->count - shadows->polygons;
         put_shadow(&shadows->all[k], k, SHADOW_POINTS * (k - hard), out);
-        if (light >= 0 && light < lights) out->lights[light][2][3] = (float)k;
+        if (light >= 0 && light < lights) out->lights[4 * light + 2][3] = (float)k;
     }
 }
 

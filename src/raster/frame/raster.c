@@ -7,56 +7,12 @@
 #include <epoxy/gl.h>
 
 #include "base/fail.h"
-#include "base/steady_clock.h"
+#include "raster/frame/frame.h"
 #include "raster/frame/picture_block.h"
-#include "raster/geometry/meshes.h"
-#include "raster/gl/context.h"
-#include "raster/gl/display.h"
+#include "raster/frame/shader_keys.h"
 #include "raster/gl/gl_check.h"
-#include "raster/gl/queue.h"
-#include "raster/gl/target.h"
-#include "raster/light/gl_environment.h"
-#include "raster/light/ground.h"
-#include "raster/light/lookout.h"
-#include "raster/light/shadow.h"
-#include "raster/material/materials.h"
-#include "raster/material/part.h"
-#include "raster/material/programs.h"
-#include "raster/material/shader_watch.h"
-#include "weft/raster.h"
 
 enum { DEFAULT_WIDTH = 960, DEFAULT_HEIGHT = 720, DEFAULT_SAMPLES = 4, SIDE_MAX = 16384 };
-
-struct WeftRaster {
-    const WeftScene *scene;
-    WeftRasterDesc desc; /* shader_dir is our own copy */
-    GlContext *context;
-    GlMeshes meshes;
-    GlTextures textures;
-    GlMaterials materials;
-    Programs programs;
-    GlEnvironment environment;
-    unsigned background;       /* program, 0 until it is needed */
-    bool shines;               /* the environment does */
-    unsigned turn, shape_turn; /* of the environment and of the shapes that were uploaded */
-    Lookout lookout;
-    LightPolygons polygons;
-    Shadows shadows;
-    Floor floor; /* of the last picture, there where it is seen */
-    Ground ground;
-    float sky_on_floor; /* luminance of the environment's light */
-    bool floor_shaded;
-    Target target;
-    Display display;
-    unsigned picture; /* uniform buffer */
-    bool plain;       /* textures are without their smaller copies */
-    Queue queue;
-    Camera camera; /* of the last picture */
-    double compile_seconds;
-    int settled;           /* programs compiled before, for which the driver's own work is done */
-    uint64_t settled_with; /* bit k: with k samples a pixel */
-    FolderWatch watch;     /* of the shader_dir */
-};
 
 typedef struct Watched {
     WeftProgress progress;
@@ -68,12 +24,13 @@ static bool on_progress(void *user, float done) {
     return watched->progress && watched->progress(watched->user, (double)done) != 0;
 }
 
-static bool environment_shines(const Environment *e) {
+static bool environment_emits(const Environment *e) {
     bool color = e->color[0] > 0.0f || e->color[1] > 0.0f || e->color[2] > 0.0f;
     return e->strength > 0.0f && (e->kind != ENVIRONMENT_CONSTANT || color);
 }
 
-/* One that is dark is neither uploaded nor dropped. */
+/* Uploads the scene's environment if it is another one than before. A black one is not uploaded; the one before it is
+ * kept. */
 static WeftResult update_environment(WeftRaster *self, const WeftLog *log, WeftError *error) {
     const Environment *environment = &self->scene->environment;
     Watched watched = {self->desc.progress, self->desc.user};
@@ -82,22 +39,22 @@ static WeftResult update_environment(WeftRaster *self, const WeftLog *log, WeftE
                                 .no_cache = self->desc.no_cache != 0,
                                 .progress = on_progress,
                                 .user = &watched};
-    self->shines = environment_shines(environment);
-    if (!self->shines) return WEFT_OK;
-    if (self->environment.buffer && self->turn == environment->version) {
+    self->environment_lit = environment_emits(environment);
+    if (!self->environment_lit) return WEFT_OK;
+    if (self->environment.buffer && self->environment_version == environment->version) {
         environment_place(&self->environment, environment);
         return gl_check(error, "an environment");
     }
     environment_destroy(&self->environment);
-    self->turn = environment->version;
+    self->environment_version = environment->version;
     WeftResult result = environment_create(environment, &how, &self->environment, log, error);
-    self->shines = result == WEFT_OK;
+    self->environment_lit = result == WEFT_OK;
     return result;
 }
 
-/* Returns NULL where the environment is dark. */
+/* Returns the uploaded environment, or NULL if the scene's is black. */
 static const GlEnvironment *lit_environment(const WeftRaster *self) {
-    return self->shines ? &self->environment : NULL;
+    return self->environment_lit ? &self->environment : NULL;
 }
 
 static WeftResult upload(WeftRaster *self, const WeftLog *log, WeftError *error) {
@@ -106,19 +63,19 @@ static WeftResult upload(WeftRaster *self, const WeftLog *log, WeftError *error)
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     WeftResult result = lookout_create(&self->lookout, scene, self->desc.occlusion, threads, error);
     if (result == WEFT_OK) result = meshes_create(scene, &self->lookout.refinement, &self->meshes, error);
-    self->shape_turn = scene->shape_version;
+    self->shape_version = scene->shape_version;
     if (result == WEFT_OK) result = textures_create(scene, threads, &self->textures, log, error);
     if (result == WEFT_OK)
         result = materials_create(scene, &self->textures, threads, &self->materials, error);
     self->programs.sheens = self->materials.sheens;
-    if (result == WEFT_OK && !light_polygons_find(&self->polygons, scene, PICTURE_POLYGONS_MOST))
+    if (result == WEFT_OK && !light_polygons_find(&self->polygons, scene, PICTURE_POLYGONS))
         result = fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     if (result == WEFT_OK) result = shadows_create(scene, &self->polygons, &self->shadows, error);
     if (result == WEFT_OK) result = update_environment(self, log, error);
     self->programs.fits.threads = threads;
     self->programs.fits.no_cache = self->desc.no_cache != 0;
-    glGenBuffers(1, &self->picture);
-    glBindBuffer(GL_UNIFORM_BUFFER, self->picture);
+    glGenBuffers(1, &self->picture_buffer);
+    glBindBuffer(GL_UNIFORM_BUFFER, self->picture_buffer);
     glBufferData(GL_UNIFORM_BUFFER, sizeof(Picture), NULL, GL_DYNAMIC_DRAW);
     return result == WEFT_OK ? gl_check(error, "a scene") : result;
 }
@@ -131,10 +88,10 @@ static void release(WeftRaster *self) {
     shadows_destroy(&self->shadows);
     environment_destroy(&self->environment);
     ground_destroy(&self->ground);
-    glDeleteProgram(self->background);
+    glDeleteProgram(self->background_program);
     target_destroy(&self->target);
     display_destroy(&self->display);
-    glDeleteBuffers(1, &self->picture);
+    glDeleteBuffers(1, &self->picture_buffer);
 }
 
 static WeftResult enter(WeftRaster *self, GlOuter *outer, WeftError *error) {
@@ -143,7 +100,7 @@ static WeftResult enter(WeftRaster *self, GlOuter *outer, WeftError *error) {
     return fail(error, WEFT_MESSAGE_GL_CONTEXT, self->scene->name, "its context %s", why);
 }
 
-/* A context, and all that is drawn with. */
+/* Makes or adopts the context and uploads the scene into it. */
 static WeftResult begin_drawing(WeftRaster *self, const WeftLog *log, WeftError *error) {
     GlOuter outer;
     TextLanguage language = self->desc.gl == WEFT_GL_ES ? TEXT_GLSL_ES_300 : TEXT_GLSL_330;
@@ -237,300 +194,18 @@ static void set_defaults(const WeftScene *scene, WeftRasterView *view) {
     for (int c = 0; c < 3; c++) view->background_color[c] = 0.62f; /* a light grey paper roll */
 }
 
-static void set_block(const WeftRaster *self, const Picture *picture) {
-    glBindBuffer(GL_UNIFORM_BUFFER, self->picture);
-    glBufferSubData(GL_UNIFORM_BUFFER, 0, sizeof *picture, picture);
-    glBindBufferBase(GL_UNIFORM_BUFFER, BLOCK_PICTURE, self->picture);
-}
-
-static void set_picture(const WeftRaster *self, const View *view) {
-    Picture picture;
-    picture_make(self->scene, view, &self->polygons, &self->shadows, &self->floor, &picture);
-    picture.floor_light[0] = self->sky_on_floor;
-    picture.floor_light[2] = self->floor_shaded ? 1.0f : 0.0f;
-    set_block(self, &picture);
-}
-
-/* Sets the state that every pass starts from. */
-static void set_state(WeftRaster *self) {
-    glDisable(GL_SCISSOR_TEST);
-    glDisable(GL_BLEND);
-    glEnable(GL_DEPTH_TEST);
-    glDepthMask(GL_TRUE);
-    glDepthFunc(GL_LESS);
-    glCullFace(GL_BACK);
-    glFrontFace(GL_CCW);
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    meshes_bind(&self->meshes);
-}
-
-/* Clears all of the picture and then keeps to the crop. With several samples drivers may disagree about those
- * beside its edge, which is why more is drawn than is looked at. */
-static void clear(const Target *target, const WeftRasterView *view, const int box[4]) {
-    bool several = target->drawn != target->resolved;
-    int more = several ? 1 : 0;
-    if (several && (box[2] < view->width || box[3] < view->height)) {
-        glBindFramebuffer(GL_FRAMEBUFFER, target->resolved);
-        glClear(GL_COLOR_BUFFER_BIT);
-    }
-    glBindFramebuffer(GL_FRAMEBUFFER, target->drawn);
-    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    glEnable(GL_SCISSOR_TEST);
-    glScissor(box[0] - more, box[1] - more, box[2] + 2 * more, box[3] + 2 * more);
-}
-
-static bool shows_environment(const WeftRasterView *view) {
-    return view->background == WEFT_BACKGROUND_ENVIRONMENT || view->background == WEFT_BACKGROUND_BLURRED;
-}
-
-static void begin(WeftRaster *self, const WeftRasterView *view, const int box[4]) {
-    glViewport(0, 0, view->width, view->height);
-    bool color = view->background == WEFT_BACKGROUND_COLOR;
-    const Environment *e = &self->scene->environment;
-    const float *c = view->background_color;
-    float constant[3];
-    for (int k = 0; k < 3; k++) constant[k] = e->color[k] * e->strength;
-    if (shows_environment(view) && e->kind == ENVIRONMENT_CONSTANT) {
-        color = true;
-        c = constant;
-    }
-    glClearColor(color ? c[0] : 0.0f, color ? c[1] : 0.0f, color ? c[2] : 0.0f, color ? 1.0f : 0.0f);
-    clear(&self->target, view, box);
-}
-
-/* Binds the textures and blocks that all meshes share. */
-static void bind_light(WeftRaster *self, const WeftRasterView *view) {
-    bool plain = view->plain_textures != 0;
-    if (plain != self->plain) textures_filter(&self->textures, !plain);
-    self->plain = plain;
-    if (self->shines) environment_bind(&self->environment, UNIT_ENVIRONMENT, BLOCK_ENVIRONMENT);
-    glActiveTexture(GL_TEXTURE0);
-    if (self->shadows.count) shadows_bind(&self->shadows, UNIT_SHADOW, UNIT_SOFT_SHADOW);
-}
-
-static WeftResult use_program(WeftRaster *self, const ShaderKey *key, const Program **program,
-                              WeftError *error) {
-    WeftError said = {0};
-    *program = programs_get(&self->programs, key, &said);
-    if (*program) glUseProgram((*program)->name);
-    if (!*program && error) *error = said;
-    return *program ? WEFT_OK : said.result;
-}
-
-static WeftResult draw_mesh(WeftRaster *self, int mesh, const ShaderKey *key, WeftError *error) {
-    int k = self->scene->meshes[mesh].material;
-    const GlMaterial *material = &self->materials.all[k];
-    const Program *program;
-    WeftResult result = use_program(self, key, &program, error);
-    if (result != WEFT_OK) return result;
-    glActiveTexture(GL_TEXTURE0 + UNIT_TABLES);
-    glBindTexture(GL_TEXTURE_2D_ARRAY, program->tables);
-    glActiveTexture(GL_TEXTURE0); /* where whatever is made between draws may bind what it makes */
-    if (material->key.double_sided)
-        glDisable(GL_CULL_FACE);
-    else
-        glEnable(GL_CULL_FACE);
-    materials_bind(&self->materials, &self->textures, k, BLOCK_MATERIAL);
-    meshes_draw(&self->meshes, mesh);
-    return WEFT_OK;
-}
-
-/* The key of what a material looks like from a light: where it is. */
-static ShaderKey depth_key(const ShaderKey *key) {
-    ShaderKey depth;
-    memset(&depth, 0, sizeof depth);
-    depth.depth = 1;
-    depth.alpha_mode = key->alpha_mode;
-    for (int k = 0; k < INPUT_COUNT; k++) depth.inputs[k].like = -1;
-    for (int k = 0; k < INPUT_COUNT; k++) depth.inputs[k].state = INPUT_ZERO;
-    if (key->alpha_mode == WEFT_ALPHA_OPAQUE) return depth;
-    depth.colored = key->colored;
-    depth.woven = key->woven;
-    depth.inputs[INPUT_opacity] = key->inputs[INPUT_opacity];
-    depth.inputs[INPUT_opacity].like = -1;
-    return depth;
-}
-
-/* Adds the lights' part of a key. */
-static void add_lights(const WeftRaster *self, const WeftRasterView *view, ShaderKey *key) {
-    const WeftScene *scene = self->scene;
-    key->shadowed = !view->no_shadows && self->shadows.count;
-    key->lights = scene->light_count < PICTURE_LIGHTS_MOST ? scene->light_count : PICTURE_LIGHTS_MOST;
-    for (int k = 0; k < key->lights && key->lights <= SHADER_LIGHTS; k++) {
-        key->light_kind[k] = (int16_t)scene->lights[k].kind;
-        key->light_map[k] = -1;
-        for (int j = 0; j < self->shadows.count && key->shadowed; j++)
-            if (self->shadows.of_light[j] == k) key->light_map[k] = (int16_t)j;
-    }
-    bool ambient = self->shines && view->ambient != WEFT_AMBIENT_NONE;
-    key->ambient = ambient ? (int)view->ambient + 1 : 0;
-    key->polygons = view->polygons < self->polygons.count ? view->polygons : self->polygons.count;
-    for (int k = 0; k < key->polygons; k++) {
-        key->polygon_corners[k] = (int16_t)self->polygons.items[k].count;
-        key->polygon_two_sided[k] = self->polygons.items[k].two_sided;
-        key->polygon_map[k] = -1;
-        for (int j = 0; j < self->shadows.count && key->shadowed; j++)
-            if (self->shadows.of_polygon[j] == k) key->polygon_map[k] = (int16_t)j;
-    }
-}
-
-static ShaderKey floor_key(const WeftRaster *self, const WeftRasterView *view) {
-    ShaderKey key;
-    memset(&key, 0, sizeof key);
-    add_lights(self, view, &key);
-    key.floor = 1;
-    key.ambient = 0;
-    return key;
-}
-
-static ShaderKey lit_key(const WeftRaster *self, const WeftRasterView *view, const GlMaterial *material) {
-    ShaderKey key = material->key;
-    key.part = (int)view->part;
-    if (part_is_property(key.part)) return key;
-    add_lights(self, view, &key);
-    if (key.ambient) material_in_light(material, self->environment.parts.env_light_kappa, &key);
-    return key;
-}
-
-/* Returns true if `what` holds for all keys that the image needs, including the floor's if with_floor. */
-static bool of_all_keys(WeftRaster *self, const WeftRasterView *view, bool with_floor,
-                        bool (*what)(Programs *programs, const ShaderKey *key)) {
-    bool all = true, shadows = self->shadows.count && !self->shadows.drawn && !view->no_shadows;
-    for (int k = 0; k < self->materials.count && all; k++) {
-        if (!self->materials.all[k].used) continue;
-        const GlMaterial *material = &self->materials.all[k];
-        ShaderKey key = lit_key(self, view, material), depth = depth_key(&material->key);
-        all = what(&self->programs, &key);
-        if (shadows) all = all && what(&self->programs, &depth);
-    }
-    const ShaderKey floor = floor_key(self, view);
-    return all && (!with_floor || what(&self->programs, &floor));
-}
-
-/* Compiles whatever a picture will be drawn with. */
-static WeftResult prepare(WeftRaster *self, const WeftRasterView *view, WeftError *error) {
-    bool held = of_all_keys(self, view, self->floor.there, programs_want);
-    double start = clock_now();
-    int compiled = self->programs.compiled;
-    held = held && programs_build(&self->programs, self->context);
-    if (self->programs.compiled != compiled) self->compile_seconds += clock_now() - start;
-    return held ? WEFT_OK : fail(error, WEFT_MESSAGE_MEMORY, "shaders", NULL);
-}
-
-static WeftResult draw_depth(WeftRaster *self, WeftError *error) {
-    WeftResult result = WEFT_OK;
-    for (int m = 0; m < self->scene->mesh_count && result == WEFT_OK; m++) {
-        ShaderKey key = depth_key(&self->materials.all[self->scene->meshes[m].material].key);
-        result = draw_mesh(self, m, &key, error);
-    }
-    return result;
-}
-
-/* The maps stay as they are as long as the scene does. */
-static WeftResult draw_shadows(WeftRaster *self, WeftError *error) {
-    WeftResult result = WEFT_OK;
-    for (int k = 0; k < self->shadows.count && !self->shadows.drawn && result == WEFT_OK; k++) {
-        const Shadow *shadow = &self->shadows.all[k];
-        for (int point = 0; point < (shadow->points ? shadow->points : 1) && result == WEFT_OK; point++) {
-            Picture picture;
-            picture_of_shadow(shadow, point, &picture);
-            set_block(self, &picture);
-            shadows_begin(&self->shadows, k, point);
-            result = draw_depth(self, error);
-            glFinish(); /* or Mesa's software renderer keeps the triangles of all passes until the last */
-        }
-    }
-    self->shadows.drawn = result == WEFT_OK;
-    return result;
-}
-
-/* Draws the background where nothing was drawn, before blended meshes. */
-static WeftResult draw_background(WeftRaster *self, bool blurred, WeftError *error) {
-    const Environment *e = &self->scene->environment;
-    WeftError said = {0};
-    if (!self->background) self->background = programs_background(&self->programs, &said);
-    if (!self->background) {
-        if (error) *error = said;
-        return said.result;
-    }
-    if (blurred && environment_blur(&self->environment, e, &said) != WEFT_OK) {
-        if (error) *error = said;
-        return said.result;
-    }
-    glUseProgram(self->background);
-    glUniform4f(glGetUniformLocation(self->background, "background_place"), cosf(e->rotation),
-                sinf(e->rotation), e->strength, 0.0f);
-    glActiveTexture(GL_TEXTURE0 + UNIT_BACKGROUND);
-    glBindTexture(GL_TEXTURE_2D, blurred ? self->environment.blurred : self->environment.map);
-    glActiveTexture(GL_TEXTURE0);
-    glDepthFunc(GL_LEQUAL);
-    glDepthMask(GL_FALSE);
-    glDisable(GL_CULL_FACE);
-    glDrawArrays(GL_TRIANGLES, 0, 3);
-    glDepthMask(GL_TRUE);
-    glDepthFunc(GL_LESS);
-    return WEFT_OK;
-}
-
-/* Over what is behind it: colours are premultiplied. */
-static WeftResult draw_floor(WeftRaster *self, const WeftRasterView *view, WeftError *error) {
-    ShaderKey key = floor_key(self, view);
-    const Program *program;
-    WeftResult result = use_program(self, &key, &program, error);
-    if (result != WEFT_OK) return result;
-    ground_bind(&self->ground, UNIT_FLOOR);
-    glEnable(GL_BLEND);
-    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    glDepthMask(GL_FALSE);
-    glDisable(GL_CULL_FACE);
-    glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
-    glDepthMask(GL_TRUE);
-    glDisable(GL_BLEND);
-    return WEFT_OK;
-}
-
-static WeftResult draw_all(WeftRaster *self, const View *seen, const WeftRasterView *view, WeftError *error) {
-    WeftResult result = WEFT_OK;
-    bool behind = shows_environment(view) && self->shines && self->environment.map;
-    queue_sort(&self->queue, self->scene, seen);
-    for (int k = 0; k <= self->queue.count && result == WEFT_OK; k++) {
-        if (k == self->queue.solid && behind)
-            result = draw_background(self, view->background == WEFT_BACKGROUND_BLURRED, error);
-        if (k == self->queue.solid && view->floor.on && self->floor.there && result == WEFT_OK)
-            result = draw_floor(self, view, error);
-        if (k == self->queue.count || result != WEFT_OK) break;
-        int mesh = self->queue.order[k];
-        if (view->hide_lights && mesh >= scene_own_meshes(self->scene)) continue;
-        const GlMaterial *material = &self->materials.all[self->scene->meshes[mesh].material];
-        ShaderKey key = lit_key(self, view, material);
-        if (k == self->queue.solid) {
-            glEnable(GL_BLEND);
-            glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA); /* colours are premultiplied */
-            glDepthMask(GL_FALSE);
-        }
-        result = draw_mesh(self, mesh, &key, error);
-    }
-    return result == WEFT_OK ? gl_check(error, "a picture") : result;
-}
-
-/* Uploads nothing where shapes of lights have changed, before the update that takes them. */
-static WeftResult take_occlusion(WeftRaster *self, bool wait, WeftError *error) {
-    if (self->shape_turn != self->scene->shape_version) return WEFT_OK;
-    return lookout_take(&self->lookout, &self->meshes, wait, error);
-}
-
 WeftResult weft_raster_wait(WeftRaster *self, WeftError *error) {
     GlOuter outer;
     WeftResult result = enter(self, &outer, error);
     if (result != WEFT_OK) return result;
-    result = take_occlusion(self, true, error);
-    /* A map that was turned meanwhile is looked at once more. */
-    if (self->lookout.occlusion && result == WEFT_OK) result = take_occlusion(self, true, error);
+    result = frame_take_occlusion(self, true, error);
+    /* an environment that was rotated meanwhile has started another search */
+    if (self->lookout.occlusion && result == WEFT_OK) result = frame_take_occlusion(self, true, error);
     context_leave(self->context, &outer);
     return result;
 }
 
-/* Adds the changes, other than of colour, that new pixels in its maps may cause in a material. */
+/* Adds to change what new pixels in the maps of a material may have changed: coverage and emission. */
 static void add_stale(const WeftRaster *self, const Material *material, MaterialsChange *change) {
     const int opacity = material->inputs[INPUT_opacity].texture,
               emission = material->inputs[INPUT_emission].texture;
@@ -539,8 +214,8 @@ static void add_stale(const WeftRaster *self, const Material *material, Material
     change->emission |= emission && textures_stale(&self->textures, self->scene, emission - 1);
 }
 
-/* Textures that materials did not look up before, or that are of another kind, are uploaded with all others;
- * other pixels in the place of those that were, alone. */
+/* Uploads what has changed in materials and their textures. New pixels of an uploaded texture are uploaded alone; a
+ * texture that no material had before, or of another size or kind, uploads all textures again. */
 static WeftResult update_materials(WeftRaster *self, MaterialsChange *change, const WeftLog *log,
                                    WeftError *error) {
     const WeftScene *scene = self->scene;
@@ -557,7 +232,7 @@ static WeftResult update_materials(WeftRaster *self, MaterialsChange *change, co
     if (!serve) textures_destroy(result == WEFT_OK ? &self->textures : &textures);
     if (!serve && result == WEFT_OK) {
         self->textures = textures;
-        self->plain = false;
+        self->no_mipmaps = false;
     }
     change->coverage |= stale.coverage;
     change->emission |= stale.emission;
@@ -566,9 +241,9 @@ static WeftResult update_materials(WeftRaster *self, MaterialsChange *change, co
     return result;
 }
 
-/* Takes other shapes of lights, whose maps see each other. */
+/* Uploads changed shapes of lights. All shadow maps are drawn again, since lights cast shadows too. */
 static WeftResult update_shapes(WeftRaster *self, WeftError *error) {
-    if (self->shape_turn == self->scene->shape_version) return WEFT_OK;
+    if (self->shape_version == self->scene->shape_version) return WEFT_OK;
     WeftResult result = meshes_reshape(&self->meshes, self->scene, error);
     if (result == WEFT_OK) result = queue_reshape(&self->queue, self->scene, error);
     self->shadows.drawn = false;
@@ -577,13 +252,13 @@ static WeftResult update_shapes(WeftRaster *self, WeftError *error) {
 
 static WeftResult update_lights(WeftRaster *self, const MaterialsChange *change, WeftError *error) {
     LightPolygons polygons;
-    if (change->emission || self->shape_turn != self->scene->shape_version) {
-        if (!light_polygons_find(&polygons, self->scene, PICTURE_POLYGONS_MOST))
+    if (change->emission || self->shape_version != self->scene->shape_version) {
+        if (!light_polygons_find(&polygons, self->scene, PICTURE_POLYGONS))
             return fail(error, WEFT_MESSAGE_MEMORY, self->scene->name, NULL);
         light_polygons_free(&self->polygons);
         self->polygons = polygons;
     }
-    self->shape_turn = self->scene->shape_version;
+    self->shape_version = self->scene->shape_version;
     if (change->coverage) self->shadows.drawn = false;
     return shadows_update(&self->shadows, self->scene, &self->polygons, error);
 }
@@ -607,49 +282,6 @@ WeftResult weft_raster_update(WeftRaster *self, const WeftLog *log, WeftError *e
     return result;
 }
 
-/* The floor of a picture, where it is seen, and what the sky does to it. */
-static WeftResult find_floor(WeftRaster *self, const View *seen, const WeftRasterView *view,
-                             WeftError *error) {
-    Floor floor = floor_of(self->scene, &view->floor);
-    bool above = seen->orthographic ? seen->forward.y < 0.0f : seen->eye.y > floor.middle.y;
-    floor.there = floor.there && view->part == WEFT_PART_ALL && above;
-    self->floor = floor;
-    self->sky_on_floor = 0.0f;
-    self->floor_shaded = !view->no_shadows;
-    if (!floor.there || !self->shines || view->ambient == WEFT_AMBIENT_NONE) return WEFT_OK;
-    WeftResult result = ground_look(&self->ground, self->scene, &floor, self->desc.threads, error);
-    self->sky_on_floor = self->ground.light;
-    return result;
-}
-
-/* The scene as the floor shows it. */
-static WeftResult draw_mirror(WeftRaster *self, const View *seen, const WeftRasterView *view,
-                              const int box[4], WeftError *error) {
-    if (!self->floor.there || !(self->floor.reflection > 0.0f)) return WEFT_OK;
-    View below = ground_view(&self->floor, seen);
-    WeftRasterView alone = *view;
-    alone.background = WEFT_BACKGROUND_TRANSPARENT;
-    alone.floor.on = 0;
-    WeftResult result = ground_mirror(&self->ground, view->width, view->height, box, error);
-    if (result != WEFT_OK) return result;
-    set_picture(self, &below);
-    bind_light(self, view);
-    result = draw_all(self, &below, &alone, error);
-    ground_mirrored(&self->ground);
-    set_state(self); /* what blends has changed it */
-    return result;
-}
-
-/* Drivers compile once more when they first draw with a program, for each number of samples, and have most of what that
- * takes to spare. */
-static void return_spare(WeftRaster *self) {
-    const uint64_t samples = (uint64_t)1 << (self->target.samples & 63);
-    if (self->programs.compiled != self->settled) self->settled_with = 0;
-    if (!(self->settled_with & samples)) memory_return();
-    self->settled = self->programs.compiled;
-    self->settled_with |= samples;
-}
-
 WeftResult weft_raster_draw(WeftRaster *self, const WeftRasterView *wanted, WeftError *error) {
     WeftRasterView view = *wanted;
     GlOuter outer;
@@ -662,25 +294,7 @@ WeftResult weft_raster_draw(WeftRaster *self, const WeftRasterView *wanted, Weft
     View seen = view_of(&self->camera, aspect);
     result = enter(self, &outer, error);
     if (result != WEFT_OK) return result;
-    set_state(self);
-    result = find_floor(self, &seen, &view, error);
-    if (result == WEFT_OK) result = prepare(self, &view, error);
-    if (result == WEFT_OK) result = take_occlusion(self, false, error);
-    if (result == WEFT_OK && !view.no_shadows) result = draw_shadows(self, error);
-    if (result == WEFT_OK)
-        result = target_resize(&self->target, view.width, view.height, view.samples, error);
-    /* the driver's rows run from the bottom */
-    const int *c = view.crop, box[4] = {c[0], view.height - c[1] - c[3], c[2], c[3]};
-    if (result == WEFT_OK) result = draw_mirror(self, &seen, &view, box, error);
-    if (result == WEFT_OK) {
-        set_picture(self, &seen);
-        begin(self, &view, box);
-        bind_light(self, &view);
-        result = draw_all(self, &seen, &view, error);
-        glDisable(GL_SCISSOR_TEST);
-        target_resolve(&self->target, box);
-    }
-    return_spare(self);
+    result = frame_draw_passes(self, &view, &seen, error);
     context_leave(self->context, &outer);
     return result;
 }
@@ -689,7 +303,7 @@ int weft_raster_ready(WeftRaster *self, const WeftRasterView *wanted) {
     WeftRasterView view = *wanted;
     set_defaults(self->scene, &view);
     if (check_view(&view, NULL) != WEFT_OK) return 1;
-    return of_all_keys(self, &view, view.floor.on && view.part == WEFT_PART_ALL, programs_has);
+    return all_keys(self, &view, view.floor.on && view.part == WEFT_PART_ALL, programs_has);
 }
 
 WeftResult weft_raster_image(WeftRaster *self, WeftImage *out, WeftError *error) {
@@ -727,7 +341,7 @@ WeftResult weft_raster_show(WeftRaster *self, const WeftRasterShow *wanted, Weft
     WeftResult result = check_show(self, &show, error);
     if (result == WEFT_OK) result = enter(self, &outer, error);
     if (result != WEFT_OK) return result;
-    set_state(self);
+    frame_reset_state(self);
     result = display_draw(&self->display, &self->programs.desc, &self->target, &show, error);
     context_leave(self->context, &outer);
     return result;
@@ -756,7 +370,7 @@ WeftRasterInfo weft_raster_info(const WeftRaster *self) {
                            .samples = self->target.samples,
                            .compile_seconds = self->compile_seconds};
     info.making = self->lookout.occlusion != NULL;
-    info.made = self->shape_turn == self->scene->shape_version && self->lookout.occlusion &&
+    info.made = self->shape_version == self->scene->shape_version && self->lookout.occlusion &&
                 occlusion_values(self->lookout.occlusion, false);
     camera_describe(self->scene, &self->camera, info.camera_eye, info.camera_target, &info.camera_fov);
     for (const Program *p = self->programs.first; p; p = p->next) {

@@ -34,10 +34,10 @@ void add_polygon(int k, int corners, bool two_sided, int map) {
     Polygon p;
     p.count = corners;
     for (int j = 0; j < corners; j++) {
-        vec3 to = polygon_corners[8 * k + j].xyz - here;
+        vec3 to = polygon_corners[PICTURE_CORNERS * k + j].xyz - here;
         p.corners[j] = dir(to.x, to.z, to.y);
     }
-    if (!two_sided && dot(polygon_normals[k].xyz, here - polygon_corners[8 * k].xyz) <= 0.0) return;
+    if (!two_sided && dot(polygon_normals[k].xyz, here - polygon_corners[PICTURE_CORNERS * k].xyz) <= 0.0) return;
     float reaches = polygon_reaches(map, vec3(0.0, 1.0, 0.0), polygon_normals[k].xyz);
     add_light(rgb_luminance(rgb(c.r, c.g, c.b)) * PI * polygon_cosine(p), reaches);
 }

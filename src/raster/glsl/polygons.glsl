@@ -13,7 +13,7 @@ struct PolygonReach {
  * two_sided, map) for each. */
 #define ONE_REACH(k, corners, two_sided, map)                                                                \
     if (two_sided ||                                                                                         \
-        dot(polygon_normals[k].xyz, here - polygon_corners[8 * k].xyz) > 0.0) {                \
+        dot(polygon_normals[k].xyz, here - polygon_corners[PICTURE_CORNERS * k].xyz) > 0.0) {                \
         reach.front[k] = polygon_reaches(map, normal, polygon_normals[k].xyz);                               \
         if (transmits) reach.behind[k] = polygon_reaches(map, -normal, polygon_normals[k].xyz);              \
     }
@@ -32,7 +32,7 @@ Rgb polygon_from(int k, int corners, float front, float behind, Stack m, StackVi
     Polygon p;
     p.count = corners;
     for (int j = 0; j < corners; j++) {
-        vec3 to = polygon_corners[8 * k + j].xyz - here;
+        vec3 to = polygon_corners[PICTURE_CORNERS * k + j].xyz - here;
         p.corners[j] = frame_to(f, dir(to.x, to.y, to.z));
     }
     Rgb sum = rgb_scale(stack_polygon(m, w, p), front);

@@ -22,8 +22,8 @@ float soft_shadow(int map, vec3 normal, vec3 light_normal) {
     vec3 n = scale * vec3(dot(x, normal), dot(y, normal), dot(z, normal));
     vec3 l = scale * vec3(dot(x, light_normal), dot(y, light_normal), dot(z, light_normal));
     float a = dot(vec3(m[0].z, m[1].z, m[2].z), z), b = m[3].z, sum = 0.0, all = 0.0;
-    for (int k = 0; k < 55; k++) {
-        vec4 o = shadow_points[55 * map + k];
+    for (int k = 0; k < SHADOW_POINTS; k++) {
+        vec4 o = shadow_points[SHADOW_POINTS * map + k];
         vec3 to = o.xyz - q;
         float d2 = dot(scale * to, to), weight = max(dot(n, to), 0.0) * abs(dot(l, to)) / max(d2 * d2, 1e-24);
         vec2 at = to.xy / to.z + o.xy * o.w;

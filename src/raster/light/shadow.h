@@ -7,10 +7,11 @@
 #ifndef WEFT_RASTER_SHADOW_H
 #define WEFT_RASTER_SHADOW_H
 
+#include "raster/glsl/picture_uniforms.h"
 #include "raster/light/depths.h"
 #include "scene/light/polygons.h"
 
-enum { SHADOWS_MOST = 4, SHADOW_SIDE = 2048, SHADOW_POINTS = 55, SHADOW_POINT_SIDE = 512 };
+enum { SHADOW_SIDE = 2048, SHADOW_POINT_SIDE = 512 }; /* texels */
 
 /* The shadow map of a light. */
 typedef struct Shadow {

@@ -1,0 +1,292 @@
+#include <math.h>
+
+#include <epoxy/gl.h>
+
+#include "base/fail.h"
+#include "base/steady_clock.h"
+#include "raster/frame/frame.h"
+#include "raster/frame/picture_block.h"
+#include "raster/frame/shader_keys.h"
+#include "raster/gl/gl_check.h"
+
+/* Uploads the block and binds it. */
+static void set_block(const WeftRaster *self, const Picture *picture) {
+    glBindBuffer(GL_UNIFORM_BUFFER, self->picture_buffer);
+    glBufferSubData(GL_UNIFORM_BUFFER, 0, sizeof *picture, picture);
+    glBindBufferBase(GL_UNIFORM_BUFFER, BLOCK_PICTURE, self->picture_buffer);
+}
+
+/* Uploads and binds the block of a view of the scene. */
+static void set_picture(const WeftRaster *self, const View *view) {
+    Picture picture;
+    picture_make(self->scene, view, &self->polygons, &self->shadows, &self->floor, &picture);
+    picture.floor_light[0] = self->sky_on_floor;
+    picture.floor_light[2] = self->floor_shaded ? 1.0f : 0.0f;
+    set_block(self, &picture);
+}
+
+void frame_reset_state(WeftRaster *self) {
+    glDisable(GL_SCISSOR_TEST);
+    glDisable(GL_BLEND);
+    glEnable(GL_DEPTH_TEST);
+    glDepthMask(GL_TRUE);
+    glDepthFunc(GL_LESS);
+    glCullFace(GL_BACK);
+    glFrontFace(GL_CCW);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    meshes_bind(&self->meshes);
+}
+
+/* Clears the whole target and then limits drawing to the crop, `box`. With several samples a pixel the limit is one
+ * pixel wider, since drivers differ in the samples at its edge. */
+static void clear(const Target *target, const WeftRasterView *view, const int box[4]) {
+    bool several = target->drawn != target->resolved;
+    int more = several ? 1 : 0;
+    if (several && (box[2] < view->width || box[3] < view->height)) {
+        glBindFramebuffer(GL_FRAMEBUFFER, target->resolved);
+        glClear(GL_COLOR_BUFFER_BIT);
+    }
+    glBindFramebuffer(GL_FRAMEBUFFER, target->drawn);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(box[0] - more, box[1] - more, box[2] + 2 * more, box[3] + 2 * more);
+}
+
+static bool shows_environment(const WeftRasterView *view) {
+    return view->background == WEFT_BACKGROUND_ENVIRONMENT || view->background == WEFT_BACKGROUND_BLURRED;
+}
+
+/* Clears the target to the background's colour and limits drawing to the crop. */
+static void begin(WeftRaster *self, const WeftRasterView *view, const int box[4]) {
+    glViewport(0, 0, view->width, view->height);
+    bool color = view->background == WEFT_BACKGROUND_COLOR;
+    const Environment *e = &self->scene->environment;
+    const float *c = view->background_color;
+    float constant[3];
+    for (int k = 0; k < 3; k++) constant[k] = e->color[k] * e->strength;
+    if (shows_environment(view) && e->kind == ENVIRONMENT_CONSTANT) {
+        color = true;
+        c = constant;
+    }
+    glClearColor(color ? c[0] : 0.0f, color ? c[1] : 0.0f, color ? c[2] : 0.0f, color ? 1.0f : 0.0f);
+    clear(&self->target, view, box);
+}
+
+/* Binds the textures and blocks that all meshes share. */
+static void bind_light(WeftRaster *self, const WeftRasterView *view) {
+    bool no_mipmaps = view->plain_textures != 0;
+    if (no_mipmaps != self->no_mipmaps) textures_filter(&self->textures, !no_mipmaps);
+    self->no_mipmaps = no_mipmaps;
+    if (self->environment_lit) environment_bind(&self->environment, UNIT_ENVIRONMENT, BLOCK_ENVIRONMENT);
+    glActiveTexture(GL_TEXTURE0);
+    if (self->shadows.count) shadows_bind(&self->shadows, UNIT_SHADOW, UNIT_SOFT_SHADOW);
+}
+
+/* Puts the key's program into use. Fails as programs_get does, only if there is no earlier version to draw with. */
+static WeftResult use_program(WeftRaster *self, const ShaderKey *key, const Program **program,
+                              WeftError *error) {
+    WeftError failure = {0};
+    *program = programs_get(&self->programs, key, &failure);
+    if (*program) glUseProgram((*program)->name);
+    if (!*program && error) *error = failure;
+    return *program ? WEFT_OK : failure.result;
+}
+
+static WeftResult draw_mesh(WeftRaster *self, int mesh, const ShaderKey *key, WeftError *error) {
+    int k = self->scene->meshes[mesh].material;
+    const GlMaterial *material = &self->materials.all[k];
+    const Program *program;
+    WeftResult result = use_program(self, key, &program, error);
+    if (result != WEFT_OK) return result;
+    glActiveTexture(GL_TEXTURE0 + UNIT_TABLES);
+    glBindTexture(GL_TEXTURE_2D_ARRAY, program->tables);
+    glActiveTexture(
+        GL_TEXTURE0); /* leaves unit 0 active, where code between draws binds the objects it makes */
+    if (material->key.double_sided)
+        glDisable(GL_CULL_FACE);
+    else
+        glEnable(GL_CULL_FACE);
+    materials_bind(&self->materials, &self->textures, k, BLOCK_MATERIAL);
+    meshes_draw(&self->meshes, mesh);
+    return WEFT_OK;
+}
+
+/* Compiles the shaders of a picture that are not compiled yet. */
+static WeftResult prepare(WeftRaster *self, const WeftRasterView *view, WeftError *error) {
+    bool kept = all_keys(self, view, self->floor.there, programs_want);
+    double start = clock_now();
+    int compiled = self->programs.compiled;
+    kept = kept && programs_build(&self->programs, self->context);
+    if (self->programs.compiled != compiled) self->compile_seconds += clock_now() - start;
+    return kept ? WEFT_OK : fail(error, WEFT_MESSAGE_MEMORY, "shaders", NULL);
+}
+
+/* Draws the depths of all meshes. */
+static WeftResult draw_depth(WeftRaster *self, WeftError *error) {
+    WeftResult result = WEFT_OK;
+    for (int m = 0; m < self->scene->mesh_count && result == WEFT_OK; m++) {
+        ShaderKey key = depth_key(&self->materials.all[self->scene->meshes[m].material].key);
+        result = draw_mesh(self, m, &key, error);
+    }
+    return result;
+}
+
+/* Draws all shadow maps, unless they are up to date. */
+static WeftResult draw_shadows(WeftRaster *self, WeftError *error) {
+    WeftResult result = WEFT_OK;
+    for (int k = 0; k < self->shadows.count && !self->shadows.drawn && result == WEFT_OK; k++) {
+        const Shadow *shadow = &self->shadows.all[k];
+        for (int point = 0; point < (shadow->points ? shadow->points : 1) && result == WEFT_OK; point++) {
+            Picture picture;
+            picture_of_shadow(shadow, point, &picture);
+            set_block(self, &picture);
+            shadows_begin(&self->shadows, k, point);
+            result = draw_depth(self, error);
+            glFinish(); /* otherwise Mesa's software renderer keeps the triangles of all passes until the last */
+        }
+    }
+    self->shadows.drawn = result == WEFT_OK;
+    return result;
+}
+
+/* Draws the environment where no solid mesh was drawn; called before blended meshes. */
+static WeftResult draw_background(WeftRaster *self, bool blurred, WeftError *error) {
+    const Environment *e = &self->scene->environment;
+    WeftError failure = {0};
+    if (!self->background_program) self->background_program = programs_background(&self->programs, &failure);
+    if (!self->background_program) {
+        if (error) *error = failure;
+        return failure.result;
+    }
+    if (blurred && environment_blur(&self->environment, e, &failure) != WEFT_OK) {
+        if (error) *error = failure;
+        return failure.result;
+    }
+    glUseProgram(self->background_program);
+    glUniform4f(glGetUniformLocation(self->background_program, "background_place"), cosf(e->rotation),
+                sinf(e->rotation), e->strength, 0.0f);
+    glActiveTexture(GL_TEXTURE0 + UNIT_BACKGROUND);
+    glBindTexture(GL_TEXTURE_2D, blurred ? self->environment.blurred : self->environment.map);
+    glActiveTexture(GL_TEXTURE0);
+    glDepthFunc(GL_LEQUAL);
+    glDepthMask(GL_FALSE);
+    glDisable(GL_CULL_FACE);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glDepthMask(GL_TRUE);
+    glDepthFunc(GL_LESS);
+    return WEFT_OK;
+}
+
+/* Blends the floor over the picture; its colours are premultiplied. */
+static WeftResult draw_floor(WeftRaster *self, const WeftRasterView *view, WeftError *error) {
+    ShaderKey key = floor_key(self, view);
+    const Program *program;
+    WeftResult result = use_program(self, &key, &program, error);
+    if (result != WEFT_OK) return result;
+    ground_bind(&self->ground, UNIT_FLOOR);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    glDepthMask(GL_FALSE);
+    glDisable(GL_CULL_FACE);
+    glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+    glDepthMask(GL_TRUE);
+    glDisable(GL_BLEND);
+    return WEFT_OK;
+}
+
+/* Draws solid meshes, the background, the floor and blended meshes into the framebuffer that is bound. */
+static WeftResult draw_all(WeftRaster *self, const View *seen, const WeftRasterView *view, WeftError *error) {
+    WeftResult result = WEFT_OK;
+    bool behind = shows_environment(view) && self->environment_lit && self->environment.map;
+    queue_sort(&self->queue, self->scene, seen);
+    for (int k = 0; k <= self->queue.count && result == WEFT_OK; k++) {
+        if (k == self->queue.solid && behind)
+            result = draw_background(self, view->background == WEFT_BACKGROUND_BLURRED, error);
+        if (k == self->queue.solid && view->floor.on && self->floor.there && result == WEFT_OK)
+            result = draw_floor(self, view, error);
+        if (k == self->queue.count || result != WEFT_OK) break;
+        int mesh = self->queue.order[k];
+        if (view->hide_lights && mesh >= scene_own_meshes(self->scene)) continue;
+        const GlMaterial *material = &self->materials.all[self->scene->meshes[mesh].material];
+        ShaderKey key = lit_key(self, view, material);
+        if (k == self->queue.solid) {
+            glEnable(GL_BLEND);
+            glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA); /* colours are premultiplied */
+            glDepthMask(GL_FALSE);
+        }
+        result = draw_mesh(self, mesh, &key, error);
+    }
+    return result == WEFT_OK ? gl_check(error, "a picture") : result;
+}
+
+/* Sets the floor of a picture, which is there only if it is seen, and finds how much of the sky's light reaches it. */
+static WeftResult find_floor(WeftRaster *self, const View *seen, const WeftRasterView *view,
+                             WeftError *error) {
+    Floor floor = floor_of(self->scene, &view->floor);
+    bool above = seen->orthographic ? seen->forward.y < 0.0f : seen->eye.y > floor.middle.y;
+    floor.there = floor.there && view->part == WEFT_PART_ALL && above;
+    self->floor = floor;
+    self->sky_on_floor = 0.0f;
+    self->floor_shaded = !view->no_shadows;
+    if (!floor.there || !self->environment_lit || view->ambient == WEFT_AMBIENT_NONE) return WEFT_OK;
+    WeftResult result = ground_look(&self->ground, self->scene, &floor, self->desc.threads, error);
+    self->sky_on_floor = self->ground.light;
+    return result;
+}
+
+/* Draws the floor's mirror image of the scene, if the floor reflects. */
+static WeftResult draw_mirror(WeftRaster *self, const View *seen, const WeftRasterView *view,
+                              const int box[4], WeftError *error) {
+    if (!self->floor.there || !(self->floor.reflection > 0.0f)) return WEFT_OK;
+    View below = ground_view(&self->floor, seen);
+    WeftRasterView alone = *view;
+    alone.background = WEFT_BACKGROUND_TRANSPARENT;
+    alone.floor.on = 0;
+    WeftResult result = ground_mirror(&self->ground, view->width, view->height, box, error);
+    if (result != WEFT_OK) return result;
+    set_picture(self, &below);
+    bind_light(self, view);
+    result = draw_all(self, &below, &alone, error);
+    ground_mirrored(&self->ground);
+    frame_reset_state(self); /* blended meshes have changed it */
+    return result;
+}
+
+/* Returns free memory to the system after the first picture with new programs, or with these and another number of
+ * samples: drivers then compile once more and free most of the memory that this takes. */
+static void return_spare(WeftRaster *self) {
+    const uint64_t samples = (uint64_t)1 << (self->target.samples & 63);
+    if (self->programs.compiled != self->drawn_programs) self->drawn_samples = 0;
+    if (!(self->drawn_samples & samples)) memory_return();
+    self->drawn_programs = self->programs.compiled;
+    self->drawn_samples |= samples;
+}
+
+WeftResult frame_take_occlusion(WeftRaster *self, bool wait, WeftError *error) {
+    if (self->shape_version != self->scene->shape_version) return WEFT_OK;
+    return lookout_take(&self->lookout, &self->meshes, wait, error);
+}
+
+WeftResult frame_draw_passes(WeftRaster *self, const WeftRasterView *view, const View *seen,
+                             WeftError *error) {
+    frame_reset_state(self);
+    WeftResult result = find_floor(self, seen, view, error);
+    if (result == WEFT_OK) result = prepare(self, view, error);
+    if (result == WEFT_OK) result = frame_take_occlusion(self, false, error);
+    if (result == WEFT_OK && !view->no_shadows) result = draw_shadows(self, error);
+    if (result == WEFT_OK)
+        result = target_resize(&self->target, view->width, view->height, view->samples, error);
+    /* the driver's rows run from the bottom */
+    const int *c = view->crop, box[4] = {c[0], view->height - c[1] - c[3], c[2], c[3]};
+    if (result == WEFT_OK) result = draw_mirror(self, seen, view, box, error);
+    if (result == WEFT_OK) {
+        set_picture(self, seen);
+        begin(self, view, box);
+        bind_light(self, view);
+        result = draw_all(self, seen, view, error);
+        glDisable(GL_SCISSOR_TEST);
+        target_resolve(&self->target, box);
+    }
+    return_spare(self);
+    return result;
+}

@@ -1,0 +1,40 @@
+/* picture_uniforms.h - the uniform block Picture, which all shaders of a picture share: a uniform is one row
+ *
+ * frame/picture_block.h makes a record of C from the rows, picture.glsl the block of GLSL. ONE(type, name) is a
+ * uniform, MANY(type, name, count) an array. The types are vec4 and mat4, which std140 lays out as C does float[4] and
+ * float[16]. */
+#ifndef WEFT_RASTER_PICTURE_UNIFORMS_H
+#define WEFT_RASTER_PICTURE_UNIFORMS_H
+
+#define PICTURE_LIGHTS   64 /* most punctual lights of a picture */
+#define PICTURE_POLYGONS 8  /* WEFT_RASTER_POLYGONS */
+#define PICTURE_CORNERS  8  /* LIGHT_CORNERS of scene/light/polygons.h */
+#define SHADOWS_MOST     4  /* shadow maps, of punctual lights and polygons together */
+#define SHADOW_POINTS    55 /* points on a polygon from which its shadow map looks */
+
+/* The rows of the block, in their order in memory.
+ *
+ * half is half the width of a shadow map at distance 1. A light in `lights` has four vectors: position and kind (0
+ * directional, 1 point, 2 spot); direction of travel and range; colour times intensity, and shadow map or -1; cosines
+ * of the cones. A point of shadow_points is an offset from shadow_eye: x and y over half, z along w in m; w is the
+ * shift of what it sees, over its x and y, 1/m. The floor's mirror has, with floor_lens.xy, depth x + y / w, or x w + y
+ * without perspective. */
+/* clang-format off */
+#define PICTURE_UNIFORMS(ONE, MANY)                                                                          \
+    ONE(mat4, to_clip)                    /* from world space less eye.xyz */                                \
+    ONE(vec4, eye)                        /* w: 0 without perspective, else 1 */                             \
+    ONE(vec4, forward)                    /* unit vector along the camera; w: number of punctual lights */   \
+    MANY(mat4, shadow_clip, SHADOWS_MOST) /* from world space less shadow_eye.xyz */                         \
+    MANY(vec4, shadow_eye, SHADOWS_MOST)  /* w: width of a texel, m; below 0: of one at distance 1 */        \
+    MANY(vec4, shadow_soft, SHADOWS_MOST) /* half; the map's first layer in soft_map */                      \
+    MANY(vec4, shadow_points, SHADOWS_MOST * SHADOW_POINTS)                                                   \
+    MANY(vec4, lights, 4 * PICTURE_LIGHTS)                                                                   \
+    MANY(vec4, polygon_corners, PICTURE_CORNERS * PICTURE_POLYGONS)                                           \
+    MANY(vec4, polygon_normals, PICTURE_POLYGONS)                                                            \
+    MANY(vec4, polygon_radiance, PICTURE_POLYGONS)                                                           \
+    ONE(vec4, floor_place) /* middle and radius */                                                           \
+    ONE(vec4, floor_light) /* luminance of the sky on it, share mirrored, 1 if the scene shades it */        \
+    ONE(vec4, floor_lens)  /* z: half width of the mirror's cone, w: width over height, both of the picture */
+/* clang-format on */
+
+#endif
