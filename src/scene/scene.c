@@ -1,3 +1,4 @@
+/* scene.c - creating, freeing and changing a scene as a whole */
 #include "scene/record/scene.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* raster.c - the API of the raster engine, weft/raster.h: creating, updating and drawing */
 #define _POSIX_C_SOURCE 200809L
 #include <math.h>
 #include <stdio.h>
