@@ -47,7 +47,7 @@ static int verb_run(const Verb *verb, int count, char **arguments) {
     return result;
 }
 
-/* The verb of that name, NULL after one line on standard error. */
+/* Returns the verb of that name; NULL after one line on standard error. */
 static const Verb *verb_find(const char *word) {
     char hint[96];
     Nearest nearest = {.typed = word};
@@ -60,7 +60,7 @@ static const Verb *verb_find(const char *word) {
     return NULL;
 }
 
-/* weft help [--man] [VERB]: as text, or as a page for man */
+/* Runs `weft help [--man] [VERB]`, which prints text or a page for man. */
 static int help_run(int count, char **arguments) {
     bool man = count && strcmp(arguments[0], "--man") == 0;
     count -= man;

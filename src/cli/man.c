@@ -6,8 +6,7 @@
 
 #include "weft/version.h"
 
-/* Text in roff: what it would take for an order of its own is escaped; a hyphen stays one that can be copied.
- */
+/* Prints text as roff: escapes what roff would read as a request, and keeps hyphens that can be copied. */
 static void put(const char *text, size_t length) {
     if (length && (text[0] == '.' || text[0] == '\'')) fputs("\\&", stdout);
     for (size_t k = 0; k < length; k++) {
@@ -26,7 +25,7 @@ static void put_capitals(const char *text, size_t length) {
     for (size_t k = 0; k < length; k++) putchar(toupper((unsigned char)text[k]));
 }
 
-/* Which page, and of which version: the top of a page and its name. */
+/* Prints the top of a page: its title, version, name and synopsis. */
 static void head(const char *verb, const char *help) {
     const char *dash = verb ? "-" : "", *name = verb ? verb : "";
     printf(".TH WEFT%s", dash);
@@ -38,7 +37,7 @@ static void head(const char *verb, const char *help) {
     putchar('\n');
 }
 
-/* A term with its value, if it has one, and what is said of it below. */
+/* Begins a tagged paragraph: a term with its value, if it has one. The description follows. */
 static void item(const char *name, const char *value) {
     printf(".TP\n\\fB");
     put_text(name);
@@ -75,7 +74,7 @@ static bool is_heading(const char *line) {
     return length && line[0] != ' ' && strcspn(line, " ") > length && line[length] && line[length + 1] == ' ';
 }
 
-/* One line of the end of a help text: of a paragraph, or, where it is indented, as it is. */
+/* Prints one line of the notes of a help text: within a paragraph or, where it is indented, as it is. */
 static void note(const char *line, size_t length, bool *as_is) {
     bool indented = length ? line[0] == ' ' : *as_is && line[1] == ' ';
     if (indented != *as_is) puts(indented ? ".EX" : ".EE");

@@ -8,7 +8,8 @@ typedef struct ExitCode {
     const char *code, *words;
 } ExitCode;
 
-/* Print a page on standard output: of the program, whose verbs and codes end with NULL; of a verb. */
+/* Prints a page on standard output: man_program that of the program, whose verbs and codes end with NULL; man_verb that
+ * of a verb. */
 void man_program(const Verb *const *verbs, const ExitCode *codes);
 void man_verb(const Verb *verb);
 

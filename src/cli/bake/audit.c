@@ -29,8 +29,6 @@ static const char *const part_names[] = {"sum", "f0", "f90"};
 
 static const char *lobe_id(const Audit *audit) { return weft_lobe_info(audit->found.lobe)->id; }
 
-/* Reading. */
-
 static int outputs_check(const Options *options) {
     int cursor = 0, result = 0;
     for (const char *path; result == 0 && (path = option_next(options, "-o", &cursor));)
@@ -73,7 +71,7 @@ static bool is_grey(const WeftImage *image) {
     return true;
 }
 
-/* The channel asked for, or the only one there is. */
+/* Finds the channel that --channel names, or else the only one. Returns 0, or an exit code after one line. */
 static int channel_find(Audit *audit) {
     static const char letters[] = "rgba0123";
     const char *text = option_text(audit->options, "--channel");
@@ -110,8 +108,6 @@ static int audit_make(Audit *audit) {
     if (result == WEFT_INTERRUPTED) return report(WEFT_INTERRUPTED, "interrupted; nothing was written");
     return result == WEFT_OK ? 0 : report_error(&error);
 }
-
-/* Telling. */
 
 static void form_words(const Audit *audit, char *text, size_t size) {
     char elements[WEFT_TABLE_FORM_TEXT];
@@ -208,7 +204,7 @@ static void json_write(const Audit *audit) {
     json_close(&json, '}');
 }
 
-/* The errors alone, as numbers. */
+/* Writes the errors alone, as numbers without the colours of the sheet. */
 static WeftResult errors_write(const Audit *audit, const char *path, WeftError *error) {
     const WeftImage *errors = &audit->errors;
     const WeftImageWriting how = {.data = 1, .single = 1};

@@ -12,7 +12,7 @@ static int times(const WeftImage *image) {
     return most < PANEL ? (PANEL + most - 1) / most : 1;
 }
 
-/* Channel c of the errors as grey RGB, F32, each texel a square of pixels. */
+/* Makes channel c of the errors grey RGB, F32, each texel a square of times(errors) pixels. */
 static WeftResult enlarged(const WeftImage *errors, int c, WeftImage *out, WeftError *error) {
     const int n = times(errors);
     WeftResult result =
@@ -27,7 +27,7 @@ static WeftResult enlarged(const WeftImage *errors, int c, WeftImage *out, WeftE
     return WEFT_OK;
 }
 
-/* A round number at or above x: 1, 2 or 5 times a power of ten. */
+/* Rounds x up to 1, 2 or 5 times a power of ten. */
 static float rounded_up(float x) {
     const float steps[] = {1.0f, 2.0f, 5.0f, 10.0f};
     if (!(x > 1e-7f)) return 1e-7f;

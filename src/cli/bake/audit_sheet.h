@@ -11,7 +11,7 @@ typedef struct AuditSheet {
     const char *lobe;
 } AuditSheet;
 
-/* U8 RGB; fails as weft_sheet_compose. */
+/* Draws U8 RGB; fails as weft_sheet_compose does. */
 WeftResult audit_sheet(const AuditSheet *sheet, WeftImage *out, WeftError *error);
 
 #endif

@@ -15,29 +15,29 @@ typedef struct BakeCommon {
     bool quiet;
 } BakeCommon;
 
-/* False after one line on standard error. */
+/* Reads the options that both take. Returns false after one line on standard error. */
 bool bake_common(const Options *options, BakeCommon *common);
 
-/* The lobe `id` with every -p; it must be white and its first parameter left alone. Returns 0, or an exit
- * code after one line. */
+/* Reads the lobe `id` with every -p. Its colours must be white, and its first parameter must not be given. Returns 0,
+ * or an exit code after one line. */
 int bake_lobe(const Options *options, const char *id, WeftLobe *lobe);
 
-/* A WeftProgress whose user is a Progress; it stops at an interruption. */
+/* Shows progress on a Progress, as a WeftProgress; stops at an interruption. */
 int bake_progress(void *progress, double fraction);
 
-/* Warnings go to standard error, unless --quiet is given. common must outlive the log. */
+/* Makes a log that writes warnings to standard error, unless --quiet is given. common must outlive it. */
 WeftLog bake_log(const BakeCommon *common);
 
-/* weft bake fibre-model */
+/* Runs `weft bake fibre-model`. Returns an exit code, as the next three do. */
 int fibre_model_run(const Options *options);
 
-/* weft bake bsdf MODEL */
+/* Runs `weft bake bsdf MODEL`. */
 int bake_bsdf_run(const Options *options);
 
-/* weft bake lobe DATA */
+/* Runs `weft bake lobe DATA`. */
 int bake_lobe_run(const Options *options);
 
-/* weft bake audit FILE */
+/* Runs `weft bake audit FILE`. */
 int audit_run(const Options *options);
 
 #endif

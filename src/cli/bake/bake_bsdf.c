@@ -9,7 +9,8 @@
 #include "cli/operands/command.h"
 #include "cli/operands/model.h"
 
-/* --size is polar angles x points along each side. */
+/* Reads --threads and --size, which is polar angles x points along each side. Returns 0, or an exit code after one
+ * line. */
 static int desc_read(const Options *options, WeftBsdfDesc *desc) {
     const char *text = option_text(options, "--size");
     char rest;

@@ -9,7 +9,7 @@
 #include "cli/console/output.h"
 #include "cli/console/report.h"
 
-/* The lobe's name, which is that of its .h; NULL after one line. */
+/* Returns the path of the lobe's .h among the -o, which names the lobe; NULL after one line. */
 static const char *lobe_path(const Options *options) {
     const char *found = NULL;
     int cursor = 0;
@@ -34,7 +34,7 @@ static int name_of(const char *path, char name[64]) {
     return 0;
 }
 
-/* The material: the lobe over black. */
+/* Writes the material: the lobe over a black base. */
 static void material_put(FILE *stream, const char *name, const WeftDataLobe *lobe) {
     char id[64];
     Json json = {.stream = stream};

@@ -20,8 +20,8 @@ static const char *digits_read(const char *text, uint64_t *whole, int *count) {
     return text;
 }
 
-/* A whole number below 2^53 times or divided by an exact power of ten is rounded once, and so rightly:
- * William D. Clinger, "How to Read Floating Point Numbers Accurately", 1990. All else is for strtod. */
+/* Reads a decimal number. A whole number below 2^53, divided by an exact power of ten, is rounded only once and so
+ * correctly: William D. Clinger, "How to Read Floating Point Numbers Accurately", 1990. strtod reads all other numbers. */
 const char *decimal_read(const char *text, double *value) {
     uint64_t whole = 0;
     int count = 0, shift = 0;
@@ -45,7 +45,7 @@ const char *decimal_read(const char *text, double *value) {
     return end;
 }
 
-/* whole, of nine digits at most, without the zeros at its end. */
+/* Writes the `count` digits of `whole`, nine at most. Returns where they end. */
 static char *digits_write(char *text, uint32_t whole, int count) {
     for (int k = count - 1; k >= 0; k--, whole /= 10) text[k] = (char)('0' + whole % 10);
     return text + count;
@@ -56,8 +56,8 @@ static char *fraction_end(char *first, char *end) {
     return end > first && end[-1] == '.' ? end - 1 : end;
 }
 
-/* Nine digits of value > 0, the first for 10^exponent; 0 where double precision leaves their rounding open.
- */
+/* Returns the first nine digits of value > 0, rounded; the first counts 10^exponent. Returns 0 where double precision
+ * leaves the rounding open. */
 static uint32_t nine_digits(double value, int *exponent) {
     int power = (int)floor(0.30102999566398 * ilogb(value)); /* the decimal exponent of value, or one less */
     if (power < -2 * EXACT + 9 || power > 2 * EXACT + 8) return 0;

@@ -4,8 +4,8 @@
 
 #include <stdbool.h>
 
-/* From now on the first SIGINT, the first SIGTERM and the first SIGHUP are only noted; a second one of a kind
- * ends the program. A SIGHUP that is ignored stays so. */
+/* Catches signals: the first SIGINT, SIGTERM and SIGHUP are only noted, and a second one of a kind ends the program. A
+ * SIGHUP that is ignored stays ignored. */
 void interrupt_watch(void);
 
 /* Returns true if the program was interrupted. */

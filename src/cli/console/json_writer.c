@@ -3,7 +3,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* The bytes of the well-formed UTF-8 sequence at s, 1 to 4, or 0 (Unicode Standard, Table 3-7). */
+/* Returns the length in bytes, 1 to 4, of the well-formed UTF-8 sequence at s, or 0 if there is none (Unicode Standard,
+ * Table 3-7). */
 static int utf8_length(const unsigned char *s) {
     if (s[0] < 0x80) return 1;
     int length = s[0] >= 0xc2 && s[0] <= 0xdf   ? 2

@@ -16,7 +16,7 @@ typedef struct Json {
     int depth;
 } Json;
 
-/* open and close take '{' and '}' or '[' and ']'; after the outermost comes a newline. */
+/* Writes a bracket: json_open takes '{' or '[', json_close '}' or ']'. A newline follows the outermost bracket. */
 void json_open(Json *json, const char *key, char bracket);
 void json_close(Json *json, char bracket);
 
@@ -24,10 +24,10 @@ void json_text(Json *json, const char *key, const char *text);
 void json_bool(Json *json, const char *key, bool value);
 void json_whole(Json *json, const char *key, long long value);
 
-/* Nine significant digits. */
+/* Writes value with nine significant digits. */
 void json_number(Json *json, const char *key, double value);
 
-/* The fewest digits that give the same float again; the second as an array. */
+/* Writes the fewest digits that read back as the same float; json_floats writes an array. */
 void json_float(Json *json, const char *key, float value);
 void json_floats(Json *json, const char *key, const float *values, int count);
 

@@ -58,7 +58,7 @@ static const char *f_help(int k) { return weft_term_help(WEFT_TERM_F, k); }
 
 static const char *lobe_name(int k) { return weft_lobe_info(k) ? weft_lobe_info(k)->id : NULL; }
 
-/* The k-th lobe that is, or is not, a diffuse term. */
+/* Returns the k-th of the lobes that are diffuse terms, or of those that are not; -1 after the last. */
 static int lobe_among(int k, bool diffuse) {
     for (int lobe = 0; lobe < weft_lobe_count(); lobe++)
         if (((weft_lobe_info(lobe)->traits & WEFT_LOBE_DIFFUSE) != 0) == diffuse && k-- == 0) return lobe;
@@ -70,7 +70,7 @@ static const char *other_name(int k) { return lobe_name(lobe_among(k, false)); }
 static const char *chart_name(int k) { return weft_chart(k) ? weft_chart(k)->name : NULL; }
 static const char *chart_help(int k) { return weft_chart(k) ? weft_chart(k)->help : NULL; }
 
-/* The table of a lobe says more than one line. */
+/* Returns an empty help text, since the list of lobes prints a table instead. */
 static const char *no_help(int k) { return k < 0 ? NULL : ""; }
 
 const Kind kinds[] = {
@@ -120,7 +120,7 @@ int kind_find(const Kind *kind, const char *id) {
     return -1;
 }
 
-/* "; several have this name: a, b" where more than one id begins with id and a dash. */
+/* Writes "; several have this name: a, b" where more than one id begins with id and a dash; returns NULL otherwise. */
 static const char *several_hint(const Kind *kind, const char *id, char *buffer, size_t size) {
     size_t length = strlen(id), used = (size_t)snprintf(buffer, size, "; several have this name: ");
     int found = 0;

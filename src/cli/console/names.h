@@ -13,7 +13,7 @@ typedef struct Nearest {
 /* Considers one more name; it must outlive the search. */
 void nearest_offer(Nearest *nearest, const char *name);
 
-/* "; did you mean NAME?" in a buffer of the caller's, or "" when nothing is near. */
+/* Writes "; did you mean NAME?" to the caller's buffer, or "" when no name is near. Returns buffer. */
 const char *nearest_hint(const Nearest *nearest, char *buffer, int size);
 
 /* A list of the catalogue. name and help end with NULL. */
@@ -27,13 +27,13 @@ typedef struct Kind {
 
 extern const Kind kinds[]; /* ends with an id of NULL */
 
-/* The kind of that id, which there must be. */
+/* Returns the kind of that id, which must exist. */
 const Kind *kind_of(const char *id);
 
-/* The kind whose key begins with text of that length, as in "lobe:ggx"; NULL: none. */
+/* Returns the kind whose key begins with `length` characters of text, as in "lobe:ggx"; NULL if there is none. */
 const Kind *kind_prefixed(const char *text, int length);
 
-/* The index of an id in a kind, or -1. */
+/* Returns the index of an id in a kind, or -1. */
 int kind_find(const Kind *kind, const char *id);
 
 /* Works as kind_find, but returns -1 after one line on standard error. */

@@ -16,7 +16,7 @@ typedef struct Given {
 
 static bool is_end(const Option *row) { return !row->name && !row->help; }
 
-/* The row whose name is the first `length` characters of text, or NULL. */
+/* Returns the row whose name is the first `length` characters of text, or NULL. */
 static const Option *row_find(const Verb *verb, const char *text, size_t length) {
     for (const Option *row = verb->options; !is_end(row); row++)
         if (row->name && strlen(row->name) == length && strncmp(row->name, text, length) == 0) return row;

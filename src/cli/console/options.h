@@ -62,27 +62,27 @@ void options_help(const Verb *verb);
 /* Returns true if the option was given. */
 bool option_given(const Options *options, const char *name);
 
-/* The value typed, else the default, else NULL. */
+/* Returns the value typed, else the default, else NULL. */
 const char *option_text(const Options *options, const char *name);
 
-/* The values of an option that repeats, in order: start with *cursor = 0; NULL after the last. */
+/* Returns the next value of an option that repeats, in the order typed. Start with *cursor = 0; NULL after the last. */
 const char *option_next(const Options *options, const char *name, int *cursor);
 
-/* The row of a name that the verb has. */
+/* Returns the row of an option that the verb has. */
 const Option *option_row(const Options *options, const char *name);
 
 /* Forgets what option_next has returned before it set its cursor to at + 1. */
 void option_drop(Options *options, int at);
 
-/* The value as a number in the table's range; on failure false after one line on standard error. An option
- * with neither value nor default leaves *number as it is. */
+/* Reads the value as a number in the table's range. Returns false after one line on standard error. An option with
+ * neither value nor default leaves *number as it is. */
 bool option_integer(const Options *options, const char *name, int *number);
 bool option_number(const Options *options, const char *name, double *number);
 
-/* The value's index in names, which ends with NULL; failure as above. */
+/* Finds the value's index in names, which ends with NULL. Returns false after one line on standard error. */
 bool option_choice(const Options *options, const char *name, const char *const *names, int *index);
 
-/* Exactly count finite numbers separated by commas, nothing else; says nothing. */
+/* Reads exactly `count` finite numbers separated by commas. Returns false without a message. */
 bool numbers_parse(const char *text, int count, double *numbers);
 
 #endif

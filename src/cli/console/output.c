@@ -15,7 +15,8 @@ static int report_unwritten(const char *path) {
     return WEFT_RESOURCES;
 }
 
-/* The file that writing to path would replace: behind its links, so that they stay. NULL after one line. */
+/* Returns the file that writing to path would replace, with links resolved so that they stay. Release with free; NULL
+ * after one line. */
 static char *find_target(const char *path) {
     struct stat status;
     bool there = stat(path, &status) == 0;
@@ -96,7 +97,7 @@ static bool same_file(const struct stat *there, const char *name) {
     return stat(name, &status) == 0 && status.st_dev == there->st_dev && status.st_ino == there->st_ino;
 }
 
-/* An operand is a file by its whole name or up to one of its colons: "chair.glb:fabric". */
+/* Returns true if the file is named by the whole operand or by a part that ends at a colon, as in "chair.glb:fabric". */
 static bool names_file(const struct stat *there, const char *operand) {
     char *name = strdup(operand);
     bool same = name && same_file(there, name);

@@ -33,7 +33,7 @@ Progress progress_start_count(bool quiet, const char *unit, double count) {
 
 enum { TIME_SIZE = 24 };
 
-/* Seconds as "0:07" or "2:00:07". */
+/* Writes seconds as "0:07" or "2:00:07". */
 static void clock_text(double seconds, char text[TIME_SIZE]) {
     long s = lround(fmin(seconds, 1e9));
     if (s >= 3600)

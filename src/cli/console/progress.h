@@ -18,8 +18,8 @@ typedef struct Progress {
     int width; /* of the terminal, characters */
 } Progress;
 
-/* Shown only where standard error is a terminal and quiet is false. spp may be 0, see above. prefix must
- * outlive the line. */
+/* Begins a line, which is shown only where standard error is a terminal and quiet is false. spp may be 0, see above.
+ * prefix must outlive the line. */
 Progress progress_start(bool quiet, const char *prefix, int spp, int spp_most, double pixels, double limit);
 
 /* Works as progress_start, for `count` things of another kind, such as texels. count 0 means unknown; unit must
@@ -29,7 +29,7 @@ Progress progress_start_count(bool quiet, const char *unit, double count);
 /* Redraws the line, at most ten times a second. fraction is of the samples or things asked for. */
 void progress_draw(Progress *progress, double fraction);
 
-/* A WeftProgress of a Progress: redraws the line, and stops where a signal asks for it. */
+/* Redraws the line, as a WeftProgress whose user is a Progress; stops after a signal. */
 int progress_heed(void *progress, double fraction);
 
 /* Erases the line. */

@@ -6,8 +6,8 @@
 extern "C" {
 #endif
 
-/* From now on such a thread ends the program with WEFT_RESOURCES and one line, unless the program has
- * reported a failure already. Any other uncaught exception still aborts. */
+/* Makes such a thread end the program with WEFT_RESOURCES and one line, unless the program has reported a failure
+ * already. Any other uncaught exception still aborts. */
 void uncaught_begin(void);
 
 #ifdef __cplusplus

@@ -8,7 +8,8 @@
 #include "cli/console/report.h"
 #include "cli/files/table_file.h"
 
-/* "velvet.weft_texels_sheen.exr" beside "velvet.hlsl". */
+/* Returns the path of table k, as "velvet.weft_texels_sheen.exr" beside "velvet.hlsl". Release with free; NULL where
+ * memory is short. */
 static char *table_path(const ExportFiles *self, int k) {
     static const char *const suffixes[WEFT_EXPORT_LUTS] = {".h", ".png", ".exr", ".dds", ".npy"};
     const char *path = self->path, *slash = strrchr(path, '/');

@@ -36,7 +36,7 @@ int save_cloth_of(const WeftScene *scene) {
     return 0;
 }
 
-/* A glTF holds the numbers that were fitted to a measurement, not the measurement. */
+/* Warns that the saved glTF contains the numbers fitted to a measurement and not the measurement. */
 static void warn_of_measured(const Options *options, const WeftScene *scene, const char *path) {
     char text[1024];
     int count = option_given(options, "--quiet") ? 0 : weft_scene_info(scene).material_count;

@@ -9,8 +9,8 @@
  * code after one line. */
 int save_check(const Options *options);
 
-/* The first material of the cloth, as --material has it: one with a sheen or, where none has, one that sends out
- * no light. */
+/* Returns the index of the first cloth material, as --material chooses it: the first with a sheen or, if none has one,
+ * the first that does not emit light. */
 int save_cloth_of(const WeftScene *scene);
 
 /* Writes every --save. */

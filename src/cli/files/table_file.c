@@ -11,8 +11,6 @@
 #include "cli/console/report.h"
 #include "cli/files/dds.h"
 
-/* Text. */
-
 static const float *texel_at(const WeftImage *table, int x, int y) {
     return (const float *)table->pixels +
            ((size_t)y * (size_t)table->width + (size_t)x) * (size_t)table->channels;
@@ -28,7 +26,7 @@ static void name_of(const char *path, char name[NAME]) {
     name[used] = '\0';
 }
 
-/* A float literal. */
+/* Writes value as a float literal of C. */
 static void literal_write(FILE *stream, float value) {
     char text[DECIMAL_SIZE + 4], *end = decimal_write(text, value);
     *end = '\0';
@@ -36,7 +34,7 @@ static void literal_write(FILE *stream, float value) {
     fprintf(stream, "%sf", text);
 }
 
-/* The first line is a comment to its end, since a command may hold what ends another kind. */
+/* Writes the table as an array in C. The command stands in a // comment, since it may contain what ends the other kind. */
 static void array_write(FILE *stream, const TableFile *file, const char *path) {
     enum { A_LINE = 6 };
     const WeftImage *table = file->table;
@@ -60,7 +58,7 @@ static void array_write(FILE *stream, const TableFile *file, const char *path) {
     fprintf(stream, "\n};\n\n#endif\n");
 }
 
-/* A row of the table a line, the channels of a texel side by side. */
+/* Writes each row of the table as a line, with the channels of a texel side by side. */
 static void rows_write(FILE *stream, const TableFile *file, char separator) {
     const WeftImage *table = file->table;
     fprintf(stream, "# %s\n# %s\n", file->command, file->about);
@@ -83,8 +81,6 @@ static int text_write(const TableFile *file, const char *path) {
         rows_write(output.stream, file, strcasecmp(suffix, ".csv") == 0 ? ',' : ' ');
     return output_end(&output);
 }
-
-/* Images. Of two channels they are given three: the second would be taken for alpha. */
 
 static int image_channels(const WeftImage *table) { return table->channels == 2 ? 3 : table->channels; }
 
@@ -156,7 +152,7 @@ static int exr_write(const TableFile *file, const char *path) {
 
 static int npy_write(const TableFile *file, const char *path) { return float_write(file, path, false); }
 
-/* Three channels have no format: a fourth is 0. */
+/* Writes a DDS file. DDS has no format with three channels, so a fourth is added, which is 0. */
 static int dds_file_write(const TableFile *file, const char *path) {
     const WeftImage *table = file->table;
     const int channels = table->channels == 3 ? 4 : table->channels;

@@ -19,7 +19,7 @@ static const struct {
              {".h", WEFT_EXPORT_C}};
 enum { TEXTS = sizeof texts / sizeof *texts };
 
-/* The target of a path, or -1. */
+/* Returns the export target of a path, or -1. */
 static int target_of(const char *path) {
     for (int k = 0; k < TEXTS; k++)
         if (path_ends(path, texts[k].suffix)) return (int)texts[k].target;
@@ -28,7 +28,7 @@ static int target_of(const char *path) {
 
 static bool is_asset(const char *path) { return path_ends(path, ".glb") || path_ends(path, ".gltf"); }
 
-/* --measured needs a file that is a measurement, and one that can name it. */
+/* Checks that with --measured the data is a measurement and one of the files can name it. Returns 0 or an exit code. */
 static int measured_check(const Options *options) {
     bool json = false;
     int cursor = 0;
@@ -51,7 +51,7 @@ int fit_files_check(const Options *options) {
     return result;
 }
 
-/* A cloth of that material, as an asset or as the material alone, which may name a measurement. */
+/* Writes a cloth of that material, as an asset or as the material alone; a material file may name a measurement. */
 static int scene_write(const WeftMaterial *material, const char *path, const char *measured) {
     WeftError error;
     WeftScene *scene = NULL;

@@ -13,7 +13,8 @@
 enum { SIDE = 220, ROWS = 2, COLUMNS = 3, PANELS = 2 * ROWS * COLUMNS };
 static const double azimuths[ROWS] = {90.0, 0.0};
 
-/* The directions of a pixel; 0 where one is below the horizon or grazes. */
+/* Computes the directions of a pixel. Returns their number, which is 0 where one of them is below the horizon or
+ * grazes. */
 static int directions(int column, int row, double phi_d, float wo[3], float wi[1][3]) {
     const double quarter = 0.5 * PI_DOUBLE;
     double th = (column + 0.5) / SIDE * quarter, td = (SIDE - row - 0.5) / SIDE * quarter;
@@ -40,7 +41,8 @@ static WeftResult draw(const WeftReflection *drawn, double phi_d, WeftImage *out
     return result;
 }
 
-/* Half vector and difference angles as a share of 90 degrees, of phi_d the size. */
+/* Computes the angles theta_h, theta_d and |phi_d| of the half vector and difference vector, each as a fraction of 90
+ * degrees. */
 static void half_difference(const float wo[3], const float wi[3], double at[3]) {
     const double quarter = 0.5 * PI_DOUBLE;
     double h[3], d[3], length = 0.0;
@@ -58,7 +60,7 @@ static void half_difference(const float wo[3], const float wi[3], double at[3]) 
 
 enum { CELLS = 30 };
 
-/* The mean over the samples of each cell of a slice; pixels of cells without any stay empty. */
+/* Draws the mean over the samples in each cell of a slice; pixels of cells without samples stay empty. */
 static WeftResult draw_samples(const WeftData *data, const WeftReflection *drawn, double phi_d,
                                WeftImage *out, WeftError *error) {
     float sum[CELLS][CELLS][4] = {{{0.0f}}};
@@ -102,7 +104,7 @@ static float bright(const WeftImage *image) {
     return fmaxf(high, 1e-6f);
 }
 
-/* To one figure, upwards: 0.033 is 0.04. */
+/* Rounds x up to one significant digit: 0.033 is 0.04. */
 static float to_figure(float x) {
     float unit = powf(10.0f, floorf(log10f(x)));
     return ceilf(x / unit) * unit;
@@ -114,7 +116,7 @@ typedef struct Slices {
     float differ; /* where the colours of differences end */
 } Slices;
 
-/* `samples`: NULL where all may be asked for any directions. */
+/* Draws all slices. `samples` is NULL if every function can be evaluated for any directions. */
 static WeftResult draw_all(Slices *all, const WeftData *samples, WeftReflection *const drawn[COLUMNS],
                            WeftError *error) {
     WeftResult result = WEFT_OK;

@@ -134,7 +134,7 @@ static void losses_write(const WeftScene *scene, const float *losses, int count,
     json_close(&json, '}');
 }
 
-/* weft_scene_convert, saved: metallic to specular and back. */
+/* Converts the asset with weft_scene_convert, from metallic to specular or back, and saves it. */
 static int to_workflow(const Options *options, const char *out) {
     const WeftLog log = {.fn = report_warning};
     WeftError error;

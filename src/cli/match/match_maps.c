@@ -31,7 +31,7 @@ typedef struct MapFormula {
     double matched, worst; /* mean error of the matches; the most that the formula adds to one */
 } MapFormula;
 
-/* A sheen of one colour whose first parameter is a width. */
+/* Returns true if the lobe is a sheen of one colour whose first parameter is a width. */
 static int is_sheen(int lobe) {
     const WeftLobeInfo *info = weft_lobe_info(lobe);
     unsigned other = WEFT_LOBE_DIFFUSE | WEFT_LOBE_REFERENCE | WEFT_LOBE_TWO_COLORS;
@@ -69,7 +69,7 @@ static int prepare(Maps *maps) {
     return 0;
 }
 
-/* y = a x^b through points above 0. */
+/* Fits y = a x^b to points with x, y > 0 by least squares of the logarithms. */
 static void power_law(const double *x, const double *y, double *a, double *b) {
     double n = 0.0, sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0;
     for (int k = 0; k < SWEEP; k++) {

@@ -10,7 +10,8 @@ bool match_has_parts(const Match *match) {
     return model_is_material(&match->from) && model_is_material(&match->to);
 }
 
-/* A parameter by name; where the first ones, which are widths, have two names, the number all the same. */
+/* Returns the parameter of `from` with the name of parameter `param` of `to`, or -1. The first parameters, which are
+ * widths, match even if their names differ. */
 static int param_like(const WeftLobeInfo *from, const WeftLobeInfo *to, int param) {
     for (int k = 0; k < from->param_count; k++)
         if (!from->params[k].choices && strcmp(from->params[k].name, to->params[param].name) == 0) return k;
@@ -30,7 +31,7 @@ static void copy_lobe(const WeftLobe *from, WeftLobe *to) {
     if (of->traits & info->traits & WEFT_LOBE_TWO_COLORS) memcpy(to->f90, from->f90, sizeof to->f90);
 }
 
-/* The inputs of one under the choices of the other. */
+/* Copies the inputs of `from`, under the choices of `to`. */
 static void copy_material(const WeftMaterial *from, WeftMaterial *to) {
     WeftMaterial copy = *from;
     for (int k = 0; weft_material_choice_name(k); k++)
@@ -38,7 +39,7 @@ static void copy_material(const WeftMaterial *from, WeftMaterial *to) {
     *to = copy;
 }
 
-/* A bit for each parameter of --hold, which keeps the number it was typed with. */
+/* Sets a bit of *hold for each parameter of --hold; the copy gets the number that was typed for it. */
 static int hold_params(const Match *match, const WeftLobe *typed, WeftLobe *copy, unsigned *hold) {
     const WeftLobeInfo *info = weft_lobe_info(typed->lobe);
     const char *name;
@@ -72,7 +73,7 @@ static int hold_inputs(const Match *match, const WeftMaterial *typed, WeftMateri
     return 0;
 }
 
-/* A lobe that is known by random walks alone would be matched to their noise. */
+/* Refuses a lobe that is only estimated by random walks, since the match would fit its noise. */
 static int refuse_estimate(const Model *model) {
     const WeftLobeInfo *info = model->kind == MODEL_LOBE ? weft_lobe_info(model->lobe.lobe) : NULL;
     if (!info || !(info->traits & WEFT_LOBE_REFERENCE)) return 0;

@@ -14,7 +14,7 @@ typedef struct Pictures {
     float scale; /* of all pictures of differences */
 } Pictures;
 
-/* The next of 1, 2, 5, 10, ... */
+/* Rounds value up to the next of 1, 2, 5, 10, ... */
 static float round_up(float value) {
     float decade = powf(10.0f, floorf(log10f(fmaxf(value, 1e-3f))));
     const float steps[] = {1.0f, 2.0f, 5.0f};

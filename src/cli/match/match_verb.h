@@ -22,16 +22,16 @@ void match_free(Match *match);
 /* Returns true if both models have inputs: profiles and materials do. */
 bool match_has_parts(const Match *match);
 
-/* The sheet: from, copy and match, and how the last two differ from the first. */
+/* Writes the sheet: from, copy and match, and how the last two differ from the first. */
 int match_sheet_write(const Match *match, const char *path);
 
-/* `weft match --table`: every profile as every other. */
+/* Runs `weft match --table`, which matches every profile to every other. */
 int match_table(const Options *options, WeftBrdfMetric metric);
 
-/* `weft match --maps`: every sheen as every other, over a sweep of its width. */
+/* Runs `weft match --maps`, which matches every sheen to every other over a sweep of its width. */
 int match_maps(const Options *options, WeftBrdfMetric metric);
 
-/* `weft match ASSET --from P --to Q -o OUT` and `--workflow`. */
+/* Runs `weft match ASSET --from P --to Q -o OUT` and `--workflow`. */
 int match_asset(const Options *options, WeftBrdfMetric metric);
 
 #endif

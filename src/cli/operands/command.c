@@ -10,7 +10,7 @@ static char *append(char *to, const char *text) {
     return to;
 }
 
-/* An argument after a blank, in single quotes unless all of it is safe. Returns where it ends. */
+/* Appends a blank and an argument, in single quotes unless all its characters are safe. Returns where it ends. */
 static char *argument_write(char *to, const char *argument) {
     const char *quote = argument[strspn(argument, safe)] || !argument[0] ? "'" : "";
     to = append(append(to, " "), quote);
@@ -32,7 +32,6 @@ char *command_text(const Options *options) {
     return text;
 }
 
-/* Each is an option and its value: "--preset velvet". */
 char *command_assign_text(const Options *options) {
     static const char *const names[] = {"--variant", "--preset",  "--material", "--materials", "--workflow",
                                         "--profile", "--diffuse", "--sheen",    "--layer",     "--texture",

@@ -4,8 +4,8 @@
 
 #include "cli/console/options.h"
 
-/* "weft VERB ...", one line, with quotes where a shell needs them; control characters become '?'. NULL where
- * memory is short. Release with free. */
+/* Returns "weft VERB ..." on one line, with quotes where a shell needs them; control characters become '?'. Release
+ * with free; NULL where memory is short. */
 char *command_text(const Options *options);
 
 /* Returns the options given that assign materials and add lights, as they could be typed; else as above. */

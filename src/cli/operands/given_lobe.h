@@ -10,8 +10,8 @@
                 "a parameter of the lobe, a number or, where it is a choice, an id; color=r,g,b or "         \
                 "f90=r,g,b" more)
 
-/* The lobe `id` with every -p. Where rows_run, its first number may not be given: rows of a report run over
- * it. Returns 0, or an exit code after one line on standard error. */
+/* Reads the lobe `id` with every -p. If rows_run, the first parameter must not be given, since the rows of a report
+ * vary it. Returns 0, or an exit code after one line on standard error. */
 int given_lobe(const Options *options, const char *id, bool rows_run, WeftLobe *lobe);
 
 #endif

@@ -5,7 +5,7 @@
 #include "cli/console/report.h"
 #include "weft/lobe.h"
 
-/* No id has a dot. */
+/* Returns true if value names a file; no id contains a dot or a slash. */
 static bool is_file(const char *value) { return strpbrk(value, "./") != NULL; }
 
 enum { TAKEN_MOST = 64 };

@@ -15,7 +15,7 @@
  * line on standard error. */
 int lobes_take(Options *options);
 
-/* Their paths, ended by NULL. */
+/* Returns the paths of the files taken, ended by NULL. */
 const char *const *lobes_taken(void);
 
 #endif

@@ -19,7 +19,8 @@ typedef struct Parts {
     char *name, *settings;
 } Parts;
 
-/* A colon begins settings where a '=' follows it; a kind or a file's material where none does. */
+/* Splits a name into kind, name, a file's material and settings. Settings follow a colon with a '=' after it; otherwise
+ * a kind stands before a colon, or a file's material after it. */
 static int split_name(const char *typed, Parts *parts) {
     *parts = (Parts){.kind = NULL};
     parts->name = parts->text;
@@ -58,7 +59,7 @@ static int set_one(Model *model, const char *key, const char *value, const WeftL
     return result == WEFT_OK ? 0 : report_error(&error);
 }
 
-/* KEY=VALUE,KEY=VALUE: what has no '=' belongs to the value before it, as the green in color=1,0.8,0.3. */
+/* Applies KEY=VALUE,KEY=VALUE. A part without '=' belongs to the value before it, as the green in color=1,0.8,0.3. */
 static int set_all(Model *model, char *settings) {
     WeftError last = {0};
     const WeftLog log = {.fn = warned, .user = last.text};
@@ -83,7 +84,8 @@ static int of_lobe(Model *model, const char *id) {
     return weft_lobe_init(id, &model->lobe, &error) == WEFT_OK ? 0 : report_error(&error);
 }
 
-/* A choice, "profile" or "workflow", on a grey cloth unless it is to be bare. */
+/* Makes the material of a profile or workflow; choice is "profile" or "workflow". The material is a grey cloth unless
+ * it is to be bare. */
 static int of_choice(Model *model, const char *choice, const char *id) {
     static const char *const cloth[][2] = {
         {"base_color", "0.2"}, {"sheen_color", "1"}, {"sheen_roughness", "0.5"}, {"roughness", "1"}};
@@ -105,7 +107,8 @@ static int of_material(Model *model, const char *path) {
     return result == WEFT_OK ? 0 : report_error(&error);
 }
 
-/* The material called so, or by its index; NULL: the only one. */
+/* Returns the index of the material with that name or index; wanted may be NULL if there is only one. -1 after one
+ * line. */
 static int material_index(const WeftScene *scene, const char *path, const char *wanted) {
     int count = weft_scene_info(scene).material_count;
     if (!wanted && count == 1) return 0;
@@ -126,7 +129,7 @@ static int material_index(const WeftScene *scene, const char *path, const char *
     return -1;
 }
 
-/* Without its textures, under its own name where it has one. */
+/* Takes the material without its textures, under its own name if it has one. */
 static void take_material(Model *model, const char *name, const char *path) {
     bool textured = false;
     for (int k = 0; k < WEFT_INPUTS_MAX; k++) {
@@ -137,7 +140,7 @@ static void take_material(Model *model, const char *name, const char *path) {
     if (*name) snprintf(model->name, sizeof model->name, "%s", name);
 }
 
-/* The cloth that a material of a scene is woven of. */
+/* Takes the cloth that a material of a scene is woven of, if it is woven and the model allows it. */
 static int take_cloth(Model *model, const WeftScene *scene, const char *path) {
     WeftError error;
     WeftYarn yarns[2];
@@ -164,7 +167,7 @@ static int of_scene(Model *model, const char *path, const char *wanted) {
     return result;
 }
 
-/* The end of a scene's path in "chair.glb:fabric"; NULL where text is not of that form. */
+/* Returns the end of the scene's path in "chair.glb:fabric"; NULL if text is not of that form. */
 static char *scene_end(char *text) {
     for (char *end = text + strcspn(text, ":");; end += 1 + strcspn(end + 1, ":")) {
         char after = *end;
@@ -215,7 +218,7 @@ static int of_name(Model *model, const Parts *parts) {
                            : 0;
 }
 
-/* The last part of a path, up to its suffix; of an id, all of it. */
+/* Names the model by the last part of a path, up to its suffix; an id stays whole. */
 static void name_after(Model *model, const char *path) {
     const char *slash = strrchr(path, '/'), *file = slash ? slash + 1 : path, *point = strchr(file, '.');
     size_t length = point && point > file ? (size_t)(point - file) : strlen(file);

@@ -48,7 +48,7 @@ typedef struct Model {
  * error. Release with model_free in any case. */
 int model_read(const char *typed, Model *out);
 
-/* Without the reflection, and without a weave. */
+/* Works as model_read, but makes no reflection and leaves out a weave. */
 int model_parse(const char *typed, Model *out);
 
 /* Works as model_parse, but a profile or workflow has its own defaults and no grey cloth. */

@@ -6,7 +6,7 @@
 
 #include "weft/lobe.h"
 
-/* The file of an id, or else of what it is a variant of: schlick-f90 is in f_schlick.h. */
+/* Returns the text of the file of an id, or of the id that it is a variant of: schlick-f90 is in f_schlick.h. */
 static const char *file_text(const char *prefix, const char *id) {
     char name[64], path[96];
     snprintf(name, sizeof name, "%s", id);

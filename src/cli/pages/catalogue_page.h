@@ -4,7 +4,7 @@
 
 #include "cli/console/names.h"
 
-/* The opening comment of the file of an id as plain lines. Release with free; NULL where there is no file. */
+/* Returns the opening comment of the file of an id as lines of text. Release with free; NULL where there is no file. */
 char *page_text(const Kind *kind, const char *id);
 
 #endif

@@ -8,7 +8,7 @@
 
 enum { WIDTH = 240, HEIGHT = 120, SPLIT = 84, COLUMNS = 6, LABEL = 64 };
 
-/* The diffuse colour above, white of what is clear, and below it F0. */
+/* Draws the diffuse colour at the top, which is white for clear materials, and F0 below it. */
 static WeftResult draw(const WeftChartEntry *entry, WeftImage *out, WeftError *error) {
     WeftImage linear;
     WeftResult result = weft_image_create(WIDTH, HEIGHT, 3, WEFT_PIXEL_F32, &linear, error);

@@ -67,7 +67,7 @@ void plot_json(const WeftPlotData *data, WeftPlotKind kind) {
     json_close(&json, '}');
 }
 
-/* A field in quotes, which are doubled inside (RFC 4180). */
+/* Prints a CSV field in quotes; quotes inside it are doubled (RFC 4180). */
 static void field(const char *text) {
     putchar('"');
     for (const char *s = text; *s; s++) {

@@ -4,10 +4,10 @@
 
 #include "weft/weft.h"
 
-/* One JSON object with everything that is drawn. */
+/* Prints one JSON object with everything that is drawn. */
 void plot_json(const WeftPlotData *data, WeftPlotKind kind);
 
-/* A line a value, with a heading: panel,series,x,y of curves, panel,channel,x,y,value of grids. */
+/* Prints a heading and a line for each value: panel,series,x,y of curves, panel,channel,x,y,value of grids. */
 void plot_csv(const WeftPlotData *data);
 
 #endif

@@ -86,7 +86,7 @@ static void json_sweep(Json *json, const WeftPassport *p) {
     json_close(json, '}');
 }
 
-/* The floor as a number; 0 where none is needed, null where none helps. */
+/* Writes the floor as a number: 0 if none is needed, null if none helps. */
 static void json_floor(Json *json, const char *key, int exponent) {
     json_number(json, key,
                 exponent == 0                ? HUGE_VAL

@@ -3,7 +3,7 @@
 
 #include "cli/passport/passports.h"
 
-/* Ids and drivers' names are not ours to trust. */
+/* Writes text with HTML characters escaped, since ids and drivers' names may contain any. */
 static void escaped(FILE *f, const char *text) {
     for (; *text; text++) switch (*text) {
         case '<': fputs("&lt;", f); break;
@@ -28,7 +28,7 @@ static double plot_y(const PassportPlot *plot, double y) {
     return TOP + HIGH * (1.0 - fmin(y / plot->top, 1.0));
 }
 
-/* Values above 1 are shaded; NaN runs along the top. */
+/* Begins a plot. Values above 1 are shaded; NaN is drawn along the top. */
 static PassportPlot plot_open(FILE *f, const char *title, const char *x_name, double most, int of) {
     double steps[] = {1.2, 1.6, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0};
     PassportPlot plot = {.stream = f, .top = most < 1e6 ? most : 1e6, .of = of};
@@ -51,7 +51,7 @@ static PassportPlot plot_open(FILE *f, const char *title, const char *x_name, do
     return plot;
 }
 
-/* One curve and its line of the key. */
+/* Draws one curve and its line of the key. */
 static void plot_curve(PassportPlot *plot, const float *x, const float *y, int count, const char *name) {
     int hue = 280 - 220 * plot->curves / (plot->of > 1 ? plot->of - 1 : 1), key = TOP + 8 + 15 * plot->curves;
     fprintf(plot->stream, "<polyline class=\"curve\" stroke=\"hsl(%d,70%%,42%%)\" points=\"", hue);
@@ -99,7 +99,7 @@ static void draw_furnace(FILE *f, const WeftPassport *p) {
     plot_close(&plot);
 }
 
-/* Square roots: what a picture's noise is like. */
+/* Draws the square roots of variances, which are the noise of a picture. */
 static void draw_variance(FILE *f, const WeftPassport *p) {
     float own[WEFT_PASSPORT_VIEWS], by_cosine[WEFT_PASSPORT_VIEWS], most = 0.0f;
     char title[160], name[96];

@@ -4,7 +4,7 @@
 
 #include "cli/passport/passports.h"
 
-/* "roughness 0.5, cos_o 0.1, cos_i 0.9, phi 30"; cos_i 0: nothing is said of wi. */
+/* Writes "roughness 0.5, cos_o 0.1, cos_i 0.9, phi 30"; if cos_i is 0, the text leaves out wi. */
 static const char *place_text(const WeftPassport *p, const WeftPlace *place, char *text, size_t size) {
     int used = 0;
     if (*p->parameter) used = snprintf(text, size, "%s %.3g, ", p->parameter, (double)place->value);
@@ -193,8 +193,8 @@ static void header_half(const WeftPassport *p) {
     if (p->half_cosine) printf(".\n");
 }
 
-/* Numbers that differ from machine to machine are left out: the agreement of f(wo, wi) and f(wi, wo) to
- * rounding, and variances near zero. */
+/* Leaves out numbers that differ between machines: the agreement of f(wo, wi) and f(wi, wo) to rounding, and variances
+ * near zero. */
 void passport_header(const WeftPassport *p) {
     char place[96];
     bool reference = (p->traits & WEFT_LOBE_REFERENCE) != 0;

@@ -6,7 +6,7 @@
 #include "cli/console/json_writer.h"
 #include "weft/measure.h"
 
-/* On standard output. */
+/* Prints the passport on standard output: passport_text in full, passport_line as a line. */
 void passport_text(const WeftPassport *passport);
 void passport_line(const WeftPassport *passport);
 
@@ -18,7 +18,7 @@ void passport_line_heading(void);
 
 void passport_json(Json *json, const WeftPassport *passport);
 
-/* One HTML page with pictures in it, which needs no other file. */
+/* Writes one HTML page, which contains its pictures and needs no other file. */
 void passports_page(FILE *stream, const WeftPassport *passports, int count);
 
 #endif

@@ -25,7 +25,7 @@ static const char *after_by(const char *text) {
     return strncmp(text, "by=", 3) == 0 ? text + 3 : NULL;
 }
 
-/* The end of the item that begins at text: a separator or the end. "RULE,by=channel" is one item. */
+/* Returns the end of the item that begins at text: a separator or the end. "RULE,by=channel" is one item. */
 static const char *item_end(const char *text, char separator) {
     const char separators[] = {separator, '\0'};
     const char *end = text + strcspn(text, separators);
@@ -39,8 +39,8 @@ static int item_count(const char *text, char separator) {
     return count;
 }
 
-/* Item k of a list, without blanks around it, or of a list of one that one; false where it is too long to be
- * a value. */
+/* Copies item k of a list, without the blanks around it. A list of one item repeats it. Returns false if it is too long
+ * for a value. */
 static bool item_at(const char *text, char separator, int k, char item[ASSIGN_LABEL]) {
     const char *end = item_end(text, separator);
     while (k-- > 0 && *end) {
@@ -128,8 +128,8 @@ static bool check_axis(int axis, Assignments *assignment) {
 /* Names of materials, and of what is set: */
 enum { MATERIAL_SIZE = 256, TARGET_SIZE = 512 };
 
-/* "MAT=NAME": what is behind the '=', or all of it. A material's name and a file's may hold '=' too: the
- * longest that is a file is one, else the last '=' divides. */
+/* Returns the text after the '=' in "MAT=NAME", or all of it. Names of materials and files may contain '=' too: the
+ * longest tail that is an existing file is taken, else the text after the last '='. */
 static const char *operand_of(const char *text, bool is_file) {
     const char *last = strrchr(text, '=');
     for (const char *file = text; is_file && file; file = strchr(file, '=') ? strchr(file, '=') + 1 : NULL)
@@ -150,8 +150,8 @@ static bool check_operands(const Options *options, const char *option, bool is_f
     return true;
 }
 
-/* The name in "MATERIAL.NAME=VALUE"; false after one line where it is not of that form, or too long. A
- * material's name may hold '=' and '.', so the last of each divides. */
+/* Copies the name in "MATERIAL.NAME=VALUE". Returns false after one line if text is not of that form or too long. A
+ * material's name may contain '=' and '.', so the last of each divides. */
 static bool setting_name(const char *text, char name[ASSIGN_LABEL]) {
     const char *equals = strrchr(text, '='), *point = equals;
     while (point && point > text && *point != '.') point--;
@@ -184,7 +184,7 @@ static bool refuse_name(const char *text, const char *name) {
     return false;
 }
 
-/* The character between the values of a setting: ';' always may be, ',' unless a colour has commas itself. */
+/* Returns the character between the values of a setting: ';' is always allowed, and ',' unless the input is a colour. */
 static char separator_of(int input, const char *values) {
     WeftInputInfo info = {.kind = WEFT_INPUT_SCALAR};
     if (input >= 0) weft_material_input_info(input, &info);
@@ -245,7 +245,7 @@ bool assign_read(const Options *options, Assignments *assignment) {
            (!option_given(options, "--convert") || option_choice(options, "--convert", targets, &target));
 }
 
-/* Which of its values varied number v has in picture k. */
+/* Returns which of its values option v has in picture k. */
 static int value_index(const Assignments *assignment, int v, int k) {
     for (int later = assignment->varied_count - 1; later > v; later--) k /= assignment->varied[later].count;
     return k % assignment->varied[v].count;
@@ -269,8 +269,7 @@ void assign_label(const Assignments *assignment, int k, char label[ASSIGN_LABEL]
     snprintf(label, ASSIGN_LABEL, "%.*s", ASSIGN_LABEL - 1, text);
 }
 
-/* The value that what stands at `values` has in picture k: of a list one, else all of it; false where there
- * is no list. */
+/* Copies the value that the list at `values` has in picture k. Returns false if option `values` does not vary. */
 static bool value_of(const Assignments *assignment, const char *values, int k, char value[ASSIGN_LABEL]) {
     for (int v = 0; v < assignment->varied_count; v++) {
         if (assignment->varied[v].values != values) continue;
@@ -280,7 +279,7 @@ static bool value_of(const Assignments *assignment, const char *values, int k, c
     return false;
 }
 
-/* The choice of all materials. */
+/* Sets a choice of all materials. */
 static WeftResult choose(WeftScene *scene, const char *choice, const char *id, const WeftLog *log,
                          WeftError *error) {
     char target[64];
@@ -288,8 +287,8 @@ static WeftResult choose(WeftScene *scene, const char *choice, const char *id, c
     return weft_scene_set(scene, target, id, log, error);
 }
 
-/* A profile is exact: what a material chose before makes room for it. A workflow takes the profile's place.
- */
+/* Resets what `choice` overrides. A profile sets the other choices to auto, since it is exact; a workflow sets the
+ * profile to none. */
 static WeftResult make_room(WeftScene *scene, const char *choice, const char *id, WeftError *error) {
     if (strcmp(choice, "workflow") == 0) return choose(scene, "profile", "none", NULL, error);
     if (strcmp(choice, "profile") != 0 || strcmp(id, "none") == 0) return WEFT_OK;
@@ -357,7 +356,7 @@ static WeftResult apply_operands(const Assignments *assignment, WeftScene *scene
     return result;
 }
 
-/* Every --set as picture k has it. */
+/* Applies every --set, with the values of picture k. */
 static WeftResult apply_sets(const Assignments *assignment, int k, WeftScene *scene, const WeftLog *log,
                              WeftError *error) {
     WeftResult result = WEFT_OK;

@@ -56,7 +56,7 @@ typedef struct Assignments {
 /* Checks every id of these options. False after one line on standard error. */
 bool assign_read(const Options *options, Assignments *assignment);
 
-/* The value that picture number k has of varied number v. */
+/* Copies the value that picture number k has of varied number v. */
 void assign_value(const Assignments *assignment, int v, int k, char value[ASSIGN_LABEL]);
 
 /* Labels picture number k by what sets it apart from the rest, "" where there is but one. */

@@ -46,7 +46,7 @@ static WeftResult trace_all(Comparison *all, Warnings *warnings, bool *interrupt
     return result;
 }
 
-/* The next of 1, 2, 5, 10, ... */
+/* Rounds value up to the next of 1, 2, 5, 10, ... */
 static float round_up(float value) {
     float decade = powf(10.0f, floorf(log10f(fmaxf(value, 1e-4f))));
     float steps[] = {1.0f, 2.0f, 5.0f};
@@ -89,7 +89,7 @@ static void caption_of(const Request *request, char caption[CAPTION]) {
         snprintf(caption, CAPTION, "%.200s, by %s", request->scene_options.scene, by);
 }
 
-/* Rows and columns of pictures alone. */
+/* Places the pictures alone, in rows and columns. Returns the number of panels. */
 static int place_grid(const Comparison *all, WeftPanel *panels, int *columns) {
     *columns = all->request->scene_options.assignment.varied[1].count;
     if (*columns > all->count) *columns = all->count;
@@ -100,8 +100,8 @@ static int place_grid(const Comparison *all, WeftPanel *panels, int *columns) {
     return all->count;
 }
 
-/* Bands of two rows: pictures, and below each its difference; below the first the colours' meaning. One
- * picture has none of these. */
+/* Places bands of two rows: pictures, and below each its difference; below the first stands the key of the colours. One
+ * picture has neither. Returns the number of panels. */
 static int place_bands(const Comparison *all, WeftPanel *panels, int *columns) {
     int last = all->count > 1 ? all->count - 1 : 0, bands = 1 + last / COLUMNS_MOST;
     *columns = 1 + last / bands;

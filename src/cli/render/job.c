@@ -49,7 +49,7 @@ static WeftResult gather(Job *job, WeftRender *render, WeftError *error) {
     return result == WEFT_OK ? result : failure(error, result, "the render could not be finished");
 }
 
-/* A built-in scene has a camera that shows it best. */
+/* Returns the camera to use: a built-in scene has one that shows it best. */
 static const char *camera_of(const Job *job, const char *camera) {
     if (!camera) camera = job->request->desc.camera;
     bool builtin = strncmp(job->request->scene_options.scene, "builtin:", 8) == 0;

@@ -39,7 +39,7 @@ WeftResult job_write(const Job *job, const char *number, WeftError *error);
  * before the first sample is a failure. */
 WeftResult job_draw(Job *job, const char *camera, WeftError *error);
 
-/* Both. */
+/* Runs job_open and job_draw. */
 WeftResult job_run(Job *job, WeftError *error);
 
 /* Releases the scene, and keeps the picture and its report. */
@@ -48,10 +48,10 @@ void job_free(Job *job);
 
 double job_samples_per_second(const Job *job);
 
-/* ns of a stage for each sample. */
+/* Returns the time of a stage for each sample, ns. */
 double job_stage_ns(const Job *job, int stage);
 
-/* The members of its object. */
+/* Writes the members of the picture's JSON object. */
 void job_json(const Job *job, Json *json);
 
 #endif

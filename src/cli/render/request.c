@@ -263,7 +263,7 @@ int request_outputs_check(const Request *request) {
     return result;
 }
 
-/* "out.png" and "007" as "out-007.png"; NULL where memory is short. */
+/* Makes "out-007.png" of "out.png" and "007". Release with free; NULL where memory is short. */
 static char *numbered(const char *path, const char *number) {
     const char *slash = strrchr(path, '/'), *dot = strrchr(path, '.');
     size_t size = strlen(path) + strlen(number) + 2;

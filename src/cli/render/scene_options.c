@@ -8,7 +8,7 @@
 #include "cli/console/report.h"
 #include "weft/image.h"
 
-/* "r,g,b", or one number for all three. */
+/* Reads "r,g,b", or one number for all three. */
 static bool colors_parse(const char *text, double c[3]) {
     if (!numbers_parse(text, 1, c)) return numbers_parse(text, 3, c);
     c[1] = c[2] = c[0];
@@ -35,7 +35,7 @@ static bool read_background(const Options *options, SceneOptions *scene_options)
     return good;
 }
 
-/* The next part of a text, up to a semicolon, as numbers. */
+/* Reads `count` numbers from the next part of a text, up to a semicolon, and moves *text behind it. */
 static bool take_numbers(const char **text, int count, float *out) {
     char part[128];
     double v[3];
@@ -95,7 +95,7 @@ static bool read_lights(const Options *options, SceneOptions *scene_options) {
     return true;
 }
 
-/* A value that reads as a colour is a radiance and never the name of a file. */
+/* Reads --env. A value that reads as a colour is a radiance and never the name of a file. */
 static bool read_env(const Options *options, SceneOptions *scene_options) {
     const char *text = scene_options->env = option_text(options, "--env");
     double c[3];

@@ -6,7 +6,7 @@
 
 #include "cli/console/interrupt.h"
 
-/* The camera of picture k of `count`, given that of the first. */
+/* Writes the camera of picture k of `count`, which rotates that of the first about its target. */
 static void turned(const WeftRenderInfo *first, int k, int count, char camera[256]) {
     const float *e = first->camera_eye, *t = first->camera_target;
     double angle = 2.0 * PI_DOUBLE * k / count, c = cos(angle), s = sin(angle);

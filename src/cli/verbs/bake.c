@@ -46,7 +46,7 @@ static const WeftBakeKind *kind_of_table(const char *id) {
     return NULL;
 }
 
-/* Digits that come to 1 .. 65536; returns what follows them, NULL where there are none such. */
+/* Reads a number from 1 to 65536. Returns the text after it, or NULL if there is none. */
 static const char *side_read(const char *text, int *side) {
     char *end;
     long value = text[0] >= '0' && text[0] <= '9' ? strtol(text, &end, 10) : 0;
@@ -66,7 +66,7 @@ static bool size_read(const Options *options, const WeftBakeKind *kind, WeftBake
     return false;
 }
 
-/* Options that say nothing here. */
+/* Returns false after one line if one of the options, which have no effect here, is given. */
 static bool none_given(const Options *options, const char *const *names, const char *where) {
     for (; *names; names++)
         if (option_given(options, *names)) {

@@ -21,7 +21,7 @@ typedef struct Diff {
     double beyond; /* the share of pixels worse than most */
 } Diff;
 
-/* The best value, which is also where the colours of the map begin. */
+/* Returns the best value of the metric, which is also where the colours of the map begin. */
 static float best(const Diff *diff) { return diff->desc.metric == WEFT_METRIC_SSIM ? 1.0f : 0.0f; }
 
 static bool failed(const Diff *diff) {
@@ -29,8 +29,6 @@ static bool failed(const Diff *diff) {
     return diff->desc.metric == WEFT_METRIC_SSIM ? diff->found.value < diff->most
                                                  : diff->found.value > diff->most;
 }
-
-/* Reading. */
 
 static int output_check(Diff *diff) {
     const char *path = diff->output = option_text(diff->options, "-o");
@@ -76,8 +74,6 @@ static int diff_read(Diff *diff) {
     int result = output_check(diff);
     return result == 0 ? images_read(diff) : result;
 }
-
-/* Telling. */
 
 static void text_write(const Diff *diff) {
     enum { COLUMN = 16 };
@@ -134,7 +130,7 @@ static void json_write(const Diff *diff) {
 
 /* The map. */
 
-/* A round number at or above x: 1, 2 or 5 times a power of ten. */
+/* Rounds x up to 1, 2 or 5 times a power of ten. */
 static double rounded_up(double x) {
     const double steps[] = {1.0, 2.0, 5.0}, power = pow(10.0, floor(log10(fmax(x, 1e-6))));
     for (int k = 0; k < 3; k++)

@@ -26,7 +26,7 @@ typedef struct Visit {
         left; /* left: errors and warnings that are there, or are there still after --fix */
 } Visit;
 
-/* The engines of a mask by name, "three, babylon"; "" for whatever reads the file. */
+/* Writes the names of a mask's engines, "three, babylon"; "" stands for every reader of the file. */
 static const char *engines_text(unsigned engines, char *text, size_t size) {
     text[0] = '\0';
     for (int k = 0; k < 32 && weft_profile_name(k); k++) {
@@ -85,7 +85,7 @@ static bool said_before(const Visit *visit, int index) {
     return false;
 }
 
-/* "A, B, C and 5 more": what else a finding is said of; empty where it is nothing. */
+/* Writes "A, B, C and 5 more", the other subjects of a finding; "" if there are none. */
 static const char *others_text(const Visit *visit, int index, char *text, size_t size) {
     enum { NAMED = 6 };
     int others = 0;
@@ -160,8 +160,6 @@ static void text_write(const Visit *visit) {
     summary_text(visit);
 }
 
-/* JSON. */
-
 static void finding_json(Json *json, const WeftFinding *finding) {
     json_open(json, NULL, '{');
     json_text(json, "id", weft_finding_name((int)finding->kind));
@@ -204,7 +202,7 @@ static void json_write(const Visit *visit) {
     json_close(&json, '}');
 }
 
-/* The catalogue. */
+/* Prints the catalogue of findings. */
 static void list_print(void) {
     printf("\nFindings; * where --fix can repair it\n");
     for (int k = 0; k < WEFT_FINDING_COUNT; k++) {

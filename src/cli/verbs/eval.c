@@ -26,7 +26,7 @@ typedef struct EvalBatch {
     char text[BATCH * 4 * DECIMAL_SIZE];
 } EvalBatch;
 
-/* Exactly count finite numbers separated by blanks and tabs, with at most one comma among them. */
+/* Reads exactly `count` finite numbers separated by blanks and tabs, with at most one comma between two of them. */
 static bool line_numbers(const char *text, int count, double *numbers) {
     for (int k = 0; k < count; k++) {
         text += strspn(text, " \t");
@@ -38,7 +38,7 @@ static bool line_numbers(const char *text, int count, double *numbers) {
     return text[strspn(text, " \t\r")] == '\0';
 }
 
-/* Unit direction from degrees. The cosine is the sine of the rest to 90, so that it is exactly 0 there. */
+/* Computes a unit direction from degrees. The cosine is the sine of 90 - theta, so that it is exactly 0 at 90. */
 static void direction(double theta, double phi, float w[3][BATCH], size_t k) {
     const double radians = RADIANS;
     double sin_theta = sin(theta * radians);
@@ -127,7 +127,7 @@ typedef struct NumberLines {
     char chunk[CHUNK + 1];
 } NumberLines;
 
-/* One line, a zero at its end. */
+/* Reads one line, which ends with a zero byte, into the batch. Returns 0 or an exit code. */
 static int take_line(const NumberLines *lines, const char *line, size_t length, EvalBatch *batch,
                      const EvalTask *task) {
     double numbers[4];
@@ -142,8 +142,8 @@ static int take_line(const NumberLines *lines, const char *line, size_t length, 
     return 0;
 }
 
-/* The whole lines of the chunk, answered whenever the batch is full and at the end. What is left of the chunk
- * goes to its front. */
+/* Takes the whole lines of the chunk, and evaluates whenever the batch is full and at the end. Moves the rest of the
+ * chunk to its front. */
 static int take_chunk(NumberLines *lines, EvalBatch *batch, const EvalTask *task, const WeftLobe *lobe,
                       bool json) {
     int result = 0;

@@ -24,7 +24,8 @@ typedef struct Export {
     bool quiet;
 } Export;
 
-/* A profile or workflow keeps its own defaults but for what is set behind its name: any value may come. */
+/* Reads the model to export. A profile or workflow keeps its own defaults except for settings behind its name, since
+ * the shader takes any values. */
 static int read_model(const char *typed, Model *model, WeftExportDesc *desc) {
     int result = model_parse_bare(typed, model);
     if (result != 0) return result;
@@ -45,7 +46,7 @@ static int read_model(const char *typed, Model *model, WeftExportDesc *desc) {
     return 0;
 }
 
-/* The lobe of the right half of a Shadertoy. */
+/* Reads the lobe of the right half of a Shadertoy. */
 static int read_right(Export *self, const char *typed) {
     int result = self->descs->lobe ? model_parse(typed, &self->right) : WEFT_USAGE;
     if (!self->descs->lobe || (result == 0 && self->right.kind != MODEL_LOBE))

@@ -29,7 +29,7 @@ typedef struct Fitting {
     double error;
 } Fitting;
 
-/* A Fresnel term that does not read f90 leaves it at what it is given. */
+/* Returns true if the lobe's value depends on f90; not every Fresnel term reads it. */
 static bool reads_f90(const WeftLobe *lobe) {
     static const float ways[][3] = {{0.9f, 0.1f, 0.4243f}, {-0.8f, 0.2f, 0.5657f}, {0.3f, -0.6f, 0.7416f}};
     WeftLobe other = *lobe;
@@ -233,7 +233,7 @@ static WeftResult expressible_fit(const Fitting *fitting, WeftFit *again, WeftMa
     return result;
 }
 
-/* The best fit that a material can say, in every -o. */
+/* Writes the best fit that can be expressed by a material to every -o. */
 static int material_write(const Fitting *fitting) {
     WeftError error;
     WeftMaterial material;
@@ -248,7 +248,7 @@ static int material_write(const Fitting *fitting) {
     return fit_files_write(fitting->options, &material);
 }
 
-/* The error of the material of --to, as it is. */
+/* Measures the error of the material of --to, without fitting it. */
 static int error_of_material(Fitting *fitting) {
     WeftError error;
     const WeftFitDesc desc = {.metric = fitting->metric, .chosen = 1};
@@ -291,7 +291,7 @@ static int outputs_check(Fitting *fitting) {
     return result;
 }
 
-/* The library reports names that are no lobe. */
+/* Checks the combination of --lobe and --base. The library reports names that are no lobe. */
 static int lobes_check(const Fitting *fitting) {
     const char *only = option_text(fitting->options, "--lobe");
     const WeftLobeInfo *base = weft_lobe_info(weft_lobe_find(fitting->base)),

@@ -58,7 +58,7 @@ static int lobe_rows(const WeftLobe *copied, const WeftLobe *matched, Row rows[R
     return count;
 }
 
-/* Inputs that may change, and those that did. */
+/* Lists the inputs that may change, and those that did. */
 static int material_rows(const WeftMaterial *copied, const WeftMaterial *matched, Row rows[ROWS_MOST]) {
     int count = 0;
     WeftInputInfo info;
@@ -76,7 +76,7 @@ static int rows_of(const Match *match, Row rows[ROWS_MOST]) {
                                         : material_rows(&match->copy.material, &match->to.material, rows);
 }
 
-/* The errors of the parts that `from` has; negative where it has none. */
+/* Measures the errors of the parts that `from` has; the others get -1. */
 static int part_errors(const Match *match, double errors[PARTS][2]) {
     for (int k = 0; k < PARTS; k++) {
         const WeftReflection *to[2] = {match->copy.reflection, match->to.reflection};
@@ -157,7 +157,7 @@ static void json_write(const Match *match, double errors[PARTS][2]) {
     json_close(&json, '}');
 }
 
-/* The match as a material file: worn by a built-in scene, which can write it. */
+/* Writes the match as a material file, by putting it on a built-in scene, which can write it. */
 static int material_write(const WeftMaterial *material, const char *path) {
     WeftError error;
     WeftScene *scene;
@@ -221,7 +221,7 @@ static bool goes_with(const MatchMode *mode, const char *option) {
     return good;
 }
 
-/* Which of the modes is asked for; -1 after one line where what was typed does not go together. */
+/* Returns the mode that is requested; -1 after one line if the options do not go together. */
 static int mode_of(const Options *options) {
     static const char *const all[] = {"--table", "--maps", "--to", "--workflow", "--from", "--hold", "-o"};
     int mode = 0;

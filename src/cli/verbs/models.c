@@ -34,19 +34,19 @@ static void append(char *line, size_t size, const char *separator, const char *t
     snprintf(line + used, size - used, "%s%s", used ? separator : "", text);
 }
 
-/* The lobe of an entry of a kind; NULL where the kind is not one of lobes. */
+/* Returns the lobe of an entry of a kind; NULL if the kind does not list lobes. */
 static const WeftLobeInfo *entry_lobe(const Kind *kind, int k) {
     return strstr(kind->id, "lobe") || strcmp(kind->key, "diffuse") == 0
                ? weft_lobe_info(weft_lobe_find(kind->name(k)))
                : NULL;
 }
 
-/* The reference material of an entry; NULL where the kind is not that of the chart. */
+/* Returns the reference material of an entry; NULL if the kind is not that of the chart. */
 static const WeftChartEntry *entry_chart(const Kind *kind, int k) {
     return strcmp(kind->id, "chart material") == 0 ? weft_chart(k) : NULL;
 }
 
-/* The choice of an entry, or -1. */
+/* Returns the choice of an entry, or -1. */
 static int entry_choice(const Kind *kind, int k) { return strcmp(kind->id, "choice") == 0 ? k : -1; }
 
 static void lobe_words(const WeftLobeInfo *info, char *line, size_t size) {
@@ -68,7 +68,7 @@ static void append_color(char *line, size_t size, const char *key, const float c
     append(line, size, "; ", text);
 }
 
-/* Numbers as `--set` takes them. */
+/* Writes an entry's numbers as `--set` takes them. */
 static void chart_words(const WeftChartEntry *entry, char *line, size_t size) {
     char ior[32];
     if (entry->kind == WEFT_CHART_METAL || entry->kind == WEFT_CHART_OPAQUE)
@@ -101,7 +101,7 @@ static void print_all(void) {
     }
 }
 
-/* One row of a lobe's parameter table. */
+/* Prints one row of a lobe's parameter table. */
 static void print_row(const char *name, const char *def, const char *range, const char *hard,
                       const char *help) {
     char left[96];
@@ -161,7 +161,7 @@ static void json_lobe(Json *json, const WeftLobeInfo *info) {
     json_close(json, ']');
 }
 
-/* The ids that a choice may take, not those that `--set` would refuse. */
+/* Writes the ids that a choice may take, without those that `--set` would refuse. */
 static void json_values(Json *json, int choice) {
     json_open(json, "values", '[');
     json_text(json, NULL, "auto");
@@ -198,7 +198,7 @@ static void json_entry(Json *json, const Kind *kind, int k, bool with_kind) {
     json_close(json, '}');
 }
 
-/* The kind "lobe" lists all lobes; their traits say which are diffuse. */
+/* Returns true if the kind is listed in JSON. "lobe" lists all lobes; their traits show which are diffuse. */
 static bool in_json(const Kind *kind) {
     return strcmp(kind->id, "lobe") == 0 || (kind->shown && !entry_lobe(kind, 0));
 }
@@ -216,7 +216,7 @@ static void json_all(Json *json) {
     json_close(json, '}');
 }
 
-/* One entry with all there is to say of it. */
+/* Prints one entry with all its details. */
 static void print_one(const Kind *kind, int k) {
     char *page = page_text(kind, kind->name(k));
     printf("%c%s\n", kind->id[0] & ~0x20, kind->id + 1);
@@ -240,7 +240,7 @@ static int no_such_id(const char *id) {
                   nearest.name ? nearest_hint(&nearest, hint, sizeof hint) : "; `weft models` lists them");
 }
 
-/* Ids that begin with id and a dash. */
+/* Prints the ids that begin with id and a dash. */
 static void print_related(const char *id) {
     char line[512] = "";
     size_t length = strlen(id);
@@ -270,8 +270,8 @@ static int list_kind(const Kind *kind, Json *json) {
     return 0;
 }
 
-/* An id may be that of several: "cook-torrance" is a lobe, a V and an F. only: of one kind, NULL: of all. The name of a
- * kind that is no id lists the kind. */
+/* Shows the entries of an id, which several kinds may have: "cook-torrance" is a lobe, a V and an F. only is the one
+ * kind to look in, NULL for all. The name of a kind that is no id lists the kind. */
 static int show(const char *id, const Kind *only, Json *json) {
     int found = 0;
     const Kind *named = kind_prefixed(id, (int)strlen(id));
@@ -292,7 +292,7 @@ static int show(const char *id, const Kind *only, Json *json) {
     return 0;
 }
 
-/* KIND: or KIND:ID. Of a preset the material file and nothing else. */
+/* Shows KIND: or KIND:ID. For a preset it prints the material file and nothing else. */
 static int show_of_kind(const char *text, const char *colon, Json *json) {
     const Kind *kind = kind_prefixed(text, (int)(colon - text));
     if (!kind)

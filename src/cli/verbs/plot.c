@@ -57,7 +57,7 @@ static int views_read(Plot *plot) {
     return 0;
 }
 
-/* WxH, or W alone, whose height follows. */
+/* Reads --size: WxH, or W alone, from which the height follows. */
 static int size_read(Plot *plot) {
     const char *text = option_text(plot->options, "--size");
     if (!text) return 0;

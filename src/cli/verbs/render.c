@@ -36,7 +36,7 @@ static void print_stages(const Job *job) {
     printf("%-30s %11.1f %6.1f %%  Embree\n", "all", sum, 100.0 * embree / sum);
 }
 
-/* Only what --save asks for. */
+/* Writes only the files of --save, without a picture. */
 static int save_run(const Request *request, Warnings *warnings) {
     Job job = {.request = request, .warnings = warnings, .engine = request->engine};
     WeftError error = {0};

@@ -53,7 +53,7 @@ static WeftResult configure_scene(void *user, WeftScene *scene, EnvironmentState
     return scene_options_apply(scene_options, 0, scene, log, error);
 }
 
-/* A folder of maps beside the program, or where it was started, is worn by itself. */
+/* Returns the folder of maps that is put on the cloth by default: in the current folder, or beside the program. */
 static const char *materials_beside(char path[4096]) {
     static const char folder[] = "Models/Materials/0";
     struct stat s;

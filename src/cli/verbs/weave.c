@@ -29,7 +29,7 @@ static int output_check(Weaving *weaving) {
     return output_probe_other(weaving->options, path);
 }
 
-/* Threads per centimetre of a system. The repeat is longest across its own threads. */
+/* Returns the threads of a system per centimetre. The repeat is longest across its own threads. */
 static double sett(const WeftDraftInfo *info, WeftThreads threads) {
     return (double)info->count[threads] / (100.0 * (double)info->size[threads]);
 }
@@ -68,7 +68,7 @@ static int draft_make(Weaving *weaving) {
     return result;
 }
 
-/* The yarns of warp and weft by name. */
+/* Reads the yarns of warp and weft by name. */
 static int yarns_read(const char *text, WeftYarn yarns[2]) {
     WeftError error;
     char name[2][64];
@@ -81,7 +81,7 @@ static int yarns_read(const char *text, WeftYarn yarns[2]) {
     return 0;
 }
 
-/* A draft of many crossings is woven only if somebody asks for the cloth. */
+/* Weaves the cloth. A draft of many crossings is woven only if the options need the cloth. */
 static int cloth_make(Weaving *weaving) {
     const Options *options = weaving->options;
     const bool asked = option_given(options, "--close") || option_given(options, "--bake");
