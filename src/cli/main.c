@@ -1,4 +1,4 @@
-/* main.c - the weft program: finds the verb and hands over */
+/* main.c - the weft program: finds the verb and runs it */
 #include <errno.h>
 #include <signal.h>
 #include <stdio.h>
@@ -96,8 +96,7 @@ static int dispatch(int count, char **arguments) {
 int main(int count, char **arguments) {
     uncaught_begin();
     signal(SIGXFSZ, SIG_IGN); /* a file beyond its limit is a write that fails, and is reported as one */
-    signal(SIGCHLD,
-           SIG_DFL); /* whoever ignores it, and started this, keeps compilers from being waited for */
+    signal(SIGCHLD, SIG_DFL); /* if the parent ignores it, compilers could not be waited for */
     int result = dispatch(count, arguments);
     errno = 0;
     int flushed = fflush(stdout);

@@ -1,4 +1,4 @@
-/* audit.c - `weft bake audit`: how far somebody else's table of E is off, and why */
+/* audit.c - `weft bake audit`: the error of a table of E from elsewhere, and its cause */
 #include <ctype.h>
 #include <stdio.h>
 #include <string.h>
@@ -17,7 +17,7 @@ typedef struct Audit {
     const char *path;
     BakeCommon common;
     WeftLobe lobe;
-    bool any; /* the nearest lobe is looked for */
+    bool any; /* no lobe is given: the nearest is searched */
     WeftImage file, errors;
     int channel;
     double most;

@@ -6,7 +6,7 @@
 #include "cli/console/progress.h"
 #include "weft/weft.h"
 
-/* The options that both take. */
+/* Options of bake and audit. */
 typedef struct BakeCommon {
     WeftTableForm form;
     bool formed; /* a form was given */

@@ -1,4 +1,4 @@
-/* fibre_model.c - `weft bake fibre-model`: solves, fits, and writes the numbers of the lobe fibre */
+/* fibre_model.c - `weft bake fibre-model`: solves and fits the coefficients of the lobe fibre, and writes them */
 #include <stdlib.h>
 
 #include "cli/bake/bake.h"

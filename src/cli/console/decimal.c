@@ -34,8 +34,9 @@ const char *decimal_read(const char *text, double *value) {
         shift = at - point < 1000 ? (int)(at - point) : 1000;
         length += at - point;
     }
-    bool plain = length > 0 && *at != 'e' && *at != 'E'; /* a hexadecimal number ends behind its first 0 */
-    if (plain && count <= 18 && whole < (uint64_t)1 << 53 && shift <= EXACT) {
+    bool is_decimal =
+        length > 0 && *at != 'e' && *at != 'E'; /* a hexadecimal number ends behind its first 0 */
+    if (is_decimal && count <= 18 && whole < (uint64_t)1 << 53 && shift <= EXACT) {
         double number = (double)whole / tens[shift];
         *value = *text == '-' ? -number : number;
         return at;
@@ -68,7 +69,7 @@ static uint32_t nine_digits(double value, int *exponent) {
         power++;
         scaled /= 10.0;
     }
-    /* three roundings in all err by less than 4e-7 */
+    /* the three roundings together err by less than 4e-7 */
     double whole = floor(scaled), left = scaled - whole;
     if (fabs(left - 0.5) < 1e-6) return 0;
     *exponent = power;

@@ -1,5 +1,5 @@
-/* decimal.h - numbers to and from text, as strtod reads and printf prints them in the C locale, several times
- * as fast; but no hexadecimal ones */
+/* decimal.h - numbers to and from text, as strtod reads and printf prints them in the C locale, but several times as
+ * fast; no hexadecimal numbers */
 #ifndef WEFT_CLI_DECIMAL_H
 #define WEFT_CLI_DECIMAL_H
 

@@ -95,8 +95,8 @@ static void shortest(FILE *stream, float value) {
     char text[32] = "null";
     for (int digits = 6; digits <= 9 && isfinite(value); digits++) {
         snprintf(text, sizeof text, "%.*g", digits, (double)value);
-        float again = strtof(text, NULL);
-        if (!(again < value || again > value)) break;
+        float back = strtof(text, NULL);
+        if (!(back < value || back > value)) break;
     }
     fputs(text, stream);
 }

@@ -1,7 +1,7 @@
 /* json_writer.h - writing one JSON value to a stream
  *
- * Keys are NULL inside arrays and at the top. Texts may hold any bytes: what is not UTF-8 becomes U+FFFD.
- * Numbers that JSON cannot say become null. */
+ * Keys are NULL inside arrays and at the top. Texts may contain any bytes; those that are not UTF-8 become U+FFFD.
+ * Infinities and NaN become null. */
 #ifndef WEFT_CLI_JSON_WRITER_H
 #define WEFT_CLI_JSON_WRITER_H
 
@@ -12,7 +12,7 @@
 typedef struct Json {
     FILE *stream;
     bool compact;
-    bool follows; /* a value stands before the next one */
+    bool follows; /* the next value needs a comma before it */
     int depth;
 } Json;
 

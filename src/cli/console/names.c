@@ -35,8 +35,8 @@ void nearest_offer(Nearest *nearest, const char *name) {
     size_t typed = strlen(nearest->typed), length = strlen(name);
     if (typed == 0 || typed > NAME_MAX_LENGTH || length > NAME_MAX_LENGTH) return;
     int distance = edits(nearest->typed, name);
-    int bearable = least(1 + (int)typed / 4, ((int)length - 1) / 2); /* most of the name must be there */
-    /* the start of a name is a way to write it: --time for --time-limit */
+    int bearable = least(1 + (int)typed / 4, ((int)length - 1) / 2); /* most of the name must match */
+    /* the start of a name counts as the name: --time for --time-limit */
     if (typed > 2 && strncmp(nearest->typed, name, typed) == 0) distance = least(distance, 1);
     if (distance > bearable || (nearest->name && distance >= nearest->distance)) return;
     nearest->name = name;

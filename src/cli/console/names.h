@@ -1,4 +1,4 @@
-/* names.h - the ids of everything there is, by kind, and the name that was probably meant */
+/* names.h - the ids of the catalogue by kind, and the name that a misspelt one probably means */
 #ifndef WEFT_CLI_NAMES_H
 #define WEFT_CLI_NAMES_H
 
@@ -21,8 +21,8 @@ typedef struct Kind {
     const char *id;                      /* what one of them is: "lobe" */
     const char *article, *key, *heading; /* "a", "lobes" as in JSON, "Lobes" over a list */
     const char *(*name)(int index), *(*help)(int index);
-    bool shown;       /* in the list of everything; else it is part of another kind */
-    const char *file; /* the catalogue's files of these begin so, "terms/d_"; NULL: there are none */
+    bool shown;       /* in the list of all kinds; else part of another kind */
+    const char *file; /* how the paths of its files begin, "terms/d_"; NULL: it has none */
 } Kind;
 
 extern const Kind kinds[]; /* ends with an id of NULL */

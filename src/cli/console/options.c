@@ -69,7 +69,7 @@ static int option_take(Options *options, int count, char **arguments, int *used)
     *used = 1;
     if (!row->value && equals) return report(WEFT_USAGE, "%s: takes no value", row->name);
     if (row->value && !equals) {
-        /* what looks like an option is one; --name=value has no such doubt */
+        /* a value that looks like an option must be written --name=value */
         if (count < 2 || strncmp(arguments[1], "--", 2) == 0)
             return report(WEFT_USAGE, "%s: needs a value: %s %s", row->name, row->name, row->value);
         value = arguments[1];
@@ -82,10 +82,10 @@ static int option_take(Options *options, int count, char **arguments, int *used)
 }
 
 int options_parse(const Verb *verb, int count, char **arguments, Options *options) {
-    size_t room = (size_t)count + 1;
+    size_t capacity = (size_t)count + 1;
     *options = (Options){.verb = verb, .arguments = arguments, .argument_count = count};
-    options->given = calloc(room, sizeof *options->given);
-    options->operands = calloc(room, sizeof *options->operands);
+    options->given = calloc(capacity, sizeof *options->given);
+    options->operands = calloc(capacity, sizeof *options->operands);
     if (!options->given || !options->operands) return report(WEFT_RESOURCES, "out of memory");
     bool only_operands = false;
     for (int k = 0, used = 1; k < count; k += used, used = 1) {

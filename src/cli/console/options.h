@@ -1,5 +1,4 @@
-/* options.h - the arguments of a verb: one table a verb, from which parsing, checks, help and docs/cli.md
- * come
+/* options.h - the arguments of a verb: one table per verb, which generates parsing, checks, help and docs/cli.md
  *
  * "--name value" and "--name=value" are the same; "--" ends the options; "-" alone is an operand. */
 #ifndef WEFT_CLI_OPTIONS_H
@@ -17,7 +16,7 @@ typedef struct Option {
     bool repeats;      /* may be given more than once */
 } Option;
 
-/* The rows of a table. HEADING stands over those that follow. */
+/* Rows of a table. OPTION_HEADING is a heading for the rows that follow. */
 #define OPTION_HEADING(text)                                                                                 \
     { .help = (text) }
 #define OPTION_SWITCH(name_, help_)                                                                          \
@@ -38,7 +37,7 @@ typedef struct Verb {
     int operands_least, operands_most;
     const Option *options;
     void (*lists)(void); /* prints lists between options and notes; NULL: there are none */
-    const char *notes;   /* the help's end: lines as they are, examples among them */
+    const char *notes;   /* the end of the help, printed unchanged, with examples */
     int (*run)(const Options *options);
 } Verb;
 
@@ -47,7 +46,7 @@ struct Options {
     const Verb *verb;
     struct Given *given;
     const char **operands;
-    char **arguments; /* all that followed the verb */
+    char **arguments; /* all that follow the verb */
     int given_count, operand_count, argument_count;
 };
 

@@ -13,7 +13,7 @@ typedef struct Output {
 } Output;
 
 /* Opens a file beside path, which must outlive the Output, or beside the file that path links to. Returns 0,
- * or an exit code after one line on standard error; so where path is there and is no plain file. */
+ * or an exit code after one line on standard error, as where path exists and is not a regular file. */
 int output_begin(Output *output, const char *path);
 
 /* Gives the file its name. Returns 0, or an exit code after one line; nothing is left then. */

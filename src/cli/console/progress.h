@@ -1,4 +1,4 @@
-/* progress.h - a line on the terminal that says how far a render or another long loop is; nothing where there
+/* progress.h - a line on the terminal with the progress of a render or another long loop; nothing where there
  * is no terminal */
 #ifndef WEFT_CLI_PROGRESS_H
 #define WEFT_CLI_PROGRESS_H
@@ -8,12 +8,12 @@
 typedef struct Progress {
     bool shown;
     const char *prefix; /* before all else, such as "2/3 " */
-    int spp;            /* samples a pixel asked for; 0: as many as the time allows */
-    int spp_most;       /* what a fraction of 1 means */
+    int spp;            /* samples per pixel requested; 0: as many as the time allows */
+    int spp_most;       /* samples per pixel at fraction 1 */
     double pixels;      /* in the picture */
     double limit;       /* s; 0: none */
     const char *unit;   /* of what is counted, "texels"; NULL: samples of a render */
-    double count;       /* of these in all; 0: not known */
+    double count;       /* of these in all; 0: unknown */
     double started, drawn;
     int width; /* of the terminal, characters */
 } Progress;

@@ -1,4 +1,4 @@
-/* report.h - the one line that says what went wrong */
+/* report.h - the line on standard error that reports a failure or a warning */
 #ifndef WEFT_CLI_REPORT_H
 #define WEFT_CLI_REPORT_H
 

@@ -1,4 +1,4 @@
-/* dds.h - a table as a DirectDraw surface, the container that Unreal, Unity and Direct3D read as it is */
+/* dds.h - a table as a DirectDraw surface, the container that Unreal, Unity and Direct3D read without conversion */
 #ifndef WEFT_CLI_DDS_H
 #define WEFT_CLI_DDS_H
 

@@ -15,9 +15,10 @@ static char *table_path(const ExportFiles *self, int k) {
     const char *path = self->path, *slash = strrchr(path, '/');
     const char *dot = strrchr(slash ? slash : path, '.');
     int stem = dot && dot > (slash ? slash + 1 : path) ? (int)(dot - path) : (int)strlen(path);
-    size_t room = (size_t)stem + WEFT_EXPORT_NAME + 8;
-    char *out = malloc(room);
-    if (out) snprintf(out, room, "%.*s.%s%s", stem, path, self->made->tables[k].name, suffixes[self->lut]);
+    size_t capacity = (size_t)stem + WEFT_EXPORT_NAME + 8;
+    char *out = malloc(capacity);
+    if (out)
+        snprintf(out, capacity, "%.*s.%s%s", stem, path, self->made->tables[k].name, suffixes[self->lut]);
     return out;
 }
 

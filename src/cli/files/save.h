@@ -5,7 +5,7 @@
 #include "cli/console/options.h"
 #include "weft/scene.h"
 
-/* Tests that every --save names a known kind of file and a place that can be written. Returns 0, or an exit
+/* Tests that every --save names a supported kind of file and a place that can be written. Returns 0, or an exit
  * code after one line. */
 int save_check(const Options *options);
 

@@ -128,11 +128,11 @@ static int png_write(const TableFile *file, const char *path) {
         for (int x = 0; x < table->width; x++, to += channels)
             for (int c = 0; c < table->channels; c++)
                 to[c] = (uint16_t)((double)texel_at(table, x, y)[c] / scale * 65535.0 + 0.5);
-    const size_t room = strlen(file->command) + 64;
-    char *comment = malloc(room);
+    const size_t capacity = strlen(file->command) + 64;
+    char *comment = malloc(capacity);
     int result = comment ? 0 : report(WEFT_RESOURCES, "out of memory");
     if (comment) {
-        snprintf(comment, room, "%s; value = pixel * %g", file->command, scale);
+        snprintf(comment, capacity, "%s; value = pixel * %g", file->command, scale);
         result = written(path, &image, file, comment);
     }
     if (result == 0 && (scale < 1.0 || scale > 1.0))

@@ -8,11 +8,11 @@
 
 typedef struct TableFile {
     const WeftImage *table; /* F32 */
-    const char *command;    /* the one that made it, in one line: each format that can keep it does */
-    const char *about;      /* another line on what it is */
-    float low, high;        /* the least and the largest value */
-    double scale;           /* a .png holds the table / scale; 0: the least power of two that all fit in */
-    bool half;              /* an .exr of 16 bit floats, not 32 */
+    const char *command; /* the command that made it, on one line; each format that has comments keeps it */
+    const char *about;   /* a line that describes it */
+    float low, high;     /* the least and the largest value */
+    double scale;        /* a .png stores table / scale; 0: the least power of two that avoids clipping */
+    bool half;           /* an .exr of 16 bit floats, not 32 */
 } TableFile;
 
 /* Returns true if path ends in one of .h .png .exr .dds .npy .csv .txt; otherwise prints one line on

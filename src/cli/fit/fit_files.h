@@ -5,7 +5,7 @@
 #include "cli/console/options.h"
 #include "weft/weft.h"
 
-/* Tests that every -o names a known kind of file and a place that can be written. Returns 0, or an exit code
+/* Tests that every -o names a supported kind of file and a place that can be written. Returns 0, or an exit code
  * after one line on standard error. */
 int fit_files_check(const Options *options);
 

@@ -8,8 +8,8 @@
 
 #include "cli/console/report.h"
 
-/* A slice: theta_h from left to right, theta_d from the bottom up, 0 .. 90 degrees; colours are x = f cos_i,
- * times what brings the data's 98th of 100 to white. */
+/* A slice: theta_h from left to right, theta_d from the bottom up, 0 .. 90 degrees; colours are f cos_i, scaled
+ * so that the 98th percentile of the data is white. */
 enum { SIDE = 220, ROWS = 2, COLUMNS = 3, PANELS = 2 * ROWS * COLUMNS };
 static const double azimuths[ROWS] = {90.0, 0.0};
 

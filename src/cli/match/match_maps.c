@@ -11,7 +11,8 @@
 #include "cli/console/report.h"
 #include "cli/match/match_verb.h"
 
-/* The sweep, a share of the plausible range of the first parameter: its ends are rims too thin for a fit. */
+/* The sweep, as a fraction of the plausible range of the first parameter: at its ends the lobes are too
+ * narrow for a fit. */
 enum { SWEEP = 7, LOBES_MOST = 32 };
 static const double places[SWEEP] = {0.1, 0.2, 0.3, 0.45, 0.6, 0.75, 0.9};
 
@@ -25,10 +26,10 @@ typedef struct Maps {
     WeftMatchJob *jobs; /* [from][to][sweep] */
 } Maps;
 
-/* p' = a p^b, colour' = c colour p^d: straight lines between logarithms, by least squares. */
+/* The formula p' = a p^b, colour' = c colour p^d, fitted by least squares of the logarithms. */
 typedef struct MapFormula {
     double a, b, c, d;
-    double matched, worst; /* mean error of the matches; the most that the formula adds to one */
+    double matched, worst; /* mean error of the matches; largest error that the formula adds to one */
 } MapFormula;
 
 /* Returns true if the lobe is a sheen of one colour whose first parameter is a width. */
@@ -94,16 +95,17 @@ static int formula_of(const Maps *maps, int from, int to, WeftBrdfMetric metric,
     power_law(x, z, &out->c, &out->d);
     for (int k = 0; k < SWEEP; k++) {
         WeftLobe lobe = job_of(maps, from, to, k)->lobe;
-        WeftReflection *said;
+        WeftReflection *of_formula;
         WeftError error;
         double distance = 1.0;
         lobe.params[0] = (float)(out->a * pow(x[k], out->b));
         for (int c = 0; c < 3; c++)
             lobe.f0[c] = (float)((double)maps->source[from][k].f0[c] * out->c * pow(x[k], out->d));
-        WeftResult result = weft_reflection_of_lobe(&lobe, &said, &error);
+        WeftResult result = weft_reflection_of_lobe(&lobe, &of_formula, &error);
         if (result == WEFT_OK)
-            result = weft_brdf_distance(said, maps->from[from][k], WEFT_PART_ALL, metric, &distance, &error);
-        weft_reflection_free(said);
+            result =
+                weft_brdf_distance(of_formula, maps->from[from][k], WEFT_PART_ALL, metric, &distance, &error);
+        weft_reflection_free(of_formula);
         if (result != WEFT_OK) return report_error(&error);
         out->worst = fmax(out->worst, distance - job_of(maps, from, to, k)->found.matched);
     }

@@ -62,12 +62,12 @@ static int hold_params(const Match *match, const WeftLobe *typed, WeftLobe *copy
     return 0;
 }
 
-static int hold_inputs(const Match *match, const WeftMaterial *typed, WeftMaterial *copy, int *held) {
+static int hold_inputs(const Match *match, const WeftMaterial *typed, WeftMaterial *copy, int *fixed) {
     const char *name;
     for (int cursor = 0; (name = option_next(match->options, "--hold", &cursor));) {
         int k = weft_material_input_find(name);
         if (k < 0) return report(WEFT_USAGE, "%.80s: is not an input; `weft models inputs` lists them", name);
-        held[k] = 1;
+        fixed[k] = 1;
         copy->inputs[k] = typed->inputs[k];
     }
     return 0;
@@ -82,7 +82,7 @@ static int refuse_estimate(const Model *model) {
 }
 
 int match_begin(Match *match, const char *from, const char *to) {
-    int result = model_parse(from, &match->from); /* whose numbers are matched, without a weave */
+    int result = model_parse(from, &match->from); /* the numbers that are matched, without a weave */
     if (result == 0) result = model_prepare(&match->from);
     if (result == 0) result = model_parse(to, &match->to);
     if (result == 0) result = refuse_estimate(&match->from);
@@ -101,10 +101,10 @@ int match_search(Match *match) {
     WeftError error;
     WeftResult found;
     unsigned hold = 0;
-    int held[WEFT_INPUTS_MAX] = {0};
+    int fixed[WEFT_INPUTS_MAX] = {0};
     bool lobe = match->to.kind == MODEL_LOBE;
     int result = lobe ? hold_params(match, &match->to.lobe, &match->copy.lobe, &hold)
-                      : hold_inputs(match, &match->to.material, &match->copy.material, held);
+                      : hold_inputs(match, &match->to.material, &match->copy.material, fixed);
     if (result == 0) result = model_prepare(&match->copy);
     if (result != 0) return result;
     match->to.lobe = match->copy.lobe;
@@ -113,7 +113,7 @@ int match_search(Match *match) {
         found = weft_match_lobe(match->from.reflection, match->metric, hold, &match->to.lobe, &match->found,
                                 &error);
     else
-        found = weft_match_material(match->from.reflection, match->metric, held, &match->to.material,
+        found = weft_match_material(match->from.reflection, match->metric, fixed, &match->to.material,
                                     &match->found, &error);
     if (found != WEFT_OK) return report_error(&error);
     model_warn(&match->to);

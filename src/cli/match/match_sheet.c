@@ -11,7 +11,7 @@ enum { SIZE = 300, PICTURES = 3 };
 typedef struct Pictures {
     WeftImage linear[PICTURES], shown[PICTURES], delta[PICTURES];
     WeftDifference difference[PICTURES];
-    float scale; /* of all pictures of differences */
+    float scale; /* of all difference images */
 } Pictures;
 
 /* Rounds value up to the next of 1, 2, 5, 10, ... */

@@ -1,5 +1,4 @@
-/* match_table.c - every profile as every other: how far apart they are with the same numbers, and with better
- * ones */
+/* match_table.c - every profile matched to every other: the error with the same numbers, and with matched ones */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -22,9 +22,9 @@ static char *argument_write(char *to, const char *argument) {
 }
 
 char *command_text(const Options *options) {
-    size_t room = sizeof "weft " + strlen(options->verb->name);
-    for (int k = 0; k < options->argument_count; k++) room += 3 + 4 * strlen(options->arguments[k]);
-    char *text = malloc(room), *to = text;
+    size_t capacity = sizeof "weft " + strlen(options->verb->name);
+    for (int k = 0; k < options->argument_count; k++) capacity += 3 + 4 * strlen(options->arguments[k]);
+    char *text = malloc(capacity), *to = text;
     if (!text) return NULL;
     to = argument_write(append(to, "weft"), options->verb->name);
     for (int k = 0; k < options->argument_count; k++) to = argument_write(to, options->arguments[k]);
@@ -36,9 +36,9 @@ char *command_assign_text(const Options *options) {
     static const char *const names[] = {"--variant", "--preset",  "--material", "--materials", "--workflow",
                                         "--profile", "--diffuse", "--sheen",    "--layer",     "--texture",
                                         "--set",     "--convert", "--light"};
-    size_t room = 1;
-    for (int k = 0; k < options->argument_count; k++) room += 16 + 4 * strlen(options->arguments[k]);
-    char *text = malloc(room), *to = text;
+    size_t capacity = 1;
+    for (int k = 0; k < options->argument_count; k++) capacity += 16 + 4 * strlen(options->arguments[k]);
+    char *text = malloc(capacity), *to = text;
     if (!text) return NULL;
     for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
         int cursor = 0;

@@ -1,4 +1,4 @@
-/* command.h - the command line again, as one could type it in a shell */
+/* command.h - the command line as text that a shell reads */
 #ifndef WEFT_CLI_COMMAND_H
 #define WEFT_CLI_COMMAND_H
 

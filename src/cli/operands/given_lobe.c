@@ -6,7 +6,7 @@
 #include "cli/console/names.h"
 #include "cli/console/report.h"
 
-/* Says what was not said just before: the three channels of a colour have one warning. */
+/* Reports a warning that differs from the last one, so that the three channels of a colour cause only one. */
 static void warning(void *user, WeftMessage message, const char *text) {
     WeftError *last = user;
     (void)message;

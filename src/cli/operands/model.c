@@ -8,7 +8,7 @@
 #include "cli/console/names.h"
 #include "cli/console/report.h"
 
-/* The kinds of names that are taken, in the order in which they are tried. */
+/* The kinds that a name is looked up in, in this order. */
 static const char *const taken[] = {"lobe", "profile", "workflow", "preset"};
 enum { KINDS = sizeof taken / sizeof *taken };
 

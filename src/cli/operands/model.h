@@ -1,4 +1,4 @@
-/* model.h - something that reflects, as the command line names it
+/* model.h - a reflection model, as the command line names it
  *
  *   ashikhmin-neubelt                  a lobe, with its defaults
  *   ggx:alpha=0.2,color=1,0.8,0.3      with parameters
@@ -8,8 +8,8 @@
  *   chair.glb:fabric                   a material of a scene
  *   cotton.binary, felt.bsdf, m1.bin   a measured BRDF in MERL's, RGL's or UTIA's format
  *
- * A kind before the name settles what two of them share: "lobe:silk", "preset:silk". Textures are left out:
- * of a material only the numbers count, and a warning says so. A weave counts where model_read made its reflection. */
+ * A kind before the name resolves a name that two kinds share: "lobe:silk", "preset:silk". Textures are left out with
+ * a warning: only the numbers of a material count. A weave counts if model_read made its reflection. */
 #ifndef WEFT_CLI_MODEL_H
 #define WEFT_CLI_MODEL_H
 
@@ -27,16 +27,15 @@ typedef enum ModelKind {
 
 typedef struct Model {
     ModelKind kind;
-    char name[128];  /* what it is called: an id, a material's own name, a file without folder and suffix */
-    char path[1024]; /* MODEL_MEASURED: the file */
-    bool bare;       /* a profile or workflow has its own defaults */
-    bool given;      /* settings stood behind the name */
-    char words[256]; /* as it was typed, cut where it is long: for labels */
-    WeftLobe lobe;   /* MODEL_LOBE */
-    WeftMaterial material; /* MODEL_PROFILE, MODEL_WORKFLOW, MODEL_MATERIAL */
-    bool weaves;           /* a weave is not left out */
-    WeftCloth
-        *cloth; /* MODEL_MATERIAL: what it is woven of; owned; NULL: it is not woven, or that is left out */
+    char name[128];             /* an id, a material's own name, or a file's name without folder and suffix */
+    char path[1024];            /* MODEL_MEASURED: the file */
+    bool bare;                  /* a profile or workflow has its own defaults */
+    bool given;                 /* settings followed the name */
+    char words[256];            /* as typed, cut off where it is long; for labels */
+    WeftLobe lobe;              /* MODEL_LOBE */
+    WeftMaterial material;      /* MODEL_PROFILE, MODEL_WORKFLOW, MODEL_MATERIAL */
+    bool weaves;                /* a weave is kept */
+    WeftCloth *cloth;           /* MODEL_MATERIAL: its cloth, owned; NULL: not woven, or left out */
     WeftReflection *reflection; /* owned */
 } Model;
 
@@ -54,10 +53,10 @@ int model_parse(const char *typed, Model *out);
 /* Works as model_parse, but a profile or workflow has its own defaults and no grey cloth. */
 int model_parse_bare(const char *typed, Model *out);
 
-/* Makes the reflection of what was parsed, or again after its numbers were changed. */
+/* Makes the reflection of the parsed model; call it again after a change of its numbers. */
 int model_prepare(Model *model);
 
-/* Says on standard error where it replaces a number by the nearest valid one. */
+/* Warns on standard error if the reflection replaces a number by the nearest valid one. */
 void model_warn(const Model *model);
 
 /* Returns true if the model has a material, as profiles and workflows do. */

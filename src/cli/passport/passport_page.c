@@ -18,7 +18,7 @@ static void escaped(FILE *f, const char *text) {
 typedef struct PassportPlot {
     FILE *stream;
     double top;
-    int curves, of; /* drawn so far, and to be drawn: colours run from violet to yellow-green */
+    int curves, of; /* drawn so far, and in all; colours run from violet to yellow-green */
 } PassportPlot;
 
 enum { LEFT = 46, TOP = 26, WIDE = 330, HIGH = 200, KEY = 150 };

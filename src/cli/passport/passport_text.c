@@ -71,7 +71,7 @@ static void print_furnace(const WeftPassport *p) {
         printf("  %-16s", weft_layer_name(layer));
         for (int k = 0; k < WEFT_PASSPORT_SHEENS; k++) {
             float least = p->furnace[layer][k][0], most = least;
-            bool above = false; /* and not by noise */
+            bool above = false; /* significantly, not by noise */
             for (int v = 0; v < WEFT_PASSPORT_VIEWS; v++) {
                 float e = p->furnace[layer][k][v];
                 if (e < least || isnan(e)) least = e;

@@ -289,7 +289,7 @@ static WeftResult choose(WeftScene *scene, const char *choice, const char *id, c
 
 /* Resets what `choice` overrides. A profile sets the other choices to auto, since it is exact; a workflow sets the
  * profile to none. */
-static WeftResult make_room(WeftScene *scene, const char *choice, const char *id, WeftError *error) {
+static WeftResult reset_overridden(WeftScene *scene, const char *choice, const char *id, WeftError *error) {
     if (strcmp(choice, "workflow") == 0) return choose(scene, "profile", "none", NULL, error);
     if (strcmp(choice, "profile") != 0 || strcmp(id, "none") == 0) return WEFT_OK;
     WeftResult result = WEFT_OK;
@@ -308,7 +308,7 @@ static WeftResult apply_axis(const Assignments *assignment, int axis, int k, Wef
     if (!text) return WEFT_OK;
     if (!value_of(assignment, text, k, item)) item_at(text, ',', 0, item);
     const char *by = split_by(item);
-    WeftResult result = make_room(scene, choice, item, error);
+    WeftResult result = reset_overridden(scene, choice, item, error);
     if (result == WEFT_OK) result = choose(scene, choice, item, log, error);
     if (result == WEFT_OK && by) result = choose(scene, "layer_by", by, log, error);
     return result;
@@ -400,7 +400,7 @@ static WeftResult convert(const char *workflow, WeftScene *scene, const WeftLog 
     return result;
 }
 
-/* The plausibility warnings so far. Several settings lead to one finding, and each of them warns. */
+/* The plausibility warnings so far. Several settings can lead to the same finding, and each of them warns. */
 typedef struct Heard {
     const WeftLog *log;
     char lines[32][256];
@@ -436,12 +436,12 @@ WeftResult assign_apply(const Assignments *assignment, int k, WeftScene *scene, 
     WeftResult result = WEFT_OK;
     if (variant) result = weft_scene_set_variant(scene, variant, error);
     if (result == WEFT_OK) result = apply_operands(assignment, scene, log, error);
-    /* A setting warns of the material as it stands then. So all are applied twice, and the user hears the
-     * second round alone, in which every other setting is in place. */
+    /* A setting warns about the material in its state at that moment. So all settings are applied twice, and only
+     * the second round is logged, in which every other setting is in place. */
     Heard heard = {.log = log};
-    const WeftLog once = {hear_once, &heard};
+    const WeftLog unique = {hear_once, &heard};
     for (int round = 0; round < 2; round++) {
-        const WeftLog *to = round ? &once : NULL;
+        const WeftLog *to = round ? &unique : NULL;
         for (int axis = 0; axis < AXES && result == WEFT_OK; axis++)
             result = apply_axis(assignment, axis, k, scene, to, error);
         if (result == WEFT_OK) result = apply_sets(assignment, k, scene, to, error);

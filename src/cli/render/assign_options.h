@@ -15,7 +15,7 @@ typedef struct Varied {
     const char *option;      /* "--profile" or "--set" */
     char name[ASSIGN_LABEL]; /* of what varies: "profile", "*.subsurface" */
     const char *values;      /* the list as it was typed */
-    char separator;          /* between them: ',' or ';' */
+    char separator;          /* between the values: ',' or ';' */
     int count;
 } Varied;
 
@@ -62,7 +62,7 @@ void assign_value(const Assignments *assignment, int v, int k, char value[ASSIGN
 /* Labels picture number k by what sets it apart from the rest, "" where there is but one. */
 void assign_label(const Assignments *assignment, int k, char label[ASSIGN_LABEL]);
 
-/* Does to a fresh scene what the options say of picture number k. log also hears what a conversion loses. */
+/* Applies the options of picture number k to a fresh scene. log also receives what a conversion loses. */
 WeftResult assign_apply(const Assignments *assignment, int k, WeftScene *scene, const WeftLog *log,
                         WeftError *error);
 

@@ -15,14 +15,14 @@ typedef struct Shot {
     Job job;
     char label[ASSIGN_LABEL], samples[NOTE], title[NOTE + ASSIGN_LABEL], figures[NOTE];
     WeftDifference difference; /* from the first */
-    WeftImage picture;         /* of it */
+    WeftImage picture;         /* of the difference */
 } Shot;
 
 typedef struct Comparison {
     const Request *request;
     Shot shots[ASSIGN_VARIANTS_MOST];
     int count;   /* images made; fewer than requested after an interruption */
-    float scale; /* of all pictures of differences */
+    float scale; /* of all difference images */
 } Comparison;
 
 /* Traces one after the other. What an interruption leaves without a sample is left out, but the first. */
@@ -89,7 +89,7 @@ static void caption_of(const Request *request, char caption[CAPTION]) {
         snprintf(caption, CAPTION, "%.200s, by %s", request->scene_options.scene, by);
 }
 
-/* Places the pictures alone, in rows and columns. Returns the number of panels. */
+/* Fills the panels with the pictures alone, in rows and columns. Returns the number of panels. */
 static int place_grid(const Comparison *all, WeftPanel *panels, int *columns) {
     *columns = all->request->scene_options.assignment.varied[1].count;
     if (*columns > all->count) *columns = all->count;
@@ -100,7 +100,7 @@ static int place_grid(const Comparison *all, WeftPanel *panels, int *columns) {
     return all->count;
 }
 
-/* Places bands of two rows: pictures, and below each its difference; below the first stands the key of the colours. One
+/* Fills bands of two rows: pictures, and below each its difference; below the first stands the key of the colours. One
  * picture has neither. Returns the number of panels. */
 static int place_bands(const Comparison *all, WeftPanel *panels, int *columns) {
     int last = all->count > 1 ? all->count - 1 : 0, bands = 1 + last / COLUMNS_MOST;

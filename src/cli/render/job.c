@@ -56,7 +56,7 @@ static const char *camera_of(const Job *job, const char *camera) {
     return !camera && builtin && weft_scene_info(job->scene).camera_count > 0 ? "0" : camera;
 }
 
-/* Takes from the render what was asked for. */
+/* Takes the requested images from the render. */
 static WeftResult develop(Job *job, const WeftRender *render, WeftError *error) {
     const Request *request = job->request;
     WeftResult result = request->denoise
@@ -101,8 +101,8 @@ static WeftResult crop(const Job *job, WeftImage *image, WeftError *error) {
     return WEFT_OK;
 }
 
-/* Has the driver compile what a picture is drawn with while its occlusion is still being found: draws a small one. If
- * that fails, so does the picture, which then says why. */
+/* Draws a small picture, so that the driver compiles the shaders while occlusion is still being computed. If that
+ * fails, the full picture fails too and reports the reason. */
 static void compile_early(WeftRaster *raster, WeftRasterView view) {
     enum { SMALLER = 32 };
     if (!weft_raster_info(raster).making) return;
@@ -212,7 +212,7 @@ void job_free(Job *job) {
     free_images(job);
 }
 
-/* The channels of an AOV, by the names that Nuke, Blender and OpenEXR's own tools know. */
+/* The channels of an AOV, by the names that Nuke, Blender and OpenEXR's own tools use. */
 static const char *const aov_channels[WEFT_AOV_COUNT][4] = {
     {"albedo.R", "albedo.G", "albedo.B"},       {"N.X", "N.Y", "N.Z"}, {"Z"},
     {"variance.R", "variance.G", "variance.B"}, {"sampleCount"},

@@ -1,4 +1,4 @@
-/* job.h - one picture at work: a scene loaded, dressed, lit and drawn by an engine, and its report */
+/* job.h - one picture: its scene, which is loaded, assigned materials and lights, and drawn by an engine; its report */
 #ifndef WEFT_CLI_JOB_H
 #define WEFT_CLI_JOB_H
 
@@ -11,25 +11,25 @@ enum { JOB_STAGES = 32 };
 typedef struct Job {
     const Request *request;
     Warnings *warnings;
-    int number;                         /* of the picture among those of the request */
+    int number;                         /* of the picture within the request */
     Engine engine;                      /* TRACE or RASTER */
     WeftScene *scene;                   /* owned, see job_free */
     WeftRaster *raster;                 /* owned; NULL of the path tracer */
     WeftImage linear;                   /* owned, see job_free */
     WeftImage display;                  /* owned */
-    WeftImage aovs[WEFT_AOV_COUNT];     /* owned; those that were asked for */
-    double noise;                       /* relMSE, estimated; below 0: not known */
+    WeftImage aovs[WEFT_AOV_COUNT];     /* owned; only those requested */
+    double noise;                       /* relMSE, estimated; below 0: unknown */
     WeftRenderStage stages[JOB_STAGES]; /* of --stages */
     int stage_count;
-    WeftRenderInfo info; /* of the rasteriser: samples, seconds and camera */
+    WeftRenderInfo info; /* samples, seconds and camera, of either engine */
     char driver[128];    /* of OpenGL */
     long long triangles;
     double load_seconds;
-    int width, height; /* of the picture, which a crop makes smaller */
+    int width, height; /* of the picture after cropping */
     bool interrupted;
 } Job;
 
-/* Loads, dresses and lights the scene. */
+/* Loads the scene and applies materials and lights. */
 WeftResult job_open(Job *job, WeftError *error);
 
 /* Writes the picture; number as for request_outputs_write. */

@@ -186,7 +186,7 @@ static bool use_isa(const Options *options) {
     return false;
 }
 
-/* Reads what else the path tracer is to give, and checks that it is asked for it. */
+/* Reads the options of the path tracer alone, and checks that it is the engine. */
 static bool read_extras(const Options *options, Request *request) {
     static const char *const of_tracer[] = {"--halves", "--noise", "--aov", "--denoise", "--denoiser"};
     const char *denoisers[WEFT_DENOISER_COUNT + 1];

@@ -5,7 +5,7 @@
 #include "cli/render/scene_options.h"
 #include "weft/raster.h"
 
-enum { REQUEST_SPP_MOST = 1 << 24 }; /* as good as "until the time is up" */
+enum { REQUEST_SPP_MOST = 1 << 24 }; /* in effect "until the time is up" */
 
 extern const Option request_options[];
 
@@ -36,11 +36,11 @@ int request_count(const Request *request);
 /* Reads and checks all that can be judged without the scene. False after one line on standard error. */
 bool request_read(const Options *options, Request *request);
 
-/* Tests before a long render that every -o names a known format and a place that can be written, by creating
+/* Tests before a long render that every -o names a supported format and a place that can be written, by creating
  * a file there. Returns 0, or an exit code after one line. */
 int request_outputs_check(const Request *request);
 
-/* A picture for every -o: linear or as displayed, and what goes with it. */
+/* The picture for every -o, linear or as displayed, and its metadata. */
 typedef struct Outputs {
     const WeftImage *linear, *display;
     WeftImageWriting how;
@@ -51,8 +51,9 @@ typedef struct Outputs {
 WeftResult request_outputs_write(const Request *request, const char *number, const Outputs *outputs,
                                  WeftError *error);
 
-/* Their names, comma between, in a buffer of the caller's. */
 enum { REQUEST_FILES = 512 };
+
+/* Writes the names of the -o files, separated by commas, to a buffer of the caller's. */
 const char *request_outputs_text(const Request *request, char files[REQUEST_FILES]);
 
 #endif

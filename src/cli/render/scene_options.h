@@ -57,13 +57,13 @@ typedef struct SceneOptions {
     bool hide_lights;
     WeftLight lights[SCENE_LIGHTS_MOST];
     int light_count;
-    bool no_lights; /* not those of the file */
+    bool no_lights; /* without the file's lights */
 } SceneOptions;
 
 /* Reads and checks all that can be judged without the scene. False after one line on standard error. */
 bool scene_options_read(const Options *options, const char *scene, SceneOptions *scene_options);
 
-/* Does to a fresh scene what the options say of picture number k: the asset first, then ever more particular
+/* Applies the options of picture number k to a fresh scene: the asset first, then ever more particular
  * wishes. */
 WeftResult scene_options_apply(const SceneOptions *scene_options, int k, WeftScene *scene, const WeftLog *log,
                                WeftError *error);

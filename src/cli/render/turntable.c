@@ -7,7 +7,7 @@
 #include "cli/console/interrupt.h"
 
 /* Writes the camera of picture k of `count`, which rotates that of the first about its target. */
-static void turned(const WeftRenderInfo *first, int k, int count, char camera[256]) {
+static void rotated_camera(const WeftRenderInfo *first, int k, int count, char camera[256]) {
     const float *e = first->camera_eye, *t = first->camera_target;
     double angle = 2.0 * PI_DOUBLE * k / count, c = cos(angle), s = sin(angle);
     double x = (double)e[0] - (double)t[0], z = (double)e[2] - (double)t[2];
@@ -23,7 +23,7 @@ WeftResult turntable_run(Job *job, WeftError *error) {
     WeftResult result = job_open(job, error);
     for (int k = 0; k < count && result == WEFT_OK && !job->interrupted; k++) {
         char camera[256], number[16];
-        if (k) turned(&first, k, count, camera);
+        if (k) rotated_camera(&first, k, count, camera);
         result = job_draw(job, k ? camera : NULL, error);
         if (!k) first = job->info;
         seconds += job->info.render_seconds;

@@ -4,8 +4,8 @@
 
 #include "cli/render/job.h"
 
-/* Makes and writes the request's pictures, each as it is done. The camera goes around the vertical through
- * what it looks at, counter-clockwise seen from above, as if the scene turned the other way. */
+/* Makes and writes the request's pictures, each as it is done. The camera rotates about the vertical axis
+ * through its target, counter-clockwise seen from above. */
 WeftResult turntable_run(Job *job, WeftError *error);
 
 #endif

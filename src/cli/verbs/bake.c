@@ -1,5 +1,4 @@
-/* bake.c - `weft bake`: tables for engines, one kind after another from the library's list, and the audit of
- * somebody else's */
+/* bake.c - `weft bake`: tables for engines, from the library's list of kinds, and the audit of other tables */
 #include "cli/bake/bake.h"
 
 #include <stdio.h>

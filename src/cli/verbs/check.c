@@ -1,4 +1,4 @@
-/* check.c - `weft check`: what a lobe, an engine profile or a weave does with light, in numbers */
+/* check.c - `weft check`: measures a lobe, an engine profile or a weave: energy, reciprocity, sampling */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,13 +15,12 @@
 #include "cli/verbs/verbs.h"
 #include "weft/weft.h"
 
-/* Bounds. What a bound is about, as its option and as a sentence has it; those without an option hold always.
- */
+/* A bound on a result of a passport. One without an option always applies. */
 typedef struct Bound {
     const char *option, *words;
-    double most; /* where the option is not given; HUGE_VAL: none */
+    double most; /* if the option is not given; HUGE_VAL: none */
     double (*value)(const WeftPassport *passport);
-    double slack; /* what the measurement may err, as the stars of the table have it */
+    double slack; /* tolerance of the measurement, which the stars of the table use too */
 } Bound;
 
 static double albedo(const WeftPassport *p) { return (double)p->albedo_most; }
@@ -60,7 +59,7 @@ typedef struct Check {
     double most[BOUNDS];
     bool json, header, lines, watched;
     WeftPassport *passports;
-    int count, room;
+    int count;
     bool broken;
 } Check;
 

@@ -1,4 +1,4 @@
-/* diff.c - `weft diff`: how different two pictures are */
+/* diff.c - `weft diff`: the difference of two pictures */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -18,7 +18,7 @@ typedef struct Diff {
     WeftDiffDesc desc;
     double most, scale; /* --max and --scale; NAN: not given */
     WeftDiff found;
-    double beyond; /* the share of pixels worse than most */
+    double beyond; /* fraction of pixels worse than most */
 } Diff;
 
 /* Returns the best value of the metric, which is also where the colours of the map begin. */
@@ -127,8 +127,6 @@ static void json_write(const Diff *diff) {
     }
     json_close(&json, '}');
 }
-
-/* The map. */
 
 /* Rounds x up to 1, 2 or 5 times a power of ten. */
 static double rounded_up(double x) {

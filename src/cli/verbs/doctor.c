@@ -1,5 +1,4 @@
-/* doctor.c - `weft doctor`: what will go wrong with an asset, in which engine, and the asset with that
- * repaired */
+/* doctor.c - `weft doctor`: finds faults of an asset and the engines that they affect, and repairs them */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -18,12 +17,11 @@ enum { COLUMN = 11 };
 
 typedef struct Visit {
     const Options *options;
-    const char *path, *output; /* output: NULL: nothing is to be fixed */
+    const char *path, *output; /* output: NULL without --fix */
     WeftDoctor *doctor;
     Progress progress;
     bool no_notes;
-    int counts[3], fixable,
-        left; /* left: errors and warnings that are there, or are there still after --fix */
+    int counts[3], fixable, left; /* left: errors and warnings, after --fix those that remain */
 } Visit;
 
 /* Writes the names of a mask's engines, "three, babylon"; "" stands for every reader of the file. */
@@ -42,7 +40,7 @@ static const char *of_name(WeftFindingOf of) {
     return names[of];
 }
 
-static bool is_told(const Visit *visit, const WeftFinding *finding) {
+static bool is_shown(const Visit *visit, const WeftFinding *finding) {
     return !visit->no_notes || finding->severity != WEFT_SEVERITY_NOTE;
 }
 
@@ -55,32 +53,30 @@ static void count_all(Visit *visit) {
     visit->left = visit->counts[WEFT_SEVERITY_ERROR] + visit->counts[WEFT_SEVERITY_WARNING];
 }
 
-/* Writes the asset as it should be, and looks at that. */
+/* Writes the repaired asset, examines it and counts what is left. */
 static WeftResult fix(Visit *visit, WeftError *error) {
-    WeftDoctor *again;
+    WeftDoctor *repaired;
     WeftResult result = weft_doctor_fix(visit->doctor, visit->output, error);
     if (result == WEFT_OK)
         result =
-            weft_doctor_open_watched(visit->output, progress_heed, &visit->progress, &again, NULL, error);
+            weft_doctor_open_watched(visit->output, progress_heed, &visit->progress, &repaired, NULL, error);
     if (result != WEFT_OK) return result;
     visit->left = 0;
-    for (int k = 0; k < weft_doctor_count(again); k++)
-        visit->left += weft_doctor_finding(again, k)->severity != WEFT_SEVERITY_NOTE;
-    weft_doctor_close(again);
+    for (int k = 0; k < weft_doctor_count(repaired); k++)
+        visit->left += weft_doctor_finding(repaired, k)->severity != WEFT_SEVERITY_NOTE;
+    weft_doctor_close(repaired);
     return WEFT_OK;
 }
 
-/* Text. */
-
-/* Returns true if a finding says the very same of another thing. */
-static bool says_the_same(const WeftFinding *a, const WeftFinding *b) {
+/* Returns true if two findings differ only in their subject. */
+static bool is_same_fault(const WeftFinding *a, const WeftFinding *b) {
     return a->kind == b->kind && a->severity == b->severity && a->of == b->of && a->fixable == b->fixable &&
            strcmp(a->words, b->words) == 0;
 }
 
-static bool said_before(const Visit *visit, int index) {
+static bool is_repeated(const Visit *visit, int index) {
     for (int k = 0; k < index; k++)
-        if (says_the_same(weft_doctor_finding(visit->doctor, k), weft_doctor_finding(visit->doctor, index)))
+        if (is_same_fault(weft_doctor_finding(visit->doctor, k), weft_doctor_finding(visit->doctor, index)))
             return true;
     return false;
 }
@@ -92,7 +88,7 @@ static const char *others_text(const Visit *visit, int index, char *text, size_t
     text[0] = '\0';
     for (int k = index + 1; k < weft_doctor_count(visit->doctor); k++) {
         const WeftFinding *other = weft_doctor_finding(visit->doctor, k);
-        if (!says_the_same(weft_doctor_finding(visit->doctor, index), other) || others++ >= NAMED) continue;
+        if (!is_same_fault(weft_doctor_finding(visit->doctor, index), other) || others++ >= NAMED) continue;
         size_t used = strlen(text);
         snprintf(text + used, size - used, "%s%.60s", used ? ", " : "", other->subject);
     }
@@ -148,7 +144,7 @@ static void text_write(const Visit *visit) {
     counted("image", info.image_count, "\n");
     for (int k = 0; k < weft_doctor_count(visit->doctor); k++) {
         const WeftFinding *finding = weft_doctor_finding(visit->doctor, k);
-        if (!is_told(visit, finding) || said_before(visit, k)) continue;
+        if (!is_shown(visit, finding) || is_repeated(visit, k)) continue;
         if (!before || before->of != finding->of || before->index != finding->index) {
             printf("\n%s", of_name(finding->of));
             if (finding->of != WEFT_OF_ASSET) printf(" %s", finding->subject);
@@ -196,7 +192,7 @@ static void json_write(const Visit *visit) {
     json_open(&json, "findings", '[');
     for (int k = 0; k < weft_doctor_count(visit->doctor); k++) {
         const WeftFinding *finding = weft_doctor_finding(visit->doctor, k);
-        if (is_told(visit, finding)) finding_json(&json, finding);
+        if (is_shown(visit, finding)) finding_json(&json, finding);
     }
     json_close(&json, ']');
     json_close(&json, '}');
@@ -238,7 +234,7 @@ static int output_check(const Visit *visit) {
     return output_probe(visit->output);
 }
 
-/* Looks at the asset, and mends it where that is asked for. */
+/* Examines the asset, and repairs it with --fix. */
 static int examine(Visit *visit) {
     WeftError error;
     visit->progress = progress_start_count(false, "of the materials and meshes", 0.0);

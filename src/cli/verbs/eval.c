@@ -1,4 +1,4 @@
-/* eval.c - `weft eval`: numbers of one lobe, a line in, a line out */
+/* eval.c - `weft eval`: values of one lobe, an output line for each input line */
 #include <errno.h>
 #include <fcntl.h>
 #include <math.h>
@@ -47,11 +47,11 @@ static void direction(double theta, double phi, float w[3][BATCH], size_t k) {
     w[2][k] = (float)sin((90.0 - theta) * radians);
 }
 
-/* The processing of lines: numbers are read, then all are answered. */
+/* One mode of evaluation: how a line is read, and how a batch is evaluated and printed. */
 typedef struct EvalTask {
     const char *form;                                      /* of a line */
     int count;                                             /* numbers in it */
-    bool (*take)(EvalBatch *batch, const double *numbers); /* false: not what they should be */
+    bool (*take)(EvalBatch *batch, const double *numbers); /* false: invalid numbers */
     void (*answer)(EvalBatch *batch, const WeftLobe *lobe, bool json);
 } EvalTask;
 
@@ -123,7 +123,7 @@ typedef struct NumberLines {
     const char *name;
     int file;
     long long count; /* of lines so far */
-    size_t held;     /* bytes in chunk */
+    size_t used;     /* bytes in chunk */
     char chunk[CHUNK + 1];
 } NumberLines;
 
@@ -147,7 +147,7 @@ static int take_line(const NumberLines *lines, const char *line, size_t length, 
 static int take_chunk(NumberLines *lines, EvalBatch *batch, const EvalTask *task, const WeftLobe *lobe,
                       bool json) {
     int result = 0;
-    char *line = lines->chunk, *last = lines->chunk + lines->held, *end;
+    char *line = lines->chunk, *last = lines->chunk + lines->used, *end;
     while (result == 0 && !ferror(stdout) && (end = memchr(line, '\n', (size_t)(last - line)))) {
         *end = '\0';
         lines->count++;
@@ -159,8 +159,8 @@ static int take_chunk(NumberLines *lines, EvalBatch *batch, const EvalTask *task
     }
     task->answer(batch, lobe, json);
     batch->n = 0;
-    lines->held = (size_t)(last - line);
-    memmove(lines->chunk, line, lines->held);
+    lines->used = (size_t)(last - line);
+    memmove(lines->chunk, line, lines->used);
     return result;
 }
 
@@ -170,18 +170,18 @@ static int eval_lines(NumberLines *lines, EvalBatch *batch, const EvalTask *task
     int result = 0;
     ssize_t got = 1;
     while (result == 0 && got > 0 && !ferror(stdout)) { /* a failed output is for main to report */
-        do got = read(lines->file, lines->chunk + lines->held, CHUNK - lines->held);
+        do got = read(lines->file, lines->chunk + lines->used, CHUNK - lines->used);
         while (got < 0 && errno == EINTR);
         if (got < 0)
             return report(WEFT_INPUT, "%s: %s: %s", lines->name, weft_message_text(WEFT_MESSAGE_FILE_READ),
                           strerror(errno));
-        lines->held += (size_t)got;
-        if (got == 0 && lines->held > 0)
-            lines->chunk[lines->held++] = '\n'; /* the last line may lack its own */
+        lines->used += (size_t)got;
+        if (got == 0 && lines->used > 0)
+            lines->chunk[lines->used++] = '\n'; /* the last line may lack its own */
         result = take_chunk(lines, batch, task, lobe, json);
-        if (result == 0 && !ferror(stdout) && lines->held > LINE_MOST) {
+        if (result == 0 && !ferror(stdout) && lines->used > LINE_MOST) {
             lines->count++;
-            result = take_line(lines, lines->chunk, lines->held, batch, task);
+            result = take_line(lines, lines->chunk, lines->used, batch, task);
         }
         fflush(stdout);
     }

@@ -20,12 +20,12 @@
 
 typedef struct Fitting {
     const Options *options;
-    const char *path, *base, *plot, *engine; /* plot, engine: NULL: none */
+    const char *path, *base, *plot, *engine; /* plot, engine: NULL: not requested */
     WeftBrdfMetric metric;
     WeftData *data;
     WeftFit fit;
     Model stated;         /* --to, where that is a material */
-    WeftMaterial nearest; /* what --to came to, and its error */
+    WeftMaterial nearest; /* the nearest material of --to, and its error */
     double error;
 } Fitting;
 
@@ -81,7 +81,7 @@ static const char *params_text(const WeftFitted *fitted, char *text, size_t size
     return text;
 }
 
-/* The remarks on a row, as words at its end. */
+/* Remarks, which a row of the table may end with. */
 static const struct {
     unsigned note;
     const char *words;
@@ -120,7 +120,7 @@ static void text_write(const Fitting *fitting) {
                  reads_f90(&fit->fitted[k].lobe) ? ", f90 free," : "",
                  weft_lobe_info(fit->fitted[k].base.lobe)->id);
         row_write(rank, name, &fit->fitted[k]);
-        better += fit->fitted[k].error < 0.999 * fit->baseline.error; /* ggx by another name is not closer */
+        better += fit->fitted[k].error < 0.999 * fit->baseline.error; /* not ggx by another name */
         idle += (weft_fitted_notes(&fit->fitted[k]) & WEFT_FITTED_NOTHING) != 0;
     }
     row_write("", "baseline: ggx, f90 = 1, over lambert", &fit->baseline);
@@ -213,23 +213,23 @@ static int fits_count(const Fitting *fitting, const char *only) {
 }
 
 /* Finds the best fit that a material can express: parameters without an input stay at their defaults, and the
- * rest is fitted again. */
-static WeftResult expressible_fit(const Fitting *fitting, WeftFit *again, WeftMaterial *material,
+ * others are refitted. */
+static WeftResult expressible_fit(const Fitting *fitting, WeftFit *refit, WeftMaterial *material,
                                   WeftError *error) {
     const WeftFitted *best = &fitting->fit.fitted[0];
-    *again = fitting->fit;
+    *refit = fitting->fit;
     if (weft_fitted_material(best, material)) return WEFT_OK;
     const WeftFitDesc desc = {.metric = fitting->metric,
                               .chosen = 1,
                               .base = weft_lobe_info(best->base.lobe)->id,
                               .only = weft_lobe_info(best->lobe.lobe)->id,
                               .expressible = 1};
-    WeftResult result = weft_fit(fitting->data, &desc, again, error);
-    if (result == WEFT_OK && weft_fitted_material(&again->fitted[0], material))
+    WeftResult result = weft_fit(fitting->data, &desc, refit, error);
+    if (result == WEFT_OK && weft_fitted_material(&refit->fitted[0], material))
         report(0,
                "warning: %s: a material has no inputs for all numbers of %s over %s; with those at their "
                "defaults the error is %.4f",
-               fitting->path, desc.only, desc.base, again->fitted[0].error);
+               fitting->path, desc.only, desc.base, refit->fitted[0].error);
     return result;
 }
 
@@ -237,12 +237,12 @@ static WeftResult expressible_fit(const Fitting *fitting, WeftFit *again, WeftMa
 static int material_write(const Fitting *fitting) {
     WeftError error;
     WeftMaterial material;
-    WeftFit again;
-    WeftResult result = expressible_fit(fitting, &again, &material, &error);
+    WeftFit refit;
+    WeftResult result = expressible_fit(fitting, &refit, &material, &error);
     if (result != WEFT_OK) return report_error(&error);
-    if (!weft_fitted_material(&again.fitted[0], &material))
+    if (!weft_fitted_material(&refit.fitted[0], &material))
         return report(WEFT_FAILED, "%s: no fit can be expressed by the inputs of a material", fitting->path);
-    if (weft_fitted_notes(&again.fitted[0]) & WEFT_FITTED_BRIGHT)
+    if (weft_fitted_notes(&refit.fitted[0]) & WEFT_FITTED_BRIGHT)
         report(0, "warning: %s: a colour is above 1: the material may reflect more light than it receives",
                fitting->path);
     return fit_files_write(fitting->options, &material);

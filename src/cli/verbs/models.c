@@ -1,4 +1,4 @@
-/* models.c - `weft models`: what there is to choose from */
+/* models.c - `weft models`: the catalogue: every lobe, term, profile, preset and choice */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

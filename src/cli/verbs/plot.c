@@ -18,9 +18,9 @@ typedef struct Plot {
     const Options *options;
     WeftPlotDesc desc;
     WeftPlotModel models[WEFT_PLOT_MODELS_MAX];
-    Model *read; /* as many */
+    Model *read; /* one for each of models */
     const char *output;
-    bool report; /* in place of a kind */
+    bool report; /* instead of a kind */
 } Plot;
 
 static const char report_name[] = "report";
@@ -110,7 +110,7 @@ static int models_read(Plot *plot) {
     if (!plot->read) return report(WEFT_RESOURCES, "plot: %s", weft_message_text(WEFT_MESSAGE_MEMORY));
     for (int k = 0; k < count; k++) {
         Model *model = &plot->read[k];
-        plot->desc.count = k + 1; /* so that all that was read is freed */
+        plot->desc.count = k + 1; /* so that every model read so far is freed */
         int result = model_read(plot->options->operands[k + 1], model);
         if (result != 0) return result;
         if (!plot->report && plot->desc.kind == WEFT_PLOT_SAMPLES && model->kind != MODEL_LOBE)

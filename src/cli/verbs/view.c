@@ -1,4 +1,4 @@
-/* view.c - `weft view`: the window */
+/* view.c - `weft view`: the options of the window */
 #include "view/render/view.h"
 
 #include <stdio.h>

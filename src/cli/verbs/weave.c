@@ -15,7 +15,7 @@ typedef struct Weaving {
     const char *what, *output; /* output: NULL: none */
     WeftDraft *draft;
     WeftDraftInfo info;
-    WeftCloth *cloth; /* NULL: none is asked for */
+    WeftCloth *cloth; /* NULL: not needed */
 } Weaving;
 
 static int output_check(Weaving *weaving) {
