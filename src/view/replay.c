@@ -88,7 +88,7 @@ static void add_button(Replay *self, int button, bool down) {
     add_event(self, (Event){.kind = EVENT_BUTTON, .code = button, .down = down});
 }
 
-/* The window as it is drawn next. */
+/* Adds the steps that write the next frame of the window to a file. */
 static void add_window(Replay *self, const char *path) {
     Motion motion = {.kind = DO_WRITE};
     snprintf(motion.path, sizeof motion.path, "%s", path);
@@ -134,7 +134,7 @@ static int key_of(const char *name) {
     return name[0] && !name[1] && name[0] >= '0' && name[0] <= '9' ? name[0] : -1;
 }
 
-/* "control+shift+z" */
+/* Adds a key with modifiers, such as "control+shift+z". */
 static bool add_key(Replay *self, const char *text, bool down, bool up) {
     bool control = strstr(text, "control+") != NULL, shift = strstr(text, "shift+") != NULL;
     const char *plus = strrchr(text, '+'), *name = plus ? plus + 1 : text;
@@ -158,7 +158,7 @@ static void add_text(Replay *self, const char *text) {
     add_pause(self, 1);
 }
 
-/* Types a value into a slider. */
+/* Adds the steps that type a value into a slider. */
 static void add_value(Replay *self, const char *control, const char *value) {
     add_point(self, control, 0.5f, 0.5f);
     add_event(self, (Event){.kind = EVENT_KEY, .code = GLFW_KEY_LEFT_CONTROL, .down = true, .control = true});
@@ -228,7 +228,7 @@ static bool write_command(const Viewer *v, const char *path) {
     return good;
 }
 
-/* Events of mouse and keyboard. False where the word is none. */
+/* Adds events of mouse and keyboard. Returns false if the word is none of these. */
 static bool do_input(Replay *self, Viewer *v, const char *word, char *rest, bool *good) {
     float way[4];
     if (is(word, "click"))
@@ -307,7 +307,7 @@ static bool same_box(UiBox a, UiBox b) {
            fabsf(a.height - b.height) < 1e-3f;
 }
 
-/* One frame of what is under way. False where a control is nowhere. */
+/* Does one frame of the current motion. Returns false if a control does not exist. */
 static bool do_motion(Replay *self, Viewer *v, char why[512]) {
     Motion *m = &self->motions[self->first];
     if (m->kind == DO_POINT) {

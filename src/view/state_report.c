@@ -8,7 +8,7 @@
 
 #include <jansson.h>
 
-/* Resident memory, MiB. */
+/* Returns the resident memory, MiB. */
 static double resident(void) {
     long pages = 0, all = 0;
     FILE *file = fopen("/proc/self/statm", "r");
@@ -42,7 +42,7 @@ static json_t *box_json(const UiBox *b) {
     return json_pack("[i,i,i,i]", (int)b->x, (int)b->y, (int)b->width, (int)b->height);
 }
 
-/* Those that say nothing of themselves. */
+/* Lists the controls that have no tip. */
 static json_t *untold_json(void) {
     json_t *array = json_array();
     for (int k = 0; k < ui_control_count(); k++)

@@ -7,7 +7,7 @@
 
 typedef struct FileWatch FileWatch;
 
-/* NULL where memory is short. */
+/* Starts to watch; the list is empty. NULL where memory is short. */
 FileWatch *file_watch_start(void);
 void file_watch_stop(FileWatch *file_watch); /* may be NULL */
 
@@ -19,8 +19,8 @@ void file_watch_clear(FileWatch *file_watch);
  * unnoticed. */
 void file_watch_add(FileWatch *file_watch, const char *path, int id);
 
-/* The number of a file that has changed; -1: none has. Looks at the disk at most four times a second.
- * seconds: of a steady clock. */
+/* Returns the number of a file that has changed, or -1. Looks at the disk at most four times a second. seconds: of a
+ * steady clock. */
 int file_watch_poll(FileWatch *file_watch, double seconds);
 
 #endif

@@ -23,13 +23,13 @@ bool path_is_cubemap(const char *folder);
 /* Returns the part after the last slash. */
 const char *path_name(const char *path);
 
-/* The name without its suffix; what is not fit for a file becomes '-'. */
+/* Copies the name of the file without its suffix; characters that are not fit for a file name become '-'. */
 void path_stem(const char *path, char *stem, size_t size);
 
 /* Returns true if the file name contains the word, in any case. */
 bool path_contains(const char *path, const char *word);
 
-/* When and how long a file is, as one number that changes with either; 0: it is not there. */
+/* Returns a number that changes with the time or the size of a file; 0 if it does not exist. */
 unsigned long long path_stamp(const char *path);
 
 #endif

@@ -36,7 +36,7 @@ static void read_number(const json_t *root, const char *key, double low, double 
     if (json_is_number(v) && x >= low && x <= high) *value = (float)x;
 }
 
-/* A plain file of a sensible size, or nothing: a pipe would keep it waiting. */
+/* Reads a regular file of a sensible size, or returns NULL; reading a pipe would block. */
 static json_t *read_plain(const char *path) {
     struct stat s;
     int file = open(path, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
@@ -46,7 +46,7 @@ static json_t *read_plain(const char *path) {
     return root;
 }
 
-/* A file of its own: what has that name is not opened. */
+/* Writes a new file; a file with that name is removed, not opened. */
 static bool write_new(const char *path, const json_t *root) {
     unlink(path);
     int file = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);

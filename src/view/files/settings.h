@@ -19,8 +19,8 @@ typedef struct Settings {
 /* Returns the settings of a first start. */
 Settings settings_default(void);
 
-/* From $XDG_CONFIG_HOME/weft/view.json, or ~/.config/weft/view.json; what is missing or makes no sense stays
- * as it is. */
+/* Reads $XDG_CONFIG_HOME/weft/view.json, or ~/.config/weft/view.json. Values that are missing or invalid stay
+ * unchanged. */
 void settings_read(Settings *settings);
 
 /* Writes it there, complete or not at all; false where that cannot be. */

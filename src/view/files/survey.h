@@ -8,7 +8,8 @@
  * it. Release with free; NULL where memory is short. */
 float *survey_take(const WeftPick *pick, const WeftScene *scene, const char *camera, float aspect);
 
-/* The material with the largest share of those for which `of` is not 0 (NULL: all); -1: none is seen. */
+/* Returns the material with the largest share among those for which `of` is not 0 (NULL: all); -1 if none of them is
+ * visible. */
 int survey_largest(const float *coverage, int count, const char *of);
 
 #endif

@@ -6,7 +6,7 @@
 #include "view/state/viewer.h"
 #include "weft/lobe.h"
 
-/* "khronos, three": whom it hurts. */
+/* Writes the names of the engines that a finding affects: "khronos, three". */
 static void name_engines(unsigned engines, char *text, size_t size) {
     size_t used = 0;
     text[0] = '\0';
@@ -16,7 +16,7 @@ static void name_engines(unsigned engines, char *text, size_t size) {
     }
 }
 
-/* A material's chooses it. */
+/* Draws a finding's heading; a click on that of a material chooses the material. */
 static void draw_heading(Viewer *v, const WeftFinding *f, int k) {
     char label[256], engines[200], tip[700];
     snprintf(label, sizeof label, "%s: %s, %.96s###finding %d", weft_severity_name(f->severity),

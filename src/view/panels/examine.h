@@ -14,7 +14,7 @@ Examination *examination_start(Window *window, const char *path);
 
 bool examination_done(Examination *examination);
 
-/* Return the findings once the examination is done, or NULL if the file could not be examined, and the
+/* Returns the findings once the examination is done, or NULL if the file could not be examined; the second returns the
  * reason. */
 const WeftDoctor *examination_doctor(const Examination *examination);
 const char *examination_failure(const Examination *examination);

@@ -66,7 +66,7 @@ static void make_lobe(Inspection *self) {
     }
 }
 
-/* The greatest |f(wo, wi) - f(wi, wo)| over the larger of the two, over directions spread evenly. */
+/* Measures the greatest |f(wo, wi) - f(wi, wo)| over the larger of the two, over evenly distributed directions. */
 static void measure_reciprocity(Inspection *self) {
     self->reciprocity = 0.0f;
     for (int k = 0; k < PAIRS; k++) {
@@ -82,7 +82,7 @@ static void measure_reciprocity(Inspection *self) {
 
 static float cosine_of(int k) { return fmaxf(1.0f - (float)k / (ANGLES - 1), 0.01f); }
 
-/* A little of what is left to measure: the window is not to wait. */
+/* Measures a part of what is left, so that the window does not wait. */
 static void refresh(Inspection *self, const WeftMaterial *material) {
     if (!self->known || memcmp((const char *)&self->of, (const char *)material, sizeof *material) != 0) {
         weft_reflection_free(self->reflection);
@@ -113,7 +113,7 @@ static float radius_of(const Inspection *self, float f, float most) {
     return fmaxf(1.0f + log10f(fmaxf(f / most, 1e-6f)) / 3.0f, 0.0f); /* three decades */
 }
 
-/* Words in the colours of their curves, from the top right of a box downwards. */
+/* Draws words in the colours of their curves, from the top right of a box downwards. */
 static void draw_legend(const UiBox *box, const char *const *words, const unsigned *of, int count) {
     for (int k = 0; k < count; k++)
         ui_label(box->x + box->width - ui_text_width(words[k]) - 6.0f,
@@ -167,7 +167,7 @@ static int by_depth(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-/* A point of the lobe as seen from the side and a little from above. */
+/* Projects a point of the lobe, seen from the side and slightly from above. */
 static void lobe_point(const Inspection *self, int ring, int sector, float size, float out[3]) {
     float w[3], s = size * radius_of(self, self->lobe[ring][sector % SECTORS], self->lobe_most);
     const float turn = 0.6f, tilt = 0.45f;
@@ -213,7 +213,7 @@ static void draw_lobe(Inspection *self) {
     ui_clip(NULL);
 }
 
-/* Twice the integral of E mu over mu: what comes back of even light. */
+/* Returns twice the integral of E mu over mu, the albedo under uniform light. */
 static float mean_albedo(const Inspection *self, int channel) {
     float sum = 0.0f;
     for (int k = 0; k + 1 < ANGLES; k++) {

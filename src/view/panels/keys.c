@@ -53,7 +53,7 @@ static void named(Viewer *v, const UiPress *p) {
     }
 }
 
-/* '?' is asked for as it is typed: it lies elsewhere on every keyboard. */
+/* Toggles the help when a '?' is typed; which key that is depends on the keyboard. */
 static void typed(Viewer *v) {
     for (int k = 0; k < v->frame->input.typed_count; k++)
         if (v->frame->input.typed[k] == '?') dialogs_toggle_help(v);

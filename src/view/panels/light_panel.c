@@ -21,7 +21,7 @@ static const char *light_name(const void *user, int k) {
     return text;
 }
 
-/* A new one shines from beside and above the eye onto what is looked at. */
+/* Adds a light beside and above the eye, directed at the camera's target. */
 static void add_light(Viewer *v, WeftLightKind kind) {
     if (v->edit->state.light_count == STATE_LIGHTS) {
         viewer_say(v, true, "no more than %d lights", STATE_LIGHTS);
@@ -58,7 +58,7 @@ static void remove_light(Viewer *v) {
     if (light > 0) edit_choose_light(v, light - 1);
 }
 
-/* Colour and strength: the greatest channel is the strength. */
+/* Draws colour and strength; the strength is the greatest channel. */
 static void draw_color(WeftLight *l) {
     static const float white[3] = {1.0f, 1.0f, 1.0f};
     static const UiRange range = {0.01f, 1000.0f, 1.0f, NULL, true};

@@ -150,7 +150,7 @@ static int lines_of(const char *text) {
     return count;
 }
 
-/* A picture of before that is shown while shaders compile is named as such. */
+/* Returns what the status bar says of the picture; one from before is named as such while shaders compile. */
 static const char *goes_on(const Viewer *v) {
     bool instead = v->options->mode == MODE_LIVE && viewer_shows(v) == SHOWS_TRACED;
     return v->opening->has_pending      ? "preparing"

@@ -35,7 +35,7 @@ static void put(Line *line, const char *format, ...) {
     va_end(list);
 }
 
-/* A word as a shell reads it. */
+/* Writes a word as a shell reads it. */
 static void put_word(Line *line, const char *word) {
     if (word[0] && strspn(word, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./:=,-+%@") ==
                        strlen(word)) {

@@ -23,8 +23,8 @@ static void weave(Viewer *v, int warp, int pick) {
     v->rooms->weave.changed = false;
 }
 
-/* The colour on top of a crossing, linear; warp is darker and weft paler than it is, so that they are told apart where
- * both have one colour. */
+/* Computes the linear colour on top of a crossing. Warp is darker and weft paler than in the cloth, so that they differ
+ * even where both have one colour. */
 static bool crossing_color(const WeftDraft *draft, int warp, int pick, float color[3]) {
     const bool up = weft_draft_warp_up(draft, warp, pick) != 0;
     const WeftThread thread = weft_draft_thread(draft, up ? WEFT_WARP : WEFT_WEFT, up ? warp : pick);
@@ -35,7 +35,7 @@ static bool crossing_color(const WeftDraft *draft, int warp, int pick, float col
     return up;
 }
 
-/* The first crossings of the repeat, from its lower left corner. */
+/* Draws the first crossings of the repeat, from its lower left corner. */
 static void draw_crossings(Viewer *v, const WeftDraft *draft, int warps, int picks) {
     for (int pick = picks - 1; pick >= 0; pick--)
         for (int warp = 0; warp < warps; warp++) {
@@ -51,7 +51,7 @@ static void draw_crossings(Viewer *v, const WeftDraft *draft, int warps, int pic
         }
 }
 
-/* All of a repeat that is too large to be clicked. */
+/* Draws a whole repeat that is too large to be clicked. */
 static void draw_picture(const WeftDraft *draft, int warps, int picks) {
     const float room = ui_room(), side = room / (float)warps;
     UiBox box;
@@ -88,7 +88,7 @@ static const char *yarn_help(const void *user, int row) {
     return row ? weft_yarn_help(row - 1) : "Numbers that no named yarn has.";
 }
 
-/* The row of the named yarn with these numbers; 0: none. */
+/* Returns the row of the named yarn with these numbers; 0 if there is none. */
 static int yarn_row(const WeftYarn *yarn) {
     for (int k = 0; weft_yarn_name(k); k++) {
         WeftYarn named;
@@ -127,7 +127,8 @@ static bool draw_yarn(const char *system, WeftYarn *yarn) {
     return changed;
 }
 
-/* A cloth is woven when the mouse lets a slider go, or a number is typed: each is one more of the scene. */
+/* Draws the section of a woven material. A cloth is woven when the mouse releases a slider or a number is typed, since
+ * each adds a cloth to the scene. */
 void weave_section(Viewer *v, const WeftMaterial *m) {
     WeaveRoom *room = &v->rooms->weave;
     const Facts *facts = &v->shown->facts;

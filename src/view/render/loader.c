@@ -25,13 +25,13 @@ struct Loader {
 
 typedef const char *NameOf(const WeftScene *scene, int index);
 
-/* Textures, counted from 0, share files; materials do not share names. */
+/* Returns the file name of texture k, counted from 0, or NULL. Textures may share a file. */
 static const char *file_name(const WeftScene *scene, int k) {
     const char *path = weft_scene_texture_path(scene, k + 1);
     return path ? path_name(path) : NULL;
 }
 
-/* One line, and no sign that means something in a label. */
+/* Replaces control characters and those that have a meaning in a label. */
 static void make_fit(char *name) {
     for (; *name; name++)
         if ((unsigned char)*name < 0x20 || *name == '/' || *name == '#') *name = ' ';
@@ -62,7 +62,7 @@ static FactName *copy_names(const WeftScene *scene, int count, NameOf *name, con
     return names;
 }
 
-/* A texel as it is shown; of one number grey. */
+/* Converts a texel to what is displayed: the first three channels, or grey from one or two. */
 static void texel_shown(const WeftImage *image, int x, int y, unsigned char out[3]) {
     size_t at = ((size_t)y * (size_t)image->width + (size_t)x) * (size_t)image->channels;
     for (int c = 0; c < 3; c++) {
@@ -74,7 +74,7 @@ static void texel_shown(const WeftImage *image, int x, int y, unsigned char out[
     }
 }
 
-/* The mean of a few texels that lie in each of its own. */
+/* Makes a thumbnail, whose texels are means of a few texels each. */
 static void make_thumb(const WeftImage *image, unsigned char *out) {
     enum { SIDE = FACTS_THUMB, FINER = 4 };
     for (int y = 0; y < SIDE; y++)
@@ -91,7 +91,7 @@ static void make_thumb(const WeftImage *image, unsigned char *out) {
         }
 }
 
-/* There are no thumbnails if memory is short. */
+/* Makes the thumbnails; none if memory is short. */
 static void read_thumbs(Facts *facts, const WeftScene *scene) {
     int count = facts->map_count < FACTS_THUMBS ? facts->map_count : FACTS_THUMBS;
     if (!count || weft_image_create(FACTS_THUMB, FACTS_THUMB * count, 3, WEFT_PIXEL_U8, &facts->thumbs,
@@ -110,7 +110,7 @@ static void free_cloths(Facts *facts) {
     facts->cloth_count = 0;
 }
 
-/* There are fewer if memory is short. */
+/* Copies the cloths; fewer if memory is short. */
 static void read_cloths(Facts *facts, const WeftScene *scene) {
     int count = 0;
     free_cloths(facts);
@@ -177,8 +177,8 @@ static int on_progress(void *user, double fraction) {
     return atomic_load(&self->stop);
 }
 
-/* That of the command line where it was given for this scene, else a built-in scene's first one, else one
- * that frames it all. */
+/* Returns the camera of the command line if it was given for this scene, else the first of a built-in scene, else one
+ * that frames everything. */
 static const char *first_camera(const Loader *self) {
     bool builtin = strncmp(self->loaded.path, "builtin:", 8) == 0;
     if (self->configured && self->desc->camera) return self->desc->camera;
@@ -194,7 +194,7 @@ static void survey(Loader *self) {
     weft_pick_free(pick);
 }
 
-/* A folder that is gone since, or has no maps, keeps no scene from being shown. */
+/* Binds the folders of maps. A folder that no longer exists, or has no maps, is dropped with a warning. */
 static void bind_folders(Loaded *loaded, const WeftLog *log) {
     Folders *folders = &loaded->folders;
     int kept = 0;

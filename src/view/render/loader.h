@@ -35,7 +35,7 @@ typedef struct Facts {
 /* Reads the facts of a scene from path. Returns false if memory is short. */
 bool facts_read(Facts *facts, const WeftScene *scene, const char *path);
 void facts_free(Facts *facts);
-/* Its maps and cloths anew, where pictures or weaves were put on. */
+/* Reads maps and cloths again, after textures or weaves were added. */
 void facts_read_maps(Facts *facts, const WeftScene *scene);
 
 typedef struct Loader Loader;
@@ -66,14 +66,14 @@ typedef struct Reading {
     float aspect;           /* width / height of the picture that it will be seen in */
 } Reading;
 
-/* NULL where memory is short. */
+/* Starts to read. NULL where memory is short. */
 Loader *loader_start(Window *window, const ViewDesc *desc, const Reading *reading);
 
-/* The finished share, or -1 while it is not known. */
+/* Returns the finished share, or -1 while it is unknown. */
 float loader_progress(Loader *loader);
 bool loader_done(Loader *loader);
 
-/* The scene that it reads, as long as it is there itself; again: as in Reading. */
+/* Returns the path of the scene that it reads, valid while the loader exists; again: as in Reading. */
 const char *loader_path(const Loader *loader, bool *again);
 
 /* Asks it to end soon, without waiting. */

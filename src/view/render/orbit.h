@@ -16,17 +16,17 @@ typedef struct Orbit {
     char name[ORBIT_TEXT]; /* of the scene's camera that it stands at, until it is moved; "" none */
 } Orbit;
 
-/* At a camera of the scene: as WeftRenderDesc.camera has it. False where there is no such camera. */
+/* Moves to a camera of the scene, named as in WeftRenderDesc.camera. Returns false if there is no such camera. */
 bool orbit_at(Orbit *orbit, const WeftScene *scene, const char *camera, float aspect);
 
-/* About the target; right and down are positive. */
+/* Rotates about the target; right and down are positive. */
 void orbit_turn(Orbit *orbit, float across, float down);
 
 /* Moves eye and target so that the point under the mouse stays there; dx, dy in fractions of the picture's
  * height. */
 void orbit_pan(Orbit *orbit, float across, float down);
 
-/* Towards the target, so that the distance is multiplied. */
+/* Moves towards the target: multiplies the distance. */
 void orbit_dolly(Orbit *orbit, float factor);
 
 /* Looks elsewhere from where the eye is. */
@@ -45,10 +45,10 @@ const char *orbit_text(const Orbit *orbit, char text[ORBIT_TEXT]);
  * Returns false if the point is behind the eye. */
 bool orbit_project(const Orbit *orbit, const float point[3], float aspect, float at[2]);
 
-/* The ray through a place of a picture: direction is unit. */
+/* Computes the direction, of unit length, of the ray through a position in the picture. */
 void orbit_ray(const Orbit *orbit, float aspect, float x, float y, float direction[3]);
 
-/* Right, up and forward, unit. */
+/* Computes the unit vectors right, up and forward. */
 void orbit_axes(const Orbit *orbit, float right[3], float up[3], float forward[3]);
 
 #endif

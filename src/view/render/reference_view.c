@@ -189,8 +189,8 @@ static void publish_samples(ReferenceView *self, const ReferenceRequest *request
     if (!noisy || self->denoised.pixels) publish(self, request, number_for);
 }
 
-/* A few more samples, as many as half a second has; at first one of each half, for a first look one alone and then the
- * other. */
+/* Adds samples for up to half a second. The first are one of each half; with coarse pixels first of one half, then of
+ * the other. */
 static void refine(ReferenceView *self, const ReferenceRequest *request) {
     double start = clock_now(), most = self->samples < 2.0 ? 0.0 : 0.4;
     int left = request->samples - (int)self->samples;
@@ -239,9 +239,9 @@ static void let_go(ReferenceView *self) {
     pthread_cond_broadcast(&self->change);
 }
 
-/* A new view has fewer pixels at first, so that it is there at once, and all of them from the next picture on. While
- * programs compile there is little of the processors: then until there are as many samples as those pixels stand
- * for. */
+/* Reduces the resolution at first, so that a new view has a picture immediately. The next picture is whole. While
+ * shaders compile, few processors are free: the resolution stays low until there are as many samples as such a pixel
+ * stands for. */
 static void coarsen(ReferenceView *self, ReferenceRequest *request, bool anew, bool stands_in) {
     double enough = stands_in ? COARSE * COARSE : 2.0;
     self->finer = !anew && (self->finer || self->samples >= enough);
@@ -252,7 +252,7 @@ static void coarsen(ReferenceView *self, ReferenceRequest *request, bool anew, b
     request->desc.height = request->desc.height > COARSE ? request->desc.height / COARSE : 1;
 }
 
-/* One round; the lock is held before and after, not during. */
+/* Does one round of work. The lock is held before and after, but not during it. */
 static void round_of_work(ReferenceView *self) {
     ReferenceRequest request = self->request;
     unsigned number_for = request.wanted ? 0 : self->number_for;

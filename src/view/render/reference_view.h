@@ -38,7 +38,8 @@ typedef struct ReferenceFrame {
     char failure[256];
 } ReferenceFrame;
 
-/* window, if there is one, must outlive it, and is woken when there is something to take. NULL where memory is short. */
+/* Starts the thread. window may be NULL; otherwise it must outlive the result, and is woken when there is output. NULL
+ * where memory is short. */
 ReferenceView *reference_start(Window *window);
 void reference_stop(ReferenceView *reference);
 
@@ -56,8 +57,8 @@ void reference_set_state(ReferenceView *reference, unsigned state);
  * only one of the two is wanted, or is for a difference. */
 unsigned reference_request(ReferenceView *reference, const ReferenceRequest *request);
 
-/* From now on pictures are made though none is wanted, in the place of the one that the renderer cannot draw
- * yet, whose number they bear; coarse ones at first. 0: no more. */
+/* Makes pictures from now on though none is requested, instead of the one that the renderer cannot draw yet, whose
+ * number they have; the first ones are coarse. 0: no more. */
 void reference_stand_in(ReferenceView *reference, unsigned number);
 /* Waits for the first picture that bears the number, so long at most. */
 void reference_wait(ReferenceView *reference, unsigned number, double seconds);
@@ -66,12 +67,12 @@ void reference_wait(ReferenceView *reference, unsigned number, double seconds);
  * view or scene change. */
 void reference_set_comparison(ReferenceView *reference, unsigned view, WeftImage *linear);
 
-/* The newest picture: true where it is another one; then it is the caller's to free. */
+/* Takes the newest picture. Returns true if it is a new one, which the caller must free. */
 bool reference_take_frame(ReferenceView *reference, ReferenceFrame *picture);
 
 bool reference_has_frame(ReferenceView *reference);
 
-/* The samples so far, F32 RGBA; false where there are none. */
+/* Copies the mean of the samples so far, F32 RGBA; false if there are none. */
 bool reference_image(ReferenceView *reference, WeftImage *out);
 
 /* Returns true if the path tracer is idle: it is not wanted, or has all of its samples. */

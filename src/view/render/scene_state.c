@@ -96,7 +96,7 @@ void scene_state_free(SceneState *state) {
     *state = (SceneState){0};
 }
 
-/* Plain data without gaps, and no number in it is NaN. */
+/* Compares bytes. The records have no padding and contain no NaN. */
 static bool same_bytes(const void *a, const void *b, size_t size) { return memcmp(a, b, size) == 0; }
 
 bool scene_state_same_material(const SceneState *a, const SceneState *b, int k) {
@@ -185,7 +185,7 @@ const WeftImage *scene_state_nap(const SceneState *state, int material) {
     return nap ? &nap->image : NULL;
 }
 
-/* The nearest texel, from 0 to 1, of a map that is repeated. */
+/* Returns the nearest texel, 0 to 1, of a map that repeats. */
 static float texel_of(const WeftImage *image, float u, float v, int channel) {
     int x = (int)((u - floorf(u)) * (float)image->width), y = (int)((v - floorf(v)) * (float)image->height);
     x = x < image->width ? x : image->width - 1;
@@ -197,7 +197,7 @@ static float texel_of(const WeftImage *image, float u, float v, int channel) {
                                            : ((const float *)image->pixels)[k];
 }
 
-/* The map of an input; without pixels where it has none that the brush can go over. */
+/* Returns the map of an input; without pixels if it has none that can be brushed. */
 static WeftImage map_of(const WeftScene *scene, const WeftInput *input) {
     return input->texture && input->texcoord == 0 ? weft_scene_texture(scene, input->texture)
                                                   : (WeftImage){0};

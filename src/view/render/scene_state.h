@@ -61,7 +61,7 @@ typedef struct SceneState {
 /* Takes the place of the one that the material wore. */
 void folders_keep(Folders *folders, const char *path, int material);
 
-/* The built-in studio, as it is. */
+/* Returns the built-in studio. */
 EnvironmentState environment_state_studio(void);
 
 /* Returns true if both have the same source: the studio, the same version of a file, or a colour. */
@@ -83,20 +83,20 @@ bool scene_state_same_material(const SceneState *a, const SceneState *b, int ind
 /* Returns `made` with every choice and input that differs between `was` and `now` as it is now. */
 WeftMaterial material_merged(const WeftMaterial *was, const WeftMaterial *now, const WeftMaterial *made);
 
-/* The preset that a material was configured in last, counted from 1; 0: none. What else is done to it leaves
- * that as it is, and a state that differs in it alone is the same. */
+/* Returns the preset that a material was last set to, counted from 1; 0 if none. Other changes of the material do not
+ * change it, and states that differ only in it count as the same. */
 int scene_state_preset(const SceneState *state, int index);
 bool scene_state_set_preset(SceneState *state, int index, int preset);
-/* Those of another state of the same scene. */
+/* Copies the presets from another state of the same scene. */
 bool scene_state_take_presets(SceneState *state, const SceneState *from);
 
-/* The nap brushed onto a material; NULL: none. */
+/* Returns the nap brushed onto a material; NULL if none. */
 const WeftImage *scene_state_nap(const SceneState *state, int material);
-/* A copy of it, or of `own` where there is none yet: to be changed and then taken over by scene_state_set_nap. NULL
- * where there is neither, or memory is short. */
+/* Copies the nap, or `own` if there is none yet, to be changed and then given to scene_state_set_nap. NULL if there is
+ * neither, or memory is short. */
 BrushedNap *nap_copy(const SceneState *state, int material, const WeftImage *own, WeftImage **image);
-/* The nap that a material has by its numbers and maps, before anything was brushed; maps of the second UV set
- * are not in it. Release with weft_image_free; false where memory is short. */
+/* Makes the nap that a material has by its numbers and maps, before anything was brushed; without maps of the second UV
+ * set. Release with weft_image_free; false where memory is short. */
 bool nap_own(const WeftScene *scene, const WeftMaterial *material, WeftImage *out);
 bool scene_state_set_nap(SceneState *state, BrushedNap *nap);
 /* Shares the naps of another state of the same scene. */

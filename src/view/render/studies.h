@@ -28,14 +28,13 @@ void study_start(Study *study, const SceneState *state, int material, const Weft
                  const char *camera, WeftTonemap tonemap, float exposure, unsigned stamp);
 void study_stop(Study *study);
 
-/* Return the state and the view of the next picture. The first returns false, with an empty state, if
- * memory is short. */
+/* Fills the state of the next picture; false, with an empty state, if memory is short. study_view returns its view. */
 bool study_state(const Study *study, SceneState *state);
 WeftRasterView study_view(const Study *study);
 void study_add(Study *study, WeftImage *linear); /* takes it over */
 bool study_done(const Study *study);
 
-/* U8 RGB. False where memory is short. */
+/* Composes the sheet, U8 RGB. False where memory is short. */
 bool study_sheet(const Study *study, WeftImage *sheet);
 
 #endif

@@ -9,8 +9,8 @@ static int wrapped(int k, int n) {
 
 static unsigned char coded(float x) { return (unsigned char)(127.5f + 127.5f * x + 0.5f); }
 
-/* Directions are mixed as vectors as long as what leans there, lean' = (1 - w) lean + w, and become unit
- * again; opposite ones meet by way of the new one. */
+/* Rotates a direction of the nap towards `along`. Directions are mixed as vectors of the length of their lean, lean' =
+ * (1 - w) lean + w, and normalised; where they are opposite the new one replaces the old one. */
 static void turn(unsigned char *texel, const float along[2], float w) {
     float lean = (float)texel[2] / 255.0f, was = (1.0f - w) * lean;
     float x = was * ((float)texel[0] / 127.5f - 1.0f) + w * along[0],

@@ -31,7 +31,6 @@ void edit_forget_copy(Viewer *v) { v->rooms->edit.has_copied = false; }
 
 /* ---- history ---- */
 
-/* A drag is one step, and so is what is typed. */
 void edit_note_changes(Viewer *v, bool held) {
     EditRoom *edit = &v->rooms->edit;
     if (v->shown->any && !scene_state_same(&edit->state, &edit->before)) {
@@ -96,7 +95,6 @@ void viewer_make_fibre(Viewer *v) {
                v->shown->facts.materials[v->rooms->edit.material]);
 }
 
-/* The state that is not edited is kept while the comparison is off. */
 void viewer_split(Viewer *v, Split split) {
     if (!v->shown->any) return;
     if (split != SPLIT_NONE && !v->rooms->edit.other.materials &&
@@ -140,7 +138,7 @@ void viewer_paste_material(Viewer *v) {
 
 /* ---- what a task has made ---- */
 
-/* A step of its own. */
+/* Makes the current state a step of its own. */
 static void keep_step(Viewer *v) {
     history_close(&v->rooms->edit.history);
     history_keep(&v->rooms->edit.history, &v->rooms->edit.state);
@@ -151,7 +149,6 @@ static bool lit_by(const SceneState *state, const char *path) {
     return state->environment.kind == ENVIRONMENT_FILE && strcmp(state->environment.path, path) == 0;
 }
 
-/* A file that was read again makes no step of history, since its earlier contents are gone. */
 void edit_take_light(Viewer *v, const EnvironmentState *environment) {
     EditRoom *edit = &v->rooms->edit;
     if (!lit_by(&edit->state, environment->path)) keep_step(v);

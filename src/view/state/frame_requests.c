@@ -37,7 +37,7 @@ static bool same_request(const FrameRequest *a, const FrameRequest *b) {
            !(a->exposure > b->exposure);
 }
 
-/* Both states and how they are seen; the states are borrowed. */
+/* Makes a request of both states and the view; the states are borrowed. */
 static FrameRequest make_request(const Viewer *v) {
     FrameRequest request = {.scene = v->shown->number,
                             .edited = v->edit->side,
@@ -118,16 +118,14 @@ void requests_send(Viewer *v) {
     if (changed) v->rooms->requests.has_probe = false;
 }
 
-/* The place of a camera of the scene is known once a frame was drawn through it. */
 void requests_read_camera(Viewer *v) {
     const RenderedFrame *p = &v->rooms->requests.rendered;
     if (!v->camera->orbit.name[0] || p->number != v->rooms->requests.requested || !p->texture) return;
     camera_found(v, p);
 }
 
-/* A newer picture is waited for a little: of what was just asked for, or of the frame before, while the
- * renderer is at this one's. So window and renderer work side by side, and no picture is more than two frames
- * behind. */
+/* Waits up to 0.04 s for a picture newer than the last, which may be that of the previous frame while the renderer
+ * works on this one. So window and renderer work in parallel, and no picture is more than two frames old. */
 void requests_wait_frame(Viewer *v) {
     double until = clock_now() + 0.04;
     unsigned before = v->rooms->requests.rendered.number;

@@ -17,7 +17,7 @@ typedef struct History {
  */
 void history_keep(History *history, const SceneState *before);
 
-/* The next change is a step of its own. */
+/* Ends a step: the next change begins a new one. */
 void history_close(History *history);
 
 /* Exchanges look with the one before, or after; false where there is none. */

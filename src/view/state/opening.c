@@ -16,7 +16,7 @@
 
 enum { WATCH_SCENE, WATCH_LIGHT, WATCH_LOBES };
 
-/* The files of scene, light and lobes; those of textures are the renderer's to watch. */
+/* Watches the files of scene, light and lobes; the renderer watches those of textures. */
 static void watch_files(Viewer *v) {
     file_watch_clear(v->rooms->opening.file_watch);
     if (strncmp(v->rooms->shown.facts.path, "builtin:", 8) != 0)
@@ -29,7 +29,7 @@ static void watch_files(Viewer *v) {
              v->edit->state.environment.path);
 }
 
-/* It is watched from now on. */
+/* Adds a lobe's file to those that are watched. */
 static void keep_lobe(Viewer *v, const char *path) {
     for (int k = 0; k < v->rooms->opening.lobe_count; k++)
         if (strcmp(v->rooms->opening.lobes[k], path) == 0) return;
@@ -38,7 +38,7 @@ static void keep_lobe(Viewer *v, const char *path) {
     if (v->rooms->shown.any) watch_files(v);
 }
 
-/* A scene that nobody waits for; its lobe is taken all the same, or was not. */
+/* Drops a scene that is no longer needed; its lobe is kept if the library has taken it. */
 static void leave(Viewer *v) {
     Loaded loaded;
     loader_finish(v->rooms->opening.leaving, &loaded);
@@ -50,7 +50,7 @@ static void leave(Viewer *v) {
     loaded_free(&loaded);
 }
 
-/* Another one takes its place; it may take a while to stop, which is not waited for. */
+/* Stops the loader without waiting for it; another one takes its place. */
 static void let_go(Viewer *v) {
     if (v->rooms->opening.leaving) leave(v);
     loader_stop(v->rooms->opening.loader);
@@ -76,7 +76,8 @@ static void start_reading(Viewer *v, const char *path, const char *lobe, bool ag
 
 void opening_start(Viewer *v, const char *path, bool again) { start_reading(v, path, NULL, again); }
 
-/* With the scene that is being read, that is with the renderer, or that is there. */
+/* Reads the lobe with the scene that is being read, else the one that the renderer prepares, else the one that is
+ * shown. */
 void opening_lobe(Viewer *v, const char *path) {
     bool again = true;
     const char *scene = v->rooms->shown.facts.path;
@@ -166,7 +167,6 @@ static void show_maps(Viewer *v) {
     if (shown->facts.thumbs.pixels) viewer_upload(&shown->maps_texture, &shown->facts.thumbs);
 }
 
-/* The event keeps what was there, to be released with it. */
 void opening_take_maps(Viewer *v, RenderEvent *event) {
     Facts *facts = &v->rooms->shown.facts;
     const Facts was = *facts;
@@ -196,8 +196,8 @@ void opening_end(Viewer *v) {
     forget_scene(v);
 }
 
-/* The material that is seen largest, of those with a sheen where one is seen: a backdrop is larger than what
- * stands before it. */
+/* Returns the material with the largest visible share, preferring materials with a sheen, since a backdrop is larger
+ * than the object before it. */
 static int largest_seen(const SceneState *state, const float *coverage) {
     int count = state->material_count, largest = -1;
     char *sheens = calloc((size_t)count + 1, 1);
@@ -210,7 +210,7 @@ static int largest_seen(const SceneState *state, const float *coverage) {
     return largest > 0 ? largest : 0;
 }
 
-/* Those of the panels, of a scene that is another one. */
+/* Chooses material and light of a new scene for the panels. */
 static void choose_first(Viewer *v, const SceneState *state) {
     edit_choose_material(v, largest_seen(state, v->rooms->shown.facts.coverage));
     edit_choose_light(v, 0);
@@ -219,7 +219,8 @@ static void choose_first(Viewer *v, const SceneState *state) {
     dialogs_forget_paths(v);
 }
 
-/* The choice goes to what the variant has put on, and away from what nothing wears any more. */
+/* Chooses the most visible material that the variant has put on. If there is none and the chosen material is no longer
+ * used, it chooses the most visible one. */
 void opening_varied(Viewer *v, float **coverage) {
     int count = v->edit->state.material_count;
     const float *is = *coverage, *was = v->rooms->shown.facts.coverage;
@@ -246,7 +247,7 @@ bool opening_watch(Viewer *v, double seconds) {
     return changed >= 0;
 }
 
-/* The scene that was read goes to the renderer; it is shown once that can draw it. */
+/* Sends the scene that was read to the renderer; it is shown when the renderer is ready. */
 static void hand_over(Viewer *v, Loaded *loaded) {
     if (v->rooms->opening.has_pending) loaded_free(&v->rooms->opening.pending);
     if (!loaded->again || !v->rooms->shown.any) camera_begin(v, loaded->scene, loaded->camera);
@@ -287,7 +288,6 @@ static void show_scene(Viewer *v, Loaded *loaded) {
     watch_files(v);
 }
 
-/* The renderer has taken the scene, or could not: then the old one stays. */
 void opening_take(Viewer *v, const RenderEvent *event) {
     if (!v->rooms->opening.has_pending || event->scene != v->rooms->opening.scenes) return;
     Loaded loaded = v->rooms->opening.pending;

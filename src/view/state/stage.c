@@ -40,7 +40,7 @@ static void on_picture(const Viewer *v, float at[2]) {
 
 /* ---- handles of lights ---- */
 
-/* The handle of a light; a sun's stands on a sphere around the scene. */
+/* Computes the position of a light's handle; that of a sun is on a sphere around the scene. */
 static void handle_place(const Viewer *v, const WeftLight *light, float place[3]) {
     memcpy(place, light->position, 3 * sizeof *place);
     if (light->kind != WEFT_LIGHT_DIRECTIONAL) return;
@@ -132,7 +132,7 @@ static bool takes_strokes(Viewer *v, int material) {
     return false;
 }
 
-/* Along the way from where the brush was; over a seam of the map it begins anew. */
+/* Paints along the way from the last position of the brush; the stroke begins again across a seam of the map. */
 static void lay_along(const Viewer *v, WeftImage *image, const Probe *at, const float along[2]) {
     const Stroke *brush = &v->drag->stroke;
     float radius = v->options->brush_radius * at->uv_per_metre, du = at->texcoord[0] - brush->uv[0],
@@ -305,8 +305,8 @@ static void draw_handles(const Viewer *v) {
     }
 }
 
-/* "B  profile unreal4  (edited)": a side of A and B, and the first choice of the material by which they
- * differ. */
+/* Writes the label of a side of A and B, "B  profile unreal4  (edited)", with the first choice of the material by which
+ * they differ. */
 static void name_side(const Viewer *v, int side, char text[128]) {
     bool edited = v->edit->side == side;
     const WeftMaterial *is = scene_state_material(edited ? &v->edit->state : &v->edit->other,

@@ -39,7 +39,6 @@ void viewer_show_mode(Viewer *v, Mode mode) { v->rooms->options.mode = mode; }
 void viewer_part(Viewer *v, WeftPart part) { v->rooms->options.part = part; }
 void viewer_panel(Viewer *v, int panel) { v->rooms->options.panel = panel; }
 
-/* The probe's answers stand in the panel Inspect. */
 void viewer_tool(Viewer *v, Tool tool) {
     v->rooms->options.tool = tool;
     if (tool == TOOL_PROBE) v->rooms->options.panel = PANEL_INSPECT;

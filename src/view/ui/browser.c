@@ -114,7 +114,7 @@ static const char *choose(Browser *self, const char *path) {
     return self->chosen;
 }
 
-/* A typed path is relative to the folder where the program was started, or else to the one shown. */
+/* Chooses a typed path. It is relative to the current folder of the program, or else to the folder shown. */
 static const char *choose_typed(Browser *self) {
     char path[2 * PATH];
     struct stat s;

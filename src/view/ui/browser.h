@@ -6,7 +6,8 @@
 
 typedef struct Browser Browser;
 
-/* In a folder; NULL or what is not there: the one the program runs in. NULL where memory is short. */
+/* Creates a browser of a folder; NULL or a folder that does not exist stands for the current one. NULL where memory is
+ * short. */
 Browser *browser_create(const char *folder);
 void browser_free(Browser *browser);
 

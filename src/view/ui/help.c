@@ -14,7 +14,7 @@ static const struct {
               {"d", "terms/d_"},          {"v", "terms/v_"},        {"f", "terms/f_"},
               {"sheen_lobe", "lobes/"},   {"layer", "layers/"}};
 
-/* The first comment without its stars, up to so many lines. */
+/* Copies the first comment without its stars, up to LINES lines. */
 static void first_comment(const char *text, char *out, size_t size) {
     enum { LINES = 16 };
     size_t used = 0;

@@ -2,8 +2,8 @@
 #ifndef WEFT_VIEW_HELP_H
 #define WEFT_VIEW_HELP_H
 
-/* The comment at the head of the file of that value, as plain lines; of value -1 (auto) what a choice is
- * about. "" where there is none. Valid until the next call. */
+/* Returns the comment at the head of the file of that value, as lines of text; for value -1 (auto) what the choice is
+ * about. "" if there is none. Valid until the next call. */
 const char *help_choice(int choice, int value);
 
 /* Returns the help of an input: meaning, range and how to reset it. Valid until the next call. */

@@ -32,7 +32,7 @@ static void put(WeftMaterial *m, const char *input, const float color[3], float 
     to->given = 1;
 }
 
-/* A metal is what it reflects: where that is a colour of its own its base is black. */
+/* Sets the base colour. A metal's colour is its reflectance: the base is black where the workflow has a separate F0. */
 static void put_base(WeftMaterial *m, const WeftChartEntry *e) {
     static const float black[3] = {0.0f, 0.0f, 0.0f};
     bool metal = e->kind == WEFT_CHART_METAL, separate_f0 = strcmp(f0_input(m), "specular_color") == 0;

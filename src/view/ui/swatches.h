@@ -4,8 +4,8 @@
 
 #include "weft/material.h"
 
-/* Below an input that has a base colour or an F0, as the workflow reads it: a click on a swatch makes the
- * material's what the chart says. */
+/* Draws swatches below an input that is a base colour or an F0 in the workflow; a click sets the material's value from
+ * the chart. */
 void chart_swatches(WeftMaterial *material, const char *input);
 
 #endif

@@ -78,30 +78,30 @@ typedef struct UiBox {
     float x, y, width, height;
 } UiBox;
 
-/* Places. A panel is a fixed region of the window; true where it is to be filled. End either way. */
+/* Begins a panel, a fixed region of the window. Returns true if it is to be filled; ui_panel_end follows either way. */
 bool ui_panel(const char *name, UiBox box, bool scrolls);
 void ui_panel_end(void);
-/* A window that floats, with a cross that sets *open false. */
+/* Begins a floating window, with a cross that sets *open to false. */
 bool ui_window(const char *name, UiBox first, bool *open);
 void ui_window_end(void);
-/* A dialog above all else until it is closed; open it once, then call it every frame. */
+/* Opens a dialog above all else; ui_dialog is then called every frame until it is closed. */
 void ui_dialog_open(const char *name);
 bool ui_dialog(const char *name, float width, float height);
 bool ui_escaped(void); /* Escape was pressed, and is not a text's */
 void ui_dialog_close(void);
 void ui_dialog_end(void);
-/* A box of its own within a panel, that scrolls. */
+/* Begins a scrolling box within a panel. */
 bool ui_list(const char *name, float height);
 void ui_list_end(void);
 
-/* Part of the names of what follows. */
+/* Adds a prefix to the names of the controls that follow. */
 void ui_scope(const char *name);
 void ui_scope_end(void);
 
-/* A heading that folds what is below it; true while unfolded. */
+/* Draws a heading that folds what is below it; returns true while unfolded. */
 bool ui_section(const char *label, bool unfolded);
 
-/* A smaller one, within a section: true while unfolded, which it is not at first. */
+/* Draws a smaller heading, within a section; returns true while unfolded, which it is not at first. */
 bool ui_fold(const char *label);
 
 bool ui_menu_bar(void);
@@ -132,7 +132,7 @@ void ui_tip(const char *text);
 bool ui_button(const char *label);
 bool ui_small_button(const char *label);
 bool ui_checkbox(const char *label, bool *on);
-/* Buttons in a row of which one is chosen; names ends with NULL, and each has a tip. */
+/* Draws a row of buttons of which one is chosen; names ends with NULL, and each has a tip. */
 bool ui_tabs(const char *label, const char *const *names, const char *const *tips, int *chosen);
 bool ui_selectable(const char *label, bool chosen);
 
@@ -152,21 +152,21 @@ typedef struct UiRange {
     bool logarithmic;
 } UiRange;
 
-/* True where it was changed. Ctrl-click types a value, which may lie beyond the range. */
+/* Returns true if the value was changed, as the next three do. Ctrl-click types a value, which may lie beyond the range. */
 bool ui_slider(const char *label, const UiRange *range, float *value);
 bool ui_slider_int(const char *label, int low, int high, int *value);
 bool ui_numbers(const char *label, float step, float *values, int count);
-/* Linear Rec. 709, shown as sRGB; values beyond 1 stay. */
+/* Edits a colour, linear Rec. 709, displayed as sRGB; values above 1 stay. */
 bool ui_color(const char *label, const float initial[3], float color[3]);
-/* A part of sRGB as it is linear; and a linear colour as what draws takes it, clamped. */
+/* Converts a channel of sRGB to linear; ui_shown converts a linear colour, clamped, to what drawing functions take. */
 float ui_linear(float shown);
 unsigned ui_shown(const float color[3]);
-/* A small square of that colour, linear; true where it was clicked. */
+/* Draws a small square of that linear colour; returns true if it was clicked. */
 bool ui_swatch(const char *label, const float color[3]);
 bool ui_input(const char *label, char *text, int size);
 void ui_progress(float fraction, const char *text); /* fraction below 0: under way */
 
-/* A place to draw in: `box` receives it. True while the mouse is over it or holds it. */
+/* Reserves a region to draw in, which `box` receives. Returns true while the mouse is over it or drags it. */
 bool ui_canvas(const char *label, float width, float height, UiBox *box);
 /* Draws on what is behind all panels, until false. */
 void ui_behind(bool behind);

@@ -114,7 +114,7 @@ static void clip_set(void *user, const char *text) {
     self->clip = strdup(text);
 }
 
-/* All is drawn into a picture of its own, which can be read at any time. */
+/* Creates the target that everything is drawn into, which can be read at any time. */
 static void make_target(Window *self) {
     if (!self->target) {
         glGenTextures(1, &self->color);

@@ -18,11 +18,11 @@ typedef struct WindowDesc {
     float scale;       /* pixels a design pixel; 0: as the display says, 1 without one */
 } WindowDesc;
 
-/* NULL with one line in `why` on failure. Its context is current in this thread. */
+/* Opens a window, whose context is current in this thread. NULL with one line in `why` on failure. */
 Window *window_open(const WindowDesc *desc, char why[256]);
 void window_close(Window *window);
 
-/* A second context that shares textures with the window's: makes it current in the thread that calls. */
+/* Makes a second context, which shares textures with the window's, current in the calling thread. */
 bool window_worker_begin(Window *window);
 void window_worker_end(Window *window);
 
@@ -58,7 +58,7 @@ bool window_take(Window *window, UiInput *input);
 /* Returns true if events wait. */
 bool window_has_events(const Window *window);
 
-/* The next file that was dropped on it, NULL: none; release with free. */
+/* Returns the next file that was dropped on the window, NULL if none; release with free. */
 char *window_dropped(Window *window);
 
 /* Waits until something happens, window_wake is called, or so many seconds are over; 0 looks only. */
@@ -79,7 +79,7 @@ const UiClipboard *window_clipboard(Window *window);
 
 /* Keeps the next frame that is presented, before it is: the front of a window need not be readable. */
 void window_keep(Window *window);
-/* The frame that was kept last, U8 RGB; NULL where there is none. */
+/* Returns the frame that was kept last, U8 RGB; NULL if there is none. */
 const WeftImage *window_kept(const Window *window);
 
 #endif
