@@ -10,6 +10,11 @@
 #include <GLFW/glfw3.h>
 
 #include "base/steady_clock.h"
+#include "view/panels/render_command.h"
+#include "view/state/dialogs.h"
+#include "view/state/frame_requests.h"
+#include "view/state/opening.h"
+#include "view/state/view_camera.h"
 
 enum { MOTIONS = 512, TRIES = 240, SIZE_MOST = 1 << 20 };
 
@@ -211,7 +216,7 @@ static bool still_waiting(Replay *self, Viewer *v, const char *what) {
     double start = self->since > 0.0 ? self->since : (self->since = clock_now());
     bool done = is(what, "rest")                    ? viewer_is_idle(v) && v->shown->any && ++self->tries > 4
                 : strncmp(what, "samples ", 8) == 0 ? v->requests->traced.samples >= atof(what + 8)
-                : strncmp(what, "shows ", 6) == 0   ? is(what + 6, shows_name(viewer_shows(v)))
+                : strncmp(what, "shows ", 6) == 0   ? is(what + 6, shows_name(requests_shown(v)))
                 : strncmp(what, "message ", 8) == 0 ? strstr(v->frame->message, what + 8) != NULL
                 : strncmp(what, "seconds ", 8) == 0 ? clock_now() - start > atof(what + 8)
                                                     : ++self->tries > atoi(what);
@@ -281,11 +286,11 @@ static bool do_action(Replay *self, Viewer *v, const char *word, char *rest, boo
         char *control = take_word(&rest);
         add_value(self, control, rest);
     } else if (is(word, "open"))
-        viewer_open(v, rest);
+        opening_open(v, rest);
     else if (is(word, "save"))
-        viewer_save(v, rest);
+        dialogs_save(v, rest);
     else if (is(word, "picture"))
-        viewer_shot_stage(v, rest);
+        dialogs_shot_stage(v, rest);
     else if (is(word, "window"))
         add_window(self, rest);
     else if (is(word, "command"))

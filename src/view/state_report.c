@@ -8,6 +8,14 @@
 
 #include <jansson.h>
 
+#include "view/panels/render_command.h"
+#include "view/state/dialogs.h"
+#include "view/state/edit.h"
+#include "view/state/frame_requests.h"
+#include "view/state/opening.h"
+#include "view/state/view_camera.h"
+#include "view/state/view_options.h"
+
 /* Returns the resident memory, MiB. */
 static double resident(void) {
     long pages = 0, all = 0;
@@ -43,7 +51,7 @@ static json_t *box_json(const UiBox *b) {
 }
 
 /* Lists the controls that have no tip. */
-static json_t *untold_json(void) {
+static json_t *unexplained_json(void) {
     json_t *array = json_array();
     for (int k = 0; k < ui_control_count(); k++)
         if (!ui_control(k)->explained) json_array_append_new(array, json_string(ui_control(k)->name));
@@ -75,7 +83,7 @@ void report_state(const Viewer *v) {
                         json_pack("[f,f,f]", (double)v->camera->orbit.eye[0], (double)v->camera->orbit.eye[1],
                                   (double)v->camera->orbit.eye[2]));
     json_object_set_new(root, "mode", json_string(modes[v->options->mode]));
-    json_object_set_new(root, "shows", json_string(shows_name(viewer_shows(v))));
+    json_object_set_new(root, "shows", json_string(shows_name(requests_shown(v))));
     json_object_set_new(root, "split", json_integer((int)v->edit->split));
     json_object_set_new(root, "part", json_string(weft_part_name((int)v->options->part)));
     json_object_set_new(root, "material", json_integer(v->edit->material));
@@ -98,7 +106,7 @@ void report_state(const Viewer *v) {
     json_object_set_new(root, "resident_mib", json_real(resident()));
     json_object_set_new(root, "stage", box_json(&v->frame->stage));
     json_object_set_new(root, "help", json_boolean(v->dialogs->help));
-    json_object_set_new(root, "untold", untold_json());
+    json_object_set_new(root, "untold", unexplained_json());
     json_object_set_new(root, "controls", controls_json());
     char *text = json_dumps(root, JSON_COMPACT);
     if (text) puts(text);

@@ -12,24 +12,23 @@
 
 #include "base/steady_clock.h"
 #include "view/panels/examine.h"
+#include "view/panels/panels.h"
 #include "view/replay.h"
-#include "view/state/frame_requests.h"
-#include "view/state/opening.h"
-#include "view/state/rooms.h"
+#include "view/state/states.h"
 #include "view/state_report.h"
 #include "view/ui/browser.h"
 
-void viewer_say(Viewer *v, bool grave, const char *format, ...) {
+void viewer_report(Viewer *v, bool grave, const char *format, ...) {
     va_list list;
     va_start(list, format);
-    vsnprintf(v->rooms->frame.message, sizeof v->rooms->frame.message, format, list);
+    vsnprintf(v->states->frame.message, sizeof v->states->frame.message, format, list);
     va_end(list);
-    v->rooms->frame.message_grave = grave;
+    v->states->frame.message_grave = grave;
 }
 
-void viewer_quit(Viewer *v) { v->rooms->frame.ending = true; }
-void viewer_set_settings(Viewer *v, const Settings *settings) { v->rooms->frame.settings = *settings; }
-void viewer_opened(Viewer *v, const char *path) { settings_opened(&v->rooms->frame.settings, path); }
+void viewer_quit(Viewer *v) { v->states->frame.ending = true; }
+void viewer_set_settings(Viewer *v, const Settings *settings) { v->states->frame.settings = *settings; }
+void viewer_add_recent(Viewer *v, const char *path) { settings_opened(&v->states->frame.settings, path); }
 
 void viewer_upload(unsigned *texture, const WeftImage *image) {
     GLenum format = image->channels == 4 ? GL_RGBA : GL_RGB;
@@ -49,22 +48,17 @@ void viewer_upload(unsigned *texture, const WeftImage *image) {
     glBindTexture(GL_TEXTURE_2D, 0);
 }
 
-Shows viewer_shows(const Viewer *v) {
-    bool asked = v->options->mode != MODE_LIVE,
-         instead = v->requests->traced.number > v->requests->rendered.number;
-    if (v->requests->reference_texture && (asked || instead)) return SHOWS_TRACED;
-    return v->requests->rendered.texture && v->requests->rendered.scene == v->shown->number ? SHOWS_DRAWN
-                                                                                            : SHOWS_NOTHING;
-}
-
-const char *shows_name(Shows shows) {
-    static const char *const names[] = {"nothing", "drawn", "traced"};
-    return names[shows];
+bool viewer_is_idle(const Viewer *v) {
+    return !v->opening->loader && !v->opening->has_pending && renderer_is_idle(v->renderer) &&
+           (!v->shown->any || v->requests->rendered.number == v->requests->requested) &&
+           !v->requests->rendered.busy && !doctor_busy(v) &&
+           (v->options->mode != MODE_LIVE || v->requests->rendered.effort == EFFORT_SMOOTH) &&
+           !v->requests->due && (v->options->mode == MODE_LIVE || reference_is_idle(v->reference));
 }
 
 float viewer_aspect(const Viewer *v) {
-    return v->rooms->frame.stage.height >= 1.0f
-               ? fmaxf(v->rooms->frame.stage.width, 1.0f) / v->rooms->frame.stage.height
+    return v->states->frame.stage.height >= 1.0f
+               ? fmaxf(v->states->frame.stage.width, 1.0f) / v->states->frame.stage.height
                : 1.0f;
 }
 
@@ -72,9 +66,9 @@ static void lay_out(Viewer *v) {
     int width, height;
     window_size(v->window, &width, &height);
     float scale = ui_scale(), bar = 22.0f * scale,
-          side = fminf(v->rooms->frame.settings.panel * scale, 0.6f * (float)width);
+          side = fminf(v->states->frame.settings.panel * scale, 0.6f * (float)width);
     float top = 2.0f * ui_line_height() - 4.0f * scale;
-    v->rooms->frame.stage =
+    v->states->frame.stage =
         (UiBox){0.0f, top, floorf((float)width - side), floorf(fmaxf((float)height - top - bar, 1.0f))};
 }
 
@@ -88,11 +82,11 @@ static void draw_side(Viewer *v) {
                                                  doctor_panel};
     int width, height;
     window_size(v->window, &width, &height);
-    float x = v->rooms->frame.stage.width + 1.0f, y = v->rooms->frame.stage.y, row = ui_line_height();
+    float x = v->states->frame.stage.width + 1.0f, y = v->states->frame.stage.y, row = ui_line_height();
     UiBox head = {x, y, (float)width - x, row + 8.0f * ui_scale()};
-    UiBox body = {x, y + head.height, head.width, fmaxf(v->rooms->frame.stage.height - head.height, 1.0f)};
+    UiBox body = {x, y + head.height, head.width, fmaxf(v->states->frame.stage.height - head.height, 1.0f)};
     int panel = v->options->panel;
-    if (ui_panel("Side", head, false) && ui_tabs("Panel", names, tips, &panel)) viewer_panel(v, panel);
+    if (ui_panel("Side", head, false) && ui_tabs("Panel", names, tips, &panel)) options_set_panel(v, panel);
     ui_panel_end();
     ui_scope(names[v->options->panel]);
     if (ui_panel(names[v->options->panel], body, true) && v->shown->any) panels[v->options->panel](v);
@@ -102,7 +96,7 @@ static void draw_side(Viewer *v) {
 
 static void draw_frame(Viewer *v) {
     window_bind(v->window);
-    ui_begin(&v->rooms->frame.input);
+    ui_begin(&v->states->frame.input);
     stage_draw(v);
     menu_draw(v);
     draw_side(v);
@@ -114,31 +108,33 @@ static void draw_frame(Viewer *v) {
 }
 
 static void run_frame(Viewer *v, double started) {
-    v->rooms->frame.input.seconds =
-        v->replay ? 1.0f / 60.0f : (float)fmin(started - v->rooms->frame.clock, 0.1);
-    v->rooms->frame.clock = started;
-    v->rooms->frame.number++;
+    v->states->frame.input.seconds =
+        v->replay ? 1.0f / 60.0f : (float)fmin(started - v->states->frame.clock, 0.1);
+    v->states->frame.clock = started;
+    v->states->frame.number++;
     lay_out(v);
     keys_input(v);
     stage_input(v);
     requests_send(v);
     requests_wait_frame(v);
     requests_read_camera(v);
+    unsigned scene = v->shown->number;
     requests_take_events(v);
+    if (v->shown->number != scene) doctor_forget(v);
     requests_take_reference(v);
     draw_frame(v);
     requests_send(v);
-    const bool *held = v->rooms->frame.input.button;
-    edit_note_changes(v, held[0] || held[1] || held[2] || ui_types());
-    v->rooms->frame.worst_seconds = fmax(v->rooms->frame.worst_seconds, clock_now() - started);
-    v->rooms->frame.frame_seconds += 0.1 * (clock_now() - started - v->rooms->frame.frame_seconds);
-    v->rooms->frame.picture_seconds = (double)v->requests->rendered.whole_seconds;
+    const bool *button = v->states->frame.input.button;
+    edit_note_changes(v, button[0] || button[1] || button[2] || ui_types());
+    v->states->frame.worst_seconds = fmax(v->states->frame.worst_seconds, clock_now() - started);
+    v->states->frame.frame_seconds += 0.1 * (clock_now() - started - v->states->frame.frame_seconds);
+    v->states->frame.picture_seconds = (double)v->requests->rendered.whole_seconds;
 }
 
 static bool start(Viewer *v, char why[512]) {
     WindowDesc desc = {.title = "weft", .unseen = v->desc->unseen, .scale = v->desc->scale};
-    desc.width = v->desc->width ? v->desc->width : v->rooms->frame.settings.width;
-    desc.height = v->desc->height ? v->desc->height : v->rooms->frame.settings.height;
+    desc.width = v->desc->width ? v->desc->width : v->states->frame.settings.width;
+    desc.height = v->desc->height ? v->desc->height : v->states->frame.settings.height;
     v->window = window_open(&desc, why);
     if (!v->window) return false;
     snprintf(why, 512, "out of memory");
@@ -152,7 +148,7 @@ static bool start(Viewer *v, char why[512]) {
 }
 
 static void stop(Viewer *v) {
-    Settings *settings = &v->rooms->frame.settings;
+    Settings *settings = &v->states->frame.settings;
     doctor_forget(v);
     renderer_stop(v->renderer);
     reference_stop(v->reference);
@@ -167,13 +163,14 @@ static void stop(Viewer *v) {
     if (v->window) ui_destroy();
     window_close(v->window);
     inspection_free(v->inspection);
+    free(v->weave);
 }
 
 /* Returns how long the window may wait, s, before it looks at files again. */
 static double patience(const Viewer *v, int due) {
     bool flies = false;
     static const int keys[] = {'W', 'A', 'S', 'D', 'Q', 'E'};
-    for (int k = 0; k < 6; k++) flies |= v->rooms->frame.input.key[keys[k]];
+    for (int k = 0; k < 6; k++) flies |= v->states->frame.input.key[keys[k]];
     if (window_hidden(v->window)) return 0.25;
     if (due > 0 || flies || v->desc->frames) return 0.0;
     if (v->replay) return 0.005;
@@ -183,20 +180,20 @@ static double patience(const Viewer *v, int due) {
 static int run(Viewer *v, char why[512]) {
     int due = 3; /* frames until all widgets have settled */
     why[0] = '\0';
-    while (!window_closing(v->window) && !v->rooms->frame.ending) {
+    while (!window_closing(v->window) && !v->states->frame.ending) {
         unsigned shown = v->requests->rendered.number;
         window_wait(v->window, patience(v, due));
         double started = clock_now();
         if (v->replay && !replay_step(v->replay, v, why)) return WEFT_INPUT;
-        bool any = window_take(v->window, &v->rooms->frame.input);
-        for (char *path; (path = window_dropped(v->window)); free(path)) viewer_open(v, path), any = true;
+        bool any = window_take(v->window, &v->states->frame.input);
+        for (char *path; (path = window_dropped(v->window)); free(path)) opening_open(v, path), any = true;
         opening_poll(v);
         any |= opening_watch(v, started);
         any |= renderer_has_output(v->renderer) || reference_has_frame(v->reference) || v->opening->loader ||
                v->requests->rendered.number != shown;
         any |= requests_can_refine(v) && v->options->mode == MODE_LIVE;
         if (!v->shown->any && v->opening->opened != WEFT_OK) {
-            snprintf(why, 512, "%s", v->rooms->frame.message);
+            snprintf(why, 512, "%s", v->states->frame.message);
             return (int)v->opening->opened;
         }
         if (v->replay && replay_acts(v->replay) && due < 1) due = 1;
@@ -205,16 +202,16 @@ static int run(Viewer *v, char why[512]) {
             due = 3;
         bool settled = due <= 0;
         if (window_hidden(v->window) || (settled && !v->desc->frames)) { /* frames that are counted go on */
-            v->rooms->frame.clock = started;
+            v->states->frame.clock = started;
             continue;
         }
         if (!settled) due--;
         run_frame(v, started);
         if (v->desc->report && due == 0 && !settled) {
             report_state(v);
-            v->rooms->frame.worst_seconds = 0.0;
+            v->states->frame.worst_seconds = 0.0;
         }
-        if (v->desc->frames && v->rooms->frame.number >= v->desc->frames) break;
+        if (v->desc->frames && v->states->frame.number >= v->desc->frames) break;
     }
     return 0;
 }
@@ -222,24 +219,23 @@ static int run(Viewer *v, char why[512]) {
 Viewer *viewer_create(const ViewDesc *desc) {
     typedef struct Both {
         Viewer viewer;
-        struct Rooms rooms;
+        struct States states;
     } Both;
     Both *both = calloc(1, sizeof *both);
     if (!both) return NULL;
-    struct Rooms *rooms = &both->rooms;
+    struct States *states = &both->states;
     both->viewer = (Viewer){.desc = desc,
-                            .frame = &rooms->frame,
-                            .opening = &rooms->opening,
-                            .shown = &rooms->shown,
-                            .edit = &rooms->edit,
-                            .options = &rooms->options,
-                            .camera = &rooms->camera,
-                            .requests = &rooms->requests,
-                            .dialogs = &rooms->dialogs,
-                            .drag = &rooms->drag,
-                            .weave = &rooms->weave,
-                            .rooms = rooms};
-    rooms->frame.settings = settings_default();
+                            .frame = &states->frame,
+                            .opening = &states->opening,
+                            .shown = &states->shown,
+                            .edit = &states->edit,
+                            .options = &states->options,
+                            .camera = &states->camera,
+                            .requests = &states->requests,
+                            .dialogs = &states->dialogs,
+                            .drag = &states->drag,
+                            .states = states};
+    states->frame.settings = settings_default();
     options_begin(&both->viewer);
     stage_begin(&both->viewer);
     return &both->viewer;
@@ -251,7 +247,7 @@ int view_run(const ViewDesc *desc, char why[512]) {
         snprintf(why, 512, "out of memory");
         return WEFT_RESOURCES;
     }
-    if (!desc->forget) settings_read(&v->rooms->frame.settings);
+    if (!desc->forget) settings_read(&v->states->frame.settings);
     int code = WEFT_INPUT;
     if (!desc->script || (v->replay = replay_open(desc->script, why)))
         code = start(v, why) ? run(v, why) : WEFT_RESOURCES;

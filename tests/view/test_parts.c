@@ -15,8 +15,9 @@
 
 #include "scratch.h"
 #include "view/files/paths.h"
+#include "view/panels/render_command.h"
 #include "view/state/brush.h"
-#include "view/state/rooms.h"
+#include "view/state/states.h"
 
 static char folder[SCRATCH_SIZE];
 
@@ -76,7 +77,7 @@ static void camera_turns_about_its_target(void **state) {
         Orbit o = cameras[c];
         float far = length(o.eye, o.target);
         for (int k = 0; k < 200; k++) {
-            orbit_turn(&o, 0.37f, k % 50 < 25 ? 0.4f : -0.4f); /* into both poles */
+            orbit_rotate(&o, 0.37f, k % 50 < 25 ? 0.4f : -0.4f); /* into both poles */
             assert_near3(o.target, cameras[c].target, 0.0f);
             assert_near(length(o.eye, o.target), far, 1e-3f * far);
             float flat = hypotf(o.eye[0] - o.target[0], o.eye[2] - o.target[2]);
@@ -85,9 +86,9 @@ static void camera_turns_about_its_target(void **state) {
     }
     Orbit o = cameras[0];
     snprintf(o.name, sizeof o.name, "0");
-    orbit_turn(&o, 0.5f, 0.2f);
+    orbit_rotate(&o, 0.5f, 0.2f);
     assert_string_equal(o.name, ""); /* it is no camera of the scene any more */
-    orbit_turn(&o, -0.5f, -0.2f);
+    orbit_rotate(&o, -0.5f, -0.2f);
     assert_near3(o.eye, cameras[0].eye, 1e-5f);
 }
 
@@ -650,26 +651,26 @@ static void map_replaced_by_a_folder_is_not_in_the_command_line(void **state) {
     Viewer *v = viewer_create(&desc);
     assert_non_null(v);
     if (weft_scene_load("builtin:cloth", &scene, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
-    v->rooms->camera.orbit = cameras[1];
+    v->states->camera.orbit = cameras[1];
     WeftMaterial m;
     assert_int_equal(weft_scene_material(scene, 0, &m, NULL), WEFT_OK);
     m.inputs[weft_material_input_find("roughness")].texture = add_own_map(scene);
     assert_int_equal(weft_scene_put_material(scene, 0, &m, NULL), WEFT_OK);
-    assert_true(scene_state_read(&v->rooms->edit.first, scene) &&
-                scene_state_copy(&v->rooms->edit.state, &v->rooms->edit.first));
+    assert_true(scene_state_read(&v->states->edit.first, scene) &&
+                scene_state_copy(&v->states->edit.state, &v->states->edit.first));
     for (int k = 0; k < 3; k++) {
         bool lost = false;
         if (k == 1) m.inputs[weft_material_input_find("roughness")].texture = add_own_map(scene);
         if (k == 2) m.inputs[weft_material_input_find("roughness")].texture = 0;
-        assert_true(scene_state_set_material(&v->rooms->edit.state, 0, &m));
+        assert_true(scene_state_set_material(&v->states->edit.state, 0, &m));
         char *line = command_line(v, &lost);
         assert_non_null(strstr(line, " --materials maps "));
         assert_int_equal(strstr(line, " --set 0.roughness=") != NULL, k == 2);
         assert_int_equal(lost, k == 1);
         free(line);
     }
-    scene_state_free(&v->rooms->edit.first);
-    scene_state_free(&v->rooms->edit.state);
+    scene_state_free(&v->states->edit.first);
+    scene_state_free(&v->states->edit.state);
     weft_scene_free(scene);
     free(v);
 }
@@ -681,20 +682,20 @@ static void copied_command_line_is_read_by_a_shell_as_meant(void **state) {
     static const ViewDesc desc = {.options = NULL};
     Viewer *v = viewer_create(&desc);
     assert_non_null(v);
-    v->rooms->camera.orbit = cameras[1];
-    v->rooms->frame.stage = (UiBox){.width = 320.0f, .height = 200.0f};
-    v->rooms->edit.state.environment = environment_state_studio();
-    v->rooms->edit.state.environment.kind = ENVIRONMENT_FILE;
-    v->rooms->edit.first.environment = v->rooms->edit.state.environment;
+    v->states->camera.orbit = cameras[1];
+    v->states->frame.stage = (UiBox){.width = 320.0f, .height = 200.0f};
+    v->states->edit.state.environment = environment_state_studio();
+    v->states->edit.state.environment.kind = ENVIRONMENT_FILE;
+    v->states->edit.first.environment = v->states->edit.state.environment;
     for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
-        snprintf(v->rooms->shown.facts.path, sizeof v->rooms->shown.facts.path, "%s", names[k]);
-        snprintf(v->rooms->edit.state.environment.path, sizeof v->rooms->edit.state.environment.path, "%s",
+        snprintf(v->states->shown.facts.path, sizeof v->states->shown.facts.path, "%s", names[k]);
+        snprintf(v->states->edit.state.environment.path, sizeof v->states->edit.state.environment.path, "%s",
                  names[k]);
         bool lost = true;
         char *line = command_line(v, &lost), shell[2048], word[512], camera[ORBIT_TEXT];
         const char *const expected[] = {
             "render",   names[k],   "--env", names[k],     "--width",
-            "320",      "--height", "200",   "--camera",   orbit_text(&v->rooms->camera.orbit, camera),
+            "320",      "--height", "200",   "--camera",   orbit_text(&v->states->camera.orbit, camera),
             "--engine", "raster",   "-o",    "picture.png"};
         assert_non_null(line);
         assert_false(lost);

@@ -37,11 +37,11 @@ static void read_number(const json_t *root, const char *key, double low, double 
 }
 
 /* Reads a regular file of a sensible size, or returns NULL; reading a pipe would block. */
-static json_t *read_plain(const char *path) {
+static json_t *read_regular(const char *path) {
     struct stat s;
     int file = open(path, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
-    bool plain = file >= 0 && fstat(file, &s) == 0 && S_ISREG(s.st_mode) && s.st_size <= SIZE_MOST;
-    json_t *root = plain ? json_loadfd(file, 0, NULL) : NULL;
+    bool regular = file >= 0 && fstat(file, &s) == 0 && S_ISREG(s.st_mode) && s.st_size <= SIZE_MOST;
+    json_t *root = regular ? json_loadfd(file, 0, NULL) : NULL;
     if (file >= 0) close(file);
     return root;
 }
@@ -57,7 +57,7 @@ static bool write_new(const char *path, const json_t *root) {
 void settings_read(Settings *self) {
     char path[RECENT_PATH];
     if (!place(path, false)) return;
-    json_t *root = read_plain(path);
+    json_t *root = read_regular(path);
     float width = (float)self->width, height = (float)self->height;
     read_number(root, "width", 320.0, 16384.0, &width);
     read_number(root, "height", 240.0, 16384.0, &height);

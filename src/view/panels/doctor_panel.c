@@ -3,7 +3,10 @@
 #include <string.h>
 
 #include "view/panels/examine.h"
-#include "view/state/viewer.h"
+#include "view/panels/panels.h"
+#include "view/state/edit.h"
+#include "view/state/opening.h"
+#include "view/state/view_options.h"
 #include "weft/lobe.h"
 
 /* Writes the names of the engines that a finding affects: "khronos, three". */
@@ -24,7 +27,7 @@ static void draw_heading(Viewer *v, const WeftFinding *f, int k) {
     bool chooses = f->of == WEFT_OF_MATERIAL && f->index < v->edit->state.material_count;
     if (ui_selectable(label, chooses && f->index == v->edit->material) && chooses) {
         edit_choose_material(v, f->index);
-        viewer_say(v, false, "%s", v->shown->facts.materials[f->index]);
+        viewer_report(v, false, "%s", v->shown->facts.materials[f->index]);
     }
     name_engines(f->engines, engines, sizeof engines);
     snprintf(tip, sizeof tip, "%s.\nIn the file: %s%s%s%s", weft_finding_help((int)f->kind), f->place,

@@ -5,7 +5,11 @@
 #include <string.h>
 
 #include "base/pi.h"
-#include "view/state/viewer.h"
+#include "view/panels/panels.h"
+#include "view/state/edit.h"
+#include "view/state/frame_requests.h"
+#include "view/state/opening.h"
+#include "weft/reflection.h"
 
 enum { SLICE = 181, ANGLES = 21, RINGS = 24, SECTORS = 48, PAIRS = 64, PARTS = 4 };
 
@@ -13,9 +17,9 @@ static const WeftPart parts[PARTS] = {WEFT_PART_ALL, WEFT_PART_DIFFUSE, WEFT_PAR
 static const unsigned colors[PARTS] = {0xFFE8E8E8u, 0xFF5EA8E8u, 0xFFE0A858u,
                                        0xFF68C878u}; /* distinct for the colour-blind too */
 
-struct Inspection {
+typedef struct Inspection {
     WeftMaterial of;
-    bool known;
+    bool valid; /* `reflection` is that of `of` */
     WeftReflection *reflection;
     float angle; /* of wo from the normal, degrees */
     bool cosine; /* f cos rather than f */
@@ -24,10 +28,10 @@ struct Inspection {
     float lobe[RINGS + 1][SECTORS];
     float lobe_most;
     float albedo[ANGLES][3];
-    int angles; /* of which E is known */
+    int angles; /* for which E is computed */
     float reciprocity;
-    float sliced; /* angle for which slice and lobe are */
-};
+    float sliced; /* angle of slice and lobe */
+} Inspection;
 
 void inspection_free(Inspection *self) {
     if (self) weft_reflection_free(self->reflection);
@@ -84,16 +88,16 @@ static float cosine_of(int k) { return fmaxf(1.0f - (float)k / (ANGLES - 1), 0.0
 
 /* Measures a part of what is left, so that the window does not wait. */
 static void refresh(Inspection *self, const WeftMaterial *material) {
-    if (!self->known || memcmp((const char *)&self->of, (const char *)material, sizeof *material) != 0) {
+    if (!self->valid || memcmp((const char *)&self->of, (const char *)material, sizeof *material) != 0) {
         weft_reflection_free(self->reflection);
         self->reflection = NULL;
         self->of = *material;
-        self->known = weft_reflection_create(material, &self->reflection, NULL) == WEFT_OK;
+        self->valid = weft_reflection_create(material, &self->reflection, NULL) == WEFT_OK;
         self->angles = 0;
         self->sliced = -1.0f;
-        if (self->known) measure_reciprocity(self);
+        if (self->valid) measure_reciprocity(self);
     }
-    if (!self->known) return;
+    if (!self->valid) return;
     if (self->sliced < self->angle || self->sliced > self->angle) {
         make_slice(self);
         make_lobe(self);
@@ -170,9 +174,9 @@ static int by_depth(const void *a, const void *b) {
 /* Projects a point of the lobe, seen from the side and slightly from above. */
 static void lobe_point(const Inspection *self, int ring, int sector, float size, float out[3]) {
     float w[3], s = size * radius_of(self, self->lobe[ring][sector % SECTORS], self->lobe_most);
-    const float turn = 0.6f, tilt = 0.45f;
+    const float azimuth = 0.6f, tilt = 0.45f;
     direction(1.5607f * (float)ring / RINGS, 2.0f * PI_FLOAT * (float)sector / SECTORS, w);
-    float x = w[0] * cosf(turn) - w[1] * sinf(turn), y = w[0] * sinf(turn) + w[1] * cosf(turn);
+    float x = w[0] * cosf(azimuth) - w[1] * sinf(azimuth), y = w[0] * sinf(azimuth) + w[1] * cosf(azimuth);
     out[0] = s * x;
     out[1] = s * (w[2] * cosf(tilt) + y * sinf(tilt));
     out[2] = s * (w[2] * sinf(tilt) - y * cosf(tilt)); /* towards the eye */
@@ -321,7 +325,7 @@ void inspect_panel(Viewer *v) {
         ui_checkbox("logarithmic", &self->logarithmic);
         ui_tip("Three decades.");
         if (anew) self->sliced = -1.0f;
-        if (self->known) {
+        if (self->valid) {
             draw_slice(self);
             draw_lobe(self);
         }
@@ -334,4 +338,4 @@ void inspect_panel(Viewer *v) {
     if (ui_section("Pixel", true)) draw_probe(v);
 }
 
-bool inspection_busy(const Inspection *self) { return self && self->known && self->angles < ANGLES; }
+bool inspection_busy(const Inspection *self) { return self && self->valid && self->angles < ANGLES; }

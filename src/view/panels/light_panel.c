@@ -1,9 +1,13 @@
-/* The lights: those with a place, and the one from far away. */
+/* The panel of lights: those of the scene, and the environment. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "view/state/viewer.h"
+#include "view/panels/panels.h"
+#include "view/state/dialogs.h"
+#include "view/state/edit.h"
+#include "view/state/view_camera.h"
+#include "view/state/view_options.h"
 
 static const char *const kinds[] = {"sun", "point", "spot", "polygon"};
 static const char *const kind_helps[] = {
@@ -24,7 +28,7 @@ static const char *light_name(const void *user, int k) {
 /* Adds a light beside and above the eye, directed at the camera's target. */
 static void add_light(Viewer *v, WeftLightKind kind) {
     if (v->edit->state.light_count == STATE_LIGHTS) {
-        viewer_say(v, true, "no more than %d lights", STATE_LIGHTS);
+        viewer_report(v, true, "no more than %d lights", STATE_LIGHTS);
         return;
     }
     WeftLight light;
@@ -43,19 +47,7 @@ static void add_light(Viewer *v, WeftLightKind kind) {
     for (int k = 0; k < 3; k++) light.color[k] = color;
     if (kind == WEFT_LIGHT_POLYGON) light.size[0] = light.size[1] = 0.4f * far, light.corners = 4;
     if (kind == WEFT_LIGHT_SPOT) light.inner = 20.0f, light.outer = 30.0f;
-    SceneState *state = edit_state(v);
-    edit_choose_light(v, state->light_count);
-    state->lights[state->light_count++] = light;
-}
-
-static void remove_light(Viewer *v) {
-    SceneState *state = edit_state(v);
-    WeftLight *lights = state->lights;
-    int light = v->edit->light;
-    state->light_count--;
-    memmove(lights + light, lights + light + 1, (size_t)(state->light_count - light) * sizeof *lights);
-    memset(&lights[state->light_count], 0, sizeof *lights);
-    if (light > 0) edit_choose_light(v, light - 1);
+    edit_add_light(v, &light);
 }
 
 /* Draws colour and strength; the strength is the greatest channel. */
@@ -116,7 +108,7 @@ static void draw_shape(WeftLight *l) {
 static void draw_lights(Viewer *v) {
     bool hidden = v->options->hide_lights;
     if (ui_checkbox("Hide polygon lights", &hidden) && hidden != v->options->hide_lights)
-        viewer_toggle_lights(v);
+        options_toggle_lights(v);
     ui_tip("They shine, but the camera looks through them.");
     for (int k = 0; k < 4; k++) {
         char label[32];
@@ -134,11 +126,12 @@ static void draw_lights(Viewer *v) {
     const UiChoices lights = {v->edit->state.light_count, light_name, NULL, v};
     if (ui_choice("light", &lights, &light)) edit_choose_light(v, light);
     ui_tip("The light that is edited; its handle in the picture moves it.");
-    WeftLight *l = &edit_state(v)->lights[v->edit->light];
-    draw_color(l);
-    draw_place(l);
-    draw_shape(l);
-    if (ui_button("Remove")) remove_light(v);
+    WeftLight edited = v->edit->state.lights[v->edit->light];
+    draw_color(&edited);
+    draw_place(&edited);
+    draw_shape(&edited);
+    edit_set_light(v, v->edit->light, &edited);
+    if (ui_button("Remove")) edit_remove_light(v, v->edit->light);
     ui_tip("Takes this light away; Ctrl+Z brings it back.");
 }
 
@@ -155,15 +148,15 @@ static const char *environment_help(const void *user, int k) {
 }
 
 static void draw_environment(Viewer *v) {
-    static const UiRange turn = {-180.0f, 180.0f, 0.0f, "deg", false},
+    static const UiRange rotation = {-180.0f, 180.0f, 0.0f, "deg", false},
                          strength = {0.0f, 4.0f, 1.0f, NULL, false};
     static const float grey[3] = {1.0f, 1.0f, 1.0f};
     const UiChoices rows = {3, environment_name, environment_help, NULL};
-    EnvironmentState *a = &edit_state(v)->environment;
+    EnvironmentState edited = v->edit->state.environment, *a = &edited;
     int kind = (int)a->kind;
     if (ui_choice("source", &rows, &kind)) {
         if (kind == ENVIRONMENT_FILE && !a->path[0]) {
-            viewer_dialog(v, "Choose a light");
+            dialogs_open(v, "Choose a light");
         } else {
             if (kind == ENVIRONMENT_COLOR && !(a->color[0] + a->color[1] + a->color[2] > 0.0f))
                 a->color[0] = a->color[1] = a->color[2] = 1.0f;
@@ -171,7 +164,7 @@ static void draw_environment(Viewer *v) {
         }
     }
     ui_indent();
-    if (ui_button("Choose a picture ...")) viewer_dialog(v, "Choose a light");
+    if (ui_button("Choose a picture ...")) dialogs_open(v, "Choose a light");
     ui_tip("Another lat-long picture, or the folder of a cubemap.");
     ui_indent_end();
     if (a->kind == ENVIRONMENT_FILE) ui_dim(a->path);
@@ -179,7 +172,7 @@ static void draw_environment(Viewer *v) {
         ui_color("radiance", grey, a->color);
         ui_tip("W/(m^2 sr), linear.");
     }
-    ui_slider("rotation", &turn, &a->rotation);
+    ui_slider("rotation", &rotation, &a->rotation);
     ui_tip("About the vertical. Ctrl-drag on the picture does it, too.");
     ui_slider("strength", &strength, &a->strength);
     ui_tip("A factor on the environment's light.");
@@ -193,6 +186,7 @@ static void draw_environment(Viewer *v) {
     a->rotation = remainderf(a->rotation, 360.0f);
     float *const factors[] = {&a->strength, &a->ambient, &a->reflection};
     for (int k = 0; k < 3; k++) *factors[k] = fminf(fmaxf(*factors[k], 0.0f), 1e6f);
+    edit_set_environment(v, &edited);
 }
 
 static const char *ambient_name(const void *user, int k) {

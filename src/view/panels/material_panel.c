@@ -4,7 +4,11 @@
 #include <string.h>
 
 #include "base/pi.h"
-#include "view/state/viewer.h"
+#include "view/panels/panels.h"
+#include "view/state/actions.h"
+#include "view/state/dialogs.h"
+#include "view/state/edit.h"
+#include "view/state/opening.h"
 #include "view/ui/help.h"
 #include "view/ui/swatches.h"
 
@@ -242,18 +246,18 @@ static void draw_which(Viewer *v) {
     int material = v->edit->material;
     if (ui_choice("material", &materials, &material)) edit_choose_material(v, material);
     if (v->shown->facts.info.variant_count) {
-        if (ui_choice("variant", &variants, &variant)) edit_state(v)->variant = variant - 1;
+        if (ui_choice("variant", &variants, &variant)) edit_set_variant(v, variant - 1);
         ui_tip("Other materials that the file has for the same shapes: the choice follows them.");
     }
     if (ui_choice("preset", &presets, &preset) && preset > 0) {
         char path[128];
         snprintf(path, sizeof path, "preset:%s", weft_preset_name(preset - 1));
-        viewer_task(v, TASK_ASSIGN, path, v->edit->material, -1);
+        actions_send(v, TASK_ASSIGN, path, v->edit->material, -1);
     }
 }
 
 static void draw_buttons(Viewer *v, WeftMaterial *m) {
-    if (ui_button("Copy")) viewer_copy_material(v);
+    if (ui_button("Copy")) edit_copy_material(v);
     ui_tip("Keeps this material to be pasted onto another (Ctrl+C).");
     ui_same_line();
     ui_disabled(!v->edit->has_copied);
@@ -263,11 +267,11 @@ static void draw_buttons(Viewer *v, WeftMaterial *m) {
     ui_same_line();
     if (ui_button("Reset") && v->edit->material < v->edit->first.material_count) {
         *m = *scene_state_material(&v->edit->first, v->edit->material);
-        scene_state_set_preset(edit_state(v), v->edit->material, 0);
+        edit_set_preset(v, v->edit->material, 0);
     }
     ui_tip("Back to the value of the file.");
     ui_same_line();
-    if (ui_button("Profiles ...")) viewer_profiles(v);
+    if (ui_button("Profiles ...")) dialogs_show_profiles(v);
     ui_tip("A sheet of the scene with this material under every engine's profile.");
 }
 
@@ -342,5 +346,5 @@ void material_panel(Viewer *v) {
         if (g == SHEEN) draw_choice(&m, weft_material_choice_find(sheen_choice));
         draw_inputs(v, &m, g);
     }
-    viewer_set_material(v, v->edit->material, &m);
+    edit_set_material(v, v->edit->material, &m);
 }

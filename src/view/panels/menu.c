@@ -3,17 +3,24 @@
 #include <string.h>
 
 #include "view/files/paths.h"
-#include "view/state/viewer.h"
+#include "view/panels/panels.h"
+#include "view/panels/render_command.h"
+#include "view/state/dialogs.h"
+#include "view/state/edit.h"
+#include "view/state/frame_requests.h"
+#include "view/state/opening.h"
+#include "view/state/view_camera.h"
+#include "view/state/view_options.h"
 
 static void file_menu(Viewer *v) {
-    if (ui_menu_item("Open ...", "Ctrl+O", false, true)) viewer_dialog(v, "Open");
+    if (ui_menu_item("Open ...", "Ctrl+O", false, true)) dialogs_open(v, "Open");
     if (ui_menu("Open recent")) {
         for (int k = 0; k < v->frame->settings.recent_count; k++)
             if (ui_menu_item(v->frame->settings.recent[k], NULL, false, true)) {
                 char path[RECENT_PATH];
                 snprintf(path, sizeof path, "%s",
                          v->frame->settings.recent[k]); /* the list is about to change */
-                viewer_open(v, path);
+                opening_open(v, path);
             }
         if (!v->frame->settings.recent_count) ui_menu_item("nothing yet", NULL, false, false);
         ui_menu_end();
@@ -22,56 +29,56 @@ static void file_menu(Viewer *v) {
         for (int k = 0; weft_builtin_name(k); k++) {
             char path[96];
             snprintf(path, sizeof path, "builtin:%s", weft_builtin_name(k));
-            if (ui_menu_item(path, NULL, false, true)) viewer_open(v, path);
+            if (ui_menu_item(path, NULL, false, true)) opening_open(v, path);
             ui_tip(weft_builtin_help(k));
         }
         ui_menu_end();
     }
     ui_rule();
-    if (ui_menu_item("Save scene or material ...", "Ctrl+S", false, v->shown->any)) viewer_save(v, NULL);
-    if (ui_menu_item("Save a picture ...", "F12", false, v->shown->any)) viewer_shot(v, NULL);
-    if (ui_menu_item("Copy the command line", "Ctrl+Shift+C", false, v->shown->any)) viewer_copy_command(v);
+    if (ui_menu_item("Save scene or material ...", "Ctrl+S", false, v->shown->any)) dialogs_save(v, NULL);
+    if (ui_menu_item("Save a picture ...", "F12", false, v->shown->any)) dialogs_shot(v, NULL);
+    if (ui_menu_item("Copy the command line", "Ctrl+Shift+C", false, v->shown->any)) command_copy(v);
     ui_rule();
     if (ui_menu_item("Quit", "Ctrl+Q", false, true)) viewer_quit(v);
 }
 
 static void edit_menu(Viewer *v) {
-    if (ui_menu_item("Undo", "Ctrl+Z", false, v->edit->history.now > 0)) viewer_undo(v);
+    if (ui_menu_item("Undo", "Ctrl+Z", false, v->edit->history.now > 0)) edit_undo(v);
     if (ui_menu_item("Redo", "Ctrl+Shift+Z", false, v->edit->history.now < v->edit->history.count))
-        viewer_redo(v);
+        edit_redo(v);
     ui_rule();
-    if (ui_menu_item("Next material", "M", false, v->shown->any)) viewer_next_material(v, 1);
-    if (ui_menu_item("Material before", "Shift+M", false, v->shown->any)) viewer_next_material(v, -1);
+    if (ui_menu_item("Next material", "M", false, v->shown->any)) edit_next_material(v, 1);
+    if (ui_menu_item("Material before", "Shift+M", false, v->shown->any)) edit_next_material(v, -1);
 }
 
 static void view_menu(Viewer *v) {
-    if (ui_menu_item("Frame all", "F", false, v->shown->any)) viewer_frame_selection(v);
-    if (ui_menu_item("First camera", "Home", false, v->shown->any)) viewer_reset_camera(v);
+    if (ui_menu_item("Frame all", "F", false, v->shown->any)) camera_frame_all(v);
+    if (ui_menu_item("First camera", "Home", false, v->shown->any)) camera_reset(v);
     ui_rule();
-    if (ui_menu_item("Floor", "G", v->options->floor.on, true)) viewer_toggle_floor(v);
-    if (ui_menu_item("Hide polygon lights", "H", v->options->hide_lights, true)) viewer_toggle_lights(v);
+    if (ui_menu_item("Floor", "G", v->options->floor.on, true)) options_toggle_floor(v);
+    if (ui_menu_item("Hide polygon lights", "H", v->options->hide_lights, true)) options_toggle_lights(v);
     ui_rule();
     for (int k = 0; k < WEFT_PART_COUNT; k++) {
         char key[8];
         snprintf(key, sizeof key, "%d", k + 1);
         if (ui_menu_item(weft_part_name(k), k < 9 ? key : NULL, (int)v->options->part == k, true))
-            viewer_part(v, (WeftPart)k);
+            options_set_part(v, (WeftPart)k);
     }
 }
 
 static void compare_menu(Viewer *v) {
     if (ui_menu_item("A | B, with a line", "C", v->edit->split == SPLIT_LINE, v->shown->any))
-        viewer_split(v, v->edit->split == SPLIT_LINE ? SPLIT_NONE : SPLIT_LINE);
+        edit_set_split(v, v->edit->split == SPLIT_LINE ? SPLIT_NONE : SPLIT_LINE);
     if (ui_menu_item("A | B, side by side", NULL, v->edit->split == SPLIT_SIDES, v->shown->any))
-        viewer_split(v, v->edit->split == SPLIT_SIDES ? SPLIT_NONE : SPLIT_SIDES);
-    if (ui_menu_item("Edit the other", "X", false, v->edit->split != SPLIT_NONE)) viewer_swap(v);
+        edit_set_split(v, v->edit->split == SPLIT_SIDES ? SPLIT_NONE : SPLIT_SIDES);
+    if (ui_menu_item("Edit the other", "X", false, v->edit->split != SPLIT_NONE)) edit_swap_sides(v);
     ui_rule();
     if (ui_menu_item("Path traced", "Tab", v->options->mode == MODE_REFERENCE, v->shown->any))
-        viewer_mode(v, MODE_REFERENCE);
+        options_toggle_mode(v, MODE_REFERENCE);
     if (ui_menu_item("Difference", "Shift+Tab", v->options->mode == MODE_DIFFERENCE, v->shown->any))
-        viewer_mode(v, MODE_DIFFERENCE);
+        options_toggle_mode(v, MODE_DIFFERENCE);
     ui_rule();
-    if (ui_menu_item("All profiles", NULL, false, v->shown->any)) viewer_profiles(v);
+    if (ui_menu_item("All profiles", NULL, false, v->shown->any)) dialogs_show_profiles(v);
 }
 
 static void draw_menus(Viewer *v) {
@@ -103,28 +110,28 @@ static void draw_modes(Viewer *v) {
                                        "The path tracer's answer to exactly this view (Tab).",
                                        "How OpenGL differs from it, as a map and in numbers (Shift+Tab)."};
     int mode = (int)v->options->mode;
-    if (ui_tabs("Mode", modes, tips, &mode)) viewer_show_mode(v, (Mode)mode);
+    if (ui_tabs("Mode", modes, tips, &mode)) options_set_mode(v, (Mode)mode);
     ui_same_line();
     ui_text("  ");
     ui_same_line();
     bool line = v->edit->split == SPLIT_LINE;
-    if (ui_checkbox("A | B", &line)) viewer_split(v, line ? SPLIT_LINE : SPLIT_NONE);
+    if (ui_checkbox("A | B", &line)) edit_set_split(v, line ? SPLIT_LINE : SPLIT_NONE);
     ui_tip("Two settings in one picture, with a line between that can be dragged (C). X edits the other.");
     ui_same_line();
     bool probe = v->options->tool == TOOL_PROBE, brush = v->options->tool == TOOL_BRUSH;
     if (ui_checkbox("Probe", &probe)) {
-        viewer_tool(v, probe ? TOOL_PROBE : TOOL_ORBIT);
+        options_set_tool(v, probe ? TOOL_PROBE : TOOL_ORBIT);
     }
     ui_tip("A click shows what a pixel is made of (P).");
     ui_same_line();
-    if (ui_checkbox("Brush", &brush)) viewer_tool(v, brush ? TOOL_BRUSH : TOOL_ORBIT);
+    if (ui_checkbox("Brush", &brush)) options_set_tool(v, brush ? TOOL_BRUSH : TOOL_ORBIT);
     ui_tip("Strokes lay the nap of a fibre sheen (B).");
     if (v->options->tool != TOOL_BRUSH || v->edit->material >= v->edit->state.material_count) return;
     if (weft_material_reads(scene_state_material(&v->edit->state, v->edit->material),
                             weft_material_input_find("nap")))
         return;
     ui_same_line();
-    if (ui_button("Make it fibre")) viewer_make_fibre(v);
+    if (ui_button("Make it fibre")) edit_make_fibre(v);
     ui_tip("The sheen of this material has no nap: gives it the lobe fibre, which has one.");
 }
 
@@ -151,8 +158,8 @@ static int lines_of(const char *text) {
 }
 
 /* Returns what the status bar says of the picture; one from before is named as such while shaders compile. */
-static const char *goes_on(const Viewer *v) {
-    bool instead = v->options->mode == MODE_LIVE && viewer_shows(v) == SHOWS_TRACED;
+static const char *picture_status(const Viewer *v) {
+    bool instead = v->options->mode == MODE_LIVE && requests_shown(v) == SHOWS_TRACED;
     return v->opening->has_pending      ? "preparing"
            : instead                    ? "compiling, path tracing meanwhile"
            : v->requests->late          ? "compiling, showing the previous picture"
@@ -171,12 +178,12 @@ void status_draw(Viewer *v) {
     snprintf(right, sizeof right, "%.0f fps  picture %.1f ms  %d x %d  %s",
              v->frame->frame_seconds > 0.0 ? 1.0 / v->frame->frame_seconds : 0.0,
              1e3 * v->frame->picture_seconds, v->requests->rendered.width, v->requests->rendered.height,
-             goes_on(v));
-    float room = (float)width - ui_text_width(right) - 40.0f * scale;
+             picture_status(v));
+    float width_left = (float)width - ui_text_width(right) - 40.0f * scale;
     int count = lines_of(v->shown->warnings);
     text[0] = '\0';
     if (count) snprintf(text, sizeof text, "%d warning%s (F8)   ", count, count == 1 ? "" : "s");
-    UiBox left = {0.0f, top, room, bar.height};
+    UiBox left = {0.0f, top, width_left, bar.height};
     ui_clip(&left);
     ui_label(8.0f * scale, top + 4.0f * scale, 0xFF58C7F8u, text);
     ui_label(8.0f * scale + ui_text_width(text), top + 4.0f * scale,

@@ -1,4 +1,5 @@
-/* The command line that draws what the window shows. */
+#include "view/panels/render_command.h"
+
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -6,7 +7,11 @@
 #include <string.h>
 
 #include "base/pi.h"
-#include "view/state/viewer.h"
+#include "view/state/edit.h"
+#include "view/state/frame_requests.h"
+#include "view/state/opening.h"
+#include "view/state/view_camera.h"
+#include "view/state/view_options.h"
 
 typedef struct Line {
     char *text;
@@ -142,7 +147,7 @@ static void put_view(Line *line, const Viewer *v) {
     static const char *const ambients[] = {"best", "irradiance", "mirror", "fitted", "none"};
     char camera[ORBIT_TEXT];
     int width, height;
-    viewer_picture_size(v, &width, &height);
+    requests_picture_size(v, &width, &height);
     put(line, " --width %d --height %d --camera", width, height);
     put_word(line, orbit_text(&v->camera->orbit, camera));
     if (v->options->background == WEFT_BACKGROUND_COLOR)
@@ -181,7 +186,7 @@ char *command_line(const Viewer *v, bool *lost) {
     if (v->desc->options && v->desc->options[0] && strcmp(v->opening->configured, v->shown->facts.path) == 0)
         put(&line, " %s", v->desc->options);
     if (v->desc->materials &&
-        strcmp(v->opening->configured, v->shown->facts.path) == 0) { /* which the first look wears */
+        strcmp(v->opening->configured, v->shown->facts.path) == 0) { /* which are put on at the start */
         put(&line, " --materials");
         put_word(&line, v->desc->materials);
     }
@@ -201,4 +206,17 @@ char *command_line(const Viewer *v, bool *lost) {
     if (!line.short_of_memory) return line.text;
     free(line.text);
     return NULL;
+}
+
+void command_copy(Viewer *v) {
+    bool lost = false;
+    char *line = command_line(v, &lost);
+    if (!line) return;
+    const UiClipboard *clip = window_clipboard(v->window);
+    clip->set(clip->user, line);
+    viewer_report(v, lost,
+                  lost ? "copied, but for brushed nap and maps: save the scene and render that"
+                       : "copied: %.400s",
+                  line);
+    free(line);
 }

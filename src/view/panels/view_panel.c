@@ -3,7 +3,11 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "view/state/viewer.h"
+#include "view/panels/panels.h"
+#include "view/state/edit.h"
+#include "view/state/opening.h"
+#include "view/state/view_camera.h"
+#include "view/state/view_options.h"
 
 static const char *camera_name(const void *user, int k) {
     const Viewer *v = user;
@@ -104,12 +108,12 @@ static void draw_compare(Viewer *v) {
                                        "A on the left of a line that can be dragged, B on the right.",
                                        "The same view twice."};
     int split = (int)v->edit->split;
-    if (ui_tabs("A and B", splits, tips, &split)) viewer_split(v, (Split)split);
+    if (ui_tabs("A and B", splits, tips, &split)) edit_set_split(v, (Split)split);
     if (v->edit->split == SPLIT_NONE) {
         ui_dim("Two settings of everything - materials, profiles, lights - in one picture.");
         return;
     }
-    if (ui_button("Edit the other")) viewer_swap(v);
+    if (ui_button("Edit the other")) edit_swap_sides(v);
     ui_tip("What the panels edit: A, on the left, or B (X).");
     ui_same_line();
     if (ui_button("Same as this")) {

@@ -1,16 +1,27 @@
-/* The weave of a material: its draft, a square a crossing, and the yarns of warp and weft. */
+/* The section of a woven material: the crossings of its draft, and the yarns of warp and weft. */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/pi.h"
-#include "view/state/rooms.h"
+#include "view/panels/panels.h"
+#include "view/state/edit.h"
+#include "view/state/opening.h"
 
-enum { GRID = 12, PICTURE = 128 }; /* crossings along a side: that can be clicked, and that are drawn */
+enum { GRID = 12, PICTURE = 128 }; /* most crossings along a side: clickable, and drawn */
+
+/* Yarns that are being changed. */
+typedef struct WeaveEdit {
+    unsigned scene; /* number of the scene */
+    int cloth;      /* of the scene, as it is shown; 0: none */
+    WeftYarn yarns[2];
+    bool changed; /* and not yet woven */
+} WeaveEdit;
 
 static const char *const systems[] = {"warp", "weft"};
 
-/* Weaves the material of the room's yarns; pick -1: of the same draft. */
+/* Weaves the material of the edited yarns; pick -1: of the same draft. */
 static void weave(Viewer *v, int warp, int pick) {
     Task task = {.kind = TASK_WEAVE,
                  .scene = v->shown->number,
@@ -20,7 +31,7 @@ static void weave(Viewer *v, int warp, int pick) {
     task.stamp = edit_assign(v, v->edit->material);
     memcpy(task.yarns, v->weave->yarns, sizeof task.yarns);
     renderer_add_task(v->renderer, &task);
-    v->rooms->weave.changed = false;
+    v->weave->changed = false;
 }
 
 /* Computes the linear colour on top of a crossing. Warp is darker and weft paler than in the cloth, so that they differ
@@ -53,9 +64,9 @@ static void draw_crossings(Viewer *v, const WeftDraft *draft, int warps, int pic
 
 /* Draws a whole repeat that is too large to be clicked. */
 static void draw_picture(const WeftDraft *draft, int warps, int picks) {
-    const float room = ui_room(), side = room / (float)warps;
+    const float width = ui_width_left(), side = width / (float)warps;
     UiBox box;
-    ui_canvas("##draft", room, side * (float)picks, &box);
+    ui_canvas("##draft", width, side * (float)picks, &box);
     ui_tip("The repeat of the draft: warp darker, weft paler than its threads are.");
     for (int pick = 0; pick < picks; pick++)
         for (int warp = 0; warp < warps; warp++) {
@@ -130,20 +141,22 @@ static bool draw_yarn(const char *system, WeftYarn *yarn) {
 /* Draws the section of a woven material. A cloth is woven when the mouse releases a slider or a number is typed, since
  * each adds a cloth to the scene. */
 void weave_section(Viewer *v, const WeftMaterial *m) {
-    WeaveRoom *room = &v->rooms->weave;
     const Facts *facts = &v->shown->facts;
     if (m->cloth < 1 || m->cloth > facts->cloth_count) return;
     const FactCloth *cloth = &facts->cloths[m->cloth - 1];
-    if (room->cloth != m->cloth || room->scene != v->shown->number) {
-        *room = (WeaveRoom){.scene = v->shown->number, .cloth = m->cloth};
-        memcpy(room->yarns, cloth->yarns, sizeof room->yarns);
+    if (!v->weave) v->weave = calloc(1, sizeof *v->weave);
+    WeaveEdit *edit = v->weave;
+    if (!edit) return;
+    if (edit->cloth != m->cloth || edit->scene != v->shown->number) {
+        *edit = (WeaveEdit){.scene = v->shown->number, .cloth = m->cloth};
+        memcpy(edit->yarns, cloth->yarns, sizeof edit->yarns);
     }
     if (!ui_section("Weave", true)) return;
     draw_draft(v, cloth->draft);
     for (int t = 0; t < 2; t++) {
         char label[64];
         snprintf(label, sizeof label, "Yarn of the %s###yarn of %s", systems[t], systems[t]);
-        if (ui_fold(label)) room->changed |= draw_yarn(systems[t], &room->yarns[t]);
+        if (ui_fold(label)) edit->changed |= draw_yarn(systems[t], &edit->yarns[t]);
     }
-    if (room->changed && !v->frame->input.button[0] && !ui_types()) weave(v, 0, -1);
+    if (edit->changed && !v->frame->input.button[0] && !ui_types()) weave(v, 0, -1);
 }

@@ -258,7 +258,7 @@ Loader *loader_start(Window *window, const ViewDesc *desc, const Reading *readin
     self->desc = desc;
     self->configured = reading->configured;
     self->aspect = reading->aspect;
-    self->loaded.again = reading->again;
+    self->loaded.reread = reading->reread;
     self->loaded.folders = *reading->folders;
     snprintf(self->loaded.path, sizeof self->loaded.path, "%s", reading->path);
     snprintf(self->loaded.lobe, sizeof self->loaded.lobe, "%s", reading->lobe ? reading->lobe : "");
@@ -274,8 +274,8 @@ float loader_progress(Loader *self) { return (float)atomic_load(&self->thousandt
 
 bool loader_done(Loader *self) { return atomic_load(&self->done); }
 
-const char *loader_path(const Loader *self, bool *again) {
-    *again = self->loaded.again;
+const char *loader_path(const Loader *self, bool *reread) {
+    *reread = self->loaded.reread;
     return self->loaded.path;
 }
 

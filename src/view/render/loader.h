@@ -50,7 +50,7 @@ typedef struct Loaded {
     char failure[512];
     char *warnings;        /* warnings, one a line; owned, may be NULL */
     const char *camera;    /* through which it is seen first; a constant, or the command line's */
-    bool again;            /* the scene was read again from its file */
+    bool reread;           /* the scene was read again from its file */
     Folders folders;       /* folders of maps that are in use */
     char lobe[STATE_PATH]; /* file of a lobe that was to be taken before; "": none */
     bool taken;            /* the lobe was taken, even if the scene failed */
@@ -60,7 +60,7 @@ typedef struct Loaded {
 typedef struct Reading {
     const char *path;
     const char *lobe;       /* file of a lobe to be taken before; may be NULL */
-    bool again;             /* the scene that is there */
+    bool reread;            /* the scene that is there */
     bool configured;        /* desc.configure is called, in that thread */
     const Folders *folders; /* to be worn; those that cannot be are a warning, and dropped */
     float aspect;           /* width / height of the picture that it will be seen in */
@@ -74,7 +74,7 @@ float loader_progress(Loader *loader);
 bool loader_done(Loader *loader);
 
 /* Returns the path of the scene that it reads, valid while the loader exists; again: as in Reading. */
-const char *loader_path(const Loader *loader, bool *again);
+const char *loader_path(const Loader *loader, bool *reread);
 
 /* Asks it to end soon, without waiting. */
 void loader_stop(Loader *loader);

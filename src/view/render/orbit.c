@@ -49,7 +49,7 @@ bool orbit_at(Orbit *o, const WeftScene *scene, const char *camera, float aspect
 }
 
 /* Turns a direction by angles about +y and about the horizontal; not over the poles. */
-static void turn(float d[3], float across, float down) {
+static void rotate(float d[3], float across, float down) {
     float flat = sqrtf(d[0] * d[0] + d[2] * d[2]), n = length3(d);
     float yaw = atan2f(d[0], d[2]) - across, pitch = atan2f(d[1], flat) - down;
     pitch = fminf(fmaxf(pitch, -89.0f * degree), 89.0f * degree);
@@ -58,10 +58,10 @@ static void turn(float d[3], float across, float down) {
     d[2] = n * cosf(pitch) * cosf(yaw);
 }
 
-void orbit_turn(Orbit *o, float across, float down) {
+void orbit_rotate(Orbit *o, float across, float down) {
     float d[3];
     for (int k = 0; k < 3; k++) d[k] = o->eye[k] - o->target[k];
-    turn(d, across, -down);
+    rotate(d, across, -down);
     for (int k = 0; k < 3; k++) o->eye[k] = o->target[k] + d[k];
     o->name[0] = '\0';
 }
@@ -69,7 +69,7 @@ void orbit_turn(Orbit *o, float across, float down) {
 void orbit_look(Orbit *o, float across, float down) {
     float d[3];
     for (int k = 0; k < 3; k++) d[k] = o->target[k] - o->eye[k];
-    turn(d, across, down);
+    rotate(d, across, down);
     for (int k = 0; k < 3; k++) o->target[k] = o->eye[k] + d[k];
     o->name[0] = '\0';
 }

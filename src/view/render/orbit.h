@@ -20,7 +20,7 @@ typedef struct Orbit {
 bool orbit_at(Orbit *orbit, const WeftScene *scene, const char *camera, float aspect);
 
 /* Rotates about the target; right and down are positive. */
-void orbit_turn(Orbit *orbit, float across, float down);
+void orbit_rotate(Orbit *orbit, float across, float down);
 
 /* Moves eye and target so that the point under the mouse stays there; dx, dy in fractions of the picture's
  * height. */

@@ -79,13 +79,13 @@ WeftResult frame_apply_state(Renderer *self, const SceneState *wanted, WeftError
     reference_pause(self->reference);
     WeftResult result = scene_state_apply(state, &self->is, &self->naps, self->scene, &changed, error);
     if (result == WEFT_OK) result = apply_environment(self, &state->environment, &changed, error);
-    bool known = result == WEFT_OK ? scene_state_copy(&is, state) : read_again(self, state, &is);
+    bool copied = result == WEFT_OK ? scene_state_copy(&is, state) : read_again(self, state, &is);
     if (changed & WEFT_CHANGED_SHAPES) {
         weft_pick_free(self->pick);
         self->pick = NULL;
     }
     reference_resume(self->reference, self->scene, changed);
-    if (!known) return WEFT_RESOURCES;
+    if (!copied) return WEFT_RESOURCES;
     scene_state_free(&self->is);
     self->is = is;
     WeftResult updated = weft_raster_update(self->raster, &log, result == WEFT_OK ? error : NULL);
@@ -193,12 +193,12 @@ static double *seconds_of(Renderer *self, Effort effort) {
 /* Learns from the time that a picture took: the time of its effort, and how coarse pictures have to be while the mouse
  * moves. A time far above the last does not count unless the next is too, since drivers compile as they draw. */
 static void learn(Renderer *self, const FrameRequest *request, Effort effort, double seconds) {
-    double *known = seconds_of(self, effort);
-    self->surprised = !self->surprised && seconds > 3.0 * *known;
+    double *measured = seconds_of(self, effort);
+    self->surprised = !self->surprised && seconds > 3.0 * *measured;
     if (self->surprised) return;
-    *known = seconds;
-    if (effort == EFFORT_WHOLE && !self->smooth_known) self->smooth_seconds = 4.0 * seconds;
-    self->smooth_known |= effort == EFFORT_SMOOTH;
+    *measured = seconds;
+    if (effort == EFFORT_WHOLE && !self->smooth_timed) self->smooth_seconds = 4.0 * seconds;
+    self->smooth_timed |= effort == EFFORT_SMOOTH;
     if (request->effort != EFFORT_COARSE || effort == EFFORT_SMOOTH) return;
     double finer = self->coarse > 1 ? (double)self->coarse / (self->coarse - 1) : 1.0;
     if (seconds > frame_seconds && self->coarse < COARSE_MOST)

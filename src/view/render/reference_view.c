@@ -26,7 +26,7 @@ struct ReferenceView {
     const WeftScene *scene; /* may be read while `running` */
     unsigned changed;
     bool other; /* the scene is another one */
-    bool held, running, quit, waiting;
+    bool paused, running, quit, waiting;
     unsigned number_for; /* the renderer's request in whose place pictures are made; 0: none */
     WeftImage reference; /* to compare with, newest; taken by the thread */
     bool outdated;       /* `compared` is of another view or state */
@@ -35,7 +35,7 @@ struct ReferenceView {
     WeftImage linear; /* what the picture was made of */
     /* written by the thread alone; what others read of it, while it does not run */
     WeftRender *render;
-    ReferenceRequest asked, drawn; /* the latest, and with the pixels that it was given */
+    ReferenceRequest requested, drawn; /* the latest, and with the pixels that it was given */
     unsigned drawn_number, drawn_view, drawn_state;
     bool current; /* `render` is of the scene and of `drawn` */
     bool finer;   /* the render has all of its pixels */
@@ -62,7 +62,7 @@ static bool same_view(const ReferenceRequest *a, const ReferenceRequest *b) {
     return memcmp((const char *)&x, (const char *)&y, sizeof x) == 0 && strcmp(a->camera, b->camera) == 0;
 }
 
-static void say(ReferenceView *self, const char *failure) {
+static void fail_with(ReferenceView *self, const char *failure) {
     pthread_mutex_lock(&self->lock);
     snprintf(self->picture.failure, sizeof self->picture.failure, "%.255s", failure);
     self->fresh = true;
@@ -94,7 +94,7 @@ static bool begin(ReferenceView *self, const ReferenceRequest *request, const We
     }
     self->samples = 0.0;
     self->current = result == WEFT_OK;
-    if (!self->current) say(self, error.text);
+    if (!self->current) fail_with(self, error.text);
     return self->current;
 }
 
@@ -207,7 +207,7 @@ static void refine(ReferenceView *self, const ReferenceRequest *request) {
 }
 
 static bool has_work(const ReferenceView *self) {
-    if (!is_wanted(self) || !self->scene || self->held || self->waiting) return false;
+    if (!is_wanted(self) || !self->scene || self->paused || self->waiting) return false;
     if (self->picture.failure[0] && self->number == self->drawn_number && !self->changed) return false;
     return !self->current || self->other || self->changed || self->number != self->drawn_number ||
            self->reference.pixels || self->samples < (double)self->request.samples;
@@ -215,13 +215,13 @@ static bool has_work(const ReferenceView *self) {
 
 /* Returns true if the samples are of no use any more. */
 static bool is_spare(const ReferenceView *self) {
-    return self->spare && !is_wanted(self) && self->scene && !self->held && !self->waiting;
+    return self->spare && !is_wanted(self) && self->scene && !self->paused && !self->waiting;
 }
 
 /* Lets the samples of all pixels go, which take some fifty bytes a pixel, and keeps the tree of the scene, unless that is
  * another one by now. The lock is held before and after, not during. */
 static void let_go(ReferenceView *self) {
-    ReferenceRequest least = self->asked;
+    ReferenceRequest least = self->requested;
     const WeftScene *scene = self->scene;
     const bool other = self->other;
     least.desc.width = least.desc.height = 1;
@@ -275,8 +275,8 @@ static void round_of_work(ReferenceView *self) {
         redraw = true;
     }
     pthread_mutex_unlock(&self->lock);
-    bool moved = other || changed || !self->current || !same_view(&request, &self->asked);
-    self->asked = request;
+    bool moved = other || changed || !self->current || !same_view(&request, &self->requested);
+    self->requested = request;
     coarsen(self, &request, moved || (number_for && redraw), number_for != 0);
     bool begun = self->current || other || changed || !same_view(&request, &self->drawn) || !self->render;
     bool anew = other || changed || !self->current || !same_view(&request, &self->drawn);
@@ -344,7 +344,7 @@ void reference_pause(ReferenceView *self) {
     pthread_mutex_lock(&self->lock);
     self->waiting = true;
     while (self->running) pthread_cond_wait(&self->change, &self->lock);
-    self->held = true;
+    self->paused = true;
     pthread_mutex_unlock(&self->lock);
 }
 
@@ -356,7 +356,7 @@ static void outdate(ReferenceView *self) {
 
 void reference_resume(ReferenceView *self, const WeftScene *scene, unsigned changed) {
     pthread_mutex_lock(&self->lock);
-    self->held = self->waiting = false;
+    self->paused = self->waiting = false;
     if (scene != self->scene) self->other = true;
     if (scene != self->scene || changed) {
         self->picture.failure[0] = '\0';

@@ -83,7 +83,7 @@ static void replace_scene(Renderer *self, WeftScene *scene, SceneState *state, c
         self->coarse_seconds = 1.0;
         self->whole_seconds = 2.0;
         self->smooth_seconds = 8.0;
-        self->smooth_known = false;
+        self->smooth_timed = false;
         renderer_watch_files(self);
     } else {
         weft_scene_free(scene);

@@ -54,7 +54,7 @@ struct Renderer {
     FileWatch *file_watch; /* watches the files of textures, and these folders */
     int coarse;            /* side of the block of pixels that a coarse picture draws as one */
     double coarse_seconds, whole_seconds, smooth_seconds; /* s, that a picture of each effort took */
-    bool smooth_known;                                    /* smooth_seconds was measured, not estimated */
+    bool smooth_timed;                                    /* smooth_seconds was measured, not estimated */
     bool surprised;                         /* the last picture took so long that its time was not counted */
     Study study;                            /* the sheet under way, of one material under every profile */
     unsigned textures[RING], targets[RING]; /* one shown, one newest, one to draw into; their framebuffers */

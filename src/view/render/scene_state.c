@@ -110,13 +110,13 @@ static bool same_lights(const SceneState *a, const SceneState *b) {
 }
 
 bool environment_state_same_source(const EnvironmentState *a, const EnvironmentState *b) {
-    return a->kind == b->kind && strcmp(a->path, b->path) == 0 && a->again == b->again &&
+    return a->kind == b->kind && strcmp(a->path, b->path) == 0 && a->version == b->version &&
            same_bytes(a->color, b->color, sizeof a->color);
 }
 
 void environment_state_take_source(EnvironmentState *environment, const EnvironmentState *from) {
     environment->kind = from->kind;
-    environment->again = from->again;
+    environment->version = from->version;
     memcpy(environment->path, from->path, sizeof environment->path);
     memcpy(environment->color, from->color, sizeof environment->color);
 }
@@ -312,11 +312,11 @@ static WeftResult apply_materials(const SceneState *state, const SceneState *is,
         if (nap) {
             WeftInput *direction = &m.inputs[weft_material_input_find("nap_direction")],
                       *angle = &m.inputs[weft_material_input_find("nap")];
-            static const float plain[6] = {1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f};
+            static const float identity[6] = {1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f};
             direction->texture = angle->texture = texture_of(naps, k);
             direction->texcoord = angle->texcoord = 0;
-            memcpy(direction->transform, plain, sizeof plain);
-            memcpy(angle->transform, plain, sizeof plain);
+            memcpy(direction->transform, identity, sizeof identity);
+            memcpy(angle->transform, identity, sizeof identity);
             direction->value[0] = 0.0f;
             angle->channel = 2;
         }

@@ -39,7 +39,7 @@ typedef struct EnvironmentState {
     float color[3];
     float rotation, strength;  /* degrees; a factor */
     float ambient, reflection; /* factors on what lobes reflect of it: weft_scene_set_environment_parts */
-    unsigned again;            /* another number: the file has changed */
+    unsigned version;          /* of the file: a reread one has another */
 } EnvironmentState;
 
 typedef struct StateMaterial StateMaterial; /* shared */

@@ -158,7 +158,7 @@ static WeftResult light(Renderer *self, const Task *task, const FrameRequest *re
     if (!scene_state_copy(&state, frame_edited_state(request))) return WEFT_RESOURCES;
     state.environment.kind = ENVIRONMENT_FILE;
     snprintf(state.environment.path, sizeof state.environment.path, "%s", task->path);
-    state.environment.again = ++self->readings;
+    state.environment.version = ++self->readings;
     WeftResult result = frame_apply_state(self, &state, error);
     const char *refusal = frame_refusal(self, &state);
     if (result == WEFT_OK && refusal) {

@@ -11,7 +11,7 @@ static unsigned char coded(float x) { return (unsigned char)(127.5f + 127.5f * x
 
 /* Rotates a direction of the nap towards `along`. Directions are mixed as vectors of the length of their lean, lean' =
  * (1 - w) lean + w, and normalised; where they are opposite the new one replaces the old one. */
-static void turn(unsigned char *texel, const float along[2], float w) {
+static void rotate_towards(unsigned char *texel, const float along[2], float w) {
     float lean = (float)texel[2] / 255.0f, was = (1.0f - w) * lean;
     float x = was * ((float)texel[0] / 127.5f - 1.0f) + w * along[0],
           y = was * ((float)texel[1] / 127.5f - 1.0f) + w * along[1], n = sqrtf(x * x + y * y);
@@ -35,7 +35,8 @@ void brush_stroke(WeftImage *nap, const float at[2], float radius, const float a
             float du = ((float)x + 0.5f) / (float)width - u, dv = ((float)y + 0.5f) / (float)height - v;
             float d = sqrtf(du * du + dv * dv) / reach, fall = 1.0f - d * d;
             if (!(d < 1.0f)) continue;
-            turn(pixels + 3 * ((size_t)wrapped(y, height) * (size_t)width + (size_t)wrapped(x, width)), unit,
-                 strength * fall * fall);
+            rotate_towards(pixels +
+                               3 * ((size_t)wrapped(y, height) * (size_t)width + (size_t)wrapped(x, width)),
+                           unit, strength * fall * fall);
         }
 }

@@ -1,20 +1,22 @@
-/* The dialogs: files, help, warnings, the sheet of profiles. */
+#include "view/state/dialogs.h"
+
 #include <stdio.h>
 #include <string.h>
 
 #include <epoxy/gl.h>
 
 #include "view/files/paths.h"
-#include "view/state/rooms.h"
+#include "view/state/actions.h"
+#include "view/state/states.h"
 #include "view/ui/browser.h"
 
 bool dialogs_begin(Viewer *v) {
-    v->rooms->dialogs.browser = browser_create(v->frame->settings.folder);
-    return v->rooms->dialogs.browser != NULL;
+    v->states->dialogs.browser = browser_create(v->frame->settings.folder);
+    return v->states->dialogs.browser != NULL;
 }
 
 void dialogs_end(Viewer *v) {
-    DialogsRoom *dialogs = &v->rooms->dialogs;
+    DialogsState *dialogs = &v->states->dialogs;
     if (dialogs->browser) {
         Settings settings = v->frame->settings;
         snprintf(settings.folder, sizeof settings.folder, "%s", browser_folder(dialogs->browser));
@@ -25,29 +27,29 @@ void dialogs_end(Viewer *v) {
     weft_image_free(&dialogs->profiles);
 }
 
-void dialogs_toggle_help(Viewer *v) { v->rooms->dialogs.help = !v->rooms->dialogs.help; }
+void dialogs_toggle_help(Viewer *v) { v->states->dialogs.help = !v->states->dialogs.help; }
 void dialogs_toggle_warnings(Viewer *v) {
-    v->rooms->dialogs.warnings_shown = !v->rooms->dialogs.warnings_shown;
+    v->states->dialogs.warnings_shown = !v->states->dialogs.warnings_shown;
 }
-void dialogs_close_windows(Viewer *v) { v->rooms->dialogs.help = v->rooms->dialogs.warnings_shown = false; }
+void dialogs_close_windows(Viewer *v) { v->states->dialogs.help = v->states->dialogs.warnings_shown = false; }
 
 void dialogs_forget_paths(Viewer *v) {
-    v->rooms->dialogs.save_path[0] = v->rooms->dialogs.shot_path[0] = '\0';
+    v->states->dialogs.save_path[0] = v->states->dialogs.shot_path[0] = '\0';
 }
 
-void dialogs_ask_use(Viewer *v, const char *path, int input) {
-    snprintf(v->rooms->dialogs.dropped, sizeof v->rooms->dialogs.dropped, "%s", path);
-    v->rooms->dialogs.dropped_input = input;
-    viewer_dialog(v, "Use a picture");
+void dialogs_choose_use(Viewer *v, const char *path, int input) {
+    snprintf(v->states->dialogs.dropped, sizeof v->states->dialogs.dropped, "%s", path);
+    v->states->dialogs.dropped_input = input;
+    dialogs_open(v, "Use a picture");
 }
 
 void dialogs_choose_map(Viewer *v, int input) {
-    v->rooms->dialogs.dropped_input = input;
-    viewer_dialog(v, "Choose a map");
+    v->states->dialogs.dropped_input = input;
+    dialogs_open(v, "Choose a map");
 }
 
 void dialogs_take_profiles(Viewer *v, WeftImage *sheet) {
-    DialogsRoom *dialogs = &v->rooms->dialogs;
+    DialogsState *dialogs = &v->states->dialogs;
     dialogs->profiles_made = sheet != NULL;
     if (!sheet) return;
     viewer_upload(&dialogs->profiles_texture, sheet);
@@ -63,54 +65,54 @@ static void offer_path(Viewer *v, char *path, const char *suffix) {
     snprintf(path, STATE_PATH, "%s%s", stem, suffix);
 }
 
-void viewer_shot(Viewer *v, const char *path) {
+void dialogs_shot(Viewer *v, const char *path) {
     if (!path) {
-        offer_path(v, v->rooms->dialogs.shot_path, "-weft.png");
-        v->rooms->dialogs.shot_width = (int)v->frame->stage.width,
-        v->rooms->dialogs.shot_height = (int)v->frame->stage.height;
-        v->rooms->dialogs.shot_traced = v->options->mode == MODE_REFERENCE;
-        viewer_dialog(v, "Save a picture");
+        offer_path(v, v->states->dialogs.shot_path, "-weft.png");
+        v->states->dialogs.shot_width = (int)v->frame->stage.width,
+        v->states->dialogs.shot_height = (int)v->frame->stage.height;
+        v->states->dialogs.shot_traced = v->options->mode == MODE_REFERENCE;
+        dialogs_open(v, "Save a picture");
         return;
     }
     Task task = {.kind = TASK_SHOT,
                  .scene = v->shown->number,
-                 .width = v->rooms->dialogs.shot_width,
-                 .height = v->rooms->dialogs.shot_height,
-                 .transparent = v->rooms->dialogs.shot_transparent,
-                 .reference = v->rooms->dialogs.shot_traced};
+                 .width = v->states->dialogs.shot_width,
+                 .height = v->states->dialogs.shot_height,
+                 .transparent = v->states->dialogs.shot_transparent,
+                 .reference = v->states->dialogs.shot_traced};
     snprintf(task.path, sizeof task.path, "%s", path);
     if (!weft_image_suffix_known(path))
-        viewer_say(v, true, "%.300s: %s", path, weft_message_text(WEFT_MESSAGE_OUTPUT_SUFFIX));
+        viewer_report(v, true, "%.300s: %s", path, weft_message_text(WEFT_MESSAGE_OUTPUT_SUFFIX));
     else
         renderer_add_task(v->renderer, &task);
 }
 
-void viewer_save(Viewer *v, const char *path) {
+void dialogs_save(Viewer *v, const char *path) {
     if (!v->shown->any) return;
     if (!path) {
-        offer_path(v, v->rooms->dialogs.save_path, "-weft.glb");
-        viewer_dialog(v, "Save the scene");
+        offer_path(v, v->states->dialogs.save_path, "-weft.glb");
+        dialogs_open(v, "Save the scene");
         return;
     }
-    viewer_task(v, TASK_SAVE, path, v->edit->material, -1);
+    actions_send(v, TASK_SAVE, path, v->edit->material, -1);
 }
 
-void viewer_profiles(Viewer *v) {
-    v->rooms->dialogs.profiles_open = true;
-    v->rooms->dialogs.profiles_made = false;
-    viewer_task(v, TASK_PROFILES, NULL, v->edit->material, -1);
+void dialogs_show_profiles(Viewer *v) {
+    v->states->dialogs.profiles_open = true;
+    v->states->dialogs.profiles_made = false;
+    actions_send(v, TASK_PROFILES, NULL, v->edit->material, -1);
 }
 
-void viewer_dialog(Viewer *v, const char *name) {
-    browser_refresh(v->rooms->dialogs.browser);
-    snprintf(v->rooms->dialogs.due, sizeof v->rooms->dialogs.due, "%s", name);
+void dialogs_open(Viewer *v, const char *name) {
+    browser_refresh(v->states->dialogs.browser);
+    snprintf(v->states->dialogs.due, sizeof v->states->dialogs.due, "%s", name);
 }
 
-void viewer_shot_stage(Viewer *v, const char *path) {
-    DialogsRoom *dialogs = &v->rooms->dialogs;
+void dialogs_shot_stage(Viewer *v, const char *path) {
+    DialogsState *dialogs = &v->states->dialogs;
     dialogs->shot_width = (int)v->frame->stage.width, dialogs->shot_height = (int)v->frame->stage.height;
     dialogs->shot_traced = v->options->mode == MODE_REFERENCE;
-    viewer_shot(v, path);
+    dialogs_shot(v, path);
 }
 
 static void cancel(void) {
@@ -120,7 +122,7 @@ static void cancel(void) {
 }
 
 static void use_map(Viewer *v, const char *path) {
-    viewer_task(v, TASK_ASSIGN, path, v->edit->material, v->rooms->dialogs.dropped_input);
+    actions_send(v, TASK_ASSIGN, path, v->edit->material, v->states->dialogs.dropped_input);
 }
 
 /* Dialogs that choose a file, and what becomes of it; some take the folder that is shown. */
@@ -133,10 +135,10 @@ static const struct {
     {"Open",
      "Scenes (.glb .gltf), light (.hdr .exr), materials (.json), lobes (.h), pictures (.png .jpg .tga)",
      1u << PATH_SCENE | 1u << PATH_LIGHT | 1u << PATH_MATERIAL | 1u << PATH_LOBE | 1u << PATH_PICTURE,
-     viewer_open, "Use this folder as maps",
+     opening_open, "Use this folder as maps",
      "Puts Albedo, Normal, Roughness ... files of this folder onto the cloth of the scene."},
     {"Choose a light", "Lat-long pictures (.hdr .exr, or .png .jpg .tga); the folder of a cubemap",
-     1u << PATH_LIGHT | 1u << PATH_PICTURE, viewer_light_by, "Use this folder as a cubemap",
+     1u << PATH_LIGHT | 1u << PATH_PICTURE, actions_light_by, "Use this folder as a cubemap",
      "Six faces by their names: px, nx ... or posx, negx ..."},
     {"Choose a map", "Pictures (.png .jpg .tga .hdr .exr)", 1u << PATH_LIGHT | 1u << PATH_PICTURE, use_map,
      NULL, NULL}};
@@ -146,9 +148,9 @@ static void draw_chooser(Viewer *v, int k) {
     ui_scope(choosers[k].name);
     ui_dim(choosers[k].words);
     const char *path =
-        browser_draw(v->rooms->dialogs.browser, choosers[k].kinds, 400.0f * ui_scale() - ui_line_height());
+        browser_draw(v->states->dialogs.browser, choosers[k].kinds, 400.0f * ui_scale() - ui_line_height());
     if (choosers[k].folder) {
-        if (ui_button(choosers[k].folder)) path = browser_folder(v->rooms->dialogs.browser);
+        if (ui_button(choosers[k].folder)) path = browser_folder(v->states->dialogs.browser);
         ui_tip(choosers[k].tip);
         ui_same_line();
     }
@@ -166,19 +168,20 @@ static void draw_save(Viewer *v) {
     ui_scope("Save the scene");
     ui_dim(".glb or .gltf: the scene as it is now; reading the file gives the same picture.\n.json: the "
            "material that is edited.");
-    bool entered = ui_input("file", v->rooms->dialogs.save_path, STATE_PATH);
+    bool entered = ui_input("file", v->states->dialogs.save_path, STATE_PATH);
     ui_tip("Where to write; from the folder the program was started in.");
-    ui_dim(path_stamp(v->rooms->dialogs.save_path) ? "A file of this name is there: it will be replaced."
-                                                   : " ");
+    ui_dim(path_stamp(v->states->dialogs.save_path) ? "A file of this name is there: it will be replaced."
+                                                    : " ");
     bool pressed = ui_button("Save");
     ui_tip("Writes the file (Enter).");
     if (pressed || entered) {
-        PathKind kind = path_kind(v->rooms->dialogs.save_path);
+        PathKind kind = path_kind(v->states->dialogs.save_path);
         if (kind == PATH_SCENE || kind == PATH_MATERIAL) {
-            if (v->shown->any) viewer_task(v, TASK_SAVE, v->rooms->dialogs.save_path, v->edit->material, -1);
+            if (v->shown->any)
+                actions_send(v, TASK_SAVE, v->states->dialogs.save_path, v->edit->material, -1);
             ui_dialog_close();
         } else {
-            viewer_say(v, true, "%.300s: is neither .glb, .gltf nor .json", v->rooms->dialogs.save_path);
+            viewer_report(v, true, "%.300s: is neither .glb, .gltf nor .json", v->states->dialogs.save_path);
         }
     }
     ui_same_line();
@@ -190,30 +193,31 @@ static void draw_save(Viewer *v) {
 static void draw_shot(Viewer *v) {
     if (!ui_dialog("Save a picture", 560.0f * ui_scale(), 0.0f)) return;
     ui_scope("Save a picture");
-    bool entered = ui_input("file", v->rooms->dialogs.shot_path, STATE_PATH);
+    bool entered = ui_input("file", v->states->dialogs.shot_path, STATE_PATH);
     ui_tip(".png as it is shown, .exr, .hdr or .npy linear.");
-    ui_disabled(v->rooms->dialogs.shot_traced);
-    ui_slider_int("width", 16, 8192, &v->rooms->dialogs.shot_width);
+    ui_disabled(v->states->dialogs.shot_traced);
+    ui_slider_int("width", 16, 8192, &v->states->dialogs.shot_width);
     ui_tip("Pixels; any size, whatever the window's.");
-    ui_slider_int("height", 16, 8192, &v->rooms->dialogs.shot_height);
+    ui_slider_int("height", 16, 8192, &v->states->dialogs.shot_height);
     ui_tip("Pixels.");
-    ui_checkbox("transparent", &v->rooms->dialogs.shot_transparent);
+    ui_checkbox("transparent", &v->states->dialogs.shot_transparent);
     ui_tip("Alpha 0 where nothing is.");
     ui_disabled_end();
-    ui_checkbox("path traced", &v->rooms->dialogs.shot_traced);
+    ui_checkbox("path traced", &v->states->dialogs.shot_traced);
     ui_tip("What the path tracer has gathered, in the size it is seen in.");
-    v->rooms->dialogs.shot_width = v->rooms->dialogs.shot_width < 1       ? 1
-                                   : v->rooms->dialogs.shot_width > 16384 ? 16384
-                                                                          : v->rooms->dialogs.shot_width;
-    v->rooms->dialogs.shot_height = v->rooms->dialogs.shot_height < 1       ? 1
-                                    : v->rooms->dialogs.shot_height > 16384 ? 16384
-                                                                            : v->rooms->dialogs.shot_height;
-    ui_dim(path_stamp(v->rooms->dialogs.shot_path) ? "A file of this name is there: it will be replaced."
-                                                   : " ");
+    v->states->dialogs.shot_width = v->states->dialogs.shot_width < 1       ? 1
+                                    : v->states->dialogs.shot_width > 16384 ? 16384
+                                                                            : v->states->dialogs.shot_width;
+    v->states->dialogs.shot_height = v->states->dialogs.shot_height < 1 ? 1
+                                     : v->states->dialogs.shot_height > 16384
+                                         ? 16384
+                                         : v->states->dialogs.shot_height;
+    ui_dim(path_stamp(v->states->dialogs.shot_path) ? "A file of this name is there: it will be replaced."
+                                                    : " ");
     bool pressed = ui_button("Save");
     ui_tip("Writes the file (Enter).");
     if (pressed || entered) {
-        viewer_shot(v, v->rooms->dialogs.shot_path);
+        dialogs_shot(v, v->states->dialogs.shot_path);
         ui_dialog_close();
     }
     ui_same_line();
@@ -231,18 +235,18 @@ static void draw_use(Viewer *v) {
     while (weft_material_input_name(count)) count++;
     const UiChoices inputs = {count, input_name, input_help, NULL};
     ui_scope("Use a picture");
-    ui_dim(v->rooms->dialogs.dropped);
-    ui_choice("as", &inputs, &v->rooms->dialogs.dropped_input);
+    ui_dim(v->states->dialogs.dropped);
+    ui_choice("as", &inputs, &v->states->dialogs.dropped_input);
     ui_text(v->shown->any ? v->shown->facts.materials[v->edit->material] : "");
     if (ui_button("Use")) {
-        viewer_task(v, TASK_ASSIGN, v->rooms->dialogs.dropped, v->edit->material,
-                    v->rooms->dialogs.dropped_input);
+        actions_send(v, TASK_ASSIGN, v->states->dialogs.dropped, v->edit->material,
+                     v->states->dialogs.dropped_input);
         ui_dialog_close();
     }
     ui_tip("Puts the picture in the place of this input's map.");
     ui_same_line();
     if (ui_button("As light")) {
-        viewer_light_by(v, v->rooms->dialogs.dropped);
+        actions_light_by(v, v->states->dialogs.dropped);
         ui_dialog_close();
     }
     ui_tip("Lights the scene by it, a lat-long picture.");
@@ -279,10 +283,10 @@ static const char *const help_lines[][2] = {
 };
 
 static void draw_help(Viewer *v) {
-    if (!v->rooms->dialogs.help) return;
+    if (!v->states->dialogs.help) return;
     float s = ui_scale();
     if (ui_window("Keys and mouse", (UiBox){60.0f * s, 80.0f * s, 640.0f * s, 540.0f * s},
-                  &v->rooms->dialogs.help))
+                  &v->states->dialogs.help))
         for (size_t k = 0; k < sizeof help_lines / sizeof *help_lines; k++) {
             ui_text(help_lines[k][0]);
             ui_column(0.55f);
@@ -292,10 +296,10 @@ static void draw_help(Viewer *v) {
 }
 
 static void draw_warnings(Viewer *v) {
-    if (!v->rooms->dialogs.warnings_shown) return;
+    if (!v->states->dialogs.warnings_shown) return;
     float s = ui_scale();
     if (ui_window("Warnings", (UiBox){60.0f * s, 120.0f * s, 620.0f * s, 300.0f * s},
-                  &v->rooms->dialogs.warnings_shown)) {
+                  &v->states->dialogs.warnings_shown)) {
         if (v->shown->warnings[0])
             ui_wrapped(v->shown->warnings);
         else
@@ -305,31 +309,31 @@ static void draw_warnings(Viewer *v) {
 }
 
 static void draw_profiles(Viewer *v) {
-    if (!v->rooms->dialogs.profiles_open) return;
+    if (!v->states->dialogs.profiles_open) return;
     float s = ui_scale();
     if (ui_window("All profiles", (UiBox){20.0f * s, 70.0f * s, 860.0f * s, 600.0f * s},
-                  &v->rooms->dialogs.profiles_open)) {
+                  &v->states->dialogs.profiles_open)) {
         ui_scope("All profiles");
-        if (!v->rooms->dialogs.profiles_made) ui_progress(-1.0f, "drawing the material under every profile");
-        if (ui_button("Draw again")) viewer_profiles(v);
+        if (!v->states->dialogs.profiles_made) ui_progress(-1.0f, "drawing the material under every profile");
+        if (ui_button("Draw again")) dialogs_show_profiles(v);
         ui_tip("Of the scene as it is now.");
         ui_same_line();
-        ui_disabled(!v->rooms->dialogs.profiles.pixels);
+        ui_disabled(!v->states->dialogs.profiles.pixels);
         if (ui_button("Save as profiles.png")) {
             WeftError error = {0};
-            if (weft_image_write("profiles.png", &v->rooms->dialogs.profiles, &error) == WEFT_OK)
-                viewer_say(v, false, "wrote profiles.png");
+            if (weft_image_write("profiles.png", &v->states->dialogs.profiles, &error) == WEFT_OK)
+                viewer_report(v, false, "wrote profiles.png");
             else
-                viewer_say(v, true, "%s", error.text);
+                viewer_report(v, true, "%s", error.text);
         }
         ui_tip("Into the folder the program was started in.");
         ui_disabled_end();
-        if (v->rooms->dialogs.profiles_texture && v->rooms->dialogs.profiles.width) {
+        if (v->states->dialogs.profiles_texture && v->states->dialogs.profiles.width) {
             UiBox box;
-            float width = ui_room(), height = width * (float)v->rooms->dialogs.profiles.height /
-                                              (float)v->rooms->dialogs.profiles.width;
+            float width = ui_width_left(), height = width * (float)v->states->dialogs.profiles.height /
+                                                    (float)v->states->dialogs.profiles.width;
             ui_canvas("##sheet", width, height, &box);
-            ui_picture(v->rooms->dialogs.profiles_texture, box, false);
+            ui_picture(v->states->dialogs.profiles_texture, box, false);
         }
         ui_scope_end();
     }
@@ -337,8 +341,8 @@ static void draw_profiles(Viewer *v) {
 }
 
 void dialogs_draw(Viewer *v) {
-    if (v->rooms->dialogs.due[0]) ui_dialog_open(v->rooms->dialogs.due);
-    v->rooms->dialogs.due[0] = '\0';
+    if (v->states->dialogs.due[0]) ui_dialog_open(v->states->dialogs.due);
+    v->states->dialogs.due[0] = '\0';
     for (int k = 0; k < (int)(sizeof choosers / sizeof *choosers); k++) draw_chooser(v, k);
     draw_save(v);
     draw_shot(v);

@@ -1,21 +1,19 @@
-/* The state of the scene that is edited, or two of them, with their history and the chosen material and light. */
+#include "view/state/edit.h"
+
 #include <string.h>
 
-#include "view/state/frame_requests.h"
-#include "view/state/rooms.h"
-
-SceneState *edit_state(Viewer *v) { return &v->rooms->edit.state; }
+#include "view/state/states.h"
 
 void edit_begin(Viewer *v, const SceneState *state, const SceneState *before, const SceneState *first) {
-    v->rooms->edit.state = *state;
-    v->rooms->edit.before = *before;
-    v->rooms->edit.first = *first;
-    v->rooms->edit.split = SPLIT_NONE;
-    v->rooms->edit.side = 0;
+    v->states->edit.state = *state;
+    v->states->edit.before = *before;
+    v->states->edit.first = *first;
+    v->states->edit.split = SPLIT_NONE;
+    v->states->edit.side = 0;
 }
 
 void edit_forget(Viewer *v) {
-    EditRoom *edit = &v->rooms->edit;
+    EditState *edit = &v->states->edit;
     scene_state_free(&edit->state);
     scene_state_free(&edit->first);
     scene_state_free(&edit->before);
@@ -25,14 +23,12 @@ void edit_forget(Viewer *v) {
     edit->assignment_count = 0;
 }
 
-void edit_choose_material(Viewer *v, int material) { v->rooms->edit.material = material; }
-void edit_choose_light(Viewer *v, int light) { v->rooms->edit.light = light; }
-void edit_forget_copy(Viewer *v) { v->rooms->edit.has_copied = false; }
+void edit_choose_material(Viewer *v, int material) { v->states->edit.material = material; }
+void edit_choose_light(Viewer *v, int light) { v->states->edit.light = light; }
+void edit_forget_copy(Viewer *v) { v->states->edit.has_copied = false; }
 
-/* ---- history ---- */
-
-void edit_note_changes(Viewer *v, bool held) {
-    EditRoom *edit = &v->rooms->edit;
+void edit_note_changes(Viewer *v, bool goes_on) {
+    EditState *edit = &v->states->edit;
     if (v->shown->any && !scene_state_same(&edit->state, &edit->before)) {
         if (edit->state.material_count == edit->before.material_count)
             history_keep(&edit->history, &edit->before);
@@ -42,43 +38,43 @@ void edit_note_changes(Viewer *v, bool held) {
             edit->before = copy;
         }
     }
-    if (!held) history_close(&edit->history);
+    if (!goes_on) history_close(&edit->history);
 }
 
-/* Accepts a state that history holds already. */
+/* Accepts a state that is in the history already. */
 static void accept_state(Viewer *v) {
-    scene_state_free(&v->rooms->edit.before);
-    scene_state_copy(&v->rooms->edit.before, &v->rooms->edit.state);
+    scene_state_free(&v->states->edit.before);
+    scene_state_copy(&v->states->edit.before, &v->states->edit.state);
     requests_due(v);
 }
 
-void viewer_undo(Viewer *v) {
-    bool done = history_undo(&v->rooms->edit.history, &v->rooms->edit.state);
+void edit_undo(Viewer *v) {
+    bool done = history_undo(&v->states->edit.history, &v->states->edit.state);
     if (done) accept_state(v);
-    viewer_say(v, false, done ? "undone" : "nothing to undo");
+    viewer_report(v, false, done ? "undone" : "nothing to undo");
 }
 
-void viewer_redo(Viewer *v) {
-    bool done = history_redo(&v->rooms->edit.history, &v->rooms->edit.state);
+void edit_redo(Viewer *v) {
+    bool done = history_redo(&v->states->edit.history, &v->states->edit.state);
     if (done) accept_state(v);
-    viewer_say(v, false, done ? "redone" : "nothing to redo");
+    viewer_report(v, false, done ? "redone" : "nothing to redo");
 }
 
-void viewer_next_material(Viewer *v, int by) {
+void edit_next_material(Viewer *v, int by) {
     const float *coverage = v->shown->facts.coverage;
-    int count = v->rooms->edit.state.material_count, k = v->rooms->edit.material;
+    int count = v->states->edit.state.material_count, k = v->states->edit.material;
     for (int step = 0; step < count; step++) {
         k = (k + by + count) % count;
         if (!coverage || coverage[k] >= 0.0f) break;
     }
     if (!count) return;
-    v->rooms->edit.material = k;
-    viewer_say(v, false, "%s", v->shown->facts.materials[k]);
+    v->states->edit.material = k;
+    viewer_report(v, false, "%s", v->shown->facts.materials[k]);
 }
 
-void viewer_make_fibre(Viewer *v) {
-    if (v->rooms->edit.material >= v->rooms->edit.state.material_count) return;
-    WeftMaterial m = *scene_state_material(&v->rooms->edit.state, v->rooms->edit.material);
+void edit_make_fibre(Viewer *v) {
+    if (v->states->edit.material >= v->states->edit.state.material_count) return;
+    WeftMaterial m = *scene_state_material(&v->states->edit.state, v->states->edit.material);
     int lobe = weft_material_choice_find("sheen_lobe"), value = 0;
     while (weft_material_choice_value(lobe, value) &&
            strcmp(weft_material_choice_value(lobe, value), "fibre") != 0)
@@ -90,59 +86,88 @@ void viewer_make_fibre(Viewer *v) {
     for (int c = 0; c < 3 && black; c++) color->value[c] = 0.5f;
     if (black) color->given = 1;
     if (!(rough->value[0] > 0.0f)) rough->value[0] = 0.6f, rough->given = 1;
-    viewer_set_material(v, v->rooms->edit.material, &m);
-    viewer_say(v, false, "%s now has a sheen of fibres to brush",
-               v->shown->facts.materials[v->rooms->edit.material]);
+    edit_set_material(v, v->states->edit.material, &m);
+    viewer_report(v, false, "%s now has a sheen of fibres to brush",
+                  v->shown->facts.materials[v->states->edit.material]);
 }
 
-void viewer_split(Viewer *v, Split split) {
+void edit_set_split(Viewer *v, Split split) {
     if (!v->shown->any) return;
-    if (split != SPLIT_NONE && !v->rooms->edit.other.materials &&
-        !scene_state_copy(&v->rooms->edit.other, &v->rooms->edit.state))
+    if (split != SPLIT_NONE && !v->states->edit.other.materials &&
+        !scene_state_copy(&v->states->edit.other, &v->states->edit.state))
         return;
-    v->rooms->edit.split = split;
+    v->states->edit.split = split;
     requests_due(v);
 }
 
-void viewer_swap(Viewer *v) {
+void edit_swap_sides(Viewer *v) {
     SceneState before;
-    if (v->rooms->edit.split == SPLIT_NONE || !scene_state_copy(&before, &v->rooms->edit.other)) return;
-    SceneState kept = v->rooms->edit.state;
-    v->rooms->edit.state = v->rooms->edit.other;
-    v->rooms->edit.other = kept;
-    v->rooms->edit.side = !v->rooms->edit.side;
-    scene_state_free(&v->rooms->edit.before);
-    v->rooms->edit.before = before;
-    History history = v->rooms->edit.history;
-    v->rooms->edit.history = v->rooms->edit.other_history;
-    v->rooms->edit.other_history = history;
+    if (v->states->edit.split == SPLIT_NONE || !scene_state_copy(&before, &v->states->edit.other)) return;
+    SceneState kept = v->states->edit.state;
+    v->states->edit.state = v->states->edit.other;
+    v->states->edit.other = kept;
+    v->states->edit.side = !v->states->edit.side;
+    scene_state_free(&v->states->edit.before);
+    v->states->edit.before = before;
+    History history = v->states->edit.history;
+    v->states->edit.history = v->states->edit.other_history;
+    v->states->edit.other_history = history;
     requests_due(v);
 }
 
-void viewer_set_material(Viewer *v, int index, const WeftMaterial *material) {
-    if (!scene_state_set_material(&v->rooms->edit.state, index, material))
-        viewer_say(v, true, "out of memory");
+void edit_set_material(Viewer *v, int index, const WeftMaterial *material) {
+    if (!scene_state_set_material(&v->states->edit.state, index, material))
+        viewer_report(v, true, "out of memory");
 }
 
-void viewer_copy_material(Viewer *v) {
-    if (!v->rooms->edit.state.material_count) return;
-    v->rooms->edit.copied = *scene_state_material(&v->rooms->edit.state, v->rooms->edit.material);
-    v->rooms->edit.has_copied = true;
-    viewer_say(v, false, "copied %s", v->shown->facts.materials[v->rooms->edit.material]);
+void edit_set_preset(Viewer *v, int material, int preset) {
+    scene_state_set_preset(&v->states->edit.state, material, preset);
 }
 
-void viewer_paste_material(Viewer *v) {
-    if (v->rooms->edit.has_copied && v->rooms->edit.state.material_count)
-        viewer_set_material(v, v->rooms->edit.material, &v->rooms->edit.copied);
+void edit_set_variant(Viewer *v, int variant) { v->states->edit.state.variant = variant; }
+
+void edit_set_environment(Viewer *v, const EnvironmentState *environment) {
+    v->states->edit.state.environment = *environment;
 }
 
-/* ---- what a task has made ---- */
+void edit_set_light(Viewer *v, int index, const WeftLight *light) {
+    v->states->edit.state.lights[index] = *light;
+}
+
+void edit_add_light(Viewer *v, const WeftLight *light) {
+    EditState *edit = &v->states->edit;
+    edit->light = edit->state.light_count++;
+    edit->state.lights[edit->light] = *light;
+}
+
+void edit_remove_light(Viewer *v, int index) {
+    EditState *edit = &v->states->edit;
+    WeftLight *lights = edit->state.lights;
+    const int count = --edit->state.light_count;
+    memmove(lights + index, lights + index + 1, (size_t)(count - index) * sizeof *lights);
+    memset(&lights[count], 0, sizeof *lights);
+    if (edit->light >= index && edit->light > 0) edit->light--;
+}
+
+bool edit_set_nap(Viewer *v, BrushedNap *nap) { return scene_state_set_nap(&v->states->edit.state, nap); }
+
+void edit_copy_material(Viewer *v) {
+    if (!v->states->edit.state.material_count) return;
+    v->states->edit.copied = *scene_state_material(&v->states->edit.state, v->states->edit.material);
+    v->states->edit.has_copied = true;
+    viewer_report(v, false, "copied %s", v->shown->facts.materials[v->states->edit.material]);
+}
+
+void edit_paste_material(Viewer *v) {
+    if (v->states->edit.has_copied && v->states->edit.state.material_count)
+        edit_set_material(v, v->states->edit.material, &v->states->edit.copied);
+}
 
 /* Makes the current state a step of its own. */
 static void keep_step(Viewer *v) {
-    history_close(&v->rooms->edit.history);
-    history_keep(&v->rooms->edit.history, &v->rooms->edit.state);
-    history_close(&v->rooms->edit.history);
+    history_close(&v->states->edit.history);
+    history_keep(&v->states->edit.history, &v->states->edit.state);
+    history_close(&v->states->edit.history);
 }
 
 static bool lit_by(const SceneState *state, const char *path) {
@@ -150,7 +175,7 @@ static bool lit_by(const SceneState *state, const char *path) {
 }
 
 void edit_take_light(Viewer *v, const EnvironmentState *environment) {
-    EditRoom *edit = &v->rooms->edit;
+    EditState *edit = &v->states->edit;
     if (!lit_by(&edit->state, environment->path)) keep_step(v);
     if (lit_by(&edit->other, environment->path))
         environment_state_take_source(&edit->other.environment, environment);
@@ -159,7 +184,7 @@ void edit_take_light(Viewer *v, const EnvironmentState *environment) {
 }
 
 unsigned edit_assign(Viewer *v, int material) {
-    EditRoom *edit = &v->rooms->edit;
+    EditState *edit = &v->states->edit;
     if (edit->assignment_count == ASSIGNMENTS || material < 0 || material >= edit->state.material_count)
         return 0;
     const Assignment fresh = {++edit->stamp, material, *scene_state_material(&edit->state, material)};
@@ -167,14 +192,14 @@ unsigned edit_assign(Viewer *v, int material) {
     return fresh.stamp;
 }
 
-static Assignment *assignment_of(EditRoom *edit, unsigned stamp) {
+static Assignment *assignment_of(EditState *edit, unsigned stamp) {
     for (int k = 0; k < edit->assignment_count; k++)
         if (stamp && edit->assignments[k].stamp == stamp) return &edit->assignments[k];
     return NULL;
 }
 
 void edit_end_assign(Viewer *v, unsigned stamp) {
-    EditRoom *edit = &v->rooms->edit;
+    EditState *edit = &v->states->edit;
     Assignment *ended = assignment_of(edit, stamp);
     if (!ended) return;
     size_t behind = (size_t)(edit->assignments + edit->assignment_count - (ended + 1));
@@ -182,9 +207,9 @@ void edit_end_assign(Viewer *v, unsigned stamp) {
     edit->assignment_count--;
 }
 
-/* Makes of a task's state the one that is edited, with the task's material merged into it. To tasks that follow, what
- * this one made was there before. */
-static void keep_later_changes(EditRoom *edit, const Assignment *task, SceneState *state) {
+/* Turns a task's state into the edited state, with the task's material merged into it. For the tasks that
+ * follow, the result of this one becomes the material they started from. */
+static void keep_later_changes(EditState *edit, const Assignment *task, SceneState *state) {
     SceneState merged;
     const int k = task->material, preset = scene_state_preset(state, k);
     const WeftMaterial now = *scene_state_material(&edit->state, k),
@@ -201,7 +226,7 @@ static void keep_later_changes(EditRoom *edit, const Assignment *task, SceneStat
 }
 
 void edit_take_assigned(Viewer *v, SceneState *state, unsigned stamp) {
-    EditRoom *edit = &v->rooms->edit;
+    EditState *edit = &v->states->edit;
     const Assignment *task = assignment_of(edit, stamp);
     if (task && state->material_count == edit->state.material_count) keep_later_changes(edit, task, state);
     EnvironmentState environment = edit->state.environment;
@@ -213,7 +238,7 @@ void edit_take_assigned(Viewer *v, SceneState *state, unsigned stamp) {
 }
 
 void edit_match_other(Viewer *v) {
-    scene_state_free(&v->rooms->edit.other);
-    scene_state_copy(&v->rooms->edit.other, &v->rooms->edit.state);
+    scene_state_free(&v->states->edit.other);
+    scene_state_copy(&v->states->edit.other, &v->states->edit.state);
     requests_due(v);
 }

@@ -1,4 +1,3 @@
-/* Sends requests to the renderer and the path tracer, and takes their results. */
 #define _POSIX_C_SOURCE 200809L
 #include "view/state/frame_requests.h"
 
@@ -10,19 +9,31 @@
 #include <epoxy/gl.h>
 
 #include "base/steady_clock.h"
-#include "view/state/opening.h"
-#include "view/state/rooms.h"
+#include "view/state/states.h"
 
-void requests_due(Viewer *v) { v->rooms->requests.ask = true; }
-void requests_forget_probe(Viewer *v) { v->rooms->requests.has_probe = false; }
-void requests_forget(Viewer *v) { scene_state_free(&v->rooms->requests.sent); }
+void requests_due(Viewer *v) { v->states->requests.due = true; }
+void requests_forget_probe(Viewer *v) { v->states->requests.has_probe = false; }
+void requests_forget(Viewer *v) { scene_state_free(&v->states->requests.sent); }
 void requests_end(Viewer *v) {
-    if (v->window) glDeleteTextures(1, &v->rooms->requests.reference_texture);
+    if (v->window) glDeleteTextures(1, &v->states->requests.reference_texture);
 }
 
-void viewer_picture_size(const Viewer *v, int *width, int *height) {
+void requests_picture_size(const Viewer *v, int *width, int *height) {
     *width = (int)fmaxf(v->frame->stage.width, 16.0f);
     *height = (int)fmaxf(v->frame->stage.height, 16.0f);
+}
+
+Shows requests_shown(const Viewer *v) {
+    bool traced = v->options->mode != MODE_LIVE,
+         instead = v->requests->traced.number > v->requests->rendered.number;
+    if (v->requests->reference_texture && (traced || instead)) return SHOWS_TRACED;
+    return v->requests->rendered.texture && v->requests->rendered.scene == v->shown->number ? SHOWS_DRAWN
+                                                                                            : SHOWS_NOTHING;
+}
+
+const char *shows_name(Shows shows) {
+    static const char *const names[] = {"nothing", "drawn", "traced"};
+    return names[shows];
 }
 
 static bool same_request(const FrameRequest *a, const FrameRequest *b) {
@@ -47,7 +58,7 @@ static FrameRequest make_request(const Viewer *v) {
                             .exposure = v->options->exposure};
     request.state = v->edit->side == 0 || v->edit->split == SPLIT_NONE ? v->edit->state : v->edit->other;
     request.other = v->edit->side == 0 || v->edit->split == SPLIT_NONE ? v->edit->other : v->edit->state;
-    viewer_picture_size(v, &request.view.width, &request.view.height);
+    requests_picture_size(v, &request.view.width, &request.view.height);
     static const float dark[3] = {0.0219f, 0.0219f, 0.0246f};
     bool color = v->options->background == WEFT_BACKGROUND_COLOR;
     request.view.background = color ? WEFT_BACKGROUND_TRANSPARENT : v->options->background;
@@ -87,40 +98,38 @@ static unsigned send_reference(Viewer *v, const FrameRequest *request) {
     return reference_request(v->reference, &t);
 }
 
-/* Returns true if the picture shown is of the latest request but could be drawn more finely. */
 bool requests_can_refine(const Viewer *v) {
-    return v->shown->any && v->rooms->requests.rendered.number == v->rooms->requests.requested &&
-           v->rooms->requests.rendered.texture && v->rooms->requests.rendered.effort < EFFORT_SMOOTH;
+    return v->shown->any && v->states->requests.rendered.number == v->states->requests.requested &&
+           v->states->requests.rendered.texture && v->states->requests.rendered.effort < EFFORT_SMOOTH;
 }
 
-/* Sends what is wanted where it is something else than before. */
 void requests_send(Viewer *v) {
     if (!v->shown->any || v->frame->stage.width < 1.0f) return;
     FrameRequest request = make_request(v);
-    const FrameRequest *last = &v->rooms->requests.request;
-    bool other_state = !scene_state_same(&v->edit->state, &v->rooms->requests.sent);
-    bool changed = v->rooms->requests.ask || other_state || !same_request(&request, last);
-    if (changed) v->rooms->requests.changed = clock_now();
-    bool finer = requests_can_refine(v) && clock_now() - v->rooms->requests.changed > 0.12;
+    const FrameRequest *last = &v->states->requests.request;
+    bool other_state = !scene_state_same(&v->edit->state, &v->states->requests.sent);
+    bool changed = v->states->requests.due || other_state || !same_request(&request, last);
+    if (changed) v->states->requests.changed = clock_now();
+    bool finer = requests_can_refine(v) && clock_now() - v->states->requests.changed > 0.12;
     if (!changed && !finer) return;
-    request.effort = finer ? (Effort)(v->rooms->requests.rendered.effort + 1) : EFFORT_COARSE;
+    request.effort = finer ? (Effort)(v->states->requests.rendered.effort + 1) : EFFORT_COARSE;
     request.state_number = last->state_number + (other_state ? 1 : 0);
     request.view_number = send_reference(v, &request);
     if (other_state || request.view_number != last->view_number)
-        v->rooms->requests.traced.samples = 0.0; /* until there are some of this view and state */
-    v->rooms->requests.requested = renderer_request(v->renderer, &request);
-    scene_state_free(&v->rooms->requests.sent);
-    if (!scene_state_copy(&v->rooms->requests.sent, &v->edit->state))
-        v->rooms->requests.sent = (SceneState){0};
+        v->states->requests.traced.samples = 0.0; /* until there are some of this view and state */
+    v->states->requests.requested = renderer_request(v->renderer, &request);
+    scene_state_free(&v->states->requests.sent);
+    if (!scene_state_copy(&v->states->requests.sent, &v->edit->state))
+        v->states->requests.sent = (SceneState){0};
     request.state = request.other = (SceneState){0};
-    v->rooms->requests.request = request;
-    v->rooms->requests.ask = false;
-    if (changed) v->rooms->requests.has_probe = false;
+    v->states->requests.request = request;
+    v->states->requests.due = false;
+    if (changed) v->states->requests.has_probe = false;
 }
 
 void requests_read_camera(Viewer *v) {
-    const RenderedFrame *p = &v->rooms->requests.rendered;
-    if (!v->camera->orbit.name[0] || p->number != v->rooms->requests.requested || !p->texture) return;
+    const RenderedFrame *p = &v->states->requests.rendered;
+    if (!v->camera->orbit.name[0] || p->number != v->states->requests.requested || !p->texture) return;
     camera_found(v, p);
 }
 
@@ -128,44 +137,44 @@ void requests_read_camera(Viewer *v) {
  * works on this one. So window and renderer work in parallel, and no picture is more than two frames old. */
 void requests_wait_frame(Viewer *v) {
     double until = clock_now() + 0.04;
-    unsigned before = v->rooms->requests.rendered.number;
-    renderer_take_frame(v->renderer, &v->rooms->requests.rendered);
-    bool waits = v->shown->any && !v->rooms->requests.late && v->options->mode == MODE_LIVE;
-    while (waits && v->rooms->requests.rendered.number == before && before != v->rooms->requests.requested &&
-           clock_now() < until) {
+    unsigned before = v->states->requests.rendered.number;
+    renderer_take_frame(v->renderer, &v->states->requests.rendered);
+    bool waits = v->shown->any && !v->states->requests.late && v->options->mode == MODE_LIVE;
+    while (waits && v->states->requests.rendered.number == before &&
+           before != v->states->requests.requested && clock_now() < until) {
         window_wait(v->window, 0.004);
-        renderer_take_frame(v->renderer, &v->rooms->requests.rendered);
+        renderer_take_frame(v->renderer, &v->states->requests.rendered);
     }
-    v->rooms->requests.late =
-        v->rooms->requests.rendered.number == before && before != v->rooms->requests.requested;
+    v->states->requests.late =
+        v->states->requests.rendered.number == before && before != v->states->requests.requested;
 }
 
 void requests_take_reference(Viewer *v) {
     ReferenceFrame picture;
     if (!reference_take_frame(v->reference, &picture)) return;
     if (picture.image.pixels) {
-        viewer_upload(&v->rooms->requests.reference_texture, &picture.image);
+        viewer_upload(&v->states->requests.reference_texture, &picture.image);
         weft_image_free(&picture.image);
     }
-    const FrameRequest *last = &v->rooms->requests.request;
+    const FrameRequest *last = &v->states->requests.request;
     bool current = picture.view == last->view_number && picture.state == last->state_number;
     if (!current) picture.samples = 0.0; /* they are of an earlier view or state */
-    v->rooms->requests.traced = picture;
-    if (picture.failure[0]) viewer_say(v, true, "%s", picture.failure);
+    v->states->requests.traced = picture;
+    if (picture.failure[0]) viewer_report(v, true, "%s", picture.failure);
 }
 
 void requests_take_events(Viewer *v) {
     RenderEvent event;
     while (renderer_take_event(v->renderer, &event)) {
-        if (event.text[0]) viewer_say(v, event.failed, "%s", event.text);
+        if (event.text[0]) viewer_report(v, event.failed, "%s", event.text);
         if (event.kind == TASK_SCENE) opening_take(v, &event);
-        if (event.scene != v->shown->number) { /* of one that is gone */
+        if (event.scene != v->shown->number) { /* of an earlier scene */
             render_event_free(&event);
             continue;
         }
         if (event.maps.maps) {
             opening_take_maps(v, &event);
-            requests_forget(v); /* pixels are others, though the state may be the same */
+            requests_forget(v); /* its pixels differ, though the state may be the same */
         }
         if (event.state_changed && event.kind == TASK_LIGHT) {
             edit_take_light(v, &event.state.environment);
@@ -177,8 +186,8 @@ void requests_take_events(Viewer *v) {
         if (event.kind == TASK_BIND_MAPS && !event.failed) opening_keep_folder(v, event.path);
         if (event.coverage) opening_varied(v, &event.coverage);
         if (event.kind == TASK_PROBE && !event.failed) {
-            v->rooms->requests.probe = event.probe;
-            v->rooms->requests.has_probe = event.probe.hit;
+            v->states->requests.probe = event.probe;
+            v->states->requests.has_probe = event.probe.hit;
         }
         if (event.kind == TASK_PICK && !event.failed && event.stamp) stage_picked(v, &event);
         if (event.kind == TASK_PROFILES && event.image.pixels) dialogs_take_profiles(v, &event.image);
@@ -187,17 +196,17 @@ void requests_take_events(Viewer *v) {
     char *warnings = renderer_take_warnings(v->renderer);
     opening_warn(v, warnings);
     free(warnings);
-    if (strcmp(v->rooms->requests.shader_complaint, v->rooms->requests.rendered.complaint) != 0) {
-        memcpy(v->rooms->requests.shader_complaint, v->rooms->requests.rendered.complaint,
-               sizeof v->rooms->requests.shader_complaint);
-        if (v->rooms->requests.shader_complaint[0])
-            viewer_say(v, true, "shader: %s", v->rooms->requests.shader_complaint);
+    if (strcmp(v->states->requests.shader_complaint, v->states->requests.rendered.complaint) != 0) {
+        memcpy(v->states->requests.shader_complaint, v->states->requests.rendered.complaint,
+               sizeof v->states->requests.shader_complaint);
+        if (v->states->requests.shader_complaint[0])
+            viewer_report(v, true, "shader: %s", v->states->requests.shader_complaint);
         else
-            viewer_say(v, false, "shaders compile again");
+            viewer_report(v, false, "shaders compile again");
     }
-    if (strcmp(v->rooms->requests.failure, v->rooms->requests.rendered.failure) != 0) {
-        memcpy(v->rooms->requests.failure, v->rooms->requests.rendered.failure,
-               sizeof v->rooms->requests.failure);
-        viewer_say(v, v->rooms->requests.failure[0] != '\0', "%s", v->rooms->requests.failure);
+    if (strcmp(v->states->requests.failure, v->states->requests.rendered.failure) != 0) {
+        memcpy(v->states->requests.failure, v->states->requests.rendered.failure,
+               sizeof v->states->requests.failure);
+        viewer_report(v, v->states->requests.failure[0] != '\0', "%s", v->states->requests.failure);
     }
 }

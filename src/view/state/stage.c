@@ -1,11 +1,12 @@
-/* The picture in the middle of the window, and what the mouse does on it. */
+#include "view/state/stage.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/pi.h"
 #include "view/state/brush.h"
-#include "view/state/rooms.h"
+#include "view/state/states.h"
 
 enum { LEFT, RIGHT, MIDDLE };
 
@@ -37,8 +38,6 @@ static void on_picture(const Viewer *v, float at[2]) {
     at[0] = (v->frame->input.x - box.x) / box.width;
     at[1] = (v->frame->input.y - box.y) / box.height;
 }
-
-/* ---- handles of lights ---- */
 
 /* Computes the position of a light's handle; that of a sun is on a sphere around the scene. */
 static void handle_place(const Viewer *v, const WeftLight *light, float place[3]) {
@@ -73,7 +72,7 @@ static int handle_under(const Viewer *v) {
 
 /* Moves a light with the mouse: in the plane that faces the eye, a sun over its sphere. */
 static void drag_light(Viewer *v) {
-    WeftLight *light = &edit_state(v)->lights[v->rooms->drag.light];
+    WeftLight moved = v->edit->state.lights[v->states->drag.light], *light = &moved;
     float at[2], ray[3], place[3], right[3], up[3], forward[3];
     on_picture(v, at);
     orbit_ray(&v->camera->orbit, seen_aspect(v), at[0], at[1], ray);
@@ -88,6 +87,7 @@ static void drag_light(Viewer *v) {
     for (int k = 0; k < 3; k++) place[k] = v->camera->orbit.eye[k] + depth / along * ray[k];
     if (light->kind != WEFT_LIGHT_DIRECTIONAL) {
         memcpy(light->position, place, sizeof place);
+        edit_set_light(v, v->states->drag.light, &moved);
         return;
     }
     float d[3], n = 0.0f;
@@ -96,19 +96,19 @@ static void drag_light(Viewer *v) {
         n += d[k] * d[k];
     }
     for (int k = 0; k < 3 && n > 1e-12f; k++) light->direction[k] = d[k] / sqrtf(n);
+    edit_set_light(v, v->states->drag.light, &moved);
 }
 
-/* ---- questions to the scene ---- */
+enum { PICK_SELECT = 1, PICK_BRUSH = 2, PICK_KINDS = 4 };
 
-enum { ASK_SELECT = 1, ASK_BRUSH = 2, ASK_KINDS = 4 };
-
-static void ask(Viewer *v, TaskKind kind, unsigned why) {
+/* Requests the surface point under the mouse. */
+static void pick(Viewer *v, TaskKind kind, unsigned why) {
     Task task = {.kind = kind,
                  .scene = v->shown->number,
                  .x = v->frame->input.x - v->frame->stage.x,
                  .y = v->frame->input.y - v->frame->stage.y};
-    task.nap = why == ASK_BRUSH;
-    task.stamp = ++v->rooms->drag.stamps * ASK_KINDS + why;
+    task.nap = why == PICK_BRUSH;
+    task.stamp = ++v->states->drag.stamps * PICK_KINDS + why;
     renderer_add_task(v->renderer, &task);
 }
 
@@ -119,16 +119,16 @@ static void begin_nap(Viewer *v, int material) {
     if (m.inputs[nap].value[0] > 0.0f) return;
     m.inputs[nap].value[0] = 0.436332f; /* 25 degrees */
     m.inputs[nap].given = 1;
-    viewer_set_material(v, material, &m);
+    edit_set_material(v, material, &m);
 }
 
 /* Returns true if the material has a nap to brush; otherwise explains what to do. */
 static bool takes_strokes(Viewer *v, int material) {
     if (weft_material_reads(scene_state_material(&v->edit->state, material), weft_material_input_find("nap")))
         return true;
-    viewer_say(v, true, "the sheen of %s has no nap to brush: \"Make it fibre\", above, gives it one",
-               v->shown->facts.materials[material]);
-    v->rooms->drag.stroke.down = false;
+    viewer_report(v, true, "the sheen of %s has no nap to brush: \"Make it fibre\", above, gives it one",
+                  v->shown->facts.materials[material]);
+    v->states->drag.stroke.down = false;
     return false;
 }
 
@@ -148,9 +148,9 @@ static void lay_along(const Viewer *v, WeftImage *image, const Probe *at, const 
 
 static void brush_at(Viewer *v, const Probe *at, const WeftImage *own) {
     float d[2] = {0.0f, 0.0f};
-    Stroke *brush = &v->rooms->drag.stroke;
-    bool goes_on = brush->known && brush->material == at->material;
-    if (brush->known && !goes_on) return; /* a stroke stays on what it began on */
+    Stroke *brush = &v->states->drag.stroke;
+    bool goes_on = brush->started && brush->material == at->material;
+    if (brush->started && !goes_on) return; /* a stroke stays on its first material */
     edit_choose_material(v, at->material);
     if (!takes_strokes(v, at->material)) return;
     for (int k = 0; k < 3 && goes_on; k++) {
@@ -164,70 +164,69 @@ static void brush_at(Viewer *v, const Probe *at, const WeftImage *own) {
     if (nap) {
         lay_along(v, image, at, d);
         begin_nap(v, at->material);
-        if (!scene_state_set_nap(edit_state(v), nap))
-            viewer_say(v, true, "no more than %d materials can be brushed", STATE_NAPS);
+        if (!edit_set_nap(v, nap))
+            viewer_report(v, true, "no more than %d materials can be brushed", STATE_NAPS);
     }
     if (goes_on && !moved) return;
     memcpy(brush->at, at->position, sizeof brush->at);
     memcpy(brush->uv, at->texcoord, sizeof brush->uv);
-    brush->known = true;
+    brush->started = true;
     brush->material = at->material;
 }
 
 void stage_picked(Viewer *v, const RenderEvent *event) {
     const Probe *at = &event->probe;
-    unsigned why = event->stamp % ASK_KINDS;
+    unsigned why = event->stamp % PICK_KINDS;
     if (!at->hit || at->material < 0 || at->material >= v->edit->state.material_count) {
-        v->rooms->drag.stroke.known = false;
+        v->states->drag.stroke.started = false;
         return;
     }
-    if (why == ASK_SELECT) {
+    if (why == PICK_SELECT) {
         edit_choose_material(v, at->material);
-        viewer_say(v, false, "%s", v->shown->facts.materials[at->material]);
+        viewer_report(v, false, "%s", v->shown->facts.materials[at->material]);
     }
-    if (why == ASK_BRUSH) brush_at(v, at, &event->image);
+    if (why == PICK_BRUSH) brush_at(v, at, &event->image);
 }
-
-/* ---- what the mouse does ---- */
 
 static void begin_drag(Viewer *v, int button) {
     float middle = v->frame->stage.x + v->options->split_at * v->frame->stage.width;
-    v->rooms->drag.light = button == LEFT ? handle_under(v) : -1;
-    v->rooms->drag.split = button == LEFT && v->edit->split == SPLIT_LINE && v->options->mode == MODE_LIVE &&
-                           fabsf(v->frame->input.x - middle) < 8.0f * ui_scale();
-    if (v->rooms->drag.light >= 0) edit_choose_light(v, v->rooms->drag.light);
-    v->rooms->drag.stroke.down =
-        button == LEFT && v->options->tool == TOOL_BRUSH && v->rooms->drag.light < 0 && !v->rooms->drag.split;
-    v->rooms->drag.stroke.known = false;
-    if (v->rooms->drag.stroke.down) ask(v, TASK_PICK, ASK_BRUSH);
-    v->rooms->drag.press_x = v->frame->input.x, v->rooms->drag.press_y = v->frame->input.y;
-    v->rooms->drag.moved = false;
+    v->states->drag.light = button == LEFT ? handle_under(v) : -1;
+    v->states->drag.split = button == LEFT && v->edit->split == SPLIT_LINE && v->options->mode == MODE_LIVE &&
+                            fabsf(v->frame->input.x - middle) < 8.0f * ui_scale();
+    if (v->states->drag.light >= 0) edit_choose_light(v, v->states->drag.light);
+    v->states->drag.stroke.down = button == LEFT && v->options->tool == TOOL_BRUSH &&
+                                  v->states->drag.light < 0 && !v->states->drag.split;
+    v->states->drag.stroke.started = false;
+    if (v->states->drag.stroke.down) pick(v, TASK_PICK, PICK_BRUSH);
+    v->states->drag.press_x = v->frame->input.x, v->states->drag.press_y = v->frame->input.y;
+    v->states->drag.moved = false;
 }
 
-static void turn_environment(Viewer *v, float across) {
-    float *r = &edit_state(v)->environment.rotation;
-    *r = fmodf(*r + 180.0f * across, 360.0f);
+static void rotate_environment(Viewer *v, float across) {
+    EnvironmentState environment = v->edit->state.environment;
+    environment.rotation = fmodf(environment.rotation + 180.0f * across, 360.0f);
+    edit_set_environment(v, &environment);
 }
 
 static void drag(Viewer *v, float dx, float dy) {
-    float across = dx / v->frame->stage.height, down = dy / v->frame->stage.height, turn = 3.5f;
+    float across = dx / v->frame->stage.height, down = dy / v->frame->stage.height, speed = 3.5f;
     Orbit orbit = v->camera->orbit;
-    bool pans = v->rooms->drag.pressed[MIDDLE] || (v->rooms->drag.pressed[LEFT] && v->frame->input.shift);
-    if (v->rooms->drag.split) {
+    bool pans = v->states->drag.pressed[MIDDLE] || (v->states->drag.pressed[LEFT] && v->frame->input.shift);
+    if (v->states->drag.split) {
         ViewOptions options = *v->options;
         options.split_at = (v->frame->input.x - v->frame->stage.x) / v->frame->stage.width;
         options_set(v, &options);
-    } else if (v->rooms->drag.light >= 0) {
+    } else if (v->states->drag.light >= 0) {
         drag_light(v);
-    } else if (v->rooms->drag.stroke.down) {
-        ask(v, TASK_PICK, ASK_BRUSH);
+    } else if (v->states->drag.stroke.down) {
+        pick(v, TASK_PICK, PICK_BRUSH);
     } else if (pans) {
         orbit_pan(&orbit, across, down);
-    } else if (v->rooms->drag.pressed[LEFT] && v->frame->input.control) {
-        turn_environment(v, across);
-    } else if (v->rooms->drag.pressed[LEFT]) {
-        orbit_turn(&orbit, turn * across, turn * down);
-    } else if (v->rooms->drag.pressed[RIGHT]) {
+    } else if (v->states->drag.pressed[LEFT] && v->frame->input.control) {
+        rotate_environment(v, across);
+    } else if (v->states->drag.pressed[LEFT]) {
+        orbit_rotate(&orbit, speed * across, speed * down);
+    } else if (v->states->drag.pressed[RIGHT]) {
         orbit_look(&orbit, 1.5f * across, v->frame->settings.invert ? -1.5f * down : 1.5f * down);
     }
     camera_set(v, &orbit);
@@ -235,11 +234,11 @@ static void drag(Viewer *v, float dx, float dy) {
 
 static void end_drag(Viewer *v, int button) {
     bool clicked =
-        !v->rooms->drag.moved && button == LEFT && v->rooms->drag.light < 0 && !v->rooms->drag.split;
-    if (clicked && v->options->tool == TOOL_PROBE) ask(v, TASK_PROBE, 0);
-    if (clicked && v->options->tool == TOOL_ORBIT) ask(v, TASK_PICK, ASK_SELECT);
-    v->rooms->drag.light = -1;
-    v->rooms->drag.split = v->rooms->drag.stroke.down = false;
+        !v->states->drag.moved && button == LEFT && v->states->drag.light < 0 && !v->states->drag.split;
+    if (clicked && v->options->tool == TOOL_PROBE) pick(v, TASK_PROBE, 0);
+    if (clicked && v->options->tool == TOOL_ORBIT) pick(v, TASK_PICK, PICK_SELECT);
+    v->states->drag.light = -1;
+    v->states->drag.split = v->states->drag.stroke.down = false;
 }
 
 static void fly(Viewer *v) {
@@ -255,27 +254,27 @@ static void fly(Viewer *v) {
     camera_set(v, &orbit);
 }
 
-void stage_begin(Viewer *v) { v->rooms->drag.light = -1; }
+void stage_begin(Viewer *v) { v->states->drag.light = -1; }
 
 void stage_input(Viewer *v) {
     const UiInput *in = &v->frame->input;
     if (!v->shown->any) return;
     bool free_mouse = over_stage(v) && !ui_wants_mouse();
     for (int b = 0; b < 3; b++) {
-        if (in->button[b] && !v->rooms->drag.pressed[b] && free_mouse) {
-            v->rooms->drag.pressed[b] = true;
+        if (in->button[b] && !v->states->drag.pressed[b] && free_mouse) {
+            v->states->drag.pressed[b] = true;
             begin_drag(v, b);
-        } else if (!in->button[b] && v->rooms->drag.pressed[b]) {
-            v->rooms->drag.pressed[b] = false;
+        } else if (!in->button[b] && v->states->drag.pressed[b]) {
+            v->states->drag.pressed[b] = false;
             end_drag(v, b);
         }
     }
-    bool held = v->rooms->drag.pressed[0] || v->rooms->drag.pressed[1] || v->rooms->drag.pressed[2];
-    float dx = in->x - v->rooms->drag.last_x, dy = in->y - v->rooms->drag.last_y;
-    v->rooms->drag.last_x = in->x, v->rooms->drag.last_y = in->y;
-    if (held && hypotf(in->x - v->rooms->drag.press_x, in->y - v->rooms->drag.press_y) > 3.0f)
-        v->rooms->drag.moved = true;
-    if (held && v->rooms->drag.moved && (dx < 0.0f || dx > 0.0f || dy < 0.0f || dy > 0.0f)) drag(v, dx, dy);
+    bool down = v->states->drag.pressed[0] || v->states->drag.pressed[1] || v->states->drag.pressed[2];
+    float dx = in->x - v->states->drag.last_x, dy = in->y - v->states->drag.last_y;
+    v->states->drag.last_x = in->x, v->states->drag.last_y = in->y;
+    if (down && hypotf(in->x - v->states->drag.press_x, in->y - v->states->drag.press_y) > 3.0f)
+        v->states->drag.moved = true;
+    if (down && v->states->drag.moved && (dx < 0.0f || dx > 0.0f || dy < 0.0f || dy > 0.0f)) drag(v, dx, dy);
     if (free_mouse && in->wheel != 0.0f) {
         Orbit orbit = v->camera->orbit;
         orbit_dolly(&orbit, powf(0.88f, in->wheel));
@@ -283,8 +282,6 @@ void stage_input(Viewer *v) {
     }
     if (!ui_wants_keys()) fly(v);
 }
-
-/* ---- what is drawn ---- */
 
 static void tag(float x, float y, const char *text) {
     float pad = 5.0f * ui_scale(), width = ui_text_width(text);
@@ -355,13 +352,13 @@ static void draw_tags(const Viewer *v) {
                  TRACE_SAMPLES, v->requests->traced.denoised ? ", denoised" : "");
     else if (v->options->mode == MODE_DIFFERENCE)
         snprintf(text, sizeof text, "%s",
-                 viewer_shows(v) != SHOWS_TRACED ? "OpenGL before it is compared"
-                 : v->requests->traced.compared  ? "OpenGL less path traced"
-                                                 : "path traced before it is compared");
-    else if (viewer_shows(v) == SHOWS_TRACED)
+                 requests_shown(v) != SHOWS_TRACED ? "OpenGL before it is compared"
+                 : v->requests->traced.compared    ? "OpenGL less path traced"
+                                                   : "path traced before it is compared");
+    else if (requests_shown(v) == SHOWS_TRACED)
         snprintf(text, sizeof text, "path traced while shaders compile   %.0f spp",
                  v->requests->traced.samples);
-    else if (viewer_shows(v) == SHOWS_NOTHING && v->shown->any)
+    else if (requests_shown(v) == SHOWS_NOTHING && v->shown->any)
         snprintf(text, sizeof text, "shaders compile");
     else if (v->options->part != WEFT_PART_ALL)
         snprintf(text, sizeof text, "%s alone", weft_part_name((int)v->options->part));
@@ -401,9 +398,9 @@ static void draw_brush(const Viewer *v) {
 void stage_draw(Viewer *v) {
     static const char welcome[] = "Drop a .glb or .gltf here, or File > Open ...";
     ui_behind(true);
-    if (viewer_shows(v) == SHOWS_TRACED)
+    if (requests_shown(v) == SHOWS_TRACED)
         ui_picture(v->requests->reference_texture, v->frame->stage, false);
-    else if (viewer_shows(v) == SHOWS_DRAWN)
+    else if (requests_shown(v) == SHOWS_DRAWN)
         ui_picture(v->requests->rendered.texture, v->frame->stage, true);
     ui_clip(&v->frame->stage);
     draw_split(v);

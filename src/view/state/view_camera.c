@@ -1,44 +1,44 @@
-/* The camera that the scene is seen through. */
+#include "view/state/view_camera.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "view/state/rooms.h"
+#include "view/state/states.h"
 
-void camera_set(Viewer *v, const Orbit *orbit) { v->rooms->camera.orbit = *orbit; }
+void camera_set(Viewer *v, const Orbit *orbit) { v->states->camera.orbit = *orbit; }
 
 /* Sets the centre of the scene, and its size: half the distance of the camera. */
 static void set_home(Viewer *v, const float eye[3], const float target[3]) {
-    memcpy(v->rooms->camera.home, target, sizeof v->rooms->camera.home);
-    v->rooms->camera.reach = 0.0f;
-    for (int k = 0; k < 3; k++) v->rooms->camera.reach = hypotf(v->rooms->camera.reach, eye[k] - target[k]);
-    v->rooms->camera.reach = fmaxf(0.5f * v->rooms->camera.reach, 1e-3f);
+    memcpy(v->states->camera.home, target, sizeof v->states->camera.home);
+    v->states->camera.reach = 0.0f;
+    for (int k = 0; k < 3; k++) v->states->camera.reach = hypotf(v->states->camera.reach, eye[k] - target[k]);
+    v->states->camera.reach = fmaxf(0.5f * v->states->camera.reach, 1e-3f);
 }
 
-/* Sets the first camera, and the size of things until the renderer knows the centre of the picture. */
 void camera_begin(Viewer *v, const WeftScene *scene, const char *name) {
-    if (!orbit_at(&v->rooms->camera.orbit, scene, name, viewer_aspect(v))) {
-        viewer_say(v, true, "%.100s: %s", name, weft_message_text(WEFT_MESSAGE_CAMERA_NAME));
-        orbit_at(&v->rooms->camera.orbit, scene, "auto", viewer_aspect(v));
+    if (!orbit_at(&v->states->camera.orbit, scene, name, viewer_aspect(v))) {
+        viewer_report(v, true, "%.100s: %s", name, weft_message_text(WEFT_MESSAGE_CAMERA_NAME));
+        orbit_at(&v->states->camera.orbit, scene, "auto", viewer_aspect(v));
     }
-    v->rooms->camera.at_home = false;
-    set_home(v, v->rooms->camera.orbit.eye, v->rooms->camera.orbit.target);
+    v->states->camera.at_home = false;
+    set_home(v, v->states->camera.orbit.eye, v->states->camera.orbit.target);
 }
 
-void viewer_frame_selection(Viewer *v) {
+void camera_frame_all(Viewer *v) {
     if (v->shown->any)
-        orbit_frame(&v->rooms->camera.orbit, v->shown->facts.info.low, v->shown->facts.info.high,
+        orbit_frame(&v->states->camera.orbit, v->shown->facts.info.low, v->shown->facts.info.high,
                     viewer_aspect(v));
 }
 
 void camera_stand_at(Viewer *v, const char *name) {
-    snprintf(v->rooms->camera.orbit.name, sizeof v->rooms->camera.orbit.name, "%s", name);
+    snprintf(v->states->camera.orbit.name, sizeof v->states->camera.orbit.name, "%s", name);
 }
 
-void viewer_reset_camera(Viewer *v) { camera_stand_at(v, v->shown->facts.info.camera_count ? "0" : "auto"); }
+void camera_reset(Viewer *v) { camera_stand_at(v, v->shown->facts.info.camera_count ? "0" : "auto"); }
 
 void camera_found(Viewer *v, const RenderedFrame *frame) {
-    CameraRoom *camera = &v->rooms->camera;
+    CameraState *camera = &v->states->camera;
     memcpy(camera->orbit.eye, frame->eye, sizeof frame->eye);
     memcpy(camera->orbit.target, frame->target, sizeof frame->target);
     if (frame->fov > 0.0f) camera->orbit.fov = frame->fov;

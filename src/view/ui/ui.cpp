@@ -282,7 +282,7 @@ UiCursor ui_cursor(void) {
 float ui_scale(void) { return ui->scale; }
 float ui_line_height(void) { return ImGui::GetFrameHeightWithSpacing(); }
 float ui_text_width(const char *text) { return ImGui::CalcTextSize(text).x; }
-float ui_room(void) { return ImGui::GetContentRegionAvail().x; }
+float ui_width_left(void) { return ImGui::GetContentRegionAvail().x; }
 
 bool ui_panel(const char *name, UiBox box, bool scrolls) {
     ImGuiWindowFlags flags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
@@ -520,8 +520,8 @@ bool ui_slider(const char *label, const UiRange *range, float *value) {
     ImGuiSliderFlags flags = ImGuiSliderFlags_NoRoundToFormat;
     if (range->logarithmic) flags |= ImGuiSliderFlags_Logarithmic;
     const float before = *value, number = 5.2f * ImGui::GetFontSize(),
-                room = ImGui::GetContentRegionAvail().x;
-    ImGui::SetNextItemWidth(std::fmax(room - number, 0.4f * room));
+                width = ImGui::GetContentRegionAvail().x;
+    ImGui::SetNextItemWidth(std::fmax(width - number, 0.4f * width));
     ImGuiID id = ImGui::GetID(hidden(label).c_str());
     bool typed = ImGui::TempInputIsActive(id) || GImGui->NavActivateInputId == id ||
                  (ImGui::GetIO().KeyCtrl && GImGui->HoveredIdPreviousFrame == id);

@@ -22,7 +22,7 @@ enum { UI_KEYS = 512, UI_BUTTONS = 5, UI_TYPED = 32, UI_PRESSED = 16 };
 typedef struct UiPress {
     int key;
     char letter;
-    bool control, shift, alt, again; /* again: it is held, and repeats */
+    bool control, shift, alt, repeats; /* again: it is held, and repeats */
 } UiPress;
 
 /* The state of mouse and keys; wheel and typed text since the last frame. */
@@ -72,7 +72,7 @@ UiCursor ui_cursor(void);
 float ui_scale(void);
 float ui_line_height(void); /* of a row of widgets */
 float ui_text_width(const char *text);
-float ui_room(void); /* width that is left in this row */
+float ui_width_left(void); /* width that is left in this row */
 
 typedef struct UiBox {
     float x, y, width, height;

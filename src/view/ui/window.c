@@ -66,7 +66,7 @@ static void on_key(GLFWwindow *w, int key, int scancode, int action, int mods) {
     Event event = {.kind = EVENT_KEY,
                    .code = key,
                    .down = action != GLFW_RELEASE,
-                   .again = action == GLFW_REPEAT,
+                   .repeats = action == GLFW_REPEAT,
                    .letter = (char)(name && !name[1] ? name[0] : 0),
                    .control = (mods & GLFW_MOD_CONTROL) != 0,
                    .shift = (mods & GLFW_MOD_SHIFT) != 0,
@@ -275,7 +275,7 @@ static void take_key(UiInput *input, const Event *e) {
     if (e->code == GLFW_KEY_LEFT_ALT || e->code == GLFW_KEY_RIGHT_ALT) input->alt = e->down;
     if (!e->down || input->pressed_count == UI_PRESSED) return;
     input->pressed[input->pressed_count++] =
-        (UiPress){e->code, e->letter, input->control, input->shift, input->alt, e->again};
+        (UiPress){e->code, e->letter, input->control, input->shift, input->alt, e->repeats};
 }
 
 static void let_go(UiInput *input) {
@@ -326,14 +326,14 @@ bool window_take(Window *self, UiInput *input) {
     input->typed_count = input->pressed_count = 0;
     while (self->count) {
         Event *e = &self->events[self->first];
-        bool turn = e->kind == EVENT_BUTTON && e->code >= 0 && e->code < UI_BUTTONS;
+        bool click = e->kind == EVENT_BUTTON && e->code >= 0 && e->code < UI_BUTTONS;
         bool stroke = e->kind == EVENT_KEY && e->code >= 0 && e->code < UI_KEYS;
-        if ((turn && button[e->code]) || (stroke && key[e->code]) || (e->kind == EVENT_MOVE && pressed) ||
+        if ((click && button[e->code]) || (stroke && key[e->code]) || (e->kind == EVENT_MOVE && pressed) ||
             (is_modifier(e) && struck))
             break;
-        if (turn) button[e->code] = pressed = true;
+        if (click) button[e->code] = pressed = true;
         if (stroke) key[e->code] = true;
-        struck |= turn || (stroke && !is_modifier(e));
+        struck |= click || (stroke && !is_modifier(e));
         take_event(self, input, e);
         self->first = (self->first + 1) % QUEUE_MOST;
         self->count--;

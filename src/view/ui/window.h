@@ -43,7 +43,7 @@ typedef struct Event {
     float x, y;
     int code;
     char letter;
-    bool down, again, control, shift, alt;
+    bool down, repeats, control, shift, alt;
     char *path; /* owned by whoever takes it */
 } Event;
 

@@ -1,0 +1,27 @@
+/* panels.h - the panels, bars and keys of the window, one file each */
+#ifndef WEFT_VIEW_PANELS_H
+#define WEFT_VIEW_PANELS_H
+
+#include "view/state/viewer.h"
+
+void menu_draw(Viewer *v);
+void status_draw(Viewer *v);
+void material_panel(Viewer *v);
+void weave_section(Viewer *v, const WeftMaterial *m); /* of the material's panel, if it is woven */
+void light_panel(Viewer *v);
+void view_panel(Viewer *v);
+void inspect_panel(Viewer *v);
+void doctor_panel(Viewer *v);
+void keys_input(Viewer *v);
+
+/* Returns true if the examination goes on in the next frame. */
+bool doctor_busy(const Viewer *v);
+
+/* Forgets the findings about a file that is no longer open. */
+void doctor_forget(Viewer *v);
+
+/* Returns true if measuring goes on in the next frame. */
+bool inspection_busy(const struct Inspection *inspection);
+void inspection_free(struct Inspection *inspection);
+
+#endif

@@ -1,0 +1,20 @@
+#include "view/state/actions.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "view/state/edit.h"
+#include "view/state/opening.h"
+
+void actions_send(Viewer *v, TaskKind kind, const char *path, int index, int input) {
+    Task task = {.kind = kind, .scene = v->shown->number, .index = index, .input = input};
+    if (path && strlen(path) >= sizeof task.path) {
+        viewer_report(v, true, "%.100s...: is too long a path", path);
+        return;
+    }
+    if (path) snprintf(task.path, sizeof task.path, "%s", path);
+    if (kind == TASK_ASSIGN) task.stamp = edit_assign(v, index);
+    renderer_add_task(v->renderer, &task);
+}
+
+void actions_light_by(Viewer *v, const char *path) { actions_send(v, TASK_LIGHT, path, -1, -1); }

@@ -1,0 +1,13 @@
+/* actions.h - tasks that menus, dialogs and replays send to the renderer */
+#ifndef WEFT_VIEW_ACTIONS_H
+#define WEFT_VIEW_ACTIONS_H
+
+#include "view/state/viewer.h"
+
+/* Sends a task. path may be NULL; index and input as in Task. */
+void actions_send(Viewer *v, TaskKind kind, const char *path, int index, int input);
+
+/* Lights the scene by a picture, or by the folder of a cubemap. */
+void actions_light_by(Viewer *v, const char *path);
+
+#endif

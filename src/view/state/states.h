@@ -1,0 +1,26 @@
+/* states.h - the window's state for those who write it: each member for the .c file named like the header of its record */
+#ifndef WEFT_VIEW_STATES_H
+#define WEFT_VIEW_STATES_H
+
+#include "view/state/dialogs.h"
+#include "view/state/edit.h"
+#include "view/state/frame_requests.h"
+#include "view/state/opening.h"
+#include "view/state/stage.h"
+#include "view/state/view_camera.h"
+#include "view/state/view_options.h"
+#include "view/state/viewer.h"
+
+struct States {
+    WindowState frame;
+    OpeningState opening;
+    ShownScene shown;
+    EditState edit;
+    ViewOptions options;
+    CameraState camera;
+    RequestsState requests;
+    DialogsState dialogs;
+    DragState drag;
+};
+
+#endif

@@ -1,0 +1,47 @@
+/* view_options.h - the options of the view: mode, part, background, exposure, tool, open panel */
+#ifndef WEFT_VIEW_VIEW_OPTIONS_H
+#define WEFT_VIEW_VIEW_OPTIONS_H
+
+#include "view/state/viewer.h"
+
+/* The content of the stage: OpenGL, the path tracer, or their difference. */
+typedef enum Mode { MODE_LIVE, MODE_REFERENCE, MODE_DIFFERENCE } Mode;
+typedef enum Tool { TOOL_ORBIT, TOOL_PROBE, TOOL_BRUSH } Tool;
+
+/* The panels at the side, in the order of their tabs. */
+enum { PANEL_MATERIAL, PANEL_LIGHT, PANEL_VIEW, PANEL_INSPECT, PANEL_DOCTOR };
+
+typedef struct ViewOptions {
+    Mode mode;
+    float split_at; /* position of the line between A and B, fraction of the width */
+    WeftBackground background;
+    float background_color[3];
+    WeftFloor floor;
+    bool hide_lights;
+    WeftTonemap tonemap;
+    float exposure; /* stops */
+    WeftPart part;
+    WeftAmbient ambient;
+    Tool tool;
+    float brush_radius;   /* m */
+    float brush_strength; /* of a stroke, 0 to 1 */
+    int panel;            /* the open panel: PANEL_MATERIAL ... */
+} ViewOptions;
+
+void options_begin(Viewer *v);
+
+/* Sets all options, clamped to their ranges. */
+void options_set(Viewer *v, const ViewOptions *options);
+void options_set_mode(Viewer *v, Mode mode);
+
+/* Sets the mode, or MODE_LIVE if it is that mode already. */
+void options_toggle_mode(Viewer *v, Mode mode);
+void options_set_part(Viewer *v, WeftPart part);
+void options_set_panel(Viewer *v, int panel);
+
+/* Sets the tool; the probe opens the panel that shows its results. */
+void options_set_tool(Viewer *v, Tool tool);
+void options_toggle_floor(Viewer *v);
+void options_toggle_lights(Viewer *v);
+
+#endif
