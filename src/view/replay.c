@@ -22,9 +22,8 @@ enum { MOTIONS = 512, TRIES = 240, SIZE_MOST = 1 << 20 };
 typedef struct Motion {
     enum { DO_EVENT, DO_POINT, DO_NOTHING, DO_KEEP, DO_WRITE } kind;
     Event event;
-    char path[1024]; /* of the action's file */
-    char control
-        [96]; /* DO_POINT: moves the mouse to a share of this control's box, once it stays where it is */
+    char path[1024];  /* of the action's file */
+    char control[96]; /* DO_POINT: moves the mouse into this control's box, when it no longer moves */
     float x, y;
     UiBox last; /* of the control, a frame ago */
 } Motion;
@@ -34,8 +33,8 @@ struct Replay {
     int line;
     Motion motions[MOTIONS];
     int count, first;
-    int tries;    /* times an action was put off */
-    double since; /* when a wait began; 0: none is on */
+    int tries;    /* attempts to find the control */
+    double since; /* start of the current wait, s; 0: none */
     bool stay;
 };
 
@@ -64,8 +63,6 @@ void replay_close(Replay *self) {
     free(self->text);
     free(self);
 }
-
-/* ---- motions ---- */
 
 static void add(Replay *self, const Motion *motion) {
     if (self->count < MOTIONS) self->motions[self->count++] = *motion;
@@ -192,8 +189,6 @@ static void add_drag(Replay *self, const Viewer *v, int button, const float way[
     add_pause(self, 1);
 }
 
-/* ---- the words of a script ---- */
-
 static char *take_word(char **text) {
     char *p = *text + strspn(*text, " \t"), *word = p;
     if (*p == '"') {
@@ -211,7 +206,7 @@ static bool is(const char *a, const char *b) { return strcmp(a, b) == 0; }
 
 static int button_of(const char *name) { return is(name, "right") ? 1 : is(name, "middle") ? 2 : 0; }
 
-/* Waits: true while it goes on. */
+/* Returns true while a wait goes on. */
 static bool still_waiting(Replay *self, Viewer *v, const char *what) {
     double start = self->since > 0.0 ? self->since : (self->since = clock_now());
     bool done = is(what, "rest")                    ? viewer_is_idle(v) && v->shown->any && ++self->tries > 4

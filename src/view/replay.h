@@ -1,4 +1,4 @@
-/* replay.h - a script of actions that are done to the window as if by hand: docs/view.md has the words */
+/* replay.h - a script of actions of mouse and keyboard for the window: docs/view.md describes it */
 #ifndef WEFT_VIEW_REPLAY_H
 #define WEFT_VIEW_REPLAY_H
 
@@ -10,8 +10,8 @@ typedef struct Replay Replay;
 Replay *replay_open(const char *path, char why[512]);
 void replay_close(Replay *replay); /* may be NULL */
 
-/* Does what is due before the next frame. False with one line in `why` where an action cannot be done. At the
- * end of the script the window closes, unless it was asked to stay. */
+/* Does the actions before the next frame. False with one line in `why` if one fails. At the end of the script the
+ * window closes, unless the script contains `stay`. */
 bool replay_step(Replay *replay, Viewer *v, char why[512]);
 
 /* Returns true if an action is under way that needs frames to be drawn; otherwise the replay waits. */

@@ -201,7 +201,8 @@ static int run(Viewer *v, char why[512]) {
             inspection_busy(v->options->panel == PANEL_INSPECT ? v->inspection : NULL))
             due = 3;
         bool settled = due <= 0;
-        if (window_hidden(v->window) || (settled && !v->desc->frames)) { /* frames that are counted go on */
+        if (window_hidden(v->window) ||
+            (settled && !v->desc->frames)) { /* with a count of frames the window does not rest */
             v->states->frame.clock = started;
             continue;
         }

@@ -8,12 +8,12 @@ enum { RECENT_MOST = 10, RECENT_PATH = 1024 };
 
 typedef struct Settings {
     int width, height; /* of the window */
-    float panel;       /* width of the side, design pixels */
-    bool invert;       /* looking up by pulling down */
+    float panel;       /* width of the side panel, design pixels */
+    bool invert;       /* dragging down looks up */
     float speed;       /* of flying */
     char recent[RECENT_MOST][RECENT_PATH];
     int recent_count;
-    char folder[RECENT_PATH]; /* the browser's */
+    char folder[RECENT_PATH]; /* of the file browser */
 } Settings;
 
 /* Returns the settings of a first start. */
@@ -23,10 +23,10 @@ Settings settings_default(void);
  * unchanged. */
 void settings_read(Settings *settings);
 
-/* Writes it there, complete or not at all; false where that cannot be. */
+/* Writes the same file, complete or not at all; false on failure. */
 bool settings_write(const Settings *settings);
 
-/* Puts a path first. */
+/* Makes a path the first of the recent files. */
 void settings_opened(Settings *settings, const char *path);
 
 #endif

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { ROWS = 40 }; /* of places that are looked at */
+enum { ROWS = 40 }; /* of rays */
 
 float *survey_take(const WeftPick *pick, const WeftScene *scene, const char *camera, float aspect) {
     int count = weft_scene_info(scene).material_count, columns = (int)lroundf(ROWS * aspect);

@@ -1,4 +1,4 @@
-/* The panel that plots the material's reflection and takes a pixel's light apart. */
+/* The panel that plots the material's reflection and shows the parts of a pixel's light. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,7 +15,7 @@ enum { SLICE = 181, ANGLES = 21, RINGS = 24, SECTORS = 48, PAIRS = 64, PARTS = 4
 
 static const WeftPart parts[PARTS] = {WEFT_PART_ALL, WEFT_PART_DIFFUSE, WEFT_PART_SPECULAR, WEFT_PART_SHEEN};
 static const unsigned colors[PARTS] = {0xFFE8E8E8u, 0xFF5EA8E8u, 0xFFE0A858u,
-                                       0xFF68C878u}; /* distinct for the colour-blind too */
+                                       0xFF68C878u}; /* distinct with colour blindness too */
 
 typedef struct Inspection {
     WeftMaterial of;
@@ -107,8 +107,6 @@ static void refresh(Inspection *self, const WeftMaterial *material) {
         weft_reflection_albedo(self->reflection, WEFT_PART_ALL, cosine_of(self->angles),
                                self->albedo[self->angles]);
 }
-
-/* ---- drawing ---- */
 
 static const unsigned line_color = 0xFF4A4C50u, text_color = 0xFF9A9C9Fu, ground = 0xFF17181Au;
 

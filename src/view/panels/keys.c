@@ -1,4 +1,4 @@
-/* Keyboard shortcuts, by the letters on the keys, so that a shortcut is where its letter is. */
+/* Keyboard shortcuts, by the letter on a key and not by its position. */
 #include <stdio.h>
 #include <string.h>
 

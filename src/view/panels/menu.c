@@ -1,4 +1,4 @@
-/* The bars: menus and modes above, what goes on below. */
+/* The bars: menus and modes at the top, the status at the bottom. */
 #include <stdio.h>
 #include <string.h>
 
@@ -157,7 +157,7 @@ static int lines_of(const char *text) {
     return count;
 }
 
-/* Returns what the status bar says of the picture; one from before is named as such while shaders compile. */
+/* Returns the status of the picture. */
 static const char *picture_status(const Viewer *v) {
     bool instead = v->options->mode == MODE_LIVE && requests_shown(v) == SHOWS_TRACED;
     return v->opening->has_pending      ? "preparing"

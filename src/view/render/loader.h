@@ -43,26 +43,26 @@ typedef struct Loader Loader;
 /* The result of a load, or the reason of its failure. */
 typedef struct Loaded {
     WeftScene *scene; /* owned; NULL on failure */
-    SceneState state; /* owned; what it is configured as */
+    SceneState state; /* owned; as configured */
     Facts facts;      /* owned */
     char path[STATE_PATH];
     WeftResult result;
     char failure[512];
     char *warnings;        /* warnings, one a line; owned, may be NULL */
-    const char *camera;    /* through which it is seen first; a constant, or the command line's */
-    bool reread;           /* the scene was read again from its file */
+    const char *camera;    /* the first camera; a constant, or the command line's */
+    bool reread;           /* the shown scene was reread from its file */
     Folders folders;       /* folders of maps that are in use */
-    char lobe[STATE_PATH]; /* file of a lobe that was to be taken before; "": none */
-    bool taken;            /* the lobe was taken, even if the scene failed */
+    char lobe[STATE_PATH]; /* file of a lobe loaded before the scene; "": none */
+    bool taken;            /* the lobe was loaded, even if the scene failed */
 } Loaded;
 
 /* A load as it is requested. */
 typedef struct Reading {
     const char *path;
-    const char *lobe;       /* file of a lobe to be taken before; may be NULL */
-    bool reread;            /* the scene that is there */
+    const char *lobe;       /* file of a lobe to load before the scene; may be NULL */
+    bool reread;            /* the scene that is shown, whose file has changed */
     bool configured;        /* desc.configure is called, in that thread */
-    const Folders *folders; /* to be worn; those that cannot be are a warning, and dropped */
+    const Folders *folders; /* to be put on materials; those that fail are dropped with a warning */
     float aspect;           /* width / height of the picture that it will be seen in */
 } Reading;
 
@@ -73,7 +73,7 @@ Loader *loader_start(Window *window, const ViewDesc *desc, const Reading *readin
 float loader_progress(Loader *loader);
 bool loader_done(Loader *loader);
 
-/* Returns the path of the scene that it reads, valid while the loader exists; again: as in Reading. */
+/* Returns the path of the scene that it reads, valid while the loader exists; reread: as in Reading. */
 const char *loader_path(const Loader *loader, bool *reread);
 
 /* Asks it to end soon, without waiting. */

@@ -76,7 +76,7 @@ void orbit_look(Orbit *o, float across, float down) {
 
 static void move(Orbit *o, const float d[3]) {
     for (int k = 0; k < 3; k++) {
-        if (!(fabsf(o->eye[k] + d[k]) < 1e6f)) continue; /* nothing is out there */
+        if (!(fabsf(o->eye[k] + d[k]) < 1e6f)) continue; /* too far from everything */
         o->eye[k] += d[k];
         o->target[k] += d[k];
     }

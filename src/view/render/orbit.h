@@ -1,4 +1,4 @@
-/* orbit.h - a camera that a hand moves: about a point, or through the scene
+/* orbit.h - a camera moved by hand: about a point, or through the scene
  *
  * Positions in metres, angles in radians; up is +y. */
 #ifndef WEFT_VIEW_ORBIT_H
@@ -13,7 +13,7 @@ enum { ORBIT_TEXT = 160 };
 typedef struct Orbit {
     float eye[3], target[3];
     float fov;             /* vertical, degrees */
-    char name[ORBIT_TEXT]; /* of the scene's camera that it stands at, until it is moved; "" none */
+    char name[ORBIT_TEXT]; /* the scene's camera that it is at, until it moves; "": none */
 } Orbit;
 
 /* Moves to a camera of the scene, named as in WeftRenderDesc.camera. Returns false if there is no such camera. */
@@ -29,13 +29,13 @@ void orbit_pan(Orbit *orbit, float across, float down);
 /* Moves towards the target: multiplies the distance. */
 void orbit_dolly(Orbit *orbit, float factor);
 
-/* Looks elsewhere from where the eye is. */
+/* Rotates the view about the eye; right and down are positive. */
 void orbit_look(Orbit *orbit, float across, float down);
 
 /* Moves the eye along its view direction, to the right, and up in the world; metres. */
 void orbit_fly(Orbit *orbit, float forward, float right, float up);
 
-/* Puts all of a box into a picture of that aspect, from where it is looked at now. */
+/* Moves the eye so that a box fits a picture of that aspect; the view direction stays. */
 void orbit_frame(Orbit *orbit, const float low[3], const float high[3], float aspect);
 
 /* Writes the camera in the form of `weft render --camera`. */

@@ -246,7 +246,7 @@ static void publish(Renderer *self, const FrameRequest *request, Effort effort, 
         self->newest = target;
     }
     p->number = number;
-    p->effort = target >= 0 ? effort : EFFORT_SMOOTH; /* the window need not ask for a finer one */
+    p->effort = target >= 0 ? effort : EFFORT_SMOOTH; /* the window need not request a finer one */
     memcpy(p->eye, info.camera_eye, sizeof p->eye);
     memcpy(p->target, info.camera_target, sizeof p->target);
     p->fov = info.camera_fov;
@@ -314,7 +314,7 @@ static void draw(Renderer *self, const FrameRequest *request, unsigned number) {
         bool fair = done == WEFT_OK && whole && weft_raster_info(self->raster).compiled == compiled;
         if (fair) learn(self, request, effort, clock_now() - start);
     }
-    if (!whole) return; /* another request came between */
+    if (!whole) return; /* interrupted by another request */
     const char *refusal = frame_refusal(self, &request->state);
     if (result == WEFT_OK) snprintf(error.text, sizeof error.text, "%s", refusal ? refusal : "");
     bool best = effort == EFFORT_WHOLE && self->smooth_seconds >= smooth_most; /* smooth is too slow */

@@ -11,7 +11,7 @@
 
 #include "base/steady_clock.h"
 
-enum { COARSE = 3 }; /* pixels of the window for one of a first look, along a side */
+enum { COARSE = 3 }; /* pixels of the window along a side of a coarse pixel */
 
 struct ReferenceView {
     Window *window;
@@ -20,28 +20,28 @@ struct ReferenceView {
     pthread_cond_t change;
     /* under the lock */
     ReferenceRequest request;
-    unsigned number;        /* counted up as there is something else to show */
-    unsigned view;          /* of the request, counted up as it has another view */
-    unsigned state;         /* number of the state that `scene` has, as the renderer tells; 0: not told yet */
+    unsigned number;        /* incremented when the picture becomes outdated */
+    unsigned view;          /* of the request, incremented with each new view */
+    unsigned state;         /* number of the state that `scene` has, from the renderer; 0: not yet set */
     const WeftScene *scene; /* may be read while `running` */
     unsigned changed;
     bool other; /* the scene is another one */
     bool paused, running, quit, waiting;
-    unsigned number_for; /* the renderer's request in whose place pictures are made; 0: none */
-    WeftImage reference; /* to compare with, newest; taken by the thread */
+    unsigned number_for; /* the renderer's request that pictures replace; 0: none */
+    WeftImage reference; /* the newest picture to compare with; taken by the thread */
     bool outdated;       /* `compared` is of another view or state */
     bool fresh;          /* `picture` was not taken yet */
     ReferenceFrame picture;
-    WeftImage linear; /* what the picture was made of */
-    /* written by the thread alone; what others read of it, while it does not run */
+    WeftImage linear; /* the radiance of the picture */
+    /* written by the thread alone; others read it while the thread does not run */
     WeftRender *render;
-    ReferenceRequest requested, drawn; /* the latest, and with the pixels that it was given */
+    ReferenceRequest requested, drawn; /* the latest as requested, and as drawn at its resolution */
     unsigned drawn_number, drawn_view, drawn_state;
     bool current; /* `render` is of the scene and of `drawn` */
-    bool finer;   /* the render has all of its pixels */
-    bool spare;   /* the render stood in for a picture that may be there by now */
+    bool finer;   /* the render has full resolution */
+    bool spare;   /* the render replaced a picture that may exist by now */
     double samples;
-    WeftImage denoised; /* of the render when it had so many samples */
+    WeftImage denoised; /* the render at denoised_samples */
     double denoised_samples;
     WeftImage compared;
 };
@@ -218,8 +218,8 @@ static bool is_spare(const ReferenceView *self) {
     return self->spare && !is_wanted(self) && self->scene && !self->paused && !self->waiting;
 }
 
-/* Lets the samples of all pixels go, which take some fifty bytes a pixel, and keeps the tree of the scene, unless that is
- * another one by now. The lock is held before and after, not during. */
+/* Lets the samples of all pixels go, which take some fifty bytes a pixel, and keeps the tree of the scene, unless that
+ * is another one by now. The lock is held before and after, not during. */
 static void let_go(ReferenceView *self) {
     ReferenceRequest least = self->requested;
     const WeftScene *scene = self->scene;
@@ -374,7 +374,7 @@ void reference_set_state(ReferenceView *self, unsigned state) {
     if (state != self->state) {
         self->state = state;
         if (!self->picture.failure[0])
-            self->number++; /* what is still right is shown once more, with this number */
+            self->number++; /* the picture is published once more with this number */
         pthread_cond_broadcast(&self->change);
     }
     pthread_mutex_unlock(&self->lock);

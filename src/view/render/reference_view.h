@@ -17,22 +17,22 @@ typedef struct ReferenceRequest {
     char camera[ORBIT_TEXT];
     WeftTonemap tonemap;
     float exposure;
-    float behind[3]; /* light of the display, where it is transparent */
-    bool difference; /* from the picture that was handed over, in place of it */
-    float scale;     /* of the heat map; 0: the 99 of 100 pixels */
-    int samples;     /* a pixel, after which it rests */
+    float behind[3]; /* colour behind transparent pixels, after tone mapping */
+    bool difference; /* show the difference from reference_set_comparison's picture instead */
+    float scale;     /* end of the heat map; 0: the 99th percentile */
+    int samples;     /* per pixel, after which the thread rests */
 } ReferenceRequest;
 
-/* A picture of the path tracer: U8 RGBA. But for the first, and for a difference, its noise is taken out until
- * it has all samples. */
+/* A picture of the path tracer, U8 RGBA. It is denoised until it has all samples, except the first one and
+ * differences. */
 typedef struct ReferenceFrame {
     WeftImage image;
-    unsigned number;         /* of the renderer's request in whose place it is; 0: it is wanted for itself */
+    unsigned number;         /* of the renderer's request that it replaces; 0: it was itself requested */
     unsigned view, state;    /* numbers of what it shows: reference_request, reference_set_state */
-    double samples, seconds; /* samples: below 1 of a first look, with fewer pixels */
-    bool denoised;           /* in part */
+    double samples, seconds; /* samples: below 1 while the resolution is reduced */
+    bool denoised;           /* at least partly */
     int wanted_samples;
-    WeftDifference difference; /* where one was asked for and `compared` */
+    WeftDifference difference; /* if `compared` */
     bool compared;
     float scale;
     char failure[256];
@@ -43,28 +43,28 @@ typedef struct ReferenceFrame {
 ReferenceView *reference_start(Window *window);
 void reference_stop(ReferenceView *reference);
 
-/* Holds it still: when this returns nothing reads the scene. */
+/* Pauses the thread: when this returns nothing reads the scene. */
 void reference_pause(ReferenceView *reference);
-/* Lets it go on with a scene (NULL: none) in which `changed` has changed, WEFT_CHANGED_MATERIALS and so on;
- * of another scene all. */
+/* Continues with a scene (NULL: none). `changed` are the parts that have changed, WEFT_CHANGED_MATERIALS and so on;
+ * for another scene everything counts as changed. */
 void reference_resume(ReferenceView *reference, const WeftScene *scene, unsigned changed);
 
-/* Gives the state that the scene has by now a number, which pictures made from now on bear. After reference_resume with a
+/* Sets the number of the current state of the scene, which later pictures have. After reference_resume with a
  * change or another scene its state has the number 0 until then. */
 void reference_set_state(ReferenceView *reference, unsigned state);
 
-/* Returns the number of the request's view, which its pictures bear: a new one if the request before had another view, or
- * only one of the two is wanted, or is for a difference. */
+/* Returns the number of the request's view, which its pictures have. It is a new one if the previous request had
+ * another view, or if only one of the two is wanted, or only one is for a difference. */
 unsigned reference_request(ReferenceView *reference, const ReferenceRequest *request);
 
 /* Makes pictures from now on though none is requested, instead of the one that the renderer cannot draw yet, whose
  * number they have; the first ones are coarse. 0: no more. */
 void reference_stand_in(ReferenceView *reference, unsigned number);
-/* Waits for the first picture that bears the number, so long at most. */
+/* Waits for the first picture with that number, at most `seconds`. */
 void reference_wait(ReferenceView *reference, unsigned number, double seconds);
 
-/* Takes the picture to compare with, and zeroes it. It is forgotten if it is not of the latest request's view, or as soon as
- * view or scene change. */
+/* Takes the picture to compare with, and zeroes it. It is forgotten if it is not of the latest request's view, or as
+ * soon as view or scene change. */
 void reference_set_comparison(ReferenceView *reference, unsigned view, WeftImage *linear);
 
 /* Takes the newest picture. Returns true if it is a new one, which the caller must free. */

@@ -30,8 +30,6 @@ void renderer_post(Renderer *self, RenderEvent *event) {
     window_wake(self->window);
 }
 
-/* ---- scenes ---- */
-
 enum { FIRST_FOLDER = 1 << 24 }; /* id of the first folder in the file watch; smaller ids are textures */
 
 void renderer_watch_files(Renderer *self) {
@@ -92,8 +90,6 @@ static void replace_scene(Renderer *self, WeftScene *scene, SceneState *state, c
     }
     renderer_post(self, &event);
 }
-
-/* ---- the thread ---- */
 
 /* Reads again one file that has changed: a texture, or a folder of maps. Returns true if there was one. */
 static bool reload_file(Renderer *self) {

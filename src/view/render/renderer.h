@@ -29,17 +29,17 @@ typedef struct FrameRequest {
     unsigned scene;          /* number of the scene (renderer_set_scene) */
     int edited;              /* the state that tasks change: 0 is `state`, 1 is `other` */
     unsigned view_number;    /* of the path tracer's view (reference_request) */
-    unsigned state_number;   /* of the edited state, counted up as it is another one; not 0 */
+    unsigned state_number;   /* of the edited state, incremented when it changes; not 0 */
     SceneState state, other; /* `other` is the right side of a split picture; empty without a split */
     Split split;
     float at;            /* SPLIT_LINE: position of the line, as a fraction of the width */
-    WeftRasterView view; /* but for its camera, which is the text below */
+    WeftRasterView view; /* except its camera, which is the text below */
     char camera[ORBIT_TEXT];
     float behind[3];  /* linear colour behind transparent pixels, after tone mapping */
     bool laid_behind; /* saved pictures have this colour too; otherwise they stay transparent */
     WeftTonemap tonemap;
     float exposure; /* stops */
-    Effort effort;  /* the quality wanted; smooth edges that would take too long are left out */
+    Effort effort;  /* the requested quality; smooth edges that would take too long are left out */
     bool reference; /* the path tracer shows this view: OpenGL draws only what `compare` needs */
     bool compare;   /* a linear copy of the picture goes to the path tracer */
 } FrameRequest;
@@ -57,7 +57,7 @@ typedef enum TaskKind {
     TASK_PROFILES,  /* draws a sheet with material `index` under every profile */
     TASK_ASSIGN,    /* `path`: a material file or "preset:NAME" for `index`; a picture, if `input` >= 0 */
     TASK_BIND_MAPS, /* puts the maps in folder `path` on material `index`; -1: on the cloth of the scene */
-    TASK_WEAVE,     /* weaves material `index` of other yarns, and turns a crossing of its draft over */
+    TASK_WEAVE,     /* weaves material `index` of other yarns, and inverts a crossing of its draft */
     TASK_LIGHT,     /* `path` is a picture, or the folder of a cubemap, that becomes the environment */
     TASK_SCENE,     /* no task, but an event: a new scene was taken over, or cannot be drawn */
     TASK_SURVEY     /* no task, but an event: coverage by each material, after a change of variant */
@@ -101,7 +101,7 @@ typedef struct RenderEvent {
         image; /* TASK_PROFILES: the sheet, U8 RGB; TASK_PICK: the nap map, if none was brushed; owned */
     bool state_changed; /* `state` is then the state of the scene after the task; owned */
     SceneState state;
-    Facts maps;      /* set if maps changed, but without anything else than the maps; owned */
+    Facts maps;      /* set if maps changed; only its maps and cloths are filled; owned */
     float *coverage; /* TASK_SURVEY: share of the picture by each material (survey.h); owned, may be NULL */
     int index;       /* `index` of the task; TASK_BIND_MAPS: the number of maps */
 } RenderEvent;

@@ -40,7 +40,7 @@ struct Renderer {
     WeftScene *scene;
     WeftRaster *raster;
     WeftPick *pick;
-    SceneState is;            /* the state that the scene has now */
+    SceneState is;            /* the current state of the scene */
     EnvironmentState refused; /* an environment whose file cannot be read */
     char refusal[512];        /* the reason; "": none was refused */
     unsigned readings;        /* how often files of environments were read */
@@ -61,23 +61,23 @@ struct Renderer {
     int widths[RING], heights[RING];
 };
 
-/* renderer.c */
-WeftLog renderer_log(Renderer *renderer);                   /* of warnings, for renderer_take_warnings */
+/* Makes a log of warnings, which renderer_take_warnings returns (renderer.c, as the next two). */
+WeftLog renderer_log(Renderer *renderer);
 void renderer_post(Renderer *renderer, RenderEvent *event); /* takes the event over */
-void renderer_watch_files(
-    Renderer *renderer); /* watches the scene's texture files and the folders of maps in use, no others */
+/* Watches the scene's texture files and the folders of maps in use, no others. */
+void renderer_watch_files(Renderer *renderer);
 
-/* pictures.c: applies a state to the scene, and draws a request into the next texture. If the file of an environment
- * cannot be read, the environment stays as it was; frame_refusal then returns the reason, and the file is not read
- * again until it has changed. */
+/* Applies a state to the scene (pictures.c, as the next three). If the file of an environment
+ * cannot be read, the environment stays as it was; frame_refusal then returns the reason, and the file is not
+ * reread until it has changed. */
 WeftResult frame_apply_state(Renderer *renderer, const SceneState *state, WeftError *error);
 const char *frame_refusal(const Renderer *renderer, const SceneState *state); /* NULL: nothing was refused */
-/* The state shown in the panels. */
+/* Returns the state that the panels edit. */
 const SceneState *frame_edited_state(const FrameRequest *request);
 void frame_draw(Renderer *renderer, const FrameRequest *request, unsigned number);
 
-/* tasks.c */
-void tasks_survey(Renderer *renderer, const FrameRequest *request); /* sends the coverage by each material */
+/* Sends the coverage by each material (tasks.c, as the next three). */
+void tasks_survey(Renderer *renderer, const FrameRequest *request);
 void tasks_do(Renderer *renderer, const Task *task, const FrameRequest *request);
 void tasks_study(Renderer *renderer); /* draws one more picture of the sheet under way */
 /* Reads a texture file again. If it cannot be read, the picture before stays until the file changes again. */

@@ -247,7 +247,7 @@ BrushedNap *nap_copy(const SceneState *state, int material, const WeftImage *own
 }
 
 bool scene_state_set_nap(SceneState *state, BrushedNap *nap) {
-    for (int pass = 0; pass < 2; pass++) /* where it has one already, else where there is room */
+    for (int pass = 0; pass < 2; pass++) /* its own slot, else a free one */
         for (int k = 0; k < STATE_NAPS; k++) {
             bool its = state->naps[k] && state->naps[k]->material == nap->material;
             if (!(its || (pass && !state->naps[k]))) continue;
@@ -267,8 +267,6 @@ void scene_state_take_naps(SceneState *state, const SceneState *from) {
         if (its) atomic_fetch_add(&state->naps[k]->users, 1);
     }
 }
-
-/* ---- a scene is brought to it ---- */
 
 static int texture_of(const BoundNaps *naps, int material) {
     for (int k = 0; k < naps->count; k++)

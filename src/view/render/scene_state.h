@@ -20,14 +20,14 @@ enum {
     NAP_SIDE = 512
 };
 
-/* Folders of maps that materials wear, the latest of each; of index -1 the cloth of the scene. */
+/* The last folder of maps that was put on each material; index -1 is the cloth of the scene. */
 typedef struct Folders {
     char paths[STATE_FOLDERS][STATE_PATH];
     int materials[STATE_FOLDERS];
     int count;
 } Folders;
 
-/* The light from far away. */
+/* The source of the environment's light. */
 typedef enum EnvironmentSource {
     ENVIRONMENT_STUDIO = 0,
     ENVIRONMENT_FILE,
@@ -44,8 +44,8 @@ typedef struct EnvironmentState {
 
 typedef struct StateMaterial StateMaterial; /* shared */
 
-/* The nap that was brushed onto a material: U8 RGB, NAP_SIDE a side, red and green its direction, blue how
- * much of its angle it leans there. Shared. */
+/* The nap that was brushed onto a material, shared: U8 RGB, NAP_SIDE a side. Red and green are its direction, blue the
+ * fraction of its angle that it leans. */
 typedef struct BrushedNap BrushedNap;
 
 typedef struct SceneState {
@@ -58,7 +58,7 @@ typedef struct SceneState {
     BrushedNap *naps[STATE_NAPS]; /* NULL: none */
 } SceneState;
 
-/* Takes the place of the one that the material wore. */
+/* Notes a folder of maps, which replaces the earlier one of that material. */
 void folders_keep(Folders *folders, const char *path, int material);
 
 /* Returns the built-in studio. */
@@ -66,7 +66,7 @@ EnvironmentState environment_state_studio(void);
 
 /* Returns true if both have the same source: the studio, the same version of a file, or a colour. */
 bool environment_state_same_source(const EnvironmentState *a, const EnvironmentState *b);
-/* Shines from the source of another one; how it is turned and how strong it is stays. */
+/* Takes the source of another environment, but keeps rotation and strength. */
 void environment_state_take_source(EnvironmentState *environment, const EnvironmentState *from);
 
 /* Reads the state of a scene, without its environment, which a scene does not report. Returns false if
@@ -109,9 +109,8 @@ typedef struct BoundNaps {
     int count;
 } BoundNaps;
 
-/* Brings materials, variant and lights of a scene that is configured as `is` to `state`; both of that scene.
- * changed receives, beside what it holds, what changed (WEFT_CHANGED_MATERIALS ...). On failure the scene is
- * somewhere between. */
+/* Changes materials, variant and lights of a scene from the state `is` to `state`. The bits of what changed
+ * (WEFT_CHANGED_MATERIALS ...) are added to *changed. On failure only some of them have changed. */
 WeftResult scene_state_apply(const SceneState *state, const SceneState *is, BoundNaps *naps, WeftScene *scene,
                              unsigned *changed, WeftError *error);
 /* Applies the environment likewise. If its source cannot be read the scene stays as it was. */

@@ -9,11 +9,10 @@
 
 /* The window's initial content. Texts must outlive it. */
 typedef struct ViewDesc {
-    const char *scene; /* NULL: the built-in cloth */
-    const char
-        *options; /* how the scene is configured, as a command line has it: for the copied one; may be NULL */
-    /* Assigns materials and lights to a scene that was just loaded; `environment` receives the light from far
-     * away. May be NULL. */
+    const char *scene;   /* NULL: the built-in cloth */
+    const char *options; /* options that configure the scene, for the copied command line; may be NULL */
+    /* Assigns materials and lights to a scene that was just loaded; `environment` receives the environment.
+     * May be NULL. */
     WeftResult (*configure)(void *user, WeftScene *scene, EnvironmentState *environment, const WeftLog *log,
                             WeftError *error);
     void *user;
@@ -29,7 +28,7 @@ typedef struct ViewDesc {
     const char *materials;    /* folder of maps to put onto the cloth; NULL: none */
     int occlusion;
     int width, height;  /* of the window; 0: as it was last time */
-    float scale;        /* of panels and words; 0: as the display asks, 1 without one */
+    float scale;        /* of panels and text; 0: that of the display, 1 without one */
     int frames;         /* ends after so many; 0: when it is closed */
     const char *script; /* file of actions to replay; may be NULL */
     bool unseen;        /* without a window */

@@ -1,4 +1,4 @@
-/* history.h - looks to go back to, and forward again */
+/* history.h - earlier and later states of a scene, for undo and redo */
 #ifndef WEFT_VIEW_HISTORY_H
 #define WEFT_VIEW_HISTORY_H
 
@@ -6,21 +6,20 @@
 
 enum { HISTORY_STEPS = 200 };
 
-/* Zero-initialise: empty. Steps before `now` can be undone, those from it on done again. */
+/* Zero-initialise: empty. Steps before `now` can be undone, those from it on can be redone. */
 typedef struct History {
     SceneState steps[HISTORY_STEPS];
     int now, count;
-    bool open; /* what changes next belongs to the last step */
+    bool open; /* the next change belongs to the last step */
 } History;
 
-/* Keeps the state as it was before a change; what was undone is forgotten. While it is open nothing is kept.
- */
+/* Keeps the state before a change, and forgets what was undone. Keeps nothing while a step is open. */
 void history_keep(History *history, const SceneState *before);
 
 /* Ends a step: the next change begins a new one. */
 void history_close(History *history);
 
-/* Exchanges look with the one before, or after; false where there is none. */
+/* Exchanges the state with the previous or the next one; false if there is none. */
 bool history_undo(History *history, SceneState *state);
 bool history_redo(History *history, SceneState *state);
 

@@ -23,7 +23,7 @@ struct Browser {
     char folder[PATH], typed[PATH], chosen[2 * PATH];
     FolderEntry *entries;
     int count;
-    bool more;      /* than are listed */
+    bool more;      /* there are more than are listed */
     unsigned kinds; /* kinds listed and chosen: bit k for PathKind k */
     bool everything;
     char failure[200];
@@ -154,7 +154,7 @@ const char *browser_draw(Browser *self, unsigned kinds, float height) {
             snprintf(path, sizeof path, "%s/%s", strcmp(self->folder, "/") == 0 ? "" : self->folder,
                      entry->name);
             chosen = choose(self, path);
-            break; /* the list may be another one */
+            break; /* the list may have changed */
         }
         if (self->more) ui_dim("... and more, which are not listed");
         if (!self->count && !self->failure[0]) ui_dim("nothing here that can be opened");

@@ -1,4 +1,4 @@
-/* browser.h - choosing a file without a desktop's help: folders and files in a list */
+/* browser.h - a file chooser: folders and files in a list */
 #ifndef WEFT_VIEW_BROWSER_H
 #define WEFT_VIEW_BROWSER_H
 

@@ -8,7 +8,7 @@
 #include "weft/chart.h"
 #include "weft/reflection.h"
 
-/* The input that holds the F0 of a dielectric in each workflow; the last row is for all others. */
+/* The input for the F0 of a dielectric in each workflow; the last row is for all others. */
 static const struct {
     const char *workflow, *input;
 } f0_inputs[] = {

@@ -1,4 +1,4 @@
-/* swatches.h - swatches of reference materials, beside the inputs that they are for */
+/* swatches.h - swatches of reference materials below an input */
 #ifndef WEFT_VIEW_SWATCHES_H
 #define WEFT_VIEW_SWATCHES_H
 

@@ -1,4 +1,4 @@
-/* ui.cpp - the one file that is C++: ui.h on Dear ImGui 1.86 */
+/* ui.cpp - ui.h on Dear ImGui 1.86; the only C++ file of the window */
 #include "view/ui/ui.h"
 
 #include <cmath>
@@ -12,22 +12,22 @@
 #include <GLFW/glfw3.h> /* for the numbers of keys */
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
-#include <imgui_internal.h> /* for what lets go of a widget */
+#include <imgui_internal.h> /* navigation and the state of widgets */
 
 namespace {
 
 struct Ui {
     float scale = 1.0f;
     UiClipboard clipboard = {};
-    std::string scope; /* "Material/", to be put before a label */
+    std::string scope; /* "Material/", before a label */
     std::vector<size_t> scopes;
     std::vector<UiControl> shown, last;
     std::string reveal;
     std::vector<std::string> panels;         /* of this frame, in their order */
     std::string panel;                       /* panel with the keyboard; "": none */
-    bool to_menus = false, to_panel = false; /* goes there with the next frame */
+    bool to_menus = false, to_panel = false; /* moves the keyboard there in the next frame */
     bool navigates = false;
-    bool noted = false;         /* the widget before is the last of those shown */
+    bool noted = false;         /* the previous widget is the last control recorded */
     ImDrawList *list = nullptr; /* target of drawing; NULL: the current window's */
     ImVec4 accent = ImVec4(0.86f, 0.55f, 0.30f, 1.0f);
 };
@@ -72,7 +72,7 @@ void note(const char *label) {
         ImGui::SetScrollHereY(0.5f);
         ui->reveal.clear();
     }
-    ImVec2 middle = at(0.5f * (low.x + high.x), 0.5f * (low.y + high.y)); /* where a script points at */
+    ImVec2 middle = at(0.5f * (low.x + high.x), 0.5f * (low.y + high.y)); /* a script points there */
     if (ImGui::IsRectVisible(middle, at(middle.x + 1.0f, middle.y + 1.0f))) {
         ui->shown.push_back(control);
         ui->noted = true;
@@ -226,12 +226,13 @@ void ui_begin(const UiInput *input) {
     io.MouseWheel = input->wheel;
     io.MouseWheelH = input->wheel_across;
     for (int k = 0; k < UI_KEYS; k++) io.KeysDown[k] = input->key[k];
-    if (!io.WantTextInput) io.KeysDown[GLFW_KEY_TAB] = false; /* the window's own, but while text is typed */
+    if (!io.WantTextInput)
+        io.KeysDown[GLFW_KEY_TAB] = false; /* used by the window, except while text is typed */
     io.KeyCtrl = input->control;
     io.KeyShift = input->shift;
     io.KeyAlt = input->alt;
     for (int k = 0; k < input->typed_count; k++) io.AddInputCharacter(input->typed[k]);
-    /* Escape and the arrows are a popup's, or those of a panel that was asked to take them. */
+    /* Escape and the arrows go to a popup, or to a panel that has the keyboard. */
     bool popup = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
     bool leaves = input->button[0] || input->button[1] || (input->key[GLFW_KEY_ESCAPE] && !popup);
     if (ui->navigates && leaves && !io.WantTextInput) {
@@ -291,7 +292,8 @@ bool ui_panel(const char *name, UiBox box, bool scrolls) {
     if (!scrolls)
         flags |= ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse;
     else
-        flags |= ImGuiWindowFlags_AlwaysVerticalScrollbar; /* so that nothing jumps when it gets longer */
+        flags |=
+            ImGuiWindowFlags_AlwaysVerticalScrollbar; /* so that the width does not change with the length */
     ImGui::SetNextWindowPos(at(box.x, box.y));
     ImGui::SetNextWindowSize(at(box.width, box.height));
     bool shown = ImGui::Begin(name, nullptr, flags);
@@ -538,7 +540,7 @@ bool ui_slider(const char *label, const UiRange *range, float *value) {
     if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0) && !ImGui::GetIO().KeyCtrl) {
         changed = *value < range->initial || *value > range->initial;
         *value = range->initial;
-        ImGui::ClearActiveID(); /* else the press that is still held moves it */
+        ImGui::ClearActiveID(); /* else the mouse, which is still down, moves it */
     }
     return changed;
 }

@@ -2,8 +2,8 @@
  *
  * One frame: ui_begin, widgets, ui_end. A widget is named by its label and by the scopes around it:
  * "Material/ roughness"; after "##" a label is part of the name alone, and
- * after "###" that is all of its name, whatever it shows: "Distribution D###d". Whatever was shown can be
- * asked for by its name (ui_control), which is how a script finds it. Colours are 0xAABBGGRR, places in
+ * after "###" that is all of its name, whatever it shows: "Distribution D###d". A shown control can be found
+ * by its name (ui_control_find), as scripts do. Colours are 0xAABBGGRR, places in
  * pixels from the top left. One thread, the one whose OpenGL context is current. */
 #ifndef WEFT_VIEW_UI_H
 #define WEFT_VIEW_UI_H
@@ -18,11 +18,11 @@ extern "C" {
  * on any layout). */
 enum { UI_KEYS = 512, UI_BUTTONS = 5, UI_TYPED = 32, UI_PRESSED = 16 };
 
-/* A key that went down: which, and what is written on it on this keyboard, in lower case; 0: no letter. */
+/* A key that was pressed. letter: on this keyboard, in lower case; 0: none. */
 typedef struct UiPress {
     int key;
     char letter;
-    bool control, shift, alt, repeats; /* again: it is held, and repeats */
+    bool control, shift, alt, repeats; /* repeats: by the system while the key is held down */
 } UiPress;
 
 /* The state of mouse and keys; wheel and typed text since the last frame. */
@@ -40,14 +40,14 @@ typedef struct UiInput {
     int pressed_count;
 } UiInput;
 
-/* scale: pixels a design pixel (1: 96 dpi). The clipboard: functions that get and set the text of the window
- * system; may be NULL. False where it cannot be set up. */
+/* Functions that get and set the text of the window system's clipboard. */
 typedef struct UiClipboard {
     const char *(*get)(void *user);
     void (*set)(void *user, const char *text);
     void *user;
 } UiClipboard;
 
+/* Sets up the widgets. scale: pixels per design pixel (1: 96 dpi); clipboard may be NULL. Returns false on failure. */
 bool ui_create(float scale, const UiClipboard *clipboard);
 void ui_destroy(void);
 
@@ -72,7 +72,7 @@ UiCursor ui_cursor(void);
 float ui_scale(void);
 float ui_line_height(void); /* of a row of widgets */
 float ui_text_width(const char *text);
-float ui_width_left(void); /* width that is left in this row */
+float ui_width_left(void); /* of this row */
 
 typedef struct UiBox {
     float x, y, width, height;
@@ -87,7 +87,7 @@ void ui_window_end(void);
 /* Opens a dialog above all else; ui_dialog is then called every frame until it is closed. */
 void ui_dialog_open(const char *name);
 bool ui_dialog(const char *name, float width, float height);
-bool ui_escaped(void); /* Escape was pressed, and is not a text's */
+bool ui_escaped(void); /* Escape was pressed, and not in a text field */
 void ui_dialog_close(void);
 void ui_dialog_end(void);
 /* Begins a scrolling box within a panel. */
@@ -111,12 +111,12 @@ void ui_menu_end(void);
 bool ui_menu_item(const char *label, const char *shortcut, bool checked, bool enabled);
 
 void ui_same_line(void);
-void ui_column(float fraction); /* goes on in this row, from that fraction of the width on */
-void ui_beside(void);           /* the next, a small button, goes to the end of this row's column of names */
+void ui_column(float fraction); /* continues in this row at that fraction of the width */
+void ui_beside(void);           /* puts the next, a small button, at the end of this row's column of names */
 void ui_rule(void);
 void ui_disabled(bool disabled);
 void ui_disabled_end(void);
-void ui_faint(bool faint); /* what can be set and does nothing */
+void ui_faint(bool faint); /* controls that have no effect now */
 void ui_faint_end(void);
 void ui_indent(void); /* to the column of values */
 void ui_indent_end(void);
@@ -152,7 +152,8 @@ typedef struct UiRange {
     bool logarithmic;
 } UiRange;
 
-/* Returns true if the value was changed, as the next three do. Ctrl-click types a value, which may lie beyond the range. */
+/* Returns true if the value was changed, as the next three do. Ctrl-click types a value, which may lie beyond the
+ * range. */
 bool ui_slider(const char *label, const UiRange *range, float *value);
 bool ui_slider_int(const char *label, int low, int high, int *value);
 bool ui_numbers(const char *label, float step, float *values, int count);
@@ -168,9 +169,9 @@ void ui_progress(float fraction, const char *text); /* fraction below 0: under w
 
 /* Reserves a region to draw in, which `box` receives. Returns true while the mouse is over it or drags it. */
 bool ui_canvas(const char *label, float width, float height, UiBox *box);
-/* Draws on what is behind all panels, until false. */
+/* Draws behind all panels from now on, or no longer. */
 void ui_behind(bool behind);
-void ui_clip(const UiBox *box); /* NULL: no more */
+void ui_clip(const UiBox *box); /* NULL: no clipping */
 void ui_line(float x0, float y0, float x1, float y1, unsigned color, float thickness);
 void ui_curve(const float *xy, int count, unsigned color, float thickness);
 void ui_fill(UiBox box, unsigned color);
@@ -190,7 +191,7 @@ typedef struct UiControl {
 int ui_control_count(void);
 const UiControl *ui_control(int index);
 const UiControl *ui_control_find(const char *name); /* NULL: it is not shown */
-/* Brings that control into view where it is in a panel that scrolls: at the next frame. */
+/* Scrolls its panel so that the control is visible in the next frame. */
 void ui_reveal(const char *name);
 
 #ifdef __cplusplus

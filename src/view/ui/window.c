@@ -45,8 +45,6 @@ void window_push(Window *self, const Event *event) {
     self->events[(self->first + self->count++) % QUEUE_MOST] = copy;
 }
 
-/* ---- callbacks of GLFW ---- */
-
 static Window *of(GLFWwindow *window) { return glfwGetWindowUserPointer(window); }
 
 static void on_move(GLFWwindow *w, double x, double y) {
@@ -141,7 +139,7 @@ static bool open_seen(Window *self, const WindowDesc *desc, char why[256]) {
     glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
     glfwWindowHint(GLFW_DEPTH_BITS, 0);
     glfwWindowHint(GLFW_STENCIL_BITS, 0);
-    /* Beside an EGL context shaders are compiled in parallel; where there is none, by what the system has. */
+    /* EGL contexts compile shaders in parallel; without EGL the system's own API is used. */
     glfwWindowHint(GLFW_CONTEXT_CREATION_API, GLFW_EGL_CONTEXT_API);
     self->seen = glfwCreateWindow(desc->width, desc->height, desc->title, NULL, NULL);
     if (!self->seen) glfwWindowHint(GLFW_CONTEXT_CREATION_API, GLFW_NATIVE_CONTEXT_API);
@@ -263,8 +261,6 @@ void window_worker_end(Window *self) {
     eglMakeCurrent(self->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     eglReleaseThread();
 }
-
-/* ---- events become input ---- */
 
 static void take_key(UiInput *input, const Event *e) {
     if (e->code >= 0 && e->code < UI_KEYS) input->key[e->code] = e->down;

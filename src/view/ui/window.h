@@ -1,8 +1,8 @@
 /* window.h - a window of the desktop with OpenGL 3.3 in it, or the same without a display: a picture in
- * memory that nobody sees, for replays
+ * memory for replays
  *
- * What the user does arrives as events, in a queue to which a replay may add its own. All calls are for the
- * thread that opened it, but window_wake and those of the worker. */
+ * Input arrives as events, in a queue to which a replay may add its own. All calls are for the thread that
+ * opened it, except window_wake and those of the worker. */
 #ifndef WEFT_VIEW_WINDOW_H
 #define WEFT_VIEW_WINDOW_H
 
@@ -15,7 +15,7 @@ typedef struct WindowDesc {
     const char *title;
     int width, height; /* pixels */
     bool unseen;       /* without a display */
-    float scale;       /* pixels a design pixel; 0: as the display says, 1 without one */
+    float scale;       /* pixels per design pixel; 0: that of the display, 1 without one */
 } WindowDesc;
 
 /* Opens a window, whose context is current in this thread. NULL with one line in `why` on failure. */
@@ -30,12 +30,12 @@ typedef enum EventKind {
     EVENT_MOVE,   /* x, y */
     EVENT_BUTTON, /* code, down */
     EVENT_WHEEL,  /* x, y */
-    EVENT_KEY,    /* code, letter, down, again, modifiers */
+    EVENT_KEY,    /* code, letter, down, repeats, modifiers */
     EVENT_TYPED,  /* code: a code point */
     EVENT_DROP,   /* path */
     EVENT_RESIZE, /* x, y */
     EVENT_LEAVE,  /* the mouse */
-    EVENT_FOCUS   /* lost: all is let go of */
+    EVENT_FOCUS   /* lost: all keys and buttons count as released */
 } EventKind;
 
 typedef struct Event {
@@ -44,15 +44,15 @@ typedef struct Event {
     int code;
     char letter;
     bool down, repeats, control, shift, alt;
-    char *path; /* owned by whoever takes it */
+    char *path; /* copied by window_push */
 } Event;
 
 /* Adds an event behind those that wait; a path is copied. */
 void window_push(Window *window, const Event *event);
 
-/* Takes the events since the last call into input, as far as one frame can show them: of a button or key that
- * went down and up again the second is left for the next frame, and so is a Ctrl, Shift or Alt that changed
- * after one of them did. Returns whether anything happened. */
+/* Takes the events since the last call into input, as far as one frame can show them. If a button or key went down and
+ * up, the second event stays for the next frame, and so does a later change of Ctrl, Shift or Alt. Returns true if
+ * anything happened. */
 bool window_take(Window *window, UiInput *input);
 
 /* Returns true if events wait. */
@@ -61,7 +61,7 @@ bool window_has_events(const Window *window);
 /* Returns the next file that was dropped on the window, NULL if none; release with free. */
 char *window_dropped(Window *window);
 
-/* Waits until something happens, window_wake is called, or so many seconds are over; 0 looks only. */
+/* Waits for an event, for window_wake, or for `seconds` at most; 0: does not wait. */
 void window_wait(Window *window, double seconds);
 void window_wake(Window *window); /* from any thread */
 
@@ -77,7 +77,7 @@ void window_cursor(Window *window, UiCursor cursor);
 void window_title(Window *window, const char *title);
 const UiClipboard *window_clipboard(Window *window);
 
-/* Keeps the next frame that is presented, before it is: the front of a window need not be readable. */
+/* Copies the next frame before it is presented, since the front buffer of a window need not be readable. */
 void window_keep(Window *window);
 /* Returns the frame that was kept last, U8 RGB; NULL if there is none. */
 const WeftImage *window_kept(const Window *window);
