@@ -1,4 +1,4 @@
-/* A folder of src/, and a room within it, includes only those before it; the programs stand on the public headers alone;
+/* A folder of src/, and a folder within it, includes only those before it; the programs stand on the public headers alone;
  * only the files of lobes compare with the number of one lobe */
 #include <dirent.h>
 #include <setjmp.h>
@@ -13,7 +13,7 @@
 #include <cmocka.h>
 
 /* Every folder that holds sources, in the order of includes: a file includes headers of its own folder and of those above. */
-static const char *const rooms[] = {
+static const char *const folders[] = {
     "base",
     "shading/dialect",
     "shading/tables",
@@ -86,36 +86,36 @@ static const char *const rooms[] = {
     "cli/verbs",
     "cli",
 };
-enum { ROOMS = sizeof rooms / sizeof rooms[0], FILES_MOST = 40 };
+enum { FOLDERS = sizeof folders / sizeof folders[0], FILES_MOST = 40 };
 
 /* Returns the place in the list of the folder that a path below src/ is directly in, or -1. */
-static int room_index(const char *path) {
+static int folder_index(const char *path) {
     const char *slash = strrchr(path, '/');
     if (!slash) return -1;
     size_t n = (size_t)(slash - path);
-    for (int k = 0; k < ROOMS; k++)
-        if (strlen(rooms[k]) == n && strncmp(rooms[k], path, n) == 0) return k;
+    for (int k = 0; k < FOLDERS; k++)
+        if (strlen(folders[k]) == n && strncmp(folders[k], path, n) == 0) return k;
     return -1;
 }
 
-static bool is_within(int room, const char *folder) {
+static bool is_within(int at, const char *folder) {
     size_t n = strlen(folder);
-    return strncmp(rooms[room], folder, n) == 0 && (rooms[room][n] == 0 || rooms[room][n] == '/');
+    return strncmp(folders[at], folder, n) == 0 && (folders[at][n] == 0 || folders[at][n] == '/');
 }
 
 /* Returns true if a file of that folder may include "path". */
-static bool may_include(int room, const char *path) {
+static bool may_include(int at, const char *path) {
     if (strncmp(path, "weft/", 5) == 0) return true;
     if (strcmp(path, "base/steady_clock.h") == 0 || strcmp(path, "base/pi.h") == 0 ||
         strcmp(path, "base/path.h") == 0)
         return true;
-    if (strncmp(path, "half/", 5) == 0) return is_within(room, "measure"); /* generated */
-    if (!strchr(path, '/')) return true;                                   /* beside the file */
-    if (strstr(path, ".gen.h")) return strncmp(path, "shading/", 8) == 0;  /* generated */
-    int target = room_index(path);
-    if (target < 0 || target > room) return false;
-    if (is_within(room, "view")) return is_within(target, "view"); /* programs use include/weft/ alone */
-    return !is_within(room, "cli") || is_within(target, "cli") || strcmp(path, "view/render/view.h") == 0;
+    if (strncmp(path, "half/", 5) == 0) return is_within(at, "measure");  /* generated */
+    if (!strchr(path, '/')) return true;                                  /* beside the file */
+    if (strstr(path, ".gen.h")) return strncmp(path, "shading/", 8) == 0; /* generated */
+    int target = folder_index(path);
+    if (target < 0 || target > at) return false;
+    if (is_within(at, "view")) return is_within(target, "view"); /* programs use include/weft/ alone */
+    return !is_within(at, "cli") || is_within(target, "cli") || strcmp(path, "view/render/view.h") == 0;
 }
 
 static bool next_line(const char **cursor, char line[512]) {
@@ -127,7 +127,7 @@ static bool next_line(const char **cursor, char line[512]) {
 }
 
 /* Finds the first include of text that a file of that folder must not have, in `bad`; false where there is none. */
-static bool wrong_include(int room, const char *text, char bad[512]) {
+static bool wrong_include(int at, const char *text, char bad[512]) {
     char line[512];
     while (next_line(&text, line)) {
         const char *c = line + strspn(line, " \t");
@@ -137,7 +137,7 @@ static bool wrong_include(int room, const char *text, char bad[512]) {
         c += 7 + strspn(c + 7, " \t");
         if (*c != '"') continue;
         snprintf(bad, 512, "%.*s", (int)strcspn(c + 1, "\""), c + 1);
-        if (!may_include(room, bad)) return true;
+        if (!may_include(at, bad)) return true;
     }
     return false;
 }
@@ -183,7 +183,7 @@ static bool is_source(const char *name) {
 }
 
 /* Checks the sources that are directly in src/`folder`; returns how many there are. */
-static int check_folder(int room, const char *folder, bool *failed) {
+static int check_folder(int at, const char *folder, bool *failed) {
     char path[1024], bad[512];
     snprintf(path, sizeof path, "%s/src/%s", WEFT_SOURCE_DIR, folder);
     DIR *open = opendir(path);
@@ -195,7 +195,7 @@ static int check_folder(int room, const char *folder, bool *failed) {
         char *text = read_source(path);
         assert_non_null(text);
         files++;
-        if (wrong_include(room, text, bad)) {
+        if (wrong_include(at, text, bad)) {
             print_error("src/%s/%s includes %s\n", folder, entry->d_name, bad);
             *failed = true;
         }
@@ -215,9 +215,9 @@ static int check_folder(int room, const char *folder, bool *failed) {
 static void sources_include_only_folders_above_their_own(void **state) {
     (void)state;
     bool failed = false;
-    for (int k = 0; k < ROOMS; k++) {
-        int files = check_folder(k, rooms[k], &failed);
-        if (files > FILES_MOST || files == 0) fail_msg("src/%s holds %d files", rooms[k], files);
+    for (int k = 0; k < FOLDERS; k++) {
+        int files = check_folder(k, folders[k], &failed);
+        if (files > FILES_MOST || files == 0) fail_msg("src/%s holds %d files", folders[k], files);
     }
     assert_false(failed);
 }
@@ -232,7 +232,7 @@ static void find_unlisted(const char *relative) {
         if (entry->d_name[0] == '.') continue;
         char inner[512];
         snprintf(inner, sizeof inner, "%.200s%s%.255s", relative, *relative ? "/" : "", entry->d_name);
-        if (is_source(entry->d_name) && room_index(inner) < 0)
+        if (is_source(entry->d_name) && folder_index(inner) < 0)
             fail_msg("src/%s is in no listed folder", inner);
         if (!strchr(entry->d_name, '.')) find_unlisted(inner);
     }
@@ -247,9 +247,9 @@ static void every_folder_is_in_the_list(void **state) {
 static void an_upward_include_is_found(void **state) {
     (void)state;
     char bad[512];
-    int image = room_index("image/x.c"), catalogue = room_index("shading/catalogue/x.c");
-    int verbs = room_index("cli/verbs/x.c"), state_room = room_index("view/state/x.c"),
-        base = room_index("base/x.c");
+    int image = folder_index("image/x.c"), catalogue = folder_index("shading/catalogue/x.c");
+    int verbs = folder_index("cli/verbs/x.c"), state_folder = folder_index("view/state/x.c"),
+        base = folder_index("base/x.c");
     assert_false(wrong_include(image, "#include \"base/fail.h\"\n#include <math.h>\n", bad));
     assert_true(
         wrong_include(image, "int x;\n#include \"base/fail.h\"\n#  include \"scene/record/scene.h\"\n", bad));
@@ -265,9 +265,9 @@ static void an_upward_include_is_found(void **state) {
     assert_true(wrong_include(verbs, "#include \"base/fail.h\"\n", bad));
     assert_false(wrong_include(verbs, "#include \"view/render/view.h\"\n", bad));
     assert_true(wrong_include(verbs, "#include \"view/state/viewer.h\"\n", bad));
-    assert_true(wrong_include(state_room, "#include \"cli/console/options.h\"\n", bad));
-    assert_true(wrong_include(state_room, "#include \"view/panels/x.h\"\n", bad));
-    assert_true(wrong_include(state_room, "#include \"shading/catalogue/registry.h\"\n", bad));
+    assert_true(wrong_include(state_folder, "#include \"cli/console/options.h\"\n", bad));
+    assert_true(wrong_include(state_folder, "#include \"view/panels/x.h\"\n", bad));
+    assert_true(wrong_include(state_folder, "#include \"shading/catalogue/registry.h\"\n", bad));
 }
 
 static void a_question_for_a_lobe_is_found(void **state) {
