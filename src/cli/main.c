@@ -104,8 +104,7 @@ int main(int count, char **arguments) {
         (result == 0 || result == WEFT_FAILED)) /* only stdout shows this */
         result = report(WEFT_RESOURCES, "standard output: cannot be written%s%s", errno ? ": " : "",
                         errno ? strerror(errno) : "");
-    /* Threads of TBB may still work on what failed for want of memory, and would do so on what exit()
-     * destroys. */
+    /* Threads of TBB may still work on what failed for lack of memory, and would use what exit() destroys. */
     if (result == WEFT_RESOURCES) _exit(result);
     return result;
 }

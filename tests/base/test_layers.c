@@ -1,4 +1,4 @@
-/* A folder of src/, and a folder within it, includes only those before it; the programs stand on the public headers alone;
+/* A folder of src/, and a folder within it, includes only those before it; the programs use the public headers alone;
  * only the files of lobes compare with the number of one lobe */
 #include <dirent.h>
 #include <setjmp.h>

@@ -10,8 +10,8 @@ enum { NAME_MAX_LENGTH = 40 };
 
 static int least(int a, int b) { return a < b ? a : b; }
 
-/* Edits that turn a into b: insert, delete, replace, or swap two neighbours (optimal string alignment;
- * Frederick J. Damerau, "A Technique for Computer Detection and Correction of Spelling Errors", 1964). */
+/* Returns the number of edits that transform a into b: insert, delete, replace, or swap two neighbours (optimal string
+ * alignment; Frederick J. Damerau, "A Technique for Computer Detection and Correction of Spelling Errors", 1964). */
 static int edits(const char *a, const char *b) {
     int rows = (int)strlen(a), columns = (int)strlen(b);
     int table[NAME_MAX_LENGTH + 1][NAME_MAX_LENGTH + 1];

@@ -26,7 +26,7 @@ Progress progress_start(bool quiet, const char *prefix, int spp, int spp_most, d
  * outlive the line. */
 Progress progress_start_count(bool quiet, const char *unit, double count);
 
-/* Redraws the line, at most ten times a second. fraction is of the samples or things asked for. */
+/* Redraws the line, at most ten times a second. fraction is of the samples or things requested. */
 void progress_draw(Progress *progress, double fraction);
 
 /* Redraws the line, as a WeftProgress whose user is a Progress; stops after a signal. */

@@ -6,8 +6,7 @@
 
 #include "weft/image.h"
 
-/* Writes one surface without mipmaps of 32 bit floats of 1, 2 or 4 channels, an image of F32. What went wrong
- * is in the stream. */
+/* Writes one surface without mipmaps: an F32 image of 1, 2 or 4 channels. Errors stay in the stream. */
 void dds_write(FILE *stream, const WeftImage *image);
 
 #endif

@@ -19,8 +19,8 @@ typedef struct TableFile {
  * standard error. */
 bool table_suffix_check(const char *path);
 
-/* Writes the file, complete or not at all. A .png whose values have a scale gives a line with it. Nothing is
- * cut off: what a format cannot hold is refused. Returns 0, or an exit code after one line. */
+/* Writes the file, complete or not at all. For a scaled .png it prints a line with the scale. Values that a format
+ * cannot store are refused, not clipped. Returns 0, or an exit code after one line. */
 int table_write(const TableFile *file, const char *path);
 
 #endif

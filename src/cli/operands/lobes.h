@@ -11,8 +11,8 @@
 /* The option of a verb whose --lobe has another meaning too. */
 #define OPTION_LOBES_OR(words) OPTION_LIST("--lobe", "LOBE|FILE.h", words "; FILE.h: " LOBES_HELP)
 
-/* Takes every file that was typed, which the verb then sees nothing of. Returns 0, or an exit code after one
- * line on standard error. */
+/* Loads every file of --lobe and removes the option, so that the verb does not see it. Returns 0, or an exit code after
+ * one line on standard error. */
 int lobes_take(Options *options);
 
 /* Returns the paths of the files taken, ended by NULL. */

@@ -193,8 +193,8 @@ static void header_half(const WeftPassport *p) {
     if (p->half_cosine) printf(".\n");
 }
 
-/* Leaves out numbers that differ between machines: the agreement of f(wo, wi) and f(wi, wo) to rounding, and variances
- * near zero. */
+/* Prints the lines without numbers that differ between machines: the agreement of f(wo, wi) and f(wi, wo) to rounding,
+ * and variances near zero. */
 void passport_header(const WeftPassport *p) {
     char place[96];
     bool reference = (p->traits & WEFT_LOBE_REFERENCE) != 0;

@@ -94,7 +94,7 @@ static bool check_once(const Varied *varied, int k) {
     return true;
 }
 
-/* Takes in an option's list, unless it is of one value. */
+/* Adds an option to those that vary, unless its list has only one value. */
 static bool add_varied(Assignments *assignment, Varied varied) {
     for (int k = 0; k < varied.count; k++)
         if (!check_once(&varied, k)) return false;
@@ -125,7 +125,6 @@ static bool check_axis(int axis, Assignments *assignment) {
     return add_varied(assignment, varied);
 }
 
-/* Names of materials, and of what is set: */
 enum { MATERIAL_SIZE = 256, TARGET_SIZE = 512 };
 
 /* Returns the text after the '=' in "MAT=NAME", or all of it. Names of materials and files may contain '=' too: the
@@ -372,7 +371,7 @@ static WeftResult apply_sets(const Assignments *assignment, int k, WeftScene *sc
     return result;
 }
 
-/* Says what each conversion loses, how many materials stay, and where there was nothing to do. */
+/* Reports what each conversion loses, how many materials stay unchanged, and whether there was nothing to convert. */
 static WeftResult convert(const char *workflow, WeftScene *scene, const WeftLog *log, WeftError *error) {
     int count = weft_scene_info(scene).material_count, converted = 0, others = 0;
     char line[256], name[96];

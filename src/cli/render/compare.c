@@ -25,7 +25,8 @@ typedef struct Comparison {
     float scale; /* of all difference images */
 } Comparison;
 
-/* Traces one after the other. What an interruption leaves without a sample is left out, but the first. */
+/* Traces the pictures one after the other. After an interruption, those without a sample are left out, except the
+ * first. */
 static WeftResult trace_all(Comparison *all, Warnings *warnings, bool *interrupted, WeftError *error) {
     const Request *request = all->request;
     WeftResult result = WEFT_OK;

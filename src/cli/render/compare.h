@@ -4,8 +4,8 @@
 
 #include "cli/render/job.h"
 
-/* Makes all pictures of a request and writes the sheet to every output. After an interruption the sheet shows
- * what there is. The exit code, after a line on standard error. */
+/* Makes all pictures of a request and writes the sheet to every output. After an interruption the sheet has the
+ * pictures made so far. Returns the exit code, after a line on standard error. */
 int compare_run(const Request *request, Warnings *warnings);
 
 #endif

@@ -63,8 +63,7 @@ typedef struct SceneOptions {
 /* Reads and checks all that can be judged without the scene. False after one line on standard error. */
 bool scene_options_read(const Options *options, const char *scene, SceneOptions *scene_options);
 
-/* Applies the options of picture number k to a fresh scene: the asset first, then ever more particular
- * wishes. */
+/* Applies the options of picture number k to a fresh scene, from the asset to its details. */
 WeftResult scene_options_apply(const SceneOptions *scene_options, int k, WeftScene *scene, const WeftLog *log,
                                WeftError *error);
 

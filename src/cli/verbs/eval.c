@@ -164,7 +164,7 @@ static int take_chunk(NumberLines *lines, EvalBatch *batch, const EvalTask *task
     return result;
 }
 
-/* Answers what has arrived before it waits for more. */
+/* Evaluates the lines that have arrived before it waits for more. */
 static int eval_lines(NumberLines *lines, EvalBatch *batch, const EvalTask *task, const WeftLobe *lobe,
                       bool json) {
     int result = 0;

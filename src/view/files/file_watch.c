@@ -76,7 +76,7 @@ int file_watch_poll(FileWatch *self, double seconds) {
             file->seen = stamp;
             file->since = seconds;
         }
-        /* A missing file may be about to return: editors write another file and rename it. */
+        /* A missing file may return soon: editors write another file and rename it. */
         if (!stamp || stamp == file->reported || seconds - file->since < 0.3) continue;
         file->reported = stamp;
         self->looked = 0.0; /* others may have changed as well */

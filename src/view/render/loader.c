@@ -37,7 +37,7 @@ static void make_fit(char *name) {
         if ((unsigned char)*name < 0x20 || *name == '/' || *name == '#') *name = ' ';
 }
 
-/* Names that are there already get a number. */
+/* Appends a number to names that occur already. */
 static void make_unique(FactName *names, int k) {
     for (int j = 0; j < k; j++) {
         if (strcmp(names[j], names[k]) != 0) continue;

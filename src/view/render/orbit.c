@@ -48,7 +48,7 @@ bool orbit_at(Orbit *o, const WeftScene *scene, const char *camera, float aspect
     return true;
 }
 
-/* Turns a direction by angles about +y and about the horizontal; not over the poles. */
+/* Rotates a direction by angles about +y and about the horizontal; not over the poles. */
 static void rotate(float d[3], float across, float down) {
     float flat = sqrtf(d[0] * d[0] + d[2] * d[2]), n = length3(d);
     float yaw = atan2f(d[0], d[2]) - across, pitch = atan2f(d[1], flat) - down;

@@ -190,8 +190,9 @@ static double *seconds_of(Renderer *self, Effort effort) {
                                     : &self->coarse_seconds;
 }
 
-/* Learns from the time that a picture took: the time of its effort, and how coarse pictures have to be while the mouse
- * moves. A time far above the last does not count unless the next is too, since drivers compile as they draw. */
+/* Updates the estimates by the time that a picture took: the time of its effort, and how coarse pictures have to be
+ * while the mouse moves. A time far above the last does not count unless the next is too, since drivers compile as they
+ * draw. */
 static void learn(Renderer *self, const FrameRequest *request, Effort effort, double seconds) {
     double *measured = seconds_of(self, effort);
     self->surprised = !self->surprised && seconds > 3.0 * *measured;

@@ -69,7 +69,7 @@ static void fail_with(ReferenceView *self, const char *failure) {
     pthread_mutex_unlock(&self->lock);
 }
 
-/* Makes the render one of this request and of the scene as it is. */
+/* Makes or changes the render, so that it fits this request and the current scene. */
 static bool begin(ReferenceView *self, const ReferenceRequest *request, const WeftScene *scene,
                   unsigned changed, bool other) {
     WeftError error = {0};
@@ -109,7 +109,7 @@ static WeftResult compare(ReferenceView *self, const ReferenceRequest *request, 
                              : result;
 }
 
-/* Denoises what there is, each time that the samples have doubled, so that most of the time goes to them. */
+/* Denoises the picture whenever the samples have doubled, so that most of the time goes to samples. */
 static void clean(ReferenceView *self) {
     WeftImage image;
     if (self->samples < 2.0 || self->samples < 2.0 * self->denoised_samples) return;
@@ -121,8 +121,8 @@ static void clean(ReferenceView *self) {
     }
 }
 
-/* Mixes the denoised picture and the true one, whose share is that of the samples taken: its noise is then never
- * more than that of the last picture, which is the true one alone. */
+/* Blends the denoised picture with the sampled one, whose weight is the fraction of samples taken. So its noise never
+ * exceeds that of the last picture, which is the sampled one alone. */
 static WeftResult mix(ReferenceView *self, const ReferenceRequest *request, const WeftImage *linear,
                       WeftImage *out) {
     const WeftImage *denoised = &self->denoised;
@@ -146,8 +146,8 @@ static WeftResult show(ReferenceView *self, const ReferenceRequest *request, con
     return result;
 }
 
-/* Shows what there is. A picture of fewer pixels is no more than a first look: its samples are those of a pixel of the
- * whole, and it is not kept. */
+/* Publishes the picture. The samples of a coarse one are counted per pixel of the whole resolution, and its radiance is
+ * not kept. */
 static void publish(ReferenceView *self, const ReferenceRequest *request, unsigned number_for) {
     ReferenceFrame picture = {.wanted_samples = request->samples,
                               .number = number_for,
@@ -180,8 +180,8 @@ static void publish(ReferenceView *self, const ReferenceRequest *request, unsign
     if (self->window) window_wake(self->window);
 }
 
-/* Shows new samples: as they are while nothing of the view is denoised, since that takes longer than the first of them
- * took; and then denoised. */
+/* Publishes new samples: noisy while nothing of the view is denoised, since denoising takes longer than the first
+ * samples; then denoised. */
 static void publish_samples(ReferenceView *self, const ReferenceRequest *request, unsigned number_for) {
     bool noisy = !self->denoised.pixels;
     if (noisy) publish(self, request, number_for);
@@ -213,13 +213,13 @@ static bool has_work(const ReferenceView *self) {
            self->reference.pixels || self->samples < (double)self->request.samples;
 }
 
-/* Returns true if the samples are of no use any more. */
+/* Returns true if the samples are no longer needed. */
 static bool is_spare(const ReferenceView *self) {
     return self->spare && !is_wanted(self) && self->scene && !self->paused && !self->waiting;
 }
 
-/* Lets the samples of all pixels go, which take some fifty bytes a pixel, and keeps the tree of the scene, unless that
- * is another one by now. The lock is held before and after, not during. */
+/* Releases the samples of all pixels, about fifty bytes per pixel, and keeps the tree of the scene unless that has
+ * changed. The lock is held before and after, but not during it. */
 static void let_go(ReferenceView *self) {
     ReferenceRequest least = self->requested;
     const WeftScene *scene = self->scene;
@@ -348,7 +348,7 @@ void reference_pause(ReferenceView *self) {
     pthread_mutex_unlock(&self->lock);
 }
 
-/* Forgets what was to be compared with; the lock is held. */
+/* Forgets the picture to compare with; the lock is held. */
 static void outdate(ReferenceView *self) {
     weft_image_free(&self->reference);
     self->outdated = true;

@@ -91,7 +91,7 @@ static void replace_scene(Renderer *self, WeftScene *scene, SceneState *state, c
     renderer_post(self, &event);
 }
 
-/* Reads again one file that has changed: a texture, or a folder of maps. Returns true if there was one. */
+/* Rereads one file that has changed: a texture, or a folder of maps. Returns true if there was one. */
 static bool reload_file(Renderer *self) {
     int id = self->started ? file_watch_poll(self->file_watch, clock_now()) : -1;
     if (id < 0) return false;

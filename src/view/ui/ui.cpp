@@ -48,19 +48,19 @@ void clipboard_set(void *user, const char *text) {
     if (c->set) c->set(c->user, text);
 }
 
-/* The part of a label that is shown. */
+/* Returns the part of a label that is shown. */
 std::string visible(const char *label) {
     const char *end = strstr(label, "##");
     return end ? std::string(label, end) : std::string(label);
 }
 
-/* The name that a label gives. */
+/* Returns the name that a label gives a control. */
 std::string called(const char *label) {
     const char *hidden = strstr(label, "##"), *own = strstr(label, "###");
     return own ? own + 3 : hidden == label ? label + 2 : visible(label);
 }
 
-/* Notes the widget before under its name. */
+/* Records the previous widget under its name. */
 void note(const char *label) {
     ui->noted = false;
     UiControl control = {};
@@ -79,7 +79,7 @@ void note(const char *label) {
     }
 }
 
-/* Works as note, for a control whose label is all of its state: a heading, a line of a menu, a file. */
+/* Works as note, for a control whose label shows its whole state: a heading, a line of a menu, a file. */
 void note_spoken(const char *label) {
     note(label);
     if (ui->noted) ui->shown.back().explained = true;

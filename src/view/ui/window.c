@@ -224,7 +224,7 @@ static void close_unseen(Window *self) {
     eglMakeCurrent(self->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     if (self->second) eglDestroyContext(self->display, self->second);
     if (self->context) eglDestroyContext(self->display, self->context);
-    /* The display is the process's, not ours: it is left as it is. */
+    /* The EGL display belongs to the whole process: it is not terminated. */
     eglReleaseThread();
 }
 
@@ -233,7 +233,7 @@ void window_close(Window *self) {
     close_unseen(self);
     if (self->worker) glfwDestroyWindow(self->worker);
     if (self->seen) glfwDestroyWindow(self->seen);
-    /* GLFW stays as it is until the process ends: it would end the display, which is not ours alone. */
+    /* GLFW is not terminated, since it would terminate the EGL display of the whole process. */
     for (int k = 0; k < self->count; k++) free(self->events[(self->first + k) % QUEUE_MOST].path);
     for (int k = 0; k < self->drop_count; k++) free(self->drops[k]);
     pthread_mutex_destroy(&self->lock);
