@@ -18,7 +18,7 @@
 
 enum { MOTIONS = 512, TRIES = 240, SIZE_MOST = 1 << 20 };
 
-/* One frame's worth of an action. */
+/* The part of an action that is done in one frame. */
 typedef struct Motion {
     enum { DO_EVENT, DO_POINT, DO_NOTHING, DO_KEEP, DO_WRITE } kind;
     Event event;
@@ -174,7 +174,7 @@ static void add_value(Replay *self, const char *control, const char *value) {
     add_pause(self, 2);
 }
 
-/* Moves the mouse with a button held, in small steps. */
+/* Moves the mouse with a button down, in small steps. */
 static void add_drag(Replay *self, const Viewer *v, int button, const float way[4]) {
     enum { STEPS = 12 };
     for (int k = 0; k <= STEPS; k++) {

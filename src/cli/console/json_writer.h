@@ -8,7 +8,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-/* Zero-initialise but for the stream. compact: all on one line. */
+/* Zero-initialise all but the stream. compact: on one line. */
 typedef struct Json {
     FILE *stream;
     bool compact;

@@ -178,7 +178,7 @@ static char *scene_end(char *text) {
     }
 }
 
-static int not_known(const char *name) {
+static int report_unknown(const char *name) {
     char hint[96];
     Nearest nearest = {.typed = name};
     for (size_t k = 0; k < KINDS; k++)
@@ -211,7 +211,7 @@ static int of_name(Model *model, const Parts *parts) {
         return of_scene(model, parts->name, wanted);
     }
     if (path_ends(parts->name, ".json")) return of_material(model, parts->name);
-    if (!weft_reflection_readable(parts->name)) return not_known(parts->name);
+    if (!weft_reflection_readable(parts->name)) return report_unknown(parts->name);
     model->kind = MODEL_MEASURED;
     snprintf(model->path, sizeof model->path, "%s", parts->name);
     return parts->settings ? report(WEFT_USAGE, "%.200s: nothing can be set in a measurement", parts->name)

@@ -406,7 +406,7 @@ typedef struct Heard {
     int count;
 } Heard;
 
-/* Returns true where two warnings are the same but for the input that follows the material's name. */
+/* Returns true if two warnings differ only in the input that follows the material's name. */
 static bool is_echo(const char *line, const char *other) {
     const char *text = weft_message_text(WEFT_MESSAGE_PLAUSIBLE), *words = strstr(line, text),
                *others = strstr(other, text);

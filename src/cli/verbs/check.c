@@ -81,7 +81,7 @@ static void print(const Check *check, const WeftPassport *p) {
         passport_text(p);
 }
 
-/* Makes one more passport and prints it, but for JSON. */
+/* Makes one more passport; prints it, unless as JSON. */
 static int add(Check *check, const char *id, int of) {
     WeftError error;
     WeftPassport *p = &check->passports[check->count];

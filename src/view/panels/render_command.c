@@ -186,7 +186,7 @@ char *command_line(const Viewer *v, bool *lost) {
     if (v->desc->options && v->desc->options[0] && strcmp(v->opening->configured, v->shown->facts.path) == 0)
         put(&line, " %s", v->desc->options);
     if (v->desc->materials &&
-        strcmp(v->opening->configured, v->shown->facts.path) == 0) { /* which are put on at the start */
+        strcmp(v->opening->configured, v->shown->facts.path) == 0) { /* these are put on at the start */
         put(&line, " --materials");
         put_word(&line, v->desc->materials);
     }

@@ -76,7 +76,7 @@ bool loader_done(Loader *loader);
 /* Returns the path of the scene that it reads, valid while the loader exists; reread: as in Reading. */
 const char *loader_path(const Loader *loader, bool *reread);
 
-/* Asks it to end soon, without waiting. */
+/* Stops the loader, without waiting for it. */
 void loader_stop(Loader *loader);
 
 /* Gives up what is not done, and takes what is (loaded may be NULL: dropped). The loader is gone. */

@@ -80,7 +80,7 @@ void frame_draw(Renderer *renderer, const FrameRequest *request, unsigned number
 void tasks_survey(Renderer *renderer, const FrameRequest *request);
 void tasks_do(Renderer *renderer, const Task *task, const FrameRequest *request);
 void tasks_study(Renderer *renderer); /* draws one more picture of the sheet under way */
-/* Reads a texture file again. If it cannot be read, the picture before stays until the file changes again. */
+/* Rereads a texture file. If it cannot be read, the old picture stays until the next change of the file. */
 WeftResult tasks_reload(Renderer *renderer, int texture, WeftError *error);
 
 #endif

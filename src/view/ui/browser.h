@@ -13,7 +13,7 @@ void browser_free(Browser *browser);
 
 const char *browser_folder(const Browser *browser);
 
-/* Looks at the folder again. */
+/* Rereads the folder. */
 void browser_refresh(Browser *browser);
 
 /* Draws it in what is left of a dialog, `height` pixels high: folders, and files of some kinds, bit k for

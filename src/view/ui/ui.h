@@ -2,7 +2,7 @@
  *
  * One frame: ui_begin, widgets, ui_end. A widget is named by its label and by the scopes around it:
  * "Material/ roughness"; after "##" a label is part of the name alone, and
- * after "###" that is all of its name, whatever it shows: "Distribution D###d". A shown control can be found
+ * after "###" that is all of its name, regardless of what it shows: "Distribution D###d". A shown control can be found
  * by its name (ui_control_find), as scripts do. Colours are 0xAABBGGRR, places in
  * pixels from the top left. One thread, the one whose OpenGL context is current. */
 #ifndef WEFT_VIEW_UI_H

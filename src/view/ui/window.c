@@ -421,7 +421,7 @@ bool window_hidden(const Window *self) {
     return self->seen && glfwGetWindowAttrib(self->seen, GLFW_ICONIFIED) != 0;
 }
 bool window_closing(const Window *self) { return self->closing; }
-void window_ask_close(Window *self) { self->closing = true; }
+void window_request_close(Window *self) { self->closing = true; }
 
 void window_cursor(Window *self, UiCursor cursor) {
     if (!self->seen || cursor == self->shape) return;

@@ -72,7 +72,7 @@ void window_size(const Window *window, int *width, int *height);
 float window_scale(const Window *window);
 bool window_hidden(const Window *window); /* minimised: nothing can be seen */
 bool window_closing(const Window *window);
-void window_ask_close(Window *window);
+void window_request_close(Window *window);
 void window_cursor(Window *window, UiCursor cursor);
 void window_title(Window *window, const char *title);
 const UiClipboard *window_clipboard(Window *window);
