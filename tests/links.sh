@@ -5,7 +5,7 @@ cd "$1"
 
 # "PAGE TARGET" of every link that is not in code.
 links() {
-    find README.md CONTRIBUTING.md docs bench scenes src -name '*.md' | sort | while read -r page; do
+    find README.md CONTRIBUTING.md docs bench scenes src study -name '*.md' | sort | while read -r page; do
         awk -v page="$page" '
             /^ *```/ { code = !code }
             code { next }
