@@ -142,7 +142,7 @@ FN SlotLight ambient_irradiance_light(AmbientSource s, AmbientView v, AmbientAlb
     return a;
 }
 
-/* p: the lobe's first parameter. */
+/* Returns the light by strategy `mirror`. p: the lobe's first parameter. */
 FN SlotLight ambient_mirror_light(AmbientTable t, AmbientSource s, AmbientView v, float p, AmbientAlbedo e) {
     SlotLight a;
     Dir r = ambient_to_source(v, dir(-v.o.x, -v.o.y, v.o.z));
@@ -155,9 +155,9 @@ FN SlotLight ambient_mirror_light(AmbientTable t, AmbientSource s, AmbientView v
     return a;
 }
 
-/* The table of a brushed lobe is right at its headings, and further off between them than the sum over strips, which is
- * within a twentieth. So it scales the sum near those headings alone: w is the place between two, 16 fitted to ggx and
- * silk. */
+/* Returns the light by strategy `sampled`. The table of a brushed lobe is exact at its headings; between them it is
+ * less exact than the sum over strips, which is within 5 %. The table therefore scales the sum near headings only: w is
+ * the position between two headings, and the factor 16 was fitted to ggx and silk. */
 FN SlotLight ambient_sampled_light(AmbientTable t, AmbientSource s, AmbientView v, AmbientLookups residual,
                                    Lobe lobe, AmbientTint tint, float albedo) {
     AmbientCoord at = ambient_coord(t, v.o.z, v.heading, lobe.params[0]);
@@ -212,7 +212,8 @@ FN SlotLight ambient_lookup_light(AmbientTable t, AmbientSource s, AmbientView v
     return a;
 }
 
-/* residual: the look-ups in this view, which samples do without. albedo: see ambient_albedo. */
+/* Returns the light of an environment that a slot's lobe reflects, by the strategy of its table. residual: the look-ups
+ * in this view, which strategy `sampled` does not read. albedo: see ambient_albedo. */
 FN SlotLight ambient_slot_light(AmbientTable t, AmbientSource s, AmbientView v, AmbientLookups residual,
                                 Lobe lobe, AmbientTint tint, float albedo) {
     if (t.strategy == AMBIENT_SAMPLED) return ambient_sampled_light(t, s, v, residual, lobe, tint, albedo);

@@ -158,7 +158,8 @@ STRUCT(AmbientAlbedo) {
     AmbientWeights first_weights, second_weights; /* only ratios count; `first` and `second` have the scale */
 };
 
-/* albedo: E of both colours together if the caller knows it better than this table, otherwise negative. */
+/* Returns E and its division from the table. albedo: E of both colours together if the caller has a more exact one than
+ * this table, otherwise negative. */
 FN AmbientAlbedo ambient_albedo(AmbientTable t, AmbientSource s, AmbientCoord at, float albedo) {
     AmbientAlbedo e;
     AmbientWeights w = ambient_group(t, s, at, AMBIENT_GROUP_FIRST);

@@ -8,7 +8,7 @@
 
 #include "shading/dialect/angles.h"
 
-/* The part of a direction of that cosine that is seen, in [0, 1]. */
+/* Returns the visible part, 0 to 1, of a direction with that cosine to the normal. */
 FN float occlusion_cone(float occlusion, float cos_i) {
     float b = 1.0f - occlusion, x = max(cos_i, 0.0f) * max(cos_i, 0.0f);
     return occlusion >= 1.0f ? 1.0f : clamp((x - b * b) / max(2.0f * b * occlusion, 1e-4f), 0.0f, 1.0f);

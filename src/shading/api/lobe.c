@@ -13,7 +13,7 @@ bool lobe_of(const WeftLobe *public_lobe, Lobe *lobe) {
     return true;
 }
 
-/* Returns true if the lobe has that parameter; *set is raised if its value is another than `plain`. */
+/* Returns true if the lobe has that parameter. Sets *set to true if its value differs from `neutral`. */
 static bool has_param(const Lobe *lobe, const char *name, float plain, bool *set) {
     int k = weft_lobe_param_find(lobe->id, name);
     if (k >= 0) *set |= fabsf(lobe->params[k] - plain) > 0.0f;
@@ -41,7 +41,7 @@ WeftResult weft_lobe_init(const char *id, WeftLobe *out, WeftError *error) {
 
 static const WeftParamInfo color_info = {"color", "", 1.0f, 0.0f, 1.0f, 0.0f, 1000.0f, NULL};
 
-/* The value clamped to the hard range; a warning where it is not plausible. */
+/* Returns the value clamped to the hard range. Warns if it is outside the plausible one. */
 static float ranged(float value, const WeftParamInfo *p, const char *name, const WeftLog *log) {
     float taken = clamp(value, p->hard_low, p->hard_high);
     if (taken < value || taken > value)
@@ -53,7 +53,7 @@ static float ranged(float value, const WeftParamInfo *p, const char *name, const
     return taken;
 }
 
-/* The artist's roughness of a lobe that has no parameter of that name: its first one, as of a material. */
+/* Sets the first parameter of a lobe without a parameter `roughness` from an artist's roughness, as a material does. */
 static WeftResult set_roughness(WeftLobe *lobe, const char *value, const WeftLog *log, WeftError *error) {
     static const WeftParamInfo info = {"roughness", "", 0.5f, 0.0f, 1.0f, 0.0f, 2.0f, NULL};
     const WeftLobeInfo *of = weft_lobe_info(lobe->lobe);

@@ -7,7 +7,7 @@
  * So they are only ever given whole groups of LANES, which leave nothing at the end. */
 enum { LANES = 64, BLOCK = 512 };
 
-/* Some of the questions, a whole number of groups. */
+/* Some of the pairs of directions, a whole number of groups. */
 typedef struct Pairs {
     size_t used, n; /* used: how many of the n count */
     const float *ox, *oy, *oz, *ix, *iy, *iz;
@@ -20,7 +20,7 @@ static const float *padded(float *to, const float *from, size_t used, float rest
     return to;
 }
 
-/* The next questions, from k on. */
+/* Takes the next pairs, from k on, at most BLOCK. Pads the last ones to a whole group. */
 static void pairs_take(Pairs *p, size_t k, size_t n, WeftDirections o, WeftDirections i) {
     size_t left = n - k;
     p->used = left >= BLOCK ? BLOCK : left >= LANES ? left - left % LANES : left;

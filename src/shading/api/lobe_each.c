@@ -22,7 +22,8 @@ static void fill(float *row, size_t from, float value) {
     for (size_t k = from; k < BLOCK; k++) row[k] = value;
 }
 
-/* The caller's own where all n are there; or the ones that are, and the rest of that value. */
+/* Returns the caller's row if its n elements all count; otherwise fills `row` with a copy of those that count, then
+ * with `rest`, and returns it. */
 static const float *staged(const Stage *stage, float *row, const float *from, float rest) {
     if (stage->used == stage->n) return from;
     memcpy(row, from, stage->used * sizeof *row);
@@ -54,7 +55,7 @@ static void stage_colors(Stage *stage, const WeftLobes *lobes, size_t k) {
     }
 }
 
-/* The next elements, from k on. */
+/* Takes the next elements, from k on, at most BLOCK. */
 static void stage_take(Stage *stage, const WeftLobes *lobes, size_t k, size_t n, WeftDirections o) {
     size_t left = n - k;
     stage->used = left >= BLOCK ? BLOCK : left >= LANES ? left - left % LANES : left;
@@ -83,7 +84,7 @@ static WeftResult missing(WeftError *error, const char *array) {
 
 static bool given(WeftDirections w) { return w.x && w.y && w.z; }
 
-/* A choice of terms is one for all. */
+/* Fills each->lobe. Fails if there is no such lobe, or if a choice of terms is given for each element. */
 static WeftResult check(const WeftLobes *lobes, Each *each, WeftError *error) {
     const WeftLobeInfo *info = weft_lobe_info(lobes->lobe.lobe);
     if (!lobe_of(&lobes->lobe, &each->lobe))

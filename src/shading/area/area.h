@@ -41,9 +41,9 @@ FN AreaDensity area_of(Ltc m, float x, float y, bool narrow) {
 
 FN AreaDensity area_cosine(Dir o) { return area_of(ltc_of(1.0f, 1.0f, 0.0f, 0.0f, o.z), 1.0f, 1.0f, false); }
 
-/* In a mirror's limit v_xy / v_z is the slope of the half vector over alpha: so x and y stretch it along
- * each axis, and go beyond the least alpha that the table has. The rougher it is, the less that holds, and
- * the less is stretched: the power is chosen by study_area. */
+/* Returns D of microfacets. In the limit of a mirror v_xy / v_z is the slope of the half vector over alpha, so x and y
+ * stretch D along each axis, and narrow it beyond the least alpha of the table. For a rougher lobe this is less exact,
+ * so it is stretched less; bench_area chose the power. */
 FN AreaDensity area_facets(float ax, float ay, Dir o) {
     TableRef e = lobe_table_ltc_ggx();
     float alpha = sqrt(ax * ay), known = clamp(alpha, e.low * e.low, e.high * e.high);
@@ -63,8 +63,8 @@ FN AreaDensity area_density(const Lobe *m, Dir o) {
     return area_cosine(o);
 }
 
-/* The slots together, with the points of one D. o and the polygon, which is above the horizon, are in the
- * frame of the slots. */
+/* Returns the light that the slots reflect together, integrated at the points of one D. o and the polygon, which is
+ * above the horizon, are in the frame of the slots. */
 FN Rgb area_slots(const Stack *m, const StackView *view, Slots only, AreaDensity d, Dir o, Polygon p) {
     Polygon q = p;
     for (int k = 0; k < p.count; k++) {
@@ -103,8 +103,8 @@ FN Polygon area_to_coat(const Stack *m, Polygon p) {
     return polygon_clip(q);
 }
 
-/* The stack seen from wo (shading frame) under a polygon of radiance 1 from all of its points. Of layer rule
- * stochastic it is the first pass. */
+/* Returns the radiance of a stack towards wo (shading frame) under a polygon that emits radiance 1 from each of its
+ * points. For layer rule stochastic, this is the first pass. */
 FN Rgb stack_polygon(const Stack *m, const StackView *view, Polygon p) {
     Rgb sum = rgb_grey(0.0f);
     Polygon q = polygon_clip(p);
@@ -134,8 +134,8 @@ FN Rgb stack_polygon(const Stack *m, const StackView *view, Polygon p) {
     return sum;
 }
 
-/* Light of a polygon of radiance 1 below the surface, as much of it as comes through: the form factor of its mirror image
- * times what the layers let through of the middle of that. */
+/* Returns the light of a polygon of radiance 1 below the surface that comes through: the form factor of its mirror
+ * image times the transmittance of the layers at the middle of that image. */
 FN Rgb stack_polygon_behind(const Stack *m, const StackView *view, Polygon p) {
     Polygon q = p;
     for (int k = 0; k < p.count; k++) q.corners[k] = dir(p.corners[k].x, p.corners[k].y, -p.corners[k].z);

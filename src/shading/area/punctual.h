@@ -4,8 +4,8 @@
 
 #include "shading/dialect/lang.h"
 
-/* Irradiance for an intensity of 1 at the square of a distance; 0 beyond range, which is 0 where there is no
- * end. */
+/* Returns the irradiance for an intensity of 1 at the squared distance d2; 0 beyond range. A range of 0 is
+ * unlimited. */
 FN float punctual_distance(float d2, float range) {
     float x = range > 0.0f ? d2 / (range * range) : 0.0f;
     return clamp(1.0f - x * x, 0.0f, 1.0f) / d2;

@@ -101,7 +101,7 @@ static Sum ring(const Integrand *integrand, Dir wo, const QuadratureRule *rule, 
     return sum;
 }
 
-/* Rules by the halvings of a step of 1, made when they are first asked for. */
+/* The rules, by the halvings of a step of 1. Each is made at its first use. */
 enum { HALVINGS_MOST = 5 };
 typedef struct Rules {
     QuadratureRule at[HALVINGS_MOST + 1];
@@ -169,8 +169,8 @@ static int zones_make(const Integrand *integrand, Dir wo, Zone zones[LOBE_CREASE
     return count;
 }
 
-/* Halves the step in the zone whose sum has changed most until all changes are within the tolerance. Halving about
- * squares the error, so the last changes are a safe bound. */
+/* Integrates. Halves the step in the zone whose sum has changed most until all changes are within the tolerance.
+ * Halving about squares the error, so the last changes are a safe bound. */
 static Sum quadrature(const Integrand *integrand, Dir wo, double tolerance, double *error) {
     Zone zones[LOBE_CREASES_MOST + 1], *worst;
     Rules rules;

@@ -28,8 +28,8 @@ typedef struct EngineTable {
     {side, points, sheen, shifted, PTHREAD_MUTEX_INITIALIZER, false, {0.0f}},
 static EngineTable tables[ENGINE_COUNT] = {ENGINE_TABLES(ENGINE_TABLE_ROW)};
 
-/* Point k of n in the unit square: k / n and the bits of k mirrored about the point. John M. Hammersley,
- * "Monte Carlo Methods for Solving Multivariable Problems", 1960. */
+/* Fills u and v with point k of n in the unit square: k / n and the bits of k mirrored about the binary point. John M.
+ * Hammersley, "Monte Carlo Methods for Solving Multivariable Problems", 1960. */
 static void hammersley(int k, int n, float *u, float *v) {
     uint32_t bits = (uint32_t)k, mirrored = 0;
     for (int b = 0; b < 32; b++, bits >>= 1) mirrored = mirrored << 1 | (bits & 1u);
@@ -43,8 +43,8 @@ static float row_alpha(const EngineTable *table, int row) {
     return t * t;
 }
 
-/* The two sums are over the same half vectors for all columns of a row: the uniform ones for the sheen are
- * even the same for all rows, so that its weights are a product of two matrices. */
+/* Fills a column of the sheen. All columns of a row share the half vectors of both sums; all rows share the uniform
+ * ones too, so their weights are a product of two matrices. */
 static void fill_sheen_column(void *user, int column, int thread) {
     (void)thread;
     EngineTable *table = user;

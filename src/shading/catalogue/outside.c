@@ -67,8 +67,6 @@ void outside_named(Lobe *m, LobeNamed n) {
     }
 }
 
-/* Its functions. */
-
 static const Plugin *plugin_of(int id) {
     const OutsideLobe *lobe = outside_lobe(id);
     return lobe ? lobe->plugin : NULL;
@@ -114,11 +112,9 @@ Proxy outside_proxies(const Lobe *m) {
     return plugin && plugin->proxy ? plugin->proxy(m) : proxy_cosine();
 }
 
-/* The loop of an id without a lobe. */
-static void no_loop(const Lobe *m, size_t n, LOOP_PAIRS, float *restrict out) {
-    memset(out, 0, n * sizeof *out);
-}
-static void no_shares(const Lobe *m, size_t n, LOOP_PAIRS, float *restrict f, float *restrict s) {
+/* Fills out with 0: the loop for an id without a lobe. */
+static void no_loop(const Lobe *m, size_t n, PAIRS, float *restrict out) { memset(out, 0, n * sizeof *out); }
+static void no_shares(const Lobe *m, size_t n, PAIRS, float *restrict f, float *restrict s) {
     no_loop(m, n, ox, oy, oz, ix, iy, iz, f);
     no_loop(m, n, ox, oy, oz, ix, iy, iz, s);
 }

@@ -28,7 +28,7 @@
 typedef const Lobe *Outside;
 static inline Outside outside_of(const Lobe *m) { return m; }
 
-/* It keeps its functions: a file that is loaded again changes nothing that is prepared. */
+/* An outside lobe keeps its functions: if its file is loaded again, lobes that are prepared do not change. */
 typedef struct OutsidePrepared {
     const Plugin *by; /* NULL: no such lobe, which reflects nothing */
     float own[OUTSIDE_PREPARED_FLOATS];
@@ -48,7 +48,7 @@ Strip outside_strips(const Lobe *m, Dir o, float u, float v);
 float outside_seconds(const Lobe *m, float f0, float f90);
 Proxy outside_proxies(const Lobe *m);
 
-/* Returns the loops of that lobe; where there is none, loops that write zeros. */
-const LobeLoops *outside_loops(int id);
+/* Returns the loops of that lobe, or NULL if it has none. */
+const PluginLoops *outside_loops(int id);
 
 #endif

@@ -31,7 +31,8 @@ typedef struct Plugin {
     const LobeLoops *loops;
 } Plugin;
 
-/* The only name that a plugin shows. Its loops run with the instructions that isa says at each call. */
+/* The type of weft_lobe_plugin, the only name that a plugin exports. It returns the plugin, whose loops run with the
+ * instructions that *isa contains at each call. */
 typedef const Plugin *PluginEntry(const Isa *isa);
 #define PLUGIN_ENTRY "weft_lobe_plugin"
 PluginEntry weft_lobe_plugin;

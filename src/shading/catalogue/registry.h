@@ -7,7 +7,7 @@
 
 #include <stddef.h>
 
-/* A lobe's tables: lobe_tables.h. */
+/* Makes the tables of a lobe (lobe_tables.h). */
 void lobe_tables_make_for(int id);
 #undef LOBE_TABLES_MAKE
 #define LOBE_TABLES_MAKE(id) lobe_tables_make_for(id)
@@ -72,32 +72,34 @@ void lobe_set(Lobe *lobe, int k, float value);
 /* Returns true if the lobe depends on azimuth: upright fibres and unbrushed lobes do not. */
 bool lobe_turns(const Lobe *lobe);
 
-/* The registry's lobe for a public one, its parameters clamped; false where there is none of that index. */
+/* Fills lobe with the registry's lobe for a public one, its parameters clamped. Returns false if no lobe has that
+ * index. */
 bool lobe_of(const WeftLobe *public_lobe, Lobe *lobe);
 
-/* Says where a lobe computes with another number than it has: weft_lobe_fitted. */
+/* Warns if a lobe computes with another first parameter than it has, as weft_lobe_fitted does. */
 void lobe_fitted(const Lobe *lobe, const char *name, const WeftLog *log);
 
-/* The first parameter that it computes with. */
+/* Returns the first parameter that the lobe computes with. */
 float lobe_fitted_first(const Lobe *lobe);
 
-/* The cosines of name_crease (lobe.h), and their number, 0 for most lobes. */
+/* Fills cosines with those of name_crease (lobe.h). Returns their number, 0 for most lobes. */
 enum { LOBE_CREASES_MOST = 62 };
 int lobe_creases(const Lobe *lobe, float cos_o, float cosines[LOBE_CREASES_MOST]);
 
-/* E of a lobe of TRAIT_REFERENCE, from so many walks; 0 of any other. */
+/* Returns E of a lobe with TRAIT_REFERENCE, estimated by that many walks; 0 for other lobes. */
 LOBE_COPY float lobe_walked_albedo(const Lobe *lobe, Dir o, int walks);
 
-/* f[k] and, where s is not NULL, the share s[k] of the second colour, for n pairs of directions as structures
- * of arrays; 0 where a direction is not above the horizon or a component is infinite or NaN. */
+/* Computes f[k] and, if s is not NULL, the share s[k] of the second colour, for n pairs of directions as structures of
+ * arrays. Both are 0 if a direction is not above the horizon or a component is infinite or NaN. */
 void lobe_eval_n(const Lobe *lobe, size_t n, const float *ox, const float *oy, const float *oz,
                  const float *ix, const float *iy, const float *iz, float *f, float *s);
 
-/* pdf[k] likewise. */
+/* Computes pdf[k] in the same way. */
 void lobe_pdf_n(const Lobe *lobe, size_t n, const float *ox, const float *oy, const float *oz,
                 const float *ix, const float *iy, const float *iz, float *pdf);
 
-/* f[c][k] of a tinted lobe made of what has albedo w[c], likewise. Not for other lobes. */
+/* Computes f[c][k] of a lobe with TRAIT_TINTED whose scatterers have albedo w[c], in the same way. Not for other
+ * lobes. */
 void lobe_tinted_n(const Lobe *lobe, const float w[3], size_t n, const float *ox, const float *oy,
                    const float *oz, const float *ix, const float *iy, const float *iz, float *const f[3]);
 

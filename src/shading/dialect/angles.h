@@ -12,7 +12,7 @@
 STRUCT(Dir) { float x, y, z; };
 STRUCT(Rgb) { float r, g, b; };
 
-/* All that a lobe may ask for; what it does not use costs nothing once inlined. */
+/* The values that a lobe may read. Those that it does not read cost nothing after inlining. */
 STRUCT(Angles) {
     Dir o, i;     /* wo, wi: z is the cosine to the normal */
     Dir h;        /* half vector, unit */
@@ -33,8 +33,8 @@ FN Dir dir_cross(Dir a, Dir b) {
     return dir(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }
 
-/* Directions that graze from opposite sides cancel to almost nothing: the floor on z keeps h a unit vector
- * (the normal, if all is lost) and d above zero. A lobe is never asked about directions below the horizon. */
+/* Returns the angles between two directions above the horizon. If these graze from opposite sides, their sum cancels:
+ * the floor on z keeps h a unit vector (the normal in the worst case) and d above 0. */
 FN Angles angles_between(Dir o, Dir i) {
     Angles a;
     a.o = o;
@@ -47,7 +47,7 @@ FN Angles angles_between(Dir o, Dir i) {
     return a;
 }
 
-/* wo mirrored about the unit half vector h. */
+/* Returns wo mirrored about the unit half vector h. */
 FN Dir dir_mirror(Dir o, Dir h) {
     float d = 2.0f * dir_dot(o, h);
     return dir(d * h.x - o.x, d * h.y - o.y, d * h.z - o.z);

@@ -68,8 +68,8 @@
  * nothing; loops over arrays know it (BY_COUNT in loop.h). */
 #define ROUNDS_OF(k, n, most) ROUNDS(k, most) if (k < n)
 
-/* a b + c, with one rounding where the processor has that in one instruction. Only the functions below use it: they are
- * other than GLSL's own anyway, while all that both languages compute alike rounds each product. */
+/* Returns a b + c, rounded a single time if the processor has an instruction for it. Only the functions below use it,
+ * which differ from GLSL's own in any case; everything that both languages compute alike rounds each product. */
 FN float weft_fused(float a, float b, float c) {
 #ifdef __FMA__
     return __builtin_fmaf(a, b, c);
@@ -102,7 +102,7 @@ FN WeftLog2 weft_log2_parts(float x) {
     return l;
 }
 
-/* Relative error at most 3.1e-7, and 1.6e-7 of max(1, |log2 x|) (tests/shading/test_dialect). */
+/* Returns log2 x. The relative error is at most 3.1e-7, and 1.6e-7 of max(1, |log2 x|) (tests/shading/test_dialect). */
 FN float weft_log2(float x) {
     WeftLog2 l = weft_log2_parts(x);
     return l.whole + l.rest;
@@ -112,7 +112,7 @@ FN float weft_log2(float x) {
  * last bits: without a call, and cheap in every set of instructions. */
 #define WEFT_ROUND          12582912.0f /* 1.5 * 2^23 */
 
-/* 2^(k + t) for rounded = k + WEFT_ROUND and |t| <= 1/2: a degree-6 polynomial for 2^t, k added to its
+/* Returns 2^(k + t) for rounded = k + WEFT_ROUND and |t| <= 1/2: a polynomial of degree 6 for 2^t, with k added to its
  * exponent. */
 FN float weft_exp2_parts(float rounded, float t) {
     float t2 = t * t, p = weft_fused(0.000154531629f, t2, weft_fused(0.00133908634f, t, 0.00961808256f));
@@ -126,7 +126,7 @@ FN float weft_exp2_parts(float rounded, float t) {
     return p;
 }
 
-/* 2^x, clamped to the normal floats. Relative error at most 1e-7. */
+/* Returns 2^x, clamped to the normal floats. The relative error is at most 1e-7. */
 FN float weft_exp2(float x) {
     x = x < -126.0f ? -126.0f : x > 127.0f ? 127.0f : x;
     float rounded = x + WEFT_ROUND;
@@ -139,8 +139,8 @@ FN float weft_exp(float x) {
     return weft_exp2_parts(rounded, x * 1.44269504f - (rounded - WEFT_ROUND));
 }
 
-/* x^y of a normal x > 0; ends at 2^-125.51 and 2^127.51. Relative error at most 1.3e-7 (1 + |y|): y log2 x is
- * never rounded as a whole, since the first 12 bits of y times the exponent of x, less the nearest whole
+/* Returns x^y of a normal x > 0, clamped to 2^-125.51 .. 2^127.51. The relative error is at most 1.3e-7 (1 + |y|): y
+ * log2 x is never rounded as a whole, because the first 12 bits of y times the exponent of x, less the nearest whole
  * number, is exact. */
 FN float weft_pow(float x, float y) {
     WeftLog2 l = weft_log2_parts(x);
@@ -157,9 +157,9 @@ FN float weft_pow(float x, float y) {
     return weft_exp2_parts(rounded, t);
 }
 
-/* The sine of x turned by so many quarters of a circle, for |x| < 2^12: x less the nearest multiple of pi /
- * 2, in three parts, then polynomials for the sine or the cosine of what is left. Absolute error below 1e-7.
- * Stephen L. Moshier, Cephes Mathematical Library, sinf.c, 1992. */
+/* Returns the sine of x + quarters pi / 2 for |x| < 2^12: subtracts the nearest multiple of pi / 2 in three parts, then
+ * evaluates a polynomial for the sine or the cosine of the rest. The absolute error is below 1e-7. Stephen L. Moshier,
+ * Cephes Mathematical Library, sinf.c, 1992. */
 FN float weft_sine(float x, uint32_t quarters) {
     float rounded = x * 0.636619772f + WEFT_ROUND, k = rounded - WEFT_ROUND;
     float r = weft_fused(k, -7.54978995e-8f, weft_fused(k, -4.83751297e-4f, weft_fused(k, -1.5703125f, x))),
@@ -178,7 +178,8 @@ FN float weft_sine(float x, uint32_t quarters) {
     return y;
 }
 
-/* One instruction each; the C library's versions are calls, since they let a number win over a NaN. */
+/* Returns the smaller number, as weft_max the greater, by one instruction. The C library's functions are calls, because
+ * for a NaN and a number they return the number. */
 FN float weft_min(float a, float b) { return a < b ? a : b; }
 FN float weft_max(float a, float b) { return a > b ? a : b; }
 

@@ -20,7 +20,8 @@ FN Rgb rgb_min(Rgb a, float top) { return rgb(min(a.r, top), min(a.g, top), min(
 FN float rgb_max3(Rgb c) { return max(c.r, max(c.g, c.b)); }
 FN float rgb_mean(Rgb c) { return (c.r + c.g + c.b) * (1.0f / 3.0f); }
 
-/* International Telecommunication Union, Recommendation BT.709, item 3.2. */
+/* Returns Y = 0.2126 R + 0.7152 G + 0.0722 B. International Telecommunication Union, Recommendation BT.709, item
+ * 3.2. */
 FN float rgb_luminance(Rgb c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b; }
 
 #endif

@@ -37,7 +37,7 @@ FN Tint tint_none(void) {
     return t;
 }
 
-/* r with 1 - w q = (1 - q) + (1 - w) q, which is not rounded to 0: white stays white in 16 bits too. */
+/* Returns r. The form 1 - w q = (1 - q) + (1 - w) q is not rounded to 0: white stays white in 16 bits too. */
 FN float tint_by_order(float q, float w) {
     float rest = max(1.0f - q, 1e-3f);
     return rest / (rest + (1.0f - w) * q);

@@ -23,20 +23,20 @@ FN Rgb tone_pbr_neutral(Rgb color) {
     return rgb_add(rgb_scale(rgb_scale(c, squeezed / peak), keep), rgb_grey(squeezed * (1.0f - keep)));
 }
 
-/* Krzysztof Narkowicz, "ACES Filmic Tone Mapping Curve", 2015: a fit, for each channel. */
+/* Returns x (2.51 x + 0.03) / (x (2.43 x + 0.59) + 0.14), a fit for each channel. Krzysztof Narkowicz, "ACES Filmic
+ * Tone Mapping Curve", 2015. */
 FN float tone_aces(float x) { return x * (2.51f * x + 0.03f) / (x * (2.43f * x + 0.59f) + 0.14f); }
 
-/* The display value of a linear one in [0, 1] (IEC 61966-2-1:1999, sRGB). */
+/* Returns the display value of a linear one in [0, 1] (IEC 61966-2-1:1999, sRGB). */
 FN float tone_encode(float linear) {
     float low = 12.92f * linear, high = 1.055f * pow(max(linear, 0.0031308f), 1.0f / 2.4f) - 0.055f;
     return linear <= 0.0031308f ? low : high;
 }
 
-/* A radiance as a tone curve wants it: at least 0, also from NaN, and so small that no curve overflows. */
+/* Returns a radiance clamped to 0 .. 1e9, so that no tone curve overflows. NaN becomes 0. */
 FN float tone_bounded(float x) { return x > 0.0f ? min(x, 1e9f) : 0.0f; }
 
-/* The light, linear and in [0, 1], that a display is to give for a linear colour, first multiplied by gain.
- */
+/* Returns the light, linear and in [0, 1], that a display has to emit for a linear colour multiplied by gain. */
 FN Rgb tone_light(Rgb color, float gain, int curve) {
     Rgb c = rgb(tone_bounded(color.r * gain), tone_bounded(color.g * gain), tone_bounded(color.b * gain));
     if (curve == TONE_PBR_NEUTRAL) c = tone_pbr_neutral(c);
@@ -44,12 +44,12 @@ FN Rgb tone_light(Rgb color, float gain, int curve) {
     return rgb_min(c, 1.0f);
 }
 
-/* The light to give where this covers a part, in [0, 1], of what is behind it, which no curve changes. */
+/* Returns the light to emit where `light` covers the part `cover`, 0 to 1, of `behind`, which no tone curve changes. */
 FN Rgb tone_over(Rgb light, float cover, Rgb behind) {
     return rgb_add(rgb_scale(light, cover), rgb_scale(behind, 1.0f - cover));
 }
 
-/* The display values, in [0, 1], of such light. */
+/* Returns the display values, in [0, 1], of such light. */
 FN Rgb tone_display(Rgb light) {
     return rgb(tone_encode(light.r), tone_encode(light.g), tone_encode(light.b));
 }

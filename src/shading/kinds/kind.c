@@ -54,7 +54,7 @@ const StackKind *stack_kind(const Stack *plain, const Choices *choices) {
     return NULL;
 }
 
-/* E of a sheen that is not there. */
+/* Returns a table with E = 0, for a stack without a sheen. */
 static TableRef dark_table(void) {
     static const float zeros[5];
     TableRef e = {.texels = zeros, .kind = TABLE_ROOTS, .rows = 1, .columns = 4};

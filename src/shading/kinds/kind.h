@@ -29,7 +29,7 @@ typedef struct KindVertices {
     float e_o[ROW_ROOM], base_scale[3][ROW_ROOM], select_p[5][ROW_ROOM];   /* of the StackView */
 } KindVertices;
 
-/* The base of a woven vertex. */
+/* Returns the base lobe of a woven vertex. */
 FN Lobe yarn_of_row(const YarnRows *rows, size_t k) {
     Lobe lobe;
     lobe.id = LOBE_YARN;
@@ -39,8 +39,8 @@ FN Lobe yarn_of_row(const YarnRows *rows, size_t k) {
 
 typedef struct StackKind StackKind;
 
-/* The kind of a material; NULL: none has its structure. plain: its stack where all its textures are 1, which
- * is their most. */
+/* Returns the kind of a material, or NULL if none has its structure. uniform: the stack of the material if all its
+ * textures are 1, which is their maximum. */
 const StackKind *stack_kind(const Stack *plain, const Choices *choices);
 
 /* Samples wi for the first n vertices, n a multiple of ROW_LANES, and gives f cos and pdf of it and of the

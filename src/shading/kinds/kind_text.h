@@ -33,7 +33,8 @@ static Choices known_choices(void) {
 #define PUT_SELECT_P(name, NAME, Name, wo) v->select_p[place++][k] = w.select_p.name;
 #define GET_SELECT_P(name, NAME, Name, wo) w.select_p.name = v->select_p[place++][k];
 
-/* A table of one row is looked up otherwise: which one it is must be known before the loop. */
+/* Fills the views. A table of one row is looked up in another way, so its number of rows must be fixed before the
+ * loop. */
 FN void see_each(KindVertices *restrict v, TableRef e, int n) {
     EACH(k, (size_t)n) {
         TAKE_STACK(m, v);

@@ -11,7 +11,7 @@
 
 #include "shading/dialect/lang.h"
 
-/* A sheen that reflects more than it receives leaves nothing for the base. */
+/* Returns 1 - c E(wo). A sheen that reflects more than it receives leaves 0 for the base. */
 FN float albedo_view_base(float c, float e_o, float e_i, float e_avg) { return max(1.0f - c * e_o, 0.0f); }
 
 #endif

@@ -12,8 +12,8 @@
 
 #include "shading/dialect/lang.h"
 
-/* Each factor is clamped, for the product of two negative ones is not. The denominator stops at 1/100: only a
- * sheen that reflects more than 99 % of all light, or more than all, comes there. */
+/* Returns the factor on the base. Each factor is clamped, because the product of two negative ones is positive. The
+ * denominator is at least 1/100, which only a sheen with c Eavg > 0.99 reaches. */
 FN float reciprocal_base(float c, float e_o, float e_i, float e_avg) {
     return max(1.0f - c * e_o, 0.0f) * max(1.0f - c * e_i, 0.0f) / max(1.0f - c * e_avg, 0.01f);
 }

@@ -20,11 +20,11 @@ typedef struct Each {
     float *drawn[3];
 } Each;
 
-/* f and pdf of o and i; 0 where a direction is not above the horizon or a component is infinite or NaN.
- * Nothing else of the outputs is written. */
+/* Computes f and pdf of o and i; 0 if a direction is not above the horizon or a component is infinite or NaN. Writes
+ * none of the other outputs. */
 void each_eval(const Each *e, size_t n);
 
-/* drawn from o, u and v; 0 where o does not count. */
+/* Computes `drawn` from o, u and v; 0 if o is not above the horizon or not finite. */
 void each_sample(const Each *e, size_t n);
 
 #endif

@@ -12,14 +12,14 @@
 #endif
 FN float fresnel_weight_of_cosine(float cosine) { return -max(cosine, 1e-6f); }
 
-/* Two colours by their share. With a cosine the second is the weight of the first, so that their quotient is
- * F0. */
+/* Mixes two colours by the share of the second. If s contains a cosine, `second` is the weight of the first colour, so
+ * that first / second is F0. */
 FN float fresnel_weight_mix(float s, float first, float second) {
     if (FRESNEL_WEIGHT_IS_COSINE(s)) return second * cook_torrance_f(first / max(second, 1e-30f), -s);
     return mix(first, second, s);
 }
 
-/* The share where light is summed before the colours are known. */
+/* Returns the share of the second colour for sums of light to which no colours are applied yet. */
 FN float fresnel_weight_plain(float s) {
     if (FRESNEL_WEIGHT_IS_COSINE(s)) return schlick_s(-s);
     return s;

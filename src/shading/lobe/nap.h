@@ -13,7 +13,8 @@ STRUCT(Nap) {
     float x, y; /* where to, in the tangent plane, of unit length */
 };
 
-/* A direction without length means the tangent, as in azimuth_of. */
+/* Returns the nap with that tilt, in radians, towards a direction. A direction without length is taken as the tangent,
+ * as in azimuth_of. */
 FN Nap nap_of(float tilt, Dir direction) {
     float r = sqrt(direction.x * direction.x + direction.y * direction.y);
     Nap n;
@@ -23,7 +24,7 @@ FN Nap nap_of(float tilt, Dir direction) {
     return n;
 }
 
-/* At the normal, where there is no azimuth, it is 0. */
+/* Returns the cosine of the azimuth of w from that of the nap; 0 at the normal, where there is no azimuth. */
 FN float nap_heading(Nap n, Dir w) {
     float r = sqrt(w.x * w.x + w.y * w.y);
     return clamp((n.x * w.x + n.y * w.y) / max(r, 1e-15f), -1.0f, 1.0f);

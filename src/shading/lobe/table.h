@@ -40,7 +40,8 @@ STRUCT(Taps) {
     float a, b, c, d; /* weights of nodes first .. first + 3 */
 };
 
-/* x: the position, in nodes. count: number of nodes, at least 4. */
+/* Returns the four nodes around a position and their weights. x: the position, in nodes. count: number of nodes, at
+ * least 4. */
 FN Taps table_taps(float x, int count) {
     float k = clamp(floor(x), 0.0f, to_float(count - 2));
     float t = clamp(x - k, 0.0f, 1.0f), s = 1.0f - t;

@@ -29,8 +29,9 @@ STRUCT(AshikhminNeubelt){ASHIKHMIN_NEUBELT_PARAMS(FIELD)};
 PREPARED_AS_IT_IS(ashikhmin_neubelt, AshikhminNeubelt)
 SEEN_AS_IT_IS(ashikhmin_neubelt, AshikhminNeubelt)
 
-/* Half by D cos_h with h turned to the side that wo is on, where wo . h > 0 without exception and the density
- * doubles; half uniform, which bounds the weight. */
+/* Returns a number that is positive if h is on the same side as wo. Half of the samples are drawn by D cos_h, with h
+ * rotated to the side of wo, where wo . h > 0 always holds and the density doubles. The other half is uniform, which
+ * bounds the weight. */
 FN float ashikhmin_side(Dir o, Dir h) { return o.x * o.x + o.y * o.y > 1e-12f ? h.x * o.x + h.y * o.y : h.x; }
 
 FN float ashikhmin_pdf(float d, Angles a) {

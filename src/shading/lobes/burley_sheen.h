@@ -27,8 +27,8 @@ STRUCT(BurleySheen) { float none; };
 PREPARED_AS_IT_IS(burley_sheen, BurleySheen)
 SEEN_AS_IT_IS(burley_sheen, BurleySheen)
 
-/* By q(d) = 6 (1 - d)^5 of the half angle between wo and wi, all azimuths about wo alike; what falls below
- * the horizon is mirrored up, since f peaks opposite to wo. dwi = 4 d dd dphi. */
+/* Returns the density of wi for half angles from q(d) = 6 (1 - d)^5 and uniform azimuths about wo; dwi = 4 d dd dphi.
+ * Directions below the horizon are mirrored up, since f peaks opposite to wo. */
 FN float burley_sheen_pdf_d(float d) { return 6.0f * schlick_s(d) / (8.0f * PI * max(d, 1e-6f)); }
 
 FN LobeValue burley_sheen_value(const BurleySheenPrepared *p, const BurleySheenView *w, Angles a) {

@@ -33,8 +33,8 @@ FN void burley_subsurface_view(const BurleySubsurfacePrepared *p, Dir o, BurleyS
     w->s_o = schlick_s(o.z);
 }
 
-/* mix(1, fss90, s) by 1 - s multiplied out: at grazing both would be lost in the rounding of 1 - s, and what
- * is left is divided by cos_i + cos_o. */
+/* Returns mix(1, fss90, s) with 1 - s multiplied out. At grazing both would be lost in the rounding of 1 - s, and the
+ * rest is divided by cos_i + cos_o. */
 FN float burley_subsurface_f(float fss90, float z) {
     float k = z * (5.0f - z * (10.0f - z * (10.0f - z * (5.0f - z))));
     return k + (1.0f - k) * fss90;

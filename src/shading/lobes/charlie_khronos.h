@@ -51,7 +51,7 @@ FN LobeValue charlie_khronos_value(const CharlieKhronosPrepared *p, const Charli
     float visibility = min(1.0f / max((1.0f + lambda) * 4.0f * a.o.z * a.i.z, 1e-30f), 1.0f);
     return lobe_value_of(d * visibility, 0.0f, charlie_pdf(d, w->side, a));
 }
-/* The cosine of wi below which the clamp holds: V falls as it rises. */
+/* Returns the cosine of wi below which the clamp applies: V falls as the cosine rises. */
 FN float charlie_khronos_crease(CharlieKhronos m, float cos_o, int k) {
     ContyKulla shadow = conty_kulla_of(m.alpha);
     float low = 0.0f, high = 1.0f, lambda = conty_kulla_lambda(shadow, cos_o);

@@ -38,7 +38,7 @@ SEEN_AS_IT_IS(cook_torrance, CookTorrance)
 
 FN float cook_torrance_ax(CookTorrance m) { return m.alpha * m.stretch; }
 
-/* The two factors apart, as arrays_terms.c takes them. */
+/* Returns D; cook_torrance_shadow returns V. */
 FN float cook_torrance_spread(CookTorrance m, Angles a) {
     return term_d(m.d, m.alpha, cook_torrance_ax(m), m.alpha, a.h);
 }
@@ -51,7 +51,7 @@ FN float cook_torrance_shadow(CookTorrance m, Angles a) {
 FN float cook_torrance_fresnel_weight(CookTorrance m, Angles a) { return term_f(m.f, m.ior, m.k, a.d); }
 FN float cook_torrance_second(CookTorrance m, float f0, float f90) { return term_second(m.f, f0, f90); }
 
-/* Its density where D is known. */
+/* Returns the density of samples. spread: D of the half vector. */
 FN float cook_torrance_sample_pdf(CookTorrance m, float spread, Angles a) {
     float pdf;
     if (m.d == D_GGX)
@@ -82,7 +82,7 @@ FN Dir cook_torrance_sample(const CookTorrancePrepared *p, const CookTorranceVie
     return dir_mirror(o, facet_towards(o, term_facet(m.d, m.alpha, ax, m.alpha, w, v)));
 }
 
-/* Without the uniform half. Of ggx-aniso in strips, of other D as they are drawn. */
+/* Returns a strip of samples without the uniform half: strips of ggx-aniso, ordinary samples of other D. */
 FN Strip cook_torrance_strip(const CookTorrancePrepared *p, Dir o, float u, float v) {
     CookTorrance m = p->m;
     float ax = cook_torrance_ax(m);

@@ -47,7 +47,7 @@ FN void eon_prepare(Eon m, EonPrepared *p) {
     p->uniform_part = m.roughness / (1.0f + m.roughness);
 }
 
-/* C1 - G / pi: what the first bounce loses towards that cosine, over A roughness. */
+/* Returns C1 - G / pi: the loss of single scattering towards that cosine, over A roughness. */
 FN float eon_lost(float z) {
     float s = sqrt(max(1.0f - z * z, 0.0f));
     float p = 1.5707288f - z * (0.2121144f - z * (0.0742610f - z * 0.0187293f));
@@ -59,7 +59,7 @@ FN float eon_lost(float z) {
 STRUCT(EonView) { float lost_o; };
 FN void eon_view(const EonPrepared *p, Dir o, EonView *w) { w->lost_o = p->roughness * eon_lost(o.z); }
 
-/* Both parts of a white lobe, over A / pi. */
+/* Returns both parts of a white lobe; f is over A / pi. */
 FN LobeValue eon_value(const EonPrepared *p, const EonView *w, Angles a) {
     float s = a.o.x * a.i.x + a.o.y * a.i.y, t = s > 0.0f ? max(a.o.z, a.i.z) : 1.0f;
     float first = max(1.0f + p->roughness * s / t, 0.0f),

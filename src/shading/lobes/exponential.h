@@ -35,7 +35,7 @@ FN float exponential_gain(float y) {
     return y < 0.25f ? s : 1.0f - exp(-y);
 }
 
-/* x at t = 1 - cos, which is taken from the tangential part for the same reason; full is
+/* Returns x at t = 1 - cos, which is computed from the tangential part for the same reason. full:
  * exponential_gain(beta). */
 FN float exponential_x(float beta, float full, Dir w) {
     float t = (w.x * w.x + w.y * w.y) / (1.0f + w.z);

@@ -26,7 +26,7 @@
 
 STRUCT(ExponentialLit){EXPONENTIAL_LIT_PARAMS(FIELD)};
 
-/* The mean of x weighted by the cosine: by its series where the closed form would have no digits left. */
+/* Returns the mean of x weighted by the cosine, by its series where the closed form would cancel. */
 FN float exponential_lit_mean(float beta) {
     float e = 1.0f - beta / 6.0f * (1.0f - beta / 7.0f * (1.0f - beta / 8.0f));
     e = 1.0f - beta / 4.0f * (1.0f - beta / 5.0f * e);

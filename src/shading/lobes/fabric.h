@@ -60,7 +60,7 @@ FN float fabric_length(const FabricPrepared *p, float c) { return sqrt(mix(c * c
 STRUCT(FabricView) { float length_o; };
 FN void fabric_view(const FabricPrepared *p, Dir o, FabricView *w) { w->length_o = fabric_length(p, o.z); }
 
-/* D, alpha^2 times so much. */
+/* Returns D for alpha^2 multiplied by `wider`. */
 FN float fabric_spread(const FabricPrepared *p, Angles a, float wider) {
     return p->scale * pow(a.sin2_h + p->a2 * wider * a.h.z * a.h.z, -p->tail);
 }
@@ -75,8 +75,8 @@ FN LobeValue fabric_value(const FabricPrepared *p, const FabricView *w, Angles a
                          mix(drawn, warp_uniform_pdf(a.i), FABRIC_UNIFORM));
 }
 
-/* h from D cos_h: t^(1 - tail) is uniform between those of the normal and the horizon; y and up are those of
- * fabric_prepare and stay apart from 1, whichever side of 1 the tail is. */
+/* Returns h from D cos_h. t^(1 - tail) is uniform between its values at the normal and at the horizon. y and up are
+ * those of fabric_prepare; they stay away from 1 whether the tail is above or below 1. */
 FN Dir fabric_facet(const FabricPrepared *p, float u, float v) {
     float y = -p->off * p->log_a2, up = facet_rise(y), part = p->tail > 1.0f ? u * up : (1.0f - u) * up;
     float along = facet_fall(part, 1.0f - part) / y;
@@ -90,7 +90,7 @@ FN Dir fabric_sample(const FabricPrepared *p, const FabricView *w, Dir o, float 
     return dir_mirror(o, facet_towards(o, fabric_facet(p, rest, v)));
 }
 
-/* Tail 2 is that of ggx, 1 that of gtr1; a smaller one is hazier. */
+/* Returns the proxy. Tail 2 is that of ggx, 1 that of gtr1; a smaller one is hazier. */
 FN Proxy fabric_proxy(Fabric m) {
     float width = pow(m.alpha, min(0.5f * m.tail, 1.0f));
     return proxy_facets(width, width);

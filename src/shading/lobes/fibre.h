@@ -59,7 +59,7 @@ FN FibreNap fibre_nap_of(float alpha, float tilt, float azimuth) {
     return n;
 }
 
-/* M^-1 w = (A w_xy + b wo_xy w_z, w_z), here over A; ln A and b are fitted where fibres stand upright. */
+/* Evaluates M^-1 w = (A w_xy + b wo_xy w_z, w_z), divided by A. ln A and b are fitted to upright fibres. */
 FN Ltc fibre_ltc(float a, float cos_o) {
     float x = sqrt(cos_o);
     float log_a = (-4.2660f + a * (6.3668f - 2.6138f * a)) + x * (4.4336f + a * (-5.7563f + 2.1627f * a)) +
@@ -93,8 +93,8 @@ FN FibreDraw fibre_draw(FibreNap n, Dir o) {
     return c;
 }
 
-/* acos of the cosine at which the horizon cuts the circle of that nu, and up to 2e-4 more, so that samples
- * cover all of it. Milton Abramowitz, Irene A. Stegun, "Handbook of Mathematical Functions", 1964, 4.4.45. */
+/* Returns the acos of the cosine at which the horizon cuts the circle of that nu, plus at most 2e-4, so that samples
+ * cover all of the circle. Milton Abramowitz, Irene A. Stegun, "Handbook of Mathematical Functions", 1964, 4.4.45. */
 FN float fibre_reach(FibreNap n, float nu) {
     float r = sqrt(max((1.0f - nu) * (1.0f + nu), 0.0f));
     float x = clamp(nu * n.cos_t / max(r * n.sin_t, 1e-30f), -1.0f, 1.0f), y = abs(x);
@@ -170,7 +170,7 @@ FN Dir fibre_sample(const FibrePrepared *p, const FibreView *w, Dir o, float u, 
 }
 FN float fibre_fitted(Fibre m) { return fibre_nap_of(m.alpha, m.tilt, m.azimuth).alpha; }
 
-/* Those that lean are broad: fibre_nap_of sees to that. */
+/* Returns the proxy. Leaning fibres are broad, since fibre_nap_of limits their alpha. */
 FN Proxy fibre_proxy(Fibre m) {
     if (m.tilt < 0.03f) return proxy_fibres(m.alpha);
     return proxy_cosine();

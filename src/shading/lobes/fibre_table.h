@@ -44,7 +44,7 @@ STRUCT(FibreTableSpot) {
  * horizon on. */
 FN float fibre_table_column(float mu) { return (sqrt(mu + 1e-3f) - 0.0316227766f) * 1.03212265f; }
 
-/* The other way. */
+/* Returns the cosine of a column, the inverse of fibre_table_column. */
 FN float fibre_table_cosine(float column) {
     float root = column / 1.03212265f + 0.0316227766f;
     return root * root - 1e-3f;
@@ -55,7 +55,7 @@ FN float fibre_table_crease(FibreTable m, float cos_o, int k) {
     return k + 1 < last ? fibre_table_cosine(to_float(k + 1) / to_float(last)) : 0.0f;
 }
 
-/* Rows are uniform in the logarithm of alpha. */
+/* Returns the position of alpha and mu. Rows are uniform in the logarithm of alpha. */
 FN FibreTableSpot fibre_table_spot(float alpha, float mu) {
     FibreTableSpot s;
     s.t = lobe_table_fibre();
@@ -93,7 +93,7 @@ FN FibreTableSide fibre_table_side(float alpha, float mu) {
     return r;
 }
 
-/* M, 1/sr. */
+/* Returns M, the multiple scattering, 1/sr. */
 FN float fibre_table_multiple(FibreTableSide o, FibreTableSide i, Dir wo, Dir wi, float alpha, float p) {
     float e = (o.a + i.a) + (o.h * i.h - o.g * i.g) - o.k * i.k * (wo.x * wi.x + wo.y * wi.y);
     return exp2(e - p * log2(wo.z + wi.z + 0.2f * alpha));

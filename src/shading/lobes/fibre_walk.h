@@ -41,7 +41,7 @@ STRUCT(FibreWalk){FIBRE_WALK_PARAMS(FIELD)};
 PREPARED_AS_IT_IS(fibre_walk, FibreWalk)
 SEEN_AS_IT_IS(fibre_walk, FibreWalk)
 
-/* Random numbers: what the bits of two directions start. */
+/* Returns the first state of the random numbers, from the bits of a direction. */
 FN uint64_t fibre_walk_bits(Dir w) {
     uint32_t x, y, z;
     memcpy(&x, &w.x, 4);
@@ -51,7 +51,8 @@ FN uint64_t fibre_walk_bits(Dir w) {
 }
 FN float fibre_walk_unit(uint64_t *stream) { return unit_float((uint32_t)(stream_next(stream) >> 32)); }
 
-/* A point of the unit sphere. George Marsaglia, "Choosing a Point from the Surface of a Sphere", 1972. */
+/* Returns a random point of the unit sphere. George Marsaglia, "Choosing a Point from the Surface of a Sphere",
+ * 1972. */
 FN Dir fibre_walk_point(uint64_t *stream) {
     for (;;) {
         uint64_t bits = stream_next(stream);
@@ -73,7 +74,7 @@ FN FibreWalker fibre_walk_start(Dir o) {
     return w;
 }
 
-/* On to the next flake; in the slab there is one while 0 < depth < density. */
+/* Moves the walker to its next flake, which exists if 0 < depth < density. */
 FN FibreWalker fibre_walk_fly(FibreWalker w, float s, Dir t, uint64_t *stream) {
     Dir v = flake_stretch(s, t, w.d);
     w.sigma = sqrt(dir_dot(v, v));
@@ -86,7 +87,7 @@ FN FibreWalker fibre_walk_turn(FibreWalker w, float s, Dir t, uint64_t *stream) 
     return w;
 }
 
-/* f2 + f3 + ... by one walk from a, connected to b. */
+/* Returns an estimate of f2 + f3 + ... by one walk from a, connected to b at each flake. */
 FN_NOINLINE float fibre_walk_more(FibreWalk m, Dir a, Dir b, uint64_t stream) {
     float s = m.alpha * m.alpha, sum = 0.0f;
     Dir t = flake_axis(m.tilt, m.azimuth);
@@ -121,7 +122,7 @@ FN float fibre_walk_f(FibreWalk m, Angles a) {
            fibre_walk_more(m, from, to, stream);
 }
 
-/* E: the share of walks that come back. The same random numbers for every wo make it smooth. */
+/* Returns E: the share of walks that leave upwards. All wo use the same random numbers, so E is smooth. */
 FN_NOINLINE float fibre_walk_albedo(FibreWalk m, Dir o, int walks) {
     float s = m.alpha * m.alpha;
     Dir t = flake_axis(m.tilt, m.azimuth);
@@ -136,10 +137,9 @@ FN_NOINLINE float fibre_walk_albedo(FibreWalk m, Dir o, int walks) {
     return to_float(back) / to_float(walks);
 }
 
-/* Sampling. A flake sends light to where nu = -nu_o, give or take s, and what comes back after several is
- * spread over about as much as the light comes in under, mu_o: with x = nu + nu_o, x / (b + |x|) is uniform,
- * from where something is above the horizon, nu = -sin tilt, to nu = 1. A share of alpha is cosine and
- * uniform. */
+/* Returns b, the width of the samples. A flake scatters light to about nu = -nu_o, within s, and multiple scattering is
+ * spread by about the mu_o under which the light enters. With x = nu + nu_o, x / (b + |x|) is uniform from nu = -sin
+ * tilt, the lowest above the horizon, to nu = 1. The share alpha of the samples is by the cosine and uniform. */
 FN float fibre_walk_width(FibreWalk m, Dir o) { return max(o.z, m.alpha * m.alpha); }
 FN float fibre_walk_place(float x, float b) { return x / (b + abs(x)); }
 

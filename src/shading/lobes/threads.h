@@ -45,7 +45,7 @@
 STRUCT(Threads){THREADS_PARAMS(FIELD)};
 PREPARED_AS_IT_IS(threads, Threads)
 
-/* A direction as a piece of yarn of that slope sees it: y along the yarn, x across, z its own normal. */
+/* Returns a direction in the frame of a piece of yarn of that slope: y along the yarn, x across it, z its normal. */
 FN Dir threads_turn(Dir w, bool weft, float slope) {
     float along = weft ? w.y : w.x, across = weft ? w.x : w.y, r = 1.0f / sqrt(1.0f + slope * slope);
     return dir(across, (along + slope * w.z) * r, (w.z - slope * along) * r);
@@ -55,8 +55,8 @@ FN Dir threads_turn_back(Dir w, bool weft, float slope) {
     return dir(weft ? w.x : along, weft ? along : w.x, (w.z + slope * w.y) * r);
 }
 
-/* Return the projected area towards w: of the two slopes of a family, per unit of its area; and of all,
- * which is never below w.z. */
+/* Returns the projected area towards w of one slope of a family, per unit of the family's area. threads_all returns
+ * that of all slopes, which is never below w.z. */
 FN float threads_projected_area(float along, float z, float slope) {
     return 0.5f * max(z - slope * along, 0.0f);
 }
@@ -71,12 +71,13 @@ FN float threads_all(Threads m, Dir w) {
 STRUCT(ThreadsView) { float all; };
 FN void threads_view(const ThreadsPrepared *p, Dir o, ThreadsView *w) { w->all = threads_all(p->m, o); }
 
-/* The area of one slope of a family over a unit of cloth. */
+/* Returns the area of one slope of a family per unit of cloth. */
 FN float threads_area(Threads m, bool weft, float slope) {
     return 0.5f * (weft ? m.weft : 1.0f - m.weft) * sqrt(1.0f + slope * slope);
 }
 
-/* The logistic density of standard deviation `width`, and its distribution. */
+/* Returns the scale of the logistic distribution of standard deviation `width`. The functions below return its density
+ * and its cumulative distribution. */
 FN float threads_scale(float width) { return 0.551328895f * width; }
 FN float threads_density(float scale, float x) {
     float e = exp(-abs(x) / scale);
@@ -87,7 +88,7 @@ FN float threads_below(float scale, float x) {
     return (x < 0.0f ? e : 1.0f) / (1.0f + e);
 }
 
-/* Cylinder: f of one piece of yarn over its own plane. */
+/* Returns f of one piece of yarn, a cylinder, over its own plane. */
 FN float threads_yarn(float width, float isotropic, Dir o, Dir i) {
     float co = max(sqrt(o.x * o.x + o.z * o.z), 1e-6f), ci = max(sqrt(i.x * i.x + i.z * i.z), 1e-6f);
     float cos_d = clamp((o.x * i.x + o.z * i.z) / (co * ci), -1.0f, 1.0f);
@@ -97,8 +98,8 @@ FN float threads_yarn(float width, float isotropic, Dir o, Dir i) {
     return ((1.0f - isotropic) * surface / max(co, ci) + isotropic * volume) * seen;
 }
 
-/* One slope of a family: what both directions see of it, in parts of all that each sees. The floor keeps f
- * finite where yarn of hardly any share is all that is seen from the horizon. */
+/* Returns the contribution to f of one slope of a family, with the part of it that each direction sees. The floor keeps
+ * f finite if yarn of hardly any share is all that is visible from the horizon. */
 FN float threads_slope(Threads m, Angles a, float all_o, float all_i, bool weft, float slope) {
     Dir o = threads_turn(a.o, weft, slope), i = threads_turn(a.i, weft, slope);
     float seen_o = max(o.z, 0.0f) / max(all_o, 1e-7f);
@@ -107,8 +108,9 @@ FN float threads_slope(Threads m, Angles a, float all_o, float all_i, bool weft,
            threads_yarn(weft ? m.weft_width : m.warp_width, m.isotropic, o, i);
 }
 
-/* Sampling: a slope by what wo sees of it; along the yarn by the highlight, cut off at the ends, or evenly;
- * around the yarn by the cosine to its plane (3/4) or evenly. */
+/* Returns the density of samples on one slope. A slope is chosen by its area visible from wo; the inclination along the
+ * yarn by the highlight, cut off at the ends, or uniformly; the azimuth around the yarn by the cosine to its plane
+ * (3/4) or uniformly. */
 FN float threads_pdf_slope(Threads m, Angles a, float all_o, bool weft, float slope) {
     Dir o = threads_turn(a.o, weft, slope), i = threads_turn(a.i, weft, slope);
     float scale = threads_scale(weft ? m.weft_width : m.warp_width);

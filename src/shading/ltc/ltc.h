@@ -40,7 +40,7 @@ STRUCT(Ltc) {
     float k, det;          /* det = |M^-1| */
 };
 
-/* The transform for a wo of that cosine; z > 0, q >= 0, r >= 0. The floors keep rounding from 0. */
+/* Returns the transform for a wo of that cosine; z > 0, q >= 0, r >= 0. The floors prevent rounding to 0. */
 FN Ltc ltc_of(float z, float q, float b, float r, float cos_o) {
     float c2 = min(cos_o * cos_o, 1.0f), s2 = 1.0f - c2;
     Ltc m;
@@ -54,34 +54,34 @@ FN Ltc ltc_of(float z, float q, float b, float r, float cos_o) {
     return m;
 }
 
-/* v = M^-1 w: where the corners of a light go. */
+/* Evaluates v = M^-1 w, which transforms the corners of a light. */
 FN Dir ltc_inverse(Ltc m, Dir o, Dir w) {
     float t = w.x * o.x + w.y * o.y, c = m.e * t + m.b * w.z;
     return dir(w.x + c * o.x, w.y + c * o.y, m.z * w.z + m.d * t);
 }
 
-/* |M^-1| M v: the way back but for the length. */
+/* Evaluates |M^-1| M v, the inverse of ltc_inverse but for the length. */
 FN Dir ltc_forward(Ltc m, Dir o, Dir v) {
     float t = v.x * o.x + v.y * o.y, c = m.k * t + m.b * v.z;
     return dir(m.det * v.x - c * o.x, m.det * v.y - c * o.y, m.m11 * v.z - m.d * t);
 }
 
-/* D at i, the density of the samples. */
+/* Returns D(i), the density of the samples. */
 FN float ltc_pdf(Ltc m, Dir o, Dir i) {
     Dir v = ltc_inverse(m, o, i);
     float r2 = max(dir_dot(v, v), 1e-18f); /* keeps its square a normal number */
     return max(v.z, 0.0f) * m.det / (PI * r2 * r2);
 }
 
-/* It may lie below the horizon: that is no sample. */
+/* Returns a direction with density D. If it is below the horizon, there is no sample. */
 FN Dir ltc_sample(Ltc m, Dir o, float u, float v) {
     Dir w = ltc_forward(m, o, warp_cosine(u, v));
     float r = 1.0f / sqrt(max(dir_dot(w, w), 1e-36f));
     return dir(w.x * r, w.y * r, w.z * r);
 }
 
-/* The part of D above the horizon, (1 + n_z / |n|) / 2: M takes the horizon to a plane with the normal n =
- * (-d s, 0, m11), the last row of M, and half a clamped cosine goes with each side of its axis. */
+/* Returns the part of D above the horizon, (1 + n_z / |n|) / 2. M maps the horizon to a plane with the normal n =
+ * (-d s, 0, m11), the last row of M, and half a clamped cosine is on each side of its axis. */
 FN float ltc_above(Ltc m, Dir o) {
     float n2 = m.m11 * m.m11 + m.d * m.d * (o.x * o.x + o.y * o.y);
     return 0.5f + 0.5f * m.m11 / sqrt(max(n2, 1e-36f));

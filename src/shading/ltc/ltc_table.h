@@ -24,7 +24,7 @@ STRUCT(LtcTable) {
     float low, high;   /* roots of the parameter in the first and the last row */
 };
 
-/* Between four neighbouring nodes. */
+/* A position between four neighbouring nodes. */
 STRUCT(LtcSpot) {
     int row, below, column;
     float x, y;
@@ -36,7 +36,7 @@ STRUCT(LtcLobe) {
     float f0, f90;
 };
 
-/* So far along the columns and down the rows, both in [0, 1]. */
+/* Returns the position at the fractions `along` of the columns and `down` of the rows, both in [0, 1]. */
 FN LtcSpot ltc_table_spot_at(LtcTable t, float along, float down) {
     float x = along * to_float(t.columns - 1), y = down * to_float(t.rows - 1);
     float left = clamp(floor(x), 0.0f, to_float(t.columns - 2));
@@ -64,7 +64,7 @@ FN float ltc_table_interpolate(LtcTable t, LtcSpot s, int plane) {
     return mix(a, b, s.y);
 }
 
-/* The lobe as wo of that cosine sees it, its parameter being p. */
+/* Returns the lobe for a wo of that cosine and parameter p. */
 FN LtcLobe ltc_table_at(LtcTable t, float cos_o, float p) {
     LtcSpot s = ltc_table_spot(t, cos_o, p);
     LtcLobe l;
@@ -75,11 +75,11 @@ FN LtcLobe ltc_table_at(LtcTable t, float cos_o, float p) {
     return l;
 }
 
-/* The planes of a level one (weft/ltc.h), where r is 0. */
+/* The planes of a table with r = 0 (weft/ltc.h), the others in the same order. */
 #define LTC_LEVEL_E      3
 #define LTC_LEVEL_PLANES 4
 
-/* A lobe's own table, of so many planes. */
+/* Returns a lobe's own table, which has that many planes. */
 FN LtcTable ltc_table_of(TableRef e, int planes) {
     LtcTable t;
     t.texels = e.texels;
@@ -102,14 +102,15 @@ FN LtcLobe ltc_table_level(TableRef e, float cos_o, float p) {
 }
 
 /* The planes of a published one: a and b of M^-1 = (a 0 b, 0 a 0, 0 0 1), x along wo, and R (lobe
- * ltc-fibre-published). Nodes are uniform in cos_o and in alpha, and a, b and R are mixed linearly, as its authors do. */
+ * ltc-fibre-published). Nodes are uniform in cos_o and in alpha, and a, b and R are mixed linearly, as its authors
+ * do. */
 #define LTC_PUBLISHED_A      0
 #define LTC_PUBLISHED_B      1
 #define LTC_PUBLISHED_R      2
 #define LTC_PUBLISHED_PLANES 3
 
-/* M^-1 / a is that of ltc_of with z = 1 / a, q = 1 and b / (a s). b goes as s^2 towards the normal; the floors keep
- * 16 bits from 0 / 0. */
+/* Returns the lobe from a published table. M^-1 / a is that of ltc_of with z = 1 / a, q = 1 and b / (a s). b goes as
+ * s^2 towards the normal; the floors prevent 0 / 0 in 16 bits. */
 FN LtcLobe ltc_table_published(TableRef e, float cos_o, float alpha) {
     LtcTable t = ltc_table_of(e, LTC_PUBLISHED_PLANES);
     float c = clamp(cos_o, 0.0f, 1.0f), s = sqrt(max(1.0f - c * c, 1e-4f));

@@ -31,7 +31,7 @@ FN Dir polygon_cross(Dir a, Dir b) {
     return dir(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }
 
-/* w over its length; a corner at the point itself is nowhere. */
+/* Returns w / |w|. A corner at the point itself has no direction and becomes 0. */
 FN Dir polygon_unit(Dir w) {
     float most = max(max(abs(w.x), abs(w.y)), max(abs(w.z), 1e-18f)), s = 1.0f / most;
     Dir v = dir(w.x * s, w.y * s, w.z * s);
@@ -39,11 +39,11 @@ FN Dir polygon_unit(Dir w) {
     return dir(v.x * r, v.y * r, v.z * r);
 }
 
-/* The corner before the first; of no polygon, any. */
+/* Returns the last corner, which precedes the first; any corner if the polygon is empty. */
 FN Dir polygon_last(Polygon p) { return p.corners[p.count > 0 ? p.count - 1 : 0]; }
 
-/* The part above the horizon; count is 0 where there is none. Ivan E. Sutherland, Gary W. Hodgman,
- * "Reentrant Polygon Clipping", Communications of the ACM 17(1), 1974, for one plane. */
+/* Returns the part above the horizon; its count is 0 if there is none. Ivan E. Sutherland, Gary W. Hodgman, "Reentrant
+ * Polygon Clipping", Communications of the ACM 17(1), 1974, for one plane. */
 FN Polygon polygon_clip(Polygon p) {
     Polygon q = p;
     q.count = 0;
@@ -65,14 +65,14 @@ FN Polygon polygon_clip(Polygon p) {
     return q;
 }
 
-/* Corners on the unit sphere. */
+/* Returns the polygon with its corners projected to the unit sphere. */
 FN Polygon polygon_on_sphere(Polygon p) {
     Polygon q = p;
     for (int k = 0; k < p.count; k++) q.corners[k] = polygon_unit(p.corners[k]);
     return q;
 }
 
-/* gamma / sin gamma for x = 1 - cos gamma in [0, 1]: a polynomial interpolated at Chebyshev nodes, within
+/* Evaluates gamma / sin gamma for x = 1 - cos gamma in [0, 1] by a polynomial interpolated at Chebyshev nodes, within
  * 2.3e-7 and exact at 0. */
 FN float polygon_arc(float x) {
     float p = 0.0127232925f;
@@ -86,8 +86,8 @@ FN float polygon_arc(float x) {
     return 1.0f + x * p;
 }
 
-/* G of the arc from a to b. The difference of the corners takes the place of b, for near ones have most
- * digits in common; beyond a right angle gamma is pi less the arc to -b. */
+/* Returns G of the arc from a to b. It is computed from the difference of the corners, since near ones have most digits
+ * in common; beyond a right angle gamma is pi less the arc to -b. */
 FN Dir polygon_edge(Dir a, Dir b) {
     Dir d = dir(b.x - a.x, b.y - a.y, b.z - a.z), n = polygon_cross(a, d);
     float x = 0.5f * dir_dot(d, d), k = polygon_arc(min(x, 1.0f));
@@ -95,7 +95,7 @@ FN Dir polygon_edge(Dir a, Dir b) {
     return dir(n.x * k, n.y * k, n.z * k);
 }
 
-/* The sum of the corners: a direction inside. */
+/* Returns the sum of the corners, a direction inside the polygon. */
 FN Dir polygon_sum(Polygon p) {
     Dir sum = dir(0.0f, 0.0f, 0.0f);
     for (int k = 0; k < p.count; k++)
@@ -103,7 +103,7 @@ FN Dir polygon_sum(Polygon p) {
     return sum;
 }
 
-/* L of a polygon on the sphere. */
+/* Returns L of a polygon on the sphere. */
 FN Dir polygon_flux(Polygon p) {
     Dir sum = dir(0.0f, 0.0f, 0.0f), a = polygon_last(p);
     for (int k = 0; k < p.count; k++) {
@@ -118,19 +118,19 @@ FN Dir polygon_flux(Polygon p) {
 /* Below this L, sr, rounding reaches a thousandth of it, and another formula without that loss takes over. */
 #define POLYGON_SMALL 1e-4f
 
-/* c of a polygon on the sphere: the direction of L. */
+/* Returns c of a polygon on the sphere: the direction of L. */
 FN Dir polygon_middle(Polygon p, Dir flux) {
     Dir sum = polygon_sum(p);
     return polygon_unit(
         dir(flux.x + POLYGON_SMALL * sum.x, flux.y + POLYGON_SMALL * sum.y, flux.z + POLYGON_SMALL * sum.z));
 }
 
-/* The integral of max(z, 0) / pi over the polygon, whatever is below the horizon: in [0, 1]. */
+/* Returns the integral of max(z, 0) / pi over the part of the polygon above the horizon, 0 to 1. */
 FN float polygon_cosine(Polygon p) {
     return clamp(polygon_flux(polygon_on_sphere(polygon_clip(p))).z / PI, 0.0f, 1.0f);
 }
 
-/* The integral of a linearly transformed cosine over what of the polygon is above the horizon. */
+/* Returns the integral of a linearly transformed cosine over the part of the polygon above the horizon. */
 FN float polygon_ltc(Ltc m, Dir o, Polygon p) {
     Polygon q = polygon_clip(p);
     for (int k = 0; k < q.count; k++) q.corners[k] = ltc_inverse(m, o, q.corners[k]);
@@ -148,12 +148,12 @@ STRUCT(PolygonPoint) {
     float area; /* sr */
 };
 
-/* Return the rays for an edge of a polygon with `count` corners, 1 to 3, and the points on a ray, 2 or 3: at
- * most 32 in all. */
+/* Returns the number of rays for an edge of a polygon with `count` corners, 1 to 3; polygon_steps the points on a ray,
+ * 2 or 3. They are at most 32 in all. */
 FN int polygon_rays(int count) { return count < 4 ? 3 : count < 9 ? 2 : 1; }
 FN int polygon_steps(int count) { return count < 6 || count > 8 ? 3 : 2; }
 
-/* Ray j of `rays` to the arc from a to b: Gauss' points for an even weight, counted from the middle. */
+/* Returns ray j of `rays` to the arc from a to b: Gauss' points for a constant weight, counted from the middle. */
 FN PolygonRay polygon_ray(Dir c, Dir a, Dir b, int j, int rays) {
     float t = 0.0f, weight = 1.0f;
     if (rays == 2) {
@@ -175,7 +175,7 @@ FN PolygonRay polygon_ray(Dir c, Dir a, Dir b, int j, int rays) {
     return r;
 }
 
-/* Point j of a ray: Gauss' points for the weight 2 s. With 1 - w . c = s^2 (1 - e . c) = x, w is on the arc
+/* Returns point j of a ray: Gauss' points for the weight 2 s. With 1 - w . c = s^2 (1 - e . c) = x, w is on the arc
  * where it is e k + c (1 - x - k e . c),  k = s sqrt((2 - x) / (1 + e . c)). */
 FN PolygonPoint polygon_point(Dir c, PolygonRay r, int j, int steps) {
     float s = j == 0 ? 0.355051026f : 0.844948974f, weight = j == 0 ? 0.363917237f : 0.636082763f;

@@ -4,20 +4,20 @@
 
 #include "shading/stack/input_ids.h"
 
-/* The id of value k of a choice, NULL past the last. */
+/* Returns the id of value k of a choice, NULL past the last. */
 const char *choice_id(ChoiceId choice, int k);
 
-/* The value of an id or of an alias; -1 is none. "auto", CHOICE_AUTO, is not found. */
+/* Returns the value of an id or of an alias, or -1 if there is none. "auto", CHOICE_AUTO, is not found. */
 int choice_find(ChoiceId choice, const char *id);
 
 /* Returns true if a material may have this value: a diffuse term is a diffuse lobe, any lobe is a sheen. */
 int choice_fits(ChoiceId choice, int k);
 
-/* The id for which a name is an alias ("charlie-v": conty-kulla), or the name itself. */
+/* Returns the id for which a name is an alias ("charlie-v": conty-kulla), or the name itself. */
 const char *alias_id(const char *name);
 
-/* "a, b, c": all ids that begin with name and a dash, where there are at least two, so that the name alone
- * says too little (charlie: a lobe of which visibility?). Returns text, or NULL. */
+/* Fills text with all ids that begin with name and a dash, "a, b, c", if there are at least two, so that the name alone
+ * is ambiguous (charlie: a lobe of which visibility?). Returns text, or NULL. */
 enum { SEVERAL_SIZE = 200 };
 const char *choice_several(ChoiceId choice, const char *name, char text[SEVERAL_SIZE]);
 

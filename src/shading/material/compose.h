@@ -73,7 +73,8 @@ FN Lobe compose_sheen(Lobe lobe, const Surface *s, Choices c) {
     return compose_terms(m, c.sheen_d, c.sheen_v, c.sheen_f, s);
 }
 
-/* Return the inputs that set parameters, by their names, of a chosen sheen and of a chosen diffuse lobe. */
+/* Returns the inputs that set parameters of a chosen sheen by their names; compose_diffuse_named does so for a chosen
+ * diffuse lobe. */
 FN LobeNamed compose_sheen_named(const Surface *s) {
     LobeNamed n = lobe_unnamed();
     n.density = s->sheen_density;

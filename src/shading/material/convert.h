@@ -38,7 +38,7 @@ FN Surface convert_to_specular(Surface s) {
     return t;
 }
 
-/* The m in [0, 1] of the header for means of d and f; 0 where f is no more than a dielectric's. */
+/* Returns m of the opening comment, in [0, 1], for means of d and f; 0 if f is no more than a dielectric's. */
 FN float convert_metallic(float d, float f, float f_d) {
     if (f <= f_d) return 0.0f;
     /* f_d m^2 + b m + (f_d - f) = 0 with f_d - f < 0: one root above 0, in the form that does not cancel */
@@ -78,7 +78,7 @@ FN Choices convert_choices(Choices c) {
     return d;
 }
 
-/* The greatest difference, over the channels, that the conversion makes to d and f. */
+/* Returns the greatest difference, over the channels, that the conversion makes to d and f. */
 FN float convert_loss(Surface s, Choices c) {
     if (!convert_wanted(c)) return 0.0f;
     Surface t = convert_surface(s, c);

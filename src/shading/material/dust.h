@@ -22,18 +22,19 @@
 /* Up to this there is none: nobody sees it, and it gets no samples. */
 #define DUST_LEAST 1e-5f
 
-/* x mod 289 of a whole number, |x| < 2^22. Exact in floats, on every machine: the half that is added is more
- * than what the product is rounded by. */
+/* Returns x mod 289 of a whole number, |x| < 2^22. It is exact in floats on every machine: the 1/2 that is added is
+ * more than the rounding of the product. */
 FN float dust_mod(float x) { return x - floor((x + 0.5f) * 0.00346020761f) * 289.0f; }
 
 /* Works as dust_mod, for a sum of two numbers below 289. */
 FN float dust_sum(float a, float b) { return a + b < 289.0f ? a + b : a + b - 289.0f; }
 
-/* A permutation of 0 .. 288: 34 x^2 + 10 x mod 17^2. Ian McEwan, David Sheets, Mark Richardson, Stefan
+/* Returns a permutation of 0 .. 288: 34 x^2 + 10 x mod 17^2. Ian McEwan, David Sheets, Mark Richardson, Stefan
  * Gustavson, "Efficient Computational Noise in GLSL", Journal of Graphics Tools 16(2), 2012. */
 FN float dust_hash(float x) { return dust_mod((34.0f * x + 10.0f) * x); }
 
-/* Between lattice points of one line, then of one plane; h is the hash of what has been hashed before. */
+/* Interpolates between lattice points of one line; dust_plane does so for one plane. h: the hash of the coordinates
+ * that are hashed already. */
 FN float dust_line(float h, Dir a, Dir b, Dir t) {
     return mix(dust_hash(dust_sum(h, a.z)), dust_hash(dust_sum(h, b.z)), t.z);
 }
@@ -44,7 +45,7 @@ FN float dust_plane(float h, Dir a, Dir b, Dir t) {
 
 FN float dust_ease(float t) { return t * t * (3.0f - 2.0f * t); }
 
-/* A random number at each whole point of space and a smooth course between them, in [0, 1]. */
+/* Returns noise, 0 to 1: a random number at each whole point of space, interpolated smoothly. */
 FN float dust_octave(Dir p) {
     float most = 2097152.0f; /* 2^21: floats of this size have few fractions left */
     float x = clamp(p.x, -most, most), y = clamp(p.y, -most, most), z = clamp(p.z, -most, most);
@@ -55,8 +56,8 @@ FN float dust_octave(Dir p) {
     return mix(dust_plane(dust_hash(a.x), a, b, t), dust_plane(dust_hash(b.x), a, b, t), t.x) / 288.0f;
 }
 
-/* Three octaves, turned so that no table or wall follows the lattice, with the middle of their range spread
- * over [0, 1]. */
+/* Returns three octaves of noise, rotated so that no table or wall is parallel to the lattice, with the middle of their
+ * range stretched to [0, 1]. */
 FN float dust_noise(Dir p, float scale) {
     float k = 1.0f / max(3.0f * scale, 1e-6f); /* a texture may make scale 0 */
     Dir q = dir((2.0f * p.x - p.y + 2.0f * p.z) * k, (2.0f * p.x + 2.0f * p.y - p.z) * k,
@@ -77,8 +78,8 @@ FN Dir dust_source(Surface s) {
     return dir(across * s.dust_direction.x, cos(s.dust_tilt), across * s.dust_direction.y);
 }
 
-/* The surface at a point p of the world, metres, with the world's shading normal n there: its dust becomes
- * what lies at this point. Both renderers ask before they make the stack. */
+/* Returns the surface at a point p of the world, metres, with the world's shading normal n there: its dust becomes the
+ * amount at this point. Both renderers call this before they make the stack. */
 FN Surface dust_accumulate(Surface s, Dir n, Dir p) {
     if (s.dust <= 0.0f) return s;
     Surface t = s;

@@ -20,18 +20,18 @@
 /* Slabs where dust is 1. */
 #define DUST_SLABS 8.0f
 
-/* R of the header. */
+/* Returns R of the opening comment. */
 FN float dust_eddington(float t, float mu) {
     return (3.0f * t + (2.0f - 3.0f * mu) * flake_visibility(t, 1.0f, mu)) / (4.0f + 3.0f * t);
 }
 
-/* E / E_1 where so much dust lies. */
+/* Returns E / E_1 for that amount of dust. */
 FN float dust_weight(float dust, float e_1, float cos_o) {
     float mu = max(cos_o, 1e-4f);
     return min(dust_eddington(DUST_SLABS * dust, mu) / dust_eddington(1.0f, mu), 1.0f / max(e_1, 1e-6f));
 }
 
-/* E_1. */
+/* Returns E_1. */
 FN float dust_albedo(const Lobe *m, float cos_o) {
     return min(ltc_table_level(lobe_table_ltc_fibre(), cos_o, m->params[LTC_FIBRE_ALPHA]).f0, 1.0f);
 }

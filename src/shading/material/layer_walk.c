@@ -24,7 +24,7 @@ typedef struct WalkLayer {
     Slots own;
 } WalkLayer;
 
-/* Seen from o, of which else nothing changes. */
+/* Views the layer from o; nothing else changes. */
 static void turn(WalkLayer *layer, Dir o) {
     layer->view.o = layer->view.coat_o = o;
     stack_view_lobes(layer->stack, &layer->view);
@@ -51,7 +51,8 @@ static Rgb let_through(const Stack *stack, Dir w) {
                max(1.0f - c.b * sheen_e_in(e, c.b), 0.0f));
 }
 
-/* The picks of its own scaled to 1. What dust and coat let through counts once and not at every bounce. */
+/* Returns one layer with its own probabilities scaled to a sum of 1. The transmittance of dust and coat is divided out:
+ * it applies once and not at each bounce. */
 static WalkLayer walk_layer_of(const Stack *alone, const StackView *view, bool sheen) {
     WalkLayer s = {alone, *view, slots_of(!sheen, !sheen, sheen, false, false)};
     const Scales *p = &view->select_p;

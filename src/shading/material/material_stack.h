@@ -24,30 +24,30 @@ static inline const Slot *stack_slot(const Stack *m, int place) {
  * reference: by value they would be packed into registers and come out slower than they are computed. */
 #define ONE_COPY __attribute__((noinline))
 
-/* Fills stack for a surface, once for all directions. e is the table of the sheen's E that surface_stack asks
- * for; one of TABLE_NONE where it asks for none or the sheen is black. */
+/* Fills stack for a surface; it serves all directions. e: the table of the sheen's E that surface_stack needs, of kind
+ * TABLE_NONE if it needs none or the sheen is black. */
 ONE_COPY void stack_make(Stack *stack, const Surface *surface, const Choices *choices, TableRef e);
 
-/* Fills view for wo (shading frame, z > 0), once for all wi. It holds for that stack alone. */
+/* Fills view for wo (shading frame, z > 0); it serves all wi, for that stack only. */
 ONE_COPY void stack_see(const Stack *stack, const Dir *o, StackView *view);
 
-/* f cos and pdf for wi; below the horizon of what comes through. seed: of the random walk that layer rule stochastic takes
- * between sheen and base, where f is an unbiased estimate; pdf never depends on it. */
+/* Computes f cos and pdf for wi; for wi below the horizon, those of the transmitted light. seed: of the random walk
+ * that layer rule stochastic takes between sheen and base, where f is an unbiased estimate. pdf never depends on it. */
 ONE_COPY void stack_eval(const Stack *stack, const StackView *view, const Dir *i, uint32_t seed,
                          StackValue *value);
 
 /* Works as stack_eval, for some of the slots, and without the walk of layer rule stochastic. */
 ONE_COPY StackValue stack_eval_of(const Stack *stack, const StackView *view, Slots only, Dir i);
 
-/* A wi for (u, v) in [0, 1)^2; where there is no sample at the horizon, or below if nothing comes through. */
+/* Computes a wi for (u, v) in [0, 1)^2. If there is no sample, wi is at the horizon, or below it if nothing is
+ * transmitted. */
 ONE_COPY void stack_sample(const Stack *stack, const StackView *view, float u, float v, Dir *i);
 
-/* The slot that u in [0, 1) picks, by its place among SLOTS, -1 where there is none; u becomes what is left
- * of it, again in [0, 1). */
+/* Returns the slot that u in [0, 1) selects, by its place in SLOTS, or -1 if there is none. Rescales u to [0, 1). */
 int stack_select_slot(const StackView *view, float *u);
 
-/* layer_walk.c: of layer rule stochastic, else 0: light from wi that `last` of the slots reflected first and that
- * then bounced at least once between the base and the sheen's underside, times the cosine of wi. */
+/* Returns, for layer rule stochastic, the light from wi that the slots in `last` reflected first and that then bounced
+ * at least once between the base and the sheen's underside, times the cosine of wi; 0 for other rules. */
 ONE_COPY Rgb layer_walk_bounces(const Stack *stack, const StackView *view, Slots last, Dir i, uint32_t seed);
 
 /* A stack and its view from one direction. */
@@ -58,7 +58,7 @@ typedef struct SeenStack {
 void seen_make(SeenStack *seen, const Surface *surface, const Choices *choices, TableRef e, Dir o);
 /* Puts a lobe with two colours in the place of the diffuse and the specular one. */
 void stack_put_base(Stack *stack, const Lobe *lobe, Rgb f0, Rgb f90);
-/* The view of a stack whose lobes have been put in by hand. */
+/* Prepares the view of a stack whose lobes were set by hand. */
 void seen_prepare(SeenStack *seen, Dir o);
 static inline StackValue seen_eval(const SeenStack *seen, Dir i, uint32_t seed) {
     StackValue value;

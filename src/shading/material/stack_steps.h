@@ -10,7 +10,8 @@ FN Dir from_coat(const Stack *s, Dir w) {
                w.x * s->coat_x.z + w.y * s->coat_y.z + w.z * s->coat_z.z);
 }
 
-/* wo above the horizon, whatever the coat's own normal may see. */
+/* Returns f cos and pdf for i. wo is above the horizon of the surface; it may be below that of the coat's own
+ * normal. */
 FN StackValue value_of(const Stack *stack, const StackView *view, Slots only, Dir i) {
     if (i.z <= 0.0f && !(i.z < 0.0f && only.diffuse && HAS_TRANSMITTED(stack))) return (StackValue){0};
     Angles a = angles_between(view->o, dir(i.x, i.y, abs(i.z))), in_coat;

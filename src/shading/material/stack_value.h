@@ -9,8 +9,8 @@
     IN_SLOT(slot, reflect)                                                                                   \
     (m->slot.lobe.id, &m->slot##_prepared, &w->slot##_view, pair, &m->slot.f0, &m->slot.f90, &v);
 
-/* f of the diffuse lobe under the interface. through: what that lets through by a rule that puts it over the sheen
- * too, which is the case if below_f. */
+/* Returns f of the diffuse lobe under the interface. through: the transmittance of the interface by a rule that puts it
+ * over the sheen too, which applies if below_f. */
 FN Rgb stack_under_interface(const Stack *m, const StackView *w, const Angles *a, bool below_f, Rgb through,
                              Rgb f) {
     if (below_f) return rgb_mul(rgb_mul(f, through), w->base_scale);
@@ -18,7 +18,7 @@ FN Rgb stack_under_interface(const Stack *m, const StackView *w, const Angles *a
     return f;
 }
 
-/* f of the base under the sheen, of the other rules. */
+/* Returns f of the base under the sheen, for the other rules. */
 FN Rgb stack_under_sheen(const Stack *m, const StackView *w, const Angles *a, Rgb f) {
     Rgb base_scale = w->base_scale;
     if (layer_asks_wi(m->layer)) {

@@ -22,7 +22,7 @@
 
 #include "shading/dialect/angles.h"
 
-/* The axis of fibres that lean by `tilt` towards `azimuth`, from x to y. Radians. */
+/* Returns the axis of fibres that lean by `tilt` towards `azimuth`, from x to y. Radians. */
 FN Dir flake_axis(float tilt, float azimuth) {
     return dir(sin(tilt) * cos(azimuth), sin(tilt) * sin(azimuth), cos(tilt));
 }
@@ -31,15 +31,14 @@ FN float flake_sigma(float s, float nu) {
     return sqrt(max((1.0f - nu) * (1.0f + nu), 0.0f) + s * s * nu * nu);
 }
 
-/* D by q = |wi + wo|^2 and m = nu_i + nu_o, since c^2 = m^2 / q: no half vector is normalised. D is between
- * s^3 / pi and 1 / (pi s); what it is for opposite directions, where q is 0, depends on how they get there.
- */
+/* Returns D from q = |wi + wo|^2 and m = nu_i + nu_o, since c^2 = m^2 / q: no half vector is normalised. D is between
+ * s^3 / pi and 1 / (pi s). For opposite directions, where q is 0, it depends on how the limit is taken. */
 FN float flake_d(float s, float q, float m) {
     float r = s / (s * s + (1.0f - s * s) * min(m * m / max(q, 1e-30f), 1.0f));
     return s / PI * r * r;
 }
 
-/* (1 - exp(-x)) / L for x = H L / (mu_i mu_o); by its series where the difference would cancel. */
+/* Evaluates (1 - exp(-x)) / L for x = H L / (mu_i mu_o), by its series where the difference would cancel. */
 FN float flake_visibility(float thickness, float lambda, float mu_mu) {
     float depth = thickness / max(mu_mu, 1e-37f), x = depth * lambda, y = min(x, 0.5f);
     float series = 1.0f - y / 6.0f * (1.0f - y / 7.0f * (1.0f - y / 8.0f));
@@ -47,7 +46,7 @@ FN float flake_visibility(float thickness, float lambda, float mu_mu) {
     return x < 0.5f ? depth * series : (1.0f - exp(-x)) / lambda;
 }
 
-/* f1 of white flakes: light that met exactly one. */
+/* Returns f1 of white flakes, their single scattering. */
 FN float flake_single_of(float s, Dir t, float thickness, float sigma_o, float sigma_i, Dir o, Dir i) {
     float lambda = sigma_i * o.z + sigma_o * i.z;
     Dir sum = dir(o.x + i.x, o.y + i.y, o.z + i.z);
@@ -65,7 +64,7 @@ FN float flake_single(float s, Dir t, float thickness, Dir o, Dir i) {
  * of q and m^2 in the root of D / (4 e). */
 STRUCT(FlakeUpright) { float e2, rest, across, along; };
 
-/* s is 0.03 at least: thinner flakes need the series above. */
+/* Precomputes the factors of flake_single_upright. s is at least 0.03: thinner flakes need the series above. */
 FN FlakeUpright flake_upright(float s, float thickness) {
     FlakeUpright r;
     float e = 1.44269504f * thickness, root = sqrt(4.0f * PI / (s * s * s * e));
@@ -76,7 +75,7 @@ FN FlakeUpright flake_upright(float s, float thickness) {
     return r;
 }
 
-/* f1 again, with as few instructions as we know. */
+/* Returns f1 of upright flakes over the scale of flake_upright, with few instructions. */
 FN float flake_single_upright(FlakeUpright r, Dir o, Dir i) {
     float both = o.z * i.z, m = o.z + i.z, mm = m * m, x = o.x + i.x, y = o.y + i.y;
     float q = max(x * x + (y * y + mm), 1e-30f);
@@ -87,14 +86,14 @@ FN float flake_single_upright(FlakeUpright r, Dir o, Dir i) {
     return ratio * ratio * seen;
 }
 
-/* S^(1/2) w; sigma is its length. */
+/* Evaluates S^(1/2) w, whose length is sigma. */
 FN Dir flake_stretch(float s, Dir t, Dir w) {
     float k = (1.0f - s) * dir_dot(w, t);
     return dir(w.x - k * t.x, w.y - k * t.y, w.z - k * t.z);
 }
 
-/* The direction in which a flake sends the light that came from wi, distributed as p, for a point of the unit
- * sphere: the visible normals of an ellipsoid are S^(1/2) u, u by the cosine about S^(1/2) wi. A point of the
+/* Returns the direction in which a flake scatters the light from wi, distributed as p, for a point of the unit sphere.
+ * The visible normals of an ellipsoid are S^(1/2) u, u distributed by the cosine about S^(1/2) wi. A point of the
  * sphere that stands on the tip of that axis is such a u, but for its length. */
 FN Dir flake_turn(float s, Dir t, Dir i, Dir point) {
     Dir v = flake_stretch(s, t, i);

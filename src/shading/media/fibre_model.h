@@ -69,8 +69,8 @@ FN FibreModel fibre_model(float alpha, float tilt) {
     return m;
 }
 
-/* The powers of d = nu - mu and of u by which a leaning fibre differs from an upright one, of which fibre_model has
- * taken those without d; w fades from the horizon. */
+/* Adds the powers of d = nu - mu and of u by which a leaning fibre differs from an upright one. fibre_model has
+ * included those without d. w fades from the horizon. */
 FN FibreSide fibre_nap(FibreModel m, FibreNumbers n, FibreSide side, float mu, float nu, float u) {
     float d = nu - mu, w = 0.03f / (mu + 0.03f);
     float first = n.na0 + u * (n.na2 + u * (n.na7 + u * (n.na12 + u * n.na18)));
@@ -103,7 +103,7 @@ FN FibreSide fibre_thin(FibreNumbers n, FibreSide r, float u) {
     return r;
 }
 
-/* Polynomials in u, which runs from -1 at the horizon to 1, by Horner's rule. */
+/* Returns the part of one direction: polynomials in u, which runs from -1 at the horizon to 1, by Horner's rule. */
 FN FibreSide fibre_side(FibreModel m, FibreNumbers n, float mu, float nu) {
     float u = m.span * pow(mu + 1e-3f, m.power) + m.low;
     FibreSide r;
@@ -124,7 +124,7 @@ FN FibreSide fibre_side(FibreModel m, FibreNumbers n, float mu, float nu) {
     return r;
 }
 
-/* e less log2 of the bases to their powers. */
+/* Returns e less log2 of the bases to their powers. */
 FN float fibre_bases(FibreModel m, FibreNumbers n, FibreSide o, FibreSide i, float e) {
     float sum = o.mu + i.mu, cross = sum * sum - 3.0f * (o.mu * i.mu);
     float l = e - n.p0 * log2(sum + 0.04f) - n.p1 * log2(cross + m.ridge);
@@ -141,16 +141,16 @@ FN float fibre_bases(FibreModel m, FibreNumbers n, FibreSide o, FibreSide i, flo
     return l;
 }
 
-/* wo . wi - nu_o nu_i: the cosine of the azimuth about the fibre, times both sines. */
+/* Returns wo . wi - nu_o nu_i: the cosine of the azimuth about the fibre, times both sines. */
 FN float fibre_turn(FibreSide o, FibreSide i, Dir wo, Dir wi) { return dir_dot(wo, wi) - o.nu * i.nu; }
 
-/* M, 1/sr. */
+/* Returns M, the multiple scattering, 1/sr. */
 FN float fibre_multiple(FibreModel m, FibreNumbers n, FibreSide o, FibreSide i, float turn) {
     float e = (o.a + i.a) + (o.h * i.h - o.g * i.g) - o.k * i.k * turn;
     return exp2(fibre_bases(m, n, o, i, e));
 }
 
-/* e of the colour. */
+/* Returns e of the tint. */
 FN float fibre_tint_order(FibreSide o, FibreSide i, float turn) {
     return 0.69314718f * (o.v * i.v - o.u * i.u - o.c * i.c * turn);
 }

@@ -33,7 +33,7 @@ FN Lobe filament_charlie(float r) {
     return lobe;
 }
 
-/* Its slot in a colour, with what d_charlie_floored's norm took. */
+/* Sets the sheen slot in a colour, multiplied by the gain by which d_charlie_floored is divided. */
 FN void filament_fuzz(Stack *m, float r, Rgb color, int layer) {
     Lobe lobe = filament_charlie(r);
     workflow_sheen(m, lobe, color, color, layer);

@@ -30,8 +30,8 @@ FN float materialx_albedo(float x, float y) {
     return clamp(n / d, 0.0f, 1.0f);
 }
 
-/* One of the four polynomials of A and B: the coefficients of 1, x, y, xy, x^2, y^2, x^2 y, x y^2, x^2 y^2.
- */
+/* Returns one of the four polynomials of A and B from the coefficients of 1, x, y, xy, x^2, y^2, x^2 y, x y^2, x^2
+ * y^2. */
 FN float materialx_sum(float x, float y, float c, float cx, float cy, float cxy, float cxx, float cyy,
                        float cxxy, float cxyy, float cxxyy) {
     return c + cx * x + cy * y + cxy * x * y + cxx * x * x + cyy * y * y + cxxy * x * x * y +
@@ -81,7 +81,7 @@ FN void materialx_stack(Stack *m, const Surface *s) {
         rgb_mix(materialx_square(f0, f90), materialx_square(s->base_color, 1.0f), s->metallic);
 }
 
-/* F (1 + k F) of the highlight; the diffuse lobe is dimmed by its E. */
+/* Sets F (1 + k F) of the highlight, and the E of it that dims the diffuse lobe. */
 FN void materialx_view(const Stack *m, StackView *w) {
     float a = materialx_a(w->o.z, m->gloss), b = materialx_b(w->o.z, m->gloss), f90 = m->interface_f90;
     float k = 1.0f / max(a + b, 1e-3f) - 1.0f;

@@ -15,7 +15,7 @@ FN Dir dir_choose(bool first, Dir a, Dir b) {
     return dir(first ? a.x : b.x, first ? a.y : b.y, first ? a.z : b.z);
 }
 
-/* a / |a|, or fallback where a has no direction. */
+/* Returns a / |a|, or fallback if a has no direction. */
 FN Dir dir_normal_or(Dir a, Dir fallback) {
     float s = dir_dot(a, a);
     bool any = s > 1e-30f && s < 1e30f;
@@ -29,7 +29,7 @@ FN Dir frame_from(Frame f, Dir w) {
                f.x.z * w.x + f.y.z * w.y + f.z.z * w.z);
 }
 
-/* Frame about n whose x is along `tangent`, or, where that has no direction across n, along any. Without a
+/* Returns a frame about n with x along `tangent`, or along any direction if the tangent has none across n. Without a
  * tangent: Tom Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017. */
 FN Frame frame_about(Dir n, Dir tangent, float handedness) {
     float sign = n.z < 0.0f ? -1.0f : 1.0f, a = -1.0f / (sign + n.z), b = n.x * n.y * a;
@@ -41,8 +41,8 @@ FN Frame frame_about(Dir n, Dir tangent, float handedness) {
     return f;
 }
 
-/* The normal nearest to n whose mirror direction of wo is not below the surface: else a normal map shows
- * black where it should reflect. Alexander Keller et al., "The Iray Light Transport Simulation and Rendering
+/* Returns the normal nearest to n for which the mirror direction of wo is not below the surface; otherwise a normal map
+ * would show black where it should reflect. Alexander Keller et al., "The Iray Light Transport Simulation and Rendering
  * System", 2017, A.3. */
 FN Dir frame_bent(Dir n, Dir geometric, Dir wo) {
     float cosine = dir_dot(wo, n);
@@ -62,20 +62,20 @@ STRUCT(Facing) {
     float handedness; /* of the bitangent: n x t times this */
 };
 
-/* The normal nearest to n that the viewer sees, by a hair: of a mesh whose normals are smoother than it is.
- */
+/* Returns the normal nearest to n that the viewer sees, at a cosine of at least about 1e-4: a mesh may have normals
+ * that are smoother than its shape. */
 FN Dir frame_visible_normal(Dir n, Dir wo) {
     float away = max(1e-4f - dir_dot(n, wo), 0.0f);
     Dir m = dir_add(n, dir_scale(wo, away));
     return dir_scale(m, 1.0f / sqrt(dir_dot(m, m)));
 }
 
-/* The interpolated normal, or the geometric one where that is damaged. */
+/* Returns the interpolated normal, or the geometric one if the interpolated one is damaged. */
 FN Dir facing_normal(Facing at) {
     return dir_choose(dir_dot(at.normal, at.geometric) > 0.0f, at.normal, at.geometric);
 }
 
-/* The frame of a surface seen along wo, x along the direction of its anisotropy if it has one. */
+/* Returns the frame of a surface viewed from wo, with x along the direction of its anisotropy if it has one. */
 FN Frame frame_of(Facing at, Surface s, Dir wo) {
     Dir normal = facing_normal(at), n = normal;
     if (s.normal.z < 1.0f)
@@ -86,7 +86,7 @@ FN Frame frame_of(Facing at, Surface s, Dir wo) {
     return f;
 }
 
-/* The surface as its frame sees it: directions that were relative to the tangent are relative to x. */
+/* Returns the surface with directions relative to x of its frame instead of the tangent. */
 FN Surface frame_surface(Surface s) {
     if (s.anisotropy > 0.0f) {
         Dir a = s.anisotropy_direction, b = s.nap_direction;

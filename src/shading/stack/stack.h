@@ -219,8 +219,8 @@ FN void stack_clear(Stack *m) {
     m->coat_y = dir(0.0f, 1.0f, 0.0f);
     m->coat_z = dir(0.0f, 0.0f, 1.0f);
 }
-/* The frame about the coat's own normal; which way x points does not matter to an isotropic coat. Tom Duff et
- * al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017. */
+/* Sets the frame about the coat's own normal. Any x serves an isotropic coat. Tom Duff et al., "Building an Orthonormal
+ * Basis, Revisited", JCGT 6(1), 2017. */
 FN void stack_coat_frame(Stack *m, Dir n) {
     float a = -1.0f / (1.0f + n.z), b = n.x * n.y * a;
     m->coat_x = dir(1.0f + n.x * n.x * a, b, -n.x);

@@ -10,7 +10,7 @@
 #define DIELECTRIC_LOW  0.017f
 #define DIELECTRIC_HIGH 0.067f
 
-/* F0 = ((ior - 1) / (ior + 1))^2, or from the slider where no ior is given. */
+/* Returns F0 = ((ior - 1) / (ior + 1))^2, or F0 from the slider `reflectance` if no ior is given. */
 FN float dielectric_f0(const Surface *s) {
     float r = (s->ior - 1.0f) / (s->ior + 1.0f);
     return s->ior > 0.0f
@@ -18,8 +18,8 @@ FN float dielectric_f0(const Surface *s) {
                : clamp(DIELECTRIC_LOW + (DIELECTRIC_HIGH - DIELECTRIC_LOW) * s->reflectance, 0.0f, 1.0f);
 }
 
-/* The coat of glTF: GGX of ior 1.5 with its own normal, which dims all below it by 1 - F(cos_o).
- * Khronos Group, KHR_materials_clearcoat, 2020. */
+/* Sets the coat of glTF: GGX of ior 1.5 with its own normal, which dims everything below it by 1 - F(cos_o). Khronos
+ * Group, KHR_materials_clearcoat, 2020. */
 FN void workflow_coat(Stack *m, const Surface *s) {
     if (s->clearcoat <= 0.0f) return;
     stack_coat_frame(m, s->clearcoat_normal);
@@ -29,8 +29,8 @@ FN void workflow_coat(Stack *m, const Surface *s) {
     slot_even(&m->coat, lobe, rgb_grey(1.0f), rgb_grey(1.0f), 1.0f);
 }
 
-/* The sheen: any lobe of the catalogue in a colour, under a layer rule. Its E is asked of the table of that
- * lobe, by the lobe's first parameter. */
+/* Sets the sheen: any lobe of the catalogue in a colour, under a layer rule. Its E is read from the table of that lobe,
+ * by the lobe's first parameter. */
 FN void workflow_sheen(Stack *m, Lobe lobe, Rgb color, Rgb second, int layer) {
     m->layer = layer;
     m->color = color;
@@ -46,7 +46,7 @@ FN void workflow_transmission(Stack *m, const Surface *s, float weight) {
     m->transmitted = rgb_scale(s->diffuse_transmission_color, s->diffuse_transmission * weight);
 }
 
-/* The base: a diffuse lobe of one colour under a GGX of f0 and f90. alpha = roughness^2. */
+/* Sets the base: a diffuse lobe of one colour under a GGX of f0 and f90. alpha = roughness^2. */
 FN void workflow_base(Stack *m, const Surface *s, Rgb diffuse, Rgb f0, float f90) {
     float mean = rgb_mean(diffuse);
     Lobe lobe = lobe_rough(LOBE_GGX, s->roughness);

@@ -11,7 +11,7 @@
 
 #include "shading/terms/d_velvet.h"
 
-/* It is d_velvet with the probability ashikhmin_rim, and else D = 1 / pi. */
+/* Returns the probability of d_velvet; otherwise D = 1 / pi. */
 FN float ashikhmin_rim(float alpha) { return 4.0f * alpha * alpha / (1.0f + 4.0f * alpha * alpha); }
 
 FN float ashikhmin_d(float alpha, Dir h) { return mix(1.0f / PI, velvet_d(alpha, h), ashikhmin_rim(alpha)); }

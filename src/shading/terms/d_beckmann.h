@@ -11,13 +11,13 @@
 
 #include "shading/terms/facet.h"
 
-/* The floor on cos_h^2 keeps its square a normal number: there D is 2e-14 or less in place of 0. */
+/* Returns D. The floor on cos_h^2 keeps its square a normal number: there D is at most 2e-14 instead of 0. */
 FN float beckmann_d(float alpha, Dir h) {
     float a2 = alpha * alpha, cos2 = max(h.z * h.z, 1e-10f);
     return exp(-(h.x * h.x + h.y * h.y) / (a2 * cos2)) / (PI * a2 * cos2 * cos2);
 }
 
-/* h from D cos_h: tan_h^2 = -alpha^2 ln u (the same work, Equation 28). */
+/* Returns h from D cos_h: tan_h^2 = -alpha^2 ln u (the same work, Equation 28). */
 FN Dir beckmann_facet(float alpha, float u, float v) {
     float tan_h = alpha * sqrt(max(-0.693147181f * log2(max(u, 1e-7f)), 0.0f));
     float cos_h = 1.0f / sqrt(1.0f + tan_h * tan_h);

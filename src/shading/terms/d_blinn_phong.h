@@ -11,14 +11,14 @@
 
 #include "shading/terms/facet.h"
 
-/* The exponent reaches 80000, and the square of a cosine near 1 has too few digits for that: they come from
- * the tangential part of h. */
+/* Returns D. The exponent reaches 80000, for which the square of a cosine near 1 has too few digits: it is computed
+ * from the tangential part of h. */
 FN float blinn_phong_d(float alpha, Dir h) {
     float a2 = alpha * alpha, sin2 = h.x * h.x + h.y * h.y;
     return exp((1.0f - 1.0f / a2) * facet_fall(sin2, max(h.z * h.z, 1e-30f))) / (PI * a2);
 }
 
-/* h from D cos_h: cos_h^2 = u^(alpha^2). */
+/* Returns h from D cos_h: cos_h^2 = u^(alpha^2). */
 FN Dir blinn_phong_facet(float alpha, float u, float v) {
     float sin2 = facet_rise(-0.693147181f * alpha * alpha * log2(max(u, 1e-7f)));
     return facet(sqrt(sin2), sqrt(max(1.0f - sin2, 0.0f)), v);

@@ -24,7 +24,7 @@ FN float charlie_floored_d(float alpha, Dir h) {
     return (2.0f + 1.0f / alpha) * pow(sin2, 0.5f / alpha) / (2.0f * PI * charlie_floored_gain(alpha));
 }
 
-/* h from D cos_h: sin_h^2 is uniform in the cap below the floor, and as in charlie_facet beyond it. */
+/* Returns h from D cos_h: sin_h^2 is uniform in the cap below the floor, and as in charlie_facet beyond it. */
 FN Dir charlie_floored_facet(float alpha, float u, float v) {
     float power = 1.0f + 0.5f / alpha, bare = pow(CHARLIE_FLOORED_SIN2, power);
     float cap = power * bare / charlie_floored_gain(alpha);

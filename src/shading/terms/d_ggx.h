@@ -10,18 +10,18 @@
 
 #include "shading/dialect/angles.h"
 
-/* alpha = roughness^2 in what is built on it (Burley 2012, Karis 2013). */
+/* Returns D. Lobes built on it have alpha = roughness^2 (Burley 2012, Karis 2013). */
 FN float ggx_d(float ax, float ay, Dir h) {
     float x = h.x / ax, y = h.y / ay, q = x * x + y * y + h.z * h.z;
     return 1.0f / (PI * ax * ay * q * q);
 }
 
-/* |(ax wx, ay wy, wz)|, from which all of Smith's terms are made. */
+/* Returns |(ax wx, ay wy, wz)|, of which all of Smith's terms are made. */
 FN float ggx_length(float ax, float ay, Dir w) {
     return sqrt(ax * ax * w.x * w.x + ay * ay * w.y * w.y + w.z * w.z);
 }
 
-/* h from D cos_h, whether wo sees it or not: the slopes of a disc, stretched (Walter et al., Equation 35). */
+/* Returns h from D cos_h, visible from wo or not: the slopes of a disc, stretched (Walter et al., Equation 35). */
 FN Dir ggx_facet(float ax, float ay, float u, float v) {
     float r = sqrt(u), phi = 2.0f * PI * v;
     float x = ax * r * cos(phi), y = ay * r * sin(phi), z2 = max(1.0f - u, 0.0f);
@@ -29,8 +29,8 @@ FN Dir ggx_facet(float ax, float ay, float u, float v) {
     return dir(x * n, y * n, sqrt(z2) * n);
 }
 
-/* A normal visible from wo: a point of the spherical cap that sees it, stretched back.
- * Jonathan Dupuy, Anis Benyoub, "Sampling Visible GGX Normals with Spherical Caps", HPG 2023, Listing 3. */
+/* Returns a normal visible from wo: a point of the spherical cap that sees it, stretched back. Jonathan Dupuy, Anis
+ * Benyoub, "Sampling Visible GGX Normals with Spherical Caps", HPG 2023, Listing 3. */
 FN Dir ggx_sample_h(float ax, float ay, Dir o, float u, float v) {
     float l = 1.0f / ggx_length(ax, ay, o);
     Dir s = dir(ax * o.x * l, ay * o.y * l, o.z * l);
@@ -67,7 +67,7 @@ FN Strip ggx_strip_h(float ax, float ay, Dir o, float u, float v) {
     return p;
 }
 
-/* Density of the wi that mirrors wo about such a normal: G1(wo) D(h) / (4 cos_o). */
+/* Returns the density of the wi that mirrors wo about such a normal: G1(wo) D(h) / (4 cos_o). */
 FN float ggx_pdf_h(float ax, float ay, Angles a) {
     return ggx_d(ax, ay, a.h) / (2.0f * (a.o.z + ggx_length(ax, ay, a.o)));
 }

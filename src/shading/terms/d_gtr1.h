@@ -11,8 +11,8 @@
 #include "shading/dialect/proxy.h"
 #include "shading/terms/facet.h"
 
-/* At alpha = 1 the formula is 0 / 0, whose limit is 1 / pi. Just below, numerator and logarithm share one
- * rounded alpha^2 and their quotient is right: so it stops there, 5e-7 from the limit. */
+/* Returns alpha^2, clamped. At alpha = 1 the formula is 0 / 0, whose limit is 1 / pi. Just below, numerator and
+ * logarithm share one rounded alpha^2 and their quotient is right: so alpha^2 is clamped there, 5e-7 from the limit. */
 FN float gtr1_square(float alpha) { return min(alpha * alpha, 0.999999f); }
 
 FN float gtr1_d(float alpha, Dir h) {
@@ -20,7 +20,7 @@ FN float gtr1_d(float alpha, Dir h) {
     return (1.0f - a2) / (facet_fall(1.0f - a2, a2) * PI * q);
 }
 
-/* h from D cos_h: sin_h^2 = (alpha^(2u) - alpha^2) / (1 - alpha^2), here without its cancellations (the same
+/* Returns h from D cos_h: sin_h^2 = (alpha^(2u) - alpha^2) / (1 - alpha^2), here without its cancellations (the same
  * appendix, solved for the sine). */
 FN Dir gtr1_facet(float alpha, float u, float v) {
     float a2 = gtr1_square(alpha), m = facet_fall(1.0f - a2, a2);
@@ -28,7 +28,7 @@ FN Dir gtr1_facet(float alpha, float u, float v) {
     return facet(sqrt(min(sin2, 1.0f)), sqrt(max(1.0f - sin2, 0.0f)), v);
 }
 
-/* Half of the haze lies within the root of alpha. */
+/* Returns the proxy, as wide as sqrt(alpha), within which half of the haze lies. */
 FN Proxy gtr1_proxy(float alpha) { return proxy_facets(sqrt(alpha), sqrt(alpha)); }
 
 #endif

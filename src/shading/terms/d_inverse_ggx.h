@@ -16,8 +16,8 @@ FN float inverse_ggx_d(float alpha, Dir h) {
     return (1.0f + 4.0f * r * r) / (PI * (1.0f + 4.0f * a2));
 }
 
-/* h from D cos_h: the rim, as probable as that of d_ashikhmin, has cos_h^2 = alpha^2 u / (1 - u + alpha^2 u).
- */
+/* Returns h from D cos_h: the rim, as probable as that of d_ashikhmin, has cos_h^2 = alpha^2 u / (1 - u + alpha^2
+ * u). */
 FN Dir inverse_ggx_facet(float alpha, float u, float v) {
     float rim = ashikhmin_rim(alpha);
     if (u >= rim) return warp_cosine((u - rim) / (1.0f - rim), v);

@@ -11,13 +11,13 @@
 
 #include "shading/terms/facet.h"
 
-/* sin_h^2 has a floor at which D is 0 to within 2e-14. */
+/* Returns D. sin_h^2 has a floor, at which D is 0 to within 2e-14. */
 FN float velvet_d(float alpha, Dir h) {
     float a2 = alpha * alpha, sin2 = max(h.x * h.x + h.y * h.y, 1e-10f);
     return exp(-h.z * h.z / (a2 * sin2)) / (PI * a2 * sin2 * sin2);
 }
 
-/* h from D cos_h: cot_h^2 = -alpha^2 ln u. */
+/* Returns h from D cos_h: cot_h^2 = -alpha^2 ln u. */
 FN Dir velvet_facet(float alpha, float u, float v) {
     float cot_h = alpha * sqrt(max(-0.693147181f * log2(max(u, 1e-7f)), 0.0f));
     float sin_h = 1.0f / sqrt(1.0f + cot_h * cot_h);

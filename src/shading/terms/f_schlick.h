@@ -10,7 +10,7 @@
 
 #include "shading/dialect/lang.h"
 
-/* The scalar part: colours multiply outside. */
+/* Returns s, the scalar part; colours are applied outside. */
 FN float schlick_s(float d) {
     float m = clamp(1.0f - d, 0.0f, 1.0f), m2 = m * m;
     return m2 * m2 * m;

@@ -11,7 +11,7 @@
 
 #include "shading/dialect/warp.h"
 
-/* The half vector of that tilt; v in [0, 1) turns it about the normal. */
+/* Returns the half vector of that tilt; v in [0, 1) rotates it about the normal. */
 FN Dir facet(float sin_h, float cos_h, float v) {
     float phi = 2.0f * PI * v;
     return dir(sin_h * cos(phi), sin_h * sin(phi), cos_h);
@@ -22,8 +22,8 @@ FN Dir facet_towards(Dir o, Dir h) {
     return dir(turn * h.x, turn * h.y, h.z);
 }
 
-/* Density of the wi that mirrors wo about a normal of facet_towards, whose density is d_cos = D cos_h. The least a.d
- * that counts is 1e-6: below it both directions graze, and the density has no use but must be finite. */
+/* Returns the density of the wi that mirrors wo about a normal of facet_towards, whose density is d_cos = D cos_h. a.d
+ * is taken as at least 1e-6: below it both directions graze, and the density has no use but must be finite. */
 FN float facet_pdf(float d_cos, Angles a) {
     bool twice =
         a.o.z * a.h.z < a.o.x * a.h.x + a.o.y * a.h.y; /* the direction on the other side is not visible */
@@ -33,7 +33,8 @@ FN float facet_pdf(float d_cos, Angles a) {
 /* The next two keep their digits where 1 - s and exp(-y) are near 1: there the logarithm and the power of a
  * GPU are right to an absolute error only. */
 
-/* -ln(1 - s) for s in [0, 1); c is 1 - s. Below 1/4 by 2 artanh(s / (2 - s)), whose series is within 2e-8. */
+/* Evaluates -ln(1 - s) for s in [0, 1); c is 1 - s. Below 1/4 it uses 2 artanh(s / (2 - s)), whose series is within
+ * 2e-8. */
 FN float facet_fall(float s, float c) {
     float t = s / (2.0f - s), q = t * t;
     float series = 2.0f * t * (1.0f + q * (1.0f / 3.0f + q * (1.0f / 5.0f + q * (1.0f / 7.0f))));

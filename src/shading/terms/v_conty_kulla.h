@@ -21,13 +21,14 @@
 /* a/2 .. e for one alpha, and 2 L(1/2). */
 STRUCT(ContyKulla) { float a, b, c, d, e, twice_half; };
 
-/* L, by a power that is x^c. */
+/* Returns L of x. power: x^c. */
 FN float conty_kulla_l(ContyKulla k, float x, float power) {
     float p = k.b * power, q = (1.0f - p) / (1.0f + p);
     return (11.5f * q + 7.0f) + (k.a * q + (k.d * x + k.e));
 }
 
-/* t = (1 - alpha)^2 mixes alpha = 1 (first number) with alpha = 0 (second). */
+/* Returns the coefficients: t = (1 - alpha)^2 mixes those of alpha = 1 (first number) with those of alpha = 0
+ * (second). */
 FN ContyKulla conty_kulla_of(float alpha) {
     float t = (1.0f - alpha) * (1.0f - alpha);
     ContyKulla k;
@@ -40,14 +41,14 @@ FN ContyKulla conty_kulla_of(float alpha) {
     return k;
 }
 
-/* c is so small that x^c loses nothing by log2. */
+/* Returns log Lambda of x. c is so small that x^c loses nothing by log2. */
 FN float conty_kulla_log_lambda(ContyKulla k, float x) {
     float least = min(x, 1.0f - x), l = conty_kulla_l(k, least, exp2(k.c * log2(max(least, 1e-30f))));
     return x < 0.5f ? l : k.twice_half - l;
 }
 FN float conty_kulla_lambda(ContyKulla k, float x) { return exp(conty_kulla_log_lambda(k, x)); }
 
-/* V where Lambda(cos_o) is known. */
+/* Returns V, given Lambda(cos_o). */
 FN float conty_kulla_v_of(ContyKulla k, float lambda_o, float o, float i) {
     return 0.25f / ((1.0f + (lambda_o + conty_kulla_lambda(k, i))) * max(o * i, 1e-7f));
 }

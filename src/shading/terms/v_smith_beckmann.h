@@ -13,7 +13,7 @@
 
 #include "shading/dialect/angles.h"
 
-/* G1(w) / cos_w */
+/* Returns G1(w) / cos_w. */
 FN float smith_beckmann_part(float alpha, Dir w) {
     float slope = alpha * sqrt(max(w.x * w.x + w.y * w.y, 1e-12f)), c = w.z / slope;
     float fit = (3.535f + 2.181f * c) / ((1.0f + 2.276f * c + 2.577f * c * c) * slope);

@@ -21,7 +21,8 @@ FN Rgb metallic_f0(const Surface *s) {
     return rgb_scale(rgb_min(rgb_scale(s->specular_color, dielectric_f0(s)), 1.0f), s->specular);
 }
 
-/* All of it but for its sheen lobe, layer rule and UNDER_ rule. */
+/* Makes the stack of the workflow with another sheen lobe, layer rule and interface rule: base_fresnel is one of the
+ * BASE_FRESNEL_... of stack.h. */
 FN void metallic_with(Stack *m, const Surface *s, Lobe sheen, int layer, int base_fresnel) {
     workflow_coat(m, s);
     workflow_sheen(m, sheen, rgb_scale(s->sheen_color, s->sheen), s->sheen_second, layer);
