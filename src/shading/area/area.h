@@ -2,11 +2,11 @@
  *
  *   integral of f cos_i over the polygon  =  I_D (sum of f cos_i a) / (sum of D a),   I_D = integral of D
  *
- *   D is a linearly transformed cosine: its share of the polygon I_D is known in closed form. The points of
+ *   D is a linearly transformed cosine: its integral I_D over the polygon has a closed form. The points of
  * both sums are those of polygon.h in the space where D is a cosine, a their solid angles: so they lie where
  * D is bright, however narrow it is, and where the light is a part of it, in that part. It is exact where
- * f cos_i is D, so for a matt base, and corrects everything else: the shape of the lobe, Fresnel, what the
- * layer rule leaves of the base for each wi.
+ * f cos_i is D, so for a matt base, and corrects everything else: the shape of the lobe, Fresnel, the layer rule's
+ * factor on the base for each wi.
  *
  *   The cosine itself serves lobes that are broad; a fit to ggx, stretched, those of facets; a fit to fibre
  * those of fibres.
@@ -14,7 +14,7 @@
  *   Eric Heitz, Jonathan Dupuy, Stephen Hill, David Neubelt, "Real-Time Polygonal-Light Shading with Linearly
  * Transformed Cosines", ACM Transactions on Graphics 35(4), 2016, has I_D with an amplitude in place of the
  * sums. Eric Heitz, Stephen Hill, Morgan McGuire, "Combining Analytic Direct Illumination and Stochastic
- * Shadows", I3D 2018, has such a ratio for shadows. */
+ * Shadows", I3D 2018, uses such a ratio for shadows. */
 #ifndef WEFT_SHADING_AREA_H
 #define WEFT_SHADING_AREA_H
 

@@ -28,8 +28,8 @@ bool albedo_asks_color(const Lobe *lobe);
 /* Computes E of such a lobe for the three channels w of a colour. */
 void albedo_in_color(const Lobe *lobe, Dir wo, const float w[3], double tolerance, float e[3]);
 
-/* Returns the wo of that cosine for which the E of a brushed lobe is greatest, of four on a half turn from its own azimuth;
- * of another lobe that at azimuth 0. */
+/* Returns the wo of that cosine for which the E of a brushed lobe is greatest, of four azimuths over half a circle
+ * from its own; of another lobe, the wo at azimuth 0. */
 Dir albedo_brightest(const Lobe *lobe, float cos_o);
 
 /* A table has E of a white lobe (f0 = f90 = 1). Its ALBEDO_MU columns are uniform in y, cos_o = (1 - (1 - y)^2)^4. Its
@@ -44,8 +44,8 @@ Dir albedo_brightest(const Lobe *lobe, float cos_o);
  *
  * E(w) is exact at w = 1, 7/8 and 1/2, and so is its slope at w = 0.
  *
- * A brushed lobe's table is of albedo_brightest: it knows no heading and must not be below E at any by more than a hundredth,
- * or layer rules would return more light than arrives.
+ * A brushed lobe's table is of albedo_brightest: it does not depend on the heading and must not be below E at any
+ * heading by more than a hundredth, or layer rules would return more light than arrives.
  *
  * If the fibres of a lobe lean (it has the parameters tilt > 0 and azimuth), these maps are for wo across the nap.
  * They hold for any azimuth of the nap. Further maps have E by heading (table.h), for the tilt of the lobe or for
@@ -60,7 +60,7 @@ enum {
 typedef struct AlbedoTable {
     Lobe lobe; /* parameter 0 is not used */
     int rows;
-    float low, high;           /* the range asked for */
+    float low, high;           /* the requested range */
     float root_low, root_high; /* eighth roots of the first and last row, inside the lobe's hard range */
     int maps;                  /* number of all maps, of `rows` rows each */
     int tilts;                 /* number of tilts with maps for headings: 0, 1 or TABLE_TILTS */

@@ -98,7 +98,7 @@ static void fill_ggx_row(void *user, int row, int thread) {
 
 TableRef engine_table(int which) {
     EngineTable *table = &tables[which];
-    if (!atomic_load(&table->made)) { /* asked for at every hit, so without the lock */
+    if (!atomic_load(&table->made)) { /* read at every hit, so without the lock */
         pthread_mutex_lock(&table->making);
         if (!atomic_load(&table->made))
             parallel_for(0, table->side, table->sheen ? fill_sheen_column : fill_ggx_row, table);

@@ -8,7 +8,7 @@
 #include "shading/catalogue/plugin.h"
 #include "shading/lobe_ids.gen.h"
 
-/* Their most, and the floats that the records of one may have. */
+/* The greatest number of such lobes, and the capacity of the records of one, floats. */
 #define OUTSIDE_MOST            8
 #define OUTSIDE_PREPARED_FLOATS 168
 #define OUTSIDE_VIEW_FLOATS     24
@@ -24,7 +24,7 @@
     case LOBE_COUNT + 7:
 #define OUTSIDE_LOBES(X) X(OUTSIDE_LABELS, outside, Outside)
 
-/* The lobe as it is: its plugin takes it apart. */
+/* The lobe itself, which its plugin decodes. */
 typedef const Lobe *Outside;
 static inline Outside outside_of(const Lobe *m) { return m; }
 

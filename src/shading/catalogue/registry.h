@@ -1,6 +1,6 @@
 /* registry.h - the catalogue as data: every lobe, its parameters, and its functions behind one signature
  *
- * Adding a lobe, and all it is: lobe.h. Dialect texts include this file too: in GLSL the flattener
+ * lobe.h describes a lobe and how to add one. Dialect texts include this file too: in GLSL the flattener
  * (text/) puts in its place lobe_ids.gen.h and dispatch.gen.h, for the lobes that a program needs. */
 #ifndef WEFT_SHADING_REGISTRY_H
 #define WEFT_SHADING_REGISTRY_H
@@ -34,7 +34,7 @@ typedef struct OutsideLobe {
     const char *file, *text;          /* "shading/lobes/toy.h", as though it were there, and what is in it */
 } OutsideLobe;
 
-/* Adds a lobe, in place of one of the same name or behind the last. Returns false if there is no room. May be
+/* Adds a lobe, in place of one of the same name or behind the last. Returns false if no place is free. May be
  * called from any thread while others use lobes. outside_lobe returns NULL if the id is not that of an
  * outside lobe. */
 bool outside_take(OutsideLobe *lobe, int *id);

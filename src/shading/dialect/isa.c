@@ -59,22 +59,5 @@ WeftResult weft_isa_use(const char *name, WeftError *error) {
     return isa_choose(name, isa_least(), isa_widest(), &isa_used, error);
 }
 
-const char *isa_lacking(Isa processor) {
-    static const char *const words[ISA_COUNT] = {"SSE2", "AVX2 and FMA", "AVX-512"};
-    Isa needed = least > elsewhere ? least : elsewhere;
-    return processor < needed ? words[needed] : NULL;
-}
-
-/* Chooses the set before the first call of anything else. A build for a wider processor than this one says so and ends the
- * program, which would end by an instruction that is not there. */
-__attribute__((constructor)) static void begin(void) {
-    const char *lacking = isa_lacking(isa_of_processor());
-    if (lacking) {
-        fprintf(stderr,
-                "weft: this build needs a processor with %s: build on this machine, or for any with "
-                "-DWEFT_ARCH=none -DWEFT_ISA=all\n",
-                lacking);
-        _exit(WEFT_RESOURCES);
-    }
-    isa_used = isa_widest();
-}
+/* Chooses the widest set before anything else is called. */
+__attribute__((constructor)) static void begin(void) { isa_used = isa_widest(); }

@@ -8,7 +8,7 @@
 /* Each includes those before it. */
 typedef enum Isa { ISA_SSE2 = 0, ISA_AVX2, ISA_AVX512, ISA_COUNT } Isa;
 
-#ifdef PLUGIN_LOOPS /* a lobe from outside asks the library that has loaded it (plugin.h) */
+#ifdef PLUGIN_LOOPS /* a lobe from outside reads that of the library that loaded it (plugin.h) */
 #define isa_used (*plugin_isa)
 #else
 extern Isa isa_used;

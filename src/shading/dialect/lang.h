@@ -1,9 +1,8 @@
 /* lang.h - the dialect: what a shading file may use, in C11 and in GLSL (3.30 core, ES 3.00)
  *
- * Shading text uses float, int, bool, records and the calls below; nothing else, but uint for hashes where no text is
- * exported. No vectors: a lobe sees a
- * pair of directions through Angles (angles.h), so that one text serves a pixel, a ray and an array of
- * directions. This is the only file that knows which language it is in.
+ * Shading text uses float, int, bool, records and the calls below; nothing else, but uint for hashes where no text
+ * is exported. It has no vectors: a lobe reads a pair of directions through Angles (angles.h), so that one text
+ * serves a pixel, a ray and an array of directions. Only this file depends on the language.
  *
  * Large records travel by reference: `const T *m` and `T *m` as parameters, `m->x` and `*m` to read and
  * write, `&x` to pass; text/source/reference.h says how GLSL has them. Pointers serve nothing else, and no two
@@ -38,14 +37,14 @@
 #include <stdint.h>
 #include <string.h>
 
-/* WEFT_OUTLINED: for code that is not to be fast but to be compiled soon. */
+/* WEFT_OUTLINED is defined for code that has to compile fast rather than run fast. */
 #ifdef WEFT_OUTLINED
 #define FN static inline __attribute__((unused))
 #else
 #define FN static inline __attribute__((always_inline, unused))
 #endif
-/* One that is to stay out of its callers: long text that runs once for many pairs, or has loops without ROUNDS,
- * which only lobes with TRAIT_REFERENCE may. A file in which it runs for each pair says otherwise. */
+/* A function that is not inlined: long text that runs for many pairs at a time, or has loops without ROUNDS, which
+ * only lobes with TRAIT_REFERENCE may have. A file in which it runs for each pair defines this as FN. */
 #ifndef FN_NOINLINE
 #define FN_NOINLINE static __attribute__((noinline, unused))
 #endif
@@ -56,16 +55,16 @@
     typedef union Name Name;                                                                                 \
     union Name
 
-/* A loop of so many rounds, a number. C writes them out, so that a loop over arrays around it is one of vectors; a
- * shader has the loop, since a driver takes long for what is written out. */
+/* A loop of n rounds, n a constant. C unrolls it, so that a loop over arrays around it is vectorised; a shader has
+ * the loop, since drivers compile unrolled text slowly. */
 #ifdef __clang__
 #define ROUNDS(k, n) _Pragma("clang loop unroll(full)") for (int k = 0; k < n; k++)
 #else
 #define ROUNDS(k, n) _Pragma("GCC unroll 16") for (int k = 0; k < n; k++)
 #endif
 
-/* The first n of at most so many rounds. A loop of vectors has to know n, or to do them all, so rounds from n on must add
- * nothing; loops over arrays know it (BY_COUNT in loop.h). */
+/* The first n of at most `most` rounds. A vectorised loop needs a constant n, or does them all, so rounds from n on
+ * must add nothing; loops over arrays are compiled for several n (BY_COUNT in lobe_loop.h). */
 #define ROUNDS_OF(k, n, most) ROUNDS(k, most) if (k < n)
 
 /* Returns a b + c, rounded a single time if the processor has an instruction for it. Only the functions below use it,
@@ -108,8 +107,8 @@ FN float weft_log2(float x) {
     return l.whole + l.rest;
 }
 
-/* x + WEFT_ROUND has no room for the fraction of x, |x| < 2^22, and keeps the nearest whole number in its
- * last bits: without a call, and cheap in every set of instructions. */
+/* x + WEFT_ROUND has no bits for the fraction of x, |x| < 2^22, and has the nearest whole number in its last bits:
+ * it needs no call and is cheap in every set of instructions. */
 #define WEFT_ROUND          12582912.0f /* 1.5 * 2^23 */
 
 /* Returns 2^(k + t) for rounded = k + WEFT_ROUND and |t| <= 1/2: a polynomial of degree 6 for 2^t, with k added to its

@@ -58,15 +58,21 @@ FN bool pair_counts(Dir o, Dir i) {
     return ((int32_t)(bits & 0x7fffffffu) < 0x7f800000) & (o.z > 0.0f) & (i.z > 0.0f);
 }
 
-/* A pair; where it does not count the normal twice, which no formula minds. */
+/* Takes a pair of directions. One that does not count is replaced by the normal twice, for which every formula is
+ * finite. */
 #define TAKE_PAIR(o, i, counts)                                                                              \
     Dir o = {ox[k], oy[k], oz[k]}, i = {ix[k], iy[k], iz[k]};                                                \
     bool counts = pair_counts(o, i);                                                                         \
     o = (Dir){counts ? o.x : 0.0f, counts ? o.y : 0.0f, counts ? o.z : 1.0f};                                \
     i = (Dir) { counts ? i.x : 0.0f, counts ? i.y : 0.0f, counts ? i.z : 1.0f }
 
-/* A loop whose elements know nothing of each other. Not `omp simd`: that makes an array over lanes of every
- * record which travels by reference. */
+#define PAIRS                                                                                                \
+    const float *restrict ox, const float *restrict oy, const float *restrict oz, const float *restrict ix,  \
+        const float *restrict iy, const float *restrict iz
+#define PAIR_NAMES ox, oy, oz, ix, iy, iz
+
+/* A loop whose elements are independent. `omp simd` would make an array over lanes of every record which travels by
+ * reference. */
 #ifdef __clang__
 #define EACH(k, n) _Pragma("clang loop vectorize(assume_safety)") for (size_t k = 0; k < n; k++)
 #else

@@ -5,7 +5,7 @@
 
 #include "shading/dialect/lang.h"
 
-#define PROXY_COSINE 0 /* of what is broad: the cosine itself */
+#define PROXY_COSINE 0 /* for broad lobes: the cosine itself */
 #define PROXY_FACETS 1 /* fitted to ggx of the widths ax and ay */
 #define PROXY_FIBRES 2 /* fitted to upright fibres of alpha ax */
 

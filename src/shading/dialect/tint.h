@@ -1,15 +1,15 @@
-/* tint.h - colour that is not a factor: what light keeps that meets coloured flakes again and again
+/* tint.h - colour that is not a factor: multiple scattering by coloured flakes
  *
  *   f(w) = f(1) c(w),  c(w) = (1 - s) w + s w^2 min(r_o r_i exp((1 - w) e), 1),  r = (1 - q) / (1 - w q)
  *
- * w is the albedo of a flake in one channel. Of the light that a pair of directions sees of white flakes, the
- * share s met more than one. q is the chance that light of that direction, once it met two, meets one more:
- * so r is the sum over (w q)^n against that over q^n. e is what is left to say; but whatever it is, light
- * that met two flakes or more has w^2 at the most. So c(w) <= w, c(1) = 1, c(0) = 0.
+ * w is the albedo of a flake in one channel. Of the light that white flakes scatter between a pair of directions,
+ * the share s met more than one. q is the probability that light of that direction which met two flakes meets one
+ * more: so r is the sum over (w q)^n divided by that over q^n. e corrects the rest; whatever it is, light that met
+ * two flakes or more has at most the factor w^2. So c(w) <= w, c(1) = 1, c(0) = 0.
  *
  *   Own fit to the solved slab of fibres. Each direction has its own factor and w is in no coefficient, so f
- * is as reciprocal as f(1) where e is the same both ways round. Departures: w is clamped to [0, 1], q counts
- * as 0.999 at the most. */
+ * is as reciprocal as f(1) where e is the same in both directions. Departures: w is clamped to [0, 1], q is at most
+ * 0.999. */
 #ifndef WEFT_TINT_H
 #define WEFT_TINT_H
 

@@ -10,8 +10,9 @@
 #define TONE_PBR_NEUTRAL 0
 #define TONE_ACES        1
 
-/* Khronos Group, "PBR Neutral Tone Mapper", specification, 2024. The offset takes off what a dielectric's 4 %
- * Fresnel reflection adds; below the start of compression colours come out as they are, less that. */
+/* Returns the tone-mapped colour. Khronos Group, "PBR Neutral Tone Mapper", specification, 2024. The offset
+ * subtracts what a dielectric's 4 % Fresnel reflection adds; below the start of compression, colours change by that
+ * only. */
 FN Rgb tone_pbr_neutral(Rgb color) {
     float start = 0.8f - 0.04f, desaturation = 0.15f;
     float x = min(color.r, min(color.g, color.b)), offset = x < 0.08f ? x - 6.25f * x * x : 0.04f;

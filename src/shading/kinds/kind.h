@@ -1,15 +1,16 @@
-/* kind.h - vertices of paths shaded many at once, for the materials whose stack has a structure known before
+/* kind.h - vertices of paths shaded many at once, for materials whose stack has a structure fixed at compile time
  *
- * A kind is a row of kinds.list: which lobe a slot may hold, the layer rule, what dims the diffuse lobe,
- * where E comes from. Its loops are the text of stacks (stack_value.h) compiled once more with these as
- * constants, a vertex a lane: the arithmetic is that of material_stack.h but for the last bits. */
+ * A kind is a row of kinds.list: the lobe that each slot may have, the layer rule, the interface rule, the source of
+ * E. Its loops are the text of stacks (stack_value.h) compiled with these as constants, one vertex in each lane: the
+ * arithmetic is that of material_stack.h but for the last bits. */
 #ifndef WEFT_SHADING_KIND_H
 #define WEFT_SHADING_KIND_H
 
 #include "shading/material/material_stack.h"
 #include "shading/stack/surface_rows.h"
 
-/* Points of threads, or facets that stand for them from afar. */
+/* Points of threads, or facets of them from afar: the parameters of lobe yarn, and the colours of single and of
+ * multiple scattering. */
 typedef struct YarnRows {
     float params[LOBE_PARAMS_MAX][ROW_ROOM]; /* of lobe yarn */
     float single[3][ROW_ROOM];               /* colour of light that met one fibre, */

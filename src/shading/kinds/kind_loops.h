@@ -1,4 +1,4 @@
-/* kind_loops.h - the loops of a kind: what wo adds, f and pdf of wi, a sample */
+/* kind_loops.h - the loops of a kind: views, f and pdf of wi, samples */
 #ifndef WEFT_SHADING_KIND_LOOPS_H
 #define WEFT_SHADING_KIND_LOOPS_H
 

@@ -1,4 +1,4 @@
-/* kind_slot.h - the lobe of a slot, as the text of stacks asks for it where that is known (slots.h) */
+/* kind_slot.h - the functions of a slot whose lobe is fixed, in place of those of slots.h */
 #ifndef WEFT_SHADING_KIND_SLOT_H
 #define WEFT_SHADING_KIND_SLOT_H
 

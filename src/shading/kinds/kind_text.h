@@ -1,4 +1,4 @@
-/* kind_text.h - the text of stacks as loops, for what a file that cmake/kinds.cmake made says is known */
+/* kind_text.h - the text of stacks as loops, for the structure that a file from cmake/kinds.cmake defines */
 #ifndef WEFT_SHADING_KIND_TEXT_H
 #define WEFT_SHADING_KIND_TEXT_H
 

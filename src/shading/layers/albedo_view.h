@@ -5,7 +5,7 @@
  *   Alejandro Conty Estevez, Christopher Kulla, "Production Friendly Microfacet Sheen BRDF", SIGGRAPH 2017
  * course, section on layering; Khronos Group, KHR_materials_sheen, 2020 (its view term).
  *   energy: E <= 1 where the sheen's own E is, exactly 1 over a lossless base.
- *   reciprocal: no, the factor knows wo alone. */
+ *   reciprocal: no, the factor depends on wo only. */
 #ifndef WEFT_LAYER_ALBEDO_VIEW_H
 #define WEFT_LAYER_ALBEDO_VIEW_H
 

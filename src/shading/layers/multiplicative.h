@@ -5,7 +5,7 @@
  *   The form of the exponential sheen and of the rim lights before it, which scale what is already shaded. No
  * paper states it; c and E are the colour and the albedo of KHR_materials_sheen, Khronos Group, 2020.
  *   energy: gains c E(wo) times what the base reflects.
- *   reciprocal: no, the factor knows wo alone. */
+ *   reciprocal: no, the factor depends on wo only. */
 #ifndef WEFT_LAYER_MULTIPLICATIVE_H
 #define WEFT_LAYER_MULTIPLICATIVE_H
 

@@ -1,4 +1,4 @@
-/* reciprocal - light passes the sheen on its way in and on its way out, and what is turned back returns
+/* reciprocal - light passes the sheen on its way in and on its way out, and a white base loses nothing
  *
  *   f = sheen + (1 - c E(wo)) (1 - c E(wi)) / (1 - c Eavg) base,  Eavg = 2 integral of E(mu) mu dmu
  *

@@ -6,11 +6,12 @@
  *   The blend that weft began with: the (1 - F) of a dielectric's diffuse lobe, on the sheen too; no paper
  * with it was found. F as in the glTF 2.0 Specification, Khronos Group, 2021, Appendix B; f0 and f90 are
  * those of the highlight, a metal's too. k is the material's `sheen`, at most 1; `sheen` of the formula is
- * the lobe in the colour sheen_color. This function is 1 - k; whoever adds the lobes up does the rest. A
- * sheen that is black counts as none: the base stays as its workflow has it. energy: no. F at wi . h says
- * nothing of grazing light, so that a smooth white dielectric reflects up to 1.45 times what it receives
- * there (workflow metallic); and at k = 1 nothing of the diffuse lobe is left, however little the sheen
- * reflects. The safer form is side-by-side. reciprocal: yes. */
+ * the lobe in the colour sheen_color. This function returns 1 - k; stack_value.h does the rest. A sheen that is black
+ * counts as none: the base stays as its workflow has it.
+ *   energy: no. F at wi . h is not F at grazing cos_o or cos_i, so that a smooth white dielectric reflects up to 1.45
+ * times what it receives there (workflow metallic); and at k = 1 nothing of the diffuse lobe is left, however little
+ * the sheen reflects. The safer form is side-by-side.
+ *   reciprocal: yes. */
 #ifndef WEFT_LAYER_SEED_H
 #define WEFT_LAYER_SEED_H
 

@@ -3,10 +3,10 @@
  *
  *   f = specular + (1 - F) ((1 - k) diffuse + k sheen),  k = c
  *
- *   This function is the factor 1 - k on the diffuse lobe. Whoever adds the lobes up multiplies the sheen by
- * k and both by 1 - F, what the interface lets through: F of the highlight, a metal's too, at the least of
+ *   This function returns the factor 1 - k on the diffuse lobe. stack_value.h multiplies the sheen by k and both by
+ * 1 - F, the transmittance of the interface: F of the highlight, a metal's too, at the least of
  * wi . h, cos_o and cos_i, so that nothing is gained at grazing. k is the strongest channel of the sheen's
- * colour or, by channel, each. E is not asked. Own rule: seed, which has F at wi . h and a number for k, made
+ * colour or, by channel, each. E is not read. Own rule: seed, which has F at wi . h and a number for k, made
  * to conserve energy. The blend is what the OpenPBR Surface specification calls mixing (Academy Software
  * Foundation, 2024): threads side by side, none above another.
  *   energy: E <= 1 where it holds of sheen, diffuse and interface, as a mean of theirs.

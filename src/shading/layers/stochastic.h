@@ -2,11 +2,11 @@
  *
  *   f = sheen + (1 - c E(wo)) (1 - c E(wi)) base + more bounces
  *
- *   This function is the first pass alone: in through the sheen, once off the base, and out. The path tracer
- * adds the bounces, which over a Lambert base of colour rho sum up to 1 / (1 - rho c Eavg): at rho 1 that is
+ *   This function returns the first pass alone: in through the sheen, one reflection by the base, and out. The path
+ * tracer adds the bounces, which over a Lambert base of colour rho sum up to 1 / (1 - rho c Eavg): at rho 1 that is
  * the rule reciprocal. Bounces of that kind by random walk: Yu Guo, Milos Hasan, Shuang Zhao,
  * "Position-Free Monte Carlo Simulation for Arbitrary Layered BSDFs", SIGGRAPH Asia 2018.
- *   energy: loses, without the bounces, what the sheen turns back at the base; with them E <= 1 where the
+ *   energy: loses, without the bounces, what the sheen reflects back to the base; with them E <= 1 where the
  * sheen's own E is.
  *   reciprocal: yes. */
 #ifndef WEFT_LAYER_STOCHASTIC_H

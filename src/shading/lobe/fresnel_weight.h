@@ -5,8 +5,8 @@
 #include "shading/terms/f_cook_torrance.h"
 #include "shading/terms/f_schlick.h"
 
-/* A reflectance whose way from f0 to white is the colour's own (f_cook_torrance) has no share: in its place
- * stands -(wi . h). A shader that has no such lobe says so. */
+/* A reflectance whose curve from f0 to white depends on the colour (f_cook_torrance) has no share: s is -(wi . h) in
+ * its place. A shader without such a lobe defines this as false. */
 #ifndef FRESNEL_WEIGHT_IS_COSINE
 #define FRESNEL_WEIGHT_IS_COSINE(s) ((s) < 0.0f)
 #endif

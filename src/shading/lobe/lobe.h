@@ -1,4 +1,4 @@
-/* lobe.h - a lobe with its parameters, and what every lobe gives */
+/* lobe.h - a lobe with its parameters, and the functions that every lobe defines */
 #ifndef WEFT_SHADING_LOBE_H
 #define WEFT_SHADING_LOBE_H
 
@@ -6,52 +6,52 @@
 #include "shading/dialect/proxy.h"
 #include "shading/lobe/lobe_value.h"
 
-/* A lobe is one file in lobes/ and one row of lobes.list. For the row ID, "-" in it read as "_", as NAME and
- * in the upper and lower case that the language wants, its file gives
+/* A lobe is one file in lobes/ and one row of lobes.list. For the row ID, "-" in it read as "_", as NAME and in the
+ * upper and lower case of the language, its file defines
  *
- *   NAME_PARAMS(P), NAME_TRAITS             the parameters, one line each; what holds of it (registry.h)
+ *   NAME_PARAMS(P), NAME_TRAITS             the parameters, one line each; its traits (traits.h)
  *   STRUCT(Name)                            the parameters as a record
- *   STRUCT(NamePrepared)                    what they make, once for all directions
- *   STRUCT(NameView)                        what wo adds, once for all wi
+ *   STRUCT(NamePrepared)                    what is computed from them, for all directions
+ *   STRUCT(NameView)                        what is computed from wo, for all wi
  *   void name_prepare(Name m, NamePrepared *p)
  *   void name_view(const NamePrepared *p, Dir o, NameView *w)
  *   LobeValue name_value(const NamePrepared *p, const NameView *w, Angles a)
  *   Dir name_sample(const NamePrepared *p, const NameView *w, Dir o, float u, float v)
  *
- * f of the value is that of a white lobe, pdf the density of name_sample. All of it is inlined: what a caller
- * does not read is not computed. One with TRAIT_TWO_COLORS mixes f0 and f90 by the share s of its value;
- * where the second is not the user's own f90 it has
+ * f of the value is that of a white lobe, pdf the density of name_sample. Everything is inlined: what a caller does
+ * not read is not computed. A lobe with TRAIT_TWO_COLORS mixes f0 and f90 by the share s of its value; if the second
+ * colour is not the user's f90 it has
  *
  *   float name_second(Name m, float f0, float f90)
  *
- * One with TRAIT_TINTED has a colour that is no factor, the albedo of what it is made of: the tint of its
- * value (tint.h). One with TRAIT_REFERENCE takes a random walk: its f is an estimate, a function of its
- * inputs whose mean over a neighbourhood is meant. Its text is C, with loops: it is kept from GPU, arrays and
- * 16-bit floats. Since no quadrature integrates chance it has E of the white lobe too:
+ * A lobe with TRAIT_TINTED has a colour that is no factor, the albedo of what it is made of: the tint of its value
+ * (tint.h). A lobe with TRAIT_REFERENCE takes a random walk: its f is an estimate, a function of its inputs whose
+ * mean over a neighbourhood is meant. Its text is C, with loops: GPUs, arrays and 16-bit floats do without it. Since
+ * no quadrature integrates random numbers it has E of the white lobe too:
  *
  *   float name_albedo(Name m, Dir o, int walks)
  *
- * One whose highlight is drawn out may have its normals in strips (terms/d_ggx.h), which light from an
+ * A lobe whose highlight is elongated may have its normals in strips (terms/d_ggx.h), which light from an
  * environment then takes in place of name_sample:
  *
  *   Strip name_strip(const NamePrepared *p, Dir o, float u, float v)
  *
- * One that is not broad names what stands for it under polygon lights (proxy.h):
+ * A lobe that is not broad names its stand-in under polygon lights (proxy.h):
  *
  *   Proxy name_proxy(Name m)
  *
- * One that computes with another first parameter than it is given where it was not fitted says with which:
+ * A lobe that replaces its first parameter where it was not fitted returns the one that it uses:
  *
  *   float name_fitted(Name m)
  *
- * One whose f bends as a function of cos_i, where it is clamped or since it mixes what is between the columns
- * of a table linearly, lists these cosines, rising, and then 0:
+ * A lobe whose f has a crease as a function of cos_i, from a clamp or from the columns of a table that is mixed
+ * linearly, lists these cosines in ascending order, then 0:
  *
  *   float name_crease(Name m, float cos_o, int k)
  *
- * cmake/lobes.cmake makes of all files what knows every lobe: dispatch.gen.h and lobe_ids.gen.h. */
+ * From all files cmake/lobes.cmake generates dispatch.gen.h and lobe_ids.gen.h. */
 
-/* The most that a lobe has. */
+/* The greatest number of parameters. */
 #define LOBE_PARAMS_MAX 8
 
 /* A lobe with its parameters, in the order of its table. */
@@ -79,7 +79,7 @@ FN LobeNamed lobe_unnamed(void) {
 #define LOBE_TABLES_MAKE(id)
 #endif
 
-/* For a lobe whose parameters are all that there is to know, and for one to which wo adds nothing. */
+/* For a lobe that prepares only its parameters, and for one with an empty view. */
 #define PREPARED_AS_IT_IS(name, Name)                                                                        \
     STRUCT(Name##Prepared) { Name m; };                                                                      \
     FN void name##_prepare(Name m, Name##Prepared *p) { p->m = m; }

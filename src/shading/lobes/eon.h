@@ -1,4 +1,4 @@
-/* eon - clay again, but what one facet throws onto the next is not lost: brighter and deeper in colour
+/* eon - clay as oren-nayar has it, but with the light that scatters between facets: brighter and deeper in colour
  *
  *   f = (rho A (1 + roughness s / t) + rho_ms M) / pi                                            [1/sr]
  *   A = 1 / (1 + C1 roughness),  C1 = 1/2 - 2 / (3 pi),  C2 = 2/3 - 28 / (15 pi)
@@ -8,7 +8,7 @@
  *   G(cos x) = sin x (x - sin x cos x) + 2/3 (tan x (1 - sin^3 x) - sin x)
  *
  *   Jamie Portsmouth, Peter Kutz, Stephen Hill, "EON: A Practical Energy-Preserving Rough Diffuse BRDF", JCGT
- * 14(1), 2025. color = rho is the first colour, rho_ms the second, whatever f90 says.
+ * 14(1), 2025. color = rho is the first colour, rho_ms the second, whatever f90 is.
  *   Departures: 1 - E = A roughness (C1 - G / pi) and 1 - Eavg = A roughness (C1 - C2), which divides nothing
  * by nothing at roughness 0; x by the arc cosine 4.4.45 of Milton Abramowitz, Irene A. Stegun, "Handbook of
  * Mathematical Functions", 1964; rho in the denominator is at most 1.

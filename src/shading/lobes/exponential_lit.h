@@ -3,9 +3,9 @@
  *   f = color x(1 - cos_o) x(1 - cos_i) / (pi A)                                                [1/sr]
  *   A = integral 2 c x(1 - c) dc = (1 - 2 (beta - 1 + exp(-beta)) / beta^2) / (1 - exp(-beta))
  *
- *   x: lobe exponential. The plain product x(1 - cos_o) x(1 - cos_i) / pi is reciprocal too, but its E is A
+ *   x: lobe exponential. The bare product x(1 - cos_o) x(1 - cos_i) / pi is reciprocal too, but its E is A
  *     x, which loses two thirds of the rim at small beta. Divided by A, the mean of x under a uniform
- *     light, E is x again, so that both lobes weigh the same in a layer. The construction: Csaba Kelemen,
+ *     light, E is x, so that both lobes weigh the same in a layer. The construction: Csaba Kelemen,
  *     Laszlo Szirmay-Kalos, "A Microfacet Based Coupled Specular-Matte BRDF Model with Importance
  *     Sampling", Eurographics 2001 short papers.
  *   roughness: beta as of exponential.

@@ -7,15 +7,15 @@
  *   The slab of Tizian Zeltner, Brent Burley, Matt Jen-Yuan Chiang, "Practical Multiple-Scattering Sheen
  * Using Linearly Transformed Cosines", SIGGRAPH Talks 2022, of flakes of Eric Heitz, Jonathan Dupuy, Cyril
  * Crassin, Carsten Dachsbacher, "The SGGX Microflake Distribution", ACM TOG 34(4), 2015. f1 is exact: light
- * that met one flake (fibre_medium.h). Departures: M, what met more, is a closed form instead of a table.
+ * that met one flake (fibre_medium.h). Departures: M, multiple scattering, is a fitted polynomial instead of a table.
  *   color: the albedo of the fibres; light that met n of them has its n-th power (tint.h). Fitted for alpha
  *     0.045 to 1.
- *   roughness: alpha = roughness^2. Where fibres lean by two degrees or more, alpha below 0.38 counts as
- *     0.38, and a warning says so: nothing was fitted there. fibre-walk has no such bound.
+ *   roughness: alpha = roughness^2. Where fibres lean by two degrees or more, alpha below 0.38 counts as 0.38, with
+ *     a warning: nothing was fitted there. fibre-walk has no such bound.
  *   reciprocal: yes.
  *   energy: E <= 1; what is missing goes through.
- *   sampling: by a linearly transformed cosine with A and b closed forms in alpha and mu_o; where it falls
- *     short, at grazing and where fibres lean, by nu = -nu_o, give or take s, above the horizon; 4 % uniform.
+ *   sampling: by a linearly transformed cosine with A and b formulas of alpha and mu_o; where it falls short, at
+ *     grazing and where fibres lean, by nu = -nu_o, give or take s, above the horizon; 4 % uniform.
  *   Not for: fibres spun into yarn, which are threads.
  *   measured by weft check fibre: E at most 0.79 (alpha 0.09, cos_o 0.001);
  *     reciprocal to 1e-3; weight variance under 0.01 of the cosine's;
@@ -38,8 +38,8 @@
 STRUCT(Fibre){FIBRE_PARAMS(FIELD)};
 
 /* The lie of fibres: sharpness and lean. The model of leaning fibres was fitted from alpha 0.38 up;
- * sharper ones that lean ever so little would reflect more than they receive. lobe_fitted says where this
- * takes another alpha. */
+ * sharper ones with a small lean would reflect more than they receive. lobe_fitted warns where this replaces
+ * alpha. */
 STRUCT(FibreNap) {
     float alpha, s;     /* s = alpha^2 */
     float sin_t, cos_t; /* of the tilt */
@@ -75,8 +75,7 @@ FN Ltc fibre_ltc(float a, float cos_o) {
  * is up, the angle is uniform as far as the horizon. */
 STRUCT(FibreDraw) {
     float nu, b, low, high; /* low .. high: of x / (b + |x|) */
-    float
-        cone; /* fraction of the samples from the cone: above 0 near grazing, if enough of the circle is above the horizon */
+    float cone; /* fraction of the samples from the cone: above 0 near grazing, if enough of it is above the horizon */
 };
 
 FN float fibre_place(float x, float b) { return x / (b + abs(x)); }

@@ -11,14 +11,14 @@
  *     one that jumps, and only its mean over a neighbourhood is the f of the slab. The walk starts at the
  *     direction that sees less deep, and each of its flakes is connected to the other, b: z is its depth, d
  *     where light comes to it from. So large terms are rare, and f(wo, wi) is f(wi, wo) for each pair.
- *   Departures: the talk's walk ends after 16 flakes and, inside the slab, counts as what its last direction
- *     says; here it goes on until it leaves. Density and fibres that lean are not in the talk.
+ *   Departures: the talk's walk ends after 16 flakes and, inside the slab, is counted by its last direction; here it
+ *     goes on until it leaves. Density and fibres that lean are not in the talk.
  *   roughness: alpha = roughness^2; alpha is the talk's, and s the cross-section of a fibre along its axis.
- *   reciprocal: yes, since the walk does not know which direction is which.
+ *   reciprocal: yes, since the walk does not depend on which direction is wo.
  *   energy: E <= 1; what does not come back goes through. E itself is the share of many walks.
  *   sampling: x = (wi + wo) . t by b / (b + |x|)^2, b = max(mu_o, s), and evenly around t; a share of
  *     alpha half by the cosine, half uniformly.
- *   Not for: the GPU, arrays and 16-bit floats. E is known to 0.0025 in the tables of layer rules.
+ *   Not for: the GPU, arrays and 16-bit floats. E has a standard error of 0.0025 in the tables of layer rules.
  *   measured by weft check fibre-walk: E at most 0.79 (alpha 0.09, cos_o 0.001);
  *     reciprocal to 1e-3; weight variance 0.31 of the cosine's;
  *     half precision: not measured, since the lobe is for the path tracer only. */

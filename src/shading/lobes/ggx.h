@@ -7,7 +7,7 @@
  *   Anisotropy: Khronos Group, KHR_materials_anisotropy, 2023.
  *   roughness: alpha = roughness^2 (Burley 2012, section 5.4).
  *   reciprocal: yes.
- *   energy: E <= 1; light scattered more than once between facets is lost, of a white lobe at most 16 % at
+ *   energy: E <= 1; multiple scattering between facets is lost, of a white lobe at most 16 % at
  *     alpha 0.25, 32 % at 0.5 and, at normal incidence, ln 2 = 69 % at alpha 1.
  *   sampling: visible normals; the weight is F G2 / G1 <= 1.
  *   Not for: cloth whose fibres stand up; those have no highlight in the mirror direction.

@@ -12,7 +12,7 @@
  *     1/1024 wide that no quadrature of E resolves.
  *   roughness: alpha = roughness^2 = (1 - smoothness)^2 (Unity).
  *   reciprocal: yes.
- *   energy: E <= 1; light scattered more than once is lost, by default 12 % at the normal, 16 % at cos_o
+ *   energy: E <= 1; multiple scattering between facets is lost, by default 12 % at the normal, 16 % at cos_o
  *     0.5.
  *   sampling: visible normals; the weight is F G2 / G1 <= 1.
  *   Not for: two yarns of two colours; that is threads.

@@ -1,4 +1,4 @@
-/* ltc_sheen.h - a sheen that is one linearly transformed cosine D times what it reflects:  f = R D / cos_i */
+/* ltc_sheen.h - a sheen that is one linearly transformed cosine D times its albedo R:  f = R D / cos_i */
 #ifndef WEFT_SHADING_LTC_SHEEN_H
 #define WEFT_SHADING_LTC_SHEEN_H
 

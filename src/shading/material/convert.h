@@ -8,7 +8,7 @@
  *   To metallic: six numbers become four. With x the mean over the channels, metallic = m solves
  *   (1 - m) (f_d (1 - m) - x(f)) + m x(d) = 0, which is both lines above with base_color eliminated; then
  *   base_color = mix(d / (1 - m), (f - f_d (1 - m)) / m, m), since a dielectric shows its d and a metal its
- * f. What a pair of colours loses is what cannot be said so: a coloured f beside a d, an f below f_d.
+ * f. A pair of colours loses what cannot be expressed so: a coloured f beside a d, an f below f_d.
  *
  *   The relation and the blend by m, there m^2: Khronos Group, KHR_materials_pbrSpecularGlossiness, 2017,
  *   example "convert between workflows". */

@@ -5,8 +5,8 @@
  *
  *   n is the shading normal and p the point in the world, whose +y is up. What falls along -d meets a surface
  * by the cosine, as light does (Johann Heinrich Lambert, "Photometria", 1760): falloff 1 is dust that stays
- * where it fell, more is dust that slides off slopes. Whether the sky above is open is not asked: below an
- * overhang what looks up is dusty too.
+ * where it fell, more is dust that slides off slopes. Occlusion is ignored: below an overhang, what faces up is
+ * dusty too.
  *   N is noise between 0 and 1 whose largest patches are `scale` metres apart. It repeats after 289 of them
  * and is fixed to the world, so that things which move change their patches.
  *
@@ -19,7 +19,7 @@
 /* The lobe of a slab of it (dust_lobe.h). */
 #define DUST_LOBE LOBE_LTC_FIBRE
 
-/* Up to this there is none: nobody sees it, and it gets no samples. */
+/* Less dust than this is invisible: it counts as none and gets no samples. */
 #define DUST_LEAST 1e-5f
 
 /* Returns x mod 289 of a whole number, |x| < 2^22. It is exact in floats on every machine: the 1/2 that is added is

@@ -2,14 +2,14 @@
  *
  *   E = E_1 R(t) / R(1),  R(t) = (3 t + (2 - 3 mu) (1 - exp(-t / mu))) / (4 + 3 t)
  *
- * E_1 is that of one slab, t how many of them lie there, mu the cosine to the normal. R is what grains that
- * absorb nothing and scatter anywhere send back. E. P. Shettle, J. A. Weinman, "The Transfer of Solar
+ * E_1 is that of one slab, t the number of slabs, mu the cosine to the normal. R is the reflectance of grains that
+ * absorb nothing and scatter in all directions. E. P. Shettle, J. A. Weinman, "The Transfer of Solar
  * Irradiance Through Inhomogeneous Turbid Atmospheres Evaluated by Eddington's Approximation", Journal of
  * the Atmospheric Sciences 27, 1970. How the light spreads stays that of one slab. Of the lobe fibre with the
  * density t and alpha 1, E is within 0.03, t from 1/4 to 4 (tests/shading/test_dust).
  *
- * E is known without a table of the material's own. A text for a GPU has this file only where it has that
- * lobe; elsewhere there is no dust (text/assemble/dispatch.h). */
+ * E needs no table of the material's own. A text for a GPU has this file only if it has that lobe; otherwise there
+ * is no dust (text/assemble/dispatch.h). */
 #ifndef WEFT_DUST_LOBE_H
 #define WEFT_DUST_LOBE_H
 
@@ -17,7 +17,7 @@
 #include "shading/lobes/ltc_fibre.h"
 #include "shading/media/fibre_medium.h"
 
-/* Slabs where dust is 1. */
+/* The number of slabs if dust is 1. */
 #define DUST_SLABS 8.0f
 
 /* Returns R of the opening comment. */

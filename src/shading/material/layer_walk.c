@@ -4,8 +4,8 @@
  *   f = c f_s(o, i) + T(o) f_b(o, i) T(i)
  *     + T(o) int f_b(o, a) cos_a c f_s(a, b) cos_b f_b(b, i) T(i) + ...,   T(w) = 1 - c E(w)
  *
- * The sheet reflects by the sheen's lobe on both of its sides and lets the rest through unbent. The first two
- * terms are stack_value's; the sum over bounces is estimated by a random walk from wo, the next step's base
+ * The sheet reflects by the sheen's lobe on both of its sides and transmits the rest without refraction. The first
+ * two terms are stack_value's; the sum over bounces is estimated by a random walk from wo, the next step's base
  * as its connection to wi. After Yu Guo, Milos Hasan, Shuang Zhao, "Position-Free Monte Carlo Simulation for
  * Arbitrary Layered BSDFs", ACM TOG 37(6), 2018, section 4, for layers without thickness. Over a lossless
  * base and with E <= 1 a white sheen loses nothing. */
@@ -16,7 +16,7 @@ enum { BOUNCES_MOST = 64 };
 
 static float walk_random(uint32_t *walk) { return unit_float(*walk = hash32(*walk + 0x9e3779b9u)); }
 
-/* One of the two by itself: the whole without its layer rule, how that is seen, and which slots are its own.
+/* One of the two layers: the stack without its layer rule, its view, and the slots of the layer.
  */
 typedef struct WalkLayer {
     const Stack *stack;
@@ -30,7 +30,7 @@ static void turn(WalkLayer *layer, Dir o) {
     stack_view_lobes(layer->stack, &layer->view);
 }
 
-/* Extends the walk by one reflection; o becomes the new direction. False where it ends. */
+/* Extends the walk by one reflection; o becomes the new direction. Returns false if the walk ends. */
 static bool walk_on(uint32_t *walk, WalkLayer *layer, Dir *o, Rgb *weight) {
     float u = walk_random(walk), v = walk_random(walk);
     turn(layer, *o);

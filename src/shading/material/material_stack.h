@@ -20,8 +20,8 @@ static inline const Slot *stack_slot(const Stack *m, int place) {
     return slots[place];
 }
 
-/* One copy of each: the catalogue's text in every caller would be many times the program. Records go by
- * reference: by value they would be packed into registers and come out slower than they are computed. */
+/* One copy of each: the catalogue's text in every caller would multiply the program's size. Records are passed by
+ * reference: passing them by value would take longer than to compute them. */
 #define ONE_COPY __attribute__((noinline))
 
 /* Fills stack for a surface; it serves all directions. e: the table of the sheen's E that surface_stack needs, of kind

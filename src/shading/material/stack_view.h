@@ -1,4 +1,4 @@
-/* stack_view.h - the view of a stack from wo: what dims each slot, and how often each is sampled */
+/* stack_view.h - the view of a stack from wo: the scale of each slot, and the probability that it is sampled */
 #ifndef WEFT_SHADING_STACK_VIEW_H
 #define WEFT_SHADING_STACK_VIEW_H
 
@@ -124,7 +124,7 @@ FN void stack_view(const Stack *m, Dir o, StackView *w) {
     view_select_p(m, w);
 }
 
-/* Makes a view that of a stack with another diffuse lobe, as far as stack_value asks. */
+/* Updates the view to another diffuse lobe of the stack; sets only what stack_value reads. */
 FN void view_base(const Stack *m, StackView *w) {
     IN_SLOT(diffuse, view)(m->diffuse.lobe.id, &m->diffuse_prepared, &w->o, &w->diffuse_view);
 }

@@ -1,5 +1,4 @@
-/* fibre_medium.h - the medium that fuzz is: what one of its flakes does with light, and what a slab of it
- * does with light that meets no second one
+/* fibre_medium.h - the medium of fuzz: the phase function of its flakes, and single scattering in a slab of it
  *
  *   S = 1 - (1 - s^2) t t^T,   nu = w . t,   c = h . t,   h along wi + wo
  *   sigma(w)  = sqrt(w . S w) = sqrt(1 - nu^2 + s^2 nu^2)
@@ -15,7 +14,7 @@
  * t is the axis of the fibres, and s what a fibre shows along t in parts of what it shows across: 1 is dust,
  * 0 would be threads without ends. sigma is the extinction per unit of density; wi points back to where light
  * comes from. H is density times thickness, mu the cosine to the slab's normal, which is nu where fibres
- * stand upright. Flakes are white: what they keep multiplies f1 from outside. Finite for s from 1e-4, mu from
+ * stand upright. Flakes are white: their albedo multiplies f1 outside. Finite for s from 1e-4, mu from
  * 1e-30 and H up to 8. */
 #ifndef WEFT_FIBRE_MEDIUM_H
 #define WEFT_FIBRE_MEDIUM_H

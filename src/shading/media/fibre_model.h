@@ -1,4 +1,4 @@
-/* fibre_model.h - light that met more than one fibre: a closed form fitted to the solved slab
+/* fibre_model.h - multiple scattering by fibres: a polynomial fitted to the solved slab
  *
  *   M(o, i) = 2^(A_o + A_i + h_o h_i - g_o g_i - k_o k_i (wo . wi - nu_o nu_i))  prod_b B_b(o, i)^-p_b [1/sr]
  *
@@ -18,17 +18,17 @@
 #include "shading/dialect/tint.h"
 #include "shading/tables/fibre_model.h"
 
-/* All that a material knows, but for FibreNumbers: a record in this one would be too deep for WebGL, which takes four
- * levels. */
+/* The numbers of one material, without FibreNumbers: a record in this one would be too deep for WebGL, which takes
+ * four levels. */
 STRUCT(FibreModel) {
     float power, span, low; /* u = span (mu + 0.001)^power + low */
     float ridge, narrow;    /* squares */
     float s;                /* twice the square of the tilt's sine */
-    float hold;             /* keeps E below 1 against the nap; set by hand after the fit, which knows none */
+    float hold;             /* keeps E below 1 against the nap; set by hand after the fit, which has none */
 };
 
 /* The values of one direction: cosines to the normal and to the fibre, exponents of M, and for colour the
- * probability q that light meets another flake, and exponents again. */
+ * probability q that light meets another flake, and more exponents. */
 STRUCT(FibreSide) { float mu, nu, a, h, g, k, q, v, u, c; };
 
 /* Adds the terms of a lean that are alike for all directions of one u to those of upright fibres. */

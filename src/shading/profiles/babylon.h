@@ -1,4 +1,4 @@
-/* babylon - Babylon.js PBRMaterial with albedoScaling: a soft bright rim, the base less what a table says
+/* babylon - Babylon.js PBRMaterial with albedoScaling: a soft bright rim, the base dimmed by a table
  *
  *   f      = c D V + keep (base_color (1 - F0) (1 - metallic) / pi + D_ggx V_ggx F (1 + f0 (1 / Ess - 1)))
  *   D      = charlie,  V = V_neubelt,  alpha = r^2 + 0.0005 of base and sheen

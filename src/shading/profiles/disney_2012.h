@@ -5,7 +5,7 @@
  *   wdas/brdf, src/brdfs/disney.brdf (0202adc). Its V does not widen the roughness to (0.5 + roughness /
  * 2)^2, which the course notes of 2012 do and their later addenda take back. Nothing dims the diffuse lobe;
  * the sheen has neither a roughness nor 1/pi.
- *   Inputs: sheen_color is not looked at: sheen and sheen_tint say all. Where they are not given, specular is
+ *   Inputs: sheen_color is not looked at: sheen and sheen_tint replace it. Where they are not given, specular is
  * 0.5 and sheen 0. Colours are linear, not gamma 2.2. The coat may have a normal of its own. */
 #ifndef WEFT_PROFILE_DISNEY_2012_H
 #define WEFT_PROFILE_DISNEY_2012_H

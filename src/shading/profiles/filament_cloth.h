@@ -7,8 +7,8 @@
  * Nothing is taken from the diffuse lobe, which the design document has times 1 - F.
  *   IBL there differs: the diffuse lobe keeps 1 - c E each channel, and the rim is blurred as if it were
  * ggx.
- *   Inputs: c, its sheenColor, is sheen_color sheen, and its roughness, which only D asks for, is
- * sheen_roughness. Where no colour is given it takes the root of the base colour; here black is none.
+ *   Inputs: c, its sheenColor, is sheen_color sheen, and its roughness, which only D reads, is sheen_roughness.
+ * Where no colour is given it takes the root of the base colour; here black is none.
  * Subsurface colour is not made.
  *   Departure: alpha is at least 0.005. */
 #ifndef WEFT_PROFILE_FILAMENT_CLOTH_H

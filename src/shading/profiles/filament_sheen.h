@@ -1,4 +1,4 @@
-/* filament-sheen - Filament's lit material with a sheen: a soft rim, the base less what a table says
+/* filament-sheen - Filament's lit material with a sheen: a soft rim, the base dimmed by a table
  *
  *   f      = c D V + keep (base_color (1 - metallic) / pi + D_ggx V_ggx F (1 + f0 (1 / Ess - 1)))
  *   D      = charlie with sin_h^2 >= 1/128,  V = V_neubelt,  alpha = max(sheen_roughness, 0.045)^2
@@ -13,7 +13,7 @@
  *   Inputs: f0 as in workflow metallic; clear coat, anisotropy and specular's share in f90 are not looked
  * at.
  *   Departures: D_ggx is not cut off at 65464, which it reaches below roughness 0.047; alpha of the sheen
- * is at least 0.005; keep at least 0, where the table's E passes 1 (there it turns the base negative). That
+ * is at least 0.005; keep at least 0, where the table's E passes 1 (there it makes the base negative). That
  * the shift of the table's rows reaches the sampler is inferred; Babylon.js's image shows the same. */
 #ifndef WEFT_PROFILE_FILAMENT_SHEEN_H
 #define WEFT_PROFILE_FILAMENT_SHEEN_H

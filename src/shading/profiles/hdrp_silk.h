@@ -7,7 +7,7 @@
  *   Unity-Technologies/Graphics, com.unity.render-pipelines.high-definition,
  * Runtime/Material/Fabric/Fabric.hlsl (2a67652); BSDF.hlsl and CommonMaterial.hlsl of
  * com.unity.render-pipelines.core (05639b3). F takes nothing from the diffuse lobe.
- *   IBL there differs: a table of ggx, along a direction bent by the anisotropy.
+ *   IBL there differs: a table of ggx, along a direction deflected by the anisotropy.
  *   Inputs: 1 - smoothness is roughness; its specular colour f0 is that of a dielectric as in workflow
  * metallic; sheen and metallic are not looked at.
  *   Departures: alpha is at least 0.001 and anisotropy at most 0.9, where y would narrow to its floor of

@@ -7,14 +7,14 @@
  *   coat_F = clearcoat (0.04 + 0.96 (1 - cos_o)^5)
  *
  *   KhronosGroup/glTF-Sample-Renderer, source/Renderer/shaders/pbr.frag (9dfbb82), material_info.glsl,
- * punctual.glsl; brdf.glsl of KhronosGroup/glTF-Sample-Viewer (00536c7). No light is scattered twice
- * between facets.
+ * punctual.glsl; brdf.glsl of KhronosGroup/glTF-Sample-Viewer (00536c7). There is no multiple scattering between
+ * facets.
  *   IBL there differs: keep looks at cos_o alone; the sheen is a blurred mirror image times a table whose
  * Charlie has roughness unsquared, which is up to 1.7 times its own integral at roughness 0.5; the base has
  * Fdez-Aguera's scattering.
  *   Substitute: E, there the picture lut_sheen_E.png of unknown making, is here the integral of the
- * profile's own lobe, at most 1. If the picture knows nothing of the clamp on V, as the extension's text
- * does not, it is up to 0.16 more at cos_o 0.02 and up to 0.06 from cos_o 0.1 on
+ * profile's own lobe, at most 1. If the picture does not include the clamp on V, as the extension's text does not,
+ * it is up to 0.16 more at cos_o 0.02 and up to 0.06 from cos_o 0.1 on
  * (tests/shading/test_profiles).
  *   Departures: alpha of the base is at least 0.001, of the sheen 0.005; keep at least 0. F0 without an ior
  * is weft's. */

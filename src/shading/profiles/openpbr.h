@@ -1,4 +1,4 @@
-/* openpbr - OpenPBR Surface: a fuzz that scatters again and again, over a base that it dims but does not tint
+/* openpbr - OpenPBR Surface: a fuzz with multiple scattering, over a base that it dims but does not tint
  *
  *   f      = w c f_fuzz + (1 - w E(cos_o)) mix(dielectric, metal, metallic),  w = min(sheen, 1)
  *   f_fuzz = E(cos_o) D / cos_i,  alpha = sheen_roughness

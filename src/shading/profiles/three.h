@@ -13,7 +13,7 @@
  * mrdoob/three.js. Earlier releases dim the base by 0.157 max3(c) or have another E, and leave the diffuse
  * lobe whole.
  *   E is far from the sheen's own at low roughness, so grazing light is returned more than once over: at
- * roughness 0.1 and cos_o 0.02 the lobe has E 1.54, the formula says .27.
+ * roughness 0.1 and cos_o 0.02 the lobe has E 1.54, the formula gives .27.
  *   IBL there differs: the sheen is diffuse irradiance times c E(cos_o), keep looks at cos_o alone, the
  * base has Fdez-Aguera's scattering; lights of an area have no sheen.
  *   Departures: nothing is added to roughness where the normal changes from pixel to pixel; alpha of the

@@ -1,6 +1,6 @@
 /* frame.h - the shading frame at a point: about a normal that the viewer can see, x along the tangent
  *
- * Directions here are the world's, those that a Frame is asked for (frame_to) the shading frame's. */
+ * Directions are in world space; frame_to returns them in the shading frame. */
 #ifndef WEFT_SHADING_FRAME_H
 #define WEFT_SHADING_FRAME_H
 

@@ -27,9 +27,9 @@
 #define LAYER_BY_MAX     0
 #define LAYER_BY_CHANNEL 1
 
-/* L(id, index, what of the base is left, asks_wi, asks_average, conserves, help), c the sheen's colour, e_o
- * e_i e_avg its white albedo, of which those two ask for e_i and for e_avg. conserves: with a sheen of E <= 1
- * the whole returns no more light than it received. */
+/* L(id, index, factor on the base, asks_wi, asks_average, conserves, help). c: the sheen's colour. e_o, e_i, e_avg:
+ * its white albedo towards wo, towards wi, and on average. asks_wi, asks_average: the factor reads e_i, e_avg.
+ * conserves: with a sheen of E <= 1 the stack reflects no more light than it receives. */
 #define WEFT_LAYERS(L)                                                                                       \
     L("additive", LAYER_ADDITIVE, additive_base(c, e_o, e_i, e_avg), false, false, false,                    \
       "the base loses nothing; gains energy")                                                                \

@@ -3,9 +3,9 @@
  *   f cos = T_dust (T_coat (sheen + base_scale (specular + (1 - F) diffuse)) + coat) + dust
  *   pdf   = sum select_p_k pdf_k,  sum select_p_k = 1
  *
- * Cloth lets light through: a share of the diffuse lobe's energy goes to a Lambert lobe below the surface. It is
- * dimmed by all that lies over the diffuse lobe as if wi were its mirror image above, since what is in front is
- * behind too: so f is as reciprocal as the layers are, and both sides together receive what one did.
+ * Cloth transmits light: a share of the diffuse lobe's energy goes to a Lambert lobe below the surface. It is dimmed
+ * by everything that is over the diffuse lobe as if wi were its mirror image above, since the layers in front are
+ * behind too: so f is as reciprocal as the layers are, and both sides together reflect what one did.
  *
  * A Stack holds what does not depend on directions. It is made once for a material, or for each point if textures
  * change its inputs. A StackView holds what depends on wo alone. It serves sampling and every wi. Two factors depend
@@ -130,7 +130,7 @@ STRUCT(StackValue) {
 };
 
 /* HAS_DIFFUSE and so on test whether a slot holds a lobe, HAS_LAYERED_SHEEN whether the layer rule has a
- * sheen that is not black, HAS_TRANSMITTED whether the base lets light through. A shader whose slots are known
+ * sheen that is not black, HAS_TRANSMITTED whether the base lets light through. A shader, whose slots are fixed,
  * defines them as constants: an empty slot costs nothing. */
 #ifndef HAS_DIFFUSE
 #define HAS_DIFFUSE(m)       ((m)->diffuse.normal > 0.0f)
@@ -231,8 +231,8 @@ FN Dir stack_to_coat(const Stack *m, Dir w) {
     return dir(dir_dot(w, m->coat_x), dir_dot(w, m->coat_y), dir_dot(w, m->coat_z));
 }
 
-/* Takes from the diffuse slot, once its lobe is chosen, what goes through. Samples are split by what either reflects
- * or lets through; so a black lobe that does keeps its slot. */
+/* Takes the transmitted share from the diffuse slot, after its lobe is chosen. Samples are divided by what is
+ * reflected and what is transmitted; so a black lobe that transmits keeps its slot. */
 FN void stack_split_diffuse(Stack *m) {
     if (!HAS_TRANSMITTED(m)) return;
     float kept = 1.0f - m->transmission, through = rgb_mean(m->transmitted);
@@ -245,7 +245,7 @@ FN void stack_split_diffuse(Stack *m) {
     m->transmitted_p = min(facing / max(m->diffuse.normal, 1e-30f), 1.0f);
 }
 
-/* Prepares the lobes, once their parameters are set. */
+/* Prepares the lobes, after their parameters are set. */
 #define PREPARE_SLOT(name, NAME, Name, wo)                                                                   \
     if (HAS_##NAME(m)) IN_SLOT(name, prepare)(&m->name.lobe, &m->name##_prepared);
 FN void stack_prepare_lobes(Stack *m){SLOTS(PREPARE_SLOT)}

@@ -1,4 +1,4 @@
-/* surface.h - a material's inputs at one point, as plain numbers; and what its choices are */
+/* surface.h - a material's inputs at one point as numbers, and its choices */
 #ifndef WEFT_SHADING_SURFACE_H
 #define WEFT_SHADING_SURFACE_H
 
@@ -18,7 +18,7 @@ STRUCT(Surface){SURFACE_INPUTS(SURFACE_FIELD)};
 #define CHOICE_FIELD(name, help) int name;
 STRUCT(Choices){SURFACE_CHOICES(CHOICE_FIELD)};
 
-/* Nothing chosen. */
+/* Returns choices of which none is made. */
 #define CHOICE_UNMADE(name, help) c.name = CHOICE_AUTO;
 FN Choices choices_unmade(void) {
     Choices c;

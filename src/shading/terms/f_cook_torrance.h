@@ -5,12 +5,12 @@
  *
  *   Robert L. Cook, Kenneth E. Torrance, "A Reflectance Model for Computer Graphics", ACM Transactions on
  * Graphics 1(1), 1982; Brian Karis, "Specular BRDF Reference", 2013, which has these three lines.
- *   F0 of a dielectric whose ior is given is made of that ior, which therefore comes out as n again. Metals
- * dip below F0 before they rise: .478 at F0 .638 and c .15. F is no mixture of F0 and white, so no share
- * says it: fresnel_weight.h. Safer beside it is f_dielectric: one n for all channels, and F never below F0.
- *   Departures: F0 counts as .9998 at the most, where n is 20000, and c as 1e-6 at the least, since at n = 1
- * it would be 0 / 0 on the horizon. Light that is summed before the colour is known - ambient light, the
- * tables of layer rules - takes f_schlick from F0 to white. */
+ *   F0 of a dielectric whose ior is given is made of that ior, which therefore is n. Metals
+ * dip below F0 before they rise: .478 at F0 .638 and c .15. F is no mixture of F0 and white, so no share expresses
+ * it (fresnel_weight.h). Safer beside it is f_dielectric: one n for all channels, and F never below F0.
+ *   Departures: F0 is at most .9998, where n is 20000, and c at least 1e-6, since at n = 1
+ * it would be 0 / 0 on the horizon. Light that is summed before the colour is applied - ambient light, the tables of
+ * layer rules - takes f_schlick from F0 to white. */
 #ifndef WEFT_F_COOK_TORRANCE_H
 #define WEFT_F_COOK_TORRANCE_H
 

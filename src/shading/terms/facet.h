@@ -3,9 +3,9 @@
  *   pdf(wi) = D(h) cos_h / (4 wi . h)
  *
  *   Bruce Walter, Stephen R. Marschner, Hongsong Li, Kenneth E. Torrance, "Microfacet Models for Refraction
- * through Rough Surfaces", EGSR 2007, Equations 14 and 24. A facet that is turned away from wo gives no
- * sample; since every D here is the same for (x, y, z) and (-x, -y, z), such a one is turned half round the
- * normal, from where it is seen. */
+ * through Rough Surfaces", EGSR 2007, Equations 14 and 24. A facet that faces away from wo gives no sample; since
+ * every D here is the same for (x, y, z) and (-x, -y, z), such a facet is rotated by half a circle about the normal,
+ * where it is visible. */
 #ifndef WEFT_FACET_H
 #define WEFT_FACET_H
 
@@ -30,8 +30,8 @@ FN float facet_pdf(float d_cos, Angles a) {
     return d_cos * (twice ? 0.5f : 0.25f) / max(a.d, 1e-6f);
 }
 
-/* The next two keep their digits where 1 - s and exp(-y) are near 1: there the logarithm and the power of a
- * GPU are right to an absolute error only. */
+/* The next two functions keep their digits where 1 - s and exp(-y) are near 1: there the logarithm and the power of
+ * a GPU have a small absolute error only. */
 
 /* Evaluates -ln(1 - s) for s in [0, 1); c is 1 - s. Below 1/4 it uses 2 artanh(s / (2 - s)), whose series is within
  * 2e-8. */

@@ -3,7 +3,7 @@
  *   V = min(v_conty_kulla, 1)
  *
  *   Khronos Group, glTF-Sample-Viewer, 2020 on: the sheen visibility of its shader is clamped to [0, 1],
- * which the text of KHR_materials_sheen does not ask for. */
+ * which the text of KHR_materials_sheen does not require. */
 #ifndef WEFT_V_CONTY_KULLA_CLAMPED_H
 #define WEFT_V_CONTY_KULLA_CLAMPED_H
 

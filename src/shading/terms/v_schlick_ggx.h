@@ -4,7 +4,7 @@
  *
  *   Brian Karis, "Real Shading in Unreal Engine 4", SIGGRAPH 2013 course "Physically Based Shading in Theory
  * and Practice": the form of v_schlick_beckmann, k chosen so that it meets v_smith_ggx at alpha 1.
- *   Departure: for lamps that engine had k = (roughness + 1)^2 / 8, an artist's wish; that is alpha =
+ *   Departure: for lights that engine had k = (roughness + 1)^2 / 8, an artist's wish; that is alpha =
  * (roughness + 1)^2 / 4 here. k > 0 keeps the denominator from 0: no floor is needed. */
 #ifndef WEFT_V_SCHLICK_GGX_H
 #define WEFT_V_SCHLICK_GGX_H

@@ -1,9 +1,9 @@
-/* v_smith_ggx - shadowing and masking of GGX as if the two knew nothing of each other: too dark at grazing
+/* v_smith_ggx - shadowing and masking of GGX as if the two were independent: too dark at grazing
  *
  *   V = 1 / ((cos_o + |A wo|) (cos_i + |A wi|)),   A = diag(alpha, alpha, 1)
  *
  *   Bruce Walter et al., "Microfacet Models for Refraction through Rough Surfaces", EGSR 2007, Equation 34,
- * once for each direction. alpha >= 0.001 keeps |A w| from 0: no floor is needed. */
+ * for each direction. alpha >= 0.001 keeps |A w| from 0: no floor is needed. */
 #ifndef WEFT_V_SMITH_GGX_H
 #define WEFT_V_SMITH_GGX_H
 

@@ -1,4 +1,4 @@
-/* v_smith_ggx_aniso_separate - shadowing and masking of brushed GGX as if the two knew nothing of each other
+/* v_smith_ggx_aniso_separate - shadowing and masking of brushed GGX as if the two were independent
  *
  *   V = 1 / ((cos_o + |A wo|) (cos_i + |A wi|)),   A = diag(ax, ay, 1)
  *

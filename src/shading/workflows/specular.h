@@ -3,7 +3,7 @@
  *   f = as in workflow metallic, with f0 = specular_color specular and diffuse = base_color (1 - max3 f0)
  *
  *   Khronos Group, KHR_materials_pbrSpecularGlossiness, 2017 (Appendix: F0 = specular, diffuse dimmed by the
- * strongest channel of it). It says more than metallic can: any pair of colours. `convert.h` has what is lost
+ * strongest channel of it). It can express more than metallic: any pair of colours. `convert.h` has what is lost
  * on the way to metallic. */
 #ifndef WEFT_WORKFLOW_SPECULAR_H
 #define WEFT_WORKFLOW_SPECULAR_H
