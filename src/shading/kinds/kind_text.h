@@ -7,10 +7,10 @@
 #include "shading/dialect/loop.h"
 #include "shading/kinds/kind.h"
 #include "shading/kinds/kind_loops.h"
-#include "shading/material/stack_steps.h"
+#include "shading/material/material_stack.h"
 #include "shading/stack/frame.h"
 
-static Choices known_choices(void) {
+static Choices kind_choices(void) {
     Choices c = choices_unmade();
     c.profile = KIND_PROFILE;
     return c;
@@ -24,7 +24,7 @@ static Choices known_choices(void) {
     if (dust_lobe < 0) s.dust = 0.0f;                                                                        \
     if (!KIND_TRANSMITS) s.diffuse_transmission = 0.0f;                                                      \
     Stack m;                                                                                                 \
-    compose_stack(&m, &s, known_choices(), e);                                                               \
+    compose_stack(&m, &s, kind_choices(), e);                                                                \
     if (KIND_WOVEN)                                                                                          \
         compose_base(&m, yarn_of_row(&(v)->yarn, k), ROW_RGB((v)->yarn.single, k),                           \
                      ROW_RGB((v)->yarn.multiple, k));                                                        \
@@ -112,7 +112,7 @@ LOOP(eval_n, (KindVertices *restrict v, TableRef e, int direction, int n), (v, e
     if (name##_lobe >= 0) {                                                                                  \
         Dir x;                                                                                               \
         name##_sample_at(0, &m.name##_prepared, &w.name##_view, &w.wo, u, v->v[k], &x);                      \
-        if (PLACE_##NAME == PLACE_COAT) x = dir_choose(x.z > 0.0f, from_coat(&m, x), x);                     \
+        if (PLACE_##NAME == PLACE_COAT) x = dir_choose(x.z > 0.0f, stack_from_coat(&m, x), x);               \
         i = dir_choose((slot == place) & (w.wo.z > 0.0f), x, i);                                             \
     }                                                                                                        \
     place++;
@@ -131,7 +131,7 @@ LOOP(sample_n, (KindVertices *restrict v, TableRef e, int n), (v, e, n)) {
         u = min(max((u - begin) / max(width, 1e-12f), 0.0f), 0x1.fffffep-1f);
         bool through = KIND_TRANSMITS && slot == PLACE_DIFFUSE;
         float rest = u;
-        through = through && steps_goes_through(&m, &rest);
+        through = through && stack_takes_transmitted(&m, &rest);
         u = KIND_TRANSMITS && slot == PLACE_DIFFUSE ? rest : u;
         Dir i = dir(0.0f, 0.0f, -1.0f);
         place = 0;

@@ -1,16 +1,7 @@
-#include "shading/material/stack_steps.h"
+#include "shading/material/material_stack.h"
 
 void stack_make(Stack *stack, const Surface *surface, const Choices *choices, TableRef e) {
-    Choices converted;
-    Surface own;
-    if (convert_wanted(*choices) || compose_evens(*choices)) {
-        own = convert_surface(*surface, *choices);
-        converted = convert_choices(*choices);
-        compose_surface(&own, converted);
-        surface = &own;
-        choices = &converted;
-    }
-    compose_stack(stack, surface, *choices, e);
+    surface_stack(stack, surface, *choices, e);
 }
 
 void stack_put_base(Stack *stack, const Lobe *lobe, Rgb f0, Rgb f90) { compose_base(stack, *lobe, f0, f90); }
@@ -27,17 +18,62 @@ void seen_prepare(SeenStack *seen, Dir o) {
     stack_see(&seen->stack, &o, &seen->view);
 }
 
+/* Returns f cos and pdf for i. wo is above the horizon of the surface; it may be below that of the coat's own
+ * normal. */
+FN StackValue value_of(const Stack *stack, const StackView *view, Slots only, Dir i) {
+    if (i.z <= 0.0f && !(i.z < 0.0f && only.diffuse && HAS_TRANSMITTED(stack))) return (StackValue){0};
+    Angles a = angles_between(view->o, dir(i.x, i.y, abs(i.z))), in_coat;
+    if (i.z < 0.0f) return stack_transmitted(stack, view, &a);
+    const Angles *coat = &a;
+    if (HAS_COAT(stack)) {
+        in_coat = angles_between(view->coat_o, stack_to_coat(stack, i));
+        coat = &in_coat;
+    }
+    return stack_value_of(stack, view, only, &a, coat);
+}
+
 StackValue stack_eval_of(const Stack *stack, const StackView *view, Slots only, Dir i) {
     if (view->o.z <= 0.0f) return (StackValue){0};
     return value_of(stack, view, only, i);
 }
 
 void stack_eval(const Stack *stack, const StackView *view, const Dir *i, uint32_t seed, StackValue *value) {
-    steps_eval(stack, view, i, seed, value);
+    *value = (StackValue){0};
+    if (view->o.z <= 0.0f) return;
+    *value = value_of(stack, view, slots_all(), *i);
+    if (stack->layer == LAYER_STOCHASTIC && i->z > 0.0f)
+        value->f_cos = rgb_add(value->f_cos, layer_walk_bounces(stack, view, slots_all(), *i, seed));
 }
 
-int stack_select_slot(const StackView *view, float *u) { return steps_select(view, u); }
+#define TAKE_SLOT(name, NAME, Name, wo)                                                                      \
+    if (view->select_p.name > 0.0f && (slot < 0 || *u >= at)) {                                              \
+        slot = PLACE_##NAME;                                                                                 \
+        begin = at;                                                                                          \
+        width = view->select_p.name;                                                                         \
+        at += width;                                                                                         \
+    }
+int stack_select_slot(const StackView *view, float *u) {
+    int slot = PLACE_NONE;
+    float begin = 0.0f, at = 0.0f, width = 1.0f;
+    SLOTS(TAKE_SLOT)
+    *u = min(max((*u - begin) / max(width, 1e-12f), 0.0f), 0x1.fffffep-1f); /* the rest is as good as new */
+    return slot;
+}
 
+#define SAMPLE_SLOT(name, NAME, Name, wo)                                                                    \
+    case PLACE_##NAME:                                                                                       \
+        if (view->wo.z > 0.0f) IN_SLOT(name, sample_at)                                                      \
+        (stack->name.lobe.id, &stack->name##_prepared, &view->name##_view, &view->wo, u, v, i);              \
+        break;
 void stack_sample(const Stack *stack, const StackView *view, float u, float v, Dir *i) {
-    steps_sample(stack, view, u, v, i);
+    *i = dir(0.0f, 0.0f, -1.0f);
+    int slot = stack_select_slot(view, &u);
+    if (HAS_TRANSMITTED(stack) && slot == PLACE_DIFFUSE && stack_takes_transmitted(stack, &u)) {
+        Dir above = warp_cosine(u, v);
+        *i = dir(above.x, above.y, -above.z);
+        return;
+    }
+    switch (slot) { SLOTS(SAMPLE_SLOT) }
+    if (slot == PLACE_COAT && i->z > 0.0f) *i = stack_from_coat(stack, *i);
+    if (HAS_TRANSMITTED(stack)) i->z = max(i->z, 0.0f); /* what a lobe draws below is no sample */
 }
