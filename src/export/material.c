@@ -13,10 +13,11 @@
 #include "text/source/number_text.h"
 
 typedef struct Rule {
-    const char *id, *base, *asks_wi, *asks_average;
+    const char *id, *base, *needs_wi, *needs_average;
 } Rule;
 
-#define RULE(id, index, base, asks_wi, asks_average, conserves, help) {id, #base, #asks_wi, #asks_average},
+#define RULE(id, index, base, needs_wi, needs_average, conserves, help)                                      \
+    {id, #base, #needs_wi, #needs_average},
 static const Rule rules[] = {WEFT_LAYERS(RULE)};
 
 typedef struct ExportModel {
@@ -82,7 +83,7 @@ static void find_facts(Draft *draft, ExportModel *model) {
     if (under) draft_fact(draft, "m.base_fresnel", m[0].base_fresnel);
     if (view) draft_fact(draft, "m.view", m[0].view);
     if (coat) draft_fact(draft, "m.coat_rule", m[0].coat_rule);
-    if (albedo && !layer_asks_average(c->layer)) /* such a rule may change it on the way */
+    if (albedo && !layer_needs_average(c->layer)) /* such a rule may change it on the way */
         draft_fact(draft, "m.albedo", m[0].albedo);
 #define CHOICE_FACT(name, help) draft_fact(draft, "c." #name, c->name);
     SURFACE_CHOICES(CHOICE_FACT)
@@ -145,8 +146,8 @@ static void put_layer(Text *text, int layer) {
               "its albedo. */\n"
               "float layer_base(int layer, float c, float e_o, float e_i, float e_avg) {\n    return %s;\n}",
               LAYER_BY_MAX, LAYER_BY_CHANNEL, rules[layer].base);
-    text_define(text, "layer_asks_wi(layer)", rules[layer].asks_wi);
-    text_define(text, "layer_asks_average(layer)", rules[layer].asks_average);
+    text_define(text, "layer_needs_wi(layer)", rules[layer].needs_wi);
+    text_define(text, "layer_needs_average(layer)", rules[layer].needs_average);
 }
 
 static void put_value(Text *text, const Surface *s, int k) {
@@ -194,7 +195,7 @@ static void put_shade(Draft *draft, const ExportModel *model) {
     if (through) text_line(text, "    stack_split_diffuse(m);");
     if (!model->zero[INPUT_dust]) text_line(text, "    compose_dust(m, s);");
     if (model->table) text_line(text, "    m.table = sheen_table();");
-    if (model->table && layer_asks_average(model->stack.layer))
+    if (model->table && layer_needs_average(model->stack.layer))
         text_line(
             text,
             "    m.e_avg = table_sheen_nap_average(m.table, m.nap, table_rows(m.table, m.albedo_coord));");

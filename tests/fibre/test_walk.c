@@ -102,7 +102,7 @@ static void text_turn(const WalkMedium *m, const double wi[3], uint64_t number, 
     uint64_t stream = stream_start(6, number);
     double point[3], z = 2.0 * unit_double(stream_next(&stream)) - 1.0;
     set_direction(point, z, 2.0 * PI_DOUBLE * unit_double(stream_next(&stream)));
-    Dir d = flake_turn((float)m->s, to_dir(m->axis), to_dir(wi), to_dir(point));
+    Dir d = flake_scatter((float)m->s, to_dir(m->axis), to_dir(wi), to_dir(point));
     out[0] = (double)d.x, out[1] = (double)d.y, out[2] = (double)d.z;
 }
 
@@ -189,7 +189,7 @@ static void medium_of_the_shading_text_is_finite_at_its_limits(void **state) {
         float f = flake_single(s, flake_axis(tilt, 0.0f), thickness, o, i);
         float g = flake_single(s, flake_axis(tilt, 0.0f), thickness, i, o);
         assert_true(isfinite(f) && f >= 0.0f && !(f < g || f > g));
-        Dir d = flake_turn(s, flake_axis(tilt, 0.0f), o, dir(-o.x, -o.y, -o.z));
+        Dir d = flake_scatter(s, flake_axis(tilt, 0.0f), o, dir(-o.x, -o.y, -o.z));
         assert_true(isfinite(d.x + d.y + d.z));
     }
     for (double x = 1e-8; x < 80.0; x *= 1.1) {

@@ -128,8 +128,8 @@ static void measure_furnace(void *user, int item, int thread) {
     work->out->furnace_noise[layer][k][view] = (float)f.noise;
 }
 
-/* The layer rules that promise to conserve energy. */
-#define LAYER_PROMISE(id, index, base, asks_wi, asks_average, conserves, help) [index] = conserves,
+/* Which layer rules promise to conserve energy. */
+#define LAYER_PROMISE(id, index, base, needs_wi, needs_average, conserves, help) [index] = conserves,
 static const bool conserves[LAYER_COUNT] = {WEFT_LAYERS(LAYER_PROMISE)};
 
 static void find_furnace(PassportWork *work) {

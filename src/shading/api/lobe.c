@@ -14,9 +14,9 @@ bool lobe_of(const WeftLobe *public_lobe, Lobe *lobe) {
 }
 
 /* Returns true if the lobe has that parameter. Sets *set to true if its value differs from `neutral`. */
-static bool has_param(const Lobe *lobe, const char *name, float plain, bool *set) {
+static bool has_param(const Lobe *lobe, const char *name, float neutral, bool *set) {
     int k = weft_lobe_param_find(lobe->id, name);
-    if (k >= 0) *set |= fabsf(lobe->params[k] - plain) > 0.0f;
+    if (k >= 0) *set |= fabsf(lobe->params[k] - neutral) > 0.0f;
     return k >= 0;
 }
 
@@ -139,7 +139,7 @@ void weft_lobe_albedo(const WeftLobe *lobe, float cos_o, float e[3]) {
     if (!lobe_of(lobe, &inner)) return;
     float z = clamp(cos_o, 1e-6f, 1.0f);
     Dir o = dir(sqrt(max(1.0f - z * z, 0.0f)), 0.0f, z);
-    if (albedo_asks_color(&inner)) {
+    if (albedo_depends_on_color(&inner)) {
         albedo_in_color(&inner, o, lobe->f0, 2e-5, e);
         return;
     }

@@ -46,9 +46,9 @@ FN AreaDensity area_cosine(Dir o) { return area_of(ltc_of(1.0f, 1.0f, 0.0f, 0.0f
  * so it is stretched less; bench_area chose the power. */
 FN AreaDensity area_facets(float ax, float ay, Dir o) {
     TableRef e = lobe_table_ltc_ggx();
-    float alpha = sqrt(ax * ay), known = clamp(alpha, e.low * e.low, e.high * e.high);
-    float narrow = max(known / alpha, 1.0f), stretch = pow(ay / ax, 0.5f / (1.0f + alpha));
-    return area_of(ltc_table_level(e, o.z, known).m, narrow * stretch, narrow / stretch, true);
+    float alpha = sqrt(ax * ay), fitted = clamp(alpha, e.low * e.low, e.high * e.high);
+    float narrow = max(fitted / alpha, 1.0f), stretch = pow(ay / ax, 0.5f / (1.0f + alpha));
+    return area_of(ltc_table_level(e, o.z, fitted).m, narrow * stretch, narrow / stretch, true);
 }
 
 FN AreaDensity area_fibres(float alpha, Dir o) {

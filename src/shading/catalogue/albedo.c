@@ -207,7 +207,7 @@ Albedo albedo_quadrature(const Lobe *lobe, Dir wo, double tolerance) {
     return albedo_quadrature_error(lobe, wo, tolerance, &error);
 }
 
-bool albedo_asks_color(const Lobe *lobe) {
+bool albedo_depends_on_color(const Lobe *lobe) {
     Dir n = dir(0.0f, 0.0f, 1.0f);
     return weft_lobe_info(lobe->id)->traits & TRAIT_TINTED ||
            FRESNEL_WEIGHT_IS_COSINE(lobe_value(lobe, angles_between(n, n)).s);

@@ -23,7 +23,7 @@ Albedo albedo_quadrature(const Lobe *lobe, Dir wo, double tolerance);
 Albedo albedo_quadrature_error(const Lobe *lobe, Dir wo, double tolerance, double *error);
 
 /* Returns true if E of a colour is not f0 E0 + f90 E90: the lobe is tinted, or computes F from f0. */
-bool albedo_asks_color(const Lobe *lobe);
+bool albedo_depends_on_color(const Lobe *lobe);
 
 /* Computes E of such a lobe for the three channels w of a colour. */
 void albedo_in_color(const Lobe *lobe, Dir wo, const float w[3], double tolerance, float e[3]);

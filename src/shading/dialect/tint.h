@@ -45,8 +45,8 @@ FN float tint_by_order(float q, float w) {
 
 FN float tint_color(Tint t, float w) {
     float a = clamp(w, 0.0f, 1.0f);
-    float again = tint_by_order(t.q_o, a) * tint_by_order(t.q_i, a);
-    float more = a * a * min(again * exp((1.0f - a) * t.e), 1.0f);
+    float r = tint_by_order(t.q_o, a) * tint_by_order(t.q_i, a);
+    float more = a * a * min(r * exp((1.0f - a) * t.e), 1.0f);
     return (1.0f - t.s) * a + t.s * more;
 }
 

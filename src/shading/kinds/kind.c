@@ -23,11 +23,11 @@ static const StackKind kinds[] = {
 };
 
 static bool same_choices(Choices c, int profile) {
-    Choices known = choices_unmade();
-    known.profile = profile;
+    Choices expected = choices_unmade();
+    expected.profile = profile;
     if (c.profile == 0) c.profile = CHOICE_AUTO; /* the first of either list is what auto comes to */
     if (c.workflow == 0) c.workflow = CHOICE_AUTO;
-#define SAME_CHOICE(name, help) &&c.name == known.name
+#define SAME_CHOICE(name, help) &&c.name == expected.name
     return true SURFACE_CHOICES(SAME_CHOICE);
 }
 
@@ -45,12 +45,12 @@ static bool fits(const StackKind *kind, const Stack *m, const Choices *choices) 
     bool has_e = !HAS_SHEEN(m) || (m->table.kind == TABLE_ROOTS && m->table.tilts == 0);
     return has_e && HAS_TRANSMITTED(m) == kind->transmits && m->layer == kind->layer &&
            m->combine == LAYER_BY_MAX && m->base_fresnel == kind->base_fresnel && m->albedo == kind->albedo &&
-           m->view == VIEW_PLAIN && holds_no_other(kind, m) && same_choices(*choices, kind->profile);
+           m->view == VIEW_NONE && holds_no_other(kind, m) && same_choices(*choices, kind->profile);
 }
 
-const StackKind *stack_kind(const Stack *plain, const Choices *choices) {
+const StackKind *stack_kind(const Stack *untextured, const Choices *choices) {
     for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++)
-        if (fits(&kinds[k], plain, choices)) return &kinds[k];
+        if (fits(&kinds[k], untextured, choices)) return &kinds[k];
     return NULL;
 }
 

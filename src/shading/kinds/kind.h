@@ -40,9 +40,9 @@ FN Lobe yarn_of_row(const YarnRows *rows, size_t k) {
 
 typedef struct StackKind StackKind;
 
-/* Returns the kind of a material, or NULL if none has its structure. uniform: the stack of the material if all its
+/* Returns the kind of a material, or NULL if none has its structure. untextured: the stack of the material if all its
  * textures are 1, which is their maximum. */
-const StackKind *stack_kind(const Stack *plain, const Choices *choices);
+const StackKind *stack_kind(const Stack *untextured, const Choices *choices);
 
 /* Samples wi for the first n vertices, n a multiple of ROW_LANES, and gives f cos and pdf of it and of the
  * directions [k] with lights[k]. e: as for stack_make. */

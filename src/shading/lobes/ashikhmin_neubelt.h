@@ -43,8 +43,8 @@ FN Dir ashikhmin_sample(float alpha, Dir o, float u, float v) {
     Dir i = warp_uniform(2.0f * u - 1.0f, v);
     if (u < 0.5f) {
         Dir h = ashikhmin_facet(alpha, 2.0f * u, v);
-        float turn = ashikhmin_side(o, h) < 0.0f ? -1.0f : 1.0f;
-        i = dir_mirror(o, dir(turn * h.x, turn * h.y, h.z));
+        float sign = ashikhmin_side(o, h) < 0.0f ? -1.0f : 1.0f;
+        i = dir_mirror(o, dir(sign * h.x, sign * h.y, h.z));
     }
     return i;
 }

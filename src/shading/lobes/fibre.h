@@ -75,7 +75,8 @@ FN Ltc fibre_ltc(float a, float cos_o) {
  * is up, the angle is uniform as far as the horizon. */
 STRUCT(FibreDraw) {
     float nu, b, low, high; /* low .. high: of x / (b + |x|) */
-    float cone; /* fraction of the samples from the cone: above 0 near grazing, if enough of it is above the horizon */
+    /* fraction of the samples from the cone: above 0 near grazing, if enough of it is above the horizon */
+    float cone;
 };
 
 FN float fibre_place(float x, float b) { return x / (b + abs(x)); }
@@ -155,13 +156,13 @@ FN LobeValue fibre_value(const FibrePrepared *p, const FibreView *w, Angles a) {
     float nu_i = dir_dot(a.i, p->nap.axis), sigma_i = flake_sigma(p->nap.s, nu_i);
     float single = flake_single_of(p->nap.s, p->nap.axis, p->density, w->sigma, sigma_i, a.o, a.i);
     FibreSide i = fibre_side(p->model, p->numbers, a.i.z, nu_i);
-    float turn = fibre_turn(w->side, i, a.o, a.i),
-          multiple = fibre_multiple(p->model, p->numbers, w->side, i, turn);
+    float dot_across = fibre_dot_across(w->side, i, a.o, a.i),
+          multiple = fibre_multiple(p->model, p->numbers, w->side, i, dot_across);
     LobeValue v = lobe_value_of(single + multiple, 0.0f, fibre_sample_pdf(p->nap, w->draw, w->ltc, a));
     v.tint.s = multiple / max(single + multiple, 1e-30f);
     v.tint.q_o = w->side.q;
     v.tint.q_i = i.q;
-    v.tint.e = fibre_tint_order(w->side, i, turn);
+    v.tint.e = fibre_tint_order(w->side, i, dot_across);
     return v;
 }
 FN Dir fibre_sample(const FibrePrepared *p, const FibreView *w, Dir o, float u, float v) {

@@ -82,8 +82,8 @@ FN FibreWalker fibre_walk_fly(FibreWalker w, float s, Dir t, uint64_t *stream) {
     return w;
 }
 FN bool fibre_walk_inside(FibreWalker w, float density) { return w.depth > 0.0f && w.depth < density; }
-FN FibreWalker fibre_walk_turn(FibreWalker w, float s, Dir t, uint64_t *stream) {
-    w.d = flake_turn(s, t, dir(-w.d.x, -w.d.y, -w.d.z), fibre_walk_point(stream));
+FN FibreWalker fibre_walk_scatter(FibreWalker w, float s, Dir t, uint64_t *stream) {
+    w.d = flake_scatter(s, t, dir(-w.d.x, -w.d.y, -w.d.z), fibre_walk_point(stream));
     return w;
 }
 
@@ -94,7 +94,7 @@ FN_NOINLINE float fibre_walk_more(FibreWalk m, Dir a, Dir b, uint64_t stream) {
     float nu_b = dir_dot(b, t), sigma_b = flake_sigma(s, nu_b);
     FibreWalker w = fibre_walk_fly(fibre_walk_start(a), s, t, &stream);
     while (fibre_walk_inside(w, m.density)) {
-        w = fibre_walk_fly(fibre_walk_turn(w, s, t, &stream), s, t, &stream);
+        w = fibre_walk_fly(fibre_walk_scatter(w, s, t, &stream), s, t, &stream);
         if (!fibre_walk_inside(w, m.density)) break;
         Dir h = dir(b.x - w.d.x, b.y - w.d.y, b.z - w.d.z);
         float phase = 0.25f * flake_d(s, dir_dot(h, h), nu_b - dir_dot(w.d, t)) / w.sigma;
@@ -131,7 +131,7 @@ FN_NOINLINE float fibre_walk_albedo(FibreWalk m, Dir o, int walks) {
         uint64_t stream = stream_start((uint64_t)k, 0u);
         FibreWalker w = fibre_walk_fly(fibre_walk_start(o), s, t, &stream);
         while (fibre_walk_inside(w, m.density))
-            w = fibre_walk_fly(fibre_walk_turn(w, s, t, &stream), s, t, &stream);
+            w = fibre_walk_fly(fibre_walk_scatter(w, s, t, &stream), s, t, &stream);
         back += w.depth <= 0.0f ? 1 : 0;
     }
     return to_float(back) / to_float(walks);

@@ -46,11 +46,11 @@ STRUCT(Threads){THREADS_PARAMS(FIELD)};
 PREPARED_AS_IT_IS(threads, Threads)
 
 /* Returns a direction in the frame of a piece of yarn of that slope: y along the yarn, x across it, z its normal. */
-FN Dir threads_turn(Dir w, bool weft, float slope) {
+FN Dir threads_to_yarn(Dir w, bool weft, float slope) {
     float along = weft ? w.y : w.x, across = weft ? w.x : w.y, r = 1.0f / sqrt(1.0f + slope * slope);
     return dir(across, (along + slope * w.z) * r, (w.z - slope * along) * r);
 }
-FN Dir threads_turn_back(Dir w, bool weft, float slope) {
+FN Dir threads_from_yarn(Dir w, bool weft, float slope) {
     float r = 1.0f / sqrt(1.0f + slope * slope), along = (w.y - slope * w.z) * r;
     return dir(weft ? w.x : along, weft ? along : w.x, (w.z + slope * w.y) * r);
 }
@@ -101,7 +101,7 @@ FN float threads_yarn(float width, float isotropic, Dir o, Dir i) {
 /* Returns the contribution to f of one slope of a family, with the part of it that each direction sees. The floor keeps
  * f finite if yarn of hardly any share is all that is visible from the horizon. */
 FN float threads_slope(Threads m, Angles a, float all_o, float all_i, bool weft, float slope) {
-    Dir o = threads_turn(a.o, weft, slope), i = threads_turn(a.i, weft, slope);
+    Dir o = threads_to_yarn(a.o, weft, slope), i = threads_to_yarn(a.i, weft, slope);
     float seen_o = max(o.z, 0.0f) / max(all_o, 1e-7f);
     float seen_i = max(i.z, 0.0f) / max(all_i, 1e-7f);
     return threads_area(m, weft, slope) * seen_o * seen_i *
@@ -112,7 +112,7 @@ FN float threads_slope(Threads m, Angles a, float all_o, float all_i, bool weft,
  * yarn by the highlight, cut off at the ends, or uniformly; the azimuth around the yarn by the cosine to its plane
  * (3/4) or uniformly. */
 FN float threads_pdf_slope(Threads m, Angles a, float all_o, bool weft, float slope) {
-    Dir o = threads_turn(a.o, weft, slope), i = threads_turn(a.i, weft, slope);
+    Dir o = threads_to_yarn(a.o, weft, slope), i = threads_to_yarn(a.i, weft, slope);
     float scale = threads_scale(weft ? m.weft_width : m.warp_width);
     float inside = threads_below(scale, o.y + 1.0f) - threads_below(scale, o.y - 1.0f);
     float along = mix(threads_density(scale, o.y + i.y) / inside, 0.5f, m.isotropic);
@@ -148,7 +148,7 @@ FN Dir threads_sample(const ThreadsPrepared *prepared, const ThreadsView *view, 
     slope = down ? -slope : slope;
     w = clamp(down ? past / other : w / max(first, 1e-30f), 0.0f, 1.0f);
 
-    Dir to = threads_turn(o, second, slope);
+    Dir to = threads_to_yarn(o, second, slope);
     float scale = threads_scale(second ? m.weft_width : m.warp_width);
     float low = threads_below(scale, to.y - 1.0f), high = threads_below(scale, to.y + 1.0f);
     float p = clamp(mix(low, high, (w - m.isotropic) / max(1.0f - m.isotropic, 1e-6f)), 1e-7f, 0.9999999f);
@@ -158,7 +158,7 @@ FN Dir threads_sample(const ThreadsPrepared *prepared, const ThreadsView *view, 
     float phi = PI * (4.0f * v - 3.5f), sin_phi = v < 0.75f ? v * (2.0f / 0.75f) - 1.0f : sin(phi);
     float cos_phi = sqrt(max(1.0f - sin_phi * sin_phi, 0.0f)), r = sqrt(max(1.0f - y * y, 0.0f));
     /* clear of the piece's own horizon, so that rounding does not put it behind */
-    return threads_turn_back(dir(r * sin_phi, y, max(r * cos_phi, 1e-6f)), second, slope);
+    return threads_from_yarn(dir(r * sin_phi, y, max(r * cos_phi, 1e-6f)), second, slope);
 }
 
 #endif

@@ -110,7 +110,7 @@ FN void compose_choices(Stack *m, const Surface *s, Choices c) {
     }
     if (c.layer >= 0) m->layer = c.layer;
     m->amount = min(s->sheen, 1.0f);
-    if (layer_asks_average(c.layer) && !albedo_is_own(m->albedo)) {
+    if (layer_needs_average(c.layer) && !albedo_is_own(m->albedo)) {
         m->albedo = ALBEDO_TABLE; /* these rules need E(wi) and its average; engines' formulas have neither */
         m->albedo_coord = m->sheen.lobe.params[0];
     }
@@ -148,21 +148,22 @@ FN void compose_stack(Stack *m, const Surface *s, Choices c, TableRef e) {
     compose_dust(m, s);
     m->table = e;
     stack_prepare(m);
-    if (HAS_SHEEN(m) && layer_asks_wi(m->layer)) m->e_avg = table_sheen_nap_average(e, m->nap, m->rows);
+    if (HAS_SHEEN(m) && layer_needs_wi(m->layer)) m->e_avg = table_sheen_nap_average(e, m->nap, m->rows);
     if (m->layer == LAYER_MULTIPLICATIVE) {
         m->sheen.f0 = rgb_grey(0.0f);
         m->sheen.f90 = rgb_grey(0.0f);
     }
 }
 
-/* Puts a lobe with two colours in the place of the diffuse and the specular one: what a woven cloth is at a place. */
-FN void compose_base(Stack *m, Lobe lobe, Rgb once, Rgb again) {
+/* Replaces the diffuse and the specular lobe by one lobe, such as a point of woven cloth, with the colours of its
+ * single and its multiple scattering. */
+FN void compose_base(Stack *m, Lobe lobe, Rgb single, Rgb multiple) {
     m->specular.normal = 0.0f;
     m->base_fresnel = BASE_FRESNEL_NONE;
     m->diffuse.lobe = lobe;
-    m->diffuse.f0 = once;
-    m->diffuse.f90 = again;
-    m->diffuse.normal = max(0.33f * rgb_mean(once) + 0.67f * rgb_mean(again), 1e-3f);
+    m->diffuse.f0 = single;
+    m->diffuse.f90 = multiple;
+    m->diffuse.normal = max(0.33f * rgb_mean(single) + 0.67f * rgb_mean(multiple), 1e-3f);
     m->diffuse.grazing = m->diffuse.normal;
     stack_split_diffuse(m);
     IN_SLOT(diffuse, prepare)(&m->diffuse.lobe, &m->diffuse_prepared);

@@ -25,7 +25,7 @@ typedef struct WalkLayer {
 } WalkLayer;
 
 /* Views the layer from o; nothing else changes. */
-static void turn(WalkLayer *layer, Dir o) {
+static void view_from(WalkLayer *layer, Dir o) {
     layer->view.o = layer->view.coat_o = o;
     stack_view_lobes(layer->stack, &layer->view);
 }
@@ -33,7 +33,7 @@ static void turn(WalkLayer *layer, Dir o) {
 /* Extends the walk by one reflection; o becomes the new direction. Returns false if the walk ends. */
 static bool walk_on(uint32_t *walk, WalkLayer *layer, Dir *o, Rgb *weight) {
     float u = walk_random(walk), v = walk_random(walk);
-    turn(layer, *o);
+    view_from(layer, *o);
     Dir i;
     stack_sample(layer->stack, &layer->view, u, v, &i);
     if (i.z <= 0.0f) return false;
@@ -79,7 +79,7 @@ Rgb layer_walk_bounces(const Stack *stack, const StackView *view, Slots last, Di
     Rgb out = let_through(stack, i);
     for (int bounce = 0; bounce < BOUNCES_MOST; bounce++) {
         if (!walk_on(&seed, &base, &o, &weight) || !walk_on(&seed, &sheen, &o, &weight)) break;
-        turn(&base, o);
+        view_from(&base, o);
         Rgb f_cos = stack_eval_of(&alone, &base.view, of_base, i).f_cos;
         sum = rgb_add(sum, rgb_mul(rgb_mul(weight, out), f_cos));
         float survive = min(rgb_max3(weight), 1.0f);

@@ -21,7 +21,7 @@ FN Rgb stack_under_interface(const Stack *m, const StackView *w, const Angles *a
 /* Returns f of the base under the sheen, for the other rules. */
 FN Rgb stack_under_sheen(const Stack *m, const StackView *w, const Angles *a, Rgb f) {
     Rgb base_scale = w->base_scale;
-    if (layer_asks_wi(m->layer)) {
+    if (layer_needs_wi(m->layer)) {
         SheenE e_i = sheen_e_of(0.0f);
         if (HAS_SHEEN(m)) e_i = stack_albedo(m, a->i);
         base_scale = stack_base_scale(m, w, e_i);

@@ -55,7 +55,7 @@ FN void view_begin(const Stack *m, Dir o, StackView *w) {
     w->e_o = sheen_e_of(0.0f);
     w->base_scale = rgb_grey(1.0f);
     SLOTS(SCALE_ONE)
-    if (m->view != VIEW_PLAIN) {
+    if (m->view != VIEW_NONE) {
         WEFT_VIEWS(VIEW_OF_ROW)
     }
     if (HAS_COAT(m)) view_coat(m, w);

@@ -94,7 +94,7 @@ FN Dir flake_stretch(float s, Dir t, Dir w) {
 /* Returns the direction in which a flake scatters the light from wi, distributed as p, for a point of the unit sphere.
  * The visible normals of an ellipsoid are S^(1/2) u, u distributed by the cosine about S^(1/2) wi. A point of the
  * sphere that stands on the tip of that axis is such a u, but for its length. */
-FN Dir flake_turn(float s, Dir t, Dir i, Dir point) {
+FN Dir flake_scatter(float s, Dir t, Dir i, Dir point) {
     Dir v = flake_stretch(s, t, i);
     float r = 1.0f / sqrt(max(dir_dot(v, v), 1e-30f));
     Dir h = flake_stretch(s, t, dir(v.x * r + point.x, v.y * r + point.y, v.z * r + point.z));

@@ -141,18 +141,18 @@ FN float fibre_bases(FibreModel m, FibreNumbers n, FibreSide o, FibreSide i, flo
     return l;
 }
 
-/* Returns wo . wi - nu_o nu_i: the cosine of the azimuth about the fibre, times both sines. */
-FN float fibre_turn(FibreSide o, FibreSide i, Dir wo, Dir wi) { return dir_dot(wo, wi) - o.nu * i.nu; }
+/* Returns wo . wi - nu_o nu_i, the product of the parts of wo and wi across the fibre. */
+FN float fibre_dot_across(FibreSide o, FibreSide i, Dir wo, Dir wi) { return dir_dot(wo, wi) - o.nu * i.nu; }
 
 /* Returns M, the multiple scattering, 1/sr. */
-FN float fibre_multiple(FibreModel m, FibreNumbers n, FibreSide o, FibreSide i, float turn) {
-    float e = (o.a + i.a) + (o.h * i.h - o.g * i.g) - o.k * i.k * turn;
+FN float fibre_multiple(FibreModel m, FibreNumbers n, FibreSide o, FibreSide i, float dot_across) {
+    float e = (o.a + i.a) + (o.h * i.h - o.g * i.g) - o.k * i.k * dot_across;
     return exp2(fibre_bases(m, n, o, i, e));
 }
 
 /* Returns e of the tint. */
-FN float fibre_tint_order(FibreSide o, FibreSide i, float turn) {
-    return 0.69314718f * (o.v * i.v - o.u * i.u - o.c * i.c * turn);
+FN float fibre_tint_order(FibreSide o, FibreSide i, float dot_across) {
+    return 0.69314718f * (o.v * i.v - o.u * i.u - o.c * i.c * dot_across);
 }
 
 #endif

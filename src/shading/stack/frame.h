@@ -44,14 +44,14 @@ FN Frame frame_about(Dir n, Dir tangent, float handedness) {
 /* Returns the normal nearest to n for which the mirror direction of wo is not below the surface; otherwise a normal map
  * would show black where it should reflect. Alexander Keller et al., "The Iray Light Transport Simulation and Rendering
  * System", 2017, A.3. */
-FN Dir frame_bent(Dir n, Dir geometric, Dir wo) {
+FN Dir frame_reflecting_normal(Dir n, Dir geometric, Dir wo) {
     float cosine = dir_dot(wo, n);
     Dir mirror = dir_add(dir_scale(n, 2.0f * cosine), dir_scale(wo, -1.0f));
     float least = 0.05f * max(dir_dot(wo, geometric), 0.0f) + 1e-4f, below = dir_dot(mirror, geometric);
     Dir up = dir_normal_or(dir_add(mirror, dir_scale(geometric, max(least - below, 0.0f))), geometric);
-    Dir bent = dir_normal_or(dir_add(wo, up), geometric);
-    bent = dir_choose(dir_dot(wo, bent) > 1e-4f, bent, geometric);
-    return dir_choose(cosine > 1e-4f && below >= least, n, bent);
+    Dir m = dir_normal_or(dir_add(wo, up), geometric);
+    m = dir_choose(dir_dot(wo, m) > 1e-4f, m, geometric);
+    return dir_choose(cosine > 1e-4f && below >= least, n, m);
 }
 
 /* The surface at a hit or fragment, seen from the side of the viewer. */
@@ -79,8 +79,8 @@ FN Dir facing_normal(Facing at) {
 FN Frame frame_of(Facing at, Surface s, Dir wo) {
     Dir normal = facing_normal(at), n = normal;
     if (s.normal.z < 1.0f)
-        n = frame_bent(frame_from(frame_about(normal, at.tangent, at.handedness), s.normal), at.geometric,
-                       wo);
+        n = frame_reflecting_normal(frame_from(frame_about(normal, at.tangent, at.handedness), s.normal),
+                                    at.geometric, wo);
     Frame f = frame_about(frame_visible_normal(n, wo), at.tangent, at.handedness);
     if (s.anisotropy > 0.0f) f = frame_about(f.z, frame_from(f, s.anisotropy_direction), at.handedness);
     return f;

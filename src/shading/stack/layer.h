@@ -27,8 +27,8 @@
 #define LAYER_BY_MAX     0
 #define LAYER_BY_CHANNEL 1
 
-/* L(id, index, factor on the base, asks_wi, asks_average, conserves, help). c: the sheen's colour. e_o, e_i, e_avg:
- * its white albedo towards wo, towards wi, and on average. asks_wi, asks_average: the factor reads e_i, e_avg.
+/* L(id, index, factor on the base, needs_wi, needs_average, conserves, help). c: the sheen's colour. e_o, e_i, e_avg:
+ * its white albedo towards wo, towards wi, and on average. needs_wi, needs_average: the factor reads e_i, e_avg.
  * conserves: with a sheen of E <= 1 the stack reflects no more light than it receives. */
 #define WEFT_LAYERS(L)                                                                                       \
     L("additive", LAYER_ADDITIVE, additive_base(c, e_o, e_i, e_avg), false, false, false,                    \
@@ -51,17 +51,18 @@
       "light bounces between sheen and base; the path tracer's reference")
 
 /* Returns the factor that the layer rule leaves for the base at wo and wi. */
-#define LAYER_CASE(id, index, base, asks_wi, asks_average, conserves, help)                                  \
+#define LAYER_CASE(id, index, base, needs_wi, needs_average, conserves, help)                                \
     if (layer == index) return base;
 FN float layer_base(int layer, float c, float e_o, float e_i, float e_avg) {
     WEFT_LAYERS(LAYER_CASE)
     return 1.0f;
 }
 
-#define LAYER_ASKS_WI(id, index, base, asks_wi, asks_average, conserves, help) || (layer == index && asks_wi)
-FN bool layer_asks_wi(int layer) { return false WEFT_LAYERS(LAYER_ASKS_WI); }
-#define LAYER_ASKS_AVERAGE(id, index, base, asks_wi, asks_average, conserves, help)                          \
-    || (layer == index && asks_average)
-FN bool layer_asks_average(int layer) { return false WEFT_LAYERS(LAYER_ASKS_AVERAGE); }
+#define LAYER_NEEDS_WI(id, index, base, needs_wi, needs_average, conserves, help)                            \
+    || (layer == index && needs_wi)
+FN bool layer_needs_wi(int layer) { return false WEFT_LAYERS(LAYER_NEEDS_WI); }
+#define LAYER_NEEDS_AVERAGE(id, index, base, needs_wi, needs_average, conserves, help)                       \
+    || (layer == index && needs_average)
+FN bool layer_needs_average(int layer) { return false WEFT_LAYERS(LAYER_NEEDS_AVERAGE); }
 
 #endif

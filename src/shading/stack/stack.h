@@ -52,7 +52,7 @@ STRUCT(Slot) {
 #define ALBEDO_MATERIALX 5
 
 /* An engine's own steps that depend on wo (profile.h). */
-#define VIEW_PLAIN     0
+#define VIEW_NONE      0
 #define VIEW_URP       1
 #define VIEW_THREE     2
 #define VIEW_FILAMENT  3
@@ -75,7 +75,7 @@ STRUCT(Stack) {
      * + extra (extra_f0 (1 - s) + extra_f90 s - extra_f_quadratic s (1 - s)). */
     Rgb extra_f0, extra_f90, extra_f_quadratic;
     float gloss;   /* roughness or alpha of the specular slot, as the engine's steps in `view` need it */
-    int view;      /* VIEW_PLAIN ... */
+    int view;      /* VIEW_NONE ... */
     int coat_rule; /* COAT_BARE ... */
     float coat_weight;
     float dust_amount;   /* 0: no dust */
@@ -146,7 +146,7 @@ STRUCT(StackValue) {
 #define IS_BELOW_F(m) (m->layer == LAYER_SEED || m->layer == LAYER_SIDE_BY_SIDE)
 
 /* Tests whether the view has `extra`, a correction of the specular slot. */
-#define HAS_EXTRA_F(m) (m->view != VIEW_PLAIN && m->view != VIEW_URP)
+#define HAS_EXTRA_F(m) (m->view != VIEW_NONE && m->view != VIEW_URP)
 
 /* A shader that shows one part of the light defines these as false for the other slots. Those slots still dim
  * that part. */
@@ -190,7 +190,7 @@ FN void stack_clear(Stack *m) {
     m->extra_f90 = rgb_grey(0.0f);
     m->extra_f_quadratic = rgb_grey(0.0f);
     m->gloss = 0.0f;
-    m->view = VIEW_PLAIN;
+    m->view = VIEW_NONE;
     m->coat_rule = COAT_BARE;
     m->coat_weight = 0.0f;
     m->dust_amount = 0.0f;

@@ -51,9 +51,9 @@ STRUCT(Strip) {
  * v the place on its arc, which is as long on a sphere wherever it is cut and on the cap between half as long
  * and all of it. So points that are even in u are even along a highlight that is drawn out. */
 FN Strip ggx_strip_h(float ax, float ay, Dir o, float u, float v) {
-    bool turned = ay > ax;
-    float a = turned ? ay : ax, b = turned ? ax : ay, l = 1.0f / ggx_length(ax, ay, o);
-    Dir s = dir(a * (turned ? o.y : o.x) * l, b * (turned ? o.x : o.y) * l, o.z * l);
+    bool swapped = ay > ax;
+    float a = swapped ? ay : ax, b = swapped ? ax : ay, l = 1.0f / ggx_length(ax, ay, o);
+    Dir s = dir(a * (swapped ? o.y : o.x) * l, b * (swapped ? o.x : o.y) * l, o.z * l);
     float x = 2.0f * u - 1.0f, r = sqrt(max(1.0f - x * x, 1e-12f));
     float c = clamp(-s.z / r, -1.0f, 1.0f), y = abs(c);
     /* Milton Abramowitz, Irene A. Stegun, "Handbook of Mathematical Functions", 1964, 4.4.45 */
@@ -62,7 +62,7 @@ FN Strip ggx_strip_h(float ax, float ay, Dir o, float u, float v) {
     float hx = a * (x + s.x), hy = b * (r * sin(at) + s.y), hz = max(r * cos(at) + s.z, 0.0f);
     float n = 1.0f / sqrt(max(hx * hx + hy * hy + hz * hz, 1e-24f));
     Strip p;
-    p.h = dir((turned ? hy : hx) * n, (turned ? hx : hy) * n, hz * n);
+    p.h = dir((swapped ? hy : hx) * n, (swapped ? hx : hy) * n, hz * n);
     p.density = PI * (1.0f + s.z) / (2.0f * half_arc);
     return p;
 }

@@ -18,8 +18,8 @@ FN Dir facet(float sin_h, float cos_h, float v) {
 }
 
 FN Dir facet_towards(Dir o, Dir h) {
-    float turn = dir_dot(o, h) < 0.0f ? -1.0f : 1.0f;
-    return dir(turn * h.x, turn * h.y, h.z);
+    float sign = dir_dot(o, h) < 0.0f ? -1.0f : 1.0f;
+    return dir(sign * h.x, sign * h.y, h.z);
 }
 
 /* Returns the density of the wi that mirrors wo about a normal of facet_towards, whose density is d_cos = D cos_h. a.d
