@@ -37,7 +37,7 @@ FN Dir ambient_to_source(AmbientView v, Dir w) {
                w.x * v.x.z + w.y * v.y.z + w.z * v.z.z);
 }
 
-/* Transforms w into the lobe's frame. w is given in the lobe's frame turned about z so that x points towards
+/* Transforms w into the lobe's frame. w is given in the lobe's frame rotated about z so that x points towards
  * wo. */
 FN Dir ambient_to_lobe(AmbientView v, Dir w) {
     return dir(w.x * v.tx - w.y * v.ty, w.x * v.ty + w.y * v.tx, w.z);

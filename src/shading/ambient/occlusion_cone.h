@@ -1,4 +1,4 @@
-/* occlusion_cone.h - which directions an occlusion leaves, where nothing but its number is known
+/* occlusion_cone.h - the visible part of each direction, where only the number of the occlusion is given
  *
  * With x = cos^2, over which cosine-weighted directions are even, a ramp from b^2 to 2 b - b^2, b = 1 -
  * occlusion, has the mean `occlusion`: a cone about the normal with a soft rim. Jorge Jimenez et al.,

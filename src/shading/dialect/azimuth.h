@@ -4,7 +4,7 @@
  *
  *   tan(a / 2) = y / (|w| + x), then tan(a / 2) = tan a / (1 + sqrt(1 + tan^2 a)) twice, leaves an eighth of
  * an angle of at most pi / 2; for that, five terms of the arctangent's series are within 2e-9. Shading text
- * has no atan of its own, since those of GPUs are known to a few digits only. */
+ * has no atan of its own, since those of GPUs have a few correct digits only. */
 #ifndef WEFT_AZIMUTH_H
 #define WEFT_AZIMUTH_H
 

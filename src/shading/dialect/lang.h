@@ -5,7 +5,7 @@
  * serves a pixel, a ray and an array of directions. Only this file depends on the language.
  *
  * Large records travel by reference: `const T *m` and `T *m` as parameters, `m->x` and `*m` to read and
- * write, `&x` to pass; text/source/reference.h says how GLSL has them. Pointers serve nothing else, and no two
+ * write, `&x` to pass; text/source/reference.h translates them to GLSL. Pointers serve nothing else, and no two
  * references of one call name the same object. `?:` chooses between numbers, never between records, which
  * WebGL does not take. */
 #ifndef WEFT_LANG_H

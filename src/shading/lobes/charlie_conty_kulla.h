@@ -25,7 +25,8 @@
 #define CHARLIE_CONTY_KULLA_TRAITS TRAIT_RECIPROCAL
 
 STRUCT(CharlieContyKulla){CHARLIE_CONTY_KULLA_PARAMS(FIELD)};
-CHARLIE_SMITH(charlie_conty_kulla, CharlieContyKulla)
+CHARLIE_SMITH(CharlieContyKulla, CharlieContyKullaPrepared, CharlieContyKullaView,
+              charlie_conty_kulla_prepare, charlie_conty_kulla_view, charlie_conty_kulla_sample)
 
 FN LobeValue charlie_conty_kulla_value(const CharlieContyKullaPrepared *p, const CharlieContyKullaView *w,
                                        Angles a) {

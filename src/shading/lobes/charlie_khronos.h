@@ -25,7 +25,8 @@
 #define CHARLIE_KHRONOS_TRAITS TRAIT_RECIPROCAL
 
 STRUCT(CharlieKhronos){CHARLIE_KHRONOS_PARAMS(FIELD)};
-CHARLIE_SMITH(charlie_khronos, CharlieKhronos)
+CHARLIE_SMITH(CharlieKhronos, CharlieKhronosPrepared, CharlieKhronosView, charlie_khronos_prepare,
+              charlie_khronos_view, charlie_khronos_sample)
 
 FN LobeValue charlie_khronos_value(const CharlieKhronosPrepared *p, const CharlieKhronosView *w, Angles a) {
     float d = charlie_d_sin2(p->d, a.sin2_h), lambda = w->lambda + conty_kulla_lambda(p->shadow, a.i.z);

@@ -1,28 +1,31 @@
-/* charlie_smith - what the lobes of d_charlie with the shadowing v_conty_kulla prepare, view and sample alike */
+/* charlie_smith - the shared parts of lobes that join d_charlie and the shadowing v_conty_kulla
+ *
+ *   Alejandro Conty Estevez, Christopher Kulla, "Production Friendly Microfacet Sheen BRDF", SIGGRAPH 2017 course. */
 #ifndef WEFT_CHARLIE_SMITH_H
 #define WEFT_CHARLIE_SMITH_H
 
 #include "shading/terms/d_charlie.h"
 #include "shading/terms/v_conty_kulla.h"
 
-#define CHARLIE_SMITH(name, Name)                                                                            \
-    STRUCT(Name##Prepared) {                                                                                 \
+/* Defines what such a lobe prepares and views, and its sampling. Name: its record, with the member alpha. */
+#define CHARLIE_SMITH(Name, Prepared, View, prepare, view, sample)                                           \
+    STRUCT(Prepared) {                                                                                       \
         Charlie d;                                                                                           \
         ContyKulla shadow;                                                                                   \
     };                                                                                                       \
-    FN void name##_prepare(Name m, Name##Prepared *p) {                                                      \
+    FN void prepare(Name m, Prepared *p) {                                                                   \
         p->d = charlie_of(m.alpha);                                                                          \
         p->shadow = conty_kulla_of(m.alpha);                                                                 \
     }                                                                                                        \
-    STRUCT(Name##View) {                                                                                     \
+    STRUCT(View) {                                                                                           \
         CharlieSide side;                                                                                    \
         float lambda;                                                                                        \
     };                                                                                                       \
-    FN void name##_view(const Name##Prepared *p, Dir o, Name##View *w) {                                     \
+    FN void view(const Prepared *p, Dir o, View *w) {                                                        \
         w->side = charlie_side(o);                                                                           \
         w->lambda = conty_kulla_lambda(p->shadow, o.z);                                                      \
     }                                                                                                        \
-    FN Dir name##_sample(const Name##Prepared *p, const Name##View *w, Dir o, float u, float v) {            \
+    FN Dir sample(const Prepared *p, const View *w, Dir o, float u, float v) {                               \
         return charlie_sample(p->d, w->side, o, u, v);                                                       \
     }
 
