@@ -187,8 +187,9 @@ static void baked_weights_of_a_fading_lobe_are_not_negative(void **state) {
                 SeenStack m = tabled(lobe, o, &albedo);
                 Rgb got = stack_ambient(&m.stack, &m.view, all_tables(t), &calls, 1.0f, 1.0f);
                 Albedo own = albedo_quadrature(&lobe, o, 1e-4);
-                float e = lobe_turns(&lobe) ? own.f0 + own.f90
-                                            : m.view.e_o.e; /* a brushed lobe's table is a bound */
+                float e = lobe_depends_on_azimuth(&lobe)
+                              ? own.f0 + own.f90
+                              : m.view.e_o.e; /* a brushed lobe's table is a bound */
                 if (!(got.r >= 0.0f && abs(got.r - e) <= 0.03f * e + 0.003f))
                     fail_msg("%s, roughness %g, cosine %g: %g for %g", weft_lobe_info(id)->id,
                              (double)roughnesses[k], (double)o.z, (double)got.r, (double)e);

@@ -19,7 +19,7 @@ static Albedo midpoint_albedo(const Lobe *lobe, Dir o, int cells) {
             Angles a = angles_between(o, i);
             LobeValue value = lobe_value(lobe, a);
             double e = (double)value.f * (double)i.z * area * step * step,
-                   s = (double)fresnel_weight_plain(value.s);
+                   s = (double)fresnel_weight_uncolored(value.s);
             f0 += e * (1.0 - s);
             f90 += e * s;
         }
@@ -273,11 +273,11 @@ static void albedo_table_of_a_brushed_lobe_is_a_bound(void **state) {
     for (int k = 0; k < 2 * weft_lobe_count(); k++) {
         const int id = k / 2;
         Lobe lobe = lobe_fibres(lobe_default(id), 1.0f, 0.0f, k % 2 ? 0.39f : 0.0f); /* azimuth */
-        if (case_walks(id) || !lobe_turns(&lobe)) continue;
+        if (case_walks(id) || !lobe_depends_on_azimuth(&lobe)) continue;
         albedo_table_fill(&table, &lobe, lobe.params[0], lobe.params[0], 0);
         float below = most_below(&table, &lobe);
         lobe = sheen_lobe(id, 0.5f);
-        if (k % 2 == 0 && lobe_turns(&lobe)) {
+        if (k % 2 == 0 && lobe_depends_on_azimuth(&lobe)) {
             fill_albedo(&table, id);
             for (int n = 0; n < (test_short() ? 1 : 3); n++) {
                 lobe = table.lobe;

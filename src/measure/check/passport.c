@@ -120,7 +120,8 @@ static void measure_furnace(void *user, int item, int thread) {
     PassportWork *work = user;
     int view = item % WEFT_PASSPORT_VIEWS, k = item / WEFT_PASSPORT_VIEWS % WEFT_PASSPORT_SHEENS;
     int layer = item / (WEFT_PASSPORT_VIEWS * WEFT_PASSPORT_SHEENS);
-    double azimuth = lobe_turns(&work->bsdf->lobe) ? 0.4 + view : 0.0; /* each at another azimuth, as below */
+    double azimuth =
+        lobe_depends_on_azimuth(&work->bsdf->lobe) ? 0.4 + view : 0.0; /* each from another side, as below */
     Dir o = grid_direction((double)views[view], azimuth);
     Furnace f = furnace_measure(&work->bsdf->lobe, sheens[k], layer, &work->sheens[k], o, FURNACE_CELLS,
                                 work->desc->quick ? 10000 : 300000);

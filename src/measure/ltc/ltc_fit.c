@@ -55,7 +55,7 @@ void ltc_target_lobe(LtcTarget *target, const Lobe *lobe, float f0, float second
         const float *z = target->z + at, *area = target->area + at;
         lobe_eval_n(lobe, columns, ox, oy, oz, target->x + at, target->y + at, z, f, share);
         for (size_t k = 0; k < columns; k++) {
-            float s = fresnel_weight_plain(share[k]), first = f[k] * z[k] * (1.0f - s),
+            float s = fresnel_weight_uncolored(share[k]), first = f[k] * z[k] * (1.0f - s),
                   rest = f[k] * z[k] * s;
             target->e0 += (double)first * (double)area[k];
             target->e90 += (double)rest * (double)area[k];

@@ -20,7 +20,7 @@ static bool has_param(const Lobe *lobe, const char *name, float neutral, bool *s
     return k >= 0;
 }
 
-bool lobe_turns(const Lobe *lobe) {
+bool lobe_depends_on_azimuth(const Lobe *lobe) {
     bool set = false, any = has_param(lobe, "tilt", 0.0f, &set);
     any |= has_param(lobe, "anisotropy", 0.0f, &set);
     any |= has_param(lobe, "stretch", 1.0f, &set);

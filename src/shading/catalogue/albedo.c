@@ -90,7 +90,7 @@ static Sum ring(const Integrand *integrand, Dir wo, const QuadratureRule *rule, 
     float *share = f[1];
     lobe_eval_n(integrand->lobe, n, ox, oy, oz, ix, iy, iz, f[0], share);
     for (size_t k = 0; k < n && !integrand->color; k++) {
-        double weight = w[k] * (double)f[0][k], of_f90 = weight * (double)fresnel_weight_plain(share[k]);
+        double weight = w[k] * (double)f[0][k], of_f90 = weight * (double)fresnel_weight_uncolored(share[k]);
         sum.part[0] += weight - of_f90;
         sum.part[1] += of_f90;
     }
@@ -281,7 +281,7 @@ Dir albedo_brightest(const Lobe *lobe, float cos_o) {
     float most = -1.0f, s = sqrt(max(1.0f - cos_o * cos_o, 0.0f));
     const int own = weft_lobe_param_find((int)lobe->id, "azimuth");
     Dir best = dir(s, 0.0f, cos_o);
-    for (int k = 0; lobe_turns(lobe) && k < AZIMUTHS; k++) {
+    for (int k = 0; lobe_depends_on_azimuth(lobe) && k < AZIMUTHS; k++) {
         float azimuth = PI * (float)k / AZIMUTHS + (own > 0 ? lobe->params[own] : 0.0f);
         Dir wo = dir(s * cos(azimuth), s * sin(azimuth), cos_o);
         double error;

@@ -70,7 +70,7 @@ const char *const *lobe_choices(const char *type);
 void lobe_set(Lobe *lobe, int k, float value);
 
 /* Returns true if the lobe depends on azimuth: upright fibres and unbrushed lobes do not. */
-bool lobe_turns(const Lobe *lobe);
+bool lobe_depends_on_azimuth(const Lobe *lobe);
 
 /* Fills lobe with the registry's lobe for a public one, its parameters clamped. Returns false if no lobe has that
  * index. */

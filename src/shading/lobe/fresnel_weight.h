@@ -20,7 +20,7 @@ FN float fresnel_weight_mix(float s, float first, float second) {
 }
 
 /* Returns the share of the second colour for sums of light to which no colours are applied yet. */
-FN float fresnel_weight_plain(float s) {
+FN float fresnel_weight_uncolored(float s) {
     if (FRESNEL_WEIGHT_IS_COSINE(s)) return schlick_s(-s);
     return s;
 }

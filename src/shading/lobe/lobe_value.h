@@ -37,7 +37,7 @@ STRUCT(LobeReflected) {
 };
 FN LobeReflected lobe_reflected(LobeValue v, Rgb f0, Rgb f90) {
     LobeReflected x;
-    float s = fresnel_weight_plain(v.s);
+    float s = fresnel_weight_uncolored(v.s);
     x.f.r = v.f * lobe_color(v, f0.r, f90.r);
     x.f.g = v.f * lobe_color(v, f0.g, f90.g);
     x.f.b = v.f * lobe_color(v, f0.b, f90.b);
