@@ -136,12 +136,12 @@ static void reflect(Reflected *light, const Lobe *lobe, float cos_o, float azimu
         LobeValue value = lobe_value(lobe, angles_between(o, i));
         if (!(value.pdf > 0.0f)) continue;
         float w = value.f * i.z / (value.pdf * SAMPLES);
-        int n = cloud->count++;
-        cloud->i[n] = dir(i.x * tx + i.y * ty, i.y * tx - i.x * ty, i.z);
-        cloud->w[0][n] = w * (1.0f - fresnel_weight_uncolored(value.s));
-        cloud->w[1][n] = w * fresnel_weight_uncolored(value.s);
-        for (int c = 0; c < 2; c++) cloud->e[c] += (double)cloud->w[c][n];
-        cloud->dense += (double)(w * log2(max(value.f * i.z, 1e-30f)));
+        int n = light->count++;
+        light->i[n] = dir(i.x * tx + i.y * ty, i.y * tx - i.x * ty, i.z);
+        light->w[0][n] = w * (1.0f - fresnel_weight_uncolored(value.s));
+        light->w[1][n] = w * fresnel_weight_uncolored(value.s);
+        for (int c = 0; c < 2; c++) light->e[c] += (double)light->w[c][n];
+        light->log2_density += (double)(w * log2(max(value.f * i.z, 1e-30f)));
     }
     light->log2_density /= fmax(light->e[0] + light->e[1], 1e-30);
 }
@@ -284,7 +284,7 @@ void ambient_fit_shape(AmbientFit *fit, const Lobe *lobe, float low, float high)
     int azimuth = ambient_lean_azimuth(lobe->id);
     fit->lobe = *lobe;
     if (azimuth > 0) lobe_set(&fit->lobe, azimuth, 0.0f);
-    fit->turning = lobe_depends_on_azimuth(lobe);
+    fit->by_azimuth = lobe_depends_on_azimuth(lobe);
     fit->low = low;
     fit->high = high;
     if (info->param_count > 0) {

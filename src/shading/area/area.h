@@ -43,7 +43,7 @@ FN AreaDensity area_cosine(Dir o) { return area_of(ltc_of(1.0f, 1.0f, 0.0f, 0.0f
 
 /* Returns D of microfacets. In the limit of a mirror v_xy / v_z is the slope of the half vector over alpha, so x and y
  * stretch D along each axis, and narrow it beyond the least alpha of the table. For a rougher lobe this is less exact,
- * so it is stretched less; bench_area chose the power. */
+ * so it is stretched less; study_area chose the power. */
 FN AreaDensity area_facets(float ax, float ay, Dir o) {
     TableRef e = lobe_table_ltc_ggx();
     float alpha = sqrt(ax * ay), fitted = clamp(alpha, e.low * e.low, e.high * e.high);

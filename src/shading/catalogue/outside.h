@@ -48,7 +48,7 @@ Strip outside_strips(const Lobe *m, Dir o, float u, float v);
 float outside_seconds(const Lobe *m, float f0, float f90);
 Proxy outside_proxies(const Lobe *m);
 
-/* Returns the loops of that lobe, or NULL if it has none. */
-const PluginLoops *outside_loops(int id);
+/* Returns the loops of that lobe; if there is none, loops that write zeros. */
+const LobeLoops *outside_loops(int id);
 
 #endif

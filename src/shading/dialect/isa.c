@@ -16,10 +16,30 @@ const char *weft_isa_name(int isa) { return isa >= 0 && isa < ISA_COUNT ? names[
 
 const char *weft_isa(void) { return names[isa_used]; }
 
-/* Returns the widest set of instructions that the processor has. LOOP_AVX2 and LOOP_AVX512 are the levels v3 and v4 of
- * x86-64. */
-Isa isa_widest(void) {
-#ifdef LOOP_AVX2
+/* The sets that loops are compiled for (LOOP in loop.h). */
+#if !defined(__x86_64__) || defined(WEFT_OUTLINED)
+static const Isa least = ISA_SSE2, most = ISA_SSE2;
+#elif defined(WEFT_ONE_ISA)
+#define ONE_sse2    ISA_SSE2
+#define ONE_avx2    ISA_AVX2
+#define ONE_avx512  ISA_AVX512
+#define ONE_OF(set) ONE_##set
+#define ONE(set)    ONE_OF(set)
+static const Isa least = ONE(WEFT_ONE_ISA), most = ONE(WEFT_ONE_ISA);
+#else
+static const Isa least = ISA_SSE2, most = ISA_AVX512;
+#endif
+
+/* The set that all else is compiled for (WEFT_ARCH), as far as CMakeLists.txt knows. */
+#ifdef WEFT_NEEDS_AVX2
+static const Isa elsewhere = ISA_AVX2;
+#else
+static const Isa elsewhere = ISA_SSE2;
+#endif
+
+/* Returns the widest set of this processor; avx2 and avx512 name the levels v3 and v4 of x86-64. */
+static Isa isa_of_processor(void) {
+#ifdef __x86_64__
     __builtin_cpu_init();
     if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma") || !__builtin_cpu_supports("bmi") ||
         !__builtin_cpu_supports("bmi2"))
@@ -59,5 +79,22 @@ WeftResult weft_isa_use(const char *name, WeftError *error) {
     return isa_choose(name, isa_least(), isa_widest(), &isa_used, error);
 }
 
-/* Chooses the widest set before anything else is called. */
-__attribute__((constructor)) static void begin(void) { isa_used = isa_widest(); }
+const char *isa_lacking(Isa processor) {
+    static const char *const words[ISA_COUNT] = {"SSE2", "AVX2 and FMA", "AVX-512"};
+    Isa needed = least > elsewhere ? least : elsewhere;
+    return processor < needed ? words[needed] : NULL;
+}
+
+/* Chooses the set before the first call of anything else. A build for a wider processor than this one says so and ends the
+ * program, which would end by an instruction that is not there. */
+__attribute__((constructor)) static void begin(void) {
+    const char *lacking = isa_lacking(isa_of_processor());
+    if (lacking) {
+        fprintf(stderr,
+                "weft: this build needs a processor with %s: build on this machine, or for any with "
+                "-DWEFT_ARCH=none -DWEFT_ISA=all\n",
+                lacking);
+        _exit(WEFT_RESOURCES);
+    }
+    isa_used = isa_widest();
+}

@@ -66,11 +66,6 @@ FN bool pair_counts(Dir o, Dir i) {
     o = (Dir){counts ? o.x : 0.0f, counts ? o.y : 0.0f, counts ? o.z : 1.0f};                                \
     i = (Dir) { counts ? i.x : 0.0f, counts ? i.y : 0.0f, counts ? i.z : 1.0f }
 
-#define PAIRS                                                                                                \
-    const float *restrict ox, const float *restrict oy, const float *restrict oz, const float *restrict ix,  \
-        const float *restrict iy, const float *restrict iz
-#define PAIR_NAMES ox, oy, oz, ix, iy, iz
-
 /* A loop whose elements are independent. `omp simd` would make an array over lanes of every record which travels by
  * reference. */
 #ifdef __clang__

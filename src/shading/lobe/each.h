@@ -1,7 +1,7 @@
 /* each.h - lobes of one kind, each with numbers of its own: loops over arrays of parameters, colours and
  * directions
  *
- * Every array has n elements, and none that is written overlaps another. */
+ * Every array has n elements, a multiple of EACH_GROUP, and none that is written overlaps another. */
 #ifndef WEFT_SHADING_EACH_H
 #define WEFT_SHADING_EACH_H
 
