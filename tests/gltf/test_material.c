@@ -3,6 +3,9 @@
 
 #include <math.h>
 
+#include "gltf/asset/material_fields.h"
+#include "gltf/read/gltf.h"
+
 /* PNG, 2 x 1: sRGB bytes 255 128 0, then 0 64 255. */
 static const char png[] = "data:image/png;base64,"
                           "iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAIAAAB7QOjdAAAAD0lEQVR4nGP4"
@@ -467,6 +470,34 @@ static void saved_material_reads_as_it_was(void **state) {
                    WEFT_MESSAGE_GLTF_REFERENCE, "materials[0].extras.weft.inputs.nap.texture: 3 of 0");
 }
 
+static int rows_of(int input) {
+    int rows = 0;
+    for (const MaterialField *row = material_fields; row->factor; row++) rows += row->input == input;
+    return rows;
+}
+
+/* Readers, the writer and the doctor rely on this order. */
+static void fields_of_an_object_and_of_a_texture_follow_one_another(void **state) {
+    (void)state;
+    for (const MaterialField *a = material_fields; a->factor; a++) {
+        bool apart = false, other = false;
+        for (const MaterialField *b = a + 1; b->factor; b++) {
+            apart |= !material_fields_share(a, b);
+            other |= !material_field_repeats(b);
+            if (apart && material_fields_share(a, b)) fail_msg("%s and %s are apart", a->factor, b->factor);
+            if (other && a->texture && b->texture && strcmp(a->texture, b->texture) == 0)
+                fail_msg("%s: %s and %s are apart", a->texture, a->factor, b->factor);
+        }
+        assert_true(a->low < a->high && a->absent >= a->low && a->absent <= a->high);
+        if (a->input == NO_INPUT) continue;
+        assert_int_equal(rows_of(a->input), 1);
+        assert_ptr_equal(material_field_of((InputId)a->input), a);
+        if (material_field_extends(a)) assert_true(gltf_supports(a->object));
+    }
+    assert_false(gltf_supports("KHR_materials_transmission"));
+    assert_false(gltf_supports(pbr_object));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(material_without_members_has_the_defaults),
@@ -482,6 +513,7 @@ int main(void) {
         cmocka_unit_test(nap_of_the_extras_is_read),
         cmocka_unit_test(dust_of_the_extras_is_read),
         cmocka_unit_test(saved_material_reads_as_it_was),
+        cmocka_unit_test(fields_of_an_object_and_of_a_texture_follow_one_another),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -152,6 +152,10 @@ static const Case cases[] = {
      ",'extensions':{'KHR_materials_sheen':{'sheenColorFactor':[1,1,1],'sheenColorTexture':{'index':0,"
      "'extensions':{'KHR_texture_transform':{'scale':[0,2]}}},'sheenRoughnessFactor':0.8}}",
      "'KHR_materials_sheen','KHR_texture_transform'", NULL, NULL, COLORS},
+    {WEFT_FINDING_TEXTURE_TRANSFORM,
+     TWO_SIDED CLOTH ",'extensions':{'KHR_materials_clearcoat':{'clearcoatFactor':1,'clearcoatTexture':"
+                     "{'index':0,'extensions':{'KHR_texture_transform':{'scale':[0,2]}}}}}",
+     "'KHR_materials_clearcoat','KHR_texture_transform'", NULL, NULL, COLORS},
     {WEFT_FINDING_TEXCOORD_MISSING, TWO_SIDED CLOTH ",'occlusionTexture':{'index':0}", NULL,
      "'attributes':{'POSITION':0,'NORMAL':1},'indices':3,'material':0", NULL, COLORS},
     {WEFT_FINDING_TEXCOORD_MISSING, TWO_SIDED CLOTH ",'occlusionTexture':{'index':0,'texCoord':1}", NULL,
@@ -256,6 +260,22 @@ static WeftDoctor *examine(const char *text) {
     if (weft_doctor_open_memory(text, strlen(text), "case", &doctor, NULL, &error) != WEFT_OK)
         fail_msg("%s\n%s", error.text, text);
     return doctor;
+}
+
+/* The colour of the light through cloth is in RGB and its share in alpha, which no decoding changes. */
+static void alpha_of_a_colour_is_no_second_space(void **state) {
+    (void)state;
+    const Case packed = {.material = TWO_SIDED CLOTH
+                         ",'extensions':{'KHR_materials_diffuse_transmission':{"
+                         "'diffuseTransmissionFactor':1,'diffuseTransmissionTexture':{'index':0},"
+                         "'diffuseTransmissionColorTexture':{'index':0}}}",
+                         .used = "'KHR_materials_diffuse_transmission'",
+                         .picture = ALPHAS};
+    char *text = case_text(&packed);
+    WeftDoctor *doctor = examine(text);
+    assert_int_equal(weft_doctor_count(doctor), 0);
+    weft_doctor_close(doctor);
+    free(text);
 }
 
 /* Chrome beside black paint: the mean of both is darker than metals are, but no texel of metal is. */
@@ -671,6 +691,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(asset_of_each_fault_has_its_finding_alone),
         cmocka_unit_test(every_finding_has_a_case),
+        cmocka_unit_test(alpha_of_a_colour_is_no_second_space),
         cmocka_unit_test(paint_and_chrome_in_one_map_are_not_a_dark_metal),
         cmocka_unit_test(fixed_asset_has_no_finding_left_to_fix),
         cmocka_unit_test(fix_moves_sheen_roughness_to_alpha),

@@ -9,6 +9,7 @@
 #include "gltf/asset/buffer_views.h"
 #include "gltf/asset/container.h"
 #include "gltf/asset/field.h"
+#include "gltf/asset/material_fields.h"
 #include "gltf/read/gltf_camera.h"
 #include "gltf/read/gltf_material.h"
 #include "gltf/read/gltf_texture.h"
@@ -33,23 +34,16 @@ static void version_check(Asset *asset) {
 }
 
 bool gltf_supports(const char *extension) {
+    /* beside those of material_fields.h */
     static const char *const names[] = {
-        "EXT_meshopt_compression",
-        "KHR_lights_punctual",
-        "KHR_materials_anisotropy",
-        "KHR_materials_clearcoat",
-        "KHR_materials_diffuse_transmission",
-        "KHR_materials_emissive_strength",
-        "KHR_materials_ior",
-        "KHR_materials_sheen",
-        "KHR_materials_specular",
-        "KHR_materials_unlit",
-        "KHR_materials_variants",
-        "KHR_mesh_quantization",
-        "KHR_texture_transform",
+        "EXT_meshopt_compression", "KHR_lights_punctual",   "KHR_materials_unlit",
+        "KHR_materials_variants",  "KHR_mesh_quantization", "KHR_texture_transform",
     };
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (strcmp(extension, names[i]) == 0) return true;
+    for (const MaterialField *row = material_fields; row->factor; row++)
+        if (row->input != NO_INPUT && material_field_extends(row) && strcmp(extension, row->object) == 0)
+            return true;
     return false;
 }
 

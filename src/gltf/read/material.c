@@ -1,6 +1,4 @@
-/* Specification: Khronos Group, "glTF 2.0 Specification", 2021, section 3.9 (materials), and the texts of
- * KHR_materials_anisotropy, _clearcoat, _diffuse_transmission, _emissive_strength, _ior, _sheen, _specular, _unlit and
- * KHR_texture_transform in its extension registry. */
+/* Specification: see material_fields.c; and KHR_materials_unlit and KHR_texture_transform in Khronos' registry. */
 #include "base/pi.h"
 #include "gltf/read/gltf_material.h"
 
@@ -9,6 +7,7 @@
 #include <string.h>
 
 #include "gltf/asset/field.h"
+#include "gltf/asset/material_fields.h"
 #include "scene/material/cloth_file.h"
 #include "scene/material/material_numbers.h"
 #include "scene/material/set.h"
@@ -29,8 +28,8 @@ static void transform_read(const Field *field, Input *input) {
     input->texcoord = (int)field_size(&texcoord, (size_t)input->texcoord, 0, UINT8_MAX);
 }
 
-/* Reads a textureInfo, if there is one; channel matters to scalars only. */
-static void texture_read(const Field *field, Input *input, uint8_t channel) {
+/* A textureInfo, where there is one; channel matters to scalars only. */
+static void texture_read(const Field *field, Input *input, int channel) {
     if (!field->json) return;
     Field index = field_member(field, "index"), texcoord = field_member(field, "texCoord");
     Field transform = field_extension(field, "KHR_texture_transform");
@@ -46,103 +45,51 @@ static void texture_read(const Field *field, Input *input, uint8_t channel) {
     }
 }
 
-enum { R, G, B, A };
+/* Beyond these, numbers that glTF leaves unlimited are clamped: angles and the strength of a normal map. */
+static const float ANY_MOST = 1e3f;
 
-/* Reads object[factor], which is multiplied by a channel of object[texture]. */
-static void scalar_read(const Field *object, Input *input, const char *factor, float absent, float high,
-                        const char *texture, uint8_t channel) {
-    Field factor_field = field_member(object, factor);
-    input->value[0] = (float)field_number(&factor_field, (double)absent, 0.0, (double)high);
-    if (!texture) return;
-    Field texture_field = field_member(object, texture);
-    texture_read(&texture_field, input, channel);
+/* Reads the factor and the texture of a row into its input. object: where their keys are. */
+static void row_read(const Field *object, const MaterialField *row, Input *inputs) {
+    const bool any = row->low < 0.0f;
+    const float low = any ? -ANY_MOST : row->low, high = any ? ANY_MOST : fminf(row->high, FLT_MAX);
+    const int count = material_field_numbers(row);
+    float numbers[4] = {row->absent, row->absent, row->absent, row->absent};
+    Field texture = {.asset = object->asset}, factor;
+    if (row->texture) texture = field_member(object, row->texture);
+    factor = field_member(material_field_inside(row) ? &texture : object, material_field_key(row));
+    if (count == 1)
+        numbers[0] = (float)field_number(&factor, (double)row->absent, (double)low, (double)high);
+    else
+        field_floats(&factor, numbers, (size_t)count, low, high);
+    Input *input = &inputs[row->input];
+    memcpy(input->value, numbers, (count == 1 ? 1 : 3) * sizeof *numbers);
+    texture_read(&texture, input, row->channels <= CHANNEL_A ? (int)row->channels : 0);
+    if (row->channels != CHANNELS_COLOR_ALPHA) return;
+    inputs[INPUT_opacity] = *input;
+    inputs[INPUT_opacity].channel = CHANNEL_A;
+    memcpy(inputs[INPUT_opacity].value, (const float[3]){numbers[3]}, sizeof input->value);
 }
 
-static void color_read(const Field *object, Input *input, const char *factor, float absent, float high,
-                       const char *texture) {
-    Field factor_field = field_member(object, factor), texture_field = field_member(object, texture);
-    for (int c = 0; c < 3; c++) input->value[c] = absent;
-    field_floats(&factor_field, input->value, 3, 0.0f, high);
-    texture_read(&texture_field, input, 0);
-}
-
-/* Reads a normal texture, whose textureInfo contains its scale. */
-static void normal_read(const Field *object, Input *input, const char *texture) {
-    Field field = field_member(object, texture), scale = field_member(&field, "scale");
-    input->value[0] = (float)field_number(&scale, 1.0, -1e3, 1e3);
-    texture_read(&field, input, 0);
-}
-
-static void metallic_roughness_read(const Field *material, Input *inputs) {
-    Field pbr = field_member(material, "pbrMetallicRoughness");
-    Field factor = field_member(&pbr, "baseColorFactor"), texture = field_member(&pbr, "baseColorTexture");
-    float rgba[4] = {1.0f, 1.0f, 1.0f, 1.0f};
-    field_floats(&factor, rgba, 4, 0.0f, 1.0f);
-    memcpy(inputs[INPUT_base_color].value, rgba, 3 * sizeof *rgba);
-    inputs[INPUT_opacity].value[0] = rgba[3];
-    texture_read(&texture, &inputs[INPUT_base_color], 0);
-    inputs[INPUT_opacity].texture = inputs[INPUT_base_color].texture;
-    inputs[INPUT_opacity].texcoord = inputs[INPUT_base_color].texcoord;
-    inputs[INPUT_opacity].channel = A;
-    memcpy(inputs[INPUT_opacity].transform, inputs[INPUT_base_color].transform,
-           sizeof inputs[INPUT_opacity].transform);
-    scalar_read(&pbr, &inputs[INPUT_metallic], "metallicFactor", 1.0f, 1.0f, "metallicRoughnessTexture", B);
-    scalar_read(&pbr, &inputs[INPUT_roughness], "roughnessFactor", 1.0f, 1.0f, "metallicRoughnessTexture", G);
-}
-
-static void emission_read(const Field *material, Input *inputs) {
-    Field extension = field_extension(material, "KHR_materials_emissive_strength");
-    color_read(material, &inputs[INPUT_emission], "emissiveFactor", 0.0f, 1.0f, "emissiveTexture");
-    scalar_read(&extension, &inputs[INPUT_emission_strength], "emissiveStrength", 1.0f, FLT_MAX, NULL, 0);
-}
-
-static void specular_read(const Field *material, Input *inputs) {
-    Field ior_field = field_extension(material, "KHR_materials_ior");
-    Field specular = field_extension(material, "KHR_materials_specular");
-    scalar_read(&ior_field, &inputs[INPUT_ior], "ior", 1.5f, FLT_MAX, NULL, 0);
-    float *ior = &inputs[INPUT_ior].value[0];
-    if (*ior == 0.0f) {
-        *ior = 1e6f; /* the extension's value for a base that reflects everything */
+/* Repairs an ior: 0 is the extension's way to write that all is reflected; no other is below 1. */
+static void ior_repair(const Field *material, float *ior) {
+    Field extension = field_extension(material, material_field_of(INPUT_ior)->object);
+    if (*ior <= 0.0f) {
+        *ior = 1e6f;
     } else if (*ior < 1.0f) {
-        field_warn(&ior_field, WEFT_MESSAGE_GLTF_WARN_REPAIRED, "ior %g is taken as 1", (double)*ior);
+        field_warn(&extension, WEFT_MESSAGE_GLTF_WARN_REPAIRED, "ior %g is taken as 1", (double)*ior);
         *ior = 1.0f;
     }
-    scalar_read(&specular, &inputs[INPUT_specular], "specularFactor", 1.0f, 1.0f, "specularTexture", A);
-    color_read(&specular, &inputs[INPUT_specular_color], "specularColorFactor", 1.0f, FLT_MAX,
-               "specularColorTexture");
 }
 
-static void anisotropy_read(const Field *material, Input *inputs) {
-    Field extension = field_extension(material, "KHR_materials_anisotropy");
-    Field rotation = field_member(&extension, "anisotropyRotation"),
-          texture = field_member(&extension, "anisotropyTexture");
-    scalar_read(&extension, &inputs[INPUT_anisotropy], "anisotropyStrength", 0.0f, 1.0f, "anisotropyTexture",
-                B);
-    inputs[INPUT_anisotropy_direction].value[0] = (float)field_number(&rotation, 0.0, -1e3, 1e3);
-    texture_read(&texture, &inputs[INPUT_anisotropy_direction], 0);
-}
-
-static void clearcoat_read(const Field *material, Input *inputs) {
-    Field extension = field_extension(material, "KHR_materials_clearcoat");
-    scalar_read(&extension, &inputs[INPUT_clearcoat], "clearcoatFactor", 0.0f, 1.0f, "clearcoatTexture", R);
-    scalar_read(&extension, &inputs[INPUT_clearcoat_roughness], "clearcoatRoughnessFactor", 0.0f, 1.0f,
-                "clearcoatRoughnessTexture", G);
-    normal_read(&extension, &inputs[INPUT_clearcoat_normal], "clearcoatNormalTexture");
-}
-
-static void diffuse_transmission_read(const Field *material, Input *inputs) {
-    Field extension = field_extension(material, "KHR_materials_diffuse_transmission");
-    scalar_read(&extension, &inputs[INPUT_diffuse_transmission], "diffuseTransmissionFactor", 0.0f, 1.0f,
-                "diffuseTransmissionTexture", A);
-    color_read(&extension, &inputs[INPUT_diffuse_transmission_color], "diffuseTransmissionColorFactor", 1.0f,
-               1.0f, "diffuseTransmissionColorTexture");
-}
-
-static void sheen_read(const Field *material, Input *inputs) {
-    Field extension = field_extension(material, "KHR_materials_sheen");
-    color_read(&extension, &inputs[INPUT_sheen_color], "sheenColorFactor", 0.0f, 1.0f, "sheenColorTexture");
-    scalar_read(&extension, &inputs[INPUT_sheen_roughness], "sheenRoughnessFactor", 0.0f, 1.0f,
-                "sheenRoughnessTexture", A);
+static void rows_read(const Field *material, Input *inputs) {
+    for (const MaterialField *row = material_fields; row->factor; row++) {
+        if (row->input == NO_INPUT) continue;
+        Field object = material_field_extends(row) ? field_extension(material, row->object)
+                       : row->object               ? field_member(material, row->object)
+                                                   : *material;
+        row_read(&object, row, inputs);
+    }
+    ior_repair(material, inputs[INPUT_ior].value);
 }
 
 /* Reads an input of extras.weft: a number, or three for a colour; an angle is in radians. */
@@ -242,17 +189,17 @@ static void weave_read(const Field *weft, Material *material) {
 static void extras_read(const Field *field, Material *material) {
     static const char *const keys[] = {"nap",     "napRotation", "napTexture",  "dustTexture",
                                        "choices", "inputs",      "alphaCutoff", "weave"};
+    static const MaterialField nap[] = {
+        {INPUT_nap, NULL, "nap", "napTexture", CHANNEL_B, 0.0f, 0.0f, 0.5f * PI_FLOAT},
+        {INPUT_nap_direction, NULL, "napRotation", "napTexture", CHANNELS_DIRECTION, 0.0f, -INFINITY,
+         INFINITY}};
     Input *inputs = material->inputs;
     Field extras = field_member(field, "extras");
     if (!json_is_object(extras.json)) return;
-    Field weft = field_member(&extras, "weft"), rotation = field_member(&weft, "napRotation"),
-          texture = field_member(&weft, "napTexture");
-    Field dust = field_member(&weft, "dustTexture");
+    Field weft = field_member(&extras, "weft"), dust = field_member(&weft, "dustTexture");
     for (size_t k = 0; k < OWN; k++) own_read(&weft, inputs, own[k].key, own[k].id);
-    texture_read(&dust, &inputs[INPUT_dust], R);
-    scalar_read(&weft, &inputs[INPUT_nap], "nap", 0.0f, 0.5f * PI_FLOAT, "napTexture", B);
-    inputs[INPUT_nap_direction].value[0] = (float)field_number(&rotation, 0.0, -1e3, 1e3);
-    texture_read(&texture, &inputs[INPUT_nap_direction], 0);
+    texture_read(&dust, &inputs[INPUT_dust], CHANNEL_R);
+    for (size_t k = 0; k < sizeof nap / sizeof *nap; k++) row_read(&weft, &nap[k], inputs);
     saved_read(&weft, material);
     weave_read(&weft, material);
     const char *key;
@@ -279,22 +226,11 @@ static Material material_read(const Field *field) {
     Field alpha = field_member(field, "alphaMode"), cutoff = field_member(field, "alphaCutoff"),
           sided = field_member(field, "doubleSided");
     Material material = material_default();
-    Input *inputs = material.inputs;
     material.alpha_mode = alpha_mode_read(&alpha);
     material.alpha_cutoff = (float)field_number(&cutoff, 0.5, 0.0, (double)FLT_MAX);
     material.double_sided = field_bool(&sided, false);
     material.unlit = field_extension(field, "KHR_materials_unlit").json != NULL;
-    metallic_roughness_read(field, inputs);
-    normal_read(field, &inputs[INPUT_normal], "normalTexture");
-    Field occlusion = field_member(field, "occlusionTexture");
-    scalar_read(&occlusion, &inputs[INPUT_occlusion], "strength", 1.0f, 1.0f, NULL, 0);
-    texture_read(&occlusion, &inputs[INPUT_occlusion], R);
-    emission_read(field, inputs);
-    specular_read(field, inputs);
-    anisotropy_read(field, inputs);
-    clearcoat_read(field, inputs);
-    diffuse_transmission_read(field, inputs);
-    sheen_read(field, inputs);
+    rows_read(field, material.inputs);
     extras_read(field, &material);
     return material;
 }

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/equal.h"
+#include "gltf/asset/material_fields.h"
 #include "gltf/read/gltf_material.h"
 #include "gltf/save/saving.h"
 #include "scene/material/cloth_file.h"
@@ -16,15 +16,10 @@
 #include "shading/material/choice.h"
 #include "shading/stack/workflow.h"
 
-enum { R, G, B, A };
-
-static float unit(float x) { return fminf(fmaxf(x, 0.0f), 1.0f); }
-
 static float value(const Material *material, InputId id) { return material->inputs[id].value[0]; }
 
-static bool is_black(const Material *material, InputId id) {
-    const float *v = material->inputs[id].value;
-    return !(v[0] > 0.0f || v[1] > 0.0f || v[2] > 0.0f);
+static float strongest(const Input *input) {
+    return fmaxf(input->value[0], fmaxf(input->value[1], input->value[2]));
 }
 
 /* Saves KHR_texture_transform of a matrix of scale, rotation and shift; others are approximated. */
@@ -55,147 +50,115 @@ static json_t *texture_info(Saving *saving, const Input *input) {
     return info;
 }
 
-/* Sets object[key] to the textureInfo, if there is one and it is read by that channel. */
-static void texture_put(Saving *saving, json_t *object, const char *key, const Input *input, int channel) {
-    json_t *info = channel < 0 || input->channel == channel ? texture_info(saving, input) : NULL;
-    if (info) saving_put(saving, object, key, info);
-}
-
 static void number_put(Saving *saving, json_t *object, const char *key, float x) {
     saving_put(saving, object, key, json_real((double)x));
 }
 
-static void color_put(Saving *saving, json_t *object, const char *key, const float v[3], float factor,
-                      float most) {
-    float color[3];
-    for (int c = 0; c < 3; c++) color[c] = fminf(v[c] * factor, most);
-    saving_put(saving, object, key, saving_floats(color, 3));
-}
-
-static void base_save(Saving *saving, json_t *object, const Material *material) {
-    const Input *inputs = material->inputs;
-    json_t *pbr = json_object();
-    float rgba[4];
-    for (int c = 0; c < 3; c++) rgba[c] = unit(inputs[INPUT_base_color].value[c]);
-    rgba[3] = unit(value(material, INPUT_opacity));
-    bool bare = material_choices(material).workflow > WORKFLOW_METALLIC; /* of metalness, or almost */
-    saving_put(saving, pbr, "baseColorFactor", saving_floats(rgba, 4));
-    texture_put(saving, pbr, "baseColorTexture", &inputs[INPUT_base_color], -1);
-    number_put(saving, pbr, "metallicFactor", bare ? 0.0f : unit(value(material, INPUT_metallic)));
-    number_put(saving, pbr, "roughnessFactor", unit(value(material, INPUT_roughness)));
-    const Input *map = &inputs[inputs[INPUT_roughness].texture ? INPUT_roughness : INPUT_metallic];
-    texture_put(saving, pbr, "metallicRoughnessTexture", map, map == &inputs[INPUT_metallic] ? B : G);
-    saving_put(saving, object, "pbrMetallicRoughness", pbr);
-}
-
-/* Saves a normal map with its strength, or occlusion with its own. */
-static void scaled_save(Saving *saving, json_t *object, const char *key, const char *factor,
-                        const Material *material, InputId id) {
-    const Input *input = &material->inputs[id];
-    json_t *info = input->channel == R ? texture_info(saving, input) : NULL;
-    if (!info) return;
-    number_put(saving, info, factor, id == INPUT_occlusion ? unit(input->value[0]) : input->value[0]);
-    saving_put(saving, object, key, info);
-}
-
-static void emission_save(Saving *saving, json_t *object, const Material *material) {
-    const Input *emission = &material->inputs[INPUT_emission];
-    float most = fmaxf(emission->value[0], fmaxf(emission->value[1], emission->value[2]));
-    float strength = value(material, INPUT_emission_strength), above = most > 1.0f ? most : 1.0f;
-    if (!(most > 0.0f)) return;
-    color_put(saving, object, "emissiveFactor", emission->value, 1.0f / above, 1.0f);
-    texture_put(saving, object, "emissiveTexture", emission, -1);
-    if (!(strength * above < 1.0f || strength * above > 1.0f)) return;
-    json_t *extension = json_object();
-    number_put(saving, extension, "emissiveStrength", strength * above);
-    saving_extend(saving, object, "KHR_materials_emissive_strength", extension);
-}
-
-/* Saves the dielectric: its index, and the strength and tint of its reflection. If the workflow has F0 as a
- * colour, the tint is that colour over the F0 of index 1.5. */
-static void specular_save(Saving *saving, json_t *object, const Material *material) {
-    const Input *inputs = material->inputs;
+/* Returns the index of refraction. If the workflow has F0 as a colour, it is 1.5, and the tint is that colour over the
+ * F0 of 1.5. */
+static float saved_ior(const Material *material) {
     const Surface plain = {.ior = value(material, INPUT_ior),
                            .reflectance = value(material, INPUT_reflectance)};
-    bool own = material_choices(material).workflow == WORKFLOW_SPECULAR;
-    float root = sqrtf(unit(dielectric_f0(&plain))), ior = (1.0f + root) / fmaxf(1.0f - root, 1e-3f);
-    json_t *extension = json_object(), *index = json_object();
-    number_put(saving, extension, "specularFactor", unit(value(material, INPUT_specular)));
-    texture_put(saving, extension, "specularTexture", &inputs[INPUT_specular], A);
-    color_put(saving, extension, "specularColorFactor", inputs[INPUT_specular_color].value,
-              own ? 25.0f : 1.0f, 1000.0f);
-    texture_put(saving, extension, "specularColorTexture", &inputs[INPUT_specular_color], -1);
-    saving_extend(saving, object, "KHR_materials_specular", extension);
-    number_put(saving, index, "ior", own ? 1.5f : plain.ior >= 1.0f ? plain.ior : ior);
-    saving_extend(saving, object, "KHR_materials_ior", index);
+    const float root = sqrtf(fminf(dielectric_f0(&plain), 1.0f));
+    if (material_choices(material).workflow == WORKFLOW_SPECULAR) return 1.5f;
+    return plain.ior >= 1.0f ? plain.ior : (1.0f + root) / fmaxf(1.0f - root, 1e-3f);
 }
 
-static void anisotropy_save(Saving *saving, json_t *object, const Material *material) {
-    const Input *inputs = material->inputs;
-    json_t *extension = json_object();
-    number_put(saving, extension, "anisotropyStrength", unit(value(material, INPUT_anisotropy)));
-    number_put(saving, extension, "anisotropyRotation", value(material, INPUT_anisotropy_direction));
-    texture_put(saving, extension, "anisotropyTexture", &inputs[INPUT_anisotropy_direction], -1);
-    saving_extend(saving, object, "KHR_materials_anisotropy", extension);
+/* Returns number c of an input's factor in glTF's terms, where these are not weft's. */
+static float saved_number(const Material *material, InputId id, int c) {
+    const float x = material->inputs[id].value[c],
+                glow = fmaxf(strongest(&material->inputs[INPUT_emission]), 1.0f);
+    const int workflow = material_choices(material).workflow;
+    switch (id) {
+    case INPUT_metallic:
+        return workflow > WORKFLOW_METALLIC ? 0.0f : x; /* other workflows have next to no metal */
+    case INPUT_emission: return x * (1.0f / glow);
+    case INPUT_emission_strength: return x * glow;
+    case INPUT_specular_color: return fminf(workflow == WORKFLOW_SPECULAR ? 25.0f * x : x, 1000.0f);
+    case INPUT_ior: return saved_ior(material);
+    case INPUT_sheen_color: return x * value(material, INPUT_sheen);
+    default: return x;
+    }
 }
 
-static void clearcoat_save(Saving *saving, json_t *object, const Material *material) {
-    const Input *inputs = material->inputs;
-    json_t *extension = json_object();
-    number_put(saving, extension, "clearcoatFactor", unit(value(material, INPUT_clearcoat)));
-    texture_put(saving, extension, "clearcoatTexture", &inputs[INPUT_clearcoat], R);
-    number_put(saving, extension, "clearcoatRoughnessFactor",
-               unit(value(material, INPUT_clearcoat_roughness)));
-    texture_put(saving, extension, "clearcoatRoughnessTexture", &inputs[INPUT_clearcoat_roughness], G);
-    scaled_save(saving, extension, "clearcoatNormalTexture", "scale", material, INPUT_clearcoat_normal);
-    saving_extend(saving, object, "KHR_materials_clearcoat", extension);
+static float in_range(const MaterialField *row, float x) { return fminf(fmaxf(x, row->low), row->high); }
+
+static json_t *factor_json(const Material *material, const MaterialField *row) {
+    const int count = material_field_numbers(row);
+    float numbers[4];
+    for (int c = 0; c < 3; c++) numbers[c] = in_range(row, saved_number(material, (InputId)row->input, c));
+    numbers[3] = in_range(row, value(material, INPUT_opacity));
+    return count == 1 ? json_real((double)numbers[0]) : saving_floats(numbers, count);
 }
 
-static void diffuse_transmission_save(Saving *saving, json_t *object, const Material *material) {
-    const Input *inputs = material->inputs;
-    json_t *extension = json_object();
-    number_put(saving, extension, "diffuseTransmissionFactor",
-               unit(value(material, INPUT_diffuse_transmission)));
-    texture_put(saving, extension, "diffuseTransmissionTexture", &inputs[INPUT_diffuse_transmission], A);
-    color_put(saving, extension, "diffuseTransmissionColorFactor",
-              inputs[INPUT_diffuse_transmission_color].value, 1.0f, 1.0f);
-    texture_put(saving, extension, "diffuseTransmissionColorTexture",
-                &inputs[INPUT_diffuse_transmission_color], -1);
-    saving_extend(saving, object, "KHR_materials_diffuse_transmission", extension);
+/* Returns the textureInfo of a row; NULL if the input reads another channel than glTF does, or if the next row has the
+ * same texture. Metalness and roughness share one: that of roughness, or else that of metalness. */
+static json_t *texture_json(Saving *saving, const Material *material, const MaterialField *row) {
+    if (!row->texture || material_field_repeats(row + 1)) return NULL;
+    if (row->input == INPUT_roughness && !material->inputs[row->input].texture) row--;
+    const Input *input = &material->inputs[row->input];
+    return row->channels > CHANNEL_A || input->channel == (int)row->channels ? texture_info(saving, input)
+                                                                             : NULL;
 }
 
-static void sheen_save(Saving *saving, json_t *object, const Material *material) {
-    const Input *inputs = material->inputs;
-    json_t *extension = json_object();
-    color_put(saving, extension, "sheenColorFactor", inputs[INPUT_sheen_color].value,
-              value(material, INPUT_sheen), 1.0f);
-    texture_put(saving, extension, "sheenColorTexture", &inputs[INPUT_sheen_color], -1);
-    number_put(saving, extension, "sheenRoughnessFactor", unit(value(material, INPUT_sheen_roughness)));
-    texture_put(saving, extension, "sheenRoughnessTexture", &inputs[INPUT_sheen_roughness], A);
-    saving_extend(saving, object, "KHR_materials_sheen", extension);
+static void row_save(Saving *saving, json_t *object, const Material *material, const MaterialField *row) {
+    json_t *info = texture_json(saving, material, row), *holder = material_field_inside(row) ? info : object;
+    if (holder) saving_put(saving, holder, material_field_key(row), factor_json(material, row));
+    if (info) saving_put(saving, object, row->texture, info);
+}
+
+static bool differs(float a, float b) { return a < b || a > b; }
+
+/* Returns true if the object that begins with this row is written: an extension where its first number is not what a
+ * reader takes without it. */
+static bool is_wanted(const Material *material, const MaterialField *row) {
+    const bool glows = strongest(&material->inputs[INPUT_emission]) > 0.0f;
+    switch (row->input) {
+    case NO_INPUT: return false;
+    case INPUT_specular:
+    case INPUT_ior: return true;
+    case INPUT_emission: return glows;
+    case INPUT_emission_strength:
+        return glows && differs(saved_number(material, INPUT_emission_strength, 0), row->absent);
+    default:
+        return !material_field_extends(row) || differs(strongest(&material->inputs[row->input]), row->absent);
+    }
+}
+
+/* Writes the rows from `row` to `end`, which are of one object. */
+static void object_save(Saving *saving, json_t *json, const Material *material, const MaterialField *row,
+                        const MaterialField *end) {
+    const char *name = row->object;
+    const bool extends = material_field_extends(row);
+    json_t *object = name ? json_object() : json;
+    for (; row < end; row++) row_save(saving, object, material, row);
+    if (extends)
+        saving_extend(saving, json, name, object);
+    else if (name)
+        saving_put(saving, json, name, object);
+}
+
+/* Writes the fields that an unlit material has too, or else the others: extensions that reflect light. */
+static void rows_save(Saving *saving, json_t *json, const Material *material, bool reflects) {
+    for (const MaterialField *row = material_fields, *end; row->factor; row = end) {
+        for (end = row + 1; material_fields_share(row, end);) end++;
+        bool reflection = material_field_extends(row) && row->input != INPUT_emission_strength;
+        if (reflection == reflects && is_wanted(material, row)) object_save(saving, json, material, row, end);
+    }
 }
 
 static json_t *material_save(Saving *saving, const char *name, const Material *material) {
     static const char *const modes[] = {"OPAQUE", "MASK", "BLEND"}; /* as WeftAlphaMode */
     json_t *object = json_object();
     saving_name(saving, object, name);
-    base_save(saving, object, material);
-    scaled_save(saving, object, "normalTexture", "scale", material, INPUT_normal);
-    scaled_save(saving, object, "occlusionTexture", "strength", material, INPUT_occlusion);
-    emission_save(saving, object, material);
+    rows_save(saving, object, material, false);
     if (material->alpha_mode != WEFT_ALPHA_OPAQUE)
         saving_put(saving, object, "alphaMode", json_string(modes[material->alpha_mode]));
     if (material->alpha_mode == WEFT_ALPHA_MASK)
         number_put(saving, object, "alphaCutoff", fmaxf(material->alpha_cutoff, 0.0f));
     if (material->double_sided) saving_put(saving, object, "doubleSided", json_true());
     if (material->unlit) saving_extend(saving, object, "KHR_materials_unlit", json_object());
-    if (material->unlit) return object;
-    specular_save(saving, object, material);
-    if (value(material, INPUT_anisotropy) > 0.0f) anisotropy_save(saving, object, material);
-    if (value(material, INPUT_clearcoat) > 0.0f) clearcoat_save(saving, object, material);
-    if (value(material, INPUT_diffuse_transmission) > 0.0f)
-        diffuse_transmission_save(saving, object, material);
-    if (!is_black(material, INPUT_sheen_color)) sheen_save(saving, object, material);
+    if (!material->unlit) rows_save(saving, object, material, true);
     return object;
 }
 

@@ -97,12 +97,8 @@ const Pixels *doctor_pixels(WeftDoctor *doctor, json_t *texture_info);
 void doctor_texel(const WeftImage *image, float u, float v, float rgb[3]);
 void doctor_texel_linear(const WeftDoctor *doctor, const WeftImage *image, float u, float v, float rgb[3]);
 
-/* Returns a factor, clamped to 0 .. 1, times the mean of its texture: a linear colour, or one channel.
- * absent: the default of the factor. */
-void doctor_color(WeftDoctor *doctor, json_t *object, const char *factor, const char *texture, double absent,
-                  float color[3]);
-float doctor_scalar(WeftDoctor *doctor, json_t *object, const char *factor, const char *texture, int channel,
-                    double absent);
+/* Writes the factor of an input, clamped to 0 .. 1, times the mean of its texture: a linear colour, or one number. */
+void doctor_input(WeftDoctor *doctor, json_t *material, InputId input, float *out);
 
 /* Returns the bit of a profile by its id, and the bits of all profiles of engines that read
  * KHR_materials_sheen; doctor_readers are their ids. */

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "gltf/asset/material_fields.h"
 #include "measure/doctor/doctor.h"
 #include "shading/material/choice.h"
 
@@ -124,23 +125,20 @@ const Pixels *doctor_pixels(WeftDoctor *doctor, json_t *info) {
     return pixels;
 }
 
-/* Returns the value that readers use for a factor. */
-static float clamped(float value) { return fminf(fmaxf(value, 0.0f), 1.0f); }
-
-void doctor_color(WeftDoctor *doctor, json_t *object, const char *factor, const char *texture, double absent,
-                  float color[3]) {
+void doctor_input(WeftDoctor *doctor, json_t *material, InputId input, float *out) {
+    const MaterialField *row = material_field_of(input);
+    const int count = material_field_numbers(row), given = count > 1 ? 3 : 1;
+    const double absent = (double)row->absent;
     double numbers[3] = {absent, absent, absent};
-    doctor_numbers(object, factor, numbers, 3);
-    const Pixels *pixels = doctor_pixels(doctor, doctor_part(object, texture));
-    for (int c = 0; c < 3; c++) color[c] = clamped((float)numbers[c]) * (pixels ? pixels->linear[c] : 1.0f);
-}
-
-float doctor_scalar(WeftDoctor *doctor, json_t *object, const char *factor, const char *texture, int channel,
-                    double absent) {
-    double number = absent;
-    doctor_numbers(object, factor, &number, 1);
-    const Pixels *pixels = doctor_pixels(doctor, doctor_part(object, texture));
-    return clamped((float)number) * (pixels ? pixels->mean[channel] : 1.0f);
+    char path[FIELD_PATH];
+    material_field_path(row, row->factor, path);
+    doctor_numbers(material, path, numbers, given);
+    material_field_path(row, row->texture, path);
+    const Pixels *pixels = doctor_pixels(doctor, doctor_part(material, path));
+    for (int c = 0; c < given; c++) {
+        out[c] = fminf(fmaxf((float)numbers[c], 0.0f), 1.0f);
+        if (pixels) out[c] *= given == 3 ? pixels->linear[c] : pixels->mean[row->channels];
+    }
 }
 
 /* The profiles of the catalogue that are engines' versions of KHR_materials_sheen. */
@@ -157,13 +155,10 @@ unsigned doctor_engines(void) {
 Cloth doctor_cloth(WeftDoctor *doctor, int material) {
     Cloth cloth = {.index = material, .json = doctor_item(doctor, "materials", material)};
     cloth.sheen = doctor_part(cloth.json, "extensions/KHR_materials_sheen");
-    doctor_color(doctor, cloth.sheen, "sheenColorFactor", "sheenColorTexture", 0.0, cloth.color);
-    cloth.roughness =
-        doctor_scalar(doctor, cloth.sheen, "sheenRoughnessFactor", "sheenRoughnessTexture", 3, 0.0);
-    doctor_color(doctor, cloth.json, "pbrMetallicRoughness/baseColorFactor",
-                 "pbrMetallicRoughness/baseColorTexture", 1.0, cloth.base);
-    cloth.metallic = doctor_scalar(doctor, cloth.json, "pbrMetallicRoughness/metallicFactor",
-                                   "pbrMetallicRoughness/metallicRoughnessTexture", 2, 1.0);
+    doctor_input(doctor, cloth.json, INPUT_sheen_color, cloth.color);
+    doctor_input(doctor, cloth.json, INPUT_sheen_roughness, &cloth.roughness);
+    doctor_input(doctor, cloth.json, INPUT_base_color, cloth.base);
+    doctor_input(doctor, cloth.json, INPUT_metallic, &cloth.metallic);
     return cloth;
 }
 

@@ -144,7 +144,7 @@ static void check_transmission(WeftDoctor *doctor, const Cloth *cloth) {
 
 static void check_emission(WeftDoctor *doctor, const Cloth *cloth) {
     float glow[3];
-    doctor_color(doctor, cloth->json, "emissiveFactor", "emissiveTexture", 0.0, glow);
+    doctor_input(doctor, cloth->json, INPUT_emission, glow);
     float most = fmaxf(glow[0], fmaxf(glow[1], glow[2]));
     if (!(most > 1e-3f)) return;
     doctor_found(doctor, WEFT_FINDING_SHEEN_EMISSION,

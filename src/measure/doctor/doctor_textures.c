@@ -7,42 +7,17 @@
 #include <strings.h>
 
 #include "gltf/asset/buffer_views.h"
+#include "gltf/asset/material_fields.h"
 #include "gltf/save/bundle.h"
 #include "measure/doctor/doctor.h"
 
-/* The encoding in which a texture is read. A texture that gives alpha alone has none. */
-typedef enum Space { SPACE_COLOR = 1, SPACE_DATA = 2 } Space;
-
-static const struct {
-    const char *path;
-    Space space;
-} uses[] = {
-    {"pbrMetallicRoughness/baseColorTexture", SPACE_COLOR},
-    {"emissiveTexture", SPACE_COLOR},
-    {"extensions/KHR_materials_sheen/sheenColorTexture", SPACE_COLOR},
-    {"extensions/KHR_materials_specular/specularColorTexture", SPACE_COLOR},
-    {"extensions/KHR_materials_diffuse_transmission/diffuseTransmissionColorTexture", SPACE_COLOR},
-    {"pbrMetallicRoughness/metallicRoughnessTexture", SPACE_DATA},
-    {"normalTexture", SPACE_DATA},
-    {"occlusionTexture", SPACE_DATA},
-    {"extensions/KHR_materials_clearcoat/clearcoatTexture", SPACE_DATA},
-    {"extensions/KHR_materials_clearcoat/clearcoatRoughnessTexture", SPACE_DATA},
-    {"extensions/KHR_materials_clearcoat/clearcoatNormalTexture", SPACE_DATA},
-    {"extensions/KHR_materials_anisotropy/anisotropyTexture", SPACE_DATA},
-    {"extensions/KHR_materials_transmission/transmissionTexture", SPACE_DATA},
-    {"extensions/KHR_materials_diffuse_transmission/diffuseTransmissionTexture", SPACE_DATA},
-    {"extensions/KHR_materials_iridescence/iridescenceTexture", SPACE_DATA},
-    {"extensions/KHR_materials_volume/thicknessTexture", SPACE_DATA},
-};
-enum { USES = sizeof uses / sizeof *uses };
-
-/* Returns the image of the file that a textureInfo names; -1 if there is none. */
+/* The image in the file behind a textureInfo; -1: none. */
 static int file_image(const WeftDoctor *doctor, json_t *info) {
     int texture = doctor_texture(doctor, info);
     return texture < 0 ? -1 : doctor->asset.textures[texture].image;
 }
 
-/* The first use of an image in either encoding; NULL: none. */
+/* The first texture by which an image is decoded from sRGB, and the first by which it is not; NULL if there is none. */
 typedef struct FirstUse {
     const char *color, *data;
 } FirstUse;
@@ -52,11 +27,14 @@ static FirstUse *first_uses(const WeftDoctor *doctor) {
     FirstUse *first = alloc_array(doctor->asset.image_count, sizeof *first);
     for (int m = 0; first && m < (int)doctor->asset.material_count; m++) {
         json_t *material = doctor_item(doctor, "materials", m);
-        for (int k = 0; k < USES; k++) {
-            int image = file_image(doctor, doctor_part(material, uses[k].path));
+        for (const MaterialField *row = material_fields; row->factor; row++) {
+            char path[FIELD_PATH];
+            if (!row->texture || row->channels == CHANNEL_A) continue; /* alpha has no encoding */
+            material_field_path(row, row->texture, path);
+            int image = file_image(doctor, doctor_part(material, path));
             if (image < 0) continue;
-            const char **use = uses[k].space == SPACE_COLOR ? &first[image].color : &first[image].data;
-            if (!*use) *use = doctor_key(uses[k].path);
+            const char **use = material_field_numbers(row) > 1 ? &first[image].color : &first[image].data;
+            if (!*use) *use = row->texture;
         }
     }
     return first;

@@ -4,42 +4,13 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "gltf/asset/material_fields.h"
 #include "measure/doctor/doctor.h"
 #include "scene/material/set.h"
 
-#define PBR(key)   "pbrMetallicRoughness/" key
-#define SHEEN(key) "extensions/KHR_materials_sheen/" key
-#define COAT(key)  "extensions/KHR_materials_clearcoat/" key
+#define PBR(key) "pbrMetallicRoughness/" key
 
 static double clamped(double value, double low, double high) { return fmin(fmax(value, low), high); }
-
-/* Khronos Group, "glTF 2.0 Specification", 2021, and the schemas of the extensions. */
-static const struct {
-    const char *path;
-    int count;
-    double low, high;
-} ranges[] = {
-    {PBR("baseColorFactor"), 4, 0, 1},
-    {PBR("metallicFactor"), 1, 0, 1},
-    {PBR("roughnessFactor"), 1, 0, 1},
-    {"emissiveFactor", 3, 0, 1},
-    {"alphaCutoff", 1, 0, HUGE_VAL},
-    {"occlusionTexture/strength", 1, 0, 1},
-    {SHEEN("sheenColorFactor"), 3, 0, 1},
-    {SHEEN("sheenRoughnessFactor"), 1, 0, 1},
-    {COAT("clearcoatFactor"), 1, 0, 1},
-    {COAT("clearcoatRoughnessFactor"), 1, 0, 1},
-    {"extensions/KHR_materials_specular/specularFactor", 1, 0, 1},
-    {"extensions/KHR_materials_specular/specularColorFactor", 3, 0, HUGE_VAL},
-    {"extensions/KHR_materials_anisotropy/anisotropyStrength", 1, 0, 1},
-    {"extensions/KHR_materials_transmission/transmissionFactor", 1, 0, 1},
-    {"extensions/KHR_materials_diffuse_transmission/diffuseTransmissionFactor", 1, 0, 1},
-    {"extensions/KHR_materials_diffuse_transmission/diffuseTransmissionColorFactor", 3, 0, 1},
-    {"extensions/KHR_materials_volume/thicknessFactor", 1, 0, HUGE_VAL},
-    {"extensions/KHR_materials_volume/attenuationColor", 3, 0, 1},
-    {"extensions/KHR_materials_iridescence/iridescenceFactor", 1, 0, 1},
-    {"extensions/KHR_materials_emissive_strength/emissiveStrength", 1, 0, HUGE_VAL},
-};
 
 static void check_range(WeftDoctor *doctor, const Cloth *cloth, const char *path, int count, double low,
                         double high) {
@@ -83,39 +54,32 @@ static void check_ior_range(WeftDoctor *doctor, const Cloth *cloth) {
 }
 
 void check_ranges(WeftDoctor *doctor, const Cloth *cloth) {
-    for (size_t k = 0; k < sizeof ranges / sizeof *ranges; k++)
-        check_range(doctor, cloth, ranges[k].path, ranges[k].count, ranges[k].low, ranges[k].high);
-    check_ior_range(doctor, cloth);
+    for (const MaterialField *row = material_fields; row->factor; row++) {
+        char path[FIELD_PATH];
+        material_field_path(row, row->factor, path);
+        if (row->input == INPUT_ior)
+            check_ior_range(doctor, cloth);
+        else if (row->low >= 0.0f)
+            check_range(doctor, cloth, path, material_field_numbers(row), (double)row->low,
+                        (double)row->high);
+    }
 }
 
-/* A texture, and the factor on it whose default is 0. */
-static const struct {
-    const char *factor, *texture;
-    int count;
-} switches[] = {
-    {SHEEN("sheenColorFactor"), SHEEN("sheenColorTexture"), 3},
-    {SHEEN("sheenRoughnessFactor"), SHEEN("sheenRoughnessTexture"), 1},
-    {"emissiveFactor", "emissiveTexture", 3},
-    {COAT("clearcoatFactor"), COAT("clearcoatTexture"), 1},
-    {COAT("clearcoatRoughnessFactor"), COAT("clearcoatRoughnessTexture"), 1},
-    {"extensions/KHR_materials_anisotropy/anisotropyStrength",
-     "extensions/KHR_materials_anisotropy/anisotropyTexture", 1},
-    {"extensions/KHR_materials_transmission/transmissionFactor",
-     "extensions/KHR_materials_transmission/transmissionTexture", 1},
-    {"extensions/KHR_materials_diffuse_transmission/diffuseTransmissionFactor",
-     "extensions/KHR_materials_diffuse_transmission/diffuseTransmissionTexture", 1},
-    {"extensions/KHR_materials_iridescence/iridescenceFactor",
-     "extensions/KHR_materials_iridescence/iridescenceTexture", 1},
-    {"extensions/KHR_materials_volume/thicknessFactor", "extensions/KHR_materials_volume/thicknessTexture",
-     1},
-};
+/* Returns true for a texture that does nothing without its factor. */
+static bool is_switched(const MaterialField *row) {
+    return row->texture && row->low >= 0.0f && !(row->absent > 0.0f);
+}
 
 void check_factors(WeftDoctor *doctor, const Cloth *cloth) {
-    for (size_t k = 0; k < sizeof switches / sizeof *switches; k++) {
-        const char *factor = switches[k].factor, *texture = doctor_key(switches[k].texture);
-        int count = switches[k].count;
+    for (const MaterialField *row = material_fields; row->factor; row++) {
+        char factor[FIELD_PATH], path[FIELD_PATH];
+        const char *texture = row->texture;
+        const int count = material_field_numbers(row);
         double values[4] = {0.0};
-        if (!doctor_part(cloth->json, switches[k].texture)) continue;
+        if (!is_switched(row)) continue;
+        material_field_path(row, row->factor, factor);
+        material_field_path(row, texture, path);
+        if (!doctor_part(cloth->json, path)) continue;
         bool given = doctor_numbers(cloth->json, factor, values, count);
         if (values[0] > 0.0 || values[1] > 0.0 || values[2] > 0.0 || values[0] < 0.0) continue;
         const Place place = {WEFT_OF_MATERIAL, cloth->index, factor};
@@ -271,19 +235,18 @@ void check_plausible(WeftDoctor *doctor, const Cloth *cloth) {
 
 /* Finds textures of a material whose transform has a scale of 0. */
 void check_transforms(WeftDoctor *doctor, const Cloth *cloth) {
-    static const char *const paths[] = {
-        PBR("baseColorTexture"),    PBR("metallicRoughnessTexture"), "normalTexture",
-        SHEEN("sheenColorTexture"), SHEEN("sheenRoughnessTexture"),  "occlusionTexture"};
-    for (size_t k = 0; k < sizeof paths / sizeof *paths; k++) {
-        char scale[128];
+    for (const MaterialField *row = material_fields; row->factor; row++) {
+        char path[FIELD_PATH], scale[2 * FIELD_PATH];
         double values[2];
-        snprintf(scale, sizeof scale, "%s/extensions/KHR_texture_transform/scale", paths[k]);
+        if (!row->texture || material_field_repeats(row)) continue;
+        material_field_path(row, row->texture, path);
+        snprintf(scale, sizeof scale, "%s/extensions/KHR_texture_transform/scale", path);
         if (!doctor_numbers(cloth->json, scale, values, 2)) continue;
         if (fabs(values[0]) > 1e-6 && fabs(values[1]) > 1e-6) continue;
         doctor_found(doctor, WEFT_FINDING_TEXTURE_TRANSFORM, (Place){WEFT_OF_MATERIAL, cloth->index, scale},
                      0, 0.0, NULL,
                      "the transform of %s has the scale %g, %g: one line of the image is all that is seen",
-                     doctor_key(paths[k]), values[0], values[1]);
+                     row->texture, values[0], values[1]);
         doctor_advise(doctor, "write a scale that is not 0, or drop the transform");
     }
 }

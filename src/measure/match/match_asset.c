@@ -6,6 +6,7 @@
 
 #include "base/fail.h"
 #include "base/memory.h"
+#include "gltf/asset/material_fields.h"
 #include "gltf/read/gltf.h"
 #include "gltf/save/rewrite.h"
 #include "measure/bsdf/material_key.h"
@@ -13,20 +14,9 @@
 #include "scene/record/scene.h"
 #include "shading/material/choice.h"
 
-/* A factor that a match may change, and its place in a material's JSON. */
-typedef struct Factor {
-    InputId input;
-    const char *extension, *name; /* extension: NULL for pbrMetallicRoughness */
-    int numbers;                  /* 1: a number; otherwise an array of so many */
-} Factor;
-
-static const Factor factors[] = {
-    {INPUT_base_color, NULL, "baseColorFactor", 4},
-    {INPUT_roughness, NULL, "roughnessFactor", 1},
-    {INPUT_sheen_color, "KHR_materials_sheen", "sheenColorFactor", 3},
-    {INPUT_sheen_roughness, "KHR_materials_sheen", "sheenRoughnessFactor", 1},
-    {INPUT_specular, "KHR_materials_specular", "specularFactor", 1},
-};
+/* The inputs that a match may change. */
+static const InputId factors[] = {INPUT_base_color, INPUT_roughness, INPUT_sheen_color, INPUT_sheen_roughness,
+                                  INPUT_specular};
 enum { FACTORS = sizeof factors / sizeof *factors };
 
 static double linear_of(double x) { return x <= 0.04045 ? x / 12.92 : pow((x + 0.055) / 1.055, 2.4); }
@@ -100,8 +90,8 @@ static double mean_of(AssetSearch *self, const WeftInput *input, int channel, bo
 
 static void means_of(AssetSearch *self, const WeftMaterial *material, double means[FACTORS][3]) {
     for (int f = 0; f < FACTORS; f++) {
-        const WeftInput *input = &material->inputs[factors[f].input];
-        bool color = factors[f].numbers > 1;
+        const WeftInput *input = &material->inputs[factors[f]];
+        bool color = input_value_count(factors[f]) > 1;
         for (int c = 0; c < 3; c++) means[f][c] = mean_of(self, input, color ? c : input->channel, color);
     }
 }
@@ -110,7 +100,7 @@ static void means_of(AssetSearch *self, const WeftMaterial *material, double mea
 static void to_average(WeftMaterial *material, double means[FACTORS][3]) {
     for (int f = 0; f < FACTORS; f++)
         for (int c = 0; c < 3; c++) {
-            float *value = &material->inputs[factors[f].input].value[c];
+            float *value = &material->inputs[factors[f]].value[c];
             *value = (float)((double)*value * means[f][c]);
         }
     for (int k = 0; k < WEFT_INPUTS_MAX; k++) material->inputs[k].texture = 0;
@@ -120,8 +110,8 @@ static void to_average(WeftMaterial *material, double means[FACTORS][3]) {
 static int to_factors(WeftMaterial *material, double means[FACTORS][3]) {
     int clipped = 0;
     for (int f = 0; f < FACTORS; f++)
-        for (int c = 0; c < (factors[f].numbers > 1 ? 3 : 1); c++) {
-            float *value = &material->inputs[factors[f].input].value[c];
+        for (int c = 0; c < input_value_count(factors[f]); c++) {
+            float *value = &material->inputs[factors[f]].value[c];
             double factor = means[f][c] > 1e-4 ? (double)*value / means[f][c] : (double)*value;
             clipped |= factor > 1.0 + 1e-6;
             *value = (float)fmin(factor, 1.0);
@@ -142,26 +132,26 @@ static json_t *member_object(json_t *object, const char *name) {
     return json_object_get(object, name);
 }
 
-/* Writes a factor that has changed to the JSON. */
-static WeftResult factor_write(Rewrite *rewrite, json_t *material, const Factor *factor, const float *value,
-                               WeftError *error) {
-    json_t *home = factor->extension ? member_object(member_object(material, "extensions"), factor->extension)
-                                     : member_object(material, "pbrMetallicRoughness");
-    if (factor->extension) {
-        WeftResult result = rewrite_uses(rewrite, factor->extension, error);
+/* Puts a factor that has changed into the JSON. */
+static WeftResult factor_write(Rewrite *rewrite, json_t *material, const MaterialField *factor,
+                               const float *value, WeftError *error) {
+    const bool extends = material_field_extends(factor);
+    json_t *home = member_object(extends ? member_object(material, "extensions") : material, factor->object);
+    if (extends) {
+        WeftResult result = rewrite_uses(rewrite, factor->object, error);
         if (result != WEFT_OK) return result;
     }
-    if (factor->numbers == 1) {
-        json_object_set_new(home, factor->name, json_real(round((double)value[0] * 1e6) / 1e6));
+    if (material_field_numbers(factor) == 1) {
+        json_object_set_new(home, factor->factor, json_real(round((double)value[0] * 1e6) / 1e6));
         return WEFT_OK;
     }
-    json_t *before = json_object_get(home, factor->name), *now = json_array();
-    for (int c = 0; c < factor->numbers; c++) {
+    json_t *before = json_object_get(home, factor->factor), *now = json_array();
+    for (int c = 0; c < material_field_numbers(factor); c++) {
         const json_t *alpha = json_array_get(before, 3); /* NULL, and then 1, if there was none */
         double kept = alpha ? json_number_value(alpha) : 1.0;
         json_array_append_new(now, json_real(c < 3 ? round((double)value[c] * 1e6) / 1e6 : kept));
     }
-    json_object_set_new(home, factor->name, now);
+    json_object_set_new(home, factor->factor, now);
     return WEFT_OK;
 }
 
@@ -175,10 +165,10 @@ static WeftResult material_write(Rewrite *rewrite, int index, const WeftAssetMat
     json_t *material = json_array_get(json_object_get(rewrite->root, "materials"), (size_t)index);
     WeftResult result = WEFT_OK;
     for (int f = 0; f < FACTORS && material && result == WEFT_OK; f++) {
-        const float *was = match->copied.inputs[factors[f].input].value,
-                    *now = match->matched.inputs[factors[f].input].value;
-        if (!same(was, now, factors[f].numbers > 1 ? 3 : 1))
-            result = factor_write(rewrite, material, &factors[f], now, error);
+        const float *was = match->copied.inputs[factors[f]].value,
+                    *now = match->matched.inputs[factors[f]].value;
+        if (!same(was, now, input_value_count(factors[f])))
+            result = factor_write(rewrite, material, material_field_of(factors[f]), now, error);
     }
     return result;
 }
@@ -188,7 +178,7 @@ static void lock_rest(int locked[WEFT_INPUTS_MAX]) {
     for (int k = 0; k < WEFT_INPUTS_MAX; k++) {
         locked[k] = 1;
         for (int f = 0; f < FACTORS; f++)
-            if ((int)factors[f].input == k) locked[k] = 0;
+            if ((int)factors[f] == k) held[k] = 0;
     }
 }
 
@@ -266,7 +256,7 @@ static void write_matches(AssetSearch *self) {
         match->found = search->found;
         match->clipped = to_factors(&found, material->means);
         for (int f = 0; f < FACTORS; f++)
-            memcpy(match->matched.inputs[factors[f].input].value, found.inputs[factors[f].input].value,
+            memcpy(match->matched.inputs[factors[f]].value, found.inputs[factors[f]].value,
                    sizeof found.inputs->value);
         match->changed = 1;
         match->search = material->search + 1;
