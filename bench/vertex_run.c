@@ -6,12 +6,13 @@
 #include "shading/catalogue/albedo.h"
 #include "shading/kinds/kind.h"
 
-#define DEFAULT_SCALAR(d)                                                 d
-#define DEFAULT_COLOR(d)                                                  rgb_grey(d)
-#define DEFAULT_NORMAL(d)                                                 dir(0.0f, 0.0f, 1.0f)
-#define DEFAULT_DIRECTION(d)                                              dir(1.0f, 0.0f, 0.0f)
-#define DEFAULT_ANGLE(d)                                                  d
-#define DEFAULT_OF(kind, name, def, low, high, hard_low, hard_high, help) s.name = DEFAULT_##kind(def);
+#define DEFAULT_SCALAR(d)    d
+#define DEFAULT_COLOR(d)     rgb_grey(d)
+#define DEFAULT_NORMAL(d)    dir(0.0f, 0.0f, 1.0f)
+#define DEFAULT_DIRECTION(d) dir(1.0f, 0.0f, 0.0f)
+#define DEFAULT_ANGLE(d)     d
+#define DEFAULT_OF(kind, name, label, initial, low, high, hard_low, hard_high, role, help)                   \
+    s.name = DEFAULT_##kind(def);
 
 static Surface surface_of(const VertexArrays *a, int k, int material) {
     Surface s;

@@ -93,10 +93,11 @@ WEFT_API const char *weft_preset_text(int index);
 WEFT_API WeftResult weft_scene_convert(WeftScene *scene, const char *workflow, float *losses,
                                        WeftError *error);
 
-/* Returns the name and help of a material input that weft_scene_set takes, NULL past the end; and the index of a name,
- * or -1. */
+/* The material inputs weft_scene_set takes: name, help and the label of a slider, NULL past the end; and the index of a
+ * name, or -1. */
 WEFT_API const char *weft_material_input_name(int index);
 WEFT_API const char *weft_material_input_help(int index);
+WEFT_API const char *weft_material_input_label(int index);
 WEFT_API int weft_material_input_find(const char *name);
 
 /* Returns the choices of a material likewise, and the ids that a choice may take; NULL past the end. */

@@ -163,7 +163,7 @@ static void put_value(Text *text, const Surface *s, int k) {
               number(s->input.y).text, number(s->input.z).text, words)
 #define VALUE_NORMAL(input)    VALUE_DIR(input, "unit vector in the shading frame")
 #define VALUE_DIRECTION(input) VALUE_DIR(input, "unit vector in the tangent plane")
-#define VALUE(kind, input, def, low, high, hard_low, hard_high, words)                                       \
+#define VALUE(kind, input, label, initial, low, high, hard_low, hard_high, role, words)                      \
     if (k == INPUT_##input) VALUE_##kind(input);
     SURFACE_INPUTS(VALUE)
 }

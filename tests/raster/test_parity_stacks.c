@@ -52,11 +52,11 @@ static void put_readers(Text *text) {
 #define READ_SCALAR(name) text_line(text, "    s.%s = row[%d];", name, at), at += 1
 #define READ_THREE(name, make)                                                                               \
     text_line(text, "    s.%s = %s(row[%d], row[%d], row[%d]);", name, make, at, at + 1, at + 2), at += 3
-#define READ_COLOR(name)                                                  READ_THREE(name, "rgb")
-#define READ_ANGLE(name)                                                  READ_SCALAR(name)
-#define READ_NORMAL(name)                                                 READ_THREE(name, "dir")
-#define READ_DIRECTION(name)                                              READ_THREE(name, "dir")
-#define READ_INPUT(kind, name, def, low, high, hard_low, hard_high, help) READ_##kind(#name);
+#define READ_COLOR(name)                                                                   READ_THREE(name, "rgb")
+#define READ_ANGLE(name)                                                                   READ_SCALAR(name)
+#define READ_NORMAL(name)                                                                  READ_THREE(name, "dir")
+#define READ_DIRECTION(name)                                                               READ_THREE(name, "dir")
+#define READ_INPUT(kind, name, label, initial, low, high, hard_low, hard_high, role, help) READ_##kind(#name);
     SURFACE_INPUTS(READ_INPUT)
     text_line(text, "    return s;\n}\n\nChoices row_choices() {\n    Choices c;");
 #define READ_CHOICE(name, help) text_line(text, "    c." #name " = int(row[%d]);", at++);
@@ -127,7 +127,7 @@ static void fill_stack(Random *random, int which, float *row) {
 #define fill_COLOR     fill_color
 #define fill_NORMAL    fill_normal
 #define fill_DIRECTION fill_direction
-#define FILL_INPUT(kind, name, def, low, high, hard_low, hard_high, help)                                    \
+#define FILL_INPUT(kind, name, label, initial, low, high, hard_low, hard_high, role, help)                   \
     at = fill_##kind(random, (const float[]){low, high, hard_low, hard_high}, at);
     SURFACE_INPUTS(FILL_INPUT)
     for (int choice = 0; choice < CHOICE_COUNT; choice++)

@@ -58,9 +58,11 @@ static void input_infos_are_those_of_the_table(void **state) {
     for (int k = 0; k < INPUT_COUNT; k++) {
         assert_true(weft_material_input_info(k, &info));
         assert_string_equal(info.name, weft_material_input_name(k));
+        assert_true(strlen(weft_material_input_label(k)) > 0);
         assert_true(info.hard_low <= info.low && info.low < info.high && info.high <= info.hard_high);
     }
     assert_false(weft_material_input_info(INPUT_COUNT, &info));
+    assert_null(weft_material_input_label(INPUT_COUNT));
     assert_false(weft_material_input_info(-1, &info));
 }
 

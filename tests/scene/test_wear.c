@@ -212,6 +212,25 @@ static void keep_warning(void *user, WeftMessage message, const char *text) {
     snprintf(last_said, sizeof last_said, "%s", text);
 }
 
+static void map_of_any_input_is_bound_by_its_name(void **state) {
+    (void)state;
+    WeftScene *scene = load("builtin:cloth");
+    const WeftLog log = {keep_warning, NULL};
+    WeftError error;
+    int count;
+    assert_int_equal(mkdir(in_folder("c"), 0700), 0);
+    draw("c/cloth_DustColor.png", 4, 10);
+    draw("c/cloth_diffuse_transmission.png", 4, 20);
+    last_said[0] = '\0';
+    assert_int_equal(weft_scene_bind_maps(scene, NULL, in_folder("c"), &count, &log, &error), WEFT_OK);
+    assert_string_equal(last_said, "");
+    assert_int_equal(count, 2);
+    const Material *cloth = named(scene, "Cloth");
+    assert_true(cloth->inputs[INPUT_dust_color].texture && cloth->inputs[INPUT_diffuse_transmission].texture);
+    assert_false(cloth->inputs[INPUT_base_color].texture);
+    weft_scene_free(scene);
+}
+
 /* The ten parameters of the principled model as files are called. */
 static void maps_of_the_principled_model_are_bound_by_name(void **state) {
     (void)state;
@@ -265,6 +284,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(picture_is_bound_to_an_input),
                                        cmocka_unit_test(unreadable_maps_are_refused),
                                        cmocka_unit_test(maps_of_a_folder_are_bound_to_their_inputs),
-                                       cmocka_unit_test(maps_of_the_principled_model_are_bound_by_name)};
+                                       cmocka_unit_test(maps_of_the_principled_model_are_bound_by_name),
+                                       cmocka_unit_test(map_of_any_input_is_bound_by_its_name)};
     return cmocka_run_group_tests(tests, begin, end);
 }

@@ -135,30 +135,18 @@ const char bsdf_velvet[] =
     "white velvet: base_color, sheen_color and specular_color 1, roughness 1, ior 1.5, "
     "no metal, no coat";
 
-static const Surface velvet = {.base_color = {1.0f, 1.0f, 1.0f},
-                               .opacity = 1.0f,
-                               .roughness = 1.0f,
-                               .normal = {0.0f, 0.0f, 1.0f},
-                               .occlusion = 1.0f,
-                               .emission_strength = 1.0f,
-                               .ior = 1.5f,
-                               .extinction = 3.0f,
-                               .reflectance = 0.26f,
-                               .specular = 1.0f,
-                               .specular_color = {1.0f, 1.0f, 1.0f},
-                               .anisotropy_direction = {1.0f, 0.0f, 0.0f},
-                               .clearcoat_normal = {0.0f, 0.0f, 1.0f},
-                               .clearcoat_gloss = 1.0f,
-                               .sheen = 1.0f,
-                               .sheen_tint = 0.5f,
-                               .sheen_second = {1.0f, 1.0f, 1.0f},
-                               .sheen_color = {1.0f, 1.0f, 1.0f},
-                               .sheen_density = 1.0f};
+static Surface white_velvet(void) {
+    Surface s = surface_default();
+    s.base_color = s.sheen_color = s.specular_color = (Rgb){1.0f, 1.0f, 1.0f};
+    s.roughness = 1.0f;
+    s.ior = 1.5f;
+    return s;
+}
 
 /* Returns extreme k of the velvet: roughnesses at their ends, metal or not, a coat or not, a sheen or not. */
 static Surface extreme_velvet(int k) {
     static const float ends[4] = {0.0f, 1.0f, 0.02f, 2.0f};
-    Surface s = velvet;
+    Surface s = white_velvet();
     s.roughness = ends[k & 3];
     s.sheen_roughness = ends[k >> 2 & 3];
     s.clearcoat_roughness = ends[k & 1];
@@ -263,7 +251,7 @@ bool bsdf_of_profile(Bsdf *bsdf, int profile, bool quick, int threads) {
     bsdf->choices.profile = profile;
     for (int k = 1; k < WEFT_PASSPORT_ROWS; k += quick ? 3 : 1) {
         Surface *s = &bsdf->surfaces[bsdf->rows];
-        *s = velvet;
+        *s = white_velvet();
         s->sheen_roughness = (float)k / (WEFT_PASSPORT_ROWS - 1);
         bsdf->values[bsdf->rows++] = s->sheen_roughness;
     }

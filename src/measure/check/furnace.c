@@ -2,6 +2,7 @@
 
 #include "measure/bsdf/draw.h"
 #include "measure/bsdf/grid.h"
+#include "scene/record/material_at.h"
 #include "shading/dialect/warp.h"
 
 /* Returns the reflected light as a midpoint sum, without the part that a random layer rule walks. */
@@ -53,16 +54,11 @@ static Furnace walked(const SeenStack *seen, bool all, int walks) {
 
 Furnace furnace_measure(const Lobe *lobe, float roughness, int layer, const AlbedoTable *e, Dir o, int cells,
                         int walks) {
-    const Rgb white = {1.0f, 1.0f, 1.0f};
-    Surface surface = {.base_color = white,
-                       .sheen_color = white,
-                       .sheen_second = white,
-                       .sheen = 1.0f,
-                       .ior = 1.0f,
-                       .sheen_roughness = roughness,
-                       .sheen_density = 1.0f,
-                       .normal = {0.0f, 0.0f, 1.0f},
-                       .clearcoat_normal = {0.0f, 0.0f, 1.0f}};
+    Surface surface = surface_default();
+    surface.base_color = surface.sheen_color = (Rgb){1.0f, 1.0f, 1.0f};
+    surface.sheen_roughness = roughness;
+    surface.ior = 1.0f;
+    surface.specular = 0.0f; /* no highlight */
     int tilt = weft_lobe_param_find(lobe->id, "tilt"), azimuth = weft_lobe_param_find(lobe->id, "azimuth");
     if (tilt > 0 && azimuth > 0) {
         surface.nap = lobe->params[tilt];

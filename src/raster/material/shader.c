@@ -42,7 +42,7 @@ static void vary(const ShaderKey *key, Surface *s, float x) {
 #define VARY_COLOR(name)     (void)0
 #define VARY_NORMAL(name)    (void)0
 #define VARY_DIRECTION(name) (void)0
-#define VARY(kind, name, def, low, high, hard_low, hard_high, help)                                          \
+#define VARY(kind, name, label, initial, low, high, hard_low, hard_high, role, help)                         \
     if (is_mapped(&key->inputs[INPUT_##name])) VARY_##kind(name);
     SURFACE_INPUTS(VARY)
 }

@@ -120,40 +120,25 @@ WeftResult weft_scene_set_texture(WeftScene *scene, const char *text, const char
     return result == WEFT_OK ? tangents_complete(scene, error) : result;
 }
 
-/* Uses of files by the ends of their names, without case, suffix, and '_', '-' and blanks between words. */
-static const struct {
+/* The use of a file by the end of its name, without case, suffix, and '_', '-' and blanks between words. Each input is
+ * also found by its own name. */
+typedef struct MapUse {
     const char *name;
     InputId input;
     int channel;
-} maps[] = {
+} MapUse;
+
+static const MapUse others[] = {
     {"albedo", INPUT_base_color, 0},
-    {"basecolor", INPUT_base_color, 0},
     {"diffuse", INPUT_base_color, 0},
     {"color", INPUT_base_color, 0},
-    {"normal", INPUT_normal, 0},
-    {"roughness", INPUT_roughness, 0},
-    {"metallic", INPUT_metallic, 0},
     {"metalness", INPUT_metallic, 0},
     {"specular", INPUT_specular_color, 0},
-    {"specularcolor", INPUT_specular_color, 0},
-    {"speculartint", INPUT_specular_tint, 0},
-    {"subsurface", INPUT_subsurface, 0},
-    {"anisotropy", INPUT_anisotropy, 0},
     {"anisotropic", INPUT_anisotropy, 0},
     {"sheen", INPUT_sheen_color, 0},
-    {"sheencolor", INPUT_sheen_color, 0},
-    {"sheenroughness", INPUT_sheen_roughness, 0},
-    {"sheentint", INPUT_sheen_tint, 0},
-    {"clearcoat", INPUT_clearcoat, 0},
-    {"clearcoatgloss", INPUT_clearcoat_gloss, 0},
-    {"clearcoatroughness", INPUT_clearcoat_roughness, 0},
-    {"clearcoatnormal", INPUT_clearcoat_normal, 0},
     {"ao", INPUT_occlusion, 0},
     {"ambientocclusion", INPUT_occlusion, 0},
-    {"occlusion", INPUT_occlusion, 0},
-    {"emission", INPUT_emission, 0},
     {"emissive", INPUT_emission, 0},
-    {"opacity", INPUT_opacity, 0},
     {"alpha", INPUT_opacity, 0},
     {"orm", INPUT_occlusion, 0},
     {"orm", INPUT_roughness, 1},
@@ -163,7 +148,16 @@ static const struct {
     {"nap", INPUT_nap_direction, 0},
     {"nap", INPUT_nap, 2},
 };
-enum { MAPS = sizeof maps / sizeof *maps, FILES_MOST = INPUT_COUNT, NAMES_ROOM = 160 };
+enum {
+    OTHERS = sizeof others / sizeof *others,
+    USES = OTHERS + INPUT_COUNT,
+    FILES_MOST = INPUT_COUNT,
+    NAMES_ROOM = 160
+};
+
+static MapUse use_at(int k) {
+    return k < OTHERS ? others[k] : (MapUse){input_infos[k - OTHERS].name, (InputId)(k - OTHERS), 0};
+}
 
 static bool is_separator(char c) { return c && strchr("_-. ", c); }
 
@@ -171,6 +165,10 @@ static bool is_separator(char c) { return c && strchr("_-. ", c); }
 static bool ends_in(const char *file, const char *dot, const char *name) {
     const char *at = dot, *letter = name + strlen(name);
     while (letter > name && at > file) {
+        if (is_separator(letter[-1])) {
+            letter--;
+            continue;
+        }
         at--;
         if (is_separator(*at)) continue;
         if (tolower((unsigned char)*at) != *--letter) return false;
@@ -187,20 +185,19 @@ static bool is_picture(const char *file) {
     return picture;
 }
 
-/* The name of the table that a file's name, cut at its suffix, is or ends in, the longest; NULL: none. */
-static const char *map_of(const char *file) {
-    const char *found = NULL;
-    for (int k = 0; k < MAPS && is_picture(file); k++)
-        if (ends_in(file, strrchr(file, '.'), maps[k].name) &&
-            (!found || strlen(maps[k].name) > strlen(found)))
-            found = maps[k].name;
+/* Returns the use of the longest name that a file's name, cut at its suffix, is or ends in; -1 if there is none. */
+static int use_of(const char *file) {
+    int found = -1;
+    for (int k = 0; k < USES && is_picture(file); k++)
+        if (ends_in(file, strrchr(file, '.'), use_at(k).name) &&
+            (found < 0 || strlen(use_at(k).name) > strlen(use_at(found).name)))
+            found = k;
     return found;
 }
 
 /* Pictures of a folder that have a meaning, each input's by the first in the order of names. */
 typedef struct MapSet {
     MapPicture pictures[FILES_MOST];
-    const char *meaning[FILES_MOST];
     int count;
     int of_input[INPUT_COUNT]; /* number of the picture, counted from 1 */
     int channel[INPUT_COUNT];
@@ -228,17 +225,18 @@ static void note_unknown(MapSet *map_set, const char *file) {
 /* Takes a file in, unless all that it is for is taken. */
 static WeftResult take_file(MapSet *map_set, const char *folder, const char *file, const WeftLog *log,
                             WeftError *error) {
-    const char *meaning = map_of(file);
+    const int use = use_of(file);
     bool needed = false;
-    for (int k = 0; k < MAPS && meaning; k++)
-        if (strcmp(maps[k].name, meaning) == 0 && !map_set->of_input[maps[k].input]) {
-            map_set->of_input[maps[k].input] = map_set->count + 1;
-            map_set->channel[maps[k].input] = maps[k].channel;
+    for (int k = use; use >= 0 && k < USES && strcmp(use_at(k).name, use_at(use).name) == 0; k++)
+        if (!map_set->of_input[use_at(k).input]) {
+            map_set->of_input[use_at(k).input] = map_set->count + 1;
+            map_set->channel[use_at(k).input] = use_at(k).channel;
             needed = true;
         }
-    if (!meaning && is_picture(file)) note_unknown(map_set, file);
-    if (meaning && !needed)
-        warn(log, WEFT_MESSAGE_GLTF_WARN_IGNORED, folder, "%s: there is a %s map before it", file, meaning);
+    if (use < 0 && is_picture(file)) note_unknown(map_set, file);
+    if (use >= 0 && !needed)
+        warn(log, WEFT_MESSAGE_GLTF_WARN_IGNORED, folder, "%s: there is a %s map before it", file,
+             use_at(use).name);
     if (!needed) return WEFT_OK;
     size_t length = strlen(folder), size = length + strlen(file) + 2;
     bool slash = length && folder[length - 1] == '/';

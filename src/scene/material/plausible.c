@@ -149,15 +149,14 @@ static const Limit limits[] = {
     {{"cloth"}, INPUTS_1(base_color), albedo, KEPT_ALBEDO, diffuse},
 };
 
-/* Inputs other than colours that a sum of base and sheen depends on. */
-static const InputId shapes[] = {INPUT_metallic,      INPUT_roughness,
-                                 INPUT_specular,      INPUT_sheen,
-                                 INPUT_sheen_beta,    INPUT_sheen_roughness,
-                                 INPUT_sheen_density, INPUT_sheen_tail,
-                                 INPUT_sheen_rise,    INPUT_nap,
-                                 INPUT_subsurface,    INPUT_diffuse_retro,
-                                 INPUT_diffuse_lift,  INPUT_diffuse_transmission,
-                                 INPUT_clearcoat};
+/* Returns true if an input other than a colour on which the albedo of base or sheen depends has a texture. */
+static bool is_shaped_by_texture(const Material *material) {
+    bool shaped = false;
+    for (int k = 0; k < INPUT_COUNT; k++)
+        shaped |= material->inputs[k].texture && input_infos[k].kind != WEFT_INPUT_COLOR &&
+                  input_roles[k] != ROLE_NONE && input_roles[k] != ROLE_WHOLE;
+    return shaped;
+}
 
 /* Adds E of a slot towards a direction. */
 static void slot_add(const Slot *slot, float cos_o, float sum[3]) {
@@ -177,8 +176,7 @@ static bool sums_to_one(const Material *material) {
     const Surface surface = material_plain(material);
     const Choices choices = material_choices(material);
     Stack stack;
-    for (size_t k = 0; k < sizeof shapes / sizeof *shapes; k++)
-        if (material->inputs[shapes[k]].texture) return false;
+    if (is_shaped_by_texture(material)) return false;
     stack_make(&stack, &surface, &choices, (TableRef){.kind = TABLE_NONE});
     if (HAS_COAT(&stack) || weft_lobe_info(stack.sheen.lobe.id)->traits & WEFT_LOBE_REFERENCE) return false;
     for (size_t k = 0; k < sizeof cosines / sizeof *cosines; k++) {

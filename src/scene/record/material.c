@@ -11,11 +11,26 @@
 #include "weave/cloth_base.h"
 
 const WeftInputInfo input_infos[INPUT_COUNT] = {
-#define INPUT_INFO(kind, name, def, low, high, hard_low, hard_high, help)                                    \
-    {#name, help, WEFT_INPUT_##kind, def, low, high, hard_low, hard_high},
+#define INPUT_INFO(kind, name, label, initial, low, high, hard_low, hard_high, role, help)                   \
+    {#name, help, WEFT_INPUT_##kind, initial, low, high, hard_low, hard_high},
     SURFACE_INPUTS(INPUT_INFO)
 #undef INPUT_INFO
 };
+
+const InputRole input_roles[INPUT_COUNT] = {
+#define INPUT_ROLE(kind, name, label, initial, low, high, hard_low, hard_high, role, help) ROLE_##role,
+    SURFACE_INPUTS(INPUT_ROLE)
+#undef INPUT_ROLE
+};
+
+const char *weft_material_input_label(int index) {
+    static const char *const labels[INPUT_COUNT] = {
+#define INPUT_LABEL(kind, name, label, initial, low, high, hard_low, hard_high, role, help) label,
+        SURFACE_INPUTS(INPUT_LABEL)
+#undef INPUT_LABEL
+    };
+    return index >= 0 && index < INPUT_COUNT ? labels[index] : NULL;
+}
 
 int weft_material_input_find(const char *name) {
     for (int k = 0; k < INPUT_COUNT; k++)
@@ -162,16 +177,21 @@ static Dir read_DIRECTION(Lookup *lookup, const Input *input) {
 
 Surface material_plain(const Material *material) {
     Surface s;
-#define PLAIN_INPUT(kind, name, def, low, high, hard_low, hard_high, help)                                   \
+#define PLAIN_INPUT(kind, name, label, initial, low, high, hard_low, hard_high, role, help)                  \
     s.name = plain_##kind(&material->inputs[INPUT_##name]);
     SURFACE_INPUTS(PLAIN_INPUT)
     return s;
 }
 
+Surface surface_default(void) {
+    const Material material = material_default();
+    return material_plain(&material);
+}
+
 void material_textures(const WeftScene *scene, const Material *material, float uv[2][2], const float color[4],
                        Surface *s) {
     Lookup lookup = {.scene = scene, .uv = uv};
-#define READ_INPUT(kind, name, def, low, high, hard_low, hard_high, help)                                    \
+#define READ_INPUT(kind, name, label, initial, low, high, hard_low, hard_high, role, help)                   \
     if (material->inputs[INPUT_##name].texture)                                                              \
         s->name = read_##kind(&lookup, &material->inputs[INPUT_##name]);
     SURFACE_INPUTS(READ_INPUT)

@@ -16,6 +16,7 @@ _Static_assert((int)INPUT_COUNT <= (int)WEFT_INPUTS_MAX && (int)CHOICE_COUNT <= 
                "weft/material.h has too few inputs or choices");
 
 extern const WeftInputInfo input_infos[INPUT_COUNT];
+extern const InputRole input_roles[INPUT_COUNT];
 
 /* Returns the count of numbers in the value of an input: 3 for a colour, else 1. */
 int input_value_count(InputId input);

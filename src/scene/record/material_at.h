@@ -8,6 +8,9 @@
 /* Returns the material's inputs without its textures: the same at every point, so one call a material is enough. */
 Surface material_plain(const Material *material);
 
+/* Returns the surface of a material of defaults. */
+Surface surface_default(void);
+
 /* Returns the choices of a material. */
 Choices material_choices(const Material *material);
 

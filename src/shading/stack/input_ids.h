@@ -5,11 +5,14 @@
 #include "shading/stack/inputs.h"
 
 typedef enum InputId {
-#define INPUT_ENUM(kind, name, def, low, high, hard_low, hard_high, help) INPUT_##name,
+#define INPUT_ENUM(kind, name, label, initial, low, high, hard_low, hard_high, role, help) INPUT_##name,
     SURFACE_INPUTS(INPUT_ENUM)
 #undef INPUT_ENUM
         INPUT_COUNT
 } InputId;
+
+/* Roles of inputs: see inputs.h. */
+typedef enum InputRole { ROLE_NONE, ROLE_SHAPE, ROLE_HALF, ROLE_MIX, ROLE_WHOLE } InputRole;
 
 typedef enum ChoiceId {
 #define CHOICE_ENUM(name, help) CHOICE_##name,

@@ -12,7 +12,7 @@
 #define DIRECTION Dir
 #define ANGLE     float
 
-#define SURFACE_FIELD(kind, name, def, low, high, hard_low, hard_high, help) kind name;
+#define SURFACE_FIELD(kind, name, label, initial, low, high, hard_low, hard_high, role, help) kind name;
 STRUCT(Surface){SURFACE_INPUTS(SURFACE_FIELD)};
 
 #define CHOICE_FIELD(name, help) int name;

@@ -35,27 +35,20 @@ static const char *formula_of(const Formula *f, int index) {
     return f->row;
 }
 
-/* Makes nothing of the inputs that are nothing. */
-static void leave_out(const bool zero[INPUT_COUNT], Surface *s){
-#define NO_SCALAR(name)    s->name = 0.0f
-#define NO_ANGLE(name)     s->name = 0.0f
-#define NO_COLOR(name)     s->name = (Rgb){0.0f, 0.0f, 0.0f}
-#define NO_NORMAL(name)    (void)0
-#define NO_DIRECTION(name) (void)0
-#define LEAVE_OUT(kind, name, def, low, high, hard_low, hard_high, help)                                     \
-    if (zero[INPUT_##name]) NO_##kind(name);
-    SURFACE_INPUTS(LEAVE_OUT)}
-
 Surface composition_surface(float x, const bool zero[INPUT_COUNT]) {
-    const Material material = material_default();
-    Surface s = material_plain(&material);
-    s.sheen_color = s.base_color = s.specular_color = (Rgb){0.5f, 0.5f, 0.5f};
-    s.clearcoat = s.dust = 1.0f;
-    s.roughness = s.sheen_roughness = s.diffuse_transmission = 0.5f;
-    s.anisotropy = s.subsurface = s.metallic = x;
-    s.sheen = s.specular = 1.0f;
-    leave_out(zero, &s);
-    return s;
+    Material material = material_default();
+    for (int k = 0; k < INPUT_COUNT; k++) {
+        const InputRole role = input_roles[k];
+        for (int c = 0; c < input_value_count((InputId)k); c++) {
+            float *value = &material.inputs[k].value[c];
+            *value = zero[k]              ? 0.0f
+                     : role == ROLE_HALF  ? 0.5f
+                     : role == ROLE_WHOLE ? 1.0f
+                     : role == ROLE_MIX   ? x
+                                          : *value;
+        }
+    }
+    return material_plain(&material);
 }
 
 static const Composition *composition_of(const Choices *choices) {

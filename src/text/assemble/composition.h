@@ -5,8 +5,8 @@
 #include "scene/record/material_at.h"
 #include "text/assemble/dispatch.h"
 
-/* Returns a surface in which every lobe of a stack has weight, except by inputs that are zero. x, 0, 1/2 or 1, is the
- * value of inputs by which a stack may choose lobes. */
+/* Returns a surface that shows every lobe of a stack, by the roles of the inputs (inputs.h). x: the value of those of
+ * role MIX, 0, 1/2 or 1. zero: inputs that are 0. */
 Surface composition_surface(float x, const bool zero[INPUT_COUNT]);
 
 /* The possible contents of a stack's slots: ids, and the first lobe of each with its parameters. */

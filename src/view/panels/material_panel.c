@@ -56,49 +56,26 @@ static const char *choice_help(const void *user, int row) {
     return help_choice(rows->choice, rows->values[row]);
 }
 
-/* Words of artists, with the term beside them where it is another one; all others are called as they are. */
-static const char *const words[][2] = {{"base_color", "colour"},
-                                       {"metallic", "metalness"},
-                                       {"normal", "bumps, normal"},
-                                       {"occlusion", "creases, occlusion"},
-                                       {"ior", "refraction, ior"},
-                                       {"extinction", "extinction k"},
-                                       {"specular_color", "specular colour"},
-                                       {"anisotropy", "stretch, anisotropy"},
-                                       {"anisotropy_direction", "stretch direction"},
-                                       {"sheen", "sheen amount"},
-                                       {"sheen_color", "sheen colour"},
-                                       {"sheen_second", "second colour"},
-                                       {"sheen_density", "density of fibres"},
-                                       {"sheen_tail", "tail of highlight"},
-                                       {"sheen_rise", "rise to second colour"},
-                                       {"diffuse_retro", "glow towards the light"},
-                                       {"diffuse_lift", "glow away from it"},
-                                       {"diffuse_transmission", "light through cloth"},
-                                       {"diffuse_transmission_color", "colour of that light"},
-                                       {"nap", "nap, lean of fibres"},
-                                       {"clearcoat", "coat amount"},
-                                       {"dust_color", "dust colour"},
-                                       {"emission", "glow, emission"},
-                                       {"d", "distribution D"},
-                                       {"v", "shadowing V"},
-                                       {"f", "Fresnel F"},
-                                       {"profile", "engine, profile"},
-                                       {"diffuse", "diffuse model"},
-                                       {"layer", "layering rule"},
-                                       {"layer_by", "rule goes by"},
-                                       {"convert", "convert from"}};
+/* Words of artists, with the term beside them where it is another one; other choices are called as they are. */
+static const char *const words[][2] = {{"d", "distribution D"},      {"v", "shadowing V"},
+                                       {"f", "Fresnel F"},           {"profile", "engine, profile"},
+                                       {"diffuse", "diffuse model"}, {"layer", "layering rule"},
+                                       {"layer_by", "rule goes by"}, {"convert", "convert from"}};
 
-/* Makes the label, by which scripts find the control too: with blanks between its words. */
-static void label_of(const char *name, char label[96]) {
+/* Makes a label of the words shown, NULL for the name. Scripts find the control by its name, with blanks for '_'. */
+static void label_make(const char *name, const char *shown, char label[96]) {
     char plain[48];
-    const char *shown = plain;
     snprintf(plain, sizeof plain, "%s", name);
     for (char *p = plain; *p; p++)
         if (*p == '_') *p = ' ';
+    snprintf(label, 96, "%.40s###%.47s", shown ? shown : plain, plain);
+}
+
+static void label_choice(int choice, char label[96]) {
+    const char *name = weft_material_choice_name(choice), *shown = NULL;
     for (size_t k = 0; k < sizeof words / sizeof *words; k++)
         if (strcmp(words[k][0], name) == 0) shown = words[k][1];
-    snprintf(label, 96, "%.40s###%.47s", shown, plain);
+    label_make(name, shown, label);
 }
 
 static void draw_choice(WeftMaterial *m, int choice) {
@@ -107,7 +84,7 @@ static void draw_choice(WeftMaterial *m, int choice) {
     char label[96];
     int row = 0;
     while (row + 1 < rows.count && rows.values[row] != m->choices[choice]) row++;
-    label_of(weft_material_choice_name(choice), label);
+    label_choice(choice, label);
     if (ui_choice(label, &menu, &row)) weft_material_choose(m, choice, rows.values[row]);
 }
 
@@ -180,7 +157,7 @@ static void draw_input(Viewer *v, WeftMaterial *m, int k, bool reads) {
     char label[96];
     WeftInput *input = &m->inputs[k];
     weft_material_input_info(k, &info);
-    label_of(info.name, label);
+    label_make(info.name, weft_material_input_label(k), label);
     const float initial[3] = {info.initial, info.initial, info.initial};
     ui_faint(!reads);
     bool changed = info.kind == WEFT_INPUT_COLOR ? ui_color(label, initial, input->value)
