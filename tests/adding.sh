@@ -1,6 +1,6 @@
 #!/bin/sh
 # Adds to a copy of the sources what docs/adding-a-lobe.md and CONTRIBUTING.md print, and asks the program for it: a lobe,
-# a term, a profile and a verb; and tests/lobes/toy.h as a row, of which the program as it was must say the same by
+# a term, a profile, a glTF extension and a verb; and tests/lobes/toy.h as a row, of which the program as it was must say the same by
 # --lobe. Then a file without a row must fail shading/registry. Arguments: source folder, C compiler, program. Exit 77:
 # skipped.
 set -eu
@@ -73,6 +73,17 @@ grep -q 'Bidirectional Reflectance Spectroscopy' "$work/log" || fail "weft model
 grep -q 'imagined textile mill' "$work/log" || fail "weft models profile:mill shows no page"
 grep -q 'Usage: weft mean IMAGE' "$work/log" || fail "weft mean --help shows no usage"
 grep -q 'mill' "$work/made/mill.glsl" || fail "weft export mill wrote no shader"
+grep -q '"EXT_weft_dyed"' "$work/made/dyed.gltf" || fail "the saved file has no EXT_weft_dyed"
+! grep -q 'EXT_weft_dyed.*not supported\|dyed.*means nothing' "$work/log" || fail "the extension is not read"
+grep -q 'dyedFactor is 2, but must be in 0 .. 1' "$work/log" || fail "weft doctor does not know the range of dyedFactor"
+grep -q 'and as dyedTexture, which is not' "$work/log" || fail "weft doctor does not know the encoding of dyedTexture"
+grep -q 'dyed_depth=3' "$work/made/dyed.txt" || fail "the window has no slider of dyed_depth"
+for engine in trace raster; do
+    (cd "$work/made" && for depth in 0 4; do
+        weft render dyed.gltf --engine $engine --width 24 --height 12 --spp 1 --set "*.dyed_depth=$depth" -o $depth.$engine.png
+    done) 2>"$work/log" || { cat "$work/log"; fail "weft render --engine $engine dyed.gltf"; }
+    ! cmp -s "$work/made/0.$engine.png" "$work/made/4.$engine.png" || fail "dyed_depth changes nothing in $engine"
+done
 weft --help | grep -q '^  mean ' || fail "weft --help does not list mean"
 weft mean "$work/made/term.png" | awk '{ exit !(NF >= 3 && $1 > 0 && $1 < 1) }' || fail "weft mean prints no colour"
 # shellcheck disable=SC2046 # four numbers

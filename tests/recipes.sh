@@ -23,7 +23,7 @@ for file in $(grep -oE '`src/[a-z_/]+\.[ch]`:$' "$page" | tr -d '`:'); do
     grep -q '^#endif$\|^};$' "$file" || { echo "CONTRIBUTING.md: no listing of $file"; exit 1; }
     files=$((files + 1))
 done
-[ "$files" = 3 ] || { echo "CONTRIBUTING.md: $files listings, a term, a profile and a verb expected"; exit 1; }
+[ "$files" = 4 ] || { echo "CONTRIBUTING.md: $files listings, a term, a profile, a formula and a verb expected"; exit 1; }
 awk '/^```$/ { on = 0 } on; /^```diff$/ { on = 1 }' "$page" >"$log"
 patch -p1 --no-backup-if-mismatch -F 0 <"$log" >"$log.patch" 2>&1 || { cat "$log.patch"; rm -f "$log.patch"; echo "CONTRIBUTING.md: a change does not fit the tree"; exit 1; }
 rm -f "$log.patch"
