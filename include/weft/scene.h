@@ -93,8 +93,8 @@ WEFT_API const char *weft_preset_text(int index);
 WEFT_API WeftResult weft_scene_convert(WeftScene *scene, const char *workflow, float *losses,
                                        WeftError *error);
 
-/* The material inputs weft_scene_set takes: name, help and the label of a slider, NULL past the end; and the index of a
- * name, or -1. */
+/* Returns the name, the help and the label of a slider of a material input that weft_scene_set takes, NULL past the end; and
+ * the index of a name, or -1. */
 WEFT_API const char *weft_material_input_name(int index);
 WEFT_API const char *weft_material_input_help(int index);
 WEFT_API const char *weft_material_input_label(int index);

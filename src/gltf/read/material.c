@@ -28,7 +28,7 @@ static void transform_read(const Field *field, Input *input) {
     input->texcoord = (int)field_size(&texcoord, (size_t)input->texcoord, 0, UINT8_MAX);
 }
 
-/* A textureInfo, where there is one; channel matters to scalars only. */
+/* Reads a textureInfo, if there is one; channel matters to scalars only. */
 static void texture_read(const Field *field, Input *input, int channel) {
     if (!field->json) return;
     Field index = field_member(field, "index"), texcoord = field_member(field, "texCoord");

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/equal.h"
 #include "gltf/asset/material_fields.h"
 #include "gltf/read/gltf_material.h"
 #include "gltf/save/saving.h"

@@ -11,7 +11,7 @@
 #include "gltf/save/bundle.h"
 #include "measure/doctor/doctor.h"
 
-/* The image in the file behind a textureInfo; -1: none. */
+/* Returns the image of the file that a textureInfo names; -1 if there is none. */
 static int file_image(const WeftDoctor *doctor, json_t *info) {
     int texture = doctor_texture(doctor, info);
     return texture < 0 ? -1 : doctor->asset.textures[texture].image;

@@ -132,7 +132,7 @@ static json_t *member_object(json_t *object, const char *name) {
     return json_object_get(object, name);
 }
 
-/* Puts a factor that has changed into the JSON. */
+/* Writes a factor that has changed to the JSON. */
 static WeftResult factor_write(Rewrite *rewrite, json_t *material, const MaterialField *factor,
                                const float *value, WeftError *error) {
     const bool extends = material_field_extends(factor);
@@ -178,7 +178,7 @@ static void lock_rest(int locked[WEFT_INPUTS_MAX]) {
     for (int k = 0; k < WEFT_INPUTS_MAX; k++) {
         locked[k] = 1;
         for (int f = 0; f < FACTORS; f++)
-            if ((int)factors[f] == k) held[k] = 0;
+            if ((int)factors[f] == k) locked[k] = 0;
     }
 }
 

@@ -113,7 +113,9 @@ Proxy outside_proxies(const Lobe *m) {
 }
 
 /* Fills out with 0: the loop for an id without a lobe. */
-static void no_loop(const Lobe *m, size_t n, LOOP_PAIRS, float *restrict out) { memset(out, 0, n * sizeof *out); }
+static void no_loop(const Lobe *m, size_t n, LOOP_PAIRS, float *restrict out) {
+    memset(out, 0, n * sizeof *out);
+}
 static void no_shares(const Lobe *m, size_t n, LOOP_PAIRS, float *restrict f, float *restrict s) {
     no_loop(m, n, ox, oy, oz, ix, iy, iz, f);
     no_loop(m, n, ox, oy, oz, ix, iy, iz, s);

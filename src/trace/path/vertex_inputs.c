@@ -118,9 +118,10 @@ void chunk_read_inputs(Chunk *chunk, const ChunkSource *source, int n) {
     lookup->last = NULL;
     lookup->n = n;
     for (int set = 0; set < 2; set++)
-        if (material->texcoords[set]) take_texcoords(c, scene, set, n, lookup->uv[set]);
+        if (material->texcoords[set]) gather_texcoords(chunk, scene, set, n, lookup->uv[set]);
 #define READ_INPUT(kind, name, label, initial, low, high, hard_low, hard_high, role, help)                   \
-    if (inputs[INPUT_##name].texture) read_##kind(lookup, &inputs[INPUT_##name], c->vertices.surface.name);
+    if (inputs[INPUT_##name].texture)                                                                        \
+        read_##kind(lookup, &inputs[INPUT_##name], chunk->vertices.surface.name);
     SURFACE_INPUTS(READ_INPUT)
     if (material->colored) tint_base(chunk, scene, n);
 }

@@ -174,7 +174,7 @@ void requests_take_events(Viewer *v) {
         }
         if (event.maps.maps) {
             opening_take_maps(v, &event);
-            requests_forget(v); /* its pixels differ, though the state may be the same */
+            requests_forget(v); /* pixels differ, though the state may be the same */
         }
         if (event.state_changed && event.kind == TASK_LIGHT) {
             edit_take_light(v, &event.state.environment);
