@@ -53,6 +53,7 @@ static const char *const folders[] = {
     "trace/light",
     "trace/path",
     "trace/frame",
+    "raster/glsl", /* picture_uniforms.h */
     "raster/gl",
     "raster/geometry",
     "raster/light",
