@@ -7,8 +7,8 @@ use warnings;
 my %noun = map { $_ => 1 } qw(
     This Its Thus As Likewise Nothing Less Across Besides Perhaps Always Towards Actions Bands Blanks Brackets Buttons Bytes
     Channels Choices Coefficients Colours Corners Crevices Digits Directions Drivers Edges Entries Events Extremes Facets
-    Fibres Files Flakes Halves Ids Images Inputs Integers Items Letters Libraries Lines Lobes Members Middles Neighbours Nodes
-    Normals Numbers Options Pairs Parameters Pixels Places Points Polynomials Positions Powers Ratios Roughnesses Rows
+    Fibres Files Flakes Ids Images Inputs Integers Items Letters Libraries Lines Lobes Members Middles Neighbours Nodes
+    Normals Numbers Options Pairs Parameters Pixels Points Polynomials Positions Powers Ratios Roughnesses Rows
     Seconds Sides Spectra Statements Sums Swatches Tables Texels Textures Threads Types Values Variables Vertices Warnings
     Weights Words);
 my $found = 0;
@@ -18,11 +18,11 @@ for my $file (@ARGV) {
     close $stream;
     while ($text =~ m{^[ ]*/\*((?:[^*]|\*(?!/))*)\*/[ ]*\n}gm) {
         my ($comment, $line, $next) = ($1, 1 + (substr($text, 0, $-[0]) =~ tr/\n//), substr($text, pos $text, 600));
-        next if $comment =~ /^\s*[a-z_0-9.]+ - /;    # the opening comment of a file
+        next if $comment =~ /^\s*[a-z_0-9.]+ - |^ ---- .* ---- $/;    # the opening comment of a file, and headings
         next unless $next =~ m{^\s*(?:[A-Z_]*FN\b|static|inline|const|void|bool|int|float|double|size_t|char|[A-Z]\w+|u?int\d+_t|unsigned|long)
             \b[^;={}\#]*?\b\w+\s*\([^;{}]*\)\s*(?:[A-Z_]+(?:\([^)]*\))?\s*)?[;\{]}sx;
         my ($word) = $comment =~ /^\s*(\S*?)[,;:.]?(?:\s|$)/;
-        next if $word =~ /^[A-Z][a-z]+s$/ && !$noun{$word};
+        next if $word =~ /^[A-Z][a-z]+s$/ && !$noun{$word} || $word =~ /^(Return|Define|Free)$/;    # those of several
         $comment =~ s/\s*\n\s*\*?\s*/ /g;
         print "$file:$line: a comment above a function that begins with no verb:", substr($comment, 0, 80), "\n";
         $found = 1;

@@ -8,7 +8,7 @@
 #include "scene/material/material_numbers.h"
 #include "scene/record/material_at.h"
 
-/* Lobes. */
+/* ---- lobes ---- */
 
 static bool is_number(const WeftLobeInfo *info) { return info->param_count > 0 && !info->params[0].choices; }
 

@@ -42,7 +42,7 @@ typedef struct PassportWork {
     Sweep sweeps[WEFT_PASSPORT_ROWS + BSDF_EXTREMES];
 } PassportWork;
 
-/* Directional albedo. */
+/* ---- directional albedo ---- */
 
 static void measure_albedo(void *user, int item, int thread) {
     (void)thread;
@@ -82,7 +82,7 @@ static void find_albedo(PassportWork *work) {
         }
 }
 
-/* Reciprocity. */
+/* ---- reciprocity ---- */
 
 static void measure_reciprocity(void *user, int row, int thread) {
     (void)thread;
@@ -105,7 +105,7 @@ static void find_reciprocity(PassportWork *work) {
     }
 }
 
-/* The furnace. */
+/* ---- the furnace ---- */
 
 static void fill_sheen(void *user, int k, int thread) {
     (void)thread;
@@ -152,7 +152,7 @@ static void find_furnace(PassportWork *work) {
     }
 }
 
-/* Sampling. */
+/* ---- sampling ---- */
 
 static void measure_sampling(void *user, int item, int thread) {
     (void)thread;
@@ -219,7 +219,7 @@ static void find_sampling(PassportWork *work) {
     }
 }
 
-/* The sweep. */
+/* ---- the sweep ---- */
 
 static void measure_sweep(void *user, int setting, int thread) {
     (void)thread;

@@ -91,7 +91,7 @@ static void check_tangents(WeftDoctor *doctor, int mesh, int number, const Primi
     doctor_advise(doctor, "export tangents, those that the map was baked with");
 }
 
-/* Edges. */
+/* ---- edges ---- */
 
 static int compare_words(const void *a, const void *b) {
     uint64_t x = *(const uint64_t *)a, y = *(const uint64_t *)b;

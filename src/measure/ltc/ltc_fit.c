@@ -65,7 +65,7 @@ void ltc_target_lobe(LtcTarget *target, const Lobe *lobe, float f0, float second
     ltc_target_scale(target);
 }
 
-/* One ring's part of the integral. The norm is a constant wherever this is inlined. */
+/* Returns the error of one ring of directions. The norm is a constant wherever this is inlined. */
 FN float ring_error(const LtcTarget *target, int row, Ltc m, float scale, int norm) {
     size_t at = (size_t)row * (size_t)target->columns;
     const float *x = target->x + at, *y = target->y + at, *z = target->z + at;

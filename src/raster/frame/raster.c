@@ -8,7 +8,7 @@
 #include <epoxy/gl.h>
 
 #include "base/fail.h"
-#include "raster/frame/frame.h"
+#include "raster/frame/passes.h"
 #include "raster/frame/picture_block.h"
 #include "raster/frame/shader_keys.h"
 #include "raster/gl/gl_check.h"

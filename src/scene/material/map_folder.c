@@ -30,7 +30,7 @@ static int find_path(const WeftScene *scene, const char *path) {
     return -1;
 }
 
-/* The texture of an image that is repeated and not nearest, or -1. */
+/* Returns the texture of an image that is repeated and interpolated, or -1. */
 static int find_plain(const WeftScene *scene, int image) {
     for (int k = 0; k < scene->texture_count; k++) {
         const Texture *t = &scene->textures[k];
@@ -271,7 +271,7 @@ static void move_map(MapSet *map_set, InputId from, InputId to) {
     map_set->of_input[from] = 0;
 }
 
-/* A map of what workflow disney alone reads is of that workflow, in which specular and sheen are amounts. */
+/* Returns true if a map is of an input that workflow disney alone reads. Then specular and sheen are amounts. */
 static bool is_disney(MapSet *map_set) {
     static const InputId own[] = {INPUT_subsurface, INPUT_specular_tint, INPUT_sheen_tint,
                                   INPUT_clearcoat_gloss};
@@ -283,15 +283,15 @@ static bool is_disney(MapSet *map_set) {
     return true;
 }
 
-/* A specular colour without a metalness is the older workflow's. */
+/* Returns the workflow of the maps, -1: any. A specular colour without a metalness belongs to workflow specular. */
 static int workflow_of(MapSet *map_set) {
     if (is_disney(map_set)) return choice_find(CHOICE_workflow, "disney");
     return map_set->of_input[INPUT_specular_color] && !map_set->of_input[INPUT_metallic] ? WORKFLOW_SPECULAR
                                                                                          : -1;
 }
 
-/* An input that has the map already keeps the number that it is multiplied by; a folder that holds nothing
- * new leaves the workflow too. */
+/* Binds the maps to the inputs of a material. An input that has its map already keeps its factor; a folder without a new
+ * map leaves the workflow as it is. */
 static void bind_map_set(Material *material, const MapSet *map_set, int workflow) {
     bool any = false;
     for (int k = 0; k < INPUT_COUNT; k++) {

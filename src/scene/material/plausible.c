@@ -18,9 +18,10 @@
 /* A measure returns this where it has nothing to judge. */
 #define NOTHING NAN
 
-/* F0 of what is no metal. One of 0 is a highlight that was switched off, as workflow cloth has none. */
+/* Returns F0 of a dielectric. An F0 of 0 is a highlight that was switched off, as in workflow cloth, and is not judged. */
 static float f0_judged(float f0) { return f0 > 0.0f ? f0 : NOTHING; }
-/* `specular` and its colour may dim it below any dielectric's, as gaps between threads do, not raise it. */
+/* Returns F0 in workflow metallic. `specular` and its colour may dim it below that of any dielectric, as gaps between
+ * threads do, but not raise it. */
 static float f0_metallic(Surface s) {
     float whole = dielectric_f0(&s), left = rgb_max3(metallic_f0(&s));
     return s.metallic < 1.0f ? f0_judged(fmaxf(left, fminf(whole, DIELECTRIC_HIGH))) : NOTHING;
@@ -32,7 +33,7 @@ static float f0_specular(Surface s) {
     return specular_is_metal(s) ? NOTHING : f0_judged(rgb_max3(specular_f0(s)));
 }
 
-/* The distance between the channels of a dielectric's F0, as a share of the strongest of them. */
+/* Returns the distance between the channels of a dielectric's F0, as a fraction of the strongest of them. */
 static float spread(Rgb f0) {
     float most = rgb_max3(f0), least = fminf(f0.r, fminf(f0.g, f0.b));
     return most > 0.0f ? (most - least) / most : NOTHING;
@@ -85,7 +86,7 @@ static PlausibleRange range_of(Kept kept) {
     return range;
 }
 
-/* The entry of the chart that comes nearest to a measure; NULL where it is none of the chart's. */
+/* Returns the entry of the chart that is nearest to a measure; NULL if the chart has no such measure. */
 static const WeftChartEntry *nearest_of(Kept kept, float found, float *has) {
     const WeftChartEntry *entry, *best = NULL;
     for (int k = 0; kept <= KEPT_ALBEDO && (entry = weft_chart(k)); k++) {
@@ -255,7 +256,7 @@ void plausible_check(const Material *material, int input, int choice, const char
     if (choice >= 0) check_gains(material, choice, target, log);
 }
 
-/* The first of a limit's inputs that is named; -1: none. */
+/* Returns the first of a limit's inputs that is named; -1: none. */
 static int first_named(const Limit *limit, const bool *named) {
     for (int k = 0; k < LIMIT_INPUTS && limit->inputs[k] >= 0; k++)
         if (named[limit->inputs[k]]) return limit->inputs[k];

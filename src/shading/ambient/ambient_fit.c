@@ -326,7 +326,7 @@ void ambient_fit(AmbientFit *fit, const Lobe *lobe, float low, float high, int t
     ambient_fit_finish(fit);
 }
 
-/* From parameter `first` on. */
+/* Returns true if both lobes have the same parameters from number `first` on. */
 static bool alike_from(const Lobe *a, const Lobe *b, int first) {
     if (a->id != b->id) return false;
     for (int k = first; k < weft_lobe_info(a->id)->param_count; k++)

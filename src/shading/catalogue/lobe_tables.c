@@ -20,7 +20,7 @@ static TableRef make_charlie_neubelt(void) {
     return albedo_table_ref(&charlie_neubelt);
 }
 
-/* A baked table: what is side by side in a texel is put below each other, into `planes`. */
+/* Makes a table of a baked one: the channels of a texel become planes below each other, in `planes`. */
 static TableRef make_planes(const float *texels, int channels, int rows, int columns, float low, float high,
                             float *planes) {
     for (int c = 0; c < channels; c++)

@@ -94,13 +94,13 @@
 #define F_OTHER(id, NAME, share, second, help)                                                               \
     if (term == NAME) return second;
 
-/* D of h, 1/sr: integral of D cos_h = 1. alpha <= 1; ax and ay are the widths of ggx-aniso. */
+/* Returns D of h, 1/sr: integral of D cos_h = 1. alpha <= 1; ax and ay are the widths of ggx-aniso. */
 FN float term_d(int term, float alpha, float ax, float ay, Dir h) {
     WEFT_D_TERMS(D_CASE)
     return 0.0f;
 }
 
-/* A half vector from D cos_h for u, v in [0, 1). */
+/* Samples a half vector from D cos_h for u, v in [0, 1). */
 FN Dir term_facet(int term, float alpha, float ax, float ay, float u, float v) {
     WEFT_D_TERMS(D_FACET)
     return dir(0.0f, 0.0f, 1.0f);
@@ -116,7 +116,7 @@ FN float term_v(int term, float alpha, float ax, float ay, Angles a) {
     return 0.0f;
 }
 
-/* s at d = wi . h, in [0, 1] where it is a share. */
+/* Returns the Fresnel weight s at d = wi . h, in [0, 1] if it is a fraction. */
 FN float term_f(int term, float ior, float k, float d) {
     WEFT_F_TERMS(F_CASE)
     return 0.0f;

@@ -29,7 +29,7 @@ typedef struct Formula {
 static const Formula albedos[] = {WEFT_ALBEDO_FORMULAS(ALBEDO_ROW){-1, ""}};
 static const Formula views[] = {WEFT_VIEWS(FORMULA_ROW){-1, ""}};
 
-/* The one that a stack names, or the empty one behind. */
+/* Returns the text of the formula with that index, or the empty one at the end. */
 static const char *formula_of(const Formula *f, int index) {
     while (f->index >= 0 && f->index != index) f++;
     return f->row;
@@ -83,7 +83,7 @@ CompositionSlots composition_slots(const Choices *choices, const bool zero[INPUT
     return found;
 }
 
-/* A stack asks for LOBE_LAMBERT and LOBE_GGX even where it then takes others. */
+/* Appends the lobes of the slots, with LOBE_LAMBERT and LOBE_GGX, which every stack names even if it then uses others. */
 void text_composition_lobes(Text *text, const CompositionSlots *found, int table_kind, int table_tilts) {
 #define SLOT_HAS(name, NAME, Name, wo) "HAS_" #NAME "(m)",
     static const char *const has[] = {SLOTS(SLOT_HAS)};
@@ -103,7 +103,7 @@ void text_composition_lobes(Text *text, const CompositionSlots *found, int table
     text_slots(text, found->slots);
 }
 
-/* The engines' tables that the composition names: each takes a while to make. */
+/* Appends those of the engines' tables that the composition names, since each takes a while to make. */
 static void put_engines(Text *text, const char *const formulas[2]) {
 #define ENGINE_TABLE_NAME(NAME, name, side, points, sheen, shifted) "ENGINE_" #NAME,
     static const char *const names[ENGINE_COUNT] = {ENGINE_TABLES(ENGINE_TABLE_NAME)};
@@ -113,7 +113,7 @@ static void put_engines(Text *text, const char *const formulas[2]) {
     text_engine_tables(text, which, count);
 }
 
-/* In place of shading/material/profile.h: the one composition that this shader is for. */
+/* Appends the one composition of this shader, in place of shading/material/profile.h. */
 void text_composition(Text *text, const Choices *choices) {
     const Composition *c = composition_of(choices);
     char file[128];

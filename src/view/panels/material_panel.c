@@ -111,7 +111,7 @@ static bool is_beyond(const WeftInputInfo *info, const WeftInput *input) {
     return false;
 }
 
-/* Below the name of every input, at the end of its column. */
+/* Draws the button of an input's map, at the end of the column of names. */
 static void draw_chooser(Viewer *v, int k, bool has_map) {
     char label[96];
     snprintf(label, sizeof label, "...###%s choose", weft_material_input_name(k));
@@ -136,7 +136,7 @@ static void draw_thumb(const Viewer *v, int texture, const char *name) {
     ui_same_line();
 }
 
-/* The map that multiplies a value: what it looks like and its name. */
+/* Draws the map that multiplies a value: a thumbnail and its name. */
 static void draw_map(const Viewer *v, WeftInput *input, const char *name) {
     char label[96];
     int texture = input->texture;
@@ -280,7 +280,7 @@ static void draw_plausible(Viewer *v, const WeftMaterial *m) {
     }
 }
 
-/* Those that have any influence; then, folded away, the others. */
+/* Draws the inputs that have any influence; then, folded away, the others. */
 static void draw_inputs(Viewer *v, WeftMaterial *m, int group) {
     bool reads[WEFT_INPUTS_MAX] = {false};
     int idle = 0;

@@ -4,7 +4,7 @@
 
 #include "base/fail.h"
 #include "base/steady_clock.h"
-#include "raster/frame/frame.h"
+#include "raster/frame/passes.h"
 #include "raster/frame/picture_block.h"
 #include "raster/frame/shader_keys.h"
 #include "raster/gl/gl_check.h"

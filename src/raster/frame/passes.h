@@ -1,4 +1,4 @@
-/* frame.h - the passes of a picture: shadow maps, mirror of the floor, solid meshes, background, floor, blended meshes
+/* passes.h - the passes of a picture: shadow maps, mirror of the floor, solid meshes, background, floor, blended meshes
  *
  * All calls are for the context that is current. */
 #ifndef WEFT_RASTER_DRAWN_FRAME_H
