@@ -79,9 +79,11 @@ grep -q 'dyedFactor is 2, but must be in 0 .. 1' "$work/log" || fail "weft docto
 grep -q 'and as dyedTexture, which is not' "$work/log" || fail "weft doctor does not know the encoding of dyedTexture"
 grep -q 'dyed_depth=3' "$work/made/dyed.txt" || fail "the window has no slider of dyed_depth"
 for engine in trace raster; do
-    (cd "$work/made" && for depth in 0 4; do
-        weft render dyed.gltf --engine $engine --width 24 --height 12 --spp 1 --set "*.dyed_depth=$depth" -o $depth.$engine.png
-    done) 2>"$work/log" || { cat "$work/log"; fail "weft render --engine $engine dyed.gltf"; }
+    for depth in 0 4; do
+        weft render "$work/made/dyed.gltf" --engine $engine --width 24 --height 12 --spp 1 \
+            --set "*.dyed_depth=$depth" -o "$work/made/$depth.$engine.png" 2>"$work/log" ||
+            { cat "$work/log"; fail "weft render --engine $engine dyed.gltf"; }
+    done
     ! cmp -s "$work/made/0.$engine.png" "$work/made/4.$engine.png" || fail "dyed_depth changes nothing in $engine"
 done
 weft --help | grep -q '^  mean ' || fail "weft --help does not list mean"
