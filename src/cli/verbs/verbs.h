@@ -10,7 +10,7 @@
 #define VERB_VIEW(V)
 #endif
 
-/* V(name): verb_name of the file name.c, in the order of `weft --help`. */
+/* V(name): verb_name of the file NAME.c, in the order of `weft --help`. */
 #define VERBS(V)                                                                                             \
     V(render)                                                                                                \
     VERB_VIEW(V)                                                                                             \

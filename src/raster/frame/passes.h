@@ -1,8 +1,8 @@
 /* passes.h - the passes of a picture: shadow maps, mirror of the floor, solid meshes, background, floor, blended meshes
  *
  * All calls are for the context that is current. */
-#ifndef WEFT_RASTER_DRAWN_FRAME_H
-#define WEFT_RASTER_DRAWN_FRAME_H
+#ifndef WEFT_RASTER_PASSES_H
+#define WEFT_RASTER_PASSES_H
 
 #include "raster/frame/raster_state.h"
 

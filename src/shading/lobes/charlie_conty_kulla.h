@@ -18,21 +18,42 @@
 #define WEFT_CHARLIE_CONTY_KULLA_H
 
 #include "shading/lobe/lobe.h"
-#include "shading/terms/charlie_smith.h"
+#include "shading/terms/d_charlie.h"
+#include "shading/terms/v_conty_kulla.h"
 
 #define CHARLIE_CONTY_KULLA_PARAMS(P)                                                                        \
     P(float, alpha, 0.25f, 0.01f, 1.0f, 0.005f, 1.0f, "width of the fibres' spread; low is a thin rim")
 #define CHARLIE_CONTY_KULLA_TRAITS TRAIT_RECIPROCAL
 
 STRUCT(CharlieContyKulla){CHARLIE_CONTY_KULLA_PARAMS(FIELD)};
-CHARLIE_SMITH(CharlieContyKulla, CharlieContyKullaPrepared, CharlieContyKullaView,
-              charlie_conty_kulla_prepare, charlie_conty_kulla_view, charlie_conty_kulla_sample)
+
+STRUCT(CharlieContyKullaPrepared) {
+    Charlie d;
+    ContyKulla shadow;
+};
+FN void charlie_conty_kulla_prepare(CharlieContyKulla m, CharlieContyKullaPrepared *p) {
+    p->d = charlie_of(m.alpha);
+    p->shadow = conty_kulla_of(m.alpha);
+}
+
+STRUCT(CharlieContyKullaView) {
+    CharlieSide side;
+    float lambda;
+};
+FN void charlie_conty_kulla_view(const CharlieContyKullaPrepared *p, Dir o, CharlieContyKullaView *w) {
+    w->side = charlie_side(o);
+    w->lambda = conty_kulla_lambda(p->shadow, o.z);
+}
 
 FN LobeValue charlie_conty_kulla_value(const CharlieContyKullaPrepared *p, const CharlieContyKullaView *w,
                                        Angles a) {
     float d = charlie_d_sin2(p->d, a.sin2_h);
     return lobe_value_of(d * conty_kulla_v_of(p->shadow, w->lambda, a.o.z, a.i.z), 0.0f,
                          charlie_pdf(d, w->side, a));
+}
+FN Dir charlie_conty_kulla_sample(const CharlieContyKullaPrepared *p, const CharlieContyKullaView *w, Dir o,
+                                  float u, float v) {
+    return charlie_sample(p->d, w->side, o, u, v);
 }
 
 #endif

@@ -18,15 +18,32 @@
 #define WEFT_CHARLIE_KHRONOS_H
 
 #include "shading/lobe/lobe.h"
-#include "shading/terms/charlie_smith.h"
+#include "shading/terms/d_charlie.h"
+#include "shading/terms/v_conty_kulla.h"
 
 #define CHARLIE_KHRONOS_PARAMS(P)                                                                            \
     P(float, alpha, 0.25f, 0.01f, 1.0f, 0.005f, 1.0f, "width of the fibres' spread; low is a thin rim")
 #define CHARLIE_KHRONOS_TRAITS TRAIT_RECIPROCAL
 
 STRUCT(CharlieKhronos){CHARLIE_KHRONOS_PARAMS(FIELD)};
-CHARLIE_SMITH(CharlieKhronos, CharlieKhronosPrepared, CharlieKhronosView, charlie_khronos_prepare,
-              charlie_khronos_view, charlie_khronos_sample)
+
+STRUCT(CharlieKhronosPrepared) {
+    Charlie d;
+    ContyKulla shadow;
+};
+FN void charlie_khronos_prepare(CharlieKhronos m, CharlieKhronosPrepared *p) {
+    p->d = charlie_of(m.alpha);
+    p->shadow = conty_kulla_of(m.alpha);
+}
+
+STRUCT(CharlieKhronosView) {
+    CharlieSide side;
+    float lambda;
+};
+FN void charlie_khronos_view(const CharlieKhronosPrepared *p, Dir o, CharlieKhronosView *w) {
+    w->side = charlie_side(o);
+    w->lambda = conty_kulla_lambda(p->shadow, o.z);
+}
 
 FN LobeValue charlie_khronos_value(const CharlieKhronosPrepared *p, const CharlieKhronosView *w, Angles a) {
     float d = charlie_d_sin2(p->d, a.sin2_h), lambda = w->lambda + conty_kulla_lambda(p->shadow, a.i.z);
@@ -34,7 +51,6 @@ FN LobeValue charlie_khronos_value(const CharlieKhronosPrepared *p, const Charli
     float visibility = min(1.0f / max((1.0f + lambda) * 4.0f * a.o.z * a.i.z, 1e-30f), 1.0f);
     return lobe_value_of(d * visibility, 0.0f, charlie_pdf(d, w->side, a));
 }
-
 /* Returns the cosine of wi below which the clamp applies: V falls as the cosine rises. */
 FN float charlie_khronos_crease(CharlieKhronos m, float cos_o, int k) {
     ContyKulla shadow = conty_kulla_of(m.alpha);
@@ -46,6 +62,10 @@ FN float charlie_khronos_crease(CharlieKhronos m, float cos_o, int k) {
         high = clamped ? high : c;
     }
     return k == 0 && high < 1.0f ? high : 0.0f;
+}
+FN Dir charlie_khronos_sample(const CharlieKhronosPrepared *p, const CharlieKhronosView *w, Dir o, float u,
+                              float v) {
+    return charlie_sample(p->d, w->side, o, u, v);
 }
 
 #endif

@@ -24,13 +24,31 @@
 #include "shading/lobe/lobe.h"
 #include "shading/lobe/lobe_tables.h"
 #include "shading/ltc/ltc_sheen.h"
+#include "shading/ltc/ltc_table.h"
 
 #define LTC_FIBRE_PARAMS(P)                                                                                  \
     P(float, alpha, 0.5f, 0.05f, 1.0f, 0.05f, 1.0f, "square root of what a fibre shows along its axis")
 #define LTC_FIBRE_TRAITS (TRAIT_CONSERVES | TRAIT_TABLE)
 
 STRUCT(LtcFibre){LTC_FIBRE_PARAMS(FIELD)};
-LTC_SHEEN(ltc_fibre, LtcFibre, ltc_table_level(lobe_table_ltc_fibre(), o.z, p->m.alpha))
+PREPARED_AS_IT_IS(ltc_fibre, LtcFibre)
+
+STRUCT(LtcFibreView) {
+    Ltc ltc;
+    float r; /* what it reflects */
+};
+FN void ltc_fibre_view(const LtcFibrePrepared *p, Dir o, LtcFibreView *w) {
+    LtcLobe at = ltc_table_level(lobe_table_ltc_fibre(), o.z, p->m.alpha);
+    w->ltc = at.m;
+    w->r = min(at.f0, 1.0f);
+}
+
+FN LobeValue ltc_fibre_value(const LtcFibrePrepared *p, const LtcFibreView *w, Angles a) {
+    return ltc_sheen_value(w->ltc, w->r, a);
+}
+FN Dir ltc_fibre_sample(const LtcFibrePrepared *p, const LtcFibreView *w, Dir o, float u, float v) {
+    return ltc_sample(w->ltc, o, u, v);
+}
 FN Proxy ltc_fibre_proxy(LtcFibre m) { return proxy_fibres(m.alpha); }
 
 #endif

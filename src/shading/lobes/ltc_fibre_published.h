@@ -25,14 +25,33 @@
 #include "shading/lobe/lobe.h"
 #include "shading/lobe/lobe_tables.h"
 #include "shading/ltc/ltc_sheen.h"
+#include "shading/ltc/ltc_table.h"
 
 #define LTC_FIBRE_PUBLISHED_PARAMS(P)                                                                        \
     P(float, alpha, 0.5f, 0.05f, 1.0f, 0.05f, 1.0f, "square root of what a fibre shows along its axis")
 #define LTC_FIBRE_PUBLISHED_TRAITS (TRAIT_CONSERVES | TRAIT_TABLE)
 
 STRUCT(LtcFibrePublished){LTC_FIBRE_PUBLISHED_PARAMS(FIELD)};
-LTC_SHEEN(ltc_fibre_published, LtcFibrePublished,
-          ltc_table_published(lobe_table_ltc_fibre_published(), o.z, p->m.alpha))
+PREPARED_AS_IT_IS(ltc_fibre_published, LtcFibrePublished)
+
+STRUCT(LtcFibrePublishedView) {
+    Ltc ltc;
+    float r; /* what it reflects */
+};
+FN void ltc_fibre_published_view(const LtcFibrePublishedPrepared *p, Dir o, LtcFibrePublishedView *w) {
+    LtcLobe at = ltc_table_published(lobe_table_ltc_fibre_published(), o.z, p->m.alpha);
+    w->ltc = at.m;
+    w->r = min(at.f0, 1.0f);
+}
+
+FN LobeValue ltc_fibre_published_value(const LtcFibrePublishedPrepared *p, const LtcFibrePublishedView *w,
+                                       Angles a) {
+    return ltc_sheen_value(w->ltc, w->r, a);
+}
+FN Dir ltc_fibre_published_sample(const LtcFibrePublishedPrepared *p, const LtcFibrePublishedView *w, Dir o,
+                                  float u, float v) {
+    return ltc_sample(w->ltc, o, u, v);
+}
 FN Proxy ltc_fibre_published_proxy(LtcFibrePublished m) { return proxy_fibres(m.alpha); }
 
 #endif
