@@ -97,13 +97,13 @@ WEFT_API WeftResult weft_match_many(WeftMatchJob *jobs, int count, WeftBrdfMetri
 /* The result for one material of an asset, in its glTF factors. With textures, the search matches the average of
  * texel times factor, and the factor is scaled by as much. */
 typedef struct WeftAssetMatch {
-    char name[64];   /* of the material, truncated */
-    int changed;     /* 0: it has no sheen, or is unlit, and stays as it is */
-    int clipped;     /* not 0: a factor would have exceeded 1, the limit of glTF */
-    int search;      /* number of the search, counted from 1; equal averages share one; 0: none */
-    WeftMatch found; /* the errors of copy and match */
-    WeftMaterial copied,
-        matched; /* under profile `to`: with the factors of the file, and with the new ones */
+    char name[64];        /* of the material, truncated */
+    int changed;          /* 0: it has no sheen, or is unlit, and stays as it is */
+    int clipped;          /* not 0: a factor would have exceeded 1, the limit of glTF */
+    int search;           /* number of the search, counted from 1; equal averages share one; 0: none */
+    WeftMatch found;      /* the errors of copy and match */
+    WeftMaterial copied;  /* under profile `to`, with the factors of the file */
+    WeftMaterial matched; /* under profile `to`, with the new factors */
 } WeftAssetMatch;
 
 /* Converts the glTF file at `path` for another engine and writes it to `out`. The factors base_color, roughness,

@@ -68,14 +68,14 @@ typedef struct WeftPassport {
 
     /* Sampling. p is the least p value of the chi-square tests; in a run of several passports
      * weft_passport_significance takes the tests of all. */
-    float pdf_most; /* the largest integral of the pdf */
-    WeftPlace pdf_place;
-    int tests;
-    double p;
-    WeftPlace p_place;
-    int stray;    /* samples whose own pdf is 0 */
-    float missed; /* the largest fraction of E that comes from directions whose pdf is 0 */
-    WeftPlace missed_place;
+    float pdf_most;         /* the largest integral of the pdf */
+    WeftPlace pdf_place;    /* the place of that integral */
+    int tests;              /* the number of chi-square tests */
+    double p;               /* the least p value */
+    WeftPlace p_place;      /* the place of that value */
+    int stray;              /* samples whose own pdf is 0 */
+    float missed;           /* the largest fraction of E that comes from directions whose pdf is 0 */
+    WeftPlace missed_place; /* the place of that fraction */
 
     /* Variance of f cos / pdf, with the lobe's own sampling and with cosine sampling; their ratio, summed over views
      * with 1e-3 added to both, at the default row and at the worst row. */

@@ -34,9 +34,9 @@ typedef struct AmbientLookup {
 /* The look-ups of ambient_residual_lookups. */
 static const AmbientLookup lookups[LOOKUPS] = {
     {0.0, 1, {{AMBIENT_AXIS_0}}},
-    {AMBIENT_KAPPA_1, 2, {{AMBIENT_AXIS_1_LEFT}, {AMBIENT_AXIS_1_RIGHT}}},
-    {AMBIENT_KAPPA_2, 1, {{AMBIENT_AXIS_2}}},
-    {AMBIENT_KAPPA_3, 2, {{AMBIENT_AXIS_3_LEFT}, {AMBIENT_AXIS_3_RIGHT}}},
+    {(double)AMBIENT_KAPPA_1, 2, {{AMBIENT_AXIS_1_LEFT}, {AMBIENT_AXIS_1_RIGHT}}},
+    {(double)AMBIENT_KAPPA_2, 1, {{AMBIENT_AXIS_2}}},
+    {(double)AMBIENT_KAPPA_3, 2, {{AMBIENT_AXIS_3_LEFT}, {AMBIENT_AXIS_3_RIGHT}}},
 };
 
 /* The filter G of a look-up. */
