@@ -288,7 +288,7 @@ static AmbientTable table_of(Baked *baked, int slot, const Lobe *lobe) {
     ambient_fit(&baked->fit, lobe, lobe->params[0], lobe->params[0], 1);
     ambient_bake(&baked->fit, baked->polynomials + slot * AMBIENT_BAKED);
     t.focus = baked->fit.finest > AMBIENT_CLOSE - AMBIENT_BLEND;
-    t.turning = baked->fit.by_azimuth;
+    t.by_azimuth = baked->fit.by_azimuth;
     t.strips = lobe_names(lobe->id)->strips;
     t.lossless = false;
     t.baked = slot * AMBIENT_BAKED;

@@ -34,13 +34,13 @@ WeaveBase cloth_base_far(const WeftCloth *cloth, bool weft) {
 
 /* The points that are near, or those that are far, side by side. */
 typedef struct Part {
-    int count, at[ROW_ROOM];                            /* indices among all points */
-    float x[ROW_ROOM], y[ROW_ROOM];                     /* place, in threads */
-    float footprint_x[ROW_ROOM], footprint_y[ROW_ROOM]; /* as ClothLooks has them */
-    float facet[ROW_ROOM];   /* the random number; then the index among both systems' facets */
-    float spacing[ROW_ROOM]; /* near: from point to point, in threads */
-    float height[ROW_ROOM];  /* near: of the thread */
-    float hair[ROW_ROOM];    /* near: number of the loose fibre on top; -1: none */
+    int count, at[ROW_CAPACITY];                                /* indices among all points */
+    float x[ROW_CAPACITY], y[ROW_CAPACITY];                     /* place, in threads */
+    float footprint_x[ROW_CAPACITY], footprint_y[ROW_CAPACITY]; /* as ClothLooks has them */
+    float facet[ROW_CAPACITY];   /* the random number; then the index among both systems' facets */
+    float spacing[ROW_CAPACITY]; /* near: from point to point, in threads */
+    float height[ROW_CAPACITY];  /* near: of the thread */
+    float hair[ROW_CAPACITY];    /* near: number of the loose fibre on top; -1: none */
     YarnRows yarn;
 } Part;
 
@@ -73,7 +73,7 @@ static void pad(Part *part) {
 
 /* Sorts points into near (0) and far (1). */
 static void split(const WeftCloth *cloth, const ClothLooks *looks, int n, Part parts[2]) {
-    float x[ROW_ROOM], y[ROW_ROOM], far[ROW_ROOM];
+    float x[ROW_CAPACITY], y[ROW_CAPACITY], far[ROW_CAPACITY];
     place_n(looks, cloth->per_uv, n, x, y, far);
     parts[0].count = parts[1].count = 0;
     for (int k = 0; k < n; k++) {

@@ -10,11 +10,12 @@
 
 /* Points of a cloth, each seen by a pixel. */
 typedef struct ClothLooks {
-    float uv[2][ROW_ROOM];                                                 /* texture coordinates */
-    float footprint_x[ROW_ROOM], footprint_y[ROW_ROOM], longest[ROW_ROOM]; /* WeaveFootprint of the pixel */
-    float level[ROW_ROOM]; /* random, in [0, 1): chooses between near and far */
-    float facet[ROW_ROOM]; /* random, in [0, 1): near, the place across a fibre; far, the facet */
-    bool holed;            /* gaps between threads are holes, not black */
+    float uv[2][ROW_CAPACITY]; /* texture coordinates */
+    float footprint_x[ROW_CAPACITY], footprint_y[ROW_CAPACITY],
+        longest[ROW_CAPACITY]; /* WeaveFootprint of the pixel */
+    float level[ROW_CAPACITY]; /* random, in [0, 1): chooses between near and far */
+    float facet[ROW_CAPACITY]; /* random, in [0, 1): near, the place across a fibre; far, the facet */
+    bool holed;                /* gaps between threads are holes, not black */
 } ClothLooks;
 
 /* Sets the bases at the first n points. Near, a base is the point of a thread. From afar it is a random facet of one

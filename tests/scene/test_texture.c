@@ -104,7 +104,7 @@ static void lookup_at_extreme_coordinates_is_finite(void **state) {
 /* Rows give what single lookups give: every type, number of channels, wrap and filter, wild coordinates among them. */
 static void row_lookups_agree_with_single_lookups(void **state) {
     (void)state;
-    static float u[ROW_ROOM], v[ROW_ROOM], c[4][ROW_ROOM];
+    static float u[ROW_CAPACITY], v[ROW_CAPACITY], c[4][ROW_CAPACITY];
     static const float wild[] = {NAN, INFINITY, -INFINITY, 1e30f, 1e6f, -1e6f, -0.0f, 1.0f};
     SrgbTable srgb = srgb_table();
     for (uint32_t run = 0; run < 3 * 4 * 9 * 2 * 2; run++) {

@@ -127,7 +127,7 @@ static void nap_map_scales_and_turns_the_nap(void **state) {
     near(seen_and_freed(scene), of_the_lobe(30.0f, 135.0f), 0.04);
 }
 
-/* Turning the map by 90 degrees is turning nap_direction by 90. */
+/* Rotating the map by 90 degrees rotates nap_direction by 90. */
 static void turned_nap_map_equals_a_turned_direction(void **state) {
     (void)state;
     const float c = 0.5f * cosf(0.4f), s = 0.5f * sinf(0.4f);

@@ -55,7 +55,7 @@ static Span image_bytes(WeftDoctor *doctor, int image, unsigned char **owned) {
     return (Span){bytes.data, bytes.size};
 }
 
-static bool says_linear(const unsigned char *name, size_t size) {
+static bool claims_linear(const unsigned char *name, size_t size) {
     for (size_t k = 0; k + 6 <= size && name[k]; k++)
         if (strncasecmp((const char *)name + k, "linear", 6) == 0) return true;
     return false;
@@ -74,7 +74,7 @@ static const char *png_linear(Span png) {
         if (memcmp(c + 4, "gAMA", 4) == 0 && size == 4 && memcmp(c + 8, "\0\x01\x86\xa0", 4) == 0)
             return "a chunk gAMA of 1";
         if (memcmp(c + 4, "cICP", 4) == 0 && size == 4 && c[9] == 8) return "a chunk cICP of linear transfer";
-        if (memcmp(c + 4, "iCCP", 4) == 0 && says_linear(c + 8, size))
+        if (memcmp(c + 4, "iCCP", 4) == 0 && claims_linear(c + 8, size))
             return "a colour profile called linear";
         at += size + 12;
     }

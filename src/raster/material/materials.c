@@ -118,7 +118,7 @@ static bool add_fits(GlMaterial *self, const Material *material, const WeftCloth
             *baked = (MaterialFit){true, fit->by_azimuth, fit->denser > AMBIENT_DENSER, fit->finest, *lobe};
         }
         self->finest[k] = baked->finest;
-        self->key.turning |= baked->by_azimuth << k;
+        self->key.by_azimuth |= baked->by_azimuth << k;
         self->key.dense |= baked->dense << k;
     }
     free(fit);

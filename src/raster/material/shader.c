@@ -279,8 +279,8 @@ static bool join_input(ShaderInput *a, const ShaderInput *b) {
 bool shader_join(ShaderKey *key, const ShaderKey *other) {
     ShaderKey joined = *key, rest = *other;
     memcpy(rest.inputs, key->inputs, sizeof rest.inputs);
-    rest.turning = key->turning; /* a table with azimuth dependence serves a lobe without */
-    joined.turning |= other->turning;
+    rest.by_azimuth = key->by_azimuth; /* a table with azimuth dependence serves a lobe without */
+    joined.by_azimuth |= other->by_azimuth;
     bool same = memcmp((const char *)&rest, (const char *)key, sizeof rest) == 0;
     for (int k = 0; same && k < INPUT_COUNT; k++) same = join_input(&joined.inputs[k], &other->inputs[k]);
     if (!same || !same_extent(&joined, key) || !same_extent(&joined, other)) return false;
@@ -332,8 +332,8 @@ static void put_ambient_table(Text *text, const char *slot, const AmbientEntry *
     text_line(text, "    t.%s.focus = %s;\n    t.%s.narrow = %s;\n    t.%s.second = %s;", slot,
               boolean(t.focus), slot, boolean(t.narrow), slot, boolean(t.second));
     text_line(text, "    t.%s.strips = %s;", slot, boolean(t.strips));
-    text_line(text, "    t.%s.turning = %s;\n    t.%s.lossless = %s;\n    t.%s.baked = %d;", slot,
-              boolean(t.turning), slot, boolean(t.lossless), slot, t.baked);
+    text_line(text, "    t.%s.by_azimuth = %s;\n    t.%s.lossless = %s;\n    t.%s.baked = %d;", slot,
+              boolean(t.by_azimuth), slot, boolean(t.lossless), slot, t.baked);
 }
 
 /* Returns the table of a slot; that of an empty slot is never read. Marks the text as failed if memory is short. */
@@ -350,13 +350,13 @@ static AmbientEntry find_ambient_table(Text *text, const ShaderKey *key, int slo
         }
         t = ambient_table(fit, AMBIENT_FITTED);
         dense = fit->denser > AMBIENT_DENSER;
-        int headings = t.turning ? AMBIENT_HEADINGS : 1;
+        int headings = t.by_azimuth ? AMBIENT_HEADINGS : 1;
         layer = text_table(text, (TextTable){t.texels, headings * AMBIENT_PLANES * t.rows, t.columns, NULL});
     } else if (lobe) {
         t.baked = slot * AMBIENT_BAKED;
         t.focus = key->focus >> slot & 1;
         t.narrow = key->narrow >> slot & 1;
-        t.turning = key->turning >> slot & 1;
+        t.by_azimuth = key->by_azimuth >> slot & 1;
         t.second = (weft_lobe_info(lobe->id)->traits & TRAIT_TWO_COLORS) != 0;
     }
     if (lobe) t.strips = lobe_names(lobe->id)->strips;
@@ -364,7 +364,7 @@ static AmbientEntry find_ambient_table(Text *text, const ShaderKey *key, int slo
     if (key->ambient > 1)
         t.strategy = key->ambient - 2;
     else if (lobe)
-        t.strategy = ambient_strategy(lobe->id, t.turning, dense);
+        t.strategy = ambient_strategy(lobe->id, t.by_azimuth, dense);
     return (AmbientEntry){.table = t, .layer = layer};
 }
 

@@ -39,8 +39,8 @@ typedef struct ShaderKey {
     int shadowed; /* 1: with shadow maps */
     int lights;   /* number of punctual lights; kind and shadow map, or -1, of each up to SHADER_LIGHTS */
     int16_t light_kind[SHADER_LIGHTS], light_map[SHADER_LIGHTS];
-    int focus, narrow, turning; /* bit k: those of AmbientTable for slot k, whose table is baked */
-    int dense;                  /* bit k: the lobe of slot k, whose table is baked, exceeds AMBIENT_DENSER */
+    int focus, narrow, by_azimuth; /* bit k: those of AmbientTable for slot k, whose table is baked */
+    int dense;   /* bit k: the lobe of slot k, whose table is baked, exceeds AMBIENT_DENSER */
     int ranged;  /* 1: no table is baked, since there are too many materials to fit one for each */
     int ambient; /* 0: no light from the environment; 1: each lobe's best strategy; else a strategy plus 2 */
     int polygons; /* number of polygon lights; then the corners of each, whether both sides emit, and the shadow map */

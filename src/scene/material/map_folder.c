@@ -152,7 +152,7 @@ enum {
     OTHERS = sizeof others / sizeof *others,
     USES = OTHERS + INPUT_COUNT,
     FILES_MOST = INPUT_COUNT,
-    NAMES_ROOM = 160
+    NAMES_CAPACITY = 160
 };
 
 static MapUse use_at(int k) {
@@ -201,7 +201,7 @@ typedef struct MapSet {
     int count;
     int of_input[INPUT_COUNT]; /* number of the picture, counted from 1 */
     int channel[INPUT_COUNT];
-    char unknown[NAMES_ROOM]; /* pictures without a meaning, comma between */
+    char unknown[NAMES_CAPACITY]; /* pictures without a meaning, comma between */
 } MapSet;
 
 static void free_map_set(MapSet *map_set) {
@@ -216,10 +216,10 @@ static void note_unknown(MapSet *map_set, const char *file) {
     char *names = map_set->unknown;
     size_t used = strlen(names);
     const char *comma = used ? ", " : "";
-    if (used + strlen(comma) + strlen(file) + sizeof ", ..." <= NAMES_ROOM)
-        snprintf(names + used, NAMES_ROOM - used, "%s%s", comma, file);
+    if (used + strlen(comma) + strlen(file) + sizeof ", ..." <= NAMES_CAPACITY)
+        snprintf(names + used, NAMES_CAPACITY - used, "%s%s", comma, file);
     else if (!strstr(names, "..."))
-        snprintf(names + used, NAMES_ROOM - used, "%s...", comma);
+        snprintf(names + used, NAMES_CAPACITY - used, "%s...", comma);
 }
 
 /* Takes a file in, unless all that it is for is taken. */

@@ -99,8 +99,8 @@ Texel texture_fetch(const Texture *texture, const WeftImage *images, const SrgbT
 }
 
 typedef struct SpanRows {
-    int first[ROW_ROOM], second[ROW_ROOM];
-    float t[ROW_ROOM];
+    int first[ROW_CAPACITY], second[ROW_CAPACITY];
+    float t[ROW_CAPACITY];
 } SpanRows;
 
 FN void spans(const float *u, int size, TextureWrap wrap, int step, int n, SpanRows *restrict rows) {
@@ -156,6 +156,6 @@ void texture_fetch_rows(const Texture *texture, const WeftImage *images, const S
         if (next < n) prefetch(image, texel, x.first[next], y.first[next], y.second[next]);
         if (k < 0) continue;
         Channels t = interpolate(image, srgb, span_of(&x, k), span_of(&y, k));
-        for (int channel = 0; channel < 4; channel++) texels[channel * ROW_ROOM + k] = t[channel];
+        for (int channel = 0; channel < 4; channel++) texels[channel * ROW_CAPACITY + k] = t[channel];
     }
 }

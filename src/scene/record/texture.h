@@ -34,7 +34,7 @@ SrgbTable srgb_table(void);
 Texel texture_fetch(const Texture *texture, const WeftImage *images, const SrgbTable *srgb, float u, float v);
 
 /* Looks up n <= ROW_MOST places (shading/stack/surface_rows.h), in arrays of row_whole(n) entries. Channel c of place k
- * is texels[c * ROW_ROOM + k]. */
+ * is texels[c * ROW_CAPACITY + k]. */
 void texture_fetch_rows(const Texture *texture, const WeftImage *images, const SrgbTable *srgb, int n,
                         const float *u, const float *v, float *texels);
 

@@ -161,7 +161,7 @@ FN Rgb ambient_smooth(const Stack *m, const StackView *w, AmbientTables t, Ambie
         /* The sheen's own albedo table interpolates E better than the table of the fit, unless E depends on the heading
          * and it does not. */
         bool better = m->albedo == ALBEDO_TABLE && m->table.kind != TABLE_NONE &&
-                      (!t.sheen.turning || SHEEN_TILTS(m->table) > 0);
+                      (!t.sheen.by_azimuth || SHEEN_TILTS(m->table) > 0);
         float albedo = better ? w->e_o.e : -1.0f;
         SlotColors colors = slot_colors(&m->sheen);
         AmbientTint tint = ambient_tint(w->e_o, colors);

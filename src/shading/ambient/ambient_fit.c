@@ -364,7 +364,7 @@ AmbientTable ambient_table(const AmbientFit *fit, int strategy) {
                           .second = second,
                           .lossless = !second && is_flat(fit),
                           .strips = lobe_names(fit->lobe.id)->strips,
-                          .turning = fit->by_azimuth,
+                          .by_azimuth = fit->by_azimuth,
                           .strategy = strategy,
                           .baked = -1};
 }

@@ -163,7 +163,7 @@ FN SlotLight ambient_sampled_light(AmbientTable t, AmbientSource s, AmbientView 
     AmbientCoord at = ambient_coord(t, v.o.z, v.heading, lobe.params[0]);
     AmbientAlbedo e = ambient_albedo(t, s, at, albedo);
     SlotLight a;
-    float w = at.outer_weight, own = t.strips && t.turning ? min(16.0f * w * (1.0f - w), 1.0f) : 0.0f;
+    float w = at.outer_weight, own = t.strips && t.by_azimuth ? min(16.0f * w * (1.0f - w), 1.0f) : 0.0f;
     a.reflected =
         lobe_light_add(ambient_sample_lobe(s, v, lobe, tint.flakes, t.strips, e.first + e.second, own),
                        ambient_sample_lights(s, v, lobe, tint.flakes, t.strips));

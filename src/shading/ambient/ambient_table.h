@@ -50,9 +50,9 @@ STRUCT(AmbientTable) {
     bool second;       /* the lobe has a second colour */
     bool lossless;     /* E is 1 everywhere */
     bool strips;       /* the lobe has lobe_strip */
-    bool turning; /* the lobe depends on azimuth: entries of AMBIENT_HEADINGS headings, one after another */
-    int strategy; /* one of the AMBIENT_... of ambient_lobe.h */
-    int baked;    /* index of the first coefficient; negative if the table is not baked */
+    bool by_azimuth; /* the lobe depends on azimuth: AMBIENT_HEADINGS headings of entries follow each other */
+    int strategy;    /* one of the AMBIENT_... of ambient_lobe.h */
+    int baked;       /* index of the first coefficient; negative if the table is not baked */
 };
 
 STRUCT(AmbientTables) { AmbientTable diffuse, specular, sheen, coat, dust; };
@@ -103,7 +103,7 @@ FN float ambient_plane(AmbientTable t, AmbientCoord at, int plane) {
 }
 
 FN float ambient_entry(AmbientTable t, AmbientCoord at, int plane) {
-    if (!t.turning) return ambient_plane(t, at, plane);
+    if (!t.by_azimuth) return ambient_plane(t, at, plane);
     return mix(ambient_plane(t, at, at.inner * AMBIENT_PLANES + plane),
                ambient_plane(t, at, at.outer * AMBIENT_PLANES + plane), at.outer_weight);
 }
@@ -139,7 +139,7 @@ FN AmbientWeights ambient_clamp_weights(AmbientWeights w, int group) {
 
 FN AmbientWeights ambient_baked_group(AmbientTable t, AmbientSource s, AmbientCoord at, int group) {
     int first = t.baked + (AMBIENT_DEGREE + 1) * group;
-    if (!t.turning) return ambient_clamp_weights(ambient_polynomial(s, first, at.t), group);
+    if (!t.by_azimuth) return ambient_clamp_weights(ambient_polynomial(s, first, at.t), group);
     AmbientWeights inner = ambient_polynomial(s, first + at.inner * AMBIENT_HEADING, at.t),
                    outer = ambient_polynomial(s, first + at.outer * AMBIENT_HEADING, at.t);
     return ambient_clamp_weights(ambient_weights_mix(inner, outer, at.outer_weight), group);

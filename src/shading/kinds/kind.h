@@ -12,9 +12,9 @@
 /* Points of threads, or facets of them from afar: the parameters of lobe yarn, and the colours of single and of
  * multiple scattering. */
 typedef struct YarnRows {
-    float params[LOBE_PARAMS_MAX][ROW_ROOM]; /* of lobe yarn */
-    float single[3][ROW_ROOM];               /* colour of light that met one fibre, */
-    float multiple[3][ROW_ROOM];             /* and of all other light */
+    float params[LOBE_PARAMS_MAX][ROW_CAPACITY]; /* of lobe yarn */
+    float single[3][ROW_CAPACITY];               /* colour of light that met one fibre, */
+    float multiple[3][ROW_CAPACITY];             /* and of all other light */
 } YarnRows;
 
 enum { KIND_LIGHTS = 3, KIND_DRAWN = KIND_LIGHTS, KIND_DIRECTIONS };
@@ -22,12 +22,13 @@ enum { KIND_LIGHTS = 3, KIND_DRAWN = KIND_LIGHTS, KIND_DIRECTIONS };
 /* Vertices of surfaces in the shading frame; each wi is unit, in [KIND_DRAWN] the one that is sampled. */
 typedef struct KindVertices {
     SurfaceRows surface;
-    YarnRows yarn;        /* the bases, where they are woven */
-    float o[3][ROW_ROOM]; /* wo, z > 0 */
-    float u[ROW_ROOM], v[ROW_ROOM];
-    float i[KIND_DIRECTIONS][3][ROW_ROOM];
-    float f[KIND_DIRECTIONS][3][ROW_ROOM], pdf[KIND_DIRECTIONS][ROW_ROOM]; /* f cos and pdf; 0 below */
-    float e_o[ROW_ROOM], base_scale[3][ROW_ROOM], select_p[5][ROW_ROOM];   /* of the StackView */
+    YarnRows yarn;            /* the bases, where they are woven */
+    float o[3][ROW_CAPACITY]; /* wo, z > 0 */
+    float u[ROW_CAPACITY], v[ROW_CAPACITY];
+    float i[KIND_DIRECTIONS][3][ROW_CAPACITY];
+    float f[KIND_DIRECTIONS][3][ROW_CAPACITY],
+        pdf[KIND_DIRECTIONS][ROW_CAPACITY]; /* f cos and pdf; 0 below */
+    float e_o[ROW_CAPACITY], base_scale[3][ROW_CAPACITY], select_p[5][ROW_CAPACITY]; /* of the StackView */
 } KindVertices;
 
 /* Returns the base lobe of a woven vertex. */

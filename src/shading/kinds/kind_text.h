@@ -58,8 +58,8 @@ LOOP(see_n, (KindVertices *restrict v, TableRef e, int n), (v, e, n)) {
 }
 
 FN void eval_each(KindVertices *restrict v, TableRef e, int direction, int n) {
-    float(*i)[ROW_ROOM] = v->i[direction];
-    float(*f)[ROW_ROOM] = v->f[direction], *pdf = v->pdf[direction];
+    float(*i)[ROW_CAPACITY] = v->i[direction];
+    float(*f)[ROW_CAPACITY] = v->f[direction], *pdf = v->pdf[direction];
     EACH(k, (size_t)n) {
         TAKE_STACK(m, v);
         StackView w = {0};
@@ -118,7 +118,7 @@ LOOP(eval_n, (KindVertices *restrict v, TableRef e, int direction, int n), (v, e
     place++;
 
 LOOP(sample_n, (KindVertices *restrict v, TableRef e, int n), (v, e, n)) {
-    float(*drawn)[ROW_ROOM] = v->i[KIND_DRAWN];
+    float(*drawn)[ROW_CAPACITY] = v->i[KIND_DRAWN];
     EACH(k, (size_t)n) {
         TAKE_STACK(m, v);
         StackView w = {0};

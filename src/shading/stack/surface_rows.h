@@ -6,7 +6,7 @@
 
 /* Elements are worked on in whole groups of ROW_LANES. Rows lie no power of two apart, or some sets of the
  * near cache would have to hold all of them. */
-enum { ROW_LANES = 16, ROW_MOST = 256, ROW_ROOM = ROW_MOST + ROW_LANES };
+enum { ROW_LANES = 16, ROW_MOST = 256, ROW_CAPACITY = ROW_MOST + ROW_LANES };
 
 static inline int row_whole(int n) { return (n + ROW_LANES - 1) & ~(ROW_LANES - 1); }
 
@@ -15,11 +15,11 @@ static inline int row_whole(int n) { return (n + ROW_LANES - 1) & ~(ROW_LANES - 
 
 #define ROW_RGB(rows, k) rgb((rows)[0][k], (rows)[1][k], (rows)[2][k])
 
-#define ROWS_OF_SCALAR(name)    float name[ROW_ROOM];
-#define ROWS_OF_COLOR(name)     float name[3][ROW_ROOM];
-#define ROWS_OF_NORMAL(name)    float name[3][ROW_ROOM];
-#define ROWS_OF_DIRECTION(name) float name[3][ROW_ROOM];
-#define ROWS_OF_ANGLE(name)     float name[ROW_ROOM];
+#define ROWS_OF_SCALAR(name)    float name[ROW_CAPACITY];
+#define ROWS_OF_COLOR(name)     float name[3][ROW_CAPACITY];
+#define ROWS_OF_NORMAL(name)    float name[3][ROW_CAPACITY];
+#define ROWS_OF_DIRECTION(name) float name[3][ROW_CAPACITY];
+#define ROWS_OF_ANGLE(name)     float name[ROW_CAPACITY];
 #define SURFACE_ROWS(kind, name, label, initial, low, high, hard_low, hard_high, role, help)                 \
     ROWS_OF_##kind(name)
 typedef struct SurfaceRows {

@@ -192,9 +192,9 @@ FN float solid_pdf(float t2, float area, float cosine) { return t2 / (area * max
 
 /* Emitters chosen with u. */
 typedef struct ChosenRows {
-    int emitter[ROW_ROOM];
-    float probability[ROW_ROOM];
-    float u[ROW_ROOM]; /* position in the emitter's interval, in [0, 1) */
+    int emitter[ROW_CAPACITY];
+    float probability[ROW_CAPACITY];
+    float u[ROW_CAPACITY]; /* position in the emitter's interval, in [0, 1) */
 } ChosenRows;
 
 /* Samples points of the chosen emitters. */

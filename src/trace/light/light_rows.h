@@ -9,9 +9,9 @@
 
 /* The members of LightSample in lights.h. */
 typedef struct LightRows {
-    float wi[3][ROW_ROOM], radiance[3][ROW_ROOM];
-    float pdf[ROW_ROOM];
-    float distance[ROW_ROOM]; /* LIGHT_FAR for the environment and directional lights */
+    float wi[3][ROW_CAPACITY], radiance[3][ROW_CAPACITY];
+    float pdf[ROW_CAPACITY];
+    float distance[ROW_CAPACITY]; /* LIGHT_FAR for the environment and directional lights */
 } LightRows;
 
 #endif

@@ -184,7 +184,7 @@ SkyPoint sky_sample(const Sky *sky, float u, float v) {
 
 /* Cells of the importance map. */
 typedef struct Cells {
-    int row[ROW_ROOM], column[ROW_ROOM];
+    int row[ROW_CAPACITY], column[ROW_CAPACITY];
 } Cells;
 
 /* Chooses cells with (u, v). Each pass over a level prefetches the memory of the next. */
@@ -286,7 +286,7 @@ void sky_sample_rows(const Sky *sky, int n, const float *u, const float *v, Ligh
 
 /* Image coordinates of directions, and the cells there. */
 typedef struct Places {
-    float u[ROW_ROOM], v[ROW_ROOM];
+    float u[ROW_CAPACITY], v[ROW_CAPACITY];
     Cells cells;
 } Places;
 

@@ -44,7 +44,7 @@ typedef struct PathKeys {
     uint32_t sample[1 << PATHS_SAMPLES_LOG2];
 } PathKeys;
 
-typedef float Row[ROW_ROOM];
+typedef float Row[ROW_CAPACITY];
 
 /* Textures looked up at a chunk's vertices. Inputs that share a texture and its placement share the texels. */
 typedef struct TexelRows {
@@ -61,12 +61,12 @@ typedef struct TexelRows {
  * frame. At all times only the members that the stages so far have filled are valid. */
 typedef struct Chunk {
     /* the paths that arrive, as in Paths */
-    uint32_t id[ROW_ROOM];
-    uint32_t key[ROW_ROOM];
-    uint32_t pixel[ROW_ROOM]; /* PathKeys of the id */
-    uint32_t sample[ROW_ROOM];
-    uint32_t mesh[ROW_ROOM];
-    uint32_t triangle[ROW_ROOM];
+    uint32_t id[ROW_CAPACITY];
+    uint32_t key[ROW_CAPACITY];
+    uint32_t pixel[ROW_CAPACITY]; /* PathKeys of the id */
+    uint32_t sample[ROW_CAPACITY];
+    uint32_t mesh[ROW_CAPACITY];
+    uint32_t triangle[ROW_CAPACITY];
     Row wo[3]; /* towards the origin of the ray */
     Row throughput[3];
     Row pdf;  /* of the ray's direction, 1/sr; 0 for the camera's and a mirror's */
@@ -99,14 +99,14 @@ typedef struct Chunk {
     Row continues;       /* 1 if the path goes on, else 0 */
     Row next_direction[3];
     Row next_throughput[3];
-    Row sample_weight;       /* next_throughput / (throughput f cos): 1 / (pdf times chance of survival) */
-    int selected[ROW_ROOM];  /* indices of the vertices with a shadow ray, or of those that continue */
-    bool occluded[ROW_ROOM]; /* by shadow ray */
+    Row sample_weight;          /* next_throughput / (throughput f cos): 1 / (pdf times chance of survival) */
+    int selected[ROW_CAPACITY]; /* indices of the vertices with a shadow ray, or of those that continue */
+    bool occluded[ROW_CAPACITY]; /* by shadow ray */
     struct {
         Row origin[3];
         Row direction[3];
         Row distance; /* to just before the light, metres */
-        uint32_t key[ROW_ROOM];
+        uint32_t key[ROW_CAPACITY];
     } shadow_rays; /* of the selected vertices, in their order */
 
     int filled_material; /* 1 + the material whose untextured inputs vertices.surface contains; 0: none */

@@ -45,7 +45,7 @@ void chunk_add_emission(Chunk *chunk, const ChunkSource *source, PathRadiance *r
  * light. */
 LOOP(weigh_n, (Chunk *restrict chunk, LightGroup group, bool mis, int n), (chunk, group, mis, n)) {
     const LightRows *light = &chunk->light_samples[group];
-    float(*f_cos)[ROW_ROOM] = chunk->vertices.f[group], *lobe_pdf = chunk->vertices.pdf[group],
+    float(*f_cos)[ROW_CAPACITY] = chunk->vertices.f[group], *lobe_pdf = chunk->vertices.pdf[group],
     *z = chunk->vertices.i[group][2];
     Row *horizon = chunk->horizon_normal;
     float both = mis ? 1.0f : 0.0f;

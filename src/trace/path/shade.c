@@ -165,7 +165,7 @@ void chunk_shade(Chunk *chunk, const ChunkSource *source) {
 LOOP(weigh_paths_n, (Chunk *restrict chunk, bool roulette, uint32_t place, int n),
      (chunk, roulette, place, n)) {
     KindVertices *vertices = &chunk->vertices;
-    float(*wi)[ROW_ROOM] = vertices->i[KIND_DRAWN], (*f_cos)[ROW_ROOM] = vertices->f[KIND_DRAWN],
+    float(*wi)[ROW_CAPACITY] = vertices->i[KIND_DRAWN], (*f_cos)[ROW_CAPACITY] = vertices->f[KIND_DRAWN],
     *pdf = vertices->pdf[KIND_DRAWN];
     Row *horizon = chunk->horizon_normal;
     float survival_min = roulette ? 0.0f : 1.0f;
