@@ -1,4 +1,4 @@
-/* fit.c - weft_fit: fits lobes over bases, or warp over weft, to measured data, and sorts them by error */
+/* fit.c - lobes over bases, or warp over weft, fitted to measured data and sorted by error; the distance of any model */
 #include "weft/fit.h"
 
 #include <math.h>
@@ -30,7 +30,7 @@ typedef struct FitWork {
     int count;
     WeftFitted fitted[WEFT_FITTED_MOST + 1]; /* the last is the baseline */
     WeftResult results[WEFT_FITTED_MOST + 1];
-    bool isotropic, weave; /* weave: the only candidate is warp over weft, both of lobe woven */
+    bool isotropic, weave; /* weave: the only candidate is warp over weft, both of the same lobe */
     LoopWatch watch;
 } FitWork;
 
@@ -83,7 +83,7 @@ static WeftResult pick_choices(const LobeSearch *search, const WeftLobe *lobe, F
     return result;
 }
 
-/* Fits a lobe, with the choices that it has and with the best others. */
+/* Fits a lobe with the choices that it has and with the best FINALISTS of all combinations of choices. */
 static WeftResult fit_lobe(const LobeSearch *search, LobeFound *out) {
     Finalists best;
     WeftResult result = pick_choices(search, &out->lobe, &best);
@@ -130,7 +130,7 @@ static void fit_one(void *user, int item, int thread) {
     progress_report(&item_progress, 1.0);
 }
 
-/* Finds the least error of a base without a lobe over it. */
+/* Finds the least error of a base without a lobe over it; for a weave, of lambert. */
 static WeftResult bases_alone(const FitWork *work, double *error) {
     WeftResult result = WEFT_OK;
     *error = 1e30;
@@ -204,7 +204,7 @@ static WeftResult candidates(FitWork *work, WeftError *error) {
                        : fail(error, WEFT_MESSAGE_DESC, desc->only, "is diffuse, or known by its mean alone");
 }
 
-/* Orders candidates by their number of parameters, since the largest fits take longest. */
+/* Orders candidates by their number of parameters, most first, since the largest fits take longest. */
 static int by_numbers(const void *a, const void *b) {
     const Candidate *x = a, *y = b;
     int of_x = weft_lobe_info(x->lobe.lobe)->param_count + weft_lobe_info(x->base.lobe)->param_count;

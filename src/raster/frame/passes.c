@@ -82,7 +82,7 @@ static void bind_light(WeftRaster *self, const WeftRasterView *view) {
     if (self->shadows.count) shadows_bind(&self->shadows, UNIT_SHADOW, UNIT_SOFT_SHADOW);
 }
 
-/* Puts the key's program into use. Fails as programs_get does, only if there is no earlier version to draw with. */
+/* Puts the key's program into use. Fails only if there is no earlier version to draw with. */
 static WeftResult use_program(WeftRaster *self, const ShaderKey *key, const Program **program,
                               WeftError *error) {
     WeftError failure = {0};
@@ -206,20 +206,20 @@ static WeftResult draw_all(WeftRaster *self, const View *seen, const WeftRasterV
             result = draw_floor(self, view, error);
         if (k == self->queue.count || result != WEFT_OK) break;
         int mesh = self->queue.order[k];
-        if (view->hide_lights && mesh >= scene_own_meshes(self->scene)) continue;
-        const GlMaterial *material = &self->materials.all[self->scene->meshes[mesh].material];
-        ShaderKey key = lit_key(self, view, material);
         if (k == self->queue.solid) {
             glEnable(GL_BLEND);
             glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA); /* colours are premultiplied */
             glDepthMask(GL_FALSE);
         }
+        if (view->hide_lights && mesh >= scene_own_meshes(self->scene)) continue;
+        const GlMaterial *material = &self->materials.all[self->scene->meshes[mesh].material];
+        ShaderKey key = lit_key(self, view, material);
         result = draw_mesh(self, mesh, &key, error);
     }
     return result == WEFT_OK ? gl_check(error, "a picture") : result;
 }
 
-/* Sets the floor of a picture, which is there only if it is seen, and finds how much of the sky's light reaches it. */
+/* Sets the floor of a picture, which is there only if it is seen from above in a whole picture, and finds how much of the sky's light reaches it. */
 static WeftResult find_floor(WeftRaster *self, const View *seen, const WeftRasterView *view,
                              WeftError *error) {
     Floor floor = floor_of(self->scene, &view->floor);
@@ -252,8 +252,8 @@ static WeftResult draw_mirror(WeftRaster *self, const View *seen, const WeftRast
     return result;
 }
 
-/* Returns free memory to the system after the first picture with new programs, or with these and another number of
- * samples: drivers then compile once more and free most of the memory that this takes. */
+/* Returns free memory to the system after the first picture with new programs, or with a number of samples that
+ * they have not drawn with: drivers then compile once more and free most of the memory that this takes. */
 static void return_spare(WeftRaster *self) {
     const uint64_t samples = (uint64_t)1 << (self->target.samples & 63);
     if (self->programs.compiled != self->drawn_programs) self->drawn_samples = 0;
@@ -276,7 +276,7 @@ WeftResult frame_draw_passes(WeftRaster *self, const WeftRasterView *view, const
     if (result == WEFT_OK && !view->no_shadows) result = draw_shadows(self, error);
     if (result == WEFT_OK)
         result = target_resize(&self->target, view->width, view->height, view->samples, error);
-    /* the driver's rows run from the bottom */
+    /* OpenGL's rows run from the bottom */
     const int *c = view->crop, box[4] = {c[0], view->height - c[1] - c[3], c[2], c[3]};
     if (result == WEFT_OK) result = draw_mirror(self, seen, view, box, error);
     if (result == WEFT_OK) {

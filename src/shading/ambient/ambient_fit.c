@@ -41,7 +41,7 @@ static const AmbientLookup lookups[LOOKUPS] = {
 
 /* The filter G of a look-up. */
 typedef struct Filter {
-    double a[BANDS];     /* Legendre coefficients, for a mean of 1 */
+    double a[BANDS];     /* Legendre coefficients, for an integral of 1 over the sphere */
     double s[STEPS + 1]; /* S at even steps of mu from -1 to 1 */
 } Filter;
 
@@ -121,8 +121,8 @@ static float radical_inverse(uint32_t k) {
 }
 
 /* Samples the light that a lobe reflects from wo. azimuth: of wo. If the lobe depends on it, half of the samples are
- * for the opposite azimuth: tables are read by its cosine, and a lobe may differ between both sides, as a yarn across
- * wo does. */
+ * for the mirrored azimuth: tables are indexed by its cosine, so a node is the mean of both. A yarn across wo, for one,
+ * reflects differently to its two sides. */
 static void reflect(Reflected *light, const Lobe *lobe, float cos_o, float azimuth, bool by_azimuth) {
     const float sin_o = sqrt(max(1.0f - cos_o * cos_o, 0.0f)), tx = cos(azimuth), side = sin(azimuth);
     light->count = 0;
@@ -159,7 +159,7 @@ static void fill_b(const Fitter *fitter, const Reflected *light, double b[2][LOO
 }
 
 /* Sets w to the least of w^T A w - 2 w^T b over w >= 0, then scales it to the sum e. One weight after the other is set
- * to its best value until none changes. C. L. Lawson, R. J. Hanson, "Solving Least Squares Problems", 1974, chapter 23,
+ * to its best value until they change by less than 1e-9 of e. C. L. Lawson, R. J. Hanson, "Solving Least Squares Problems", 1974, chapter 23,
  * has the problem. */
 static void solve(const Fitter *fitter, const double b[LOOKUPS], double e, double w[LOOKUPS]) {
     double sum = 0.0, moved = 1.0;
@@ -216,8 +216,8 @@ static float *entry(AmbientFit *fit, FitNode at, int plane) {
 }
 
 /* Sets the planes of the lobe's shape; a lobe that reflects nothing has none. exp(kappa (mu - 1)) has half of its
- * weight within kappa (1 - mu) = ln 2, and three quarters within twice that. ggx has three quarters within three times
- * its half: the tail is 0 for twice and 1 for three times. The density of exp(kappa (mu - 1)), scaled to a sum of 1,
+ * weight within kappa (1 - mu) = ln 2, and three quarters within twice that distance; ggx has them within three times
+ * its distance of half. The tail is that ratio less 2. The density of exp(kappa (mu - 1)), scaled to a sum of 1,
  * has a logarithm of ln(kappa / (2 pi e)) on the mean over itself; 2 pi e = 17.079... */
 static void fit_shape(AmbientFit *fit, const Reflected *light, FitNode at) {
     double e = light->e[0] + light->e[1];
@@ -308,7 +308,8 @@ void ambient_fit_finish(AmbientFit *fit) {
                 float kappa = *entry(fit, at, PLANE_KAPPA);
                 float y = 1.0f - (float)column / (AMBIENT_COLUMNS - 1), x = root_cos_at(column);
                 float e = *entry(fit, at, AMBIENT_PLANE_E) + *entry(fit, at, AMBIENT_PLANE_E_SECOND);
-                float part = e * x * x * x * y; /* of the light of a sphere, by column */
+                float part =
+                    e * x * x * x * y; /* fraction of the light of a lit sphere: cos dcos goes as x^3 y */
                 fit->finest = max(fit->finest, kappa);
                 denser += part * (*entry(fit, at, PLANE_DENSITY) - kappa);
                 light += part;
@@ -326,7 +327,7 @@ void ambient_fit(AmbientFit *fit, const Lobe *lobe, float low, float high, int t
     ambient_fit_finish(fit);
 }
 
-/* Returns true if both lobes have the same parameters from number `first` on. */
+/* Returns true if both lobes have the same parameters from number `first` on, but for the azimuth of leaning fibres. */
 static bool alike_from(const Lobe *a, const Lobe *b, int first) {
     if (a->id != b->id) return false;
     for (int k = first; k < weft_lobe_info(a->id)->param_count; k++)

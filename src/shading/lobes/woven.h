@@ -49,15 +49,15 @@
 
 STRUCT(Woven){WOVEN_PARAMS(FIELD)};
 
-/* The numbers of a prepared lobe. Those of a cloth are fitted to its points (weave/woven_fit.c), and other than the
- * ones that woven_prepare makes. */
+/* The numbers of a prepared lobe. Those of a cloth are fitted to its points (weave/woven_fit.c), and
+ * differ from those that woven_prepare computes. */
 #define WOVEN_NUMBERS(N)                                                                                     \
     N(alpha)         /* of the fibres */                                                                     \
     N(share)         /* of the cloth that these yarns cover */                                               \
     N(scale)         /* factor of f: the share, or 1 if the colours contain it */                            \
-    N(v_roundness)   /* for V: steepest slope across the yarns of both directions */                         \
-    N(v_crimp)       /* for V: steepest slope along these yarns */                                           \
-    N(v_cross_crimp) /* for V: steepest slope along the yarns at right angles */                             \
+    N(v_roundness)   /* for V: roundness of the yarns of both directions */                                  \
+    N(v_crimp)       /* for V: slope of evenly sloped yarns as steep in the mean */                          \
+    N(v_cross_crimp) /* the same of the yarns at right angles */                                             \
     N(cos_a)         /* cosine of the yarn's azimuth */                                                      \
     N(sin_a)         /* sine of it */                                                                        \
     N(cos_t)         /* cosine of the twist */                                                               \
@@ -153,7 +153,7 @@ STRUCT(WovenView) {
     float seen;      /* mean of P / V over these yarns */
     float remainder; /* R */
 };
-/* Returns the view of w. The mean of P over some yarns is w_z and the mean area of them that faces away from w. */
+/* Returns the view of w. The mean of P over some yarns is w_z plus the mean area of them that faces away from w. */
 FN WovenView woven_view_of(const WovenPrepared *p, Dir w) {
     WovenView v;
     v.w = woven_to_yarn(p, w);
@@ -167,7 +167,7 @@ FN WovenView woven_view_of(const WovenPrepared *p, Dir w) {
 }
 FN void woven_view(const WovenPrepared *p, Dir o, WovenView *w) { *w = woven_view_of(p, o); }
 
-/* The slopes of one bin: one s_y, and s_x from middle - width to middle + width. */
+/* The slopes of one side of a bin: one s_y, and s_x from middle - width to middle + width. */
 STRUCT(WovenSlopes) {
     float s_y, middle, width;
     float c; /* 1 / sqrt(1 + s_y^2) */
@@ -213,7 +213,7 @@ FN float woven_inverse_root(float q) {
 
 /* Returns single at s_x, times 4 pi a^2 V_i V_o and the weight of s_x. c: of the slopes; q: 1 / |wi + wo|^2. P is
  * positive where the facet counts; abs keeps it so where the range of s_x is empty. t . (wo + wi) is summed term by
- * term: so vectors and single calls round alike where wi and wo nearly cancel, in light that goes straight on along the
+ * term: so SIMD and scalar calls round alike where wi and wo nearly cancel, in light that goes straight on along the
  * cloth. */
 FN float woven_facet(const WovenPrepared *p, float c, float s_x, const WovenLine *o, const WovenLine *i,
                      float q) {
@@ -237,7 +237,7 @@ FN float woven_across(const WovenPrepared *p, WovenSlopes b, const WovenView *o,
     return reach * (sides + (6.0f * WOVEN_G2 - 2.0f) * woven_facet(p, b.c, middle, &l, &k, q));
 }
 
-/* Returns <single>. The level bin has its slopes as constants, so that the compiler drops what they multiply by 0. */
+/* Returns <single>. The level bin has s_y, middle and c as constants, so that the compiler drops terms times zero. */
 FN float woven_single(const WovenPrepared *p, const WovenView *o, const WovenView *i, float q) {
     WovenSlopes level;
     level.s_y = 0.0f;

@@ -5,7 +5,7 @@
  * is the height of a thread, with + where it is on top and - where it is below. A thread alternates between runs of l
  * crossings on top and runs of l crossings below. s goes from -1 to 1 along a run, so the slope along the thread is
  * m |s|^k, and m at the ends of the run. k = 1 + floats (l - 1): a long float lies level but for its ends. r goes from
- * -1 to 1 across the thread, which is w wide and whose back has the slope q at both edges. Own.
+ * -1 to 1 across the thread, which is w wide and whose back has the slope q at both edges. Our own model.
  *   x counts warp threads from the left and y picks from the bottom. Among the threads at a place the highest is seen.
  * So threads that vary in width, place and height still cover each other as threads do.
  *   Near by a thread is a bundle of fibres along its twist. Each has a round back and dark crevices beside it, and some
@@ -30,13 +30,13 @@
     N(pitch)       /* distance between neighbouring threads of this system */                                \
     N(cross_pitch) /* distance between neighbouring threads of the other system */                           \
     N(width)       /* w, in pitches */                                                                       \
-    N(bulge)       /* by how much the middle of a float is wider, in parts of its width */                   \
+    N(bulge)       /* fraction by which the middle of a long float is wider */                               \
     N(floats)      /* k = 1 + floats (l - 1) */                                                              \
     N(streaks)     /* slope at the edges of a fibre */                                                       \
     N(dye)         /* how much the amount of dye varies */                                                   \
     N(slub)        /* how much the width varies */                                                           \
     N(wander)      /* how much place and crimp vary */                                                       \
-    N(hairiness)   /* part of the possible loose fibres that there are */                                    \
+    N(hairiness)   /* fraction of the places for loose fibres that have one */                               \
     N(per_width)   /* 1 / width */                                                                           \
     N(cos_twist)   /* cosine of twist */                                                                     \
     N(sin_twist)   /* sine of twist */                                                                       \
@@ -52,8 +52,8 @@
     N(slope_across) /* for V: steepest slope across the yarn, if its visible slopes were uniform */          \
     N(slope_along)  /* for V: the same along the yarn */                                                     \
     N(share)        /* of the cloth, seen from above; the shares of both systems and the gaps add up to 1 */ \
-    N(single)   /* factor on the colour of light that met one fibre: it is as bright as the points then */   \
-    N(multiple) /* factor on the colour of all other light */
+    N(single)       /* factor on the colour of light that met one fibre; makes the mean that of points */    \
+    N(multiple)     /* factor on the colour of all other light */
 
 #define WEAVE_NUMBER(name) float name;
 STRUCT(WeaveYarn){WEAVE_YARN_NUMBERS(WEAVE_NUMBER)};
@@ -104,7 +104,7 @@ FN WeaveCell weave_cell(const Weave *m, float warp, float pick) {
     return weave_cell_texel(m->runs, m->warps, row, at);
 }
 
-/* Purposes of random numbers (weave_key). The number after one of a system's own is that of the weft. */
+/* Purposes of random numbers (weave_key). Where warp and weft differ, the weft has the next number. */
 #define WEAVE_OF_CROSSINGS 0
 #define WEAVE_OF_THREADS   1  /* place and width along a thread */
 #define WEAVE_OF_DYE       3  /* of a thread */
@@ -118,7 +118,7 @@ STRUCT(WeaveRun) {
     float length;     /* l, at least 1 */
     float per_length; /* 1 / l */
     float up;         /* 1 on top, -1 below */
-    float ends; /* 1; 0 if the run never ends, a factor since a load behind a branch stops vectorisation */
+    float ends; /* 1; 0 if the run never ends: a factor, since a branch around a load stops vectorisation */
     float s, k; /* as above */
     float s_k;  /* |s|^k */
 };
@@ -359,7 +359,8 @@ FN WeaveHair weave_hair(const Weave *m, int n, float x, float y, float radius) {
     float bend = 0.6f * weave_bits(shape, 13u, 6u), wave = 1.2f * weave_bits(shape, 19u, 6u);
     float l = 0.6f + 0.3f * weave_bits(shape, 25u, 7u), t = (c * p + s * q) / l, t2 = t * t;
     float lean = wave * (1.0f - 3.0f * t2) - 2.0f * bend * t;
-    float reach = radius * (1.0f - t2 * t2) * sqrt(1.0f + lean * lean), /* half of the width, along q */
+    float reach =
+              radius * (1.0f - t2 * t2) * sqrt(1.0f + lean * lean), /* half of the width, across the fibre */
         off = c * q - s * p - l * (bend + wave * t) * (1.0f - t2);
 
     float exists =
@@ -403,8 +404,8 @@ FN int weave_hair_at(const Weave *m, float x, float y, float radius, int count) 
     return top;
 }
 
-/* Returns the loose fibre on top itself. From its number a driver that does not branch would compute it a second
- * time. */
+/* Returns the loose fibre on top itself, not its number: drivers that flatten branches would compute it a second time
+ * from that. */
 FN WeaveHair weave_hair_top(const Weave *m, float x, float y, float radius, int count) {
     WeaveHair top;
     top.here = false;
@@ -422,7 +423,7 @@ FN WeaveHair weave_hair_top(const Weave *m, float x, float y, float radius, int 
     return top;
 }
 
-/* Returns half of the width of loose fibres over a point of that height; 0: the cloth has none. Over a gap they do not
+/* Returns half of the width of loose fibres over a point of that height; 0: there are none, or they have faded. Over a gap they do not
  * fade: nothing else is there that could take their place. */
 FN float weave_hair_radius_over(const Weave *m, float height, float spacing) {
     float radius = height > WEAVE_NONE ? weave_hair_radius(spacing) : WEAVE_HAIR_RADIUS;

@@ -1,4 +1,4 @@
-#include <stdlib.h> /* before the dialect, whose abs() shadows its own */
+#include <stdlib.h> /* before the dialect, whose abs() shadows that of stdlib.h */
 
 #include "trace/path/stream.h"
 
@@ -36,8 +36,8 @@ static int class_of(const Stream *stream, int k) {
     return mesh == GEOMETRY_NOTHING ? 0 : 1 + stream->context->scene->meshes[mesh].material;
 }
 
-/* Sorts n paths by their classes. Each class begins at a multiple of ROW_LANES; its last path is repeated up to the
- * next. */
+/* Sorts those of n paths that are not done by their classes. Each class begins at a multiple of ROW_LANES; its last path is
+ * repeated up to the next multiple. */
 static void sort_by_class(Stream *stream, int n, int classes) {
     int *end = stream->end, place = 0;
     for (int hit_class = 0; hit_class < classes; hit_class++) end[hit_class] = 0;
@@ -79,8 +79,7 @@ LOOP(weigh_sky_n,
     }
 }
 
-/* Adds the environment's light along n paths that leave the scene. in_parts: they have a throughput of their own for
- * it. */
+/* Adds the environment's light along the rays of n paths. in_parts: their throughput for it is sky_throughput. */
 static void add_sky(Stream *stream, const Paths *paths, bool in_parts, const int *order, int n) {
     const PathContext *context = stream->context;
     LightRows *sky = &stream->chunk.light_samples[LIGHTS_SKY];
@@ -95,7 +94,7 @@ static void add_sky(Stream *stream, const Paths *paths, bool in_parts, const int
         for (int k = 0; k < n; k++) stream->radiance.rgba[c][paths->id[order[k]]] += sky->radiance[c][k];
 }
 
-/* Shades a chunk, and appends the paths that continue to `next`, which has `count`; returns how many it has then. */
+/* Shades a chunk, and appends the surviving paths to `next`, which has `count`; returns how many it has then. */
 static int shade_chunk(Stream *stream, const ChunkSource *source, Paths *next, int count) {
     const PathContext *context = source->context;
     const PathMaterial *material = &context->materials[source->material];
@@ -142,8 +141,8 @@ static void trace(Stream *stream, const Paths *paths, int n) {
     stage_end(stream->chunk.clock, STAGE_HITS);
 }
 
-/* Adds the environment along the rays that leave the scene. Without shadows it reaches a surface along every ray that
- * leaves it, whatever that hits. */
+/* Adds the environment along the rays that leave the scene. Without shadows, scattered rays that hit something count as
+ * leaving it too. */
 static void add_misses(Stream *stream, const Paths *paths, int depth, int classes) {
     const PathContext *context = stream->context;
     const int *end = stream->end, reached = depth > 0 && !context->shadows ? classes : 1;
