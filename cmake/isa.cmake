@@ -1,9 +1,10 @@
 # The sets of instructions that loops (src/shading/dialect/loop.h) are compiled for: all, so that `--isa` has a choice and tests
-# see each, or one, since loops for three take most of a build's time. A build with tests has all unless told otherwise.
+# see each, or one, since loops for three take most of a build's time. A build with tests, and one
+# that is to run on other machines (WEFT_ARCH none), has all unless told otherwise.
 set(WEFT_ISA "" CACHE STRING
-  "Sets of instructions of loops: all, auto (the widest that this machine runs), sse2, avx2 or avx512; empty: all with tests, else auto")
+  "Sets of instructions of loops: all, auto (the widest that this machine runs), sse2, avx2 or avx512; empty: all with tests or for any machine, else auto")
 set(weft_isa ${WEFT_ISA})
-if(NOT weft_isa AND WEFT_TESTS OR NOT CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+if(NOT weft_isa AND (WEFT_TESTS OR WEFT_ARCH STREQUAL "none") OR NOT CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   set(weft_isa all)
 elseif(NOT weft_isa)
   set(weft_isa auto)

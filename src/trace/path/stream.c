@@ -1,4 +1,4 @@
-#include <stdlib.h> /* before the dialect, whose abs() shadows that of stdlib.h */
+#include <stdlib.h> /* before the dialect, whose abs() shadows that of C */
 
 #include "trace/path/stream.h"
 
