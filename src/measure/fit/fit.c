@@ -191,9 +191,12 @@ static WeftResult candidates(FitWork *work, WeftError *error) {
     WeftLobe only = {.lobe = -1};
     const char *id = work->weave && !desc->only ? weft_lobe_info(work->bases[0].lobe)->id : desc->only;
     if (result == WEFT_OK && id) result = weft_lobe_init(id, &only, error);
-    if (result == WEFT_OK && work->weave && only.lobe != work->bases[0].lobe)
-        return fail(error, WEFT_MESSAGE_DESC, id,
-                    "a base of threads, the weft, goes with the same lobe, the warp");
+    if (result == WEFT_OK && work->weave && only.lobe != work->bases[0].lobe) {
+        const char *base = weft_lobe_info(work->bases[0].lobe)->id;
+        char text[128];
+        snprintf(text, sizeof text, "base %s, which is the weft, goes with lobe %s, the warp", base, base);
+        return fail(error, WEFT_MESSAGE_DESC, id, text);
+    }
     for (int k = 0; k < weft_lobe_count() && result == WEFT_OK; k++) {
         const WeftLobeInfo *info = weft_lobe_info(k);
         if (info->traits & (WEFT_LOBE_DIFFUSE | WEFT_LOBE_REFERENCE)) continue;
