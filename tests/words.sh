@@ -30,7 +30,7 @@ identifiers() { grep -oE '[A-Za-z_][A-Za-z0-9_]*' | sort -u; }
 names=$(mktemp)
 trap 'rm -f "$names"' EXIT
 sources | xargs cat | code | identifiers >"$names"
-for file; do nm "$file" 2>/dev/null | awk '{ print $NF }' | identifiers >>"$names"; done
+for file; do nm "$file" 2>/dev/null | awk '{ print $NF }' | grep -v '^__' | identifiers >>"$names"; done
 hits=$(words <"$names" | grep -nwE "($retired)(s|es|ed|ing)?" | cut -d: -f1 || true)
 for line in $hits; do found "retired word in the identifier $(sed -n "${line}p" "$names")"; done
 

@@ -37,8 +37,7 @@ static const Isa elsewhere = ISA_AVX2;
 static const Isa elsewhere = ISA_SSE2;
 #endif
 
-/* Returns the widest set of this processor; avx2 and avx512 name the levels v3 and v4 of x86-64. */
-static Isa isa_of_processor(void) {
+Isa isa_of_processor(void) {
 #ifdef __x86_64__
     __builtin_cpu_init();
     if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma") || !__builtin_cpu_supports("bmi") ||

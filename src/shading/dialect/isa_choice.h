@@ -8,6 +8,9 @@
 /* Returns the least set that loops were compiled for. */
 Isa isa_least(void);
 
+/* Returns the widest set of this processor; avx2 and avx512 name the levels v3 and v4 of x86-64. */
+Isa isa_of_processor(void);
+
 /* Returns the widest set that this processor runs and that loops were compiled for. */
 Isa isa_widest(void);
 
