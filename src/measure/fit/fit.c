@@ -193,9 +193,8 @@ static WeftResult candidates(FitWork *work, WeftError *error) {
     if (result == WEFT_OK && id) result = weft_lobe_init(id, &only, error);
     if (result == WEFT_OK && work->weave && only.lobe != work->bases[0].lobe) {
         const char *base = weft_lobe_info(work->bases[0].lobe)->id;
-        char text[128];
-        snprintf(text, sizeof text, "base %s, which is the weft, goes with lobe %s, the warp", base, base);
-        return fail(error, WEFT_MESSAGE_DESC, id, text);
+        return fail(error, WEFT_MESSAGE_DESC, id, "base %s, which is the weft, goes with lobe %s, the warp",
+                    base, base);
     }
     for (int k = 0; k < weft_lobe_count() && result == WEFT_OK; k++) {
         const WeftLobeInfo *info = weft_lobe_info(k);
