@@ -12,7 +12,7 @@
 #define DEFAULT_DIRECTION(d) dir(1.0f, 0.0f, 0.0f)
 #define DEFAULT_ANGLE(d)     d
 #define DEFAULT_OF(kind, name, label, initial, low, high, hard_low, hard_high, role, help)                   \
-    s.name = DEFAULT_##kind(def);
+    s.name = DEFAULT_##kind(initial);
 
 static Surface surface_of(const VertexArrays *a, int k, int material) {
     Surface s;

@@ -291,9 +291,9 @@ WeftResult draw_surface(const Page *page, const WeftPlotPanel *panel, PageBox bo
     const size_t count = (size_t)stage.width * (size_t)stage.height;
     stage.depth = alloc_array(count, sizeof *stage.depth);
     stage.color = alloc_array(count, sizeof *stage.color);
-    WeftResult result =
-        stage.depth && stage.color ? WEFT_OK : fail(page->error, WEFT_MESSAGE_MEMORY, "plot", NULL);
-    if (result == WEFT_OK) {
+    const bool made = stage.depth && stage.color;
+    WeftResult result = made ? WEFT_OK : fail(page->error, WEFT_MESSAGE_MEMORY, "plot", NULL);
+    if (made) {
         for (size_t k = 0; k < count; k++) stage.depth[k] = HUGE_VALF;
         for (int row = 0; row + 1 < panel->rows; row++)
             for (int column = 0; column + 1 < panel->columns; column++) fill_cell(&stage, panel, row, column);

@@ -26,7 +26,7 @@ typedef struct MapPicture {
 /* Returns the first texture of the image at that path, or -1. */
 static int find_path(const WeftScene *scene, const char *path) {
     for (int k = 0; k < scene->texture_count; k++)
-        if (scene->textures[k].path && strcmp(scene->textures[k].path, path) == 0) return k;
+        if (path && scene->textures[k].path && strcmp(scene->textures[k].path, path) == 0) return k;
     return -1;
 }
 
