@@ -108,8 +108,6 @@ static void row_save(Saving *saving, json_t *object, const Material *material, c
     if (info) saving_put(saving, object, row->texture, info);
 }
 
-static bool differs(float a, float b) { return a < b || a > b; }
-
 /* Returns true if the object that begins with this row is written: an extension where its first number is not what a
  * reader takes without it. */
 static bool is_wanted(const Material *material, const MaterialField *row) {
@@ -120,9 +118,10 @@ static bool is_wanted(const Material *material, const MaterialField *row) {
     case INPUT_ior: return true;
     case INPUT_emission: return glows;
     case INPUT_emission_strength:
-        return glows && differs(saved_number(material, INPUT_emission_strength, 0), row->absent);
+        return glows && !is_equal(saved_number(material, INPUT_emission_strength, 0), row->absent);
     default:
-        return !material_field_extends(row) || differs(strongest(&material->inputs[row->input]), row->absent);
+        return !material_field_extends(row) ||
+               !is_equal(strongest(&material->inputs[row->input]), row->absent);
     }
 }
 
