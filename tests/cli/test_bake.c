@@ -307,7 +307,8 @@ static void interrupted_bake_writes_nothing(void **state) {
     pid_t child =
         program_start(WEFT_PROGRAM, NULL,
                       LIST("bake", "albedo", "ggx", "--size", "4096x4096", "-o", "old.npy", "-o", "new.h"));
-    sleep_seconds(0.6);
+    await_handler(child);
+    sleep_seconds(0.2);
     kill(child, SIGINT);
     Ran ran = program_end(child);
     assert_int_equal(ran.code, 130);

@@ -285,11 +285,15 @@ static void fit_of_bad_data_or_options_is_refused(void **state) {
     assert_complaint(NULL, LIST("fit", "table.csv", "--metric", "picture"), 2, "picture");
 }
 
-/* In the midst of the longest fit. */
+/* In the midst of the longest fit, of a table so large that no machine ends it first. */
 static void interrupted_fit_ends(void **state) {
     (void)state;
-    pid_t child = program_start(WEFT_PROGRAM, NULL, LIST("fit", "table.csv", "--lobe", "threads"));
-    sleep_seconds(0.5);
+    Ran made = run_shell("for k in $(seq 200); do cat table.csv; done >long.csv");
+    assert_int_equal(made.code, 0);
+    ran_free(&made);
+    pid_t child = program_start(WEFT_PROGRAM, NULL, LIST("fit", "long.csv", "--lobe", "threads"));
+    await_handler(child);
+    sleep_seconds(0.2);
     double asked = clock_now();
     kill(child, SIGINT);
     Ran ran = program_end(child);
