@@ -18,8 +18,8 @@
 
 /* ---- the columns --------------------------------------------------------------------------------- */
 
-typedef void EvalN(const Lobe *lobe, size_t n, const float *ox, const float *oy, const float *oz,
-                   const float *ix, const float *iy, const float *iz, float *f, float *s);
+typedef void EvalN(const Lobe *lobe, size_t n, const float *ox, const float *oy, const float *oz, const float *ix,
+                   const float *iy, const float *iz, float *f, float *s);
 EvalN lobe_eval_n_libm, lobe_eval_n_sse2, lobe_eval_n_avx2, lobe_eval_n_avx512;
 
 typedef float Peak(size_t n);
@@ -106,8 +106,7 @@ static void measure(const Lobe *lobe, int rounds, double best[COLUMNS]) {
 /* ---- what the loops are made of ------------------------------------------------------------------ */
 
 typedef struct Loop {
-    int multiply, divide,
-        all; /* vector arithmetic: products, with or without a sum; quotients and roots; all */
+    int multiply, divide, all; /* vector arithmetic: products, with or without a sum; quotients and roots; all */
 } Loop;
 
 typedef struct Instruction {
@@ -188,9 +187,9 @@ static void print_limit(const char *function, const Column *column, const Lobe *
     }
     double by_multiply = loop.multiply * fma, by_any = loop.all * any, by_divide = loop.divide * divide;
     double least = larger(by_multiply, larger(by_any, by_divide)), pass = eval * column->lanes;
-    printf("  %-8s %5d %5d %5d %9.2f %8.2f %8.2f %10.0f %10.0f %6.0f %%\n", column->name, loop.all,
-           loop.multiply, loop.divide, 1e-9 / any, 1e-9 / fma, 1e-9 / divide, 1e-6 / eval,
-           1e-6 * column->lanes / least, 100.0 * least / pass);
+    printf("  %-8s %5d %5d %5d %9.2f %8.2f %8.2f %10.0f %10.0f %6.0f %%\n", column->name, loop.all, loop.multiply,
+           loop.divide, 1e-9 / any, 1e-9 / fma, 1e-9 / divide, 1e-6 / eval, 1e-6 * column->lanes / least,
+           100.0 * least / pass);
 }
 
 /* ---- double precision ---------------------------------------------------------------------------- */
@@ -201,8 +200,8 @@ static double lerp(double a, double b, double t) { return a + (b - a) * t; }
 static double conty_kulla_l_double(double alpha, double x) {
     double t = (1.0 - alpha) * (1.0 - alpha);
     double power = (pow)(x, lerp(0.19823, 0.16801, t));
-    return lerp(21.5473, 25.3245, t) / (1.0 + lerp(3.82987, 3.32435, t) * power) +
-           lerp(-1.97760, -1.27393, t) * x + lerp(-4.32054, -4.85967, t);
+    return lerp(21.5473, 25.3245, t) / (1.0 + lerp(3.82987, 3.32435, t) * power) + lerp(-1.97760, -1.27393, t) * x +
+           lerp(-4.32054, -4.85967, t);
 }
 
 static double conty_kulla_lambda_double(double alpha, double x) {
@@ -245,8 +244,7 @@ static void print_errors(const Lobe *lobe, float *f[7]) {
 static const struct {
     int id;
     const char *function;
-} named[] = {{LOBE_CHARLIE_NEUBELT, "charlie_neubelt_f_n"},
-             {LOBE_CHARLIE_CONTY_KULLA, "charlie_conty_kulla_f_n"}};
+} named[] = {{LOBE_CHARLIE_NEUBELT, "charlie_neubelt_f_n"}, {LOBE_CHARLIE_CONTY_KULLA, "charlie_conty_kulla_f_n"}};
 enum { NAMED_LOBES = sizeof named / sizeof named[0] };
 
 int main(int argc, char **argv) {
@@ -257,8 +255,7 @@ int main(int argc, char **argv) {
         random_direction(&state, &block.ix[k], &block.iy[k], &block.iz[k]);
     }
 
-    printf("arrays: million evaluations a second of one core, then times that\n%-28s %8s", "lobe",
-           columns[LIBM].name);
+    printf("arrays: million evaluations a second of one core, then times that\n%-28s %8s", "lobe", columns[LIBM].name);
     for (int c = SSE2; c < COLUMNS; c++) printf(" %8s", columns[c].name);
     printf("\n");
     for (int id = 0; id < LOBE_COUNT; id++) {
@@ -286,8 +283,7 @@ int main(int argc, char **argv) {
             if (runs(c)) print_limit(named[k].function, &columns[c], &lobe, rounds);
     }
 
-    printf("\nlargest relative error against double, %d random pairs\n  %-22s %6s", (int)ERROR_PAIRS, "lobe",
-           "alpha");
+    printf("\nlargest relative error against double, %d random pairs\n  %-22s %6s", (int)ERROR_PAIRS, "lobe", "alpha");
     for (int c = 0; c < COLUMNS; c++) printf(" %9s", columns[c].name);
     printf("\n");
     float *f[7];

@@ -17,7 +17,7 @@
 #define each_sample         NAMED(each_sample, CLONE)
 #include "shading/catalogue/arrays_terms.c"
 #include "shading/loops.gen.h"
-#define LOOPS_HERE(name, Name, NAME, kind)                                                                   \
+#define LOOPS_HERE(name, Name, NAME, kind)                                                                             \
     PAIR_LOOPS_##kind(name, Name) static const LobeLoops name##_loops = {PAIR_PLACES_##kind(name), NULL};
 CATALOGUE_LOOPS(LOOPS_HERE)
 #include "shading/catalogue/arrays.c"
@@ -37,17 +37,17 @@ typedef int32_t Ints __attribute__((vector_size(WIDTH)));
 #define OPEN(k)   __asm__("" : "+x"(v##k));
 #define OPEN_I(k) __asm__("" : "+x"(i##k));
 #define START(k)  Floats v##k = {0};
-#define START_I(k)                                                                                           \
-    Ints i##k = {0};                                                                                         \
+#define START_I(k)                                                                                                     \
+    Ints i##k = {0};                                                                                                   \
     OPEN_I(k)
-#define FMA(k)                                                                                               \
-    v##k = v##k * m + c;                                                                                     \
+#define FMA(k)                                                                                                         \
+    v##k = v##k * m + c;                                                                                               \
     OPEN(k)
-#define DIVIDE(k)                                                                                            \
-    v##k = c / v##k;                                                                                         \
+#define DIVIDE(k)                                                                                                      \
+    v##k = c / v##k;                                                                                                   \
     OPEN(k)
-#define COUNT(k)                                                                                             \
-    i##k += one;                                                                                             \
+#define COUNT(k)                                                                                                       \
+    i##k += one;                                                                                                       \
     OPEN_I(k)
 #define SUM(k)   +v##k[0]
 #define SUM_I(k) +(float)i##k[0]

@@ -73,8 +73,7 @@ static void shot_free(Shot *shot) {
 
 static double sum_of(const WeftImage *image) {
     double sum = 0.0;
-    for (int k = 0; k < image->width * image->height * 4; k++)
-        sum += (double)((const float *)image->pixels)[k];
+    for (int k = 0; k < image->width * image->height * 4; k++) sum += (double)((const float *)image->pixels)[k];
     return sum;
 }
 

@@ -46,9 +46,7 @@ static void samples_one_by_one(void) {
         for (int c = 0; c < 3; c++) out[4 + c][k] = i[c];
     }
 }
-static void samples_of_one(void) {
-    weft_sample_n(&lobe, N, wo, in[6], in[7], out[4], out[5], out[6], out[7], NULL);
-}
+static void samples_of_one(void) { weft_sample_n(&lobe, N, wo, in[6], in[7], out[4], out[5], out[6], out[7], NULL); }
 static void samples_of_each(void) {
     weft_sample_each(&lobes, N, wo, in[6], in[7], out[4], out[5], out[6], out[7], NULL);
 }
@@ -84,8 +82,7 @@ int main(int argc, char **argv) {
     int rounds = argc > 1 && strcmp(argv[1], "--quick") == 0 ? 10 : 60;
     printf("each: million elements a second of one core\n%-28s %9s %9s %9s %9s %9s %9s\n%-28s %9s %9s %9s "
            "%9s %9s %9s\n",
-           "", "f, pdf", "", "", "samples", "", "", "lobe", "pairs", "one lobe", "each", "pairs", "one lobe",
-           "each");
+           "", "f, pdf", "", "", "samples", "", "", "lobe", "pairs", "one lobe", "each", "pairs", "one lobe", "each");
     for (int id = 0; weft_lobe_info(id); id++) {
         const WeftLobeInfo *info = weft_lobe_info(id);
         if (info->traits & WEFT_LOBE_REFERENCE || weft_lobe_init(info->id, &lobe, NULL) != WEFT_OK) continue;

@@ -35,9 +35,8 @@ typedef struct Gpu {
     VkPipelineLayout layout;
     VkPhysicalDeviceProperties2 properties;
     VkPhysicalDeviceDriverProperties driver;
-    char folder[32]; /* for the compiler's files */
-    Cost empty[2][INPUTS_MOST +
-                  1]; /* of a shader that reads so many numbers, once it is known; [0]: no ballast */
+    char folder[32];                /* for the compiler's files */
+    Cost empty[2][INPUTS_MOST + 1]; /* of a shader that reads so many numbers, once it is known; [0]: no ballast */
 } Gpu;
 
 static void stop(const char *why) {
@@ -66,9 +65,9 @@ static VkPhysicalDevice find_device(Gpu *gpu) {
 }
 
 static void make_layout(Gpu *gpu) {
-    static const VkDescriptorType types[] = {
-        VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-        VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER};
+    static const VkDescriptorType types[] = {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+                                             VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                                             VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER};
     VkDescriptorSetLayoutBinding bindings[4] = {0};
     for (uint32_t k = 0; k < 4; k++) {
         bindings[k].binding = k;
@@ -77,9 +76,8 @@ static void make_layout(Gpu *gpu) {
         bindings[k].stageFlags = VK_SHADER_STAGE_COMPUTE_BIT;
     }
     VkDescriptorSetLayout set;
-    VkDescriptorSetLayoutCreateInfo set_info = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
-                                                .bindingCount = 4,
-                                                .pBindings = bindings};
+    VkDescriptorSetLayoutCreateInfo set_info = {
+        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, .bindingCount = 4, .pBindings = bindings};
     check(vkCreateDescriptorSetLayout(gpu->device, &set_info, NULL, &set), "no descriptor set layout");
     VkPipelineLayoutCreateInfo info = {
         .sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO, .setLayoutCount = 1, .pSetLayouts = &set};
@@ -89,10 +87,8 @@ static void make_layout(Gpu *gpu) {
 
 static void gpu_begin(Gpu *gpu) {
     setenv("RADV_FORCE_FAMILY", "NAVI21", 0);
-    VkApplicationInfo application = {.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
-                                     .apiVersion = VK_API_VERSION_1_2};
-    VkInstanceCreateInfo instance = {.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
-                                     .pApplicationInfo = &application};
+    VkApplicationInfo application = {.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO, .apiVersion = VK_API_VERSION_1_2};
+    VkInstanceCreateInfo instance = {.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO, .pApplicationInfo = &application};
     if (vkCreateInstance(&instance, NULL, &gpu->instance) != VK_SUCCESS) stop("there is no Vulkan driver");
     VkPhysicalDevice physical = find_device(gpu);
     VkPhysicalDevicePipelineExecutablePropertiesFeaturesKHR statistics = {
@@ -144,12 +140,10 @@ static Cost read_cost(const Gpu *gpu, VkPipeline pipeline) {
     PFN_vkGetPipelineExecutableStatisticsKHR get_statistics =
         (PFN_vkGetPipelineExecutableStatisticsKHR)vkGetDeviceProcAddr(gpu->device,
                                                                       "vkGetPipelineExecutableStatisticsKHR");
-    VkPipelineExecutableInfoKHR info = {.sType = VK_STRUCTURE_TYPE_PIPELINE_EXECUTABLE_INFO_KHR,
-                                        .pipeline = pipeline};
+    VkPipelineExecutableInfoKHR info = {.sType = VK_STRUCTURE_TYPE_PIPELINE_EXECUTABLE_INFO_KHR, .pipeline = pipeline};
     VkPipelineExecutableStatisticKHR statistics[64] = {0};
     uint32_t count = 64;
-    for (uint32_t k = 0; k < count; k++)
-        statistics[k].sType = VK_STRUCTURE_TYPE_PIPELINE_EXECUTABLE_STATISTIC_KHR;
+    for (uint32_t k = 0; k < count; k++) statistics[k].sType = VK_STRUCTURE_TYPE_PIPELINE_EXECUTABLE_STATISTIC_KHR;
     check(get_statistics(gpu->device, &info, &count, statistics), "no statistics");
     Cost cost = {-1.0, -1.0, -1.0};
     for (uint32_t k = 0; k < count; k++) {
@@ -172,14 +166,13 @@ static Cost cost_of(const Gpu *gpu, const char *bytes) {
     check(vkCreateShaderModule(gpu->device, &module_info, NULL, &module), "no shader module");
     free(spirv.data);
     VkPipeline pipeline;
-    VkComputePipelineCreateInfo info = {
-        .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
-        .flags = VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR,
-        .stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
-                  .stage = VK_SHADER_STAGE_COMPUTE_BIT,
-                  .module = module,
-                  .pName = "main"},
-        .layout = gpu->layout};
+    VkComputePipelineCreateInfo info = {.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
+                                        .flags = VK_PIPELINE_CREATE_CAPTURE_STATISTICS_BIT_KHR,
+                                        .stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+                                                  .stage = VK_SHADER_STAGE_COMPUTE_BIT,
+                                                  .module = module,
+                                                  .pName = "main"},
+                                        .layout = gpu->layout};
     check(vkCreateComputePipelines(gpu->device, VK_NULL_HANDLE, 1, &info, NULL, &pipeline), "no pipeline");
     Cost cost = read_cost(gpu, pipeline);
     vkDestroyPipeline(gpu->device, pipeline, NULL);
@@ -193,8 +186,7 @@ static void put_main(Text *text, int inputs, bool loaded, const char *lines) {
     text_line(text, "\nlayout(local_size_x = 64) in;\n"
                     "layout(std430, set = 0, binding = 1) readonly buffer Inputs { float values[]; };\n"
                     "layout(std430, set = 0, binding = 2) writeonly buffer Outputs { vec4 answers[]; };\n");
-    text_line(text, "void main() {\n    uint k = gl_GlobalInvocationID.x;\n    float u[%d], sum = 0.0;",
-              inputs);
+    text_line(text, "void main() {\n    uint k = gl_GlobalInvocationID.x;\n    float u[%d], sum = 0.0;", inputs);
     for (int k = 0; k < inputs; k++)
         text_line(text, "    u[%d] = values[%du * k + %du];\n    sum += u[%d];", k, inputs, k, k);
     for (int k = 0; loaded && k < BALLAST; k++) text_line(text, "    sum = fma(sum, sum, u[0]);");
@@ -249,8 +241,7 @@ static void put_prepared(Text *text, Buffer *lines, int id) {
     const WeftLobeInfo *info = weft_lobe_info(id);
     const LobeNames *n = lobe_names(id);
     const Lobe lobe = lobe_default(id);
-    text_line(text, "\nlayout(std140, set = 0, binding = 3) uniform Material { %sPrepared prepared; };",
-              n->record);
+    text_line(text, "\nlayout(std140, set = 0, binding = 3) uniform Material { %sPrepared prepared; };", n->record);
     buffer_print(lines, "    %sPrepared p = prepared;\n", n->record);
     for (int p = 0; p < info->param_count; p++)
         if (info->params[p].choices)
@@ -270,8 +261,7 @@ static Cost lobe_cost(Gpu *gpu, int id, Known known) {
     else
         inputs = put_params(&lines, id, known == KNOWN_BY_THREAD);
     if (known != KNOWN_PREPARED)
-        buffer_print(&lines, "    %sPrepared p;\n    %s_prepare(%s_of(m), p);\n", n->record, n->prefix,
-                     n->prefix);
+        buffer_print(&lines, "    %sPrepared p;\n    %s_prepare(%s_of(m), p);\n", n->record, n->prefix, n->prefix);
     buffer_print(&lines,
                  ANGLES "    %sView w;\n    %s_view(p, a.o, w);\n    LobeValue v = %s_value(p, w, a);\n"
                         "    f = v.f;\n    s = v.s;\n",
@@ -301,22 +291,21 @@ static void term_row(Gpu *gpu, WeftTermKind kind, int term) {
     text_begin(&text, &(TextDesc){.language = TEXT_GLSL_450});
     text_include(&text, "shading/lobe/terms.h");
     Cost cost = cost_added(gpu, &text, 8, true, lines);
-    printf("| %c %s | %.0f | %.0f | %.0f |\n", "DVF"[kind], weft_term_name(kind, term), cost.instructions,
-           cost.cycles, cost.registers);
+    printf("| %c %s | %.0f | %.0f | %.0f |\n", "DVF"[kind], weft_term_name(kind, term), cost.instructions, cost.cycles,
+           cost.registers);
 }
 
 /* Fibres as an engine has them, beside the tightest transformed cosine: tables are filtered by the GPU, four
  * numbers a texel, and what belongs to the material alone lies in a uniform buffer. Fibres stand upright.
  * u[6] is the row of a table that is read by pixel, u[6] and further what was kept of wo. Those that lean are
  * no sharper than alpha 0.19. */
-#define UPRIGHT                                                                                              \
-    "    FibreModel m = model;\n    FibreNumbers n = numbers;\n    m.s = 0.0;\n    n.thin = 0.0;\n"
-#define SINGLE "    f = flake_single_upright(flakes, a.o, a.i);\n"
-#define MULTIPLE(o)                                                                                          \
+#define UPRIGHT "    FibreModel m = model;\n    FibreNumbers n = numbers;\n    m.s = 0.0;\n    n.thin = 0.0;\n"
+#define SINGLE  "    f = flake_single_upright(flakes, a.o, a.i);\n"
+#define MULTIPLE(o)                                                                                                    \
     "    f += fibre_multiple(m, n, " o ", fibre_side(m, n, a.i.z, a.i.z), a.o.x * a.i.x + a.o.y * a.i.y);\n"
 #define LEANING "    FibrePrepared p = leaning;\n    p.numbers.thin = 0.0;\n    FibreView w;\n"
-#define COLOURED                                                                                             \
-    "    LobeReflected x = lobe_reflected(fibre_value(p, w, a), color, rgb_grey(1.0));\n"                    \
+#define COLOURED                                                                                                       \
+    "    LobeReflected x = lobe_reflected(fibre_value(p, w, a), color, rgb_grey(1.0));\n"                              \
     "    f = x.f.r;\n    s = x.f.g + x.f.b;\n"
 static const struct {
     const char *name;
@@ -338,14 +327,11 @@ static const struct {
             "                              u[6], 1.4 - 2.5 * l);\n"},
     {"fibre, fixed material", 6, ANGLES UPRIGHT SINGLE MULTIPLE("fibre_side(m, n, a.o.z, a.o.z)")},
     {"fibre, fixed material, view side kept", 10,
-     ANGLES UPRIGHT SINGLE
-     "    FibreSide kept = side_of(a.o.z, vec4(u[6], u[7], u[8], u[9]));\n" MULTIPLE("kept")},
-    {"fibre, fixed material, leaning, in a colour", 6,
-     ANGLES LEANING "    fibre_view(p, a.o, w);\n" COLOURED},
+     ANGLES UPRIGHT SINGLE "    FibreSide kept = side_of(a.o.z, vec4(u[6], u[7], u[8], u[9]));\n" MULTIPLE("kept")},
+    {"fibre, fixed material, leaning, in a colour", 6, ANGLES LEANING "    fibre_view(p, a.o, w);\n" COLOURED},
     {"fibre, fixed material, leaning, in a colour, view side kept", 16,
-     ANGLES LEANING
-     "    w.side = FibreSide(a.o.z, u[6], u[7], u[8], u[9], u[10], u[11], u[12], u[13], u[14]);\n"
-     "    w.sigma = u[15];\n" COLOURED},
+     ANGLES LEANING "    w.side = FibreSide(a.o.z, u[6], u[7], u[8], u[9], u[10], u[11], u[12], u[13], u[14]);\n"
+                    "    w.sigma = u[15];\n" COLOURED},
 };
 
 static Cost fibre_cost(Gpu *gpu, size_t row, bool loaded) {
@@ -374,9 +360,8 @@ static void fibre_costs(Gpu *gpu) {
     for (size_t k = 0; k < sizeof fibre_rows / sizeof fibre_rows[0]; k++) {
         Cost cost = fibre_cost(gpu, k, true), alone = fibre_cost(gpu, k, false);
         if (k == 0) first = cost, first_alone = alone;
-        printf("| %s | %.0f | %.0f | %.2f | %.0f | %.2f | %.0f |\n", fibre_rows[k].name, cost.instructions,
-               cost.cycles, cost.cycles / first.cycles, alone.cycles, alone.cycles / first_alone.cycles,
-               cost.registers);
+        printf("| %s | %.0f | %.0f | %.2f | %.0f | %.2f | %.0f |\n", fibre_rows[k].name, cost.instructions, cost.cycles,
+               cost.cycles / first.cycles, alone.cycles, alone.cycles / first_alone.cycles, cost.registers);
     }
 }
 
@@ -384,12 +369,12 @@ static void fibre_costs(Gpu *gpu) {
  * varies never comes again. u[6] and u[7] are the place, u[8] the spacing of points, u[9] the place across a fibre. f and
  * s are of all three channels. */
 #define CLOTH "    Weave m = cloth;\n    m.cycle_x = 0.0;\n    m.cycle_y = 0.0;\n"
-#define LIT                                                                                                  \
-    "    YarnPrepared q;\n    YarnView w;\n    yarn_prepare(weave_yarn(m, p), q);\n    q.axis = p.fibre;\n"  \
-    "    yarn_view(q, a.o, w);\n"                                                                            \
-    "    LobeReflected x = lobe_reflected(yarn_value(q, w, a), weave_single_rgb(m, p), "                     \
-    "weave_multiple_rgb(m, "                                                                                 \
-    "p));\n"                                                                                                 \
+#define LIT                                                                                                            \
+    "    YarnPrepared q;\n    YarnView w;\n    yarn_prepare(weave_yarn(m, p), q);\n    q.axis = p.fibre;\n"            \
+    "    yarn_view(q, a.o, w);\n"                                                                                      \
+    "    LobeReflected x = lobe_reflected(yarn_value(q, w, a), weave_single_rgb(m, p), "                               \
+    "weave_multiple_rgb(m, "                                                                                           \
+    "p));\n"                                                                                                           \
     "    f = x.f.r;\n    s = x.f.g + x.f.b;\n"
 static const struct {
     const char *name, *lines;
@@ -403,8 +388,7 @@ static const struct {
            "    s = p.slope_y + dir_dot(p.fibre, dir(1.0, 2.0, 3.0)) + again.r + again.g + again.b;\n"},
     {"the same, lit by lobe `yarn`",
      ANGLES CLOTH "    WeavePoint p = weave_point_bound(m, u[6], u[7], u[8], u[9]);\n" LIT},
-    {"the same under loose fibres",
-     ANGLES CLOTH "    WeavePoint p = weave_point(m, u[6], u[7], u[8], u[9]);\n" LIT},
+    {"the same under loose fibres", ANGLES CLOTH "    WeavePoint p = weave_point(m, u[6], u[7], u[8], u[9]);\n" LIT},
 };
 
 /* A structure of floats, by its constructor. */
@@ -435,8 +419,7 @@ static Cost weave_cost(Gpu *gpu, size_t row, const Weave *known) {
     text_define(&text, "weave_texel(t, stride, row, column)", "weave_fetch(row, column)");
     text_define(&text, "weave_cell_texel(t, stride, row, at)", "weave_fetch_cell(row, at)");
     text_include(&text, "shading/weave/weave_cell.h");
-    text_line(&text,
-              "\nfloat weave_fetch(int row, int channel);\nWeaveCell weave_fetch_cell(int row, int at);");
+    text_line(&text, "\nfloat weave_fetch(int row, int channel);\nWeaveCell weave_fetch_cell(int row, int at);");
     text_include(&text, "shading/weave/weave_light.h");
     text_line(&text, "\nlayout(set = 0, binding = 0) uniform highp sampler2D weave_cells;");
     if (known)
@@ -469,8 +452,7 @@ static void weave_costs(Gpu *gpu) {
     Weave alike = *denim;
     alike.warp = even(denim->warp), alike.weft = even(denim->weft);
     for (size_t k = 0; k < sizeof weave_rows / sizeof weave_rows[0]; k++) {
-        const Cost costs[] = {weave_cost(gpu, k, NULL), weave_cost(gpu, k, denim),
-                              weave_cost(gpu, k, &alike)};
+        const Cost costs[] = {weave_cost(gpu, k, NULL), weave_cost(gpu, k, denim), weave_cost(gpu, k, &alike)};
         printf("| %s |", weave_rows[k].name);
         for (int t = 0; t < 3; t++) printf(" %.0f |", costs[t].instructions);
         for (int t = 0; t < 3; t++) printf(" %.0f |", costs[t].cycles);
@@ -512,8 +494,7 @@ int main(void) {
         if (!(weft_lobe_info(id)->traits & WEFT_LOBE_REFERENCE)) lobe_row(&gpu, id);
     printf("\n| term | instructions | cycles | registers |\n|---|---|---|---|\n");
     for (int kind = WEFT_TERM_D; kind <= WEFT_TERM_F; kind++)
-        for (int term = 0; weft_term_name((WeftTermKind)kind, term); term++)
-            term_row(&gpu, (WeftTermKind)kind, term);
+        for (int term = 0; weft_term_name((WeftTermKind)kind, term); term++) term_row(&gpu, (WeftTermKind)kind, term);
     printf("\n"
            "Fibres as engines would use them: tables filtered by the GPU, four numbers per texel, and the "
            "material in a\n"

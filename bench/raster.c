@@ -42,8 +42,7 @@ static void check(WeftResult result, const WeftError *error) {
 }
 
 static _Noreturn void refuse(const char *argument) {
-    fprintf(stderr, "bench_raster: \"%s\" is no option here; see the first lines of bench/raster.c\n",
-            argument);
+    fprintf(stderr, "bench_raster: \"%s\" is no option here; see the first lines of bench/raster.c\n", argument);
     exit(2);
 }
 
@@ -60,8 +59,7 @@ static WeftScene *sunlit_cloth(void) {
 static WeftRaster *raster_of(const WeftScene *scene, const char *shader_dir) {
     WeftRaster *raster;
     WeftError error;
-    check(weft_raster_create(scene, &(WeftRasterDesc){.shader_dir = shader_dir}, &raster, NULL, &error),
-          &error);
+    check(weft_raster_create(scene, &(WeftRasterDesc){.shader_dir = shader_dir}, &raster, NULL, &error), &error);
     return raster;
 }
 
@@ -69,20 +67,15 @@ static WeftRaster *raster_of(const WeftScene *scene, const char *shader_dir) {
 static Entry entry_of(const char *lobe) {
     Entry entry = {.name = lobe ? lobe : "no sheen", .best = 1e9, .scene = sunlit_cloth()};
     WeftError error;
-    check(
-        weft_scene_set(entry.scene, lobe ? "*.sheen_lobe" : "*.sheen_color", lobe ? lobe : "0", NULL, &error),
-        &error);
+    check(weft_scene_set(entry.scene, lobe ? "*.sheen_lobe" : "*.sheen_color", lobe ? lobe : "0", NULL, &error),
+          &error);
     entry.raster = raster_of(entry.scene, NULL);
     return entry;
 }
 
 static WeftRasterView view_of(Size size) {
-    return (WeftRasterView){.width = size.width,
-                            .height = size.height,
-                            .samples = 1,
-                            .camera = "0",
-                            .polygons = -1,
-                            .no_shadows = 1};
+    return (WeftRasterView){
+        .width = size.width, .height = size.height, .samples = 1, .camera = "0", .polygons = -1, .no_shadows = 1};
 }
 
 static double frame(WeftRaster *raster, const WeftRasterView *view) {
@@ -105,8 +98,8 @@ static void measure(Entry *entries, int count, Size size, int rounds, int frames
                 double t = frame(entries[k].raster, &view);
                 if (t < entries[k].best) entries[k].best = t;
             }
-    printf("\n%d x %d\nlobe                          ms a frame   frames/s   ns a pixel over no sheen\n",
-           size.width, size.height);
+    printf("\n%d x %d\nlobe                          ms a frame   frames/s   ns a pixel over no sheen\n", size.width,
+           size.height);
     for (int k = 0; k < count; k++)
         printf("%-28s %10.2f %10.1f %12.2f\n", entries[k].name, 1e3 * entries[k].best, 1.0 / entries[k].best,
                1e9 * (entries[k].best - entries[0].best) / ((double)size.width * size.height));
@@ -138,10 +131,8 @@ typedef struct SampledCase {
 } SampledCase;
 
 static const SampledCase sampled_cases[] = {
-    {"ggx 0.3",
-     {{"*.metallic", "1"}, {"*.roughness", "0.3"}, {"*.anisotropy", "0.9"}, {"*.sheen_color", "0"}}},
-    {"disney 0.3",
-     {{"*.workflow", "disney"}, {"*.metallic", "1"}, {"*.roughness", "0.3"}, {"*.anisotropy", "0.9"}}},
+    {"ggx 0.3", {{"*.metallic", "1"}, {"*.roughness", "0.3"}, {"*.anisotropy", "0.9"}, {"*.sheen_color", "0"}}},
+    {"disney 0.3", {{"*.workflow", "disney"}, {"*.metallic", "1"}, {"*.roughness", "0.3"}, {"*.anisotropy", "0.9"}}},
     {"silk 0.3", {{"*.sheen_lobe", "silk"}, {"*.sheen_roughness", "0.3"}, {"*.anisotropy", "0.9"}}},
     {"fibre 0.3", {{"*.sheen_lobe", "fibre"}, {"*.sheen_roughness", "0.3"}}},
     {"fibre-table 0.4", {{"*.sheen_lobe", "fibre-table"}, {"*.sheen_roughness", "0.4"}}},
@@ -204,17 +195,15 @@ static int sampled_main(int argc, char **argv) {
         else
             map = argv[k];
     }
-    printf("builtin:cloth, 640 x 360, ms a frame\n%-20s %10s %10s %8s\n", "lobe and roughness", "fitted",
-           "default", "times");
+    printf("builtin:cloth, 640 x 360, ms a frame\n%-20s %10s %10s %8s\n", "lobe and roughness", "fitted", "default",
+           "times");
     for (size_t k = 0; k < sizeof sampled_cases / sizeof *sampled_cases; k++)
-        if (is_named(sampled_cases[k].name, only, only_count))
-            measure_sampled(&sampled_cases[k], map, shader_dir);
+        if (is_named(sampled_cases[k].name, only, only_count)) measure_sampled(&sampled_cases[k], map, shader_dir);
     return 0;
 }
 
-static const char denim[] =
-    "{\"weave\": {\"draft\": \"twill 3/1 z; warp 1#26375c; weft 1#d8d4c8; sett 26 18\", "
-    "\"warp\": \"cotton\", \"weft\": \"cotton\", \"metres\": 0.5}}";
+static const char denim[] = "{\"weave\": {\"draft\": \"twill 3/1 z; warp 1#26375c; weft 1#d8d4c8; sett 26 18\", "
+                            "\"warp\": \"cotton\", \"weft\": \"cotton\", \"metres\": 0.5}}";
 
 /* The least seconds of a frame, of as many as fill a twentieth of a second. */
 static double best_of_many(WeftRaster *raster, const WeftRasterView *view) {
@@ -250,9 +239,8 @@ static int width_of(const char *text) {
 static int woven_main(int argc, char **argv) {
     static const struct {
         const char *name, *camera;
-    } distances[] = {{"threads", "0.25,0.62,0.65;0.03,0.42,0.15;1.5"},
-                     {"near", "0.25,0.62,0.65;0.03,0.42,0.15;8"},
-                     {"all", "0"}};
+    } distances[] = {
+        {"threads", "0.25,0.62,0.65;0.03,0.42,0.15;1.5"}, {"near", "0.25,0.62,0.65;0.03,0.42,0.15;8"}, {"all", "0"}};
     enum { ROUNDS = 3 };
     const char *shader_dir = NULL;
     int width = 0;
@@ -269,13 +257,11 @@ static int woven_main(int argc, char **argv) {
     if (!width) width = 640;
     Entry entries[2] = {{.scene = sunlit_cloth()}, {.scene = sunlit_cloth()}};
     WeftError error;
-    check(weft_scene_assign_material_memory(entries[1].scene, NULL, denim, sizeof denim - 1, "denim", NULL,
-                                            &error),
+    check(weft_scene_assign_material_memory(entries[1].scene, NULL, denim, sizeof denim - 1, "denim", NULL, &error),
           &error);
     for (int k = 0; k < 2; k++) entries[k].raster = raster_of(entries[k].scene, shader_dir);
-    printf(
-        "builtin:cloth as it comes and in denim, ms a frame; raster: %d wide, by %s\n%-20s %10s %10s %8s\n",
-        width, weft_raster_info(entries[1].raster).driver, "engine and distance", "as is", "denim", "times");
+    printf("builtin:cloth as it comes and in denim, ms a frame; raster: %d wide, by %s\n%-20s %10s %10s %8s\n", width,
+           weft_raster_info(entries[1].raster).driver, "engine and distance", "as is", "denim", "times");
     for (int engine = !traced; engine < 2; engine++)
         for (size_t d = 0; d < sizeof distances / sizeof *distances; d++) {
             WeftRasterView view = view_of((Size){width, width * 9 / 16});
@@ -284,12 +270,12 @@ static int woven_main(int argc, char **argv) {
             for (int round = 0; round < ROUNDS; round++)
                 for (int k = 0; k < 2; k++) {
                     if (engine && round == 0) frame(entries[k].raster, &view); /* compiles */
-                    const double t = engine ? best_of_many(entries[k].raster, &view)
-                                            : trace(entries[k].scene, view.camera);
+                    const double t =
+                        engine ? best_of_many(entries[k].raster, &view) : trace(entries[k].scene, view.camera);
                     if (t < best[k]) best[k] = t;
                 }
-            printf("%-7s %-12s %10.2f %10.2f %8.2f\n", engine ? "raster" : "traced", distances[d].name,
-                   1e3 * best[0], 1e3 * best[1], best[1] / best[0]);
+            printf("%-7s %-12s %10.2f %10.2f %8.2f\n", engine ? "raster" : "traced", distances[d].name, 1e3 * best[0],
+                   1e3 * best[1], best[1] / best[0]);
         }
     for (int k = 0; k < 2; k++) {
         weft_raster_free(entries[k].raster);

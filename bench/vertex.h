@@ -8,8 +8,7 @@ enum { VERTEX_COUNT = 256, VERTEX_MATERIALS = 2 };
 /* Colours and roughnesses of a cloth, directions and random numbers, a vertex each; what comes of them. */
 typedef struct VertexArrays {
     float o[3][VERTEX_COUNT], light[3][VERTEX_COUNT], u[VERTEX_COUNT], v[VERTEX_COUNT];
-    float base[3][VERTEX_COUNT], roughness[VERTEX_COUNT], sheen[3][VERTEX_COUNT],
-        sheen_roughness[VERTEX_COUNT];
+    float base[3][VERTEX_COUNT], roughness[VERTEX_COUNT], sheen[3][VERTEX_COUNT], sheen_roughness[VERTEX_COUNT];
     float out[11][VERTEX_COUNT]; /* f cos and pdf for the light, the sample, f cos and pdf for that */
 } VertexArrays;
 

@@ -11,7 +11,7 @@
 #define DEFAULT_NORMAL(d)    dir(0.0f, 0.0f, 1.0f)
 #define DEFAULT_DIRECTION(d) dir(1.0f, 0.0f, 0.0f)
 #define DEFAULT_ANGLE(d)     d
-#define DEFAULT_OF(kind, name, label, initial, low, high, hard_low, hard_high, role, help)                   \
+#define DEFAULT_OF(kind, name, label, initial, low, high, hard_low, hard_high, role, help)                             \
     s.name = DEFAULT_##kind(initial);
 
 static Surface surface_of(const VertexArrays *a, int k, int material) {

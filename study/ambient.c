@@ -62,9 +62,7 @@ static void make_pixels(void) {
 static Vec3 to_world(const Pixel *p, Dir w) {
     return vec3_madd(vec3_madd(vec3_scale(p->x, w.x), p->y, w.y), p->z, w.z);
 }
-static Dir to_local(const Pixel *p, Vec3 w) {
-    return dir(vec3_dot(w, p->x), vec3_dot(w, p->y), vec3_dot(w, p->z));
-}
+static Dir to_local(const Pixel *p, Vec3 w) { return dir(vec3_dot(w, p->x), vec3_dot(w, p->y), vec3_dot(w, p->z)); }
 
 /* One map, with its density for sampling. */
 typedef struct Map {
@@ -94,8 +92,7 @@ static void prepare_draws(Map *map) {
     for (int k = 0; k < count; k++) {
         double sum = 0.02 * mean;
         for (int n = 0; n < 9; n++) {
-            int x = (k % CELLS_WIDTH + n % 3 + CELLS_WIDTH - 1) % CELLS_WIDTH,
-                y = k / CELLS_WIDTH + n / 3 - 1;
+            int x = (k % CELLS_WIDTH + n % 3 + CELLS_WIDTH - 1) % CELLS_WIDTH, y = k / CELLS_WIDTH + n / 3 - 1;
             y = y < 0 ? 0 : y < CELLS_HEIGHT ? y : CELLS_HEIGHT - 1;
             const float *c = p + 3 * (y * CELLS_WIDTH + x);
             sum += (double)(c[0] + c[1] + c[2]) / 27.0;
@@ -108,8 +105,7 @@ static void prepare_draws(Map *map) {
     for (int n = 0, k = 0; n < MAP_DRAWS; n++) {
         double u = (n + unit_double(hash64((uint64_t)n + 9))) / MAP_DRAWS * total;
         while (k < count - 1 && sums[k] < u) k++;
-        double a = unit_double(hash64((uint64_t)n * 7 + 123)),
-               b = unit_double(hash64((uint64_t)n * 13 + 765));
+        double a = unit_double(hash64((uint64_t)n * 7 + 123)), b = unit_double(hash64((uint64_t)n * 13 + 765));
         double row = k / CELLS_WIDTH, top = (cos)(PI_DOUBLE * row / CELLS_HEIGHT);
         double z = top + ((cos)(PI_DOUBLE * (row + 1) / CELLS_HEIGHT) - top) * b;
         map->draws[n] = latlong_direction((k % CELLS_WIDTH + a) / CELLS_WIDTH, acos(z) / PI_DOUBLE);
@@ -136,8 +132,7 @@ static Rgb look_about(const WeftImage *image, Vec3 z, float kappa) {
     Rgb sum = rgb_grey(0.0f);
     for (int k = 0; k < LOOKS; k++) {
         float u = ((float)k + 0.5f) / LOOKS, phi = 6.2831853f * 0.618033989f * (float)k;
-        float t = min(-(logf)(u + (1.0f - u) * (expf)(-2.0f * kappa)) / kappa, 2.0f),
-              s = sqrt(t * (2.0f - t));
+        float t = min(-(logf)(u + (1.0f - u) * (expf)(-2.0f * kappa)) / kappa, 2.0f), s = sqrt(t * (2.0f - t));
         Vec3 d = vec3_madd(vec3_madd(vec3_scale(z, 1.0f - t), x, s * cos(phi)), y, s * sin(phi));
         sum = rgb_add(sum, look_up(image, d));
     }
@@ -166,8 +161,7 @@ static AmbientLight look_light(const void *user, int k) {
     const PixelView *look = user;
     const EnvLight *light = &look->map->parts.env_lights[k];
     return (AmbientLight){to_local(look->pixel, light->direction),
-                          rgb(light->color[0], light->color[1], light->color[2]), env_light_density(light),
-                          k};
+                          rgb(light->color[0], light->color[1], light->color[2]), env_light_density(light), k};
 }
 static AmbientLight look_point(const void *user, int k) {
     const PixelView *look = user;
@@ -179,9 +173,7 @@ static AmbientLight look_point(const void *user, int k) {
 }
 
 static const char *const own_names[MODELS - BASE] = {"base", "brushed", "disney", "satin"};
-static const char *name_of(int model) {
-    return model >= BASE ? own_names[model - BASE] : weft_lobe_info(model)->id;
-}
+static const char *name_of(int model) { return model >= BASE ? own_names[model - BASE] : weft_lobe_info(model)->id; }
 
 /* A white metal, or a dielectric. */
 static SeenStack surface_of(int model, float roughness, Dir o) {
@@ -233,8 +225,7 @@ static bool used(int model) {
 }
 
 static bool is_sheen(int model) {
-    return model < BASE && model != LOBE_GGX && model != LOBE_SILK &&
-           !(weft_lobe_info(model)->traits & TRAIT_DIFFUSE);
+    return model < BASE && model != LOBE_GGX && model != LOBE_SILK && !(weft_lobe_info(model)->traits & TRAIT_DIFFUSE);
 }
 
 typedef struct Draw2 {
@@ -349,8 +340,8 @@ static void measure(void *user, int item, int thread) {
             for (int s = 0; s < AMBIENT_STRATEGIES; s++) {
                 Rgb got = stack_ambient(&m.stack, &m.view, by_strategy(tables, s), &calls, 1.0f, 1.0f);
                 double *sum = results[model][r][s][k];
-                sum[0] += p->weight * (double)(abs(got.r - expected.r) + abs(got.g - expected.g) +
-                                               abs(got.b - expected.b));
+                sum[0] +=
+                    p->weight * (double)(abs(got.r - expected.r) + abs(got.g - expected.g) + abs(got.b - expected.b));
                 sum[1] += p->weight * (double)(expected.r + expected.g + expected.b);
             }
         }
@@ -426,8 +417,7 @@ static bool load(Map *map, const char *path) {
     WeftScene *scene = scene_create("ambient");
     if (scene && !path) {
         scene->environment.kind = ENVIRONMENT_IMAGE;
-        if (weft_image_create(2, 1, 3, WEFT_PIXEL_F32, &scene->environment.image, &error) != WEFT_OK)
-            return false;
+        if (weft_image_create(2, 1, 3, WEFT_PIXEL_F32, &scene->environment.image, &error) != WEFT_OK) return false;
         for (int k = 0; k < 6; k++) ((float *)scene->environment.image.pixels)[k] = 1.0f;
     } else if (!scene || weft_scene_set_environment_file(scene, path, NULL, &error) != WEFT_OK) {
         fprintf(stderr, "study_ambient: %s\n", scene ? error.text : "out of memory");
@@ -437,8 +427,7 @@ static bool load(Map *map, const char *path) {
     map->name = slash ? slash + 1 : path ? path : "a white sky";
     map->environment = scene->environment; /* stays until the end */
     if (latlong_resize(&map->environment.image, CELLS_WIDTH, CELLS_HEIGHT, &map->cells, &error) != WEFT_OK ||
-        latlong_resize(&map->environment.image, SMALL_WIDTH, SMALL_WIDTH / 2, &map->small, &error) !=
-            WEFT_OK ||
+        latlong_resize(&map->environment.image, SMALL_WIDTH, SMALL_WIDTH / 2, &map->small, &error) != WEFT_OK ||
         ambient_split(&map->environment, env_light_count, &map->parts, &error) != WEFT_OK)
         return false;
     prepare_draws(map);

@@ -22,8 +22,7 @@ typedef struct Sums {
 static void sums_add(Sums *sums, double difference) { sums->light_off += fabs(difference); }
 static void sums_light(Sums *sums, double reference) {
     sums->off += sums->light_off;
-    if (reference > 0.0 && sums->light_off > sums->worst * reference)
-        sums->worst = sums->light_off / reference;
+    if (reference > 0.0 && sums->light_off > sums->worst * reference) sums->worst = sums->light_off / reference;
     sums->light_off = 0.0;
 }
 
@@ -67,8 +66,7 @@ static void print_lobe(Lobe lobe, const WeftLtc *ltc) {
         printf("%8.2f (%6.2f) ", 100.0 * one.off / all, 100.0 * one.worst);
     else
         printf("%8s %8s ", "-", "");
-    printf("%8.3f (%6.2f)  %5.1f %4d\n", 100.0 * ours.off / all, 100.0 * ours.worst, (double)points / seen,
-           most);
+    printf("%8.3f (%6.2f)  %5.1f %4d\n", 100.0 * ours.off / all, 100.0 * ours.worst, (double)points / seen, most);
 }
 
 /* A lobe at the roughness of alphas, the least of which is for highlights. */

@@ -23,9 +23,8 @@
  * s = (1 - cos d)^rise */
 enum { EDGE, RETRO, LIFT, WIDTH, ALPHA, TAIL, NARROW, WIDER, MASK, TIE, RISE, NUMBERS };
 #define FREE(number) (1u << (number))
-static const SearchAxis axes[NUMBERS] = {{0.0, 1.0},   {0.0, 6.0},  {0.0, 8.0},  {-0.6, -0.01},
-                                         {0.05, 0.99}, {0.25, 4.0}, {-0.3, 2.0}, {0.0, 1.0},
-                                         {0.1, 1.0},   {0.0, 1.0},  {1.0, 6.0}};
+static const SearchAxis axes[NUMBERS] = {{0.0, 1.0},  {0.0, 6.0}, {0.0, 8.0}, {-0.6, -0.01}, {0.05, 0.99}, {0.25, 4.0},
+                                         {-0.3, 2.0}, {0.0, 1.0}, {0.1, 1.0}, {0.0, 1.0},    {1.0, 6.0}};
 
 typedef struct Form {
     const char *name;
@@ -38,9 +37,7 @@ typedef struct Form {
 /*                                              edge retro lift width alpha tail narrow wider mask tie rise */
 static const Form forms[] = {
     {"ggx, f90 free, over lambert", FREE(ALPHA), {0, 0, 0, 1, .4, 2, 0, 0, 0, 1, 5}},
-    {"the same, rise and retro free",
-     FREE(ALPHA) | FREE(RISE) | FREE(RETRO),
-     {0, .2, 0, -.12, .4, 2, 0, 0, 0, 1, 5}},
+    {"the same, rise and retro free", FREE(ALPHA) | FREE(RISE) | FREE(RETRO), {0, .2, 0, -.12, .4, 2, 0, 0, 0, 1, 5}},
     {"narrowing, mask", YARN | FREE(MASK), {.1, .2, 0, -.12, .4, .6, .24, 0, .5, 0, 3.5}},
     {"narrowing, mask, rise, width",
      YARN | FREE(MASK) | FREE(RISE) | FREE(WIDTH),
@@ -204,8 +201,8 @@ static void print_all(const Work *work) {
         printf("without fabric %d: %-36s %.4f on it\n", k + 1, forms[form].name, work->error[form][k]);
         sum += work->error[form][k];
     }
-    printf("mean %.4f, which is %.3f of %s\n", sum / work->fabrics,
-           sum / work->fabrics / mean_without(work, 0, -1), forms[0].name);
+    printf("mean %.4f, which is %.3f of %s\n", sum / work->fabrics, sum / work->fabrics / mean_without(work, 0, -1),
+           forms[0].name);
     printf("these are fits of measurements, which the fabrics themselves need not follow\n");
 }
 

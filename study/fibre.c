@@ -76,8 +76,8 @@ static void print_solver(void) {
            "%.1e rms\n",
            seconds, worst, (sqrt)(square));
     printf("  BRDF, 31 x 32 x 32, any phi   %.2f s\n", brdf_time());
-    printf("  R + T - 1, alpha >= 0.1       %.1e at most; %.1e of sigma before the quadrature is repaired\n",
-           balance, defect);
+    printf("  R + T - 1, alpha >= 0.1       %.1e at most; %.1e of sigma before the quadrature is repaired\n", balance,
+           defect);
 }
 
 /* ---- the models ---- */
@@ -116,8 +116,7 @@ static FitError set_error(int id, const SolvedSet *slabs, double low, double hig
         for (int p = 0; p < t->pairs; p++) {
             double wi[3], wo[3];
             solved_pair(t, p, wi, wo);
-            Dir i = dir((float)wi[0], (float)wi[1], (float)wi[2]),
-                o = dir((float)wo[0], (float)wo[1], (float)wo[2]);
+            Dir i = dir((float)wi[0], (float)wi[1], (float)wi[2]), o = dir((float)wo[0], (float)wo[1], (float)wo[2]);
             LobeValue v = lobe_value(&lobe, angles_between(o, i));
             f[p] = (double)(v.f * tint_color(v.tint, (float)t->slab.albedo)) - solved_single_scatter(t, p);
         }
@@ -136,8 +135,7 @@ static FitError set_error(int id, const SolvedSet *slabs, double low, double hig
 
 static void print_row(const char *id, const char *what, const SolvedSet *slabs, double low, double high) {
     FitError e = set_error(weft_lobe_find(id), slabs, low, high);
-    printf("  %-12s %-34s %6.2f %7.1f   %.1e   %.4f\n", id, what, 100.0 * e.mean, 100.0 * e.worst, e.albedo,
-           e.most);
+    printf("  %-12s %-34s %6.2f %7.1f   %.1e   %.4f\n", id, what, 100.0 * e.mean, 100.0 * e.worst, e.albedo, e.most);
     fflush(stdout);
 }
 
@@ -161,8 +159,7 @@ static void print_slabs(const char *what, const SolvedGrid *grid, double low, do
 }
 
 static void print_models(void) {
-    static const double white[] = {1.0}, colors[] = {0.2, 0.35, 0.5, 0.7, 0.9, 0.96, 1.0},
-                        few[] = {0.2, 0.5, 0.9};
+    static const double white[] = {1.0}, colors[] = {0.2, 0.35, 0.5, 0.7, 0.9, 0.96, 1.0}, few[] = {0.2, 0.5, 0.9};
     static const double radians = RADIANS;
     double alpha[21], tilts[] = {7.5 * radians, 22.5 * radians, 40.0 * radians};
     SolvedSet slabs;
@@ -232,8 +229,7 @@ static const char *refusal(int id, const Tier *tier) {
 static void print_tier(const Tier *tier, unsigned *state) {
     enum { ALPHAS = 6, COLORS = 3, TILTS = 2 };
     double alpha[ALPHAS], color[COLORS], tilt[TILTS];
-    const bool leans = tier->parameter && strcmp(tier->parameter, "tilt") == 0,
-               dense = tier->parameter && !leans;
+    const bool leans = tier->parameter && strcmp(tier->parameter, "tilt") == 0, dense = tier->parameter && !leans;
     for (int k = 0; k < ALPHAS; k++)
         alpha[k] = tier->low * (pow)(tier->high / tier->low, drawn_between(state, 0.0, 1.0));
     for (int k = 0; k < COLORS; k++) color[k] = tier->colored ? drawn_between(state, 0.2, 1.0) : 1.0;
@@ -327,8 +323,8 @@ static void print_sampling(void) {
                 largest = fmax(largest, top);
                 count++;
             }
-        printf("  %-12s alpha 0.19 .. 1: variance %.4f in the mean, %.3f at worst; largest weight %.1f\n",
-               models[m], mean / count, worst, largest);
+        printf("  %-12s alpha 0.19 .. 1: variance %.4f in the mean, %.3f at worst; largest weight %.1f\n", models[m],
+               mean / count, worst, largest);
     }
 }
 

@@ -37,8 +37,7 @@ static Difference difference(LtcTarget *target, const WeftLtc *ltc, const Lobe *
 }
 
 /* Over the nodes of a table, or over the middles between four of them. */
-static Difference mean_difference(LtcTarget *target, const WeftLtc *ltc, bool between, float f0,
-                                  Difference *worst) {
+static Difference mean_difference(LtcTarget *target, const WeftLtc *ltc, bool between, float f0, Difference *worst) {
     Difference mean = {0};
     *worst = mean;
     int rows = between && ltc->rows > 1 ? ltc->rows - 1 : ltc->rows, columns = ltc->columns - between, n = 0;

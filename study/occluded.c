@@ -156,8 +156,7 @@ static bool is_named(const char *id, const char *const *only, int count) {
     return named;
 }
 
-static void print_lobe(const char *id, WeftScene *const scenes[2], WeftRaster *const rasters[2],
-                       const How *how) {
+static void print_lobe(const char *id, WeftScene *const scenes[2], WeftRaster *const rasters[2], const How *how) {
     Error e[2];
     WeftError error;
     for (int s = 0; s < 2; s++) {
@@ -165,8 +164,7 @@ static void print_lobe(const char *id, WeftScene *const scenes[2], WeftRaster *c
         e[s] = measure(scenes[s], rasters[s], how);
     }
     printf("%-27s", id);
-    for (int s = 0; s < 2; s++)
-        printf(" %8.1f %8.1f %8.1f", 100.0 * e[s].sum, 100.0 * e[s].apart, 100.0 * e[s].noise);
+    for (int s = 0; s < 2; s++) printf(" %8.1f %8.1f %8.1f", 100.0 * e[s].sum, 100.0 * e[s].apart, 100.0 * e[s].noise);
     printf("\n");
     fflush(stdout);
 }

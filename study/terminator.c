@@ -20,8 +20,7 @@ enum { SIDE = 320, COARSE = 12, FINE = 192, SAMPLES = 64 };
 
 static WeftImage ball(uint32_t rings, int no_lift) {
     WeftScene *scene = test_grazed_ball(rings, 0.8f, 0.02f);
-    const WeftRenderDesc desc = {
-        .width = SIDE, .height = SIDE, .camera = "0,1.5,9.9;0,0,0;13", .no_lift = no_lift};
+    const WeftRenderDesc desc = {.width = SIDE, .height = SIDE, .camera = "0,1.5,9.9;0,0,0;13", .no_lift = no_lift};
     WeftImage image = test_render(scene, desc, SAMPLES);
     weft_scene_free(scene);
     return image;
@@ -48,8 +47,7 @@ static void print_row(const char *name, const WeftImage *image, const WeftImage 
 }
 
 int main(int count, char **arguments) {
-    static const char *const names[] = {"on the triangles", "on the smooth surface",
-                                        "192 rings, the reference"};
+    static const char *const names[] = {"on the triangles", "on the smooth surface", "192 rings, the reference"};
     WeftImage images[] = {ball(COARSE, 1), ball(COARSE, 0), ball(FINE, 0)}, shown[3], sheet;
     WeftPanel panels[3] = {0};
     int code = 0;

@@ -45,8 +45,7 @@ static int on_top(const WeftDraft *draft, int weft, int thread, int crossing) {
 static Run run_at(const WeftDraft *draft, int weft, int thread, int crossing, int count) {
     const int top = on_top(draft, weft, thread, crossing);
     Run run = {0, 1, top ? 1 : -1};
-    while (run.since < count && on_top(draft, weft, thread, crossing + count - run.since - 1) == top)
-        run.since++;
+    while (run.since < count && on_top(draft, weft, thread, crossing + count - run.since - 1) == top) run.since++;
     run.length = run.since + 1;
     for (int k = 1; k < count && on_top(draft, weft, thread, crossing + k) == top; k++) run.length++;
     return run;
@@ -61,8 +60,7 @@ static int tubes_make(Tubes *tubes, const YarnCase *yarn) {
         longest = info.longest_float[t] > longest ? info.longest_float[t] : longest;
         tubes->count[t] = info.count[t];
         for (int k = 0; k < info.count[t]; k++)
-            for (int c = 0; c < info.count[!t]; c++)
-                tubes->runs[t][k][c] = run_at(draft, t, k, c, info.count[!t]);
+            for (int c = 0; c < info.count[!t]; c++) tubes->runs[t][k][c] = run_at(draft, t, k, c, info.count[!t]);
     }
     weft_draft_free(draft);
     tubes->slope = tan(yarn->crimp * RADIANS);
@@ -84,8 +82,7 @@ static int wrapped(double at, int count) {
 /* Returns true if the tube of a system is there whose thread lies at u, v; its top, and its fibres' direction. */
 static bool tube_at(const Tubes *m, int weft, double u, double v, double z, double *top, double axis[3]) {
     const Run run = m->runs[weft][wrapped(u, m->count[weft])][wrapped(v, m->count[!weft])];
-    const double l = run.length, s = 2.0 * (v - floor(v) + run.since) / l - 1.0,
-                 k = 1.0 + m->floats * (l - 1.0);
+    const double l = run.length, s = 2.0 * (v - floor(v) + run.since) / l - 1.0, k = 1.0 + m->floats * (l - 1.0);
     const double steep = pow(fabs(s), k), r = 2.0 * (u - floor(u) - 0.5) / m->width;
     const double middle = run.up * 0.5 * l * m->slope * (1.0 - fabs(s) * steep) / (k + 1.0);
     const double high = m->half * (1.0 - r * r);
@@ -135,8 +132,8 @@ static void one_walk(const Tubes *m, const double wo[3], uint64_t number, int ha
         met++;
     }
     if (met == FLAKES_MOST) return;
-    const double weights[KINDS_OF_LIGHT] = {met == 1 ? 1.0 : 0.0, pow(yarn_albedos[0], met),
-                                            pow(yarn_albedos[1], met), pow(yarn_albedos[2], met)};
+    const double weights[KINDS_OF_LIGHT] = {met == 1 ? 1.0 : 0.0, pow(yarn_albedos[0], met), pow(yarn_albedos[1], met),
+                                            pow(yarn_albedos[2], met)};
     for (int k = 0; k < KINDS_OF_LIGHT; k++)
         if (p[2] > 0.0)
             tally->up[half][k][bin_of(walker.d)] += weights[k];

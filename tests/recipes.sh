@@ -20,7 +20,7 @@ files=0
 for file in $(grep -oE '`src/[a-z_/]+\.[ch]`:$' "$page" | tr -d '`:'); do
     [ ! -e "$file" ] || { echo "$file: is there already, so that the recipe that adds it adds nothing"; exit 1; }
     awk -v name="\`$file\`:" 'index($0, name) { near = 1 } /^```$/ { if (on) exit; } on; near && /^```c$/ { on = 1 }' "$page" >"$file"
-    grep -q '^#endif$\|^};$' "$file" || { echo "CONTRIBUTING.md: no listing of $file"; exit 1; }
+    grep -q '^#pragma once$\|^};$' "$file" || { echo "CONTRIBUTING.md: no listing of $file"; exit 1; }
     files=$((files + 1))
 done
 [ "$files" = 4 ] || { echo "CONTRIBUTING.md: $files listings, a term, a profile, a formula and a verb expected"; exit 1; }

@@ -19,9 +19,7 @@ static inline bool scratch_make(char folder[SCRATCH_SIZE]) {
 }
 
 /* Makes one and lets the program work in it. */
-static inline bool scratch_enter(char folder[SCRATCH_SIZE]) {
-    return scratch_make(folder) && chdir(folder) == 0;
-}
+static inline bool scratch_enter(char folder[SCRATCH_SIZE]) { return scratch_make(folder) && chdir(folder) == 0; }
 
 /* Makes one that is the user's cache. */
 static inline bool scratch_cache(char folder[SCRATCH_SIZE]) {

@@ -29,8 +29,7 @@ static inline double white_albedo(const WeftCloth *cloth, Dir o) {
     enum { ROWS = 24, COLUMNS = 48 };
     double sum = 0.0;
     for (int k = 0; k < ROWS * COLUMNS; k++) {
-        const Dir i =
-            warp_cosine(((float)(k / COLUMNS) + 0.5f) / ROWS, ((float)(k % COLUMNS) + 0.5f) / COLUMNS);
+        const Dir i = warp_cosine(((float)(k / COLUMNS) + 0.5f) / ROWS, ((float)(k % COLUMNS) + 0.5f) / COLUMNS);
         sum += PI_DOUBLE * (double)white_of(cloth, o, i) / (ROWS * COLUMNS);
     }
     return sum;

@@ -17,8 +17,7 @@ static inline const WeftCloth *woven_cloth(int k) {
         const char *name = weft_preset_name(k), *text = weft_preset_text(k);
         WeftError error;
         if (weft_scene_load("builtin:cloth", &woven_scenes[k], NULL, &error) != WEFT_OK ||
-            weft_scene_assign_material_memory(woven_scenes[k], NULL, text, strlen(text), name, NULL,
-                                              &error) != WEFT_OK)
+            weft_scene_assign_material_memory(woven_scenes[k], NULL, text, strlen(text), name, NULL, &error) != WEFT_OK)
             fail_msg("%s", error.text);
     }
     const WeftScene *scene = woven_scenes[k];

@@ -171,8 +171,7 @@ static int picture_make(WeftImage *image, int points) {
     table_put(program, 0, "ltc", table_ltc, table_ltc_width, table_ltc_height, table_ltc_channels);
     table_put(program, 1, "amplitude", table_amplitude, table_amplitude_width, table_amplitude_height,
               table_amplitude_channels);
-    table_put(program, 2, "albedo", table_albedo, table_albedo_width, table_albedo_height,
-              table_albedo_channels);
+    table_put(program, 2, "albedo", table_albedo, table_albedo_width, table_albedo_height, table_albedo_channels);
     draw(program, points);
     picture_read(many, image);
     return glGetError() == GL_NO_ERROR;

@@ -26,9 +26,7 @@ static Vec scale(Vec a, float s) { return vec(a.x * s, a.y * s, a.z * s); }
 static Vec times(Vec a, Vec b) { return vec(a.x * b.x, a.y * b.y, a.z * b.z); }
 static float dot(Vec a, Vec b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 static Vec unit(Vec a) { return scale(a, 1.0f / sqrtf(dot(a, a))); }
-static Vec cross(Vec a, Vec b) {
-    return vec(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
-}
+static Vec cross(Vec a, Vec b) { return vec(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x); }
 
 /* PCG (O'Neill, "PCG: A Family of Simple Fast Space-Efficient Statistically Good Algorithms", 2014): [0, 1).
  */
@@ -75,8 +73,7 @@ static float cloth_sample(const Cloth *cloth, const float wo[3], uint32_t *state
 }
 
 /* The world: a unit ball on the plane y = 0, and a square lamp that shines to the side of its normal. */
-static const Vec ball = {0, 1, 0}, sky = {0.16f, 0.19f, 0.24f}, glow = {14, 13, 11.5f},
-                 lamp = {-2.2f, 3.6f, 1.6f};
+static const Vec ball = {0, 1, 0}, sky = {0.16f, 0.19f, 0.24f}, glow = {14, 13, 11.5f}, lamp = {-2.2f, 3.6f, 1.6f};
 static const float lamp_half = 0.8f;
 
 typedef enum Thing { NOTHING, BALL, FLOOR, LAMP } Thing;
@@ -177,8 +174,8 @@ static Vec radiance(const Lamp *l, const Cloth *velvet, const Cloth *floor, Vec 
     return sum;
 }
 
-static bool cloth_make(Cloth *cloth, const char *base, const char *sheen, const char *alpha,
-                       const char *color, WeftError *error) {
+static bool cloth_make(Cloth *cloth, const char *base, const char *sheen, const char *alpha, const char *color,
+                       WeftError *error) {
     cloth->has_sheen = sheen != NULL;
     if (weft_lobe_init("lambert", &cloth->base, error) != WEFT_OK ||
         weft_lobe_set(&cloth->base, "color", base, NULL, error) != WEFT_OK)

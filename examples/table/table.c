@@ -33,8 +33,8 @@ static int rows_fill(void *data) {
     for (int y; (y = atomic_fetch_add(&work->next, 1)) < work->table.height;) {
         WeftLobe lobe = work->lobe; /* plain data: each row has its own */
         lobe.params[0] = centre(y, work->table.height);
-        if (weft_albedo_n(&lobe, (size_t)work->table.width, work->cosines, (WeftColors){.r = row(work, y)},
-                          NULL) != WEFT_OK)
+        if (weft_albedo_n(&lobe, (size_t)work->table.width, work->cosines, (WeftColors){.r = row(work, y)}, NULL) !=
+            WEFT_OK)
             atomic_fetch_add(&work->failures, 1);
     }
     return 0;
@@ -51,8 +51,7 @@ static void fill(Work *work) {
 static void print_means(const Work *work) {
     for (int y = 0; y < work->table.height; y++) {
         double sum = 0;
-        for (int x = 0; x < work->table.width; x++)
-            sum += 2 * (double)row(work, y)[x] * (double)work->cosines[x];
+        for (int x = 0; x < work->table.width; x++) sum += 2 * (double)row(work, y)[x] * (double)work->cosines[x];
         printf("alpha %.4f  mean %.4f\n", (double)centre(y, work->table.height), sum / work->table.width);
     }
 }

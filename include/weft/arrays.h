@@ -34,23 +34,21 @@ typedef struct WeftColors {
 } WeftColors;
 
 /* Evaluates f for n pairs, 1/sr; 0 where a direction is not above the horizon, or a component is infinite or NaN. */
-WEFT_API WeftResult weft_eval_n(const WeftLobe *lobe, size_t n, WeftDirections wo, WeftDirections wi,
-                                WeftColors f, WeftError *error);
+WEFT_API WeftResult weft_eval_n(const WeftLobe *lobe, size_t n, WeftDirections wo, WeftDirections wi, WeftColors f,
+                                WeftError *error);
 
 /* Evaluates the density of weft_sample_n at wi for n pairs, 1/sr; 0 where f is. */
-WEFT_API WeftResult weft_pdf_n(const WeftLobe *lobe, size_t n, WeftDirections wo, WeftDirections wi,
-                               float *pdf, WeftError *error);
+WEFT_API WeftResult weft_pdf_n(const WeftLobe *lobe, size_t n, WeftDirections wo, WeftDirections wi, float *pdf,
+                               WeftError *error);
 
 /* Draws n directions wi for (u, v) in [0, 1)^2, and their pdf; 0 means no sample, and wi must then not be
  * used. A u or v outside [0, 1) is clamped to it; NaN becomes 0. */
-WEFT_API WeftResult weft_sample_n(const WeftLobe *lobe, size_t n, WeftDirections wo, const float *u,
-                                  const float *v, float *wi_x, float *wi_y, float *wi_z, float *pdf,
-                                  WeftError *error);
+WEFT_API WeftResult weft_sample_n(const WeftLobe *lobe, size_t n, WeftDirections wo, const float *u, const float *v,
+                                  float *wi_x, float *wi_y, float *wi_z, float *pdf, WeftError *error);
 
 /* Computes the directional albedo E for n cosines with the conventions of weft_lobe_albedo: exact to 1e-4 and
  * some thousand times slower than a table, so that it pays to share the work among threads. */
-WEFT_API WeftResult weft_albedo_n(const WeftLobe *lobe, size_t n, const float *cos_o, WeftColors e,
-                                  WeftError *error);
+WEFT_API WeftResult weft_albedo_n(const WeftLobe *lobe, size_t n, const float *cos_o, WeftColors e, WeftError *error);
 
 /* Lobes of one kind with different parameters and colours, as arrays of n values. An array may be NULL: then the
  * value of `lobe` applies to all n. A parameter that is a choice (WeftParamInfo.choices) can have no array. */
@@ -64,8 +62,8 @@ typedef struct WeftLobes {
 /* Evaluates f and pdf in one pass, as weft_eval_n and weft_pdf_n do, each pair with a lobe of its own. pdf may be
  * NULL too. Values that depend on parameters alone are computed for each element: with one lobe for all, the calls
  * above are faster. Fails as they do, and with WEFT_MESSAGE_DESC where there is an array for a choice. */
-WEFT_API WeftResult weft_eval_each(const WeftLobes *lobes, size_t n, WeftDirections wo, WeftDirections wi,
-                                   WeftColors f, float *pdf, WeftError *error);
+WEFT_API WeftResult weft_eval_each(const WeftLobes *lobes, size_t n, WeftDirections wo, WeftDirections wi, WeftColors f,
+                                   float *pdf, WeftError *error);
 
 /* Draws as weft_sample_n does, each element with a lobe of its own; fails as weft_eval_each does. */
 WEFT_API WeftResult weft_sample_each(const WeftLobes *lobes, size_t n, WeftDirections wo, const float *u,

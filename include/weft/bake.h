@@ -53,8 +53,8 @@ WEFT_API void weft_table_form_texel(const WeftTableForm *form, int lobe, int wid
 typedef struct WeftBakeKind {
     const char *id, *help; /* live as long as the program */
     int lobe;              /* 0: none is taken; 1: one may be given; 2: one must be given */
-    int formed; /* not 0: heeds WeftTableForm; 0: has axes of its own, which WeftBakeInfo.words describes */
-    int width, height; /* default size, texels */
+    int formed;            /* not 0: heeds WeftTableForm; 0: has axes of its own, which WeftBakeInfo.words describes */
+    int width, height;     /* default size, texels */
 } WeftBakeKind;
 
 /* Returns a kind by index; NULL past the end. */
@@ -108,17 +108,17 @@ WEFT_API WeftResult weft_bake_fibre_model(const WeftFibreModelDesc *desc, const 
 /* Auditing a table of E. */
 
 /* F(id, name in JSON): what can be wrong with a table. */
-#define WEFT_TABLE_FAULTS(F)                                                                                 \
-    F(NONE, "none")         /* as exact as its pixel type can be */                                          \
-    F(CONSTANT, "constant") /* one value everywhere, black among them, where E is not constant */            \
-    F(FORM, "axes")         /* right, but its axes are not those that were given */                          \
-    F(LATE, "shifted")      /* right, but shifted by one texel along the parameter */                        \
-    F(CLIPPED, "clipped")   /* right, but cut off where E goes on */                                         \
-    F(SCALED, "scaled")     /* right, but for one constant factor */                                         \
-    F(ENCODED, "encoded")   /* right, but sRGB-encoded */                                                    \
-    F(OTHER_LOBE, "lobe")   /* much nearer to the E of another lobe */                                       \
-    F(BIASED, "biased")     /* off by an error that neighbouring texels share */                             \
-    F(NOISY, "noisy")       /* off by an error that they do not share */                                     \
+#define WEFT_TABLE_FAULTS(F)                                                                                           \
+    F(NONE, "none")         /* as exact as its pixel type can be */                                                    \
+    F(CONSTANT, "constant") /* one value everywhere, black among them, where E is not constant */                      \
+    F(FORM, "axes")         /* right, but its axes are not those that were given */                                    \
+    F(LATE, "shifted")      /* right, but shifted by one texel along the parameter */                                  \
+    F(CLIPPED, "clipped")   /* right, but cut off where E goes on */                                                   \
+    F(SCALED, "scaled")     /* right, but for one constant factor */                                                   \
+    F(ENCODED, "encoded")   /* right, but sRGB-encoded */                                                              \
+    F(OTHER_LOBE, "lobe")   /* much nearer to the E of another lobe */                                                 \
+    F(BIASED, "biased")     /* off by an error that neighbouring texels share */                                       \
+    F(NOISY, "noisy")       /* off by an error that they do not share */                                               \
     F(CORNER, "corner")     /* off in a few texels only */
 
 /* The fault of a table: WEFT_TABLE_NONE and the rest of WEFT_TABLE_FAULTS. */
@@ -133,12 +133,7 @@ typedef enum WeftTableFault {
 WEFT_API const char *weft_table_fault_name(WeftTableFault fault);
 
 /* The part of the albedo that a channel holds, for a lobe of two colours; a lobe of one colour has only the sum. */
-typedef enum WeftTablePart {
-    WEFT_TABLE_SUM = 0,
-    WEFT_TABLE_F0,
-    WEFT_TABLE_F90,
-    WEFT_TABLE_PARTS
-} WeftTablePart;
+typedef enum WeftTablePart { WEFT_TABLE_SUM = 0, WEFT_TABLE_F0, WEFT_TABLE_F90, WEFT_TABLE_PARTS } WeftTablePart;
 
 /* Zero means default, in every member but image. */
 typedef struct WeftAuditDesc {
@@ -190,8 +185,7 @@ typedef struct WeftAudit {
 /* Compares a table with the quadrature of a lobe at the table's own texels. errors (may be NULL) becomes F32
  * of the table's size and three channels: error, table, E; all 0 where a texel is left out. Is interrupted and
  * fails as weft_bake. */
-WEFT_API WeftResult weft_audit(const WeftAuditDesc *desc, WeftAudit *out, WeftImage *errors,
-                               WeftError *error);
+WEFT_API WeftResult weft_audit(const WeftAuditDesc *desc, WeftAudit *out, WeftImage *errors, WeftError *error);
 
 #ifdef __cplusplus
 }

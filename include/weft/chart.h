@@ -17,12 +17,7 @@ extern "C" {
 /* METAL: base_color equals f0, metallic is 1. OPAQUE: a dielectric with a diffuse colour. CLEAR: a dielectric
  * without one, such as glass or an undyed fibre; base_color is then white. GEM: clear, and of an index of
  * refraction that no other dielectric of the chart has. */
-typedef enum WeftChartKind {
-    WEFT_CHART_OPAQUE = 0,
-    WEFT_CHART_CLEAR,
-    WEFT_CHART_GEM,
-    WEFT_CHART_METAL
-} WeftChartKind;
+typedef enum WeftChartKind { WEFT_CHART_OPAQUE = 0, WEFT_CHART_CLEAR, WEFT_CHART_GEM, WEFT_CHART_METAL } WeftChartKind;
 
 /* A material of the chart. */
 typedef struct WeftChartEntry {

@@ -42,8 +42,8 @@ typedef struct WeftDiffDesc {
     float pixels_per_degree;
     WeftTonemap tonemap; /* of linear pictures, where they must be displayed */
     float exposure;      /* stops, before the tone mapping */
-    int exposed; /* flip: not 0: two linear pictures are compared at this exposure, not over a range */
-    int threads; /* 0: as many as there are processors; no influence on the result */
+    int exposed;         /* flip: not 0: two linear pictures are compared at this exposure, not over a range */
+    int threads;         /* 0: as many as there are processors; no influence on the result */
 } WeftDiffDesc;
 
 /* The differences of two images. */

@@ -29,47 +29,39 @@ typedef enum WeftSeverity {
 
 /* F(id, name, severity, fixable, help): every kind of finding, in the order of reports. fixable: 1 if
  * weft_doctor_fix can repair some of that kind; WeftFinding.fixable is set on those that it can. */
-#define WEFT_FINDINGS(F)                                                                                     \
-    F(EXTENSION_REQUIRED, "extension-required", ERROR, 0,                                                    \
-      "an extension is required that weft does not know")                                                    \
-    F(EXTENSION_UNDECLARED, "extension-undeclared", ERROR, 1,                                                \
-      "an extension is used that extensionsUsed leaves out")                                                 \
-    F(VALUE_RANGE, "value-range", ERROR, 1, "a number is outside what glTF allows")                          \
-    F(TEXTURE_TIMES_ZERO, "texture-times-zero", ERROR, 1,                                                    \
-      "a texture is multiplied by a factor that is 0 by default")                                            \
-    F(TEXTURE_OFF, "texture-off", NOTE, 0, "a texture is multiplied by a factor that is set to 0")           \
-    F(TEXTURE_TWO_SPACES, "texture-two-spaces", WARNING, 0,                                                  \
-      "one image is read as sRGB and as plain numbers")                                                      \
-    F(TEXTURE_SAYS_LINEAR, "texture-says-linear", WARNING, 0,                                                \
-      "a colour texture is marked as linear, and read as sRGB")                                              \
-    F(TEXTURE_TRANSFORM, "texture-transform", WARNING, 0,                                                    \
-      "KHR_texture_transform shrinks a texture to a line")                                                   \
-    F(TEXCOORD_MISSING, "texcoord-missing", ERROR, 0, "a texture is used on a mesh without its coordinates") \
-    F(IMAGE_REPAIRED, "image-repaired", WARNING, 0, "an image had to be repaired to be read")                \
-    F(SHEEN_BLACK, "sheen-black", WARNING, 0, "a sheen is there whose colour is black")                      \
-    F(SHEEN_TEXTURE_BLACK, "sheen-texture-black", ERROR, 0, "the texture of a sheen is black")               \
-    F(SHEEN_ROUGHNESS_CHANNEL, "sheen-roughness-channel", ERROR, 1,                                          \
-      "the roughness of a sheen is in a channel that no engine reads")                                       \
-    F(SHEEN_ROUGHNESS_PLAIN, "sheen-roughness-plain", WARNING, 1,                                            \
-      "the texture of a sheen's roughness has no effect")                                                    \
-    F(SHEEN_GAINS, "sheen-gains", WARNING, 1, "the sheen returns more light than arrives")                   \
-    F(SHEEN_DARKENS, "sheen-darkens", NOTE, 0, "the sheen removes more light from the base than it adds")    \
-    F(ENGINES_DIFFER, "engines-differ", NOTE, 0,                                                             \
-      "the same sheen is much brighter in one engine than in another")                                       \
-    F(SHEEN_ON_METAL, "sheen-on-metal", WARNING, 1, "a sheen on a metal")                                    \
-    F(SHEEN_TRANSMISSION, "sheen-transmission", WARNING, 0, "a sheen on what lets light through")            \
-    F(SHEEN_BEHIND_GLASS, "sheen-behind-glass", NOTE, 0, "a sheen and glass in one asset")                   \
-    F(SHEEN_COAT, "sheen-coat", NOTE, 0, "a clear coat over a sheen")                                        \
-    F(SHEEN_IOR, "sheen-ior", NOTE, 0, "a sheen and an index of refraction in one material")                 \
-    F(SHEEN_EMISSION, "sheen-emission", NOTE, 0, "a cloth that glows")                                       \
-    F(BASE_DARK, "base-dark", NOTE, 0, "a base colour darker than cloth")                                    \
-    F(BASE_BRIGHT, "base-bright", WARNING, 1, "a base colour brighter than fresh snow")                      \
-    F(METAL_DARK, "metal-dark", NOTE, 0, "a metal darker than metals are")                                   \
-    F(IMPLAUSIBLE, "implausible", WARNING, 0, "a reflectance or metalness that no material has")             \
-    F(NORMALS_MISSING, "normals-missing", WARNING, 0, "a mesh has no normals, and is shown faceted")         \
-    F(TANGENTS_MISSING, "tangents-missing", WARNING, 0,                                                      \
-      "a normal map or a stretched highlight without tangents")                                              \
-    F(BACK_MISSING, "back-missing", NOTE, 0, "cloth with an open edge that has no back")                     \
+#define WEFT_FINDINGS(F)                                                                                               \
+    F(EXTENSION_REQUIRED, "extension-required", ERROR, 0, "an extension is required that weft does not know")          \
+    F(EXTENSION_UNDECLARED, "extension-undeclared", ERROR, 1, "an extension is used that extensionsUsed leaves out")   \
+    F(VALUE_RANGE, "value-range", ERROR, 1, "a number is outside what glTF allows")                                    \
+    F(TEXTURE_TIMES_ZERO, "texture-times-zero", ERROR, 1, "a texture is multiplied by a factor that is 0 by default")  \
+    F(TEXTURE_OFF, "texture-off", NOTE, 0, "a texture is multiplied by a factor that is set to 0")                     \
+    F(TEXTURE_TWO_SPACES, "texture-two-spaces", WARNING, 0, "one image is read as sRGB and as plain numbers")          \
+    F(TEXTURE_SAYS_LINEAR, "texture-says-linear", WARNING, 0,                                                          \
+      "a colour texture is marked as linear, and read as sRGB")                                                        \
+    F(TEXTURE_TRANSFORM, "texture-transform", WARNING, 0, "KHR_texture_transform shrinks a texture to a line")         \
+    F(TEXCOORD_MISSING, "texcoord-missing", ERROR, 0, "a texture is used on a mesh without its coordinates")           \
+    F(IMAGE_REPAIRED, "image-repaired", WARNING, 0, "an image had to be repaired to be read")                          \
+    F(SHEEN_BLACK, "sheen-black", WARNING, 0, "a sheen is there whose colour is black")                                \
+    F(SHEEN_TEXTURE_BLACK, "sheen-texture-black", ERROR, 0, "the texture of a sheen is black")                         \
+    F(SHEEN_ROUGHNESS_CHANNEL, "sheen-roughness-channel", ERROR, 1,                                                    \
+      "the roughness of a sheen is in a channel that no engine reads")                                                 \
+    F(SHEEN_ROUGHNESS_PLAIN, "sheen-roughness-plain", WARNING, 1, "the texture of a sheen's roughness has no effect")  \
+    F(SHEEN_GAINS, "sheen-gains", WARNING, 1, "the sheen returns more light than arrives")                             \
+    F(SHEEN_DARKENS, "sheen-darkens", NOTE, 0, "the sheen removes more light from the base than it adds")              \
+    F(ENGINES_DIFFER, "engines-differ", NOTE, 0, "the same sheen is much brighter in one engine than in another")      \
+    F(SHEEN_ON_METAL, "sheen-on-metal", WARNING, 1, "a sheen on a metal")                                              \
+    F(SHEEN_TRANSMISSION, "sheen-transmission", WARNING, 0, "a sheen on what lets light through")                      \
+    F(SHEEN_BEHIND_GLASS, "sheen-behind-glass", NOTE, 0, "a sheen and glass in one asset")                             \
+    F(SHEEN_COAT, "sheen-coat", NOTE, 0, "a clear coat over a sheen")                                                  \
+    F(SHEEN_IOR, "sheen-ior", NOTE, 0, "a sheen and an index of refraction in one material")                           \
+    F(SHEEN_EMISSION, "sheen-emission", NOTE, 0, "a cloth that glows")                                                 \
+    F(BASE_DARK, "base-dark", NOTE, 0, "a base colour darker than cloth")                                              \
+    F(BASE_BRIGHT, "base-bright", WARNING, 1, "a base colour brighter than fresh snow")                                \
+    F(METAL_DARK, "metal-dark", NOTE, 0, "a metal darker than metals are")                                             \
+    F(IMPLAUSIBLE, "implausible", WARNING, 0, "a reflectance or metalness that no material has")                       \
+    F(NORMALS_MISSING, "normals-missing", WARNING, 0, "a mesh has no normals, and is shown faceted")                   \
+    F(TANGENTS_MISSING, "tangents-missing", WARNING, 0, "a normal map or a stretched highlight without tangents")      \
+    F(BACK_MISSING, "back-missing", NOTE, 0, "cloth with an open edge that has no back")                               \
     F(IMAGE_UNREAD, "image-unread", ERROR, 0, "an image cannot be read")
 
 /* The kinds of findings: WEFT_FINDING_EXTENSION_REQUIRED and the rest of WEFT_FINDINGS. */
@@ -114,14 +106,13 @@ typedef struct WeftDoctor WeftDoctor;
  * an unsupported required extension and an image that is missing or cannot be read are findings. log (may be
  * NULL) receives the reader's warnings. On success *out is owned by the caller: release it with
  * weft_doctor_close. */
-WEFT_API WeftResult weft_doctor_open(const char *path, WeftDoctor **out, const WeftLog *log,
-                                     WeftError *error);
+WEFT_API WeftResult weft_doctor_open(const char *path, WeftDoctor **out, const WeftLog *log, WeftError *error);
 
 /* Works as weft_doctor_open, but calls progress (may be NULL) with the finished fraction of materials and meshes.
  * progress can stop the examination: WEFT_INTERRUPTED. weft_doctor_fix examines its own output and calls
  * progress too, so user must outlive the doctor. */
-WEFT_API WeftResult weft_doctor_open_watched(const char *path, WeftProgress progress, void *user,
-                                             WeftDoctor **out, const WeftLog *log, WeftError *error);
+WEFT_API WeftResult weft_doctor_open_watched(const char *path, WeftProgress progress, void *user, WeftDoctor **out,
+                                             const WeftLog *log, WeftError *error);
 
 /* Works as weft_doctor_open, from size bytes, which must outlive the doctor. */
 WEFT_API WeftResult weft_doctor_open_memory(const void *data, size_t size, const char *name, WeftDoctor **out,

@@ -78,13 +78,13 @@ enum { WEFT_EXPORT_MODELS_MAX = 16, WEFT_EXPORT_TABLES_MAX = 32, WEFT_EXPORT_NAM
 typedef struct WeftExportTable {
     char name[WEFT_EXPORT_NAME]; /* of the sampler, texture or array in the text */
     WeftImage texels;            /* owned */
-    float scale, offset; /* PNG16: texels are in [0, 1], and the text reads texel scale + offset; else 1, 0 */
+    float scale, offset;         /* PNG16: texels are in [0, 1], and the text reads texel scale + offset; else 1, 0 */
 } WeftExportTable;
 
 /* A text, and the tables that it reads. */
 typedef struct WeftExport {
-    char *text;  /* owned; ends with a zero byte that size does not count */
-    size_t size; /* bytes */
+    char *text;                                     /* owned; ends with a zero byte that size does not count */
+    size_t size;                                    /* bytes */
     WeftExportTable tables[WEFT_EXPORT_TABLES_MAX]; /* tables outside the text */
     int table_count;                                /* of these */
 } WeftExport;
@@ -96,8 +96,7 @@ WEFT_API WeftResult weft_export(const WeftExportDesc *desc, WeftExport *out, Wef
 /* Makes one text of `count` models, 1 to WEFT_EXPORT_MODELS_MAX, of one target, lut, prefix and fold_pi. Code that
  * models share is in it once; where they differ, names begin with the model's id, such as WeftKhronosSurface. No two
  * models may have one name, and a Shadertoy takes one model. Fails as weft_export. */
-WEFT_API WeftResult weft_export_all(const WeftExportDesc *descs, int count, WeftExport *out,
-                                    WeftError *error);
+WEFT_API WeftResult weft_export_all(const WeftExportDesc *descs, int count, WeftExport *out, WeftError *error);
 
 /* Releases what the export owns and zeroes it. text may be NULL or all zero. */
 WEFT_API void weft_export_free(WeftExport *text);

@@ -50,8 +50,8 @@ WEFT_API WeftResult weft_data_read_memory(const void *data, size_t size, const c
 /* Makes data of count pairs of unit directions and their f, 1/sr, all copied. isotropic: not 0 if rotating both
  * directions about the normal leaves f unchanged, which halves the work. Fails with WEFT_MESSAGE_DESC where no f is
  * above 0 or no sample is in use, or _MEMORY. */
-WEFT_API WeftResult weft_data_create(int count, const float (*wo)[3], const float (*wi)[3],
-                                     const float (*f)[3], int isotropic, WeftData **out, WeftError *error);
+WEFT_API WeftResult weft_data_create(int count, const float (*wo)[3], const float (*wi)[3], const float (*f)[3],
+                                     int isotropic, WeftData **out, WeftError *error);
 
 WEFT_API void weft_data_free(WeftData *data); /* may be NULL */
 
@@ -77,10 +77,10 @@ WEFT_API WeftResult weft_data_lobe(const WeftData *data, const char *name, const
 
 /* One candidate, fitted. */
 typedef struct WeftFitted {
-    WeftLobe lobe; /* with the fitted parameters and colours */
-    WeftLobe base; /* likewise; f0 and f90 are its colour, a factor on the white base; of a weave the weft */
-    int numbers;  /* count of fitted numbers: parameters of both, and three a colour, or one if all is grey */
-    double error; /* by the metric that was chosen */
+    WeftLobe lobe;         /* with the fitted parameters and colours */
+    WeftLobe base;         /* likewise; f0 and f90 are its colour, a factor on the white base; of a weave the weft */
+    int numbers;           /* count of fitted numbers: parameters of both, and three a colour, or one if all is grey */
+    double error;          /* by the metric that was chosen */
     long long evaluations; /* of the error during the search */
 } WeftFitted;
 
@@ -129,8 +129,8 @@ WEFT_API WeftResult weft_fit_material(const WeftData *data, const WeftFitDesc *d
 
 /* Sets *distance to the error of a reflection as it is. Of desc, only metric is read. Fails with
  * WEFT_MESSAGE_DESC or _MEMORY. */
-WEFT_API WeftResult weft_data_distance(const WeftData *data, const WeftFitDesc *desc,
-                                       const WeftReflection *reflection, double *distance, WeftError *error);
+WEFT_API WeftResult weft_data_distance(const WeftData *data, const WeftFitDesc *desc, const WeftReflection *reflection,
+                                       double *distance, WeftError *error);
 
 /* Returns 1 if lobe and base are warp and weft of a weave; 0 if the base is a diffuse lobe. */
 WEFT_API int weft_fitted_is_weave(const WeftFitted *fitted);

@@ -62,8 +62,8 @@ enum { WEFT_IMAGE_LAYERS = 16 };
 
 /* Options of weft_image_write_as. All zero: as weft_image_write does. */
 typedef struct WeftImageWriting {
-    int data;   /* not 0: linear data: a .png is not marked sRGB, an .exr not multiplied by its alpha */
-    int single; /* not 0: .exr of 32 bit floats in place of half */
+    int data;             /* not 0: linear data: a .png is not marked sRGB, an .exr not multiplied by its alpha */
+    int single;           /* not 0: .exr of 32 bit floats in place of half */
     const char *comment;  /* one line kept in a .png (text chunk "Comment") or .exr (attribute "comments");
                              the other formats have no place for it; may be NULL */
     const char *denoised; /* how the picture was denoised, kept in a .png ("Denoised") or .exr ("denoised"),
@@ -96,8 +96,8 @@ typedef enum WeftTonemap {
 /* Makes a display-referred U8 image (sRGB-encoded, alpha kept) of a linear F32 image of 3 or 4 channels; each
  * colour is first multiplied by 2^exposure. A tiny ordered dither breaks up banding; the same input gives the
  * same bytes. */
-WEFT_API WeftResult weft_image_tonemap(const WeftImage *linear, WeftTonemap tonemap, float exposure,
-                                       WeftImage *out, WeftError *error);
+WEFT_API WeftResult weft_image_tonemap(const WeftImage *linear, WeftTonemap tonemap, float exposure, WeftImage *out,
+                                       WeftError *error);
 
 /* Works as weft_image_tonemap, but opaque over a background. behind is light of the display, linear in [0, 1]:
  * neither exposure nor curve change it, so that a white one stays white. Light is blended before it is encoded. An

@@ -22,11 +22,11 @@ enum {
     WEFT_LOBE_LOSSLESS = 4,     /* E = 1 when white */
     WEFT_LOBE_TWO_COLORS = 8,   /* f mixes f0 and f90: from normal to grazing, or from yarn to yarn */
     WEFT_LOBE_ANISOTROPIC = 16, /* f changes when both directions rotate about the normal */
-    WEFT_LOBE_REFERENCE = 32, /* f is a random-walk estimate; its mean over nearby directions is the model */
-    WEFT_LOBE_DIFFUSE = 64,   /* a diffuse term: may be the base of a material */
-    WEFT_LOBE_TABLE = 128,    /* reads a table, made on the lobe's first use or contained in the library */
-    WEFT_LOBE_TINTED = 256,   /* the colour is the albedo of the fibres, in [0, 1], not a factor on f */
-    WEFT_LOBE_SYSTEM = 512    /* one system of threads; warp and weft, both of this lobe, are a cloth */
+    WEFT_LOBE_REFERENCE = 32,   /* f is a random-walk estimate; its mean over nearby directions is the model */
+    WEFT_LOBE_DIFFUSE = 64,     /* a diffuse term: may be the base of a material */
+    WEFT_LOBE_TABLE = 128,      /* reads a table, made on the lobe's first use or contained in the library */
+    WEFT_LOBE_TINTED = 256,     /* the colour is the albedo of the fibres, in [0, 1], not a factor on f */
+    WEFT_LOBE_SYSTEM = 512      /* one system of threads; warp and weft, both of this lobe, are a cloth */
 };
 
 /* A parameter of a lobe. */

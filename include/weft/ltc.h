@@ -26,8 +26,7 @@ typedef enum WeftLtcChannel {
     WEFT_LTC_R = 3,             /* >= 0 */
     WEFT_LTC_AMPLITUDE = 4,     /* E of the first colour, over the part of D that is above the horizon */
     WEFT_LTC_AMPLITUDE_F90 = 5, /* of the second; 0 without WEFT_LOBE_TWO_COLORS */
-    WEFT_LTC_ERROR =
-        6, /* integral of |f cos_i - amplitude D| dwi over E, in [0, 2]: twice the misplaced light */
+    WEFT_LTC_ERROR = 6, /* integral of |f cos_i - amplitude D| dwi over E, in [0, 2]: twice the misplaced light */
     WEFT_LTC_CHANNELS = 7
 } WeftLtcChannel;
 
@@ -58,8 +57,8 @@ typedef struct WeftLtc WeftLtc;
  * warning (WEFT_MESSAGE_CACHE_IGNORED). The number of threads has no influence on the numbers. Fails with
  * WEFT_MESSAGE_LOBE_NAME, _LTC_LOBE (the lobe is anisotropic or WEFT_LOBE_REFERENCE), _DESC or _MEMORY, or
  * returns WEFT_INTERRUPTED. Release with weft_ltc_free. */
-WEFT_API WeftResult weft_ltc_create(const WeftLobe *lobe, const WeftLtcDesc *desc, WeftLtc **out,
-                                    const WeftLog *log, WeftError *error);
+WEFT_API WeftResult weft_ltc_create(const WeftLobe *lobe, const WeftLtcDesc *desc, WeftLtc **out, const WeftLog *log,
+                                    WeftError *error);
 
 WEFT_API void weft_ltc_free(WeftLtc *ltc); /* may be NULL */
 

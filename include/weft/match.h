@@ -62,8 +62,8 @@ enum { WEFT_HOLD_COLOR = 1 << 8, WEFT_HOLD_COLOR_2 = 1 << 9 };
  * and the start are isotropic, parameters that would make the lobe anisotropic stay. Parameters without influence stay.
  * Fails with WEFT_MESSAGE_LOBE_NAME, _DESC (a lobe with WEFT_LOBE_REFERENCE on either side: the search would fit its
  * noise; match fibre, which is the mean) or _MEMORY. */
-WEFT_API WeftResult weft_match_lobe(const WeftReflection *from, WeftBrdfMetric metric, unsigned hold,
-                                    WeftLobe *lobe, WeftMatch *out, WeftError *error);
+WEFT_API WeftResult weft_match_lobe(const WeftReflection *from, WeftBrdfMetric metric, unsigned hold, WeftLobe *lobe,
+                                    WeftMatch *out, WeftError *error);
 
 /* Changes material so that it comes closest to `from`. The search begins at the material as given and varies those of
  * base_color, sheen_color, sheen_roughness, roughness (0.25 at least) and specular that it reads (weft_material_reads),
@@ -114,10 +114,9 @@ typedef struct WeftAssetMatch {
  * search: WEFT_INTERRUPTED, and nothing is written. *report (report may be NULL) receives a record of each of
  * *count materials; on success it is owned by the caller: release it with weft_match_report_free. Fails with
  * WEFT_MESSAGE_DESC (no such profile), and as reading and writing a file do. */
-WEFT_API WeftResult weft_match_asset(const char *path, const char *out, int from, int to,
-                                     WeftBrdfMetric metric, WeftProgress progress, void *user,
-                                     WeftAssetMatch **report, int *count, const WeftLog *log,
-                                     WeftError *error);
+WEFT_API WeftResult weft_match_asset(const char *path, const char *out, int from, int to, WeftBrdfMetric metric,
+                                     WeftProgress progress, void *user, WeftAssetMatch **report, int *count,
+                                     const WeftLog *log, WeftError *error);
 
 WEFT_API void weft_match_report_free(WeftAssetMatch *report); /* may be NULL */
 

@@ -56,13 +56,13 @@ typedef enum WeftAlphaMode { WEFT_ALPHA_OPAQUE = 0, WEFT_ALPHA_MASK, WEFT_ALPHA_
 
 /* A material in numbers. */
 typedef struct WeftMaterial {
-    WeftAlphaMode alpha_mode; /* effect of opacity */
-    float alpha_cutoff;       /* MASK: the surface is cut out where opacity is below it */
-    int double_sided;         /* 0: visible only from the front */
-    int unlit;                /* not 0: base_color is shown as it is */
-    int cloth;                /* of the scene, counted from 1, in place of diffuse and specular; 0: none */
-    int measured; /* of the scene, counted from 1, in place of all lobes in the path tracer; 0: none */
-    int choices[WEFT_CHOICES_MAX];     /* as weft_material_choice_value counts; -1: auto */
+    WeftAlphaMode alpha_mode;      /* effect of opacity */
+    float alpha_cutoff;            /* MASK: the surface is cut out where opacity is below it */
+    int double_sided;              /* 0: visible only from the front */
+    int unlit;                     /* not 0: base_color is shown as it is */
+    int cloth;                     /* of the scene, counted from 1, in place of diffuse and specular; 0: none */
+    int measured;                  /* of the scene, counted from 1, in place of all lobes in the path tracer; 0: none */
+    int choices[WEFT_CHOICES_MAX]; /* as weft_material_choice_value counts; -1: auto */
     WeftInput inputs[WEFT_INPUTS_MAX]; /* in the order of weft_material_input_name */
 } WeftMaterial;
 
@@ -71,30 +71,27 @@ WEFT_API void weft_material_default(WeftMaterial *out);
 
 /* Reads the material of a file (docs/materials.md) or of "preset:NAME", without its textures, which a warning
  * names. Fails with WEFT_MESSAGE_MATERIAL_FILE, _PRESET_NAME and as reading a file does. */
-WEFT_API WeftResult weft_material_read(const char *path, WeftMaterial *out, const WeftLog *log,
-                                       WeftError *error);
+WEFT_API WeftResult weft_material_read(const char *path, WeftMaterial *out, const WeftLog *log, WeftError *error);
 
 /* Works as weft_material_read, and makes the cloth of the material: release it with weft_cloth_free; NULL where the
  * material is not woven. */
-WEFT_API WeftResult weft_material_read_woven(const char *path, WeftMaterial *out, WeftCloth **cloth,
-                                             const WeftLog *log, WeftError *error);
+WEFT_API WeftResult weft_material_read_woven(const char *path, WeftMaterial *out, WeftCloth **cloth, const WeftLog *log,
+                                             WeftError *error);
 
 /* Sets an input or a choice by name, as weft_scene_set does. Fails with WEFT_MESSAGE_PARAM_NAME or
  * _PARAM_VALUE; the material is then as it was. */
-WEFT_API WeftResult weft_material_set(WeftMaterial *material, const char *name, const char *value,
-                                      const WeftLog *log, WeftError *error);
+WEFT_API WeftResult weft_material_set(WeftMaterial *material, const char *name, const char *value, const WeftLog *log,
+                                      WeftError *error);
 
 /* Sets the value of an input by its index, as weft_scene_set does by name: values points to one number, of a
  * COLOR to three; angles are in radians. Values are clamped to the hard range. Fails with
  * WEFT_MESSAGE_PARAM_NAME if there is no such input, or _PARAM_VALUE if a value is not finite; the material is
  * then as it was. */
-WEFT_API WeftResult weft_material_set_number(WeftMaterial *material, int input, const float *values,
-                                             WeftError *error);
+WEFT_API WeftResult weft_material_set_number(WeftMaterial *material, int input, const float *values, WeftError *error);
 
 /* Fills in material index as it is now; entries past the last choice and input are zero. Fails with
  * WEFT_MESSAGE_MATERIAL_NAME where there is none of that index. */
-WEFT_API WeftResult weft_scene_material(const WeftScene *scene, int index, WeftMaterial *out,
-                                        WeftError *error);
+WEFT_API WeftResult weft_scene_material(const WeftScene *scene, int index, WeftMaterial *out, WeftError *error);
 
 /* Replaces material index. Numbers are clamped as weft_scene_set clamps them, without a warning. Fails with
  * WEFT_MESSAGE_MATERIAL_NAME, _PARAM_VALUE (not finite, or no such choice, texture, channel or mode) or _MEMORY;
@@ -127,8 +124,8 @@ WEFT_API int weft_material_reads(const WeftMaterial *material, int input);
  * the input becomes 1 (a colour white, a direction 0), its channel the one that target may end in (".r", ".g",
  * ".b", ".a"), else the first. If the scene has an image of that path, it is reloaded and shared. Fails as
  * weft_scene_set and weft_image_read do; the scene is then as it was. */
-WEFT_API WeftResult weft_scene_set_texture(WeftScene *scene, const char *target, const char *path,
-                                           const WeftLog *log, WeftError *error);
+WEFT_API WeftResult weft_scene_set_texture(WeftScene *scene, const char *target, const char *path, const WeftLog *log,
+                                           WeftError *error);
 
 /* Returns the path of a texture's file, counted from 1: as it was given, or beside its .gltf; NULL where it has no
  * file (in a .glb), or index is out of range. Owned by the scene. */
@@ -140,8 +137,7 @@ WEFT_API WeftResult weft_scene_put_texture(WeftScene *scene, int index, WeftImag
 
 /* Reloads the file of a texture, counted from 1. Fails as weft_image_read does, or with WEFT_MESSAGE_DESC where it
  * has none; the scene is then as it was. */
-WEFT_API WeftResult weft_scene_read_texture(WeftScene *scene, int index, const WeftLog *log,
-                                            WeftError *error);
+WEFT_API WeftResult weft_scene_read_texture(WeftScene *scene, int index, const WeftLog *log, WeftError *error);
 
 /* Returns the pixels of a texture, counted from 1: all zero where there is none. Owned by the scene. */
 WEFT_API WeftImage weft_scene_texture(const WeftScene *scene, int index);
@@ -154,8 +150,8 @@ WEFT_API int weft_scene_add_texture(WeftScene *scene, WeftImage *image, WeftErro
  * Maps are found by file name, in any case, with any of the suffixes .tga .png .jpg .jpeg .exr .hdr; docs/materials.md
  * lists the names. An input that already has its map keeps its factor, so that a folder can be read again. count (may
  * be NULL) receives the number of maps; none is WEFT_MESSAGE_FILE_OPEN. */
-WEFT_API WeftResult weft_scene_bind_maps(WeftScene *scene, const char *material, const char *folder,
-                                         int *count, const WeftLog *log, WeftError *error);
+WEFT_API WeftResult weft_scene_bind_maps(WeftScene *scene, const char *material, const char *folder, int *count,
+                                         const WeftLog *log, WeftError *error);
 
 #ifdef __cplusplus
 }

@@ -31,14 +31,14 @@ typedef struct WeftPlace {
  * colours. The rows of a lobe run over the plausible range of its first parameter, as `roughness` runs from 0 to 1; the
  * other parameters stay. The rows of a profile run over the roughness of the sheen; a woven material has one row. */
 typedef struct WeftPassport {
-    char id[64];        /* of the lobe or of the profile */
-    int profile;        /* 0: a lobe; else a whole material */
-    int woven;          /* 1: that material is a woven one */
-    unsigned traits;    /* of a lobe */
-    char parameter[64]; /* what the rows run over; empty where there is one row and no parameter */
-    char surface[256];  /* description of a whole material */
-    int rows;           /* 1 .. WEFT_PASSPORT_ROWS */
-    int row_default;    /* the row nearest to the default; of a profile, to roughness 0.5 */
+    char id[64];                      /* of the lobe or of the profile */
+    int profile;                      /* 0: a lobe; else a whole material */
+    int woven;                        /* 1: that material is a woven one */
+    unsigned traits;                  /* of a lobe */
+    char parameter[64];               /* what the rows run over; empty where there is one row and no parameter */
+    char surface[256];                /* description of a whole material */
+    int rows;                         /* 1 .. WEFT_PASSPORT_ROWS */
+    int row_default;                  /* the row nearest to the default; of a profile, to roughness 0.5 */
     float values[WEFT_PASSPORT_ROWS]; /* of the parameter, row by row */
 
     /* Directional albedo, colour white, for wo in the plane of the tangent. */
@@ -63,8 +63,7 @@ typedef struct WeftPassport {
     float sheens[WEFT_PASSPORT_SHEENS];
     float furnace[WEFT_PASSPORT_LAYERS][WEFT_PASSPORT_SHEENS][WEFT_PASSPORT_VIEWS];
     float furnace_noise[WEFT_PASSPORT_LAYERS][WEFT_PASSPORT_SHEENS][WEFT_PASSPORT_VIEWS];
-    float
-        furnace_most; /* the largest, less three standard errors, of rules that promise to conserve energy */
+    float furnace_most; /* the largest, less three standard errors, of rules that promise to conserve energy */
 
     /* Sampling. p is the least p value of the chi-square tests; in a run of several passports
      * weft_passport_significance takes the tests of all. */

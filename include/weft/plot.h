@@ -129,8 +129,8 @@ typedef struct WeftPlotPanel {
     int figure_count, mark_count; /* of the two below */
     WeftPlotFigure figures[WEFT_PLOT_FIGURES_MAX]; /* numbers shown in it */
     WeftPlotMark marks[WEFT_PLOT_MARKS_MAX];       /* places on its x axis */
-    int cell_count;     /* of a picture: its equal columns, each with a label below */
-    char cells[12][32]; /* these labels */
+    int cell_count;                                /* of a picture: its equal columns, each with a label below */
+    char cells[12][32];                            /* these labels */
 } WeftPlotPanel;
 
 /* A figure in numbers. */

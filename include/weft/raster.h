@@ -101,7 +101,7 @@ typedef struct WeftRasterView {
     WeftBackground background; /* behind the scene */
     float background_color[3]; /* linear, for WEFT_BACKGROUND_COLOR */
     WeftAmbient ambient;       /* how the environment lights */
-    int polygons; /* at most so many polygon lights, the strongest; 0: WEFT_RASTER_POLYGONS, below 0: none */
+    int polygons;       /* at most so many polygon lights, the strongest; 0: WEFT_RASTER_POLYGONS, below 0: none */
     int no_shadows;     /* not 0: lights reach every point that faces them */
     WeftPart part;      /* other than all: the background is transparent */
     int crop[4];        /* x, y, width, height from the top left: nothing else is drawn; all 0: everything */

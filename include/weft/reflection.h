@@ -21,8 +21,7 @@ typedef struct WeftReflection WeftReflection;
 /* Makes the reflection of a material, from its numbers and choices without its textures. Dust has its greatest
  * amount. With layer rule "stochastic", light that bounced between sheen and base is only in WEFT_PART_ALL. Numbers
  * are clamped as by weft_scene_set. Fails with WEFT_MESSAGE_PARAM_VALUE (not finite, or no such choice) or _MEMORY. */
-WEFT_API WeftResult weft_reflection_create(const WeftMaterial *material, WeftReflection **out,
-                                           WeftError *error);
+WEFT_API WeftResult weft_reflection_create(const WeftMaterial *material, WeftReflection **out, WeftError *error);
 
 /* Makes the reflection of a woven material as seen from afar: its base is replaced by the sum of two lobes woven, of
  * warp and weft, in the mean colours of the cloth. cloth may be NULL: then as above; it may be freed. */
@@ -55,7 +54,7 @@ typedef struct WeftBsdfDesc {
     int thetas; /* polar angles of wo, 2 .. 256; 0 beside a given size: 32 */
     int phis;   /* azimuths of wo, 3 .. 256, if f depends on it, over the part of the circle without symmetry;
                    0 beside a given size: 17 */
-    int side; /* points along each side of the tables of one wo, 8 .. 512; 0 beside a given size: 64, or 32 with
+    int side;   /* points along each side of the tables of one wo, 8 .. 512; 0 beside a given size: 64, or 32 with
                    azimuths */
     const char *comment; /* description in the file; NULL or "": a blank */
     int threads;         /* 0: one a processor; no influence on the file */
@@ -64,8 +63,8 @@ typedef struct WeftBsdfDesc {
 /* Tabulates f in RGL's format (".bsdf") for other renderers. The sampling of the file is proportional to f cos_i up to
  * the resolution of the tables. Fails with WEFT_MESSAGE_DESC (a number out of its range, more than 2^26 points in all,
  * or an estimate by random walks), _MEMORY, and as writing a file does. */
-WEFT_API WeftResult weft_reflection_write(const WeftReflection *reflection, const char *path,
-                                          const WeftBsdfDesc *desc, WeftError *error);
+WEFT_API WeftResult weft_reflection_write(const WeftReflection *reflection, const char *path, const WeftBsdfDesc *desc,
+                                          WeftError *error);
 
 /* Returns the mean absolute difference of f, relative to the mean f of `reflection`, over three channels and 4096 pairs
  * of directions up to 80 degrees off the normal, uniform in the angle of wo and in the solid angle of wi. */
@@ -81,8 +80,7 @@ WEFT_API void weft_reflection_eval(const WeftReflection *reflection, int part, c
 
 /* Computes E for wo in the plane of the tangent with cosine cos_o in (0, 1]. For a lobe it is that of
  * weft_lobe_albedo, else a sum over some thousand directions, exact to about 1 %. */
-WEFT_API void weft_reflection_albedo(const WeftReflection *reflection, int part, float cos_o,
-                                     float albedo[3]);
+WEFT_API void weft_reflection_albedo(const WeftReflection *reflection, int part, float cos_o, float albedo[3]);
 
 /* Draws a sphere with that reflection, F32 RGBA, linear, transparent around it, size x size pixels (8 .. 4096). It is
  * seen from far away, with a horizontal tangent, under three directional lights without shadows: irradiance 2 from 45

@@ -95,8 +95,7 @@ WEFT_API void weft_render_free(WeftRender *render); /* may be NULL */
  *
  * While this runs, no other call on the render is allowed, from any thread: weft_render_info, weft_render_image and
  * their like read what it writes. */
-WEFT_API WeftResult weft_render_run(WeftRender *render, int spp, double seconds, WeftProgress progress,
-                                    void *user);
+WEFT_API WeftResult weft_render_run(WeftRender *render, int spp, double seconds, WeftProgress progress, void *user);
 
 /* The progress of an image and its costs. */
 typedef struct WeftRenderInfo {

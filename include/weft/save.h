@@ -12,8 +12,7 @@ extern "C" {
  * without a file of their own are written beside it as .png, named after the file and the input; the file refers to
  * textures by paths from its folder. weft_scene_assign_material of the file gives the same material. The file appears
  * complete or not at all. Fails with WEFT_MESSAGE_MATERIAL_NAME, _FILE_WRITE or _MEMORY. */
-WEFT_API WeftResult weft_scene_save_material(const WeftScene *scene, int index, const char *path,
-                                             WeftError *error);
+WEFT_API WeftResult weft_scene_save_material(const WeftScene *scene, int index, const char *path, WeftError *error);
 
 /* Writes the scene as it is as .glb, or as .gltf with a .bin and images beside it: meshes in world space; materials
  * with the extensions KHR_materials_sheen, _clearcoat, _anisotropy, _specular, _ior, _diffuse_transmission,

@@ -22,8 +22,8 @@ typedef struct WeftScene WeftScene;
 WEFT_API WeftResult weft_scene_load(const char *path, WeftScene **out, const WeftLog *log, WeftError *error);
 
 /* Works as weft_scene_load, with progress (may be NULL), which can stop it: WEFT_INTERRUPTED. */
-WEFT_API WeftResult weft_scene_load_watched(const char *path, WeftProgress progress, void *user,
-                                            WeftScene **out, const WeftLog *log, WeftError *error);
+WEFT_API WeftResult weft_scene_load_watched(const char *path, WeftProgress progress, void *user, WeftScene **out,
+                                            const WeftLog *log, WeftError *error);
 
 /* Works as weft_scene_load, from size bytes of a .glb, or of a .gltf that refers to no other file. */
 WEFT_API WeftResult weft_scene_load_memory(const void *data, size_t size, const char *name, WeftScene **out,
@@ -64,8 +64,8 @@ WEFT_API int weft_scene_variant(const WeftScene *scene);
 /* Sets "MATERIAL.INPUT" to a number or "r,g,b" and drops its texture (a normal map stays and is scaled), or a
  * choice such as "MATERIAL.layer" to an id or "auto"; MATERIAL is a name, an index or "*" for all. Values beyond the
  * plausible range are a warning and are clamped to the hard range; non-finite values are refused. */
-WEFT_API WeftResult weft_scene_set(WeftScene *scene, const char *target, const char *value,
-                                   const WeftLog *log, WeftError *error);
+WEFT_API WeftResult weft_scene_set(WeftScene *scene, const char *target, const char *value, const WeftLog *log,
+                                   WeftError *error);
 
 /* Replaces materials by that of a file (docs/materials.md) or of "preset:NAME". material is a name, an index, "*" for
  * all, or NULL for the cloth of the scene: materials that have a sheen or, where none has, all that do not emit. A
@@ -76,9 +76,9 @@ WEFT_API WeftResult weft_scene_assign_material(WeftScene *scene, const char *mat
 
 /* Works as weft_scene_assign_material, from size bytes of a material file that names no texture. Messages begin
  * with name. */
-WEFT_API WeftResult weft_scene_assign_material_memory(WeftScene *scene, const char *material,
-                                                      const void *data, size_t size, const char *name,
-                                                      const WeftLog *log, WeftError *error);
+WEFT_API WeftResult weft_scene_assign_material_memory(WeftScene *scene, const char *material, const void *data,
+                                                      size_t size, const char *name, const WeftLog *log,
+                                                      WeftError *error);
 
 /* Returns the name of a preset, a line on its appearance, and the text of its material file; NULL past the end. */
 WEFT_API const char *weft_preset_name(int index);
@@ -90,8 +90,7 @@ WEFT_API const char *weft_preset_text(int index);
  * material, which becomes the greatest change, over a grid of 256 x 256 points of its textures, of a channel of the
  * diffuse colour or of the reflectance at normal incidence; or, where the material stays as it is, -1 for another
  * workflow or a profile, -2 for the target workflow. */
-WEFT_API WeftResult weft_scene_convert(WeftScene *scene, const char *workflow, float *losses,
-                                       WeftError *error);
+WEFT_API WeftResult weft_scene_convert(WeftScene *scene, const char *workflow, float *losses, WeftError *error);
 
 /* Returns the name, the help and the label of a slider of a material input that weft_scene_set takes, NULL past the end; and
  * the index of a name, or -1. */
@@ -117,8 +116,7 @@ WEFT_API WeftResult weft_scene_set_environment_file(WeftScene *scene, const char
                                                     WeftError *error);
 
 /* Lights the scene by uniform radiance from all directions. */
-WEFT_API WeftResult weft_scene_set_environment_color(WeftScene *scene, const float color[3],
-                                                     WeftError *error);
+WEFT_API WeftResult weft_scene_set_environment_color(WeftScene *scene, const float color[3], WeftError *error);
 
 /* Lights the scene by the studio, the default of a loaded scene. */
 WEFT_API WeftResult weft_scene_set_environment_studio(WeftScene *scene, WeftError *error);
@@ -146,10 +144,9 @@ typedef enum WeftLightKind {
 typedef struct WeftLight {
     WeftLightKind kind; /* selects the members below that are used */
     float position[3];  /* m; point, spot, middle of a polygon */
-    float direction
-        [3];        /* in which light travels, of any length but 0: directional, spot; normal of a polygon */
-    float color[3]; /* >= 0: W/m^2 across the beam (directional), W/sr (point, spot), radiance (polygon) */
-    float range;    /* m, distance beyond which there is no light; 0: unlimited */
+    float direction[3]; /* in which light travels, of any length but 0: directional, spot; normal of a polygon */
+    float color[3];     /* >= 0: W/m^2 across the beam (directional), W/sr (point, spot), radiance (polygon) */
+    float range;        /* m, distance beyond which there is no light; 0: unlimited */
     float inner, outer; /* spot: degrees from the axis, 0 <= inner <= outer <= 90; outer 0: 45 */
     float size[2];      /* polygon: m, along its two axes, > 0; the first one is horizontal */
     int corners;        /* polygon: 3 .. 8, on the ellipse that fills size; 4 is the rectangle; 0: 4 */
@@ -163,8 +160,7 @@ WEFT_API WeftResult weft_scene_add_light(WeftScene *scene, const WeftLight *ligh
  * that were added. Meshes with an emissive material are not among them. All fail with WEFT_MESSAGE_DESC where there is
  * no such light; weft_scene_put_light fails as weft_scene_add_light does. */
 WEFT_API WeftResult weft_scene_light(const WeftScene *scene, int index, WeftLight *out, WeftError *error);
-WEFT_API WeftResult weft_scene_put_light(WeftScene *scene, int index, const WeftLight *light,
-                                         WeftError *error);
+WEFT_API WeftResult weft_scene_put_light(WeftScene *scene, int index, const WeftLight *light, WeftError *error);
 WEFT_API WeftResult weft_scene_remove_light(WeftScene *scene, int index, WeftError *error);
 
 /* A camera in numbers. */

@@ -51,8 +51,7 @@ WEFT_API WeftResult weft_difference_image(const WeftImage *image, const WeftImag
 
 /* Draws a map of one channel, F32, as U8 RGB: black at `none`, through red to yellow at `most` (below or above `none`)
  * and beyond. Fails with WEFT_MESSAGE_DESC or _MEMORY. */
-WEFT_API WeftResult weft_heat_image(const WeftImage *map, float none, float most, WeftImage *out,
-                                    WeftError *error);
+WEFT_API WeftResult weft_heat_image(const WeftImage *map, float none, float most, WeftImage *out, WeftError *error);
 
 #ifdef __cplusplus
 }

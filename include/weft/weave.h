@@ -87,8 +87,7 @@ WEFT_API WeftThread weft_draft_thread(const WeftDraft *draft, WeftThreads thread
 
 /* Sets the spacing of all threads of a system by their number per metre (a sett of 24 per cm is 2400), and scales
  * their thickness alike. Fails with WEFT_MESSAGE_DESC unless 1 <= per_metre <= 1e6. */
-WEFT_API WeftResult weft_draft_set_sett(WeftDraft *draft, WeftThreads threads, float per_metre,
-                                        WeftError *error);
+WEFT_API WeftResult weft_draft_set_sett(WeftDraft *draft, WeftThreads threads, float per_metre, WeftError *error);
 
 /* Writes a draft by suffix: .wif (1.1, threading, tie-up and treadling of the fewest shafts and treadles),
  * .png, .svg or .pdf (the draft as weavers print it: threading above, treadling at the right, the tie-up in
@@ -105,8 +104,7 @@ typedef struct WeftYarn {
     float alpha;     /* of its fibres, as in lobe yarn: silk 0.1, linen 0.3, cotton 0.4, wool 0.5 */
     float crimp;     /* steepest angle along the thread, where it dives below another, radians */
     float roundness; /* slope at the edges of a thread */
-    float
-        twist; /* of the fibres about the thread, radians: 0 filament, below 0 a Z twist, above 0 an S twist */
+    float twist;     /* of the fibres about the thread, radians: 0 filament, below 0 a Z twist, above 0 an S twist */
     float white;     /* fraction of the light that one fibre reflects at its surface, without its dye */
     float width;     /* of a thread, relative to the draft's; below 1 there are gaps */
     float bulge;     /* extra width in the middle of a long float */
@@ -142,8 +140,8 @@ typedef struct WeftCloth WeftCloth;
 
 /* Weaves a draft, whose colours are the reflectance of the threads; seed selects the random variation. The draft may be
  * freed. Fails with WEFT_MESSAGE_DESC (a number outside WeftYarnNumber's range) or _MEMORY. */
-WEFT_API WeftResult weft_cloth_create(const WeftDraft *draft, const WeftYarn yarns[2], unsigned seed,
-                                      WeftCloth **out, WeftError *error);
+WEFT_API WeftResult weft_cloth_create(const WeftDraft *draft, const WeftYarn yarns[2], unsigned seed, WeftCloth **out,
+                                      WeftError *error);
 
 /* Releases a cloth. cloth may be NULL. */
 WEFT_API void weft_cloth_free(WeftCloth *cloth);

@@ -68,8 +68,7 @@ void cache_write(uint64_t key, const char *suffix, const void *data, size_t size
     } else if (written) {
         written = output_commit(&file, NULL) == WEFT_OK;
     }
-    if (!written)
-        warn(log, WEFT_MESSAGE_CACHE_IGNORED, path, "it cannot be written; the next start will be slower");
+    if (!written) warn(log, WEFT_MESSAGE_CACHE_IGNORED, path, "it cannot be written; the next start will be slower");
 }
 
 /* The beginning of a file; the data and a hash of both follow. */

@@ -1,6 +1,5 @@
 /* cache.h - files in the user's cache, named by a hash of what they were made from */
-#ifndef WEFT_BASE_CACHE_H
-#define WEFT_BASE_CACHE_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -45,5 +44,3 @@ void cache_distrust(uint64_t key, const char *suffix, const WeftLog *log);
 enum { CACHE_EXTRA = 8 + 8 + 8 };
 void cache_pack(uint64_t key, const void *data, size_t size, void *file);
 bool cache_unpack(const void *file, size_t file_size, uint64_t key, void *data, size_t size);
-
-#endif

@@ -1,11 +1,8 @@
 /* equal.h - equality of floats in which NaN equals every value */
-#ifndef WEFT_BASE_EQUAL_H
-#define WEFT_BASE_EQUAL_H
+#pragma once
 
 #include <stdbool.h>
 
 /* Returns true if neither value is less than the other. `==` is false for NaN: a table, shader or default that is looked
  * up by its values would then never be found, and made again each time. */
 static inline bool is_equal(float a, float b) { return !(a < b) && !(a > b); }
-
-#endif

@@ -110,8 +110,7 @@ static WeftResult find_target(const char *path, char **target, WeftError *error)
     *target = NULL;
     if (!path[0]) return fail(error, WEFT_MESSAGE_FILE_WRITE, path, "it has no name");
     bool there = stat(path, &status) == 0;
-    if (there && !S_ISREG(status.st_mode))
-        return fail(error, WEFT_MESSAGE_FILE_WRITE, path, "it is not a plain file");
+    if (there && !S_ISREG(status.st_mode)) return fail(error, WEFT_MESSAGE_FILE_WRITE, path, "it is not a plain file");
     if (!there && lstat(path, &status) == 0)
         return fail(error, WEFT_MESSAGE_FILE_WRITE, path, "it is a link that leads nowhere");
     *target = there ? realpath(path, NULL) : strdup(path);

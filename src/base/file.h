@@ -1,6 +1,5 @@
 /* file.h - reading and writing of whole files */
-#ifndef WEFT_BASE_FILE_H
-#define WEFT_BASE_FILE_H
+#pragma once
 
 #include <stdio.h>
 
@@ -36,5 +35,3 @@ WeftResult output_commit(OutputFile *file, WeftError *error);
 
 /* Closes and removes the temporary file. */
 void output_discard(OutputFile *file);
-
-#endif

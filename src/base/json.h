@@ -2,8 +2,7 @@
  *
  * If the buffer of a string cannot grow, jansson's parser drops characters silently, and it clears errno at every
  * number. Therefore its allocations are watched. */
-#ifndef WEFT_BASE_JSON_H
-#define WEFT_BASE_JSON_H
+#pragma once
 
 #include <jansson.h>
 #include <stdbool.h>
@@ -11,5 +10,3 @@
 
 /* Parses as json_loadb does, but returns NULL with *starved = true if memory was short. starved must not be NULL. */
 json_t *json_parse(const char *text, size_t size, size_t flags, json_error_t *where, bool *starved);
-
-#endif

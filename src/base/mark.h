@@ -1,6 +1,5 @@
 /* mark.h - the byte-order mark U+FEFF at the beginning of a text in UTF-8 */
-#ifndef WEFT_BASE_MARK_H
-#define WEFT_BASE_MARK_H
+#pragma once
 
 #include <stddef.h>
 #include <string.h>
@@ -9,5 +8,3 @@
 static inline size_t mark_size(const void *text, size_t size) {
     return size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
 }
-
-#endif

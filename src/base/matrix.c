@@ -27,15 +27,13 @@ static void tile(int k, const double *restrict a, const double *restrict b, doub
 }
 
 /* Copies rows first .. first + height into a panel, side by side for each p; rows past the end are 0. */
-static void pack(int first, int count, int height, int k, const double *at, int along, int across,
-                 double *out) {
+static void pack(int first, int count, int height, int k, const double *at, int along, int across, double *out) {
     for (int p = 0; p < k; p++)
         for (int r = 0; r < height; r++)
             *out++ = first + r < count ? at[(long)(first + r) * along + (long)p * across] : 0.0;
 }
 
-bool matrix_product(int m, int n, int k, double factor, Matrix a, Matrix b, double keep, double *c,
-                    int stride) {
+bool matrix_product(int m, int n, int k, double factor, Matrix a, Matrix b, double keep, double *c, int stride) {
     int panels = (m + TALL - 1) / TALL;
     double *block = alloc_array((size_t)k * ((size_t)panels * TALL + WIDE), sizeof *block);
     if (!block) return false;
@@ -50,8 +48,7 @@ bool matrix_product(int m, int n, int k, double factor, Matrix a, Matrix b, doub
             int tall = m - i * TALL < TALL ? m - i * TALL : TALL, wide = n - j < WIDE ? n - j : WIDE;
             for (int q = 0; q < wide; q++) {
                 double *column = c + (size_t)(j + q) * (size_t)stride + (size_t)i * TALL;
-                for (int r = 0; r < tall; r++)
-                    column[r] = (keep != 0.0 ? keep * column[r] : 0.0) + factor * sums[q][r];
+                for (int r = 0; r < tall; r++) column[r] = (keep != 0.0 ? keep * column[r] : 0.0) + factor * sums[q][r];
             }
         }
     }

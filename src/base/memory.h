@@ -1,6 +1,5 @@
 /* memory.h - allocation that checks its sizes, and an arena for objects that are released together */
-#ifndef WEFT_BASE_MEMORY_H
-#define WEFT_BASE_MEMORY_H
+#pragma once
 
 #include <errno.h>
 #include <stdbool.h>
@@ -36,5 +35,3 @@ char *arena_text(Arena *arena, const char *text);
 
 /* Releases all blocks; the arena is then empty and can be reused. */
 void arena_free(Arena *arena);
-
-#endif

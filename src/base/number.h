@@ -1,6 +1,5 @@
 /* number.h - parsing of numbers that people type */
-#ifndef WEFT_BASE_NUMBER_H
-#define WEFT_BASE_NUMBER_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -16,5 +15,3 @@ bool parse_numbers(const char *text, char separator, int count, float *values);
 
 /* Reads "r,g,b", or one number for all three. */
 bool parse_color(const char *text, float color[3]);
-
-#endif

@@ -1,6 +1,5 @@
 /* path.h - suffixes of file names */
-#ifndef WEFT_BASE_PATH_H
-#define WEFT_BASE_PATH_H
+#pragma once
 
 #include <stdbool.h>
 #include <string.h>
@@ -11,5 +10,3 @@ static inline bool path_ends(const char *path, const char *suffix) {
     size_t length = strlen(path), size = strlen(suffix);
     return length > size && strcasecmp(path + length - size, suffix) == 0;
 }
-
-#endif

@@ -19,8 +19,7 @@ int process_run(const char *const *arguments, const char *log) {
     if (posix_spawn_file_actions_init(&files) != 0) return PROCESS_MISSING;
     pid_t child;
     int status, failed = posix_spawn_file_actions_addopen(&files, 0, "/dev/null", O_RDONLY, 0);
-    if (!failed)
-        failed = posix_spawn_file_actions_addopen(&files, 1, log, O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    if (!failed) failed = posix_spawn_file_actions_addopen(&files, 1, log, O_WRONLY | O_CREAT | O_TRUNC, 0600);
     if (!failed) failed = posix_spawn_file_actions_adddup2(&files, 1, 2);
     if (!failed) failed = posix_spawnp(&child, "env", &files, NULL, (char *const *)(uintptr_t)all, environ);
     posix_spawn_file_actions_destroy(&files);

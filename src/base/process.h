@@ -1,6 +1,5 @@
 /* process.h - running another program to its end */
-#ifndef WEFT_BASE_PROCESS_H
-#define WEFT_BASE_PROCESS_H
+#pragma once
 
 /* Runs arguments[0], found by $PATH, in the language "C"; arguments end with NULL. It reads nothing, and what
  * it prints goes to the file `log`. Returns its exit code, 128 and more where a signal ended it, and
@@ -8,5 +7,3 @@
  * be waited for, as while SIGCHLD is ignored (waitpid, POSIX.1-2017). */
 enum { PROCESS_MISSING = 127, PROCESS_LOST = -1 };
 int process_run(const char *const *arguments, const char *log);
-
-#endif

@@ -1,6 +1,5 @@
 /* steady_clock.h - monotonic time, and waiting by it; includes nothing of weft, so that programs may include it */
-#ifndef WEFT_BASE_STEADY_CLOCK_H
-#define WEFT_BASE_STEADY_CLOCK_H
+#pragma once
 
 #include <pthread.h>
 #include <time.h>
@@ -27,5 +26,3 @@ static inline void clock_condition(pthread_cond_t *condition) {
     pthread_cond_init(condition, &steady);
     pthread_condattr_destroy(&steady);
 }
-
-#endif

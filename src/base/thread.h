@@ -1,6 +1,5 @@
 /* thread.h - a loop over independent items on several cores, and work in a thread of its own */
-#ifndef WEFT_BASE_THREAD_H
-#define WEFT_BASE_THREAD_H
+#pragma once
 
 /* Returns the number of processors that this process may use; at least 1. */
 int thread_count(void);
@@ -15,5 +14,3 @@ void run_in_thread(void (*body)(void *user), void *user);
 
 /* Lowers the priority of this thread, and of those that it starts, for the rest of their lives. */
 void thread_step_back(void);
-
-#endif

@@ -1,6 +1,5 @@
 /* vec3.h - three floats in world space */
-#ifndef WEFT_BASE_VEC3_H
-#define WEFT_BASE_VEC3_H
+#pragma once
 
 #include <math.h>
 
@@ -13,19 +12,13 @@ static inline Vec3 vec3_load(const float *p) { return (Vec3){p[0], p[1], p[2]}; 
 static inline Vec3 vec3_add(Vec3 a, Vec3 b) { return (Vec3){a.x + b.x, a.y + b.y, a.z + b.z}; }
 static inline Vec3 vec3_sub(Vec3 a, Vec3 b) { return (Vec3){a.x - b.x, a.y - b.y, a.z - b.z}; }
 static inline Vec3 vec3_scale(Vec3 a, float s) { return (Vec3){a.x * s, a.y * s, a.z * s}; }
-static inline Vec3 vec3_madd(Vec3 a, Vec3 b, float s) {
-    return (Vec3){a.x + b.x * s, a.y + b.y * s, a.z + b.z * s};
-}
+static inline Vec3 vec3_madd(Vec3 a, Vec3 b, float s) { return (Vec3){a.x + b.x * s, a.y + b.y * s, a.z + b.z * s}; }
 static inline float vec3_dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 static inline float vec3_length(Vec3 a) { return sqrtf(vec3_dot(a, a)); }
 
 /* Returns the least or the greatest of each number. Starting from infinity, they give the bounding box of points. */
-static inline Vec3 vec3_least(Vec3 a, Vec3 b) {
-    return (Vec3){fminf(a.x, b.x), fminf(a.y, b.y), fminf(a.z, b.z)};
-}
-static inline Vec3 vec3_most(Vec3 a, Vec3 b) {
-    return (Vec3){fmaxf(a.x, b.x), fmaxf(a.y, b.y), fmaxf(a.z, b.z)};
-}
+static inline Vec3 vec3_least(Vec3 a, Vec3 b) { return (Vec3){fminf(a.x, b.x), fminf(a.y, b.y), fminf(a.z, b.z)}; }
+static inline Vec3 vec3_most(Vec3 a, Vec3 b) { return (Vec3){fmaxf(a.x, b.x), fmaxf(a.y, b.y), fmaxf(a.z, b.z)}; }
 
 static inline Vec3 vec3_cross(Vec3 a, Vec3 b) {
     return (Vec3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
@@ -40,5 +33,3 @@ static inline Vec3 vec3_normal_or(Vec3 a, Vec3 fallback) {
 static inline Vec3 vec3_lerp3(Vec3 a, Vec3 b, Vec3 c, float wa, float wb, float wc) {
     return vec3_madd(vec3_madd(vec3_scale(a, wa), b, wb), c, wc);
 }
-
-#endif

@@ -1,6 +1,5 @@
 /* little_endian.h - little-endian numbers in files */
-#ifndef WEFT_BRDF_LITTLE_ENDIAN_H
-#define WEFT_BRDF_LITTLE_ENDIAN_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -26,5 +25,3 @@ static inline float little_endian_float(const unsigned char *bytes) {
     memcpy(&value, &bits, sizeof value);
     return value;
 }
-
-#endif

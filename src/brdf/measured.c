@@ -14,8 +14,7 @@ MeasuredFormat measured_format(const char *name) {
                                       : MEASURED_NONE;
 }
 
-WeftResult measured_read_memory(const void *data, size_t size, const char *name, Measured *out,
-                                WeftError *error) {
+WeftResult measured_read_memory(const void *data, size_t size, const char *name, Measured *out, WeftError *error) {
     MeasuredFormat format = measured_format(name);
     *out = (Measured){.format = format == MEASURED_NONE ? MEASURED_MERL : format};
     return format == MEASURED_RGL    ? rgl_read_memory(data, size, name, &out->rgl, error)

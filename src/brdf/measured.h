@@ -1,8 +1,7 @@
 /* measured.h - a measured BRDF of any of three file formats
  *
  * The suffix of the name selects the format: .binary MERL (merl.h), .bsdf RGL (rgl.h), .bin UTIA (utia.h). */
-#ifndef WEFT_BRDF_MEASURED_H
-#define WEFT_BRDF_MEASURED_H
+#pragma once
 
 #include "brdf/merl.h"
 #include "brdf/rgl.h"
@@ -27,8 +26,7 @@ MeasuredFormat measured_format(const char *name);
 /* Reads a file, or size bytes of one; any other suffix means MERL. Fails as the reader of its format does, and as
  * file_read. Release with measured_free in any case. */
 WeftResult measured_read(const char *path, Measured *out, WeftError *error);
-WeftResult measured_read_memory(const void *data, size_t size, const char *name, Measured *out,
-                                WeftError *error);
+WeftResult measured_read_memory(const void *data, size_t size, const char *name, Measured *out, WeftError *error);
 void measured_free(Measured *measured);
 
 /* Returns true if f does not change when both directions rotate about the normal. */
@@ -41,5 +39,3 @@ bool measured_at(const Measured *measured, Dir o, Dir i, float f[3]);
  * RGL file, else by the cosine. */
 Dir measured_sample(const Measured *measured, Dir o, float u, float v);
 float measured_pdf(const Measured *measured, Dir o, Dir i);
-
-#endif

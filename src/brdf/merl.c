@@ -10,9 +10,7 @@
 
 enum { HEADER = 12 };
 
-static size_t bins_of(MerlShape shape) {
-    return (size_t)shape.theta_h * (size_t)shape.theta_d * (size_t)shape.phi_d;
-}
+static size_t bins_of(MerlShape shape) { return (size_t)shape.theta_h * (size_t)shape.theta_d * (size_t)shape.phi_d; }
 
 static const double units[3] = {1.0 / 1500.0, 1.15 / 1500.0, 1.66 / 1500.0};
 
@@ -23,8 +21,8 @@ static WeftResult check_size(const unsigned char *bytes, size_t size, MerlShape 
     unsigned n[3];
     for (int k = 0; k < 3; k++) n[k] = (unsigned)little_endian(bytes + (size_t)4 * (size_t)k, 4);
     if (n[0] != (unsigned)shape.theta_h || n[1] != (unsigned)shape.theta_d || n[2] != (unsigned)shape.phi_d)
-        return fail(error, WEFT_MESSAGE_MEASURED, name, "it has %u x %u x %u bins; %d x %d x %d are expected",
-                    n[0], n[1], n[2], shape.theta_h, shape.theta_d, shape.phi_d);
+        return fail(error, WEFT_MESSAGE_MEASURED, name, "it has %u x %u x %u bins; %d x %d x %d are expected", n[0],
+                    n[1], n[2], shape.theta_h, shape.theta_d, shape.phi_d);
     if (size != whole)
         return fail(error, WEFT_MESSAGE_MEASURED, name, "it has %zu bytes, and %s: %zu would be right", size,
                     size < whole ? "was cut short" : "goes on behind its end", whole);
@@ -118,10 +116,9 @@ bool merl_at(const Merl *merl, Dir o, Dir i, float f[3]) {
     double sum[3] = {0.0}, weights = 0.0;
     for (int corner = 0; corner < 8; corner++) {
         int u = corner & 1, v = corner >> 1 & 1, w = corner >> 2;
-        size_t at =
-            ((size_t)h.bin[u] * (size_t)s.theta_d + (size_t)d.bin[v]) * (size_t)s.phi_d + (size_t)p.bin[w];
-        double weight = (u ? h.weight : 1.0 - h.weight) * (v ? d.weight : 1.0 - d.weight) *
-                        (w ? p.weight : 1.0 - p.weight);
+        size_t at = ((size_t)h.bin[u] * (size_t)s.theta_d + (size_t)d.bin[v]) * (size_t)s.phi_d + (size_t)p.bin[w];
+        double weight =
+            (u ? h.weight : 1.0 - h.weight) * (v ? d.weight : 1.0 - d.weight) * (w ? p.weight : 1.0 - p.weight);
         if (merl->f[0][at] < 0.0f || merl->f[1][at] < 0.0f || merl->f[2][at] < 0.0f) continue;
         for (int c = 0; c < 3; c++) sum[c] += weight * (double)merl->f[c][at];
         weights += weight;

@@ -6,8 +6,7 @@
  * 1.15/1500 and 1.66/1500 per steradian; negative means unmeasured. Angles are those of Szymon Rusinkiewicz, "A New
  * Change of Variables for Efficient BRDF Representation", 1998. With 360 bins phi_d covers the whole circle, and f need
  * not be reciprocal; with 180 the other half of the circle is equal. */
-#ifndef WEFT_BRDF_MERL_H
-#define WEFT_BRDF_MERL_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -47,5 +46,3 @@ WeftResult merl_read_shape(const void *data, size_t size, MerlShape shape, const
 /* Evaluates f, linear between the middles of the bins, over those that were measured. Returns false where none was, and
  * below the horizon. */
 bool merl_at(const Merl *merl, Dir o, Dir i, float f[3]);
-
-#endif

@@ -19,8 +19,7 @@
  *
  * phi_i may span a half or a quarter of the circle, from -pi on: the material is then symmetric under rotation by pi,
  * or under mirroring in x and in y. The direction that the fields call i is wo here. */
-#ifndef WEFT_BRDF_RGL_H
-#define WEFT_BRDF_RGL_H
+#pragma once
 
 #include <stdbool.h>
 #include <stdio.h>
@@ -68,5 +67,3 @@ double rgl_table_at(const RglTable *table, SquarePoint u);
 
 /* Writes a file with rgb and that description. Returns false on failure. */
 bool rgl_write(const Rgl *rgl, const char *description, FILE *stream);
-
-#endif

@@ -73,9 +73,9 @@ static double projected(const Facets *self, Dir w) {
 static Dir direction_of(const Facets *self, const RglTable *table, int at) {
     const int x = at % table->width, y = at / table->width;
     double theta, phi;
-    rgl_angles_of((SquarePoint){(double)x / (table->width - 1),
-                                self->source->isotropic ? 0.5 : (double)y / (table->height - 1)},
-                  &theta, &phi);
+    rgl_angles_of(
+        (SquarePoint){(double)x / (table->width - 1), self->source->isotropic ? 0.5 : (double)y / (table->height - 1)},
+        &theta, &phi);
     return rgl_direction(theta, phi);
 }
 
@@ -92,8 +92,7 @@ static void back_set(void *user, int at, int thread) {
     float f[1][3];
     (void)thread;
     self->source->f(self->source->user, o, 1, (const float(*)[3])o, f);
-    self->back.value[at] =
-        (float)(((double)f[0][0] + (double)f[0][1] + (double)f[0][2]) / 3.0 * (double)o[2]);
+    self->back.value[at] = (float)(((double)f[0][0] + (double)f[0][1] + (double)f[0][2]) / 3.0 * (double)o[2]);
 }
 
 /* Sets D from back and sigma; ndf may be the table of back. */
@@ -121,8 +120,7 @@ static void fill(Facets *self, int threads) {
 }
 
 static bool iterate(Facets *self, int threads, double *whole) {
-    if (!tables_create(self, ACROSS) || !table_create(&self->ndf, ACROSS, self->source->isotropic))
-        return false;
+    if (!tables_create(self, ACROSS) || !table_create(&self->ndf, ACROSS, self->source->isotropic)) return false;
     for (int k = 0; k < count_of(&self->ndf); k++) self->ndf.value[k] = 1.0f;
     for (int round = 0; round < ROUNDS; round++) {
         ndf_scale(self);

@@ -9,8 +9,7 @@
  * Computer Graphics Forum 34(4), 2015; for the rest see rgl.h. A last iteration writes finer tables: R is the quotient
  * of f by them, so it has a crease wherever D has one, and R is sampled coarsely. 3 % of D's peak are added uniformly,
  * so that f can be represented where nothing is retroreflected. */
-#ifndef WEFT_BRDF_RGL_FACETS_H
-#define WEFT_BRDF_RGL_FACETS_H
+#pragma once
 
 #include "brdf/rgl.h"
 
@@ -28,5 +27,3 @@ bool rgl_facets(const RglSource *source, int threads, Rgl *out);
 
 /* Returns the direction of these angles, radians, not below the horizon. */
 Dir rgl_direction(double theta, double phi);
-
-#endif

@@ -39,8 +39,7 @@ static void normals_fill(const Rgl *rgl, int slice, float *density) {
     for (int round = 0; round < 2; round++)
         for (int at = 0; at < side * side; at++) {
             const int column = at % side, row = at / side;
-            Spread s =
-                spread_at(rgl, o, (SquarePoint){(double)column / (side - 1), (double)row / (side - 1)});
+            Spread s = spread_at(rgl, o, (SquarePoint){(double)column / (side - 1), (double)row / (side - 1)});
             if (round == 0)
                 sum += s.k * s.q, of_k += s.k;
             else
@@ -67,8 +66,7 @@ static void colors_fill(void *user, int slice, int thread) {
     for (size_t k = 0; k < n; k++) {
         double theta, phi;
         const size_t column = k % (size_t)side, row = k / (size_t)side;
-        SquarePoint u =
-            square_warp_point(&rgl->normals, &own, (double)column / (side - 1), (double)row / (side - 1));
+        SquarePoint u = square_warp_point(&rgl->normals, &own, (double)column / (side - 1), (double)row / (side - 1));
         rgl_angles_of(u, &theta, &phi);
         if (rgl_isotropic(rgl)) phi += azimuth;
         Dir m = rgl_direction(theta, phi), i = dir_mirror(o, m);
@@ -77,11 +75,9 @@ static void colors_fill(void *user, int slice, int thread) {
         making->source->f(making->source->user, wo, 1, wi, f);
         double scale = sigma * (double)i.z / rgl_table_at(&rgl->ndf, u);
         for (size_t c = 0; c < 3; c++) color[c * n + k] = (float)((double)f[0][c] * scale);
-        double area =
-            u.x * (sin)(theta) * (fmax)((double)dir_dot(o, m), 0.0); /* dwi / du, up to a constant */
+        double area = u.x * (sin)(theta) * (fmax)((double)dir_dot(o, m), 0.0); /* dwi / du, up to a constant */
         double bright = 0.2126 * (double)f[0][0] + 0.7152 * (double)f[0][1] + 0.0722 * (double)f[0][2];
-        luminance[k] =
-            (float)((fmax)(bright * (double)i.z * area, 0.0) / square_warp_density(&rgl->normals, &own, u));
+        luminance[k] = (float)((fmax)(bright * (double)i.z * area, 0.0) / square_warp_density(&rgl->normals, &own, u));
     }
 }
 
@@ -116,8 +112,7 @@ bool rgl_make(const RglSource *source, const RglDesc *desc, Rgl *out) {
     const int slices = out->phis * out->thetas;
     const size_t n = (size_t)out->side * (size_t)out->side;
     float *normals = alloc_array((size_t)slices * n, sizeof *normals);
-    for (int slice = 0; normals && slice < slices; slice++)
-        normals_fill(out, slice, normals + (size_t)slice * n);
+    for (int slice = 0; normals && slice < slices; slice++) normals_fill(out, slice, normals + (size_t)slice * n);
     if (!square_warp_create(&out->normals, out->side, out->side, (size_t)slices, normals)) return false;
     out->color = alloc_array((size_t)slices * 3 * n, sizeof *out->color);
     making.luminance = out->color ? alloc_array((size_t)slices * n, sizeof *making.luminance) : NULL;

@@ -6,8 +6,7 @@
  *
  * so that there are points where little light is retroreflected, and few below the horizon. A reader of the file needs
  * no formula for W. This density is our own, chosen by the error of the tabulated lobes (docs/measured.md). */
-#ifndef WEFT_BRDF_RGL_MAKE_H
-#define WEFT_BRDF_RGL_MAKE_H
+#pragma once
 
 #include "brdf/rgl_facets.h"
 
@@ -29,5 +28,3 @@ bool rgl_make(const RglSource *source, const RglDesc *desc, Rgl *out);
  * one node to the next, and thus h^2 f'' / 12 in the mean. The remaining error has mean 0 along each axis. Returns
  * false if memory is short. */
 bool rgl_sharpen(Rgl *rgl);
-
-#endif

@@ -37,8 +37,7 @@ static const Tensor *floats_of(RglFile *file, const char *field, int rank) {
 /* Copies the numbers and checks that all are finite. */
 static float *copied(RglFile *file, const Tensor *tensor) {
     float *out = file->result == WEFT_OK ? alloc_array(tensor->count, sizeof *out) : NULL;
-    if (!out && file->result == WEFT_OK)
-        file->result = fail(file->error, WEFT_MESSAGE_MEMORY, file->name, NULL);
+    if (!out && file->result == WEFT_OK) file->result = fail(file->error, WEFT_MESSAGE_MEMORY, file->name, NULL);
     for (size_t k = 0; out && k < tensor->count; k++) {
         out[k] = tensor_float(tensor, k);
         if (!isfinite(out[k])) refuse(file, tensor->name, "has a number that is not finite");
@@ -60,8 +59,7 @@ static float *axis_of(RglFile *file, const char *field, int *count) {
 static void sides_of(RglFile *file, const Tensor *tensor, int *width, int *height) {
     size_t w = tensor->extent[tensor->rank - 1], h = tensor->extent[tensor->rank - 2];
     *width = (int)w, *height = (int)h;
-    if (w < 2 || h < 2 || w > 65536 || h > 65536)
-        refuse(file, tensor->name, "has a side below 2 or above 65536");
+    if (w < 2 || h < 2 || w > 65536 || h > 65536) refuse(file, tensor->name, "has a side below 2 or above 65536");
 }
 
 static void table_of(RglFile *file, const char *field, RglTable *out) {
@@ -106,8 +104,7 @@ static void sum_spectra(const Tensor *spectra, const double *weights, float *col
     for (size_t at = 0; at < slices * 3 * n; at++) {
         const size_t slice = at / (3 * n), c = at / n % 3, first = slice * count * n + at % n;
         double sum = 0.0;
-        for (size_t k = 0; k < count; k++)
-            sum += weights[c * count + k] * (double)tensor_float(spectra, first + k * n);
+        for (size_t k = 0; k < count; k++) sum += weights[c * count + k] * (double)tensor_float(spectra, first + k * n);
         color[at] = (float)sum;
     }
 }
@@ -126,8 +123,7 @@ static void spectra_of(RglFile *file, Rgl *rgl) {
         rgl->color = alloc_array(tensor->count / (size_t)count * 3, sizeof *rgl->color);
         if (rgl->color) sum_spectra(tensor, weights, rgl->color);
     }
-    if (file->result == WEFT_OK && !rgl->color)
-        file->result = fail(file->error, WEFT_MESSAGE_MEMORY, file->name, NULL);
+    if (file->result == WEFT_OK && !rgl->color) file->result = fail(file->error, WEFT_MESSAGE_MEMORY, file->name, NULL);
     for (size_t k = 0; rgl->color && k < tensor->count / (size_t)count * 3; k++)
         if (!isfinite(rgl->color[k])) refuse(file, "spectra", "has a number that is not finite");
     free(wavelength);

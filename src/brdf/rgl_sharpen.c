@@ -10,9 +10,7 @@ typedef struct TableAxis {
     const float *at; /* coordinates of the nodes; NULL: uniform */
 } TableAxis;
 
-static double step(TableAxis axis, size_t k) {
-    return axis.at ? (double)axis.at[k + 1] - (double)axis.at[k] : 1.0;
-}
+static double step(TableAxis axis, size_t k) { return axis.at ? (double)axis.at[k + 1] - (double)axis.at[k] : 1.0; }
 
 /* The weights of the correction before (f(middle - 1) - f(middle)) + behind (f(middle + 1) - f(middle)) of a node. */
 typedef struct NodeTaps {
@@ -48,8 +46,7 @@ static void axis_sharpen(float *color, size_t count, TableAxis axis, NodeTaps *t
 
 bool rgl_sharpen(Rgl *rgl) {
     const size_t side = (size_t)rgl->side, thetas = (size_t)rgl->thetas, phis = (size_t)rgl->phis,
-                 slice = 3 * side * side, longer = side > thetas ? side : thetas,
-                 most = longer > phis ? longer : phis;
+                 slice = 3 * side * side, longer = side > thetas ? side : thetas, most = longer > phis ? longer : phis;
     const TableAxis axes[] = {
         {side, 1, NULL}, {side, side, NULL}, {thetas, slice, rgl->theta}, {phis, slice * thetas, NULL}};
     NodeTaps *taps = alloc_array(most, sizeof *taps);

@@ -18,8 +18,7 @@ typedef struct Fields {
     bool short_of_memory;
 } Fields;
 
-static void add(Fields *fields, const char *name, TensorType type, const void *data, int rank,
-                const int *extent) {
+static void add(Fields *fields, const char *name, TensorType type, const void *data, int rank, const int *extent) {
     Tensor *tensor = &fields->tensors[fields->count];
     *tensor = (Tensor){.type = type, .rank = rank, .count = 1};
     snprintf(tensor->name, sizeof tensor->name, "%s", name);
@@ -51,8 +50,7 @@ bool rgl_write(const Rgl *self, const char *description, FILE *stream) {
     add(&fields, "phi_i", TENSOR_F32, self->phi, 1, &p);
     add(&fields, "theta_i", TENSOR_F32, self->theta, 1, &t);
     add(&fields, "ndf", TENSOR_F32, self->ndf.value, 2, (const int[]){self->ndf.height, self->ndf.width});
-    add(&fields, "sigma", TENSOR_F32, self->sigma.value, 2,
-        (const int[]){self->sigma.height, self->sigma.width});
+    add(&fields, "sigma", TENSOR_F32, self->sigma.value, 2, (const int[]){self->sigma.height, self->sigma.width});
     add(&fields, "vndf", TENSOR_F32, w->density, 4, (const int[]){p, t, w->height, w->width});
     add(&fields, "luminance", TENSOR_F32, l->density, 4, (const int[]){p, t, l->height, l->width});
     add(&fields, "rgb", TENSOR_F32, self->color, 5, (const int[]){p, t, 3, n, n});

@@ -11,8 +11,8 @@ static double hump(double x, double middle, double below, double above) {
 
 /* Evaluates the three colour-matching functions at a wavelength. */
 static void matching(double nm, double rgb[3]) {
-    double x = 1.056 * hump(nm, 599.8, 37.9, 31.0) + 0.362 * hump(nm, 442.0, 16.0, 26.7) -
-               0.065 * hump(nm, 501.1, 20.4, 26.2);
+    double x =
+        1.056 * hump(nm, 599.8, 37.9, 31.0) + 0.362 * hump(nm, 442.0, 16.0, 26.7) - 0.065 * hump(nm, 501.1, 20.4, 26.2);
     double y = 0.821 * hump(nm, 568.8, 46.9, 40.5) + 0.286 * hump(nm, 530.9, 16.3, 31.1);
     double z = 1.217 * hump(nm, 437.0, 11.8, 36.0) + 0.681 * hump(nm, 459.0, 26.0, 13.8);
     rgb[0] = 3.2406 * x - 1.5372 * y - 0.4986 * z; /* IEC 61966-2-1 */

@@ -6,13 +6,10 @@
  * Chris Wyman, Peter-Pike Sloan, Peter Shirley, "Simple Analytic Approximations to the CIE XYZ Color Matching
  * Functions", Journal of Computer Graphics Techniques 2(2), 2013, table 1. The illuminant is uniform over
  * wavelengths, so a uniform reflectance is grey. */
-#ifndef WEFT_BRDF_SPECTRUM_H
-#define WEFT_BRDF_SPECTRUM_H
+#pragma once
 
 #include <stdbool.h>
 
 /* Fills weights[channel * count + k] for count ascending wavelengths, nm. Returns false if these do not cover the range
  * of a channel. */
 bool spectrum_weights(const float *wavelength, int count, double *weights);
-
-#endif

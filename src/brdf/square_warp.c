@@ -22,8 +22,7 @@ static int interval(const float *ascending, int count, double x, double *part) {
     return low;
 }
 
-SliceBlend slice_blend(const float *phi, int phis, const float *theta, int thetas, double at_phi,
-                       double at_theta) {
+SliceBlend slice_blend(const float *phi, int phis, const float *theta, int thetas, double at_phi, double at_theta) {
     SliceBlend blend = {.count = 0};
     double part[2];
     int p = interval(phi, phis, at_phi, &part[0]), t = interval(theta, thetas, at_theta, &part[1]);
@@ -40,8 +39,7 @@ SliceBlend slice_blend(const float *phi, int phis, const float *theta, int theta
 /* Scales a slice to an integral of 1 and fills its running integrals. */
 static void integrate(SquareWarp *self, size_t slice) {
     const size_t width = (size_t)self->width, height = (size_t)self->height, n = width * height;
-    float *density = self->density + slice * n, *along = self->along + slice * n,
-          *up = self->up + slice * height;
+    float *density = self->density + slice * n, *along = self->along + slice * n, *up = self->up + slice * height;
     const double dx = 1.0 / (double)(width - 1), dy = 1.0 / (double)(height - 1);
     double most = 0.0, sum = 0.0, before = 0.0, all = 0.0;
     for (size_t k = 0; k < n; k++) most = fmax(most, (double)density[k]);
@@ -88,8 +86,7 @@ void square_warp_free(SquareWarp *self) {
 /* Blends entry `at` of the slices, each of `size` numbers. */
 static double mixed(const float *table, size_t size, const SliceBlend *blend, size_t at) {
     double sum = 0.0;
-    for (int k = 0; k < blend->count; k++)
-        sum += blend->weight[k] * (double)table[blend->slice[k] * size + at];
+    for (int k = 0; k < blend->count; k++) sum += blend->weight[k] * (double)table[blend->slice[k] * size + at];
     return sum;
 }
 
@@ -100,16 +97,14 @@ static size_t cell_of(double x, int count, double *part) {
     return (size_t)low;
 }
 
-double square_table_at(const float *table, int width, int height, const SliceBlend *blend, int channels,
-                       int channel, SquarePoint at) {
+double square_table_at(const float *table, int width, int height, const SliceBlend *blend, int channels, int channel,
+                       SquarePoint at) {
     double s, t;
-    const size_t w = (size_t)width, n = w * (size_t)height, x = cell_of(at.x, width, &s),
-                 y = cell_of(at.y, height, &t), from = (size_t)channel * n + y * w + x;
+    const size_t w = (size_t)width, n = w * (size_t)height, x = cell_of(at.x, width, &s), y = cell_of(at.y, height, &t),
+                 from = (size_t)channel * n + y * w + x;
     const size_t size = n * (size_t)channels;
-    return (1.0 - t) *
-               ((1.0 - s) * mixed(table, size, blend, from) + s * mixed(table, size, blend, from + 1)) +
-           t * ((1.0 - s) * mixed(table, size, blend, from + w) +
-                s * mixed(table, size, blend, from + w + 1));
+    return (1.0 - t) * ((1.0 - s) * mixed(table, size, blend, from) + s * mixed(table, size, blend, from + 1)) +
+           t * ((1.0 - s) * mixed(table, size, blend, from + w) + s * mixed(table, size, blend, from + w + 1));
 }
 
 double square_warp_density(const SquareWarp *self, const SliceBlend *blend, SquarePoint at) {
@@ -134,8 +129,7 @@ typedef struct BetweenRows {
 
 static double between_rows(const BetweenRows *rows, const float *table, size_t x) {
     const size_t w = (size_t)rows->warp->width, n = w * (size_t)rows->warp->height, at = rows->y * w + x;
-    return (1.0 - rows->t) * mixed(table, n, rows->blend, at) +
-           rows->t * mixed(table, n, rows->blend, at + w);
+    return (1.0 - rows->t) * mixed(table, n, rows->blend, at) + rows->t * mixed(table, n, rows->blend, at + w);
 }
 
 static double row_integral(const SquareWarp *self, const SliceBlend *blend, size_t y) {
@@ -176,11 +170,9 @@ SquarePoint square_warp_inverse(const SquareWarp *self, const SliceBlend *blend,
     size_t x = cell_of(at.x, self->width, &s);
     rows.y = cell_of(at.y, self->height, &rows.t);
     double whole = between_rows(&rows, self->along, (size_t)self->width - 1);
-    double part =
-        between_rows(&rows, self->along, x) +
-        dx * ramp_area(between_rows(&rows, self->density, x), between_rows(&rows, self->density, x + 1), s);
+    double part = between_rows(&rows, self->along, x) +
+                  dx * ramp_area(between_rows(&rows, self->density, x), between_rows(&rows, self->density, x + 1), s);
     double below = mixed(self->up, (size_t)self->height, blend, rows.y);
-    double above =
-        dy * ramp_area(row_integral(self, blend, rows.y), row_integral(self, blend, rows.y + 1), rows.t);
+    double above = dy * ramp_area(row_integral(self, blend, rows.y), row_integral(self, blend, rows.y + 1), rows.t);
     return (SquarePoint){.x = whole > 0.0 ? fmin(part / whole, 1.0) : at.x, .y = fmin(below + above, 1.0)};
 }

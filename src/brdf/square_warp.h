@@ -10,8 +10,7 @@
  * of one direction; between them density and integrals are linear in both. Jonathan Dupuy,
  * Wenzel Jakob, "An Adaptive Parameterization for Efficient Material Acquisition and Rendering", 2018,
  * section 4.3 and supplemental material. */
-#ifndef WEFT_BRDF_SQUARE_WARP_H
-#define WEFT_BRDF_SQUARE_WARP_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -24,8 +23,7 @@ typedef struct SliceBlend {
 } SliceBlend;
 
 /* Blends slices at phis azimuths times thetas polar angles, both ascending; angles beyond the ends are clamped. */
-SliceBlend slice_blend(const float *phi, int phis, const float *theta, int thetas, double at_phi,
-                       double at_theta);
+SliceBlend slice_blend(const float *phi, int phis, const float *theta, int thetas, double at_phi, double at_theta);
 
 /* A place in the square. */
 typedef struct SquarePoint {
@@ -52,7 +50,5 @@ SquarePoint square_warp_point(const SquareWarp *warp, const SliceBlend *blend, d
 SquarePoint square_warp_inverse(const SquareWarp *warp, const SliceBlend *blend, SquarePoint at);
 
 /* Interpolates channel `channel` of `channels` in a table of slices, without a warp. */
-double square_table_at(const float *table, int width, int height, const SliceBlend *blend, int channels,
-                       int channel, SquarePoint at);
-
-#endif
+double square_table_at(const float *table, int width, int height, const SliceBlend *blend, int channels, int channel,
+                       SquarePoint at);

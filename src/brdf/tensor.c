@@ -37,8 +37,7 @@ static bool count_numbers(Tensor *tensor, uint64_t offset, size_t size) {
     if (offset > size) return false;
     tensor->count = 1;
     for (int k = 0; k < tensor->rank; k++) {
-        if (tensor->extent[k] == 0 || tensor->extent[k] > (size - offset) / each / tensor->count)
-            return false;
+        if (tensor->extent[k] == 0 || tensor->extent[k] > (size - offset) / each / tensor->count) return false;
         tensor->count *= tensor->extent[k];
     }
     return tensor->count <= (size - offset) / each;
@@ -50,8 +49,8 @@ static WeftResult take_tensor(Header *header, const char *name, Tensor *out, Wef
     if (header->ended)
         return fail(error, WEFT_MESSAGE_BSDF, name, "its list of arrays is cut short or has a long name");
     if (rank < 1 || rank > TENSOR_AXES || type < 1 || type >= TENSOR_TYPES)
-        return fail(error, WEFT_MESSAGE_BSDF, name, "\"%s\" has %u axes of type %u", out->name,
-                    (unsigned)rank, (unsigned)type);
+        return fail(error, WEFT_MESSAGE_BSDF, name, "\"%s\" has %u axes of type %u", out->name, (unsigned)rank,
+                    (unsigned)type);
     out->rank = (int)rank;
     out->type = (TensorType)type;
     for (int k = 0; k < out->rank; k++) out->extent[k] = take(header, 8);
@@ -67,16 +66,15 @@ WeftResult tensor_file_read(const unsigned char *bytes, size_t size, const char 
     *out = (TensorFile){.count = 0};
     if (size < sizeof magic || memcmp(bytes, magic, sizeof magic) != 0)
         return fail(error, WEFT_MESSAGE_BSDF, name, "it does not begin with \"%s\"", magic);
-    if (size < sizeof magic + 6)
-        return fail(error, WEFT_MESSAGE_BSDF, name, "it is cut short behind \"%s\"", magic);
+    if (size < sizeof magic + 6) return fail(error, WEFT_MESSAGE_BSDF, name, "it is cut short behind \"%s\"", magic);
     Header header = {.bytes = bytes, .size = size, .at = sizeof magic};
     unsigned major = (unsigned)take(&header, 1), minor = (unsigned)take(&header, 1);
     uint64_t count = take(&header, 4);
     if (major != 1 || minor != 0)
         return fail(error, WEFT_MESSAGE_BSDF, name, "it has version %u.%u, not 1.0", major, minor);
     if (count > TENSORS_MOST)
-        return fail(error, WEFT_MESSAGE_BSDF, name, "it has %u arrays, and at most %d are read",
-                    (unsigned)count, TENSORS_MOST);
+        return fail(error, WEFT_MESSAGE_BSDF, name, "it has %u arrays, and at most %d are read", (unsigned)count,
+                    TENSORS_MOST);
     WeftResult result = WEFT_OK;
     for (; out->count < (int)count && result == WEFT_OK; out->count++)
         result = take_tensor(&header, name, &out->tensors[out->count], error);

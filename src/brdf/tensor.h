@@ -8,8 +8,7 @@
  * then the numbers, each array from its offset in the file on, the last axis fastest; all little-endian.
  * Jonathan Dupuy, Wenzel Jakob, "An Adaptive Parameterization for Efficient Material Acquisition and
  * Rendering", ACM Transactions on Graphics 37(6), 2018; the details follow programs that read these files. */
-#ifndef WEFT_BRDF_TENSOR_H
-#define WEFT_BRDF_TENSOR_H
+#pragma once
 
 #include <stdbool.h>
 #include <stdio.h>
@@ -47,5 +46,3 @@ float tensor_float(const Tensor *tensor, size_t k);
 
 /* Writes count arrays. Returns false on failure. */
 bool tensor_file_write(FILE *stream, const Tensor *tensors, int count);
-
-#endif

@@ -4,8 +4,7 @@
  * file has no header, and for red, green and blue 288 x 288 little-endian doubles, 1/sr, over theta_i, phi_i, theta_v
  * and phi_v, the last fastest. Thetas go from 0 to 75 in steps of 15 degrees, phis in steps of 7.5 degrees. Negative
  * numbers count as 0. */
-#ifndef WEFT_BRDF_UTIA_H
-#define WEFT_BRDF_UTIA_H
+#pragma once
 
 #include <stddef.h>
 
@@ -25,5 +24,3 @@ void utia_free(Utia *utia);
 
 /* Evaluates f, linear in the four angles; beyond 75 degrees it is that of 75. 0 below the horizon. */
 void utia_at(const Utia *utia, Dir o, Dir i, float f[3]);
-
-#endif

@@ -65,8 +65,7 @@ static int help_run(int count, char **arguments) {
     bool man = count && strcmp(arguments[0], "--man") == 0;
     count -= man;
     arguments += man;
-    if (count > 1)
-        return report(WEFT_USAGE, "%.200s: is one operand too many; weft help [--man] [VERB]", arguments[1]);
+    if (count > 1) return report(WEFT_USAGE, "%.200s: is one operand too many; weft help [--man] [VERB]", arguments[1]);
     const Verb *verb = count ? verb_find(arguments[0]) : NULL;
     if (count && !verb) return WEFT_USAGE;
     if (verb && man)
@@ -100,8 +99,7 @@ int main(int count, char **arguments) {
     int result = dispatch(count, arguments);
     errno = 0;
     int flushed = fflush(stdout);
-    if ((flushed != 0 || ferror(stdout)) &&
-        (result == 0 || result == WEFT_FAILED)) /* only stdout shows this */
+    if ((flushed != 0 || ferror(stdout)) && (result == 0 || result == WEFT_FAILED)) /* only stdout shows this */
         result = report(WEFT_RESOURCES, "standard output: cannot be written%s%s", errno ? ": " : "",
                         errno ? strerror(errno) : "");
     /* Threads of TBB may still work on what failed for lack of memory, and would use what exit() destroys. */

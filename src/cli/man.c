@@ -109,8 +109,7 @@ void man_verb(const Verb *verb) {
     item("--help", NULL);
     printf("print this in short\n");
     if (verb->lists) {
-        printf(
-            ".SH LISTS\n.EX\n.eo\n"); /* without escapes, since the lists are printed as --help prints them */
+        printf(".SH LISTS\n.EX\n.eo\n"); /* without escapes, since the lists are printed as --help prints them */
         fflush(stdout);
         verb->lists();
         printf(".ec\n.EE\n");

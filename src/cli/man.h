@@ -1,6 +1,5 @@
 /* man.h - `weft help --man [VERB]`: the help texts as pages for man(1), from the same tables */
-#ifndef WEFT_CLI_MAN_H
-#define WEFT_CLI_MAN_H
+#pragma once
 
 #include "cli/console/options.h"
 
@@ -12,5 +11,3 @@ typedef struct ExitCode {
  * of a verb. */
 void man_program(const Verb *const *verbs, const ExitCode *codes);
 void man_verb(const Verb *verb);
-
-#endif

@@ -39,16 +39,14 @@ static const char scene[] =
     "    pixel = vec4(mix(12.92 * color, high, step(0.0031308, color)), 1.0);\n"
     "}\n";
 
-static char *named(const Draft *draft, ItemKind kind, const char *id, const char *end,
-                   char name[SPELL_NAME]) {
+static char *named(const Draft *draft, ItemKind kind, const char *id, const char *end, char name[SPELL_NAME]) {
     char bare[DRAFT_ID + 16];
     snprintf(bare, sizeof bare, "%s%s", id, end);
     return spell_name(&draft->speller, kind, bare, name);
 }
 
 /* Writes the statements that return f times the cosine of a lobe. */
-static void put_lobe(const Draft *draft, const WeftLobe *lobe, const char *id, const char *indent,
-                     Buffer *out) {
+static void put_lobe(const Draft *draft, const WeftLobe *lobe, const char *id, const char *indent, Buffer *out) {
     char record[SPELL_NAME], make[SPELL_NAME], eval[SPELL_NAME];
     bool two = weft_lobe_info(lobe->lobe)->traits & WEFT_LOBE_TWO_COLORS, rough = draft_lobe_rough(lobe);
     put_line(out, "%s%s m = %s(%s);", indent,
@@ -79,8 +77,7 @@ void draft_ball(const Draft *draft, Buffer *out) {
         put_line(out, "    %s s = %s();", spell_name(&draft->speller, ITEM_RECORD, "Surface", record),
                  named(draft, ITEM_FUNCTION, draft->id[0], "_surface", make));
         if (desc->profile) draft_ball_inputs(draft, out);
-        put_line(out, "    return %s(s, wo, wi);",
-                 named(draft, ITEM_FUNCTION, draft->id[0], "_shade", shade));
+        put_line(out, "    return %s(s, wo, wi);", named(draft, ITEM_FUNCTION, draft->id[0], "_shade", shade));
     }
     put_line(out, "}\n");
     buffer_put_text(out, scene);

@@ -12,9 +12,8 @@
 
 void draft_begin(Draft *draft, const WeftExportDesc *desc, DraftTables *tables) {
     static const SpellLanguage languages[WEFT_EXPORT_TARGETS] = {
-        [WEFT_EXPORT_GLSL] = SPELL_GLSL,      [WEFT_EXPORT_ESSL] = SPELL_GLSL,
-        [WEFT_EXPORT_HLSL] = SPELL_HLSL,      [WEFT_EXPORT_C] = SPELL_C,
-        [WEFT_EXPORT_SHADERTOY] = SPELL_GLSL, [WEFT_EXPORT_WGSL] = SPELL_WGSL,
+        [WEFT_EXPORT_GLSL] = SPELL_GLSL, [WEFT_EXPORT_ESSL] = SPELL_GLSL,      [WEFT_EXPORT_HLSL] = SPELL_HLSL,
+        [WEFT_EXPORT_C] = SPELL_C,       [WEFT_EXPORT_SHADERTOY] = SPELL_GLSL, [WEFT_EXPORT_WGSL] = SPELL_WGSL,
     };
     *draft = (Draft){.desc = desc, .speller.language = languages[desc->target], .whole = {"Dir", "Rgb"}};
     snprintf(draft->speller.prefix, SPELL_PREFIX, "%s", desc->prefix ? desc->prefix : "weft_");
@@ -26,9 +25,8 @@ void draft_begin(Draft *draft, const WeftExportDesc *desc, DraftTables *tables) 
                                          .table_side = desc->target == WEFT_EXPORT_SHADERTOY ? 32 : 0});
     text_include(&draft->text, "shading/dialect/lang.h");
     text_define(&draft->text, "table_texel", "table_fetch");
-    text_line(&draft->text,
-              "\nfloat table_fetch(int t, int stride, int row, int column) {\n"
-              "    return float(t + stride + row + column); /* names what the real one reads */\n}");
+    text_line(&draft->text, "\nfloat table_fetch(int t, int stride, int row, int column) {\n"
+                            "    return float(t + stride + row + column); /* names what the real one reads */\n}");
 }
 
 void draft_free(Draft *draft) {
@@ -41,8 +39,7 @@ void draft_free(Draft *draft) {
 void draft_root(Draft *draft, const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);
-    if (draft->root_count < DRAFT_ROOTS)
-        vsnprintf(draft->roots[draft->root_count++], SPELL_NAME, format, arguments);
+    if (draft->root_count < DRAFT_ROOTS) vsnprintf(draft->roots[draft->root_count++], SPELL_NAME, format, arguments);
     va_end(arguments);
 }
 
@@ -79,8 +76,7 @@ static void take_tables(Draft *draft) {
         const char *name = draft->text.tables[k].name;
         bool taken = false;
         for (int j = 0; j < to->count; j++) taken |= strcmp(to->all[j].name, name) == 0;
-        snprintf(to->names[to->count], WEFT_EXPORT_NAME, "%s%s%s", taken ? draft->id[0] : "",
-                 taken ? "_" : "", name);
+        snprintf(to->names[to->count], WEFT_EXPORT_NAME, "%s%s%s", taken ? draft->id[0] : "", taken ? "_" : "", name);
         to->all[to->count] = draft->text.tables[k];
         to->all[to->count].name = to->names[to->count];
     }

@@ -1,6 +1,5 @@
 /* draft.h - a text for an engine while it is made: catalogue text, the functions that are called, and constants */
-#ifndef WEFT_EXPORT_DRAFT_H
-#define WEFT_EXPORT_DRAFT_H
+#pragma once
 
 #include "shading/catalogue/albedo.h"
 #include "text/assemble/text.h"
@@ -91,5 +90,3 @@ void draft_ball_inputs(const Draft *draft, Buffer *out);
 
 /* Writes a line as printf does, and a newline. */
 __attribute__((format(printf, 2, 3))) void put_line(Buffer *out, const char *format, ...);
-
-#endif

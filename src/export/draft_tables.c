@@ -138,9 +138,7 @@ static void put_fetch(const Draft *draft, int k, bool last, Buffer *out) {
 static void put_fetch_head(const Draft *draft, Buffer *out) {
     char name[SPELL_NAME];
     spell_name(&draft->speller, ITEM_FUNCTION, "table_fetch", name);
-    put_line(
-        out,
-        "\n/* A texel of table t, as it is: interpolation is the caller's, whatever the sampler does. */");
+    put_line(out, "\n/* A texel of table t, as it is: interpolation is the caller's, whatever the sampler does. */");
     if (draft->desc->target == WEFT_EXPORT_WGSL)
         put_line(out, "fn %s(t: i32, stride: i32, row: i32, column: i32) -> f32 {", name);
     else
@@ -167,21 +165,18 @@ void draft_tables(const Draft *draft, Buffer *out) {
 WeftResult draft_uploads(const Draft *draft, WeftExport *out, WeftError *error) {
     for (int k = 0; k < draft->tables->count; k++) {
         const TextTable *from = &draft->tables->all[k];
-        if (!draft->tables->used[k] || in_text(draft, k) || out->table_count == WEFT_EXPORT_TABLES_MAX)
-            continue;
+        if (!draft->tables->used[k] || in_text(draft, k) || out->table_count == WEFT_EXPORT_TABLES_MAX) continue;
         WeftExportTable *table = &out->tables[out->table_count];
         char name[SPELL_NAME];
         snprintf(table->name, sizeof table->name, "%.95s", table_name(draft, k, name));
         const TableRange range = table_range(draft, k);
         table->scale = range.scale;
         table->offset = range.offset;
-        WeftResult result =
-            weft_image_create(from->columns, from->rows, 1, WEFT_PIXEL_F32, &table->texels, error);
+        WeftResult result = weft_image_create(from->columns, from->rows, 1, WEFT_PIXEL_F32, &table->texels, error);
         if (result != WEFT_OK) return result;
         out->table_count++;
         float *texels = table->texels.pixels;
-        for (int n = 0; n < from->rows * from->columns; n++)
-            texels[n] = (from->texels[n] - range.offset) / range.scale;
+        for (int n = 0; n < from->rows * from->columns; n++) texels[n] = (from->texels[n] - range.offset) / range.scale;
     }
     return WEFT_OK;
 }

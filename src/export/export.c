@@ -7,8 +7,7 @@
 #include "base/memory.h"
 #include "export/draft.h"
 
-static const char *const targets[WEFT_EXPORT_TARGETS + 1] = {"glsl",      "essl", "hlsl", "c",
-                                                             "shadertoy", "wgsl", NULL};
+static const char *const targets[WEFT_EXPORT_TARGETS + 1] = {"glsl", "essl", "hlsl", "c", "shadertoy", "wgsl", NULL};
 static const char *const helps[WEFT_EXPORT_TARGETS] = {
     "functions for GLSL 3.30 core and later",
     "functions for GLSL ES 3.00: OpenGL ES 3, WebGL 2",
@@ -122,8 +121,8 @@ static WeftResult check_all(const WeftExportDesc *descs, int count, WeftError *e
     for (int k = 0; k < count; k++) {
         WeftResult result = check(&descs[k], error);
         if (result != WEFT_OK) return result;
-        if (descs[k].target != descs->target || descs[k].lut != descs->lut ||
-            !descs[k].fold_pi != !descs->fold_pi || !same_words(descs[k].prefix, descs->prefix))
+        if (descs[k].target != descs->target || descs[k].lut != descs->lut || !descs[k].fold_pi != !descs->fold_pi ||
+            !same_words(descs[k].prefix, descs->prefix))
             return fail(error, WEFT_MESSAGE_DESC, model, "one text has one target, lut, prefix and pi");
     }
     if (count > 1 && descs->target == WEFT_EXPORT_SHADERTOY)

@@ -21,29 +21,28 @@ static char *function(const Draft *draft, const char *end, char name[SPELL_NAME]
 }
 
 static void put_conventions(const Draft *draft, Buffer *out) {
-    buffer_put_text(
-        out, " *\n * Conventions: directions are unit vectors in the shading frame: +z the normal, +x the "
-             "tangent,\n"
-             " * +y the bitangent. wo points to the viewer, wi to the light, both away from the surface.\n"
-             " * Colours are linear Rec. 709. Angles are radians. E(cos_o), the albedo, is the part of the\n"
-             " * light from wo that is reflected at all.\n");
+    buffer_put_text(out,
+                    " *\n * Conventions: directions are unit vectors in the shading frame: +z the normal, +x the "
+                    "tangent,\n"
+                    " * +y the bitangent. wo points to the viewer, wi to the light, both away from the surface.\n"
+                    " * Colours are linear Rec. 709. Angles are radians. E(cos_o), the albedo, is the part of the\n"
+                    " * light from wo that is reflected at all.\n");
     if (draft->desc->fold_pi)
-        buffer_put_text(
-            out, " * pi: FOLDED. What is returned is multiplied by pi. The unit of a light is what a white\n"
-                 " * Lambertian surface that faces it sends back: light = irradiance / pi, as engines "
-                 "without 1/pi\n"
-                 " * in their Lambert have it. For lights in W/m^2 export with --light-pi explicit; both "
-                 "give one\n"
-                 " * picture.\n");
+        buffer_put_text(out,
+                        " * pi: FOLDED. What is returned is multiplied by pi. The unit of a light is what a white\n"
+                        " * Lambertian surface that faces it sends back: light = irradiance / pi, as engines "
+                        "without 1/pi\n"
+                        " * in their Lambert have it. For lights in W/m^2 export with --light-pi explicit; both "
+                        "give one\n"
+                        " * picture.\n");
     else
         buffer_put_text(
-            out,
-            " * pi: EXPLICIT. f has its 1/pi inside (1/sr), and a light is the irradiance of a surface that\n"
-            " * faces it (W/m^2). Where a white Lambertian surface shows a light as bright as its number, "
-            "the\n"
-            " * light's unit has the 1/pi inside: multiply by pi, or export with --light-pi folded; both "
-            "give\n"
-            " * one picture.\n");
+            out, " * pi: EXPLICIT. f has its 1/pi inside (1/sr), and a light is the irradiance of a surface that\n"
+                 " * faces it (W/m^2). Where a white Lambertian surface shows a light as bright as its number, "
+                 "the\n"
+                 " * light's unit has the 1/pi inside: multiply by pi, or export with --light-pi folded; both "
+                 "give\n"
+                 " * one picture.\n");
 }
 
 static void put_call(const Draft *draft, Buffer *out) {
@@ -57,8 +56,8 @@ static void put_call(const Draft *draft, Buffer *out) {
         put_line(out, " *   %s wo = {0.6f, 0.0f, 0.8f}, wi = {-0.48f, 0.64f, 0.6f};",
                  spell_name(&draft->speller, ITEM_RECORD, "Dir", a));
     } else {
-        put_line(out, " *   %s wo = %s(dot(v, t), dot(v, b), dot(v, n)); // t, b, n: the frame",
-                 word(draft, type), type);
+        put_line(out, " *   %s wo = %s(dot(v, t), dot(v, b), dot(v, n)); // t, b, n: the frame", word(draft, type),
+                 type);
         put_line(out, " *   %s wi = %s(dot(l, t), dot(l, b), dot(l, n));", word(draft, type), type);
     }
     if (!desc->lobe) {
@@ -78,8 +77,7 @@ static void put_call(const Draft *draft, Buffer *out) {
     if (c) {
         spell_name(&draft->speller, ITEM_RECORD, "Rgb", record);
         put_line(out, " *   %s color = {0.5f, 0.1f, 0.1f}%s, f = %s(m, color, %swo, wi);", record,
-                 two ? ", second = {1.0f, 1.0f, 1.0f}" : "", function(draft, "eval", b),
-                 two ? "second, " : "");
+                 two ? ", second = {1.0f, 1.0f, 1.0f}" : "", function(draft, "eval", b), two ? "second, " : "");
     } else {
         put_line(out, " *   %s sent = %s(m, color, %swo, wi) * max(wi.z, 0.0) * light;", word(draft, type),
                  function(draft, "eval", b), two ? "second, " : "");
@@ -88,28 +86,22 @@ static void put_call(const Draft *draft, Buffer *out) {
              c ? spell_name(&draft->speller, ITEM_RECORD, "Dir", record) : word(draft, type),
              function(draft, "sample", a));
     put_line(out, " *   %s pdf = %s(m, wo, drawn);", word(draft, "float"), function(draft, "pdf", a));
-    if (desc->albedo)
-        put_line(out, " *   %s e = %s(m, wo.z);", word(draft, "float"), function(draft, "albedo", a));
+    if (desc->albedo) put_line(out, " *   %s e = %s(m, wo.z);", word(draft, "float"), function(draft, "albedo", a));
 }
 
 static void put_engines(const Draft *draft, Buffer *out) {
     char name[SPELL_NAME];
     function(draft, draft->desc->lobe ? "eval" : "shade", name);
-    put_line(out,
-             " *\n * Unreal: save this as Shaders/%s.ush of a plugin or project and map that folder with",
+    put_line(out, " *\n * Unreal: save this as Shaders/%s.ush of a plugin or project and map that folder with",
              draft->id[0]);
-    put_line(
-        out,
-        " * AddShaderSourceDirectoryMapping. In a Custom node put /Project/%s.ush in Include File Paths and",
-        draft->id[0]);
+    put_line(out, " * AddShaderSourceDirectoryMapping. In a Custom node put /Project/%s.ush in Include File Paths and",
+             draft->id[0]);
     put_line(out, " * call %s in Code; for a shading model of your own include it in", name);
     put_line(out, " * ShadingModels.ush and call it in its BxDF with V and L turned into the frame of "
                   "GBuffer.WorldNormal:");
     put_line(out, " * Unreal's lights are explicit. Its x is GBuffer.WorldTangent.");
-    put_line(
-        out,
-        " *\n * Unity: save this as %s.hlsl below Assets. Shader Graph: a Custom Function node of type File",
-        draft->id[0]);
+    put_line(out, " *\n * Unity: save this as %s.hlsl below Assets. Shader Graph: a Custom Function node of type File",
+             draft->id[0]);
     put_line(out, " * whose function, void Name_float(..., out float3 Out), calls %s; behind an", name);
     put_line(out, " * #include of this file. HDRP, URP: include it behind Lighting.hlsl and add it to the "
                   "loop over lights.");
@@ -125,9 +117,7 @@ static void put_tables(const WeftExport *uploads, bool bound, Buffer *out) {
         put_line(out, " *   %s, %d x %d", uploads->tables[k].name, uploads->tables[k].texels.width,
                  uploads->tables[k].texels.height);
     if (!bound) return;
-    put_line(
-        out,
-        " * Each is a texture of sample type unfilterable-float, bound where its @group and @binding say:");
+    put_line(out, " * Each is a texture of sample type unfilterable-float, bound where its @group and @binding say:");
     put_line(out, " * change those as your layout has it.");
 }
 

@@ -52,15 +52,14 @@ static void put_rough(Text *text, const WeftLobe *lobe, const LobeNames *own) {
               "\n/* Makes one with %s from an artist's roughness, 0 to 1. */\n"
               "%s %s_rough(float roughness) {\n    %s m = %s_default();\n    m.%s = clamp(%s, %s, %s);\n"
               "    return m;\n}",
-              p->name, own->record, own->prefix, own->record, own->prefix, p->name, value,
-              number(p->hard_low).text, number(p->hard_high).text);
+              p->name, own->record, own->prefix, own->record, own->prefix, p->name, value, number(p->hard_low).text,
+              number(p->hard_high).text);
 }
 
 /* Writes the statements that prepare the lobe for wo, with which every function below begins. */
 static void put_seen(Text *text, const LobeNames *own) {
     const char *p = own->prefix, *r = own->record;
-    text_line(text, "    %sPrepared p;\n    %sView w;\n    %s_prepare(m, p);\n    %s_view(p, wo, w);", r, r,
-              p, p);
+    text_line(text, "    %sPrepared p;\n    %sView w;\n    %s_prepare(m, p);\n    %s_view(p, wo, w);", r, r, p, p);
 }
 
 /* Returns true if the lobe derives its second colour from the user's. */
@@ -89,20 +88,18 @@ static void put_eval(Text *text, const WeftLobe *lobe, const LobeNames *own, boo
     put_seen(text, own);
     text_line(text, "    LobeValue v = %s_value(p, w, angles_between(wo, wi));", p);
     if (tinted)
-        text_line(
-            text,
-            "    Rgb c = rgb(tint_color(v.tint, color.r), tint_color(v.tint, color.g), tint_color(v.tint, "
-            "color.b));\n    return rgb_scale(c, %sv.f);\n}",
-            pi);
+        text_line(text,
+                  "    Rgb c = rgb(tint_color(v.tint, color.r), tint_color(v.tint, color.g), tint_color(v.tint, "
+                  "color.b));\n    return rgb_scale(c, %sv.f);\n}",
+                  pi);
     else if (two && has_second(own))
-        text_line(
-            text,
-            "    Rgb other = rgb(%s_second(m, color.r, second.r), %s_second(m, color.g, second.g),\n"
-            "                    %s_second(m, color.b, second.b));\n"
-            "    Rgb c = rgb(fresnel_weight_mix(v.s, color.r, other.r), fresnel_weight_mix(v.s, color.g, "
-            "other.g),\n"
-            "                fresnel_weight_mix(v.s, color.b, other.b));\n    return rgb_scale(c, %sv.f);\n}",
-            p, p, p, pi);
+        text_line(text,
+                  "    Rgb other = rgb(%s_second(m, color.r, second.r), %s_second(m, color.g, second.g),\n"
+                  "                    %s_second(m, color.b, second.b));\n"
+                  "    Rgb c = rgb(fresnel_weight_mix(v.s, color.r, other.r), fresnel_weight_mix(v.s, color.g, "
+                  "other.g),\n"
+                  "                fresnel_weight_mix(v.s, color.b, other.b));\n    return rgb_scale(c, %sv.f);\n}",
+                  p, p, p, pi);
     else if (two)
         text_line(text, "    return rgb_scale(rgb_mix(color, second, v.s), %sv.f);\n}", pi);
     else
@@ -148,8 +145,8 @@ static void put_albedo(Draft *draft, const WeftLobe *lobe, const LobeNames *own)
               "\n/* E of the white lobe towards wo, cos_o = wo.z%s; from a table; of a brushed lobe where it "
               "is greatest. */\n"
               "float %s(%s m, float cos_o) {\n    return table_roots(%s(), cos_o, %s%s);\n}",
-              info->param_count > 1 ? ", other parameters as in the default" : "", name, own->record,
-              function, rows ? "m." : "0.0", rows ? info->params[0].name : "");
+              info->param_count > 1 ? ", other parameters as in the default" : "", name, own->record, function,
+              rows ? "m." : "0.0", rows ? info->params[0].name : "");
     draft_root(draft, "%s", name);
 }
 

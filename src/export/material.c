@@ -16,8 +16,7 @@ typedef struct Rule {
     const char *id, *base, *needs_wi, *needs_average;
 } Rule;
 
-#define RULE(id, index, base, needs_wi, needs_average, conserves, help)                                      \
-    {id, #base, #needs_wi, #needs_average},
+#define RULE(id, index, base, needs_wi, needs_average, conserves, help) {id, #base, #needs_wi, #needs_average},
 static const Rule rules[] = {WEFT_LAYERS(RULE)};
 
 typedef struct ExportModel {
@@ -106,8 +105,7 @@ static WeftResult find_model(Draft *draft, ExportModel *model, WeftError *error)
     model->choices = material_choices(&model->material);
     const int chosen[] = {model->choices.sheen_lobe, model->choices.diffuse};
     for (int k = 0; k < 2; k++)
-        if (is_walk(chosen[k]))
-            return fail(error, WEFT_MESSAGE_EXPORT_LOBE, weft_lobe_info(chosen[k])->id, NULL);
+        if (is_walk(chosen[k])) return fail(error, WEFT_MESSAGE_EXPORT_LOBE, weft_lobe_info(chosen[k])->id, NULL);
     find_zeros(draft, model);
     find_facts(draft, model);
     model->slots = composition_slots(&model->choices, model->zero, false);
@@ -122,9 +120,7 @@ static bool needs_e(const ExportModel *model) {
            (!model->one_layer || (m->layer != LAYER_ADDITIVE && !IS_BELOW_F(m)));
 }
 
-static bool needs_table(const ExportModel *model) {
-    return needs_e(model) && albedo_is_own(model->stack.albedo);
-}
+static bool needs_table(const ExportModel *model) { return needs_e(model) && albedo_is_own(model->stack.albedo); }
 
 /* Writes the one layer rule in place of shading/stack/layer.h. */
 static void put_layer(Text *text, int layer) {
@@ -153,17 +149,17 @@ static void put_layer(Text *text, int layer) {
 static void put_value(Text *text, const Surface *s, int k) {
     const char *name = input_infos[k].name, *help = input_infos[k].help;
 #define VALUE_SCALAR(input) text_line(text, "    s.%s = %s; /* %s */", name, number(s->input).text, help)
-#define VALUE_ANGLE(input)                                                                                   \
+#define VALUE_ANGLE(input)                                                                                             \
     text_line(text, "    s.%s = %s; /* %s; here in radians */", name, number(s->input).text, help)
-#define VALUE_COLOR(input)                                                                                   \
-    text_line(text, "    s.%s = rgb(%s, %s, %s); /* %s */", name, number(s->input.r).text,                   \
-              number(s->input.g).text, number(s->input.b).text, help)
-#define VALUE_DIR(input, words)                                                                              \
-    text_line(text, "    s.%s = dir(%s, %s, %s); /* %s */", name, number(s->input.x).text,                   \
-              number(s->input.y).text, number(s->input.z).text, words)
+#define VALUE_COLOR(input)                                                                                             \
+    text_line(text, "    s.%s = rgb(%s, %s, %s); /* %s */", name, number(s->input.r).text, number(s->input.g).text,    \
+              number(s->input.b).text, help)
+#define VALUE_DIR(input, words)                                                                                        \
+    text_line(text, "    s.%s = dir(%s, %s, %s); /* %s */", name, number(s->input.x).text, number(s->input.y).text,    \
+              number(s->input.z).text, words)
 #define VALUE_NORMAL(input)    VALUE_DIR(input, "unit vector in the shading frame")
 #define VALUE_DIRECTION(input) VALUE_DIR(input, "unit vector in the tangent plane")
-#define VALUE(kind, input, label, initial, low, high, hard_low, hard_high, role, words)                      \
+#define VALUE(kind, input, label, initial, low, high, hard_low, hard_high, role, words)                                \
     if (k == INPUT_##input) VALUE_##kind(input);
     SURFACE_INPUTS(VALUE)
 }
@@ -172,8 +168,7 @@ static void put_surface(Draft *draft, const ExportModel *model) {
     text_line(&draft->text,
               "\n/* %s: the inputs that it reads, to be changed as textures say. */\nSurface %s_surface() "
               "{\n    Surface s;",
-              draft->desc->profile ? "An engine's material at its defaults" : "The material's numbers",
-              draft->id[0]);
+              draft->desc->profile ? "An engine's material at its defaults" : "The material's numbers", draft->id[0]);
     for (int k = 0; k < INPUT_COUNT; k++) put_value(&draft->text, &model->surface, k);
     text_line(&draft->text, "    return s;\n}");
     draft_root(draft, "%s_surface", draft->id[0]);
@@ -187,8 +182,8 @@ static void put_shade(Draft *draft, const ExportModel *model) {
               "Rgb %s_shade(Surface s, Dir wo, Dir wi) {\n"
               "    if (wo.z <= 0.0%s) return rgb_grey(0.0);",
               draft->desc->fold_pi ? " times pi" : "",
-              through ? "below the horizon, of the light that comes through" : "black below the horizon",
-              draft->id[0], through ? "" : " || wi.z <= 0.0");
+              through ? "below the horizon, of the light that comes through" : "black below the horizon", draft->id[0],
+              through ? "" : " || wi.z <= 0.0");
     if (model->chosen) text_line(text, "    compose_surface(s, material_choices());");
     text_line(text, "    Stack m;\n    stack_clear(m);\n    %s;", composition_stack(&model->choices));
     if (model->chosen) text_line(text, "    compose_choices(m, s, material_choices());");
@@ -196,9 +191,7 @@ static void put_shade(Draft *draft, const ExportModel *model) {
     if (!model->zero[INPUT_dust]) text_line(text, "    compose_dust(m, s);");
     if (model->table) text_line(text, "    m.table = sheen_table();");
     if (model->table && layer_needs_average(model->stack.layer))
-        text_line(
-            text,
-            "    m.e_avg = table_sheen_nap_average(m.table, m.nap, table_rows(m.table, m.albedo_coord));");
+        text_line(text, "    m.e_avg = table_sheen_nap_average(m.table, m.nap, table_rows(m.table, m.albedo_coord));");
     if (model->stack.layer == LAYER_MULTIPLICATIVE)
         text_line(text, "    m.sheen.f0 = rgb_grey(0.0);\n    m.sheen.f90 = m.sheen.f0;");
     /* The view of a lobe that no slot has stays uninitialised, of which C compilers warn. */

@@ -19,8 +19,7 @@ static bool is_late(const Item *item) { return item->own || item->late; }
 /* Returns the kept item of that name, or NULL. */
 static Item *find_kept(Draft *draft, Token name) {
     for (int k = 0; k < draft->items.count; k++)
-        if (draft->items.all[k].kept && token_same(draft->items.all[k].name, name))
-            return &draft->items.all[k];
+        if (draft->items.all[k].kept && token_same(draft->items.all[k].name, name)) return &draft->items.all[k];
     return NULL;
 }
 
@@ -36,8 +35,8 @@ static bool part(Draft *a, Draft *b) {
     for (int k = 0; k < a->items.count; k++) {
         Item *item = &a->items.all[k], *other = item->kept ? find_kept(b, item->name) : NULL;
         if (!other || (item->own && other->own)) continue;
-        bool differs = item->own || other->own || !same_code(item, other) ||
-                       any_named(&a->items, item, is_own) || any_named(&b->items, other, is_own);
+        bool differs = item->own || other->own || !same_code(item, other) || any_named(&a->items, item, is_own) ||
+                       any_named(&b->items, other, is_own);
         item->own = other->own = differs;
         any |= differs;
     }
@@ -90,8 +89,7 @@ static bool has_late(const Items *items) {
 void drafts_spell(Draft *drafts, int count, Buffer *out) {
     for (int late = 0; late < 2; late++)
         for (int d = 0; d < count; d++) {
-            if (late && has_late(&drafts[d].items))
-                put_line(out, "\n/* %s: what is its own */", drafts[d].id[0]);
+            if (late && has_late(&drafts[d].items)) put_line(out, "\n/* %s: what is its own */", drafts[d].id[0]);
             size_t size = out->size;
             spell_items(&drafts[d].speller, &drafts[d].items, late, out);
             if (out->size > size && d + 1 < count) buffer_put_text(out, "\n");

@@ -18,8 +18,8 @@ typedef struct SlabLayers {
 
 /* Computes C = A B + keep C over the quadrature. */
 static bool product(const SlabLayers *m, const double *a, const double *b, double keep, double *c) {
-    return matrix_product(m->total, m->total, m->nodes, 1.0, (Matrix){a, 1, m->total},
-                          (Matrix){b, 1, m->total}, keep, c, m->total);
+    return matrix_product(m->total, m->total, m->nodes, 1.0, (Matrix){a, 1, m->total}, (Matrix){b, 1, m->total}, keep,
+                          c, m->total);
 }
 
 /* Makes a layer of depth h by exact single scattering:
@@ -50,20 +50,18 @@ static bool join(SlabLayers *m) {
     }
     int passengers = n - m->nodes;
     if (!matrix_factor(m->nodes, m->rr, n) || !matrix_solve(m->nodes, m->rr, n, n, m->d, n) ||
-        !matrix_product(passengers, n, m->nodes, 1.0, (Matrix){m->rr + m->nodes, 1, n}, (Matrix){m->d, 1, n},
-                        1.0, m->d + m->nodes, n))
+        !matrix_product(passengers, n, m->nodes, 1.0, (Matrix){m->rr + m->nodes, 1, n}, (Matrix){m->d, 1, n}, 1.0,
+                        m->d + m->nodes, n))
         return false;
 
     for (int j = 0; j < n; j++)
         for (int i = 0; i < n; i++) m->u[j * n + i] = m->r[j * n + i] * m->direct[j];
-    if (!product(m, m->r, m->d, 1.0, m->u) || !product(m, m->t, m->u, 1.0, m->r) ||
-        !product(m, m->t, m->d, 0.0, m->rr))
+    if (!product(m, m->r, m->d, 1.0, m->u) || !product(m, m->t, m->u, 1.0, m->r) || !product(m, m->t, m->d, 0.0, m->rr))
         return false;
     for (int j = 0; j < n; j++)
         for (int i = 0; i < n; i++) {
             m->r[j * n + i] += m->direct[i] * m->u[j * n + i];
-            m->t[j * n + i] =
-                m->rr[j * n + i] + m->direct[i] * m->d[j * n + i] + m->t[j * n + i] * m->direct[j];
+            m->t[j * n + i] = m->rr[j * n + i] + m->direct[i] * m->d[j * n + i] + m->t[j * n + i] * m->direct[j];
         }
     for (int i = 0; i < n; i++) m->direct[i] *= m->direct[i];
     for (int j = 0; j < n; j++)

@@ -7,8 +7,7 @@
  *
  *   J. E. Hansen, L. D. Travis, "Light Scattering in Planetary Atmospheres", Space Science Reviews 16, 1974,
  *     section 3.2, gives the method; the thin layer is van de Hulst's, by exact single scattering. */
-#ifndef WEFT_FIBRE_DOUBLING_H
-#define WEFT_FIBRE_DOUBLING_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -30,5 +29,3 @@ typedef struct Layered {
 /* Computes the results of a slab. r and t contain the scattering per depth, albedo K / (mu_i mu_j), total * total each,
  * and are overwritten. Returns false if memory is short. */
 bool doubling_run(const Doubling *slab, double *r, double *t, const Layered *out);
-
-#endif

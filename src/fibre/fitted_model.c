@@ -8,18 +8,7 @@
 #include "base/memory.h"
 
 /* Parts of the formula: A, h, g and k of multiple scattering, the exponents p, and q, v, u and k' of colour. */
-typedef enum ModelPart {
-    PART_A,
-    PART_H,
-    PART_G,
-    PART_K,
-    PART_P,
-    PART_Q,
-    PART_V,
-    PART_U,
-    PART_C,
-    PARTS
-} ModelPart;
+typedef enum ModelPart { PART_A, PART_H, PART_G, PART_K, PART_P, PART_Q, PART_V, PART_U, PART_C, PARTS } ModelPart;
 
 enum { POWERS = 3 };
 
@@ -64,13 +53,7 @@ static const CoefficientGroup groups[] = {
     {PART_U, THIN, 0, 5, {{3, 2, 1}}},
     {PART_C, THIN, 0, 3, {{3, 2}}},
 };
-enum {
-    GROUPS = sizeof groups / sizeof groups[0],
-    SCATTER_GROUPS = 15,
-    FEATURES = 12,
-    NAPS = 25,
-    LOCALS_MAX = 128
-};
+enum { GROUPS = sizeof groups / sizeof groups[0], SCATTER_GROUPS = 15, FEATURES = 12, NAPS = 25, LOCALS_MAX = 128 };
 
 /* Returns the stage that fits a group's coefficients of l^c. */
 static FibreStage stage_of(const CoefficientGroup *g, int c) {
@@ -183,8 +166,8 @@ static double part_value(const Side *side, ModelPart part, const double *theta) 
 }
 
 /* Computes the derivatives of sign (value_i value_j) by a part's numbers: sign (f_i value_j + f_j value_i). */
-static void part_slope(ModelPart part, double sign, const Side *i, const Side *j, double value_i,
-                       double value_j, double *slope) {
+static void part_slope(ModelPart part, double sign, const Side *i, const Side *j, double value_i, double value_j,
+                       double *slope) {
     for (int k = 0; k < GROUPS; k++) {
         if (groups[k].part != part) continue;
         const double *fi = features_of(i, k), *fj = features_of(j, k);
@@ -199,8 +182,7 @@ typedef struct Sides {
     double *part[PARTS];
 } Sides;
 
-static bool sides_make(const SolvedSlab *reference, const double *theta, ModelPart first, ModelPart last,
-                       Sides *out) {
+static bool sides_make(const SolvedSlab *reference, const double *theta, ModelPart first, ModelPart last, Sides *out) {
     size_t n = (size_t)reference->sides;
     out->side = alloc_array(n, sizeof(Side));
     out->part[0] = alloc_array(n * PARTS, sizeof(double));
@@ -232,8 +214,7 @@ static void scatter(void *user, int slab, const SolvedSlab *reference, const dou
         for (int p = 0; p < reference->pairs; p++) {
             int i = reference->i[p], j = reference->j[p];
             double l[LOGS], h = s.part[PART_H][i], g = s.part[PART_G][i], k = s.part[PART_K][i];
-            double h2 = s.part[PART_H][j], g2 = s.part[PART_G][j], k2 = s.part[PART_K][j],
-                   x = reference->x[p];
+            double h2 = s.part[PART_H][j], g2 = s.part[PART_G][j], k2 = s.part[PART_K][j], x = reference->x[p];
             logarithms(reference, p, l);
             double sum = s.part[PART_A][i] + s.part[PART_A][j] + h * h2 - g * g2 - k * k2 * x;
             for (int b = 0; b < exponents; b++) sum -= l[which[b]] * theta[at[b]];
@@ -254,8 +235,7 @@ static const double q_most = 6.9; /* log(0.999 / 0.001) */
 
 /* Evaluates log M(w) and its derivatives (FitForm) as shading/dialect/tint.h does, with its bounds: q is 0.999 at most, and
  * multiple scattering is at most w^2 of that of white fibres. */
-static void tint(void *user, int slab, const SolvedSlab *reference, const double *theta, double *log_f,
-                 double *slope) {
+static void tint(void *user, int slab, const SolvedSlab *reference, const double *theta, double *log_f, double *slope) {
     (void)user;
     (void)slab;
     Sides s;
@@ -336,8 +316,8 @@ typedef struct Staged {
     Arena arena;
 } Staged;
 
-static bool staged_make(FibreStage stage, const SolvedSet *set, const Coefficient *list, int n,
-                        const double *values, Staged *out) {
+static bool staged_make(FibreStage stage, const SolvedSet *set, const Coefficient *list, int n, const double *values,
+                        Staged *out) {
     size_t slabs = (size_t)set->count;
     bool color = stage >= FIBRE_COLOR;
     int locals = locals_of(color);
@@ -439,21 +419,19 @@ static bool stage_solved(FibreStage stage, int threads, SolveProgress progress, 
         break;
     case FIBRE_COLOR:
         alphas_fill(0.19, 10, alpha);
-        grid.alphas = 10, grid.albedos = 8, grid.albedo = colors, grid.kept = 5, grid.depth = 4.0,
-        grid.rings = 24;
+        grid.alphas = 10, grid.albedos = 8, grid.albedo = colors, grid.kept = 5, grid.depth = 4.0, grid.rings = 24;
         break;
     case FIBRE_THIN_COLOR:
         alphas_fill(alpha_low, 24, alpha); /* the first 11: 0.045 to 0.17 */
-        grid.alphas = 11, grid.albedos = 8, grid.albedo = colors, grid.kept = 5, grid.depth = 4.0,
-        grid.rings = 24;
+        grid.alphas = 11, grid.albedos = 8, grid.albedo = colors, grid.kept = 5, grid.depth = 4.0, grid.rings = 24;
         break;
     case FIBRE_STAGES: break;
     }
     return solved_set_make(&grid, threads, progress, user, out);
 }
 
-static bool stage_fit(FibreStage stage, const Coefficient *list, int n, int rounds, int threads,
-                      SolveProgress progress, void *user, FibreModelFit *model) {
+static bool stage_fit(FibreStage stage, const Coefficient *list, int n, int rounds, int threads, SolveProgress progress,
+                      void *user, FibreModelFit *model) {
     SolvedSet set;
     Staged staged = {0};
     double *found = NULL;
@@ -463,8 +441,7 @@ static bool stage_fit(FibreStage stage, const Coefficient *list, int n, int roun
     done = done && found;
     if (done) {
         for (int k = 0; k < staged.form.coefficients; k++) found[k] = start_of(&list[staged.columns[k]]);
-        FitEffort effort = {rounds, 10.0, 0.4, stage == FIBRE_NAP ? 300.0 : 0.0,
-                            stage <= FIBRE_THIN ? 1e-4 : 0.0};
+        FitEffort effort = {rounds, 10.0, 0.4, stage == FIBRE_NAP ? 300.0 : 0.0, stage <= FIBRE_THIN ? 1e-4 : 0.0};
         done = fit_run(&staged.form, &set, effort, threads, progress, user, found);
     }
     if (done) {
@@ -477,8 +454,7 @@ static bool stage_fit(FibreStage stage, const Coefficient *list, int n, int roun
     return done;
 }
 
-bool fibre_model_fit(FibreStage last, int rounds, int threads, SolveProgress progress, void *user,
-                     FibreModelFit *out) {
+bool fibre_model_fit(FibreStage last, int rounds, int threads, SolveProgress progress, void *user, FibreModelFit *out) {
     int n = coefficients_list(NULL);
     Coefficient *list = alloc_array((size_t)n, sizeof *list);
     *out = (FibreModelFit){.count = n, .coefficients = alloc_array((size_t)n, sizeof(double))};
@@ -538,8 +514,7 @@ static void write_polynomial(FILE *file, int n, const char *x, const double *che
     fprintf(file, "%.8e", scale * power[n - 1]);
     fputc('f', file);
     for (int k = n - 2; k >= 0; k--)
-        fprintf(file, " * %s %c %.8ef%s", x, power[k] < 0.0 ? '-' : '+', fabs(scale * power[k]),
-                k ? ")" : "");
+        fprintf(file, " * %s %c %.8ef%s", x, power[k] < 0.0 ? '-' : '+', fabs(scale * power[k]), k ? ")" : "");
 }
 
 /* Returns the index of a number's first coefficient for the powers b and c. */
@@ -570,16 +545,14 @@ static bool powers_of_u(const FibreModelFit *model, FibreModelFit *out) {
                     for (int q = 0; q < groups[g].count; q++)
                         chebyshev[q] = model->coefficients[block_of(g, q, b, c) + a];
                     monomials(groups[g].count, chebyshev, power);
-                    for (int q = 0; q < groups[g].count; q++)
-                        out->coefficients[block_of(g, q, b, c) + a] = power[q];
+                    for (int q = 0; q < groups[g].count; q++) out->coefficients[block_of(g, q, b, c) + a] = power[q];
                 }
     return true;
 }
 
 /* Writes a number as a polynomial in t, l and s, with the powers first .. last of l: a sum of products. */
 static void write_number(FILE *file, const FibreModelFit *model, int group, int number, int first, int last) {
-    static const char *const s[POWERS] = {"", "s * ", "s * s * "}, *const l[POWERS] = {"", "l * ",
-                                                                                       "l * l * "};
+    static const char *const s[POWERS] = {"", "s * ", "s * s * "}, *const l[POWERS] = {"", "l * ", "l * l * "};
     bool any = false;
     for (int b = 0; b < POWERS; b++)
         for (int c = first; c <= last; c++) {
@@ -587,8 +560,7 @@ static void write_number(FILE *file, const FibreModelFit *model, int group, int 
             if (!n) continue;
             fprintf(file, "%s%s%s(", any ? " + " : "", s[b], l[c]);
             write_polynomial(file, n, groups[group].kind == THIN ? "m.thin" : "t",
-                             model->coefficients + block_of(group, number, b, c),
-                             scale_of(groups[group].part));
+                             model->coefficients + block_of(group, number, b, c), scale_of(groups[group].part));
             fputc(')', file);
             any = true;
         }
@@ -624,14 +596,12 @@ bool fibre_model_write(const FibreModelFit *fit, const char *command, FILE *file
           "square of the\n"
           " * tilt's sine. Errors over what they were fitted to:\n *\n",
           file);
-    static const char *const names[FIBRE_STAGES] = {"white", "thin",   "density",
-                                                    "nap",   "colour", "thin colour"};
+    static const char *const names[FIBRE_STAGES] = {"white", "thin", "density", "nap", "colour", "thin colour"};
     for (int k = 0; k < FIBRE_STAGES; k++)
-        fprintf(file, " *   %-11s %4d coefficients, error %.2f %% in the mean, %.1f %% at worst, of R %.1e\n",
-                names[k], fibre_model_count((FibreStage)k), 100.0 * model->errors[k].mean,
-                100.0 * model->errors[k].worst, model->errors[k].albedo);
-    fputs(" */\n/* clang-format off */\n#ifndef WEFT_TABLES_FIBRE_MODEL_H\n#define "
-          "WEFT_TABLES_FIBRE_MODEL_H\n\n"
+        fprintf(file, " *   %-11s %4d coefficients, error %.2f %% in the mean, %.1f %% at worst, of R %.1e\n", names[k],
+                fibre_model_count((FibreStage)k), 100.0 * model->errors[k].mean, 100.0 * model->errors[k].worst,
+                model->errors[k].albedo);
+    fputs(" */\n/* clang-format off */\n#pragma once\n\n"
           "#include \"shading/dialect/lang.h\"\n\nSTRUCT(FibreNumbers) {\n    float thin;\n",
           file);
     for (int g = 0; g < GROUPS; g++) {
@@ -658,7 +628,7 @@ bool fibre_model_write(const FibreModelFit *fit, const char *command, FILE *file
     /* nap was fitted from there up */
     fprintf(file, "    }\n    if (s > 0.0f) {\n        t = max(t, %.8ef);\n", t_of(alpha_nap));
     write_kind(file, model, NAP, 0, POWERS - 1);
-    fputs("    }\n    return m;\n}\n\n#endif\n", file);
+    fputs("    }\n    return m;\n}\n", file);
     fibre_model_free(model);
     return true;
 }

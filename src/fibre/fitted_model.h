@@ -8,8 +8,7 @@
  * polynomials in t, the logarithm of alpha, in l, the logarithm of density, and in the squared sine of the tilt. They
  * are fitted in stages, each of which adds to the last without changing it: white of alpha 0.19 and up, white of
  * thinner fibres, density, nap, colour, colour of thinner fibres. */
-#ifndef WEFT_FIBRE_FITTED_MODEL_H
-#define WEFT_FIBRE_FITTED_MODEL_H
+#pragma once
 
 #include <stdio.h>
 
@@ -34,8 +33,7 @@ typedef struct FibreModelFit {
 
 /* Solves the slabs and fits stage by stage, which takes minutes. Returns false if memory is short or progress stops
  * it. */
-bool fibre_model_fit(FibreStage last, int rounds, int threads, SolveProgress progress, void *user,
-                     FibreModelFit *out);
+bool fibre_model_fit(FibreStage last, int rounds, int threads, SolveProgress progress, void *user, FibreModelFit *out);
 void fibre_model_free(FibreModelFit *model);
 
 /* Writes shading/tables/fibre_model.h, in the dialect. Returns false if memory is short. */
@@ -43,5 +41,3 @@ bool fibre_model_write(const FibreModelFit *model, const char *command, FILE *fi
 
 /* Returns the number of coefficients that the stage adds. */
 int fibre_model_count(FibreStage stage);
-
-#endif

@@ -33,13 +33,10 @@ static double mu_of(double column) {
 }
 
 /* Returns alpha at the row y in [0, 1]. */
-static double alpha_at(const FibreTableDesc *desc, double y) {
-    return desc->low * (pow)(desc->high / desc->low, y);
-}
+static double alpha_at(const FibreTableDesc *desc, double y) { return desc->low * (pow)(desc->high / desc->low, y); }
 
 /* Gives the four nodes around a point in units of nodes, and their bilinear weights. */
-static void corners(const FibreTableDesc *desc, double x, double y, int node[CORNERS],
-                    double weight[CORNERS]) {
+static void corners(const FibreTableDesc *desc, double x, double y, int node[CORNERS], double weight[CORNERS]) {
     int column = (int)fmin(fmax((floor)(x), 0.0), desc->columns - 2),
         row = (int)fmin(fmax((floor)(y), 0.0), desc->rows - 2);
     double s = x - column, t = y - row;
@@ -52,8 +49,7 @@ static void corners(const FibreTableDesc *desc, double x, double y, int node[COR
 
 /* Evaluates log M and its derivatives (FitForm). theta contains the four functions, in exponents of 2, at every side of
  * a slab. */
-static void value(void *user, int slab, const SolvedSlab *t, const double *theta, double *log_f,
-                  double *slope) {
+static void value(void *user, int slab, const SolvedSlab *t, const double *theta, double *log_f, double *slope) {
     static const double ln2 = 0.693147180559945309;
     const int n = t->sides;
     const double *a = theta, *h = a + n, *g = h + n, *k = g + n, power = power_of(t->slab.alpha);
@@ -129,8 +125,8 @@ static bool fit(const FibreTableDesc *desc, const SolvedSet *set, float *texels,
     if (done) {
         place(set, desc, all);
         start(desc, found);
-        done = fit_run(&form, set, (FitEffort){desc->rounds, 5.0, 0.4, 60.0, 0.0}, desc->threads,
-                       desc->progress, desc->user, found);
+        done = fit_run(&form, set, (FitEffort){desc->rounds, 5.0, 0.4, 60.0, 0.0}, desc->threads, desc->progress,
+                       desc->user, found);
     }
     for (int k = 0; done && k < count; k++) found[k] = (double)(texels[k] = half_near(found[k]));
     done = done && fit_error(&form, set, found, error);

@@ -3,8 +3,7 @@
  * The fibres are white and upright, of density 1. Columns are uniform in the root of mu + 0.001, rows in the logarithm
  * of alpha. Between nodes all four are interpolated linearly, and the fit accounts for that. It starts from
  * shading/media/fibre_model.h, which has to be baked before. */
-#ifndef WEFT_FIBRE_FITTED_TABLE_H
-#define WEFT_FIBRE_FITTED_TABLE_H
+#pragma once
 
 #include "fibre/slab_fit.h"
 
@@ -21,5 +20,3 @@ typedef struct FibreTableDesc {
 /* Fits a table: texels[rows][columns][4] become A, h, g, k, each a half float. *error is that over the slabs of the
  * fit: the mean of the means, the largest of the others. Returns false if memory is short or progress stops it. */
 bool fibre_table_fit(const FibreTableDesc *desc, float *texels, FitError *error);
-
-#endif

@@ -1,8 +1,5 @@
 /* gauss.h - Gauss-Legendre quadrature */
-#ifndef WEFT_FIBRE_GAUSS_H
-#define WEFT_FIBRE_GAUSS_H
+#pragma once
 
 /* Gives n nodes in (0, 1), ascending, and weights that sum to 1: exact for polynomials up to degree 2n - 1. */
 void gauss_legendre(int n, double *x, double *w);
-
-#endif

@@ -25,8 +25,7 @@ static double mode(double s, int n, double P, double M) {
         return (sqrt(M) * (2.0 * U + V) / (uu * uu * uu) + 2.0 * h / (uu * vv) +
                 sqrt(P) * (2.0 * V + U) / (vv * vv * vv)) /
                (2.0 * (U + V) * (U + V));
-    double w = uu * vv, S = 4.0 * h * w, A = 2.0 * (s * s * (M + P) + 2.0 * k * P * M),
-           B = 2.0 * s * s * (M - P);
+    double w = uu * vv, S = 4.0 * h * w, A = 2.0 * (s * s * (M + P) + 2.0 * k * P * M), B = 2.0 * s * s * (M - P);
     double r = B / (A + S);
     return pow(-r, n) * k * h / (4.0 * s * s * s * s * w * w * w) * (k * (A + n * S) - 8.0 * w * w);
 }
@@ -53,8 +52,8 @@ double slab_single(const Slab *slab, double mu_i, double mu_o, double cos_phi) {
     double q = 2.0 * (1.0 + mu_i * mu_o + sqrt((1.0 - mu_i * mu_i) * (1.0 - mu_o * mu_o)) * cos_phi);
     double ratio = q / (s * s * q + (1.0 - s * s) * m * m);
     double sum = extinction(s, mu_i) * mu_o + extinction(s, mu_o) * mu_i;
-    return slab->albedo * s * s * s / PI_DOUBLE * ratio * ratio * 0.25 *
-           -expm1(-slab->depth * sum / (mu_i * mu_o)) / sum;
+    return slab->albedo * s * s * s / PI_DOUBLE * ratio * ratio * 0.25 * -expm1(-slab->depth * sum / (mu_i * mu_o)) /
+           sum;
 }
 
 double slab_single_mode(const Slab *slab, int m, double mu_i, double mu_o) {
@@ -97,8 +96,8 @@ SlabEffort slab_effort(double alpha) {
     return (SlabEffort){nodes, 30};
 }
 
-bool slab_mode(const Slab *slab, SlabEffort effort, int m, int kept, int count, const double *mu,
-               const Layered *out, double *defect) {
+bool slab_mode(const Slab *slab, SlabEffort effort, int m, int kept, int count, const double *mu, const Layered *out,
+               double *defect) {
     int total = effort.nodes + count;
     size_t n = (size_t)total;
     double *block = alloc_array(2 * n * n + 3 * n, sizeof(double));
@@ -116,8 +115,8 @@ bool slab_mode(const Slab *slab, SlabEffort effort, int m, int kept, int count, 
             r[(size_t)j * n + (size_t)i] = r[(size_t)i * n + (size_t)j] = scale * k.up;
             t[(size_t)j * n + (size_t)i] = t[(size_t)i * n + (size_t)j] = scale * k.down;
         }
-    bool done = doubling_run(&(Doubling){effort.nodes, total, c, lambda, slab->depth, effort.halvings, kept},
-                             r, t, out);
+    bool done =
+        doubling_run(&(Doubling){effort.nodes, total, c, lambda, slab->depth, effort.halvings, kept}, r, t, out);
     free(block);
     return done;
 }

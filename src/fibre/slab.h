@@ -11,8 +11,7 @@
  *   f = (1 / 2 pi) sum_m (2 - [m = 0]) r_m(mu_i, mu_o) cos(m phi).
  *
  * Each r_m is a problem in mu alone, solved by doubling.h. Angles phi are between the azimuths of wo and wi. */
-#ifndef WEFT_FIBRE_SLAB_H
-#define WEFT_FIBRE_SLAB_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -37,13 +36,11 @@ SlabEffort slab_effort(double alpha);
  * depth / 2^(kept - 1) .. depth, kept >= 1. For m = 0 the integrals are R and T. *defect (may be NULL) becomes the
  * largest relative error with which the quadrature conserves light before its correction. Returns false if memory is
  * short. */
-bool slab_mode(const Slab *slab, SlabEffort effort, int m, int kept, int count, const double *mu,
-               const Layered *out, double *defect);
+bool slab_mode(const Slab *slab, SlabEffort effort, int m, int kept, int count, const double *mu, const Layered *out,
+               double *defect);
 
 /* Returns f of single scattering, exact, 1/sr. */
 double slab_single(const Slab *slab, double mu_i, double mu_o, double cos_phi);
 
 /* Returns mode m of single scattering, exact. */
 double slab_single_mode(const Slab *slab, int m, double mu_i, double mu_o);
-
-#endif

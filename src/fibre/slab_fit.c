@@ -32,9 +32,7 @@ static void theta_of(const FitForm *form, int slab, const double *coefficients, 
 }
 
 /* Returns V, the weight of a direction in the sum. */
-static double side_weight(const SolvedSlab *t, int k, double grazing) {
-    return 0.5 * (t->w[k] + grazing / t->sides);
-}
+static double side_weight(const SolvedSlab *t, int k, double grazing) { return 0.5 * (t->w[k] + grazing / t->sides); }
 
 /* Adds S^T S to the curvature and S^T r to the gradient, for rows of weighted slopes. */
 static bool add_rows(int rows, int n, const double *slope, const double *residual, double *gradient,
@@ -64,8 +62,7 @@ static void slab_pass(void *user, int item, int thread) {
     theta_of(form, item, pass->coefficients, theta);
     form->value(form->user, item, t, theta, log_f, pass->slopes ? slope : NULL);
     for (int p = 0; p < t->pairs; p++) {
-        double reference = fmax(t->f[p], 1e-14), l = fmin(fmax(log_f[p], -60.0), 25.0),
-               e = pass->softness * reference;
+        double reference = fmax(t->f[p], 1e-14), l = fmin(fmax(log_f[p], -60.0), 25.0), e = pass->softness * reference;
         r[p] = pass->logs ? reference * (l - log(reference)) : exp(l) - reference;
         q[p] = sqrt(r[p] * r[p] + e * e);
         dr[t->i[p]] += solved_weight_i(t, p) * r[p];
@@ -80,8 +77,7 @@ static void slab_pass(void *user, int item, int thread) {
         x[k] = v * (1.0 + worst) / fmax(t->reflected[k], 1e-3); /* from now on, cost by r */
     }
     for (int p = 0; p < t->pairs; p++) {
-        double w = solved_weight_i(t, p) * x[t->i[p]] + solved_weight_j(t, p) * x[t->j[p]],
-               root = sqrt(w / q[p]);
+        double w = solved_weight_i(t, p) * x[t->i[p]] + solved_weight_j(t, p) * x[t->j[p]], root = sqrt(w / q[p]);
         const double *from = slope + (size_t)p * locals; /* what moves is gathered at the front */
         double *s = slope + (size_t)p * slopes;
         for (size_t k = 0; k < slopes; k++) {
@@ -106,8 +102,7 @@ static void slab_pass(void *user, int item, int thread) {
         double *g = pass->gradient + item * n, *h = pass->curvature + (size_t)item * (size_t)n * (size_t)n;
         memset(g, 0, (size_t)n * sizeof *g);
         memset(h, 0, (size_t)n * (size_t)n * sizeof *h);
-        if (!add_rows(t->pairs, n, slope, r, g, h) || !add_rows(t->sides, n, row, dr, g, h))
-            pass->failed = true;
+        if (!add_rows(t->pairs, n, slope, r, g, h) || !add_rows(t->sides, n, row, dr, g, h)) pass->failed = true;
     }
     free(block);
 }
@@ -144,8 +139,7 @@ static void assemble(const FitPass *pass, double *h, double *g) {
                 if (t->coefficient > s->coefficient) continue;
                 size_t high = (size_t)(s->at > t->at ? s->at : t->at);
                 size_t low = (size_t)(s->at > t->at ? t->at : s->at);
-                h[(size_t)t->coefficient * n + (size_t)s->coefficient] +=
-                    s->basis * t->basis * hs[high * m + low];
+                h[(size_t)t->coefficient * n + (size_t)s->coefficient] += s->basis * t->basis * hs[high * m + low];
             }
         }
     }
@@ -166,8 +160,8 @@ static bool solve(int n, const double *h, const double *g, double damping, doubl
 /* Minimises the cost from `at`, by least squares with weights that make it least absolute error. The softness decreases
  * from round to round. Returns false on failure or if progress stops it. Kenneth Levenberg, "A Method for the Solution
  * of Certain Non-Linear Problems in Least Squares", 1944. */
-static bool descend(FitPass *pass, int threads, SolveProgress progress, void *user, double *at, double *h,
-                    double *g, double *work, double *step) {
+static bool descend(FitPass *pass, int threads, SolveProgress progress, void *user, double *at, double *h, double *g,
+                    double *work, double *step) {
     int n = pass->form->coefficients, rounds = pass->effort.rounds;
     double damping = 1e-2, *next = step + n;
     for (int round = 0; round < rounds; round++) {
@@ -212,8 +206,7 @@ bool fit_run(const FitForm *form, const SolvedSet *set, FitEffort effort, int th
     return done;
 }
 
-static bool slab_error(const FitForm *form, const SolvedSet *set, int slab, const double *coefficients,
-                       FitError *out) {
+static bool slab_error(const FitForm *form, const SolvedSet *set, int slab, const double *coefficients, FitError *out) {
     const SolvedSlab *t = &set->slabs[slab];
     double *f = alloc_array((size_t)t->pairs + (size_t)form->locals, sizeof(double));
     if (!f) return false;

@@ -5,8 +5,7 @@
  * each direction, as FitError has it. The error of the albedo counts in addition. It counts a hundredfold if the form
  * reflects more than 0.96 of the light and too much, so that its albedo between the directions of the fit stays below
  * 1. */
-#ifndef WEFT_FIBRE_SLAB_FIT_H
-#define WEFT_FIBRE_SLAB_FIT_H
+#pragma once
 
 #include "fibre/solver_reference.h"
 
@@ -24,8 +23,7 @@ typedef struct FitForm {
     void *user;
     /* Computes log f of every pair of slab number `slab`, and if slope is not NULL its derivatives by theta,
      * slope[pair * locals + q]. Called from several threads at the same time. */
-    void (*value)(void *user, int slab, const SolvedSlab *reference, const double *theta, double *log_f,
-                  double *slope);
+    void (*value)(void *user, int slab, const SolvedSlab *reference, const double *theta, double *log_f, double *slope);
     const FitTerm *const *terms; /* for each slab, those of free coefficients */
     const int *term_counts;
     const double *const *fixed; /* for each slab, [locals] */
@@ -48,5 +46,3 @@ bool fit_run(const FitForm *form, const SolvedSet *set, FitEffort effort, int th
 /* Computes the form's error over the set: the mean of the slabs' means, and the largest of the other errors.
  * Returns false if memory is short. */
 bool fit_error(const FitForm *form, const SolvedSet *set, const double *coefficients, FitError *all);
-
-#endif

@@ -49,8 +49,7 @@ static bool solve_upright(const SolveWork *work, const SlabLayout *at, const Sla
             for (int p = 0; p < at->pairs; p++) {
                 size_t cell = (size_t)k * cells + (size_t)(at->i[p] * n + at->j[p]);
                 double single = slab_single_mode(&slabs[k].slab, m, at->mu[at->i[p]], at->mu[at->j[p]]);
-                slabs[k].f[p] +=
-                    (m ? 2.0 : 1.0) * (r[cell] - single) * cos(m * at->delta_phi[p]) / (2.0 * PI_DOUBLE);
+                slabs[k].f[p] += (m ? 2.0 : 1.0) * (r[cell] - single) * cos(m * at->delta_phi[p]) / (2.0 * PI_DOUBLE);
             }
         }
     }
@@ -99,8 +98,8 @@ static void run(void *user, int item, int thread) {
     if (work->failed) return;
     SolvedSlab *slabs = work->set->slabs + (size_t)item * (size_t)g->kept;
     Slab slab = slabs[g->kept - 1].slab;
-    bool done = g->tilts ? solve_tilted(work, job->at, &slab, slabs->tilt, slabs)
-                         : solve_upright(work, job->at, &slab, slabs);
+    bool done =
+        g->tilts ? solve_tilted(work, job->at, &slab, slabs->tilt, slabs) : solve_upright(work, job->at, &slab, slabs);
     int count = __atomic_add_fetch(&work->done, 1, __ATOMIC_RELAXED);
     if (!done || (work->progress && !work->progress(work->user, count, work->runs)))
         __atomic_store_n(&work->failed, true, __ATOMIC_RELAXED);
@@ -112,15 +111,14 @@ static bool layout_make(const SolvedGrid *g, SolvedSet *set, SlabLayout *at, dou
     int sides = lean ? g->rings * g->spokes : g->rings, angles = lean ? 2 : g->spokes;
     int pairs = sides * (sides + 1) / 2 * angles;
     size_t slabs = (size_t)set->count, tilts = lean ? (size_t)g->tilts : 1;
-    size_t size = 5 * (size_t)sides + 2 * (size_t)pairs + tilts * (size_t)(sides + pairs) +
-                  slabs * (size_t)(pairs + sides);
+    size_t size =
+        5 * (size_t)sides + 2 * (size_t)pairs + tilts * (size_t)(sides + pairs) + slabs * (size_t)(pairs + sides);
     set->block = alloc_array(size, sizeof(double));
     set->numbers = alloc_array(2 * (size_t)pairs, sizeof(int));
     set->slabs = alloc_array(slabs, sizeof(SolvedSlab));
     if (!set->block || !set->numbers || !set->slabs) return false;
     double *mu = set->block, *w = mu + sides, *phi = w + sides, *x = phi + sides, *v = x + sides;
-    *at = (SlabLayout){
-        sides, pairs, mu, w, phi, set->numbers, set->numbers + pairs, v + sides, v + sides + pairs};
+    *at = (SlabLayout){sides, pairs, mu, w, phi, set->numbers, set->numbers + pairs, v + sides, v + sides + pairs};
     *rest = v + sides + 2 * (size_t)pairs;
     gauss_legendre(g->rings, x, v);
     for (int k = 0; k < sides; k++) {
@@ -148,22 +146,20 @@ static void slabs_fill(const SolvedGrid *g, SolvedSet *set, const SlabLayout *at
         double tilt = g->tilts ? g->tilt[q] : 0.0, *nu = rest, *x = nu + at->sides;
         rest = x + at->pairs;
         for (int k = 0; k < at->sides; k++)
-            nu[k] = g->tilts ? sqrt(1.0 - at->mu[k] * at->mu[k]) * cos(at->phi[k]) * sin(tilt) +
-                                   at->mu[k] * cos(tilt)
+            nu[k] = g->tilts ? sqrt(1.0 - at->mu[k] * at->mu[k]) * cos(at->phi[k]) * sin(tilt) + at->mu[k] * cos(tilt)
                              : at->mu[k];
         for (int k = 0; k < at->pairs; k++) {
             int i = at->i[k], j = at->j[k];
             double r = sqrt((1.0 - at->mu[i] * at->mu[i]) * (1.0 - at->mu[j] * at->mu[j]));
-            x[k] =
-                r * cos(at->phi[j] + at->delta_phi[k] - at->phi[i]) + at->mu[i] * at->mu[j] - nu[i] * nu[j];
+            x[k] = r * cos(at->phi[j] + at->delta_phi[k] - at->phi[i]) + at->mu[i] * at->mu[j] - nu[i] * nu[j];
         }
         for (int a = 0; a < g->alphas; a++)
             for (int b = 0; b < g->albedos; b++)
                 for (int k = 0; k < g->kept; k++, n++) {
                     Slab slab = {g->alpha[a], g->albedo[b], ldexp(g->depth, k + 1 - g->kept)};
-                    set->slabs[n] = (SolvedSlab){
-                        slab,  tilt,  at->sides,     at->pairs, at->mu,    at->phi, at->w, nu,
-                        at->i, at->j, at->delta_phi, x,         at->share, rest,    NULL,  rest + at->pairs};
+                    set->slabs[n] = (SolvedSlab){slab,      tilt, at->sides, at->pairs,       at->mu,        at->phi,
+                                                 at->w,     nu,   at->i,     at->j,           at->delta_phi, x,
+                                                 at->share, rest, NULL,      rest + at->pairs};
                     rest += at->pairs + at->sides;
                 }
     }
@@ -173,8 +169,7 @@ static void slabs_fill(const SolvedGrid *g, SolvedSet *set, const SlabLayout *at
     }
 }
 
-bool solved_set_make(const SolvedGrid *grid, int threads, SolveProgress progress, void *user,
-                     SolvedSet *out) {
+bool solved_set_make(const SolvedGrid *grid, int threads, SolveProgress progress, void *user, SolvedSet *out) {
     *out = (SolvedSet){.count = runs_of(grid) * grid->kept};
     SlabLayout at;
     double *rest;
@@ -197,8 +192,7 @@ void solved_set_free(SolvedSet *set) {
 
 void solved_pair(const SolvedSlab *reference, int pair, double wi[3], double wo[3]) {
     int i = reference->i[pair], j = reference->j[pair];
-    double ri = sqrt(1.0 - reference->mu[i] * reference->mu[i]),
-           ro = sqrt(1.0 - reference->mu[j] * reference->mu[j]);
+    double ri = sqrt(1.0 - reference->mu[i] * reference->mu[i]), ro = sqrt(1.0 - reference->mu[j] * reference->mu[j]);
     double phi = reference->phi[j] + reference->delta_phi[pair];
     wi[0] = ri * cos(reference->phi[i]), wi[1] = ri * sin(reference->phi[i]), wi[2] = reference->mu[i];
     wo[0] = ro * cos(phi), wo[1] = ro * sin(phi), wo[2] = reference->mu[j];

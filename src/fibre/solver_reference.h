@@ -1,6 +1,5 @@
 /* solver_reference.h - the solver's results for a fit: multiple scattering between pairs of directions */
-#ifndef WEFT_FIBRE_SOLVER_REFERENCE_H
-#define WEFT_FIBRE_SOLVER_REFERENCE_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -15,13 +14,12 @@ typedef struct SolvedSlab {
     const double *mu, *phi, *w; /* [sides]; phi is 0 if the fibres are upright */
     const double *nu;           /* [sides]: cosine to the fibre */
     const int *i, *j;           /* [pairs], i <= j */
-    const double
-        *delta_phi;      /* [pairs]: azimuth of j minus phi_j; for tilted fibres 0, or -2 phi_j: mirrored */
-    const double *x;     /* [pairs]: wi . wo - nu_i nu_o */
-    const double *share; /* [pairs]: 1 / (pairs of the same directions) */
-    double *f;           /* [pairs]: multiple scattering, 1/sr */
-    const double *white; /* [pairs]: f of the last albedo in the grid */
-    double *reflected;   /* [sides]: R, single scattering included */
+    const double *delta_phi;    /* [pairs]: azimuth of j minus phi_j; for tilted fibres 0, or -2 phi_j: mirrored */
+    const double *x;            /* [pairs]: wi . wo - nu_i nu_o */
+    const double *share;        /* [pairs]: 1 / (pairs of the same directions) */
+    double *f;                  /* [pairs]: multiple scattering, 1/sr */
+    const double *white;        /* [pairs]: f of the last albedo in the grid */
+    double *reflected;          /* [sides]: R, single scattering included */
 } SolvedSlab;
 
 /* Slabs over the same directions. */
@@ -71,5 +69,3 @@ double solved_weight_i(const SolvedSlab *reference, int pair);
 
 /* Returns the same for its second direction; 0 if they are the same. */
 double solved_weight_j(const SolvedSlab *reference, int pair);
-
-#endif

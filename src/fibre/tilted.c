@@ -46,8 +46,8 @@ typedef struct Directions {
 
 /* Fills the directions as slab.c does: mu = x^2. The azimuths are the middles of `spokes` equal parts of [0, pi], the
  * trapezoidal rule for even periodic functions. */
-static void directions_fill(Directions *d, double tilt, TiltEffort effort, int count, const Heading *at,
-                            double *x, double *w) {
+static void directions_fill(Directions *d, double tilt, TiltEffort effort, int count, const Heading *at, double *x,
+                            double *w) {
     gauss_legendre(effort.rings, x, w);
     for (int j = 0; j < effort.rings; j++)
         for (int k = 0; k < effort.spokes; k++) {
@@ -76,8 +76,8 @@ static void extinctions(Directions *d, double s, double albedo) {
 }
 
 /* Solves the problem for functions even (sign 1) or odd (sign -1) in the azimuth. */
-static bool parity(const Directions *d, const Slab *slab, int halvings, int kept, double sign, double *r,
-                   double *t, const Layered *out) {
+static bool parity(const Directions *d, const Slab *slab, int halvings, int kept, double sign, double *r, double *t,
+                   const Layered *out) {
     double s = slab->alpha * slab->alpha;
     size_t n = (size_t)d->total;
     for (int j = 0; j < d->total; j++)
@@ -89,16 +89,13 @@ static bool parity(const Directions *d, const Slab *slab, int halvings, int kept
             r[(size_t)j * n + (size_t)i] = r[(size_t)i * n + (size_t)j] = up;
             t[(size_t)j * n + (size_t)i] = t[(size_t)i * n + (size_t)j] = down;
         }
-    return doubling_run(&(Doubling){d->nodes, d->total, d->c, d->lambda, slab->depth, halvings, kept}, r, t,
-                        out);
+    return doubling_run(&(Doubling){d->nodes, d->total, d->c, d->lambda, slab->depth, halvings, kept}, r, t, out);
 }
 
-TiltEffort tilt_effort(double alpha) {
-    return alpha < 0.35 ? (TiltEffort){20, 40, 28} : (TiltEffort){14, 28, 28};
-}
+TiltEffort tilt_effort(double alpha) { return alpha < 0.35 ? (TiltEffort){20, 40, 28} : (TiltEffort){14, 28, 28}; }
 
-bool tilted_f(const Slab *slab, double tilt, TiltEffort effort, int kept, int count, const Heading *at,
-              double *same, double *across, double *reflected) {
+bool tilted_f(const Slab *slab, double tilt, TiltEffort effort, int kept, int count, const Heading *at, double *same,
+              double *across, double *reflected) {
     int nodes = effort.rings * effort.spokes, total = nodes + count;
     size_t n = (size_t)total, pairs = (size_t)kept * (size_t)count * (size_t)count;
     double *block = alloc_array(2 * n * n + 2 * n + 2 * (size_t)effort.rings, sizeof(double));

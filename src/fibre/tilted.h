@@ -2,8 +2,7 @@
  *
  * Without symmetry about the normal there are no modes, and doubling.h works on directions over the whole
  * hemisphere. The plane of the tilt remains a mirror: functions even and odd in the azimuth separate. */
-#ifndef WEFT_FIBRE_TILTED_H
-#define WEFT_FIBRE_TILTED_H
+#pragma once
 
 #include "fibre/slab.h"
 
@@ -25,10 +24,8 @@ TiltEffort tilt_effort(double alpha);
  * same[k][i * count + j] for wi = at[i] and wo = at[j], across[...] for wo mirrored at the plane of the tilt, and
  * reflected[k][count]: R. same and across may both be NULL, or reflected may. tilt: radians, [0, pi / 2). Returns false
  * if memory is short. */
-bool tilted_f(const Slab *slab, double tilt, TiltEffort effort, int kept, int count, const Heading *at,
-              double *same, double *across, double *reflected);
+bool tilted_f(const Slab *slab, double tilt, TiltEffort effort, int kept, int count, const Heading *at, double *same,
+              double *across, double *reflected);
 
 /* Returns f of single scattering, exact, 1/sr, for a pair of headings; phi_o may be negative. */
 double tilted_single(const Slab *slab, double tilt, Heading i, Heading o);
-
-#endif

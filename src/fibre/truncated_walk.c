@@ -27,8 +27,7 @@ void truncated_walk(double alpha, double mu, long long walks, TruncatedSlab *out
     memset(out, 0, sizeof *out);
     for (long long n = 0; n < walks; n++) {
         Walker walker = walk_start(wo, 1, (uint64_t)n);
-        for (int flake = 0; flake < FLAKES_MOST && walk_fly(&medium, &walker); flake++)
-            walk_scatter(&medium, &walker);
+        for (int flake = 0; flake < FLAKES_MOST && walk_fly(&medium, &walker); flake++) walk_scatter(&medium, &walker);
         if (walker.d[2] > 0.0) count(out, walker.d);
     }
     /* a cell is pi / 2 by pi over TRUNCATED_SIDE^2, and stands for both halves of the azimuth */

@@ -4,8 +4,7 @@
  * Transformed Cosines", SIGGRAPH Talks 2022, and the program published with it: white flakes around upright fibres,
  * density 1 (walk.h). Unlike walk.h's, a walk ends with its 16th flake. If it is then inside the slab, it counts as
  * reflected or transmitted by its last direction (docs/fibre.md, section 3). */
-#ifndef WEFT_FIBRE_TRUNCATED_WALK_H
-#define WEFT_FIBRE_TRUNCATED_WALK_H
+#pragma once
 
 #include <stdint.h>
 
@@ -27,5 +26,3 @@ double truncated_theta(int row);
 
 /* Returns phi at the middle of a column, radians. */
 double truncated_phi(int column);
-
-#endif

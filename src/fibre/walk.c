@@ -31,10 +31,10 @@ double walk_phase(const WalkMedium *m, const double wi[3], const double wo[3]) {
 }
 
 WalkMedium walk_medium(const WalkDesc *desc) {
-    return (WalkMedium){.s = desc->alpha * desc->alpha,
-                        .thickness = desc->thickness,
-                        .axis = {sin(desc->tilt) * cos(desc->azimuth), sin(desc->tilt) * sin(desc->azimuth),
-                                 cos(desc->tilt)}};
+    return (WalkMedium){
+        .s = desc->alpha * desc->alpha,
+        .thickness = desc->thickness,
+        .axis = {sin(desc->tilt) * cos(desc->azimuth), sin(desc->tilt) * sin(desc->azimuth), cos(desc->tilt)}};
 }
 
 Walker walk_start(const double wo[3], uint64_t seed, uint64_t number) {

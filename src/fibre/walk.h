@@ -9,8 +9,7 @@
  *
  * where z is the depth of a flake and d the direction in which light reached it. This is next-event estimation. At low
  * alpha the sum has few large terms, and the estimate of its error is itself inaccurate. */
-#ifndef WEFT_FIBRE_WALK_H
-#define WEFT_FIBRE_WALK_H
+#pragma once
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -76,5 +75,3 @@ double walk_sigma(const WalkMedium *medium, const double w[3]);
 
 /* Returns the phase function p(wi, wo), 1/sr, for unit vectors that point away from the flake. */
 double walk_phase(const WalkMedium *medium, const double wi[3], const double wo[3]);
-
-#endif

@@ -2,8 +2,7 @@
  *
  * A reader leaves *out unchanged or zeroed on failure. Before it allocates, it refuses a size that the file cannot
  * contain (image_check_header). */
-#ifndef WEFT_IMAGE_CODEC_H
-#define WEFT_IMAGE_CODEC_H
+#pragma once
 
 #include <stdio.h>
 
@@ -26,8 +25,8 @@ const char *image_media_type(const unsigned char *data, size_t size);
 /* Refuses (WEFT_MESSAGE_IMAGE_SIZE) sides outside 1 .. IMAGE_SIDE_MAX and images that are implausibly large for the
  * file: above 512 MiB of memory if the file has less than a sixteenth of that memory, and above 2 GiB always. A small
  * hostile file cannot request much memory, and a large valid one is read. */
-WeftResult image_check_header(const ImageSource *source, int64_t width, int64_t height,
-                              int64_t bytes_per_pixel, WeftError *error);
+WeftResult image_check_header(const ImageSource *source, int64_t width, int64_t height, int64_t bytes_per_pixel,
+                              WeftError *error);
 
 /* Refuses (WEFT_MESSAGE_IMAGE_SIZE) a file that is smaller than the least encoding of its pixels. */
 WeftResult image_reachable(const ImageSource *source, int64_t fewest_bytes, WeftError *error);
@@ -43,13 +42,11 @@ WeftResult image_read_exr(const ImageSource *source, WeftImage *out, WeftError *
 WeftResult image_read_npy(const ImageSource *source, WeftImage *out, WeftError *error);
 
 /* Writes an image whose pixel type the format supports; name is the subject of errors. */
-WeftResult image_write_png(FILE *stream, const char *name, const WeftImage *image,
-                           const WeftImageWriting *how, WeftError *error);
-WeftResult image_write_hdr(FILE *stream, const char *name, const WeftImage *image,
-                           const WeftImageWriting *how, WeftError *error);
-WeftResult image_write_exr(FILE *stream, const char *name, const WeftImage *image,
-                           const WeftImageWriting *how, WeftError *error);
-WeftResult image_write_npy(FILE *stream, const char *name, const WeftImage *image,
-                           const WeftImageWriting *how, WeftError *error);
-
-#endif
+WeftResult image_write_png(FILE *stream, const char *name, const WeftImage *image, const WeftImageWriting *how,
+                           WeftError *error);
+WeftResult image_write_hdr(FILE *stream, const char *name, const WeftImage *image, const WeftImageWriting *how,
+                           WeftError *error);
+WeftResult image_write_exr(FILE *stream, const char *name, const WeftImage *image, const WeftImageWriting *how,
+                           WeftError *error);
+WeftResult image_write_npy(FILE *stream, const char *name, const WeftImage *image, const WeftImageWriting *how,
+                           WeftError *error);

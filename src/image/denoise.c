@@ -92,8 +92,7 @@ static void extend(const DenoisePlanes *planes, float *plane) {
     const float *first = plane - MARGIN, *last = plane + place_of(planes, -MARGIN, planes->height - 1);
     for (int y = 1; y <= MARGIN; y++) {
         memcpy(plane + place_of(planes, -MARGIN, -y), first, planes->stride * sizeof(float));
-        memcpy(plane + place_of(planes, -MARGIN, planes->height - 1 + y), last,
-               planes->stride * sizeof(float));
+        memcpy(plane + place_of(planes, -MARGIN, planes->height - 1 + y), last, planes->stride * sizeof(float));
     }
 }
 
@@ -133,8 +132,7 @@ LOOP(distance_n, (int n, const float *const u[3], const float *restrict v, ptrdi
 }
 
 /* Computes the weights from means over patches, which are summed first down, then across. */
-LOOP(weights_n,
-     (int n, const float (*restrict distance)[WIDE], float *restrict column, float *restrict weight),
+LOOP(weights_n, (int n, const float (*restrict distance)[WIDE], float *restrict column, float *restrict weight),
      (n, distance, column, weight)) {
     EACH(x, (size_t)n + 2 * PATCH) {
         float sum = 0.0f;
@@ -160,8 +158,7 @@ static void weigh(const DenoisePlanes *planes, int half, const Area *area, Scrat
             ptrdiff_t p = place_of(planes, area->x - PATCH, area->y - PATCH + y);
             const float *const u[3] = {planes->color[half][0] + p, planes->color[half][1] + p,
                                        planes->color[half][2] + p};
-            distance_n(area->width + 2 * PATCH, u, planes->variance + p, place_of(planes, dx, dy),
-                       s->distance[y]);
+            distance_n(area->width + 2 * PATCH, u, planes->variance + p, place_of(planes, dx, dy), s->distance[y]);
         }
         for (int y = 0; y < area->height; y++) {
             float *weight = s->weight[offset][y];
@@ -227,8 +224,7 @@ static void fit(const DenoisePlanes *planes, int half, const Area *area, Scratch
             const float *color[DENOISE_COLORS], *weight = s->weight[offset][y];
             memcpy(s->weighted[0], weight, sizeof s->weighted[0]);
             for (int f = 0; f < DENOISE_FEATURES; f++)
-                take_steps(area->width, planes->feature[f] + p, q, weight, s->step[1 + f],
-                           s->weighted[1 + f]);
+                take_steps(area->width, planes->feature[f] + p, q, weight, s->step[1 + f], s->weighted[1 + f]);
             for (int c = 0; c < DENOISE_COLORS; c++) color[c] = planes->color[half][c] + p + q;
             add_products(area->width, s, color);
         }

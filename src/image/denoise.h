@@ -3,8 +3,7 @@
  * Benedikt Bitterli, Fabrice Rousselle, Bochang Moon, Jose A. Iglesias-Guitian, David Adler, Kenny Mitchell,
  * Wojciech Jarosz, Jan Novak, "Nonlinearly Weighted First-order Regression for Denoising Monte Carlo
  * Renderings", 2016; without its filter of the features, its choice among two widths, and its second pass. */
-#ifndef WEFT_IMAGE_DENOISE_H
-#define WEFT_IMAGE_DENOISE_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -31,5 +30,3 @@ void denoise_planes_free(DenoisePlanes *planes);
 
 /* Fills `out`, with the same bytes on any number of threads. Returns false if memory is short. */
 bool denoise(DenoisePlanes *planes, int threads);
-
-#endif

@@ -20,9 +20,7 @@ static void relmse_map(const Pair *pair, float *map) {
 
 static const char *const names[WEFT_METRIC_COUNT] = {"relmse", "flip", "ssim"};
 
-const char *weft_metric_name(WeftMetric metric) {
-    return (unsigned)metric < WEFT_METRIC_COUNT ? names[metric] : "";
-}
+const char *weft_metric_name(WeftMetric metric) { return (unsigned)metric < WEFT_METRIC_COUNT ? names[metric] : ""; }
 
 static WeftResult check(const WeftDiffDesc *desc, WeftError *error) {
     const WeftImage *a = desc->image, *b = desc->reference;
@@ -30,8 +28,8 @@ static WeftResult check(const WeftDiffDesc *desc, WeftError *error) {
     if (!a || !b || !a->pixels || !b->pixels)
         return fail(error, WEFT_MESSAGE_DESC, "images to compare", "two are needed");
     if (a->width != b->width || a->height != b->height)
-        return fail(error, WEFT_MESSAGE_DESC, "images to compare", "one is %d x %d pixels, the other %d x %d",
-                    a->width, a->height, b->width, b->height);
+        return fail(error, WEFT_MESSAGE_DESC, "images to compare", "one is %d x %d pixels, the other %d x %d", a->width,
+                    a->height, b->width, b->height);
     if ((unsigned)desc->metric >= WEFT_METRIC_COUNT || desc->threads < 0 || !isfinite(desc->exposure) ||
         (unsigned)desc->tonemap > WEFT_TONEMAP_NONE)
         return fail(error, WEFT_MESSAGE_DESC, "comparison", "metric %d, %d threads, curve %d, exposure %g",
@@ -49,13 +47,11 @@ static float badness(WeftMetric metric, float value) {
 
 /* Returns the mean of a map; for ssim without the edge, unless the picture is all edge. */
 static double map_mean(const Pair *pair, const float *map, WeftMetric metric) {
-    const bool inner =
-        metric == WEFT_METRIC_SSIM && pair->width > 2 * SSIM_RADIUS && pair->height > 2 * SSIM_RADIUS;
+    const bool inner = metric == WEFT_METRIC_SSIM && pair->width > 2 * SSIM_RADIUS && pair->height > 2 * SSIM_RADIUS;
     const int edge = inner ? SSIM_RADIUS : 0;
     double sum = 0.0;
     for (int y = edge; y < pair->height - edge; y++)
-        for (int x = edge; x < pair->width - edge; x++)
-            sum += (double)map[(size_t)y * (size_t)pair->width + (size_t)x];
+        for (int x = edge; x < pair->width - edge; x++) sum += (double)map[(size_t)y * (size_t)pair->width + (size_t)x];
     return sum / ((double)(pair->width - 2 * edge) * (double)(pair->height - 2 * edge));
 }
 

@@ -1,11 +1,8 @@
 /* difference.h - the relative squared error of two values */
-#ifndef WEFT_IMAGE_DIFFERENCE_H
-#define WEFT_IMAGE_DIFFERENCE_H
+#pragma once
 
 /* Returns (a - b)^2 / (b^2 + 1e-2), whose mean over pixels and channels is relMSE. */
 static inline double relative_square(float a, float b) {
     const double reference = (double)b, off = (double)a - reference;
     return off * off / (reference * reference + 1e-2);
 }
-
-#endif

@@ -57,8 +57,8 @@ static int64_t exr_job_size(exr_const_context_t exr, void *user) {
     return (int64_t)((ExrJob *)user)->source->size;
 }
 
-static int64_t exr_job_write(exr_const_context_t exr, void *user, const void *from, uint64_t size,
-                             uint64_t offset, exr_stream_error_func_ptr_t report) {
+static int64_t exr_job_write(exr_const_context_t exr, void *user, const void *from, uint64_t size, uint64_t offset,
+                             exr_stream_error_func_ptr_t report) {
     (void)exr;
     (void)report;
     FILE *stream = ((ExrJob *)user)->stream;
@@ -162,8 +162,7 @@ static WeftResult exr_channels(Exr *exr, WeftError *error) {
     int picked = layer_pick(exr, "", 0);
     for (int i = 0; !picked && i < channels->num_channels; i++)
         picked = layer_pick(exr, channels->entries[i].name.str, layer_length(channels->entries[i].name.str));
-    return picked ? WEFT_OK
-                  : fail(error, WEFT_MESSAGE_IMAGE_UNSUPPORTED, name, "EXR: neither R G B nor Y channels");
+    return picked ? WEFT_OK : fail(error, WEFT_MESSAGE_IMAGE_UNSUPPORTED, name, "EXR: neither R G B nor Y channels");
 }
 
 /* Returns an upper bound of the bytes of pixels that a byte of a file decodes to. Deflate has 1032 (258 bytes from 2
@@ -194,8 +193,7 @@ static exr_result_t exr_chunks(Exr *exr) {
     exr->tiled = storage == EXR_STORAGE_TILED;
     exr->chunk_width = (int32_t)box_width(exr->data);
     if (status == EXR_ERR_SUCCESS)
-        status = exr->tiled ? exr_get_tile_sizes(exr->context, exr->part, 0, 0, &exr->chunk_width,
-                                                 &exr->chunk_height)
+        status = exr->tiled ? exr_get_tile_sizes(exr->context, exr->part, 0, 0, &exr->chunk_width, &exr->chunk_height)
                             : exr_get_scanlines_per_chunk(exr->context, exr->part, &exr->chunk_height);
     return status;
 }
@@ -209,8 +207,7 @@ static WeftResult exr_header(Exr *exr, WeftError *error) {
         exr_get_display_window(exr->context, exr->part, &exr->display) != EXR_ERR_SUCCESS ||
         exr_get_compression(exr->context, exr->part, &exr->compression) != EXR_ERR_SUCCESS ||
         exr_get_channels(exr->context, exr->part, &exr->channels) != EXR_ERR_SUCCESS)
-        return fail(error, WEFT_MESSAGE_IMAGE_DAMAGED, source->name,
-                    "EXR: its header lacks what it must have");
+        return fail(error, WEFT_MESSAGE_IMAGE_DAMAGED, source->name, "EXR: its header lacks what it must have");
     if (!box_sane(exr->data) || !box_sane(exr->display))
         return fail(error, WEFT_MESSAGE_IMAGE_SIZE, source->name, "EXR: a window too far off");
     WeftResult result = exr_channels(exr, error);
@@ -223,8 +220,7 @@ static WeftResult exr_header(Exr *exr, WeftError *error) {
     result = image_check_header(source, exr->chunk_width, exr->chunk_height, 3 * exr->pixel_bytes, error);
     if (result == WEFT_OK) result = image_check_header(source, width, height, exr->pixel_bytes, error);
     if (result == WEFT_OK)
-        result =
-            image_reachable(source, width * height * exr->pixel_bytes / ratio_most(exr->compression), error);
+        result = image_reachable(source, width * height * exr->pixel_bytes / ratio_most(exr->compression), error);
     if (result == WEFT_OK)
         result = image_check_header(source, box_width(exr->display), box_height(exr->display),
                                     exr->count * (int64_t)sizeof(float), error);
@@ -234,8 +230,7 @@ static WeftResult exr_header(Exr *exr, WeftError *error) {
 /* Returns one value of the file, which is little-endian. */
 static float value_read(const unsigned char *at, exr_pixel_type_t type) {
     if (type == EXR_PIXEL_HALF) return half_value((unsigned)at[0] | (unsigned)at[1] << 8);
-    const uint32_t bits =
-        (uint32_t)at[0] | (uint32_t)at[1] << 8 | (uint32_t)at[2] << 16 | (uint32_t)at[3] << 24;
+    const uint32_t bits = (uint32_t)at[0] | (uint32_t)at[1] << 8 | (uint32_t)at[2] << 16 | (uint32_t)at[3] << 24;
     float value;
     memcpy(&value, &bits, sizeof value);
     return type == EXR_PIXEL_UINT ? (float)bits : value;
@@ -260,12 +255,10 @@ static void line_place(const Exr *exr, const unsigned char *line, int64_t width,
 /* Decompresses one chunk, its first pixel at (x, y) of the image, and copies it. The library only reads and
  * decompresses: its conversions (3.1.5) reverse the channels of interleaved half, and for a file of three or four
  * channels write through the null pointers of those that were not requested. */
-static exr_result_t chunk_decode(Exr *exr, const exr_chunk_info_t *chunk, int64_t x, int64_t y,
-                                 WeftImage *image) {
+static exr_result_t chunk_decode(Exr *exr, const exr_chunk_info_t *chunk, int64_t x, int64_t y, WeftImage *image) {
     exr_decode_pipeline_t *pipeline = &exr->pipeline;
     const int64_t line_bytes = chunk->width * exr->pixel_bytes;
-    if (chunk->width < 1 || chunk->height < 1 ||
-        (int64_t)chunk->unpacked_size != line_bytes * chunk->height ||
+    if (chunk->width < 1 || chunk->height < 1 || (int64_t)chunk->unpacked_size != line_bytes * chunk->height ||
         (exr->compression == EXR_COMPRESSION_NONE && chunk->packed_size != chunk->unpacked_size))
         return EXR_ERR_CORRUPT_CHUNK;
     exr_result_t status;
@@ -273,8 +266,7 @@ static exr_result_t chunk_decode(Exr *exr, const exr_chunk_info_t *chunk, int64_
         status = exr_decoding_update(exr->context, exr->part, chunk, pipeline);
     } else {
         status = exr_decoding_initialize(exr->context, exr->part, chunk, pipeline);
-        if (status == EXR_ERR_SUCCESS)
-            status = exr_decoding_choose_default_routines(exr->context, exr->part, pipeline);
+        if (status == EXR_ERR_SUCCESS) status = exr_decoding_choose_default_routines(exr->context, exr->part, pipeline);
         pipeline->unpack_and_convert_fn = NULL;
         exr->decompress = pipeline->decompress_fn;
     }
@@ -296,10 +288,10 @@ static exr_result_t chunks_decode(Exr *exr, int64_t left, int64_t top, WeftImage
     for (int64_t y = 0; y * height < box_height(exr->data); y++)
         for (int64_t x = 0; x * width < box_width(exr->data); x++) {
             exr_chunk_info_t chunk;
-            exr_result_t status =
-                exr->tiled ? exr_read_tile_chunk_info(exr->context, exr->part, (int)x, (int)y, 0, 0, &chunk)
-                           : exr_read_scanline_chunk_info(exr->context, exr->part,
-                                                          (int)(exr->data.min.y + y * height), &chunk);
+            exr_result_t status = exr->tiled
+                                      ? exr_read_tile_chunk_info(exr->context, exr->part, (int)x, (int)y, 0, 0, &chunk)
+                                      : exr_read_scanline_chunk_info(exr->context, exr->part,
+                                                                     (int)(exr->data.min.y + y * height), &chunk);
             if (status == EXR_ERR_SUCCESS)
                 status = chunk_decode(exr, &chunk, left + x * width, top + y * height, image);
             if (status != EXR_ERR_SUCCESS) return status;
@@ -329,8 +321,8 @@ static WeftResult exr_refuse(const ExrJob *job, exr_result_t status, WeftError *
 static WeftResult exr_decode(Exr *exr, const ExrJob *job, WeftImage *out, WeftError *error) {
     WeftResult result = exr_header(exr, error);
     if (result != WEFT_OK) return result;
-    result = weft_image_create((int)box_width(exr->display), (int)box_height(exr->display), exr->count,
-                               WEFT_PIXEL_F32, out, error);
+    result = weft_image_create((int)box_width(exr->display), (int)box_height(exr->display), exr->count, WEFT_PIXEL_F32,
+                               out, error);
     if (result != WEFT_OK) return result;
     const int64_t left = (int64_t)exr->data.min.x - exr->display.min.x;
     const int64_t top = (int64_t)exr->data.min.y - exr->display.min.y;
@@ -353,8 +345,7 @@ WeftResult image_read_exr(const ImageSource *source, WeftImage *out, WeftError *
     setup.size_fn = exr_job_size;
     setup.max_image_width = setup.max_image_height = IMAGE_SIDE_MAX;
     setup.max_tile_width = setup.max_tile_height = IMAGE_SIDE_MAX;
-    setup.flags =
-        EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION; /* a cut file is damaged, not half an image */
+    setup.flags = EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION; /* a cut file is damaged, not half an image */
     memory_begin();
     exr_result_t status = exr_start_read(&exr.context, source->name, &setup);
     if (status != EXR_ERR_SUCCESS) return exr_refuse(&job, status, error);
@@ -371,11 +362,7 @@ static const struct {
     const char *name;
     int channel;
 } exr_layouts[5][4] = {
-    {{0}},
-    {{"Y", 0}},
-    {{"A", 1}, {"Y", 0}},
-    {{"B", 2}, {"G", 1}, {"R", 0}},
-    {{"A", 3}, {"B", 2}, {"G", 1}, {"R", 0}},
+    {{0}}, {{"Y", 0}}, {{"A", 1}, {"Y", 0}}, {{"B", 2}, {"G", 1}, {"R", 0}}, {{"A", 3}, {"B", 2}, {"G", 1}, {"R", 0}},
 };
 
 /* One channel of the file. */
@@ -411,8 +398,7 @@ static int planes_list(const WeftImage *image, const WeftImageWriting *how, ExrP
 static WeftResult layers_check(const char *name, const WeftImage *image, const WeftImageWriting *how,
                                WeftError *error) {
     if (how->layer_count < 0 || how->layer_count > WEFT_IMAGE_LAYERS)
-        return fail(error, WEFT_MESSAGE_DESC, name, "%d layers; at most %d", how->layer_count,
-                    WEFT_IMAGE_LAYERS);
+        return fail(error, WEFT_MESSAGE_DESC, name, "%d layers; at most %d", how->layer_count, WEFT_IMAGE_LAYERS);
     for (int k = 0; k < how->layer_count; k++) {
         const WeftImage *layer = how->layers[k].image;
         if (!layer || !layer->pixels || layer->type != WEFT_PIXEL_F32 || layer->width != image->width ||
@@ -430,15 +416,12 @@ static exr_result_t exr_describe(exr_context_t exr, const WeftImage *image, cons
     int part = 0;
     exr_result_t status = exr_add_part(exr, "image", EXR_STORAGE_SCANLINE, &part);
     if (status == EXR_ERR_SUCCESS)
-        status =
-            exr_initialize_required_attr_simple(exr, part, image->width, image->height, EXR_COMPRESSION_ZIP);
+        status = exr_initialize_required_attr_simple(exr, part, image->width, image->height, EXR_COMPRESSION_ZIP);
     for (int k = 0; status == EXR_ERR_SUCCESS && k < count; k++)
         status = exr_add_channel(
             exr, part, planes[k].name, planes[k].single ? EXR_PIXEL_FLOAT : EXR_PIXEL_HALF,
-            how->data || planes[k].image != image ? EXR_PERCEPTUALLY_LINEAR : EXR_PERCEPTUALLY_LOGARITHMIC, 1,
-            1);
-    if (status == EXR_ERR_SUCCESS && how->comment)
-        status = exr_attr_set_string(exr, part, "comments", how->comment);
+            how->data || planes[k].image != image ? EXR_PERCEPTUALLY_LINEAR : EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1);
+    if (status == EXR_ERR_SUCCESS && how->comment) status = exr_attr_set_string(exr, part, "comments", how->comment);
     if (status == EXR_ERR_SUCCESS && how->denoised)
         status = exr_attr_set_string(exr, part, exr_denoised, how->denoised);
     if (status == EXR_ERR_SUCCESS && how->isa) status = exr_attr_set_string(exr, part, "isa", how->isa);
@@ -508,8 +491,8 @@ static exr_result_t exr_encode(exr_context_t exr, const WeftImage *image, const 
     return status;
 }
 
-WeftResult image_write_exr(FILE *stream, const char *name, const WeftImage *image,
-                           const WeftImageWriting *how, WeftError *error) {
+WeftResult image_write_exr(FILE *stream, const char *name, const WeftImage *image, const WeftImageWriting *how,
+                           WeftError *error) {
     ExrJob job = {.stream = stream};
     ExrPlane planes[EXR_PLANES];
     WeftResult result = layers_check(name, image, how, error);

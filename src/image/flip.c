@@ -76,8 +76,7 @@ static void normalise(Kernel *kernel, int radius, const double *weight) {
     kernel->radius = radius;
     for (int k = 0; k <= 2 * radius; k++) *(weight[k] > 0.0 ? &up : &down) += fabs(weight[k]);
     for (int k = 0; k <= 2 * radius; k++)
-        if (weight[k] < 0.0 || weight[k] > 0.0)
-            kernel->weight[k] = (float)(weight[k] / (weight[k] > 0.0 ? up : down));
+        if (weight[k] < 0.0 || weight[k] > 0.0) kernel->weight[k] = (float)(weight[k] / (weight[k] > 0.0 ? up : down));
 }
 
 static void set_sight(Flip *flip, double pixels_per_degree) {
@@ -87,15 +86,13 @@ static void set_sight(Flip *flip, double pixels_per_degree) {
     for (int i = 0; i < 4; i++)
         for (int k = 0; k <= 2 * radius; k++) {
             const double t = (k - radius) / pixels_per_degree;
-            sum[i] += weight[i][k] =
-                sqrt(a[i] * sqrt(PI_DOUBLE / b[i])) * exp(-PI_DOUBLE * PI_DOUBLE * t * t / b[i]);
+            sum[i] += weight[i][k] = sqrt(a[i] * sqrt(PI_DOUBLE / b[i])) * exp(-PI_DOUBLE * PI_DOUBLE * t * t / b[i]);
         }
     /* for y - z the squares of both terms sum to 1 */
     sum[SIGHT_Z] = sum[SIGHT_Z_TOO] = hypot(sum[SIGHT_Z], sum[SIGHT_Z_TOO]);
     for (int i = 0; i < 4; i++) {
         flip->filters[SIGHT_Y + i].radius = radius;
-        for (int k = 0; k <= 2 * radius; k++)
-            flip->filters[SIGHT_Y + i].weight[k] = (float)(weight[i][k] / sum[i]);
+        for (int k = 0; k <= 2 * radius; k++) flip->filters[SIGHT_Y + i].weight[k] = (float)(weight[i][k] / sum[i]);
     }
 }
 
@@ -125,8 +122,7 @@ static void set_colors(Flip *flip) {
             flip->to_xyz.m[i][k] = (float)m[i][k];
         }
     for (int k = 0; k < 3; k++)
-        determinant +=
-            m[0][k] * (m[1][(k + 1) % 3] * m[2][(k + 2) % 3] - m[1][(k + 2) % 3] * m[2][(k + 1) % 3]);
+        determinant += m[0][k] * (m[1][(k + 1) % 3] * m[2][(k + 2) % 3] - m[1][(k + 2) % 3] * m[2][(k + 1) % 3]);
     for (int i = 0; i < 3; i++)
         for (int k = 0; k < 3; k++) {
             const int i1 = (i + 1) % 3, i2 = (i + 2) % 3, k1 = (k + 1) % 3, k2 = (k + 2) % 3;
@@ -270,8 +266,7 @@ static void map_row(void *user, int y, int thread) {
     float *lines[LINES], *const *seen = lines + SEEN;
     for (int k = 0; k < LINES; k++)
         lines[k] = flip->lines + ((size_t)thread * LINES + (size_t)k) * flip->stride + flip->margin;
-    const Seen p = {seen[0], seen[1], seen[2], seen[3], seen[4]},
-               q = {seen[5], seen[6], seen[7], seen[8], seen[9]};
+    const Seen p = {seen[0], seen[1], seen[2], seen[3], seen[4]}, q = {seen[5], seen[6], seen[7], seen[8], seen[9]};
     seen_row(flip, flip->opponent[0], y, lines, &p);
     seen_row(flip, flip->opponent[1], y, lines, &q);
     const float most = flip->most, middle = 0.4f * most;
@@ -279,12 +274,11 @@ static void map_row(void *user, int y, int thread) {
     float *to = flip->map + (size_t)y * (size_t)width;
 #pragma omp simd
     for (int x = 0; x < width; x++) {
-        const float c = power(
-            hyab((Triple){p.lightness[x], p.a[x], p.b[x]}, (Triple){q.lightness[x], q.a[x], q.b[x]}), 0.7f);
+        const float c =
+            power(hyab((Triple){p.lightness[x], p.a[x], p.b[x]}, (Triple){q.lightness[x], q.a[x], q.b[x]}), 0.7f);
         const float low = c * (0.95f / middle), high = 0.95f + 0.05f * (c - middle) / (most - middle);
         const float edge = fabsf(p.edge[x] - q.edge[x]), point = fabsf(p.point[x] - q.point[x]);
-        const float de_c = c < middle ? low : high,
-                    de_f = sqrtf(0.707106781f * (edge > point ? edge : point));
+        const float de_c = c < middle ? low : high, de_f = sqrtf(0.707106781f * (edge > point ? edge : point));
         const float value = unit(power(de_c, 1.0f - de_f)), before = to[x];
         to[x] = before > value ? before : value;
     }
@@ -299,8 +293,7 @@ static void add_exposure(Flip *flip, float stops) {
 
 /* Sets the range of exposures from the reference; returns false if memory is short. */
 static bool set_exposures(const Pair *pair, WeftDiff *out) {
-    const double t = 0.85, a = (double)aces.k0 - t * (double)aces.k3,
-                 b = (double)aces.k1 - t * (double)aces.k4,
+    const double t = 0.85, a = (double)aces.k0 - t * (double)aces.k3, b = (double)aces.k1 - t * (double)aces.k4,
                  x_p = (-b + sqrt(b * b + 4.0 * a * t * (double)aces.k5)) / (2.0 * a);
     const size_t pixels = pair_pixels(pair);
     float *luminance = alloc_array(pixels, sizeof *luminance), most = 0.0f, low = 0.0f, high = 0.0f;
@@ -314,8 +307,8 @@ static bool set_exposures(const Pair *pair, WeftDiff *out) {
     }
     bool ranked = true;
     if (count > 0) {
-        ranked = value_ranked(luminance, count, (count - 1) / 2, &low) &&
-                 value_ranked(luminance, count, count / 2, &high);
+        ranked =
+            value_ranked(luminance, count, (count - 1) / 2, &low) && value_ranked(luminance, count, count / 2, &high);
         out->exposure_low = (float)log2(x_p / (double)most);
         out->exposure_high = (float)log2(x_p / (0.5 * ((double)low + (double)high)));
     }
@@ -341,9 +334,9 @@ bool flip_map(const Pair *pair, float pixels_per_degree, bool bright, WeftDiff *
         for (int k = 0; k < 6; k++) flip.opponent[k / 3][k % 3] = planes + (size_t)k * pair_pixels(pair);
         const int last = bright ? out->exposures - 1 : 0;
         for (int k = 0; k <= last; k++)
-            add_exposure(&flip, last ? out->exposure_low +
-                                           (out->exposure_high - out->exposure_low) * (float)k / (float)last
-                                     : 0.0f);
+            add_exposure(&flip,
+                         last ? out->exposure_low + (out->exposure_high - out->exposure_low) * (float)k / (float)last
+                              : 0.0f);
     }
     free(planes);
     free(flip.lines);

@@ -1,6 +1,5 @@
 /* flip.h - the difference that an eye sees when two images alternate */
-#ifndef WEFT_IMAGE_FLIP_H
-#define WEFT_IMAGE_FLIP_H
+#pragma once
 
 #include "image/pair.h"
 
@@ -8,5 +7,3 @@
  * over a range of exposures, which *out receives. map must contain width * height zeros. Returns false if memory is
  * short. */
 bool flip_map(const Pair *pair, float pixels_per_degree, bool bright, WeftDiff *out, float *map);
-
-#endif

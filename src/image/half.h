@@ -1,6 +1,5 @@
 /* half.h - floats of 16 bits in files (IEEE 754, binary16) */
-#ifndef WEFT_IMAGE_HALF_H
-#define WEFT_IMAGE_HALF_H
+#pragma once
 
 #include <math.h>
 #include <stdint.h>
@@ -35,5 +34,3 @@ static inline uint16_t half_bits(float x) {
     bits += 0xfffu + (bits >> 13 & 1u);
     return (uint16_t)((sign >> 16 & 0x8000u) | bits >> 13);
 }
-
-#endif

@@ -43,8 +43,8 @@ static inline uint8_t code_of(const Codes *codes, float x) {
 }
 
 /* Sets four sums over the texels that a texel covers. `from` contains codes or, if `color` is NULL, floats. */
-static inline void mean(const void *from, const Codes *color, const Codes *alpha, size_t width, Cover x,
-                        Cover y, float sum[4]) {
+static inline void mean(const void *from, const Codes *color, const Codes *alpha, size_t width, Cover x, Cover y,
+                        float sum[4]) {
     for (int c = 0; c < 4; c++) sum[c] = 0.0f;
     for (int j = 0; j < y.count; j++)
         for (int k = 0; k < x.count; k++) {

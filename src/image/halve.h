@@ -1,6 +1,5 @@
 /* halve.h - mipmaps of pictures of four channels */
-#ifndef WEFT_IMAGE_HALVE_H
-#define WEFT_IMAGE_HALVE_H
+#pragma once
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -13,5 +12,3 @@ static inline int halved(int side) { return side > 1 ? side / 2 : 1; }
  * and `to` must not overlap. */
 void halve_u8(const uint8_t *from, int width, int height, bool srgb, uint8_t *to);
 void halve_f32(const float *from, int width, int height, float *to);
-
-#endif

@@ -55,8 +55,7 @@ static int gain_divide(Hdr *hdr, const char *numbers, int count) {
 static int resolution(Hdr *hdr, const char *line) {
     char sign[2], axis[2], rest;
     int count[2];
-    if (sscanf(line, "%c%c %5d %c%c %5d %c", &sign[0], &axis[0], &count[0], &sign[1], &axis[1], &count[1],
-               &rest) != 6)
+    if (sscanf(line, "%c%c %5d %c%c %5d %c", &sign[0], &axis[0], &count[0], &sign[1], &axis[1], &count[1], &rest) != 6)
         return 0;
     hdr->x_first = axis[0] == 'X';
     const int x = hdr->x_first ? 0 : 1, y = 1 - x;
@@ -226,15 +225,14 @@ static void component_write(FILE *stream, unsigned char (*line)[4], int c, int l
     }
 }
 
-WeftResult image_write_hdr(FILE *stream, const char *name, const WeftImage *image,
-                           const WeftImageWriting *how, WeftError *error) {
+WeftResult image_write_hdr(FILE *stream, const char *name, const WeftImage *image, const WeftImageWriting *how,
+                           WeftError *error) {
     (void)how;
     if (image->channels < 3) return fail(error, WEFT_MESSAGE_DESC, name, ".hdr takes 3 or 4 channels");
     const int width = image->width;
     unsigned char(*line)[4] = alloc_array((size_t)width, 4);
     if (!line) return fail(error, WEFT_MESSAGE_MEMORY, name, NULL);
-    fprintf(stream, "#?RADIANCE\nSOFTWARE=weft\nFORMAT=32-bit_rle_rgbe\n\n-Y %d +X %d\n", image->height,
-            width);
+    fprintf(stream, "#?RADIANCE\nSOFTWARE=weft\nFORMAT=32-bit_rle_rgbe\n\n-Y %d +X %d\n", image->height, width);
     const float *from = image->pixels;
     for (int y = 0; y < image->height; y++) {
         for (int x = 0; x < width; x++, from += image->channels) rgbe_pack(from, line[x]);

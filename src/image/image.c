@@ -20,15 +20,14 @@ static size_t value_count(const WeftImage *image) {
 WeftResult weft_image_create(int width, int height, int channels, WeftPixelType type, WeftImage *out,
                              WeftError *error) {
     *out = (WeftImage){0};
-    if (width < 1 || width > IMAGE_SIDE_MAX || height < 1 || height > IMAGE_SIDE_MAX || channels < 1 ||
-        channels > 4 || (unsigned)type > WEFT_PIXEL_F32)
-        return fail(error, WEFT_MESSAGE_DESC, "image", "%d x %d pixels of %d channels, type %d", width,
-                    height, channels, (int)type);
+    if (width < 1 || width > IMAGE_SIDE_MAX || height < 1 || height > IMAGE_SIDE_MAX || channels < 1 || channels > 4 ||
+        (unsigned)type > WEFT_PIXEL_F32)
+        return fail(error, WEFT_MESSAGE_DESC, "image", "%d x %d pixels of %d channels, type %d", width, height,
+                    channels, (int)type);
     WeftImage image = {.width = width, .height = height, .channels = channels, .type = type};
     image.pixels = alloc_array(value_count(&image), pixel_type_size(type));
     if (!image.pixels)
-        return fail(error, WEFT_MESSAGE_MEMORY, "image", "%d x %d pixels of %d channels", width, height,
-                    channels);
+        return fail(error, WEFT_MESSAGE_MEMORY, "image", "%d x %d pixels of %d channels", width, height, channels);
     *out = image;
     return WEFT_OK;
 }
@@ -39,24 +38,23 @@ void weft_image_free(WeftImage *image) {
     *image = (WeftImage){0};
 }
 
-WeftResult image_check_header(const ImageSource *source, int64_t width, int64_t height,
-                              int64_t bytes_per_pixel, WeftError *error) {
+WeftResult image_check_header(const ImageSource *source, int64_t width, int64_t height, int64_t bytes_per_pixel,
+                              WeftError *error) {
     const int64_t always = (int64_t)512 << 20, never = (int64_t)2 << 30;
     if (width < 1 || height < 1 || width > IMAGE_SIDE_MAX || height > IMAGE_SIDE_MAX)
-        return fail(error, WEFT_MESSAGE_IMAGE_SIZE, source->name, "%lld x %lld; a side is 1 to %d",
-                    (long long)width, (long long)height, IMAGE_SIDE_MAX);
+        return fail(error, WEFT_MESSAGE_IMAGE_SIZE, source->name, "%lld x %lld; a side is 1 to %d", (long long)width,
+                    (long long)height, IMAGE_SIDE_MAX);
     int64_t bytes = width * height * bytes_per_pixel;
     if (bytes > never || (bytes > always && bytes / 16 > (int64_t)source->size))
-        return fail(error, WEFT_MESSAGE_IMAGE_SIZE, source->name, "%lld x %lld from %zu bytes",
-                    (long long)width, (long long)height, source->size);
+        return fail(error, WEFT_MESSAGE_IMAGE_SIZE, source->name, "%lld x %lld from %zu bytes", (long long)width,
+                    (long long)height, source->size);
     return WEFT_OK;
 }
 
 WeftResult image_reachable(const ImageSource *source, int64_t fewest_bytes, WeftError *error) {
     if (fewest_bytes <= (int64_t)source->size) return WEFT_OK;
-    return fail(error, WEFT_MESSAGE_IMAGE_SIZE, source->name,
-                "its pixels take at least %lld bytes, the file has %zu", (long long)fewest_bytes,
-                source->size);
+    return fail(error, WEFT_MESSAGE_IMAGE_SIZE, source->name, "its pixels take at least %lld bytes, the file has %zu",
+                (long long)fewest_bytes, source->size);
 }
 
 void image_repair(const ImageSource *source, WeftImage *image) {
@@ -68,8 +66,8 @@ void image_repair(const ImageSource *source, WeftImage *image) {
         bad++;
     }
     if (bad)
-        warn(source->log, WEFT_MESSAGE_IMAGE_REPAIRED, source->name,
-             "%zu of %zu values were not finite; 0 now", bad, count);
+        warn(source->log, WEFT_MESSAGE_IMAGE_REPAIRED, source->name, "%zu of %zu values were not finite; 0 now", bad,
+             count);
 }
 
 /* A file format. Files are recognised by their signature, whatever their suffix; a format without a reader is refused
@@ -120,8 +118,7 @@ enum { FORMATS = sizeof formats / sizeof *formats };
 /* Returns the format of a file by its first bytes; TGA if no signature matches. */
 static const Format *format_of_bytes(const unsigned char *data, size_t size) {
     const Format *f = formats;
-    while (f < &formats[FORMATS - 1] &&
-           !(size >= f->at + f->size && memcmp(data + f->at, f->signature, f->size) == 0))
+    while (f < &formats[FORMATS - 1] && !(size >= f->at + f->size && memcmp(data + f->at, f->signature, f->size) == 0))
         f++;
     return f;
 }
@@ -136,12 +133,10 @@ static const Format *format_of_path(const char *path) {
     return NULL;
 }
 
-const char *image_media_type(const unsigned char *data, size_t size) {
-    return format_of_bytes(data, size)->media_type;
-}
+const char *image_media_type(const unsigned char *data, size_t size) { return format_of_bytes(data, size)->media_type; }
 
-WeftResult weft_image_read_memory(const void *data, size_t size, const char *name, WeftImage *out,
-                                  const WeftLog *log, WeftError *error) {
+WeftResult weft_image_read_memory(const void *data, size_t size, const char *name, WeftImage *out, const WeftLog *log,
+                                  WeftError *error) {
     *out = (WeftImage){0};
     ImageSource source = {.data = data, .size = size, .name = name, .log = log};
     const Format *format = format_of_bytes(data, size);

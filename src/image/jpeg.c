@@ -138,8 +138,7 @@ WeftResult image_read_jpeg(const ImageSource *source, WeftImage *out, WeftError 
         weft_image_free(&job.image);
         return result;
     }
-    if (job.errors.num_warnings)
-        warn(source->log, WEFT_MESSAGE_IMAGE_REPAIRED, source->name, "JPEG: %s", job.warning);
+    if (job.errors.num_warnings) warn(source->log, WEFT_MESSAGE_IMAGE_REPAIRED, source->name, "JPEG: %s", job.warning);
     *out = job.image;
     return WEFT_OK;
 }

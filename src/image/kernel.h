@@ -1,6 +1,5 @@
 /* kernel.h - separable filters: weighted sums over neighbours along one axis */
-#ifndef WEFT_IMAGE_KERNEL_H
-#define WEFT_IMAGE_KERNEL_H
+#pragma once
 
 #include <stddef.h>
 
@@ -33,8 +32,7 @@ static inline void kernel_shifts(float *row, int width, int radius, const float 
 }
 
 /* Computes to[x] = sum over k of weight[k] rows[k][x] for x in [first, end). */
-static inline void kernel_sum(const Kernel *kernel, const float *const *rows, int first, int end,
-                              float *restrict to) {
+static inline void kernel_sum(const Kernel *kernel, const float *const *rows, int first, int end, float *restrict to) {
     const int taps = 2 * kernel->radius + 1;
     for (int x = first; x < end; x++) to[x] = 0.0f;
     for (int k = 0; k < taps; k += KERNEL_STEP) {
@@ -48,5 +46,3 @@ static inline void kernel_sum(const Kernel *kernel, const float *const *rows, in
         }
     }
 }
-
-#endif

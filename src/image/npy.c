@@ -178,8 +178,7 @@ static float float_of(uint64_t bits, int bytes) {
 
 /* Reads the values into the image, whose first index is the row. */
 static void values_read(const Npy *npy, WeftImage *image) {
-    const size_t height = (size_t)image->height, width = (size_t)image->width,
-                 channels = (size_t)image->channels;
+    const size_t height = (size_t)image->height, width = (size_t)image->width, channels = (size_t)image->channels;
     for (size_t n = 0; n < height * width * channels; n++) {
         const size_t c = n % channels, x = n / channels % width, y = n / channels / width;
         const uint64_t bits = bits_at(npy, npy->by_row ? n : (c * width + x) * height + y);
@@ -203,11 +202,9 @@ WeftResult image_read_npy(const ImageSource *source, WeftImage *out, WeftError *
                     (int)source->data[SIGNATURE]);
     const Wrong wrong = header_read(text, &npy, &words);
     if (wrong != FINE)
-        return fail(error, wrong == DAMAGED ? WEFT_MESSAGE_IMAGE_DAMAGED : WEFT_MESSAGE_IMAGE_UNSUPPORTED,
-                    source->name, "NPY: %s", words);
-    const WeftPixelType type = npy.kind == 'f'  ? WEFT_PIXEL_F32
-                               : npy.bytes == 2 ? WEFT_PIXEL_U16
-                                                : WEFT_PIXEL_U8;
+        return fail(error, wrong == DAMAGED ? WEFT_MESSAGE_IMAGE_DAMAGED : WEFT_MESSAGE_IMAGE_UNSUPPORTED, source->name,
+                    "NPY: %s", words);
+    const WeftPixelType type = npy.kind == 'f' ? WEFT_PIXEL_F32 : npy.bytes == 2 ? WEFT_PIXEL_U16 : WEFT_PIXEL_U8;
     const int64_t in_memory = type == WEFT_PIXEL_F32 ? (int64_t)sizeof(float) : npy.bytes;
     WeftResult result = image_check_header(source, npy.side[1], npy.side[0], npy.side[2] * in_memory, error);
     if (result == WEFT_OK) {
@@ -227,9 +224,8 @@ static void header_write(FILE *stream, const WeftImage *image) {
     enum { BEFORE = SIGNATURE + 4, STEP = 64 };
     char text[128], channels[16] = "";
     if (image->channels > 1) snprintf(channels, sizeof channels, ", %d", image->channels);
-    const int length =
-        snprintf(text, sizeof text, "{'descr': '<f4', 'fortran_order': False, 'shape': (%d, %d%s), }",
-                 image->height, image->width, channels);
+    const int length = snprintf(text, sizeof text, "{'descr': '<f4', 'fortran_order': False, 'shape': (%d, %d%s), }",
+                                image->height, image->width, channels);
     const int padded = (BEFORE + length + 1 + STEP - 1) / STEP * STEP - BEFORE;
     const unsigned char version[] = {1, 0, (unsigned char)(padded & 255), (unsigned char)(padded >> 8)};
     fwrite(signature, 1, SIGNATURE, stream);
@@ -237,8 +233,8 @@ static void header_write(FILE *stream, const WeftImage *image) {
     fprintf(stream, "%s%*s\n", text, padded - 1 - length, "");
 }
 
-WeftResult image_write_npy(FILE *stream, const char *name, const WeftImage *image,
-                           const WeftImageWriting *how, WeftError *error) {
+WeftResult image_write_npy(FILE *stream, const char *name, const WeftImage *image, const WeftImageWriting *how,
+                           WeftError *error) {
     (void)how;
     const float *values = image->pixels;
     const size_t count = (size_t)image->width * (size_t)image->height * (size_t)image->channels;

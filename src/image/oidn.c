@@ -22,8 +22,8 @@ typedef struct OidnLibrary {
     int (*get_error)(OidnDevice device, const char **text);
     void (*release_device)(OidnDevice device);
     OidnFilter (*new_filter)(OidnDevice device, const char *type);
-    void (*set_image)(OidnFilter filter, const char *name, void *pixels, int format, size_t width,
-                      size_t height, size_t offset, size_t pixel_stride, size_t row_stride);
+    void (*set_image)(OidnFilter filter, const char *name, void *pixels, int format, size_t width, size_t height,
+                      size_t offset, size_t pixel_stride, size_t row_stride);
     void (*set_filter_bool)(OidnFilter filter, const char *name, bool value);
     void (*commit_filter)(OidnFilter filter);
     void (*execute_filter)(OidnFilter filter);
@@ -81,8 +81,7 @@ static void run(const OidnLibrary *library, OidnDevice device, const OidnPicture
 static WeftResult verdict(const OidnLibrary *library, OidnDevice device, WeftError *error) {
     const char *text = NULL;
     if (!library->get_error(device, &text)) return WEFT_OK;
-    return fail(error, WEFT_MESSAGE_DENOISER, "libOpenImageDenoise", "%.200s",
-                text ? text : "no reason given");
+    return fail(error, WEFT_MESSAGE_DENOISER, "libOpenImageDenoise", "%.200s", text ? text : "no reason given");
 }
 
 /* Opens the library. Returns false, with the error, if it is not installed or lacks a function. */

@@ -1,6 +1,5 @@
 /* oidn.h - Intel's Open Image Denoise, where it is installed: found at run time, never linked */
-#ifndef WEFT_IMAGE_OIDN_H
-#define WEFT_IMAGE_OIDN_H
+#pragma once
 
 #include "weft/result.h"
 
@@ -17,5 +16,3 @@ WeftResult oidn_check(WeftError *error);
 /* Denoises the colours in place. Fails with WEFT_MESSAGE_DENOISER if the library is not installed or reports an
  * error. */
 WeftResult oidn_denoise(const OidnPicture *picture, int threads, WeftError *error);
-
-#endif

@@ -52,8 +52,7 @@ static WeftResult show(const WeftImage *image, const WeftDiffDesc *desc, WeftIma
     if (image->channels >= 3) return weft_image_tonemap(image, desc->tonemap, desc->exposure, out, error);
     WeftImage color;
     const int alpha = image->channels == 2;
-    WeftResult result =
-        weft_image_create(image->width, image->height, 3 + alpha, WEFT_PIXEL_F32, &color, error);
+    WeftResult result = weft_image_create(image->width, image->height, 3 + alpha, WEFT_PIXEL_F32, &color, error);
     if (result != WEFT_OK) return result;
     const float *from = image->pixels;
     float *to = color.pixels;

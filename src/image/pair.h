@@ -1,6 +1,5 @@
 /* pair.h - two images of one size as planes of linear colour, for the metrics that compare them */
-#ifndef WEFT_IMAGE_PAIR_H
-#define WEFT_IMAGE_PAIR_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -23,5 +22,3 @@ void pair_free(Pair *pair);
 /* Finds the value with `rank` values before it in ascending order, among count values that are neither negative nor
  * NaN. Returns false if memory is short. */
 bool value_ranked(const float *values, size_t count, size_t rank, float *value);
-
-#endif

@@ -1,6 +1,5 @@
 /* pixel.h - sizes of pixels in memory */
-#ifndef WEFT_IMAGE_PIXEL_H
-#define WEFT_IMAGE_PIXEL_H
+#pragma once
 
 #include <stddef.h>
 
@@ -10,5 +9,3 @@
 static inline size_t pixel_type_size(WeftPixelType type) {
     return type == WEFT_PIXEL_U8 ? 1 : type == WEFT_PIXEL_U16 ? 2 : 4;
 }
-
-#endif

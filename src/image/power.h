@@ -1,6 +1,5 @@
 /* power.h - powers for loops over pixels: a call of the C library would stop them from vectorising */
-#ifndef WEFT_IMAGE_POWER_H
-#define WEFT_IMAGE_POWER_H
+#pragma once
 
 #include <stdint.h>
 #include <string.h>
@@ -18,8 +17,7 @@ static inline float power_log2(float x) {
     float m;
     memcpy(&m, &bits, 4);
     const float s = (m - 1.0f) / (m + 1.0f), q = s * s;
-    return (float)e +
-           2.88539008f * s * (1.0f + q * (1 / 3.0f + q * (1 / 5.0f + q * (1 / 7.0f + q * (1 / 9.0f)))));
+    return (float)e + 2.88539008f * s * (1.0f + q * (1 / 3.0f + q * (1 / 5.0f + q * (1 / 7.0f + q * (1 / 9.0f)))));
 }
 
 /* Returns 2^x, with x clamped to [-126, 127], as 2^k 2^t with an integer k and |t| <= 1/2, and
@@ -43,5 +41,3 @@ static inline float power(float x, float y) {
     const float value = power_exp2(y * power_log2(least));
     return x > 1e-30f ? value : 0.0f;
 }
-
-#endif

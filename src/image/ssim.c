@@ -43,8 +43,7 @@ static inline float encode(float linear) {
 static void luma_row(const float *const linear[3], int width, float *to) {
     const float *r = linear[0], *g = linear[1], *b = linear[2];
 #pragma omp simd
-    for (int k = 0; k < width; k++)
-        to[k] = 0.2126f * encode(r[k]) + 0.7152f * encode(g[k]) + 0.0722f * encode(b[k]);
+    for (int k = 0; k < width; k++) to[k] = 0.2126f * encode(r[k]) + 0.7152f * encode(g[k]) + 0.0722f * encode(b[k]);
 }
 
 static void quantities_row(void *user, int row, int thread) {
@@ -83,8 +82,7 @@ static void map_row(void *user, int row, int thread) {
 #pragma omp simd
     for (int k = 0; k < width; k++) {
         const float squares = x[k] * x[k] + y[k] * y[k], squared_error = (x[k] - y[k]) * (x[k] - y[k]);
-        to[k] = (1.0f - squared_error / (squares + c1)) *
-                (1.0f - (off[k] - squared_error) / (sum[k] - squares + c2));
+        to[k] = (1.0f - squared_error / (squares + c1)) * (1.0f - (off[k] - squared_error) / (sum[k] - squares + c2));
     }
 }
 
@@ -101,8 +99,7 @@ static Kernel window(void) {
 }
 
 bool ssim_map(const Pair *pair, float *map) {
-    Ssim ssim = {
-        .pair = pair, .kernel = window(), .stride = (size_t)pair->width + 2 * SSIM_RADIUS, .map = map};
+    Ssim ssim = {.pair = pair, .kernel = window(), .stride = (size_t)pair->width + 2 * SSIM_RADIUS, .map = map};
     float *planes = alloc_array(pair_pixels(pair), QUANTITIES * sizeof *planes);
     ssim.lines = alloc_array(ssim.stride * LINES * (size_t)pair->threads, sizeof *ssim.lines);
     const bool ready = planes && ssim.lines;

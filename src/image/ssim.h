@@ -1,6 +1,5 @@
 /* ssim.h - the structural similarity of two images */
-#ifndef WEFT_IMAGE_SSIM_H
-#define WEFT_IMAGE_SSIM_H
+#pragma once
 
 #include "image/pair.h"
 
@@ -9,5 +8,3 @@ enum { SSIM_RADIUS = 5 };
 
 /* Computes the map of SSIM, for pairs in [0, 1]. Returns false if memory is short. */
 bool ssim_map(const Pair *pair, float *map);
-
-#endif

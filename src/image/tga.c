@@ -28,8 +28,7 @@ static int tga_possible(const Tga *tga, int map_type, int type) {
     if (map_type > 1 || (type & ~TGA_RLE) != tga->kind) return 0;
     switch (tga->kind) {
     case TGA_MAPPED:
-        return map_type == 1 && (tga->pixel_bits == 8 || tga->pixel_bits == 16) &&
-               is_color_depth(tga->color_bits);
+        return map_type == 1 && (tga->pixel_bits == 8 || tga->pixel_bits == 16) && is_color_depth(tga->color_bits);
     case TGA_COLOR: return is_color_depth(tga->pixel_bits);
     case TGA_GREY: return tga->pixel_bits == 8 || tga->pixel_bits == 16;
     default: return 0;
@@ -54,12 +53,10 @@ static WeftResult tga_header(const ImageSource *source, Tga *tga, WeftError *err
                  .end = head + source->size};
     tga->color_bits = tga->kind == TGA_MAPPED ? head[7] : tga->pixel_bits;
     if (!tga_possible(tga, map_type, type)) return fail(error, WEFT_MESSAGE_IMAGE_FORMAT, source->name, NULL);
-    if (attributes & 0xc0)
-        return fail(error, WEFT_MESSAGE_IMAGE_UNSUPPORTED, source->name, "TGA: interleaved lines");
+    if (attributes & 0xc0) return fail(error, WEFT_MESSAGE_IMAGE_UNSUPPORTED, source->name, "TGA: interleaved lines");
     /* The attribute bits count the alpha bits of a colour; grey of 16 bits has 8 of alpha. */
-    tga->has_alpha = tga->kind == TGA_GREY
-                         ? tga->color_bits == 16
-                         : (attributes & 15) && (tga->color_bits == 16 || tga->color_bits == 32);
+    tga->has_alpha = tga->kind == TGA_GREY ? tga->color_bits == 16
+                                           : (attributes & 15) && (tga->color_bits == 16 || tga->color_bits == 32);
     tga->channels = (tga->kind == TGA_GREY ? 1 : 3) + (tga->has_alpha ? 1 : 0);
 
     const size_t before = TGA_HEADER + (size_t)head[0];
@@ -127,8 +124,7 @@ static const char *tga_decode(const Tga *tga, const WeftImage *image) {
         }
         if ((size_t)(tga->end - at) < (run ? step : count * step)) return "it ends early";
         for (size_t i = 0; i < count; i++, n++) {
-            if (!pixel_unpack(tga, at, pixel_place(tga, image, n)))
-                return "a pixel names no colour of the map";
+            if (!pixel_unpack(tga, at, pixel_place(tga, image, n))) return "a pixel names no colour of the map";
             if (!run || i + 1 == count) at += step;
         }
     }
@@ -144,8 +140,7 @@ WeftResult image_read_tga(const ImageSource *source, WeftImage *out, WeftError *
     result = image_check_header(source, tga.width, tga.height, tga.channels, error);
     if (result == WEFT_OK)
         result = image_reachable(source, tga.packed ? pixels / 128 * (1 + step) : pixels * step, error);
-    if (result == WEFT_OK)
-        result = weft_image_create(tga.width, tga.height, tga.channels, WEFT_PIXEL_U8, out, error);
+    if (result == WEFT_OK) result = weft_image_create(tga.width, tga.height, tga.channels, WEFT_PIXEL_U8, out, error);
     if (result != WEFT_OK) return result;
     const char *wrong = tga_decode(&tga, out);
     if (!wrong) return WEFT_OK;

@@ -23,16 +23,14 @@ static unsigned char quantized(float display, float fraction) {
 }
 
 /* Makes the display image over `behind`; if that is NULL, alpha is kept. */
-static WeftResult map(const WeftImage *linear, WeftTonemap tonemap, float exposure, const float *behind,
-                      WeftImage *out, WeftError *error) {
+static WeftResult map(const WeftImage *linear, WeftTonemap tonemap, float exposure, const float *behind, WeftImage *out,
+                      WeftError *error) {
     *out = (WeftImage){0};
     if (linear->type != WEFT_PIXEL_F32 || linear->channels < 3)
         return fail(error, WEFT_MESSAGE_DESC, "tone mapping", "it takes float images of 3 or 4 channels");
     if ((unsigned)tonemap > WEFT_TONEMAP_NONE || !isfinite(exposure))
-        return fail(error, WEFT_MESSAGE_DESC, "tone mapping", "curve %d, exposure %g", (int)tonemap,
-                    (double)exposure);
-    WeftResult result =
-        weft_image_create(linear->width, linear->height, linear->channels, WEFT_PIXEL_U8, out, error);
+        return fail(error, WEFT_MESSAGE_DESC, "tone mapping", "curve %d, exposure %g", (int)tonemap, (double)exposure);
+    WeftResult result = weft_image_create(linear->width, linear->height, linear->channels, WEFT_PIXEL_U8, out, error);
     if (result != WEFT_OK) return result;
 
     const float gain = exp2f(exposure);
@@ -60,8 +58,8 @@ WeftResult weft_image_tonemap(const WeftImage *linear, WeftTonemap tonemap, floa
     return map(linear, tonemap, exposure, NULL, out, error);
 }
 
-WeftResult weft_image_tonemap_over(const WeftImage *linear, WeftTonemap tonemap, float exposure,
-                                   const float behind[3], WeftImage *out, WeftError *error) {
+WeftResult weft_image_tonemap_over(const WeftImage *linear, WeftTonemap tonemap, float exposure, const float behind[3],
+                                   WeftImage *out, WeftError *error) {
     float light[3];
     for (int k = 0; k < 3; k++) light[k] = fminf(tone_bounded(behind[k]), 1.0f);
     return map(linear, tonemap, exposure, light, out, error);

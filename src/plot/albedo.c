@@ -37,8 +37,7 @@ static void over_roughness(void *user, int k, int thread) {
     const AlbedoRow *row = user;
     Rough rough;
     row->y[k] = NAN;
-    if (rough_make(row->model, row->x[k], &rough))
-        row->y[k] = albedo_of(row->making, rough.reflection, row->view);
+    if (rough_make(row->model, row->x[k], &rough)) row->y[k] = albedo_of(row->making, rough.reflection, row->view);
     rough_free(&rough);
 }
 
@@ -93,10 +92,9 @@ WeftResult kind_albedo(Making *making) {
     making_models(making);
     for (int p = 0; p < 1 + views; p++) {
         const float view = p ? making_view(making, p - 1, 60.0f) : NAN;
-        WeftPlotPanel *panel =
-            p ? making_panel(making, WEFT_PLOT_CURVES, "E over roughness, \xce\xb8\xe2\x82\x92 = %g\xc2\xb0",
-                             (double)view)
-              : making_panel(making, WEFT_PLOT_CURVES, "E over the angle of view");
+        WeftPlotPanel *panel = p ? making_panel(making, WEFT_PLOT_CURVES,
+                                                "E over roughness, \xce\xb8\xe2\x82\x92 = %g\xc2\xb0", (double)view)
+                                 : making_panel(making, WEFT_PLOT_CURVES, "E over the angle of view");
         if (p)
             making_axis(&panel->x, "an artist's roughness", "", 0.0f, 1.0f);
         else

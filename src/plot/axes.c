@@ -15,9 +15,9 @@ Scale scale_of(const WeftPlotAxis *axis, double from, double to) {
 }
 
 double scale_place(const Scale *scale, double value) {
-    double t = scale->logarithmic ? (log10(fmax(value, 1e-30)) - log10(scale->low)) /
-                                        (log10(scale->high) - log10(scale->low))
-                                  : (value - scale->low) / (scale->high - scale->low);
+    double t = scale->logarithmic
+                   ? (log10(fmax(value, 1e-30)) - log10(scale->low)) / (log10(scale->high) - log10(scale->low))
+                   : (value - scale->low) / (scale->high - scale->low);
     return scale->from + t * (scale->to - scale->from);
 }
 
@@ -72,13 +72,12 @@ static void decade_text(int exponent, char text[24]) {
     if (exponent >= -2 && exponent <= 3)
         snprintf(text, 24, "%g", pow(10.0, exponent));
     else
-        snprintf(text, 24, "10%s%s%s", exponent < 0 ? "\xe2\x81\xbb" : "",
-                 size > 9 ? raised[size / 10 % 10] : "", raised[size % 10]);
+        snprintf(text, 24, "10%s%s%s", exponent < 0 ? "\xe2\x81\xbb" : "", size > 9 ? raised[size / 10 % 10] : "",
+                 raised[size % 10]);
 }
 
 static int decades(const Scale *scale, double spacing, Tick ticks[TICKS_MAX]) {
-    int first = (int)lround(ceil(log10(scale->low) - 1e-6)),
-        last = (int)lround(floor(log10(scale->high) + 1e-6));
+    int first = (int)lround(ceil(log10(scale->low) - 1e-6)), last = (int)lround(floor(log10(scale->high) + 1e-6));
     double decade = fabs(scale->to - scale->from) / fmax(log10(scale->high / scale->low), 1e-3);
     int step = (int)ceil(spacing / decade), count = 0;
     if (step < 1) step = 1;
@@ -116,8 +115,8 @@ int ticks_make(const Scale *scale, bool degrees, double spacing, Tick ticks[TICK
     double step = step_of(scale, degrees, spacing);
     int count = 0, places = (int)fmax(-floor(log10(step) + 1e-9), 0.0);
     double most = fmax(fabs(scale->low), fabs(scale->high));
-    for (double k = ceil(scale->low / step - 1e-6);
-         k * step <= scale->high + 1e-6 * step && count < TICKS_MAX; k += 1.0) {
+    for (double k = ceil(scale->low / step - 1e-6); k * step <= scale->high + 1e-6 * step && count < TICKS_MAX;
+         k += 1.0) {
         char ascii[24];
         double value = fabs(k) < 0.5 ? 0.0 : k * step;
         ticks[count].value = value;

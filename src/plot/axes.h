@@ -1,6 +1,5 @@
 /* axes.h - scales of axes, and their tick values */
-#ifndef WEFT_PLOT_AXES_H
-#define WEFT_PLOT_AXES_H
+#pragma once
 
 #include "plot/page.h"
 
@@ -35,5 +34,3 @@ bool axis_in_degrees(const WeftPlotAxis *axis);
 
 /* Draws frame, ticks, labels and grid lines, and returns the part of the box inside the frame. */
 PageBox axes_draw(const Page *page, const WeftPlotPanel *panel, PageBox box);
-
-#endif

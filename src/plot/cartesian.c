@@ -8,8 +8,7 @@ enum { WALKS = 4000 };
 static WeftPlotPanel *one_panel(Making *making, float view, bool cosine) {
     WeftPlotPanel *panel = making_panel(making, WEFT_PLOT_CURVES, "%s, \xce\xb8\xe2\x82\x92 = %g\xc2\xb0",
                                         cosine ? "f cos \xce\xb8\xe1\xb5\xa2" : "f", (double)view);
-    making_axis(&panel->x, "\xce\xb8\xe1\xb5\xa2 in the plane of \xcf\x89\xe2\x82\x92", "\xc2\xb0", -90.0f,
-                90.0f);
+    making_axis(&panel->x, "\xce\xb8\xe1\xb5\xa2 in the plane of \xcf\x89\xe2\x82\x92", "\xc2\xb0", -90.0f, 90.0f);
     making_axis(&panel->y, cosine ? "f cos \xce\xb8\xe1\xb5\xa2" : "f", "1/sr", 0.0f, 1.0f);
     panel->view = view;
     making_mark(panel, -view, "\xcf\x89\xe2\x82\x92");
@@ -27,8 +26,7 @@ static bool both_series(Making *making, WeftPlotPanel *const panels[2], int mode
     plane_angles(view, x[0]);
     direction_of_view(view, wo);
     for (int k = 0; k < PLANE_ANGLES; k++) direction_in_plane(x[0][k], wi[k]);
-    making_eval(&making->desc->models[model], wo, PLANE_ANGLES, (const float(*)[3])wi,
-                making_walks(making, WALKS), f);
+    making_eval(&making->desc->models[model], wo, PLANE_ANGLES, (const float(*)[3])wi, making_walks(making, WALKS), f);
     for (int k = 0; k < PLANE_ANGLES; k++) {
         x[1][k] = x[0][k];
         y[0][k] = making_value(making, f[k]);

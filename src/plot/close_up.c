@@ -57,8 +57,7 @@ static void draw_row(void *user, int row, int thread) {
     }
 }
 
-WeftResult weft_cloth_draw(const WeftCloth *cloth, int pixels, float threads, WeftImage *out,
-                           WeftError *error) {
+WeftResult weft_cloth_draw(const WeftCloth *cloth, int pixels, float threads, WeftImage *out, WeftError *error) {
     if (pixels < 1 || pixels > SIDE_MAX)
         return fail(error, WEFT_MESSAGE_DESC, "cloth", "%d pixels; 1 to %d are possible", pixels, SIDE_MAX);
     if (!(threads > 0.0f && threads <= 1e5f))

@@ -24,18 +24,17 @@ static void trace(const Page *page, const WeftPlotSeries *series, const Scale *x
 }
 
 /* Draws a triangle at the top of the frame if a series exceeds it, with the largest value. Returns true if so. */
-static bool mark_beyond(const Page *page, const WeftPlotPanel *panel, const WeftPlotSeries *series,
-                        PageBox in, int row) {
+static bool mark_beyond(const Page *page, const WeftPlotPanel *panel, const WeftPlotSeries *series, PageBox in,
+                        int row) {
     const double type = page->type;
     int top = -1;
     for (int k = 0; k < series->count; k++)
-        if (isfinite(series->y[k]) && series->y[k] > panel->y.high &&
-            (top < 0 || series->y[k] > series->y[top]))
+        if (isfinite(series->y[k]) && series->y[k] > panel->y.high && (top < 0 || series->y[k] > series->y[top]))
             top = k;
     if (top < 0) return false;
     Scale across = scale_of(&panel->x, in.x, in.x + in.width);
-    double x = fmin(fmax(scale_place(&across, (double)series->x[top]), in.x + 0.6 * type),
-                    in.x + in.width - 0.6 * type);
+    double x =
+        fmin(fmax(scale_place(&across, (double)series->x[top]), in.x + 0.6 * type), in.x + in.width - 0.6 * type);
     char text[40], value[24];
     value_text((double)series->y[top], 3, value);
     snprintf(text, sizeof text, "to %s", value);
@@ -48,8 +47,7 @@ static bool mark_beyond(const Page *page, const WeftPlotPanel *panel, const Weft
     cairo_line_to(page->cairo, x + 0.4 * type, y + 0.75 * type);
     cairo_close_path(page->cairo);
     cairo_fill(page->cairo);
-    double width = text_width(page->cairo, text),
-           left = share > 0.5 ? x - 0.7 * type - width : x + 0.5 * type;
+    double width = text_width(page->cairo, text), left = share > 0.5 ? x - 0.7 * type - width : x + 0.5 * type;
     cairo_set_source_rgba(page->cairo, 1.0, 1.0, 1.0, 0.85);
     cairo_rectangle(page->cairo, left, y - 0.1 * type, width + 0.2 * type, 1.1 * type);
     cairo_fill(page->cairo);
@@ -84,7 +82,6 @@ WeftResult draw_curves(const Page *page, const WeftPlotPanel *panel, PageBox box
     }
     cairo_set_dash(page->cairo, NULL, 0, 0.0);
     cairo_restore(page->cairo);
-    for (int k = 0, row = 0; k < panel->series_count; k++)
-        row += mark_beyond(page, panel, &panel->series[k], in, row);
+    for (int k = 0, row = 0; k < panel->series_count; k++) row += mark_beyond(page, panel, &panel->series[k], in, row);
     return WEFT_OK;
 }

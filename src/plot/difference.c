@@ -20,8 +20,8 @@ void scale_color(float t, float rgb[3]) {
 }
 
 static WeftResult check(const WeftImage *a, const WeftImage *b, WeftError *error) {
-    if (a->type == WEFT_PIXEL_F32 && b->type == WEFT_PIXEL_F32 && a->pixels && b->pixels &&
-        a->width == b->width && a->height == b->height && a->channels == b->channels && a->channels >= 3)
+    if (a->type == WEFT_PIXEL_F32 && b->type == WEFT_PIXEL_F32 && a->pixels && b->pixels && a->width == b->width &&
+        a->height == b->height && a->channels == b->channels && a->channels >= 3)
         return WEFT_OK;
     return fail(error, WEFT_MESSAGE_DESC, "images to compare", "both F32, of 3 or 4 channels and one size");
 }
@@ -49,8 +49,7 @@ static int compare_floats(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-WeftResult weft_difference(const WeftImage *image, const WeftImage *reference, WeftDifference *out,
-                           WeftError *error) {
+WeftResult weft_difference(const WeftImage *image, const WeftImage *reference, WeftDifference *out, WeftError *error) {
     *out = (WeftDifference){0};
     WeftResult result = check(image, reference, error);
     if (result != WEFT_OK) return result;
@@ -74,14 +73,13 @@ WeftResult weft_difference(const WeftImage *image, const WeftImage *reference, W
     return WEFT_OK;
 }
 
-WeftResult weft_difference_image(const WeftImage *image, const WeftImage *reference, float scale,
-                                 WeftImage *out, WeftError *error) {
+WeftResult weft_difference_image(const WeftImage *image, const WeftImage *reference, float scale, WeftImage *out,
+                                 WeftError *error) {
     *out = (WeftImage){0};
     WeftResult result = check(image, reference, error);
     if (result == WEFT_OK && !(scale > 0.0f && isfinite(scale)))
         result = fail(error, WEFT_MESSAGE_DESC, "scale of a difference", "%g", (double)scale);
-    if (result == WEFT_OK)
-        result = weft_image_create(image->width, image->height, 3, WEFT_PIXEL_U8, out, error);
+    if (result == WEFT_OK) result = weft_image_create(image->width, image->height, 3, WEFT_PIXEL_U8, out, error);
     if (result != WEFT_OK) return result;
     uint8_t *pixel = out->pixels;
     for (size_t k = 0; k < pixel_count(image); k++) {

@@ -16,8 +16,7 @@ static bool fill(Making *making, int model, float *values) {
     for (int row = 0; row < ROWS; row++) {
         float wo[3];
         direction_of_view(90.0f * ((float)row + 0.5f) / ROWS, wo);
-        making_eval(&making->desc->models[model], wo, COLUMNS, (const float(*)[3])wi,
-                    making_walks(making, WALKS), f);
+        making_eval(&making->desc->models[model], wo, COLUMNS, (const float(*)[3])wi, making_walks(making, WALKS), f);
         for (int k = 0; k < COLUMNS; k++) values[row * COLUMNS + k] = making_value(making, f[k]);
     }
     return true;
@@ -62,8 +61,7 @@ static void add_figures(WeftPlotPanel *panel, const char *unit) {
 static WeftPlotPanel *one_panel(Making *making, bool relative) {
     WeftPlotPanel *panel = relative ? making_panel(making, WEFT_PLOT_MAP, "(A \xe2\x88\x92 B) / max(A, B)")
                                     : making_panel(making, WEFT_PLOT_MAP, "A \xe2\x88\x92 B");
-    making_axis(&panel->x, "\xce\xb8\xe1\xb5\xa2 in the plane of \xcf\x89\xe2\x82\x92", "\xc2\xb0", -90.0f,
-                90.0f);
+    making_axis(&panel->x, "\xce\xb8\xe1\xb5\xa2 in the plane of \xcf\x89\xe2\x82\x92", "\xc2\xb0", -90.0f, 90.0f);
     making_axis(&panel->y, "\xce\xb8\xe2\x82\x92", "\xc2\xb0", 0.0f, 90.0f);
     panel->center = 0.0f;
     return panel;
@@ -91,8 +89,7 @@ WeftResult kind_difference(Making *making) {
     making_axis(&panels[1]->z, "relative", "", -1.0f, 1.0f);
     add_figures(panels[0], "1/sr");
     add_figures(panels[1], "");
-    snprintf(making->data->note, sizeof making->data->note,
-             "A: %.100s;  B: %.100s;  red: A is more, blue: less", making_label(making, 0),
-             making_label(making, 1));
+    snprintf(making->data->note, sizeof making->data->note, "A: %.100s;  B: %.100s;  red: A is more, blue: less",
+             making_label(making, 0), making_label(making, 1));
     return WEFT_OK;
 }

@@ -32,8 +32,7 @@ typedef struct DraftPage {
     bool with_loom; /* threading, tie-up and treadling are drawn */
 } DraftPage;
 
-static void fill(cairo_t *cairo, const DraftPage *page, int column, int row, int width,
-                 const float color[3]) {
+static void fill(cairo_t *cairo, const DraftPage *page, int column, int row, int width, const float color[3]) {
     cairo_set_source_rgb(cairo, (double)color[0], (double)color[1], (double)color[2]);
     cairo_rectangle(cairo, page->left + column * page->cell, page->top + row * page->cell, width * page->cell,
                     page->cell);
@@ -42,8 +41,8 @@ static void fill(cairo_t *cairo, const DraftPage *page, int column, int row, int
 
 /* Draws the lines between the cells of a part, if cells are large enough. */
 static void draw_grid(cairo_t *cairo, const DraftPage *page, int column, int row, int columns, int rows) {
-    const double x = page->left + column * page->cell, y = page->top + row * page->cell,
-                 width = columns * page->cell, height = rows * page->cell;
+    const double x = page->left + column * page->cell, y = page->top + row * page->cell, width = columns * page->cell,
+                 height = rows * page->cell;
     cairo_set_antialias(cairo, CAIRO_ANTIALIAS_NONE);
     cairo_set_source_rgb(cairo, 0.62, 0.62, 0.64);
     cairo_set_line_width(cairo, 1.0);
@@ -76,8 +75,7 @@ static void draw_drawdown(cairo_t *cairo, const DraftPage *page) {
     for (int pick = 0; pick < picks; pick++)
         for (int warp = 0, next; warp < warps; warp = next) {
             const float *color = color_on_top(draft, warp, pick);
-            for (next = warp + 1; next < warps && same_color(color, color_on_top(draft, next, pick));
-                 next++) {
+            for (next = warp + 1; next < warps && same_color(color, color_on_top(draft, next, pick)); next++) {
             }
             fill(cairo, page, warp, picks - 1 - pick, next - warp, color);
         }
@@ -134,8 +132,7 @@ static WeftResult write_page(const WeftDraft *draft, const char *path, WeftError
     const int warps = draft->count[WEFT_WARP], picks = draft->count[WEFT_WEFT];
     if ((long)warps * picks > CELLS_MAX || larger(warps, picks) > WEFT_PLOT_SIDE_MAX / 4)
         return fail(error, WEFT_MESSAGE_DESC, path,
-                    "%d x %d threads are too many to be drawn; a .txt or .wif has room for them", warps,
-                    picks);
+                    "%d x %d threads are too many to be drawn; a .txt or .wif has room for them", warps, picks);
     DraftPage page = {.draft = draft, .info = weft_draft_info(draft)};
     if (!loom_of(draft, &page.loom)) {
         loom_free(&page.loom);

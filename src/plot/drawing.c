@@ -35,11 +35,9 @@ static void copy_pixels(cairo_surface_t *surface, WeftImage *out) {
 }
 
 WeftResult drawing_image(const Drawing *drawing, WeftImage *out, WeftError *error) {
-    cairo_surface_t *surface =
-        cairo_image_surface_create(CAIRO_FORMAT_RGB24, drawing->width, drawing->height);
+    cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, drawing->width, drawing->height);
     WeftResult result = draw_on(surface, 1.0, drawing, error);
-    if (result == WEFT_OK)
-        result = weft_image_create(drawing->width, drawing->height, 3, WEFT_PIXEL_U8, out, error);
+    if (result == WEFT_OK) result = weft_image_create(drawing->width, drawing->height, 3, WEFT_PIXEL_U8, out, error);
     if (result == WEFT_OK) copy_pixels(surface, out);
     cairo_surface_destroy(surface);
     return result;

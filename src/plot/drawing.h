@@ -1,6 +1,5 @@
 /* drawing.h - Cairo drawings as images, as SVG, and as files */
-#ifndef WEFT_PLOT_DRAWING_H
-#define WEFT_PLOT_DRAWING_H
+#pragma once
 
 #include <cairo.h>
 
@@ -23,5 +22,3 @@ WeftResult drawing_svg(const Drawing *drawing, Vector *out, WeftError *error);
 
 /* Writes it as .png, .svg or .pdf by the path's suffix. */
 WeftResult drawing_write(const Drawing *drawing, const char *path, WeftError *error);
-
-#endif

@@ -50,8 +50,7 @@ static void measure(void *user, int item, int thread) {
     int layer = item % LAYER_COUNT, k = item / LAYER_COUNT;
     Dir o = grid_direction((cos)((double)work->x[k] * RADIANS), 0.0);
     work->y[layer][k] =
-        (float)furnace_measure(&work->lobe, work->roughness, layer, work->table, o, work->cells, work->walks)
-            .e;
+        (float)furnace_measure(&work->lobe, work->roughness, layer, work->table, o, work->cells, work->walks).e;
 }
 
 static bool of_lobe(Making *making, WeftPlotPanel *panel, const WeftLobe *given, int first_entry) {
@@ -61,8 +60,7 @@ static bool of_lobe(Making *making, WeftPlotPanel *panel, const WeftLobe *given,
     AlbedoTable *table = malloc(sizeof *table);
     bool ready = table && making_series_space(making, panel, LAYER_COUNT);
     work.lobe = lobe_default(given->lobe);
-    for (int k = 0; k < weft_lobe_info(given->lobe)->param_count; k++)
-        lobe_set(&work.lobe, k, given->params[k]);
+    for (int k = 0; k < weft_lobe_info(given->lobe)->param_count; k++) lobe_set(&work.lobe, k, given->params[k]);
     work.roughness = roughness_of(&work.lobe);
     work.table = table;
     for (int layer = 0; ready && layer < LAYER_COUNT; layer++) {
@@ -130,8 +128,7 @@ WeftResult kind_furnace(Making *making) {
     WeftPlotPanel *panel = wholes ? one_panel(making, "whole materials, as they are") : NULL;
     if (panel && !making_series_space(making, panel, wholes)) return making_short(making);
     for (int n = 0; n < desc->count; n++)
-        if (!desc->models[n].lobe &&
-            !as_a_whole(making, panel, n, making_legend(making, making_label(making, n))))
+        if (!desc->models[n].lobe && !as_a_whole(making, panel, n, making_legend(making, making_label(making, n))))
             return making_short(making);
     set_range(making->data);
     if (lobes)

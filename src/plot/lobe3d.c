@@ -30,10 +30,8 @@ static bool one_surface(Making *making, WeftPlotPanel *panel, int model, float v
             w[0] = (float)(s * cos(phi)), w[1] = (float)(s * sin(phi)), w[2] = (float)cos(theta);
         }
     direction_of_view(view, wo);
-    making_eval(&making->desc->models[model], wo, count, (const float(*)[3])wi, making_walks(making, WALKS),
-                f);
-    for (int k = 0; k < count; k++)
-        values[k] = making_value(making, f[k]) * (making->desc->cosine ? wi[k][2] : 1.0f);
+    making_eval(&making->desc->models[model], wo, count, (const float(*)[3])wi, making_walks(making, WALKS), f);
+    for (int k = 0; k < count; k++) values[k] = making_value(making, f[k]) * (making->desc->cosine ? wi[k][2] : 1.0f);
     return true;
 }
 
@@ -54,23 +52,20 @@ static void set_range(const Making *making, WeftPlotPanel *panel, float *scratch
     double low = count ? (double)scratch[count / 100] : high;
     panel->z.logarithmic = 1;
     panel->z.high = (float)pow(10.0, ceil(log10(high)));
-    panel->z.low =
-        (float)pow(10.0, fmin(fmax(floor(log10(low)), ceil(log10(high)) - 4.0), ceil(log10(high)) - 1.0));
+    panel->z.low = (float)pow(10.0, fmin(fmax(floor(log10(low)), ceil(log10(high)) - 4.0), ceil(log10(high)) - 1.0));
 }
 
 WeftResult kind_lobe3d(Making *making) {
     const int views = making_view_count(making), count = making->desc->count;
     float *scratch = arena_array(making->arena, (size_t)PHIS * THETAS, sizeof *scratch);
     int columns = views > 1 ? views : count > 3 ? 3 : count;
-    if (!scratch || !making_panels(making, views * count, columns > 3 ? 3 : columns))
-        return making_short(making);
+    if (!scratch || !making_panels(making, views * count, columns > 3 ? 3 : columns)) return making_short(making);
     making_models(making);
     for (int n = 0; n < count; n++)
         for (int k = 0; k < views; k++) {
             const float view = making_view(making, k, 60.0f);
-            WeftPlotPanel *panel =
-                making_panel(making, WEFT_PLOT_SURFACE, "%s, %s, \xce\xb8\xe2\x82\x92 = %g\xc2\xb0",
-                             making_label(making, n), making_f(making), (double)view);
+            WeftPlotPanel *panel = making_panel(making, WEFT_PLOT_SURFACE, "%s, %s, \xce\xb8\xe2\x82\x92 = %g\xc2\xb0",
+                                                making_label(making, n), making_f(making), (double)view);
             making_axis(&panel->x, "phi", "\xc2\xb0", 0.0f, 360.0f);
             making_axis(&panel->y, "theta_i", "\xc2\xb0", 0.0f, 90.0f);
             panel->view = view;

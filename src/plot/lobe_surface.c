@@ -31,8 +31,7 @@ typedef struct PlotStage {
 } PlotStage;
 
 static SurfacePoint project(const PlotStage *stage, const double p[3]) {
-    double along = p[0] * cos(azimuth) + p[1] * sin(azimuth),
-           across = p[1] * cos(azimuth) - p[0] * sin(azimuth);
+    double along = p[0] * cos(azimuth) + p[1] * sin(azimuth), across = p[1] * cos(azimuth) - p[0] * sin(azimuth);
     return (SurfacePoint){stage->x + across, stage->y - p[2] * cos(rise) + along * sin(rise),
                           -(along * cos(rise) + p[2] * sin(rise))};
 }
@@ -74,8 +73,7 @@ typedef struct PlotCorner {
     double across, along;
 } PlotCorner;
 
-static void fill(const PlotStage *stage, const PlotCorner corner[3], const float color[3],
-                 const bool mesh[2]) {
+static void fill(const PlotStage *stage, const PlotCorner corner[3], const float color[3], const bool mesh[2]) {
     const double thin = 0.35; /* of a cell */
     SurfacePoint a = corner[0].at, b = corner[1].at, c = corner[2].at;
     double area = edge(a, b, c.x, c.y);
@@ -210,8 +208,7 @@ static void draw_arrow(const Page *page, const WeftPlotPanel *panel, const PlotS
         bool inside = x >= 0 && y >= 0 && x < stage->width && y < stage->height;
         before = at;
         tip = next;
-        if (inside && (double)stage->depth[(size_t)y * (size_t)stage->width + (size_t)x] < at.depth - 0.5)
-            continue;
+        if (inside && (double)stage->depth[(size_t)y * (size_t)stage->width + (size_t)x] < at.depth - 0.5) continue;
         cairo_move_to(page->cairo, at.x, at.y);
         cairo_line_to(page->cairo, next.x, next.y);
     }
@@ -224,8 +221,7 @@ static void draw_arrow(const Page *page, const WeftPlotPanel *panel, const PlotS
     cairo_close_path(page->cairo);
     cairo_fill(page->cairo);
     set_font(page->cairo, 0.9 * type, false);
-    place_text(page->cairo, ink_dark, tip.x + 2.3 * dx, tip.y + 2.3 * dy + 0.3 * type, 0.5,
-               "\xcf\x89\xe2\x82\x92");
+    place_text(page->cairo, ink_dark, tip.x + 2.3 * dx, tip.y + 2.3 * dy + 0.3 * type, 0.5, "\xcf\x89\xe2\x82\x92");
 }
 
 /* Paints the fine buffer over the page, averaged to the page's resolution; pixels without surface are transparent. */

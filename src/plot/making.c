@@ -11,9 +11,7 @@
 #include "base/random.h"
 #include "base/thread.h"
 
-WeftResult making_short(const Making *making) {
-    return fail(making->error, WEFT_MESSAGE_MEMORY, "plot", NULL);
-}
+WeftResult making_short(const Making *making) { return fail(making->error, WEFT_MESSAGE_MEMORY, "plot", NULL); }
 
 bool making_panels(Making *making, int most, int columns) {
     making->panels_max = most;
@@ -39,8 +37,7 @@ bool making_series_space(Making *making, WeftPlotPanel *panel, int most) {
     return panel->series != NULL;
 }
 
-WeftPlotSeries *making_series(Making *making, WeftPlotPanel *panel, int entry, int count, float **x,
-                              float **y) {
+WeftPlotSeries *making_series(Making *making, WeftPlotPanel *panel, int entry, int count, float **x, float **y) {
     *x = arena_array(making->arena, (size_t)count, sizeof **x);
     *y = arena_array(making->arena, (size_t)count, sizeof **y);
     if (!*x || !*y) return NULL;
@@ -50,8 +47,7 @@ WeftPlotSeries *making_series(Making *making, WeftPlotPanel *panel, int entry, i
 }
 
 float *making_grid(Making *making, WeftPlotPanel *panel, int columns, int rows, int channels) {
-    float *values =
-        arena_array(making->arena, (size_t)columns * (size_t)rows, sizeof *values * (size_t)channels);
+    float *values = arena_array(making->arena, (size_t)columns * (size_t)rows, sizeof *values * (size_t)channels);
     panel->columns = columns;
     panel->rows = rows;
     panel->channels = channels;
@@ -101,9 +97,7 @@ void making_figure(WeftPlotPanel *panel, const char *name, const char *unit, dou
     snprintf(figure->unit, sizeof figure->unit, "%s", unit);
 }
 
-int making_view_count(const Making *making) {
-    return making->desc->view_count > 0 ? making->desc->view_count : 1;
-}
+int making_view_count(const Making *making) { return making->desc->view_count > 0 ? making->desc->view_count : 1; }
 
 float making_view(const Making *making, int k, float usual) {
     return making->desc->view_count > 0 ? making->desc->views[k] : usual;
@@ -157,8 +151,7 @@ static void eval_mean(const Evaluation *self, const float wi[3], float f[3]) {
             uint32_t n = (uint32_t)(at + k);
             move(wi, unit_float(hash_combine(n, 1)), unit_float(hash_combine(n, 2)), near[k]);
         }
-        weft_reflection_eval(self->model->reflection, WEFT_PART_ALL, self->wo, count, (const float(*)[3])near,
-                             value);
+        weft_reflection_eval(self->model->reflection, WEFT_PART_ALL, self->wo, count, (const float(*)[3])near, value);
         for (int k = 0; k < count; k++)
             for (int c = 0; c < 3; c++) sum[c] += (double)value[k][c] / self->walks;
     }
@@ -172,8 +165,7 @@ static void eval_block(void *user, int item, int thread) {
     if (self->walks > 1)
         for (int k = 0; k < count; k++) eval_mean(self, self->wi[from + k], self->f[from + k]);
     else
-        weft_reflection_eval(self->model->reflection, WEFT_PART_ALL, self->wo, count, self->wi + from,
-                             self->f + from);
+        weft_reflection_eval(self->model->reflection, WEFT_PART_ALL, self->wo, count, self->wi + from, self->f + from);
 }
 
 void making_eval(const WeftPlotModel *model, const float wo[3], int count, const float (*wi)[3], int walks,
@@ -193,9 +185,7 @@ float making_value(const Making *making, const float color[3]) {
     return 0.2126f * color[0] + 0.7152f * color[1] + 0.0722f * color[2];
 }
 
-const char *making_f(const Making *making) {
-    return making->desc->cosine ? "f cos \xce\xb8\xe1\xb5\xa2" : "f";
-}
+const char *making_f(const Making *making) { return making->desc->cosine ? "f cos \xce\xb8\xe1\xb5\xa2" : "f"; }
 
 static int compare_floats(const void *a, const void *b) {
     float x = *(const float *)a, y = *(const float *)b;
@@ -204,8 +194,7 @@ static int compare_floats(const void *a, const void *b) {
 
 void plane_angles(float mirror, float theta[PLANE_ANGLES]) {
     int n = 0;
-    for (int k = 0; k < PLANE_STEPS; k++)
-        theta[n++] = 180.0f * ((float)k + 0.5f) / (float)PLANE_STEPS - 90.0f;
+    for (int k = 0; k < PLANE_STEPS; k++) theta[n++] = 180.0f * ((float)k + 0.5f) / (float)PLANE_STEPS - 90.0f;
     theta[n++] = mirror;
     for (int k = 0; k < PLANE_NEAR; k++) {
         float step = ldexpf(0.71f, -k);

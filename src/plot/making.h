@@ -1,8 +1,7 @@
 /* making.h - construction of a figure's numbers: panels, series and grids in one arena
  *
  * Functions that need memory return NULL or false if it is short; the kind then returns making_short. */
-#ifndef WEFT_PLOT_MAKING_H
-#define WEFT_PLOT_MAKING_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -34,14 +33,13 @@ WeftResult making_short(const Making *making);
 bool making_panels(Making *making, int most, int columns);
 
 /* Adds a panel. */
-__attribute__((format(printf, 3, 4))) WeftPlotPanel *making_panel(Making *making, WeftPlotForm form,
-                                                                  const char *title, ...);
+__attribute__((format(printf, 3, 4))) WeftPlotPanel *making_panel(Making *making, WeftPlotForm form, const char *title,
+                                                                  ...);
 
 /* Allocates space for so many series of a panel (making_series_space), and adds a series, whose x and y the caller
  * fills (making_series). */
 bool making_series_space(Making *making, WeftPlotPanel *panel, int most);
-WeftPlotSeries *making_series(Making *making, WeftPlotPanel *panel, int entry, int count, float **x,
-                              float **y);
+WeftPlotSeries *making_series(Making *making, WeftPlotPanel *panel, int entry, int count, float **x, float **y);
 
 /* Adds the grid of values of a panel for the caller to fill. */
 float *making_grid(Making *making, WeftPlotPanel *panel, int columns, int rows, int channels);
@@ -104,5 +102,3 @@ void range_of_f(WeftPlotData *data, WeftPlotForm form, bool logarithmic);
 
 /* Returns the least 1, 2, 2.5 or 5 times a power of ten that is not below x. */
 double round_up(double x);
-
-#endif

@@ -41,8 +41,7 @@ static WeftResult color_pixels(const WeftPlotPanel *panel, bool upward, WeftImag
     if (result != WEFT_OK) return result;
     float *to = linear.pixels;
     for (int row = 0; row < panel->rows; row++) {
-        const float *from =
-            panel->values + (size_t)(upward ? panel->rows - 1 - row : row) * (size_t)panel->columns * 3;
+        const float *from = panel->values + (size_t)(upward ? panel->rows - 1 - row : row) * (size_t)panel->columns * 3;
         for (int k = 0; k < 3 * panel->columns; k++) *to++ = isfinite(from[k]) ? from[k] : 0.0f;
     }
     result = weft_image_tonemap(&linear, WEFT_TONEMAP_PBR_NEUTRAL, panel->exposure, image, error);
@@ -61,8 +60,7 @@ static void draw_bar(const Page *page, const WeftPlotPanel *panel, PageBox bar) 
         cairo_set_source_rgb(page->cairo, (double)rgb[0], (double)rgb[1], (double)rgb[2]);
         double high = bar.y + bar.height * (1.0 - (double)k / steps);
         cairo_rectangle(page->cairo, bar.x, high - 1.6 * bar.height / steps, bar.width,
-                        1.6 * bar.height /
-                            steps); /* overlaps the next one, so that there is no visible seam */
+                        1.6 * bar.height / steps); /* overlaps the next one, so that there is no visible seam */
         if (k + 1 == steps) {
             cairo_new_path(page->cairo);
             cairo_rectangle(page->cairo, bar.x, bar.y, bar.width, bar.height / steps);
@@ -94,15 +92,14 @@ WeftResult draw_map(const Page *page, const WeftPlotPanel *panel, PageBox box) {
     const double type = page->type, right = panel->colored ? 0.0 : 6.2 * type;
     PageBox in = axes_draw(page, panel, (PageBox){box.x, box.y, box.width - right, box.height});
     WeftImage image;
-    WeftResult result = panel->colored ? color_pixels(panel, true, &image, page->error)
-                                       : weft_image_create(panel->columns, panel->rows, 3, WEFT_PIXEL_U8,
-                                                           &image, page->error);
+    WeftResult result = panel->colored
+                            ? color_pixels(panel, true, &image, page->error)
+                            : weft_image_create(panel->columns, panel->rows, 3, WEFT_PIXEL_U8, &image, page->error);
     if (result != WEFT_OK) return result;
     if (!panel->colored) map_pixels(panel, &image);
     result = place_image(page, &image, in, false);
     weft_image_free(&image);
-    if (!panel->colored)
-        draw_bar(page, panel, (PageBox){in.x + in.width + 0.8 * type, in.y, 1.1 * type, in.height});
+    if (!panel->colored) draw_bar(page, panel, (PageBox){in.x + in.width + 0.8 * type, in.y, 1.1 * type, in.height});
     cairo_rectangle(page->cairo, in.x, in.y, in.width, in.height);
     cairo_set_source_rgb(page->cairo, ink_dark[0], ink_dark[1], ink_dark[2]);
     cairo_set_line_width(page->cairo, 0.08 * type);

@@ -8,8 +8,8 @@
 #include "base/fail.h"
 #include "plot/axes.h"
 
-const double ink_dark[3] = {0.10, 0.10, 0.11}, ink_dim[3] = {0.38, 0.39, 0.41},
-             ink_grid[3] = {0.84, 0.84, 0.85}, ink_none[3] = {0.55, 0.55, 0.56};
+const double ink_dark[3] = {0.10, 0.10, 0.11}, ink_dim[3] = {0.38, 0.39, 0.41}, ink_grid[3] = {0.84, 0.84, 0.85},
+             ink_none[3] = {0.55, 0.55, 0.56};
 
 /* Colours that colour-blind people can distinguish: Masataka Okabe and Kei Ito, "Color Universal Design", 2008, in an
  * order that begins with the darkest; their yellow, which is too bright for a line, is replaced by grey. The dashes
@@ -65,8 +65,7 @@ WeftResult place_image(const Page *page, const WeftImage *image, PageBox box, bo
     cairo_scale(page->cairo, box.width / image->width, box.height / image->height);
     cairo_set_source_surface(page->cairo, surface, 0.0, 0.0);
     cairo_pattern_set_extend(cairo_get_source(page->cairo), CAIRO_EXTEND_PAD);
-    cairo_pattern_set_filter(cairo_get_source(page->cairo),
-                             smooth ? CAIRO_FILTER_GOOD : CAIRO_FILTER_NEAREST);
+    cairo_pattern_set_filter(cairo_get_source(page->cairo), smooth ? CAIRO_FILTER_GOOD : CAIRO_FILTER_NEAREST);
     cairo_paint(page->cairo);
     cairo_restore(page->cairo);
     cairo_surface_destroy(surface);
@@ -91,9 +90,7 @@ static void natural_panel(const WeftPlotPanel *panel, double *width, double *hei
 
 static int rows_of(const WeftPlotData *data) { return (data->count + data->columns - 1) / data->columns; }
 
-static int columns_of(const WeftPlotData *data) {
-    return data->count < data->columns ? data->count : data->columns;
-}
+static int columns_of(const WeftPlotData *data) { return data->count < data->columns ? data->count : data->columns; }
 
 /* Returns the number of the legend's columns. Widths are estimated from the number of letters, so that the page's size
  * needs no surface. */
@@ -178,8 +175,8 @@ static void figures_text(const WeftPlotPanel *panel, char *text, size_t size) {
 }
 
 static WeftResult draw_panel(const Page *page, const WeftPlotPanel *panel, PageBox box) {
-    static WeftResult (*const draw[])(const Page *, const WeftPlotPanel *, PageBox) = {
-        draw_curves, draw_rose, draw_map, draw_surface, draw_picture};
+    static WeftResult (*const draw[])(const Page *, const WeftPlotPanel *, PageBox) = {draw_curves, draw_rose, draw_map,
+                                                                                       draw_surface, draw_picture};
     const double type = page->type, width = box.width - type;
     char figures[320];
     figures_text(panel, figures, sizeof figures);
@@ -191,8 +188,7 @@ static WeftResult draw_panel(const Page *page, const WeftPlotPanel *panel, PageB
         write_text(page->cairo, ink_dim, box.x + 0.5 * type, box.y + 2.3 * type, width, figures);
         head += 1.3 * type;
     }
-    PageBox inner = {box.x + 0.3 * type, box.y + head, box.width - 0.6 * type,
-                     box.height - head - 0.4 * type};
+    PageBox inner = {box.x + 0.3 * type, box.y + head, box.width - 0.6 * type, box.height - head - 0.4 * type};
     if (inner.width < 4.0 * type || inner.height < 4.0 * type) return WEFT_OK;
     cairo_save(page->cairo);
     WeftResult result = draw[panel->form](page, panel, inner);
@@ -203,11 +199,9 @@ static WeftResult draw_panel(const Page *page, const WeftPlotPanel *panel, PageB
 WeftResult page_draw(const Page *page) {
     const WeftPlotData *data = page->data;
     const double type = page->type;
-    const double top = head_height(data) * type,
-                 legend = legend_height(data, page->width / type - 2.0) * type;
+    const double top = head_height(data) * type, legend = legend_height(data, page->width / type - 2.0) * type;
     const double bottom = page->height - foot_height(data) * type - legend;
-    const double width = (page->width - 2.0 * type) / columns_of(data),
-                 height = (bottom - top) / rows_of(data);
+    const double width = (page->width - 2.0 * type) / columns_of(data), height = (bottom - top) / rows_of(data);
     WeftResult result = WEFT_OK;
     cairo_set_source_rgb(page->cairo, 1.0, 1.0, 1.0);
     cairo_paint(page->cairo);
@@ -217,12 +211,11 @@ WeftResult page_draw(const Page *page) {
     }
     for (int k = 0; k < data->count && result == WEFT_OK; k++) {
         const int row = k / data->columns, column = k % data->columns;
-        result = draw_panel(page, &data->panels[k],
-                            (PageBox){type + width * column, top + height * row, width, height});
+        result =
+            draw_panel(page, &data->panels[k], (PageBox){type + width * column, top + height * row, width, height});
     }
     if (has_legend(data)) draw_legend(page, bottom);
     set_font(page->cairo, 0.75 * type, false);
-    write_text(page->cairo, ink_dim, 1.5 * type, page->height - 0.8 * type, page->width - 3.0 * type,
-               data->note);
+    write_text(page->cairo, ink_dim, 1.5 * type, page->height - 0.8 * type, page->width - 3.0 * type, data->note);
     return result;
 }

@@ -1,8 +1,7 @@
 /* page.h - a figure on paper: white, with type and lines in proportion to its size
  *
  * Lengths are pixels, 96 to the inch; y runs down. */
-#ifndef WEFT_PLOT_PAGE_H
-#define WEFT_PLOT_PAGE_H
+#pragma once
 
 #include <cairo.h>
 #include <stdbool.h>
@@ -51,5 +50,3 @@ WeftResult place_image(const Page *page, const WeftImage *image, PageBox box, bo
 
 /* The grey of a map where it has no value. */
 extern const double ink_none[3];
-
-#endif

@@ -24,39 +24,33 @@ typedef struct FigureKind {
 } FigureKind;
 
 static const FigureKind kinds[WEFT_PLOT_KINDS] = {
-    [WEFT_PLOT_POLAR] = {"polar", "f as a length over the angle of wi, in the plane of wo and across it",
-                         "Polar plot", kind_polar},
+    [WEFT_PLOT_POLAR] = {"polar", "f as a length over the angle of wi, in the plane of wo and across it", "Polar plot",
+                         kind_polar},
     [WEFT_PLOT_LOBE3D] = {"lobe3d", "f as a length over all wi: a surface", "The lobe in space", kind_lobe3d},
-    [WEFT_PLOT_CARTESIAN] = {"cartesian", "f, and f cos, over the angle of wi",
-                             "Reflectance in the plane of view", kind_cartesian},
+    [WEFT_PLOT_CARTESIAN] = {"cartesian", "f, and f cos, over the angle of wi", "Reflectance in the plane of view",
+                             kind_cartesian},
     [WEFT_PLOT_ALBEDO] = {"albedo", "directional albedo over the angle of view, and over roughness",
                           "Directional albedo", kind_albedo},
     [WEFT_PLOT_FURNACE] = {"furnace",
                            "what white cloth returns of uniform light: a lobe on a white base, by layer rule",
                            "White furnace", kind_furnace},
-    [WEFT_PLOT_SLICE] = {"slice", "f over theta_h and theta_d, phi_d = 90 degrees, as a picture",
-                         "Image slice", kind_slice},
-    [WEFT_PLOT_SPHERE] = {"sphere", "a lit sphere, and more as the roughness grows", "Lit spheres",
-                          kind_sphere},
+    [WEFT_PLOT_SLICE] = {"slice", "f over theta_h and theta_d, phi_d = 90 degrees, as a picture", "Image slice",
+                         kind_slice},
+    [WEFT_PLOT_SPHERE] = {"sphere", "a lit sphere, and more as the roughness grows", "Lit spheres", kind_sphere},
     [WEFT_PLOT_SAMPLES] = {"samples", "lobes only: histogram of what is drawn, pdf, and their ratio",
                            "Samples against their density", kind_samples},
     [WEFT_PLOT_DIFFERENCE] = {"difference", "where in theta_o and theta_i two models differ", "Difference",
                               kind_difference},
 };
 
-const char *weft_plot_kind_name(int kind) {
-    return kind >= 0 && kind < WEFT_PLOT_KINDS ? kinds[kind].name : NULL;
-}
+const char *weft_plot_kind_name(int kind) { return kind >= 0 && kind < WEFT_PLOT_KINDS ? kinds[kind].name : NULL; }
 
-const char *weft_plot_kind_help(int kind) {
-    return kind >= 0 && kind < WEFT_PLOT_KINDS ? kinds[kind].help : NULL;
-}
+const char *weft_plot_kind_help(int kind) { return kind >= 0 && kind < WEFT_PLOT_KINDS ? kinds[kind].help : NULL; }
 
 /* Returns the fault of a descriptor, or NULL. */
 static const char *complaint(const WeftPlotDesc *desc) {
     if ((int)desc->kind < 0 || desc->kind >= WEFT_PLOT_KINDS) return "there is no such kind";
-    if (!desc->models || desc->count < 1 || desc->count > WEFT_PLOT_MODELS_MAX)
-        return "a figure has 1 to 8 models";
+    if (!desc->models || desc->count < 1 || desc->count > WEFT_PLOT_MODELS_MAX) return "a figure has 1 to 8 models";
     for (int k = 0; k < desc->count; k++)
         if (!desc->models[k].reflection) return "a model has no reflection";
     if (desc->kind == WEFT_PLOT_DIFFERENCE && desc->count != 2) return "a difference is of two models";
@@ -65,8 +59,7 @@ static const char *complaint(const WeftPlotDesc *desc) {
         if (!(desc->views[k] >= 0.0f && desc->views[k] < (desc->kind == WEFT_PLOT_SPHERE ? 180.0f : 90.0f)))
             return "a view is an angle from 0 to below 90 degrees";
     if ((int)desc->channel < 0 || desc->channel > WEFT_PLOT_BLUE) return "there is no such channel";
-    if (desc->width < 0 || desc->height < 0 || desc->width > WEFT_PLOT_SIDE_MAX ||
-        desc->height > WEFT_PLOT_SIDE_MAX)
+    if (desc->width < 0 || desc->height < 0 || desc->width > WEFT_PLOT_SIDE_MAX || desc->height > WEFT_PLOT_SIDE_MAX)
         return "a side has up to 8192 pixels";
     if (desc->kind == WEFT_PLOT_SAMPLES)
         for (int k = 0; k < desc->count; k++)
@@ -128,11 +121,8 @@ static WeftResult draw_page(cairo_t *cairo, void *user, WeftError *error) {
 }
 
 static Drawing drawing_of(Page *page) {
-    return (Drawing){.width = page->width,
-                     .height = page->height,
-                     .title = page->data->title,
-                     .draw = draw_page,
-                     .user = page};
+    return (Drawing){
+        .width = page->width, .height = page->height, .title = page->data->title, .draw = draw_page, .user = page};
 }
 
 static Page page_of(const WeftPlotDesc *desc, const WeftPlotData *data) {

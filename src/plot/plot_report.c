@@ -28,8 +28,8 @@ static bool base64(Vector *out, const unsigned char *bytes, size_t size) {
         const size_t left = size - k;
         unsigned word = (unsigned)bytes[k] << 16 | (left > 1 ? (unsigned)bytes[k + 1] << 8 : 0u) |
                         (left > 2 ? (unsigned)bytes[k + 2] : 0u);
-        const char four[4] = {letters[word >> 18], letters[word >> 12 & 63],
-                              left > 1 ? letters[word >> 6 & 63] : '=', left > 2 ? letters[word & 63] : '='};
+        const char four[4] = {letters[word >> 18], letters[word >> 12 & 63], left > 1 ? letters[word >> 6 & 63] : '=',
+                              left > 2 ? letters[word & 63] : '='};
         if (!vector_append(out, four, 4)) return false;
     }
     return true;
@@ -43,8 +43,7 @@ static WeftResult png_bytes(const WeftPlotDesc *desc, char **bytes, size_t *size
     FILE *stream = open_memstream(bytes, size);
     if (!stream) result = fail(error, WEFT_MESSAGE_MEMORY, "report", NULL);
     if (result == WEFT_OK) result = image_write_png(stream, "report", &image, &(WeftImageWriting){0}, error);
-    if (stream && fclose(stream) != 0 && result == WEFT_OK)
-        result = fail(error, WEFT_MESSAGE_MEMORY, "report", NULL);
+    if (stream && fclose(stream) != 0 && result == WEFT_OK) result = fail(error, WEFT_MESSAGE_MEMORY, "report", NULL);
     weft_image_free(&image);
     return result;
 }
@@ -100,9 +99,8 @@ static WeftResult figure_put(Vector *page, const WeftPlotDesc *desc, WeftError *
 static void table_put(Vector *page, const WeftPlotDesc *desc) {
     static const float angles[] = {0.0f, 30.0f, 45.0f, 60.0f, 75.0f, 85.0f};
     enum { ANGLES = sizeof angles / sizeof *angles };
-    vector_print(
-        page,
-        "<h2 id=\"numbers\">E in numbers</h2>\n<div class=\"wide\"><table><tr><th>&theta;<sub>o</sub></th>");
+    vector_print(page,
+                 "<h2 id=\"numbers\">E in numbers</h2>\n<div class=\"wide\"><table><tr><th>&theta;<sub>o</sub></th>");
     for (int k = 0; k < ANGLES; k++) vector_print(page, "<th>%g&deg;</th>", (double)angles[k]);
     vector_print(page, "</tr>\n");
     for (int n = 0; n < desc->count; n++) {
@@ -111,16 +109,14 @@ static void table_put(Vector *page, const WeftPlotDesc *desc) {
         vector_print(page, "</th>");
         for (int k = 0; k < ANGLES; k++) {
             float e[3];
-            weft_reflection_albedo(desc->models[n].reflection, WEFT_PART_ALL,
-                                   (float)cos((double)angles[k] * RADIANS), e);
-            vector_print(page, "<td>%.4f</td>",
-                         0.2126 * (double)e[0] + 0.7152 * (double)e[1] + 0.0722 * (double)e[2]);
+            weft_reflection_albedo(desc->models[n].reflection, WEFT_PART_ALL, (float)cos((double)angles[k] * RADIANS),
+                                   e);
+            vector_print(page, "<td>%.4f</td>", 0.2126 * (double)e[0] + 0.7152 * (double)e[1] + 0.0722 * (double)e[2]);
         }
         vector_print(page, "</tr>\n");
     }
-    vector_print(page,
-                 "</table></div>\n<p>Directional albedo, luminance: the share of light from a direction that "
-                 "comes back.</p>\n");
+    vector_print(page, "</table></div>\n<p>Directional albedo, luminance: the share of light from a direction that "
+                       "comes back.</p>\n");
 }
 
 /* Returns true if the kind of figure applies, and sets the models it applies to. */
@@ -149,22 +145,20 @@ static void links_put(Vector *page, const WeftPlotDesc *desc) {
 
 static WeftResult page_make(const WeftPlotDesc *desc, Vector *page, WeftError *error) {
     WeftResult result = WEFT_OK;
-    vector_print(page,
-                 "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
-                 "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; "
-                 "style-src 'unsafe-inline'\">\n"
-                 "<meta name=\"viewport\" content=\"width=device-width\">\n"
-                 "<link rel=\"icon\" href=\"data:,\">\n<title>weft: ");
+    vector_print(page, "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
+                       "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; "
+                       "style-src 'unsafe-inline'\">\n"
+                       "<meta name=\"viewport\" content=\"width=device-width\">\n"
+                       "<link rel=\"icon\" href=\"data:,\">\n<title>weft: ");
     labels_put(page, desc);
     vector_print(page, "</title>\n<style>\n");
     vector_append(page, style, strlen(style));
     vector_print(page, "</style></head><body>\n<h1>");
     labels_put(page, desc);
-    vector_print(
-        page,
-        "</h1>\n<p>Figures of weft %s. &theta; is measured from the normal; wo points to the viewer, wi to "
-        "the light; f is in 1/sr and excludes the cosine.</p>\n",
-        weft_version());
+    vector_print(page,
+                 "</h1>\n<p>Figures of weft %s. &theta; is measured from the normal; wo points to the viewer, wi to "
+                 "the light; f is in 1/sr and excludes the cosine.</p>\n",
+                 weft_version());
     links_put(page, desc);
     table_put(page, desc);
     for (int k = 0; k < WEFT_PLOT_KINDS && result == WEFT_OK; k++) {

@@ -17,10 +17,8 @@ static bool one_series(Making *making, WeftPlotPanel *panel, int model, float vi
             direction_across(x[k], wi[k]);
         else
             direction_in_plane(x[k], wi[k]);
-    making_eval(&making->desc->models[model], wo, PLANE_ANGLES, (const float(*)[3])wi,
-                making_walks(making, WALKS), f);
-    for (int k = 0; k < PLANE_ANGLES; k++)
-        y[k] = making_value(making, f[k]) * (making->desc->cosine ? wi[k][2] : 1.0f);
+    making_eval(&making->desc->models[model], wo, PLANE_ANGLES, (const float(*)[3])wi, making_walks(making, WALKS), f);
+    for (int k = 0; k < PLANE_ANGLES; k++) y[k] = making_value(making, f[k]) * (making->desc->cosine ? wi[k][2] : 1.0f);
     return true;
 }
 
@@ -32,8 +30,7 @@ WeftResult kind_polar(Making *making) {
         const bool across = k % 2 != 0;
         const float view = making_view(making, k / 2, 60.0f);
         WeftPlotPanel *panel = making_panel(
-            making, WEFT_PLOT_ROSE, "%s, \xce\xb8\xe2\x82\x92 = %g\xc2\xb0, %s", making_f(making),
-            (double)view,
+            making, WEFT_PLOT_ROSE, "%s, \xce\xb8\xe2\x82\x92 = %g\xc2\xb0, %s", making_f(making), (double)view,
             across ? "across the plane of \xcf\x89\xe2\x82\x92" : "in the plane of \xcf\x89\xe2\x82\x92");
         making_axis(&panel->x, "\xce\xb8\xe1\xb5\xa2", "\xc2\xb0", -90.0f, 90.0f);
         making_axis(&panel->y, making_f(making), "1/sr", 0.0f, 1.0f);

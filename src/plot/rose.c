@@ -57,8 +57,7 @@ static void draw_grid(const Page *page, const WeftPlotPanel *panel, const Rose *
         place(rose, degrees, rose->radius + 0.45 * type, &x, &y);
         snprintf(text, sizeof text, "%s%d\xc2\xb0", degrees < 0 ? "\xe2\x88\x92" : "", abs(degrees));
         double share = 0.5 - 0.5 * sin(degrees * RADIANS);
-        place_text(page->cairo, ink_dim, x, y + (degrees == 90 || degrees == -90 ? -0.1 : 0.15) * type, share,
-                   text);
+        place_text(page->cairo, ink_dim, x, y + (degrees == 90 || degrees == -90 ? -0.1 : 0.15) * type, share, text);
     }
     half_circle(page, rose, rose->radius);
     cairo_close_path(page->cairo);
@@ -105,13 +104,11 @@ static void trace(const Page *page, const Rose *rose, const WeftPlotSeries *seri
 }
 
 /* Draws a triangle inside the rim where a curve exceeds it most, with the largest value. */
-static void mark_beyond(const Page *page, const WeftPlotPanel *panel, const WeftPlotSeries *series,
-                        const Rose *rose) {
+static void mark_beyond(const Page *page, const WeftPlotPanel *panel, const WeftPlotSeries *series, const Rose *rose) {
     const double type = page->type, inner = rose->radius - 0.9 * type;
     int top = -1;
     for (int k = 0; k < series->count; k++)
-        if (isfinite(series->y[k]) && series->y[k] > panel->y.high &&
-            (top < 0 || series->y[k] > series->y[top]))
+        if (isfinite(series->y[k]) && series->y[k] > panel->y.high && (top < 0 || series->y[k] > series->y[top]))
             top = k;
     if (top < 0) return;
     const double *color = entry_color(series->entry);

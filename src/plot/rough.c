@@ -21,8 +21,8 @@ bool rough_make(const WeftPlotModel *model, float roughness, Rough *out) {
     } else if (!model->material || !rough_material(model->material, roughness, &out->reflection)) {
         return false;
     }
-    out->model = (WeftPlotModel){
-        .reflection = out->reflection, .lobe = model->lobe ? &out->lobe : NULL, .label = model->label};
+    out->model =
+        (WeftPlotModel){.reflection = out->reflection, .lobe = model->lobe ? &out->lobe : NULL, .label = model->label};
     return true;
 }
 

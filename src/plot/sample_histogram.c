@@ -25,8 +25,7 @@ static double cell_solid_angle(int row) {
 
 /* Returns the cell of a direction; phi runs from -180 degrees, and 0 is beyond the normal. */
 static int cell_of(const float w[3]) {
-    double theta = (atan2)(hypot((double)w[0], (double)w[1]), (double)w[2]),
-           phi = atan2(-(double)w[1], -(double)w[0]);
+    double theta = (atan2)(hypot((double)w[0], (double)w[1]), (double)w[2]), phi = atan2(-(double)w[1], -(double)w[0]);
     int row = (int)(theta / (0.5 * PI_DOUBLE) * THETAS);
     int column = (int)((phi / (2.0 * PI_DOUBLE) + 0.5) * PHIS);
     row = row < 0 ? 0 : row >= THETAS ? THETAS - 1 : row;
@@ -55,8 +54,7 @@ static void draw_all(const WeftPlotModel *model, const float wo[3], Histogram *o
 /* Returns the mean of the pdf over a cell. */
 static double cell_pdf(const WeftLobe *lobe, const float wo[3], int points, int row, int column) {
     double sum = 0.0;
-    const double low = (cos)(0.5 * PI_DOUBLE * row / THETAS),
-                 high = (cos)(0.5 * PI_DOUBLE * (row + 1) / THETAS);
+    const double low = (cos)(0.5 * PI_DOUBLE * row / THETAS), high = (cos)(0.5 * PI_DOUBLE * (row + 1) / THETAS);
     for (int k = 0; k < points * points; k++) {
         const int down = k / points;
         double z = low + (high - low) * (down + 0.5) / points, s = (sqrt)(fmax(1.0 - z * z, 0.0));

@@ -1,8 +1,5 @@
 /* scale.h - the colours of signed differences */
-#ifndef WEFT_PLOT_SCALE_H
-#define WEFT_PLOT_SCALE_H
+#pragma once
 
 /* Returns the sRGB-encoded colour, 0 .. 1, of t in [-1, 1]: blue below 0, black at 0, red above. */
 void scale_color(float t, float rgb[3]);
-
-#endif

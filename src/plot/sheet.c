@@ -12,8 +12,7 @@
 
 enum { SIDE_MAX = 32767 }; /* of a Cairo surface, pixels */
 
-static const double background[3] = {0.086, 0.090, 0.098}, bright[3] = {0.92, 0.92, 0.93},
-                    dim[3] = {0.58, 0.60, 0.63};
+static const double background[3] = {0.086, 0.090, 0.098}, bright[3] = {0.92, 0.92, 0.93}, dim[3] = {0.58, 0.60, 0.63};
 
 /* Sizes in pixels; all depend on the size of the type. */
 typedef struct SheetLayout {
@@ -69,8 +68,7 @@ static bool is_map(const WeftPanel *panel) {
 
 static SheetLayout layout_of(const WeftSheetDesc *desc, cairo_t *cairo) {
     enum { NARROWEST = 240 };
-    SheetLayout layout = {.columns = desc->columns,
-                          .rows = (desc->count + desc->columns - 1) / desc->columns};
+    SheetLayout layout = {.columns = desc->columns, .rows = (desc->count + desc->columns - 1) / desc->columns};
     bool labels = false, maps = false;
     for (int k = 0; k < desc->count; k++) {
         const WeftPanel *panel = &desc->panels[k];
@@ -90,8 +88,7 @@ static SheetLayout layout_of(const WeftSheetDesc *desc, cairo_t *cairo) {
     double lines = 2.1 + (layout.stacked ? 1.2 : 0.0) + (layout.wrapped ? 1.2 : 0.0);
     layout.legend = maps ? (int)lround(2.4 * layout.type) : 0;
     layout.label = layout.legend + (labels ? (int)lround(lines * layout.type) : 0);
-    double width =
-        2.0 * layout.margin + (double)layout.columns * (layout.column_width + layout.gap) - layout.gap;
+    double width = 2.0 * layout.margin + (double)layout.columns * (layout.column_width + layout.gap) - layout.gap;
     double height = 2.0 * layout.margin + layout.caption +
                     (double)layout.rows * (layout.image_height + layout.label + layout.gap) - layout.gap;
     layout.width = (int)fmin(width, SIDE_MAX + 1.0);
@@ -99,8 +96,7 @@ static SheetLayout layout_of(const WeftSheetDesc *desc, cairo_t *cairo) {
     return layout;
 }
 
-static void draw_label(cairo_t *cairo, const SheetLayout *layout, const WeftPanel *panel, double x,
-                       double y) {
+static void draw_label(cairo_t *cairo, const SheetLayout *layout, const WeftPanel *panel, double x, double y) {
     double baseline = y + 1.35 * layout->type, width = layout->column_width;
     if (panel->title) {
         char line[TEXT_SIZE];
@@ -128,8 +124,7 @@ static void draw_bar(cairo_t *cairo, double left, double top, double width, doub
 }
 
 /* Draws the colours of a map below its label. */
-static void draw_legend(cairo_t *cairo, const SheetLayout *layout, const WeftPanel *panel, double x,
-                        double y) {
+static void draw_legend(cairo_t *cairo, const SheetLayout *layout, const WeftPanel *panel, double x, double y) {
     double width = layout->column_width, height = 0.7 * layout->type;
     draw_bar(cairo, x, y + 0.5 * layout->type, width, height, 0.0f);
     for (int k = 0; k < 3; k++) {
@@ -141,8 +136,8 @@ static void draw_legend(cairo_t *cairo, const SheetLayout *layout, const WeftPan
                  : panel->most > panel->none ? " and more"
                                              : " and less");
         set_font(cairo, note_size(layout), false);
-        write_text(cairo, bright, x + share * (width - text_width(cairo, number)),
-                   y + height + 1.6 * layout->type, width, number);
+        write_text(cairo, bright, x + share * (width - text_width(cairo, number)), y + height + 1.6 * layout->type,
+                   width, number);
     }
 }
 
@@ -161,10 +156,9 @@ static void draw_scale(cairo_t *cairo, const SheetLayout *layout, float scale, d
                  k == 1 ? 0.0 : (double)scale);
         set_font(cairo, note_size(layout), false);
         double share = 0.5 * k, at = left + share * width;
-        write_text(cairo, dim, at - share * text_width(cairo, words[k]), top - 0.5 * layout->type, width,
-                   words[k]);
-        write_text(cairo, bright, at - share * text_width(cairo, number), top + height + 1.1 * layout->type,
-                   width, number);
+        write_text(cairo, dim, at - share * text_width(cairo, words[k]), top - 0.5 * layout->type, width, words[k]);
+        write_text(cairo, bright, at - share * text_width(cairo, number), top + height + 1.1 * layout->type, width,
+                   number);
     }
 }
 
@@ -185,8 +179,7 @@ static void copy_image(const WeftImage *image, unsigned char *pixels, int stride
 /* Computes the corner of panel k. */
 static void panel_place(const SheetLayout *layout, int k, int *x, int *y) {
     *x = layout->margin + k % layout->columns * (layout->column_width + layout->gap);
-    *y = layout->margin + layout->caption +
-         k / layout->columns * (layout->image_height + layout->label + layout->gap);
+    *y = layout->margin + layout->caption + k / layout->columns * (layout->image_height + layout->label + layout->gap);
 }
 
 static void draw(cairo_t *cairo, const SheetLayout *layout, const WeftSheetDesc *desc) {
@@ -194,8 +187,8 @@ static void draw(cairo_t *cairo, const SheetLayout *layout, const WeftSheetDesc 
     cairo_paint(cairo);
     if (desc->caption) {
         set_font(cairo, 1.2 * layout->type, false);
-        write_text(cairo, bright, layout->margin, layout->margin + layout->type,
-                   layout->width - 2.0 * layout->margin, desc->caption);
+        write_text(cairo, bright, layout->margin, layout->margin + layout->type, layout->width - 2.0 * layout->margin,
+                   desc->caption);
     }
     for (int k = 0; k < desc->count; k++) {
         const WeftPanel *panel = &desc->panels[k];
@@ -234,8 +227,8 @@ static WeftResult from_surface(cairo_surface_t *surface, const SheetLayout *layo
 }
 
 static WeftResult check(const WeftSheetDesc *desc, WeftError *error) {
-    if (desc->count < 1 || desc->count > WEFT_SHEET_PANELS_MAX || desc->columns < 1 ||
-        desc->columns > desc->count || !desc->panels)
+    if (desc->count < 1 || desc->count > WEFT_SHEET_PANELS_MAX || desc->columns < 1 || desc->columns > desc->count ||
+        !desc->panels)
         return fail(error, WEFT_MESSAGE_DESC, "sheet", "%d panels in %d columns", desc->count, desc->columns);
     for (int k = 0; k < desc->count; k++) {
         const WeftImage *image = desc->panels[k].image;

@@ -32,14 +32,12 @@ static bool one_map(Making *making, WeftPlotPanel *panel, int model) {
         for (int k = 0; k < side; k++) {
             float wo[3], wi[1][3], f[1][3];
             pair(side, row, k, wo, wi[0]);
-            making_eval(&making->desc->models[model], wo, 1, (const float(*)[3])wi,
-                        making_walks(making, WALKS), f);
+            making_eval(&making->desc->models[model], wo, 1, (const float(*)[3])wi, making_walks(making, WALKS), f);
             float *to = values + (colored ? 3 : 1) * (row * side + k);
             *to = making_value(making, f[0]);
             for (int c = 0; colored && c < 3; c++)
-                to[c] = making->desc->channel == WEFT_PLOT_LUMINANCE
-                            ? f[0][c]
-                            : f[0][making->desc->channel - WEFT_PLOT_RED];
+                to[c] = making->desc->channel == WEFT_PLOT_LUMINANCE ? f[0][c]
+                                                                     : f[0][making->desc->channel - WEFT_PLOT_RED];
         }
     return true;
 }

@@ -90,8 +90,7 @@ static void one_ball(Ball *ball, WeftPlotPanel *panel, const WeftPlotModel *mode
     rough_free(&rough);
 }
 
-static void one_strip(Making *making, WeftPlotPanel *panel, const WeftPlotModel *model, float angle,
-                      float *values) {
+static void one_strip(Making *making, WeftPlotPanel *panel, const WeftPlotModel *model, float angle, float *values) {
     Ball ball = {.making = making, .side = panel->rows, .walks = making_walks(making, WALKS)};
     panel->cell_count = CELLS;
     for (int k = 0; k < CELLS; k++) {
@@ -108,9 +107,8 @@ WeftResult kind_sphere(Making *making) {
     for (int n = 0; n < count; n++)
         for (int k = 0; k < views; k++) {
             const float angle = making_view(making, k, 50.0f);
-            WeftPlotPanel *panel =
-                making_panel(making, WEFT_PLOT_PICTURE, "%s, light %g\xc2\xb0 from the viewer",
-                             making_label(making, n), (double)angle);
+            WeftPlotPanel *panel = making_panel(making, WEFT_PLOT_PICTURE, "%s, light %g\xc2\xb0 from the viewer",
+                                                making_label(making, n), (double)angle);
             float *values = making_grid(making, panel, CELLS * side, side, 3);
             if (!values) return making_short(making);
             panel->colored = 1;

@@ -1,6 +1,5 @@
 /* type.h - one line of text on a Cairo surface, of any bytes */
-#ifndef WEFT_PLOT_TYPE_H
-#define WEFT_PLOT_TYPE_H
+#pragma once
 
 #include <cairo.h>
 #include <stdbool.h>
@@ -20,5 +19,3 @@ void write_text(cairo_t *cairo, const double color[3], double x, double y, doubl
 /* Works as write_text, with x at `share` of the text's width: 0 is its left end, 0.5 its middle, 1 its right
  * end. */
 void place_text(cairo_t *cairo, const double color[3], double x, double y, double share, const char *text);
-
-#endif

@@ -44,8 +44,7 @@ bool vector_escaped(Vector *vector, const char *text) {
                              : *s == '"'  ? "&quot;"
                              : *s == '\'' ? "&#39;"
                                           : NULL;
-        if (!(entity ? vector_append(vector, entity, strlen(entity)) : vector_append(vector, s, 1)))
-            return false;
+        if (!(entity ? vector_append(vector, entity, strlen(entity)) : vector_append(vector, s, 1))) return false;
     }
     return true;
 }

@@ -1,6 +1,5 @@
 /* vector.h - vector graphics files in memory, made reproducible */
-#ifndef WEFT_PLOT_VECTOR_H
-#define WEFT_PLOT_VECTOR_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -28,5 +27,3 @@ bool vector_finish_svg(Vector *svg, const char *title);
  * (plot_write_bytes). */
 WeftResult plot_svg(const WeftPlotDesc *desc, const WeftPlotData *data, Vector *out, WeftError *error);
 WeftResult plot_write_bytes(const char *path, const Vector *bytes, WeftError *error);
-
-#endif

@@ -162,16 +162,14 @@ WeftResult weft_scene_set_variant(WeftScene *scene, const char *name, WeftError 
     int v = name ? 0 : -1;
     while (name && v < scene->variant_count && strcmp(scene->variants[v], name) != 0) v++;
     if (name && v == scene->variant_count)
-        return fail(error, WEFT_MESSAGE_VARIANT_NAME, name, "%s",
-                    scene_names(scene, weft_scene_variant_name, names));
+        return fail(error, WEFT_MESSAGE_VARIANT_NAME, name, "%s", scene_names(scene, weft_scene_variant_name, names));
     use_variant(scene, v);
     return WEFT_OK;
 }
 
 int weft_scene_variant(const WeftScene *scene) { return scene->variant - 1; }
 
-WeftResult weft_scene_set_environment_file(WeftScene *scene, const char *path, const WeftLog *log,
-                                           WeftError *error) {
+WeftResult weft_scene_set_environment_file(WeftScene *scene, const char *path, const WeftLog *log, WeftError *error) {
     WeftImage raw, linear;
     WeftResult result;
     if (cubemap_named(path)) {
@@ -213,20 +211,16 @@ WeftResult weft_scene_set_environment_studio(WeftScene *scene, WeftError *error)
     return WEFT_OK;
 }
 
-WeftResult weft_scene_set_environment_placement(WeftScene *scene, float rotation, float strength,
-                                                WeftError *error) {
+WeftResult weft_scene_set_environment_placement(WeftScene *scene, float rotation, float strength, WeftError *error) {
     if (!isfinite(rotation)) return fail(error, WEFT_MESSAGE_DESC, "environment rotation", NULL);
-    if (!(isfinite(strength) && strength >= 0.0f))
-        return fail(error, WEFT_MESSAGE_DESC, "environment strength", NULL);
+    if (!(isfinite(strength) && strength >= 0.0f)) return fail(error, WEFT_MESSAGE_DESC, "environment strength", NULL);
     scene->environment.rotation = fmodf(rotation, 360.0f) * (PI_FLOAT / 180.0f);
     scene->environment.strength = strength;
     return WEFT_OK;
 }
 
-WeftResult weft_scene_set_environment_parts(WeftScene *scene, float ambient, float reflection,
-                                            WeftError *error) {
-    if (!(isfinite(ambient) && ambient >= 0.0f))
-        return fail(error, WEFT_MESSAGE_DESC, "environment ambient", NULL);
+WeftResult weft_scene_set_environment_parts(WeftScene *scene, float ambient, float reflection, WeftError *error) {
+    if (!(isfinite(ambient) && ambient >= 0.0f)) return fail(error, WEFT_MESSAGE_DESC, "environment ambient", NULL);
     if (!(isfinite(reflection) && reflection >= 0.0f))
         return fail(error, WEFT_MESSAGE_DESC, "environment reflection", NULL);
     scene->environment.ambient = ambient;

@@ -141,11 +141,8 @@ static bool add_key(Replay *self, const char *text, bool down, bool up) {
     bool control = strstr(text, "control+") != NULL, shift = strstr(text, "shift+") != NULL;
     const char *plus = strrchr(text, '+'), *name = plus ? plus + 1 : text;
     int key = key_of(name);
-    Event event = {.kind = EVENT_KEY,
-                   .code = key,
-                   .letter = (char)(name[1] ? 0 : name[0]),
-                   .control = control,
-                   .shift = shift};
+    Event event = {
+        .kind = EVENT_KEY, .code = key, .letter = (char)(name[1] ? 0 : name[0]), .control = control, .shift = shift};
     event.down = true;
     if (key >= 0 && down) add_event(self, event);
     event.down = false;
@@ -315,17 +312,16 @@ static bool do_motion(Replay *self, Viewer *v, char why[512]) {
         if (!c) {
             ui_reveal(m->control);
             if (++self->tries < TRIES) return true;
-            snprintf(why, 512, "%.200s:%d: there is no \"%.90s\" to point at", self->path, self->line,
-                     m->control);
+            snprintf(why, 512, "%.200s:%d: there is no \"%.90s\" to point at", self->path, self->line, m->control);
             return false;
         }
         if (!same_box(c->box, m->last) && ++self->tries < TRIES) {
             m->last = c->box;
             return true;
         }
-        window_push(v->window, &(Event){.kind = EVENT_MOVE,
-                                        .x = c->box.x + m->x * c->box.width,
-                                        .y = c->box.y + m->y * c->box.height});
+        window_push(
+            v->window,
+            &(Event){.kind = EVENT_MOVE, .x = c->box.x + m->x * c->box.width, .y = c->box.y + m->y * c->box.height});
     } else if (m->kind == DO_KEEP) {
         window_keep(v->window);
     } else if (m->kind == DO_WRITE) {
@@ -360,8 +356,7 @@ bool replay_step(Replay *self, Viewer *v, char why[512]) {
         bool good = true, waits = is(word, "wait");
         if (waits && still_waiting(self, v, rest)) {
             if (clock_now() - self->since < 120.0) return true;
-            snprintf(why, 512, "%.200s:%d: \"%.100s\" did not finish within 120 s", self->path,
-                     self->line + 1, copy);
+            snprintf(why, 512, "%.200s:%d: \"%.100s\" did not finish within 120 s", self->path, self->line + 1, copy);
             return false;
         }
         self->line++;

@@ -1,6 +1,5 @@
 /* replay.h - a script of actions of mouse and keyboard for the window: docs/view.md describes it */
-#ifndef WEFT_VIEW_REPLAY_H
-#define WEFT_VIEW_REPLAY_H
+#pragma once
 
 #include "view/state/viewer.h"
 
@@ -16,5 +15,3 @@ bool replay_step(Replay *replay, Viewer *v, char why[512]);
 
 /* Returns true if an action is under way that needs frames to be drawn; otherwise the replay waits. */
 bool replay_acts(const Replay *replay);
-
-#endif

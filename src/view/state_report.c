@@ -39,9 +39,9 @@ static json_t *material_json(const Viewer *v, int index) {
     }
     for (int k = 0; weft_material_input_name(k); k++) {
         const WeftInput *i = &m->inputs[k];
-        json_object_set_new(object, weft_material_input_name(k),
-                            json_pack("[f,f,f,i]", (double)i->value[0], (double)i->value[1],
-                                      (double)i->value[2], i->texture));
+        json_object_set_new(
+            object, weft_material_input_name(k),
+            json_pack("[f,f,f,i]", (double)i->value[0], (double)i->value[1], (double)i->value[2], i->texture));
     }
     return object;
 }
@@ -69,8 +69,7 @@ void report_state(const Viewer *v) {
     static const char *const modes[] = {"live", "truth", "difference"};
     char camera[ORBIT_TEXT];
     json_t *materials = json_array();
-    for (int k = 0; k < v->edit->state.material_count; k++)
-        json_array_append_new(materials, material_json(v, k));
+    for (int k = 0; k < v->edit->state.material_count; k++) json_array_append_new(materials, material_json(v, k));
     bool lost = false;
     char *command = v->shown->any ? command_line(v, &lost) : NULL;
     json_t *root = json_object();

@@ -42,17 +42,15 @@ void viewer_upload(unsigned *texture, const WeftImage *image) {
         glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     }
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, image->width, image->height, 0, format, GL_UNSIGNED_BYTE,
-                 image->pixels);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, image->width, image->height, 0, format, GL_UNSIGNED_BYTE, image->pixels);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
     glBindTexture(GL_TEXTURE_2D, 0);
 }
 
 bool viewer_is_idle(const Viewer *v) {
     return !v->opening->loader && !v->opening->has_pending && renderer_is_idle(v->renderer) &&
-           (!v->shown->any || v->requests->rendered.number == v->requests->requested) &&
-           !v->requests->rendered.busy && !doctor_busy(v) &&
-           (v->options->mode != MODE_LIVE || v->requests->rendered.effort == EFFORT_SMOOTH) &&
+           (!v->shown->any || v->requests->rendered.number == v->requests->requested) && !v->requests->rendered.busy &&
+           !doctor_busy(v) && (v->options->mode != MODE_LIVE || v->requests->rendered.effort == EFFORT_SMOOTH) &&
            !v->requests->due && (v->options->mode == MODE_LIVE || reference_is_idle(v->reference));
 }
 
@@ -74,12 +72,11 @@ static void lay_out(Viewer *v) {
 
 static void draw_side(Viewer *v) {
     static const char *const names[] = {"Material", "Light", "View", "Inspect", "Doctor", NULL};
-    static const char *const tips[] = {"What surfaces are made of: models and numbers.",
-                                       "Lights, and the environment.", "Camera, exposure, comparison, tools.",
+    static const char *const tips[] = {"What surfaces are made of: models and numbers.", "Lights, and the environment.",
+                                       "Camera, exposure, comparison, tools.",
                                        "What a material does with light, and what a pixel is made of.",
                                        "What will go wrong with the file that is open, and in which engine."};
-    static void (*const panels[])(Viewer * v) = {material_panel, light_panel, view_panel, inspect_panel,
-                                                 doctor_panel};
+    static void (*const panels[])(Viewer * v) = {material_panel, light_panel, view_panel, inspect_panel, doctor_panel};
     int width, height;
     window_size(v->window, &width, &height);
     float x = v->states->frame.stage.width + 1.0f, y = v->states->frame.stage.y, row = ui_line_height();
@@ -108,8 +105,7 @@ static void draw_frame(Viewer *v) {
 }
 
 static void run_frame(Viewer *v, double started) {
-    v->states->frame.input.seconds =
-        v->replay ? 1.0f / 60.0f : (float)fmin(started - v->states->frame.clock, 0.1);
+    v->states->frame.input.seconds = v->replay ? 1.0f / 60.0f : (float)fmin(started - v->states->frame.clock, 0.1);
     v->states->frame.clock = started;
     v->states->frame.number++;
     lay_out(v);
@@ -140,8 +136,7 @@ static bool start(Viewer *v, char why[512]) {
     snprintf(why, 512, "out of memory");
     if (!ui_create(window_scale(v->window), window_clipboard(v->window))) return false;
     v->reference = reference_start(v->window);
-    if (v->reference)
-        v->renderer = renderer_start(v->window, v->reference, v->desc->shader_dir, v->desc->occlusion);
+    if (v->reference) v->renderer = renderer_start(v->window, v->reference, v->desc->shader_dir, v->desc->occlusion);
     if (!v->renderer || !dialogs_begin(v)) return false;
     lay_out(v);
     return opening_begin(v);
@@ -197,8 +192,7 @@ static int run(Viewer *v, char why[512]) {
             return (int)v->opening->opened;
         }
         if (v->replay && replay_acts(v->replay) && due < 1) due = 1;
-        if (any || doctor_busy(v) ||
-            inspection_busy(v->options->panel == PANEL_INSPECT ? v->inspection : NULL))
+        if (any || doctor_busy(v) || inspection_busy(v->options->panel == PANEL_INSPECT ? v->inspection : NULL))
             due = 3;
         bool settled = due <= 0;
         if (window_hidden(v->window) ||

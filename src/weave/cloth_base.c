@@ -46,8 +46,7 @@ typedef struct Part {
 
 /* Sets the places, and `far` to 1 where a facet is to stand for the cloth. */
 LOOP(place_n,
-     (const ClothLooks *looks, const float per_uv[2], int n, float *restrict x, float *restrict y,
-      float *restrict far),
+     (const ClothLooks *looks, const float per_uv[2], int n, float *restrict x, float *restrict y, float *restrict far),
      (looks, per_uv, n, x, y, far)) {
     float per_u[2] = {per_uv[0], per_uv[1]};
     EACH(k, (size_t)n) {
@@ -110,8 +109,7 @@ FN void put_point(YarnRows *restrict out, size_t k, const Weave *m, WeavePoint p
 LOOP(bind_n, (const Weave *weave, Part *restrict part, int n), (weave, part, n)) {
     Weave m = without_cycle(weave);
     EACH(k, (size_t)n) {
-        WeavePoint p =
-            weave_point_bound(&m, part->x[k], part->y[k], part->spacing[k], 2.0f * part->facet[k] - 1.0f);
+        WeavePoint p = weave_point_bound(&m, part->x[k], part->y[k], part->spacing[k], 2.0f * part->facet[k] - 1.0f);
         part->height[k] = p.height;
         put_point(&part->yarn, k, &m, p);
     }
@@ -129,8 +127,7 @@ LOOP(find_n, (const Weave *weave, Part *restrict part, int n), (weave, part, n))
 /* Lays loose fibres over the points that are below one, which are few. */
 static void add_hairs(const Weave *m, Part *part) {
     bool seen = false;
-    for (int k = 0; k < part->count; k++)
-        seen |= weave_hair_radius_over(m, part->height[k], part->spacing[k]) > 0.0f;
+    for (int k = 0; k < part->count; k++) seen |= weave_hair_radius_over(m, part->height[k], part->spacing[k]) > 0.0f;
     if (!seen) return;
     find_n(m, part, row_whole(part->count));
     for (int k = 0; k < part->count; k++) {
@@ -175,8 +172,7 @@ LOOP(choose_n, (const WeftCloth *cloth, Part *restrict part, float scale, int n)
         int level = to_int(min(weave_far_level(f, finer_x, finer_y), last));
         int w = cloth_far_side(width, level), h = cloth_far_side(height, level);
         int layer = 4 * w * h, at = starts[level] + 4 * (texel_at(y / picks, h) * w + texel_at(x / warps, w));
-        float warp_dye = weave_far_dye(&m, false, x, f.x / FINER),
-              weft_dye = weave_far_dye(&m, true, y, f.y / FINER);
+        float warp_dye = weave_far_dye(&m, false, x, f.x / FINER), weft_dye = weave_far_dye(&m, true, y, f.y / FINER);
         float warp_covers = texels[at + 3], weft_covers = texels[at + FAR_WEFT_SINGLE * layer + 3];
         Rgb warp_single = dyed(texels, at, warp_covers, warp_dye, scale),
             warp_multiple = dyed(texels, at + FAR_WARP_MULTIPLE * layer, warp_covers, warp_dye, scale),

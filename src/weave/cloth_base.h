@@ -1,6 +1,5 @@
 /* cloth_base.h - the base of a material that is woven, at points of its cloth */
-#ifndef WEFT_SCENE_CLOTH_BASE_H
-#define WEFT_SCENE_CLOTH_BASE_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -10,9 +9,8 @@
 
 /* Points of a cloth, each seen by a pixel. */
 typedef struct ClothLooks {
-    float uv[2][ROW_CAPACITY]; /* texture coordinates */
-    float footprint_x[ROW_CAPACITY], footprint_y[ROW_CAPACITY],
-        longest[ROW_CAPACITY]; /* WeaveFootprint of the pixel */
+    float uv[2][ROW_CAPACITY];                                                         /* texture coordinates */
+    float footprint_x[ROW_CAPACITY], footprint_y[ROW_CAPACITY], longest[ROW_CAPACITY]; /* WeaveFootprint of the pixel */
     float level[ROW_CAPACITY]; /* random, in [0, 1): chooses between near and far */
     float facet[ROW_CAPACITY]; /* random, in [0, 1): near, the place across a fibre; far, the facet */
     bool holed;                /* gaps between threads are holes, not black */
@@ -29,5 +27,3 @@ WeaveBase cloth_base_far(const WeftCloth *cloth, bool weft);
 
 /* Returns true if there is no thread. */
 bool cloth_is_gap(const WeftCloth *cloth, const float uv[2]);
-
-#endif

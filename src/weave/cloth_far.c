@@ -48,8 +48,7 @@ static double piece_side(int count) {
 static WeavePoint point_at(const Weave *m, int k, float *x, float *y) {
     *x = (float)(fmod(0.7548776662466927 * (k + 1), 1.0) * piece_side(m->warps));
     *y = (float)(fmod(0.5698402909980532 * (k + 1), 1.0) * piece_side(m->picks));
-    return weave_point_bound(m, *x, *y, FAR_SPACING,
-                             2.0f * (float)fmod(1.4142135623730951 * (k + 1), 1.0) - 1.0f);
+    return weave_point_bound(m, *x, *y, FAR_SPACING, 2.0f * (float)fmod(1.4142135623730951 * (k + 1), 1.0) - 1.0f);
 }
 
 /* Returns 1 if the thread of a system is on top at the crossing there. */
@@ -121,8 +120,7 @@ static float covers(const SystemSeen *seen, int up) {
 /* Returns one channel of a thread's colour without irregular dye, in light that met one fibre or in all other light. t:
  * 1 for the weft. */
 static float color_of(const Weave *m, int t, int thread, int c, bool multiple) {
-    const float a = m->albedos[3 * ((t ? m->warps : 0) + thread) + c],
-                white = t ? m->weft.white : m->warp.white;
+    const float a = m->albedos[3 * ((t ? m->warps : 0) + thread) + c], white = t ? m->weft.white : m->warp.white;
     return multiple ? yarn_reflectance(a) : fminf(a + white, 1.0f);
 }
 
@@ -143,8 +141,7 @@ static void add_crossing(ClothFar *far, const Weave *m, const SystemSeen seen[2]
                                (fminf(y1, (float)row + 1.0f) - fmaxf(y0, (float)row));
             for (int layer = 0; layer < FAR_LAYERS; layer++)
                 for (int c = 0; c < 4; c++)
-                    far->texels[4 * ((size_t)(layer * far->height + row) * (size_t)far->width +
-                                     (size_t)column) +
+                    far->texels[4 * ((size_t)(layer * far->height + row) * (size_t)far->width + (size_t)column) +
                                 (size_t)c] += fmaxf(part, 0.0f) * color[layer][c];
         }
 }
@@ -229,8 +226,7 @@ static void add_facet(WeftCloth *cloth, WeavePoint p, double single, double mult
     const int threads = p.weft ? m->picks : m->warps, thread = (int)weave_mod(p.thread, (float)threads);
     double own[2] = {0.0, 0.0}; /* colours of the thread */
     for (int c = 0; c < 3; c++)
-        for (int kind = 0; kind < 2; kind++)
-            own[kind] += (double)color_of(m, p.weft, thread, c, kind == 1) / 3.0;
+        for (int kind = 0; kind < 2; kind++) own[kind] += (double)color_of(m, p.weft, thread, c, kind == 1) / 3.0;
     cloth->facets[p.weft][(*count)++] = (ClothFacet){.slope_x = yarn.slope_x,
                                                      .slope_y = yarn.slope_y,
                                                      .azimuth = yarn.azimuth,
@@ -266,8 +262,7 @@ static void order_facets(ClothFacet *facets, int count) {
         low[0] = fminf(low[0], facets[k].slope_x), high[0] = fmaxf(high[0], facets[k].slope_x);
         low[1] = fminf(low[1], facets[k].slope_y), high[1] = fmaxf(high[1], facets[k].slope_y);
     }
-    qsort(facets, (size_t)count, sizeof *facets,
-          high[0] - low[0] > high[1] - low[1] ? by_slope_x : by_slope_y);
+    qsort(facets, (size_t)count, sizeof *facets, high[0] - low[0] > high[1] - low[1] ? by_slope_x : by_slope_y);
     order_facets(facets, count / 2);
     order_facets(facets + count / 2, count - count / 2);
 }
@@ -343,8 +338,7 @@ static void fit_system(WeftCloth *cloth, bool weft, const SystemLit *near) {
     const Lit lobe = woven_fit(&cloth->weave, weft, &near->lit, &cloth->far.woven[weft]);
     const double share = (double)cloth->far.woven[weft].share;
     far->single = ratio(lit_sum(near->lit.single) * share, lit_sum(lobe.single) * channel_mean(near->single));
-    far->multiple =
-        ratio(lit_sum(near->lit.multiple) * share, lit_sum(lobe.multiple) * channel_mean(near->multiple));
+    far->multiple = ratio(lit_sum(near->lit.multiple) * share, lit_sum(lobe.multiple) * channel_mean(near->multiple));
 }
 
 static void fit_far(WeftCloth *cloth) {

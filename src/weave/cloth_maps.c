@@ -24,11 +24,8 @@ enum {
 static const struct {
     const char *file;
     int channels;
-} kinds[MAP_COUNT] = {{"base_color.png", 4},
-                      {"normal.png", 3},
-                      {"occlusion_roughness.png", 3},
-                      {"anisotropy.png", 3},
-                      {"height.png", 1}};
+} kinds[MAP_COUNT] = {
+    {"base_color.png", 4}, {"normal.png", 3}, {"occlusion_roughness.png", 3}, {"anisotropy.png", 3}, {"height.png", 1}};
 
 typedef struct MapBake {
     Weave weave; /* with a cycle */
@@ -44,8 +41,7 @@ typedef struct MapTexel {
     float roughness;
     float open; /* visible fraction of the sky, weave_depth */
     float height;
-    float along
-        [2]; /* direction of the fibres as a unit vector at twice the angle, so that opposite ones agree */
+    float along[2]; /* direction of the fibres as a unit vector at twice the angle, so that opposite ones agree */
 } MapTexel;
 
 /* Returns the part of light that leaves white fibres after it met one of them (yarn_medium.h). */
@@ -93,8 +89,7 @@ static void put_texel(MapBake *b, const MapTexel *t, int column, int row) {
     for (int c = 0; c < 3; c++) to[c] = byte_of(tone_encode(fminf(t->color[c] / cover, 1.0f)));
     to[3] = byte_of(t->cover);
     to = texel_at(b, MAP_NORMAL, column, row);
-    to[0] = byte_of(0.5f + 0.5f * x * n), to[1] = byte_of(0.5f + 0.5f * y * n),
-    to[2] = byte_of(0.5f + 0.5f * n);
+    to[0] = byte_of(0.5f + 0.5f * x * n), to[1] = byte_of(0.5f + 0.5f * y * n), to[2] = byte_of(0.5f + 0.5f * n);
     to = texel_at(b, MAP_ROUGHNESS, column, row);
     to[0] = byte_of(t->open / cover), to[1] = byte_of(t->roughness / cover), to[2] = 0;
     to = texel_at(b, MAP_ANISOTROPY, column, row);
@@ -106,8 +101,7 @@ static void put_texel(MapBake *b, const MapTexel *t, int column, int row) {
 
 static void bake_row(void *user, int row, int thread) {
     MapBake *b = user;
-    const float spacing =
-        fmaxf(b->weave.cycle_x / (float)b->width, b->weave.cycle_y / (float)b->height) / FINE;
+    const float spacing = fmaxf(b->weave.cycle_x / (float)b->width, b->weave.cycle_y / (float)b->height) / FINE;
     (void)thread;
     for (int column = 0; column < b->width; column++) {
         MapTexel t = {.cover = 0.0f};
@@ -132,8 +126,8 @@ static WeftResult write_maps(MapBake *b, const char *folder, WeftError *error) {
 }
 
 /* Writes a material file (docs/materials.md) with the maps. metres: length of a unit of texture coordinates. */
-static WeftResult write_material(const MapBake *b, const WeftCloth *cloth, const double size[2],
-                                 double metres, const char *folder, WeftError *error) {
+static WeftResult write_material(const MapBake *b, const WeftCloth *cloth, const double size[2], double metres,
+                                 const char *folder, WeftError *error) {
     char path[4096], place[96];
     OutputFile file;
     snprintf(path, sizeof path, "%.4000s/material.json", folder);
@@ -155,8 +149,8 @@ static WeftResult write_material(const MapBake *b, const WeftCloth *cloth, const
             kinds[MAP_ROUGHNESS].file, place);
     fprintf(file.stream, "    \"anisotropy\": {\"texture\": \"%s\", \"channel\": \"b\", %s},\n",
             kinds[MAP_ANISOTROPY].file, place);
-    fprintf(file.stream, "    \"anisotropy_direction\": {\"texture\": \"%s\", %s},\n",
-            kinds[MAP_ANISOTROPY].file, place);
+    fprintf(file.stream, "    \"anisotropy_direction\": {\"texture\": \"%s\", %s},\n", kinds[MAP_ANISOTROPY].file,
+            place);
     fprintf(file.stream,
             "    \"sheen_color\": %.3g,\n    \"sheen_roughness\": 0.6,\n    \"reflectance\": %.3g,\n"
             "    \"double_sided\": true\n}\n",
@@ -185,16 +179,14 @@ static void folder_remove(const char *folder) {
     rmdir(folder);
 }
 
-WeftResult weft_cloth_bake(const WeftCloth *cloth, int pixels, double metres, const char *folder,
-                           WeftError *error) {
+WeftResult weft_cloth_bake(const WeftCloth *cloth, int pixels, double metres, const char *folder, WeftError *error) {
     if (pixels < 16 || pixels > SIDE_MAX)
         return fail(error, WEFT_MESSAGE_DESC, "maps", "%d pixels; 16 to %d are possible", pixels, SIDE_MAX);
     if (!(metres > 1e-6 && metres < 1e6)) return fail(error, WEFT_MESSAGE_DESC, "maps", "%g metres", metres);
     const bool made = mkdir(folder, 0777) == 0;
     if (!made && errno != EEXIST) return fail(error, WEFT_MESSAGE_FILE_WRITE, folder, "%s", strerror(errno));
     const int across = cycle_of(cloth->weave.warps), along = cycle_of(cloth->weave.picks);
-    const double size[2] = {cloth->size[0] * across / cloth->weave.warps,
-                            cloth->size[1] * along / cloth->weave.picks};
+    const double size[2] = {cloth->size[0] * across / cloth->weave.warps, cloth->size[1] * along / cloth->weave.picks};
     int sides[2];
     sides_of(pixels, size, sides);
     MapBake bake = {.weave = cloth->weave, .width = sides[0], .height = sides[1]};
@@ -202,8 +194,7 @@ WeftResult weft_cloth_bake(const WeftCloth *cloth, int pixels, double metres, co
     bake.weave.cycle_y = (float)along;
     WeftResult result = WEFT_OK;
     for (int k = 0; k < MAP_COUNT && result == WEFT_OK; k++)
-        result = weft_image_create(bake.width, bake.height, kinds[k].channels, WEFT_PIXEL_U8, &bake.maps[k],
-                                   error);
+        result = weft_image_create(bake.width, bake.height, kinds[k].channels, WEFT_PIXEL_U8, &bake.maps[k], error);
     if (result == WEFT_OK) {
         parallel_for(0, bake.height, bake_row, &bake);
         result = write_maps(&bake, folder, error);

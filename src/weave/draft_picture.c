@@ -62,8 +62,7 @@ static WeftResult from_image(const char *path, const WeftImage *image, WeftDraft
     }
     const float limit = second ? 0.5f * (first + other) : 0.0f;
     for (size_t k = 0; k < pixels; k++) {
-        const size_t row = (size_t)image->height - 1 - k / (size_t)image->width,
-                     column = k % (size_t)image->width;
+        const size_t row = (size_t)image->height - 1 - k / (size_t)image->width, column = k % (size_t)image->width;
         (*out)->up[row * (size_t)image->width + column] = brightness(image, k) <= limit;
     }
     return WEFT_OK;
@@ -75,8 +74,7 @@ static const char *format_suffix(const WeftError *error) {
     return at ? at + strlen(text) : "";
 }
 
-WeftResult draft_from_picture(const char *path, bool text, WeftDraft **out, const WeftLog *log,
-                              WeftError *error) {
+WeftResult draft_from_picture(const char *path, bool text, WeftDraft **out, const WeftLog *log, WeftError *error) {
     WeftImage image;
     WeftError why;
     WeftResult result = weft_image_read(path, &image, log, &why);

@@ -48,8 +48,7 @@ WeftResult ini_read(const void *data, size_t size, const char *name, Ini *out, W
     for (int number = 1; *line; number++) {
         char *end = line + strcspn(line, "\r\n");
         char *next = end + (*end == '\r' && end[1] == '\n') + (*end != '\0');
-        if (!parse_line(out, line, end, &section, number))
-            return fail(error, WEFT_MESSAGE_MEMORY, name, NULL);
+        if (!parse_line(out, line, end, &section, number)) return fail(error, WEFT_MESSAGE_MEMORY, name, NULL);
         line = next;
     }
     return WEFT_OK;
@@ -63,8 +62,7 @@ void ini_free(Ini *ini) {
 
 const IniLine *ini_find(const Ini *ini, const char *section, const char *key) {
     for (int k = ini->count - 1; k >= 0; k--)
-        if (strcasecmp(ini->lines[k].section, section) == 0 &&
-            (!key || strcasecmp(ini->lines[k].key, key) == 0))
+        if (strcasecmp(ini->lines[k].section, section) == 0 && (!key || strcasecmp(ini->lines[k].key, key) == 0))
             return &ini->lines[k];
     return NULL;
 }

@@ -2,8 +2,7 @@
  *
  * Lines end in LF, CR LF or CR. Blanks around names and values do not count, nor does the case of names.
  * Lines that begin with ; are comments. There is no limit on the length of a line. */
-#ifndef WEFT_WEAVE_INI_H
-#define WEFT_WEAVE_INI_H
+#pragma once
 
 #include <stddef.h>
 
@@ -32,5 +31,3 @@ const IniLine *ini_find(const Ini *ini, const char *section, const char *key);
 
 /* Returns the key as a number, 1 and above; 0 if it is none. */
 long ini_index(const IniLine *line);
-
-#endif

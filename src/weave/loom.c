@@ -14,13 +14,11 @@ typedef struct LoomLines {
 } LoomLines;
 
 static LoomLines columns_of(const WeftDraft *draft) {
-    return (LoomLines){draft->up, 1, (size_t)draft->count[WEFT_WARP], draft->count[WEFT_WARP],
-                       draft->count[WEFT_WEFT]};
+    return (LoomLines){draft->up, 1, (size_t)draft->count[WEFT_WARP], draft->count[WEFT_WARP], draft->count[WEFT_WEFT]};
 }
 
 static LoomLines rows_of(const WeftDraft *draft) {
-    return (LoomLines){draft->up, (size_t)draft->count[WEFT_WARP], 1, draft->count[WEFT_WEFT],
-                       draft->count[WEFT_WARP]};
+    return (LoomLines){draft->up, (size_t)draft->count[WEFT_WARP], 1, draft->count[WEFT_WEFT], draft->count[WEFT_WARP]};
 }
 
 static bool same(const LoomLines *lines, int a, int b) {
@@ -36,8 +34,7 @@ static bool same(const LoomLines *lines, int a, int b) {
 static uint64_t hash_of(const LoomLines *lines, int line) {
     uint64_t hash = 0xcbf29ce484222325u;
     for (int k = 0; k < lines->length; k++)
-        hash =
-            (hash ^ lines->cells[(size_t)line * lines->line_step + (size_t)k * lines->step]) * 0x100000001b3u;
+        hash = (hash ^ lines->cells[(size_t)line * lines->line_step + (size_t)k * lines->step]) * 0x100000001b3u;
     return hash;
 }
 

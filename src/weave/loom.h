@@ -6,8 +6,7 @@
  *
  * There are as many shafts as the draft has different columns, and as many treadles as it has different rows. Both are
  * numbered from 0 in the order of their first use. */
-#ifndef WEFT_WEAVE_LOOM_H
-#define WEFT_WEAVE_LOOM_H
+#pragma once
 
 #include "weave/weave_draft.h"
 
@@ -21,5 +20,3 @@ typedef struct Loom {
 /* Finds the loom of a draft. Returns false if memory is short; release with loom_free in either case. */
 bool loom_of(const WeftDraft *draft, Loom *out);
 void loom_free(Loom *loom);
-
-#endif

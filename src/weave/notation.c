@@ -57,8 +57,8 @@ static int runs_of(const char *word, int runs[RUNS_MAX]) {
 /* ---- weaves ---- */
 
 static WeftResult make_basket(const Notation *notation, int ends, int picks, WeftDraft **out) {
-    WeftResult result = draft_create(notation->text, 2L * ends, 2L * picks, WEFT_MESSAGE_DRAFT_NOTATION, out,
-                                     notation->error);
+    WeftResult result =
+        draft_create(notation->text, 2L * ends, 2L * picks, WEFT_MESSAGE_DRAFT_NOTATION, out, notation->error);
     for (int j = 0; result == WEFT_OK && j < 2 * picks; j++)
         for (int i = 0; i < 2 * ends; i++) (*out)->up[j * 2 * ends + i] = (i / ends + j / picks) % 2 == 0;
     return result;
@@ -74,17 +74,15 @@ static int is_over(const int *runs, int count, int length, int j) {
 }
 
 /* Makes a twill, or with mirrored > 0 that many threads of it and their mirror image. */
-static WeftResult make_twill(const Notation *notation, const char *word, int slope, int mirrored,
-                             WeftDraft **out) {
+static WeftResult make_twill(const Notation *notation, const char *word, int slope, int mirrored, WeftDraft **out) {
     int runs[RUNS_MAX];
     long length = 0;
     const int count = runs_of(word, runs);
-    if (count < 2 || count % 2)
-        return REFUSE(notation, "\"%.40s\" is no twill; 2/2 or 3/1/1/3 would be", word);
+    if (count < 2 || count % 2) return REFUSE(notation, "\"%.40s\" is no twill; 2/2 or 3/1/1/3 would be", word);
     for (int k = 0; k < count; k++) length += runs[k];
     const int warps = (int)(mirrored ? 2L * mirrored : length), offset = runs[0];
-    WeftResult result = draft_create(notation->text, mirrored ? warps : length, length,
-                                     WEFT_MESSAGE_DRAFT_NOTATION, out, notation->error);
+    WeftResult result = draft_create(notation->text, mirrored ? warps : length, length, WEFT_MESSAGE_DRAFT_NOTATION,
+                                     out, notation->error);
     for (int j = 0; result == WEFT_OK && j < (int)length; j++)
         for (int i = 0; i < warps; i++) {
             const int line = mirrored && i >= mirrored ? mirrored - 1 + offset - (i - mirrored) : i;
@@ -107,10 +105,9 @@ static WeftResult make_satin(const Notation *notation, const char *word, bool wa
     if (runs_of(word, runs) != 2) return REFUSE(notation, "\"%.40s\" is no satin; 5/2 or 8/3 would be", word);
     const int n = runs[0], c = runs[1];
     if (n < 5 || c < 2 || c > n - 2 || divisor(n, c) != 1)
-        return REFUSE(
-            notation,
-            "a satin of %d threads cannot move by %d: a move is 2 to %d and shares no divisor with %d", n, c,
-            n - 2, n);
+        return REFUSE(notation,
+                      "a satin of %d threads cannot move by %d: a move is 2 to %d and shares no divisor with %d", n, c,
+                      n - 2, n);
     WeftResult result = draft_create(notation->text, n, n, WEFT_MESSAGE_DRAFT_NOTATION, out, notation->error);
     for (int j = 0; result == WEFT_OK && j < n; j++)
         for (int i = 0; i < n; i++) (*out)->up[j * n + i] = (i == (int)((long)c * j % n)) != warp_faced;
@@ -122,10 +119,10 @@ static WeftResult make_picks(const Notation *notation, const Clause *clause, Wef
     const size_t warps = clause->count > 1 ? strlen(clause->words[1]) : 0;
     for (int j = 1; j < clause->count; j++)
         if (strspn(clause->words[j], "#.") != warps || clause->words[j][warps])
-            return REFUSE(notation, "\"%.40s\" is no pick: a # or a . for each of %zu warp threads",
-                          clause->words[j], warps);
-    WeftResult result = draft_create(notation->text, (long)warps, clause->count - 1L,
-                                     WEFT_MESSAGE_DRAFT_NOTATION, out, notation->error);
+            return REFUSE(notation, "\"%.40s\" is no pick: a # or a . for each of %zu warp threads", clause->words[j],
+                          warps);
+    WeftResult result = draft_create(notation->text, (long)warps, clause->count - 1L, WEFT_MESSAGE_DRAFT_NOTATION, out,
+                                     notation->error);
     for (int j = 0; result == WEFT_OK && j < clause->count - 1; j++)
         for (size_t i = 0; i < warps; i++) (*out)->up[(size_t)j * warps + i] = clause->words[j + 1][i] == '#';
     return result;
@@ -140,14 +137,12 @@ static bool slope_of(const Clause *clause, int at, int *slope) {
 }
 
 static WeftResult make_weave(const Notation *notation, const Clause *clause, WeftDraft **out) {
-    const char *name = clause->count ? clause->words[0] : "",
-               *second = clause->count > 1 ? clause->words[1] : "";
+    const char *name = clause->count ? clause->words[0] : "", *second = clause->count > 1 ? clause->words[1] : "";
     const int count = clause->count;
     int n = 0, m = 0, slope = 1;
     if (strcmp(name, "plain") == 0 && count == 1) return make_basket(notation, 1, 1, out);
     if (strcmp(name, "houndstooth") == 0 && count == 1) return make_twill(notation, "2/2", 1, 0, out);
-    if (strcmp(name, "basket") == 0 && count >= 2 && count <= 3 &&
-        word_count(second, WEFT_DRAFT_SIDE_MAX / 2, &n)) {
+    if (strcmp(name, "basket") == 0 && count >= 2 && count <= 3 && word_count(second, WEFT_DRAFT_SIDE_MAX / 2, &n)) {
         m = n;
         if (count == 2 || word_count(clause->words[2], WEFT_DRAFT_SIDE_MAX / 2, &m))
             return make_basket(notation, n, m, out);
@@ -155,8 +150,7 @@ static WeftResult make_weave(const Notation *notation, const Clause *clause, Wef
     if (strcmp(name, "picks") == 0 && count >= 2) return make_picks(notation, clause, out);
     if (strcmp(name, "twill") == 0 && count >= 2 && slope_of(clause, 2, &slope))
         return make_twill(notation, second, slope, 0, out);
-    if (strcmp(name, "herringbone") == 0 && count == 3 &&
-        word_count(clause->words[2], WEFT_DRAFT_SIDE_MAX / 2, &n))
+    if (strcmp(name, "herringbone") == 0 && count == 3 && word_count(clause->words[2], WEFT_DRAFT_SIDE_MAX / 2, &n))
         return make_twill(notation, second, 1, n, out);
     if ((strcmp(name, "satin") == 0 || strcmp(name, "sateen") == 0) && count == 2)
         return make_satin(notation, second, name[3] == 'i', out);
@@ -192,9 +186,7 @@ static bool dye_color(const char *text, float color[3]) {
     for (size_t k = 0; k < sizeof dyes / sizeof *dyes; k++) {
         if (text[0] != dyes[k].letter || text[1]) continue;
         for (int c = 0; c < 3; c++)
-            color[c] = dark    ? 0.5f * dyes[k].color[c]
-                       : light ? 0.5f + 0.5f * dyes[k].color[c]
-                               : dyes[k].color[c];
+            color[c] = dark ? 0.5f * dyes[k].color[c] : light ? 0.5f + 0.5f * dyes[k].color[c] : dyes[k].color[c];
         return true;
     }
     return false;
@@ -215,8 +207,7 @@ static int stripes_of(const Notation *notation, const Clause *clause, Stripe str
         if (k > 1 && k == clause->count - 1 && strcmp(word, "mirror") == 0) {
             const int last = count;
             for (int s = last - 2; s >= 1; s--) stripes[count++] = stripes[s];
-        } else if (count_of(&word, WEFT_DRAFT_SIDE_MAX, &stripes[count].count) &&
-                   dye_color(word, stripes[count].color))
+        } else if (count_of(&word, WEFT_DRAFT_SIDE_MAX, &stripes[count].count) && dye_color(word, stripes[count].color))
             count++;
         else {
             REFUSE(notation,
@@ -226,9 +217,7 @@ static int stripes_of(const Notation *notation, const Clause *clause, Stripe str
             return 0;
         }
     }
-    if (!count)
-        REFUSE(notation, "\"%.10s\" needs stripes, as in \"%.10s 24k 4r\"", clause->words[0],
-               clause->words[0]);
+    if (!count) REFUSE(notation, "\"%.10s\" needs stripes, as in \"%.10s 24k 4r\"", clause->words[0], clause->words[0]);
     return count;
 }
 
@@ -246,21 +235,19 @@ static WeftResult widen(const Notation *notation, WeftDraft **draft, const long 
             memcpy(wide->up + (size_t)j * (size_t)count[0] + (size_t)i, row, (size_t)warps);
     }
     for (int t = 0; t < 2; t++)
-        for (int k = 0; k < (int)count[t]; k++)
-            wide->threads[t][k] = weft_draft_thread(from, (WeftThreads)t, k);
+        for (int k = 0; k < (int)count[t]; k++) wide->threads[t][k] = weft_draft_thread(from, (WeftThreads)t, k);
     weft_draft_free(*draft);
     *draft = wide;
     return WEFT_OK;
 }
 
 /* Repeats the weave until a whole number of stripe sequences fits, and dyes its threads. */
-static WeftResult dye_threads(const Notation *notation, WeftDraft **draft, WeftThreads threads,
-                              const Stripe *stripes, int stripe_count) {
+static WeftResult dye_threads(const Notation *notation, WeftDraft **draft, WeftThreads threads, const Stripe *stripes,
+                              int stripe_count) {
     long length = 0;
     for (int k = 0; k < stripe_count; k++) length += stripes[k].count;
     long count[2] = {(*draft)->count[0], (*draft)->count[1]};
-    if (length > WEFT_DRAFT_SIDE_MAX)
-        return REFUSE(notation, "%ld threads are too many for one repeat", length);
+    if (length > WEFT_DRAFT_SIDE_MAX) return REFUSE(notation, "%ld threads are too many for one repeat", length);
     const long growth = length / divisor((int)length, (int)count[threads]);
     count[threads] *= growth;
     const WeftResult result = growth > 1 ? widen(notation, draft, count) : WEFT_OK;

@@ -18,9 +18,8 @@ WeftResult draft_create(const char *name, long warps, long picks, WeftMessage re
     *out = NULL;
     if (warps < 1 || picks < 1) return fail(error, refusal, name, "it has no threads");
     if (warps > WEFT_DRAFT_SIDE_MAX || picks > WEFT_DRAFT_SIDE_MAX || warps * picks > WEFT_DRAFT_CELLS_MAX)
-        return fail(error, refusal, name,
-                    "%ld x %ld threads are too many: %d a side and %d crossings are the limit", warps, picks,
-                    WEFT_DRAFT_SIDE_MAX, WEFT_DRAFT_CELLS_MAX);
+        return fail(error, refusal, name, "%ld x %ld threads are too many: %d a side and %d crossings are the limit",
+                    warps, picks, WEFT_DRAFT_SIDE_MAX, WEFT_DRAFT_CELLS_MAX);
     WeftDraft *draft = alloc_array(1, sizeof *draft);
     if (!draft) return fail(error, WEFT_MESSAGE_MEMORY, name, NULL);
     draft->count[WEFT_WARP] = (int)warps;
@@ -33,9 +32,8 @@ WeftResult draft_create(const char *name, long warps, long picks, WeftMessage re
     }
     for (int t = 0; t < 2; t++)
         for (int k = 0; k < draft->count[t]; k++)
-            draft->threads[t][k] = (WeftThread){.color = {(float)t, (float)t, (float)t},
-                                                .spacing = DRAFT_SPACING,
-                                                .thickness = DRAFT_THICKNESS};
+            draft->threads[t][k] = (WeftThread){
+                .color = {(float)t, (float)t, (float)t}, .spacing = DRAFT_SPACING, .thickness = DRAFT_THICKNESS};
     *out = draft;
     return WEFT_OK;
 }
@@ -78,8 +76,7 @@ static bool is_wif(const unsigned char *data, size_t size) {
         while (at < size && data[at] != '\n' && data[at] != '\r') at++;
     }
     for (size_t k = 0; k < sizeof mark - 1; k++)
-        if (at + k >= size ||
-            (data[at + k] | (data[at + k] >= 'A' && data[at + k] <= 'Z' ? 32 : 0)) != mark[k])
+        if (at + k >= size || (data[at + k] | (data[at + k] >= 'A' && data[at + k] <= 'Z' ? 32 : 0)) != mark[k])
             return false;
     return true;
 }
@@ -104,8 +101,7 @@ static bool names_file(const char *what) {
 /* Returns true if the bytes contain no control characters but white space. */
 static bool is_text(FileBytes bytes) {
     size_t at = 0;
-    while (at < bytes.size && (bytes.data[at] >= ' ' || strchr("\t\r\n\f", bytes.data[at])) && bytes.data[at])
-        at++;
+    while (at < bytes.size && (bytes.data[at] >= ' ' || strchr("\t\r\n\f", bytes.data[at])) && bytes.data[at]) at++;
     return at == bytes.size;
 }
 
@@ -207,15 +203,13 @@ WeftResult weft_draft_copy(const WeftDraft *draft, WeftDraft **out, WeftError *e
 }
 
 void weft_draft_set_up(WeftDraft *draft, int warp, int pick, int up) {
-    const size_t warps = (size_t)draft->count[WEFT_WARP],
-                 row = (size_t)wrapped(pick, draft->count[WEFT_WEFT]);
+    const size_t warps = (size_t)draft->count[WEFT_WARP], row = (size_t)wrapped(pick, draft->count[WEFT_WEFT]);
     draft->up[row * warps + (size_t)wrapped(warp, draft->count[WEFT_WARP])] = up != 0;
 }
 
 WeftResult weft_draft_set_sett(WeftDraft *draft, WeftThreads threads, float per_metre, WeftError *error) {
     if (!(per_metre >= 1.0f && per_metre <= 1e6f))
-        return fail(error, WEFT_MESSAGE_DESC, "sett", "%g per metre; 1 to 1e6 is possible",
-                    (double)per_metre);
+        return fail(error, WEFT_MESSAGE_DESC, "sett", "%g per metre; 1 to 1e6 is possible", (double)per_metre);
     double length = 0.0;
     for (int k = 0; k < draft->count[threads]; k++) length += (double)draft->threads[threads][k].spacing;
     const float scale = (float)((double)draft->count[threads] / length / (double)per_metre);

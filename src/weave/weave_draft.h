@@ -1,6 +1,5 @@
 /* weave_draft.h - a weaving draft: the crossings of one repeat, and its threads */
-#ifndef WEFT_WEAVE_WEAVE_DRAFT_H
-#define WEFT_WEAVE_WEAVE_DRAFT_H
+#pragma once
 
 #include <stdbool.h>
 #include <stdio.h>
@@ -30,13 +29,10 @@ void draft_title(WeftDraft *draft, const char *text);
 bool draft_same(const WeftDraft *a, const WeftDraft *b);
 
 /* Reads a draft from a picture. text: the file begins with text, which changes the error of one that is no picture. */
-WeftResult draft_from_picture(const char *path, bool text, WeftDraft **out, const WeftLog *log,
-                              WeftError *error);
+WeftResult draft_from_picture(const char *path, bool text, WeftDraft **out, const WeftLog *log, WeftError *error);
 
 /* Writes a WIF 1.1. Fails only if memory is short. */
 WeftResult wif_write(const WeftDraft *draft, FILE *stream, const char *name, WeftError *error);
 
 /* Returns the text of wif_write, to be released with free(); NULL if memory is short. */
 char *wif_text(const WeftDraft *draft);
-
-#endif

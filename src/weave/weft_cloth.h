@@ -1,6 +1,5 @@
 /* weft_cloth.h - a draft woven of yarns, ready to be evaluated point by point */
-#ifndef WEFT_WEAVE_WEFT_CLOTH_H
-#define WEFT_WEAVE_WEFT_CLOTH_H
+#pragma once
 
 #include "shading/lobes/woven.h"
 #include "shading/weave/weave_point.h"
@@ -56,5 +55,3 @@ static inline int cloth_far_side(int side, int level) { return side >> level > 0
 
 /* Returns the texels of a level, all layers one after the other. */
 const float *cloth_far_level(const ClothFar *far, int level, int *width, int *height);
-
-#endif

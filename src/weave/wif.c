@@ -40,9 +40,7 @@ static WeftResult refuse_line(const Wif *wif, const IniLine *line, const char *w
                 line->section, line->key, why);
 }
 
-static WeftResult memory_short(const Wif *wif) {
-    return fail(wif->error, WEFT_MESSAGE_MEMORY, wif->ini.name, NULL);
-}
+static WeftResult memory_short(const Wif *wif) { return fail(wif->error, WEFT_MESSAGE_MEMORY, wif->ini.name, NULL); }
 
 /* ---- values ---- */
 
@@ -68,9 +66,8 @@ static long whole_of(const Wif *wif, const char *section, const char *key) {
 
 /* Returns the value of a key as a flag, or `otherwise` if it is missing or is none. */
 static bool flag_of(const Wif *wif, const char *section, const char *key, bool otherwise) {
-    static const char *const yes[] = {"true", "yes", "t", "y", "on", "1"}, *const no[] = {"false", "no",
-                                                                                          "f",     "n",
-                                                                                          "off",   "0"};
+    static const char *const yes[] = {"true", "yes", "t", "y", "on", "1"}, *const no[] = {"false", "no",  "f",
+                                                                                          "n",     "off", "0"};
     const IniLine *line = ini_find(&wif->ini, section, key);
     for (size_t k = 0; line && line->value && k < sizeof yes / sizeof *yes; k++) {
         if (strcasecmp(line->value, yes[k]) == 0) return true;
@@ -89,8 +86,7 @@ static WeftResult section_extent(const Wif *wif, const char *section, long *keys
         if (strcasecmp(line->section, section) != 0) continue;
         const long key = ini_index(line);
         long number;
-        if (!key || key > WEFT_DRAFT_SIDE_MAX)
-            return refuse_line(wif, line, "the key is no number from 1 to 8192");
+        if (!key || key > WEFT_DRAFT_SIDE_MAX) return refuse_line(wif, line, "the key is no number from 1 to 8192");
         if (key > *keys) *keys = key;
         if (!line->value) return refuse_line(wif, line, "there is no \"=\"");
         const char *cursor = line->value;
@@ -112,9 +108,7 @@ static bool sets_create(Sets *sets, long count, long members) {
 
 static uint64_t *set_at(const Sets *sets, long k) { return sets->bits + (size_t)k * sets->words; }
 
-static bool set_has(const Sets *sets, long k, long member) {
-    return set_at(sets, k)[member / 64] >> (member % 64) & 1;
-}
+static bool set_has(const Sets *sets, long k, long member) { return set_at(sets, k)[member / 64] >> (member % 64) & 1; }
 
 /* Reads a section into sets; the number 0 stands for no member. Skips lines beyond the last set, and returns how
  * many. */
@@ -155,10 +149,9 @@ static WeftResult shed_extent(const Wif *wif, Shed *shed) {
     if (result == WEFT_OK) result = section_extent(wif, "TREADLING", &pressed, &shed->treadles);
     if (result != WEFT_OK) return result;
     if (tied > shed->treadles) shed->treadles = tied;
-    const char *missing = !threaded ? "it has no [THREADING]"
-                          : lifted || (pressed && tied)
-                              ? NULL
-                              : "it has neither a [LIFTPLAN] nor [TIEUP] and [TREADLING]";
+    const char *missing = !threaded                     ? "it has no [THREADING]"
+                          : lifted || (pressed && tied) ? NULL
+                                                        : "it has neither a [LIFTPLAN] nor [TIEUP] and [TREADLING]";
     if (missing) return fail(wif->error, WEFT_MESSAGE_DRAFT, wif->ini.name, "%s", missing);
     shed->warps = whole_of(wif, "WARP", "Threads");
     shed->picks = whole_of(wif, "WEFT", "Threads");
@@ -171,19 +164,16 @@ static WeftResult shed_extent(const Wif *wif, Shed *shed) {
 static WeftResult press_treadles(const Wif *wif, const Shed *shed, Sets *lift) {
     Sets tieup = {0}, treadling = {0};
     WeftResult result = WEFT_OK;
-    if (sets_create(&tieup, shed->treadles, shed->shafts) &&
-        sets_create(&treadling, shed->picks, shed->treadles)) {
+    if (sets_create(&tieup, shed->treadles, shed->shafts) && sets_create(&treadling, shed->picks, shed->treadles)) {
         sets_fill(wif, "TIEUP", &tieup);
         const int beyond = sets_fill(wif, "TREADLING", &treadling);
         if (beyond)
             warn(wif->log, WEFT_MESSAGE_DRAFT_COMPLETED, wif->ini.name,
-                 "%d lines of [TREADLING] are beyond the %ld picks of [WEFT] and were left out", beyond,
-                 shed->picks);
+                 "%d lines of [TREADLING] are beyond the %ld picks of [WEFT] and were left out", beyond, shed->picks);
         for (long pick = 1; pick <= shed->picks; pick++)
             for (long treadle = 1; treadle <= shed->treadles; treadle++)
                 if (set_has(&treadling, pick, treadle))
-                    for (size_t w = 0; w < lift->words; w++)
-                        set_at(lift, pick)[w] |= set_at(&tieup, treadle)[w];
+                    for (size_t w = 0; w < lift->words; w++) set_at(lift, pick)[w] |= set_at(&tieup, treadle)[w];
     } else
         result = memory_short(wif);
     free(tieup.bits);
@@ -198,8 +188,7 @@ static WeftResult read_lift(const Wif *wif, Shed *shed) {
     const int beyond = sets_fill(wif, "LIFTPLAN", &shed->lift);
     if (beyond)
         warn(wif->log, WEFT_MESSAGE_DRAFT_COMPLETED, wif->ini.name,
-             "%d lines of [LIFTPLAN] are beyond the %ld picks of [WEFT] and were left out", beyond,
-             shed->picks);
+             "%d lines of [LIFTPLAN] are beyond the %ld picks of [WEFT] and were left out", beyond, shed->picks);
     if (!ini_find(&wif->ini, "TIEUP", NULL) || !ini_find(&wif->ini, "TREADLING", NULL)) return WEFT_OK;
     Sets pressed;
     if (!sets_create(&pressed, shed->picks, shed->shafts)) return memory_short(wif);
@@ -229,8 +218,7 @@ static WeftResult read_shed(const Wif *wif, WeftDraft *draft, Shed *shed) {
     if (result != WEFT_OK) return result;
     if (beyond)
         warn(wif->log, WEFT_MESSAGE_DRAFT_COMPLETED, wif->ini.name,
-             "%d lines of [THREADING] are beyond the %ld threads of [WARP] and were left out", beyond,
-             shed->warps);
+             "%d lines of [THREADING] are beyond the %ld threads of [WARP] and were left out", beyond, shed->warps);
     warn_of_empty(wif, &shed->threading, "%d of %ld warp threads are on no shaft and never rise");
     warn_of_empty(wif, &shed->lift, "%d of %ld picks lift no shaft");
     const bool rising = flag_of(wif, "WEAVING", "Rising Shed", true);
@@ -253,8 +241,7 @@ typedef struct Palette {
 } Palette;
 
 static void encode(const Palette *palette, const float values[3], float color[3]) {
-    for (int c = 0; c < 3; c++)
-        color[c] = fminf(fmaxf((values[c] - palette->low) / palette->range, 0.0f), 1.0f);
+    for (int c = 0; c < 3; c++) color[c] = fminf(fmaxf((values[c] - palette->low) / palette->range, 0.0f), 1.0f);
 }
 
 static WeftResult read_palette(const Wif *wif, Palette *palette) {
@@ -354,9 +341,8 @@ static bool length_of(const IniLine *line, double unit, float *length) {
 
 /* Reads the spacing and thickness of threads. */
 static void read_lengths(const Wif *wif, WeftDraft *draft, WeftThreads threads) {
-    static const char *const spacings[] = {"WARP SPACING", "WEFT SPACING"}, *const thicknesses[] = {
-                                                                                "WARP THICKNESS",
-                                                                                "WEFT THICKNESS"};
+    static const char *const spacings[] = {"WARP SPACING", "WEFT SPACING"}, *const thicknesses[] = {"WARP THICKNESS",
+                                                                                                    "WEFT THICKNESS"};
     const char *section = thread_sections[threads];
     const double unit = unit_of(wif, section);
     float spacing = DRAFT_SPACING, thickness = 0.0f;
@@ -369,8 +355,7 @@ static void read_lengths(const Wif *wif, WeftDraft *draft, WeftThreads threads) 
         const long index = ini_index(line);
         if (index < 1 || index > draft->count[threads]) continue;
         if (strcasecmp(line->section, spacings[threads]) == 0) length_of(line, unit, &of[index - 1].spacing);
-        if (strcasecmp(line->section, thicknesses[threads]) == 0)
-            length_of(line, unit, &of[index - 1].thickness);
+        if (strcasecmp(line->section, thicknesses[threads]) == 0) length_of(line, unit, &of[index - 1].thickness);
     }
 }
 
@@ -378,8 +363,7 @@ static WeftResult read_draft(const Wif *wif, WeftDraft **out) {
     Shed shed = {0};
     Palette palette = {0};
     if (!ini_find(&wif->ini, "WIF", NULL))
-        return fail(wif->error, WEFT_MESSAGE_DRAFT, wif->ini.name,
-                    "it has no section [WIF], or nothing in it");
+        return fail(wif->error, WEFT_MESSAGE_DRAFT, wif->ini.name, "it has no section [WIF], or nothing in it");
     WeftResult result = shed_extent(wif, &shed);
     if (result == WEFT_OK)
         result = draft_create(wif->ini.name, shed.warps, shed.picks, WEFT_MESSAGE_DRAFT, out, wif->error);
@@ -397,8 +381,8 @@ static WeftResult read_draft(const Wif *wif, WeftDraft **out) {
     return result;
 }
 
-WeftResult weft_draft_read_memory(const void *data, size_t size, const char *name, WeftDraft **out,
-                                  const WeftLog *log, WeftError *error) {
+WeftResult weft_draft_read_memory(const void *data, size_t size, const char *name, WeftDraft **out, const WeftLog *log,
+                                  WeftError *error) {
     Wif wif = {.log = log, .error = error};
     *out = NULL;
     WeftResult result = ini_read(data, size, name, &wif.ini, error);

@@ -24,8 +24,7 @@ static bool colors_of(const WeftDraft *draft, Colors *out) {
         for (int k = 0; out->table && out->of[t] && k < draft->count[t]; k++) {
             unsigned char color[3];
             int place = 0;
-            for (int c = 0; c < 3; c++)
-                color[c] = (unsigned char)lroundf(255.0f * draft->threads[t][k].color[c]);
+            for (int c = 0; c < 3; c++) color[c] = (unsigned char)lroundf(255.0f * draft->threads[t][k].color[c]);
             while (place < out->count && memcmp(out->table[place], color, 3) != 0) place++;
             if (place == out->count) memcpy(out->table[out->count++], color, 3);
             out->of[t][k] = place;
@@ -41,12 +40,11 @@ static void colors_free(Colors *colors) {
 }
 
 static void write_head(const WeftDraft *draft, const Loom *loom, FILE *stream) {
-    fputs(
-        "[WIF]\nVersion=1.1\nDate=April 20, 1997\nDevelopers=wif@mhsoft.com\nSource Program=weft\n"
-        "Source Version=" WEFT_VERSION "\n\n[CONTENTS]\nCOLOR PALETTE=true\nCOLOR TABLE=true\n"
-        "WEAVING=true\nWARP=true\nWEFT=true\nTHREADING=true\nTIEUP=true\nTREADLING=true\nWARP COLORS=true\n"
-        "WEFT COLORS=true\nWARP SPACING=true\nWEFT SPACING=true\nWARP THICKNESS=true\nWEFT THICKNESS=true\n",
-        stream);
+    fputs("[WIF]\nVersion=1.1\nDate=April 20, 1997\nDevelopers=wif@mhsoft.com\nSource Program=weft\n"
+          "Source Version=" WEFT_VERSION "\n\n[CONTENTS]\nCOLOR PALETTE=true\nCOLOR TABLE=true\n"
+          "WEAVING=true\nWARP=true\nWEFT=true\nTHREADING=true\nTIEUP=true\nTREADLING=true\nWARP COLORS=true\n"
+          "WEFT COLORS=true\nWARP SPACING=true\nWEFT SPACING=true\nWARP THICKNESS=true\nWEFT THICKNESS=true\n",
+          stream);
     if (draft->title[0]) fprintf(stream, "TEXT=true\n\n[TEXT]\nTitle=%s\n", draft->title);
     fprintf(stream, "\n[WEAVING]\nShafts=%d\nTreadles=%d\nRising Shed=true\n", loom->shafts, loom->treadles);
 }
@@ -60,22 +58,18 @@ static void write_threads(const WeftDraft *draft, const Colors *colors, FILE *st
         fprintf(stream, "\n[%s COLORS]\n", names[t]);
         for (int k = 0; k < draft->count[t]; k++) fprintf(stream, "%d=%d\n", k + 1, colors->of[t][k] + 1);
         fprintf(stream, "\n[%s SPACING]\n", names[t]);
-        for (int k = 0; k < draft->count[t]; k++)
-            fprintf(stream, "%d=%.6g\n", k + 1, 100.0 * (double)of[k].spacing);
+        for (int k = 0; k < draft->count[t]; k++) fprintf(stream, "%d=%.6g\n", k + 1, 100.0 * (double)of[k].spacing);
         fprintf(stream, "\n[%s THICKNESS]\n", names[t]);
-        for (int k = 0; k < draft->count[t]; k++)
-            fprintf(stream, "%d=%.6g\n", k + 1, 100.0 * (double)of[k].thickness);
+        for (int k = 0; k < draft->count[t]; k++) fprintf(stream, "%d=%.6g\n", k + 1, 100.0 * (double)of[k].thickness);
     }
     fprintf(stream, "\n[COLOR PALETTE]\nEntries=%d\nForm=RGB\nRange=0,255\n\n[COLOR TABLE]\n", colors->count);
     for (int k = 0; k < colors->count; k++)
-        fprintf(stream, "%d=%d,%d,%d\n", k + 1, colors->table[k][0], colors->table[k][1],
-                colors->table[k][2]);
+        fprintf(stream, "%d=%d,%d,%d\n", k + 1, colors->table[k][0], colors->table[k][1], colors->table[k][2]);
 }
 
 static void write_loom(const WeftDraft *draft, const Loom *loom, FILE *stream) {
     fputs("\n[THREADING]\n", stream);
-    for (int k = 0; k < draft->count[WEFT_WARP]; k++)
-        fprintf(stream, "%d=%d\n", k + 1, loom->threading[k] + 1);
+    for (int k = 0; k < draft->count[WEFT_WARP]; k++) fprintf(stream, "%d=%d\n", k + 1, loom->threading[k] + 1);
     fputs("\n[TIEUP]\n", stream);
     for (int treadle = 0; treadle < loom->treadles; treadle++) {
         const char *before = "";
@@ -88,8 +82,7 @@ static void write_loom(const WeftDraft *draft, const Loom *loom, FILE *stream) {
         fputc('\n', stream);
     }
     fputs("\n[TREADLING]\n", stream);
-    for (int k = 0; k < draft->count[WEFT_WEFT]; k++)
-        fprintf(stream, "%d=%d\n", k + 1, loom->treadling[k] + 1);
+    for (int k = 0; k < draft->count[WEFT_WEFT]; k++) fprintf(stream, "%d=%d\n", k + 1, loom->treadling[k] + 1);
 }
 
 WeftResult wif_write(const WeftDraft *draft, FILE *stream, const char *name, WeftError *error) {

@@ -20,8 +20,7 @@ static int on_top(const WeftDraft *draft, WeftThreads threads, int k, int c) {
 static void put_runs(WeftCloth *cloth, const WeftDraft *draft, WeftThreads threads, int k) {
     const int count = draft->count[!threads], warps = draft->count[WEFT_WARP];
     int start = 0;
-    while (start < count && on_top(draft, threads, k, start) == on_top(draft, threads, k, start + count - 1))
-        start++;
+    while (start < count && on_top(draft, threads, k, start) == on_top(draft, threads, k, start + count - 1)) start++;
     const bool endless = start == count;
     for (int at = 0; at < count;) {
         const int top = on_top(draft, threads, k, start + at);
@@ -92,8 +91,8 @@ static WeftResult yarn_check(const WeftYarn *yarn, WeftError *error) {
         const WeftYarnNumber *n = weft_yarn_number(k);
         const float value = *(const float *)((const char *)yarn + n->offset);
         if (!(value >= n->low && value <= n->high))
-            return fail(error, WEFT_MESSAGE_DESC, "yarn", "%s is %g; %g to %g is possible", n->name,
-                        (double)value, (double)n->low, (double)n->high);
+            return fail(error, WEFT_MESSAGE_DESC, "yarn", "%s is %g; %g to %g is possible", n->name, (double)value,
+                        (double)n->low, (double)n->high);
     }
     return WEFT_OK;
 }
@@ -117,8 +116,7 @@ WeftResult weft_cloth_create(const WeftDraft *draft, const WeftYarn yarns[2], un
         for (int k = 0; k < draft->count[t]; k++) {
             const WeftThread *thread = &draft->threads[t][k];
             pitch[t] += (double)thread->spacing;
-            width[t] +=
-                fmin(fmax((double)thread->thickness, 0.3 * (double)thread->spacing), (double)thread->spacing);
+            width[t] += fmin(fmax((double)thread->thickness, 0.3 * (double)thread->spacing), (double)thread->spacing);
             put_runs(cloth, draft, (WeftThreads)t, k);
         }
         cloth->size[t] = pitch[t];

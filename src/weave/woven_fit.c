@@ -113,9 +113,7 @@ static void light_bins(const SystemFit *fit, BinsLit *bins) {
 
 /* Returns the weight of a pair's squared error: between weights for absolute errors, and for errors relative to the
  * light of the pair. */
-static double weight_of(const Lit *near, int k) {
-    return 1.0 / (near->single[k] + 0.1 * near->multiple[k] + 1e-9);
-}
+static double weight_of(const Lit *near, int k) { return 1.0 / (near->single[k] + 0.1 * near->multiple[k] + 1e-9); }
 
 /* The equations m g = v of the gains g that make
  *   sum over pairs of weight (sum_k g_k bin_k - near)^2  +  sum_k d_k m_kk (g_k - even)^2
@@ -213,8 +211,8 @@ static bool fit_shape(SystemFit *fit) {
     nlopt_opt method = nlopt_create(NLOPT_LN_BOBYQA, SHAPE_NUMBERS);
     const bool made = method && nlopt_set_min_objective(method, shape_error, fit) > 0 &&
                       nlopt_set_lower_bounds(method, low) > 0 && nlopt_set_upper_bounds(method, high) > 0 &&
-                      nlopt_set_initial_step(method, step) > 0 &&
-                      nlopt_set_maxeval(method, SHAPES_MOST) > 0 && nlopt_set_xtol_rel(method, 1e-3) > 0;
+                      nlopt_set_initial_step(method, step) > 0 && nlopt_set_maxeval(method, SHAPES_MOST) > 0 &&
+                      nlopt_set_xtol_rel(method, 1e-3) > 0;
     const nlopt_result result = made ? nlopt_optimize(method, x, &least) : NLOPT_FAILURE;
     nlopt_destroy(method);
     if (result <= 0 && result != NLOPT_ROUNDOFF_LIMITED) return false;

@@ -1,6 +1,5 @@
 /* woven_fit.h - lobe woven of one system of a cloth, fitted to what points of its threads reflect */
-#ifndef WEFT_WEAVE_WOVEN_FIT_H
-#define WEFT_WEAVE_WOVEN_FIT_H
+#pragma once
 
 #include "shading/weave/weave_light.h"
 
@@ -26,15 +25,15 @@ typedef struct PairsLit {
 } PairsLit;
 
 /* A loop over the pairs for a prepared lobe p. */
-#define EACH_LIT(name, Name)                                                                                 \
-    for (int k = 0; k < LIT_PAIRS; k++) {                                                                    \
-        const Dir o = {lit->o[0][k], lit->o[1][k], lit->o[2][k]};                                            \
-        const Dir i = {lit->i[0][k], lit->i[1][k], lit->i[2][k]};                                            \
-        Name##View w;                                                                                        \
-        name##_view(&p, o, &w);                                                                              \
-        const LobeValue v = name##_value(&p, &w, angles_between(o, i));                                      \
-        out->single[k] = v.f * i.z * (1.0f - v.s);                                                           \
-        out->multiple[k] = v.f * i.z * v.s;                                                                  \
+#define EACH_LIT(name, Name)                                                                                           \
+    for (int k = 0; k < LIT_PAIRS; k++) {                                                                              \
+        const Dir o = {lit->o[0][k], lit->o[1][k], lit->o[2][k]};                                                      \
+        const Dir i = {lit->i[0][k], lit->i[1][k], lit->i[2][k]};                                                      \
+        Name##View w;                                                                                                  \
+        name##_view(&p, o, &w);                                                                                        \
+        const LobeValue v = name##_value(&p, &w, angles_between(o, i));                                                \
+        out->single[k] = v.f * i.z * (1.0f - v.s);                                                                     \
+        out->multiple[k] = v.f * i.z * v.s;                                                                            \
     }
 
 /* Adds the light of pairs, each kind times its factor. */
@@ -48,5 +47,3 @@ double lit_sum(const double values[LIT_PAIRS]);
  * returns what it reflects between the pairs. If the search fails, as it does where memory is short, the lobe is that
  * of the moments. */
 Lit woven_fit(Weave *m, bool weft, const Lit *near, WovenPrepared *woven);
-
-#endif

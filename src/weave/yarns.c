@@ -10,30 +10,28 @@
 
 /* Y(name, help, alpha, crimp, roundness, twist, white, width, bulge, floats, streaks, dye, slub, wander, hairiness),
  * crimp and twist in degrees. */
-#define YARNS(Y)                                                                                             \
-    Y("cotton", "spun, matt, slightly uneven", 0.4f, 25, 0.95f, -24, 0.04f, 0.96f, 0.1f, 1.2f, 0.25f, 0.12f, \
-      0.3f, 0.35f, 0.7f)                                                                                     \
-    Y("linen", "dry and straight, with slubs and small gaps", 0.3f, 20, 0.95f, -12, 0.05f, 0.86f, 0.05f,     \
-      1.2f, 0.3f, 0.16f, 0.9f, 0.7f, 0.5f)                                                                   \
-    Y("wool", "soft and full", 0.5f, 26, 0.9f, -28, 0.03f, 1.02f, 0.2f, 1.2f, 0.35f, 0.12f, 0.35f, 0.5f,     \
-      1.0f)                                                                                                  \
-    Y("silk", "filament with hardly any twist", 0.12f, 22, 0.9f, 0, 0.12f, 1.0f, 0.55f, 1.6f, 0.1f, 0.05f,   \
-      0.06f, 0.15f, 0.0f)                                                                                    \
-    Y("dupion", "raw silk of uneven thickness", 0.14f, 24, 0.95f, -4, 0.12f, 0.95f, 0.2f, 1.4f, 0.2f, 0.1f,  \
-      1.3f, 0.6f, 0.1f)                                                                                      \
-    Y("polyester", "smooth filament", 0.16f, 20, 0.9f, 0, 0.1f, 0.98f, 0.35f, 1.5f, 0.06f, 0.02f, 0.03f,     \
-      0.08f, 0.0f)
+#define YARNS(Y)                                                                                                       \
+    Y("cotton", "spun, matt, slightly uneven", 0.4f, 25, 0.95f, -24, 0.04f, 0.96f, 0.1f, 1.2f, 0.25f, 0.12f, 0.3f,     \
+      0.35f, 0.7f)                                                                                                     \
+    Y("linen", "dry and straight, with slubs and small gaps", 0.3f, 20, 0.95f, -12, 0.05f, 0.86f, 0.05f, 1.2f, 0.3f,   \
+      0.16f, 0.9f, 0.7f, 0.5f)                                                                                         \
+    Y("wool", "soft and full", 0.5f, 26, 0.9f, -28, 0.03f, 1.02f, 0.2f, 1.2f, 0.35f, 0.12f, 0.35f, 0.5f, 1.0f)         \
+    Y("silk", "filament with hardly any twist", 0.12f, 22, 0.9f, 0, 0.12f, 1.0f, 0.55f, 1.6f, 0.1f, 0.05f, 0.06f,      \
+      0.15f, 0.0f)                                                                                                     \
+    Y("dupion", "raw silk of uneven thickness", 0.14f, 24, 0.95f, -4, 0.12f, 0.95f, 0.2f, 1.4f, 0.2f, 0.1f, 1.3f,      \
+      0.6f, 0.1f)                                                                                                      \
+    Y("polyester", "smooth filament", 0.16f, 20, 0.9f, 0, 0.1f, 0.98f, 0.35f, 1.5f, 0.06f, 0.02f, 0.03f, 0.08f, 0.0f)
 
 static const struct {
     const char *name, *help;
     WeftYarn yarn;
 } yarns[] = {
-#define ROW(name, help, alpha, crimp, roundness, twist, white, width, bulge, floats, streaks, dye, slub,     \
-            wander, hairiness)                                                                               \
-    {name,                                                                                                   \
-     help,                                                                                                   \
-     {alpha, (crimp)*DEGREES, roundness, (twist)*DEGREES, white, width, bulge, floats, streaks, dye, slub,   \
-      wander, hairiness}},
+#define ROW(name, help, alpha, crimp, roundness, twist, white, width, bulge, floats, streaks, dye, slub, wander,       \
+            hairiness)                                                                                                 \
+    {name,                                                                                                             \
+     help,                                                                                                             \
+     {alpha, (crimp)*DEGREES, roundness, (twist)*DEGREES, white, width, bulge, floats, streaks, dye, slub, wander,     \
+      hairiness}},
     YARNS(ROW)
 #undef ROW
 };
@@ -54,20 +52,17 @@ WeftResult weft_yarn_find(const char *name, WeftYarn *out, WeftError *error) {
 }
 
 static const WeftYarnNumber numbers[] = {
-#define NUMBER(name, low, high, angle, help)                                                                 \
+#define NUMBER(name, low, high, angle, help)                                                                           \
     { #name, help, offsetof(WeftYarn, name), low, high, angle }
-    NUMBER(alpha, 0.05f, 1.0f, 0,
-           "Width of the highlight across the fibres: silk 0.1, cotton 0.4, wool 0.5."),
+    NUMBER(alpha, 0.05f, 1.0f, 0, "Width of the highlight across the fibres: silk 0.1, cotton 0.4, wool 0.5."),
     NUMBER(crimp, 0.0f, 1.2f, 1, "Steepest angle of the thread along itself, where it dives below another."),
     NUMBER(roundness, 0.0f, 1.5f, 0, "Slope at the edges of a thread: a flat ribbon has 0."),
-    NUMBER(twist, -1.5f, 1.5f, 1,
-           "Of the fibres about the thread: 0 filament, below 0 as in a Z, above as in an S."),
+    NUMBER(twist, -1.5f, 1.5f, 1, "Of the fibres about the thread: 0 filament, below 0 as in a Z, above as in an S."),
     NUMBER(white, 0.0f, 1.0f, 0, "Share of light that a fibre reflects without its dye."),
     NUMBER(width, 0.05f, 2.0f, 0, "Of a thread, in parts of the draft's: below 1 there are gaps."),
     NUMBER(bulge, 0.0f, 1.0f, 0, "How much wider the middle of a long float is."),
     NUMBER(floats, 0.0f, 8.0f, 0, "How level a long float lies."),
-    NUMBER(streaks, 0.0f, 2.0f, 0,
-           "Slope at the edges of a fibre, which also turns and takes more or less dye."),
+    NUMBER(streaks, 0.0f, 2.0f, 0, "Slope at the edges of a fibre, which also turns and takes more or less dye."),
     NUMBER(dye, 0.0f, 1.0f, 0, "How far colour varies from thread to thread, and along each."),
     NUMBER(slub, 0.0f, 2.0f, 0, "How far thickness varies along a thread."),
     NUMBER(wander, 0.0f, 2.0f, 0, "How far a thread strays from its place."),

@@ -88,10 +88,8 @@ static void version_string_and_numbers_agree(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(error_text_is_one_line),
-        cmocka_unit_test(hostile_names_leave_an_error_on_one_line),
-        cmocka_unit_test(warnings_reach_the_log),
-        cmocka_unit_test(every_message_has_a_text),
+        cmocka_unit_test(error_text_is_one_line),           cmocka_unit_test(hostile_names_leave_an_error_on_one_line),
+        cmocka_unit_test(warnings_reach_the_log),           cmocka_unit_test(every_message_has_a_text),
         cmocka_unit_test(version_string_and_numbers_agree),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

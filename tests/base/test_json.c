@@ -14,8 +14,7 @@ static long allowed; /* so many allocations are granted, then one is refused */
 
 static void *allocate(size_t size) { return allowed-- == 0 ? NULL : malloc(size); }
 
-static const char text[] =
-    "{\"a name of more than sixteen bytes\": [1, 2.5, \"text of more than sixteen bytes\"]}";
+static const char text[] = "{\"a name of more than sixteen bytes\": [1, 2.5, \"text of more than sixteen bytes\"]}";
 
 static json_t *parse(bool *starved) {
     json_error_t where;

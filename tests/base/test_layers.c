@@ -107,8 +107,7 @@ static bool is_within(int at, const char *folder) {
 /* Returns true if a file of that folder may include "path". */
 static bool may_include(int at, const char *path) {
     if (strncmp(path, "weft/", 5) == 0) return true;
-    if (strcmp(path, "base/steady_clock.h") == 0 || strcmp(path, "base/pi.h") == 0 ||
-        strcmp(path, "base/path.h") == 0)
+    if (strcmp(path, "base/steady_clock.h") == 0 || strcmp(path, "base/pi.h") == 0 || strcmp(path, "base/path.h") == 0)
         return true;
     if (strncmp(path, "half/", 5) == 0) return is_within(at, "measure");  /* generated */
     if (!strchr(path, '/')) return true;                                  /* beside the file */
@@ -179,8 +178,8 @@ static char *read_source(const char *path) {
 
 static bool is_source(const char *name) {
     const char *dot = strrchr(name, '.');
-    return dot && (strcmp(dot, ".c") == 0 || strcmp(dot, ".h") == 0 || strcmp(dot, ".cpp") == 0 ||
-                   strcmp(dot, ".inc") == 0);
+    return dot &&
+           (strcmp(dot, ".c") == 0 || strcmp(dot, ".h") == 0 || strcmp(dot, ".cpp") == 0 || strcmp(dot, ".inc") == 0);
 }
 
 /* Checks the sources that are directly in src/`folder`; returns how many there are. */
@@ -233,8 +232,7 @@ static void find_unlisted(const char *relative) {
         if (entry->d_name[0] == '.') continue;
         char inner[512];
         snprintf(inner, sizeof inner, "%.200s%s%.255s", relative, *relative ? "/" : "", entry->d_name);
-        if (is_source(entry->d_name) && folder_index(inner) < 0)
-            fail_msg("src/%s is in no listed folder", inner);
+        if (is_source(entry->d_name) && folder_index(inner) < 0) fail_msg("src/%s is in no listed folder", inner);
         if (!strchr(entry->d_name, '.')) find_unlisted(inner);
     }
     closedir(open);
@@ -252,8 +250,7 @@ static void an_upward_include_is_found(void **state) {
     int verbs = folder_index("cli/verbs/x.c"), state_folder = folder_index("view/state/x.c"),
         base = folder_index("base/x.c");
     assert_false(wrong_include(image, "#include \"base/fail.h\"\n#include <math.h>\n", bad));
-    assert_true(
-        wrong_include(image, "int x;\n#include \"base/fail.h\"\n#  include \"scene/record/scene.h\"\n", bad));
+    assert_true(wrong_include(image, "int x;\n#include \"base/fail.h\"\n#  include \"scene/record/scene.h\"\n", bad));
     assert_string_equal(bad, "scene/record/scene.h");
     assert_true(wrong_include(base, " #include \"image/codec.h\"", bad));
     assert_false(wrong_include(catalogue, "#include \"base/random.h\"\n", bad));

@@ -18,8 +18,7 @@ static void number_text_gives_its_float(void **state) {
     static const struct {
         const char *text;
         float value;
-    } good[] = {{"0", 0.0f},     {"-1.5", -1.5f}, {"+2", 2.0f},
-                {"1e-3", 1e-3f}, {".5", 0.5f},    {"3.4e38", 3.4e38f}};
+    } good[] = {{"0", 0.0f}, {"-1.5", -1.5f}, {"+2", 2.0f}, {"1e-3", 1e-3f}, {".5", 0.5f}, {"3.4e38", 3.4e38f}};
     for (size_t k = 0; k < sizeof good / sizeof good[0]; k++) {
         float value = -9.0f;
         assert_true(parse_number(good[k].text, &value));
@@ -38,8 +37,7 @@ static void number_reads_alike_in_any_locale(void **state) {
     (void)state;
     static const char *const commas[] = {"de_DE.UTF-8", "de_DE.utf8", "de_DE", "fr_FR.UTF-8", "fr_FR.utf8"};
     const char *set = NULL;
-    for (size_t k = 0; !set && k < sizeof commas / sizeof commas[0]; k++)
-        set = setlocale(LC_NUMERIC, commas[k]);
+    for (size_t k = 0; !set && k < sizeof commas / sizeof commas[0]; k++) set = setlocale(LC_NUMERIC, commas[k]);
     if (!set) {
         print_message("no locale with a decimal comma is installed\n");
         skip();
@@ -61,8 +59,7 @@ static void text_that_is_no_number_is_refused(void **state) {
     float value, color[3];
     for (size_t k = 0; k < sizeof bad / sizeof bad[0]; k++)
         if (parse_number(bad[k], &value)) fail_msg("\"%s\" passed for a number", bad[k]);
-    static const char *const colors[] = {"",     "1,2",   "1,2,3,4", "1,,3",  "1,2,",
-                                         ",2,3", "1;2;3", "1,2,nan", "1,2,3 "};
+    static const char *const colors[] = {"", "1,2", "1,2,3,4", "1,,3", "1,2,", ",2,3", "1;2;3", "1,2,nan", "1,2,3 "};
     for (size_t k = 0; k < sizeof colors / sizeof colors[0]; k++)
         if (parse_color(colors[k], color)) fail_msg("\"%s\" passed for a colour", colors[k]);
 }

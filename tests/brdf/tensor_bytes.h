@@ -29,8 +29,7 @@ static void bytes_begin(TensorBytes *bytes, uint32_t count) {
 }
 
 /* An array of rank extents; its values must live until bytes_end. */
-static void bytes_array(TensorBytes *bytes, const char *name, const float *values, int rank,
-                        const size_t *extent) {
+static void bytes_array(TensorBytes *bytes, const char *name, const float *values, int rank, const size_t *extent) {
     size_t k = bytes->arrays++;
     bytes_put(bytes, strlen(name), 2);
     memcpy(bytes->data + bytes->size, name, strlen(name));

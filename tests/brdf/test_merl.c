@@ -214,8 +214,8 @@ static void merl_fabrics_are_read(void **state) {
     int fd = mkstemp(path);
     assert_true(fd >= 0);
     close(fd);
-    snprintf(command, sizeof command, "xz -dc '%s/brdf/fabric/red-fabric.resynth.binary.xz' >%s 2>/dev/null",
-             folder, path);
+    snprintf(command, sizeof command, "xz -dc '%s/brdf/fabric/red-fabric.resynth.binary.xz' >%s 2>/dev/null", folder,
+             path);
     if (system(command) != 0) { /* NOLINT(cert-env33-c): of the test's own words */
         unlink(path);
         print_message("skipped: no measured fabrics at hand, or no xz\n");

@@ -62,10 +62,9 @@ static Tables random_tables(size_t phis, double span) {
 }
 
 static void file_make(const Tables *t, size_t channels) {
-    const size_t one[] = {1}, phis[] = {t->phis}, thetas[] = {THETAS}, ndf[] = {HIGH, WIDE},
-                 sigma[] = {2, WIDE}, normals[] = {t->phis, THETAS, HIGH, WIDE},
-                 light[] = {t->phis, THETAS, SIDE, SIDE}, color[] = {t->phis, THETAS, channels, SIDE, SIDE},
-                 waves[] = {WAVES};
+    const size_t one[] = {1}, phis[] = {t->phis}, thetas[] = {THETAS}, ndf[] = {HIGH, WIDE}, sigma[] = {2, WIDE},
+                 normals[] = {t->phis, THETAS, HIGH, WIDE}, light[] = {t->phis, THETAS, SIDE, SIDE},
+                 color[] = {t->phis, THETAS, channels, SIDE, SIDE}, waves[] = {WAVES};
     bytes_begin(&file, channels == 3 ? 9 : 10);
     bytes_array(&file, "description", NULL, 1, one);
     bytes_array(&file, "jacobian", NULL, 1, one);
@@ -89,12 +88,11 @@ static Rgl file_read_back(void) {
 
 /* A table at a place, straight from its definition. */
 static double bilinear(const float *table, int width, int height, double x, double y) {
-    int column = (int)fmin(floor(x * (width - 1)), width - 2),
-        row = (int)fmin(floor(y * (height - 1)), height - 2);
+    int column = (int)fmin(floor(x * (width - 1)), width - 2), row = (int)fmin(floor(y * (height - 1)), height - 2);
     double s = x * (width - 1) - column, t = y * (height - 1) - row, sum = 0.0;
     for (int k = 0; k < 4; k++)
-        sum += (k & 1 ? s : 1.0 - s) * (k >> 1 ? t : 1.0 - t) *
-               (double)table[(row + (k >> 1)) * width + column + (k & 1)];
+        sum +=
+            (k & 1 ? s : 1.0 - s) * (k >> 1 ? t : 1.0 - t) * (double)table[(row + (k >> 1)) * width + column + (k & 1)];
     return sum;
 }
 
@@ -104,8 +102,7 @@ static double integral(Along *f, const void *user, int n, double x) {
     double sum = 0.0;
     for (int k = 0; k < n; k++) {
         double from = (double)k / n, to = fmin((k + 1.0) / n, x);
-        if (to > from)
-            sum += (to - from) / 6.0 * (f(user, from) + 4.0 * f(user, 0.5 * (from + to)) + f(user, to));
+        if (to > from) sum += (to - from) / 6.0 * (f(user, from) + 4.0 * f(user, 0.5 * (from + to)) + f(user, to));
     }
     return sum;
 }
@@ -122,8 +119,8 @@ static double mixed_row(const void *user, double x) {
     const Mixed *m = user;
     double sum = 0.0;
     for (int k = 0; k < m->count; k++)
-        sum += m->weight[k] * bilinear(m->table + m->slice[k] * (size_t)(m->width * m->height), m->width,
-                                       m->height, x, m->y);
+        sum += m->weight[k] *
+               bilinear(m->table + m->slice[k] * (size_t)(m->width * m->height), m->width, m->height, x, m->y);
     return sum;
 }
 static double mixed_rows(const void *user, double y) {
@@ -165,8 +162,8 @@ typedef struct Expected {
 typedef struct Places {
     double phi, theta, ux, uy, sin_m, length, density;
 } Places;
-static void expected_place(const Tables *t, const double o[3], const double i[3], int parts, SquarePoint *s,
-                           Mixed *l, Places *places) {
+static void expected_place(const Tables *t, const double o[3], const double i[3], int parts, SquarePoint *s, Mixed *l,
+                           Places *places) {
     double w[2][3];
     for (int k = 0; k < 3; k++) w[0][k] = o[k], w[1][k] = i[k];
     double sy = parts > 1 && o[1] > 0.0 ? -1.0 : 1.0, sx = parts == 4 ? (o[0] > 0.0 ? -1.0 : 1.0) : sy;
@@ -198,14 +195,13 @@ static Expected expected(const Tables *t, const double o[3], const double i[3], 
     double sigma =
         bilinear(t->sigma, WIDE, 2, sqrt(2.0 * p.theta / PI_DOUBLE), (p.phi + PI_DOUBLE) / (2.0 * PI_DOUBLE));
     double scale = bilinear(t->ndf, WIDE, HIGH, p.ux, p.uy) / (4.0 * sigma * i[2]);
-    e.pdf = p.density * mixed_row(&l, s.x) /
-            (2.0 * PI_DOUBLE * PI_DOUBLE * p.ux * p.sin_m * 4.0 * 0.5 * p.length);
+    e.pdf = p.density * mixed_row(&l, s.x) / (2.0 * PI_DOUBLE * PI_DOUBLE * p.ux * p.sin_m * 4.0 * 0.5 * p.length);
     for (int c = 0; c < 3; c++) {
         double color = 0.0;
         Mixed r = mixed_at(t, t->color, SIDE, SIDE, p.phi, p.theta);
         for (int k = 0; k < r.count; k++)
-            color += r.weight[k] *
-                     bilinear(t->color + (r.slice[k] * 3 + (size_t)c) * SIDE * SIDE, SIDE, SIDE, s.x, s.y);
+            color +=
+                r.weight[k] * bilinear(t->color + (r.slice[k] * 3 + (size_t)c) * SIDE * SIDE, SIDE, SIDE, s.x, s.y);
         e.f[c] = color * scale;
     }
     return e;
@@ -232,10 +228,8 @@ static void tables_are_as_by_hand(const Tables *t, int parts) {
         float pdf = rgl_pdf(&rgl, dir_from(o), dir_from(i));
         Expected e = expected(t, o, i, parts);
         for (int c = 0; c < 3; c++)
-            if (!(fabs((double)f[c] - e.f[c]) <= 2e-5 * e.f[c]))
-                fail_msg("f %.9g, not %.9g", (double)f[c], e.f[c]);
-        if (!(fabs((double)pdf - e.pdf) <= 2e-4 * e.pdf + 1e-6))
-            fail_msg("pdf %.9g, not %.9g", (double)pdf, e.pdf);
+            if (!(fabs((double)f[c] - e.f[c]) <= 2e-5 * e.f[c])) fail_msg("f %.9g, not %.9g", (double)f[c], e.f[c]);
+        if (!(fabs((double)pdf - e.pdf) <= 2e-4 * e.pdf + 1e-6)) fail_msg("pdf %.9g, not %.9g", (double)pdf, e.pdf);
     }
     rgl_free(&rgl);
 }
@@ -351,8 +345,8 @@ static void check_sampling(const Rgl *rgl, const char *name) {
         const BsdfView view = {.bsdf = &sampled.bsdf, .o = dir(0.8f * r, -0.6f * r, cosines[k])};
         ChiSquare found;
         assert_true(chi_square_measure(&view, 40000, 20, 3, &found));
-        print_message("%s, cos_o %.2f: pdf integrates to %.4f, p = %.3f\n", name, (double)cosines[k],
-                      found.integral, found.p);
+        print_message("%s, cos_o %.2f: pdf integrates to %.4f, p = %.3f\n", name, (double)cosines[k], found.integral,
+                      found.p);
         assert_true(found.integral <= 1.002);
         assert_int_equal(found.stray, 0);
         assert_true(found.p > 0.01 / 32);
@@ -419,8 +413,7 @@ static void compare(const Rgl *rgl, const WeftLobe *lobe, bool anywhere, double 
         double i[3];
         do direction_drawn(i);
         while (i[2] < 0.1737);
-        const float wo[3] = {(float)o[0], (float)o[1], (float)o[2]},
-                    wi[3] = {(float)i[0], (float)i[1], (float)i[2]};
+        const float wo[3] = {(float)o[0], (float)o[1], (float)o[2]}, wi[3] = {(float)i[0], (float)i[1], (float)i[2]};
         float f[3], g[3];
         weft_lobe_eval(lobe, wo, wi, f);
         rgl_at(rgl, dir_from(o), dir_from(i), g);
@@ -459,8 +452,8 @@ static void lobes_come_back(void **state) {
         compare(&rgl, &lobe, true, &mean[1], &most[1]);
         print_message("%s %.2f, %dx%d, %d azimuths of 1/%d: wo of a slice: mean %.5f, most %.3f of the mean; "
                       "anywhere %.5f, %.3f\n",
-                      rows[k].id, (double)rows[k].alpha, rgl.thetas, rgl.side, rgl.phis, rgl.parts, mean[0],
-                      most[0], mean[1], most[1]);
+                      rows[k].id, (double)rows[k].alpha, rgl.thetas, rgl.side, rgl.phis, rgl.parts, mean[0], most[0],
+                      mean[1], most[1]);
         assert_true(mean[0] <= rows[k].slice && mean[1] <= rows[k].anywhere);
         check_sampling(&rgl, rows[k].id);
         rgl_free(&rgl);

@@ -46,8 +46,8 @@ static void fill(void) {
 }
 
 static Dir direction(double theta, double phi) {
-    return dir((float)(sin(theta * RADIANS) * cos(phi * RADIANS)),
-               (float)(sin(theta * RADIANS) * sin(phi * RADIANS)), (float)cos(theta * RADIANS));
+    return dir((float)(sin(theta * RADIANS) * cos(phi * RADIANS)), (float)(sin(theta * RADIANS) * sin(phi * RADIANS)),
+               (float)cos(theta * RADIANS));
 }
 
 static void numbers_are_found_between_angles(void **state) {
@@ -67,8 +67,7 @@ static void numbers_are_found_between_angles(void **state) {
         utia_at(&utia, direction(a[2], a[3]), direction(a[0], a[1]), f);
         for (int c = 0; c < 3; c++) {
             double expected = known(c, fmin(a[0], 75.0), a[1], fmin(a[2], 75.0), a[3]);
-            if (!(fabs((double)f[c] - expected) <= 1e-4 * expected))
-                fail_msg("%.7g, not %.7g", (double)f[c], expected);
+            if (!(fabs((double)f[c] - expected) <= 1e-4 * expected)) fail_msg("%.7g, not %.7g", (double)f[c], expected);
         }
     }
     float f[3];
@@ -133,8 +132,7 @@ static void a_lobe_is_found_again(void **state) {
     float e[3], expected[3];
     weft_reflection_albedo(reflection, WEFT_PART_ALL, 0.8f, e);
     weft_lobe_albedo(&lobe, 0.8f, expected);
-    for (int c = 0; c < 3; c++)
-        assert_float_equal(e[c], expected[0] * (1.0f - 0.3f * (float)c), 0.02f * expected[0]);
+    for (int c = 0; c < 3; c++) assert_float_equal(e[c], expected[0] * (1.0f - 0.3f * (float)c), 0.02f * expected[0]);
     weft_reflection_free(reflection);
     weft_data_free(data);
 }

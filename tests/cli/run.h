@@ -141,18 +141,16 @@ static inline bool one_complaint(const char *text) {
 }
 
 /* The program must end with code and one line that holds `part`, and print nothing else. */
-static inline void assert_complaint(const char *input, const char *const *arguments, int code,
-                                    const char *part) {
+static inline void assert_complaint(const char *input, const char *const *arguments, int code, const char *part) {
     Ran ran = run_with(input, arguments);
     if (ran.code != code || !one_complaint(ran.err) || !strstr(ran.err, part) || ran.out[0])
-        fail_msg("expected %d and \"%s\", got %d, \"%s\", and on standard output \"%.200s\"", code, part,
-                 ran.code, ran.err, ran.out);
+        fail_msg("expected %d and \"%s\", got %d, \"%s\", and on standard output \"%.200s\"", code, part, ran.code,
+                 ran.err, ran.out);
     ran_free(&ran);
 }
 
 static inline void sleep_seconds(double seconds) {
-    struct timespec pause = {.tv_sec = (time_t)seconds,
-                             .tv_nsec = (long)(1e9 * (seconds - (double)(time_t)seconds))};
+    struct timespec pause = {.tv_sec = (time_t)seconds, .tv_nsec = (long)(1e9 * (seconds - (double)(time_t)seconds))};
     nanosleep(&pause, NULL);
 }
 

@@ -82,11 +82,10 @@ static void numbers_behind(const char *text, const char *mark, int count, double
 static void every_file_format_holds_the_same_table(void **state) {
     (void)state;
     enum { W = 5, H = 3, N = W * H * 2 };
-    const char command[] =
-        "weft bake albedo ggx --size 5x3 -p anisotropy=0.5 -o t.h -o t.npy -o t.exr -o t.png -o "
-        "t.csv -o t.txt --quiet";
-    Ran ran = done(LIST("bake", "albedo", "ggx", "--size", "5x3", "-p", "anisotropy=0.5", "-o", "t.h", "-o",
-                        "t.npy", "-o", "t.exr", "-o", "t.png", "-o", "t.csv", "-o", "t.txt", "--quiet"));
+    const char command[] = "weft bake albedo ggx --size 5x3 -p anisotropy=0.5 -o t.h -o t.npy -o t.exr -o t.png -o "
+                           "t.csv -o t.txt --quiet";
+    Ran ran = done(LIST("bake", "albedo", "ggx", "--size", "5x3", "-p", "anisotropy=0.5", "-o", "t.h", "-o", "t.npy",
+                        "-o", "t.exr", "-o", "t.png", "-o", "t.csv", "-o", "t.txt", "--quiet"));
     assert_string_equal(ran.out, "");
     assert_string_equal(ran.err, "");
     ran_free(&ran);
@@ -119,15 +118,13 @@ static void every_file_format_holds_the_same_table(void **state) {
     size_t size;
     char *bytes = file_bytes("t.png", &size);
     bool found = false;
-    for (size_t n = 0; n + sizeof command < size; n++)
-        found |= memcmp(bytes + n, command, sizeof command - 1) == 0;
+    for (size_t n = 0; n + sizeof command < size; n++) found |= memcmp(bytes + n, command, sizeof command - 1) == 0;
     assert_true(found);
     for (size_t n = 0; n + 4 < size; n++) assert_true(memcmp(bytes + n, "sRGB", 4) != 0);
     free(bytes);
     bytes = file_bytes("t.exr", &size);
     found = false;
-    for (size_t n = 0; n + sizeof command < size; n++)
-        found |= memcmp(bytes + n, command, sizeof command - 1) == 0;
+    for (size_t n = 0; n + sizeof command < size; n++) found |= memcmp(bytes + n, command, sizeof command - 1) == 0;
     assert_true(found);
     free(bytes);
     weft_image_free(&npy);
@@ -162,8 +159,7 @@ static void c_array_of_the_table_compiles(void **state) {
 /* A .png has a scale where values pass 1, said in one line; nothing is cut off. */
 static void png_of_values_above_one_is_scaled_not_clipped(void **state) {
     (void)state;
-    Ran ran =
-        done(LIST("bake", "albedo", "charlie-neubelt", "--size", "16x16", "-o", "s.png", "-o", "s.npy"));
+    Ran ran = done(LIST("bake", "albedo", "charlie-neubelt", "--size", "16x16", "-o", "s.png", "-o", "s.npy"));
     assert_non_null(strstr(ran.err, "weft: s.png: holds the table / 4, whose values go up to 2."));
     ran_free(&ran);
     WeftImage png = image_of("s.png"), npy = image_of("s.npy");
@@ -172,10 +168,9 @@ static void png_of_values_above_one_is_scaled_not_clipped(void **state) {
                     2.001 / 65535.0);
     weft_image_free(&png);
     weft_image_free(&npy);
-    assert_complaint(NULL,
-                     LIST("bake", "albedo", "charlie-neubelt", "--size", "16x16", "-o", "no.png", "--scale",
-                          "1", "--quiet"),
-                     2, "another --scale");
+    assert_complaint(
+        NULL, LIST("bake", "albedo", "charlie-neubelt", "--size", "16x16", "-o", "no.png", "--scale", "1", "--quiet"),
+        2, "another --scale");
     assert_false(is_there("no.png"));
 }
 
@@ -194,12 +189,11 @@ static void exr_is_rounded_to_half_only_with_half(void **state) {
 
 static void json_describes_the_table(void **state) {
     (void)state;
-    Ran ran = done(LIST("bake", "dfg", "charlie-neubelt", "--axes", "filament", "--size", "6x4", "-o",
-                        "d.npy", "--json", "--tolerance", "1e-3"));
+    Ran ran = done(LIST("bake", "dfg", "charlie-neubelt", "--axes", "filament", "--size", "6x4", "-o", "d.npy",
+                        "--json", "--tolerance", "1e-3"));
     json_t *json = json_of(ran.out);
     assert_string_equal(json_string_value(json_object_get(json, "kind")), "dfg");
-    assert_string_equal(json_string_value(json_object_get(json, "axes")),
-                        "cos,roughness,centres,flip-y,total");
+    assert_string_equal(json_string_value(json_object_get(json, "axes")), "cos,roughness,centres,flip-y,total");
     assert_near(number_at(json, "width"), 6.0, 0.0);
     assert_near(number_at(json, "height"), 4.0, 0.0);
     assert_true(number_at(json, "error") < 1e-3);
@@ -212,19 +206,18 @@ static void json_describes_the_table(void **state) {
 
 static void audit_prints_fault_and_error_of_a_table(void **state) {
     (void)state;
-    finish(done(LIST("bake", "dfg", "ashikhmin-neubelt", "--axes", "three", "--size", "12x10", "-o",
-                     "three.exr", "--quiet")));
+    finish(done(
+        LIST("bake", "dfg", "ashikhmin-neubelt", "--axes", "three", "--size", "12x10", "-o", "three.exr", "--quiet")));
     Ran ran = done(LIST("bake", "audit", "three.exr", "--channel", "b", "--lobe", "ashikhmin-neubelt"));
     assert_non_null(strstr(ran.out, "roughness,cos,centres (three; they fit best)"));
     assert_non_null(strstr(ran.out, "\n  none "));
     assert_string_equal(ran.err, "");
-    for (const char *line = ran.out; *line; line += strcspn(line, "\n") + 1)
-        assert_true(strcspn(line, "\n") <= 80);
+    for (const char *line = ran.out; *line; line += strcspn(line, "\n") + 1) assert_true(strcspn(line, "\n") <= 80);
     ran_free(&ran);
 
     /* as if it were Filament's: wrong, with exit 1, and the errors as numbers and as a sheet */
-    ran = RUN("bake", "audit", "three.exr", "--channel", "2", "--lobe", "ashikhmin-neubelt", "--axes",
-              "filament", "-o", "e.npy", "-o", "e.exr", "-o", "e.png", "--json", "--max", "0.02");
+    ran = RUN("bake", "audit", "three.exr", "--channel", "2", "--lobe", "ashikhmin-neubelt", "--axes", "filament", "-o",
+              "e.npy", "-o", "e.exr", "-o", "e.png", "--json", "--max", "0.02");
     assert_int_equal(ran.code, 1);
     assert_true(one_complaint(ran.err));
     assert_non_null(strstr(ran.err, "more than 0.02"));
@@ -250,8 +243,8 @@ static void audit_prints_fault_and_error_of_a_table(void **state) {
     assert_near(number_at(place, "error"), largest, 1e-6);
     assert_near(number_at(place, "x"), x, 0.0);
     assert_near(number_at(place, "y"), y, 0.0);
-    assert_near(number_at(place, "table") - number_at(place, "albedo"),
-                (double)((float *)npy.pixels)[y * 12 + x], 1e-6);
+    assert_near(number_at(place, "table") - number_at(place, "albedo"), (double)((float *)npy.pixels)[y * 12 + x],
+                1e-6);
     assert_near(number_at(json, "rms"), sqrt(squares / texels), 1e-6);
     assert_near(number_at(json, "mean"), sum / texels, 1e-6);
     assert_near(number_at(json, "beyond"), beyond / texels, 1e-9);
@@ -278,8 +271,7 @@ static void picture_of_8_bits_is_audited_as_a_table(void **state) {
     assert_int_equal(weft_bake(&desc, NULL, &table, NULL), WEFT_OK);
     assert_int_equal(weft_image_create(SIDE, SIDE, 3, WEFT_PIXEL_U8, &grey, NULL), WEFT_OK);
     for (int n = 0; n < SIDE * SIDE * 3; n++)
-        ((uint8_t *)grey.pixels)[n] =
-            (uint8_t)(255.0 * fmin((double)((float *)table.pixels)[n / 3], 1.0) + 0.5);
+        ((uint8_t *)grey.pixels)[n] = (uint8_t)(255.0 * fmin((double)((float *)table.pixels)[n / 3], 1.0) + 0.5);
     assert_int_equal(weft_image_write("grey.png", &grey, NULL), WEFT_OK);
     Ran ran = done(LIST("bake", "audit", "grey.png", "--lobe", "ashikhmin-conty-kulla"));
     assert_non_null(strstr(ran.out, "its bits can hold"));
@@ -304,9 +296,8 @@ static void picture_of_8_bits_is_audited_as_a_table(void **state) {
 static void interrupted_bake_writes_nothing(void **state) {
     (void)state;
     file_make("old.npy", "old", 3);
-    pid_t child =
-        program_start(WEFT_PROGRAM, NULL,
-                      LIST("bake", "albedo", "ggx", "--size", "4096x4096", "-o", "old.npy", "-o", "new.h"));
+    pid_t child = program_start(WEFT_PROGRAM, NULL,
+                                LIST("bake", "albedo", "ggx", "--size", "4096x4096", "-o", "old.npy", "-o", "new.h"));
     await_handler(child);
     sleep_seconds(0.2);
     kill(child, SIGINT);
@@ -332,8 +323,7 @@ static void bsdf_of_a_material_is_near_it(void **state) {
     if (weft_reflection_read("wool.bsdf", &file, &error) != WEFT_OK) fail_msg("%s", error.text);
     assert_int_equal(weft_material_read("preset:wool", &material, NULL, &error), WEFT_OK);
     assert_int_equal(weft_reflection_create(&material, &of, &error), WEFT_OK);
-    assert_int_equal(weft_brdf_distance(file, of, WEFT_PART_ALL, WEFT_BRDF_METRIC_COSINE, &distance, &error),
-                     WEFT_OK);
+    assert_int_equal(weft_brdf_distance(file, of, WEFT_PART_ALL, WEFT_BRDF_METRIC_COSINE, &distance, &error), WEFT_OK);
     print_message("a .bsdf of 16 x 32 is %.4f from its material\n", distance);
     assert_true(distance < 0.02);
     weft_reflection_free(of);
@@ -352,10 +342,9 @@ static void measured_lobe_is_near_and_renders_in_both_engines(void **state) {
         fprintf(angles, "%g %d %g %d\n", 79.0 * (k * 0.618034 - (int)(k * 0.618034)), 37 * k % 360,
                 79.0 * (k * 0.754878 - (int)(k * 0.754878)), 101 * k % 360);
     fclose(angles);
-    Ran ran = run_shell(
-        "\"$0\" eval fabric -p alpha=0.4 -p color=0.3,0.1,0.05 -p f90=0.6,0.5,0.4 pairs.txt >f.txt && "
-        "paste -d' ' pairs.txt f.txt | cut -d' ' -f1-7 >cloth.csv && "
-        "\"$0\" bake lobe cloth.csv -o my_cloth.h -o my_cloth.json");
+    Ran ran = run_shell("\"$0\" eval fabric -p alpha=0.4 -p color=0.3,0.1,0.05 -p f90=0.6,0.5,0.4 pairs.txt >f.txt && "
+                        "paste -d' ' pairs.txt f.txt | cut -d' ' -f1-7 >cloth.csv && "
+                        "\"$0\" bake lobe cloth.csv -o my_cloth.h -o my_cloth.json");
     if (ran.code != 0) fail_msg("%s", ran.err);
     const char *error = strstr(ran.err, "error ");
     assert_non_null(error);
@@ -369,8 +358,8 @@ static void measured_lobe_is_near_and_renders_in_both_engines(void **state) {
     ran = RUN("check", "my-cloth", "--lobe", "my_cloth.h", "--quick");
     if (ran.code != 0) fail_msg("%s%s", ran.out, ran.err);
     ran_free(&ran);
-    ran = RUN("render", "builtin:cloth", "--lobe", "my_cloth.h", "--material", "my_cloth.json", "--engine",
-              "both", "--width", "48", "--height", "36", "--spp", "4", "-o", "worn.png");
+    ran = RUN("render", "builtin:cloth", "--lobe", "my_cloth.h", "--material", "my_cloth.json", "--engine", "both",
+              "--width", "48", "--height", "36", "--spp", "4", "-o", "worn.png");
     if (ran.code != 0) fail_msg("%s", ran.err);
     ran_free(&ran);
 }
@@ -420,9 +409,7 @@ static void bake_options_without_sense_are_refused(void **state) {
         {{"bake", "albedo", "ggx", "-o", "x.h", "--size", "x64"}, 2, "is not WIDTHxHEIGHT"},
         {{"bake", "albedo", "ggx", "-o", "x.h", "--size", "64x +8"}, 2, "is not WIDTHxHEIGHT"},
         {{"bake", "albedo", "ggx", "-o", "x.h", "--size", "99999999999x9"}, 2, "is not WIDTHxHEIGHT"},
-        {{"bake", "albedo", "ggx", "-o", "x.h", "--size", "65536x65536"},
-         2,
-         "a table has 1 to 16777216 texels"},
+        {{"bake", "albedo", "ggx", "-o", "x.h", "--size", "65536x65536"}, 2, "a table has 1 to 16777216 texels"},
         {{"bake", "albedo", "ggx", "-o", "x.h", "--axes", "cos,cos"}, 2, "cos,cos: is not a form"},
         {{"bake", "albedo", "ggx", "-o", "x.h", "--tolerance", "0"}, 2, "--tolerance"},
         {{"bake", "albedo", "ggx", "-o", "x.h", "-p", "alpha=1"}, 2, "alpha"},
@@ -454,8 +441,8 @@ static void bake_options_without_sense_are_refused(void **state) {
 static void solved_slabs_are_baked(void **state) {
     (void)state;
     finish(done(LIST("bake", "fibre-truth", "--size", "5x3", "--quiet", "-o", "truth.npy")));
-    finish(done(LIST("bake", "fibre-truth", "fibre-walk", "-p", "density=1", "--size", "3x5", "--quiet",
-                     "--axes", "roughness,cos", "-o", "turned.npy")));
+    finish(done(LIST("bake", "fibre-truth", "fibre-walk", "-p", "density=1", "--size", "3x5", "--quiet", "--axes",
+                     "roughness,cos", "-o", "turned.npy")));
     WeftImage truth = image_of("truth.npy"), turned = image_of("turned.npy");
     assert_shape(&truth, 5, 3, 2, WEFT_PIXEL_F32);
     assert_shape(&turned, 3, 5, 2, WEFT_PIXEL_F32);

@@ -30,8 +30,7 @@ static void passport_text_has_every_section(void **state) {
     assert_string_equal(ran.err, "");
     for (size_t k = 0; k < sizeof parts / sizeof *parts; k++)
         if (!strstr(ran.out, parts[k])) fail_msg("\"%s\" is missing in\n%s", parts[k], ran.out);
-    for (const char *line = ran.out; *line; line += strcspn(line, "\n") + 1)
-        assert_true(strcspn(line, "\n") <= 110);
+    for (const char *line = ran.out; *line; line += strcspn(line, "\n") + 1) assert_true(strcspn(line, "\n") <= 110);
     ran_free(&ran);
 }
 
@@ -155,8 +154,7 @@ static void exceeded_bound_is_printed_and_fails(void **state) {
     assert_non_null(strstr(ran.err, "charlie-neubelt: the directional albedo is 3."));
     assert_non_null(strstr(ran.out, "Directional albedo"));
     ran_free(&ran);
-    ran = RUN("check", "charlie-neubelt", "--quick", "--no-gpu", "--max-albedo", "10", "--max-reciprocity",
-              "1e-3");
+    ran = RUN("check", "charlie-neubelt", "--quick", "--no-gpu", "--max-albedo", "10", "--max-reciprocity", "1e-3");
     assert_int_equal(ran.code, 0);
     ran_free(&ran);
     /* E = 1 to the accuracy of the measurement is not more than 1 */
@@ -178,8 +176,7 @@ static void max_furnace_bounds_only_rules_that_conserve(void **state) {
     for (size_t k = 0; k < sizeof keep / sizeof *keep; k++) {
         Ran ran = RUN("check", keep[k], "--quick", "--no-gpu", "--max-furnace", "1.001");
         if (ran.code != 0) fail_msg("%s: %d, %s", keep[k], ran.code, ran.err);
-        const char *additive = strstr(ran.out, "\n  additive "),
-                   *star = additive ? strchr(additive, '*') : NULL;
+        const char *additive = strstr(ran.out, "\n  additive "), *star = additive ? strchr(additive, '*') : NULL;
         assert_true(star && star < strstr(additive + 1, "\n")); /* it does gain */
         const char *walk = strstr(ran.out, "\n  stochastic ");
         assert_non_null(walk);
@@ -189,15 +186,14 @@ static void max_furnace_bounds_only_rules_that_conserve(void **state) {
     Ran ran = RUN("check", "charlie-neubelt", "--quick", "--no-gpu", "--max-furnace", "1.001");
     assert_int_equal(ran.code, 1);
     assert_true(one_complaint(ran.err));
-    assert_non_null(
-        strstr(ran.err, "the furnace under a layer rule that conserves energy is 1.289, more than"));
+    assert_non_null(strstr(ran.err, "the furnace under a layer rule that conserves energy is 1.289, more than"));
     ran_free(&ran);
 }
 
 static void parameters_given_to_check_reach_the_lobe(void **state) {
     (void)state;
-    Ran cloth = RUN("check", "cook-torrance", "--quick", "--no-gpu", "--json", "-p", "d=charlie", "-p",
-                    "v=neubelt", "-p", "f=none");
+    Ran cloth = RUN("check", "cook-torrance", "--quick", "--no-gpu", "--json", "-p", "d=charlie", "-p", "v=neubelt",
+                    "-p", "f=none");
     Ran charlie = RUN("check", "charlie-neubelt", "--quick", "--no-gpu", "--json");
     assert_int_equal(cloth.code, 0);
     json_t *a = json_of(cloth.out), *b = json_of(charlie.out);
@@ -207,8 +203,7 @@ static void parameters_given_to_check_reach_the_lobe(void **state) {
     json_decref(b);
     ran_free(&cloth);
     ran_free(&charlie);
-    assert_complaint(NULL, LIST("check", "ggx", "-p", "alpha=0.5"), 2,
-                     "the rows of the report run over alpha");
+    assert_complaint(NULL, LIST("check", "ggx", "-p", "alpha=0.5"), 2, "the rows of the report run over alpha");
     assert_complaint(NULL, LIST("check", "ggx", "-p", "beta=0.5"), 2, "is not a parameter");
     assert_complaint(NULL, LIST("check", "ggx", "-p", "0.5"), 2, "is not name=value");
 }

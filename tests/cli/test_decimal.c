@@ -27,8 +27,7 @@ static void decimal_writes_what_printf_writes(void **state) {
     static const float special[] = {
         0.0f, -0.0f, NAN,          INFINITY, -INFINITY,      1.0f, 1e-45f, 3.4028235e38f, 1.17549435e-38f,
         1e9f, 1e8f,  999999999.0f, 0.0001f,  9.99999997e-5f, 0.5f, 0.1f,   123456.7f,     16777216.0f};
-    for (size_t k = 0; k < sizeof special / sizeof special[0]; k++)
-        check_write(special[k]), check_write(-special[k]);
+    for (size_t k = 0; k < sizeof special / sizeof special[0]; k++) check_write(special[k]), check_write(-special[k]);
     for (int k = 0; k < 500000; k++) { /* any bits, and numbers of few digits */
         uint32_t bits = random_bits();
         float value;
@@ -49,8 +48,7 @@ static void check_read(const char *text) {
     const char *end = decimal_read(text, &value);
     expected = strtod(text, &expected_end);
     if (end != expected_end || memcmp(&value, &expected, sizeof value) != 0)
-        fail_msg("\"%s\": %.17g and \"%s\", strtod %.17g and \"%s\"", text, value, end, expected,
-                 expected_end);
+        fail_msg("\"%s\": %.17g and \"%s\", strtod %.17g and \"%s\"", text, value, end, expected, expected_end);
 }
 
 static void decimal_reads_what_strtod_reads(void **state) {
@@ -97,8 +95,7 @@ static void decimal_reads_what_strtod_reads(void **state) {
         char text[400];
         double scale = ldexp(1.0, -(int)(random_bits() % 60));
         double value = ((double)random_bits() * 4294967296.0 + (double)random_bits()) * scale;
-        snprintf(text, sizeof text, k % 3 ? "%.*f" : "%.*g", 1 + (int)(random_bits() % 20),
-                 k % 2 ? -value : value);
+        snprintf(text, sizeof text, k % 3 ? "%.*f" : "%.*g", 1 + (int)(random_bits() % 20), k % 2 ? -value : value);
         check_read(text);
     }
 }

@@ -59,10 +59,8 @@ static void json_has_the_values_of_the_library(void **state) {
         for (int k = 0; k < 3; k++) {
             WeftImage images[2], map;
             WeftDiff found;
-            for (int i = 0; i < 2; i++)
-                assert_int_equal(weft_image_read(pairs[k][i], &images[i], NULL, NULL), WEFT_OK);
-            const WeftDiffDesc desc = {
-                .image = &images[0], .reference = &images[1], .metric = (WeftMetric)metric};
+            for (int i = 0; i < 2; i++) assert_int_equal(weft_image_read(pairs[k][i], &images[i], NULL, NULL), WEFT_OK);
+            const WeftDiffDesc desc = {.image = &images[0], .reference = &images[1], .metric = (WeftMetric)metric};
             assert_int_equal(weft_diff(&desc, &found, &map, NULL), WEFT_OK);
             json_t *json = figures(LIST("diff", pairs[k][0], pairs[k][1], "--metric",
                                         weft_metric_name((WeftMetric)metric), "--json", "--max", "0.5"),
@@ -72,8 +70,7 @@ static void json_has_the_values_of_the_library(void **state) {
             assert_true(fabs(number(json, "high") - (double)found.high) < 1e-6);
             assert_true(fabs(number(worst, "value") - (double)found.worst) < 1e-6);
             assert_true((int)number(worst, "x") == found.worst_x && (int)number(worst, "y") == found.worst_y);
-            assert_true(fabs(number(json, "beyond") - weft_diff_beyond(&map, (WeftMetric)metric, 0.5)) <
-                        1e-8);
+            assert_true(fabs(number(json, "beyond") - weft_diff_beyond(&map, (WeftMetric)metric, 0.5)) < 1e-8);
             assert_int_equal((int)number(json, "width"), 40);
             assert_string_equal(json_string_value(json_object_get(json, "metric")),
                                 weft_metric_name((WeftMetric)metric));
@@ -134,8 +131,7 @@ static void difference_map_is_written_as_exr(void **state) {
     static const char *const names[] = {"map.exr", "map.npy"};
     for (int k = 0; k < 2; k++) {
         WeftImage map;
-        json_t *json =
-            figures(LIST("diff", "a.exr", "b.exr", "-o", names[k], "--metric", "ssim", "--json"), 0);
+        json_t *json = figures(LIST("diff", "a.exr", "b.exr", "-o", names[k], "--metric", "ssim", "--json"), 0);
         const json_t *worst = json_object_get(json, "worst");
         assert_int_equal(weft_image_read(names[k], &map, NULL, NULL), WEFT_OK);
         assert_true(map.width == 40 && map.height == 30 && map.channels == 1 && map.type == WEFT_PIXEL_F32);
@@ -186,8 +182,7 @@ static void diff_commands_without_sense_are_refused(void **state) {
     assert_complaint(NULL, LIST("diff", "a.png", "none.png"), 3, "none.png: cannot be opened");
     file_make("text.png", "not a picture", 13);
     assert_complaint(NULL, LIST("diff", "text.png", "b.png"), 3, "text.png: ");
-    assert_complaint(NULL, LIST("diff", "a.png", "small.png"), 2,
-                     "a.png: is 40 x 30 pixels, but small.png 30 x 40");
+    assert_complaint(NULL, LIST("diff", "a.png", "small.png"), 2, "a.png: is 40 x 30 pixels, but small.png 30 x 40");
     assert_complaint(NULL, LIST("diff", "a.png", "b.png", "--metric", "psnr"), 2,
                      "\"psnr\" is not one of relmse, flip, ssim");
     assert_complaint(NULL, LIST("diff", "a.png", "b.png", "--tonemap", "filmic"), 2, "--tonemap");
@@ -197,8 +192,7 @@ static void diff_commands_without_sense_are_refused(void **state) {
     assert_complaint(NULL, LIST("diff", "a.png", "b.png", "-o", "map.jpg"), 2, "map.jpg: ");
     assert_complaint(NULL, LIST("diff", "a.png", "b.png", "-o", "map.hdr"), 2, "map.hdr: ");
     assert_complaint(NULL, LIST("diff", "a.png", "b.png", "-o", "x.png", "-o", "y.png"), 2, "given twice");
-    assert_complaint(NULL, LIST("diff", "a.png", "b.png", "-o", "no/map.png"), 4,
-                     "no/map.png: cannot be written");
+    assert_complaint(NULL, LIST("diff", "a.png", "b.png", "-o", "no/map.png"), 4, "no/map.png: cannot be written");
     size_t size;
     assert_null(file_bytes("x.png", &size));
 }
@@ -211,8 +205,7 @@ static void diff_help_names_every_option(void **state) {
     assert_int_equal(ran.code, 0);
     for (size_t k = 0; k < sizeof words / sizeof *words; k++)
         if (!strstr(ran.out, words[k])) fail_msg("weft diff --help lacks %s", words[k]);
-    for (const char *line = ran.out; *line; line += strcspn(line, "\n") + 1)
-        assert_true(strcspn(line, "\n") <= 80);
+    for (const char *line = ran.out; *line; line += strcspn(line, "\n") + 1) assert_true(strcspn(line, "\n") <= 80);
     ran_free(&ran);
     ran = RUN("--help");
     assert_non_null(strstr(ran.out, "\n  diff "));

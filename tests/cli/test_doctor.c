@@ -65,8 +65,7 @@ static void asset_with_faults_prints_each_finding(void **state) {
     assert_non_null(strstr(ran.out, "sheen-on-metal: "));
     assert_non_null(strstr(ran.out, "           --fix: write metallicFactor 0\n"));
     assert_non_null(strstr(ran.out, "\n1 error, "));
-    for (const char *line = ran.out; *line; line += strcspn(line, "\n") + 1)
-        assert_true(strcspn(line, "\n") <= 80);
+    for (const char *line = ran.out; *line; line += strcspn(line, "\n") + 1) assert_true(strcspn(line, "\n") <= 80);
     ran_free(&ran);
 
     json_t *report = report_of(LIST("doctor", "sick.gltf", "--json"), 1);
@@ -130,8 +129,8 @@ static void missing_image_is_a_finding(void **state) {
     static const char *const ids[] = {"value-range", "image-unread", "image-unread"},
                              *const words[] = {"metallicFactor", "not there.png: cannot be opened",
                                                "dark wool.png: is not an image"},
-                             *const places[] = {"/materials/0/pbrMetallicRoughness/metallicFactor",
-                                                "/images/0", "/images/1"};
+                             *const places[] = {"/materials/0/pbrMetallicRoughness/metallicFactor", "/images/0",
+                                                "/images/1"};
     for (size_t k = 0; k < 3; k++) {
         const json_t *finding = json_array_get(findings, k);
         assert_string_equal(json_string_value(json_object_get(finding, "id")), ids[k]);
@@ -151,9 +150,8 @@ static void fix_changes_only_what_a_finding_names(void **state) {
     json_t *used = json_object_get(now, "extensionsUsed"),
            *material = json_array_get(json_object_get(now, "materials"), 0);
     assert_string_equal(json_string_value(json_array_get(used, 0)), "KHR_materials_sheen");
-    assert_int_equal(json_integer_value(json_object_get(json_object_get(material, "pbrMetallicRoughness"),
-                                                        "metallicFactor")),
-                     0);
+    assert_int_equal(
+        json_integer_value(json_object_get(json_object_get(material, "pbrMetallicRoughness"), "metallicFactor")), 0);
     json_object_del(now, "extensionsUsed");
     json_object_set(now, "materials", json_object_get(was, "materials"));
     assert_true(json_equal(was, now));

@@ -50,13 +50,12 @@ static void set_overrides_shorthand_and_shorthand_overrides_profile(void **state
     assert_true(same(LIST("--set", "*.layer=additive", "--layer", "seed"), LIST("--layer=additive")));
     assert_false(same(LIST("--layer=additive"), LIST("--layer=seed")));
     /* --sheen and --layer over --profile */
-    assert_true(
-        same(LIST("--layer=additive", "--profile=khronos"), LIST("--profile=khronos", "--layer=additive")));
+    assert_true(same(LIST("--layer=additive", "--profile=khronos"), LIST("--profile=khronos", "--layer=additive")));
     assert_false(same(LIST("--layer=additive", "--profile=khronos"), LIST("--profile=khronos")));
     assert_false(same(LIST("--sheen=ashikhmin-neubelt", "--profile=khronos"), LIST("--profile=khronos")));
     /* a profile keeps the inputs of a material and drops its choices */
-    assert_true(same(LIST("--profile=three", "--material=with.json"),
-                     LIST("--material=without.json", "--profile=three")));
+    assert_true(
+        same(LIST("--profile=three", "--material=with.json"), LIST("--material=without.json", "--profile=three")));
     assert_false(same(LIST("--material=with.json"), LIST("--material=without.json")));
     assert_false(same(LIST("--profile=three", "--material=with.json"), LIST("--profile=three")));
     /* --sheen and --layer over a material, a material over a preset, a preset over the asset */
@@ -91,8 +90,8 @@ static void texture_option_changes_the_picture(void **state) {
     assert_true(same(LIST("--texture=cloth.base_color==odd.png"), LIST("--materials=maps")));
     assert_false(same(LIST("--materials=maps"), LIST("--material=with.json")));
     /* over a material, under --set */
-    assert_true(same(LIST("--materials=maps", "--material=with.json"),
-                     LIST("--material=with.json", "--materials=maps")));
+    assert_true(
+        same(LIST("--materials=maps", "--material=with.json"), LIST("--material=with.json", "--materials=maps")));
     assert_true(same(LIST("--set=cloth.base_color=0.2", "--texture=cloth.base_color=maps/Cloth_Albedo.png"),
                      LIST("--set=cloth.base_color=0.2")));
     ran = run_shell("rm -r maps");
@@ -132,10 +131,8 @@ static void material_of_any_name_can_be_set(void **state) {
 
 static void alias_of_an_id_is_accepted(void **state) {
     (void)state;
-    assert_true(same(LIST("--set=*.v=charlie-v", "--workflow=free"),
-                     LIST("--set=*.v=conty-kulla", "--workflow=free")));
-    assert_true(same(LIST("--set=*.d=ashikhmin-d", "--workflow=free"),
-                     LIST("--set=*.d=ashikhmin", "--workflow=free")));
+    assert_true(same(LIST("--set=*.v=charlie-v", "--workflow=free"), LIST("--set=*.v=conty-kulla", "--workflow=free")));
+    assert_true(same(LIST("--set=*.d=ashikhmin-d", "--workflow=free"), LIST("--set=*.d=ashikhmin", "--workflow=free")));
     assert_false(same(LIST("--set=*.d=ashikhmin-d", "--workflow=free"), LIST("--workflow=free")));
 }
 
@@ -168,8 +165,8 @@ static void mistyped_material_option_is_named_in_its_error(void **state) {
     refused(LIST("--set=*.roughness=0,1,0"), 2, "--set: 0 is listed twice");
     refused(LIST("--set=*.roughness=0,,1"), 2, "value 2 of 3 is empty");
     refused(LIST("--set=*.roughness=0,x"), 2, "x: is not a value");
-    refused(LIST("--set=*.roughness=0,0.1,0.2,0.3,0.4,0.5,0.6,0.7,0.8", "--set=*.metallic=0,1,2,3,4,5,6,7,8"),
-            2, "--set: makes more than 64 pictures");
+    refused(LIST("--set=*.roughness=0,0.1,0.2,0.3,0.4,0.5,0.6,0.7,0.8", "--set=*.metallic=0,1,2,3,4,5,6,7,8"), 2,
+            "--set: makes more than 64 pictures");
     refused(LIST("--set=*.base_color=1,0,0,1"), 2, "a number or r,g,b");
     refused(LIST("--preset=velvt"), 2, "did you mean velvet?");
     refused(LIST("--preset=wool=velvet"), 2, "available: cloth");
@@ -187,14 +184,12 @@ static void blanks_around_an_id_are_ignored(void **state) {
 
 /* What the options leave in the picture besides its summary: warnings of what they came to. */
 static void warns(const char *const *options, const char *part) {
-    const char *arguments[32] = {"render",  "scene.gltf", "--width=8", "--height=6",
-                                 "--spp=1", "-o",         "out.png"};
+    const char *arguments[32] = {"render", "scene.gltf", "--width=8", "--height=6", "--spp=1", "-o", "out.png"};
     int count = 7;
     for (int k = 0; options[k]; k++) arguments[count++] = options[k];
     Ran ran = run_with(NULL, arguments);
     assert_int_equal(ran.code, 0);
-    if (part ? !strstr(ran.err, part) : strstr(ran.err, "warning") != NULL)
-        fail_msg("%s ...: %s", options[0], ran.err);
+    if (part ? !strstr(ran.err, part) : strstr(ran.err, "warning") != NULL) fail_msg("%s ...: %s", options[0], ran.err);
     ran_free(&ran);
 }
 
@@ -210,8 +205,7 @@ static void choice_without_effect_is_a_warning(void **state) {
     warns(LIST("--sheen=patry", "--workflow=disney", "--set=*.metallic=0", "--set=*.sheen=1"), NULL);
     warns(LIST("--sheen=patry", "--profile=unreal4"), NULL);
     warns(LIST("--layer=seed", "--set=*.sheen_color=0"), "*.layer: is not plausible: it changes nothing");
-    warns(LIST("--set=*.sheen_d=charlie", "--set=*.sheen_color=0"),
-          "*.sheen_d: is not plausible: it changes");
+    warns(LIST("--set=*.sheen_d=charlie", "--set=*.sheen_color=0"), "*.sheen_d: is not plausible: it changes");
     warns(LIST("--set=*.sheen_d=inverse-ggx", "--set=*.sheen_v=implicit"), NULL);
 }
 
@@ -227,11 +221,11 @@ static void warning_about_several_inputs_is_printed_once(void **state) {
     (void)state;
     static const char text[] = "{\"metallic\": 0, \"ior\": 1.1, \"specular\": 0.9}";
     file_make("dim.json", text, sizeof text - 1);
-    static const char *const dressed[][3] = {
-        {"--set=*.metallic=0", "--set=*.ior=1.1", "--set=*.specular=0.9"}, {"--material=dim.json"}};
+    static const char *const dressed[][3] = {{"--set=*.metallic=0", "--set=*.ior=1.1", "--set=*.specular=0.9"},
+                                             {"--material=dim.json"}};
     for (int k = 0; k < 2; k++) {
-        Ran ran = RUN("render", "scene.gltf", "--width=8", "--height=6", "--spp=1", "-o", "out.png",
-                      dressed[k][0], dressed[k][1], dressed[k][2]);
+        Ran ran = RUN("render", "scene.gltf", "--width=8", "--height=6", "--spp=1", "-o", "out.png", dressed[k][0],
+                      dressed[k][1], dressed[k][2]);
         const char *first = strstr(ran.err, "reflectance of a dielectric");
         if (ran.code != 0 || !first || strstr(first + 1, "reflectance of a dielectric"))
             fail_msg("exit %d: %s", ran.code, ran.err);
@@ -241,33 +235,30 @@ static void warning_about_several_inputs_is_printed_once(void **state) {
 
 static void conversion_prints_its_loss(void **state) {
     (void)state;
-    Ran ran = RUN("render", "scene.gltf", "--width=8", "--height=6", "--spp=1", "-o", "out.png",
-                  "--convert=specular");
+    Ran ran = RUN("render", "scene.gltf", "--width=8", "--height=6", "--spp=1", "-o", "out.png", "--convert=specular");
     assert_int_equal(ran.code, 0);
     assert_non_null(strstr(ran.err, "material cloth: conversion to specular loses 0.000\n"));
     assert_null(strstr(ran.err, "warning"));
     ran_free(&ran);
-    ran = RUN("render", "scene.gltf", "--width=8", "--height=6", "--spp=1", "-o", "out.png",
-              "--workflow=specular", "--set=*.specular_color=0.5,0,0", "--convert=metallic", "--json");
+    ran = RUN("render", "scene.gltf", "--width=8", "--height=6", "--spp=1", "-o", "out.png", "--workflow=specular",
+              "--set=*.specular_color=0.5,0,0", "--convert=metallic", "--json");
     assert_int_equal(ran.code, 0);
     const char *loses = strstr(ran.err, "material cloth: conversion to metallic loses 0.");
     assert_non_null(loses);
     assert_true(strtod(strstr(loses, "loses ") + 6, NULL) > 0.01);
     assert_non_null(strstr(ran.out, "conversion to metallic loses"));
     ran_free(&ran);
-    ran = RUN("render", "scene.gltf", "--width=8", "--height=6", "--spp=1", "-o", "out.png",
-              "--workflow=disney", "--convert=metallic");
-    assert_non_null(strstr(ran.err,
-                           "--convert metallic: there is nothing to convert: 1 of 1 materials are of "
-                           "another workflow or a profile and stay\n"));
-    ran_free(&ran);
-    ran = RUN("render", "scene.gltf", "--width=8", "--height=6", "--spp=1", "-o", "out.png",
+    ran = RUN("render", "scene.gltf", "--width=8", "--height=6", "--spp=1", "-o", "out.png", "--workflow=disney",
               "--convert=metallic");
+    assert_non_null(strstr(ran.err, "--convert metallic: there is nothing to convert: 1 of 1 materials are of "
+                                    "another workflow or a profile and stay\n"));
+    ran_free(&ran);
+    ran = RUN("render", "scene.gltf", "--width=8", "--height=6", "--spp=1", "-o", "out.png", "--convert=metallic");
     assert_non_null(strstr(ran.err, "--convert metallic: there is nothing to convert\n"));
     assert_null(strstr(ran.err, "material cloth"));
     ran_free(&ran);
-    ran = RUN("render", "builtin:cloth", "--width=8", "--height=6", "--spp=1", "-o", "out.png",
-              "--convert=specular", "--set=1.workflow=specular", "--set=2.workflow=disney");
+    ran = RUN("render", "builtin:cloth", "--width=8", "--height=6", "--spp=1", "-o", "out.png", "--convert=specular",
+              "--set=1.workflow=specular", "--set=2.workflow=disney");
     assert_non_null(strstr(ran.err, "material Cloth: conversion to specular loses 0.000\n"));
     assert_null(strstr(ran.err, "material Plinth"));
     assert_non_null(strstr(ran.err, "--convert specular: 1 of 4 materials are of another workflow"));
@@ -304,8 +295,8 @@ static bool holds(const WeftImage *sheet, const WeftImage *image) {
 static void sheet_holds_the_pictures_of_its_settings(void **state) {
     (void)state;
     static const char *const ids[] = {"ashikhmin-neubelt", "charlie-neubelt"};
-    Ran ran = RUN("render", "scene.gltf", "--width=64", "--height=48", "--spp=2", "--background=environment",
-                  "-o", "sheet.png", "--sheen", "ashikhmin-neubelt,charlie-neubelt", "--json");
+    Ran ran = RUN("render", "scene.gltf", "--width=64", "--height=48", "--spp=2", "--background=environment", "-o",
+                  "sheet.png", "--sheen", "ashikhmin-neubelt,charlie-neubelt", "--json");
     assert_int_equal(ran.code, 0);
     assert_non_null(strstr(ran.err, "2 pictures in "));
     assert_non_null(strstr(ran.err, "wrote sheet.png\n"));
@@ -322,8 +313,8 @@ static void sheet_holds_the_pictures_of_its_settings(void **state) {
     ran_free(&ran);
     WeftImage sheet = png("sheet.png");
     for (int k = 0; k < 2; k++) {
-        ran = RUN("render", "scene.gltf", "--width=64", "--height=48", "--spp=2", "--background=environment",
-                  "--quiet", "-o", "one.png", "--sheen", ids[k]);
+        ran = RUN("render", "scene.gltf", "--width=64", "--height=48", "--spp=2", "--background=environment", "--quiet",
+                  "-o", "one.png", "--sheen", ids[k]);
         assert_int_equal(ran.code, 0);
         ran_free(&ran);
         WeftImage one = png("one.png");
@@ -346,8 +337,7 @@ static void assert_values(const char *const *options, const char *name, const ch
     json_t *shots = json_loads(ran.out, 0, NULL);
     for (size_t k = 0; k < json_array_size(shots); k++) {
         const char *value = json_string_value(json_object_get(json_array_get(shots, k), name));
-        snprintf(values + strlen(values), sizeof values - strlen(values), "%s%s", k ? " " : "",
-                 value ? value : "-");
+        snprintf(values + strlen(values), sizeof values - strlen(values), "%s%s", k ? " " : "", value ? value : "-");
     }
     assert_string_equal(values, wanted);
     json_decref(shots);
@@ -389,9 +379,9 @@ static void two_sweeps_make_rows_and_columns(void **state) {
 
 static void every_axis_makes_a_sheet(void **state) {
     (void)state;
-    static const char *const axes[] = {
-        "--workflow=metallic,cloth,free", "--profile=khronos,none,filament-sheen,three,babylon,urp",
-        "--diffuse=lambert,eon", "--layer=additive,reciprocal,by=channel,albedo-max"};
+    static const char *const axes[] = {"--workflow=metallic,cloth,free",
+                                       "--profile=khronos,none,filament-sheen,three,babylon,urp",
+                                       "--diffuse=lambert,eon", "--layer=additive,reciprocal,by=channel,albedo-max"};
     static const size_t counts[] = {3, 6, 2, 3};
     for (size_t k = 0; k < 4; k++) {
         Ran ran = RUN("render", "scene.gltf", TINY, "-o", "sheet.png", axes[k], "--json");

@@ -10,8 +10,7 @@
 
 /* Skips where there is no OpenGL. */
 static void need_gl(void) {
-    Ran ran = run_with(
-        NULL, LIST("render", "builtin:spheres", TINY, "-o", "probe.png", "--engine=raster", "--quiet"));
+    Ran ran = run_with(NULL, LIST("render", "builtin:spheres", TINY, "-o", "probe.png", "--engine=raster", "--quiet"));
     bool none = ran.code != 0 && strstr(ran.err, "OpenGL");
     if (none) print_message("%s", ran.err);
     if (!none && ran.code != 0) fail_msg("exit %d: %s", ran.code, ran.err);
@@ -22,12 +21,11 @@ static void need_gl(void) {
 static void engine_raster_writes_a_picture(void **state) {
     (void)state;
     need_gl();
-    Ran ran =
-        run_with(NULL, LIST("render", "builtin:spheres", TINY, "-o", "a.png", "-o", "a.exr", "--engine",
-                            "raster", "--gl=es", "--json", "--light", "sun;-1,-2,-1;3,3,3", "--polygons=0",
-                            "--occlusion=4", "--ambient=irradiance", "--crop=10,5,20,15", "--part=sheen",
-                            "--light=none", "--light=polygon;0,3,0;0,-1,0;1,2;5,5,5", "--light",
-                            "polygon;0,3,0;0,-1,0;1,2;5,5,5;6,30"));
+    Ran ran = run_with(NULL, LIST("render", "builtin:spheres", TINY, "-o", "a.png", "-o", "a.exr", "--engine", "raster",
+                                  "--gl=es", "--json", "--light", "sun;-1,-2,-1;3,3,3", "--polygons=0", "--occlusion=4",
+                                  "--ambient=irradiance", "--crop=10,5,20,15", "--part=sheen", "--light=none",
+                                  "--light=polygon;0,3,0;0,-1,0;1,2;5,5,5", "--light",
+                                  "polygon;0,3,0;0,-1,0;1,2;5,5,5;6,30"));
     if (ran.code != 0) fail_msg("exit %d: %s", ran.code, ran.err);
     json_t *all = json_loads(ran.out, 0, NULL);
     assert_non_null(all);
@@ -40,8 +38,8 @@ static void engine_raster_writes_a_picture(void **state) {
 static void engine_both_writes_both_pictures_and_their_difference(void **state) {
     (void)state;
     need_gl();
-    Ran ran = run_with(NULL, LIST("render", "builtin:spheres", TINY, "-o", "both.png", "--engine=both",
-                                  "--spp=4", "--json"));
+    Ran ran =
+        run_with(NULL, LIST("render", "builtin:spheres", TINY, "-o", "both.png", "--engine=both", "--spp=4", "--json"));
     if (ran.code != 0) fail_msg("exit %d: %s", ran.code, ran.err);
     json_t *all = json_loads(ran.out, 0, NULL);
     assert_int_equal(json_array_size(all), 2);
@@ -59,8 +57,8 @@ static void white_background_is_white_in_both(void **state) {
     for (int k = 0; k < 2; k++) {
         WeftImage shown, linear;
         Ran ran = run_with(NULL, LIST("render", "builtin:spheres", TINY, "-o", "white.png", "-o", "white.exr",
-                                      "--engine", engines[k], "--background=1,1,1", "--exposure=-2",
-                                      "--spp=1", "--camera=0,100,0;0,200,1;20"));
+                                      "--engine", engines[k], "--background=1,1,1", "--exposure=-2", "--spp=1",
+                                      "--camera=0,100,0;0,200,1;20"));
         if (ran.code != 0) fail_msg("exit %d: %s", ran.code, ran.err);
         ran_free(&ran);
         assert_int_equal(weft_image_read("white.png", &shown, NULL, NULL), WEFT_OK);
@@ -77,8 +75,8 @@ static void white_background_is_white_in_both(void **state) {
 static void turntable_numbers_its_pictures(void **state) {
     (void)state;
     need_gl();
-    Ran ran = run_with(
-        NULL, LIST("render", "builtin:spheres", TINY, "-o", "turn.png", "--engine=raster", "--turntable=3"));
+    Ran ran =
+        run_with(NULL, LIST("render", "builtin:spheres", TINY, "-o", "turn.png", "--engine=raster", "--turntable=3"));
     if (ran.code != 0) fail_msg("exit %d: %s", ran.code, ran.err);
     ran_free(&ran);
     for (int k = 0; k < 3; k++) {
@@ -88,8 +86,7 @@ static void turntable_numbers_its_pictures(void **state) {
     }
     assert_true(access("turn-003.png", R_OK) != 0);
     assert_true(access("turn.png", R_OK) != 0);
-    ran =
-        run_with(NULL, LIST("render", "builtin:spheres", TINY, "-o", "one.png", "--turntable=2", "--spp=1"));
+    ran = run_with(NULL, LIST("render", "builtin:spheres", TINY, "-o", "one.png", "--turntable=2", "--spp=1"));
     assert_int_equal(ran.code, 0);
     ran_free(&ran);
     assert_int_equal(access("one-001.png", R_OK), 0);
@@ -116,24 +113,21 @@ static void engine_options_without_sense_are_refused(void **state) {
     for (size_t k = 0; k < sizeof lights / sizeof lights[0]; k++)
         refuses(LIST("render", "builtin:spheres", "-o", "x.png", "--light", lights[k]), "--light");
     refuses(LIST("render", "builtin:spheres", "-o", "x.png", "--light", "sun;0,0,0;1,1,1"), "light");
-    refuses(LIST("render", "builtin:spheres", "-o", "x.png", "--light", "polygon;0,3,0;0,-1,0;0,2;5,5,5"),
-            "size");
+    refuses(LIST("render", "builtin:spheres", "-o", "x.png", "--light", "polygon;0,3,0;0,-1,0;0,2;5,5,5"), "size");
     refuses(LIST("render", "builtin:spheres", "-o", "x.png", "--engine=vulkan"), "--engine");
     refuses(LIST("render", "builtin:spheres", "-o", "x.png", "--engine=raster", "--part=gloss"), "--part");
     refuses(LIST("render", "builtin:spheres", "-o", "x.png", "--part=sheen"), "--part");
     refuses(LIST("render", "builtin:spheres", "-o", "x.png", "--ambient=dark"), "--ambient");
-    refuses(LIST("render", "builtin:spheres", "-o", "x.png", "--engine=both", "--layer", "additive,seed"),
-            "both");
+    refuses(LIST("render", "builtin:spheres", "-o", "x.png", "--engine=both", "--layer", "additive,seed"), "both");
     refuses(LIST("render", "builtin:spheres", "-o", "x.exr", "--engine=both"), "sheet");
-    refuses(LIST("render", "builtin:spheres", "-o", "x.png", "--engine=both", "--turntable=3"),
-            "--turntable");
+    refuses(LIST("render", "builtin:spheres", "-o", "x.png", "--engine=both", "--turntable=3"), "--turntable");
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(engine_raster_writes_a_picture),
-        cmocka_unit_test(engine_both_writes_both_pictures_and_their_difference),
-        cmocka_unit_test(white_background_is_white_in_both), cmocka_unit_test(turntable_numbers_its_pictures),
-        cmocka_unit_test(engine_options_without_sense_are_refused)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(engine_raster_writes_a_picture),
+                                       cmocka_unit_test(engine_both_writes_both_pictures_and_their_difference),
+                                       cmocka_unit_test(white_background_is_white_in_both),
+                                       cmocka_unit_test(turntable_numbers_its_pictures),
+                                       cmocka_unit_test(engine_options_without_sense_are_refused)};
     return cmocka_run_group_tests(tests, work_begin, work_end);
 }

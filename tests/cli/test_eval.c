@@ -58,14 +58,13 @@ static void make_angles(void) {
     size_t used = 0;
     for (int k = 0; k < ANGLES; k++) {
         double u[4]; /* fractions of irrational multiples fill a box evenly */
-        for (int d = 0; d < 4; d++)
-            u[d] = fmod((k + 1) * pow(0.5 * (sqrt(5.0) - 1.0), d + 1.0) * 1.3247, 1.0);
+        for (int d = 0; d < 4; d++) u[d] = fmod((k + 1) * pow(0.5 * (sqrt(5.0) - 1.0), d + 1.0) * 1.3247, 1.0);
         double row[4] = {1.0 + 84.0 * u[0], 360.0 * u[1], 1.0 + 84.0 * u[2], 360.0 * u[3]};
-        int length = snprintf(angle_lines + used, sizeof angle_lines - used, "%.6f %.6f\t%.6f,%.6f\n", row[0],
-                              row[1], row[2], row[3]);
-        assert_int_equal(sscanf(angle_lines + used, "%lf %lf %lf,%lf", &angles[k][0], &angles[k][1],
-                                &angles[k][2], &angles[k][3]),
-                         4);
+        int length = snprintf(angle_lines + used, sizeof angle_lines - used, "%.6f %.6f\t%.6f,%.6f\n", row[0], row[1],
+                              row[2], row[3]);
+        assert_int_equal(
+            sscanf(angle_lines + used, "%lf %lf %lf,%lf", &angles[k][0], &angles[k][1], &angles[k][2], &angles[k][3]),
+            4);
         used += (size_t)length;
     }
 }
@@ -78,8 +77,8 @@ static void evaluate(const char *const *arguments, double rows[ANGLES][4]) {
     const char *text = ran.out;
     for (int k = 0; k < ANGLES; k++) {
         int used = 0;
-        assert_int_equal(
-            sscanf(text, "%lf %lf %lf %lf%n", &rows[k][0], &rows[k][1], &rows[k][2], &rows[k][3], &used), 4);
+        assert_int_equal(sscanf(text, "%lf %lf %lf %lf%n", &rows[k][0], &rows[k][1], &rows[k][2], &rows[k][3], &used),
+                         4);
         assert_int_equal(text[used], '\n');
         text += used + 1;
     }
@@ -158,10 +157,9 @@ static void empty_lines_and_comments_are_skipped(void **state) {
 /* As spreadsheets write it in front of a table. */
 static void byte_order_mark_of_the_input_is_skipped(void **state) {
     (void)state;
-    Ran plain = run_with("10,20,30,40\n", LIST("eval", "lambert")),
-        marked = run_with("\xef\xbb\xbf"
-                          "10,20,30,40\n",
-                          LIST("eval", "lambert"));
+    Ran plain = run_with("10,20,30,40\n", LIST("eval", "lambert")), marked = run_with("\xef\xbb\xbf"
+                                                                                      "10,20,30,40\n",
+                                                                                      LIST("eval", "lambert"));
     assert_int_equal(marked.code, 0);
     assert_string_equal(marked.out, plain.out);
     ran_free(&plain), ran_free(&marked);
@@ -201,8 +199,7 @@ static void roughness_option_means_the_roughness_of_artists(void **state) {
     assert_string_equal(own.out, rough.out);
     ran_free(&own);
     ran_free(&rough);
-    assert_complaint(pairs, LIST("eval", "lambert", "-p", "roughness=0.5"), 2,
-                     "has nothing that a roughness sets");
+    assert_complaint(pairs, LIST("eval", "lambert", "-p", "roughness=0.5"), 2, "has nothing that a roughness sets");
 }
 
 static void albedo_of_lambert_is_one(void **state) {
@@ -235,8 +232,7 @@ static double albedo_charlie_neubelt(double alpha, double cos_o) {
 
 static void albedo_of_charlie_neubelt_is_its_integral(void **state) {
     (void)state;
-    Ran ran = run_with("0.7 \n",
-                       LIST("eval", "charlie-neubelt", "-p", "alpha=0.5", "-p", "color=1,0.5,0", "--albedo"));
+    Ran ran = run_with("0.7 \n", LIST("eval", "charlie-neubelt", "-p", "alpha=0.5", "-p", "color=1,0.5,0", "--albedo"));
     double e[3], expected = albedo_charlie_neubelt(0.5, 0.7);
     assert_int_equal(ran.code, 0);
     assert_int_equal(sscanf(ran.out, "%lf %lf %lf", &e[0], &e[1], &e[2]), 3);
@@ -252,16 +248,15 @@ static void albedo_of_charlie_neubelt_is_its_integral(void **state) {
 static void terms_given_to_cook_torrance_make_a_lobe(void **state) {
     (void)state;
     static double rows[ANGLES][4], same[ANGLES][4];
-    evaluate(LIST("eval", "cook-torrance", "-p", "d=charlie", "-p", "v=neubelt", "-p", "f=none", "-p",
-                  "alpha=0.25"),
+    evaluate(LIST("eval", "cook-torrance", "-p", "d=charlie", "-p", "v=neubelt", "-p", "f=none", "-p", "alpha=0.25"),
              rows);
     for (int k = 0; k < ANGLES; k++) {
         Vector o = vector(angles[k][0], angles[k][1]), i = vector(angles[k][2], angles[k][3]);
         assert_near(rows[k][0], f_charlie_neubelt(0.25, o, i), 1e-4, "charlie over neubelt");
     }
-    evaluate(LIST("eval", "cook-torrance", "-p", "d=charlie-d", "-p", "v=ashikhmin-v", "-p", "f=none", "-p",
-                  "alpha=0.25"),
-             same);
+    evaluate(
+        LIST("eval", "cook-torrance", "-p", "d=charlie-d", "-p", "v=ashikhmin-v", "-p", "f=none", "-p", "alpha=0.25"),
+        same);
     assert_memory_equal(rows, same, sizeof rows);
     evaluate(LIST("eval", "cook-torrance", "-p", "d=ashikhmin", "-p", "v=conty-kulla", "-p", "f=none"), rows);
     evaluate(LIST("eval", "cook-torrance", "-p", "d=ashikhmin-d", "-p", "v=charlie-v", "-p", "f=none"), same);
@@ -295,9 +290,8 @@ static void implausible_parameter_is_a_warning(void **state) {
 /* A number that the lobe does not compute with is told, once, whichever verb it is given to. */
 static void parameters_outside_the_fitted_range_are_a_warning(void **state) {
     (void)state;
-    static const char words[] =
-        "fibre: is outside the range that was fitted: alpha 0.105 of fibres that lean "
-        "counts as 0.38";
+    static const char words[] = "fibre: is outside the range that was fitted: alpha 0.105 of fibres that lean "
+                                "counts as 0.38";
     Ran ran = run_with("30 0 60 180\n", LIST("eval", "fibre", "-p", "alpha=0.105", "-p", "tilt=0.5"));
     assert_int_equal(ran.code, 0);
     assert_non_null(strstr(ran.err, words));
@@ -311,9 +305,8 @@ static void parameters_outside_the_fitted_range_are_a_warning(void **state) {
     assert_int_equal(ran.code, 0);
     assert_non_null(strstr(ran.err, words));
     ran_free(&ran);
-    ran =
-        RUN("render", "builtin:cloth", "--sheen", "fibre", "--set", "*.sheen_roughness=0.3", "--set",
-            "*.nap=30", "--set", "*.sheen_color=1", "--width=16", "--height=12", "--spp=1", "-o", "lean.png");
+    ran = RUN("render", "builtin:cloth", "--sheen", "fibre", "--set", "*.sheen_roughness=0.3", "--set", "*.nap=30",
+              "--set", "*.sheen_color=1", "--width=16", "--height=12", "--spp=1", "-o", "lean.png");
     assert_int_equal(ran.code, 0);
     assert_non_null(strstr(ran.err, "is outside the range that was fitted: alpha 0.09 of"));
     ran_free(&ran);

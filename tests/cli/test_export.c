@@ -19,8 +19,7 @@ static void finish(Ran ran) { ran_free(&ran); }
 static void export_help_names_every_target(void **state) {
     (void)state;
     Ran ran = done(LIST("export", "--help"));
-    for (int k = 0; weft_export_target_name(k); k++)
-        assert_non_null(strstr(ran.out, weft_export_target_name(k)));
+    for (int k = 0; weft_export_target_name(k); k++) assert_non_null(strstr(ran.out, weft_export_target_name(k)));
     for (int k = 0; weft_export_lut_name(k); k++) assert_non_null(strstr(ran.out, weft_export_lut_name(k)));
     for (const char *line = ran.out; *line; line += strcspn(line, "\n") + 1)
         if (strcspn(line, "\n") > 80) fail_msg("over 80 columns: %.100s", line);
@@ -58,18 +57,15 @@ static void export_finds_every_model(void **state) {
 
 static void export_options_change_the_text(void **state) {
     (void)state;
-    finish(done(LIST("export", "charlie-neubelt:alpha=0.5", "--target", "glsl", "--prefix", "fuzz_", "-o",
-                     "a.glsl")));
+    finish(done(LIST("export", "charlie-neubelt:alpha=0.5", "--target", "glsl", "--prefix", "fuzz_", "-o", "a.glsl")));
     assert_has("a.glsl", "m.alpha = 0.5;");
     assert_has("a.glsl", "vec3 fuzz_charlie_neubelt_eval(FuzzCharlieNeubelt m");
     assert_has("a.glsl", "EXPLICIT");
-    finish(
-        done(LIST("export", "charlie-neubelt", "--target", "hlsl", "--light-pi", "folded", "-o", "a.hlsl")));
+    finish(done(LIST("export", "charlie-neubelt", "--target", "hlsl", "--light-pi", "folded", "-o", "a.hlsl")));
     assert_has("a.hlsl", "FOLDED");
     assert_has("a.hlsl", "Unreal");
     assert_has("a.hlsl", "Unity");
-    finish(
-        done(LIST("export", "ashikhmin-neubelt", "charlie-neubelt", "--target", "shadertoy", "-o", "toy")));
+    finish(done(LIST("export", "ashikhmin-neubelt", "charlie-neubelt", "--target", "shadertoy", "-o", "toy")));
     assert_has("toy", "void mainImage");
     Ran ran = done(LIST("export", "ltc-fibre", "--target", "glsl", "--lut", "npy", "--json", "-o", "f.glsl"));
     json_t *json = json_loads(ran.out, 0, NULL);
@@ -108,15 +104,14 @@ static void exported_table_files_read_back_as_written(void **state) {
     WeftLobe lobe;
     WeftExport made;
     assert_int_equal(weft_lobe_init("ltc-fibre", &lobe, NULL), WEFT_OK);
-    assert_int_equal(weft_export(&(WeftExportDesc){.lobe = &lobe, .lut = WEFT_EXPORT_LUT_EXR}, &made, NULL),
-                     WEFT_OK);
+    assert_int_equal(weft_export(&(WeftExportDesc){.lobe = &lobe, .lut = WEFT_EXPORT_LUT_EXR}, &made, NULL), WEFT_OK);
     assert_int_equal(made.table_count, 1);
     const WeftImage *own = &made.tables[0].texels;
     const float *texels = own->pixels;
     size_t count = (size_t)own->width * (size_t)own->height, size;
     for (int k = 0; weft_export_lut_name(k); k++)
-        finish(done(LIST("export", "ltc-fibre", "--target", "glsl", "--lut", weft_export_lut_name(k),
-                         "--quiet", "-o", "t.glsl")));
+        finish(done(LIST("export", "ltc-fibre", "--target", "glsl", "--lut", weft_export_lut_name(k), "--quiet", "-o",
+                         "t.glsl")));
     static const char *const floats[] = {"t.weft_texels_ltc_fibre.exr", "t.weft_texels_ltc_fibre.npy"};
     for (int f = 0; f < 2; f++) {
         WeftImage image = image_of(floats[f]);
@@ -167,8 +162,8 @@ static void png_table_above_one_is_scaled(void **state) {
     assert_int_equal(weft_export(&desc, &plain, NULL), WEFT_OK);
     desc.lut = WEFT_EXPORT_LUT_PNG16;
     assert_int_equal(weft_export(&desc, &scaled, NULL), WEFT_OK);
-    finish(done(LIST("export", "charlie-neubelt", "--albedo", "--target", "glsl", "--lut", "png16", "--quiet",
-                     "-o", "p.glsl")));
+    finish(done(LIST("export", "charlie-neubelt", "--albedo", "--target", "glsl", "--lut", "png16", "--quiet", "-o",
+                     "p.glsl")));
     float scale = scaled.tables[0].scale;
     char factor[32];
     snprintf(factor, sizeof factor, ".r * %.1f;", (double)scale);
@@ -179,8 +174,7 @@ static void png_table_above_one_is_scaled(void **state) {
     for (int k = 0; k < image.width * image.height; k++) {
         float got = (float)((uint16_t *)image.pixels)[k] / 65535.0f * scale;
         float own = ((float *)plain.tables[0].texels.pixels)[k];
-        if (fabsf(got - own) > scale * 0.51f / 65535.0f)
-            fail_msg("texel %d: %g, not %g", k, (double)got, (double)own);
+        if (fabsf(got - own) > scale * 0.51f / 65535.0f) fail_msg("texel %d: %g, not %g", k, (double)got, (double)own);
     }
     weft_image_free(&image);
     weft_export_free(&plain);
@@ -241,8 +235,7 @@ static void two_lobes_share_one_record_of_values(void **state) {
         if (ran.code != 0) fail_msg("%s: %s", pairs[k][0], ran.err);
         ran_free(&ran);
         size_t size;
-        char *text = file_bytes("s.glsl", &size),
-             *first = text ? strstr(text, "struct WeftLobeValue {") : NULL;
+        char *text = file_bytes("s.glsl", &size), *first = text ? strstr(text, "struct WeftLobeValue {") : NULL;
         assert_non_null(first);
         assert_null(strstr(first + 1, "struct WeftLobeValue {"));
         free(text);

@@ -15,9 +15,8 @@ static int table_begin(void **state) {
     for (int k = 0; k < 900; k++)
         fprintf(angles, "%d %d %d %d\n", 5 + k % 7 * 11, 37 * k % 360, 3 + k / 7 % 8 * 10, 101 * k % 360);
     fclose(angles);
-    Ran ran =
-        run_shell("\"$0\" eval ashikhmin-neubelt -p alpha=0.3 -p color=0.8,0.5,0.2 angles.txt >f.txt && "
-                  "paste -d' ' angles.txt f.txt | cut -d' ' -f1-7 >table.csv");
+    Ran ran = run_shell("\"$0\" eval ashikhmin-neubelt -p alpha=0.3 -p color=0.8,0.5,0.2 angles.txt >f.txt && "
+                        "paste -d' ' angles.txt f.txt | cut -d' ' -f1-7 >table.csv");
     int code = ran.code;
     ran_free(&ran);
     return code;
@@ -51,8 +50,8 @@ static void fit_finds_the_lobe_that_made_the_data(void **state) {
     weft_lobe_eval(&lobe, wo, wi[0], g);
     assert_true(fabsf(f[0][0] - 0.8f * g[0]) < 0.005f * g[0] && fabsf(f[0][2] - 0.2f * g[2]) < 0.005f * g[2]);
     weft_reflection_free(of);
-    ran = RUN("render", "builtin:cloth", "--material", "m.json", "--width", "32", "--height", "24", "--spp",
-              "1", "-o", "m.png");
+    ran = RUN("render", "builtin:cloth", "--material", "m.json", "--width", "32", "--height", "24", "--spp", "1", "-o",
+              "m.png");
     assert_int_equal(ran.code, 0);
     ran_free(&ran);
 }
@@ -153,8 +152,7 @@ static void engine_nearest_to_data_is_written(void **state) {
     json_t *json = json_loads(ran.out, 0, NULL), *to = json_object_get(json, "to");
     assert_string_equal(json_string_value(json_object_get(to, "profile")), "khronos");
     double error = json_number_value(json_object_get(to, "error")),
-           best = json_number_value(
-               json_object_get(json_array_get(json_object_get(json, "ranking"), 0), "error"));
+           best = json_number_value(json_object_get(json_array_get(json_object_get(json, "ranking"), 0), "error"));
     print_message("khronos %.4f, free %.4f\n", error, best);
     assert_true(error > 0.0 && error < 0.1 && best < 0.1); /* it has a highlight, which may help */
     json_decref(json);
@@ -204,16 +202,16 @@ static void error_of_a_material_is_that_of_its_fit(void **state) {
 /* A fit of fabric over body is written whole: no warning, and the numbers that the table was made with. */
 static void whole_fit_of_fabric_is_written(void **state) {
     (void)state;
-    Ran ran = run_shell(
-        "awk 'BEGIN { for (k = 0; k < 3000; k++) print 79 * (k * .618034 % 1), 37 * k % 360, 79 * (k * "
-        ".754878 % 1), "
-        "101 * k % 360 }' >pairs.txt && "
-        "\"$0\" eval fabric -p alpha=0.3 -p tail=1.4 -p rise=2.5 -p color=0.2,0.1,0.05 -p f90=0.6,0.5,0.4 "
-        "pairs.txt >over.txt && "
-        "\"$0\" eval body -p edge=0.2 -p retro=1 -p lift=1.5 -p color=0.3,0.1,0.1 pairs.txt >under.txt && "
-        "paste -d' ' pairs.txt over.txt under.txt | awk '{ print $1, $2, $3, $4, $5 + $9, $6 + $10, $7 + $11 "
-        "}' >whole.csv && "
-        "\"$0\" fit whole.csv --base body --lobe fabric -o whole.json");
+    Ran ran =
+        run_shell("awk 'BEGIN { for (k = 0; k < 3000; k++) print 79 * (k * .618034 % 1), 37 * k % 360, 79 * (k * "
+                  ".754878 % 1), "
+                  "101 * k % 360 }' >pairs.txt && "
+                  "\"$0\" eval fabric -p alpha=0.3 -p tail=1.4 -p rise=2.5 -p color=0.2,0.1,0.05 -p f90=0.6,0.5,0.4 "
+                  "pairs.txt >over.txt && "
+                  "\"$0\" eval body -p edge=0.2 -p retro=1 -p lift=1.5 -p color=0.3,0.1,0.1 pairs.txt >under.txt && "
+                  "paste -d' ' pairs.txt over.txt under.txt | awk '{ print $1, $2, $3, $4, $5 + $9, $6 + $10, $7 + $11 "
+                  "}' >whole.csv && "
+                  "\"$0\" fit whole.csv --base body --lobe fabric -o whole.json");
     if (ran.code != 0) fail_msg("%s", ran.err);
     if (strstr(ran.err, "has no inputs")) fail_msg("%s", ran.err);
     ran_free(&ran);
@@ -246,8 +244,8 @@ static void material_of_a_fit_names_its_data(void **state) {
                       named ? "--measured" : "--json");
         if (ran.code != 0) fail_msg("%s", ran.err);
         ran_free(&ran);
-        ran = RUN("render", "builtin:cloth", "--material", "cloth.json", "--width", "32", "--height", "24",
-                  "--spp", "2", "-o", named ? "table.exr" : "fitted.exr");
+        ran = RUN("render", "builtin:cloth", "--material", "cloth.json", "--width", "32", "--height", "24", "--spp",
+                  "2", "-o", named ? "table.exr" : "fitted.exr");
         if (ran.code != 0) fail_msg("%s", ran.err);
         ran_free(&ran);
     }
@@ -255,8 +253,7 @@ static void material_of_a_fit_names_its_data(void **state) {
     assert_int_equal(ran.code, 1); /* the fit is not the table */
     ran_free(&ran);
     assert_complaint(NULL, LIST("fit", "table.csv", "--measured", "-o", "a.json"), 2, "is no .binary");
-    assert_complaint(NULL, LIST("fit", "cloth.binary", "--measured", "-o", "a.glb"), 2,
-                     "only a material file");
+    assert_complaint(NULL, LIST("fit", "cloth.binary", "--measured", "-o", "a.glb"), 2, "only a material file");
 }
 
 static void fit_of_bad_data_or_options_is_refused(void **state) {

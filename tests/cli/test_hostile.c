@@ -10,11 +10,9 @@
 
 static void cameras_out_of_reach_are_refused(void **state) {
     (void)state;
-    assert_complaint(NULL,
-                     LIST("render", "scene.gltf", TINY, "-o", "a.png", "--camera", "1.9e18,1,3;0,0,0;45"), 2,
+    assert_complaint(NULL, LIST("render", "scene.gltf", TINY, "-o", "a.png", "--camera", "1.9e18,1,3;0,0,0;45"), 2,
                      "beyond 1e15 m");
-    assert_complaint(NULL,
-                     LIST("render", "scene.gltf", TINY, "-o", "a.png", "--camera", "0,1,3;0,0,-3e38;45"), 2,
+    assert_complaint(NULL, LIST("render", "scene.gltf", TINY, "-o", "a.png", "--camera", "0,1,3;0,0,-3e38;45"), 2,
                      "beyond 1e15 m");
     size_t size;
     char *text = file_bytes("scene.gltf", &size), *at = strstr(text, "[0,0,3]"), far[4096];
@@ -22,8 +20,7 @@ static void cameras_out_of_reach_are_refused(void **state) {
     snprintf(far, sizeof far, "%.*s[0,0,3e19]%s", (int)(at - text), text, at + strlen("[0,0,3]"));
     file_make("far.gltf", far, strlen(far));
     free(text);
-    assert_complaint(NULL, LIST("render", "far.gltf", TINY, "-o", "a.png"), 3,
-                     "cameras[0]: its node is too far away");
+    assert_complaint(NULL, LIST("render", "far.gltf", TINY, "-o", "a.png"), 3, "cameras[0]: its node is too far away");
     Ran ran = RUN("render", "scene.gltf", TINY, "-o", "a.png", "--camera", "9e14,1,3;0,0,0;45");
     assert_int_equal(ran.code, 0);
     ran_free(&ran);
@@ -40,8 +37,7 @@ static void picture_from_a_camera_out_of_reach_is_refused(void **state) {
              at + strlen("{\"mesh\":0}"));
     file_make("wide.gltf", wide, strlen(wide));
     free(text);
-    assert_complaint(NULL,
-                     LIST("render", "wide.gltf", "--width=1", "--height=60000", "--spp=1", "-o", "a.png"), 2,
+    assert_complaint(NULL, LIST("render", "wide.gltf", "--width=1", "--height=60000", "--spp=1", "-o", "a.png"), 2,
                      "beyond 1e18 m");
 }
 
@@ -56,8 +52,7 @@ static void pipes_and_devices_are_refused_at_once(void **state) {
     assert_int_equal(mkfifo("pipe", 0600), 0);
     assert_complaint(NULL, LIST("render", "piped.gltf", TINY, "-o", "a.png"), 3,
                      "pipe: cannot be read: it is not a plain");
-    assert_complaint(NULL, LIST("render", "scene.gltf", TINY, "-o", "a.png", "--env", "pipe"), 3,
-                     "not a plain file");
+    assert_complaint(NULL, LIST("render", "scene.gltf", TINY, "-o", "a.png", "--env", "pipe"), 3, "not a plain file");
     assert_complaint(NULL, LIST("render", "scene.gltf", TINY, "-o", "a.png", "--env", "/dev/zero"), 3,
                      "/dev/zero: cannot be read: it is not a plain file");
     assert_complaint(NULL, LIST("doctor", "pipe"), 3, "not a plain file");
@@ -80,8 +75,7 @@ static void cache_file_that_is_a_pipe_is_ignored(void **state) {
     Ran ran = run_shell("export XDG_CACHE_HOME=$PWD/cache && $0 bake ltc ggx --size 4x4 -o a.npy --quiet && "
                         "cd cache/weft && for f in *.ltc; do rm $f && mkfifo $f; done && cd ../.. && "
                         "timeout 60 $0 bake ltc ggx --size 4x4 -o b.npy && cmp a.npy b.npy");
-    if (ran.code != 0 || !strstr(ran.err, "is not used as a cache"))
-        fail_msg("%d: %s%s", ran.code, ran.out, ran.err);
+    if (ran.code != 0 || !strstr(ran.err, "is not used as a cache")) fail_msg("%d: %s%s", ran.code, ran.out, ran.err);
     ran_free(&ran);
     ran = run_shell("rm -r cache");
     assert_int_equal(ran.code, 0);
@@ -116,10 +110,9 @@ static void eval_waiting_for_a_pipe_ends_by_a_signal(void **state) {
 
 static void a_file_beyond_its_limit_is_one_line_and_leaves_nothing(void **state) {
     (void)state;
-    Ran ran =
-        run_shell("mkdir limit && cd limit && cp ../scene.gltf . && ulimit -f 8 && "
-                  "$0 render scene.gltf --width 128 --height 128 --spp 1 --quiet -o a.exr; e=$?; ls; cd ..; "
-                  "rm -r limit; exit $e");
+    Ran ran = run_shell("mkdir limit && cd limit && cp ../scene.gltf . && ulimit -f 8 && "
+                        "$0 render scene.gltf --width 128 --height 128 --spp 1 --quiet -o a.exr; e=$?; ls; cd ..; "
+                        "rm -r limit; exit $e");
     if (ran.code != 4 || !one_complaint(ran.err)) fail_msg("%d: %s", ran.code, ran.err);
     assert_non_null(strstr(ran.err, "a.exr: cannot be written"));
     assert_string_equal(ran.out, "scene.gltf\n");
@@ -128,8 +121,7 @@ static void a_file_beyond_its_limit_is_one_line_and_leaves_nothing(void **state)
 
 static void unwritable_report_is_an_error(void **state) {
     (void)state;
-    Ran found = run_shell("$0 doctor scene.gltf > /dev/null"),
-        lost = run_shell("$0 doctor scene.gltf > /dev/full");
+    Ran found = run_shell("$0 doctor scene.gltf > /dev/null"), lost = run_shell("$0 doctor scene.gltf > /dev/full");
     assert_int_equal(found.code, 1); /* or the test says nothing */
     assert_int_equal(lost.code, 4);
     assert_true(one_complaint(lost.err));
@@ -140,8 +132,7 @@ static void damaged_picture_is_not_reported_as_lack_of_memory(void **state) {
     (void)state;
     const char *folder = getenv("WEFT_DATA");
     char path[1024];
-    snprintf(path, sizeof path, "%s/malformed/undecodable.exr",
-             folder ? folder : WEFT_SOURCE_DIR "/../shared/data");
+    snprintf(path, sizeof path, "%s/malformed/undecodable.exr", folder ? folder : WEFT_SOURCE_DIR "/../shared/data");
     if (access(path, R_OK) != 0) {
         print_message("%s is not there (WEFT_DATA can name another folder)\n", path);
         skip();

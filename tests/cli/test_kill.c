@@ -12,9 +12,8 @@ typedef struct Bytes {
 /* Large and with few samples, so that much of the time goes into writing. */
 static pid_t start(const char *seed) {
     return program_start(WEFT_PROGRAM, NULL,
-                         LIST("render", "scene.gltf", "--width=512", "--height=384", "--spp=1",
-                              "--max-depth=1", "--seed", seed, "-o", outputs[0], "-o", outputs[1], "-o",
-                              outputs[2]));
+                         LIST("render", "scene.gltf", "--width=512", "--height=384", "--spp=1", "--max-depth=1",
+                              "--seed", seed, "-o", outputs[0], "-o", outputs[1], "-o", outputs[2]));
 }
 
 /* Renders to the end and keeps what came out; returns the seconds it took. */

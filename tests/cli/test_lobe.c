@@ -92,8 +92,7 @@ static void a_file_evaluates_as_a_row(void **state) {
         id_of(twins[k][0], id);
         assert_same(pairs, LIST("eval", own, "-p", "color=.5,.3,.2", "--lobe", file),
                     LIST("eval", id, "-p", "color=.5,.3,.2"));
-        assert_same("0.3\n0.9\n", LIST("eval", own, "--albedo", "--lobe", file),
-                    LIST("eval", id, "--albedo"));
+        assert_same("0.3\n0.9\n", LIST("eval", own, "--albedo", "--lobe", file), LIST("eval", id, "--albedo"));
     }
 }
 
@@ -129,9 +128,8 @@ static void a_file_renders_as_a_row(void **state) {
     make_twin(5, base_file, base);
     for (int k = 0; k < 2; k++) {
         const char *engine = k ? "raster" : "trace", *samples = k ? "--width" : "--spp";
-        done(LIST("render", "builtin:spheres", "--engine", engine, samples, "16", "--height", "16", "--sheen",
-                  own, "--diffuse", base, "--layer", "albedo-max", "--lobe", file, "--lobe", base_file, "-o",
-                  "twin.exr"));
+        done(LIST("render", "builtin:spheres", "--engine", engine, samples, "16", "--height", "16", "--sheen", own,
+                  "--diffuse", base, "--layer", "albedo-max", "--lobe", file, "--lobe", base_file, "-o", "twin.exr"));
         done(LIST("render", "builtin:spheres", "--engine", engine, samples, "16", "--height", "16", "--sheen",
                   "charlie-khronos", "--diffuse", "burley", "--layer", "albedo-max", "-o", "row.exr"));
         done(LIST("diff", "twin.exr", "row.exr", "--max", "1e-8"));
@@ -161,8 +159,7 @@ static void passport_of_a_file_is_that_of_a_row(void **state) {
     (void)state;
     char file[64], own[64];
     make_twin(1, file, own);
-    Ran a = RUN("check", own, "--quick", "--lobe", file, "--json"),
-        b = RUN("check", "wrap", "--quick", "--json");
+    Ran a = RUN("check", own, "--quick", "--lobe", file, "--json"), b = RUN("check", "wrap", "--quick", "--json");
     assert_int_equal(a.code, 0);
     assert_int_equal(b.code, 0);
     plain(a.out);
@@ -186,8 +183,7 @@ static void assert_near(double x, double expected) {
 static void toy_loaded_from_a_file_is_listed_as_a_lobe(void **state) {
     (void)state;
     double f[4];
-    Ran ran = run_with("60 0 0 0\n",
-                       LIST("eval", "toy", "-p", "color=.5,1,.5", "-p", "roughness=0", "--lobe", TOY));
+    Ran ran = run_with("60 0 0 0\n", LIST("eval", "toy", "-p", "color=.5,1,.5", "-p", "roughness=0", "--lobe", TOY));
     if (ran.code) fail_msg("%s", ran.err);
     assert_int_equal(sscanf(ran.out, "%lf %lf %lf %lf", f, f + 1, f + 2, f + 3), 4);
     /* in front s is 0: 3 / (2 pi) cos 60 c, and the density 3 / (2 pi) */
@@ -195,8 +191,7 @@ static void toy_loaded_from_a_file_is_listed_as_a_lobe(void **state) {
     assert_near(f[1], 0.23873241);
     assert_near(f[3], 0.47746483);
     ran_free(&ran);
-    ran = run_with("60 0 60 90\n",
-                   LIST("eval", "toy", "-p", "color=.5,1,.5", "-p", "roughness=1", "--lobe", TOY));
+    ran = run_with("60 0 60 90\n", LIST("eval", "toy", "-p", "color=.5,1,.5", "-p", "roughness=1", "--lobe", TOY));
     assert_int_equal(sscanf(ran.out, "%lf", f), 1);
     assert_near(f[0], 0.5 / PI_DOUBLE * (0.75 + 0.25 * 0.5)); /* s = 1/4, second colour c c */
     ran_free(&ran);
@@ -207,8 +202,7 @@ static void toy_loaded_from_a_file_is_listed_as_a_lobe(void **state) {
     ran = RUN("models", "--lobe", TOY);
     assert_non_null(strstr(ran.out, "\n  toy "));
     ran_free(&ran);
-    done(
-        LIST("check", "toy", "--quick", "--max-albedo", "1.001", "--max-reciprocity", "1e-5", "--lobe", TOY));
+    done(LIST("check", "toy", "--quick", "--max-albedo", "1.001", "--max-reciprocity", "1e-5", "--lobe", TOY));
 }
 
 /* The writer: what functions write through references is the same in the text of every language. */
@@ -262,8 +256,7 @@ static void toy_loaded_from_a_file_compiles_to_vector_loops(void **state) {
     (void)state;
 #if defined(__x86_64__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
     Ran ran = run_shell("XDG_CACHE_HOME=$PWD/cache CC= $0 models toy --lobe '" TOY "' >/dev/null && "
-                        "'" WEFT_SOURCE_DIR
-                        "/tests/vector.sh' cache/weft/*.so 6; code=$?; rm -r cache; exit $code");
+                        "'" WEFT_SOURCE_DIR "/tests/vector.sh' cache/weft/*.so 6; code=$?; rm -r cache; exit $code");
     if (ran.code != 0 && ran.code != 77) fail_msg("%s%s", ran.out, ran.err);
     ran_free(&ran);
 #else
@@ -278,8 +271,8 @@ static void file_of(const char *name, const char *text) { file_make(name, text, 
 /* The toy after an order to sed, as toy2.h. */
 static void toy_with(const char *order) {
     char line[600];
-    snprintf(line, sizeof line, "sed 's/toy_/toy2_/g; s/Toy/Toy2/g; s/TOY_/TOY2_/g' '%s' | sed '%s' >toy2.h",
-             TOY, order);
+    snprintf(line, sizeof line, "sed 's/toy_/toy2_/g; s/Toy/Toy2/g; s/TOY_/TOY2_/g' '%s' | sed '%s' >toy2.h", TOY,
+             order);
     Ran ran = run_shell(line);
     assert_int_equal(ran.code, 0);
     ran_free(&ran);

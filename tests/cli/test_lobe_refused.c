@@ -5,8 +5,8 @@
 /* The toy as FILE.h after an order to sed, with records of that name. */
 static void toy_as(const char *name, const char *record, const char *macros, const char *order) {
     char line[600];
-    snprintf(line, sizeof line, "sed 's/toy_/%s_/g; s/Toy/%s/g; s/TOY_/%s_/g; %s' '%s' >%s.h", name, record,
-             macros, order, WEFT_SOURCE_DIR "/tests/lobes/toy.h", name);
+    snprintf(line, sizeof line, "sed 's/toy_/%s_/g; s/Toy/%s/g; s/TOY_/%s_/g; %s' '%s' >%s.h", name, record, macros,
+             order, WEFT_SOURCE_DIR "/tests/lobes/toy.h", name);
     Ran ran = run_shell(line);
     if (ran.code) fail_msg("%s", ran.err);
     ran_free(&ran);
@@ -100,9 +100,8 @@ static void compiler_that_cannot_run_is_an_error(void **state) {
 }
 
 /* In place of the library, one that tells that it was run. */
-#define HOSTILE                                                                                              \
-    CACHE "$0 models toy --lobe " TOY                                                                        \
-          " >/dev/null && cp hostile.so cache/weft/*.so && chmod 700 cache/weft/*.so; "
+#define HOSTILE                                                                                                        \
+    CACHE "$0 models toy --lobe " TOY " >/dev/null && cp hostile.so cache/weft/*.so && chmod 700 cache/weft/*.so; "
 #define RUN_IT "$0 models toy --lobe " TOY "; rm -r cache"
 
 static void cached_library_of_another_user_is_not_run(void **state) {

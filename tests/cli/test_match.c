@@ -29,14 +29,12 @@ static double value_of(const json_t *json, const char *side, const char *name) {
     return number(json_object_get(json_object_get(json, side), "values"), name);
 }
 
-static double error_of(const json_t *json, const char *side) {
-    return number(json_object_get(json, side), "error");
-}
+static double error_of(const json_t *json, const char *side) { return number(json_object_get(json, side), "error"); }
 
 static void match_of_a_lobe_with_itself_keeps_its_parameters(void **state) {
     (void)state;
-    json_t *json = printed(LIST("match", "charlie-neubelt:alpha=0.37,color=0.9,0.4,0.2", "charlie-neubelt",
-                                "--json", "--metric", "log"));
+    json_t *json = printed(
+        LIST("match", "charlie-neubelt:alpha=0.37,color=0.9,0.4,0.2", "charlie-neubelt", "--json", "--metric", "log"));
     assert_string_equal(json_string_value(json_object_get(json, "metric")), "log");
     assert_true(fabs(value_of(json, "matched", "alpha") - 0.37) < 1e-3);
     assert_true(error_of(json, "matched") < 1e-6);
@@ -55,8 +53,8 @@ static void matched_lobe_is_closer_than_the_copied_one(void **state) {
     if (weft_material_read("m.json", &material, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
     for (int k = 0; weft_material_input_name(k); k++)
         if (strcmp(weft_material_input_name(k), "sheen_roughness") == 0)
-            assert_true(fabs((double)material.inputs[k].value[0] -
-                             value_of(json, "matched", "sheen_roughness")) < 1e-5);
+            assert_true(fabs((double)material.inputs[k].value[0] - value_of(json, "matched", "sheen_roughness")) <
+                        1e-5);
     json_decref(json);
 }
 
@@ -71,8 +69,7 @@ static void match_writes_its_comparison_sheet(void **state) {
     assert_true(image.width > 900 && image.height > 600);
     weft_image_free(&image);
     ran_free(&ran);
-    json_t *json =
-        printed(LIST("match", "charlie-neubelt", "patry:density=2", "--hold", "density", "--json"));
+    json_t *json = printed(LIST("match", "charlie-neubelt", "patry:density=2", "--hold", "density", "--json"));
     assert_true(fabs(value_of(json, "matched", "density") - 2.0) < 1e-6);
     json_decref(json);
 }
@@ -80,8 +77,8 @@ static void match_writes_its_comparison_sheet(void **state) {
 /* The sheen of a file, for another engine: only its factors change. */
 static void matched_asset_is_written(void **state) {
     (void)state;
-    json_t *json = printed(
-        LIST("match", "scene.gltf", "--from", "khronos", "--to", "three", "-o", "out.gltf", "--json"));
+    json_t *json =
+        printed(LIST("match", "scene.gltf", "--from", "khronos", "--to", "three", "-o", "out.gltf", "--json"));
     const json_t *cloth = json_array_get(json_object_get(json, "materials"), 0);
     assert_true(json_is_true(json_object_get(cloth, "changed")));
     assert_true(number(cloth, "matched") < number(cloth, "copied"));
@@ -109,8 +106,7 @@ static void matched_asset_is_written(void **state) {
     json_decref(json);
     /* and to specular and back */
     json = printed(LIST("match", "scene.gltf", "--workflow", "specular", "-o", "specular.glb", "--json"));
-    assert_true(
-        json_is_true(json_object_get(json_array_get(json_object_get(json, "materials"), 0), "converted")));
+    assert_true(json_is_true(json_object_get(json_array_get(json_object_get(json, "materials"), 0), "converted")));
     assert_true(number(json_array_get(json_object_get(json, "materials"), 0), "loss") < 0.01);
     json_decref(json);
     json = printed(LIST("match", "specular.glb", "--workflow", "metallic", "-o", "metallic.glb", "--json"));
@@ -121,8 +117,7 @@ static void matched_asset_is_written(void **state) {
 static void many_make(int count) {
     FILE *stream = fopen("many.gltf", "w");
     assert_non_null(stream);
-    fputs("{\"asset\":{\"version\":\"2.0\"},\"extensionsUsed\":[\"KHR_materials_sheen\"],\"materials\":[",
-          stream);
+    fputs("{\"asset\":{\"version\":\"2.0\"},\"extensionsUsed\":[\"KHR_materials_sheen\"],\"materials\":[", stream);
     for (int k = 0; k < count; k++)
         fprintf(stream,
                 "%s{\"extensions\":{\"KHR_materials_sheen\":{\"sheenColorFactor\":[1,0.9,%.4f],"
@@ -145,8 +140,7 @@ static void interrupted_match_of_many_materials_ends(void **state) {
         sleep_seconds(0.5);
         kill(child, SIGINT);
         Ran ran = program_end(child);
-        if (ran.code != 130 || !one_complaint(ran.err) || !strstr(ran.err, "many.gltf: interrupted") ||
-            ran.out[0])
+        if (ran.code != 130 || !one_complaint(ran.err) || !strstr(ran.err, "many.gltf: interrupted") || ran.out[0])
             fail_msg("%d: %s", ran.code, ran.err);
         assert_int_equal(access("never.gltf", F_OK), -1);
         ran_free(&ran);
@@ -154,8 +148,8 @@ static void interrupted_match_of_many_materials_ends(void **state) {
 }
 
 static WeftImage drawn(const char *scene, const char *profile) {
-    Ran ran = RUN("render", scene, "--profile", profile, "--width", "160", "--height", "120", "--spp", "16",
-                  "-o", "drawn.exr");
+    Ran ran = RUN("render", scene, "--profile", profile, "--width", "160", "--height", "120", "--spp", "16", "-o",
+                  "drawn.exr");
     if (ran.code != 0) fail_msg("%s", ran.err);
     ran_free(&ran);
     WeftImage image;
@@ -165,8 +159,7 @@ static WeftImage drawn(const char *scene, const char *profile) {
 
 static double flip(const WeftImage *image, const WeftImage *reference) {
     WeftDiff found;
-    const WeftDiffDesc desc = {
-        .image = image, .reference = reference, .metric = WEFT_METRIC_FLIP, .exposed = 1};
+    const WeftDiffDesc desc = {.image = image, .reference = reference, .metric = WEFT_METRIC_FLIP, .exposed = 1};
     assert_int_equal(weft_diff(&desc, &found, NULL, NULL), WEFT_OK);
     return found.value;
 }
@@ -174,8 +167,7 @@ static double flip(const WeftImage *image, const WeftImage *reference) {
 /* The chair: drawn by the other engine it is closer to what it was than with its own numbers. */
 static void matched_chair_is_closer_in_the_other_engine_than_copied(void **state) {
     (void)state;
-    const char *folder = getenv("WEFT_DATA"), *const engines[] = {"three", "filament-cloth",
-                                                                  "filament-sheen"};
+    const char *folder = getenv("WEFT_DATA"), *const engines[] = {"three", "filament-cloth", "filament-sheen"};
     char chair[512];
     if (!folder || !*folder) folder = WEFT_SOURCE_DIR "/../shared/data";
     snprintf(chair, sizeof chair, "%s/gltf/SheenChair/SheenChair.gltf", folder);
@@ -205,11 +197,9 @@ static void match_options_without_sense_are_refused(void **state) {
     assert_complaint(NULL, LIST("match", "--maps", "--table"), 2, "does not go with");
     assert_complaint(NULL, LIST("match", "--maps", "-o", "a.png"), 2, "does not go with");
     assert_complaint(NULL, LIST("match", "ggx", "silk", "--from", "three"), 2, "does not go with");
-    assert_complaint(NULL, LIST("match", "scene.gltf", "--to", "three", "--hold", "x", "-o", "a.glb"), 2,
-                     "--hold");
+    assert_complaint(NULL, LIST("match", "scene.gltf", "--to", "three", "--hold", "x", "-o", "a.glb"), 2, "--hold");
     assert_complaint(NULL, LIST("match", "scene.gltf", "--to", "three", "-o", "a.json"), 2, ".gltf or .glb");
-    assert_complaint(NULL, LIST("match", "scene.gltf", "--to", "three", "-o", "scene.gltf"), 2,
-                     "would be lost");
+    assert_complaint(NULL, LIST("match", "scene.gltf", "--to", "three", "-o", "scene.gltf"), 2, "would be lost");
     assert_complaint(NULL, LIST("match", "ggx", "velours"), 2, "velours");
     assert_complaint(NULL, LIST("match", "ggx", "silk", "--metric", "l2"), 2, "l2");
     assert_complaint(NULL, LIST("match", "ggx", "silk", "--hold", "fuzz"), 2, "fuzz");
@@ -220,21 +210,19 @@ static void match_options_without_sense_are_refused(void **state) {
     assert_complaint(NULL, LIST("match", "scene.gltf", "--to", "three"), 2, "-o");
     assert_complaint(NULL, LIST("match", "scene.gltf", "--to", "two", "-o", "a.glb"), 2, "two");
     assert_complaint(NULL, LIST("match", "not-there.gltf", "--to", "three", "-o", "a.glb"), 3, "not-there");
-    assert_complaint(NULL,
-                     LIST("match", "scene.gltf", "--to", "three", "--workflow", "metallic", "-o", "a.glb"), 2,
+    assert_complaint(NULL, LIST("match", "scene.gltf", "--to", "three", "--workflow", "metallic", "-o", "a.glb"), 2,
                      "--workflow");
     assert_complaint(NULL, LIST("match", "not-there.binary", "ggx"), 3, "not-there");
     assert_int_equal(access("a.glb", F_OK), -1);
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(match_of_a_lobe_with_itself_keeps_its_parameters),
-        cmocka_unit_test(matched_lobe_is_closer_than_the_copied_one),
-        cmocka_unit_test(match_writes_its_comparison_sheet),
-        cmocka_unit_test(matched_asset_is_written),
-        cmocka_unit_test(interrupted_match_of_many_materials_ends),
-        cmocka_unit_test(matched_chair_is_closer_in_the_other_engine_than_copied),
-        cmocka_unit_test(match_options_without_sense_are_refused)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(match_of_a_lobe_with_itself_keeps_its_parameters),
+                                       cmocka_unit_test(matched_lobe_is_closer_than_the_copied_one),
+                                       cmocka_unit_test(match_writes_its_comparison_sheet),
+                                       cmocka_unit_test(matched_asset_is_written),
+                                       cmocka_unit_test(interrupted_match_of_many_materials_ends),
+                                       cmocka_unit_test(matched_chair_is_closer_in_the_other_engine_than_copied),
+                                       cmocka_unit_test(match_options_without_sense_are_refused)};
     return cmocka_run_group_tests(tests, scene_begin, work_end);
 }

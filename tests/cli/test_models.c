@@ -18,8 +18,7 @@ static void text_names_every_model(void **state) {
     assert_int_equal(ran.code, 0);
     for (int k = 0; k < weft_lobe_count(); k++) assert_non_null(strstr(ran.out, weft_lobe_info(k)->id));
     for (int k = 0; weft_layer_name(k); k++) assert_non_null(strstr(ran.out, weft_layer_name(k)));
-    for (int k = 0; weft_material_input_name(k); k++)
-        assert_non_null(strstr(ran.out, weft_material_input_name(k)));
+    for (int k = 0; weft_material_input_name(k); k++) assert_non_null(strstr(ran.out, weft_material_input_name(k)));
     for (int k = 0; weft_builtin_name(k); k++) assert_non_null(strstr(ran.out, weft_builtin_name(k)));
     ran_free(&ran);
 }
@@ -85,17 +84,15 @@ static void json_has_every_number_of_the_parameter_tables(void **state) {
             if (own->choices) { /* ids in place of numbers */
                 size_t value = 0;
                 for (; own->choices[value]; value++)
-                    assert_string_equal(
-                        json_string_value(json_array_get(json_object_get(param, "values"), value)),
-                        own->choices[value]);
+                    assert_string_equal(json_string_value(json_array_get(json_object_get(param, "values"), value)),
+                                        own->choices[value]);
                 assert_int_equal(json_array_size(json_object_get(param, "values")), value);
-                assert_string_equal(json_string_value(json_object_get(param, "default")),
-                                    own->choices[(int)own->def]);
+                assert_string_equal(json_string_value(json_object_get(param, "default")), own->choices[(int)own->def]);
                 continue;
             }
             const float values[5] = {own->def, own->low, own->high, own->hard_low, own->hard_high};
-            json_t *said[5] = {json_object_get(param, "default"), json_array_get(range, 0),
-                               json_array_get(range, 1), json_array_get(clamp, 0), json_array_get(clamp, 1)};
+            json_t *said[5] = {json_object_get(param, "default"), json_array_get(range, 0), json_array_get(range, 1),
+                               json_array_get(clamp, 0), json_array_get(clamp, 1)};
             for (int v = 0; v < 5; v++) {
                 float again = (float)json_number_value(said[v]);
                 assert_memory_equal(&again, &values[v], sizeof again);
@@ -115,19 +112,16 @@ static const struct {
     const char *kind, *ids;
 } promised[] = {
     {"d", "blinn-phong beckmann ggx ggx-aniso gtr1 ashikhmin charlie"},
-    {"v",
-     "implicit neumann cook-torrance kelemen smith-beckmann smith-ggx smith-ggx-correlated smith-ggx-fast "
-     "schlick-beckmann schlick-ggx smith-ggx-aniso neubelt conty-kulla conty-kulla-clamped"},
+    {"v", "implicit neumann cook-torrance kelemen smith-beckmann smith-ggx smith-ggx-correlated smith-ggx-fast "
+          "schlick-beckmann schlick-ggx smith-ggx-aniso neubelt conty-kulla conty-kulla-clamped"},
     {"f", "none schlick schlick-f90 cook-torrance dielectric conductor"},
     {"diffuse", "lambert burley burley-subsurface oren-nayar eon fabric-lambert wrap body"},
     {"layer", "additive seed albedo-view albedo-min albedo-max reciprocal stochastic"},
-    {"lobe",
-     "lambert ggx burley-sheen ashikhmin-neubelt ashikhmin-conty-kulla charlie-neubelt charlie-conty-kulla "
-     "charlie-khronos charlie-neubelt-normalised exponential exponential-lit patry silk threads fabric"},
+    {"lobe", "lambert ggx burley-sheen ashikhmin-neubelt ashikhmin-conty-kulla charlie-neubelt charlie-conty-kulla "
+             "charlie-khronos charlie-neubelt-normalised exponential exponential-lit patry silk threads fabric"},
     {"workflow", "metallic specular disney cloth free"},
-    {"profile",
-     "unreal4 hdrp-cotton hdrp-silk urp filament-cloth filament-sheen khronos three babylon materialx "
-     "cycles-velvet disney-2012 order-1886"},
+    {"profile", "unreal4 hdrp-cotton hdrp-silk urp filament-cloth filament-sheen khronos three babylon materialx "
+                "cycles-velvet disney-2012 order-1886"},
     {"alias", "ashikhmin-v ashikhmin-d charlie-d charlie-v"},
     {"preset", "velvet cotton denim wool silk satin linen felt corduroy microfibre"},
 };
@@ -205,10 +199,10 @@ static void id_of_several_catalogues_prints_all_pages(void **state) {
 static void printed_preset_is_a_material_file_with_the_same_picture(void **state) {
     (void)state;
     size_t size;
-    Ran ran = run_shell(
-        "\"$0\" models preset:silk > silk.json && "
-        "\"$0\" render builtin:cloth --quiet --width 16 --height 12 --spp 1 --preset silk -o a.exr && "
-        "\"$0\" render builtin:cloth --quiet --width 16 --height 12 --spp 1 --material silk.json -o b.exr");
+    Ran ran =
+        run_shell("\"$0\" models preset:silk > silk.json && "
+                  "\"$0\" render builtin:cloth --quiet --width 16 --height 12 --spp 1 --preset silk -o a.exr && "
+                  "\"$0\" render builtin:cloth --quiet --width 16 --height 12 --spp 1 --material silk.json -o b.exr");
     assert_int_equal(ran.code, 0);
     assert_string_equal(ran.err, "");
     char *bytes = file_bytes("a.exr", &size);
@@ -218,13 +212,12 @@ static void printed_preset_is_a_material_file_with_the_same_picture(void **state
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(text_names_every_model),
-        cmocka_unit_test(json_names_every_model),
-        cmocka_unit_test(values_of_a_choice_are_those_that_set_takes),
-        cmocka_unit_test(json_has_every_number_of_the_parameter_tables),
-        cmocka_unit_test(every_listed_id_has_a_page),
-        cmocka_unit_test(id_of_several_catalogues_prints_all_pages),
-        cmocka_unit_test(printed_preset_is_a_material_file_with_the_same_picture)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(text_names_every_model),
+                                       cmocka_unit_test(json_names_every_model),
+                                       cmocka_unit_test(values_of_a_choice_are_those_that_set_takes),
+                                       cmocka_unit_test(json_has_every_number_of_the_parameter_tables),
+                                       cmocka_unit_test(every_listed_id_has_a_page),
+                                       cmocka_unit_test(id_of_several_catalogues_prints_all_pages),
+                                       cmocka_unit_test(printed_preset_is_a_material_file_with_the_same_picture)};
     return cmocka_run_group_tests(tests, work_begin, work_end);
 }

@@ -28,8 +28,7 @@ static void every_kind_of_plot_is_written(void **state) {
         {"a.png", "\x89PNG"}, {"a.svg", "<?xml"}, {"a.pdf", "%PDF"}, {"A.PNG", "\x89PNG"}};
     for (int k = 0; k < KINDS; k++) {
         const char *const *file = files[k % 4];
-        Ran ran = RUN("plot", kinds[k], "charlie-neubelt:alpha=0.3", "ggx", "--quick", "--size", "400", "-o",
-                      file[0]);
+        Ran ran = RUN("plot", kinds[k], "charlie-neubelt:alpha=0.3", "ggx", "--quick", "--size", "400", "-o", file[0]);
         if (ran.code != 0) fail_msg("%s: %d: %s", kinds[k], ran.code, ran.err);
         assert_string_equal(ran.out, "");
         assert_string_equal(ran.err, "");
@@ -40,9 +39,8 @@ static void every_kind_of_plot_is_written(void **state) {
 
 static void models_of_all_kinds_share_one_figure(void **state) {
     (void)state;
-    Ran ran =
-        RUN("plot", "polar", "fibre", "three:sheen_roughness=0.4", "preset:velvet", "--view", "30", "--view",
-            "75", "--log", "--cos", "--channel", "red", "--title", "A & B <c>", "-o", "all.svg");
+    Ran ran = RUN("plot", "polar", "fibre", "three:sheen_roughness=0.4", "preset:velvet", "--view", "30", "--view",
+                  "75", "--log", "--cos", "--channel", "red", "--title", "A & B <c>", "-o", "all.svg");
     if (ran.code != 0) fail_msg("%d: %s", ran.code, ran.err);
     ran_free(&ran);
     size_t size;
@@ -80,8 +78,7 @@ static void weaves_are_plotted_as_any_model(void **state) {
     ran_free(&ran);
     assert_begins("shot.html", "<!DOCTYPE html>");
     file_of("none.json", "{\"weave\": {\"draft\": \"nowhere.wif\"}}");
-    assert_complaint(NULL, LIST("plot", "polar", "none.json", "-o", "none.svg"), 2,
-                     "nowhere.wif: is not a weave");
+    assert_complaint(NULL, LIST("plot", "polar", "none.json", "-o", "none.svg"), 2, "nowhere.wif: is not a weave");
     unlink("none.json");
     unlink("shot.json");
 }
@@ -102,8 +99,7 @@ static void json_has_the_numbers_that_are_drawn(void **state) {
     assert_true(json_array_size(y) > 300);
     for (size_t k = 0; k < json_array_size(y); k++)
         assert_true(fabs(json_number_value(json_array_get(y, k)) - 0.5 / PI_DOUBLE) < 1e-6);
-    assert_string_equal(json_string_value(json_object_get(json_array_get(series, 1), "label")),
-                        "ggx:alpha=0.3");
+    assert_string_equal(json_string_value(json_object_get(json_array_get(series, 1), "label")), "ggx:alpha=0.3");
     json_decref(root);
     ran_free(&ran);
     for (int k = 0; k < KINDS; k++) { /* all are JSON, and a file beside it is no harm */
@@ -174,8 +170,7 @@ static void plot_commands_without_sense_are_refused(void **state) {
     assert_complaint(NULL, LIST("plot", "report", "ggx"), 2, "needs -o FILE.html");
     assert_complaint(NULL, LIST("plot", "polar", "gxx", "-o", "a.png"), 2, "did you mean ggx?");
     assert_complaint(NULL, LIST("plot", "polar", "ggx:alhpa=1", "-o", "a.png"), 2, "alhpa");
-    assert_complaint(NULL, LIST("plot", "polar", "none.binary", "-o", "a.png"), 3,
-                     "none.binary: cannot be opened");
+    assert_complaint(NULL, LIST("plot", "polar", "none.binary", "-o", "a.png"), 3, "none.binary: cannot be opened");
     assert_complaint(NULL, LIST("plot", "difference", "ggx", "-o", "a.png"), 2, "is of two models, not 1");
     assert_complaint(NULL, LIST("plot", "difference", "ggx", "ggx", "ggx", "-o", "a.png"), 2, "not 3");
     assert_complaint(NULL, LIST("plot", "samples", "three", "-o", "a.png"), 2, "three: is not a lobe");
@@ -192,12 +187,11 @@ static void plot_commands_without_sense_are_refused(void **state) {
     assert_complaint(NULL, LIST("plot", "polar", "ggx", "--channel", "alpha", "-o", "a.png"), 2,
                      "not one of luminance, red, green, blue");
     assert_complaint(
-        NULL,
-        LIST("plot", "polar", "ggx", "ggx", "ggx", "ggx", "ggx", "ggx", "ggx", "ggx", "ggx", "-o", "a.png"),
-        2, "one operand too many");
+        NULL, LIST("plot", "polar", "ggx", "ggx", "ggx", "ggx", "ggx", "ggx", "ggx", "ggx", "ggx", "-o", "a.png"), 2,
+        "one operand too many");
     assert_complaint(NULL,
-                     LIST("plot", "polar", "ggx", "--view", "1", "--view", "2", "--view", "3", "--view", "4",
-                          "--view", "5", "--view", "6", "--view", "7", "-o", "a.png"),
+                     LIST("plot", "polar", "ggx", "--view", "1", "--view", "2", "--view", "3", "--view", "4", "--view",
+                          "5", "--view", "6", "--view", "7", "-o", "a.png"),
                      2, "more than 6 times");
     size_t size;
     assert_null(file_bytes("a.png", &size));
@@ -213,8 +207,7 @@ static void plot_help_lists_the_kinds(void **state) {
         if (!strstr(ran.out, line)) fail_msg("help lacks %s", kinds[k]);
     }
     assert_non_null(strstr(ran.out, "\n  report "));
-    for (const char *line = ran.out; *line; line += strcspn(line, "\n") + 1)
-        assert_true(strcspn(line, "\n") <= 80);
+    for (const char *line = ran.out; *line; line += strcspn(line, "\n") + 1) assert_true(strcspn(line, "\n") <= 80);
     ran_free(&ran);
 }
 

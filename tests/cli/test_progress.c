@@ -30,8 +30,7 @@ static char *on_terminal(unsigned short columns, const char *const *arguments, i
     size_t used = 0, room = 1 << 20;
     char *text = calloc(room + 1, 1);
     assert_non_null(text);
-    for (ssize_t got; used < room && (got = read(terminal, text + used, room - used)) > 0;)
-        used += (size_t)got;
+    for (ssize_t got; used < room && (got = read(terminal, text + used, room - used)) > 0;) used += (size_t)got;
     close(terminal);
     int status;
     waitpid(child, &status, 0);
@@ -77,8 +76,8 @@ static void progress_of_bake_counts_texels(void **state) {
 static void progress_of_unknown_length_is_drawn_in_per_cent(void **state) {
     (void)state;
     int code;
-    char *text = on_terminal(
-        100, LIST("match", "scene.gltf", "--from", "khronos", "--to", "three", "-o", "a.gltf"), &code);
+    char *text =
+        on_terminal(100, LIST("match", "scene.gltf", "--from", "khronos", "--to", "three", "-o", "a.gltf"), &code);
     assert_int_equal(code, 0);
     assert_non_null(strstr(text, " of the searches  0:0"));
     free(text);
@@ -91,8 +90,7 @@ static void progress_of_unknown_length_is_drawn_in_per_cent(void **state) {
 static void quiet_option_draws_no_progress(void **state) {
     (void)state;
     int code;
-    char *text =
-        on_terminal(80, LIST("render", "scene.gltf", "-o", "a.png", "--time-limit=0.5", "--quiet"), &code);
+    char *text = on_terminal(80, LIST("render", "scene.gltf", "-o", "a.png", "--time-limit=0.5", "--quiet"), &code);
     assert_int_equal(code, 0);
     assert_string_equal(text, "");
     free(text);

@@ -53,13 +53,12 @@ static void quietly(const char *const *arguments) {
 /* Each stage has a line; their sum is no more than the time of all threads. Without --stages there are none. */
 static void stages_are_listed_with_their_times(void **state) {
     (void)state;
-    Ran ran =
-        done(LIST("render", "builtin:spheres", TINY, "-o", "a.png", "--stages", "--threads", "1", "--quiet"));
+    Ran ran = done(LIST("render", "builtin:spheres", TINY, "-o", "a.png", "--stages", "--threads", "1", "--quiet"));
     assert_non_null(strstr(ran.out, "shadow tests"));
     assert_non_null(strstr(ran.out, "\nall "));
     ran_free(&ran);
-    ran = done(LIST("render", "builtin:spheres", TINY, "-o", "a.png", "--stages", "--threads", "1", "--json",
-                    "--quiet"));
+    ran =
+        done(LIST("render", "builtin:spheres", TINY, "-o", "a.png", "--stages", "--threads", "1", "--json", "--quiet"));
     json_t *figures = parsed(ran.out), *stages = json_object_get(figures, "stages"), *stage;
     const char *name;
     double sum = 0.0;
@@ -94,8 +93,7 @@ static void builtin_scene_is_written_in_three_formats(void **state) {
 static void picture_depends_on_the_seed_alone(void **state) {
     (void)state;
     quietly(LIST("render", "scene.gltf", TINY, "--quiet", "-o", "a.png", "-o", "a.exr", "--threads", "1"));
-    quietly(LIST("render", "scene.gltf", TINY, "--quiet", "-o", "b.png", "-o", "b.exr", "--seed=0",
-                 "--threads=3"));
+    quietly(LIST("render", "scene.gltf", TINY, "--quiet", "-o", "b.png", "-o", "b.exr", "--seed=0", "--threads=3"));
     quietly(LIST("render", "scene.gltf", TINY, "--quiet", "-o", "c.exr", "--seed", "1"));
     size_t png_size, exr_size;
     char *png = file_bytes("a.png", &png_size), *exr = file_bytes("a.exr", &exr_size);
@@ -120,18 +118,18 @@ static float mean(const char *path) {
 
 static void light_and_picture_options_change_the_picture(void **state) {
     (void)state;
-    quietly(LIST("render", "scene.gltf", TINY, "--quiet", "-o", "dark.exr", "--env", "0,0,0",
-                 "--background=environment"));
+    quietly(
+        LIST("render", "scene.gltf", TINY, "--quiet", "-o", "dark.exr", "--env", "0,0,0", "--background=environment"));
     assert_true(mean("dark.exr") == 0.0f);
     quietly(LIST("render", "scene.gltf", TINY, "--quiet", "-o", "one.exr", "-o", "one.png", "--env", "0.25",
                  "--env-strength=4", "--background=environment", "--camera", "0,0,3;0,0,9;30"));
     assert_true(fabsf(mean("one.exr") - 1.0f) < 1e-3f); /* it looks away from all there is */
-    quietly(LIST("render", "scene.gltf", TINY, "--quiet", "-o", "low.exr", "-o", "low.png", "--exposure=-12",
-                 "--env", "1,1,1", "--background", "environment", "--tonemap=none"));
+    quietly(LIST("render", "scene.gltf", TINY, "--quiet", "-o", "low.exr", "-o", "low.png", "--exposure=-12", "--env",
+                 "1,1,1", "--background", "environment", "--tonemap=none"));
     assert_true(mean("low.exr") > 0.3f); /* exposure is for display */
     assert_true(mean("low.png") < 0.02f);
-    quietly(LIST("render", "scene.gltf", TINY, "--quiet", "-o", "clear.png", "--background=transparent",
-                 "--camera", "0,0,3;0,0,9;30"));
+    quietly(LIST("render", "scene.gltf", TINY, "--quiet", "-o", "clear.png", "--background=transparent", "--camera",
+                 "0,0,3;0,0,9;30"));
     WeftImage clear = picture("clear.png");
     assert_int_equal(clear.channels, 4);
     for (int k = 0; k < 32 * 24; k++) assert_int_equal(((unsigned char *)clear.pixels)[4 * k + 3], 0);
@@ -147,9 +145,8 @@ static void crop_is_a_part_of_the_whole(void **state) {
 static void set_option_changes_a_material(void **state) {
     (void)state;
     quietly(LIST("render", "scene.gltf", TINY, "--quiet", "-o", "a.exr", "--camera=front"));
-    quietly(LIST("render", "scene.gltf", TINY, "--quiet", "-o", "b.exr", "--camera=0", "--set",
-                 "cloth.base_color=0", "--set=*.sheen_color=0,0,0", "--sheen", "charlie-neubelt",
-                 "--layer=additive"));
+    quietly(LIST("render", "scene.gltf", TINY, "--quiet", "-o", "b.exr", "--camera=0", "--set", "cloth.base_color=0",
+                 "--set=*.sheen_color=0,0,0", "--sheen", "charlie-neubelt", "--layer=additive"));
     assert_true(mean("b.exr") < mean("a.exr"));
     assert_complaint(NULL, LIST("render", "scene.gltf", "-o", "a.exr", "--set=wool.ior=1.5"), 2,
                      "wool: is not a material");
@@ -173,8 +170,7 @@ static void save_option_writes_the_scene(void **state) {
         quietly(LIST("render", again[k], TINY, "--quiet", "--camera=0", "-o", "c.exr"));
         assert_true(same_bytes("c.exr", one, size));
     }
-    quietly(LIST("render", "builtin:cloth", TINY, "--quiet", "--camera=0", "--material=saved.json", "-o",
-                 "c.exr"));
+    quietly(LIST("render", "builtin:cloth", TINY, "--quiet", "--camera=0", "--material=saved.json", "-o", "c.exr"));
     assert_true(same_bytes("c.exr", one, size));
     free(one);
     assert_complaint(NULL, LIST("render", "builtin:cloth", "--save=a.obj"), 2, "not a .glb, .gltf or .json");
@@ -185,19 +181,16 @@ static void save_option_writes_the_scene(void **state) {
 static void json_has_samples_and_seconds(void **state) {
     (void)state;
     static const char odd[] = "o\"\\\n\xc3\xa4\xff.png"; /* quote, backslash, newline, UTF-8 and not */
-    Ran ran =
-        done(LIST("render", "scene.gltf", TINY, "--json", "-o", odd, "-o", "a.exr", "--set=cloth.ior=3",
-                  "--set=cloth.metallic=0", "--set=cloth.base_color=0.5", "--camera", "0,0,4;0,0,0;40"));
+    Ran ran = done(LIST("render", "scene.gltf", TINY, "--json", "-o", odd, "-o", "a.exr", "--set=cloth.ior=3",
+                        "--set=cloth.metallic=0", "--set=cloth.base_color=0.5", "--camera", "0,0,4;0,0,0;40"));
     assert_non_null(strstr(ran.err, "weft: warning: "));
-    json_t *all = parsed(ran.out), *camera = json_object_get(all, "camera"),
-           *seconds = json_object_get(all, "seconds");
+    json_t *all = parsed(ran.out), *camera = json_object_get(all, "camera"), *seconds = json_object_get(all, "seconds");
     assert_string_equal(json_string_value(json_object_get(all, "scene")), "scene.gltf");
     assert_true(number(all, "width") == 32.0 && number(all, "height") == 24.0);
     assert_true(number(all, "triangles") == 1.0);
     assert_true(number(all, "samples_per_pixel") == 4.0);
     assert_true(json_is_false(json_object_get(all, "interrupted")));
-    assert_true(number(seconds, "load") >= 0.0 && number(seconds, "build") >= 0.0 &&
-                number(seconds, "render") > 0.0);
+    assert_true(number(seconds, "load") >= 0.0 && number(seconds, "build") >= 0.0 && number(seconds, "render") > 0.0);
     assert_true(number(all, "rays") >= 32.0 * 24.0 * 4.0);
     double rate = number(all, "samples_per_second") * number(seconds, "render");
     assert_true(fabs(rate - 32.0 * 24.0 * 4.0) < 1.0);
@@ -218,8 +211,8 @@ static void json_has_samples_and_seconds(void **state) {
 
 static void time_limit_ends_a_render_with_a_picture(void **state) {
     (void)state;
-    Ran ran = done(LIST("render", "scene.gltf", "--width=32", "--height=24", "--time-limit=0.3", "--json",
-                        "-o", "a.png"));
+    Ran ran =
+        done(LIST("render", "scene.gltf", "--width=32", "--height=24", "--time-limit=0.3", "--json", "-o", "a.png"));
     json_t *all = parsed(ran.out);
     double render = number(json_object_get(all, "seconds"), "render");
     assert_true(render >= 0.25 && render < 5.0);
@@ -242,8 +235,8 @@ static void interrupted_render_writes_the_samples_so_far(void **state) {
         Ran ran;
         bool early = true;
         for (double pause = 0.5; early && pause < 20.0; pause *= 2.0) {
-            pid_t child = program_start(WEFT_PROGRAM, NULL,
-                                        LIST("render", "scene.gltf", "--time-limit=60", "-o", "a.png"));
+            pid_t child =
+                program_start(WEFT_PROGRAM, NULL, LIST("render", "scene.gltf", "--time-limit=60", "-o", "a.png"));
             sleep_seconds(pause);
             kill(child, signals[s]);
             ran = program_end(child);
@@ -262,9 +255,8 @@ static void interrupted_render_writes_the_samples_so_far(void **state) {
 /* Who sent it off with nohup wants it to go on. */
 static void an_ignored_hangup_stays_ignored(void **state) {
     (void)state;
-    Ran ran =
-        run_shell("trap '' HUP; \"$0\" render scene.gltf --width 32 --height 24 --time-limit 1 -o n.png & "
-                  "sleep 0.5; kill -HUP $!; wait $!");
+    Ran ran = run_shell("trap '' HUP; \"$0\" render scene.gltf --width 32 --height 24 --time-limit 1 -o n.png & "
+                        "sleep 0.5; kill -HUP $!; wait $!");
     if (ran.code != 0 || strstr(ran.err, "interrupted")) fail_msg("exit %d: %s", ran.code, ran.err);
     ran_free(&ran);
 }
@@ -301,8 +293,8 @@ static void render_interrupted_while_loading_ends(void **state) {
     assert_int_equal(weft_image_write("sky.exr", &sky, NULL), WEFT_OK);
     weft_image_free(&sky);
     file_make("a.png", "old", 3);
-    pid_t child = program_start(WEFT_PROGRAM, NULL,
-                                LIST("render", "scene.gltf", TINY, "--env", "sky.exr", "-o", "a.png"));
+    pid_t child =
+        program_start(WEFT_PROGRAM, NULL, LIST("render", "scene.gltf", TINY, "--env", "sky.exr", "-o", "a.png"));
     await_handler(child);
     kill(child, SIGINT);
     Ran ran = program_end(child);
@@ -322,12 +314,10 @@ static void failed_render_keeps_the_old_picture(void **state) {
         "builtin:none: is not a built-in scene: available: ball, cloth, lampshade, loom, sewing, spheres\n");
     assert_complaint(NULL, LIST("render", "builtin:sphere", "-o", "a.png"), 2,
                      "available: ball, cloth, lampshade, loom, sewing, spheres; did you mean spheres?");
-    assert_complaint(NULL, LIST("render", "scene.gltf", "-o", "a.png", "--camera=0,0,1;0,0,0;180"), 2,
-                     "field of view");
+    assert_complaint(NULL, LIST("render", "scene.gltf", "-o", "a.png", "--camera=0,0,1;0,0,0;180"), 2, "field of view");
     assert_complaint(NULL, LIST("render", "scene.gltf", "-o", "a.png", "--camera=back"), 2,
                      "back: is not a camera of this scene: available: front; else write auto");
-    assert_complaint(NULL, LIST("render", "scene.gltf", "-o", "a.png", "--variant=red"), 2,
-                     "the scene has none");
+    assert_complaint(NULL, LIST("render", "scene.gltf", "-o", "a.png", "--variant=red"), 2, "the scene has none");
     assert_complaint(NULL, LIST("render", "builtin:spheres", "-o", "a.png", "--set", "x.roughness=1"), 2,
                      "available: dark-0, dark-1, dark-2, dark-3, dark-4, ...");
     assert_complaint(NULL, LIST("render", "scene.gltf", "-o", "a.png", "--env=none.hdr"), 3,
@@ -343,17 +333,13 @@ static void unwritable_output_is_refused_before_the_scene_is_read(void **state) 
                      "no/folder/a.png: cannot be written");
     assert_complaint(NULL, LIST("render", "none.gltf", "-o", "a.png", "-o", "/proc/a.exr"), 4,
                      "/proc/a.exr: cannot be written");
-    assert_complaint(NULL, LIST("render", "none.gltf", "-o", "a.png", "-o", "b.jpg"), 2,
-                     "b.jpg: has no suffix");
+    assert_complaint(NULL, LIST("render", "none.gltf", "-o", "a.png", "-o", "b.jpg"), 2, "b.jpg: has no suffix");
     assert_int_equal(mkfifo("pipe.png", 0600), 0);
-    assert_complaint(NULL, LIST("render", "none.gltf", "-o", "pipe.png"), 4,
-                     "weft: pipe.png: is not a plain file");
-    assert_complaint(NULL, LIST("check", "lambert", "--html", "pipe.png"), 4,
-                     "pipe.png: is not a plain file");
+    assert_complaint(NULL, LIST("render", "none.gltf", "-o", "pipe.png"), 4, "weft: pipe.png: is not a plain file");
+    assert_complaint(NULL, LIST("check", "lambert", "--html", "pipe.png"), 4, "pipe.png: is not a plain file");
     assert_complaint(NULL, LIST("check", "lambert", "--html", "/"), 4, "/: is not a plain file");
     assert_int_equal(symlink("nowhere", "link.exr"), 0);
-    assert_complaint(NULL, LIST("render", "none.gltf", "-o", "link.exr"), 4,
-                     "link.exr: is a link that leads nowhere");
+    assert_complaint(NULL, LIST("render", "none.gltf", "-o", "link.exr"), 4, "link.exr: is a link that leads nowhere");
 }
 
 static void output_through_a_link_replaces_its_target(void **state) {
@@ -388,8 +374,8 @@ static void aovs_lie_in_the_exr_by_name(void **state) {
     (void)state;
     static const char *const names[] = {"albedo.R", "N.X", "Z", "variance.B", "sampleCount"};
     quietly(LIST("render", "scene.gltf", TINY, "--quiet", "-o", "plain.exr", "-o", "plain.png"));
-    quietly(LIST("render", "scene.gltf", TINY, "--quiet", "--aov", "albedo,normal,depth,samples", "-o",
-                 "some.exr", "-o", "some.png"));
+    quietly(LIST("render", "scene.gltf", TINY, "--quiet", "--aov", "albedo,normal,depth,samples", "-o", "some.exr",
+                 "-o", "some.png"));
     quietly(LIST("render", "scene.gltf", TINY, "--quiet", "--aov=variance", "-o", "one.exr"));
     for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
         assert_int_equal(file_has_channel("some.exr", names[k]), k != 3);
@@ -404,8 +390,8 @@ static void aovs_lie_in_the_exr_by_name(void **state) {
 
 static void noise_level_ends_a_render(void **state) {
     (void)state;
-    Ran ran = done(LIST("render", "builtin:spheres", "--width=48", "--height=36", "--noise=0.02", "--json",
-                        "-o", "a.png"));
+    Ran ran =
+        done(LIST("render", "builtin:spheres", "--width=48", "--height=36", "--noise=0.02", "--json", "-o", "a.png"));
     json_t *all = parsed(ran.out);
     assert_true(number(all, "noise") <= 0.02 && number(all, "samples_per_pixel") >= 16.0);
     assert_non_null(strstr(ran.err, "relMSE about "));
@@ -453,8 +439,7 @@ static void absent_denoising_library_is_named(void **state) {
     if (ran.code == 0) {
         assert_size("oidn.png", 32, 24);
     } else { /* before anything is read or rendered */
-        Ran absent =
-            run_with(NULL, LIST("render", "none.gltf", TINY, "--denoiser", "oidn", "-o", "oidn.png"));
+        Ran absent = run_with(NULL, LIST("render", "none.gltf", TINY, "--denoiser", "oidn", "-o", "oidn.png"));
         assert_string_equal(absent.err, ran.err);
         ran_free(&absent);
         assert_int_equal(ran.code, WEFT_RESOURCES);

@@ -5,9 +5,9 @@
 
 #include "weft/weft.h"
 
-#define DRAW(folder)                                                                                         \
-    LIST("render", "scene.gltf", "--engine", "raster", "--width", "32", "--height", "24", "--quiet", "-o",   \
-         "a.png", "--shader-dir", folder)
+#define DRAW(folder)                                                                                                   \
+    LIST("render", "scene.gltf", "--engine", "raster", "--width", "32", "--height", "24", "--quiet", "-o", "a.png",    \
+         "--shader-dir", folder)
 
 static const char path[] = "text/shading/lobes/lambert.h";
 
@@ -20,9 +20,7 @@ static int begin(void **state) {
 
 static int end(void **state) {
     unlink(path);
-    return rmdir("text/shading/lobes") == 0 && rmdir("text/shading") == 0 && rmdir("text") == 0
-               ? work_end(state)
-               : -1;
+    return rmdir("text/shading/lobes") == 0 && rmdir("text/shading") == 0 && rmdir("text") == 0 ? work_end(state) : -1;
 }
 
 static void need_gl(void) {
@@ -49,10 +47,9 @@ static void write_broken(const char *from, const char *to, char place[64]) {
 
 static void broken_shader_text_is_an_error_with_its_line(void **state) {
     (void)state;
-    static const char *const changes[][2] = {
-        {"1.0f / PI", "1.0f +"},
-        {"1.0f / PI", "\"one\""},
-        {"FN LobeValue lambert_value", "#pragma\nFN LobeValue lambert_value"}};
+    static const char *const changes[][2] = {{"1.0f / PI", "1.0f +"},
+                                             {"1.0f / PI", "\"one\""},
+                                             {"FN LobeValue lambert_value", "#pragma\nFN LobeValue lambert_value"}};
     char place[64];
     need_gl();
     file_make("a.png", "old", 3);

@@ -68,8 +68,7 @@ static int try_all(bool on) {
             Ran ran = run_starved(words, at, on);
             bool good = (ran.code == whole.code && strcmp(ran.out, whole.out) == 0) ||
                         (ran.code == 4 && tells_of_memory(ran.err));
-            if (!good)
-                fprintf(stderr, "%s, %d%s: exit %d, %s\n", words[0], at, on ? " on" : "", ran.code, ran.err);
+            if (!good) fprintf(stderr, "%s, %d%s: exit %d, %s\n", words[0], at, on ? " on" : "", ran.code, ran.err);
             wrong += !good;
             ran_free(&ran);
         }

@@ -33,8 +33,7 @@ static void help_of_every_verb_names_its_options(void **state) {
     check_help("eval", LIST("-p", "--albedo", "--json", "--help"));
     Ran ran = RUN("--help");
     assert_int_equal(ran.code, 0);
-    assert_true(strstr(ran.out, "\n  render ") && strstr(ran.out, "\n  models ") &&
-                strstr(ran.out, "\n  eval "));
+    assert_true(strstr(ran.out, "\n  render ") && strstr(ran.out, "\n  models ") && strstr(ran.out, "\n  eval "));
     ran_free(&ran);
     ran = RUN("--version");
     assert_int_equal(ran.code, 0);
@@ -46,8 +45,7 @@ static void help_and_version_work_as_words_and_as_options(void **state) {
     (void)state;
     static const struct {
         const char *words[3], *options[3];
-    } pairs[] = {
-        {{"help"}, {"--help"}}, {{"version"}, {"--version"}}, {{"help", "eval"}, {"eval", "--help"}}};
+    } pairs[] = {{{"help"}, {"--help"}}, {{"version"}, {"--version"}}, {{"help", "eval"}, {"eval", "--help"}}};
     for (size_t k = 0; k < sizeof pairs / sizeof *pairs; k++) {
         Ran word = run_with(NULL, pairs[k].words), option = run_with(NULL, pairs[k].options);
         assert_int_equal(word.code, 0);
@@ -66,8 +64,7 @@ static void empty_argument_is_quoted_in_its_error(void **state) {
     assert_complaint(NULL, LIST("models", ""), 2, "weft: \"\": is no operand");
     assert_complaint(NULL, LIST("render", "", "-o", "a.png"), 2, "weft: \"\": is no operand");
     assert_complaint(NULL, LIST("render", "a.glb", "-o", ""), 2, "weft: -o: \"\" is no value");
-    assert_complaint(NULL, LIST("render", "a.glb", "-o", "a.png", "--env="), 2,
-                     "weft: --env: \"\" is no value");
+    assert_complaint(NULL, LIST("render", "a.glb", "-o", "a.png", "--env="), 2, "weft: --env: \"\" is no value");
     assert_complaint(NULL, LIST("check", "lambert", "--html="), 2, "weft: --html: \"\" is no value");
 }
 
@@ -80,10 +77,8 @@ static void usage_error_is_one_line(void **state) {
     assert_complaint(NULL, LIST("render", "a.glb"), 2, "-o OUT");
     assert_complaint(NULL, LIST("render", "a.glb", "b.glb", "-o", "o.png"), 2, "b.glb");
     assert_complaint(NULL, LIST("render", "a.glb", "-o"), 2, "-o: needs a value");
-    assert_complaint(NULL, LIST("render", "a.glb", "-o", "o.png", "--spp", "--quiet"), 2,
-                     "--spp: needs a value");
-    assert_complaint(NULL, LIST("render", "a.glb", "-o", "o.png", "--time", "3"), 2,
-                     "did you mean --time-limit?");
+    assert_complaint(NULL, LIST("render", "a.glb", "-o", "o.png", "--spp", "--quiet"), 2, "--spp: needs a value");
+    assert_complaint(NULL, LIST("render", "a.glb", "-o", "o.png", "--time", "3"), 2, "did you mean --time-limit?");
     assert_complaint(NULL, LIST("render", "a.glb", "-o", "o.png", "--widht=3"), 2, "did you mean --width?");
     assert_complaint(NULL, LIST("render", "a.glb", "-o", "o.png", "--zzzzzz"), 2, "weft render --help");
     assert_complaint(NULL, LIST("render", "a.glb", "-o", "o.png", "--quiet=1"), 2, "takes no value");
@@ -115,8 +110,7 @@ static void numbers_outside_their_range_are_refused(void **state) {
         char name[32];
         snprintf(name, sizeof name, "%.*s", (int)strcspn(wrong[k], "="), wrong[k]);
         bool by_value = strcmp(name, "--sheen") == 0 || strcmp(name, "--layer") == 0;
-        assert_complaint(NULL, LIST("render", "a.glb", "-o", "o.png", wrong[k]), 2,
-                         by_value ? "is not a" : name);
+        assert_complaint(NULL, LIST("render", "a.glb", "-o", "o.png", wrong[k]), 2, by_value ? "is not a" : name);
     }
 }
 

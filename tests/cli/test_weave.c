@@ -40,9 +40,8 @@ static void draft_written_in_another_form_reads_as_the_same(void **state) {
     free(text);
     assert_ends(LIST("weave", "twill.wif", "-o", "twill.png"), 0, "");
     assert_ends(LIST("weave", "twill.wif", "-o", "twill.svg"), 0, "");
-    assert_ends(
-        LIST("weave", "twill.wif", "--close", "6", "--size", "32", "--yarn", "silk,wool", "-o", "cloth.png"),
-        0, "");
+    assert_ends(LIST("weave", "twill.wif", "--close", "6", "--size", "32", "--yarn", "silk,wool", "-o", "cloth.png"), 0,
+                "");
 }
 
 static void impossible_weave_commands_are_errors_of_one_line(void **state) {

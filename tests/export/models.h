@@ -71,11 +71,10 @@ static inline int models_profiles(Exported *out) {
 static inline int models_choices(Exported *out) {
     static const struct {
         const char *id, *workflow, *layer, *sheen_d, *sheen_v, *sheen_f, *d, *f, *through;
-    } rows[] = {
-        {"a_seed", "metallic", "seed", "auto", "auto", "auto", "auto", "cook-torrance", "0"},
-        {"a_blend", "metallic", "side-by-side", "charlie", "conty-kulla-soft", "auto", "auto", "auto", "0.3"},
-        {"a_sheen", "disney", "albedo-view", "inverse-ggx", "implicit", "cook-torrance", "ggx", "auto", "0"},
-        {"a_thin", "cloth", "albedo-max", "auto", "auto", "auto", "auto", "auto", "0.6"}};
+    } rows[] = {{"a_seed", "metallic", "seed", "auto", "auto", "auto", "auto", "cook-torrance", "0"},
+                {"a_blend", "metallic", "side-by-side", "charlie", "conty-kulla-soft", "auto", "auto", "auto", "0.3"},
+                {"a_sheen", "disney", "albedo-view", "inverse-ggx", "implicit", "cook-torrance", "ggx", "auto", "0"},
+                {"a_thin", "cloth", "albedo-max", "auto", "auto", "auto", "auto", "auto", "0.6"}};
     enum { ROWS = sizeof rows / sizeof *rows };
     for (int k = 0; k < ROWS; k++) {
         const char *const choices[][2] = {{"workflow", rows[k].workflow},
@@ -200,8 +199,7 @@ typedef struct WrittenBody {
     size_t used, room;
 } WrittenBody;
 
-__attribute__((format(printf, 2, 3))) static inline void body_put(WrittenBody *body, const char *format,
-                                                                  ...) {
+__attribute__((format(printf, 2, 3))) static inline void body_put(WrittenBody *body, const char *format, ...) {
     va_list arguments;
     va_start(arguments, format);
     body->used += (size_t)vsnprintf(body->text + body->used, body->room - body->used, format, arguments);
@@ -210,8 +208,7 @@ __attribute__((format(printf, 2, 3))) static inline void body_put(WrittenBody *b
 }
 
 /* "    T name", or "    var name: T". */
-static inline void body_declare(WrittenBody *body, const Language *language, const char *type,
-                                const char *name) {
+static inline void body_declare(WrittenBody *body, const Language *language, const char *type, const char *name) {
     if (language->typed)
         body_put(body, "    %s %s", type, name);
     else
@@ -235,8 +232,8 @@ static inline const char *model_record(const WeftExport *text, const Language *l
     return at;
 }
 
-static inline void put_lobe_questions(const Exported *s, const WeftExport *text, const Language *l,
-                                      const char *id, WrittenBody *body) {
+static inline void put_lobe_questions(const Exported *s, const WeftExport *text, const Language *l, const char *id,
+                                      WrittenBody *body) {
     const WeftLobeInfo *info = weft_lobe_info(s->lobe.lobe);
     bool two = info->traits & WEFT_LOBE_TWO_COLORS;
     char type[64];
@@ -261,8 +258,8 @@ static inline void put_lobe_questions(const Exported *s, const WeftExport *text,
     if (has_albedo(s)) body_put(body, "    out1.w = %s_albedo(m, o.z);\n", id);
 }
 
-static inline void put_material_questions(const Exported *s, const WeftExport *text, const Language *l,
-                                          const char *id, WrittenBody *body) {
+static inline void put_material_questions(const Exported *s, const WeftExport *text, const Language *l, const char *id,
+                                          WrittenBody *body) {
     char type[64];
     const char *numbers = model_record(text, l, "_surface", type);
     body_declare(body, l, type, "s");
@@ -274,8 +271,7 @@ static inline void put_material_questions(const Exported *s, const WeftExport *t
         snprintf(found, sizeof found, "    s.%s = ", name);
         if (!strstr(numbers, found)) continue; /* the composition does not read it */
         if (strcmp(varied[v].at, "rgb") == 0)
-            body_put(body, "    s.%s.r = in%d.x; s.%s.g = in%d.y; s.%s.b = in%d.z;\n", name, row, name, row,
-                     name, row);
+            body_put(body, "    s.%s.r = in%d.x; s.%s.g = in%d.y; s.%s.b = in%d.z;\n", name, row, name, row, name, row);
         else
             body_put(body, "    s.%s = %s;\n", name, varied[v].at);
     }
@@ -284,8 +280,8 @@ static inline void put_material_questions(const Exported *s, const WeftExport *t
 }
 
 /* Statements which read in0 .. in5 and set members of out0 and out1. */
-static inline void model_body(const Exported *s, const WeftExport *text, const char *prefix,
-                              const Language *l, char *out, size_t room) {
+static inline void model_body(const Exported *s, const WeftExport *text, const char *prefix, const Language *l,
+                              char *out, size_t room) {
     char id[64];
     WrittenBody body = {.text = out, .room = room};
     snprintf(id, sizeof id, "%s%s", prefix, s->id);
@@ -317,8 +313,7 @@ static inline void lobe_answers(const Exported *s, float *const in[INPUTS], floa
     assert_true(lobe_of(&s->lobe, &base));
     bool rows = info->param_count > 0 && !info->params[0].choices;
     if (has_albedo(s))
-        albedo_table_fill(table, &base, rows ? info->params[0].low : 0.0f, rows ? info->params[0].high : 0.0f,
-                          0);
+        albedo_table_fill(table, &base, rows ? info->params[0].low : 0.0f, rows ? info->params[0].high : 0.0f, 0);
     TableRef e = albedo_table_ref(table);
     for (size_t k = 0; k < PAIRS; k++) {
         WeftLobe lobe = s->lobe;
@@ -406,8 +401,8 @@ static inline void assert_agree(const Exported *s, const char *target, const Arr
         }
     if (getenv("WEFT_TEST_TELL")) print_message("%-6s %-28s %.2g of the tolerance\n", target, s->id, worst);
     if (!(worst <= 1.0))
-        fail_msg("%s, %s: pair %zu, answer %d of output %d: %.8g, not %.8g", s->id, target, where / 4,
-                 (int)(where % 4), which, (double)a->out[which][where], (double)a->expected[which][where]);
+        fail_msg("%s, %s: pair %zu, answer %d of output %d: %.8g, not %.8g", s->id, target, where / 4, (int)(where % 4),
+                 which, (double)a->out[which][where], (double)a->expected[which][where]);
 }
 
 #endif

@@ -46,11 +46,9 @@ static void put_model(FILE *all, int k) {
     assert_int_equal(fclose(header), 0);
     assert_non_null(body);
     model_body(s, &made, prefix, &(Language){dir, rgb, "(int)", "(float)", "(void) {", true}, body, BODY);
-    fprintf(all, "#include \"%s\"\nvoid run_%d(int n, const float4 *const in[6], float4 *const out[2]);\n",
-            name, k);
+    fprintf(all, "#include \"%s\"\nvoid run_%d(int n, const float4 *const in[6], float4 *const out[2]);\n", name, k);
     fprintf(all, "void run_%d(int n, const float4 *const in[6], float4 *const out[2]) {\n", k);
-    fprintf(all,
-            "  for (int k = 0; k < n; k++) {\n    float4 out0 = {0.0f, 0.0f, 0.0f, 0.0f}, out1 = out0;\n");
+    fprintf(all, "  for (int k = 0; k < n; k++) {\n    float4 out0 = {0.0f, 0.0f, 0.0f, 0.0f}, out1 = out0;\n");
     for (int j = 0; j < INPUTS; j++) fprintf(all, "    float4 in%d = in[%d][k];\n", j, j);
     for (int j = 0; j < INPUTS; j++) fprintf(all, "    (void)in%d;\n", j);
     fprintf(all, "%s    out[0][k] = out0;\n    out[1][k] = out1;\n  }\n}\n", body);

@@ -23,9 +23,7 @@ static const WeftExport *text_of(int model, int target) {
 }
 
 /* Every lobe, and a fourth of all profiles, choices and presets, whose tables take long; the long run has all. */
-static bool is_asked(int model) {
-    return models[model].is_lobe || getenv("WEFT_TEST_LONG") || model % 4 == 0;
-}
+static bool is_asked(int model) { return models[model].is_lobe || getenv("WEFT_TEST_LONG") || model % 4 == 0; }
 
 static int begin(void **state) {
     (void)state;
@@ -67,8 +65,7 @@ static void exported_text_has_no_macro_or_include(void **state) {
             assert_int_equal(made->size, strlen(made->text));
             assert_text(s, weft_export_target_name(t), made->text);
             if (s->is_lobe && t != WEFT_EXPORT_SHADERTOY) assert_non_null(strstr(made->text, "Example"));
-            if (t == WEFT_EXPORT_SHADERTOY)
-                assert_non_null(strstr(made->text, "void mainImage(out vec4 pixel"));
+            if (t == WEFT_EXPORT_SHADERTOY) assert_non_null(strstr(made->text, "void mainImage(out vec4 pixel"));
         }
     }
 }
@@ -164,17 +161,15 @@ static void records_nest_as_webgl_takes_them(void **state) {
  * that is filled or idle. */
 static void exported_text_uses_operators_of_its_language(void **state) {
     (void)state;
-    static const char *const banned[] = {"rgb_add(",  "rgb_mul(",  "rgb_scale(", "rgb_grey(",
-                                         "rgb_mix(",  "dir_dot(",  "dir_add(",   "dir_scale(",
-                                         "weft_dir(", "weft_rgb(", "dir_mirror("};
+    static const char *const banned[] = {"rgb_add(", "rgb_mul(",   "rgb_scale(", "rgb_grey(", "rgb_mix(",   "dir_dot(",
+                                         "dir_add(", "dir_scale(", "weft_dir(",  "weft_rgb(", "dir_mirror("};
     /* The OpenGL Shading Language 4.60, section 3.6; HLSL, appendix "Reserved words". */
     static const char *const reserved[] = {
-        "common",    "partition", "active",   "asm",    "class",    "union",     "enum",    "typedef",
-        "template",  "this",      "resource", "goto",   "inline",   "noinline",  "public",  "extern",
-        "long",      "short",     "half",     "fixed",  "input",    "output",    "filter",  "cast",
-        "using",     "sample",    "patch",    "point",  "line",     "linear",    "pass",    "matrix",
-        "vector",    "string",    "export",   "shared", "triangle", "technique", "precise", "interface",
-        "namespace", "register",  "compile"};
+        "common",   "partition", "active",  "asm",       "class",     "union",    "enum",   "typedef", "template",
+        "this",     "resource",  "goto",    "inline",    "noinline",  "public",   "extern", "long",    "short",
+        "half",     "fixed",     "input",   "output",    "filter",    "cast",     "using",  "sample",  "patch",
+        "point",    "line",      "linear",  "pass",      "matrix",    "vector",   "string", "export",  "shared",
+        "triangle", "technique", "precise", "interface", "namespace", "register", "compile"};
     for (int k = 0; k < model_count; k++) {
         const Exported *s = &models[k];
         if (!s->is_lobe && !getenv("WEFT_TEST_LONG") && k % 6) continue;
@@ -183,8 +178,7 @@ static void exported_text_uses_operators_of_its_language(void **state) {
             for (size_t n = 0; n < sizeof banned / sizeof *banned; n++)
                 if (strstr(code, banned[n])) fail_msg("%s: %.60s", s->id, strstr(code, banned[n]));
             for (size_t n = 0; n < sizeof reserved / sizeof *reserved; n++)
-                if (count_word(code, reserved[n]))
-                    fail_msg("%s: %s is a word of a language", s->id, reserved[n]);
+                if (count_word(code, reserved[n])) fail_msg("%s: %s is a word of a language", s->id, reserved[n]);
             if (s->is_lobe && strstr(code, "inout")) fail_msg("%s: %.60s", s->id, strstr(code, "inout"));
             for (const char *c = code; *c; c++)
                 if (c > code && *c == 'f' && c[-1] >= '0' && c[-1] <= '9' && !is_word(c[1])) {
@@ -238,8 +232,7 @@ static void folded_and_explicit_pi_agree(void **state) {
                         "* i.z * light;\n}\n",
                         big, k, prefix, id, prefix, id, two ? "c, " : "");
             } else {
-                fprintf(stream, "  return %s%s_shade(%s%s_surface(), o, i).g * light;\n}\n", prefix, id,
-                        prefix, id);
+                fprintf(stream, "  return %s%s_shade(%s%s_surface(), o, i).g * light;\n}\n", prefix, id, prefix, id);
             }
             weft_export_free(&made);
         }
@@ -302,11 +295,9 @@ static void several_models_share_one_text(void **state) {
     assert_true(made.size < apart);
     fputs(made.text, stream);
     weft_export_free(&made);
-    fprintf(
-        stream,
-        "\nint differ(void);\nint differ(void) {\n  int wrong = 0;\n  for (int n = 1; n < 40; n++) {\n"
-        "    float t = 0.038f * (float)n, q = 1.3f * (float)n;\n"
-        "    All_Dir x = {sinf(t), 0.0f, cosf(t)}, y = {sinf(t) * cosf(q), sinf(t) * sinf(q), cosf(t)};\n");
+    fprintf(stream, "\nint differ(void);\nint differ(void) {\n  int wrong = 0;\n  for (int n = 1; n < 40; n++) {\n"
+                    "    float t = 0.038f * (float)n, q = 1.3f * (float)n;\n"
+                    "    All_Dir x = {sinf(t), 0.0f, cosf(t)}, y = {sinf(t) * cosf(q), sinf(t) * sinf(q), cosf(t)};\n");
     for (int k = 0; k < COUNT; k++) {
         char id[32];
         snprintf(id, sizeof id, "%s", ids[k]);

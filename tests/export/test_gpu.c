@@ -68,10 +68,8 @@ static bool begins(const char *line, const char *with) { return strncmp(line, wi
 /* The text as compute.h takes it. */
 static void put_text(Text *out, const char *text, bool crossed) {
     int layer = 0;
-    text_line(
-        out,
-        "vec4 layer_fetch(int layer, ivec2 at) { return texelFetch(weft_tables, ivec3(at, layer), 0); }\n"
-        "#define texelFetch(s, at, lod) layer_fetch(s, at)");
+    text_line(out, "vec4 layer_fetch(int layer, ivec2 at) { return texelFetch(weft_tables, ivec3(at, layer), 0); }\n"
+                   "#define texelFetch(s, at, lod) layer_fetch(s, at)");
     for (const char *line = text; *line;) {
         int size = (int)strcspn(line, "\n");
         if (begins(line, "uniform "))
@@ -107,8 +105,8 @@ static int order_tables(const WeftExport *made, const char *text, TextTable *out
     return count;
 }
 
-static void run(const Exported *s, GlContext *context, const WeftExport *made, const char *text,
-                const char *body, bool crossed, Arrays *a) {
+static void run(const Exported *s, GlContext *context, const WeftExport *made, const char *text, const char *body,
+                bool crossed, Arrays *a) {
     Text shader;
     Compute *compute = NULL;
     WeftError error = {0};
@@ -197,8 +195,7 @@ static void glsl_text_of_every_model_compiles(void **state) {
             char name[128], end[16];
             snprintf(end, sizeof end, ".%s.frag", way_names[way]);
             name_file(&models[k], end, name);
-            file_put(name,
-                     way == WAY_ESSL ? "#version 300 es\nprecision highp float;\n" : "#version 330 core\n",
+            file_put(name, way == WAY_ESSL ? "#version 300 es\nprecision highp float;\n" : "#version 330 core\n",
                      exported[way][k].text, "\nout vec4 pixel;\nvoid main() { pixel = vec4(1.0); }\n");
         }
     shell("glslangValidator -S frag *.frag >log 2>&1 || { grep -B1 ERROR log | head -6; exit 1; }");
@@ -261,10 +258,8 @@ static int end(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(glsl_text_of_every_model_compiles),
-        cmocka_unit_test(hlsl_text_of_every_model_compiles),
-        cmocka_unit_test(glsl_text_agrees_with_the_library),
-        cmocka_unit_test(essl_text_agrees_with_the_library),
+        cmocka_unit_test(glsl_text_of_every_model_compiles), cmocka_unit_test(hlsl_text_of_every_model_compiles),
+        cmocka_unit_test(glsl_text_agrees_with_the_library), cmocka_unit_test(essl_text_agrees_with_the_library),
         cmocka_unit_test(hlsl_text_agrees_with_the_library),
     };
     return cmocka_run_group_tests(tests, begin, end);

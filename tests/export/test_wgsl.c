@@ -179,8 +179,7 @@ static void small_tables_stand_in_the_wgsl_text_and_large_ones_outside(void **st
         bool array = strstr(made.text, " = array<f32, ") != NULL;
         for (int k = 0; k < made.table_count; k++) {
             char line[WEFT_EXPORT_NAME + 64];
-            snprintf(line, sizeof line, "@group(0) @binding(%d) var %s: texture_2d<f32>;", k,
-                     made.tables[k].name);
+            snprintf(line, sizeof line, "@group(0) @binding(%d) var %s: texture_2d<f32>;", k, made.tables[k].name);
             assert_non_null(strstr(made.text, line));
             assert_true(!inside || made.tables[k].texels.width * made.tables[k].texels.height > 2047);
         }

@@ -55,8 +55,7 @@ static FitError error_of(const SolvedGrid *grid) {
 }
 
 static void expect(const char *what, FitError e, double mean, double worst, double albedo) {
-    printf("%s: %.2f %% in the mean, %.1f %% at worst, R %.1e\n", what, 100.0 * e.mean, 100.0 * e.worst,
-           e.albedo);
+    printf("%s: %.2f %% in the mean, %.1f %% at worst, R %.1e\n", what, 100.0 * e.mean, 100.0 * e.worst, e.albedo);
     assert_true(e.mean <= mean && e.worst <= worst && e.albedo <= albedo && e.most <= 1.0);
 }
 
@@ -68,16 +67,14 @@ static void fitted_model_follows_the_slab_for_white_fibres(void **state) {
     (void)state;
     const double alpha[] = {0.23, 0.41, 0.83}, low[] = {0.06, 0.085, 0.12, 0.165};
     expect("white", error_of(&(SolvedGrid){3, 1, 0, 1, 21, 5, alpha, &white, NULL, 1.0}), 0.004, 0.03, 2e-3);
-    expect("white, low alpha", error_of(&(SolvedGrid){4, 1, 0, 1, 21, 5, low, &white, NULL, 1.0}), 0.03, 0.15,
-           1e-2);
+    expect("white, low alpha", error_of(&(SolvedGrid){4, 1, 0, 1, 21, 5, low, &white, NULL, 1.0}), 0.03, 0.15, 1e-2);
 }
 
 static void fitted_model_follows_the_slab_in_density(void **state) {
     (void)state;
     if (getenv("WEFT_TEST_SHORT")) skip();
     const double alpha[] = {0.3, 0.7};
-    expect("density", error_of(&(SolvedGrid){2, 1, 0, 4, 17, 5, alpha, &white, NULL, 2.8}), 0.015, 0.08,
-           1e-2);
+    expect("density", error_of(&(SolvedGrid){2, 1, 0, 4, 17, 5, alpha, &white, NULL, 2.8}), 0.015, 0.08, 1e-2);
 }
 
 static void fitted_model_follows_the_slab_in_colour(void **state) {
@@ -92,8 +89,7 @@ static void fitted_model_follows_thin_slabs_in_colour(void **state) {
     (void)state;
     if (getenv("WEFT_TEST_SHORT")) skip();
     const double alpha[] = {0.09, 0.15}, albedo[] = {0.3, 0.8, 1.0};
-    expect("colour, low alpha", error_of(&(SolvedGrid){2, 3, 0, 1, 17, 5, alpha, albedo, NULL, 1.0}), 0.07,
-           0.25, 2e-2);
+    expect("colour, low alpha", error_of(&(SolvedGrid){2, 3, 0, 1, 17, 5, alpha, albedo, NULL, 1.0}), 0.07, 0.25, 2e-2);
 }
 
 /* E of coloured fibres against light walking among them, which no fit saw: grazing, where a form without a
@@ -114,8 +110,8 @@ static double color_excess(double alpha, double density, double albedo, double m
     set(&lobe, "density", density);
     float w = (float)albedo, e[3];
     albedo_in_color(&lobe, dir((float)r, 0.0f, (float)mu), (const float[3]){w, w, w}, 1e-5, e);
-    printf("alpha %.3f density %.2f colour %.2f cos %.3f: E %.5f, walks %.5f +- %.5f\n", alpha, density,
-           albedo, mu, (double)e[0], back.mean, back.error);
+    printf("alpha %.3f density %.2f colour %.2f cos %.3f: E %.5f, walks %.5f +- %.5f\n", alpha, density, albedo, mu,
+           (double)e[0], back.mean, back.error);
     return (fabs((double)e[0] - back.mean) - 4.0 * back.error) / fmax(back.mean, 1e-3);
 }
 
@@ -126,10 +122,8 @@ static void thin_coloured_slab_agrees_with_random_walks(void **state) {
         worst = fmax(worst, color_excess((const double[]){0.15, 0.10, 0.06}[k], 1.0, 0.8, 0.05, walks));
     for (uint32_t k = 0; k < (getenv("WEFT_TEST_LONG") ? 200u : 12u); k++) {
         double mu = (double)unit(k, 13);
-        worst =
-            fmax(worst,
-                 color_excess(0.05 + 0.14 * (double)unit(k, 10), (pow)(4.0, 2.0 * (double)unit(k, 11) - 1.0),
-                              0.2 + 0.75 * (double)unit(k, 12), 0.3 * mu * mu * mu + 1e-3, 0.3 * walks));
+        worst = fmax(worst, color_excess(0.05 + 0.14 * (double)unit(k, 10), (pow)(4.0, 2.0 * (double)unit(k, 11) - 1.0),
+                                         0.2 + 0.75 * (double)unit(k, 12), 0.3 * mu * mu * mu + 1e-3, 0.3 * walks));
     }
     printf("E beyond the walks' error: %.3f of R at most\n", worst);
     assert_true(worst <= 0.1);
@@ -158,8 +152,8 @@ typedef struct ClaimSample {
     double e, r, error;
 } ClaimSample;
 static ClaimSample claim_sample(const Claim *claim, uint32_t k, double walks) {
-    const double u = (double)unit(k, 3), mu = k % 2 ? u : u * u * u + 1e-3,
-                 r = (sqrt)((1.0 - mu) * (1.0 + mu)), azimuth = PI_DOUBLE * (double)unit(k, 5),
+    const double u = (double)unit(k, 3), mu = k % 2 ? u : u * u * u + 1e-3, r = (sqrt)((1.0 - mu) * (1.0 + mu)),
+                 azimuth = PI_DOUBLE * (double)unit(k, 5),
                  alpha = claim->alpha * (pow)(claim->alpha_most / claim->alpha, (double)unit(k, 0)),
                  density = (pow)(claim->density, 2.0 * (double)unit(k, 1) - 1.0),
                  color = claim->color + (1.0 - claim->color) * (double)unit(k, 2),
@@ -199,10 +193,9 @@ static void claims_hold_against_random_walks(void **state) {
             most = fmax(most, off - 4.0 * s.error);
             if (s.r > 1e-3) relative = fmax(relative, (off - 4.0 * s.error) / s.r);
         }
-        printf(
-            "against walks, %s: R off by %.5f in the mean, of which chance is %.5f; beyond it %.4f at most, "
-            "%.1f %% of R > 0.001\n",
-            claims[n].name, mean, noise, most, 100.0 * relative);
+        printf("against walks, %s: R off by %.5f in the mean, of which chance is %.5f; beyond it %.4f at most, "
+               "%.1f %% of R > 0.001\n",
+               claims[n].name, mean, noise, most, 100.0 * relative);
         assert_true(most <= claims[n].most);
     }
 }
@@ -259,8 +252,8 @@ static void fitted_model_reflects_no_more_than_it_receives(void **state) {
         Albedo e = albedo_quadrature(&lobe, dir(r * (cosf)(phi), r * (sinf)(phi), mu), 1e-3);
         if ((double)e.f0 > most) most = (double)e.f0;
         if (e.f0 > 1.0f)
-            printf("alpha %g density %g tilt %g mu %g phi %g: E %g\n", (double)lobe.params[0],
-                   (double)lobe.params[1], (double)lobe.params[2], (double)mu, (double)phi, (double)e.f0);
+            printf("alpha %g density %g tilt %g mu %g phi %g: E %g\n", (double)lobe.params[0], (double)lobe.params[1],
+                   (double)lobe.params[2], (double)mu, (double)phi, (double)e.f0);
     }
     printf("largest E of %d: %.4f\n", cases, most);
     assert_true(most <= 1.0);

@@ -72,8 +72,7 @@ static void deep_white_slab_returns_all_light(void **state) {
 static void several_depths_of_one_run_equal_runs_of_one_depth(void **state) {
     (void)state;
     double mu[] = {0.2, 0.8}, r[3 * 4], one[4];
-    assert_true(
-        slab_mode(&(Slab){0.4, 0.9, 2.0}, (SlabEffort){48, 30}, 1, 3, 2, mu, &(Layered){.r = r}, NULL));
+    assert_true(slab_mode(&(Slab){0.4, 0.9, 2.0}, (SlabEffort){48, 30}, 1, 3, 2, mu, &(Layered){.r = r}, NULL));
     for (int k = 0; k < 3; k++) {
         assert_true(slab_mode(&(Slab){0.4, 0.9, 0.5 * (1 << k)}, (SlabEffort){48, 28 + k}, 1, 1, 2, mu,
                               &(Layered){.r = one}, NULL));
@@ -105,8 +104,7 @@ static double upright_f(const Slab *slab, double mu_i, double mu_o, double phi) 
     double mu[] = {mu_i, mu_o}, r[4], f = slab_single(slab, mu_i, mu_o, cos(phi));
     for (int m = 0; m < 8; m++) {
         assert_true(slab_mode(slab, (SlabEffort){64, 30}, m, 1, 2, mu, &(Layered){.r = r}, NULL));
-        f += (m ? 2.0 : 1.0) * (r[1] - slab_single_mode(slab, m, mu_i, mu_o)) * cos(m * phi) /
-             (2.0 * PI_DOUBLE);
+        f += (m ? 2.0 : 1.0) * (r[1] - slab_single_mode(slab, m, mu_i, mu_o)) * cos(m * phi) / (2.0 * PI_DOUBLE);
     }
     return f;
 }
@@ -139,9 +137,9 @@ static void compare(Score *score, const WalkDesc *desc, const WalkEstimate *walk
         score->worst = fmax(score->worst, off / walked[k].error);
         score->count++;
         if (off > 4.1 * walked[k].error)
-            printf("alpha %g tilt %g albedo %g depth %g wi %g %g %g: solved %g, walked %g +- %g\n",
-                   desc->alpha, desc->tilt, desc->albedo, desc->thickness, desc->wi[3 * k],
-                   desc->wi[3 * k + 1], desc->wi[3 * k + 2], solved[k], walked[k].mean, walked[k].error);
+            printf("alpha %g tilt %g albedo %g depth %g wi %g %g %g: solved %g, walked %g +- %g\n", desc->alpha,
+                   desc->tilt, desc->albedo, desc->thickness, desc->wi[3 * k], desc->wi[3 * k + 1], desc->wi[3 * k + 2],
+                   solved[k], walked[k].mean, walked[k].error);
     }
 }
 
@@ -155,12 +153,10 @@ static void case_run(Score *score, uint32_t seed, bool tilts, long long walks) {
     double tilt = tilts ? 0.75 * u[3] : 0.0, wi[3 * WIS], solved[WIS];
     Heading at[WIS + 1] = {{0.05 + 0.9 * u[4], PI_DOUBLE * u[5]}};
     WalkEstimate walked[WIS];
-    for (int k = 1; k <= WIS; k++)
-        at[k] = (Heading){0.05 + 0.18 * (k - 1 + u[5 + k]), PI_DOUBLE * u[11] * k / WIS};
+    for (int k = 1; k <= WIS; k++) at[k] = (Heading){0.05 + 0.18 * (k - 1 + u[5 + k]), PI_DOUBLE * u[11] * k / WIS};
     for (int k = 0; k < WIS; k++) {
         double r = sqrt(1.0 - at[k + 1].mu * at[k + 1].mu);
-        wi[3 * k] = r * cos(at[k + 1].phi), wi[3 * k + 1] = r * sin(at[k + 1].phi),
-               wi[3 * k + 2] = at[k + 1].mu;
+        wi[3 * k] = r * cos(at[k + 1].phi), wi[3 * k + 1] = r * sin(at[k + 1].phi), wi[3 * k + 2] = at[k + 1].mu;
     }
     double r = sqrt(1.0 - at[0].mu * at[0].mu);
     WalkDesc desc = {
@@ -169,8 +165,7 @@ static void case_run(Score *score, uint32_t seed, bool tilts, long long walks) {
     WalkCount count;
     assert_true(walk_run(&desc, &count, walked));
     double same[(WIS + 1) * (WIS + 1)], across[(WIS + 1) * (WIS + 1)];
-    if (tilts)
-        assert_true(tilted_f(&slab, tilt, (TiltEffort){12, 24, 28}, 1, WIS + 1, at, same, across, NULL));
+    if (tilts) assert_true(tilted_f(&slab, tilt, (TiltEffort){12, 24, 28}, 1, WIS + 1, at, same, across, NULL));
     for (int k = 0; k < WIS; k++)
         solved[k] = tilts ? same[k + 1] - tilted_single(&slab, tilt, at[0], at[k + 1])
                           : upright_f(&slab, at[0].mu, at[k + 1].mu, at[k + 1].phi - at[0].phi) -

@@ -41,8 +41,7 @@ static void lobe_from_the_table_follows_the_solved_slab(void **state) {
         for (int p = 0; p < t->pairs; p++) {
             double wi[3], wo[3];
             solved_pair(t, p, wi, wo);
-            Dir i = dir((float)wi[0], (float)wi[1], (float)wi[2]),
-                o = dir((float)wo[0], (float)wo[1], (float)wo[2]);
+            Dir i = dir((float)wi[0], (float)wi[1], (float)wi[2]), o = dir((float)wo[0], (float)wo[1], (float)wo[2]);
             f[p] = (double)lobe_eval(&lobe, angles_between(o, i)) - solved_single_scatter(t, p);
         }
         assert_true(solved_error(t, f, &error));
@@ -55,8 +54,7 @@ static void lobe_from_the_table_follows_the_solved_slab(void **state) {
     solved_set_free(&set);
 }
 
-static WeftImage baked_of(const char *kind, const WeftLobe *lobe, int width, int height, int threads,
-                          int channels) {
+static WeftImage baked_of(const char *kind, const WeftLobe *lobe, int width, int height, int threads, int channels) {
     WeftImage table;
     WeftError error = {0};
     WeftBakeDesc desc = {.kind = kind, .lobe = lobe, .width = width, .height = height, .threads = threads};
@@ -94,8 +92,7 @@ static void transformed_cosines_keep_the_albedo(void **state) {
     int rows = t.rows / 4, cells = rows * t.columns;
     for (int row = 0; row < rows; row += 5)
         for (int column = 1; column < t.columns; column += 6) {
-            double x = column / (t.columns - 1.0),
-                   root = (double)t.low + (double)(t.high - t.low) * row / (rows - 1.0);
+            double x = column / (t.columns - 1.0), root = (double)t.low + (double)(t.high - t.low) * row / (rows - 1.0);
             Lobe lobe = lobe_at_alpha(LOBE_FIBRE, root * root);
             double z = x * x;
             Dir o = dir((float)(sqrt)(1.0 - z * z), 0.0f, (float)z);
@@ -166,8 +163,8 @@ static void published_table_is_near_the_talks(void **state) {
             float got = published(c, entries[k].row, entries[k].column);
             most[c] = fmaxf(most[c], fabsf(got - entries[k].want[c]));
             if (!(fabsf(got - entries[k].want[c]) < limits[c]))
-                fail_msg("row %d column %d channel %d: %g, the talk's %g", entries[k].row, entries[k].column,
-                         c, (double)got, (double)entries[k].want[c]);
+                fail_msg("row %d column %d channel %d: %g, the talk's %g", entries[k].row, entries[k].column, c,
+                         (double)got, (double)entries[k].want[c]);
         }
     print_message("six of the talk's entries: a within %.4f, b within %.4f, R within %.4f\n", (double)most[0],
                   (double)most[1], (double)most[2]);
@@ -198,10 +195,8 @@ static double published_f_cos(double alpha, const double o[3], const double i[3]
     int column = (int)fmin(x, NODES - 2), row = (int)fmin(y, NODES - 2);
     x -= column, y -= row;
     for (int c = 0; c < 3; c++)
-        m[c] = (1.0 - y) * ((1.0 - x) * (double)published(c, row, column) +
-                            x * (double)published(c, row, column + 1)) +
-               y * ((1.0 - x) * (double)published(c, row + 1, column) +
-                    x * (double)published(c, row + 1, column + 1));
+        m[c] = (1.0 - y) * ((1.0 - x) * (double)published(c, row, column) + x * (double)published(c, row, column + 1)) +
+               y * ((1.0 - x) * (double)published(c, row + 1, column) + x * (double)published(c, row + 1, column + 1));
     double along = (i[0] * o[0] + i[1] * o[1]) / sine, across = (i[1] * o[0] - i[0] * o[1]) / sine;
     double v[3] = {m[0] * along + m[1] * i[2], m[0] * across, i[2]};
     double square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];

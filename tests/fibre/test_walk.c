@@ -181,8 +181,7 @@ static void medium_of_the_shading_text_is_finite_at_its_limits(void **state) {
     static const float tilts[] = {0.0f, 1e-4f, 0.7f, 1.57079633f};
     for (int n = 0; n < 7 * 7 * 4 * 4 * 3 * 2; n++) {
         float mu = cosines[n % 7], nu = cosines[n / 7 % 7], tilt = tilts[n / 49 % 4];
-        float phi = (float)(n / 196 % 4) * 1.57079633f,
-              s = n / 784 % 3 ? n / 784 % 3 == 1 ? 1.0f : 9e-4f : 1e-4f;
+        float phi = (float)(n / 196 % 4) * 1.57079633f, s = n / 784 % 3 ? n / 784 % 3 == 1 ? 1.0f : 9e-4f : 1e-4f;
         float r = (sqrtf)(1.0f - mu * mu), q = (sqrtf)(1.0f - nu * nu), thickness = n / 2352 ? 8.0f : 0.01f;
         Dir o = dir(r, 0.0f, mu), i = dir(q * (cosf)(phi), q * (sinf)(phi), nu);
         if (n / 196 % 4 == 2) i = dir(-q, 0.0f, nu);
@@ -193,8 +192,7 @@ static void medium_of_the_shading_text_is_finite_at_its_limits(void **state) {
         assert_true(isfinite(d.x + d.y + d.z));
     }
     for (double x = 1e-8; x < 80.0; x *= 1.1) {
-        double reference = -expm1(-x) / x,
-               found = (double)flake_visibility((float)x, 1.0f, 1.0f) / (double)(float)x;
+        double reference = -expm1(-x) / x, found = (double)flake_visibility((float)x, 1.0f, 1.0f) / (double)(float)x;
         assert_true(fabs(found / reference - 1.0) < 6e-7);
     }
 }
@@ -213,8 +211,8 @@ enum { SLABS = sizeof slabs / sizeof slabs[0] };
 static WalkDesc slab_of(int k) { return slab(slabs[k][0], slabs[k][1], slabs[k][2], slabs[k][3] * degree); }
 static const char *slab_name(int k) {
     static char text[120];
-    snprintf(text, sizeof text, "alpha %g thickness %g albedo %g tilt %g mu %g", slabs[k][0], slabs[k][1],
-             slabs[k][2], slabs[k][3], slabs[k][4]);
+    snprintf(text, sizeof text, "alpha %g thickness %g albedo %g tilt %g mu %g", slabs[k][0], slabs[k][1], slabs[k][2],
+             slabs[k][3], slabs[k][4]);
     return text;
 }
 
@@ -327,8 +325,7 @@ static void f_of_walks_integrates_to_their_albedo(void **state) {
             error += f[n].error * weight; /* at the most, since they share their walks */
         }
         WalkEstimate r = walk_share(count.reflected, count.walks);
-        print_message("%s: R %.4f +- %.4f, integral of f mu %.4f +- %.4f\n", slab_name(k), r.mean, r.error,
-                      sum, error);
+        print_message("%s: R %.4f +- %.4f, integral of f mu %.4f +- %.4f\n", slab_name(k), r.mean, r.error, sum, error);
         assert_true(fabs(sum - r.mean) < 3.0 * hypot(r.error, error));
     }
 }
@@ -382,9 +379,8 @@ static void walks_cut_after_16_flakes_give_the_published_table(void **state) {
         }
         WalkEstimate r = walk_share(up, walks);
         double error = hypot(r.error, walk_share((long long)(entries[k][2] * (double)theirs), theirs).error);
-        print_message("alpha %.4f mu %.4f: %.5f +- %.5f, the table %.5f; %.0f %% are cut off\n",
-                      entries[k][0], entries[k][1], r.mean, r.error, entries[k][2],
-                      100.0 * (double)still_inside / (double)walks);
+        print_message("alpha %.4f mu %.4f: %.5f +- %.5f, the table %.5f; %.0f %% are cut off\n", entries[k][0],
+                      entries[k][1], r.mean, r.error, entries[k][2], 100.0 * (double)still_inside / (double)walks);
         judge(&all, "the talk's table", r.mean, entries[k][2], error);
     }
 }

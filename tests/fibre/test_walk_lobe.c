@@ -20,11 +20,10 @@ static Judge all;
 
 static const double places[][7] = {
     /* alpha, density, tilt and azimuth of that; and of wo and wi: mu, mu, phi between */
-    {0.5, 1.0, 0.0, 0.0, 0.4, 0.7, 2.0},   {0.5, 1.0, 0.0, 0.0, 0.7, 0.4, 2.0},
-    {0.3, 1.0, 0.0, 0.0, 0.2, 0.2, 1.0},   {0.8, 4.0, 0.0, 0.0, 0.95, 0.9, 3.0},
-    {1.0, 0.25, 0.0, 0.0, 0.05, 0.5, 0.0}, {0.1, 1.0, 0.0, 0.0, 0.03, 0.05, 1.5},
-    {0.6, 1.0, 0.5, 0.0, 0.5, 0.6, 0.4},   {0.6, 1.0, 0.5, 3.0, 0.5, 0.6, 0.4},
-    {0.4, 2.0, 0.78, 1.0, 0.3, 0.8, 2.5},  {0.35, 4.0, 0.2, 5.0, 0.9, 0.2, 3.1},
+    {0.5, 1.0, 0.0, 0.0, 0.4, 0.7, 2.0},  {0.5, 1.0, 0.0, 0.0, 0.7, 0.4, 2.0},   {0.3, 1.0, 0.0, 0.0, 0.2, 0.2, 1.0},
+    {0.8, 4.0, 0.0, 0.0, 0.95, 0.9, 3.0}, {1.0, 0.25, 0.0, 0.0, 0.05, 0.5, 0.0}, {0.1, 1.0, 0.0, 0.0, 0.03, 0.05, 1.5},
+    {0.6, 1.0, 0.5, 0.0, 0.5, 0.6, 0.4},  {0.6, 1.0, 0.5, 3.0, 0.5, 0.6, 0.4},   {0.4, 2.0, 0.78, 1.0, 0.3, 0.8, 2.5},
+    {0.35, 4.0, 0.2, 5.0, 0.9, 0.2, 3.1},
 };
 enum { PLACES = sizeof places / sizeof places[0] };
 
@@ -42,8 +41,8 @@ static WalkDesc slab_at_place(int k) {
 
 static const char *place_name(int k) {
     static char text[120];
-    snprintf(text, sizeof text, "alpha %g density %g tilt %g mu_o %g mu_i %g", places[k][0], places[k][1],
-             places[k][2], places[k][4], places[k][5]);
+    snprintf(text, sizeof text, "alpha %g density %g tilt %g mu_o %g mu_i %g", places[k][0], places[k][1], places[k][2],
+             places[k][4], places[k][5]);
     return text;
 }
 
@@ -83,8 +82,7 @@ static void mean_of_random_f_is_f_of_walks(void **state) {
         set_direction(wi, places[k][5], places[k][6]);
         desc.directions = 1, desc.wi = wi;
         run(desc, places[k][4], 0.0, 1e5, &f);
-        print_message("%s: %.5f +- %.5f, %.5f +- %.5f\n", place_name(k), mean.mean, mean_error(&mean), f.mean,
-                      f.error);
+        print_message("%s: %.5f +- %.5f, %.5f +- %.5f\n", place_name(k), mean.mean, mean_error(&mean), f.mean, f.error);
         judge(&all, place_name(k), mean.mean, f.mean, hypot(mean_error(&mean), f.error));
     }
 }
@@ -99,8 +97,8 @@ static void walk_lobe_has_exact_single_scattering(void **state) {
         for (int n = 0; n < 1000; n++) {
             Dir o = near(places[k][4], 0.0, &stream), i = near(places[k][5], places[k][6], &stream);
             float f = lobe_eval(&lobe, angles_between(o, i)), g = lobe_eval(&lobe, angles_between(i, o));
-            float one = flake_single(lobe.params[0] * lobe.params[0],
-                                     flake_axis(lobe.params[2], lobe.params[3]), lobe.params[1], o, i);
+            float one = flake_single(lobe.params[0] * lobe.params[0], flake_axis(lobe.params[2], lobe.params[3]),
+                                     lobe.params[1], o, i);
             assert_true(f >= one && !(f < g || f > g));
             alone += !(f > one);
         }

@@ -31,8 +31,7 @@ static inline void set_direction(double w[3], double mu, double phi) {
 }
 
 static inline WalkDesc slab(double alpha, double thickness, double albedo, double tilt) {
-    return (WalkDesc){
-        .alpha = alpha, .thickness = thickness, .albedo = albedo, .tilt = tilt, .seed = next_seed()};
+    return (WalkDesc){.alpha = alpha, .thickness = thickness, .albedo = albedo, .tilt = tilt, .seed = next_seed()};
 }
 
 static inline WalkCount run(WalkDesc desc, double mu, double phi, double walks, WalkEstimate *f) {

@@ -23,8 +23,7 @@ static void look_up(float *texels, int cells) {
     if (ltc.columns < 2 || !ltc_is_sound(&ltc)) return;
     for (int k = 0; k < 9; k++) {
         LtcLobe l = ltc_table_at(ltc_table_ref(&ltc), (float)(k % 3) / 2.0f, (float)k / 8.0f);
-        demand(isfinite(l.m.det) && l.m.det > 0.0f && l.m.z > 0.0f && l.m.m11 > 0.0f && l.f0 >= 0.0f &&
-               l.f90 >= 0.0f);
+        demand(isfinite(l.m.det) && l.m.det > 0.0f && l.m.z > 0.0f && l.m.m11 > 0.0f && l.f0 >= 0.0f && l.f90 >= 0.0f);
     }
 }
 

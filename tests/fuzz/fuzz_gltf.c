@@ -26,8 +26,7 @@ static void demand(int condition) {
 }
 
 static void check_arrays(const WeftScene *scene, const Mesh *mesh) {
-    demand(mesh->name && mesh->triangle_count && mesh->material >= 0 &&
-           mesh->material < scene->material_count);
+    demand(mesh->name && mesh->triangle_count && mesh->material >= 0 && mesh->material < scene->material_count);
     for (size_t i = 0; i < 3 * (size_t)mesh->triangle_count; i++) demand(mesh->index[i] < mesh->vertex_count);
     for (size_t i = 0; i < mesh->vertex_count; i++) {
         const float *p = mesh->position + 3 * i, *n = mesh->normal ? mesh->normal + 3 * i : NULL,
@@ -56,8 +55,7 @@ static void check_scene(const WeftScene *scene) {
 /* Text that was not edited comes back as it was; text of which a part is gone means what is left. */
 static void check_patch(const Asset *asset) {
     size_t size = 0;
-    char *same =
-        patch_text((const char *)asset->text.data, asset->text.size, asset->root, asset->root, &size);
+    char *same = patch_text((const char *)asset->text.data, asset->text.size, asset->root, asset->root, &size);
     demand(same && size == asset->text.size && memcmp(same, asset->text.data, size) == 0);
     free(same);
     json_t *less = json_deep_copy(asset->root);

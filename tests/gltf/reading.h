@@ -101,8 +101,7 @@ static inline const char *uri(const void *bytes, size_t size) {
         uint32_t word = (uint32_t)b[i] << 16;
         if (i + 1 < size) word |= (uint32_t)b[i + 1] << 8;
         if (i + 2 < size) word |= b[i + 2];
-        for (int k = 0; k < 4; k++)
-            text[at++] = i + (size_t)k > size ? '=' : digits[word >> (18 - 6 * k) & 63];
+        for (int k = 0; k < 4; k++) text[at++] = i + (size_t)k > size ? '=' : digits[word >> (18 - 6 * k) & 63];
     }
     text[at] = 0;
     return text;
@@ -127,13 +126,13 @@ static const struct Square {
 
 /* Buffers, views and accessors 0 position, 1 normal, 2 texcoord, 3 index of the square; give it uri(&square,
  * sizeof square). */
-#define SQUARE_DATA                                                                                          \
-    "'buffers':[{'byteLength':140,'uri':'%s'}],"                                                             \
-    "'bufferViews':[{'buffer':0,'byteLength':48},{'buffer':0,'byteOffset':48,'byteLength':48},"              \
-    "{'buffer':0,'byteOffset':96,'byteLength':32},{'buffer':0,'byteOffset':128,'byteLength':12}],"           \
-    "'accessors':[{'bufferView':0,'componentType':5126,'count':4,'type':'VEC3'},"                            \
-    "{'bufferView':1,'componentType':5126,'count':4,'type':'VEC3'},"                                         \
-    "{'bufferView':2,'componentType':5126,'count':4,'type':'VEC2'},"                                         \
+#define SQUARE_DATA                                                                                                    \
+    "'buffers':[{'byteLength':140,'uri':'%s'}],"                                                                       \
+    "'bufferViews':[{'buffer':0,'byteLength':48},{'buffer':0,'byteOffset':48,'byteLength':48},"                        \
+    "{'buffer':0,'byteOffset':96,'byteLength':32},{'buffer':0,'byteOffset':128,'byteLength':12}],"                     \
+    "'accessors':[{'bufferView':0,'componentType':5126,'count':4,'type':'VEC3'},"                                      \
+    "{'bufferView':1,'componentType':5126,'count':4,'type':'VEC3'},"                                                   \
+    "{'bufferView':2,'componentType':5126,'count':4,'type':'VEC2'},"                                                   \
     "{'bufferView':3,'componentType':5123,'count':6,'type':'SCALAR'}]"
 
 #define SQUARE_URI uri(&square, sizeof square)

@@ -19,8 +19,7 @@ typedef struct Decoded {
     size_t count;
 } Decoded;
 
-__attribute__((format(printf, 3, 4))) static Decoded *decode(const void *bytes, size_t size, const char *rest,
-                                                             ...) {
+__attribute__((format(printf, 3, 4))) static Decoded *decode(const void *bytes, size_t size, const char *rest, ...) {
     va_list arguments;
     va_start(arguments, rest);
     char *text = vjson(rest, arguments);
@@ -118,11 +117,10 @@ static void accessor_of_every_shape_is_read(void **state) {
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
         for (int short_of = 0; short_of < 2; short_of++) {
-            Decoded *d =
-                decode(cases[i].bytes, 64,
-                       "'bufferViews':[{'buffer':0,'byteLength':%zu}],'accessors':[{'bufferView':0,"
-                       "'componentType':%d,'count':1,'type':'%s'%s}]",
-                       cases[i].size, cases[i].component, cases[i].type, short_of ? ",'byteOffset':1" : "");
+            Decoded *d = decode(cases[i].bytes, 64,
+                                "'bufferViews':[{'buffer':0,'byteLength':%zu}],'accessors':[{'bufferView':0,"
+                                "'componentType':%d,'count':1,'type':'%s'%s}]",
+                                cases[i].size, cases[i].component, cases[i].type, short_of ? ",'byteOffset':1" : "");
             if (short_of)
                 assert_not_decoded(d, WEFT_MESSAGE_GLTF_BOUNDS, "accessors[0]");
             else
@@ -198,29 +196,25 @@ static void malformed_accessors_are_refused(void **state) {
         {"'accessors':[{'count':1,'type':'VEC3'}]", WEFT_MESSAGE_GLTF_SCHEMA, "missing"},
         {"'accessors':[{'componentType':5126,'count':1,'type':'VEC5'}]", WEFT_MESSAGE_GLTF_SCHEMA, ".type"},
         {"'accessors':[{'componentType':5126,'count':0,'type':'VEC3'}]", WEFT_MESSAGE_GLTF_SCHEMA, ".count"},
-        {"'accessors':[{'componentType':5126,'count':1.5,'type':'VEC3'}]", WEFT_MESSAGE_GLTF_SCHEMA,
-         ".count"},
-        {"'accessors':[{'componentType':5126,'count':'1','type':'VEC3'}]", WEFT_MESSAGE_GLTF_SCHEMA,
-         ".count"},
-        {"'accessors':[{'componentType':5126,'count':4294967296,'type':'VEC3'}]", WEFT_MESSAGE_GLTF_SCHEMA,
-         ".count"},
+        {"'accessors':[{'componentType':5126,'count':1.5,'type':'VEC3'}]", WEFT_MESSAGE_GLTF_SCHEMA, ".count"},
+        {"'accessors':[{'componentType':5126,'count':'1','type':'VEC3'}]", WEFT_MESSAGE_GLTF_SCHEMA, ".count"},
+        {"'accessors':[{'componentType':5126,'count':4294967296,'type':'VEC3'}]", WEFT_MESSAGE_GLTF_SCHEMA, ".count"},
         {"'accessors':[{'componentType':5126,'count':4294967295,'type':'MAT4'}]", WEFT_MESSAGE_GLTF_TOO_LARGE,
          "decode to more"},
-        {"'accessors':[{'bufferView':0,'componentType':5126,'count':1,'type':'VEC3'}]",
-         WEFT_MESSAGE_GLTF_REFERENCE, "accessors[0].bufferView: 0 of 0"},
-        {"'accessors':[{'bufferView':-1,'componentType':5126,'count':1,'type':'VEC3'}]",
-         WEFT_MESSAGE_GLTF_SCHEMA, "bufferView"},
+        {"'accessors':[{'bufferView':0,'componentType':5126,'count':1,'type':'VEC3'}]", WEFT_MESSAGE_GLTF_REFERENCE,
+         "accessors[0].bufferView: 0 of 0"},
+        {"'accessors':[{'bufferView':-1,'componentType':5126,'count':1,'type':'VEC3'}]", WEFT_MESSAGE_GLTF_SCHEMA,
+         "bufferView"},
         {"'accessors':{}", WEFT_MESSAGE_GLTF_SCHEMA, "accessors: expected an array"},
         {"'accessors':[3]", WEFT_MESSAGE_GLTF_SCHEMA, "accessors[0]: expected an object"},
         {"'bufferViews':[{'buffer':0,'byteLength':9}]", WEFT_MESSAGE_GLTF_BOUNDS, "bufferViews[0]"},
-        {"'bufferViews':[{'buffer':0,'byteOffset':9007199254740991,'byteLength':1}]",
-         WEFT_MESSAGE_GLTF_BOUNDS, "bufferViews[0]"},
+        {"'bufferViews':[{'buffer':0,'byteOffset':9007199254740991,'byteLength':1}]", WEFT_MESSAGE_GLTF_BOUNDS,
+         "bufferViews[0]"},
         {"'bufferViews':[{'buffer':0,'byteLength':1e300}]", WEFT_MESSAGE_GLTF_SCHEMA, "byteLength"},
         {"'bufferViews':[{'buffer':0,'byteLength':0}]", WEFT_MESSAGE_GLTF_SCHEMA, "byteLength"},
         {"'bufferViews':[{'buffer':1,'byteLength':1}]", WEFT_MESSAGE_GLTF_REFERENCE, "bufferViews[0].buffer"},
         {"'bufferViews':[{'byteLength':1}]", WEFT_MESSAGE_GLTF_SCHEMA, "bufferViews[0].buffer: missing"},
-        {"'bufferViews':[{'buffer':0,'byteLength':8,'byteStride':2}]", WEFT_MESSAGE_GLTF_SCHEMA,
-         "byteStride"},
+        {"'bufferViews':[{'buffer':0,'byteLength':8,'byteStride':2}]", WEFT_MESSAGE_GLTF_SCHEMA, "byteStride"},
         /* count - 1 strides overflow 64 bits */
         {"'bufferViews':[{'buffer':0,'byteLength':8,'byteStride':252}],'accessors':[{'bufferView':0,"
          "'byteOffset':9007199254740991,'componentType':5121,'count':4294967295,'type':'SCALAR'}]",
@@ -240,14 +234,13 @@ static const char meshopt_form[] =
 
 /* The encoded bytes are padded to the decoded length, because the view's range is checked against its buffer
  * too; real files have a second, empty buffer for that. */
-static Decoded *decode_compressed(unsigned char *encoded, size_t size, size_t stride, size_t count,
-                                  const char *mode, const char *filter, int component, const char *normalized,
-                                  const char *type) {
+static Decoded *decode_compressed(unsigned char *encoded, size_t size, size_t stride, size_t count, const char *mode,
+                                  const char *filter, int component, const char *normalized, const char *type) {
     size_t room = size > stride * count ? size : stride * count;
     char step[32] = "";
     if (type[0] == 'V') snprintf(step, sizeof step, "'byteStride':%zu,", stride);
-    char *text = json(meshopt_form, stride * count, step, size, stride, count, mode, filter, component,
-                      normalized, count, type);
+    char *text =
+        json(meshopt_form, stride * count, step, size, stride, count, mode, filter, component, normalized, count, type);
     Decoded *d = decode(encoded, room, "%s", text);
     free(text);
     return d;
@@ -264,11 +257,9 @@ static void meshopt_streams_of_every_mode_are_decoded(void **state) {
             if (c < 3) expected[3 * i + c] = vertices[i][c];
         }
     size_t size = meshopt_encodeVertexBuffer(encoded, sizeof encoded, vertices, 33, 8);
-    assert_values(decode_compressed(encoded, size, 8, 33, "ATTRIBUTES", "NONE", 5123, "false", "VEC3"),
-                  expected, 99);
+    assert_values(decode_compressed(encoded, size, 8, 33, "ATTRIBUTES", "NONE", 5123, "false", "VEC3"), expected, 99);
     for (size_t cut = 0; cut < size; cut += 7) {
-        Decoded *d =
-            decode_compressed(encoded, cut ? cut : 1, 8, 33, "ATTRIBUTES", "NONE", 5123, "false", "VEC3");
+        Decoded *d = decode_compressed(encoded, cut ? cut : 1, 8, 33, "ATTRIBUTES", "NONE", 5123, "false", "VEC3");
         assert_not_decoded(d, WEFT_MESSAGE_GLTF_DECODE, "bufferViews[0]");
     }
 
@@ -277,13 +268,11 @@ static void meshopt_streams_of_every_mode_are_decoded(void **state) {
     for (size_t width = 2; width <= 4; width += 2) {
         int component = width == 2 ? 5123 : 5125;
         size = meshopt_encodeIndexBuffer(encoded, sizeof encoded, indices, 6);
-        assert_values(
-            decode_compressed(encoded, size, width, 6, "TRIANGLES", "NONE", component, "false", "SCALAR"),
-            as_floats, 6);
+        assert_values(decode_compressed(encoded, size, width, 6, "TRIANGLES", "NONE", component, "false", "SCALAR"),
+                      as_floats, 6);
         size = meshopt_encodeIndexSequence(encoded, sizeof encoded, indices, 6);
-        assert_values(
-            decode_compressed(encoded, size, width, 6, "INDICES", "NONE", component, "false", "SCALAR"),
-            as_floats, 6);
+        assert_values(decode_compressed(encoded, size, width, 6, "INDICES", "NONE", component, "false", "SCALAR"),
+                      as_floats, 6);
     }
 }
 
@@ -335,11 +324,11 @@ static void malformed_meshopt_views_are_refused(void **state) {
     };
     unsigned char bytes[64] = {0};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
-        assert_not_decoded(decode_compressed(bytes, 8, cases[i].stride, cases[i].count, cases[i].mode,
-                                             cases[i].filter, 5121, "false", "SCALAR"),
+        assert_not_decoded(decode_compressed(bytes, 8, cases[i].stride, cases[i].count, cases[i].mode, cases[i].filter,
+                                             5121, "false", "SCALAR"),
                            WEFT_MESSAGE_GLTF_SCHEMA, cases[i].part);
-    char *text = json(meshopt_form, (size_t)48, "", (size_t)8, (size_t)4, (size_t)13, "ATTRIBUTES", "NONE",
-                      5121, "false", (size_t)1, "SCALAR");
+    char *text = json(meshopt_form, (size_t)48, "", (size_t)8, (size_t)4, (size_t)13, "ATTRIBUTES", "NONE", 5121,
+                      "false", (size_t)1, "SCALAR");
     assert_not_decoded(decode(bytes, sizeof bytes, "%s", text), WEFT_MESSAGE_GLTF_SCHEMA, "count times");
     free(text);
 }

@@ -72,8 +72,8 @@ static void sample_assets_load_with_known_counts(void **state) {
         const int found[] = {scene->mesh_count,  triangles, scene->material_count,
                              scene->image_count, tangents,  scene->variant_count};
         if (memcmp(found, &assets[i].meshes, sizeof found) != 0)
-            fail_msg("%s: %d meshes, %d triangles, %d materials, %d images, %d tangents, %d variants",
-                     assets[i].name, found[0], found[1], found[2], found[3], found[4], found[5]);
+            fail_msg("%s: %d meshes, %d triangles, %d materials, %d images, %d tangents, %d variants", assets[i].name,
+                     found[0], found[1], found[2], found[3], found[4], found[5]);
         done(reading);
     }
 }
@@ -81,8 +81,7 @@ static void sample_assets_load_with_known_counts(void **state) {
 static void assets_with_draco_are_refused(void **state) {
     (void)state;
     need_data();
-    assert_refused(read_asset("gltf/Box-Draco/Box.gltf"), WEFT_MESSAGE_GLTF_EXTENSION,
-                   "KHR_draco_mesh_compression");
+    assert_refused(read_asset("gltf/Box-Draco/Box.gltf"), WEFT_MESSAGE_GLTF_EXTENSION, "KHR_draco_mesh_compression");
 }
 
 /* Every triangle of a has one of b with the same corners, in the same order but for where it starts. */
@@ -160,8 +159,7 @@ static void check_malformed(const char *name) {
     char path[2048];
     snprintf(path, sizeof path, "malformed/%s", name);
     bool forgive = false;
-    for (size_t i = 0; i < sizeof forgiven / sizeof *forgiven; i++)
-        forgive = forgive || strcmp(name, forgiven[i]) == 0;
+    for (size_t i = 0; i < sizeof forgiven / sizeof *forgiven; i++) forgive = forgive || strcmp(name, forgiven[i]) == 0;
     Reading *reading = read_asset(path);
     if (forgive && reading->result != WEFT_OK) fail_msg("%s", reading->error.text);
     if (!forgive && reading->result != WEFT_INPUT) fail_msg("%s was read", name);

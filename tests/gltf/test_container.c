@@ -61,8 +61,7 @@ static void damaged_glb_is_refused(void **state) {
     for (size_t cut = 0; cut < size; cut++) {
         Reading *reading = read_gltf("cut.glb", bytes, cut);
         assert_int_equal(reading->result, WEFT_INPUT);
-        assert_int_equal(reading->error.message,
-                         cut < 4 ? WEFT_MESSAGE_SCENE_KIND : WEFT_MESSAGE_GLTF_CONTAINER);
+        assert_int_equal(reading->error.message, cut < 4 ? WEFT_MESSAGE_SCENE_KIND : WEFT_MESSAGE_GLTF_CONTAINER);
         done(reading);
     }
     put_word(bytes + 4, 1);
@@ -98,8 +97,7 @@ static void text_that_is_no_gltf_is_refused(void **state) {
         {"{\"asset\":[]}", WEFT_MESSAGE_GLTF_SCHEMA, "asset: expected an object"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
-        assert_refused(read_gltf("text", cases[i].text, strlen(cases[i].text)), cases[i].message,
-                       cases[i].part);
+        assert_refused(read_gltf("text", cases[i].text, strlen(cases[i].text)), cases[i].message, cases[i].part);
     /* Nesting is bounded, so that no file can exhaust the stack. */
     size_t size = 5000000;
     char *text = malloc(size);
@@ -114,14 +112,12 @@ static void text_that_is_no_gltf_is_refused(void **state) {
 
 static void unsupported_required_extension_is_named(void **state) {
     (void)state;
-    assert_refused(read_rest("'extensionsRequired':['KHR_draco_mesh_compression']"),
-                   WEFT_MESSAGE_GLTF_EXTENSION, "KHR_draco_mesh_compression");
+    assert_refused(read_rest("'extensionsRequired':['KHR_draco_mesh_compression']"), WEFT_MESSAGE_GLTF_EXTENSION,
+                   "KHR_draco_mesh_compression");
     assert_refused(read_rest("'extensionsRequired':['KHR_mesh_quantization','KHR_texture_basisu']"),
                    WEFT_MESSAGE_GLTF_EXTENSION, "KHR_texture_basisu");
-    assert_refused(read_rest("'extensionsRequired':['line\\nbreak']"), WEFT_MESSAGE_GLTF_EXTENSION,
-                   "line?break");
-    Reading *reading =
-        read_rest("'extensionsUsed':['KHR_materials_iridescence','KHR_materials_sheen','X_Y']");
+    assert_refused(read_rest("'extensionsRequired':['line\\nbreak']"), WEFT_MESSAGE_GLTF_EXTENSION, "line?break");
+    Reading *reading = read_rest("'extensionsUsed':['KHR_materials_iridescence','KHR_materials_sheen','X_Y']");
     assert_read(reading);
     assert_int_equal(reading->warnings[WEFT_MESSAGE_GLTF_WARN_EXTENSION], 2);
     assert_non_null(strstr(reading->warning, "X_Y"));
@@ -139,14 +135,13 @@ static void base64_data_uri_is_decoded(void **state) {
         done(reading);
     }
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
-        assert_refused(read_rest("'buffers':[{'byteLength':1,'uri':'data:;base64,%s'}]", bad[i]),
-                       WEFT_MESSAGE_GLTF_URI, "base64");
+        assert_refused(read_rest("'buffers':[{'byteLength':1,'uri':'data:;base64,%s'}]", bad[i]), WEFT_MESSAGE_GLTF_URI,
+                       "base64");
     assert_refused(read_rest("'buffers':[{'byteLength':1,'uri':'data:,hello'}]"), WEFT_MESSAGE_GLTF_URI,
                    "must be base64");
-    assert_refused(read_rest("'buffers':[{'byteLength':1,'uri':'data:'}]"), WEFT_MESSAGE_GLTF_URI,
-                   "must be base64");
-    assert_refused(read_rest("'buffers':[{'byteLength':4,'uri':'data:;base64,AAAA'}]"),
-                   WEFT_MESSAGE_GLTF_BOUNDS, "3 of 4");
+    assert_refused(read_rest("'buffers':[{'byteLength':1,'uri':'data:'}]"), WEFT_MESSAGE_GLTF_URI, "must be base64");
+    assert_refused(read_rest("'buffers':[{'byteLength':4,'uri':'data:;base64,AAAA'}]"), WEFT_MESSAGE_GLTF_BOUNDS,
+                   "3 of 4");
 }
 
 /* --- files beside the asset --- */
@@ -240,8 +235,8 @@ static void file_used_twice_is_read_once(void **state) {
     write_file("a b/large.bin", large, SIZE);
     int used = sprintf(text, "{'asset':{'version':'2.0'},'buffers':[");
     for (int i = 0; i < NAMES; i++)
-        used += sprintf(text + used, "%s{'byteLength':%d,'uri':'%s%s'}", i ? "," : "", 1 + i,
-                        i % 2 ? "./" : "", "large.bin");
+        used += sprintf(text + used, "%s{'byteLength':%d,'uri':'%s%s'}", i ? "," : "", 1 + i, i % 2 ? "./" : "",
+                        "large.bin");
     /* Zeros that would fit if each name counted, or all of the file. */
     sprintf(text + used, "],'accessors':[{'componentType':5126,'count':3000000,'type':'VEC3'}],"
                          "'meshes':[{'primitives':[{'attributes':{'POSITION':0}}]}],'nodes':[{'mesh':0}]}");

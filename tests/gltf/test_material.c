@@ -74,22 +74,21 @@ static void material_without_members_has_the_defaults(void **state) {
 static void material_with_every_extension_is_read(void **state) {
     (void)state;
     Reading *reading = read_material(
-        textures(),
-        "'name':'velvet','alphaMode':'MASK','alphaCutoff':0.25,'doubleSided':true,"
-        "'pbrMetallicRoughness':{'baseColorFactor':[0.1,0.2,0.3,0.4],'baseColorTexture':{'index':0},"
-        "'metallicFactor':0.5,'roughnessFactor':0.6,'metallicRoughnessTexture':{'index':1,'texCoord':1}},"
-        "'normalTexture':{'index':0,'scale':0.7},'occlusionTexture':{'index':0,'strength':0.8},"
-        "'emissiveFactor':[0.9,0.8,0.7],'emissiveTexture':{'index':0},'extensions':{"
-        "'KHR_materials_emissive_strength':{'emissiveStrength':5},'KHR_materials_ior':{'ior':1.33},"
-        "'KHR_materials_specular':{'specularFactor':0.3,'specularTexture':{'index':0},"
-        "'specularColorFactor':[2,1,0.5],'specularColorTexture':{'index':0}},"
-        "'KHR_materials_anisotropy':{'anisotropyStrength':0.6,'anisotropyRotation':-1,"
-        "'anisotropyTexture':{'index':0}},"
-        "'KHR_materials_clearcoat':{'clearcoatFactor':0.9,'clearcoatTexture':{'index':0},"
-        "'clearcoatRoughnessFactor':0.2,'clearcoatRoughnessTexture':{'index':0},"
-        "'clearcoatNormalTexture':{'index':0,'scale':0.5}},"
-        "'KHR_materials_sheen':{'sheenColorFactor':[0.4,0.5,0.6],'sheenColorTexture':{'index':0},"
-        "'sheenRoughnessFactor':0.35,'sheenRoughnessTexture':{'index':2}},'KHR_materials_unlit':{}}");
+        textures(), "'name':'velvet','alphaMode':'MASK','alphaCutoff':0.25,'doubleSided':true,"
+                    "'pbrMetallicRoughness':{'baseColorFactor':[0.1,0.2,0.3,0.4],'baseColorTexture':{'index':0},"
+                    "'metallicFactor':0.5,'roughnessFactor':0.6,'metallicRoughnessTexture':{'index':1,'texCoord':1}},"
+                    "'normalTexture':{'index':0,'scale':0.7},'occlusionTexture':{'index':0,'strength':0.8},"
+                    "'emissiveFactor':[0.9,0.8,0.7],'emissiveTexture':{'index':0},'extensions':{"
+                    "'KHR_materials_emissive_strength':{'emissiveStrength':5},'KHR_materials_ior':{'ior':1.33},"
+                    "'KHR_materials_specular':{'specularFactor':0.3,'specularTexture':{'index':0},"
+                    "'specularColorFactor':[2,1,0.5],'specularColorTexture':{'index':0}},"
+                    "'KHR_materials_anisotropy':{'anisotropyStrength':0.6,'anisotropyRotation':-1,"
+                    "'anisotropyTexture':{'index':0}},"
+                    "'KHR_materials_clearcoat':{'clearcoatFactor':0.9,'clearcoatTexture':{'index':0},"
+                    "'clearcoatRoughnessFactor':0.2,'clearcoatRoughnessTexture':{'index':0},"
+                    "'clearcoatNormalTexture':{'index':0,'scale':0.5}},"
+                    "'KHR_materials_sheen':{'sheenColorFactor':[0.4,0.5,0.6],'sheenColorTexture':{'index':0},"
+                    "'sheenRoughnessFactor':0.35,'sheenRoughnessTexture':{'index':2}},'KHR_materials_unlit':{}}");
     assert_read(reading);
     const Material *m = reading->scene->materials;
     enum { R, G, B, A };
@@ -137,10 +136,9 @@ static void light_through_cloth_is_read(void **state) {
     (void)state;
     enum { R, A = 3 };
     Reading *reading = read_material(
-        textures(),
-        "'extensions':{'KHR_materials_diffuse_transmission':{'diffuseTransmissionFactor':0.4,"
-        "'diffuseTransmissionTexture':{'index':1},'diffuseTransmissionColorFactor':[0.9,0.5,0.25],"
-        "'diffuseTransmissionColorTexture':{'index':1,'texCoord':1}}}");
+        textures(), "'extensions':{'KHR_materials_diffuse_transmission':{'diffuseTransmissionFactor':0.4,"
+                    "'diffuseTransmissionTexture':{'index':1},'diffuseTransmissionColorFactor':[0.9,0.5,0.25],"
+                    "'diffuseTransmissionColorTexture':{'index':1,'texCoord':1}}}");
     assert_read(reading);
     assert_input(reading, INPUT_diffuse_transmission, 0.4f, 0, 0, A);
     assert_input(reading, INPUT_diffuse_transmission_color, 0.9f, 0.5f, 0.25f, R);
@@ -152,8 +150,7 @@ static void light_through_cloth_is_read(void **state) {
     assert_input(reading, INPUT_diffuse_transmission_color, 1, 1, 1, -1);
     done(reading);
     assert_refused(
-        read_material(
-            "", "'extensions':{'KHR_materials_diffuse_transmission':{'diffuseTransmissionFactor':'thin'}}"),
+        read_material("", "'extensions':{'KHR_materials_diffuse_transmission':{'diffuseTransmissionFactor':'thin'}}"),
         WEFT_MESSAGE_GLTF_SCHEMA,
         "materials[0].extensions.KHR_materials_diffuse_transmission.diffuseTransmissionFactor: expected a "
         "number");
@@ -191,8 +188,8 @@ static void nap_of_the_extras_is_read(void **state) {
                    "materials[0].extras.weft.nap: expected a number");
     assert_refused(read_material("", "'extras':{'weft':7}"), WEFT_MESSAGE_GLTF_SCHEMA,
                    "materials[0].extras.weft: expected an object");
-    assert_refused(read_material("", "'extras':{'weft':{'napTexture':{'index':0}}}"),
-                   WEFT_MESSAGE_GLTF_REFERENCE, "napTexture.index: 0 of 0");
+    assert_refused(read_material("", "'extras':{'weft':{'napTexture':{'index':0}}}"), WEFT_MESSAGE_GLTF_REFERENCE,
+                   "napTexture.index: 0 of 0");
 }
 
 static void dust_of_the_extras_is_read(void **state) {
@@ -228,10 +225,10 @@ static void dust_of_the_extras_is_read(void **state) {
 
 static void texture_transform_is_applied(void **state) {
     (void)state;
-    Reading *reading = read_material(
-        textures(), "'pbrMetallicRoughness':{'baseColorTexture':{'index':0,'texCoord':1,'extensions':{"
-                    "'KHR_texture_transform':{'offset':[-0.2,-0.1],'rotation':0.3,'scale':[1.5,1.5],"
-                    "'texCoord':0}}}}");
+    Reading *reading =
+        read_material(textures(), "'pbrMetallicRoughness':{'baseColorTexture':{'index':0,'texCoord':1,'extensions':{"
+                                  "'KHR_texture_transform':{'offset':[-0.2,-0.1],'rotation':0.3,'scale':[1.5,1.5],"
+                                  "'texCoord':0}}}}");
     assert_read(reading);
     /* The corner of the asset TextureTransformTest: (0.43, 0.75) must land on the arrow's tip. */
     for (int id = INPUT_base_color; id <= INPUT_opacity; id++) {
@@ -284,8 +281,7 @@ static void material_members_of_wrong_type_are_named(void **state) {
         {"'doubleSided':1", WEFT_MESSAGE_GLTF_SCHEMA, "materials[0].doubleSided: expected true or false"},
         {"'name':7", WEFT_MESSAGE_GLTF_SCHEMA, "materials[0].name: expected a string"},
         {"'normalTexture':{}", WEFT_MESSAGE_GLTF_SCHEMA, "materials[0].normalTexture.index: missing"},
-        {"'normalTexture':{'index':0}", WEFT_MESSAGE_GLTF_REFERENCE,
-         "materials[0].normalTexture.index: 0 of 0"},
+        {"'normalTexture':{'index':0}", WEFT_MESSAGE_GLTF_REFERENCE, "materials[0].normalTexture.index: 0 of 0"},
         {"'extensions':{'KHR_materials_sheen':[]}", WEFT_MESSAGE_GLTF_SCHEMA,
          "materials[0].extensions.KHR_materials_sheen: expected an object"},
         {"'extensions':{'KHR_materials_sheen':{'sheenColorFactor':1}}", WEFT_MESSAGE_GLTF_SCHEMA,
@@ -293,10 +289,9 @@ static void material_members_of_wrong_type_are_named(void **state) {
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
         assert_refused(read_material("", cases[i].material), cases[i].message, cases[i].part);
-    assert_refused(
-        read_material("'samplers':[{'wrapS':1}],'images':[{}],'textures':[{'source':0,'sampler':0}],",
-                      "'normalTexture':{'index':0}"),
-        WEFT_MESSAGE_GLTF_SCHEMA, "samplers[0].wrapS: 1 is not");
+    assert_refused(read_material("'samplers':[{'wrapS':1}],'images':[{}],'textures':[{'source':0,'sampler':0}],",
+                                 "'normalTexture':{'index':0}"),
+                   WEFT_MESSAGE_GLTF_SCHEMA, "samplers[0].wrapS: 1 is not");
     assert_refused(read_material("'textures':[{'source':3}],", ""), WEFT_MESSAGE_GLTF_REFERENCE,
                    "textures[0].source: 3 of 0");
 }
@@ -340,8 +335,7 @@ static void images_in_views_uris_and_files_are_found(void **state) {
     assert_int_equal(reading->scene->image_count, 1);
     done(reading);
     /* One that does not decode is named, where it is needed; else nobody looks. */
-    static const char bad[] =
-        "'images':[{'uri':'data:image/png;base64,AAAAAAAA'}],'textures':[{'source':0}],";
+    static const char bad[] = "'images':[{'uri':'data:image/png;base64,AAAAAAAA'}],'textures':[{'source':0}],";
     Reading *refused = read_material(bad, MAPPED);
     assert_int_equal(refused->result, WEFT_INPUT);
     assert_non_null(strstr(refused->error.text, "memory: images[0]"));
@@ -350,8 +344,8 @@ static void images_in_views_uris_and_files_are_found(void **state) {
     assert_read(reading);
     assert_int_equal(reading->scene->image_count, 0);
     done(reading);
-    assert_refused(read_material("'images':[{}],'textures':[{'source':0}],", MAPPED),
-                   WEFT_MESSAGE_GLTF_SCHEMA, "images[0]: it has neither");
+    assert_refused(read_material("'images':[{}],'textures':[{'source':0}],", MAPPED), WEFT_MESSAGE_GLTF_SCHEMA,
+                   "images[0]: it has neither");
     assert_refused(read_material("'images':[{'uri':'a.png'}],'textures':[{'source':0}],", MAPPED),
                    WEFT_MESSAGE_GLTF_URI, "in memory");
 }
@@ -362,9 +356,8 @@ static void images_of_too_many_pixels_together_are_refused(void **state) {
     static const unsigned char header[] = {0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00,
                                            0x0d, 0x49, 0x48, 0x44, 0x52, 0x00, 0x00, 0x20, 0x00, 0x00, 0x00,
                                            0x40, 0x00, 0x08, 0x06, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00};
-    static const unsigned char frame[] = {0xff, 0xd8, 0xff, 0xe0, 0x00, 0x04, 0x00, 0x00,
-                                          0xff, 0xff, 0xc2, 0x00, 0x11, 0x08, 0x40, 0x00,
-                                          0x40, 0x00, 0x03, 0x00, 0x00, 0x00, 0x00};
+    static const unsigned char frame[] = {0xff, 0xd8, 0xff, 0xe0, 0x00, 0x04, 0x00, 0x00, 0xff, 0xff, 0xc2, 0x00,
+                                          0x11, 0x08, 0x40, 0x00, 0x40, 0x00, 0x03, 0x00, 0x00, 0x00, 0x00};
     static const unsigned char targa[] = {0, 0, 10, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x40, 0, 0x40, 32, 0};
     static const struct {
         const unsigned char *bytes;
@@ -376,8 +369,8 @@ static void images_of_too_many_pixels_together_are_refused(void **state) {
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         char *images = json("'images':[{'uri':'%s'},{'uri':'%s'}],'textures':[{'source':0},{'source':1}],",
                             uri(cases[i].bytes, cases[i].size), uri(cases[i].bytes, cases[i].size));
-        assert_refused(read_material(images, MAPPED ",'emissiveTexture':{'index':1}"),
-                       WEFT_MESSAGE_GLTF_TOO_LARGE, cases[i].decoded);
+        assert_refused(read_material(images, MAPPED ",'emissiveTexture':{'index':1}"), WEFT_MESSAGE_GLTF_TOO_LARGE,
+                       cases[i].decoded);
         free(images);
     }
 }
@@ -404,12 +397,12 @@ static void texture_of_an_unreadable_container_falls_back_to_its_source(void **s
 
 static void material_variants_are_read(void **state) {
     (void)state;
-    static const char form[] = SQUARE_DATA
-        ",'extensions':{'KHR_materials_variants':{'variants':[{'name':'Mango'},{'name':'Peacock'},"
-        "{'name':'Plain'}]}},'materials':[{},{},{" MAPPED
-        "}],'textures':[{}],'meshes':[{'primitives':[{" SQUARE_PRIMITIVE
-        ",'material':0,'extensions':{'KHR_materials_variants':{'mappings':[{'material':1,"
-        "'variants':[0]},{'material':%d,'variants':[%d]}]}}}]}],'nodes':[{'mesh':0}]";
+    static const char form[] =
+        SQUARE_DATA ",'extensions':{'KHR_materials_variants':{'variants':[{'name':'Mango'},{'name':'Peacock'},"
+                    "{'name':'Plain'}]}},'materials':[{},{},{" MAPPED
+                    "}],'textures':[{}],'meshes':[{'primitives':[{" SQUARE_PRIMITIVE
+                    ",'material':0,'extensions':{'KHR_materials_variants':{'mappings':[{'material':1,"
+                    "'variants':[0]},{'material':%d,'variants':[%d]}]}}}]}],'nodes':[{'mesh':0}]";
     Reading *reading = read_rest(form, SQUARE_URI, 2, 2);
     assert_read(reading);
     assert_int_equal(reading->scene->variant_count, 3);
@@ -419,8 +412,7 @@ static void material_variants_are_read(void **state) {
     assert_memory_equal(mesh->variant_material, ((const int[]){1, -1, 2}), 3 * sizeof(int));
     assert_non_null(mesh->tangent); /* which only the variant needs */
     done(reading);
-    assert_refused(read_rest(form, SQUARE_URI, 3, 2), WEFT_MESSAGE_GLTF_REFERENCE,
-                   "mappings[1].material: 3 of 3");
+    assert_refused(read_rest(form, SQUARE_URI, 3, 2), WEFT_MESSAGE_GLTF_REFERENCE, "mappings[1].material: 3 of 3");
     assert_refused(read_rest(form, SQUARE_URI, 2, 3), WEFT_MESSAGE_GLTF_REFERENCE, "variants[0]: 3 of 3");
 }
 
@@ -453,12 +445,9 @@ static void saved_material_reads_as_it_was(void **state) {
         {"'inputs':{'nap':7}", "materials[0].extras.weft.inputs.nap: expected an object"},
         {"'inputs':{'nap':{'value':7}}", "materials[0].extras.weft.inputs.nap.value: expected an array"},
         {"'inputs':{'nap':{'value':[1,2]}}", "materials[0].extras.weft.inputs.nap.value: expected an array"},
-        {"'inputs':{'nap':{'channel':4}}",
-         "materials[0].extras.weft.inputs.nap.channel: expected an integer"},
-        {"'inputs':{'nap':{'texCoord':-1}}",
-         "materials[0].extras.weft.inputs.nap.texCoord: expected an integer"},
-        {"'inputs':{'nap':{'transform':[1]}}",
-         "materials[0].extras.weft.inputs.nap.transform: expected an array"},
+        {"'inputs':{'nap':{'channel':4}}", "materials[0].extras.weft.inputs.nap.channel: expected an integer"},
+        {"'inputs':{'nap':{'texCoord':-1}}", "materials[0].extras.weft.inputs.nap.texCoord: expected an integer"},
+        {"'inputs':{'nap':{'transform':[1]}}", "materials[0].extras.weft.inputs.nap.transform: expected an array"},
         {"'alphaCutoff':'x'", "materials[0].extras.weft.alphaCutoff: expected a number"},
     };
     for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
@@ -466,8 +455,8 @@ static void saved_material_reads_as_it_was(void **state) {
         snprintf(extras, sizeof extras, "'extras':{'weft':{%s}}", wrong[k].weft);
         assert_refused(read_material("", extras), WEFT_MESSAGE_GLTF_SCHEMA, wrong[k].text);
     }
-    assert_refused(read_material("", "'extras':{'weft':{'inputs':{'nap':{'texture':3}}}}"),
-                   WEFT_MESSAGE_GLTF_REFERENCE, "materials[0].extras.weft.inputs.nap.texture: 3 of 0");
+    assert_refused(read_material("", "'extras':{'weft':{'inputs':{'nap':{'texture':3}}}}"), WEFT_MESSAGE_GLTF_REFERENCE,
+                   "materials[0].extras.weft.inputs.nap.texture: 3 of 0");
 }
 
 static int rows_of(int input) {

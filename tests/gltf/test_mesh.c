@@ -9,8 +9,8 @@
 
 /* A scene of the square under one node, whose members are node. */
 static Reading *read_square(const char *node, const char *primitive) {
-    return read_rest(SQUARE_DATA ",'meshes':[{'name':'square','primitives':[{%s}]}],'nodes':[{'mesh':0%s}]",
-                     SQUARE_URI, primitive, node);
+    return read_rest(SQUARE_DATA ",'meshes':[{'name':'square','primitives':[{%s}]}],'nodes':[{'mesh':0%s}]", SQUARE_URI,
+                     primitive, node);
 }
 
 /* The normal of a triangle by its winding, not unit. */
@@ -20,8 +20,7 @@ static void winding(const Mesh *mesh, size_t triangle, float out[3]) {
     for (int k = 0; k < 2; k++)
         for (int c = 0; c < 3; c++)
             e[k][c] = mesh->position[3 * v[k + 1] + (uint32_t)c] - mesh->position[3 * v[0] + (uint32_t)c];
-    for (int c = 0; c < 3; c++)
-        out[c] = e[0][(c + 1) % 3] * e[1][(c + 2) % 3] - e[0][(c + 2) % 3] * e[1][(c + 1) % 3];
+    for (int c = 0; c < 3; c++) out[c] = e[0][(c + 1) % 3] * e[1][(c + 2) % 3] - e[0][(c + 2) % 3] * e[1][(c + 1) % 3];
 }
 
 /* Every triangle winds as the normals of its vertices say. */
@@ -97,18 +96,15 @@ static void malformed_attributes_are_refused(void **state) {
     /* An index beyond the vertices, and a position that is not finite. */
     struct Square bad = square;
     bad.index[4] = 4;
-    assert_refused(read_rest(SQUARE_DATA ",'meshes':[{'primitives':[{" SQUARE_PRIMITIVE
-                                         "}]}],'nodes':[{'mesh':0}]",
+    assert_refused(read_rest(SQUARE_DATA ",'meshes':[{'primitives':[{" SQUARE_PRIMITIVE "}]}],'nodes':[{'mesh':0}]",
                              uri(&bad, sizeof bad)),
                    WEFT_MESSAGE_GLTF_BOUNDS, "meshes[0].primitives[0]: an index");
     bad = square;
     bad.position[5] = NAN;
-    assert_refused(read_rest(SQUARE_DATA ",'meshes':[{'primitives':[{" SQUARE_PRIMITIVE
-                                         "}]}],'nodes':[{'mesh':0}]",
+    assert_refused(read_rest(SQUARE_DATA ",'meshes':[{'primitives':[{" SQUARE_PRIMITIVE "}]}],'nodes':[{'mesh':0}]",
                              uri(&bad, sizeof bad)),
                    WEFT_MESSAGE_GLTF_SCHEMA, "not finite");
-    assert_refused(read_square(",'scale':[1e20,1,1]", SQUARE_PRIMITIVE), WEFT_MESSAGE_GLTF_TOO_LARGE,
-                   "too far away");
+    assert_refused(read_square(",'scale':[1e20,1,1]", SQUARE_PRIMITIVE), WEFT_MESSAGE_GLTF_TOO_LARGE, "too far away");
     assert_refused(read_square("},{'children':[2],'scale':[1e30,1,1]},{'scale':[1e30,1,1]", SQUARE_PRIMITIVE),
                    WEFT_MESSAGE_GLTF_TOO_LARGE, "nodes[2]: its transform");
     Reading *reading = read_square("", "'attributes':{'NORMAL':1}");
@@ -121,10 +117,8 @@ static void malformed_attributes_are_refused(void **state) {
 static void matrix_and_translation_rotation_scale_agree(void **state) {
     (void)state;
     /* 0.6 = sin, 0.8 = cos of half the angle about x: the whole angle has cosine 0.28 and sine 0.96. */
-    Reading *trs =
-        read_square(",'translation':[1,2,3],'rotation':[0.6,0,0,0.8],'scale':[2,3,4]", SQUARE_PRIMITIVE);
-    Reading *matrix =
-        read_square(",'matrix':[2,0,0,0, 0,0.84,2.88,0, 0,-3.84,1.12,0, 1,2,3,1]", SQUARE_PRIMITIVE);
+    Reading *trs = read_square(",'translation':[1,2,3],'rotation':[0.6,0,0,0.8],'scale':[2,3,4]", SQUARE_PRIMITIVE);
+    Reading *matrix = read_square(",'matrix':[2,0,0,0, 0,0.84,2.88,0, 0,-3.84,1.12,0, 1,2,3,1]", SQUARE_PRIMITIVE);
     assert_read(trs);
     assert_read(matrix);
     const Mesh *a = trs->scene->meshes, *b = matrix->scene->meshes;
@@ -151,8 +145,7 @@ static void mirrored_node_keeps_its_front(void **state) {
         const Mesh *mesh = reading->scene->meshes;
         /* What was the front stays the front: the normal points where the scale takes +z. */
         float expected = strstr(nodes[i], ",-1]") ? -1.0f : 1.0f;
-        for (int v = 0; v < 4; v++)
-            assert_all_near(mesh->normal + 3 * v, (float[]){0, 0, expected}, 3, 1e-6f);
+        for (int v = 0; v < 4; v++) assert_all_near(mesh->normal + 3 * v, (float[]){0, 0, expected}, 3, 1e-6f);
         assert_consistent(mesh);
         done(reading);
     }
@@ -179,9 +172,8 @@ static void missing_or_zero_normals_are_repaired(void **state) {
     memset(bad.normal, 0, sizeof bad.normal);
     bad.normal[0] = INFINITY;
     bad.normal[5] = 7.0f; /* only not unit */
-    Reading *reading =
-        read_rest(SQUARE_DATA ",'meshes':[{'primitives':[{" SQUARE_PRIMITIVE "}]}],'nodes':[{'mesh':0}]",
-                  uri(&bad, sizeof bad));
+    Reading *reading = read_rest(SQUARE_DATA ",'meshes':[{'primitives':[{" SQUARE_PRIMITIVE "}]}],'nodes':[{'mesh':0}]",
+                                 uri(&bad, sizeof bad));
     assert_read(reading);
     assert_int_equal(reading->warnings[WEFT_MESSAGE_GLTF_WARN_REPAIRED], 1);
     assert_all_near(reading->scene->meshes[0].normal, square.normal, 12, 1e-6f);
@@ -203,17 +195,17 @@ static void vertex_colours_are_read(void **state) {
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         unsigned char bytes[64] = {0};
         memcpy(bytes, cases[i].bytes, 16);
-        Reading *reading = read_rest(
-            "'buffers':[{'byteLength':64,'uri':'%s'}],'bufferViews':[{'buffer':0,'byteLength':64}],"
-            "'accessors':[{'componentType':5126,'count':3,'type':'VEC3','sparse':{'count':2,"
-            "'indices':{'bufferView':0,'byteOffset':32,'componentType':5121},'values':{'bufferView'"
-            ":0,'byteOffset':36}}},{'bufferView':0,'componentType':%d,'normalized':true,'count':3,"
-            "'type':'VEC%d'}],'meshes':[{'primitives':[{'attributes':{'POSITION':0,'COLOR_0':1}}]}],"
-            "'nodes':[{'mesh':0}]",
-            uri((memcpy(bytes + 32, (unsigned char[]){1, 2}, 2),
-                 memcpy(bytes + 36, (float[]){1, 0, 0, 0, 1, 0}, 24), bytes),
-                sizeof bytes),
-            cases[i].component, cases[i].rows);
+        Reading *reading =
+            read_rest("'buffers':[{'byteLength':64,'uri':'%s'}],'bufferViews':[{'buffer':0,'byteLength':64}],"
+                      "'accessors':[{'componentType':5126,'count':3,'type':'VEC3','sparse':{'count':2,"
+                      "'indices':{'bufferView':0,'byteOffset':32,'componentType':5121},'values':{'bufferView'"
+                      ":0,'byteOffset':36}}},{'bufferView':0,'componentType':%d,'normalized':true,'count':3,"
+                      "'type':'VEC%d'}],'meshes':[{'primitives':[{'attributes':{'POSITION':0,'COLOR_0':1}}]}],"
+                      "'nodes':[{'mesh':0}]",
+                      uri((memcpy(bytes + 32, (unsigned char[]){1, 2}, 2),
+                           memcpy(bytes + 36, (float[]){1, 0, 0, 0, 1, 0}, 24), bytes),
+                          sizeof bytes),
+                      cases[i].component, cases[i].rows);
         assert_read(reading);
         assert_int_equal(reading->scene->mesh_count, 1);
         assert_all_near(reading->scene->meshes[0].color, cases[i].first, 4, 1e-6f);
@@ -225,14 +217,14 @@ static void vertex_colours_are_read(void **state) {
 static void quantized_attributes_are_read(void **state) {
     (void)state;
     static const int8_t bytes[] = {0, 0, 0, 0, 100, 0, 0, 0, 0, 100, 0, 0, 0, 0, 0, 127, 0, 127, 127, 0};
-    Reading *reading = read_rest(
-        "'extensionsRequired':['KHR_mesh_quantization'],'buffers':[{'byteLength':20,'uri':'%s'}],"
-        "'bufferViews':[{'buffer':0,'byteLength':12,'byteStride':4},{'buffer':0,'byteOffset':12,"
-        "'byteLength':8}],'accessors':[{'bufferView':0,'componentType':5120,'count':3,'type':'VEC3'},"
-        "{'bufferView':1,'componentType':5120,'normalized':true,'count':3,'type':'VEC2'}],"
-        "'meshes':[{'primitives':[{'attributes':{'POSITION':0,'TEXCOORD_0':1}}]}],"
-        "'nodes':[{'mesh':0,'scale':[0.01,0.01,0.01]}]",
-        uri(bytes, sizeof bytes));
+    Reading *reading =
+        read_rest("'extensionsRequired':['KHR_mesh_quantization'],'buffers':[{'byteLength':20,'uri':'%s'}],"
+                  "'bufferViews':[{'buffer':0,'byteLength':12,'byteStride':4},{'buffer':0,'byteOffset':12,"
+                  "'byteLength':8}],'accessors':[{'bufferView':0,'componentType':5120,'count':3,'type':'VEC3'},"
+                  "{'bufferView':1,'componentType':5120,'normalized':true,'count':3,'type':'VEC2'}],"
+                  "'meshes':[{'primitives':[{'attributes':{'POSITION':0,'TEXCOORD_0':1}}]}],"
+                  "'nodes':[{'mesh':0,'scale':[0.01,0.01,0.01]}]",
+                  uri(bytes, sizeof bytes));
     assert_read(reading);
     const Mesh *mesh = reading->scene->meshes;
     assert_all_near(mesh->position, (const float[]){0, 0, 0, 1, 0, 0, 0, 1, 0}, 9, 1e-6f);
@@ -272,16 +264,15 @@ static void missing_tangents_are_made(void **state) {
     assert_read(reading);
     assert_int_equal(reading->scene->meshes[0].vertex_count, 6);
     assert_tangents(reading->scene->meshes, 1.0f, 0.0f, 1.0f);
-    for (int v = 0; v < 6; v++)
-        assert_all_near(reading->scene->meshes[0].normal + 3 * v, square.normal, 3, 1e-6f);
+    for (int v = 0; v < 6; v++) assert_all_near(reading->scene->meshes[0].normal + 3 * v, square.normal, 3, 1e-6f);
     done(reading);
     /* A transform of the map turns the frame: here the image lies mirrored, then turned by a quarter. */
     reading = read_mapped(&square, with_normals, ",'extensions':{'KHR_texture_transform':{'scale':[-1,1]}}");
     assert_read(reading);
     assert_tangents(reading->scene->meshes, -1.0f, 0.0f, -1.0f);
     done(reading);
-    reading = read_mapped(&square, with_normals,
-                          ",'extensions':{'KHR_texture_transform':{'rotation':1.5707963267948966}}");
+    reading =
+        read_mapped(&square, with_normals, ",'extensions':{'KHR_texture_transform':{'rotation':1.5707963267948966}}");
     assert_read(reading);
     assert_tangents(reading->scene->meshes, 0.0f, -1.0f, 1.0f);
     done(reading);
@@ -372,10 +363,9 @@ static void skinned_vertices_are_posed_at_rest(void **state) {
     static const struct {
         uint8_t joints[16];
         float weights[16], inverse[32];
-    } bytes = {
-        {0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0},
-        {1, 0, 0, 0, 1, 0, 0, 0, 0.5f, 0.5f, 0, 0, 0, 0, 0, 0},
-        {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -1, 0, 0, 1, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
+    } bytes = {{0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0},
+               {1, 0, 0, 0, 1, 0, 0, 0, 0.5f, 0.5f, 0, 0, 0, 0, 0, 0},
+               {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -1, 0, 0, 1, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
     static const char form[] =
         "'buffers':[{'byteLength':140,'uri':'%s'},{'byteLength':208,'uri':'%s'}],"
         "'bufferViews':[{'buffer':0,'byteLength':48},{'buffer':1,'byteLength':16},"
@@ -392,13 +382,12 @@ static void skinned_vertices_are_posed_at_rest(void **state) {
     assert_read(reading);
     assert_int_equal(reading->warnings[WEFT_MESSAGE_GLTF_WARN_REST_POSE], 1);
     /* Joint 0: +1 - 1 = 0. Joint 1: (1, 0, 2). The node's own (9, 9, 9) does not count. */
-    assert_all_near(reading->scene->meshes[0].position,
-                    (const float[]){0, 0, 0, 2, 0, 2, 0.5f, 1, 1, 1, 1, 0}, 12, 1e-6f);
+    assert_all_near(reading->scene->meshes[0].position, (const float[]){0, 0, 0, 2, 0, 2, 0.5f, 1, 1, 1, 1, 0}, 12,
+                    1e-6f);
     done(reading);
     assert_refused(read_rest(form, SQUARE_URI, uri(&bytes, sizeof bytes), "1"), WEFT_MESSAGE_GLTF_BOUNDS,
                    "joint 1 of 1");
-    assert_refused(read_rest(form, SQUARE_URI, uri(&bytes, sizeof bytes), "1,2,0"), WEFT_MESSAGE_GLTF_SCHEMA,
-                   "MAT4");
+    assert_refused(read_rest(form, SQUARE_URI, uri(&bytes, sizeof bytes), "1,2,0"), WEFT_MESSAGE_GLTF_SCHEMA, "MAT4");
     assert_refused(read_rest(form, SQUARE_URI, uri(&bytes, sizeof bytes), "1,7"), WEFT_MESSAGE_GLTF_REFERENCE,
                    "skins[0].joints[1]");
 }
@@ -429,9 +418,8 @@ static void unused_vertices_are_dropped(void **state) {
     struct Square part = square;
     memcpy(part.index, (const uint16_t[6]){3, 2, 1, 1, 3, 2}, 12);
     part.position[0] = -900.0f;
-    Reading *reading =
-        read_rest(SQUARE_DATA ",'meshes':[{'primitives':[{" SQUARE_PRIMITIVE "}]}],'nodes':[{'mesh':0}]",
-                  uri(&part, sizeof part));
+    Reading *reading = read_rest(SQUARE_DATA ",'meshes':[{'primitives':[{" SQUARE_PRIMITIVE "}]}],'nodes':[{'mesh':0}]",
+                                 uri(&part, sizeof part));
     assert_read(reading);
     const Mesh *mesh = reading->scene->meshes;
     assert_int_equal(mesh->vertex_count, 3);
@@ -507,10 +495,9 @@ static void surfaces_beyond_the_limit_are_refused(void **state) {
 
 static void accessors_without_data_beyond_the_limit_are_refused(void **state) {
     (void)state;
-    assert_refused(
-        read_rest("'accessors':[{'componentType':5126,'count':400000000,'type':'VEC3'}],"
-                  "'meshes':[{'primitives':[{'attributes':{'POSITION':0}}]}],'nodes':[{'mesh':0}]"),
-        WEFT_MESSAGE_GLTF_TOO_LARGE, "decode to more");
+    assert_refused(read_rest("'accessors':[{'componentType':5126,'count':400000000,'type':'VEC3'}],"
+                             "'meshes':[{'primitives':[{'attributes':{'POSITION':0}}]}],'nodes':[{'mesh':0}]"),
+                   WEFT_MESSAGE_GLTF_TOO_LARGE, "decode to more");
 }
 
 /* 64 nodes that each show the same large mesh: the tree multiplies what the file holds. */

@@ -37,11 +37,9 @@ static void deep_chains_of_nodes_are_read(void **state) {
     for (int i = 0; i < DEPTH; i++) {
         char link[32];
         snprintf(link, sizeof link, i ? "'children':[%d]" : "'camera':%d", i ? i - 1 : 0);
-        used +=
-            (size_t)snprintf(text + used, size - used, "%s{'translation':[1,0,0],%s}", i ? "," : "", link);
+        used += (size_t)snprintf(text + used, size - used, "%s{'translation':[1,0,0],%s}", i ? "," : "", link);
     }
-    Reading *reading =
-        read_rest("'cameras':[{'type':'perspective','perspective':{'yfov':1}}],'nodes':[%s]", text);
+    Reading *reading = read_rest("'cameras':[{'type':'perspective','perspective':{'yfov':1}}],'nodes':[%s]", text);
     assert_read(reading);
     assert_int_equal(reading->scene->camera_count, 1);
     assert_near(reading->scene->cameras[0].eye.x, DEPTH, 0.0f);
@@ -51,10 +49,9 @@ static void deep_chains_of_nodes_are_read(void **state) {
 
 static void only_the_default_scene_is_shown(void **state) {
     (void)state;
-    static const char form[] =
-        SQUARE_DATA ",'meshes':[{'primitives':[{'attributes':{'POSITION':0},'indices':3"
-                    "}]}],'nodes':[{'mesh':0,'name':'a'},{'children':[2],'name':'b'},"
-                    "{'mesh':0,'name':'c'}]%s";
+    static const char form[] = SQUARE_DATA ",'meshes':[{'primitives':[{'attributes':{'POSITION':0},'indices':3"
+                                           "}]}],'nodes':[{'mesh':0,'name':'a'},{'children':[2],'name':'b'},"
+                                           "{'mesh':0,'name':'c'}]%s";
     static const struct {
         const char *scenes;
         int meshes;
@@ -101,10 +98,10 @@ static void cameras_are_read(void **state) {
     assert_all_near(&b->forward.x, (const float[]){0, 1, 0}, 3, 1e-6f);
     assert_all_near(&b->up.x, (const float[]){0, 0, -1}, 3, 1e-6f);
     done(reading);
-    assert_refused(read_rest("'cameras':[{'type':'fisheye'}],'nodes':[{'camera':0}]"),
-                   WEFT_MESSAGE_GLTF_SCHEMA, "cameras[0].type");
-    assert_refused(read_rest("'cameras':[{'type':'perspective'}],'nodes':[{'camera':0}]"),
-                   WEFT_MESSAGE_GLTF_SCHEMA, "cameras[0].perspective.yfov: missing");
+    assert_refused(read_rest("'cameras':[{'type':'fisheye'}],'nodes':[{'camera':0}]"), WEFT_MESSAGE_GLTF_SCHEMA,
+                   "cameras[0].type");
+    assert_refused(read_rest("'cameras':[{'type':'perspective'}],'nodes':[{'camera':0}]"), WEFT_MESSAGE_GLTF_SCHEMA,
+                   "cameras[0].perspective.yfov: missing");
     assert_refused(read_rest("'cameras':[{'type':'orthographic','orthographic':{'ymag':0}}],"
                              "'nodes':[{'camera':0}]"),
                    WEFT_MESSAGE_GLTF_SCHEMA, "cameras[0].orthographic.ymag");
@@ -115,11 +112,9 @@ static void nodes_too_far_away_are_refused(void **state) {
     (void)state;
     static const char camera[] = "'cameras':[{'type':'perspective','perspective':{'yfov':1}}],"
                                  "'nodes':[{'camera':0,'translation':[%s]}]",
-                      light[] =
-                          "'extensions':{'KHR_lights_punctual':{'lights':[{'type':'%s'}]}},'nodes':"
-                          "[{'translation':[0,1e19,0],'extensions':{'KHR_lights_punctual':{'light':0}}}]";
-    assert_refused(read_rest(camera, "1e19,0,0"), WEFT_MESSAGE_GLTF_TOO_LARGE,
-                   "cameras[0]: its node is too far");
+                      light[] = "'extensions':{'KHR_lights_punctual':{'lights':[{'type':'%s'}]}},'nodes':"
+                                "[{'translation':[0,1e19,0],'extensions':{'KHR_lights_punctual':{'light':0}}}]";
+    assert_refused(read_rest(camera, "1e19,0,0"), WEFT_MESSAGE_GLTF_TOO_LARGE, "cameras[0]: its node is too far");
     Reading *reading = read_rest(camera, "9e14,0,0");
     assert_read(reading);
     done(reading);
@@ -134,13 +129,13 @@ static void nodes_too_far_away_are_refused(void **state) {
 
 static void punctual_lights_are_read(void **state) {
     (void)state;
-    Reading *reading = read_rest(
-        LIGHTS,
-        "{'type':'directional','name':'sun','intensity':3},{'type':'point','color':[1,0.5,0],'range':10},"
-        "{'type':'spot','spot':{'innerConeAngle':0.3,'outerConeAngle':0.6}},{'type':'spot'},"
-        "{'type':'spot','spot':{'innerConeAngle':0.6,'outerConeAngle':0.3}}",
-        LIGHT(0, ",'rotation':[0,0.70710678,0,0.70710678]") "," LIGHT(1, ",'translation':[1,2,3]") "," LIGHT(
-            2, ",'scale':[0,0,0]") "," LIGHT(3, "") "," LIGHT(4, ""));
+    Reading *reading =
+        read_rest(LIGHTS,
+                  "{'type':'directional','name':'sun','intensity':3},{'type':'point','color':[1,0.5,0],'range':10},"
+                  "{'type':'spot','spot':{'innerConeAngle':0.3,'outerConeAngle':0.6}},{'type':'spot'},"
+                  "{'type':'spot','spot':{'innerConeAngle':0.6,'outerConeAngle':0.3}}",
+                  LIGHT(0, ",'rotation':[0,0.70710678,0,0.70710678]") "," LIGHT(1, ",'translation':[1,2,3]") "," LIGHT(
+                      2, ",'scale':[0,0,0]") "," LIGHT(3, "") "," LIGHT(4, ""));
     assert_read(reading);
     assert_int_equal(reading->scene->light_count, 5);
     const Light *l = reading->scene->lights;

@@ -64,13 +64,10 @@ static void edited_text_differs_only_at_the_edit(void **state) {
 
 static void added_and_removed_members_keep_the_layout(void **state) {
     (void)state;
-    assert_patched("{\n  \"a\": 1,\n  \"b\": 2,\n  \"c\": 3\n}", "{\"b\":2,\"c\":3}",
-                   "{\n  \"b\": 2,\n  \"c\": 3\n}");
-    assert_patched("{\n  \"a\": 1,\n  \"b\": 2,\n  \"c\": 3\n}", "{\"a\":1,\"c\":3}",
-                   "{\n  \"a\": 1,\n  \"c\": 3\n}");
+    assert_patched("{\n  \"a\": 1,\n  \"b\": 2,\n  \"c\": 3\n}", "{\"b\":2,\"c\":3}", "{\n  \"b\": 2,\n  \"c\": 3\n}");
+    assert_patched("{\n  \"a\": 1,\n  \"b\": 2,\n  \"c\": 3\n}", "{\"a\":1,\"c\":3}", "{\n  \"a\": 1,\n  \"c\": 3\n}");
     assert_patched("{\n  \"a\": 1,\n  \"b\": 2\n}", "{\"a\":1}", "{\n  \"a\": 1\n}");
-    assert_patched("{\n  \"a\": 1\n}", "{\"a\":1,\"n\":{\"k\":[1,2]}}",
-                   "{\n  \"a\": 1,\n  \"n\": {\"k\": [1, 2]}\n}");
+    assert_patched("{\n  \"a\": 1\n}", "{\"a\":1,\"n\":{\"k\":[1,2]}}", "{\n  \"a\": 1,\n  \"n\": {\"k\": [1, 2]}\n}");
     assert_patched("{\"a\":1}", "{\"b\":2}", "{\"b\": 2}");
     assert_patched("{}", "{\"b\":2}", "{\"b\": 2}");
     assert_patched("{\"a\":1}", "{}", "{}");

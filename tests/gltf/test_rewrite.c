@@ -65,11 +65,11 @@ static void assert_rewritten(const char *path, void (*edit)(Rewrite *), const ch
 }
 
 /* A 2 x 1 grey PNG. */
-static const unsigned char png[] = {
-    0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48, 0x44, 0x52, 0x00,
-    0x00, 0x00, 0x02, 0x00, 0x00, 0x00, 0x01, 0x08, 0x00, 0x00, 0x00, 0x00, 0xd1, 0x49, 0x20, 0x56, 0x00,
-    0x00, 0x00, 0x0b, 0x49, 0x44, 0x41, 0x54, 0x78, 0x9c, 0x63, 0x60, 0xf8, 0x0f, 0x00, 0x01, 0x02, 0x01,
-    0x00, 0x42, 0xbe, 0xbc, 0x68, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
+static const unsigned char png[] = {0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48,
+                                    0x44, 0x52, 0x00, 0x00, 0x00, 0x02, 0x00, 0x00, 0x00, 0x01, 0x08, 0x00, 0x00, 0x00,
+                                    0x00, 0xd1, 0x49, 0x20, 0x56, 0x00, 0x00, 0x00, 0x0b, 0x49, 0x44, 0x41, 0x54, 0x78,
+                                    0x9c, 0x63, 0x60, 0xf8, 0x0f, 0x00, 0x01, 0x02, 0x01, 0x00, 0x42, 0xbe, 0xbc, 0x68,
+                                    0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
 
 /* "square.gltf" with positions in one file and indices in another, a picture, and parts that weft has no use
  * for: an animation, an extension of somebody's that names a file, numbers in odd spellings. */
@@ -80,18 +80,17 @@ static void make_square(void) {
     write_bytes("in/indices.bin", square.index, sizeof square.index);
     write_bytes("in/pictures of/a.png", png, sizeof png);
     write_bytes("in/sound.ogg", "ping", 4);
-    char *text =
-        json("{'asset' : {'version':'2.0'},\n 'extensionsUsed':['KHR_materials_sheen','SOME_sound'],\n"
-             " 'extensions':{'SOME_sound':{'uri':'sound.ogg','gain':1.50E0}},\n"
-             " 'buffers':[{'byteLength':48,'uri':'positions.bin'},{'byteLength':12,'uri':'indices.bin'}],\n"
-             " 'bufferViews':[{'buffer':0,'byteLength':48},{'buffer':1,'byteLength':12}],\n"
-             " 'accessors':[{'bufferView':0,'componentType':5126,'count':4,'type':'VEC3','min':[0,0,0],"
-             "'max':[1.0,1.00,0]},{'bufferView':1,'componentType':5123,'count':6,'type':'SCALAR'}],\n"
-             " 'images':[{'uri':'pictures%%20of/a.png'}],'textures':[{'source':0}],\n"
-             " 'materials':[{'name':'cloth','pbrMetallicRoughness':{'baseColorTexture':{'index':0}},"
-             "'extensions':{'KHR_materials_sheen':{'sheenColorFactor':[1, 1, 0.250]}}}],\n"
-             " 'meshes':[{'primitives':[{'attributes':{'POSITION':0},'indices':1,'material':0}]}],\n"
-             " 'animations':[{'name':'none of weft'}], 'nodes':[{'mesh':0}],'scenes':[{'nodes':[0]}]}\n");
+    char *text = json("{'asset' : {'version':'2.0'},\n 'extensionsUsed':['KHR_materials_sheen','SOME_sound'],\n"
+                      " 'extensions':{'SOME_sound':{'uri':'sound.ogg','gain':1.50E0}},\n"
+                      " 'buffers':[{'byteLength':48,'uri':'positions.bin'},{'byteLength':12,'uri':'indices.bin'}],\n"
+                      " 'bufferViews':[{'buffer':0,'byteLength':48},{'buffer':1,'byteLength':12}],\n"
+                      " 'accessors':[{'bufferView':0,'componentType':5126,'count':4,'type':'VEC3','min':[0,0,0],"
+                      "'max':[1.0,1.00,0]},{'bufferView':1,'componentType':5123,'count':6,'type':'SCALAR'}],\n"
+                      " 'images':[{'uri':'pictures%%20of/a.png'}],'textures':[{'source':0}],\n"
+                      " 'materials':[{'name':'cloth','pbrMetallicRoughness':{'baseColorTexture':{'index':0}},"
+                      "'extensions':{'KHR_materials_sheen':{'sheenColorFactor':[1, 1, 0.250]}}}],\n"
+                      " 'meshes':[{'primitives':[{'attributes':{'POSITION':0},'indices':1,'material':0}]}],\n"
+                      " 'animations':[{'name':'none of weft'}], 'nodes':[{'mesh':0}],'scenes':[{'nodes':[0]}]}\n");
     write_bytes("in/square.gltf", text, strlen(text));
     free(text);
 }
@@ -178,13 +177,13 @@ static void gltf_to_glb_and_back_is_the_same_scene(void **state) {
 /* Views, and what compresses them, are led to where the bytes are; what nobody can pack stays. */
 static void packed_buffers_keep_their_references(void **state) {
     (void)state;
-    char *text = json(
-        "{'asset':{'version':'2.0'},'buffers':[{'byteLength':4,'uri':'%s'},{'byteLength':8,'extensions':"
-        "{'EXT_meshopt_compression':{'fallback':true}}},{'byteLength':3,'uri':'%s'},"
-        "{'byteLength':3,'uri':'https://weft.example/a.bin'}],'bufferViews':[{'buffer':1,'byteLength':8,"
-        "'extensions':{'EXT_meshopt_compression':{'buffer':2,'byteOffset':1,'byteLength':2,'byteStride':4,"
-        "'count':2,'mode':'ATTRIBUTES'}}},{'buffer':3,'byteLength':3}]}",
-        uri("zero", 4), uri("two", 3));
+    char *text =
+        json("{'asset':{'version':'2.0'},'buffers':[{'byteLength':4,'uri':'%s'},{'byteLength':8,'extensions':"
+             "{'EXT_meshopt_compression':{'fallback':true}}},{'byteLength':3,'uri':'%s'},"
+             "{'byteLength':3,'uri':'https://weft.example/a.bin'}],'bufferViews':[{'buffer':1,'byteLength':8,"
+             "'extensions':{'EXT_meshopt_compression':{'buffer':2,'byteOffset':1,'byteLength':2,'byteStride':4,"
+             "'count':2,'mode':'ATTRIBUTES'}}},{'buffer':3,'byteLength':3}]}",
+             uri("zero", 4), uri("two", 3));
     write_bytes("views.gltf", text, strlen(text));
     free(text);
     WeftError error;

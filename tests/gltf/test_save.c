@@ -74,8 +74,7 @@ static void assert_same_textures(const WeftScene *a, int at_a, const WeftScene *
     assert_int_equal(at_a > 0, at_b > 0);
     if (!at_a) return;
     assert_true(x.width == y.width && x.height == y.height && x.channels == y.channels && x.type == y.type);
-    assert_memory_equal(x.pixels, y.pixels,
-                        (size_t)x.width * (size_t)x.height * (size_t)x.channels * sizes[x.type]);
+    assert_memory_equal(x.pixels, y.pixels, (size_t)x.width * (size_t)x.height * (size_t)x.channels * sizes[x.type]);
     assert_int_equal(a->textures[at_a - 1].wrap_u, b->textures[at_b - 1].wrap_u);
     assert_int_equal(a->textures[at_a - 1].wrap_v, b->textures[at_b - 1].wrap_v);
     assert_int_equal(a->textures[at_a - 1].nearest, b->textures[at_b - 1].nearest);
@@ -185,8 +184,7 @@ static void saved_scene_of_random_values_reads_as_it_was(void **state) {
             for (int c = 0; c < 6 && roll() < 0.3f; c++) input->transform[c] = roll();
         }
         for (int c = 0; weft_material_choice_name(c); c++)
-            for (int v = 0;
-                 weft_material_choice_value(c, v) && strcmp(weft_material_choice_name(c), "diffuse") != 0;
+            for (int v = 0; weft_material_choice_value(c, v) && strcmp(weft_material_choice_name(c), "diffuse") != 0;
                  v++)
                 if (roll() < 0.1f) m.choices[c] = v;
         m.alpha_mode = (WeftAlphaMode)(k % 3);
@@ -197,10 +195,7 @@ static void saved_scene_of_random_values_reads_as_it_was(void **state) {
     }
     const WeftLight lights[] = {
         {.kind = WEFT_LIGHT_DIRECTIONAL, .direction = {0.3f, -1.0f, 0.2f}, .color = {3.0f, 2.5f, 0.1f}},
-        {.kind = WEFT_LIGHT_POINT,
-         .position = {1.1f, 3.0f, 0.7f},
-         .color = {20.3f, 0.7f, 12.0f},
-         .range = 9.5f},
+        {.kind = WEFT_LIGHT_POINT, .position = {1.1f, 3.0f, 0.7f}, .color = {20.3f, 0.7f, 12.0f}, .range = 9.5f},
         {.kind = WEFT_LIGHT_SPOT,
          .position = {-1.0f, 4.0f, 1.0f},
          .direction = {0.1f, -1.0f, 0.0f},
@@ -217,8 +212,7 @@ static void saved_scene_of_random_values_reads_as_it_was(void **state) {
     WeftScene *packed = saved(scene, "any thing%.glb"), *apart = saved(scene, "any thing%.gltf");
     const float grey[3] = {0.3f, 0.3f, 0.3f};
     WeftScene *const all[] = {scene, packed, apart};
-    for (int k = 0; k < 3; k++)
-        assert_int_equal(weft_scene_set_environment_color(all[k], grey, &error), WEFT_OK);
+    for (int k = 0; k < 3; k++) assert_int_equal(weft_scene_set_environment_color(all[k], grey, &error), WEFT_OK);
     assert_same(scene, packed, "anything, .glb");
     assert_same(scene, apart, "anything, .gltf");
     assert_non_null(weft_scene_texture_path(apart, 1));
@@ -272,9 +266,8 @@ static void failed_save_leaves_no_files(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(saved_built_in_scenes_read_as_they_were),
-                                       cmocka_unit_test(saved_presets_read_as_they_were),
-                                       cmocka_unit_test(saved_scene_of_random_values_reads_as_it_was),
-                                       cmocka_unit_test(failed_save_leaves_no_files)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(saved_built_in_scenes_read_as_they_were), cmocka_unit_test(saved_presets_read_as_they_were),
+        cmocka_unit_test(saved_scene_of_random_values_reads_as_it_was), cmocka_unit_test(failed_save_leaves_no_files)};
     return cmocka_run_group_tests(tests, begin, end);
 }

@@ -41,8 +41,7 @@ static inline void put_text(Bytes *bytes, const char *text) { put(bytes, text, s
 /* A function, where cmocka's macro would cast the first part of an expression only; and NaN is near nothing.
  */
 static inline void assert_near(float got, float want, float most) {
-    if (!(fabsf(got - want) <= most))
-        fail_msg("%g is not %g within %g", (double)got, (double)want, (double)most);
+    if (!(fabsf(got - want) <= most)) fail_msg("%g is not %g within %g", (double)got, (double)want, (double)most);
 }
 
 /* Counts warnings; user is an int. */
@@ -81,9 +80,7 @@ static inline void refuse_bytes(const void *data, size_t size, WeftMessage messa
     assert_null(image.pixels);
 }
 
-static inline void refuse(const Bytes *bytes, WeftMessage message) {
-    refuse_bytes(bytes->data, bytes->size, message);
-}
+static inline void refuse(const Bytes *bytes, WeftMessage message) { refuse_bytes(bytes->data, bytes->size, message); }
 
 /* Every proper prefix of a good file is refused: as cut off, as too small for what it claims, or as nothing.
  */
@@ -110,8 +107,7 @@ static inline size_t value_total(const WeftImage *image) {
     return (size_t)image->width * (size_t)image->height * (size_t)image->channels;
 }
 
-static inline void assert_shape(const WeftImage *image, int width, int height, int channels,
-                                WeftPixelType type) {
+static inline void assert_shape(const WeftImage *image, int width, int height, int channels, WeftPixelType type) {
     assert_int_equal(image->width, width);
     assert_int_equal(image->height, height);
     assert_int_equal(image->channels, channels);
@@ -119,8 +115,7 @@ static inline void assert_shape(const WeftImage *image, int width, int height, i
 }
 
 /* Writes to a file of a new folder, reads that back and removes both. */
-static inline WeftImage write_and_read_as(const WeftImage *image, const char *suffix,
-                                          const WeftImageWriting *how) {
+static inline WeftImage write_and_read_as(const WeftImage *image, const char *suffix, const WeftImageWriting *how) {
     char folder[SCRATCH_SIZE], path[300];
     assert_true(scratch_make(folder));
     snprintf(path, sizeof path, "%s/image%s", folder, suffix);

@@ -66,9 +66,7 @@ static WeftImage displayed(const WeftImage *image) {
     return out;
 }
 
-static double decoded(double code) {
-    return code <= 0.04045 ? code / 12.92 : pow((code + 0.055) / 1.055, 2.4);
-}
+static double decoded(double code) { return code <= 0.04045 ? code / 12.92 : pow((code + 0.055) / 1.055, 2.4); }
 
 static WeftDiff compare(const WeftDiffDesc *desc, WeftImage *map) {
     WeftDiff found;
@@ -133,8 +131,7 @@ static Plane plane_of(const WeftImage *image, double gain, bool bright) {
             rgb[c] = fmin(1.0, (2.51 * x * x + 0.03 * x) / (2.43 * x * x + 0.59 * x + 0.14));
         }
         for (int i = 0; i < 3; i++)
-            xyz[i] = (xyz_of_rgb[i][0] * rgb[0] + xyz_of_rgb[i][1] * rgb[1] + xyz_of_rgb[i][2] * rgb[2]) /
-                     white[i];
+            xyz[i] = (xyz_of_rgb[i][0] * rgb[0] + xyz_of_rgb[i][1] * rgb[1] + xyz_of_rgb[i][2] * rgb[2]) / white[i];
         plane.pixel[k][0] = 116.0 * xyz[1] - 16.0;
         plane.pixel[k][1] = 500.0 * (xyz[0] - xyz[1]);
         plane.pixel[k][2] = 200.0 * (xyz[1] - xyz[2]);
@@ -156,8 +153,7 @@ static double lab_f(double t) {
 static void hunt(const double rgb[3], double lab[3]) {
     double f[3];
     for (int i = 0; i < 3; i++)
-        f[i] = lab_f((xyz_of_rgb[i][0] * rgb[0] + xyz_of_rgb[i][1] * rgb[1] + xyz_of_rgb[i][2] * rgb[2]) /
-                     white[i]);
+        f[i] = lab_f((xyz_of_rgb[i][0] * rgb[0] + xyz_of_rgb[i][1] * rgb[1] + xyz_of_rgb[i][2] * rgb[2]) / white[i]);
     lab[0] = 116.0 * f[1] - 16.0;
     lab[1] = 0.01 * lab[0] * 500.0 * (f[0] - f[1]);
     lab[2] = 0.01 * lab[0] * 200.0 * (f[1] - f[2]);
@@ -206,9 +202,7 @@ static void see(const Plane *plane, int x, int y, double ppd, double seen[5]) {
     seen[4] = hypot(f[2], f[3]);
 }
 
-static double hyab(const double p[3], const double q[3]) {
-    return fabs(p[0] - q[0]) + hypot(p[1] - q[1], p[2] - q[2]);
-}
+static double hyab(const double p[3], const double q[3]) { return fabs(p[0] - q[0]) + hypot(p[1] - q[1], p[2] - q[2]); }
 
 static double most_difference(void) {
     double green[3], blue[3];
@@ -235,8 +229,7 @@ static void flip_is_its_formula(void **state) {
     static const struct {
         int width, height;
         float ppd;
-    } cases[] = {{40, 28, 67.0f}, {31, 33, 30.0f}, {300, 2, 67.0f},
-                 {3, 30, 90.0f},  {1, 1, 67.0f},   {12, 9, 5.0f}};
+    } cases[] = {{40, 28, 67.0f}, {31, 33, 30.0f}, {300, 2, 67.0f}, {3, 30, 90.0f}, {1, 1, 67.0f}, {12, 9, 5.0f}};
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         WeftImage one = scenery(cases[k].width, cases[k].height, 1), two = noisy(&one, 0.4f, 9);
         WeftImage a = displayed(&two), b = displayed(&one), map;
@@ -274,8 +267,7 @@ static void bright_flip_is_the_largest_over_exposures(void **state) {
             pa[3 * k + c] = pb[3 * k + c] * (0.7f + 0.6f * noise()) + 0.001f * noise();
         }
     for (int k = 0; k < COUNT; k++) {
-        const double y =
-            0.2126 * (double)pb[3 * k] + 0.7152 * (double)pb[3 * k + 1] + 0.0722 * (double)pb[3 * k + 2];
+        const double y = 0.2126 * (double)pb[3 * k] + 0.7152 * (double)pb[3 * k + 1] + 0.0722 * (double)pb[3 * k + 2];
         most = fmax(most, y);
         if (!(y > 0.0)) continue;
         int place = lit++;
@@ -286,16 +278,14 @@ static void bright_flip_is_the_largest_over_exposures(void **state) {
     /* 0.85 of the curve, by bisection */
     double low = 0.0, high = 100.0;
     for (int k = 0; k < 100; k++) {
-        const double x = 0.6 * 0.5 * (low + high),
-                     y = (2.51 * x * x + 0.03 * x) / (2.43 * x * x + 0.59 * x + 0.14);
+        const double x = 0.6 * 0.5 * (low + high), y = (2.51 * x * x + 0.03 * x) / (2.43 * x * x + 0.59 * x + 0.14);
         *(y < 0.85 ? &low : &high) = 0.5 * (low + high);
     }
     const double start = log2(low / most), stop = log2(low / median);
     const int count = (int)fmax(2.0, ceil(stop - start));
     assert_true(count >= 4);
 
-    const WeftDiff found =
-        compare(&(WeftDiffDesc){.image = &a, .reference = &b, .metric = WEFT_METRIC_FLIP}, &map);
+    const WeftDiff found = compare(&(WeftDiffDesc){.image = &a, .reference = &b, .metric = WEFT_METRIC_FLIP}, &map);
     assert_int_equal(found.exposures, count);
     assert_near(found.exposure_low, (float)start, 1e-4f);
     assert_near(found.exposure_high, (float)stop, 1e-4f);
@@ -317,8 +307,7 @@ static void flip_of_even_pictures_is_the_colour_difference(void **state) {
                            flat(30, 20, 0.0f, 1.0f, 0.0f), flat(30, 20, 0.0f, 0.0f, 1.0f)};
     WeftImage shown[4];
     for (int k = 0; k < 4; k++) shown[k] = displayed(&linear[k]);
-    assert_near((float)value_of(WEFT_METRIC_FLIP, &shown[0], &shown[1]), (float)color_difference(100.0),
-                1e-5f);
+    assert_near((float)value_of(WEFT_METRIC_FLIP, &shown[0], &shown[1]), (float)color_difference(100.0), 1e-5f);
     assert_near((float)value_of(WEFT_METRIC_FLIP, &shown[2], &shown[3]), 1.0f, 1e-5f);
     for (int k = 0; k < 4; k++) {
         assert_true(value_of(WEFT_METRIC_FLIP, &shown[k], &shown[k]) <= 0.0);
@@ -365,8 +354,7 @@ static void metrics_are_monotone_and_symmetric(void **state) {
             const double flip = value_of(WEFT_METRIC_FLIP, &shown[k], &truth),
                          ssim = value_of(WEFT_METRIC_SSIM, &shown[k], &truth);
             assert_true(flip > before[0] + 1e-3);
-            if (k == 0)
-                assert_true(ssim < before[1] - 1e-3); /* a pattern may come back in a blur, inverted */
+            if (k == 0) assert_true(ssim < before[1] - 1e-3); /* a pattern may come back in a blur, inverted */
             assert_true(flip <= value_of(WEFT_METRIC_FLIP, &truth, &shown[k]) &&
                         flip >= value_of(WEFT_METRIC_FLIP, &truth, &shown[k]));
             assert_near((float)ssim, (float)value_of(WEFT_METRIC_SSIM, &truth, &shown[k]), 1e-6f);
@@ -389,9 +377,7 @@ static void flip_depends_on_the_viewing_distance(void **state) {
     double before = 1.0;
     for (float ppd = 10.0f; ppd < 100.0f; ppd *= 2.0f) {
         const WeftDiff found = compare(
-            &(WeftDiffDesc){
-                .image = &a, .reference = &b, .metric = WEFT_METRIC_FLIP, .pixels_per_degree = ppd},
-            NULL);
+            &(WeftDiffDesc){.image = &a, .reference = &b, .metric = WEFT_METRIC_FLIP, .pixels_per_degree = ppd}, NULL);
 
         assert_true(found.value < before);
         before = found.value;
@@ -436,8 +422,7 @@ static void ssim_is_its_formula(void **state) {
     for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
         WeftImage one = scenery(sizes[k][0], sizes[k][1], 2), two = noisy(&one, 0.3f, 11);
         WeftImage a = displayed(&two), b = displayed(&one), map;
-        const WeftDiff found =
-            compare(&(WeftDiffDesc){.image = &a, .reference = &b, .metric = WEFT_METRIC_SSIM}, &map);
+        const WeftDiff found = compare(&(WeftDiffDesc){.image = &a, .reference = &b, .metric = WEFT_METRIC_SSIM}, &map);
         double inner = 0.0, all = 0.0;
         int count = 0;
         for (int y = 0; y < a.height; y++)
@@ -526,8 +511,7 @@ static void linear_picture_compares_as_its_tone_mapped_form(void **state) {
                                .tonemap = WEFT_TONEMAP_ACES,
                                .exposure = 1.0f,
                                .exposed = 1};
-    assert_near((float)compare(&desc, NULL).value, (float)value_of(WEFT_METRIC_FLIP, &other_shown, &shown),
-                0.0f);
+    assert_near((float)compare(&desc, NULL).value, (float)value_of(WEFT_METRIC_FLIP, &other_shown, &shown), 0.0f);
     weft_image_free(&linear), weft_image_free(&shown), weft_image_free(&other), weft_image_free(&other_shown);
 }
 
@@ -562,8 +546,7 @@ static void pictures_of_other_channels_compare_as_their_colours(void **state) {
         for (int c = 0; c < 4; c++) ((uint8_t *)both.pixels)[4 * k + c] = c == 3 ? 0 : (uint8_t)k;
     memset(grey.pixels, 0, 256);
     for (int metric = 0; metric < WEFT_METRIC_COUNT; metric++) {
-        const double best = metric == WEFT_METRIC_SSIM ? 1.0 : 0.0,
-                     value = value_of((WeftMetric)metric, &both, &grey);
+        const double best = metric == WEFT_METRIC_SSIM ? 1.0 : 0.0, value = value_of((WeftMetric)metric, &both, &grey);
         assert_true(value >= best && value <= best);
     }
     weft_image_free(&grey), weft_image_free(&grey_alpha), weft_image_free(&color), weft_image_free(&both);
@@ -583,13 +566,11 @@ static void mean_percentiles_and_largest_are_those_of_the_map(void **state) {
     assert_int_equal(found.worst_x, 10);
     assert_int_equal(found.worst_y, 2);
     assert_near(found.high, fourth, 1e-7f); /* three of 400 are worse */
-    assert_near((float)weft_diff_beyond(&map, WEFT_METRIC_RELMSE, (double)fourth + 1e-6), 3.0f / 400.0f,
-                1e-7f);
+    assert_near((float)weft_diff_beyond(&map, WEFT_METRIC_RELMSE, (double)fourth + 1e-6), 3.0f / 400.0f, 1e-7f);
     assert_near((float)weft_diff_beyond(&map, WEFT_METRIC_SSIM, 1.0), 1.0f, 0.0f);
     assert_near((float)weft_diff_beyond(&map, WEFT_METRIC_SSIM, 0.0), 0.0f, 0.0f);
     weft_image_free(&map);
-    const WeftDiff alike =
-        compare(&(WeftDiffDesc){.image = &a, .reference = &b, .metric = WEFT_METRIC_SSIM}, &map);
+    const WeftDiff alike = compare(&(WeftDiffDesc){.image = &a, .reference = &b, .metric = WEFT_METRIC_SSIM}, &map);
     const float *s = map.pixels;
     for (int k = 0; k < 400; k++) assert_true(s[k] >= alike.worst);
     assert_near(s[20 * alike.worst_y + alike.worst_x], alike.worst, 0.0f);
@@ -637,12 +618,9 @@ static void metrics_with_any_number_of_threads_are_the_same(void **state) {
     for (int metric = 0; metric < WEFT_METRIC_COUNT; metric++) {
         WeftImage maps[3];
         for (int k = 0; k < 3; k++)
-            compare(
-                &(WeftDiffDesc){
-                    .image = &a, .reference = &b, .metric = (WeftMetric)metric, .threads = 1 + 3 * k},
-                &maps[k]);
-        for (int k = 1; k < 3; k++)
-            assert_memory_equal(maps[0].pixels, maps[k].pixels, 300 * 40 * sizeof(float));
+            compare(&(WeftDiffDesc){.image = &a, .reference = &b, .metric = (WeftMetric)metric, .threads = 1 + 3 * k},
+                    &maps[k]);
+        for (int k = 1; k < 3; k++) assert_memory_equal(maps[0].pixels, maps[k].pixels, 300 * 40 * sizeof(float));
         for (int k = 0; k < 3; k++) weft_image_free(&maps[k]);
     }
     weft_image_free(&a), weft_image_free(&b);
@@ -651,11 +629,9 @@ static void metrics_with_any_number_of_threads_are_the_same(void **state) {
 /* Whatever the pixels hold, what comes out is finite. */
 static void metrics_of_odd_numbers_are_finite(void **state) {
     (void)state;
-    static const float odd[] = {NAN,    INFINITY, -INFINITY, FLT_MAX, -FLT_MAX,
-                                1e-45f, -1.0f,    0.0f,      1e30f,   1e-20f};
+    static const float odd[] = {NAN, INFINITY, -INFINITY, FLT_MAX, -FLT_MAX, 1e-45f, -1.0f, 0.0f, 1e30f, 1e-20f};
     enum { COUNT = sizeof odd / sizeof *odd, SIDE = 16 };
-    WeftImage a = make_image(SIDE, SIDE, 4, WEFT_PIXEL_F32), b = make_image(SIDE, SIDE, 4, WEFT_PIXEL_F32),
-              map;
+    WeftImage a = make_image(SIDE, SIDE, 4, WEFT_PIXEL_F32), b = make_image(SIDE, SIDE, 4, WEFT_PIXEL_F32), map;
     for (int round = 0; round < 4; round++) {
         noise_state = (unsigned)round;
         for (size_t k = 0; k < value_total(&a); k++) {

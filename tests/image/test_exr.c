@@ -47,8 +47,7 @@ static void silent(exr_const_context_t exr, exr_result_t code, const char *text)
 }
 
 static void good(exr_result_t status) {
-    assert_string_equal(exr_get_default_error_message(status),
-                        exr_get_default_error_message(EXR_ERR_SUCCESS));
+    assert_string_equal(exr_get_default_error_message(status), exr_get_default_error_message(EXR_ERR_SUCCESS));
 }
 
 static exr_attr_box2i_t box(const int window[4]) {
@@ -65,12 +64,12 @@ static void describe(exr_context_t exr, const Form *form, int part) {
     const exr_attr_box2i_t data = box(form->window[2] ? form->window : full);
     const exr_attr_box2i_t display = box(form->display[2] ? form->display : full);
     const exr_attr_v2f_t center = {{{0.0f, 0.0f}}};
-    good(exr_initialize_required_attr(exr, part, &display, &data, 1.0f, &center, 1.0f,
-                                      EXR_LINEORDER_INCREASING_Y, form->compression));
+    good(exr_initialize_required_attr(exr, part, &display, &data, 1.0f, &center, 1.0f, EXR_LINEORDER_INCREASING_Y,
+                                      form->compression));
     for (int c = 0; form->channels[c]; c++) {
         const int sampling = form->sampling && !form->channels[c + 1] ? form->sampling : 1;
-        good(exr_add_channel(exr, part, form->channels[c], form->types[c], EXR_PERCEPTUALLY_LOGARITHMIC,
-                             sampling, sampling));
+        good(exr_add_channel(exr, part, form->channels[c], form->types[c], EXR_PERCEPTUALLY_LOGARITHMIC, sampling,
+                             sampling));
     }
     if (form->tiled)
         good(exr_set_tile_descriptor(exr, part, TILE, TILE,
@@ -94,8 +93,7 @@ static exr_result_t compress_right(exr_encode_pipeline_t *pipeline) {
 
 /* A chunk whose first pixel is (x, y) of the data window. Channels are handed over as float or uint; the
  * library makes half of float. */
-static void encode(exr_context_t exr, const Form *form, int part, const exr_chunk_info_t *chunk, int x,
-                   int y) {
+static void encode(exr_context_t exr, const Form *form, int part, const exr_chunk_info_t *chunk, int x, int y) {
     static uint32_t planes[CHANNELS_MAX][WIDTH * 4 * HEIGHT * 4];
     exr_encode_pipeline_t pipeline = EXR_ENCODE_PIPELINE_INITIALIZER;
     good(exr_encoding_initialize(exr, part, chunk, &pipeline));
@@ -123,8 +121,7 @@ static void encode(exr_context_t exr, const Form *form, int part, const exr_chun
 }
 
 static void encode_part(exr_context_t exr, const Form *form, int part) {
-    const int width = form->window[2] ? form->window[2] : WIDTH,
-              height = form->window[3] ? form->window[3] : HEIGHT;
+    const int width = form->window[2] ? form->window[2] : WIDTH, height = form->window[3] ? form->window[3] : HEIGHT;
     const int top = form->window[1];
     exr_chunk_info_t chunk;
     int levels = 1, lines = 1;
@@ -197,12 +194,9 @@ static void exr_of_every_compression_type_and_tiling_is_read(void **state) {
                     Form form = {.compression = (exr_compression_t)compression, .tiled = tiled};
                     for (int c = 0; sets[set].channels[c]; c++) {
                         form.channels[c] = sets[set].channels[c];
-                        form.types[c] = (exr_pixel_type_t)(type < 3 ? type
-                                                           : c == 3 ? EXR_PIXEL_FLOAT
-                                                                    : (c + 1) % 3);
+                        form.types[c] = (exr_pixel_type_t)(type < 3 ? type : c == 3 ? EXR_PIXEL_FLOAT : (c + 1) % 3);
                     }
-                    const int lossy =
-                        compression == EXR_COMPRESSION_B44 || compression == EXR_COMPRESSION_B44A;
+                    const int lossy = compression == EXR_COMPRESSION_B44 || compression == EXR_COMPRESSION_B44A;
                     form.value = lossy ? smooth : plain;
                     Bytes bytes = exr_make(form);
                     WeftImage image = read_bytes(&bytes);
@@ -236,10 +230,8 @@ static void exr_display_window_is_the_image(void **state) {
             assert_shape(&image, form.display[2], form.display[3], 3, WEFT_PIXEL_F32);
             for (int y = 0; y < image.height; y++)
                 for (int x = 0; x < image.width; x++) {
-                    const int column = form.display[0] + x - form.window[0],
-                              row = form.display[1] + y - form.window[1];
-                    const int inside =
-                        column >= 0 && column < form.window[2] && row >= 0 && row < form.window[3];
+                    const int column = form.display[0] + x - form.window[0], row = form.display[1] + y - form.window[1];
+                    const int inside = column >= 0 && column < form.window[2] && row >= 0 && row < form.window[3];
                     for (int c = 0; c < 3; c++)
                         assert_near(pixel(&image, x, y)[c], inside ? plain(2 - c, column, row) : 0.0f, 0.0f);
                 }
@@ -265,8 +257,7 @@ static void exr_with_alpha_is_divided_by_it(void **state) {
         for (int x = 0; x < 2; x++) {
             assert_near(pixel(&image, x, y)[3], x == 0 ? 0.0f : 0.5f, 0.0f);
             for (int c = 0; c < 3; c++)
-                assert_near(pixel(&image, x, y)[c], (float)((3 - c) * (y + 1)) / (x == 0 ? 64.0f : 32.0f),
-                            0.0f);
+                assert_near(pixel(&image, x, y)[c], (float)((3 - c) * (y + 1)) / (x == 0 ? 64.0f : 32.0f), 0.0f);
         }
     weft_image_free(&image);
 }
@@ -291,8 +282,7 @@ static void exr_with_layers_or_parts_reads_the_first_colours(void **state) {
         weft_image_free(&image);
     }
     for (int tiled = 0; tiled < 2; tiled++) {
-        Bytes bytes =
-            exr_make((Form){.compression = EXR_COMPRESSION_RLE, .tiled = tiled, .parts = 2, RGB_HALF});
+        Bytes bytes = exr_make((Form){.compression = EXR_COMPRESSION_RLE, .tiled = tiled, .parts = 2, RGB_HALF});
         WeftImage image = read_bytes(&bytes);
         assert_shape(&image, WIDTH, HEIGHT, 3, WEFT_PIXEL_F32);
         assert_near(pixel(&image, 5, 6)[0], plain(2, 5, 6), 0.0f);
@@ -321,8 +311,7 @@ static void unsupported_exr_is_refused(void **state) {
     refuse(&bytes, WEFT_MESSAGE_IMAGE_UNSUPPORTED);
     bytes = exr_make((Form){.channels = {"Z"}, .types = {EXR_PIXEL_FLOAT}});
     refuse(&bytes, WEFT_MESSAGE_IMAGE_UNSUPPORTED);
-    bytes = exr_make(
-        (Form){.first_storage = EXR_STORAGE_DEEP_SCANLINE, .compression = EXR_COMPRESSION_ZIPS, RGB_HALF});
+    bytes = exr_make((Form){.first_storage = EXR_STORAGE_DEEP_SCANLINE, .compression = EXR_COMPRESSION_ZIPS, RGB_HALF});
     refuse(&bytes, WEFT_MESSAGE_IMAGE_UNSUPPORTED);
     for (int i = EXR_COMPRESSION_DWAA; i <= EXR_COMPRESSION_DWAB; i++) {
         const unsigned char dwa = (unsigned char)i;
@@ -348,12 +337,10 @@ static void exr_that_claims_too_many_pixels_is_refused(void **state) {
             WeftImage image;
             WeftError error = {0};
             /* only the display window of 2000 x 2000 can be meant */
-            const WeftResult result =
-                weft_image_read_memory(bytes.data, bytes.size, "bytes", &image, NULL, &error);
+            const WeftResult result = weft_image_read_memory(bytes.data, bytes.size, "bytes", &image, NULL, &error);
             assert_int_equal(result, which && i == 2 ? WEFT_OK : WEFT_INPUT);
             if (result != WEFT_OK)
-                assert_true(error.message == WEFT_MESSAGE_IMAGE_SIZE ||
-                            error.message == WEFT_MESSAGE_IMAGE_DAMAGED);
+                assert_true(error.message == WEFT_MESSAGE_IMAGE_SIZE || error.message == WEFT_MESSAGE_IMAGE_DAMAGED);
             weft_image_free(&image);
         }
     static const int32_t fits[] = {0, 0, 1999, 1999};
@@ -372,8 +359,7 @@ static void damaged_exr_is_refused_or_read(void **state) {
             damaged.data[i] ^= (unsigned char)(1 << i % 8);
             WeftImage image;
             WeftError error = {0};
-            if (weft_image_read_memory(damaged.data, damaged.size, "bytes", &image, NULL, &error) !=
-                WEFT_OK) {
+            if (weft_image_read_memory(damaged.data, damaged.size, "bytes", &image, NULL, &error) != WEFT_OK) {
                 assert_int_equal(error.result, WEFT_INPUT);
                 assert_null(image.pixels);
             }
@@ -397,8 +383,7 @@ static void exr_values_that_are_not_finite_become_finite(void **state) {
         int warnings = 0;
         const WeftLog log = {count_warning, &warnings};
         WeftImage image;
-        assert_int_equal(weft_image_read_memory(bytes.data, bytes.size, "bytes", &image, &log, NULL),
-                         WEFT_OK);
+        assert_int_equal(weft_image_read_memory(bytes.data, bytes.size, "bytes", &image, &log, NULL), WEFT_OK);
         assert_int_equal(warnings, 1);
         for (int c = 0; c < 3; c++) {
             assert_near(pixel(&image, 1, 3)[c], 0.0f, 0.0f);
@@ -436,9 +421,8 @@ static void exr_reads_what_it_wrote(void **state) {
             WeftImage image = make_image(19, height, channels, WEFT_PIXEL_F32);
             float *values = image.pixels;
             for (size_t i = 0; i < value_total(&image); i++)
-                values[i] = channels % 2 == 0 && (int)i % channels == channels - 1
-                                ? 0.25f + (float)(i % 7) / 10.0f
-                                : expf((float)(i % 19) - 9.0f);
+                values[i] = channels % 2 == 0 && (int)i % channels == channels - 1 ? 0.25f + (float)(i % 7) / 10.0f
+                                                                                   : expf((float)(i % 19) - 9.0f);
             WeftImage back = write_and_read(&image, ".exr");
             assert_shape(&back, 19, height, channels, WEFT_PIXEL_F32);
             for (size_t i = 0; i < value_total(&image); i++)
@@ -502,8 +486,7 @@ static void exr_of_data_keeps_every_bit(void **state) {
 
 static void fill(WeftImage *image, float scale) {
     for (size_t i = 0; i < value_total(image); i++)
-        ((float *)image->pixels)[i] =
-            image->channels % 2 == 0 && i % 4 == 3 ? 0.5f : scale * (float)(i * 7919 % 1021);
+        ((float *)image->pixels)[i] = image->channels % 2 == 0 && i % 4 == 3 ? 0.5f : scale * (float)(i * 7919 % 1021);
 }
 
 static void count_denoised(void *user, WeftMessage message, const char *text) {
@@ -520,8 +503,7 @@ static void exr_layers_leave_the_picture_as_it_is(void **state) {
               depth = make_image(23, 35, 1, WEFT_PIXEL_F32);
     fill(&image, 0.25f), fill(&normal, 1e-7f), fill(&depth, 1e7f);
     const WeftImageLayer layers[] = {{&normal, {"N.X", "N.Y", "N.Z"}}, {&depth, {"Z"}}};
-    WeftImage with =
-                  write_and_read_as(&image, ".exr", &(WeftImageWriting){.layers = layers, .layer_count = 2}),
+    WeftImage with = write_and_read_as(&image, ".exr", &(WeftImageWriting){.layers = layers, .layer_count = 2}),
               without = write_and_read(&image, ".exr");
     assert_shape(&with, 23, 35, 4, WEFT_PIXEL_F32);
     assert_memory_equal(with.pixels, without.pixels, value_total(&with) * sizeof(float));

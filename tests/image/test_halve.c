@@ -42,8 +42,8 @@ static void halved_texels_are_means_of_what_they_cover(void **state) {
         halve_f32(from, w, h, to);
         for (int y = 0; y < u; y++)
             for (int x = 0; x < v; x++) {
-                double wanted = counted(from, w, (double)w * x / v, (double)w * (x + 1) / v,
-                                        (double)h * y / u, (double)h * (y + 1) / u);
+                double wanted = counted(from, w, (double)w * x / v, (double)w * (x + 1) / v, (double)h * y / u,
+                                        (double)h * (y + 1) / u);
                 assert_float_equal(to[4 * (y * v + x)], (float)wanted, 2e-3f);
             }
     }
@@ -84,8 +84,7 @@ static void even_picture_halves_to_the_same_value(void **state) {
                 uint8_t from[MOST], to[MOST];
                 for (int k = 0; k < 4 * sides[n][0] * sides[n][1]; k++) from[k] = (uint8_t)value;
                 halve_u8(from, sides[n][0], sides[n][1], srgb, to);
-                for (int k = 0; k < 4 * halved(sides[n][0]) * halved(sides[n][1]); k++)
-                    assert_int_equal(to[k], value);
+                for (int k = 0; k < 4 * halved(sides[n][0]) * halved(sides[n][1]); k++) assert_int_equal(to[k], value);
             }
 }
 

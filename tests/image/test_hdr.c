@@ -112,9 +112,8 @@ static void hdr_exposure_and_colour_correction_are_undone(void **state) {
     assert_near(pixel(&image, 0, 0)[1], 16.0f, 1e-6f);
     weft_image_free(&image);
 
-    static const char *const wrong[] = {"EXPOSURE=0\n",    "EXPOSURE=-1\n",
-                                        "EXPOSURE=nan\n",  "EXPOSURE=\n",
-                                        "COLORCORR=1 2\n", "EXPOSURE=1e-20\nEXPOSURE=1e-20\n"};
+    static const char *const wrong[] = {"EXPOSURE=0\n", "EXPOSURE=-1\n",   "EXPOSURE=nan\n",
+                                        "EXPOSURE=\n",  "COLORCORR=1 2\n", "EXPOSURE=1e-20\nEXPOSURE=1e-20\n"};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         bytes = header(wrong[i], "-Y 1 +X 1");
         put_pixel(&bytes, 0);
@@ -141,15 +140,13 @@ static void malformed_hdr_is_refused(void **state) {
     Bytes bytes = {.size = 0};
     put_text(&bytes, "#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1\n....");
     refuse(&bytes, WEFT_MESSAGE_IMAGE_UNSUPPORTED);
-    static const char *const wrong[] = {"-Y 1 +Y 1", "-Y 1",       "Y 1 X 1",
-                                        "-Y 0 +X 1", "-Y -1 +X 1", "-Y 1 +X 1 1"};
+    static const char *const wrong[] = {"-Y 1 +Y 1", "-Y 1", "Y 1 X 1", "-Y 0 +X 1", "-Y -1 +X 1", "-Y 1 +X 1 1"};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         bytes = header("", wrong[i]);
         put_pixel(&bytes, 0);
         refuse(&bytes, WEFT_MESSAGE_IMAGE_DAMAGED);
     }
-    static const char *const large[] = {"-Y 65537 +X 1", "-Y 1 +X 99999", "-Y 65536 +X 65536",
-                                        "-Y 40 +X 300"};
+    static const char *const large[] = {"-Y 65537 +X 1", "-Y 1 +X 99999", "-Y 65536 +X 65536", "-Y 40 +X 300"};
     for (size_t i = 0; i < sizeof large / sizeof *large; i++) {
         bytes = header("", large[i]);
         put_pixel(&bytes, 0);

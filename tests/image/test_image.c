@@ -25,9 +25,9 @@ static void new_image_is_black_and_freed(void **state) {
                                    {1, 1, 5, 0}, {1, 1, 1, 3}, {1, -1, 1, 0},    {1, 1, 1, -1}};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         WeftError error = {0};
-        assert_int_equal(weft_image_create(wrong[i][0], wrong[i][1], wrong[i][2], (WeftPixelType)wrong[i][3],
-                                           &image, &error),
-                         WEFT_USAGE);
+        assert_int_equal(
+            weft_image_create(wrong[i][0], wrong[i][1], wrong[i][2], (WeftPixelType)wrong[i][3], &image, &error),
+            WEFT_USAGE);
         assert_int_equal(error.message, WEFT_MESSAGE_DESC);
         assert_null(image.pixels);
     }
@@ -185,8 +185,7 @@ static void unwritable_path_is_an_error_without_temporary_files(void **state) {
 static void write_to_a_full_disk_is_an_error(void **state) {
     (void)state;
     WeftImage image = make_image(600, 600, 3, WEFT_PIXEL_F32), bytes = make_image(600, 600, 3, WEFT_PIXEL_U8);
-    for (size_t i = 0; i < value_total(&image);
-         i++) { /* noise, which does not compress into a stream's buffer */
+    for (size_t i = 0; i < value_total(&image); i++) { /* noise, which does not compress into a stream's buffer */
         ((float *)image.pixels)[i] = (float)((i * 7919) % 65521) / 1000.0f;
         ((unsigned char *)bytes.pixels)[i] = (unsigned char)((i * i * 7919) >> 7);
     }

@@ -119,8 +119,7 @@ static void jpeg_with_too_many_scans_is_refused(void **state) {
     (void)state;
     Bytes bytes = jpeg_make(forms[1], value);
     size_t start = 2, end;
-    while (bytes.data[start + 1] != 0xda)
-        start += 2 + (size_t)(bytes.data[start + 2] << 8 | bytes.data[start + 3]);
+    while (bytes.data[start + 1] != 0xda) start += 2 + (size_t)(bytes.data[start + 2] << 8 | bytes.data[start + 3]);
     for (end = start + 2; bytes.data[end] != 0xff || bytes.data[end + 1] == 0; end++) {
     }
     Bytes bomb = {.size = 0};
@@ -134,8 +133,7 @@ static void jpeg_that_claims_too_many_pixels_is_refused(void **state) {
     (void)state;
     Bytes bytes = jpeg_make(forms[2], value);
     size_t frame = 2;
-    while (bytes.data[frame + 1] != 0xc0)
-        frame += 2 + (size_t)(bytes.data[frame + 2] << 8 | bytes.data[frame + 3]);
+    while (bytes.data[frame + 1] != 0xc0) frame += 2 + (size_t)(bytes.data[frame + 2] << 8 | bytes.data[frame + 3]);
     Bytes changed = bytes;
     memset(changed.data + frame + 5, 0xff, 2);
     memset(changed.data + frame + 7, 0xff, 2);

@@ -16,17 +16,14 @@ static Bytes npy_begin(int major, const char *dictionary) {
 }
 
 /* Value n of those that the tests put into arrays of every type: 0, 0.5, -0.375 and so on; whole for `u`. */
-static double value(int n, char kind) {
-    return kind == 'u' ? (double)((n * 37 + 5) % 251) : ((n * 37) % 29 - 7) / 8.0;
-}
+static double value(int n, char kind) { return kind == 'u' ? (double)((n * 37 + 5) % 251) : ((n * 37) % 29 - 7) / 8.0; }
 
 /* The bits of a number that half holds exactly, by its definition: 1.f x 2^(e - 15). */
 static unsigned half_bits(double x) {
     if (x == 0.0) return 0;
     int exponent;
     const double mantissa = 2.0 * frexp(fabs(x), &exponent); /* 1 .. 2 */
-    return (x < 0.0 ? 0x8000u : 0u) | (unsigned)(exponent - 1 + 15) << 10 |
-           (unsigned)((mantissa - 1.0) * 1024.0);
+    return (x < 0.0 ? 0x8000u : 0u) | (unsigned)(exponent - 1 + 15) << 10 | (unsigned)((mantissa - 1.0) * 1024.0);
 }
 
 static uint64_t bits_of(double x, char kind, int size) {
@@ -75,16 +72,15 @@ static void npy_of_every_type_and_shape_is_read(void **state) {
             const int deep = channels ? channels : 1;
             char dictionary[128], last[16] = "";
             if (channels) snprintf(last, sizeof last, ", %d", channels);
-            snprintf(dictionary, sizeof dictionary,
-                     "{'descr': '%c%c%d', 'fortran_order': %s, 'shape': (%d, %d%s), }", big ? '>' : '<',
-                     types[t].kind, types[t].size, by_column ? "True" : "False", ROWS, COLUMNS, last);
+            snprintf(dictionary, sizeof dictionary, "{'descr': '%c%c%d', 'fortran_order': %s, 'shape': (%d, %d%s), }",
+                     big ? '>' : '<', types[t].kind, types[t].size, by_column ? "True" : "False", ROWS, COLUMNS, last);
             Bytes bytes = npy_begin(1 + form % 3, dictionary);
             /* the values in the order of the file: the last index fastest, or the first */
             for (int n = 0; n < ROWS * COLUMNS * deep; n++) {
                 const int y = n % ROWS, x = n / ROWS % COLUMNS, c = n / ROWS / COLUMNS;
                 const int index = by_column ? (y * COLUMNS + x) * deep + c : n;
-                put_bits(&bytes, bits_of(value(index, types[t].kind), types[t].kind, types[t].size),
-                         types[t].size, big);
+                put_bits(&bytes, bits_of(value(index, types[t].kind), types[t].kind, types[t].size), types[t].size,
+                         big);
             }
             WeftImage image = read_bytes(&bytes);
             assert_shape(&image, COLUMNS, ROWS, deep, types[t].type);
@@ -134,8 +130,7 @@ static void npy_with_a_hostile_header_is_refused(void **state) {
         {"{'descr': '<f4', 'fortran_order': False, 'shape': (2, 2}", WEFT_MESSAGE_IMAGE_DAMAGED},
         {"{'descr': '<f4', 'fortran_order': False, 'shape': (,2, 2)}", WEFT_MESSAGE_IMAGE_DAMAGED},
         {"{'descr': '<f4', 'fortran_order': False, 'shape': (2, 2), 'more': 1}", WEFT_MESSAGE_IMAGE_DAMAGED},
-        {"{'descr': [('r', '<f4')], 'fortran_order': False, 'shape': (2, 2)}",
-         WEFT_MESSAGE_IMAGE_UNSUPPORTED},
+        {"{'descr': [('r', '<f4')], 'fortran_order': False, 'shape': (2, 2)}", WEFT_MESSAGE_IMAGE_UNSUPPORTED},
         {"{'descr': '<i4', 'fortran_order': False, 'shape': (2, 2)}", WEFT_MESSAGE_IMAGE_UNSUPPORTED},
         {"{'descr': '<f16', 'fortran_order': False, 'shape': (2, 2)}", WEFT_MESSAGE_IMAGE_UNSUPPORTED},
         {"{'descr': '<f', 'fortran_order': False, 'shape': (2, 2)}", WEFT_MESSAGE_IMAGE_UNSUPPORTED},
@@ -149,8 +144,7 @@ static void npy_with_a_hostile_header_is_refused(void **state) {
         {"{'descr': '<f4', 'fortran_order': False, 'shape': (0, 2)}", WEFT_MESSAGE_IMAGE_SIZE},
         {"{'descr': '<f4', 'fortran_order': False, 'shape': (65536, 65536)}", WEFT_MESSAGE_IMAGE_SIZE},
         {"{'descr': '<f4', 'fortran_order': False, 'shape': (2, 3)}", WEFT_MESSAGE_IMAGE_SIZE},
-        {"{'descr': '<f4', 'fortran_order': False, 'shape': (99999999999999999999999999, 1)}",
-         WEFT_MESSAGE_IMAGE_SIZE},
+        {"{'descr': '<f4', 'fortran_order': False, 'shape': (99999999999999999999999999, 1)}", WEFT_MESSAGE_IMAGE_SIZE},
     };
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
         Bytes bytes = npy_begin(1, bad[k].dictionary);
@@ -160,8 +154,7 @@ static void npy_with_a_hostile_header_is_refused(void **state) {
     Bytes later = npy_begin(4, "{'descr': '<f4', 'fortran_order': False, 'shape': (1, 1)}");
     put_bits(&later, 0, 4, 0);
     refuse(&later, WEFT_MESSAGE_IMAGE_UNSUPPORTED);
-    refuse_bytes("\x93NUMPY\1\0\xff\xff{", 11,
-                 WEFT_MESSAGE_IMAGE_DAMAGED); /* a header longer than the file */
+    refuse_bytes("\x93NUMPY\1\0\xff\xff{", 11, WEFT_MESSAGE_IMAGE_DAMAGED); /* a header longer than the file */
     refuse_bytes("\x93NUMPY\2\0\xff\xff\xff\xff{", 13, WEFT_MESSAGE_IMAGE_DAMAGED);
 }
 
@@ -183,8 +176,7 @@ static void npy_values_become_finite(void **state) {
 static void npy_writes_the_bytes_of_the_specification(void **state) {
     (void)state;
     static const char grey[] = "\x93NUMPY\1\0v\0{'descr': '<f4', 'fortran_order': False, 'shape': (1, 2), }",
-                      color[] =
-                          "\x93NUMPY\1\0v\0{'descr': '<f4', 'fortran_order': False, 'shape': (1, 1, 2), }";
+                      color[] = "\x93NUMPY\1\0v\0{'descr': '<f4', 'fortran_order': False, 'shape': (1, 1, 2), }";
     static const unsigned char values[] = {0, 0, 0x80, 0x3f, 0, 0, 0x20, 0xc0}; /* 1 and -2.5 */
     for (int k = 0; k < 2; k++) {
         const char *head = k ? color : grey;

@@ -38,8 +38,8 @@ static Bytes png_make(int type, int depth, int channels, int interlaced, int tra
     for (int y = 0; y < HEIGHT; y++) {
         pointers[y] = rows[y];
         for (int i = 0; i < WIDTH * channels; i++) {
-            const unsigned value = sample(i / channels, y, i % channels, depth) &
-                                   (type == PNG_COLOR_TYPE_PALETTE ? 15u : 0xffffu);
+            const unsigned value =
+                sample(i / channels, y, i % channels, depth) & (type == PNG_COLOR_TYPE_PALETTE ? 15u : 0xffffu);
             if (depth == 16) rows[y][2 * i] = (png_byte)(value >> 8);
             if (depth == 16) rows[y][2 * i + 1] = (png_byte)value;
             if (depth == 8) rows[y][i] = (png_byte)value;
@@ -57,11 +57,7 @@ static unsigned expected(int type, int depth, int x, int y, int c, int channels,
     if (type == PNG_COLOR_TYPE_PALETTE) {
         const unsigned index = sample(x, y, 0, depth) & 15;
         const png_color color = palette[index];
-        return c == 0      ? color.red
-               : c == 1    ? color.green
-               : c == 2    ? color.blue
-               : index < 2 ? palette_alpha[index]
-                           : 255;
+        return c == 0 ? color.red : c == 1 ? color.green : c == 2 ? color.blue : index < 2 ? palette_alpha[index] : 255;
     }
     const unsigned most = depth == 16 ? 65535 : 255;
     if (transparent && c == channels - 1) {
@@ -76,29 +72,24 @@ static void png_of_every_type_and_depth_is_read(void **state) {
     (void)state;
     static const struct {
         int type, depth, channels;
-    } forms[] = {{PNG_COLOR_TYPE_GRAY, 1, 1},        {PNG_COLOR_TYPE_GRAY, 2, 1},
-                 {PNG_COLOR_TYPE_GRAY, 4, 1},        {PNG_COLOR_TYPE_GRAY, 8, 1},
-                 {PNG_COLOR_TYPE_GRAY, 16, 1},       {PNG_COLOR_TYPE_RGB, 8, 3},
-                 {PNG_COLOR_TYPE_RGB, 16, 3},        {PNG_COLOR_TYPE_PALETTE, 1, 1},
-                 {PNG_COLOR_TYPE_PALETTE, 2, 1},     {PNG_COLOR_TYPE_PALETTE, 4, 1},
-                 {PNG_COLOR_TYPE_PALETTE, 8, 1},     {PNG_COLOR_TYPE_GRAY_ALPHA, 8, 2},
-                 {PNG_COLOR_TYPE_GRAY_ALPHA, 16, 2}, {PNG_COLOR_TYPE_RGB_ALPHA, 8, 4},
-                 {PNG_COLOR_TYPE_RGB_ALPHA, 16, 4}};
+    } forms[] = {
+        {PNG_COLOR_TYPE_GRAY, 1, 1},        {PNG_COLOR_TYPE_GRAY, 2, 1},      {PNG_COLOR_TYPE_GRAY, 4, 1},
+        {PNG_COLOR_TYPE_GRAY, 8, 1},        {PNG_COLOR_TYPE_GRAY, 16, 1},     {PNG_COLOR_TYPE_RGB, 8, 3},
+        {PNG_COLOR_TYPE_RGB, 16, 3},        {PNG_COLOR_TYPE_PALETTE, 1, 1},   {PNG_COLOR_TYPE_PALETTE, 2, 1},
+        {PNG_COLOR_TYPE_PALETTE, 4, 1},     {PNG_COLOR_TYPE_PALETTE, 8, 1},   {PNG_COLOR_TYPE_GRAY_ALPHA, 8, 2},
+        {PNG_COLOR_TYPE_GRAY_ALPHA, 16, 2}, {PNG_COLOR_TYPE_RGB_ALPHA, 8, 4}, {PNG_COLOR_TYPE_RGB_ALPHA, 16, 4}};
     for (size_t i = 0; i < sizeof forms / sizeof *forms; i++)
         for (int variant = 0; variant < 4; variant++) {
             const int type = forms[i].type, depth = forms[i].depth, interlaced = variant & 1;
             const int transparent = (variant & 2) != 0 && !(type & PNG_COLOR_MASK_ALPHA);
             Bytes bytes = png_make(type, depth, forms[i].channels, interlaced, transparent);
             WeftImage image = read_bytes(&bytes);
-            const int channels =
-                (type == PNG_COLOR_TYPE_PALETTE ? 3 : forms[i].channels) + (transparent ? 1 : 0);
+            const int channels = (type == PNG_COLOR_TYPE_PALETTE ? 3 : forms[i].channels) + (transparent ? 1 : 0);
             assert_shape(&image, WIDTH, HEIGHT, channels, depth == 16 ? WEFT_PIXEL_U16 : WEFT_PIXEL_U8);
             for (int n = 0; n < WIDTH * HEIGHT * channels; n++) {
-                const unsigned got =
-                    depth == 16 ? ((uint16_t *)image.pixels)[n] : ((uint8_t *)image.pixels)[n];
+                const unsigned got = depth == 16 ? ((uint16_t *)image.pixels)[n] : ((uint8_t *)image.pixels)[n];
                 const int p = n / channels;
-                assert_int_equal(
-                    got, expected(type, depth, p % WIDTH, p / WIDTH, n % channels, channels, transparent));
+                assert_int_equal(got, expected(type, depth, p % WIDTH, p / WIDTH, n % channels, channels, transparent));
             }
             weft_image_free(&image);
         }
@@ -114,8 +105,7 @@ static void damaged_png_is_refused(void **state) {
         damaged.data[i] ^= 0x10;
         WeftImage image;
         WeftError error = {0};
-        assert_int_equal(weft_image_read_memory(damaged.data, damaged.size, "bytes", &image, NULL, &error),
-                         WEFT_INPUT);
+        assert_int_equal(weft_image_read_memory(damaged.data, damaged.size, "bytes", &image, NULL, &error), WEFT_INPUT);
         assert_null(strchr(error.text, '\n'));
     }
 }
@@ -144,8 +134,7 @@ static void png_reads_what_it_wrote(void **state) {
         for (int deep = 0; deep < 2; deep++) {
             WeftImage image = make_image(37, 21, channels, deep ? WEFT_PIXEL_U16 : WEFT_PIXEL_U8);
             const size_t size = value_total(&image) * (deep ? 2 : 1);
-            for (size_t i = 0; i < size; i++)
-                ((unsigned char *)image.pixels)[i] = (unsigned char)(i * 31 >> 2);
+            for (size_t i = 0; i < size; i++) ((unsigned char *)image.pixels)[i] = (unsigned char)(i * 31 >> 2);
             WeftImage back = write_and_read(&image, ".png");
             assert_shape(&back, 37, 21, channels, image.type);
             assert_memory_equal(back.pixels, image.pixels, size);

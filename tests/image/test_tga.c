@@ -53,8 +53,7 @@ static void assert_colors(const WeftImage *image, int descriptor) {
     for (int n = 0; n < WIDTH * HEIGHT; n++) {
         unsigned char rgba[4];
         color_of(n, rgba);
-        const unsigned char *pixel =
-            (const unsigned char *)image->pixels + place_of(n, descriptor) * image->channels;
+        const unsigned char *pixel = (const unsigned char *)image->pixels + place_of(n, descriptor) * image->channels;
         assert_memory_equal(pixel, rgba, (size_t)image->channels);
     }
 }
@@ -66,11 +65,8 @@ static void tga_of_true_colour_is_read(void **state) {
     for (int i = 0; i < 4 * 2 * 2 * 4; i++) {
         const int bits = depths[i % 4], packed = i / 4 % 2, attributes = i / 8 % 2 ? (bits == 32 ? 8 : 1) : 0;
         const int descriptor = attributes | (i / 16) << 4;
-        Bytes bytes = header((Header){.type = packed ? 10 : 2,
-                                      .width = WIDTH,
-                                      .height = HEIGHT,
-                                      .bits = bits,
-                                      .descriptor = descriptor});
+        Bytes bytes = header((Header){
+            .type = packed ? 10 : 2, .width = WIDTH, .height = HEIGHT, .bits = bits, .descriptor = descriptor});
         for (int n = 0; n < WIDTH * HEIGHT; n++) {
             if (packed && n == 0) put_byte(&bytes, 3);    /* a dump over the end of a line */
             if (packed && n >= 4) put_byte(&bytes, 0x80); /* runs of one */
@@ -112,8 +108,7 @@ static void tga_with_a_colour_map_is_read(void **state) {
         assert_colors(&image, h.descriptor);
         weft_image_free(&image);
 
-        bytes.data[bytes.size - (bits == 16 ? 2 : 1)] =
-            (unsigned char)(first + WIDTH * HEIGHT); /* one past the map */
+        bytes.data[bytes.size - (bits == 16 ? 2 : 1)] = (unsigned char)(first + WIDTH * HEIGHT); /* one past the map */
         refuse(&bytes, WEFT_MESSAGE_IMAGE_DAMAGED);
         bytes.data[bytes.size - (bits == 16 ? 2 : 1)] = (unsigned char)(first - 1); /* one before it */
         refuse(&bytes, WEFT_MESSAGE_IMAGE_DAMAGED);
@@ -126,8 +121,8 @@ static void tga_of_grey_is_read(void **state) {
     for (int i = 0; i < 4; i++) {
         const int packed = i % 2, bits = i / 2 ? 16 : 8, step = bits / 8;
         const size_t length = (size_t)step + 1;
-        Bytes bytes = header((Header){
-            .type = packed ? 11 : 3, .width = WIDTH, .height = HEIGHT, .bits = bits, .descriptor = 0x20});
+        Bytes bytes = header(
+            (Header){.type = packed ? 11 : 3, .width = WIDTH, .height = HEIGHT, .bits = bits, .descriptor = 0x20});
         if (packed) {
             put(&bytes, (unsigned char[]){0x84, 9, 200}, length); /* five */
             put(&bytes, (unsigned char[]){0x00, 8, 100}, length); /* one */

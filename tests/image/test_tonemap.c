@@ -65,22 +65,19 @@ static void tone_mapped_background_is_unchanged(void **state) {
     (void)state;
     static const float white[3] = {1.0f, 1.0f, 1.0f}, grey[3] = {0.25f, 0.25f, 0.25f};
     float pixels[3 * 4] = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.5f, 0.3f, 0.3f, 0.3f, 1.0f};
-    const WeftImage image = {
-        .width = 3, .height = 1, .channels = 4, .type = WEFT_PIXEL_F32, .pixels = pixels};
+    const WeftImage image = {.width = 3, .height = 1, .channels = 4, .type = WEFT_PIXEL_F32, .pixels = pixels};
     const int half = (int)(255.0f * tone_encode(0.5f)), quarter = (int)(255.0f * tone_encode(0.25f));
     WeftImage over, alone;
     for (int k = 0; k < 3; k++)
         for (float exposure = -2.0f; exposure < 3.0f; exposure += 1.0f) {
-            assert_int_equal(weft_image_tonemap_over(&image, curves[k], exposure, white, &over, NULL),
-                             WEFT_OK);
+            assert_int_equal(weft_image_tonemap_over(&image, curves[k], exposure, white, &over, NULL), WEFT_OK);
             assert_int_equal(weft_image_tonemap(&image, curves[k], exposure, &alone, NULL), WEFT_OK);
             const unsigned char *p = over.pixels;
             for (int c = 0; c < 4; c++) assert_int_equal(p[c], 255);
             assert_in_range(p[4], half, half + 1); /* half the light, not half the value */
             assert_memory_equal(p + 8, (const unsigned char *)alone.pixels + 8, 4);
             weft_image_free(&over);
-            assert_int_equal(weft_image_tonemap_over(&image, curves[k], exposure, grey, &over, NULL),
-                             WEFT_OK);
+            assert_int_equal(weft_image_tonemap_over(&image, curves[k], exposure, grey, &over, NULL), WEFT_OK);
             assert_in_range(*(const unsigned char *)over.pixels, quarter, quarter + 1);
             weft_image_free(&over);
             weft_image_free(&alone);

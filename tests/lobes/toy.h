@@ -13,8 +13,8 @@
 
 #include "shading/lobe/lobe.h"
 
-#define TOY_PARAMS(P)                                                                                        \
-    P(float, roughness, 0.5f, 0.0f, 1.0f, 0.0f, 1.0f, "how slowly it darkens towards the edge")              \
+#define TOY_PARAMS(P)                                                                                                  \
+    P(float, roughness, 0.5f, 0.0f, 1.0f, 0.0f, 1.0f, "how slowly it darkens towards the edge")                        \
     P(float, fade, 1.0f, 0.0f, 1.0f, 0.0f, 1.0f, "how much of the second colour the edge shows")
 #define TOY_TRAITS (TRAIT_RECIPROCAL | TRAIT_CONSERVES | TRAIT_TWO_COLORS)
 

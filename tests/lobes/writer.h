@@ -13,8 +13,8 @@
 
 #include "shading/lobe.h"
 
-#define WRITER_PARAMS(P)                                                                                     \
-    P(float, roughness, 0.5f, 0.0f, 1.0f, 0.0f, 1.0f, "how slowly it darkens towards the edge")              \
+#define WRITER_PARAMS(P)                                                                                               \
+    P(float, roughness, 0.5f, 0.0f, 1.0f, 0.0f, 1.0f, "how slowly it darkens towards the edge")                        \
     P(float, fade, 1.0f, 0.0f, 1.0f, 0.0f, 1.0f, "how much of the second colour the edge shows")
 #define WRITER_TRAITS (TRAIT_CONSERVES | TRAIT_TWO_COLORS)
 

@@ -18,8 +18,7 @@ static inline void fake_f(const BsdfView *view, Dirs i, float *f) {
 }
 
 static inline void fake_pdf(const BsdfView *view, Dirs i, float *pdf) {
-    for (size_t k = 0; k < i.n; k++)
-        pdf[k] = i.z[k] > 0.0f ? warp_cosine_pdf(dir(i.x[k], i.y[k], i.z[k])) : 0.0f;
+    for (size_t k = 0; k < i.n; k++) pdf[k] = i.z[k] > 0.0f ? warp_cosine_pdf(dir(i.x[k], i.y[k], i.z[k])) : 0.0f;
 }
 
 static inline Dir fake_sample(const BsdfView *view, float u, float v) { return warp_cosine(u, v); }

@@ -71,8 +71,7 @@ static WeftAudit audited(WeftImage *table, const char *lobe_id, const char *axes
 static void assert_fault(const WeftAudit *audit, WeftTableFault fault, const char *words) {
     assert_string_equal(weft_table_fault_name(audit->found[0].fault), weft_table_fault_name(fault));
     assert_int_equal(audit->faults, 1);
-    if (!strstr(audit->found[0].text, words))
-        fail_msg("\"%s\" is not in \"%s\"", words, audit->found[0].text);
+    if (!strstr(audit->found[0].text, words)) fail_msg("\"%s\" is not in \"%s\"", words, audit->found[0].text);
 }
 
 /* Conty Estevez and Kulla 2017, equation 2, and the denominator of Neubelt and Pettineo 2013, as the LUT
@@ -145,8 +144,7 @@ static double mid(int k) { return (k + 0.5) / SIDE; }
 /* The table that quadrature makes, in some form. */
 static WeftImage right(const char *lobe_id, const char *axes) {
     const WeftLobe lobe = lobe_of_id(lobe_id);
-    const WeftBakeDesc desc = {
-        .kind = "albedo", .lobe = &lobe, .width = SIDE, .height = SIDE, .form = form_of(axes)};
+    const WeftBakeDesc desc = {.kind = "albedo", .lobe = &lobe, .width = SIDE, .height = SIDE, .form = form_of(axes)};
     WeftImage table;
     assert_int_equal(weft_bake(&desc, NULL, &table, NULL), WEFT_OK);
     return table;
@@ -211,8 +209,7 @@ static void part_that_a_channel_holds_is_found(void **state) {
     for (int total = 0; total < 2; total++)
         for (int channel = 0; channel < 2; channel++) {
             const WeftTableForm form = {.alpha = 1, .total = total};
-            const WeftBakeDesc bake = {
-                .kind = "dfg", .width = SIDE, .height = SIDE, .form = form, .tolerance = 1e-4};
+            const WeftBakeDesc bake = {.kind = "dfg", .width = SIDE, .height = SIDE, .form = form, .tolerance = 1e-4};
             WeftImage table;
             WeftAudit audit;
             assert_int_equal(weft_bake(&bake, NULL, &table, NULL), WEFT_OK);
@@ -273,8 +270,7 @@ static void table_shifted_by_half_a_texel_is_named(void **state) {
     WeftImage table = table_make(SIDE, SIDE);
     for (int y = 0; y < SIDE; y++)
         for (int x = 0; x < SIDE; x++) /* as cmgen has them: row j holds (j + 1.5) / n */
-            ((float *)table.pixels)[y * SIDE + x] =
-                (float)nearly(mid(x), fmin(mid(y) + 1.0 / SIDE, 1.0), 4096);
+            ((float *)table.pixels)[y * SIDE + x] = (float)nearly(mid(x), fmin(mid(y) + 1.0 / SIDE, 1.0), 4096);
     WeftAudit audit = audited(&table, "charlie-neubelt", "gltf", 0.0);
     assert_fault(&audit, WEFT_TABLE_LATE, "the next one up");
 }
@@ -293,8 +289,7 @@ static void table_encoded_as_srgb_is_named(void **state) {
     WeftImage table = right("ashikhmin-neubelt", "gltf");
     for (size_t n = 0; n < count_of(&table); n++) {
         const double x = (double)((float *)table.pixels)[n];
-        ((float *)table.pixels)[n] =
-            (float)(x <= 0.0031308 ? 12.92 * x : 1.055 * (pow)(x, 1.0 / 2.4) - 0.055);
+        ((float *)table.pixels)[n] = (float)(x <= 0.0031308 ? 12.92 * x : 1.055 * (pow)(x, 1.0 / 2.4) - 0.055);
     }
     WeftAudit audit = audited(&table, "ashikhmin-neubelt", "gltf", 0.0);
     assert_fault(&audit, WEFT_TABLE_ENCODED, "sRGB");
@@ -303,8 +298,7 @@ static void table_encoded_as_srgb_is_named(void **state) {
 static void table_clipped_at_one_is_named(void **state) {
     (void)state;
     WeftImage table = right("charlie-neubelt", "gltf");
-    for (size_t n = 0; n < count_of(&table); n++)
-        ((float *)table.pixels)[n] = fminf(((float *)table.pixels)[n], 1.0f);
+    for (size_t n = 0; n < count_of(&table); n++) ((float *)table.pixels)[n] = fminf(((float *)table.pixels)[n], 1.0f);
     WeftAudit audit = audited(&table, "charlie-neubelt", "gltf", 0.0);
     assert_fault(&audit, WEFT_TABLE_CLIPPED, "cut off at 1");
 }
@@ -325,9 +319,7 @@ static void table_of_another_lobe_is_named(void **state) {
 /* The generator is off by what it was measured to be, and more samples do not mend it. */
 static void biased_generator_is_the_known_one(void **state) {
     (void)state;
-    static const struct {
-        double o, r, excess, tolerance;
-    } known[] = {{0.5, 0.5, 0.70, 0.02}, {0.5, 1.0, 0.07, 0.02}};
+    static const struct { double o, r, excess, tolerance; } known[] = {{0.5, 0.5, 0.70, 0.02}, {0.5, 1.0, 0.07, 0.02}};
     for (size_t k = 0; k < sizeof known / sizeof *known; k++) {
         char alpha[32];
         float e[3];
@@ -456,8 +448,7 @@ static void audit_of_unsuitable_tables_is_refused(void **state) {
 
 static WeftImage baked(const char *lobe_id, const char *axes) {
     const WeftLobe lobe = lobe_of_id(lobe_id);
-    const WeftBakeDesc desc = {
-        .kind = "albedo", .lobe = &lobe, .width = SIDE, .height = SIDE, .form = form_of(axes)};
+    const WeftBakeDesc desc = {.kind = "albedo", .lobe = &lobe, .width = SIDE, .height = SIDE, .form = form_of(axes)};
     WeftImage table;
     assert_int_equal(weft_bake(&desc, NULL, &table, NULL), WEFT_OK);
     return table;
@@ -482,8 +473,8 @@ static void a_table_of_an_unknown_lobe_is_recognised(void **state) {
             WeftImage table = baked(lobes[k], axes[k]);
             float *values = table.pixels;
             for (size_t n = 0; encoded && n < count_of(&table); n++)
-                values[n] = values[n] <= 0.0031308f ? 12.92f * values[n]
-                                                    : 1.055f * powf(values[n], 1.0f / 2.4f) - 0.055f;
+                values[n] =
+                    values[n] <= 0.0031308f ? 12.92f * values[n] : 1.055f * powf(values[n], 1.0f / 2.4f) - 0.055f;
             const WeftTableForm form = form_of(axes[k]);
             const WeftAudit audit = audited_as_any(&table);
             assert_string_equal(weft_lobe_info(audit.lobe)->id, lobes[k]);
@@ -497,8 +488,7 @@ static void a_table_of_an_unknown_lobe_is_recognised(void **state) {
 static void table_of_no_lobe_has_a_nearest_one(void **state) {
     (void)state;
     WeftImage table = table_make(SIDE, SIDE);
-    for (int n = 0; n < SIDE * SIDE; n++)
-        ((float *)table.pixels)[n] = 0.5f + 0.4f * (float)((n % SIDE + n / SIDE) % 2);
+    for (int n = 0; n < SIDE * SIDE; n++) ((float *)table.pixels)[n] = 0.5f + 0.4f * (float)((n % SIDE + n / SIDE) % 2);
     const WeftAudit audit = audited_as_any(&table);
     assert_non_null(weft_lobe_info(audit.lobe));
     assert_int_equal(audit.fits, 0);

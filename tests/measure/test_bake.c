@@ -111,8 +111,7 @@ static void texels_of_each_form_are_where_its_engine_has_them(void **state) {
     for (size_t k = 0; k < sizeof places / sizeof *places; k++) {
         float cos_o, value;
         const WeftTableForm form = form_of(places[k].form);
-        weft_table_form_texel(&form, lobe, places[k].width, places[k].height, places[k].x, places[k].y,
-                              &cos_o, &value);
+        weft_table_form_texel(&form, lobe, places[k].width, places[k].height, places[k].x, places[k].y, &cos_o, &value);
         assert_near((double)cos_o, places[k].cos_o, 1e-7);
         assert_near((double)value, places[k].alpha, 1e-7);
     }
@@ -183,8 +182,7 @@ static void baked_albedo_is_the_integral(void **state) {
     (void)state;
     const WeftLobe lobe = lobe_of_id("charlie-neubelt");
     WeftBakeInfo info;
-    const WeftBakeDesc desc = {
-        .kind = "albedo", .lobe = &lobe, .width = 4, .height = 3, .form = form_of("three")};
+    const WeftBakeDesc desc = {.kind = "albedo", .lobe = &lobe, .width = 4, .height = 3, .form = form_of("three")};
     WeftImage table = baked(&desc, &info);
     assert_int_equal(table.channels, 1);
     for (int y = 0; y < 3; y++)
@@ -249,8 +247,7 @@ static void baked_albedo_has_the_parameters_and_parts_of_its_lobe(void **state) 
     assert_int_equal(weft_lobe_set(&ggx, "f0", "0.25", NULL, NULL), WEFT_OK);
     assert_int_equal(weft_lobe_set(&ggx, "f90", "0.5", NULL, NULL), WEFT_OK);
     weft_lobe_albedo(&ggx, 0.5f, e);
-    assert_near(0.25 * (double)texel(&table, 1, 1, 0) + 0.5 * (double)texel(&table, 1, 1, 1), (double)e[0],
-                2e-4);
+    assert_near(0.25 * (double)texel(&table, 1, 1, 0) + 0.5 * (double)texel(&table, 1, 1, 1), (double)e[0], 2e-4);
     weft_image_free(&table);
 
     desc.lobe = &lambert;

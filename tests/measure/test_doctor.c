@@ -109,14 +109,13 @@ typedef struct Case {
 static const Case cases[] = {
     {-1, TWO_SIDED CLOTH ",'extensions':{" SHEEN "}", NULL, NULL, NULL, COLORS},
     {-1,
-     TWO_SIDED CLOTH
-     ",'extensions':{'KHR_materials_sheen':{'sheenColorFactor':[0.9,0.8,0.8],'sheenColorTexture':"
-     "{'index':0},'sheenRoughnessFactor':1,'sheenRoughnessTexture':{'index':0}}}",
+     TWO_SIDED CLOTH ",'extensions':{'KHR_materials_sheen':{'sheenColorFactor':[0.9,0.8,0.8],'sheenColorTexture':"
+                     "{'index':0},'sheenRoughnessFactor':1,'sheenRoughnessTexture':{'index':0}}}",
      NULL, NULL, NULL, ALPHAS},
     {WEFT_FINDING_EXTENSION_REQUIRED, TWO_SIDED CLOTH, NULL, NULL,
      "'extensionsUsed':['SOME_thing'],'extensionsRequired':['SOME_thing'],", COLORS},
-    {WEFT_FINDING_EXTENSION_UNDECLARED, TWO_SIDED CLOTH ",'extensions':{" SHEEN "}", "'KHR_materials_ior'",
-     NULL, NULL, COLORS},
+    {WEFT_FINDING_EXTENSION_UNDECLARED, TWO_SIDED CLOTH ",'extensions':{" SHEEN "}", "'KHR_materials_ior'", NULL, NULL,
+     COLORS},
     {WEFT_FINDING_VALUE_RANGE,
      TWO_SIDED CLOTH ",'extensions':{'KHR_materials_sheen':{'sheenColorFactor':[0.5,1.5,0.5],"
                      "'sheenRoughnessFactor':0.8}}",
@@ -126,31 +125,28 @@ static const Case cases[] = {
                      "'sheenRoughnessFactor':1.25}}",
      NULL, NULL, NULL, COLORS},
     {WEFT_FINDING_VALUE_RANGE,
-     TWO_SIDED "'pbrMetallicRoughness':{'baseColorFactor':[0.5,0.5,0.5,1],'metallicFactor':-0.5}", NULL, NULL,
-     NULL, COLORS},
-    {WEFT_FINDING_VALUE_RANGE, TWO_SIDED CLOTH ",'extensions':{'KHR_materials_ior':{'ior':0.5}}",
-     "'KHR_materials_ior'", NULL, NULL, COLORS},
+     TWO_SIDED "'pbrMetallicRoughness':{'baseColorFactor':[0.5,0.5,0.5,1],'metallicFactor':-0.5}", NULL, NULL, NULL,
+     COLORS},
+    {WEFT_FINDING_VALUE_RANGE, TWO_SIDED CLOTH ",'extensions':{'KHR_materials_ior':{'ior':0.5}}", "'KHR_materials_ior'",
+     NULL, NULL, COLORS},
     {WEFT_FINDING_TEXTURE_TIMES_ZERO,
      TWO_SIDED CLOTH ",'extensions':{'KHR_materials_sheen':{'sheenColorTexture':{'index':0},"
                      "'sheenRoughnessFactor':0.8}}",
      NULL, NULL, NULL, COLORS},
-    {WEFT_FINDING_TEXTURE_TIMES_ZERO, TWO_SIDED CLOTH ",'emissiveTexture':{'index':0}", NULL, NULL, NULL,
-     COLORS},
-    {WEFT_FINDING_TEXTURE_OFF, TWO_SIDED CLOTH ",'emissiveFactor':[0,0,0],'emissiveTexture':{'index':0}",
-     NULL, NULL, NULL, COLORS},
+    {WEFT_FINDING_TEXTURE_TIMES_ZERO, TWO_SIDED CLOTH ",'emissiveTexture':{'index':0}", NULL, NULL, NULL, COLORS},
+    {WEFT_FINDING_TEXTURE_OFF, TWO_SIDED CLOTH ",'emissiveFactor':[0,0,0],'emissiveTexture':{'index':0}", NULL, NULL,
+     NULL, COLORS},
     {WEFT_FINDING_TEXTURE_TWO_SPACES,
      TWO_SIDED "'pbrMetallicRoughness':{'baseColorTexture':{'index':0},'metallicFactor':0,"
                "'metallicRoughnessTexture':{'index':0}}",
      NULL, NULL, NULL, COLORS},
     {WEFT_FINDING_TEXTURE_SAYS_LINEAR,
-     TWO_SIDED CLOTH
-     ",'extensions':{'KHR_materials_sheen':{'sheenColorFactor':[1,1,1],'sheenColorTexture':{'index':0},"
-     "'sheenRoughnessFactor':0.8}}",
+     TWO_SIDED CLOTH ",'extensions':{'KHR_materials_sheen':{'sheenColorFactor':[1,1,1],'sheenColorTexture':{'index':0},"
+                     "'sheenRoughnessFactor':0.8}}",
      NULL, NULL, NULL, LINEAR},
     {WEFT_FINDING_TEXTURE_TRANSFORM,
-     TWO_SIDED CLOTH
-     ",'extensions':{'KHR_materials_sheen':{'sheenColorFactor':[1,1,1],'sheenColorTexture':{'index':0,"
-     "'extensions':{'KHR_texture_transform':{'scale':[0,2]}}},'sheenRoughnessFactor':0.8}}",
+     TWO_SIDED CLOTH ",'extensions':{'KHR_materials_sheen':{'sheenColorFactor':[1,1,1],'sheenColorTexture':{'index':0,"
+                     "'extensions':{'KHR_texture_transform':{'scale':[0,2]}}},'sheenRoughnessFactor':0.8}}",
      "'KHR_materials_sheen','KHR_texture_transform'", NULL, NULL, COLORS},
     {WEFT_FINDING_TEXTURE_TRANSFORM,
      TWO_SIDED CLOTH ",'extensions':{'KHR_materials_clearcoat':{'clearcoatFactor':1,'clearcoatTexture':"
@@ -158,18 +154,15 @@ static const Case cases[] = {
      "'KHR_materials_clearcoat','KHR_texture_transform'", NULL, NULL, COLORS},
     {WEFT_FINDING_TEXCOORD_MISSING, TWO_SIDED CLOTH ",'occlusionTexture':{'index':0}", NULL,
      "'attributes':{'POSITION':0,'NORMAL':1},'indices':3,'material':0", NULL, COLORS},
-    {WEFT_FINDING_TEXCOORD_MISSING, TWO_SIDED CLOTH ",'occlusionTexture':{'index':0,'texCoord':1}", NULL,
-     NULL, NULL, COLORS},
-    {WEFT_FINDING_IMAGE_REPAIRED, TWO_SIDED CLOTH ",'occlusionTexture':{'index':0}", NULL, NULL, NULL,
-     DAMAGED},
-    {WEFT_FINDING_IMAGE_UNREAD, TWO_SIDED CLOTH ",'occlusionTexture':{'index':0}", NULL, NULL, NULL, KTX2},
-    {WEFT_FINDING_SHEEN_BLACK,
-     TWO_SIDED CLOTH ",'extensions':{'KHR_materials_sheen':{'sheenRoughnessFactor':0.8}}", NULL, NULL, NULL,
+    {WEFT_FINDING_TEXCOORD_MISSING, TWO_SIDED CLOTH ",'occlusionTexture':{'index':0,'texCoord':1}", NULL, NULL, NULL,
      COLORS},
+    {WEFT_FINDING_IMAGE_REPAIRED, TWO_SIDED CLOTH ",'occlusionTexture':{'index':0}", NULL, NULL, NULL, DAMAGED},
+    {WEFT_FINDING_IMAGE_UNREAD, TWO_SIDED CLOTH ",'occlusionTexture':{'index':0}", NULL, NULL, NULL, KTX2},
+    {WEFT_FINDING_SHEEN_BLACK, TWO_SIDED CLOTH ",'extensions':{'KHR_materials_sheen':{'sheenRoughnessFactor':0.8}}",
+     NULL, NULL, NULL, COLORS},
     {WEFT_FINDING_SHEEN_TEXTURE_BLACK,
-     TWO_SIDED CLOTH
-     ",'extensions':{'KHR_materials_sheen':{'sheenColorFactor':[1,1,1],'sheenColorTexture':{'index':0},"
-     "'sheenRoughnessFactor':0.8}}",
+     TWO_SIDED CLOTH ",'extensions':{'KHR_materials_sheen':{'sheenColorFactor':[1,1,1],'sheenColorTexture':{'index':0},"
+                     "'sheenRoughnessFactor':0.8}}",
      NULL, NULL, NULL, BLACK},
     {WEFT_FINDING_SHEEN_ROUGHNESS_CHANNEL,
      TWO_SIDED CLOTH ",'extensions':{'KHR_materials_sheen':{'sheenColorFactor':[0.4,0.4,0.4],"
@@ -180,9 +173,8 @@ static const Case cases[] = {
                      "'sheenRoughnessTexture':{'index':0},'sheenRoughnessFactor':0.8}}",
      NULL, NULL, NULL, PLAIN},
     {WEFT_FINDING_SHEEN_ROUGHNESS_PLAIN,
-     TWO_SIDED CLOTH
-     ",'extensions':{'KHR_materials_sheen':{'sheenColorFactor':[0.9,0.8,0.8],'sheenColorTexture':"
-     "{'index':0},'sheenRoughnessTexture':{'index':0},'sheenRoughnessFactor':0.8}}",
+     TWO_SIDED CLOTH ",'extensions':{'KHR_materials_sheen':{'sheenColorFactor':[0.9,0.8,0.8],'sheenColorTexture':"
+                     "{'index':0},'sheenRoughnessTexture':{'index':0},'sheenRoughnessFactor':0.8}}",
      NULL, NULL, NULL, COLORS},
     {WEFT_FINDING_SHEEN_GAINS,
      TWO_SIDED "'pbrMetallicRoughness':{'baseColorFactor':[0.8,0.8,0.8,1],'metallicFactor':0},'extensions':"
@@ -193,17 +185,15 @@ static const Case cases[] = {
                "{'KHR_materials_sheen':{'sheenColorFactor':[0,0,1],'sheenRoughnessFactor':0.4}}",
      NULL, NULL, NULL, COLORS},
     {WEFT_FINDING_ENGINES_DIFFER,
-     TWO_SIDED
-     "'pbrMetallicRoughness':{'baseColorFactor':[0.05,0.05,0.05,1],'metallicFactor':0},'extensions':"
-     "{'KHR_materials_sheen':{'sheenColorFactor':[0.3,0.3,0.3],'sheenRoughnessFactor':0.3}}",
+     TWO_SIDED "'pbrMetallicRoughness':{'baseColorFactor':[0.05,0.05,0.05,1],'metallicFactor':0},'extensions':"
+               "{'KHR_materials_sheen':{'sheenColorFactor':[0.3,0.3,0.3],'sheenRoughnessFactor':0.3}}",
      NULL, NULL, NULL, COLORS},
     {WEFT_FINDING_SHEEN_ON_METAL,
-     TWO_SIDED "'pbrMetallicRoughness':{'baseColorFactor':[0.5,0.5,0.5,1]},'extensions':{" SHEEN "}", NULL,
-     NULL, NULL, COLORS},
+     TWO_SIDED "'pbrMetallicRoughness':{'baseColorFactor':[0.5,0.5,0.5,1]},'extensions':{" SHEEN "}", NULL, NULL, NULL,
+     COLORS},
     {WEFT_FINDING_SHEEN_ON_METAL,
-     TWO_SIDED
-     "'pbrMetallicRoughness':{'baseColorFactor':[0.5,0.5,0.5,1],'metallicFactor':0.4},'extensions':{" SHEEN
-     "}",
+     TWO_SIDED "'pbrMetallicRoughness':{'baseColorFactor':[0.5,0.5,0.5,1],'metallicFactor':0.4},'extensions':{" SHEEN
+               "}",
      NULL, NULL, NULL, COLORS},
     {WEFT_FINDING_SHEEN_TRANSMISSION,
      TWO_SIDED CLOTH ",'extensions':{" SHEEN ",'KHR_materials_transmission':{'transmissionFactor':0.5}}",
@@ -217,25 +207,24 @@ static const Case cases[] = {
      "'KHR_materials_sheen','KHR_materials_clearcoat'", NULL, NULL, COLORS},
     {WEFT_FINDING_SHEEN_IOR, TWO_SIDED CLOTH ",'extensions':{" SHEEN ",'KHR_materials_ior':{'ior':1.4}}",
      "'KHR_materials_sheen','KHR_materials_ior'", NULL, NULL, COLORS},
-    {WEFT_FINDING_SHEEN_EMISSION, TWO_SIDED CLOTH ",'emissiveFactor':[0.1,0,0],'extensions':{" SHEEN "}",
-     NULL, NULL, NULL, COLORS},
-    {WEFT_FINDING_BASE_DARK,
-     TWO_SIDED "'pbrMetallicRoughness':{'baseColorFactor':[0.001,0.001,0.001,1],'metallicFactor':0}", NULL,
-     NULL, NULL, COLORS},
-    {WEFT_FINDING_BASE_BRIGHT,
-     TWO_SIDED
-     "'pbrMetallicRoughness':{'baseColorFactor':[0.95,0.95,0.95,1],'metallicFactor':0},'extensions':"
-     "{'KHR_materials_sheen':{'sheenColorFactor':[0.1,0.1,0.1],'sheenRoughnessFactor':0.9}}",
-     NULL, NULL, NULL, COLORS},
-    {WEFT_FINDING_METAL_DARK, TWO_SIDED "'pbrMetallicRoughness':{'baseColorFactor':[0.2,0.2,0.2,1]}", NULL,
-     NULL, NULL, COLORS},
-    {WEFT_FINDING_IMPLAUSIBLE, TWO_SIDED CLOTH ",'extensions':{'KHR_materials_ior':{'ior':3}}",
-     "'KHR_materials_ior'", NULL, NULL, COLORS},
-    {WEFT_FINDING_IMPLAUSIBLE,
-     TWO_SIDED "'pbrMetallicRoughness':{'baseColorFactor':[0.8,0.8,0.8,1],'metallicFactor':0.3}", NULL, NULL,
+    {WEFT_FINDING_SHEEN_EMISSION, TWO_SIDED CLOTH ",'emissiveFactor':[0.1,0,0],'extensions':{" SHEEN "}", NULL, NULL,
      NULL, COLORS},
-    {WEFT_FINDING_NORMALS_MISSING, TWO_SIDED CLOTH, NULL,
-     "'attributes':{'POSITION':0},'indices':3,'material':0", NULL, COLORS},
+    {WEFT_FINDING_BASE_DARK,
+     TWO_SIDED "'pbrMetallicRoughness':{'baseColorFactor':[0.001,0.001,0.001,1],'metallicFactor':0}", NULL, NULL, NULL,
+     COLORS},
+    {WEFT_FINDING_BASE_BRIGHT,
+     TWO_SIDED "'pbrMetallicRoughness':{'baseColorFactor':[0.95,0.95,0.95,1],'metallicFactor':0},'extensions':"
+               "{'KHR_materials_sheen':{'sheenColorFactor':[0.1,0.1,0.1],'sheenRoughnessFactor':0.9}}",
+     NULL, NULL, NULL, COLORS},
+    {WEFT_FINDING_METAL_DARK, TWO_SIDED "'pbrMetallicRoughness':{'baseColorFactor':[0.2,0.2,0.2,1]}", NULL, NULL, NULL,
+     COLORS},
+    {WEFT_FINDING_IMPLAUSIBLE, TWO_SIDED CLOTH ",'extensions':{'KHR_materials_ior':{'ior':3}}", "'KHR_materials_ior'",
+     NULL, NULL, COLORS},
+    {WEFT_FINDING_IMPLAUSIBLE,
+     TWO_SIDED "'pbrMetallicRoughness':{'baseColorFactor':[0.8,0.8,0.8,1],'metallicFactor':0.3}", NULL, NULL, NULL,
+     COLORS},
+    {WEFT_FINDING_NORMALS_MISSING, TWO_SIDED CLOTH, NULL, "'attributes':{'POSITION':0},'indices':3,'material':0", NULL,
+     COLORS},
     {WEFT_FINDING_TANGENTS_MISSING, TWO_SIDED CLOTH ",'normalTexture':{'index':0}", NULL, NULL, NULL, COLORS},
     {WEFT_FINDING_TANGENTS_MISSING,
      TWO_SIDED CLOTH ",'extensions':{'KHR_materials_anisotropy':{'anisotropyStrength':0.5}}",
@@ -247,8 +236,7 @@ enum { CASES = sizeof cases / sizeof *cases };
 static char *case_text(const Case *c) {
     char used[300] = "";
     if (!c->rest) snprintf(used, sizeof used, "'extensionsUsed':[%s],", c->used ? c->used : USED);
-    return json("{'asset':{'version':'2.0'},%s%s" SQUARE_DATA
-                ",'images':[{'uri':'%s'}],'textures':[{'source':0}],"
+    return json("{'asset':{'version':'2.0'},%s%s" SQUARE_DATA ",'images':[{'uri':'%s'}],'textures':[{'source':0}],"
                 "'materials':[{%s}],'meshes':[{'primitives':[{%s}]}],'nodes':[{'mesh':0}]}\n",
                 used, c->rest ? c->rest : "", SQUARE_URI, picture_uri(c->picture), c->material,
                 c->primitive ? c->primitive : ALL);
@@ -265,10 +253,10 @@ static WeftDoctor *examine(const char *text) {
 /* The colour of the light through cloth is in RGB and its share in alpha, which no decoding changes. */
 static void alpha_of_a_colour_is_no_second_space(void **state) {
     (void)state;
-    const Case packed = {.material = TWO_SIDED CLOTH
-                         ",'extensions':{'KHR_materials_diffuse_transmission':{"
-                         "'diffuseTransmissionFactor':1,'diffuseTransmissionTexture':{'index':0},"
-                         "'diffuseTransmissionColorTexture':{'index':0}}}",
+    const Case packed = {.material =
+                             TWO_SIDED CLOTH ",'extensions':{'KHR_materials_diffuse_transmission':{"
+                                             "'diffuseTransmissionFactor':1,'diffuseTransmissionTexture':{'index':0},"
+                                             "'diffuseTransmissionColorTexture':{'index':0}}}",
                          .used = "'KHR_materials_diffuse_transmission'",
                          .picture = ALPHAS};
     char *text = case_text(&packed);
@@ -283,12 +271,11 @@ static void paint_and_chrome_in_one_map_are_not_a_dark_metal(void **state) {
     (void)state;
     char *chrome = strdup(picture_uri(CHROME));
     for (int dark = 0; dark < 2; dark++) {
-        char *text =
-            json("{'asset':{'version':'2.0'}," SQUARE_DATA ",'images':[{'uri':'%s'},{'uri':'%s'}],'textures':"
-                 "[{'source':0},{'source':1}],'materials':[{'pbrMetallicRoughness':{'baseColorTexture':"
-                 "{'index':0},'metallicRoughnessTexture':{'index':1},'baseColorFactor':[%s,1]}}],"
-                 "'meshes':[{'primitives':[{%s}]}],'nodes':[{'mesh':0}]}\n",
-                 SQUARE_URI, chrome, chrome, dark ? "0.5,0.5,0.5" : "1,1,1", ALL);
+        char *text = json("{'asset':{'version':'2.0'}," SQUARE_DATA ",'images':[{'uri':'%s'},{'uri':'%s'}],'textures':"
+                          "[{'source':0},{'source':1}],'materials':[{'pbrMetallicRoughness':{'baseColorTexture':"
+                          "{'index':0},'metallicRoughnessTexture':{'index':1},'baseColorFactor':[%s,1]}}],"
+                          "'meshes':[{'primitives':[{%s}]}],'nodes':[{'mesh':0}]}\n",
+                          SQUARE_URI, chrome, chrome, dark ? "0.5,0.5,0.5" : "1,1,1", ALL);
         WeftDoctor *doctor = examine(text);
         int found = 0;
         for (int k = 0; k < weft_doctor_count(doctor); k++)
@@ -375,8 +362,7 @@ static int differences(json_t *a, json_t *b) {
         return count;
     }
     if (!json_is_array(a) || !json_is_array(b) || json_array_size(a) > json_array_size(b)) return 1;
-    for (size_t k = 0; k < json_array_size(a); k++)
-        count += differences(json_array_get(a, k), json_array_get(b, k));
+    for (size_t k = 0; k < json_array_size(a); k++) count += differences(json_array_get(a, k), json_array_get(b, k));
     return count + (int)(json_array_size(b) - json_array_size(a));
 }
 
@@ -404,11 +390,9 @@ static void fixed_asset_has_no_finding_left_to_fix(void **state) {
             if (weft_doctor_finding(again, f)->fixable)
                 fail_msg("case %d: %s is there still", k, weft_doctor_finding(again, f)->words);
         if (weft_doctor_count(again) != count - fixable)
-            fail_msg("case %d: %d findings after %d of %d were fixed", k, weft_doctor_count(again), fixable,
-                     count);
+            fail_msg("case %d: %d findings after %d of %d were fixed", k, weft_doctor_count(again), fixable, count);
         json_t *was = load("case.gltf"), *now = load("fixed.gltf");
-        int different = differences(was, now),
-            most = 3 * fixable; /* of a colour, three numbers; of a picture: */
+        int different = differences(was, now), most = 3 * fixable; /* of a colour, three numbers; of a picture: */
         if (cases[k].kind == WEFT_FINDING_SHEEN_ROUGHNESS_CHANNEL) most = 3; /* image, texture, index */
         if (different > most || (fixable && !different))
             fail_msg("case %d: %d values differ, %d fixed", k, different, fixable);
@@ -451,8 +435,8 @@ static void fix_moves_sheen_roughness_to_alpha(void **state) {
 static void fix_keeps_a_shared_roughness_shared(void **state) {
     (void)state;
     static const int expected[] = {3, 3, 3, 4};
-#define ROUGH(texture)                                                                                       \
-    "{" CLOTH ",'extensions':{'KHR_materials_sheen':{'sheenColorFactor':[0.4,0.4,0.4],"                      \
+#define ROUGH(texture)                                                                                                 \
+    "{" CLOTH ",'extensions':{'KHR_materials_sheen':{'sheenColorFactor':[0.4,0.4,0.4],"                                \
     "'sheenRoughnessTexture':{'index':" #texture "},'sheenRoughnessFactor':1}}}"
     char *text = json("{'asset':{'version':'2.0'},'extensionsUsed':[" USED "],'images':[{'uri':'%s'}],"
                       "'samplers':[{'wrapS':33071}],"
@@ -489,9 +473,8 @@ static void assert_same_words(const WeftFinding *a, const WeftFinding *b) {
  * differs, nor for one of another sheen or another base. */
 static void equal_materials_are_measured_once(void **state) {
     (void)state;
-    static const char *const kinds[] = {
-        "0.8,0.8,0.8,1],'roughnessFactor':1", "0.8,0.8,0.8,1],'roughnessFactor':0.3",
-        "0.8,0.8,0.8,1],'roughnessFactor':1", "0.7,0.7,0.7,1],'roughnessFactor':1"};
+    static const char *const kinds[] = {"0.8,0.8,0.8,1],'roughnessFactor':1", "0.8,0.8,0.8,1],'roughnessFactor':0.3",
+                                        "0.8,0.8,0.8,1],'roughnessFactor':1", "0.7,0.7,0.7,1],'roughnessFactor':1"};
     static const double roughness[] = {0.45, 0.45, 0.35, 0.45};
     enum { KINDS = 4 };
     WeftDoctor *alone[KINDS];
@@ -505,8 +488,7 @@ static void equal_materials_are_measured_once(void **state) {
             snprintf(all + strlen(all), sizeof all - strlen(all), "%s{%s}", all[0] ? "," : "", members[k]);
         }
     for (int k = 0; k < KINDS; k++) {
-        char *text =
-            json("{'asset':{'version':'2.0'},'extensionsUsed':[" USED "],'materials':[{%s}]}", members[k]);
+        char *text = json("{'asset':{'version':'2.0'},'extensionsUsed':[" USED "],'materials':[{%s}]}", members[k]);
         alone[k] = examine(text);
         assert_int_equal(weft_doctor_count(alone[k]), 1);
         for (int other = 0; other < k; other++)
@@ -536,12 +518,11 @@ static void doctor_of_a_thousand_sheens_takes_seconds(void **state) {
     char *all = calloc(SHEENS, ROOM);
     size_t used = 0;
     for (int k = 0; k < SHEENS; k++)
-        used += (size_t)snprintf(
-            all + used, ROOM,
-            "%s{'pbrMetallicRoughness':{'baseColorFactor':[%.4f,0.3,0.3,1],'metallicFactor':0},"
-            "'extensions':{'KHR_materials_sheen':{'sheenColorFactor':[0.5,%.4f,0.4],"
-            "'sheenRoughnessFactor':%.4f}}}",
-            k ? "," : "", 0.05 + 0.0007 * k, 0.9 - 0.0005 * k, 0.3 + 0.0005 * k);
+        used += (size_t)snprintf(all + used, ROOM,
+                                 "%s{'pbrMetallicRoughness':{'baseColorFactor':[%.4f,0.3,0.3,1],'metallicFactor':0},"
+                                 "'extensions':{'KHR_materials_sheen':{'sheenColorFactor':[0.5,%.4f,0.4],"
+                                 "'sheenRoughnessFactor':%.4f}}}",
+                                 k ? "," : "", 0.05 + 0.0007 * k, 0.9 - 0.0005 * k, 0.3 + 0.0005 * k);
     size_t size = used + 200;
     char *text = malloc(size);
     snprintf(text, size, "{'asset':{'version':'2.0'},'extensionsUsed':[" USED "],'materials':[%s]}", all);
@@ -561,16 +542,14 @@ static void doctor_of_a_thousand_sheens_takes_seconds(void **state) {
 /* What the doctor makes of slices of light is what the material as a whole returns. */
 static void slices_of_light_sum_to_the_albedo_of_the_material(void **state) {
     (void)state;
-    static const char *const forms[] = {
-        "'baseColorFactor':[0.8,0.5,0.2,1],'metallicFactor':0,'roughnessFactor':0.9",
-        "'baseColorFactor':[0.6,0.6,0.6,1],'metallicFactor':1,'roughnessFactor':0.4",
-        "'baseColorFactor':[0.9,0.9,0.9,1],'metallicFactor':0,'roughnessFactor':0.2"};
+    static const char *const forms[] = {"'baseColorFactor':[0.8,0.5,0.2,1],'metallicFactor':0,'roughnessFactor':0.9",
+                                        "'baseColorFactor':[0.6,0.6,0.6,1],'metallicFactor':1,'roughnessFactor':0.4",
+                                        "'baseColorFactor':[0.9,0.9,0.9,1],'metallicFactor':0,'roughnessFactor':0.2"};
     for (size_t k = 0; k < sizeof forms / sizeof *forms; k++)
         for (int coat = 0; coat < 2; coat++) {
-            char *text = json(
-                "{'asset':{'version':'2.0'},'materials':[{'pbrMetallicRoughness':{%s},'extensions':{%s"
-                "'KHR_materials_sheen':{'sheenColorFactor':[1,0.8,0.9],'sheenRoughnessFactor':0.437}}}]}",
-                forms[k], coat ? "'KHR_materials_clearcoat':{'clearcoatFactor':0.5}," : "");
+            char *text = json("{'asset':{'version':'2.0'},'materials':[{'pbrMetallicRoughness':{%s},'extensions':{%s"
+                              "'KHR_materials_sheen':{'sheenColorFactor':[1,0.8,0.9],'sheenRoughnessFactor':0.437}}}]}",
+                              forms[k], coat ? "'KHR_materials_clearcoat':{'clearcoatFactor':0.5}," : "");
             WeftDoctor *doctor = examine(text);
             const Cloth cloth = doctor_cloth(doctor, 0);
             for (int r = 0; doctor_readers[r]; r++)
@@ -587,8 +566,8 @@ static void slices_of_light_sum_to_the_albedo_of_the_material(void **state) {
                     for (int channel = 0; channel < 3; channel++) most = fmaxf(most, e[channel]);
                     const float got = doctor_albedo(doctor, &cloth, r, cosines[c]);
                     if (fabsf(got - most) > 0.015f * fmaxf(most, 1.0f))
-                        fail_msg("%s, base %zu%s, cosine %g: %g, not %g", doctor_readers[r], k,
-                                 coat ? ", coat" : "", (double)cosines[c], (double)got, (double)most);
+                        fail_msg("%s, base %zu%s, cosine %g: %g, not %g", doctor_readers[r], k, coat ? ", coat" : "",
+                                 (double)cosines[c], (double)got, (double)most);
                     weft_reflection_free(reflection);
                 }
             weft_doctor_close(doctor);

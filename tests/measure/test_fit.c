@@ -57,8 +57,8 @@ static WeftLobe coloured(int index) {
     const float color[3] = {0.8f, 0.5f, 0.3f}, second[3] = {0.9f, 0.6f, 0.7f};
     for (int k = 0; k < info->param_count; k++)
         if (!info->params[k].choices)
-            lobe.params[k] = info->params[k].low +
-                             (0.42f + 0.09f * (float)k) * (info->params[k].high - info->params[k].low);
+            lobe.params[k] =
+                info->params[k].low + (0.42f + 0.09f * (float)k) * (info->params[k].high - info->params[k].low);
     memcpy(lobe.f0, color, sizeof color);
     if (info->traits & WEFT_LOBE_TWO_COLORS) memcpy(lobe.f90, second, sizeof second);
     return lobe;
@@ -79,8 +79,8 @@ static WeftData *synthesised(const WeftLobe *lobe, double noise) {
             f[k][c] = (float)fmax(sum * (1.0 + noise * normal()), 0.0);
         }
     }
-    if (weft_data_create(count, (const float(*)[3])wo, (const float(*)[3])wi, (const float(*)[3])f, 0, &data,
-                         &error) != WEFT_OK)
+    if (weft_data_create(count, (const float(*)[3])wo, (const float(*)[3])wi, (const float(*)[3])f, 0, &data, &error) !=
+        WEFT_OK)
         fail_msg("%s", error.text);
     return data;
 }
@@ -128,8 +128,7 @@ static void recovered(double noise) {
         WeftData *data = synthesised(&lobe, noise);
         WeftFit fit;
         WeftError error;
-        if (weft_fit(data, &(WeftFitDesc){.only = info->id}, &fit, &error) != WEFT_OK)
-            fail_msg("%s", error.text);
+        if (weft_fit(data, &(WeftFitDesc){.only = info->id}, &fit, &error) != WEFT_OK) fail_msg("%s", error.text);
         const WeftFitted *found = &fit.fitted[0];
         print_message("%-28s noise %2.0f %%: error %.5f;", info->id, 100.0 * noise, found->error);
         bool near = true;
@@ -175,11 +174,9 @@ static void terms_of_cook_torrance_are_found(void **state) {
     WeftLobe lobe;
     WeftError error;
     WeftFit fit;
-    static const char *const terms[][2] = {
-        {"d", "inverse-ggx"}, {"v", "neubelt"}, {"f", "schlick"}, {"alpha", "0.3"}};
+    static const char *const terms[][2] = {{"d", "inverse-ggx"}, {"v", "neubelt"}, {"f", "schlick"}, {"alpha", "0.3"}};
     assert_int_equal(weft_lobe_init("cook-torrance", &lobe, NULL), WEFT_OK);
-    for (int k = 0; k < 4; k++)
-        assert_int_equal(weft_lobe_set(&lobe, terms[k][0], terms[k][1], NULL, &error), WEFT_OK);
+    for (int k = 0; k < 4; k++) assert_int_equal(weft_lobe_set(&lobe, terms[k][0], terms[k][1], NULL, &error), WEFT_OK);
     const float f0[3] = {0.4f, 0.2f, 0.1f}, f90[3] = {0.9f, 0.6f, 0.7f};
     memcpy(lobe.f0, f0, sizeof f0);
     memcpy(lobe.f90, f90, sizeof f90);
@@ -203,9 +200,9 @@ static WeftData *layered(const WeftLobe *lobe, const WeftLobe *base) {
         weft_lobe_eval(base, wo[k], wi[k], below);
         for (int c = 0; c < 3; c++) f[k][c] += below[c];
     }
-    assert_int_equal(weft_data_create(FEW, (const float(*)[3])wo, (const float(*)[3])wi, (const float(*)[3])f,
-                                      1, &data, NULL),
-                     WEFT_OK);
+    assert_int_equal(
+        weft_data_create(FEW, (const float(*)[3])wo, (const float(*)[3])wi, (const float(*)[3])f, 1, &data, NULL),
+        WEFT_OK);
     return data;
 }
 
@@ -225,13 +222,11 @@ static void base_under_a_lobe_is_found(void **state) {
     assert_true(fit.count >= 8);
     const WeftFitted *best = &fit.fitted[0];
     print_message("base %s: edge %.3f retro %.3f lift %.3f, error %.5f, next %.5f\n",
-                  weft_lobe_info(best->base.lobe)->id, (double)best->base.params[0],
-                  (double)best->base.params[1], (double)best->base.params[2], best->error,
-                  fit.fitted[1].error);
+                  weft_lobe_info(best->base.lobe)->id, (double)best->base.params[0], (double)best->base.params[1],
+                  (double)best->base.params[2], best->error, fit.fitted[1].error);
     assert_int_equal(best->base.lobe, body.lobe);
     assert_int_equal(best->numbers, 9);
-    for (int k = 0; k < 3; k++)
-        assert_true(fabsf(best->base.params[k] - body.params[k]) < 0.02f * body.params[k]);
+    for (int k = 0; k < 3; k++) assert_true(fabsf(best->base.params[k] - body.params[k]) < 0.02f * body.params[k]);
     assert_true(fit.fitted[1].error > 0.01);
     weft_data_free(data);
 }
@@ -263,8 +258,7 @@ static void fit_for_a_material_changes_only_what_it_has_inputs_for(void **state)
         assert_int_equal(weft_fitted_material(&fit.fitted[0], &material), whole);
         desc.expressible = 1;
         assert_int_equal(weft_fit(data, &desc, &fit, NULL), WEFT_OK);
-        print_message("as a material says it: error %.5f of %d numbers\n", fit.fitted[0].error,
-                      fit.fitted[0].numbers);
+        print_message("as a material says it: error %.5f of %d numbers\n", fit.fitted[0].error, fit.fitted[0].numbers);
         assert_int_equal(fit.fitted[0].numbers, rows[k].expressible);
         assert_true(weft_fitted_material(&fit.fitted[0], &material));
         assert_true(fit.fitted[0].error < (whole ? 4e-3 : 0.5));
@@ -347,9 +341,8 @@ static void bad_table_of_a_brdf_is_an_error_of_one_line(void **state) {
     table_refused("10,0,20,nan,1,1,1\n", "line 1: no number begins at \"nan,1");
     table_refused("10,0,20,0,1,1,1e9\n", "line 1:");
     table_refused("10,0,20,0,-1,-1,-1\n10,0,30,0,-1,-1,-1\n", "of 2 samples 2 were not measured and 0 ");
-    table_refused(
-        "10,0,20,0,1,1,1\n85,0,20,0,1,1,1\n10,0,81,0,1,1,1\n10,0,81,0,-1,1,1\n",
-        "of 4 samples 1 were not measured and 2 are more than 80 degrees off the normal, which leaves 1;");
+    table_refused("10,0,20,0,1,1,1\n85,0,20,0,1,1,1\n10,0,81,0,1,1,1\n10,0,81,0,-1,1,1\n",
+                  "of 4 samples 1 were not measured and 2 are more than 80 degrees off the normal, which leaves 1;");
     WeftData *data;
     WeftError error;
     assert_int_equal(weft_data_read("not-there.csv", &data, &error), WEFT_INPUT);
@@ -363,9 +356,8 @@ static void bad_table_of_a_brdf_is_an_error_of_one_line(void **state) {
     assert_int_equal(weft_fit(data, &(WeftFitDesc){.only = "velours"}, &fit, &error), WEFT_USAGE);
     assert_int_equal(weft_fit(data, &(WeftFitDesc){.base = "ggx"}, &fit, &error), WEFT_USAGE);
     assert_int_equal(weft_fit(data, &(WeftFitDesc){.only = "lambert"}, &fit, &error), WEFT_USAGE);
-    assert_int_equal(
-        weft_fit(data, &(WeftFitDesc){.metric = WEFT_BRDF_METRIC_PICTURE, .chosen = 1}, &fit, &error),
-        WEFT_USAGE);
+    assert_int_equal(weft_fit(data, &(WeftFitDesc){.metric = WEFT_BRDF_METRIC_PICTURE, .chosen = 1}, &fit, &error),
+                     WEFT_USAGE);
     weft_data_free(data);
 }
 
@@ -424,17 +416,15 @@ static void table_of_a_brdf_is_read(void **state) {
     size_t used = (size_t)snprintf(text, LINE, "theta_o, phi_o, theta_i, phi_i, r, g, b\n# made\n\n");
     drawn_seed = 3;
     for (int k = 0; k < LINES; k++) {
-        double t[4] = {89.0 * drawn(), 360.0 * drawn(), 89.0 * drawn(), 360.0 * drawn()},
-               r = PI_DOUBLE / 180.0;
+        double t[4] = {89.0 * drawn(), 360.0 * drawn(), 89.0 * drawn(), 360.0 * drawn()}, r = PI_DOUBLE / 180.0;
         float o[3] = {(float)(sin(t[0] * r) * cos(t[1] * r)), (float)(sin(t[0] * r) * sin(t[1] * r)),
                       (float)cos(t[0] * r)};
         float i[3] = {(float)(sin(t[2] * r) * cos(t[3] * r)), (float)(sin(t[2] * r) * sin(t[3] * r)),
                       (float)cos(t[2] * r)},
               x[3];
         weft_lobe_eval(&lobe, o, i, x);
-        used +=
-            (size_t)snprintf(text + used, LINE, "%.5f%s%.5f %.5f\t%.5f, %.7g,%.7g,%.7g\n", t[0],
-                             k % 2 ? "," : " , ", t[1], t[2], t[3], (double)x[0], (double)x[1], (double)x[2]);
+        used += (size_t)snprintf(text + used, LINE, "%.5f%s%.5f %.5f\t%.5f, %.7g,%.7g,%.7g\n", t[0],
+                                 k % 2 ? "," : " , ", t[1], t[2], t[3], (double)x[0], (double)x[1], (double)x[2]);
     }
     WeftData *data;
     WeftFit fit;
@@ -469,8 +459,8 @@ static void measured_fabrics_are_ranked(void **state) {
         close(fd);
         unlink(taken);
         snprintf(path, sizeof path, "%s.binary", taken);
-        snprintf(command, sizeof command, "xz -dc '%s/brdf/fabric/%s.resynth.binary.xz' >%s 2>/dev/null",
-                 folder, names[k], path);
+        snprintf(command, sizeof command, "xz -dc '%s/brdf/fabric/%s.resynth.binary.xz' >%s 2>/dev/null", folder,
+                 names[k], path);
         if (system(command) != 0) { /* NOLINT(cert-env33-c): of the test's own words */
             unlink(path);
             print_message("skipped: no measured fabrics at hand, or no xz\n");
@@ -490,8 +480,7 @@ static void measured_fabrics_are_ranked(void **state) {
         assert_int_equal(weft_fit(data, &(WeftFitDesc){.only = only}, &fit, &error), WEFT_OK);
         for (int j = 0; j < fit.count && j < 3; j++)
             print_message("%-14s %d %-20s %.4f (baseline %.4f)\n", names[k], j + 1,
-                          weft_lobe_info(fit.fitted[j].lobe.lobe)->id, fit.fitted[j].error,
-                          fit.baseline.error);
+                          weft_lobe_info(fit.fitted[j].lobe.lobe)->id, fit.fitted[j].error, fit.baseline.error);
         better += fit.fitted[0].error < fit.baseline.error;
         for (int j = 1; j < fit.count; j++) assert_true(fit.fitted[j].error >= fit.fitted[j - 1].error);
         weft_data_free(data);
@@ -534,26 +523,24 @@ static void baseline_is_no_local_minimum(void **state) {
         WeftError error;
         if (weft_fit(data, &desc, &fit, &error) != WEFT_OK) fail_msg("%s", error.text);
         double scanned = scanned_baseline(data);
-        print_message("%s: baseline %.5f, the best of all widths %.5f\n", ids[n], fit.baseline.error,
-                      scanned);
+        print_message("%s: baseline %.5f, the best of all widths %.5f\n", ids[n], fit.baseline.error, scanned);
         assert_true(fit.baseline.error <= scanned + 1e-4);
         weft_data_free(data);
     }
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(parameters_are_found_without_noise),
-        cmocka_unit_test(parameters_are_found_in_noise),
-        cmocka_unit_test(terms_of_cook_torrance_are_found),
-        cmocka_unit_test(base_under_a_lobe_is_found),
-        cmocka_unit_test(baseline_is_no_local_minimum),
-        cmocka_unit_test(fit_for_a_material_changes_only_what_it_has_inputs_for),
-        cmocka_unit_test(fit_notes_name_what_its_numbers_hide),
-        cmocka_unit_test(material_of_a_fit_reflects_as_the_fit),
-        cmocka_unit_test(bad_table_of_a_brdf_is_an_error_of_one_line),
-        cmocka_unit_test(table_of_a_brdf_is_read),
-        cmocka_unit_test(table_with_other_columns_is_read),
-        cmocka_unit_test(measured_fabrics_are_ranked)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(parameters_are_found_without_noise),
+                                       cmocka_unit_test(parameters_are_found_in_noise),
+                                       cmocka_unit_test(terms_of_cook_torrance_are_found),
+                                       cmocka_unit_test(base_under_a_lobe_is_found),
+                                       cmocka_unit_test(baseline_is_no_local_minimum),
+                                       cmocka_unit_test(fit_for_a_material_changes_only_what_it_has_inputs_for),
+                                       cmocka_unit_test(fit_notes_name_what_its_numbers_hide),
+                                       cmocka_unit_test(material_of_a_fit_reflects_as_the_fit),
+                                       cmocka_unit_test(bad_table_of_a_brdf_is_an_error_of_one_line),
+                                       cmocka_unit_test(table_of_a_brdf_is_read),
+                                       cmocka_unit_test(table_with_other_columns_is_read),
+                                       cmocka_unit_test(measured_fabrics_are_ranked)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -73,9 +73,7 @@ static double foretold(const WeftFitted *fitted) {
 
 /* The mean square of the slopes along a yarn, tan^2(crimp) of the mean of |s|^(2 floats) over s. Of a yarn that is all but
  * level light tells this alone: a higher crimp with more floats reflects the same. */
-static double slopes(double crimp, double floats) {
-    return (tan)(crimp) * (tan)(crimp) / (2.0 * floats + 1.0);
-}
+static double slopes(double crimp, double floats) { return (tan)(crimp) * (tan)(crimp) / (2.0 * floats + 1.0); }
 
 /* The most by which a number that light tells is off: widths, shares, angles of fibres, slopes, and a crimp that is more than
  * the width. */
@@ -131,8 +129,8 @@ static Found find_again(const char *name, const WeftCloth *cloth, bool alone, fl
     assert_non_null(fit);
     reflect(reflection);
     measure(noise, seed);
-    assert_int_equal(weft_data_create(FITTED, (const float(*)[3])wo, (const float(*)[3])wi,
-                                      (const float(*)[3])measured, 0, &data, &error),
+    assert_int_equal(weft_data_create(FITTED, (const float(*)[3])wo, (const float(*)[3])wi, (const float(*)[3])measured,
+                                      0, &data, &error),
                      WEFT_OK);
     const WeftFitDesc desc = {.base = "woven", .only = "woven"};
     if (weft_fit(data, &desc, fit, &error) != WEFT_OK) fail_msg("%s", error.text);
@@ -211,8 +209,8 @@ static WeftData *round_data(bool one_plane, int isotropic) {
         }
         weft_lobe_eval(&ggx, wo[k], wi[k], f[k]);
     }
-    assert_int_equal(weft_data_create(FITTED, (const float(*)[3])wo, (const float(*)[3])wi,
-                                      (const float(*)[3])f, isotropic, &data, &error),
+    assert_int_equal(weft_data_create(FITTED, (const float(*)[3])wo, (const float(*)[3])wi, (const float(*)[3])f,
+                                      isotropic, &data, &error),
                      WEFT_OK);
     return data;
 }

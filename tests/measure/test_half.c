@@ -55,10 +55,10 @@ static const double angles[][3] = {{1.0, 1.0, 0.0},  {0.9, 0.3, 0.5},   {0.5, 0.
                                    {0.05, 0.9, 2.6}, {0.01, 0.02, 3.0}, {0.6, 0.1, 0.0}};
 enum { ANGLES = sizeof angles / sizeof angles[0] };
 
-#define SKIP_WITHOUT_HALF()                                                                                  \
-    if (!half_here()) {                                                                                      \
-        print_message("this compiler has no half floats\n");                                                 \
-        skip();                                                                                              \
+#define SKIP_WITHOUT_HALF()                                                                                            \
+    if (!half_here()) {                                                                                                \
+        print_message("this compiler has no half floats\n");                                                           \
+        skip();                                                                                                        \
     }
 
 static void emulated_rounding_is_that_of_half_floats(void **state) {

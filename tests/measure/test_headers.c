@@ -102,8 +102,7 @@ static void passport_in_the_docs_is_up_to_date(void **state) {
     (void)state;
     static const char mark[] = "<!-- passport: charlie-neubelt -->\n```text\n";
     size_t size;
-    char *page = file_bytes(WEFT_SOURCE_DIR "/docs/check.md", &size),
-         *shown = page ? strstr(page, mark) : NULL;
+    char *page = file_bytes(WEFT_SOURCE_DIR "/docs/check.md", &size), *shown = page ? strstr(page, mark) : NULL;
     assert_non_null(shown);
     shown += sizeof mark - 1;
     char *end = strstr(shown, "```\n");

@@ -115,8 +115,7 @@ static void check_node(const WeftLtc *ltc, int row, int column) {
     if (!(e.f0 + e.f90 > 1e-3f) || cos_o < 1e-3f) return;
     double error = error_on_cells(&lobe, &at, o, &own);
     if (fabs(error - (double)*channels[WEFT_LTC_ERROR]) > 0.02)
-        fail_msg("%s: the error is %g, not %g", case_name(&lobe, o).text, error,
-                 (double)*channels[WEFT_LTC_ERROR]);
+        fail_msg("%s: the error is %g, not %g", case_name(&lobe, o).text, error, (double)*channels[WEFT_LTC_ERROR]);
 }
 
 /* What the worst cells of so small a table may be off by, in hundredths of E: a little more than they are. A
@@ -125,10 +124,9 @@ static double error_allowed(const char *id) {
     static const struct {
         const char *id;
         double worst;
-    } known[] = {{"lambert", 0.001},     {"fabric-lambert", 0.001},
-                 {"exponential", 0.001}, {"burley", 0.05},
-                 {"oren-nayar", 0.1},    {"eon", 0.1},
-                 {"burley-sheen", 0.17}, {"wrap", 0.2}};
+    } known[] = {
+        {"lambert", 0.001}, {"fabric-lambert", 0.001}, {"exponential", 0.001}, {"burley", 0.05}, {"oren-nayar", 0.1},
+        {"eon", 0.1},       {"burley-sheen", 0.17},    {"wrap", 0.2}};
     for (size_t k = 0; k < sizeof known / sizeof *known; k++)
         if (strcmp(known[k].id, id) == 0) return known[k].worst;
     return 1.0;
@@ -157,8 +155,7 @@ static void every_lobe_is_fitted_or_refused(void **state) {
             WeftLtc *ltc;
             WeftError error = {0};
             assert_int_equal(weft_lobe_init(info->id, &lobe, NULL), WEFT_OK);
-            assert_int_equal(weft_ltc_create(&lobe, &(WeftLtcDesc){.no_cache = 1}, &ltc, NULL, &error),
-                             WEFT_USAGE);
+            assert_int_equal(weft_ltc_create(&lobe, &(WeftLtcDesc){.no_cache = 1}, &ltc, NULL, &error), WEFT_USAGE);
             assert_int_equal(error.message, WEFT_MESSAGE_LTC_LOBE);
             assert_non_null(strstr(error.text, info->id));
             assert_null(ltc);
@@ -195,8 +192,8 @@ static void given_parameters_change_the_transform(void **state) {
         make_of(&lobe, (WeftLtcDesc){.rows = 3, .columns = 4, .f0 = 0.04f, .f90 = 1.0f, .no_cache = 1});
     double moved = 0.0, amplitude = 0.0;
     for (int k = 0; k < ltc_cells(white); k++)
-        moved += fabs((double)weft_ltc_channel(white, WEFT_LTC_B)[k] -
-                      (double)weft_ltc_channel(dielectric, WEFT_LTC_B)[k]);
+        moved +=
+            fabs((double)weft_ltc_channel(white, WEFT_LTC_B)[k] - (double)weft_ltc_channel(dielectric, WEFT_LTC_B)[k]);
     amplitude = (double)weft_ltc_channel(white, WEFT_LTC_AMPLITUDE)[7] /
                 (double)weft_ltc_channel(dielectric, WEFT_LTC_AMPLITUDE)[7];
     assert_true(moved > 0.1 && fabs(amplitude - 1.0) < 0.3);
@@ -268,8 +265,7 @@ static void fitted_transform_is_a_local_minimum(void **state) {
  * to start from. */
 static void search_from_any_start_finds_no_better_transform(void **state) {
     (void)state;
-    static const char *const ids[] = {"ggx",    "charlie-neubelt",   "patry",
-                                      "burley", "ashikhmin-neubelt", "eon"};
+    static const char *const ids[] = {"ggx", "charlie-neubelt", "patry", "burley", "ashikhmin-neubelt", "eon"};
     Random random = {8};
     LtcTarget target;
     assert_true(ltc_target_create(&target, 96));
@@ -307,8 +303,8 @@ static double integral(Ltc m, Dir o, double *above) {
             double p = 2.0 * PI_DOUBLE * (k + 0.5) / AROUND;
             double a = (sin)(t) * (cos)(p), b = (sin)(t) * (sin)(p), d = (cos)(t);
             double along = c * a + s * d, up = c * d - s * a;
-            Dir i = dir((float)(along * (cos)(phi)-b * (sin)(phi)),
-                        (float)(along * (sin)(phi) + b * (cos)(phi)), (float)up);
+            Dir i = dir((float)(along * (cos)(phi)-b * (sin)(phi)), (float)(along * (sin)(phi) + b * (cos)(phi)),
+                        (float)up);
             double part = (double)ltc_pdf(m, o, i) * (sin)(t)*width * 2.0 * PI_DOUBLE / AROUND;
             sum += part;
             if (i.z > 0.0f) *above += part;
@@ -326,8 +322,7 @@ static void tables_are_regular_between_their_nodes(void **state) {
     for (size_t k = 0; k < 5; k++) {
         WeftLtc *ltc = make(ids[k], 5, 6);
         for (int n = 0; n < 20000; n++) {
-            float cos_o = random_unit(&random),
-                  root = mix(sqrtf(ltc->low), sqrtf(ltc->high), random_unit(&random));
+            float cos_o = random_unit(&random), root = mix(sqrtf(ltc->low), sqrtf(ltc->high), random_unit(&random));
             if (n % 4 == 0) cos_o = (expf)(-14.0f * cos_o);
             LtcLobe at = ltc_table_at(ltc_table_ref(ltc), cos_o, root * root);
             Dir o = direction_cos((double)cos_o, 6.0 * (double)random_unit(&random));
@@ -344,9 +339,8 @@ static void tables_are_regular_between_their_nodes(void **state) {
             double above, all = integral(at.m, o, &above);
             integrals++;
             if (fabs(all - 1.0) > 5e-3 || fabs(above - (double)ltc_above(at.m, o)) > 5e-3)
-                fail_msg("%s %g: cos_o %g: D integrates to %.4f, and to %.4f, not %.4f, above the horizon",
-                         ids[k], (double)(root * root), (double)cos_o, all, above,
-                         (double)ltc_above(at.m, o));
+                fail_msg("%s %g: cos_o %g: D integrates to %.4f, and to %.4f, not %.4f, above the horizon", ids[k],
+                         (double)(root * root), (double)cos_o, all, above, (double)ltc_above(at.m, o));
         }
         weft_ltc_free(ltc);
     }
@@ -397,8 +391,7 @@ static void interpolated_transform_is_nearly_as_good_as_a_fit(void **state) {
         WeftLtcLobe mixed = weft_ltc_at(ltc, x * x, y * y);
         LtcEntries at = {mixed.z, mixed.q, mixed.b, mixed.r};
         double error = ltc_error(&target, at, 1), least = ltc_error(&target, ltc_fit(&target, &at, 1, 1), 1);
-        if (!(error < least + 0.05))
-            fail_msg("%s: %.3f, not %.3f", case_name(&lobe, target.o).text, error, least);
+        if (!(error < least + 0.05)) fail_msg("%s: %.3f, not %.3f", case_name(&lobe, target.o).text, error, least);
         lost += (error - least) / PLACES;
     }
     assert_true(lost < 0.02);
@@ -412,8 +405,7 @@ static void fit_with_any_number_of_threads_is_the_same(void **state) {
     assert_int_equal(weft_lobe_init("charlie-neubelt", &lobe, NULL), WEFT_OK);
     WeftLtc *one = make_of(&lobe, (WeftLtcDesc){.rows = 5, .columns = 7, .threads = 1, .no_cache = 1});
     for (int threads = 2; threads <= 5; threads += 3) {
-        WeftLtc *many =
-            make_of(&lobe, (WeftLtcDesc){.rows = 5, .columns = 7, .threads = threads, .no_cache = 1});
+        WeftLtc *many = make_of(&lobe, (WeftLtcDesc){.rows = 5, .columns = 7, .threads = threads, .no_cache = 1});
         assert_memory_equal(one->texels, many->texels, sizeof(float) * WEFT_LTC_CHANNELS * 35);
         weft_ltc_free(many);
     }

@@ -48,8 +48,8 @@ static WeftLobe coloured(int index) {
     const float color[3] = {0.8f, 0.5f, 0.3f}, second[3] = {0.9f, 0.6f, 0.7f};
     for (int k = 0; k < info->param_count; k++)
         if (!info->params[k].choices)
-            lobe.params[k] = info->params[k].low +
-                             (0.42f + 0.09f * (float)k) * (info->params[k].high - info->params[k].low);
+            lobe.params[k] =
+                info->params[k].low + (0.42f + 0.09f * (float)k) * (info->params[k].high - info->params[k].low);
     memcpy(lobe.f0, color, sizeof color);
     if (info->traits & WEFT_LOBE_TWO_COLORS) memcpy(lobe.f90, second, sizeof second);
     return lobe;
@@ -65,8 +65,7 @@ static WeftMaterial cloth(int profile) {
     weft_material_default(&material);
     for (size_t k = 0; k < sizeof inputs / sizeof *inputs; k++)
         assert_int_equal(weft_material_set(&material, inputs[k][0], inputs[k][1], NULL, &error), WEFT_OK);
-    assert_int_equal(weft_material_set(&material, "profile", weft_profile_name(profile), NULL, &error),
-                     WEFT_OK);
+    assert_int_equal(weft_material_set(&material, "profile", weft_profile_name(profile), NULL, &error), WEFT_OK);
     return material;
 }
 
@@ -77,15 +76,12 @@ static void metric_of_white_and_half_grey_is_half(void **state) {
     WeftReflection *a = of_lobe(&white), *b = of_lobe(&grey);
     WeftError error;
     double apart;
-    assert_int_equal(weft_brdf_distance(b, a, WEFT_PART_ALL, WEFT_BRDF_METRIC_COSINE, &apart, &error),
-                     WEFT_OK);
+    assert_int_equal(weft_brdf_distance(b, a, WEFT_PART_ALL, WEFT_BRDF_METRIC_COSINE, &apart, &error), WEFT_OK);
     assert_true(fabs(apart - 0.5) < 1e-6);
-    assert_int_equal(weft_brdf_distance(a, b, WEFT_PART_ALL, WEFT_BRDF_METRIC_COSINE, &apart, &error),
-                     WEFT_OK);
+    assert_int_equal(weft_brdf_distance(a, b, WEFT_PART_ALL, WEFT_BRDF_METRIC_COSINE, &apart, &error), WEFT_OK);
     assert_true(fabs(apart - 1.0) < 1e-6);
     /* parts that neither has, and that one has */
-    assert_int_equal(weft_brdf_distance(a, b, WEFT_PART_SHEEN, WEFT_BRDF_METRIC_COSINE, &apart, &error),
-                     WEFT_OK);
+    assert_int_equal(weft_brdf_distance(a, b, WEFT_PART_SHEEN, WEFT_BRDF_METRIC_COSINE, &apart, &error), WEFT_OK);
     assert_true(!(apart > 0.0));
     assert_int_equal(weft_brdf_distance(a, b, WEFT_PART_ALL, (WeftBrdfMetric)7, &apart, &error), WEFT_USAGE);
     assert_int_equal(error.message, WEFT_MESSAGE_DESC);
@@ -115,15 +111,13 @@ static void sum_of_metric_cosine_is_the_integral(void **state) {
             integral += (double)e[0] / STEPS;
         }
         /* over what lambert reflects, |f - 0| sums up to E */
-        assert_int_equal(weft_brdf_distance(of, to, WEFT_PART_ALL, WEFT_BRDF_METRIC_COSINE, &apart, NULL),
-                         WEFT_OK);
+        assert_int_equal(weft_brdf_distance(of, to, WEFT_PART_ALL, WEFT_BRDF_METRIC_COSINE, &apart, NULL), WEFT_OK);
         assert_true(fabs(apart - 1.0) < 1e-6);
         WeftLobe grown = lobe;
         for (int c = 0; c < 3; c++) grown.f0[c] *= 100.0f, grown.f90[c] *= 100.0f;
         WeftReflection *large = of_lobe(&grown);
-        assert_int_equal(
-            weft_brdf_distance(large, lambert, WEFT_PART_ALL, WEFT_BRDF_METRIC_COSINE, &apart, NULL),
-            WEFT_OK);
+        assert_int_equal(weft_brdf_distance(large, lambert, WEFT_PART_ALL, WEFT_BRDF_METRIC_COSINE, &apart, NULL),
+                         WEFT_OK);
         print_message("%s: %.4f, by quadrature %.4f\n", ids[k], (apart + 1.0) / 100.0, integral);
         assert_true(fabs((apart + 1.0) / 100.0 - integral) < 0.03 * integral);
         weft_reflection_free(large);
@@ -154,8 +148,7 @@ static void match_to_itself_changes_nothing(void **state) {
         WeftMaterial material = cloth(profile), found = material;
         WeftReflection *from = of_material(&material);
         WeftMatch match;
-        assert_int_equal(weft_match_material(from, WEFT_BRDF_METRIC_COSINE, NULL, &found, &match, NULL),
-                         WEFT_OK);
+        assert_int_equal(weft_match_material(from, WEFT_BRDF_METRIC_COSINE, NULL, &found, &match, NULL), WEFT_OK);
         for (int k = 0; k < WEFT_INPUTS_MAX; k++)
             for (int c = 0; c < 3; c++)
                 assert_true(fabsf(found.inputs[k].value[c] - material.inputs[k].value[c]) <= 1e-3f);
@@ -168,8 +161,7 @@ static void match_to_itself_changes_nothing(void **state) {
 static double lobes_apart(const WeftLobe *a, const WeftLobe *b) {
     WeftReflection *to = of_lobe(a), *from = of_lobe(b);
     double apart = 1.0;
-    assert_int_equal(weft_brdf_distance(to, from, WEFT_PART_ALL, WEFT_BRDF_METRIC_COSINE, &apart, NULL),
-                     WEFT_OK);
+    assert_int_equal(weft_brdf_distance(to, from, WEFT_PART_ALL, WEFT_BRDF_METRIC_COSINE, &apart, NULL), WEFT_OK);
     weft_reflection_free(to);
     weft_reflection_free(from);
     return apart;
@@ -213,27 +205,24 @@ static void held_parameter_is_unchanged(void **state) {
     to.params[1] = 2.5f;
     WeftReflection *reflection = of_lobe(&from);
     WeftMatch match;
-    assert_int_equal(
-        weft_match_lobe(reflection, WEFT_BRDF_METRIC_LOG, 2u | WEFT_HOLD_COLOR, &to, &match, NULL), WEFT_OK);
+    assert_int_equal(weft_match_lobe(reflection, WEFT_BRDF_METRIC_LOG, 2u | WEFT_HOLD_COLOR, &to, &match, NULL),
+                     WEFT_OK);
     assert_true(fabsf(to.params[1] - 2.5f) < 1e-6f && fabsf(to.f0[0] - 1.0f) < 1e-6f);
     assert_true(match.matched < match.copied);
     WeftLobe walk = lobe_named("fibre-walk");
     WeftError error;
-    assert_int_equal(weft_match_lobe(reflection, WEFT_BRDF_METRIC_COSINE, 0, &walk, &match, &error),
-                     WEFT_USAGE);
+    assert_int_equal(weft_match_lobe(reflection, WEFT_BRDF_METRIC_COSINE, 0, &walk, &match, &error), WEFT_USAGE);
     assert_int_equal(error.message, WEFT_MESSAGE_DESC);
     /* nor is an estimate something to be met */
     WeftReflection *noise = of_lobe(&walk);
     WeftMaterial any = cloth(0);
     assert_int_equal(weft_match_lobe(noise, WEFT_BRDF_METRIC_COSINE, 0, &to, &match, &error), WEFT_USAGE);
     assert_non_null(strstr(error.text, "match fibre"));
-    assert_int_equal(weft_match_material(noise, WEFT_BRDF_METRIC_COSINE, NULL, &any, &match, &error),
-                     WEFT_USAGE);
+    assert_int_equal(weft_match_material(noise, WEFT_BRDF_METRIC_COSINE, NULL, &any, &match, &error), WEFT_USAGE);
     assert_non_null(strstr(error.text, "match fibre"));
     weft_reflection_free(noise);
     walk.lobe = -1;
-    assert_int_equal(weft_match_lobe(reflection, WEFT_BRDF_METRIC_COSINE, 0, &walk, &match, &error),
-                     WEFT_USAGE);
+    assert_int_equal(weft_match_lobe(reflection, WEFT_BRDF_METRIC_COSINE, 0, &walk, &match, &error), WEFT_USAGE);
     assert_int_equal(error.message, WEFT_MESSAGE_LOBE_NAME);
     weft_reflection_free(reflection);
     int held[WEFT_INPUTS_MAX] = {0};
@@ -241,8 +230,7 @@ static void held_parameter_is_unchanged(void **state) {
     for (int k = 0; weft_material_input_name(k); k++)
         held[k] = strcmp(weft_material_input_name(k), "sheen_roughness") != 0;
     reflection = of_material(&material);
-    assert_int_equal(weft_match_material(reflection, WEFT_BRDF_METRIC_COSINE, held, &found, &match, NULL),
-                     WEFT_OK);
+    assert_int_equal(weft_match_material(reflection, WEFT_BRDF_METRIC_COSINE, held, &found, &match, NULL), WEFT_OK);
     for (int k = 0; weft_material_input_name(k); k++)
         if (held[k])
             for (int c = 0; c < 3; c++)
@@ -273,11 +261,10 @@ static void match_is_never_worse_than_the_copy(void **state) {
         int k = 1 + j * step;
         double again;
         WeftReflection *to = of_material(&all[j].material);
-        assert_int_equal(
-            weft_brdf_distance(to, all[j].from, WEFT_PART_ALL, WEFT_BRDF_METRIC_COSINE, &again, NULL),
-            WEFT_OK);
-        print_message("%-14s %-14s %.4f -> %.4f\n", weft_profile_name(k / count),
-                      weft_profile_name(k % count), all[j].found.copied, all[j].found.matched);
+        assert_int_equal(weft_brdf_distance(to, all[j].from, WEFT_PART_ALL, WEFT_BRDF_METRIC_COSINE, &again, NULL),
+                         WEFT_OK);
+        print_message("%-14s %-14s %.4f -> %.4f\n", weft_profile_name(k / count), weft_profile_name(k % count),
+                      all[j].found.copied, all[j].found.matched);
         assert_true(all[j].found.matched <= all[j].found.copied);
         assert_true(fabs(again - all[j].found.matched) < 1e-9); /* what is said of it is so */
         weft_reflection_free(to);
@@ -300,8 +287,8 @@ static void match_with_any_number_of_threads_is_the_same(void **state) {
             jobs[run][k].is_lobe = 1;
             jobs[run][k].lobe = lobes[1];
         }
-        assert_int_equal(
-            weft_match_many(jobs[run], 3, WEFT_BRDF_METRIC_COSINE, run ? 4 : 1, NULL, NULL, NULL), WEFT_OK);
+        assert_int_equal(weft_match_many(jobs[run], 3, WEFT_BRDF_METRIC_COSINE, run ? 4 : 1, NULL, NULL, NULL),
+                         WEFT_OK);
     }
     for (int k = 0; k < 3; k++) {
         assert_true(fabsf(jobs[0][k].lobe.params[0] - jobs[1][k].lobe.params[0]) <= 0.0f);
@@ -356,8 +343,7 @@ static void text_write(const char *path, const char *text) {
 static void picture_write(const char *path, int channels) {
     WeftImage image;
     WeftError error;
-    if (weft_image_create(4, 4, channels, WEFT_PIXEL_U8, &image, &error) != WEFT_OK)
-        fail_msg("%s", error.text);
+    if (weft_image_create(4, 4, channels, WEFT_PIXEL_U8, &image, &error) != WEFT_OK) fail_msg("%s", error.text);
     for (int k = 0; k < 16 * channels; k++) {
         bool alpha = channels % 2 == 0 && k % channels == channels - 1;
         ((uint8_t *)image.pixels)[k] = (uint8_t)(alpha ? 255 : k / channels % 2 ? 200 : 150);
@@ -405,16 +391,15 @@ static void match_of_a_texture_does_not_depend_on_its_channels(void **state) {
         int count;
         picture_write(picture, k + 1);
         WeftAssetMatch *report;
-        if (weft_match_asset(asset, out, profile_named("khronos"), profile_named("three"),
-                             WEFT_BRDF_METRIC_COSINE, NULL, NULL, &report, &count, NULL, &error) != WEFT_OK)
+        if (weft_match_asset(asset, out, profile_named("khronos"), profile_named("three"), WEFT_BRDF_METRIC_COSINE,
+                             NULL, NULL, &report, &count, NULL, &error) != WEFT_OK)
             fail_msg("%s", error.text);
         assert_true(count == 1 && report->changed);
         found[k] = *report;
         weft_match_report_free(report);
         for (int n = 0; n < WEFT_INPUTS_MAX; n++)
             for (int c = 0; c < 3; c++)
-                assert_true(fabsf(found[k].matched.inputs[n].value[c] -
-                                  found[0].matched.inputs[n].value[c]) <= 1e-6f);
+                assert_true(fabsf(found[k].matched.inputs[n].value[c] - found[0].matched.inputs[n].value[c]) <= 1e-6f);
         assert_true(fabs(found[k].found.matched - found[0].found.matched) <= 1e-9);
     }
     assert_true(scratch_remove(folder));
@@ -427,8 +412,8 @@ static void cloths_write(const char *path, const char *letters) {
                         "{\"asset\":{\"version\":\"2.0\"},\"extensionsUsed\":[\"KHR_materials_sheen\"],"
                         "\"materials\":[");
     for (const char *letter = letters; *letter; letter++) {
-        used += snprintf(text + used, sizeof text - (size_t)used, "%s{\"name\":\"%c%d\"",
-                         letter > letters ? "," : "", *letter, (int)(letter - letters));
+        used += snprintf(text + used, sizeof text - (size_t)used, "%s{\"name\":\"%c%d\"", letter > letters ? "," : "",
+                         *letter, (int)(letter - letters));
         if (*letter != '-')
             used += snprintf(text + used, sizeof text - (size_t)used,
                              ",\"extensions\":{\"KHR_materials_sheen\":{\"sheenColorFactor\":[1,0.9,0.8],"

@@ -50,8 +50,7 @@ static void model_that_is_not_reciprocal_is_found(void **state) {
     assert_true(p.reciprocity > 0.99f);
     float z_o = p.reciprocity_place.cos_o, z_i = p.reciprocity_place.cos_i; /* there it is so */
     assert_near((double)(fabsf(z_o - z_i) / max(max(z_o, z_i), PI * 1e-3f)), (double)p.reciprocity, 1e-3);
-    for (int c = 0; c < WEFT_PASSPORT_COSINES; c++)
-        assert_near((double)p.albedo[0][c], (double)p.cosines[c], 1e-3);
+    for (int c = 0; c < WEFT_PASSPORT_COSINES; c++) assert_near((double)p.albedo[0][c], (double)p.cosines[c], 1e-3);
 }
 
 static void gaining_f(const BsdfView *view, Dirs i, float *f) {

@@ -24,8 +24,7 @@ static WeftMaterial plain(void) {
     WeftMaterial m;
     memset(&m, 0, sizeof m);
     const Material from = material_default();
-    for (int k = 0; k < INPUT_COUNT; k++)
-        memcpy(m.inputs[k].value, from.inputs[k].value, sizeof m.inputs[k].value);
+    for (int k = 0; k < INPUT_COUNT; k++) memcpy(m.inputs[k].value, from.inputs[k].value, sizeof m.inputs[k].value);
     for (int k = 0; k < CHOICE_COUNT; k++) m.choices[k] = -1;
     return m;
 }
@@ -88,11 +87,9 @@ static void parts_of_a_reflection_sum_to_the_whole(void **state) {
                 for (int c = 0; c < 3; c++) sum[k][c] += part[k][c];
         }
         begin = clock_now();
-        for (int k = 0; k < 32; k++)
-            weft_reflection_albedo(r, WEFT_PART_ALL, ((float)k + 0.5f) / 32.0f, all_e);
+        for (int k = 0; k < 32; k++) weft_reflection_albedo(r, WEFT_PART_ALL, ((float)k + 0.5f) / 32.0f, all_e);
         if (!layer)
-            print_message("10000 directions: %.1f ms; 32 albedos: %.1f ms\n", 1e3 * took,
-                          1e3 * (clock_now() - begin));
+            print_message("10000 directions: %.1f ms; 32 albedos: %.1f ms\n", 1e3 * took, 1e3 * (clock_now() - begin));
         weft_reflection_albedo(r, WEFT_PART_ALL, 0.8f, all_e);
         double furnace = 0.0; /* the same from directions that know no lobe */
         for (int k = 0; k < N; k++) {

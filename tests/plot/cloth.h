@@ -39,8 +39,7 @@ static inline void cloth_of_profile(Cloth *cloth, const char *id) {
     assert_int_equal(weft_material_set(&cloth->material, "sheen_color", "1", NULL, &error), WEFT_OK);
     assert_int_equal(weft_material_set(&cloth->material, "sheen_roughness", "0.5", NULL, &error), WEFT_OK);
     assert_int_equal(weft_reflection_create(&cloth->material, &cloth->reflection, &error), WEFT_OK);
-    cloth->model =
-        (WeftPlotModel){.reflection = cloth->reflection, .material = &cloth->material, .label = id};
+    cloth->model = (WeftPlotModel){.reflection = cloth->reflection, .material = &cloth->material, .label = id};
 }
 
 static inline void cloth_free(Cloth *cloth) { weft_reflection_free(cloth->reflection); }

@@ -37,8 +37,8 @@ static void assert_drawn(WeftPlotDesc desc, const char *name) {
     /* spheres and slices of white lobes are grey */
     bool grey = desc.kind == WEFT_PLOT_SLICE || desc.kind == WEFT_PLOT_SPHERE;
     if (grey ? ink.different < 60 : ink.colored < 80 || ink.different < 20)
-        fail_msg("%s %s: %d colours, %d pixels with colour", weft_plot_kind_name((int)desc.kind), name,
-                 ink.different, ink.colored);
+        fail_msg("%s %s: %d colours, %d pixels with colour", weft_plot_kind_name((int)desc.kind), name, ink.different,
+                 ink.colored);
     weft_image_free(&image);
 }
 

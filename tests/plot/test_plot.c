@@ -15,8 +15,7 @@ static void figure_of_a_black_lobe_is_empty(void **state) {
     cloth_of_lobe(&white, "charlie-neubelt", NULL, NULL);
     cloth_of_lobe(&black, "charlie-neubelt", "color", "0");
     for (int kind = 0; kind < WEFT_PLOT_KINDS; kind++) {
-        if (kind == WEFT_PLOT_FURNACE || kind == WEFT_PLOT_SAMPLES)
-            continue; /* white and pdf are what they show */
+        if (kind == WEFT_PLOT_FURNACE || kind == WEFT_PLOT_SAMPLES) continue; /* white and pdf are what they show */
         WeftImage image[2];
         for (int k = 0; k < 2; k++) {
             const WeftPlotModel models[2] = {k ? black.model : white.model, black.model};
@@ -112,8 +111,7 @@ static void axes_fit_the_range_of_the_curves(void **state) {
     desc.models = again;
     desc.logarithmic = 1;
     data = data_of(&desc);
-    assert_true(data.panels[0].y.logarithmic && data.panels[0].y.low > 0.0f &&
-                data.panels[0].y.high >= 1000.0f);
+    assert_true(data.panels[0].y.logarithmic && data.panels[0].y.low > 0.0f && data.panels[0].y.high >= 1000.0f);
     weft_plot_data_free(&data);
     desc.count = 1;
     desc.logarithmic = 0;
@@ -176,8 +174,7 @@ static void maps_hold_values_of_the_lobe(void **state) {
     double most = 0.0;
     for (int row = 0; row < panel->rows; row++)
         for (int k = 0; k < panel->columns; k++) {
-            double theta_i = -90.0 + 180.0 * (k + 0.5) / panel->columns,
-                   theta_o = 90.0 * (row + 0.5) / panel->rows;
+            double theta_i = -90.0 + 180.0 * (k + 0.5) / panel->columns, theta_o = 90.0 * (row + 0.5) / panel->rows;
             double a = (double)f_of(&cloth[0], theta_o, theta_i, 180.0),
                    b = (double)f_of(&cloth[1], theta_o, theta_i, 180.0);
             assert_near((double)panel->values[row * panel->columns + k], a - b, 3e-3);
@@ -392,10 +389,8 @@ static void plot_descriptors_without_sense_are_refused(void **state) {
     assert_refused(&(WeftPlotDesc){.models = &none, .count = 1}, "no reflection");
     assert_refused(&(WeftPlotDesc){.kind = WEFT_PLOT_DIFFERENCE, .models = &cloth.model, .count = 1}, "two");
     assert_refused(&(WeftPlotDesc){.kind = WEFT_PLOT_SAMPLES, .models = &whole.model, .count = 1}, "lobes");
-    assert_refused(&(WeftPlotDesc){.models = &cloth.model, .count = 1, .views = {90.0f}, .view_count = 1},
-                   "view");
-    assert_refused(&(WeftPlotDesc){.models = &cloth.model, .count = 1, .views = {NAN}, .view_count = 1},
-                   "view");
+    assert_refused(&(WeftPlotDesc){.models = &cloth.model, .count = 1, .views = {90.0f}, .view_count = 1}, "view");
+    assert_refused(&(WeftPlotDesc){.models = &cloth.model, .count = 1, .views = {NAN}, .view_count = 1}, "view");
     assert_refused(&(WeftPlotDesc){.models = &cloth.model, .count = 1, .view_count = 7}, "6 views");
     assert_refused(&(WeftPlotDesc){.models = &cloth.model, .count = 1, .width = 9000}, "8192");
     const WeftPlotDesc well = {.models = &cloth.model, .count = 1, .quick = 1};

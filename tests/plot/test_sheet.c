@@ -43,8 +43,7 @@ static bool find(const WeftImage *sheet, const WeftImage *image, int *x, int *y)
             for (int r = 0; r < image->height && same; r++)
                 for (int c = 0; c < image->width && same; c++)
                     same = memcmp(at(sheet, *x + c, *y + r),
-                                  (const uint8_t *)image->pixels +
-                                      (size_t)(image->channels * (r * image->width + c)),
+                                  (const uint8_t *)image->pixels + (size_t)(image->channels * (r * image->width + c)),
                                   3) == 0;
             if (same) return true;
         }
@@ -112,8 +111,7 @@ static void long_labels_stay_inside_their_panel(void **state) {
     for (size_t t = 0; t < sizeof texts / sizeof *texts; t++) {
         WeftImage image = pattern(240, 20, 3);
         WeftPanel panels[2] = {{.image = &image, .title = texts[t], .note = texts[t]}, {.image = &image}};
-        WeftImage sheet =
-            compose(&(WeftSheetDesc){.caption = texts[t], .panels = panels, .count = 2, .columns = 2});
+        WeftImage sheet = compose(&(WeftSheetDesc){.caption = texts[t], .panels = panels, .count = 2, .columns = 2});
         int x = 0, y = 0, second;
         assert_true(find(&sheet, &image, &x, &y));
         second = ++x;
@@ -213,9 +211,7 @@ static void figures_below_a_picture_follow_their_formula(void **state) {
     weft_image_free(&b);
 }
 
-static float luma(const uint8_t *p) {
-    return 0.2126f * (float)p[0] + 0.7152f * (float)p[1] + 0.0722f * (float)p[2];
-}
+static float luma(const uint8_t *p) { return 0.2126f * (float)p[0] + 0.7152f * (float)p[1] + 0.0722f * (float)p[2]; }
 
 /* Brighter is red before blue, darker blue before red; both lighter the more, and the ends stay. */
 static void difference_colours_show_sign_and_size(void **state) {
@@ -239,8 +235,7 @@ static void difference_colours_show_sign_and_size(void **state) {
     weft_image_free(&map);
     WeftError error;
     const float wrong[] = {0.0f, -1.0f, NAN, INFINITY};
-    for (int k = 0; k < 4; k++)
-        assert_int_equal(weft_difference_image(&a, &b, wrong[k], &map, &error), WEFT_USAGE);
+    for (int k = 0; k < 4; k++) assert_int_equal(weft_difference_image(&a, &b, wrong[k], &map, &error), WEFT_USAGE);
     weft_image_free(&a);
     weft_image_free(&b);
 }
@@ -287,8 +282,7 @@ static void map_is_drawn_with_heat_colours(void **state) {
         assert_true(with.height > without.height + 12);
         int last = 0, x = 0, y = 0;
         assert_true(find(&with, &heat, &x, &y));
-        for (int row = y + 40; row < with.height; row++)
-            last += memcmp(at(&with, x + 299, row), p + 3 * 299, 3) == 0;
+        for (int row = y + 40; row < with.height; row++) last += memcmp(at(&with, x + 299, row), p + 3 * 299, 3) == 0;
         assert_true(last > 4);
         weft_image_free(&heat), weft_image_free(&with), weft_image_free(&without);
     }

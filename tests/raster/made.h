@@ -48,21 +48,21 @@ static void count_data(GLenum target, GLsizeiptr size, const void *data, GLenum 
     made++;
     buffer_data(target, size, data, usage);
 }
-static void count_image(GLenum target, GLint level, GLint format, GLsizei w, GLsizei h, GLsizei d,
-                        GLint border, GLenum of, GLenum type, const void *data) {
+static void count_image(GLenum target, GLint level, GLint format, GLsizei w, GLsizei h, GLsizei d, GLint border,
+                        GLenum of, GLenum type, const void *data) {
     made++;
     tex_image(target, level, format, w, h, d, border, of, type, data);
 }
 
-#define COUNTED(C)                                                                                           \
-    C(gen_textures, epoxy_glGenTextures, count_textures)                                                     \
-    C(gen_buffers, epoxy_glGenBuffers, count_buffers)                                                        \
-    C(gen_framebuffers, epoxy_glGenFramebuffers, count_framebuffers)                                         \
-    C(gen_renderbuffers, epoxy_glGenRenderbuffers, count_renderbuffers)                                      \
-    C(gen_samplers, epoxy_glGenSamplers, count_samplers)                                                     \
-    C(gen_vertices, epoxy_glGenVertexArrays, count_vertices)                                                 \
-    C(create_program, epoxy_glCreateProgram, count_program)                                                  \
-    C(buffer_data, epoxy_glBufferData, count_data)                                                           \
+#define COUNTED(C)                                                                                                     \
+    C(gen_textures, epoxy_glGenTextures, count_textures)                                                               \
+    C(gen_buffers, epoxy_glGenBuffers, count_buffers)                                                                  \
+    C(gen_framebuffers, epoxy_glGenFramebuffers, count_framebuffers)                                                   \
+    C(gen_renderbuffers, epoxy_glGenRenderbuffers, count_renderbuffers)                                                \
+    C(gen_samplers, epoxy_glGenSamplers, count_samplers)                                                               \
+    C(gen_vertices, epoxy_glGenVertexArrays, count_vertices)                                                           \
+    C(create_program, epoxy_glCreateProgram, count_program)                                                            \
+    C(buffer_data, epoxy_glBufferData, count_data)                                                                     \
     C(tex_image, epoxy_glTexImage3D, count_image)
 #define COUNT(kept, call, counting)         kept = call, call = counting;
 #define STOP_COUNTING(kept, call, counting) call = kept;

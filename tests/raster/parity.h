@@ -86,12 +86,10 @@ static inline void fill_pair(Random *random, float *row) {
     row[4] = i.x, row[5] = i.y, row[6] = i.z, row[7] = random_unit(random);
 }
 static inline Dir row_o(const float *row) { return dir(row[0], row[1], row[2]); }
-static inline Angles row_angles(const float *row) {
-    return angles_between(row_o(row), dir(row[4], row[5], row[6]));
-}
+static inline Angles row_angles(const float *row) { return angles_between(row_o(row), dir(row[4], row[5], row[6])); }
 
-#define ANGLES                                                                                               \
-    "    Dir o = dir(in0.x, in0.y, in0.z);\n"                                                                \
+#define ANGLES                                                                                                         \
+    "    Dir o = dir(in0.x, in0.y, in0.z);\n"                                                                          \
     "    Angles a = angles_between(o, dir(in1.x, in1.y, in1.z));\n"
 
 /* A model's programs, one a language. */
@@ -110,8 +108,7 @@ static inline void make_program(void *user, int language, int thread) {
     WeftError *error = &programs->errors[language];
     Text text;
     if (!context) return;
-    text_begin(&text, &(TextDesc){
-                          .language = context_language(context), .tables = true, .folder = programs->folder});
+    text_begin(&text, &(TextDesc){.language = context_language(context), .tables = true, .folder = programs->folder});
     model->put(&text, programs->which);
     if (text_end(&text, error) == WEFT_OK) {
         ComputeDesc desc = {.name = programs->name,
@@ -204,11 +201,9 @@ static inline void report(const Model *model, int language, const char *name, co
     size_t s = tally->sample;
     print_message("    answers for what C answers:");
     for (size_t k = 0; model->answers[k]; k++)
-        print_message(" %.9g/%.9g", (double)out[language][k / 4][4 * s + k % 4],
-                      (double)expected[ANSWERS * s + k]);
+        print_message(" %.9g/%.9g", (double)out[language][k / 4][4 * s + k % 4], (double)expected[ANSWERS * s + k]);
     print_message("\n    of");
-    for (size_t r = 0; r < 4 * (size_t)model->inputs; r++)
-        print_message(" %.9g", (double)in[r / 4][4 * s + r % 4]);
+    for (size_t r = 0; r < 4 * (size_t)model->inputs; r++) print_message(" %.9g", (double)in[r / 4][4 * s + r % 4]);
     print_message("\n");
 }
 
@@ -258,8 +253,7 @@ static inline int parity_begin(void **state) {
         if (context_create(languages[k], &contexts[k], &error) != WEFT_OK) print_message("%s\n", error.text);
     samples = (size_t)(SAMPLES_MOST / (test_long() ? 1 : test_short() ? 8 : 2));
     for (int k = 0; k < INPUTS; k++) in[k] = calloc(samples, 4 * sizeof(float));
-    for (int k = 0; k < LANGUAGES * OUTPUTS; k++)
-        out[k / OUTPUTS][k % OUTPUTS] = calloc(samples, 4 * sizeof(float));
+    for (int k = 0; k < LANGUAGES * OUTPUTS; k++) out[k / OUTPUTS][k % OUTPUTS] = calloc(samples, 4 * sizeof(float));
     lobe_tables_make();
     expected = calloc(samples, ANSWERS * sizeof(float));
     return 0;

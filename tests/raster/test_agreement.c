@@ -43,8 +43,7 @@ static void find_inside(const WeftScene *scene, const char *camera_name) {
             bool same = there[k] == there[b - hits];
             if (same && there[k])
                 same = a->mesh == b->mesh && fabsf(a->t - b->t) < 0.005f * a->t &&
-                       vec3_dot(vec3_normal_or(a->facing, a->facing), vec3_normal_or(b->facing, b->facing)) >
-                           0.7f;
+                       vec3_dot(vec3_normal_or(a->facing, a->facing), vec3_normal_or(b->facing, b->facing)) > 0.7f;
             inside[k] = same;
         }
     }
@@ -79,8 +78,7 @@ static void draw(const WeftScene *scene, WeftGl gl, const char *camera, WeftImag
                                  .no_shadows = 1,
                                  .plain_textures = 1};
     if (weft_raster_create(scene, &(WeftRasterDesc){.gl = gl}, &raster, NULL, &error) != WEFT_OK ||
-        weft_raster_draw(raster, &view, &error) != WEFT_OK ||
-        weft_raster_image(raster, out, &error) != WEFT_OK)
+        weft_raster_draw(raster, &view, &error) != WEFT_OK || weft_raster_image(raster, out, &error) != WEFT_OK)
         fail_msg("%s", error.text);
     WeftRasterInfo info = weft_raster_info(raster);
     assert_string_equal(info.complaint, "");
@@ -112,11 +110,9 @@ static WeftScene *scene_of(const char *path) {
     WeftScene *scene;
     WeftError error;
     if (weft_scene_load(path, &scene, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
-    const WeftLight light = {.direction = {-1.0f, -2.0f, -1.0f},
-                             .color = {light_color, light_color, light_color}};
+    const WeftLight light = {.direction = {-1.0f, -2.0f, -1.0f}, .color = {light_color, light_color, light_color}};
     assert_int_equal(weft_scene_add_light(scene, &light, &error), WEFT_OK);
-    assert_int_equal(weft_scene_set_environment_color(scene, (const float[]){0.0f, 0.0f, 0.0f}, &error),
-                     WEFT_OK);
+    assert_int_equal(weft_scene_set_environment_color(scene, (const float[]){0.0f, 0.0f, 0.0f}, &error), WEFT_OK);
     return scene;
 }
 

@@ -29,13 +29,10 @@ static WeftScene *scene_of(const char *weave) {
     WeftError error;
     const WeftLight light = {.direction = {-1.0f, -2.0f, -1.0f}, .color = {3.0f, 3.0f, 3.0f}};
     if (weft_scene_load("builtin:cloth", &scene, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
-    while (weft_scene_info(scene).light_count > 0)
-        assert_int_equal(weft_scene_remove_light(scene, 0, &error), WEFT_OK);
+    while (weft_scene_info(scene).light_count > 0) assert_int_equal(weft_scene_remove_light(scene, 0, &error), WEFT_OK);
     assert_int_equal(weft_scene_add_light(scene, &light, &error), WEFT_OK);
-    assert_int_equal(weft_scene_set_environment_color(scene, (const float[]){0.0f, 0.0f, 0.0f}, &error),
-                     WEFT_OK);
-    if (weft_scene_assign_material_memory(scene, NULL, weave, strlen(weave), "mine.json", NULL, &error) !=
-        WEFT_OK)
+    assert_int_equal(weft_scene_set_environment_color(scene, (const float[]){0.0f, 0.0f, 0.0f}, &error), WEFT_OK);
+    if (weft_scene_assign_material_memory(scene, NULL, weave, strlen(weave), "mine.json", NULL, &error) != WEFT_OK)
         fail_msg("%s", error.text);
     return scene;
 }
@@ -68,17 +65,15 @@ static void draw(const WeftScene *scene, WeftGl gl, const char *camera, WeftImag
                                  .no_shadows = 1,
                                  .plain_textures = 1};
     if (weft_raster_create(scene, &(WeftRasterDesc){.gl = gl}, &raster, NULL, &error) != WEFT_OK ||
-        weft_raster_draw(raster, &view, &error) != WEFT_OK ||
-        weft_raster_image(raster, out, &error) != WEFT_OK)
+        weft_raster_draw(raster, &view, &error) != WEFT_OK || weft_raster_image(raster, out, &error) != WEFT_OK)
         fail_msg("%s", error.text);
     assert_string_equal(weft_raster_info(raster).complaint, "");
     assert_true(weft_raster_info(raster).samplers <= 16);
     weft_raster_free(raster);
 }
 
-static const char *const denim =
-    "{\"weave\": {\"draft\": \"twill 3/1 z; warp 1#26375c; weft 1#d8d4c8; sett 26 18\", "
-    "\"warp\": \"cotton\", \"weft\": \"cotton\", \"metres\": 0.5}}";
+static const char *const denim = "{\"weave\": {\"draft\": \"twill 3/1 z; warp 1#26375c; weft 1#d8d4c8; sett 26 18\", "
+                                 "\"warp\": \"cotton\", \"weft\": \"cotton\", \"metres\": 0.5}}";
 static const char *const tartan = "{\"weave\": {\"draft\": \"twill 2/2; both 8b 4r 8g 2w; sett 22\", "
                                   "\"warp\": \"wool\", \"weft\": \"wool\", \"metres\": 0.5}}";
 static const WeftGl gls[] = {WEFT_GL_DESKTOP, WEFT_GL_ES};
@@ -93,8 +88,7 @@ static void threads_are_the_same_in_both_engines(void **state) {
         "\"warp\": {\"yarn\": \"cotton\", \"streaks\": 0, \"hairiness\": 0}, "
         "\"weft\": {\"yarn\": \"cotton\", \"streaks\": 0, \"hairiness\": 0}, \"metres\": 0.5}}";
     static const char *const weaves[] = {smooth, denim};
-    static const char *const cameras[] = {"0.25,0.62,0.65;0.03,0.42,0.15;0.35",
-                                          "0.25,0.62,0.65;0.03,0.42,0.15;0.06"};
+    static const char *const cameras[] = {"0.25,0.62,0.65;0.03,0.42,0.15;0.35", "0.25,0.62,0.65;0.03,0.42,0.15;0.06"};
     for (size_t w = 0; w < 2; w++) {
         WeftScene *scene = scene_of(weaves[w]);
         WeftImage reference = {0}, picture = {0};
@@ -105,8 +99,7 @@ static void threads_are_the_same_in_both_engines(void **state) {
             const float *p = reference.pixels, *q = picture.pixels;
             for (int k = 0; k < PIXELS; k++) {
                 bool same = true;
-                for (int c = 0; c < 3; c++)
-                    same &= fabsf(p[4 * k + c] - q[4 * k + c]) <= 0.02f * p[4 * k + c] + 2e-3f;
+                for (int c = 0; c < 3; c++) same &= fabsf(p[4 * k + c] - q[4 * k + c]) <= 0.02f * p[4 * k + c] + 2e-3f;
                 agree += same;
                 lit += p[4 * k] > 1e-3f;
             }
@@ -132,8 +125,7 @@ static void a_cloth_is_as_bright_in_both_engines(void **state) {
     (void)state;
     need_gl();
     static const char *const weaves[] = {denim, tartan};
-    static const char *const cameras[] = {"0.25,0.62,0.65;0.03,0.42,0.15;1.5",
-                                          "0.25,0.62,0.65;0.03,0.42,0.15;4",
+    static const char *const cameras[] = {"0.25,0.62,0.65;0.03,0.42,0.15;1.5", "0.25,0.62,0.65;0.03,0.42,0.15;4",
                                           "0.25,0.62,0.65;0.03,0.42,0.15;14"};
     for (size_t w = 0; w < 2; w++) {
         WeftScene *scene = scene_of(weaves[w]);
@@ -177,16 +169,15 @@ static WeftScene *flat_scene(const char *weave, Dir sun) {
     scene->low = vec3(-half, -half, 0.0f);
     scene->high = vec3(half, half, 0.0f);
     assert_int_equal(weft_scene_add_light(scene, &light, &error), WEFT_OK);
-    if (weft_scene_assign_material_memory(scene, NULL, weave, strlen(weave), "mine.json", NULL, &error) !=
-        WEFT_OK)
+    if (weft_scene_assign_material_memory(scene, NULL, weave, strlen(weave), "mine.json", NULL, &error) != WEFT_OK)
         fail_msg("%s", error.text);
     return scene;
 }
 
 /* Adds a part of the mean over a pixel of FINE x FINE points of threads, in two channels. All points are looked at in one
  * call: each is padded to a vector. */
-static void see_pixel(const WeftCloth *cloth, float x, float y, float side, Dir sun, uint64_t *random,
-                      double part, double sum[2]) {
+static void see_pixel(const WeftCloth *cloth, float x, float y, float side, Dir sun, uint64_t *random, double part,
+                      double sum[2]) {
     enum { POINTS = FINE * FINE };
     static ClothLooks looks;
     static YarnRows yarn;
@@ -231,8 +222,7 @@ static float left_of(float side, int k) { return 1000.0f * SPAN + side * (float)
 static float low_of(float side, int k) { return -1000.0f * SPAN + side * (float)k; }
 
 /* Adds what a picture shows at such a distance, and what it should. */
-static void compare(WeftRaster *raster, const WeftCloth *cloth, Dir sun, float side, Spread *seen,
-                    Spread *fine) {
+static void compare(WeftRaster *raster, const WeftCloth *cloth, Dir sun, float side, Spread *seen, Spread *fine) {
     WeftError error;
     WeftImage picture = {0};
     char camera[96];
@@ -248,8 +238,7 @@ static void compare(WeftRaster *raster, const WeftCloth *cloth, Dir sun, float s
                                  .camera = camera,
                                  .background = WEFT_BACKGROUND_TRANSPARENT,
                                  .no_shadows = 1};
-    if (weft_raster_draw(raster, &view, &error) != WEFT_OK ||
-        weft_raster_image(raster, &picture, &error) != WEFT_OK)
+    if (weft_raster_draw(raster, &view, &error) != WEFT_OK || weft_raster_image(raster, &picture, &error) != WEFT_OK)
         fail_msg("%s", error.text);
     const float *p = picture.pixels;
     for (int row = 0; row < across; row++)
@@ -258,8 +247,8 @@ static void compare(WeftRaster *raster, const WeftCloth *cloth, Dir sun, float s
             double pixel[2] = {0.0, 0.0};
             add_pixel(seen, (const double[]){(double)at[0], (double)at[2]}, across * across);
             for (int k = 0; k < looks; k++)
-                see_pixel(cloth, left_of(side, column - across / 2), low_of(side, across / 2 - 1 - row), side,
-                          sun, &random, 1.0 / looks, pixel);
+                see_pixel(cloth, left_of(side, column - across / 2), low_of(side, across / 2 - 1 - row), side, sun,
+                          &random, 1.0 / looks, pixel);
             add_pixel(fine, pixel, across * across);
         }
     weft_image_free(&picture);
@@ -268,9 +257,8 @@ static void compare(WeftRaster *raster, const WeftCloth *cloth, Dir sun, float s
 static void pixels_vary_as_those_of_many_points_do(void **state) {
     (void)state;
     need_gl();
-    static const char weave[] =
-        "{\"weave\": {\"draft\": \"twill 3/1 z; warp 1#26375c; weft 1#d8d4c8; sett 20 20\", "
-        "\"warp\": \"cotton\", \"weft\": \"cotton\", \"metres\": 5}}";
+    static const char weave[] = "{\"weave\": {\"draft\": \"twill 3/1 z; warp 1#26375c; weft 1#d8d4c8; sett 20 20\", "
+                                "\"warp\": \"cotton\", \"weft\": \"cotton\", \"metres\": 5}}";
     static const float sides[] = {0.11f, 0.27f, 0.53f, 1.07f, 1.5f, 1.9f, 4.1f, 16.3f, 100.0f};
     enum { SIDES = sizeof sides / sizeof *sides };
     Spread seen[SIDES][SUNS] = {{{{0.0}, {0.0}}}}, fine[SIDES][SUNS] = {{{{0.0}, {0.0}}}};
@@ -278,11 +266,9 @@ static void pixels_vary_as_those_of_many_points_do(void **state) {
         WeftScene *scene = flat_scene(weave, suns[k]);
         WeftRaster *raster = NULL;
         WeftError error;
-        if (weft_raster_create(scene, &(WeftRasterDesc){.gl = WEFT_GL_DESKTOP}, &raster, NULL, &error) !=
-            WEFT_OK)
+        if (weft_raster_create(scene, &(WeftRasterDesc){.gl = WEFT_GL_DESKTOP}, &raster, NULL, &error) != WEFT_OK)
             fail_msg("%s", error.text);
-        for (int d = 0; d < SIDES; d++)
-            compare(raster, scene->cloths[0], suns[k], sides[d], &seen[d][k], &fine[d][k]);
+        for (int d = 0; d < SIDES; d++) compare(raster, scene->cloths[0], suns[k], sides[d], &seen[d][k], &fine[d][k]);
         weft_raster_free(raster);
         weft_scene_free(scene);
     }
@@ -334,18 +320,12 @@ static double floor_below(const char *alpha_mode, int no_shadows) {
              "{\"weave\": {\"draft\": \"plain; sett 4 4\", \"warp\": {\"yarn\": \"linen\", \"width\": 0.6}, "
              "\"weft\": {\"yarn\": \"linen\", \"width\": 0.6}, \"metres\": 0.4}, \"alpha_mode\": \"%s\"}",
              alpha_mode);
-    const WeftRasterView view = {.width = WIDTH,
-                                 .height = HEIGHT,
-                                 .samples = 1,
-                                 .camera = "0,0,0.15;0,0,0;30",
-                                 .no_shadows = no_shadows};
+    const WeftRasterView view = {
+        .width = WIDTH, .height = HEIGHT, .samples = 1, .camera = "0,0,0.15;0,0,0;30", .no_shadows = no_shadows};
     if (weft_scene_add_light(scene, &light, &error) != WEFT_OK ||
-        weft_scene_assign_material_memory(scene, "cloth", weave, strlen(weave), "mine.json", NULL, &error) !=
-            WEFT_OK ||
-        weft_raster_create(scene, &(WeftRasterDesc){.gl = WEFT_GL_DESKTOP}, &raster, NULL, &error) !=
-            WEFT_OK ||
-        weft_raster_draw(raster, &view, &error) != WEFT_OK ||
-        weft_raster_image(raster, &picture, &error) != WEFT_OK)
+        weft_scene_assign_material_memory(scene, "cloth", weave, strlen(weave), "mine.json", NULL, &error) != WEFT_OK ||
+        weft_raster_create(scene, &(WeftRasterDesc){.gl = WEFT_GL_DESKTOP}, &raster, NULL, &error) != WEFT_OK ||
+        weft_raster_draw(raster, &view, &error) != WEFT_OK || weft_raster_image(raster, &picture, &error) != WEFT_OK)
         fail_msg("%s", error.text);
     const double mean = mean_of(&picture, 1);
     weft_image_free(&picture);
@@ -357,18 +337,15 @@ static double floor_below(const char *alpha_mode, int no_shadows) {
 static void light_falls_through_gaps(void **state) {
     (void)state;
     need_gl();
-    const double bare = floor_below("mask", 1), closed = floor_below("opaque", 0),
-                 holed = floor_below("mask", 0);
-    print_message("below a cloth: %.3f of the light through gaps, %.3f without\n", holed / bare,
-                  closed / bare);
+    const double bare = floor_below("mask", 1), closed = floor_below("opaque", 0), holed = floor_below("mask", 0);
+    print_message("below a cloth: %.3f of the light through gaps, %.3f without\n", holed / bare, closed / bare);
     assert_true(closed < 0.01 * bare);
     assert_true(holed > 0.08 * bare && holed < 0.3 * bare);
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(pixels_vary_as_those_of_many_points_do),
-                                       cmocka_unit_test(light_falls_through_gaps),
-                                       cmocka_unit_test(threads_are_the_same_in_both_engines),
-                                       cmocka_unit_test(a_cloth_is_as_bright_in_both_engines)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(pixels_vary_as_those_of_many_points_do), cmocka_unit_test(light_falls_through_gaps),
+        cmocka_unit_test(threads_are_the_same_in_both_engines), cmocka_unit_test(a_cloth_is_as_bright_in_both_engines)};
     return cmocka_run_group_tests(tests, gl_begin, NULL);
 }

@@ -31,14 +31,12 @@ static void make_text(Text *text) {
 }
 
 /* %d stands for the line in the text. */
-static void assert_said(const Text *text, const char *form, int line, const char *subject,
-                        const char *words) {
+static void assert_said(const Text *text, const char *form, int line, const char *subject, const char *words) {
     char log[512], expected[512];
     WeftError error = {0};
     snprintf(log, sizeof log, form, line);
     complain("a test", log, text, &error);
-    snprintf(expected, sizeof expected, "%s: %s: %s", subject, weft_message_text(WEFT_MESSAGE_GL_COMPILE),
-             words);
+    snprintf(expected, sizeof expected, "%s: %s: %s", subject, weft_message_text(WEFT_MESSAGE_GL_COMPILE), words);
     assert_int_equal(error.result, WEFT_INPUT);
     assert_int_equal(error.message, WEFT_MESSAGE_GL_COMPILE);
     assert_string_equal(error.text, expected);
@@ -54,8 +52,7 @@ static void line_of_every_driver_is_read(void **state) {
          "`ay' undeclared"},
         {"0:%d(12): preprocessor error: wrong\n", "preprocessor error: wrong"},
         {"0(%d) : error C1503: undefined variable \"ay\"\n", "error C1503: undefined variable \"ay\""},
-        {"0(3) : warning C7050: \"x\" might be\r\n0(%d) : error C0000: syntax error\r\n",
-         "error C0000: syntax error"},
+        {"0(3) : warning C7050: \"x\" might be\r\n0(%d) : error C0000: syntax error\r\n", "error C0000: syntax error"},
         {"ERROR: 0:%d: 'ay' : undeclared identifier \nERROR: 1 compilation errors.  No code generated.\n",
          "'ay' : undeclared identifier "},
         {"ERROR: 0:%d: '' :  syntax error\n", "'' :  syntax error"},

@@ -33,8 +33,7 @@ static WeftResult create(GlContext *context, const char *lines, const char *body
     text_line(&text, "%s", lines);
     assert_int_equal(text_end(&text, NULL), WEFT_OK);
     WeftResult result = compute_create(
-        context,
-        &(ComputeDesc){.name = "a test", .text = &text, .body = body, .inputs = inputs, .outputs = outputs},
+        context, &(ComputeDesc){.name = "a test", .text = &text, .body = body, .inputs = inputs, .outputs = outputs},
         out, error);
     text_free(&text);
     return result;
@@ -69,8 +68,7 @@ static void copies_are_exact(TextLanguage language, size_t n) {
     /* twice: less after more uses the same room */
     for (size_t m = n;; m = m / 3) {
         for (int k = 0; k < OUT; k++) memset(out[k], 0, 16 * n);
-        if (compute_run(compute, m, (const float *const *)in, out, &error) != WEFT_OK)
-            fail_msg("%s", error.text);
+        if (compute_run(compute, m, (const float *const *)in, out, &error) != WEFT_OK) fail_msg("%s", error.text);
         for (int k = 0; k < 5; k++) assert_memory_equal(in[k], out[k], 16 * m);
         for (size_t s = 0; s < m; s++) {
             for (size_t c = 0; c < 4; c++) {
@@ -79,8 +77,7 @@ static void copies_are_exact(TextLanguage language, size_t n) {
             }
         }
         for (int k = 0; k < OUT; k++)
-            for (size_t s = 4 * m; s < 4 * n; s++)
-                assert_true(out[k][s] == 0.0f); /* nothing behind the end */
+            for (size_t s = 4 * m; s < 4 * n; s++) assert_true(out[k][s] == 0.0f); /* nothing behind the end */
         if (m < n) break;
     }
     for (int k = 0; k < IN; k++) free(in[k]);
@@ -103,8 +100,8 @@ static void compute_reads_tables_exactly(void **state) {
         GlContext *context = context_or_skip(languages[l]);
         Compute *compute;
         WeftError error = {0};
-        if (create(context, "", "out0.x = texelFetch(weft_tables, ivec3(in0.zyx), 0).r;", 1, 1, &compute,
-                   &error) != WEFT_OK)
+        if (create(context, "", "out0.x = texelFetch(weft_tables, ivec3(in0.zyx), 0).r;", 1, 1, &compute, &error) !=
+            WEFT_OK)
             fail_msg("%s", error.text);
         static const TextTable sizes[] = {{NULL, 4, 5, NULL}, {NULL, 1, 1, NULL}, {NULL, 2, 9, NULL}};
         enum { TABLES = 3, N = 20 + 1 + 18 };
@@ -147,12 +144,11 @@ static void compute_error_is_one_line(void **state) {
         assert_null(strchr(error.text, '\n'));
         assert_ptr_equal(strstr(error.text, "a test: "), error.text);
         print_message("as expected: %s\n", error.text);
-        assert_int_equal(create(context, "float missing(float x);", "out0 = vec4(missing(in0.x));", 1, 1,
-                                &compute, &error),
-                         WEFT_INPUT);
+        assert_int_equal(
+            create(context, "float missing(float x);", "out0 = vec4(missing(in0.x));", 1, 1, &compute, &error),
+            WEFT_INPUT);
         assert_int_equal(error.message, WEFT_MESSAGE_GL_COMPILE);
-        static const int wrong[][2] = {
-            {0, 1}, {1, 0}, {COMPUTE_INPUTS_MAX + 1, 1}, {1, COMPUTE_OUTPUTS_MAX + 1}};
+        static const int wrong[][2] = {{0, 1}, {1, 0}, {COMPUTE_INPUTS_MAX + 1, 1}, {1, COMPUTE_OUTPUTS_MAX + 1}};
         for (int k = 0; k < 4; k++) {
             assert_int_equal(create(context, "", "", wrong[k][0], wrong[k][1], &compute, &error), WEFT_USAGE);
             assert_int_equal(error.message, WEFT_MESSAGE_DESC);

@@ -99,13 +99,11 @@ static double error_of(const WeftImage *image, const WeftImage *reference) {
 
 static void compare(WeftScene *scene, WeftRaster *raster, WeftRaster *without, const char *camera, float turn,
                     double most) {
-    const WeftRenderDesc desc = {
-        .width = SIDE, .height = SIDE, .max_depth = 1, .camera = camera, .threads = 2};
+    const WeftRenderDesc desc = {.width = SIDE, .height = SIDE, .max_depth = 1, .camera = camera, .threads = 2};
     assert_int_equal(weft_scene_set_environment_placement(scene, turn, 1.0f, NULL), WEFT_OK);
     assert_int_equal(weft_raster_update(raster, NULL, NULL), WEFT_OK);
     assert_int_equal(weft_raster_update(without, NULL, NULL), WEFT_OK);
-    WeftImage reference = test_render(scene, desc, 256), image = drawn(raster, camera),
-              plain = drawn(without, camera);
+    WeftImage reference = test_render(scene, desc, 256), image = drawn(raster, camera), plain = drawn(without, camera);
     double off = error_of(&image, &reference), off_plain = error_of(&plain, &reference);
     print_message("turned by %g: %.1f %%, without %.1f %%\n", (double)turn, 100.0 * off, 100.0 * off_plain);
     assert_true(off < most);
@@ -138,8 +136,7 @@ static void shadows_on_two_triangles_are_those_of_the_path_tracer(void **state) 
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(shadows_of_environment_lights_are_those_of_the_path_tracer),
-        cmocka_unit_test(shadows_on_two_triangles_are_those_of_the_path_tracer)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(shadows_of_environment_lights_are_those_of_the_path_tracer),
+                                       cmocka_unit_test(shadows_on_two_triangles_are_those_of_the_path_tracer)};
     return cmocka_run_group_tests(tests, gl_begin, NULL);
 }

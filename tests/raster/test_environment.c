@@ -90,8 +90,8 @@ static GlContext *context_or_skip(TextLanguage language) {
 enum { CUBE = 3, TABLES = 5, BLOCK = 2 };
 
 /* Runs `lines`, which set vec3 c from Dir d and Frame f, at every point; returns the number of samplers. */
-static int draw(TextLanguage language, const GlEnvironment *env, Text *text, const char *lines,
-                unsigned tables, float out[POINTS][4]) {
+static int draw(TextLanguage language, const GlEnvironment *env, Text *text, const char *lines, unsigned tables,
+                float out[POINTS][4]) {
     char vertex[512];
     WeftError error = {0};
     GLuint target, framebuffer, vertices;
@@ -100,16 +100,12 @@ static int draw(TextLanguage language, const GlEnvironment *env, Text *text, con
              "gl_Position = vec4(c * 2.0 - 1.0, 0.0, 1.0); }\n",
              language == TEXT_GLSL_ES_300 ? "#version 300 es" : "#version 330 core");
     text_line(text, "out highp vec4 fragment;\nvoid main() {\n    float k = floor(gl_FragCoord.x);");
-    text_line(text, "    float y = 1.0 - 2.0 * (k + 0.5) / %d.0, s = sqrt(1.0 - y * y), a = 2.39996323 * k;",
-              POINTS);
-    text_line(
-        text,
-        "    Frame f;\n    f.x = dir(1.0, 0.0, 0.0);\n    f.y = dir(0.0, 1.0, 0.0);\n    f.z = dir(0.0, "
-        "0.0, 1.0);\n    Dir d = dir(s * cos(a), y, s * sin(a));\n    vec3 c = vec3(0.0);");
+    text_line(text, "    float y = 1.0 - 2.0 * (k + 0.5) / %d.0, s = sqrt(1.0 - y * y), a = 2.39996323 * k;", POINTS);
+    text_line(text, "    Frame f;\n    f.x = dir(1.0, 0.0, 0.0);\n    f.y = dir(0.0, 1.0, 0.0);\n    f.z = dir(0.0, "
+                    "0.0, 1.0);\n    Dir d = dir(s * cos(a), y, s * sin(a));\n    vec3 c = vec3(0.0);");
     text_line(text, "%s\n    fragment = vec4(c, 1.0);\n}", lines);
     if (text_end(text, &error) != WEFT_OK) fail_msg("%s", error.text);
-    GLuint program =
-        program_create("a test", (ShaderSource){vertex, NULL}, (ShaderSource){text->bytes, text}, &error);
+    GLuint program = program_create("a test", (ShaderSource){vertex, NULL}, (ShaderSource){text->bytes, text}, &error);
     if (!program) fail_msg("%s\n%s", error.text, text->bytes);
     glGenVertexArrays(1, &vertices);
     glBindVertexArray(vertices);
@@ -152,8 +148,7 @@ static int draw(TextLanguage language, const GlEnvironment *env, Text *text, con
     return samplers;
 }
 
-static void make(TextLanguage language, const Environment *e, bool no_cache, int env_lights,
-                 GlEnvironment *env) {
+static void make(TextLanguage language, const Environment *e, bool no_cache, int env_lights, GlEnvironment *env) {
     WeftError error = {0};
     EnvironmentHow how = {.language = language, .no_cache = no_cache, .env_lights = env_lights};
     if (environment_create(e, &how, env, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);

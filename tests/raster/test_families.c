@@ -81,10 +81,9 @@ static WeftImage picture_of(const WeftScene *scene, WeftGl gl, int threads, int 
     WeftRaster *raster;
     WeftImage image = {0};
     WeftError error;
-    if (weft_raster_create(scene, &(WeftRasterDesc){.gl = gl, .threads = threads, .no_cache = 1}, &raster,
-                           NULL, &error) != WEFT_OK ||
-        weft_raster_draw(raster, &view, &error) != WEFT_OK ||
-        weft_raster_image(raster, &image, &error) != WEFT_OK)
+    if (weft_raster_create(scene, &(WeftRasterDesc){.gl = gl, .threads = threads, .no_cache = 1}, &raster, NULL,
+                           &error) != WEFT_OK ||
+        weft_raster_draw(raster, &view, &error) != WEFT_OK || weft_raster_image(raster, &image, &error) != WEFT_OK)
         fail_msg("%s", error.text);
     *programs = weft_raster_info(raster).programs;
     weft_raster_free(raster);
@@ -182,8 +181,7 @@ static void compiling_in_any_number_of_threads_gives_the_same_picture(void **sta
     WeftScene *scene = squares(-1);
     int programs;
     test_environment(scene, 0.0f);
-    for (int k = 0; k < KINDS; k++)
-        scene->materials[k].alpha_mode = k % 2 ? WEFT_ALPHA_MASK : WEFT_ALPHA_OPAQUE;
+    for (int k = 0; k < KINDS; k++) scene->materials[k].alpha_mode = k % 2 ? WEFT_ALPHA_MASK : WEFT_ALPHA_OPAQUE;
     for (int k = 0; k < KINDS; k++) scene->materials[k].double_sided = k % 4 < 2;
     WeftImage one = picture_of(scene, WEFT_GL_DESKTOP, 1, &programs);
     assert_int_equal(programs, 6);
@@ -211,8 +209,7 @@ static void thousands_of_materials_are_drawn_in_seconds(void **state) {
         m->inputs[INPUT_roughness].value[0] = 0.2f + 0.7f * (float)k / COUNT;
         m->inputs[INPUT_sheen_roughness].value[0] = 0.9f - 0.7f * (float)k / COUNT;
         test_color(m, INPUT_sheen_color, 0.3f);
-        test_quad(scene, vec3((float)(k % 32), (float)(k / 32), 0.0f), vec3(0.8f, 0.0f, 0.0f),
-                  vec3(0.0f, 0.8f, 0.0f));
+        test_quad(scene, vec3((float)(k % 32), (float)(k / 32), 0.0f), vec3(0.8f, 0.0f, 0.0f), vec3(0.0f, 0.8f, 0.0f));
     }
     scene_bounds(scene);
     clock_t start = clock();
@@ -228,10 +225,9 @@ static void thousands_of_materials_are_drawn_in_seconds(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(materials_drawn_together_look_as_each_alone),
-        cmocka_unit_test(even_map_with_a_factor_of_one_is_its_number),
-        cmocka_unit_test(compiling_in_any_number_of_threads_gives_the_same_picture),
-        cmocka_unit_test(thousands_of_materials_are_drawn_in_seconds)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(materials_drawn_together_look_as_each_alone),
+                                       cmocka_unit_test(even_map_with_a_factor_of_one_is_its_number),
+                                       cmocka_unit_test(compiling_in_any_number_of_threads_gives_the_same_picture),
+                                       cmocka_unit_test(thousands_of_materials_are_drawn_in_seconds)};
     return cmocka_run_group_tests(tests, gl_begin, NULL);
 }

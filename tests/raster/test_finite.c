@@ -24,8 +24,7 @@ static WeftScene *spheres(void) {
     WeftScene *scene;
     WeftError error;
     if (weft_scene_load("builtin:spheres", &scene, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
-    while (weft_scene_info(scene).light_count > 0)
-        assert_int_equal(weft_scene_remove_light(scene, 0, NULL), WEFT_OK);
+    while (weft_scene_info(scene).light_count > 0) assert_int_equal(weft_scene_remove_light(scene, 0, NULL), WEFT_OK);
     spheres_cover_floor(scene);
     return scene;
 }
@@ -63,8 +62,7 @@ static void pixels_of_extreme_materials_are_finite(void **state) {
     int odd = 0, at = 0;
     assert_int_equal(weft_scene_set(scenes[1], "*.sheen_roughness", "0.01", NULL, NULL), WEFT_OK);
     for (int k = 0; k < 2; k++)
-        if (weft_raster_create(scenes[k], &desc, &rasters[k], NULL, &error) != WEFT_OK)
-            fail_msg("%s", error.text);
+        if (weft_raster_create(scenes[k], &desc, &rasters[k], NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
     for (int lobe = 0; weft_lobe_info(lobe); lobe++) {
         const WeftLobeInfo *info = weft_lobe_info(lobe);
         if (info->traits & (WEFT_LOBE_REFERENCE | WEFT_LOBE_DIFFUSE) || !test_turn(&at, 1, 9)) continue;

@@ -47,10 +47,8 @@ static WeftImage drawn(const WeftScene *scene, WeftGl gl, const WeftRasterView *
     WeftRaster *raster;
     WeftImage image = {0};
     WeftError error;
-    if (weft_raster_create(scene, &(WeftRasterDesc){.gl = gl, .no_cache = 1}, &raster, NULL, &error) !=
-            WEFT_OK ||
-        weft_raster_draw(raster, view, &error) != WEFT_OK ||
-        weft_raster_image(raster, &image, &error) != WEFT_OK)
+    if (weft_raster_create(scene, &(WeftRasterDesc){.gl = gl, .no_cache = 1}, &raster, NULL, &error) != WEFT_OK ||
+        weft_raster_draw(raster, view, &error) != WEFT_OK || weft_raster_image(raster, &image, &error) != WEFT_OK)
         fail_msg("%s", error.text);
     weft_raster_free(raster);
     return image;
@@ -78,8 +76,8 @@ static void same(const char *what, WeftScene *scene, const WeftRasterView *view,
             for (int c = 2; c < 4; c++) {
                 float a = mean(&truth, tile, c), b = mean(&image, tile, c);
                 if (!(fabsf(a - b) <= slack))
-                    fail_msg("%s, %s, tile %d, channel %d: %g, path traced %g", what, gl ? "ES" : "desktop",
-                             tile, c, (double)b, (double)a);
+                    fail_msg("%s, %s, tile %d, channel %d: %g, path traced %g", what, gl ? "ES" : "desktop", tile, c,
+                             (double)b, (double)a);
                 off += fabsf(a - b) / (2 * TILES);
             }
         if (!(off <= slack / 3.0f)) fail_msg("%s: off by %g in the mean", what, (double)off);

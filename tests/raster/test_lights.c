@@ -41,11 +41,8 @@ static WeftScene *ball_scene(bool sheen) {
     return scene;
 }
 
-static const WeftRasterView view = {.width = SIDE,
-                                    .height = SIDE,
-                                    .samples = 1,
-                                    .camera = "0,0.9,3.4;0,0.2,0;32",
-                                    .background = WEFT_BACKGROUND_COLOR};
+static const WeftRasterView view = {
+    .width = SIDE, .height = SIDE, .samples = 1, .camera = "0,0.9,3.4;0,0.2,0;32", .background = WEFT_BACKGROUND_COLOR};
 
 static WeftRaster *raster_of(const WeftScene *scene) {
     WeftRaster *raster;
@@ -60,8 +57,7 @@ static WeftRaster *raster_of(const WeftScene *scene) {
 static WeftImage drawn(WeftRaster *raster, const WeftRasterView *how) {
     WeftImage image = {0};
     WeftError error;
-    if (weft_raster_draw(raster, how, &error) != WEFT_OK ||
-        weft_raster_image(raster, &image, &error) != WEFT_OK)
+    if (weft_raster_draw(raster, how, &error) != WEFT_OK || weft_raster_image(raster, &image, &error) != WEFT_OK)
         fail_msg("%s", error.text);
     return image;
 }

@@ -77,9 +77,8 @@ static Switches begin(int wanted, int scale) {
     Switches self = {.wanted = wanted, .scale = scale};
     WeftError error;
     assert_int_equal(weft_scene_load("builtin:cloth", &self.scene, NULL, &error), WEFT_OK);
-    assert_int_equal(
-        weft_raster_create(self.scene, &(WeftRasterDesc){.no_cache = 1}, &self.raster, NULL, &error),
-        WEFT_OK);
+    assert_int_equal(weft_raster_create(self.scene, &(WeftRasterDesc){.no_cache = 1}, &self.raster, NULL, &error),
+                     WEFT_OK);
     return self;
 }
 

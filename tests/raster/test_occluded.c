@@ -18,8 +18,7 @@ static WeftScene *bare(const char *name, const char *map) {
     WeftScene *scene;
     WeftError error;
     if (weft_scene_load(name, &scene, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
-    while (weft_scene_info(scene).light_count > 0)
-        assert_int_equal(weft_scene_remove_light(scene, 0, NULL), WEFT_OK);
+    while (weft_scene_info(scene).light_count > 0) assert_int_equal(weft_scene_remove_light(scene, 0, NULL), WEFT_OK);
     assert_int_equal(map ? weft_scene_set_environment_file(scene, map, NULL, NULL)
                          : weft_scene_set_environment_color(scene, white, NULL),
                      WEFT_OK);
@@ -65,10 +64,8 @@ static WeftRaster *raster_of(const WeftScene *scene) {
 
 /* fine: pixels along the side of a traced one. */
 static double drawn(WeftRaster *raster, int fine) {
-    const WeftRasterView view = {.width = fine * WIDTH,
-                                 .height = fine * HEIGHT,
-                                 .camera = "0",
-                                 .background = WEFT_BACKGROUND_TRANSPARENT};
+    const WeftRasterView view = {
+        .width = fine * WIDTH, .height = fine * HEIGHT, .camera = "0", .background = WEFT_BACKGROUND_TRANSPARENT};
     WeftImage image;
     assert_int_equal(weft_raster_update(raster, NULL, NULL), WEFT_OK);
     assert_int_equal(weft_raster_draw(raster, &view, NULL), WEFT_OK);

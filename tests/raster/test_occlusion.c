@@ -26,8 +26,7 @@ static void count(void *user, WeftMessage message, const char *text) {
 static WeftScene *corner(WeftAlphaMode mode) {
     WeftScene *scene = test_scene();
     test_material(scene, 0.5f)->alpha_mode = mode;
-    Mesh *floor =
-        test_quad(scene, vec3(-0.01f, 0.0f, 0.02f), vec3(0.02f, 0.0f, 0.0f), vec3(0.0f, 0.0f, -0.02f));
+    Mesh *floor = test_quad(scene, vec3(-0.01f, 0.0f, 0.02f), vec3(0.02f, 0.0f, 0.0f), vec3(0.0f, 0.0f, -0.02f));
     floor->normal = arena_array(&scene->arena, 4, 3 * sizeof(float));
     for (int k = 0; k < 4; k++) floor->normal[3 * k + 1] = 1.0f;
     test_quad(scene, vec3(-1e3f, 0.0f, -0.02f), vec3(2e3f, 0.0f, 0.0f), vec3(0.0f, 1e3f, 0.0f));
@@ -169,8 +168,7 @@ static void ramp_lets_through_what_is_seen(void **state) {
                         phi = ((float)(k % AROUND) + 0.5f) * 2.0f * PI_FLOAT / AROUND, x = s * cosf(phi),
                         z = s * sinf(phi), g = 1.0f / (y + 0.07f);
             const bool seen = z > 0.0f || y * away > -z * height;
-            off +=
-                g * (fminf(fmaxf(c[0] + c[1] * x + c[2] * y + c[3] * z, 0.0f), 1.0f) - (seen ? 1.0f : 0.0f));
+            off += g * (fminf(fmaxf(c[0] + c[1] * x + c[2] * y + c[3] * z, 0.0f), 1.0f) - (seen ? 1.0f : 0.0f));
             all += g;
         }
         print_message("ramp at vertex %d: %.4f more than is seen\n", v, (double)(off / all));
@@ -218,10 +216,9 @@ static int end(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(occlusion_of_a_corner_is_found_in_the_cache),
-                                       cmocka_unit_test(wall_before_the_dark_hides_little),
-                                       cmocka_unit_test(ramp_lets_through_what_is_seen),
-                                       cmocka_unit_test(few_rays_give_finite_ramps),
-                                       cmocka_unit_test(occlusion_of_transparent_scenes_is_not_cached)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(occlusion_of_a_corner_is_found_in_the_cache),
+        cmocka_unit_test(wall_before_the_dark_hides_little), cmocka_unit_test(ramp_lets_through_what_is_seen),
+        cmocka_unit_test(few_rays_give_finite_ramps), cmocka_unit_test(occlusion_of_transparent_scenes_is_not_cached)};
     return cmocka_run_group_tests(tests, begin, end);
 }

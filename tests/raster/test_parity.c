@@ -117,9 +117,8 @@ static void answer_f(int which, const float *row, float *answers) {
 }
 
 static const Model d_terms = {
-    .body = ANGLES
-    "    float ax = in2.x * in2.y;\n    Dir h = term_facet(TERM, in2.x, ax, in2.x, in0.w, in1.w);\n"
-    "    out0 = vec4(term_d(TERM, in2.x, ax, in2.x, a.h), h.x, h.y, h.z);\n",
+    .body = ANGLES "    float ax = in2.x * in2.y;\n    Dir h = term_facet(TERM, in2.x, ax, in2.x, in0.w, in1.w);\n"
+                   "    out0 = vec4(term_d(TERM, in2.x, ax, in2.x, a.h), h.x, h.y, h.z);\n",
     .inputs = 3,
     .answers = "nddd",
     .put = put_term,
@@ -147,8 +146,7 @@ static const Model f_terms = {
 
 static void terms_in_glsl_agree_with_c(void **state) {
     (void)state;
-    static const Model *const models[] = {
-        [WEFT_TERM_D] = &d_terms, [WEFT_TERM_V] = &v_terms, [WEFT_TERM_F] = &f_terms};
+    static const Model *const models[] = {[WEFT_TERM_D] = &d_terms, [WEFT_TERM_V] = &v_terms, [WEFT_TERM_F] = &f_terms};
     need_gpu();
     bool good = true;
     char name[64];
@@ -166,10 +164,9 @@ static AlbedoTable tinted, leaning, scaled;
 static void put_table(Text *text, const char *name, const AlbedoTable *table) {
     TableRef e = albedo_table_ref(table);
     int layer = text_table(text, (TextTable){e.texels, e.rows * table->maps, e.columns + 1, NULL});
-    text_line(text, "\nTableRef %s() {\n    TableRef t;\n    t.texels = %d;\n    t.kind = %d;", name, layer,
-              e.kind);
-    text_line(text, "    t.rows = %d;\n    t.columns = %d;\n    t.low = %s;\n    t.high = %s;", e.rows,
-              e.columns, number(e.low).text, number(e.high).text);
+    text_line(text, "\nTableRef %s() {\n    TableRef t;\n    t.texels = %d;\n    t.kind = %d;", name, layer, e.kind);
+    text_line(text, "    t.rows = %d;\n    t.columns = %d;\n    t.low = %s;\n    t.high = %s;", e.rows, e.columns,
+              number(e.low).text, number(e.high).text);
     text_line(text, "    t.tilts = %d;\n    t.tilt = %s;\n    return t;\n}", e.tilts, number(e.tilt).text);
 }
 
@@ -187,15 +184,15 @@ static void fill_cosine(Random *random, int which, float *row) {
 
 static void answer_tables(int which, const float *row, float *answers) {
     TableRef e = lobe_table_charlie_neubelt();
-    const float all[] = {table_albedo(e, row[0], row[1]),
-                         table_sheen_average(e, table_rows(e, row[1])).e,
-                         table_albedo(engine_table(ENGINE_THREE_GGX), row[0], row[1]),
-                         table_albedo(engine_table(ENGINE_FILAMENT_GGX), row[0], row[1]),
-                         0.0f,
-                         sheen_e_in(table_sheen(albedo_table_ref(&tinted), row[0], row[1]), row[2]),
-                         sheen_e_in(table_sheen_average(albedo_table_ref(&tinted),
-                                                        table_rows(albedo_table_ref(&tinted), row[1])),
-                                    row[2])};
+    const float all[] = {
+        table_albedo(e, row[0], row[1]),
+        table_sheen_average(e, table_rows(e, row[1])).e,
+        table_albedo(engine_table(ENGINE_THREE_GGX), row[0], row[1]),
+        table_albedo(engine_table(ENGINE_FILAMENT_GGX), row[0], row[1]),
+        0.0f,
+        sheen_e_in(table_sheen(albedo_table_ref(&tinted), row[0], row[1]), row[2]),
+        sheen_e_in(table_sheen_average(albedo_table_ref(&tinted), table_rows(albedo_table_ref(&tinted), row[1])),
+                   row[2])};
     memcpy(answers, all, sizeof all);
 }
 
@@ -203,14 +200,13 @@ static void answer_tables(int which, const float *row, float *answers) {
 static void tables_in_glsl_agree_with_c(void **state) {
     (void)state;
     static const Model model = {
-        .body =
-            "    TableRef e = lobe_table_charlie_neubelt();\n"
-            "    out0 = vec4(table_albedo(e, in0.x, in0.y), table_sheen_average(e, table_rows(e, in0.y)).e,\n"
-            "                table_albedo(engine_table(ENGINE_THREE_GGX), in0.x, in0.y),\n"
-            "                table_albedo(engine_table(ENGINE_FILAMENT_GGX), in0.x, in0.y));\n"
-            "    out1.x = table_albedo(engine_table(ENGINE_BABYLON_GGX), in0.x, in0.y);\n"
-            "    out1.y = sheen_e_in(table_sheen(tinted(), in0.x, in0.y), in0.z);\n"
-            "    out1.z = sheen_e_in(table_sheen_average(tinted(), table_rows(tinted(), in0.y)), in0.z);\n",
+        .body = "    TableRef e = lobe_table_charlie_neubelt();\n"
+                "    out0 = vec4(table_albedo(e, in0.x, in0.y), table_sheen_average(e, table_rows(e, in0.y)).e,\n"
+                "                table_albedo(engine_table(ENGINE_THREE_GGX), in0.x, in0.y),\n"
+                "                table_albedo(engine_table(ENGINE_FILAMENT_GGX), in0.x, in0.y));\n"
+                "    out1.x = table_albedo(engine_table(ENGINE_BABYLON_GGX), in0.x, in0.y);\n"
+                "    out1.y = sheen_e_in(table_sheen(tinted(), in0.x, in0.y), in0.z);\n"
+                "    out1.z = sheen_e_in(table_sheen_average(tinted(), table_rows(tinted(), in0.y)), in0.z);\n",
         .inputs = 1,
         .answers = "nnnnnnn",
         .put = put_tables,
@@ -250,14 +246,13 @@ static void answer_nap(int which, const float *row, float *answers) {
 static void nap_tables_in_glsl_agree_with_c(void **state) {
     (void)state;
     static const Model model = {
-        .body =
-            "    Dir w = dir(in0.x, in0.y, in0.z);\n    Nap nap = nap_of(in1.z, dir(in1.x, in1.y, 0.0));\n"
-            "    out0.x = table_sheen_nap(leaning(), w, nap, table_rows(leaning(), in0.w)).e;\n"
-            "    out0.y = sheen_e_in(table_sheen_nap(scaled(), w, nap, table_rows(scaled(), in0.w)), "
-            "in1.w);\n"
-            "    out0.z = table_sheen_nap_average(leaning(), nap, table_rows(leaning(), in0.w)).e;\n"
-            "    out0.w = sheen_e_in(table_sheen_nap_average(scaled(), nap, table_rows(scaled(), in0.w)), "
-            "in1.w);\n",
+        .body = "    Dir w = dir(in0.x, in0.y, in0.z);\n    Nap nap = nap_of(in1.z, dir(in1.x, in1.y, 0.0));\n"
+                "    out0.x = table_sheen_nap(leaning(), w, nap, table_rows(leaning(), in0.w)).e;\n"
+                "    out0.y = sheen_e_in(table_sheen_nap(scaled(), w, nap, table_rows(scaled(), in0.w)), "
+                "in1.w);\n"
+                "    out0.z = table_sheen_nap_average(leaning(), nap, table_rows(leaning(), in0.w)).e;\n"
+                "    out0.w = sheen_e_in(table_sheen_nap_average(scaled(), nap, table_rows(scaled(), in0.w)), "
+                "in1.w);\n",
         .inputs = 2,
         .answers = "nnnn",
         .put = put_leaning,
@@ -282,11 +277,9 @@ static void parity_finds_a_wrong_text(void **state) {
     snprintf(path, sizeof path, "%s/shading/terms/f_schlick.h", folder);
     FILE *stream = fopen(path, "wb");
     assert_non_null(stream);
-    assert_true(
-        fputs(
-            "#include \"shading/dialect/lang.h\"\nFN float schlick_s(float d) {\n    float m = 1.001f - d;\n"
-            "    return m * m * m * m * m;\n}\n",
-            stream) >= 0);
+    assert_true(fputs("#include \"shading/dialect/lang.h\"\nFN float schlick_s(float d) {\n    float m = 1.001f - d;\n"
+                      "    return m * m * m * m * m;\n}\n",
+                      stream) >= 0);
     assert_int_equal(fclose(stream), 0);
     fill(&f_terms, F_SCHLICK);
     Programs programs = make_programs(&f_terms, F_SCHLICK, "a wrong schlick", folder);

@@ -50,7 +50,7 @@ static void put_readers(Text *text) {
     int at = SURFACE_AT;
     text_line(text, "\nfloat row[%d];\n\nSurface row_surface() {\n    Surface s;", 4 * STACK_INPUTS);
 #define READ_SCALAR(name) text_line(text, "    s.%s = row[%d];", name, at), at += 1
-#define READ_THREE(name, make)                                                                               \
+#define READ_THREE(name, make)                                                                                         \
     text_line(text, "    s.%s = %s(row[%d], row[%d], row[%d]);", name, make, at, at + 1, at + 2), at += 3
 #define READ_COLOR(name)                                                                   READ_THREE(name, "rgb")
 #define READ_ANGLE(name)                                                                   READ_SCALAR(name)
@@ -78,8 +78,8 @@ static const char *stack_name(int which) {
 }
 
 static void put_stack(Text *text, int which) {
-    static const int engines[] = {ENGINE_FILAMENT_SHEEN, ENGINE_FILAMENT_GGX, ENGINE_BABYLON_SHEEN,
-                                  ENGINE_BABYLON_GGX, ENGINE_THREE_GGX};
+    static const int engines[] = {ENGINE_FILAMENT_SHEEN, ENGINE_FILAMENT_GGX, ENGINE_BABYLON_SHEEN, ENGINE_BABYLON_GGX,
+                                  ENGINE_THREE_GGX};
     put_all_lobes(text, which);
     text_lobe_tables(text);
     text_engine_tables(text, engines, ENGINE_COUNT);
@@ -127,7 +127,7 @@ static void fill_stack(Random *random, int which, float *row) {
 #define fill_COLOR     fill_color
 #define fill_NORMAL    fill_normal
 #define fill_DIRECTION fill_direction
-#define FILL_INPUT(kind, name, label, initial, low, high, hard_low, hard_high, role, help)                   \
+#define FILL_INPUT(kind, name, label, initial, low, high, hard_low, hard_high, role, help)                             \
     at = fill_##kind(random, (const float[]){low, high, hard_low, hard_high}, at);
     SURFACE_INPUTS(FILL_INPUT)
     for (int choice = 0; choice < CHOICE_COUNT; choice++)
@@ -167,8 +167,8 @@ static void answer_stack(int which, const float *row, float *answers) {
 static void stacks_in_glsl_agree_with_c(void **state) {
     (void)state;
     static const Model model = {
-        .body = "    for (int c = 0; c < 4; c++) {\n" ROW(2) ROW(3) ROW(4) ROW(5) ROW(6) ROW(7) ROW(8) ROW(9)
-            ROW(10) ROW(11) ROW(12) ROW(13) ROW(14) ROW(15) ROW(16) ROW(17) ROW(18) ROW(19) ROW(20) ROW(21)
+        .body = "    for (int c = 0; c < 4; c++) {\n" ROW(2) ROW(3) ROW(4) ROW(5) ROW(6) ROW(7) ROW(8) ROW(9) ROW(10)
+            ROW(11) ROW(12) ROW(13) ROW(14) ROW(15) ROW(16) ROW(17) ROW(18) ROW(19) ROW(20) ROW(21)
                 ROW(22) "    }\n" ANGLES "    Stack m;\n    surface_stack(m, row_surface(), row_choices(), "
                         "lobe_table_charlie_neubelt());\n    StackView w;\n    stack_view(m, o, w);\n"
                         "    Angles coat = angles_between(w.coat_o, stack_to_coat(m, a.i));\n"
@@ -226,13 +226,12 @@ static void answer_dust(int which, const float *row, float *answers) {
 static void dust_in_glsl_agrees_with_c(void **state) {
     (void)state;
     static const Model model = {
-        .body =
-            "    Surface s;\n    s.dust = in2.w;\n    s.dust_tilt = in0.w;\n"
-            "    s.dust_direction = dir(in2.x, in2.y, 0.0);\n    s.dust_falloff = in2.z;\n"
-            "    s.dust_noise = in3.x;\n    s.dust_scale = in1.w;\n    Dir p = dir(in1.x, in1.y, in1.z);\n"
-            "    out0.x = dust_accumulate(s, dir(in0.x, in0.y, in0.z), p).dust;\n"
-            "    out0.y = dust_noise(p, in1.w);\n"
-            "    out0.z = dust_hash(floor(289.0 * in3.x));\n",
+        .body = "    Surface s;\n    s.dust = in2.w;\n    s.dust_tilt = in0.w;\n"
+                "    s.dust_direction = dir(in2.x, in2.y, 0.0);\n    s.dust_falloff = in2.z;\n"
+                "    s.dust_noise = in3.x;\n    s.dust_scale = in1.w;\n    Dir p = dir(in1.x, in1.y, in1.z);\n"
+                "    out0.x = dust_accumulate(s, dir(in0.x, in0.y, in0.z), p).dust;\n"
+                "    out0.y = dust_noise(p, in1.w);\n"
+                "    out0.z = dust_hash(floor(289.0 * in3.x));\n",
         .inputs = 4,
         .answers = "ppn",
         .put = put_dust,

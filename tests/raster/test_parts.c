@@ -45,8 +45,7 @@ static WeftScene *dusty_ball(void) {
     scene_bounds(scene);
     assert_int_equal(weft_image_create(64, 32, 3, WEFT_PIXEL_F32, &sky, NULL), WEFT_OK);
     for (int k = 0; k < 64 * 32 * 3; k++)
-        ((float *)sky.pixels)[k] =
-            k / 3 % 64 > 10 && k / 3 % 64 < 16 && k / 192 > 5 && k / 192 < 9 ? 9.0f : 0.3f;
+        ((float *)sky.pixels)[k] = k / 3 % 64 > 10 && k / 3 % 64 < 16 && k / 192 > 5 && k / 192 < 9 ? 9.0f : 0.3f;
     weft_image_free(&scene->environment.image);
     scene->environment.image = sky;
     scene->environment.kind = ENVIRONMENT_IMAGE;
@@ -66,8 +65,7 @@ static WeftRaster *raster_of(const WeftScene *scene) {
 static WeftImage drawn(WeftRaster *raster, const WeftRasterView *how) {
     WeftImage image = {0};
     WeftError error;
-    if (weft_raster_draw(raster, how, &error) != WEFT_OK ||
-        weft_raster_image(raster, &image, &error) != WEFT_OK)
+    if (weft_raster_draw(raster, how, &error) != WEFT_OK || weft_raster_image(raster, &image, &error) != WEFT_OK)
         fail_msg("%s", error.text);
     return image;
 }
@@ -84,8 +82,7 @@ enum { FACTORS = 3 };
 static void scaled_parts(WeftScene *scene, WeftRaster *raster, int part, WeftImage image[FACTORS]) {
     static const float factors[FACTORS][2] = {{0.0f, 0.0f}, {1.0f, 1.0f}, {0.25f, 3.0f}};
     for (int k = 0; k < FACTORS; k++) {
-        assert_int_equal(weft_scene_set_environment_parts(scene, factors[k][0], factors[k][1], NULL),
-                         WEFT_OK);
+        assert_int_equal(weft_scene_set_environment_parts(scene, factors[k][0], factors[k][1], NULL), WEFT_OK);
         assert_int_equal(weft_raster_update(raster, NULL, NULL), WEFT_OK);
         image[k] = part_of(raster, part);
     }
@@ -177,16 +174,14 @@ static void parts_of_the_environment_are_those_of_the_path_tracer(void **state) 
     for (int k = 0; k < 2; k++) assert_int_equal(weft_scene_remove_light(scene, 0, &error), WEFT_OK);
     WeftRaster *raster = raster_of(scene);
     for (int k = 0; k < 2; k++) {
-        assert_int_equal(weft_scene_set_environment_parts(scene, factors[k][0], factors[k][1], &error),
-                         WEFT_OK);
+        assert_int_equal(weft_scene_set_environment_parts(scene, factors[k][0], factors[k][1], &error), WEFT_OK);
         assert_int_equal(weft_raster_update(raster, NULL, &error), WEFT_OK);
         WeftImage one = part_of(raster, WEFT_PART_ALL);
-        WeftImage true_one = test_render(scene,
-                                         (WeftRenderDesc){.width = SIDE,
-                                                          .height = SIDE,
-                                                          .camera = view.camera,
-                                                          .background = WEFT_BACKGROUND_TRANSPARENT},
-                                         64);
+        WeftImage true_one = test_render(
+            scene,
+            (WeftRenderDesc){
+                .width = SIDE, .height = SIDE, .camera = view.camera, .background = WEFT_BACKGROUND_TRANSPARENT},
+            64);
         double is = mean_of(&one), due = mean_of(&true_one);
         if (!(fabs(is / due - 1.0) < 0.03)) fail_msg("factors %d: %g, traced %g", k, is, due);
         weft_image_free(&one);
@@ -289,10 +284,10 @@ static void crop_is_a_part_of_the_picture(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(parts_of_every_stack_sum_to_the_whole),
-        cmocka_unit_test(parts_of_the_environment_are_those_of_the_path_tracer),
-        cmocka_unit_test(emission_belongs_to_no_part), cmocka_unit_test(property_views_show_the_inputs),
-        cmocka_unit_test(crop_is_a_part_of_the_picture)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(parts_of_every_stack_sum_to_the_whole),
+                                       cmocka_unit_test(parts_of_the_environment_are_those_of_the_path_tracer),
+                                       cmocka_unit_test(emission_belongs_to_no_part),
+                                       cmocka_unit_test(property_views_show_the_inputs),
+                                       cmocka_unit_test(crop_is_a_part_of_the_picture)};
     return cmocka_run_group_tests(tests, gl_begin, NULL);
 }

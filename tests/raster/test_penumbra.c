@@ -23,8 +23,7 @@ static WeftImage picture(WeftScene *scene, const WeftLight *lamp, const char *ca
     test_environment(scene, 0.0f);
     weft_scene_add_light(scene, lamp, NULL);
     if (weft_raster_create(scene, &(WeftRasterDesc){0}, &raster, NULL, &error) != WEFT_OK ||
-        weft_raster_draw(raster, &view, &error) != WEFT_OK ||
-        weft_raster_image(raster, &image, &error) != WEFT_OK)
+        weft_raster_draw(raster, &view, &error) != WEFT_OK || weft_raster_image(raster, &image, &error) != WEFT_OK)
         fail_msg("%s", error.text);
     weft_raster_free(raster);
     weft_scene_free(scene);
@@ -45,9 +44,7 @@ static WeftImage edge(void) {
     return picture(scene, &lamp, "0,0.9,0.001;0,0,0;30");
 }
 
-static float at(const WeftImage *image, int x, int y) {
-    return ((const float *)image->pixels)[4 * (y * SIDE + x)];
-}
+static float at(const WeftImage *image, int x, int y) { return ((const float *)image->pixels)[4 * (y * SIDE + x)]; }
 
 /* From light to dark in steps too small to be seen as such: at most a few times as large as if all were the same. */
 static void penumbra_has_no_bands(void **state) {
@@ -73,8 +70,7 @@ static void penumbra_is_even_along_the_edge(void **state) {
     double grain = 0.0, most = 0.0;
     for (int x = 0; x < SIDE; x++)
         for (int y = SIDE / 4; y < 3 * SIDE / 4; y++) {
-            double c = (double)at(&image, x, y),
-                   off = c - 0.5 * (double)(at(&image, x, y - 1) + at(&image, x, y + 1));
+            double c = (double)at(&image, x, y), off = c - 0.5 * (double)(at(&image, x, y - 1) + at(&image, x, y + 1));
             grain = fmax(grain, fabs(off));
             most = fmax(most, c);
         }
@@ -120,8 +116,7 @@ static WeftImage ground(float reach) {
                             .color = {30.0f, 30.0f, 30.0f}};
     test_material(scene, 0.8f);
     test_quad(scene, vec3(-0.2f, 0.5f, 0.2f), vec3(0.4f, 0.0f, 0.0f), vec3(0.0f, 0.0f, -0.4f));
-    test_quad(scene, vec3(-reach, 0.0f, reach), vec3(2.0f * reach, 0.0f, 0.0f),
-              vec3(0.0f, 0.0f, -2.0f * reach));
+    test_quad(scene, vec3(-reach, 0.0f, reach), vec3(2.0f * reach, 0.0f, 0.0f), vec3(0.0f, 0.0f, -2.0f * reach));
     return picture(scene, &lamp, "0.5,0.4,0.001;0.5,0,0;120");
 }
 
@@ -156,8 +151,7 @@ static void shadows_of_a_cloth_are_the_path_tracers(void **state) {
     assert_int_equal(weft_scene_load("builtin:cloth", &scene, NULL, &error), WEFT_OK);
     test_environment(scene, 0.0f);
     if (weft_raster_create(scene, &(WeftRasterDesc){0}, &raster, NULL, &error) != WEFT_OK ||
-        weft_raster_draw(raster, &view, &error) != WEFT_OK ||
-        weft_raster_image(raster, &image, &error) != WEFT_OK)
+        weft_raster_draw(raster, &view, &error) != WEFT_OK || weft_raster_image(raster, &image, &error) != WEFT_OK)
         fail_msg("%s", error.text);
     WeftImage traced = test_render(scene, desc, 64);
     double off = 0.0, sum = 0.0;

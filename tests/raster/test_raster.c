@@ -24,8 +24,7 @@ enum { SIDE = 96 };
 static WeftRaster *raster_of(const WeftScene *scene, WeftGl gl) {
     WeftRaster *raster;
     WeftError error;
-    if (weft_raster_create(scene, &(WeftRasterDesc){.gl = gl, .threads = 2}, &raster, NULL, &error) !=
-        WEFT_OK)
+    if (weft_raster_create(scene, &(WeftRasterDesc){.gl = gl, .threads = 2}, &raster, NULL, &error) != WEFT_OK)
         fail_msg("%s", error.text);
     return raster;
 }
@@ -64,8 +63,7 @@ static WeftScene *two_squares(WeftAlphaMode mode, float opacity) {
     return scene;
 }
 
-static const WeftRasterView front_view = {
-    .width = SIDE, .height = SIDE, .samples = 1, .camera = "0,0,3;0,0,0;30"};
+static const WeftRasterView front_view = {.width = SIDE, .height = SIDE, .samples = 1, .camera = "0,0,3;0,0,0;30"};
 
 static void alpha_mode_decides_the_coverage(void **state) {
     (void)state;
@@ -233,8 +231,7 @@ static void polygon_light_agrees_with_the_path_tracer(void **state) {
             off += fabs(x - y);
             sum += y;
         }
-    print_message("polygon light: %.2f %% from the path tracer, noise and outlines among it\n",
-                  100.0 * off / sum);
+    print_message("polygon light: %.2f %% from the path tracer, noise and outlines among it\n", 100.0 * off / sum);
     assert_true(sum > 100.0);
     assert_true(off < 0.04 * sum);
     weft_image_free(&image);
@@ -344,11 +341,10 @@ static void shaders_compile_as_their_version(void **state) {
             put_shader(folder, number, &key, TEXT_GLSL_330);
             put_shader(folder, number++, &key, TEXT_GLSL_ES_300);
         }
-    snprintf(
-        command, sizeof command,
-        "cd %s && s=0; for f in *.frag; do glslangValidator -S frag $f >log 2>&1 || { s=1; echo $f; grep -v "
-        "'^$' log | head -5; }; done; exit $s",
-        folder);
+    snprintf(command, sizeof command,
+             "cd %s && s=0; for f in *.frag; do glslangValidator -S frag $f >log 2>&1 || { s=1; echo $f; grep -v "
+             "'^$' log | head -5; }; done; exit $s",
+             folder);
     int status = system(command);
     assert_true(scratch_remove(folder));
     fits_destroy(&fits);

@@ -20,8 +20,7 @@ enum { FLOOR, SLAB };
 static WeftScene *floor_below(bool slab) {
     WeftScene *scene = test_scene();
     test_material(scene, 0.5f);
-    Mesh *floor =
-        test_quad(scene, vec3(-20.0f, 0.0f, 20.0f), vec3(40.0f, 0.0f, 0.0f), vec3(0.0f, 0.0f, -40.0f));
+    Mesh *floor = test_quad(scene, vec3(-20.0f, 0.0f, 20.0f), vec3(40.0f, 0.0f, 0.0f), vec3(0.0f, 0.0f, -40.0f));
     floor->normal = NULL;
     if (slab) test_quad(scene, vec3(-0.5f, 0.5f, 0.5f), vec3(1.0f, 0.0f, 0.0f), vec3(0.0f, 0.0f, -1.0f));
     scene_bounds(scene);
@@ -49,8 +48,7 @@ static void floor_is_cut_below_what_stands_on_it(void **state) {
     double area = 0.0;
     assert_true(mesh.triangle_count > 100 && mesh.triangle_count < 20000);
     for (uint32_t k = 0; k < 3 * mesh.triangle_count; k += 3) {
-        Vec3 a = corner(position, &mesh, k), b = corner(position, &mesh, k + 1),
-             c = corner(position, &mesh, k + 2);
+        Vec3 a = corner(position, &mesh, k), b = corner(position, &mesh, k + 1), c = corner(position, &mesh, k + 2);
         Vec3 up = vec3_cross(vec3_sub(b, a), vec3_sub(c, a));
         assert_true(up.y > 0.0f);
         area += 0.5 * (double)up.y;
@@ -71,8 +69,8 @@ static void has_no_gap(const RefinedMesh *mesh, const float *position) {
         for (uint32_t n = 0; n < corners; n++)
             back += mesh->index[n] == b && mesh->index[n % 3 == 2 ? n - 2 : n + 1] == a;
         Vec3 p = vec3_load(position + 3 * (size_t)a), q = vec3_load(position + 3 * (size_t)b);
-        bool border = (fabsf(p.x) > 19.99f && fabsf(p.x + q.x) > 39.9f) ||
-                      (fabsf(p.z) > 19.99f && fabsf(p.z + q.z) > 39.9f);
+        bool border =
+            (fabsf(p.x) > 19.99f && fabsf(p.x + q.x) > 39.9f) || (fabsf(p.z) > 19.99f && fabsf(p.z + q.z) > 39.9f);
         assert_int_equal(back, border ? 0 : 1);
     }
 }

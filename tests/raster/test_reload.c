@@ -64,8 +64,7 @@ static const WeftRasterView small = {
 static WeftImage draw(WeftRaster *raster) {
     WeftImage image = {0};
     WeftError error = {0};
-    if (weft_raster_draw(raster, &small, &error) != WEFT_OK ||
-        weft_raster_image(raster, &image, &error) != WEFT_OK)
+    if (weft_raster_draw(raster, &small, &error) != WEFT_OK || weft_raster_image(raster, &image, &error) != WEFT_OK)
         fail_msg("%s", error.text);
     return image;
 }
@@ -203,8 +202,7 @@ static void folder_watch_counts_changed_files(void **state) {
     assert_int_equal(look(&watch), 0);
     make_folder("");
     make_folder("/a");
-    static const char *const files[] = {"a/one.h",    "a/two.glsl",  "three.h",
-                                        "a/note.txt", "a/.hidden.h", "a/one.h~"};
+    static const char *const files[] = {"a/one.h", "a/two.glsl", "three.h", "a/note.txt", "a/.hidden.h", "a/one.h~"};
     for (int k = 0; k < 6; k++) {
         in_folder(files[k], path);
         write_text(path, "float a;\n");

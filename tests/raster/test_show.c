@@ -46,8 +46,7 @@ static void make_current(EGLContext context) {
 }
 
 static EGLContext make_context(WeftGl gl, int major, int minor) {
-    const EGLint wanted[] = {EGL_CONTEXT_MAJOR_VERSION_KHR, major, EGL_CONTEXT_MINOR_VERSION_KHR, minor,
-                             EGL_NONE};
+    const EGLint wanted[] = {EGL_CONTEXT_MAJOR_VERSION_KHR, major, EGL_CONTEXT_MINOR_VERSION_KHR, minor, EGL_NONE};
     assert_true(eglBindAPI(gl == WEFT_GL_ES ? EGL_OPENGL_ES_API : EGL_OPENGL_API));
     return eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, wanted);
 }
@@ -59,8 +58,8 @@ static Window open_window(WeftGl gl) {
     glGenTextures(1, &w.color);
     glBindTexture(GL_TEXTURE_2D, w.color);
     /* one that converts to sRGB by itself where it is let: a desktop can be told not to */
-    glTexImage2D(GL_TEXTURE_2D, 0, gl == WEFT_GL_ES ? GL_RGBA8 : GL_SRGB8_ALPHA8, WIDTH + 2 * EDGE,
-                 HEIGHT + 2 * EDGE, 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
+    glTexImage2D(GL_TEXTURE_2D, 0, gl == WEFT_GL_ES ? GL_RGBA8 : GL_SRGB8_ALPHA8, WIDTH + 2 * EDGE, HEIGHT + 2 * EDGE,
+                 0, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
     glGenFramebuffers(1, &w.framebuffer);
     glBindFramebuffer(GL_FRAMEBUFFER, w.framebuffer);
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, w.color, 0);
@@ -77,10 +76,8 @@ static void close_window(Window *w) {
 
 /* A quad of bright and dim colours, half of it seen through; around it nothing. */
 static WeftScene *gradients(void) {
-    static const float corners[4][4] = {{0.0f, 0.0f, 0.0f, 1.0f},
-                                        {4.0f, 0.5f, 0.02f, 1.0f},
-                                        {1.0f, 9.0f, 2.0f, 1.0f},
-                                        {0.01f, 0.02f, 0.3f, 0.0f}};
+    static const float corners[4][4] = {
+        {0.0f, 0.0f, 0.0f, 1.0f}, {4.0f, 0.5f, 0.02f, 1.0f}, {1.0f, 9.0f, 2.0f, 1.0f}, {0.01f, 0.02f, 0.3f, 0.0f}};
     WeftScene *scene = test_scene();
     Material *material = test_material(scene, 1.0f);
     material->unlit = true;
@@ -101,8 +98,8 @@ static const WeftRasterView view = {.width = WIDTH,
 static WeftRaster *raster_here(const WeftScene *scene) {
     WeftRaster *raster;
     WeftError error;
-    if (weft_raster_create(scene, &(WeftRasterDesc){.adopt = 1, .threads = 1, .no_cache = 1}, &raster, NULL,
-                           &error) != WEFT_OK)
+    if (weft_raster_create(scene, &(WeftRasterDesc){.adopt = 1, .threads = 1, .no_cache = 1}, &raster, NULL, &error) !=
+        WEFT_OK)
         fail_msg("%s", error.text);
     return raster;
 }
@@ -185,9 +182,8 @@ static void shows_what_tonemap_makes(WeftGl gl) {
             clear_window(&w);
             show(raster, &how);
             read_window(&w, pixels);
-            assert_int_equal(
-                weft_image_tonemap_over(&image, how.tonemap, exposure, how.background, &mapped, &error),
-                WEFT_OK);
+            assert_int_equal(weft_image_tonemap_over(&image, how.tonemap, exposure, how.background, &mapped, &error),
+                             WEFT_OK);
             off += compare(pixels, &mapped);
             weft_image_free(&mapped);
             pictures++;
@@ -299,13 +295,12 @@ static void assert_new_state(const Window *w) {
     static const struct {
         GLenum what;
         GLint value;
-    } values[] = {
-        {GL_CURRENT_PROGRAM, 0},        {GL_VERTEX_ARRAY_BINDING, 0},     {GL_ARRAY_BUFFER_BINDING, 0},
-        {GL_UNIFORM_BUFFER_BINDING, 0}, {GL_ACTIVE_TEXTURE, GL_TEXTURE0}, {GL_UNPACK_ROW_LENGTH, 0},
-        {GL_PACK_ROW_LENGTH, 0},        {GL_UNPACK_ALIGNMENT, 4},         {GL_PACK_ALIGNMENT, 4},
-        {GL_DEPTH_WRITEMASK, GL_TRUE},  {GL_DEPTH_FUNC, GL_LESS},         {GL_CULL_FACE_MODE, GL_BACK},
-        {GL_FRONT_FACE, GL_CCW},        {GL_BLEND_SRC_RGB, GL_ONE},       {GL_BLEND_DST_RGB, GL_ZERO},
-        {GL_RENDERBUFFER_BINDING, 0}};
+    } values[] = {{GL_CURRENT_PROGRAM, 0},        {GL_VERTEX_ARRAY_BINDING, 0},     {GL_ARRAY_BUFFER_BINDING, 0},
+                  {GL_UNIFORM_BUFFER_BINDING, 0}, {GL_ACTIVE_TEXTURE, GL_TEXTURE0}, {GL_UNPACK_ROW_LENGTH, 0},
+                  {GL_PACK_ROW_LENGTH, 0},        {GL_UNPACK_ALIGNMENT, 4},         {GL_PACK_ALIGNMENT, 4},
+                  {GL_DEPTH_WRITEMASK, GL_TRUE},  {GL_DEPTH_FUNC, GL_LESS},         {GL_CULL_FACE_MODE, GL_BACK},
+                  {GL_FRONT_FACE, GL_CCW},        {GL_BLEND_SRC_RGB, GL_ONE},       {GL_BLEND_DST_RGB, GL_ZERO},
+                  {GL_RENDERBUFFER_BINDING, 0}};
     for (size_t k = 0; k < sizeof off / sizeof off[0]; k++) assert_false(glIsEnabled(off[k]));
     for (size_t k = 0; k < sizeof values / sizeof values[0]; k++)
         assert_int_equal(integer(values[k].what), values[k].value);
@@ -391,8 +386,7 @@ static void two_rasters_share_a_context(void **state) {
     WeftRaster *rasters[3] = {raster_here(scene), raster_here(scene), NULL};
     WeftImage images[3];
     WeftError error;
-    assert_int_equal(weft_raster_create(scene, &(WeftRasterDesc){.threads = 1}, &rasters[2], NULL, &error),
-                     WEFT_OK);
+    assert_int_equal(weft_raster_create(scene, &(WeftRasterDesc){.threads = 1}, &rasters[2], NULL, &error), WEFT_OK);
     for (int k = 0; k < 3; k++) draw(rasters[k]);
     for (int k = 0; k < 3; k++) {
         assert_int_equal(weft_raster_image(rasters[k], &images[k], &error), WEFT_OK);
@@ -441,8 +435,7 @@ static void show_without_a_context_is_refused(void **state) {
     WeftRaster *raster;
     WeftError error;
     make_current(EGL_NO_CONTEXT);
-    assert_int_equal(weft_raster_create(scene, &(WeftRasterDesc){.adopt = 1}, &raster, NULL, &error),
-                     WEFT_RESOURCES);
+    assert_int_equal(weft_raster_create(scene, &(WeftRasterDesc){.adopt = 1}, &raster, NULL, &error), WEFT_RESOURCES);
     assert_int_equal(error.message, WEFT_MESSAGE_GL_CONTEXT);
     assert_null(raster);
     EGLContext old = make_context(WEFT_GL_ES, 2, 0); /* Mesa gives a later one, which will do */
@@ -476,11 +469,8 @@ static void show_descriptors_without_sense_are_refused(void **state) {
     WeftRasterShow how = shown_in(&w);
     assert_int_equal(weft_raster_show(raster, &how, &error), WEFT_USAGE); /* nothing was drawn */
     draw(raster);
-    const WeftRasterShow wrong[] = {{.width = -1},
-                                    {.height = 1 << 20},
-                                    {.tonemap = (WeftTonemap)3},
-                                    {.exposure = NAN},
-                                    {.clip = {0, 0, -1, 0}}};
+    const WeftRasterShow wrong[] = {
+        {.width = -1}, {.height = 1 << 20}, {.tonemap = (WeftTonemap)3}, {.exposure = NAN}, {.clip = {0, 0, -1, 0}}};
     for (size_t k = 0; k < sizeof wrong / sizeof wrong[0]; k++) {
         assert_int_equal(weft_raster_show(raster, &wrong[k], &error), WEFT_USAGE);
         assert_int_equal(error.message, WEFT_MESSAGE_DESC);
@@ -570,17 +560,16 @@ static void changed_show_text_is_compiled_and_broken_text_ignored(void **state) 
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(shown_pixels_are_those_of_tonemap_in_opengl),
-        cmocka_unit_test(shown_pixels_are_those_of_tonemap_in_opengl_es),
-        cmocka_unit_test(shown_picture_is_clipped_and_scaled),
-        cmocka_unit_test(show_works_in_any_state_of_opengl),
-        cmocka_unit_test(show_works_in_any_state_of_opengl_es),
-        cmocka_unit_test(two_rasters_share_a_context),
-        cmocka_unit_test(context_shares_objects_with_the_window),
-        cmocka_unit_test(show_without_a_context_is_refused),
-        cmocka_unit_test(show_descriptors_without_sense_are_refused),
-        cmocka_unit_test(steady_shows_create_no_objects),
-        cmocka_unit_test(changed_show_text_is_compiled_and_broken_text_ignored)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(shown_pixels_are_those_of_tonemap_in_opengl),
+                                       cmocka_unit_test(shown_pixels_are_those_of_tonemap_in_opengl_es),
+                                       cmocka_unit_test(shown_picture_is_clipped_and_scaled),
+                                       cmocka_unit_test(show_works_in_any_state_of_opengl),
+                                       cmocka_unit_test(show_works_in_any_state_of_opengl_es),
+                                       cmocka_unit_test(two_rasters_share_a_context),
+                                       cmocka_unit_test(context_shares_objects_with_the_window),
+                                       cmocka_unit_test(show_without_a_context_is_refused),
+                                       cmocka_unit_test(show_descriptors_without_sense_are_refused),
+                                       cmocka_unit_test(steady_shows_create_no_objects),
+                                       cmocka_unit_test(changed_show_text_is_compiled_and_broken_text_ignored)};
     return cmocka_run_group_tests(tests, begin, NULL);
 }

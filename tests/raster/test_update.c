@@ -37,8 +37,7 @@ static WeftRaster *raster_of(const WeftScene *scene) {
 static WeftImage drawn(WeftRaster *raster) {
     WeftImage image = {0};
     WeftError error;
-    if (weft_raster_draw(raster, &view, &error) != WEFT_OK ||
-        weft_raster_image(raster, &image, &error) != WEFT_OK)
+    if (weft_raster_draw(raster, &view, &error) != WEFT_OK || weft_raster_image(raster, &image, &error) != WEFT_OK)
         fail_msg("%s", error.text);
     return image;
 }
@@ -108,8 +107,7 @@ static void set(WeftScene *scene, const char *target, const char *value) {
 }
 
 static void add_point(WeftScene *scene) {
-    const WeftLight point = {
-        .kind = WEFT_LIGHT_POINT, .position = {0.8f, 0.6f, 1.0f}, .color = {0.5f, 0.7f, 0.9f}};
+    const WeftLight point = {.kind = WEFT_LIGHT_POINT, .position = {0.8f, 0.6f, 1.0f}, .color = {0.5f, 0.7f, 0.9f}};
     assert_int_equal(weft_scene_add_light(scene, &point, NULL), WEFT_OK);
 }
 
@@ -204,10 +202,8 @@ static void take_steps(WeftScene *scene, const Step *all, int count) {
         if (weft_raster_update(raster, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
         pictures[k] = drawn(raster);
         compiled = weft_raster_info(raster).compiled - compiled;
-        if (compiled != step->compiled)
-            fail_msg("step %d, %s: %d compiled, not %d", k, name, compiled, step->compiled);
-        if (is_same(&pictures[k], k ? &pictures[k - 1] : &first))
-            fail_msg("step %d, %s: nothing has changed", k, name);
+        if (compiled != step->compiled) fail_msg("step %d, %s: %d compiled, not %d", k, name, compiled, step->compiled);
+        if (is_same(&pictures[k], k ? &pictures[k - 1] : &first)) fail_msg("step %d, %s: nothing has changed", k, name);
         bool asked = test_long() || k % (test_short() ? 12 : 4) == 1; /* a new raster takes a second */
         WeftRaster *fresh = step->like == NEW && asked ? raster_of(scene) : NULL;
         WeftImage should = fresh ? drawn(fresh) : pictures[step->like == NEW ? k : step->like];
@@ -262,8 +258,7 @@ static void changed_environment_draws_as_a_new_one(void **state) {
         progress_calls = 0;
         if (k == 2) put_sky(scene, 1.5f);
         if (k == 4) test_environment(scene, 0.0f);
-        assert_int_equal(weft_scene_set_environment_placement(scene, 40.0f * (float)(k + 1), 1.0f, &error),
-                         WEFT_OK);
+        assert_int_equal(weft_scene_set_environment_placement(scene, 40.0f * (float)(k + 1), 1.0f, &error), WEFT_OK);
         if (weft_raster_update(raster, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
         assert_int_equal(progress_calls > 0, k == 0 || k == 2);
         WeftRaster *fresh;
@@ -299,9 +294,8 @@ static const struct {
     int texture, side, channels;
     WeftPixelType type;
     bool made; /* all are uploaded anew */
-} puts_of[] = {{1, 8, 4, WEFT_PIXEL_U8, false},   {2, 8, 1, WEFT_PIXEL_U8, false},
-               {3, 16, 3, WEFT_PIXEL_F32, false}, {1, 8, 3, WEFT_PIXEL_U8, false},
-               {1, 16, 3, WEFT_PIXEL_U8, true},   {1, 16, 3, WEFT_PIXEL_F32, true},
+} puts_of[] = {{1, 8, 4, WEFT_PIXEL_U8, false},  {2, 8, 1, WEFT_PIXEL_U8, false}, {3, 16, 3, WEFT_PIXEL_F32, false},
+               {1, 8, 3, WEFT_PIXEL_U8, false},  {1, 16, 3, WEFT_PIXEL_U8, true}, {1, 16, 3, WEFT_PIXEL_F32, true},
                {1, 16, 4, WEFT_PIXEL_F32, false}};
 
 /* Other pixels in the place of a texture's are seen, the same kind of them without another texture made: of a
@@ -358,9 +352,8 @@ static int end(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(changed_textures_draw_as_new_ones),
-                                       cmocka_unit_test(changed_fits_draw_as_new_ones),
-                                       cmocka_unit_test(updated_scene_draws_as_a_new_one),
-                                       cmocka_unit_test(changed_environment_draws_as_a_new_one)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(changed_textures_draw_as_new_ones), cmocka_unit_test(changed_fits_draw_as_new_ones),
+        cmocka_unit_test(updated_scene_draws_as_a_new_one), cmocka_unit_test(changed_environment_draws_as_a_new_one)};
     return cmocka_run_group_tests(tests, begin, end);
 }

@@ -83,10 +83,7 @@ static void wear(WeftMaterial *material, const WeftChartEntry *e, const char *wo
     bool metal = e->kind == WEFT_CHART_METAL, specular = strcmp(workflow, "specular") == 0;
     weft_material_default(material);
     set(material, "workflow", workflow);
-    set_color(material, "base_color",
-              metal && specular             ? black
-              : e->kind == WEFT_CHART_CLEAR ? grey
-                                            : e->base_color);
+    set_color(material, "base_color", metal && specular ? black : e->kind == WEFT_CHART_CLEAR ? grey : e->base_color);
     if (specular) {
         set_color(material, "specular_color", e->f0);
         return;

@@ -117,11 +117,9 @@ static void assert_woven_alike(const WeftScene *one, const WeftScene *other) {
     assert_int_equal(a->picks, b->picks);
     for (int k = 0; k < 100; k++) {
         const float x = 0.61f * (float)k, y = 0.37f * (float)k;
-        assert_float_equal(weave_point(a, x, y, 0.0f, 0.0f).height, weave_point(b, x, y, 0.0f, 0.0f).height,
-                           1e-5f);
+        assert_float_equal(weave_point(a, x, y, 0.0f, 0.0f).height, weave_point(b, x, y, 0.0f, 0.0f).height, 1e-5f);
     }
-    for (int k = 0; k < 3 * (a->warps + a->picks); k++)
-        assert_float_equal(a->albedos[k], b->albedos[k], 0.0f);
+    for (int k = 0; k < 3 * (a->warps + a->picks); k++) assert_float_equal(a->albedos[k], b->albedos[k], 0.0f);
 }
 
 /* Saves the scene or its first material, and compares what a fresh scene reads. */
@@ -210,8 +208,7 @@ static void a_weave_that_the_scene_has_is_not_added(void **state) {
 /* A glTF's weave never opens a file; what makes no sense is left out with a line. */
 static void weave_of_a_gltf_reads_no_file(void **state) {
     (void)state;
-    static const char *const bad[] = {"3", "{\"draft\": \"/etc/passwd\"}",
-                                      "{\"draft\": \"[WIF]\\nVersion=1.1\\n\"}",
+    static const char *const bad[] = {"3", "{\"draft\": \"/etc/passwd\"}", "{\"draft\": \"[WIF]\\nVersion=1.1\\n\"}",
                                       "{\"draft\": \"plain\", \"warp\": \"nettle\"}"};
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
         char text[512];
@@ -219,10 +216,9 @@ static void weave_of_a_gltf_reads_no_file(void **state) {
         const WeftLog log = {count_warning, &warned};
         WeftScene *scene;
         WeftError error;
-        snprintf(
-            text, sizeof text,
-            "{\"asset\": {\"version\": \"2.0\"}, \"materials\": [{\"extras\": {\"weft\": {\"weave\": %s}}}]}",
-            bad[k]);
+        snprintf(text, sizeof text,
+                 "{\"asset\": {\"version\": \"2.0\"}, \"materials\": [{\"extras\": {\"weft\": {\"weave\": %s}}}]}",
+                 bad[k]);
         if (weft_scene_load_memory(text, strlen(text), "some.gltf", &scene, &log, &error) != WEFT_OK)
             fail_msg("%s", error.text);
         assert_int_equal(scene->cloth_count, 0);
@@ -274,8 +270,7 @@ static void a_material_is_woven_anew(void **state) {
     assert_float_equal(second->weave.seed, 7.0f, 0.0f);
     for (int k = 0; k < 3 * 8; k++) /* a WIF has colours of 8 bits */
         assert_float_equal(second->albedos[k], first->albedos[k], 1e-3f);
-    assert_int_equal(weft_draft_warp_up(weft_scene_cloth(scene, 2, NULL), 1, 0),
-                     weft_draft_warp_up(draft, 1, 0));
+    assert_int_equal(weft_draft_warp_up(weft_scene_cloth(scene, 2, NULL), 1, 0), weft_draft_warp_up(draft, 1, 0));
     assert_int_equal(weft_scene_set_weave(scene, 0, draft, yarns, &error), WEFT_OK); /* the same once more */
     assert_int_equal(scene->cloth_count, 2);
     yarns[WEFT_WEFT].alpha = NAN;
@@ -290,17 +285,17 @@ static void a_material_is_woven_anew(void **state) {
 }
 
 /* Asserts that a prepared lobe's value is a number, for directions from the normal down to a cosine of 1e-4. */
-#define ASSERT_FINITE(lobe, View, p, name)                                                                   \
-    do {                                                                                                     \
-        for (int o = 0; o < DIRECTIONS; o++) {                                                               \
-            View w;                                                                                          \
-            lobe##_view(p, direction(o), &w);                                                                \
-            for (int i = 0; i < DIRECTIONS; i++) {                                                           \
-                const LobeValue v = lobe##_value(p, &w, angles_between(direction(o), direction(i)));         \
-                if (!(v.f >= 0.0f && v.f < 1e8f && v.s >= 0.0f && v.s <= 1.0f))                              \
-                    fail_msg("%s: f %g, s %g at %d, %d", name, (double)v.f, (double)v.s, o, i);              \
-            }                                                                                                \
-        }                                                                                                    \
+#define ASSERT_FINITE(lobe, View, p, name)                                                                             \
+    do {                                                                                                               \
+        for (int o = 0; o < DIRECTIONS; o++) {                                                                         \
+            View w;                                                                                                    \
+            lobe##_view(p, direction(o), &w);                                                                          \
+            for (int i = 0; i < DIRECTIONS; i++) {                                                                     \
+                const LobeValue v = lobe##_value(p, &w, angles_between(direction(o), direction(i)));                   \
+                if (!(v.f >= 0.0f && v.f < 1e8f && v.s >= 0.0f && v.s <= 1.0f))                                        \
+                    fail_msg("%s: f %g, s %g at %d, %d", name, (double)v.f, (double)v.s, o, i);                        \
+            }                                                                                                          \
+        }                                                                                                              \
     } while (0)
 
 enum { DIRECTIONS = 48 };
@@ -341,8 +336,7 @@ static void woven_presets_are_cloths_and_finite_to_the_horizon(void **state) {
             assert_true(size_of(cloth) < (size_t)6 << 20);
             for (int t = 0; t < 2; t++) ASSERT_FINITE(woven, WovenView, &cloth->far.woven[t], name);
             for (int at = 0; at < 25; at++) {
-                const WeavePoint point =
-                    weave_point(&cloth->weave, 7.31f * (float)at, 3.77f * (float)at, 0.0f, 0.0f);
+                const WeavePoint point = weave_point(&cloth->weave, 7.31f * (float)at, 3.77f * (float)at, 0.0f, 0.0f);
                 YarnPrepared yarn;
                 if (!(point.height > WEAVE_NONE)) continue;
                 yarn_prepare(weave_yarn(&cloth->weave, point), &yarn);

@@ -29,8 +29,7 @@ static int pixels(void) { return getenv("WEFT_TEST_LONG") ? 2048 : 256; }
 
 /* From above, and at grazing; a highlight and beside it. */
 static const Direction views[PAIRS] = {{0, 0}, {0, 0}, {45, 20}, {45, 20}, {45, 20}, {70, 100}, {70, 100}},
-                       suns[PAIRS] = {{30, 40},  {60, 200}, {45, 200}, {20, 90},
-                                      {65, 300}, {70, 280}, {30, 10}};
+                       suns[PAIRS] = {{30, 40}, {60, 200}, {45, 200}, {20, 90}, {65, 300}, {70, 280}, {30, 10}};
 
 static Dir direction_of(Direction d) {
     const double t = d.theta * PI_DOUBLE / 180.0, p = d.phi * PI_DOUBLE / 180.0;
@@ -110,8 +109,7 @@ static void add_look(const WeftCloth *cloth, const ClothLook *look, double weigh
     cloth_base(cloth, look, &stack);
     const Slot *base = &stack.diffuse;
     for (int k = 0; k < PAIRS; k++) {
-        const LobeValue v =
-            lobe_value(&base->lobe, angles_between(direction_of(views[k]), direction_of(suns[k])));
+        const LobeValue v = lobe_value(&base->lobe, angles_between(direction_of(views[k]), direction_of(suns[k])));
         const double f = (double)v.f * weight, s = (double)v.s;
         sum[k][0] += f * ((double)base->f0.r * (1.0 - s) + (double)base->f90.r * s);
         sum[k][1] += f * ((double)base->f0.b * (1.0 - s) + (double)base->f90.b * s);
@@ -119,8 +117,8 @@ static void add_look(const WeftCloth *cloth, const ClothLook *look, double weigh
 }
 
 /* A pixel with its lower left corner at x, y threads, of so many samples; near: of points of threads at any distance. */
-static void see_pixel(const WeftCloth *cloth, float x, float y, float side, int samples, bool near,
-                      uint64_t *random, double sum[PAIRS][2]) {
+static void see_pixel(const WeftCloth *cloth, float x, float y, float side, int samples, bool near, uint64_t *random,
+                      double sum[PAIRS][2]) {
     for (int k = 0; k < PAIRS; k++) sum[k][0] = sum[k][1] = 0.0;
     for (int n = 0; n < samples; n++) {
         const int rows = samples == FINE ? 24 : samples == SAMPLES ? 12 : 1, columns = samples / rows;
@@ -148,9 +146,7 @@ static void add_pixel(Moments *m, double pixel[PAIRS][2]) {
             m->square[k][c] += pixel[k][c] * pixel[k][c] * part;
         }
 }
-static double variance(const Moments *m, int k, int c) {
-    return m->square[k][c] - m->mean[k][c] * m->mean[k][c];
-}
+static double variance(const Moments *m, int k, int c) { return m->square[k][c] - m->mean[k][c] * m->mean[k][c]; }
 
 /* Sums of variances over pairs, in units of the squared mean. */
 static double spread(const Moments *m) {
@@ -177,10 +173,9 @@ static void a_cloth_is_as_bright_at_every_distance(void **state) {
             }
             const Apart apart = apart_of(seen.mean, fine.mean);
             const double kept = spread(&seen) / spread(&fine), left = spread(&seen) / spread(&unfiltered);
-            print_message(
-                "%-12s %6.2f threads: mean %.4f worst %.4f, variance %.3f of the reference's, %.4f of the "
-                "unfiltered\n",
-                cases[n].name, (double)side, apart.mean, apart.worst, kept, left);
+            print_message("%-12s %6.2f threads: mean %.4f worst %.4f, variance %.3f of the reference's, %.4f of the "
+                          "unfiltered\n",
+                          cases[n].name, (double)side, apart.mean, apart.worst, kept, left);
             const bool near = side <= 2.0f;
             assert_true(apart.mean <= (near || pixels() > 256 ? 0.005 : 0.01));
             assert_true(apart.worst <= 0.02);
@@ -202,17 +197,15 @@ static void fibres_that_are_left_out_take_little_light(void **state) {
         uint64_t random = stream_start(n, 31);
         double fine[PAIRS][2] = {{0.0}}, coarse[PAIRS][2] = {{0.0}};
         for (int p = 0; p < 40000; p++) {
-            ClothLook look = {
-                .uv = {place_x(p) / cloth->per_uv[WEFT_WARP], place_y(p) / cloth->per_uv[WEFT_WEFT]},
-                .level = 1.0f,
-                .facet = random_unit(&random)};
+            ClothLook look = {.uv = {place_x(p) / cloth->per_uv[WEFT_WARP], place_y(p) / cloth->per_uv[WEFT_WEFT]},
+                              .level = 1.0f,
+                              .facet = random_unit(&random)};
             add_look(cloth, &look, 1.0, fine);
             look.footprint = (WeaveFootprint){0.4f, 0.4f, 0.4f};
             add_look(cloth, &look, 1.0, coarse);
         }
         const Apart apart = apart_of(coarse, fine);
-        print_message("%-12s without loose fibres: mean %.4f worst %.4f\n", cases[n].name, apart.mean,
-                      apart.worst);
+        print_message("%-12s without loose fibres: mean %.4f worst %.4f\n", cases[n].name, apart.mean, apart.worst);
         assert_true(apart.mean < 0.01 && apart.worst < 0.02);
         weft_cloth_free(cloth);
     }
@@ -246,8 +239,7 @@ static void looks_are_the_same_alone_and_among_others(void **state) {
             assert_float_equal(stack.diffuse.f0.r, rows.single[0][k], 1e-3f);
             assert_float_equal(stack.diffuse.f90.b, rows.multiple[2][k], 1e-3f);
             if (k % 2) continue;
-            const float x = looks.uv[0][k] * cloth->per_uv[WEFT_WARP],
-                        y = -looks.uv[1][k] * cloth->per_uv[WEFT_WEFT];
+            const float x = looks.uv[0][k] * cloth->per_uv[WEFT_WARP], y = -looks.uv[1][k] * cloth->per_uv[WEFT_WEFT];
             const WeavePoint p = weave_point(&cloth->weave, x, y, 0.25f * side, 2.0f * looks.facet[k] - 1.0f);
             assert_float_equal(p.slope_x, rows.params[YARN_SLOPE_X][k], 1e-2f);
             loose += p.height > weave_top(&cloth->weave, x, y).height;

@@ -79,8 +79,7 @@ static void points_reflect(const Weave *m, const Pairs *pairs, double lit[PAIRS]
 static void reflection_reflects(const WeftReflection *r, const Pairs *pairs, double lit[PAIRS][3]) {
     for (int k = 0; k < PAIRS; k++) {
         const float o[3] = {pairs->o[k].x, pairs->o[k].y, pairs->o[k].z},
-                    i[1][3] = {{pairs->i[k].x, pairs->i[k].y, pairs->i[k].z}},
-                    back[1][3] = {{o[0], o[1], o[2]}};
+                    i[1][3] = {{pairs->i[k].x, pairs->i[k].y, pairs->i[k].z}}, back[1][3] = {{o[0], o[1], o[2]}};
         float f[1][3], turned[1][3], base[1][3];
         weft_reflection_eval(r, WEFT_PART_ALL, o, 1, i, f);
         weft_reflection_eval(r, WEFT_PART_ALL, i[0], 1, back, turned);
@@ -107,8 +106,7 @@ static Compared compare(const Pairs *pairs, double points[PAIRS][3], double far[
         sum.points += points[k][c];
         sum.far += far[k][c];
         sum.apart += off;
-        if (points[k][c] > 0.05 * most * (double)pairs->i[k].z)
-            sum.worst = fmax(sum.worst, off / points[k][c]);
+        if (points[k][c] > 0.05 * most * (double)pairs->i[k].z) sum.worst = fmax(sum.worst, off / points[k][c]);
     }
     return sum;
 }
@@ -150,16 +148,15 @@ static void check_reflection(const char *name, const WeftCloth *cloth) {
     worst_apart = fmax(worst_apart, one);
     well_met += apart < (test_long() ? 0.0065 : 0.012); /* docs/weave.md */
     assert_true(apart < (test_long() ? 0.0125 : 0.025) && one < (test_long() ? 0.04 : 0.16));
-    print_message("  each pair by %.4f, at worst %.3f  E %.3f %.3f %.3f\n", apart, one, (double)e[0],
-                  (double)e[1], (double)e[2]);
+    print_message("  each pair by %.4f, at worst %.3f  E %.3f %.3f %.3f\n", apart, one, (double)e[0], (double)e[1],
+                  (double)e[2]);
     weft_reflection_free(reflection);
 }
 
 static void presets_are_reflections_that_reflect_as_their_points_do(void **state) {
     (void)state;
     each_woven_cloth(check_reflection);
-    print_message("the farthest is off by %.3f, each pair by %.3f, one by %.3f\n", farthest, most_apart,
-                  worst_apart);
+    print_message("the farthest is off by %.3f, each pair by %.3f, one by %.3f\n", farthest, most_apart, worst_apart);
     assert_true(farthest < (test_long() ? 0.01 : 0.02));
     assert_true(WOVEN_PRESETS - well_met <= 1);
 }
@@ -204,8 +201,7 @@ static Found find(const Weave *m, float degrees, Random *random) {
         const float x = THREADS * random_unit(random), y = THREADS * random_unit(random);
         const WeavePoint point = weave_point(m, x, y, 0.02f, 0.0f);
         if (point.height <= WEAVE_NONE) continue;
-        const Dir o =
-            direction_cos((cos)((double)degrees * RADIANS), 2.0 * PI_DOUBLE * (double)random_unit(random));
+        const Dir o = direction_cos((cos)((double)degrees * RADIANS), 2.0 * PI_DOUBLE * (double)random_unit(random));
         YarnPrepared yarn;
         yarn_prepare(weave_yarn(m, point), &yarn);
         const Carried c = draw(&yarn, o, random);
@@ -229,8 +225,7 @@ static void check_points(const char *name, const WeftCloth *cloth) {
     print_message("%-24s", name);
     for (int d = 0; d < 3; d++) {
         const Found f = find(&cloth->weave, degrees[d], &random);
-        print_message("  %2.0f: variance %.2f, E %.2f, at most %.2f", (double)degrees[d], f.variance, f.mean,
-                      f.most);
+        print_message("  %2.0f: variance %.2f, E %.2f, at most %.2f", (double)degrees[d], f.variance, f.mean, f.most);
         assert_true(f.variance < most[d]);
         assert_true(f.mean < 1.0);
         worst[d] = fmax(worst[d], f.variance), mean[d] += f.variance;
@@ -292,8 +287,8 @@ static void systems_from_afar_are_drawn_with_little_variance(void **state) {
     (void)state;
     each_woven_cloth(check_variance_afar);
     for (int d = 0; d < AFAR; d++)
-        print_message("variance from afar at %2.0f: on the mean %.2f, at worst %.2f\n",
-                      (double)afar_degrees[d], afar_mean[d] / afar_checked, afar_worst[d]);
+        print_message("variance from afar at %2.0f: on the mean %.2f, at worst %.2f\n", (double)afar_degrees[d],
+                      afar_mean[d] / afar_checked, afar_worst[d]);
 }
 
 static double facet_spread(const ClothFacet *facets, int count) {
@@ -321,8 +316,8 @@ static void check_facets(const char *name, const WeftCloth *cloth) {
             const int begin = count * k / PARTS, end = count * (k + 1) / PARTS;
             within += facet_spread(cloth->facets[t] + begin, end - begin) * (end - begin) / count;
         }
-        print_message("%-24s %s: %4d facets, of their spread within 1/64 %.4f\n", name, t ? "weft" : "warp",
-                      count, within / all);
+        print_message("%-24s %s: %4d facets, of their spread within 1/64 %.4f\n", name, t ? "weft" : "warp", count,
+                      within / all);
         assert_true(isfinite(within / all));
         spreads++;
         spread_worst = fmax(spread_worst, within / all);
@@ -338,8 +333,8 @@ static void facets_side_by_side_are_alike(void **state) {
 
 /* Returns the bytes of all maps of a folder, and the sides of one, and removes them. */
 static double maps_weigh(const char *folder, int sides[2]) {
-    static const char *const names[] = {"base_color.png", "normal.png", "occlusion_roughness.png",
-                                        "anisotropy.png", "height.png"};
+    static const char *const names[] = {"base_color.png", "normal.png", "occlusion_roughness.png", "anisotropy.png",
+                                        "height.png"};
     double bytes = 0.0;
     char path[300];
     for (size_t k = 0; k < sizeof names / sizeof *names; k++) {

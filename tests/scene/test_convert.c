@@ -104,8 +104,7 @@ static void conversion_loss_is_the_one_reported(void **state) {
         double loss = apart(specular_colors(&s), metallic_colors(&t));
         assert_true(fabs(loss - (double)convert_loss(s, to_metallic)) < 1e-5);
         assert_true(t.metallic >= 0.0f && t.metallic <= 1.0f);
-        for (int c = 0; c < 3; c++)
-            assert_true(channel(t.base_color, c) >= 0.0 && channel(t.base_color, c) <= 1.0);
+        for (int c = 0; c < 3; c++) assert_true(channel(t.base_color, c) >= 0.0 && channel(t.base_color, c) <= 1.0);
         greatest = fmax(greatest, loss);
     }
     assert_true(greatest > 0.1); /* a cyan matt under a red mirror is no metal */

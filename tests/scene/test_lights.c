@@ -121,8 +121,7 @@ static void light_of_any_corner_count_has_its_area_and_direction(void **state) {
         assert_float_equal(found.items[0].radiance[1], 2.0f, 1e-5f);
         assert_false(found.items[0].two_sided);
         Vec3 middle = {0};
-        for (int k = 0; k < corners; k++)
-            middle = vec3_madd(middle, found.items[0].corners[k], 1.0f / (float)corners);
+        for (int k = 0; k < corners; k++) middle = vec3_madd(middle, found.items[0].corners[k], 1.0f / (float)corners);
         assert_float_equal(vec3_length(vec3_sub(middle, vec3_load(light.position))), 0.0f, 1e-5f);
         light_polygons_free(&found);
         weft_scene_free(scene);

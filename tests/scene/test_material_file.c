@@ -42,10 +42,9 @@ static void near(const Input *input, float r, float g, float b) {
 
 static void values_of_every_form_are_read(void **state) {
     (void)state;
-    MaterialFile file =
-        file_of("{\"base_color\":[0.1,0.2,0.3],\"sheen_color\":\"#ff0080\",\"specular_color\":0.5,"
-                "\"roughness\":0.75,\"anisotropy_direction\":90,\"name\":\"a\",\"help\":\"b\"}",
-                0);
+    MaterialFile file = file_of("{\"base_color\":[0.1,0.2,0.3],\"sheen_color\":\"#ff0080\",\"specular_color\":0.5,"
+                                "\"roughness\":0.75,\"anisotropy_direction\":90,\"name\":\"a\",\"help\":\"b\"}",
+                                0);
     const Input *inputs = file.material.inputs;
     near(&inputs[INPUT_base_color], 0.1f, 0.2f, 0.3f);
     near(&inputs[INPUT_sheen_color], 1.0f, 0.0f, 0.21586050f); /* ((128 / 255 + .055) / 1.055)^2.4 */
@@ -82,11 +81,10 @@ static void byte_order_mark_of_a_material_file_is_skipped(void **state) {
 
 static void choices_of_a_material_file_are_ids_and_aliases(void **state) {
     (void)state;
-    MaterialFile file =
-        file_of("{\"v\":\"charlie-v\",\"d\":\"charlie-d\",\"sheen_lobe\":\"ashikhmin-neubelt\","
-                "\"layer\":\"reciprocal\",\"workflow\":\"auto\",\"alpha_mode\":\"mask\","
-                "\"alpha_cutoff\":0.25,\"double_sided\":true}",
-                0);
+    MaterialFile file = file_of("{\"v\":\"charlie-v\",\"d\":\"charlie-d\",\"sheen_lobe\":\"ashikhmin-neubelt\","
+                                "\"layer\":\"reciprocal\",\"workflow\":\"auto\",\"alpha_mode\":\"mask\","
+                                "\"alpha_cutoff\":0.25,\"double_sided\":true}",
+                                0);
     const int *choices = file.material.choices;
     assert_string_equal(weft_material_choice_value(CHOICE_v, choices[CHOICE_v]), "conty-kulla");
     assert_string_equal(weft_material_choice_value(CHOICE_d, choices[CHOICE_d]), "charlie");
@@ -148,8 +146,7 @@ static void implausible_values_of_a_file_are_named_in_warnings(void **state) {
     MaterialFile file;
     WeftError error;
     static const char metal[] = "{\"workflow\":\"specular\",\"specular_color\":0.9,\"base_color\":0.5}";
-    assert_int_equal(material_file_read(metal, sizeof metal - 1, "m", NULL, &file, &counting, &error),
-                     WEFT_OK);
+    assert_int_equal(material_file_read(metal, sizeof metal - 1, "m", NULL, &file, &counting, &error), WEFT_OK);
     assert_true(warnings >= 1);
     assert_true(file.material.inputs[INPUT_base_color].value[0] == 0.5f); /* taken as it is */
     material_file_free(&file);
@@ -303,12 +300,11 @@ static void textures_are_found_beside_the_material_file(void **state) {
     memset(image.pixels, 51, 12);
     assert_int_equal(weft_image_write(picture, &image, &error), WEFT_OK);
     weft_image_free(&image);
-    write_text(json,
-               "{\"roughness\":{\"texture\":\"orm.png\",\"channel\":\"g\",\"factor\":0.5,\"scale\":[2,3],"
-               "\"rotation\":90,\"offset\":0.25,\"wrap\":\"mirror\",\"nearest\":true},"
-               "\"base_color\":{\"texture\":\"orm.png\",\"texcoord\":1},"
-               "\"nap\":{\"texture\":\"orm.png\",\"channel\":\"b\"},"
-               "\"nap_direction\":{\"texture\":\"orm.png\"}}");
+    write_text(json, "{\"roughness\":{\"texture\":\"orm.png\",\"channel\":\"g\",\"factor\":0.5,\"scale\":[2,3],"
+                     "\"rotation\":90,\"offset\":0.25,\"wrap\":\"mirror\",\"nearest\":true},"
+                     "\"base_color\":{\"texture\":\"orm.png\",\"texcoord\":1},"
+                     "\"nap\":{\"texture\":\"orm.png\",\"channel\":\"b\"},"
+                     "\"nap_direction\":{\"texture\":\"orm.png\"}}");
     WeftScene *scene = load("builtin:cloth");
     int images = scene->image_count, textures = scene->texture_count;
     if (weft_scene_assign_material(scene, "Cloth", json, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);

@@ -195,14 +195,13 @@ static void assert_reads(const WeftMaterial *material, const char *inputs) {
 static void workflow_reads_only_its_inputs(void **state) {
     (void)state;
     WeftMaterial m = plain();
-    assert_reads(&m,
-                 "base_color metallic roughness normal occlusion emission -emission_strength reflectance ior "
-                 "specular specular_color -specular_tint -subsurface anisotropy -anisotropy_direction "
-                 "clearcoat -clearcoat_roughness -clearcoat_gloss -clearcoat_normal -sheen -sheen_tint "
-                 "sheen_color -sheen_roughness -sheen_density -nap dust -dust_color -dust_roughness "
-                 "-dust_falloff -dust_tilt -dust_direction -dust_noise -dust_scale -opacity -extinction "
-                 "-sheen_second -sheen_tail -sheen_rise -diffuse_retro -diffuse_lift diffuse_transmission "
-                 "-diffuse_transmission_color");
+    assert_reads(&m, "base_color metallic roughness normal occlusion emission -emission_strength reflectance ior "
+                     "specular specular_color -specular_tint -subsurface anisotropy -anisotropy_direction "
+                     "clearcoat -clearcoat_roughness -clearcoat_gloss -clearcoat_normal -sheen -sheen_tint "
+                     "sheen_color -sheen_roughness -sheen_density -nap dust -dust_color -dust_roughness "
+                     "-dust_falloff -dust_tilt -dust_direction -dust_noise -dust_scale -opacity -extinction "
+                     "-sheen_second -sheen_tail -sheen_rise -diffuse_retro -diffuse_lift diffuse_transmission "
+                     "-diffuse_transmission_color");
     m.alpha_mode = WEFT_ALPHA_MASK;
     set_value(&m, "ior", 1.5f);
     set_value(&m, "anisotropy", 0.5f);
@@ -212,10 +211,9 @@ static void workflow_reads_only_its_inputs(void **state) {
     set_value(&m, "sheen_color", 0.5f);
     set_value(&m, "diffuse_transmission", 0.5f);
     assert_reads(&m, "diffuse_transmission_color");
-    assert_reads(&m,
-                 "opacity -reflectance anisotropy_direction clearcoat_roughness clearcoat_normal dust_color "
-                 "dust_roughness dust_falloff dust_tilt -dust_direction dust_noise -dust_scale "
-                 "emission_strength sheen sheen_roughness -nap");
+    assert_reads(&m, "opacity -reflectance anisotropy_direction clearcoat_roughness clearcoat_normal dust_color "
+                     "dust_roughness dust_falloff dust_tilt -dust_direction dust_noise -dust_scale "
+                     "emission_strength sheen sheen_roughness -nap");
     set_value(&m, "dust_tilt", 0.5f);
     set_value(&m, "dust_noise", 0.5f);
     assert_reads(&m, "dust_direction dust_scale");

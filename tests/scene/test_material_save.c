@@ -50,8 +50,7 @@ static void assert_same(const WeftScene *a, const WeftScene *b, const char *name
         WeftImage i = weft_scene_texture(a, p->texture), j = weft_scene_texture(b, q->texture);
         assert_true(i.width == j.width && i.type == j.type && (i.pixels == NULL) == (j.pixels == NULL));
         assert_true(q->given || !p->given);
-        if (is_angle(k) && fabsf(p->value[0] - q->value[0]) <= 1.2e-7f * fabsf(p->value[0]))
-            p->value[0] = q->value[0];
+        if (is_angle(k) && fabsf(p->value[0] - q->value[0]) <= 1.2e-7f * fabsf(p->value[0])) p->value[0] = q->value[0];
         if (!p->texture) memcpy(p->transform, q->transform, sizeof p->transform);
         if (!p->texture) p->channel = q->channel, p->texcoord = q->texcoord;
         p->texture = q->texture;
@@ -101,8 +100,7 @@ static void saved_material_of_random_values_reads_as_it_was(void **state) {
         for (int k = 0; k < 4; k++) {
             WeftImage image;
             assert_int_equal(
-                weft_image_create(3 + k, 4, k + 1, k == 2 ? WEFT_PIXEL_F32 : WEFT_PIXEL_U8, &image, &error),
-                WEFT_OK);
+                weft_image_create(3 + k, 4, k + 1, k == 2 ? WEFT_PIXEL_F32 : WEFT_PIXEL_U8, &image, &error), WEFT_OK);
             assert_true(weft_scene_add_texture(scene, &image, &error) > 0);
         }
         Texture *last = &scene->textures[scene->texture_count - 1];
@@ -114,15 +112,13 @@ static void saved_material_of_random_values_reads_as_it_was(void **state) {
             for (int c = 0; c < 3; c++) input->value[c] = roll() < 0.3f ? input->value[c] : roll();
             if (roll() < 0.3f) input->texture = scene->texture_count - (int)(roll() * 3.99f);
             input->texcoord = input->texture && roll() < 0.2f;
-            input->channel =
-                input->texture && (info.kind == WEFT_INPUT_SCALAR || info.kind == WEFT_INPUT_ANGLE)
-                    ? (int)(roll() * 3.99f)
-                    : 0;
+            input->channel = input->texture && (info.kind == WEFT_INPUT_SCALAR || info.kind == WEFT_INPUT_ANGLE)
+                                 ? (int)(roll() * 3.99f)
+                                 : 0;
             for (int c = 0; c < 6 && input->texture && roll() < 0.4f; c++) input->transform[c] = roll();
         }
         for (int c = 0; weft_material_choice_name(c); c++)
-            for (int v = 0;
-                 weft_material_choice_value(c, v) && strcmp(weft_material_choice_name(c), "diffuse") != 0;
+            for (int v = 0; weft_material_choice_value(c, v) && strcmp(weft_material_choice_name(c), "diffuse") != 0;
                  v++)
                 if (roll() < 0.1f) m.choices[c] = v;
         m.alpha_mode = (WeftAlphaMode)(round % 3);
@@ -142,8 +138,7 @@ static void textures_of_a_saved_material_are_relative_to_it(void **state) {
     WeftError error;
     char path[128], text[4096] = "";
     assert_int_equal(
-        weft_scene_set_texture(scene, "0.roughness.b", WEFT_SOURCE_DIR "/examples/nap/nap.png", NULL, &error),
-        WEFT_OK);
+        weft_scene_set_texture(scene, "0.roughness.b", WEFT_SOURCE_DIR "/examples/nap/nap.png", NULL, &error), WEFT_OK);
     save_and_compare(scene, "named.json", "named");
     snprintf(path, sizeof path, "%s/named.json", folder);
     FILE *file = fopen(path, "rb");
@@ -171,8 +166,7 @@ static void failed_save_leaves_no_file(void **state) {
     WeftScene *scene = load("builtin:cloth");
     WeftError error;
     assert_int_equal(weft_scene_save_material(scene, -1, "/tmp/none.json", &error), WEFT_USAGE);
-    assert_int_equal(weft_scene_save_material(scene, scene->material_count, "/tmp/none.json", &error),
-                     WEFT_USAGE);
+    assert_int_equal(weft_scene_save_material(scene, scene->material_count, "/tmp/none.json", &error), WEFT_USAGE);
     assert_int_equal(error.message, WEFT_MESSAGE_MATERIAL_NAME);
     assert_int_equal(weft_scene_save_material(scene, 0, "/nowhere/a.json", &error), WEFT_RESOURCES);
     assert_int_equal(error.message, WEFT_MESSAGE_FILE_WRITE);

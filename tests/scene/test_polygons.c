@@ -126,8 +126,7 @@ static void a_ring(int corners, int expected) {
     uint32_t index[3 * 32];
     for (int k = 0; k < corners; k++) {
         float phi = 6.28318531f * (float)k / (float)corners;
-        position[3 * k] = cosf(phi), position[3 * k + 1] = 0.6f * sinf(phi),
-                     position[3 * k + 2] = 0.8f * sinf(phi);
+        position[3 * k] = cosf(phi), position[3 * k + 1] = 0.6f * sinf(phi), position[3 * k + 2] = 0.8f * sinf(phi);
     }
     for (int k = 0; k + 2 < corners; k++) {
         uint32_t a = (uint32_t)k;
@@ -154,8 +153,7 @@ static void emissive_flat_grid_is_one_polygon(void **state) {
     float position[3 * ACROSS * ACROSS];
     uint32_t index[6 * SIDE * SIDE], *at = index;
     for (int k = 0; k < ACROSS * ACROSS; k++)
-        position[3 * k] = (float)(k % ACROSS), position[3 * k + 1] = (float)(k / ACROSS),
-                     position[3 * k + 2] = 5.0f;
+        position[3 * k] = (float)(k % ACROSS), position[3 * k + 1] = (float)(k / ACROSS), position[3 * k + 2] = 5.0f;
     for (uint32_t j = 0; j < SIDE; j++)
         for (uint32_t i = 0; i < SIDE; i++) {
             uint32_t a = j * ACROSS + i, b = a + ACROSS;
@@ -232,14 +230,10 @@ static void emissive_texture_counts_by_its_mean(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(emissive_quad_is_one_polygon),
-        cmocka_unit_test(mesh_without_emission_is_no_polygon),
-        cmocka_unit_test(emissive_l_shape_is_two_polygons),
-        cmocka_unit_test(emissive_ring_is_one_or_few_polygons),
-        cmocka_unit_test(emissive_flat_grid_is_one_polygon),
-        cmocka_unit_test(degenerate_triangles_are_left_out),
-        cmocka_unit_test(emissive_box_is_six_polygons),
-        cmocka_unit_test(emissive_texture_counts_by_its_mean),
+        cmocka_unit_test(emissive_quad_is_one_polygon),      cmocka_unit_test(mesh_without_emission_is_no_polygon),
+        cmocka_unit_test(emissive_l_shape_is_two_polygons),  cmocka_unit_test(emissive_ring_is_one_or_few_polygons),
+        cmocka_unit_test(emissive_flat_grid_is_one_polygon), cmocka_unit_test(degenerate_triangles_are_left_out),
+        cmocka_unit_test(emissive_box_is_six_polygons),      cmocka_unit_test(emissive_texture_counts_by_its_mean),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

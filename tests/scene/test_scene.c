@@ -34,8 +34,7 @@ static void every_builtin_scene_loads(void **state) {
         for (int m = 0; m < scene->mesh_count; m++) {
             const Mesh *mesh = &scene->meshes[m];
             assert_in_range(mesh->material, 0, scene->material_count - 1);
-            for (uint32_t k = 0; k < 3 * mesh->triangle_count; k++)
-                assert_true(mesh->index[k] < mesh->vertex_count);
+            for (uint32_t k = 0; k < 3 * mesh->triangle_count; k++) assert_true(mesh->index[k] < mesh->vertex_count);
             for (uint32_t k = 0; mesh->normal && k < mesh->vertex_count; k++)
                 assert_true(fabsf(vec3_length(vec3_load(mesh->normal + 3 * (size_t)k)) - 1.0f) < 1e-3f);
         }
@@ -85,8 +84,7 @@ static void material_inputs_are_set_by_name(void **state) {
     assert_int_equal(warnings.count, 2);
     scene->materials[3].inputs[INPUT_roughness].texture = 1;
     assert_int_equal(weft_scene_set(scene, "dark-3.roughness", "0.5", &log, &error), WEFT_OK);
-    assert_int_equal(scene->materials[3].inputs[INPUT_roughness].texture,
-                     0); /* a number replaces the texture */
+    assert_int_equal(scene->materials[3].inputs[INPUT_roughness].texture, 0); /* a number replaces the texture */
 
     static const struct {
         const char *target, *value;
@@ -120,8 +118,7 @@ static void sheen_and_layer_are_set_by_id(void **state) {
     assert_int_equal(scene->materials[4].choices[CHOICE_layer], CHOICE_AUTO);
     assert_int_equal(weft_scene_set(scene, "*.sheen_lobe", "charlie", NULL, &error), WEFT_USAGE);
     assert_int_equal(error.message, WEFT_MESSAGE_PARAM_VALUE);
-    assert_int_equal(weft_scene_set(scene, "*.diffuse", "ggx", NULL, &error),
-                     WEFT_USAGE); /* no diffuse term */
+    assert_int_equal(weft_scene_set(scene, "*.diffuse", "ggx", NULL, &error), WEFT_USAGE); /* no diffuse term */
     assert_int_equal(weft_scene_set(scene, "*.layer", "glue", NULL, &error), WEFT_USAGE);
     assert_int_equal(error.message, WEFT_MESSAGE_PARAM_VALUE);
     assert_int_equal(weft_scene_set_variant(scene, "red", &error), WEFT_USAGE);
@@ -180,10 +177,8 @@ static void cameras_are_found_by_name_and_number(void **state) {
     View view = view_of(&camera, 2.0f);
     CameraRay ray = view_ray(&view, 1.0f, 0.0f);
     assert_true(fabsf(ray.direction.x / -ray.direction.z - 2.0f * tanf(20.0f * PI_FLOAT / 180.0f)) < 1e-5f);
-    assert_int_equal(camera_find(scene, "0,5,0;0,0,0;40", 1.0f, &camera, &error),
-                     WEFT_OK); /* straight down */
-    assert_true(fabsf(vec3_dot(camera.right, camera.forward)) < 1e-6f &&
-                fabsf(vec3_length(camera.up) - 1.0f) < 1e-5f);
+    assert_int_equal(camera_find(scene, "0,5,0;0,0,0;40", 1.0f, &camera, &error), WEFT_OK); /* straight down */
+    assert_true(fabsf(vec3_dot(camera.right, camera.forward)) < 1e-6f && fabsf(vec3_length(camera.up) - 1.0f) < 1e-5f);
     static const char *const wrong[] = {
         "", "1", "2,3;4,5;6", "0,0,0;0,0,0;40", "0,0,0;0,0,1;0", "0,0,0;0,0,1;180", "0,0,0;0,0,1;x"};
     for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {

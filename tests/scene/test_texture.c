@@ -65,8 +65,7 @@ static void texture_wrapping_follows_the_sampler(void **state) {
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         Texture texture = {.wrap_u = cases[k].wrap, .wrap_v = cases[k].wrap};
-        assert_true(fabsf(texture_fetch(&texture, &image, NULL, cases[k].u, 0.5f).c[0] - cases[k].value) <
-                    1e-4f);
+        assert_true(fabsf(texture_fetch(&texture, &image, NULL, cases[k].u, 0.5f).c[0] - cases[k].value) < 1e-4f);
     }
     weft_image_free(&image);
 }
@@ -93,8 +92,7 @@ static void lookup_at_extreme_coordinates_is_finite(void **state) {
         for (uint32_t k = 0; k < 64 + 2000; k++) {
             float u = k < 64 ? wild[k % 8] : 40.0f * unit_float(hash32(k)) - 20.0f;
             float v = k < 64 ? wild[k / 8] : 40.0f * unit_float(hash32(k + 9999)) - 20.0f;
-            Texture texture = {
-                .wrap_u = (TextureWrap)wrap, .wrap_v = (TextureWrap)wrap, .nearest = k % 2 == 0};
+            Texture texture = {.wrap_u = (TextureWrap)wrap, .wrap_v = (TextureWrap)wrap, .nearest = k % 2 == 0};
             Texel t = texture_fetch(&texture, &image, NULL, u, v);
             for (int c = 0; c < 3; c++) assert_true(t.c[c] >= 0.0f && t.c[c] <= 1.0f);
         }
@@ -111,15 +109,12 @@ static void row_lookups_agree_with_single_lookups(void **state) {
         int type = (int)(run % 3), channels = 1 + (int)(run / 3 % 4), wraps = (int)(run / 12 % 9);
         bool decode = run / 216 == 1;
         WeftImage image = image_of(7, 5, channels, (WeftPixelType)type);
-        size_t bytes = (size_t)(35 * channels) * (type == WEFT_PIXEL_F32   ? 4
-                                                  : type == WEFT_PIXEL_U16 ? 2
-                                                                           : 1);
+        size_t bytes = (size_t)(35 * channels) * (type == WEFT_PIXEL_F32 ? 4 : type == WEFT_PIXEL_U16 ? 2 : 1);
         for (size_t k = 0; k < bytes; k++) ((uint8_t *)image.pixels)[k] = (uint8_t)hash32((uint32_t)k);
         for (int k = 0; type == WEFT_PIXEL_F32 && k < 35 * channels; k++)
             ((float *)image.pixels)[k] = unit_float(hash32((uint32_t)k));
-        Texture texture = {.wrap_u = (TextureWrap)(wraps % 3),
-                           .wrap_v = (TextureWrap)(wraps / 3),
-                           .nearest = run / 108 % 2 == 1};
+        Texture texture = {
+            .wrap_u = (TextureWrap)(wraps % 3), .wrap_v = (TextureWrap)(wraps / 3), .nearest = run / 108 % 2 == 1};
         int n = 1 + (int)(hash32(run) % ROW_MOST);
         for (int k = 0; k < row_whole(n); k++) {
             u[k] = k < 64 ? wild[k % 8] : 6.0f * unit_float(hash32((uint32_t)k)) - 3.0f;

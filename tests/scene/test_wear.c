@@ -73,8 +73,7 @@ static void picture_is_bound_to_an_input(void **state) {
     WeftError error;
     int images = scene->image_count;
     draw("a.png", 4, 100);
-    assert_int_equal(weft_scene_set_texture(scene, "dark-1.roughness.g", in_folder("a.png"), NULL, &error),
-                     WEFT_OK);
+    assert_int_equal(weft_scene_set_texture(scene, "dark-1.roughness.g", in_folder("a.png"), NULL, &error), WEFT_OK);
     const Input *input = &named(scene, "dark-1")->inputs[INPUT_roughness];
     assert_int_equal(scene->image_count, images + 1);
     assert_int_equal(input->texture, scene->texture_count);
@@ -92,8 +91,7 @@ static void picture_is_bound_to_an_input(void **state) {
     assert_true(fabsf(named(scene, "light-2")->inputs[INPUT_nap].value[0] - 0.785398f) < 1e-6f);
     assert_int_equal(weft_scene_texture(scene, input->texture).width, 6);
     assert_int_equal(scene->textures[input->texture - 1].version, version + 1);
-    assert_int_equal(weft_scene_set_texture(scene, "dark-1.opacity", in_folder("a.png"), NULL, &error),
-                     WEFT_OK);
+    assert_int_equal(weft_scene_set_texture(scene, "dark-1.opacity", in_folder("a.png"), NULL, &error), WEFT_OK);
     assert_int_equal(named(scene, "dark-1")->alpha_mode, WEFT_ALPHA_BLEND);
     weft_scene_free(scene);
 }
@@ -109,21 +107,17 @@ static void unreadable_maps_are_refused(void **state) {
         const char *target, *file;
         WeftMessage message;
     } wrong[] = {
-        {"*.roughnes", "b.png", WEFT_MESSAGE_PARAM_NAME},
-        {"roughness", "b.png", WEFT_MESSAGE_PARAM_NAME},
-        {"*.base_color.g", "b.png", WEFT_MESSAGE_PARAM_NAME},
-        {"*.workflow", "b.png", WEFT_MESSAGE_PARAM_NAME},
-        {"ceiling.roughness", "b.png", WEFT_MESSAGE_MATERIAL_NAME},
-        {"*.roughness", "none.png", WEFT_MESSAGE_FILE_OPEN},
-        {"*.roughness", "half.png", WEFT_MESSAGE_IMAGE_DAMAGED},
-        {"*.roughness", "", WEFT_MESSAGE_FILE_READ},
+        {"*.roughnes", "b.png", WEFT_MESSAGE_PARAM_NAME},           {"roughness", "b.png", WEFT_MESSAGE_PARAM_NAME},
+        {"*.base_color.g", "b.png", WEFT_MESSAGE_PARAM_NAME},       {"*.workflow", "b.png", WEFT_MESSAGE_PARAM_NAME},
+        {"ceiling.roughness", "b.png", WEFT_MESSAGE_MATERIAL_NAME}, {"*.roughness", "none.png", WEFT_MESSAGE_FILE_OPEN},
+        {"*.roughness", "half.png", WEFT_MESSAGE_IMAGE_DAMAGED},    {"*.roughness", "", WEFT_MESSAGE_FILE_READ},
     };
     WeftMaterial before, after;
     int textures = scene->texture_count;
     assert_int_equal(weft_scene_material(scene, 0, &before, &error), WEFT_OK);
     for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
-        assert_int_not_equal(
-            weft_scene_set_texture(scene, wrong[k].target, in_folder(wrong[k].file), NULL, &error), WEFT_OK);
+        assert_int_not_equal(weft_scene_set_texture(scene, wrong[k].target, in_folder(wrong[k].file), NULL, &error),
+                             WEFT_OK);
         if (error.message != wrong[k].message) fail_msg("%zu: %s", k, error.text);
         assert_int_equal(weft_scene_material(scene, 0, &after, &error), WEFT_OK);
         assert_memory_equal(&before, &after, sizeof before);
@@ -179,8 +173,7 @@ static void maps_of_a_folder_are_bound_to_their_inputs(void **state) {
     for (size_t k = 0; k < sizeof worn / sizeof *worn; k++) assert_true(cloth->inputs[worn[k]].texture > 0);
     assert_int_equal(cloth->inputs[INPUT_nap].channel, 2);
     assert_int_equal(cloth->choices[CHOICE_workflow], WORKFLOW_SPECULAR);
-    assert_non_null(
-        strstr(weft_scene_texture_path(scene, cloth->inputs[INPUT_base_color].texture), "Albedo.tga"));
+    assert_non_null(strstr(weft_scene_texture_path(scene, cloth->inputs[INPUT_base_color].texture), "Albedo.tga"));
     /* a metalness too: then the workflow stays */
     draw("0/chair_ORM.png", 4, 7);
     int images = scene->image_count;
@@ -258,8 +251,7 @@ static void maps_of_the_principled_model_are_bound_by_name(void **state) {
         snprintf(path, sizeof path, "%s", in_folder(spelling ? "b" : "a"));
         assert_int_equal(mkdir(path, 0700), 0);
         for (size_t k = 0; k < sizeof maps / sizeof *maps; k++) {
-            snprintf(file, sizeof file, "%s/%s.png", spelling ? "b" : "a",
-                     spelling ? maps[k].other : maps[k].file);
+            snprintf(file, sizeof file, "%s/%s.png", spelling ? "b" : "a", spelling ? maps[k].other : maps[k].file);
             draw(file, 4, 100 + (int)k);
         }
         last_said[0] = '\0';

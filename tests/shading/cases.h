@@ -67,9 +67,7 @@ static inline Dir random_direction(Random *random) {
 enum { CASE_VALUES = 5, CASE_COMBINATIONS = 4 };
 
 /* A choice is tried at each of its ids. */
-static inline int case_values(const WeftParamInfo *p) {
-    return p->choices ? 1 + (int)p->hard_high : CASE_VALUES;
-}
+static inline int case_values(const WeftParamInfo *p) { return p->choices ? 1 + (int)p->hard_high : CASE_VALUES; }
 
 static inline int case_count(int id) {
     const WeftLobeInfo *info = weft_lobe_info((int)id);
@@ -102,8 +100,7 @@ static inline Lobe case_lobe(int id, int k) {
     Random random = {(uint64_t)k};
     for (int p = 0; p < info->param_count; p++) {
         float t = random_unit(&random);
-        float value =
-            weft_mix(info->params[p].low, info->params[p].high, info->params[p].choices ? t : t * t);
+        float value = weft_mix(info->params[p].low, info->params[p].high, info->params[p].choices ? t : t * t);
         lobe_set(&lobe, p, info->params[p].choices ? floorf(value + 0.5f) : value);
     }
     return lobe;
@@ -184,8 +181,7 @@ static inline Surface random_surface(Random *random, bool tilt) {
     s.specular = min(2.0f * random_unit(random), 1.0f);
     s.specular_color = (Rgb){1.0f, random_unit(random), random_unit(random)};
     s.anisotropy = max(2.0f * random_unit(random) - 1.0f, 0.0f);
-    if (s.anisotropy > 0.0f)
-        s.roughness = weft_mix(0.3f, 1.0f, s.roughness); /* a Grid resolves no finer ridge */
+    if (s.anisotropy > 0.0f) s.roughness = weft_mix(0.3f, 1.0f, s.roughness); /* a Grid resolves no finer ridge */
     s.normal = s.clearcoat_normal = dir(0.0f, 0.0f, 1.0f);
     s.anisotropy_direction = dir(1.0f, 0.0f, 0.0f);
     s.clearcoat = max(2.0f * random_unit(random) - 1.0f, 0.0f);

@@ -15,9 +15,7 @@ typedef struct Point {
 } Point;
 
 static inline Point point(double x, double y, double z) { return (Point){x, y, z}; }
-static inline Point point_add(Point a, Point b, double s) {
-    return point(a.x + s * b.x, a.y + s * b.y, a.z + s * b.z);
-}
+static inline Point point_add(Point a, Point b, double s) { return point(a.x + s * b.x, a.y + s * b.y, a.z + s * b.z); }
 static inline double point_dot(Point a, Point b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 static inline Point point_cross(Point a, Point b) {
     return point(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
@@ -89,8 +87,7 @@ static inline double light_refine(const Integral *integral, const Point p[3], do
 }
 
 /* The integral over the part of a convex polygon above the horizon; `least` is 2 for what is smooth. */
-static inline double light_integral(Integrand f, const void *what, Dir o, const Point *corners, int count,
-                                    int least) {
+static inline double light_integral(Integrand f, const void *what, Dir o, const Point *corners, int count, int least) {
     Point above[16];
     int n = 0;
     for (int k = 0; k < count; k++) {
@@ -100,14 +97,13 @@ static inline double light_integral(Integrand f, const void *what, Dir o, const 
     }
     if (n < 3) return 0.0;
     Integral integral = {f, what, o, point(0.0, 0.0, 0.0), HUGE_VAL, least};
-    integral.normal = point_unit(
-        point_cross(point_add(corners[1], corners[0], -1.0), point_add(corners[2], corners[0], -1.0)));
+    integral.normal =
+        point_unit(point_cross(point_add(corners[1], corners[0], -1.0), point_add(corners[2], corners[0], -1.0)));
     double sum = 0.0;
     for (int pass = 0; pass < 2; pass++) { /* a first sum, that the tolerance is a part of */
         double total = 0.0;
         for (int k = 1; k + 1 < n; k++)
-            total += light_refine(&integral, (const Point[]){above[0], above[k], above[k + 1]}, HUGE_VAL,
-                                  pass ? 0 : 2);
+            total += light_refine(&integral, (const Point[]){above[0], above[k], above[k + 1]}, HUGE_VAL, pass ? 0 : 2);
         sum = total;
         integral.tolerance = 1e-4 * total + 1e-8; /* Dir has floats: there is a floor to what they tell */
     }
@@ -115,9 +111,7 @@ static inline double light_integral(Integrand f, const void *what, Dir o, const 
 }
 
 /* What a whole stack, seen from o, reflects in green. */
-static inline double light_stack(const void *what, Dir o, Dir i) {
-    return (double)seen_eval(what, i, 0).f_cos.g;
-}
+static inline double light_stack(const void *what, Dir o, Dir i) { return (double)seen_eval(what, i, 0).f_cos.g; }
 
 /* A pose: a rectangle somewhere around, in any attitude; one in about ten crosses the floor. */
 typedef struct LightPose {
@@ -178,8 +172,7 @@ static inline Polygon light_polygon(const Point *corners, int count) {
 /* A convex polygon of 3 to 8 corners in any attitude, `far` away; returns how many. */
 static inline int any_polygon(uint64_t *state, double far, Point corners[8]) {
     int count = 3 + (int)(6.0 * light_random(state));
-    Point n =
-        point_unit(point(light_random(state) - 0.5, light_random(state) - 0.5, light_random(state) - 0.5));
+    Point n = point_unit(point(light_random(state) - 0.5, light_random(state) - 0.5, light_random(state) - 0.5));
     Point u = point_unit(point_cross(n, point(light_random(state) - 0.5, light_random(state) - 0.5, 0.25)));
     Point v = point_cross(n, u);
     Point c = point(far * (2.0 * light_random(state) - 1.0), far * (2.0 * light_random(state) - 1.0),

@@ -94,8 +94,7 @@ static double quadrature(const Integrand *f, double tolerance, double *error) {
         double left = ldexp(1.0, -k);
         thetas[k] = theta_o * (1.0 - left);
         thetas[2 * HALVINGS - k] = theta_o + (0.5 * PI_DOUBLE - theta_o) * left;
-        phis[1 + k] =
-            PI_DOUBLE * (1.0 - 0.5 * left); /* the first is pi/2: some diffuse lobes have a kink there */
+        phis[1 + k] = PI_DOUBLE * (1.0 - 0.5 * left); /* the first is pi/2: some diffuse lobes have a kink there */
     }
     thetas[HALVINGS] = theta_o;
     phis[0] = 0.0;
@@ -172,8 +171,8 @@ static void albedo_of_every_lobe_is_its_integral(void **state) {
                 Integrand f = {&lobe, (double)lobe.params[shape], z, (sqrt)(1.0 - z * z)};
                 double own = quadrature(&f, tolerance, &error), d = fabs((double)e[c] - own);
                 if (error > 5e-4 || d > error_most(&lobe))
-                    fail_msg("%s %g at cos_o %g: E %.5f, quadrature %.5f +- %.5f", info->id,
-                             (double)lobe.params[shape], z, (double)e[c], own, error);
+                    fail_msg("%s %g at cos_o %g: E %.5f, quadrature %.5f +- %.5f", info->id, (double)lobe.params[shape],
+                             z, (double)e[c], own, error);
                 lobe_worst = fmax(lobe_worst, d);
                 highest = fmax(highest, own);
                 if (id != LOBE_CHARLIE_NEUBELT) continue;

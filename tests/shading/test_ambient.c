@@ -109,9 +109,7 @@ static void table_of_an_uneven_lobe_has_the_mean_of_both_sides(void **state) {
         Dir o = direction_cos(0.2, k ? -0.25 * (double)PI : 0.25 * (double)PI);
         Albedo albedo = albedo_quadrature(&lobe, o, 1e-3);
         e[k] = albedo.f0 + albedo.f90;
-        got[k] =
-            ambient_of(one_lobe(lobe, o), all_tables(ambient_table(&table, AMBIENT_IRRADIANCE)), &calls, 1.0f)
-                .r;
+        got[k] = ambient_of(one_lobe(lobe, o), all_tables(ambient_table(&table, AMBIENT_IRRADIANCE)), &calls, 1.0f).r;
     }
     assert_true(abs(e[0] - e[1]) > 0.05f * e[0]);
     for (int k = 0; k < 2; k++) assert_float_equal(got[k], 0.5f * (e[0] + e[1]), 0.01f);
@@ -145,8 +143,7 @@ static void baked_weights_return_the_albedo(void **state) {
             Rgb got = ambient_of(one_lobe(lobe, o), all_tables(t), &calls, 1.0f);
             float truth = e.f0 + e.f90, off = abs(got.r - truth);
             if (off > 0.02f * truth + 0.009f)
-                fail_msg("%s, cosine %g: %g for %g", weft_lobe_info(id)->id, (double)o.z, (double)got.r,
-                         (double)truth);
+                fail_msg("%s, cosine %g: %g for %g", weft_lobe_info(id)->id, (double)o.z, (double)got.r, (double)truth);
         }
 }
 
@@ -187,12 +184,11 @@ static void baked_weights_of_a_fading_lobe_are_not_negative(void **state) {
                 SeenStack m = tabled(lobe, o, &albedo);
                 Rgb got = stack_ambient(&m.stack, &m.view, all_tables(t), &calls, 1.0f, 1.0f);
                 Albedo own = albedo_quadrature(&lobe, o, 1e-4);
-                float e = lobe_depends_on_azimuth(&lobe)
-                              ? own.f0 + own.f90
-                              : m.view.e_o.e; /* a brushed lobe's table is a bound */
+                float e = lobe_depends_on_azimuth(&lobe) ? own.f0 + own.f90
+                                                         : m.view.e_o.e; /* a brushed lobe's table is a bound */
                 if (!(got.r >= 0.0f && abs(got.r - e) <= 0.03f * e + 0.003f))
-                    fail_msg("%s, roughness %g, cosine %g: %g for %g", weft_lobe_info(id)->id,
-                             (double)roughnesses[k], (double)o.z, (double)got.r, (double)e);
+                    fail_msg("%s, roughness %g, cosine %g: %g for %g", weft_lobe_info(id)->id, (double)roughnesses[k],
+                             (double)o.z, (double)got.r, (double)e);
             }
         }
 }
@@ -220,8 +216,7 @@ static void faint_sheens_keep_albedo_under_a_white_sky(void **state) {
                 Rgb got = stack_ambient(&m.stack, &m.view, all_tables(t), &calls, 1.0f, 1.0f);
                 if (!(abs(got.r - m.view.e_o.e) <= 0.01f * m.view.e_o.e + 1e-9f))
                     fail_msg("%s, alpha %g, strategy %d, cosine %g: %g for %g", weft_lobe_info(lobe.id)->id,
-                             (double)lobe.params[0], t.strategy, (double)o.z, (double)got.r,
-                             (double)m.view.e_o.e);
+                             (double)lobe.params[0], t.strategy, (double)o.z, (double)got.r, (double)m.view.e_o.e);
             }
         }
     }
@@ -329,8 +324,7 @@ static void layer_rules_dim_the_base_under_an_environment(void **state) {
                             ambient_table(&diffuse, AMBIENT_FITTED)};
     for (int layer = 0; layer < LAYER_COUNT; layer++)
         for (int k = 0; k < 6; k++) {
-            Surface s = {
-                .base_color = {0.7f, 0.4f, 0.1f}, .roughness = 0.6f, .specular = 1.0f, .sheen = 1.0f};
+            Surface s = {.base_color = {0.7f, 0.4f, 0.1f}, .roughness = 0.6f, .specular = 1.0f, .sheen = 1.0f};
             Choices c = choices_unmade();
             s.sheen_color = rgb(0.4f, 0.6f, 0.8f);
             s.sheen_roughness = k % 2 ? 0.8f : 0.5f;
@@ -378,9 +372,7 @@ static Rgb sharp_mean(const WeftImage *image, Vec3 d, float kappa) {
 static Vec3 sharp_world(const Sharp *s, Dir w) {
     return vec3_madd(vec3_madd(vec3_scale(s->x, w.x), s->y, w.y), s->z, w.z);
 }
-static Dir sharp_local(const Sharp *s, Vec3 w) {
-    return dir(vec3_dot(w, s->x), vec3_dot(w, s->y), vec3_dot(w, s->z));
-}
+static Dir sharp_local(const Sharp *s, Vec3 w) { return dir(vec3_dot(w, s->x), vec3_dot(w, s->y), vec3_dot(w, s->z)); }
 static Rgb sharp_radiance(const void *user, Dir w, float kappa) {
     const Sharp *s = user;
     return sharp_mean(&s->image, sharp_world(s, w), kappa);
@@ -395,9 +387,8 @@ static Rgb sharp_residual(const void *user, Dir w, float kappa) {
 static AmbientLight sharp_light(const void *user, int k) {
     const Sharp *s = user;
     const EnvLight *light = &s->parts.env_lights[k];
-    return (AmbientLight){sharp_local(s, light->direction),
-                          rgb(light->color[0], light->color[1], light->color[2]), env_light_density(light),
-                          k};
+    return (AmbientLight){sharp_local(s, light->direction), rgb(light->color[0], light->color[1], light->color[2]),
+                          env_light_density(light), k};
 }
 static AmbientLight sharp_point(const void *user, int k) {
     const Sharp *s = user;
@@ -427,16 +418,9 @@ static void make_sharp(Sharp *s) {
 
 /* Over a sphere, of three roughnesses: the reference sums f over the texels, each in 4 by 4 parts. */
 static double sphere_error(Sharp *s, const AmbientFit *table, int strategy, float rough, float step) {
-    AmbientSourceCalls calls = {sharp_radiance,
-                                sharp_irradiance,
-                                sharp_residual,
-                                sharp_light,
-                                s,
-                                s->parts.env_light_count,
-                                s->parts.env_light_kappa,
-                                NULL,
-                                sharp_point,
-                                s->parts.point_count};
+    AmbientSourceCalls calls = {
+        sharp_radiance,           sharp_irradiance,         sharp_residual, sharp_light, s,
+        s->parts.env_light_count, s->parts.env_light_kappa, NULL,           sharp_point, s->parts.point_count};
     double off = 0.0, all = 0.0;
     for (int n = 0; n < 24; n++) {
         float z = 0.15f + 0.033f * (float)n, side = sqrt(1.0f - z * z), turn = 2.4f * (float)n;
@@ -451,8 +435,7 @@ static double sphere_error(Sharp *s, const AmbientFit *table, int strategy, floa
             double v = (k / (4 * WIDTH) + 0.5) / (4 * HEIGHT);
             Dir i = sharp_local(s, latlong_direction((k % (4 * WIDTH) + 0.5) / (4 * WIDTH), v));
             if (!(i.z > 0.0f)) continue;
-            const float *p =
-                (const float *)s->image.pixels + 3 * (k / (16 * WIDTH) * WIDTH + k % (4 * WIDTH) / 4);
+            const float *p = (const float *)s->image.pixels + 3 * (k / (16 * WIDTH) * WIDTH + k % (4 * WIDTH) / 4);
             double w = (double)(lobe_eval(&lobe, angles_between(o, i)) * i.z) * (sin)(v * PI_DOUBLE);
             for (int c = 0; c < 3; c++) truth[c] += w * (double)p[c];
         }
@@ -520,11 +503,9 @@ static void stretched_terms_are_sampled(void **state) {
 
 static void sharp_environment_is_within_the_stated_error(void **state) {
     (void)state;
-    static const int lobes[] = {LOBE_LAMBERT,         LOBE_FABRIC_LAMBERT,
-                                LOBE_BURLEY_SHEEN,    LOBE_CHARLIE_NEUBELT,
-                                LOBE_CHARLIE_KHRONOS, LOBE_EXPONENTIAL_LIT,
-                                LOBE_PATRY,           LOBE_LTC_FIBRE,
-                                LOBE_THREADS,         LOBE_FIBRE};
+    static const int lobes[] = {
+        LOBE_LAMBERT,         LOBE_FABRIC_LAMBERT, LOBE_BURLEY_SHEEN, LOBE_CHARLIE_NEUBELT, LOBE_CHARLIE_KHRONOS,
+        LOBE_EXPONENTIAL_LIT, LOBE_PATRY,          LOBE_LTC_FIBRE,    LOBE_THREADS,         LOBE_FIBRE};
     static AmbientFit table;
     Sharp s = {0};
     make_sharp(&s);

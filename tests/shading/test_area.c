@@ -40,8 +40,7 @@ static double error_of(StackAt stack_at, const void *what, int least) {
 
 static void a_lobe_is_near(Lobe lobe, double most, int least) {
     double error = error_of(lone, &lobe, least);
-    print_message("%-28s %-5.3g %6.3f %%\n", weft_lobe_info(lobe.id)->id, (double)lobe.params[0],
-                  100.0 * error);
+    print_message("%-28s %-5.3g %6.3f %%\n", weft_lobe_info(lobe.id)->id, (double)lobe.params[0], 100.0 * error);
     if (!(error <= most)) fail_msg("more than %g %%", 100.0 * most);
 }
 
@@ -68,8 +67,7 @@ static void sheens_under_a_polygon_are_near_the_integral(void **state) {
     int at = 0;
     for (int id = 0; id < LOBE_COUNT; id++) {
         const WeftLobeInfo *info = weft_lobe_info(id);
-        if (info->traits & (TRAIT_REFERENCE | TRAIT_DIFFUSE) || id == LOBE_GGX || id == LOBE_COOK_TORRANCE)
-            continue;
+        if (info->traits & (TRAIT_REFERENCE | TRAIT_DIFFUSE) || id == LOBE_GGX || id == LOBE_COOK_TORRANCE) continue;
         bool coat = id == LOBE_BURLEY_COAT || id == LOBE_SILK;
         for (int k = 0; k < 3; k++) {
             static const float alphas[] = {0.1f, 0.25f, 0.5f};
@@ -105,8 +103,7 @@ static AlbedoTable charlie;
 /* A base under a sheen, each rule taking from it what it does for every wi; and what a rule takes matters. */
 static void layer_rules_dim_the_base_under_a_polygon(void **state) {
     (void)state;
-    static const int rules[] = {LAYER_ADDITIVE, LAYER_SEED, LAYER_ALBEDO_VIEW, LAYER_ALBEDO_MAX,
-                                LAYER_RECIPROCAL};
+    static const int rules[] = {LAYER_ADDITIVE, LAYER_SEED, LAYER_ALBEDO_VIEW, LAYER_ALBEDO_MAX, LAYER_RECIPROCAL};
     for (int k = 0; k < 5; k++) {
         Whole w = {white_cloth(0.4f), test_choices(LOBE_CHARLIE_NEUBELT, rules[k]), &charlie};
         w.surface.base_color = rgb(0.7f, 0.6f, 0.5f);
@@ -127,8 +124,7 @@ static void surfaces_under_a_polygon_are_near_the_integral(void **state) {
     double sum = 0.0;
     int n = test_long() ? 40 : test_short() ? 2 : 4;
     for (int k = 0; k < n; k++) {
-        Whole w = {random_surface(&random, true), test_choices(LOBE_CHARLIE_NEUBELT, LAYER_ALBEDO_MAX),
-                   &charlie};
+        Whole w = {random_surface(&random, true), test_choices(LOBE_CHARLIE_NEUBELT, LAYER_ALBEDO_MAX), &charlie};
         w.surface.roughness = max(w.surface.roughness, 0.3f);
         if (k % 2) w.surface = dusted(w.surface, 0.5f);
         double error = error_of(whole, &w, 3);
@@ -178,8 +174,8 @@ static void hostile_polygons_give_finite_light(void **state) {
         Polygon p = hostile_polygon(&random);
         SeenStack m;
         if (k % 4 == 0 || case_walks(id)) {
-            Whole w = {random_surface(&surfaces, true),
-                       test_choices(LOBE_CHARLIE_NEUBELT, (int)(k / 4 % LAYER_COUNT)), &charlie};
+            Whole w = {random_surface(&surfaces, true), test_choices(LOBE_CHARLIE_NEUBELT, (int)(k / 4 % LAYER_COUNT)),
+                       &charlie};
             w.surface.roughness = 2.0f * random_unit(&surfaces) * random_unit(&surfaces);
             m = whole(&w, o);
         } else {
@@ -187,8 +183,7 @@ static void hostile_polygons_give_finite_light(void **state) {
         }
         Rgb c = light_on(&m, p);
         if (!(isfinite(c.r) && isfinite(c.g) && isfinite(c.b) && c.r >= 0.0f && c.g >= 0.0f && c.b >= 0.0f))
-            fail_msg("%s, evaluation %ld: %g %g %g", weft_lobe_info(id)->id, k, (double)c.r, (double)c.g,
-                     (double)c.b);
+            fail_msg("%s, evaluation %ld: %g %g %g", weft_lobe_info(id)->id, k, (double)c.r, (double)c.g, (double)c.b);
     }
 }
 
@@ -321,8 +316,7 @@ static void compare_on(TextLanguage language) {
     }
     begin_text(&text, language);
     assert_int_equal(text_end(&text, &error), WEFT_OK);
-    ComputeDesc desc = {
-        .name = "a polygon light", .text = &text, .body = body, .inputs = GPU_INPUTS, .outputs = 1};
+    ComputeDesc desc = {.name = "a polygon light", .text = &text, .body = body, .inputs = GPU_INPUTS, .outputs = 1};
     if (compute_create(context, &desc, &compute, &error) != WEFT_OK) fail_msg("%s", error.text);
     assert_int_equal(compute_tables(compute, text.tables, text.table_count, &error), WEFT_OK);
     const float *ins[GPU_INPUTS];

@@ -30,9 +30,7 @@ static void questions_make(void) {
     }
 }
 
-static WeftDirections at(float w[3][ROOM], size_t k) {
-    return (WeftDirections){w[0] + k, w[1] + k, w[2] + k};
-}
+static WeftDirections at(float w[3][ROOM], size_t k) { return (WeftDirections){w[0] + k, w[1] + k, w[2] + k}; }
 
 /* Asks questions [first, first + n) with arrays that begin `shift` floats on. */
 static void ask(const WeftLobe *lobe, Questions *q, size_t first, size_t n, size_t shift, Answers *to) {
@@ -155,8 +153,8 @@ static void arrays_agree_with_calls_for_one_pair(void **state) {
                 for (int d = 0; d < 3 && drawn > 0.0f; d++) same = same && near(a.wi[d][k], wi[d]);
                 if (!same)
                     fail_msg("%s: f %.9g pdf %.9g drawn %.9g, one pair %.9g %.9g %.9g",
-                             case_name(&inner, dir(wo[0], wo[1], wo[2])).text, (double)a.f[0][k],
-                             (double)a.pdf[k], (double)a.drawn[k], (double)f[0], (double)pdf, (double)drawn);
+                             case_name(&inner, dir(wo[0], wo[1], wo[2])).text, (double)a.f[0][k], (double)a.pdf[k],
+                             (double)a.drawn[k], (double)f[0], (double)pdf, (double)drawn);
             }
         }
 }
@@ -169,8 +167,8 @@ static void missing_channel_arrays_are_skipped(void **state) {
     weft_lobe_init("ggx", &lobe, NULL);
     lobe.f0[1] = 0.25f;
     ask(&lobe, &questions, 0, N, 0, &a);
-    assert_int_equal(
-        weft_eval_n(&lobe, N, at(questions.o, 0), at(questions.i, 0), (WeftColors){.g = red}, NULL), WEFT_OK);
+    assert_int_equal(weft_eval_n(&lobe, N, at(questions.o, 0), at(questions.i, 0), (WeftColors){.g = red}, NULL),
+                     WEFT_OK);
     assert_memory_equal(red, a.f[1], sizeof red);
 }
 
@@ -197,8 +195,7 @@ static void array_element_without_a_direction_is_zero(void **state) {
         ask(&lobe, &q, 0, N, 0, &a);
         for (int k = 0; k < N; k++) {
             if (k % 3 == 0) {
-                assert_true(is_zero(a.f[0][k]) && is_zero(a.f[1][k]) && is_zero(a.f[2][k]) &&
-                            is_zero(a.pdf[k]));
+                assert_true(is_zero(a.f[0][k]) && is_zero(a.f[1][k]) && is_zero(a.f[2][k]) && is_zero(a.pdf[k]));
                 if (k / 3 % 6 < 3) assert_true(is_zero(a.drawn[k]));
                 assert_true(isfinite(a.drawn[k]) && isfinite(a.wi[0][k] + a.wi[1][k] + a.wi[2][k]));
             } else {

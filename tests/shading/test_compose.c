@@ -89,8 +89,7 @@ static void rule_seed_is_its_formula(void **state) {
         Dir o = random_direction(&random), i = random_direction(&random);
         SeenStack stack = made(&s, choices, o);
         Rgb f_cos = seen_eval(&stack, i, 0).f_cos;
-        const float found[] = {f_cos.r, f_cos.g, f_cos.b},
-                    base[] = {s.base_color.r, s.base_color.g, s.base_color.b},
+        const float found[] = {f_cos.r, f_cos.g, f_cos.b}, base[] = {s.base_color.r, s.base_color.g, s.base_color.b},
                     color[] = {s.sheen_color.r, s.sheen_color.g, s.sheen_color.b};
         for (int c = 0; c < 3; c++) {
             double f = seed_by_hand((double)base[c], (double)color[c], &s, o, i);
@@ -119,8 +118,7 @@ static void rule_side_by_side_gains_no_energy(void **state) {
             Surface surface = plain();
             surface.roughness = 0.3f;
             surface.metallic = (float)metal;
-            Choices any = test_choices(CHOICE_AUTO, CHOICE_AUTO),
-                    both = test_choices(CHOICE_AUTO, LAYER_SIDE_BY_SIDE);
+            Choices any = test_choices(CHOICE_AUTO, CHOICE_AUTO), both = test_choices(CHOICE_AUTO, LAYER_SIDE_BY_SIDE);
             assert_float_equal(furnace(&surface, both, cosines[c]), furnace(&surface, any, cosines[c]), 1e-6);
             surface.sheen_color = (Rgb){1.0f, 1.0f, 1.0f};
             surface.sheen_roughness = 0.8f;
@@ -132,8 +130,7 @@ static void rule_side_by_side_gains_no_energy(void **state) {
 /* A round D on a brushed base is as wide as the roughness says: sqrt(alpha_x alpha_y) of workflow disney. */
 static void round_highlight_on_a_brushed_base_has_the_mean_roughness(void **state) {
     (void)state;
-    const int workflows[] = {choice_find(CHOICE_workflow, "metallic"), choice_find(CHOICE_workflow, "disney"),
-                             0},
+    const int workflows[] = {choice_find(CHOICE_workflow, "metallic"), choice_find(CHOICE_workflow, "disney"), 0},
               profiles[] = {CHOICE_AUTO, CHOICE_AUTO, choice_find(CHOICE_profile, "hdrp-silk")};
     for (int k = 0; k < 3; k++) {
         Surface brushed = plain(), round = brushed;
@@ -153,8 +150,7 @@ static void round_highlight_on_a_brushed_base_has_the_mean_roughness(void **stat
         const float *p = c.stack.specular.lobe.params;
         Angles angles = angles_between(o, i);
         float alpha = p[0] * sqrt(p[COOK_TORRANCE_STRETCH]), ax = p[0] * p[COOK_TORRANCE_STRETCH];
-        float dv =
-            term_d(D_GGX_ANISO, p[0], ax, p[0], angles.h) * term_v(V_SMITH_GGX, alpha, ax, p[0], angles);
+        float dv = term_d(D_GGX_ANISO, p[0], ax, p[0], angles.h) * term_v(V_SMITH_GGX, alpha, ax, p[0], angles);
         assert_float_equal(lobe_eval(&c.stack.specular.lobe, angles), dv, 1e-6f * dv);
     }
 }
@@ -175,8 +171,7 @@ static void sheen_of_chosen_terms_has_them(void **state) {
         Dir o = random_direction(&random), i = random_direction(&random);
         SeenStack stack = made(&s, c, o);
         Angles a = angles_between(o, i);
-        float alpha = s.sheen_roughness * s.sheen_roughness,
-              share = term_f(c.sheen_f, compose_ior(&s), 0.0f, a.d);
+        float alpha = s.sheen_roughness * s.sheen_roughness, share = term_f(c.sheen_f, compose_ior(&s), 0.0f, a.d);
         float dv = term_d(c.sheen_d, alpha, alpha, alpha, a.h) * term_v(c.sheen_v, alpha, alpha, alpha, a);
         float expected = dv * fresnel_weight_mix(share, 0.6f, term_second(c.sheen_f, 0.6f, 0.2f)) * i.z;
         assert_float_equal(seen_eval(&stack, i, 0).f_cos.g, expected, 2e-5f * expected + 1e-30f);

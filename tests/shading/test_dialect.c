@@ -75,8 +75,8 @@ static double lerp(double a, double b, double t) { return a + (b - a) * t; }
 /* Conty Estevez and Kulla 2017, Table 1 and Equation 3 */
 static double conty_kulla_l_double(double alpha, double x) {
     double t = (1.0 - alpha) * (1.0 - alpha), power = (pow)(x, lerp(0.19823, 0.16801, t));
-    return lerp(21.5473, 25.3245, t) / (1.0 + lerp(3.82987, 3.32435, t) * power) +
-           lerp(-1.97760, -1.27393, t) * x + lerp(-4.32054, -4.85967, t);
+    return lerp(21.5473, 25.3245, t) / (1.0 + lerp(3.82987, 3.32435, t) * power) + lerp(-1.97760, -1.27393, t) * x +
+           lerp(-4.32054, -4.85967, t);
 }
 
 static double conty_kulla_lambda_double(double alpha, double x) {
@@ -88,8 +88,7 @@ static double conty_kulla_lambda_double(double alpha, double x) {
 static double charlie_double(int id, double alpha, Dir o, Dir i) {
     double oz = (double)o.z, iz = (double)i.z;
     double x = (double)o.x + (double)i.x, y = (double)o.y + (double)i.y, z = oz + iz;
-    double d = (2.0 + 1.0 / alpha) * (pow)((x * x + y * y) / (x * x + y * y + z * z), 0.5 / alpha) /
-               (2.0 * PI_DOUBLE);
+    double d = (2.0 + 1.0 / alpha) * (pow)((x * x + y * y) / (x * x + y * y + z * z), 0.5 / alpha) / (2.0 * PI_DOUBLE);
     if (id == LOBE_CHARLIE_NEUBELT) return d / (4.0 * (oz + iz - oz * iz));
     double lambda = conty_kulla_lambda_double(alpha, oz) + conty_kulla_lambda_double(alpha, iz);
     return d / ((1.0 + lambda) * 4.0 * fmax(oz * iz, 1e-7));
@@ -117,14 +116,13 @@ static void arrays_of_charlie_are_near_double_precision(void **state) {
             }
             lobe_eval_n(&lobe, BLOCK, ox, oy, oz, ix, iy, iz, f, NULL);
             for (int k = 0; k < BLOCK; k++) {
-                double exact = charlie_double(ids[l], (double)lobe.params[0], dir(ox[k], oy[k], oz[k]),
-                                              dir(ix[k], iy[k], iz[k]));
+                double exact =
+                    charlie_double(ids[l], (double)lobe.params[0], dir(ox[k], oy[k], oz[k]), dir(ix[k], iy[k], iz[k]));
                 double d = fabs((double)f[k] / exact - 1.0);
                 if (d > worst) worst = d, worst_alpha = (double)lobe.params[0];
             }
         }
-        print_message("%s: relative error %.2e, at alpha %.3f\n", weft_lobe_info(ids[l])->id, worst,
-                      worst_alpha);
+        print_message("%s: relative error %.2e, at alpha %.3f\n", weft_lobe_info(ids[l])->id, worst, worst_alpha);
         assert_true(worst < (ids[l] == LOBE_CHARLIE_NEUBELT ? 2e-6 : fused ? 2.5e-6 : 3.5e-6));
     }
 }
@@ -196,8 +194,7 @@ static void sampled_facet_normals_are_visible(void **state) {
     for (int n = 0; n < 300000; n++) {
         float alpha = (float)(pow)(10.0, -3.0 + 3.5 * (double)random_unit(&random));
         float ax = n % 2 ? alpha : (float)(pow)(10.0, -3.0 + 3.0 * (double)random_unit(&random));
-        Dir o = n % 3 ? random_direction(&random)
-                      : direction_cos((pow)(10.0, -7.0 * (double)random_unit(&random)), n);
+        Dir o = n % 3 ? random_direction(&random) : direction_cos((pow)(10.0, -7.0 * (double)random_unit(&random)), n);
         float u = random_unit(&random), v = random_unit(&random);
         Dir h = ggx_sample_h(ax, alpha, o, u, v);
         assert_true(h.z >= 0.0f);
@@ -219,8 +216,7 @@ static void d_of_the_dialect_is_normalised(void **state) {
         enum { STEPS = 20000 };
         for (int n = 0; n < STEPS; n++) {
             double t = stretch((n + 0.5) / STEPS), theta = t * PI_DOUBLE / 2.0;
-            double w = stretch_slope((n + 0.5) / STEPS) / STEPS * PI_DOUBLE * PI_DOUBLE * (sin)(theta) *
-                       (cos)(theta);
+            double w = stretch_slope((n + 0.5) / STEPS) / STEPS * PI_DOUBLE * PI_DOUBLE * (sin)(theta) * (cos)(theta);
             Dir h = direction(theta, 0.7);
             ggx += w * (double)ggx_d(alphas[k], alphas[k], h);
             charlie += w * (double)charlie_d(alphas[k], h);

@@ -7,8 +7,7 @@ static const double unit_pi = PI_DOUBLE;
 
 /* A pair of directions as a paper sees it. */
 typedef struct Pair {
-    double theta_o, theta_i, phi,
-        d; /* phi between both azimuths, d the cosine between wi and the half vector */
+    double theta_o, theta_i, phi, d; /* phi between both azimuths, d the cosine between wi and the half vector */
 } Pair;
 
 static Pair pair_of(Dir o, Dir i) {
@@ -23,9 +22,7 @@ static Pair pair_of(Dir o, Dir i) {
 }
 
 /* Burley 2012: retro-reflection by mixing towards fd90 with Schlick's weights. */
-static double schlick_mix(double f90, double theta) {
-    return 1.0 + (f90 - 1.0) * (pow)(1.0 - (cos)(theta), 5.0);
-}
+static double schlick_mix(double f90, double theta) { return 1.0 + (f90 - 1.0) * (pow)(1.0 - (cos)(theta), 5.0); }
 
 static double paper_burley(Pair p, double roughness) {
     double fd90 = 0.5 + 2.0 * p.d * p.d * roughness;
@@ -61,9 +58,7 @@ static double eon_albedo(double theta, double r) {
     return (1.0 + r / unit_pi * g) / (1.0 + eon_c1() * r);
 }
 
-static double eon_average(double r) {
-    return (1.0 + (2.0 / 3.0 - 28.0 / (15.0 * unit_pi)) * r) / (1.0 + eon_c1() * r);
-}
+static double eon_average(double r) { return (1.0 + (2.0 / 3.0 - 28.0 / (15.0 * unit_pi)) * r) / (1.0 + eon_c1() * r); }
 
 static double eon_color(double rho, double r) {
     double average = eon_average(r);
@@ -144,8 +139,7 @@ static void eon_follows_the_formula_of_its_paper(void **state) {
         float value = n % 8 ? random_unit(&random) : (float)(n / 8 % 2), rho = random_unit(&random);
         Lobe lobe = lobe_with("eon", value);
         Dir o = random_direction(&random), i = random_direction(&random);
-        WeftLobe open = {
-            .lobe = (int)lobe.id, .params = {value}, .f0 = {rho, 1.0f, 0.0f}, .f90 = {0.3f, 0.0f, 9.0f}};
+        WeftLobe open = {.lobe = (int)lobe.id, .params = {value}, .f0 = {rho, 1.0f, 0.0f}, .f90 = {0.3f, 0.0f, 9.0f}};
         float wo[3] = {o.x, o.y, o.z}, wi[3] = {i.x, i.y, i.z}, f[3];
         weft_lobe_eval(&open, wo, wi, f);
         double exact[3] = {paper_eon(pair_of(o, i), (double)value, (double)rho),
@@ -161,9 +155,7 @@ static void eon_follows_the_formula_of_its_paper(void **state) {
 
 /* E by a rule of this file: Simpson over theta_i and phi, split where the formulas have kinks (theta_i =
  * theta_o, phi = pi / 2), of every channel of weft_lobe_eval that f0 names. */
-static double simpson_weight(int k, int n) {
-    return (k == 0 || k == n ? 1.0 : k % 2 ? 4.0 : 2.0) / (3.0 * n);
-}
+static double simpson_weight(int k, int n) { return (k == 0 || k == n ? 1.0 : k % 2 ? 4.0 : 2.0) / (3.0 * n); }
 
 static double simpson_albedo(const WeftLobe *lobe, double theta_o, int n) {
     float wo[3] = {(float)(sin)(theta_o), 0.0f, (float)(cos)(theta_o)};
@@ -198,8 +190,7 @@ static void white_eon_returns_what_it_receives(void **state) {
             for (int rho = 4; rho > 0; rho -= 2) {
                 double theta = unit_pi / 2.0 * (c - 0.5) / 8.0, color = rho / 4.0,
                        roughness = (double)((float)r / 10.0f);
-                WeftLobe eon = {
-                    .lobe = weft_lobe_find("eon"), .params = {(float)r / 10.0f}, .f0 = {(float)color}};
+                WeftLobe eon = {.lobe = weft_lobe_find("eon"), .params = {(float)r / 10.0f}, .f0 = {(float)color}};
                 double first = eon_albedo(theta, roughness);
                 double exact = color * first + eon_color(color, roughness) * (1.0 - first);
                 double d = fabs(simpson_albedo(&eon, theta, steps) - exact);
@@ -241,8 +232,8 @@ static void albedo_of_diffuse_lobes_equals_its_closed_form(void **state) {
             float value = (float)v / 10.0f, cos_o = (float)c / 20.5f, e[3];
             double w = (double)value, theta = acos((double)cos_o), s = (sin)(theta), s2 = w * w;
             double g = s * (theta - s * (cos)(theta)) + 2.0 / 3.0 * tan(theta) * (1.0 - s * s * s);
-            double exact[3] = {1.0 - 0.5 * s2 / (s2 + 0.33) + 0.45 * s2 / (s2 + 0.09) * g / unit_pi,
-                               1.0 - 0.5 * w, (1.0 + 2.0 * w) / ((1.0 + w) * (1.0 + w))};
+            double exact[3] = {1.0 - 0.5 * s2 / (s2 + 0.33) + 0.45 * s2 / (s2 + 0.09) * g / unit_pi, 1.0 - 0.5 * w,
+                               (1.0 + 2.0 * w) / ((1.0 + w) * (1.0 + w))};
             WeftLobe lobe = {.lobe = weft_lobe_find("oren-nayar"), .params = {value}, .f0 = {1.0f}};
             assert_true(fabs(simpson_albedo(&lobe, theta, 40) - exact[0]) < 1e-4);
             for (int k = 1; k < 3; k++) {
@@ -297,8 +288,8 @@ static void sample_weights_of_diffuse_lobes_are_bounded(void **state) {
         float highest = 0.0f;
         for (int n = 0; n < PAIRS; n++) {
             Lobe lobe = lobe_with(rows[k].id, n % 4 ? random_unit(&random) * 1.58f : (float)(n / 4 % 3));
-            Dir o = n % 2 ? direction_cos((pow)(10.0, -6.0 * (double)random_unit(&random)), n)
-                          : random_direction(&random);
+            Dir o =
+                n % 2 ? direction_cos((pow)(10.0, -6.0 * (double)random_unit(&random)), n) : random_direction(&random);
             Dir i = lobe_sample(&lobe, o, random_unit(&random), random_unit(&random));
             if (n % 3 == 0) i = n % 2 ? o : dir(-o.x, -o.y, o.z);
             if (i.z <= 0.0f) continue;

@@ -84,8 +84,7 @@ static void dust_noise_is_smooth(void **state) {
     Random random = {2};
     double sum = 0.0, squares = 0.0, steepest = 0.0;
     for (int k = 0; k < COUNT; k++) {
-        Dir p =
-            dir(4.0f * random_unit(&random) - 2.0f, 4.0f * random_unit(&random) - 2.0f, random_unit(&random));
+        Dir p = dir(4.0f * random_unit(&random) - 2.0f, 4.0f * random_unit(&random) - 2.0f, random_unit(&random));
         Dir q = dir(p.x + 1e-4f, p.y, p.z);
         double n = (double)dust_noise(p, 0.05f);
         assert_true(n >= 0.0 && n <= 1.0);
@@ -97,8 +96,7 @@ static void dust_noise_is_smooth(void **state) {
     assert_float_equal(mean, 0.5, 0.03);
     assert_true(deviation > 0.15 && deviation < 0.35);
     assert_true(steepest > 10.0 && steepest < 5.2 / 0.05); /* 2 / 7 (4 + 4 + 4) 3 / 2, a patch */
-    assert_float_equal(dust_noise(dir(0.3f, 0.1f, 0.2f), 0.1f), dust_noise(dir(3.0f, 1.0f, 2.0f), 1.0f),
-                       1e-5);
+    assert_float_equal(dust_noise(dir(0.3f, 0.1f, 0.2f), 0.1f), dust_noise(dir(3.0f, 1.0f, 2.0f), 1.0f), 1e-5);
     static const float far[] = {0.0f, -0.0f, 1e-30f, 1e4f, -1e9f, 1e15f, -3e37f};
     for (size_t k = 0; k < 7 * 7 * 7; k++) {
         float n = dust_noise(dir(far[k % 7], far[k / 7 % 7], far[k / 49]), 1e-4f);
@@ -115,8 +113,7 @@ static void dust_noise_only_reduces_the_amount(void **state) {
     Surface s = dusty(&random, 0.8f);
     float least = 1.0f;
     for (int k = 0; k < 2000; k++) {
-        Dir p = dir(random_unit(&random), random_unit(&random), random_unit(&random)),
-            up = dir(0.0f, 1.0f, 0.0f);
+        Dir p = dir(random_unit(&random), random_unit(&random), random_unit(&random)), up = dir(0.0f, 1.0f, 0.0f);
         float amount[3];
         for (int n = 0; n < 3; n++) {
             s.dust_noise = 0.5f * (float)n;
@@ -241,8 +238,7 @@ static void amount_of_dust_is_a_slab_of_another_density(void **state) {
             Dir o = direction_cos(0.02 + 0.196 * c, 0.0);
             Lobe slabs = lobe_rough(LOBE_FIBRE, 1.0f), one = lobe_rough(LOBE_LTC_FIBRE, 1.0f);
             lobe_set(&slabs, density, 0.25f * (float)(1 << n));
-            float e_1 = dust_albedo(&one, o.z),
-                  e = e_1 * dust_weight(slabs.params[density] / DUST_SLABS, e_1, o.z);
+            float e_1 = dust_albedo(&one, o.z), e = e_1 * dust_weight(slabs.params[density] / DUST_SLABS, e_1, o.z);
             worst = fmax(worst, fabs((double)e - (double)albedo_quadrature(&slabs, o, 1e-4).f0));
         }
     print_message("E within %.3f of that of fibres, density 1/4 to 4\n", worst);

@@ -5,19 +5,13 @@
 #include "cases.h"
 #include "weft/arrays.h"
 
-enum {
-    N = 700,
-    INPUTS = 6 + 2 + 6 + WEFT_LOBE_PARAMS_MAX,
-    OUTPUTS = 8
-}; /* more than two blocks, and a rest */
+enum { N = 700, INPUTS = 6 + 2 + 6 + WEFT_LOBE_PARAMS_MAX, OUTPUTS = 8 }; /* more than two blocks, and a rest */
 
 /* in: wo, wi, u, v, f0, f90, parameters; out: f, pdf, wi, its pdf */
 static float in[INPUTS][N], out[OUTPUTS][N], pieces[OUTPUTS][N];
 
 /* The tolerances below were set for these draws, so a lobe keeps them where others come before it. */
-static bool came_later(int id) {
-    return id == LOBE_BODY || id == LOBE_FABRIC || id == LOBE_LTC_FIBRE_PUBLISHED;
-}
+static bool came_later(int id) { return id == LOBE_BODY || id == LOBE_FABRIC || id == LOBE_LTC_FIBRE_PUBLISHED; }
 static uint64_t seed_of(int id) {
     uint64_t seed = (uint64_t)id + 31;
     for (int before = 0; before < id; before++) seed -= came_later(before);
@@ -63,8 +57,7 @@ static WeftLobes lobes_of(const WeftLobe *lobe, int without, size_t k) {
 static void ask(const WeftLobe *lobe, size_t first, size_t n, float to[OUTPUTS][N]) {
     const WeftLobes lobes = lobes_of(lobe, -1, first);
     WeftColors f = {to[0] + first, to[1] + first, to[2] + first};
-    assert_int_equal(weft_eval_each(&lobes, n, row(0, first), row(3, first), f, to[3] + first, NULL),
-                     WEFT_OK);
+    assert_int_equal(weft_eval_each(&lobes, n, row(0, first), row(3, first), f, to[3] + first, NULL), WEFT_OK);
     assert_int_equal(weft_sample_each(&lobes, n, row(0, first), in[6] + first, in[7] + first, to[4] + first,
                                       to[5] + first, to[6] + first, to[7] + first, NULL),
                      WEFT_OK);
@@ -97,16 +90,13 @@ static int choice_of(const WeftLobeInfo *info, int turn, WeftLobe *lobe) {
  * just face a direction, small differences of large numbers, go further. */
 static double rounding_of(int lobe) {
     const bool yarns = lobe == LOBE_WOVEN || lobe == LOBE_YARN;
-    return yarns || lobe == LOBE_FIBRE || lobe == LOBE_CHARLIE_CONTY_KULLA || lobe == LOBE_COOK_TORRANCE
-               ? 2e-5
-               : 3e-6;
+    return yarns || lobe == LOBE_FIBRE || lobe == LOBE_CHARLIE_CONTY_KULLA || lobe == LOBE_COOK_TORRANCE ? 2e-5 : 3e-6;
 }
 
-static void assert_near(const WeftLobe *lobe, const char *what, size_t k, float got, float wanted,
-                        double tolerance) {
+static void assert_near(const WeftLobe *lobe, const char *what, size_t k, float got, float wanted, double tolerance) {
     if (!(fabs((double)got - (double)wanted) <= tolerance))
-        fail_msg("%s: %s of element %zu: %.9g, one pair %.9g", weft_lobe_info(lobe->lobe)->id, what, k,
-                 (double)got, (double)wanted);
+        fail_msg("%s: %s of element %zu: %.9g, one pair %.9g", weft_lobe_info(lobe->lobe)->id, what, k, (double)got,
+                 (double)wanted);
 }
 
 static double relative(double tolerance, float value) { return tolerance * (fabs((double)value) + 1e-6); }
@@ -161,8 +151,7 @@ static void element_does_not_depend_on_its_neighbours(void **state) {
         }
         for (int k = 0; k < OUTPUTS; k++) {
             const void *whole = out[k], *cut = pieces[k];
-            if (memcmp(whole, cut, sizeof out[k]) != 0)
-                fail_msg("%s: output %d differs", weft_lobe_info(id)->id, k);
+            if (memcmp(whole, cut, sizeof out[k]) != 0) fail_msg("%s: output %d differs", weft_lobe_info(id)->id, k);
         }
     }
 }
@@ -184,9 +173,8 @@ static void missing_parameter_arrays_use_the_lobe(void **state) {
         WeftLobes lobes = lobes_of(&lobe, 0, 0);
         memset(lobes.f0, 0, sizeof lobes.f0);
         memset(lobes.f90, 0, sizeof lobes.f90);
-        assert_int_equal(
-            weft_eval_each(&lobes, N, row(0, 0), row(3, 0), (WeftColors){.g = pieces[1]}, NULL, NULL),
-            WEFT_OK);
+        assert_int_equal(weft_eval_each(&lobes, N, row(0, 0), row(3, 0), (WeftColors){.g = pieces[1]}, NULL, NULL),
+                         WEFT_OK);
         assert_memory_equal(out[1], pieces[1], sizeof out[1]);
     }
 }
@@ -201,8 +189,7 @@ static void errors_of_element_loops_are_returned(void **state) {
     assert_int_equal(weft_eval_each(&lobes, 3, o, i, f, out[3], &error), WEFT_USAGE);
     assert_int_equal(error.message, WEFT_MESSAGE_LOBE_NAME);
     assert_true(out[0][0] < 1.0f && out[3][2] < 1.0f);
-    assert_int_equal(weft_sample_each(&lobes, 3, o, in[6], in[7], out[4], out[5], out[6], out[7], &error),
-                     WEFT_USAGE);
+    assert_int_equal(weft_sample_each(&lobes, 3, o, in[6], in[7], out[4], out[5], out[6], out[7], &error), WEFT_USAGE);
     assert_true(out[4][1] < 1.0f);
     assert_int_equal(weft_lobe_init("cook-torrance", &lobes.lobe, NULL), WEFT_OK);
     lobes.params[1] = in[14]; /* a choice */
@@ -213,14 +200,10 @@ static void errors_of_element_loops_are_returned(void **state) {
     assert_int_equal(weft_eval_each(&lobes, 3, o, none, f, NULL, &error), WEFT_USAGE);
     assert_int_equal(weft_sample_each(&lobes, 3, none, in[6], in[7], out[4], out[5], out[6], out[7], &error),
                      WEFT_USAGE);
-    assert_int_equal(weft_sample_each(&lobes, 3, o, NULL, in[7], out[4], out[5], out[6], out[7], &error),
-                     WEFT_USAGE);
-    assert_int_equal(weft_sample_each(&lobes, 3, o, in[6], in[7], out[4], NULL, out[6], out[7], &error),
-                     WEFT_USAGE);
-    assert_int_equal(weft_sample_each(&lobes, 3, o, in[6], in[7], out[4], out[5], out[6], NULL, &error),
-                     WEFT_USAGE);
-    assert_int_equal(weft_eval_each(&lobes, 0, none, none, (WeftColors){NULL, NULL, NULL}, NULL, NULL),
-                     WEFT_OK);
+    assert_int_equal(weft_sample_each(&lobes, 3, o, NULL, in[7], out[4], out[5], out[6], out[7], &error), WEFT_USAGE);
+    assert_int_equal(weft_sample_each(&lobes, 3, o, in[6], in[7], out[4], NULL, out[6], out[7], &error), WEFT_USAGE);
+    assert_int_equal(weft_sample_each(&lobes, 3, o, in[6], in[7], out[4], out[5], out[6], NULL, &error), WEFT_USAGE);
+    assert_int_equal(weft_eval_each(&lobes, 0, none, none, (WeftColors){NULL, NULL, NULL}, NULL, NULL), WEFT_OK);
 }
 
 int main(void) {

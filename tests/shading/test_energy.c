@@ -74,8 +74,8 @@ static void albedo_by_quadrature_agrees_with_other_estimators(void **state) {
                     double d = fmax(fabs((double)(m.f0 - e.f0)), fabs((double)(m.f90 - e.f90)));
                     if (d > worst) worst = d;
                     if (d > 1e-3)
-                        fail_msg("%s: E %.5f + %.5f, midpoint rule %.5f + %.5f", name, (double)e.f0,
-                                 (double)e.f90, (double)m.f0, (double)m.f90);
+                        fail_msg("%s: E %.5f + %.5f, midpoint rule %.5f + %.5f", name, (double)e.f0, (double)e.f90,
+                                 (double)m.f0, (double)m.f90);
                 }
                 Estimate s = sampled_albedo(&lobe, o, false, samples);
                 if (fabs(s.mean - all) > 5.0 * s.error + 1e-3)
@@ -90,8 +90,7 @@ static void albedo_by_quadrature_agrees_with_other_estimators(void **state) {
 
 static void traits_about_energy_are_true(void **state) {
     (void)state;
-    static const float grazing[] = {1e-4f, 1e-3f, 0.005f, 0.02f, 0.05f, 0.1f,
-                                    0.2f,  0.35f, 0.5f,   0.7f,  0.85f, 1.0f};
+    static const float grazing[] = {1e-4f, 1e-3f, 0.005f, 0.02f, 0.05f, 0.1f, 0.2f, 0.35f, 0.5f, 0.7f, 0.85f, 1.0f};
     int turn = 0;
     for (int id = 0; id < weft_lobe_count(); id++) {
         unsigned traits = weft_lobe_info(id)->traits;
@@ -130,8 +129,7 @@ static double albedo(const char *id, const char *alpha, float cos_o) {
 
 static double highest_albedo(const char *id, const char *alpha) {
     double highest = 0.0;
-    for (int k = 0; k <= 100; k++)
-        highest = fmax(highest, albedo(id, alpha, (float)(pow)(10.0, -4.0 + 0.04 * k)));
+    for (int k = 0; k <= 100; k++) highest = fmax(highest, albedo(id, alpha, (float)(pow)(10.0, -4.0 + 0.04 * k)));
     return highest;
 }
 
@@ -148,8 +146,7 @@ static void albedo_has_the_values_of_the_headers(void **state) {
     assert_true(fabs(albedo("charlie-neubelt", "0.0625", 0.02f) - 1.38) < 0.005);
     assert_true(fabs(albedo("charlie-conty-kulla", "0.01", 0.02f) - 1.63) < 0.005);
     /* the least alpha that conserves; and the horizon, where conty-kulla never does */
-    assert_true(highest_albedo("charlie-neubelt", "0.20") > 1.0 &&
-                highest_albedo("charlie-neubelt", "0.215") < 1.0);
+    assert_true(highest_albedo("charlie-neubelt", "0.20") > 1.0 && highest_albedo("charlie-neubelt", "0.215") < 1.0);
     assert_true(highest_albedo("charlie-conty-kulla", "0.06") > 1.0);
     assert_true(highest_albedo("charlie-conty-kulla", "0.07") < 1.0);
     assert_true(albedo("charlie-conty-kulla", "0.99", 1e-6f) > 1.0);
@@ -241,15 +238,12 @@ static void albedo_table_between_nodes_is_close(void **state) {
             Lobe lobe = table.lobe;
             if (info->param_count) lobe_set(&lobe, 0, (float)alpha);
             Albedo e = albedo_quadrature(&lobe, albedo_brightest(&lobe, o.z), 1e-5);
-            double d =
-                fabs((double)(e.f0 + e.f90 - table_albedo(albedo_table_ref(&table), o.z, (float)alpha)));
+            double d = fabs((double)(e.f0 + e.f90 - table_albedo(albedo_table_ref(&table), o.z, (float)alpha)));
             if (d > worst) worst = d, worst_cos = (double)o.z, worst_alpha = alpha;
             if (d > table_error_most(id, alpha))
-                fail_msg("%s: the table errs by %.5f at alpha %.4g, cos_o %.4g", info->id, d, alpha,
-                         (double)o.z);
+                fail_msg("%s: the table errs by %.5f at alpha %.4g, cos_o %.4g", info->id, d, alpha, (double)o.z);
         }
-        print_message("%-20s table within %.1e (at alpha %.4g, cos_o %.4g)\n", info->id, worst, worst_alpha,
-                      worst_cos);
+        print_message("%-20s table within %.1e (at alpha %.4g, cos_o %.4g)\n", info->id, worst, worst_alpha, worst_cos);
     }
 }
 
@@ -300,10 +294,8 @@ static void albedo_table_outside_its_range_uses_its_end(void **state) {
     albedo_table_fill(&table, &lobe, 0.25f, 0.25f, 1);
     assert_int_equal(table.rows, 1);
     Dir o = direction_cos(0.3, 0.0);
-    assert_float_equal(table_albedo(albedo_table_ref(&table), 0.3f, 0.7f),
-                       albedo_quadrature(&lobe, o, 1e-5).f0, 1e-3f);
-    albedo_table_fill(&table, &lobe, 0.0f, 0.5f,
-                      2); /* 0 is below the hard range: the rows begin at its end */
+    assert_float_equal(table_albedo(albedo_table_ref(&table), 0.3f, 0.7f), albedo_quadrature(&lobe, o, 1e-5).f0, 1e-3f);
+    albedo_table_fill(&table, &lobe, 0.0f, 0.5f, 2); /* 0 is below the hard range: the rows begin at its end */
     assert_float_equal(table_albedo(albedo_table_ref(&table), 0.3f, 0.0f),
                        table_albedo(albedo_table_ref(&table), 0.3f, 0.005f), 1e-6f);
     assert_float_equal(table_albedo(albedo_table_ref(&table), 0.3f, 9.0f),

@@ -73,8 +73,8 @@ static void lobes_stay_finite(void **state) {
             Dir s = lobe_sample(&lobe, o, u, v);
             float length = s.x * s.x + s.y * s.y + s.z * s.z;
             if (!is_finite(length) || fabsf(length - 1.0f) > 2e-4f)
-                fail_msg("%s u=%.9g v=%.9g: a sample of length^2 %g", case_name(&lobe, o).text, (double)u,
-                         (double)v, (double)length);
+                fail_msg("%s u=%.9g v=%.9g: a sample of length^2 %g", case_name(&lobe, o).text, (double)u, (double)v,
+                         (double)length);
             if (s.z <= 0.0f) continue;
             a = angles_between(o, s);
             if (!is_sound(lobe_pdf(&lobe, a)) || !is_sound(lobe_eval(&lobe, a)))

@@ -62,8 +62,8 @@ static double all_error_most(int id) {
 static void rule_albedo_view_returns_what_it_receives(void **state) {
     (void)state;
     static AlbedoTable table;
-    int view = layer_named("albedo-view"), additive = layer_named("additive"), checked = 0, seen = 0,
-        turn = 0, lobes = 0;
+    int view = layer_named("albedo-view"), additive = layer_named("additive"), checked = 0, seen = 0, turn = 0,
+        lobes = 0;
     double worst = 0.0;
     for (int id = 0; id < weft_lobe_count(); id++) {
         if (case_walks(id) || !test_turn(&lobes, 1, 7)) continue;
@@ -76,16 +76,15 @@ static void rule_albedo_view_returns_what_it_receives(void **state) {
                 seen++;
                 Lobe sheen = sheen_lobe(id, cloth.sheen_roughness);
                 Dir o = albedo_brightest(&sheen, (float)(c / 10.0 - 0.05)); /* the azimuth of the table */
-                SeenStack stack = test_stack(&cloth, view, &table, o),
-                          base = test_stack(&cloth, additive, &table, o);
+                SeenStack stack = test_stack(&cloth, view, &table, o), base = test_stack(&cloth, additive, &table, o);
                 float e = stack.view.e_o.e;
                 double all = (double)furnace(&stack, o, 150).g;
                 if (e <= 1.0f) {
                     checked++;
                     worst = fmax(worst, has_creases(id) ? 0.0 : fabs(all - 1.0));
                     if (fabs(all - 1.0) > all_error_most(id))
-                        fail_msg("%s at %g cos_o %g: %.5f", weft_lobe_info(id)->id,
-                                 (double)stack.stack.albedo_coord, (double)o.z, all);
+                        fail_msg("%s at %g cos_o %g: %.5f", weft_lobe_info(id)->id, (double)stack.stack.albedo_coord,
+                                 (double)o.z, all);
                 }
                 float step = has_creases(id) ? 5e-3f : 2e-3f;
                 assert_float_equal(furnace(&base, o, 150).r, (1.0f + e), (step + step * e));

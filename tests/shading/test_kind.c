@@ -68,8 +68,8 @@ static void weave_both(Random *random, YarnRows *rows, size_t k, SeenStack *any,
 }
 
 /* Shades textured points both ways, one light from above and one from below. */
-static void shade_alike(Random *random, const StackKind *kind, const Surface *plain, const Choices *choices,
-                        TableRef e, bool woven) {
+static void shade_alike(Random *random, const StackKind *kind, const Surface *plain, const Choices *choices, TableRef e,
+                        bool woven) {
     static KindVertices v;
     static SeenStack any[ROW_MOST];
     for (int k = 0; k < ROW_MOST; k++) {
@@ -85,15 +85,13 @@ static void shade_alike(Random *random, const StackKind *kind, const Surface *pl
     }
     kind_shade(kind, &v, e, (const bool[KIND_LIGHTS]){true, false, true}, ROW_MOST);
     for (int k = 0; k < ROW_MOST; k++) {
-        Dir i = dir(v.i[0][0][k], v.i[0][1][k], v.i[0][2][k]),
-            expected = seen_sample(&any[k], v.u[k], v.v[k]);
+        Dir i = dir(v.i[0][0][k], v.i[0][1][k], v.i[0][2][k]), expected = seen_sample(&any[k], v.u[k], v.v[k]);
         Dir drawn = dir(v.i[KIND_DRAWN][0][k], v.i[KIND_DRAWN][1][k], v.i[KIND_DRAWN][2][k]);
         value_is(&v, 0, k, seen_eval(&any[k], i, 1));
         value_is(&v, 2, k, seen_eval(&any[k], dir(i.x, i.y, -i.z), 1));
         bool none = !(seen_eval(&any[k], expected, 1).pdf > 0.0f) && !(drawn.z > 0.0f);
         assert_true(none ||
-                    fabsf(drawn.x - expected.x) + fabsf(drawn.y - expected.y) + fabsf(drawn.z - expected.z) <
-                        2e-3f);
+                    fabsf(drawn.x - expected.x) + fabsf(drawn.y - expected.y) + fabsf(drawn.z - expected.z) < 2e-3f);
         value_is(&v, KIND_DRAWN, k, seen_eval(&any[k], drawn, 1));
     }
 }

@@ -44,10 +44,10 @@ static double base_albedo(int rule, double c, double mu_o) {
     for (int k = 0; k <= STEPS; k++) {
         /* two pieces, split at mu_o: max and min have a kink there */
         double x = (double)k / STEPS, low = mu_o * x, high = mu_o + (1.0 - mu_o) * x;
-        double f_low = (double)rule_base(rule, (float)c, (float)sheen_e(mu_o), (float)sheen_e(low),
-                                         (float)sheen_average);
-        double f_high = (double)rule_base(rule, (float)c, (float)sheen_e(mu_o), (float)sheen_e(high),
-                                          (float)sheen_average);
+        double f_low =
+            (double)rule_base(rule, (float)c, (float)sheen_e(mu_o), (float)sheen_e(low), (float)sheen_average);
+        double f_high =
+            (double)rule_base(rule, (float)c, (float)sheen_e(mu_o), (float)sheen_e(high), (float)sheen_average);
         sum += simpson(k) * 2.0 * (f_low * low * mu_o + f_high * high * (1.0 - mu_o));
     }
     return sum;
@@ -74,16 +74,14 @@ static void energy_of_layer_rules_is_as_stated(void **state) {
         assert_true(fabs(base_albedo(VIEW, c, mu) - 1.0 + c * e) < 1e-6);
         assert_true(fabs(base_albedo(RECIPROCAL, c, mu) - 1.0 + c * e) < 1e-6);
         /* one pass, and all bounces between the sheen's underside and a Lambert base of colour rho */
-        double rho = 0.3 + 0.07 * (n % 10), once = rho * base_albedo(STOCHASTIC, c, mu), all = 0.0,
-               more = once;
+        double rho = 0.3 + 0.07 * (n % 10), once = rho * base_albedo(STOCHASTIC, c, mu), all = 0.0, more = once;
         for (int bounce = 0; bounce < 200; bounce++, more *= rho * c * sheen_average) all += more;
-        assert_true(fabs(all - rho * (1.0 - c * e) * (1.0 - c * sheen_average) /
-                                   (1.0 - rho * c * sheen_average)) < 1e-6);
+        assert_true(fabs(all - rho * (1.0 - c * e) * (1.0 - c * sheen_average) / (1.0 - rho * c * sheen_average)) <
+                    1e-6);
         assert_true(all < 1.0 - c * e + 1e-6);
     }
     for (int rule = 0; rule < RULES; rule++)
-        print_message("%-15s over a white base: E from %.4f to %.4f\n", rule_names[rule], least[rule],
-                      most[rule]);
+        print_message("%-15s over a white base: E from %.4f to %.4f\n", rule_names[rule], least[rule], most[rule]);
     assert_true(most[MAX] < 1.0 + 1e-6 && least[MAX] < 0.99);
     assert_true(least[MIN] > 1.0 - 1e-6 && most[MIN] > 1.1);
     assert_true(most[STOCHASTIC] < 1.0);
@@ -101,8 +99,7 @@ static void layer_rules_agree_for_equal_albedos(void **state) {
         /* a sheen that is the same everywhere is its own average */
         if (c * e < 0.99f) assert_float_equal(reciprocal_base(c, e, e, e), view, 1e-5f);
         /* a black sheen leaves all, whatever its albedo */
-        for (int rule = 0; rule < RULES; rule++)
-            assert_float_equal(rule_base(rule, 0.0f, e, avg, e), 1.0f, 0.0f);
+        for (int rule = 0; rule < RULES; rule++) assert_float_equal(rule_base(rule, 0.0f, e, avg, e), 1.0f, 0.0f);
     }
 }
 
@@ -111,11 +108,9 @@ static void layer_rules_are_reciprocal_as_claimed(void **state) {
     Random random = {52};
     float worst[RULES] = {0};
     for (int n = 0; n < 100000; n++) {
-        float c = random_unit(&random), a = random_unit(&random), b = random_unit(&random),
-              avg = random_unit(&random);
+        float c = random_unit(&random), a = random_unit(&random), b = random_unit(&random), avg = random_unit(&random);
         for (int rule = 0; rule < RULES; rule++)
-            worst[rule] =
-                max(worst[rule], fabsf(rule_base(rule, c, a, b, avg) - rule_base(rule, c, b, a, avg)));
+            worst[rule] = max(worst[rule], fabsf(rule_base(rule, c, a, b, avg) - rule_base(rule, c, b, a, avg)));
     }
     for (int rule = 0; rule < RULES; rule++)
         if (rule == VIEW || rule == MULTIPLICATIVE)

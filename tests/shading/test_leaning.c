@@ -52,8 +52,7 @@ static void measure(Worst *worst, const AlbedoTable *table, float roughness, flo
             Dir o = direction_cos((double)cosines[c], (double)(azimuth + headings[k] * DEGREES));
             SeenStack stack = test_stack(&cloth, LAYER_ALBEDO_VIEW, table, o);
             double all = furnace(&stack, o),
-                   across =
-                       all + (double)(stack.view.e_o.e - table_sheen(ref, o.z, stack.stack.albedo_coord).e);
+                   across = all + (double)(stack.view.e_o.e - table_sheen(ref, o.z, stack.stack.albedo_coord).e);
             worst->off = fmax(worst->off, fabs(all - 1.0));
             worst->across = fmax(worst->across, fabs(across - 1.0));
         }
@@ -105,8 +104,7 @@ static void table_holds_for_textured_tilts_below_its_own(void **state) {
 static void average_albedo_of_leaning_fibres_covers_azimuths(void **state) {
     (void)state;
     static AlbedoTable table;
-    static const double x[3] = {-0.774596669241483, 0.0, 0.774596669241483},
-                        w[3] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
+    static const double x[3] = {-0.774596669241483, 0.0, 0.774596669241483}, w[3] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
     for (int scaled = 0; scaled < 2; scaled++) {
         Lobe lobe = lobe_fibres(lobe_rough(LOBE_FIBRE, 0.7f), 1.0f, 40.0f * DEGREES, 0.0f);
         double sum = 0.0;
@@ -173,8 +171,7 @@ static void upright_fibres_do_not_depend_on_azimuth(void **state) {
         Dir o = direction_cos(k / 20.0, k);
         assert_true(!(fabsf(table_sheen_nap(ref, o, nap, rows).e - table_sheen(ref, o.z, 0.5f).e) > 0.0f));
     }
-    assert_true(
-        !(fabsf(table_sheen_nap_average(ref, nap, rows).e - table_sheen_average(ref, rows).e) > 0.0f));
+    assert_true(!(fabsf(table_sheen_nap_average(ref, nap, rows).e - table_sheen_average(ref, rows).e) > 0.0f));
 }
 
 /* One table serves all azimuths, and not another tilt. */

@@ -23,8 +23,8 @@ static float between(Random *random, float low, float high) { return mix(low, hi
 
 /* Blunt to sharp, leaning either way. */
 static Entries random_entries(Random *random) {
-    return (Entries){(expf)(between(random, -4.0f, 1.5f)), between(random, 0.0f, 1.5f),
-                     between(random, -1.5f, 1.5f), between(random, 0.0f, 0.8f)};
+    return (Entries){(expf)(between(random, -4.0f, 1.5f)), between(random, 0.0f, 1.5f), between(random, -1.5f, 1.5f),
+                     between(random, 0.0f, 0.8f)};
 }
 
 static Ltc transform(Entries e, Dir o) { return ltc_of(e.z, e.q, e.b, e.r, o.z); }
@@ -65,8 +65,7 @@ static Matrix transposed(Matrix a) {
 static double determinant(Matrix a) {
     double sum = 0.0;
     for (int j = 0; j < 3; j++)
-        sum += a.m[0][j] *
-               (a.m[1][(j + 1) % 3] * a.m[2][(j + 2) % 3] - a.m[1][(j + 2) % 3] * a.m[2][(j + 1) % 3]);
+        sum += a.m[0][j] * (a.m[1][(j + 1) % 3] * a.m[2][(j + 2) % 3] - a.m[1][(j + 2) % 3] * a.m[2][(j + 1) % 3]);
     return sum;
 }
 
@@ -82,8 +81,7 @@ static Matrix inverse(Matrix a) {
 }
 
 static void times(Matrix a, Dir w, double v[3]) {
-    for (int i = 0; i < 3; i++)
-        v[i] = a.m[i][0] * (double)w.x + a.m[i][1] * (double)w.y + a.m[i][2] * (double)w.z;
+    for (int i = 0; i < 3; i++) v[i] = a.m[i][0] * (double)w.x + a.m[i][1] * (double)w.y + a.m[i][2] * (double)w.z;
 }
 
 static void assert_near(Dir got, const double want[3], double factor, double size) {
@@ -108,10 +106,8 @@ static void ltc_matrices_equal_their_written_form(void **state) {
         assert_near(ltc_inverse(m, o, w), v, 1.0, 4.0 + (double)e.z);
         times(inverse(all), w, back);
         assert_near(ltc_forward(m, o, w), back, det, 10.0 + 4.0 * (double)e.z);
-        double r2 = v[0] * v[0] + v[1] * v[1] + v[2] * v[2],
-               pdf = fmax(v[2], 0.0) * det / (PI_DOUBLE * r2 * r2);
-        if (r2 > 1e-2)
-            assert_true(fabs((double)ltc_pdf(m, o, w) - pdf) < 1e-3 * pdf + 1e-5 * det / (r2 * r2));
+        double r2 = v[0] * v[0] + v[1] * v[1] + v[2] * v[2], pdf = fmax(v[2], 0.0) * det / (PI_DOUBLE * r2 * r2);
+        if (r2 > 1e-2) assert_true(fabs((double)ltc_pdf(m, o, w) - pdf) < 1e-3 * pdf + 1e-5 * det / (r2 * r2));
         /* the horizon's normal: what the cosine's axis sees of w_z >= 0 */
         Matrix i = inverse(inner);
         double n = i.m[2][2] / hypot(i.m[2][0], i.m[2][2]);
@@ -127,9 +123,7 @@ static Ltc viewed(const BsdfView *view) {
 static void pdf_of(const BsdfView *view, Dirs i, float *pdf) {
     for (size_t k = 0; k < i.n; k++) pdf[k] = ltc_pdf(viewed(view), view->o, dir(i.x[k], i.y[k], i.z[k]));
 }
-static Dir sample_of(const BsdfView *view, float u, float v) {
-    return ltc_sample(viewed(view), view->o, u, v);
-}
+static Dir sample_of(const BsdfView *view, float u, float v) { return ltc_sample(viewed(view), view->o, u, v); }
 static const Bsdf transformed = {.pdf = pdf_of, .sample = sample_of};
 
 static void ltc_samples_follow_their_pdf(void **state) {
@@ -146,14 +140,9 @@ static void ltc_samples_follow_their_pdf(void **state) {
         float *p = view.lobe.params;
         p[0] = e.z, p[1] = e.q, p[2] = e.b, p[3] = e.r;
         ChiSquare found;
-        assert_true(chi_square_measure(&view,
-                                       test_long()    ? 1000000
-                                       : test_short() ? 20000
-                                                      : 60000,
-                                       20, 1, &found));
+        assert_true(chi_square_measure(&view, test_long() ? 1000000 : test_short() ? 20000 : 60000, 20, 1, &found));
         double above = (double)ltc_above(viewed(&view), view.o);
-        if (found.stray || !(fabs(found.integral - above) < 0.01) ||
-            !(found.p >= 1.0 - (pow)(1.0 - 0.01, 1.0 / TESTS)))
+        if (found.stray || !(fabs(found.integral - above) < 0.01) || !(found.p >= 1.0 - (pow)(1.0 - 0.01, 1.0 / TESTS)))
             fail_msg("z %g q %g b %g r %g cos_o %g: p %.2g, integral %.4f and %.4f", (double)e.z, (double)e.q,
                      (double)e.b, (double)e.r, (double)view.o.z, found.p, found.integral, above);
     }
@@ -174,11 +163,10 @@ static void extreme_ltc_matrices_give_finite_values(void **state) {
         Ltc m = transform(e, o);
         float pdf = ltc_pdf(m, o, i), above = ltc_above(m, o);
         Dir w = ltc_sample(m, o, random_unit(&random), random_unit(&random));
-        if (!(isfinite(pdf) && pdf >= 0.0f && m.det > 0.0f && isfinite(m.det) && above >= 0.0f &&
-              above <= 1.0f && isfinite(w.x + w.y + w.z)))
-            fail_msg("z %g q %g b %g r %g cos_o %g cos_i %g: pdf %g above %g det %g", (double)e.z,
-                     (double)e.q, (double)e.b, (double)e.r, (double)c, (double)n, (double)pdf, (double)above,
-                     (double)m.det);
+        if (!(isfinite(pdf) && pdf >= 0.0f && m.det > 0.0f && isfinite(m.det) && above >= 0.0f && above <= 1.0f &&
+              isfinite(w.x + w.y + w.z)))
+            fail_msg("z %g q %g b %g r %g cos_o %g cos_i %g: pdf %g above %g det %g", (double)e.z, (double)e.q,
+                     (double)e.b, (double)e.r, (double)c, (double)n, (double)pdf, (double)above, (double)m.det);
     }
 }
 
@@ -190,8 +178,7 @@ static LtcTable table(void) {
     Random random = {14};
     for (int k = 0; k < ROWS * COLUMNS; k++) {
         Entries e = random_entries(&random);
-        const float planes[PLANES] = {
-            e.z, e.q, e.b, e.r, between(&random, 0.0f, 2.0f), between(&random, 0.0f, 1.0f)};
+        const float planes[PLANES] = {e.z, e.q, e.b, e.r, between(&random, 0.0f, 2.0f), between(&random, 0.0f, 1.0f)};
         for (int p = 0; p < PLANES; p++) texels[p * ROWS * COLUMNS + k] = planes[p];
     }
     return (LtcTable){texels, ROWS, COLUMNS, 0.2f, 0.9f};
@@ -285,8 +272,7 @@ static void compare_on(TextLanguage language) {
     assert_int_equal(text_end(&text, &error), WEFT_OK);
     ComputeDesc desc = {.name = "a transform", .text = &text, .body = body, .inputs = 3, .outputs = 2};
     if (compute_create(context, &desc, &compute, &error) != WEFT_OK) fail_msg("%s", error.text);
-    assert_int_equal(compute_tables(compute, &(TextTable){texels, PLANES * ROWS, COLUMNS, NULL}, 1, &error),
-                     WEFT_OK);
+    assert_int_equal(compute_tables(compute, &(TextTable){texels, PLANES * ROWS, COLUMNS, NULL}, 1, &error), WEFT_OK);
     static float in[3][4 * PAIRS], out[2][4 * PAIRS];
     Random random = {15};
     for (int k = 0; k < PAIRS; k++) {

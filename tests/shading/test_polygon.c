@@ -10,9 +10,7 @@ static double along_x(const void *what, Dir o, Dir i) { return 1.0 + (double)i.x
 static double along_y(const void *what, Dir o, Dir i) { return 1.0 + (double)i.y; }
 static double along_z(const void *what, Dir o, Dir i) { return 1.0 + (double)i.z; }
 
-static double transformed(const void *what, Dir o, Dir i) {
-    return (double)ltc_pdf(*(const Ltc *)what, o, i);
-}
+static double transformed(const void *what, Dir o, Dir i) { return (double)ltc_pdf(*(const Ltc *)what, o, i); }
 
 static void form_factor_equals_the_integral(void **state) {
     (void)state;
@@ -41,14 +39,12 @@ static void transformed_cosines_equal_the_integral(void **state) {
         Point corners[8];
         int count = any_polygon(&random, 2.0, corners);
         double z = 0.05 + 0.95 * light_random(&random), phi = 6.0 * light_random(&random);
-        Dir o = dir((float)((sqrt)(1.0 - z * z) * (cos)(phi)), (float)((sqrt)(1.0 - z * z) * (sin)(phi)),
-                    (float)z);
+        Dir o = dir((float)((sqrt)(1.0 - z * z) * (cos)(phi)), (float)((sqrt)(1.0 - z * z) * (sin)(phi)), (float)z);
         Ltc m = ltc_of((float)(0.2 + light_random(&random)), (float)light_random(&random),
                        (float)(light_random(&random) - 0.5), (float)light_random(&random), o.z);
         double expected = light_integral(transformed, &m, o, corners, count, 3);
         double got = (double)polygon_ltc(m, o, light_polygon(corners, count));
-        if (fabs(got - expected) > 2e-3 * expected + 1e-5)
-            fail_msg("polygon %d: %.9g for %.9g", n, got, expected);
+        if (fabs(got - expected) > 2e-3 * expected + 1e-5) fail_msg("polygon %d: %.9g for %.9g", n, got, expected);
     }
 }
 
@@ -95,10 +91,8 @@ static void form_factor_in_the_plane_of_the_light_is_bounded(void **state) {
         int count = any_polygon(&random, 0.0, corners);
         int kind = n % 4;
         Point at = corners[0]; /* the point lies there: on a corner, an edge, beside it, or just above */
-        if (kind == 1)
-            at = point_add(corners[0], point_add(corners[1], corners[0], -1.0), light_random(&random));
-        if (kind == 2)
-            at = point_add(corners[0], point_add(corners[1], corners[0], -1.0), 1.0 + light_random(&random));
+        if (kind == 1) at = point_add(corners[0], point_add(corners[1], corners[0], -1.0), light_random(&random));
+        if (kind == 2) at = point_add(corners[0], point_add(corners[1], corners[0], -1.0), 1.0 + light_random(&random));
         if (kind == 3) at = point_add(corners[0], corners[0], -0.5 + 1e-7);
         for (int k = 0; k < count; k++) corners[k] = point_add(corners[k], at, -1.0);
         float f = polygon_cosine(light_polygon(corners, count));

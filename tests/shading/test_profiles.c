@@ -55,9 +55,7 @@ static Pair pair_of(Dir o, Dir i) {
 
 static double schlick(double x) { return fifth(sat(1.0 - x)); }
 static double gaussian(double x) { return (exp2)((-5.55473 * x - 6.98316) * x); }
-static double charlie(double a, double s2) {
-    return (2.0 + 1.0 / a) * (pow)(s2, 0.5 / a) / (2.0 * PI_DOUBLE);
-}
+static double charlie(double a, double s2) { return (2.0 + 1.0 / a) * (pow)(s2, 0.5 / a) / (2.0 * PI_DOUBLE); }
 static double neubelt(Pair p) { return 1.0 / (4.0 * (p.l + p.v - p.l * p.v)); }
 static double ggx(double a, double nh) { return sq(a) / (PI_DOUBLE * sq(nh * nh * (sq(a) - 1.0) + 1.0)); }
 static double ggx_two(double ax, double ay, Pair p) {
@@ -99,8 +97,7 @@ static double three_e(double v, double r) {
     return sat((exp)(a * v + b));
 }
 static double materialx_e(double x, double y) {
-    double n =
-        13.67300 - 68.78018 * x + 799.08825 * y - 905.00061 * x * y + 60.28956 * x * x + 1086.96473 * y * y;
+    double n = 13.67300 - 68.78018 * x + 799.08825 * y - 905.00061 * x * y + 60.28956 * x * x + 1086.96473 * y * y;
     double d = 1 + 61.57746 * x + 442.78211 * y + 2597.49308 * x * y + 121.81241 * x * x + 3045.55075 * y * y;
     return sat(n / d);
 }
@@ -138,8 +135,7 @@ static Color engine_khronos(const Surface *s, Pair p) {
     Given g = given_of(s);
     double a = sq(g.r), ax = lerp(a, 1.0, sq((double)s->anisotropy)), as = sq(g.rs), fc = schlick(p.vh);
     double dv = ggx_two(ax, a, p) * smith_two(ax, a, p);
-    double v =
-        1.0 / ((1.0 + conty_kulla_lambda_of(as, p.v) + conty_kulla_lambda_of(as, p.l)) * 4.0 * p.l * p.v);
+    double v = 1.0 / ((1.0 + conty_kulla_lambda_of(as, p.v) + conty_kulla_lambda_of(as, p.l)) * 4.0 * p.l * p.v);
     double sheen = charlie(as, p.s2) * fmin(v, 1.0);
     double keep = fmin(1.0 - max3(g.sheen) * khronos_e[0], 1.0 - max3(g.sheen) * khronos_e[1]);
     double ac = sq((double)s->clearcoat_roughness);
@@ -217,10 +213,8 @@ static Color engine_materialx(const Surface *s, Pair p) {
     double a = sq(g.r), rho = sq(g.rs), fc = schlick(p.vh), ab[2], w = max3(g.sheen);
     materialx_ab(p.v, a, ab);
     double k_e = (1.0 - ab[0] - ab[1]) / (ab[0] + ab[1]);
-    double lambda_l = (sqrt)(a * a + (1.0 - a * a) * p.l * p.l),
-           lambda_v = (sqrt)(a * a + (1.0 - a * a) * p.v * p.v);
-    double g2 = 2.0 / (lambda_l / p.l + lambda_v / p.v), dg = ggx(a, p.nh) * g2 / (4.0 * p.v) / p.l,
-           top = 0.0;
+    double lambda_l = (sqrt)(a * a + (1.0 - a * a) * p.l * p.l), lambda_v = (sqrt)(a * a + (1.0 - a * a) * p.v * p.v);
+    double g2 = 2.0 / (lambda_l / p.l + lambda_v / p.v), dg = ggx(a, p.nh) * g2 / (4.0 * p.v) / p.l, top = 0.0;
     for (int k = 0; k < 3; k++)
         top += (1.0 + lerp(g.f0.c[k], g.weight, fc) * k_e) * (ab[0] * g.f0.c[k] + ab[1] * g.weight) / 3.0;
     Color f;
@@ -249,8 +243,7 @@ static Color engine_silk(const Surface *s, Pair p) {
     double a = sq(g.r), at = a * (1.0 + fmin((double)s->anisotropy, 0.9)),
            ab = a * (1.0 - fmin((double)s->anisotropy, 0.9));
     double lv = p.o[0] * p.i[0] + p.o[1] * p.i[1] + p.o[2] * p.i[2], fd90 = 0.5 + g.r * (1.0 + lv);
-    double fd =
-        (1.0 + (fd90 - 1.0) * schlick(p.v)) * (1.0 + (fd90 - 1.0) * schlick(p.l)) / (PI_DOUBLE * 1.03571);
+    double fd = (1.0 + (fd90 - 1.0) * schlick(p.v)) * (1.0 + (fd90 - 1.0) * schlick(p.l)) / (PI_DOUBLE * 1.03571);
     double dv = ggx_two(at, ab, p) * smith_two(at, ab, p);
     Color f;
     for (int k = 0; k < 3; k++) f.c[k] = g.base.c[k] * fd + dv * lerp(g.f0.c[k], 1.0, schlick(p.vh));
@@ -283,8 +276,7 @@ static Color engine_urp(const Surface *s, Pair p) {
     Color f, c = color_of(s->sheen_color);
     for (int k = 0; k < 3; k++)
         f.c[k] =
-            (g.base.c[k] * diffuse + lerp(term * lerp(0.04, g.base.c[k], g.metal), sheen * c.c[k], amount)) /
-            PI_DOUBLE;
+            (g.base.c[k] * diffuse + lerp(term * lerp(0.04, g.base.c[k], g.metal), sheen * c.c[k], amount)) / PI_DOUBLE;
     return f;
 }
 
@@ -294,8 +286,7 @@ static Color engine_velvet(const Surface *s, Pair p) {
     double d = (exp)(-cot2 / sq(sigma)) / (PI_DOUBLE * sq(sigma) * sq(p.s2));
     double groove = fmin(1.0, fmin(2.0 * k_h * p.v, 2.0 * k_h * p.l));
     Color f;
-    for (int k = 0; k < 3; k++)
-        f.c[k] = g.base.c[k] / PI_DOUBLE + g.sheen.c[k] * d * groove / (4.0 * p.v) / p.l;
+    for (int k = 0; k < 3; k++) f.c[k] = g.base.c[k] / PI_DOUBLE + g.sheen.c[k] * d * groove / (4.0 * p.v) / p.l;
     return f;
 }
 
@@ -307,24 +298,22 @@ static Color engine_disney(const Surface *s, Pair p) {
     Given g = given_of(s);
     double lum = 0.3 * g.base.c[0] + 0.6 * g.base.c[1] + 0.1 * g.base.c[2];
     Color tint = lum > 0.0 ? times(g.base, 1.0 / lum) : grey(1.0);
-    Color spec0 =
-        blend(times(blend(grey(1.0), tint, (double)s->specular_tint), 0.08 * g.weight), g.base, g.metal);
+    Color spec0 = blend(times(blend(grey(1.0), tint, (double)s->specular_tint), 0.08 * g.weight), g.base, g.metal);
     Color csheen = blend(grey(1.0), tint, (double)s->sheen_tint);
     double fl = schlick(p.l), fv = schlick(p.v), fh = schlick(p.vh);
     double fd90 = 0.5 + 2.0 * sq(p.vh) * g.r, fd = lerp(1.0, fd90, fl) * lerp(1.0, fd90, fv);
     double fss90 = sq(p.vh) * g.r, fss = lerp(1.0, fss90, fl) * lerp(1.0, fss90, fv);
-    double ss = 1.25 * (fss * (1.0 / (p.l + p.v) - 0.5) + 0.5),
-           aspect = (sqrt)(1.0 - 0.9 * (double)s->anisotropy);
+    double ss = 1.25 * (fss * (1.0 / (p.l + p.v) - 0.5) + 0.5), aspect = (sqrt)(1.0 - 0.9 * (double)s->anisotropy);
     double ax = fmax(0.001, sq(g.r) / aspect), ay = fmax(0.001, sq(g.r) * aspect);
     double gs = disney_g(p.i, ax, ay) * disney_g(p.o, ax, ay), ds = ggx_two(ax, ay, p);
     double ac = lerp(0.1, 0.001, (double)s->clearcoat_gloss);
     double dr = (ac * ac - 1.0) / (PI_DOUBLE * (log)(ac * ac) * (1.0 + (ac * ac - 1.0) * sq(p.nh)));
-    double gr = 1.0 / (p.l + (sqrt)(0.0625 + (1.0 - 0.0625) * sq(p.l))) /
-                (p.v + (sqrt)(0.0625 + (1.0 - 0.0625) * sq(p.v)));
+    double gr =
+        1.0 / (p.l + (sqrt)(0.0625 + (1.0 - 0.0625) * sq(p.l))) / (p.v + (sqrt)(0.0625 + (1.0 - 0.0625) * sq(p.v)));
     Color f;
     for (int k = 0; k < 3; k++) {
-        double below = lerp(fd, ss, (double)s->subsurface) * g.base.c[k] / PI_DOUBLE +
-                       fh * (double)s->sheen * csheen.c[k];
+        double below =
+            lerp(fd, ss, (double)s->subsurface) * g.base.c[k] / PI_DOUBLE + fh * (double)s->sheen * csheen.c[k];
         f.c[k] = below * (1.0 - g.metal) + gs * lerp(spec0.c[k], 1.0, fh) * ds +
                  0.25 * (double)s->clearcoat * gr * lerp(0.04, 1.0, fh) * dr;
     }
@@ -354,22 +343,18 @@ static Color engine_openpbr(const Surface *s, Pair p) {
     double dv = ggx(a, p.nh) * smith(a, p), least = schlick(fmin(p.vh, fmin(p.v, p.l)));
     Color f, tint = color_of(s->specular_color), fuzz = color_of(s->sheen_color);
     for (int k = 0; k < 3; k++) {
-        double dielectric =
-            g.base.c[k] / PI_DOUBLE * (1.0 - lerp(f0, 1.0, least)) + dv * tint.c[k] * lerp(f0, 1.0, fc);
+        double dielectric = g.base.c[k] / PI_DOUBLE * (1.0 - lerp(f0, 1.0, least)) + dv * tint.c[k] * lerp(f0, 1.0, fc);
         double metal = dv * strength * lerp(g.base.c[k], 1.0, fc);
-        f.c[k] = weight * fuzz.c[k] * openpbr_fuzz[0] +
-                 (1.0 - weight * openpbr_fuzz[1]) * lerp(dielectric, metal, g.metal);
+        f.c[k] =
+            weight * fuzz.c[k] * openpbr_fuzz[0] + (1.0 - weight * openpbr_fuzz[1]) * lerp(dielectric, metal, g.metal);
     }
     return f;
 }
 
 static Color (*const engines[PROFILES])(const Surface *, Pair) = {
-    [UNREAL4] = engine_unreal4, [COTTON] = engine_cotton,
-    [SILK] = engine_silk,       [URP] = engine_urp,
-    [CLOTH] = engine_cloth,     [FILAMENT] = engine_filament,
-    [KHRONOS] = engine_khronos, [THREE] = engine_three,
-    [BABYLON] = engine_babylon, [MATERIALX] = engine_materialx,
-    [VELVET] = engine_velvet,   [DISNEY] = engine_disney,
+    [UNREAL4] = engine_unreal4, [COTTON] = engine_cotton,       [SILK] = engine_silk,       [URP] = engine_urp,
+    [CLOTH] = engine_cloth,     [FILAMENT] = engine_filament,   [KHRONOS] = engine_khronos, [THREE] = engine_three,
+    [BABYLON] = engine_babylon, [MATERIALX] = engine_materialx, [VELVET] = engine_velvet,   [DISNEY] = engine_disney,
     [ORDER] = engine_order,     [OPENPBR] = engine_openpbr,
 };
 
@@ -419,14 +404,11 @@ static void profiles_follow_the_formulas_of_their_engines(void **state) {
     int surfaces = test_short() ? 60 : 600;
     for (int n = 0; n < surfaces; n++) {
         Surface s = any_surface(&random);
-        Dir o =
-            direction_cos(0.15 + 0.85 * (double)random_unit(&random), 6.28 * (double)random_unit(&random));
-        Dir i =
-            direction_cos(0.15 + 0.85 * (double)random_unit(&random), 6.28 * (double)random_unit(&random));
+        Dir o = direction_cos(0.15 + 0.85 * (double)random_unit(&random), 6.28 * (double)random_unit(&random));
+        Dir i = direction_cos(0.15 + 0.85 * (double)random_unit(&random), 6.28 * (double)random_unit(&random));
         if (n % 4 == 0) { /* near the mirror direction, where highlights are */
             double phi = atan2(-(double)o.y, -(double)o.x), at = acos((double)o.z);
-            i = direction(fmin(at + 0.2 * (double)random_unit(&random), 1.4),
-                          phi + 0.2 * (double)random_unit(&random));
+            i = direction(fmin(at + 0.2 * (double)random_unit(&random), 1.4), phi + 0.2 * (double)random_unit(&random));
         }
         Pair p = pair_of(o, i);
         for (int profile = 1; profile < PROFILES; profile++) {
@@ -449,8 +431,7 @@ static void profiles_follow_the_formulas_of_their_engines(void **state) {
                       : profile == OPENPBR ? openpbr_ref()
                                            : (TableRef){.kind = TABLE_NONE},
                       o);
-            Color got = times(color_of(seen_eval(&stack, i, 0).f_cos), 1.0 / p.l),
-                  want = engines[profile](&s, p);
+            Color got = times(color_of(seen_eval(&stack, i, 0).f_cos), 1.0 / p.l), want = engines[profile](&s, p);
             if (profile == KHRONOS) { /* 2e-3 of what E takes away */
                 Surface bare = s;
                 bare.sheen_color = (Rgb){0.0f, 0.0f, 0.0f};
@@ -462,12 +443,11 @@ static void profiles_follow_the_formulas_of_their_engines(void **state) {
                 tolerance = 6e-3 * (double)s.sheen * max3(engine_openpbr(&bare, p));
             }
             for (int k = 0; k < 3; k++) {
-                double error =
-                    fmax(fabs(got.c[k] - want.c[k]) - tolerance, 0.0) / fmax(fabs(want.c[k]), 1e-4);
+                double error = fmax(fabs(got.c[k] - want.c[k]) - tolerance, 0.0) / fmax(fabs(want.c[k]), 1e-4);
                 worst[profile] = fmax(worst[profile], error);
                 if (!(error <= 1e-5))
-                    fail_msg("%s, surface %d, channel %d: %.7g and not %.7g", weft_profile_name(profile), n,
-                             k, got.c[k], want.c[k]);
+                    fail_msg("%s, surface %d, channel %d: %.7g and not %.7g", weft_profile_name(profile), n, k,
+                             got.c[k], want.c[k]);
             }
         }
     }
@@ -497,11 +477,9 @@ static void profiles_are_finite_and_not_negative(void **state) {
         s.anisotropy = hard(&random, 0, 1), s.ior = hard(&random, 0, 1e6f),
         s.reflectance = hard(&random, -0.34f, 19.66f);
         s.clearcoat_gloss = hard(&random, 0, 1), s.subsurface = hard(&random, 0, 1);
-        s.clearcoat_normal =
-            direction(1.5 * (double)random_unit(&random), 6.0 * (double)random_unit(&random));
+        s.clearcoat_normal = direction(1.5 * (double)random_unit(&random), 6.0 * (double)random_unit(&random));
         for (int d = 0; d < 6 * 6 * 4; d++) {
-            Dir o = direction_cos(cosines[d % 6], 0.3),
-                i = direction_cos(cosines[d / 6 % 6], 0.3 + azimuths[d / 36]);
+            Dir o = direction_cos(cosines[d % 6], 0.3), i = direction_cos(cosines[d / 6 % 6], 0.3 + azimuths[d / 36]);
             o.z = max(o.z, 1e-6f), i.z = max(i.z, 1e-6f);
             int profile = 1 + (n + d) % (PROFILES - 1);
             Choices choices = only_profile(profile);
@@ -511,8 +489,8 @@ static void profiles_are_finite_and_not_negative(void **state) {
             Rgb f = value.f_cos;
             if (!(isfinite(f.r) && isfinite(f.g) && isfinite(f.b) && isfinite(value.pdf) && f.r >= 0.0f &&
                   f.g >= 0.0f && f.b >= 0.0f && value.pdf >= 0.0f))
-                fail_msg("%s, surface %d: %g %g %g, pdf %g", weft_profile_name(profile), n, (double)f.r,
-                         (double)f.g, (double)f.b, (double)value.pdf);
+                fail_msg("%s, surface %d: %g %g %g, pdf %g", weft_profile_name(profile), n, (double)f.r, (double)f.g,
+                         (double)f.b, (double)value.pdf);
             Dir w = seen_sample(&stack, random_unit(&random), random_unit(&random));
             assert_true(isfinite(w.x) && isfinite(w.y) && isfinite(w.z));
         }
@@ -551,11 +529,10 @@ static void sheens_of_profiles_have_the_albedo_of_their_engines(void **state) {
         SeenStack stack;
         seen_make(&stack, &s, &choices, (TableRef){.kind = TABLE_NONE}, o);
         Albedo e = albedo_quadrature(&stack.stack.sheen.lobe, o, 1e-5);
-        double got =
-            (double)stack.stack.sheen.f0.g * (double)e.f0 + (double)stack.stack.sheen.f90.g * (double)e.f90;
+        double got = (double)stack.stack.sheen.f0.g * (double)e.f0 + (double)stack.stack.sheen.f90.g * (double)e.f90;
         if (!(fabs(got - known[k].e) < 0.004 * known[k].e + 5e-4))
-            fail_msg("%s at %g, cos_o %g: %.5f and not %g", weft_profile_name(known[k].profile),
-                     (double)known[k].r, known[k].v, got, known[k].e);
+            fail_msg("%s at %g, cos_o %g: %.5f and not %g", weft_profile_name(known[k].profile), (double)known[k].r,
+                     known[k].v, got, known[k].e);
     }
 }
 
@@ -601,8 +578,7 @@ static double ggx_sum(double r, double v, int points) {
 /* Texels against a quadrature that shares nothing with the sums they come from. */
 static void tables_of_engines_are_near_a_quadrature(void **state) {
     (void)state;
-    static const int all[] = {ENGINE_FILAMENT_SHEEN, ENGINE_FILAMENT_GGX, ENGINE_BABYLON_SHEEN,
-                              ENGINE_BABYLON_GGX};
+    static const int all[] = {ENGINE_FILAMENT_SHEEN, ENGINE_FILAMENT_GGX, ENGINE_BABYLON_SHEEN, ENGINE_BABYLON_GGX};
     for (int t = 0; t < 4; t++) {
         TableRef table = engine_table(all[t]);
         bool sheen = t % 2 == 0;
@@ -622,8 +598,7 @@ static void tables_of_engines_are_near_a_quadrature(void **state) {
     for (int j = 3; j < 128; j += 31)
         for (int k = 0; k < 128; k += 21) {
             float got = engine_table(ENGINE_FILAMENT_GGX).texels[j * 128 + k];
-            assert_float_equal(got, (float)ggx_sum(fmin((j + 1.5) / 128.0, 1.0), (k + 0.5) / 128.0, 1024),
-                               2e-4f);
+            assert_float_equal(got, (float)ggx_sum(fmin((j + 1.5) / 128.0, 1.0), (k + 0.5) / 128.0, 1024), 2e-4f);
         }
     /* .0548 by the integral */
     assert_float_equal(table_albedo(engine_table(ENGINE_FILAMENT_SHEEN), 0.3f, 0.1f), 0.0711f, 5e-4f);
@@ -656,8 +631,8 @@ static void substitute_for_the_table_of_gltf_is_near(void **state) {
             if (c == 0) grazing = fmax(grazing, e);
             if (c > 0) elsewhere = fmax(elsewhere, e);
         }
-    print_message("without the clamp E of khronos is up to %.3f more at cos_o 0.02, %.3f from 0.1 on\n",
-                  grazing, elsewhere);
+    print_message("without the clamp E of khronos is up to %.3f more at cos_o 0.02, %.3f from 0.1 on\n", grazing,
+                  elsewhere);
     assert_true(grazing < 0.16 && elsewhere < 0.06);
 }
 

@@ -18,19 +18,16 @@ static void lobes_are_reciprocal_as_their_traits_claim(void **state) {
         for (int n = 0; n < PAIRS; n++) {
             Lobe lobe = case_lobe(id, n % case_count(id));
             int shadow = weft_lobe_param_find(id, "v"); /* the help of a term says where it is not */
-            if (shadow >= 0 &&
-                strstr(weft_term_help(WEFT_TERM_V, (int)lobe.params[shadow]), "not reciprocal"))
+            if (shadow >= 0 && strstr(weft_term_help(WEFT_TERM_V, (int)lobe.params[shadow]), "not reciprocal"))
                 continue;
             Dir o = random_direction(&random), i = random_direction(&random);
-            LobeValue v = lobe_value(&lobe, angles_between(o, i)),
-                      w = lobe_value(&lobe, angles_between(i, o));
+            LobeValue v = lobe_value(&lobe, angles_between(o, i)), w = lobe_value(&lobe, angles_between(i, o));
             float f = v.f, g = w.f;
             if (n % 2) /* in a colour */
                 f *= lobe_color(v, 0.4f, lobe_second(&lobe, 0.4f, 0.9f)),
                     g *= lobe_color(w, 0.4f, lobe_second(&lobe, 0.4f, 0.9f));
             if (!close_to(f, g))
-                fail_msg("%s: f(o, i) = %.9g, f(i, o) = %.9g", case_name(&lobe, o).text, (double)f,
-                         (double)g);
+                fail_msg("%s: f(o, i) = %.9g, f(i, o) = %.9g", case_name(&lobe, o).text, (double)f, (double)g);
         }
     }
 }
@@ -75,8 +72,7 @@ static void anisotropic_lobes_depend_on_azimuth(void **state) {
             if (how >= 0) lobe_set(&lobe, how, 0.8f);
             if (stretch >= 0) lobe_set(&lobe, stretch, 4.0f);
             if (tilt >= 0) lobe_set(&lobe, tilt, 0.7f);
-            if (crimp >= 0)
-                lobe_set(&lobe, crimp, 0.1f); /* steep yarn draws its streak out to both directions */
+            if (crimp >= 0) lobe_set(&lobe, crimp, 0.1f); /* steep yarn draws its streak out to both directions */
             /* an eighth of a turn: a quarter may lay one yarn of threads over the other; at grazing, and in a highlight
              * across fibres, which grazing light has little of */
             for (int pair = 0; pair < 2; pair++) {

@@ -140,8 +140,7 @@ static void lobe_headers_have_the_required_lines(void **state) {
         snprintf(opening, sizeof opening, "/* %s - ", info->id);
         if (strncmp(text, opening, strlen(opening)) != 0) fail_msg("%s does not begin with its id", file);
         for (int p = 0; p < 5; p++)
-            if (!strstr(text, phrases[p]))
-                fail_msg("%s has no \"%s\" in its opening comment", file, phrases[p]);
+            if (!strstr(text, phrases[p])) fail_msg("%s has no \"%s\" in its opening comment", file, phrases[p]);
         if (info->param_count && !strstr(text, "roughness: ")) fail_msg("%s has no \"roughness: \"", file);
         if (!has_year(text)) fail_msg("%s cites nothing with a year", file);
         bool reciprocal = strstr(text, "reciprocal: yes") != NULL, gains = strstr(text, "energy: no") != NULL;
@@ -166,8 +165,7 @@ static void shading_text_keeps_to_the_dialect(void **state) {
             const char *body = strstr(text, "*/");
             assert_non_null(body);
             for (size_t k = 0; k < sizeof foreign / sizeof foreign[0]; k++)
-                if (strstr(body, foreign[k]))
-                    fail_msg("%s/%s has \"%s\"", folders[f], entry->d_name, foreign[k]);
+                if (strstr(body, foreign[k])) fail_msg("%s/%s has \"%s\"", folders[f], entry->d_name, foreign[k]);
             free(text);
         }
         closedir(folder);

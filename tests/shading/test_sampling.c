@@ -16,11 +16,7 @@ static double significance(void) { return 1.0 - (pow)(1.0 - 0.01, 1.0 / TESTS); 
 
 static ChiSquare measure(const BsdfView *view) {
     ChiSquare found;
-    assert_true(chi_square_measure(view,
-                                   test_long()    ? 2000000
-                                   : test_short() ? 20000
-                                                  : 60000,
-                                   20, 1, &found));
+    assert_true(chi_square_measure(view, test_long() ? 2000000 : test_short() ? 20000 : 60000, 20, 1, &found));
     return found;
 }
 
@@ -82,8 +78,7 @@ static void stack_samples_follow_their_pdf(void **state) {
         if (k % 3 == 1) surface = dusted(surface, 0.1f * (float)k);
         for (int e = 1; e < ELEVATIONS; e += 2) {
             Dir o = direction_cos(elevations[e], 1.0 + k);
-            BsdfView view = {
-                .bsdf = &stacked, .o = o, .whole = {test_stack(&surface, k % LAYER_COUNT, &table, o)}};
+            BsdfView view = {.bsdf = &stacked, .o = o, .whole = {test_stack(&surface, k % LAYER_COUNT, &table, o)}};
             char name[64];
             snprintf(name, sizeof name, "surface %d cos_o=%g", k, (double)o.z);
             check_proposal(&view, name);
@@ -94,12 +89,9 @@ static void stack_samples_follow_their_pdf(void **state) {
 /* Directions below the surface are mirrored, so that they can be counted as those above are. */
 static Dir mirrored(Dir i) { return dir(i.x, i.y, -i.z); }
 static void through_pdf(const BsdfView *view, Dirs i, float *pdf) {
-    for (size_t k = 0; k < i.n; k++)
-        pdf[k] = seen_eval(&view->whole[0], mirrored(dir(i.x[k], i.y[k], i.z[k])), 0).pdf;
+    for (size_t k = 0; k < i.n; k++) pdf[k] = seen_eval(&view->whole[0], mirrored(dir(i.x[k], i.y[k], i.z[k])), 0).pdf;
 }
-static Dir through_draw(const BsdfView *view, float u, float v) {
-    return mirrored(seen_sample(&view->whole[0], u, v));
-}
+static Dir through_draw(const BsdfView *view, float u, float v) { return mirrored(seen_sample(&view->whole[0], u, v)); }
 static const Bsdf through = {.pdf = through_pdf, .sample = through_draw};
 
 static void stack_samples_that_go_through_follow_their_pdf(void **state) {
@@ -118,8 +110,7 @@ static void stack_samples_that_go_through_follow_their_pdf(void **state) {
                              .o = o,
                              .whole = {test_stack(&surface, LAYER_ALBEDO_VIEW, &table, o)}};
             char name[64];
-            snprintf(name, sizeof name, "thin surface %d %s cos_o=%g", k, side ? "below" : "above",
-                     (double)o.z);
+            snprintf(name, sizeof name, "thin surface %d %s cos_o=%g", k, side ? "below" : "above", (double)o.z);
             check_proposal(&view, name);
         }
     }
@@ -150,8 +141,7 @@ static void chi_square_finds_a_wrong_pdf(void **state) {
 static void wide_pdf(const BsdfView *view, Dirs i, float *pdf) {
     Lobe wide = view->lobe;
     wide.params[0] *= test_short() ? 1.2f : 1.05f; /* few samples see no less */
-    for (size_t k = 0; k < i.n; k++)
-        pdf[k] = lobe_pdf(&wide, angles_between(view->o, dir(i.x[k], i.y[k], i.z[k])));
+    for (size_t k = 0; k < i.n; k++) pdf[k] = lobe_pdf(&wide, angles_between(view->o, dir(i.x[k], i.y[k], i.z[k])));
 }
 
 /* An error that the integral claims for itself could hide a wrong pdf where a peak is as narrow as a bin. */

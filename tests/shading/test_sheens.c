@@ -122,8 +122,7 @@ static double fabric(const float *p, Vector o, Vector i) {
     double alpha = (double)p[0], m = 0.25 + 0.5 * alpha;
     double to = hypot(m * (sin)(polar(o)), o.z), ti = hypot(m * (sin)(polar(i)), i.z);
     double graze = 1.0 - (double)p[1] * (0.85 - 0.5 * alpha - 0.2 * alpha * alpha);
-    return spread_of_fabric(p, o, i) / (2.0 * (i.z * to + o.z * ti)) /
-           fmax(1.0, 1.0 + (1.0 / m - 1.0) * graze);
+    return spread_of_fabric(p, o, i) / (2.0 * (i.z * to + o.z * ti)) / fmax(1.0, 1.0 + (1.0 / m - 1.0) * graze);
 }
 
 /* Sadeghi et al. 2013, in their angles: theta from the plane across the yarn, phi around it from n. */
@@ -233,8 +232,7 @@ static void sheens_follow_the_formulas_of_their_papers(void **state) {
 /* alpha is an artist's roughness squared where the header says so; patry squares its own. */
 static void roughness_of_sheens_is_as_the_headers_state(void **state) {
     (void)state;
-    static const char *const squared[] = {"ashikhmin-neubelt", "ashikhmin-conty-kulla", "charlie-khronos",
-                                          "silk"};
+    static const char *const squared[] = {"ashikhmin-neubelt", "ashikhmin-conty-kulla", "charlie-khronos", "silk"};
     for (int k = 0; k < 4; k++) {
         int id = weft_lobe_find(squared[k]);
         assert_string_equal(weft_lobe_info(id)->params[0].name, "alpha");
@@ -257,8 +255,7 @@ static void exponential_lobes_follow_their_ramp(void **state) {
                 Lobe lobe = lobe_default(ids[l]);
                 lobe_set(&lobe, 0, betas[b]);
                 double cos_o = c / 20.0, x = ramp((double)betas[b], 1.0 - cos_o);
-                assert_float_equal(albedo_quadrature(&lobe, direction_cos(cos_o, 0.0), 1e-6).f0, (float)x,
-                                   1e-5f);
+                assert_float_equal(albedo_quadrature(&lobe, direction_cos(cos_o, 0.0), 1e-6).f0, (float)x, 1e-5f);
                 if (b == 0) assert_float_equal((float)x, (float)(1.0 - cos_o), 2e-3f);
             }
     /* the plain product would lose two thirds of it */
@@ -275,8 +272,8 @@ static double white_albedo(int id, float first, double cos_o) {
 static void expect(int id, float first, double cos_o, double stated, double rounding) {
     double e = white_albedo(id, first, cos_o);
     if (fabs(e - stated) > rounding)
-        fail_msg("%s %g: E %.5f at cos_o %g, the header says %g", weft_lobe_info((int)id)->id, (double)first,
-                 e, cos_o, stated);
+        fail_msg("%s %g: E %.5f at cos_o %g, the header says %g", weft_lobe_info((int)id)->id, (double)first, e, cos_o,
+                 stated);
 }
 
 static void albedo_of_sheens_is_as_the_headers_state(void **state) {
@@ -301,8 +298,7 @@ static void albedo_of_sheens_is_as_the_headers_state(void **state) {
         double cos_o = (pow)(10.0, -6.0 + 0.25 * c);
         for (int a = 1; a <= 20; a++) {
             neubelt = fmax(neubelt, white_albedo(LOBE_ASHIKHMIN_NEUBELT, (float)a / 20.0f, cos_o));
-            conty_kulla =
-                fmax(conty_kulla, white_albedo(LOBE_ASHIKHMIN_CONTY_KULLA, (float)a / 20.0f, cos_o));
+            conty_kulla = fmax(conty_kulla, white_albedo(LOBE_ASHIKHMIN_CONTY_KULLA, (float)a / 20.0f, cos_o));
         }
         if (cos_o < 1e-5) continue;
         khronos_above = fmax(khronos_above, white_albedo(LOBE_CHARLIE_KHRONOS, 0.036f, cos_o));
@@ -333,8 +329,7 @@ static void cloth_conserves_energy_over_its_whole_range(void **state) {
             Dir o = direction_cos(fmax(cos_o, 1e-4), n);
             Albedo e = albedo_quadrature(&lobe, o, 1e-4);
             most = fmax(most, (double)(e.f0 + e.f90));
-            if (!(e.f0 + e.f90 <= 1.0005f))
-                fail_msg("%s: E %g", case_name(&lobe, o).text, (double)(e.f0 + e.f90));
+            if (!(e.f0 + e.f90 <= 1.0005f)) fail_msg("%s: E %g", case_name(&lobe, o).text, (double)(e.f0 + e.f90));
         }
         print_message("%-22s E at most %.3f\n", ids[l], most);
         assert_true(most > 0.9);
@@ -347,8 +342,7 @@ static void sample_weights_of_sheens_are_bounded(void **state) {
     static const struct {
         int id;
         double bound;
-    } rows[] = {
-        {LOBE_EXPONENTIAL, 1.0}, {LOBE_EXPONENTIAL_LIT, 1.5}, {LOBE_SILK, 1.0}, {LOBE_THREADS, PI_DOUBLE}};
+    } rows[] = {{LOBE_EXPONENTIAL, 1.0}, {LOBE_EXPONENTIAL_LIT, 1.5}, {LOBE_SILK, 1.0}, {LOBE_THREADS, PI_DOUBLE}};
     for (int r = 0; r < 4; r++) {
         Random random = {43};
         double most = 0.0;
@@ -376,9 +370,7 @@ static void sample_weights_of_sheens_are_bounded(void **state) {
     assert_true(most < 0.475);
 }
 
-static double weft_share(const Lobe *lobe, Dir o, Dir i) {
-    return (double)lobe_value(lobe, angles_between(o, i)).s;
-}
+static double weft_share(const Lobe *lobe, Dir o, Dir i) { return (double)lobe_value(lobe, angles_between(o, i)).s; }
 
 /* The share of the weft's colour: by the formula; and how far it goes when the cloth is turned. */
 static void threads_shift_their_color(void **state) {
@@ -389,8 +381,7 @@ static void threads_shift_their_color(void **state) {
         Dir o = random_direction(&random), i = random_direction(&random);
         double sum[2];
         threads_apart(lobe.params, vector(o), vector(i), sum);
-        if (sum[0] + sum[1] > 1e-6)
-            assert_true(fabs(weft_share(&lobe, o, i) - sum[1] / (sum[0] + sum[1])) < 4e-5);
+        if (sum[0] + sum[1] > 1e-6) assert_true(fabs(weft_share(&lobe, o, i) - sum[1] / (sum[0] + sum[1])) < 4e-5);
     }
 
     /* light from the normal, seen at 45 degrees along the warp and along the weft */
@@ -399,8 +390,8 @@ static void threads_shift_their_color(void **state) {
     double along_warp = weft_share(&lobe, direction(PI_DOUBLE / 4.0, 0.0), up);
     double along_weft = weft_share(&lobe, direction(PI_DOUBLE / 4.0, PI_DOUBLE / 2.0), up);
     double between = weft_share(&lobe, direction(PI_DOUBLE / 4.0, PI_DOUBLE / 4.0), up);
-    print_message("share of the weft: %.3f along the warp, %.3f between, %.3f along the weft\n", along_warp,
-                  between, along_weft);
+    print_message("share of the weft: %.3f along the warp, %.3f between, %.3f along the weft\n", along_warp, between,
+                  along_weft);
     assert_true(fabs(along_warp - 0.285) < 1e-3 && fabs(along_weft - 0.715) < 1e-3);
     assert_true(fabs(between - 0.5) < 1e-5);
 
@@ -440,8 +431,7 @@ static void silk_without_anisotropy_is_ggx(void **state) {
         lobe_set(&silk_lobe, 0, alpha), lobe_set(&silk_lobe, 1, 0.0f);
         lobe_set(&ggx, 0, max(alpha, 1.0f / 1024.0f)), lobe_set(&ggx, 1, 0.0f);
         Dir o = random_direction(&random), i = random_direction(&random);
-        LobeValue a = lobe_value(&silk_lobe, angles_between(o, i)),
-                  b = lobe_value(&ggx, angles_between(o, i));
+        LobeValue a = lobe_value(&silk_lobe, angles_between(o, i)), b = lobe_value(&ggx, angles_between(o, i));
         assert_true(fabsf(a.f - b.f) <= 1e-6f * b.f && fabsf(a.s - b.s) <= 0.0f);
         assert_true(fabsf(a.pdf - b.pdf) <= 1e-6f * b.pdf);
     }

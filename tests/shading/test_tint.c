@@ -46,8 +46,7 @@ static void colour_of_f_follows_the_tint(void **state) {
             Lobe lobe = case_lobe(id, n % case_count(id));
             Dir o = random_direction(&random), i = random_direction(&random);
             LobeValue v = lobe_value(&lobe, angles_between(o, i));
-            WeftLobe given = {
-                .lobe = id, .f0 = {1.0f, random_unit(&random), 0.0f}, .f90 = {5.0f, 0.0f, 9.0f}};
+            WeftLobe given = {.lobe = id, .f0 = {1.0f, random_unit(&random), 0.0f}, .f90 = {5.0f, 0.0f, 9.0f}};
             memcpy(given.params, lobe.params, sizeof given.params);
             float f[3], wo[3] = {o.x, o.y, o.z}, wi[3] = {i.x, i.y, i.z};
             weft_lobe_eval(&given, wo, wi, f);
@@ -56,8 +55,8 @@ static void colour_of_f_follows_the_tint(void **state) {
                           v.tint.q_i >= 0.0f && v.tint.q_i < 1.0f;
             if (!inside || fabs((double)(f[0] - v.f)) > 0.0 ||
                 fabs((double)f[1] - expected) > 1e-5 * expected + 1e-12 || f[2] > 0.0f || f[1] > f[0])
-                fail_msg("%s: %g %g %g, expected %g %g 0", case_name(&lobe, o).text, (double)f[0],
-                         (double)f[1], (double)f[2], (double)v.f, expected);
+                fail_msg("%s: %g %g %g, expected %g %g 0", case_name(&lobe, o).text, (double)f[0], (double)f[1],
+                         (double)f[2], (double)v.f, expected);
         }
 }
 
@@ -78,12 +77,11 @@ static void albedo_of_a_coloured_sheen_is_its_integral(void **state) {
             Grid grid = grid_about(o);
             double step = 2.0 / CELLS, area, sum[3] = {0.0, 0.0, 0.0};
             for (int k = 0; k < CELLS * CELLS; k++) {
-                Dir i = grid_direction(grid, -1.0 + step * (k / CELLS + 0.5), -1.0 + step * (k % CELLS + 0.5),
-                                       &area);
+                Dir i = grid_direction(grid, -1.0 + step * (k / CELLS + 0.5), -1.0 + step * (k % CELLS + 0.5), &area);
                 x[k] = i.x, y[k] = i.y, z[k] = i.z, ox[k] = o.x, oy[k] = o.y, oz[k] = o.z;
             }
-            assert_int_equal(weft_eval_n(&lobe, CELLS * CELLS, (WeftDirections){ox, oy, oz},
-                                         (WeftDirections){x, y, z}, (WeftColors){f[0], f[1], f[2]}, NULL),
+            assert_int_equal(weft_eval_n(&lobe, CELLS * CELLS, (WeftDirections){ox, oy, oz}, (WeftDirections){x, y, z},
+                                         (WeftColors){f[0], f[1], f[2]}, NULL),
                              WEFT_OK);
             for (int k = 0; k < CELLS * CELLS; k++) {
                 grid_direction(grid, -1.0 + step * (k / CELLS + 0.5), -1.0 + step * (k % CELLS + 0.5), &area);
@@ -93,8 +91,8 @@ static void albedo_of_a_coloured_sheen_is_its_integral(void **state) {
             weft_lobe_albedo(&lobe, z_o, e);
             for (int p = 0; p < 3; p++)
                 if (fabs((double)e[p] - sum[p]) > 1e-3)
-                    fail_msg("%s cos_o %g: E %.5f, midpoints %.5f", weft_lobe_info(id)->id, (double)o.z,
-                             (double)e[p], sum[p]);
+                    fail_msg("%s cos_o %g: E %.5f, midpoints %.5f", weft_lobe_info(id)->id, (double)o.z, (double)e[p],
+                             sum[p]);
             assert_true(e[1] < 0.59f * e[0] && e[2] < 0.19f * e[0]); /* darker than a factor would make it */
         }
     }
@@ -134,8 +132,7 @@ static void table_of_albedo_holds_for_every_colour(void **state) {
             for (int c = 0; c < 3; c++) sum[c] += 2.0 * mu * (double)e[c] / STEPS;
         }
         SheenE mean = table_sheen_average(ref, table_rows(ref, lobe.params[0]));
-        for (int c = 0; c < 3; c++)
-            average = fmax(average, fabs((double)(w[c] * sheen_e_in(mean, w[c])) - sum[c]));
+        for (int c = 0; c < 3; c++) average = fmax(average, fabs((double)(w[c] * sheen_e_in(mean, w[c])) - sum[c]));
         print_message("%s: E of colours up to %.4f too much, %.4f too little, on average within %.4f;\n"
                       "    colour times E would be up to %.2f too much\n",
                       weft_lobe_info(id)->id, much, little, average, loose);
@@ -174,16 +171,14 @@ static void coloured_sheen_on_a_white_base_conserves_each_colour(void **state) {
             enum { CELLS = 120 };
             double step = 2.0 / CELLS, area, sum[3] = {0.0, 0.0, 0.0};
             for (int k = 0; k < CELLS * CELLS; k++) {
-                Dir i = grid_direction(grid, -1.0 + step * (k / CELLS + 0.5), -1.0 + step * (k % CELLS + 0.5),
-                                       &area);
+                Dir i = grid_direction(grid, -1.0 + step * (k / CELLS + 0.5), -1.0 + step * (k % CELLS + 0.5), &area);
                 Rgb f = seen_eval(&stack, i, 0).f_cos;
                 sum[0] += (double)f.r * area * step * step, sum[1] += (double)f.g * area * step * step;
                 sum[2] += (double)f.b * area * step * step;
             }
             for (int c = 0; c < 3; c++) most = fmax(most, sum[c]), least = fmin(least, sum[c]);
         }
-        print_message("%s: a white base returns %.4f to %.4f under it\n", weft_lobe_info(id)->id, least,
-                      most);
+        print_message("%s: a white base returns %.4f to %.4f under it\n", weft_lobe_info(id)->id, least, most);
         assert_true(least > 0.999 && most < 1.001);
     }
 }

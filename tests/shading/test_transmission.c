@@ -54,8 +54,8 @@ static void both_sides_receive_what_one_did(void **state) {
         if (layer == LAYER_STOCHASTIC) continue; /* its walk meets another base */
         Dir o = random_direction(&random), i = random_direction(&random);
         SeenStack a = seen_by(&whole, workflow, layer, o), b = seen_by(&split, workflow, layer, o);
-        close_to(rgb_add(seen_eval(&b, i, 1).f_cos, seen_eval(&b, mirrored(i), 1).f_cos),
-                 seen_eval(&a, i, 1).f_cos, 1e-4f);
+        close_to(rgb_add(seen_eval(&b, i, 1).f_cos, seen_eval(&b, mirrored(i), 1).f_cos), seen_eval(&a, i, 1).f_cos,
+                 1e-4f);
         close_to(seen_eval(&a, mirrored(i), 1).f_cos, rgb_grey(0.0f), 0.0f);
     }
 }

@@ -119,8 +119,8 @@ static void the_far_lobe_is_the_mean_of_the_near_one(void **state) {
         const Woven m = woven_shape(&shapes[k], 1.0f);
         const Apart a = apart_of(&m, test_short() ? 120 : 200, (Random){k});
         printf("alpha %.2f crimp %.0f twist %.0f floats %.1f: %.2f %% apart, %.2f %% at worst, ",
-               (double)shapes[k].alpha, (double)shapes[k].crimp, (double)shapes[k].twist,
-               (double)shapes[k].floats, 100.0 * a.mean, 100.0 * a.worst);
+               (double)shapes[k].alpha, (double)shapes[k].crimp, (double)shapes[k].twist, (double)shapes[k].floats,
+               100.0 * a.mean, 100.0 * a.worst);
         printf("%.2f %% in what was met again\n", 100.0 * a.many);
         assert_true(a.mean < shapes[k].most);
         assert_true(a.worst < shapes[k].worst);
@@ -165,8 +165,7 @@ static void check_yarns(const char *name, const WeftCloth *cloth) {
 static void yarns_of_presets_are_the_mean_of_near_ones(void **state) {
     (void)state;
     each_woven_cloth(check_yarns);
-    printf("of %d yarns %d are within 0.5 %%, and %d within 2 %% at worst\n", yarns, near_yarns,
-           settled_yarns);
+    printf("of %d yarns %d are within 0.5 %%, and %d within 2 %% at worst\n", yarns, near_yarns, settled_yarns);
     assert_int_equal(near_yarns, yarns);
     assert_int_equal(settled_yarns, yarns);
 }
@@ -199,10 +198,10 @@ static void yarns_of_irawan_are_finite_down_to_the_horizon(void **state) {
             for (int n = 0; n < 4000; n++) {
                 const Shape shape = {irawan[k].alpha, irawan[k].crimp[t], irawan[k].twist[t], 1, 0.0, 0.0};
                 const Woven m = woven_shape(&shape, random_unit(&random));
-                const Dir o = direction_cos((pow)(10.0, -4.0 * (double)random_unit(&random)),
-                                            6.0 * (double)random_unit(&random));
-                const Dir i = direction_cos((pow)(10.0, -4.0 * (double)random_unit(&random)),
-                                            6.0 * (double)random_unit(&random));
+                const Dir o =
+                    direction_cos((pow)(10.0, -4.0 * (double)random_unit(&random)), 6.0 * (double)random_unit(&random));
+                const Dir i =
+                    direction_cos((pow)(10.0, -4.0 * (double)random_unit(&random)), 6.0 * (double)random_unit(&random));
                 const float r = 2.0f * random_unit(&random) - 1.0f, s = 2.0f * random_unit(&random) - 1.0f;
                 YarnPrepared p;
                 YarnView w;
@@ -236,8 +235,7 @@ static void tilt_of_fibres_is_within_a_thousandth(void **state) {
     (void)state;
     double most = 0.0;
     for (int k = 0; k <= 1000; k++) {
-        const double q = 2.25 * k / 1000.0,
-                     off = fabs((double)woven_inverse_root((float)q) - 1.0 / (sqrt)(1.0 + q));
+        const double q = 2.25 * k / 1000.0, off = fabs((double)woven_inverse_root((float)q) - 1.0 / (sqrt)(1.0 + q));
         most = fmax(most, off);
     }
     printf("woven_inverse_root is at most %.5f off\n", most);

@@ -77,12 +77,8 @@ void *must(void *memory) {
 
 extern "C" {
 void *malloc(size_t size) { return is_refused(CALLER) ? refuse() : __libc_malloc(size); }
-void *calloc(size_t number, size_t size) {
-    return is_refused(CALLER) ? refuse() : __libc_calloc(number, size);
-}
-void *realloc(void *block, size_t size) {
-    return is_refused(CALLER) ? refuse() : __libc_realloc(block, size);
-}
+void *calloc(size_t number, size_t size) { return is_refused(CALLER) ? refuse() : __libc_calloc(number, size); }
+void *realloc(void *block, size_t size) { return is_refused(CALLER) ? refuse() : __libc_realloc(block, size); }
 void *memalign(size_t alignment, size_t size) {
     return is_refused(CALLER) ? refuse() : __libc_memalign(alignment, size);
 }

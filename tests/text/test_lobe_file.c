@@ -45,8 +45,7 @@ static void write_lobe(const char *name, const char *bright) {
     FILE *stream = fopen(file, "wb");
     assert_non_null(stream);
     fprintf(stream, "#define BRIGHT %s\n", bright);
-    for (const char *c = form; *c; c++)
-        fputc(*c == '@' ? name[0] - 'a' + 'A' : *c == '$' ? name[0] : *c, stream);
+    for (const char *c = form; *c; c++) fputc(*c == '@' ? name[0] - 'a' + 'A' : *c == '$' ? name[0] : *c, stream);
     assert_int_equal(fclose(stream), 0);
 }
 
@@ -166,8 +165,7 @@ static void element_loops_of_a_lobe_file_take_own_parameters(void **state) {
         assert_float_equal(f[k], level[k] * red[k], 1e-6f);
         assert_float_equal(pdf[k], weft_lobe_pdf(&lobes.lobe, a, b), 1e-6f);
     }
-    assert_int_equal(weft_sample_each(&lobes, N, wo, u, v, drawn[0], drawn[1], drawn[2], pdf, &error),
-                     WEFT_OK);
+    assert_int_equal(weft_sample_each(&lobes, N, wo, u, v, drawn[0], drawn[1], drawn[2], pdf, &error), WEFT_OK);
     for (int k = 0; k < N; k++) {
         const float a[3] = {o[0][k], o[1][k], o[2][k]}, at[2] = {u[k], v[k]};
         float b[3];
@@ -196,10 +194,9 @@ static void cache_that_cannot_keep_a_lobe_is_a_warning(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(lobe_file_of_a_loaded_name_replaces_it),
-                                       cmocka_unit_test(lobe_file_in_use_may_be_replaced),
-                                       cmocka_unit_test(element_loops_of_a_lobe_file_take_own_parameters),
-                                       cmocka_unit_test(cache_that_cannot_keep_a_lobe_is_a_warning),
-                                       cmocka_unit_test(ninth_lobe_file_is_refused)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(lobe_file_of_a_loaded_name_replaces_it), cmocka_unit_test(lobe_file_in_use_may_be_replaced),
+        cmocka_unit_test(element_loops_of_a_lobe_file_take_own_parameters),
+        cmocka_unit_test(cache_that_cannot_keep_a_lobe_is_a_warning), cmocka_unit_test(ninth_lobe_file_is_refused)};
     return cmocka_run_group_tests(tests, begin, end);
 }

@@ -53,8 +53,7 @@ static void calls_of_arithmetic_become_operators(void **state) {
         {"c = rgb_min(rgb_scale(a, k), 1.0);", "c = min(a * k, Rgb(1.0));"},
         {"Rgb rgb_add(Rgb a, Rgb b) { return rgb(a.r + b.r, 0.0, 0.0); }",
          "Rgb rgb_add(Rgb a, Rgb b) { return Rgb(a.r + b.r, 0.0, 0.0); }"},
-        {"float my_rgb_add(float rgb_add) { return rgb_add; }",
-         "float my_rgb_add(float rgb_add) { return rgb_add; }"},
+        {"float my_rgb_add(float rgb_add) { return rgb_add; }", "float my_rgb_add(float rgb_add) { return rgb_add; }"},
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         Buffer out = {0};
@@ -129,15 +128,13 @@ static void unused_members_are_removed(void **state) {
          "float f(float x, float z) { return x + z; } float shade() { return f(1.0, 4.0); }"},
         {"float shade(float x, float y) { float a = x, b = x * x; return a; }",
          "float shade(float x, float y) { float a = x; return a; }"},
-        {"float shade(float x) { float a = 1.0; a = x; return a; }",
-         "float shade(float x) { float a = x; return a; }"},
+        {"float shade(float x) { float a = 1.0; a = x; return a; }", "float shade(float x) { float a = x; return a; }"},
         {"float shade(float x) { float a = 1.0; if (x > 0.0) { a = x; } return a; }", NULL},
         {"float shade(float x) { float a = 1.0; a = a + x; return a; }", NULL},
         {"void none(float x) { } float shade(float x) { none(x); return x; }",
          "void none() { } float shade(float x) { return x; }"},
         /* a write that a condition guards stays: nothing else would be its branch */
-        {"struct T { float a, b; }; float shade() { T t; t.a = 1.0; if (t.a > 0.0) t.b = 1.0; return t.a; }",
-         NULL},
+        {"struct T { float a, b; }; float shade() { T t; t.a = 1.0; if (t.a > 0.0) t.b = 1.0; return t.a; }", NULL},
         /* what a call writes to may be read, whatever becomes of its value */
         {"float bump(inout float y) { y = 2.0; return y; } float shade() { float y = 1.0; float idle = "
          "bump(y); return y; }",
@@ -217,9 +214,8 @@ static void references_lose_their_marks_in_native_text(void **state) {
 
 static void pointers_are_written_in_c(void **state) {
     (void)state;
-    static const char text[] =
-        "void f(inout float m, float v) { m = v * m; } void shade(inout float v, float "
-        "m) { f(v, m); v = float(1); }";
+    static const char text[] = "void f(inout float m, float v) { m = v * m; } void shade(inout float v, float "
+                               "m) { f(v, m); v = float(1); }";
     Items items;
     Buffer out = {0};
     cut(text, &items);

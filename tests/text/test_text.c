@@ -53,11 +53,10 @@ static void batch_add(Batch *batch, const char *name, TextLanguage language, con
 /* The compiler's status; its words go to this test's output. */
 static int batch_compile(Batch *batch) {
     char command[512];
-    snprintf(
-        command, sizeof command,
-        "cd %s && s=0; for f in *.frag; do case $f in *450.frag) v='-V -o /dev/null';; *) v=;; esac; "
-        "glslangValidator $v -S frag $f >log 2>&1 || { s=1; grep -v '^$' log | head -5; }; done; exit $s",
-        batch->folder);
+    snprintf(command, sizeof command,
+             "cd %s && s=0; for f in *.frag; do case $f in *450.frag) v='-V -o /dev/null';; *) v=;; esac; "
+             "glslangValidator $v -S frag $f >log 2>&1 || { s=1; grep -v '^$' log | head -5; }; done; exit $s",
+             batch->folder);
     int status = system(command);
     assert_true(scratch_remove(batch->folder));
     return status;
@@ -66,8 +65,7 @@ static int batch_compile(Batch *batch) {
 /* No comment, string, directive (but the first line), joined line or blank at a line's end; never two blank
  * lines, and none behind an opening brace. */
 static void assert_clean(const char *name, const char *bytes) {
-    static const char *const banned[] = {"/*", "//",     "\"",    "##",     "\\", " \n",
-                                         "\t", "\n\n\n", "{\n\n", " WEFT_", "\r"};
+    static const char *const banned[] = {"/*", "//", "\"", "##", "\\", " \n", "\t", "\n\n\n", "{\n\n", " WEFT_", "\r"};
     for (size_t k = 0; k < sizeof banned / sizeof *banned; k++)
         if (strstr(bytes, banned[k]))
             fail_msg("%s: the text has '%s': %.60s", name, banned[k], strstr(bytes, banned[k]));
@@ -92,8 +90,7 @@ static void end_clean(Text *text, const char *name) {
 
 static void put_main(Text *text, const char *line) {
     bool vulkan = text->desc.language == TEXT_GLSL_450;
-    text_line(text, "\n%suniform Inputs { vec4 u[4]; };",
-              vulkan ? "layout(set = 0, binding = 1) " : "layout(std140) ");
+    text_line(text, "\n%suniform Inputs { vec4 u[4]; };", vulkan ? "layout(set = 0, binding = 1) " : "layout(std140) ");
     text_line(text, "%sout vec4 color;\n", vulkan ? "layout(location = 0) " : "");
     text_line(text, "void main() {\n    %s\n}", line);
 }
@@ -131,8 +128,7 @@ static void text_of_every_lobe_is_valid_glsl(void **state) {
             assert_int_equal(occurrences(text.bytes, "struct Angles"), 1);
             assert_int_equal(occurrences(text.bytes, "const int LOBE_"),
                              2 + (k < count ? 1 : count)); /* and two sums */
-            if (k == count || languages[l] == TEXT_GLSL_ES_300)
-                batch_add(&batch, name, languages[l], text.bytes);
+            if (k == count || languages[l] == TEXT_GLSL_ES_300) batch_add(&batch, name, languages[l], text.bytes);
             text_free(&text);
         }
     int status = batch_compile(&batch);
@@ -140,9 +136,7 @@ static void text_of_every_lobe_is_valid_glsl(void **state) {
     assert_int_equal(status, 0);
 }
 
-static bool is_below(const char *name, const char *folder) {
-    return strncmp(name, folder, strlen(folder)) == 0;
-}
+static bool is_below(const char *name, const char *folder) { return strncmp(name, folder, strlen(folder)) == 0; }
 
 /* Terms and layers that nothing uses yet are shading text too, and so is the medium of fibres; all of them
  * together, since names are unique. */
@@ -198,12 +192,11 @@ static void text_of_a_surface_is_valid_glsl(void **state) {
         for (const CatalogueFile *file = catalogue_files; file->name; file++)
             if (is_below(file->name, "shading/workflows/") || is_below(file->name, "shading/profiles/"))
                 text_include(&text, file->name);
-        put_main(&text,
-                 "Surface s;\n    Choices c;\n    TableRef e;\n    e.kind = TABLE_NONE;\n"
-                 "    Dir o = dir(u[2].x, u[2].y, u[2].z);\n    Angles a = angles_between(o, o);\n"
-                 "    Stack m;\n    surface_stack(m, s, c, e);\n    StackView w;\n    stack_view(m, o, w);\n"
-                 "    StackValue v = stack_value(m, w, a, a);\n"
-                 "    color = vec4(v.f_cos.r, v.f_cos.g, v.f_cos.b, v.pdf);");
+        put_main(&text, "Surface s;\n    Choices c;\n    TableRef e;\n    e.kind = TABLE_NONE;\n"
+                        "    Dir o = dir(u[2].x, u[2].y, u[2].z);\n    Angles a = angles_between(o, o);\n"
+                        "    Stack m;\n    surface_stack(m, s, c, e);\n    StackView w;\n    stack_view(m, o, w);\n"
+                        "    StackValue v = stack_value(m, w, a, a);\n"
+                        "    color = vec4(v.f_cos.r, v.f_cos.g, v.f_cos.b, v.pdf);");
         end_clean(&text, "surface");
         batch_add(&batch, "surface", languages[l], text.bytes);
         text_free(&text);
@@ -220,8 +213,7 @@ static void text_of_every_composition_is_valid_glsl(void **state) {
     int files = 0;
     batch_begin(&batch);
     for (const CatalogueFile *file = catalogue_files; file->name; file++) {
-        if (!is_below(file->name, "shading/workflows/") && !is_below(file->name, "shading/profiles/"))
-            continue;
+        if (!is_below(file->name, "shading/workflows/") && !is_below(file->name, "shading/profiles/")) continue;
         Text text;
         text_begin(&text, &(TextDesc){.language = TEXT_GLSL_ES_300, .tables = true});
         text_dispatch(&text, &(int){LOBE_LAMBERT}, 1);
@@ -331,12 +323,10 @@ static void assert_flat(const char *source, const char *expected) {
 static void macros_are_expanded_in_the_text(void **state) {
     (void)state;
     assert_flat("#ifndef X_H\n#define X_H\nfloat a; /* c */\n#endif\n", "float a;\n");
-    assert_flat("/* one\n * two */\n\n\n/* three */\nfloat a;// four\n\n\n\nfloat b;\n",
-                "float a;\n\nfloat b;\n");
-    assert_flat(
-        "#define TWO 2.0f\n#define SIX 6\n#define MINUS -1e-3f\n#define MASK 0xef\nfloat a = TWO;\n",
-        "const float TWO = 2.0f;\nconst int SIX = 6;\nconst float MINUS = -1e-3f;\nconst int MASK = 0xef;\n"
-        "float a = TWO;\n");
+    assert_flat("/* one\n * two */\n\n\n/* three */\nfloat a;// four\n\n\n\nfloat b;\n", "float a;\n\nfloat b;\n");
+    assert_flat("#define TWO 2.0f\n#define SIX 6\n#define MINUS -1e-3f\n#define MASK 0xef\nfloat a = TWO;\n",
+                "const float TWO = 2.0f;\nconst int SIX = 6;\nconst float MINUS = -1e-3f;\nconst int MASK = 0xef;\n"
+                "float a = TWO;\n");
     assert_flat("#define SQUARE(x) ((x) * (x))\nfloat f(float a) { return SQUARE(SQUARE(a + 1.0f)); }\n",
                 "float f(float a) { return ((((a + 1.0f) * (a + 1.0f))) * (((a + 1.0f) * (a + 1.0f)))); }\n");
     /* a macro does not expand itself, nor where its name is not called */
@@ -352,11 +342,9 @@ static void macros_are_expanded_in_the_text(void **state) {
     assert_flat("enum { A, B = 4, C, D, E = B, F };\n",
                 "const int A = 0;\nconst int B = 4;\nconst int C = B + 1;\n"
                 "const int D = B + 2;\nconst int E = B;\nconst int F = E + 1;\n");
-    assert_flat(
-        "#define NONE\n#define NO_ROWS(P)\nNONE float f() {\n    NO_ROWS(ROW)\n    return 1.0f; NONE\n}\n",
-        "float f() {\n    return 1.0f;\n}\n");
-    assert_flat("typedef float Metre;\nMetre up(Metre m) { return m; }\n",
-                "float up(float m) { return m; }\n");
+    assert_flat("#define NONE\n#define NO_ROWS(P)\nNONE float f() {\n    NO_ROWS(ROW)\n    return 1.0f; NONE\n}\n",
+                "float f() {\n    return 1.0f;\n}\n");
+    assert_flat("typedef float Metre;\nMetre up(Metre m) { return m; }\n", "float up(float m) { return m; }\n");
     assert_flat("#if defined(GL_ES) || defined(GL_core_profile)\nfloat gl;\n#else\n#include <math.h>\nfloat "
                 "c;\n#endif\n"
                 "#if !(1 && defined NO)\nfloat yes;\n#elif 1\nfloat no;\n#endif\n#undef NO\n#ifdef NO\nfloat "
@@ -425,10 +413,9 @@ static Token record_at(const Items *items, const Item *function, const char *c, 
 /* WebGL takes "?:" of numbers alone. */
 static void conditional_expression_of_records_is_absent(void **state) {
     (void)state;
-    static const char *const also[] = {
-        "Dir bad(Angles a, bool x) { return x ? a.o : a.i; }",
-        "Dir bad(Dir a, bool x) { return x ? dir(a.x, a.y, a.z) : a; }",
-        "float good(Angles a, bool x) { return x ? a.o.x : dir(1.0, a.d, 1.0).x; }"};
+    static const char *const also[] = {"Dir bad(Angles a, bool x) { return x ? a.o : a.i; }",
+                                       "Dir bad(Dir a, bool x) { return x ? dir(a.x, a.y, a.z) : a; }",
+                                       "float good(Angles a, bool x) { return x ? a.o.x : dir(1.0, a.d, 1.0).x; }"};
     static const char *const of[] = {"shading/terms/",
                                      "shading/layers/",
                                      "shading/workflows/",
@@ -468,8 +455,8 @@ static void conditional_expression_of_records_is_absent(void **state) {
                 Token record = record_at(&items, item, c, item->end);
                 records += record.size > 0;
                 if (record.size && k == 3)
-                    fail_msg("%.*s chooses between two %.*s", (int)item->name.size, item->name.at,
-                             (int)record.size, record.at);
+                    fail_msg("%.*s chooses between two %.*s", (int)item->name.size, item->name.at, (int)record.size,
+                             record.at);
             }
         }
         assert_int_equal(records, k < 2);
@@ -486,8 +473,7 @@ static void text_outside_the_dialect_is_refused(void **state) {
         int line;
     } wrong[] = {
         {"#include <math.h>\n", "includes a header of C", 1},
-        {"/* one\n * two */\n\n#include \"shading/none.h\"\n",
-         "includes shading/none.h, which does not exist", 4},
+        {"/* one\n * two */\n\n#include \"shading/none.h\"\n", "includes shading/none.h, which does not exist", 4},
         {"const char *s =\n    \"text\";\n", "a string", 2},
         {"float a;\n#if 1 + 1\n#endif\n", "an #if of more", 2},
         {"\n#if 1\nfloat a;\n", "an #if without its #endif", 2},
@@ -496,8 +482,7 @@ static void text_outside_the_dialect_is_refused(void **state) {
         {"#define F(a, b) a\nfloat a;\nfloat x = F(1);\nfloat b;\n", "F is called with", 3},
         {"float a;\n#define F(a...) a\nfloat b;\n", "F has parameters", 2},
         {"float a;\ntypedef struct Own { float x; } Own;\n", "a record not made with STRUCT", 2},
-        {"float f(float x) {\n    return x;\n}\nfloat g(float x) {\n    return \\ 1.0;\n}\n", "a joined line",
-         5},
+        {"float f(float x) {\n    return x;\n}\nfloat g(float x) {\n    return \\ 1.0;\n}\n", "a joined line", 5},
     };
     for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
         char out[4096];
@@ -657,8 +642,7 @@ static void lines_are_traced_to_their_file(void **state) {
     for (int k = 0; k < COUNT; k++) {
         const char *c = in_order[k];
         bool included = *c == 'i';
-        snprintf(places[k], sizeof places[k], *c == '-' ? "-" : "%s:%s", included ? inner : own,
-                 c + included);
+        snprintf(places[k], sizeof places[k], *c == '-' ? "-" : "%s:%s", included ? inner : own, c + included);
         expected[k] = places[k];
     }
     expected[COUNT] = "-"; /* there is no such line */
@@ -700,10 +684,8 @@ static void catalogue_lines_are_found_by_file_and_line(void **state) {
         Origin origin = text_origin(&text, line);
         const CatalogueFile *file = catalogue_files;
         while (origin.file && strcmp(file->name, origin.file) != 0) file++;
-        int only =
-            origin.file && size > blank + 20 ? only_line_with(file->bytes, c + blank, size - blank) : 0;
-        if (only && only != origin.line)
-            fail_msg("%s:%d, not %d: %.*s", origin.file, origin.line, only, (int)size, c);
+        int only = origin.file && size > blank + 20 ? only_line_with(file->bytes, c + blank, size - blank) : 0;
+        if (only && only != origin.line) fail_msg("%s:%d, not %d: %.*s", origin.file, origin.line, only, (int)size, c);
         found += only > 0;
         c += size + 1;
     }
@@ -716,11 +698,10 @@ static void catalogue_lines_are_found_by_file_and_line(void **state) {
  * place. */
 static void lines_of_the_caller_may_replace_a_file(void **state) {
     (void)state;
-    write_overlay(
-        "own.h",
-        "#include \"shading/catalogue/registry.h\"\n#include \"shading/mine.h\"\n"
-        "FN float own_f(int id, Lobe m, Angles a, Table t) {\n"
-        "    return id == LOBE_GGX ? lobe_f(m, a) * table_texel(t, 1, 0, LOBE_PARAMS_MAX) : mine(m);\n}\n");
+    write_overlay("own.h",
+                  "#include \"shading/catalogue/registry.h\"\n#include \"shading/mine.h\"\n"
+                  "FN float own_f(int id, Lobe m, Angles a, Table t) {\n"
+                  "    return id == LOBE_GGX ? lobe_f(m, a) * table_texel(t, 1, 0, LOBE_PARAMS_MAX) : mine(m);\n}\n");
     Batch batch;
     batch_begin(&batch);
     for (int l = 0; l < LANGUAGES; l++) {

@@ -47,8 +47,7 @@ static void functions_are_translated_to_wgsl(void **state) {
         {"T f(T t, float x) {\n    t.a = x;\n    return t;\n}",
          "fn f(t_in: T, x: float) -> T {\n    var t = t_in;\n    t.a = x;\n    return t;\n}"},
         /* choices */
-        {"float f(bool a) { return a ? 1.0 : 2.0; }",
-         "fn f(a: bool) -> float { return select(2.0, 1.0, a); }"},
+        {"float f(bool a) { return a ? 1.0 : 2.0; }", "fn f(a: bool) -> float { return select(2.0, 1.0, a); }"},
         {"float f(int a) { return a < 1 ? 1.0 : a < 2 ? 2.0 : 3.0; }",
          "fn f(a: int) -> float { return select(select(3.0, 2.0, a < 2), 1.0, a < 1); }"},
         {"float f(bool a) { return g(a ? 1.0 : 2.0, 3.0) * (a ? 4.0 : h(a ? 5.0 : 6.0)); }",
@@ -132,8 +131,7 @@ static void parameters_that_are_written_are_returned_in_wgsl(void **state) {
          "q.a; }",
          "T last(T p) {\n    p.a = p.a + 1.0;\n    return p;\n}\nfloat shade(T q) { q = last(q); return q.a; "
          "}"},
-        {"void several(inout T p, inout T q) { p = q; } float shade(T p, T q) { several(p, q); return p.a; }",
-         NULL},
+        {"void several(inout T p, inout T q) { p = q; } float shade(T p, T q) { several(p, q); return p.a; }", NULL},
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         Items items;
@@ -160,8 +158,7 @@ static void text_without_a_wgsl_form_is_refused(void **state) {
         {"void f(int k) { switch (k) { case 0: g(); case 1: h(); break; } }", "neither"},
         {"void f(int k) { switch (k) { case 0: if (g()) { break; } case 1: h(); break; } }", "neither"},
         {"void f(int k) { switch (k) { case 0: { g(); break; } case 1: h(); } }", NULL},
-        {"void f(int k) { switch (k) { case 0: if (k > a) return; else { g(); break; } case 1: h(); } }",
-         NULL},
+        {"void f(int k) { switch (k) { case 0: if (k > a) return; else { g(); break; } case 1: h(); } }", NULL},
         {"void f(int k) { switch (k) { case 0: if (k > a) return; else g(); case 1: h(); } }", "neither"},
         {"void f(int k) { switch (k) { case 0: if (k > a) return; case 1: h(); } }", "neither"},
         {"void f(int k) { switch (k) { case 0: for (;;) { break; } case 1: h(); } }", "neither"},

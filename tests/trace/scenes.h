@@ -67,8 +67,7 @@ static inline Mesh *test_ball(WeftScene *scene, Vec3 centre, float radius, uint3
     mesh->normal = arena_array(&scene->arena, mesh->vertex_count, 3 * sizeof(float));
     for (uint32_t k = 0; k < mesh->vertex_count; k++) {
         uint32_t ring = k / across, sector = k % across;
-        float theta = (float)ring * PI_FLOAT / (float)rings,
-              phi = (float)sector * 6.28318531f / (float)sectors;
+        float theta = (float)ring * PI_FLOAT / (float)rings, phi = (float)sector * 6.28318531f / (float)sectors;
         Vec3 n = {sinf(theta) * sinf(phi), cosf(theta), sinf(theta) * cosf(phi)};
         Vec3 p = vec3_madd(centre, n, radius);
         memcpy(mesh->normal + 3 * k, &n, sizeof n);

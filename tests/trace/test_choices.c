@@ -73,8 +73,7 @@ static void every_preset_makes_a_picture(void **state) {
         char path[64];
         WeftScene *scene = load();
         snprintf(path, sizeof path, "preset:%s", weft_preset_name(k));
-        if (weft_scene_assign_material(scene, NULL, path, NULL, &error) != WEFT_OK)
-            fail_msg("%s", error.text);
+        if (weft_scene_assign_material(scene, NULL, path, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
         check(scene, "preset", weft_preset_name(k));
         weft_scene_free(scene);
     }
@@ -95,8 +94,7 @@ static void every_disney_parameter_changes_the_picture(void **state) {
         {"base_color", "0.6,0.3,0.1"}, {"subsurface", "0.2"}, {"metallic", "0.2"},       {"specular", "0.5"},
         {"specular_tint", "0.2"},      {"roughness", "0.4"},  {"anisotropy", "0.2"},     {"sheen", "0.5"},
         {"sheen_tint", "0.2"},         {"clearcoat", "0.5"},  {"clearcoat_gloss", "0.9"}};
-    static const char *const to[] = {"0.1,0.3,0.6", "0.9", "0.8", "0.9", "0.9", "0.7",
-                                     "0.9",         "1",   "0.9", "1",   "0.3"};
+    static const char *const to[] = {"0.1,0.3,0.6", "0.9", "0.8", "0.9", "0.9", "0.7", "0.9", "1", "0.9", "1", "0.3"};
     WeftScene *scene = load();
     set(scene, "workflow", "disney");
     for (size_t k = 0; k < sizeof from / sizeof *from; k++) set(scene, from[k][0], from[k][1]);

@@ -35,8 +35,7 @@ static WeftImage picture(WeftScene *scene) {
 static double seen(const WeftImage *image, int x, int y) {
     double sum = 0.0;
     for (int v = y - 3; v < y + 3; v++)
-        for (int u = x - 3; u < x + 3; u++)
-            sum += (double)((const float *)image->pixels)[4 * (v * SIDE + u)] / 36.0;
+        for (int u = x - 3; u < x + 3; u++) sum += (double)((const float *)image->pixels)[4 * (v * SIDE + u)] / 36.0;
     return sum;
 }
 
@@ -106,8 +105,7 @@ static void sheet_is_dusty_on_its_upper_side(void **state) {
         test_color(material, INPUT_dust_color, 1.0f);
         material->inputs[INPUT_dust].value[0] = 1.0f;
         test_quad(scene, vec3(-1, 0, 1), vec3(2, 0, 0), vec3(0, 0, -2));
-        WeftRenderDesc desc = {
-            .camera = below ? "0,-9,1;0,0,0;4" : "0,9,1;0,0,0;4", .width = SIDE, .height = SIDE};
+        WeftRenderDesc desc = {.camera = below ? "0,-9,1;0,0,0;4" : "0,9,1;0,0,0;4", .width = SIDE, .height = SIDE};
         WeftImage image = test_render(scene, desc, 4);
         double mean = seen(&image, 24, 24);
         assert_true(below ? mean < 1e-6 : mean > 0.7);

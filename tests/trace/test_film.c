@@ -43,8 +43,7 @@ static WeftImage aov_of(const WeftRender *r, WeftAov aov) {
 
 static double relmse(const WeftImage *image, const WeftImage *reference) {
     WeftDiff found;
-    assert_int_equal(weft_diff(&(WeftDiffDesc){.image = image, .reference = reference}, &found, NULL, NULL),
-                     WEFT_OK);
+    assert_int_equal(weft_diff(&(WeftDiffDesc){.image = image, .reference = reference}, &found, NULL, NULL), WEFT_OK);
     return found.value;
 }
 
@@ -193,8 +192,7 @@ static WeftImage denoised(const WeftScene *scene, int threads, int spp) {
     desc.threads = threads;
     desc.width = 170; /* more than a tile of the denoiser */
     WeftRender *r = rendered(scene, desc, spp);
-    if (weft_render_denoised(r, WEFT_DENOISER_REGRESSION, &image, &error) != WEFT_OK)
-        fail_msg("%s", error.text);
+    if (weft_render_denoised(r, WEFT_DENOISER_REGRESSION, &image, &error) != WEFT_OK) fail_msg("%s", error.text);
     weft_render_free(r);
     return image;
 }

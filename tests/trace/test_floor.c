@@ -54,12 +54,10 @@ static void floor_shadow_of_a_roof_is_its_form_factor(void **state) {
             if (!(d.y < -0.02f) || fabsf(p.z) > 2.0f) continue;
             Polygon roof = {.count = 4};
             for (int k = 0; k < 4; k++)
-                roof.corners[k] =
-                    dir((k == 1 || k == 2 ? 1.0f : -1.0f) - p.x, (k > 1 ? 1.0f : -1.0f) - p.z, 1.0f);
+                roof.corners[k] = dir((k == 1 || k == 2 ? 1.0f : -1.0f) - p.x, (k > 1 ? 1.0f : -1.0f) - p.z, 1.0f);
             const float *c = pixel(&image, x, y);
             float due = polygon_cosine(roof);
-            if (!(fabsf(c[3] - due) < 0.05f))
-                fail_msg("(%d, %d): %g, not %g", x, y, (double)c[3], (double)due);
+            if (!(fabsf(c[3] - due) < 0.05f)) fail_msg("(%d, %d): %g, not %g", x, y, (double)c[3], (double)due);
             assert_true(c[0] < 1e-3f);
         }
     weft_image_free(&image);

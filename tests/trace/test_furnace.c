@@ -96,8 +96,7 @@ static void closed_furnace_has_radiance_one(void **state) {
     double z[64];
     for (int lobe = -1; lobe < weft_lobe_count(); lobe += lobe_step())
         for (int a = (lobe + 1) % 3; a < 3; a += 3) { /* each lobe at one of them */
-            if (lobe >= 0 &&
-                (weft_lobe_info(lobe)->traits & WEFT_LOBE_TWO_COLORS || !conserves_at(lobe, alphas[a])))
+            if (lobe >= 0 && (weft_lobe_info(lobe)->traits & WEFT_LOBE_TWO_COLORS || !conserves_at(lobe, alphas[a])))
                 continue;
             WeftScene *scene = test_scene();
             test_environment(scene, 0.0f);
@@ -108,8 +107,7 @@ static void closed_furnace_has_radiance_one(void **state) {
             test_sphere(scene, vec3(0, 0, 0), 1.0f);
             scene_bounds(scene);
             WeftImage image = test_render(
-                scene,
-                (WeftRenderDesc){.width = 32, .height = 32, .camera = "0,0,1.95;0,0,0;60", .max_depth = 400},
+                scene, (WeftRenderDesc){.width = 32, .height = 32, .camera = "0,0,1.95;0,0,0;60", .max_depth = 400},
                 100);
             Estimate e = estimate(&image);
             z[cases] = (e.mean - 1.0) / (walks(lobe) ? hypot(e.error, table_error) : e.error);
@@ -162,8 +160,7 @@ static void additive_layer_in_the_furnace_gains_energy(void **state) {
     assert_int_equal(weft_scene_set(scene, "*.layer", "additive", NULL, NULL), WEFT_OK);
     test_sphere(scene, vec3(0, 0, 0), 1.0f);
     scene_bounds(scene);
-    WeftImage image =
-        test_render(scene, (WeftRenderDesc){.width = 16, .height = 16, .camera = "0,0,3;0,0,0;20"}, 64);
+    WeftImage image = test_render(scene, (WeftRenderDesc){.width = 16, .height = 16, .camera = "0,0,3;0,0,0;20"}, 64);
     assert_true(estimate(&image).mean > 1.02);
     weft_image_free(&image);
     weft_scene_free(scene);
@@ -212,8 +209,7 @@ static void textured_fabric_and_body_keep_within_the_furnace(void **state) {
             sphere->texcoord[0][k] = 3.0f * sphere->position[k / 2 * 3 + k % 2];
         scene_bounds(scene);
         WeftImage image = test_render(
-            scene, (WeftRenderDesc){.width = 32, .height = 32, .camera = "0,0,3;0,0,0;20", .max_depth = 1},
-            1024);
+            scene, (WeftRenderDesc){.width = 32, .height = 32, .camera = "0,0,3;0,0,0;20", .max_depth = 1}, 1024);
         Estimate e = estimate(&image);
         double most = 0.0;
         for (int k = 0; k < 32 * 32; k++) most = fmax(most, (double)((float *)image.pixels)[4 * k]);
@@ -240,13 +236,13 @@ static void plane_in_the_furnace_shows_the_albedo(void **state) {
             scene_bounds(scene);
             char camera[96];
             snprintf(camera, sizeof camera, "0,%g,%g;0,0,0;0.2", (double)mu, (double)sqrtf(1.0f - mu * mu));
-            WeftImage image = test_render(
-                scene, (WeftRenderDesc){.width = 16, .height = 16, .camera = camera, .max_depth = 1}, 512);
+            WeftImage image =
+                test_render(scene, (WeftRenderDesc){.width = 16, .height = 16, .camera = camera, .max_depth = 1}, 512);
             Estimate found = estimate(&image);
             WeftLobe l = rough_lobe(lobe, 0.36f);
             weft_lobe_albedo(&l, mu, e);
-            printf("  plane %-22s cos %.1f: %.5f +- %.5f, E %.5f\n", info->id, (double)mu, found.mean,
-                   found.error, (double)e[0]);
+            printf("  plane %-22s cos %.1f: %.5f +- %.5f, E %.5f\n", info->id, (double)mu, found.mean, found.error,
+                   (double)e[0]);
             double noise = walks(lobe) ? 4.0 * hypot(found.error, call_error) : 0.0;
             assert_true(fabs(found.mean - (double)e[0]) < 0.005 * (double)e[0] + noise);
             weft_image_free(&image);
@@ -268,12 +264,11 @@ static void sphere_in_the_furnace_shows_the_albedo(void **state) {
         scene_bounds(scene);
         /* far away, so that directions are parallel; black around, so that the silhouette's coverage does not
          * count */
-        WeftImage image = test_render(scene,
-                                      (WeftRenderDesc){.width = 32,
-                                                       .height = 32,
-                                                       .camera = "0,0,1000;0,0,0;0.13",
-                                                       .background = WEFT_BACKGROUND_COLOR},
-                                      512);
+        WeftImage image = test_render(
+            scene,
+            (WeftRenderDesc){
+                .width = 32, .height = 32, .camera = "0,0,1000;0,0,0;0.13", .background = WEFT_BACKGROUND_COLOR},
+            512);
         double light = 0.0, pixel = 2000.0 * tan(0.065 * RADIANS) / 32.0;
         for (int k = 0; k < 32 * 32; k++) light += (double)((float *)image.pixels)[4 * k] * pixel * pixel;
         WeftLobe l = rough_lobe(lobe, 0.36f);
@@ -303,11 +298,8 @@ static Estimate under_a_board(bool board, WeftSampling sampling, int no_shadows)
     test_material(scene, 0.0f);
     if (board) test_quad(scene, vec3(-4, 2, -4), vec3(8, 0, 0), vec3(0, 0, 8));
     scene_bounds(scene);
-    const WeftRenderDesc desc = {.width = 16,
-                                 .height = 16,
-                                 .camera = "0,1,0.01;0,0,0;40",
-                                 .sampling = sampling,
-                                 .no_shadows = no_shadows};
+    const WeftRenderDesc desc = {
+        .width = 16, .height = 16, .camera = "0,1,0.01;0,0,0;40", .sampling = sampling, .no_shadows = no_shadows};
     WeftRender *render;
     WeftImage image;
     WeftError error;

@@ -20,9 +20,7 @@ static Geometry *build(WeftScene *scene) {
     return geometry;
 }
 
-static Ray down(float x, float z) {
-    return (Ray){{x, 5.0f, z}, {0.0f, -1.0f, 0.0f}, 0.0f, INFINITY, 1, false};
-}
+static Ray down(float x, float z) { return (Ray){{x, 5.0f, z}, {0.0f, -1.0f, 0.0f}, 0.0f, INFINITY, 1, false}; }
 
 /* Three floors: a single-sided one facing down at y = 2, one facing up at 1, and a two-sided one at 0. */
 static WeftScene *floors(void) {
@@ -74,8 +72,7 @@ static void hit_packet(const Geometry *geometry, int count, const Ray *rays, Hit
     geometry_occlusions(geometry, &rows, count, hidden);
     for (int k = 0; k < count; k++) {
         bool any = mesh[k] != GEOMETRY_NOTHING;
-        hits[k] =
-            (Hit){.t = any ? t[k] : -1.0f, .mesh = mesh[k], .triangle = triangle[k], .u = u[k], .v = v[k]};
+        hits[k] = (Hit){.t = any ? t[k] : -1.0f, .mesh = mesh[k], .triangle = triangle[k], .u = u[k], .v = v[k]};
         assert_int_equal(hidden[k], geometry_occluded(geometry, rays[k]));
     }
 }
@@ -134,8 +131,7 @@ static void sheets_back_to_back_have_no_holes(void **state) {
     WeftScene *scene = test_scene();
     test_material(scene, 0.5f)->double_sided = false;
     test_quad(scene, vec3(-1, 0, 1), vec3(2, 0, 0), vec3(0, 0, -2)); /* faces up */
-    test_quad(scene, vec3(-1, 0, -1), vec3(0, 0, 2),
-              vec3(2, 0, 0)); /* the same corners, faces up too: flip it */
+    test_quad(scene, vec3(-1, 0, -1), vec3(0, 0, 2), vec3(2, 0, 0)); /* the same corners, faces up too: flip it */
     Mesh *under = &scene->meshes[1];
     memcpy(under->position, scene->meshes[0].position, 12 * sizeof(float));
     static const uint32_t reversed[6] = {0, 2, 1, 0, 3, 2};
@@ -210,8 +206,7 @@ static void place(const WeftScene *scene, uint32_t triangle, float u, Vec3 wo, V
     static Paths paths;
     static Chunk chunk;
     static const PathKeys keys;
-    const PathMaterial material = {.material = scene->materials[0],
-                                   .untextured = material_plain(&scene->materials[0])};
+    const PathMaterial material = {.material = scene->materials[0], .untextured = material_plain(&scene->materials[0])};
     const PathContext context = {.scene = scene, .materials = &material, .lift = true};
     const float t = 1.0f;
     const uint32_t mesh = 0;
@@ -274,9 +269,8 @@ static void smooth_ball_does_not_shadow_itself(void **state) {
         assert_int_equal(
             weft_render_create(
                 scene,
-                &(WeftRenderDesc){
-                    .width = 64, .height = 64, .camera = camera, .max_depth = 1, .pixel_centre = 1},
-                &r, NULL),
+                &(WeftRenderDesc){.width = 64, .height = 64, .camera = camera, .max_depth = 1, .pixel_centre = 1}, &r,
+                NULL),
             WEFT_OK);
         assert_int_equal(weft_render_run(r, 1, 0.0, NULL, NULL), WEFT_OK);
         assert_int_equal(weft_render_image(r, &image, NULL), WEFT_OK);
@@ -291,8 +285,7 @@ static void smooth_ball_does_not_shadow_itself(void **state) {
                 double z = 10.0 - 10.0 * (100.0 - (sqrt)(root)) / a;
                 if (z < 0.3) continue;
                 float lit = ((float *)image.pixels)[4 * (64 * y + x)];
-                assert_true(fabs((double)lit - z) <
-                            0.01); /* lambert under a sun of irradiance pi: the cosine */
+                assert_true(fabs((double)lit - z) < 0.01); /* lambert under a sun of irradiance pi: the cosine */
                 checked++;
             }
         assert_true(checked > 1500);
@@ -324,8 +317,8 @@ static void coarse_ball_is_lit_as_a_fine_one(void **state) {
     for (int no_lift = 0; no_lift < 2; no_lift++) {
         WeftImage coarse = grazed_ball(12, no_lift);
         for (int k = 0; k < 64 * 64; k++)
-            most[no_lift] = fmax(most[no_lift], fabs((double)((float *)coarse.pixels)[4 * k] -
-                                                     (double)((float *)fine.pixels)[4 * k]));
+            most[no_lift] = fmax(most[no_lift],
+                                 fabs((double)((float *)coarse.pixels)[4 * k] - (double)((float *)fine.pixels)[4 * k]));
         weft_image_free(&coarse);
     }
     weft_image_free(&fine);

@@ -32,12 +32,10 @@ static void absent_sets_are_refused(void **state) {
     Isa chosen = ISA_AVX2;
     assert_int_equal(isa_choose("avx512", ISA_SSE2, ISA_AVX2, &chosen, &error), WEFT_RESOURCES);
     assert_int_equal(error.message, WEFT_MESSAGE_ISA);
-    assert_string_equal(error.text,
-                        "avx512: cannot be used: this processor, or this build, has at most avx2");
+    assert_string_equal(error.text, "avx512: cannot be used: this processor, or this build, has at most avx2");
     assert_int_equal(isa_choose("avx2", ISA_SSE2, ISA_SSE2, &chosen, &error), WEFT_RESOURCES);
     assert_int_equal(isa_choose("sse2", ISA_AVX2, ISA_AVX2, &chosen, &error), WEFT_RESOURCES);
-    assert_string_equal(error.text,
-                        "sse2: cannot be used: this build has avx2 alone; -DWEFT_ISA=all builds all");
+    assert_string_equal(error.text, "sse2: cannot be used: this build has avx2 alone; -DWEFT_ISA=all builds all");
     for (int k = 0; k < 3; k++) {
         static const char *const wrong[] = {"avx", "AVX2", ""};
         assert_int_equal(isa_choose(wrong[k], ISA_SSE2, ISA_AVX512, &chosen, &error), WEFT_USAGE);

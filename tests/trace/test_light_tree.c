@@ -56,8 +56,7 @@ static double dead_share(const LightTree *tree, Vec3 point, Vec3 normal) {
     const float *const points[] = {rows[0], rows[1], rows[2]}, *const normals[] = {rows[3], rows[4], rows[5]};
     int dead = 0;
     for (int round = 0; round < ROUNDS; round++) {
-        for (int k = 0; k < ROW_MOST; k++)
-            u[k] = ((float)(round * ROW_MOST + k) + 0.5f) / (float)(ROUNDS * ROW_MOST);
+        for (int k = 0; k < ROW_MOST; k++) u[k] = ((float)(round * ROW_MOST + k) + 0.5f) / (float)(ROUNDS * ROW_MOST);
         light_tree_choose_rows(tree, ROW_MOST, points, normals, u, chosen, probability);
         for (int k = 0; k < ROW_MOST; k++) dead += !(probability[k] > 0.0f);
     }
@@ -141,8 +140,7 @@ static void choices_follow_probabilities(void **state) {
 static double lambert(const Vec3 corner[3]) {
     double sum = 0.0;
     for (int k = 0; k < 3; k++) {
-        Vec3 a = vec3_normal_or(corner[k], vec3(0, 1, 0)),
-             b = vec3_normal_or(corner[(k + 1) % 3], vec3(0, 1, 0));
+        Vec3 a = vec3_normal_or(corner[k], vec3(0, 1, 0)), b = vec3_normal_or(corner[(k + 1) % 3], vec3(0, 1, 0));
         Vec3 across = vec3_normal_or(vec3_cross(a, b), vec3(0, 0, 0));
         sum += (acos)((double)fminf(fmaxf(vec3_dot(a, b), -1.0f), 1.0f)) * (double)across.y;
     }
@@ -160,9 +158,7 @@ typedef struct Quad {
 
 static Vec3 facing(const Quad *q) { return vec3_cross(q->x, q->y); }
 
-static float power(const Quad *q) {
-    return q->strength * vec3_length(facing(q)) * (q->two_sided ? 2.0f : 1.0f);
-}
+static float power(const Quad *q) { return q->strength * vec3_length(facing(q)) * (q->two_sided ? 2.0f : 1.0f); }
 
 /* The mean square of the estimates that choosing by power alone would give. */
 static double square_by_power(const Quad quads[QUADS], uint32_t *random) {

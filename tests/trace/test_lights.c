@@ -84,8 +84,8 @@ static void environment_samples_agree_with_its_pdf(void **state) {
     enum { N = 40000 };
     double sum = 0.0, total_pdf = 0.0;
     for (uint32_t k = 0; k < N; k++) {
-        LightSample s = lights_sample(lights, LIGHTS_SKY, vec3(0, 0, 0), vec3(0, 1, 0),
-                                      unit_float(hash32(3 * k)), unit_float(hash32(3 * k + 1)));
+        LightSample s = lights_sample(lights, LIGHTS_SKY, vec3(0, 0, 0), vec3(0, 1, 0), unit_float(hash32(3 * k)),
+                                      unit_float(hash32(3 * k + 1)));
         assert_true(s.pdf > 0.0f && fabsf(vec3_length(s.wi) - 1.0f) < 1e-4f);
         float pdf = lights_environment(lights, s.wi).pdf;
         if (fabsf(pdf - s.pdf) > 0.02f * s.pdf) total_pdf += 1.0; /* may differ on cell edges only */
@@ -95,10 +95,9 @@ static void environment_samples_agree_with_its_pdf(void **state) {
     assert_true(fabs(sum / N / integral - 1.0) < 0.02);
     double mass = 0.0; /* the pdf integrates to 1 */
     for (uint32_t k = 0; k < N; k++) {
-        float z = 1.0f - 2.0f * unit_float(hash32(7 * k + 1)),
-              phi = 6.2831853f * unit_float(hash32(7 * k + 5)), r = sqrtf(1.0f - z * z);
-        mass += (double)lights_environment(lights, vec3(r * cosf(phi), z, r * sinf(phi))).pdf * 4.0 *
-                PI_DOUBLE / N;
+        float z = 1.0f - 2.0f * unit_float(hash32(7 * k + 1)), phi = 6.2831853f * unit_float(hash32(7 * k + 5)),
+              r = sqrtf(1.0f - z * z);
+        mass += (double)lights_environment(lights, vec3(r * cosf(phi), z, r * sinf(phi))).pdf * 4.0 * PI_DOUBLE / N;
     }
     assert_true(fabs(mass - 1.0) < 0.08);
     lights_free(lights);
@@ -119,8 +118,8 @@ static void emitters_subtend_their_solid_angle(void **state) {
     enum { N = 1 << 14 };
     double sum = 0.0;
     for (uint32_t k = 0; k < N; k++) {
-        LightSample s = lights_sample(lights, LIGHTS_EMITTERS, vec3(0, 0, 0), vec3(0, 1, 0),
-                                      unit_float(hash32(3 * k)), unit_float(hash32(3 * k + 1)));
+        LightSample s = lights_sample(lights, LIGHTS_EMITTERS, vec3(0, 0, 0), vec3(0, 1, 0), unit_float(hash32(3 * k)),
+                                      unit_float(hash32(3 * k + 1)));
         assert_true(s.pdf > 0.0f && s.distance >= 0.999f && s.distance < 1.3f && !s.punctual);
         sum += (double)(s.radiance.r / s.pdf) / N;
     }
@@ -136,8 +135,8 @@ static void punctual_lights_follow_their_extension(void **state) {
     (void)state;
     WeftScene *scene = test_scene();
     test_environment(scene, 0.0f);
-    scene->lights[0] = (Light){
-        .name = "p", .kind = LIGHT_POINT, .position = {0, 2, 0}, .color = {1, 0.5f, 0}, .intensity = 8.0f};
+    scene->lights[0] =
+        (Light){.name = "p", .kind = LIGHT_POINT, .position = {0, 2, 0}, .color = {1, 0.5f, 0}, .intensity = 8.0f};
     scene->light_count = 1;
     Lights *lights = build(scene);
     LightSample s = lights_sample(lights, LIGHTS_PUNCTUAL, vec3(0, 0, 0), vec3(0, 1, 0), 0.1f, 0.2f);
@@ -162,14 +161,11 @@ static void punctual_lights_follow_their_extension(void **state) {
                                .cos_inner = cosf(0.2f),
                                .cos_outer = cosf(0.6f)};
     lights = build(scene);
-    assert_true(fabsf(lights_sample(lights, LIGHTS_PUNCTUAL, vec3(0, 0, 0), vec3(0, 1, 0), 0, 0).radiance.r -
-                      1.0f) < 1e-5f);
-    assert_true(
-        lights_sample(lights, LIGHTS_PUNCTUAL, vec3(tanf(0.7f), 0, 0), vec3(0, 1, 0), 0, 0).radiance.r ==
-        0.0f);
-    float between =
-        lights_sample(lights, LIGHTS_PUNCTUAL, vec3(tanf(0.4f), 0, 0), vec3(0, 1, 0), 0, 0).radiance.r *
-        (1.0f + tanf(0.4f) * tanf(0.4f));
+    assert_true(fabsf(lights_sample(lights, LIGHTS_PUNCTUAL, vec3(0, 0, 0), vec3(0, 1, 0), 0, 0).radiance.r - 1.0f) <
+                1e-5f);
+    assert_true(lights_sample(lights, LIGHTS_PUNCTUAL, vec3(tanf(0.7f), 0, 0), vec3(0, 1, 0), 0, 0).radiance.r == 0.0f);
+    float between = lights_sample(lights, LIGHTS_PUNCTUAL, vec3(tanf(0.4f), 0, 0), vec3(0, 1, 0), 0, 0).radiance.r *
+                    (1.0f + tanf(0.4f) * tanf(0.4f));
     assert_true(between > 0.1f && between < 0.9f);
     lights_free(lights);
     weft_scene_free(scene);

@@ -32,8 +32,7 @@ static void rgl_file(const char *id, const char *path) {
 }
 
 /* So many numbers, alike in each of three channels, behind a header. */
-static void even_file(const char *path, const int32_t *header, size_t headers, size_t count,
-                      const double channel[3]) {
+static void even_file(const char *path, const int32_t *header, size_t headers, size_t count, const double channel[3]) {
     FILE *stream = fopen(path, "wb");
     assert_non_null(stream);
     if (headers) fwrite(header, sizeof *header, headers, stream);
@@ -108,8 +107,7 @@ static void a_sun_shows_f(void **state) {
             double mean[3];
             weft_reflection_eval(of, WEFT_PART_ALL, wo, 1, wi, f);
             WeftScene *scene = square_of(files[n], 0.9f);
-            const WeftLight sun = {.direction = {-wi[0][0], -wi[0][2], wi[0][1]},
-                                   .color = {2.0f, 2.0f, 2.0f}};
+            const WeftLight sun = {.direction = {-wi[0][0], -wi[0][2], wi[0][1]}, .color = {2.0f, 2.0f, 2.0f}};
             assert_int_equal(weft_scene_add_light(scene, &sun, NULL), WEFT_OK);
             seen(scene, wo, WEFT_SAMPLING_MIS, 4, mean);
             for (int c = 0; c < 3; c++) {
@@ -212,9 +210,8 @@ static void bad_names_are_refused(void **state) {
     refused("{\"measured\": \"short.bsdf\"}", "RGL's format");
     WeftScene *scene = square_of("even.bin", 0.5f);
     const char text[] = "{\"measured\": \"even.bin\"}";
-    assert_int_equal(
-        weft_scene_assign_material_memory(scene, "matt", text, sizeof text - 1, "text", NULL, &error),
-        WEFT_INPUT);
+    assert_int_equal(weft_scene_assign_material_memory(scene, "matt", text, sizeof text - 1, "text", NULL, &error),
+                     WEFT_INPUT);
     assert_non_null(strstr(error.text, "only by a material in a file"));
     WeftMaterial material = scene->materials[0];
     material.measured = 7;

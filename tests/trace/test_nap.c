@@ -59,8 +59,7 @@ static Material *lean(WeftScene *scene, float nap, float direction) {
 static double seen_by(WeftScene *scene, const char *camera) {
     enum { SIDE = 32 };
     assert_int_equal(tangents_complete(scene, NULL), WEFT_OK);
-    WeftImage image =
-        test_render(scene, (WeftRenderDesc){.camera = camera, .width = SIDE, .height = SIDE}, 16);
+    WeftImage image = test_render(scene, (WeftRenderDesc){.camera = camera, .width = SIDE, .height = SIDE}, 16);
     double sum = 0.0;
     for (int k = 0; k < SIDE * SIDE; k++) sum += (double)((const float *)image.pixels)[4 * k] / (SIDE * SIDE);
     weft_image_free(&image);

@@ -52,23 +52,17 @@ static unsigned change(WeftScene *scene, int step, WeftRenderDesc *desc) {
     switch (step) {
     case 0: desc->camera = "1,1,3;0,0.5,0;30"; return 0;
     case 1: desc->width = 40, desc->crop[2] = 20, desc->crop[3] = 15, desc->crop[0] = 5; return 0;
-    case 2:
-        assert_int_equal(weft_scene_set(scene, "0.sheen_roughness", "0.3", NULL, NULL), WEFT_OK);
-        return MATERIALS;
+    case 2: assert_int_equal(weft_scene_set(scene, "0.sheen_roughness", "0.3", NULL, NULL), WEFT_OK); return MATERIALS;
     case 3:
         assert_int_equal(weft_scene_set(scene, "0.sheen_lobe", "ashikhmin-neubelt", NULL, NULL), WEFT_OK);
         return MATERIALS;
     case 4: put_texture(scene, 37); return MATERIALS;
     case 5: put_texture(scene, 91); return MATERIALS;
-    case 6:
-        assert_int_equal(weft_scene_set(scene, "0.opacity", "0.4", NULL, NULL), WEFT_OK);
-        return MATERIALS;
+    case 6: assert_int_equal(weft_scene_set(scene, "0.opacity", "0.4", NULL, NULL), WEFT_OK); return MATERIALS;
     case 7: assert_int_equal(weft_scene_set(scene, "0.emission", "2", NULL, NULL), WEFT_OK); return MATERIALS;
     case 8: assert_int_equal(weft_scene_set(scene, "0.emission", "0", NULL, NULL), WEFT_OK); return MATERIALS;
     case 9: assert_int_equal(weft_scene_add_light(scene, &sun, NULL), WEFT_OK); return LIGHTS;
-    case 10:
-        assert_int_equal(weft_scene_set_environment_placement(scene, 30.0f, 3.0f, NULL), WEFT_OK);
-        return LIGHTS;
+    case 10: assert_int_equal(weft_scene_set_environment_placement(scene, 30.0f, 3.0f, NULL), WEFT_OK); return LIGHTS;
     case 11: assert_int_equal(weft_scene_add_light(scene, &panel, NULL), WEFT_OK); return LIGHTS | SHAPES;
     case 12:
         light.position[0] = 1.0f;

@@ -37,10 +37,8 @@ static void sample_pairs_are_stratified(void **state) {
                 for (uint32_t block = 0; block < 2; block++) {
                     unsigned char seen[N] = {0};
                     for (uint32_t k = 0; k < N; k++) {
-                        Point p = sampler_point(sampler_key(pixel, 3, 9), sampler_index(block * N + k),
-                                                (uint32_t)pair);
-                        int column = (int)(p.u * (float)(1 << split)),
-                            row = (int)(p.v * (float)(1 << (M - split)));
+                        Point p = sampler_point(sampler_key(pixel, 3, 9), sampler_index(block * N + k), (uint32_t)pair);
+                        int column = (int)(p.u * (float)(1 << split)), row = (int)(p.v * (float)(1 << (M - split)));
                         seen[column * (1 << (M - split)) + row]++;
                     }
                     for (int k = 0; k < N; k++) assert_int_equal(seen[k], 1);
@@ -53,8 +51,7 @@ static void samples_of_pixels_and_pairs_are_decorrelated(void **state) {
     double sum = 0.0;
     for (uint32_t k = 0; k < N; k++) {
         uint32_t one = sampler_key(k, 0, 1), two = sampler_key(k + 1, 0, 1), first = sampler_index(0);
-        Point p = sampler_point(one, first, 0), q = sampler_point(two, first, 0),
-              next = sampler_point(one, first, 1);
+        Point p = sampler_point(one, first, 0), q = sampler_point(two, first, 0), next = sampler_point(one, first, 1);
         sum += ((double)p.u - 0.5) * ((double)q.u - 0.5) * 12.0;    /* between pixels */
         sum += ((double)p.u - 0.5) * ((double)next.u - 0.5) * 12.0; /* between pairs */
         sum += ((double)next.u - 0.5) * ((double)next.v - 0.5) * 12.0;
@@ -64,8 +61,8 @@ static void samples_of_pixels_and_pairs_are_decorrelated(void **state) {
 
 /* The cumulative weight before a choice and with it have u between them. */
 static bool finds(const Distribution *d, Choice c, float u) {
-    return c.index >= 0 && c.index < d->n && d->ends[c.index - 1] <= u && u < d->ends[c.index] &&
-           c.rest >= 0.0f && c.rest < 1.0f;
+    return c.index >= 0 && c.index < d->n && d->ends[c.index - 1] <= u && u < d->ends[c.index] && c.rest >= 0.0f &&
+           c.rest < 1.0f;
 }
 
 static void sampled_choices_follow_their_weights(void **state) {

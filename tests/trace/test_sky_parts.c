@@ -46,15 +46,14 @@ static void parts_add_up(WeftScene *scene, const char *name, WeftSampling sampli
     WeftImage none = traced(scene, 0.0f, 0.0f, sampling), ambient = traced(scene, 1.0f, 0.0f, sampling),
               reflection = traced(scene, 0.0f, 1.0f, sampling), all = traced(scene, 1.0f, 1.0f, sampling),
               scaled = traced(scene, 0.25f, 3.0f, sampling);
-    const float *n = none.pixels, *a = ambient.pixels, *r = reflection.pixels, *p = all.pixels,
-                *s = scaled.pixels;
+    const float *n = none.pixels, *a = ambient.pixels, *r = reflection.pixels, *p = all.pixels, *s = scaled.pixels;
     double sums[2] = {0.0, 0.0};
     for (int k = 0; k < SIDE * SIDE * 4; k++) {
         if (k % 4 == 3) continue;
         float due = n[k] + 0.25f * (a[k] - n[k]) + 3.0f * (r[k] - n[k]), slack = 2e-4f * (due + p[k]) + 1e-6f;
         if (!(fabsf(a[k] + r[k] - n[k] - p[k]) <= slack && fabsf(s[k] - due) <= slack))
-            fail_msg("%s: pixel %d: %g + %g - %g is not %g, or %g not %g", name, k / 4, (double)a[k],
-                     (double)r[k], (double)n[k], (double)p[k], (double)s[k], (double)due);
+            fail_msg("%s: pixel %d: %g + %g - %g is not %g, or %g not %g", name, k / 4, (double)a[k], (double)r[k],
+                     (double)n[k], (double)p[k], (double)s[k], (double)due);
         sums[0] += (double)(a[k] - n[k]), sums[1] += (double)(r[k] - n[k]);
     }
     if (!(sums[0] > 0.1 && sums[1] > 0.1)) fail_msg("%s: sums %g, %g", name, sums[0], sums[1]);

@@ -59,8 +59,7 @@ static WeftScene *shaded_scene(void) {
     return scene;
 }
 
-static const WeftRenderDesc small = {
-    .width = 24, .height = 18, .camera = "0,2.4,6;0,0.8,0;32", .max_depth = 4};
+static const WeftRenderDesc small = {.width = 24, .height = 18, .camera = "0,2.4,6;0,0.8,0;32", .max_depth = 4};
 
 enum { BATCHES = 12, BATCH_SPP = 96 };
 
@@ -203,13 +202,11 @@ static void normal_map_of_a_coat_leans_along_the_tangent(void **state) {
             coated->inputs[INPUT_clearcoat_normal].texture = 1;
             Mesh *mesh = test_quad(scene, vec3(-2, -2, 0), vec3(4, 0, 0), vec3(0, 4, 0)); /* faces +z */
             mesh->tangent = arena_array(&scene->arena, 4, 4 * sizeof(float));
-            for (int k = 0; k < 4; k++)
-                mesh->tangent[4 * k] = along ? 1.0f : -1.0f, mesh->tangent[4 * k + 3] = 1.0f;
-            scene->lights[scene->light_count++] =
-                (Light){.kind = LIGHT_DIRECTIONAL,
-                        .direction = {from ? -0.7071f : 0.7071f, 0, -0.7071f},
-                        .color = {1, 1, 1},
-                        .intensity = 1.0f};
+            for (int k = 0; k < 4; k++) mesh->tangent[4 * k] = along ? 1.0f : -1.0f, mesh->tangent[4 * k + 3] = 1.0f;
+            scene->lights[scene->light_count++] = (Light){.kind = LIGHT_DIRECTIONAL,
+                                                          .direction = {from ? -0.7071f : 0.7071f, 0, -0.7071f},
+                                                          .color = {1, 1, 1},
+                                                          .intensity = 1.0f};
             scene_bounds(scene);
             WeftRenderDesc desc = {.width = 4, .height = 4, .max_depth = 1, .camera = "0,0,3;0,0,0;20"};
             WeftImage image = test_render(scene, desc, 4);
@@ -270,8 +267,8 @@ static void crop_is_a_part_of_the_picture(void **state) {
     assert_int_equal(part.width, 21);
     assert_int_equal(part.height, 19);
     for (int y = 0; y < 19; y++)
-        assert_memory_equal((float *)part.pixels + 4 * 21 * y,
-                            (float *)whole.pixels + 4 * (60 * (y + 7) + 13), 21 * 4 * sizeof(float));
+        assert_memory_equal((float *)part.pixels + 4 * 21 * y, (float *)whole.pixels + 4 * (60 * (y + 7) + 13),
+                            21 * 4 * sizeof(float));
     weft_image_free(&whole);
     weft_image_free(&part);
     weft_scene_free(scene);
@@ -297,8 +294,7 @@ static void render_runs_accumulate_and_stop(void **state) {
     weft_render_free(r);
 
     assert_int_equal(weft_render_create(scene, &desc, &r, NULL), WEFT_OK);
-    assert_int_equal(weft_render_run(r, 1 << 28, 0.2, NULL, NULL),
-                     WEFT_OK); /* the time limit is no failure */
+    assert_int_equal(weft_render_run(r, 1 << 28, 0.2, NULL, NULL), WEFT_OK); /* the time limit is no failure */
     assert_true(weft_render_info(r).samples_per_pixel >= 1.0);
     assert_true(weft_render_info(r).render_seconds < 5.0);
     weft_render_free(r);
@@ -325,8 +321,7 @@ static void render_descriptors_without_sense_are_refused(void **state) {
     }
     WeftRender *r;
     WeftError error;
-    assert_int_equal(weft_render_create(scene, &(WeftRenderDesc){.camera = "nowhere"}, &r, &error),
-                     WEFT_USAGE);
+    assert_int_equal(weft_render_create(scene, &(WeftRenderDesc){.camera = "nowhere"}, &r, &error), WEFT_USAGE);
     assert_int_equal(error.message, WEFT_MESSAGE_CAMERA_NAME);
     WeftScene *empty = test_scene();
     scene_bounds(empty);

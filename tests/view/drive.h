@@ -16,9 +16,9 @@
 #include "weft/weft.h"
 
 /* A piece of cloth under a sun alone: drawn and traced at once. */
-#define CHEAP                                                                                                \
-    "builtin:cloth", "--set", "Softbox.emission=0", "--env", "0,0,0", "--light", "sun;-1,-2,-1;3,3,3",       \
-        "--occlusion", "0"
+#define CHEAP                                                                                                          \
+    "builtin:cloth", "--set", "Softbox.emission=0", "--env", "0,0,0", "--light", "sun;-1,-2,-1;3,3,3", "--occlusion",  \
+        "0"
 #define UNSEEN "view", "--windowless", "--forget", "--json", "--width", "640", "--height", "420"
 
 static inline int drive_begin(void **state) { return work_begin(state) || gl_begin(state) ? -1 : 0; }
@@ -83,8 +83,7 @@ static inline json_t *drive_next(Drive *drive) {
         state = json_loads(line, 0, NULL);
         assert_non_null(state);
         const json_t *untold = json_object_get(state, "untold"); /* every control tells what it is for */
-        if (json_array_size(untold))
-            fail_msg("%s says nothing", json_string_value(json_array_get(untold, 0)));
+        if (json_array_size(untold)) fail_msg("%s says nothing", json_string_value(json_array_get(untold, 0)));
     }
     free(line);
     fclose(stream);
@@ -98,9 +97,7 @@ static inline const char *word_of(const json_t *state, const char *key) {
 static inline double number_of(const json_t *state, const char *key) {
     return json_number_value(json_object_get(state, key));
 }
-static inline bool is_true(const json_t *state, const char *key) {
-    return json_is_true(json_object_get(state, key));
-}
+static inline bool is_true(const json_t *state, const char *key) { return json_is_true(json_object_get(state, key)); }
 
 /* The next state whose text `key` holds `part`. Release with json_decref. */
 static inline json_t *drive_until(Drive *drive, const char *key, const char *part) {
@@ -193,9 +190,7 @@ static inline void say(const char *format, ...) {
 }
 
 /* A picture, which is waited for. */
-static inline void say_picture(const char *path) {
-    say("wait rest\npicture %s\nwait message wrote %s\n", path, path);
-}
+static inline void say_picture(const char *path) { say("wait rest\npicture %s\nwait message wrote %s\n", path, path); }
 
 /* The same, and a rest behind it in which the window tells its state. */
 static inline void say_rested_picture(const char *path) {

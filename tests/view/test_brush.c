@@ -19,18 +19,16 @@ static void brushed_nap_is_saved_and_drawn_by_both_engines(void **state) {
     double brushed = pictures_differ("plain.exr", "brushed.exr");
     WeftImage size = picture_read("brushed.exr");
     char shell[512];
-    snprintf(
-        shell, sizeof shell,
-        "\"$0\" render nap.glb --env 0,0,0 --camera 0 --width %d --height %d --quiet --engine raster"
-        " --occlusion 0 -o again.exr && \"$0\" render nap.glb --env 0,0,0 --camera 0 --width %d --height %d"
-        " --quiet --halves --spp 24 -o truth.exr",
-        size.width, size.height, size.width, size.height);
+    snprintf(shell, sizeof shell,
+             "\"$0\" render nap.glb --env 0,0,0 --camera 0 --width %d --height %d --quiet --engine raster"
+             " --occlusion 0 -o again.exr && \"$0\" render nap.glb --env 0,0,0 --camera 0 --width %d --height %d"
+             " --quiet --halves --spp 24 -o truth.exr",
+             size.width, size.height, size.width, size.height);
     weft_image_free(&size);
     Ran ran = run_shell(shell);
     if (ran.code != 0) fail_msg("%s", ran.err);
     ran_free(&ran);
-    double again = pictures_differ("brushed.exr", "again.exr"),
-           traced = pictures_differ("traced.exr", "truth.exr");
+    double again = pictures_differ("brushed.exr", "again.exr"), traced = pictures_differ("traced.exr", "truth.exr");
     print_message("brushed: %g; read again: %g, path traced %g\n", brushed, again, traced);
     assert_true(brushed > 1e-3);
     assert_true(again < 1e-5);

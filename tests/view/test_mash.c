@@ -32,14 +32,12 @@ static void act(FILE *stream) {
     case 2: fprintf(stream, "key %s\n", keys[roll(sizeof keys / sizeof *keys)]); break;
     case 3:
     case 4:
-        fprintf(stream, "drag %s %.3f %.3f %.3f %.3f\n", buttons[roll(5)], share(), share(), share(),
-                share());
+        fprintf(stream, "drag %s %.3f %.3f %.3f %.3f\n", buttons[roll(5)], share(), share(), share(), share());
         break;
     case 5: /* anywhere in the window, panels as well */
     case 6:
     case 7:
-        fprintf(stream, "move %.3f %.3f\npress %s\n", 2.6 * share() - 0.1, 1.2 * share() - 0.1,
-                buttons[roll(5)]);
+        fprintf(stream, "move %.3f %.3f\npress %s\n", 2.6 * share() - 0.1, 1.2 * share() - 0.1, buttons[roll(5)]);
         fprintf(stream, "move %.3f %.3f\n", 2.6 * share() - 0.1, 1.2 * share() - 0.1);
         break;
     case 8: fprintf(stream, "release left\nrelease right\nrelease middle\n"); break;
@@ -47,9 +45,8 @@ static void act(FILE *stream) {
     case 10: fprintf(stream, "keydown %c\n", "wasdeq"[roll(6)]); break;
     case 11: fprintf(stream, "keyup %c\n", "wasdeq"[roll(6)]); break;
     case 12: /* what text might be: numbers, words, what is neither */
-        fprintf(
-            stream, "type %s\n",
-            (const char *const[]){"0.5", "-1e30", "nan", "1e999", "?", "../x", "%s%n", "\xC3\xA4"}[roll(8)]);
+        fprintf(stream, "type %s\n",
+                (const char *const[]){"0.5", "-1e30", "nan", "1e999", "?", "../x", "%s%n", "\xC3\xA4"}[roll(8)]);
         break;
     case 13:
         if (roll(6) == 0) fprintf(stream, "resize %u %u\n", 320 + roll(500), 240 + roll(400));
@@ -84,8 +81,8 @@ static void random_events_leave_the_window_working(void **state) {
     for (int k = 0; k < count; k++) act(stream);
     come_back(stream);
     assert_int_equal(fclose(stream), 0);
-    Drive drive = drive_start(NULL, LIST("view", "--windowless", "--forget", "--json", "--width", "400",
-                                         "--height", "300", CHEAP, "--script", "mash"));
+    Drive drive = drive_start(NULL, LIST("view", "--windowless", "--forget", "--json", "--width", "400", "--height",
+                                         "300", CHEAP, "--script", "mash"));
     drive_finish_within(&drive, 0.3 * count + 100.0);
     size_t size;
     char *said = file_bytes("stdout", &size);

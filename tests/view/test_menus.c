@@ -55,8 +55,8 @@ static void every_menu_goes_through_all_its_values(void **state) {
     }
     say_picture("end.png");
     say("wait rest\n");
-    Drive drive = drive_start(script, LIST("view", "--windowless", "--forget", "--json", "--width", "320",
-                                           "--height", "240", CHEAP));
+    Drive drive = drive_start(
+        script, LIST("view", "--windowless", "--forget", "--json", "--width", "320", "--height", "240", CHEAP));
     json_t *last = NULL;
     for (bool ended = false; !ended || last;) {
         json_decref(last);
@@ -73,8 +73,7 @@ static void every_menu_goes_through_all_its_values(void **state) {
             char path[64], set[96];
             if (!fits(material, k, j)) continue;
             snprintf(path, sizeof path, "%s.%d", weft_material_choice_name(k), j);
-            snprintf(set, sizeof set, " 0.%s=%s ", weft_material_choice_name(k),
-                     weft_material_choice_value(k, j));
+            snprintf(set, sizeof set, " 0.%s=%s ", weft_material_choice_name(k), weft_material_choice_value(k, j));
             if (!file_has(path, set)) fail_msg("%s:%s", path, set);
         }
 }

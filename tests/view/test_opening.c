@@ -9,11 +9,9 @@ static void first_scene_that_cannot_be_read_ends_the_window(void **state) {
     (void)state;
     need_gl();
     file_make("bare.gltf", "{\"asset\":{\"version\":\"2.0\"}}", 27);
-    static const char *const absent[][2] = {{"nofile.glb", "nofile.glb: "},
-                                            {"bare.gltf", "nothing to render"}};
+    static const char *const absent[][2] = {{"nofile.glb", "nofile.glb: "}, {"bare.gltf", "nothing to render"}};
     for (int k = 0; k < 2; k++)
-        assert_complaint(NULL, LIST("view", absent[k][0], "--windowless", "--forget"), WEFT_INPUT,
-                         absent[k][1]);
+        assert_complaint(NULL, LIST("view", absent[k][0], "--windowless", "--forget"), WEFT_INPUT, absent[k][1]);
 }
 
 static void window_is_idle_after_a_scene_with_nothing_to_render(void **state) {
@@ -45,8 +43,7 @@ static double stages_differ(const char *a, const char *b) {
     for (int row = x.height / 4; row < x.height * 3 / 4; row++)
         for (int k = 0; k < x.width / 4 * x.channels; k++, count++) {
             size_t at = (size_t)(row * x.width * x.channels + k);
-            sum +=
-                fabs(((const unsigned char *)x.pixels)[at] - (double)((const unsigned char *)y.pixels)[at]);
+            sum += fabs(((const unsigned char *)x.pixels)[at] - (double)((const unsigned char *)y.pixels)[at]);
         }
     weft_image_free(&x);
     weft_image_free(&y);
@@ -246,15 +243,14 @@ static void chosen_material_is_one_on_screen(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(first_scene_that_cannot_be_read_ends_the_window),
-        cmocka_unit_test(window_is_idle_after_a_scene_with_nothing_to_render),
-        cmocka_unit_test(window_ends_after_its_frames_though_nothing_changes),
-        cmocka_unit_test(the_path_tracer_stands_in_while_shaders_compile),
-        cmocka_unit_test(a_light_that_cannot_be_read_leaves_the_one_before),
-        cmocka_unit_test(a_light_that_breaks_while_it_is_shown_stays_until_it_is_whole),
-        cmocka_unit_test(undo_to_a_deleted_light_keeps_the_light_that_is_there),
-        cmocka_unit_test(chooser_of_lights_keeps_the_typed_text),
-        cmocka_unit_test(chosen_material_is_one_on_screen)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(first_scene_that_cannot_be_read_ends_the_window),
+                                       cmocka_unit_test(window_is_idle_after_a_scene_with_nothing_to_render),
+                                       cmocka_unit_test(window_ends_after_its_frames_though_nothing_changes),
+                                       cmocka_unit_test(the_path_tracer_stands_in_while_shaders_compile),
+                                       cmocka_unit_test(a_light_that_cannot_be_read_leaves_the_one_before),
+                                       cmocka_unit_test(a_light_that_breaks_while_it_is_shown_stays_until_it_is_whole),
+                                       cmocka_unit_test(undo_to_a_deleted_light_keeps_the_light_that_is_there),
+                                       cmocka_unit_test(chooser_of_lights_keeps_the_typed_text),
+                                       cmocka_unit_test(chosen_material_is_one_on_screen)};
     return cmocka_run_group_tests(tests, drive_begin, drive_end);
 }

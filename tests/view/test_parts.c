@@ -48,8 +48,7 @@ static const Orbit cameras[] = {{.eye = {0.4f, 1.0f, 1.9f}, .target = {0.0f, 0.5
 enum { CAMERAS = sizeof cameras / sizeof *cameras };
 
 static float length(const float a[3], const float b[3]) {
-    return sqrtf((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) +
-                 (a[2] - b[2]) * (a[2] - b[2]));
+    return sqrtf((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]));
 }
 
 static void projected_point_lies_on_its_ray(void **state) {
@@ -407,8 +406,7 @@ static void frame_request_is_copied_whole_or_not_at_all(void **state) {
         assert_near(copy.at, 0.75f, 0.0f);
     }
     assert_true(frame_request_copy(&copy, &request));
-    assert_true(scene_state_same(&copy.state, &request.state) &&
-                scene_state_same(&copy.other, &request.other));
+    assert_true(scene_state_same(&copy.state, &request.state) && scene_state_same(&copy.other, &request.other));
     frame_request_free(&copy);
     frame_request_free(&request);
 }
@@ -689,8 +687,7 @@ static void copied_command_line_is_read_by_a_shell_as_meant(void **state) {
     v->states->edit.first.environment = v->states->edit.state.environment;
     for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
         snprintf(v->states->shown.facts.path, sizeof v->states->shown.facts.path, "%s", names[k]);
-        snprintf(v->states->edit.state.environment.path, sizeof v->states->edit.state.environment.path, "%s",
-                 names[k]);
+        snprintf(v->states->edit.state.environment.path, sizeof v->states->edit.state.environment.path, "%s", names[k]);
         bool lost = true;
         char *line = command_line(v, &lost), shell[2048], word[512], camera[ORBIT_TEXT];
         const char *const expected[] = {

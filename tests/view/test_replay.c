@@ -24,8 +24,7 @@ static void value_typed_into_a_slider_is_undone(void **state) {
     }
     assert_true(json_equal(material_of(states[0], 0), material_of(states[2], 0)));
     assert_true(json_equal(material_of(states[1], 0), material_of(states[3], 0)));
-    double rough =
-        json_number_value(json_array_get(json_object_get(material_of(states[1], 0), "roughness"), 0));
+    double rough = json_number_value(json_array_get(json_object_get(material_of(states[1], 0), "roughness"), 0));
     assert_true(fabs(rough - 0.337) < 1e-6);
     for (int k = 0; k < 4; k++) json_decref(states[k]);
     drive_finish(&drive);
@@ -45,8 +44,8 @@ static void panels_are_scaled_by_the_scale_option(void **state) {
     double box[2][4];
     for (int k = 0; k < 2; k++) {
         Drive drive = drive_start("wait rest\nset Material/metallic 0.5\nwait rest\n",
-                                  LIST("view", "--windowless", "--forget", "--json", "--width", sizes[k][0],
-                                       "--height", sizes[k][1], "--scale", scales[k], CHEAP));
+                                  LIST("view", "--windowless", "--forget", "--json", "--width", sizes[k][0], "--height",
+                                       sizes[k][1], "--scale", scales[k], CHEAP));
         json_t *now = drive_until(&drive, "command", ".metallic=0.5");
         const json_t *found = json_object_get(json_object_get(now, "controls"), "Material/metallic");
         assert_non_null(found);
@@ -61,11 +60,10 @@ static void panels_are_scaled_by_the_scale_option(void **state) {
 static void ambient_light_and_reflections_have_a_slider_each(void **state) {
     (void)state;
     need_gl();
-    Drive drive =
-        drive_start("wait rest\nclick \"Panel/Light\"\nwait rest\npicture 1.png\nwait message wrote 1.png\n"
-                    "set \"Light/ambient\" 0.25\nset \"Light/reflections\" 2\nwait rest\n"
-                    "picture 2.png\nwait message wrote 2.png\nwait rest\n",
-                    LIST(UNSEEN, "builtin:spheres", "--env", "0.5", "--occlusion", "0"));
+    Drive drive = drive_start("wait rest\nclick \"Panel/Light\"\nwait rest\npicture 1.png\nwait message wrote 1.png\n"
+                              "set \"Light/ambient\" 0.25\nset \"Light/reflections\" 2\nwait rest\n"
+                              "picture 2.png\nwait message wrote 2.png\nwait rest\n",
+                              LIST(UNSEEN, "builtin:spheres", "--env", "0.5", "--occlusion", "0"));
     json_t *now = drive_until(&drive, "message", "wrote 2.png");
     const char *command = json_string_value(json_object_get(now, "command"));
     assert_non_null(strstr(command, " --env-ambient 0.25 --env-reflection 2 "));
@@ -125,10 +123,9 @@ static void full_disk_is_a_message(void **state) {
               "wait message full.exr\nwait rest\nset \"Material/roughness\" 0.5\nwait rest\n",
               strlen("wait rest\nsave full.glb\nwait message full.glb\nwait rest\npicture full.exr\n"
                      "wait message full.exr\nwait rest\nset \"Material/roughness\" 0.5\nwait rest\n"));
-    Ran ran = run_shell(
-        "( ulimit -f 40; trap '' XFSZ; \"$0\" view builtin:cloth --set Softbox.emission=0 --env 0,0,0"
-        " --light 'sun;-1,-2,-1;3,3,3' --occlusion 0 --windowless --forget --json --width 640"
-        " --height 420 --script script || echo failed >&2 ) | cat > said");
+    Ran ran = run_shell("( ulimit -f 40; trap '' XFSZ; \"$0\" view builtin:cloth --set Softbox.emission=0 --env 0,0,0"
+                        " --light 'sun;-1,-2,-1;3,3,3' --occlusion 0 --windowless --forget --json --width 640"
+                        " --height 420 --script script || echo failed >&2 ) | cat > said");
     size_t size;
     char *said = file_bytes("said", &size);
     assert_string_equal(ran.err, "");
@@ -162,9 +159,8 @@ static void render_as(const char *line_path, const char *picture) {
 static void copied_command_line_has_the_folder_of_maps(void **state) {
     (void)state;
     need_gl();
-    Ran ran = run_shell(
-        "mkdir -p Models/Materials/0 && \"$0\" render builtin:spheres --width 16 --height 16 --spp 1"
-        " --quiet -o Models/Materials/0/Albedo.png");
+    Ran ran = run_shell("mkdir -p Models/Materials/0 && \"$0\" render builtin:spheres --width 16 --height 16 --spp 1"
+                        " --quiet -o Models/Materials/0/Albedo.png");
     assert_int_equal(ran.code, 0);
     ran_free(&ran);
     script_begin();
@@ -218,8 +214,7 @@ static void a_b_comparison_shows_two_settings_and_their_difference(void **state)
     say("wait rest\nkey shift+tab\nwait samples 8\nwait 200\npicture d.png\nwait message wrote d.png\nwait "
         "samples 9\n");
     Drive drive = drive_start(script, LIST(UNSEEN, CHEAP));
-    json_t *a = drive_until(&drive, "message", "wrote a.png"),
-           *b = drive_until(&drive, "message", "wrote b.png"),
+    json_t *a = drive_until(&drive, "message", "wrote a.png"), *b = drive_until(&drive, "message", "wrote b.png"),
            *c = drive_until(&drive, "message", "wrote c.png");
     assert_int_equal(number_of(a, "split"), 1);
     assert_int_equal(number_of(b, "split"), 1);
@@ -249,12 +244,11 @@ static void a_b_comparison_shows_two_settings_and_their_difference(void **state)
 static void panels_and_menus_are_reached_by_keys(void **state) {
     (void)state;
     need_gl();
-    Drive drive =
-        drive_start("wait rest\nkey f6\nkey f6\nkey f6\nwait 3\nkey space\nwait 4\nkey down\nkey space\nwait "
-                    "4\nwait rest\n"
-                    "picture 1.png\nwait message wrote 1.png\nwait rest\nkey escape\nkey g\nwait 3\n"
-                    "key f10\nwait 3\nkey down\nwait 6\nwait seconds 1\nkey escape\nkey escape\nwait rest\n",
-                    LIST(UNSEEN, CHEAP));
+    Drive drive = drive_start("wait rest\nkey f6\nkey f6\nkey f6\nwait 3\nkey space\nwait 4\nkey down\nkey space\nwait "
+                              "4\nwait rest\n"
+                              "picture 1.png\nwait message wrote 1.png\nwait rest\nkey escape\nkey g\nwait 3\n"
+                              "key f10\nwait 3\nkey down\nwait 6\nwait seconds 1\nkey escape\nkey escape\nwait rest\n",
+                              LIST(UNSEEN, CHEAP));
     json_t *now = drive_until(&drive, "message", "wrote 1.png");
     assert_int_equal(number_of(now, "material"), 1);
     json_decref(now);
@@ -283,11 +277,10 @@ static void wrong_script_ends_the_window_with_its_line(void **state) {
                                            {"drag left 0.5\n", "script:1: "}};
     for (int k = 0; k < 4; k++) {
         file_make("script", wrong[k][0], strlen(wrong[k][0]));
-        assert_complaint(NULL, LIST("view", "--windowless", "--forget", CHEAP, "--script", "script"),
-                         WEFT_INPUT, wrong[k][1]);
+        assert_complaint(NULL, LIST("view", "--windowless", "--forget", CHEAP, "--script", "script"), WEFT_INPUT,
+                         wrong[k][1]);
     }
-    assert_complaint(NULL, LIST("view", "--windowless", "--forget", CHEAP, "--script", "absent"), WEFT_INPUT,
-                     "absent");
+    assert_complaint(NULL, LIST("view", "--windowless", "--forget", CHEAP, "--script", "absent"), WEFT_INPUT, "absent");
 }
 
 static void window_without_a_display_names_commands_that_need_none(void **state) {
@@ -301,18 +294,17 @@ static void window_without_a_display_names_commands_that_need_none(void **state)
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(value_typed_into_a_slider_is_undone),
-        cmocka_unit_test(panels_are_scaled_by_the_scale_option),
-        cmocka_unit_test(ambient_light_and_reflections_have_a_slider_each),
-        cmocka_unit_test(a_broken_scene_leaves_the_one_before),
-        cmocka_unit_test(a_saved_scene_looks_the_same),
-        cmocka_unit_test(full_disk_is_a_message),
-        cmocka_unit_test(copied_command_line_makes_the_shown_picture),
-        cmocka_unit_test(copied_command_line_has_the_folder_of_maps),
-        cmocka_unit_test(a_b_comparison_shows_two_settings_and_their_difference),
-        cmocka_unit_test(panels_and_menus_are_reached_by_keys),
-        cmocka_unit_test(wrong_script_ends_the_window_with_its_line),
-        cmocka_unit_test(window_without_a_display_names_commands_that_need_none)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(value_typed_into_a_slider_is_undone),
+                                       cmocka_unit_test(panels_are_scaled_by_the_scale_option),
+                                       cmocka_unit_test(ambient_light_and_reflections_have_a_slider_each),
+                                       cmocka_unit_test(a_broken_scene_leaves_the_one_before),
+                                       cmocka_unit_test(a_saved_scene_looks_the_same),
+                                       cmocka_unit_test(full_disk_is_a_message),
+                                       cmocka_unit_test(copied_command_line_makes_the_shown_picture),
+                                       cmocka_unit_test(copied_command_line_has_the_folder_of_maps),
+                                       cmocka_unit_test(a_b_comparison_shows_two_settings_and_their_difference),
+                                       cmocka_unit_test(panels_and_menus_are_reached_by_keys),
+                                       cmocka_unit_test(wrong_script_ends_the_window_with_its_line),
+                                       cmocka_unit_test(window_without_a_display_names_commands_that_need_none)};
     return cmocka_run_group_tests(tests, drive_begin, drive_end);
 }

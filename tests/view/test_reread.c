@@ -13,9 +13,7 @@ static void write_texture(const char *path, int red, int green) {
     weft_image_free(&image);
 }
 
-static void pass_by(Drive *drive, const char *message) {
-    json_decref(drive_until(drive, "message", message));
-}
+static void pass_by(Drive *drive, const char *message) { json_decref(drive_until(drive, "message", message)); }
 
 static void changed_texture_is_read_again(void **state) {
     (void)state;
@@ -95,8 +93,8 @@ static void changed_lobe_file_is_read_again(void **state) {
     say("wait message toy.h:40: does not compile\n");
     say_picture("3.png");
     say("drop felt.h\nwait message felt.h: read\nwait rest\ncommand line.txt\nwait rest\n");
-    Drive drive = drive_start(script, LIST(UNSEEN, CHEAP, "--preset", "velvet", "--lobe", "toy.h", "--sheen",
-                                           "toy", "--layer", "additive"));
+    Drive drive = drive_start(
+        script, LIST(UNSEEN, CHEAP, "--preset", "velvet", "--lobe", "toy.h", "--sheen", "toy", "--layer", "additive"));
     pass_by(&drive, "wrote 1.png");
     write_toy("toy.h", "toy", "0.0f");
     pass_by(&drive, "wrote 2.png");
@@ -145,8 +143,7 @@ static void write_lobe(const char *with) {
 static void changed_shader_text_is_compiled_again(void **state) {
     (void)state;
     need_gl();
-    assert_int_equal(mkdir("text", 0700) | mkdir("text/shading", 0700) | mkdir("text/shading/lobes", 0700),
-                     0);
+    assert_int_equal(mkdir("text", 0700) | mkdir("text/shading", 0700) | mkdir("text/shading/lobes", 0700), 0);
     write_lobe("1.0f / PI");
     script_begin();
     say_picture("1.png");
@@ -185,10 +182,9 @@ static void changed_shader_text_is_compiled_again(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(changed_texture_is_read_again),
-                                       cmocka_unit_test(map_added_to_a_used_folder_is_bound),
-                                       cmocka_unit_test(changed_lobe_file_is_read_again),
-                                       cmocka_unit_test(files_dropped_together_are_all_opened),
-                                       cmocka_unit_test(changed_shader_text_is_compiled_again)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(changed_texture_is_read_again), cmocka_unit_test(map_added_to_a_used_folder_is_bound),
+        cmocka_unit_test(changed_lobe_file_is_read_again), cmocka_unit_test(files_dropped_together_are_all_opened),
+        cmocka_unit_test(changed_shader_text_is_compiled_again)};
     return cmocka_run_group_tests(tests, drive_begin, drive_end);
 }

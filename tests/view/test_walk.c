@@ -20,10 +20,10 @@ static bool find_chair(void) {
     return there;
 }
 
-#define NEEDED()                                                                                             \
-    do {                                                                                                     \
-        if (no_display || !find_chair()) skip();                                                             \
-        need_gl();                                                                                           \
+#define NEEDED()                                                                                                       \
+    do {                                                                                                               \
+        if (no_display || !find_chair()) skip();                                                                       \
+        need_gl();                                                                                                     \
     } while (0)
 #define SEEN "view", "--forget", "--json", "--width", "640", "--height", "420", "--occlusion", "0"
 
@@ -33,8 +33,7 @@ static void write_tga(const char *path, const unsigned char odd[3], const unsign
     unsigned char file[18 + 3 * SIDE * SIDE] = {0, 0, 2};
     file[12] = file[14] = SIDE, file[16] = 24, file[17] = 0x20;
     for (int k = 0; k < SIDE * SIDE; k++)
-        for (int c = 0; c < 3; c++)
-            file[18 + 3 * k + c] = (k % SIDE / 8 + k / SIDE / 8) % 2 ? odd[2 - c] : even[2 - c];
+        for (int c = 0; c < 3; c++) file[18 + 3 * k + c] = (k % SIDE / 8 + k / SIDE / 8) % 2 ? odd[2 - c] : even[2 - c];
     file_make(path, (const char *)file, sizeof file);
 }
 
@@ -59,16 +58,14 @@ static void assert_same_material(const json_t *a, const json_t *b) {
         }
     }
     for (int k = 0; weft_material_choice_name(k); k++)
-        assert_string_equal(word_of(a, weft_material_choice_name(k)),
-                            word_of(b, weft_material_choice_name(k)));
+        assert_string_equal(word_of(a, weft_material_choice_name(k)), word_of(b, weft_material_choice_name(k)));
 }
 
 static void saved_changes_are_there_after_opening_again(void **state) {
     (void)state;
     NEEDED();
     static const unsigned char blue[3] = {60, 90, 160}, gold[3] = {200, 180, 60}, flat[3] = {128, 128, 255},
-                               tilted[3] = {168, 128, 240}, smooth[3] = {60, 60, 60},
-                               rough[3] = {220, 220, 220};
+                               tilted[3] = {168, 128, 240}, smooth[3] = {60, 60, 60}, rough[3] = {220, 220, 220};
     assert_int_equal(mkdir("maps", 0700), 0);
     write_tga("maps/Velvet_BaseColor.tga", blue, gold);
     write_tga("maps/Velvet_Normal.tga", flat, tilted);

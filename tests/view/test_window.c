@@ -54,9 +54,7 @@ static void wait_where(Drive *drive, json_t **now, bool (*holds)(const json_t *n
 static bool other_camera(const json_t *now, const json_t *before) {
     return strcmp(word_of(now, "camera"), word_of(before, "camera")) != 0;
 }
-static bool in_live(const json_t *now, const json_t *before) {
-    return strcmp(word_of(now, "mode"), "live") == 0;
-}
+static bool in_live(const json_t *now, const json_t *before) { return strcmp(word_of(now, "mode"), "live") == 0; }
 static bool has_list(const json_t *now, const json_t *before) {
     return json_object_get(json_object_get(now, "controls"), "Material/sheen lobe/charlie-neubelt") != NULL;
 }
@@ -83,9 +81,8 @@ static double ahead(const char *camera, const json_t *before, const json_t *now)
     double a[3], b[3], eye[3], target[3], moved = 0.0, look = 0.0, dot = 0.0;
     numbers_of(json_object_get(before, "eye"), a, 3);
     numbers_of(json_object_get(now, "eye"), b, 3);
-    assert_int_equal(sscanf(camera, "%lf,%lf,%lf;%lf,%lf,%lf", &eye[0], &eye[1], &eye[2], &target[0],
-                            &target[1], &target[2]),
-                     6);
+    assert_int_equal(
+        sscanf(camera, "%lf,%lf,%lf;%lf,%lf,%lf", &eye[0], &eye[1], &eye[2], &target[0], &target[1], &target[2]), 6);
     for (int k = 0; k < 3; k++) {
         moved += (b[k] - a[k]) * (b[k] - a[k]);
         look += (target[k] - eye[k]) * (target[k] - eye[k]);
@@ -99,10 +96,9 @@ static void drag(const json_t *now, double x, double y, double to_x, double to_y
     int a[2], b[2];
     stage_place(now, x, y, a);
     stage_place(now, to_x, to_y, b);
-    hand(
-        "mousemove %d %d sleep 0.1 mousedown 1 sleep 0.1 mousemove %d %d sleep 0.1 mousemove %d %d sleep 0.1 "
-        "mouseup 1",
-        a[0], a[1], (a[0] + b[0]) / 2, (a[1] + b[1]) / 2, b[0], b[1]);
+    hand("mousemove %d %d sleep 0.1 mousedown 1 sleep 0.1 mousemove %d %d sleep 0.1 mousemove %d %d sleep 0.1 "
+         "mouseup 1",
+         a[0], a[1], (a[0] + b[0]) / 2, (a[1] + b[1]) / 2, b[0], b[1]);
 }
 
 /* Flies with a key of the keyboard as it is now. */

@@ -42,9 +42,8 @@ static WeftCloth *woven(const char *notation, WeftYarn yarn, unsigned seed) {
     return cloth;
 }
 
-static const char *const drafts[] = {
-    "plain",    "twill 2/2 z",       "twill 3/1 s",   "satin 8/3",
-    "basket 2", "herringbone 2/2 8", "twill 2/1/1/1", "sateen 5/2; sett 40 20"};
+static const char *const drafts[] = {"plain",    "twill 2/2 z",       "twill 3/1 s",   "satin 8/3",
+                                     "basket 2", "herringbone 2/2 8", "twill 2/1/1/1", "sateen 5/2; sett 40 20"};
 
 /* In the middle of a crossing lies the thread that the draft says, in every repeat. */
 static void the_draft_says_what_lies_on_top(void **state) {
@@ -68,8 +67,7 @@ static void the_draft_says_what_lies_on_top(void **state) {
 /* A warp satin shows hardly any weft, less than its draft has; a plain weave shows half. */
 static void shares_are_of_what_is_seen(void **state) {
     (void)state;
-    WeftCloth *satin = woven("satin 8/3", even_yarn("silk"), 0),
-              *plain = woven("plain", even_yarn("cotton"), 0);
+    WeftCloth *satin = woven("satin 8/3", even_yarn("silk"), 0), *plain = woven("plain", even_yarn("cotton"), 0);
     const WeftClothInfo s = weft_cloth_info(satin), p = weft_cloth_info(plain);
     assert_true(s.share[WEFT_WARP] > 0.875f && s.share[WEFT_WARP] < 0.99f);
     assert_float_equal(p.share[WEFT_WARP], p.share[WEFT_WEFT], 0.02f);
@@ -80,8 +78,7 @@ static void shares_are_of_what_is_seen(void **state) {
 
 static bool same_point(WeavePoint a, WeavePoint b) {
     return a.weft == b.weft && fabsf(a.height - b.height) < 1e-4f && fabsf(a.slope_x - b.slope_x) < 1e-3f &&
-           fabsf(a.slope_y - b.slope_y) < 1e-3f && fabsf(a.fibre.x - b.fibre.x) < 1e-3f &&
-           fabsf(a.dye - b.dye) < 1e-3f;
+           fabsf(a.slope_y - b.slope_y) < 1e-3f && fabsf(a.fibre.x - b.fibre.x) < 1e-3f && fabsf(a.dye - b.dye) < 1e-3f;
 }
 
 /* Counts places at which the cloth is another one so many threads on. */
@@ -96,8 +93,7 @@ static int changes(const Weave *m, float x, float y) {
 
 static void variation_does_not_tile_unless_it_is_to(void **state) {
     (void)state;
-    WeftCloth *even = woven("twill 2/2", even_yarn("wool"), 0),
-              *real = woven("twill 2/2", yarn_of("wool"), 0);
+    WeftCloth *even = woven("twill 2/2", even_yarn("wool"), 0), *real = woven("twill 2/2", yarn_of("wool"), 0);
     assert_int_equal(changes(&even->weave, 4.0f, 8.0f), 0);
     assert_true(changes(&real->weave, 4.0f, 0.0f) > 300);
     assert_true(changes(&real->weave, 0.0f, 4.0f) > 300);
@@ -173,10 +169,9 @@ static void a_seed_makes_a_cloth(void **state) {
     int apart = 0;
     for (int k = 0; k < 300; k++) {
         const float x = 0.37f * (float)k, y = 0.11f * (float)k;
-        assert_true(same_point(weave_point(&one->weave, x, y, 0.0f, 0.0f),
-                               weave_point(&again->weave, x, y, 0.0f, 0.0f)));
-        apart += !same_point(weave_point(&one->weave, x, y, 0.0f, 0.0f),
-                             weave_point(&other->weave, x, y, 0.0f, 0.0f));
+        assert_true(
+            same_point(weave_point(&one->weave, x, y, 0.0f, 0.0f), weave_point(&again->weave, x, y, 0.0f, 0.0f)));
+        apart += !same_point(weave_point(&one->weave, x, y, 0.0f, 0.0f), weave_point(&other->weave, x, y, 0.0f, 0.0f));
     }
     assert_true(apart > 250);
     weft_cloth_free(one);
@@ -218,9 +213,7 @@ static void place_of(int k, float *x, float *y) {
 }
 
 /* Returns how much of a point a sun sees that stands 15 degrees over the cloth. */
-static double sunlit(WeavePoint p) {
-    return (double)fmaxf(0.2588f + 0.683f * p.slope_x + 0.683f * p.slope_y, 0.0f);
-}
+static double sunlit(WeavePoint p) { return (double)fmaxf(0.2588f + 0.683f * p.slope_x + 0.683f * p.slope_y, 0.0f); }
 
 /* Fibres that are too fine to be seen are left out. The means of light, dye and slopes stay, and nearly those of colours,
  * from which more dye takes less than less dye gives. A low sun sees what slopes towards it: as much of fibres whose places
@@ -258,8 +251,8 @@ static void fibres_leave_the_mean_as_it_is(void **state) {
         }
         print_message("cotton, streaks %.1f: light %+.4f, dye %+.4f, slopes %+.4f %+.4f, colour %+.4f\n",
                       (double)most[n], lit, dye, slope[0], slope[1], color[0] / color[1] - 1.0);
-        print_message("a low sun: %+.4f, half way %+.4f, without their slopes %+.4f\n",
-                      sun.coarse / sun.fine - 1.0, sun.half_way / sun.fine - 1.0, sun.bare / sun.fine - 1.0);
+        print_message("a low sun: %+.4f, half way %+.4f, without their slopes %+.4f\n", sun.coarse / sun.fine - 1.0,
+                      sun.half_way / sun.fine - 1.0, sun.bare / sun.fine - 1.0);
         assert_true(fabs(sun.coarse / sun.fine - 1.0) < 0.003);
         assert_true(fabs(sun.half_way / sun.fine - 1.0) < 0.02);
         assert_true(sun.bare < 0.98 * sun.fine);
@@ -324,10 +317,9 @@ static void loose_fibres_go_across_gaps(void **state) {
 
 static void a_thread_without_end_is_level(void **state) {
     (void)state;
-    static const char wif[] =
-        "[WIF]\nVersion=1.1\n[CONTENTS]\nWEAVING=yes\nWARP=yes\nWEFT=yes\nTHREADING=yes\n"
-        "LIFTPLAN=yes\n[WEAVING]\nShafts=2\nTreadles=2\n[WARP]\nThreads=2\n[WEFT]\n"
-        "Threads=2\n[THREADING]\n1=1\n2=2\n[LIFTPLAN]\n1=1,2\n2=1\n";
+    static const char wif[] = "[WIF]\nVersion=1.1\n[CONTENTS]\nWEAVING=yes\nWARP=yes\nWEFT=yes\nTHREADING=yes\n"
+                              "LIFTPLAN=yes\n[WEAVING]\nShafts=2\nTreadles=2\n[WARP]\nThreads=2\n[WEFT]\n"
+                              "Threads=2\n[THREADING]\n1=1\n2=2\n[LIFTPLAN]\n1=1,2\n2=1\n";
     WeftDraft *draft;
     WeftCloth *cloth;
     WeftError error;
@@ -362,8 +354,7 @@ static void numbers_that_no_yarn_has_are_refused_in_one_line(void **state) {
         for (size_t w = 0; w < sizeof wrong / sizeof *wrong; w++) {
             WeftYarn bad = good;
             memcpy((char *)&bad + k * sizeof(float), &wrong[w], sizeof(float));
-            assert_int_equal(weft_cloth_create(draft, (WeftYarn[2]){good, bad}, 0, &cloth, &error),
-                             WEFT_USAGE);
+            assert_int_equal(weft_cloth_create(draft, (WeftYarn[2]){good, bad}, 0, &cloth, &error), WEFT_USAGE);
             assert_null(cloth);
             assert_null(strchr(error.text, '\n'));
         }
@@ -397,8 +388,8 @@ static double apart(const WeftImage *image, int one, int other) {
 /* Across the seam a map changes as much as from thread to thread elsewhere. */
 static void maps_repeat_without_a_seam(void **state) {
     (void)state;
-    static const char *const names[] = {"base_color.png", "normal.png", "occlusion_roughness.png",
-                                        "anisotropy.png", "height.png"};
+    static const char *const names[] = {"base_color.png", "normal.png", "occlusion_roughness.png", "anisotropy.png",
+                                        "height.png"};
     char folder[64];
     WeftError error;
     snprintf(folder, sizeof folder, "/tmp/weft-maps-%ld", (long)getpid());

@@ -43,8 +43,7 @@ static void assert_notation(const char *notation, const char *const *rows, int c
     weft_draft_free(draft);
 }
 
-#define ROWS(...)                                                                                            \
-    (const char *const[]){__VA_ARGS__}, sizeof(const char *const[]){__VA_ARGS__} / sizeof(char *)
+#define ROWS(...) (const char *const[]){__VA_ARGS__}, sizeof(const char *const[]){__VA_ARGS__} / sizeof(char *)
 
 static void notation_gives_the_crossings_of_textbooks(void **state) {
     (void)state;
@@ -171,8 +170,7 @@ static void clauses_that_come_again_dye_in_place(void **state) {
     assert_int_equal(weft_draft_info(many).count[WEFT_WARP], 4095);
     assert_true(draft_same(many, one));
     for (int k = 0; k < 100; k++)
-        assert_int_equal(weft_draft_warp_up(one, 7 * k, 31 * k),
-                         weft_draft_warp_up(one, 7 * k % 13, 31 * k % 13));
+        assert_int_equal(weft_draft_warp_up(one, 7 * k, 31 * k), weft_draft_warp_up(one, 7 * k % 13, 31 * k % 13));
     weft_draft_free(many);
     weft_draft_free(one);
 }
@@ -201,8 +199,7 @@ static void back_of_a_draft_is_its_inverse(void **state) {
     for (int pick = 0; pick < info.count[WEFT_WEFT]; pick++)
         for (int warp = 0; warp < info.count[WEFT_WARP]; warp++) {
             const int mirrored = info.count[WEFT_WARP] - 1 - warp;
-            assert_int_equal(weft_draft_warp_up(back, warp, pick),
-                             !weft_draft_warp_up(front, mirrored, pick));
+            assert_int_equal(weft_draft_warp_up(back, warp, pick), !weft_draft_warp_up(front, mirrored, pick));
             assert_int_equal(weft_draft_warp_up(again, warp, pick), weft_draft_warp_up(front, warp, pick));
         }
     assert_true(weft_draft_thread(back, WEFT_WARP, 7).color[0] > 0.6f); /* the red thread */
@@ -235,8 +232,7 @@ static WeftDraft *read_text(const char *text) {
 static void assert_text(const char *text, int expected_warnings, const char *const *rows, int count) {
     WeftDraft *draft = read_text(text);
     assert_rows(draft, rows, count);
-    if (warnings != expected_warnings)
-        fail_msg("%d warnings, not %d, of\n%s", warnings, expected_warnings, text);
+    if (warnings != expected_warnings) fail_msg("%d warnings, not %d, of\n%s", warnings, expected_warnings, text);
     weft_draft_free(draft);
 }
 
@@ -245,8 +241,7 @@ static void assert_text(const char *text, int expected_warnings, const char *con
 static void unusual_forms_of_real_files_are_read_as_meant(void **state) {
     (void)state;
     /* a tie-up and treadling, the plain case */
-    assert_text("[WIF]\nVersion=1.1\n" TWO_BY_TWO "[TIEUP]\n1=1\n2=2\n[TREADLING]\n1=1\n2=2\n", 0,
-                ROWS(".#", "#."));
+    assert_text("[WIF]\nVersion=1.1\n" TWO_BY_TWO "[TIEUP]\n1=1\n2=2\n[TREADLING]\n1=1\n2=2\n", 0, ROWS(".#", "#."));
     /* a lift plan; blanks around "="; any case; comments; CR LF; a byte order mark; version 1.2 */
     assert_text("\xef\xbb\xbf; made by hand\r\n[wif]\r\nVERSION = 1.2\r\n[Warp]\r\nthreads = 2\r\n[WEFT]\r\n "
                 "THREADS=2\r\n"
@@ -259,8 +254,7 @@ static void unusual_forms_of_real_files_are_read_as_meant(void **state) {
         static const char *const no[] = {"no", "FALSE", "f", "n", "off", "0"};
         char text[400];
         snprintf(text, sizeof text,
-                 "[WIF]\nVersion=1.1\n[WEAVING]\nRising Shed=%s\n" TWO_BY_TWO "[LIFTPLAN]\n1=1\n2=2\n",
-                 no[k]);
+                 "[WIF]\nVersion=1.1\n[WEAVING]\nRising Shed=%s\n" TWO_BY_TWO "[LIFTPLAN]\n1=1\n2=2\n", no[k]);
         assert_text(text, 0, ROWS("#.", ".#"));
     }
     /* threads on several shafts, treadles pressed together, the same shaft twice */
@@ -277,12 +271,10 @@ static void unusual_forms_of_real_files_are_read_as_meant(void **state) {
                 "\n1=1\n2=2\n",
                 2, ROWS("#"));
     /* both a lift plan and treadling: the lift plan is taken, and a difference is told */
-    assert_text("[WIF]\nVersion=1.1\n" TWO_BY_TWO
-                "[LIFTPLAN]\n1=1\n2=2\n[TIEUP]\n1=1\n2=2\n[TREADLING]\n1=1\n2=2\n",
-                0, ROWS(".#", "#."));
-    assert_text("[WIF]\nVersion=1.1\n" TWO_BY_TWO
-                "[LIFTPLAN]\n1=1\n2=2\n[TIEUP]\n1=1\n2=2\n[TREADLING]\n1=2\n2=1\n",
-                1, ROWS(".#", "#."));
+    assert_text("[WIF]\nVersion=1.1\n" TWO_BY_TWO "[LIFTPLAN]\n1=1\n2=2\n[TIEUP]\n1=1\n2=2\n[TREADLING]\n1=1\n2=2\n", 0,
+                ROWS(".#", "#."));
+    assert_text("[WIF]\nVersion=1.1\n" TWO_BY_TWO "[LIFTPLAN]\n1=1\n2=2\n[TIEUP]\n1=1\n2=2\n[TREADLING]\n1=2\n2=1\n", 1,
+                ROWS(".#", "#."));
     /* no counts at all; private sections with lines of any kind; the last of two lines with one key */
     assert_text("[WIF]\nVersion=1.1\n[PRIVATE SOURCE X]\nanything "
                 "goes\n=\n[THREADING]\n1=2\n1=1\n2=2\n[LIFTPLAN]\n1=1\n2=2\n",
@@ -293,14 +285,13 @@ static void colours_follow_the_rules_of_each_program(void **state) {
     (void)state;
     /* Fiberworks' 0-999, the older form with a colour behind the index, and [WARP].Color for what has no line
      */
-    WeftDraft *draft = read_text(
-        "[WIF]\nVersion=1.1\n[WARP]\nThreads=3\nColor=2\n[WEFT]\nThreads=2\nColor=999,999,0\n[THREADING]\n"
-        "1=1\n2=2\n3=1\n[LIFTPLAN]\n1=1\n2=2\n[COLOR PALETTE]\nRange=0,999\n[COLOR TABLE]\n"
-        "1=0,0,999\n2=999,0,0\n[WARP COLORS]\n2=1,5,5,5\n");
+    WeftDraft *draft =
+        read_text("[WIF]\nVersion=1.1\n[WARP]\nThreads=3\nColor=2\n[WEFT]\nThreads=2\nColor=999,999,0\n[THREADING]\n"
+                  "1=1\n2=2\n3=1\n[LIFTPLAN]\n1=1\n2=2\n[COLOR PALETTE]\nRange=0,999\n[COLOR TABLE]\n"
+                  "1=0,0,999\n2=999,0,0\n[WARP COLORS]\n2=1,5,5,5\n");
     assert_int_equal(warnings, 0);
     const float expected[][3] = {{1, 0, 0}, {0, 0, 1}, {1, 0, 0}};
-    for (int k = 0; k < 3; k++)
-        assert_memory_equal(weft_draft_thread(draft, WEFT_WARP, k).color, expected[k], 12);
+    for (int k = 0; k < 3; k++) assert_memory_equal(weft_draft_thread(draft, WEFT_WARP, k).color, expected[k], 12);
     assert_true(weft_draft_thread(draft, WEFT_WEFT, 1).color[1] > 0.999f);
     weft_draft_free(draft);
     /* nothing for the third thread: it takes the colour of the second, and that is told */
@@ -437,8 +428,7 @@ static int folder_end(void **state) {
 /* A draft written as a WIF and read again is the same cloth, with the same threads. */
 static void a_written_draft_reads_as_the_same(void **state) {
     (void)state;
-    static const char *const notations[] = {"plain",
-                                            "twill 3/1/1/2 s; warp 3#0102fe 5r 2w; weft 24b 4g mirror",
+    static const char *const notations[] = {"plain", "twill 3/1/1/2 s; warp 3#0102fe 5r 2w; weft 24b 4g mirror",
                                             "satin 8/3; sett 60 31", "herringbone 2/2 8", "basket 3 2"};
     for (size_t k = 0; k < sizeof notations / sizeof *notations; k++) {
         WeftDraft *draft = parsed(notations[k]), *again;
@@ -454,14 +444,12 @@ static void a_written_draft_reads_as_the_same(void **state) {
         assert_int_equal(a.treadles, b.treadles);
         for (int pick = 0; pick < a.count[WEFT_WEFT]; pick++)
             for (int warp = 0; warp < a.count[WEFT_WARP]; warp++)
-                assert_int_equal(weft_draft_warp_up(draft, warp, pick),
-                                 weft_draft_warp_up(again, warp, pick));
+                assert_int_equal(weft_draft_warp_up(draft, warp, pick), weft_draft_warp_up(again, warp, pick));
         for (int t = 0; t < 2; t++)
             for (int i = 0; i < a.count[t]; i++) {
                 const WeftThread x = weft_draft_thread(draft, (WeftThreads)t, i),
                                  y = weft_draft_thread(again, (WeftThreads)t, i);
-                for (int c = 0; c < 3; c++)
-                    assert_true(fabsf(x.color[c] - y.color[c]) <= 0.5f / 255.0f + 1e-6f);
+                for (int c = 0; c < 3; c++) assert_true(fabsf(x.color[c] - y.color[c]) <= 0.5f / 255.0f + 1e-6f);
                 assert_true(fabsf(x.spacing / y.spacing - 1.0f) < 1e-5f);
                 assert_true(fabsf(x.thickness / y.thickness - 1.0f) < 1e-5f);
             }
@@ -535,8 +523,7 @@ static void assert_file(const char *name, const char *const *rows, int count) {
     assert_true(info.count[WEFT_WARP] >= width && info.count[WEFT_WEFT] >= count);
     for (int pick = 0; pick < info.count[WEFT_WEFT]; pick++)
         for (int warp = 0; warp < info.count[WEFT_WARP]; warp++)
-            if (weft_draft_warp_up(draft, warp, pick) !=
-                (rows[count - 1 - pick % count][warp % width] == '#'))
+            if (weft_draft_warp_up(draft, warp, pick) != (rows[count - 1 - pick % count][warp % width] == '#'))
                 fail_msg("%s: warp %d, pick %d differs", name, warp + 1, pick + 1);
     weft_draft_free(draft);
 }
@@ -552,9 +539,9 @@ static void real_drafts_give_the_crossings_worked_by_hand(void **state) {
     assert_file("2parallel.wif", ROWS(".#.", "#.#"));
     assert_file("3parallelwarps.wif", ROWS("###", "...", "###"));
     assert_file("2229.wif", ROWS("#...", ".###", "...#", "#...", "###.", "...#"));
-    assert_file("41753.wif", ROWS(".....#.....#", "#.....#...#.", ".#.....#.#..", "..#.....#...",
-                                  ".#.#...#....", "#...#.#.....", ".....#.....#", "....#.#...#.",
-                                  "...#...#.#..", "..#.....#...", ".#.#.....#..", "#...#.....#."));
+    assert_file("41753.wif",
+                ROWS(".....#.....#", "#.....#...#.", ".#.....#.#..", "..#.....#...", ".#.#...#....", "#...#.#.....",
+                     ".....#.....#", "....#.#...#.", "...#...#.#..", "..#.....#...", ".#.#.....#..", "#...#.....#."));
 }
 
 /* Too large for a table by hand: its threads run straight over 28 shafts three times, so that a pick is the

@@ -34,8 +34,7 @@ static WeftYarn any_yarn(void) {
 }
 
 static WeftCloth *any_cloth(void) {
-    static const char *const drafts[] = {"plain", "twill 3/1 z", "satin 8/3", "basket 2",
-                                         "plain; warp 24k 4r"};
+    static const char *const drafts[] = {"plain", "twill 3/1 z", "satin 8/3", "basket 2", "plain; warp 24k 4r"};
     const WeftYarn yarns[2] = {any_yarn(), any_yarn()};
     WeftDraft *draft;
     WeftCloth *cloth;
@@ -99,8 +98,7 @@ static void cloths_of_any_yarns_reflect_from_afar(void **state) {
         check_cloth(cloth);
         weft_cloth_free(cloth);
     }
-    print_message("at most %.3f of the light comes back, both ways round alike to %.1e\n", most_back,
-                  most_apart);
+    print_message("at most %.3f of the light comes back, both ways round alike to %.1e\n", most_back, most_apart);
     print_message("%d systems are fitted\n", fitted);
     assert_true(fitted > CLOTHS);
     assert_true(most_back < 1.15);

@@ -168,16 +168,13 @@ static void assert_near(const YarnCase *y, const CaseErrors *e) {
 static void cloth_from_afar_is_near_what_was_walked(void **state) {
     (void)state;
     read_walked();
-    print_message(
-        "weave     crimp twist alpha width theta | once: off bright | A .5: off bright | .8: off bright | "
-        ".95: off bright | through noise\n");
+    print_message("weave     crimp twist alpha width theta | once: off bright | A .5: off bright | .8: off bright | "
+                  ".95: off bright | through noise\n");
     for (int k = 0; k < YARN_CASES; k++) {
         const YarnCase *y = &yarn_cases[k];
         const CaseErrors e = errors_of(k);
-        print_message("%-9s %5.0f %5.0f %5.2f %5.1f %5.0f", y->draft, y->crimp, y->twist, y->alpha, y->width,
-                      y->theta);
-        for (int kind = 0; kind < KINDS_OF_LIGHT; kind++)
-            print_message(" | %.3f %.3f", e.off[kind], e.bright[kind]);
+        print_message("%-9s %5.0f %5.0f %5.2f %5.1f %5.0f", y->draft, y->crimp, y->twist, y->alpha, y->width, y->theta);
+        for (int kind = 0; kind < KINDS_OF_LIGHT; kind++) print_message(" | %.3f %.3f", e.off[kind], e.bright[kind]);
         print_message(" | %.3f %.3f\n", walked[k][2].through, 0.5 * walked[k][0].apart);
         assert_near(y, &e);
     }

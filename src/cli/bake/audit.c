@@ -48,8 +48,7 @@ static int audit_read(const Options *options, Audit *audit) {
         return report(WEFT_USAGE, "bake audit: needs a file: weft bake audit FILE --lobe LOBE");
     audit->path = options->operands[1];
     if (!lobe) return report(WEFT_USAGE, "bake audit: needs --lobe LOBE, whose E the table should hold");
-    if (!bake_common(options, &audit->common) || !option_number(options, "--max", &audit->most))
-        return WEFT_USAGE;
+    if (!bake_common(options, &audit->common) || !option_number(options, "--max", &audit->most)) return WEFT_USAGE;
     int result = 0;
     audit->any = strcmp(lobe, "any") == 0;
     if (audit->any && option_given(options, "-p"))
@@ -77,9 +76,9 @@ static int channel_find(Audit *audit) {
     const char *text = option_text(audit->options, "--channel");
     const int channels = audit->file.channels;
     if (!text)
-        return is_grey(&audit->file) ? 0
-                                     : report(WEFT_USAGE, "%s: has %d channels; say which with --channel",
-                                              audit->path, channels);
+        return is_grey(&audit->file)
+                   ? 0
+                   : report(WEFT_USAGE, "%s: has %d channels; say which with --channel", audit->path, channels);
     const char *letter = text[1] ? NULL : strchr(letters, tolower((unsigned char)text[0]));
     if (!letter) return report(WEFT_USAGE, "--channel: \"%.80s\" is not one of r, g, b, a, 0, 1, 2, 3", text);
     audit->channel = (int)(letter - letters) % 4;
@@ -112,9 +111,7 @@ static int audit_make(Audit *audit) {
 static void form_words(const Audit *audit, char *text, size_t size) {
     char elements[WEFT_TABLE_FORM_TEXT];
     const int named = weft_table_form_find(&audit->found.form);
-    const char *why = audit->common.formed ? ""
-                      : audit->found.fits  ? "; they fit best"
-                                           : "; a guess, for none fit";
+    const char *why = audit->common.formed ? "" : audit->found.fits ? "; they fit best" : "; a guess, for none fit";
     snprintf(text, size, "%s (%s%s)", weft_table_form_text(&audit->found.form, elements),
              named >= 0 ? weft_table_form_name(named) : "of no engine known here", why);
 }
@@ -122,11 +119,10 @@ static void form_words(const Audit *audit, char *text, size_t size) {
 static void place_words(const Audit *audit, char *text, size_t size) {
     const WeftTablePlace *place = &audit->found.place;
     const WeftLobeInfo *info = weft_lobe_info(audit->found.lobe);
-    int used = snprintf(text, size, "%.4g at texel %d, %d: cos_o %.4g", audit->found.largest, place->x,
-                        place->y, (double)place->cos_o);
+    int used = snprintf(text, size, "%.4g at texel %d, %d: cos_o %.4g", audit->found.largest, place->x, place->y,
+                        (double)place->cos_o);
     if (info->param_count)
-        used += snprintf(text + used, size - (size_t)used, ", %s %.4g", info->params[0].name,
-                         (double)place->value);
+        used += snprintf(text + used, size - (size_t)used, ", %s %.4g", info->params[0].name, (double)place->value);
     snprintf(text + used, size - (size_t)used, ", where E is %.4g and the table %.4g", (double)place->albedo,
              (double)place->table);
 }
@@ -135,8 +131,8 @@ static void text_write(const Audit *audit) {
     enum { COLUMN = 18 };
     const WeftAudit *found = &audit->found;
     char text[400];
-    printf("%s: %d x %d, %s of %s%s\n", audit->path, audit->file.width, audit->file.height,
-           part_words[found->part], lobe_id(audit), audit->any ? ", the nearest of all lobes" : "");
+    printf("%s: %d x %d, %s of %s%s\n", audit->path, audit->file.width, audit->file.height, part_words[found->part],
+           lobe_id(audit), audit->any ? ", the nearest of all lobes" : "");
     form_words(audit, text, sizeof text);
     layout_entry(stdout, COLUMN, "axes", text);
     place_words(audit, text, sizeof text);
@@ -145,12 +141,11 @@ static void text_write(const Audit *audit) {
     layout_entry(stdout, COLUMN, "rms", text);
     snprintf(text, sizeof text, "%+.4g", found->mean);
     layout_entry(stdout, COLUMN, "mean", text);
-    snprintf(text, sizeof text, "%.2f %% of %lld texels are off by more than %g", 100.0 * found->beyond,
-             found->texels, audit->most);
+    snprintf(text, sizeof text, "%.2f %% of %lld texels are off by more than %g", 100.0 * found->beyond, found->texels,
+             audit->most);
     layout_entry(stdout, COLUMN, "beyond", text);
     if (found->left_out) {
-        snprintf(text, sizeof text, "%lld texels, at cos_o 0 or beyond the range of the lobe",
-                 found->left_out);
+        snprintf(text, sizeof text, "%lld texels, at cos_o 0 or beyond the range of the lobe", found->left_out);
         layout_entry(stdout, COLUMN, "left out", text);
     }
     snprintf(text, sizeof text, "E within about %.2g, an estimate", found->error);
@@ -253,8 +248,8 @@ int audit_run(const Options *options) {
         text_write(&audit);
     if (result == 0 && audit.found.beyond > 0.0) {
         fflush(stdout);
-        result = report(WEFT_FAILED, "%s: its largest error is %.4g, more than %g", audit.path,
-                        audit.found.largest, audit.most);
+        result = report(WEFT_FAILED, "%s: its largest error is %.4g, more than %g", audit.path, audit.found.largest,
+                        audit.most);
     }
     weft_image_free(&audit.file);
     weft_image_free(&audit.errors);

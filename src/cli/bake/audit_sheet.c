@@ -15,8 +15,7 @@ static int times(const WeftImage *image) {
 /* Makes channel c of the errors grey RGB, F32, each texel a square of times(errors) pixels. */
 static WeftResult enlarged(const WeftImage *errors, int c, WeftImage *out, WeftError *error) {
     const int n = times(errors);
-    WeftResult result =
-        weft_image_create(errors->width * n, errors->height * n, 3, WEFT_PIXEL_F32, out, error);
+    WeftResult result = weft_image_create(errors->width * n, errors->height * n, 3, WEFT_PIXEL_F32, out, error);
     if (result != WEFT_OK) return result;
     float *to = out->pixels;
     for (int y = 0; y < out->height; y++)
@@ -37,8 +36,8 @@ static float rounded_up(float x) {
     return x;
 }
 
-static WeftResult compose(const AuditSheet *sheet, const WeftImage *table, const WeftImage *albedo,
-                          WeftImage shown[3], WeftImage *out, WeftError *error) {
+static WeftResult compose(const AuditSheet *sheet, const WeftImage *table, const WeftImage *albedo, WeftImage shown[3],
+                          WeftImage *out, WeftError *error) {
     WeftDifference difference;
     char caption[200], elements[WEFT_TABLE_FORM_TEXT], note[80];
     WeftResult result = weft_difference(table, albedo, &difference, error);
@@ -47,8 +46,7 @@ static WeftResult compose(const AuditSheet *sheet, const WeftImage *table, const
     if (result == WEFT_OK) result = weft_image_tonemap(albedo, WEFT_TONEMAP_NONE, 0.0f, &shown[1], error);
     if (result == WEFT_OK) result = weft_difference_image(table, albedo, scale, &shown[2], error);
     if (result != WEFT_OK) return result;
-    snprintf(caption, sizeof caption, "%s: %s", sheet->name,
-             weft_table_form_text(&sheet->audit->form, elements));
+    snprintf(caption, sizeof caption, "%s: %s", sheet->name, weft_table_form_text(&sheet->audit->form, elements));
     snprintf(note, sizeof note, "largest %.2g, rms %.2g", sheet->audit->largest, sheet->audit->rms);
     const WeftPanel panels[] = {{.image = &shown[0], .title = "table", .note = "white is 1 and above"},
                                 {.image = &shown[1], .title = "E by quadrature", .note = sheet->lobe},

@@ -1,6 +1,5 @@
 /* audit_sheet.h - a table, E and the error between them side by side, as a picture */
-#ifndef WEFT_CLI_AUDIT_SHEET_H
-#define WEFT_CLI_AUDIT_SHEET_H
+#pragma once
 
 #include "weft/bake.h"
 
@@ -13,5 +12,3 @@ typedef struct AuditSheet {
 
 /* Draws U8 RGB; fails as weft_sheet_compose does. */
 WeftResult audit_sheet(const AuditSheet *sheet, WeftImage *out, WeftError *error);
-
-#endif

@@ -1,6 +1,5 @@
 /* bake.h - parts that baking and auditing share */
-#ifndef WEFT_CLI_BAKE_H
-#define WEFT_CLI_BAKE_H
+#pragma once
 
 #include "cli/console/options.h"
 #include "cli/console/progress.h"
@@ -39,5 +38,3 @@ int bake_lobe_run(const Options *options);
 
 /* Runs `weft bake audit FILE`. */
 int audit_run(const Options *options);
-
-#endif

@@ -17,8 +17,7 @@ static int desc_read(const Options *options, WeftBsdfDesc *desc) {
     if (!option_integer(options, "--threads", &desc->threads)) return WEFT_USAGE;
     if (text && sscanf(text, "%5dx%5d%c", &desc->thetas, &desc->side, &rest) != 2)
         return report(WEFT_USAGE, "--size: \"%.80s\" is not ANGLESxSIDE, such as 32x96", text);
-    if (text && (desc->thetas == 0 || desc->side == 0))
-        return report(WEFT_USAGE, "--size: \"%.80s\" has a 0", text);
+    if (text && (desc->thetas == 0 || desc->side == 0)) return report(WEFT_USAGE, "--size: \"%.80s\" has a 0", text);
     return 0;
 }
 
@@ -27,8 +26,7 @@ static int comparison_print(const char *path, const WeftReflection *reflection) 
     WeftReflection *back;
     WeftError error;
     if (weft_reflection_read(path, &back, &error) != WEFT_OK) return report_error(&error);
-    printf("%s: f differs by %.5f of its mean, up to 80 degrees\n", path,
-           weft_reflection_distance(reflection, back));
+    printf("%s: f differs by %.5f of its mean, up to 80 degrees\n", path, weft_reflection_distance(reflection, back));
     weft_reflection_free(back);
     return 0;
 }
@@ -40,8 +38,7 @@ int bake_bsdf_run(const Options *options) {
     int cursor = 0, result = desc_read(options, &desc);
     if (result == 0 && options->operand_count < 2)
         result = report(WEFT_USAGE, "bake bsdf: needs a model: weft bake bsdf MODEL -o OUT.bsdf");
-    if (result == 0 && !option_given(options, "-o"))
-        result = report(WEFT_USAGE, "bake bsdf: needs -o OUT.bsdf");
+    if (result == 0 && !option_given(options, "-o")) result = report(WEFT_USAGE, "bake bsdf: needs -o OUT.bsdf");
     for (const char *path; result == 0 && (path = option_next(options, "-o", &cursor));)
         result = path_ends(path, ".bsdf") ? output_probe_other(options, path)
                                           : report(WEFT_USAGE, "%.200s: a tabulated BRDF is a .bsdf", path);

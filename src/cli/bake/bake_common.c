@@ -16,8 +16,7 @@ bool bake_common(const Options *options, BakeCommon *common) {
     }
     common->formed = axes != NULL;
     return option_number(options, "--tolerance", &common->tolerance) &&
-           option_number(options, "--scale", &common->scale) &&
-           option_integer(options, "--threads", &common->threads);
+           option_number(options, "--scale", &common->scale) && option_integer(options, "--threads", &common->threads);
 }
 
 int bake_lobe(const Options *options, const char *id, WeftLobe *lobe) {

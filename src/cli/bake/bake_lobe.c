@@ -75,9 +75,9 @@ static int lobe_make(const Options *options, const char *data_path, const char *
     for (const char *path; result == 0 && (path = option_next(options, "-o", &cursor));)
         result = file_write(path, name, text, &lobe);
     if (result == 0 && !option_given(options, "--quiet"))
-        report(0, "%s: error %.4f, log, over the measurement; f0 %.3g,%.3g,%.3g, f90 %.3g,%.3g,%.3g",
-               data_path, lobe.error, (double)lobe.f0[0], (double)lobe.f0[1], (double)lobe.f0[2],
-               (double)lobe.f90[0], (double)lobe.f90[1], (double)lobe.f90[2]);
+        report(0, "%s: error %.4f, log, over the measurement; f0 %.3g,%.3g,%.3g, f90 %.3g,%.3g,%.3g", data_path,
+               lobe.error, (double)lobe.f0[0], (double)lobe.f0[1], (double)lobe.f0[2], (double)lobe.f90[0],
+               (double)lobe.f90[1], (double)lobe.f90[2]);
     free(text);
     weft_data_free(data);
     return result;

@@ -34,8 +34,7 @@ const char *decimal_read(const char *text, double *value) {
         shift = at - point < 1000 ? (int)(at - point) : 1000;
         length += at - point;
     }
-    bool is_decimal =
-        length > 0 && *at != 'e' && *at != 'E'; /* a hexadecimal number ends behind its first 0 */
+    bool is_decimal = length > 0 && *at != 'e' && *at != 'E'; /* a hexadecimal number ends behind its first 0 */
     if (is_decimal && count <= 18 && whole < (uint64_t)1 << 53 && shift <= EXACT) {
         double number = (double)whole / tens[shift];
         *value = *text == '-' ? -number : number;
@@ -63,8 +62,7 @@ static uint32_t nine_digits(double value, int *exponent) {
     int power = (int)floor(0.30102999566398 * ilogb(value)); /* the decimal exponent of value, or one less */
     if (power < -2 * EXACT + 9 || power > 2 * EXACT + 8) return 0;
     int shift = 8 - power, far = abs(shift) > EXACT ? EXACT : abs(shift), rest = abs(shift) - far;
-    double scaled =
-        shift < 0 ? value / tens[far] / tens[rest] : value * tens[far] * tens[rest]; /* in [1e8, 2e9) */
+    double scaled = shift < 0 ? value / tens[far] / tens[rest] : value * tens[far] * tens[rest]; /* in [1e8, 2e9) */
     if (scaled >= 999999999.75) {
         power++;
         scaled /= 10.0;
@@ -86,8 +84,7 @@ char *decimal_write(char *text, float value) {
         return text;
     }
     uint32_t whole = isfinite(value) ? nine_digits(fabs((double)value), &exponent) : 0;
-    if (whole < 100000000 || whole > 999999999)
-        return text + snprintf(text, DECIMAL_SIZE, "%.9g", (double)value);
+    if (whole < 100000000 || whole > 999999999) return text + snprintf(text, DECIMAL_SIZE, "%.9g", (double)value);
     digits_write(digits, whole, 9);
     if (value < 0.0f) *text++ = '-';
     char *first = text;

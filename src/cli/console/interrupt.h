@@ -1,6 +1,5 @@
 /* interrupt.h - Ctrl-C as a request to finish early */
-#ifndef WEFT_CLI_INTERRUPT_H
-#define WEFT_CLI_INTERRUPT_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -10,5 +9,3 @@ void interrupt_watch(void);
 
 /* Returns true if the program was interrupted. */
 bool interrupt_seen(void);
-
-#endif

@@ -2,8 +2,7 @@
  *
  * Keys are NULL inside arrays and at the top. Texts may contain any bytes; those that are not UTF-8 become U+FFFD.
  * Infinities and NaN become null. */
-#ifndef WEFT_CLI_JSON_WRITER_H
-#define WEFT_CLI_JSON_WRITER_H
+#pragma once
 
 #include <stdbool.h>
 #include <stdio.h>
@@ -30,5 +29,3 @@ void json_number(Json *json, const char *key, double value);
 /* Writes the fewest digits that read back as the same float; json_floats writes an array. */
 void json_float(Json *json, const char *key, float value);
 void json_floats(Json *json, const char *key, const float *values, int count);
-
-#endif

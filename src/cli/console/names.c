@@ -77,28 +77,27 @@ const Kind kinds[] = {
     {"D term", "a", "d", "D terms: distributions", d_name, d_help, true, "terms/d_"},
     {"V term", "a", "v", "V terms: visibility, 1 / (4 cos cos) inside", v_name, v_help, true, "terms/v_"},
     {"F term", "an", "f", "F terms: Fresnel", f_name, f_help, true, "terms/f_"},
-    {"alias", "an", "aliases", "Aliases: names that sources use for terms", weft_alias_name, weft_alias_help,
-     true, NULL},
-    {"diffuse term", "a", "diffuse", "Diffuse lobes: for bases, and for anything a lobe is for", diffuse_name,
-     no_help, true, "lobes/"},
+    {"alias", "an", "aliases", "Aliases: names that sources use for terms", weft_alias_name, weft_alias_help, true,
+     NULL},
+    {"diffuse term", "a", "diffuse", "Diffuse lobes: for bases, and for anything a lobe is for", diffuse_name, no_help,
+     true, "lobes/"},
     {"lobe", "a", "lobes", "Lobes", lobe_name, no_help, false, "lobes/"},
     {"other lobe", "a", "others", "Lobes", other_name, no_help, true, "lobes/"},
     {"layer rule", "a", "layers", "Layer rules: how a sheen sits on its base; each by=max or by=channel",
      weft_layer_name, weft_layer_help, true, "layers/"},
-    {"workflow", "a", "workflows", "Workflows: what the inputs mean", weft_workflow_name, weft_workflow_help,
-     true, "workflows/"},
-    {"profile", "a", "profiles", "Profiles: exact compositions of engines", weft_profile_name,
-     weft_profile_help, true, "profiles/"},
+    {"workflow", "a", "workflows", "Workflows: what the inputs mean", weft_workflow_name, weft_workflow_help, true,
+     "workflows/"},
+    {"profile", "a", "profiles", "Profiles: exact compositions of engines", weft_profile_name, weft_profile_help, true,
+     "profiles/"},
     {"input", "an", "inputs", "Material inputs: render --set MATERIAL.INPUT=VALUE", weft_material_input_name,
      weft_material_input_help, true, NULL},
     {"choice", "a", "choices", "Material choices: render --set MATERIAL.CHOICE=ID", weft_material_choice_name,
      weft_material_choice_help, true, NULL},
-    {"preset", "a", "presets", "Presets: render --preset NAME", weft_preset_name, weft_preset_help, true,
-     NULL},
+    {"preset", "a", "presets", "Presets: render --preset NAME", weft_preset_name, weft_preset_help, true, NULL},
     {"chart material", "a", "chart", "Chart: reference materials, measured, with base colour and reflectance",
      chart_name, chart_help, true, NULL},
-    {"built-in scene", "a", "scenes", "Built-in scenes: render builtin:NAME", weft_builtin_name,
-     weft_builtin_help, true, NULL},
+    {"built-in scene", "a", "scenes", "Built-in scenes: render builtin:NAME", weft_builtin_name, weft_builtin_help,
+     true, NULL},
     {0},
 };
 
@@ -139,8 +138,7 @@ int kind_named(const Kind *kind, const char *id) {
     const char *hint = several_hint(kind, id, buffer, sizeof buffer);
     Nearest nearest = {.typed = id};
     for (k = 0; kind->name(k); k++) nearest_offer(&nearest, kind->name(k));
-    if (!hint)
-        hint = nearest.name ? nearest_hint(&nearest, buffer, sizeof buffer) : "; `weft models` lists them";
+    if (!hint) hint = nearest.name ? nearest_hint(&nearest, buffer, sizeof buffer) : "; `weft models` lists them";
     report(WEFT_USAGE, "%.200s: is not %s %s%s", id, kind->article, kind->id, hint);
     return -1;
 }

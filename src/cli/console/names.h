@@ -1,6 +1,5 @@
 /* names.h - the ids of the catalogue by kind, and the name that a misspelt one probably means */
-#ifndef WEFT_CLI_NAMES_H
-#define WEFT_CLI_NAMES_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -38,5 +37,3 @@ int kind_find(const Kind *kind, const char *id);
 
 /* Works as kind_find, but returns -1 after one line on standard error. */
 int kind_named(const Kind *kind, const char *id);
-
-#endif

@@ -27,14 +27,9 @@ static const Option *row_find(const Verb *verb, const char *text, size_t length)
 static const char *option_elsewhere(const Verb *verb, const char *typed) {
     static const struct {
         const char *elsewhere, *here;
-    } words[] = {{"--samples", "--spp"},
-                 {"--size", "--width"},
-                 {"--resolution", "--width"},
-                 {"--output", "-o"},
-                 {"--out", "-o"},
-                 {"--environment", "--env"},
-                 {"--hdri", "--env"},
-                 {"--bounces", "--max-depth"}};
+    } words[] = {
+        {"--samples", "--spp"}, {"--size", "--width"},      {"--resolution", "--width"}, {"--output", "-o"},
+        {"--out", "-o"},        {"--environment", "--env"}, {"--hdri", "--env"},         {"--bounces", "--max-depth"}};
     for (size_t k = 0; k < sizeof words / sizeof *words; k++)
         if (strcmp(typed, words[k].elsewhere) == 0 && row_find(verb, words[k].here, strlen(words[k].here)))
             return words[k].here;
@@ -44,14 +39,12 @@ static const char *option_elsewhere(const Verb *verb, const char *typed) {
 static int unknown_option(const Verb *verb, const char *argument, size_t length) {
     char typed[64], hint[96];
     snprintf(typed, sizeof typed, "%.*s", (int)(length < sizeof typed ? length : sizeof typed - 1), argument);
-    Nearest nearest = {.typed = typed,
-                       .name = option_elsewhere(verb, typed)}; /* at distance 0: none is nearer */
+    Nearest nearest = {.typed = typed, .name = option_elsewhere(verb, typed)}; /* at distance 0: none is nearer */
     nearest_offer(&nearest, "--help");
     for (const Option *row = verb->options; !is_end(row); row++)
         if (row->name) nearest_offer(&nearest, row->name);
     if (!nearest.name)
-        return report(WEFT_USAGE, "%s: is not an option of %s; see weft %s --help", typed, verb->name,
-                      verb->name);
+        return report(WEFT_USAGE, "%s: is not an option of %s; see weft %s --help", typed, verb->name, verb->name);
     return report(WEFT_USAGE, "%s: is not an option of %s%s", typed, verb->name,
                   nearest_hint(&nearest, hint, sizeof hint));
 }
@@ -63,8 +56,7 @@ static int option_take(Options *options, int count, char **arguments, int *used)
     size_t length = equals ? (size_t)(equals - argument) : strlen(argument);
     const Option *row = row_find(options->verb, argument, length);
     if (!row) return unknown_option(options->verb, argument, length);
-    if (!row->repeats && option_given(options, row->name))
-        return report(WEFT_USAGE, "%s: is given twice", row->name);
+    if (!row->repeats && option_given(options, row->name)) return report(WEFT_USAGE, "%s: is given twice", row->name);
     const char *value = equals ? equals + 1 : "";
     *used = 1;
     if (!row->value && equals) return report(WEFT_USAGE, "%s: takes no value", row->name);
@@ -180,13 +172,12 @@ static bool number_read(const Options *options, const char *name, bool whole, do
     const char *text = option_text(options, name);
     double value;
     if (!text) return true;
-    if (numbers_parse(text, 1, &value) && value >= row->low && value <= row->high &&
-        !(whole && value > floor(value))) {
+    if (numbers_parse(text, 1, &value) && value >= row->low && value <= row->high && !(whole && value > floor(value))) {
         *number = value;
         return true;
     }
-    report(WEFT_USAGE, "%s: \"%.80s\" is not a %snumber from %.10g to %.10g", name, text,
-           whole ? "whole " : "", row->low, row->high);
+    report(WEFT_USAGE, "%s: \"%.80s\" is not a %snumber from %.10g to %.10g", name, text, whole ? "whole " : "",
+           row->low, row->high);
     return false;
 }
 

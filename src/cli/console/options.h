@@ -1,8 +1,7 @@
 /* options.h - the arguments of a verb: one table per verb, which generates parsing, checks, help and docs/cli.md
  *
  * "--name value" and "--name=value" are the same; "--" ends the options; "-" alone is an operand. */
-#ifndef WEFT_CLI_OPTIONS_H
-#define WEFT_CLI_OPTIONS_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -17,17 +16,17 @@ typedef struct Option {
 } Option;
 
 /* Rows of a table. OPTION_HEADING is a heading for the rows that follow. */
-#define OPTION_HEADING(text)                                                                                 \
+#define OPTION_HEADING(text)                                                                                           \
     { .help = (text) }
-#define OPTION_SWITCH(name_, help_)                                                                          \
+#define OPTION_SWITCH(name_, help_)                                                                                    \
     { .name = (name_), .help = (help_) }
-#define OPTION_TEXT(name_, value_, def_, help_)                                                              \
+#define OPTION_TEXT(name_, value_, def_, help_)                                                                        \
     { name_, value_, help_, def_, 0, 0, false }
-#define OPTION_LIST(name_, value_, help_)                                                                    \
+#define OPTION_LIST(name_, value_, help_)                                                                              \
     { name_, value_, help_, NULL, 0, 0, true }
-#define OPTION_NUMBER(name_, value_, def_, low_, high_, help_)                                               \
+#define OPTION_NUMBER(name_, value_, def_, low_, high_, help_)                                                         \
     { name_, value_, help_, def_, low_, high_, false }
-#define OPTION_END                                                                                           \
+#define OPTION_END                                                                                                     \
     { .name = NULL }
 
 typedef struct Options Options;
@@ -83,5 +82,3 @@ bool option_choice(const Options *options, const char *name, const char *const *
 
 /* Reads exactly `count` finite numbers separated by commas. Returns false without a message. */
 bool numbers_parse(const char *text, int count, double *numbers);
-
-#endif

@@ -1,6 +1,5 @@
 /* output.h - a file that appears under its name complete or not at all */
-#ifndef WEFT_CLI_OUTPUT_H
-#define WEFT_CLI_OUTPUT_H
+#pragma once
 
 #include <stdio.h>
 
@@ -28,5 +27,3 @@ int output_probe(const char *path);
 /* Works as output_probe, for a path that must not be one of the operands' files (a colon and the text after it are
  * ignored), so that an input is not overwritten. */
 int output_probe_other(const Options *options, const char *path);
-
-#endif

@@ -19,8 +19,7 @@ Progress progress_start(bool quiet, const char *prefix, int spp, int spp_most, d
                          .started = clock_now(),
                          .width = 80};
     struct winsize size;
-    if (progress.shown && ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1)
-        progress.width = size.ws_col;
+    if (progress.shown && ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1) progress.width = size.ws_col;
     return progress;
 }
 
@@ -49,26 +48,23 @@ void progress_draw(Progress *progress, double fraction) {
 
     double done = fraction; /* of the work: samples or time, whichever ends first */
     if (progress->limit > 0.0) done = fmin(fmax(done, elapsed / progress->limit), 1.0);
-    char bar[] = "....................", requested[16] = "", past[TIME_SIZE], left[TIME_SIZE] = "-",
-         line[160];
+    char bar[] = "....................", requested[16] = "", past[TIME_SIZE], left[TIME_SIZE] = "-", line[160];
     memset(bar, '#', (size_t)(done * (double)(sizeof bar - 1)));
     clock_text(elapsed, past);
     if (done > 0.0) clock_text(elapsed * (1.0 - done) / done, left);
     if (progress->unit && !(progress->count > 0.0)) {
-        snprintf(line, sizeof line, "%3.0f%% %s %s  %s elapsed, %s left", floor(100.0 * done), bar,
-                 progress->unit, past, left);
+        snprintf(line, sizeof line, "%3.0f%% %s %s  %s elapsed, %s left", floor(100.0 * done), bar, progress->unit,
+                 past, left);
     } else if (progress->unit) {
         double made = fraction * progress->count, rate = elapsed > 0.0 ? made / elapsed : 0.0;
-        snprintf(line, sizeof line, "%3.0f%% %s %.0f/%.0f %s  %s elapsed, %s left  %.3g %s/s",
-                 floor(100.0 * done), bar, made, progress->count, progress->unit, past, left, rate,
-                 progress->unit);
+        snprintf(line, sizeof line, "%3.0f%% %s %.0f/%.0f %s  %s elapsed, %s left  %.3g %s/s", floor(100.0 * done), bar,
+                 made, progress->count, progress->unit, past, left, rate, progress->unit);
     } else {
         if (progress->spp) snprintf(requested, sizeof requested, "/%d", progress->spp);
         double samples = fraction * progress->spp_most;
         double rate = elapsed > 0.0 ? samples * progress->pixels / elapsed : 0.0;
-        snprintf(line, sizeof line, "%s%3.0f%% %s %.*f%s spp  %s elapsed, %s left  %.2f M samples/s",
-                 progress->prefix, floor(100.0 * done), bar, samples < 10.0 ? 1 : 0, samples, requested, past,
-                 left, 1e-6 * rate);
+        snprintf(line, sizeof line, "%s%3.0f%% %s %.*f%s spp  %s elapsed, %s left  %.2f M samples/s", progress->prefix,
+                 floor(100.0 * done), bar, samples < 10.0 ? 1 : 0, samples, requested, past, left, 1e-6 * rate);
     }
     fprintf(stderr, "\r\033[K%.*s", progress->width - 1, line);
     fflush(stderr);

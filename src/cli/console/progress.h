@@ -1,7 +1,6 @@
 /* progress.h - a line on the terminal with the progress of a render or another long loop; nothing where there
  * is no terminal */
-#ifndef WEFT_CLI_PROGRESS_H
-#define WEFT_CLI_PROGRESS_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -34,5 +33,3 @@ int progress_heed(void *progress, double fraction);
 
 /* Erases the line. */
 void progress_finish(Progress *progress);
-
-#endif

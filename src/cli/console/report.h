@@ -1,6 +1,5 @@
 /* report.h - the line on standard error that reports a failure or a warning */
-#ifndef WEFT_CLI_REPORT_H
-#define WEFT_CLI_REPORT_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -37,5 +36,3 @@ void warnings_free(Warnings *warnings);
 
 /* Fills error with a failure of the program itself, and returns result. */
 WeftResult failure(WeftError *error, WeftResult result, const char *text);
-
-#endif

@@ -1,6 +1,5 @@
 /* uncaught.h - threads of C++ libraries that run out of memory where no caller can catch it */
-#ifndef WEFT_CLI_UNCAUGHT_H
-#define WEFT_CLI_UNCAUGHT_H
+#pragma once
 
 #ifdef __cplusplus
 extern "C" {
@@ -12,6 +11,4 @@ void uncaught_begin(void);
 
 #ifdef __cplusplus
 }
-#endif
-
 #endif

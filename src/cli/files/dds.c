@@ -18,8 +18,7 @@ static void put_word(FILE *stream, uint32_t word) {
 }
 
 static uint32_t code(const char letters[4]) {
-    return (uint32_t)letters[0] | (uint32_t)letters[1] << 8 | (uint32_t)letters[2] << 16 |
-           (uint32_t)letters[3] << 24;
+    return (uint32_t)letters[0] | (uint32_t)letters[1] << 8 | (uint32_t)letters[2] << 16 | (uint32_t)letters[3] << 24;
 }
 
 void dds_write(FILE *stream, const WeftImage *image) {

@@ -1,6 +1,5 @@
 /* dds.h - a table as a DirectDraw surface, the container that Unreal, Unity and Direct3D read without conversion */
-#ifndef WEFT_CLI_DDS_H
-#define WEFT_CLI_DDS_H
+#pragma once
 
 #include <stdio.h>
 
@@ -8,5 +7,3 @@
 
 /* Writes one surface without mipmaps: an F32 image of 1, 2 or 4 channels. Errors stay in the stream. */
 void dds_write(FILE *stream, const WeftImage *image);
-
-#endif

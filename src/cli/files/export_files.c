@@ -17,8 +17,7 @@ static char *table_path(const ExportFiles *self, int k) {
     int stem = dot && dot > (slash ? slash + 1 : path) ? (int)(dot - path) : (int)strlen(path);
     size_t capacity = (size_t)stem + WEFT_EXPORT_NAME + 8;
     char *out = malloc(capacity);
-    if (out)
-        snprintf(out, capacity, "%.*s.%s%s", stem, path, self->made->tables[k].name, suffixes[self->lut]);
+    if (out) snprintf(out, capacity, "%.*s.%s%s", stem, path, self->made->tables[k].name, suffixes[self->lut]);
     return out;
 }
 
@@ -31,8 +30,7 @@ static int table_file_write(const ExportFiles *self, int k, const char *path) {
         low = texels[n] < low ? texels[n] : low;
         high = texels[n] > high ? texels[n] : high;
     }
-    snprintf(about, sizeof about, "%.95s%s", table->name,
-             table->scale > 1.0f ? ", scaled as the text says" : "");
+    snprintf(about, sizeof about, "%.95s%s", table->name, table->scale > 1.0f ? ", scaled as the text says" : "");
     const TableFile file = {.table = &table->texels,
                             .command = self->command,
                             .about = about,

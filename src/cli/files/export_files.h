@@ -1,6 +1,5 @@
 /* export_files.h - the files of an exported text: the text, and its tables beside it */
-#ifndef WEFT_CLI_EXPORT_FILES_H
-#define WEFT_CLI_EXPORT_FILES_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -21,5 +20,3 @@ int export_tables_write(const ExportFiles *files, Json *json);
 
 /* Writes the text. Returns as export_tables_write. */
 int export_text_write(const ExportFiles *files);
-
-#endif

@@ -43,8 +43,7 @@ static void warn_of_measured(const Options *options, const WeftScene *scene, con
     for (int k = 0; k < count; k++) {
         WeftMaterial material;
         if (weft_scene_material(scene, k, &material, NULL) != WEFT_OK || !material.measured) continue;
-        snprintf(text, sizeof text, "%.200s: material %d is saved as the numbers fitted to its measurement",
-                 path, k);
+        snprintf(text, sizeof text, "%.200s: material %d is saved as the numbers fitted to its measurement", path, k);
         report_warning(NULL, WEFT_MESSAGE_GLTF_WARN_IGNORED, text);
     }
 }

@@ -1,6 +1,5 @@
 /* save.h - option --save: a scene as glTF, or one material as JSON */
-#ifndef WEFT_CLI_SAVE_H
-#define WEFT_CLI_SAVE_H
+#pragma once
 
 #include "cli/console/options.h"
 #include "weft/scene.h"
@@ -15,5 +14,3 @@ int save_cloth_of(const WeftScene *scene);
 
 /* Writes every --save. */
 WeftResult save_all(const Options *options, const WeftScene *scene, WeftError *error);
-
-#endif

@@ -12,8 +12,7 @@
 #include "cli/files/dds.h"
 
 static const float *texel_at(const WeftImage *table, int x, int y) {
-    return (const float *)table->pixels +
-           ((size_t)y * (size_t)table->width + (size_t)x) * (size_t)table->channels;
+    return (const float *)table->pixels + ((size_t)y * (size_t)table->width + (size_t)x) * (size_t)table->channels;
 }
 
 /* "table_NAME": a C identifier from the name of a file without folder and suffix. */
@@ -21,8 +20,7 @@ enum { NAME = 64 };
 static void name_of(const char *path, char name[NAME]) {
     const char *slash = strrchr(path, '/'), *from = slash ? slash + 1 : path, *dot = strrchr(from, '.');
     int used = snprintf(name, NAME, "table_");
-    for (; from != dot && *from && used + 1 < NAME; from++)
-        name[used++] = isalnum((unsigned char)*from) ? *from : '_';
+    for (; from != dot && *from && used + 1 < NAME; from++) name[used++] = isalnum((unsigned char)*from) ? *from : '_';
     name[used] = '\0';
 }
 
@@ -42,13 +40,12 @@ static void array_write(FILE *stream, const TableFile *file, const char *path) {
     name_of(path, name);
     snprintf(guard, sizeof guard, "%s", name);
     for (char *c = guard; *c; c++) *c = (char)toupper((unsigned char)*c);
-    fprintf(stream, "// %s\n/* %s\n * Row after row, %d x %d texels, each %d value%s. */\n", file->command,
-            file->about, table->width, table->height, table->channels, table->channels > 1 ? "s" : "");
+    fprintf(stream, "// %s\n/* %s\n * Row after row, %d x %d texels, each %d value%s. */\n", file->command, file->about,
+            table->width, table->height, table->channels, table->channels > 1 ? "s" : "");
     fprintf(stream, "#ifndef WEFT_%s_H\n#define WEFT_%s_H\n\n", guard, guard);
     fprintf(stream, "enum { %s_width = %d, %s_height = %d, %s_channels = %d };\n\n", name, table->width, name,
             table->height, name, table->channels);
-    fprintf(stream, "static const float %s[%d * %d * %d] = {", name, table->height, table->width,
-            table->channels);
+    fprintf(stream, "static const float %s[%d * %d * %d] = {", name, table->height, table->width, table->channels);
     const size_t count = (size_t)table->width * (size_t)table->height * (size_t)table->channels;
     for (size_t n = 0; n < count; n++) {
         fputs(n % A_LINE ? " " : "\n    ", stream);
@@ -116,9 +113,8 @@ static int png_write(const TableFile *file, const char *path) {
     const double scale = file->scale > 0.0 ? file->scale : scale_for(file->high);
     const int channels = image_channels(table);
     if (file->low < 0.0f || (double)file->high > scale)
-        return report(WEFT_USAGE,
-                      "%s: holds 0 to %g, and the table %g to %g; give another --scale, or write .exr", path,
-                      scale, (double)file->low, (double)file->high);
+        return report(WEFT_USAGE, "%s: holds 0 to %g, and the table %g to %g; give another --scale, or write .exr",
+                      path, scale, (double)file->low, (double)file->high);
     WeftImage image;
     WeftError error;
     if (weft_image_create(table->width, table->height, channels, WEFT_PIXEL_U16, &image, &error) != WEFT_OK)
@@ -145,8 +141,8 @@ static int png_write(const TableFile *file, const char *path) {
 static int exr_write(const TableFile *file, const char *path) {
     const float most = 65504.0f;
     if (file->half && (file->high > most || file->low < -most))
-        return report(WEFT_USAGE, "%s: 16 bit floats end at %g, the table at %g; leave --half out", path,
-                      (double)most, (double)(file->high > most ? file->high : file->low));
+        return report(WEFT_USAGE, "%s: 16 bit floats end at %g, the table at %g; leave --half out", path, (double)most,
+                      (double)(file->high > most ? file->high : file->low));
     return float_write(file, path, true);
 }
 
@@ -194,6 +190,4 @@ bool table_suffix_check(const char *path) {
     return false;
 }
 
-int table_write(const TableFile *file, const char *path) {
-    return writers[writer_find(path)].write(file, path);
-}
+int table_write(const TableFile *file, const char *path) { return writers[writer_find(path)].write(file, path); }

@@ -13,10 +13,8 @@
 static const struct {
     const char *suffix;
     WeftExportTarget target;
-} texts[] = {{".glsl", WEFT_EXPORT_GLSL},
-             {".hlsl", WEFT_EXPORT_HLSL},
-             {".wgsl", WEFT_EXPORT_WGSL},
-             {".h", WEFT_EXPORT_C}};
+} texts[] = {
+    {".glsl", WEFT_EXPORT_GLSL}, {".hlsl", WEFT_EXPORT_HLSL}, {".wgsl", WEFT_EXPORT_WGSL}, {".h", WEFT_EXPORT_C}};
 enum { TEXTS = sizeof texts / sizeof *texts };
 
 /* Returns the export target of a path, or -1. */
@@ -36,8 +34,7 @@ static int measured_check(const Options *options) {
     if (!weft_reflection_readable(options->operands[0]))
         return report(WEFT_USAGE, "--measured: %.200s is no .binary, .bsdf or .bin", options->operands[0]);
     for (const char *path; (path = option_next(options, "-o", &cursor));) json |= path_ends(path, ".json");
-    return json ? 0
-                : report(WEFT_USAGE, "--measured: only a material file names a measurement: -o NAME.json");
+    return json ? 0 : report(WEFT_USAGE, "--measured: only a material file names a measurement: -o NAME.json");
 }
 
 int fit_files_check(const Options *options) {
@@ -46,8 +43,7 @@ int fit_files_check(const Options *options) {
         result =
             path_ends(path, ".json") || is_asset(path) || target_of(path) >= 0
                 ? output_probe_other(options, path)
-                : report(WEFT_USAGE,
-                         "%.200s: a fit is written as .json, .glb, .gltf, .glsl, .hlsl, .wgsl or .h", path);
+                : report(WEFT_USAGE, "%.200s: a fit is written as .json, .glb, .gltf, .glsl, .hlsl, .wgsl or .h", path);
     return result;
 }
 
@@ -85,8 +81,7 @@ int fit_files_write(const Options *options, const WeftMaterial *material) {
     char *command = command_text(options);
     int cursor = 0, result = command ? 0 : report(WEFT_RESOURCES, "out of memory");
     for (const char *path; result == 0 && (path = option_next(options, "-o", &cursor));)
-        result = target_of(path) >= 0 ? text_write(material, path, command)
-                                      : scene_write(material, path, measured);
+        result = target_of(path) >= 0 ? text_write(material, path, command) : scene_write(material, path, measured);
     free(command);
     return result;
 }

@@ -1,6 +1,5 @@
 /* fit_files.h - a fitted material as a file: a material, an asset or engine text */
-#ifndef WEFT_CLI_FIT_FILES_H
-#define WEFT_CLI_FIT_FILES_H
+#pragma once
 
 #include "cli/console/options.h"
 #include "weft/weft.h"
@@ -12,5 +11,3 @@ int fit_files_check(const Options *options);
 /* Writes the material into every -o: .json, .glb or .gltf (a cloth of it), .glsl, .hlsl, .wgsl or .h. Returns
  * as fit_files_check. */
 int fit_files_write(const Options *options, const WeftMaterial *material);
-
-#endif

@@ -61,8 +61,8 @@ static void half_difference(const float wo[3], const float wi[3], double at[3]) 
 enum { CELLS = 30 };
 
 /* Draws the mean over the samples in each cell of a slice; pixels of cells without samples stay empty. */
-static WeftResult draw_samples(const WeftData *data, const WeftReflection *drawn, double phi_d,
-                               WeftImage *out, WeftError *error) {
+static WeftResult draw_samples(const WeftData *data, const WeftReflection *drawn, double phi_d, WeftImage *out,
+                               WeftError *error) {
     float sum[CELLS][CELLS][4] = {{{0.0f}}};
     for (int k = 0; k < weft_data_count(data, NULL); k++) {
         float wo[3], wi[1][3], f[1][3];
@@ -129,8 +129,8 @@ static WeftResult draw_all(Slices *all, const WeftData *samples, WeftReflection 
             all->differ = to_figure(0.25f * all->scale);
         }
         for (int c = 0; c < COLUMNS && result == WEFT_OK; c++) {
-            result = weft_image_tonemap(&all->linear[r][c], WEFT_TONEMAP_NONE, -log2f(all->scale),
-                                        &all->shown[r][c], error);
+            result =
+                weft_image_tonemap(&all->linear[r][c], WEFT_TONEMAP_NONE, -log2f(all->scale), &all->shown[r][c], error);
             if (c > 0 && result == WEFT_OK)
                 result = weft_difference_image(&all->linear[r][c], &all->linear[r][0], all->differ,
                                                &all->difference[r][c], error);
@@ -159,8 +159,7 @@ static WeftResult compose(const Slices *all, const char *path, const WeftFit *fi
         difference[1] = (WeftPanel){.image = &all->difference[r][1], .title = "fit \xe2\x88\x92 data"};
         difference[2] = (WeftPanel){.image = &all->difference[r][2], .title = "baseline \xe2\x88\x92 data"};
     }
-    snprintf(caption, sizeof caption, "%.200s: f cos, theta_h to the right, theta_d upwards, 0 to 90\xc2\xb0",
-             path);
+    snprintf(caption, sizeof caption, "%.200s: f cos, theta_h to the right, theta_d upwards, 0 to 90\xc2\xb0", path);
     const WeftSheetDesc desc = {.caption = caption, .panels = panels, .count = PANELS, .columns = COLUMNS};
     WeftResult result = weft_sheet_compose(&desc, &sheet, error);
     if (result == WEFT_OK) result = weft_image_write(output, &sheet, error);

@@ -1,6 +1,5 @@
 /* fit_sheet.h - slices of a measured BRDF beside those of fits */
-#ifndef WEFT_CLI_FIT_SHEET_H
-#define WEFT_CLI_FIT_SHEET_H
+#pragma once
 
 #include "weft/weft.h"
 
@@ -8,5 +7,3 @@
  * baseline, and how these differ. Of a table of samples, which has gaps, a slice has those within 45 degrees of
  * phi_d, in cells of 3 degrees. Returns 0, or an exit code after one line on standard error. */
 int fit_sheet_write(const char *path, const WeftData *data, const WeftFit *fit, const char *output);
-
-#endif

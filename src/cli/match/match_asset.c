@@ -35,8 +35,7 @@ static void asset_text(const WeftAssetMatch *matches, int count, WeftBrdfMetric 
         printf("%s%s\n", match->name[0] ? match->name : "(no name)",
                match->changed ? "" : ": has no sheen, or is unlit, and stays");
         if (!match->changed) continue;
-        printf("  %-18s %-22.4f %.4f\n", weft_brdf_metric_name(metric), match->found.copied,
-               match->found.matched);
+        printf("  %-18s %-22.4f %.4f\n", weft_brdf_metric_name(metric), match->found.copied, match->found.matched);
         for (int n = 0; weft_material_input_info(n, &info); n++) {
             bool color = info.kind == WEFT_INPUT_COLOR;
             values_text(match->copied.inputs[n].value, color, was);
@@ -72,8 +71,7 @@ static void asset_json(const WeftAssetMatch *matches, int count, WeftBrdfMetric 
         json_open(&json, "factors", '{');
         for (int n = 0; weft_material_input_info(n, &info); n++)
             if (has_changed(match, n))
-                json_floats(&json, info.name, match->matched.inputs[n].value,
-                            info.kind == WEFT_INPUT_COLOR ? 3 : 1);
+                json_floats(&json, info.name, match->matched.inputs[n].value, info.kind == WEFT_INPUT_COLOR ? 3 : 1);
         json_close(&json, '}');
         json_close(&json, '}');
     }
@@ -92,11 +90,10 @@ static int to_engine(const Options *options, const char *out, WeftBrdfMetric met
     if (to < 0) return WEFT_USAGE;
     Progress progress = progress_start_count(false, "of the searches", 0.0);
     interrupt_watch();
-    WeftResult result = weft_match_asset(path, out, from, to, metric, progress_heed, &progress, &matches,
-                                         &count, &log, &error);
+    WeftResult result =
+        weft_match_asset(path, out, from, to, metric, progress_heed, &progress, &matches, &count, &log, &error);
     progress_finish(&progress);
-    if (result == WEFT_INTERRUPTED)
-        return report(WEFT_INTERRUPTED, "%s: interrupted; nothing was written", path);
+    if (result == WEFT_INTERRUPTED) return report(WEFT_INTERRUPTED, "%s: interrupted; nothing was written", path);
     if (result != WEFT_OK) return report_error(&error);
     if (option_given(options, "--json"))
         asset_json(matches, count, metric, out);
@@ -106,8 +103,7 @@ static int to_engine(const Options *options, const char *out, WeftBrdfMetric met
     return 0;
 }
 
-static void losses_write(const WeftScene *scene, const float *losses, int count, bool as_json,
-                         const char *out) {
+static void losses_write(const WeftScene *scene, const float *losses, int count, bool as_json, const char *out) {
     Json json = {.stream = stdout};
     if (as_json) {
         json_open(&json, NULL, '{');

@@ -57,8 +57,7 @@ static int prepare(Maps *maps) {
                 return report_error(&error);
             lobe->params[0] = p->low + (float)places[k] * (p->high - p->low);
             for (int c = 0; c < 3; c++) lobe->f0[c] = 0.8f;
-            if (weft_reflection_of_lobe(lobe, &maps->from[n][k], &error) != WEFT_OK)
-                return report_error(&error);
+            if (weft_reflection_of_lobe(lobe, &maps->from[n][k], &error) != WEFT_OK) return report_error(&error);
         }
     for (int j = 0; j < maps->count * maps->count * SWEEP; j++) {
         int k = j % SWEEP, to = j / SWEEP % maps->count, from = j / SWEEP / maps->count;
@@ -103,8 +102,7 @@ static int formula_of(const Maps *maps, int from, int to, WeftBrdfMetric metric,
             lobe.f0[c] = (float)((double)maps->source[from][k].f0[c] * out->c * pow(x[k], out->d));
         WeftResult result = weft_reflection_of_lobe(&lobe, &of_formula, &error);
         if (result == WEFT_OK)
-            result =
-                weft_brdf_distance(of_formula, maps->from[from][k], WEFT_PART_ALL, metric, &distance, &error);
+            result = weft_brdf_distance(of_formula, maps->from[from][k], WEFT_PART_ALL, metric, &distance, &error);
         weft_reflection_free(of_formula);
         if (result != WEFT_OK) return report_error(&error);
         out->worst = fmax(out->worst, distance - job_of(maps, from, to, k)->found.matched);

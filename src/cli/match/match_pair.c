@@ -6,9 +6,7 @@
 #include "cli/console/report.h"
 #include "cli/match/match_verb.h"
 
-bool match_has_parts(const Match *match) {
-    return model_is_material(&match->from) && model_is_material(&match->to);
-}
+bool match_has_parts(const Match *match) { return model_is_material(&match->from) && model_is_material(&match->to); }
 
 /* Returns the parameter of `from` with the name of parameter `param` of `to`, or -1. The first parameters, which are
  * widths, match even if their names differ. */
@@ -22,9 +20,7 @@ static void copy_lobe(const WeftLobe *from, WeftLobe *to) {
     const WeftLobeInfo *of = weft_lobe_info(from->lobe), *info = weft_lobe_info(to->lobe);
     for (int k = 0; k < info->param_count; k++) {
         const WeftParamInfo *p = &info->params[k];
-        int like = p->choices && from->lobe != to->lobe ? -1
-                   : from->lobe == to->lobe             ? k
-                                                        : param_like(of, info, k);
+        int like = p->choices && from->lobe != to->lobe ? -1 : from->lobe == to->lobe ? k : param_like(of, info, k);
         if (like >= 0) to->params[k] = fminf(fmaxf(from->params[like], p->hard_low), p->hard_high);
     }
     memcpy(to->f0, from->f0, sizeof to->f0);
@@ -77,8 +73,7 @@ static int hold_inputs(const Match *match, const WeftMaterial *typed, WeftMateri
 static int refuse_estimate(const Model *model) {
     const WeftLobeInfo *info = model->kind == MODEL_LOBE ? weft_lobe_info(model->lobe.lobe) : NULL;
     if (!info || !(info->traits & WEFT_LOBE_REFERENCE)) return 0;
-    return report(WEFT_USAGE, "%.200s: is an estimate by random walks: match fibre, which is its mean",
-                  model->words);
+    return report(WEFT_USAGE, "%.200s: is an estimate by random walks: match fibre, which is its mean", model->words);
 }
 
 int match_begin(Match *match, const char *from, const char *to) {
@@ -91,8 +86,7 @@ int match_begin(Match *match, const char *from, const char *to) {
     if (match->to.kind == MODEL_MEASURED)
         return report(WEFT_USAGE, "%.200s: has no parameters that could be matched", to);
     match->copy = match->to;
-    if (match->to.kind == MODEL_LOBE && match->from.kind == MODEL_LOBE)
-        copy_lobe(&match->from.lobe, &match->copy.lobe);
+    if (match->to.kind == MODEL_LOBE && match->from.kind == MODEL_LOBE) copy_lobe(&match->from.lobe, &match->copy.lobe);
     if (match_has_parts(match)) copy_material(&match->from.material, &match->copy.material);
     return 0;
 }
@@ -110,11 +104,10 @@ int match_search(Match *match) {
     match->to.lobe = match->copy.lobe;
     match->to.material = match->copy.material;
     if (lobe)
-        found = weft_match_lobe(match->from.reflection, match->metric, hold, &match->to.lobe, &match->found,
-                                &error);
+        found = weft_match_lobe(match->from.reflection, match->metric, hold, &match->to.lobe, &match->found, &error);
     else
-        found = weft_match_material(match->from.reflection, match->metric, fixed, &match->to.material,
-                                    &match->found, &error);
+        found = weft_match_material(match->from.reflection, match->metric, fixed, &match->to.material, &match->found,
+                                    &error);
     if (found != WEFT_OK) return report_error(&error);
     model_warn(&match->to);
     return model_prepare(&match->to);

@@ -24,16 +24,13 @@ static float round_up(float value) {
 }
 
 static WeftResult draw(Pictures *all, const Match *match, WeftError *error) {
-    const WeftReflection *of[PICTURES] = {match->from.reflection, match->copy.reflection,
-                                          match->to.reflection};
+    const WeftReflection *of[PICTURES] = {match->from.reflection, match->copy.reflection, match->to.reflection};
     WeftResult result = WEFT_OK;
     for (int k = 0; k < PICTURES && result == WEFT_OK; k++) {
         result = weft_reflection_sphere(of[k], SIZE, &all->linear[k], error);
         if (result == WEFT_OK)
-            result =
-                weft_image_tonemap(&all->linear[k], WEFT_TONEMAP_PBR_NEUTRAL, 0.0f, &all->shown[k], error);
-        if (result == WEFT_OK)
-            result = weft_difference(&all->linear[k], &all->linear[0], &all->difference[k], error);
+            result = weft_image_tonemap(&all->linear[k], WEFT_TONEMAP_PBR_NEUTRAL, 0.0f, &all->shown[k], error);
+        if (result == WEFT_OK) result = weft_difference(&all->linear[k], &all->linear[0], &all->difference[k], error);
     }
     all->scale = round_up(fmaxf(all->difference[1].high, all->difference[2].high));
     for (int k = 1; k < PICTURES && result == WEFT_OK; k++)
@@ -44,8 +41,7 @@ static WeftResult draw(Pictures *all, const Match *match, WeftError *error) {
 static WeftResult compose(const Pictures *all, const Match *match, WeftImage *sheet, WeftError *error) {
     char caption[400], notes[PICTURES][64], figures[PICTURES][64];
     const char *titles[PICTURES] = {match->from.words, "numbers copied", "matched"};
-    const char *differences[PICTURES] = {"difference", "copied \xe2\x88\x92 original",
-                                         "matched \xe2\x88\x92 original"};
+    const char *differences[PICTURES] = {"difference", "copied \xe2\x88\x92 original", "matched \xe2\x88\x92 original"};
     const double distances[PICTURES] = {0.0, match->found.copied, match->found.matched};
     WeftPanel panels[2 * PICTURES] = {{0}};
     for (int k = 0; k < PICTURES; k++) {
@@ -53,15 +49,13 @@ static WeftResult compose(const Pictures *all, const Match *match, WeftImage *sh
         snprintf(figures[k], sizeof figures[k], "mean %.4f   relMSE %.4f", all->difference[k].mean,
                  all->difference[k].relmse);
         panels[k] = (WeftPanel){.image = &all->shown[k], .title = titles[k], .note = k ? notes[k] : NULL};
-        panels[PICTURES + k] =
-            k ? (WeftPanel){.image = &all->delta[k], .title = differences[k], .note = figures[k]}
-              : (WeftPanel){.scale = all->scale,
-                            .title = differences[k],
-                            .note = "of linear radiance, the channel that differs most"};
+        panels[PICTURES + k] = k ? (WeftPanel){.image = &all->delta[k], .title = differences[k], .note = figures[k]}
+                                 : (WeftPanel){.scale = all->scale,
+                                               .title = differences[k],
+                                               .note = "of linear radiance, the channel that differs most"};
     }
     snprintf(caption, sizeof caption, "%.190s as %.190s", match->from.words, match->to.words);
-    const WeftSheetDesc desc = {
-        .caption = caption, .panels = panels, .count = 2 * PICTURES, .columns = PICTURES};
+    const WeftSheetDesc desc = {.caption = caption, .panels = panels, .count = 2 * PICTURES, .columns = PICTURES};
     return weft_sheet_compose(&desc, sheet, error);
 }
 

@@ -40,8 +40,7 @@ static int prepare(MatchTable *table) {
 }
 
 /* Writes the changes, in the order of the inputs. */
-static void changes_text(const MatchTable *table, int from, const WeftMatchJob *job, char *text,
-                         size_t size) {
+static void changes_text(const MatchTable *table, int from, const WeftMatchJob *job, char *text, size_t size) {
     const WeftMaterial *was = &table->from[from].material;
     WeftInputInfo info;
     size_t used = 0;
@@ -49,8 +48,7 @@ static void changes_text(const MatchTable *table, int from, const WeftMatchJob *
     for (int k = 0; weft_material_input_info(k, &info) && used < size; k++) {
         float a = was->inputs[k].value[0], b = job->material.inputs[k].value[0];
         if (a < b || a > b)
-            used += (size_t)snprintf(text + used, size - used, "%s%s %.3g", used ? ", " : "", info.name,
-                                     (double)b);
+            used += (size_t)snprintf(text + used, size - used, "%s%s %.3g", used ? ", " : "", info.name, (double)b);
     }
 }
 
@@ -62,8 +60,8 @@ static void text_write(const MatchTable *table, WeftBrdfMetric metric) {
         const WeftMatchJob *job = &table->jobs[k];
         if (from == to) continue;
         changes_text(table, from, job, text, sizeof text);
-        printf("%-14s %-14s %7.4f %7.4f  %s\n", weft_profile_name(from), weft_profile_name(to),
-               job->found.copied, job->found.matched, text);
+        printf("%-14s %-14s %7.4f %7.4f  %s\n", weft_profile_name(from), weft_profile_name(to), job->found.copied,
+               job->found.matched, text);
     }
 }
 
@@ -83,8 +81,7 @@ static void json_write(const MatchTable *table, WeftBrdfMetric metric) {
         json_open(&json, "inputs", '{');
         for (int n = 0; weft_material_input_info(n, &info); n++)
             if (weft_match_is_free(&job->material, n))
-                json_floats(&json, info.name, job->material.inputs[n].value,
-                            info.kind == WEFT_INPUT_COLOR ? 3 : 1);
+                json_floats(&json, info.name, job->material.inputs[n].value, info.kind == WEFT_INPUT_COLOR ? 3 : 1);
         json_close(&json, '}');
         json_close(&json, '}');
     }

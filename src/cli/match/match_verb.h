@@ -1,6 +1,5 @@
 /* match_verb.h - one match of `weft match`: what was typed, where the search begins, and what it found */
-#ifndef WEFT_CLI_MATCH_VERB_H
-#define WEFT_CLI_MATCH_VERB_H
+#pragma once
 
 #include "cli/console/options.h"
 #include "cli/operands/model.h"
@@ -33,5 +32,3 @@ int match_maps(const Options *options, WeftBrdfMetric metric);
 
 /* Runs `weft match ASSET --from P --to Q -o OUT` and `--workflow`. */
 int match_asset(const Options *options, WeftBrdfMetric metric);
-
-#endif

@@ -1,6 +1,5 @@
 /* command.h - the command line as text that a shell reads */
-#ifndef WEFT_CLI_COMMAND_H
-#define WEFT_CLI_COMMAND_H
+#pragma once
 
 #include "cli/console/options.h"
 
@@ -10,5 +9,3 @@ char *command_text(const Options *options);
 
 /* Returns the options given that assign materials and add lights, as they could be typed; else as above. */
 char *command_assign_text(const Options *options);
-
-#endif

@@ -1,11 +1,9 @@
 /* lobes.h - lobes of the user's own: --lobe FILE.h, of every verb that names lobes */
-#ifndef WEFT_CLI_LOBES_H
-#define WEFT_CLI_LOBES_H
+#pragma once
 
 #include "cli/console/options.h"
 
-#define LOBES_HELP                                                                                           \
-    "take a lobe of your own (docs/adding-a-lobe.md); it runs as native code: only one that you trust"
+#define LOBES_HELP   "take a lobe of your own (docs/adding-a-lobe.md); it runs as native code: only one that you trust"
 #define OPTION_LOBES OPTION_LIST("--lobe", "FILE.h", LOBES_HELP)
 
 /* The option of a verb whose --lobe has another meaning too. */
@@ -17,5 +15,3 @@ int lobes_take(Options *options);
 
 /* Returns the paths of the files taken, ended by NULL. */
 const char *const *lobes_taken(void);
-
-#endif

@@ -53,9 +53,8 @@ static void warned(void *user, WeftMessage message, const char *text) {
 
 static int set_one(Model *model, const char *key, const char *value, const WeftLog *log) {
     WeftError error;
-    WeftResult result = model->kind == MODEL_LOBE
-                            ? weft_lobe_set(&model->lobe, key, value, log, &error)
-                            : weft_material_set(&model->material, key, value, log, &error);
+    WeftResult result = model->kind == MODEL_LOBE ? weft_lobe_set(&model->lobe, key, value, log, &error)
+                                                  : weft_material_set(&model->material, key, value, log, &error);
     return result == WEFT_OK ? 0 : report_error(&error);
 }
 
@@ -66,8 +65,7 @@ static int set_all(Model *model, char *settings) {
     int result = 0;
     for (char *key = settings; result == 0 && key;) {
         char *value = strchr(key, '='), *next = value ? value : key;
-        if (!value || value == key)
-            return report(WEFT_USAGE, "%.200s: \"%.80s\" is not KEY=VALUE", model->words, key);
+        if (!value || value == key) return report(WEFT_USAGE, "%.200s: \"%.80s\" is not KEY=VALUE", model->words, key);
         *value++ = '\0';
         do next = strchr(next == value - 1 ? value : next + 1, ',');
         while (next && !memchr(next + 1, '=', strcspn(next + 1, ",")));
@@ -101,9 +99,8 @@ static int of_material(Model *model, const char *path) {
     WeftError error, last = {0};
     const WeftLog log = {.fn = warned, .user = last.text};
     model->kind = MODEL_MATERIAL;
-    WeftResult result = model->weaves
-                            ? weft_material_read_woven(path, &model->material, &model->cloth, &log, &error)
-                            : weft_material_read(path, &model->material, &log, &error);
+    WeftResult result = model->weaves ? weft_material_read_woven(path, &model->material, &model->cloth, &log, &error)
+                                      : weft_material_read(path, &model->material, &log, &error);
     return result == WEFT_OK ? 0 : report_error(&error);
 }
 
@@ -202,8 +199,7 @@ static int of_kind(Model *model, const Kind *kind, const char *name) {
 static int of_name(Model *model, const Parts *parts) {
     if (parts->kind) return of_kind(model, parts->kind, parts->name);
     for (size_t k = 0; k < KINDS; k++)
-        if (kind_find(kind_of(taken[k]), parts->name) >= 0)
-            return of_kind(model, kind_of(taken[k]), parts->name);
+        if (kind_find(kind_of(taken[k]), parts->name) >= 0) return of_kind(model, kind_of(taken[k]), parts->name);
     char *end = scene_end(parts->name);
     if (end) {
         const char *wanted = *end ? end + 1 : NULL;
@@ -214,8 +210,7 @@ static int of_name(Model *model, const Parts *parts) {
     if (!weft_reflection_readable(parts->name)) return report_unknown(parts->name);
     model->kind = MODEL_MEASURED;
     snprintf(model->path, sizeof model->path, "%s", parts->name);
-    return parts->settings ? report(WEFT_USAGE, "%.200s: nothing can be set in a measurement", parts->name)
-                           : 0;
+    return parts->settings ? report(WEFT_USAGE, "%.200s: nothing can be set in a measurement", parts->name) : 0;
 }
 
 /* Names the model by the last part of a path, up to its suffix; an id stays whole. */
@@ -260,11 +255,10 @@ int model_prepare(Model *model) {
     WeftError error;
     weft_reflection_free(model->reflection);
     model->reflection = NULL;
-    WeftResult result =
-        model->kind == MODEL_LOBE ? weft_reflection_of_lobe(&model->lobe, &model->reflection, &error)
-        : model->kind == MODEL_MEASURED
-            ? weft_reflection_read(model->path, &model->reflection, &error)
-            : weft_reflection_create_woven(&model->material, model->cloth, &model->reflection, &error);
+    WeftResult result = model->kind == MODEL_LOBE ? weft_reflection_of_lobe(&model->lobe, &model->reflection, &error)
+                        : model->kind == MODEL_MEASURED
+                            ? weft_reflection_read(model->path, &model->reflection, &error)
+                            : weft_reflection_create_woven(&model->material, model->cloth, &model->reflection, &error);
     return result == WEFT_OK ? 0 : report_error(&error);
 }
 
@@ -273,9 +267,7 @@ int model_read(const char *typed, Model *out) {
     return result == 0 ? model_prepare(out) : result;
 }
 
-bool model_is_material(const Model *model) {
-    return model->kind != MODEL_LOBE && model->kind != MODEL_MEASURED;
-}
+bool model_is_material(const Model *model) { return model->kind != MODEL_LOBE && model->kind != MODEL_MEASURED; }
 
 void model_free(Model *model) {
     weft_cloth_free(model->cloth);

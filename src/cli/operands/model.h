@@ -10,20 +10,13 @@
  *
  * A kind before the name resolves a name that two kinds share: "lobe:silk", "preset:silk". Textures are left out with
  * a warning: only the numbers of a material count. A weave counts if model_read made its reflection. */
-#ifndef WEFT_CLI_MODEL_H
-#define WEFT_CLI_MODEL_H
+#pragma once
 
 #include <stdbool.h>
 
 #include "weft/weft.h"
 
-typedef enum ModelKind {
-    MODEL_LOBE,
-    MODEL_PROFILE,
-    MODEL_WORKFLOW,
-    MODEL_MATERIAL,
-    MODEL_MEASURED
-} ModelKind;
+typedef enum ModelKind { MODEL_LOBE, MODEL_PROFILE, MODEL_WORKFLOW, MODEL_MATERIAL, MODEL_MEASURED } ModelKind;
 
 typedef struct Model {
     ModelKind kind;
@@ -63,5 +56,3 @@ void model_warn(const Model *model);
 bool model_is_material(const Model *model);
 
 void model_free(Model *model);
-
-#endif

@@ -46,8 +46,7 @@ int chart_sheet_write(const char *path) {
     WeftImage swatches[WEFT_SHEET_PANELS_MAX] = {0}, sheet = {0};
     WeftError error = {0};
     int count = 0;
-    if (weft_image_suffix_linear(path))
-        return report(WEFT_USAGE, "%s: a sheet of swatches must be a .png", path);
+    if (weft_image_suffix_linear(path)) return report(WEFT_USAGE, "%s: a sheet of swatches must be a .png", path);
     while (weft_chart(count) && count < WEFT_SHEET_PANELS_MAX) count++;
     WeftResult result = compose(count, swatches, &sheet, &error);
     if (result == WEFT_OK) result = weft_image_write(path, &sheet, &error);

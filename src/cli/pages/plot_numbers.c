@@ -34,8 +34,7 @@ static void grid_json(Json *json, const WeftPlotPanel *panel) {
     json_whole(json, "rows", panel->rows);
     json_whole(json, "channels", panel->channels);
     json_open(json, "values", '[');
-    for (int k = 0; k < panel->rows; k++)
-        json_floats(json, NULL, panel->values + (size_t)k * (size_t)row, row);
+    for (int k = 0; k < panel->rows; k++) json_floats(json, NULL, panel->values + (size_t)k * (size_t)row, row);
     json_close(json, ']');
 }
 
@@ -48,8 +47,7 @@ static void panel_json(Json *json, const WeftPlotData *data, const WeftPlotPanel
     axis_json(json, "y_axis", &panel->y);
     axis_json(json, "value_axis", &panel->z);
     json_open(json, "figures", '{');
-    for (int k = 0; k < panel->figure_count; k++)
-        json_number(json, panel->figures[k].name, panel->figures[k].value);
+    for (int k = 0; k < panel->figure_count; k++) json_number(json, panel->figures[k].name, panel->figures[k].value);
     json_close(json, '}');
     if (panel->series_count) series_json(json, data, panel);
     if (panel->values) grid_json(json, panel);
@@ -98,8 +96,7 @@ static void curves_csv(const WeftPlotData *data, const WeftPlotPanel *panel) {
  * pictures. */
 static float place(const WeftPlotPanel *panel, const WeftPlotAxis *axis, int k, int count) {
     if (panel->form == WEFT_PLOT_PICTURE || count < 2) return (float)k;
-    float share =
-        panel->form == WEFT_PLOT_SURFACE ? (float)k / (float)(count - 1) : ((float)k + 0.5f) / (float)count;
+    float share = panel->form == WEFT_PLOT_SURFACE ? (float)k / (float)(count - 1) : ((float)k + 0.5f) / (float)count;
     return axis->low + share * (axis->high - axis->low);
 }
 
@@ -112,8 +109,7 @@ static void grid_csv(const WeftPlotPanel *panel) {
                 printf(",%s,", panel->channels == 3 ? channels[c] : "");
                 number(place(panel, &panel->x, k, panel->columns), ',');
                 number(place(panel, &panel->y, row, panel->rows), ',');
-                number(panel->values[((size_t)row * (size_t)panel->columns + (size_t)k) *
-                                         (size_t)panel->channels +
+                number(panel->values[((size_t)row * (size_t)panel->columns + (size_t)k) * (size_t)panel->channels +
                                      (size_t)c],
                        '\n');
             }

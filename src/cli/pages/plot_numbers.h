@@ -1,6 +1,5 @@
 /* plot_numbers.h - the numbers of a figure on standard output */
-#ifndef WEFT_CLI_PLOT_NUMBERS_H
-#define WEFT_CLI_PLOT_NUMBERS_H
+#pragma once
 
 #include "weft/weft.h"
 
@@ -9,5 +8,3 @@ void plot_json(const WeftPlotData *data, WeftPlotKind kind);
 
 /* Prints a heading and a line for each value: panel,series,x,y of curves, panel,channel,x,y,value of grids. */
 void plot_csv(const WeftPlotData *data);
-
-#endif

@@ -35,8 +35,7 @@ static void json_layers(Json *json, const char *key, int layers,
     json_open(json, key, '{');
     for (int layer = 0; layer < layers; layer++) {
         json_open(json, weft_layer_name(layer), '[');
-        for (int k = 0; k < WEFT_PASSPORT_SHEENS; k++)
-            json_floats(json, NULL, cells[layer][k], WEFT_PASSPORT_VIEWS);
+        for (int k = 0; k < WEFT_PASSPORT_SHEENS; k++) json_floats(json, NULL, cells[layer][k], WEFT_PASSPORT_VIEWS);
         json_close(json, ']');
     }
     json_close(json, '}');
@@ -68,8 +67,7 @@ static void json_sampling(Json *json, const WeftPassport *p) {
     for (int row = 0; row < p->rows; row++) json_floats(json, NULL, p->variance[row], WEFT_PASSPORT_VIEWS);
     json_close(json, ']');
     json_open(json, "variance_cosine", '[');
-    for (int row = 0; row < p->rows; row++)
-        json_floats(json, NULL, p->variance_cosine[row], WEFT_PASSPORT_VIEWS);
+    for (int row = 0; row < p->rows; row++) json_floats(json, NULL, p->variance_cosine[row], WEFT_PASSPORT_VIEWS);
     json_close(json, ']');
     json_float(json, "ratio", p->variance_ratio);
     json_float(json, "ratio_worst", p->variance_worst);
@@ -88,10 +86,7 @@ static void json_sweep(Json *json, const WeftPassport *p) {
 
 /* Writes the floor as a number: 0 if none is needed, null if none helps. */
 static void json_floor(Json *json, const char *key, int exponent) {
-    json_number(json, key,
-                exponent == 0                ? HUGE_VAL
-                : exponent == WEFT_HALF_FREE ? 0.0
-                                             : ldexp(1.0, -exponent));
+    json_number(json, key, exponent == 0 ? HUGE_VAL : exponent == WEFT_HALF_FREE ? 0.0 : ldexp(1.0, -exponent));
 }
 
 static void json_half(Json *json, const WeftPassport *p) {

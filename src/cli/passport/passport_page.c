@@ -24,9 +24,7 @@ typedef struct PassportPlot {
 enum { LEFT = 46, TOP = 26, WIDE = 330, HIGH = 200, KEY = 150 };
 
 static double plot_x(double x) { return LEFT + WIDE * x; }
-static double plot_y(const PassportPlot *plot, double y) {
-    return TOP + HIGH * (1.0 - fmin(y / plot->top, 1.0));
-}
+static double plot_y(const PassportPlot *plot, double y) { return TOP + HIGH * (1.0 - fmin(y / plot->top, 1.0)); }
 
 /* Begins a plot. Values above 1 are shaded; NaN is drawn along the top. */
 static PassportPlot plot_open(FILE *f, const char *title, const char *x_name, double most, int of) {
@@ -74,8 +72,7 @@ static void row_name(const WeftPassport *p, int row, char *name, size_t size) {
         snprintf(name, size, "%s", p->id);
 }
 
-static void draw_albedo(FILE *f, const WeftPassport *p, const char *title,
-                        const float cells[][WEFT_PASSPORT_COSINES]) {
+static void draw_albedo(FILE *f, const WeftPassport *p, const char *title, const float cells[][WEFT_PASSPORT_COSINES]) {
     PassportPlot plot = plot_open(f, title, "cos_o", (double)p->albedo_most, p->rows);
     for (int row = 0; row < p->rows; row++) {
         char name[96];
@@ -91,8 +88,7 @@ static void draw_furnace(FILE *f, const WeftPassport *p) {
     float most = 0.0f;
     for (int layer = 0; layer < p->layers; layer++)
         for (int v = 0; v < WEFT_PASSPORT_VIEWS; v++) most = fmaxf(most, p->furnace[layer][middle][v]);
-    snprintf(title, sizeof title, "White furnace over white Lambert, roughness %g",
-             (double)p->sheens[middle]);
+    snprintf(title, sizeof title, "White furnace over white Lambert, roughness %g", (double)p->sheens[middle]);
     PassportPlot plot = plot_open(f, title, "cos_o", (double)most, p->layers);
     for (int layer = 0; layer < p->layers; layer++)
         plot_curve(&plot, p->views, p->furnace[layer][middle], WEFT_PASSPORT_VIEWS, weft_layer_name(layer));
@@ -130,10 +126,8 @@ static void write_table(FILE *f, const WeftPassport *p) {
 }
 
 static void write_facts(FILE *f, const WeftPassport *p) {
-    fprintf(f, "<dl><dt>E<dd>at most %.3g; %d cells of the table above 1\n", (double)p->albedo_most,
-            p->albedo_above);
-    fprintf(f, "<dt>Reciprocity<dd>|f(wo, wi) &minus; f(wi, wo)| at most %.2g of the larger\n",
-            (double)p->reciprocity);
+    fprintf(f, "<dl><dt>E<dd>at most %.3g; %d cells of the table above 1\n", (double)p->albedo_most, p->albedo_above);
+    fprintf(f, "<dt>Reciprocity<dd>|f(wo, wi) &minus; f(wi, wo)| at most %.2g of the larger\n", (double)p->reciprocity);
     fprintf(f,
             "<dt>Sampling<dd>the pdf integrates to at most %.4f; significance of %d chi-square tests %.2g; "
             "%.2g of E is missed\n",
@@ -185,8 +179,7 @@ void passports_page(FILE *f, const WeftPassport *passports, int count) {
         fprintf(f, "</p>\n");
         write_facts(f, p);
         draw_albedo(f, p, "Directional albedo E", p->albedo);
-        if (p->traits & WEFT_LOBE_TINTED)
-            draw_albedo(f, p, "E of fibres that keep half of the light", p->albedo_half);
+        if (p->traits & WEFT_LOBE_TINTED) draw_albedo(f, p, "E of fibres that keep half of the light", p->albedo_half);
         if (p->layers) draw_furnace(f, p);
         draw_variance(f, p);
         write_table(f, p);

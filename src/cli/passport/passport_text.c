@@ -10,8 +10,7 @@ static const char *place_text(const WeftPassport *p, const WeftPlace *place, cha
     if (*p->parameter) used = snprintf(text, size, "%s %.3g, ", p->parameter, (double)place->value);
     used += snprintf(text + used, size - (size_t)used, "cos_o %.3g", (double)place->cos_o);
     if (place->cos_i > 0.0f)
-        snprintf(text + used, size - (size_t)used, ", cos_i %.3g, phi %.0f", (double)place->cos_i,
-                 (double)place->phi);
+        snprintf(text + used, size - (size_t)used, ", cos_i %.3g, phi %.0f", (double)place->cos_i, (double)place->phi);
     return text;
 }
 
@@ -43,8 +42,7 @@ static void print_albedo(const WeftPassport *p) {
                         : "white lobe");
     print_cells(p, p->albedo);
     printf("  at most %.3g (%s); %d of %d cells above 1\n", (double)p->albedo_most,
-           place_text(p, &p->albedo_place, place, sizeof place), p->albedo_above,
-           p->rows * WEFT_PASSPORT_COSINES);
+           place_text(p, &p->albedo_place, place, sizeof place), p->albedo_above, p->rows * WEFT_PASSPORT_COSINES);
     if (!(p->traits & WEFT_LOBE_TINTED)) return;
     printf("\nDirectional albedo E of fibres that keep half of the light\n\n");
     print_cells(p, p->albedo_half);
@@ -140,8 +138,8 @@ static void print_half(const WeftPassport *p) {
 static void print_parity(const WeftPassport *p) {
     printf("\nC and GPU\n");
     if (p->parity_measured)
-        printf("  differ by at most %.1e where within 5e-4; %.2g %% are beyond (%s)\n",
-               (double)p->parity_worst, 100.0 * (double)p->parity_beyond, p->parity_words);
+        printf("  differ by at most %.1e where within 5e-4; %.2g %% are beyond (%s)\n", (double)p->parity_worst,
+               100.0 * (double)p->parity_beyond, p->parity_words);
     else
         printf("  not compared: %s\n", p->parity_words);
 }
@@ -159,8 +157,8 @@ void passport_text(const WeftPassport *p) {
 }
 
 void passport_line_heading(void) {
-    printf("%-26s %6s %8s %7s %7s %5s %-6s %s\n", "", "most E", "recipr.", "signif.", "varian.", "sweep",
-           "half", "GPU");
+    printf("%-26s %6s %8s %7s %7s %5s %-6s %s\n", "", "most E", "recipr.", "signif.", "varian.", "sweep", "half",
+           "GPU");
 }
 
 void passport_line(const WeftPassport *p) {
@@ -171,8 +169,8 @@ void passport_line(const WeftPassport *p) {
         snprintf(half, sizeof half, "always");
     else if (p->half_measured)
         snprintf(half, sizeof half, "2^-%d", p->half_cosine);
-    printf("%-26s %6.3g %8.1e %7.2g %7.2g %5lld %-6s ", title(p), (double)p->albedo_most,
-           (double)p->reciprocity, weft_passport_significance(p->p, p->tests), (double)p->variance_ratio,
+    printf("%-26s %6.3g %8.1e %7.2g %7.2g %5lld %-6s ", title(p), (double)p->albedo_most, (double)p->reciprocity,
+           weft_passport_significance(p->p, p->tests), (double)p->variance_ratio,
            p->sweep_infinite + p->sweep_negative + p->sweep_below, half);
     if (p->parity_measured)
         printf("%.0e\n", (double)p->parity_worst);

@@ -1,7 +1,6 @@
 /* passports.h - printing of a passport: as text, in a line, as lines of a lobe's header, as JSON, as a
  * page */
-#ifndef WEFT_CLI_PASSPORTS_H
-#define WEFT_CLI_PASSPORTS_H
+#pragma once
 
 #include "cli/console/json_writer.h"
 #include "weft/measure.h"
@@ -20,5 +19,3 @@ void passport_json(Json *json, const WeftPassport *passport);
 
 /* Writes one HTML page, which contains its pictures and needs no other file. */
 void passports_page(FILE *stream, const WeftPassport *passports, int count);
-
-#endif

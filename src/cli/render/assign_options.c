@@ -69,10 +69,8 @@ static bool check_item(int axis, const char *text, int k) {
         return false;
     }
     const char *by = split_by(item);
-    if (by &&
-        (strcmp(axes[axis].choice, "layer") != 0 || (strcmp(by, "max") != 0 && strcmp(by, "channel") != 0))) {
-        report(WEFT_USAGE, "%s: \"by=%.80s\" is not by=max or by=channel of a layer rule", axes[axis].option,
-               by);
+    if (by && (strcmp(axes[axis].choice, "layer") != 0 || (strcmp(by, "max") != 0 && strcmp(by, "channel") != 0))) {
+        report(WEFT_USAGE, "%s: \"by=%.80s\" is not by=max or by=channel of a layer rule", axes[axis].option, by);
         return false;
     }
     const Kind *kind = kind_of(axes[axis].kind);
@@ -100,8 +98,7 @@ static bool add_varied(Assignments *assignment, Varied varied) {
         if (!check_once(&varied, k)) return false;
     if (varied.count < 2) return true;
     if (assignment->varied_count == ASSIGN_VARIED_MOST) {
-        report(WEFT_USAGE,
-               "%s: has several values, and so have %s and %s: two options may, as rows and columns",
+        report(WEFT_USAGE, "%s: has several values, and so have %s and %s: two options may, as rows and columns",
                varied.option, assignment->varied[0].option, assignment->varied[1].option);
         return false;
     }
@@ -117,8 +114,7 @@ static bool add_varied(Assignments *assignment, Varied varied) {
 static bool check_axis(int axis, Assignments *assignment) {
     const char *text = option_text(assignment->options, axes[axis].option);
     if (!text) return true;
-    Varied varied = {
-        .option = axes[axis].option, .values = text, .separator = ',', .count = item_count(text, ',')};
+    Varied varied = {.option = axes[axis].option, .values = text, .separator = ',', .count = item_count(text, ',')};
     for (int k = 0; k < varied.count; k++)
         if (!check_item(axis, text, k)) return false;
     snprintf(varied.name, sizeof varied.name, "%s", axes[axis].choice);
@@ -171,15 +167,13 @@ static bool refuse_name(const char *text, const char *name) {
     const Kind *input = kind_of("input"), *choice = kind_of("choice");
     Nearest nearest = {.typed = name};
     if (strncmp(name, "layer=", 6) == 0) {
-        report(WEFT_USAGE, "--set: \"%.80s\": the by of a layer rule is a setting of its own, layer_by",
-               text);
+        report(WEFT_USAGE, "--set: \"%.80s\": the by of a layer rule is a setting of its own, layer_by", text);
         return false;
     }
     for (int k = 0; input->name(k); k++) nearest_offer(&nearest, input->name(k));
     for (int k = 0; choice->name(k); k++) nearest_offer(&nearest, choice->name(k));
     report(WEFT_USAGE, "--set: \"%s\" %s%s", name, weft_message_text(WEFT_MESSAGE_PARAM_NAME),
-           nearest.name ? nearest_hint(&nearest, hint, sizeof hint)
-                        : "; `weft models` lists inputs and choices");
+           nearest.name ? nearest_hint(&nearest, hint, sizeof hint) : "; `weft models` lists inputs and choices");
     return false;
 }
 
@@ -203,8 +197,7 @@ static bool check_set(const char *text, Assignments *assignment) {
     snprintf(varied.name, sizeof varied.name, "%.*s", (int)(equals - text), text);
     for (int k = 0; varied.count > 1 && k < varied.count; k++) {
         if (item_at(varied.values, varied.separator, k, item) && item[0]) continue;
-        report(WEFT_USAGE, "--set: \"%.80s\": value %d of %d is empty or too long", text, k + 1,
-               varied.count);
+        report(WEFT_USAGE, "--set: \"%.80s\": value %d of %d is empty or too long", text, k + 1, varied.count);
         return false;
     }
     return add_varied(assignment, varied);
@@ -239,8 +232,7 @@ bool assign_read(const Options *options, Assignments *assignment) {
         return false;
     }
     return check_operands(options, "--preset", false) && check_operands(options, "--material", true) &&
-           check_operands(options, "--materials", true) && check_textures(options) &&
-           check_sets(options, assignment) &&
+           check_operands(options, "--materials", true) && check_textures(options) && check_sets(options, assignment) &&
            (!option_given(options, "--convert") || option_choice(options, "--convert", targets, &target));
 }
 
@@ -279,8 +271,7 @@ static bool value_of(const Assignments *assignment, const char *values, int k, c
 }
 
 /* Sets a choice of all materials. */
-static WeftResult choose(WeftScene *scene, const char *choice, const char *id, const WeftLog *log,
-                         WeftError *error) {
+static WeftResult choose(WeftScene *scene, const char *choice, const char *id, const WeftLog *log, WeftError *error) {
     char target[64];
     snprintf(target, sizeof target, "*.%s", choice);
     return weft_scene_set(scene, target, id, log, error);
@@ -300,8 +291,8 @@ static WeftResult reset_overridden(WeftScene *scene, const char *choice, const c
     return result;
 }
 
-static WeftResult apply_axis(const Assignments *assignment, int axis, int k, WeftScene *scene,
-                             const WeftLog *log, WeftError *error) {
+static WeftResult apply_axis(const Assignments *assignment, int axis, int k, WeftScene *scene, const WeftLog *log,
+                             WeftError *error) {
     char item[ASSIGN_LABEL];
     const char *text = option_text(assignment->options, axes[axis].option), *choice = axes[axis].choice;
     if (!text) return WEFT_OK;
@@ -329,8 +320,7 @@ static WeftResult put_folder(WeftScene *scene, const char *material, const char 
 static const struct {
     const char *option;
     bool is_file;
-    WeftResult (*put)(WeftScene *scene, const char *on, const char *name, const WeftLog *log,
-                      WeftError *error);
+    WeftResult (*put)(WeftScene *scene, const char *on, const char *name, const WeftLog *log, WeftError *error);
 } operand_options[] = {{"--preset", false, put_preset},
                        {"--material", true, weft_scene_assign_material},
                        {"--materials", true, put_folder},
@@ -343,8 +333,7 @@ static WeftResult apply_operands(const Assignments *assignment, WeftScene *scene
     for (int k = 0; k < OPERAND_OPTIONS; k++) {
         int cursor = 0;
         const char *option = operand_options[k].option;
-        for (const char *text;
-             result == WEFT_OK && (text = option_next(assignment->options, option, &cursor));) {
+        for (const char *text; result == WEFT_OK && (text = option_next(assignment->options, option, &cursor));) {
             char on[TARGET_SIZE];
             const char *name = operand_of(text, operand_options[k].is_file);
             bool named = name > text;
@@ -360,8 +349,7 @@ static WeftResult apply_sets(const Assignments *assignment, int k, WeftScene *sc
                              WeftError *error) {
     WeftResult result = WEFT_OK;
     int cursor = 0;
-    for (const char *text;
-         result == WEFT_OK && (text = option_next(assignment->options, "--set", &cursor));) {
+    for (const char *text; result == WEFT_OK && (text = option_next(assignment->options, "--set", &cursor));) {
         char target[TARGET_SIZE], value[ASSIGN_LABEL];
         const char *equals = strrchr(text, '=');
         snprintf(target, sizeof target, "%.*s", (int)(equals - text), text);
@@ -383,16 +371,13 @@ static WeftResult convert(const char *workflow, WeftScene *scene, const WeftLog 
         converted++;
         snprintf(name, sizeof name, "%.79s", weft_scene_material_name(scene, k));
         if (!name[0]) snprintf(name, sizeof name, "%d", k);
-        snprintf(line, sizeof line, "material %s: conversion to %s loses %.3f", name, workflow,
-                 (double)losses[k]);
+        snprintf(line, sizeof line, "material %s: conversion to %s loses %.3f", name, workflow, (double)losses[k]);
         log->fn(log->user, WEFT_MESSAGE_NONE, line);
     }
     if (losses && (others || !converted)) {
-        snprintf(name, sizeof name, "%d of %d materials are of another workflow or a profile and stay",
-                 others, count);
-        snprintf(line, sizeof line, "--convert %s: %s%s%s", workflow,
-                 converted ? "" : "there is nothing to convert", others && !converted ? ": " : "",
-                 others ? name : "");
+        snprintf(name, sizeof name, "%d of %d materials are of another workflow or a profile and stay", others, count);
+        snprintf(line, sizeof line, "--convert %s: %s%s%s", workflow, converted ? "" : "there is nothing to convert",
+                 others && !converted ? ": " : "", others ? name : "");
         if (result == WEFT_OK) log->fn(log->user, WEFT_MESSAGE_NONE, line);
     }
     free(losses);
@@ -428,8 +413,7 @@ static void hear_once(void *user, WeftMessage message, const char *text) {
     if (heard->log && heard->log->fn) heard->log->fn(heard->log->user, message, text);
 }
 
-WeftResult assign_apply(const Assignments *assignment, int k, WeftScene *scene, const WeftLog *log,
-                        WeftError *error) {
+WeftResult assign_apply(const Assignments *assignment, int k, WeftScene *scene, const WeftLog *log, WeftError *error) {
     const char *variant = option_text(assignment->options, "--variant"),
                *workflow = option_text(assignment->options, "--convert");
     WeftResult result = WEFT_OK;

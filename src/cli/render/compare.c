@@ -69,13 +69,12 @@ static WeftResult measure(Comparison *all, WeftError *error) {
             snprintf(shot->title, sizeof shot->title, "%s \xe2\x88\x92 %s", shot->label, all->shots[0].label);
         else
             snprintf(shot->title, sizeof shot->title, "difference from %s", shot->label);
-        snprintf(shot->figures, sizeof shot->figures, "mean |difference| %.4f   relMSE %.4f",
-                 shot->difference.mean, shot->difference.relmse);
+        snprintf(shot->figures, sizeof shot->figures, "mean |difference| %.4f   relMSE %.4f", shot->difference.mean,
+                 shot->difference.relmse);
     }
     all->scale = round_up(high);
     for (int k = 1; k < all->count && result == WEFT_OK; k++)
-        result = weft_difference_image(&all->shots[k].job.linear, first, all->scale, &all->shots[k].picture,
-                                       error);
+        result = weft_difference_image(&all->shots[k].job.linear, first, all->scale, &all->shots[k].picture, error);
     return result;
 }
 
@@ -111,11 +110,10 @@ static int place_bands(const Comparison *all, WeftPanel *panels, int *columns) {
         int at = k / *columns * 2 * *columns + k % *columns;
         panels[at] = (WeftPanel){.image = &shot->job.display, .title = shot->label, .note = shot->samples};
         if (!last) break;
-        panels[at + *columns] =
-            k ? (WeftPanel){.image = &shot->picture, .title = shot->title, .note = shot->figures}
-              : (WeftPanel){.scale = all->scale,
-                            .title = shot->title,
-                            .note = "of linear radiance, the channel that differs most"};
+        panels[at + *columns] = k ? (WeftPanel){.image = &shot->picture, .title = shot->title, .note = shot->figures}
+                                  : (WeftPanel){.scale = all->scale,
+                                                .title = shot->title,
+                                                .note = "of linear radiance, the channel that differs most"};
     }
     return (last ? 2 * bands : 1) * *columns;
 }
@@ -180,8 +178,7 @@ int compare_run(const Request *request, Warnings *warnings) {
     if (result == WEFT_OK) result = measure(all, &error);
     if (result == WEFT_OK) result = compose(all, &sheet, &error);
     if (result == WEFT_OK)
-        result =
-            request_outputs_write(request, NULL, &(Outputs){.linear = &sheet, .display = &sheet}, &error);
+        result = request_outputs_write(request, NULL, &(Outputs){.linear = &sheet, .display = &sheet}, &error);
     if (result != WEFT_OK) {
         report_error(&error);
     } else {

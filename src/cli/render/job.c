@@ -16,8 +16,7 @@ static WeftResult scene_open(Job *job, WeftScene **scene, WeftError *error) {
     int picture = request->engine == ENGINE_BOTH ? 0 : job->number;
     const WeftLog log = {.fn = warnings_log, .user = job->warnings};
     WeftResult result = weft_scene_load(request->scene_options.scene, scene, &log, error);
-    if (result == WEFT_OK)
-        result = scene_options_apply(&request->scene_options, picture, *scene, &log, error);
+    if (result == WEFT_OK) result = scene_options_apply(&request->scene_options, picture, *scene, &log, error);
     return result;
 }
 
@@ -33,8 +32,7 @@ static WeftResult gather(Job *job, WeftRender *render, WeftError *error) {
     int spp = request->spp ? request->spp : REQUEST_SPP_MOST;
     double limit = request->time_limit / request_count(request);
     char prefix[32] = "";
-    if (request_count(request) > 1)
-        snprintf(prefix, sizeof prefix, "%d/%d ", job->number + 1, request_count(request));
+    if (request_count(request) > 1) snprintf(prefix, sizeof prefix, "%d/%d ", job->number + 1, request_count(request));
     Progress progress = progress_start(request->quiet, prefix, request->spp, spp, job_pixels(job), limit);
     WeftResult result = weft_render_run(render, spp, limit, progress_heed, &progress);
     progress_finish(&progress);
@@ -59,9 +57,8 @@ static const char *camera_of(const Job *job, const char *camera) {
 /* Takes the requested images from the render. */
 static WeftResult develop(Job *job, const WeftRender *render, WeftError *error) {
     const Request *request = job->request;
-    WeftResult result = request->denoise
-                            ? weft_render_denoised(render, request->denoiser, &job->linear, error)
-                            : weft_render_image(render, &job->linear, error);
+    WeftResult result = request->denoise ? weft_render_denoised(render, request->denoiser, &job->linear, error)
+                                         : weft_render_image(render, &job->linear, error);
     for (int k = 0; k < WEFT_AOV_COUNT && result == WEFT_OK; k++)
         if (request->aovs & 1u << k) result = weft_render_aov(render, (WeftAov)k, &job->aovs[k], error);
     job->noise = weft_render_noise(render);
@@ -127,8 +124,7 @@ static WeftResult raster(Job *job, const char *camera, WeftError *error) {
                            .background = desc->background};
     memcpy(view.crop, desc->crop, sizeof view.crop);
     WeftResult result = WEFT_OK;
-    if (!job->raster)
-        result = weft_raster_create(job->scene, &job->request->raster, &job->raster, &log, error);
+    if (!job->raster) result = weft_raster_create(job->scene, &job->request->raster, &job->raster, &log, error);
     double started = clock_now();
     if (result == WEFT_OK) compile_early(job->raster, view);
     if (result == WEFT_OK) result = weft_raster_wait(job->raster, error);
@@ -136,9 +132,8 @@ static WeftResult raster(Job *job, const char *camera, WeftError *error) {
     if (result == WEFT_OK) result = weft_raster_image(job->raster, &job->linear, error);
     if (result != WEFT_OK) return result;
     const WeftRasterInfo drawn = weft_raster_info(job->raster);
-    job->info = (WeftRenderInfo){.samples_per_pixel = drawn.samples,
-                                 .render_seconds = clock_now() - started,
-                                 .camera_fov = drawn.camera_fov};
+    job->info = (WeftRenderInfo){
+        .samples_per_pixel = drawn.samples, .render_seconds = clock_now() - started, .camera_fov = drawn.camera_fov};
     memcpy(job->info.camera_eye, drawn.camera_eye, sizeof job->info.camera_eye);
     memcpy(job->info.camera_target, drawn.camera_target, sizeof job->info.camera_target);
     snprintf(job->driver, sizeof job->driver, "%s", drawn.driver);
@@ -175,8 +170,8 @@ static WeftResult finish(Job *job, WeftError *error) {
     WeftTonemap curve = (WeftTonemap)scene_options->tonemap;
     float exposure = (float)scene_options->exposure;
     if (!color) return weft_image_tonemap(&job->linear, curve, exposure, &job->display, error);
-    WeftResult result = weft_image_tonemap_over(&job->linear, curve, exposure,
-                                                scene_options->background_color, &job->display, error);
+    WeftResult result =
+        weft_image_tonemap_over(&job->linear, curve, exposure, scene_options->background_color, &job->display, error);
     lay_behind(&job->linear, scene_options->background_color);
     return result;
 }
@@ -227,12 +222,11 @@ WeftResult job_write(const Job *job, const char *number, WeftError *error) {
         layers[count].image = &job->aovs[k];
         memcpy(layers[count++].channels, aov_channels[k], sizeof aov_channels[k]);
     }
-    const Outputs outputs = {
-        &job->linear,
-        &job->display,
-        {.denoised = request->denoise ? weft_denoiser_name((int)request->denoiser) : NULL,
-         .isa = job->engine == ENGINE_TRACE ? weft_isa() : NULL,
-         .layers = layers,
-         .layer_count = count}};
+    const Outputs outputs = {&job->linear,
+                             &job->display,
+                             {.denoised = request->denoise ? weft_denoiser_name((int)request->denoiser) : NULL,
+                              .isa = job->engine == ENGINE_TRACE ? weft_isa() : NULL,
+                              .layers = layers,
+                              .layer_count = count}};
     return request_outputs_write(request, number, &outputs, error);
 }

@@ -1,6 +1,5 @@
 /* job.h - one picture: its scene, which is loaded, assigned materials and lights, and drawn by an engine; its report */
-#ifndef WEFT_CLI_JOB_H
-#define WEFT_CLI_JOB_H
+#pragma once
 
 #include "cli/console/json_writer.h"
 #include "cli/console/report.h"
@@ -53,5 +52,3 @@ double job_stage_ns(const Job *job, int stage);
 
 /* Writes the members of the picture's JSON object. */
 void job_json(const Job *job, Json *json);
-
-#endif

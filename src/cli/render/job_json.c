@@ -56,8 +56,7 @@ void job_json(const Job *job, Json *json) {
     json_close(json, '}');
     json_whole(json, "peak_memory_bytes", peak_memory());
     json_open(json, "outputs", '[');
-    for (const char *path; (path = option_next(request->options, "-o", &cursor));)
-        json_text(json, NULL, path);
+    for (const char *path; (path = option_next(request->options, "-o", &cursor));) json_text(json, NULL, path);
     json_close(json, ']');
     json_open(json, "warnings", '[');
     for (int k = 0; k < job->warnings->count; k++) json_text(json, NULL, job->warnings->lines[k]);

@@ -17,10 +17,9 @@ const Option request_options[] = {
     OPTION_LIST("-o", "OUT",
                 "write OUT: .exr, .hdr and .npy linear, .png as displayed; of several pictures a sheet with "
                 "their differences, .png"),
-    OPTION_LIST(
-        "--save", "FILE",
-        "write the scene with its materials and lights, .glb or .gltf, or the cloth's material, .json; "
-        "without -o nothing else"),
+    OPTION_LIST("--save", "FILE",
+                "write the scene with its materials and lights, .glb or .gltf, or the cloth's material, .json; "
+                "without -o nothing else"),
     OPTION_NUMBER("--width", "PIXELS", "960", 1, 65536, "width of the picture"),
     OPTION_NUMBER("--height", "PIXELS", "720", 1, 65536, "height of the picture"),
     OPTION_TEXT("--crop", "X,Y,W,H", NULL, "render these pixels only, from the top left"),
@@ -35,29 +34,24 @@ const Option request_options[] = {
     OPTION_TEXT("--engine", "ENGINE", "trace",
                 "trace, the reference; raster, OpenGL; or both on a sheet, with their difference"),
     OPTION_TEXT("--gl", "KIND", "desktop", "raster: desktop, OpenGL 3.3, or es, OpenGL ES 3.0"),
-    OPTION_NUMBER("--msaa", "COUNT", "4", 1, 64,
-                  "raster: samples a pixel at edges, as far as the driver goes"),
-    OPTION_TEXT(
-        "--ambient", "STRATEGY", "best",
-        "raster: light from the environment by irradiance, mirror or fitted, by the best of them for each "
-        "lobe, or none"),
-    OPTION_NUMBER(
-        "--occlusion", "RAYS", "64", 0, 4096,
-        "raster: look from each vertex along so many rays, for what lies in creases and in shadow of a map"),
+    OPTION_NUMBER("--msaa", "COUNT", "4", 1, 64, "raster: samples a pixel at edges, as far as the driver goes"),
+    OPTION_TEXT("--ambient", "STRATEGY", "best",
+                "raster: light from the environment by irradiance, mirror or fitted, by the best of them for each "
+                "lobe, or none"),
+    OPTION_NUMBER("--occlusion", "RAYS", "64", 0, 4096,
+                  "raster: look from each vertex along so many rays, for what lies in creases and in shadow of a map"),
     OPTION_NUMBER("--polygons", "COUNT", "8", 0, WEFT_RASTER_POLYGONS,
                   "raster: light by so many of the scene's emissive polygons, the strongest"),
-    OPTION_TEXT(
-        "--part", "PART", "all",
-        "raster: all, or the light of one slot: diffuse, specular, sheen, coat or dust; or a property: "
-        "base-color, normal, roughness, sheen-color, sheen-roughness or texcoord"),
+    OPTION_TEXT("--part", "PART", "all",
+                "raster: all, or the light of one slot: diffuse, specular, sheen, coat or dust; or a property: "
+                "base-color, normal, roughness, sheen-color, sheen-roughness or texcoord"),
     OPTION_TEXT("--shader-dir", "DIR", NULL, "raster: shader text found here wins over the built-in one"),
 
     OPTION_HEADING("Sampling of the path tracer"),
     OPTION_NUMBER("--spp", "COUNT", "64", 1, REQUEST_SPP_MOST,
                   "samples a pixel; without end where only --time-limit is given"),
     OPTION_NUMBER("--time-limit", "SECONDS", NULL, 1e-3, 1e9, "stop then and write what there is"),
-    OPTION_SWITCH("--halves",
-                  "take the samples in two independent halves, by which the picture's relMSE is estimated"),
+    OPTION_SWITCH("--halves", "take the samples in two independent halves, by which the picture's relMSE is estimated"),
     OPTION_NUMBER("--noise", "LEVEL", NULL, 1e-9, 1e9,
                   "stop as soon as the picture's relMSE, estimated from two halves of its samples, is at "
                   "most LEVEL; --spp is "
@@ -90,31 +84,27 @@ static bool read_crop(const Options *options, WeftRenderDesc *desc) {
     if (!text) return true;
     bool good = numbers_parse(text, 4, v);
     for (int k = 0; good && k < 4; k++) {
-        good = v[k] >= (k < 2 ? 0.0 : 1.0) && v[k] <= (k % 2 ? desc->height : desc->width) &&
-               !(v[k] > floor(v[k]));
+        good = v[k] >= (k < 2 ? 0.0 : 1.0) && v[k] <= (k % 2 ? desc->height : desc->width) && !(v[k] > floor(v[k]));
         if (good) desc->crop[k] = (int)v[k];
     }
     if (good && desc->crop[0] + desc->crop[2] <= desc->width && desc->crop[1] + desc->crop[3] <= desc->height)
         return true;
-    report(WEFT_USAGE, "--crop: \"%.80s\" is not X,Y,W,H within %d x %d pixels", text, desc->width,
-           desc->height);
+    report(WEFT_USAGE, "--crop: \"%.80s\" is not X,Y,W,H within %d x %d pixels", text, desc->width, desc->height);
     return false;
 }
 
 /* Reads the engine and checks the options that go with it. */
 static bool read_engine(const Options *options, Request *request) {
-    static const char *const engines[] = {"trace", "raster", "both", NULL}; /* as Engine */
-    static const char *const gl_versions[] = {"desktop", "es", NULL};       /* as WeftGl */
-    static const char *const ambients[] = {"best",   "irradiance", "mirror",
-                                           "fitted", "none",       NULL}; /* as WeftAmbient */
+    static const char *const engines[] = {"trace", "raster", "both", NULL};                         /* as Engine */
+    static const char *const gl_versions[] = {"desktop", "es", NULL};                               /* as WeftGl */
+    static const char *const ambients[] = {"best", "irradiance", "mirror", "fitted", "none", NULL}; /* as WeftAmbient */
     const char *parts[WEFT_PART_COUNT + 1];
     int engine = 0, kind = 0, ambient = 0, part = 0, occlusion = 0;
     for (int k = 0; k <= WEFT_PART_COUNT; k++) parts[k] = weft_part_name(k);
     bool good = option_choice(options, "--engine", engines, &engine) &&
                 option_choice(options, "--gl", gl_versions, &kind) &&
                 option_choice(options, "--ambient", ambients, &ambient) &&
-                option_choice(options, "--part", parts, &part) &&
-                option_integer(options, "--msaa", &request->msaa) &&
+                option_choice(options, "--part", parts, &part) && option_integer(options, "--msaa", &request->msaa) &&
                 option_integer(options, "--polygons", &request->polygons) &&
                 option_integer(options, "--occlusion", &occlusion) &&
                 option_integer(options, "--turntable", &request->turntable);
@@ -150,8 +140,7 @@ static bool read_desc(const Options *options, WeftRenderDesc *desc) {
     int seed = 0, sampling = 0;
     bool good = option_integer(options, "--width", &desc->width) &&
                 option_integer(options, "--height", &desc->height) && read_crop(options, desc) &&
-                option_integer(options, "--max-depth", &desc->max_depth) &&
-                option_integer(options, "--seed", &seed) &&
+                option_integer(options, "--max-depth", &desc->max_depth) && option_integer(options, "--seed", &seed) &&
                 option_integer(options, "--threads", &desc->threads) &&
                 option_choice(options, "--sampling", strategies, &sampling);
     desc->seed = (uint32_t)seed;
@@ -199,20 +188,18 @@ static bool read_extras(const Options *options, Request *request) {
             return false;
         }
     if (!read_aovs(option_text(options, "--aov"), &request->aovs) ||
-        !option_choice(options, "--denoiser", denoisers, &denoiser) ||
-        !option_number(options, "--noise", &noise))
+        !option_choice(options, "--denoiser", denoisers, &denoiser) || !option_number(options, "--noise", &noise))
         return false;
     request->denoiser = (WeftDenoiser)denoiser;
     request->denoise = option_given(options, "--denoise") || option_given(options, "--denoiser");
     if (request->denoise && request_count(request) > 1) {
-        report(WEFT_USAGE,
-               "--denoise: not for a sheet, whose differences would not be those of its pictures");
+        report(WEFT_USAGE, "--denoise: not for a sheet, whose differences would not be those of its pictures");
         return false;
     }
     if (option_given(options, "--noise") && !option_given(options, "--spp")) request->spp = 0;
     request->desc.noise = option_given(options, "--noise") ? (float)noise : 0.0f;
-    request->desc.halves = option_given(options, "--halves") || request->denoise ||
-                           request->desc.noise > 0.0f || (request->aovs & 1u << WEFT_AOV_VARIANCE);
+    request->desc.halves = option_given(options, "--halves") || request->denoise || request->desc.noise > 0.0f ||
+                           (request->aovs & 1u << WEFT_AOV_VARIANCE);
     request->desc.first_hits = request->denoise || (request->aovs & ((2u << WEFT_AOV_DEPTH) - 1u));
     return true;
 }
@@ -222,8 +209,8 @@ bool request_read(const Options *options, Request *request) {
     bool good = read_desc(options, &request->desc) &&
                 scene_options_read(options, options->operands[0], &request->scene_options) &&
                 option_integer(options, "--spp", &request->spp) &&
-                option_number(options, "--time-limit", &request->time_limit) &&
-                read_engine(options, request) && read_extras(options, request) && use_isa(options);
+                option_number(options, "--time-limit", &request->time_limit) && read_engine(options, request) &&
+                read_extras(options, request) && use_isa(options);
     request->desc.camera = request->scene_options.camera;
     bool laid_behind = request->scene_options.background == WEFT_BACKGROUND_COLOR; /* by job_draw */
     request->desc.background = laid_behind ? WEFT_BACKGROUND_TRANSPARENT : request->scene_options.background;
@@ -240,8 +227,7 @@ int request_outputs_check(const Request *request) {
     WeftError error;
     result = save_check(options);
     if (result != 0) return result;
-    if (request->denoise && weft_denoiser_check(request->denoiser, &error) != WEFT_OK)
-        return report_error(&error);
+    if (request->denoise && weft_denoiser_check(request->denoiser, &error) != WEFT_OK) return report_error(&error);
     if (!option_given(options, "-o") && !option_given(options, "--save"))
         return report(WEFT_USAGE, "render: needs -o OUT, a .png, .exr, .hdr or .npy file");
     for (const char *path; (path = option_next(options, "-o", &cursor));)
@@ -273,8 +259,7 @@ static char *numbered(const char *path, const char *number) {
     return name;
 }
 
-WeftResult request_outputs_write(const Request *request, const char *number, const Outputs *outputs,
-                                 WeftError *error) {
+WeftResult request_outputs_write(const Request *request, const char *number, const Outputs *outputs, WeftError *error) {
     int cursor = 0;
     WeftError other;
     WeftResult result = WEFT_OK;

@@ -1,6 +1,5 @@
 /* request.h - the command line of `weft render`, checked */
-#ifndef WEFT_CLI_REQUEST_H
-#define WEFT_CLI_REQUEST_H
+#pragma once
 
 #include "cli/render/scene_options.h"
 #include "weft/raster.h"
@@ -48,12 +47,9 @@ typedef struct Outputs {
 
 /* Writes every -o; one that fails does not keep the others from being written. number (may be NULL) comes
  * before every suffix. */
-WeftResult request_outputs_write(const Request *request, const char *number, const Outputs *outputs,
-                                 WeftError *error);
+WeftResult request_outputs_write(const Request *request, const char *number, const Outputs *outputs, WeftError *error);
 
 enum { REQUEST_FILES = 512 };
 
 /* Writes the names of the -o files, separated by commas, to a buffer of the caller's. */
 const char *request_outputs_text(const Request *request, char files[REQUEST_FILES]);
-
-#endif

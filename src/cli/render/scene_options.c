@@ -26,8 +26,7 @@ static bool colors(const char *text, float color[3]) {
 }
 
 static bool read_background(const Options *options, SceneOptions *scene_options) {
-    static const char *const names[] = {"auto",           "environment", "transparent",
-                                        "a linear r,g,b", "blurred",     NULL};
+    static const char *const names[] = {"auto", "environment", "transparent", "a linear r,g,b", "blurred", NULL};
     int choice = WEFT_BACKGROUND_COLOR;
     bool good = colors(option_text(options, "--background"), scene_options->background_color) ||
                 (option_choice(options, "--background", names, &choice) && choice != WEFT_BACKGROUND_COLOR);
@@ -115,8 +114,7 @@ static bool check_scene(const char *scene) {
     for (int k = 0; weft_builtin_name(k); k++) {
         if (strcmp(weft_builtin_name(k), name) == 0) return true;
         nearest_offer(&nearest, weft_builtin_name(k));
-        snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", k ? ", " : "",
-                 weft_builtin_name(k));
+        snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", k ? ", " : "", weft_builtin_name(k));
     }
     report(WEFT_USAGE, "%.200s: %s: available: %s%s", scene, weft_message_text(WEFT_MESSAGE_SCENE_NAME), list,
            nearest_hint(&nearest, hint, sizeof hint));
@@ -141,18 +139,15 @@ static bool read_floor(const Options *options, SceneOptions *scene_options) {
 
 bool scene_options_read(const Options *options, const char *scene, SceneOptions *scene_options) {
     static const char *const curves[] = {"pbr-neutral", "aces", "none", NULL}; /* as WeftTonemap */
-    *scene_options =
-        (SceneOptions){.options = options, .scene = scene, .camera = option_text(options, "--camera")};
-    return check_scene(scene) && read_background(options, scene_options) &&
-           read_env(options, scene_options) &&
+    *scene_options = (SceneOptions){.options = options, .scene = scene, .camera = option_text(options, "--camera")};
+    return check_scene(scene) && read_background(options, scene_options) && read_env(options, scene_options) &&
            option_number(options, "--exposure", &scene_options->exposure) &&
            option_number(options, "--env-rotation", &scene_options->env_rotation) &&
            option_number(options, "--env-strength", &scene_options->env_strength) &&
            option_number(options, "--env-ambient", &scene_options->env_ambient) &&
            option_number(options, "--env-reflection", &scene_options->env_reflection) &&
-           option_choice(options, "--tonemap", curves, &scene_options->tonemap) &&
-           read_floor(options, scene_options) && assign_read(options, &scene_options->assignment) &&
-           read_lights(options, scene_options);
+           option_choice(options, "--tonemap", curves, &scene_options->tonemap) && read_floor(options, scene_options) &&
+           assign_read(options, &scene_options->assignment) && read_lights(options, scene_options);
 }
 
 WeftResult scene_options_apply(const SceneOptions *scene_options, int k, WeftScene *scene, const WeftLog *log,

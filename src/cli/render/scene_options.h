@@ -1,6 +1,5 @@
 /* scene_options.h - the options of every verb that shows a scene: scene, materials, lights, camera */
-#ifndef WEFT_CLI_SCENE_OPTIONS_H
-#define WEFT_CLI_SCENE_OPTIONS_H
+#pragma once
 
 #include "cli/render/assign_options.h"
 #include "weft/render.h"
@@ -8,38 +7,35 @@
 enum { SCENE_LIGHTS_MOST = 64 };
 
 /* The rows of the option table. */
-#define SCENE_OPTIONS                                                                                        \
-    OPTION_HEADING("View and light"),                                                                        \
-        OPTION_TEXT("--camera", "CAMERA", NULL,                                                              \
-                    "auto, which frames the scene, a camera's name or index, or \"eye;target;fov\" as "      \
-                    "\"x,y,z;x,y,z;degrees\" [auto; the first camera of a built-in scene]"),                 \
-        OPTION_TEXT("--env", "FILE|r,g,b", NULL,                                                             \
-                    "light from a lat-long picture, or one radiance (r,g,b or a number) from everywhere [a " \
-                    "studio]"),                                                                              \
-        OPTION_NUMBER("--env-rotation", "DEGREES", "0", -1e6, 1e6,                                           \
-                      "turn the environment about the vertical"),                                            \
-        OPTION_NUMBER("--env-strength", "FACTOR", "1", 0, 1e6, "scale the environment"),                     \
-        OPTION_NUMBER("--env-ambient", "FACTOR", "1", 0, 1e6,                                                \
-                      "scale what diffuse lobes and dust reflect of it"),                                    \
-        OPTION_NUMBER("--env-reflection", "FACTOR", "1", 0, 1e6,                                             \
-                      "scale what specular, sheen and coat lobes reflect of it"),                            \
-        OPTION_LIST(                                                                                         \
-            "--light", "LIGHT",                                                                              \
-            "add a light: \"sun;DIRECTION;COLOR\", \"point;POSITION;COLOR\", "                               \
-            "\"spot;POSITION;DIRECTION;COLOR;INNER,OUTER\" or "                                              \
-            "\"polygon;POSITION;DIRECTION;W,H;COLOR;CORNERS,ROLL\", each x,y,z or r,g,b, cones and roll in " \
-            "degrees, 3 to 8 corners; none drops those before it, the file's too"),                          \
-        OPTION_NUMBER("--exposure", "STOPS", "0", -32, 32, "brighten a .png by 2^STOPS"),                    \
-        OPTION_TEXT("--tonemap", "CURVE", "pbr-neutral",                                                     \
-                    "of a .png: none, pbr-neutral or aces, which is Narkowicz' fit of the ACES curve"),      \
-        OPTION_TEXT("--background", "WHAT", "auto",                                                          \
-                    "auto, environment, blurred, transparent or r,g,b, linear, which is shown as it is: "    \
-                    "1,1,1 is white"),                                                                       \
-        OPTION_SWITCH("--floor", "a floor that only catches the scene's shadow and mirrors it"),             \
-        OPTION_NUMBER("--floor-reflection", "SHARE", "0.1", 0, 1, "of the scene that the floor mirrors"),    \
-        OPTION_NUMBER("--floor-roughness", "ROUGHNESS", "0.3", 0, 1, "of the floor's mirror"),               \
-        OPTION_SWITCH("--hide-lights", "polygon lights shine, but the camera looks through them"),           \
-                                                                                                             \
+#define SCENE_OPTIONS                                                                                                  \
+    OPTION_HEADING("View and light"),                                                                                  \
+        OPTION_TEXT("--camera", "CAMERA", NULL,                                                                        \
+                    "auto, which frames the scene, a camera's name or index, or \"eye;target;fov\" as "                \
+                    "\"x,y,z;x,y,z;degrees\" [auto; the first camera of a built-in scene]"),                           \
+        OPTION_TEXT("--env", "FILE|r,g,b", NULL,                                                                       \
+                    "light from a lat-long picture, or one radiance (r,g,b or a number) from everywhere [a "           \
+                    "studio]"),                                                                                        \
+        OPTION_NUMBER("--env-rotation", "DEGREES", "0", -1e6, 1e6, "turn the environment about the vertical"),         \
+        OPTION_NUMBER("--env-strength", "FACTOR", "1", 0, 1e6, "scale the environment"),                               \
+        OPTION_NUMBER("--env-ambient", "FACTOR", "1", 0, 1e6, "scale what diffuse lobes and dust reflect of it"),      \
+        OPTION_NUMBER("--env-reflection", "FACTOR", "1", 0, 1e6,                                                       \
+                      "scale what specular, sheen and coat lobes reflect of it"),                                      \
+        OPTION_LIST("--light", "LIGHT",                                                                                \
+                    "add a light: \"sun;DIRECTION;COLOR\", \"point;POSITION;COLOR\", "                                 \
+                    "\"spot;POSITION;DIRECTION;COLOR;INNER,OUTER\" or "                                                \
+                    "\"polygon;POSITION;DIRECTION;W,H;COLOR;CORNERS,ROLL\", each x,y,z or r,g,b, cones and roll in "   \
+                    "degrees, 3 to 8 corners; none drops those before it, the file's too"),                            \
+        OPTION_NUMBER("--exposure", "STOPS", "0", -32, 32, "brighten a .png by 2^STOPS"),                              \
+        OPTION_TEXT("--tonemap", "CURVE", "pbr-neutral",                                                               \
+                    "of a .png: none, pbr-neutral or aces, which is Narkowicz' fit of the ACES curve"),                \
+        OPTION_TEXT("--background", "WHAT", "auto",                                                                    \
+                    "auto, environment, blurred, transparent or r,g,b, linear, which is shown as it is: "              \
+                    "1,1,1 is white"),                                                                                 \
+        OPTION_SWITCH("--floor", "a floor that only catches the scene's shadow and mirrors it"),                       \
+        OPTION_NUMBER("--floor-reflection", "SHARE", "0.1", 0, 1, "of the scene that the floor mirrors"),              \
+        OPTION_NUMBER("--floor-roughness", "ROUGHNESS", "0.3", 0, 1, "of the floor's mirror"),                         \
+        OPTION_SWITCH("--hide-lights", "polygon lights shine, but the camera looks through them"),                     \
+                                                                                                                       \
         ASSIGN_OPTIONS
 
 typedef struct SceneOptions {
@@ -66,5 +62,3 @@ bool scene_options_read(const Options *options, const char *scene, SceneOptions 
 /* Applies the options of picture number k to a fresh scene, from the asset to its details. */
 WeftResult scene_options_apply(const SceneOptions *scene_options, int k, WeftScene *scene, const WeftLog *log,
                                WeftError *error);
-
-#endif

@@ -12,8 +12,7 @@ static void rotated_camera(const WeftRenderInfo *first, int k, int count, char c
     double angle = 2.0 * PI_DOUBLE * k / count, c = cos(angle), s = sin(angle);
     double x = (double)e[0] - (double)t[0], z = (double)e[2] - (double)t[2];
     snprintf(camera, 256, "%.9g,%.9g,%.9g;%.9g,%.9g,%.9g;%.9g", (double)t[0] + c * x + s * z, (double)e[1],
-             (double)t[2] - s * x + c * z, (double)t[0], (double)t[1], (double)t[2],
-             (double)first->camera_fov);
+             (double)t[2] - s * x + c * z, (double)t[0], (double)t[1], (double)t[2], (double)first->camera_fov);
 }
 
 WeftResult turntable_run(Job *job, WeftError *error) {

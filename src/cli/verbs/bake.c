@@ -83,16 +83,13 @@ static int bake_read(const Options *options, BakeVerb *bake) {
     int cursor = 0, result = 0;
     bake->options = options;
     bake->kind = kind;
-    if (!kind || !none_given(options, others, kind->id) ||
-        (!kind->formed && !none_given(options, form, kind->id)) || !bake_common(options, &bake->common) ||
-        !size_read(options, kind, &bake->desc))
+    if (!kind || !none_given(options, others, kind->id) || (!kind->formed && !none_given(options, form, kind->id)) ||
+        !bake_common(options, &bake->common) || !size_read(options, kind, &bake->desc))
         return WEFT_USAGE;
     if (!lobe && kind->lobe == 2)
         return report(WEFT_USAGE, "bake %s: needs a lobe: weft bake %s LOBE -o OUT", kind->id, kind->id);
-    if (lobe && !kind->lobe)
-        return report(WEFT_USAGE, "%.200s: is one operand too many for %s", lobe, kind->id);
-    if (!lobe && option_given(options, "-p"))
-        return report(WEFT_USAGE, "-p: is for a lobe, and none is given");
+    if (lobe && !kind->lobe) return report(WEFT_USAGE, "%.200s: is one operand too many for %s", lobe, kind->id);
+    if (!lobe && option_given(options, "-p")) return report(WEFT_USAGE, "-p: is for a lobe, and none is given");
     if (lobe) result = bake_lobe(options, lobe, &bake->lobe);
     if (result == 0 && !option_given(options, "-o"))
         result = report(WEFT_USAGE, "bake: needs -o OUT, a .h, .png, .exr, .dds, .npy, .csv or .txt file");
@@ -125,8 +122,8 @@ static void warnings(const BakeVerb *bake) {
     const WeftBakeInfo *info = &bake->info;
     if (bake->common.quiet) return;
     if (info->unmet)
-        report(0, "warning: the quadrature of %lld values did not reach %g; they may be off by %.2g",
-               info->unmet, bake->common.tolerance, info->error);
+        report(0, "warning: the quadrature of %lld values did not reach %g; they may be off by %.2g", info->unmet,
+               bake->common.tolerance, info->error);
     if (info->beyond)
         report(0, "warning: %lld texels are beyond the range of a parameter, and hold its end", info->beyond);
 }
@@ -136,8 +133,8 @@ static int files_write(const BakeVerb *bake) {
     char *command = command_text(bake->options);
     int cursor = 0, result = command ? 0 : report(WEFT_RESOURCES, "out of memory");
     snprintf(about, sizeof about, "%s: %s%s%s; within %.2g", bake->info.words, bake->info.channels,
-             bake->kind->formed ? "; " : "",
-             bake->kind->formed ? weft_table_form_text(&bake->desc.form, elements) : "", bake->info.error);
+             bake->kind->formed ? "; " : "", bake->kind->formed ? weft_table_form_text(&bake->desc.form, elements) : "",
+             bake->info.error);
     const TableFile file = {.table = &bake->table,
                             .command = command,
                             .about = about,
@@ -190,9 +187,8 @@ static int table_run(const Options *options) {
     warnings(&bake);
     result = files_write(&bake);
     if (result == 0 && !bake.common.quiet)
-        report(0, "%s: %d x %d texels in %.2f s, values %.3g to %.3g within %.2g", bake.info.words,
-               bake.table.width, bake.table.height, bake.seconds, (double)bake.info.low,
-               (double)bake.info.high, bake.info.error);
+        report(0, "%s: %d x %d texels in %.2f s, values %.3g to %.3g within %.2g", bake.info.words, bake.table.width,
+               bake.table.height, bake.seconds, (double)bake.info.low, (double)bake.info.high, bake.info.error);
     if (result == 0 && option_given(options, "--json")) json_write(&bake);
     weft_image_free(&bake.table);
     return result;
@@ -200,16 +196,14 @@ static int table_run(const Options *options) {
 
 static int bake_run(const Options *options) {
     static const char *const others[] = {"--size", "--half", "--rounds", NULL};
-    static const char *const tables[] = {"--size", "--half", "--axes", "--scale",
-                                         "-p",     "--lobe", "--json", NULL};
+    static const char *const tables[] = {"--size", "--half", "--axes", "--scale", "-p", "--lobe", "--json", NULL};
     static const char *const numbers[] = {"--half", "--axes", "--scale",   "--tolerance", "-p", "--rounds",
                                           "--lobe", "--max",  "--channel", "--json",      NULL};
     static const char *const sizes[] = {"--size", NULL};
     const char *kind = options->operands[0];
     if (strcmp(kind, "fibre-model") == 0)
         return none_given(options, tables, kind) ? fibre_model_run(options) : WEFT_USAGE;
-    if (strcmp(kind, "bsdf") == 0)
-        return none_given(options, numbers, kind) ? bake_bsdf_run(options) : WEFT_USAGE;
+    if (strcmp(kind, "bsdf") == 0) return none_given(options, numbers, kind) ? bake_bsdf_run(options) : WEFT_USAGE;
     if (strcmp(kind, "lobe") == 0)
         return none_given(options, numbers, kind) && none_given(options, sizes, kind) ? bake_lobe_run(options)
                                                                                       : WEFT_USAGE;
@@ -222,21 +216,16 @@ static void lists(void) {
     for (int k = 0; weft_bake_kind(k); k++) {
         char name[64], help[200];
         const WeftBakeKind *kind = weft_bake_kind(k);
-        snprintf(name, sizeof name, "%s%s", kind->id,
-                 kind->lobe == 2 ? " LOBE"
-                 : kind->lobe    ? " [LOBE]"
-                                 : "");
+        snprintf(name, sizeof name, "%s%s", kind->id, kind->lobe == 2 ? " LOBE" : kind->lobe ? " [LOBE]" : "");
         snprintf(help, sizeof help, "%s [%dx%d]", kind->help, kind->width, kind->height);
         layout_entry(stdout, 26, name, help);
     }
     layout_entry(stdout, 26, "fibre-model", "the numbers of the lobe fibre, fitted to solved slabs: minutes");
-    layout_entry(
-        stdout, 26, "bsdf MODEL",
-        "a whole BRDF as a file of RGL's format, .bsdf; --size polar angles x points along each side "
-        "[as many as bring f back within 1e-3]");
-    layout_entry(
-        stdout, 26, "lobe DATA",
-        "a measured BRDF as a lobe of one's own, NAME.h, which --lobe takes, and a material of it, .json");
+    layout_entry(stdout, 26, "bsdf MODEL",
+                 "a whole BRDF as a file of RGL's format, .bsdf; --size polar angles x points along each side "
+                 "[as many as bring f back within 1e-3]");
+    layout_entry(stdout, 26, "lobe DATA",
+                 "a measured BRDF as a lobe of one's own, NAME.h, which --lobe takes, and a material of it, .json");
     layout_entry(stdout, 26, "audit FILE --lobe LOBE", "how far a table of E in FILE is off, and why");
     printf("\nAxes\n");
     for (int k = 0; weft_table_form_name(k); k++) {
@@ -249,33 +238,28 @@ static void lists(void) {
 
 static const Option bake_options[] = {
     OPTION_HEADING("Output"),
-    OPTION_LIST(
-        "-o", "OUT",
-        "write OUT: .h a C array, .png 16 bit, .exr or .dds 32 bit floats, .npy, .csv or .txt; of a bsdf "
-        ".bsdf, of a lobe .h and .json; of an audit the errors: .png a sheet, .exr or .npy the numbers"),
-    OPTION_NUMBER(
-        "--scale", "NUMBER", NULL, 1e-6, 1e6,
-        "a .png holds the table / NUMBER, and an audit takes FILE times NUMBER [1; for values above "
-        "1 the least power of two]"),
+    OPTION_LIST("-o", "OUT",
+                "write OUT: .h a C array, .png 16 bit, .exr or .dds 32 bit floats, .npy, .csv or .txt; of a bsdf "
+                ".bsdf, of a lobe .h and .json; of an audit the errors: .png a sheet, .exr or .npy the numbers"),
+    OPTION_NUMBER("--scale", "NUMBER", NULL, 1e-6, 1e6,
+                  "a .png holds the table / NUMBER, and an audit takes FILE times NUMBER [1; for values above "
+                  "1 the least power of two]"),
     OPTION_SWITCH("--half", "an .exr of 16 bit floats"),
     OPTION_HEADING("Table"),
     OPTION_TEXT("--size", "WxH", NULL, "texels [what the kind has, below]"),
-    OPTION_TEXT(
-        "--axes", "AXES", NULL,
-        "what runs along x and y: a name, or elements, both below [gltf; of an audit what fits best]"),
+    OPTION_TEXT("--axes", "AXES", NULL,
+                "what runs along x and y: a name, or elements, both below [gltf; of an audit what fits best]"),
     OPTION_NUMBER("--tolerance", "ERROR", "1e-4", 1e-7, 1e-1, "error budget of the quadrature, absolute"),
-    OPTION_LIST(
-        "-p", "NAME=VALUE",
-        "a parameter of the lobe, as `weft eval` has it; but neither the first, which is an axis, nor "
-        "a color"),
+    OPTION_LIST("-p", "NAME=VALUE",
+                "a parameter of the lobe, as `weft eval` has it; but neither the first, which is an axis, nor "
+                "a color"),
     OPTION_NUMBER("--rounds", "COUNT", "120", 1, 1000, "of the search that makes a fibre-model"),
     OPTION_HEADING("Audit"),
     OPTION_LOBES_OR("whose E the table should hold, any: the lobe and axes it is nearest to"),
     OPTION_TEXT("--channel", "CHANNEL", NULL, "r, g, b, a or its number from 0 [the only one]"),
     OPTION_NUMBER("--max", "ERROR", "0.01", 1e-9, 1e9, "exit 1 where a texel is off by more"),
     OPTION_HEADING("Reports"),
-    OPTION_NUMBER("--threads", "COUNT", "0", 0, 256,
-                  "processors to use; 0: all; no influence on the numbers"),
+    OPTION_NUMBER("--threads", "COUNT", "0", 0, 256, "processors to use; 0: all; no influence on the numbers"),
     OPTION_SWITCH("--quiet", "no progress, no warnings, no summary"),
     OPTION_SWITCH("--json", "figures as JSON on standard output"),
     OPTION_END,

@@ -32,9 +32,7 @@ static double improbable(const WeftPassport *p) { return 1.0 - weft_passport_sig
 static double stray(const WeftPassport *p) { return p->stray; }
 static double missed(const WeftPassport *p) { return (double)p->missed; }
 static double beyond(const WeftPassport *p) { return (double)p->parity_beyond; }
-static double swept(const WeftPassport *p) {
-    return (double)(p->sweep_infinite + p->sweep_negative + p->sweep_below);
-}
+static double swept(const WeftPassport *p) { return (double)(p->sweep_infinite + p->sweep_negative + p->sweep_below); }
 
 static const Bound bounds[] = {
     {"--max-albedo", "the directional albedo", HUGE_VAL, albedo, 1e-3},
@@ -104,8 +102,7 @@ static int add_all(Check *check) {
     if (!check->passports) return report(WEFT_RESOURCES, "check: %s", weft_message_text(WEFT_MESSAGE_MEMORY));
     if (check->lines && !check->json && !check->header) passport_line_heading();
     for (int k = 0; k < lobes + profiles && result == 0; k++)
-        result =
-            add(check, k < lobes ? weft_lobe_info(k)->id : weft_profile_name(k - lobes), lobes + profiles);
+        result = add(check, k < lobes ? weft_lobe_info(k)->id : weft_profile_name(k - lobes), lobes + profiles);
     return result;
 }
 
@@ -129,8 +126,7 @@ static int take_weave(Check *check, const char *id) {
     int result = model_read(id, &check->model);
     if (result != 0) return result;
     if (!check->model.cloth)
-        return report(WEFT_USAGE, "%.200s: is a material that is not woven; check its profile or its lobes",
-                      id);
+        return report(WEFT_USAGE, "%.200s: is a material that is not woven; check its profile or its lobes", id);
     check->desc.material = &check->model.material;
     check->desc.cloth = check->model.cloth;
     return 0;
@@ -185,8 +181,7 @@ static int check_run(const Options *options) {
     Check check;
     if (!check_read(options, &check)) return WEFT_USAGE;
     const char *page = option_text(options, "--html");
-    if (check.header && (check.json || page))
-        return report(WEFT_USAGE, "--header: does not go with --json or --html");
+    if (check.header && (check.json || page)) return report(WEFT_USAGE, "--header: does not go with --json or --html");
     if (check.lines && option_given(options, "-p")) return report(WEFT_USAGE, "-p: does not go with \"all\"");
     int result = page ? output_probe(page) : 0; /* before minutes of measuring */
     if (result == 0) result = check.lines ? add_all(&check) : add_one(&check, options->operands[0]);
@@ -208,8 +203,7 @@ static const Option check_options[] = {
     OPTION_LOBES,
     OPTION_SWITCH("--quick", "fewer rows, pairs and samples: a first look"),
     OPTION_SWITCH("--no-gpu", "do not compare with the GPU"),
-    OPTION_NUMBER("--threads", "COUNT", "0", 0, 256,
-                  "processors to use; 0: all; no influence on the numbers"),
+    OPTION_NUMBER("--threads", "COUNT", "0", 0, 256, "processors to use; 0: all; no influence on the numbers"),
     OPTION_SWITCH("--json", "JSON instead of text; of all, an array"),
     OPTION_TEXT("--html", "FILE", NULL, "write one page with plots, which needs no other file"),
     OPTION_SWITCH("--header", "only the lines that the opening comment of the lobe's file ends with"),

@@ -26,15 +26,13 @@ static float best(const Diff *diff) { return diff->desc.metric == WEFT_METRIC_SS
 
 static bool failed(const Diff *diff) {
     if (isnan(diff->most)) return false;
-    return diff->desc.metric == WEFT_METRIC_SSIM ? diff->found.value < diff->most
-                                                 : diff->found.value > diff->most;
+    return diff->desc.metric == WEFT_METRIC_SSIM ? diff->found.value < diff->most : diff->found.value > diff->most;
 }
 
 static int output_check(Diff *diff) {
     const char *path = diff->output = option_text(diff->options, "-o");
     if (!path) return 0;
-    if (path_ends(path, ".png") || path_ends(path, ".exr") || path_ends(path, ".npy"))
-        return output_probe(path);
+    if (path_ends(path, ".png") || path_ends(path, ".exr") || path_ends(path, ".npy")) return output_probe(path);
     return report(WEFT_USAGE, "%s: a difference is written as .png, .exr or .npy", path);
 }
 
@@ -42,25 +40,22 @@ static int images_read(Diff *diff) {
     WeftError error;
     const WeftLog log = {.fn = report_warning};
     for (int k = 0; k < 2; k++)
-        if (weft_image_read(diff->paths[k], &diff->images[k], &log, &error) != WEFT_OK)
-            return report_error(&error);
+        if (weft_image_read(diff->paths[k], &diff->images[k], &log, &error) != WEFT_OK) return report_error(&error);
     const WeftImage *a = &diff->images[0], *b = &diff->images[1];
     if (a->width == b->width && a->height == b->height) return 0;
-    return report(WEFT_USAGE, "%.300s: is %d x %d pixels, but %.300s %d x %d", diff->paths[0], a->width,
-                  a->height, diff->paths[1], b->width, b->height);
+    return report(WEFT_USAGE, "%.300s: is %d x %d pixels, but %.300s %d x %d", diff->paths[0], a->width, a->height,
+                  diff->paths[1], b->width, b->height);
 }
 
 static int diff_read(Diff *diff) {
-    static const char *const metrics[] = {"relmse", "flip", "ssim", NULL}, *const curves[] = {"pbr-neutral",
-                                                                                              "aces", "none",
-                                                                                              NULL};
+    static const char *const metrics[] = {"relmse", "flip", "ssim", NULL}, *const curves[] = {"pbr-neutral", "aces",
+                                                                                              "none", NULL};
     const Options *options = diff->options;
     int metric = 0, curve = 0;
     double sight = 0.0, exposure = 0.0;
-    if (!option_choice(options, "--metric", metrics, &metric) ||
-        !option_choice(options, "--tonemap", curves, &curve) || !option_number(options, "--ppd", &sight) ||
-        !option_number(options, "--exposure", &exposure) || !option_number(options, "--max", &diff->most) ||
-        !option_number(options, "--scale", &diff->scale))
+    if (!option_choice(options, "--metric", metrics, &metric) || !option_choice(options, "--tonemap", curves, &curve) ||
+        !option_number(options, "--ppd", &sight) || !option_number(options, "--exposure", &exposure) ||
+        !option_number(options, "--max", &diff->most) || !option_number(options, "--scale", &diff->scale))
         return WEFT_USAGE;
     diff->desc = (WeftDiffDesc){.image = &diff->images[0],
                                 .reference = &diff->images[1],
@@ -88,8 +83,8 @@ static void text_write(const Diff *diff) {
     snprintf(text, sizeof text, "%.4g or better", (double)found->high);
     layout_entry(stdout, COLUMN, "99 of 100", text);
     if (found->exposures) {
-        snprintf(text, sizeof text, "%d, from %.4g to %.4g stops", found->exposures,
-                 (double)found->exposure_low, (double)found->exposure_high);
+        snprintf(text, sizeof text, "%d, from %.4g to %.4g stops", found->exposures, (double)found->exposure_low,
+                 (double)found->exposure_high);
         layout_entry(stdout, COLUMN, "exposures", text);
     }
     if (isnan(diff->most)) return;
@@ -139,8 +134,7 @@ static double rounded_up(double x) {
 static WeftResult heat_write(const Diff *diff, WeftError *error) {
     const WeftDiff *found = &diff->found;
     const float none = best(diff);
-    const double range =
-        isnan(diff->scale) ? rounded_up(fabs((double)found->high - (double)none)) : diff->scale;
+    const double range = isnan(diff->scale) ? rounded_up(fabs((double)found->high - (double)none)) : diff->scale;
     const float most = (float)(diff->desc.metric == WEFT_METRIC_SSIM ? 1.0 - range : range);
     WeftImage heat, sheet = {0};
     char title[80], note[120], caption[400];
@@ -177,9 +171,8 @@ static int diff_make(Diff *diff) {
         text_write(diff);
     if (!failed(diff)) return 0;
     fflush(stdout);
-    return report(WEFT_FAILED, "%.300s: %s is %.6g, %s than %g", diff->paths[0],
-                  weft_metric_name(diff->desc.metric), diff->found.value,
-                  diff->desc.metric == WEFT_METRIC_SSIM ? "less" : "more", diff->most);
+    return report(WEFT_FAILED, "%.300s: %s is %.6g, %s than %g", diff->paths[0], weft_metric_name(diff->desc.metric),
+                  diff->found.value, diff->desc.metric == WEFT_METRIC_SSIM ? "less" : "more", diff->most);
 }
 
 static int diff_run(const Options *options) {
@@ -203,13 +196,11 @@ static const Option diff_options[] = {
     OPTION_HEADING("Result"),
     OPTION_NUMBER("--max", "X", NULL, -1, 1e9,
                   "exit with 1 where the number is above X; of ssim, whose best is 1, where it is below X"),
-    OPTION_TEXT(
-        "-o", "OUT", NULL,
-        "write the metric of every pixel: .png as a heat map with its scale, .exr and .npy as numbers"),
-    OPTION_NUMBER(
-        "--scale", "X", NULL, 1e-6, 1e9,
-        "how far from the best value a heat map's colours reach; else a round number that 99 of 100 "
-        "pixels keep within"),
+    OPTION_TEXT("-o", "OUT", NULL,
+                "write the metric of every pixel: .png as a heat map with its scale, .exr and .npy as numbers"),
+    OPTION_NUMBER("--scale", "X", NULL, 1e-6, 1e9,
+                  "how far from the best value a heat map's colours reach; else a round number that 99 of 100 "
+                  "pixels keep within"),
     OPTION_SWITCH("--json", "figures as JSON on standard output"),
     OPTION_END,
 };

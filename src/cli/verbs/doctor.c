@@ -58,8 +58,7 @@ static WeftResult fix(Visit *visit, WeftError *error) {
     WeftDoctor *repaired;
     WeftResult result = weft_doctor_fix(visit->doctor, visit->output, error);
     if (result == WEFT_OK)
-        result =
-            weft_doctor_open_watched(visit->output, progress_heed, &visit->progress, &repaired, NULL, error);
+        result = weft_doctor_open_watched(visit->output, progress_heed, &visit->progress, &repaired, NULL, error);
     if (result != WEFT_OK) return result;
     visit->left = 0;
     for (int k = 0; k < weft_doctor_count(repaired); k++)
@@ -101,8 +100,8 @@ static void finding_text(const Visit *visit, int index) {
     const WeftFinding *finding = weft_doctor_finding(visit->doctor, index);
     char engines[160], text[800], others[500];
     engines_text(finding->engines, engines, sizeof engines);
-    snprintf(text, sizeof text, "%s%s%s: %s", weft_finding_name((int)finding->kind), engines[0] ? " in " : "",
-             engines, finding->words);
+    snprintf(text, sizeof text, "%s%s%s: %s", weft_finding_name((int)finding->kind), engines[0] ? " in " : "", engines,
+             finding->words);
     layout_entry(stdout, COLUMN, weft_severity_name(finding->severity), text);
     snprintf(text, sizeof text, "%s: %s", finding->fixable ? "--fix" : "fix", finding->fix);
     if (finding->fix[0]) layout_entry(stdout, COLUMN, "", text);
@@ -139,8 +138,7 @@ static void text_write(const Visit *visit) {
     const WeftFinding *before = NULL;
     printf("%s: ", visit->path);
     counted("material", info.material_count, "");
-    printf(" (%d with a sheen), %d mesh%s, ", info.sheen_count, info.mesh_count,
-           info.mesh_count == 1 ? "" : "es");
+    printf(" (%d with a sheen), %d mesh%s, ", info.sheen_count, info.mesh_count, info.mesh_count == 1 ? "" : "es");
     counted("image", info.image_count, "\n");
     for (int k = 0; k < weft_doctor_count(visit->doctor); k++) {
         const WeftFinding *finding = weft_doctor_finding(visit->doctor, k);

@@ -144,8 +144,7 @@ static int take_line(const NumberLines *lines, const char *line, size_t length, 
 
 /* Takes the whole lines of the chunk, and evaluates whenever the batch is full and at the end. Moves the rest of the
  * chunk to its front. */
-static int take_chunk(NumberLines *lines, EvalBatch *batch, const EvalTask *task, const WeftLobe *lobe,
-                      bool json) {
+static int take_chunk(NumberLines *lines, EvalBatch *batch, const EvalTask *task, const WeftLobe *lobe, bool json) {
     int result = 0;
     char *line = lines->chunk, *last = lines->chunk + lines->used, *end;
     while (result == 0 && !ferror(stdout) && (end = memchr(line, '\n', (size_t)(last - line)))) {
@@ -165,8 +164,7 @@ static int take_chunk(NumberLines *lines, EvalBatch *batch, const EvalTask *task
 }
 
 /* Evaluates the lines that have arrived before it waits for more. */
-static int eval_lines(NumberLines *lines, EvalBatch *batch, const EvalTask *task, const WeftLobe *lobe,
-                      bool json) {
+static int eval_lines(NumberLines *lines, EvalBatch *batch, const EvalTask *task, const WeftLobe *lobe, bool json) {
     int result = 0;
     ssize_t got = 1;
     while (result == 0 && got > 0 && !ferror(stdout)) { /* a failed output is for main to report */
@@ -176,8 +174,7 @@ static int eval_lines(NumberLines *lines, EvalBatch *batch, const EvalTask *task
             return report(WEFT_INPUT, "%s: %s: %s", lines->name, weft_message_text(WEFT_MESSAGE_FILE_READ),
                           strerror(errno));
         lines->used += (size_t)got;
-        if (got == 0 && lines->used > 0)
-            lines->chunk[lines->used++] = '\n'; /* the last line may lack its own */
+        if (got == 0 && lines->used > 0) lines->chunk[lines->used++] = '\n'; /* the last line may lack its own */
         result = take_chunk(lines, batch, task, lobe, json);
         if (result == 0 && !ferror(stdout) && lines->used > LINE_MOST) {
             lines->count++;
@@ -196,15 +193,14 @@ static int eval_run(const Options *options) {
     bool piped = strcmp(path, "-") == 0;
     int file = piped ? STDIN_FILENO : open(path, O_RDONLY);
     if (file < 0)
-        return report(WEFT_INPUT, "%s: %s: %s", path, weft_message_text(WEFT_MESSAGE_FILE_OPEN),
-                      strerror(errno));
+        return report(WEFT_INPUT, "%s: %s: %s", path, weft_message_text(WEFT_MESSAGE_FILE_OPEN), strerror(errno));
     NumberLines *lines = calloc(1, sizeof *lines);
     EvalBatch *batch = calloc(1, sizeof *batch);
     if (lines && batch) {
         lines->name = piped ? "standard input" : path;
         lines->file = file;
-        result = eval_lines(lines, batch, option_given(options, "--albedo") ? &task_albedo : &task_eval,
-                            &lobe, option_given(options, "--json"));
+        result = eval_lines(lines, batch, option_given(options, "--albedo") ? &task_albedo : &task_eval, &lobe,
+                            option_given(options, "--json"));
     } else {
         result = report(WEFT_RESOURCES, "%s", weft_message_text(WEFT_MESSAGE_MEMORY));
     }

@@ -82,8 +82,8 @@ static int export_read(const Options *options, Export *self) {
     if (!option_text(options, "--target"))
         return report(WEFT_USAGE, "export: needs --target glsl, essl, hlsl, wgsl, c or shadertoy");
     if (!option_text(options, "-o")) return report(WEFT_USAGE, "export: needs -o FILE");
-    if (!option_choice(options, "--target", targets, &target) ||
-        !option_choice(options, "--lut", luts, &lut) || !option_choice(options, "--light-pi", pis, &pi))
+    if (!option_choice(options, "--target", targets, &target) || !option_choice(options, "--lut", luts, &lut) ||
+        !option_choice(options, "--light-pi", pis, &pi))
         return WEFT_USAGE;
     return read_models(self, &(WeftExportDesc){.target = (WeftExportTarget)target,
                                                .lut = (WeftExportLut)lut,
@@ -141,8 +141,7 @@ static void lists(void) {
 
 static const Option export_options[] = {
     OPTION_HEADING("Output"),
-    OPTION_TEXT("-o", "FILE", NULL,
-                "write the text to FILE; tables go beside it, under their names in the text"),
+    OPTION_TEXT("-o", "FILE", NULL, "write the text to FILE; tables go beside it, under their names in the text"),
     OPTION_TEXT("--target", "TARGET", NULL, "the language, below"),
     OPTION_TEXT("--lut", "KIND", "c",
                 "tables as c arrays (inside the text where it can hold them), png16, exr, dds or npy"),

@@ -62,16 +62,15 @@ static size_t numbers_text(const WeftLobe *lobe, char *text, size_t size, size_t
 static size_t f90_text(const WeftLobe *lobe, char *text, size_t size, size_t used) {
     const float *c = lobe->f90;
     if (used >= size) return used;
-    return used + (size_t)snprintf(text + used, size - used, "%sf90 %.3g,%.3g,%.3g", used ? ", " : "",
-                                   (double)c[0], (double)c[1], (double)c[2]);
+    return used + (size_t)snprintf(text + used, size - used, "%sf90 %.3g,%.3g,%.3g", used ? ", " : "", (double)c[0],
+                                   (double)c[1], (double)c[2]);
 }
 
 /* Writes all of lobe and base but their first colours: "f90 0.1,0.1,0.2, d charlie, alpha 0.31, edge 0.1". */
 static const char *params_text(const WeftFitted *fitted, char *text, size_t size) {
     size_t used = 0;
     text[0] = '\0';
-    if (weft_fitted_is_weave(fitted) || reads_f90(&fitted->lobe))
-        used = f90_text(&fitted->lobe, text, size, used);
+    if (weft_fitted_is_weave(fitted) || reads_f90(&fitted->lobe)) used = f90_text(&fitted->lobe, text, size, used);
     used = numbers_text(&fitted->lobe, text, size, used);
     if (weft_fitted_is_weave(fitted) && used < size) {
         used += (size_t)snprintf(text + used, size - used, "; weft");
@@ -116,25 +115,22 @@ static void text_write(const Fitting *fitting) {
         const WeftLobeInfo *info = weft_lobe_info(fit->fitted[k].lobe.lobe);
         char rank[16], name[96];
         snprintf(rank, sizeof rank, "%d", k + 1);
-        snprintf(name, sizeof name, "%s%s over %s", info->id,
-                 reads_f90(&fit->fitted[k].lobe) ? ", f90 free," : "",
+        snprintf(name, sizeof name, "%s%s over %s", info->id, reads_f90(&fit->fitted[k].lobe) ? ", f90 free," : "",
                  weft_lobe_info(fit->fitted[k].base.lobe)->id);
         row_write(rank, name, &fit->fitted[k]);
         better += fit->fitted[k].error < 0.999 * fit->baseline.error; /* not ggx by another name */
         idle += (weft_fitted_notes(&fit->fitted[k]) & WEFT_FITTED_NOTHING) != 0;
     }
     row_write("", "baseline: ggx, f90 = 1, over lambert", &fit->baseline);
-    printf("%4s  %-44s %7.4f\n\n", "",
-           weft_fitted_is_weave(&fit->fitted[0]) ? "lambert alone" : "the base alone", fit->base_alone);
+    printf("%4s  %-44s %7.4f\n\n", "", weft_fitted_is_weave(&fit->fitted[0]) ? "lambert alone" : "the base alone",
+           fit->base_alone);
     printf("these are fits to a measurement: what they say of directions that it has not is a guess. "
            "Numbers: how "
            "many were free, three of each colour\n");
-    printf("%d of %d are closer than the baseline, which is ggx over lambert with f90 = 1\n", better,
-           fit->count);
+    printf("%d of %d are closer than the baseline, which is ggx over lambert with f90 = 1\n", better, fit->count);
     if (fitting->engine)
-        printf(fitting->stated.reflection
-                   ? "%s has an error of %.4f, %.2f times the best\n"
-                   : "the nearest that %s can do has an error of %.4f, %.2f times the best\n",
+        printf(fitting->stated.reflection ? "%s has an error of %.4f, %.2f times the best\n"
+                                          : "the nearest that %s can do has an error of %.4f, %.2f times the best\n",
                fitting->engine, fitting->error, fitting->error / fmax(fit->fitted[0].error, 1e-9));
     if (idle) printf("%d of %d add nothing to the base: their best colour is 0\n", idle, fit->count);
 }
@@ -159,8 +155,7 @@ static void json_fitted(Json *json, const char *key, const WeftFitted *fitted) {
     json_whole(json, "numbers", fitted->numbers);
     json_floats(json, "base_color", fitted->base.f0, 3);
     json_floats(json, "color", fitted->lobe.f0, 3);
-    if (weft_fitted_is_weave(fitted) || reads_f90(&fitted->lobe))
-        json_floats(json, "f90", fitted->lobe.f90, 3);
+    if (weft_fitted_is_weave(fitted) || reads_f90(&fitted->lobe)) json_floats(json, "f90", fitted->lobe.f90, 3);
     if (weft_fitted_is_weave(fitted)) json_floats(json, "base_f90", fitted->base.f90, 3);
     json_params(json, "params", &fitted->lobe);
     json_params(json, "base_params", &fitted->base);
@@ -214,8 +209,7 @@ static int fits_count(const Fitting *fitting, const char *only) {
 
 /* Finds the best fit that a material can express: parameters without an input stay at their defaults, and the
  * others are refitted. */
-static WeftResult expressible_fit(const Fitting *fitting, WeftFit *refit, WeftMaterial *material,
-                                  WeftError *error) {
+static WeftResult expressible_fit(const Fitting *fitting, WeftFit *refit, WeftMaterial *material, WeftError *error) {
     const WeftFitted *best = &fitting->fit.fitted[0];
     *refit = fitting->fit;
     if (weft_fitted_material(best, material)) return WEFT_OK;
@@ -253,8 +247,7 @@ static int error_of_material(Fitting *fitting) {
     WeftError error;
     const WeftFitDesc desc = {.metric = fitting->metric, .chosen = 1};
     fitting->nearest = fitting->stated.material;
-    WeftResult result =
-        weft_data_distance(fitting->data, &desc, fitting->stated.reflection, &fitting->error, &error);
+    WeftResult result = weft_data_distance(fitting->data, &desc, fitting->stated.reflection, &fitting->error, &error);
     return result == WEFT_OK ? 0 : report_error(&error);
 }
 
@@ -270,8 +263,7 @@ static int nearest_make(Fitting *fitting) {
     WeftResult result = weft_material_set(&fitting->nearest, "profile", fitting->engine, NULL, &error);
     for (size_t k = 0; result == WEFT_OK && k < sizeof cloth / sizeof *cloth; k++)
         result = weft_material_set(&fitting->nearest, cloth[k][0], cloth[k][1], NULL, &error);
-    if (result == WEFT_OK)
-        result = weft_fit_material(fitting->data, &desc, &fitting->nearest, &found, &error);
+    if (result == WEFT_OK) result = weft_fit_material(fitting->data, &desc, &fitting->nearest, &found, &error);
     fitting->error = found.matched;
     return result == WEFT_OK ? 0 : report_error(&error);
 }
@@ -301,15 +293,13 @@ static int lobes_check(const Fitting *fitting) {
         return report(WEFT_USAGE, "--base %s: is the weft; it goes with --lobe %s, the warp, alone", base->id,
                       base->id);
     if (weave && option_given(fitting->options, "-o") && !option_given(fitting->options, "--to"))
-        return report(WEFT_USAGE, "--base %s: is fitted as two lobes, of which no material can be written",
-                      base->id);
+        return report(WEFT_USAGE, "--base %s: is fitted as two lobes, of which no material can be written", base->id);
     if (base && !weave && !(base->traits & WEFT_LOBE_DIFFUSE))
         return report(WEFT_USAGE, "--base %s: is not a diffuse lobe", base->id);
     if (lobe && lobe->traits & WEFT_LOBE_DIFFUSE)
         return report(WEFT_USAGE, "--lobe %s: is a diffuse lobe, which is fitted as --base alone", lobe->id);
     if (lobe && lobe->traits & WEFT_LOBE_REFERENCE)
-        return report(WEFT_USAGE, "--lobe %s: is an estimate by random walks; fit fibre, which is its mean",
-                      lobe->id);
+        return report(WEFT_USAGE, "--lobe %s: is an estimate by random walks; fit fibre, which is its mean", lobe->id);
     return 0;
 }
 
@@ -357,8 +347,7 @@ static int fit_run(const Options *options) {
         result = fit_files_write(options, &fitting.nearest);
     else if (result == 0 && option_given(options, "-o"))
         result = material_write(&fitting);
-    if (result == 0 && fitting.plot)
-        result = fit_sheet_write(fitting.path, fitting.data, &fitting.fit, fitting.plot);
+    if (result == 0 && fitting.plot) result = fit_sheet_write(fitting.path, fitting.data, &fitting.fit, fitting.plot);
     if (result == 0 && option_given(options, "--json"))
         json_write(&fitting);
     else if (result == 0)
@@ -374,17 +363,14 @@ static const Option fit_options[] = {
     OPTION_TEXT("--base", "LOBE|all|woven", "lambert",
                 "the diffuse lobe below, or each of them; woven: fit warp and weft of a cloth alone"),
     OPTION_LOBES_OR("fit this lobe alone"),
-    OPTION_TEXT(
-        "--to", "PROFILE", NULL,
-        "find the nearest that this engine can do, too; of a preset or material file, how near it is"),
+    OPTION_TEXT("--to", "PROFILE", NULL,
+                "find the nearest that this engine can do, too; of a preset or material file, how near it is"),
     OPTION_HEADING("Result"),
-    OPTION_LIST(
-        "-o", "FILE",
-        "write the best, or with --to the nearest, as a material (.json), a cloth of it (.glb, .gltf) or "
-        "engine text (.glsl, .hlsl, .wgsl, .h)"),
+    OPTION_LIST("-o", "FILE",
+                "write the best, or with --to the nearest, as a material (.json), a cloth of it (.glb, .gltf) or "
+                "engine text (.glsl, .hlsl, .wgsl, .h)"),
     OPTION_SWITCH("--measured", "let a .json name DATA too, by which the path tracer then reflects"),
-    OPTION_TEXT("--plot", "FILE.png", NULL,
-                "draw slices: data, the best fit, the baseline, and how these differ"),
+    OPTION_TEXT("--plot", "FILE.png", NULL, "draw slices: data, the best fit, the baseline, and how these differ"),
     OPTION_SWITCH("--json", "the ranking as JSON on standard output"),
     OPTION_END,
 };

@@ -53,8 +53,7 @@ static int lobe_rows(const WeftLobe *copied, const WeftLobe *matched, Row rows[R
         if (!info->params[k].choices)
             rows[count++] = row_of(info->params[k].name, 1, true, &copied->params[k], &matched->params[k]);
     rows[count++] = row_of("color", 3, true, copied->f0, matched->f0);
-    if (info->traits & WEFT_LOBE_TWO_COLORS)
-        rows[count++] = row_of("f90", 3, true, copied->f90, matched->f90);
+    if (info->traits & WEFT_LOBE_TWO_COLORS) rows[count++] = row_of("f90", 3, true, copied->f90, matched->f90);
     return count;
 }
 
@@ -110,11 +109,9 @@ static void text_write(const Match *match, double errors[PARTS][2]) {
     for (int k = 0; k < count; k++)
         printf("  %-18s %-22s %s\n", rows[k].name, numbers_text(rows[k].copied, rows[k].count, text[0]),
                numbers_text(rows[k].matched, rows[k].count, text[1]));
-    printf("\n  %-18s %-22.4f %.4f\n", weft_brdf_metric_name(match->metric), match->found.copied,
-           match->found.matched);
+    printf("\n  %-18s %-22.4f %.4f\n", weft_brdf_metric_name(match->metric), match->found.copied, match->found.matched);
     for (int k = 0; k < PARTS; k++)
-        if (errors[k][0] >= 0.0)
-            printf("    %-16s %-22.4f %.4f\n", parts[k].name, errors[k][0], errors[k][1]);
+        if (errors[k][0] >= 0.0) printf("    %-16s %-22.4f %.4f\n", parts[k].name, errors[k][0], errors[k][1]);
 }
 
 static void json_row(Json *json, const Row *row, const float *values) {
@@ -180,8 +177,7 @@ static int output_check(const Match *match) {
 static int output_write(const Match *match) {
     const char *path = option_text(match->options, "-o");
     if (!path) return 0;
-    return path_ends(path, ".png") ? match_sheet_write(match, path)
-                                   : material_write(&match->to.material, path);
+    return path_ends(path, ".png") ? match_sheet_write(match, path) : material_write(&match->to.material, path);
 }
 
 static int pair_run(Match *match) {
@@ -247,8 +243,7 @@ static int match_run(const Options *options) {
     if (mode < 0) return WEFT_USAGE;
     if (option_given(options, "--table")) return match_table(options, match.metric);
     if (option_given(options, "--maps")) return match_maps(options, match.metric);
-    if (option_given(options, "--to") || option_given(options, "--workflow"))
-        return match_asset(options, match.metric);
+    if (option_given(options, "--to") || option_given(options, "--workflow")) return match_asset(options, match.metric);
     int result = pair_run(&match);
     match_free(&match);
     return result;
@@ -259,9 +254,8 @@ static const Option match_options[] = {
     OPTION_TEXT("--metric", "NAME", "cosine", "what is made least: cosine, log or picture"),
     OPTION_LIST("--hold", "NAME", "a parameter or input of TO that keeps the number it was typed with"),
     OPTION_SWITCH("--table", "match every profile to every other and print what was left"),
-    OPTION_SWITCH("--maps",
-                  "match every sheen lobe to every other over a sweep of its width, and print a formula "
-                  "where one adds no more than 0.03 to the error"),
+    OPTION_SWITCH("--maps", "match every sheen lobe to every other over a sweep of its width, and print a formula "
+                            "where one adds no more than 0.03 to the error"),
     OPTION_LOBES,
     OPTION_HEADING("A whole asset"),
     OPTION_TEXT("--from", "PROFILE", "khronos", "the engine it was made for"),

@@ -36,9 +36,8 @@ static void append(char *line, size_t size, const char *separator, const char *t
 
 /* Returns the lobe of an entry of a kind; NULL if the kind does not list lobes. */
 static const WeftLobeInfo *entry_lobe(const Kind *kind, int k) {
-    return strstr(kind->id, "lobe") || strcmp(kind->key, "diffuse") == 0
-               ? weft_lobe_info(weft_lobe_find(kind->name(k)))
-               : NULL;
+    return strstr(kind->id, "lobe") || strcmp(kind->key, "diffuse") == 0 ? weft_lobe_info(weft_lobe_find(kind->name(k)))
+                                                                         : NULL;
 }
 
 /* Returns the reference material of an entry; NULL if the kind is not that of the chart. */
@@ -53,8 +52,7 @@ static void lobe_words(const WeftLobeInfo *info, char *line, size_t size) {
     line[0] = '\0';
     for (int k = 0; k < TRAIT_COUNT; k++)
         if (info->traits & traits[k].bit) append(line, size, ", ", traits[k].words);
-    for (int k = 0; k < info->param_count; k++)
-        append(line, size, k ? ", " : "; parameters: ", info->params[k].name);
+    for (int k = 0; k < info->param_count; k++) append(line, size, k ? ", " : "; parameters: ", info->params[k].name);
 }
 
 static void append_color(char *line, size_t size, const char *key, const float color[3]) {
@@ -63,8 +61,7 @@ static void append_color(char *line, size_t size, const char *key, const float c
     if (grey)
         snprintf(text, sizeof text, "%s %.3g", key, (double)color[0]);
     else
-        snprintf(text, sizeof text, "%s %.3g,%.3g,%.3g", key, (double)color[0], (double)color[1],
-                 (double)color[2]);
+        snprintf(text, sizeof text, "%s %.3g,%.3g,%.3g", key, (double)color[0], (double)color[1], (double)color[2]);
     append(line, size, "; ", text);
 }
 
@@ -102,8 +99,7 @@ static void print_all(void) {
 }
 
 /* Prints one row of a lobe's parameter table. */
-static void print_row(const char *name, const char *def, const char *range, const char *hard,
-                      const char *help) {
+static void print_row(const char *name, const char *def, const char *range, const char *hard, const char *help) {
     char left[96];
     snprintf(left, sizeof left, "%-10s  %-7s  %-9s  %s", name, def, range, hard);
     layout_entry(stdout, 46, left, help);
@@ -166,8 +162,7 @@ static void json_values(Json *json, int choice) {
     json_open(json, "values", '[');
     json_text(json, NULL, "auto");
     for (int k = 0; weft_material_choice_value(choice, k); k++)
-        if (weft_material_choice_fits(choice, k))
-            json_text(json, NULL, weft_material_choice_value(choice, k));
+        if (weft_material_choice_fits(choice, k)) json_text(json, NULL, weft_material_choice_value(choice, k));
     json_close(json, ']');
 }
 
@@ -199,9 +194,7 @@ static void json_entry(Json *json, const Kind *kind, int k, bool with_kind) {
 }
 
 /* Returns true if the kind is listed in JSON. "lobe" lists all lobes; their traits show which are diffuse. */
-static bool in_json(const Kind *kind) {
-    return strcmp(kind->id, "lobe") == 0 || (kind->shown && !entry_lobe(kind, 0));
-}
+static bool in_json(const Kind *kind) { return strcmp(kind->id, "lobe") == 0 || (kind->shown && !entry_lobe(kind, 0)); }
 
 static void json_kind(Json *json, const Kind *kind, const char *key) {
     json_open(json, key, '[');
@@ -275,8 +268,7 @@ static int list_kind(const Kind *kind, Json *json) {
 static int show(const char *id, const Kind *only, Json *json) {
     int found = 0;
     const Kind *named = kind_prefixed(id, (int)strlen(id));
-    if (named && strlen(id) + 1 < strlen(named->key))
-        named = NULL; /* "preset" and "presets", but not "pre" */
+    if (named && strlen(id) + 1 < strlen(named->key)) named = NULL; /* "preset" and "presets", but not "pre" */
     for (const Kind *kind = kinds; kind->id; kind++)
         found += (only ? kind == only : in_json(kind)) && kind_find(kind, id) >= 0;
     if (!found) return named ? list_kind(named, json) : no_such_id(id);
@@ -296,8 +288,7 @@ static int show(const char *id, const Kind *only, Json *json) {
 static int show_of_kind(const char *text, const char *colon, Json *json) {
     const Kind *kind = kind_prefixed(text, (int)(colon - text));
     if (!kind)
-        return report(WEFT_USAGE, "%.200s: the word before the colon is not a kind that `weft models` lists",
-                      text);
+        return report(WEFT_USAGE, "%.200s: the word before the colon is not a kind that `weft models` lists", text);
     if (!colon[1]) return list_kind(kind, json);
     int k = kind_named(kind, colon + 1);
     if (k < 0) return WEFT_USAGE;

@@ -48,8 +48,7 @@ static int views_read(Plot *plot) {
     for (int cursor = 0; (text = option_next(plot->options, "--view", &cursor));) {
         double degrees;
         if (!numbers_parse(text, 1, &degrees) || degrees < 0.0 || degrees >= most)
-            return report(WEFT_USAGE, "--view: \"%.80s\" is not an angle from 0 to below %g degrees", text,
-                          most);
+            return report(WEFT_USAGE, "--view: \"%.80s\" is not an angle from 0 to below %g degrees", text, most);
         if (plot->desc.view_count == WEFT_PLOT_VIEWS_MAX)
             return report(WEFT_USAGE, "--view: is given more than %d times", WEFT_PLOT_VIEWS_MAX);
         plot->desc.views[plot->desc.view_count++] = (float)degrees;
@@ -70,8 +69,7 @@ static int size_read(Plot *plot) {
         well = end != from && *end == '\0' && height >= 64;
     }
     if (!well || width < 64 || width > WEFT_PLOT_SIDE_MAX || height > WEFT_PLOT_SIDE_MAX)
-        return report(WEFT_USAGE, "--size: \"%.80s\" is not WIDTHxHEIGHT of 64 to %d pixels", text,
-                      WEFT_PLOT_SIDE_MAX);
+        return report(WEFT_USAGE, "--size: \"%.80s\" is not WIDTHxHEIGHT of 64 to %d pixels", text, WEFT_PLOT_SIDE_MAX);
     plot->desc.width = (int)width;
     plot->desc.height = (int)height;
     return 0;
@@ -114,8 +112,7 @@ static int models_read(Plot *plot) {
         int result = model_read(plot->options->operands[k + 1], model);
         if (result != 0) return result;
         if (!plot->report && plot->desc.kind == WEFT_PLOT_SAMPLES && model->kind != MODEL_LOBE)
-            return report(WEFT_USAGE, "%.200s: is not a lobe, and only lobes have samples to plot",
-                          model->words);
+            return report(WEFT_USAGE, "%.200s: is not a lobe, and only lobes have samples to plot", model->words);
         plot->models[k] =
             (WeftPlotModel){.reflection = model->reflection,
                             .lobe = model->kind == MODEL_LOBE ? &model->lobe : NULL,
@@ -190,8 +187,7 @@ static const Option plot_options[] = {
     OPTION_TEXT("--channel", "CHANNEL", "luminance",
                 "luminance, red, green or blue; sphere and slice show all colours unless this is one"),
     OPTION_TEXT("--title", "TEXT", NULL, "above the figure, in place of the kind's own"),
-    OPTION_TEXT("--size", "WxH", NULL,
-                "pixels, 96 to the inch; of a width alone the height follows; type grows along"),
+    OPTION_TEXT("--size", "WxH", NULL, "pixels, 96 to the inch; of a width alone the height follows; type grows along"),
     OPTION_SWITCH("--quick", "fewer values, walks and samples: a first look"),
     OPTION_SWITCH("--json", "the figure's numbers as JSON on standard output"),
     OPTION_SWITCH("--csv", "the same as comma-separated lines"),

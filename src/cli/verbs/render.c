@@ -17,8 +17,7 @@ static void summary(const Job *job) {
     if (!(job->noise < 0.0)) snprintf(noise, sizeof noise, ", relMSE about %.3g", job->noise);
     report(0, "%s%.4g samples/pixel in %.2f s, %.2f M samples/s%s%s; wrote %s",
            job->interrupted ? "interrupted at " : "", job->info.samples_per_pixel, job->info.render_seconds,
-           1e-6 * job_samples_per_second(job), noise, job->request->denoise ? " before denoising" : "",
-           files);
+           1e-6 * job_samples_per_second(job), noise, job->request->denoise ? " before denoising" : "", files);
 }
 
 static void print_stages(const Job *job) {

@@ -1,6 +1,5 @@
 /* verbs.h - the commands of the program: one row and one file each */
-#ifndef WEFT_CLI_VERBS_H
-#define WEFT_CLI_VERBS_H
+#pragma once
 
 #include "cli/console/options.h"
 
@@ -11,22 +10,20 @@
 #endif
 
 /* V(name): verb_name of the file NAME.c, in the order of `weft --help`. */
-#define VERBS(V)                                                                                             \
-    V(render)                                                                                                \
-    VERB_VIEW(V)                                                                                             \
-    V(models)                                                                                                \
-    V(eval)                                                                                                  \
-    V(check)                                                                                                 \
-    V(plot)                                                                                                  \
-    V(bake)                                                                                                  \
-    V(export)                                                                                                \
-    V(match)                                                                                                 \
-    V(fit)                                                                                                   \
-    V(diff)                                                                                                  \
-    V(doctor)                                                                                                \
+#define VERBS(V)                                                                                                       \
+    V(render)                                                                                                          \
+    VERB_VIEW(V)                                                                                                       \
+    V(models)                                                                                                          \
+    V(eval)                                                                                                            \
+    V(check)                                                                                                           \
+    V(plot)                                                                                                            \
+    V(bake)                                                                                                            \
+    V(export)                                                                                                          \
+    V(match)                                                                                                           \
+    V(fit)                                                                                                             \
+    V(diff)                                                                                                            \
+    V(doctor)                                                                                                          \
     V(weave)
 
 #define VERB_DECLARED(name) extern const Verb verb_##name;
 VERBS(VERB_DECLARED)
-
-#endif

@@ -17,9 +17,8 @@ static const Option view_options[] = {
     OPTION_NUMBER("--width", "PIXELS", NULL, 320, 16384, "width of the window [as it was last time, 1280]"),
     OPTION_NUMBER("--height", "PIXELS", NULL, 240, 16384, "height of the window [as it was last time, 720]"),
     OPTION_NUMBER("--scale", "FACTOR", NULL, 0.5, 4, "size of its panels and words [as the display asks, 1]"),
-    OPTION_NUMBER(
-        "--occlusion", "RAYS", "64", 0, 4096,
-        "look from each vertex along so many rays, for what lies in creases and in shadow of a map"),
+    OPTION_NUMBER("--occlusion", "RAYS", "64", 0, 4096,
+                  "look from each vertex along so many rays, for what lies in creases and in shadow of a map"),
     OPTION_TEXT("--shader-dir", "DIR", NULL,
                 "shader text found here wins over the built-in one, and is compiled anew as it changes"),
 
@@ -30,14 +29,13 @@ static const Option view_options[] = {
     OPTION_NUMBER("--frames", "COUNT", NULL, 1, 1e9, "close after so many frames"),
     OPTION_SWITCH("--windowless", "run without a window, for replays without a display"),
     OPTION_SWITCH("--forget", "neither read nor write what is remembered from run to run"),
-    OPTION_SWITCH("--json",
-                  "print a line of JSON whenever the window comes to rest: what it shows, and where its "
-                  "controls are"),
+    OPTION_SWITCH("--json", "print a line of JSON whenever the window comes to rest: what it shows, and where its "
+                            "controls are"),
     OPTION_END,
 };
 
-static WeftResult configure_scene(void *user, WeftScene *scene, EnvironmentState *environment,
-                                  const WeftLog *log, WeftError *error) {
+static WeftResult configure_scene(void *user, WeftScene *scene, EnvironmentState *environment, const WeftLog *log,
+                                  WeftError *error) {
     const SceneOptions *scene_options = user;
     environment->rotation = (float)scene_options->env_rotation;
     environment->strength = (float)scene_options->env_strength;
@@ -69,8 +67,7 @@ static bool read_sizes(const Options *options, ViewDesc *desc) {
     double scale = 0.0;
     if (option_given(options, "--scale") && !option_number(options, "--scale", &scale)) return false;
     desc->scale = (float)scale;
-    return option_integer(options, "--width", &desc->width) &&
-           option_integer(options, "--height", &desc->height) &&
+    return option_integer(options, "--width", &desc->width) && option_integer(options, "--height", &desc->height) &&
            option_integer(options, "--frames", &desc->frames) &&
            option_integer(options, "--occlusion", &desc->occlusion);
 }

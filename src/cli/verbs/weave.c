@@ -41,8 +41,7 @@ static int sett_apply(Weaving *weaving) {
     if (!text) return 0;
     if (!numbers_parse(text, 2, setts)) {
         if (!numbers_parse(text, 1, setts))
-            return report(WEFT_USAGE,
-                          "--sett %.40s: one or two numbers of threads per centimetre are expected", text);
+            return report(WEFT_USAGE, "--sett %.40s: one or two numbers of threads per centimetre are expected", text);
         setts[WEFT_WEFT] = setts[WEFT_WARP];
     }
     for (int t = 0; t < 2; t++)
@@ -102,11 +101,9 @@ static int cloth_write(const Weaving *weaving) {
     WeftError error;
     double threads = 0.0;
     int pixels = 0;
-    if (!option_number(weaving->options, "--close", &threads) ||
-        !option_integer(weaving->options, "--size", &pixels))
+    if (!option_number(weaving->options, "--close", &threads) || !option_integer(weaving->options, "--size", &pixels))
         return WEFT_USAGE;
-    if (weft_cloth_draw(weaving->cloth, pixels, (float)threads, &image, &error) != WEFT_OK)
-        return report_error(&error);
+    if (weft_cloth_draw(weaving->cloth, pixels, (float)threads, &image, &error) != WEFT_OK) return report_error(&error);
     const WeftResult result = weft_image_write(weaving->output, &image, &error);
     weft_image_free(&image);
     return result == WEFT_OK ? 0 : report_error(&error);
@@ -164,13 +161,12 @@ static void text_write(const Weaving *weaving) {
              info->longest_float[WEFT_WEFT]);
     layout_entry(stdout, COLUMN, "longest float", text);
     snprintf(text, sizeof text, "%.4g x %.4g per cm; the repeat is %.4g x %.4g mm", sett(info, WEFT_WARP),
-             sett(info, WEFT_WEFT), 1000.0 * (double)info->size[WEFT_WARP],
-             1000.0 * (double)info->size[WEFT_WEFT]);
+             sett(info, WEFT_WEFT), 1000.0 * (double)info->size[WEFT_WARP], 1000.0 * (double)info->size[WEFT_WEFT]);
     layout_entry(stdout, COLUMN, "threads", text);
     if (!weaving->cloth) return;
     const WeftClothInfo cloth = weft_cloth_info(weaving->cloth);
-    snprintf(text, sizeof text, "warp %.1f %%, weft %.1f %%, gaps %.1f %%",
-             100.0 * (double)cloth.share[WEFT_WARP], 100.0 * (double)cloth.share[WEFT_WEFT],
+    snprintf(text, sizeof text, "warp %.1f %%, weft %.1f %%, gaps %.1f %%", 100.0 * (double)cloth.share[WEFT_WARP],
+             100.0 * (double)cloth.share[WEFT_WEFT],
              100.0 * (1.0 - (double)cloth.share[WEFT_WARP] - (double)cloth.share[WEFT_WEFT]));
     layout_entry(stdout, COLUMN, "seen", text);
 }
@@ -220,16 +216,14 @@ static int weave_run(const Options *options) {
 static const Option weave_options[] = {
     OPTION_HEADING("Cloth"),
     OPTION_TEXT("--sett", "E[,P]", NULL, "warp threads per cm, and picks where they differ"),
-    OPTION_SWITCH("--back",
-                  "the cloth turned over: left and right change places, and so do warp and weft on top"),
+    OPTION_SWITCH("--back", "the cloth turned over: left and right change places, and so do warp and weft on top"),
     OPTION_TEXT("--yarn", "WARP[,WEFT]", "cotton",
                 "yarn of warp and weft: cotton, linen, wool, silk, dupion, polyester"),
     OPTION_NUMBER("--seed", "N", "0", 0, 288, "another cloth of the same draft and yarns"),
     OPTION_HEADING("Result"),
-    OPTION_TEXT(
-        "-o", "OUT", NULL,
-        "write the draft: .wif for weaving programs and looms; .png, .svg or .pdf as weavers print it; "
-        ".txt with # where the warp is on top"),
+    OPTION_TEXT("-o", "OUT", NULL,
+                "write the draft: .wif for weaving programs and looms; .png, .svg or .pdf as weavers print it; "
+                ".txt with # where the warp is on top"),
     OPTION_NUMBER("--close", "THREADS", NULL, 0.5, 20000,
                   "draw the cloth itself, so many warp threads wide, as -o OUT.png"),
     OPTION_TEXT("--bake", "DIR", NULL,

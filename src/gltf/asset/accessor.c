@@ -60,17 +60,14 @@ static void shape_read(const Field *field, Accessor *a) {
 }
 
 /* Fails unless count elements of size bytes, stride apart, from offset on, lie within the view. */
-static void check_bounds(const Field *field, int view, size_t offset, size_t count, size_t size,
-                         size_t stride) {
+static void check_bounds(const Field *field, int view, size_t offset, size_t count, size_t size, size_t stride) {
     if (view < 0 || field->asset->result != WEFT_OK) return;
     size_t available = field->asset->views[view].span.size;
     if (stride < size)
-        field_fail(field, WEFT_MESSAGE_GLTF_SCHEMA, "%zu bytes an element, but a stride of %zu", size,
-                   stride);
-    else if (offset > available || size > available - offset ||
-             count - 1 > (available - offset - size) / stride)
-        field_fail(field, WEFT_MESSAGE_GLTF_BOUNDS, "%zu elements from byte %zu on, in %zu bytes", count,
-                   offset, available);
+        field_fail(field, WEFT_MESSAGE_GLTF_SCHEMA, "%zu bytes an element, but a stride of %zu", size, stride);
+    else if (offset > available || size > available - offset || count - 1 > (available - offset - size) / stride)
+        field_fail(field, WEFT_MESSAGE_GLTF_BOUNDS, "%zu elements from byte %zu on, in %zu bytes", count, offset,
+                   available);
 }
 
 static size_t stride_of(const Asset *asset, int view, size_t size) {
@@ -82,8 +79,7 @@ static void sparse_read(const Field *field, Accessor *a) {
     Field count = field_member(field, "count"), indices = field_member(field, "indices"),
           values = field_member(field, "values");
     Field index_view = field_member(&indices, "bufferView"), value_view = field_member(&values, "bufferView"),
-          index_offset = field_member(&indices, "byteOffset"),
-          value_offset = field_member(&values, "byteOffset"),
+          index_offset = field_member(&indices, "byteOffset"), value_offset = field_member(&values, "byteOffset"),
           component = field_member(&indices, "componentType");
     if (!count.json) field_fail(&count, WEFT_MESSAGE_GLTF_SCHEMA, "missing an integer");
     a->sparse_count = field_size(&count, 0, 1, a->count);
@@ -200,8 +196,8 @@ static void *decode(Asset *asset, Arena *arena, int index, bool integers) {
         for (size_t i = 0; places.data && values.data && i < a->sparse_count; i++) {
             size_t place = load_integer(places.data + a->index_offset + i * step, a->index_component);
             if (place >= a->count) {
-                asset_fail(asset, WEFT_MESSAGE_GLTF_BOUNDS, "accessors[%d].sparse: index %zu of %zu", index,
-                           place, a->count);
+                asset_fail(asset, WEFT_MESSAGE_GLTF_BOUNDS, "accessors[%d].sparse: index %zu of %zu", index, place,
+                           a->count);
                 break;
             }
             element_load(a, values.data + a->value_offset + i * size, integers, out + place * wide);
@@ -210,10 +206,6 @@ static void *decode(Asset *asset, Arena *arena, int index, bool integers) {
     return asset->result == WEFT_OK ? out : NULL;
 }
 
-float *accessor_floats(Asset *asset, Arena *arena, int accessor) {
-    return decode(asset, arena, accessor, false);
-}
+float *accessor_floats(Asset *asset, Arena *arena, int accessor) { return decode(asset, arena, accessor, false); }
 
-uint32_t *accessor_integers(Asset *asset, Arena *arena, int accessor) {
-    return decode(asset, arena, accessor, true);
-}
+uint32_t *accessor_integers(Asset *asset, Arena *arena, int accessor) { return decode(asset, arena, accessor, true); }

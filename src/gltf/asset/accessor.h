@@ -1,6 +1,5 @@
 /* accessor.h - typed arrays in buffer views */
-#ifndef WEFT_GLTF_ACCESSOR_H
-#define WEFT_GLTF_ACCESSOR_H
+#pragma once
 
 #include "gltf/asset/asset.h"
 
@@ -13,5 +12,3 @@ float *accessor_floats(Asset *asset, Arena *arena, int accessor);
 
 /* Decodes a scalar or vector accessor of integers without conversion. Returns NULL after a sticky failure. */
 uint32_t *accessor_integers(Asset *asset, Arena *arena, int accessor);
-
-#endif

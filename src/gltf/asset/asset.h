@@ -4,8 +4,7 @@
  * range and reference, used or not; cameras, lights, samplers and images are checked only if they are shown.
  * The second bakes what the scene shows. Errors are sticky: `result` keeps the first failure, readers go on
  * with harmless values, and each stage ends with a test of asset->result. */
-#ifndef WEFT_GLTF_ASSET_H
-#define WEFT_GLTF_ASSET_H
+#pragma once
 
 #include <jansson.h>
 #include <stdbool.h>
@@ -160,14 +159,13 @@ typedef struct Asset {
     Skin *skins;
     Node *nodes;
     int *node_order; /* parents before children */
-    size_t buffer_count, view_count, accessor_count, image_count, sampler_count, texture_count,
-        material_count, mesh_count, skin_count, camera_count, light_count, node_count;
+    size_t buffer_count, view_count, accessor_count, image_count, sampler_count, texture_count, material_count,
+        mesh_count, skin_count, camera_count, light_count, node_count;
     bool *material_shown; /* material_count + 1, the last for surfaces without a material */
 } Asset;
 
 /* Records a sticky failure, of which the first is kept. detail is a printf format or NULL. */
-__attribute__((format(printf, 3, 4))) void asset_fail(Asset *asset, WeftMessage message, const char *detail,
-                                                      ...);
+__attribute__((format(printf, 3, 4))) void asset_fail(Asset *asset, WeftMessage message, const char *detail, ...);
 
 /* Reports the progress of the part of the read that runs from low to high. Returns false, with a sticky
  * WEFT_INTERRUPTED, if the read has to stop. Only the thread that called the reader may call it. */
@@ -182,5 +180,3 @@ void *asset_array(Asset *asset, Arena *arena, size_t count, size_t size);
 
 /* Copies a text to the scene's arena. Returns "" after a sticky failure. */
 const char *asset_text(Asset *asset, const char *text);
-
-#endif

@@ -15,11 +15,9 @@ static const size_t FILES_SIZE_MAX = (size_t)4 << 30;
 /* Finds the record of the file that status describes, or adds one: a file can have many names. */
 static AssetFile *file_find(FileTable *table, Asset *asset, const char *path, const struct stat *status) {
     for (size_t i = 0; i < table->count; i++)
-        if (table->items[i].node == status->st_ino && table->items[i].device == status->st_dev)
-            return &table->items[i];
+        if (table->items[i].node == status->st_ino && table->items[i].device == status->st_dev) return &table->items[i];
     if (!table->items) table->items = asset_array(asset, &asset->arena, FILES_MAX, sizeof *table->items);
-    if (table->count == FILES_MAX)
-        asset_fail(asset, WEFT_MESSAGE_GLTF_TOO_LARGE, "more than %d files", FILES_MAX);
+    if (table->count == FILES_MAX) asset_fail(asset, WEFT_MESSAGE_GLTF_TOO_LARGE, "more than %d files", FILES_MAX);
     if (asset->result != WEFT_OK) return NULL;
     AssetFile *file = &table->items[table->count++];
     *file = (AssetFile){.path = path,
@@ -48,8 +46,7 @@ Span file_bytes(FileTable *table, Asset *asset, AssetFile *file) {
     if (!file->bytes.data && asset->result == WEFT_OK) {
         size_t most = file->wanted < file->size ? file->wanted : file->size;
         if (most > available)
-            asset_fail(asset, WEFT_MESSAGE_GLTF_TOO_LARGE, "its files have more than %zu bytes",
-                       FILES_SIZE_MAX);
+            asset_fail(asset, WEFT_MESSAGE_GLTF_TOO_LARGE, "its files have more than %zu bytes", FILES_SIZE_MAX);
         else
             asset->result = file_read_start(file->path, most, &file->bytes, asset->error);
         table->bytes += file->bytes.size;

@@ -1,6 +1,5 @@
 /* asset_file.h - the files beside an asset: each is read only once, under whatever names the asset refers to it */
-#ifndef WEFT_GLTF_ASSET_FILE_H
-#define WEFT_GLTF_ASSET_FILE_H
+#pragma once
 
 #include "gltf/asset/field.h"
 
@@ -13,5 +12,3 @@ AssetFile *file_refer(FileTable *table, const Field *field, const char *uri, siz
 Span file_bytes(FileTable *table, Asset *asset, AssetFile *file);
 
 void files_free(FileTable *table);
-
-#endif

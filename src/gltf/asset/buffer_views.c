@@ -23,8 +23,7 @@ static size_t decoding_limit(size_t input) {
 static void span_fill(const Field *field, AssetBuffer *buffer, Span bytes) {
     buffer->span.data = bytes.data;
     if (bytes.data && bytes.size < buffer->span.size)
-        field_fail(field, WEFT_MESSAGE_GLTF_BOUNDS, "%zu of %zu bytes are there", bytes.size,
-                   buffer->span.size);
+        field_fail(field, WEFT_MESSAGE_GLTF_BOUNDS, "%zu of %zu bytes are there", bytes.size, buffer->span.size);
 }
 
 static void buffer_read(const Field *field, AssetBuffer *buffer, bool first) {
@@ -80,8 +79,7 @@ static Span section(const Field *field) {
     if (asset->result != WEFT_OK || index < 0) return (Span){0};
     Span all = asset->buffers[index].span;
     if (offset > all.size || length > all.size - offset) {
-        field_fail(field, WEFT_MESSAGE_GLTF_BOUNDS, "%zu bytes from %zu on, of %zu", length, offset,
-                   all.size);
+        field_fail(field, WEFT_MESSAGE_GLTF_BOUNDS, "%zu bytes from %zu on, of %zu", length, offset, all.size);
         return (Span){0};
     }
     return (Span){all.data ? all.data + offset : NULL, length};

@@ -1,6 +1,5 @@
 /* buffer_views.h - buffers and the views into them */
-#ifndef WEFT_GLTF_BUFFER_VIEWS_H
-#define WEFT_GLTF_BUFFER_VIEWS_H
+#pragma once
 
 #include "gltf/asset/asset.h"
 
@@ -13,5 +12,3 @@ void views_read(Asset *asset);
 Span view_bytes(Asset *asset, int view);
 
 void buffers_free(Asset *asset);
-
-#endif

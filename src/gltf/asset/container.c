@@ -14,8 +14,7 @@ enum { JSON_VALUES_MAX = 4000000 };
 static void json_read(Asset *asset, Span text) {
     size_t values = 0;
     asset->text = text;
-    for (size_t i = 0; i < text.size; i++)
-        values += text.data[i] == ',' || text.data[i] == '[' || text.data[i] == '{';
+    for (size_t i = 0; i < text.size; i++) values += text.data[i] == ',' || text.data[i] == '[' || text.data[i] == '{';
     if (values > JSON_VALUES_MAX) {
         asset_fail(asset, WEFT_MESSAGE_GLTF_TOO_LARGE, "more than %d JSON values", JSON_VALUES_MAX);
         return;
@@ -26,8 +25,7 @@ static void json_read(Asset *asset, Span text) {
     if (starved)
         asset_fail(asset, WEFT_MESSAGE_MEMORY, NULL);
     else if (!asset->root)
-        asset_fail(asset, WEFT_MESSAGE_GLTF_JSON, "line %d, column %d: %s", error.line, error.column,
-                   error.text);
+        asset_fail(asset, WEFT_MESSAGE_GLTF_JSON, "line %d, column %d: %s", error.line, error.column, error.text);
     else if (!json_is_object(asset->root))
         asset_fail(asset, WEFT_MESSAGE_GLTF_JSON, "the outermost value is not an object");
 }
@@ -81,8 +79,7 @@ static void glb_read(Asset *asset, Span data) {
         return;
     }
     if (length < data.size)
-        warn(asset->log, WEFT_MESSAGE_GLTF_WARN_IGNORED, asset->name, "%zu bytes after the end",
-             data.size - length);
+        warn(asset->log, WEFT_MESSAGE_GLTF_WARN_IGNORED, asset->name, "%zu bytes after the end", data.size - length);
     json_read(asset, json);
 }
 

@@ -1,6 +1,5 @@
 /* container.h - the container of a glTF file: GLB chunks or bare JSON */
-#ifndef WEFT_GLTF_CONTAINER_H
-#define WEFT_GLTF_CONTAINER_H
+#pragma once
 
 #include "gltf/asset/asset.h"
 
@@ -11,5 +10,3 @@ void container_read(Asset *asset, Span data);
 /* Makes the head of a GLB: all before the data of its BIN chunk, which has `bin` bytes (a multiple of 4; 0: there is no
  * such chunk) and which `behind` bytes of other chunks follow. Returns NULL if memory is short. Release with free(). */
 unsigned char *container_head(Span text, size_t bin, size_t behind, size_t *size);
-
-#endif

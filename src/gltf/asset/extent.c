@@ -17,16 +17,7 @@ static size_t png_bytes(Span image) {
 
 /* Reads the first frame header and skips the segments before it, whose lengths are given. */
 static size_t jpeg_bytes(Span image) {
-    enum {
-        TEM = 0x01,
-        DHT = 0xc4,
-        JPG = 0xc8,
-        DAC = 0xcc,
-        SOF0 = 0xc0,
-        SOF15 = 0xcf,
-        RST0 = 0xd0,
-        SOI = 0xd8
-    };
+    enum { TEM = 0x01, DHT = 0xc4, JPG = 0xc8, DAC = 0xcc, SOF0 = 0xc0, SOF15 = 0xcf, RST0 = 0xd0, SOI = 0xd8 };
     const unsigned char *p = image.data;
     size_t at = 0;
     while (at + 10 < image.size) {

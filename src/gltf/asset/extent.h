@@ -1,11 +1,8 @@
 /* extent.h - memory of a decoded image, from its header alone */
-#ifndef WEFT_GLTF_EXTENT_H
-#define WEFT_GLTF_EXTENT_H
+#pragma once
 
 #include "gltf/asset/asset.h"
 
 /* Returns an upper bound of the bytes of the decoded pixels, exact but for the number of channels. For Radiance HDR and
  * OpenEXR it is the most that the readers decode of a file of this size. 0: the image certainly does not decode. */
 size_t extent_bytes(Span image);
-
-#endif

@@ -97,8 +97,7 @@ size_t field_size(const Field *field, size_t absent, size_t low, size_t high) {
     double value = json_number_value(field->json); /* 0 for what is not a number */
     /* 2^53: up to here a double holds every integer, and no size is larger. */
     bool fits = json_is_number(field->json) && value >= 0.0 && value <= 0x1p53;
-    if (fits && value == (double)(size_t)value && (size_t)value >= low && (size_t)value <= high)
-        return (size_t)value;
+    if (fits && value == (double)(size_t)value && (size_t)value >= low && (size_t)value <= high) return (size_t)value;
     if (high == SIZE_MAX)
         field_fail(field, WEFT_MESSAGE_GLTF_SCHEMA, "expected an integer from %zu", low);
     else

@@ -4,8 +4,7 @@
  * reads as its default. A wrong type is a sticky GLTF_SCHEMA failure with the path, as in
  * "materials[3].pbrMetallicRoughness.roughnessFactor: expected a number"; a number outside the schema's range
  * is clamped with a warning. */
-#ifndef WEFT_GLTF_FIELD_H
-#define WEFT_GLTF_FIELD_H
+#pragma once
 
 #include "gltf/asset/asset.h"
 
@@ -47,9 +46,5 @@ bool field_floats(const Field *field, float *out, size_t count, float low, float
 bool field_doubles(const Field *field, double *out, size_t count);
 
 /* Fails or warns with a text that starts with the field's path. */
-__attribute__((format(printf, 3, 4))) void field_fail(const Field *field, WeftMessage message,
-                                                      const char *detail, ...);
-__attribute__((format(printf, 3, 4))) void field_warn(const Field *field, WeftMessage message,
-                                                      const char *detail, ...);
-
-#endif
+__attribute__((format(printf, 3, 4))) void field_fail(const Field *field, WeftMessage message, const char *detail, ...);
+__attribute__((format(printf, 3, 4))) void field_warn(const Field *field, WeftMessage message, const char *detail, ...);

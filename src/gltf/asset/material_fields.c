@@ -26,24 +26,22 @@ const MaterialField material_fields[] = {
     {NO_INPUT, NULL, "alphaCutoff", NULL, CHANNEL_R, 0.5f, POSITIVE},
     {INPUT_emission_strength, KHR("emissive_strength"), "emissiveStrength", NULL, CHANNEL_R, 1, POSITIVE},
     {INPUT_specular, KHR("specular"), "specularFactor", "specularTexture", CHANNEL_A, 1, UNIT},
-    {INPUT_specular_color, KHR("specular"), "specularColorFactor", "specularColorTexture", CHANNELS_COLOR, 1,
-     POSITIVE},
+    {INPUT_specular_color, KHR("specular"), "specularColorFactor", "specularColorTexture", CHANNELS_COLOR, 1, POSITIVE},
     {INPUT_ior, KHR("ior"), "ior", NULL, CHANNEL_R, 1.5f, POSITIVE},
     {INPUT_anisotropy, KHR("anisotropy"), "anisotropyStrength", "anisotropyTexture", CHANNEL_B, 0, UNIT},
-    {INPUT_anisotropy_direction, KHR("anisotropy"), "anisotropyRotation", "anisotropyTexture",
-     CHANNELS_DIRECTION, 0, ANY},
+    {INPUT_anisotropy_direction, KHR("anisotropy"), "anisotropyRotation", "anisotropyTexture", CHANNELS_DIRECTION, 0,
+     ANY},
     {INPUT_clearcoat, KHR("clearcoat"), "clearcoatFactor", "clearcoatTexture", CHANNEL_R, 0, UNIT},
-    {INPUT_clearcoat_roughness, KHR("clearcoat"), "clearcoatRoughnessFactor", "clearcoatRoughnessTexture",
-     CHANNEL_G, 0, UNIT},
+    {INPUT_clearcoat_roughness, KHR("clearcoat"), "clearcoatRoughnessFactor", "clearcoatRoughnessTexture", CHANNEL_G, 0,
+     UNIT},
     {INPUT_clearcoat_normal, KHR("clearcoat"), "clearcoatNormalTexture/scale", "clearcoatNormalTexture",
      CHANNELS_NORMAL, 1, ANY},
-    {INPUT_diffuse_transmission, KHR("diffuse_transmission"), "diffuseTransmissionFactor",
-     "diffuseTransmissionTexture", CHANNEL_A, 0, UNIT},
+    {INPUT_diffuse_transmission, KHR("diffuse_transmission"), "diffuseTransmissionFactor", "diffuseTransmissionTexture",
+     CHANNEL_A, 0, UNIT},
     {INPUT_diffuse_transmission_color, KHR("diffuse_transmission"), "diffuseTransmissionColorFactor",
      "diffuseTransmissionColorTexture", CHANNELS_COLOR, 1, UNIT},
     {INPUT_sheen_color, KHR("sheen"), "sheenColorFactor", "sheenColorTexture", CHANNELS_COLOR, 0, UNIT},
-    {INPUT_sheen_roughness, KHR("sheen"), "sheenRoughnessFactor", "sheenRoughnessTexture", CHANNEL_A, 0,
-     UNIT},
+    {INPUT_sheen_roughness, KHR("sheen"), "sheenRoughnessFactor", "sheenRoughnessTexture", CHANNEL_A, 0, UNIT},
     {NO_INPUT, KHR("transmission"), "transmissionFactor", "transmissionTexture", CHANNEL_R, 0, UNIT},
     {NO_INPUT, KHR("volume"), "thicknessFactor", "thicknessTexture", CHANNEL_G, 0, POSITIVE},
     {NO_INPUT, KHR("volume"), "attenuationColor", NULL, CHANNELS_COLOR, 1, UNIT},
@@ -67,9 +65,7 @@ bool material_field_extends(const MaterialField *field) {
 
 static bool same_text(const char *a, const char *b) { return a && b && strcmp(a, b) == 0; }
 
-bool material_fields_share(const MaterialField *a, const MaterialField *b) {
-    return same_text(a->object, b->object);
-}
+bool material_fields_share(const MaterialField *a, const MaterialField *b) { return same_text(a->object, b->object); }
 
 bool material_field_repeats(const MaterialField *field) {
     return field > material_fields && same_text(field->texture, field[-1].texture);

@@ -1,8 +1,7 @@
 /* material_fields.h - the numbers and textures of a glTF material, a row for each
  *
  * The reader, the writer, the list of supported extensions and the checks of the doctor are loops over these rows. */
-#ifndef WEFT_GLTF_MATERIAL_FIELDS_H
-#define WEFT_GLTF_MATERIAL_FIELDS_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -59,5 +58,3 @@ bool material_field_inside(const MaterialField *field);
 /* Writes the path of the field's factor or texture from the material, such as "extensions/NAME/KEY". */
 enum { FIELD_PATH = 128 };
 void material_field_path(const MaterialField *field, const char *key, char path[FIELD_PATH]);
-
-#endif

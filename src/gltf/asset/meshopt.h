@@ -1,8 +1,7 @@
 /* meshopt.h - EXT_meshopt_compression, decoded by libmeshoptimizer
  *
  * Specification: Arseny Kapoulkine et al., "EXT_meshopt_compression", Khronos glTF extension registry. */
-#ifndef WEFT_GLTF_MESHOPT_H
-#define WEFT_GLTF_MESHOPT_H
+#pragma once
 
 #include "gltf/asset/asset.h"
 
@@ -12,5 +11,3 @@ const char *meshopt_reason(const Compression *compression, size_t size);
 
 /* Decodes count * stride bytes into out and applies the filter. Returns false if the data are damaged. */
 bool meshopt_decode(const Compression *compression, unsigned char *out);
-
-#endif

@@ -1,6 +1,5 @@
 /* transform.h - affine maps of 3-space, in double precision because node trees multiply many of them */
-#ifndef WEFT_GLTF_TRANSFORM_H
-#define WEFT_GLTF_TRANSFORM_H
+#pragma once
 
 /* An affine map: component r of the result is m[r][0] x + m[r][1] y + m[r][2] z + m[r][3]. */
 typedef struct Transform {
@@ -42,5 +41,3 @@ static inline void transform_apply(const Transform *t, double v[3], double w) {
     double x = v[0], y = v[1], z = v[2];
     for (int r = 0; r < 3; r++) v[r] = t->m[r][0] * x + t->m[r][1] * y + t->m[r][2] * z + t->m[r][3] * w;
 }
-
-#endif

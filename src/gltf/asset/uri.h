@@ -3,8 +3,7 @@
  * Accepted: "data:...;base64,..." and relative references with percent-encoding whose path stays in the
  * asset's folder or below it. Refused with GLTF_URI: every other scheme, absolute paths, `..` that leads out,
  * names with a zero byte, and all files where the asset itself came from memory. */
-#ifndef WEFT_GLTF_URI_H
-#define WEFT_GLTF_URI_H
+#pragma once
 
 #include "gltf/asset/field.h"
 
@@ -18,5 +17,3 @@ bool uri_unescape(char *text);
 
 /* Returns the path of a file URI, in the asset's arena; NULL after a sticky failure on field. */
 char *uri_path(const Field *field, const char *uri);
-
-#endif

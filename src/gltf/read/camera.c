@@ -73,8 +73,7 @@ static bool camera_place(const Transform *world, Camera *camera) {
 
 static void camera_read(const Field *field, const Node *node, Camera *camera) {
     Field name_field = field_member(field, "name"), type_field = field_member(field, "type"),
-          perspective = field_member(field, "perspective"),
-          orthographic = field_member(field, "orthographic");
+          perspective = field_member(field, "perspective"), orthographic = field_member(field, "orthographic");
     Field yfov = field_member(&perspective, "yfov"), ymag = field_member(&orthographic, "ymag");
     const char *name = field_text(&name_field, ""), *type = field_text(&type_field, "");
     camera->name = asset_text(field->asset, *name ? name : node->name);
@@ -93,8 +92,7 @@ void cameras_read(Asset *asset) {
     WeftScene *scene = asset->scene;
     Field root = field_root(asset), list = field_member(&root, "cameras");
     size_t count = 0;
-    for (size_t i = 0; i < asset->node_count; i++)
-        count += asset->nodes[i].shown && asset->nodes[i].camera >= 0;
+    for (size_t i = 0; i < asset->node_count; i++) count += asset->nodes[i].shown && asset->nodes[i].camera >= 0;
     scene->cameras = asset_array(asset, &scene->arena, count, sizeof *scene->cameras);
     for (size_t i = 0; i < asset->node_count && asset->result == WEFT_OK; i++) {
         const Node *node = &asset->nodes[i];

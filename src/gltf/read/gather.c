@@ -6,8 +6,7 @@
 static float *gather(Asset *asset, const float *values, size_t width, const uint32_t *source, size_t count) {
     if (!values) return NULL;
     float *out = asset_array(asset, &asset->scene->arena, count, width * sizeof *out);
-    for (size_t i = 0; i < count && out; i++)
-        memcpy(out + i * width, values + source[i] * width, width * sizeof *out);
+    for (size_t i = 0; i < count && out; i++) memcpy(out + i * width, values + source[i] * width, width * sizeof *out);
     return out;
 }
 

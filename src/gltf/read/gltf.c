@@ -19,8 +19,8 @@
 #include "gltf/read/pose.h"
 
 static void version_check(Asset *asset) {
-    Field root = field_root(asset), info = field_member(&root, "asset"),
-          version_field = field_member(&info, "version"), least_field = field_member(&info, "minVersion");
+    Field root = field_root(asset), info = field_member(&root, "asset"), version_field = field_member(&info, "version"),
+          least_field = field_member(&info, "minVersion");
     if (!version_field.json) {
         field_fail(&version_field, WEFT_MESSAGE_GLTF_VERSION, "missing a string");
         return;
@@ -42,8 +42,7 @@ bool gltf_supports(const char *extension) {
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (strcmp(extension, names[i]) == 0) return true;
     for (const MaterialField *row = material_fields; row->factor; row++)
-        if (row->input != NO_INPUT && material_field_extends(row) && strcmp(extension, row->object) == 0)
-            return true;
+        if (row->input != NO_INPUT && material_field_extends(row) && strcmp(extension, row->object) == 0) return true;
     return false;
 }
 
@@ -54,15 +53,13 @@ static void extensions_check(Asset *asset) {
     for (size_t i = 0; i < count; i++) {
         Field field = field_element(&required, i);
         const char *name = field_text(&field, "");
-        if (!gltf_supports(name) && !asset->examined)
-            asset_fail(asset, WEFT_MESSAGE_GLTF_EXTENSION, "%.80s", name);
+        if (!gltf_supports(name) && !asset->examined) asset_fail(asset, WEFT_MESSAGE_GLTF_EXTENSION, "%.80s", name);
     }
     count = field_count(&used);
     for (size_t i = 0; i < count && asset->result == WEFT_OK; i++) {
         Field field = field_element(&used, i);
         const char *name = field_text(&field, "");
-        if (!gltf_supports(name))
-            warn(asset->log, WEFT_MESSAGE_GLTF_WARN_EXTENSION, asset->name, "%.80s", name);
+        if (!gltf_supports(name)) warn(asset->log, WEFT_MESSAGE_GLTF_WARN_EXTENSION, asset->name, "%.80s", name);
     }
     Field animations = field_member(&root, "animations");
     if (field_count(&animations)) field_warn(&animations, WEFT_MESSAGE_GLTF_WARN_IGNORED, "nothing moves");
@@ -114,8 +111,8 @@ WeftResult gltf_read(const char *path, const void *data, size_t size, WeftScene 
     return gltf_read_watched(path, data, size, scene, NULL, NULL, log, error);
 }
 
-WeftResult gltf_read_watched(const char *path, const void *data, size_t size, WeftScene *scene,
-                             WeftProgress progress, void *user, const WeftLog *log, WeftError *error) {
+WeftResult gltf_read_watched(const char *path, const void *data, size_t size, WeftScene *scene, WeftProgress progress,
+                             void *user, const WeftLog *log, WeftError *error) {
     Asset asset = {.log = log, .error = error, .progress = progress, .user = user, .scene = scene};
     gltf_open(&asset, path, data, size);
     gltf_read_parts(&asset);

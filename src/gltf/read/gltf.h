@@ -1,8 +1,7 @@
 /* gltf.h - reads glTF 2.0 files into scenes
  *
  * Specification: Khronos Group, "glTF 2.0 Specification", 2021 (ISO/IEC 12113:2022), and its extension registry. */
-#ifndef WEFT_GLTF_GLTF_H
-#define WEFT_GLTF_GLTF_H
+#pragma once
 
 #include <stddef.h>
 
@@ -15,8 +14,8 @@ WeftResult gltf_read(const char *path, const void *data, size_t size, WeftScene 
                      WeftError *error);
 
 /* Works as gltf_read and reports progress (may be NULL), which can stop it with WEFT_INTERRUPTED. */
-WeftResult gltf_read_watched(const char *path, const void *data, size_t size, WeftScene *scene,
-                             WeftProgress progress, void *user, const WeftLog *log, WeftError *error);
+WeftResult gltf_read_watched(const char *path, const void *data, size_t size, WeftScene *scene, WeftProgress progress,
+                             void *user, const WeftLog *log, WeftError *error);
 
 /* Reads like gltf_read, in three steps, for callers that need more than the scene. The caller sets log, error, progress
  * and user, and scene before the second step; the rest of asset is 0. gltf_open sets root, text, bin and packed.
@@ -27,5 +26,3 @@ void gltf_close(Asset *asset);
 
 /* Returns true if weft supports the extension, so that an asset may require it. */
 bool gltf_supports(const char *extension);
-
-#endif

@@ -1,6 +1,5 @@
 /* gltf_camera.h - cameras of glTF nodes */
-#ifndef WEFT_GLTF_GLTF_CAMERA_H
-#define WEFT_GLTF_GLTF_CAMERA_H
+#pragma once
 
 #include "gltf/asset/asset.h"
 
@@ -9,5 +8,3 @@ void cameras_count(Asset *asset);
 
 /* Adds the cameras of the shown nodes to the scene, in the order of nodes. */
 void cameras_read(Asset *asset);
-
-#endif

@@ -1,11 +1,8 @@
 /* gltf_material.h - reads glTF materials into the inputs of scene materials */
-#ifndef WEFT_GLTF_GLTF_MATERIAL_H
-#define WEFT_GLTF_GLTF_MATERIAL_H
+#pragma once
 
 #include "gltf/asset/asset.h"
 
 /* Reads all materials, and one more at index asset->material_count for surfaces without a material (white, rough metal:
  * the defaults of the specification). Inputs have indices of glTF textures until textures_resolve. */
 void materials_read(Asset *asset);
-
-#endif

@@ -1,6 +1,5 @@
 /* gltf_texture.h - textures, their samplers and images */
-#ifndef WEFT_GLTF_GLTF_TEXTURE_H
-#define WEFT_GLTF_GLTF_TEXTURE_H
+#pragma once
 
 #include "gltf/asset/asset.h"
 
@@ -10,5 +9,3 @@ void textures_read(Asset *asset);
 /* Replaces the indices of glTF textures in the inputs of the scene's materials by those of scene textures, and decodes
  * their images, each only once, in parallel. Materials that nothing shown uses lose their textures. */
 void textures_resolve(Asset *asset);
-
-#endif

@@ -52,8 +52,7 @@ static void light_read(const Field *field, const Node *node, Light *light) {
         field_fail(field, WEFT_MESSAGE_GLTF_TOO_LARGE, "its node is too far away");
     if (light->kind == LIGHT_SPOT) cone_read(field, light);
     double x = -world->m[0][2], y = -world->m[1][2], z = -world->m[2][2], size = sqrt(x * x + y * y + z * z);
-    if (fabs(size - 1.0) < 5e-7)
-        size = 1.0; /* within float precision, so that a saved light is read back exactly */
+    if (fabs(size - 1.0) < 5e-7) size = 1.0; /* within float precision, so that a saved light is read back exactly */
     if (size > 0.0 && isfinite(size))
         light->direction = (Vec3){(float)(x / size), (float)(y / size), (float)(z / size)};
     else
@@ -65,8 +64,7 @@ void lights_read(Asset *asset) {
     Field root = field_root(asset), extension = field_extension(&root, "KHR_lights_punctual"),
           list = field_member(&extension, "lights");
     size_t count = 0;
-    for (size_t i = 0; i < asset->node_count; i++)
-        count += asset->nodes[i].shown && asset->nodes[i].light >= 0;
+    for (size_t i = 0; i < asset->node_count; i++) count += asset->nodes[i].shown && asset->nodes[i].light >= 0;
     scene->lights = asset_array(asset, &scene->arena, count, sizeof *scene->lights);
     for (size_t i = 0; i < asset->node_count && asset->result == WEFT_OK; i++) {
         const Node *node = &asset->nodes[i];

@@ -1,6 +1,5 @@
 /* light.h - KHR_lights_punctual */
-#ifndef WEFT_GLTF_LIGHT_H
-#define WEFT_GLTF_LIGHT_H
+#pragma once
 
 #include "gltf/asset/asset.h"
 
@@ -10,5 +9,3 @@ void lights_count(Asset *asset);
 /* Adds the lights of the shown nodes to the scene, in the order of nodes. The photometric units of glTF are read as
  * radiometric ones, one for one, as for emission: the proportions stay, and the viewer sets the exposure. */
 void lights_read(Asset *asset);
-
-#endif

@@ -20,8 +20,8 @@ static WeftResult load_builtin(const char *path, Watcher watcher, WeftScene *sce
         const Builtin *builtin = builtin_at(k);
         if (strcmp(builtin->name, name) != 0) continue;
         if (builtin->make) return builtin->make(scene, error);
-        return gltf_read_watched(path, builtin->glb, (size_t)(builtin->glb_end - builtin->glb), scene,
-                                 watcher.progress, watcher.user, NULL, error);
+        return gltf_read_watched(path, builtin->glb, (size_t)(builtin->glb_end - builtin->glb), scene, watcher.progress,
+                                 watcher.user, NULL, error);
     }
     return fail(error, WEFT_MESSAGE_SCENE_NAME, path, "available: %s%s", builtin_prefix, builtin_at(0)->name);
 }
@@ -56,8 +56,8 @@ WeftResult weft_scene_load_watched(const char *path, WeftProgress progress, void
     return load(path, NULL, 0, (Watcher){progress, user}, out, log, error);
 }
 
-WeftResult weft_scene_load_memory(const void *data, size_t size, const char *name, WeftScene **out,
-                                  const WeftLog *log, WeftError *error) {
+WeftResult weft_scene_load_memory(const void *data, size_t size, const char *name, WeftScene **out, const WeftLog *log,
+                                  WeftError *error) {
     /* NULL is an empty file, never the file of that name. */
     return load(name, data ? data : "", data ? size : 0, (Watcher){0}, out, log, error);
 }

@@ -38,8 +38,7 @@ static void texture_read(const Field *field, Input *input, int channel) {
     input->texcoord = (int)field_size(&texcoord, 0, 0, UINT8_MAX);
     if (transform.json) transform_read(&transform, input);
     if (input->texcoord > 1) {
-        field_warn(field, WEFT_MESSAGE_GLTF_WARN_IGNORED, "TEXCOORD_%d, only 0 and 1 are read",
-                   input->texcoord);
+        field_warn(field, WEFT_MESSAGE_GLTF_WARN_IGNORED, "TEXCOORD_%d, only 0 and 1 are read", input->texcoord);
         input->texture = 0;
         input->texcoord = 0;
     }
@@ -136,8 +135,7 @@ static void whole_input_read(const Field *field, InputId id, Input *input) {
 static void choice_read(const Field *field, ChoiceId choice, Material *material) {
     WeftError error;
     if (!field->json) return;
-    if (choice_value(choice, field_text(field, "auto"), &material->choices[choice], &error) == WEFT_OK)
-        return;
+    if (choice_value(choice, field_text(field, "auto"), &material->choices[choice], &error) == WEFT_OK) return;
     material->choices[choice] = CHOICE_AUTO;
     field_warn(field, WEFT_MESSAGE_GLTF_WARN_IGNORED, "\"%.40s\" means nothing", field_text(field, ""));
 }
@@ -154,8 +152,7 @@ static void saved_read(const Field *weft, Material *material) {
         Field field = field_member(&list, input_infos[k].name);
         if (field.json) whole_input_read(&field, (InputId)k, &material->inputs[k]);
     }
-    material->alpha_cutoff =
-        (float)field_number(&cutoff, (double)material->alpha_cutoff, 0.0, (double)FLT_MAX);
+    material->alpha_cutoff = (float)field_number(&cutoff, (double)material->alpha_cutoff, 0.0, (double)FLT_MAX);
 }
 
 enum { WEAVES_MOST = 256 }; /* of a scene: each takes its time to be woven */
@@ -172,16 +169,13 @@ static void weave_read(const Field *weft, Material *material) {
         field_warn(&field, WEFT_MESSAGE_GLTF_WARN_IGNORED, "there are more than %d", WEAVES_MOST);
         return;
     }
-    WeftResult result =
-        cloth_from_json(field.json, field.asset->name, NULL, &cloth, field.asset->log, &error);
+    WeftResult result = cloth_from_json(field.json, field.asset->name, NULL, &cloth, field.asset->log, &error);
     if (result != WEFT_OK && result != WEFT_RESOURCES)
         field_warn(&field, WEFT_MESSAGE_GLTF_WARN_IGNORED, "%s", error.text);
     const bool paid =
-        cloth &&
-        asset_charge(field.asset, (size_t)cloth->weave.warps * (size_t)cloth->weave.picks, 4 * sizeof(float));
+        cloth && asset_charge(field.asset, (size_t)cloth->weave.warps * (size_t)cloth->weave.picks, 4 * sizeof(float));
     material->cloth = paid ? scene_adopt_cloth(scene, cloth) : 0;
-    if (result == WEFT_RESOURCES || (paid && !material->cloth))
-        asset_fail(field.asset, WEFT_MESSAGE_MEMORY, NULL);
+    if (result == WEFT_RESOURCES || (paid && !material->cloth)) asset_fail(field.asset, WEFT_MESSAGE_MEMORY, NULL);
     if (!material->cloth) weft_cloth_free(cloth);
 }
 
@@ -191,8 +185,7 @@ static void extras_read(const Field *field, Material *material) {
                                        "choices", "inputs",      "alphaCutoff", "weave"};
     static const MaterialField nap[] = {
         {INPUT_nap, NULL, "nap", "napTexture", CHANNEL_B, 0.0f, 0.0f, 0.5f * PI_FLOAT},
-        {INPUT_nap_direction, NULL, "napRotation", "napTexture", CHANNELS_DIRECTION, 0.0f, -INFINITY,
-         INFINITY}};
+        {INPUT_nap_direction, NULL, "napRotation", "napTexture", CHANNELS_DIRECTION, 0.0f, -INFINITY, INFINITY}};
     Input *inputs = material->inputs;
     Field extras = field_member(field, "extras");
     if (!json_is_object(extras.json)) return;

@@ -55,8 +55,7 @@ static void targets_read(const Field *list, Primitive *p, size_t count) {
     p->targets = asset_array(asset, &asset->arena, p->target_count, sizeof *p->targets);
     for (size_t t = 0; t < p->target_count && asset->result == WEFT_OK; t++) {
         Field target = field_element(list, t);
-        for (int k = 0; k < TARGET_ATTRIBUTES; k++)
-            p->targets[t][k] = attribute_read(&target, names[k], 3, 3, count);
+        for (int k = 0; k < TARGET_ATTRIBUTES; k++) p->targets[t][k] = attribute_read(&target, names[k], 3, 3, count);
     }
 }
 
@@ -98,8 +97,7 @@ static void primitive_read(const Field *field, Primitive *p) {
     Asset *asset = field->asset;
     Field attributes = field_member(field, "attributes"), indices = field_member(field, "indices"),
           material = field_member(field, "material"), mode = field_member(field, "mode"),
-          targets = field_member(field, "targets"),
-          variants = field_extension(field, "KHR_materials_variants");
+          targets = field_member(field, "targets"), variants = field_extension(field, "KHR_materials_variants");
     if (!attributes.json) field_fail(&attributes, WEFT_MESSAGE_GLTF_SCHEMA, "missing an object");
     p->mode = (int)field_size(&mode, 4, 0, 6);
     p->position = attribute_read(&attributes, "POSITION", 3, 3, 0);

@@ -1,6 +1,5 @@
 /* mesh.h - meshes of a glTF file, read into records and baked into the scene's world-space triangles */
-#ifndef WEFT_GLTF_MESH_H
-#define WEFT_GLTF_MESH_H
+#pragma once
 
 #include "gltf/asset/asset.h"
 
@@ -12,5 +11,3 @@ void meshes_read(Asset *asset);
 
 /* Adds every surface of every shown node to the scene. Sets asset->material_shown. */
 void meshes_bake(Asset *asset);
-
-#endif

@@ -46,10 +46,9 @@ static float *weights_read(const Field *field, size_t *count) {
 
 static void node_read(const Field *field, Node *node) {
     Asset *asset = field->asset;
-    Field name = field_member(field, "name"), mesh = field_member(field, "mesh"),
-          skin = field_member(field, "skin"), camera = field_member(field, "camera"),
-          weights = field_member(field, "weights"), lights = field_extension(field, "KHR_lights_punctual"),
-          light = field_member(&lights, "light");
+    Field name = field_member(field, "name"), mesh = field_member(field, "mesh"), skin = field_member(field, "skin"),
+          camera = field_member(field, "camera"), weights = field_member(field, "weights"),
+          lights = field_extension(field, "KHR_lights_punctual"), light = field_member(&lights, "light");
     node->name = field_text(&name, "");
     node->mesh = field_index(&mesh, asset->mesh_count);
     node->skin = field_index(&skin, asset->skin_count);
@@ -68,8 +67,7 @@ static void parents_read(Asset *asset, const Field *list) {
             Field child = field_element(&children, c);
             int index = field_index(&child, asset->node_count);
             if (asset->result != WEFT_OK) return;
-            if (asset->nodes[index].parent >= 0)
-                field_fail(&child, WEFT_MESSAGE_GLTF_PARENTS, "nodes[%d]", index);
+            if (asset->nodes[index].parent >= 0) field_fail(&child, WEFT_MESSAGE_GLTF_PARENTS, "nodes[%d]", index);
             asset->nodes[index].parent = (int)i;
         }
     }
@@ -103,8 +101,7 @@ static void order_nodes(Asset *asset) {
 }
 
 static void mark_shown(Asset *asset) {
-    Field root = field_root(asset), scene_field = field_member(&root, "scene"),
-          scenes = field_member(&root, "scenes");
+    Field root = field_root(asset), scene_field = field_member(&root, "scene"), scenes = field_member(&root, "scenes");
     size_t scene_count = field_count(&scenes);
     int scene = field_index(&scene_field, scene_count);
     for (size_t s = 0; s < scene_count && asset->result == WEFT_OK; s++) {
@@ -139,7 +136,6 @@ void nodes_read(Asset *asset) {
         if (parent && parent->shown) node->shown = true;
         for (int e = 0; e < 12; e++)
             if (!(fabs(node->world.m[e / 4][e % 4]) <= 1e38))
-                asset_fail(asset, WEFT_MESSAGE_GLTF_TOO_LARGE, "nodes[%d]: its transform",
-                           asset->node_order[i]);
+                asset_fail(asset, WEFT_MESSAGE_GLTF_TOO_LARGE, "nodes[%d]: its transform", asset->node_order[i]);
     }
 }

@@ -18,8 +18,7 @@ static void skin_read(const Field *field, Skin *skin, size_t node_count) {
     if (skin->inverse_bind < 0 || asset->result != WEFT_OK) return;
     const Accessor *a = &asset->accessors[skin->inverse_bind];
     if (a->columns != 4 || a->count < skin->joint_count)
-        field_fail(&inverse, WEFT_MESSAGE_GLTF_SCHEMA, "expected a MAT4 for each of %zu joints",
-                   skin->joint_count);
+        field_fail(&inverse, WEFT_MESSAGE_GLTF_SCHEMA, "expected a MAT4 for each of %zu joints", skin->joint_count);
 }
 
 void skins_read(Asset *asset, size_t node_count) {
@@ -35,8 +34,7 @@ void skins_read(Asset *asset, size_t node_count) {
 /* Returns the world transform of each joint times its inverse bind matrix. */
 static Transform *joints_bind(Asset *asset, Arena *scratch, const Skin *skin) {
     Transform *bound = asset_array(asset, scratch, skin->joint_count, sizeof *bound);
-    const float *inverse =
-        skin->inverse_bind < 0 ? NULL : accessor_floats(asset, scratch, skin->inverse_bind);
+    const float *inverse = skin->inverse_bind < 0 ? NULL : accessor_floats(asset, scratch, skin->inverse_bind);
     for (size_t j = 0; j < skin->joint_count && asset->result == WEFT_OK; j++) {
         Transform bind = transform_identity;
         for (int e = 0; inverse && e < 12; e++)
@@ -83,8 +81,8 @@ const Transform *pose_at(const Pose *pose, size_t vertex, Transform *blend) {
     return blend;
 }
 
-void pose_morph(Asset *asset, Arena *scratch, const Node *node, const Primitive *p, int attribute,
-                float *values, size_t stride) {
+void pose_morph(Asset *asset, Arena *scratch, const Node *node, const Primitive *p, int attribute, float *values,
+                size_t stride) {
     const MeshSource *mesh = &asset->meshes[node->mesh];
     const float *weights = node->weights ? node->weights : mesh->weights;
     size_t weight_count = node->weights ? node->weight_count : mesh->weight_count;

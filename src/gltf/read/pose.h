@@ -1,6 +1,5 @@
 /* pose.h - vertices in the rest pose: node transforms, skins and the default weights of morph targets */
-#ifndef WEFT_GLTF_POSE_H
-#define WEFT_GLTF_POSE_H
+#pragma once
 
 #include "gltf/asset/asset.h"
 
@@ -27,5 +26,3 @@ const Transform *pose_at(const Pose *pose, size_t vertex, Transform *blend);
  * values, with the node's weights, else the mesh's. */
 void pose_morph(Asset *asset, Arena *scratch, const Node *node, const Primitive *primitive, int attribute,
                 float *values, size_t stride);
-
-#endif

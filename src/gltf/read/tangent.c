@@ -21,9 +21,7 @@ static Vec3 unit(Vec3 a) {
 }
 
 /* Returns a without its part along the unit vector n, at unit length. */
-static Vec3 tangential(Vec3 a, Vec3 n) {
-    return unit(vec3_sub(unit(a), vec3_scale(n, vec3_dot(unit(a), n))));
-}
+static Vec3 tangential(Vec3 a, Vec3 n) { return unit(vec3_sub(unit(a), vec3_scale(n, vec3_dot(unit(a), n)))); }
 
 /* Returns a unit vector perpendicular to n. */
 static Vec3 any_across(Vec3 n) {
@@ -122,8 +120,7 @@ static void accumulate(const Mesh *mesh, const GltfVec2 *uv, const uint32_t *lea
         Vec3 along = direction_of_u(p, c, side);
         for (int k = 0; k < 3; k++) {
             Vec3 n = vec3_at(mesh->normal, corner[k]);
-            Vec3 a = tangential(vec3_sub(p[(k + 1) % 3], p[k]), n),
-                 b = tangential(vec3_sub(p[(k + 2) % 3], p[k]), n);
+            Vec3 a = tangential(vec3_sub(p[(k + 1) % 3], p[k]), n), b = tangential(vec3_sub(p[(k + 2) % 3], p[k]), n);
             float angle = acosf(fmaxf(-1.0f, fminf(1.0f, vec3_dot(a, b))));
             Vec3 weighted = vec3_scale(tangential(along, n), angle), *sum = &sums[side][leader[corner[k]]];
             *sum = vec3_add(*sum, weighted);
@@ -162,8 +159,7 @@ static void smooth(Asset *asset, Arena *scratch, Mesh *mesh, const Input *input)
     size_t old = mesh->vertex_count;
     GltfVec2 *uv = coordinates(asset, scratch, mesh, input);
     uint32_t *leader = uv ? weld(asset, scratch, mesh, uv) : NULL;
-    Vec3 *sums[2] = {asset_array(asset, scratch, old, sizeof(Vec3)),
-                     asset_array(asset, scratch, old, sizeof(Vec3))};
+    Vec3 *sums[2] = {asset_array(asset, scratch, old, sizeof(Vec3)), asset_array(asset, scratch, old, sizeof(Vec3))};
     uint32_t *source = asset_array(asset, scratch, 2 * old, sizeof *source);
     uint32_t *twin = asset_array(asset, scratch, old, sizeof *twin);
     int8_t *side = asset_array(asset, scratch, 2 * old, sizeof *side);
@@ -175,8 +171,7 @@ static void smooth(Asset *asset, Arena *scratch, Mesh *mesh, const Input *input)
     for (size_t i = 0; i < count && asset->result == WEFT_OK; i++) {
         Vec3 n = vec3_at(mesh->normal, i), t = tangential(sums[side[i] == 1][leader[source[i]]], n);
         if (vec3_dot(t, t) == 0.0f) t = any_across(n);
-        memcpy(mesh->tangent + 4 * i, (const float[4]){t.x, t.y, t.z, side[i] == 1 ? -1.0f : 1.0f},
-               4 * sizeof(float));
+        memcpy(mesh->tangent + 4 * i, (const float[4]){t.x, t.y, t.z, side[i] == 1 ? -1.0f : 1.0f}, 4 * sizeof(float));
     }
 }
 

@@ -5,8 +5,7 @@
  * one side of a vertex, the vertex is split. The method follows Morten S. Mikkelsen, "Simulation of Wrinkled
  * Surfaces Revisited", University of Copenhagen, 2008. Unlike his library it does not distinguish fans of one
  * orientation that touch only at a vertex. */
-#ifndef WEFT_GLTF_TANGENT_H
-#define WEFT_GLTF_TANGENT_H
+#pragma once
 
 #include "gltf/asset/asset.h"
 
@@ -14,5 +13,3 @@
  * texture coordinates. A mesh without normals gets the normals of its faces, on vertices that are not shared.
  * Sticky failures: MEMORY, GLTF_TOO_LARGE. */
 void tangents_make(Asset *asset, Mesh *mesh, const Input *input);
-
-#endif

@@ -25,15 +25,14 @@ static int source_read(const Field *field) {
         Field offer = field_extension(field, offers[i]);
         if (offer.json)
             field_warn(field, WEFT_MESSAGE_GLTF_WARN_IGNORED, "%s, %s", offers[i],
-                       source.json ? "its plain source is used"
-                                   : "which leaves the texture without an image");
+                       source.json ? "its plain source is used" : "which leaves the texture without an image");
     }
     return field_index(&source, field->asset->image_count);
 }
 
 void textures_read(Asset *asset) {
-    Field root = field_root(asset), images = field_member(&root, "images"),
-          samplers = field_member(&root, "samplers"), list = field_member(&root, "textures");
+    Field root = field_root(asset), images = field_member(&root, "images"), samplers = field_member(&root, "samplers"),
+          list = field_member(&root, "textures");
     asset->image_count = field_count(&images);
     for (size_t i = 0; i < asset->image_count; i++) {
         Field field = field_element(&images, i), view = field_member(&field, "bufferView"),
@@ -50,9 +49,8 @@ void textures_read(Asset *asset) {
     asset->textures = asset_array(asset, &asset->arena, asset->texture_count, sizeof *asset->textures);
     for (size_t i = 0; i < asset->texture_count && asset->result == WEFT_OK; i++) {
         Field field = field_element(&list, i), sampler = field_member(&field, "sampler");
-        asset->textures[i] = (TextureSource){.image = source_read(&field),
-                                             .sampler = field_index(&sampler, asset->sampler_count),
-                                             .scene_texture = -1};
+        asset->textures[i] = (TextureSource){
+            .image = source_read(&field), .sampler = field_index(&sampler, asset->sampler_count), .scene_texture = -1};
     }
 }
 
@@ -71,9 +69,9 @@ static TextureWrap wrap_read(const Field *field) {
 static void sampler_read(Asset *asset, int index, Texture *texture) {
     enum { NEAREST = 9728 };
     if (index < 0) return;
-    Field root = field_root(asset), list = field_member(&root, "samplers"),
-          field = field_element(&list, (size_t)index), wrap_s = field_member(&field, "wrapS"),
-          wrap_t = field_member(&field, "wrapT"), filter = field_member(&field, "magFilter");
+    Field root = field_root(asset), list = field_member(&root, "samplers"), field = field_element(&list, (size_t)index),
+          wrap_s = field_member(&field, "wrapS"), wrap_t = field_member(&field, "wrapT"),
+          filter = field_member(&field, "magFilter");
     texture->wrap_u = wrap_read(&wrap_s);
     texture->wrap_v = wrap_read(&wrap_t);
     texture->nearest = field_size(&filter, 0, 0, SIZE_MAX) == NEAREST;
@@ -114,8 +112,8 @@ static void decode(void *user, int place, int thread) {
     DecodeJob *job = &jobs->items[item];
     const WeftLog log = {log_locked, jobs};
     if (atomic_load(&jobs->stopped) || job->result != WEFT_OK) return;
-    job->result = weft_image_read_memory(job->bytes.data, job->bytes.size, job->name,
-                                         &jobs->asset->scene->images[item], &log, &job->error);
+    job->result = weft_image_read_memory(job->bytes.data, job->bytes.size, job->name, &jobs->asset->scene->images[item],
+                                         &log, &job->error);
     size_t decoded = atomic_fetch_add(&jobs->decoded, job->bytes.size) + job->bytes.size;
     if (thread == 0 && !asset_progress(jobs->asset, 0.5, 1.0, decoded, jobs->encoded))
         atomic_store(&jobs->stopped, true); /* the others finish what they have begun */
@@ -135,8 +133,8 @@ static void sizes_check(Jobs *jobs) {
     jobs->encoded = encoded;
     size_t allowed = encoded * expansion > floor ? encoded * expansion : floor;
     if (decoded > allowed)
-        asset_fail(asset, WEFT_MESSAGE_GLTF_TOO_LARGE, "its images decode to %zu bytes, more than %zu",
-                   decoded, allowed);
+        asset_fail(asset, WEFT_MESSAGE_GLTF_TOO_LARGE, "its images decode to %zu bytes, more than %zu", decoded,
+                   allowed);
 }
 
 static void order_find(Jobs *jobs) {
@@ -157,8 +155,7 @@ static void images_decode(Jobs *jobs) {
     for (int i = 0; i < count && asset->result == WEFT_OK; i++) {
         const DecodeJob *job = &jobs->items[i];
         if (asset->examined && job->result == WEFT_INPUT) {
-            if (asset->log && asset->log->fn)
-                asset->log->fn(asset->log->user, job->error.message, job->error.text);
+            if (asset->log && asset->log->fn) asset->log->fn(asset->log->user, job->error.message, job->error.text);
             continue;
         }
         asset->result = job->result;
@@ -185,9 +182,8 @@ static void image_excuse(Asset *asset, DecodeJob *job) {
 /* Returns the scene's image for glTF image number index: that of its view or file if they have one already. */
 static int image_resolve(Jobs *jobs, int index) {
     Asset *asset = jobs->asset;
-    Field root = field_root(asset), list = field_member(&root, "images"),
-          field = field_element(&list, (size_t)index), view_field = field_member(&field, "bufferView"),
-          uri_field = field_member(&field, "uri");
+    Field root = field_root(asset), list = field_member(&root, "images"), field = field_element(&list, (size_t)index),
+          view_field = field_member(&field, "bufferView"), uri_field = field_member(&field, "uri");
     const char *uri = field_text(&uri_field, NULL);
     int view = field_index(&view_field, asset->view_count), none = 0, *made = &none;
     DecodeJob job = {.name = image_name(asset, index)};

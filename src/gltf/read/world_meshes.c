@@ -30,9 +30,8 @@ static void bake_fail(const MeshBake *bake, WeftMessage message, const char *wha
 }
 
 static void bake_warn(const MeshBake *bake, const char *what) {
-    warn(bake->asset->log, WEFT_MESSAGE_GLTF_WARN_REPAIRED, bake->asset->name,
-         "meshes[%d].primitives[%d]: %s", bake->node->mesh,
-         (int)(bake->primitive - bake->asset->meshes[bake->node->mesh].primitives), what);
+    warn(bake->asset->log, WEFT_MESSAGE_GLTF_WARN_REPAIRED, bake->asset->name, "meshes[%d].primitives[%d]: %s",
+         bake->node->mesh, (int)(bake->primitive - bake->asset->meshes[bake->node->mesh].primitives), what);
 }
 
 /* Finds the corners of triangle t, as places in the list of indices. */
@@ -220,15 +219,13 @@ static void complete_tangents(MeshBake *bake) {
     Mesh *mesh = bake->mesh;
     const Input *input = tangents_input(&scene->materials[mesh->material]);
     for (int v = 0; v < scene->variant_count && mesh->variant_material && !input; v++)
-        if (mesh->variant_material[v] >= 0)
-            input = tangents_input(&scene->materials[mesh->variant_material[v]]);
+        if (mesh->variant_material[v] >= 0) input = tangents_input(&scene->materials[mesh->variant_material[v]]);
     if (input && !mesh->tangent && tangents_possible(mesh, input)) tangents_make(bake->asset, mesh, input);
 }
 
 static void mark_materials(Asset *asset, const Mesh *mesh) {
     asset->material_shown[mesh->material] = true;
-    if (mesh->material == (int)asset->material_count)
-        asset->scene->material_count = (int)asset->material_count + 1;
+    if (mesh->material == (int)asset->material_count) asset->scene->material_count = (int)asset->material_count + 1;
     for (int v = 0; v < asset->scene->variant_count && mesh->variant_material; v++)
         if (mesh->variant_material[v] >= 0) asset->material_shown[mesh->variant_material[v]] = true;
 }

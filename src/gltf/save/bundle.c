@@ -83,8 +83,8 @@ static void buffers_pack(Saving *saving, const Asset *asset) {
         if (uri) bytes = bundle_bytes(asset, uri, &saving->result, saving->error);
         double length = number_at(buffer, "byteLength");
         size_t size = length > 0.0 && length < (double)bytes.size ? (size_t)length : bytes.size;
-        moved[k] = (Moved){bytes.data ? 0 : (json_int_t)json_array_size(kept),
-                           bytes.data ? (json_int_t)saving->size : 0};
+        moved[k] =
+            (Moved){bytes.data ? 0 : (json_int_t)json_array_size(kept), bytes.data ? (json_int_t)saving->size : 0};
         if (bytes.data) saving_bytes(saving, bytes.data, size);
         if (bytes.data) json_object_del(buffer, "uri");
         if (k == 0 || !bytes.data) json_array_append(kept, buffer);
@@ -151,8 +151,7 @@ static void file_copy(Saving *saving, const char *from, char *to, size_t folder)
     saving->result = file_read(from, FILE_MAX, &bytes, saving->error);
     if (saving->result == WEFT_OK && stat(to, &status) == 0) {
         saving->result = file_read(to, FILE_MAX, &there, saving->error);
-        if (saving->result == WEFT_OK &&
-            (there.size != bytes.size || memcmp(there.data, bytes.data, bytes.size) != 0))
+        if (saving->result == WEFT_OK && (there.size != bytes.size || memcmp(there.data, bytes.data, bytes.size) != 0))
             saving_fail(saving, WEFT_MESSAGE_FILE_WRITE, to, "another file of that name is there");
     } else if (saving->result == WEFT_OK) {
         folders_make(to, folder);
@@ -164,8 +163,7 @@ static void file_copy(Saving *saving, const char *from, char *to, size_t folder)
 
 static void uri_copy(Saving *saving, const Asset *asset, const char *uri) {
     WeftError unused;
-    Asset here = folder_of(asset->name, asset->in_memory, &unused),
-          there = folder_of(saving->path, false, &unused);
+    Asset here = folder_of(asset->name, asset->in_memory, &unused), there = folder_of(saving->path, false, &unused);
     const char *slash = strrchr(saving->path, '/');
     char *from = file_path(&here, uri), *to = file_path(&there, uri);
     if (from && to) file_copy(saving, from, to, slash ? (size_t)(slash - saving->path) + 1 : 0);

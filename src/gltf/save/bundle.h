@@ -1,6 +1,5 @@
 /* bundle.h - the files beside an asset when it is written elsewhere: packed into it, or copied */
-#ifndef WEFT_GLTF_BUNDLE_H
-#define WEFT_GLTF_BUNDLE_H
+#pragma once
 
 #include "gltf/asset/asset.h"
 #include "gltf/save/saving.h"
@@ -17,5 +16,3 @@ void bundle_pack(Saving *saving, const Asset *asset);
 /* Copies the files to which saving->root still refers from the asset's folder to that of saving->path, unless the
  * folders are the same. A missing file is no error; a file that is already there must have the same bytes. */
 void bundle_copy(Saving *saving, const Asset *asset);
-
-#endif

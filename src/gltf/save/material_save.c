@@ -19,9 +19,7 @@
 
 static float value(const Material *material, InputId id) { return material->inputs[id].value[0]; }
 
-static float strongest(const Input *input) {
-    return fmaxf(input->value[0], fmaxf(input->value[1], input->value[2]));
-}
+static float strongest(const Input *input) { return fmaxf(input->value[0], fmaxf(input->value[1], input->value[2])); }
 
 /* Saves KHR_texture_transform of a matrix of scale, rotation and shift; others are approximated. */
 static void transform_put(Saving *saving, json_t *info, const float m[6]) {
@@ -58,8 +56,7 @@ static void number_put(Saving *saving, json_t *object, const char *key, float x)
 /* Returns the index of refraction. If the workflow has F0 as a colour, it is 1.5, and the tint is that colour over the
  * F0 of 1.5. */
 static float saved_ior(const Material *material) {
-    const Surface plain = {.ior = value(material, INPUT_ior),
-                           .reflectance = value(material, INPUT_reflectance)};
+    const Surface plain = {.ior = value(material, INPUT_ior), .reflectance = value(material, INPUT_reflectance)};
     const float root = sqrtf(fminf(dielectric_f0(&plain), 1.0f));
     if (material_choices(material).workflow == WORKFLOW_SPECULAR) return 1.5f;
     return plain.ior >= 1.0f ? plain.ior : (1.0f + root) / fmaxf(1.0f - root, 1e-3f);
@@ -67,12 +64,10 @@ static float saved_ior(const Material *material) {
 
 /* Returns number c of an input's factor in glTF's terms, where these are not weft's. */
 static float saved_number(const Material *material, InputId id, int c) {
-    const float x = material->inputs[id].value[c],
-                glow = fmaxf(strongest(&material->inputs[INPUT_emission]), 1.0f);
+    const float x = material->inputs[id].value[c], glow = fmaxf(strongest(&material->inputs[INPUT_emission]), 1.0f);
     const int workflow = material_choices(material).workflow;
     switch (id) {
-    case INPUT_metallic:
-        return workflow > WORKFLOW_METALLIC ? 0.0f : x; /* other workflows have next to no metal */
+    case INPUT_metallic: return workflow > WORKFLOW_METALLIC ? 0.0f : x; /* other workflows have next to no metal */
     case INPUT_emission: return x * (1.0f / glow);
     case INPUT_emission_strength: return x * glow;
     case INPUT_specular_color: return fminf(workflow == WORKFLOW_SPECULAR ? 25.0f * x : x, 1000.0f);
@@ -98,8 +93,7 @@ static json_t *texture_json(Saving *saving, const Material *material, const Mate
     if (!row->texture || material_field_repeats(row + 1)) return NULL;
     if (row->input == INPUT_roughness && !material->inputs[row->input].texture) row--;
     const Input *input = &material->inputs[row->input];
-    return row->channels > CHANNEL_A || input->channel == (int)row->channels ? texture_info(saving, input)
-                                                                             : NULL;
+    return row->channels > CHANNEL_A || input->channel == (int)row->channels ? texture_info(saving, input) : NULL;
 }
 
 static void row_save(Saving *saving, json_t *object, const Material *material, const MaterialField *row) {
@@ -119,9 +113,7 @@ static bool is_wanted(const Material *material, const MaterialField *row) {
     case INPUT_emission: return glows;
     case INPUT_emission_strength:
         return glows && !is_equal(saved_number(material, INPUT_emission_strength, 0), row->absent);
-    default:
-        return !material_field_extends(row) ||
-               !is_equal(strongest(&material->inputs[row->input]), row->absent);
+    default: return !material_field_extends(row) || !is_equal(strongest(&material->inputs[row->input]), row->absent);
     }
 }
 
@@ -171,8 +163,7 @@ static Input numbered(const Saving *saving, const Input *input) {
 
 static bool is_same(const Input *a, const Input *b, int count) {
     return memcmp((const char *)a->value, (const char *)b->value, (size_t)count * sizeof *a->value) == 0 &&
-           a->texture == b->texture && a->texcoord == b->texcoord && a->channel == b->channel &&
-           a->given == b->given &&
+           a->texture == b->texture && a->texcoord == b->texcoord && a->channel == b->channel && a->given == b->given &&
            memcmp((const char *)a->transform, (const char *)b->transform, sizeof a->transform) == 0;
 }
 

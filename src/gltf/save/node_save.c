@@ -40,8 +40,8 @@ static int indices_save(Saving *saving, const Mesh *mesh) {
     return (int)json_array_size(list) - 1;
 }
 
-static void attribute_put(Saving *saving, const Mesh *mesh, json_t *attributes, const char *name,
-                          const float *values, int width) {
+static void attribute_put(Saving *saving, const Mesh *mesh, json_t *attributes, const char *name, const float *values,
+                          int width) {
     if (!values) return;
     int index = floats_save(saving, values, mesh->vertex_count, width, strcmp(name, "POSITION") == 0);
     saving_put(saving, attributes, name, json_integer(index));
@@ -50,16 +50,14 @@ static void attribute_put(Saving *saving, const Mesh *mesh, json_t *attributes, 
 /* Returns true if a map of the material uses that set of texture coordinates. */
 static bool looks_up(const Material *material, int set) {
     bool any = false;
-    for (int k = 0; k < INPUT_COUNT; k++)
-        any |= material->inputs[k].texture && material->inputs[k].texcoord == set;
+    for (int k = 0; k < INPUT_COUNT; k++) any |= material->inputs[k].texture && material->inputs[k].texcoord == set;
     return any;
 }
 
 static bool needs_set(const WeftScene *scene, const Mesh *mesh, int set) {
     bool needs = looks_up(&scene->materials[mesh->material], set);
     for (int v = 0; v < scene->variant_count && mesh->variant_material; v++)
-        if (mesh->variant_material[v] >= 0)
-            needs |= looks_up(&scene->materials[mesh->variant_material[v]], set);
+        if (mesh->variant_material[v] >= 0) needs |= looks_up(&scene->materials[mesh->variant_material[v]], set);
     return needs;
 }
 
@@ -117,8 +115,7 @@ static void node_append(Saving *saving, json_t *node) {
     json_t *nodes = saving_list(saving, "nodes"), *shown = json_array_get(saving_list(saving, "scenes"), 0);
     saving_append(saving, nodes, node);
     if (!json_object_get(shown, "nodes")) saving_put(saving, shown, "nodes", json_array());
-    saving_append(saving, json_object_get(shown, "nodes"),
-                  json_integer((json_int_t)json_array_size(nodes) - 1));
+    saving_append(saving, json_object_get(shown, "nodes"), json_integer((json_int_t)json_array_size(nodes) - 1));
 }
 
 static void mesh_save(Saving *saving, const Mesh *mesh) {
@@ -139,8 +136,7 @@ static void mesh_save(Saving *saving, const Mesh *mesh) {
 
 /* Returns the matrix of a node from its columns. */
 static json_t *matrix(Vec3 x, Vec3 y, Vec3 z, Vec3 at) {
-    const float m[16] = {x.x, x.y, x.z, 0.0f, y.x,  y.y,  y.z,  0.0f,
-                         z.x, z.y, z.z, 0.0f, at.x, at.y, at.z, 1.0f};
+    const float m[16] = {x.x, x.y, x.z, 0.0f, y.x, y.y, y.z, 0.0f, z.x, z.y, z.z, 0.0f, at.x, at.y, at.z, 1.0f};
     return saving_floats(m, 16);
 }
 
@@ -177,8 +173,7 @@ static json_t *light_object(Saving *saving, const Light *light) {
     double outer = cone(light->cos_outer);
     saving_put(saving, spot, "outerConeAngle", json_real(outer));
     /* it must be less, by an amount that does not change the cosine in float */
-    saving_put(saving, spot, "innerConeAngle",
-               json_real(fmax(fmin(cone(light->cos_inner), outer - 1e-9), 0.0)));
+    saving_put(saving, spot, "innerConeAngle", json_real(fmax(fmin(cone(light->cos_inner), outer - 1e-9), 0.0)));
     saving_put(saving, object, "spot", spot);
     return object;
 }
@@ -249,8 +244,7 @@ void nodes_save(Saving *saving) {
     const WeftScene *scene = saving->scene;
     saving_append(saving, saving_list(saving, "scenes"), json_object());
     saving_put(saving, saving->root, "scene", json_integer(0));
-    for (int k = 0; k < scene->mesh_count && saving->result == WEFT_OK; k++)
-        mesh_save(saving, &scene->meshes[k]);
+    for (int k = 0; k < scene->mesh_count && saving->result == WEFT_OK; k++) mesh_save(saving, &scene->meshes[k]);
     lights_save(saving);
     for (int k = 0; k < scene->camera_count; k++) camera_save(saving, &scene->cameras[k]);
     variants_save(saving);

@@ -194,8 +194,7 @@ static void put_array(JsonPatch *patch, const JsonSetting *setting, json_t *was,
 static void put_changed(JsonPatch *patch, json_t *was, json_t *now) {
     const char *start = patch->at;
     JsonSetting setting;
-    bool objects = json_is_object(was) && json_is_object(now),
-         arrays = json_is_array(was) && json_is_array(now);
+    bool objects = json_is_object(was) && json_is_object(now), arrays = json_is_array(was) && json_is_array(now);
     if (json_equal(was, now)) {
         put(patch, start, patch->at = skip_value(patch, start));
     } else if (objects && survey(patch, start, true, &setting) == json_object_size(was)) {

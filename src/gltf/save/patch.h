@@ -1,6 +1,5 @@
 /* patch.h - JSON text after its values were edited: what was not edited stays, byte for byte */
-#ifndef WEFT_GLTF_PATCH_H
-#define WEFT_GLTF_PATCH_H
+#pragma once
 
 #include <jansson.h>
 #include <stddef.h>
@@ -10,5 +9,3 @@
  * object or array, spaced like their neighbours. The text has size bytes and a zero byte. Returns NULL if
  * memory is short. Release with free(). */
 char *patch_text(const char *text, size_t length, json_t *was, json_t *now, size_t *size);
-
-#endif

@@ -94,8 +94,7 @@ static void image_put(Saving *saving, const NewImage *image) {
     json_t *object = json_array_get(json_object_get(saving->root, "images"), (size_t)image->index);
     if (takes_bytes(saving)) {
         saving_put(saving, object, "mimeType", json_string("image/png"));
-        saving_put(saving, object, "bufferView",
-                   json_integer(saving_view(saving, image->png, image->size, 0)));
+        saving_put(saving, object, "bufferView", json_integer(saving_view(saving, image->png, image->size, 0)));
         return;
     }
     char end[32];
@@ -126,8 +125,7 @@ static void length_update(Saving *saving, size_t before) {
 
 static void document_write(Saving *saving, const Asset *asset) {
     size_t length = 0, head_size = 0;
-    char *text =
-        patch_text((const char *)asset->text.data, asset->text.size, asset->root, saving->root, &length);
+    char *text = patch_text((const char *)asset->text.data, asset->text.size, asset->root, saving->root, &length);
     unsigned char *head = NULL;
     if (text && !saving->packed) {
         saving_write(saving, saving->path, text, length, NULL, 0);
@@ -156,8 +154,7 @@ WeftResult rewrite_save(const Rewrite *rewrite, const char *path, WeftError *err
     size_t before = saving.size;
     if (packed && !asset->packed) bundle_pack(&saving, asset);
     if (!packed && saving.size) bin_unpack(&saving);
-    for (int k = 0; k < rewrite->image_count && saving.result == WEFT_OK; k++)
-        image_put(&saving, &rewrite->images[k]);
+    for (int k = 0; k < rewrite->image_count && saving.result == WEFT_OK; k++) image_put(&saving, &rewrite->images[k]);
     length_update(&saving, before);
     bundle_copy(&saving, asset);
     if (saving.result == WEFT_OK) document_write(&saving, asset);

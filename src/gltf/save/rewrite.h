@@ -3,8 +3,7 @@
  * Nothing that was not edited is lost, because nothing of it needs to be understood: animations, skins,
  * extensions that weft does not support, the spelling of numbers and the blanks between them.
  * weft_scene_save, in contrast, writes a new file from a scene. */
-#ifndef WEFT_GLTF_REWRITE_H
-#define WEFT_GLTF_REWRITE_H
+#pragma once
 
 #include "gltf/asset/asset.h"
 
@@ -44,5 +43,3 @@ void rewrite_uses_no_more(Rewrite *rewrite, const char *extension);
 WeftResult rewrite_save(const Rewrite *rewrite, const char *path, WeftError *error);
 
 void rewrite_end(Rewrite *rewrite);
-
-#endif

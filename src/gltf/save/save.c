@@ -39,8 +39,7 @@ static void buffer_save(Saving *saving) {
 
 static void container_write(Saving *saving, const char *text) {
     size_t size = 0;
-    unsigned char *head =
-        container_head((Span){(const unsigned char *)text, strlen(text)}, saving->size, 0, &size);
+    unsigned char *head = container_head((Span){(const unsigned char *)text, strlen(text)}, saving->size, 0, &size);
     if (!head)
         saving_fail(saving, WEFT_MESSAGE_MEMORY, saving->path, NULL);
     else if (size + saving->size > UINT32_MAX)

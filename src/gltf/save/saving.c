@@ -10,8 +10,8 @@
 
 void saving_fail(Saving *saving, WeftMessage message, const char *subject, const char *detail) {
     if (saving->result == WEFT_OK)
-        saving->result = detail ? fail(saving->error, message, subject, "%s", detail)
-                                : fail(saving->error, message, subject, NULL);
+        saving->result =
+            detail ? fail(saving->error, message, subject, "%s", detail) : fail(saving->error, message, subject, NULL);
 }
 
 static void no_memory(Saving *saving) { saving_fail(saving, WEFT_MESSAGE_MEMORY, saving->path, NULL); }
@@ -45,9 +45,7 @@ static json_t *member(Saving *saving, json_t *object, const char *key, json_t *(
     return json_object_get(object, key);
 }
 
-json_t *saving_list(Saving *saving, const char *name) {
-    return member(saving, saving->root, name, json_array);
-}
+json_t *saving_list(Saving *saving, const char *name) { return member(saving, saving->root, name, json_array); }
 
 void saving_uses(Saving *saving, const char *extension) {
     json_t *list = saving_list(saving, "extensionsUsed"), *value;
@@ -112,8 +110,7 @@ char *saving_beside(Saving *saving, const char *end) {
 
 /* Returns true if a character need not be encoded: IETF, RFC 3986 "Uniform Resource Identifier", 2005, section 2.3. */
 static bool is_unreserved(unsigned char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-           (c && strchr("-._~", c));
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || (c && strchr("-._~", c));
 }
 
 char *saving_uri(Saving *saving, const char *path) {

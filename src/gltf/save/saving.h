@@ -2,8 +2,7 @@
  *
  * Failures are sticky, as in asset.h: saving->result keeps the first, writers go on, and the caller tests it
  * at the end. */
-#ifndef WEFT_GLTF_SAVING_H
-#define WEFT_GLTF_SAVING_H
+#pragma once
 
 #include <jansson.h>
 
@@ -67,5 +66,3 @@ char *saving_uri(Saving *saving, const char *path);
 /* Writes a file, completely or not at all. */
 void saving_write(Saving *saving, const char *path, const void *head, size_t head_size, const void *body,
                   size_t body_size);
-
-#endif

@@ -27,8 +27,7 @@ static bool number_all(Saving *saving) {
     saving->texture_number = arena_array(&saving->arena, textures, sizeof(int));
     saving->image_order = arena_array(&saving->arena, images, sizeof(int));
     saving->image_number = arena_array(&saving->arena, images, sizeof(int));
-    if (!used || !saving->texture_order || !saving->texture_number || !saving->image_order ||
-        !saving->image_number)
+    if (!used || !saving->texture_order || !saving->texture_number || !saving->image_order || !saving->image_number)
         return false;
     for (size_t k = 0; k < textures; k++) saving->texture_number[k] = -1;
     for (size_t k = 0; k < images; k++) saving->image_number[k] = -1;
@@ -74,8 +73,8 @@ static char *encode(Saving *saving, const WeftImage *image, size_t *size) {
         saving_fail(saving, WEFT_MESSAGE_MEMORY, saving->path, NULL);
         return NULL;
     }
-    WeftResult result = (image->type == WEFT_PIXEL_F32 ? image_write_npy : image_write_png)(
-        stream, saving->path, image, &how, saving->error);
+    WeftResult result = (image->type == WEFT_PIXEL_F32 ? image_write_npy : image_write_png)(stream, saving->path, image,
+                                                                                            &how, saving->error);
     if (saving->result == WEFT_OK) saving->result = result;
     if (fclose(stream) != 0) saving_fail(saving, WEFT_MESSAGE_MEMORY, saving->path, NULL);
     return bytes;
@@ -89,10 +88,8 @@ static void image_save(Saving *saving, int number) {
     char end[32], *bytes = saving->result == WEFT_OK ? encode(saving, image, &size) : NULL;
     snprintf(end, sizeof end, "-%d.%s", number, floats ? "npy" : "png");
     if (saving->packed) {
-        saving_put(saving, object, "mimeType",
-                   json_string(floats ? "application/octet-stream" : "image/png"));
-        saving_put(saving, object, "bufferView",
-                   json_integer(saving_view(saving, bytes ? bytes : "", size, 0)));
+        saving_put(saving, object, "mimeType", json_string(floats ? "application/octet-stream" : "image/png"));
+        saving_put(saving, object, "bufferView", json_integer(saving_view(saving, bytes ? bytes : "", size, 0)));
     } else {
         const char *path = saving_beside(saving, end), *uri = path ? saving_uri(saving, path) : NULL;
         if (uri) saving_put(saving, object, "uri", json_string(uri));

@@ -52,8 +52,7 @@ static WeftResult values_take(AuditWork *work, WeftError *error) {
     for (size_t n = 0; work->values && n < count; n++)
         work->values[n] =
             (float)(work->desc->scale *
-                    (double)((float *)
-                                 floats.pixels)[n * (size_t)image->channels + (size_t)work->desc->channel]);
+                    (double)((float *)floats.pixels)[n * (size_t)image->channels + (size_t)work->desc->channel]);
     weft_image_free(&floats);
     return work->values ? WEFT_OK : fail(error, WEFT_MESSAGE_MEMORY, "table", NULL);
 }
@@ -146,8 +145,7 @@ static bool patch_holds(Cell *cell, const TexelPatch *p, bool wide, bool high) {
     const float allowed = (float)(2.0 * cell->work->tolerance);
     bool holds = true;
     if (!wide || !high) return patch_curvature(cell, p, high) <= allowed;
-    for (int k = 0; k < 4; k++)
-        holds &= patch_error(cell, p, quarter(p->i, k & 1), quarter(p->j, k >> 1)) <= allowed;
+    for (int k = 0; k < 4; k++) holds &= patch_error(cell, p, quarter(p->i, k & 1), quarter(p->j, k >> 1)) <= allowed;
     return holds;
 }
 
@@ -156,8 +154,7 @@ static bool patch_is_mixed(Cell *cell, const TexelPatch *p, bool below) {
     bool mixed = false;
     for (int k = 0; k < 3; k++) {
         int judged = 0;
-        for (int m = 0; m < 3; m++)
-            judged += cell_exact(cell, p->i[below ? k : m], p->j[below ? m : k]) >= 0.0f;
+        for (int m = 0; m < 3; m++) judged += cell_exact(cell, p->i[below ? k : m], p->j[below ? m : k]) >= 0.0f;
         mixed |= judged % 3 != 0;
     }
     return mixed;
@@ -177,16 +174,14 @@ static void patch_take(Cell *cell, const TexelPatch *p) {
  * are cut there. A patch of which nothing is judged is not cut. */
 static void patch_fill(Cell *cell, TexelPatch p) {
     const bool wide = p.i[2] - p.i[0] > 2, high = p.j[2] - p.j[0] > 2;
-    const bool mixed = wide && patch_is_mixed(cell, &p, false),
-               mixed_down = high && patch_is_mixed(cell, &p, true);
+    const bool mixed = wide && patch_is_mixed(cell, &p, false), mixed_down = high && patch_is_mixed(cell, &p, true);
     if (!mixed && !mixed_down && ((!wide && !high) || patch_holds(cell, &p, wide, high))) {
         patch_take(cell, &p);
         return;
     }
-    const bool cut_down =
-        mixed != mixed_down
-            ? mixed_down
-            : high && (!wide || patch_curvature(cell, &p, true) > patch_curvature(cell, &p, false));
+    const bool cut_down = mixed != mixed_down
+                              ? mixed_down
+                              : high && (!wide || patch_curvature(cell, &p, true) > patch_curvature(cell, &p, false));
     for (int half = 0; half < 2; half++)
         patch_fill(cell, cut_down ? patch_of(p.i[0], p.i[2], p.j[half], p.j[half + 1])
                                   : patch_of(p.i[half], p.i[half + 1], p.j[0], p.j[2]));
@@ -213,8 +208,7 @@ static void map_cell(void *user, int column, int row, int thread) {
     else
         patch_fill(&cell, patch_of(0, wide, 0, high));
     for (int j = 0; j < step && y + j < work->height; j++)
-        for (int i = 0; i < step && x + i < work->width; i++)
-            map_put(work, x + i, y + j, cell.e[j * (CELL + 1) + i]);
+        for (int i = 0; i < step && x + i < work->width; i++) map_put(work, x + i, y + j, cell.e[j * (CELL + 1) + i]);
 }
 
 static void measure(const AuditWork *work, WeftAudit *out) {
@@ -437,11 +431,9 @@ static WeftResult map_make(AuditWork *work, WeftError *error) {
                               .lobe = work->lobe,
                               .tolerance = work->tolerance};
     work->step = cell_size(work);
-    result =
-        bake_texels((work->width + work->step - 1) / work->step, (work->height + work->step - 1) / work->step,
-                    desc->threads, desc->progress, desc->user, map_cell, work);
-    if (work->step > 1)
-        work->met[0] += 2.0 * work->tolerance; /* of patches, which are tested in four places */
+    result = bake_texels((work->width + work->step - 1) / work->step, (work->height + work->step - 1) / work->step,
+                         desc->threads, desc->progress, desc->user, map_cell, work);
+    if (work->step > 1) work->met[0] += 2.0 * work->tolerance; /* of patches, which are tested in four places */
     return result;
 }
 

@@ -18,8 +18,7 @@ void probe_take(TableProbe *probe, const float *values, int width, int height) {
     for (int j = 0; j < probe->rows; j++) probe->y[j] = spread(j, probe->rows, height);
     for (int j = 0; j < probe->rows; j++)
         for (int i = 0; i < probe->columns; i++)
-            probe->table[j * probe->columns + i] =
-                values[(size_t)probe->y[j] * (size_t)width + (size_t)probe->x[i]];
+            probe->table[j * probe->columns + i] = values[(size_t)probe->y[j] * (size_t)width + (size_t)probe->x[i]];
 }
 
 /* Returns the probe of every other column and row, which costs a quarter. */
@@ -28,8 +27,8 @@ static TableProbe coarse_of(const TableProbe *probe) {
     coarse.columns = (probe->columns + 1) / 2;
     coarse.rows = (probe->rows + 1) / 2;
     for (int n = 0; n < coarse.columns * coarse.rows; n++) {
-        const int i = n % coarse.columns, j = n / coarse.columns,
-                  x = spread(i, coarse.columns, probe->columns), y = spread(j, coarse.rows, probe->rows);
+        const int i = n % coarse.columns, j = n / coarse.columns, x = spread(i, coarse.columns, probe->columns),
+                  y = spread(j, coarse.rows, probe->rows);
         coarse.x[i] = probe->x[x];
         coarse.y[j] = probe->y[y];
         coarse.table[n] = probe->table[y * probe->columns + x];
@@ -55,8 +54,7 @@ static void albedo_find(void *user, int item, int thread) {
 }
 
 /* Evaluates E with form and late of the reading. `form` must outlive the result. */
-static void albedos_find(const TableProbe *probe, const ProbeReading *reading, WeftTableForm *form,
-                         Albedos *e) {
+static void albedos_find(const TableProbe *probe, const ProbeReading *reading, WeftTableForm *form, Albedos *e) {
     *form = reading->form;
     form->flip_x = form->flip_y = 0;
     e->probe = probe;
@@ -71,8 +69,7 @@ static void albedos_find(const TableProbe *probe, const ProbeReading *reading, W
 
 /* Works as albedos_find for reading, whose axes are those of the last one exchanged. The texels of a square table
  * have the same cosines and parameters then, with rows and columns exchanged. */
-static void albedos_exchange(const TableProbe *probe, const ProbeReading *reading, WeftTableForm *form,
-                             Albedos *e) {
+static void albedos_exchange(const TableProbe *probe, const ProbeReading *reading, WeftTableForm *form, Albedos *e) {
     const int side = probe->columns;
     if (probe->width != probe->height) {
         albedos_find(probe, reading, form, e);
@@ -91,8 +88,7 @@ static void albedos_exchange(const TableProbe *probe, const ProbeReading *readin
 /* Returns the place of the E of probed texel n, under the flips of a form. */
 static int flipped(const TableProbe *probe, const WeftTableForm *form, int n) {
     const int i = n % probe->columns, j = n / probe->columns;
-    return (form->flip_y ? probe->rows - 1 - j : j) * probe->columns +
-           (form->flip_x ? probe->columns - 1 - i : i);
+    return (form->flip_y ? probe->rows - 1 - j : j) * probe->columns + (form->flip_x ? probe->columns - 1 - i : i);
 }
 
 static bool judged(const BakeTexel *texel) { return !texel->beyond && texel->cos_o > 0.0f; }
@@ -168,8 +164,7 @@ static bool is_base(WeftTableForm form) {
 /* Returns the margin by which a reading must be nearer to count as nearer. */
 static double nothing(const TableProbe *probe) { return 1e-5 + 0.02 * probe->step; }
 
-ProbeReading probe_best_form(const TableProbe *probe, const ProbeReading *reading, bool engines,
-                             bool scaled) {
+ProbeReading probe_best_form(const TableProbe *probe, const ProbeReading *reading, bool engines, bool scaled) {
     ProbeReading best = *reading;
     best.distance = HUGE_VAL;
     for (int base = 0; base < 16 && best.distance > nothing(probe); base++) {
@@ -202,8 +197,7 @@ ProbeReading probe_best_lobe(const TableProbe *probe, const ProbeReading *readin
         now.lobe = lobe_default(id);
         rough = now;
         probe_read(&coarse, &rough);
-        if (forms && rough.distance > hopeless * best.distance)
-            rough = probe_best_form(&coarse, &now, true, false);
+        if (forms && rough.distance > hopeless * best.distance) rough = probe_best_form(&coarse, &now, true, false);
         if (rough.distance > hopeless * best.distance) continue;
         probe_read(probe, &now);
         if (forms) {
@@ -216,8 +210,7 @@ ProbeReading probe_best_lobe(const TableProbe *probe, const ProbeReading *readin
 }
 
 /* Tries the numbers as they are and decoded, and with `flips` in all flips. */
-static void try_forms(const TableProbe *probe, const Albedos *e, ProbeReading now, bool flips,
-                      ProbeReading best[2]) {
+static void try_forms(const TableProbe *probe, const Albedos *e, ProbeReading now, bool flips, ProbeReading best[2]) {
     const WeftTableForm form = now.form;
     for (int k = 0; k < (flips ? 8 : 2); k++) {
         now.form = form;
@@ -241,8 +234,7 @@ static void try_pair(const TableProbe *probe, ProbeReading now, bool all, ProbeR
     try_forms(probe, &e, now, all, best);
 }
 
-static bool is_hopeless(const TableProbe *coarse, const ProbeReading *now, bool all,
-                        const ProbeReading best[2]) {
+static bool is_hopeless(const TableProbe *coarse, const ProbeReading *now, bool all, const ProbeReading best[2]) {
     ProbeReading rough[2] = {{.distance = HUGE_VAL}, {.distance = HUGE_VAL}};
     try_pair(coarse, *now, all, rough);
     return rough[0].distance > hopeless * best[0].distance && rough[1].distance > hopeless * best[1].distance;
@@ -257,8 +249,7 @@ ProbeReading probe_any(const TableProbe *probe, const WeftTableForm *form) {
         if (info->param_count > 1 || info->traits & TRAIT_REFERENCE) continue;
         for (int base = 0; base < (form ? 1 : 8); base++) {
             ProbeReading now = {.lobe = lobe_default(id), .factor = 1.0};
-            now.form =
-                form ? *form : (WeftTableForm){.alpha = base & 1, .edges = base >> 1 & 1, .root = base >> 2};
+            now.form = form ? *form : (WeftTableForm){.alpha = base & 1, .edges = base >> 1 & 1, .root = base >> 2};
             if (!is_hopeless(&coarse, &now, !form, best)) try_pair(probe, now, !form, best);
         }
     }

@@ -1,8 +1,7 @@
 /* audit_probe.h - a few texels of a table, and the ways in which they can be read
  *
  * The ways are compared with E at these texels alone, so that each costs little. */
-#ifndef WEFT_MEASURE_AUDIT_PROBE_H
-#define WEFT_MEASURE_AUDIT_PROBE_H
+#pragma once
 
 #include "measure/bake/bake_texels.h"
 
@@ -50,5 +49,3 @@ ProbeReading probe_scaled(const TableProbe *probe, const ProbeReading *reading);
 
 /* Returns true if E of the lobe is constant over views and parameters to 1e-3. */
 bool probe_flat(const Lobe *lobe, int threads);
-
-#endif

@@ -26,8 +26,7 @@ void words_constant(char *text, double value, size_t count) {
 }
 
 void words_clipped(char *text, double top, double highest, size_t texels) {
-    add(text, "it is right, but cut off at %.4g in %zu texels, where E goes on to %.3g", top, texels,
-        highest);
+    add(text, "it is right, but cut off at %.4g in %zu texels, where E goes on to %.3g", top, texels, highest);
 }
 
 /* Appends a difference of the axes. */
@@ -44,16 +43,13 @@ void words_form(char *text, const ProbeReading *stated, const ProbeReading *foun
     differ(text, &count, !a->transposed != !b->transposed, "its axes are swapped");
     differ(text, &count, !a->flip_x != !b->flip_x, "its columns are in reverse");
     differ(text, &count, !a->flip_y != !b->flip_y, "its rows are in reverse");
-    differ(text, &count, !a->alpha && b->alpha,
-           "it is over alpha where roughness was said: nothing was squared");
-    differ(text, &count, a->alpha && !b->alpha,
-           "it is over roughness where alpha was said: that was squared");
+    differ(text, &count, !a->alpha && b->alpha, "it is over alpha where roughness was said: nothing was squared");
+    differ(text, &count, a->alpha && !b->alpha, "it is over roughness where alpha was said: that was squared");
     differ(text, &count, !a->root && b->root, "it is over the square root of cos_o");
     differ(text, &count, a->root && !b->root, "it is over cos_o, not its square root");
     differ(text, &count, !a->edges && b->edges, "its outer texels are at 0 and 1, not half a texel inside");
     differ(text, &count, a->edges && !b->edges, "its outer texels are half a texel inside, not at 0 and 1");
-    add(text, " (%s: mean error %.2g, not %.2g)", weft_table_form_text(b, elements), found->distance,
-        stated->distance);
+    add(text, " (%s: mean error %.2g, not %.2g)", weft_table_form_text(b, elements), found->distance, stated->distance);
 }
 
 void words_late(char *text, const ProbeReading *stated, const ProbeReading *found) {
@@ -65,8 +61,7 @@ void words_late(char *text, const ProbeReading *stated, const ProbeReading *foun
 }
 
 void words_encoded(char *text, const ProbeReading *stated, const ProbeReading *found) {
-    add(text,
-        "it is right, but sRGB-encoded as if it were a picture (mean error %.2g decoded, %.2g as it is)",
+    add(text, "it is right, but sRGB-encoded as if it were a picture (mean error %.2g decoded, %.2g as it is)",
         found->distance, stated->distance);
 }
 
@@ -81,16 +76,14 @@ void words_scaled(char *text, const ProbeReading *stated, const ProbeReading *fo
                    {0.5 / PI_DOUBLE, "1 / (2 pi)"}};
     add(text, "it is right, but for one factor: E is the table times %.5g", found->factor);
     for (size_t k = 0; k < sizeof factors / sizeof factors[0]; k++)
-        if (fabs(found->factor / factors[k].factor - 1.0) < 2e-3)
-            add(text, ", which is %s", factors[k].words);
+        if (fabs(found->factor / factors[k].factor - 1.0) < 2e-3) add(text, ", which is %s", factors[k].words);
     add(text, " (mean error %.2g so, %.2g as it is)", found->distance, stated->distance);
 }
 
 void words_lobe(char *text, const ProbeReading *stated, const ProbeReading *found) {
     char elements[WEFT_TABLE_FORM_TEXT];
     add(text, "it is much nearer to the E of %s (mean error %.2g) than to that of %s (%.2g)",
-        weft_lobe_info(found->lobe.id)->id, found->distance, weft_lobe_info(stated->lobe.id)->id,
-        stated->distance);
+        weft_lobe_info(found->lobe.id)->id, found->distance, weft_lobe_info(stated->lobe.id)->id, stated->distance);
     if (!form_same(&stated->form, &found->form))
         add(text, ", read as %s", weft_table_form_text(&found->form, elements));
 }
@@ -124,6 +117,5 @@ void words_corner(char *text, const WeftAudit *audit, double most, int lobe) {
 
 void words_none(char *text, const WeftAudit *audit) {
     add(text, "it is right: no texel is off by more than %.2g", audit->largest);
-    if (audit->step > 0.0 && audit->largest < 0.5 * audit->step + 2e-4)
-        add(text, ", which is what its bits can hold");
+    if (audit->step > 0.0 && audit->largest < 0.5 * audit->step + 2e-4) add(text, ", which is what its bits can hold");
 }

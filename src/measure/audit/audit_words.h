@@ -1,6 +1,5 @@
 /* audit_words.h - the sentence on each thing that can be wrong with a table */
-#ifndef WEFT_MEASURE_AUDIT_WORDS_H
-#define WEFT_MEASURE_AUDIT_WORDS_H
+#pragma once
 
 #include "measure/audit/audit_probe.h"
 
@@ -26,5 +25,3 @@ void words_biased(char *text, const WeftAudit *audit, const double ratios[3]);
 void words_noisy(char *text, const WeftAudit *audit);
 void words_corner(char *text, const WeftAudit *audit, double most, int lobe);
 void words_none(char *text, const WeftAudit *audit);
-
-#endif

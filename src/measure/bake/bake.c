@@ -21,8 +21,8 @@ static WeftResult size_check(int width, int height, WeftError *error) {
     if (width >= 1 && height >= 1 && width <= 65536 && height <= 65536 &&
         (int64_t)width * height <= WEFT_BAKE_TEXELS_MAX)
         return WEFT_OK;
-    return fail(error, WEFT_MESSAGE_DESC, "size", "%d x %d; a table has 1 to %d texels and sides up to 65536",
-                width, height, WEFT_BAKE_TEXELS_MAX);
+    return fail(error, WEFT_MESSAGE_DESC, "size", "%d x %d; a table has 1 to %d texels and sides up to 65536", width,
+                height, WEFT_BAKE_TEXELS_MAX);
 }
 
 WeftResult weft_bake(const WeftBakeDesc *desc, WeftBakeInfo *info, WeftImage *out, WeftError *error) {
@@ -39,8 +39,7 @@ WeftResult weft_bake(const WeftBakeDesc *desc, WeftBakeInfo *info, WeftImage *ou
     WeftResult result = size_check(full.width, full.height, error);
     if (result != WEFT_OK) return result;
     if (desc->lobe ? !weft_lobe_info(desc->lobe->lobe) || !kinds[k].lobe : kinds[k].lobe == 2)
-        return fail(error, WEFT_MESSAGE_DESC, kinds[k].id,
-                    desc->lobe ? "a lobe it does not take" : "it needs a lobe");
+        return fail(error, WEFT_MESSAGE_DESC, kinds[k].id, desc->lobe ? "a lobe it does not take" : "it needs a lobe");
     if (desc->threads < 0 || desc->threads > WEFT_THREADS_MAX)
         return fail(error, WEFT_MESSAGE_DESC, "threads", "%d", desc->threads);
     result = makers[k](&full, info, out, error);

@@ -20,8 +20,7 @@ WeftResult bake_dfg(const WeftBakeDesc *desc, WeftBakeInfo *info, WeftImage *out
         sheen = weft_lobe_info(lobe.id)->id;
         layers[count++] = (BakeLayer){lobe, 1, {WEFT_TABLE_SUM, WEFT_TABLE_SUM}};
     }
-    snprintf(info->words, sizeof info->words, "split sum of ggx%s%s", sheen ? " and E of " : "",
-             sheen ? sheen : "");
+    snprintf(info->words, sizeof info->words, "split sum of ggx%s%s", sheen ? " and E of " : "", sheen ? sheen : "");
     snprintf(info->channels, sizeof info->channels, "%s%s",
              desc->form.total ? "bias of f90, sum" : "scale of f0, bias of f90", sheen ? ", E" : "");
     return bake_layers(desc, layers, count, info, out, error);

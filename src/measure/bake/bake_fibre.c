@@ -28,12 +28,11 @@ static bool count(void *user, int done, int all) {
 
 WeftResult bake_fibre_table(const WeftBakeDesc *desc, WeftBakeInfo *info, WeftImage *out, WeftError *error) {
     Counter counter = {desc, 0, false};
-    const FibreTableDesc table = {desc->width, desc->height,  alpha_low, 1.0,
-                                  ROUNDS,      desc->threads, count,     &counter};
+    const FibreTableDesc table = {desc->width, desc->height, alpha_low, 1.0, ROUNDS, desc->threads, count, &counter};
     FitError off;
     if (desc->width < 2 || desc->height < 2 || desc->width > SIDE_MOST || desc->height > SIDE_MOST)
-        return fail(error, WEFT_MESSAGE_DESC, "size", "%d x %d; a fibre-table has 2 to %d nodes a side",
-                    desc->width, desc->height, SIDE_MOST);
+        return fail(error, WEFT_MESSAGE_DESC, "size", "%d x %d; a fibre-table has 2 to %d nodes a side", desc->width,
+                    desc->height, SIDE_MOST);
     WeftResult result = weft_image_create(desc->width, desc->height, 4, WEFT_PIXEL_F32, out, error);
     if (result != WEFT_OK) return result;
     if (!fibre_table_fit(&table, out->pixels, &off)) {

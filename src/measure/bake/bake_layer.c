@@ -22,8 +22,7 @@ static void texel_run(void *user, int item, int thread) {
     if (texels->stopped) return;
     texels->texel(texels->user, item % texels->width, item / texels->width, thread);
     const int done = atomic_fetch_add(&texels->done, 1) + 1;
-    if (thread == 0 && texels->progress &&
-        texels->progress(texels->progress_user, (double)done / texels->total) != 0)
+    if (thread == 0 && texels->progress && texels->progress(texels->progress_user, (double)done / texels->total) != 0)
         texels->stopped = true;
 }
 
@@ -47,8 +46,7 @@ static BakeTexel texel_place(const BakePlane *plane, int x, int y, Lobe *lobe) {
         x += plane->form->flip_x ? -plane->late : plane->late;
     else
         y += plane->form->flip_y ? -plane->late : plane->late;
-    weft_table_form_texel(plane->form, lobe->id, plane->width, plane->height, x, y, &texel.cos_o,
-                          &texel.value);
+    weft_table_form_texel(plane->form, lobe->id, plane->width, plane->height, x, y, &texel.cos_o, &texel.value);
     if (weft_lobe_info(lobe->id)->param_count > 0) {
         lobe_set(lobe, 0, texel.value);
         texel.beyond = lobe->params[0] < texel.value || lobe->params[0] > texel.value;
@@ -117,8 +115,8 @@ static void fill_texel(void *user, int x, int y, int thread) {
     extremes->beyond += beyond;
 }
 
-WeftResult bake_layers(const WeftBakeDesc *desc, const BakeLayer *layers, int count, WeftBakeInfo *info,
-                       WeftImage *out, WeftError *error) {
+WeftResult bake_layers(const WeftBakeDesc *desc, const BakeLayer *layers, int count, WeftBakeInfo *info, WeftImage *out,
+                       WeftError *error) {
     int channels = 0;
     for (int k = 0; k < count; k++) channels += layers[k].channels;
     WeftResult result = weft_image_create(desc->width, desc->height, channels, WEFT_PIXEL_F32, out, error);
@@ -129,8 +127,7 @@ WeftResult bake_layers(const WeftBakeDesc *desc, const BakeLayer *layers, int co
         return fail(error, WEFT_MESSAGE_MEMORY, "table", NULL);
     }
     *fill = (LayerFill){.desc = desc, .layers = layers, .count = count, .out = out};
-    result =
-        bake_texels(desc->width, desc->height, desc->threads, desc->progress, desc->user, fill_texel, fill);
+    result = bake_texels(desc->width, desc->height, desc->threads, desc->progress, desc->user, fill_texel, fill);
     for (int k = 0; k < WEFT_THREADS_MAX; k++) {
         const LayerExtremes *extremes = &fill->extremes[k];
         if (exceeds_or_nan(extremes->error, info->error)) info->error = extremes->error;

@@ -7,8 +7,8 @@
 #include "weft/ltc.h"
 
 /* Bakes the channels `channels[0 .. count - 1]` of ltc.h; level: r is 0. */
-static WeftResult bake(const WeftBakeDesc *desc, const int *channels, int count, bool level,
-                       WeftBakeInfo *info, WeftImage *out, WeftError *error) {
+static WeftResult bake(const WeftBakeDesc *desc, const int *channels, int count, bool level, WeftBakeInfo *info,
+                       WeftImage *out, WeftError *error) {
     WeftLtc *ltc;
     WeftLtcDesc fit = {.rows = desc->height,
                        .columns = desc->width,
@@ -42,8 +42,7 @@ WeftResult bake_ltc(const WeftBakeDesc *desc, WeftBakeInfo *info, WeftImage *out
     return bake(desc, channels, 4, false, info, out, error);
 }
 
-WeftResult bake_ltc_amplitude(const WeftBakeDesc *desc, WeftBakeInfo *info, WeftImage *out,
-                              WeftError *error) {
+WeftResult bake_ltc_amplitude(const WeftBakeDesc *desc, WeftBakeInfo *info, WeftImage *out, WeftError *error) {
     static const int channels[] = {WEFT_LTC_AMPLITUDE, WEFT_LTC_AMPLITUDE_F90, WEFT_LTC_ERROR};
     return bake(desc, channels, 3, false, info, out, error);
 }

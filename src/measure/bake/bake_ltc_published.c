@@ -34,8 +34,7 @@ typedef struct TalkTable {
 } TalkTable;
 
 static double transformed(double a, double b, double theta, double phi) {
-    double x = a * (sin)(theta) * (cos)(phi) + b * (cos)(theta), y = a * (sin)(theta) * (sin)(phi),
-           z = (cos)(theta);
+    double x = a * (sin)(theta) * (cos)(phi) + b * (cos)(theta), y = a * (sin)(theta) * (sin)(phi), z = (cos)(theta);
     double square = x * x + y * y + z * z;
     return a * a * z / (PI_DOUBLE * square * square);
 }
@@ -76,8 +75,8 @@ static void column(void *user, int x, int thread) {
     TalkTable *table = user;
     const WeftBakeDesc *desc = table->desc;
     double at[2] = {1.0, 0.0};
-    for (int row = desc->height - 1;
-         row >= 0 && !atomic_load(&table->stopped) && !atomic_load(&table->unfitted); row--) {
+    for (int row = desc->height - 1; row >= 0 && !atomic_load(&table->stopped) && !atomic_load(&table->unfitted);
+         row--) {
         TruncatedSlab slab;
         truncated_walk(along(row, desc->height), along(x, desc->width), WALKS, &slab);
         if (slab.seen >= SEEN_LEAST && !fit(&slab, at)) atomic_store(&table->unfitted, true);
@@ -85,14 +84,12 @@ static void column(void *user, int x, int thread) {
         float *texel = table->texels + CHANNELS * (row * desc->width + x);
         texel[0] = (float)at[0], texel[1] = (float)at[1], texel[2] = (float)slab.reflected;
         int done = atomic_fetch_add(&table->done, 1) + 1;
-        if (thread == 0 && desc->progress &&
-            desc->progress(desc->user, (double)done / (desc->width * desc->height)))
+        if (thread == 0 && desc->progress && desc->progress(desc->user, (double)done / (desc->width * desc->height)))
             atomic_store(&table->stopped, true);
     }
 }
 
-WeftResult bake_ltc_published(const WeftBakeDesc *desc, WeftBakeInfo *info, WeftImage *out,
-                              WeftError *error) {
+WeftResult bake_ltc_published(const WeftBakeDesc *desc, WeftBakeInfo *info, WeftImage *out, WeftError *error) {
     if (desc->width < 2 || desc->height < 2)
         return fail(error, WEFT_MESSAGE_DESC, "size", "%d x %d; it has at least 2 nodes a side", desc->width,
                     desc->height);
@@ -103,8 +100,7 @@ WeftResult bake_ltc_published(const WeftBakeDesc *desc, WeftBakeInfo *info, Weft
     if (atomic_load(&table.stopped) || atomic_load(&table.unfitted)) {
         weft_image_free(out);
         *out = (WeftImage){0};
-        return atomic_load(&table.unfitted) ? fail(error, WEFT_MESSAGE_MEMORY, "a fit", NULL)
-                                            : WEFT_INTERRUPTED;
+        return atomic_load(&table.unfitted) ? fail(error, WEFT_MESSAGE_MEMORY, "a fit", NULL) : WEFT_INTERRUPTED;
     }
     snprintf(info->words, sizeof info->words,
              "transformed cosines of upright white fibres by walks of at most 16 flakes, cos_o to the right, "

@@ -22,16 +22,14 @@ static bool count(void *user, int done, int all) {
     return !counter->stopped;
 }
 
-WeftResult weft_bake_fibre_model(const WeftFibreModelDesc *desc, const char *command, char **text,
-                                 WeftError *error) {
+WeftResult weft_bake_fibre_model(const WeftFibreModelDesc *desc, const char *command, char **text, WeftError *error) {
     FibreModelFit model;
     FitCounter counter = {desc, 0, false};
     size_t size;
     *text = NULL;
     if (desc->rounds < 0 || desc->rounds > 1000 || desc->threads < 0)
         return fail(error, WEFT_MESSAGE_DESC, "rounds", "%d", desc->rounds);
-    if (!fibre_model_fit(FIBRE_STAGES - 1, desc->rounds ? desc->rounds : 120, desc->threads, count, &counter,
-                         &model))
+    if (!fibre_model_fit(FIBRE_STAGES - 1, desc->rounds ? desc->rounds : 120, desc->threads, count, &counter, &model))
         return counter.stopped ? WEFT_INTERRUPTED : fail(error, WEFT_MESSAGE_MEMORY, "fibre-model", NULL);
     FILE *stream = open_memstream(text, &size);
     if (stream) {

@@ -40,15 +40,13 @@ static void solve(void *user, int item, int thread) {
 }
 
 WeftResult bake_solved(const WeftBakeDesc *desc, WeftBakeInfo *info, WeftImage *out, WeftError *error) {
-    int w = desc->width, h = desc->height, mus = desc->form.transposed ? h : w,
-        alphas = desc->form.transposed ? w : h;
+    int w = desc->width, h = desc->height, mus = desc->form.transposed ? h : w, alphas = desc->form.transposed ? w : h;
     Lobe lobe = lobe_default(LOBE_FIBRE);
     if (desc->lobe && (weft_lobe_param_find(desc->lobe->lobe, "density") != FIBRE_DENSITY ||
                        weft_lobe_param_find(desc->lobe->lobe, "tilt") != FIBRE_TILT))
         return fail(error, WEFT_MESSAGE_DESC, "fibre-truth", "density is that of fibre or fibre-walk");
     if (desc->lobe) lobe_of(desc->lobe, &lobe);
-    if (lobe.params[FIBRE_TILT] > 0.0f)
-        return fail(error, WEFT_MESSAGE_DESC, "tilt", "the table is of upright fibres");
+    if (lobe.params[FIBRE_TILT] > 0.0f) return fail(error, WEFT_MESSAGE_DESC, "tilt", "the table is of upright fibres");
     double *block = alloc_array((size_t)mus + (size_t)alphas * (1 + 2 * (size_t)mus), sizeof *block);
     if (!block) return fail(error, WEFT_MESSAGE_MEMORY, "fibre-truth", NULL);
     double *mu = block, *alpha = mu + mus;

@@ -42,8 +42,8 @@ int weft_table_form_find(const WeftTableForm *form) {
 char *weft_table_form_text(const WeftTableForm *form, char text[WEFT_TABLE_FORM_TEXT]) {
     const char *cosine = form->root ? "sqrt-cos" : "cos", *parameter = form->alpha ? "alpha" : "roughness";
     snprintf(text, WEFT_TABLE_FORM_TEXT, "%s,%s,%s%s%s%s", form->transposed ? parameter : cosine,
-             form->transposed ? cosine : parameter, form->edges ? "edges" : "centres",
-             form->flip_x ? ",flip-x" : "", form->flip_y ? ",flip-y" : "", form->total ? ",total" : "");
+             form->transposed ? cosine : parameter, form->edges ? "edges" : "centres", form->flip_x ? ",flip-x" : "",
+             form->flip_y ? ",flip-y" : "", form->total ? ",total" : "");
     return text;
 }
 
@@ -62,10 +62,8 @@ static bool element(WeftTableForm *form, const char *word) {
     const struct {
         const char *word;
         int *flag;
-    } flags[] = {{"edges", &form->edges},
-                 {"flip-x", &form->flip_x},
-                 {"flip-y", &form->flip_y},
-                 {"total", &form->total}};
+    } flags[] = {
+        {"edges", &form->edges}, {"flip-x", &form->flip_x}, {"flip-y", &form->flip_y}, {"total", &form->total}};
     if (strcmp(word, "centres") == 0) return !form->edges;
     for (size_t k = 0; k < sizeof flags / sizeof flags[0]; k++) {
         if (strcmp(word, flags[k].word) != 0) continue;
@@ -125,10 +123,9 @@ float form_parameter(const WeftTableForm *form, int lobe, double t) {
     return p->low + (p->high - p->low) * (float)t;
 }
 
-void weft_table_form_texel(const WeftTableForm *form, int lobe, int width, int height, int x, int y,
-                           float *cos_o, float *value) {
-    const double s = place(x, width, form->edges, form->flip_x),
-                 t = place(y, height, form->edges, form->flip_y);
+void weft_table_form_texel(const WeftTableForm *form, int lobe, int width, int height, int x, int y, float *cos_o,
+                           float *value) {
+    const double s = place(x, width, form->edges, form->flip_x), t = place(y, height, form->edges, form->flip_y);
     const double c = form->transposed ? t : s;
     *cos_o = (float)(form->root ? c * c : c);
     *value = form_parameter(form, lobe, form->transposed ? s : t);

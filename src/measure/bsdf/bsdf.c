@@ -19,8 +19,7 @@ static bool extreme(const Lobe *lobe, int k, Lobe *out) {
     *out = *lobe;
     if (k < 2) {
         for (int p = 0; p < info->param_count; p++)
-            if (!info->params[p].choices)
-                lobe_set(out, p, k ? info->params[p].hard_high : info->params[p].hard_low);
+            if (!info->params[p].choices) lobe_set(out, p, k ? info->params[p].hard_high : info->params[p].hard_low);
         return info->param_count > 0;
     }
     k -= 2;
@@ -72,12 +71,11 @@ static void lobe_f(const BsdfView *view, Dirs i, float *f) {
     for (size_t at = 0; at < i.n; at += BLOCK) {
         size_t n = i.n - at < BLOCK ? i.n - at : BLOCK;
         if (tinted) {
-            lobe_tinted_n(&view->lobe, (const float[3]){w, w, w}, n, o.x, o.y, o.z, i.x + at, i.y + at,
-                          i.z + at, (float *const[3]){f + at, same[0], same[1]});
+            lobe_tinted_n(&view->lobe, (const float[3]){w, w, w}, n, o.x, o.y, o.z, i.x + at, i.y + at, i.z + at,
+                          (float *const[3]){f + at, same[0], same[1]});
             continue;
         }
-        lobe_eval_n(&view->lobe, n, o.x, o.y, o.z, i.x + at, i.y + at, i.z + at, f + at,
-                    mixes ? share : NULL);
+        lobe_eval_n(&view->lobe, n, o.x, o.y, o.z, i.x + at, i.y + at, i.z + at, f + at, mixes ? share : NULL);
         for (size_t k = 0; mixes && k < n; k++) f[at + k] *= fresnel_weight_mix(share[k], 1.0f, view->second);
     }
 }
@@ -86,13 +84,11 @@ static void lobe_density(const BsdfView *view, Dirs i, float *pdf) {
     Ours o;
     ours_fill(&o, view->o);
     for (size_t at = 0; at < i.n; at += BLOCK)
-        lobe_pdf_n(&view->lobe, i.n - at < BLOCK ? i.n - at : BLOCK, o.x, o.y, o.z, i.x + at, i.y + at,
-                   i.z + at, pdf + at);
+        lobe_pdf_n(&view->lobe, i.n - at < BLOCK ? i.n - at : BLOCK, o.x, o.y, o.z, i.x + at, i.y + at, i.z + at,
+                   pdf + at);
 }
 
-static Dir lobe_draw(const BsdfView *view, float u, float v) {
-    return lobe_sample(&view->lobe, view->o, u, v);
-}
+static Dir lobe_draw(const BsdfView *view, float u, float v) { return lobe_sample(&view->lobe, view->o, u, v); }
 
 static int nearest_row(const Bsdf *bsdf, float value) {
     int best = 0;
@@ -131,9 +127,8 @@ void bsdf_of_lobe(Bsdf *bsdf, const Lobe *lobe, bool quick) {
 
 /* Materials. */
 
-const char bsdf_velvet[] =
-    "white velvet: base_color, sheen_color and specular_color 1, roughness 1, ior 1.5, "
-    "no metal, no coat";
+const char bsdf_velvet[] = "white velvet: base_color, sheen_color and specular_color 1, roughness 1, ior 1.5, "
+                           "no metal, no coat";
 
 static Surface white_velvet(void) {
     Surface s = surface_default();
@@ -180,8 +175,7 @@ static void whole_pdf(const BsdfView *view, Dirs i, float *pdf) {
     for (size_t k = 0; k < i.n; k++) {
         const Dir w = dir(i.x[k], i.y[k], i.z[k]);
         pdf[k] = seen_eval(&view->whole[0], w, 0).pdf;
-        if (view->bsdf->sum.bases > 1)
-            pdf[k] = mix(seen_eval(&view->whole[1], w, 0).pdf, pdf[k], view->bsdf->first);
+        if (view->bsdf->sum.bases > 1) pdf[k] = mix(seen_eval(&view->whole[1], w, 0).pdf, pdf[k], view->bsdf->first);
     }
 }
 
@@ -218,8 +212,7 @@ typedef struct TableFill {
 static void fill_table(void *user, int k, int thread) {
     (void)thread;
     const TableFill *fill = user;
-    albedo_table_fill(&fill->bsdf->tables[k], &fill->sheens[k].lobe, fill->sheens[k].at, fill->sheens[k].at,
-                      1);
+    albedo_table_fill(&fill->bsdf->tables[k], &fill->sheens[k].lobe, fill->sheens[k].at, fill->sheens[k].at, 1);
 }
 
 /* Fills one table for all settings of the same sheen. Returns false if memory is short. */

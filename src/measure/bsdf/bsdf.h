@@ -2,8 +2,7 @@
  *
  * A BSDF is white, unless it is tinted and `albedo` is less than 1. It has settings: the rows of the passport, then
  * extremes for the sweep. The calls are pointers so that a test can replace them by wrong ones. */
-#ifndef WEFT_MEASURE_BSDF_H
-#define WEFT_MEASURE_BSDF_H
+#pragma once
 
 #include "measure/bsdf/weave_sum.h"
 #include "weft/measure.h"
@@ -64,5 +63,3 @@ void bsdf_free(Bsdf *bsdf);
 
 /* Returns the lobe of a setting. */
 Lobe bsdf_lobe(const Bsdf *bsdf, int setting);
-
-#endif

@@ -1,6 +1,5 @@
 /* draw.h - numbers in [0, 1) by seed and index, the same in every run and on every thread */
-#ifndef WEFT_MEASURE_DRAW_H
-#define WEFT_MEASURE_DRAW_H
+#pragma once
 
 #include "base/random.h"
 
@@ -11,5 +10,3 @@ typedef struct Draw {
 static inline Draw draw_start(uint32_t a, uint32_t b) { return (Draw){hash_combine(hash32(a + 1u), b), 0}; }
 
 static inline float draw_unit(Draw *draw) { return unit_float(hash_combine(draw->seed, draw->next++)); }
-
-#endif

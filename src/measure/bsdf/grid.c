@@ -32,8 +32,7 @@ GridLine grid_column(const Grid *grid, double t) {
 GridLine grid_row(const Grid *grid, double s) {
     double side = s < 0.0 ? -1.0 : 1.0, range = s < 0.0 ? grid->theta : PI_DOUBLE / 2.0 - grid->theta;
     double theta = grid->theta + side * range * stretch(fabs(s));
-    return (GridLine){(float)(cos)(theta), (float)(sin)(theta),
-                      range * stretch_slope(fabs(s)) * (sin)(theta)};
+    return (GridLine){(float)(cos)(theta), (float)(sin)(theta), range * stretch_slope(fabs(s)) * (sin)(theta)};
 }
 
 /* Returns the middle of a cell along a side. */

@@ -2,8 +2,7 @@
  *
  * A square [-1, 1]^2 is stretched about the direction that mirrors wo: theta and phi move slowly there, and
  * also at the far ends (normal, horizon, backscatter). Integrals are midpoint sums over it. */
-#ifndef WEFT_MEASURE_GRID_H
-#define WEFT_MEASURE_GRID_H
+#pragma once
 
 #include "measure/bsdf/bsdf.h"
 
@@ -43,5 +42,3 @@ int grid_bin(const Grid *grid, Dir i, int bins);
 
 /* Returns a direction by its cosine, exact near both ends, at an azimuth in radians. */
 Dir grid_direction(double cosine, double phi);
-
-#endif

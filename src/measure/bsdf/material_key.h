@@ -1,7 +1,6 @@
 /* material_key.h - the part of a material that a reflection depends on: numbers and choices, without
  * textures */
-#ifndef WEFT_MEASURE_MATERIAL_KEY_H
-#define WEFT_MEASURE_MATERIAL_KEY_H
+#pragma once
 
 #include <stdbool.h>
 #include <string.h>
@@ -28,5 +27,3 @@ static inline MaterialKey material_key(const WeftMaterial *material) {
 static inline bool material_key_same(const MaterialKey *a, const MaterialKey *b) {
     return memcmp((const char *)a, (const char *)b, sizeof *a) == 0;
 }
-
-#endif

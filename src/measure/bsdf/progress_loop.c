@@ -51,8 +51,7 @@ static void *run_loop(void *argument) {
 static bool wait_for_end(LoopRun *run) {
     struct timespec until = clock_after(pause);
     pthread_mutex_lock(&run->lock);
-    for (int code = 0; !run->over && code != ETIMEDOUT;)
-        code = pthread_cond_timedwait(&run->ended, &run->lock, &until);
+    for (int code = 0; !run->over && code != ETIMEDOUT;) code = pthread_cond_timedwait(&run->ended, &run->lock, &until);
     bool over = run->over;
     pthread_mutex_unlock(&run->lock);
     return over;
@@ -75,8 +74,8 @@ static void watched(LoopRun *run) {
     pthread_mutex_destroy(&run->lock);
 }
 
-bool watch_loop(LoopWatch *watch, int threads, int items, void (*body)(void *user, int item, int thread),
-                void *user, WeftProgress progress, void *progress_user) {
+bool watch_loop(LoopWatch *watch, int threads, int items, void (*body)(void *user, int item, int thread), void *user,
+                WeftProgress progress, void *progress_user) {
     LoopRun run = {.watch = watch,
                    .threads = threads,
                    .items = items,

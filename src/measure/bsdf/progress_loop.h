@@ -1,6 +1,5 @@
 /* progress_loop.h - a long parallel loop with progress, which its caller can stop */
-#ifndef WEFT_MEASURE_PROGRESS_LOOP_H
-#define WEFT_MEASURE_PROGRESS_LOOP_H
+#pragma once
 
 #include <stdatomic.h>
 #include <stdbool.h>
@@ -24,7 +23,5 @@ bool progress_report(ItemProgress *item_progress, double fraction);
 
 /* Runs parallel_for while the caller's thread calls progress (may be NULL) twenty times a second. Without a
  * second thread it is called between items. Returns false if it was stopped. */
-bool watch_loop(LoopWatch *watch, int threads, int items, void (*body)(void *user, int item, int thread),
-                void *user, WeftProgress progress, void *progress_user);
-
-#endif
+bool watch_loop(LoopWatch *watch, int threads, int items, void (*body)(void *user, int item, int thread), void *user,
+                WeftProgress progress, void *progress_user);

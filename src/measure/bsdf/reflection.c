@@ -122,8 +122,8 @@ WeftResult weft_reflection_create(const WeftMaterial *material, WeftReflection *
     return weft_reflection_create_woven(material, NULL, out, error);
 }
 
-WeftResult weft_reflection_create_woven(const WeftMaterial *material, const WeftCloth *cloth,
-                                        WeftReflection **out, WeftError *error) {
+WeftResult weft_reflection_create_woven(const WeftMaterial *material, const WeftCloth *cloth, WeftReflection **out,
+                                        WeftError *error) {
     *out = NULL;
     WeftResult result = numbers_sound(material, error);
     if (result != WEFT_OK) return result;
@@ -156,8 +156,8 @@ WeftResult weft_fitted_reflection(const WeftFitted *fitted, WeftReflection **out
     WeftMaterial bare;
     const bool woven = weft_fitted_is_weave(fitted) != 0;
     weft_material_default(&bare);
-    WeftResult result = woven ? weft_reflection_create(&bare, out, error)
-                              : weft_reflection_of_lobe(&fitted->lobe, out, error);
+    WeftResult result =
+        woven ? weft_reflection_create(&bare, out, error) : weft_reflection_of_lobe(&fitted->lobe, out, error);
     if (!*out) return result;
     (*out)->under = fitted->base;
     (*out)->based = true;
@@ -202,9 +202,8 @@ static void see_base(const Whole *self, int base, Dir o, SeenStack *seen) {
 
 static Slots slots_of_part(int part) {
     bool all = part == WEFT_PART_ALL;
-    return slots_of(all || part == WEFT_PART_DIFFUSE, all || part == WEFT_PART_SPECULAR,
-                    all || part == WEFT_PART_SHEEN, all || part == WEFT_PART_COAT,
-                    all || part == WEFT_PART_DUST);
+    return slots_of(all || part == WEFT_PART_DIFFUSE, all || part == WEFT_PART_SPECULAR, all || part == WEFT_PART_SHEEN,
+                    all || part == WEFT_PART_COAT, all || part == WEFT_PART_DUST);
 }
 
 /* Returns the value with one base; for a rule that walks at random, the mean of some walks. */
@@ -219,8 +218,7 @@ static StackValue value_of(const SeenStack *seen, int part, int base, Dir i, uin
     return sum;
 }
 
-static void whole_eval(const Whole *self, int part, const float wo[3], int count, const float (*wi)[3],
-                       float (*f)[3]) {
+static void whole_eval(const Whole *self, int part, const float wo[3], int count, const float (*wi)[3], float (*f)[3]) {
     SeenStack seen;
     Dir o = to_frame(self, wo);
     if (!(o.z > 0.0f)) return;
@@ -251,8 +249,8 @@ static void lobes_albedo(const WeftReflection *self, float cos_o, float albedo[3
     for (int c = 0; c < 3; c++) albedo[c] += below[c];
 }
 
-void weft_reflection_eval(const WeftReflection *self, int part, const float wo[3], int count,
-                          const float (*wi)[3], float (*f)[3]) {
+void weft_reflection_eval(const WeftReflection *self, int part, const float wo[3], int count, const float (*wi)[3],
+                          float (*f)[3]) {
     for (int k = 0; k < count; k++) f[k][0] = f[k][1] = f[k][2] = 0.0f;
     if (self->kind == REFLECTION_WHOLE) whole_eval(&self->whole, part, wo, count, wi, f);
     if (self->kind == REFLECTION_WHOLE || part != WEFT_PART_ALL) return;

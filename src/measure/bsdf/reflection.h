@@ -1,6 +1,5 @@
 /* reflection.h - a reflection whose material changes often */
-#ifndef WEFT_MEASURE_REFLECTION_H
-#define WEFT_MEASURE_REFLECTION_H
+#pragma once
 
 #include "shading/catalogue/albedo.h"
 #include "weft/reflection.h"
@@ -13,5 +12,3 @@ void reflection_change(WeftReflection *reflection, const WeftMaterial *material,
 /* Returns the id of the lobe of which a reflection is an estimate (WEFT_LOBE_REFERENCE), by itself or as the
  * sheen of a material; NULL if there is none. */
 const char *reflection_walks(const WeftReflection *reflection);
-
-#endif

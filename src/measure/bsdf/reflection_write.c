@@ -50,8 +50,7 @@ static RglSource source_of(const WeftReflection *reflection) {
 }
 
 static void tables_f(void *user, const float wo[3], int count, const float (*wi)[3], float (*f)[3]) {
-    for (int k = 0; k < count; k++)
-        rgl_at(user, dir(wo[0], wo[1], wo[2]), dir(wi[k][0], wi[k][1], wi[k][2]), f[k]);
+    for (int k = 0; k < count; k++) rgl_at(user, dir(wo[0], wo[1], wo[2]), dir(wi[k][0], wi[k][1], wi[k][2]), f[k]);
 }
 
 static float nearest_slice(const Rgl *slices, float theta) {
@@ -137,11 +136,10 @@ static WeftResult desc_check(const RglDesc *desc, bool isotropic, WeftError *err
         return fail(error, WEFT_MESSAGE_DESC, name, "it has %d polar angles, not 2 .. %d", desc->thetas,
                     RGL_SLICES_MOST);
     if (desc->phis < 3 || desc->phis > RGL_SLICES_MOST)
-        return fail(error, WEFT_MESSAGE_DESC, name, "it has %d azimuths, not 3 .. %d", desc->phis,
-                    RGL_SLICES_MOST);
+        return fail(error, WEFT_MESSAGE_DESC, name, "it has %d azimuths, not 3 .. %d", desc->phis, RGL_SLICES_MOST);
     if (desc->side < 8 || desc->side > RGL_SIDE_MOST)
-        return fail(error, WEFT_MESSAGE_DESC, name, "its tables have sides of %d points, not 8 .. %d",
-                    desc->side, RGL_SIDE_MOST);
+        return fail(error, WEFT_MESSAGE_DESC, name, "its tables have sides of %d points, not 8 .. %d", desc->side,
+                    RGL_SIDE_MOST);
     if (numbers_of(desc, isotropic) > POINTS_MOST)
         return fail(error, WEFT_MESSAGE_DESC, name, "it would have more than %d numbers", POINTS_MOST);
     return WEFT_OK;
@@ -173,9 +171,7 @@ WeftResult weft_reflection_write(const WeftReflection *reflection, const char *p
                     .threads = desc->threads};
     Rgl rgl = {0};
     const char *walk = reflection_walks(reflection);
-    if (walk)
-        return fail(error, WEFT_MESSAGE_DESC, walk,
-                    "is an estimate by random walks; tabulate fibre, its mean");
+    if (walk) return fail(error, WEFT_MESSAGE_DESC, walk, "is an estimate by random walks; tabulate fibre, its mean");
     WeftResult result = desc_check(&fine, isotropic, error);
     if (result != WEFT_OK) return result;
     if (result == WEFT_OK && !(rgl_facets(&source, fine.threads, &rgl) &&

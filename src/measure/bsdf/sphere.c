@@ -40,8 +40,7 @@ static void shade(const WeftReflection *reflection, double x, double y, double r
     }
     weft_reflection_eval(reflection, 0, wo, LIGHTS, (const float(*)[3])wi, f);
     for (int l = 0; l < LIGHTS; l++)
-        for (int c = 0; c < 3; c++)
-            radiance[c] += (double)f[l][c] * fmax((double)wi[l][2], 0.0) * lights[l].irradiance;
+        for (int c = 0; c < 3; c++) radiance[c] += (double)f[l][c] * fmax((double)wi[l][2], 0.0) * lights[l].irradiance;
 }
 
 static void row_draw(void *user, int row, int thread) {
@@ -65,8 +64,7 @@ static void row_draw(void *user, int row, int thread) {
     }
 }
 
-WeftResult weft_reflection_sphere(const WeftReflection *reflection, int size, WeftImage *out,
-                                  WeftError *error) {
+WeftResult weft_reflection_sphere(const WeftReflection *reflection, int size, WeftImage *out, WeftError *error) {
     char number[16];
     *out = (WeftImage){0};
     snprintf(number, sizeof number, "%d", size);

@@ -20,8 +20,8 @@ WeaveSum weave_sum_of_lobes(const WeaveBase threads[2]) {
     return sum;
 }
 
-void weave_sum_see(const WeaveSum *self, int base, const Surface *surface, const Choices *choices, TableRef e,
-                   Dir o, SeenStack *seen) {
+void weave_sum_see(const WeaveSum *self, int base, const Surface *surface, const Choices *choices, TableRef e, Dir o,
+                   SeenStack *seen) {
     const WeaveBase *threads = &self->threads[base];
     stack_make(&seen->stack, surface, choices, e);
     if (self->bases > 1) {

@@ -3,8 +3,7 @@
  *   f = f(base 0, and what lies on it) + f(base 1)
  *
  * Sheen, coat and dust lie on the whole cloth: they are counted only with base 0. */
-#ifndef WEFT_MEASURE_WEAVE_SUM_H
-#define WEFT_MEASURE_WEAVE_SUM_H
+#pragma once
 
 #include "shading/material/material_stack.h"
 #include "weave/cloth_base.h"
@@ -22,13 +21,11 @@ WeaveSum weave_sum_of(const WeftCloth *cloth);
 WeaveSum weave_sum_of_lobes(const WeaveBase threads[2]);
 
 /* Sees base number `base`, and what lies on it, from o. e: as in stack_make. */
-void weave_sum_see(const WeaveSum *self, int base, const Surface *surface, const Choices *choices, TableRef e,
-                   Dir o, SeenStack *seen);
+void weave_sum_see(const WeaveSum *self, int base, const Surface *surface, const Choices *choices, TableRef e, Dir o,
+                   SeenStack *seen);
 
 /* Returns those of the slots that are counted with a base. */
 Slots weave_sum_slots(int base, Slots slots);
 
 /* Returns approximately the fraction of the light reflected by both systems that comes from the first. */
 float weave_sum_first(const WeaveSum *self);
-
-#endif

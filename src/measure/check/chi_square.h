@@ -1,6 +1,5 @@
 /* chi_square.h - chi-square test of samples against their pdf */
-#ifndef WEFT_MEASURE_CHI_SQUARE_H
-#define WEFT_MEASURE_CHI_SQUARE_H
+#pragma once
 
 #include "measure/bsdf/grid.h"
 
@@ -25,5 +24,3 @@ typedef struct Bin {
 
 /* Returns p of the counts. Bins that expect few samples are counted together. Sorts the bins. */
 double chi_square_bins(Bin *bins, int count);
-
-#endif

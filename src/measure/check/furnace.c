@@ -16,8 +16,7 @@ static double still(const SeenStack *seen, int cells, bool random) {
         for (int c = 0; c < cells; c++) {
             Dir i = dir(ring.x[c], ring.y[c], ring.z[c]);
             /* seen_eval walks by the same seed */
-            float bounces =
-                random ? layer_walk_bounces(&seen->stack, &seen->view, slots_all(), i, 0).g : 0.0f;
+            float bounces = random ? layer_walk_bounces(&seen->stack, &seen->view, slots_all(), i, 0).g : 0.0f;
             sum += (double)(seen_eval(seen, i, 0).f_cos.g - bounces) * ring.area[c];
         }
     }
@@ -31,8 +30,7 @@ enum { LEAST = 10000 };
 static double weighed(const SeenStack *seen, bool all, float u, float v, uint32_t seed) {
     Dir i = all ? seen_sample(seen, u, v) : warp_cosine(u, v);
     if (!all)
-        return (double)(layer_walk_bounces(&seen->stack, &seen->view, slots_all(), i, seed).g /
-                        warp_cosine_pdf(i));
+        return (double)(layer_walk_bounces(&seen->stack, &seen->view, slots_all(), i, seed).g / warp_cosine_pdf(i));
     StackValue value = seen_eval(seen, i, seed);
     return value.pdf > 0.0f ? (double)(value.f_cos.g / value.pdf) : 0.0;
 }

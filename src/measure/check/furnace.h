@@ -1,6 +1,5 @@
 /* furnace.h - the white furnace: the light that a white lobe as the sheen of a white Lambert base returns */
-#ifndef WEFT_MEASURE_FURNACE_H
-#define WEFT_MEASURE_FURNACE_H
+#pragma once
 
 #include "measure/bsdf/bsdf.h"
 
@@ -13,5 +12,3 @@ typedef struct Furnace {
  * least and `walks` times at most. A lobe that walks makes everything a mean over samples, with a quarter of that. */
 Furnace furnace_measure(const Lobe *lobe, float roughness, int layer, const AlbedoTable *e, Dir o, int cells,
                         int walks);
-
-#endif

@@ -84,8 +84,7 @@ static void find_losses(const Lobe *lobe, float *zero, float *off) {
     }
     half_eval(lobe->id, lobe->params, PAIRS, o[0], o[1], o[2], i[0], i[1], i[2], f);
     for (int k = 0; k < PAIRS; k++) {
-        float right =
-            lobe_eval(lobe, angles_between(dir(o[0][k], o[1][k], o[2][k]), dir(i[0][k], i[1][k], i[2][k])));
+        float right = lobe_eval(lobe, angles_between(dir(o[0][k], o[1][k], o[2][k]), dir(i[0][k], i[1][k], i[2][k])));
         zeros += right > 0.0f && f[k] <= 0.0f;
         offs += !(fabsf(f[k] - right) <= tolerance * right);
     }
@@ -115,8 +114,7 @@ static void measure_row(void *user, int row, int thread) {
  * of the range if it starts at 0, to the end of the hard range or to the first value that no floor saves. */
 static void find_pair(const Lobe *given, const WeftParamInfo *p, WeftPassport *out) {
     for (int k = 0; k < 256; k++) {
-        float value =
-            p->low > 0.0f ? p->high * (float)(exp2)(-0.25 * k) : p->high * (1.0f - (float)k / 64.0f);
+        float value = p->low > 0.0f ? p->high * (float)(exp2)(-0.25 * k) : p->high * (1.0f - (float)k / 64.0f);
         Lobe lobe = *given;
         value = max(value, p->hard_low);
         lobe_set(&lobe, 0, value);

@@ -4,8 +4,7 @@
  * lang.h. Every value and every operation is rounded to 16 bits, as a shader of mediump does on hardware that
  * has them; powers, exponentials and roots are computed in single precision and rounded. Tables store single
  * floats and are rounded when read. half_text.c includes it with those copies. */
-#ifndef WEFT_HALF_LANG_H
-#define WEFT_HALF_LANG_H
+#pragma once
 
 #include <math.h>
 #include <stdbool.h>
@@ -14,11 +13,11 @@
 
 #define FN          static inline __attribute__((unused))
 #define FN_NOINLINE FN
-#define STRUCT(Name)                                                                                         \
-    typedef struct Name Name;                                                                                \
+#define STRUCT(Name)                                                                                                   \
+    typedef struct Name Name;                                                                                          \
     struct Name
-#define UNION(Name)                                                                                          \
-    typedef union Name Name;                                                                                 \
+#define UNION(Name)                                                                                                    \
+    typedef union Name Name;                                                                                           \
     union Name
 
 typedef float Single;
@@ -29,7 +28,7 @@ FN Half half_max(Half a, Half b) { return a > b ? a : b; }
 FN Half half_mix(Half a, Half b, Half t) { return a + (b - a) * t; }
 FN Half half_abs(Half x) { return x < 0 ? -x : x; }
 
-#define HALF_OF(name, call)                                                                                  \
+#define HALF_OF(name, call)                                                                                            \
     FN Half half_##name(Half x) { return (Half)call((Single)x); }
 HALF_OF(floor, floorf)
 HALF_OF(sqrt, sqrtf)
@@ -65,5 +64,3 @@ FN Half table_texel(Table t, int stride, int row, int column) { return (Half)t[r
 
 #define PI                                                           3.14159265358979f16
 #define FIELD(type, name, def, low, high, hard_low, hard_high, help) type name;
-
-#endif

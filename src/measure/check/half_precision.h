@@ -1,6 +1,5 @@
 /* half_precision.h - lobes evaluated in half precision */
-#ifndef WEFT_MEASURE_HALF_PRECISION_H
-#define WEFT_MEASURE_HALF_PRECISION_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -23,5 +22,3 @@ void half_tables(const HalfTable *tables, int count);
  * rounded to half first. The horizon is not tested: a cosine of 0 reaches the lobe. */
 void half_eval(int lobe, const float *params, size_t n, const float *ox, const float *oy, const float *oz,
                const float *ix, const float *iy, const float *iz, float *f);
-
-#endif

@@ -54,8 +54,7 @@ static void compare(const Bsdf *bsdf, const Arrays *arrays, WeftPassport *out) {
         const float *o = arrays->in[0] + 4 * k, *i = arrays->in[1] + 4 * k, *gpu = arrays->out + 4 * k;
         Lobe lobe = bsdf_lobe(bsdf, (int)(k % (size_t)bsdf->rows));
         LobeValue v = lobe_value(&lobe, angles_between(dir(o[0], o[1], o[2]), dir(i[0], i[1], i[2])));
-        const double c[ANSWERS] = {(double)(v.f * lobe_color(v, 1.0f, lobe_second(&lobe, 1.0f, 1.0f))),
-                                   (double)v.pdf,
+        const double c[ANSWERS] = {(double)(v.f * lobe_color(v, 1.0f, lobe_second(&lobe, 1.0f, 1.0f))), (double)v.pdf,
                                    (double)(v.f * lobe_color(v, 0.5f, lobe_second(&lobe, 0.5f, 1.0f)))};
         for (int q = 0; q < ANSWERS; q++) {
             double error = fabs((double)gpu[q] - c[q]) / (fabs(c[q]) + least / tolerance);
@@ -77,12 +76,10 @@ static WeftResult run(GlContext *context, const Bsdf *bsdf, Arrays *arrays, Weft
     text_dispatch(&text, &id, 1);
     text_line(&text, "\nconst int FIRST = %d;", id);
     WeftResult result = text_end(&text, error);
-    ComputeDesc desc = {
-        .name = weft_lobe_info(id)->id, .text = &text, .body = body, .inputs = INPUTS, .outputs = 1};
+    ComputeDesc desc = {.name = weft_lobe_info(id)->id, .text = &text, .body = body, .inputs = INPUTS, .outputs = 1};
     if (result == WEFT_OK) result = compute_create(context, &desc, &compute, error);
     if (result == WEFT_OK) result = compute_tables(compute, text.tables, text.table_count, error);
-    if (result == WEFT_OK)
-        result = compute_run(compute, PAIRS, (const float *const *)arrays->in, &arrays->out, error);
+    if (result == WEFT_OK) result = compute_run(compute, PAIRS, (const float *const *)arrays->in, &arrays->out, error);
     compute_destroy(compute);
     text_free(&text);
     return result;
@@ -118,6 +115,5 @@ void parity_measure(const Bsdf *bsdf, WeftPassport *out) {
         context_destroy(context);
     }
     if (!out->parity_measured)
-        snprintf(out->parity_words, sizeof out->parity_words, "%.150s",
-                 error.text[0] ? error.text : "out of memory");
+        snprintf(out->parity_words, sizeof out->parity_words, "%.150s", error.text[0] ? error.text : "out of memory");
 }

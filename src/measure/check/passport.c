@@ -140,15 +140,12 @@ static void find_furnace(PassportWork *work) {
     while (layers < WEFT_PASSPORT_LAYERS && weft_layer_name(layers)) layers++;
     work->out->layers = layers;
     parallel_for(work->desc->threads, WEFT_PASSPORT_SHEENS, fill_sheen, work);
-    parallel_for(work->desc->threads, layers * WEFT_PASSPORT_SHEENS * WEFT_PASSPORT_VIEWS, measure_furnace,
-                 work);
+    parallel_for(work->desc->threads, layers * WEFT_PASSPORT_SHEENS * WEFT_PASSPORT_VIEWS, measure_furnace, work);
     for (int k = 0; k < layers * WEFT_PASSPORT_SHEENS * WEFT_PASSPORT_VIEWS; k++) {
         int view = k % WEFT_PASSPORT_VIEWS, sheen = k / WEFT_PASSPORT_VIEWS % WEFT_PASSPORT_SHEENS;
         int layer = k / (WEFT_PASSPORT_VIEWS * WEFT_PASSPORT_SHEENS);
-        float e =
-            work->out->furnace[layer][sheen][view] - 3.0f * work->out->furnace_noise[layer][sheen][view];
-        if (conserves[layer] && exceeds_or_nan((double)e, (double)work->out->furnace_most))
-            work->out->furnace_most = e;
+        float e = work->out->furnace[layer][sheen][view] - 3.0f * work->out->furnace_noise[layer][sheen][view];
+        if (conserves[layer] && exceeds_or_nan((double)e, (double)work->out->furnace_most)) work->out->furnace_most = e;
     }
 }
 
@@ -186,8 +183,8 @@ static void find_sampling(PassportWork *work) {
     WeftPassport *out = work->out;
     memcpy(out->views, views, sizeof views);
     for (int row = 0; row < out->rows; row++) /* materials take long: only the ends and the default */
-        work->drawn[row] = !work->desc->brief &&
-                           (!bsdf->whole || row == 0 || row == bsdf->row_default || row == out->rows - 1);
+        work->drawn[row] =
+            !work->desc->brief && (!bsdf->whole || row == 0 || row == bsdf->row_default || row == out->rows - 1);
     parallel_for(work->desc->threads, out->rows * WEFT_PASSPORT_VIEWS, measure_sampling, work);
     out->p = 1.0;
     for (int row = 0; row < out->rows; row++) {
@@ -320,6 +317,4 @@ WeftResult weft_passport_measure(const WeftPassportDesc *desc, WeftPassport *out
     return done ? WEFT_OK : fail(error, WEFT_MESSAGE_MEMORY, out->id, NULL);
 }
 
-double weft_passport_significance(double p, int tests) {
-    return -expm1(tests * log1p(-fmin(fmax(p, 0.0), 1.0)));
-}
+double weft_passport_significance(double p, int tests) { return -expm1(tests * log1p(-fmin(fmax(p, 0.0), 1.0))); }

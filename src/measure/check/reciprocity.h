@@ -1,6 +1,5 @@
 /* reciprocity.h - test of reciprocity: f with viewer and light exchanged */
-#ifndef WEFT_MEASURE_RECIPROCITY_H
-#define WEFT_MEASURE_RECIPROCITY_H
+#pragma once
 
 #include "measure/bsdf/bsdf.h"
 
@@ -11,5 +10,3 @@ typedef struct Reciprocity {
 
 /* Measures one setting over random pairs, half of which graze in one direction. */
 Reciprocity reciprocity_measure(const Bsdf *bsdf, int setting, int pairs);
-
-#endif

@@ -1,6 +1,5 @@
 /* sweep.h - directions that are hard on formulas, and a count of bad results */
-#ifndef WEFT_MEASURE_SWEEP_H
-#define WEFT_MEASURE_SWEEP_H
+#pragma once
 
 #include "measure/bsdf/bsdf.h"
 
@@ -30,5 +29,3 @@ typedef struct Sweep {
 
 /* Evaluates all pairs, and samples, of one setting. */
 Sweep sweep_setting(const Bsdf *bsdf, int setting);
-
-#endif

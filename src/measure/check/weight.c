@@ -33,8 +33,7 @@ Weight weight_measure(const BsdfView *view, int cells) {
         view->bsdf->f(view, dirs, f);
         view->bsdf->pdf(view, dirs, pdf);
         for (int c = 0; c < cells; c++) {
-            double p = (double)pdf[c], f_cos = (double)f[c] * (double)ring.z[c],
-                   q = (double)ring.z[c] / PI_DOUBLE;
+            double p = (double)pdf[c], f_cos = (double)f[c] * (double)ring.z[c], q = (double)ring.z[c] / PI_DOUBLE;
             double d = p > 0.0 ? f_cos / p - e : 0.0, b = f_cos / q - e;
             sum.own += p * d * d * ring.area[c];
             sum.by_cosine += q * b * b * ring.area[c];

@@ -1,6 +1,5 @@
 /* weight.h - variance of the weights f cos / pdf of a sampler, by quadrature */
-#ifndef WEFT_MEASURE_WEIGHT_H
-#define WEFT_MEASURE_WEIGHT_H
+#pragma once
 
 #include "measure/bsdf/grid.h"
 
@@ -13,5 +12,3 @@ typedef struct Weight {
 double weight_albedo(const BsdfView *view, int cells);
 
 Weight weight_measure(const BsdfView *view, int cells);
-
-#endif

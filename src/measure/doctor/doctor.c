@@ -26,9 +26,7 @@ static bool is_kind(int kind) { return kind >= 0 && kind < WEFT_FINDING_COUNT; }
 
 const char *weft_finding_name(int kind) { return is_kind(kind) ? catalogue[kind].name : NULL; }
 const char *weft_finding_help(int kind) { return is_kind(kind) ? catalogue[kind].help : NULL; }
-WeftSeverity weft_finding_severity(int kind) {
-    return is_kind(kind) ? catalogue[kind].severity : WEFT_SEVERITY_NOTE;
-}
+WeftSeverity weft_finding_severity(int kind) { return is_kind(kind) ? catalogue[kind].severity : WEFT_SEVERITY_NOTE; }
 int weft_finding_fixable(int kind) { return is_kind(kind) ? catalogue[kind].fixable : 0; }
 
 const char *weft_severity_name(WeftSeverity severity) {
@@ -152,8 +150,8 @@ static void on_warning(void *user, WeftMessage message, const char *text) {
     if (unread || message == WEFT_MESSAGE_IMAGE_REPAIRED) {
         int index = image_named(doctor, text);
         Place place = {index < 0 ? WEFT_OF_ASSET : WEFT_OF_IMAGE, index < 0 ? 0 : index, NULL};
-        doctor_found(doctor, unread ? WEFT_FINDING_IMAGE_UNREAD : WEFT_FINDING_IMAGE_REPAIRED, place, 0,
-                     (double)NAN, NULL, "%s", text);
+        doctor_found(doctor, unread ? WEFT_FINDING_IMAGE_UNREAD : WEFT_FINDING_IMAGE_REPAIRED, place, 0, (double)NAN,
+                     NULL, "%s", text);
         doctor_advise(doctor, "%s",
                       absent   ? "put the file where the asset names it; its contents were not examined"
                       : unread ? "write it as PNG or JPEG; its contents were not examined"
@@ -297,8 +295,7 @@ WeftDoctorInfo weft_doctor_info(const WeftDoctor *doctor) {
                            .mesh_count = (int)doctor->asset.mesh_count,
                            .image_count = (int)doctor->asset.image_count};
     for (int m = 0; m < info.material_count; m++)
-        info.sheen_count +=
-            doctor_part(doctor_item(doctor, "materials", m), "extensions/KHR_materials_sheen") != NULL;
+        info.sheen_count += doctor_part(doctor_item(doctor, "materials", m), "extensions/KHR_materials_sheen") != NULL;
     return info;
 }
 
@@ -306,8 +303,7 @@ static WeftResult fix_once(const WeftDoctor *doctor, const char *path, WeftError
     Rewrite rewrite;
     Asset asset = doctor->asset; /* a copy, so that a failure here leaves the doctor as it is */
     WeftResult result = rewrite_begin(&rewrite, &asset, error);
-    for (int k = 0; k < doctor->count && result == WEFT_OK; k++)
-        result = doctor_repair(doctor, &rewrite, k, error);
+    for (int k = 0; k < doctor->count && result == WEFT_OK; k++) result = doctor_repair(doctor, &rewrite, k, error);
     if (result == WEFT_OK) result = rewrite_save(&rewrite, path, error);
     rewrite_end(&rewrite);
     return result;

@@ -1,6 +1,5 @@
 /* doctor.h - an asset under examination: the data that the checks read, and the list that they add findings to */
-#ifndef WEFT_MEASURE_DOCTOR_H
-#define WEFT_MEASURE_DOCTOR_H
+#pragma once
 
 #include <jansson.h>
 
@@ -151,5 +150,3 @@ float doctor_albedo(WeftDoctor *doctor, const Cloth *cloth, int reader, float co
 /* Applies a repair to the JSON of a rewrite. */
 struct Rewrite;
 WeftResult doctor_repair(const WeftDoctor *doctor, struct Rewrite *rewrite, int finding, WeftError *error);
-
-#endif

@@ -25,9 +25,7 @@ const char *doctor_key(const char *path) {
     return slash ? slash + 1 : path;
 }
 
-json_t *doctor_list(const WeftDoctor *doctor, const char *name) {
-    return json_object_get(doctor->asset.root, name);
-}
+json_t *doctor_list(const WeftDoctor *doctor, const char *name) { return json_object_get(doctor->asset.root, name); }
 
 json_t *doctor_item(const WeftDoctor *doctor, const char *name, int index) {
     return json_array_get(doctor_list(doctor, name), (size_t)index);

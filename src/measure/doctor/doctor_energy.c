@@ -94,8 +94,7 @@ static Surface surface_of(const Case *self, const float color[3], float roughnes
 }
 
 /* Prepares the case with a sheen, seen from o. */
-static void case_view(const Case *self, const float color[3], float roughness, TableRef table, Dir o,
-                      SeenStack *seen) {
+static void case_view(const Case *self, const float color[3], float roughness, TableRef table, Dir o, SeenStack *seen) {
     const Surface surface = surface_of(self, color, roughness);
     seen_make(seen, &surface, &self->choices, table, o);
 }
@@ -104,8 +103,7 @@ static void case_view(const Case *self, const float color[3], float roughness, T
 static void base_add(const SeenStack *whole, int slot, Base *base) {
     SeenStack one = *whole;
     float *const picks[] = {&one.view.select_p.diffuse, &one.view.select_p.specular, &one.view.select_p.coat};
-    const Slots only[] = {slots_of(true, false, false, false, false),
-                          slots_of(false, true, false, false, false),
+    const Slots only[] = {slots_of(true, false, false, false, false), slots_of(false, true, false, false, false),
                           slots_of(false, false, false, true, false)};
     if (!(*picks[slot] > 0.0f)) return;
     one.view.select_p = (Scales){0};
@@ -164,8 +162,7 @@ static TableRef layer_table_of(EnergyTables *tables, const Case *self) {
     case_view(self, white, 0.0f, (TableRef){.kind = TABLE_NONE}, n, &end);
     const float low = fminf(end.stack.albedo_coord, stack->albedo_coord),
                 high = fmaxf(end.stack.albedo_coord, stack->albedo_coord);
-    if (!tables->layer_table.rows ||
-        !albedo_table_serves(&tables->layer_table, &stack->sheen.lobe, low, high, false))
+    if (!tables->layer_table.rows || !albedo_table_serves(&tables->layer_table, &stack->sheen.lobe, low, high, false))
         albedo_table_fill(&tables->layer_table, &stack->sheen.lobe, low, high, 0);
     return albedo_table_ref(&tables->layer_table);
 }
@@ -199,8 +196,7 @@ static float luminance_of(const float e[3]) { return 0.2126f * e[0] + 0.7152f * 
 static float most_of(const float e[3]) { return fmaxf(e[0], fmaxf(e[1], e[2])); }
 
 /* Computes the albedos of a case with a sheen of that colour and roughness. */
-static Answer answer_of(EnergyTables *tables, const Case *self, int reader, const float color[3],
-                        float roughness) {
+static Answer answer_of(EnergyTables *tables, const Case *self, int reader, const float color[3], float roughness) {
     const TableRef table = layer_table_of(tables, self);
     Answer answer;
     for (int k = 0; k < COSINES; k++) {
@@ -285,8 +281,8 @@ static const char *engine_names(unsigned engines, char text[128]) {
 
 static double degrees(float cosine) { return 57.2957795 * acos((double)cosine); }
 
-static void report_gain(WeftDoctor *doctor, const Cloth *cloth, unsigned engines, int worst,
-                        const Energy *energy, int where) {
+static void report_gain(WeftDoctor *doctor, const Cloth *cloth, unsigned engines, int worst, const Energy *energy,
+                        int where) {
     static const char path[] = "extensions/KHR_materials_sheen/sheenRoughnessFactor";
     bool textured = json_object_get(cloth->sheen, "sheenRoughnessTexture") != NULL;
     const Answer *answers = energy->answers;
@@ -302,14 +298,12 @@ static void report_gain(WeftDoctor *doctor, const Cloth *cloth, unsigned engines
                  (double)answers[worst].with[where], degrees(cosines[where]), doctor_readers[worst],
                  (double)answers[worst].without[where], (double)answers[worst].alone[where]);
     if (helps)
-        doctor_advise(
-            doctor,
-            "raise sheenRoughnessFactor to %.2g, or darken the colour: from there on no engine returns more "
-            "than it receives",
-            (double)least);
-    else if (textured && least > 0.0f)
         doctor_advise(doctor,
-                      "brighten the alpha of sheenRoughnessTexture, to a mean of %.2g times its factor",
+                      "raise sheenRoughnessFactor to %.2g, or darken the colour: from there on no engine returns more "
+                      "than it receives",
+                      (double)least);
+    else if (textured && least > 0.0f)
+        doctor_advise(doctor, "brighten the alpha of sheenRoughnessTexture, to a mean of %.2g times its factor",
                       (double)least);
     else
         doctor_advise(doctor, "darken sheenColorFactor: no roughness helps a sheen this bright on this base");
@@ -349,17 +343,15 @@ static void check_dark(WeftDoctor *doctor, const Cloth *cloth, const Answer *ans
         }
     if (worst < 0) return;
     char names[128];
-    doctor_found(
-        doctor, WEFT_FINDING_SHEEN_DARKENS,
-        (Place){WEFT_OF_MATERIAL, cloth->index, "extensions/KHR_materials_sheen"}, engines, (double)least,
-        NULL,
-        "seen at %.0f degrees in %s the cloth has %.2g of the light it would have without its sheen: what is "
-        "taken "
-        "from the base for the sheen, in every channel alike, is more than the sheen gives (so in %s)",
-        degrees(cosines[where]), doctor_readers[worst], (double)least, engine_names(engines, names));
-    doctor_advise(
-        doctor,
-        "make the sheen's colour less saturated, or its roughness larger, if a dark rim is not meant");
+    doctor_found(doctor, WEFT_FINDING_SHEEN_DARKENS,
+                 (Place){WEFT_OF_MATERIAL, cloth->index, "extensions/KHR_materials_sheen"}, engines, (double)least,
+                 NULL,
+                 "seen at %.0f degrees in %s the cloth has %.2g of the light it would have without its sheen: what is "
+                 "taken "
+                 "from the base for the sheen, in every channel alike, is more than the sheen gives (so in %s)",
+                 degrees(cosines[where]), doctor_readers[worst], (double)least, engine_names(engines, names));
+    doctor_advise(doctor,
+                  "make the sheen's colour less saturated, or its roughness larger, if a dark rim is not meant");
 }
 
 /* Compares the sheen alone in the engines, at 60 degrees. */
@@ -373,23 +365,20 @@ static void check_differ(WeftDoctor *doctor, const Cloth *cloth, const Answer an
         if (e > high) high = e, highest = r;
     }
     if (!(high > limit * low)) return;
-    doctor_found(
-        doctor, WEFT_FINDING_ENGINES_DIFFER,
-        (Place){WEFT_OF_MATERIAL, cloth->index, "extensions/KHR_materials_sheen"},
-        doctor_engine(doctor_readers[lowest]) | doctor_engine(doctor_readers[highest]), (double)(high / low),
-        NULL, "at sheen roughness %.2g the sheen is %.2g times as bright in %s as in %s, seen at 60 degrees",
-        (double)cloth->roughness, (double)(high / low), doctor_readers[highest], doctor_readers[lowest]);
-    doctor_advise(
-        doctor,
-        "take a roughness of 0.5 or more, where the engines' lobes are near each other, or look at it in "
-        "each: --profile %s, --profile %s",
-        doctor_readers[highest], doctor_readers[lowest]);
+    doctor_found(doctor, WEFT_FINDING_ENGINES_DIFFER,
+                 (Place){WEFT_OF_MATERIAL, cloth->index, "extensions/KHR_materials_sheen"},
+                 doctor_engine(doctor_readers[lowest]) | doctor_engine(doctor_readers[highest]), (double)(high / low),
+                 NULL, "at sheen roughness %.2g the sheen is %.2g times as bright in %s as in %s, seen at 60 degrees",
+                 (double)cloth->roughness, (double)(high / low), doctor_readers[highest], doctor_readers[lowest]);
+    doctor_advise(doctor,
+                  "take a roughness of 0.5 or more, where the engines' lobes are near each other, or look at it in "
+                  "each: --profile %s, --profile %s",
+                  doctor_readers[highest], doctor_readers[lowest]);
 }
 
 static bool key_of(const WeftDoctor *doctor, const Cloth *cloth, MaterialKey *key) {
     WeftMaterial material;
-    if (!mean_material(doctor, cloth, cloth->color, cloth->roughness, doctor_readers[0], &material))
-        return false;
+    if (!mean_material(doctor, cloth, cloth->color, cloth->roughness, doctor_readers[0], &material)) return false;
     *key = material_key(&material);
     return true;
 }

@@ -58,10 +58,9 @@ static void check_attributes(WeftDoctor *doctor, int mesh, int number, const Pri
         doctor_advise(doctor, "unwrap the mesh, or name the set that it has in texCoord");
     }
     if (p->normal < 0) {
-        doctor_found(
-            doctor, WEFT_FINDING_NORMALS_MISSING, place, 0, (double)NAN, NULL,
-            "primitive %d has no NORMAL: it is shown with flat facets, and a sheen shows each of them",
-            number);
+        doctor_found(doctor, WEFT_FINDING_NORMALS_MISSING, place, 0, (double)NAN, NULL,
+                     "primitive %d has no NORMAL: it is shown with flat facets, and a sheen shows each of them",
+                     number);
         doctor_advise(doctor, "export smooth normals");
     }
 }
@@ -82,8 +81,7 @@ static void check_tangents(WeftDoctor *doctor, int mesh, int number, const Primi
     if (!what || p->tangent >= 0 || p->normal < 0) return;
     snprintf(path, sizeof path, "primitives/%d/attributes", number);
     doctor_found(doctor, WEFT_FINDING_TANGENTS_MISSING, (Place){WEFT_OF_MESH, mesh, path},
-                 doctor_engine("three") | doctor_engine("babylon") | doctor_engine("khronos"), (double)NAN,
-                 NULL,
+                 doctor_engine("three") | doctor_engine("babylon") | doctor_engine("khronos"), (double)NAN, NULL,
                  "primitive %d has no TANGENT, but %s of materials[%d] needs them: these engines guess from "
                  "the picture's "
                  "derivatives and not as MikkTSpace does, so that seams and mirrored parts show",
@@ -141,8 +139,7 @@ static double open_share(const uint32_t *place, size_t corners, Arena *arena) {
 }
 
 /* Appends the corners of a primitive's triangles; returns false if they cannot be read. */
-static bool gather(WeftDoctor *doctor, const Primitive *p, Corner *corners, size_t *count, size_t most,
-                   Arena *arena) {
+static bool gather(WeftDoctor *doctor, const Primitive *p, Corner *corners, size_t *count, size_t most, Arena *arena) {
     size_t vertices = doctor->asset.accessors[p->position].count;
     size_t wanted = p->index < 0 ? vertices : doctor->asset.accessors[p->index].count;
     const float *position = accessor_floats(&doctor->asset, arena, p->position);

@@ -45,8 +45,7 @@ static json_t *numbers(const Repair *repair, const json_t *old) {
 }
 
 /* Makes an image of one channel, as alpha and as grey, so that a person sees it too. */
-static WeftResult alpha_image(const WeftImage *from, int channel, const char *name, WeftImage *out,
-                              WeftError *error) {
+static WeftResult alpha_image(const WeftImage *from, int channel, const char *name, WeftImage *out, WeftError *error) {
     WeftPixelType type = from->type == WEFT_PIXEL_U16 ? WEFT_PIXEL_U16 : WEFT_PIXEL_U8;
     WeftResult result = weft_image_create(from->width, from->height, 2, type, out, error);
     size_t count = (size_t)from->width * (size_t)from->height, stride = (size_t)from->channels;
@@ -66,8 +65,7 @@ static WeftResult alpha_image(const WeftImage *from, int channel, const char *na
     return WEFT_OK;
 }
 
-static WeftResult encode(const WeftImage *image, const char *name, char **bytes, size_t *size,
-                         WeftError *error) {
+static WeftResult encode(const WeftImage *image, const char *name, char **bytes, size_t *size, WeftError *error) {
     const WeftImageWriting how = {.data = 1};
     *bytes = NULL;
     FILE *stream = open_memstream(bytes, size);
@@ -104,8 +102,8 @@ static WeftResult alpha_texture(const WeftDoctor *doctor, Rewrite *rewrite, cons
     WeftImage image = {0};
     char *bytes = NULL;
     size_t size = 0;
-    WeftResult result = alpha_image(&doctor->scene->images[doctor->scene->textures[texture].image],
-                                    repair->channel, name, &image, error);
+    WeftResult result = alpha_image(&doctor->scene->images[doctor->scene->textures[texture].image], repair->channel,
+                                    name, &image, error);
     if (result == WEFT_OK) result = encode(&image, name, &bytes, &size, error);
     if (result == WEFT_OK) *made = rewrite_texture(rewrite, bytes, size, repair->texture, error);
     if (result == WEFT_OK && *made < 0) result = WEFT_RESOURCES;

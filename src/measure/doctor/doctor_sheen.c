@@ -27,10 +27,8 @@ static void declare(WeftDoctor *doctor, const char *name) {
     if (strlen(name) >= sizeof repair.extension) return; /* no registered extension has so long a name */
     memcpy(repair.extension, name, strlen(name) + 1);
     doctor_found(
-        doctor, WEFT_FINDING_EXTENSION_UNDECLARED, (Place){WEFT_OF_ASSET, 0, "extensionsUsed"}, 0,
-        (double)NAN, &repair,
-        "%s is used, but extensionsUsed does not name it: readers that look there drop it without a word",
-        name);
+        doctor, WEFT_FINDING_EXTENSION_UNDECLARED, (Place){WEFT_OF_ASSET, 0, "extensionsUsed"}, 0, (double)NAN, &repair,
+        "%s is used, but extensionsUsed does not name it: readers that look there drop it without a word", name);
     doctor_advise(doctor, "add %s to extensionsUsed", name);
 }
 
@@ -55,8 +53,8 @@ void check_extensions(WeftDoctor *doctor) {
     json_array_foreach(doctor_list(doctor, "extensionsRequired"), k, value) {
         const char *name = json_string_value(value);
         if (!name || gltf_supports(name)) continue;
-        doctor_found(doctor, WEFT_FINDING_EXTENSION_REQUIRED, (Place){WEFT_OF_ASSET, 0, "extensionsRequired"},
-                     0, (double)NAN, NULL,
+        doctor_found(doctor, WEFT_FINDING_EXTENSION_REQUIRED, (Place){WEFT_OF_ASSET, 0, "extensionsRequired"}, 0,
+                     (double)NAN, NULL,
                      "%.64s is required, which weft does not support: any shape or pixels that it adds were "
                      "not examined",
                      name);
@@ -97,23 +95,20 @@ static void check_metal(WeftDoctor *doctor, const Cloth *cloth) {
     bool textured = doctor_part(cloth->json, "pbrMetallicRoughness/metallicRoughnessTexture") != NULL;
     bool given = doctor_part(cloth->json, path) != NULL;
     const Repair repair = {.act = REPAIR_NUMBER, .numbers = {0.0}, .count = 1};
-    doctor_found(
-        doctor, WEFT_FINDING_SHEEN_ON_METAL, (Place){WEFT_OF_MATERIAL, cloth->index, path}, 0,
-        (double)cloth->metallic, textured ? NULL : &repair,
-        "the sheen lies on a metal (metallic %.3g%s): the base has no diffuse colour, and mirrors instead",
-        (double)cloth->metallic,
-        given      ? ""
-        : textured ? ", in the mean of its texture"
-                   : ", which is what it is when metallicFactor is left out");
-    doctor_advise(doctor,
-                  textured ? "paint the blue channel of metallicRoughnessTexture black where there is cloth"
-                           : "write metallicFactor 0");
+    doctor_found(doctor, WEFT_FINDING_SHEEN_ON_METAL, (Place){WEFT_OF_MATERIAL, cloth->index, path}, 0,
+                 (double)cloth->metallic, textured ? NULL : &repair,
+                 "the sheen lies on a metal (metallic %.3g%s): the base has no diffuse colour, and mirrors instead",
+                 (double)cloth->metallic,
+                 given      ? ""
+                 : textured ? ", in the mean of its texture"
+                            : ", which is what it is when metallicFactor is left out");
+    doctor_advise(doctor, textured ? "paint the blue channel of metallicRoughnessTexture black where there is cloth"
+                                   : "write metallicFactor 0");
 }
 
 static void check_coat(WeftDoctor *doctor, const Cloth *cloth) {
     double coat = 0.0;
-    if (!doctor_numbers(cloth->json, "extensions/KHR_materials_clearcoat/clearcoatFactor", &coat, 1) ||
-        !(coat > 0.0))
+    if (!doctor_numbers(cloth->json, "extensions/KHR_materials_clearcoat/clearcoatFactor", &coat, 1) || !(coat > 0.0))
         return;
     doctor_found(doctor, WEFT_FINDING_SHEEN_COAT, SHEEN_PLACE(cloth), 0, coat, NULL,
                  "a clear coat lies over the sheen: glTF puts lacquer over fibres, OpenPBR and its kin "
@@ -124,8 +119,7 @@ static void check_coat(WeftDoctor *doctor, const Cloth *cloth) {
 
 static void check_ior(WeftDoctor *doctor, const Cloth *cloth) {
     if (!doctor_part(cloth->json, "extensions/KHR_materials_ior")) return;
-    doctor_found(doctor, WEFT_FINDING_SHEEN_IOR, SHEEN_PLACE(cloth), doctor_engine("filament-sheen"),
-                 (double)NAN, NULL,
+    doctor_found(doctor, WEFT_FINDING_SHEEN_IOR, SHEEN_PLACE(cloth), doctor_engine("filament-sheen"), (double)NAN, NULL,
                  "Filament's ready-made materials had no sampler left for a sheen and an index of refraction "
                  "together: "
                  "one of them may be dropped there");
@@ -147,8 +141,8 @@ static void check_emission(WeftDoctor *doctor, const Cloth *cloth) {
     doctor_input(doctor, cloth->json, INPUT_emission, glow);
     float most = fmaxf(glow[0], fmaxf(glow[1], glow[2]));
     if (!(most > 1e-3f)) return;
-    doctor_found(doctor, WEFT_FINDING_SHEEN_EMISSION,
-                 (Place){WEFT_OF_MATERIAL, cloth->index, "emissiveFactor"}, 0, (double)most, NULL,
+    doctor_found(doctor, WEFT_FINDING_SHEEN_EMISSION, (Place){WEFT_OF_MATERIAL, cloth->index, "emissiveFactor"}, 0,
+                 (double)most, NULL,
                  "the cloth sends out light of its own (%.2g): where that stands in for a rim, it is there "
                  "in the dark too",
                  (double)most);

@@ -74,8 +74,7 @@ static const char *png_linear(Span png) {
         if (memcmp(c + 4, "gAMA", 4) == 0 && size == 4 && memcmp(c + 8, "\0\x01\x86\xa0", 4) == 0)
             return "a chunk gAMA of 1";
         if (memcmp(c + 4, "cICP", 4) == 0 && size == 4 && c[9] == 8) return "a chunk cICP of linear transfer";
-        if (memcmp(c + 4, "iCCP", 4) == 0 && claims_linear(c + 8, size))
-            return "a colour profile called linear";
+        if (memcmp(c + 4, "iCCP", 4) == 0 && claims_linear(c + 8, size)) return "a colour profile called linear";
         at += size + 12;
     }
     return NULL;
@@ -117,19 +116,16 @@ void check_black(WeftDoctor *doctor, const Cloth *cloth) {
     bool given = doctor_numbers(cloth->sheen, "sheenColorFactor", factor, 3);
     bool zero = !(factor[0] > 0.0 || factor[1] > 0.0 || factor[2] > 0.0);
     if (pixels && !zero && fmaxf(pixels->high[0], fmaxf(pixels->high[1], pixels->high[2])) < 1.5f / 255.0f) {
-        doctor_found(doctor, WEFT_FINDING_SHEEN_TEXTURE_BLACK, (Place){WEFT_OF_MATERIAL, cloth->index, path},
-                     0, 0.0, NULL,
-                     "every pixel of sheenColorTexture is black: there is no sheen in any engine");
-        doctor_advise(doctor,
-                      "export the texture again: exporters leave it black where they cannot bake the colour");
+        doctor_found(doctor, WEFT_FINDING_SHEEN_TEXTURE_BLACK, (Place){WEFT_OF_MATERIAL, cloth->index, path}, 0, 0.0,
+                     NULL, "every pixel of sheenColorTexture is black: there is no sheen in any engine");
+        doctor_advise(doctor, "export the texture again: exporters leave it black where they cannot bake the colour");
     }
     if (!cloth->sheen || info || !zero) return;
-    doctor_found(
-        doctor, WEFT_FINDING_SHEEN_BLACK,
-        (Place){WEFT_OF_MATERIAL, cloth->index, "extensions/KHR_materials_sheen/sheenColorFactor"}, 0, 0.0,
-        NULL,
-        "KHR_materials_sheen is there, but its colour is black%s: nothing of it is seen, and it is paid for",
-        given ? "" : " since sheenColorFactor is left out");
+    doctor_found(doctor, WEFT_FINDING_SHEEN_BLACK,
+                 (Place){WEFT_OF_MATERIAL, cloth->index, "extensions/KHR_materials_sheen/sheenColorFactor"}, 0, 0.0,
+                 NULL,
+                 "KHR_materials_sheen is there, but its colour is black%s: nothing of it is seen, and it is paid for",
+                 given ? "" : " since sheenColorFactor is left out");
     doctor_advise(doctor, "write sheenColorFactor, or drop the extension");
 }
 
@@ -138,8 +134,7 @@ void check_black(WeftDoctor *doctor, const Cloth *cloth) {
 static int painted_channel(const Pixels *pixels) {
     bool grey = true;
     for (int c = 1; c < 3; c++)
-        grey &= fabsf(pixels->mean[c] - pixels->mean[0]) < 0.01f &&
-                fabsf(pixels->high[c] - pixels->high[0]) < 0.02f;
+        grey &= fabsf(pixels->mean[c] - pixels->mean[0]) < 0.01f && fabsf(pixels->high[c] - pixels->high[0]) < 0.02f;
     return grey ? 0 : 1;
 }
 
@@ -154,8 +149,7 @@ void check_channel(WeftDoctor *doctor, const Cloth *cloth) {
         colors = file_image(doctor, json_object_get(cloth->sheen, "sheenColorTexture"));
     float spread = pixels->high[channel] - pixels->low[channel];
     if (spread > 4.0f / 255.0f && file_image(doctor, info) != colors) {
-        const Repair repair = {
-            .act = REPAIR_ALPHA, .texture = doctor_texture(doctor, info), .channel = channel};
+        const Repair repair = {.act = REPAIR_ALPHA, .texture = doctor_texture(doctor, info), .channel = channel};
         doctor_found(doctor, WEFT_FINDING_SHEEN_ROUGHNESS_CHANNEL, place, doctor_engines(),
                      (double)pixels->mean[channel], &repair,
                      "sheenRoughnessTexture is read from alpha, which is 1 everywhere; what was painted "

@@ -12,8 +12,7 @@
 
 static double clamped(double value, double low, double high) { return fmin(fmax(value, low), high); }
 
-static void check_range(WeftDoctor *doctor, const Cloth *cloth, const char *path, int count, double low,
-                        double high) {
+static void check_range(WeftDoctor *doctor, const Cloth *cloth, const char *path, int count, double low, double high) {
     Repair repair = {.act = count == 1 ? REPAIR_NUMBER : REPAIR_NUMBERS, .count = count};
     double worst = 0.0, values[4];
     if (!doctor_numbers(cloth->json, path, values, count)) return;
@@ -29,10 +28,9 @@ static void check_range(WeftDoctor *doctor, const Cloth *cloth, const char *path
         snprintf(limits, sizeof limits, "in %g .. %g", low, high);
     else
         snprintf(limits, sizeof limits, "at least %g", low);
-    doctor_found(
-        doctor, WEFT_FINDING_VALUE_RANGE, place, 0, worst, &repair,
-        "%s is %g, but must be %s: some readers refuse the file, some clamp, and some take it as it is",
-        doctor_key(path), worst, limits);
+    doctor_found(doctor, WEFT_FINDING_VALUE_RANGE, place, 0, worst, &repair,
+                 "%s is %g, but must be %s: some readers refuse the file, some clamp, and some take it as it is",
+                 doctor_key(path), worst, limits);
     doctor_advise(doctor, "write %g", clamped(worst, low, high));
 }
 
@@ -47,9 +45,8 @@ static void check_ior_range(WeftDoctor *doctor, const Cloth *cloth) {
     double ior;
     if (!bad_ior(cloth, &ior)) return;
     const Repair repair = {.act = REPAIR_NUMBER, .numbers = {1.5}, .count = 1};
-    doctor_found(
-        doctor, WEFT_FINDING_VALUE_RANGE, (Place){WEFT_OF_MATERIAL, cloth->index, ior_path}, 0, ior, &repair,
-        "ior is %g, but must be 0 or at least 1: nothing that one meets is optically thinner than air", ior);
+    doctor_found(doctor, WEFT_FINDING_VALUE_RANGE, (Place){WEFT_OF_MATERIAL, cloth->index, ior_path}, 0, ior, &repair,
+                 "ior is %g, but must be 0 or at least 1: nothing that one meets is optically thinner than air", ior);
     doctor_advise(doctor, "write 1.5, which is a plain dielectric's");
 }
 
@@ -60,15 +57,12 @@ void check_ranges(WeftDoctor *doctor, const Cloth *cloth) {
         if (row->input == INPUT_ior)
             check_ior_range(doctor, cloth);
         else if (row->low >= 0.0f)
-            check_range(doctor, cloth, path, material_field_numbers(row), (double)row->low,
-                        (double)row->high);
+            check_range(doctor, cloth, path, material_field_numbers(row), (double)row->low, (double)row->high);
     }
 }
 
 /* Returns true for a texture that does nothing without its factor. */
-static bool is_switched(const MaterialField *row) {
-    return row->texture && row->low >= 0.0f && !(row->absent > 0.0f);
-}
+static bool is_switched(const MaterialField *row) { return row->texture && row->low >= 0.0f && !(row->absent > 0.0f); }
 
 void check_factors(WeftDoctor *doctor, const Cloth *cloth) {
     for (const MaterialField *row = material_fields; row->factor; row++) {
@@ -85,17 +79,15 @@ void check_factors(WeftDoctor *doctor, const Cloth *cloth) {
         const Place place = {WEFT_OF_MATERIAL, cloth->index, factor};
         if (given) {
             doctor_found(doctor, WEFT_FINDING_TEXTURE_OFF, place, 0, 0.0, NULL,
-                         "%s does nothing: it is multiplied by %s, which is set to 0", texture,
-                         doctor_key(factor));
-            doctor_advise(doctor, "set %s, or drop the texture, which is loaded all the same",
-                          doctor_key(factor));
+                         "%s does nothing: it is multiplied by %s, which is set to 0", texture, doctor_key(factor));
+            doctor_advise(doctor, "set %s, or drop the texture, which is loaded all the same", doctor_key(factor));
             continue;
         }
         const Repair repair = {
             .act = count == 1 ? REPAIR_NUMBER : REPAIR_NUMBERS, .numbers = {1.0, 1.0, 1.0}, .count = count};
         doctor_found(doctor, WEFT_FINDING_TEXTURE_TIMES_ZERO, place, 0, 0.0, &repair,
-                     "%s does nothing: it is multiplied by %s, which is not there and then is 0, not 1",
-                     texture, doctor_key(factor));
+                     "%s does nothing: it is multiplied by %s, which is not there and then is 0, not 1", texture,
+                     doctor_key(factor));
         doctor_advise(doctor, "write %s%s", doctor_key(factor), count == 1 ? " 1" : " [1, 1, 1]");
     }
 }
@@ -114,11 +106,10 @@ static void check_bright(WeftDoctor *doctor, const Cloth *cloth, Place place) {
     Repair repair = {.act = REPAIR_NUMBERS, .numbers = {1.0, 1.0, 1.0, 1.0}, .count = 4};
     doctor_numbers(cloth->json, PBR("baseColorFactor"), repair.numbers, 4);
     for (int c = 0; c < 3; c++) repair.numbers[c] *= 0.8 / (double)luminance(cloth->base);
-    doctor_found(
-        doctor, WEFT_FINDING_BASE_BRIGHT, place, 0, (double)luminance(cloth->base), &repair,
-        "the base colour%s reflects %.3g, more than fresh snow (%.3g): nothing that a sheen or a highlight "
-        "adds finds room, and light in folds does not fade",
-        textured ? ", in the mean of its texture," : "", (double)luminance(cloth->base), (double)CLOTH_HIGH);
+    doctor_found(doctor, WEFT_FINDING_BASE_BRIGHT, place, 0, (double)luminance(cloth->base), &repair,
+                 "the base colour%s reflects %.3g, more than fresh snow (%.3g): nothing that a sheen or a highlight "
+                 "adds finds room, and light in folds does not fade",
+                 textured ? ", in the mean of its texture," : "", (double)luminance(cloth->base), (double)CLOTH_HIGH);
     doctor_advise(doctor, "multiply baseColorFactor by %.3g: white cotton reflects about 0.8",
                   0.8 / (double)luminance(cloth->base));
     if (!cloth->sheen) doctor_soften(doctor);
@@ -147,8 +138,7 @@ static float metal_luminance(WeftDoctor *doctor, const Cloth *cloth) {
         doctor_texel(metal, u, v, color);
         if (!((double)color[2] * metallic > 0.5)) continue;
         if (base) doctor_texel_linear(doctor, base, u, v, color);
-        for (int c = 0; c < 3; c++)
-            color[c] = (float)clamped(factors[c], 0.0, 1.0) * (base ? color[c] : 1.0f);
+        for (int c = 0; c < 3; c++) color[c] = (float)clamped(factors[c], 0.0, 1.0) * (base ? color[c] : 1.0f);
         sum += (double)luminance(color);
         texels++;
     }
@@ -182,11 +172,10 @@ static void check_base(WeftDoctor *doctor, const Cloth *cloth) {
     }
     check_bright(doctor, cloth, place);
     if (y >= CLOTH_LOW || y < 0.0f || glows(cloth->json)) return;
-    doctor_found(
-        doctor, WEFT_FINDING_BASE_DARK, place, 0, (double)y, NULL,
-        "the base colour reflects %.2g, less than black cloth (%.2g): folds and shadows show nothing but "
-        "highlights",
-        (double)y, (double)CLOTH_LOW);
+    doctor_found(doctor, WEFT_FINDING_BASE_DARK, place, 0, (double)y, NULL,
+                 "the base colour reflects %.2g, less than black cloth (%.2g): folds and shadows show nothing but "
+                 "highlights",
+                 (double)y, (double)CLOTH_LOW);
     doctor_advise(doctor,
                   "begin at %.2g; velvet is dark because its sheen is at the rim, not because its base is "
                   "black",
@@ -218,8 +207,7 @@ static void hear_plausible(void *user, WeftMessage message, const char *text) {
     doctor_found(to->doctor, WEFT_FINDING_IMPLAUSIBLE, (Place){WEFT_OF_MATERIAL, to->cloth->index, NULL}, 0,
                  (double)NAN, NULL, "%s", words);
     doctor_advise(to->doctor, "%s",
-                  begins(words, "between")
-                      ? "write metallicFactor 0 or 1: what is between is for the pixels at edges"
+                  begins(words, "between") ? "write metallicFactor 0 or 1: what is between is for the pixels at edges"
                   : begins(words, "coloured") ? "write a grey specularColorFactor"
                                               : "take an ior from 1.3 to 1.7, 1.5 where KHR_materials_ior is "
                                                 "not there, and a specularFactor of 1");
@@ -243,9 +231,8 @@ void check_transforms(WeftDoctor *doctor, const Cloth *cloth) {
         snprintf(scale, sizeof scale, "%s/extensions/KHR_texture_transform/scale", path);
         if (!doctor_numbers(cloth->json, scale, values, 2)) continue;
         if (fabs(values[0]) > 1e-6 && fabs(values[1]) > 1e-6) continue;
-        doctor_found(doctor, WEFT_FINDING_TEXTURE_TRANSFORM, (Place){WEFT_OF_MATERIAL, cloth->index, scale},
-                     0, 0.0, NULL,
-                     "the transform of %s has the scale %g, %g: one line of the image is all that is seen",
+        doctor_found(doctor, WEFT_FINDING_TEXTURE_TRANSFORM, (Place){WEFT_OF_MATERIAL, cloth->index, scale}, 0, 0.0,
+                     NULL, "the transform of %s has the scale %g, %g: one line of the image is all that is seen",
                      row->texture, values[0], values[1]);
         doctor_advise(doctor, "write a scale that is not 0, or drop the transform");
     }

@@ -21,8 +21,8 @@ static double dot(const float *w, const float *x, const float *y, int count) {
     return sum;
 }
 
-static void normal_make(Normal *normal, int columns, const float *const column[], const float *w,
-                        const float *rest, int count) {
+static void normal_make(Normal *normal, int columns, const float *const column[], const float *w, const float *rest,
+                        int count) {
     for (int j = 0; j < columns; j++) {
         normal->b[j] = dot(w, column[j], rest, count);
         for (int l = 0; l <= j; l++) normal->a[j][l] = normal->a[l][j] = dot(w, column[j], column[l], count);
@@ -95,8 +95,8 @@ static inline float goal_slope(WeftBrdfMetric metric, float scale, float x) {
 
 /* Computes the weights of samples in least squares, so that a square counts like an absolute difference. `soft` limits
  * the weight of samples that are already matched. The metric is a constant wherever this is inlined. */
-static inline void weigh_by(WeftBrdfMetric metric, const Samples *self, int count, int c, const float *x,
-                            float soft, float *w) {
+static inline void weigh_by(WeftBrdfMetric metric, const Samples *self, int count, int c, const float *x, float soft,
+                            float *w) {
     const float *from = self->x[c], *weight = self->weight;
     const float scale = self->scale;
     for (int k = 0; k < count; k++) {

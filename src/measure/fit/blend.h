@@ -1,6 +1,5 @@
 /* blend.h - non-negative weights of sums of columns that come closest to samples, separately in each channel */
-#ifndef WEFT_MEASURE_BLEND_H
-#define WEFT_MEASURE_BLEND_H
+#pragma once
 
 #include "measure/fit/samples.h"
 
@@ -17,5 +16,3 @@ typedef struct Blend {
  * squares: Peter J. Green, "Iteratively Reweighted Least Squares for Maximum Likelihood Estimation, and Some
  * Robust and Resistant Alternatives", Journal of the Royal Statistical Society B 46(2), 1984. */
 double blend_solve(const Samples *samples, int count, int c, const Blend *blend, double weights[BLEND_MOST]);
-
-#endif

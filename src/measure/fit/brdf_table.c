@@ -43,16 +43,12 @@ static int line_numbers(const char *line, float numbers[NUMBERS], const char **r
 
 /* Returns true if a line has names, which may be above the numbers. */
 static bool is_header(const char *line) {
-    return strchr("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_\"", line[strspn(line, " \t\r")]) !=
-           NULL;
+    return strchr("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_\"", line[strspn(line, " \t\r")]) != NULL;
 }
 
 static WeftResult refuse_line(const char *rest, int count, int number, const char *name, WeftError *error) {
-    if (rest)
-        return fail(error, WEFT_MESSAGE_BRDF_TABLE, name, "line %d: no number begins at \"%.20s\"", number,
-                    rest);
-    return fail(error, WEFT_MESSAGE_BRDF_TABLE, name, "line %d has %d numbers instead of seven", number,
-                count);
+    if (rest) return fail(error, WEFT_MESSAGE_BRDF_TABLE, name, "line %d: no number begins at \"%.20s\"", number, rest);
+    return fail(error, WEFT_MESSAGE_BRDF_TABLE, name, "line %d has %d numbers instead of seven", number, count);
 }
 
 static WeftResult take_line(BrdfTable *table, const char *line, int number, bool *header, const char *name,
@@ -91,8 +87,7 @@ static size_t capacity_for(const char *text, size_t size) {
     return count;
 }
 
-static WeftResult take_lines(BrdfTable *table, const char *text, size_t size, const char *name,
-                             WeftError *error) {
+static WeftResult take_lines(BrdfTable *table, const char *text, size_t size, const char *name, WeftError *error) {
     WeftResult result = WEFT_OK;
     bool header = false;
     int number = 1;
@@ -110,8 +105,7 @@ static WeftResult take_lines(BrdfTable *table, const char *text, size_t size, co
     return result;
 }
 
-WeftResult brdf_table_read(const char *text, size_t size, const char *name, BrdfTable *out,
-                           WeftError *error) {
+WeftResult brdf_table_read(const char *text, size_t size, const char *name, BrdfTable *out, WeftError *error) {
     *out = (BrdfTable){0};
     size_t mark = mark_size(text, size), capacity = capacity_for(text, size);
     out->wo = alloc_array(capacity, sizeof *out->wo);

@@ -1,6 +1,5 @@
 /* brdf_table.h - measured reflectance as lines of numbers (weft/fit.h has the format) */
-#ifndef WEFT_MEASURE_BRDF_TABLE_H
-#define WEFT_MEASURE_BRDF_TABLE_H
+#pragma once
 
 #include <stddef.h>
 
@@ -17,5 +16,3 @@ enum { BRDF_TABLE_ROWS = 1000000 };
 /* Reads a table. Fails with WEFT_MESSAGE_BRDF_TABLE or _MEMORY; release with brdf_table_free in any case. */
 WeftResult brdf_table_read(const char *text, size_t size, const char *name, BrdfTable *out, WeftError *error);
 void brdf_table_free(BrdfTable *table);
-
-#endif

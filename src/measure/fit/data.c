@@ -81,28 +81,25 @@ static Passed take_samples(WeftData *self, const float (*wo)[3], const float (*w
     return passed;
 }
 
-static WeftResult check_samples(const WeftData *self, const Passed *passed, const char *name,
-                                WeftMessage message, WeftError *error) {
+static WeftResult check_samples(const WeftData *self, const Passed *passed, const char *name, WeftMessage message,
+                                WeftError *error) {
     if (self->all == 0) return fail(error, message, name, "nothing in it is a sample");
     if (self->count < SAMPLES_LEAST)
-        return fail(
-            error, message, name,
-            "of %d samples %d were not measured and %d are more than 80 degrees off the normal, which leaves "
-            "%d; %d are needed",
-            self->all, passed->unmeasured, passed->grazing, self->count, SAMPLES_LEAST);
+        return fail(error, message, name,
+                    "of %d samples %d were not measured and %d are more than 80 degrees off the normal, which leaves "
+                    "%d; %d are needed",
+                    self->all, passed->unmeasured, passed->grazing, self->count, SAMPLES_LEAST);
     if (!passed->any)
-        return fail(
-            error, message, name,
-            "nothing in it is above 0, of %d samples; %d more were not measured, and %d are more than "
-            "80 degrees off the normal",
-            self->count, passed->unmeasured, passed->grazing);
+        return fail(error, message, name,
+                    "nothing in it is above 0, of %d samples; %d more were not measured, and %d are more than "
+                    "80 degrees off the normal",
+                    self->count, passed->unmeasured, passed->grazing);
     return WEFT_OK;
 }
 
 /* Makes data from samples that a file of that name or, if message is DESC, a caller has. */
-static WeftResult data_make(int count, const float (*wo)[3], const float (*wi)[3], const float (*f)[3],
-                            bool isotropic, const char *name, WeftMessage message, WeftData **out,
-                            WeftError *error) {
+static WeftResult data_make(int count, const float (*wo)[3], const float (*wi)[3], const float (*f)[3], bool isotropic,
+                            const char *name, WeftMessage message, WeftData **out, WeftError *error) {
     WeftData *self = alloc_array(1, sizeof *self);
     size_t n = (size_t)(count > 0 ? count : 0);
     if (self) {
@@ -126,8 +123,8 @@ static WeftResult data_make(int count, const float (*wo)[3], const float (*wi)[3
     return result;
 }
 
-WeftResult weft_data_create(int count, const float (*wo)[3], const float (*wi)[3], const float (*f)[3],
-                            int isotropic, WeftData **out, WeftError *error) {
+WeftResult weft_data_create(int count, const float (*wo)[3], const float (*wi)[3], const float (*f)[3], int isotropic,
+                            WeftData **out, WeftError *error) {
     return data_make(count, wo, wi, f, isotropic != 0, "samples", WEFT_MESSAGE_DESC, out, error);
 }
 
@@ -165,14 +162,12 @@ static void grid_samples(const Measured *measured, float (*wo)[3], float (*wi)[3
         double pd = middle(k % SIDE_P, SIDE_P, bins, &p) * (around ? 4.0 : 2.0) * half_pi;
         rusinkiewicz(root * root * half_pi, td, pd, 2.39996322972865 * k, wo[k], wi[k]);
         size_t bin = ((size_t)h * MERL_THETA_D + (size_t)d) * (size_t)bins + (size_t)p;
-        if (!binned)
-            measured_at(measured, dir(wo[k][0], wo[k][1], wo[k][2]), dir(wi[k][0], wi[k][1], wi[k][2]), f[k]);
+        if (!binned) measured_at(measured, dir(wo[k][0], wo[k][1], wo[k][2]), dir(wi[k][0], wi[k][1], wi[k][2]), f[k]);
         for (int c = 0; binned && c < 3; c++) f[k][c] = merl->f[c][bin];
     }
 }
 
-static WeftResult data_of_measured(const Measured *measured, const char *name, WeftData **out,
-                                   WeftError *error) {
+static WeftResult data_of_measured(const Measured *measured, const char *name, WeftData **out, WeftError *error) {
     static const WeftMessage messages[] = {[MEASURED_MERL] = WEFT_MESSAGE_MEASURED,
                                            [MEASURED_RGL] = WEFT_MESSAGE_BSDF,
                                            [MEASURED_UTIA] = WEFT_MESSAGE_UTIA};
@@ -186,8 +181,7 @@ static WeftResult data_of_measured(const Measured *measured, const char *name, W
     return result;
 }
 
-WeftResult weft_data_read_memory(const void *data, size_t size, const char *name, WeftData **out,
-                                 WeftError *error) {
+WeftResult weft_data_read_memory(const void *data, size_t size, const char *name, WeftData **out, WeftError *error) {
     WeftResult result;
     *out = NULL;
     if (measured_format(name) != MEASURED_NONE) {

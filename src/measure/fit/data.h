@@ -1,6 +1,5 @@
 /* data.h - measured reflectance (weft/fit.h) as the goal of a fit */
-#ifndef WEFT_MEASURE_DATA_H
-#define WEFT_MEASURE_DATA_H
+#pragma once
 
 #include "measure/fit/samples.h"
 #include "weft/fit.h"
@@ -11,5 +10,3 @@ bool data_isotropic(const WeftData *data);
 /* Makes finished samples of the data, each of weight 1. Returns false if memory is short; release with
  * samples_free in any case. */
 bool data_samples(const WeftData *data, WeftBrdfMetric metric, Samples *out);
-
-#endif

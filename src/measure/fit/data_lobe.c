@@ -78,8 +78,7 @@ static void powers_of(const double *x, int terms, double *out) {
         for (int p = 0; p < terms; p++) t[k][p] = (p > 0 ? 2.0 * t[k - 1][p - 1] : 0.0) - t[k - 2][p];
     for (int k = 0; k < terms * terms; k++) {
         out[k] = 0.0;
-        for (int l = 0; l < terms * terms; l++)
-            out[k] += x[l] * t[l / terms][k / terms] * t[l % terms][k % terms];
+        for (int l = 0; l < terms * terms; l++) out[k] += x[l] * t[l / terms][k / terms] * t[l % terms][k % terms];
     }
 }
 
@@ -186,8 +185,7 @@ static void shares_fit(LobeFitting *self, DataLobe *out) {
         const LobePoint *p = &self->points[k];
         double along = 0.0;
         if (!(p->mean > 0.0)) continue;
-        for (int c = 0; c < 3; c++)
-            along += (p->f[c] / p->mean - out->f0[c]) * (out->f90[c] - out->f0[c]) / across;
+        for (int c = 0; c < 3; c++) along += (p->f[c] / p->mean - out->f0[c]) * (out->f90[c] - out->f0[c]) / across;
         equations_add(&self->equations, p, p->weight, fmin(fmax(along, -0.5), 1.5));
     }
     equations_solve(&self->equations, x);
@@ -216,8 +214,7 @@ typedef struct LobeSums {
 
 static LobeSums sums_at(const DataLobe *lobe, double cos_o, double alpha) {
     LobeSums sums = {0.0, 0.0};
-    const double area = 2.0 * PI_DOUBLE / (RINGS * AZIMUTHS), sin_o = sqrt(1.0 - cos_o * cos_o),
-                 a2 = alpha * alpha;
+    const double area = 2.0 * PI_DOUBLE / (RINGS * AZIMUTHS), sin_o = sqrt(1.0 - cos_o * cos_o), a2 = alpha * alpha;
     for (int k = 0; k < RINGS * AZIMUTHS; k++) {
         const int ring = k / AZIMUTHS;
         const double z = (ring + 0.5) / RINGS, phi = 2.0 * PI_DOUBLE * (k % AZIMUTHS + 0.5) / AZIMUTHS,
@@ -225,8 +222,7 @@ static LobeSums sums_at(const DataLobe *lobe, double cos_o, double alpha) {
         const double hx = r * cos(phi) + sin_o, hy = r * sin(phi), hz = z + cos_o,
                      length2 = hx * hx + hy * hy + hz * hz, cos2 = hz * hz / length2;
         const double f = data_lobe_shape(lobe, 1.0 - cos2, 0.5 * sqrt(length2)), t = 1.0 + (a2 - 1.0) * cos2;
-        const double pdf =
-            0.5 * z / PI_DOUBLE + 0.5 * a2 / (PI_DOUBLE * t * t) * sqrt(cos2) / (2.0 * sqrt(length2));
+        const double pdf = 0.5 * z / PI_DOUBLE + 0.5 * a2 / (PI_DOUBLE * t * t) * sqrt(cos2) / (2.0 * sqrt(length2));
         sums.e += f * z * area;
         sums.squares += f * z * f * z / pdf * area;
     }
@@ -238,8 +234,7 @@ static void scale_and_width(DataLobe *lobe) {
     static const double cosines[] = {1.0, 0.9, 0.7, 0.5, 0.3, 0.15, 0.07, 0.03, 0.01},
                         widths[] = {0.08, 0.15, 0.25, 0.4, 0.6, 0.9};
     double most = 1e-9, least = 1e300;
-    for (size_t k = 0; k < sizeof cosines / sizeof *cosines; k++)
-        most = fmax(most, sums_at(lobe, cosines[k], 0.5).e);
+    for (size_t k = 0; k < sizeof cosines / sizeof *cosines; k++) most = fmax(most, sums_at(lobe, cosines[k], 0.5).e);
     lobe->scale = 1.0 / (1.05 * most);
     for (size_t k = 0; k < sizeof widths / sizeof *widths; k++) {
         double sum = 0.0;

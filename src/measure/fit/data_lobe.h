@@ -5,8 +5,7 @@
  *
  * P and Q are polynomials over the square: f hardly depends on phi_d (docs/fabrics.md), and the colours of one
  * cloth are nearly mixtures of two. k makes the largest E of the white lobe less than 1. */
-#ifndef WEFT_MEASURE_DATA_LOBE_H
-#define WEFT_MEASURE_DATA_LOBE_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -30,5 +29,3 @@ bool data_lobe_fit(const WeftData *data, DataLobe *out);
 /* Returns exp(P), and the second function s, at a pair with wi . h = cos_d and the squared sine sin2_h of theta_h. */
 double data_lobe_shape(const DataLobe *lobe, double sin2_h, double cos_d);
 double data_lobe_share(const DataLobe *lobe, double sin2_h, double cos_d);
-
-#endif

@@ -111,8 +111,8 @@ static WeftResult fit_item(FitWork *work, int item, ItemProgress *item_progress)
         search.hold |= params_without_input(&found.lobe);
         search.hold_base = params_without_input(base);
     }
-    WeftResult result = work->weave && !baseline ? weave_search_run(&work->samples, item_progress, &found)
-                                                 : fit_lobe(&search, &found);
+    WeftResult result =
+        work->weave && !baseline ? weave_search_run(&work->samples, item_progress, &found) : fit_lobe(&search, &found);
     work->fitted[item] = (WeftFitted){.lobe = found.lobe,
                                       .base = found.base,
                                       .numbers = found.numbers,
@@ -135,9 +135,8 @@ static WeftResult bases_alone(const FitWork *work, double *error) {
     WeftResult result = WEFT_OK;
     *error = 1e30;
     for (int k = 0; k < work->base_count && result == WEFT_OK; k++) {
-        const LobeSearch search = {.samples = &work->samples,
-                                   .base = work->weave ? &work->lambert : &work->bases[k],
-                                   .hold = WEFT_HOLD_COLOR};
+        const LobeSearch search = {
+            .samples = &work->samples, .base = work->weave ? &work->lambert : &work->bases[k], .hold = WEFT_HOLD_COLOR};
         LobeFound found = {.lobe = work->lambert};
         memset(found.lobe.f0, 0, sizeof found.lobe.f0);
         result = lobe_search_run(&search, &found);
@@ -193,8 +192,8 @@ static WeftResult candidates(FitWork *work, WeftError *error) {
     if (result == WEFT_OK && id) result = weft_lobe_init(id, &only, error);
     if (result == WEFT_OK && work->weave && only.lobe != work->bases[0].lobe) {
         const char *base = weft_lobe_info(work->bases[0].lobe)->id;
-        return fail(error, WEFT_MESSAGE_DESC, id, "base %s, which is the weft, goes with lobe %s, the warp",
-                    base, base);
+        return fail(error, WEFT_MESSAGE_DESC, id, "base %s, which is the weft, goes with lobe %s, the warp", base,
+                    base);
     }
     for (int k = 0; k < weft_lobe_count() && result == WEFT_OK; k++) {
         const WeftLobeInfo *info = weft_lobe_info(k);
@@ -202,8 +201,7 @@ static WeftResult candidates(FitWork *work, WeftError *error) {
         if (only.lobe < 0 || only.lobe == k) result = candidates_add(work, info->id, error);
     }
     if (result != WEFT_OK) return result;
-    return work->count ? WEFT_OK
-                       : fail(error, WEFT_MESSAGE_DESC, desc->only, "is diffuse, or known by its mean alone");
+    return work->count ? WEFT_OK : fail(error, WEFT_MESSAGE_DESC, desc->only, "is diffuse, or known by its mean alone");
 }
 
 /* Orders candidates by their number of parameters, most first, since the largest fits take longest. */
@@ -231,8 +229,7 @@ static WeftResult work_run(FitWork *work, WeftFit *out, WeftError *error) {
 }
 
 /* Makes samples for the metric of desc, which must be log or cosine. Release them with samples_free in any case. */
-static WeftResult samples_of(const WeftData *data, const WeftFitDesc *desc, Samples *samples,
-                             WeftError *error) {
+static WeftResult samples_of(const WeftData *data, const WeftFitDesc *desc, Samples *samples, WeftError *error) {
     WeftBrdfMetric metric = desc->chosen ? desc->metric : WEFT_BRDF_METRIC_LOG;
     *samples = (Samples){0};
     if (metric != WEFT_BRDF_METRIC_LOG && metric != WEFT_BRDF_METRIC_COSINE)
@@ -257,8 +254,8 @@ WeftResult weft_fit(const WeftData *data, const WeftFitDesc *desc, WeftFit *out,
     return result;
 }
 
-WeftResult weft_fit_material(const WeftData *data, const WeftFitDesc *desc, WeftMaterial *material,
-                             WeftMatch *out, WeftError *error) {
+WeftResult weft_fit_material(const WeftData *data, const WeftFitDesc *desc, WeftMaterial *material, WeftMatch *out,
+                             WeftError *error) {
     Samples samples;
     *out = (WeftMatch){.copied = 0.0};
     WeftResult result = samples_of(data, desc, &samples, error);

@@ -120,8 +120,7 @@ static bool set_base_inputs(const WeftLobe *base, WeftMaterial *out) {
     for (int c = 0; c < 3; c++) same &= base->f0[c] <= 1.0f;
     weft_material_choose(out, CHOICE_diffuse, base->lobe);
     input_set(out, INPUT_base_color, base->f0, 3);
-    input_set(out, weft_lobe_param_find(base->lobe, "wrap") == 0 ? INPUT_subsurface : INPUT_roughness,
-              &roughness, 1);
+    input_set(out, weft_lobe_param_find(base->lobe, "wrap") == 0 ? INPUT_subsurface : INPUT_roughness, &roughness, 1);
     return same;
 }
 

@@ -18,8 +18,7 @@ typedef struct LobeWalker {
     bool tinted, second; /* tinted: colour is no factor; second: there are two colours */
     int free[WEFT_LOBE_PARAMS_MAX], frees;
     WeftLobe white_base;
-    int base_free[WEFT_LOBE_PARAMS_MAX], base_frees,
-        base_first; /* index in x of the first parameter of the base */
+    int base_free[WEFT_LOBE_PARAMS_MAX], base_frees, base_first; /* index in x of the first parameter of the base */
     /* [f0, f90, neither], or the channels of a colour, or the tints: x of the samples */
     float *column[TINTS];
     float *base, *fixed[3], *work, *block;
@@ -67,8 +66,7 @@ static WeftLobe lobe_at(const LobeWalker *self, const double *x) {
     WeftLobe lobe = self->start;
     for (int k = 0; k < self->frees; k++) lobe.params[self->free[k]] = (float)x[k];
     if (self->tinted && !(self->search->hold & WEFT_HOLD_COLOR))
-        for (int c = 0; c < 3; c++)
-            lobe.f0[c] = (float)x[self->frees + (c < self->search->samples->channels ? c : 0)];
+        for (int c = 0; c < 3; c++) lobe.f0[c] = (float)x[self->frees + (c < self->search->samples->channels ? c : 0)];
     return lobe;
 }
 
@@ -107,8 +105,7 @@ static void eval_parts(const LobeWalker *self, WeftLobe lobe, int count) {
     for (int c = 0; c < 3; c++) lobe.f0[c] = c == 0, lobe.f90[c] = c == 1;
     eval(self->search->samples, &lobe, count, self->column[0], self->column[1], self->column[2]);
     for (int part = 0; part < 2; part++)
-        for (int k = 0; k < count; k++)
-            self->column[part][k] = fmaxf(self->column[part][k] - self->column[2][k], 0.0f);
+        for (int k = 0; k < count; k++) self->column[part][k] = fmaxf(self->column[part][k] - self->column[2][k], 0.0f);
 }
 
 static double error_at(void *user, double *x, SearchCare care) {
@@ -144,8 +141,8 @@ static int eval_some(const Samples *s, const WeftLobe *lobe, bool rotated, float
         i[0][k] = rotated ? c * s->i[0][k] - t * s->i[1][k] : s->i[0][k];
         i[1][k] = rotated ? t * s->i[0][k] + c * s->i[1][k] : s->i[1][k];
     }
-    weft_eval_n(lobe, (size_t)count, (WeftDirections){o[0], o[1], s->o[2]},
-                (WeftDirections){i[0], i[1], s->i[2]}, (WeftColors){x, NULL, NULL}, NULL);
+    weft_eval_n(lobe, (size_t)count, (WeftDirections){o[0], o[1], s->o[2]}, (WeftDirections){i[0], i[1], s->i[2]},
+                (WeftColors){x, NULL, NULL}, NULL);
     return count;
 }
 
@@ -238,11 +235,8 @@ static int add_axes(const Samples *s, const WeftLobe *lobe, unsigned hold, Searc
 static Search make_search(LobeWalker *self, double *x) {
     static const int grids[] = {0, 24, 120, 300, 500, 700, 900};
     const Samples *s = self->search->samples;
-    Search search = {.error = error_at,
-                     .user = self,
-                     .descents = 3,
-                     .most = 1000,
-                     .item_progress = self->search->item_progress};
+    Search search = {
+        .error = error_at, .user = self, .descents = 3, .most = 1000, .item_progress = self->search->item_progress};
     self->frees = add_axes(s, &self->start, locked_params(self), &search, x, self->free);
     bool painted = self->tinted && !(self->search->hold & WEFT_HOLD_COLOR);
     for (int c = 0; painted && c < s->channels; c++) {
@@ -252,8 +246,7 @@ static Search make_search(LobeWalker *self, double *x) {
     }
     self->base_first = search.axes;
     if (self->search->base)
-        self->base_frees =
-            add_axes(s, &self->white_base, self->search->hold_base, &search, x, self->base_free);
+        self->base_frees = add_axes(s, &self->white_base, self->search->hold_base, &search, x, self->base_free);
     int numbers = self->frees + self->base_frees;
     search.grid = grids[numbers < 6 ? numbers : 6];
     if (painted && search.grid < 24) search.grid = 24;

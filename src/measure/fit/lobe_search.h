@@ -2,8 +2,7 @@
  *
  * Colours are factors on f, so the best ones for given parameters follow at once (blend_solve). Only the parameters of
  * lobe and base are searched, and the colour of a tinted lobe, which is no factor. */
-#ifndef WEFT_MEASURE_LOBE_SEARCH_H
-#define WEFT_MEASURE_LOBE_SEARCH_H
+#pragma once
 
 #include "measure/bsdf/progress_loop.h"
 #include "measure/fit/samples.h"
@@ -31,5 +30,3 @@ WeftResult lobe_search_run(const LobeSearch *search, LobeFound *out);
 /* Estimates the error that a search would find for out->lobe, in far less time; adds to out->evaluations.
  * Fails as the search does. */
 WeftResult lobe_search_glance(const LobeSearch *search, LobeFound *out);
-
-#endif

@@ -14,9 +14,8 @@
 #include "weft/raster.h"
 
 /* The inputs that may change, in this order. */
-static const InputId inputs[] = {INPUT_sheen_roughness, INPUT_roughness,     INPUT_specular,
-                                 INPUT_sheen,           INPUT_sheen_tint,    INPUT_base_color,
-                                 INPUT_sheen_color,     INPUT_specular_color};
+static const InputId inputs[] = {INPUT_sheen_roughness, INPUT_roughness,  INPUT_specular,    INPUT_sheen,
+                                 INPUT_sheen_tint,      INPUT_base_color, INPUT_sheen_color, INPUT_specular_color};
 /* A narrower highlight falls between the directions. */
 static const double roughness_least = 0.25;
 enum { INPUTS = sizeof inputs / sizeof *inputs, PARTS = 2 };
@@ -37,9 +36,7 @@ typedef struct MaterialWalker {
     float *x[3], *part[PARTS][3], *rest[3], *work, *block;
 } MaterialWalker;
 
-static bool uses(const WeftMaterial *material, InputId input) {
-    return weft_material_reads(material, (int)input) != 0;
-}
+static bool uses(const WeftMaterial *material, InputId input) { return weft_material_reads(material, (int)input) != 0; }
 
 int weft_match_is_free(const WeftMaterial *material, int input) {
     bool one = false;
@@ -103,8 +100,7 @@ static void scale_colors(MaterialWalker *self, double *x) {
         blend_solve(s, few.count, c, &blend, weights);
         for (int k = 0; k < self->axes; k++)
             for (int p = 0; p < PARTS; p++)
-                if (self->axis[k].input == colors[p] &&
-                    (self->axis[k].channel < 0 || self->axis[k].channel == c))
+                if (self->axis[k].input == colors[p] && (self->axis[k].channel < 0 || self->axis[k].channel == c))
                     x[k] = fmin(x[k] * weights[p], 1.0);
     }
 }

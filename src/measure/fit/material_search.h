@@ -1,6 +1,5 @@
 /* material_search.h - the inputs of a material that come closest to samples */
-#ifndef WEFT_MEASURE_MATERIAL_SEARCH_H
-#define WEFT_MEASURE_MATERIAL_SEARCH_H
+#pragma once
 
 #include "measure/bsdf/progress_loop.h"
 #include "measure/fit/samples.h"
@@ -10,5 +9,3 @@
  * WEFT_INTERRUPTED if item_progress (may be NULL) stops it. */
 WeftResult material_search_run(const Samples *samples, const int *locked, ItemProgress *item_progress,
                                WeftMaterial *material, WeftMatch *found, WeftError *error);
-
-#endif

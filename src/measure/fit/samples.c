@@ -86,8 +86,8 @@ static bool spread_wide(Samples *self, WeftBrdfMetric metric) {
         const double o[3] = {r * cos(phi), r * sin(phi), sqrt(z2)};
         /* every wo has another part of the sequence */
         int at = in + INS * out + 1;
-        draw(o, (in + 0.5) * 0.6180339887498949 - floor((in + 0.5) * 0.6180339887498949), halton(at, 2),
-             halton(at, 3), i);
+        draw(o, (in + 0.5) * 0.6180339887498949 - floor((in + 0.5) * 0.6180339887498949), halton(at, 2), halton(at, 3),
+             i);
         put(self, k, o, i, i[2] > 0.0 ? 1.0 / density(o, i) : 0.0);
     }
     return true;
@@ -199,8 +199,8 @@ static double whole_of(const Samples *self, int count) {
     double sum = 0.0;
     for (int c = 0; c < self->channels; c++)
         for (int k = 0; k < count; k++)
-            sum += (double)self->weight[k] *
-                   (self->metric == WEFT_BRDF_METRIC_PICTURE ? 1.0 : (double)self->goal[c][k]);
+            sum +=
+                (double)self->weight[k] * (self->metric == WEFT_BRDF_METRIC_PICTURE ? 1.0 : (double)self->goal[c][k]);
     return sum;
 }
 

@@ -1,8 +1,7 @@
 /* samples.h - f at many pairs of directions, the goal of a fit
  *
  * The metrics and their formulas are in weft/match.h. Everything here is in x = f cos_i. */
-#ifndef WEFT_MEASURE_SAMPLES_H
-#define WEFT_MEASURE_SAMPLES_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -47,5 +46,3 @@ double samples_distance(const Samples *samples, int count, const float *const x[
 
 /* Returns what x of channel c adds to that error, if channels differ. */
 double samples_channel_error(const Samples *samples, int count, int c, const float *x);
-
-#endif

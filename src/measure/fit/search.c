@@ -28,8 +28,8 @@ static bool by_logarithm(const SearchAxis *axis) { return axis->low > 0.0 && axi
 
 static double value_of(const SearchAxis *axis, double at) {
     double t = fmin(fmax(at, 0.0), 1.0);
-    double value = by_logarithm(axis) ? axis->low * pow(axis->high / axis->low, t)
-                                      : axis->low + (axis->high - axis->low) * t;
+    double value =
+        by_logarithm(axis) ? axis->low * pow(axis->high / axis->low, t) : axis->low + (axis->high - axis->low) * t;
     return fmin(fmax(value, axis->low), axis->high);
 }
 
@@ -56,9 +56,8 @@ static double evaluations_most(const Search *search) {
 /* Evaluates the error, or returns 1e30 if the search should end. */
 static double error_at(SearchDescent *walk, const double *at, SearchCare care, double *x) {
     values_of(walk->search, at, x);
-    walk->stopped =
-        walk->stopped || !progress_report(walk->search->item_progress,
-                                          (double)walk->evaluations / evaluations_most(walk->search));
+    walk->stopped = walk->stopped || !progress_report(walk->search->item_progress,
+                                                      (double)walk->evaluations / evaluations_most(walk->search));
     if (walk->stopped) return 1e30;
     walk->evaluations++;
     double error = walk->search->error(walk->search->user, x, care);

@@ -3,8 +3,7 @@
  * A grid of points finds where to begin. A simplex search goes on, roughly, from the best of them and from
  * the start of the caller, and then accurately from the best place that it found. No random numbers are used:
  * the same input gives the same result. */
-#ifndef WEFT_MEASURE_SEARCH_H
-#define WEFT_MEASURE_SEARCH_H
+#pragma once
 
 #include "measure/bsdf/progress_loop.h"
 
@@ -39,5 +38,3 @@ double search_run(const Search *search, double *x, long long *evaluations);
 
 /* Returns the least error of `points` points of the grid, computed roughly, to choose between searches. */
 double search_glance(const Search *search, int points, long long *evaluations);
-
-#endif

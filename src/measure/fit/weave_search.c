@@ -24,11 +24,10 @@ typedef struct WeaveNumber {
 } WeaveNumber;
 
 static const WeaveNumber numbers[NUMBERS] = {
-#define SYSTEM_NUMBERS(t)                                                                                    \
-    {t, WOVEN_ALPHA, 0.05, 1.0, true}, {t, WOVEN_CRIMP, 0.0, 1.2, false},                                    \
-        {t, WOVEN_TWIST, -1.5, 1.5, false}, {t, WOVEN_ROUNDNESS, 0.0, 1.5, false},                           \
-        {t, WOVEN_FLOATS, 0.4, 16.0, true}, {                                                                \
-        t, WOVEN_CROSS_CRIMP, 0.0, 1.2, false                                                                \
+#define SYSTEM_NUMBERS(t)                                                                                              \
+    {t, WOVEN_ALPHA, 0.05, 1.0, true}, {t, WOVEN_CRIMP, 0.0, 1.2, false}, {t, WOVEN_TWIST, -1.5, 1.5, false},          \
+        {t, WOVEN_ROUNDNESS, 0.0, 1.5, false}, {t, WOVEN_FLOATS, 0.4, 16.0, true}, {                                   \
+        t, WOVEN_CROSS_CRIMP, 0.0, 1.2, false                                                                          \
     }
     SYSTEM_NUMBERS(0),
     SYSTEM_NUMBERS(1),
@@ -75,8 +74,7 @@ static void eval(WeaveWalker *self, const WeftLobe *threads, float *single, floa
     const Samples *s = self->samples;
     Lobe lobe;
     lobe_of(threads, &lobe);
-    lobe_eval_n(&lobe, (size_t)self->count, s->o[0], s->o[1], s->o[2], s->i[0], s->i[1], s->i[2], single,
-                multiple);
+    lobe_eval_n(&lobe, (size_t)self->count, s->o[0], s->o[1], s->o[2], s->i[0], s->i[1], s->i[2], single, multiple);
     for (int k = 0; k < self->count; k++) {
         const float x = single[k] * s->i[2][k], share = multiple[k];
         single[k] = x * (1.0f - share), multiple[k] = x * share;
@@ -175,8 +173,7 @@ static void normal_make(const WeaveWalker *self, const double *x, WeaveNormal *n
             for (int m = 0; m < NUMBERS + COLUMNS; m++) {
                 const int p = m < NUMBERS ? m : m + c * COLUMNS;
                 normal->b[p] += w * row[m] * r;
-                for (int n = 0; n <= m; n++)
-                    normal->a[p][n < NUMBERS ? n : n + c * COLUMNS] += w * row[m] * row[n];
+                for (int n = 0; n <= m; n++) normal->a[p][n < NUMBERS ? n : n + c * COLUMNS] += w * row[m] * row[n];
             }
         }
     }

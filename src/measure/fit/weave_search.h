@@ -4,8 +4,7 @@
  *
  * Both are lobe woven, the warp along the bitangent and the weft along the tangent, as in materials. The six
  * parameters of each, the share, and two colours of each, of which f is a sum, are free. */
-#ifndef WEFT_MEASURE_WEAVE_SEARCH_H
-#define WEFT_MEASURE_WEAVE_SEARCH_H
+#pragma once
 
 #include "measure/fit/lobe_search.h"
 
@@ -16,5 +15,3 @@ bool weave_search_sees(const Samples *samples);
 /* Sets out->lobe to the warp and out->base to the weft; the starts of the search are its own. Fails with
  * WEFT_RESOURCES if memory is short, WEFT_INTERRUPTED if item_progress stops it. */
 WeftResult weave_search_run(const Samples *samples, ItemProgress *item_progress, LobeFound *out);
-
-#endif

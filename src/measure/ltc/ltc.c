@@ -6,8 +6,7 @@
 #include "base/steady_clock.h"
 #include "measure/ltc/ltc_cache.h"
 
-static const char *const names[WEFT_LTC_CHANNELS] = {"z",    "q", "b", "r", "amplitude", "amplitude_f90",
-                                                     "error"};
+static const char *const names[WEFT_LTC_CHANNELS] = {"z", "q", "b", "r", "amplitude", "amplitude_f90", "error"};
 
 const char *weft_ltc_channel_name(int channel) {
     return channel >= 0 && channel < WEFT_LTC_CHANNELS ? names[channel] : NULL;
@@ -16,8 +15,7 @@ const char *weft_ltc_channel_name(int channel) {
 /* Sets the table from the descriptor and allocates it. */
 static WeftResult describe(WeftLtc *ltc, const WeftLobe *lobe, const WeftLtcDesc *desc, WeftError *error) {
     const WeftLobeInfo *info = weft_lobe_info(lobe->lobe);
-    if (!info || !lobe_of(lobe, &ltc->lobe))
-        return fail(error, WEFT_MESSAGE_LOBE_NAME, "index", "%d", lobe->lobe);
+    if (!info || !lobe_of(lobe, &ltc->lobe)) return fail(error, WEFT_MESSAGE_LOBE_NAME, "index", "%d", lobe->lobe);
     const WeftParamInfo *p = info->param_count ? &info->params[0] : NULL;
     const int sides[] = {desc->rows, desc->columns};
     for (int k = 0; k < 2; k++)
@@ -94,8 +92,7 @@ static float albedo(const WeftLtc *ltc, int cell) {
     const float *t = ltc->texels + cell;
     int plane = ltc_cells(ltc);
     float cos_o = ltc_cos_o(ltc, cell % ltc->columns), s = sqrt(max(1.0f - cos_o * cos_o, 0.0f));
-    Ltc m = ltc_of(t[WEFT_LTC_Z * plane], t[WEFT_LTC_Q * plane], t[WEFT_LTC_B * plane], t[WEFT_LTC_R * plane],
-                   cos_o);
+    Ltc m = ltc_of(t[WEFT_LTC_Z * plane], t[WEFT_LTC_Q * plane], t[WEFT_LTC_B * plane], t[WEFT_LTC_R * plane], cos_o);
     return (ltc->f0 * t[WEFT_LTC_AMPLITUDE * plane] + ltc->second * t[WEFT_LTC_AMPLITUDE_F90 * plane]) *
            ltc_above(m, dir(s, 0.0f, cos_o));
 }
@@ -126,10 +123,9 @@ WeftLtcInfo weft_ltc_info(const WeftLtc *ltc) {
 WeftLtcLobe weft_ltc_at(const WeftLtc *ltc, float cos_o, float value) {
     LtcTable t = ltc_table_ref(ltc);
     LtcSpot s = ltc_table_spot(t, cos_o, value);
-    return (WeftLtcLobe){
-        ltc_table_interpolate(t, s, LTC_Z),         ltc_table_interpolate(t, s, LTC_Q),
-        ltc_table_interpolate(t, s, LTC_B),         ltc_table_interpolate(t, s, LTC_R),
-        ltc_table_interpolate(t, s, LTC_AMPLITUDE), ltc_table_interpolate(t, s, LTC_AMPLITUDE_F90)};
+    return (WeftLtcLobe){ltc_table_interpolate(t, s, LTC_Z),         ltc_table_interpolate(t, s, LTC_Q),
+                         ltc_table_interpolate(t, s, LTC_B),         ltc_table_interpolate(t, s, LTC_R),
+                         ltc_table_interpolate(t, s, LTC_AMPLITUDE), ltc_table_interpolate(t, s, LTC_AMPLITUDE_F90)};
 }
 
 static Ltc transform(const WeftLtcLobe *lobe, const float wo[3]) {

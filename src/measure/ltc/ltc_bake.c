@@ -94,8 +94,7 @@ static bool bake_cell(WeftLtc *ltc, int row, int column) {
         ltc_target_fill(&fine, ltc_cos_o(ltc, column));
         ltc_target_lobe(&coarse, &lobe, ltc->f0, ltc->second);
         ltc_target_lobe(&fine, &lobe, ltc->f0, ltc->second);
-        LtcEntries found =
-            count ? starts[count - 1] : (LtcEntries){1.0f, 1.0f, 0.0f, ltc->level ? 0.0f : 1.0f};
+        LtcEntries found = count ? starts[count - 1] : (LtcEntries){1.0f, 1.0f, 0.0f, ltc->level ? 0.0f : 1.0f};
         if (coarse.e > nothing && fine.e > nothing) {
             starts[count++] = ltc_guess(&coarse);
             found = ltc_fit(&coarse, starts, count, ltc->norm);
@@ -126,11 +125,10 @@ static void continue_to_normal(WeftLtc *ltc, int row) {
     int last = ltc->columns - 1;
     LtcEntries own = entries(ltc, row, last), a = entries(ltc, row, last - 1), b = a;
     if (last > 1) b = entries(ltc, row, last - 2);
-    bool none =
-        !(*texel(ltc, WEFT_LTC_AMPLITUDE, row, last) + *texel(ltc, WEFT_LTC_AMPLITUDE_F90, row, last) > 0.0f);
-    set_entries(ltc, row, last,
-                (LtcEntries){none ? a.z : own.z, max(2.0f * a.q - b.q, 0.0f), 2.0f * a.b - b.b,
-                             max(2.0f * a.r - b.r, 0.0f)});
+    bool none = !(*texel(ltc, WEFT_LTC_AMPLITUDE, row, last) + *texel(ltc, WEFT_LTC_AMPLITUDE_F90, row, last) > 0.0f);
+    set_entries(
+        ltc, row, last,
+        (LtcEntries){none ? a.z : own.z, max(2.0f * a.q - b.q, 0.0f), 2.0f * a.b - b.b, max(2.0f * a.r - b.r, 0.0f)});
 }
 
 WeftResult ltc_bake(WeftLtc *ltc, const WeftLtcDesc *desc, WeftError *error) {
@@ -142,8 +140,7 @@ WeftResult ltc_bake(WeftLtc *ltc, const WeftLtcDesc *desc, WeftError *error) {
         parallel_for(desc->threads, items, bake_item, &bake);
         if (bake.short_of_memory) return fail(error, WEFT_MESSAGE_MEMORY, "an LTC table", NULL);
         done += items;
-        if (desc->progress && desc->progress(desc->user, (double)done / ltc_cells(ltc)))
-            return WEFT_INTERRUPTED;
+        if (desc->progress && desc->progress(desc->user, (double)done / ltc_cells(ltc))) return WEFT_INTERRUPTED;
     }
     for (int row = 0; row < ltc->rows; row++) continue_to_normal(ltc, row);
     return WEFT_OK;

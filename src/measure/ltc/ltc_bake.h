@@ -1,6 +1,5 @@
 /* ltc_bake.h - the table of linearly transformed cosines of a lobe, over cos_o and one parameter */
-#ifndef WEFT_MEASURE_LTC_BAKE_H
-#define WEFT_MEASURE_LTC_BAKE_H
+#pragma once
 
 #include "shading/catalogue/registry.h"
 #include "shading/ltc/ltc_table.h"
@@ -35,5 +34,3 @@ WeftResult ltc_bake(WeftLtc *ltc, const WeftLtcDesc *desc, WeftError *error);
 
 /* Returns true if f is isotropic for every value of the parameter from low to high. */
 bool ltc_isotropic(const WeftLtc *ltc);
-
-#endif

@@ -1,6 +1,5 @@
 /* ltc_cache.h - LTC tables kept in the user's cache, one file a table: the planes as floats */
-#ifndef WEFT_MEASURE_LTC_CACHE_H
-#define WEFT_MEASURE_LTC_CACHE_H
+#pragma once
 
 #include "measure/ltc/ltc_bake.h"
 
@@ -15,5 +14,3 @@ bool ltc_is_sound(const WeftLtc *ltc);
 bool ltc_cache_read(WeftLtc *ltc, uint64_t key, const WeftLog *log);
 
 void ltc_cache_write(const WeftLtc *ltc, uint64_t key, const WeftLog *log);
-
-#endif

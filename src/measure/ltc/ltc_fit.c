@@ -55,8 +55,7 @@ void ltc_target_lobe(LtcTarget *target, const Lobe *lobe, float f0, float second
         const float *z = target->z + at, *area = target->area + at;
         lobe_eval_n(lobe, columns, ox, oy, oz, target->x + at, target->y + at, z, f, share);
         for (size_t k = 0; k < columns; k++) {
-            float s = fresnel_weight_uncolored(share[k]), first = f[k] * z[k] * (1.0f - s),
-                  rest = f[k] * z[k] * s;
+            float s = fresnel_weight_uncolored(share[k]), first = f[k] * z[k] * (1.0f - s), rest = f[k] * z[k] * s;
             target->e0 += (double)first * (double)area[k];
             target->e90 += (double)rest * (double)area[k];
             f[k] = first * f0 + rest * second;
@@ -128,8 +127,7 @@ static LtcEntries entries_at(const LtcSearch *search, const double *step) {
 }
 
 /* Begins a search from a peak at phi with these widths. The unit of a coordinate is a width, or what changes one. */
-static LtcSearch search_from(const LtcTarget *target, int norm, double phi, double along, double across,
-                             double lean) {
+static LtcSearch search_from(const LtcTarget *target, int norm, double phi, double along, double across, double lean) {
     double s = (double)target->o.x, c2 = (double)target->o.z * (double)target->o.z;
     double m11 = fmax(across * (cos)(phi) / along, c2), tilt = fmin(along, 1.0), q = m11 / fmax(s * s, 1e-6);
     LtcSearch search = {target, norm, {tilt, q, 1.0, 1.0}, {phi / tilt, (m11 - c2) / m11, log(across)}};
@@ -143,8 +141,7 @@ static LtcSearch search_at(const LtcTarget *target, int norm, LtcEntries at) {
     Ltc m = ltc_of(at.z, at.q, at.b, at.r, target->o.z);
     double m11 = (double)m.m11, phi = atan((double)at.b * (double)target->o.x / m11);
     double across = (cos)(phi) * (double)m.det / m11;
-    return search_from(target, norm, phi, across * (cos)(phi) / m11, across,
-                       (double)at.r * m11 / (double)at.z);
+    return search_from(target, norm, phi, across * (cos)(phi) / m11, across, (double)at.r * m11 / (double)at.z);
 }
 
 LtcEntries ltc_guess(const LtcTarget *target) {

@@ -1,6 +1,5 @@
 /* ltc_fit.h - the linearly transformed cosine nearest to the reflection of a lobe, for one wo */
-#ifndef WEFT_MEASURE_LTC_FIT_H
-#define WEFT_MEASURE_LTC_FIT_H
+#pragma once
 
 #include "shading/catalogue/registry.h"
 #include "shading/ltc/ltc.h"
@@ -47,5 +46,3 @@ LtcEntries ltc_guess(const LtcTarget *target);
 
 /* Returns the entries of least error, searched from the best of `count` >= 1 starts. */
 LtcEntries ltc_fit(const LtcTarget *target, const LtcEntries *starts, int count, int norm);
-
-#endif

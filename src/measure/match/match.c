@@ -11,13 +11,10 @@
 
 /* Refuses lobe `id`, which is evaluated by random walks. Only fibre-walk is. */
 static WeftResult walks_refused(const char *id, WeftError *error) {
-    return fail(error, WEFT_MESSAGE_DESC, id,
-                "is an estimate by random walks; match fibre, which is its mean");
+    return fail(error, WEFT_MESSAGE_DESC, id, "is an estimate by random walks; match fibre, which is its mean");
 }
 
-static WeftResult short_of_memory(WeftError *error) {
-    return fail(error, WEFT_MESSAGE_MEMORY, "a match", NULL);
-}
+static WeftResult short_of_memory(WeftError *error) { return fail(error, WEFT_MESSAGE_MEMORY, "a match", NULL); }
 
 /* Chooses the directions that a metric compares, and evaluates `from` in them. */
 static WeftResult samples_from(Samples *samples, const WeftReflection *from, int part, WeftBrdfMetric metric,
@@ -44,8 +41,8 @@ static WeftResult distance_of(const Samples *samples, const WeftReflection *to, 
     return made ? WEFT_OK : short_of_memory(error);
 }
 
-WeftResult weft_brdf_distance(const WeftReflection *to, const WeftReflection *from, int part,
-                              WeftBrdfMetric metric, double *distance, WeftError *error) {
+WeftResult weft_brdf_distance(const WeftReflection *to, const WeftReflection *from, int part, WeftBrdfMetric metric,
+                              double *distance, WeftError *error) {
     Samples samples;
     *distance = 0.0;
     WeftResult result = samples_from(&samples, from, part, metric, error);
@@ -55,8 +52,7 @@ WeftResult weft_brdf_distance(const WeftReflection *to, const WeftReflection *fr
 }
 
 /* Sets *distance to that of a lobe with its present parameters. */
-static WeftResult lobe_distance(const Samples *samples, const WeftLobe *lobe, double *distance,
-                                WeftError *error) {
+static WeftResult lobe_distance(const Samples *samples, const WeftLobe *lobe, double *distance, WeftError *error) {
     WeftReflection *to;
     WeftResult result = weft_reflection_of_lobe(lobe, &to, error);
     if (result == WEFT_OK) result = distance_of(samples, to, WEFT_PART_ALL, distance, error);
@@ -128,8 +124,7 @@ static WeftResult search_material(const Samples *samples, const int *locked, Ite
 }
 
 WeftResult match_material(const WeftReflection *from, WeftBrdfMetric metric, const int *locked,
-                          ItemProgress *item_progress, WeftMaterial *material, WeftMatch *out,
-                          WeftError *error) {
+                          ItemProgress *item_progress, WeftMaterial *material, WeftMatch *out, WeftError *error) {
     Samples samples;
     *out = (WeftMatch){.copied = 0.0};
     if (reflection_walks(from)) return walks_refused(reflection_walks(from), error);
@@ -160,15 +155,15 @@ static void job_run(void *user, int item, int thread) {
     WeftError *error = &batch->errors[item];
     job->result = WEFT_INTERRUPTED;
     if (!progress_report(&item_progress, 0.0)) return;
-    job->result = job->is_lobe ? match_lobe(job->from, batch->metric, job->hold, &item_progress, &job->lobe,
-                                            &job->found, error)
-                               : match_material(job->from, batch->metric, job->held, &item_progress,
-                                                &job->material, &job->found, error);
+    job->result =
+        job->is_lobe
+            ? match_lobe(job->from, batch->metric, job->hold, &item_progress, &job->lobe, &job->found, error)
+            : match_material(job->from, batch->metric, job->held, &item_progress, &job->material, &job->found, error);
     progress_report(&item_progress, 1.0);
 }
 
-WeftResult weft_match_many(WeftMatchJob *jobs, int count, WeftBrdfMetric metric, int threads,
-                           WeftProgress progress, void *user, WeftError *error) {
+WeftResult weft_match_many(WeftMatchJob *jobs, int count, WeftBrdfMetric metric, int threads, WeftProgress progress,
+                           void *user, WeftError *error) {
     Batch batch = {.jobs = jobs, .metric = metric};
     batch.errors = alloc_array((size_t)count, sizeof *batch.errors);
     if (!batch.errors) return short_of_memory(error);

@@ -133,8 +133,8 @@ static json_t *member_object(json_t *object, const char *name) {
 }
 
 /* Writes a factor that has changed to the JSON. */
-static WeftResult factor_write(Rewrite *rewrite, json_t *material, const MaterialField *factor,
-                               const float *value, WeftError *error) {
+static WeftResult factor_write(Rewrite *rewrite, json_t *material, const MaterialField *factor, const float *value,
+                               WeftError *error) {
     const bool extends = material_field_extends(factor);
     json_t *home = member_object(extends ? member_object(material, "extensions") : material, factor->object);
     if (extends) {
@@ -165,8 +165,7 @@ static WeftResult material_write(Rewrite *rewrite, int index, const WeftAssetMat
     json_t *material = json_array_get(json_object_get(rewrite->root, "materials"), (size_t)index);
     WeftResult result = WEFT_OK;
     for (int f = 0; f < FACTORS && material && result == WEFT_OK; f++) {
-        const float *was = match->copied.inputs[factors[f]].value,
-                    *now = match->matched.inputs[factors[f]].value;
+        const float *was = match->copied.inputs[factors[f]].value, *now = match->matched.inputs[factors[f]].value;
         if (!same(was, now, input_value_count(factors[f])))
             result = factor_write(rewrite, material, material_field_of(factors[f]), now, error);
     }
@@ -256,8 +255,7 @@ static void write_matches(AssetSearch *self) {
         match->found = search->found;
         match->clipped = to_factors(&found, material->means);
         for (int f = 0; f < FACTORS; f++)
-            memcpy(match->matched.inputs[factors[f]].value, found.inputs[factors[f]].value,
-                   sizeof found.inputs->value);
+            memcpy(match->matched.inputs[factors[f]].value, found.inputs[factors[f]].value, sizeof found.inputs->value);
         match->changed = 1;
         match->search = material->search + 1;
     }
@@ -310,15 +308,14 @@ static WeftResult asset_rewrite(AssetSearch *self, const char *path, const char 
 }
 
 WeftResult weft_match_asset(const char *path, const char *out, int from, int to, WeftBrdfMetric metric,
-                            WeftProgress progress, void *user, WeftAssetMatch **report, int *count,
-                            const WeftLog *log, WeftError *error) {
+                            WeftProgress progress, void *user, WeftAssetMatch **report, int *count, const WeftLog *log,
+                            WeftError *error) {
     AssetSearch self = {.from = from, .to = to, .metric = metric, .progress = progress, .user = user};
     char number[32];
     *count = 0;
     if (report) *report = NULL;
     snprintf(number, sizeof number, "%d, %d", from, to);
-    if (!weft_profile_name(from) || !weft_profile_name(to))
-        return fail(error, WEFT_MESSAGE_DESC, number, NULL);
+    if (!weft_profile_name(from) || !weft_profile_name(to)) return fail(error, WEFT_MESSAGE_DESC, number, NULL);
     WeftResult result = asset_rewrite(&self, path, out, log, error);
     *count = self.count;
     if (result == WEFT_OK && report) {

@@ -23,10 +23,9 @@ struct Compute {
     int height; /* rows that input and targets have */
 };
 
-static const char vertex_body[] =
-    "void main() {\n"
-    "    vec2 corner = vec2(float((gl_VertexID << 1) & 2), float(gl_VertexID & 2));\n"
-    "    gl_Position = vec4(corner * 2.0 - 1.0, 0.0, 1.0);\n}\n";
+static const char vertex_body[] = "void main() {\n"
+                                  "    vec2 corner = vec2(float((gl_VertexID << 1) & 2), float(gl_VertexID & 2));\n"
+                                  "    gl_Position = vec4(corner * 2.0 - 1.0, 0.0, 1.0);\n}\n";
 
 static const char *version_line(TextLanguage language) {
     return language == TEXT_GLSL_ES_300 ? "#version 300 es\n" : "#version 330 core\n";
@@ -44,8 +43,7 @@ static void put_fragment(Buffer *out, const ComputeDesc *desc, int pass) {
     }
     buffer_put_text(out, "\nvoid main() {\n    ivec2 compute_at = ivec2(gl_FragCoord.xy);\n");
     for (int k = 0; k < desc->inputs; k++) {
-        snprintf(line, sizeof line, "    vec4 in%d = texelFetch(compute_inputs, ivec3(compute_at, %d), 0);\n",
-                 k, k);
+        snprintf(line, sizeof line, "    vec4 in%d = texelFetch(compute_inputs, ivec3(compute_at, %d), 0);\n", k, k);
         buffer_put_text(out, line);
     }
     for (int k = 0; k < desc->outputs; k++) {
@@ -102,15 +100,13 @@ static WeftResult reserve(Compute *self, size_t n, WeftError *error) {
     for (int k = 0; k < targets; k++) {
         glBindTexture(GL_TEXTURE_2D, self->targets[k]);
         glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, WIDTH, height, 0, GL_RGBA, GL_FLOAT, NULL);
-        glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0 + (GLenum)k, GL_TEXTURE_2D,
-                               self->targets[k], 0);
+        glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0 + (GLenum)k, GL_TEXTURE_2D, self->targets[k], 0);
     }
     WeftResult result = gl_check(error, "room for the samples");
     if (result != WEFT_OK) return result;
     GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
     if (status != GL_FRAMEBUFFER_COMPLETE)
-        return fail(error, WEFT_MESSAGE_GL_CONTEXT, "drawing floating-point numbers", "driver error 0x%x",
-                    status);
+        return fail(error, WEFT_MESSAGE_GL_CONTEXT, "drawing floating-point numbers", "driver error 0x%x", status);
     self->height = height;
     return WEFT_OK;
 }
@@ -132,8 +128,7 @@ WeftResult compute_create(GlContext *context, const ComputeDesc *desc, Compute *
     *out = NULL;
     if (desc->inputs < 1 || desc->inputs > COMPUTE_INPUTS_MAX || desc->outputs < 1 ||
         desc->outputs > COMPUTE_OUTPUTS_MAX)
-        return fail(error, WEFT_MESSAGE_DESC, desc->name, "%d inputs and %d outputs", desc->inputs,
-                    desc->outputs);
+        return fail(error, WEFT_MESSAGE_DESC, desc->name, "%d inputs and %d outputs", desc->inputs, desc->outputs);
     Compute *self = alloc_array(1, sizeof *self);
     if (!self) return fail(error, WEFT_MESSAGE_MEMORY, desc->name, NULL);
     self->context = context;
@@ -200,8 +195,7 @@ static void draw_pass(Compute *self, int pass, size_t first, int count, float *c
     int start = pass * TARGETS, full = count / WIDTH, rest = count % WIDTH;
     int targets = self->outputs - start < TARGETS ? self->outputs - start : TARGETS;
     GLenum attachments[TARGETS];
-    for (int k = 0; k < TARGETS; k++)
-        attachments[k] = k < targets ? GL_COLOR_ATTACHMENT0 + (GLenum)k : GL_NONE;
+    for (int k = 0; k < TARGETS; k++) attachments[k] = k < targets ? GL_COLOR_ATTACHMENT0 + (GLenum)k : GL_NONE;
     glDrawBuffers(targets, attachments);
     glViewport(0, 0, WIDTH, full + (rest > 0));
     glUseProgram(self->programs[pass]);
@@ -214,8 +208,7 @@ static void draw_pass(Compute *self, int pass, size_t first, int count, float *c
     }
 }
 
-WeftResult compute_run(Compute *self, size_t n, const float *const in[], float *const out[],
-                       WeftError *error) {
+WeftResult compute_run(Compute *self, size_t n, const float *const in[], float *const out[], WeftError *error) {
     GlOuter outer;
     if (!context_enter(self->context, &outer))
         return fail(error, WEFT_MESSAGE_GL_CONTEXT, "a computation", "its context is in use");

@@ -4,8 +4,7 @@
  *
  * Numbers are 32-bit floats both ways and are not filtered, blended or clamped. Made with a context, used in
  * the thread that the context belongs to. */
-#ifndef WEFT_RASTER_COMPUTE_H
-#define WEFT_RASTER_COMPUTE_H
+#pragma once
 
 #include "raster/gl/context.h"
 
@@ -35,7 +34,4 @@ WeftResult compute_tables(Compute *compute, const TextTable *tables, int count, 
 
 /* Runs the body for n samples: in[k] and out[k] have n vec4 each, 4 n floats. Fails with WEFT_MESSAGE_GL_MEMORY or
  * _GL_CONTEXT; the contents of out are then undefined. */
-WeftResult compute_run(Compute *compute, size_t n, const float *const in[], float *const out[],
-                       WeftError *error);
-
-#endif
+WeftResult compute_run(Compute *compute, size_t n, const float *const in[], float *const out[], WeftError *error);

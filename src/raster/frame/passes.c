@@ -83,8 +83,7 @@ static void bind_light(WeftRaster *self, const WeftRasterView *view) {
 }
 
 /* Puts the key's program into use. Fails only if there is no earlier version to draw with. */
-static WeftResult use_program(WeftRaster *self, const ShaderKey *key, const Program **program,
-                              WeftError *error) {
+static WeftResult use_program(WeftRaster *self, const ShaderKey *key, const Program **program, WeftError *error) {
     WeftError failure = {0};
     *program = programs_get(&self->programs, key, &failure);
     if (*program) glUseProgram((*program)->name);
@@ -100,8 +99,7 @@ static WeftResult draw_mesh(WeftRaster *self, int mesh, const ShaderKey *key, We
     if (result != WEFT_OK) return result;
     glActiveTexture(GL_TEXTURE0 + UNIT_TABLES);
     glBindTexture(GL_TEXTURE_2D_ARRAY, program->tables);
-    glActiveTexture(
-        GL_TEXTURE0); /* leaves unit 0 active, where code between draws binds the objects it makes */
+    glActiveTexture(GL_TEXTURE0); /* leaves unit 0 active, where code between draws binds the objects it makes */
     if (material->key.double_sided)
         glDisable(GL_CULL_FACE);
     else
@@ -220,8 +218,7 @@ static WeftResult draw_all(WeftRaster *self, const View *seen, const WeftRasterV
 }
 
 /* Sets the floor of a picture, which is there only if it is seen from above in a whole picture, and finds how much of the sky's light reaches it. */
-static WeftResult find_floor(WeftRaster *self, const View *seen, const WeftRasterView *view,
-                             WeftError *error) {
+static WeftResult find_floor(WeftRaster *self, const View *seen, const WeftRasterView *view, WeftError *error) {
     Floor floor = floor_of(self->scene, &view->floor);
     bool above = seen->orthographic ? seen->forward.y < 0.0f : seen->eye.y > floor.middle.y;
     floor.there = floor.there && view->part == WEFT_PART_ALL && above;
@@ -235,8 +232,8 @@ static WeftResult find_floor(WeftRaster *self, const View *seen, const WeftRaste
 }
 
 /* Draws the floor's mirror image of the scene, if the floor reflects. */
-static WeftResult draw_mirror(WeftRaster *self, const View *seen, const WeftRasterView *view,
-                              const int box[4], WeftError *error) {
+static WeftResult draw_mirror(WeftRaster *self, const View *seen, const WeftRasterView *view, const int box[4],
+                              WeftError *error) {
     if (!self->floor.there || !(self->floor.reflection > 0.0f)) return WEFT_OK;
     View below = ground_view(&self->floor, seen);
     WeftRasterView alone = *view;
@@ -267,15 +264,13 @@ WeftResult frame_take_occlusion(WeftRaster *self, bool wait, WeftError *error) {
     return lookout_take(&self->lookout, &self->meshes, wait, error);
 }
 
-WeftResult frame_draw_passes(WeftRaster *self, const WeftRasterView *view, const View *seen,
-                             WeftError *error) {
+WeftResult frame_draw_passes(WeftRaster *self, const WeftRasterView *view, const View *seen, WeftError *error) {
     frame_reset_state(self);
     WeftResult result = find_floor(self, seen, view, error);
     if (result == WEFT_OK) result = prepare(self, view, error);
     if (result == WEFT_OK) result = frame_take_occlusion(self, false, error);
     if (result == WEFT_OK && !view->no_shadows) result = draw_shadows(self, error);
-    if (result == WEFT_OK)
-        result = target_resize(&self->target, view->width, view->height, view->samples, error);
+    if (result == WEFT_OK) result = target_resize(&self->target, view->width, view->height, view->samples, error);
     /* OpenGL's rows run from the bottom */
     const int *c = view->crop, box[4] = {c[0], view->height - c[1] - c[3], c[2], c[3]};
     if (result == WEFT_OK) result = draw_mirror(self, seen, view, box, error);

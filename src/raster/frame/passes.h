@@ -1,8 +1,7 @@
 /* passes.h - the passes of a picture: shadow maps, mirror of the floor, solid meshes, background, floor, blended meshes
  *
  * All calls are for the context that is current. */
-#ifndef WEFT_RASTER_PASSES_H
-#define WEFT_RASTER_PASSES_H
+#pragma once
 
 #include "raster/frame/raster_state.h"
 
@@ -15,7 +14,4 @@ WeftResult frame_take_occlusion(WeftRaster *self, bool wait, WeftError *error);
 
 /* Draws a picture into self->target. The view must be complete and valid; `seen` is its camera's. Fails as
  * weft_raster_draw does. */
-WeftResult frame_draw_passes(WeftRaster *self, const WeftRasterView *view, const View *seen,
-                             WeftError *error);
-
-#endif
+WeftResult frame_draw_passes(WeftRaster *self, const WeftRasterView *view, const View *seen, WeftError *error);

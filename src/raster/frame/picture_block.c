@@ -75,8 +75,7 @@ static void put_polygon(const LightPolygon *polygon, int k, Picture *out) {
 /* Writes the uniforms of shadow map k; `first` is the first layer of a polygon's map. */
 static void put_shadow(const Shadow *shadow, int k, int first, Picture *out) {
     const View *view = &shadow->view;
-    const float place[4] = {view->eye.x, view->eye.y, view->eye.z,
-                            view->orthographic ? shadow->texel : -shadow->texel};
+    const float place[4] = {view->eye.x, view->eye.y, view->eye.z, view->orthographic ? shadow->texel : -shadow->texel};
     const float half = vec3_length(view->across), soft[4] = {half, (float)first, 0.0f, 0.0f};
     put_matrix(view, shadow->depths, out->shadow_clip[k]);
     memcpy(out->shadow_eye[k], place, sizeof place);
@@ -102,8 +101,8 @@ static void put_floor(const WeftScene *scene, const View *view, const Floor *flo
     out->floor_light[1] = floor->reflection;
 }
 
-void picture_make(const WeftScene *scene, const View *view, const LightPolygons *polygons,
-                  const Shadows *shadows, const Floor *floor, Picture *out) {
+void picture_make(const WeftScene *scene, const View *view, const LightPolygons *polygons, const Shadows *shadows,
+                  const Floor *floor, Picture *out) {
     int lights = scene->light_count < PICTURE_LIGHTS ? scene->light_count : PICTURE_LIGHTS;
     const float eye[4] = {view->eye.x, view->eye.y, view->eye.z, view->orthographic ? 0.0f : 1.0f};
     const float forward[4] = {view->forward.x, view->forward.y, view->forward.z, (float)lights};

@@ -66,8 +66,7 @@ static WeftResult upload(WeftRaster *self, const WeftLog *log, WeftError *error)
     if (result == WEFT_OK) result = meshes_create(scene, &self->lookout.refinement, &self->meshes, error);
     self->shape_version = scene->shape_version;
     if (result == WEFT_OK) result = textures_create(scene, threads, &self->textures, log, error);
-    if (result == WEFT_OK)
-        result = materials_create(scene, &self->textures, threads, &self->materials, error);
+    if (result == WEFT_OK) result = materials_create(scene, &self->textures, threads, &self->materials, error);
     self->programs.sheens = self->materials.sheens;
     if (result == WEFT_OK && !light_polygons_find(&self->polygons, scene, PICTURE_POLYGONS))
         result = fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
@@ -105,8 +104,8 @@ static WeftResult enter(WeftRaster *self, GlOuter *outer, WeftError *error) {
 static WeftResult begin_drawing(WeftRaster *self, const WeftLog *log, WeftError *error) {
     GlOuter outer;
     TextLanguage language = self->desc.gl == WEFT_GL_ES ? TEXT_GLSL_ES_300 : TEXT_GLSL_330;
-    WeftResult result = self->desc.adopt ? context_adopt(&self->context, error)
-                                         : context_create(language, &self->context, error);
+    WeftResult result =
+        self->desc.adopt ? context_adopt(&self->context, error) : context_create(language, &self->context, error);
     if (result == WEFT_OK) result = enter(self, &outer, error);
     if (result != WEFT_OK) return result;
     language = context_language(self->context);
@@ -116,8 +115,8 @@ static WeftResult begin_drawing(WeftRaster *self, const WeftLog *log, WeftError 
     return result;
 }
 
-WeftResult weft_raster_create(const WeftScene *scene, const WeftRasterDesc *desc, WeftRaster **out,
-                              const WeftLog *log, WeftError *error) {
+WeftResult weft_raster_create(const WeftScene *scene, const WeftRasterDesc *desc, WeftRaster **out, const WeftLog *log,
+                              WeftError *error) {
     *out = NULL;
     if ((unsigned)desc->gl > WEFT_GL_ES) return fail(error, WEFT_MESSAGE_DESC, "gl", "%d", (int)desc->gl);
     if (desc->occlusion < 0 || desc->occlusion > 4096)
@@ -162,21 +161,17 @@ void weft_raster_free(WeftRaster *self) {
 
 static WeftResult check_view(const WeftRasterView *view, WeftError *error) {
     if (view->width < 1 || view->width > SIDE_MAX || view->height < 1 || view->height > SIDE_MAX)
-        return fail(error, WEFT_MESSAGE_DESC, "picture size", "%d x %d; a side is 1 to %d", view->width,
-                    view->height, SIDE_MAX);
-    if (view->samples < 1 || view->samples > 64)
-        return fail(error, WEFT_MESSAGE_DESC, "samples", "%d", view->samples);
+        return fail(error, WEFT_MESSAGE_DESC, "picture size", "%d x %d; a side is 1 to %d", view->width, view->height,
+                    SIDE_MAX);
+    if (view->samples < 1 || view->samples > 64) return fail(error, WEFT_MESSAGE_DESC, "samples", "%d", view->samples);
     if ((unsigned)view->ambient > WEFT_AMBIENT_NONE)
         return fail(error, WEFT_MESSAGE_DESC, "ambient", "%d", (int)view->ambient);
-    if ((unsigned)view->background > WEFT_BACKGROUND_BLURRED)
-        return fail(error, WEFT_MESSAGE_DESC, "background", NULL);
-    if ((unsigned)view->part >= WEFT_PART_COUNT)
-        return fail(error, WEFT_MESSAGE_DESC, "part", "%d", (int)view->part);
+    if ((unsigned)view->background > WEFT_BACKGROUND_BLURRED) return fail(error, WEFT_MESSAGE_DESC, "background", NULL);
+    if ((unsigned)view->part >= WEFT_PART_COUNT) return fail(error, WEFT_MESSAGE_DESC, "part", "%d", (int)view->part);
     const int *c = view->crop;
-    if (c[0] < 0 || c[1] < 0 || c[2] < 1 || c[3] < 1 || c[2] > view->width - c[0] ||
-        c[3] > view->height - c[1])
-        return fail(error, WEFT_MESSAGE_DESC, "crop", "%d,%d,%d,%d is not inside %d x %d", c[0], c[1], c[2],
-                    c[3], view->width, view->height);
+    if (c[0] < 0 || c[1] < 0 || c[2] < 1 || c[3] < 1 || c[2] > view->width - c[0] || c[3] > view->height - c[1])
+        return fail(error, WEFT_MESSAGE_DESC, "crop", "%d,%d,%d,%d is not inside %d x %d", c[0], c[1], c[2], c[3],
+                    view->width, view->height);
     return floor_check(&view->floor, error);
 }
 
@@ -208,8 +203,7 @@ WeftResult weft_raster_wait(WeftRaster *self, WeftError *error) {
 
 /* Adds to change what new pixels in the maps of a material may have changed: coverage and emission. */
 static void add_stale(const WeftRaster *self, const Material *material, MaterialsChange *change) {
-    const int opacity = material->inputs[INPUT_opacity].texture,
-              emission = material->inputs[INPUT_emission].texture;
+    const int opacity = material->inputs[INPUT_opacity].texture, emission = material->inputs[INPUT_emission].texture;
     change->coverage |= material->alpha_mode != WEFT_ALPHA_OPAQUE && opacity &&
                         textures_stale(&self->textures, self->scene, opacity - 1);
     change->emission |= emission && textures_stale(&self->textures, self->scene, emission - 1);
@@ -217,8 +211,7 @@ static void add_stale(const WeftRaster *self, const Material *material, Material
 
 /* Uploads what has changed in materials and their textures. New pixels of an uploaded texture are uploaded alone; a
  * texture that no material had before, or of another size or kind, uploads all textures again. */
-static WeftResult update_materials(WeftRaster *self, MaterialsChange *change, const WeftLog *log,
-                                   WeftError *error) {
+static WeftResult update_materials(WeftRaster *self, MaterialsChange *change, const WeftLog *log, WeftError *error) {
     const WeftScene *scene = self->scene;
     GlTextures textures = self->textures;
     WeftResult result = WEFT_OK;
@@ -276,8 +269,7 @@ WeftResult weft_raster_update(WeftRaster *self, const WeftLog *log, WeftError *e
     if (result == WEFT_OK) self->ground.stale |= change.coverage;
     if (result == WEFT_OK) result = update_lights(self, &change, error);
     if (result == WEFT_OK) result = update_environment(self, log, error);
-    if (result == WEFT_OK)
-        result = lookout_update(&self->lookout, lit_environment(self), &self->meshes, log, error);
+    if (result == WEFT_OK) result = lookout_update(&self->lookout, lit_environment(self), &self->meshes, log, error);
     queue_update(&self->queue, self->scene);
     context_leave(self->context, &outer);
     return result;
@@ -324,8 +316,8 @@ static WeftResult check_show(const WeftRaster *self, const WeftRasterShow *show,
         return fail(error, WEFT_MESSAGE_DESC, subject, "a context of its own has nothing to show it in");
     if (!self->target.drawn) return fail(error, WEFT_MESSAGE_DESC, subject, "nothing was drawn yet");
     if (show->width < 1 || show->width > SIDE_MAX || show->height < 1 || show->height > SIDE_MAX)
-        return fail(error, WEFT_MESSAGE_DESC, subject, "%d x %d; a side is 1 to %d", show->width,
-                    show->height, SIDE_MAX);
+        return fail(error, WEFT_MESSAGE_DESC, subject, "%d x %d; a side is 1 to %d", show->width, show->height,
+                    SIDE_MAX);
     if (show->clip[2] < 0 || show->clip[3] < 0)
         return fail(error, WEFT_MESSAGE_DESC, subject, "clip %d x %d", show->clip[2], show->clip[3]);
     if ((unsigned)show->tonemap > WEFT_TONEMAP_NONE || !isfinite(show->exposure))

@@ -1,7 +1,6 @@
 /* raster_state.h - everything a WeftRaster keeps between pictures: the uploaded scene, its shaders and render
  * targets */
-#ifndef WEFT_RASTER_RASTER_STATE_H
-#define WEFT_RASTER_RASTER_STATE_H
+#pragma once
 
 #include "raster/geometry/meshes.h"
 #include "raster/gl/context.h"
@@ -48,5 +47,3 @@ struct WeftRaster {
     uint64_t drawn_samples; /* bit k: these programs have drawn with k samples a pixel */
     FolderWatch watch;      /* of the shader_dir */
 };
-
-#endif

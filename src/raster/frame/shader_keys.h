@@ -1,8 +1,7 @@
 /* shader_keys.h - the shader that a picture needs for each material, for shadow maps and for the floor
  *
  * Views must be complete: no member has its default 0 any more. */
-#ifndef WEFT_RASTER_SHADER_KEYS_H
-#define WEFT_RASTER_SHADER_KEYS_H
+#pragma once
 
 #include "raster/frame/raster_state.h"
 
@@ -19,5 +18,3 @@ ShaderKey floor_key(const WeftRaster *self, const WeftRasterView *view);
  * for which it does not. */
 bool all_keys(WeftRaster *self, const WeftRasterView *view, bool with_floor,
               bool (*test)(Programs *programs, const ShaderKey *key));
-
-#endif

@@ -28,8 +28,7 @@ static int tangents_of(const WeftScene *scene) {
 
 static uint32_t own_vertices(const Refinement *refinement, const WeftScene *scene) {
     uint32_t count = 0;
-    for (int m = 0; m < scene_own_meshes(scene); m++)
-        count += refinement_mesh(refinement, scene, m).vertex_count;
+    for (int m = 0; m < scene_own_meshes(scene); m++) count += refinement_mesh(refinement, scene, m).vertex_count;
     return count;
 }
 
@@ -76,8 +75,7 @@ static WeftResult upload_indices(GlMeshes *self, const WeftScene *scene, WeftErr
     return gl_check(error, "triangles");
 }
 
-WeftResult meshes_create(const WeftScene *scene, const Refinement *refinement, GlMeshes *out,
-                         WeftError *error) {
+WeftResult meshes_create(const WeftScene *scene, const Refinement *refinement, GlMeshes *out, WeftError *error) {
     *out = (GlMeshes){.refinement = refinement};
     out->first = alloc_array((size_t)scene->mesh_count + 1, sizeof(uint32_t));
     if (!out->first) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
@@ -108,8 +106,7 @@ WeftResult meshes_create(const WeftScene *scene, const Refinement *refinement, G
     return result;
 }
 
-WeftResult meshes_refine(GlMeshes *self, const WeftScene *scene, const Refinement *refinement,
-                         WeftError *error) {
+WeftResult meshes_refine(GlMeshes *self, const WeftScene *scene, const Refinement *refinement, WeftError *error) {
     GlMeshes fresh;
     WeftResult result = meshes_create(scene, refinement, &fresh, error);
     if (result != WEFT_OK) return result;
@@ -140,8 +137,7 @@ static WeftResult begin_occlusion(GlMeshes *self, bool env_lights, WeftError *er
     glBindVertexArray(self->vertices);
     glBindBuffer(GL_ARRAY_BUFFER, self->occlusion);
     glBufferData(GL_ARRAY_BUFFER, seen_size * (GLsizeiptr)self->vertex_count, NULL, GL_STATIC_DRAW);
-    glBufferSubData(GL_ARRAY_BUFFER, seen_size * (GLsizeiptr)self->own_count, seen_size * (GLsizeiptr)others,
-                    unknown);
+    glBufferSubData(GL_ARRAY_BUFFER, seen_size * (GLsizeiptr)self->own_count, seen_size * (GLsizeiptr)others, unknown);
     free(unknown);
     for (size_t k = 0, at = 0; k < (env_lights ? 5 : 3); at += k++ ? 4 : 2) {
         GLuint attribute = (GLuint)(AT_OCCLUSION + k);
@@ -197,8 +193,7 @@ WeftResult meshes_reshape(GlMeshes *self, const WeftScene *scene, WeftError *err
     if (result == WEFT_OK && self->occlusion) {
         glBindBuffer(GL_COPY_READ_BUFFER, self->occlusion);
         glBindBuffer(GL_COPY_WRITE_BUFFER, fresh.occlusion);
-        glCopyBufferSubData(GL_COPY_READ_BUFFER, GL_COPY_WRITE_BUFFER, 0, 0,
-                            seen_size * (GLsizeiptr)self->own_count);
+        glCopyBufferSubData(GL_COPY_READ_BUFFER, GL_COPY_WRITE_BUFFER, 0, 0, seen_size * (GLsizeiptr)self->own_count);
         glBindBuffer(GL_COPY_READ_BUFFER, 0);
         glBindBuffer(GL_COPY_WRITE_BUFFER, 0);
         result = gl_check(error, "occlusion");
@@ -232,7 +227,5 @@ void meshes_bind(const GlMeshes *self) {
 
 void meshes_draw(const GlMeshes *self, int mesh) {
     uint32_t first = self->first[mesh], count = self->first[mesh + 1] - first;
-    if (count)
-        glDrawElements(GL_TRIANGLES, (GLsizei)count, GL_UNSIGNED_INT,
-                       (const void *)(first * sizeof(uint32_t)));
+    if (count) glDrawElements(GL_TRIANGLES, (GLsizei)count, GL_UNSIGNED_INT, (const void *)(first * sizeof(uint32_t)));
 }

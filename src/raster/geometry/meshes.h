@@ -1,8 +1,7 @@
 /* meshes.h - a scene's triangles in the driver's memory: one buffer a kind of attribute, one of indices
  *
  * All calls are for the context that is current. */
-#ifndef WEFT_RASTER_MESHES_H
-#define WEFT_RASTER_MESHES_H
+#pragma once
 
 #include "raster/geometry/refinement.h"
 
@@ -32,14 +31,12 @@ typedef struct GlMeshes {
 
 /* Uploads all meshes, the scene's own as they are refined; the refinement must live as long. Fails with
  * WEFT_MESSAGE_MEMORY, or _GL_MEMORY, also beyond 2^31 corners; *out is then zero. */
-WeftResult meshes_create(const WeftScene *scene, const Refinement *refinement, GlMeshes *out,
-                         WeftError *error);
+WeftResult meshes_create(const WeftScene *scene, const Refinement *refinement, GlMeshes *out, WeftError *error);
 void meshes_destroy(GlMeshes *meshes);
 
 /* Uploads all meshes again with another refinement. Vertices have no occlusion until it is set again. Fails as
  * meshes_create does; the meshes are then as they were. */
-WeftResult meshes_refine(GlMeshes *meshes, const WeftScene *scene, const Refinement *refinement,
-                         WeftError *error);
+WeftResult meshes_refine(GlMeshes *meshes, const WeftScene *scene, const Refinement *refinement, WeftError *error);
 
 /* Sets the occlusion of each vertex of the scene's own meshes to that of occlusion_values. Other vertices, and all
  * until then, see the whole sky, and have no values for lights. */
@@ -62,5 +59,3 @@ void meshes_bind(const GlMeshes *meshes);
 
 /* Draws the triangles of one mesh; the vertex array must be bound. */
 void meshes_draw(const GlMeshes *meshes, int mesh);
-
-#endif

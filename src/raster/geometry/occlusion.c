@@ -72,8 +72,7 @@ static int face_of(Dir w, float *u, float *v) {
 
 static float brightness(const Occlusion *self, Dir w) {
     float u, v;
-    int face = face_of(w, &u, &v), x = (int)(0.5f * (u + 1.0f) * BRIGHT),
-        y = (int)(0.5f * (v + 1.0f) * BRIGHT);
+    int face = face_of(w, &u, &v), x = (int)(0.5f * (u + 1.0f) * BRIGHT), y = (int)(0.5f * (v + 1.0f) * BRIGHT);
     return self->bright[face][y < BRIGHT ? y : BRIGHT - 1][x < BRIGHT ? x : BRIGHT - 1];
 }
 
@@ -152,8 +151,7 @@ static void place_sky(Occlusion *self) {
 static Frame frame_upright(Vec3 n) { return frame_about(dir_of(n), dir(0.0f, 1.0f, 0.0f), 1.0f); }
 
 /* Traces rays from a point; sets hidden[k] if something lies on direction k. */
-static void trace_rays(const Occlusion *self, Vec3 from, const Dir *ways, int count, uint32_t vertex,
-                       bool *hidden) {
+static void trace_rays(const Occlusion *self, Vec3 from, const Dir *ways, int count, uint32_t vertex, bool *hidden) {
     float o[3][OCCLUSION_RAYS_MAX], d[3][OCCLUSION_RAYS_MAX];
     uint32_t key[OCCLUSION_RAYS_MAX];
     const RayRows rays = {{o[0], o[1], o[2]}, {d[0], d[1], d[2]}, NULL, key, false, false};
@@ -166,8 +164,7 @@ static void trace_rays(const Occlusion *self, Vec3 from, const Dir *ways, int co
 }
 
 /* Returns the fraction of the cosine-weighted sky above n that a point sees, and sets the ramp of its visibility. */
-static float sky_visibility(const Occlusion *self, Vec3 p, Vec3 n, float reach, uint32_t vertex,
-                            float open[4]) {
+static float sky_visibility(const Occlusion *self, Vec3 p, Vec3 n, float reach, uint32_t vertex, float open[4]) {
     bool hidden[OCCLUSION_RAYS_MAX];
     Dir ways[OCCLUSION_RAYS_MAX];
     Frame frame = frame_upright(n);
@@ -189,9 +186,7 @@ static float sky_visibility(const Occlusion *self, Vec3 p, Vec3 n, float reach, 
     return min(sum / all, 1.0f);
 }
 
-static float point_light(const EnvPoint *point) {
-    return point->color[0] + point->color[1] + point->color[2];
-}
+static float point_light(const EnvPoint *point) { return point->color[0] + point->color[1] + point->color[2]; }
 
 static float fraction(float x) { return x - floor(x); }
 
@@ -231,8 +226,7 @@ static void place_lights(Occlusion *self) {
 }
 
 /* Returns the visible fraction of a light's part above the horizon of n; 1 if all of it is below. */
-static float env_light_visibility(const Occlusion *self, int light, Vec3 p, Vec3 n, float reach,
-                                  uint32_t vertex) {
+static float env_light_visibility(const Occlusion *self, int light, Vec3 p, Vec3 n, float reach, uint32_t vertex) {
     const Dir *toward = self->toward + light * self->rays;
     int seen = 0, above = 0;
     Vec3 from = vec3_madd(p, n, reach);
@@ -328,8 +322,7 @@ static bool in_range(const float *values, size_t count) {
 static float *fresh_values(const Occlusion *self, size_t *count) {
     const Outlook *at = &self->at;
     size_t vertices = 0;
-    for (int m = 0; m < self->scene.mesh_count; m++)
-        vertices += at->first[m + 1] - at->first[m] - at->solved[m];
+    for (int m = 0; m < self->scene.mesh_count; m++) vertices += at->first[m + 1] - at->first[m] - at->solved[m];
     *count = vertices * OCCLUSION_VALUES;
     return alloc_array(*count, sizeof(float));
 }
@@ -345,17 +338,15 @@ static void move_fresh(Occlusion *self, float *fresh, bool put) {
     }
 }
 
-static uint64_t round_key(const Occlusion *self) {
-    return cache_hash(self->key, &self->round, sizeof self->round);
-}
+static uint64_t round_key(const Occlusion *self) { return cache_hash(self->key, &self->round, sizeof self->round); }
 
 /* Reads the values of unsolved vertices from the user's cache. Returns false if it does not have them. */
 static bool find(Occlusion *self, const WeftLog *log) {
     size_t count;
     if (self->no_cache) return false;
     float *fresh = fresh_values(self, &count);
-    bool found = fresh && cache_find(round_key(self), "sky", fresh, count * sizeof(float), log) &&
-                 in_range(fresh, count);
+    bool found =
+        fresh && cache_find(round_key(self), "sky", fresh, count * sizeof(float), log) && in_range(fresh, count);
     if (found) move_fresh(self, fresh, true);
     free(fresh);
     return found;
@@ -438,8 +429,7 @@ static bool place_vertices(const WeftScene *scene, Outlook *at) {
     for (int m = 0; made && m < scene->mesh_count; m++) {
         const Mesh *mesh = &scene->meshes[m];
         const RefinedMesh refined = refinement_mesh(&at->refinement, scene, m);
-        float *position = at->position + 3 * (size_t)at->first[m],
-              *normal = at->normal + 3 * (size_t)at->first[m];
+        float *position = at->position + 3 * (size_t)at->first[m], *normal = at->normal + 3 * (size_t)at->first[m];
         refined_fill(&refined, mesh, mesh->position, 3, position);
         if (mesh->normal)
             refined_fill(&refined, mesh, mesh->normal, 3, normal);
@@ -455,8 +445,7 @@ static bool place_vertices(const WeftScene *scene, Outlook *at) {
 
 /* Makes the vertices of a refinement, with the values of `before`, which may be NULL, as the only ones solved. Takes
  * over the refinement, in any case. Returns false if memory is short. */
-static bool outlook_make(const WeftScene *scene, const Refinement *refinement, const Outlook *before,
-                         Outlook *at) {
+static bool outlook_make(const WeftScene *scene, const Refinement *refinement, const Outlook *before, Outlook *at) {
     *at = (Outlook){.refinement = *refinement};
     at->first = alloc_array((size_t)scene->mesh_count + 1, sizeof(uint32_t));
     at->solved = alloc_array((size_t)scene->mesh_count, sizeof(uint32_t));
@@ -489,8 +478,7 @@ static bool differ(const void *user, int mesh, uint32_t a, uint32_t b) {
     Vec3 n = vec3_load(at->normal + 3 * one), o = vec3_load(at->normal + 3 * two);
     float lights = 0.0f;
     for (int k = 0; k < self->env_light_count; k++) {
-        float cn = vec3_dot(n, self->env_lights[k].direction),
-              co = vec3_dot(o, self->env_lights[k].direction);
+        float cn = vec3_dot(n, self->env_lights[k].direction), co = vec3_dot(o, self->env_lights[k].direction);
         float falls = two_sided ? max(fabsf(cn), fabsf(co)) : max(max(cn, co), 0.0f);
         lights += self->share[k] * falls * fabsf(p[OCCLUSION_LIGHT + k] - q[OCCLUSION_LIGHT + k]);
     }
@@ -502,8 +490,7 @@ static bool cut(Occlusion *self) {
     const EdgeTest test = {.differ = differ, .user = self};
     Refinement finer;
     Outlook next;
-    if (self->round == ROUNDS || !refinement_halve(&self->scene, &self->at.refinement, &test, &finer))
-        return false;
+    if (self->round == ROUNDS || !refinement_halve(&self->scene, &self->at.refinement, &test, &finer)) return false;
     self->round++;
     bool made = outlook_make(&self->scene, &finer, &self->at, &next);
     if (made) {
@@ -528,8 +515,7 @@ static void *work(void *user) {
 }
 
 static WeftResult begin(Occlusion *self, WeftError *error) {
-    WeftResult result =
-        geometry_create(&self->scene, self->scene.mesh_count, self->threads, &self->geometry, error);
+    WeftResult result = geometry_create(&self->scene, self->scene.mesh_count, self->threads, &self->geometry, error);
     if (result != WEFT_OK) return result;
     self->joined = pthread_create(&self->thread, NULL, work, self) != 0;
     if (self->joined) work(self); /* no thread could be made */
@@ -551,8 +537,8 @@ WeftResult occlusion_start(const WeftScene *scene, const Refinement *refinement,
     self->sky = alloc_array((size_t)self->rays, sizeof(Dir));
     self->toward = alloc_array((size_t)self->rays * OCCLUSION_LIGHTS, sizeof(Dir));
     Refinement own;
-    bool made = self->sky && self->toward && copy_scene(self, scene) &&
-                refinement_copy(scene, refinement, &own) && outlook_make(&self->scene, &own, NULL, &self->at);
+    bool made = self->sky && self->toward && copy_scene(self, scene) && refinement_copy(scene, refinement, &own) &&
+                outlook_make(&self->scene, &own, NULL, &self->at);
     if (!made) {
         occlusion_free(self);
         return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);

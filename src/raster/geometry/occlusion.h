@@ -1,7 +1,6 @@
 /* occlusion.h - visibility of the sky and of each environment light from a vertex, found by rays in the
  * background */
-#ifndef WEFT_RASTER_OCCLUSION_H
-#define WEFT_RASTER_OCCLUSION_H
+#pragma once
 
 #include "raster/geometry/refinement.h"
 #include "scene/light/env_split.h"
@@ -21,9 +20,9 @@ enum {
 
 /* Options of the search. */
 typedef struct OcclusionHow {
-    int rays; /* directions a side and a light, up to OCCLUSION_RAYS_MAX; only a quarter to a light if these agree */
-    int threads;   /* beside the caller; 0: one a processor */
-    bool no_cache; /* neither reads what an earlier run found from the user's cache, nor writes it there */
+    int rays;    /* directions a side and a light, up to OCCLUSION_RAYS_MAX; only a quarter to a light if these agree */
+    int threads; /* beside the caller; 0: one a processor */
+    bool no_cache;              /* neither reads what an earlier run found from the user's cache, nor writes it there */
     const EnvLight *env_lights; /* in the world; copied */
     int env_light_count;        /* those beyond OCCLUSION_LIGHTS are left out */
     const EnvPoint *env_points; /* the parts of the lights, sorted by light; copied */
@@ -54,5 +53,3 @@ Refinement occlusion_take_refinement(Occlusion *occlusion);
 
 /* Stops the search, if it is not done, and frees it; occlusion may be NULL. */
 void occlusion_free(Occlusion *occlusion);
-
-#endif

@@ -44,9 +44,7 @@ typedef struct LongEdge {
     uint32_t corner; /* the triangle's corner from which it starts */
 } LongEdge;
 
-static Vec3 at(const Refiner *self, uint32_t vertex) {
-    return vec3_load(self->position + 3 * (size_t)vertex);
-}
+static Vec3 at(const Refiner *self, uint32_t vertex) { return vec3_load(self->position + 3 * (size_t)vertex); }
 
 static LongEdge edge_from(const uint32_t *index, uint32_t corner) {
     uint32_t a = index[corner], b = index[corner % 3 == 2 ? corner - 2 : corner + 1];
@@ -159,8 +157,8 @@ static float longest_edge(const Mesh *mesh) {
 
 /* Refines mesh m further in at most `rounds` rounds, and sets *any if it was cut. boxes: of all meshes; near: scratch
  * space of as many. Returns false if memory is short. */
-static bool refine(const WeftScene *scene, int m, const Box *boxes, Box *near, const EdgeTest *test,
-                   int rounds, RefinedMesh *refined, bool *any) {
+static bool refine(const WeftScene *scene, int m, const Box *boxes, Box *near, const EdgeTest *test, int rounds,
+                   RefinedMesh *refined, bool *any) {
     const Mesh *mesh = &scene->meshes[m];
     const uint32_t *index = refined->index ? refined->index : mesh->index;
     Refiner self = {.out = *refined, .own_count = mesh->vertex_count, .near = near, .test = test};
@@ -186,8 +184,7 @@ static bool refine(const WeftScene *scene, int m, const Box *boxes, Box *near, c
 
 /* Refines all meshes. test, without its mesh, decides together with the boxes; may be NULL. Returns false if memory is
  * short. */
-static bool refine_all(const WeftScene *scene, Refinement *self, const EdgeTest *test, int rounds,
-                       bool *any) {
+static bool refine_all(const WeftScene *scene, Refinement *self, const EdgeTest *test, int rounds, bool *any) {
     int count = scene_own_meshes(scene);
     Box *boxes = alloc_array((size_t)count, 2 * sizeof *boxes);
     bool made = boxes != NULL;
@@ -206,8 +203,7 @@ static bool start(const WeftScene *scene, Refinement *out) {
     int count = scene_own_meshes(scene);
     *out = (Refinement){alloc_array((size_t)count, sizeof(RefinedMesh)), count};
     for (int m = 0; out->meshes && m < count; m++)
-        out->meshes[m] =
-            (RefinedMesh){scene->meshes[m].vertex_count, scene->meshes[m].triangle_count, NULL, NULL};
+        out->meshes[m] = (RefinedMesh){scene->meshes[m].vertex_count, scene->meshes[m].triangle_count, NULL, NULL};
     return out->meshes != NULL;
 }
 

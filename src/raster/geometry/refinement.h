@@ -14,8 +14,7 @@
  *
  * Departures: parts of one mesh do not refine each other. At a crease, which has its vertices twice, two meshes of one
  * edge may differ. */
-#ifndef WEFT_RASTER_REFINEMENT_H
-#define WEFT_RASTER_REFINEMENT_H
+#pragma once
 
 #include "scene/record/scene.h"
 
@@ -57,5 +56,3 @@ RefinedMesh refinement_mesh(const Refinement *refinement, const WeftScene *scene
 
 /* Fills an attribute of a refined mesh, `width` numbers a vertex. own: that of the mesh's own vertices. */
 void refined_fill(const RefinedMesh *refined, const Mesh *mesh, const float *own, size_t width, float *to);
-
-#endif

@@ -1,6 +1,5 @@
 /* box.h - a box about points, along the axes */
-#ifndef WEFT_RASTER_BOX_H
-#define WEFT_RASTER_BOX_H
+#pragma once
 
 #include "scene/record/scene.h"
 
@@ -8,9 +7,7 @@ typedef struct Box {
     Vec3 low, high;
 } Box;
 
-static inline Box box_empty(void) {
-    return (Box){{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
-}
+static inline Box box_empty(void) { return (Box){{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}}; }
 
 static inline void box_add(Box *box, Vec3 p) {
     box->low = vec3_least(box->low, p);
@@ -19,8 +16,7 @@ static inline void box_add(Box *box, Vec3 p) {
 
 /* Returns corner k of 8. */
 static inline Vec3 box_corner(Box box, int k) {
-    return vec3(k & 1 ? box.high.x : box.low.x, k & 2 ? box.high.y : box.low.y,
-                k & 4 ? box.high.z : box.low.z);
+    return vec3(k & 1 ? box.high.x : box.low.x, k & 2 ? box.high.y : box.low.y, k & 4 ? box.high.z : box.low.z);
 }
 
 /* Returns the length of the diagonal; 0 of an empty box. */
@@ -30,9 +26,6 @@ static inline float box_size(Box box) {
 
 static inline Box mesh_box(const Mesh *mesh) {
     Box box = box_empty();
-    for (uint32_t k = 0; k < mesh->vertex_count; k++)
-        box_add(&box, vec3_load(mesh->position + 3 * (size_t)k));
+    for (uint32_t k = 0; k < mesh->vertex_count; k++) box_add(&box, vec3_load(mesh->position + 3 * (size_t)k));
     return box;
 }
-
-#endif

@@ -1,6 +1,5 @@
 /* complaint.h - a driver's compiler message as one line for people */
-#ifndef WEFT_RASTER_COMPLAINT_H
-#define WEFT_RASTER_COMPLAINT_H
+#pragma once
 
 #include "text/assemble/text.h"
 
@@ -8,5 +7,3 @@
  * the error is, if the log names a line and the text (may be NULL) has its origin; else `name`, what the shader is for.
  * Lines after the end of the text are the caller's own. */
 void complain(const char *name, const char *log, const Text *text, WeftError *error);
-
-#endif

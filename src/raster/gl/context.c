@@ -43,8 +43,7 @@ static bool has_library(const char *name) {
 /* Returns a message if a library is missing, else NULL. Called first, since libepoxy ends the process if one is. */
 static const char *missing_library(TextLanguage language) {
     if (!epoxy_has_egl()) return "libEGL is not installed";
-    if (language == TEXT_GLSL_ES_300)
-        return has_library("libGLESv2.so.2") ? NULL : "libGLESv2 is not installed";
+    if (language == TEXT_GLSL_ES_300) return has_library("libGLESv2.so.2") ? NULL : "libGLESv2 is not installed";
     return has_library("libGL.so.1") || has_library("libOpenGL.so.0") ? NULL : "libGL is not installed";
 }
 
@@ -56,8 +55,7 @@ static bool display_begin(EGLDisplay display) {
 }
 
 static EGLConfig choose_config(EGLDisplay display, TextLanguage language, bool pixel) {
-    const EGLint wanted[] = {EGL_RENDERABLE_TYPE,
-                             language == TEXT_GLSL_ES_300 ? EGL_OPENGL_ES3_BIT : EGL_OPENGL_BIT,
+    const EGLint wanted[] = {EGL_RENDERABLE_TYPE, language == TEXT_GLSL_ES_300 ? EGL_OPENGL_ES3_BIT : EGL_OPENGL_BIT,
                              EGL_SURFACE_TYPE, pixel ? EGL_PBUFFER_BIT : 0, EGL_NONE};
     EGLConfig config = EGL_NO_CONFIG_KHR;
     EGLint count = 0;
@@ -75,8 +73,8 @@ static bool make_context(GlContext *self, EGLContext share, bool pixel) {
                                      EGL_NONE};
     static const EGLint es[] = {EGL_CONTEXT_MAJOR_VERSION_KHR, 3, EGL_CONTEXT_MINOR_VERSION_KHR, 0, EGL_NONE};
     static const EGLint one[] = {EGL_WIDTH, 1, EGL_HEIGHT, 1, EGL_NONE};
-    self->context = eglCreateContext(self->display, self->config, share,
-                                     self->language == TEXT_GLSL_ES_300 ? es : desktop);
+    self->context =
+        eglCreateContext(self->display, self->config, share, self->language == TEXT_GLSL_ES_300 ? es : desktop);
     if (self->context == EGL_NO_CONTEXT) return false;
     self->surface = pixel ? eglCreatePbufferSurface(self->display, self->config, one) : EGL_NO_SURFACE;
     if (!pixel || self->surface != EGL_NO_SURFACE) return true;
@@ -88,8 +86,7 @@ static bool make_context(GlContext *self, EGLContext share, bool pixel) {
 /* Fills in a whole context on that display. */
 static bool make_on(GlContext *self, EGLDisplay display) {
     if (!display_begin(display)) return false;
-    if (!epoxy_has_egl_extension(display, "EGL_KHR_create_context") && epoxy_egl_version(display) < 15)
-        return false;
+    if (!epoxy_has_egl_extension(display, "EGL_KHR_create_context") && epoxy_egl_version(display) < 15) return false;
     if (!eglBindAPI(api_of(self->language))) return false;
     bool pixel = !epoxy_has_egl_extension(display, "EGL_KHR_surfaceless_context");
     bool any = epoxy_has_egl_extension(display, "EGL_KHR_no_config_context") && !pixel;
@@ -113,8 +110,7 @@ static bool make_anywhere(GlContext *self) {
             epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_device_enumeration") &&
             eglQueryDevicesEXT(DEVICES_MAX, devices, &count))
             for (int k = 0; k < count; k++)
-                if (make_on(self, eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, devices[k], NULL)))
-                    return true;
+                if (make_on(self, eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, devices[k], NULL))) return true;
     }
     return make_on(self, eglGetDisplay(EGL_DEFAULT_DISPLAY));
 }
@@ -174,10 +170,9 @@ WeftResult context_create(TextLanguage language, GlContext **out, WeftError *err
     eglBindAPI(outer.api);
     if (!made) {
         free(self);
-        return fail(
-            error, WEFT_MESSAGE_GL_CONTEXT, version,
-            "no driver offers it (EGL error 0x%x); install a driver such as Mesa, or use --engine trace",
-            (unsigned)code);
+        return fail(error, WEFT_MESSAGE_GL_CONTEXT, version,
+                    "no driver offers it (EGL error 0x%x); install a driver such as Mesa, or use --engine trace",
+                    (unsigned)code);
     }
     if (!context_enter(self, &outer)) {
         context_destroy(self);
@@ -233,8 +228,8 @@ WeftResult context_adopt(GlContext **out, WeftError *error) {
     bool desktop = epoxy_is_desktop_gl();
     int version = epoxy_gl_version();
     if (version < (desktop ? 33 : 30))
-        return fail(error, WEFT_MESSAGE_GL_CONTEXT, name, "it is OpenGL %s%d.%d", desktop ? "" : "ES ",
-                    version / 10, version % 10);
+        return fail(error, WEFT_MESSAGE_GL_CONTEXT, name, "it is OpenGL %s%d.%d", desktop ? "" : "ES ", version / 10,
+                    version % 10);
     GlContext *self = alloc_array(1, sizeof *self);
     if (!self) return fail(error, WEFT_MESSAGE_MEMORY, name, NULL);
     self->adopted = adopted;

@@ -3,8 +3,7 @@
  * Drawing goes to framebuffer objects; a context of its own has no surface. A context belongs to one thread
  * at a time. Several may be alive at once, in one thread too: every call of this folder makes its own current
  * while it works, and puts back what was there. */
-#ifndef WEFT_RASTER_CONTEXT_H
-#define WEFT_RASTER_CONTEXT_H
+#pragma once
 
 #include "raster/gl/state.h"
 #include "text/assemble/text.h"
@@ -53,5 +52,3 @@ TextLanguage context_language(const GlContext *context);
 
 /* Returns the driver's name ("llvmpipe (LLVM 15.0.6, 256 bits)"), which lives as long as the context. */
 const char *context_driver(const GlContext *context);
-
-#endif

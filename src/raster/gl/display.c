@@ -54,8 +54,7 @@ WeftResult display_draw(Display *self, const TextDesc *desc, const Target *targe
     }
     glUseProgram(self->program);
     glUniform4f(self->place, (float)show->x, (float)show->y, (float)show->width, (float)show->height);
-    glUniform4f(self->back, show->background[0], show->background[1], show->background[2],
-                exp2f(show->exposure));
+    glUniform4f(self->back, show->background[0], show->background[1], show->background[2], exp2f(show->exposure));
     glUniform1i(self->curve, (int)show->tonemap);
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, target->mean);

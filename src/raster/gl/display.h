@@ -1,8 +1,7 @@
 /* display.h - the pass that shows a picture: from linear colours to those of a display
  *
  * All calls are for the context that is current. */
-#ifndef WEFT_RASTER_DISPLAY_H
-#define WEFT_RASTER_DISPLAY_H
+#pragma once
 
 #include "raster/gl/target.h"
 #include "text/assemble/text.h"
@@ -19,9 +18,7 @@ typedef struct Display {
 /* Draws a target's picture. The vertex shader makes the vertices, so any vertex array may be bound. Leaves the
  * framebuffer bound and the program in use. Fails with WEFT_MESSAGE_GL_COMPILE or _TEXT_DIALECT if no version has ever
  * compiled. */
-WeftResult display_draw(Display *display, const TextDesc *desc, const Target *target,
-                        const WeftRasterShow *show, WeftError *error);
+WeftResult display_draw(Display *display, const TextDesc *desc, const Target *target, const WeftRasterShow *show,
+                        WeftError *error);
 
 void display_destroy(Display *display);
-
-#endif

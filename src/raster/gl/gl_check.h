@@ -1,6 +1,5 @@
 /* gl_check.h - helpers of all passes: errors of the driver, textures without a filter */
-#ifndef WEFT_RASTER_GL_CHECK_H
-#define WEFT_RASTER_GL_CHECK_H
+#pragma once
 
 #include "weft/result.h"
 
@@ -9,5 +8,3 @@ WeftResult gl_check(WeftError *error, const char *what);
 
 /* Sets nearest-neighbour look-up without mipmaps, and clamping at the edges, for the texture bound to `target`. */
 void texture_unfiltered(unsigned target);
-
-#endif

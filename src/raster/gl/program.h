@@ -1,6 +1,5 @@
 /* program.h - shader text compiled and linked */
-#ifndef WEFT_RASTER_PROGRAM_H
-#define WEFT_RASTER_PROGRAM_H
+#pragma once
 
 #include "text/assemble/text.h"
 
@@ -13,5 +12,3 @@ typedef struct ShaderSource {
 /* Compiles and links a program in the context that is current. Returns 0 on failure: WEFT_MESSAGE_GL_COMPILE, as
  * complain does; `name` is what the shader is for. Release with glDeleteProgram. */
 unsigned program_create(const char *name, ShaderSource vertex, ShaderSource fragment, WeftError *error);
-
-#endif

@@ -1,7 +1,6 @@
 /* queue.h - the order in which meshes are drawn: solid ones from the front, so that hidden pixels are not shaded, then
  * blended ones from the back */
-#ifndef WEFT_RASTER_QUEUE_H
-#define WEFT_RASTER_QUEUE_H
+#pragma once
 
 #include "scene/record/camera.h"
 
@@ -25,5 +24,3 @@ WeftResult queue_reshape(Queue *queue, const WeftScene *scene, WeftError *error)
 
 /* Sorts for a view. Allocates nothing, and is fast if the view has moved little. */
 void queue_sort(Queue *queue, const WeftScene *scene, const View *view);
-
-#endif

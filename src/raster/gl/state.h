@@ -1,8 +1,7 @@
 /* state.h - the OpenGL state that this folder relies on, in a context that others use too
  *
  * All calls are for the context that is current. */
-#ifndef WEFT_RASTER_STATE_H
-#define WEFT_RASTER_STATE_H
+#pragma once
 
 /* The caller's drawing state, which is restored. */
 typedef struct GlPlace {
@@ -16,5 +15,3 @@ void state_begin(GlPlace *place);
 
 /* Resets the state once more and restores the place. */
 void state_end(const GlPlace *place);
-
-#endif

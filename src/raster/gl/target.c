@@ -40,15 +40,13 @@ static void make_drawn(Target *self) {
     }
     glGenRenderbuffers(1, &self->depth);
     glBindRenderbuffer(GL_RENDERBUFFER, self->depth);
-    glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, GL_DEPTH_COMPONENT32F, self->width,
-                                     self->height);
+    glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, GL_DEPTH_COMPONENT32F, self->width, self->height);
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, self->depth);
 }
 
 WeftResult target_resize(Target *self, int width, int height, int samples, WeftError *error) {
     samples = samples > 1 ? available_samples(samples) : 1;
-    if (self->drawn && self->width == width && self->height == height && self->samples == samples)
-        return WEFT_OK;
+    if (self->drawn && self->width == width && self->height == height && self->samples == samples) return WEFT_OK;
     target_destroy(self);
     *self = (Target){.width = width, .height = height, .samples = samples};
     make_mean(self);
@@ -56,8 +54,7 @@ WeftResult target_resize(Target *self, int width, int height, int samples, WeftE
     WeftResult result = gl_check(error, "a picture");
     GLenum status = result == WEFT_OK ? glCheckFramebufferStatus(GL_FRAMEBUFFER) : GL_FRAMEBUFFER_COMPLETE;
     if (status != GL_FRAMEBUFFER_COMPLETE)
-        result =
-            fail(error, WEFT_MESSAGE_GL_CONTEXT, "a picture of 16-bit floats", "driver error 0x%x", status);
+        result = fail(error, WEFT_MESSAGE_GL_CONTEXT, "a picture of 16-bit floats", "driver error 0x%x", status);
     if (result != WEFT_OK) target_destroy(self);
     return result;
 }
@@ -76,8 +73,7 @@ void target_resolve(const Target *self, const int box[4]) {
     glBindFramebuffer(GL_READ_FRAMEBUFFER, self->drawn);
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, self->resolved);
     int right = box[0] + box[2], top = box[1] + box[3];
-    glBlitFramebuffer(box[0], box[1], right, top, box[0], box[1], right, top, GL_COLOR_BUFFER_BIT,
-                      GL_NEAREST);
+    glBlitFramebuffer(box[0], box[1], right, top, box[0], box[1], right, top, GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
 /* Flips the rows, which the driver has from the bottom. */

@@ -2,8 +2,7 @@
  * mean
  *
  * All calls are for the context that is current. */
-#ifndef WEFT_RASTER_TARGET_H
-#define WEFT_RASTER_TARGET_H
+#pragma once
 
 #include "weft/image.h"
 
@@ -24,5 +23,3 @@ void target_resolve(const Target *target, const int box[4]);
 
 /* Reads the picture as F32 RGBA with straight alpha. Fails with WEFT_MESSAGE_MEMORY, _GL_MEMORY or _GL_CONTEXT. */
 WeftResult target_read(const Target *target, WeftImage *out, WeftError *error);
-
-#endif

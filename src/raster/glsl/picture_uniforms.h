@@ -3,8 +3,7 @@
  * frame/picture_block.h makes a record of C from the rows, picture.glsl the block of GLSL. ONE(type, name) is a
  * uniform, MANY(type, name, count) an array. The types are vec4 and mat4, which std140 lays out as C does float[4] and
  * float[16]. */
-#ifndef WEFT_RASTER_PICTURE_UNIFORMS_H
-#define WEFT_RASTER_PICTURE_UNIFORMS_H
+#pragma once
 
 #define PICTURE_LIGHTS   64 /* most punctual lights of a picture */
 #define PICTURE_POLYGONS 8  /* WEFT_RASTER_POLYGONS */
@@ -36,5 +35,3 @@
     ONE(vec4, floor_light) /* luminance of the sky on it, share mirrored, 1 if the scene shades it */        \
     ONE(vec4, floor_lens)  /* z: half width of the mirror's cone, w: width over height, both of the picture */
 /* clang-format on */
-
-#endif

@@ -1,6 +1,5 @@
 /* depths.h - nearest and farthest depth of objects along the axis of a view */
-#ifndef WEFT_RASTER_DEPTHS_H
-#define WEFT_RASTER_DEPTHS_H
+#pragma once
 
 #include "raster/gl/box.h"
 #include "scene/record/camera.h"
@@ -45,5 +44,3 @@ static inline void depths_widen(Depths *depths, const View *view, float least) {
     depths->near = fmaxf(depths->near, least);
     depths->far = fmaxf(depths->far, 2.0f * least);
 }
-
-#endif

@@ -76,8 +76,7 @@ static uint64_t cube_key(const Environment *e) {
     uint64_t hash = cache_hash(CACHE_HASH, sizes, sizeof sizes);
     if (e->kind == ENVIRONMENT_CONSTANT) return cache_hash(hash, e->color, sizeof e->color);
     return cache_hash(hash, e->image.pixels,
-                      (size_t)e->image.width * (size_t)e->image.height * (size_t)e->image.channels *
-                          sizeof(float));
+                      (size_t)e->image.width * (size_t)e->image.height * (size_t)e->image.channels * sizeof(float));
 }
 
 static void upload_source(const WeftImage *image, int level) {
@@ -102,8 +101,8 @@ static WeftResult make_source(const Environment *e, unsigned *texture, WeftError
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST_MIPMAP_NEAREST);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, SOURCE_LEVELS - 1);
     for (int level = 0; level < SOURCE_LEVELS && result == WEFT_OK; level++) {
-        result = latlong_resize(level ? &now : &e->image, SOURCE_WIDTH >> level, SOURCE_WIDTH / 2 >> level,
-                                &next, error);
+        result =
+            latlong_resize(level ? &now : &e->image, SOURCE_WIDTH >> level, SOURCE_WIDTH / 2 >> level, &next, error);
         if (result != WEFT_OK) break;
         weft_image_free(&now);
         now = next;
@@ -122,8 +121,7 @@ static unsigned make_cube(const uint16_t *texels) {
     glTexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     glTexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     glTexParameteri(GL_TEXTURE_CUBE_MAP, GL_TEXTURE_MAX_LEVEL, ENVIRONMENT_LEVELS - 1);
-    uint16_t *rgba =
-        texels ? alloc_array((size_t)ENVIRONMENT_SIDE * ENVIRONMENT_SIDE, 4 * sizeof *rgba) : NULL;
+    uint16_t *rgba = texels ? alloc_array((size_t)ENVIRONMENT_SIDE * ENVIRONMENT_SIDE, 4 * sizeof *rgba) : NULL;
     for (int level = 0; level < ENVIRONMENT_LEVELS; level++)
         for (GLuint face = 0; face < 6; face++) {
             int n = ENVIRONMENT_SIDE >> level;
@@ -131,8 +129,8 @@ static unsigned make_cube(const uint16_t *texels) {
                 memcpy(rgba + 4 * k, texels, 3 * sizeof *texels);
                 rgba[4 * k + 3] = 0x3c00; /* 1 */
             }
-            glTexImage2D(GL_TEXTURE_CUBE_MAP_POSITIVE_X + face, level, GL_RGBA16F, n, n, 0, GL_RGBA,
-                         GL_HALF_FLOAT, rgba);
+            glTexImage2D(GL_TEXTURE_CUBE_MAP_POSITIVE_X + face, level, GL_RGBA16F, n, n, 0, GL_RGBA, GL_HALF_FLOAT,
+                         rgba);
         }
     free(rgba);
     return cube;
@@ -147,8 +145,7 @@ static WeftResult make_map(const WeftImage *image, unsigned *map, WeftError *err
     const float *p = image->pixels;
     for (size_t k = 0; k < 4 * count; k++) {
         size_t c = k % 4;
-        rgba[k] =
-            c == 3 ? (uint16_t)0x3c00 : half_bits(fmaxf(p[k / 4 * channels + (channels >= 3 ? c : 0)], 0.0f));
+        rgba[k] = c == 3 ? (uint16_t)0x3c00 : half_bits(fmaxf(p[k / 4 * channels + (channels >= 3 ? c : 0)], 0.0f));
     }
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
     glGenTextures(1, map);
@@ -160,15 +157,13 @@ static WeftResult make_map(const WeftImage *image, unsigned *map, WeftError *err
     glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA16F, image->width, image->height, 0, GL_RGBA, GL_HALF_FLOAT, rgba);
     free(rgba);
     if (image->width > most || image->height > most)
-        return fail(error, WEFT_MESSAGE_GL_MEMORY, "an environment", "the driver takes up to %d texels",
-                    most);
+        return fail(error, WEFT_MESSAGE_GL_MEMORY, "an environment", "the driver takes up to %d texels", most);
     return gl_check(error, "an environment");
 }
 
-static const char vertex_body[] =
-    "void main() {\n"
-    "    vec2 corner = vec2(float((gl_VertexID << 1) & 2), float(gl_VertexID & 2));\n"
-    "    gl_Position = vec4(corner * 2.0 - 1.0, 0.0, 1.0);\n}\n";
+static const char vertex_body[] = "void main() {\n"
+                                  "    vec2 corner = vec2(float((gl_VertexID << 1) & 2), float(gl_VertexID & 2));\n"
+                                  "    gl_Position = vec4(corner * 2.0 - 1.0, 0.0, 1.0);\n}\n";
 
 static unsigned make_program(const EnvironmentHow *how, WeftError *error) {
     Text vertex, fragment;
@@ -187,8 +182,7 @@ static unsigned make_program(const EnvironmentHow *how, WeftError *error) {
 }
 
 /* Draws one level of the cube, and reads it back into texels, which may be NULL. */
-static void filter_level(unsigned program, const Level *level, unsigned cube, unsigned source,
-                         uint16_t *texels) {
+static void filter_level(unsigned program, const Level *level, unsigned cube, unsigned source, uint16_t *texels) {
     float kappa = sharpened(level);
     /* a three-thousandth of the weight is beyond: exp(kappa (cos(reach) - 1)) */
     float least = fmaxf(1.0f - 8.0f / kappa, -1.0f);
@@ -200,8 +194,8 @@ static void filter_level(unsigned program, const Level *level, unsigned cube, un
     glUniform1f(glGetUniformLocation(program, "reach"), acosf(least));
     for (GLuint face = 0; face < 6; face++) {
         glUniformMatrix3fv(glGetUniformLocation(program, "face"), 1, GL_FALSE, faces[face]);
-        glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_CUBE_MAP_POSITIVE_X + face,
-                               cube, level->level);
+        glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_CUBE_MAP_POSITIVE_X + face, cube,
+                               level->level);
         glDrawArrays(GL_TRIANGLES, 0, 3);
         if (!rgba) continue;
         glReadPixels(0, 0, level->side, level->side, GL_RGBA, GL_FLOAT, rgba);
@@ -211,13 +205,11 @@ static void filter_level(unsigned program, const Level *level, unsigned cube, un
     free(rgba);
 }
 
-static bool stopped(const EnvironmentHow *how, float done) {
-    return how->progress && how->progress(how->user, done);
-}
+static bool stopped(const EnvironmentHow *how, float done) { return how->progress && how->progress(how->user, done); }
 
 /* Draws all levels of the cube, and reads them back into texels, which may be NULL. */
-static WeftResult filter_all(const GlEnvironment *self, const EnvironmentHow *how, unsigned source,
-                             uint16_t *texels, WeftError *error) {
+static WeftResult filter_all(const GlEnvironment *self, const EnvironmentHow *how, unsigned source, uint16_t *texels,
+                             WeftError *error) {
     GLuint framebuffer, vertices;
     unsigned program = make_program(how, error);
     if (!program) return error ? error->result : WEFT_RESOURCES;
@@ -300,8 +292,7 @@ static void put_light(float to[2][4], Vec3 direction, float x, const float color
 static void make_buffer(GlEnvironment *self) {
     Block block = {.place = {0}}; /* and parts: environment_place */
     for (int k = 0; k < IRRADIANCE_TERMS; k++)
-        memcpy(block.terms[k], self->parts.terms[k < DEGREE_3 ? k : k - DEGREE_3 + DEGREE_4],
-               3 * sizeof(float));
+        memcpy(block.terms[k], self->parts.terms[k < DEGREE_3 ? k : k - DEGREE_3 + DEGREE_4], 3 * sizeof(float));
     for (int k = 0; k < AMBIENT_RESIDUAL_TERMS; k++)
         memcpy(block.residual[k], self->parts.residual_sh[k], 3 * sizeof(float));
     for (int k = 0; k < self->parts.env_light_count; k++) {

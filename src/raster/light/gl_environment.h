@@ -6,8 +6,7 @@
  *   environment_bind(env, cube, block);               once a frame
  *
  * All calls are for the context that is current. */
-#ifndef WEFT_RASTER_GL_ENVIRONMENT_H
-#define WEFT_RASTER_GL_ENVIRONMENT_H
+#pragma once
 
 #include "scene/light/env_split.h"
 #include "text/assemble/text.h"
@@ -53,12 +52,10 @@ void environment_destroy(GlEnvironment *environment);
 void environment_place(const GlEnvironment *self, const Environment *environment);
 
 /* Fills in the lights in world space, for a rotation of the environment in radians, and returns their number. */
-int environment_lights(const GlEnvironment *environment, float rotation,
-                       EnvLight env_lights[AMBIENT_LIGHTS_MAX]);
+int environment_lights(const GlEnvironment *environment, float rotation, EnvLight env_lights[AMBIENT_LIGHTS_MAX]);
 
 /* Fills in the points of these lights likewise, and returns their number. */
-int environment_points(const GlEnvironment *environment, float rotation,
-                       EnvPoint env_points[AMBIENT_POINTS_MAX]);
+int environment_points(const GlEnvironment *environment, float rotation, EnvPoint env_points[AMBIENT_POINTS_MAX]);
 
 /* Declares the functions that shading/ambient/ambient.h needs from its source, which is then a Frame
  * (shading/stack/frame.h). Takes one sampler. The caller declares AmbientWeights ambient_baked(Frame, int) and float
@@ -68,5 +65,3 @@ void environment_text(Text *text);
 /* Sets the texture unit of the cube and the binding of the block in a program, if it has them. */
 void environment_program(unsigned program, int cube, int block);
 void environment_bind(const GlEnvironment *environment, int cube, int block);
-
-#endif

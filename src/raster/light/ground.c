@@ -47,8 +47,7 @@ static float reached(const GroundRow *look, Vec3 point) {
     float sum = 0.0f;
     for (int k = 0; k < RAYS; k++) {
         Ray ray = {point, look->lights->wi[k], 0.0f, INFINITY, (uint32_t)k, false};
-        if (look->lights->w[k] > 0.0f && !geometry_occluded(look->ground->geometry, ray))
-            sum += look->lights->w[k];
+        if (look->lights->w[k] > 0.0f && !geometry_occluded(look->ground->geometry, ray)) sum += look->lights->w[k];
     }
     return look->lights->whole > 0.0f ? sum / look->lights->whole : 1.0f;
 }
@@ -76,13 +75,11 @@ static void upload(Ground *self, const float *texels) {
 
 static bool is_solved(const Ground *self, const Environment *e, const Floor *floor) {
     return self->solved && !self->stale && self->version == e->version && !(self->rotation < e->rotation) &&
-           !(self->rotation > e->rotation) && !(self->strength < e->strength) &&
-           !(self->strength > e->strength) && !(self->floor.radius < floor->radius) &&
-           !(self->floor.radius > floor->radius);
+           !(self->rotation > e->rotation) && !(self->strength < e->strength) && !(self->strength > e->strength) &&
+           !(self->floor.radius < floor->radius) && !(self->floor.radius > floor->radius);
 }
 
-WeftResult ground_look(Ground *self, const WeftScene *scene, const Floor *floor, int threads,
-                       WeftError *error) {
+WeftResult ground_look(Ground *self, const WeftScene *scene, const Floor *floor, int threads, WeftError *error) {
     const Environment *e = &scene->environment;
     WeftResult result = WEFT_OK;
     SkyLights lights;
@@ -91,8 +88,7 @@ WeftResult ground_look(Ground *self, const WeftScene *scene, const Floor *floor,
     if (self->stale) geometry_free(self->geometry), self->geometry = NULL;
     self->stale = false;
     if (threads <= 0) threads = thread_count();
-    if (!self->geometry)
-        result = geometry_create(scene, scene_own_meshes(scene), threads, &self->geometry, error);
+    if (!self->geometry) result = geometry_create(scene, scene_own_meshes(scene), threads, &self->geometry, error);
     if (result != WEFT_OK) return result;
     float *texels = alloc_array((size_t)SIDE * SIDE, sizeof(float));
     if (!texels || !find_sky_lights(&lights, scene)) {
@@ -146,8 +142,7 @@ static WeftResult make_mirror(Ground *self, int width, int height, WeftError *er
     delete_mirror(self);
     self->width = width, self->height = height;
     self->color = make_texture(GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, GL_LINEAR_MIPMAP_LINEAR, width, height);
-    self->depth =
-        make_texture(GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, GL_NEAREST, width, height);
+    self->depth = make_texture(GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, GL_NEAREST, width, height);
     glGenFramebuffers(1, &self->framebuffer);
     glBindFramebuffer(GL_FRAMEBUFFER, self->framebuffer);
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, self->color, 0);

@@ -1,8 +1,7 @@
 /* ground.h - the floor on the GPU: the fraction of the sky's light that reaches it, and its mirror image
  *
  * All calls are for the context that is current. */
-#ifndef WEFT_RASTER_GROUND_H
-#define WEFT_RASTER_GROUND_H
+#pragma once
 
 #include "scene/light/floor.h"
 #include "scene/record/camera.h"
@@ -15,16 +14,15 @@ typedef struct Ground {
     Floor floor;
     unsigned version; /* of the environment */
     float rotation, strength;
-    unsigned sky; /* texture: fraction of the environment's light, mapped as in glsl/floor.glsl */
-    float light;  /* luminance of the environment's irradiance on a level plane */
+    unsigned sky;                       /* texture: fraction of the environment's light, mapped as in glsl/floor.glsl */
+    float light;                        /* luminance of the environment's irradiance on a level plane */
     unsigned framebuffer, color, depth; /* of the mirror; 0 until it is needed */
     int width, height;                  /* of the mirror, texels */
 } Ground;
 
 /* Finds the fraction of the environment's light that reaches the floor, on `threads` threads (0: all); does nothing if
  * it is solved. Fails with WEFT_MESSAGE_MEMORY, _RENDER_DEVICE or _GL_MEMORY. */
-WeftResult ground_look(Ground *ground, const WeftScene *scene, const Floor *floor, int threads,
-                       WeftError *error);
+WeftResult ground_look(Ground *ground, const WeftScene *scene, const Floor *floor, int threads, WeftError *error);
 
 /* Returns the view of the scene in the floor's mirror: from below the floor, and mirrored in `across` too. */
 View ground_view(const Floor *floor, const View *view);
@@ -40,5 +38,3 @@ void ground_mirrored(const Ground *ground);
 void ground_bind(const Ground *ground, int unit);
 
 void ground_destroy(Ground *ground);
-
-#endif

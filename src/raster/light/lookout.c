@@ -75,8 +75,8 @@ WeftResult lookout_start(Lookout *self, const GlEnvironment *environment, bool n
     return start_search(self, no_cache, log, error);
 }
 
-WeftResult lookout_update(Lookout *self, const GlEnvironment *environment, GlMeshes *meshes,
-                          const WeftLog *log, WeftError *error) {
+WeftResult lookout_update(Lookout *self, const GlEnvironment *environment, GlMeshes *meshes, const WeftLog *log,
+                          WeftError *error) {
     if (!self->rays) return WEFT_OK;
     if (find_lights(self, environment)) {
         meshes_forget_lights(meshes);

@@ -1,7 +1,6 @@
 /* lookout.h - the search for occlusion in the background, uploaded when it is done, and repeated when lights or
  * surfaces have changed */
-#ifndef WEFT_RASTER_LOOKOUT_H
-#define WEFT_RASTER_LOOKOUT_H
+#pragma once
 
 #include "raster/geometry/meshes.h"
 #include "raster/geometry/occlusion.h"
@@ -9,10 +8,10 @@
 
 typedef struct Lookout {
     const WeftScene *scene;
-    int rays, threads;     /* as in OcclusionHow; 0 rays: no search */
-    Refinement refinement; /* of the scene's own meshes before the search; nothing without rays */
-    Refinement finer;      /* of the uploaded meshes after a search: finer at the rims of shadows */
-    Occlusion *occlusion;  /* the running search; NULL without one */
+    int rays, threads;                   /* as in OcclusionHow; 0 rays: no search */
+    Refinement refinement;               /* of the scene's own meshes before the search; nothing without rays */
+    Refinement finer;                    /* of the uploaded meshes after a search: finer at the rims of shadows */
+    Occlusion *occlusion;                /* the running search; NULL without one */
     EnvLight lights[AMBIENT_LIGHTS_MAX]; /* of the last search */
     int light_count;
     EnvPoint points[AMBIENT_POINTS_MAX]; /* the parts of these lights */
@@ -34,11 +33,9 @@ WeftResult lookout_start(Lookout *self, const GlEnvironment *environment, bool n
 /* Starts another search if `again` is set or lights have moved, now or when the running one is done, whose values of
  * the sky are still used. Until a light has values it is dimmed as the sky is. Lights stay as they are if the
  * environment is NULL. Fails as occlusion_start does. */
-WeftResult lookout_update(Lookout *self, const GlEnvironment *environment, GlMeshes *meshes,
-                          const WeftLog *log, WeftError *error);
+WeftResult lookout_update(Lookout *self, const GlEnvironment *environment, GlMeshes *meshes, const WeftLog *log,
+                          WeftError *error);
 
 /* Uploads the result of the search, and the meshes as it has refined them, if it is done or waited for; then starts
  * another search if `again` is set. Fails as meshes_refine and occlusion_start do. */
 WeftResult lookout_take(Lookout *self, GlMeshes *meshes, bool wait, WeftError *error);
-
-#endif

@@ -107,9 +107,8 @@ static Shadow of_spot(const Light *light) {
 }
 
 static float strength(const Light *light) {
-    return light->kind == LIGHT_POINT
-               ? -1.0f
-               : light->intensity * (light->color[0] + light->color[1] + light->color[2]);
+    return light->kind == LIGHT_POINT ? -1.0f
+                                      : light->intensity * (light->color[0] + light->color[1] + light->color[2]);
 }
 
 /* Returns the strongest light of a kind that has no map yet, or -1. The kinds are chosen in turn, since a sun and a
@@ -139,8 +138,7 @@ static void choose_lights(const WeftScene *scene, int most, Box casters, Shadows
         missed = k < 0 ? missed + 1 : 0;
         if (k < 0) continue;
         const Light *light = &scene->lights[k];
-        add(self, scene, casters, kind == LIGHT_SPOT ? of_spot(light) : of_directional(light, casters), k,
-            -1);
+        add(self, scene, casters, kind == LIGHT_SPOT ? of_spot(light) : of_directional(light, casters), k, -1);
     }
 }
 
@@ -189,8 +187,7 @@ static float half_width(const Shadow *self, const Vec3 corners[8]) {
 static Shadow of_polygon(const LightPolygon *polygon, Box casters) {
     const float most = 6.0f;
     Vec3 eye = {0}, right, up, corners[8], middle = vec3_scale(vec3_add(casters.low, casters.high), 0.5f);
-    for (int k = 0; k < polygon->count; k++)
-        eye = vec3_madd(eye, polygon->corners[k], 1.0f / (float)polygon->count);
+    for (int k = 0; k < polygon->count; k++) eye = vec3_madd(eye, polygon->corners[k], 1.0f / (float)polygon->count);
     Vec3 to = vec3_sub(middle, eye);
     float distance = vec3_length(to);
     bool faces = polygon->two_sided || vec3_dot(to, polygon->normal) > 0.3f * distance;
@@ -198,15 +195,13 @@ static Shadow of_polygon(const LightPolygon *polygon, Box casters) {
     across(forward, &right, &up);
     Shadow self = {.points = SHADOW_POINTS, .meeting = faces && distance > 0.0f ? 1.0f / distance : 0.0f};
     for (int k = 0; k < self.points; k++) {
-        const float n = SHADOW_POINTS, u = ((float)k + 0.5f) / n,
-                    v = ((float)(k * 34 % SHADOW_POINTS) + 0.5f) / n;
+        const float n = SHADOW_POINTS, u = ((float)k + 0.5f) / n, v = ((float)(k * 34 % SHADOW_POINTS) + 0.5f) / n;
         self.point[k] = along(vec3_sub(point_on(polygon, u, v), eye), right, up, forward);
     }
     for (int k = 0; k < 8; k++) corners[k] = along(vec3_sub(box_corner(casters, k), eye), right, up, forward);
     float half = half_width(&self, corners);
     if (!(half > 0.0f && half < most)) self.meeting = 0.0f, half = most;
-    self.view =
-        (View){.eye = eye, .forward = forward, .across = vec3_scale(right, half), .up = vec3_scale(up, half)};
+    self.view = (View){.eye = eye, .forward = forward, .across = vec3_scale(right, half), .up = vec3_scale(up, half)};
     self.texel = 2.0f * half / SHADOW_POINT_SIDE;
     return self;
 }
@@ -236,10 +231,8 @@ static bool same_map(const Shadow *a, const Shadow *b) {
     bool same = memcmp(&a->view, &b->view, offsetof(View, orthographic)) == 0 &&
                 a->view.orthographic == b->view.orthographic && a->points == b->points;
     for (int k = 0; k < a->points && same; k++)
-        same = a->point[k].x == b->point[k].x && a->point[k].y == b->point[k].y &&
-               a->point[k].z == b->point[k].z;
-    return same && a->meeting == b->meeting && a->depths.near == b->depths.near &&
-           a->depths.far == b->depths.far;
+        same = a->point[k].x == b->point[k].x && a->point[k].y == b->point[k].y && a->point[k].z == b->point[k].z;
+    return same && a->meeting == b->meeting && a->depths.near == b->depths.near && a->depths.far == b->depths.far;
 }
 
 static void delete_objects(Shadows *self) {
@@ -263,8 +256,8 @@ static unsigned make_layers(GLint format, GLenum type, int side, int layers) {
 
 static void make_objects(Shadows *self) {
     self->hard = make_layers(GL_DEPTH_COMPONENT32F, GL_FLOAT, SHADOW_SIDE, self->count - self->polygons);
-    self->soft = make_layers(GL_DEPTH_COMPONENT16, GL_UNSIGNED_SHORT, SHADOW_POINT_SIDE,
-                             SHADOW_POINTS * self->polygons);
+    self->soft =
+        make_layers(GL_DEPTH_COMPONENT16, GL_UNSIGNED_SHORT, SHADOW_POINT_SIDE, SHADOW_POINTS * self->polygons);
     glGenFramebuffers(1, &self->framebuffer);
     glGenSamplers(1, &self->compare);
     glSamplerParameteri(self->compare, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
@@ -275,14 +268,12 @@ static void make_objects(Shadows *self) {
     glSamplerParameteri(self->compare, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
 }
 
-WeftResult shadows_create(const WeftScene *scene, const LightPolygons *polygons, Shadows *out,
-                          WeftError *error) {
+WeftResult shadows_create(const WeftScene *scene, const LightPolygons *polygons, Shadows *out, WeftError *error) {
     *out = (Shadows){0};
     return shadows_update(out, scene, polygons, error);
 }
 
-WeftResult shadows_update(Shadows *self, const WeftScene *scene, const LightPolygons *polygons,
-                          WeftError *error) {
+WeftResult shadows_update(Shadows *self, const WeftScene *scene, const LightPolygons *polygons, WeftError *error) {
     Shadows old = *self;
     self->count = self->polygons = 0;
     choose(scene, polygons, self);
@@ -307,8 +298,7 @@ void shadows_begin(const Shadows *self, int k, int point) {
     const int hard = self->count - self->polygons, layer = k < hard ? k : SHADOW_POINTS * (k - hard) + point;
     const int side = k < hard ? SHADOW_SIDE : SHADOW_POINT_SIDE;
     glBindFramebuffer(GL_FRAMEBUFFER, self->framebuffer);
-    glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, k < hard ? self->hard : self->soft, 0,
-                              layer);
+    glFramebufferTextureLayer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, k < hard ? self->hard : self->soft, 0, layer);
     glDrawBuffers(1, &none);
     glReadBuffer(GL_NONE);
     glViewport(0, 0, side, side);

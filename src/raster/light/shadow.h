@@ -4,8 +4,7 @@
  * Herf, "Simulating Soft Shadows with Graphics Hardware", Carnegie Mellon University, CMU-CS-97-104, 1997.
  *
  * All calls are for the context that is current. */
-#ifndef WEFT_RASTER_SHADOW_H
-#define WEFT_RASTER_SHADOW_H
+#pragma once
 
 #include "raster/glsl/picture_uniforms.h"
 #include "raster/light/depths.h"
@@ -19,17 +18,17 @@ typedef struct Shadow {
     float texel;               /* width of a texel, m; of a view with perspective at distance 1 */
     int points;                /* SHADOW_POINTS for a polygon, else 0 */
     Vec3 point[SHADOW_POINTS]; /* from the eye, m: along across, up and forward */
-    float meeting; /* 1 / distance of the plane that all maps have at the same place, 1/m; 0: far */
-    Depths depths; /* range of the map's depths: an object beyond it receives shadows and casts none */
+    float meeting;             /* 1 / distance of the plane that all maps have at the same place, 1/m; 0: far */
+    Depths depths;             /* range of the map's depths: an object beyond it receives shadows and casts none */
 } Shadow;
 
 typedef struct Shadows {
     Shadow all[SHADOWS_MOST];
     int count;
-    int of_light[SHADOWS_MOST];   /* index of the punctual light, or -1 */
-    int of_polygon[SHADOWS_MOST]; /* index of the polygon, or -1 */
-    int polygons;                 /* number of maps of polygons, which are the last */
-    unsigned hard, soft; /* array textures: a layer a punctual light, and SHADOW_POINTS layers a polygon */
+    int of_light[SHADOWS_MOST];    /* index of the punctual light, or -1 */
+    int of_polygon[SHADOWS_MOST];  /* index of the polygon, or -1 */
+    int polygons;                  /* number of maps of polygons, which are the last */
+    unsigned hard, soft;           /* array textures: a layer a punctual light, and SHADOW_POINTS layers a polygon */
     unsigned framebuffer, compare; /* compare: the sampler */
     bool drawn;                    /* the textures are up to date */
 } Shadows;
@@ -37,14 +36,12 @@ typedef struct Shadows {
 /* Chooses the lights: the strongest directional and spot lights, and the strongest polygons, for which at least half of
  * the maps are reserved. OpenGL objects are made only if there is a light. Fails with WEFT_MESSAGE_GL_MEMORY or
  * _GL_CONTEXT. */
-WeftResult shadows_create(const WeftScene *scene, const LightPolygons *polygons, Shadows *out,
-                          WeftError *error);
+WeftResult shadows_create(const WeftScene *scene, const LightPolygons *polygons, Shadows *out, WeftError *error);
 void shadows_destroy(Shadows *shadows);
 
 /* Chooses the lights again, and clears `drawn` if a map has changed. Fails as shadows_create does; there are then no
  * maps. */
-WeftResult shadows_update(Shadows *shadows, const WeftScene *scene, const LightPolygons *polygons,
-                          WeftError *error);
+WeftResult shadows_update(Shadows *shadows, const WeftScene *scene, const LightPolygons *polygons, WeftError *error);
 
 /* Returns the shift of x and y in the map of a point of a polygon, over x and y of the point itself, 1/m. With it all
  * maps have the plane `meeting` at the same place. */
@@ -59,5 +56,3 @@ void shadows_begin(const Shadows *shadows, int k, int point);
 
 /* Binds the textures to two units, for comparing look-ups. */
 void shadows_bind(const Shadows *shadows, int hard_unit, int soft_unit);
-
-#endif

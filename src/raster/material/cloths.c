@@ -35,8 +35,7 @@ static void upload_colors(const ClothFar *far, unsigned texture) {
     for (int level = 0; level < far->levels; level++) {
         int width, height;
         const float *texels = cloth_far_level(far, level, &width, &height);
-        glTexImage3D(GL_TEXTURE_2D_ARRAY, level, GL_RGBA16F, width, height, FAR_LAYERS, 0, GL_RGBA, GL_FLOAT,
-                     texels);
+        glTexImage3D(GL_TEXTURE_2D_ARRAY, level, GL_RGBA16F, width, height, FAR_LAYERS, 0, GL_RGBA, GL_FLOAT, texels);
     }
     glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
@@ -102,8 +101,7 @@ void cloth_numbers(const WeftCloth *cloth, float numbers[CLOTH_NUMBERS]) {
                            (4 * sizeof(float)) ==
                        AFAR / 4,
                    "all of them");
-    _Static_assert((AFAR * sizeof(float) + sizeof cloth->far.woven + 3 * sizeof(float)) /
-                           (4 * sizeof(float)) ==
+    _Static_assert((AFAR * sizeof(float) + sizeof cloth->far.woven + 3 * sizeof(float)) / (4 * sizeof(float)) ==
                        CLOTH_NUMBERS / 4,
                    "all of them");
     memcpy(numbers + AFAR, cloth->far.woven, sizeof cloth->far.woven);

@@ -1,8 +1,7 @@
 /* cloths.h - the cloths of a scene as textures: the runs and albedos of their threads, and their colours from afar
  *
  * All calls are for the context that is current. */
-#ifndef WEFT_RASTER_CLOTHS_H
-#define WEFT_RASTER_CLOTHS_H
+#pragma once
 
 #include "scene/record/scene.h"
 
@@ -30,5 +29,3 @@ enum { CLOTH_NUMBERS = 172 }; /* rounded up to vectors of four */
 
 /* Writes the numbers of a cloth in the order in which weave_cloth.glsl and weave.glsl read them. */
 void cloth_numbers(const WeftCloth *cloth, float numbers[CLOTH_NUMBERS]);
-
-#endif

@@ -132,8 +132,7 @@ static bool make_all(Families *self) {
     return fits;
 }
 
-WeftResult families_make(const WeftScene *scene, const GlTextures *textures, GlMaterial *all,
-                         WeftError *error) {
+WeftResult families_make(const WeftScene *scene, const GlTextures *textures, GlMaterial *all, WeftError *error) {
     size_t count = (size_t)scene->material_count;
     Families self = {scene, textures, all, alloc_array(count, sizeof(int)),
                      alloc_array(count, TEXTURE_SLOTS * sizeof(int))};

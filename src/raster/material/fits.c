@@ -19,8 +19,7 @@ enum { FITS = 6 };
 static uint64_t fit_key(const Lobe *lobe, float low, float high) {
     const WeftLobeInfo *info = weft_lobe_info(lobe->id);
     int azimuth = ambient_lean_azimuth(lobe->id);
-    const int sizes[] = {FITS,           AMBIENT_COLUMNS,  AMBIENT_ROWS,
-                         AMBIENT_PLANES, AMBIENT_HEADINGS, info->param_count};
+    const int sizes[] = {FITS, AMBIENT_COLUMNS, AMBIENT_ROWS, AMBIENT_PLANES, AMBIENT_HEADINGS, info->param_count};
     const float range[] = {low, high};
     uint64_t hash = cache_hash(CACHE_HASH, sizes, sizeof sizes);
     hash = cache_hash(hash, WEFT_VERSION, sizeof WEFT_VERSION);

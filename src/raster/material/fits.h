@@ -1,7 +1,6 @@
 /* fits.h - tables for the light that lobes reflect of an environment (shading/ambient/ambient_fit.h), each made at its
  * first use and kept */
-#ifndef WEFT_RASTER_FITS_H
-#define WEFT_RASTER_FITS_H
+#pragma once
 
 #include "shading/ambient/ambient_fit.h"
 #include "weft/result.h"
@@ -16,5 +15,3 @@ typedef struct Fits {
  * is short. Lives until fits_destroy. */
 const AmbientFit *fits_get(Fits *fits, const Lobe *lobe);
 void fits_destroy(Fits *fits);
-
-#endif

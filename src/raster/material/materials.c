@@ -38,13 +38,11 @@ static InputState state_of(const Input *input, WeftInputKind kind) {
     int count = kind == WEFT_INPUT_COLOR ? 3 : 1;
     if (input->texture) return INPUT_MAP;
     if (is_all(input, count, 0.0f)) return INPUT_ZERO;
-    return kind != WEFT_INPUT_ANGLE && kind != WEFT_INPUT_DIRECTION && is_all(input, count, 1.0f)
-               ? INPUT_ONE
-               : INPUT_VALUE;
+    return kind != WEFT_INPUT_ANGLE && kind != WEFT_INPUT_DIRECTION && is_all(input, count, 1.0f) ? INPUT_ONE
+                                                                                                  : INPUT_VALUE;
 }
 
-static void add_map(GlMaterial *self, const GlTextures *textures, const Material *material, int k,
-                    Uniforms *uniforms) {
+static void add_map(GlMaterial *self, const GlTextures *textures, const Material *material, int k, Uniforms *uniforms) {
     const Input *input = &material->inputs[k];
     TexturePlace at = textures_place(textures, input, textures_color(material, k));
     self->key.inputs[k].channel = (int16_t)input->channel;
@@ -91,8 +89,7 @@ static Surface middle_surface(const Material *material) {
  * environment alike. */
 static Lobe cloth_lobe(const WeftCloth *cloth) {
     const Weave *m = &cloth->weave;
-    Lobe lobe =
-        weave_far(m, m->weft_far.share > m->warp_far.share, rgb_grey(0.0f), rgb_grey(0.0f), 1.0f, 1.0f).lobe;
+    Lobe lobe = weave_far(m, m->weft_far.share > m->warp_far.share, rgb_grey(0.0f), rgb_grey(0.0f), 1.0f, 1.0f).lobe;
     lobe.params[WOVEN_SHARE] = 1.0f;
     lobe.params[WOVEN_AZIMUTH] = 0.25f * PI;
     return lobe;
@@ -133,8 +130,7 @@ static bool is_isotropic(const ShaderKey *key) {
     return key->inputs[INPUT_anisotropy].state == INPUT_ZERO && key->inputs[INPUT_nap].state == INPUT_ZERO;
 }
 
-static void make_material(GlMaterial *self, const Material *material, const GlTextures *textures,
-                          Uniforms *uniforms) {
+static void make_material(GlMaterial *self, const Material *material, const GlTextures *textures, Uniforms *uniforms) {
     self->key.choices = material_choices(material);
     self->key.alpha_mode = (int)material->alpha_mode;
     self->key.unlit = material->unlit;
@@ -145,8 +141,8 @@ static void make_material(GlMaterial *self, const Material *material, const GlTe
 }
 
 /* Makes keys and uniforms of all materials, with the fits of the old ones. Returns false if memory is short. */
-static bool take(GlMaterials *self, const GlMaterials *old, const WeftScene *scene,
-                 const GlTextures *textures, int threads) {
+static bool take(GlMaterials *self, const GlMaterials *old, const WeftScene *scene, const GlTextures *textures,
+                 int threads) {
     bool whole = true;
     for (int m = 0; m < scene->mesh_count; m++) {
         int k = self->of_mesh[m] = scene->meshes[m].material;
@@ -165,8 +161,7 @@ static bool take(GlMaterials *self, const GlMaterials *old, const WeftScene *sce
             material->emits = material_emits(&scene->materials[k]);
             make_material(material, &scene->materials[k], textures, &uniforms);
             material->key.ranged = self->count > MATERIALS_BAKED && is_isotropic(&material->key);
-            add_table(material, sheen_tables_of(self->sheens, k), sheen_tables_index(self->sheens, k),
-                      &uniforms);
+            add_table(material, sheen_tables_of(self->sheens, k), sheen_tables_index(self->sheens, k), &uniforms);
             material->cloth = scene->materials[k].cloth;
             const WeftCloth *cloth = material->cloth ? scene->cloths[material->cloth - 1] : NULL;
             if (cloth) cloth_numbers(cloth, uniforms.weave);
@@ -184,15 +179,13 @@ static bool is_same(const GlMaterial *a, const GlMaterial *b) {
 }
 
 static void add_change(const GlMaterial *old, const GlMaterial *fresh, MaterialsChange *change) {
-    change->coverage |= old->key.alpha_mode != WEFT_ALPHA_OPAQUE ||
-                        fresh->key.alpha_mode != WEFT_ALPHA_OPAQUE ||
+    change->coverage |= old->key.alpha_mode != WEFT_ALPHA_OPAQUE || fresh->key.alpha_mode != WEFT_ALPHA_OPAQUE ||
                         old->key.double_sided != fresh->key.double_sided;
     change->emission |= old->emits || fresh->emits;
 }
 
 /* Uploads changed materials, and sets what has changed. */
-static void upload(const GlMaterials *old, const GlMaterials *fresh, int own_meshes,
-                   MaterialsChange *change) {
+static void upload(const GlMaterials *old, const GlMaterials *fresh, int own_meshes, MaterialsChange *change) {
     static const GlMaterial none;
     size_t used = (size_t)own_meshes * sizeof *fresh->of_mesh;
     change->tables = !old->sheens || sheen_tables_differ(old->sheens, fresh->sheens);
@@ -234,8 +227,8 @@ static void free_unshared(GlMaterials *self, const GlMaterials *other) {
     free(self->of_mesh);
 }
 
-WeftResult materials_update(GlMaterials *self, const WeftScene *scene, const GlTextures *textures,
-                            int threads, MaterialsChange *change, WeftError *error) {
+WeftResult materials_update(GlMaterials *self, const WeftScene *scene, const GlTextures *textures, int threads,
+                            MaterialsChange *change, WeftError *error) {
     GlMaterials fresh = *self;
     *change = (MaterialsChange){0};
     fresh.sheens = NULL;

@@ -1,8 +1,7 @@
 /* materials.h - a scene's materials as shader keys, uniforms and tables
  *
  * All calls are for the context that is current. */
-#ifndef WEFT_RASTER_MATERIALS_H
-#define WEFT_RASTER_MATERIALS_H
+#pragma once
 
 #include "raster/material/cloths.h"
 #include "raster/material/shader.h"
@@ -21,11 +20,10 @@ typedef struct GlMaterial {
     ShaderKey key;
     int groups[TEXTURE_SLOTS]; /* of textures, bound to the samplers in this order */
     int group_count;
-    bool used;  /* by some mesh */
-    bool emits; /* true if it emits light */
-    int cloth;  /* number of the scene's cloth, from 1; 0: none */
-    float finest
-        [SLOT_COUNT]; /* AmbientFit.finest of baked tables, the greatest of the family; 0 without a table */
+    bool used;                /* by some mesh */
+    bool emits;               /* true if it emits light */
+    int cloth;                /* number of the scene's cloth, from 1; 0: none */
+    float finest[SLOT_COUNT]; /* AmbientFit.finest of baked tables, the greatest of the family; 0 without a table */
     MaterialFit fits[SLOT_COUNT];
 } GlMaterial;
 
@@ -56,8 +54,8 @@ typedef struct MaterialsChange {
 /* Uploads changed materials; only those of lights may be added or removed, and textures_serve must be true. Unchanged
  * tables and blocks are neither fitted nor uploaded again. Fails as materials_create does; the materials are then as
  * they were. */
-WeftResult materials_update(GlMaterials *materials, const WeftScene *scene, const GlTextures *textures,
-                            int threads, MaterialsChange *change, WeftError *error);
+WeftResult materials_update(GlMaterials *materials, const WeftScene *scene, const GlTextures *textures, int threads,
+                            MaterialsChange *change, WeftError *error);
 
 void materials_destroy(GlMaterials *materials);
 
@@ -66,5 +64,3 @@ void material_in_light(const GlMaterial *material, float env_light_kappa, Shader
 
 /* Binds a material's uniforms to block `block` and its textures to units from 0 on. */
 void materials_bind(const GlMaterials *materials, const GlTextures *textures, int material, int block);
-
-#endif

@@ -26,8 +26,7 @@ bool part_is_property(int part) { return parts[part].property != NULL; }
 
 void part_text(int part, Text *text) {
     for (int k = 0; k < WEFT_PART_COUNT; k++)
-        if (parts[k].slot)
-            text_define(text, parts[k].slot, part == WEFT_PART_ALL || part == k ? "true" : "false");
+        if (parts[k].slot) text_define(text, parts[k].slot, part == WEFT_PART_ALL || part == k ? "true" : "false");
     text_define(text, "SHOWS_EMISSION", part == WEFT_PART_ALL ? "1.0" : "0.0");
     if (parts[part].property) text_define(text, "PROPERTY", parts[part].property);
 }

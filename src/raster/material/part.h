@@ -1,6 +1,5 @@
 /* part.h - showing a part of the light, or a property, in place of all */
-#ifndef WEFT_RASTER_PART_H
-#define WEFT_RASTER_PART_H
+#pragma once
 
 #include "text/assemble/text.h"
 #include "weft/part.h"
@@ -10,5 +9,3 @@ bool part_is_property(int part);
 
 /* Defines in a fragment shader's text the part that glsl/forward.glsl shows. */
 void part_text(int part, Text *text);
-
-#endif

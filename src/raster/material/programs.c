@@ -19,11 +19,9 @@ typedef struct TextureSampler {
 } TextureSampler;
 
 static const TextureSampler samplers[] = {
-    {"weft_tables", UNIT_TABLES},      {"environment_cube", UNIT_ENVIRONMENT},
-    {"shadow_map", UNIT_SHADOW},       {"soft_map", UNIT_SOFT_SHADOW},
-    {"weave_cells", UNIT_CLOTH_CELLS}, {"weave_colors", UNIT_CLOTH_COLORS},
-    {"floor_sky", UNIT_FLOOR},         {"floor_mirror", UNIT_FLOOR + 1},
-    {"floor_depth", UNIT_FLOOR + 2}};
+    {"weft_tables", UNIT_TABLES},   {"environment_cube", UNIT_ENVIRONMENT}, {"shadow_map", UNIT_SHADOW},
+    {"soft_map", UNIT_SOFT_SHADOW}, {"weave_cells", UNIT_CLOTH_CELLS},      {"weave_colors", UNIT_CLOTH_COLORS},
+    {"floor_sky", UNIT_FLOOR},      {"floor_mirror", UNIT_FLOOR + 1},       {"floor_depth", UNIT_FLOOR + 2}};
 
 /* Sets the texture units of a program's samplers and counts these. Leaves the program in use, since the one in use
  * before may be the one it replaces, which is deleted. */
@@ -176,8 +174,7 @@ static GlContext *share_context(const GlContext *context) {
 static void share_contexts(CompileBatch *batch, const GlContext *context, int threads) {
     if (threads <= 0) threads = thread_count();
     if (threads > batch->count) threads = batch->count;
-    while (batch->threads < threads && (batch->contexts[batch->threads] = share_context(context)))
-        batch->threads++;
+    while (batch->threads < threads && (batch->contexts[batch->threads] = share_context(context))) batch->threads++;
 }
 
 static void compile_all(void *user) {
@@ -276,8 +273,7 @@ bool programs_build(Programs *programs, const GlContext *context) {
 const Program *programs_get(Programs *programs, const ShaderKey *key, WeftError *error) {
     Program *p = find(programs, key);
     if (!p) return NULL;
-    if (p->name && p->sheens_version != programs->sheens_version && !take_sheens(programs, p, error))
-        return NULL;
+    if (p->name && p->sheens_version != programs->sheens_version && !take_sheens(programs, p, error)) return NULL;
     *error = p->error;
     return p->name ? p : NULL;
 }

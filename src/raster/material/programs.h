@@ -1,8 +1,7 @@
 /* programs.h - the programs that were compiled, by key
  *
  * All calls are for the context that is current. */
-#ifndef WEFT_RASTER_PROGRAMS_H
-#define WEFT_RASTER_PROGRAMS_H
+#pragma once
 
 #include "raster/gl/context.h"
 #include "raster/material/shader.h"
@@ -79,5 +78,3 @@ void programs_refresh(Programs *programs);
 const char *programs_complaint(const Programs *programs);
 
 void programs_destroy(Programs *programs);
-
-#endif

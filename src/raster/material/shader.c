@@ -22,8 +22,7 @@ static void find_zeros(const ShaderKey *key, bool zero[INPUT_COUNT]) {
 static CompositionSlots find_slots(const ShaderKey *key) {
     bool zero[INPUT_COUNT];
     find_zeros(key, zero);
-    CompositionSlots found =
-        composition_slots(&key->choices, zero, key->inputs[INPUT_sheen].state == INPUT_ONE);
+    CompositionSlots found = composition_slots(&key->choices, zero, key->inputs[INPUT_sheen].state == INPUT_ONE);
     if (!key->woven) return found;
     found.slots[PLACE_DIFFUSE] = (TextSlot){.lobes = {LOBE_WOVEN, LOBE_YARN}, .count = 2};
     found.slots[PLACE_SPECULAR].count = 0;
@@ -31,9 +30,7 @@ static CompositionSlots find_slots(const ShaderKey *key) {
     return found;
 }
 
-static bool is_mapped(const ShaderInput *input) {
-    return input->state == INPUT_MAP || input->state == INPUT_MAYBE;
-}
+static bool is_mapped(const ShaderInput *input) { return input->state == INPUT_MAP || input->state == INPUT_MAYBE; }
 
 /* Sets all textured numbers of a surface to x. */
 static void vary(const ShaderKey *key, Surface *s, float x) {
@@ -42,7 +39,7 @@ static void vary(const ShaderKey *key, Surface *s, float x) {
 #define VARY_COLOR(name)     (void)0
 #define VARY_NORMAL(name)    (void)0
 #define VARY_DIRECTION(name) (void)0
-#define VARY(kind, name, label, initial, low, high, hard_low, hard_high, role, help)                         \
+#define VARY(kind, name, label, initial, low, high, hard_low, hard_high, role, help)                                   \
     if (is_mapped(&key->inputs[INPUT_##name])) VARY_##kind(name);
     SURFACE_INPUTS(VARY)
 }
@@ -85,11 +82,9 @@ static void put_uniforms(Text *text, const ShaderKey *key) {
 
 static void put_table(Text *text, const ShaderKey *key) {
     text_line(text, "\nconst int SHEEN_TABLES = %d;", text->table_count);
-    text_line(
-        text,
-        "\nTableRef material_table() {\n    TableRef t;\n    t.texels = SHEEN_TABLES + int(material_e.x);");
-    text_line(text, "    t.kind = %d;\n    t.rows = %d;\n    t.columns = %d;\n    t.tilts = %d;",
-              key->table_kind, key->table_rows, key->table_columns, key->table_tilts);
+    text_line(text, "\nTableRef material_table() {\n    TableRef t;\n    t.texels = SHEEN_TABLES + int(material_e.x);");
+    text_line(text, "    t.kind = %d;\n    t.rows = %d;\n    t.columns = %d;\n    t.tilts = %d;", key->table_kind,
+              key->table_rows, key->table_columns, key->table_tilts);
     text_line(text, "    t.low = material_e.y;\n    t.high = material_e.z;\n    t.tilt = material_e.w;\n"
                     "    return t;\n}");
 }
@@ -97,21 +92,18 @@ static void put_table(Text *text, const ShaderKey *key) {
 /* Returns the texel that leaves an input's number as it is. */
 static const char *neutral_texel(int input) {
     WeftInputKind kind = input_infos[input].kind;
-    return kind == WEFT_INPUT_NORMAL || kind == WEFT_INPUT_DIRECTION ? "vec4(0.5, 0.5, 1.0, 1.0)"
-                                                                     : "vec4(1.0)";
+    return kind == WEFT_INPUT_NORMAL || kind == WEFT_INPUT_DIRECTION ? "vec4(0.5, 0.5, 1.0, 1.0)" : "vec4(1.0)";
 }
 
-bool shader_same_neutral(int input, int other) {
-    return strcmp(neutral_texel(input), neutral_texel(other)) == 0;
-}
+bool shader_same_neutral(int input, int other) { return strcmp(neutral_texel(input), neutral_texel(other)) == 0; }
 
 /* Writes the look-up of a map, unless an earlier input reads the same texel. */
 static void put_texel(Text *text, const ShaderKey *key, int k) {
     const ShaderInput *input = &key->inputs[k];
     const char *name = input_infos[k].name;
     if (!is_mapped(input) || input->like >= 0) return;
-    text_line(text, "    vec3 at_%s = vec3(texcoord_%d, 1.0);\n    vec4 map_%s = %s;", name, input->texcoord,
-              name, neutral_texel(k));
+    text_line(text, "    vec3 at_%s = vec3(texcoord_%d, 1.0);\n    vec4 map_%s = %s;", name, input->texcoord, name,
+              neutral_texel(k));
     if (input->state == INPUT_MAYBE) text_line(text, "    if (material_%s.w > 0.5)", name);
     text_line(text,
               "    map_%s = texture(material_maps[%d], vec3(dot(material_places[%d].xyz, at_%s), "
@@ -145,8 +137,8 @@ static void put_input(Text *text, const ShaderKey *key, int k) {
         break;
     case WEFT_INPUT_COLOR:
         if (mapped)
-            text_line(text, "    s.%s = rgb(%s.x * %s.r, %s.y * %s.g, %s.z * %s.b);", name, value, map, value,
-                      map, value, map);
+            text_line(text, "    s.%s = rgb(%s.x * %s.r, %s.y * %s.g, %s.z * %s.b);", name, value, map, value, map,
+                      value, map);
         else if (input->state == INPUT_VALUE)
             text_line(text, "    s.%s = rgb(%s.x, %s.y, %s.z);", name, value, value, value);
         else
@@ -160,8 +152,7 @@ static void put_input(Text *text, const ShaderKey *key, int k) {
         break;
     case WEFT_INPUT_DIRECTION:
         if (mapped)
-            text_line(text, "    s.%s = texel_direction(%s.r, %s.g, %s.x, %s.y);", name, map, map, value,
-                      value);
+            text_line(text, "    s.%s = texel_direction(%s.r, %s.g, %s.x, %s.y);", name, map, map, value, value);
         else if (input->state == INPUT_ZERO)
             text_line(text, "    s.%s = dir(1.0, 0.0, 0.0);", name);
         else
@@ -182,8 +173,7 @@ static void put_surface(Text *text, const ShaderKey *key) {
     text_line(text, "    return s;\n}");
     text_line(text, "\nconst bool MATERIAL_UNLIT = %s;\nconst bool MATERIAL_DOUBLE_SIDED = %s;",
               key->unlit ? "true" : "false", key->double_sided ? "true" : "false");
-    text_line(text, "const bool MATERIAL_HOLED = %s;",
-              key->alpha_mode != WEFT_ALPHA_OPAQUE ? "true" : "false");
+    text_line(text, "const bool MATERIAL_HOLED = %s;", key->alpha_mode != WEFT_ALPHA_OPAQUE ? "true" : "false");
     static const char *const coverage[] = {[WEFT_ALPHA_OPAQUE] = "1.0",
                                            [WEFT_ALPHA_MASK] = "opacity < material_more.x ? 0.0 : 1.0",
                                            [WEFT_ALPHA_BLEND] = "clamp(opacity, 0.0, 1.0)"};
@@ -207,8 +197,7 @@ static void put_lights(Text *text, const ShaderKey *key) {
     for (int k = 0; k < key->polygons; k++) {
         size_t used = strlen(polygons), length = strlen(corners);
         if (k && key->polygon_corners[k] != key->polygon_corners[k - 1])
-            snprintf(corners + length, sizeof corners - length, "(k) < %d ? %d : ", k,
-                     key->polygon_corners[k - 1]);
+            snprintf(corners + length, sizeof corners - length, "(k) < %d ? %d : ", k, key->polygon_corners[k - 1]);
         snprintf(polygons + used, sizeof polygons - used, "L(%d, %d, %s, %d) ", k, key->polygon_corners[k],
                  key->polygon_two_sided[k] ? "true" : "false", key->polygon_map[k]);
     }
@@ -230,8 +219,7 @@ static bool needs_tangent(const ShaderKey *key, const CompositionSlots *found) {
         bool number = input_infos[inputs[k]].kind != WEFT_INPUT_NORMAL;
         if (is_mapped(input) || (number && input->state != INPUT_ZERO)) return true;
     }
-    return found->slots[PLACE_SHEEN].count &&
-           weft_lobe_info(found->lobes[PLACE_SHEEN].id)->traits & TRAIT_ANISOTROPIC;
+    return found->slots[PLACE_SHEEN].count && weft_lobe_info(found->lobes[PLACE_SHEEN].id)->traits & TRAIT_ANISOTROPIC;
 }
 
 static bool same_slots(const CompositionSlots *a, const CompositionSlots *b) {
@@ -325,20 +313,19 @@ typedef struct AmbientEntry {
 
 static void put_ambient_table(Text *text, const char *slot, const AmbientEntry *entry) {
     const AmbientTable t = entry->table;
-    text_line(text, "    t.%s.texels = %d;\n    t.%s.rows = %d;\n    t.%s.columns = %d;", slot, entry->layer,
-              slot, t.rows, slot, t.columns);
-    text_line(text, "    t.%s.low = %s;\n    t.%s.high = %s;\n    t.%s.strategy = %d;", slot,
-              number(t.low).text, slot, number(t.high).text, slot, t.strategy);
-    text_line(text, "    t.%s.focus = %s;\n    t.%s.narrow = %s;\n    t.%s.second = %s;", slot,
-              boolean(t.focus), slot, boolean(t.narrow), slot, boolean(t.second));
+    text_line(text, "    t.%s.texels = %d;\n    t.%s.rows = %d;\n    t.%s.columns = %d;", slot, entry->layer, slot,
+              t.rows, slot, t.columns);
+    text_line(text, "    t.%s.low = %s;\n    t.%s.high = %s;\n    t.%s.strategy = %d;", slot, number(t.low).text, slot,
+              number(t.high).text, slot, t.strategy);
+    text_line(text, "    t.%s.focus = %s;\n    t.%s.narrow = %s;\n    t.%s.second = %s;", slot, boolean(t.focus), slot,
+              boolean(t.narrow), slot, boolean(t.second));
     text_line(text, "    t.%s.strips = %s;", slot, boolean(t.strips));
     text_line(text, "    t.%s.by_azimuth = %s;\n    t.%s.lossless = %s;\n    t.%s.baked = %d;", slot,
               boolean(t.by_azimuth), slot, boolean(t.lossless), slot, t.baked);
 }
 
 /* Returns the table of a slot; that of an empty slot is never read. Marks the text as failed if memory is short. */
-static AmbientEntry find_ambient_table(Text *text, const ShaderKey *key, int slot, const Lobe *lobe,
-                                       Fits *fits) {
+static AmbientEntry find_ambient_table(Text *text, const ShaderKey *key, int slot, const Lobe *lobe, Fits *fits) {
     AmbientTable t = {.rows = 1, .columns = AMBIENT_COLUMNS};
     int layer = 0;
     bool dense = key->dense >> slot & 1;
@@ -377,8 +364,7 @@ static void define_strategies(Text *text, const AmbientEntry entries[SLOT_COUNT]
         there[entries[k].table.strategy] = true;
         snprintf(name, sizeof name, "LIGHT_OF_%s", slot_name(k));
         text_define(text, name,
-                    entries[k].table.strategy == AMBIENT_SAMPLED ? "ambient_sampled_light"
-                                                                 : "ambient_lookup_light");
+                    entries[k].table.strategy == AMBIENT_SAMPLED ? "ambient_sampled_light" : "ambient_lookup_light");
     }
     text_define(text, "LIGHT_OF_SLOT(slot)", "LIGHT_OF_##slot");
     if (!there[AMBIENT_IRRADIANCE]) text_define(text, "IS_IRRADIANCE(t)", "false");

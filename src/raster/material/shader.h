@@ -2,8 +2,7 @@
  *
  * The text contains a material's lobes and the way its inputs are read; its numbers are uniforms. One key, one
  * program. */
-#ifndef WEFT_RASTER_SHADER_H
-#define WEFT_RASTER_SHADER_H
+#pragma once
 
 #include "raster/material/fits.h"
 #include "scene/record/scene.h"
@@ -40,9 +39,9 @@ typedef struct ShaderKey {
     int lights;   /* number of punctual lights; kind and shadow map, or -1, of each up to SHADER_LIGHTS */
     int16_t light_kind[SHADER_LIGHTS], light_map[SHADER_LIGHTS];
     int focus, narrow, by_azimuth; /* bit k: those of AmbientTable for slot k, whose table is baked */
-    int dense;   /* bit k: the lobe of slot k, whose table is baked, exceeds AMBIENT_DENSER */
-    int ranged;  /* 1: no table is baked, since there are too many materials to fit one for each */
-    int ambient; /* 0: no light from the environment; 1: each lobe's best strategy; else a strategy plus 2 */
+    int dense;                     /* bit k: the lobe of slot k, whose table is baked, exceeds AMBIENT_DENSER */
+    int ranged;                    /* 1: no table is baked, since there are too many materials to fit one for each */
+    int ambient;  /* 0: no light from the environment; 1: each lobe's best strategy; else a strategy plus 2 */
     int polygons; /* number of polygon lights; then the corners of each, whether both sides emit, and the shadow map */
     int16_t polygon_corners[SHADER_LIGHTS], polygon_two_sided[SHADER_LIGHTS], polygon_map[SHADER_LIGHTS];
     int part; /* WeftPart */
@@ -74,5 +73,3 @@ void shader_background_text(const TextDesc *desc, Text *vertex, Text *fragment);
 
 /* Begins text and writes the vertex shader, which the caller ends and frees. */
 void shader_vertex_text(const ShaderKey *key, const TextDesc *desc, Text *text);
-
-#endif

@@ -32,8 +32,7 @@ static void add(FolderScan *look, const char *path, const struct stat *status) {
     if (seen->count == WATCH_FILES) return;
     const char *copy = arena_text(&seen->arena, path);
     look->failed |= !copy;
-    if (copy)
-        seen->files[seen->count++] = (WatchedFile){copy, status->st_mtim, status->st_size, status->st_ino};
+    if (copy) seen->files[seen->count++] = (WatchedFile){copy, status->st_mtim, status->st_size, status->st_ino};
 }
 
 /* Adds the files of a folder. Links to folders are followed; a circle of them ends by depth or number of entries. */

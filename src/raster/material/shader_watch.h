@@ -2,8 +2,7 @@
  *
  * DOES NOT: notice the second of two changes of a file, with a scan between them, within one tick of the file system's
  * clock and without a change of size. */
-#ifndef WEFT_RASTER_SHADER_WATCH_H
-#define WEFT_RASTER_SHADER_WATCH_H
+#pragma once
 
 #include "base/memory.h"
 
@@ -22,5 +21,3 @@ int watch_poll(FolderWatch *watch, const char *folder);
 enum { WATCH_DEPTH = 8, WATCH_FILES = 1024 };
 
 void watch_free(FolderWatch *watch);
-
-#endif

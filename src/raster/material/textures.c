@@ -55,8 +55,8 @@ static void place(Plan *plan, int texture, bool color) {
     if (at->group >= 0) return;
     TextureGroup group = group_for(plan->scene, texture, color, plan->side_most);
     int k = 0;
-    while (k < plan->count && !(same_group(plan->one_size, &plan->groups[k], &group) &&
-                                plan->groups[k].layers < plan->layers_most))
+    while (k < plan->count &&
+           !(same_group(plan->one_size, &plan->groups[k], &group) && plan->groups[k].layers < plan->layers_most))
         k++;
     if (k == plan->count) plan->groups[plan->count++] = group;
     TextureGroup *home = &plan->groups[k];
@@ -89,8 +89,7 @@ static int make_plan(Plan *plan) {
     for (int m = 0; m < scene->material_count; m++) {
         const Material *material = &scene->materials[m];
         for (int k = 0; k < INPUT_COUNT; k++)
-            if (material->inputs[k].texture)
-                place(plan, material->inputs[k].texture - 1, textures_color(material, k));
+            if (material->inputs[k].texture) place(plan, material->inputs[k].texture - 1, textures_color(material, k));
         int count = count_groups(plan->places, scene->texture_count, material);
         if (count > most) most = count;
     }
@@ -103,8 +102,7 @@ static GLenum wrap_of(TextureWrap wrap) {
 
 static int levels_of(const TextureGroup *group) {
     int levels = 1;
-    for (int side = group->width > group->height ? group->width : group->height; side > 1; side /= 2)
-        levels++;
+    for (int side = group->width > group->height ? group->width : group->height; side > 1; side /= 2) levels++;
     return group->nearest ? 1 : levels;
 }
 
@@ -121,8 +119,7 @@ static void make_group(GLuint texture, const TextureGroup *group) {
     glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_S, (GLint)wrap_of(group->wrap_u));
     glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_T, (GLint)wrap_of(group->wrap_v));
     glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, group->nearest ? GL_NEAREST : GL_LINEAR);
-    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER,
-                    group->nearest ? GL_NEAREST : GL_LINEAR_MIPMAP_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, group->nearest ? GL_NEAREST : GL_LINEAR_MIPMAP_LINEAR);
     glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAX_LEVEL, levels - 1);
 }
 
@@ -141,8 +138,7 @@ static void spread(const WeftImage *image, unsigned char *to) {
 
 /* Writes an image as four channels in the group's size, which texture_fetch scales it to. Integers of 8 bits stay;
  * others become floats, with colours of 16 bits decoded from sRGB. */
-static void put_texels(const WeftScene *scene, int texture, bool color, const TextureGroup *group,
-                       void *texels) {
+static void put_texels(const WeftScene *scene, int texture, bool color, const TextureGroup *group, void *texels) {
     const WeftImage *image = &scene->images[scene->textures[texture].image];
     bool whole = group->format != GL_RGBA16F;
     bool same = image->width == group->width && image->height == group->height;
@@ -177,9 +173,7 @@ typedef struct ArrayLayers {
     Layer items[WEFT_THREADS_MAX];
 } ArrayLayers;
 
-static size_t texel_size(const TextureGroup *group) {
-    return group->format == GL_RGBA16F ? 4 * sizeof(float) : 4;
-}
+static size_t texel_size(const TextureGroup *group) { return group->format == GL_RGBA16F ? 4 * sizeof(float) : 4; }
 
 /* Returns the size of all levels before that one. */
 static size_t level_at(const TextureGroup *group, int level) {
@@ -243,8 +237,7 @@ static WeftResult fill_groups(GlTextures *self, const Plan *plan, bool stale, in
             free(layers.items[n].texels);
         }
     }
-    for (int k = 0; k < self->texture_count && result == WEFT_OK; k++)
-        self->versions[k] = scene->textures[k].version;
+    for (int k = 0; k < self->texture_count && result == WEFT_OK; k++) self->versions[k] = scene->textures[k].version;
     return result == WEFT_OK ? gl_check(error, "textures") : result;
 }
 
@@ -253,8 +246,8 @@ static WeftResult upload(GlTextures *self, Plan *plan, int threads, const WeftLo
     if (make_plan(plan) > TEXTURE_SLOTS) {
         plan->one_size = self->one_size = true;
         if (make_plan(plan) > TEXTURE_SLOTS)
-            return fail(error, WEFT_MESSAGE_GL_MEMORY, name,
-                        "a material whose textures are of more than %d kinds", TEXTURE_SLOTS);
+            return fail(error, WEFT_MESSAGE_GL_MEMORY, name, "a material whose textures are of more than %d kinds",
+                        TEXTURE_SLOTS);
         warn(log, WEFT_MESSAGE_TEXTURES_SCALED, name, NULL);
     }
     self->group_count = plan->count;
@@ -270,8 +263,7 @@ WeftResult textures_refresh(GlTextures *self, const WeftScene *scene, int thread
     return stale ? fill_groups(self, &plan, true, threads, error) : WEFT_OK;
 }
 
-WeftResult textures_create(const WeftScene *scene, int threads, GlTextures *out, const WeftLog *log,
-                           WeftError *error) {
+WeftResult textures_create(const WeftScene *scene, int threads, GlTextures *out, const WeftLog *log, WeftError *error) {
     *out = (GlTextures){.texture_count = scene->texture_count};
     if (!scene->texture_count) return WEFT_OK;
     size_t count = 2 * (size_t)scene->texture_count;
@@ -283,8 +275,8 @@ WeftResult textures_create(const WeftScene *scene, int threads, GlTextures *out,
     out->places = plan.places = alloc_array(count, sizeof(TexturePlace));
     out->groups = alloc_array(count, sizeof(GLuint));
     bool allocated = plan.groups && plan.places && out->groups && out->versions;
-    WeftResult result = allocated ? upload(out, &plan, threads, log, error)
-                                  : fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    WeftResult result =
+        allocated ? upload(out, &plan, threads, log, error) : fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     if (result != WEFT_OK) textures_destroy(out);
     return result;
 }

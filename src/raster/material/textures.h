@@ -2,8 +2,7 @@
  * a material with many maps needs few samplers
  *
  * All calls are for the context that is current. */
-#ifndef WEFT_RASTER_TEXTURES_H
-#define WEFT_RASTER_TEXTURES_H
+#pragma once
 
 #include "scene/record/scene.h"
 
@@ -38,8 +37,7 @@ typedef struct GlTextures {
 /* Uploads the textures that materials look up, with mipmaps, made on `threads` threads (0: all). If a material needs
  * more than TEXTURE_SLOTS groups, images are scaled to one size, with a warning. Fails with WEFT_MESSAGE_MEMORY or
  * _GL_MEMORY; *out is then zero. */
-WeftResult textures_create(const WeftScene *scene, int threads, GlTextures *out, const WeftLog *log,
-                           WeftError *error);
+WeftResult textures_create(const WeftScene *scene, int threads, GlTextures *out, const WeftLog *log, WeftError *error);
 void textures_destroy(GlTextures *textures);
 
 /* Returns true if the input reads its texture as a colour. */
@@ -64,5 +62,3 @@ void textures_filter(const GlTextures *textures, bool mipmaps);
 
 /* Binds a group to a unit. */
 void textures_bind(const GlTextures *textures, int group, int unit);
-
-#endif

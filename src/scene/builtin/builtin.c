@@ -9,15 +9,13 @@ extern const unsigned char embedded_cloth_glb[], embedded_cloth_glb_end[], embed
 
 static const Builtin builtins[] = {
     {"ball", "one ball in velvet on a floor, to look at one material", NULL, NULL, ball_make},
-    {"cloth", "velvet draped over a form on a plinth, under a soft box", embedded_cloth_glb,
-     embedded_cloth_glb_end, NULL},
+    {"cloth", "velvet draped over a form on a plinth, under a soft box", embedded_cloth_glb, embedded_cloth_glb_end,
+     NULL},
     {"lampshade", "a lit lamp before a curtain: light through cloth", NULL, NULL, lampshade_make},
-    {"loom", "swatches woven of drafts, and denim over a bar: from 5 threads to 5,000", NULL, NULL,
-     loom_make},
+    {"loom", "swatches woven of drafts, and denim over a bar: from 5 threads to 5,000", NULL, NULL, loom_make},
     {"sewing", "an old sewing machine that has gathered dust, cloth under its needle", embedded_sewing_glb,
      embedded_sewing_glb_end, NULL},
-    {"spheres", "sheen roughness 0.1 to 1 in five steps, over a dark and a light base", NULL, NULL,
-     spheres_make},
+    {"spheres", "sheen roughness 0.1 to 1 in five steps, over a dark and a light base", NULL, NULL, spheres_make},
 };
 
 const Builtin *builtin_at(int index) {

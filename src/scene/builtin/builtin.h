@@ -1,6 +1,5 @@
 /* builtin.h - the scenes that need no file */
-#ifndef WEFT_SCENE_BUILTIN_H
-#define WEFT_SCENE_BUILTIN_H
+#pragma once
 
 #include "scene/record/scene.h"
 
@@ -12,5 +11,3 @@ typedef struct Builtin {
 
 /* Returns the built-in scene at index, or NULL past the end. */
 const Builtin *builtin_at(int index);
-
-#endif

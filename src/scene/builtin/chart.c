@@ -12,22 +12,21 @@
 #define EPIC      "Epic Games, \"Physically Based Materials\", Unreal Engine documentation, 2014"
 #define PALMQVIST "Anton Palmqvist, \"Physically Based\" data base (physicallybased.info), 2023"
 #define HEARLE    "W. E. Morton, J. W. S. Hearle, \"Physical Properties of Textile Fibres\", 2008, table 24.1"
-#define HOFFMAN                                                                                              \
-    "Tomas Akenine-Moller et al., \"Real-Time Rendering\", 4th edition, 2018, table 9.2 (Naty Hoffman)"
-#define LAGARDE "Sebastien Lagarde, \"Feeding a physically based shading model\", 2011"
+#define HOFFMAN   "Tomas Akenine-Moller et al., \"Real-Time Rendering\", 4th edition, 2018, table 9.2 (Naty Hoffman)"
+#define LAGARDE   "Sebastien Lagarde, \"Feeding a physically based shading model\", 2011"
 
 #define F0(n) (((n)-1.0f) / ((n) + 1.0f) * (((n)-1.0f) / ((n) + 1.0f)))
-#define GREY(x)                                                                                              \
+#define GREY(x)                                                                                                        \
     { x, x, x }
-#define RGB(r, g, b)                                                                                         \
+#define RGB(r, g, b)                                                                                                   \
     { r, g, b }
-#define OPAQUE(name, help, color, ior, source)                                                               \
+#define OPAQUE(name, help, color, ior, source)                                                                         \
     { name, help, source, WEFT_CHART_OPAQUE, color, GREY(F0(ior)), ior }
-#define CLEAR(name, help, ior, source)                                                                       \
+#define CLEAR(name, help, ior, source)                                                                                 \
     { name, help, source, WEFT_CHART_CLEAR, GREY(1.0f), GREY(F0(ior)), ior }
-#define GEM(name, help, ior, source)                                                                         \
+#define GEM(name, help, ior, source)                                                                                   \
     { name, help, source, WEFT_CHART_GEM, GREY(1.0f), GREY(F0(ior)), ior }
-#define METAL(name, help, r, g, b, source)                                                                   \
+#define METAL(name, help, r, g, b, source)                                                                             \
     { name, help, source, WEFT_CHART_METAL, RGB(r, g, b), RGB(r, g, b), 0.0f }
 
 static const WeftChartEntry entries[] = {
@@ -36,13 +35,11 @@ static const WeftChartEntry entries[] = {
     OPAQUE("worn-asphalt", "", GREY(0.08f), 1.5f, EPIC),
     OPAQUE("brick", "", RGB(0.262f, 0.095f, 0.061f), 1.5f, PALMQVIST),
     OPAQUE("bare-soil", "", GREY(0.13f), 1.5f, EPIC),
-    OPAQUE("skin-dark", "dark skin (V of Fitzpatrick's six types)", RGB(0.283f, 0.148f, 0.079f), 1.4f,
-           PALMQVIST),
+    OPAQUE("skin-dark", "dark skin (V of Fitzpatrick's six types)", RGB(0.283f, 0.148f, 0.079f), 1.4f, PALMQVIST),
     OPAQUE("grass", "", GREY(0.21f), 1.5f, EPIC),
     OPAQUE("desert-sand", "", GREY(0.36f), 1.5f, EPIC),
     OPAQUE("concrete", "fresh", GREY(0.51f), 1.5f, EPIC),
-    OPAQUE("skin-light", "light skin (I of Fitzpatrick's six types)", RGB(0.847f, 0.638f, 0.552f), 1.4f,
-           PALMQVIST),
+    OPAQUE("skin-light", "light skin (I of Fitzpatrick's six types)", RGB(0.847f, 0.638f, 0.552f), 1.4f, PALMQVIST),
     OPAQUE("marble", "white", RGB(0.83f, 0.791f, 0.753f), 1.5f, PALMQVIST),
     OPAQUE("snow", "fresh", GREY(0.81f), 1.3098f, EPIC),
     OPAQUE("paper", "office paper, whitened", RGB(0.794f, 0.834f, 0.884f), 1.5f, PALMQVIST),

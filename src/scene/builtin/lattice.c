@@ -20,8 +20,7 @@ bool lattice_make(Arena *arena, Mesh *mesh, const Lattice *lattice) {
     mesh->normal = lattice->smooth ? arena_array(arena, mesh->vertex_count, 3 * sizeof(float)) : NULL;
     mesh->texcoord[0] = arena_array(arena, mesh->vertex_count, 2 * sizeof(float));
     mesh->index = arena_array(arena, mesh->triangle_count, 3 * sizeof(uint32_t));
-    if (!mesh->position || (lattice->smooth && !mesh->normal) || !mesh->texcoord[0] || !mesh->index)
-        return false;
+    if (!mesh->position || (lattice->smooth && !mesh->normal) || !mesh->texcoord[0] || !mesh->index) return false;
     for (uint32_t k = 0; k < mesh->vertex_count; k++) {
         uint32_t i = k % row, j = k / row;
         float u = (float)i / (float)lattice->across, v = (float)j / (float)lattice->down;

@@ -1,6 +1,5 @@
 /* lattice.h - a mesh of points that a function places over the unit square */
-#ifndef WEFT_SCENE_LATTICE_H
-#define WEFT_SCENE_LATTICE_H
+#pragma once
 
 #include "scene/record/scene.h"
 
@@ -15,5 +14,3 @@ typedef struct Lattice {
 
 /* Fills the mesh, whose front is seen where u runs to the right and v down. Returns false if memory is short. */
 bool lattice_make(Arena *arena, Mesh *mesh, const Lattice *lattice);
-
-#endif

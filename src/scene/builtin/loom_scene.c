@@ -11,9 +11,8 @@
 /* Cloths first: each has the name of its preset without "woven-". */
 enum { DENIM, LINEN, TARTAN, SHOT_SILK, CHARMEUSE, VELVET, CORDUROY, CLOTHS };
 enum { BAR = CLOTHS, LEFT_POST, RIGHT_POST, SWEEP, SOFTBOX, THINGS };
-static const char *const names[THINGS] = {"denim",     "linen",      "tartan",   "shot-silk",
-                                          "charmeuse", "velvet",     "corduroy", "bar",
-                                          "left-post", "right-post", "sweep",    "softbox"};
+static const char *const names[THINGS] = {"denim",    "linen", "tartan",    "shot-silk",  "charmeuse", "velvet",
+                                          "corduroy", "bar",   "left-post", "right-post", "sweep",     "softbox"};
 
 static const float unit = 0.5f; /* metres that a unit of texture coordinates spans in these presets */
 
@@ -22,13 +21,11 @@ static const float swatch_width = 0.2f, swatch_bend = 0.55f, swatch_radius = 0.1
 
 static Vec3 swatch_point(float u, float v) {
     const float a = swatch_bend * (2.0f * v - 1.0f);
-    return (Vec3){swatch_width * (u - 0.5f), swatch_radius * (cosf(a) - cosf(swatch_bend)),
-                  swatch_radius * sinf(a)};
+    return (Vec3){swatch_width * (u - 0.5f), swatch_radius * (cosf(a) - cosf(swatch_bend)), swatch_radius * sinf(a)};
 }
 
 /* The cloth over the bar, from the lower end behind it over the bar to the lower end in front. */
-static const float bar_height = 0.47f, bar_radius = 0.014f, hang_width = 0.44f, hang_behind = 0.3f,
-                   hang_before = 0.4f;
+static const float bar_height = 0.47f, bar_radius = 0.014f, hang_width = 0.44f, hang_behind = 0.3f, hang_before = 0.4f;
 
 static float hang_length(void) { return hang_behind + PI_FLOAT * bar_radius + hang_before; }
 
@@ -77,10 +74,8 @@ static Vec3 softbox_point(float u, float v) {
 static Lattice lattice_of(int k) {
     const Lattice others[] = {
         [BAR] = {.across = 1, .down = 48, .point = bar_point, .smooth = true},
-        [LEFT_POST] =
-            {.across = 32, .down = 1, .point = post_point, .smooth = true, .at = {-0.29f, 0.0f, 0.0f}},
-        [RIGHT_POST] =
-            {.across = 32, .down = 1, .point = post_point, .smooth = true, .at = {0.29f, 0.0f, 0.0f}},
+        [LEFT_POST] = {.across = 32, .down = 1, .point = post_point, .smooth = true, .at = {-0.29f, 0.0f, 0.0f}},
+        [RIGHT_POST] = {.across = 32, .down = 1, .point = post_point, .smooth = true, .at = {0.29f, 0.0f, 0.0f}},
         [SWEEP] = {.across = 1, .down = 92, .point = sweep_point, .smooth = true},
         [SOFTBOX] = {.across = 1, .down = 1, .point = softbox_point},
         [DENIM] = {.across = 220,

@@ -19,8 +19,7 @@ static bool sphere(Arena *arena, Mesh *mesh, Vec3 centre) {
     mesh->tangent = arena_array(arena, mesh->vertex_count, 4 * sizeof(float));
     mesh->texcoord[0] = arena_array(arena, mesh->vertex_count, 2 * sizeof(float));
     mesh->index = arena_array(arena, mesh->triangle_count, 3 * sizeof(uint32_t));
-    if (!mesh->position || !mesh->normal || !mesh->tangent || !mesh->texcoord[0] || !mesh->index)
-        return false;
+    if (!mesh->position || !mesh->normal || !mesh->tangent || !mesh->texcoord[0] || !mesh->index) return false;
     for (uint32_t k = 0; k < mesh->vertex_count; k++) {
         uint32_t ring = k / across, sector = k % across;
         float v = (float)ring / RINGS, u = (float)sector / SECTORS;
@@ -61,8 +60,7 @@ static Material sphere_material(bool light, float sheen_roughness) {
     Material material = material_default();
     material_set_color(&material, INPUT_base_color, light ? 0.55f : 0.02f, light ? 0.10f : 0.03f,
                        light ? 0.09f : 0.08f);
-    material_set_color(&material, INPUT_sheen_color, light ? 0.9f : 0.35f, light ? 0.75f : 0.55f,
-                       light ? 0.7f : 0.9f);
+    material_set_color(&material, INPUT_sheen_color, light ? 0.9f : 0.35f, light ? 0.75f : 0.55f, light ? 0.7f : 0.9f);
     material.inputs[INPUT_sheen_roughness].value[0] = sheen_roughness;
     material.inputs[INPUT_roughness].value[0] = 0.9f;
     return material;
@@ -127,9 +125,7 @@ static Vec3 sphere_centre(int k) {
     return (Vec3){((float)(k % COLUMNS) - 2.0f) * spacing, radius, row * spacing};
 }
 
-static Material sphere_of(int k) {
-    return sphere_material(k / COLUMNS == 1, 0.1f + 0.225f * (float)(k % COLUMNS));
-}
+static Material sphere_of(int k) { return sphere_material(k / COLUMNS == 1, 0.1f + 0.225f * (float)(k % COLUMNS)); }
 
 WeftResult spheres_make(WeftScene *scene, WeftError *error) {
     const Arrangement spheres = {COLUMNS * ROWS, sphere_centre, sphere_of, sphere_name,

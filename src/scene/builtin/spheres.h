@@ -1,6 +1,5 @@
 /* spheres.h - the scenes of balls: builtin:spheres, a sweep of sheen roughness, and builtin:ball, one */
-#ifndef WEFT_SCENE_SPHERES_H
-#define WEFT_SCENE_SPHERES_H
+#pragma once
 
 #include "scene/record/scene.h"
 
@@ -10,5 +9,3 @@ WeftResult spheres_make(WeftScene *scene, WeftError *error);
 
 /* Makes one such ball, light and of sheen roughness 0.5, near the camera. Materials are named ball and floor. */
 WeftResult ball_make(WeftScene *scene, WeftError *error);
-
-#endif

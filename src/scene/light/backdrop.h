@@ -1,6 +1,5 @@
 /* backdrop.h - the blurred environment, as an unobtrusive background */
-#ifndef WEFT_SCENE_BACKDROP_H
-#define WEFT_SCENE_BACKDROP_H
+#pragma once
 
 #include "scene/record/scene.h"
 
@@ -12,5 +11,3 @@ WeftResult backdrop_blurred(const Environment *environment, WeftImage *out, Weft
 
 /* Sets the radiance along a world direction, with rotation and strength. */
 void backdrop_at(const Environment *environment, const WeftImage *blurred, Vec3 direction, float color[3]);
-
-#endif

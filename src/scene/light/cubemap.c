@@ -67,8 +67,7 @@ static int look_through(const char *folder, bool shorter, Faces *faces, WeftErro
         if (k < 0) continue;
         char *path = faces->paths[k];
         if (path[0]) {
-            fail(error, WEFT_MESSAGE_CUBEMAP, folder, "%s is there twice",
-                 shorter ? short_names[k] : long_names[k]);
+            fail(error, WEFT_MESSAGE_CUBEMAP, folder, "%s is there twice", shorter ? short_names[k] : long_names[k]);
             found = -1;
         } else if ((size_t)snprintf(path, NAME_SIZE, "%s/%s", folder, entry->d_name) >= NAME_SIZE) {
             fail(error, WEFT_MESSAGE_FILE_OPEN, folder, "its name is too long");
@@ -107,17 +106,14 @@ static WeftResult find_faces(const char *path, Faces *faces, WeftError *error) {
     return found < 0 ? local.result : WEFT_OK;
 }
 
-static WeftResult read_face(const char *path, int side, WeftImage *out, const WeftLog *log,
-                            WeftError *error) {
+static WeftResult read_face(const char *path, int side, WeftImage *out, const WeftLog *log, WeftError *error) {
     WeftImage raw;
     WeftResult result = weft_image_read(path, &raw, log, error);
     if (result != WEFT_OK) return result;
     if (raw.width != raw.height)
-        result =
-            fail(error, WEFT_MESSAGE_CUBEMAP, path, "it is %d by %d and not square", raw.width, raw.height);
+        result = fail(error, WEFT_MESSAGE_CUBEMAP, path, "it is %d by %d and not square", raw.width, raw.height);
     else if (side && raw.width != side)
-        result =
-            fail(error, WEFT_MESSAGE_CUBEMAP, path, "it is %d wide and the first face %d", raw.width, side);
+        result = fail(error, WEFT_MESSAGE_CUBEMAP, path, "it is %d wide and the first face %d", raw.width, side);
     else
         result = weft_image_convert_f32(&raw, 1, out, error);
     weft_image_free(&raw);
@@ -149,15 +145,13 @@ static void add_radiance(const WeftImage faces[FACES], Vec3 d, float scale, floa
     float most = (float)(face->width - 1), half = 0.5f * (float)face->width;
     float x = fminf(fmaxf((right + 1.0f) * half - 0.5f, 0.0f), most);
     float y = fminf(fmaxf((down + 1.0f) * half - 0.5f, 0.0f), most);
-    int x0 = (int)x, y0 = (int)y, x1 = x0 < face->width - 1 ? x0 + 1 : x0,
-        y1 = y0 < face->width - 1 ? y0 + 1 : y0;
+    int x0 = (int)x, y0 = (int)y, x1 = x0 < face->width - 1 ? x0 + 1 : x0, y1 = y0 < face->width - 1 ? y0 + 1 : y0;
     float fx = x - (float)x0, fy = y - (float)y0;
     const float weights[4] = {(1.0f - fx) * (1.0f - fy), fx * (1.0f - fy), (1.0f - fx) * fy, fx * fy};
     const int columns[4] = {x0, x1, x0, x1}, rows[4] = {y0, y0, y1, y1};
     for (int k = 0; k < 4; k++) {
-        const float *p =
-            (const float *)face->pixels +
-            ((size_t)rows[k] * (size_t)face->width + (size_t)columns[k]) * (size_t)face->channels;
+        const float *p = (const float *)face->pixels +
+                         ((size_t)rows[k] * (size_t)face->width + (size_t)columns[k]) * (size_t)face->channels;
         for (int c = 0; c < 3; c++) to[c] += scale * weights[k] * p[face->channels >= 3 ? c : 0];
     }
 }
@@ -168,8 +162,7 @@ static void resample(const WeftImage faces[FACES], WeftImage *out) {
     for (int y = 0; y < out->height; y++)
         for (int x = 0; x < out->width; x++, p += 3)
             for (int k = 0; k < 4; k++) {
-                double u = (x + 0.25 + 0.5 * (k & 1)) / out->width,
-                       v = (y + 0.25 + 0.5 * (k >> 1)) / out->height;
+                double u = (x + 0.25 + 0.5 * (k & 1)) / out->width, v = (y + 0.25 + 0.5 * (k >> 1)) / out->height;
                 add_radiance(faces, latlong_direction(u, v), 0.25f, p);
             }
 }

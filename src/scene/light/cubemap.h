@@ -3,8 +3,7 @@
  * Faces are called posx negx posy negy posz negz, or px nx py ny pz nz, in any case, each with any suffix of
  * image/. They lie as OpenGL has them ("OpenGL 3.3 Core Profile", 3.8.9, table 3.20): posx is seen from
  * inside with -y down and -z to the right, and row 0 of a file is on top. */
-#ifndef WEFT_SCENE_CUBEMAP_H
-#define WEFT_SCENE_CUBEMAP_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -19,5 +18,3 @@ enum { CUBEMAP_WIDTH = 8192 };
  * CUBEMAP_WIDTH wide. Integers are decoded from sRGB. Fails as weft_image_read does, or with WEFT_MESSAGE_CUBEMAP if a
  * face is missing, there twice, not square, or of another size than the rest. */
 WeftResult cubemap_read(const char *path, WeftImage *out, const WeftLog *log, WeftError *error);
-
-#endif

@@ -27,8 +27,8 @@ static void latlong_point(Vec3 d, float *u, float *v) {
 
 /* Sets the colour of texel (x, y), not below 0; grey from an image of fewer than three channels. */
 static void texel(const WeftImage *image, int x, int y, float color[3]) {
-    const float *p = (const float *)image->pixels +
-                     ((size_t)y * (size_t)image->width + (size_t)x) * (size_t)image->channels;
+    const float *p =
+        (const float *)image->pixels + ((size_t)y * (size_t)image->width + (size_t)x) * (size_t)image->channels;
     for (int c = 0; c < 3; c++) color[c] = fmaxf(p[image->channels >= 3 ? c : 0], 0.0f);
 }
 
@@ -117,10 +117,10 @@ void ambient_polynomials(Vec3 n, float p[AMBIENT_TERMS]) {
 
 /* Squares of the factors that make the polynomials orthonormal, times 4 pi; the degree of each; and for each degree the
  * cosine's Legendre coefficient over pi. */
-static const double squares[AMBIENT_TERMS] = {
-    1.0,      3.0,      3.0,      3.0,      15.0,      15.0,      15.0,      15.0 / 4,  5.0 / 4,
-    35.0 / 8, 105.0,    21.0 / 8, 7.0 / 4,  21.0 / 8,  105.0 / 4, 35.0 / 8,  315.0 / 4, 315.0 / 8,
-    45.0 / 4, 45.0 / 8, 9.0 / 64, 45.0 / 8, 45.0 / 16, 315.0 / 8, 315.0 / 64};
+static const double squares[AMBIENT_TERMS] = {1.0,       3.0,       3.0,       3.0,       15.0,     15.0,     15.0,
+                                              15.0 / 4,  5.0 / 4,   35.0 / 8,  105.0,     21.0 / 8, 7.0 / 4,  21.0 / 8,
+                                              105.0 / 4, 35.0 / 8,  315.0 / 4, 315.0 / 8, 45.0 / 4, 45.0 / 8, 9.0 / 64,
+                                              45.0 / 8,  45.0 / 16, 315.0 / 8, 315.0 / 64};
 static int degree(int k) { return k < 1 ? 0 : k < 4 ? 1 : k < 9 ? 2 : k < 16 ? 3 : 4; }
 static const double cosines[5] = {1.0, 2.0 / 3, 1.0 / 4, 0.0, -1.0 / 24};
 
@@ -360,14 +360,12 @@ static WeftResult constant_image(const float color[3], WeftImage *out, WeftError
     return result;
 }
 
-WeftResult ambient_split(const Environment *environment, int env_lights, AmbientParts *out,
-                         WeftError *error) {
+WeftResult ambient_split(const Environment *environment, int env_lights, AmbientParts *out, WeftError *error) {
     WeftImage image;
     *out = (AmbientParts){.env_light_kappa = AMBIENT_EVEN_KAPPA};
-    WeftResult result =
-        environment->kind == ENVIRONMENT_CONSTANT
-            ? constant_image(environment->color, &image, error)
-            : latlong_resize(&environment->image, SPLIT_WIDTH, SPLIT_WIDTH / 2, &image, error);
+    WeftResult result = environment->kind == ENVIRONMENT_CONSTANT
+                            ? constant_image(environment->color, &image, error)
+                            : latlong_resize(&environment->image, SPLIT_WIDTH, SPLIT_WIDTH / 2, &image, error);
     if (result != WEFT_OK) return result;
     Sparks sparks = {.list = alloc_array((size_t)image.width * (size_t)image.height, sizeof(Spark))};
     if (sparks.list) {
@@ -379,8 +377,7 @@ WeftResult ambient_split(const Environment *environment, int env_lights, Ambient
         find_rest(&image, &out->rest);
         find_env_lights(&sparks, env_lights < AMBIENT_LIGHTS_MAX ? env_lights : AMBIENT_LIGHTS_MAX, out);
     }
-    if (!sparks.list || !find_points(&sparks, out))
-        result = fail(error, WEFT_MESSAGE_MEMORY, "an environment", NULL);
+    if (!sparks.list || !find_points(&sparks, out)) result = fail(error, WEFT_MESSAGE_MEMORY, "an environment", NULL);
     free(sparks.list);
     weft_image_free(&image);
     return result;

@@ -4,8 +4,7 @@
  * A texel of luminance Y gives the fraction min(1, AMBIENT_CLIP mean(Y) / Y) to the residual, and the rest to the
  * lights, by k-means over directions: each light has the mean direction of its texels' light. Directions are those of
  * the image, before Environment.rotation; colours are without Environment.strength. */
-#ifndef WEFT_SCENE_ENV_SPLIT_H
-#define WEFT_SCENE_ENV_SPLIT_H
+#pragma once
 
 #include "scene/record/scene.h"
 
@@ -90,5 +89,3 @@ Vec3 latlong_direction(double u, double v);
 /* Returns a direction of the image in the world, for Environment.rotation in radians; the negative rotation converts
  * back. */
 Vec3 latlong_rotated(Vec3 direction, float rotation);
-
-#endif

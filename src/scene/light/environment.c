@@ -24,8 +24,7 @@ static const Softbox softboxes[] = {
 };
 
 static float softbox_cover(const Softbox *box, float x, float y, float z) {
-    float sa = sinf(box->azimuth), ca = cosf(box->azimuth), se = sinf(box->elevation),
-          ce = cosf(box->elevation);
+    float sa = sinf(box->azimuth), ca = cosf(box->azimuth), se = sinf(box->elevation), ce = cosf(box->elevation);
     float cx = sa * ce, cy = se, cz = ca * ce; /* centre; azimuth 0 is +z, towards the viewer */
     float d = x * cx + y * cy + z * cz;
     if (d <= 0.0f) return 0.0f;

@@ -1,6 +1,5 @@
 /* environment.h - the procedural studio environment */
-#ifndef WEFT_SCENE_ENVIRONMENT_H
-#define WEFT_SCENE_ENVIRONMENT_H
+#pragma once
 
 #include "scene/record/scene.h"
 
@@ -11,5 +10,3 @@ WeftResult environment_studio(WeftImage *out, WeftError *error);
 
 /* Dims the studio to a fill light if the scene has lights of its own, since it would outshine them. */
 void environment_give_way(WeftScene *scene);
-
-#endif

@@ -1,6 +1,5 @@
 /* floor.h - the disc under a scene that catches its shadow and its mirror image, as both engines see it */
-#ifndef WEFT_SCENE_FLOOR_H
-#define WEFT_SCENE_FLOOR_H
+#pragma once
 
 #include "scene/record/scene.h"
 #include "weft/render.h"
@@ -28,5 +27,3 @@ float floor_coverage(const Floor *floor, Vec3 point);
 
 /* Returns the distance along a ray from above to the floor, below 0 if it misses. */
 float floor_distance(const Floor *floor, Vec3 origin, Vec3 direction);
-
-#endif

@@ -18,8 +18,7 @@ static bool all_finite(const float *v, int count) {
 }
 
 static const char *wrong_polygon(const WeftLight *l) {
-    if (!(l->size[0] > 0.0f && l->size[1] > 0.0f && fmaxf(l->size[0], l->size[1]) <= SCENE_REACH))
-        return "size";
+    if (!(l->size[0] > 0.0f && l->size[1] > 0.0f && fmaxf(l->size[0], l->size[1]) <= SCENE_REACH)) return "size";
     if (l->corners != 0 && (l->corners < 3 || l->corners > LIGHT_CORNERS)) return "corners";
     return isfinite(l->roll) ? NULL : "roll";
 }
@@ -28,13 +27,11 @@ static const char *wrong_light(const WeftLight *l) {
     bool beams = l->kind != WEFT_LIGHT_POINT;
     if ((unsigned)l->kind > WEFT_LIGHT_POLYGON) return "kind";
     if (!within_reach(vec3_load(l->position), SCENE_REACH)) return "position";
-    if (beams && (!all_finite(l->direction, 3) || !(vec3_length(vec3_load(l->direction)) > 0.0f)))
-        return "direction";
+    if (beams && (!all_finite(l->direction, 3) || !(vec3_length(vec3_load(l->direction)) > 0.0f))) return "direction";
     for (int c = 0; c < 3; c++)
         if (!(isfinite(l->color[c]) && l->color[c] >= 0.0f)) return "color";
     if (!(isfinite(l->range) && l->range >= 0.0f)) return "range";
-    if (!(l->inner >= 0.0f && l->outer <= 90.0f && (l->inner <= l->outer || !(l->outer > 0.0f))))
-        return "cone";
+    if (!(l->inner >= 0.0f && l->outer <= 90.0f && (l->inner <= l->outer || !(l->outer > 0.0f)))) return "cone";
     return l->kind == WEFT_LIGHT_POLYGON ? wrong_polygon(l) : NULL;
 }
 
@@ -252,8 +249,7 @@ WeftResult weft_scene_light(const WeftScene *scene, int index, WeftLight *out, W
     WeftResult result = check_place(scene, index, error);
     if (result != WEFT_OK) return result;
     FoundLight found = find(scene, index);
-    *out = found.polygon >= 0 ? scene->polygon_lights[found.polygon].light
-                              : public_of(&scene->lights[found.punctual]);
+    *out = found.polygon >= 0 ? scene->polygon_lights[found.polygon].light : public_of(&scene->lights[found.punctual]);
     return WEFT_OK;
 }
 

@@ -103,11 +103,11 @@ static Rgb mean_emission(const Patch *patch, const uint32_t *index) {
     Rgb sum = rgb_grey(0.0f);
     for (int i = 0; i < side; i++)
         for (int j = 0; j < side - i; j++) {
-            sum = rgb_add(sum, emission_at(patch, index, ((float)i + 1.0f / 3.0f) * step,
-                                           ((float)j + 1.0f / 3.0f) * step));
+            sum = rgb_add(sum,
+                          emission_at(patch, index, ((float)i + 1.0f / 3.0f) * step, ((float)j + 1.0f / 3.0f) * step));
             if (j + 1 < side - i)
-                sum = rgb_add(sum, emission_at(patch, index, ((float)i + 2.0f / 3.0f) * step,
-                                               ((float)j + 2.0f / 3.0f) * step));
+                sum = rgb_add(
+                    sum, emission_at(patch, index, ((float)i + 2.0f / 3.0f) * step, ((float)j + 2.0f / 3.0f) * step));
         }
     return rgb_scale(sum, step * step);
 }
@@ -227,13 +227,11 @@ static Join best_join(const Patch *patch, const Face *face, int round) {
     for (int k = 0; k < face->count; k++) {
         uint32_t from = face->corners[k], to = face->corners[(k + 1) % face->count];
         Join join = {.other = across(patch, from, to)};
-        if (!join.other || join.other == face || join.other->round == round ||
-            !in_one_plane(patch, face, join.other))
+        if (!join.other || join.other == face || join.other->round == round || !in_one_plane(patch, face, join.other))
             continue;
         join.count = joined(patch, face, k, join.other, join.ring);
         join.side = vec3_length(vec3_sub(place_at(patch, to), place_at(patch, from)));
-        if (join.count && (join.count < best.count || (join.count == best.count && join.side > best.side)))
-            best = join;
+        if (join.count && (join.count < best.count || (join.count == best.count && join.side > best.side))) best = join;
     }
     return best;
 }

@@ -2,8 +2,7 @@
  *
  * For a renderer that integrates polygons (shading/area/area.h). Adjacent triangles of a mesh in one plane become one
  * polygon if that is convex and has at most LIGHT_CORNERS corners, else several; others stay triangles. */
-#ifndef WEFT_SCENE_POLYGONS_H
-#define WEFT_SCENE_POLYGONS_H
+#pragma once
 
 #include "scene/record/scene.h"
 
@@ -31,5 +30,3 @@ bool material_emits(const Material *material);
 /* Finds the `most` strongest polygon lights. Release with light_polygons_free. Returns false if memory is short. */
 bool light_polygons_find(LightPolygons *lights, const WeftScene *scene, int most);
 void light_polygons_free(LightPolygons *lights);
-
-#endif

@@ -63,8 +63,8 @@ static int table_that_serves(const SheenTables *self, const Lobe *lobe, float lo
 
 /* Sets the index of the table of a material's sheen, or -1. The table is that of an earlier material with the same
  * sheen over the same range, or one of `before`, which may be NULL, or is made. */
-static WeftResult find_table(SheenTables *self, const SheenTables *before, const Material *material,
-                             int threads, int *index, WeftError *error) {
+static WeftResult find_table(SheenTables *self, const SheenTables *before, const Material *material, int threads,
+                             int *index, WeftError *error) {
     const Surface untextured = material_plain(material);
     const Choices choices = material_choices(material);
     *index = -1;
@@ -113,8 +113,8 @@ void sheen_tables_free_but(SheenTables *self, const SheenTables *kept) {
     free(self);
 }
 
-WeftResult sheen_tables_renew(const SheenTables *before, const WeftScene *scene, int threads,
-                              SheenTables **out, WeftError *error) {
+WeftResult sheen_tables_renew(const SheenTables *before, const WeftScene *scene, int threads, SheenTables **out,
+                              WeftError *error) {
     size_t count = (size_t)scene->material_count;
     SheenTables *self = alloc_array(1, sizeof *self);
     bool *used = alloc_array(count, sizeof(bool));

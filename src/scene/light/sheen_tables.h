@@ -1,6 +1,5 @@
 /* sheen_tables.h - the albedo tables of the sheens of a scene's materials */
-#ifndef WEFT_SCENE_SHEEN_TABLES_H
-#define WEFT_SCENE_SHEEN_TABLES_H
+#pragma once
 
 #include "scene/record/scene.h"
 #include "shading/catalogue/albedo.h"
@@ -13,8 +12,8 @@ WeftResult sheen_tables_create(const WeftScene *scene, int threads, SheenTables 
 
 /* Makes the tables, and shares those that `before` (may be NULL) has. The first of the two must then be freed with
  * sheen_tables_free_but. */
-WeftResult sheen_tables_renew(const SheenTables *before, const WeftScene *scene, int threads,
-                              SheenTables **out, WeftError *error);
+WeftResult sheen_tables_renew(const SheenTables *before, const WeftScene *scene, int threads, SheenTables **out,
+                              WeftError *error);
 
 /* Returns true if one has a table that the other lacks or has at another index. */
 bool sheen_tables_differ(const SheenTables *tables, const SheenTables *other);
@@ -32,5 +31,3 @@ int sheen_tables_index(const SheenTables *tables, int material);
 
 /* Returns the reference to a material's table, of kind TABLE_NONE if it has none. Lives as long as tables. */
 TableRef sheen_tables_of(const SheenTables *tables, int material);
-
-#endif

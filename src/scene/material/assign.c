@@ -13,8 +13,7 @@ static bool shows(const Material *material, InputId color) {
 
 static bool is_cloth(const WeftScene *scene, int k) {
     bool any = false;
-    for (int m = 0; m < scene_own_materials(scene); m++)
-        any |= shows(&scene->materials[m], INPUT_sheen_color);
+    for (int m = 0; m < scene_own_materials(scene); m++) any |= shows(&scene->materials[m], INPUT_sheen_color);
     const Material *material = &scene->materials[k];
     return any ? shows(material, INPUT_sheen_color) : !shows(material, INPUT_emission);
 }
@@ -29,8 +28,8 @@ static bool adopt_textures(WeftScene *scene, MaterialFile *file) {
         texture.path = arena_text(&scene->arena, file->paths[from]);
         texture.image = image[from];
         if (!texture.path) return false;
-        number[k] = image[from] < 0 ? picture_add(scene, &file->images[from], texture)
-                                    : texture_number_of(scene, texture);
+        number[k] =
+            image[from] < 0 ? picture_add(scene, &file->images[from], texture) : texture_number_of(scene, texture);
         if (!number[k]) return false;
         image[from] = scene->textures[number[k] - 1].image;
     }
@@ -85,8 +84,7 @@ bool *materials_matching(WeftScene *scene, const char *material, WeftError *erro
     }
     if (!material || matched) return selected;
     char names[NAMES_SIZE];
-    fail(error, WEFT_MESSAGE_MATERIAL_NAME, material, "%s",
-         scene_names(scene, weft_scene_material_name, names));
+    fail(error, WEFT_MESSAGE_MATERIAL_NAME, material, "%s", scene_names(scene, weft_scene_material_name, names));
     return NULL;
 }
 
@@ -109,16 +107,15 @@ static WeftResult assign_from(WeftScene *scene, const char *material, MaterialFi
     return result;
 }
 
-WeftResult weft_scene_assign_material_memory(WeftScene *scene, const char *material, const void *data,
-                                             size_t size, const char *name, const WeftLog *log,
-                                             WeftError *error) {
+WeftResult weft_scene_assign_material_memory(WeftScene *scene, const char *material, const void *data, size_t size,
+                                             const char *name, const WeftLog *log, WeftError *error) {
     MaterialFile file;
     WeftResult read = material_file_read(data ? data : "", data ? size : 0, name, NULL, &file, log, error);
     return assign_from(scene, material, &file, read, error);
 }
 
-WeftResult weft_scene_assign_material(WeftScene *scene, const char *material, const char *path,
-                                      const WeftLog *log, WeftError *error) {
+WeftResult weft_scene_assign_material(WeftScene *scene, const char *material, const char *path, const WeftLog *log,
+                                      WeftError *error) {
     MaterialFile file;
     WeftResult read = material_file_load(path, &file, log, error);
     return assign_from(scene, material, &file, read, error);

@@ -1,6 +1,5 @@
 /* assign.h - the materials that a name selects */
-#ifndef WEFT_SCENE_ASSIGN_H
-#define WEFT_SCENE_ASSIGN_H
+#pragma once
 
 #include "scene/record/scene.h"
 
@@ -8,5 +7,3 @@
  * sheen or, if none has, all that emit no light. The flags live as long as the scene. Returns NULL on
  * failure: MATERIAL_NAME or MEMORY. */
 bool *materials_matching(WeftScene *scene, const char *material, WeftError *error);
-
-#endif

@@ -64,8 +64,7 @@ static void read_draft(ClothReader *r, const json_t *json) {
 static void read_color(ClothReader *r, const json_t *json, WeftThreads threads) {
     const char *text = json_string_value(json);
     char *end = NULL;
-    const bool hex =
-        text && text[0] == '#' && strlen(text) == 7 && strspn(text + 1, "0123456789abcdefABCDEF") == 6;
+    const bool hex = text && text[0] == '#' && strlen(text) == 7 && strspn(text + 1, "0123456789abcdefABCDEF") == 6;
     const unsigned long rgb = hex ? strtoul(text + 1, &end, 16) : 0;
     if (!end || *end) {
         refuse(r, "color", "expected a colour such as \"#c02030\"");
@@ -118,8 +117,7 @@ static double positive(ClothReader *r, const json_t *root, const char *key, doub
     const json_t *json = json_object_get(root, key);
     if (!json) return otherwise;
     const double value = json_number_value(json);
-    if (!json_is_number(json) || !(value >= 0.0 && value <= high))
-        refuse(r, key, "is not a number that it can be");
+    if (!json_is_number(json) || !(value >= 0.0 && value <= high)) refuse(r, key, "is not a number that it can be");
     return value;
 }
 
@@ -218,8 +216,8 @@ const WeftDraft *weft_scene_cloth(const WeftScene *scene, int cloth, WeftYarn ya
     return of->draft;
 }
 
-WeftResult weft_scene_set_weave(WeftScene *scene, int material, const WeftDraft *draft,
-                                const WeftYarn yarns[2], WeftError *error) {
+WeftResult weft_scene_set_weave(WeftScene *scene, int material, const WeftDraft *draft, const WeftYarn yarns[2],
+                                WeftError *error) {
     const bool there = material >= 0 && material < scene_own_materials(scene);
     const int number = there ? scene->materials[material].cloth : 0;
     if (!number) return fail(error, WEFT_MESSAGE_DESC, "weave", "material %d is not woven", material);
@@ -229,9 +227,8 @@ WeftResult weft_scene_set_weave(WeftScene *scene, int material, const WeftDraft 
     json_t *json = cloth_to_json(was, NULL);
     bool put = json && put_yarn(json, "warp", &both[0]) && put_yarn(json, "weft", &both[1]);
     if (put && !draft_same(draft, was->draft)) put = put_draft(json, draft);
-    WeftResult result =
-        put ? cloth_from_json(json, scene->material_names[material], NULL, &cloth, NULL, error)
-            : fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    WeftResult result = put ? cloth_from_json(json, scene->material_names[material], NULL, &cloth, NULL, error)
+                            : fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     json_decref(json);
     if (result != WEFT_OK) return result;
     const int fresh = scene_adopt_cloth(scene, cloth);

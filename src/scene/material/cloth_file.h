@@ -1,6 +1,5 @@
 /* cloth_file.h - the weave of a material file: a draft and its yarns (docs/weave.md has the keys) */
-#ifndef WEFT_SCENE_CLOTH_FILE_H
-#define WEFT_SCENE_CLOTH_FILE_H
+#pragma once
 
 #include <jansson.h>
 
@@ -15,5 +14,3 @@ WeftResult cloth_from_json(const json_t *json, const char *name, const char *fol
 /* Returns the weave of a cloth as cloth_from_json reads it, or NULL if memory is short. draft: file of its draft; NULL:
  * the draft is written in words or as the text of a WIF. */
 json_t *cloth_to_json(const WeftCloth *cloth, const char *draft);
-
-#endif

@@ -33,17 +33,14 @@ static float greatest_loss(const WeftScene *scene, const Material *material) {
 
 WeftResult weft_scene_convert(WeftScene *scene, const char *workflow, float *losses, WeftError *error) {
     int target = choice_find(CHOICE_convert, workflow);
-    if (target < 0)
-        return fail(error, WEFT_MESSAGE_PARAM_VALUE, workflow, "convert to metallic or to specular");
+    if (target < 0) return fail(error, WEFT_MESSAGE_PARAM_VALUE, workflow, "convert to metallic or to specular");
     for (int k = 0; k < scene_own_materials(scene); k++) {
         Material *material = &scene->materials[k];
         Choices choices = material_choices(material);
         material->choices[CHOICE_convert] = choices.convert = target;
-        bool already =
-            choices.profile <= 0 && ((target == CONVERT_METALLIC && choices.workflow <= WORKFLOW_METALLIC) ||
-                                     (target == CONVERT_SPECULAR && choices.workflow == WORKFLOW_SPECULAR));
-        if (losses)
-            losses[k] = already ? -2.0f : convert_wanted(choices) ? greatest_loss(scene, material) : -1.0f;
+        bool already = choices.profile <= 0 && ((target == CONVERT_METALLIC && choices.workflow <= WORKFLOW_METALLIC) ||
+                                                (target == CONVERT_SPECULAR && choices.workflow == WORKFLOW_SPECULAR));
+        if (losses) losses[k] = already ? -2.0f : convert_wanted(choices) ? greatest_loss(scene, material) : -1.0f;
     }
     return WEFT_OK;
 }

@@ -34,8 +34,7 @@ static int find_path(const WeftScene *scene, const char *path) {
 static int find_plain(const WeftScene *scene, int image) {
     for (int k = 0; k < scene->texture_count; k++) {
         const Texture *t = &scene->textures[k];
-        if (t->image == image && t->wrap_u == WRAP_REPEAT && t->wrap_v == WRAP_REPEAT && !t->nearest)
-            return k;
+        if (t->image == image && t->wrap_u == WRAP_REPEAT && t->wrap_v == WRAP_REPEAT && !t->nearest) return k;
     }
     return -1;
 }
@@ -109,12 +108,10 @@ WeftResult weft_scene_set_texture(WeftScene *scene, const char *text, const char
     MapPicture picture = {.path = strdup(path)};
     result = picture.path ? weft_image_read(path, &picture.image, log, error)
                           : fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
-    if (result == WEFT_OK && !take_over(scene, &picture))
-        result = fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    if (result == WEFT_OK && !take_over(scene, &picture)) result = fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     for (int k = 0; k < scene->material_count && result == WEFT_OK; k++)
         if (selected[k])
-            put_on_input(&scene->materials[k], target.input, picture.texture,
-                         target.channel < 0 ? 0 : target.channel);
+            put_on_input(&scene->materials[k], target.input, picture.texture, target.channel < 0 ? 0 : target.channel);
     weft_image_free(&picture.image);
     free(picture.path);
     return result == WEFT_OK ? tangents_complete(scene, error) : result;
@@ -180,8 +177,7 @@ static bool is_picture(const char *file) {
     static const char *const suffixes[] = {".tga", ".png", ".jpg", ".jpeg", ".exr", ".hdr"};
     const char *dot = strrchr(file, '.');
     bool picture = false;
-    for (size_t k = 0; dot && k < sizeof suffixes / sizeof *suffixes; k++)
-        picture |= strcasecmp(dot, suffixes[k]) == 0;
+    for (size_t k = 0; dot && k < sizeof suffixes / sizeof *suffixes; k++) picture |= strcasecmp(dot, suffixes[k]) == 0;
     return picture;
 }
 
@@ -235,8 +231,7 @@ static WeftResult take_file(MapSet *map_set, const char *folder, const char *fil
         }
     if (use < 0 && is_picture(file)) note_unknown(map_set, file);
     if (use >= 0 && !needed)
-        warn(log, WEFT_MESSAGE_GLTF_WARN_IGNORED, folder, "%s: there is a %s map before it", file,
-             use_at(use).name);
+        warn(log, WEFT_MESSAGE_GLTF_WARN_IGNORED, folder, "%s: there is a %s map before it", file, use_at(use).name);
     if (!needed) return WEFT_OK;
     size_t length = strlen(folder), size = length + strlen(file) + 2;
     bool slash = length && folder[length - 1] == '/';
@@ -258,8 +253,7 @@ static WeftResult read_folder(const char *folder, MapSet *map_set, const WeftLog
     }
     free(entries);
     if (result == WEFT_OK && map_set->unknown[0])
-        warn(log, WEFT_MESSAGE_GLTF_WARN_IGNORED, folder, "no input has a map of this name: %s",
-             map_set->unknown);
+        warn(log, WEFT_MESSAGE_GLTF_WARN_IGNORED, folder, "no input has a map of this name: %s", map_set->unknown);
     if (result == WEFT_OK && !map_set->count)
         result = fail(error, WEFT_MESSAGE_FILE_OPEN, folder, "no picture in it has the name of a map");
     return result;
@@ -273,8 +267,7 @@ static void move_map(MapSet *map_set, InputId from, InputId to) {
 
 /* Returns true if a map is of an input that workflow disney alone reads. Then specular and sheen are amounts. */
 static bool is_disney(MapSet *map_set) {
-    static const InputId own[] = {INPUT_subsurface, INPUT_specular_tint, INPUT_sheen_tint,
-                                  INPUT_clearcoat_gloss};
+    static const InputId own[] = {INPUT_subsurface, INPUT_specular_tint, INPUT_sheen_tint, INPUT_clearcoat_gloss};
     bool any = false;
     for (size_t k = 0; k < sizeof own / sizeof *own; k++) any |= map_set->of_input[own[k]] != 0;
     if (!any) return false;
@@ -286,8 +279,7 @@ static bool is_disney(MapSet *map_set) {
 /* Returns the workflow of the maps, -1: any. A specular colour without a metalness belongs to workflow specular. */
 static int workflow_of(MapSet *map_set) {
     if (is_disney(map_set)) return choice_find(CHOICE_workflow, "disney");
-    return map_set->of_input[INPUT_specular_color] && !map_set->of_input[INPUT_metallic] ? WORKFLOW_SPECULAR
-                                                                                         : -1;
+    return map_set->of_input[INPUT_specular_color] && !map_set->of_input[INPUT_metallic] ? WORKFLOW_SPECULAR : -1;
 }
 
 /* Binds the maps to the inputs of a material. An input that has its map already keeps its factor; a folder without a new
@@ -315,8 +307,7 @@ WeftResult weft_scene_bind_maps(WeftScene *scene, const char *material, const ch
     if (!selected) return said.result;
     WeftResult result = read_folder(folder, &map_set, log, error);
     for (int k = 0; k < map_set.count && result == WEFT_OK; k++)
-        if (!take_over(scene, &map_set.pictures[k]))
-            result = fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+        if (!take_over(scene, &map_set.pictures[k])) result = fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     int workflow = workflow_of(&map_set);
     for (int k = 0; k < scene->material_count && result == WEFT_OK; k++)
         if (selected[k]) bind_map_set(&scene->materials[k], &map_set, workflow);

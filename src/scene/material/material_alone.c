@@ -70,14 +70,13 @@ WeftResult weft_material_read(const char *path, WeftMaterial *out, const WeftLog
     return read_alone(path, out, NULL, log, error);
 }
 
-WeftResult weft_material_read_woven(const char *path, WeftMaterial *out, WeftCloth **cloth,
-                                    const WeftLog *log, WeftError *error) {
+WeftResult weft_material_read_woven(const char *path, WeftMaterial *out, WeftCloth **cloth, const WeftLog *log,
+                                    WeftError *error) {
     *cloth = NULL;
     return read_alone(path, out, cloth, log, error);
 }
 
-WeftResult weft_material_set_number(WeftMaterial *material, int input, const float *values,
-                                    WeftError *error) {
+WeftResult weft_material_set_number(WeftMaterial *material, int input, const float *values, WeftError *error) {
     char number[16];
     snprintf(number, sizeof number, "%d", input);
     if (input < 0 || input >= INPUT_COUNT) return fail(error, WEFT_MESSAGE_PARAM_NAME, number, NULL);

@@ -30,8 +30,7 @@ __attribute__((format(printf, 2, 3))) static void refuse(Reader *r, const char *
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    r->result =
-        fail(r->error, WEFT_MESSAGE_MATERIAL_FILE, r->name, "%.60s%s%s", r->key, r->key[0] ? ": " : "", text);
+    r->result = fail(r->error, WEFT_MESSAGE_MATERIAL_FILE, r->name, "%.60s%s%s", r->key, r->key[0] ? ": " : "", text);
 }
 
 enum { SUBJECT = 160 };
@@ -87,8 +86,7 @@ static void read_value(Reader *r, const json_t *json, InputId id, float v[3]) {
     }
     char about[SUBJECT];
     subject(r, r->key, about);
-    for (int c = 0; c < (color ? 3 : 1) && r->result == WEFT_OK; c++)
-        v[c] = input_ranged(id, v[c], about, r->log);
+    for (int c = 0; c < (color ? 3 : 1) && r->result == WEFT_OK; c++) v[c] = input_ranged(id, v[c], about, r->log);
 }
 
 /* Returns the index of a text among names, which end with NULL. Fails if it is none of them. */
@@ -147,8 +145,7 @@ static void place(Input *input, const float scale[2], float degrees, const float
 
 static void six(Reader *r, const json_t *json, const char *what, float m[6]) {
     if (!json_is_array(json) || json_array_size(json) != 6) refuse(r, "%s is six numbers", what);
-    for (size_t k = 0; k < json_array_size(json) && k < 6; k++)
-        m[k] = number(r, json_array_get(json, k), what);
+    for (size_t k = 0; k < json_array_size(json) && k < 6; k++) m[k] = number(r, json_array_get(json, k), what);
 }
 
 /* Reads one word, or one for u and one for v. */
@@ -185,8 +182,7 @@ static bool read_placing(Reader *r, const char *key, const json_t *value, Placin
 
 static void check_placing(Reader *r, const Placing *placing) {
     for (int k = 0; k < 2; k++)
-        if (fabsf(placing->scale[k]) > 1e6f || fabsf(placing->offset[k]) > 1e6f ||
-            fabsf(placing->degrees) > 1e6f)
+        if (fabsf(placing->scale[k]) > 1e6f || fabsf(placing->offset[k]) > 1e6f || fabsf(placing->degrees) > 1e6f)
             refuse(r, "it is placed beyond 1e6");
 }
 
@@ -340,8 +336,8 @@ static void read_object(Reader *r, json_t *root) {
         plausible_check(&r->out->material, -1, k, subject(r, weft_material_choice_name(k), about), r->log);
 }
 
-WeftResult material_file_read(const void *data, size_t size, const char *name, const char *folder,
-                              MaterialFile *out, const WeftLog *log, WeftError *error) {
+WeftResult material_file_read(const void *data, size_t size, const char *name, const char *folder, MaterialFile *out,
+                              const WeftLog *log, WeftError *error) {
     *out = (MaterialFile){.material = material_default()};
     Reader reader = {.name = name, .folder = folder, .key = "", .out = out, .log = log, .error = error};
     const char *text = data;

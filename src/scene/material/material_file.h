@@ -1,6 +1,5 @@
 /* material_file.h - a material as a small JSON file: docs/materials.md has its keys */
-#ifndef WEFT_SCENE_MATERIAL_FILE_H
-#define WEFT_SCENE_MATERIAL_FILE_H
+#pragma once
 
 #include "scene/record/scene.h"
 
@@ -20,12 +19,10 @@ typedef struct MaterialFile {
 
 /* Reads size bytes of JSON. name is the subject of errors and warnings; folder ("" or with a slash at its end) that of
  * textures, NULL: textures are refused. Release with material_file_free in any case. */
-WeftResult material_file_read(const void *data, size_t size, const char *name, const char *folder,
-                              MaterialFile *out, const WeftLog *log, WeftError *error);
+WeftResult material_file_read(const void *data, size_t size, const char *name, const char *folder, MaterialFile *out,
+                              const WeftLog *log, WeftError *error);
 
 /* Reads the file at path, whose textures are relative to it, or "preset:NAME", without warnings. */
 WeftResult material_file_load(const char *path, MaterialFile *out, const WeftLog *log, WeftError *error);
 
 void material_file_free(MaterialFile *file);
-
-#endif

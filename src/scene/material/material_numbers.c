@@ -25,8 +25,7 @@ float input_clamped(InputId input, float value) {
 
 Material material_sound(const WeftMaterial *numbers) {
     Material material = material_default();
-    material.alpha_mode =
-        (unsigned)numbers->alpha_mode <= WEFT_ALPHA_BLEND ? numbers->alpha_mode : WEFT_ALPHA_OPAQUE;
+    material.alpha_mode = (unsigned)numbers->alpha_mode <= WEFT_ALPHA_BLEND ? numbers->alpha_mode : WEFT_ALPHA_OPAQUE;
     material.alpha_cutoff = fmaxf(numbers->alpha_cutoff, 0.0f); /* below it is as good as 0 */
     material.double_sided = numbers->double_sided != 0;
     material.unlit = numbers->unlit != 0;
@@ -41,8 +40,7 @@ Material material_sound(const WeftMaterial *numbers) {
         input->channel &= 3;
         input->given = input->given != 0;
         for (int c = 0; c < 3; c++)
-            input->value[c] =
-                c < input_value_count((InputId)k) ? input_clamped((InputId)k, input->value[c]) : 0.0f;
+            input->value[c] = c < input_value_count((InputId)k) ? input_clamped((InputId)k, input->value[c]) : 0.0f;
     }
     return material;
 }
@@ -56,8 +54,8 @@ static bool all_finite(const float *values, int count) {
 WeftResult numbers_sound(const WeftMaterial *m, WeftError *error) {
     for (int k = 0; k < CHOICE_COUNT; k++)
         if (!is_choice(k, m->choices[k]))
-            return fail(error, WEFT_MESSAGE_PARAM_VALUE, weft_material_choice_name(k),
-                        "it has no value of number %d", m->choices[k]);
+            return fail(error, WEFT_MESSAGE_PARAM_VALUE, weft_material_choice_name(k), "it has no value of number %d",
+                        m->choices[k]);
     for (int k = 0; k < INPUT_COUNT; k++)
         if (!all_finite(m->inputs[k].value, input_value_count((InputId)k)))
             return fail(error, WEFT_MESSAGE_PARAM_VALUE, input_infos[k].name, "its value is not finite");
@@ -75,8 +73,7 @@ static const char *wrong_map(const WeftScene *scene, const WeftInput *input) {
 static WeftResult check_numbers(const WeftScene *scene, const WeftMaterial *m, WeftError *error) {
     if ((unsigned)m->alpha_mode > WEFT_ALPHA_BLEND)
         return fail(error, WEFT_MESSAGE_PARAM_VALUE, "alpha_mode", "there is no such mode");
-    if (!isfinite(m->alpha_cutoff))
-        return fail(error, WEFT_MESSAGE_PARAM_VALUE, "alpha_cutoff", "it is not finite");
+    if (!isfinite(m->alpha_cutoff)) return fail(error, WEFT_MESSAGE_PARAM_VALUE, "alpha_cutoff", "it is not finite");
     if (m->cloth < 0 || m->cloth > scene->cloth_count)
         return fail(error, WEFT_MESSAGE_PARAM_VALUE, "cloth", "there is no such cloth");
     if (m->measured < 0 || m->measured > scene->measured_count)
@@ -93,8 +90,7 @@ static WeftResult check_numbers(const WeftScene *scene, const WeftMaterial *m, W
 static WeftResult no_material(const WeftScene *scene, int index, WeftError *error) {
     char names[NAMES_SIZE], number[16];
     snprintf(number, sizeof number, "%d", index);
-    return fail(error, WEFT_MESSAGE_MATERIAL_NAME, number, "%s",
-                scene_names(scene, weft_scene_material_name, names));
+    return fail(error, WEFT_MESSAGE_MATERIAL_NAME, number, "%s", scene_names(scene, weft_scene_material_name, names));
 }
 
 WeftResult weft_scene_material(const WeftScene *scene, int index, WeftMaterial *out, WeftError *error) {
@@ -104,8 +100,7 @@ WeftResult weft_scene_material(const WeftScene *scene, int index, WeftMaterial *
     return WEFT_OK;
 }
 
-WeftResult weft_scene_put_material(WeftScene *scene, int index, const WeftMaterial *numbers,
-                                   WeftError *error) {
+WeftResult weft_scene_put_material(WeftScene *scene, int index, const WeftMaterial *numbers, WeftError *error) {
     if (index < 0 || index >= scene_own_materials(scene)) return no_material(scene, index, error);
     WeftResult result = check_numbers(scene, numbers, error);
     if (result != WEFT_OK) return result;
@@ -153,8 +148,7 @@ void weft_material_plausible(const WeftMaterial *numbers, const char *name, cons
     plausible_check_all(&material, name, log);
     for (int k = 0; k < INPUT_COUNT; k++) {
         const WeftInputInfo *info = &input_infos[k];
-        if (info->kind == WEFT_INPUT_DIRECTION || numbers->inputs[k].texture ||
-            !weft_material_reads(numbers, k))
+        if (info->kind == WEFT_INPUT_DIRECTION || numbers->inputs[k].texture || !weft_material_reads(numbers, k))
             continue;
         float unit = info->kind == WEFT_INPUT_ANGLE ? 180.0f / PI_FLOAT : 1.0f;
         float slack = 1e-5f * fmaxf(fabsf(info->low), fabsf(info->high)); /* degrees that were radians */

@@ -1,6 +1,5 @@
 /* material_numbers.h - checking the numbers of a caller's material */
-#ifndef WEFT_SCENE_MATERIAL_NUMBERS_H
-#define WEFT_SCENE_MATERIAL_NUMBERS_H
+#pragma once
 
 #include "scene/record/scene.h"
 #include "weft/material.h"
@@ -15,5 +14,3 @@ WeftResult numbers_sound(const WeftMaterial *numbers, WeftError *error);
 
 /* Returns a value clamped to the hard range of an input, angles in radians; NaN becomes the lower end. */
 float input_clamped(InputId input, float value);
-
-#endif

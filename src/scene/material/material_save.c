@@ -145,9 +145,8 @@ static void place_put(Writer *w, json_t *object, const float m[6]) {
 }
 
 static json_t *texture_json(Writer *w, const Material *material, InputId id) {
-    static const char *const channels[] = {"r", "g", "b", "a"}, *const wraps[] = {
-                                                                    "repeat", "mirror",
-                                                                    "clamp"}; /* as TextureWrap */
+    static const char *const channels[] = {"r", "g", "b", "a"}, *const wraps[] = {"repeat", "mirror",
+                                                                                  "clamp"}; /* as TextureWrap */
     const Input *input = &material->inputs[id];
     const Texture *texture = &w->scene->textures[input->texture - 1];
     WeftInputKind kind = input_infos[id].kind;
@@ -210,8 +209,7 @@ static void write_rest(Writer *w, const Material *material) {
     put(w, w->root, "alpha_cutoff", number(material->alpha_cutoff));
     if (material->unlit) put(w, w->root, "unlit", json_true());
     if (material->cloth) put(w, w->root, "weave", weave_json(w, w->scene->cloths[material->cloth - 1]));
-    if (material->measured)
-        put(w, w->root, "measured", measured_json(w, w->scene->measured[material->measured - 1]));
+    if (material->measured) put(w, w->root, "measured", measured_json(w, w->scene->measured[material->measured - 1]));
     put(w, w->root, "double_sided", json_boolean(material->double_sided));
 }
 
@@ -233,8 +231,7 @@ WeftResult weft_scene_save_material(const WeftScene *scene, int index, const cha
     if (index < 0 || index >= scene->material_count) {
         char names[NAMES_SIZE], text[16];
         snprintf(text, sizeof text, "%d", index);
-        return fail(error, WEFT_MESSAGE_MATERIAL_NAME, text, "%s",
-                    scene_names(scene, weft_scene_material_name, names));
+        return fail(error, WEFT_MESSAGE_MATERIAL_NAME, text, "%s", scene_names(scene, weft_scene_material_name, names));
     }
     Writer writer = {.scene = scene, .path = path, .error = error, .root = json_object()};
     write_inputs(&writer, &scene->materials[index]);

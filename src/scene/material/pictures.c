@@ -50,8 +50,7 @@ static WeftResult check_image(const WeftImage *image, WeftError *error) {
     if (image->width < 1 || image->width > SIDE_MAX || image->height < 1 || image->height > SIDE_MAX)
         return fail(error, WEFT_MESSAGE_DESC, subject, "%d x %d pixels", image->width, image->height);
     if (image->channels < 1 || image->channels > 4 || (unsigned)image->type > WEFT_PIXEL_F32)
-        return fail(error, WEFT_MESSAGE_DESC, subject, "%d channels of type %d", image->channels,
-                    (int)image->type);
+        return fail(error, WEFT_MESSAGE_DESC, subject, "%d channels of type %d", image->channels, (int)image->type);
     size_t count = (size_t)image->width * (size_t)image->height * (size_t)image->channels;
     const float *values = image->pixels;
     for (size_t k = 0; k < count && image->type == WEFT_PIXEL_F32; k++)
@@ -59,9 +58,7 @@ static WeftResult check_image(const WeftImage *image, WeftError *error) {
     return WEFT_OK;
 }
 
-static bool is_texture(const WeftScene *scene, int index) {
-    return index > 0 && index <= scene->texture_count;
-}
+static bool is_texture(const WeftScene *scene, int index) { return index > 0 && index <= scene->texture_count; }
 
 const char *weft_scene_texture_path(const WeftScene *scene, int index) {
     return is_texture(scene, index) ? scene->textures[index - 1].path : NULL;
@@ -72,8 +69,7 @@ WeftImage weft_scene_texture(const WeftScene *scene, int index) {
 }
 
 WeftResult weft_scene_put_texture(WeftScene *scene, int index, WeftImage *image, WeftError *error) {
-    if (!is_texture(scene, index))
-        return fail(error, WEFT_MESSAGE_DESC, "texture", "number %d does not exist", index);
+    if (!is_texture(scene, index)) return fail(error, WEFT_MESSAGE_DESC, "texture", "number %d does not exist", index);
     WeftResult result = check_image(image, error);
     if (result == WEFT_OK) picture_replace(scene, scene->textures[index - 1].image, image, NULL);
     return result;

@@ -1,6 +1,5 @@
 /* pictures.h - adding images and textures to a scene, and replacing pixels */
-#ifndef WEFT_SCENE_PICTURES_H
-#define WEFT_SCENE_PICTURES_H
+#pragma once
 
 #include "scene/record/scene.h"
 
@@ -14,5 +13,3 @@ int texture_number_of(WeftScene *scene, Texture texture);
 /* Replaces the pixels of an image, zeroes *fresh, and marks all its textures as changed and of the file `path`, or of
  * none if that is NULL. path must live as long as the scene. */
 void picture_replace(WeftScene *scene, int image, WeftImage *fresh, const char *path);
-
-#endif

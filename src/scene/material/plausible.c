@@ -29,9 +29,7 @@ static float f0_metallic(Surface s) {
 static float f0_disney(Surface s) { return s.metallic < 1.0f ? f0_judged(0.08f * s.specular) : NOTHING; }
 static Rgb specular_f0(Surface s) { return rgb_scale(s.specular_color, s.specular); }
 static bool specular_is_metal(Surface s) { return rgb_max3(specular_f0(s)) > METAL_F0; }
-static float f0_specular(Surface s) {
-    return specular_is_metal(s) ? NOTHING : f0_judged(rgb_max3(specular_f0(s)));
-}
+static float f0_specular(Surface s) { return specular_is_metal(s) ? NOTHING : f0_judged(rgb_max3(specular_f0(s))); }
 
 /* Returns the distance between the channels of a dielectric's F0, as a fraction of the strongest of them. */
 static float spread(Rgb f0) {
@@ -112,13 +110,13 @@ typedef struct Limit {
     const char *what; /* the measure %g in words */
 } Limit;
 
-#define INPUTS_1(a)                                                                                          \
+#define INPUTS_1(a)                                                                                                    \
     { INPUT_##a, -1, -1, -1, -1 }
-#define INPUTS_2(a, b)                                                                                       \
+#define INPUTS_2(a, b)                                                                                                 \
     { INPUT_##a, INPUT_##b, -1, -1, -1 }
-#define INPUTS_3(a, b, c)                                                                                    \
+#define INPUTS_3(a, b, c)                                                                                              \
     { INPUT_##a, INPUT_##b, INPUT_##c, -1, -1 }
-#define INPUTS_5(a, b, c, d, e)                                                                              \
+#define INPUTS_5(a, b, c, d, e)                                                                                        \
     { INPUT_##a, INPUT_##b, INPUT_##c, INPUT_##d, INPUT_##e }
 
 static const char reflectance[] = "reflectance of a dielectric",
@@ -222,17 +220,15 @@ static bool applies(const Limit *limit, const Material *material) {
     return meant && !textured;
 }
 
-static void check_limit(const Limit *limit, const Material *material, const char *target,
-                        const WeftLog *log) {
+static void check_limit(const Limit *limit, const Material *material, const char *target, const WeftLog *log) {
     if (!applies(limit, material)) return;
     float found = limit->measure(material_plain(material)), has = 0.0f;
     PlausibleRange range = range_of(limit->kept);
     if (!(found < range.low - 1e-6f || found > range.high + 1e-6f)) return; /* nor where it is NOTHING */
     const WeftChartEntry *nearest = nearest_of(limit->kept, found, &has);
     if (nearest)
-        warn(log, WEFT_MESSAGE_PLAUSIBLE, target,
-             "%s %.3g, not in %.3g .. %.3g; nearest in the chart: %s, %.3g", limit->what, (double)found,
-             (double)range.low, (double)range.high, nearest->name, (double)has);
+        warn(log, WEFT_MESSAGE_PLAUSIBLE, target, "%s %.3g, not in %.3g .. %.3g; nearest in the chart: %s, %.3g",
+             limit->what, (double)found, (double)range.low, (double)range.high, nearest->name, (double)has);
     else if (range.low < range.high)
         warn(log, WEFT_MESSAGE_PLAUSIBLE, target, "%s %.3g of the strongest; only metals reflect in colour",
              limit->what, (double)found);
@@ -249,8 +245,7 @@ static void check_gains(const Material *material, int choice, const char *target
     }
 }
 
-void plausible_check(const Material *material, int input, int choice, const char *target,
-                     const WeftLog *log) {
+void plausible_check(const Material *material, int input, int choice, const char *target, const WeftLog *log) {
     for (size_t k = 0; input >= 0 && k < sizeof limits / sizeof *limits; k++)
         if (concerns(&limits[k], input)) check_limit(&limits[k], material, target, log);
     if (choice >= 0) check_gains(material, choice, target, log);
@@ -263,8 +258,7 @@ static int first_named(const Limit *limit, const bool *named) {
     return -1;
 }
 
-void plausible_check_named(const Material *material, const bool *named, const char *file,
-                           const WeftLog *log) {
+void plausible_check_named(const Material *material, const bool *named, const char *file, const WeftLog *log) {
     for (size_t k = 0; k < sizeof limits / sizeof *limits; k++) {
         const int input = first_named(&limits[k], named);
         char target[160];
@@ -275,7 +269,6 @@ void plausible_check_named(const Material *material, const bool *named, const ch
 }
 
 void plausible_check_all(const Material *material, const char *target, const WeftLog *log) {
-    for (size_t k = 0; k < sizeof limits / sizeof *limits; k++)
-        check_limit(&limits[k], material, target, log);
+    for (size_t k = 0; k < sizeof limits / sizeof *limits; k++) check_limit(&limits[k], material, target, log);
     for (int k = 0; k < CHOICE_COUNT; k++) check_gains(material, k, target, log);
 }

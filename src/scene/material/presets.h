@@ -1,6 +1,5 @@
 /* presets.h - the materials that need no file: scenes/presets/NAME.json, embedded */
-#ifndef WEFT_SCENE_PRESETS_H
-#define WEFT_SCENE_PRESETS_H
+#pragma once
 
 typedef struct Preset {
     const char *name, *help;
@@ -9,5 +8,3 @@ typedef struct Preset {
 
 /* Returns the preset at index, or NULL past the end. The function is generated. */
 const Preset *preset_at(int index);
-
-#endif

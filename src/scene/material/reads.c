@@ -35,8 +35,7 @@ static float stand_in(const Stack *m) {
 
 /* Returns direction k of light: the mirror direction, one just beside, two far off, and the last from behind. */
 static Dir incoming(Dir o, int k) {
-    const float aside[INCOMING][2] = {
-        {0.0f, 0.0f}, {0.021f, 0.013f}, {0.43f, -0.29f}, {-0.51f, 0.37f}, {0.2f, 0.3f}};
+    const float aside[INCOMING][2] = {{0.0f, 0.0f}, {0.021f, 0.013f}, {0.43f, -0.29f}, {-0.51f, 0.37f}, {0.2f, 0.3f}};
     float x = aside[k][0] - o.x, y = aside[k][1] - o.y, most = 0.97f; /* above the horizon */
     float shrink = min(1.0f, sqrt(most / max(x * x + y * y, most)));
     x *= shrink, y *= shrink;
@@ -55,8 +54,7 @@ static void answer_at(const ReadProbe *probe, Surface s, const Choices *choices,
     stack_make(&seen.stack, &s, choices, none);
     float same = stand_in(&seen.stack);
     for (int k = 0; k <= COLUMNS; k++) e[k] = same;
-    seen_make(&seen, &s, choices, (TableRef){.texels = e, .kind = TABLE_ROOTS, .rows = 1, .columns = COLUMNS},
-              o);
+    seen_make(&seen, &s, choices, (TableRef){.texels = e, .kind = TABLE_ROOTS, .rows = 1, .columns = COLUMNS}, o);
     for (int k = 0; k < INCOMING; k++) { /* the same directions in the world for any rotation of the frame */
         Dir i = frame_from(fixed, incoming(frame_to(fixed, probe->eye), k));
         f_cos[k] = seen_eval(&seen, frame_to(frame, i), 1).f_cos;

@@ -56,8 +56,8 @@ WeftResult choice_value(ChoiceId choice, const char *id, int *value, WeftError *
     const char *several = choice_several(choice, id, text), *name = choice_texts[choice][0],
                *by = choice == CHOICE_layer ? strstr(id, ",by=") : NULL;
     if (by)
-        return fail(error, WEFT_MESSAGE_PARAM_VALUE, id, "write layer=%.*s and layer_by=%s", (int)(by - id),
-                    id, by + strlen(",by="));
+        return fail(error, WEFT_MESSAGE_PARAM_VALUE, id, "write layer=%.*s and layer_by=%s", (int)(by - id), id,
+                    by + strlen(",by="));
     if (several) return fail(error, WEFT_MESSAGE_PARAM_VALUE, id, "several have this name: %s", several);
     return fail(error, WEFT_MESSAGE_PARAM_VALUE, id, "`weft models` lists what %s may be", name);
 }
@@ -77,8 +77,8 @@ float input_ranged(InputId input, float value, const char *target, const WeftLog
     const WeftInputInfo *info = &input_infos[input];
     float taken = fminf(fmaxf(value, info->hard_low), info->hard_high);
     if (taken < value || taken > value)
-        warn(log, WEFT_MESSAGE_PARAM_RANGE, target, "%g is beyond the limit, %g, which is used",
-             (double)value, (double)taken);
+        warn(log, WEFT_MESSAGE_PARAM_RANGE, target, "%g is beyond the limit, %g, which is used", (double)value,
+             (double)taken);
     else if (info->kind != WEFT_INPUT_DIRECTION && (value < info->low || value > info->high))
         warn(log, WEFT_MESSAGE_PARAM_RANGE, target, "%g is taken; plausible is %g .. %g", (double)value,
              (double)info->low, (double)info->high);
@@ -86,8 +86,8 @@ float input_ranged(InputId input, float value, const char *target, const WeftLog
     return angle ? taken * (PI_FLOAT / 180.0f) : taken;
 }
 
-WeftResult setting_read(const char *name, const char *value, const char *target, Setting *setting,
-                        const WeftLog *log, WeftError *error) {
+WeftResult setting_read(const char *name, const char *value, const char *target, Setting *setting, const WeftLog *log,
+                        WeftError *error) {
     *setting = (Setting){.input = weft_material_input_find(name), .choice = weft_material_choice_find(name)};
     if (setting->input < 0 && setting->choice < 0)
         return fail(error, WEFT_MESSAGE_PARAM_NAME, name, "`weft models` lists inputs and choices");
@@ -124,8 +124,7 @@ static bool has_sheen(const Material *material) {
 
 /* Returns true for a setting that affects nothing but a sheen. */
 static bool wants_sheen(const Setting *setting) {
-    static const ChoiceId choices[] = {CHOICE_sheen_lobe, CHOICE_sheen_d, CHOICE_sheen_v, CHOICE_sheen_f,
-                                       CHOICE_layer};
+    static const ChoiceId choices[] = {CHOICE_sheen_lobe, CHOICE_sheen_d, CHOICE_sheen_v, CHOICE_sheen_f, CHOICE_layer};
     bool wants = false;
     for (size_t k = 0; k < sizeof choices / sizeof *choices; k++) wants |= setting->choice == (int)choices[k];
     return wants && setting->value != CHOICE_AUTO;
@@ -157,6 +156,5 @@ WeftResult weft_scene_set(WeftScene *scene, const char *target, const char *valu
         plausible_check(first, setting.input, setting.choice, target, log);
     if (first) return tangents_complete(scene, error);
     char names[NAMES_SIZE];
-    return fail(error, WEFT_MESSAGE_MATERIAL_NAME, name, "%s",
-                scene_names(scene, weft_scene_material_name, names));
+    return fail(error, WEFT_MESSAGE_MATERIAL_NAME, name, "%s", scene_names(scene, weft_scene_material_name, names));
 }

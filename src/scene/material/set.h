@@ -1,6 +1,5 @@
 /* set.h - setting a material's inputs and choices, with warnings about implausible values */
-#ifndef WEFT_SCENE_SET_H
-#define WEFT_SCENE_SET_H
+#pragma once
 
 #include "scene/record/scene.h"
 
@@ -22,8 +21,8 @@ typedef struct Setting {
 
 /* Reads the value for an input or choice called name. Fails with WEFT_MESSAGE_PARAM_NAME or _PARAM_VALUE; target is the
  * subject of warnings. */
-WeftResult setting_read(const char *name, const char *value, const char *target, Setting *setting,
-                        const WeftLog *log, WeftError *error);
+WeftResult setting_read(const char *name, const char *value, const char *target, Setting *setting, const WeftLog *log,
+                        WeftError *error);
 void material_set(Material *material, const Setting *setting);
 
 /* Warns about implausible values of a material that involve one setting, an input or a choice; the other is -1. */
@@ -34,5 +33,3 @@ void plausible_check_named(const Material *material, const bool *named, const ch
 
 /* Checks all settings and reports each finding once. */
 void plausible_check_all(const Material *material, const char *target, const WeftLog *log);
-
-#endif

@@ -12,12 +12,8 @@ Camera camera_towards(const char *name, Vec3 eye, Vec3 target, float yfov) {
     const Vec3 forward = vec3_normal_or(vec3_sub(target, eye), vec3(0.0f, 0.0f, -1.0f));
     const Vec3 up = fabsf(forward.y) > 0.9999f ? vec3(0.0f, 0.0f, -1.0f) : vec3(0.0f, 1.0f, 0.0f);
     const Vec3 right = vec3_normal_or(vec3_cross(forward, up), vec3(1.0f, 0.0f, 0.0f));
-    return (Camera){.name = name,
-                    .eye = eye,
-                    .forward = forward,
-                    .right = right,
-                    .up = vec3_cross(right, forward),
-                    .yfov = yfov};
+    return (Camera){
+        .name = name, .eye = eye, .forward = forward, .right = right, .up = vec3_cross(right, forward), .yfov = yfov};
 }
 
 /* Finds the eye from which every vertex is inside the frustum, touching it on at least one pair of sides and
@@ -26,9 +22,9 @@ Camera camera_towards(const char *name, Vec3 eye, Vec3 target, float yfov) {
  * likewise. */
 static Camera frame_scene(const WeftScene *scene, float aspect) {
     const float azimuth = 0.61f, elevation = 0.26f, margin = 1.12f; /* 35 and 15 degrees */
-    Camera camera = camera_towards(
-        "auto", vec3(sinf(azimuth) * cosf(elevation), sinf(elevation), cosf(azimuth) * cosf(elevation)),
-        vec3(0.0f, 0.0f, 0.0f), 0.49f); /* 28 degrees, a portrait lens */
+    Camera camera =
+        camera_towards("auto", vec3(sinf(azimuth) * cosf(elevation), sinf(elevation), cosf(azimuth) * cosf(elevation)),
+                       vec3(0.0f, 0.0f, 0.0f), 0.49f); /* 28 degrees, a portrait lens */
     float ty = tanf(0.5f * camera.yfov) / margin, tx = ty * aspect;
     float right = -INFINITY, left = -INFINITY, above = -INFINITY, below = -INFINITY;
     for (int m = 0; m < scene_own_meshes(scene); m++)
@@ -60,7 +56,7 @@ static bool parse_view(const char *text, Camera *camera, const char **wrong) {
     float e[3], t[3], degrees;
     if (!parse_numbers(copy, ',', 3, e) || !parse_numbers(target, ',', 3, t) || !parse_number(fov, &degrees))
         return false;
-    *wrong = !(degrees > 0.01f && degrees < 179.0f) ? "its field of view is not within 0.01 and 179 degrees"
+    *wrong = !(degrees > 0.01f && degrees < 179.0f)         ? "its field of view is not within 0.01 and 179 degrees"
              : e[0] == t[0] && e[1] == t[1] && e[2] == t[2] ? "its eye is where its target is"
                                                             : NULL;
     if (!within_reach(vec3_load(e), SCENE_REACH) || !within_reach(vec3_load(t), SCENE_REACH))
@@ -83,8 +79,7 @@ View view_of(const Camera *camera, float aspect) {
 static bool starts_within_reach(const Camera *camera, float aspect) {
     View view = view_of(camera, aspect);
     Vec3 beside = view.orthographic ? vec3_add(view.across, view.up) : vec3(0.0f, 0.0f, 0.0f);
-    return within_reach(vec3_add(view.eye, beside), RAY_REACH) &&
-           within_reach(vec3_sub(view.eye, beside), RAY_REACH);
+    return within_reach(vec3_add(view.eye, beside), RAY_REACH) && within_reach(vec3_sub(view.eye, beside), RAY_REACH);
 }
 
 /* Returns the scene's camera of that name or index, or NULL. */
@@ -97,14 +92,12 @@ static const Camera *own_camera(const WeftScene *scene, const char *text) {
     return NULL;
 }
 
-WeftResult camera_find(const WeftScene *scene, const char *text, float aspect, Camera *out,
-                       WeftError *error) {
+WeftResult camera_find(const WeftScene *scene, const char *text, float aspect, Camera *out, WeftError *error) {
     char names[NAMES_SIZE];
     bool framed = !text || strcmp(text, "auto") == 0;
     const Camera *own = framed ? NULL : own_camera(scene, text);
     const char *wrong = NULL;
-    if (framed && scene->low.x > scene->high.x)
-        return fail(error, WEFT_MESSAGE_SCENE_EMPTY, scene->name, NULL);
+    if (framed && scene->low.x > scene->high.x) return fail(error, WEFT_MESSAGE_SCENE_EMPTY, scene->name, NULL);
     if (framed)
         *out = frame_scene(scene, aspect);
     else if (own)
@@ -112,13 +105,11 @@ WeftResult camera_find(const WeftScene *scene, const char *text, float aspect, C
     else if (!parse_view(text, out, &wrong))
         return fail(error, WEFT_MESSAGE_CAMERA_NAME, text, "%s; else write auto or \"eye;target;fov\"",
                     scene_names(scene, weft_scene_camera_name, names));
-    if (!wrong && !starts_within_reach(out, aspect))
-        wrong = "a picture of this shape is seen from beyond 1e18 m";
+    if (!wrong && !starts_within_reach(out, aspect)) wrong = "a picture of this shape is seen from beyond 1e18 m";
     return wrong ? fail(error, WEFT_MESSAGE_CAMERA_NAME, framed ? "auto" : text, "%s", wrong) : WEFT_OK;
 }
 
-void camera_describe(const WeftScene *scene, const Camera *camera, float eye[3], float target[3],
-                     float *fov) {
+void camera_describe(const WeftScene *scene, const Camera *camera, float eye[3], float target[3], float *fov) {
     Vec3 middle = vec3_scale(vec3_add(scene->low, scene->high), 0.5f);
     float depth = fmaxf(vec3_dot(vec3_sub(middle, camera->eye), camera->forward), 1e-3f);
     Vec3 at = vec3_madd(camera->eye, camera->forward, depth);

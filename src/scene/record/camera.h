@@ -1,6 +1,5 @@
 /* camera.h - finding a camera by its name or by text, and framing a scene without one */
-#ifndef WEFT_SCENE_CAMERA_H
-#define WEFT_SCENE_CAMERA_H
+#pragma once
 
 #include "scene/record/scene.h"
 
@@ -36,5 +35,3 @@ static inline CameraRay view_ray(const View *view, float x, float y) {
     Vec3 d = vec3_add(view->forward, offset);
     return (CameraRay){view->eye, vec3_scale(d, 1.0f / sqrtf(vec3_dot(d, d)))};
 }
-
-#endif

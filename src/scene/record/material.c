@@ -11,7 +11,7 @@
 #include "weave/cloth_base.h"
 
 const WeftInputInfo input_infos[INPUT_COUNT] = {
-#define INPUT_INFO(kind, name, label, initial, low, high, hard_low, hard_high, role, help)                   \
+#define INPUT_INFO(kind, name, label, initial, low, high, hard_low, hard_high, role, help)                             \
     {#name, help, WEFT_INPUT_##kind, initial, low, high, hard_low, hard_high},
     SURFACE_INPUTS(INPUT_INFO)
 #undef INPUT_INFO
@@ -83,12 +83,11 @@ static bool has_choice(const Material *material, ChoiceId choice, const char *id
 
 static float input_default(const Material *material, InputId id) {
     bool engine = material->choices[CHOICE_profile] > 0;
-    bool disney = engine ? has_choice(material, CHOICE_profile, "disney-2012")
-                         : has_choice(material, CHOICE_workflow, "disney");
+    bool disney =
+        engine ? has_choice(material, CHOICE_profile, "disney-2012") : has_choice(material, CHOICE_workflow, "disney");
     if (disney && id == INPUT_specular) return 0.5f;
     if (disney && id == INPUT_sheen) return 0.0f;
-    bool bare =
-        has_choice(material, CHOICE_workflow, "specular") || has_choice(material, CHOICE_workflow, "free");
+    bool bare = has_choice(material, CHOICE_workflow, "specular") || has_choice(material, CHOICE_workflow, "free");
     if (!engine && bare && id == INPUT_specular_color) return 0.03f;
     return input_infos[id].initial;
 }
@@ -137,20 +136,15 @@ static const Texel *fetch(Lookup *lookup, const Input *input, const SrgbTable *s
     float u = m[0] * uv[0] + m[1] * uv[1] + m[2], v = m[3] * uv[0] + m[4] * uv[1] + m[5];
     lookup->last = input;
     lookup->last_srgb = srgb;
-    lookup->texel =
-        texture_fetch(&lookup->scene->textures[input->texture - 1], lookup->scene->images, srgb, u, v);
+    lookup->texel = texture_fetch(&lookup->scene->textures[input->texture - 1], lookup->scene->images, srgb, u, v);
     return &lookup->texel;
 }
 
 static float plain_SCALAR(const Input *input) { return input->value[0]; }
 static float plain_ANGLE(const Input *input) { return input->value[0]; }
-static Rgb plain_COLOR(const Input *input) {
-    return (Rgb){input->value[0], input->value[1], input->value[2]};
-}
+static Rgb plain_COLOR(const Input *input) { return (Rgb){input->value[0], input->value[1], input->value[2]}; }
 static Dir plain_NORMAL(const Input *input) { return dir(0.0f, 0.0f, 1.0f); }
-static Dir plain_DIRECTION(const Input *input) {
-    return dir(cos(input->value[0]), sin(input->value[0]), 0.0f);
-}
+static Dir plain_DIRECTION(const Input *input) { return dir(cos(input->value[0]), sin(input->value[0]), 0.0f); }
 
 static float read_SCALAR(Lookup *lookup, const Input *input) {
     /* opacity is the alpha of a colour texture: the same texel, and alpha is never decoded */
@@ -177,7 +171,7 @@ static Dir read_DIRECTION(Lookup *lookup, const Input *input) {
 
 Surface material_plain(const Material *material) {
     Surface s;
-#define PLAIN_INPUT(kind, name, label, initial, low, high, hard_low, hard_high, role, help)                  \
+#define PLAIN_INPUT(kind, name, label, initial, low, high, hard_low, hard_high, role, help)                            \
     s.name = plain_##kind(&material->inputs[INPUT_##name]);
     SURFACE_INPUTS(PLAIN_INPUT)
     return s;
@@ -191,9 +185,8 @@ Surface surface_default(void) {
 void material_textures(const WeftScene *scene, const Material *material, float uv[2][2], const float color[4],
                        Surface *s) {
     Lookup lookup = {.scene = scene, .uv = uv};
-#define READ_INPUT(kind, name, label, initial, low, high, hard_low, hard_high, role, help)                   \
-    if (material->inputs[INPUT_##name].texture)                                                              \
-        s->name = read_##kind(&lookup, &material->inputs[INPUT_##name]);
+#define READ_INPUT(kind, name, label, initial, low, high, hard_low, hard_high, role, help)                             \
+    if (material->inputs[INPUT_##name].texture) s->name = read_##kind(&lookup, &material->inputs[INPUT_##name]);
     SURFACE_INPUTS(READ_INPUT)
     s->base_color = (Rgb){s->base_color.r * color[0], s->base_color.g * color[1], s->base_color.b * color[2]};
     s->opacity *= color[3];

@@ -1,7 +1,6 @@
 /* material.h - the material of a surface: each input of shading/stack/inputs.h as a number or a texture times a
  * number */
-#ifndef WEFT_SCENE_MATERIAL_H
-#define WEFT_SCENE_MATERIAL_H
+#pragma once
 
 #include "scene/record/texture.h"
 #include "shading/stack/input_ids.h"
@@ -38,5 +37,3 @@ void input_set_map_factor(Input *input, InputId id);
  * specular and free: specular_color 0.03) change from default to default, unless they are given, have a texture or
  * another value. */
 void material_choose(Material *material, ChoiceId choice, int value);
-
-#endif

@@ -1,6 +1,5 @@
 /* material_at.h - a material evaluated at a point of a mesh */
-#ifndef WEFT_SCENE_MATERIAL_AT_H
-#define WEFT_SCENE_MATERIAL_AT_H
+#pragma once
 
 #include "scene/record/scene.h"
 #include "shading/material/material_stack.h"
@@ -21,5 +20,3 @@ void material_textures(const WeftScene *scene, const Material *material, float u
 
 /* Returns the opacity at a point, after the alpha mode's rule (MASK gives 0 or 1); 1 for OPAQUE. */
 float material_opacity(const WeftScene *scene, const Material *material, float uv[2][2], float vertex_alpha);
-
-#endif

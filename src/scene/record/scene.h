@@ -2,8 +2,7 @@
  *
  * World space is glTF's: right-handed, +y up, metres. gltf/ or builtin/ make a scene, the renderers read it. All memory
  * except pixels is in one arena. */
-#ifndef WEFT_SCENE_SCENE_H
-#define WEFT_SCENE_SCENE_H
+#pragma once
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -32,9 +31,9 @@ static inline bool within_reach(Vec3 p, float reach) {
 typedef struct Mesh {
     const char *name; /* never NULL */
     uint32_t vertex_count, triangle_count;
-    float *position; /* 3 a vertex */
-    float *normal;   /* 3 a vertex, unit; NULL: use the flat face normal */
-    float *tangent; /* 4 a vertex: unit xyz, w = +1 or -1 with bitangent = w cross(n, t); NULL: none needed */
+    float *position;       /* 3 a vertex */
+    float *normal;         /* 3 a vertex, unit; NULL: use the flat face normal */
+    float *tangent;        /* 4 a vertex: unit xyz, w = +1 or -1 with bitangent = w cross(n, t); NULL: none needed */
     float *texcoord[2];    /* 2 a vertex; NULL reads as (0, 0) */
     float *color;          /* 4 a vertex, linear RGBA, multiplies base_color and opacity; NULL: white */
     uint32_t *index;       /* 3 a triangle, each < vertex_count */
@@ -71,11 +70,7 @@ typedef struct Camera {
     float ymag; /* half of the visible height, m; orthographic */
 } Camera;
 
-typedef enum EnvironmentKind {
-    ENVIRONMENT_STUDIO = 0,
-    ENVIRONMENT_CONSTANT,
-    ENVIRONMENT_IMAGE
-} EnvironmentKind;
+typedef enum EnvironmentKind { ENVIRONMENT_STUDIO = 0, ENVIRONMENT_CONSTANT, ENVIRONMENT_IMAGE } EnvironmentKind;
 
 /* Distant light. An image is lat-long: row 0 is +y, the middle column is -z, columns run towards +x. */
 typedef struct Environment {
@@ -107,8 +102,7 @@ struct WeftScene {
     const char **variants;
     int variant; /* number of the active variant, counted from 1; 0: none */
     int image_count, texture_count, material_count, mesh_count, light_count, camera_count, variant_count;
-    int light_capacity, polygon_light_count,
-        polygon_light_capacity; /* capacity: entries that a list has memory for */
+    int light_capacity, polygon_light_count, polygon_light_capacity; /* capacity: entries that a list has memory for */
     PolygonLight *polygon_lights;
     unsigned shape_version; /* counts changes of shapes; only those of lights may change */
     Environment environment;
@@ -116,9 +110,7 @@ struct WeftScene {
 };
 
 /* Return the counts of the scene's own meshes and materials, without those of its lights. */
-static inline int scene_own_meshes(const WeftScene *scene) {
-    return scene->mesh_count - scene->polygon_light_count;
-}
+static inline int scene_own_meshes(const WeftScene *scene) { return scene->mesh_count - scene->polygon_light_count; }
 static inline int scene_own_materials(const WeftScene *scene) {
     return scene->material_count - scene->polygon_light_count;
 }
@@ -147,5 +139,3 @@ void scene_measured_free(Measured *measured); /* may be NULL */
 
 /* Sets low and high from the meshes. Call once all meshes stand. */
 void scene_bounds(WeftScene *scene);
-
-#endif

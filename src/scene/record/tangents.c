@@ -17,8 +17,7 @@ const Input *tangents_input(const Material *material) {
 bool tangents_possible(const Mesh *mesh, const Input *input) {
     const float *uv = mesh->texcoord[input->texcoord];
     bool same = true;
-    for (size_t k = 2; uv && same && k < 2 * (size_t)mesh->vertex_count; k++)
-        same = is_equal(uv[k], uv[k % 2]);
+    for (size_t k = 2; uv && same && k < 2 * (size_t)mesh->vertex_count; k++) same = is_equal(uv[k], uv[k % 2]);
     return uv && !same;
 }
 
@@ -42,8 +41,8 @@ static void add_triangle(const Mesh *mesh, const Input *input, const uint32_t *c
     }
     float u1 = uv[1].u - uv[0].u, v1 = uv[1].v - uv[0].v, u2 = uv[2].u - uv[0].u, v2 = uv[2].v - uv[0].v;
     float area = u1 * v2 - u2 * v1, upright = area < 0.0f ? 1.0f : -1.0f;
-    Vec3 along = vec3_sub(vec3_scale(vec3_sub(p[2], p[0]), upright * v1),
-                          vec3_scale(vec3_sub(p[1], p[0]), upright * v2));
+    Vec3 along =
+        vec3_sub(vec3_scale(vec3_sub(p[2], p[0]), upright * v1), vec3_scale(vec3_sub(p[1], p[0]), upright * v2));
     float size = vec3_length(along);
     if (!isfinite(size) || !(area < 0.0f || area > 0.0f)) return;
     for (int k = 0; k < 3; k++) {

@@ -2,8 +2,7 @@
  *
  * Reading a file makes the tangents that its materials need. A material that is assigned or set later may be the first
  * to have anisotropy or a normal map. */
-#ifndef WEFT_SCENE_TANGENTS_H
-#define WEFT_SCENE_TANGENTS_H
+#pragma once
 
 #include "scene/record/scene.h"
 
@@ -18,5 +17,3 @@ bool tangents_possible(const Mesh *mesh, const Input *input);
  * sum over its triangles, weighted by size. A map that is mirrored across an edge needs separate vertices on either
  * side, as files have them. Fails with WEFT_MESSAGE_MEMORY. */
 WeftResult tangents_complete(WeftScene *scene, WeftError *error);
-
-#endif

@@ -39,8 +39,7 @@ FN TexelSpan span_at(float u, int size, TextureWrap wrap, int step) {
     u = wrap == WRAP_CLAMP ? clamp(u, -1.0f, 2.0f) : wrapped;
     float x = u * (float)size - 0.5f * (float)step, whole = floor(x); /* texel centres */
     int first = (int)whole, last = size - 1;
-    return (TexelSpan){step_in(first, last, wrap), step_in(first + step, last, wrap),
-                       (x - whole) * (float)step};
+    return (TexelSpan){step_in(first, last, wrap), step_in(first + step, last, wrap), (x - whole) * (float)step};
 }
 
 static inline Channels read_u8(const uint8_t *p, const SrgbTable *srgb, int channels) {
@@ -72,8 +71,7 @@ static inline Channels read_texel(const WeftImage *image, const SrgbTable *srgb,
         const float *p = (const float *)image->pixels + at;
         return channels == 3 ? read_f32(p, 3) : read_f32(p, image->channels);
     }
-    if (image->type == WEFT_PIXEL_U16)
-        return read_u16((const uint16_t *)image->pixels + at, srgb, image->channels);
+    if (image->type == WEFT_PIXEL_U16) return read_u16((const uint16_t *)image->pixels + at, srgb, image->channels);
     const uint8_t *p = (const uint8_t *)image->pixels + at;
     return channels == 3   ? read_u8(p, srgb, 3)
            : channels == 4 ? read_u8(p, srgb, 4)
@@ -89,8 +87,7 @@ static inline Channels interpolate(const WeftImage *image, const SrgbTable *srgb
     return c + (below - c) * y.t;
 }
 
-Texel texture_fetch(const Texture *texture, const WeftImage *images, const SrgbTable *srgb, float u,
-                    float v) {
+Texel texture_fetch(const Texture *texture, const WeftImage *images, const SrgbTable *srgb, float u, float v) {
     const WeftImage *image = &images[texture->image];
     TexelSpan x = span_at(u, image->width, texture->wrap_u, !texture->nearest);
     TexelSpan y = span_at(v, image->height, texture->wrap_v, !texture->nearest);
@@ -142,8 +139,8 @@ static void prefetch(const WeftImage *image, size_t texel, int x, int y, int bel
     __builtin_prefetch(pixels + ((size_t)below * width + (size_t)x) * texel);
 }
 
-void texture_fetch_rows(const Texture *texture, const WeftImage *images, const SrgbTable *srgb, int n,
-                        const float *u, const float *v, float *texels) {
+void texture_fetch_rows(const Texture *texture, const WeftImage *images, const SrgbTable *srgb, int n, const float *u,
+                        const float *v, float *texels) {
     enum { AHEAD = 16 };
     const WeftImage *image = &images[texture->image];
     size_t texel = (size_t)image->channels * pixel_type_size(image->type);

@@ -1,6 +1,5 @@
 /* texture.h - an image with its wrapping and filter */
-#ifndef WEFT_SCENE_TEXTURE_H
-#define WEFT_SCENE_TEXTURE_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -35,7 +34,5 @@ Texel texture_fetch(const Texture *texture, const WeftImage *images, const SrgbT
 
 /* Looks up n <= ROW_MOST places (shading/stack/surface_rows.h), in arrays of row_whole(n) entries. Channel c of place k
  * is texels[c * ROW_CAPACITY + k]. */
-void texture_fetch_rows(const Texture *texture, const WeftImage *images, const SrgbTable *srgb, int n,
-                        const float *u, const float *v, float *texels);
-
-#endif
+void texture_fetch_rows(const Texture *texture, const WeftImage *images, const SrgbTable *srgb, int n, const float *u,
+                        const float *v, float *texels);

@@ -6,8 +6,7 @@
  * Departure: look-ups have no single wi. So a layer rule that needs E(wi) uses the cosine average of E
  * instead, and a Fresnel factor that needs wi uses its own cosine average. Directional lights are dimmed
  * exactly. */
-#ifndef WEFT_SHADING_AMBIENT_H
-#define WEFT_SHADING_AMBIENT_H
+#pragma once
 
 #include "shading/ambient/ambient_lobe.h"
 #include "shading/material/stack_value.h"
@@ -29,8 +28,7 @@ FN AmbientTint ambient_tint(SheenE e, SlotColors s) {
     AmbientTint t = ambient_untinted();
     if (!IS_TINTED(e.tint)) return t;
     t.whole = e.tint;
-    t.flakes =
-        rgb(s.f0.r / max(s.f90.r, 1e-30f), s.f0.g / max(s.f90.g, 1e-30f), s.f0.b / max(s.f90.b, 1e-30f));
+    t.flakes = rgb(s.f0.r / max(s.f90.r, 1e-30f), s.f0.g / max(s.f90.g, 1e-30f), s.f0.b / max(s.f90.b, 1e-30f));
     return t;
 }
 
@@ -54,8 +52,7 @@ FN Rgb ambient_base_transmittance(const Stack *m, const StackView *w) {
     if (m->base_fresnel == BASE_FRESNEL_HALF || m->base_fresnel == BASE_FRESNEL_GAUSSIAN)
         f = rgb_mix(w->interface_f0, rgb_grey(w->interface_f90), ambient_schlick_half(cos_o));
     if (m->base_fresnel == BASE_FRESNEL_LEAST)
-        f = rgb_grey(
-            rgb_max3(rgb_mix(w->interface_f0, rgb_grey(w->interface_f90), ambient_schlick_least(cos_o))));
+        f = rgb_grey(rgb_max3(rgb_mix(w->interface_f0, rgb_grey(w->interface_f90), ambient_schlick_least(cos_o))));
     return stack_one_minus(f);
 }
 FN Rgb ambient_interface_transmittance(const Stack *m, const StackView *w) {
@@ -100,8 +97,7 @@ FN AmbientSlot ambient_slot(SlotColors colors, SheenE e, float scale, SlotLight 
 
 /* Returns the environment's directional lights as the slots in `only` reflect them. view: the stack's view,
  * with each slot's scale replaced by its lights_scale. */
-FN Rgb ambient_reflect_lights(const Stack *m, const StackView *view, Slots only, AmbientSource s,
-                              float occlusion) {
+FN Rgb ambient_reflect_lights(const Stack *m, const StackView *view, Slots only, AmbientSource s, float occlusion) {
     Rgb sum = rgb_grey(0.0f);
     int count = ambient_light_count(s);
     for (int k = 0; k < count; k++) {
@@ -133,10 +129,8 @@ FN Rgb ambient_smooth(const Stack *m, const StackView *w, AmbientTables t, Ambie
     SheenE untinted = sheen_e_of(0.0f);
     float diffuse_factor = ambient_diffuse(s), reflection_factor = ambient_reflection(s);
     if (HAS_DIFFUSE(m)) {
-        SlotLight light =
-            LIGHT_OF_SLOT(diffuse)(t.diffuse, s, v, residual, m->diffuse.lobe, ambient_untinted(), -1.0f);
-        AmbientSlot a =
-            ambient_slot(slot_colors(&m->diffuse), untinted, w->scale.diffuse, light, diffuse_factor);
+        SlotLight light = LIGHT_OF_SLOT(diffuse)(t.diffuse, s, v, residual, m->diffuse.lobe, ambient_untinted(), -1.0f);
+        AmbientSlot a = ambient_slot(slot_colors(&m->diffuse), untinted, w->scale.diffuse, light, diffuse_factor);
         if (SHOWS_DIFFUSE) sum = rgb_mul(through.diffuse, a.reflected);
         lights->scale.diffuse = a.lights_scale;
         only->diffuse = SHOWS_DIFFUSE && a.lights_scale > 0.0f;
@@ -176,16 +170,14 @@ FN Rgb ambient_smooth(const Stack *m, const StackView *w, AmbientTables t, Ambie
             AmbientView c = ambient_view(w->coat_o, m->coat_x, m->coat_y, m->coat_z, v.occlusion);
             SlotLight light = LIGHT_OF_SLOT(coat)(t.coat, s, c, ambient_residual_lookups(s, c), m->coat.lobe,
                                                   ambient_untinted(), -1.0f);
-            AmbientSlot a =
-                ambient_slot(slot_colors(&m->coat), untinted, w->scale.coat, light, reflection_factor);
+            AmbientSlot a = ambient_slot(slot_colors(&m->coat), untinted, w->scale.coat, light, reflection_factor);
             if (SHOWS_COAT) sum = rgb_add(sum, a.reflected);
             lights->scale.coat = a.lights_scale;
             only->coat = SHOWS_COAT && a.lights_scale > 0.0f;
         }
     }
     if (HAS_DUST(m)) {
-        SlotLight light =
-            LIGHT_OF_SLOT(dust)(t.dust, s, v, residual, m->dust.lobe, ambient_untinted(), -1.0f);
+        SlotLight light = LIGHT_OF_SLOT(dust)(t.dust, s, v, residual, m->dust.lobe, ambient_untinted(), -1.0f);
         AmbientSlot a = ambient_slot(slot_colors(&m->dust), untinted, w->scale.dust, light, diffuse_factor);
         if (SHOWS_DUST) sum = rgb_add(sum, a.reflected);
         lights->scale.dust = a.lights_scale;
@@ -204,5 +196,3 @@ FN Rgb stack_ambient(const Stack *m, const StackView *w, AmbientTables t, Ambien
         sum = rgb_add(sum, ambient_reflect_lights(m, &lights, only, s, clamp(occlusion, 0.0f, 1.0f)));
     return sum;
 }
-
-#endif

@@ -61,9 +61,7 @@ static void legendre(double mu, double p[BANDS]) {
 /* Returns (2l + 1) / (4 pi) C_l. */
 static double band_weight(int l) { return (2 * l + 1) / 12.5663706143592 * (pow)(l + 1.0, -2.5); }
 
-static double filter_at(double kappa, double mu) {
-    return kappa > 0.0 ? (exp)(kappa * (mu - 1.0)) : fmax(mu, 0.0);
-}
+static double filter_at(double kappa, double mu) { return kappa > 0.0 ? (exp)(kappa * (mu - 1.0)) : fmax(mu, 0.0); }
 
 static void make_filter(Filter *filter, double kappa) {
     enum { NODES = 2000 }; /* of the quadrature */
@@ -271,8 +269,7 @@ static void fit_column(void *user, int column, int thread) {
     const Fitter *fitter = user;
     Reflected light;
     for (int heading = 0; heading < heading_count(fitter->fit); heading++)
-        for (int row = 0; row < fitter->fit->rows; row++)
-            fit_node(fitter, &light, (FitNode){heading, row, column});
+        for (int row = 0; row < fitter->fit->rows; row++) fit_node(fitter, &light, (FitNode){heading, row, column});
 }
 
 int ambient_lean_azimuth(int lobe) {
@@ -308,8 +305,7 @@ void ambient_fit_finish(AmbientFit *fit) {
                 float kappa = *entry(fit, at, PLANE_KAPPA);
                 float y = 1.0f - (float)column / (AMBIENT_COLUMNS - 1), x = root_cos_at(column);
                 float e = *entry(fit, at, AMBIENT_PLANE_E) + *entry(fit, at, AMBIENT_PLANE_E_SECOND);
-                float part =
-                    e * x * x * x * y; /* fraction of the light of a lit sphere: cos dcos goes as x^3 y */
+                float part = e * x * x * x * y; /* fraction of the light of a lit sphere: cos dcos goes as x^3 y */
                 fit->finest = max(fit->finest, kappa);
                 denser += part * (*entry(fit, at, PLANE_DENSITY) - kappa);
                 light += part;
@@ -346,8 +342,7 @@ static bool is_flat(const AmbientFit *fit) {
     for (int heading = 0; heading < heading_count(fit); heading++)
         for (int row = 0; row < fit->rows; row++)
             for (int column = 0; column < AMBIENT_COLUMNS; column++) {
-                const float *plane =
-                    fit->texels[(heading * AMBIENT_PLANES + AMBIENT_PLANE_E) * fit->rows + row];
+                const float *plane = fit->texels[(heading * AMBIENT_PLANES + AMBIENT_PLANE_E) * fit->rows + row];
                 if (fabsf(plane[column] - 1.0f) > 1e-4f) return false;
             }
     return true;
@@ -380,22 +375,20 @@ static double value_at(const AmbientFit *fit, int heading, int plane, int column
     return (double)fit->texels[heading * AMBIENT_PLANES + plane][column];
 }
 static double albedo_at(const AmbientFit *fit, int heading, int column) {
-    return value_at(fit, heading, AMBIENT_PLANE_E, column) +
-           value_at(fit, heading, AMBIENT_PLANE_E_SECOND, column);
+    return value_at(fit, heading, AMBIENT_PLANE_E, column) + value_at(fit, heading, AMBIENT_PLANE_E_SECOND, column);
 }
 
 /* Sets the coefficients of planes first .. end - 1, by least squares with a weight for each column. Element k of out
  * has coefficient k % TERMS of the four planes of group k / TERMS. */
-static void bake_planes(const AmbientFit *fit, int heading, int first, int end,
-                        const double weight[AMBIENT_COLUMNS], AmbientWeights out[AMBIENT_HEADING]) {
+static void bake_planes(const AmbientFit *fit, int heading, int first, int end, const double weight[AMBIENT_COLUMNS],
+                        AmbientWeights out[AMBIENT_HEADING]) {
     double a[TERMS][TERMS] = {{0.0}}, b[PLANES_BAKED][TERMS] = {{0.0}};
     for (int column = 0; column < AMBIENT_COLUMNS; column++) {
         double power[TERMS] = {1.0}, t = 2.0 * column / (AMBIENT_COLUMNS - 1) - 1.0;
         for (int k = 1; k < TERMS; k++) power[k] = power[k - 1] * t;
         for (int j = 0; j < TERMS; j++) {
             for (int k = 0; k < TERMS; k++) a[j][k] += weight[column] * power[j] * power[k];
-            for (int n = first; n < end; n++)
-                b[n][j] += weight[column] * power[j] * value_at(fit, heading, n, column);
+            for (int n = first; n < end; n++) b[n][j] += weight[column] * power[j] * value_at(fit, heading, n, column);
         }
     }
     if (!matrix_factor(TERMS, a[0], TERMS) || !matrix_solve(TERMS, a[0], TERMS, PLANES_BAKED, b[0], TERMS))
@@ -413,8 +406,7 @@ static void bake_planes(const AmbientFit *fit, int heading, int first, int end,
  * only a little where it fades away. */
 static void bake_heading(const AmbientFit *fit, int heading, AmbientWeights out[AMBIENT_HEADING]) {
     double most = 1e-9, value[AMBIENT_COLUMNS], shape[AMBIENT_COLUMNS]; /* weights for E, and for the rest */
-    for (int column = 0; column < AMBIENT_COLUMNS; column++)
-        most = fmax(most, albedo_at(fit, heading, column));
+    for (int column = 0; column < AMBIENT_COLUMNS; column++) most = fmax(most, albedo_at(fit, heading, column));
     for (int column = 0; column < AMBIENT_COLUMNS; column++) {
         double e = albedo_at(fit, heading, column) / most;
         value[column] = 1.0 / ((e + FADED) * (e + FADED));

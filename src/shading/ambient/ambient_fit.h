@@ -1,6 +1,5 @@
 /* ambient_fit.h - makes the table of any lobe for ambient_table.h, from its eval and its sampler */
-#ifndef WEFT_SHADING_AMBIENT_FIT_H
-#define WEFT_SHADING_AMBIENT_FIT_H
+#pragma once
 
 #include "shading/ambient/ambient_lobe.h"
 
@@ -55,5 +54,3 @@ void ambient_bake(const AmbientFit *fit, AmbientWeights out[AMBIENT_BAKED]);
 /* Returns the strategy with the least error for a lobe (docs/environment.md). by_azimuth, dense: the lobe depends on
  * azimuth, and its AmbientFit.denser exceeds AMBIENT_DENSER. */
 int ambient_strategy(int lobe, bool by_azimuth, bool dense);
-
-#endif

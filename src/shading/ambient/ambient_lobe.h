@@ -26,8 +26,7 @@
  *
  * Departure: look-ups assume that the lobe is symmetric about the plane of wo, which is false for a brushed lobe or a
  * leaning nap. Lights do not need this assumption. */
-#ifndef WEFT_SHADING_AMBIENT_LOBE_H
-#define WEFT_SHADING_AMBIENT_LOBE_H
+#pragma once
 
 #include "shading/ambient/ambient_samples.h"
 #include "shading/ambient/ambient_table.h"
@@ -69,8 +68,7 @@ FN float ambient_kappa_blend(float log2_kappa, float edge) {
  * part of the filter above the horizon. The look-up's axis w is bent towards the visible sky. Both are in the
  * frame whose x axis points towards wo (ambient_to_lobe). */
 FN Rgb ambient_visible_residual(AmbientSource s, AmbientView v, Dir w, float kappa, Dir m) {
-    float open =
-        ambient_sky_visibility(s, ambient_to_source(v, ambient_to_lobe(v, m)), kappa, w.z, v.occlusion);
+    float open = ambient_sky_visibility(s, ambient_to_source(v, ambient_to_lobe(v, m)), kappa, w.z, v.occlusion);
     Dir bent = ambient_bent_direction(s, ambient_to_source(v, ambient_to_lobe(v, w)), kappa, open);
     return rgb_scale(ambient_residual(s, bent, kappa), open);
 }
@@ -93,15 +91,13 @@ STRUCT(AmbientLookups) { Rgb a, b, c, d; };
 FN AmbientLookups ambient_residual_lookups(AmbientSource s, AmbientView v) {
     AmbientLookups l;
     l.a = rgb_scale(ambient_residual(s, v.z, 0.0f), v.occlusion);
-    l.b = rgb_add(ambient_visible_residual(s, v, dir(AMBIENT_AXIS_1_LEFT), AMBIENT_KAPPA_1,
-                                           dir(0.3984f, 0.3984f, 0.5224f)),
-                  ambient_visible_residual(s, v, dir(AMBIENT_AXIS_1_RIGHT), AMBIENT_KAPPA_1,
-                                           dir(0.3984f, -0.3984f, 0.5224f)));
+    l.b = rgb_add(
+        ambient_visible_residual(s, v, dir(AMBIENT_AXIS_1_LEFT), AMBIENT_KAPPA_1, dir(0.3984f, 0.3984f, 0.5224f)),
+        ambient_visible_residual(s, v, dir(AMBIENT_AXIS_1_RIGHT), AMBIENT_KAPPA_1, dir(0.3984f, -0.3984f, 0.5224f)));
     l.c = ambient_visible_residual(s, v, dir(AMBIENT_AXIS_2), AMBIENT_KAPPA_2, dir(-0.791f, 0.0f, 0.483f));
-    l.d = rgb_add(ambient_visible_residual(s, v, dir(AMBIENT_AXIS_3_LEFT), AMBIENT_KAPPA_3,
-                                           dir(-0.6334f, 0.6334f, 0.2856f)),
-                  ambient_visible_residual(s, v, dir(AMBIENT_AXIS_3_RIGHT), AMBIENT_KAPPA_3,
-                                           dir(-0.6334f, -0.6334f, 0.2856f)));
+    l.d = rgb_add(
+        ambient_visible_residual(s, v, dir(AMBIENT_AXIS_3_LEFT), AMBIENT_KAPPA_3, dir(-0.6334f, 0.6334f, 0.2856f)),
+        ambient_visible_residual(s, v, dir(AMBIENT_AXIS_3_RIGHT), AMBIENT_KAPPA_3, dir(-0.6334f, -0.6334f, 0.2856f)));
     l.b = rgb_scale(l.b, 0.5f);
     l.d = rgb_scale(l.d, 0.5f);
     return l;
@@ -109,8 +105,8 @@ FN AmbientLookups ambient_residual_lookups(AmbientSource s, AmbientView v) {
 
 /* Returns the weighted mean of the look-ups. The sum of the weights is positive wherever the lobe reflects light. */
 FN Rgb ambient_mean(AmbientLookups l, AmbientWeights w) {
-    Rgb sum = rgb_add(rgb_add(rgb_scale(l.a, w.a), rgb_scale(l.b, w.b)),
-                      rgb_add(rgb_scale(l.c, w.c), rgb_scale(l.d, w.d)));
+    Rgb sum =
+        rgb_add(rgb_add(rgb_scale(l.a, w.a), rgb_scale(l.b, w.b)), rgb_add(rgb_scale(l.c, w.c), rgb_scale(l.d, w.d)));
     return rgb_scale(sum, 1.0f / max(ambient_weights_sum(w), 1e-20f));
 }
 FN LobeLight ambient_broad_light(AmbientLookups l, AmbientAlbedo e) {
@@ -158,15 +154,14 @@ FN SlotLight ambient_mirror_light(AmbientTable t, AmbientSource s, AmbientView v
 /* Returns the light by strategy `sampled`. The table of a brushed lobe is exact at its headings; between them it is
  * less exact than the sum over strips, which is within 5 %. The table therefore scales the sum near headings only: w is
  * the position between two headings, and the factor 16 was fitted to ggx and silk. */
-FN SlotLight ambient_sampled_light(AmbientTable t, AmbientSource s, AmbientView v, AmbientLookups residual,
-                                   Lobe lobe, AmbientTint tint, float albedo) {
+FN SlotLight ambient_sampled_light(AmbientTable t, AmbientSource s, AmbientView v, AmbientLookups residual, Lobe lobe,
+                                   AmbientTint tint, float albedo) {
     AmbientCoord at = ambient_coord(t, v.o.z, v.heading, lobe.params[0]);
     AmbientAlbedo e = ambient_albedo(t, s, at, albedo);
     SlotLight a;
     float w = at.outer_weight, own = t.strips && t.by_azimuth ? min(16.0f * w * (1.0f - w), 1.0f) : 0.0f;
-    a.reflected =
-        lobe_light_add(ambient_sample_lobe(s, v, lobe, tint.flakes, t.strips, e.first + e.second, own),
-                       ambient_sample_lights(s, v, lobe, tint.flakes, t.strips));
+    a.reflected = lobe_light_add(ambient_sample_lobe(s, v, lobe, tint.flakes, t.strips, e.first + e.second, own),
+                                 ambient_sample_lights(s, v, lobe, tint.flakes, t.strips));
     a.light_fraction = 0.0f;
     return a;
 }
@@ -179,8 +174,7 @@ FN SlotLight ambient_fitted_light(AmbientTable t, AmbientSource s, AmbientView v
     if (!t.focus) return a;
     AmbientWeights shape = ambient_group(t, s, at, AMBIENT_GROUP_SHAPE);
     float sine = clamp(shape.a, -1.0f, 1.0f), log2_kappa = shape.b, kappa = exp2(log2_kappa);
-    Dir axis = ambient_to_lobe(v, dir(sine, 0.0f, sqrt(max(1.0f - sine * sine, 0.0f)))),
-        w = ambient_to_source(v, axis);
+    Dir axis = ambient_to_lobe(v, dir(sine, 0.0f, sqrt(max(1.0f - sine * sine, 0.0f)))), w = ambient_to_source(v, axis);
     float open = ambient_sky_visibility(s, w, kappa, axis.z, v.occlusion);
     Rgb wide = rgb_scale(ambient_residual(s, w, kappa), open);
     a.reflected = lobe_light_mix(a.reflected, lobe_light_of(wide, e.first, e.second),
@@ -196,8 +190,8 @@ FN SlotLight ambient_fitted_light(AmbientTable t, AmbientSource s, AmbientView v
 }
 
 /* Works as ambient_slot_light for a slot that is not sampled. The light of a tinted lobe is that of its flakes. */
-FN SlotLight ambient_lookup_light(AmbientTable t, AmbientSource s, AmbientView v, AmbientLookups residual,
-                                  Lobe lobe, AmbientTint tint, float albedo) {
+FN SlotLight ambient_lookup_light(AmbientTable t, AmbientSource s, AmbientView v, AmbientLookups residual, Lobe lobe,
+                                  AmbientTint tint, float albedo) {
     float p = lobe.params[0];
     AmbientCoord at = ambient_coord(t, v.o.z, v.heading, p);
     AmbientAlbedo e = ambient_albedo(t, s, at, albedo);
@@ -214,10 +208,8 @@ FN SlotLight ambient_lookup_light(AmbientTable t, AmbientSource s, AmbientView v
 
 /* Returns the light of an environment that a slot's lobe reflects, by the strategy of its table. residual: the look-ups
  * in this view, which strategy `sampled` does not read. albedo: see ambient_albedo. */
-FN SlotLight ambient_slot_light(AmbientTable t, AmbientSource s, AmbientView v, AmbientLookups residual,
-                                Lobe lobe, AmbientTint tint, float albedo) {
+FN SlotLight ambient_slot_light(AmbientTable t, AmbientSource s, AmbientView v, AmbientLookups residual, Lobe lobe,
+                                AmbientTint tint, float albedo) {
     if (t.strategy == AMBIENT_SAMPLED) return ambient_sampled_light(t, s, v, residual, lobe, tint, albedo);
     return ambient_lookup_light(t, s, v, residual, lobe, tint, albedo);
 }
-
-#endif

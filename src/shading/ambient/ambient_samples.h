@@ -10,8 +10,7 @@
  *
  * Both see the lights. Each light is weighted by the squares of the two densities, the power heuristic of Eric Veach,
  * Leonidas Guibas, "Optimally Combining Sampling Techniques for Monte Carlo Rendering", SIGGRAPH 1995. */
-#ifndef WEFT_SHADING_AMBIENT_SAMPLES_H
-#define WEFT_SHADING_AMBIENT_SAMPLES_H
+#pragma once
 
 #include "shading/ambient/ambient_view.h"
 #include "shading/catalogue/registry.h"
@@ -47,8 +46,7 @@ FN AmbientTint ambient_untinted(void) {
 
 FN Rgb ambient_tinted(Tint t, Rgb flakes, Rgb light) {
     if (!IS_TINTED(t)) return rgb_mul(light, flakes);
-    return rgb(light.r * tint_color(t, flakes.r), light.g * tint_color(t, flakes.g),
-               light.b * tint_color(t, flakes.b));
+    return rgb(light.r * tint_color(t, flakes.r), light.g * tint_color(t, flakes.g), light.b * tint_color(t, flakes.b));
 }
 
 FN float ambient_power_heuristic(float a, float b) { return a * a / max(a * a + b * b, 1e-30f); }
@@ -92,8 +90,8 @@ FN float ambient_sample_place(bool strips, int k) {
  * that neighbours overlap; a filter exp(kappa (mu - 1)) covers 2 pi / kappa, hence kappa = pi n pdf. Strips
  * are a lattice and cover that angle once, hence twice that kappa. The sum
  * is scaled to `albedo`, which has less noise, but for the part `own` of it. */
-FN LobeLight ambient_sample_lobe(AmbientSource s, AmbientView v, Lobe lobe, Rgb flakes, bool strips,
-                                 float albedo, float own) {
+FN LobeLight ambient_sample_lobe(AmbientSource s, AmbientView v, Lobe lobe, Rgb flakes, bool strips, float albedo,
+                                 float own) {
     LobeLight sum = lobe_light_of(rgb_grey(0.0f), 0.0f, 0.0f);
     int count = ambient_sample_count(strips);
     float e = 0.0f, n = to_float(count);
@@ -130,12 +128,9 @@ FN LobeLight ambient_sample_lights(AmbientSource s, AmbientView v, Lobe lobe, Rg
         if (i.z > 0.0f) {
             LobeValue x = lobe_value(&lobe, angles_between(v.o, i));
             float weight = ambient_power_heuristic(l.density, x.pdf * n);
-            Rgb c =
-                rgb_scale(l.color, x.f * i.z * weight * ambient_light_visibility(s, l.light, v.occlusion));
+            Rgb c = rgb_scale(l.color, x.f * i.z * weight * ambient_light_visibility(s, l.light, v.occlusion));
             sum = lobe_light_add(sum, lobe_light_of(ambient_tinted(x.tint, flakes, c), 1.0f - x.s, x.s));
         }
     }
     return sum;
 }
-
-#endif

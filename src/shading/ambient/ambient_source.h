@@ -27,8 +27,7 @@
  * ambient_residual with kappa 0 has the weight of irradiance. Directions are unit, in the shading frame (angles.h).
  * L = residual + lights; radiance and irradiance are of L. In GLSL a source is a Frame, and the program that draws
  * provides these functions in place of this file (raster/light/gl_environment.h). */
-#ifndef WEFT_SHADING_AMBIENT_SOURCE_H
-#define WEFT_SHADING_AMBIENT_SOURCE_H
+#pragma once
 
 #include "shading/ambient/occlusion_cone.h"
 #include "shading/dialect/rgb.h"
@@ -84,5 +83,3 @@ FN float ambient_sky_visibility(AmbientSource s, Dir w, float kappa, float cos_i
 FN Dir ambient_bent_direction(AmbientSource s, Dir w, float kappa, float open) { return w; }
 FN float ambient_diffuse(AmbientSource s) { return 1.0f; }
 FN float ambient_reflection(AmbientSource s) { return 1.0f; }
-
-#endif

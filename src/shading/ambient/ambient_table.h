@@ -12,8 +12,7 @@
  *
  * Departure: a lobe that depends on the azimuth of wo has five sets of entries only, for wo along the nap, across it,
  * against it, and midway. Between two of them entries are linear in the square of the heading (nap.h). */
-#ifndef WEFT_SHADING_AMBIENT_TABLE_H
-#define WEFT_SHADING_AMBIENT_TABLE_H
+#pragma once
 
 #include "shading/ambient/ambient_source.h"
 
@@ -50,9 +49,9 @@ STRUCT(AmbientTable) {
     bool second;       /* the lobe has a second colour */
     bool lossless;     /* E is 1 everywhere */
     bool strips;       /* the lobe has lobe_strip */
-    bool by_azimuth; /* the lobe depends on azimuth: AMBIENT_HEADINGS headings of entries follow each other */
-    int strategy;    /* one of the AMBIENT_... of ambient_lobe.h */
-    int baked;       /* index of the first coefficient; negative if the table is not baked */
+    bool by_azimuth;   /* the lobe depends on azimuth: AMBIENT_HEADINGS headings of entries follow each other */
+    int strategy;      /* one of the AMBIENT_... of ambient_lobe.h */
+    int baked;         /* index of the first coefficient; negative if the table is not baked */
 };
 
 STRUCT(AmbientTables) { AmbientTable diffuse, specular, sheen, coat, dust; };
@@ -91,8 +90,8 @@ FN AmbientCoord ambient_coord(AmbientTable t, float cos_o, float heading, float 
 }
 
 FN float ambient_row(AmbientTable t, AmbientCoord at, int row) {
-    return mix(table_texel(t.texels, t.columns, row, at.column),
-               table_texel(t.texels, t.columns, row, at.column + 1), at.column_fraction);
+    return mix(table_texel(t.texels, t.columns, row, at.column), table_texel(t.texels, t.columns, row, at.column + 1),
+               at.column_fraction);
 }
 
 FN float ambient_plane(AmbientTable t, AmbientCoord at, int plane) {
@@ -175,5 +174,3 @@ FN AmbientAlbedo ambient_albedo(AmbientTable t, AmbientSource s, AmbientCoord at
     }
     return e;
 }
-
-#endif

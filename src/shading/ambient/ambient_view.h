@@ -4,8 +4,7 @@
  * less, so each look-up is dimmed by ambient_sky_visibility in its own direction, and each light by
  * ambient_light_visibility. A source that has no more than the number dims a look-up by a cone about the normal
  * (occlusion_cone.h). It dims a light by the number itself, because a cone would hide the light wholly or not at all. */
-#ifndef WEFT_SHADING_AMBIENT_VIEW_H
-#define WEFT_SHADING_AMBIENT_VIEW_H
+#pragma once
 
 #include "shading/ambient/ambient_source.h"
 
@@ -39,9 +38,7 @@ FN Dir ambient_to_source(AmbientView v, Dir w) {
 
 /* Transforms w into the lobe's frame. w is given in the lobe's frame rotated about z so that x points towards
  * wo. */
-FN Dir ambient_to_lobe(AmbientView v, Dir w) {
-    return dir(w.x * v.tx - w.y * v.ty, w.x * v.ty + w.y * v.tx, w.z);
-}
+FN Dir ambient_to_lobe(AmbientView v, Dir w) { return dir(w.x * v.tx - w.y * v.ty, w.x * v.ty + w.y * v.tx, w.z); }
 
 /* Returns the visible part of `all`, the radiance about w with the lights in it. open: the factor on the residual.
  * lights: the factor on what the lights add to it. */
@@ -78,5 +75,3 @@ FN LobeLight lobe_light_mix(LobeLight a, LobeLight b, float t) {
     p.second = rgb_mix(a.second, b.second, t);
     return p;
 }
-
-#endif

@@ -3,8 +3,7 @@
  * With x = cos^2, over which cosine-weighted directions are even, a ramp from b^2 to 2 b - b^2, b = 1 -
  * occlusion, has the mean `occlusion`: a cone about the normal with a soft rim. Jorge Jimenez et al.,
  * "Practical Real-Time Strategies for Accurate Indirect Occlusion", SIGGRAPH 2016 course, take a cone so. */
-#ifndef WEFT_SHADING_OCCLUSION_CONE_H
-#define WEFT_SHADING_OCCLUSION_CONE_H
+#pragma once
 
 #include "shading/dialect/angles.h"
 
@@ -13,5 +12,3 @@ FN float occlusion_cone(float occlusion, float cos_i) {
     float b = 1.0f - occlusion, x = max(cos_i, 0.0f) * max(cos_i, 0.0f);
     return occlusion >= 1.0f ? 1.0f : clamp((x - b * b) / max(2.0f * b * occlusion, 1e-4f), 0.0f, 1.0f);
 }
-
-#endif

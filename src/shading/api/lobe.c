@@ -31,8 +31,7 @@ WeftResult weft_lobe_init(const char *id, WeftLobe *out, WeftError *error) {
     int k = weft_lobe_find(id);
     char text[SEVERAL_SIZE];
     const char *several = choice_several(CHOICE_sheen_lobe, id, text);
-    if (k < 0 && several)
-        return fail(error, WEFT_MESSAGE_LOBE_NAME, id, "several have this name: %s", several);
+    if (k < 0 && several) return fail(error, WEFT_MESSAGE_LOBE_NAME, id, "several have this name: %s", several);
     if (k < 0) return fail(error, WEFT_MESSAGE_LOBE_NAME, id, "`weft models` lists them");
     *out = (WeftLobe){.lobe = k, .f0 = {1.0f, 1.0f, 1.0f}, .f90 = {1.0f, 1.0f, 1.0f}};
     memcpy(out->params, lobe_default(k).params, sizeof out->params);
@@ -48,8 +47,8 @@ static float ranged(float value, const WeftParamInfo *p, const char *name, const
         warn(log, WEFT_MESSAGE_PARAM_RANGE, name, "%g is beyond the limit, %g, which is used", (double)value,
              (double)taken);
     else if (value < p->low || value > p->high)
-        warn(log, WEFT_MESSAGE_PARAM_RANGE, name, "%g is taken; plausible is %g .. %g", (double)value,
-             (double)p->low, (double)p->high);
+        warn(log, WEFT_MESSAGE_PARAM_RANGE, name, "%g is taken; plausible is %g .. %g", (double)value, (double)p->low,
+             (double)p->high);
     return taken;
 }
 
@@ -59,16 +58,13 @@ static WeftResult set_roughness(WeftLobe *lobe, const char *value, const WeftLog
     const WeftLobeInfo *of = weft_lobe_info(lobe->lobe);
     float v[3];
     if (!of->param_count)
-        return fail(error, WEFT_MESSAGE_PARAM_NAME, info.name, "%s has nothing that a roughness sets",
-                    of->id);
-    if (!parse_number(value, v))
-        return fail(error, WEFT_MESSAGE_PARAM_VALUE, value, "%s is a number", info.name);
+        return fail(error, WEFT_MESSAGE_PARAM_NAME, info.name, "%s has nothing that a roughness sets", of->id);
+    if (!parse_number(value, v)) return fail(error, WEFT_MESSAGE_PARAM_VALUE, value, "%s is a number", info.name);
     lobe->params[0] = lobe_rough(lobe->lobe, ranged(v[0], &info, info.name, log)).params[0];
     return WEFT_OK;
 }
 
-WeftResult weft_lobe_set(WeftLobe *lobe, const char *param, const char *value, const WeftLog *log,
-                         WeftError *error) {
+WeftResult weft_lobe_set(WeftLobe *lobe, const char *param, const char *value, const WeftLog *log, WeftError *error) {
     const WeftLobeInfo *info = weft_lobe_info(lobe->lobe);
     if (!info) return fail(error, WEFT_MESSAGE_LOBE_NAME, "index", "%d", lobe->lobe);
     float v[3];
@@ -89,8 +85,7 @@ WeftResult weft_lobe_set(WeftLobe *lobe, const char *param, const char *value, c
             return WEFT_OK;
         }
     if (row->choices)
-        return fail(error, WEFT_MESSAGE_PARAM_VALUE, value, "`weft models %s` lists what %s may be", info->id,
-                    param);
+        return fail(error, WEFT_MESSAGE_PARAM_VALUE, value, "`weft models %s` lists what %s may be", info->id, param);
     if (!parse_number(value, v)) return fail(error, WEFT_MESSAGE_PARAM_VALUE, value, "%s is a number", param);
     lobe->params[k] = ranged(v[0], row, param, log);
     return WEFT_OK;
@@ -100,8 +95,8 @@ void lobe_fitted(const Lobe *lobe, const char *name, const WeftLog *log) {
     float taken = lobe_fitted_first(lobe), given = lobe->params[0];
     if (taken > given)
         warn(log, WEFT_MESSAGE_PARAM_FITTED, name,
-             "alpha %.3g of fibres that lean counts as %.3g; the lobe fibre-walk has no such bound",
-             (double)given, (double)taken);
+             "alpha %.3g of fibres that lean counts as %.3g; the lobe fibre-walk has no such bound", (double)given,
+             (double)taken);
 }
 
 void weft_lobe_fitted(const WeftLobe *lobe, const char *name, const WeftLog *log) {

@@ -123,8 +123,8 @@ WeftResult weft_pdf_n(const WeftLobe *lobe, size_t n, WeftDirections wo, WeftDir
 
 static float in_unit(float u) { return u > 0.0f ? min(u, 0x1.fffffep-1f) : 0.0f; }
 
-WeftResult weft_sample_n(const WeftLobe *lobe, size_t n, WeftDirections wo, const float *u, const float *v,
-                         float *wi_x, float *wi_y, float *wi_z, float *pdf, WeftError *error) {
+WeftResult weft_sample_n(const WeftLobe *lobe, size_t n, WeftDirections wo, const float *u, const float *v, float *wi_x,
+                         float *wi_y, float *wi_z, float *pdf, WeftError *error) {
     if (n == 0) return WEFT_OK;
     if (!given(wo)) return missing(error, "wo");
     if (!u || !v) return missing(error, u ? "v" : "u");

@@ -95,8 +95,8 @@ static WeftResult check(const WeftLobes *lobes, Each *each, WeftError *error) {
     return WEFT_OK;
 }
 
-WeftResult weft_eval_each(const WeftLobes *lobes, size_t n, WeftDirections wo, WeftDirections wi,
-                          WeftColors f, float *pdf, WeftError *error) {
+WeftResult weft_eval_each(const WeftLobes *lobes, size_t n, WeftDirections wo, WeftDirections wi, WeftColors f,
+                          float *pdf, WeftError *error) {
     float *const to[] = {f.r, f.g, f.b};
     Stage stage;
     stage.each = (Each){.pdf = NULL};
@@ -132,9 +132,8 @@ static void stage_numbers(Stage *stage, const float *u, const float *v) {
     stage->each.v = stage->v;
 }
 
-WeftResult weft_sample_each(const WeftLobes *lobes, size_t n, WeftDirections wo, const float *u,
-                            const float *v, float *wi_x, float *wi_y, float *wi_z, float *pdf,
-                            WeftError *error) {
+WeftResult weft_sample_each(const WeftLobes *lobes, size_t n, WeftDirections wo, const float *u, const float *v,
+                            float *wi_x, float *wi_y, float *wi_z, float *pdf, WeftError *error) {
     float *const to[] = {wi_x, wi_y, wi_z};
     WeftDirections wi = {wi_x, wi_y, wi_z};
     Stage stage;

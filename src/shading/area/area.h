@@ -15,8 +15,7 @@
  * Transformed Cosines", ACM Transactions on Graphics 35(4), 2016, has I_D with an amplitude in place of the
  * sums. Eric Heitz, Stephen Hill, Morgan McGuire, "Combining Analytic Direct Illumination and Stochastic
  * Shadows", I3D 2018, uses such a ratio for shadows. */
-#ifndef WEFT_SHADING_AREA_H
-#define WEFT_SHADING_AREA_H
+#pragma once
 
 #include "shading/lobe/lobe_tables.h"
 #include "shading/ltc/ltc_table.h"
@@ -146,5 +145,3 @@ FN Rgb stack_polygon_behind(const Stack *m, const StackView *view, Polygon p) {
     StackValue value = stack_transmitted(m, view, &a);
     return rgb_scale(value.f_cos, max(flux.z, 0.0f) / max(c.z, 1e-6f));
 }
-
-#endif

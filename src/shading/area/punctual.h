@@ -1,6 +1,5 @@
 /* punctual.h - falloff of punctual lights. Khronos Group, KHR_lights_punctual, 2018-2020 */
-#ifndef WEFT_SHADING_PUNCTUAL_H
-#define WEFT_SHADING_PUNCTUAL_H
+#pragma once
 
 #include "shading/dialect/lang.h"
 
@@ -17,5 +16,3 @@ FN float punctual_cone(float c, float cos_inner, float cos_outer) {
     float t = clamp((c - cos_outer) / max(cos_inner - cos_outer, 1e-3f), 0.0f, 1.0f);
     return t * t;
 }
-
-#endif

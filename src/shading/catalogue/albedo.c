@@ -96,8 +96,7 @@ static Sum ring(const Integrand *integrand, Dir wo, const QuadratureRule *rule, 
     }
     for (size_t k = 0; k < n && integrand->color; k++)
         for (int p = 0; p < 3; p++)
-            sum.part[p] +=
-                w[k] * (double)f[0][k] * (double)fresnel_weight_mix(share[k], integrand->color[p], 1.0f);
+            sum.part[p] += w[k] * (double)f[0][k] * (double)fresnel_weight_mix(share[k], integrand->color[p], 1.0f);
     return sum;
 }
 
@@ -184,8 +183,7 @@ static Sum quadrature(const Integrand *integrand, Dir wo, double tolerance, doub
         for (int k = 0; k < count; k++) {
             add(&sum, 1.0, &zones[k].sum);
             *error += zones[k].change;
-            if (zones[k].halvings < HALVINGS_MOST && (!worst || zones[k].change > worst->change))
-                worst = &zones[k];
+            if (zones[k].halvings < HALVINGS_MOST && (!worst || zones[k].change > worst->change)) worst = &zones[k];
         }
         if (*error < tolerance) break;
         if (worst) zone_halve(integrand, wo, worst, &rules);
@@ -271,8 +269,7 @@ static void fill_headings(AlbedoTable *table, Lobe lobe, int row, int column, fl
 static void average_headings(AlbedoTable *table, int map, int row) {
     static const float weights[TABLE_HEADINGS] = {1.0f / 6, 1.0f / 3, 0.0f, 1.0f / 3, 1.0f / 6};
     float mean = 0.0f;
-    for (int k = 0; k < TABLE_HEADINGS; k++)
-        mean += weights[k] * table->e[(map + k) * table->rows + row][ALBEDO_MU];
+    for (int k = 0; k < TABLE_HEADINGS; k++) mean += weights[k] * table->e[(map + k) * table->rows + row][ALBEDO_MU];
     for (int k = 0; k < TABLE_HEADINGS; k++) table->e[(map + k) * table->rows + row][ALBEDO_MU] = mean;
 }
 
@@ -333,9 +330,7 @@ static double row_average(const AlbedoTable *table, int row) {
 
 /* Returns log r^2 at w_1 = 7/8 minus a quarter of log r^2 at w_2 = 1/2, r = (1 - q) / (1 - w q). Since
  * (1 - w_1) / (1 - w_2) = 1/4, this combination of the two equations contains no e. It decreases with q. */
-static double without_e(double q) {
-    return 1.5 * log1p(-q) - 2.0 * log1p(-0.875 * q) + 0.5 * log1p(-0.5 * q);
-}
+static double without_e(double q) { return 1.5 * log1p(-q) - 2.0 * log1p(-0.875 * q) + 0.5 * log1p(-0.5 * q); }
 
 /* Replaces E of white and of the three colours w by E, s, q and e:
  *
@@ -356,8 +351,7 @@ static void solve_maps(float *map[ALBEDO_MAPS]) {
     *map[3] = (float)fmin(fmax(2.0 * (y[1] - 2.0 * (log1p(-low) - log1p(-0.5 * low))), -20.0), 20.0);
 }
 
-static void table_fill(AlbedoTable *table, const Lobe *lobe, float low, float high, bool scaled,
-                       int threads) {
+static void table_fill(AlbedoTable *table, const Lobe *lobe, float low, float high, bool scaled, int threads) {
     const WeftLobeInfo *info = weft_lobe_info((int)lobe->id);
     bool tinted = (info->traits & TRAIT_TINTED) != 0;
     table->lobe = *lobe;
@@ -375,8 +369,7 @@ static void table_fill(AlbedoTable *table, const Lobe *lobe, float low, float hi
     int colors = tinted ? ALBEDO_MAPS : 1;
     table->maps = colors + table->tilts * TABLE_HEADINGS;
     parallel_for(threads, ALBEDO_MU, fill_column, &(Fill){table, &table->lobe});
-    for (int row = 0; row < table->maps * table->rows; row++)
-        table->e[row][ALBEDO_MU] = (float)row_average(table, row);
+    for (int row = 0; row < table->maps * table->rows; row++) table->e[row][ALBEDO_MU] = (float)row_average(table, row);
     for (int map = colors; map < table->maps; map += TABLE_HEADINGS)
         for (int row = 0; row < table->rows; row++) average_headings(table, map, row);
     if (!tinted) return;

@@ -3,8 +3,7 @@
  *   E(wo) = integral over the hemisphere of f(wo, wi) cos_i dwi
  *
  * With TRAIT_TWO_COLORS it is f0 E0 + f90 E90: the integrals of f (1 - s) and of f s, s being the Fresnel weight. */
-#ifndef WEFT_SHADING_ALBEDO_H
-#define WEFT_SHADING_ALBEDO_H
+#pragma once
 
 #include "shading/catalogue/registry.h"
 #include "shading/lobe/table.h"
@@ -86,5 +85,3 @@ bool albedo_table_serves(const AlbedoTable *table, const Lobe *lobe, float low, 
  * has a total albedo that is wrong by at most 0.08, and by at most 0.03 with one tilt and alpha >= 0.5
  * (tests/shading/test_leaning). */
 TableRef albedo_table_ref(const AlbedoTable *table);
-
-#endif

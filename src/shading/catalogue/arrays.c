@@ -12,16 +12,15 @@ COMPOSED_LOOPS(LOOPS_DECLARED)
 /* Returns the loops of a lobe; NULL for one that walks. */
 static const LobeLoops *loops_of(int id) {
 #define LOOPS_PLACED(name, Name, NAME, ...) [LOBE_##NAME] = &name##_loops,
-    static const LobeLoops *const own[LOBE_COUNT] = {CATALOGUE_LOOPS(LOOPS_PLACED)
-                                                         COMPOSED_LOOPS(LOOPS_PLACED)};
+    static const LobeLoops *const own[LOBE_COUNT] = {CATALOGUE_LOOPS(LOOPS_PLACED) COMPOSED_LOOPS(LOOPS_PLACED)};
     return id < LOBE_COUNT ? own[id] : outside_loops(id);
 }
 
 /* One pair after the other. */
-#define EACH_ONE(ask, out)                                                                                   \
-    for (size_t k = 0; k < n; k++) {                                                                         \
-        TAKE_PAIR(o, i, counts);                                                                             \
-        out[k] = counts ? ask(m, angles_between(o, i)) : 0.0f;                                               \
+#define EACH_ONE(ask, out)                                                                                             \
+    for (size_t k = 0; k < n; k++) {                                                                                   \
+        TAKE_PAIR(o, i, counts);                                                                                       \
+        out[k] = counts ? ask(m, angles_between(o, i)) : 0.0f;                                                         \
     }
 
 void lobe_pdf_n(const Lobe *m, size_t n, LOOP_PAIRS, float *restrict pdf) {

@@ -24,7 +24,7 @@ typedef struct EngineTable {
     float e[SIDE_MAX * SIDE_MAX];
 } EngineTable;
 
-#define ENGINE_TABLE_ROW(NAME, name, side, points, sheen, shifted)                                           \
+#define ENGINE_TABLE_ROW(NAME, name, side, points, sheen, shifted)                                                     \
     {side, points, sheen, shifted, PTHREAD_MUTEX_INITIALIZER, false, {0.0f}},
 static EngineTable tables[ENGINE_COUNT] = {ENGINE_TABLES(ENGINE_TABLE_ROW)};
 

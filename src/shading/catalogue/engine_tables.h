@@ -2,8 +2,7 @@
  *
  * They are of kind TABLE_LINEAR, as the engines' samplers read them, with roughness (not squared) down the rows. In
  * GLSL the flattener (text/) supplies engine_table, which reads layers of one array texture. */
-#ifndef WEFT_SHADING_ENGINE_TABLES_H
-#define WEFT_SHADING_ENGINE_TABLES_H
+#pragma once
 
 #include "shading/lobe/table.h"
 
@@ -16,11 +15,11 @@
 /* three.js ships E of white ggx. mrdoob/three.js, src/renderers/shaders/DFGLUTData.js, 16 x 16.
  *
  * One row a table: T(NAME, name, rows and columns, points of the sum, true for the sheen, true if rows are shifted). */
-#define ENGINE_TABLES(T)                                                                                     \
-    T(FILAMENT_SHEEN, filament_sheen, 128, 4096, true, true)                                                 \
-    T(FILAMENT_GGX, filament_ggx, 128, 1024, false, true)                                                    \
-    T(BABYLON_SHEEN, babylon_sheen, 256, 4096, true, true)                                                   \
-    T(BABYLON_GGX, babylon_ggx, 256, 1024, false, true)                                                      \
+#define ENGINE_TABLES(T)                                                                                               \
+    T(FILAMENT_SHEEN, filament_sheen, 128, 4096, true, true)                                                           \
+    T(FILAMENT_GGX, filament_ggx, 128, 1024, false, true)                                                              \
+    T(BABYLON_SHEEN, babylon_sheen, 256, 4096, true, true)                                                             \
+    T(BABYLON_GGX, babylon_ggx, 256, 1024, false, true)                                                                \
     T(THREE_GGX, three_ggx, 16, 4096, false, false)
 
 #define ENGINE_TABLE_ID(NAME, name, side, points, sheen, shifted) ENGINE_##NAME,
@@ -28,5 +27,3 @@ enum { ENGINE_TABLES(ENGINE_TABLE_ID) ENGINE_COUNT };
 
 /* Returns a table, computed at the first call. Any number of threads may call it at once. */
 TableRef engine_table(int which);
-
-#endif

@@ -49,8 +49,8 @@ static TableRef make_ltc_ggx(void) {
 static TableRef make_fibre(void) {
     static float planes[sizeof table_fibre_table / sizeof(float)];
     const WeftParamInfo *alpha = &weft_lobe_info(LOBE_FIBRE_TABLE)->params[0];
-    return make_planes(table_fibre_table, PLANES(table_fibre_table), log2(alpha->hard_low),
-                       log2(alpha->hard_high), planes);
+    return make_planes(table_fibre_table, PLANES(table_fibre_table), log2(alpha->hard_low), log2(alpha->hard_high),
+                       planes);
 }
 
 static void make_baked(void) {

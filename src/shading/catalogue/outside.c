@@ -113,15 +113,13 @@ Proxy outside_proxies(const Lobe *m) {
 }
 
 /* Fills out with 0: the loop for an id without a lobe. */
-static void no_loop(const Lobe *m, size_t n, LOOP_PAIRS, float *restrict out) {
-    memset(out, 0, n * sizeof *out);
-}
+static void no_loop(const Lobe *m, size_t n, LOOP_PAIRS, float *restrict out) { memset(out, 0, n * sizeof *out); }
 static void no_shares(const Lobe *m, size_t n, LOOP_PAIRS, float *restrict f, float *restrict s) {
     no_loop(m, n, ox, oy, oz, ix, iy, iz, f);
     no_loop(m, n, ox, oy, oz, ix, iy, iz, s);
 }
-static void no_tinted(const Lobe *m, const float c[3], size_t n, LOOP_PAIRS, float *restrict r,
-                      float *restrict g, float *restrict b) {
+static void no_tinted(const Lobe *m, const float c[3], size_t n, LOOP_PAIRS, float *restrict r, float *restrict g,
+                      float *restrict b) {
     no_loop(m, n, ox, oy, oz, ix, iy, iz, r);
     no_loop(m, n, ox, oy, oz, ix, iy, iz, g);
     no_loop(m, n, ox, oy, oz, ix, iy, iz, b);

@@ -2,8 +2,7 @@
  *
  * In the dispatch they are one lobe more, `outside`, whose records hold those of any plugin (plugin.h). A
  * shader has them by name: text/assemble/dispatch.h. */
-#ifndef WEFT_SHADING_OUTSIDE_H
-#define WEFT_SHADING_OUTSIDE_H
+#pragma once
 
 #include "shading/catalogue/plugin.h"
 #include "shading/lobe_ids.gen.h"
@@ -13,14 +12,14 @@
 #define OUTSIDE_PREPARED_FLOATS 168
 #define OUTSIDE_VIEW_FLOATS     24
 #define LOBE_MOST               (LOBE_COUNT + OUTSIDE_MOST)
-#define OUTSIDE_LABELS                                                                                       \
-    case LOBE_COUNT:                                                                                         \
-    case LOBE_COUNT + 1:                                                                                     \
-    case LOBE_COUNT + 2:                                                                                     \
-    case LOBE_COUNT + 3:                                                                                     \
-    case LOBE_COUNT + 4:                                                                                     \
-    case LOBE_COUNT + 5:                                                                                     \
-    case LOBE_COUNT + 6:                                                                                     \
+#define OUTSIDE_LABELS                                                                                                 \
+    case LOBE_COUNT:                                                                                                   \
+    case LOBE_COUNT + 1:                                                                                               \
+    case LOBE_COUNT + 2:                                                                                               \
+    case LOBE_COUNT + 3:                                                                                               \
+    case LOBE_COUNT + 4:                                                                                               \
+    case LOBE_COUNT + 5:                                                                                               \
+    case LOBE_COUNT + 6:                                                                                               \
     case LOBE_COUNT + 7:
 #define OUTSIDE_LOBES(X) X(OUTSIDE_LABELS, outside, Outside)
 
@@ -50,5 +49,3 @@ Proxy outside_proxies(const Lobe *m);
 
 /* Returns the loops of that lobe; if there is none, loops that write zeros. */
 const LobeLoops *outside_loops(int id);
-
-#endif

@@ -1,6 +1,5 @@
 /* plugin.h - a lobe behind pointers: what the machine's compiler makes of a lobe's file (plugin_lobe.h) */
-#ifndef WEFT_SHADING_PLUGIN_H
-#define WEFT_SHADING_PLUGIN_H
+#pragma once
 
 #include <stddef.h>
 
@@ -38,5 +37,3 @@ typedef const Plugin *PluginEntry(const Isa *isa);
 PluginEntry weft_lobe_plugin;
 extern const LobeLoops weft_lobe_loops;
 extern const Isa *plugin_isa;
-
-#endif

@@ -7,7 +7,7 @@
 #include "shading/dispatch.gen.h"
 
 _Static_assert(LOBE_PARAMS_MAX == WEFT_LOBE_PARAMS_MAX, "the text and the public header differ");
-#define SAME_TRAIT(NAME)                                                                                     \
+#define SAME_TRAIT(NAME)                                                                                               \
     _Static_assert((int)TRAIT_##NAME == (int)WEFT_LOBE_##NAME, "the text and the public header differ")
 SAME_TRAIT(RECIPROCAL);
 SAME_TRAIT(CONSERVES);
@@ -28,7 +28,7 @@ static const char *const choices_DTerm[D_COUNT + 1] = {WEFT_D_TERMS(D_TERM_ID)};
 static const char *const choices_VTerm[V_COUNT + 1] = {WEFT_V_TERMS(V_TERM_ID)};
 static const char *const choices_FTerm[F_COUNT + 1] = {WEFT_F_TERMS(F_TERM_ID)};
 
-#define PARAM_INFO(type, name, def, low, high, hard_low, hard_high, help)                                    \
+#define PARAM_INFO(type, name, def, low, high, hard_low, hard_high, help)                                              \
     {#name, help, def, low, high, hard_low, hard_high, choices_##type},
 #include "shading/lobe_infos.gen.h"
 

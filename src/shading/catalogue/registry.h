@@ -2,8 +2,7 @@
  *
  * lobe.h describes a lobe and how to add one. Dialect texts include this file too: in GLSL the flattener
  * (text/) puts in its place lobe_ids.gen.h and dispatch.gen.h, for the lobes that a program needs. */
-#ifndef WEFT_SHADING_REGISTRY_H
-#define WEFT_SHADING_REGISTRY_H
+#pragma once
 
 #include <stddef.h>
 
@@ -48,8 +47,7 @@ LOBE_COPY void lobe_view(int id, const LobePrepared *p, const Dir *o, LobeView *
 LOBE_COPY void lobe_value_at(int id, const LobePrepared *p, const LobeView *w, const Angles *a, LobeValue *v);
 LOBE_COPY void lobe_reflect(int id, const LobePrepared *p, const LobeView *w, const Angles *a, const Rgb *f0,
                             const Rgb *f90, LobeReflected *s);
-LOBE_COPY void lobe_sample_at(int id, const LobePrepared *p, const LobeView *w, const Dir *o, float u,
-                              float v, Dir *i);
+LOBE_COPY void lobe_sample_at(int id, const LobePrepared *p, const LobeView *w, const Dir *o, float u, float v, Dir *i);
 LOBE_COPY LobeValue lobe_value(const Lobe *m, Angles a);
 LOBE_COPY Dir lobe_sample(const Lobe *m, Dir o, float u, float v);
 LOBE_COPY Strip lobe_strip(const Lobe *m, Dir o, float u, float v);
@@ -91,16 +89,14 @@ LOBE_COPY float lobe_walked_albedo(const Lobe *lobe, Dir o, int walks);
 
 /* Computes f[k] and, if s is not NULL, the share s[k] of the second colour, for n pairs of directions as structures of
  * arrays. Both are 0 if a direction is not above the horizon or a component is infinite or NaN. */
-void lobe_eval_n(const Lobe *lobe, size_t n, const float *ox, const float *oy, const float *oz,
-                 const float *ix, const float *iy, const float *iz, float *f, float *s);
+void lobe_eval_n(const Lobe *lobe, size_t n, const float *ox, const float *oy, const float *oz, const float *ix,
+                 const float *iy, const float *iz, float *f, float *s);
 
 /* Computes pdf[k] in the same way. */
-void lobe_pdf_n(const Lobe *lobe, size_t n, const float *ox, const float *oy, const float *oz,
-                const float *ix, const float *iy, const float *iz, float *pdf);
+void lobe_pdf_n(const Lobe *lobe, size_t n, const float *ox, const float *oy, const float *oz, const float *ix,
+                const float *iy, const float *iz, float *pdf);
 
 /* Computes f[c][k] of a lobe with TRAIT_TINTED whose scatterers have albedo w[c], in the same way. Not for other
  * lobes. */
-void lobe_tinted_n(const Lobe *lobe, const float w[3], size_t n, const float *ox, const float *oy,
-                   const float *oz, const float *ix, const float *iy, const float *iz, float *const f[3]);
-
-#endif
+void lobe_tinted_n(const Lobe *lobe, const float w[3], size_t n, const float *ox, const float *oy, const float *oz,
+                   const float *ix, const float *iy, const float *iz, float *const f[3]);

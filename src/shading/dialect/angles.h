@@ -4,8 +4,7 @@
  * light, both away from the surface, unit length. f is in 1/sr and excludes the cosine; its 1/pi is inside.
  * pdf is over solid angle, 1/sr; pdf == 0 means no sample. E(cos_o) is the directional albedo, the integral
  * of f cos_i over wi. Angles are radians inside, degrees at the command line. Colours are linear Rec. 709. */
-#ifndef WEFT_ANGLES_H
-#define WEFT_ANGLES_H
+#pragma once
 
 #include "shading/dialect/lang.h"
 
@@ -29,9 +28,7 @@ FN Dir dir(float x, float y, float z) {
 }
 
 FN float dir_dot(Dir a, Dir b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-FN Dir dir_cross(Dir a, Dir b) {
-    return dir(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
-}
+FN Dir dir_cross(Dir a, Dir b) { return dir(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x); }
 
 /* Returns the angles between two directions above the horizon. If these graze from opposite sides, their sum cancels:
  * the floor on z keeps h a unit vector (the normal in the worst case) and d above 0. */
@@ -52,5 +49,3 @@ FN Dir dir_mirror(Dir o, Dir h) {
     float d = 2.0f * dir_dot(o, h);
     return dir(d * h.x - o.x, d * h.y - o.y, d * h.z - o.z);
 }
-
-#endif

@@ -65,11 +65,9 @@ WeftResult isa_choose(const char *name, Isa from, Isa widest, Isa *chosen, WeftE
     while (name && isa < ISA_COUNT && strcmp(names[isa], name) != 0) isa++;
     if (isa == ISA_COUNT) return fail(error, WEFT_MESSAGE_ISA_NAME, name, "sse2, avx2 or avx512");
     if (name && isa < (int)from)
-        return fail(error, WEFT_MESSAGE_ISA, name, "this build has %s alone; -DWEFT_ISA=all builds all",
-                    names[from]);
+        return fail(error, WEFT_MESSAGE_ISA, name, "this build has %s alone; -DWEFT_ISA=all builds all", names[from]);
     if (isa > (int)widest)
-        return fail(error, WEFT_MESSAGE_ISA, name, "this processor, or this build, has at most %s",
-                    names[widest]);
+        return fail(error, WEFT_MESSAGE_ISA, name, "this processor, or this build, has at most %s", names[widest]);
     *chosen = name ? (Isa)isa : widest;
     return WEFT_OK;
 }

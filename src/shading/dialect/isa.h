@@ -2,8 +2,7 @@
  *
  * Loops (loop.h) are compiled once for each set, or for one alone (WEFT_ISA in cmake/isa.cmake), and a call runs the one in
  * use: the widest that the processor has, unless weft_isa_use pinned another. */
-#ifndef WEFT_SHADING_ISA_H
-#define WEFT_SHADING_ISA_H
+#pragma once
 
 /* Each includes those before it. */
 typedef enum Isa { ISA_SSE2 = 0, ISA_AVX2, ISA_AVX512, ISA_COUNT } Isa;
@@ -12,6 +11,4 @@ typedef enum Isa { ISA_SSE2 = 0, ISA_AVX2, ISA_AVX512, ISA_COUNT } Isa;
 #define isa_used (*plugin_isa)
 #else
 extern Isa isa_used;
-#endif
-
 #endif

@@ -1,6 +1,5 @@
 /* isa_choice.h - which set of instructions loops may run with on a processor */
-#ifndef WEFT_SHADING_ISA_CHOICE_H
-#define WEFT_SHADING_ISA_CHOICE_H
+#pragma once
 
 #include "shading/dialect/isa.h"
 #include "weft/isa.h"
@@ -19,5 +18,3 @@ WeftResult isa_choose(const char *name, Isa least, Isa widest, Isa *chosen, Weft
 
 /* Returns what a processor with that set lacks of what this build needs, such as "AVX-512"; NULL if nothing. */
 const char *isa_lacking(Isa processor);
-
-#endif

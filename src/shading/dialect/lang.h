@@ -8,8 +8,7 @@
  * write, `&x` to pass; text/source/reference.h translates them to GLSL. Pointers serve nothing else, and no two
  * references of one call name the same object. `?:` chooses between numbers, never between records, which
  * WebGL does not take. */
-#ifndef WEFT_LANG_H
-#define WEFT_LANG_H
+#pragma once
 
 #if defined(GL_ES) || defined(GL_core_profile) /* predefined by every GLSL compiler */
 
@@ -48,11 +47,11 @@
 #ifndef FN_NOINLINE
 #define FN_NOINLINE static __attribute__((noinline, unused))
 #endif
-#define STRUCT(Name)                                                                                         \
-    typedef struct Name Name;                                                                                \
+#define STRUCT(Name)                                                                                                   \
+    typedef struct Name Name;                                                                                          \
     struct Name
-#define UNION(Name)                                                                                          \
-    typedef union Name Name;                                                                                 \
+#define UNION(Name)                                                                                                    \
+    typedef union Name Name;                                                                                           \
     union Name
 
 /* A loop of n rounds, n a constant. C unrolls it, so that a loop over arrays around it is vectorised; a shader has
@@ -93,8 +92,7 @@ FN WeftLog2 weft_log2_parts(float x) {
     float m;
     memcpy(&m, &i, 4);
     float t = m - 1.0f, t2 = t * t;
-    float p = weft_fused(weft_fused(-0.142759734f, t, 0.232652579f), t2,
-                         weft_fused(-0.249271822f, t, 0.287288882f));
+    float p = weft_fused(weft_fused(-0.142759734f, t, 0.232652579f), t2, weft_fused(-0.249271822f, t, 0.287288882f));
     p = weft_fused(weft_fused(p, t, -0.360225182f), t2, weft_fused(0.480916708f, t, -0.721352931f));
     p = weft_fused(p, t, 1.44269499f);
     WeftLog2 l = {(float)e, p * t};
@@ -161,10 +159,8 @@ FN float weft_pow(float x, float y) {
  * Cephes Mathematical Library, sinf.c, 1992. */
 FN float weft_sine(float x, uint32_t quarters) {
     float rounded = x * 0.636619772f + WEFT_ROUND, k = rounded - WEFT_ROUND;
-    float r = weft_fused(k, -7.54978995e-8f, weft_fused(k, -4.83751297e-4f, weft_fused(k, -1.5703125f, x))),
-          q = r * r;
-    float s =
-        weft_fused(weft_fused(weft_fused(-1.95152959e-4f, q, 8.33216087e-3f), q, -1.66666546e-1f), r * q, r);
+    float r = weft_fused(k, -7.54978995e-8f, weft_fused(k, -4.83751297e-4f, weft_fused(k, -1.5703125f, x))), q = r * r;
+    float s = weft_fused(weft_fused(weft_fused(-1.95152959e-4f, q, 8.33216087e-3f), q, -1.66666546e-1f), r * q, r);
     float c = weft_fused(weft_fused(weft_fused(2.44331571e-5f, q, -1.38873163e-3f), q, 4.16666457e-2f), q * q,
                          weft_fused(-0.5f, q, 1.0f));
     uint32_t n, bits;
@@ -225,5 +221,3 @@ FN float table_texel(Table t, int stride, int row, int column) { return t[row * 
 
 /* One line of a lobe's parameter table as a member of its record. */
 #define FIELD(type, name, def, low, high, hard_low, hard_high, help) type name;
-
-#endif

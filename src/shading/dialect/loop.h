@@ -2,8 +2,7 @@
  *
  * Files with these loops, and a few others, are compiled with -ffinite-math-only (CMakeLists.txt): under it a
  * NaN test is folded away, and NaN has to be found by its bits. */
-#ifndef WEFT_SHADING_LOOP_H
-#define WEFT_SHADING_LOOP_H
+#pragma once
 
 #include <stddef.h>
 
@@ -18,31 +17,31 @@
 #define LOOP_sse2   __attribute__((noinline))
 #define LOOP_avx2   __attribute__((noinline, target("arch=x86-64-v3")))
 #define LOOP_avx512 __attribute__((noinline, target("arch=x86-64-v4")))
-#define LOOP_SET(set, name, parameters, arguments)                                                           \
+#define LOOP_SET(set, name, parameters, arguments)                                                                     \
     LOOP_##set static void name##_##set parameters { name##_text arguments; }
 #ifdef WEFT_ONE_ISA
-#define LOOP_IN(set, name, parameters, arguments)                                                            \
-    LOOP_SET(set, name, parameters, arguments)                                                               \
+#define LOOP_IN(set, name, parameters, arguments)                                                                      \
+    LOOP_SET(set, name, parameters, arguments)                                                                         \
     static void name parameters { name##_##set arguments; }
 #define LOOP_ONE(set, ...) LOOP_IN(set, __VA_ARGS__)
-#define LOOP(name, parameters, arguments)                                                                    \
-    FN void name##_text parameters;                                                                          \
-    LOOP_ONE(WEFT_ONE_ISA, name, parameters, arguments)                                                      \
+#define LOOP(name, parameters, arguments)                                                                              \
+    FN void name##_text parameters;                                                                                    \
+    LOOP_ONE(WEFT_ONE_ISA, name, parameters, arguments)                                                                \
     FN void name##_text parameters
 #else
-#define LOOP(name, parameters, arguments)                                                                    \
-    FN void name##_text parameters;                                                                          \
-    LOOP_SET(sse2, name, parameters, arguments)                                                              \
-    LOOP_SET(avx2, name, parameters, arguments)                                                              \
-    LOOP_SET(avx512, name, parameters, arguments)                                                            \
-    static void name parameters {                                                                            \
-        if (isa_used == ISA_AVX512)                                                                          \
-            name##_avx512 arguments;                                                                         \
-        else if (isa_used == ISA_AVX2)                                                                       \
-            name##_avx2 arguments;                                                                           \
-        else                                                                                                 \
-            name##_sse2 arguments;                                                                           \
-    }                                                                                                        \
+#define LOOP(name, parameters, arguments)                                                                              \
+    FN void name##_text parameters;                                                                                    \
+    LOOP_SET(sse2, name, parameters, arguments)                                                                        \
+    LOOP_SET(avx2, name, parameters, arguments)                                                                        \
+    LOOP_SET(avx512, name, parameters, arguments)                                                                      \
+    static void name parameters {                                                                                      \
+        if (isa_used == ISA_AVX512)                                                                                    \
+            name##_avx512 arguments;                                                                                   \
+        else if (isa_used == ISA_AVX2)                                                                                 \
+            name##_avx2 arguments;                                                                                     \
+        else                                                                                                           \
+            name##_sse2 arguments;                                                                                     \
+    }                                                                                                                  \
     FN void name##_text parameters
 #endif
 #else
@@ -60,10 +59,10 @@ FN bool pair_counts(Dir o, Dir i) {
 
 /* Takes a pair of directions. One that does not count is replaced by the normal twice, for which every formula is
  * finite. */
-#define TAKE_PAIR(o, i, counts)                                                                              \
-    Dir o = {ox[k], oy[k], oz[k]}, i = {ix[k], iy[k], iz[k]};                                                \
-    bool counts = pair_counts(o, i);                                                                         \
-    o = (Dir){counts ? o.x : 0.0f, counts ? o.y : 0.0f, counts ? o.z : 1.0f};                                \
+#define TAKE_PAIR(o, i, counts)                                                                                        \
+    Dir o = {ox[k], oy[k], oz[k]}, i = {ix[k], iy[k], iz[k]};                                                          \
+    bool counts = pair_counts(o, i);                                                                                   \
+    o = (Dir){counts ? o.x : 0.0f, counts ? o.y : 0.0f, counts ? o.z : 1.0f};                                          \
     i = (Dir) { counts ? i.x : 0.0f, counts ? i.y : 0.0f, counts ? i.z : 1.0f }
 
 /* A loop whose elements are independent. `omp simd` would make an array over lanes of every record which travels by
@@ -72,6 +71,4 @@ FN bool pair_counts(Dir o, Dir i) {
 #define EACH(k, n) _Pragma("clang loop vectorize(assume_safety)") for (size_t k = 0; k < n; k++)
 #else
 #define EACH(k, n) _Pragma("GCC ivdep") for (size_t k = 0; k < n; k++)
-#endif
-
 #endif

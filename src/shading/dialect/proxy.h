@@ -1,7 +1,6 @@
 /* proxy.h - the linearly transformed cosine that stands for a lobe under polygon lights (area.h): a lobe's
  * file names it (lobe.h), and reads no table for that */
-#ifndef WEFT_SHADING_PROXY_H
-#define WEFT_SHADING_PROXY_H
+#pragma once
 
 #include "shading/dialect/lang.h"
 
@@ -25,5 +24,3 @@ FN Proxy proxy_of(int fit, float ax, float ay) {
 FN Proxy proxy_cosine(void) { return proxy_of(PROXY_COSINE, 1.0f, 1.0f); }
 FN Proxy proxy_facets(float ax, float ay) { return proxy_of(PROXY_FACETS, ax, ay); }
 FN Proxy proxy_fibres(float alpha) { return proxy_of(PROXY_FIBRES, alpha, alpha); }
-
-#endif

@@ -1,6 +1,5 @@
 /* rgb.h - colours: linear Rec. 709 */
-#ifndef WEFT_RGB_H
-#define WEFT_RGB_H
+#pragma once
 
 #include "shading/dialect/angles.h"
 
@@ -23,5 +22,3 @@ FN float rgb_mean(Rgb c) { return (c.r + c.g + c.b) * (1.0f / 3.0f); }
 /* Returns Y = 0.2126 R + 0.7152 G + 0.0722 B. International Telecommunication Union, Recommendation BT.709, item
  * 3.2. */
 FN float rgb_luminance(Rgb c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b; }
-
-#endif

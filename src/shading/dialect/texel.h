@@ -1,6 +1,5 @@
 /* texel.h - values of inputs from a texture's channels */
-#ifndef WEFT_SHADING_TEXEL_H
-#define WEFT_SHADING_TEXEL_H
+#pragma once
 
 #include "shading/dialect/angles.h"
 
@@ -19,5 +18,3 @@ FN Dir texel_direction(float r, float g, float x, float y) {
     if (s < 1e-3f) return dir(x, y, 0.0f);
     return dir((x * tx - y * ty) / s, (x * ty + y * tx) / s, 0.0f);
 }
-
-#endif

@@ -10,8 +10,7 @@
  *   Own fit to the solved slab of fibres. Each direction has its own factor and w is in no coefficient, so f
  * is as reciprocal as f(1) where e is the same in both directions. Departures: w is clamped to [0, 1], q is at most
  * 0.999. */
-#ifndef WEFT_TINT_H
-#define WEFT_TINT_H
+#pragma once
 
 #include "shading/dialect/lang.h"
 
@@ -49,5 +48,3 @@ FN float tint_color(Tint t, float w) {
     float more = a * a * min(r * exp((1.0f - a) * t.e), 1.0f);
     return (1.0f - t.s) * a + t.s * more;
 }
-
-#endif

@@ -1,8 +1,7 @@
 /* tone.h - tone mapping: from linear radiance to display values
  *
  * One text for pictures in memory (image/tonemap.c) and for those that the GPU shows (raster/gl/display.h). */
-#ifndef WEFT_TONE_H
-#define WEFT_TONE_H
+#pragma once
 
 #include "shading/dialect/rgb.h"
 
@@ -51,8 +50,4 @@ FN Rgb tone_over(Rgb light, float cover, Rgb behind) {
 }
 
 /* Returns the display values, in [0, 1], of such light. */
-FN Rgb tone_display(Rgb light) {
-    return rgb(tone_encode(light.r), tone_encode(light.g), tone_encode(light.b));
-}
-
-#endif
+FN Rgb tone_display(Rgb light) { return rgb(tone_encode(light.r), tone_encode(light.g), tone_encode(light.b)); }

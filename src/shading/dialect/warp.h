@@ -1,6 +1,5 @@
 /* warp.h - maps from the unit square to directions, each beside its pdf (1/sr) */
-#ifndef WEFT_WARP_H
-#define WEFT_WARP_H
+#pragma once
 
 #include "shading/dialect/angles.h"
 
@@ -28,5 +27,3 @@ FN Dir warp_uniform_cosine(float share, float u, float v) {
 FN float warp_uniform_cosine_pdf(float share, Dir w) {
     return (1.0f - share) * warp_cosine_pdf(w) + share * warp_uniform_pdf(w);
 }
-
-#endif

@@ -10,14 +10,13 @@ struct StackKind {
     const KindLoops *loops;
 };
 
-#define K(name, profile, diffuse, specular, sheen, coat, dust, transmits, layer, base_fresnel, albedo)       \
+#define K(name, profile, diffuse, specular, sheen, coat, dust, transmits, layer, base_fresnel, albedo)                 \
     extern const KindLoops kind_loops_##name;
 #include "shading/kinds.gen.h"
 #undef K
 
-#define K(name, profile, diffuse, specular, sheen, coat, dust, transmits, layer, base_fresnel, albedo)       \
-    {profile,           {diffuse, specular, sheen, coat, dust}, transmits, layer, base_fresnel, albedo,      \
-     &kind_loops_##name},
+#define K(name, profile, diffuse, specular, sheen, coat, dust, transmits, layer, base_fresnel, albedo)                 \
+    {profile, {diffuse, specular, sheen, coat, dust}, transmits, layer, base_fresnel, albedo, &kind_loops_##name},
 static const StackKind kinds[] = {
 #include "shading/kinds.gen.h"
 };
@@ -31,8 +30,8 @@ static bool same_choices(Choices c, int profile) {
     return true SURFACE_CHOICES(SAME_CHOICE);
 }
 
-#define FITS_SLOT(name, NAME, Name, wo)                                                                      \
-    fits = fits && (!(m->name.normal > 0.0f) || m->name.lobe.id == *lobe);                                   \
+#define FITS_SLOT(name, NAME, Name, wo)                                                                                \
+    fits = fits && (!(m->name.normal > 0.0f) || m->name.lobe.id == *lobe);                                             \
     lobe++;
 static bool holds_no_other(const StackKind *kind, const Stack *m) {
     const int *lobe = kind->lobe;
@@ -43,9 +42,9 @@ static bool holds_no_other(const StackKind *kind, const Stack *m) {
 
 static bool fits(const StackKind *kind, const Stack *m, const Choices *choices) {
     bool has_e = !HAS_SHEEN(m) || (m->table.kind == TABLE_ROOTS && m->table.tilts == 0);
-    return has_e && HAS_TRANSMITTED(m) == kind->transmits && m->layer == kind->layer &&
-           m->combine == LAYER_BY_MAX && m->base_fresnel == kind->base_fresnel && m->albedo == kind->albedo &&
-           m->view == VIEW_NONE && holds_no_other(kind, m) && same_choices(*choices, kind->profile);
+    return has_e && HAS_TRANSMITTED(m) == kind->transmits && m->layer == kind->layer && m->combine == LAYER_BY_MAX &&
+           m->base_fresnel == kind->base_fresnel && m->albedo == kind->albedo && m->view == VIEW_NONE &&
+           holds_no_other(kind, m) && same_choices(*choices, kind->profile);
 }
 
 const StackKind *stack_kind(const Stack *untextured, const Choices *choices) {

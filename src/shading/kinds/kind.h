@@ -3,8 +3,7 @@
  * A kind is a row of kinds.list: the lobe that each slot may have, the layer rule, the interface rule, the source of
  * E. Its loops are the text of stacks (stack_value.h) compiled with these as constants, one vertex in each lane: the
  * arithmetic is that of material_stack.h but for the last bits. */
-#ifndef WEFT_SHADING_KIND_H
-#define WEFT_SHADING_KIND_H
+#pragma once
 
 #include "shading/material/material_stack.h"
 #include "shading/stack/surface_rows.h"
@@ -26,8 +25,7 @@ typedef struct KindVertices {
     float o[3][ROW_CAPACITY]; /* wo, z > 0 */
     float u[ROW_CAPACITY], v[ROW_CAPACITY];
     float i[KIND_DIRECTIONS][3][ROW_CAPACITY];
-    float f[KIND_DIRECTIONS][3][ROW_CAPACITY],
-        pdf[KIND_DIRECTIONS][ROW_CAPACITY]; /* f cos and pdf; 0 below */
+    float f[KIND_DIRECTIONS][3][ROW_CAPACITY], pdf[KIND_DIRECTIONS][ROW_CAPACITY];   /* f cos and pdf; 0 below */
     float e_o[ROW_CAPACITY], base_scale[3][ROW_CAPACITY], select_p[5][ROW_CAPACITY]; /* of the StackView */
 } KindVertices;
 
@@ -47,7 +45,4 @@ const StackKind *stack_kind(const Stack *untextured, const Choices *choices);
 
 /* Samples wi for the first n vertices, n a multiple of ROW_LANES, and gives f cos and pdf of it and of the
  * directions [k] with lights[k]. e: as for stack_make. */
-void kind_shade(const StackKind *kind, KindVertices *vertices, TableRef e, const bool lights[KIND_LIGHTS],
-                int n);
-
-#endif
+void kind_shade(const StackKind *kind, KindVertices *vertices, TableRef e, const bool lights[KIND_LIGHTS], int n);

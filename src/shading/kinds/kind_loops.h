@@ -1,6 +1,5 @@
 /* kind_loops.h - the loops of a kind: views, f and pdf of wi, samples */
-#ifndef WEFT_SHADING_KIND_LOOPS_H
-#define WEFT_SHADING_KIND_LOOPS_H
+#pragma once
 
 #include "shading/lobe/table.h"
 
@@ -10,5 +9,3 @@ typedef struct KindLoops {
     void (*eval)(struct KindVertices *v, TableRef e, int direction, int n);
     void (*sample)(struct KindVertices *v, TableRef e, int n);
 } KindLoops;
-
-#endif

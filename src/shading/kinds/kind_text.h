@@ -1,6 +1,5 @@
 /* kind_text.h - the text of stacks as loops, for the structure that a file from cmake/kinds.cmake defines */
-#ifndef WEFT_SHADING_KIND_TEXT_H
-#define WEFT_SHADING_KIND_TEXT_H
+#pragma once
 
 #define HAS_LAYERED_SHEEN(m) HAS_SHEEN(m) /* a black one leaves all of the base */
 #define HAS_TRANSMITTED(m)   (KIND_TRANSMITS)
@@ -17,17 +16,16 @@ static Choices kind_choices(void) {
 }
 
 /* A coat of a kind that has one is always made, since a loop has no branches, and hidden where there is none. */
-#define TAKE_STACK(m, v)                                                                                     \
-    Surface s = surface_of_row(&(v)->surface, k);                                                            \
-    bool coated = s.clearcoat > 0.0f;                                                                        \
-    s.clearcoat = coat_lobe < 0 ? 0.0f : max(s.clearcoat, 1e-20f);                                           \
-    if (dust_lobe < 0) s.dust = 0.0f;                                                                        \
-    if (!KIND_TRANSMITS) s.diffuse_transmission = 0.0f;                                                      \
-    Stack m;                                                                                                 \
-    compose_stack(&m, &s, kind_choices(), e);                                                                \
-    if (KIND_WOVEN)                                                                                          \
-        compose_base(&m, yarn_of_row(&(v)->yarn, k), ROW_RGB((v)->yarn.single, k),                           \
-                     ROW_RGB((v)->yarn.multiple, k));                                                        \
+#define TAKE_STACK(m, v)                                                                                               \
+    Surface s = surface_of_row(&(v)->surface, k);                                                                      \
+    bool coated = s.clearcoat > 0.0f;                                                                                  \
+    s.clearcoat = coat_lobe < 0 ? 0.0f : max(s.clearcoat, 1e-20f);                                                     \
+    if (dust_lobe < 0) s.dust = 0.0f;                                                                                  \
+    if (!KIND_TRANSMITS) s.diffuse_transmission = 0.0f;                                                                \
+    Stack m;                                                                                                           \
+    compose_stack(&m, &s, kind_choices(), e);                                                                          \
+    if (KIND_WOVEN)                                                                                                    \
+        compose_base(&m, yarn_of_row(&(v)->yarn, k), ROW_RGB((v)->yarn.single, k), ROW_RGB((v)->yarn.multiple, k));    \
     m.coat.normal = coated ? m.coat.normal : 0.0f
 
 #define PUT_SELECT_P(name, NAME, Name, wo) v->select_p[place++][k] = w.select_p.name;
@@ -99,22 +97,22 @@ LOOP(eval_n, (KindVertices *restrict v, TableRef e, int direction, int n), (v, e
         eval_each(v, e, direction, n);
 }
 
-#define TRY_SLOT(name, NAME, Name, wo)                                                                       \
-    if (name##_lobe >= 0) {                                                                                  \
-        bool begun = w.select_p.name > 0.0f && (slot < 0 || u >= at);                                        \
-        slot = begun ? place : slot;                                                                         \
-        begin = begun ? at : begin;                                                                          \
-        width = begun ? w.select_p.name : width;                                                             \
-        at += w.select_p.name;                                                                               \
-    }                                                                                                        \
+#define TRY_SLOT(name, NAME, Name, wo)                                                                                 \
+    if (name##_lobe >= 0) {                                                                                            \
+        bool begun = w.select_p.name > 0.0f && (slot < 0 || u >= at);                                                  \
+        slot = begun ? place : slot;                                                                                   \
+        begin = begun ? at : begin;                                                                                    \
+        width = begun ? w.select_p.name : width;                                                                       \
+        at += w.select_p.name;                                                                                         \
+    }                                                                                                                  \
     place++;
-#define DRAW_SLOT(name, NAME, Name, wo)                                                                      \
-    if (name##_lobe >= 0) {                                                                                  \
-        Dir x;                                                                                               \
-        name##_sample_at(0, &m.name##_prepared, &w.name##_view, &w.wo, u, v->v[k], &x);                      \
-        if (PLACE_##NAME == PLACE_COAT) x = dir_choose(x.z > 0.0f, stack_from_coat(&m, x), x);               \
-        i = dir_choose((slot == place) & (w.wo.z > 0.0f), x, i);                                             \
-    }                                                                                                        \
+#define DRAW_SLOT(name, NAME, Name, wo)                                                                                \
+    if (name##_lobe >= 0) {                                                                                            \
+        Dir x;                                                                                                         \
+        name##_sample_at(0, &m.name##_prepared, &w.name##_view, &w.wo, u, v->v[k], &x);                                \
+        if (PLACE_##NAME == PLACE_COAT) x = dir_choose(x.z > 0.0f, stack_from_coat(&m, x), x);                         \
+        i = dir_choose((slot == place) & (w.wo.z > 0.0f), x, i);                                                       \
+    }                                                                                                                  \
     place++;
 
 LOOP(sample_n, (KindVertices *restrict v, TableRef e, int n), (v, e, n)) {
@@ -148,5 +146,3 @@ LOOP(sample_n, (KindVertices *restrict v, TableRef e, int n), (v, e, n)) {
 }
 
 const KindLoops KIND = {see_n, eval_n, sample_n};
-
-#endif

@@ -6,11 +6,8 @@
  * 2012 course, adds its sheen so).
  *   energy: gains c E(wo), all that the sheen reflects.
  *   reciprocal: yes. */
-#ifndef WEFT_LAYER_ADDITIVE_H
-#define WEFT_LAYER_ADDITIVE_H
+#pragma once
 
 #include "shading/dialect/lang.h"
 
 FN float additive_base(float c, float e_o, float e_i, float e_avg) { return 1.0f; }
-
-#endif

@@ -6,13 +6,8 @@
  * three.js has it for direct light.
  *   energy: E <= 1 where the sheen's own E is; over a lossless base it loses what albedo-view would keep.
  *   reciprocal: yes. */
-#ifndef WEFT_LAYER_ALBEDO_MAX_H
-#define WEFT_LAYER_ALBEDO_MAX_H
+#pragma once
 
 #include "shading/dialect/lang.h"
 
-FN float albedo_max_base(float c, float e_o, float e_i, float e_avg) {
-    return max(1.0f - c * max(e_o, e_i), 0.0f);
-}
-
-#endif
+FN float albedo_max_base(float c, float e_o, float e_i, float e_avg) { return max(1.0f - c * max(e_o, e_i), 0.0f); }

@@ -7,13 +7,8 @@
  * where the smaller E is taken for the smaller scaling.
  *   energy: no, over a lossless base it gains wherever E(wi) < E(wo).
  *   reciprocal: yes. */
-#ifndef WEFT_LAYER_ALBEDO_MIN_H
-#define WEFT_LAYER_ALBEDO_MIN_H
+#pragma once
 
 #include "shading/dialect/lang.h"
 
-FN float albedo_min_base(float c, float e_o, float e_i, float e_avg) {
-    return max(1.0f - c * min(e_o, e_i), 0.0f);
-}
-
-#endif
+FN float albedo_min_base(float c, float e_o, float e_i, float e_avg) { return max(1.0f - c * min(e_o, e_i), 0.0f); }

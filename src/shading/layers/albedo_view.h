@@ -6,12 +6,9 @@
  * course, section on layering; Khronos Group, KHR_materials_sheen, 2020 (its view term).
  *   energy: E <= 1 where the sheen's own E is, exactly 1 over a lossless base.
  *   reciprocal: no, the factor depends on wo only. */
-#ifndef WEFT_LAYER_ALBEDO_VIEW_H
-#define WEFT_LAYER_ALBEDO_VIEW_H
+#pragma once
 
 #include "shading/dialect/lang.h"
 
 /* Returns 1 - c E(wo). A sheen that reflects more than it receives leaves 0 for the base. */
 FN float albedo_view_base(float c, float e_o, float e_i, float e_avg) { return max(1.0f - c * e_o, 0.0f); }
-
-#endif

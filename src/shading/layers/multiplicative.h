@@ -6,11 +6,8 @@
  * paper states it; c and E are the colour and the albedo of KHR_materials_sheen, Khronos Group, 2020.
  *   energy: gains c E(wo) times what the base reflects.
  *   reciprocal: no, the factor depends on wo only. */
-#ifndef WEFT_LAYER_MULTIPLICATIVE_H
-#define WEFT_LAYER_MULTIPLICATIVE_H
+#pragma once
 
 #include "shading/dialect/lang.h"
 
 FN float multiplicative_base(float c, float e_o, float e_i, float e_avg) { return max(1.0f + c * e_o, 0.0f); }
-
-#endif

@@ -7,8 +7,7 @@
  *   energy: exactly 1 over a white Lambert base, for a sheen that keeps E <= 1 and c Eavg <= 0.99. Over a
  * dark one it leaves on average what albedo-view does; with true bounces (stochastic) it would be less.
  *   reciprocal: yes. */
-#ifndef WEFT_LAYER_RECIPROCAL_H
-#define WEFT_LAYER_RECIPROCAL_H
+#pragma once
 
 #include "shading/dialect/lang.h"
 
@@ -17,5 +16,3 @@
 FN float reciprocal_base(float c, float e_o, float e_i, float e_avg) {
     return max(1.0f - c * e_o, 0.0f) * max(1.0f - c * e_i, 0.0f) / max(1.0f - c * e_avg, 0.01f);
 }
-
-#endif

@@ -12,11 +12,8 @@
  * times what it receives there (workflow metallic); and at k = 1 nothing of the diffuse lobe is left, however little
  * the sheen reflects. The safer form is side-by-side.
  *   reciprocal: yes. */
-#ifndef WEFT_LAYER_SEED_H
-#define WEFT_LAYER_SEED_H
+#pragma once
 
 #include "shading/dialect/lang.h"
 
 FN float seed_base(float c, float e_o, float e_i, float e_avg) { return max(1.0f - c, 0.0f); }
-
-#endif

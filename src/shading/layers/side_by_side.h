@@ -11,11 +11,8 @@
  * Foundation, 2024): threads side by side, none above another.
  *   energy: E <= 1 where it holds of sheen, diffuse and interface, as a mean of theirs.
  *   reciprocal: yes where F is. */
-#ifndef WEFT_LAYER_SIDE_BY_SIDE_H
-#define WEFT_LAYER_SIDE_BY_SIDE_H
+#pragma once
 
 #include "shading/dialect/lang.h"
 
 FN float side_by_side_base(float c, float e_o, float e_i, float e_avg) { return max(1.0f - c, 0.0f); }
-
-#endif

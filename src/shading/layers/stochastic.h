@@ -9,13 +9,10 @@
  *   energy: loses, without the bounces, what the sheen reflects back to the base; with them E <= 1 where the
  * sheen's own E is.
  *   reciprocal: yes. */
-#ifndef WEFT_LAYER_STOCHASTIC_H
-#define WEFT_LAYER_STOCHASTIC_H
+#pragma once
 
 #include "shading/dialect/lang.h"
 
 FN float stochastic_base(float c, float e_o, float e_i, float e_avg) {
     return max(1.0f - c * e_o, 0.0f) * max(1.0f - c * e_i, 0.0f);
 }
-
-#endif

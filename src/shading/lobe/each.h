@@ -2,8 +2,7 @@
  * directions
  *
  * Every array has n elements, a multiple of EACH_GROUP, and none that is written overlaps another. */
-#ifndef WEFT_SHADING_EACH_H
-#define WEFT_SHADING_EACH_H
+#pragma once
 
 #include <stddef.h>
 
@@ -26,5 +25,3 @@ void each_eval(const Each *e, size_t n);
 
 /* Computes `drawn` from o, u and v; 0 if o is not above the horizon or not finite. */
 void each_sample(const Each *e, size_t n);
-
-#endif

@@ -1,6 +1,5 @@
 /* fresnel_weight.h - the Fresnel weight: the part of a lobe's f that its second colour scales */
-#ifndef WEFT_SHADING_FRESNEL_WEIGHT_H
-#define WEFT_SHADING_FRESNEL_WEIGHT_H
+#pragma once
 
 #include "shading/terms/f_cook_torrance.h"
 #include "shading/terms/f_schlick.h"
@@ -24,5 +23,3 @@ FN float fresnel_weight_uncolored(float s) {
     if (FRESNEL_WEIGHT_IS_COSINE(s)) return schlick_s(-s);
     return s;
 }
-
-#endif

@@ -1,6 +1,5 @@
 /* lobe.h - a lobe with its parameters, and the functions that every lobe defines */
-#ifndef WEFT_SHADING_LOBE_H
-#define WEFT_SHADING_LOBE_H
+#pragma once
 
 #include "shading/dialect/angles.h"
 #include "shading/dialect/proxy.h"
@@ -80,11 +79,9 @@ FN LobeNamed lobe_unnamed(void) {
 #endif
 
 /* For a lobe that prepares only its parameters, and for one with an empty view. */
-#define PREPARED_AS_IT_IS(name, Name)                                                                        \
-    STRUCT(Name##Prepared) { Name m; };                                                                      \
+#define PREPARED_AS_IT_IS(name, Name)                                                                                  \
+    STRUCT(Name##Prepared) { Name m; };                                                                                \
     FN void name##_prepare(Name m, Name##Prepared *p) { p->m = m; }
-#define SEEN_AS_IT_IS(name, Name)                                                                            \
-    STRUCT(Name##View) { float none; };                                                                      \
+#define SEEN_AS_IT_IS(name, Name)                                                                                      \
+    STRUCT(Name##View) { float none; };                                                                                \
     FN void name##_view(const Name##Prepared *p, Dir o, Name##View *w) { w->none = 0.0f; }
-
-#endif

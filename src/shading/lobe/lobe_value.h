@@ -1,6 +1,5 @@
 /* lobe_value.h - the value of a lobe for a pair of directions, and its product with the lobe's colours */
-#ifndef WEFT_LOBE_VALUE_H
-#define WEFT_LOBE_VALUE_H
+#pragma once
 
 #include "shading/dialect/angles.h"
 #include "shading/dialect/tint.h"
@@ -56,5 +55,3 @@ FN LobeReflected lobe_reflected_single(LobeValue v, Rgb color) {
     x.f_s2 = 0.0f;
     return x;
 }
-
-#endif

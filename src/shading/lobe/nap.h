@@ -3,8 +3,7 @@
  *   heading = cos(phi),  phi: the azimuth of a direction about the normal, from where the fibres lean
  *
  * 1 along the nap, 0 across it, -1 against it. */
-#ifndef WEFT_NAP_H
-#define WEFT_NAP_H
+#pragma once
 
 #include "shading/dialect/angles.h"
 
@@ -29,5 +28,3 @@ FN float nap_heading(Nap n, Dir w) {
     float r = sqrt(w.x * w.x + w.y * w.y);
     return clamp((n.x * w.x + n.y * w.y) / max(r, 1e-15f), -1.0f, 1.0f);
 }
-
-#endif

@@ -7,8 +7,7 @@
  * If fibres lean, E depends on the azimuth too. Then five more maps follow, for the headings -1, -1/2, 0, 1/2 and 1
  * (nap.h: 1 is along the nap, 0 across it). If a texture scales the tilt, there are five sets of five, for 0, 1/16,
  * 1/4, 9/16 and 1 times the greatest tilt. */
-#ifndef WEFT_TABLE_H
-#define WEFT_TABLE_H
+#pragma once
 
 #include "shading/dialect/tint.h"
 #include "shading/lobe/nap.h"
@@ -126,10 +125,9 @@ FN float table_linear(TableRef m, float cos_o, float p) {
     float y = clamp(p * to_float(m.rows) - 0.5f, 0.0f, to_float(m.rows - 1));
     float x0 = min(floor(x), to_float(m.columns - 2)), y0 = min(floor(y), to_float(m.rows - 2));
     int j = to_int(y0), k = to_int(x0);
-    float low =
-        mix(table_texel(m.texels, m.columns, j, k), table_texel(m.texels, m.columns, j, k + 1), x - x0);
-    float high = mix(table_texel(m.texels, m.columns, j + 1, k),
-                     table_texel(m.texels, m.columns, j + 1, k + 1), x - x0);
+    float low = mix(table_texel(m.texels, m.columns, j, k), table_texel(m.texels, m.columns, j, k + 1), x - x0);
+    float high =
+        mix(table_texel(m.texels, m.columns, j + 1, k), table_texel(m.texels, m.columns, j + 1, k + 1), x - x0);
     return mix(low, high, y - y0);
 }
 
@@ -208,8 +206,8 @@ FN Taps table_tilt(TableRef m, float tilt) {
 /* Returns E at a heading, from the five maps of one tilt. map: the first of these. */
 FN float table_at_heading(TableRef m, int map, Taps heading, TablePlace at) {
     int k = map + heading.first;
-    return heading.a * table_map(m, k, at) + heading.b * table_map(m, k + 1, at) +
-           heading.c * table_map(m, k + 2, at) + heading.d * table_map(m, k + 3, at);
+    return heading.a * table_map(m, k, at) + heading.b * table_map(m, k + 1, at) + heading.c * table_map(m, k + 2, at) +
+           heading.d * table_map(m, k + 3, at);
 }
 
 /* Returns E of leaning fibres, interpolated between headings and, if there are several, tilts. */
@@ -259,5 +257,3 @@ FN SheenE table_sheen_nap_average(TableRef m, Nap nap, Taps rows) {
     x.e = clamp(x.e, 0.0f, 1.0f);
     return x;
 }
-
-#endif

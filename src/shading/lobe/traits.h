@@ -1,6 +1,5 @@
 /* traits.h - properties of a lobe over its whole parameter range; tests check each claim */
-#ifndef WEFT_SHADING_TRAITS_H
-#define WEFT_SHADING_TRAITS_H
+#pragma once
 
 /* The numbers are those of weft/lobe.h, which a plugin is made without. */
 enum {
@@ -15,5 +14,3 @@ enum {
     TRAIT_TINTED = 256,
     TRAIT_SYSTEM = 512
 };
-
-#endif

@@ -14,13 +14,12 @@
  *   measured by weft check ashikhmin-conty-kulla: E at most 0.96 (alpha 0.64, cos_o 0.01);
  *     reciprocal to 1e-3; weight variance 0.29 of the cosine's;
  *     half precision: no floor keeps it finite (alpha 1, cos_o 1, cos_i 1, phi 0). */
-#ifndef WEFT_ASHIKHMIN_CONTY_KULLA_H
-#define WEFT_ASHIKHMIN_CONTY_KULLA_H
+#pragma once
 
 #include "shading/lobes/ashikhmin_neubelt.h"
 #include "shading/terms/v_conty_kulla.h"
 
-#define ASHIKHMIN_CONTY_KULLA_PARAMS(P)                                                                      \
+#define ASHIKHMIN_CONTY_KULLA_PARAMS(P)                                                                                \
     P(float, alpha, 0.25f, 0.05f, 1.0f, 0.02f, 1.0f, "width of the rise at the horizon; low is a thin rim")
 #define ASHIKHMIN_CONTY_KULLA_TRAITS (TRAIT_RECIPROCAL | TRAIT_CONSERVES)
 
@@ -40,15 +39,13 @@ FN void ashikhmin_conty_kulla_view(const AshikhminContyKullaPrepared *p, Dir o, 
     w->lambda = conty_kulla_lambda(p->shadow, max(o.z, 1e-5f));
 }
 
-FN LobeValue ashikhmin_conty_kulla_value(const AshikhminContyKullaPrepared *p,
-                                         const AshikhminContyKullaView *w, Angles a) {
+FN LobeValue ashikhmin_conty_kulla_value(const AshikhminContyKullaPrepared *p, const AshikhminContyKullaView *w,
+                                         Angles a) {
     float d = ashikhmin_d(p->alpha, a.h);
     float f = d * conty_kulla_v_of(p->shadow, w->lambda, max(a.o.z, 1e-5f), max(a.i.z, 1e-5f));
     return lobe_value_of(f, 0.0f, ashikhmin_pdf(d, a));
 }
-FN Dir ashikhmin_conty_kulla_sample(const AshikhminContyKullaPrepared *p, const AshikhminContyKullaView *w,
-                                    Dir o, float u, float v) {
+FN Dir ashikhmin_conty_kulla_sample(const AshikhminContyKullaPrepared *p, const AshikhminContyKullaView *w, Dir o,
+                                    float u, float v) {
     return ashikhmin_sample(p->alpha, o, u, v);
 }
-
-#endif

@@ -14,14 +14,13 @@
  *   measured by weft check ashikhmin-neubelt: E at most 0.85 (alpha 0.36, cos_o 0.001);
  *     reciprocal to 1e-3; weight variance 0.30 of the cosine's;
  *     half precision: no floor keeps it finite (alpha 1, cos_o 1, cos_i 1, phi 0). */
-#ifndef WEFT_ASHIKHMIN_NEUBELT_H
-#define WEFT_ASHIKHMIN_NEUBELT_H
+#pragma once
 
 #include "shading/lobe/lobe.h"
 #include "shading/terms/d_ashikhmin.h"
 #include "shading/terms/v_neubelt.h"
 
-#define ASHIKHMIN_NEUBELT_PARAMS(P)                                                                          \
+#define ASHIKHMIN_NEUBELT_PARAMS(P)                                                                                    \
     P(float, alpha, 0.25f, 0.05f, 1.0f, 0.02f, 4.0f, "width of the rise at the horizon; low is a thin rim")
 #define ASHIKHMIN_NEUBELT_TRAITS (TRAIT_RECIPROCAL | TRAIT_CONSERVES)
 
@@ -49,14 +48,11 @@ FN Dir ashikhmin_sample(float alpha, Dir o, float u, float v) {
     return i;
 }
 
-FN LobeValue ashikhmin_neubelt_value(const AshikhminNeubeltPrepared *p, const AshikhminNeubeltView *w,
-                                     Angles a) {
+FN LobeValue ashikhmin_neubelt_value(const AshikhminNeubeltPrepared *p, const AshikhminNeubeltView *w, Angles a) {
     float d = ashikhmin_d(p->m.alpha, a.h);
     return lobe_value_of(d * neubelt_v(a.o.z, a.i.z), 0.0f, ashikhmin_pdf(d, a));
 }
-FN Dir ashikhmin_neubelt_sample(const AshikhminNeubeltPrepared *p, const AshikhminNeubeltView *w, Dir o,
-                                float u, float v) {
+FN Dir ashikhmin_neubelt_sample(const AshikhminNeubeltPrepared *p, const AshikhminNeubeltView *w, Dir o, float u,
+                                float v) {
     return ashikhmin_sample(p->m.alpha, o, u, v);
 }
-
-#endif

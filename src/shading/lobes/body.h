@@ -17,15 +17,14 @@
  *   measured by weft check body: E at most 0.99 (edge 1, cos_o 1);
  *     reciprocal to 1e-3; weight variance 1.00 of the cosine's;
  *     half precision: finite for any cosines. */
-#ifndef WEFT_BODY_H
-#define WEFT_BODY_H
+#pragma once
 
 #include "shading/dialect/warp.h"
 #include "shading/lobe/lobe.h"
 
-#define BODY_PARAMS(P)                                                                                       \
-    P(float, edge, 0.1f, 0.0f, 1.0f, 0.0f, 1.0f, "how much it darkens towards the edge; 0: not at all")      \
-    P(float, retro, 0.3f, 0.0f, 6.0f, 0.0f, 6.0f, "height of the peak towards the light")                    \
+#define BODY_PARAMS(P)                                                                                                 \
+    P(float, edge, 0.1f, 0.0f, 1.0f, 0.0f, 1.0f, "how much it darkens towards the edge; 0: not at all")                \
+    P(float, retro, 0.3f, 0.0f, 6.0f, 0.0f, 6.0f, "height of the peak towards the light")                              \
     P(float, lift, 0.3f, 0.0f, 8.0f, 0.0f, 8.0f, "how much brighter it is where light and viewer part")
 #define BODY_TRAITS (TRAIT_RECIPROCAL | TRAIT_CONSERVES | TRAIT_DIFFUSE)
 
@@ -50,11 +49,6 @@ FN LobeValue body_value(const BodyPrepared *p, const BodyView *w, Angles a) {
     float x = a.o.x - a.i.x, y = a.o.y - a.i.y, z = a.o.z - a.i.z, sin2_d = 0.25f * (x * x + y * y + z * z);
     float peak = exp(-sqrt(sin2_d) / (0.35f * max(a.d, 1e-3f)));
     float limb = pow(max(a.o.z * a.i.z, 1e-12f), p->edge);
-    return lobe_value_of(p->scale * limb * (1.0f + p->retro * peak + p->lift * sin2_d), 0.0f,
-                         warp_cosine_pdf(a.i));
+    return lobe_value_of(p->scale * limb * (1.0f + p->retro * peak + p->lift * sin2_d), 0.0f, warp_cosine_pdf(a.i));
 }
-FN Dir body_sample(const BodyPrepared *p, const BodyView *w, Dir o, float u, float v) {
-    return warp_cosine(u, v);
-}
-
-#endif
+FN Dir body_sample(const BodyPrepared *p, const BodyView *w, Dir o, float u, float v) { return warp_cosine(u, v); }

@@ -13,14 +13,13 @@
  *   measured by weft check burley: E at most 1.56 (roughness 1, cos_o 0.001);
  *     reciprocal to 1e-3; weight variance 1.00 of the cosine's;
  *     half precision: finite for any cosines. */
-#ifndef WEFT_BURLEY_H
-#define WEFT_BURLEY_H
+#pragma once
 
 #include "shading/dialect/warp.h"
 #include "shading/lobe/lobe.h"
 #include "shading/terms/f_schlick.h"
 
-#define BURLEY_PARAMS(P)                                                                                     \
+#define BURLEY_PARAMS(P)                                                                                               \
     P(float, roughness, 0.5f, 0.0f, 1.0f, 0.0f, 1.0f, "0 darkens at grazing, 1 brightens towards the light")
 #define BURLEY_TRAITS (TRAIT_RECIPROCAL | TRAIT_DIFFUSE)
 
@@ -41,5 +40,3 @@ FN LobeValue burley_value(const BurleyPrepared *p, const BurleyView *w, Angles a
 FN Dir burley_sample(const BurleyPrepared *p, const BurleyView *w, Dir o, float u, float v) {
     return warp_cosine(u, v);
 }
-
-#endif

@@ -12,8 +12,7 @@
  *   measured by weft check burley-coat: E at most 1.38 (alpha 0.1, cos_o 0.001);
  *     reciprocal to 1e-3; weight variance under 0.01 of the cosine's;
  *     half precision: finite for cosines >= 2^-13 and alpha >= 0.0026. */
-#ifndef WEFT_BURLEY_COAT_H
-#define WEFT_BURLEY_COAT_H
+#pragma once
 
 #include "shading/dialect/warp.h"
 #include "shading/lobe/lobe.h"
@@ -21,9 +20,8 @@
 #include "shading/terms/f_schlick.h"
 #include "shading/terms/v_smith_ggx.h"
 
-#define BURLEY_COAT_PARAMS(P)                                                                                \
-    P(float, alpha, 0.001f, 0.001f, 0.1f, 0.001f, 1.0f, "width of the highlight's peak")
-#define BURLEY_COAT_TRAITS (TRAIT_RECIPROCAL | TRAIT_TWO_COLORS)
+#define BURLEY_COAT_PARAMS(P) P(float, alpha, 0.001f, 0.001f, 0.1f, 0.001f, 1.0f, "width of the highlight's peak")
+#define BURLEY_COAT_TRAITS    (TRAIT_RECIPROCAL | TRAIT_TWO_COLORS)
 
 STRUCT(BurleyCoat){BURLEY_COAT_PARAMS(FIELD)};
 PREPARED_AS_IT_IS(burley_coat, BurleyCoat)
@@ -40,5 +38,3 @@ FN Dir burley_coat_sample(const BurleyCoatPrepared *p, const BurleyCoatView *w, 
     return i;
 }
 FN Proxy burley_coat_proxy(BurleyCoat m) { return gtr1_proxy(m.alpha); }
-
-#endif

@@ -13,8 +13,7 @@
  *   measured by weft check burley-sheen: E at most 0.09 (cos_o 0.001);
  *     reciprocal to 1e-3; weight variance 0.29 of the cosine's;
  *     half precision: finite for any cosines. */
-#ifndef WEFT_BURLEY_SHEEN_H
-#define WEFT_BURLEY_SHEEN_H
+#pragma once
 
 #include "shading/dialect/warp.h"
 #include "shading/lobe/lobe.h"
@@ -46,10 +45,7 @@ FN Dir burley_sheen_sample(const BurleySheenPrepared *p, const BurleySheenView *
         /* a frame about wo: Tom Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017 */
         float a = -1.0f / (1.0f + o.z), b = o.x * o.y * a, x = s * cos(phi), y = s * sin(phi);
         float z = c * o.z - o.x * x - o.y * y;
-        i = dir(c * o.x + (1.0f + o.x * o.x * a) * x + b * y, c * o.y + b * x + (1.0f + o.y * o.y * a) * y,
-                abs(z));
+        i = dir(c * o.x + (1.0f + o.x * o.x * a) * x + b * y, c * o.y + b * x + (1.0f + o.y * o.y * a) * y, abs(z));
     }
     return i;
 }
-
-#endif

@@ -15,13 +15,12 @@
  *   measured by weft check burley-subsurface: E at most 1.51 (roughness 1, cos_o 0.001);
  *     reciprocal to 1e-3; weight variance 0.71 of the cosine's;
  *     half precision: finite for cosines >= 2^-16. */
-#ifndef WEFT_BURLEY_SUBSURFACE_H
-#define WEFT_BURLEY_SUBSURFACE_H
+#pragma once
 
 #include "shading/lobes/burley.h"
 
-#define BURLEY_SUBSURFACE_PARAMS(P)                                                                          \
-    P(float, roughness, 0.5f, 0.0f, 1.0f, 0.0f, 1.0f, "brightness of grazing light thrown back")             \
+#define BURLEY_SUBSURFACE_PARAMS(P)                                                                                    \
+    P(float, roughness, 0.5f, 0.0f, 1.0f, 0.0f, 1.0f, "brightness of grazing light thrown back")                       \
     P(float, subsurface, 1.0f, 0.0f, 1.0f, 0.0f, 1.0f, "1 is this lobe, 0 is burley")
 #define BURLEY_SUBSURFACE_TRAITS (TRAIT_RECIPROCAL | TRAIT_DIFFUSE)
 
@@ -40,17 +39,14 @@ FN float burley_subsurface_f(float fss90, float z) {
     return k + (1.0f - k) * fss90;
 }
 
-FN LobeValue burley_subsurface_value(const BurleySubsurfacePrepared *p, const BurleySubsurfaceView *w,
-                                     Angles a) {
+FN LobeValue burley_subsurface_value(const BurleySubsurfacePrepared *p, const BurleySubsurfaceView *w, Angles a) {
     float fss90 = a.d * a.d * p->m.roughness;
     float fss = burley_subsurface_f(fss90, a.i.z) * burley_subsurface_f(fss90, a.o.z);
     float ss = 1.25f * (fss * (1.0f / (a.i.z + a.o.z) - 0.5f) + 0.5f) / PI;
     float f = burley_f(p->m.roughness, w->s_o, schlick_s(a.i.z), a.d);
     return lobe_value_of(mix(f, ss, p->m.subsurface), 0.0f, warp_uniform_cosine_pdf(0.5f, a.i));
 }
-FN Dir burley_subsurface_sample(const BurleySubsurfacePrepared *p, const BurleySubsurfaceView *w, Dir o,
-                                float u, float v) {
+FN Dir burley_subsurface_sample(const BurleySubsurfacePrepared *p, const BurleySubsurfaceView *w, Dir o, float u,
+                                float v) {
     return warp_uniform_cosine(0.5f, u, v);
 }
-
-#endif

@@ -14,14 +14,13 @@
  *   measured by weft check charlie-conty-kulla: E at most 2.10 (alpha 0.01, cos_o 0.001);
  *     reciprocal to 1e-3; weight variance 0.30 of the cosine's;
  *     half precision: finite for any cosines. */
-#ifndef WEFT_CHARLIE_CONTY_KULLA_H
-#define WEFT_CHARLIE_CONTY_KULLA_H
+#pragma once
 
 #include "shading/lobe/lobe.h"
 #include "shading/terms/d_charlie.h"
 #include "shading/terms/v_conty_kulla.h"
 
-#define CHARLIE_CONTY_KULLA_PARAMS(P)                                                                        \
+#define CHARLIE_CONTY_KULLA_PARAMS(P)                                                                                  \
     P(float, alpha, 0.25f, 0.01f, 1.0f, 0.005f, 1.0f, "width of the fibres' spread; low is a thin rim")
 #define CHARLIE_CONTY_KULLA_TRAITS TRAIT_RECIPROCAL
 
@@ -45,15 +44,11 @@ FN void charlie_conty_kulla_view(const CharlieContyKullaPrepared *p, Dir o, Char
     w->lambda = conty_kulla_lambda(p->shadow, o.z);
 }
 
-FN LobeValue charlie_conty_kulla_value(const CharlieContyKullaPrepared *p, const CharlieContyKullaView *w,
-                                       Angles a) {
+FN LobeValue charlie_conty_kulla_value(const CharlieContyKullaPrepared *p, const CharlieContyKullaView *w, Angles a) {
     float d = charlie_d_sin2(p->d, a.sin2_h);
-    return lobe_value_of(d * conty_kulla_v_of(p->shadow, w->lambda, a.o.z, a.i.z), 0.0f,
-                         charlie_pdf(d, w->side, a));
+    return lobe_value_of(d * conty_kulla_v_of(p->shadow, w->lambda, a.o.z, a.i.z), 0.0f, charlie_pdf(d, w->side, a));
 }
-FN Dir charlie_conty_kulla_sample(const CharlieContyKullaPrepared *p, const CharlieContyKullaView *w, Dir o,
-                                  float u, float v) {
+FN Dir charlie_conty_kulla_sample(const CharlieContyKullaPrepared *p, const CharlieContyKullaView *w, Dir o, float u,
+                                  float v) {
     return charlie_sample(p->d, w->side, o, u, v);
 }
-
-#endif

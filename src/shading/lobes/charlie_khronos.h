@@ -14,14 +14,13 @@
  *   measured by weft check charlie-khronos: E at most 1.41 (alpha 0.01, cos_o 0.005);
  *     reciprocal to 1e-3; weight variance 0.42 of the cosine's;
  *     half precision: finite for any cosines. */
-#ifndef WEFT_CHARLIE_KHRONOS_H
-#define WEFT_CHARLIE_KHRONOS_H
+#pragma once
 
 #include "shading/lobe/lobe.h"
 #include "shading/terms/d_charlie.h"
 #include "shading/terms/v_conty_kulla.h"
 
-#define CHARLIE_KHRONOS_PARAMS(P)                                                                            \
+#define CHARLIE_KHRONOS_PARAMS(P)                                                                                      \
     P(float, alpha, 0.25f, 0.01f, 1.0f, 0.005f, 1.0f, "width of the fibres' spread; low is a thin rim")
 #define CHARLIE_KHRONOS_TRAITS TRAIT_RECIPROCAL
 
@@ -63,9 +62,6 @@ FN float charlie_khronos_crease(CharlieKhronos m, float cos_o, int k) {
     }
     return k == 0 && high < 1.0f ? high : 0.0f;
 }
-FN Dir charlie_khronos_sample(const CharlieKhronosPrepared *p, const CharlieKhronosView *w, Dir o, float u,
-                              float v) {
+FN Dir charlie_khronos_sample(const CharlieKhronosPrepared *p, const CharlieKhronosView *w, Dir o, float u, float v) {
     return charlie_sample(p->d, w->side, o, u, v);
 }
-
-#endif

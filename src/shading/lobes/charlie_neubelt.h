@@ -13,14 +13,13 @@
  *   measured by weft check charlie-neubelt: E at most 3.88 (alpha 0.01, cos_o 0.001);
  *     reciprocal to 1e-3; weight variance 0.32 of the cosine's;
  *     half precision: finite for cosines >= 2^-13. */
-#ifndef WEFT_CHARLIE_NEUBELT_H
-#define WEFT_CHARLIE_NEUBELT_H
+#pragma once
 
 #include "shading/lobe/lobe.h"
 #include "shading/terms/d_charlie.h"
 #include "shading/terms/v_neubelt.h"
 
-#define CHARLIE_NEUBELT_PARAMS(P)                                                                            \
+#define CHARLIE_NEUBELT_PARAMS(P)                                                                                      \
     P(float, alpha, 0.25f, 0.01f, 1.0f, 0.005f, 4.0f, "width of the fibres' spread; low is a thin rim")
 #define CHARLIE_NEUBELT_TRAITS TRAIT_RECIPROCAL
 
@@ -38,9 +37,6 @@ FN LobeValue charlie_neubelt_value(const CharlieNeubeltPrepared *p, const Charli
     float d = charlie_d_sin2(p->d, a.sin2_h);
     return lobe_value_of(d * neubelt_v(a.o.z, a.i.z), 0.0f, charlie_pdf(d, w->side, a));
 }
-FN Dir charlie_neubelt_sample(const CharlieNeubeltPrepared *p, const CharlieNeubeltView *w, Dir o, float u,
-                              float v) {
+FN Dir charlie_neubelt_sample(const CharlieNeubeltPrepared *p, const CharlieNeubeltView *w, Dir o, float u, float v) {
     return charlie_sample(p->d, w->side, o, u, v);
 }
-
-#endif

@@ -14,13 +14,12 @@
  *   measured by weft check charlie-neubelt-normalised: E at most 1.00 (alpha 0.01, cos_o 0.001);
  *     reciprocal to 1e-3; weight variance 0.32 of the cosine's;
  *     half precision: finite for cosines >= 2^-13. */
-#ifndef WEFT_CHARLIE_NEUBELT_NORMALISED_H
-#define WEFT_CHARLIE_NEUBELT_NORMALISED_H
+#pragma once
 
 #include "shading/lobe/lobe_tables.h"
 #include "shading/lobes/charlie_neubelt.h"
 
-#define CHARLIE_NEUBELT_NORMALISED_PARAMS(P)                                                                 \
+#define CHARLIE_NEUBELT_NORMALISED_PARAMS(P)                                                                           \
     P(float, alpha, 0.25f, 0.01f, 1.0f, 0.005f, 4.0f, "width of the fibres' spread; low is a thin rim")
 #define CHARLIE_NEUBELT_NORMALISED_TRAITS (TRAIT_RECIPROCAL | TRAIT_CONSERVES | TRAIT_TABLE)
 
@@ -55,5 +54,3 @@ FN Dir charlie_neubelt_normalised_sample(const CharlieNeubeltNormalisedPrepared 
                                          const CharlieNeubeltNormalisedView *w, Dir o, float u, float v) {
     return charlie_sample(p->d, w->side, o, u, v);
 }
-
-#endif

@@ -16,19 +16,18 @@
  *   measured by weft check cook-torrance: E at most 1.00 (alpha 0.01, cos_o 1);
  *     reciprocal to 1e-3; weight variance 0.05 of the cosine's;
  *     half precision: finite for cosines >= 2^-7 and alpha >= 0.062. */
-#ifndef WEFT_COOK_TORRANCE_H
-#define WEFT_COOK_TORRANCE_H
+#pragma once
 
 #include "shading/lobe/lobe.h"
 #include "shading/lobe/terms.h"
 
-#define COOK_TORRANCE_PARAMS(P)                                                                              \
-    P(float, alpha, 0.25f, 0.01f, 1.0f, 0.005f, 1.0f, "width of D, and of the V that have one")              \
-    P(DTerm, d, D_GGX, 0, D_LAST, 0, D_LAST, "distribution of half vectors")                                 \
-    P(VTerm, v, V_SMITH_GGX_CORRELATED, 0, V_LAST, 0, V_LAST, "shadowing and masking, over 4 cos_o cos_i")   \
-    P(FTerm, f, F_SCHLICK, 0, F_LAST, 0, F_LAST, "reflectance from normal to grazing")                       \
-    P(float, stretch, 1.0f, 1.0f, 10.0f, 0.01f, 100.0f, "of ggx-aniso and smith-ggx-aniso along x")          \
-    P(float, ior, 1.5f, 1.0f, 3.0f, 0.05f, 10.0f, "index of refraction for F = dielectric and conductor")    \
+#define COOK_TORRANCE_PARAMS(P)                                                                                        \
+    P(float, alpha, 0.25f, 0.01f, 1.0f, 0.005f, 1.0f, "width of D, and of the V that have one")                        \
+    P(DTerm, d, D_GGX, 0, D_LAST, 0, D_LAST, "distribution of half vectors")                                           \
+    P(VTerm, v, V_SMITH_GGX_CORRELATED, 0, V_LAST, 0, V_LAST, "shadowing and masking, over 4 cos_o cos_i")             \
+    P(FTerm, f, F_SCHLICK, 0, F_LAST, 0, F_LAST, "reflectance from normal to grazing")                                 \
+    P(float, stretch, 1.0f, 1.0f, 10.0f, 0.01f, 100.0f, "of ggx-aniso and smith-ggx-aniso along x")                    \
+    P(float, ior, 1.5f, 1.0f, 3.0f, 0.05f, 10.0f, "index of refraction for F = dielectric and conductor")              \
     P(float, k, 3.0f, 0.0f, 8.0f, 0.0f, 20.0f, "extinction of F = conductor")
 #define COOK_TORRANCE_TRAITS (TRAIT_RECIPROCAL | TRAIT_ANISOTROPIC | TRAIT_TWO_COLORS)
 
@@ -62,9 +61,7 @@ FN float cook_torrance_sample_pdf(CookTorrance m, float spread, Angles a) {
         pdf = facet_pdf(spread * a.h.z, a);
     return 0.5f * pdf + 0.5f * warp_uniform_pdf(a.i);
 }
-FN Proxy cook_torrance_proxy(CookTorrance m) {
-    return term_proxy(m.d, m.alpha, cook_torrance_ax(m), m.alpha);
-}
+FN Proxy cook_torrance_proxy(CookTorrance m) { return term_proxy(m.d, m.alpha, cook_torrance_ax(m), m.alpha); }
 
 FN LobeValue cook_torrance_value(const CookTorrancePrepared *p, const CookTorranceView *w, Angles a) {
     float spread = cook_torrance_spread(p->m, a);
@@ -72,8 +69,7 @@ FN LobeValue cook_torrance_value(const CookTorrancePrepared *p, const CookTorran
                          cook_torrance_sample_pdf(p->m, spread, a));
 }
 
-FN Dir cook_torrance_sample(const CookTorrancePrepared *p, const CookTorranceView *view, Dir o, float u,
-                            float v) {
+FN Dir cook_torrance_sample(const CookTorrancePrepared *p, const CookTorranceView *view, Dir o, float u, float v) {
     if (u >= 0.5f) return warp_uniform(2.0f * u - 1.0f, v);
     CookTorrance m = p->m;
     float ax = cook_torrance_ax(m), w = 2.0f * u;
@@ -100,5 +96,3 @@ FN Strip cook_torrance_strip(const CookTorrancePrepared *p, Dir o, float u, floa
     strip.density = strip.density * 2.0f * max(1.0f - even, 1e-3f);
     return strip;
 }
-
-#endif

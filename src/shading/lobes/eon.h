@@ -18,13 +18,12 @@
  *   measured by weft check eon: E at most 1.00 (roughness 0, cos_o 1);
  *     reciprocal to 1e-3; weight variance 0.96 of the cosine's;
  *     half precision: finite for cosines >= 2^-11. */
-#ifndef WEFT_EON_H
-#define WEFT_EON_H
+#pragma once
 
 #include "shading/dialect/warp.h"
 #include "shading/lobe/lobe.h"
 
-#define EON_PARAMS(P)                                                                                        \
+#define EON_PARAMS(P)                                                                                                  \
     P(float, roughness, 0.5f, 0.0f, 1.0f, 0.0f, 1.0f, "0 is Lambert, 1 the brightest towards the light")
 #define EON_TRAITS (TRAIT_RECIPROCAL | TRAIT_CONSERVES | TRAIT_LOSSLESS | TRAIT_DIFFUSE | TRAIT_TWO_COLORS)
 #define EON_C1     (0.5f - 2.0f / (3.0f * PI))
@@ -62,13 +61,10 @@ FN void eon_view(const EonPrepared *p, Dir o, EonView *w) { w->lost_o = p->rough
 /* Returns both parts of a white lobe; f is over A / pi. */
 FN LobeValue eon_value(const EonPrepared *p, const EonView *w, Angles a) {
     float s = a.o.x * a.i.x + a.o.y * a.i.y, t = s > 0.0f ? max(a.o.z, a.i.z) : 1.0f;
-    float first = max(1.0f + p->roughness * s / t, 0.0f),
-          rest = w->lost_o * eon_lost(a.i.z) / (EON_C1 - EON_C2);
+    float first = max(1.0f + p->roughness * s / t, 0.0f), rest = w->lost_o * eon_lost(a.i.z) / (EON_C1 - EON_C2);
     return lobe_value_of(p->a * (first + rest) / PI, rest / max(first + rest, 1e-12f),
                          warp_uniform_cosine_pdf(p->uniform_part, a.i));
 }
 FN Dir eon_sample(const EonPrepared *p, const EonView *w, Dir o, float u, float v) {
     return warp_uniform_cosine(p->uniform_part, u, v);
 }
-
-#endif

@@ -16,13 +16,12 @@
  *   measured by weft check exponential: E at most 1.00 (beta 6.35, cos_o 0.001);
  *     f(wo, wi) and f(wi, wo) up to 1.00 of the larger apart; weight variance 1.00 of the cosine's;
  *     half precision: finite for any cosines. */
-#ifndef WEFT_EXPONENTIAL_H
-#define WEFT_EXPONENTIAL_H
+#pragma once
 
 #include "shading/dialect/warp.h"
 #include "shading/lobe/lobe.h"
 
-#define EXPONENTIAL_PARAMS(P)                                                                                \
+#define EXPONENTIAL_PARAMS(P)                                                                                          \
     P(float, beta, 3.0f, 0.5f, 20.0f, 0.01f, 100.0f, "how soon the rim is full; low is a straight ramp")
 #define EXPONENTIAL_TRAITS TRAIT_CONSERVES
 
@@ -30,8 +29,7 @@ STRUCT(Exponential){EXPONENTIAL_PARAMS(FIELD)};
 
 /* 1 - exp(-y): by its series where the difference would have no digits left. */
 FN float exponential_gain(float y) {
-    float s =
-        y * (1.0f - y / 2.0f * (1.0f - y / 3.0f * (1.0f - y / 4.0f * (1.0f - y / 5.0f * (1.0f - y / 6.0f)))));
+    float s = y * (1.0f - y / 2.0f * (1.0f - y / 3.0f * (1.0f - y / 4.0f * (1.0f - y / 5.0f * (1.0f - y / 6.0f)))));
     return y < 0.25f ? s : 1.0f - exp(-y);
 }
 
@@ -59,5 +57,3 @@ FN LobeValue exponential_value(const ExponentialPrepared *p, const ExponentialVi
 FN Dir exponential_sample(const ExponentialPrepared *p, const ExponentialView *w, Dir o, float u, float v) {
     return warp_cosine(u, v);
 }
-
-#endif

@@ -15,12 +15,11 @@
  *   measured by weft check exponential-lit: E at most 1.00 (beta 6.35, cos_o 0.001);
  *     reciprocal to 1e-3; weight variance 0.69 of the cosine's;
  *     half precision: finite for any cosines. */
-#ifndef WEFT_EXPONENTIAL_LIT_H
-#define WEFT_EXPONENTIAL_LIT_H
+#pragma once
 
 #include "shading/lobes/exponential.h"
 
-#define EXPONENTIAL_LIT_PARAMS(P)                                                                            \
+#define EXPONENTIAL_LIT_PARAMS(P)                                                                                      \
     P(float, beta, 3.0f, 0.5f, 20.0f, 0.01f, 100.0f, "how soon the rim is full; low is a straight ramp")
 #define EXPONENTIAL_LIT_TRAITS (TRAIT_RECIPROCAL | TRAIT_CONSERVES)
 
@@ -30,8 +29,7 @@ STRUCT(ExponentialLit){EXPONENTIAL_LIT_PARAMS(FIELD)};
 FN float exponential_lit_mean(float beta) {
     float e = 1.0f - beta / 6.0f * (1.0f - beta / 7.0f * (1.0f - beta / 8.0f));
     e = 1.0f - beta / 4.0f * (1.0f - beta / 5.0f * e);
-    float numerator =
-        beta < 0.5f ? beta / 3.0f * e : 1.0f - 2.0f * (beta - exponential_gain(beta)) / (beta * beta);
+    float numerator = beta < 0.5f ? beta / 3.0f * e : 1.0f - 2.0f * (beta - exponential_gain(beta)) / (beta * beta);
     return numerator / exponential_gain(beta);
 }
 
@@ -54,12 +52,9 @@ FN LobeValue exponential_lit_value(const ExponentialLitPrepared *p, const Expone
     float f = w->x * exponential_x(p->beta, p->full, a.i) / (PI * p->mean);
     return lobe_value_of(f, 0.0f, mix(warp_uniform_pdf(a.i), warp_cosine_pdf(a.i), p->cosine_part));
 }
-FN Dir exponential_lit_sample(const ExponentialLitPrepared *p, const ExponentialLitView *w, Dir o, float u,
-                              float v) {
+FN Dir exponential_lit_sample(const ExponentialLitPrepared *p, const ExponentialLitView *w, Dir o, float u, float v) {
     float q = p->cosine_part;
     Dir i = warp_uniform((u - q) / max(1.0f - q, 1e-6f), v);
     if (u < q) i = warp_cosine(u / q, v);
     return i;
 }
-
-#endif

@@ -20,15 +20,14 @@
  *   measured by weft check fabric: E at most 0.98 (alpha 0.99, cos_o 0.001);
  *     reciprocal to 1e-3; weight variance 1.14 of the cosine's;
  *     half precision: finite for cosines >= 2^-13. */
-#ifndef WEFT_FABRIC_H
-#define WEFT_FABRIC_H
+#pragma once
 
 #include "shading/lobe/lobe.h"
 #include "shading/terms/facet.h"
 
-#define FABRIC_PARAMS(P)                                                                                     \
-    P(float, alpha, 0.35f, 0.05f, 0.99f, 0.05f, 0.99f, "width of the highlight")                             \
-    P(float, tail, 0.6f, 0.25f, 4.0f, 0.25f, 4.0f, "how fast it falls: 0.5 loose fibres, 2 as ggx")          \
+#define FABRIC_PARAMS(P)                                                                                               \
+    P(float, alpha, 0.35f, 0.05f, 0.99f, 0.05f, 0.99f, "width of the highlight")                                       \
+    P(float, tail, 0.6f, 0.25f, 4.0f, 0.25f, 4.0f, "how fast it falls: 0.5 loose fibres, 2 as ggx")                    \
     P(float, rise, 3.0f, 1.0f, 6.0f, 1.0f, 6.0f, "power by which the second colour comes in; ggx has 5")
 #define FABRIC_TRAITS (TRAIT_RECIPROCAL | TRAIT_CONSERVES | TRAIT_TWO_COLORS)
 
@@ -95,5 +94,3 @@ FN Proxy fabric_proxy(Fabric m) {
     float width = pow(m.alpha, min(0.5f * m.tail, 1.0f));
     return proxy_facets(width, width);
 }
-
-#endif

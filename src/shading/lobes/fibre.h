@@ -20,18 +20,17 @@
  *   measured by weft check fibre: E at most 0.79 (alpha 0.09, cos_o 0.001);
  *     reciprocal to 1e-3; weight variance under 0.01 of the cosine's;
  *     half precision: finite for cosines >= 2^-11. */
-#ifndef WEFT_LOBES_FIBRE_H
-#define WEFT_LOBES_FIBRE_H
+#pragma once
 
 #include "shading/lobe/lobe.h"
 #include "shading/ltc/ltc.h"
 #include "shading/media/fibre_medium.h"
 #include "shading/media/fibre_model.h"
 
-#define FIBRE_PARAMS(P)                                                                                      \
-    P(float, alpha, 0.5f, 0.05f, 1.0f, 0.05f, 1.0f, "square root of what a fibre shows along its axis")      \
-    P(float, density, 1.0f, 0.25f, 4.0f, 0.25f, 4.0f, "of fibres, times the thickness of the fuzz")          \
-    P(float, tilt, 0.0f, 0.0f, 0.785398163f, 0.0f, 0.785398163f, "how far fibres lean over, radians")        \
+#define FIBRE_PARAMS(P)                                                                                                \
+    P(float, alpha, 0.5f, 0.05f, 1.0f, 0.05f, 1.0f, "square root of what a fibre shows along its axis")                \
+    P(float, density, 1.0f, 0.25f, 4.0f, 0.25f, 4.0f, "of fibres, times the thickness of the fuzz")                    \
+    P(float, tilt, 0.0f, 0.0f, 0.785398163f, 0.0f, 0.785398163f, "how far fibres lean over, radians")                  \
     P(float, azimuth, 0.0f, 0.0f, 6.28318531f, 0.0f, 6.28318531f, "where to, from the tangent, radians")
 #define FIBRE_TRAITS (TRAIT_RECIPROCAL | TRAIT_CONSERVES | TRAIT_ANISOTROPIC | TRAIT_TINTED)
 
@@ -115,8 +114,7 @@ FN Dir fibre_cone(FibreNap n, FibreDraw c, float u, float v) {
     float nu = clamp(c.b * place / (1.0f - abs(place)) - c.nu, -n.sin_t, 1.0f);
     float r = sqrt(max((1.0f - nu) * (1.0f + nu), 0.0f)), phi = (2.0f * v - 1.0f) * fibre_reach(n, nu);
     float up = r * cos(phi), along = nu * n.sin_t - up * n.cos_t, side = r * sin(phi);
-    return dir(along * n.cos_a - side * n.sin_a, along * n.sin_a + side * n.cos_a,
-               nu * n.cos_t + up * n.sin_t);
+    return dir(along * n.cos_a - side * n.sin_a, along * n.sin_a + side * n.cos_a, nu * n.cos_t + up * n.sin_t);
 }
 
 FN Dir fibre_direction(FibreNap n, FibreDraw c, Ltc ltc, Dir o, float u, float v) {
@@ -175,5 +173,3 @@ FN Proxy fibre_proxy(Fibre m) {
     if (m.tilt < 0.03f) return proxy_fibres(m.alpha);
     return proxy_cosine();
 }
-
-#endif

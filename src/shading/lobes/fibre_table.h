@@ -18,13 +18,12 @@
  *   measured by weft check fibre-table: E at most 0.77 (alpha 0.19, cos_o 0.001);
  *     reciprocal to 1e-3; weight variance under 0.01 of the cosine's;
  *     half precision: finite for cosines >= 2^-13. */
-#ifndef WEFT_LOBES_FIBRE_TABLE_H
-#define WEFT_LOBES_FIBRE_TABLE_H
+#pragma once
 
 #include "shading/lobe/lobe_tables.h"
 #include "shading/lobes/fibre.h"
 
-#define FIBRE_TABLE_PARAMS(P)                                                                                \
+#define FIBRE_TABLE_PARAMS(P)                                                                                          \
     P(float, alpha, 0.5f, 0.19f, 1.0f, 0.19f, 1.0f, "square root of what a fibre shows along its axis")
 #define FIBRE_TABLE_TRAITS (TRAIT_RECIPROCAL | TRAIT_CONSERVES | TRAIT_TABLE)
 
@@ -73,10 +72,9 @@ FN FibreTableSpot fibre_table_spot(float alpha, float mu) {
 
 FN float fibre_table_interpolate(FibreTableSpot s, int plane) {
     int row = plane * s.rows + s.row, n = s.t.columns;
-    float a =
-        mix(table_texel(s.t.texels, n, row, s.column), table_texel(s.t.texels, n, row, s.column + 1), s.x);
-    float b = mix(table_texel(s.t.texels, n, row + 1, s.column),
-                  table_texel(s.t.texels, n, row + 1, s.column + 1), s.x);
+    float a = mix(table_texel(s.t.texels, n, row, s.column), table_texel(s.t.texels, n, row, s.column + 1), s.x);
+    float b =
+        mix(table_texel(s.t.texels, n, row + 1, s.column), table_texel(s.t.texels, n, row + 1, s.column + 1), s.x);
     return mix(a, b, s.y);
 }
 
@@ -132,5 +130,3 @@ FN Dir fibre_table_sample(const FibreTablePrepared *p, const FibreTableView *w, 
     return fibre_direction(p->nap, w->draw, w->ltc, o, u, v);
 }
 FN Proxy fibre_table_proxy(FibreTable m) { return proxy_fibres(m.alpha); }
-
-#endif

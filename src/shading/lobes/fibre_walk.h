@@ -22,18 +22,17 @@
  *   measured by weft check fibre-walk: E at most 0.79 (alpha 0.09, cos_o 0.001);
  *     reciprocal to 1e-3; weight variance 0.31 of the cosine's;
  *     half precision: not measured, since the lobe is for the path tracer only. */
-#ifndef WEFT_LOBES_FIBRE_WALK_H
-#define WEFT_LOBES_FIBRE_WALK_H
+#pragma once
 
 #include "base/random.h"
 #include "shading/dialect/warp.h"
 #include "shading/lobe/lobe.h"
 #include "shading/media/fibre_medium.h"
 
-#define FIBRE_WALK_PARAMS(P)                                                                                 \
-    P(float, alpha, 0.5f, 0.05f, 1.0f, 0.03f, 1.0f, "square root of what a fibre shows along its axis")      \
-    P(float, density, 1.0f, 0.25f, 4.0f, 0.01f, 8.0f, "of fibres, times the thickness of the fuzz")          \
-    P(float, tilt, 0.0f, 0.0f, 0.785398163f, 0.0f, 1.57079633f, "how far fibres lean over, radians")         \
+#define FIBRE_WALK_PARAMS(P)                                                                                           \
+    P(float, alpha, 0.5f, 0.05f, 1.0f, 0.03f, 1.0f, "square root of what a fibre shows along its axis")                \
+    P(float, density, 1.0f, 0.25f, 4.0f, 0.01f, 8.0f, "of fibres, times the thickness of the fuzz")                    \
+    P(float, tilt, 0.0f, 0.0f, 0.785398163f, 0.0f, 1.57079633f, "how far fibres lean over, radians")                   \
     P(float, azimuth, 0.0f, 0.0f, 6.28318531f, 0.0f, 6.28318531f, "where to, from the tangent, radians")
 #define FIBRE_WALK_TRAITS (TRAIT_RECIPROCAL | TRAIT_CONSERVES | TRAIT_ANISOTROPIC | TRAIT_REFERENCE)
 
@@ -130,8 +129,7 @@ FN_NOINLINE float fibre_walk_albedo(FibreWalk m, Dir o, int walks) {
     for (int k = 0; k < walks; k++) {
         uint64_t stream = stream_start((uint64_t)k, 0u);
         FibreWalker w = fibre_walk_fly(fibre_walk_start(o), s, t, &stream);
-        while (fibre_walk_inside(w, m.density))
-            w = fibre_walk_fly(fibre_walk_scatter(w, s, t, &stream), s, t, &stream);
+        while (fibre_walk_inside(w, m.density)) w = fibre_walk_fly(fibre_walk_scatter(w, s, t, &stream), s, t, &stream);
         back += w.depth <= 0.0f ? 1 : 0;
     }
     return to_float(back) / to_float(walks);
@@ -166,5 +164,3 @@ FN Dir fibre_walk_sample(const FibreWalkPrepared *p, const FibreWalkView *view, 
     float c = cos(m.azimuth), k = sin(m.azimuth), along = nu * sin(m.tilt) + x * cos(m.tilt);
     return dir(along * c - y * k, along * k + y * c, nu * cos(m.tilt) - x * sin(m.tilt));
 }
-
-#endif

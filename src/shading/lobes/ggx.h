@@ -14,8 +14,7 @@
  *   measured by weft check ggx: E at most 1.00 (alpha 0.01, cos_o 1);
  *     reciprocal to 1e-3; weight variance under 0.01 of the cosine's;
  *     half precision: finite for cosines >= 2^-7 and alpha >= 0.062. */
-#ifndef WEFT_GGX_H
-#define WEFT_GGX_H
+#pragma once
 
 #include "shading/lobe/lobe.h"
 #include "shading/terms/d_ggx.h"
@@ -23,8 +22,8 @@
 
 /* P(type, name, default, low, high, hard_low, hard_high, help): low .. high is what a slider spans; values
  * beyond it are taken with a warning up to the hard clamp. */
-#define GGX_PARAMS(P)                                                                                        \
-    P(float, alpha, 0.25f, 0.01f, 1.0f, 0.001f, 4.0f, "width of the facet slopes across the brushing")       \
+#define GGX_PARAMS(P)                                                                                                  \
+    P(float, alpha, 0.25f, 0.01f, 1.0f, 0.001f, 4.0f, "width of the facet slopes across the brushing")                 \
     P(float, anisotropy, 0.0f, 0.0f, 1.0f, 0.0f, 1.0f, "0 round, 1 as rough along x as can be")
 #define GGX_TRAITS (TRAIT_RECIPROCAL | TRAIT_CONSERVES | TRAIT_ANISOTROPIC | TRAIT_TWO_COLORS)
 
@@ -67,8 +66,4 @@ FN Dir ggx_sample(const GgxPrepared *p, const GgxView *w, Dir o, float u, float 
     return dir_mirror(o, ggx_sample_h(p->ax, p->ay, o, u, v));
 }
 FN Proxy ggx_proxy(Ggx m) { return proxy_facets(ggx_ax(m), m.alpha); }
-FN Strip ggx_strip(const GgxPrepared *p, Dir o, float u, float v) {
-    return ggx_strip_h(p->ax, p->ay, o, u, v);
-}
-
-#endif
+FN Strip ggx_strip(const GgxPrepared *p, Dir o, float u, float v) { return ggx_strip_h(p->ax, p->ay, o, u, v); }

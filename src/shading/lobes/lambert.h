@@ -7,8 +7,7 @@
  *   measured by weft check lambert: E at most 1.00 (cos_o 1);
  *     reciprocal to 1e-3; weight variance 1.00 of the cosine's;
  *     half precision: finite for any cosines. */
-#ifndef WEFT_LAMBERT_H
-#define WEFT_LAMBERT_H
+#pragma once
 
 #include "shading/dialect/warp.h"
 #include "shading/lobe/lobe.h"
@@ -26,5 +25,3 @@ FN LobeValue lambert_value(const LambertPrepared *p, const LambertView *w, Angle
 FN Dir lambert_sample(const LambertPrepared *p, const LambertView *w, Dir o, float u, float v) {
     return warp_cosine(u, v);
 }
-
-#endif

@@ -18,15 +18,14 @@
  *   measured by weft check ltc-fibre: E at most 0.79 (alpha 0.09, cos_o 0.001);
  *     f(wo, wi) and f(wi, wo) up to 1.00 of the larger apart; weight variance under 0.01 of the cosine's;
  *     half precision: finite for cosines >= 2^-11. */
-#ifndef WEFT_LOBES_LTC_FIBRE_H
-#define WEFT_LOBES_LTC_FIBRE_H
+#pragma once
 
 #include "shading/lobe/lobe.h"
 #include "shading/lobe/lobe_tables.h"
 #include "shading/ltc/ltc_sheen.h"
 #include "shading/ltc/ltc_table.h"
 
-#define LTC_FIBRE_PARAMS(P)                                                                                  \
+#define LTC_FIBRE_PARAMS(P)                                                                                            \
     P(float, alpha, 0.5f, 0.05f, 1.0f, 0.05f, 1.0f, "square root of what a fibre shows along its axis")
 #define LTC_FIBRE_TRAITS (TRAIT_CONSERVES | TRAIT_TABLE)
 
@@ -50,5 +49,3 @@ FN Dir ltc_fibre_sample(const LtcFibrePrepared *p, const LtcFibreView *w, Dir o,
     return ltc_sample(w->ltc, o, u, v);
 }
 FN Proxy ltc_fibre_proxy(LtcFibre m) { return proxy_fibres(m.alpha); }
-
-#endif

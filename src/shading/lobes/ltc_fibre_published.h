@@ -19,15 +19,14 @@
  *   measured by weft check ltc-fibre-published: E at most 0.75 (alpha 1, cos_o 0.001);
  *     f(wo, wi) and f(wi, wo) up to 0.99 of the larger apart; weight variance under 0.01 of the cosine's;
  *     half precision: finite for any cosines. */
-#ifndef WEFT_LOBES_LTC_FIBRE_PUBLISHED_H
-#define WEFT_LOBES_LTC_FIBRE_PUBLISHED_H
+#pragma once
 
 #include "shading/lobe/lobe.h"
 #include "shading/lobe/lobe_tables.h"
 #include "shading/ltc/ltc_sheen.h"
 #include "shading/ltc/ltc_table.h"
 
-#define LTC_FIBRE_PUBLISHED_PARAMS(P)                                                                        \
+#define LTC_FIBRE_PUBLISHED_PARAMS(P)                                                                                  \
     P(float, alpha, 0.5f, 0.05f, 1.0f, 0.05f, 1.0f, "square root of what a fibre shows along its axis")
 #define LTC_FIBRE_PUBLISHED_TRAITS (TRAIT_CONSERVES | TRAIT_TABLE)
 
@@ -44,14 +43,11 @@ FN void ltc_fibre_published_view(const LtcFibrePublishedPrepared *p, Dir o, LtcF
     w->r = min(at.f0, 1.0f);
 }
 
-FN LobeValue ltc_fibre_published_value(const LtcFibrePublishedPrepared *p, const LtcFibrePublishedView *w,
-                                       Angles a) {
+FN LobeValue ltc_fibre_published_value(const LtcFibrePublishedPrepared *p, const LtcFibrePublishedView *w, Angles a) {
     return ltc_sheen_value(w->ltc, w->r, a);
 }
-FN Dir ltc_fibre_published_sample(const LtcFibrePublishedPrepared *p, const LtcFibrePublishedView *w, Dir o,
-                                  float u, float v) {
+FN Dir ltc_fibre_published_sample(const LtcFibrePublishedPrepared *p, const LtcFibrePublishedView *w, Dir o, float u,
+                                  float v) {
     return ltc_sample(w->ltc, o, u, v);
 }
 FN Proxy ltc_fibre_published_proxy(LtcFibrePublished m) { return proxy_fibres(m.alpha); }
-
-#endif

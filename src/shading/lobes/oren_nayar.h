@@ -14,13 +14,12 @@
  *   measured by weft check oren-nayar: E at most 1.01 (sigma 0.2, cos_o 0.005);
  *     reciprocal to 1e-3; weight variance 1.11 of the cosine's;
  *     half precision: finite for cosines >= 2^-17. */
-#ifndef WEFT_OREN_NAYAR_H
-#define WEFT_OREN_NAYAR_H
+#pragma once
 
 #include "shading/dialect/warp.h"
 #include "shading/lobe/lobe.h"
 
-#define OREN_NAYAR_PARAMS(P)                                                                                 \
+#define OREN_NAYAR_PARAMS(P)                                                                                           \
     P(float, sigma, 0.3f, 0.0f, 1.0f, 0.0f, 1.57079633f, "spread of the facets' slopes, radians")
 #define OREN_NAYAR_TRAITS (TRAIT_RECIPROCAL | TRAIT_DIFFUSE)
 
@@ -44,5 +43,3 @@ FN LobeValue oren_nayar_value(const OrenNayarPrepared *p, const OrenNayarView *w
 FN Dir oren_nayar_sample(const OrenNayarPrepared *p, const OrenNayarView *w, Dir o, float u, float v) {
     return warp_uniform_cosine(p->uniform_part, u, v);
 }
-
-#endif

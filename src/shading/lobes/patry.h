@@ -20,14 +20,13 @@
  *   measured by weft check patry: E at most 0.50 (roughness 1, cos_o 0.001);
  *     f(wo, wi) and f(wi, wo) up to 0.91 of the larger apart; weight variance 0.15 of the cosine's;
  *     half precision: finite for cosines >= 2^-13. */
-#ifndef WEFT_PATRY_H
-#define WEFT_PATRY_H
+#pragma once
 
 #include "shading/dialect/warp.h"
 #include "shading/lobe/lobe.h"
 
-#define PATRY_PARAMS(P)                                                                                      \
-    P(float, roughness, 0.5f, 0.1f, 1.0f, 0.1f, 1.0f, "spread of the fibres' directions about the normal")   \
+#define PATRY_PARAMS(P)                                                                                                \
+    P(float, roughness, 0.5f, 0.1f, 1.0f, 0.1f, 1.0f, "spread of the fibres' directions about the normal")             \
     P(float, density, 1.0f, 0.1f, 4.0f, 0.01f, 100.0f, "fibres met on the way down, in mean free paths")
 #define PATRY_TRAITS TRAIT_CONSERVES
 
@@ -50,8 +49,7 @@ FN LobeValue patry_value(const PatryPrepared *p, const PatryView *w, Angles a) {
     float q = p->s2 * (a.h.x * a.h.x + a.h.y * a.h.y) + a.h.z * a.h.z;
     float phase = p->s2 * p->sigma / (4.0f * PI * q * q * w->length_o);
     float y = p->density * (1.0f / a.o.z + 1.0f / a.i.z);
-    return lobe_value_of(phase * (1.0f - exp(-y)) / (a.o.z + a.i.z), 0.0f,
-                         0.5f * phase + 0.5f * warp_uniform_pdf(a.i));
+    return lobe_value_of(phase * (1.0f - exp(-y)) / (a.o.z + a.i.z), 0.0f, 0.5f * phase + 0.5f * warp_uniform_pdf(a.i));
 }
 
 FN Dir patry_sample(const PatryPrepared *p, const PatryView *w, Dir o, float u, float v) {
@@ -70,5 +68,3 @@ FN Dir patry_sample(const PatryPrepared *p, const PatryView *w, Dir o, float u, 
     }
     return i;
 }
-
-#endif

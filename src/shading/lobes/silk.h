@@ -19,13 +19,12 @@
  *   measured by weft check silk: E at most 1.00 (alpha 0.01, cos_o 1);
  *     reciprocal to 1e-3; weight variance under 0.01 of the cosine's;
  *     half precision: finite for cosines >= 2^-7 and alpha >= 0.088. */
-#ifndef WEFT_SILK_H
-#define WEFT_SILK_H
+#pragma once
 
 #include "shading/lobes/ggx.h"
 
-#define SILK_PARAMS(P)                                                                                       \
-    P(float, alpha, 0.25f, 0.01f, 1.0f, 0.001f, 1.0f, "mean width of the facet slopes")                      \
+#define SILK_PARAMS(P)                                                                                                 \
+    P(float, alpha, 0.25f, 0.01f, 1.0f, 0.001f, 1.0f, "mean width of the facet slopes")                                \
     P(float, anisotropy, 0.6f, -0.8f, 0.8f, -0.8f, 0.8f, "above 0 rougher along x, below 0 along y")
 #define SILK_TRAITS (TRAIT_RECIPROCAL | TRAIT_CONSERVES | TRAIT_ANISOTROPIC | TRAIT_TWO_COLORS)
 
@@ -40,13 +39,9 @@ FN void silk_prepare(Silk m, SilkPrepared *p) { p->ggx = ggx_stretched(silk_ax(m
 STRUCT(SilkView) { GgxView ggx; };
 FN void silk_view(const SilkPrepared *p, Dir o, SilkView *w) { ggx_view(&p->ggx, o, &w->ggx); }
 
-FN LobeValue silk_value(const SilkPrepared *p, const SilkView *w, Angles a) {
-    return ggx_value(&p->ggx, &w->ggx, a);
-}
+FN LobeValue silk_value(const SilkPrepared *p, const SilkView *w, Angles a) { return ggx_value(&p->ggx, &w->ggx, a); }
 FN Dir silk_sample(const SilkPrepared *p, const SilkView *w, Dir o, float u, float v) {
     return ggx_sample(&p->ggx, &w->ggx, o, u, v);
 }
 FN Proxy silk_proxy(Silk m) { return proxy_facets(silk_ax(m), silk_ay(m)); }
 FN Strip silk_strip(const SilkPrepared *p, Dir o, float u, float v) { return ggx_strip(&p->ggx, o, u, v); }
-
-#endif

@@ -28,17 +28,16 @@
  *   measured by weft check threads: E at most 0.35 (warp_width 0.1, cos_o 1);
  *     reciprocal to 1e-3; weight variance 0.55 of the cosine's;
  *     half precision: no floor keeps it finite (warp_width 1, cos_o 0.1, cos_i 0.1, phi 0). */
-#ifndef WEFT_THREADS_H
-#define WEFT_THREADS_H
+#pragma once
 
 #include "shading/lobe/lobe.h"
 
-#define THREADS_PARAMS(P)                                                                                    \
-    P(float, warp_width, 0.3f, 0.1f, 1.0f, 0.05f, 4.0f, "spread of the warp's highlight along x")            \
-    P(float, weft_width, 0.3f, 0.1f, 1.0f, 0.05f, 4.0f, "spread of the weft's highlight along y")            \
-    P(float, weft, 0.5f, 0.0f, 1.0f, 0.0f, 1.0f, "share of the surface that is weft")                        \
-    P(float, warp_crimp, 0.3f, 0.0f, 1.0f, 0.0f, 2.0f, "slope with which the warp rises and falls")          \
-    P(float, weft_crimp, 0.3f, 0.0f, 1.0f, 0.0f, 2.0f, "slope with which the weft rises and falls")          \
+#define THREADS_PARAMS(P)                                                                                              \
+    P(float, warp_width, 0.3f, 0.1f, 1.0f, 0.05f, 4.0f, "spread of the warp's highlight along x")                      \
+    P(float, weft_width, 0.3f, 0.1f, 1.0f, 0.05f, 4.0f, "spread of the weft's highlight along y")                      \
+    P(float, weft, 0.5f, 0.0f, 1.0f, 0.0f, 1.0f, "share of the surface that is weft")                                  \
+    P(float, warp_crimp, 0.3f, 0.0f, 1.0f, 0.0f, 2.0f, "slope with which the warp rises and falls")                    \
+    P(float, weft_crimp, 0.3f, 0.0f, 1.0f, 0.0f, 2.0f, "slope with which the weft rises and falls")                    \
     P(float, isotropic, 0.3f, 0.0f, 1.0f, 0.0f, 1.0f, "part of the light that the yarn scatters evenly")
 #define THREADS_TRAITS (TRAIT_RECIPROCAL | TRAIT_CONSERVES | TRAIT_ANISOTROPIC | TRAIT_TWO_COLORS)
 
@@ -57,14 +56,10 @@ FN Dir threads_from_yarn(Dir w, bool weft, float slope) {
 
 /* Returns the projected area towards w of one slope of a family, per unit of the family's area. threads_all returns
  * that of all slopes, which is never below w.z. */
-FN float threads_projected_area(float along, float z, float slope) {
-    return 0.5f * max(z - slope * along, 0.0f);
-}
+FN float threads_projected_area(float along, float z, float slope) { return 0.5f * max(z - slope * along, 0.0f); }
 FN float threads_all(Threads m, Dir w) {
-    float warp =
-        threads_projected_area(w.x, w.z, m.warp_crimp) + threads_projected_area(w.x, w.z, -m.warp_crimp);
-    float weft =
-        threads_projected_area(w.y, w.z, m.weft_crimp) + threads_projected_area(w.y, w.z, -m.weft_crimp);
+    float warp = threads_projected_area(w.x, w.z, m.warp_crimp) + threads_projected_area(w.x, w.z, -m.warp_crimp);
+    float weft = threads_projected_area(w.y, w.z, m.weft_crimp) + threads_projected_area(w.y, w.z, -m.weft_crimp);
     return (1.0f - m.weft) * warp + m.weft * weft;
 }
 
@@ -152,13 +147,10 @@ FN Dir threads_sample(const ThreadsPrepared *prepared, const ThreadsView *view, 
     float scale = threads_scale(second ? m.weft_width : m.warp_width);
     float low = threads_below(scale, to.y - 1.0f), high = threads_below(scale, to.y + 1.0f);
     float p = clamp(mix(low, high, (w - m.isotropic) / max(1.0f - m.isotropic, 1e-6f)), 1e-7f, 0.9999999f);
-    float y =
-        w < m.isotropic ? 2.0f * w / m.isotropic - 1.0f : scale / 1.44269504f * log2(p / (1.0f - p)) - to.y;
+    float y = w < m.isotropic ? 2.0f * w / m.isotropic - 1.0f : scale / 1.44269504f * log2(p / (1.0f - p)) - to.y;
     y = clamp(y, -1.0f, 1.0f);
     float phi = PI * (4.0f * v - 3.5f), sin_phi = v < 0.75f ? v * (2.0f / 0.75f) - 1.0f : sin(phi);
     float cos_phi = sqrt(max(1.0f - sin_phi * sin_phi, 0.0f)), r = sqrt(max(1.0f - y * y, 0.0f));
     /* clear of the piece's own horizon, so that rounding does not put it behind */
     return threads_from_yarn(dir(r * sin_phi, y, max(r * cos_phi, 1e-6f)), second, slope);
 }
-
-#endif

@@ -28,48 +28,46 @@
  *   measured by weft check woven: E at most 0.98 (alpha 1, cos_o 1);
  *     reciprocal to 1e-3; weight variance 1.60 of the cosine's;
  *     half precision: finite for any cosines. */
-#ifndef WEFT_WOVEN_H
-#define WEFT_WOVEN_H
+#pragma once
 
 #include "shading/lobe/lobe.h"
 #include "shading/media/woven_bins.h"
 #include "shading/media/yarn_draw.h"
 
-#define WOVEN_PARAMS(P)                                                                                      \
-    P(float, alpha, 0.4f, 0.05f, 1.0f, 0.05f, 1.0f, "what a fibre shows along its axis")                     \
-    P(float, share, 1.0f, 0.0f, 1.0f, 0.0f, 1.0f, "of the cloth that these yarns cover")                     \
-    P(float, crimp, 0.44f, 0.0f, 0.8f, 0.0f, 1.2f, "steepest angle of the yarn along it, radians")           \
-    P(float, azimuth, 0.0f, 0.0f, 6.28318531f, -7.0f, 7.0f, "where it runs, from the tangent, radians")      \
-    P(float, twist, 0.0f, -0.8f, 0.8f, -1.5f, 1.5f, "of the fibres about the yarn, radians; 0 is filament")  \
-    P(float, roundness, 0.9f, 0.0f, 1.2f, 0.0f, 1.5f, "steepest slope across the yarn")                      \
-    P(float, floats, 1.0f, 1.0f, 6.0f, 0.4f, 16.0f, "1 plain weave; more where yarns lie level longer")      \
+#define WOVEN_PARAMS(P)                                                                                                \
+    P(float, alpha, 0.4f, 0.05f, 1.0f, 0.05f, 1.0f, "what a fibre shows along its axis")                               \
+    P(float, share, 1.0f, 0.0f, 1.0f, 0.0f, 1.0f, "of the cloth that these yarns cover")                               \
+    P(float, crimp, 0.44f, 0.0f, 0.8f, 0.0f, 1.2f, "steepest angle of the yarn along it, radians")                     \
+    P(float, azimuth, 0.0f, 0.0f, 6.28318531f, -7.0f, 7.0f, "where it runs, from the tangent, radians")                \
+    P(float, twist, 0.0f, -0.8f, 0.8f, -1.5f, 1.5f, "of the fibres about the yarn, radians; 0 is filament")            \
+    P(float, roundness, 0.9f, 0.0f, 1.2f, 0.0f, 1.5f, "steepest slope across the yarn")                                \
+    P(float, floats, 1.0f, 1.0f, 6.0f, 0.4f, 16.0f, "1 plain weave; more where yarns lie level longer")                \
     P(float, cross_crimp, 0.44f, 0.0f, 0.8f, 0.0f, 1.2f, "of the yarns at right angles, radians")
-#define WOVEN_TRAITS                                                                                         \
-    (TRAIT_RECIPROCAL | TRAIT_CONSERVES | TRAIT_ANISOTROPIC | TRAIT_TWO_COLORS | TRAIT_SYSTEM)
+#define WOVEN_TRAITS (TRAIT_RECIPROCAL | TRAIT_CONSERVES | TRAIT_ANISOTROPIC | TRAIT_TWO_COLORS | TRAIT_SYSTEM)
 
 STRUCT(Woven){WOVEN_PARAMS(FIELD)};
 
 /* The numbers of a prepared lobe. Those of a cloth are fitted to its points (weave/woven_fit.c), and
  * differ from those that woven_prepare computes. */
-#define WOVEN_NUMBERS(N)                                                                                     \
-    N(alpha)         /* of the fibres */                                                                     \
-    N(share)         /* of the cloth that these yarns cover */                                               \
-    N(scale)         /* factor of f: the share, or 1 if the colours contain it */                            \
-    N(v_roundness)   /* for V: roundness of the yarns of both directions */                                  \
-    N(v_crimp)       /* for V: slope of evenly sloped yarns as steep in the mean */                          \
-    N(v_cross_crimp) /* the same of the yarns at right angles */                                             \
-    N(cos_a)         /* cosine of the yarn's azimuth */                                                      \
-    N(sin_a)         /* sine of it */                                                                        \
-    N(cos_t)         /* cosine of the twist */                                                               \
-    N(sin_t)         /* sine of it */                                                                        \
-    N(multiple)      /* factor of multiple that does not depend on directions */                             \
-    N(e)             /* (1 - a^2) / a^2, where a is the alpha of D, which may be wider than the fibres' */   \
-    N(edge)          /* the weight of s_x is 1 + edge s_x^2 */                                               \
-    N(steepest)      /* s_y of a bin with slope 1 */                                                         \
-    N(width)         /* s_x of a level bin lies between -width and width */                                  \
-    N(taper)         /* at slope 1 the range of s_x is narrower by this on either side */                    \
-    N(lean)          /* at slope 1 the middle of the range */                                                \
-    N(level)         /* weight of the level bin */                                                           \
+#define WOVEN_NUMBERS(N)                                                                                               \
+    N(alpha)         /* of the fibres */                                                                               \
+    N(share)         /* of the cloth that these yarns cover */                                                         \
+    N(scale)         /* factor of f: the share, or 1 if the colours contain it */                                      \
+    N(v_roundness)   /* for V: roundness of the yarns of both directions */                                            \
+    N(v_crimp)       /* for V: slope of evenly sloped yarns as steep in the mean */                                    \
+    N(v_cross_crimp) /* the same of the yarns at right angles */                                                       \
+    N(cos_a)         /* cosine of the yarn's azimuth */                                                                \
+    N(sin_a)         /* sine of it */                                                                                  \
+    N(cos_t)         /* cosine of the twist */                                                                         \
+    N(sin_t)         /* sine of it */                                                                                  \
+    N(multiple)      /* factor of multiple that does not depend on directions */                                       \
+    N(e)             /* (1 - a^2) / a^2, where a is the alpha of D, which may be wider than the fibres' */             \
+    N(edge)          /* the weight of s_x is 1 + edge s_x^2 */                                                         \
+    N(steepest)      /* s_y of a bin with slope 1 */                                                                   \
+    N(width)         /* s_x of a level bin lies between -width and width */                                            \
+    N(taper)         /* at slope 1 the range of s_x is narrower by this on either side */                              \
+    N(lean)          /* at slope 1 the middle of the range */                                                          \
+    N(level)         /* weight of the level bin */                                                                     \
     N(count)         /* of bins, the level one among them */
 #define WOVEN_NUMBER(name) float name;
 STRUCT(WovenPrepared) {
@@ -215,8 +213,7 @@ FN float woven_inverse_root(float q) {
  * positive where the facet counts; abs keeps it so where the range of s_x is empty. t . (wo + wi) is summed term by
  * term: so SIMD and scalar calls round alike where wi and wo nearly cancel, in light that goes straight on along the
  * cloth. */
-FN float woven_facet(const WovenPrepared *p, float c, float s_x, const WovenLine *o, const WovenLine *i,
-                     float q) {
+FN float woven_facet(const WovenPrepared *p, float c, float s_x, const WovenLine *o, const WovenLine *i, float q) {
     float x2 = s_x * s_x, n = c * woven_inverse_root(c * c * x2);
     float p_o = abs(o->p + s_x * o->x), p_i = abs(i->p + s_x * i->x);
     float m = (o->t_along + i->t_along) + n * (s_x * (o->t_slope + i->t_slope) - (o->t_side + i->t_side));
@@ -226,8 +223,7 @@ FN float woven_facet(const WovenPrepared *p, float c, float s_x, const WovenLine
 
 /* Returns the integral of woven_facet over the s_x of a bin, times 3 g^2. Only the s_x that face wo and wi count: a sum
  * over all of them would have a step where the yarn faces away. */
-FN float woven_across(const WovenPrepared *p, WovenSlopes b, const WovenView *o, const WovenView *i,
-                      float q) {
+FN float woven_across(const WovenPrepared *p, WovenSlopes b, const WovenView *o, const WovenView *i, float q) {
     WovenLine l = woven_line(p, b, o), k = woven_line(p, b, i);
     float least = b.middle - b.width, most = b.middle + b.width;
     float low = clamp(max(o->per_x > 0.0f ? l.end : least, i->per_x > 0.0f ? k.end : least), least, most);
@@ -286,5 +282,3 @@ FN Dir woven_sample(const WovenPrepared *p, const WovenView *w, Dir o, float u, 
     YarnSurface s = woven_surface(p);
     return yarn_draw(s, woven_proposal(s, w, o), o, u, v);
 }
-
-#endif

@@ -13,8 +13,7 @@
  *   measured by weft check wrap: E at most 1.00 (wrap 0, cos_o 1);
  *     f(wo, wi) and f(wi, wo) up to 1.00 of the larger apart; weight variance under 0.01 of the cosine's;
  *     half precision: finite for cosines >= 2^-19. */
-#ifndef WEFT_WRAP_H
-#define WEFT_WRAP_H
+#pragma once
 
 #include "shading/dialect/warp.h"
 #include "shading/lobe/lobe.h"
@@ -38,11 +37,8 @@ SEEN_AS_IT_IS(wrap, Wrap)
 
 FN LobeValue wrap_value(const WrapPrepared *p, const WrapView *w, Angles a) {
     float cos_i = max(a.i.z, 1e-6f);
-    return lobe_value_of(p->scale * (cos_i + p->wrap) / cos_i, 0.0f,
-                         warp_uniform_cosine_pdf(p->uniform_part, a.i));
+    return lobe_value_of(p->scale * (cos_i + p->wrap) / cos_i, 0.0f, warp_uniform_cosine_pdf(p->uniform_part, a.i));
 }
 FN Dir wrap_sample(const WrapPrepared *p, const WrapView *w, Dir o, float u, float v) {
     return warp_uniform_cosine(p->uniform_part, u, v);
 }
-
-#endif

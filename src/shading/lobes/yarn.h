@@ -19,20 +19,19 @@
  *   measured by weft check yarn: E at most 0.98 (alpha 0.36, cos_o 1);
  *     reciprocal to 1e-3; weight variance 0.78 of the cosine's;
  *     half precision: finite for any cosines. */
-#ifndef WEFT_LOBES_YARN_H
-#define WEFT_LOBES_YARN_H
+#pragma once
 
 #include "shading/lobe/lobe.h"
 #include "shading/media/yarn_draw.h"
 
-#define YARN_PARAMS(P)                                                                                       \
-    P(float, alpha, 0.4f, 0.05f, 1.0f, 0.05f, 1.0f, "what a fibre shows along its axis")                     \
-    P(float, slope_x, 0.0f, -1.0f, 1.0f, -8.0f, 8.0f, "how fast the yarn falls along x")                     \
-    P(float, slope_y, 0.0f, -1.0f, 1.0f, -8.0f, 8.0f, "how fast it falls along y")                           \
-    P(float, azimuth, 1.5707963f, 0.0f, 6.28318531f, -7.0f, 7.0f, "where fibres run, from x, radians")       \
-    P(float, roundness, 0.9f, 0.0f, 1.2f, 0.0f, 2.0f, "steepest slope across the yarns around")              \
-    P(float, crimp, 0.47f, 0.0f, 1.0f, 0.0f, 4.0f, "steepest slope along yarns around that run along y")     \
-    P(float, cross_crimp, 0.47f, 0.0f, 1.0f, 0.0f, 4.0f, "steepest slope along those that run along x")      \
+#define YARN_PARAMS(P)                                                                                                 \
+    P(float, alpha, 0.4f, 0.05f, 1.0f, 0.05f, 1.0f, "what a fibre shows along its axis")                               \
+    P(float, slope_x, 0.0f, -1.0f, 1.0f, -8.0f, 8.0f, "how fast the yarn falls along x")                               \
+    P(float, slope_y, 0.0f, -1.0f, 1.0f, -8.0f, 8.0f, "how fast it falls along y")                                     \
+    P(float, azimuth, 1.5707963f, 0.0f, 6.28318531f, -7.0f, 7.0f, "where fibres run, from x, radians")                 \
+    P(float, roundness, 0.9f, 0.0f, 1.2f, 0.0f, 2.0f, "steepest slope across the yarns around")                        \
+    P(float, crimp, 0.47f, 0.0f, 1.0f, 0.0f, 4.0f, "steepest slope along yarns around that run along y")               \
+    P(float, cross_crimp, 0.47f, 0.0f, 1.0f, 0.0f, 4.0f, "steepest slope along those that run along x")                \
     P(float, share, 0.5f, 0.0f, 1.0f, 0.0f, 1.0f, "of the cloth: yarns that run along y")
 #define YARN_TRAITS (TRAIT_RECIPROCAL | TRAIT_ANISOTROPIC | TRAIT_TWO_COLORS)
 
@@ -105,5 +104,3 @@ FN LobeValue yarn_value(const YarnPrepared *p, const YarnView *w, Angles a) {
 FN Dir yarn_sample(const YarnPrepared *p, const YarnView *w, Dir o, float u, float v) {
     return yarn_draw(yarn_surface(p), yarn_proposal(p, w), o, u, v);
 }
-
-#endif

@@ -30,8 +30,7 @@
  * hemisphere that is not cut off leans to the side of the peak. Then |M^-1| = z m11 + r b^2 s^2 is a sum of
  * what is never below 0, for z > 0, q >= 0 and r >= 0, and any mixing that keeps these three keeps the matrix
  * regular. A mirror's limit is simple: q = 0, b = cos_o, r and z / cos_o^2 twice its alpha. */
-#ifndef WEFT_SHADING_LTC_H
-#define WEFT_SHADING_LTC_H
+#pragma once
 
 #include "shading/dialect/warp.h"
 
@@ -86,5 +85,3 @@ FN float ltc_above(Ltc m, Dir o) {
     float n2 = m.m11 * m.m11 + m.d * m.d * (o.x * o.x + o.y * o.y);
     return 0.5f + 0.5f * m.m11 / sqrt(max(n2, 1e-36f));
 }
-
-#endif

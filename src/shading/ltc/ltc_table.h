@@ -4,8 +4,7 @@
  * in the root of cos_o; rows over one shape parameter, uniform in its root, which for alpha = roughness^2 is
  * the roughness. Mixed linearly, which keeps z > 0, q >= 0 and r >= 0; a function of cos_o is flat in o at
  * normal incidence, so the mixing makes no edge there. */
-#ifndef WEFT_SHADING_LTC_TABLE_H
-#define WEFT_SHADING_LTC_TABLE_H
+#pragma once
 
 #include "shading/lobe/table.h"
 #include "shading/ltc/ltc.h"
@@ -57,8 +56,8 @@ FN LtcSpot ltc_table_spot(LtcTable t, float cos_o, float p) {
 
 FN float ltc_table_interpolate(LtcTable t, LtcSpot s, int plane) {
     int row = plane * t.rows + s.row, below = plane * t.rows + s.below;
-    float a = mix(table_texel(t.texels, t.columns, row, s.column),
-                  table_texel(t.texels, t.columns, row, s.column + 1), s.x);
+    float a =
+        mix(table_texel(t.texels, t.columns, row, s.column), table_texel(t.texels, t.columns, row, s.column + 1), s.x);
     float b = mix(table_texel(t.texels, t.columns, below, s.column),
                   table_texel(t.texels, t.columns, below, s.column + 1), s.x);
     return mix(a, b, s.y);
@@ -122,5 +121,3 @@ FN LtcLobe ltc_table_published(TableRef e, float cos_o, float alpha) {
     l.f90 = 0.0f;
     return l;
 }
-
-#endif

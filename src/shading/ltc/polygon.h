@@ -14,8 +14,7 @@
  *
  *   Corners are given relative to the point, in a frame whose horizon is z = 0; in which order, does not
  * matter to any integral here. */
-#ifndef WEFT_SHADING_POLYGON_H
-#define WEFT_SHADING_POLYGON_H
+#pragma once
 
 #include "shading/ltc/ltc.h"
 
@@ -27,9 +26,7 @@ STRUCT(Polygon) {
     int count;
 };
 
-FN Dir polygon_cross(Dir a, Dir b) {
-    return dir(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
-}
+FN Dir polygon_cross(Dir a, Dir b) { return dir(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x); }
 
 /* Returns w / |w|. A corner at the point itself has no direction and becomes 0. */
 FN Dir polygon_unit(Dir w) {
@@ -98,8 +95,7 @@ FN Dir polygon_edge(Dir a, Dir b) {
 /* Returns the sum of the corners, a direction inside the polygon. */
 FN Dir polygon_sum(Polygon p) {
     Dir sum = dir(0.0f, 0.0f, 0.0f);
-    for (int k = 0; k < p.count; k++)
-        sum = dir(sum.x + p.corners[k].x, sum.y + p.corners[k].y, sum.z + p.corners[k].z);
+    for (int k = 0; k < p.count; k++) sum = dir(sum.x + p.corners[k].x, sum.y + p.corners[k].y, sum.z + p.corners[k].z);
     return sum;
 }
 
@@ -190,5 +186,3 @@ FN PolygonPoint polygon_point(Dir c, PolygonRay r, int j, int steps) {
     p.area = r.area * weight;
     return p;
 }
-
-#endif

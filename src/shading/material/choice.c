@@ -20,8 +20,7 @@ const char *choice_id(ChoiceId choice, int k) {
     case CHOICE_f: return weft_term_name(WEFT_TERM_F, k);
     case CHOICE_layer: return weft_layer_name(k);
     case CHOICE_layer_by: return k == LAYER_BY_MAX ? "max" : k == LAYER_BY_CHANNEL ? "channel" : NULL;
-    case CHOICE_convert:
-        return k == CONVERT_METALLIC ? "metallic" : k == CONVERT_SPECULAR ? "specular" : NULL;
+    case CHOICE_convert: return k == CONVERT_METALLIC ? "metallic" : k == CONVERT_SPECULAR ? "specular" : NULL;
     case CHOICE_COUNT: break;
     }
     return NULL;

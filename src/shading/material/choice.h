@@ -1,6 +1,5 @@
 /* choice.h - the values of each choice of inputs.h, by id and by other names in use */
-#ifndef WEFT_SHADING_CHOICE_H
-#define WEFT_SHADING_CHOICE_H
+#pragma once
 
 #include "shading/stack/input_ids.h"
 
@@ -20,5 +19,3 @@ const char *alias_id(const char *name);
  * is ambiguous (charlie: a lobe of which visibility?). Returns text, or NULL. */
 enum { SEVERAL_SIZE = 200 };
 const char *choice_several(ChoiceId choice, const char *name, char text[SEVERAL_SIZE]);
-
-#endif

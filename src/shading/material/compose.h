@@ -2,8 +2,7 @@
  *
  * A profile, or else a workflow, makes the stack. The choices of a material then replace the parts of it that
  * they name. */
-#ifndef WEFT_SHADING_COMPOSE_H
-#define WEFT_SHADING_COMPOSE_H
+#pragma once
 
 #include "shading/dialect/azimuth.h"
 #include "shading/lobes/cook_torrance.h"
@@ -178,5 +177,3 @@ FN void surface_stack(Stack *m, const Surface *s, Choices c, TableRef e) {
     compose_surface(&t, d);
     compose_stack(m, &t, d, e);
 }
-
-#endif

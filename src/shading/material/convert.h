@@ -12,8 +12,7 @@
  *
  *   The relation and the blend by m, there m^2: Khronos Group, KHR_materials_pbrSpecularGlossiness, 2017,
  *   example "convert between workflows". */
-#ifndef WEFT_SHADING_CONVERT_H
-#define WEFT_SHADING_CONVERT_H
+#pragma once
 
 #include "shading/workflows/metallic.h"
 
@@ -82,8 +81,7 @@ FN Choices convert_choices(Choices c) {
 FN float convert_loss(Surface s, Choices c) {
     if (!convert_wanted(c)) return 0.0f;
     Surface t = convert_surface(s, c);
-    Rgb d = metallic_diffuse(s), f = metallic_normal_f(s), d2 = specular_diffuse(t),
-        f2 = specular_normal_f(t);
+    Rgb d = metallic_diffuse(s), f = metallic_normal_f(s), d2 = specular_diffuse(t), f2 = specular_normal_f(t);
     if (c.convert == CONVERT_METALLIC) {
         d = specular_diffuse(s);
         f = specular_normal_f(s);
@@ -94,5 +92,3 @@ FN float convert_loss(Surface s, Choices c) {
     float loss_f = max(abs(f.r - f2.r), max(abs(f.g - f2.g), abs(f.b - f2.b)));
     return max(loss_d, loss_f);
 }
-
-#endif

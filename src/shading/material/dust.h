@@ -11,8 +11,7 @@
  * and is fixed to the world, so that things which move change their patches.
  *
  *   What lies there is a layer over the whole stack, coat and all (compose.h, dust_lobe.h). */
-#ifndef WEFT_DUST_H
-#define WEFT_DUST_H
+#pragma once
 
 #include "shading/stack/surface.h"
 
@@ -39,8 +38,7 @@ FN float dust_line(float h, Dir a, Dir b, Dir t) {
     return mix(dust_hash(dust_sum(h, a.z)), dust_hash(dust_sum(h, b.z)), t.z);
 }
 FN float dust_plane(float h, Dir a, Dir b, Dir t) {
-    return mix(dust_line(dust_hash(dust_sum(h, a.y)), a, b, t),
-               dust_line(dust_hash(dust_sum(h, b.y)), a, b, t), t.y);
+    return mix(dust_line(dust_hash(dust_sum(h, a.y)), a, b, t), dust_line(dust_hash(dust_sum(h, b.y)), a, b, t), t.y);
 }
 
 FN float dust_ease(float t) { return t * t * (3.0f - 2.0f * t); }
@@ -88,5 +86,3 @@ FN Surface dust_accumulate(Surface s, Dir n, Dir p) {
     t.dust = dust_amount(s.dust, dir_dot(n, dust_source(s)), s.dust_falloff, mask);
     return t;
 }
-
-#endif

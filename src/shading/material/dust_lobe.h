@@ -10,8 +10,7 @@
  *
  * E needs no table of the material's own. A text for a GPU has this file only if it has that lobe; otherwise there
  * is no dust (text/assemble/dispatch.h). */
-#ifndef WEFT_DUST_LOBE_H
-#define WEFT_DUST_LOBE_H
+#pragma once
 
 #include "shading/catalogue/registry.h"
 #include "shading/lobes/ltc_fibre.h"
@@ -35,5 +34,3 @@ FN float dust_weight(float dust, float e_1, float cos_o) {
 FN float dust_albedo(const Lobe *m, float cos_o) {
     return min(ltc_table_level(lobe_table_ltc_fibre(), cos_o, m->params[LTC_FIBRE_ALPHA]).f0, 1.0f);
 }
-
-#endif

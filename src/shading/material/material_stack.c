@@ -45,12 +45,12 @@ void stack_eval(const Stack *stack, const StackView *view, const Dir *i, uint32_
         value->f_cos = rgb_add(value->f_cos, layer_walk_bounces(stack, view, slots_all(), *i, seed));
 }
 
-#define TAKE_SLOT(name, NAME, Name, wo)                                                                      \
-    if (view->select_p.name > 0.0f && (slot < 0 || *u >= at)) {                                              \
-        slot = PLACE_##NAME;                                                                                 \
-        begin = at;                                                                                          \
-        width = view->select_p.name;                                                                         \
-        at += width;                                                                                         \
+#define TAKE_SLOT(name, NAME, Name, wo)                                                                                \
+    if (view->select_p.name > 0.0f && (slot < 0 || *u >= at)) {                                                        \
+        slot = PLACE_##NAME;                                                                                           \
+        begin = at;                                                                                                    \
+        width = view->select_p.name;                                                                                   \
+        at += width;                                                                                                   \
     }
 int stack_select_slot(const StackView *view, float *u) {
     int slot = PLACE_NONE;
@@ -60,10 +60,10 @@ int stack_select_slot(const StackView *view, float *u) {
     return slot;
 }
 
-#define SAMPLE_SLOT(name, NAME, Name, wo)                                                                    \
-    case PLACE_##NAME:                                                                                       \
-        if (view->wo.z > 0.0f) IN_SLOT(name, sample_at)                                                      \
-        (stack->name.lobe.id, &stack->name##_prepared, &view->name##_view, &view->wo, u, v, i);              \
+#define SAMPLE_SLOT(name, NAME, Name, wo)                                                                              \
+    case PLACE_##NAME:                                                                                                 \
+        if (view->wo.z > 0.0f) IN_SLOT(name, sample_at)                                                                \
+        (stack->name.lobe.id, &stack->name##_prepared, &view->name##_view, &view->wo, u, v, i);                        \
         break;
 void stack_sample(const Stack *stack, const StackView *view, float u, float v, Dir *i) {
     *i = dir(0.0f, 0.0f, -1.0f);

@@ -1,6 +1,5 @@
 /* material_stack.h - the stack of stack_value.h in C: made, seen, evaluated, sampled */
-#ifndef WEFT_SHADING_MATERIAL_STACK_H
-#define WEFT_SHADING_MATERIAL_STACK_H
+#pragma once
 
 #include "shading/catalogue/albedo.h"
 #include "shading/material/stack_value.h"
@@ -33,8 +32,7 @@ ONE_COPY void stack_see(const Stack *stack, const Dir *o, StackView *view);
 
 /* Computes f cos and pdf for wi; for wi below the horizon, those of the transmitted light. seed: of the random walk
  * that layer rule stochastic takes between sheen and base, where f is an unbiased estimate. pdf never depends on it. */
-ONE_COPY void stack_eval(const Stack *stack, const StackView *view, const Dir *i, uint32_t seed,
-                         StackValue *value);
+ONE_COPY void stack_eval(const Stack *stack, const StackView *view, const Dir *i, uint32_t seed, StackValue *value);
 
 /* Works as stack_eval, for some of the slots, and without the walk of layer rule stochastic. */
 ONE_COPY StackValue stack_eval_of(const Stack *stack, const StackView *view, Slots only, Dir i);
@@ -85,5 +83,3 @@ static inline Dir seen_sample(const SeenStack *seen, float u, float v) {
     stack_sample(&seen->stack, &seen->view, u, v, &i);
     return i;
 }
-
-#endif

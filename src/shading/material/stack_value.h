@@ -1,18 +1,16 @@
 /* stack_value.h - f cos_i and the pdf of a stack in a view of it */
-#ifndef WEFT_SHADING_STACK_VALUE_H
-#define WEFT_SHADING_STACK_VALUE_H
+#pragma once
 
 #include "shading/material/stack_view.h"
 
 /* Sets v to f and the pdf of a slot's lobe. pair: wo and wi in the slot's frame. */
-#define SLOT_VALUE(slot, pair)                                                                               \
-    IN_SLOT(slot, reflect)                                                                                   \
+#define SLOT_VALUE(slot, pair)                                                                                         \
+    IN_SLOT(slot, reflect)                                                                                             \
     (m->slot.lobe.id, &m->slot##_prepared, &w->slot##_view, pair, &m->slot.f0, &m->slot.f90, &v);
 
 /* Returns f of the diffuse lobe under the interface. through: the transmittance of the interface by a rule that puts it
  * over the sheen too, which applies if below_f. */
-FN Rgb stack_under_interface(const Stack *m, const StackView *w, const Angles *a, bool below_f, Rgb through,
-                             Rgb f) {
+FN Rgb stack_under_interface(const Stack *m, const StackView *w, const Angles *a, bool below_f, Rgb through, Rgb f) {
     if (below_f) return rgb_mul(rgb_mul(f, through), w->base_scale);
     if (m->base_fresnel != BASE_FRESNEL_NONE) return rgb_mul(f, stack_base_transmittance(m, w, a));
     return f;
@@ -30,8 +28,7 @@ FN Rgb stack_under_sheen(const Stack *m, const StackView *w, const Angles *a, Rg
 }
 
 /* Works as stack_value, for the slots `only`. The other slots still dim them. */
-FN StackValue stack_value_of(const Stack *m, const StackView *w, Slots only, const Angles *a,
-                             const Angles *coat) {
+FN StackValue stack_value_of(const Stack *m, const StackView *w, Slots only, const Angles *a, const Angles *coat) {
     bool layered = HAS_LAYERED_SHEEN(m), below_f = IS_BELOW_F(m) && layered;
     Rgb f = rgb_grey(0.0f), through = f; /* transmittance of the interface over diffuse and sheen */
     float pdf = 0.0f;
@@ -101,5 +98,3 @@ FN StackValue stack_value(const Stack *m, const StackView *w, const Angles *a, c
     Slots only = slots_of(SHOWS_DIFFUSE, SHOWS_SPECULAR, SHOWS_SHEEN, SHOWS_COAT, SHOWS_DUST);
     return stack_value_of(m, w, only, a, coat);
 }
-
-#endif

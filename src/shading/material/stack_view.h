@@ -1,11 +1,10 @@
 /* stack_view.h - the view of a stack from wo: the scale of each slot, and the probability that it is sampled */
-#ifndef WEFT_SHADING_STACK_VIEW_H
-#define WEFT_SHADING_STACK_VIEW_H
+#pragma once
 
 #include "shading/material/compose.h"
 
 /* Returns E of the white sheen towards w. */
-#define VIEW_ALBEDO(name, index, own_table, formula)                                                         \
+#define VIEW_ALBEDO(name, index, own_table, formula)                                                                   \
     if (m->albedo == index) return sheen_e_of(formula);
 FN SheenE stack_albedo(const Stack *m, Dir w) {
     float cosine = w.z;
@@ -37,11 +36,11 @@ FN void view_dust(const Stack *m, StackView *w) {
 }
 
 /* For each slot: nothing dims it, and its albedo alone decides how often it is sampled. */
-#define SCALE_ONE(name, NAME, Name, wo)                                                                      \
-    w->scale.name = 1.0f;                                                                                    \
+#define SCALE_ONE(name, NAME, Name, wo)                                                                                \
+    w->scale.name = 1.0f;                                                                                              \
     w->select_p.name = 1.0f;
 /* For each row of WEFT_VIEWS: runs its statement if the stack's `view` names the row. */
-#define VIEW_OF_ROW(name, index, what)                                                                       \
+#define VIEW_OF_ROW(name, index, what)                                                                                 \
     if (m->view == index) what;
 /* Sets all of a view but E of the sheen, the base scale and the selection probabilities. */
 FN void view_begin(const Stack *m, Dir o, StackView *w) {
@@ -80,8 +79,8 @@ FN void view_base_scale(const Stack *m, StackView *w) {
 FN float select_p_of(const Slot *s, float schlick, float weight, float scale) {
     return s->normal > 0.0f && scale > 0.0f ? max(mix(s->normal, s->grazing, schlick) * weight, 1e-3f) : 0.0f;
 }
-#define SELECT_P_OF(name, NAME, Name, wo)                                                                    \
-    p.name = 0.0f;                                                                                           \
+#define SELECT_P_OF(name, NAME, Name, wo)                                                                              \
+    p.name = 0.0f;                                                                                                     \
     if (HAS_##NAME(m)) p.name = select_p_of(&m->name, s, w->select_p.name, w->scale.name);
 #define SELECT_P_SUM(name, NAME, Name, wo)   +p.name
 #define SELECT_P_USED(name, NAME, Name, wo)  +(p.name > 0.0f ? 1.0f : 0.0f)
@@ -128,5 +127,3 @@ FN void stack_view(const Stack *m, Dir o, StackView *w) {
 FN void view_base(const Stack *m, StackView *w) {
     IN_SLOT(diffuse, view)(m->diffuse.lobe.id, &m->diffuse_prepared, &w->o, &w->diffuse_view);
 }
-
-#endif

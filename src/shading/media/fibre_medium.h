@@ -16,8 +16,7 @@
  * comes from. H is density times thickness, mu the cosine to the slab's normal, which is nu where fibres
  * stand upright. Flakes are white: their albedo multiplies f1 outside. Finite for s from 1e-4, mu from
  * 1e-30 and H up to 8. */
-#ifndef WEFT_FIBRE_MEDIUM_H
-#define WEFT_FIBRE_MEDIUM_H
+#pragma once
 
 #include "shading/dialect/angles.h"
 
@@ -26,9 +25,7 @@ FN Dir flake_axis(float tilt, float azimuth) {
     return dir(sin(tilt) * cos(azimuth), sin(tilt) * sin(azimuth), cos(tilt));
 }
 
-FN float flake_sigma(float s, float nu) {
-    return sqrt(max((1.0f - nu) * (1.0f + nu), 0.0f) + s * s * nu * nu);
-}
+FN float flake_sigma(float s, float nu) { return sqrt(max((1.0f - nu) * (1.0f + nu), 0.0f) + s * s * nu * nu); }
 
 /* Returns D from q = |wi + wo|^2 and m = nu_i + nu_o, since c^2 = m^2 / q: no half vector is normalised. D is between
  * s^3 / pi and 1 / (pi s). For opposite directions, where q is 0, it depends on how the limit is taken. */
@@ -50,13 +47,11 @@ FN float flake_single_of(float s, Dir t, float thickness, float sigma_o, float s
     float lambda = sigma_i * o.z + sigma_o * i.z;
     Dir sum = dir(o.x + i.x, o.y + i.y, o.z + i.z);
     /* nu_o + nu_i by the sum of the directions, which is exact where they are nearly opposite */
-    return 0.25f * flake_d(s, dir_dot(sum, sum), dir_dot(sum, t)) *
-           flake_visibility(thickness, lambda, o.z * i.z);
+    return 0.25f * flake_d(s, dir_dot(sum, sum), dir_dot(sum, t)) * flake_visibility(thickness, lambda, o.z * i.z);
 }
 
 FN float flake_single(float s, Dir t, float thickness, Dir o, Dir i) {
-    return flake_single_of(s, t, thickness, flake_sigma(s, dir_dot(o, t)), flake_sigma(s, dir_dot(i, t)), o,
-                           i);
+    return flake_single_of(s, t, thickness, flake_sigma(s, dir_dot(o, t)), flake_sigma(s, dir_dot(i, t)), o, i);
 }
 
 /* Constants of f1 for upright fibres, with e = log2(exp(1)) thickness: the parts of e sigma, and the weights
@@ -101,5 +96,3 @@ FN Dir flake_scatter(float s, Dir t, Dir i, Dir point) {
     float k = 2.0f * dir_dot(i, h) / max(dir_dot(h, h), 1e-30f);
     return dir(k * h.x - i.x, k * h.y - i.y, k * h.z - i.z);
 }
-
-#endif

@@ -11,8 +11,7 @@
  * The numbers are those of tables/fibre_model.h. The middle base has its ridge where both directions are
  * equally steep: at low alpha light keeps nearly the angle that it has to the fibre, a walk of small steps
  * whose law is sqrt(mu_o mu_i) / (mu_o^3 + mu_i^3). */
-#ifndef WEFT_FIBRE_FITTED_MODEL_H
-#define WEFT_FIBRE_FITTED_MODEL_H
+#pragma once
 
 #include "shading/dialect/angles.h"
 #include "shading/dialect/tint.h"
@@ -91,8 +90,8 @@ FN FibreSide fibre_thin(FibreNumbers n, FibreSide r, float u) {
     float x = 2.0f * u;
     float t2 = x * u - 1.0f, t3 = x * t2 - u, t4 = x * t3 - t2, t5 = x * t4 - t3, t6 = x * t5 - t4;
     float t7 = x * t6 - t5, t8 = x * t7 - t6, t9 = x * t8 - t7, t10 = x * t9 - t8, t11 = x * t10 - t9;
-    r.a = r.a + n.ta0 + n.ta1 * u + n.ta2 * t2 + n.ta3 * t3 + n.ta4 * t4 + n.ta5 * t5 + n.ta6 * t6 +
-          n.ta7 * t7 + n.ta8 * t8 + n.ta9 * t9 + n.ta10 * t10 + n.ta11 * t11;
+    r.a = r.a + n.ta0 + n.ta1 * u + n.ta2 * t2 + n.ta3 * t3 + n.ta4 * t4 + n.ta5 * t5 + n.ta6 * t6 + n.ta7 * t7 +
+          n.ta8 * t8 + n.ta9 * t9 + n.ta10 * t10 + n.ta11 * t11;
     r.h = r.h + n.th0 + n.th1 * u + n.th2 * t2 + n.th3 * t3 + n.th4 * t4 + n.th5 * t5 + n.th6 * t6;
     r.g = r.g + n.tg0 + n.tg1 * u + n.tg2 * t2 + n.tg3 * t3 + n.tg4 * t4 + n.tg5 * t5 + n.tg6 * t6;
     r.k = r.k + n.tk0 + n.tk1 * u + n.tk2 * t2 + n.tk3 * t3 + n.tk4 * t4;
@@ -109,8 +108,7 @@ FN FibreSide fibre_side(FibreModel m, FibreNumbers n, float mu, float nu) {
     FibreSide r;
     r.mu = mu;
     r.nu = nu;
-    r.a = n.a0 +
-          u * (n.a1 + u * (n.a2 + u * (n.a3 + u * (n.a4 + u * (n.a5 + u * (n.a6 + u * (n.a7 + u * n.a8)))))));
+    r.a = n.a0 + u * (n.a1 + u * (n.a2 + u * (n.a3 + u * (n.a4 + u * (n.a5 + u * (n.a6 + u * (n.a7 + u * n.a8)))))));
     r.h = n.h0 + u * (n.h1 + u * (n.h2 + u * (n.h3 + u * n.h4)));
     r.g = n.g0 + u * (n.g1 + u * (n.g2 + u * (n.g3 + u * (n.g4 + u * (n.g5 + u * n.g6)))));
     r.k = n.k0 + u * (n.k1 + u * (n.k2 + u * n.k3));
@@ -128,8 +126,7 @@ FN FibreSide fibre_side(FibreModel m, FibreNumbers n, float mu, float nu) {
 FN float fibre_bases(FibreModel m, FibreNumbers n, FibreSide o, FibreSide i, float e) {
     float sum = o.mu + i.mu, cross = sum * sum - 3.0f * (o.mu * i.mu);
     float l = e - n.p0 * log2(sum + 0.04f) - n.p1 * log2(cross + m.ridge);
-    if (n.thin > 0.0f)
-        l = l - n.tp0 * log2(sum + 0.04f) - n.tp1 * log2(cross + m.ridge) - n.tp2 * log2(sum + 0.002f);
+    if (n.thin > 0.0f) l = l - n.tp0 * log2(sum + 0.04f) - n.tp1 * log2(cross + m.ridge) - n.tp2 * log2(sum + 0.002f);
     if (m.s > 0.0f) {
         float lean = o.nu + i.nu, mm = sum * sum, nn = lean * lean;
         l = l -
@@ -154,5 +151,3 @@ FN float fibre_multiple(FibreModel m, FibreNumbers n, FibreSide o, FibreSide i, 
 FN float fibre_tint_order(FibreSide o, FibreSide i, float dot_across) {
     return 0.69314718f * (o.v * i.v - o.u * i.u - o.c * i.c * dot_across);
 }
-
-#endif

@@ -10,8 +10,7 @@
  * need not be whole: the last bin is then as much narrower, so that f has no steps. Own fit to means over points.
  *   Bins are members of a list, not an array: a GPU would keep an array with a computed index in slow local memory,
  * while it selects among members in registers. */
-#ifndef WEFT_SHADING_WOVEN_BINS_H
-#define WEFT_SHADING_WOVEN_BINS_H
+#pragma once
 
 #include "shading/dialect/lang.h"
 
@@ -23,7 +22,7 @@ STRUCT(WovenBin) {
 };
 
 /* The bins from bin 1 on. */
-#define WOVEN_EACH_BIN(N)                                                                                    \
+#define WOVEN_EACH_BIN(N)                                                                                              \
     N(b1) N(b2) N(b3) N(b4) N(b5) N(b6) N(b7) N(b8) N(b9) N(b10) N(b11) N(b12) N(b13) N(b14) N(b15) N(b16)
 #define WOVEN_BIN_MEMBER(name) WovenBin name;
 STRUCT(WovenBins){WOVEN_EACH_BIN(WOVEN_BIN_MEMBER)};
@@ -63,10 +62,10 @@ FN WovenBin woven_bin(WovenCut c, WovenBinEnd low, WovenBinEnd high) {
 }
 
 /* Returns all bins, with their widths in s as weights. */
-#define WOVEN_CUT_BIN(name)                                                                                  \
-    high = woven_bin_end(c, k + 1.0f);                                                                       \
-    bins.name = woven_bin(c, low, high);                                                                     \
-    low = high;                                                                                              \
+#define WOVEN_CUT_BIN(name)                                                                                            \
+    high = woven_bin_end(c, k + 1.0f);                                                                                 \
+    bins.name = woven_bin(c, low, high);                                                                               \
+    low = high;                                                                                                        \
     k = k + 1.0f;
 FN WovenBins woven_bins_cut(WovenCut c) {
     WovenBins bins;
@@ -99,11 +98,11 @@ FN float woven_pick(int k, float a, float b, float c, float d, float e, float f,
 }
 
 /* Returns bin k + 1, k from 0 to 15. */
-#define WOVEN_PICK(part)                                                                                     \
-    low = woven_pick(k, m->b1.part, m->b2.part, m->b3.part, m->b4.part, m->b5.part, m->b6.part, m->b7.part,  \
-                     m->b8.part);                                                                            \
-    high = woven_pick(k - 8, m->b9.part, m->b10.part, m->b11.part, m->b12.part, m->b13.part, m->b14.part,    \
-                      m->b15.part, m->b16.part);                                                             \
+#define WOVEN_PICK(part)                                                                                               \
+    low =                                                                                                              \
+        woven_pick(k, m->b1.part, m->b2.part, m->b3.part, m->b4.part, m->b5.part, m->b6.part, m->b7.part, m->b8.part); \
+    high = woven_pick(k - 8, m->b9.part, m->b10.part, m->b11.part, m->b12.part, m->b13.part, m->b14.part, m->b15.part, \
+                      m->b16.part);                                                                                    \
     b.part = k < 8 ? low : high;
 FN WovenBin woven_bin_at(const WovenBins *m, int k) {
     WovenBin b;
@@ -112,5 +111,3 @@ FN WovenBin woven_bin_at(const WovenBins *m, int k) {
     WOVEN_PICK(weight)
     return b;
 }
-
-#endif

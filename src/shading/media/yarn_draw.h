@@ -11,8 +11,7 @@
  * would send it down into the yarn. So g is rotated about t, half of the way to n, and reflects as h. Then a smooth
  * fibre sends light by the cosine of its angle about t, which is nearly what leaves a yarn. The angle of g about t is
  * twice that of h, which is the factor 2 of F, and D(g) = D(h). Own. */
-#ifndef WEFT_SHADING_YARN_DRAW_H
-#define WEFT_SHADING_YARN_DRAW_H
+#pragma once
 
 #include "shading/dialect/warp.h"
 #include "shading/media/yarn_medium.h"
@@ -40,8 +39,7 @@ FN float yarn_flake_chance(float alpha, float p, float remainder) {
  * with minus where h points into the yarn. No difference here loses digits that d has. */
 FN float yarn_flake_pdf(YarnSurface s, YarnProposal w, Dir o, Dir n, Dir d) {
     Dir t = s.axis, b = dir_cross(n, t);
-    float x = dir_dot(n, d), y = dir_dot(b, d), m = dir_dot(t, d), e = x * x + y * y,
-          d2 = max(e + m * m, 1e-12f);
+    float x = dir_dot(n, d), y = dir_dot(b, d), m = dir_dot(t, d), e = x * x + y * y, d2 = max(e + m * m, 1e-12f);
     float a2 = max(s.alpha * s.alpha, 1e-6f), along = w.along * m;
     float across = dir_dot(n, o) * (x * x - y * y) + 2.0f * dir_dot(b, o) * x * y;
     float seen = max(across / sqrt(max(e, 1e-6f * d2)) + (x < 0.0f ? -along : along), 0.0f);
@@ -51,8 +49,8 @@ FN float yarn_flake_pdf(YarnSurface s, YarnProposal w, Dir o, Dir n, Dir d) {
 FN float yarn_draw_pdf(YarnSurface s, YarnProposal w, Angles a) {
     Dir n = dir(s.slope_x * s.per_n, s.slope_y * s.per_n, s.per_n);
     float x = a.o.x + a.i.x, y = a.o.y + a.i.y, up = dir_dot(n, a.i), down = up - 2.0f * n.z * a.i.z;
-    float flakes = yarn_flake_pdf(s, w, a.o, n, dir(x, y, a.o.z + a.i.z)) +
-                   yarn_flake_pdf(s, w, a.o, n, dir(x, y, a.o.z - a.i.z));
+    float flakes =
+        yarn_flake_pdf(s, w, a.o, n, dir(x, y, a.o.z + a.i.z)) + yarn_flake_pdf(s, w, a.o, n, dir(x, y, a.o.z - a.i.z));
     float about_n = (max(up, 0.0f) + max(down, 0.0f)) / PI;
     return mix(mix(warp_cosine_pdf(a.i), about_n, w.q), flakes, w.c);
 }
@@ -67,8 +65,7 @@ FN Dir yarn_rotated_flake(YarnSurface s, Dir n, Dir g) {
     float d = sqrt(near * near + side * side), root = sqrt(d), larger = sqrt(0.5f * (d + abs(near)));
     float smaller = 0.5f * abs(side) / max(larger, 1e-9f), c = root * (near < 0.0f ? smaller : larger);
     float e = root * (near < 0.0f ? larger : smaller) * (side < 0.0f ? -1.0f : 1.0f);
-    return dir(c * n.x + e * b.x + along * t.x, c * n.y + e * b.y + along * t.y,
-               c * n.z + e * b.z + along * t.z);
+    return dir(c * n.x + e * b.x + along * t.x, c * n.y + e * b.y + along * t.y, c * n.z + e * b.z + along * t.z);
 }
 
 /* Returns wi for two random numbers in [0, 1). Divided by the stretch along t the flakes are a sphere, of which wo sees
@@ -97,5 +94,3 @@ FN Dir yarn_draw(YarnSurface s, YarnProposal w, Dir o, float u, float v) {
     i.z = abs(i.z);
     return i;
 }
-
-#endif

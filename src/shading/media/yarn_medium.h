@@ -25,8 +25,7 @@
  * fibres or more, and diffuse. R = 1 - E_1 is the remainder that single scattering leaves to it: E_1, the albedo of
  * single on a level surface, is fitted with an error of at most 0.018. Fibres of albedo A reflect rho(A) of the
  * remainder, fitted to random walks through a plain weave of tubes of flakes. Both fits are our own. */
-#ifndef WEFT_SHADING_YARN_MEDIUM_H
-#define WEFT_SHADING_YARN_MEDIUM_H
+#pragma once
 
 #include "shading/dialect/angles.h"
 
@@ -50,9 +49,7 @@ FN float yarn_mean_area(Dir w, float share, float roundness, float crimp, float 
 }
 
 /* Returns P. */
-FN float yarn_seen_area(Dir w, float slope_x, float slope_y) {
-    return max(w.z + slope_x * w.x + slope_y * w.y, 0.0f);
-}
+FN float yarn_seen_area(Dir w, float slope_x, float slope_y) { return max(w.z + slope_x * w.x + slope_y * w.y, 0.0f); }
 
 /* Returns D of the direction of wi + wo. m: t . (wi + wo); q: 1 / |wi + wo|^2. So (t . h)^2 is m^2 q. */
 FN float yarn_d(float a2, float m, float q) {
@@ -73,8 +70,8 @@ FN float yarn_per_sum2(Angles a) {
  * m, q: as for yarn_d; p_o, p_i: P of wo and wi; t_o, t_i: t . wo and t . wi. */
 FN float yarn_single(float e, float q, float m, float p_o, float p_i, float t_o, float t_i) {
     float d = 1.0f + e * min(m * m * q, 1.0f);
-    float sigma_p = sqrt(1.0f + e * max(1.0f - t_i * t_i, 0.0f)) * p_o +
-                    sqrt(1.0f + e * max(1.0f - t_o * t_o, 0.0f)) * p_i;
+    float sigma_p =
+        sqrt(1.0f + e * max(1.0f - t_i * t_i, 0.0f)) * p_o + sqrt(1.0f + e * max(1.0f - t_o * t_o, 0.0f)) * p_i;
     return p_o * p_i / max(d * d * sigma_p, 1e-6f);
 }
 
@@ -90,5 +87,3 @@ FN float yarn_reflectance(float albedo) {
     float g = sqrt(max(1.0f - albedo, 0.0f)), r = (1.0f - g) / (1.0f + 0.32f * g);
     return r * r;
 }
-
-#endif

@@ -14,8 +14,7 @@
  *   Inputs: F0 as in workflow metallic; clear coat and anisotropy are not looked at; lights have no radius.
  *   Departures: alpha of the sheen is at least 0.005; keep at least 0.
  *   Substitute: E is within .0012 on average of the image that it ships, as measured when that was read. */
-#ifndef WEFT_PROFILE_BABYLON_H
-#define WEFT_PROFILE_BABYLON_H
+#pragma once
 
 #include "shading/profiles/filament_sheen.h"
 
@@ -37,5 +36,3 @@ FN void babylon_stack(Stack *m, const Surface *s) {
     m->specular.lobe.params[GGX_ALPHA] = max(babylon_alpha(r), 0.001f);
     filament_compensate(m, mixed, VIEW_BABYLON, r);
 }
-
-#endif

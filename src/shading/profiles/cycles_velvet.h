@@ -9,8 +9,7 @@
  * anything.
  *   Inputs: its weight c is sheen_color sheen, its sigma sheen_roughness (the node's default is 1).
  *   Departures: sampled by D and not uniformly; wi . h has no cut-off. */
-#ifndef WEFT_PROFILE_CYCLES_VELVET_H
-#define WEFT_PROFILE_CYCLES_VELVET_H
+#pragma once
 
 #include "shading/lobes/cook_torrance.h"
 #include "shading/stack/workflow.h"
@@ -24,5 +23,3 @@ FN void cycles_velvet_stack(Stack *m, const Surface *s) {
     workflow_sheen(m, sheen, rgb_scale(s->sheen_color, s->sheen), s->sheen_second, LAYER_ADDITIVE);
     slot_even(&m->diffuse, lobe_default(LOBE_LAMBERT), s->base_color, s->base_color, 1.0f);
 }
-
-#endif

@@ -7,8 +7,7 @@
  * the sheen has neither a roughness nor 1/pi.
  *   Inputs: sheen_color is not looked at: sheen and sheen_tint replace it. Where they are not given, specular is
  * 0.5 and sheen 0. Colours are linear, not gamma 2.2. The coat may have a normal of its own. */
-#ifndef WEFT_PROFILE_DISNEY_2012_H
-#define WEFT_PROFILE_DISNEY_2012_H
+#pragma once
 
 #include "shading/workflows/disney.h"
 
@@ -18,8 +17,4 @@ FN Rgb disney_2012_tint(Rgb base) {
     return rgb_grey(1.0f);
 }
 
-FN void disney_2012_stack(Stack *m, const Surface *s) {
-    disney_tinted(m, s, disney_2012_tint(s->base_color));
-}
-
-#endif
+FN void disney_2012_stack(Stack *m, const Surface *s) { disney_tinted(m, s, disney_2012_tint(s->base_color)); }

@@ -11,8 +11,7 @@
  * Where no colour is given it takes the root of the base colour; here black is none.
  * Subsurface colour is not made.
  *   Departure: alpha is at least 0.005. */
-#ifndef WEFT_PROFILE_FILAMENT_CLOTH_H
-#define WEFT_PROFILE_FILAMENT_CLOTH_H
+#pragma once
 
 #include "shading/profiles/filament_sheen.h"
 
@@ -21,5 +20,3 @@ FN void filament_cloth_stack(Stack *m, const Surface *s) {
     filament_fuzz(m, r, rgb_scale(s->sheen_color, s->sheen), LAYER_ADDITIVE);
     slot_even(&m->diffuse, lobe_default(LOBE_LAMBERT), s->base_color, s->base_color, 1.0f);
 }
-
-#endif

@@ -15,8 +15,7 @@
  *   Departures: D_ggx is not cut off at 65464, which it reaches below roughness 0.047; alpha of the sheen
  * is at least 0.005; keep at least 0, where the table's E passes 1 (there it makes the base negative). That
  * the shift of the table's rows reaches the sampler is inferred; Babylon.js's image shows the same. */
-#ifndef WEFT_PROFILE_FILAMENT_SHEEN_H
-#define WEFT_PROFILE_FILAMENT_SHEEN_H
+#pragma once
 
 #include "shading/catalogue/engine_tables.h"
 #include "shading/lobes/cook_torrance.h"
@@ -63,5 +62,3 @@ FN void filament_sheen_stack(Stack *m, const Surface *s) {
     m->specular.lobe = lobe_rough(LOBE_GGX, r);
     filament_compensate(m, f0, VIEW_FILAMENT, r);
 }
-
-#endif

@@ -12,8 +12,7 @@
  * no highlight whose roughness it could be. metallic, ior and specular are not looked at. The authoring
  * graph is said to press smoothness into 0 .. 0.6: not done.
  *   Departures: alpha of D is at least 0.005 (there 1/1024); cos_o has no floor of 1e-4. */
-#ifndef WEFT_PROFILE_HDRP_COTTON_H
-#define WEFT_PROFILE_HDRP_COTTON_H
+#pragma once
 
 #include "shading/stack/workflow.h"
 
@@ -26,5 +25,3 @@ FN void hdrp_cotton_stack(Stack *m, const Surface *s) {
     diffuse.params[FABRIC_LAMBERT_ROUGHNESS] = alpha;
     slot_even(&m->diffuse, diffuse, s->base_color, s->base_color, 1.0f);
 }
-
-#endif

@@ -12,8 +12,7 @@
  * metallic; sheen and metallic are not looked at.
  *   Departures: alpha is at least 0.001 and anisotropy at most 0.9, where y would narrow to its floor of
  * 1/1024. */
-#ifndef WEFT_PROFILE_HDRP_SILK_H
-#define WEFT_PROFILE_HDRP_SILK_H
+#pragma once
 
 #include "shading/workflows/metallic.h"
 
@@ -26,5 +25,3 @@ FN void hdrp_silk_stack(Stack *m, const Surface *s) {
     slot_make(&m->specular, silk, f0, rgb_grey(1.0f), 1.0f, rgb_mean(f0), 1.0f);
     slot_even(&m->diffuse, diffuse, color, color, 1.0f);
 }
-
-#endif

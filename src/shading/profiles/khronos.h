@@ -18,8 +18,7 @@
  * (tests/shading/test_profiles).
  *   Departures: alpha of the base is at least 0.001, of the sheen 0.005; keep at least 0. F0 without an ior
  * is weft's. */
-#ifndef WEFT_PROFILE_KHRONOS_H
-#define WEFT_PROFILE_KHRONOS_H
+#pragma once
 
 #include "shading/workflows/metallic.h"
 
@@ -29,9 +28,6 @@ FN float khronos_albedo(const Stack *m, float cosine) {
 }
 
 FN void khronos_stack(Stack *m, const Surface *s) {
-    metallic_with(m, s, lobe_rough(LOBE_CHARLIE_KHRONOS, s->sheen_roughness), LAYER_ALBEDO_MAX,
-                  BASE_FRESNEL_HALF);
+    metallic_with(m, s, lobe_rough(LOBE_CHARLIE_KHRONOS, s->sheen_roughness), LAYER_ALBEDO_MAX, BASE_FRESNEL_HALF);
     m->albedo = ALBEDO_KHRONOS;
 }
-
-#endif

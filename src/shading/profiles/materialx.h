@@ -17,35 +17,30 @@
  *   IBL there: diffuse irradiance times c E, the rest alike.
  *   Inputs: F0 as in workflow metallic, F90 = specular; clear coat and anisotropy are not looked at.
  *   Departures: alpha of ggx is at least 0.001; A + B at least 1e-3. */
-#ifndef WEFT_PROFILE_MATERIALX_H
-#define WEFT_PROFILE_MATERIALX_H
+#pragma once
 
 #include "shading/workflows/metallic.h"
 
 FN float materialx_albedo(float x, float y) {
-    float n = 13.67300f - 68.78018f * x + 799.08825f * y - 905.00061f * x * y + 60.28956f * x * x +
-              1086.96473f * y * y;
-    float d = 1.0f + 61.57746f * x + 442.78211f * y + 2597.49308f * x * y + 121.81241f * x * x +
-              3045.55075f * y * y;
+    float n = 13.67300f - 68.78018f * x + 799.08825f * y - 905.00061f * x * y + 60.28956f * x * x + 1086.96473f * y * y;
+    float d = 1.0f + 61.57746f * x + 442.78211f * y + 2597.49308f * x * y + 121.81241f * x * x + 3045.55075f * y * y;
     return clamp(n / d, 0.0f, 1.0f);
 }
 
 /* Returns one of the four polynomials of A and B from the coefficients of 1, x, y, xy, x^2, y^2, x^2 y, x y^2, x^2
  * y^2. */
-FN float materialx_sum(float x, float y, float c, float cx, float cy, float cxy, float cxx, float cyy,
-                       float cxxy, float cxyy, float cxxyy) {
-    return c + cx * x + cy * y + cxy * x * y + cxx * x * x + cyy * y * y + cxxy * x * x * y +
-           cxyy * x * y * y + cxxyy * x * x * y * y;
+FN float materialx_sum(float x, float y, float c, float cx, float cy, float cxy, float cxx, float cyy, float cxxy,
+                       float cxyy, float cxxyy) {
+    return c + cx * x + cy * y + cxy * x * y + cxx * x * x + cyy * y * y + cxxy * x * x * y + cxyy * x * y * y +
+           cxxyy * x * x * y * y;
 }
 FN float materialx_a(float x, float y) {
-    float n =
-        materialx_sum(x, y, 0.1003f, -0.6303f, 9.748f, -2.038f, 29.34f, -8.245f, -26.44f, 19.99f, -5.448f);
+    float n = materialx_sum(x, y, 0.1003f, -0.6303f, 9.748f, -2.038f, 29.34f, -8.245f, -26.44f, 19.99f, -5.448f);
     float d = materialx_sum(x, y, 1.0f, -1.765f, 8.263f, 11.53f, 28.96f, -7.507f, -36.11f, 15.86f, 33.37f);
     return clamp(n / d, 0.0f, 1.0f);
 }
 FN float materialx_b(float x, float y) {
-    float n =
-        materialx_sum(x, y, 0.9345f, -2.323f, 2.229f, -3.748f, 1.424f, -0.7684f, 1.436f, 0.2913f, 0.6286f);
+    float n = materialx_sum(x, y, 0.9345f, -2.323f, 2.229f, -3.748f, 1.424f, -0.7684f, 1.436f, 0.2913f, 0.6286f);
     float d = materialx_sum(x, y, 1.0f, 0.2281f, 15.94f, -55.83f, 13.08f, 41.26f, 54.9f, 300.2f, -285.1f);
     return clamp(n / d, 0.0f, 1.0f);
 }
@@ -77,8 +72,7 @@ FN void materialx_stack(Stack *m, const Surface *s) {
     m->gloss = alpha;
     m->extra_f0 = rgb_mix(rgb_mul(f0, f0), rgb_mul(s->base_color, s->base_color), s->metallic);
     m->extra_f90 = rgb_grey(mix(f90 * f90, 1.0f, s->metallic));
-    m->extra_f_quadratic =
-        rgb_mix(materialx_square(f0, f90), materialx_square(s->base_color, 1.0f), s->metallic);
+    m->extra_f_quadratic = rgb_mix(materialx_square(f0, f90), materialx_square(s->base_color, 1.0f), s->metallic);
 }
 
 /* Sets F (1 + k F) of the highlight, and the E of it that dims the diffuse lobe. */
@@ -91,5 +85,3 @@ FN void materialx_view(const Stack *m, StackView *w) {
     w->interface_f90 = rgb_mean(e) * (1.0f + k * f90);
     w->select_p.diffuse = 1.0f - mix(rgb_max3(w->interface_f0), w->interface_f90, schlick_s(w->o.z));
 }
-
-#endif

@@ -14,8 +14,7 @@
  * specification has the table of tizian/ltc-sheen; sheen_roughness is at least 0.05. F_min, which dims the
  * diffuse lobe, is that of workflow metallic, where the specification scales by the albedo of the highlight.
  * The diffuse lobe is Lambert, EON at roughness 0; a metal has no F82 tint, and alpha is at least 0.001. */
-#ifndef WEFT_PROFILE_OPENPBR_H
-#define WEFT_PROFILE_OPENPBR_H
+#pragma once
 
 #include "shading/workflows/metallic.h"
 
@@ -25,8 +24,7 @@ FN void openpbr_stack(Stack *m, const Surface *s) {
     fuzz.params[LTC_FIBRE_ALPHA] = clamp(s->sheen_roughness, 0.05f, 1.0f);
     workflow_sheen(m, fuzz, rgb_scale(s->sheen_color, weight), s->sheen_second, LAYER_ALBEDO_VIEW);
     m->color = rgb_grey(weight);
-    if (weight > 0.0f)
-        m->sheen.normal = max(m->sheen.normal, 1e-30f); /* black fuzz takes from the base too */
+    if (weight > 0.0f) m->sheen.normal = max(m->sheen.normal, 1e-30f); /* black fuzz takes from the base too */
 
     float strength = clamp(s->specular, 0.0f, 1.0f), f0 = dielectric_f0(s) * strength;
     m->base_fresnel = BASE_FRESNEL_LEAST;
@@ -40,5 +38,3 @@ FN void openpbr_stack(Stack *m, const Surface *s) {
     m->specular.lobe.params[GGX_ALPHA] = clamp(s->roughness * s->roughness, 0.001f, 1.0f);
     m->specular.f90 = rgb_add(rgb_scale(s->specular_color, glass), rgb_grey(metal));
 }
-
-#endif

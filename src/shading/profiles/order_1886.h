@@ -12,8 +12,7 @@
  * wrap of the light.
  *   Inputs: c is sheen_color sheen; black is none, with F = 0. metallic, ior, specular are not looked at.
  *   Departure: alpha is at least 0.005. */
-#ifndef WEFT_PROFILE_ORDER_1886_H
-#define WEFT_PROFILE_ORDER_1886_H
+#pragma once
 
 #include "shading/lobes/cook_torrance.h"
 #include "shading/stack/workflow.h"
@@ -34,5 +33,3 @@ FN void order_1886_stack(Stack *m, const Surface *s) {
     }
     slot_even(&m->diffuse, lobe_default(LOBE_LAMBERT), s->base_color, s->base_color, 1.0f);
 }
-
-#endif

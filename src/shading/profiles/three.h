@@ -21,8 +21,7 @@
  *   Substitute: Ess is made anew by the procedure that the table states. The shipped texels at cos_o
  * 1/32 are up to .015 less, all others within .009 (ten of them in tests/shading/test_profiles). F0 without
  * an ior is weft's. */
-#ifndef WEFT_PROFILE_THREE_H
-#define WEFT_PROFILE_THREE_H
+#pragma once
 
 #include "shading/profiles/filament_sheen.h"
 
@@ -51,8 +50,8 @@ FN void three_coat(Stack *m, const Surface *s) {
     stack_coat_frame(m, s->clearcoat_normal);
     m->coat_rule = COAT_GAUSSIAN;
     m->coat_weight = s->clearcoat;
-    slot_make(&m->coat, three_ggx(s->clearcoat_roughness, 0.0f), rgb_grey(0.04f), rgb_grey(1.0f),
-              s->clearcoat, 1.0f, 1.0f);
+    slot_make(&m->coat, three_ggx(s->clearcoat_roughness, 0.0f), rgb_grey(0.04f), rgb_grey(1.0f), s->clearcoat, 1.0f,
+              1.0f);
 }
 
 FN Lobe three_charlie(float alpha) {
@@ -83,5 +82,3 @@ FN void three_stack(Stack *m, const Surface *s) {
     m->specular.lobe = three_ggx(s->roughness, s->anisotropy);
     filament_compensate(m, mixed, VIEW_THREE, r);
 }
-
-#endif

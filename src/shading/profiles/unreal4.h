@@ -14,8 +14,7 @@
  *   Inferred: F0, the diffuse colour and the least roughness.
  *   Departures: alpha is at least 0.001 of ggx and 0.005 of the fuzz; fuzz is not rounded to 8 bits; cos_o
  * has no 1e-5 added. */
-#ifndef WEFT_PROFILE_UNREAL4_H
-#define WEFT_PROFILE_UNREAL4_H
+#pragma once
 
 #include "shading/lobes/cook_torrance.h"
 #include "shading/workflows/metallic.h"
@@ -41,10 +40,7 @@ FN void unreal4_stack(Stack *m, const Surface *s) {
     m->sheen_color = m->color;
     m->albedo_coord = haze.params[COOK_TORRANCE_ALPHA];
     slot_even(&m->sheen, haze, fuzz, rgb_grey(unreal4_f90(fuzz)), cloth);
-    slot_make(&m->specular, unreal4_lobe(max(alpha, 0.001f), D_GGX, V_SMITH_GGX_FAST), f0,
-              rgb_grey(unreal4_f90(f0)), 1.0f - cloth, (1.0f - cloth) * rgb_mean(f0),
-              (1.0f - cloth) * unreal4_f90(f0));
+    slot_make(&m->specular, unreal4_lobe(max(alpha, 0.001f), D_GGX, V_SMITH_GGX_FAST), f0, rgb_grey(unreal4_f90(f0)),
+              1.0f - cloth, (1.0f - cloth) * rgb_mean(f0), (1.0f - cloth) * unreal4_f90(f0));
     slot_even(&m->diffuse, lobe_default(LOBE_LAMBERT), diffuse, diffuse, 1.0f);
 }
-
-#endif

@@ -13,8 +13,7 @@
  * ior, specular and sheen_roughness are not looked at.
  *   Departures: nothing is cut off at 100 / pi, which is done for half floats only; there is no light from
  * behind. */
-#ifndef WEFT_PROFILE_URP_H
-#define WEFT_PROFILE_URP_H
+#pragma once
 
 #include "shading/lobes/cook_torrance.h"
 #include "shading/stack/workflow.h"
@@ -31,8 +30,7 @@ FN void urp_stack(Stack *m, const Surface *s) {
     specular.params[COOK_TORRANCE_F] = to_float(F_NONE);
     Rgb f0 = rgb_mix(rgb_grey(0.04f), s->base_color, s->metallic);
     slot_even(&m->specular, specular, f0, f0, 1.0f - amount);
-    slot_even(&m->diffuse, lobe_default(LOBE_LAMBERT), s->base_color, s->base_color,
-              0.96f * (1.0f - s->metallic));
+    slot_even(&m->diffuse, lobe_default(LOBE_LAMBERT), s->base_color, s->base_color, 0.96f * (1.0f - s->metallic));
     m->view = VIEW_URP;
     m->gloss = alpha;
 }
@@ -41,5 +39,3 @@ FN void urp_view(const Stack *m, StackView *w) {
     w->scale.diffuse = mix(1.0f, 0.62f * (1.0f - 0.25f * w->o.z * w->o.z), m->gloss);
     w->select_p.diffuse = w->scale.diffuse;
 }
-
-#endif

@@ -1,8 +1,7 @@
 /* frame.h - the shading frame at a point: about a normal that the viewer can see, x along the tangent
  *
  * Directions are in world space; frame_to returns them in the shading frame. */
-#ifndef WEFT_SHADING_FRAME_H
-#define WEFT_SHADING_FRAME_H
+#pragma once
 
 #include "shading/stack/surface.h"
 
@@ -11,9 +10,7 @@ STRUCT(Frame) { Dir x, y, z; };
 FN Dir dir_scale(Dir a, float k) { return dir(a.x * k, a.y * k, a.z * k); }
 FN Dir dir_add(Dir a, Dir b) { return dir(a.x + b.x, a.y + b.y, a.z + b.z); }
 
-FN Dir dir_choose(bool first, Dir a, Dir b) {
-    return dir(first ? a.x : b.x, first ? a.y : b.y, first ? a.z : b.z);
-}
+FN Dir dir_choose(bool first, Dir a, Dir b) { return dir(first ? a.x : b.x, first ? a.y : b.y, first ? a.z : b.z); }
 
 /* Returns a / |a|, or fallback if a has no direction. */
 FN Dir dir_normal_or(Dir a, Dir fallback) {
@@ -71,16 +68,14 @@ FN Dir frame_visible_normal(Dir n, Dir wo) {
 }
 
 /* Returns the interpolated normal, or the geometric one if the interpolated one is damaged. */
-FN Dir facing_normal(Facing at) {
-    return dir_choose(dir_dot(at.normal, at.geometric) > 0.0f, at.normal, at.geometric);
-}
+FN Dir facing_normal(Facing at) { return dir_choose(dir_dot(at.normal, at.geometric) > 0.0f, at.normal, at.geometric); }
 
 /* Returns the frame of a surface viewed from wo, with x along the direction of its anisotropy if it has one. */
 FN Frame frame_of(Facing at, Surface s, Dir wo) {
     Dir normal = facing_normal(at), n = normal;
     if (s.normal.z < 1.0f)
-        n = frame_reflecting_normal(frame_from(frame_about(normal, at.tangent, at.handedness), s.normal),
-                                    at.geometric, wo);
+        n = frame_reflecting_normal(frame_from(frame_about(normal, at.tangent, at.handedness), s.normal), at.geometric,
+                                    wo);
     Frame f = frame_about(frame_visible_normal(n, wo), at.tangent, at.handedness);
     if (s.anisotropy > 0.0f) f = frame_about(f.z, frame_from(f, s.anisotropy_direction), at.handedness);
     return f;
@@ -94,5 +89,3 @@ FN Surface frame_surface(Surface s) {
     }
     return s;
 }
-
-#endif

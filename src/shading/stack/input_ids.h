@@ -1,6 +1,5 @@
 /* input_ids.h - the inputs and choices of inputs.h by number, for those that keep them in arrays */
-#ifndef WEFT_SHADING_INPUT_IDS_H
-#define WEFT_SHADING_INPUT_IDS_H
+#pragma once
 
 #include "shading/stack/inputs.h"
 
@@ -20,5 +19,3 @@ typedef enum ChoiceId {
 #undef CHOICE_ENUM
         CHOICE_COUNT
 } ChoiceId;
-
-#endif

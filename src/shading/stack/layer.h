@@ -1,6 +1,5 @@
 /* layer.h - the rules by which a sheen sits on a base, and what the base loses */
-#ifndef WEFT_SHADING_LAYER_H
-#define WEFT_SHADING_LAYER_H
+#pragma once
 
 #include "shading/layers/additive.h"
 #include "shading/layers/albedo_max.h"
@@ -30,39 +29,36 @@
 /* L(id, index, factor on the base, needs_wi, needs_average, conserves, help). c: the sheen's colour. e_o, e_i, e_avg:
  * its white albedo towards wo, towards wi, and on average. needs_wi, needs_average: the factor reads e_i, e_avg.
  * conserves: with a sheen of E <= 1 the stack reflects no more light than it receives. */
-#define WEFT_LAYERS(L)                                                                                       \
-    L("additive", LAYER_ADDITIVE, additive_base(c, e_o, e_i, e_avg), false, false, false,                    \
-      "the base loses nothing; gains energy")                                                                \
-    L("multiplicative", LAYER_MULTIPLICATIVE, multiplicative_base(c, e_o, e_i, e_avg), false, false, false,  \
-      "no sheen of its own: the base times 1 + c E(wo); gains energy")                                       \
-    L("seed", LAYER_SEED, seed_base(c, e_o, e_i, e_avg), false, false, false,                                \
-      "(1 - F)(1 - k) diffuse + specular + (1 - F) k sheen, k the amount of sheen")                          \
-    L("side-by-side", LAYER_SIDE_BY_SIDE, side_by_side_base(c, e_o, e_i, e_avg), false, false, true,         \
-      "as seed, k the sheen's colour and F the most that conserves energy")                                  \
-    L("albedo-view", LAYER_ALBEDO_VIEW, albedo_view_base(c, e_o, e_i, e_avg), false, false, true,            \
-      "the base keeps 1 - c E(wo); exact energy, not reciprocal")                                            \
-    L("albedo-min", LAYER_ALBEDO_MIN, albedo_min_base(c, e_o, e_i, e_avg), true, false, false,               \
-      "the base keeps 1 - c min(E(wo), E(wi)); gains energy")                                                \
-    L("albedo-max", LAYER_ALBEDO_MAX, albedo_max_base(c, e_o, e_i, e_avg), true, false, true,                \
-      "the base keeps 1 - c max(E(wo), E(wi)); glTF's rule, loses energy")                                   \
-    L("reciprocal", LAYER_RECIPROCAL, reciprocal_base(c, e_o, e_i, e_avg), true, true, true,                 \
-      "the base keeps (1 - c E(wo))(1 - c E(wi)) / (1 - c E_avg)")                                           \
-    L("stochastic", LAYER_STOCHASTIC, stochastic_base(c, e_o, e_i, e_avg), true, true, true,                 \
+#define WEFT_LAYERS(L)                                                                                                 \
+    L("additive", LAYER_ADDITIVE, additive_base(c, e_o, e_i, e_avg), false, false, false,                              \
+      "the base loses nothing; gains energy")                                                                          \
+    L("multiplicative", LAYER_MULTIPLICATIVE, multiplicative_base(c, e_o, e_i, e_avg), false, false, false,            \
+      "no sheen of its own: the base times 1 + c E(wo); gains energy")                                                 \
+    L("seed", LAYER_SEED, seed_base(c, e_o, e_i, e_avg), false, false, false,                                          \
+      "(1 - F)(1 - k) diffuse + specular + (1 - F) k sheen, k the amount of sheen")                                    \
+    L("side-by-side", LAYER_SIDE_BY_SIDE, side_by_side_base(c, e_o, e_i, e_avg), false, false, true,                   \
+      "as seed, k the sheen's colour and F the most that conserves energy")                                            \
+    L("albedo-view", LAYER_ALBEDO_VIEW, albedo_view_base(c, e_o, e_i, e_avg), false, false, true,                      \
+      "the base keeps 1 - c E(wo); exact energy, not reciprocal")                                                      \
+    L("albedo-min", LAYER_ALBEDO_MIN, albedo_min_base(c, e_o, e_i, e_avg), true, false, false,                         \
+      "the base keeps 1 - c min(E(wo), E(wi)); gains energy")                                                          \
+    L("albedo-max", LAYER_ALBEDO_MAX, albedo_max_base(c, e_o, e_i, e_avg), true, false, true,                          \
+      "the base keeps 1 - c max(E(wo), E(wi)); glTF's rule, loses energy")                                             \
+    L("reciprocal", LAYER_RECIPROCAL, reciprocal_base(c, e_o, e_i, e_avg), true, true, true,                           \
+      "the base keeps (1 - c E(wo))(1 - c E(wi)) / (1 - c E_avg)")                                                     \
+    L("stochastic", LAYER_STOCHASTIC, stochastic_base(c, e_o, e_i, e_avg), true, true, true,                           \
       "light bounces between sheen and base; the path tracer's reference")
 
 /* Returns the factor that the layer rule leaves for the base at wo and wi. */
-#define LAYER_CASE(id, index, base, needs_wi, needs_average, conserves, help)                                \
+#define LAYER_CASE(id, index, base, needs_wi, needs_average, conserves, help)                                          \
     if (layer == index) return base;
 FN float layer_base(int layer, float c, float e_o, float e_i, float e_avg) {
     WEFT_LAYERS(LAYER_CASE)
     return 1.0f;
 }
 
-#define LAYER_NEEDS_WI(id, index, base, needs_wi, needs_average, conserves, help)                            \
-    || (layer == index && needs_wi)
+#define LAYER_NEEDS_WI(id, index, base, needs_wi, needs_average, conserves, help) || (layer == index && needs_wi)
 FN bool layer_needs_wi(int layer) { return false WEFT_LAYERS(LAYER_NEEDS_WI); }
-#define LAYER_NEEDS_AVERAGE(id, index, base, needs_wi, needs_average, conserves, help)                       \
+#define LAYER_NEEDS_AVERAGE(id, index, base, needs_wi, needs_average, conserves, help)                                 \
     || (layer == index && needs_average)
 FN bool layer_needs_average(int layer) { return false WEFT_LAYERS(LAYER_NEEDS_AVERAGE); }
-
-#endif

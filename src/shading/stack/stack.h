@@ -11,8 +11,7 @@
  * change its inputs. A StackView holds what depends on wo alone. It serves sampling and every wi. Two factors depend
  * on wi too: base_scale of some layer rules, and 1 - F. They scale f but not the pdf, so that samples follow the pdf
  * exactly. */
-#ifndef WEFT_SHADING_STACK_H
-#define WEFT_SHADING_STACK_H
+#pragma once
 
 #include "shading/dialect/rgb.h"
 #include "shading/lobe/table.h"
@@ -23,7 +22,7 @@
 
 STRUCT(Slot) {
     Lobe lobe;
-    Rgb f0, f90; /* the lobe's two colours times its weight; f90 of a tinted lobe is the weight alone */
+    Rgb f0, f90;           /* the lobe's two colours times its weight; f90 of a tinted lobe is the weight alone */
     float normal, grazing; /* rough albedo at normal and at grazing incidence, to weigh slots when sampling;
                             * normal is 0 if the slot is empty */
 };
@@ -99,8 +98,8 @@ STRUCT(Scales){SLOTS(SLOT_FLOAT)};
 STRUCT(StackView) {
     Dir o, coat_o; /* wo in the shading frame, and in the coat's */
     SLOTS(SLOT_VIEW)
-    Scales scale; /* factors on f of the slots: transmittance of dust and coat, weights that depend on wo */
-    Scales select_p;                              /* probability that sampling chooses the slot */
+    Scales scale;    /* factors on f of the slots: transmittance of dust and coat, weights that depend on wo */
+    Scales select_p; /* probability that sampling chooses the slot */
     float coat_transmittance, dust_transmittance; /* what coat and dust let through, 1 without them */
     Rgb interface_f0;                             /* as in the stack, unless `view` changes them */
     float interface_f90;
@@ -158,11 +157,11 @@ STRUCT(StackValue) {
 #define SHOWS_DUST     true
 #endif
 
-#define CLEAR_SLOT(name, NAME, Name, wo)                                                                     \
-    m->name.lobe = lobe_default(LOBE_LAMBERT);                                                               \
-    m->name.f0 = rgb_grey(0.0f);                                                                             \
-    m->name.f90 = rgb_grey(0.0f);                                                                            \
-    m->name.normal = 0.0f;                                                                                   \
+#define CLEAR_SLOT(name, NAME, Name, wo)                                                                               \
+    m->name.lobe = lobe_default(LOBE_LAMBERT);                                                                         \
+    m->name.f0 = rgb_grey(0.0f);                                                                                       \
+    m->name.f90 = rgb_grey(0.0f);                                                                                      \
+    m->name.normal = 0.0f;                                                                                             \
     m->name.grazing = 0.0f;
 
 /* Fills a slot. second: the second colour, if the lobe has two. normal, grazing: rough albedo there (Slot). */
@@ -246,14 +245,14 @@ FN void stack_split_diffuse(Stack *m) {
 }
 
 /* Prepares the lobes, after their parameters are set. */
-#define PREPARE_SLOT(name, NAME, Name, wo)                                                                   \
+#define PREPARE_SLOT(name, NAME, Name, wo)                                                                             \
     if (HAS_##NAME(m)) IN_SLOT(name, prepare)(&m->name.lobe, &m->name##_prepared);
 FN void stack_prepare_lobes(Stack *m){SLOTS(PREPARE_SLOT)}
 
 /* Computes the view of each lobe whose horizon wo is above. It may be below that of a coat with its own normal. */
-#define VIEW_SLOT(name, NAME, Name, wo)                                                                      \
-    if (HAS_##NAME(m) && w->wo.z > 0.0f) {                                                                   \
-        IN_SLOT(name, view)(m->name.lobe.id, &m->name##_prepared, &w->wo, &w->name##_view);                  \
+#define VIEW_SLOT(name, NAME, Name, wo)                                                                                \
+    if (HAS_##NAME(m) && w->wo.z > 0.0f) {                                                                             \
+        IN_SLOT(name, view)(m->name.lobe.id, &m->name##_prepared, &w->wo, &w->name##_view);                            \
     }
 FN void stack_view_lobes(const Stack *m, StackView *w){SLOTS(VIEW_SLOT)}
 
@@ -285,9 +284,7 @@ FN Rgb stack_fresnel(const Stack *m, const StackView *w, float d) {
 }
 
 /* 1 - F, not below 0. */
-FN Rgb stack_one_minus(Rgb f) {
-    return rgb(max(1.0f - f.r, 0.0f), max(1.0f - f.g, 0.0f), max(1.0f - f.b, 0.0f));
-}
+FN Rgb stack_one_minus(Rgb f) { return rgb(max(1.0f - f.r, 0.0f), max(1.0f - f.g, 0.0f), max(1.0f - f.b, 0.0f)); }
 
 /* Returns what the specular interface lets through to the diffuse lobe. base_fresnel is not NONE. */
 FN Rgb stack_base_transmittance(const Stack *m, const StackView *w, const Angles *a) {
@@ -322,5 +319,3 @@ FN Rgb stack_base_scale(const Stack *m, const StackView *w, SheenE e_i) {
                    stack_base_scale_of(m, w, m->color.b, e_i));
     return rgb_grey(stack_base_scale_of(m, w, rgb_max3(m->color), e_i));
 }
-
-#endif

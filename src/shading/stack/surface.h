@@ -1,6 +1,5 @@
 /* surface.h - a material's inputs at one point as numbers, and its choices */
-#ifndef WEFT_SHADING_SURFACE_H
-#define WEFT_SHADING_SURFACE_H
+#pragma once
 
 #include "shading/dialect/angles.h"
 #include "shading/stack/inputs.h"
@@ -25,5 +24,3 @@ FN Choices choices_unmade(void) {
     SURFACE_CHOICES(CHOICE_UNMADE)
     return c;
 }
-
-#endif

@@ -1,6 +1,5 @@
 /* workflow.h - parts of all workflows: coat, sheen and base from a surface's inputs */
-#ifndef WEFT_SHADING_WORKFLOW_H
-#define WEFT_SHADING_WORKFLOW_H
+#pragma once
 
 #include "shading/stack/stack.h"
 #include "shading/stack/surface.h"
@@ -13,9 +12,8 @@
 /* Returns F0 = ((ior - 1) / (ior + 1))^2, or F0 from the slider `reflectance` if no ior is given. */
 FN float dielectric_f0(const Surface *s) {
     float r = (s->ior - 1.0f) / (s->ior + 1.0f);
-    return s->ior > 0.0f
-               ? r * r
-               : clamp(DIELECTRIC_LOW + (DIELECTRIC_HIGH - DIELECTRIC_LOW) * s->reflectance, 0.0f, 1.0f);
+    return s->ior > 0.0f ? r * r
+                         : clamp(DIELECTRIC_LOW + (DIELECTRIC_HIGH - DIELECTRIC_LOW) * s->reflectance, 0.0f, 1.0f);
 }
 
 /* Sets the coat of glTF: GGX of ior 1.5 with its own normal, which dims everything below it by 1 - F(cos_o). Khronos
@@ -55,5 +53,3 @@ FN void workflow_base(Stack *m, const Surface *s, Rgb diffuse, Rgb f0, float f90
     slot_make(&m->diffuse, lobe_default(LOBE_LAMBERT), diffuse, diffuse, 1.0f,
               mean * (1.0f - rgb_max3(m->interface_f0)), mean * (1.0f - m->interface_f90));
 }
-
-#endif

@@ -12,8 +12,7 @@
  *   thin colour  138 coefficients, error 3.86 % in the mean, 25.0 % at worst, of R 2.2e-02
  */
 /* clang-format off */
-#ifndef WEFT_TABLES_FIBRE_MODEL_H
-#define WEFT_TABLES_FIBRE_MODEL_H
+#pragma once
 
 #include "shading/dialect/lang.h"
 
@@ -351,5 +350,3 @@ FN_NOINLINE FibreNumbers fibre_numbers(float t, float l, float s) {
     }
     return m;
 }
-
-#endif

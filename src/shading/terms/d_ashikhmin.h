@@ -6,8 +6,7 @@
  * floor. The norm: David Neubelt, Matt Pettineo, "Crafting a Next-Gen Material Pipeline for The Order: 1886",
  * SIGGRAPH 2013 course "Physically Based Shading in Theory and Practice".
  *   alpha: alpha = roughness^2 (Neubelt, Pettineo; Filament). */
-#ifndef WEFT_D_ASHIKHMIN_H
-#define WEFT_D_ASHIKHMIN_H
+#pragma once
 
 #include "shading/terms/d_velvet.h"
 
@@ -21,5 +20,3 @@ FN Dir ashikhmin_facet(float alpha, float u, float v) {
     if (u < rim) return velvet_facet(alpha, u / rim, v);
     return warp_cosine((u - rim) / (1.0f - rim), v);
 }
-
-#endif

@@ -6,8 +6,7 @@
  * with this norm: Bruce Walter et al., "Microfacet Models for Refraction through Rough Surfaces", EGSR 2007,
  * Equation 25.
  *   alpha: the root mean square slope times sqrt(2). alpha = roughness^2 (Karis 2013). */
-#ifndef WEFT_D_BECKMANN_H
-#define WEFT_D_BECKMANN_H
+#pragma once
 
 #include "shading/terms/facet.h"
 
@@ -23,5 +22,3 @@ FN Dir beckmann_facet(float alpha, float u, float v) {
     float cos_h = 1.0f / sqrt(1.0f + tan_h * tan_h);
     return facet(tan_h * cos_h, cos_h, v);
 }
-
-#endif

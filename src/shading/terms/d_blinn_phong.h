@@ -6,8 +6,7 @@
  * of cos_h. Brian Karis, "Specular BRDF Reference", 2013: the exponent and the norm, by which a small alpha
  * is as wide as the same alpha of d_beckmann.
  *   alpha: (0, 1]; at 1 D is constant. alpha = roughness^2 (Karis). */
-#ifndef WEFT_D_BLINN_PHONG_H
-#define WEFT_D_BLINN_PHONG_H
+#pragma once
 
 #include "shading/terms/facet.h"
 
@@ -23,5 +22,3 @@ FN Dir blinn_phong_facet(float alpha, float u, float v) {
     float sin2 = facet_rise(-0.693147181f * alpha * alpha * log2(max(u, 1e-7f)));
     return facet(sqrt(sin2), sqrt(max(1.0f - sin2, 0.0f)), v);
 }
-
-#endif

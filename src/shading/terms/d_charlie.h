@@ -4,8 +4,7 @@
  *
  *   Alejandro Conty Estevez, Christopher Kulla, "Production Friendly Microfacet Sheen BRDF", SIGGRAPH 2017
  * course "Physically Based Shading in Theory and Practice". */
-#ifndef WEFT_D_CHARLIE_H
-#define WEFT_D_CHARLIE_H
+#pragma once
 
 #include "shading/terms/facet.h"
 
@@ -65,5 +64,3 @@ FN float charlie_pdf(float d, CharlieSide side, Angles a) {
     float by_d = seen ? 2.0f * d * a.h.z / (4.0f * max(a.d, 1e-6f)) : 0.0f;
     return 0.5f * by_d + 0.5f * warp_uniform_pdf(a.i);
 }
-
-#endif

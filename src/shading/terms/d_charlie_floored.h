@@ -8,8 +8,7 @@
  * multiply by it.
  *   Without the limit: Alejandro Conty Estevez, Christopher Kulla, "Production Friendly Microfacet Sheen
  * BRDF", SIGGRAPH 2017 course. */
-#ifndef WEFT_D_CHARLIE_FLOORED_H
-#define WEFT_D_CHARLIE_FLOORED_H
+#pragma once
 
 #include "shading/terms/d_charlie.h"
 
@@ -32,5 +31,3 @@ FN Dir charlie_floored_facet(float alpha, float u, float v) {
     float sin2 = u < cap ? CHARLIE_FLOORED_SIN2 * u / max(cap, 1e-30f) : min(pow(w, 1.0f / power), 1.0f);
     return facet(sqrt(sin2), sqrt(1.0f - sin2), v);
 }
-
-#endif

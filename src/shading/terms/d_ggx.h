@@ -5,8 +5,7 @@
  *   Bruce Walter, Stephen R. Marschner, Hongsong Li, Kenneth E. Torrance, "Microfacet Models for Refraction
  * through Rough Surfaces", EGSR 2007, Equation 33; anisotropic: Brent Burley, "Physically Based Shading at
  * Disney", SIGGRAPH 2012 course, Equation 13. */
-#ifndef WEFT_D_GGX_H
-#define WEFT_D_GGX_H
+#pragma once
 
 #include "shading/dialect/angles.h"
 
@@ -17,9 +16,7 @@ FN float ggx_d(float ax, float ay, Dir h) {
 }
 
 /* Returns |(ax wx, ay wy, wz)|, of which all of Smith's terms are made. */
-FN float ggx_length(float ax, float ay, Dir w) {
-    return sqrt(ax * ax * w.x * w.x + ay * ay * w.y * w.y + w.z * w.z);
-}
+FN float ggx_length(float ax, float ay, Dir w) { return sqrt(ax * ax * w.x * w.x + ay * ay * w.y * w.y + w.z * w.z); }
 
 /* Returns h from D cos_h, visible from wo or not: the slopes of a disc, stretched (Walter et al., Equation 35). */
 FN Dir ggx_facet(float ax, float ay, float u, float v) {
@@ -71,5 +68,3 @@ FN Strip ggx_strip_h(float ax, float ay, Dir o, float u, float v) {
 FN float ggx_pdf_h(float ax, float ay, Angles a) {
     return ggx_d(ax, ay, a.h) / (2.0f * (a.o.z + ggx_length(ax, ay, a.o)));
 }
-
-#endif

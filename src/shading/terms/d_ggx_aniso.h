@@ -4,11 +4,8 @@
  *
  *   The density is ggx_d of d_ggx, where its papers are named. The two widths: Khronos Group,
  * KHR_materials_anisotropy, 2023; engines differ in this and share the density. */
-#ifndef WEFT_D_GGX_ANISO_H
-#define WEFT_D_GGX_ANISO_H
+#pragma once
 
 #include "shading/terms/d_ggx.h"
 
 FN float ggx_aniso_ax(float alpha, float anisotropy) { return mix(alpha, 1.0f, anisotropy * anisotropy); }
-
-#endif

@@ -5,8 +5,7 @@
  *   Brent Burley, "Physically Based Shading at Disney", SIGGRAPH 2012 course "Practical Physically Based
  * Shading in Film and Game Production", appendix B: GTR with gamma = 1, meant for the clear coat.
  *   alpha: (0, 1]. alpha = roughness^2; the Disney coat has alpha from 0.1 to 0.001 instead. */
-#ifndef WEFT_D_GTR1_H
-#define WEFT_D_GTR1_H
+#pragma once
 
 #include "shading/dialect/proxy.h"
 #include "shading/terms/facet.h"
@@ -30,5 +29,3 @@ FN Dir gtr1_facet(float alpha, float u, float v) {
 
 /* Returns the proxy, as wide as sqrt(alpha), within which half of the haze lies. */
 FN Proxy gtr1_proxy(float alpha) { return proxy_facets(sqrt(alpha), sqrt(alpha)); }
-
-#endif

@@ -6,8 +6,7 @@
  * for "asperity scattering". The same upside-down d_ggx in place of the exponential of d_ashikhmin; no paper
  * describes it. Its name for the idea: Jan Koenderink, Sylvia Pont, "The Secret of Velvety Skin", 2003.
  *   alpha: alpha = roughness^2 (its argument a2 is alpha^2). */
-#ifndef WEFT_D_INVERSE_GGX_H
-#define WEFT_D_INVERSE_GGX_H
+#pragma once
 
 #include "shading/terms/d_ashikhmin.h"
 
@@ -24,5 +23,3 @@ FN Dir inverse_ggx_facet(float alpha, float u, float v) {
     float w = u / rim, cos2 = alpha * alpha * w, sin2 = max(1.0f - w, 0.0f), s = 1.0f / (sin2 + cos2);
     return facet(sqrt(sin2 * s), sqrt(cos2 * s), v);
 }
-
-#endif

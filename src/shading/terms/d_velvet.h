@@ -6,8 +6,7 @@
  * bell curve about the horizon. As an upside-down d_beckmann, with its
  * norm, it is the distribution of the velvet that Blender Cycles has: alpha is what it calls sigma, not
  * squared. */
-#ifndef WEFT_D_VELVET_H
-#define WEFT_D_VELVET_H
+#pragma once
 
 #include "shading/terms/facet.h"
 
@@ -23,5 +22,3 @@ FN Dir velvet_facet(float alpha, float u, float v) {
     float sin_h = 1.0f / sqrt(1.0f + cot_h * cot_h);
     return facet(sin_h, cot_h * sin_h, v);
 }
-
-#endif

@@ -11,8 +11,7 @@
  *   Departures: the colour f0 multiplies outside and replaces F(0), so n and k only shape the way from there.
  * Every metal dips below F(0) before it rises; s is 0 there. And 1 - F is computed, which is the small
  * quantity; c is at least 1e-6, as in f_dielectric. */
-#ifndef WEFT_F_CONDUCTOR_H
-#define WEFT_F_CONDUCTOR_H
+#pragma once
 
 #include "shading/dialect/lang.h"
 
@@ -26,5 +25,3 @@ FN float conductor_s(float ior, float k, float d) {
     float n1 = 1.0f + ior, passed = s_pass + 0.5f * (1.0f - s_pass) * p_pass;
     return clamp(1.0f - passed * (n1 * n1 + k * k) / (4.0f * ior), 0.0f, 1.0f);
 }
-
-#endif

@@ -11,8 +11,7 @@
  *   Departures: F0 is at most .9998, where n is 20000, and c at least 1e-6, since at n = 1
  * it would be 0 / 0 on the horizon. Light that is summed before the colour is applied - ambient light, the tables of
  * layer rules - takes f_schlick from F0 to white. */
-#ifndef WEFT_F_COOK_TORRANCE_H
-#define WEFT_F_COOK_TORRANCE_H
+#pragma once
 
 #include "shading/dialect/lang.h"
 
@@ -22,5 +21,3 @@ FN float cook_torrance_f(float f_0, float d) {
     float a = (g - c) / (g + c), b = (c * (g + c) - 1.0f) / (c * (g - c) + 1.0f);
     return 0.5f * a * a * (1.0f + b * b);
 }
-
-#endif

@@ -10,8 +10,7 @@
  *   Departures: the colour f0 multiplies outside and replaces F(0), so ior only shapes the way from there.
  * Above n = 3.73 F dips below F(0) before it rises; s does not follow. And 1 - s is computed, which has no
  * cancellation; c is at least 1e-6, since at n = 1 it would be 0 / 0 on the horizon. */
-#ifndef WEFT_F_DIELECTRIC_H
-#define WEFT_F_DIELECTRIC_H
+#pragma once
 
 #include "shading/dialect/lang.h"
 
@@ -21,5 +20,3 @@ FN float dielectric_s(float ior, float d) {
     float passed = 0.5f * n1 * n1 * c * g / ior * (1.0f / (p * p) + n2 / (q * q));
     return clamp(1.0f - passed, 0.0f, 1.0f);
 }
-
-#endif

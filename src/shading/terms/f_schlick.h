@@ -5,8 +5,7 @@
  *   Christophe Schlick, "An Inexpensive BRDF Model for Physically-based Rendering", Eurographics 1994,
  * Equation 15. f90 other than 1: Sebastien Lagarde, Charles de Rousiers, "Moving Frostbite to PBR", SIGGRAPH
  * 2014 course. */
-#ifndef WEFT_F_SCHLICK_H
-#define WEFT_F_SCHLICK_H
+#pragma once
 
 #include "shading/dialect/lang.h"
 
@@ -15,5 +14,3 @@ FN float schlick_s(float d) {
     float m = clamp(1.0f - d, 0.0f, 1.0f), m2 = m * m;
     return m2 * m2 * m;
 }
-
-#endif

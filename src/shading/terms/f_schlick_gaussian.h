@@ -4,11 +4,8 @@
  *
  *   Sebastien Lagarde, "Spherical Gaussian approximation for Blinn-Phong, Phong and Fresnel", 2012; Brian
  * Karis, "Real Shading in Unreal Engine 4", SIGGRAPH 2013 course, page 3. */
-#ifndef WEFT_F_SCHLICK_GAUSSIAN_H
-#define WEFT_F_SCHLICK_GAUSSIAN_H
+#pragma once
 
 #include "shading/dialect/lang.h"
 
 FN float schlick_gaussian_s(float d) { return exp2((-5.55473f * d - 6.98316f) * d); }
-
-#endif

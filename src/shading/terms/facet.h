@@ -6,8 +6,7 @@
  * through Rough Surfaces", EGSR 2007, Equations 14 and 24. A facet that faces away from wo gives no sample; since
  * every D here is the same for (x, y, z) and (-x, -y, z), such a facet is rotated by half a circle about the normal,
  * where it is visible. */
-#ifndef WEFT_FACET_H
-#define WEFT_FACET_H
+#pragma once
 
 #include "shading/dialect/warp.h"
 
@@ -25,8 +24,7 @@ FN Dir facet_towards(Dir o, Dir h) {
 /* Returns the density of the wi that mirrors wo about a normal of facet_towards, whose density is d_cos = D cos_h. a.d
  * is taken as at least 1e-6: below it both directions graze, and the density has no use but must be finite. */
 FN float facet_pdf(float d_cos, Angles a) {
-    bool twice =
-        a.o.z * a.h.z < a.o.x * a.h.x + a.o.y * a.h.y; /* the direction on the other side is not visible */
+    bool twice = a.o.z * a.h.z < a.o.x * a.h.x + a.o.y * a.h.y; /* the direction on the other side is not visible */
     return d_cos * (twice ? 0.5f : 0.25f) / max(a.d, 1e-6f);
 }
 
@@ -47,5 +45,3 @@ FN float facet_rise(float y) {
     float series = y * (1.0f - y / 2.0f * (1.0f - y / 3.0f * e));
     return y < 0.5f ? series : 1.0f - exp(-y);
 }
-
-#endif

@@ -13,8 +13,7 @@
  * 1 / cos_o without bound. And, with the same result: both branches are one evaluation of L at min(x, 1 - x),
  * since L(1/2) needs no second power; and L is summed as a/2 q + d x + (a/2 + e), q = (1 - b x^c) / (1 + b
  * x^c), with 11.5 q + 7 set apart: smaller numbers, whose rounding exp enlarges less. */
-#ifndef WEFT_V_CONTY_KULLA_H
-#define WEFT_V_CONTY_KULLA_H
+#pragma once
 
 #include "shading/dialect/lang.h"
 
@@ -57,5 +56,3 @@ FN float conty_kulla_v(float alpha, float o, float i) {
     ContyKulla k = conty_kulla_of(alpha);
     return conty_kulla_v_of(k, conty_kulla_lambda(k, o), o, i);
 }
-
-#endif

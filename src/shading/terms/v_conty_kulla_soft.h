@@ -9,8 +9,7 @@
  * d=charlie -p v=conty-kulla-soft -p f=none; both at alpha 0.01, cos_o 0.001). reciprocal: no. Where light
  * grazes, Lambda is above 1 and the power makes it more, so V is less; where the viewer grazes nothing
  * changes. Departures: those of v_conty_kulla. */
-#ifndef WEFT_V_CONTY_KULLA_SOFT_H
-#define WEFT_V_CONTY_KULLA_SOFT_H
+#pragma once
 
 #include "shading/terms/v_conty_kulla.h"
 
@@ -20,5 +19,3 @@ FN float conty_kulla_soft_v(float alpha, float o, float i) {
     float lambda = conty_kulla_lambda(k, o) + exp(p * conty_kulla_log_lambda(k, i));
     return 0.25f / ((1.0f + lambda) * max(o * i, 1e-7f));
 }
-
-#endif

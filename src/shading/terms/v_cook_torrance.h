@@ -7,8 +7,7 @@
  * Graphics 1(1), 1982, after Kenneth E. Torrance, Ephraim M. Sparrow, 1967. The second line is the
  * same without a quotient of small numbers.
  *   The floors 1e-12 are reached where both cosines are below 1e-6; they keep V finite. */
-#ifndef WEFT_V_COOK_TORRANCE_H
-#define WEFT_V_COOK_TORRANCE_H
+#pragma once
 
 #include "shading/dialect/angles.h"
 
@@ -16,5 +15,3 @@ FN float cook_torrance_v(Angles a) {
     float open = 0.25f / max(a.o.z * a.i.z, 1e-12f);
     return min(open, 0.5f * a.h.z / max(a.d * max(a.o.z, a.i.z), 1e-12f));
 }
-
-#endif

@@ -4,11 +4,8 @@
  *
  *   The choice by which 4 cos_o cos_i cancels; named in Naty Hoffman, "Background: Physics and Math of
  * Shading", SIGGRAPH 2013 course, and in Brian Karis, "Specular BRDF Reference", 2013. */
-#ifndef WEFT_V_IMPLICIT_H
-#define WEFT_V_IMPLICIT_H
+#pragma once
 
 #include "shading/dialect/lang.h"
 
 FN float implicit_v(float o, float i) { return 0.25f; }
-
-#endif

@@ -6,11 +6,8 @@
  *   Csaba Kelemen, Laszlo Szirmay-Kalos, "A Microfacet Based Coupled Specular-Matte BRDF Model with
  * Importance Sampling", Eurographics 2001 short presentations. The floor 1e-12 is reached where both cosines
  * are below 1e-6 and face each other; it keeps V finite. */
-#ifndef WEFT_V_KELEMEN_H
-#define WEFT_V_KELEMEN_H
+#pragma once
 
 #include "shading/dialect/lang.h"
 
 FN float kelemen_v(float d) { return 0.25f / max(d * d, 1e-12f); }
-
-#endif

@@ -5,11 +5,8 @@
  *   V_Neubelt of mrdoob/three.js,
  * src/renderers/shaders/ShaderChunk/lights_physical_pars_fragment.glsl.js.
  *   Without the limit: David Neubelt, Matt Pettineo, SIGGRAPH 2013 course. */
-#ifndef WEFT_V_NEUBELT_CLAMPED_H
-#define WEFT_V_NEUBELT_CLAMPED_H
+#pragma once
 
 #include "shading/terms/v_neubelt.h"
 
 FN float neubelt_clamped_v(float o, float i) { return min(neubelt_v(o, i), 1.0f); }
-
-#endif

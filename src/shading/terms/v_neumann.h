@@ -5,11 +5,8 @@
  *   Laszlo Neumann, Attila Neumann, Laszlo Szirmay-Kalos, "Compact Metallic Reflectance Models", Eurographics
  * 1999; as Brian Karis lists it, "Specular BRDF Reference", 2013.
  *   The floor 1e-12 is reached only below any cosine that counts, and keeps V finite at the horizon. */
-#ifndef WEFT_V_NEUMANN_H
-#define WEFT_V_NEUMANN_H
+#pragma once
 
 #include "shading/dialect/lang.h"
 
 FN float neumann_v(float o, float i) { return 0.25f / max(max(o, i), 1e-12f); }
-
-#endif

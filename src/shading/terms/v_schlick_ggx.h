@@ -6,11 +6,8 @@
  * and Practice": the form of v_schlick_beckmann, k chosen so that it meets v_smith_ggx at alpha 1.
  *   Departure: for lights that engine had k = (roughness + 1)^2 / 8, an artist's wish; that is alpha =
  * (roughness + 1)^2 / 4 here. k > 0 keeps the denominator from 0: no floor is needed. */
-#ifndef WEFT_V_SCHLICK_GGX_H
-#define WEFT_V_SCHLICK_GGX_H
+#pragma once
 
 #include "shading/terms/v_schlick_beckmann.h"
 
 FN float schlick_ggx_v(float alpha, float o, float i) { return schlick_v(0.5f * alpha, o, i); }
-
-#endif

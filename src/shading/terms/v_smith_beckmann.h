@@ -8,8 +8,7 @@
  * 1.6 the fit is 1 + 6e-5.
  *   G1 / cos is computed as one, so that nothing vanishes at the horizon; the floors guard the branch that is
  * not taken. */
-#ifndef WEFT_V_SMITH_BECKMANN_H
-#define WEFT_V_SMITH_BECKMANN_H
+#pragma once
 
 #include "shading/dialect/angles.h"
 
@@ -23,5 +22,3 @@ FN float smith_beckmann_part(float alpha, Dir w) {
 FN float smith_beckmann_v(float alpha, Dir o, Dir i) {
     return 0.25f * smith_beckmann_part(alpha, o) * smith_beckmann_part(alpha, i);
 }
-
-#endif

@@ -4,8 +4,7 @@
  *
  *   Bruce Walter et al., "Microfacet Models for Refraction through Rough Surfaces", EGSR 2007, Equation 34,
  * for each direction. alpha >= 0.001 keeps |A w| from 0: no floor is needed. */
-#ifndef WEFT_V_SMITH_GGX_H
-#define WEFT_V_SMITH_GGX_H
+#pragma once
 
 #include "shading/terms/d_ggx.h"
 
@@ -13,5 +12,3 @@ FN float smith_ggx_v(float alpha, Dir o, Dir i) {
     float lo = ggx_length(alpha, alpha, o), li = ggx_length(alpha, alpha, i);
     return 1.0f / ((o.z + lo) * (i.z + li));
 }
-
-#endif

@@ -4,13 +4,10 @@
  *
  *   Eric Heitz, "Understanding the Masking-Shadowing Function in Microfacet-Based BRDFs", JCGT 3(2), 2014,
  *   Equation 99, with Lambda of Equations 72 and 86. */
-#ifndef WEFT_V_SMITH_GGX_CORRELATED_H
-#define WEFT_V_SMITH_GGX_CORRELATED_H
+#pragma once
 
 #include "shading/terms/d_ggx.h"
 
 FN float smith_ggx_correlated_v(float ax, float ay, Dir o, Dir i) {
     return 0.5f / max(i.z * ggx_length(ax, ay, o) + o.z * ggx_length(ax, ay, i), 1e-12f);
 }
-
-#endif

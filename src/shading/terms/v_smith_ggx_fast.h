@@ -6,13 +6,8 @@
  * mix(cos_w, 1, alpha). The same is Vis_SmithJointApprox of Unreal Engine 4.
  *   The floor 1e-12 keeps V finite at the horizon; at alpha 0.005 and both cosines 1e-6 the denominator is
  * still 1e-8. */
-#ifndef WEFT_V_SMITH_GGX_FAST_H
-#define WEFT_V_SMITH_GGX_FAST_H
+#pragma once
 
 #include "shading/dialect/lang.h"
 
-FN float smith_ggx_fast_v(float alpha, float o, float i) {
-    return 0.5f / max(mix(2.0f * o * i, o + i, alpha), 1e-12f);
-}
-
-#endif
+FN float smith_ggx_fast_v(float alpha, float o, float i) { return 0.5f / max(mix(2.0f * o * i, o + i, alpha), 1e-12f); }

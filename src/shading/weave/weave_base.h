@@ -7,8 +7,7 @@
  * one thread a pixel, callers average points. Beyond two, the colours are those of crossings, averaged over the
  * footprint, and the lobe is the woven one that is fitted to the whole cloth. Averaged directions of fibres, in lobe
  * yarn, would be 15 to 45 % off (docs/weave.md). */
-#ifndef WEFT_SHADING_WEAVE_BASE_H
-#define WEFT_SHADING_WEAVE_BASE_H
+#pragma once
 
 #include "shading/dialect/azimuth.h"
 #include "shading/stack/stack.h"
@@ -104,9 +103,6 @@ FN WeaveBase weave_far(const Weave *m, bool weft, Rgb single, Rgb multiple, floa
     b.lobe.params[WOVEN_FLOATS] = w.floats;
     b.lobe.params[WOVEN_CROSS_CRIMP] = w.cross_crimp;
     b.single = rgb_scale(weave_dyed_rgb(single, covers, dye), weft ? m->weft_far.single : m->warp_far.single);
-    b.multiple =
-        rgb_scale(weave_dyed_rgb(multiple, covers, dye), weft ? m->weft_far.multiple : m->warp_far.multiple);
+    b.multiple = rgb_scale(weave_dyed_rgb(multiple, covers, dye), weft ? m->weft_far.multiple : m->warp_far.multiple);
     return b;
 }
-
-#endif

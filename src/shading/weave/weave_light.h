@@ -1,6 +1,5 @@
 /* weave_light.h - light at a point of a woven cloth, as lobe yarn reflects it there */
-#ifndef WEFT_SHADING_WEAVE_LIGHT_H
-#define WEFT_SHADING_WEAVE_LIGHT_H
+#pragma once
 
 #include "shading/dialect/azimuth.h"
 #include "shading/dialect/rgb.h"
@@ -58,5 +57,3 @@ FN Rgb weave_multiple_rgb(const Weave *m, WeavePoint p) {
     float there = p.height > WEAVE_NONE ? 1.0f : 0.0f;
     return rgb_scale(rgb(weave_multiple(m, p, 0), weave_multiple(m, p, 1), weave_multiple(m, p, 2)), there);
 }
-
-#endif

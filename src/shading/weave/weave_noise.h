@@ -4,8 +4,7 @@
  *
  * A random number is a hash of the thread's number and of i. Threads are numbered on through all repeats of the draft,
  * so the draft repeats and its irregularities do not. If a cloth is to tile, they repeat after a cycle of threads. */
-#ifndef WEFT_SHADING_WEAVE_NOISE_H
-#define WEFT_SHADING_WEAVE_NOISE_H
+#pragma once
 
 #include "shading/dialect/lang.h"
 
@@ -68,14 +67,10 @@ FN WeaveNodes weave_nodes(float t, float n) {
 
 /* Returns the number of nodes in a cycle, if there are about f > 0 per crossing: a whole number, at least 1. cycle: in
  * crossings; 0: there is none, and the number is 0. */
-FN float weave_node_count(float f, float cycle) {
-    return cycle > 0.0f ? max(floor(f * cycle + 0.5f), 1.0f) : 0.0f;
-}
+FN float weave_node_count(float f, float cycle) { return cycle > 0.0f ? max(floor(f * cycle + 0.5f), 1.0f) : 0.0f; }
 
 /* Returns the nodes per crossing that make weave_node_count in a cycle; f if there is none. */
-FN float weave_frequency(float f, float cycle) {
-    return cycle > 0.0f ? weave_node_count(f, cycle) / cycle : f;
-}
+FN float weave_frequency(float f, float cycle) { return cycle > 0.0f ? weave_node_count(f, cycle) / cycle : f; }
 
 /* Returns by how many nodes a lattice at a slant to the thread advances per crossing: f, rounded so that in a cycle it
  * advances by a multiple of n, the nodes after which the lattice repeats. */
@@ -105,5 +100,3 @@ FN float weave_noise_of(float seed, int purpose, float thread, float k, float n,
     return mix(weave_first(weave_key(seed, purpose, strand, t.low)),
                weave_first(weave_key(seed, purpose, strand, t.high)), t.part);
 }
-
-#endif

@@ -13,46 +13,45 @@
  * stays. Slopes across fibres do not fade, since grazing light depends on them: for points far apart the caller chooses
  * the place across a fibre.
  *   Coordinates lose their fractions beyond a million threads, and fibres their shape beyond a hundred thousand. */
-#ifndef WEFT_SHADING_WEAVE_POINT_H
-#define WEFT_SHADING_WEAVE_POINT_H
+#pragma once
 
 #include "shading/lobe/table.h"
 #include "shading/weave/weave_cell.h"
 #include "shading/weave/weave_noise.h"
 
 /* The yarn of one system as it lies in a cloth. Pitches and heights have a common unit. */
-#define WEAVE_YARN_NUMBERS(N)                                                                                \
-    N(alpha)       /* of the fibres, as lobe yarn has it */                                                  \
-    N(crimp)       /* m: tangent of the steepest angle along the yarn */                                     \
-    N(roundness)   /* q: slope at the edges of the yarn */                                                   \
-    N(twist)       /* angle of the fibres to the yarn, radians */                                            \
-    N(white)       /* share of light that a fibre reflects whatever its dye */                               \
-    N(pitch)       /* distance between neighbouring threads of this system */                                \
-    N(cross_pitch) /* distance between neighbouring threads of the other system */                           \
-    N(width)       /* w, in pitches */                                                                       \
-    N(bulge)       /* fraction by which the middle of a long float is wider */                               \
-    N(floats)      /* k = 1 + floats (l - 1) */                                                              \
-    N(streaks)     /* slope at the edges of a fibre */                                                       \
-    N(dye)         /* how much the amount of dye varies */                                                   \
-    N(slub)        /* how much the width varies */                                                           \
-    N(wander)      /* how much place and crimp vary */                                                       \
-    N(hairiness)   /* fraction of the places for loose fibres that have one */                               \
-    N(per_width)   /* 1 / width */                                                                           \
-    N(cos_twist)   /* cosine of twist */                                                                     \
-    N(sin_twist)   /* sine of twist */                                                                       \
+#define WEAVE_YARN_NUMBERS(N)                                                                                          \
+    N(alpha)       /* of the fibres, as lobe yarn has it */                                                            \
+    N(crimp)       /* m: tangent of the steepest angle along the yarn */                                               \
+    N(roundness)   /* q: slope at the edges of the yarn */                                                             \
+    N(twist)       /* angle of the fibres to the yarn, radians */                                                      \
+    N(white)       /* share of light that a fibre reflects whatever its dye */                                         \
+    N(pitch)       /* distance between neighbouring threads of this system */                                          \
+    N(cross_pitch) /* distance between neighbouring threads of the other system */                                     \
+    N(width)       /* w, in pitches */                                                                                 \
+    N(bulge)       /* fraction by which the middle of a long float is wider */                                         \
+    N(floats)      /* k = 1 + floats (l - 1) */                                                                        \
+    N(streaks)     /* slope at the edges of a fibre */                                                                 \
+    N(dye)         /* how much the amount of dye varies */                                                             \
+    N(slub)        /* how much the width varies */                                                                     \
+    N(wander)      /* how much place and crimp vary */                                                                 \
+    N(hairiness)   /* fraction of the places for loose fibres that have one */                                         \
+    N(per_width)   /* 1 / width */                                                                                     \
+    N(cos_twist)   /* cosine of twist */                                                                               \
+    N(sin_twist)   /* sine of twist */                                                                                 \
     N(crossing)    /* from crossing to crossing along the thread, in pitches */
 
 /* One system from afar: lobe woven as it is fitted to the visible points (weave/woven_fit.c). V is the mean area of
  * yarn that a direction sees, per area of cloth. */
-#define WEAVE_FAR_NUMBERS(N)                                                                                 \
-    N(alpha)        /* of the lobe */                                                                        \
-    N(crimp)        /* tangent of the steepest angle along the yarn */                                       \
-    N(roundness)    /* steepest slope across the yarn */                                                     \
-    N(floats)       /* power of the slope along the yarn */                                                  \
-    N(slope_across) /* for V: steepest slope across the yarn, if its visible slopes were uniform */          \
-    N(slope_along)  /* for V: the same along the yarn */                                                     \
-    N(share)        /* of the cloth, seen from above; the shares of both systems and the gaps add up to 1 */ \
-    N(single)       /* factor on the colour of light that met one fibre; makes the mean that of points */    \
+#define WEAVE_FAR_NUMBERS(N)                                                                                           \
+    N(alpha)        /* of the lobe */                                                                                  \
+    N(crimp)        /* tangent of the steepest angle along the yarn */                                                 \
+    N(roundness)    /* steepest slope across the yarn */                                                               \
+    N(floats)       /* power of the slope along the yarn */                                                            \
+    N(slope_across) /* for V: steepest slope across the yarn, if its visible slopes were uniform */                    \
+    N(slope_along)  /* for V: the same along the yarn */                                                               \
+    N(share)        /* of the cloth, seen from above; the shares of both systems and the gaps add up to 1 */           \
+    N(single)       /* factor on the colour of light that met one fibre; makes the mean that of points */              \
     N(multiple)     /* factor on the colour of all other light */
 
 #define WEAVE_NUMBER(name) float name;
@@ -118,9 +117,9 @@ STRUCT(WeaveRun) {
     float length;     /* l, at least 1 */
     float per_length; /* 1 / l */
     float up;         /* 1 on top, -1 below */
-    float ends; /* 1; 0 if the run never ends: a factor, since a branch around a load stops vectorisation */
-    float s, k; /* as above */
-    float s_k;  /* |s|^k */
+    float ends;       /* 1; 0 if the run never ends: a factor, since a branch around a load stops vectorisation */
+    float s, k;       /* as above */
+    float s_k;        /* |s|^k */
 };
 FN WeaveRun weave_run(float floats, float v, float since, float run) {
     WeaveRun a;
@@ -137,12 +136,12 @@ FN WeaveRun weave_run(float floats, float v, float since, float run) {
 /* Returns the point of thread c of a system, in the thread's frame: y along it, no fibres yet. u, v: the place across
  * the threads of the system and along them. since, run: as the WeaveCell there has them. bends: noise from crossing to
  * crossing, -1 to 1. */
-FN WeavePoint weave_thread(const Weave *m, WeaveYarn y, bool weft, float c, float u, float v, float since,
-                           float run, float bends) {
+FN WeavePoint weave_thread(const Weave *m, WeaveYarn y, bool weft, float c, float u, float v, float since, float run,
+                           float bends) {
     float side = weft ? m->cycle_y : m->cycle_x, cycle = weft ? m->cycle_x : m->cycle_y;
     WeaveRun a = weave_run(y.floats, v, since, run);
-    WeaveNoise slow = weave_noise(m->seed, WEAVE_OF_THREADS + (weft ? 1 : 0), weave_wrap(c, side),
-                                  weave_nodes_along(0.1f, v, cycle));
+    WeaveNoise slow =
+        weave_noise(m->seed, WEAVE_OF_THREADS + (weft ? 1 : 0), weave_wrap(c, side), weave_nodes_along(0.1f, v, cycle));
     float crimp = a.ends * y.crimp * (1.0f + 0.5f * y.wander * bends);
     float aside = 0.12f * y.wander * slow.first;
     float thick = 1.0f + y.slub * (0.35f * slow.second + 0.12f * bends);
@@ -181,9 +180,7 @@ FN float weave_fineness(float spacing) { return clamp(1.5f - 30.0f * spacing, 0.
 
 /* Returns half of the width of loose fibres. They fade at larger spacings than others do, since their colour differs
  * from what they cover. */
-FN float weave_hair_radius(float spacing) {
-    return WEAVE_HAIR_RADIUS * clamp(1.75f - 25.0f * spacing, 0.0f, 1.0f);
-}
+FN float weave_hair_radius(float spacing) { return WEAVE_HAIR_RADIUS * clamp(1.75f - 25.0f * spacing, 0.0f, 1.0f); }
 
 /* Returns how the dye took on a thread, -1 to 1. cycle: number of threads after which that repeats. */
 FN float weave_thread_dye(float seed, bool weft, float thread, float cycle) {
@@ -210,20 +207,17 @@ STRUCT(WeaveFibre) {
 /* Returns the fibre at x, the place across the thread, and v, the place along it in crossings. Noise and fibres lie on
  * lattices along the twist. With X = x / w and Y = v crossing / w, both in widths of the thread, a place on them is
  *   cos twist Y - sin twist X  along the fibres,  cos twist X + sin twist Y  across them */
-FN WeaveFibre weave_fibre(const Weave *m, WeaveYarn y, float sin_twist, int weft, float thread, float x,
-                          float v, float cycle) {
+FN WeaveFibre weave_fibre(const Weave *m, WeaveYarn y, float sin_twist, int weft, float thread, float x, float v,
+                          float cycle) {
     float c = y.cos_twist * y.per_width, s = sin_twist * y.per_width;
     float c_v = c * y.crossing, s_v = s * y.crossing;
     float t = weave_frequency(1.3f * c_v, cycle) * v - 1.3f * s * x;
     WeaveNodes along = weave_nodes(t, weave_node_count(1.3f * c_v, cycle));
-    WeaveNodes over =
-        weave_nodes(3.0f * c * x + weave_slant(3.0f * s_v, WEAVE_WAVES, cycle) * v, WEAVE_WAVES);
+    WeaveNodes over = weave_nodes(3.0f * c * x + weave_slant(3.0f * s_v, WEAVE_WAVES, cycle) * v, WEAVE_WAVES);
     WeaveFibre a;
-    a.wave =
-        mix(weave_noise_of(m->seed, WEAVE_OF_WAVES + weft, thread, over.low, WEAVE_WAVES, along),
-            weave_noise_of(m->seed, WEAVE_OF_WAVES + weft, thread, over.high, WEAVE_WAVES, along), over.part);
-    float place =
-        WEAVE_FIBRES * c * x + weave_slant(WEAVE_FIBRES * s_v, WEAVE_FIBRES_OWN, cycle) * v + 2.0f * a.wave;
+    a.wave = mix(weave_noise_of(m->seed, WEAVE_OF_WAVES + weft, thread, over.low, WEAVE_WAVES, along),
+                 weave_noise_of(m->seed, WEAVE_OF_WAVES + weft, thread, over.high, WEAVE_WAVES, along), over.part);
+    float place = WEAVE_FIBRES * c * x + weave_slant(WEAVE_FIBRES * s_v, WEAVE_FIBRES_OWN, cycle) * v + 2.0f * a.wave;
     float number = floor(place);
     a.f = 2.0f * (place - number) - 1.0f;
     a.dye = weave_noise_of(m->seed, WEAVE_OF_FIBRES + weft, thread, weave_mod(number, WEAVE_FIBRES_OWN),
@@ -242,8 +236,7 @@ FN Dir weave_fibre_axis(float c, float s, float sx, float sy) {
  * cloth's. u, v: as for weave_thread. spacing: from point to point, in threads. across: place across a fibre, -1 to 1,
  * for points that are too far apart to have their own; at spacings in between both places are mixed, so that the
  * variance of slopes stays the same. A crevice takes a f^4 of the light at f, and the mean of all light is 1. */
-FN void weave_add_fibres(const Weave *m, WeaveYarn y, float u, float v, float spacing, float across,
-                         WeavePoint *p) {
+FN void weave_add_fibres(const Weave *m, WeaveYarn y, float u, float v, float spacing, float across, WeavePoint *p) {
     float side = p->weft ? m->cycle_y : m->cycle_x, cycle = p->weft ? m->cycle_x : m->cycle_y;
     float thread = weave_wrap(p->thread, side);
     int weft = p->weft ? 1 : 0;
@@ -253,15 +246,12 @@ FN void weave_add_fibres(const Weave *m, WeaveYarn y, float u, float v, float sp
 
     WeaveRotation wave = weave_rotation(0.35f * y.streaks * a.wave);
     float c = y.cos_twist * wave.c - sin_twist * wave.s, s = sin_twist * wave.c + y.cos_twist * wave.s;
-    float sx = p->slope_x +
-               y.streaks * mix(across, f, fine) / sqrt(fine * fine + (1.0f - fine) * (1.0f - fine)),
+    float sx = p->slope_x + y.streaks * mix(across, f, fine) / sqrt(fine * fine + (1.0f - fine) * (1.0f - fine)),
           sy = p->slope_y;
     Dir fibre = weave_fibre_axis(c, s, sx, sy);
     float crevice = min(2.0f * streaks, 0.6f);
-    WeaveNoise along =
-        weave_noise(m->seed, WEAVE_OF_STREAKS + weft, thread, weave_nodes_along(0.35f, v, cycle));
-    p->dye = 1.0f -
-             y.dye * (0.7f * weave_thread_dye(m->seed, p->weft, p->thread, side) + 0.3f * along.first) -
+    WeaveNoise along = weave_noise(m->seed, WEAVE_OF_STREAKS + weft, thread, weave_nodes_along(0.35f, v, cycle));
+    p->dye = 1.0f - y.dye * (0.7f * weave_thread_dye(m->seed, p->weft, p->thread, side) + 0.3f * along.first) -
              0.5f * min(streaks, 0.5f) * a.dye;
     p->lit = (1.0f - crevice * f * f * f * f) / (1.0f - 0.2f * crevice);
     p->slope_x = p->weft ? sy : sx;
@@ -281,16 +271,14 @@ FN WeavePoint weave_top(const Weave *m, float x, float y) {
     float i = floor(x), j = floor(y), near_x = x - i - 0.5f, near_y = y - j - 0.5f;
     float beside = i + (near_x < 0.0f ? -1.0f : 1.0f), above = j + (near_y < 0.0f ? -1.0f : 1.0f);
     float part_x = weave_ease(abs(near_x)), part_y = weave_ease(abs(near_y));
-    uint here = weave_crossing(m, i, j), right = weave_crossing(m, beside, j),
-         up = weave_crossing(m, i, above), across = weave_crossing(m, beside, above);
-    WeaveCell cell = weave_cell(m, i, j), cell_right = weave_cell(m, beside, j),
-              cell_up = weave_cell(m, i, above);
+    uint here = weave_crossing(m, i, j), right = weave_crossing(m, beside, j), up = weave_crossing(m, i, above),
+         across = weave_crossing(m, beside, above);
+    WeaveCell cell = weave_cell(m, i, j), cell_right = weave_cell(m, beside, j), cell_up = weave_cell(m, i, above);
     WeavePoint best = weave_thread(m, m->warp, false, i, x, y, cell.warp_since, cell.warp_run,
                                    mix(weave_first(here), weave_first(up), part_y));
     WeavePoint weft = weave_thread(m, m->weft, true, j, y, x, cell.weft_since, cell.weft_run,
                                    mix(weave_second(here), weave_second(right), part_x));
-    weave_take_higher(&best, weave_thread(m, m->warp, false, beside, x, y, cell_right.warp_since,
-                                          cell_right.warp_run,
+    weave_take_higher(&best, weave_thread(m, m->warp, false, beside, x, y, cell_right.warp_since, cell_right.warp_run,
                                           mix(weave_first(right), weave_first(across), part_y)));
     weave_take_higher(&weft, weave_thread(m, m->weft, true, above, y, x, cell_up.weft_since, cell_up.weft_run,
                                           mix(weave_second(up), weave_second(across), part_x)));
@@ -359,12 +347,10 @@ FN WeaveHair weave_hair(const Weave *m, int n, float x, float y, float radius) {
     float bend = 0.6f * weave_bits(shape, 13u, 6u), wave = 1.2f * weave_bits(shape, 19u, 6u);
     float l = 0.6f + 0.3f * weave_bits(shape, 25u, 7u), t = (c * p + s * q) / l, t2 = t * t;
     float lean = wave * (1.0f - 3.0f * t2) - 2.0f * bend * t;
-    float reach =
-              radius * (1.0f - t2 * t2) * sqrt(1.0f + lean * lean), /* half of the width, across the fibre */
+    float reach = radius * (1.0f - t2 * t2) * sqrt(1.0f + lean * lean), /* half of the width, across the fibre */
         off = c * q - s * p - l * (bend + wave * t) * (1.0f - t2);
 
-    float exists =
-        (weft ? m->weft.hairiness : m->warp.hairiness) - (0.5f + 0.5f * weave_bits(place, 0u, 10u));
+    float exists = (weft ? m->weft.hairiness : m->warp.hairiness) - (0.5f + 0.5f * weave_bits(place, 0u, 10u));
     WeaveHair h;
     h.here = min(exists, min(1.0f - abs(t), reach - abs(off))) > 0.0f;
     h.weft = weft;
@@ -467,5 +453,3 @@ FN float weave_depth(const Weave *m, WeavePoint p) {
 /* Returns the light that reaches a point, in parts of the mean over the cloth, so that no cloth becomes darker as a
  * whole. */
 FN float weave_open(const Weave *m, WeavePoint p) { return p.lit * weave_depth(m, p) / m->openness; }
-
-#endif

@@ -5,8 +5,7 @@
  *   keep: what the layer rule leaves. Romain Guy, Mathias Agopian, "Physically Based Rendering in Filament",
  * 2018, section "Cloth model", drops the specular lobe of cloth likewise. Not for: satin, silk and leather,
  * which have a highlight in the mirror direction. */
-#ifndef WEFT_WORKFLOW_CLOTH_H
-#define WEFT_WORKFLOW_CLOTH_H
+#pragma once
 
 #include "shading/stack/workflow.h"
 
@@ -16,5 +15,3 @@ FN void cloth_stack(Stack *m, const Surface *s) {
     workflow_transmission(m, s, 1.0f);
     slot_even(&m->diffuse, lobe_default(LOBE_LAMBERT), s->base_color, s->base_color, 1.0f);
 }
-
-#endif

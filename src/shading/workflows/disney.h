@@ -12,8 +12,7 @@
  * Shading in Film and Game Production", section 5 and the addenda of its later revisions (V without the
  * remapped roughness, diffuse as published). Nothing dims the diffuse lobe but its own Fresnel factor, so
  * energy is not conserved. */
-#ifndef WEFT_WORKFLOW_DISNEY_H
-#define WEFT_WORKFLOW_DISNEY_H
+#pragma once
 
 #include "shading/lobes/burley_subsurface.h"
 #include "shading/lobes/cook_torrance.h"
@@ -27,8 +26,8 @@ FN Rgb disney_tint(Rgb base) {
 
 FN void disney_tinted(Stack *m, const Surface *s, Rgb tint) {
     float below = 1.0f - s->metallic;
-    Rgb f0 = rgb_mix(rgb_scale(rgb_mix(rgb_grey(1.0f), tint, s->specular_tint), 0.08f * s->specular),
-                     s->base_color, s->metallic);
+    Rgb f0 = rgb_mix(rgb_scale(rgb_mix(rgb_grey(1.0f), tint, s->specular_tint), 0.08f * s->specular), s->base_color,
+                     s->metallic);
 
     Rgb sheen = rgb_scale(rgb_mix(rgb_grey(1.0f), tint, s->sheen_tint), s->sheen * below);
     workflow_sheen(m, lobe_default(LOBE_BURLEY_SHEEN), sheen, sheen, LAYER_ADDITIVE);
@@ -55,5 +54,3 @@ FN void disney_tinted(Stack *m, const Surface *s, Rgb tint) {
 }
 
 FN void disney_stack(Stack *m, const Surface *s) { disney_tinted(m, s, disney_tint(s->base_color)); }
-
-#endif

@@ -5,8 +5,7 @@
  *
  *   For looking at terms; it may gain energy, for nothing is taken from anything. The layer rule is additive
  * unless another is chosen. */
-#ifndef WEFT_WORKFLOW_FREE_H
-#define WEFT_WORKFLOW_FREE_H
+#pragma once
 
 #include "shading/stack/workflow.h"
 
@@ -16,5 +15,3 @@ FN void free_stack(Stack *m, const Surface *s) {
     workflow_transmission(m, s, 1.0f);
     workflow_base(m, s, s->base_color, rgb_scale(s->specular_color, s->specular), 1.0f);
 }
-
-#endif

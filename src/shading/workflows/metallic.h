@@ -12,8 +12,7 @@
  * which dims the diffuse lobe, is that of a dielectric at the least of wi . h, cos_o and cos_i. With wi . h
  * alone, as glTF has it, a smooth white dielectric reflects up to 1.45 times what it receives at grazing; so
  * it never passes 1 (tests/shading/test_furnace). Profile khronos follows the text. */
-#ifndef WEFT_WORKFLOW_METALLIC_H
-#define WEFT_WORKFLOW_METALLIC_H
+#pragma once
 
 #include "shading/stack/workflow.h"
 
@@ -39,5 +38,3 @@ FN void metallic_stack(Stack *m, const Surface *s) {
     metallic_with(m, s, lobe_rough(LOBE_CHARLIE_CONTY_KULLA, s->sheen_roughness), LAYER_ALBEDO_VIEW,
                   BASE_FRESNEL_LEAST);
 }
-
-#endif

@@ -5,8 +5,7 @@
  *   Khronos Group, KHR_materials_pbrSpecularGlossiness, 2017 (Appendix: F0 = specular, diffuse dimmed by the
  * strongest channel of it). It can express more than metallic: any pair of colours. `convert.h` has what is lost
  * on the way to metallic. */
-#ifndef WEFT_WORKFLOW_SPECULAR_H
-#define WEFT_WORKFLOW_SPECULAR_H
+#pragma once
 
 #include "shading/stack/workflow.h"
 
@@ -21,5 +20,3 @@ FN void specular_stack(Stack *m, const Surface *s) {
     workflow_transmission(m, s, 1.0f - rgb_max3(f0));
     workflow_base(m, s, rgb_scale(s->base_color, 1.0f - rgb_max3(f0)), f0, 1.0f);
 }
-
-#endif

@@ -11,8 +11,7 @@ static const CatalogueFile *find_anywhere(const char *name) {
     const char *base = strrchr(name, '/');
     if (!base || strncmp(name, "shading/", 8) != 0) return NULL;
     for (const CatalogueFile *file = catalogue_files; file->name; file++)
-        if (strcmp(strrchr(file->name, '/'), base) == 0 && strncmp(file->name, "shading/tables/", 15) != 0)
-            return file;
+        if (strcmp(strrchr(file->name, '/'), base) == 0 && strncmp(file->name, "shading/tables/", 15) != 0) return file;
     return NULL;
 }
 
@@ -36,8 +35,7 @@ bool catalogue_find(const char *name, CatalogueFile *out) {
 const char *weft_catalogue_text(const char *path) {
     char name[256];
     CatalogueFile file;
-    return (size_t)snprintf(name, sizeof name, "shading/%s", path) < sizeof name &&
-                   catalogue_find(name, &file)
+    return (size_t)snprintf(name, sizeof name, "shading/%s", path) < sizeof name && catalogue_find(name, &file)
                ? file.bytes
                : NULL;
 }

@@ -1,7 +1,6 @@
 /* catalogue.h - the files of src/shading and src/raster/glsl as they are, inside the library;
  * cmake/generate.cmake makes the table */
-#ifndef WEFT_TEXT_CATALOGUE_H
-#define WEFT_TEXT_CATALOGUE_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -17,5 +16,3 @@ extern const CatalogueFile catalogue_files[];
  * found as "shading/lobe.h", without its folder, as lobes from outside include it: headers have names of their own.
  * Returns false if there is none. */
 bool catalogue_find(const char *name, CatalogueFile *out);
-
-#endif

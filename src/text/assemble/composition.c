@@ -23,9 +23,8 @@ typedef struct Formula {
     const char *row;
 } Formula;
 
-#define ALBEDO_ROW(name, index, own_table, formula)                                                          \
-    {index, "F(" #name ", " #index ", " #own_table ", " #formula ")"},
-#define FORMULA_ROW(name, index, formula) {index, "F(" #name ", " #index ", " #formula ")"},
+#define ALBEDO_ROW(name, index, own_table, formula) {index, "F(" #name ", " #index ", " #own_table ", " #formula ")"},
+#define FORMULA_ROW(name, index, formula)           {index, "F(" #name ", " #index ", " #formula ")"},
 static const Formula albedos[] = {WEFT_ALBEDO_FORMULAS(ALBEDO_ROW){-1, ""}};
 static const Formula views[] = {WEFT_VIEWS(FORMULA_ROW){-1, ""}};
 
@@ -96,8 +95,7 @@ void text_composition_lobes(Text *text, const CompositionSlots *found, int table
     text_define(text, "SHEEN_KIND(m)", kind);
     text_define(text, "SHEEN_TILTS(m)", tilts);
     for (int k = 0; k < SLOT_COUNT; k++) text_define(text, has[k], found->slots[k].count ? "true" : "false");
-    text_define(text, "HAS_LAYERED_SHEEN(m)",
-                found->used ? "true" : "(m.color.r + m.color.g + m.color.b > 0.0)");
+    text_define(text, "HAS_LAYERED_SHEEN(m)", found->used ? "true" : "(m.color.r + m.color.g + m.color.b > 0.0)");
     text_define(text, "HAS_TRANSMITTED(m)", found->transmits ? "true" : "false");
     text_dispatch(text, ids, count);
     text_slots(text, found->slots);
@@ -130,8 +128,7 @@ void text_composition(Text *text, const Choices *choices) {
     text_provide(text, "shading/material/profile.h");
     text_include(text, "shading/stack/workflow.h");
     text_include(text, file);
-    text_line(text,
-              "\nvoid compose_begin(inout Stack m, Surface s, Choices c) {\n    stack_clear(m);\n    %s;\n}",
+    text_line(text, "\nvoid compose_begin(inout Stack m, Surface s, Choices c) {\n    stack_clear(m);\n    %s;\n}",
               c->stack);
     text_define(text, "WEFT_ALBEDO_FORMULAS(F)", albedo);
     text_define(text, "WEFT_VIEWS(F)", view);

@@ -1,6 +1,5 @@
 /* composition.h - a material's composition as text that is specialised to its choices */
-#ifndef WEFT_TEXT_COMPOSITION_H
-#define WEFT_TEXT_COMPOSITION_H
+#pragma once
 
 #include "scene/record/material_at.h"
 #include "text/assemble/dispatch.h"
@@ -34,5 +33,3 @@ void text_composition_choices(Text *text, const Choices *choices);
 
 /* Returns the call that makes the stack of a composition, such as "khronos_stack(m, s)". */
 const char *composition_stack(const Choices *choices);
-
-#endif

@@ -57,8 +57,7 @@ static void define_line(Text *text, const char *c, const char *end) {
 /* Writes the lines of a generated file that belong to no lobe or to one of `there`; the ids of others become macros.
  * Only lines from the first that contains `first` (NULL: from the top) to before `last` (NULL: to the end). An empty
  * comment replaces a removed line, so that the others keep their line numbers. */
-static void put_lines(Text *text, const char *file, const char *first, const char *last,
-                      const bool there[LOBE_MOST]) {
+static void put_lines(Text *text, const char *file, const char *first, const char *last, const bool there[LOBE_MOST]) {
     Buffer chosen = {0};
     text_outside_lines(text, there);
     const char *c = weft_catalogue_text(file + strlen("shading/")), *end = c + strlen(c);
@@ -79,10 +78,9 @@ static void put_lines(Text *text, const char *file, const char *first, const cha
 }
 
 void text_slots(Text *text, const TextSlot slots[SLOT_COUNT]) {
-#define SLOT_NAMES(name, NAME, Name, wo)                                                                     \
+#define SLOT_NAMES(name, NAME, Name, wo)                                                                               \
     {#Name "Prepared", #Name "View", #name "_prepare", #name "_view", #name "_reflect"},
-    static const char *const names[] = {"LobePrepared", "LobeView", "lobe_prepare", "lobe_view",
-                                        "lobe_reflect"};
+    static const char *const names[] = {"LobePrepared", "LobeView", "lobe_prepare", "lobe_view", "lobe_reflect"};
     enum { NAMES = sizeof names / sizeof *names };
     static const char *const own[SLOT_COUNT][NAMES] = {SLOTS(SLOT_NAMES)};
     for (int k = 0; k < SLOT_COUNT; k++) {

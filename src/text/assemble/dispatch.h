@@ -1,6 +1,5 @@
 /* dispatch.h - lobes in a text, by id: each alone, or all behind one signature */
-#ifndef WEFT_TEXT_DISPATCH_H
-#define WEFT_TEXT_DISPATCH_H
+#pragma once
 
 #include "text/assemble/text.h"
 
@@ -35,5 +34,3 @@ typedef struct TextSlot {
 /* Writes the records and functions of shading/stack/slots.h for each slot, in the order of SLOTS, with only these
  * lobes. Call it once, after text_dispatch, which has all of them. */
 void text_slots(Text *text, const TextSlot slots[SLOT_COUNT]);
-
-#endif

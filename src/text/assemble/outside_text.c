@@ -57,9 +57,8 @@ static void put_strips(const OutsideLobe *lobe, Buffer *out) {
     const char *name = lobe->names.prefix;
     buffer_print(out, "FN Strip %s_strips(const Lobe *m, Dir o, float u, float v) {\n", name);
     if (lobe->names.strips)
-        buffer_print(
-            out, "    %sPrepared p;\n    %s_prepare(%s_of(m), &p);\n    return %s_strip(&p, o, u, v);\n}\n",
-            lobe->names.record, name, name, name);
+        buffer_print(out, "    %sPrepared p;\n    %s_prepare(%s_of(m), &p);\n    return %s_strip(&p, o, u, v);\n}\n",
+                     lobe->names.record, name, name, name);
     else
         buffer_print(out, "    Strip none;\n    none.h = dir(0.0f, 0.0f, 1.0f);\n    none.density = 0.0f;\n"
                           "    return none;\n}\n");

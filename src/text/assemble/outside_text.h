@@ -1,6 +1,5 @@
 /* outside_text.h - lobes from outside the catalogue (shading/catalogue/outside.h), as text */
-#ifndef WEFT_TEXT_OUTSIDE_TEXT_H
-#define WEFT_TEXT_OUTSIDE_TEXT_H
+#pragma once
 
 #include "shading/catalogue/outside.h"
 #include "text/assemble/text.h"
@@ -10,5 +9,3 @@ void text_outside(Text *text, const bool there[LOBE_MOST]);
 
 /* Defines the macro by which lines of dispatch.gen.h and lobes.gen.h contain these lobes. */
 void text_outside_lines(Text *text, const bool there[LOBE_MOST]);
-
-#endif

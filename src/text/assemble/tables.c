@@ -12,11 +12,10 @@
 static void put_reference(Text *text, const TableRef *e, int rows, const char *name, const char *indent) {
     bool own = e->kind == TABLE_ROOTS || e->kind == TABLE_TINTED;
     int layer = text_table(text, (TextTable){e->texels, rows, own ? e->columns + 1 : e->columns, name});
-    text_line(text, "%st.texels = %d;\n%st.kind = %d;\n%st.rows = %d;\n%st.columns = %d;", indent, layer,
-              indent, e->kind, indent, e->rows, indent, e->columns);
-    text_line(text, "%st.low = %s;\n%st.high = %s;\n%st.tilts = %d;\n%st.tilt = %s;", indent,
-              number(e->low).text, indent, number(e->high).text, indent, e->tilts, indent,
-              number(e->tilt).text);
+    text_line(text, "%st.texels = %d;\n%st.kind = %d;\n%st.rows = %d;\n%st.columns = %d;", indent, layer, indent,
+              e->kind, indent, e->rows, indent, e->columns);
+    text_line(text, "%st.low = %s;\n%st.high = %s;\n%st.tilts = %d;\n%st.tilt = %s;", indent, number(e->low).text,
+              indent, number(e->high).text, indent, e->tilts, indent, number(e->tilt).text);
 }
 
 void text_lobe_tables(Text *text) {
@@ -64,11 +63,10 @@ void text_engine_tables(Text *text, const int *which, int count) {
     if (!text_provide(text, "shading/catalogue/engine_tables.h")) return;
     text_include(text, "shading/lobe/table.h");
     for (int k = 0; k < ENGINE_COUNT; k++) text_line(text, "const int %s = %d;", names[k][0], k);
-    text_line(
-        text,
-        "\nTableRef engine_table(int which) {\n    TableRef t;\n    t.texels = 0;\n    t.kind = TABLE_NONE;\n"
-        "    t.rows = 0;\n    t.columns = 0;\n    t.low = 0.0;\n    t.high = 0.0;\n    t.tilts = 0;\n    "
-        "t.tilt = 0.0;");
+    text_line(text,
+              "\nTableRef engine_table(int which) {\n    TableRef t;\n    t.texels = 0;\n    t.kind = TABLE_NONE;\n"
+              "    t.rows = 0;\n    t.columns = 0;\n    t.low = 0.0;\n    t.high = 0.0;\n    t.tilts = 0;\n    "
+              "t.tilt = 0.0;");
     for (int k = 0; k < count; k++) {
         TableRef e = smaller(text, engine_table(which[k]));
         text_line(text, "    if (which == %d) {", which[k]);

@@ -1,6 +1,5 @@
 /* tables.h - the catalogue's own tables in a text: layers of weft_tables, and the functions that name them */
-#ifndef WEFT_TEXT_TABLES_H
-#define WEFT_TEXT_TABLES_H
+#pragma once
 
 #include "shading/catalogue/albedo.h"
 #include "text/assemble/text.h"
@@ -15,5 +14,3 @@ void text_albedo_table(Text *text, const char *function, const char *name, const
 /* Defines the function of shading/catalogue/engine_tables.h for those tables; any other is TABLE_NONE there, so E is 0.
  * Call it once in a text that has a profile. Making a table takes up to half a second the first time. */
 void text_engine_tables(Text *text, const int *which, int count);
-
-#endif

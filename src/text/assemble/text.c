@@ -66,9 +66,7 @@ void text_begin(Text *text, const TextDesc *desc) {
     *text = (Text){.desc = *desc, .gap = true};
     switch (desc->language) {
     case TEXT_GLSL_330: text_line(text, "#version 330 core"); break;
-    case TEXT_GLSL_ES_300:
-        text_line(text, "#version 300 es\nprecision highp float;\nprecision highp int;");
-        break;
+    case TEXT_GLSL_ES_300: text_line(text, "#version 300 es\nprecision highp float;\nprecision highp int;"); break;
     case TEXT_GLSL_450: text_line(text, "#version 450"); break;
     case TEXT_PLAIN: break;
     }
@@ -172,8 +170,7 @@ static void put_marks(Text *text, const char *file, const Buffer *source) {
 
 /* Writes the declarations between two directives of source. The expansion of a macro has the origin of its call. */
 static void put_chunk(Text *text, const Buffer *source, const char *chunk, const char *end) {
-    if (text->desc.comments && blank_end(chunk, end) < end)
-        put_marks(text, buffer_origin(source, 0).file, source);
+    if (text->desc.comments && blank_end(chunk, end) < end) put_marks(text, buffer_origin(source, 0).file, source);
     define_types(text, chunk, end);
     Buffer expanded = {0};
     while (chunk < end && !expanded.failed && !*text->macros.wrong) {
@@ -258,8 +255,7 @@ static bool condition_or(Text *text, const char **c, const char *end) {
 /* Evaluates the condition of a whole #if line. */
 static bool condition(Text *text, const char *c, const char *end) {
     bool any = end - c < CONDITION_LIMIT && condition_or(text, &c, end);
-    if (token_solid(&c, end).kind != TOKEN_NONE)
-        fail_dialect(text, "an #if of more than defined, !, && and ||");
+    if (token_solid(&c, end).kind != TOKEN_NONE) fail_dialect(text, "an #if of more than defined, !, && and ||");
     return any;
 }
 
@@ -272,8 +268,7 @@ static void include_line(Text *text, const char *file, const char *c, const char
     }
     char path[256];
     const char *slash = memchr(name.at, '/', name.size) ? NULL : strrchr(file, '/');
-    snprintf(path, sizeof path, "%.*s%.*s", slash ? (int)(slash + 1 - file) : 0, file, (int)name.size - 2,
-             name.at + 1);
+    snprintf(path, sizeof path, "%.*s%.*s", slash ? (int)(slash + 1 - file) : 0, file, (int)name.size - 2, name.at + 1);
     text_include(text, path);
 }
 
@@ -312,8 +307,7 @@ static bool take_condition(Text *text, Token word, const char *c, const char *en
 }
 
 /* Takes a directive; c is after its "#". */
-static void take_directive(Text *text, const char *file, const char *c, const char *end,
-                           Conditions *conditions) {
+static void take_directive(Text *text, const char *file, const char *c, const char *end, Conditions *conditions) {
     Token word = token_solid(&c, end);
     if (take_condition(text, word, c, end, conditions) || !is_on(conditions)) return;
     if (token_is(word, "include")) {
@@ -322,7 +316,8 @@ static void take_directive(Text *text, const char *file, const char *c, const ch
         if (!put_constant(text, c, end)) macro_define(&text->macros, c, (size_t)(end - c));
     } else if (token_is(word, "undef")) {
         macro_undefine(&text->macros, token_solid(&c, end));
-    } else {
+    } else if (!token_is(word, "pragma") ||
+               !token_is(token_solid(&c, end), "once")) { /* a file is included once anyway */
         fail_dialect(text, "a directive that shading text does not have");
     }
 }
@@ -381,8 +376,7 @@ static bool find_file(Text *text, const char *file, Source *out) {
     char path[1024];
     struct stat status;
     FileBytes read;
-    if (text->desc.folder &&
-        (size_t)snprintf(path, sizeof path, "%s/%s", text->desc.folder, file) < sizeof path &&
+    if (text->desc.folder && (size_t)snprintf(path, sizeof path, "%s/%s", text->desc.folder, file) < sizeof path &&
         (stat(path, &status) == 0 || (errno != ENOENT && errno != ENOTDIR))) {
         if (file_read(path, FILE_LIMIT, &read, &text->error) != WEFT_OK) return false;
         const char *bytes = (const char *)read.data;

@@ -13,8 +13,7 @@
  * text_end returns it.
  *
  * A Text belongs to one thread at a time; two of them share nothing. */
-#ifndef WEFT_TEXT_TEXT_H
-#define WEFT_TEXT_TEXT_H
+#pragma once
 
 #include "text/source/macro.h"
 #include "weft/result.h"
@@ -112,5 +111,3 @@ WeftResult text_fail_at(Origin origin, WeftMessage message, const char *what, We
 WeftResult text_end(Text *text, WeftError *error);
 
 void text_free(Text *text);
-
-#endif

@@ -113,8 +113,8 @@ static Value read_compared(const Fold *fold, const char **c, const char *end) {
         if (!take(c, end, marks[k])) continue;
         Value b = read_sum(fold, c, end);
         if (!a.constant || !b.constant) return VARIABLE;
-        const bool answers[] = {a.value == b.value, a.value != b.value, a.value <= b.value,
-                                a.value >= b.value, a.value<b.value, a.value> b.value};
+        const bool answers[] = {a.value == b.value, a.value != b.value, a.value <= b.value, a.value >= b.value,
+                                a.value<b.value, a.value> b.value};
         return constant_value(answers[k]);
     }
     return a;
@@ -157,8 +157,7 @@ static const char *statement_end(const char *c, const char *end) {
     if (token_is(first, "{")) return token_closed(first.at, end);
     if (token_is(first, "if") || token_is(first, "for") || token_is(first, "while")) {
         const char *stop = statement_end(token_closed(token_peek(cursor, end).at, end), end), *next = stop;
-        return token_is(first, "if") && token_is(token_solid(&next, end), "else") ? statement_end(next, end)
-                                                                                  : stop;
+        return token_is(first, "if") && token_is(token_solid(&next, end), "else") ? statement_end(next, end) : stop;
     }
     for (Token token; (token = token_next(&c, end)).kind != TOKEN_NONE;) {
         if (token_is(token, "(")) c = token_closed(token.at, end);
@@ -172,8 +171,7 @@ static bool declares(const char *c, const char *end) {
     while (c < end) {
         const char *cursor = c;
         Token type = token_solid(&cursor, end), name = token_solid(&cursor, end);
-        if (type.kind == TOKEN_NAME && name.kind == TOKEN_NAME && !token_is(type, "return") &&
-            !token_is(type, "else"))
+        if (type.kind == TOKEN_NAME && name.kind == TOKEN_NAME && !token_is(type, "return") && !token_is(type, "else"))
             return true;
         c = statement_end(c, end);
     }
@@ -279,8 +277,7 @@ static const char *fold_choice(Fold *fold, const char *c, const char *end, Buffe
     while (k < end) {
         Token token = token_next(&k, end);
         if (token_is(token, "(") || token_is(token, "[")) k = token_closed(token.at, end);
-        bool over =
-            token_is(token, ";") || token_is(token, ",") || token_is(token, ")") || token_is(token, "}");
+        bool over = token_is(token, ";") || token_is(token, ",") || token_is(token, ")") || token_is(token, "}");
         if (token_is(token, "?")) {
             if (!mark)
                 mark = token.at;
@@ -368,8 +365,8 @@ static void fold_range(Fold *fold, const char *c, const char *end, Buffer *out) 
         }
         buffer_put(out, token.at, token.size);
         behind_else = false;
-        begins = token_is(token, "=") || token_is(token, "(") || token_is(token, ",") ||
-                 token_is(token, "return") || token_is(token, "?") || token_is(token, ":");
+        begins = token_is(token, "=") || token_is(token, "(") || token_is(token, ",") || token_is(token, "return") ||
+                 token_is(token, "?") || token_is(token, ":");
     }
 }
 
@@ -440,8 +437,7 @@ static void put_read(const Buffer *body, Buffer *out) {
             }
         }
         buffer_put(out, token.at, token.size);
-        if (token.kind != TOKEN_BLANK)
-            begins = token_is(token, ";") || token_is(token, "{") || token_is(token, "}");
+        if (token.kind != TOKEN_BLANK) begins = token_is(token, ";") || token_is(token, "{") || token_is(token, "}");
     }
 }
 

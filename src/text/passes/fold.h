@@ -1,6 +1,5 @@
 /* fold.h - constant folding of a text's conditions: only the branch that is taken stays */
-#ifndef WEFT_TEXT_FOLD_H
-#define WEFT_TEXT_FOLD_H
+#pragma once
 
 #include "text/source/buffer.h"
 
@@ -14,5 +13,3 @@ typedef struct FoldFact {
  * text's own integer constants; parts of other conditions that are always true are removed. A bool whose declaration
  * has a constant value counts as a fact, and its declaration is removed. Other lines stay as they are, comments too. */
 void fold_text(const char *text, const FoldFact *facts, int count, Buffer *out);
-
-#endif

@@ -83,10 +83,8 @@ void items_cut(const char *text, Items *out) {
         const char *own = take_comments(out, &c, end), *first = c;
         if (c == end) break;
         bool record = token_is(token_next(&first, end), "struct");
-        Item item = {.comment = own,
-                     .code = c,
-                     .end = item_end(c, end, record),
-                     .file = out->file_count ? out->file : -1};
+        Item item = {
+            .comment = own, .code = c, .end = item_end(c, end, record), .file = out->file_count ? out->file : -1};
         if (name_item(&item)) out->all[out->count++] = item;
         c = item.end;
     }

@@ -1,6 +1,5 @@
 /* items.h - a text cut into its declarations and functions, and the selection of those that are needed */
-#ifndef WEFT_TEXT_ITEMS_H
-#define WEFT_TEXT_ITEMS_H
+#pragma once
 
 #include "base/memory.h"
 #include "text/source/token.h"
@@ -45,5 +44,3 @@ bool items_keep(Items *items, const char *name);
 
 /* Returns the item of a name, or NULL. */
 const Item *items_find(const Items *items, Token name);
-
-#endif

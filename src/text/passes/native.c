@@ -101,8 +101,7 @@ static Bond put_range(const char *c, const char *end, Buffer *out) {
         }
         buffer_put(out, token.at, token.size);
         depth += token_depth(token);
-        if (depth == 0 && token.kind == TOKEN_MARK && token_depth(token) == 0)
-            bond = least(bond, bond_of(token));
+        if (depth == 0 && token.kind == TOKEN_MARK && token_depth(token) == 0) bond = least(bond, bond_of(token));
         if (token.kind != TOKEN_BLANK) before = token;
     }
     return bond;

@@ -2,12 +2,9 @@
  *
  *   rgb_add(a, rgb_scale(b, k))     a + b * k
  *   dir_dot(o, h)                   dot(o, h) */
-#ifndef WEFT_TEXT_NATIVE_H
-#define WEFT_TEXT_NATIVE_H
+#pragma once
 
 #include "text/source/buffer.h"
 
 /* Appends the text. */
 void native_put(const char *text, Buffer *out);
-
-#endif

@@ -24,8 +24,7 @@ typedef struct Returned {
 
 static const Filler *find_filler(const Returned *self, Token name) {
     for (int k = 0; k < self->count; k++)
-        if (self->fillers[k].function && token_same(self->fillers[k].function->name, name))
-            return &self->fillers[k];
+        if (self->fillers[k].function && token_same(self->fillers[k].function->name, name)) return &self->fillers[k];
     return NULL;
 }
 
@@ -59,8 +58,7 @@ static bool is_named(const char *c, const char *end, Piece path) {
     while (c < end) {
         Token token = token_next(&c, end);
         if (token_same(token, base) && !token_is(before, ".")) {
-            bool other =
-                members && *c == '.' && (size_t)(end - c) >= members && memcmp(c, rest, members) != 0;
+            bool other = members && *c == '.' && (size_t)(end - c) >= members && memcmp(c, rest, members) != 0;
             if (!other) return true;
         }
         if (token.kind != TOKEN_BLANK) before = token;
@@ -95,8 +93,7 @@ static bool has_loop(const char *c, const char *end) {
 }
 
 /* Returns true if nothing was written before the call to the variable that it passes. */
-static bool is_fresh(const Returned *self, const Item *caller, const char *body, const char *call,
-                     Piece path) {
+static bool is_fresh(const Returned *self, const Item *caller, const char *body, const char *call, Piece path) {
     const char *declared = declared_bare(body, call, path), *from = body;
     const Filler *outer = find_filler(self, caller->name);
     const char *rest = path.at;
@@ -116,8 +113,7 @@ typedef struct Call {
     const char *at;
 } Call;
 
-static bool call_at(const Returned *self, Token before, Token token, const char *c, const char *end,
-                    Call *out) {
+static bool call_at(const Returned *self, Token before, Token token, const char *c, const char *end, Call *out) {
     if (token.kind != TOKEN_NAME || token_is(before, ".")) return false;
     const Filler *filler = find_filler(self, token);
     if (!filler || !token_is(token_peek(c, end), "(")) return false;
@@ -181,8 +177,7 @@ static bool return_value(Returned *self, const Filler *filler) {
             const char *stop = types_statement_end(at, end);
             const char *value = stored;
             token_solid(&value, end);
-            if (token_found(filler->body, at, name) || token_found(value, end, name) ||
-                blank_end(stop, end) != end)
+            if (token_found(filler->body, at, name) || token_found(value, end, name) || blank_end(stop, end) != end)
                 return false;
             put(self, at, value, (Token[]){word("return")}, 1);
             return true;
@@ -218,13 +213,11 @@ static void return_filled(Returned *self, const Filler *filler) {
         put(self, open, first, (Token[]){word("\n    ")}, 1);
     for (Token token; (token = token_next(&c, close)).kind != TOKEN_NONE;)
         if (token_is(token, "return")) put(self, c, c, (Token[]){word(" "), name}, 2);
-    if (!returns_last(open, last))
-        put(self, last, close, (Token[]){word("\n    return "), name, word(";\n")}, 3);
+    if (!returns_last(open, last)) put(self, last, close, (Token[]){word("\n    return "), name, word(";\n")}, 3);
 }
 
 static void drop_last(Returned *self, const List *list) {
-    edit_put(&self->edits, list->count > 1 ? list->all[list->count - 2].end : list->open + 1, list->close,
-             NULL);
+    edit_put(&self->edits, list->count > 1 ? list->all[list->count - 2].end : list->open + 1, list->close, NULL);
 }
 
 static void change_function(Returned *self, const Filler *filler) {
@@ -254,8 +247,7 @@ static void change_call(Returned *self, const char *body, const Call *call, Toke
     const char *declared = declared_bare(body, call->at, call->path);
     const Token path = {TOKEN_NAME, call->path.at, (size_t)(call->path.end - call->path.at)};
     Token type = call->filler->filled.type;
-    bool bare =
-        declared && !call->filler->takes && !memchr(path.at, '.', path.size) && is_beside(declared, call->at);
+    bool bare = declared && !call->filler->takes && !memchr(path.at, '.', path.size) && is_beside(declared, call->at);
     if (bare && types_begins(before)) {
         edit_drop(&self->edits, declared, types_statement_end(declared, call->at));
         put(self, call->at, call->at, (Token[]){type, word(" "), path, word(" = ")}, 4);

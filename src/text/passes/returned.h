@@ -3,8 +3,7 @@
  *   void ggx_prepare(Ggx m, inout GgxPrepared p) { ... }     GgxPrepared ggx_prepare(Ggx m) { ... }
  *   GgxPrepared p;                                           GgxPrepared p = ggx_prepare(m);
  *   ggx_prepare(m, p); */
-#ifndef WEFT_TEXT_RETURNED_H
-#define WEFT_TEXT_RETURNED_H
+#pragma once
 
 #include "text/passes/items.h"
 #include "text/source/buffer.h"
@@ -18,5 +17,3 @@
  *   void slot_add(inout Slot s, float x) { ... }             Slot slot_add(Slot s, float x) { ... return s; }
  *   slot_add(m.coat, x);                                     m.coat = slot_add(m.coat, x); */
 void returned_put(const Items *items, const char *text, bool all, Buffer *out);
-
-#endif

@@ -15,8 +15,7 @@ static const Word hlsl_words[] = {{"Dir", "float3"}, {"Rgb", "float3"}, {"mix", 
 static const Word c_words[] = {{"abs", "fabsf"}, {"floor", "floorf"}, {"sqrt", "sqrtf"}, {"sin", "sinf"},
                                {"cos", "cosf"},  {"exp", "expf"},     {"exp2", "exp2f"}, {"log2", "log2f"},
                                {"pow", "powf"},  {NULL, NULL}};
-static const Word wgsl_words[] = {
-    {"Dir", "vec3f"}, {"Rgb", "vec3f"}, {"float", "f32"}, {"int", "i32"}, {NULL, NULL}};
+static const Word wgsl_words[] = {{"Dir", "vec3f"}, {"Rgb", "vec3f"}, {"float", "f32"}, {"int", "i32"}, {NULL, NULL}};
 static const Word *const words_of[] = {glsl_words, hlsl_words, c_words, wgsl_words};
 
 static const Word c_helpers[] = {
@@ -187,8 +186,8 @@ static void calls_follow(Calls *calls, const Items *items, Token before, Token t
 }
 
 /* Writes code of a function in C, with its references as pointers. */
-static void put_c_code(const Speller *speller, const Items *items, const Item *function, const char *c,
-                       const char *end, Buffer *out) {
+static void put_c_code(const Speller *speller, const Items *items, const Item *function, const char *c, const char *end,
+                       Buffer *out) {
     Calls calls = {0};
     Token before = {0};
     while (c < end) {
@@ -200,8 +199,7 @@ static void put_c_code(const Speller *speller, const Items *items, const Item *f
             c = put_pointer(speller, items, c, end, out);
         } else if (token.kind == TOKEN_NAME && !member) {
             bool argument = token_is(before, "(") || token_is(before, ",");
-            bool written = argument && calls.depth > 0 && calls.depth < 64 &&
-                           calls.open[calls.depth].function &&
+            bool written = argument && calls.depth > 0 && calls.depth < 64 && calls.open[calls.depth].function &&
                            is_written(calls.open[calls.depth].function, calls.open[calls.depth].place);
             bool declared = token_is(before, "inout");
             if (written && (follows || !own)) buffer_put_text(out, "&");
@@ -232,8 +230,8 @@ static void put_c_function(const Speller *speller, const Items *items, const Ite
     put_c_code(speller, items, item, open + 1, body + 1, out);
     for (Token last = {0}; c <= close;) {
         Token token = token_solid(&c, item->end);
-        if ((token_is(token, ",") || token_is(token, ")")) && last.kind == TOKEN_NAME &&
-            !token_is(last, "void") && !token_found(body, item->end, last)) {
+        if ((token_is(token, ",") || token_is(token, ")")) && last.kind == TOKEN_NAME && !token_is(last, "void") &&
+            !token_found(body, item->end, last)) {
             buffer_put_text(out, "\n    (void)");
             put_word(speller, items, last, c, item->end, out);
             buffer_put_text(out, ";");
@@ -330,8 +328,7 @@ void spell_items(const Speller *speller, const Items *items, bool late, Buffer *
         if (!is_put(item, late) || (item->kind == ITEM_RECORD && is_vector(speller, item->name))) continue;
         const ItemFile *from = item->file < 0 ? NULL : &items->files[item->file];
         bool first = from && from->head && item->file != file;
-        for (int j = 0; j < k && first; j++)
-            first = !is_put(&items->all[j], late) || items->all[j].file != item->file;
+        for (int j = 0; j < k && first; j++) first = !is_put(&items->all[j], late) || items->all[j].file != item->file;
         if (any && (!line || !is_line(item) || first)) buffer_put_text(out, "\n");
         if (first) {
             buffer_put_text(out, "/*");

@@ -2,8 +2,7 @@
  *
  *   Dir, Rgb        vec3, float3 or vec3f; records in C
  *   charlie_d       weft_charlie_d, and so every function, record (WeftAngles) and constant (WEFT_PI) */
-#ifndef WEFT_TEXT_SPELL_H
-#define WEFT_TEXT_SPELL_H
+#pragma once
 
 #include "text/passes/items.h"
 #include "text/source/buffer.h"
@@ -34,7 +33,4 @@ void spell_helpers(const Speller *speller, const Items *const *texts, int count,
 char *spell_name(const Speller *speller, ItemKind kind, const char *dialect, char name[SPELL_NAME]);
 
 /* Works as spell_name, for the item of that name among these if there is one. */
-char *spell_item(const Speller *speller, const Items *items, ItemKind kind, const char *dialect,
-                 char name[SPELL_NAME]);
-
-#endif
+char *spell_item(const Speller *speller, const Items *items, ItemKind kind, const char *dialect, char name[SPELL_NAME]);

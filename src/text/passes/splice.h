@@ -1,6 +1,5 @@
 /* splice.h - a list of edits of a text */
-#ifndef WEFT_TEXT_SPLICE_H
-#define WEFT_TEXT_SPLICE_H
+#pragma once
 
 #include "text/source/buffer.h"
 
@@ -28,5 +27,3 @@ void edit_drop(Edits *edits, const char *at, const char *end);
 /* Appends the text with its edits, without edits inside others, and frees them. Returns false, and appends nothing, if
  * there are none. */
 bool edits_apply(Edits *edits, const char *text, Buffer *out);
-
-#endif

@@ -157,8 +157,7 @@ static void list_symbols(const Item *function, Symbols *out) {
         if (token.kind == TOKEN_BLANK) continue;
         bool begins = token.kind == TOKEN_NAME && (types_begins(before) || token_is(before, "("));
         List names = begins ? types_declared(at, function->end, &type) : (List){.count = 0};
-        for (int k = 0; k < names.count; k++)
-            add_symbol(out, token_peek(names.all[k].at, names.all[k].end), type);
+        for (int k = 0; k < names.count; k++) add_symbol(out, token_peek(names.all[k].at, names.all[k].end), type);
         before = token;
     }
 }
@@ -202,10 +201,8 @@ static void take_bracket(Walk *walk, Token before, Token bracket) {
     }
 }
 
-static void take_token(Walk *walk, Token before, Token token, const char *statement,
-                       const char *statement_end) {
-    bool bracket =
-        token_is(token, "(") || token_is(token, "[") || token_is(token, ")") || token_is(token, "]");
+static void take_token(Walk *walk, Token before, Token token, const char *statement, const char *statement_end) {
+    bool bracket = token_is(token, "(") || token_is(token, "[") || token_is(token, ")") || token_is(token, "]");
     if (bracket)
         take_bracket(walk, before, token);
     else if (token.kind == TOKEN_NAME && token_is(before, "."))

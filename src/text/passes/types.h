@@ -1,6 +1,5 @@
 /* types.h - the records that the names of a text belong to */
-#ifndef WEFT_TEXT_TYPES_H
-#define WEFT_TEXT_TYPES_H
+#pragma once
 
 #include "text/passes/items.h"
 
@@ -44,8 +43,7 @@ Token types_result(const Items *items, Token function);
 typedef struct Access {
     Token record; /* TOKEN_NONE: unknown */
     Token member;
-    const char *statement,
-        *statement_end; /* the statement that writes to the whole or a part; NULL: a read */
+    const char *statement, *statement_end; /* the statement that writes to the whole or a part; NULL: a read */
 } Access;
 
 /* Calls visit with each access of a function, in their order. */
@@ -64,5 +62,3 @@ bool types_begins(Token before);
 
 /* Returns the end of the path that the statement at c writes to, as "a.b[2].c = ...;" does, or NULL. */
 const char *types_stored(const char *c, const char *end);
-
-#endif

@@ -39,8 +39,7 @@ static bool has_effect(const Items *items, const char *c, const char *end, int o
             token.kind == TOKEN_NAME && token_is(token_peek(c, end), "(") ? items_find(items, token) : NULL;
         bool counts = (token_is(token, "+") || token_is(token, "-")) && c < end && *c == *token.at;
         own -= token.kind == TOKEN_MARK && is_assignment(token.at, end);
-        if (counts || own < 0 || (called && called->kind == ITEM_FUNCTION && types_writes(called)))
-            return true;
+        if (counts || own < 0 || (called && called->kind == ITEM_FUNCTION && types_writes(called))) return true;
     }
     return false;
 }
@@ -100,8 +99,8 @@ static void visit_stored(void *user, const Access *access) {
  * member of an unknown record, or the statement does more than write. */
 static void visit_unknown(void *user, const Access *access) {
     const Unused *self = user;
-    if (access->statement && (access->record.kind != TOKEN_NAME ||
-                              has_effect(self->items, access->statement, access->statement_end, 1)))
+    if (access->statement &&
+        (access->record.kind != TOKEN_NAME || has_effect(self->items, access->statement, access->statement_end, 1)))
         visit_read(user, &(Access){access->record, access->member, NULL, NULL});
 }
 
@@ -117,8 +116,8 @@ static void keep_one(Unused *self) {
     for (int k = 0, read = 0, first = 0; k < self->member_count; k++) {
         if (!token_same(self->members[k].record, self->members[first].record)) first = k, read = 0;
         read += self->members[k].read;
-        bool last = k + 1 == self->member_count ||
-                    !token_same(self->members[k + 1].record, self->members[first].record);
+        bool last =
+            k + 1 == self->member_count || !token_same(self->members[k + 1].record, self->members[first].record);
         if (last && !read) self->members[first].read = true;
     }
 }
@@ -131,8 +130,7 @@ static void drop_members(Unused *self, const Item *record) {
         List names = types_declared(c, record->end, &type);
         int idle = -1, count = 0;
         for (int k = 0; k < names.count; k++) {
-            const Member *member =
-                find_member(self, record->name, token_peek(names.all[k].at, names.all[k].end));
+            const Member *member = find_member(self, record->name, token_peek(names.all[k].at, names.all[k].end));
             if (!member || member->read) continue;
             idle = k;
             count++;
@@ -261,8 +259,7 @@ static void list_uses(const Items *items, const char *c, const char *end, Uses *
         add_uses(items, &statement.names, out);
         Use *use = token.kind == TOKEN_NAME && !token_is(before, ".") ? find_use(out, token) : NULL;
         if (use) use->named++;
-        if (use && statement.stored &&
-            !has_effect(items, statement.at, types_statement_end(statement.at, end), 1))
+        if (use && statement.stored && !has_effect(items, statement.at, types_statement_end(statement.at, end), 1))
             use->stored++;
         before = token;
     }
@@ -304,8 +301,7 @@ static void cut_value(Unused *self, const Statement *declared, const char *end) 
         depth += token_depth(token);
         if (depth < 0) return;
         if (token_same(token, name) && !token_is(before, ".")) {
-            if (depth > 0 || statement.stored != c || token_found(c, types_statement_end(c, end), name))
-                return;
+            if (depth > 0 || statement.stored != c || token_found(c, types_statement_end(c, end), name)) return;
             char type[64];
             snprintf(type, sizeof type, "%.*s ", (int)declared->type.size, declared->type.at);
             edit_put(&self->edits, statement.at, statement.at, type);
@@ -335,8 +331,7 @@ static void cut_calls(Unused *self, const Item *function) {
     types_parameters(function, &c);
     for (const char *at = c; (token = token_next(&c, function->end)).kind != TOKEN_NONE; at = c) {
         if (token.kind == TOKEN_BLANK) continue;
-        const Item *called =
-            token.kind == TOKEN_NAME && types_begins(before) ? items_find(self->items, token) : NULL;
+        const Item *called = token.kind == TOKEN_NAME && types_begins(before) ? items_find(self->items, token) : NULL;
         before = token;
         if (!called || called->kind != ITEM_FUNCTION) continue;
         const char *body;

@@ -1,6 +1,5 @@
 /* unused.h - a text without the members of records, parameters and variables that it never reads */
-#ifndef WEFT_TEXT_UNUSED_H
-#define WEFT_TEXT_UNUSED_H
+#pragma once
 
 #include "text/passes/items.h"
 #include "text/source/buffer.h"
@@ -10,5 +9,3 @@
  * none, since a removed part may have been the only one to read another. Items kept by name keep their parameters, the
  * records named in whole (ended by NULL) their members, and every record one member. */
 bool unused_cut(const Items *items, const char *text, const char *const *whole, Buffer *out);
-
-#endif

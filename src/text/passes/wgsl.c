@@ -128,8 +128,7 @@ static bool is_stored(const char *c, const char *end) {
         else
             break;
     }
-    bool changes =
-        token_is(token, "+") || token_is(token, "-") || token_is(token, "*") || token_is(token, "/");
+    bool changes = token_is(token, "+") || token_is(token, "-") || token_is(token, "*") || token_is(token, "/");
     if (token_is(token, "=")) return *c != '=';
     return changes && (*c == '=' || (*c == *token.at && !token_is(token, "*") && !token_is(token, "/")));
 }
@@ -141,8 +140,7 @@ static bool is_written(const Item *function, Token name) {
     for (; (token = token_next(&c, function->end)).kind != TOKEN_NONE;) {
         if (token.kind == TOKEN_BLANK) continue;
         bool declared = (before.kind == TOKEN_NAME && !token_is(before, "else")) || token_is(before, ",");
-        if (token_same(token, name) && !declared && !token_is(before, ".") &&
-            is_stored(token.at, function->end))
+        if (token_same(token, name) && !declared && !token_is(before, ".") && is_stored(token.at, function->end))
             return true;
         before = token;
     }

@@ -7,8 +7,7 @@
  *
  * A function that writes to a parameter passed by value writes to a copy. Functions do not write through parameters:
  * see returned.h. World Wide Web Consortium, "WebGPU Shading Language", Candidate Recommendation, 2024. */
-#ifndef WEFT_TEXT_WGSL_H
-#define WEFT_TEXT_WGSL_H
+#pragma once
 
 #include "text/passes/items.h"
 #include "text/source/buffer.h"
@@ -22,5 +21,3 @@ void wgsl_put_members(const Item *record, Buffer *out);
 /* Returns a sentence on the part of a function that cannot be written as WGSL, or NULL: it writes through a parameter,
  * has a loop with do, or a case that falls through to the next. */
 const char *wgsl_lacks(const Item *function);
-
-#endif

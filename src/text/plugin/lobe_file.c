@@ -36,8 +36,7 @@ static bool name_of(const char *path, char name[NAME_MOST + 1]) {
     memcpy(name, base, size - 2);
     name[size - 2] = 0;
     for (const char *c = name; *c; c++)
-        if (!(*c >= 'a' && *c <= 'z') && (c == name || !((*c >= '0' && *c <= '9') || *c == '_')))
-            return false;
+        if (!(*c >= 'a' && *c <= 'z') && (c == name || !((*c >= '0' && *c <= '9') || *c == '_'))) return false;
     return !strstr(name, "__") && name[strlen(name) - 1] != '_'; /* "a_" and "a__b" would have A and AB */
 }
 
@@ -78,9 +77,8 @@ static bool shares_record(const char *record, const char *other) {
 
 /* Returns true if the text defines a record, a type or a macro that the lobe file defines too. */
 static bool is_defined(const LobeFile *own, const char *text) {
-    static const char *const around[][2] = {{"STRUCT(", ")"},     {"STRUCT(", "Prepared)"},
-                                            {"STRUCT(", "View)"}, {"} ", ";"},
-                                            {" *", ";"},          {"#define ", " "}};
+    static const char *const around[][2] = {
+        {"STRUCT(", ")"}, {"STRUCT(", "Prepared)"}, {"STRUCT(", "View)"}, {"} ", ";"}, {" *", ";"}, {"#define ", " "}};
     char words[80];
     for (size_t k = 0; k < sizeof around / sizeof *around; k++) {
         snprintf(words, sizeof words, "%s%s%s", around[k][0], own->record, around[k][1]);
@@ -94,35 +92,32 @@ static bool is_defined(const LobeFile *own, const char *text) {
 static WeftResult check_names(const LobeFile *own, const char *path, WeftError *error) {
     int id = weft_lobe_find(own->id);
     if (id >= 0 && id < LOBE_COUNT)
-        return fail(error, WEFT_MESSAGE_LOBE_FILE, path,
-                    "the catalogue has a lobe %s: give the file another name", own->id);
+        return fail(error, WEFT_MESSAGE_LOBE_FILE, path, "the catalogue has a lobe %s: give the file another name",
+                    own->id);
     for (int k = 0, count = weft_lobe_count(); k < count; k++) {
         const OutsideLobe *outside = outside_lobe(k);
-        if (k != id && (shares_record(own->record, lobe_names(k)->record) ||
-                        (outside && is_defined(own, outside->text))))
+        if (k != id &&
+            (shares_record(own->record, lobe_names(k)->record) || (outside && is_defined(own, outside->text))))
             return fail(error, WEFT_MESSAGE_LOBE_FILE, path,
                         "its %s would be that of the lobe %s: give the file another name", own->record,
                         weft_lobe_info(k)->id);
     }
     for (const CatalogueFile *file = catalogue_files; file->name; file++)
         if (is_defined(own, file->bytes))
-            return fail(error, WEFT_MESSAGE_LOBE_FILE, path,
-                        "its %s would be that of %s: give the file another name", own->record, file->name);
+            return fail(error, WEFT_MESSAGE_LOBE_FILE, path, "its %s would be that of %s: give the file another name",
+                        own->record, file->name);
     return WEFT_OK;
 }
 
 /* Fails if the file lacks a part of a lobe, with its name. */
 static WeftResult check_parts(const LobeFile *own, const char *path, WeftError *error) {
-    const char *const parts[][2] = {{own->macros, "_PARAMS("},
-                                    {own->macros, "_TRAITS"},
-                                    {own->prefix, "_value("},
-                                    {own->prefix, "_sample("}};
+    const char *const parts[][2] = {
+        {own->macros, "_PARAMS("}, {own->macros, "_TRAITS"}, {own->prefix, "_value("}, {own->prefix, "_sample("}};
     for (size_t k = 0; k < sizeof parts / sizeof *parts; k++) {
         char part[80];
         snprintf(part, sizeof part, "%s%s", parts[k][0], parts[k][1]);
         if (!strstr(own->text, part))
-            return fail(error, WEFT_MESSAGE_LOBE_FILE, path, "it has no %s%s", part,
-                        strchr(part, '(') ? "...)" : "");
+            return fail(error, WEFT_MESSAGE_LOBE_FILE, path, "it has no %s%s", part, strchr(part, '(') ? "...)" : "");
     }
     return strstr(own->text, "shading/lobe/lobe_tables.h")
                ? refuse(error, path, "tables are for the lobes of the catalogue")
@@ -177,8 +172,7 @@ static WeftResult take_params(LobeFile *own, const Plugin *plugin, const char *p
         if (fault) return fail(error, WEFT_MESSAGE_LOBE_FILE, path, "parameter %s %s", p->name, fault);
         if (!(p->hard_low <= p->low && p->low <= p->def && p->def <= p->high && p->high <= p->hard_high))
             return fail(error, WEFT_MESSAGE_LOBE_FILE, path, "the ranges of %s do not nest", p->name);
-        own->params[k] =
-            (WeftParamInfo){p->name, p->help, p->def, p->low, p->high, p->hard_low, p->hard_high, choices};
+        own->params[k] = (WeftParamInfo){p->name, p->help, p->def, p->low, p->high, p->hard_low, p->hard_high, choices};
     }
     own->lobe.info.param_count = plugin->param_count;
     return WEFT_OK;
@@ -188,18 +182,16 @@ static WeftResult take_params(LobeFile *own, const Plugin *plugin, const char *p
 static WeftResult check_size(const char *record, const char *kind, size_t size, size_t most, const char *path,
                              WeftError *error) {
     if (size <= most * sizeof(float)) return WEFT_OK;
-    return fail(error, WEFT_MESSAGE_LOBE_FILE, path, "%s%s has %zu bytes, and %zu is the most", record, kind,
-                size, most * sizeof(float));
+    return fail(error, WEFT_MESSAGE_LOBE_FILE, path, "%s%s has %zu bytes, and %zu is the most", record, kind, size,
+                most * sizeof(float));
 }
 
 static WeftResult take_plugin(LobeFile *own, const Plugin *plugin, const char *path, WeftError *error) {
     const char *record = own->record;
     if (plugin->traits & (TRAIT_TABLE | TRAIT_REFERENCE))
         return refuse(error, path, "tables and random walks are for the lobes of the catalogue");
-    WeftResult result =
-        check_size(record, "Prepared", plugin->prepared_size, OUTSIDE_PREPARED_FLOATS, path, error);
-    if (result == WEFT_OK)
-        result = check_size(record, "View", plugin->view_size, OUTSIDE_VIEW_FLOATS, path, error);
+    WeftResult result = check_size(record, "Prepared", plugin->prepared_size, OUTSIDE_PREPARED_FLOATS, path, error);
+    if (result == WEFT_OK) result = check_size(record, "View", plugin->view_size, OUTSIDE_VIEW_FLOATS, path, error);
     if (result == WEFT_OK) result = take_params(own, plugin, path, error);
     own->lobe.info.traits = plugin->traits;
     own->lobe.plugin = plugin;
@@ -215,8 +207,7 @@ static WeftResult take(LobeFile *own, const char *path, int *lobe, const WeftLog
     if (result == WEFT_OK) result = plugin_make(&own->lobe.names, path, own->text, &plugin, log, error);
     if (result == WEFT_OK) result = take_plugin(own, plugin, path, error);
     if (result == WEFT_OK && !outside_take(&own->lobe, lobe))
-        return fail(error, WEFT_MESSAGE_LOBE_FILE, path, "there are %d already, and no more fit",
-                    OUTSIDE_MOST);
+        return fail(error, WEFT_MESSAGE_LOBE_FILE, path, "there are %d already, and no more fit", OUTSIDE_MOST);
     return result;
 }
 
@@ -228,8 +219,7 @@ WeftResult weft_lobe_load(const char *path, int *lobe, const WeftLog *log, WeftE
     if (result != WEFT_OK) return result;
     if (!name_of(path, name)) {
         free(file.data);
-        return refuse(error, path,
-                      "its name is to be lower-case letters, digits and single _ between, and .h");
+        return refuse(error, path, "its name is to be lower-case letters, digits and single _ between, and .h");
     }
     if (memchr(file.data, 0, file.size)) {
         free(file.data);

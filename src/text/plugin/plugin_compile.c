@@ -68,21 +68,19 @@ static bool has_function(const LobeNames *names, const char *bytes, const char *
 static void put_plugin(Flat *flat, const LobeNames *names, const char *bytes) {
     const char *name = names->prefix, *record = names->record, *macros = names->macros;
     bool second = has_function(names, bytes, "float", "second");
-    bool strip = has_function(names, bytes, "Strip", "strip"),
-         proxy = has_function(names, bytes, "Proxy", "proxy");
+    bool strip = has_function(names, bytes, "Strip", "strip"), proxy = has_function(names, bytes, "Proxy", "proxy");
     char file[128];
     snprintf(file, sizeof file, "%s.h", name);
     put_file(flat, file, bytes);
     put_included(flat, "shading/catalogue/plugin_lobe.h");
     buffer_print(&flat->text, "PLUGIN_RECORD(%s, %s, %s)\n", name, record, macros);
-    buffer_print(&flat->text, "#ifdef PLUGIN_LOOPS\nPLUGIN_LOOPS_OF(%s, %s, %s, %s%s)\n#else\n", name, record,
-                 macros, second ? name : "EACH_F90", second ? "_second" : "");
+    buffer_print(&flat->text, "#ifdef PLUGIN_LOOPS\nPLUGIN_LOOPS_OF(%s, %s, %s, %s%s)\n#else\n", name, record, macros,
+                 second ? name : "EACH_F90", second ? "_second" : "");
     if (second) buffer_print(&flat->text, "PLUGIN_SECOND(%s)\n", name);
     if (strip) buffer_print(&flat->text, "PLUGIN_STRIP(%s)\n", name);
     if (proxy) buffer_print(&flat->text, "PLUGIN_PROXY(%s)\n", name);
     buffer_print(&flat->text, "PLUGIN_OF(%s, %s, %s, %s, %s, %s)\n#endif\n", name, record, macros,
-                 second ? "plugin_second" : "NULL", strip ? "plugin_strip" : "NULL",
-                 proxy ? "plugin_proxy" : "NULL");
+                 second ? "plugin_second" : "NULL", strip ? "plugin_strip" : "NULL", proxy ? "plugin_proxy" : "NULL");
 }
 
 /* Compiling it. */
@@ -93,18 +91,17 @@ static void put_plugin(Flat *flat, const LobeNames *names, const char *bytes) {
 #else
 #define ARCH
 #endif
-#define COMMON                                                                                               \
-    "-std=c11", "-O3", "-fPIC", "-fvisibility=hidden", "-Werror=implicit-function-declaration",              \
-        "-fno-math-errno", "-fno-trapping-math", "-fno-signed-zeros", "-ffinite-math-only"
+#define COMMON                                                                                                         \
+    "-std=c11", "-O3", "-fPIC", "-fvisibility=hidden", "-Werror=implicit-function-declaration", "-fno-math-errno",     \
+        "-fno-trapping-math", "-fno-signed-zeros", "-ffinite-math-only"
 #ifdef WEFT_ONE_ISA
 #define ISA_TEXT(set)   "-DWEFT_ONE_ISA=" #set,
 #define ISA_OPTION(set) ISA_TEXT(set)
 #else
 #define ISA_OPTION(set)
 #endif
-static const char *const half_flags[2][20] = {{COMMON, "-fopenmp-simd", "-ffp-contract=fast",
-                                               "-DPLUGIN_LOOPS", "-DFN_NOINLINE=FN",
-                                               ISA_OPTION(WEFT_ONE_ISA) "-c"},
+static const char *const half_flags[2][20] = {{COMMON, "-fopenmp-simd", "-ffp-contract=fast", "-DPLUGIN_LOOPS",
+                                               "-DFN_NOINLINE=FN", ISA_OPTION(WEFT_ONE_ISA) "-c"},
                                               {COMMON, ARCH "-ffp-contract=off", "-shared"}};
 
 enum { COMPILER_SIZE = 256, COMPILER_WORDS = 8, PATH_SIZE = CACHE_PATH_SIZE + 32 };
@@ -148,8 +145,7 @@ static void sweep(const char *folder) {
     struct stat status;
     for (struct dirent *entry; entries && (entry = readdir(entries));) {
         if (strncmp(entry->d_name, "lobe-", 5) != 0) continue;
-        if ((size_t)snprintf(work.folder, sizeof work.folder, "%s/%s", folder, entry->d_name) >=
-                sizeof work.folder ||
+        if ((size_t)snprintf(work.folder, sizeof work.folder, "%s/%s", folder, entry->d_name) >= sizeof work.folder ||
             lstat(work.folder, &status) != 0 || status.st_mtime > time(NULL) - 3600)
             continue;
         work_name(&work);
@@ -194,8 +190,7 @@ static int compile_half(const CompileWork *work, const Compiler *compiler, int h
 /* Errors. */
 
 /* Fails with a compiler's error: "toy.h:12:5: error: WORDS" becomes "PATH:12: does not compile: WORDS". */
-static WeftResult fail_line(const char *line, const char *path, const char *file, int more,
-                            WeftError *error) {
+static WeftResult fail_line(const char *line, const char *path, const char *file, int more, WeftError *error) {
     char place[400], others[40] = "", words[300];
     int number = 0;
     size_t size = strlen(file);
@@ -205,20 +200,17 @@ static WeftResult fail_line(const char *line, const char *path, const char *file
     snprintf(words, sizeof words, "%.*s", length, message);
     if (more) snprintf(others, sizeof others, "; and %d more error%s", more, more > 1 ? "s" : "");
     if (strncmp(line, file, size) != 0 || sscanf(line + size, ":%d", &number) != 1)
-        return fail(error, WEFT_MESSAGE_LOBE_COMPILE, path, "%.*s: %s%s", (int)strcspn(line, ":"), line,
-                    words, others);
+        return fail(error, WEFT_MESSAGE_LOBE_COMPILE, path, "%.*s: %s%s", (int)strcspn(line, ":"), line, words, others);
     snprintf(place, sizeof place, "%.380s:%d", path, number);
     return fail(error, WEFT_MESSAGE_LOBE_COMPILE, place, "%s%s", words, others);
 }
 
 /* Fails with the compiler's first error, else its last line. */
-static WeftResult fail_compile(const CompileWork *work, const char *path, const char *file,
-                               WeftError *error) {
+static WeftResult fail_compile(const CompileWork *work, const char *path, const char *file, WeftError *error) {
     FileBytes log;
     const char *first = NULL, *last = NULL;
     int count = 0;
-    if (file_read(work->log, 1 << 20, &log, NULL) != WEFT_OK)
-        return fail(error, WEFT_MESSAGE_LOBE_COMPILE, path, NULL);
+    if (file_read(work->log, 1 << 20, &log, NULL) != WEFT_OK) return fail(error, WEFT_MESSAGE_LOBE_COMPILE, path, NULL);
     char *rest = NULL;
     for (char *line = strtok_r((char *)log.data, "\n", &rest); line; line = strtok_r(NULL, "\n", &rest)) {
         last = line;
@@ -226,22 +218,21 @@ static WeftResult fail_compile(const CompileWork *work, const char *path, const 
         if (!count++) first = line;
     }
     WeftResult result = first ? fail_line(first, path, file, count - 1, error)
-                              : fail(error, WEFT_MESSAGE_LOBE_COMPILE, path, "the compiler fails%s%s",
-                                     last ? ": " : "", last ? last : "");
+                              : fail(error, WEFT_MESSAGE_LOBE_COMPILE, path, "the compiler fails%s%s", last ? ": " : "",
+                                     last ? last : "");
     free(log.data);
     return result;
 }
 
-static WeftResult compile(const CompileWork *work, const Compiler *compiler, const Buffer *text,
-                          const char *path, const char *file, WeftError *error) {
+static WeftResult compile(const CompileWork *work, const Compiler *compiler, const Buffer *text, const char *path,
+                          const char *file, WeftError *error) {
     FILE *stream = fopen(work->text, "wb");
     bool written = stream && fwrite(text->bytes, 1, text->size, stream) == text->size;
     if (stream) written = fclose(stream) == 0 && written;
     if (!written) return fail(error, WEFT_MESSAGE_FILE_WRITE, work->text, NULL);
     for (int half = 0; half < 2; half++) {
         int code = compile_half(work, compiler, half);
-        if (code == PROCESS_MISSING)
-            return fail(error, WEFT_MESSAGE_COMPILER, path, "install one, or name it by $CC");
+        if (code == PROCESS_MISSING) return fail(error, WEFT_MESSAGE_COMPILER, path, "install one, or name it by $CC");
         if (code == PROCESS_LOST)
             return fail(error, WEFT_MESSAGE_LOBE_COMPILE, path,
                         "the compiler cannot be waited for; is SIGCHLD ignored?");
@@ -286,8 +277,7 @@ static bool find_place(char cached[CACHE_PATH_SIZE], uint64_t key) {
 /* Moves a library to the cache; warns on failure, since it is then compiled again each time. */
 static void keep(const char *library, const char *cached, const WeftLog *log) {
     if (chmod(library, 0700) != 0 || rename(library, cached) != 0)
-        warn(log, WEFT_MESSAGE_CACHE_IGNORED, cached,
-             "it cannot be written; the lobe is compiled at each start");
+        warn(log, WEFT_MESSAGE_CACHE_IGNORED, cached, "it cannot be written; the lobe is compiled at each start");
 }
 
 static WeftResult make(const Compiler *compiler, const Buffer *text, const char *path, const char *file,
@@ -322,8 +312,7 @@ WeftResult plugin_make(const LobeNames *names, const char *path, const char *byt
     }
     snprintf(file, sizeof file, "%s.h", names->prefix);
     bool caches = find_place(cached, key_of(&flat.text, &compiler));
-    if (!caches)
-        warn(log, WEFT_MESSAGE_CACHE_IGNORED, path, "there is no folder of the user's own to keep it in");
+    if (!caches) warn(log, WEFT_MESSAGE_CACHE_IGNORED, path, "there is no folder of the user's own to keep it in");
     WeftResult result = WEFT_OK;
     *out = caches && cache_is_private(cached) ? load(cached) : NULL;
     if (!*out) result = make(&compiler, &flat.text, path, file, caches ? cached : NULL, out, log, error);

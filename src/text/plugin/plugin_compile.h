@@ -1,6 +1,5 @@
 /* plugin_compile.h - a plugin (shading/catalogue/plugin.h) made of a lobe's file by the machine's C compiler */
-#ifndef WEFT_TEXT_PLUGIN_COMPILE_H
-#define WEFT_TEXT_PLUGIN_COMPILE_H
+#pragma once
 
 #include "shading/catalogue/plugin.h"
 #include "shading/catalogue/registry.h"
@@ -10,5 +9,3 @@
  * WEFT_MESSAGE_COMPILER, or with _LOBE_COMPILE and the line. */
 WeftResult plugin_make(const LobeNames *names, const char *path, const char *bytes, const Plugin **out,
                        const WeftLog *log, WeftError *error);
-
-#endif

@@ -33,8 +33,7 @@ Origin buffer_origin(const Buffer *buffer, size_t at) {
 
 /* Records the origin of the bytes that are put next, and drops marks of bytes that were removed. */
 static void put_mark(Buffer *buffer) {
-    while (buffer->mark_count && buffer->marks[buffer->mark_count - 1].at >= buffer->size)
-        buffer->mark_count--;
+    while (buffer->mark_count && buffer->marks[buffer->mark_count - 1].at >= buffer->size) buffer->mark_count--;
     Origin last = {0}, now = buffer->origin;
     if (buffer->mark_count) last = buffer->marks[buffer->mark_count - 1].origin;
     if (last.file == now.file && last.line == now.line) return;

@@ -1,6 +1,5 @@
 /* buffer.h - text that grows, and stores the origin of each of its bytes */
-#ifndef WEFT_TEXT_BUFFER_H
-#define WEFT_TEXT_BUFFER_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -35,5 +34,3 @@ Origin buffer_origin(const Buffer *buffer, size_t at);
 
 /* Leaves an empty buffer that can be used again. */
 void buffer_free(Buffer *buffer);
-
-#endif

@@ -1,7 +1,6 @@
 /* layout.h - layout of the flattened text: single blank lines, one member of a record a line, enumerations as
  * constants, comments on request */
-#ifndef WEFT_TEXT_LAYOUT_H
-#define WEFT_TEXT_LAYOUT_H
+#pragma once
 
 #include "text/source/buffer.h"
 
@@ -13,5 +12,3 @@ void layout_strip(const char *source, const char *end, bool keep, Buffer *out);
  * first word. *gap: a blank line is due before the next. Returns NULL, or the construct that GLSL lacks, with
  * out->origin as its place. */
 const char *layout_put(const Buffer *source, bool *gap, Buffer *out);
-
-#endif

@@ -17,8 +17,8 @@ typedef struct Macro {
 
 static void set_wrong(Macros *macros, Token token, const char *what) {
     if (!*macros->wrong)
-        snprintf(macros->wrong, sizeof macros->wrong, "%.*s %s", (int)(token.size < 40 ? token.size : 40),
-                 token.at, what);
+        snprintf(macros->wrong, sizeof macros->wrong, "%.*s %s", (int)(token.size < 40 ? token.size : 40), token.at,
+                 what);
 }
 
 static Macro *find(const Macros *macros, Token name) {
@@ -117,14 +117,11 @@ static int take_arguments(const char **cursor, const char *end, Token arguments[
 
 static int param_index(const Macro *macro, Token token) {
     for (int k = 0; token.kind == TOKEN_NAME && k < macro->param_count; k++)
-        if (macro->params[k].size == token.size && memcmp(macro->params[k].at, token.at, token.size) == 0)
-            return k;
+        if (macro->params[k].size == token.size && memcmp(macro->params[k].at, token.at, token.size) == 0) return k;
     return -1;
 }
 
-static bool pastes_next(const char *cursor, const char *end) {
-    return token_is(token_solid(&cursor, end), "##");
-}
+static bool pastes_next(const char *cursor, const char *end) { return token_is(token_solid(&cursor, end), "##"); }
 
 /* Appends the body with arguments in place of parameters. Beside ## arguments are not expanded. */
 static void substitute(Macros *macros, const Macro *macro, const Token *arguments, Buffer *out) {

@@ -1,8 +1,7 @@
 /* macro.h - the macros of shading text, defined and expanded as in C: tables of rows, token pasting, calls in arguments
  *
  * DOES NOT: have variable arguments, or calls whose name and parenthesis come from different macros; none is needed. */
-#ifndef WEFT_TEXT_MACRO_H
-#define WEFT_TEXT_MACRO_H
+#pragma once
 
 #include "base/memory.h"
 #include "text/source/buffer.h"
@@ -30,5 +29,3 @@ void macro_next(Macros *macros, const char **source, const char *end, Buffer *ou
 
 /* Appends [source, end) with every macro expanded. */
 void macro_expand(Macros *macros, const char *source, const char *end, Buffer *out);
-
-#endif

@@ -1,6 +1,5 @@
 /* number_text.h - a float as GLSL writes it */
-#ifndef WEFT_TEXT_NUMBER_TEXT_H
-#define WEFT_TEXT_NUMBER_TEXT_H
+#pragma once
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -25,5 +24,3 @@ static inline Number number(float value) {
     if (!strpbrk(n.text, ".e")) memcpy(n.text + size, ".0", 3);
     return n;
 }
-
-#endif

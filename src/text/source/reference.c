@@ -25,8 +25,7 @@ static const char *put_parameter(const Buffer *source, const char *c, const char
 
 /* Returns true if an operator after this token has one operand. */
 static bool is_open(Token last) {
-    if (last.kind == TOKEN_NAME)
-        return token_is(last, "return") || token_is(last, "else") || token_is(last, "do");
+    if (last.kind == TOKEN_NAME) return token_is(last, "return") || token_is(last, "else") || token_is(last, "do");
     return last.kind == TOKEN_MARK && !token_is(last, ")") && !token_is(last, "]");
 }
 

@@ -3,12 +3,9 @@
  *   const T *m    T m           a parameter that is read
  *   T *m          inout T m     a parameter that is written
  *   m->x, &x, *m  m.x, x, m */
-#ifndef WEFT_TEXT_REFERENCE_H
-#define WEFT_TEXT_REFERENCE_H
+#pragma once
 
 #include "text/source/buffer.h"
 
 /* Appends the declarations and functions of source, in which macros are expanded; each byte keeps its origin. */
 void reference_put(const Buffer *source, Buffer *out);
-
-#endif

@@ -1,19 +1,11 @@
 /* token.h - shading text cut into tokens */
-#ifndef WEFT_TEXT_TOKEN_H
-#define WEFT_TEXT_TOKEN_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
 #include <string.h>
 
-typedef enum TokenKind {
-    TOKEN_NONE,
-    TOKEN_BLANK,
-    TOKEN_NAME,
-    TOKEN_NUMBER,
-    TOKEN_STRING,
-    TOKEN_MARK
-} TokenKind;
+typedef enum TokenKind { TOKEN_NONE, TOKEN_BLANK, TOKEN_NAME, TOKEN_NUMBER, TOKEN_STRING, TOKEN_MARK } TokenKind;
 
 /* A piece of the text it was cut from. A TOKEN_MARK is one character, or "##". Comments count as blank. */
 typedef struct Token {
@@ -35,9 +27,7 @@ static inline const char *string_end(const char *c, const char *end) {
     return c < end ? c + 1 : end;
 }
 
-static inline bool is_comment(const char *c, const char *end) {
-    return c + 1 < end && c[0] == '/' && c[1] == '*';
-}
+static inline bool is_comment(const char *c, const char *end) { return c + 1 < end && c[0] == '/' && c[1] == '*'; }
 
 /* Returns the end of the comment that opens at c, or end. */
 static inline const char *comment_end(const char *c, const char *end) {
@@ -88,9 +78,7 @@ static inline bool token_is(Token token, const char *text) {
     return token.size == strlen(text) && memcmp(token.at, text, token.size) == 0;
 }
 
-static inline bool token_same(Token a, Token b) {
-    return a.size == b.size && memcmp(a.at, b.at, a.size) == 0;
-}
+static inline bool token_same(Token a, Token b) { return a.size == b.size && memcmp(a.at, b.at, a.size) == 0; }
 
 /* Returns the next token that is not blank, without taking it. */
 static inline Token token_peek(const char *c, const char *end) { return token_solid(&c, end); }
@@ -120,5 +108,3 @@ static inline bool token_found(const char *c, const char *end, Token name) {
     }
     return false;
 }
-
-#endif

@@ -42,8 +42,8 @@ int film_add(Film *film, int half, size_t pixel, const Stream *stream, int first
     float *sum = to->sums + 4 * pixel;
     int non_finite = 0;
     for (int id = first_id; id < first_id + count; id++) {
-        float c[4] = {stream->radiance.rgba[0][id], stream->radiance.rgba[1][id],
-                      stream->radiance.rgba[2][id], stream->radiance.rgba[3][id]};
+        float c[4] = {stream->radiance.rgba[0][id], stream->radiance.rgba[1][id], stream->radiance.rgba[2][id],
+                      stream->radiance.rgba[3][id]};
         if (!finite(c)) {
             non_finite++;
             c[0] = c[1] = c[2] = 0.0f;
@@ -155,9 +155,7 @@ static void aov_pixel(const Film *film, WeftAov aov, int x, int y, float *to) {
     case WEFT_AOV_NORMAL:
         for (int c = 0; c < 3; c++) to[c] = hits[FIRST_NORMAL + c];
         break;
-    case WEFT_AOV_DEPTH:
-        *to = hits[FIRST_SEEN] > 0.0f ? hits[FIRST_DEPTH] / hits[FIRST_SEEN] : nowhere;
-        break;
+    case WEFT_AOV_DEPTH: *to = hits[FIRST_SEEN] > 0.0f ? hits[FIRST_DEPTH] / hits[FIRST_SEEN] : nowhere; break;
     case WEFT_AOV_VARIANCE: pixel_variance(film, x, y, to); break;
     default: *to = (float)samples_at(film, FILM_BOTH, x, y);
     }

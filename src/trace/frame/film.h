@@ -5,8 +5,7 @@
  * unbiased estimate
  *
  *   (A - B)^2 n m / (n + m)^2 */
-#ifndef WEFT_TRACE_FILM_H
-#define WEFT_TRACE_FILM_H
+#pragma once
 
 #include "trace/path/catcher.h"
 #include "trace/path/first_hit.h"
@@ -52,7 +51,4 @@ WeftResult film_aov(const Film *film, WeftAov aov, WeftImage *out, WeftError *er
 double film_noise(const Film *film);
 
 /* Makes the denoised picture; needs two halves and first hits. */
-WeftResult film_denoise(const Film *film, WeftDenoiser denoiser, int threads, WeftImage *out,
-                        WeftError *error);
-
-#endif
+WeftResult film_denoise(const Film *film, WeftDenoiser denoiser, int threads, WeftImage *out, WeftError *error);

@@ -14,8 +14,7 @@ const char *weft_denoiser_name(int denoiser) {
 }
 
 WeftResult weft_denoiser_check(WeftDenoiser denoiser, WeftError *error) {
-    if (!weft_denoiser_name((int)denoiser))
-        return fail(error, WEFT_MESSAGE_DESC, "denoiser", "%d", (int)denoiser);
+    if (!weft_denoiser_name((int)denoiser)) return fail(error, WEFT_MESSAGE_DESC, "denoiser", "%d", (int)denoiser);
     return denoiser == WEFT_DENOISER_OIDN ? oidn_check(error) : WEFT_OK;
 }
 
@@ -35,8 +34,7 @@ static void put_planes(const Film *film, int x, int y, DenoisePlanes *planes) {
 static void scale_depth(DenoisePlanes *planes) {
     float most = 1e-20f, *depth = planes->feature[FIRST_DEPTH];
     for (int y = 0; y < planes->height; y++)
-        for (int x = 0; x < planes->width; x++)
-            most = fmaxf(most, depth[(size_t)y * planes->stride + (size_t)x]);
+        for (int x = 0; x < planes->width; x++) most = fmaxf(most, depth[(size_t)y * planes->stride + (size_t)x]);
     for (int y = 0; y < planes->height; y++)
         for (int x = 0; x < planes->width; x++) depth[(size_t)y * planes->stride + (size_t)x] /= most;
 }
@@ -70,8 +68,7 @@ static WeftResult by_regression(const Film *film, int threads, WeftImage *out, W
 /* Denoises by Open Image Denoise, which takes no coverage: that stays noisy. */
 static WeftResult by_oidn(const Film *film, int threads, WeftImage *out, WeftError *error) {
     size_t pixels = (size_t)film->width * (size_t)film->height;
-    float *values = alloc_array(pixels, 9 * sizeof(float)), *pixel = out->pixels, rgba[4],
-          hits[FIRST_NUMBERS];
+    float *values = alloc_array(pixels, 9 * sizeof(float)), *pixel = out->pixels, rgba[4], hits[FIRST_NUMBERS];
     if (!values) return fail(error, WEFT_MESSAGE_MEMORY, "denoising", NULL);
     const OidnPicture picture = {film->width, film->height, values, values + 3 * pixels, values + 6 * pixels};
     for (size_t k = 0; k < pixels; k++) {
@@ -93,14 +90,12 @@ static WeftResult by_oidn(const Film *film, int threads, WeftImage *out, WeftErr
     return result;
 }
 
-WeftResult film_denoise(const Film *film, WeftDenoiser denoiser, int threads, WeftImage *out,
-                        WeftError *error) {
+WeftResult film_denoise(const Film *film, WeftDenoiser denoiser, int threads, WeftImage *out, WeftError *error) {
     *out = (WeftImage){0};
     if (film->halves < 2 || !film->hits)
         return fail(error, WEFT_MESSAGE_DESC, "denoising", "it needs halves and first_hits");
     WeftResult result = weft_denoiser_check(denoiser, error);
-    if (result == WEFT_OK)
-        result = weft_image_create(film->width, film->height, 4, WEFT_PIXEL_F32, out, error);
+    if (result == WEFT_OK) result = weft_image_create(film->width, film->height, 4, WEFT_PIXEL_F32, out, error);
     if (result == WEFT_OK)
         result = (denoiser == WEFT_DENOISER_OIDN ? by_oidn : by_regression)(film, threads, out, error);
     if (result != WEFT_OK) weft_image_free(out);

@@ -98,8 +98,7 @@ static void describe(const WeftPick *self, const Hit *hit, Vec3 direction, WeftP
     out->uv_per_metre = stretch.uv_per_metre;
 }
 
-int weft_pick_at(const WeftPick *self, const char *text, int width, int height, float x, float y,
-                 WeftPicked *out) {
+int weft_pick_at(const WeftPick *self, const char *text, int width, int height, float x, float y, WeftPicked *out) {
     Camera camera;
     Hit hit;
     *out = (WeftPicked){0};

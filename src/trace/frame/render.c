@@ -44,18 +44,17 @@ struct WeftRender {
 
 static WeftResult check_desc(const WeftRenderDesc *d, WeftError *error) {
     if (d->width < 1 || d->width > SIDE_MAX || d->height < 1 || d->height > SIDE_MAX)
-        return fail(error, WEFT_MESSAGE_DESC, "picture size", "%d x %d; a side is 1 to %d", d->width,
-                    d->height, SIDE_MAX);
+        return fail(error, WEFT_MESSAGE_DESC, "picture size", "%d x %d; a side is 1 to %d", d->width, d->height,
+                    SIDE_MAX);
     const int *c = d->crop;
     if (c[0] < 0 || c[1] < 0 || c[2] < 1 || c[3] < 1 || c[2] > d->width - c[0] || c[3] > d->height - c[1])
-        return fail(error, WEFT_MESSAGE_DESC, "crop", "%d,%d,%d,%d is not inside %d x %d", c[0], c[1], c[2],
-                    c[3], d->width, d->height);
+        return fail(error, WEFT_MESSAGE_DESC, "crop", "%d,%d,%d,%d is not inside %d x %d", c[0], c[1], c[2], c[3],
+                    d->width, d->height);
     if (d->max_depth < 1) return fail(error, WEFT_MESSAGE_DESC, "max depth", "%d; at least 1", d->max_depth);
     if ((unsigned)d->background > WEFT_BACKGROUND_BLURRED || (unsigned)d->sampling > WEFT_SAMPLING_LOBE)
         return fail(error, WEFT_MESSAGE_DESC, "background or sampling", NULL);
     for (int k = 0; k < 3; k++)
-        if (!isfinite(d->background_color[k]))
-            return fail(error, WEFT_MESSAGE_DESC, "background color", NULL);
+        if (!isfinite(d->background_color[k])) return fail(error, WEFT_MESSAGE_DESC, "background color", NULL);
     if (!(d->noise >= 0.0f) || (d->noise > 0.0f && !d->halves))
         return fail(error, WEFT_MESSAGE_DESC, "noise", "%g; above 0 it needs halves", (double)d->noise);
     if (d->threads < 0 || d->threads > WEFT_THREADS_MAX)
@@ -67,16 +66,14 @@ static void set_defaults(WeftRenderDesc *d) {
     if (!d->width) d->width = DEFAULT_WIDTH;
     if (!d->height) d->height = DEFAULT_HEIGHT;
     if (!d->max_depth) d->max_depth = DEFAULT_DEPTH;
-    if (!d->crop[0] && !d->crop[1] && !d->crop[2] && !d->crop[3])
-        d->crop[2] = d->width, d->crop[3] = d->height;
+    if (!d->crop[0] && !d->crop[1] && !d->crop[2] && !d->crop[3]) d->crop[2] = d->width, d->crop[3] = d->height;
 }
 
 /* Prepares the materials, and the sheen tables that they lack. */
 static WeftResult make_materials(WeftRender *render, WeftError *error) {
     const WeftScene *scene = render->scene;
     SheenTables *tables;
-    WeftResult result =
-        sheen_tables_renew(render->tables, scene, render->picture.desc.threads, &tables, error);
+    WeftResult result = sheen_tables_renew(render->tables, scene, render->picture.desc.threads, &tables, error);
     if (result != WEFT_OK) return result;
     sheen_tables_free_but(render->tables, tables);
     render->tables = tables;
@@ -135,8 +132,8 @@ static WeftResult begin_picture(WeftRender *render, WeftError *error) {
 static WeftResult make_geometry(WeftRender *render, WeftError *error) {
     geometry_free(render->geometry);
     render->geometry = NULL;
-    return geometry_create(render->scene, render->scene->mesh_count, render->picture.desc.threads,
-                           &render->geometry, error);
+    return geometry_create(render->scene, render->scene->mesh_count, render->picture.desc.threads, &render->geometry,
+                           error);
 }
 
 static WeftResult make_lights(WeftRender *render, WeftError *error) {
@@ -175,8 +172,7 @@ static void set_context(WeftRender *render) {
                              .sky_in_parts = in_parts(&render->scene->environment),
                              .first_hits = d->first_hits != 0,
                              .forward = {view->forward.x, view->forward.y, view->forward.z}};
-    context->pixel_width[view->orthographic ? 0 : 1] =
-        2.0f * sqrtf(vec3_dot(view->up, view->up)) / (float)d->height;
+    context->pixel_width[view->orthographic ? 0 : 1] = 2.0f * sqrtf(vec3_dot(view->up, view->up)) / (float)d->height;
 }
 
 /* Rebuilds what `changed` concerns, and what an earlier call failed to make. A changed material rebuilds the lights if
@@ -184,8 +180,8 @@ static void set_context(WeftRender *render) {
 static WeftResult build(WeftRender *render, unsigned changed, WeftError *error) {
     if (!render->materials || render->material_count != render->scene->material_count) changed = ~0u;
     bool shapes = changed & WEFT_CHANGED_SHAPES || !render->geometry || !geometry_serves(render->geometry);
-    bool lights = changed & (WEFT_CHANGED_SHAPES | WEFT_CHANGED_LIGHTS) || !render->lights ||
-                  (changed && any_emits(render));
+    bool lights =
+        changed & (WEFT_CHANGED_SHAPES | WEFT_CHANGED_LIGHTS) || !render->lights || (changed && any_emits(render));
     WeftResult result = begin_picture(render, error);
     if (result == WEFT_OK && shapes) result = make_geometry(render, error);
     if (result == WEFT_OK && lights) result = make_lights(render, error);
@@ -198,16 +194,14 @@ static WeftResult build(WeftRender *render, unsigned changed, WeftError *error) 
 /* Blurs the environment for the background, if it is wanted and the environment has changed. */
 static WeftResult make_blurred(WeftRender *render, WeftError *error) {
     const Environment *e = &render->scene->environment;
-    if (render->picture.desc.background != WEFT_BACKGROUND_BLURRED || e->kind == ENVIRONMENT_CONSTANT)
-        return WEFT_OK;
+    if (render->picture.desc.background != WEFT_BACKGROUND_BLURRED || e->kind == ENVIRONMENT_CONSTANT) return WEFT_OK;
     if (render->picture.blurred.pixels && render->blurred_version == e->version) return WEFT_OK;
     weft_image_free(&render->picture.blurred);
     render->blurred_version = e->version;
     return backdrop_blurred(e, &render->picture.blurred, error);
 }
 
-WeftResult weft_render_restart(WeftRender *render, const WeftRenderDesc *desc, unsigned changed,
-                               WeftError *error) {
+WeftResult weft_render_restart(WeftRender *render, const WeftRenderDesc *desc, unsigned changed, WeftError *error) {
     double start = clock_now();
     const WeftScene *scene = render->scene;
     WeftRenderDesc d = *desc;
@@ -216,8 +210,8 @@ WeftResult weft_render_restart(WeftRender *render, const WeftRenderDesc *desc, u
     if (result != WEFT_OK) return result;
     if (!d.threads) d.threads = thread_count();
     if (d.background == WEFT_BACKGROUND_AUTO)
-        d.background = scene->environment.kind == ENVIRONMENT_STUDIO ? WEFT_BACKGROUND_COLOR
-                                                                     : WEFT_BACKGROUND_ENVIRONMENT;
+        d.background =
+            scene->environment.kind == ENVIRONMENT_STUDIO ? WEFT_BACKGROUND_COLOR : WEFT_BACKGROUND_ENVIRONMENT;
     if (desc->background == WEFT_BACKGROUND_AUTO)
         for (int c = 0; c < 3; c++) d.background_color[c] = 0.62f; /* a light grey paper roll */
     render->picture.desc = d;
@@ -228,8 +222,7 @@ WeftResult weft_render_restart(WeftRender *render, const WeftRenderDesc *desc, u
     return result;
 }
 
-WeftResult weft_render_create(const WeftScene *scene, const WeftRenderDesc *desc, WeftRender **out,
-                              WeftError *error) {
+WeftResult weft_render_create(const WeftScene *scene, const WeftRenderDesc *desc, WeftRender **out, WeftError *error) {
     *out = NULL;
     WeftRender *render = alloc_array(1, sizeof *render);
     if (!render) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
@@ -309,8 +302,7 @@ enum { NOISE_SAMPLES = 16 }; /* fewer do not suffice to estimate the error */
 /* Returns true if the estimated error of the picture is at most desc.noise. */
 static bool noise_reached(const WeftRender *render) {
     bool halved = render->picture.film.halves > 1 && render->samples_done[0] == render->samples_done[1];
-    if (!halved || !(render->picture.desc.noise > 0.0f) || 2 * render->samples_done[0] < NOISE_SAMPLES)
-        return false;
+    if (!halved || !(render->picture.desc.noise > 0.0f) || 2 * render->samples_done[0] < NOISE_SAMPLES) return false;
     double noise = film_noise(&render->picture.film);
     return noise >= 0.0 && noise <= (double)render->picture.desc.noise;
 }
@@ -330,8 +322,7 @@ WeftResult weft_render_run(WeftRender *render, int spp, double seconds, WeftProg
         atomic_init(&pass.finished, 0);
         parallel_for(render->stream_count, render->picture.film.tile_count, render_tile, &pass);
         if (atomic_load(&pass.stop)) break;
-        report_progress(&pass,
-                        render->picture.film.tile_count); /* the tiles that other threads finished last */
+        report_progress(&pass, render->picture.film.tile_count); /* the tiles that other threads finished last */
         render->samples_done[pass.half] += pass.samples;
         quiet = noise_reached(render);
     }
@@ -348,8 +339,7 @@ WeftRenderInfo weft_render_info(const WeftRender *render) {
         int x = k % film->tiles_across * STREAM_TILE, y = k / film->tiles_across * STREAM_TILE;
         int w = film->width - x < STREAM_TILE ? film->width - x : STREAM_TILE;
         int h = film->height - y < STREAM_TILE ? film->height - y : STREAM_TILE;
-        for (int half = 0; half < film->halves; half++)
-            samples += (double)film->half[half].samples[k] * w * h;
+        for (int half = 0; half < film->halves; half++) samples += (double)film->half[half].samples[k] * w * h;
         info.rays += render->tiles[k].rays;
         info.non_finite += render->tiles[k].non_finite;
     }
@@ -376,7 +366,6 @@ WeftResult weft_render_aov(const WeftRender *render, WeftAov aov, WeftImage *out
     return film_aov(&render->picture.film, aov, out, error);
 }
 
-WeftResult weft_render_denoised(const WeftRender *render, WeftDenoiser denoiser, WeftImage *out,
-                                WeftError *error) {
+WeftResult weft_render_denoised(const WeftRender *render, WeftDenoiser denoiser, WeftImage *out, WeftError *error) {
     return film_denoise(&render->picture.film, denoiser, render->picture.desc.threads, out, error);
 }

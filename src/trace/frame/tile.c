@@ -8,8 +8,7 @@ static void add_background(const TracedPicture *picture, Vec3 direction, float *
     if (d->background == WEFT_BACKGROUND_TRANSPARENT) return;
     Rgb c = {d->background_color[0], d->background_color[1], d->background_color[2]};
     float blurred[3];
-    if (d->background == WEFT_BACKGROUND_BLURRED &&
-        picture->context.scene->environment.kind != ENVIRONMENT_CONSTANT) {
+    if (d->background == WEFT_BACKGROUND_BLURRED && picture->context.scene->environment.kind != ENVIRONMENT_CONSTANT) {
         backdrop_at(&picture->context.scene->environment, &picture->blurred, direction, blurred);
         c = (Rgb){blurred[0], blurred[1], blurred[2]};
     } else if (d->background != WEFT_BACKGROUND_COLOR) {
@@ -20,8 +19,7 @@ static void add_background(const TracedPicture *picture, Vec3 direction, float *
 
 /* Returns the pixels of a tile, and `count` samples of a half after those that it has. */
 static LensPart part_of(const TracedPicture *picture, int item, int half, int count) {
-    int x = item % picture->film.tiles_across * STREAM_TILE,
-        y = item / picture->film.tiles_across * STREAM_TILE;
+    int x = item % picture->film.tiles_across * STREAM_TILE, y = item / picture->film.tiles_across * STREAM_TILE;
     int w = picture->film.width - x, h = picture->film.height - y;
     return (LensPart){picture->desc.crop[0] + x,
                       picture->desc.crop[1] + y,
@@ -77,21 +75,18 @@ static void put_mirrored(Stream *stream, int k, const Mirrored *mirrored) {
 
 /* Adds the floor if camera ray k meets it before all else, else returns false. The path then ends, or continues along
  * the mirror. */
-static bool add_floor(TracedPicture *picture, Stream *stream, const LensPart *part, Caught *film, int k,
-                      float sum[4]) {
+static bool add_floor(TracedPicture *picture, Stream *stream, const LensPart *part, Caught *film, int k, float sum[4]) {
     uint32_t id = stream->paths[0].id[k], pixel = id >> PATHS_SAMPLES_LOG2;
     uint32_t sample = id & ((1u << PATHS_SAMPLES_LOG2) - 1u);
-    CatcherRay from = {ray_of(picture, &stream->paths[0], k),
-                       0.0f,
-                       {stream->keys.pixel[pixel], stream->keys.sample[sample]}};
+    CatcherRay from = {
+        ray_of(picture, &stream->paths[0], k), 0.0f, {stream->keys.pixel[pixel], stream->keys.sample[sample]}};
     from.t = floor_distance(&picture->floor, from.ray.origin, from.ray.direction);
     if (from.t < 0.0f || (stream->mesh[k] != GEOMETRY_NOTHING && stream->t[k] < from.t)) return false;
     float behind[4] = {0};
     Mirrored mirrored;
     add_background(picture, from.ray.direction, behind);
     Caught *caught = &film[index_of(picture, part, (int)pixel)];
-    if (catcher_sample(&picture->context, &picture->floor, &from, behind, caught, sum, &mirrored,
-                       &stream->rays))
+    if (catcher_sample(&picture->context, &picture->floor, &from, behind, caught, sum, &mirrored, &stream->rays))
         put_mirrored(stream, k, &mirrored);
     else
         stream->mesh[k] = STREAM_DONE;

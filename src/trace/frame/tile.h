@@ -1,6 +1,5 @@
 /* tile.h - one tile of a picture: its camera rays, the floor and the background that they meet, and their paths */
-#ifndef WEFT_TRACE_TILE_H
-#define WEFT_TRACE_TILE_H
+#pragma once
 
 #include "trace/frame/film.h"
 #include "trace/path/lens.h"
@@ -18,5 +17,3 @@ typedef struct TracedPicture {
 /* Adds so many samples of a half, <= STREAM_SAMPLES, to each pixel of a tile; returns how many were not finite.
  * stream->rays becomes the number of rays that this took. One thread at a time may render a tile. */
 int tile_render(TracedPicture *picture, Stream *stream, int tile, int half, int samples);
-
-#endif

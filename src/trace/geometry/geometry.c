@@ -37,8 +37,7 @@ static struct RTCRay to_embree(const Ray *ray) {
 /* Returns false for a ray that Embree cannot trace: Debian's build asserts that origin and direction are numbers within
  * RAY_REACH. Such a ray hits nothing, and is occluded. */
 static bool is_valid(const Ray *ray) {
-    return within_reach(ray->origin, RAY_REACH) && within_reach(ray->direction, RAY_REACH) &&
-           ray->near <= ray->far;
+    return within_reach(ray->origin, RAY_REACH) && within_reach(ray->direction, RAY_REACH) && ray->near <= ray->far;
 }
 
 static Hit from_embree(const struct RTCHit *h, float t) {
@@ -56,8 +55,7 @@ static unsigned char checks_of(const WeftScene *scene, int mesh) {
 
 /* Returns true if a hit counts: the surface has that side, and is not transparent there. Partial opacity is decided by
  * a random number that depends on the ray's key and the triangle. */
-static bool hit_counts(const Geometry *geometry, const Hit *hit, Vec3 direction, uint32_t key,
-                       bool past_lights) {
+static bool hit_counts(const Geometry *geometry, const Hit *hit, Vec3 direction, uint32_t key, bool past_lights) {
     const WeftScene *scene = geometry->scene;
     if (past_lights && hit->mesh >= (uint32_t)scene_own_meshes(scene)) return false;
     int checks = checks_of(scene, (int)hit->mesh);
@@ -111,8 +109,7 @@ static void filter(const struct RTCFilterFunctionNArguments *a) {
 
 bool geometry_serves(const Geometry *geometry) {
     bool serves = true;
-    for (int k = 0; k < geometry->meshes && serves; k++)
-        serves = geometry->checks[k] == checks_of(geometry->scene, k);
+    for (int k = 0; k < geometry->meshes && serves; k++) serves = geometry->checks[k] == checks_of(geometry->scene, k);
     return serves;
 }
 
@@ -120,10 +117,10 @@ static bool attach(Geometry *geometry, uint32_t id) {
     const Mesh *mesh = &geometry->scene->meshes[id];
     RTCGeometry g = rtcNewGeometry(geometry->device, RTC_GEOMETRY_TYPE_TRIANGLE);
     if (!g) return false;
-    rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, mesh->position, 0,
-                               3 * sizeof(float), mesh->vertex_count);
-    rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh->index, 0,
-                               3 * sizeof(uint32_t), mesh->triangle_count);
+    rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, mesh->position, 0, 3 * sizeof(float),
+                               mesh->vertex_count);
+    rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh->index, 0, 3 * sizeof(uint32_t),
+                               mesh->triangle_count);
     if (geometry->checks[id]) rtcSetGeometryOccludedFilterFunction(g, filter);
     rtcCommitGeometry(g);
     rtcAttachGeometryByID(geometry->accel, g, id);
@@ -132,8 +129,7 @@ static bool attach(Geometry *geometry, uint32_t id) {
 }
 
 enum {
-    FINE_BUILD_TRIANGLES =
-        200000, /* up to here the slower build, which traces faster, takes no noticeable time */
+    FINE_BUILD_TRIANGLES = 200000, /* up to here the slower build, which traces faster, takes no noticeable time */
     SERIAL_BUILD_TRIANGLES = 4096
 };
 
@@ -185,8 +181,7 @@ static void release(void *user) {
     rtcReleaseDevice(geometry->device);
 }
 
-WeftResult geometry_create(const WeftScene *scene, int meshes, int threads, Geometry **out,
-                           WeftError *error) {
+WeftResult geometry_create(const WeftScene *scene, int meshes, int threads, Geometry **out, WeftError *error) {
     Geometry *geometry = alloc_array(1, sizeof *geometry);
     if (!geometry) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     *geometry = (Geometry){.scene = scene, .meshes = meshes, .threads = threads};
@@ -254,16 +249,15 @@ static void start_packet(struct RTCRay16 *q) {
 
 /* Fills a packet with the rays from `first` on, `left` of them or as many as it takes. Invalid ones are idle, and are
  * replaced, since with AVX2 Embree asserts idle rays too. The loop is one of vectors. */
-static void fill_packet(const RayRows *rays, int first, int left, int *restrict valid,
-                        struct RTCRay16 *restrict q) {
+static void fill_packet(const RayRows *rays, int first, int left, int *restrict valid, struct RTCRay16 *restrict q) {
     const float *ox = rays->o[0] + first, *oy = rays->o[1] + first, *oz = rays->o[2] + first;
     const float *dx = rays->d[0] + first, *dy = rays->d[1] + first, *dz = rays->d[2] + first;
     const uint32_t *key = rays->key + first;
     for (int k = 0; k < GEOMETRY_PACKET; k++) q->tfar[k] = rays->far ? rays->far[first + k] : INFINITY;
     for (int k = 0; k < GEOMETRY_PACKET; k++) {
-        bool usable = (k < left) & (q->tfar[k] >= 0.0f) & (fabsf(ox[k]) <= RAY_REACH) &
-                      (fabsf(oy[k]) <= RAY_REACH) & (fabsf(oz[k]) <= RAY_REACH) &
-                      (fabsf(dx[k]) <= RAY_REACH) & (fabsf(dy[k]) <= RAY_REACH) & (fabsf(dz[k]) <= RAY_REACH);
+        bool usable = (k < left) & (q->tfar[k] >= 0.0f) & (fabsf(ox[k]) <= RAY_REACH) & (fabsf(oy[k]) <= RAY_REACH) &
+                      (fabsf(oz[k]) <= RAY_REACH) & (fabsf(dx[k]) <= RAY_REACH) & (fabsf(dy[k]) <= RAY_REACH) &
+                      (fabsf(dz[k]) <= RAY_REACH);
         valid[k] = usable ? -1 : 0;
         q->org_x[k] = usable ? ox[k] : 0.0f;
         q->org_y[k] = usable ? oy[k] : 0.0f;
@@ -278,8 +272,7 @@ static void fill_packet(const RayRows *rays, int first, int left, int *restrict 
 
 static Query packet_query(const Geometry *geometry, const RayRows *rays) {
     Query query = query_of(geometry, rays->past_lights);
-    query.context.flags =
-        rays->coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    query.context.flags = rays->coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
     return query;
 }
 
@@ -301,8 +294,8 @@ static void put_hit(const HitRows *hits, int k, const Hit *hit) {
 }
 
 /* Stores the hits of a packet. One that does not count is replaced by the next that does. */
-static void put_hits(const Geometry *geometry, const RayRows *rays, const struct RTCHit16 *h, const float *t,
-                     int first, int left, const HitRows *hits) {
+static void put_hits(const Geometry *geometry, const RayRows *rays, const struct RTCHit16 *h, const float *t, int first,
+                     int left, const HitRows *hits) {
     for (int k = 0; k < GEOMETRY_PACKET && k < left; k++) {
         Hit hit = {t[k], h->geomID[k], h->primID[k], h->u[k], h->v[k], {h->Ng_x[k], h->Ng_y[k], h->Ng_z[k]}};
         put_hit(hits, first + k, &hit);
@@ -341,8 +334,7 @@ void geometry_occlusions(const Geometry *geometry, const RayRows *rays, int coun
 }
 
 static Vec3 blend(const float *attribute, const uint32_t *index, float w, float u, float v) {
-    return vec3_lerp3(vec3_load(attribute + 3 * (size_t)index[0]),
-                      vec3_load(attribute + 3 * (size_t)index[1]),
+    return vec3_lerp3(vec3_load(attribute + 3 * (size_t)index[0]), vec3_load(attribute + 3 * (size_t)index[1]),
                       vec3_load(attribute + 3 * (size_t)index[2]), w, u, v);
 }
 
@@ -352,8 +344,7 @@ Vertex geometry_vertex(const Mesh *mesh, const Hit *hit) {
     Vertex vertex = {.position = blend(mesh->position, index, w, hit->u, hit->v)};
     vertex.geometric = vec3_normal_or(hit->facing, vec3(0.0f, 1.0f, 0.0f));
     vertex.normal = vertex.geometric;
-    if (mesh->normal)
-        vertex.normal = vec3_normal_or(blend(mesh->normal, index, w, hit->u, hit->v), vertex.geometric);
+    if (mesh->normal) vertex.normal = vec3_normal_or(blend(mesh->normal, index, w, hit->u, hit->v), vertex.geometric);
     if (mesh->tangent)
         for (int k = 0; k < 3; k++) {
             const float *t = mesh->tangent + 4 * (size_t)index[k];
@@ -376,8 +367,7 @@ Attributes geometry_attributes(const Mesh *mesh, const Hit *hit) {
     if (mesh->color)
         for (int c = 0; c < 4; c++) {
             at.color[c] = 0.0f;
-            for (int k = 0; k < 3; k++)
-                at.color[c] += mesh->color[4 * (size_t)index[k] + (size_t)c] * weight[k];
+            for (int k = 0; k < 3; k++) at.color[c] += mesh->color[4 * (size_t)index[k] + (size_t)c] * weight[k];
         }
     return at;
 }

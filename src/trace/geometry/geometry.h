@@ -1,6 +1,5 @@
 /* geometry.h - the scene's triangles behind Embree: nearest hit, occlusion, and what is at a hit */
-#ifndef WEFT_TRACE_GEOMETRY_H
-#define WEFT_TRACE_GEOMETRY_H
+#pragma once
 
 #include "scene/record/scene.h"
 
@@ -78,5 +77,3 @@ typedef struct Attributes {
 } Attributes;
 
 Attributes geometry_attributes(const Mesh *mesh, const Hit *hit);
-
-#endif

@@ -1,6 +1,5 @@
 /* guard.h - calls into libraries of C++, whose exceptions C cannot catch */
-#ifndef WEFT_TRACE_GUARD_H
-#define WEFT_TRACE_GUARD_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -14,6 +13,4 @@ bool guarded(void (*call)(void *user), void *user, bool *starved);
 
 #ifdef __cplusplus
 }
-#endif
-
 #endif

@@ -6,8 +6,7 @@
  *
  *   I. M. Sobol', "On the distribution of points in a cube and the approximate evaluation of integrals",
  * 1967. Brent Burley, "Practical Hash-based Owen Scrambling", JCGT 9(4), 2020. */
-#ifndef WEFT_TRACE_SAMPLER_H
-#define WEFT_TRACE_SAMPLER_H
+#pragma once
 
 #include <stdint.h>
 
@@ -19,8 +18,8 @@ typedef struct Point {
 
 /* Pairs of dimensions of a path. */
 enum {
-    SAMPLER_PIXEL, /* the point in the pixel */
-    SAMPLER_FLOOR, /* where it meets the floor: for each group of lights, and for the mirror */
+    SAMPLER_PIXEL,                      /* the point in the pixel */
+    SAMPLER_FLOOR,                      /* where it meets the floor: for each group of lights, and for the mirror */
     SAMPLER_VERTEX = SAMPLER_FLOOR + 4, /* at each depth: for each group of lights, and for the lobe */
     SAMPLER_PER_VERTEX = 4,
     SAMPLER_CLOTH = 1 << 16, /* at each depth: for the threads of a woven cloth */
@@ -78,5 +77,3 @@ static inline Point sampler_point(uint32_t key, uint32_t index, uint32_t pair) {
 static inline float sampler_random(uint32_t key, uint32_t index, uint32_t place) {
     return unit_float(hash32(key ^ hash32(index + 0x85ebca6bu * (place + 1))));
 }
-
-#endif

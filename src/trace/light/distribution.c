@@ -42,16 +42,14 @@ static void fill_leaves(float *ends, int n, const float *weights, double sum) {
 }
 
 static void fill_nodes(float *nodes, int n, const float *children) {
-    for (int k = 0; k < padded(n); k++)
-        nodes[k] = k < n ? children[DISTRIBUTION_FAN * k + DISTRIBUTION_FAN - 1] : 2.0f;
+    for (int k = 0; k < padded(n); k++) nodes[k] = k < n ? children[DISTRIBUTION_FAN * k + DISTRIBUTION_FAN - 1] : 2.0f;
 }
 
 double distribution_make(Distribution *distribution, int n, const float *weights, float *storage) {
     double sum = 0.0;
     for (int k = 0; k < n; k++) sum += (double)weights[k];
     lay_out(distribution, n);
-    float *ends =
-        storage + DISTRIBUTION_FAN; /* a 0 before the first leaf, with groups still on cache lines */
+    float *ends = storage + DISTRIBUTION_FAN; /* a 0 before the first leaf, with groups still on cache lines */
     for (int k = 0; k < DISTRIBUTION_FAN; k++) storage[k] = 0.0f;
     fill_leaves(ends, n, weights, sum);
     for (int level = 1; level < distribution->levels; level++) {

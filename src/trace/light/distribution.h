@@ -2,8 +2,7 @@
  *
  * Well-spread u give well-spread choices. The cumulative weights are the leaves of a tree in which every node has
  * sixteen children: a search compares sixteen numbers a level and never branches on them. */
-#ifndef WEFT_TRACE_DISTRIBUTION_H
-#define WEFT_TRACE_DISTRIBUTION_H
+#pragma once
 
 #include <stddef.h>
 #include <string.h>
@@ -16,7 +15,7 @@
 typedef struct Distribution {
     int n, levels;
     int first[DISTRIBUTION_LEVELS]; /* index in ends of each level, the leaves at first */
-    const float *ends; /* cumulative weight with a leaf, or with the last child of a node; ends[-1] is 0 */
+    const float *ends;              /* cumulative weight with a leaf, or with the last child of a node; ends[-1] is 0 */
 } Distribution;
 
 /* Returns the number of floats that distribution_make needs for n >= 1 things. */
@@ -62,13 +61,10 @@ static inline Choice distribution_choose(const Distribution *distribution, float
         const float *children = distribution->ends + distribution->first[level] + DISTRIBUTION_FAN * k;
         k = DISTRIBUTION_FAN * k + distribution_count(children, u);
     }
-    float begin = distribution->ends[k - 1], width = distribution->ends[k] - begin,
-          rest = (u - begin) / width;
+    float begin = distribution->ends[k - 1], width = distribution->ends[k] - begin, rest = (u - begin) / width;
     return (Choice){k, width, rest < 0x1.fffffep-1f ? rest : 0x1.fffffep-1f};
 }
 
 static inline float distribution_probability(const Distribution *distribution, int k) {
     return distribution->ends[k] - distribution->ends[k - 1];
 }
-
-#endif

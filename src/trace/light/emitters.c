@@ -50,8 +50,7 @@ static bool emits(const Material *material) {
 /* Returns true if neither a texture nor a vertex colour changes the emission. */
 static bool is_uniform(const Mesh *mesh, const Material *material) {
     return !material->inputs[INPUT_emission].texture && !material->inputs[INPUT_emission_strength].texture &&
-           (material->alpha_mode == WEFT_ALPHA_OPAQUE ||
-            (!material->inputs[INPUT_opacity].texture && !mesh->color));
+           (material->alpha_mode == WEFT_ALPHA_OPAQUE || (!material->inputs[INPUT_opacity].texture && !mesh->color));
 }
 
 typedef struct Corners {
@@ -60,8 +59,7 @@ typedef struct Corners {
 
 static Corners corners(const Mesh *mesh, uint32_t triangle) {
     const uint32_t *index = mesh->index + 3 * (size_t)triangle;
-    return (Corners){vec3_load(mesh->position + 3 * (size_t)index[0]),
-                     vec3_load(mesh->position + 3 * (size_t)index[1]),
+    return (Corners){vec3_load(mesh->position + 3 * (size_t)index[0]), vec3_load(mesh->position + 3 * (size_t)index[1]),
                      vec3_load(mesh->position + 3 * (size_t)index[2])};
 }
 
@@ -73,8 +71,8 @@ static float triangle_power(const WeftScene *scene, const Mesh *mesh, uint32_t t
     static const float points[4][2] = {{0.333f, 0.333f}, {0.2f, 0.2f}, {0.6f, 0.2f}, {0.2f, 0.6f}};
     const Material *material = &scene->materials[mesh->material];
     const float *value = material->inputs[INPUT_emission].value;
-    float factor = rgb_luminance((Rgb){value[0], value[1], value[2]}) *
-                   material->inputs[INPUT_emission_strength].value[0];
+    float factor =
+        rgb_luminance((Rgb){value[0], value[1], value[2]}) * material->inputs[INPUT_emission_strength].value[0];
     float mean = 0.0f;
     for (int k = 0; k < 4; k++) {
         Hit hit = {.triangle = triangle, .u = points[k][0], .v = points[k][1]};
@@ -113,17 +111,11 @@ static void put_numbers(const Emitter *e, float *numbers) {
     numbers[EMITTER_TWO_SIDED] = e->two_sided ? 1.0f : 0.0f;
 }
 
-static Vec3 corner_of(const Emitter *e, int k) {
-    return k == 0 ? e->a : vec3_add(e->a, k == 1 ? e->ab : e->ac);
-}
+static Vec3 corner_of(const Emitter *e, int k) { return k == 0 ? e->a : vec3_add(e->a, k == 1 ? e->ab : e->ac); }
 
 static LightBounds bounds_of(const Emitter *e, float power) {
-    LightBounds bounds = {.low = e->a,
-                          .high = e->a,
-                          .axis = e->normal,
-                          .cos_spread = 1.0f,
-                          .power = power,
-                          .two_sided = e->two_sided};
+    LightBounds bounds = {
+        .low = e->a, .high = e->a, .axis = e->normal, .cos_spread = 1.0f, .power = power, .two_sided = e->two_sided};
     for (int k = 1; k < 3; k++) {
         Vec3 c = corner_of(e, k);
         bounds.low = vec3_least(bounds.low, c);
@@ -227,8 +219,8 @@ LOOP(sample_n,
     }
 }
 
-void emitters_sample_rows(const Emitters *emitters, int n, const float *const point[3],
-                          const float *const normal[3], const float *u, const float *v, LightRows *samples) {
+void emitters_sample_rows(const Emitters *emitters, int n, const float *const point[3], const float *const normal[3],
+                          const float *u, const float *v, LightRows *samples) {
     ChosenRows chosen;
     memcpy(chosen.u, u, (size_t)n * sizeof *u);
     light_tree_choose_rows(&emitters->tree, n, point, normal, chosen.u, chosen.emitter, chosen.probability);
@@ -242,8 +234,8 @@ void emitters_sample_rows(const Emitters *emitters, int n, const float *const po
     }
 }
 
-float emitters_pdf(const Emitters *emitters, uint32_t mesh, uint32_t triangle, Vec3 point, Vec3 normal,
-                   float t, float cosine) {
+float emitters_pdf(const Emitters *emitters, uint32_t mesh, uint32_t triangle, Vec3 point, Vec3 normal, float t,
+                   float cosine) {
     if (!emitters->count || !emitters->mesh_first[mesh]) return 0.0f;
     int k = (int)(emitters->mesh_first[mesh] - 1 + triangle);
     float area = emitters->triangles[k].area;

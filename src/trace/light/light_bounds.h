@@ -1,6 +1,5 @@
 /* light_bounds.h - the bounds of a group of emissive triangles: box, cone of normals, power */
-#ifndef WEFT_TRACE_LIGHT_BOUNDS_H
-#define WEFT_TRACE_LIGHT_BOUNDS_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -19,5 +18,3 @@ LightBounds light_bounds_join(LightBounds a, LightBounds b);
 
 /* Returns the cost of a group in a tree: power times the area of its box times the solid angle that it lights. */
 float light_bounds_cost(const LightBounds *bounds);
-
-#endif

@@ -1,6 +1,5 @@
 /* light_rows.h - samples of lights, or what comes along directions, as arrays */
-#ifndef WEFT_TRACE_LIGHT_ROWS_H
-#define WEFT_TRACE_LIGHT_ROWS_H
+#pragma once
 
 #include "shading/stack/surface_rows.h"
 
@@ -13,5 +12,3 @@ typedef struct LightRows {
     float pdf[ROW_CAPACITY];
     float distance[ROW_CAPACITY]; /* LIGHT_FAR for the environment and directional lights */
 } LightRows;
-
-#endif

@@ -166,8 +166,7 @@ FN float importance(const float *nodes, int node, Dir p, Dir n) {
     float d2 = x * x + y * y + z * z, r2 = nodes[k + NODE_RADIUS2], r = 1.0f / sqrt(max(d2, 1e-30f));
     bool inside = d2 <= r2;
     float sin_u = inside ? 0.0f : sqrt(r2) * r, cos_u = inside ? -1.0f : sin_of(sin_u);
-    float cos_w =
-        (x * nodes[k + NODE_AXIS] + y * nodes[k + NODE_AXIS + 1] + z * nodes[k + NODE_AXIS + 2]) * r;
+    float cos_w = (x * nodes[k + NODE_AXIS] + y * nodes[k + NODE_AXIS + 1] + z * nodes[k + NODE_AXIS + 2]) * r;
     float cos_t = clamp(nodes[k + NODE_TWO_SIDED] > 0.0f ? abs(cos_w) : cos_w, -1.0f, 1.0f);
     float sin_t = sin_of(cos_t), sin_o = nodes[k + NODE_SIN], cos_o = nodes[k + NODE_COS];
     float cos_a = cos_less(sin_t, cos_t, sin_o, cos_o), sin_a = sin_less(sin_t, cos_t, sin_o, cos_o);
@@ -183,13 +182,12 @@ FN float first_probability(float a, float b) { return a / max(a + b, 1e-38f); }
 
 /* Steps down one level for all points that are not at a leaf. */
 LOOP(descend_n,
-     (const LightTree *tree, int n, const float *const point[3], const float *const normal[3],
-      float *restrict u, int *restrict at, float *restrict probability),
+     (const LightTree *tree, int n, const float *const point[3], const float *const normal[3], float *restrict u,
+      int *restrict at, float *restrict probability),
      (tree, n, point, normal, u, at, probability)) {
     const float *nodes = tree->nodes;
     const int *child = tree->child;
-    const float *px = point[0], *py = point[1], *pz = point[2], *nx = normal[0], *ny = normal[1],
-                *nz = normal[2];
+    const float *px = point[0], *py = point[1], *pz = point[2], *nx = normal[0], *ny = normal[1], *nz = normal[2];
     EACH(k, (size_t)n) {
         int node = at[k], down = child[node];
         bool leaf = down < 0;
@@ -206,14 +204,13 @@ LOOP(descend_n,
     }
 }
 
-void light_tree_choose_rows(const LightTree *tree, int n, const float *const point[3],
-                            const float *const normal[3], float *u, int *light, float *probability) {
+void light_tree_choose_rows(const LightTree *tree, int n, const float *const point[3], const float *const normal[3],
+                            float *u, int *light, float *probability) {
     for (int k = 0; k < n; k++) {
         light[k] = 0;
         probability[k] = 1.0f;
     }
-    for (int level = 0; level < tree->depth; level++)
-        descend_n(tree, n, point, normal, u, light, probability);
+    for (int level = 0; level < tree->depth; level++) descend_n(tree, n, point, normal, u, light, probability);
     for (int k = 0; k < n; k++) light[k] = ~tree->child[light[k]];
 }
 

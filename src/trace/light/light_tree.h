@@ -7,8 +7,7 @@
  * of its points may have. From the root on a child is chosen in proportion to I, which is 0 only if no light arrives.
  * Alejandro Conty Estevez, Christopher Kulla, "Importance Sampling of Many Lights with Adaptive Tree Splitting", HPG
  * 2018, sections 4 and 5. */
-#ifndef WEFT_TRACE_LIGHT_TREE_H
-#define WEFT_TRACE_LIGHT_TREE_H
+#pragma once
 
 #include "base/memory.h"
 #include "shading/stack/surface_rows.h"
@@ -29,10 +28,8 @@ bool light_tree_make(LightTree *tree, int count, const LightBounds *lights, Aren
 /* Chooses a light for each of n <= ROW_MOST points with normals, n a multiple of ROW_LANES, with u in [0, 1), which
  * becomes its position within the light's interval, in [0, 1) again. Light from below the normal's plane does not
  * count; light from everywhere counts if the normal is 0. */
-void light_tree_choose_rows(const LightTree *tree, int n, const float *const point[3],
-                            const float *const normal[3], float *u, int *light, float *probability);
+void light_tree_choose_rows(const LightTree *tree, int n, const float *const point[3], const float *const normal[3],
+                            float *u, int *light, float *probability);
 
 /* Returns the probability with which light_tree_choose_rows chooses that light. */
 float light_tree_probability(const LightTree *tree, int light, Vec3 point, Vec3 normal);
-
-#endif

@@ -81,9 +81,7 @@ void lights_free(Lights *lights) {
     free(lights);
 }
 
-static LightSample from_sky(SkyPoint p) {
-    return (LightSample){p.direction, INFINITY, p.radiance, p.pdf, false, true};
-}
+static LightSample from_sky(SkyPoint p) { return (LightSample){p.direction, INFINITY, p.radiance, p.pdf, false, true}; }
 
 bool lights_has_group(const Lights *lights, LightGroup group) { return lights->has_group[group]; }
 
@@ -139,7 +137,7 @@ LightSample lights_environment(const Lights *lights, Vec3 direction) {
     return s;
 }
 
-float lights_triangle_pdf(const Lights *lights, uint32_t mesh, uint32_t triangle, Vec3 point, Vec3 normal,
-                          float t, float cosine) {
+float lights_triangle_pdf(const Lights *lights, uint32_t mesh, uint32_t triangle, Vec3 point, Vec3 normal, float t,
+                          float cosine) {
     return emitters_pdf(&lights->emitters, mesh, triangle, point, normal, t, cosine);
 }

@@ -3,8 +3,7 @@
  *
  * One sample of each group estimates all light at a point. A punctual light is chosen in proportion to its power, an
  * emissive triangle to a bound of what may arrive; the pdfs returned contain the probability of that choice. */
-#ifndef WEFT_TRACE_LIGHTS_H
-#define WEFT_TRACE_LIGHTS_H
+#pragma once
 
 #include "scene/record/scene.h"
 #include "trace/light/light_rows.h"
@@ -45,7 +44,5 @@ void lights_environment_rows(const Lights *lights, int n, const float *const d[3
 
 /* Returns the density, 1/sr, with which lights_sample, from a point with that normal, finds a point of that triangle at
  * distance t under `cosine`. */
-float lights_triangle_pdf(const Lights *lights, uint32_t mesh, uint32_t triangle, Vec3 point, Vec3 normal,
-                          float t, float cosine);
-
-#endif
+float lights_triangle_pdf(const Lights *lights, uint32_t mesh, uint32_t triangle, Vec3 point, Vec3 normal, float t,
+                          float cosine);

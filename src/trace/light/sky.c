@@ -46,8 +46,7 @@ FN float fast_atan2(float y, float x) {
 
 /* Converts a world direction to the image's (u, v). */
 FN void to_map(const Sky *sky, Vec3 d, float *u, float *v) {
-    float x = d.x * sky->cos_rotation - d.z * sky->sin_rotation,
-          z = d.x * sky->sin_rotation + d.z * sky->cos_rotation;
+    float x = d.x * sky->cos_rotation - d.z * sky->sin_rotation, z = d.x * sky->sin_rotation + d.z * sky->cos_rotation;
     *u = 0.5f + fast_atan2(x, -z) / TWO_PI;
     *v = fast_acos(clamp(d.y, -1.0f, 1.0f)) / PI;
 }
@@ -159,8 +158,7 @@ SkyPoint sky_at(const Sky *sky, Vec3 direction) {
     int column = (int)clamp(u * (float)sky->width, 0.0f, (float)(sky->width - 1));
     int row = (int)clamp(v * (float)sky->height, 0.0f, (float)(sky->height - 1));
     float sin_theta = sqrt(direction.x * direction.x + direction.z * direction.z);
-    return (SkyPoint){direction, image_at(sky_texels(sky), sky->packed, u, v),
-                      map_pdf(sky, row, column, sin_theta)};
+    return (SkyPoint){direction, image_at(sky_texels(sky), sky->packed, u, v), map_pdf(sky, row, column, sin_theta)};
 }
 
 SkyPoint sky_sample(const Sky *sky, float u, float v) {
@@ -174,8 +172,7 @@ SkyPoint sky_sample(const Sky *sky, float u, float v) {
     Choice column = distribution_choose(&columns, u);
     float mu = ((float)column.index + column.rest) / (float)sky->width;
     float mv = ((float)row.index + row.rest) / (float)sky->height;
-    SkyPoint point = {.direction = from_map(sky, mu, mv),
-                      .radiance = image_at(sky_texels(sky), sky->packed, mu, mv)};
+    SkyPoint point = {.direction = from_map(sky, mu, mv), .radiance = image_at(sky_texels(sky), sky->packed, mu, mv)};
     Vec3 d = point.direction;
     float sin_theta = sqrt(d.x * d.x + d.z * d.z);
     point.pdf = map_pdf(sky, row.index, column.index, sin_theta);
@@ -224,17 +221,14 @@ FN void sample_cells(const Sky *sky, SkyTexels t, bool packed, int n, const floa
     const int *rows = cells->row, *columns = cells->column;
     int stride = (int)sky->stride;
     float width = (float)sky->width, height = (float)sky->height;
-    float cos_rotation = sky->cos_rotation, sin_rotation = sky->sin_rotation,
-          scale = width * height / (TWO_PI * PI);
+    float cos_rotation = sky->cos_rotation, sin_rotation = sky->sin_rotation, scale = width * height / (TWO_PI * PI);
     EACH(k, (size_t)n) {
         int row = rows[k], column = columns[k];
         int leaf = row * stride + column;
-        float begin = ends[leaf - 1], wide = ends[leaf] - begin, top = row_ends[row - 1],
-              high = row_ends[row] - top;
+        float begin = ends[leaf - 1], wide = ends[leaf] - begin, top = row_ends[row - 1], high = row_ends[row] - top;
         float mu = ((float)column + min((u[k] - begin) / wide, 0x1.fffffep-1f)) / width;
         float mv = ((float)row + min((v[k] - top) / high, 0x1.fffffep-1f)) / height;
-        float phi = (mu - 0.5f) * TWO_PI, theta = mv * PI, sine = sin(theta), x = sine * sin(phi),
-              z = -sine * cos(phi);
+        float phi = (mu - 0.5f) * TWO_PI, theta = mv * PI, sine = sin(theta), x = sine * sin(phi), z = -sine * cos(phi);
         Rgb c = image_at(t, packed, mu, mv);
         s->wi[0][k] = x * cos_rotation + z * sin_rotation;
         s->wi[1][k] = cos(theta);
@@ -248,14 +242,12 @@ FN void sample_cells(const Sky *sky, SkyTexels t, bool packed, int n, const floa
 }
 
 /* Samples cells of a packed image. A loop of vectors has no branch between the forms of texels. */
-LOOP(sample_packed_n,
-     (const Sky *sky, int n, const float *u, const float *v, const Cells *cells, LightRows *s),
+LOOP(sample_packed_n, (const Sky *sky, int n, const float *u, const float *v, const Cells *cells, LightRows *s),
      (sky, n, u, v, cells, s)) {
     sample_cells(sky, sky_texels(sky), true, n, u, v, cells, s);
 }
 /* Samples cells of an image of floats. */
-LOOP(sample_floats_n,
-     (const Sky *sky, int n, const float *u, const float *v, const Cells *cells, LightRows *s),
+LOOP(sample_floats_n, (const Sky *sky, int n, const float *u, const float *v, const Cells *cells, LightRows *s),
      (sky, n, u, v, cells, s)) {
     sample_cells(sky, sky_texels(sky), false, n, u, v, cells, s);
 }
@@ -290,8 +282,7 @@ typedef struct Places {
     Cells cells;
 } Places;
 
-LOOP(find_places_n,
-     (const Sky *sky, int n, const float *x, const float *y, const float *z, Places *restrict at),
+LOOP(find_places_n, (const Sky *sky, int n, const float *x, const float *y, const float *z, Places *restrict at),
      (sky, n, x, y, z, at)) {
     const Sky s = {.cos_rotation = sky->cos_rotation, .sin_rotation = sky->sin_rotation};
     float width = (float)sky->width, height = (float)sky->height;
@@ -324,13 +315,11 @@ FN void look_up(const Sky *sky, bool packed, int n, const float *x, const float 
                         max(sqrt(x[k] * x[k] + z[k] * z[k]), 1e-7f);
     }
 }
-LOOP(look_up_packed_n,
-     (const Sky *sky, int n, const float *x, const float *z, const Places *at, LightRows *found),
+LOOP(look_up_packed_n, (const Sky *sky, int n, const float *x, const float *z, const Places *at, LightRows *found),
      (sky, n, x, z, at, found)) {
     look_up(sky, true, n, x, z, at, found);
 }
-LOOP(look_up_floats_n,
-     (const Sky *sky, int n, const float *x, const float *z, const Places *at, LightRows *found),
+LOOP(look_up_floats_n, (const Sky *sky, int n, const float *x, const float *z, const Places *at, LightRows *found),
      (sky, n, x, z, at, found)) {
     look_up(sky, false, n, x, z, at, found);
 }

@@ -1,6 +1,5 @@
 /* sky.h - the environment as a light: radiance along a direction, and directions by radiance */
-#ifndef WEFT_TRACE_SKY_H
-#define WEFT_TRACE_SKY_H
+#pragma once
 
 #include "base/memory.h"
 #include "scene/record/scene.h"
@@ -39,5 +38,3 @@ void sky_sample_rows(const Sky *sky, int n, const float *u, const float *v, Ligh
 
 /* Fills radiance and pdf for n directions d; n as above. */
 void sky_at_rows(const Sky *sky, int n, const float *const d[3], LightRows *found);
-
-#endif

@@ -7,8 +7,7 @@
  *   radiance = B a V (1 - c) + r M,   coverage = 1 - (1 - a) V (1 - c),   V = sum reached / sum whole
  *
  * V is a quotient of sums over all samples of the pixel, since the mean of quotients is not the quotient of means. */
-#ifndef WEFT_TRACE_CATCHER_H
-#define WEFT_TRACE_CATCHER_H
+#pragma once
 
 #include "scene/light/floor.h"
 #include "trace/path/path_context.h"
@@ -37,10 +36,8 @@ typedef struct Mirrored {
 /* Adds what a camera ray finds on the floor, except c M, and returns true if the mirrored ray meets the scene.
  * `behind` is B a and a. The radiance and coverage added to `sum` lack the factor V, which catcher_resolve applies.
  * *rays counts the rays traced. */
-bool catcher_sample(const PathContext *context, const Floor *floor, const CatcherRay *ray,
-                    const float behind[4], Caught *caught, float sum[4], Mirrored *mirrored, long long *rays);
+bool catcher_sample(const PathContext *context, const Floor *floor, const CatcherRay *ray, const float behind[4],
+                    Caught *caught, float sum[4], Mirrored *mirrored, long long *rays);
 
 /* Applies V to sum: radiance times coverage, and coverage, of all samples of a pixel. */
 void catcher_resolve(const Caught *caught, float sum[4]);
-
-#endif

@@ -7,8 +7,7 @@
  *   chunk_shade          samples each group of lights and the material, and evaluates f cos and pdf for all of them
  *   chunk_add_light      traces the shadow rays of one group and adds the light that arrives
  *   chunk_continue       applies Russian roulette, and writes the rays of the next depth */
-#ifndef WEFT_TRACE_CHUNK_H
-#define WEFT_TRACE_CHUNK_H
+#pragma once
 
 #include "trace/path/path_context.h"
 #include "trace/path/stages.h"
@@ -99,8 +98,8 @@ typedef struct Chunk {
     Row continues;       /* 1 if the path goes on, else 0 */
     Row next_direction[3];
     Row next_throughput[3];
-    Row sample_weight;          /* next_throughput / (throughput f cos): 1 / (pdf times chance of survival) */
-    int selected[ROW_CAPACITY]; /* indices of the vertices with a shadow ray, or of those that continue */
+    Row sample_weight;           /* next_throughput / (throughput f cos): 1 / (pdf times chance of survival) */
+    int selected[ROW_CAPACITY];  /* indices of the vertices with a shadow ray, or of those that continue */
     bool occluded[ROW_CAPACITY]; /* by shadow ray */
     struct {
         Row origin[3];
@@ -164,5 +163,3 @@ static inline float lobe_weight(WeftSampling sampling, float pdf, float light_pd
     float single = sampling == WEFT_SAMPLING_LIGHT && light_pdf > 0.0f ? 0.0f : 1.0f;
     return pdf > 0.0f ? sampling == WEFT_SAMPLING_MIS ? mis : single : 1.0f;
 }
-
-#endif

@@ -1,6 +1,5 @@
 /* first_hit.h - albedo, normal and depth of the surfaces that camera rays meet first */
-#ifndef WEFT_TRACE_FIRST_HIT_H
-#define WEFT_TRACE_FIRST_HIT_H
+#pragma once
 
 #include "trace/path/chunk.h"
 
@@ -14,5 +13,3 @@ typedef struct FirstHits {
 
 /* Records the first hits of a chunk, of paths that are seen. normal: in world space. */
 void first_hits_take(FirstHits *hits, const Chunk *chunk, int n, Row normal[3], const float forward[3]);
-
-#endif

@@ -14,15 +14,12 @@
 enum { SCATTERED = 16 };
 
 /* Returns the width of path k across its ray, metres. */
-FN float width_of(const Chunk *chunk, const float forward[3], const float pixel[2], bool scattered,
-                  size_t k) {
+FN float width_of(const Chunk *chunk, const float forward[3], const float pixel[2], bool scattered, size_t k) {
     float p = chunk->pdf[k], t = chunk->t[k];
-    float depth =
-        -t * (chunk->wo[0][k] * forward[0] + chunk->wo[1][k] * forward[1] + chunk->wo[2][k] * forward[2]);
+    float depth = -t * (chunk->wo[0][k] * forward[0] + chunk->wo[1][k] * forward[1] + chunk->wo[2][k] * forward[2]);
     float seen = pixel[0] + pixel[1] * abs(scattered ? t : depth);
     float spread = t * min(sqrt(1.0f / ((float)SCATTERED * max(p, 1e-20f))), 1.0f);
-    float least =
-        scattered ? 0.0f : 3e38f; /* a bool that is the same for all would keep the loop from vectors */
+    float least = scattered ? 0.0f : 3e38f; /* a bool that is the same for all would keep the loop from vectors */
     return p > least ? spread : seen;
 }
 
@@ -70,16 +67,14 @@ static void gather_uv_edges(Chunk *chunk, const WeftScene *scene, int n) {
         const uint32_t *index = mesh->index + 3 * (size_t)chunk->triangle[k];
         for (int edge = 0; edge < 2; edge++)
             for (int a = 0; a < 2; a++)
-                chunk->uv_edge[edge][a][k] = mesh->texcoord[0]
-                                                 ? mesh->texcoord[0][2 * index[edge + 1] + (uint32_t)a] -
-                                                       mesh->texcoord[0][2 * index[0] + (uint32_t)a]
-                                                 : 0.0f;
+                chunk->uv_edge[edge][a][k] = mesh->texcoord[0] ? mesh->texcoord[0][2 * index[edge + 1] + (uint32_t)a] -
+                                                                     mesh->texcoord[0][2 * index[0] + (uint32_t)a]
+                                                               : 0.0f;
     }
 }
 
 /* Fills where and how finely the cloth is looked up. per_uv: threads per unit of texture coordinates. */
-LOOP(footprints_n,
-     (Chunk *restrict chunk, const PathContext *context, const float per_uv[2], int depth, int n),
+LOOP(footprints_n, (Chunk *restrict chunk, const PathContext *context, const float per_uv[2], int depth, int n),
      (chunk, context, per_uv, depth, n)) {
     ClothLooks *to = &chunk->cloth_points;
     const float forward[3] = {context->forward[0], context->forward[1], context->forward[2]};

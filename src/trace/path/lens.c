@@ -38,18 +38,16 @@ LOOP(rays_of_pixel_n,
      (lens, px, py, pixel, sample, at, n, paths)) {
     const View view = lens->view;
     const float *filter = lens->filter;
-    float across = 2.0f / (float)lens->width, down = 2.0f / (float)lens->height,
-          wide = lens->centred ? 0.0f : 1.0f;
-    float parallel = view.orthographic ? 1.0f : 0.0f,
-          spread = 1.0f - parallel; /* of origins, or of directions */
+    float across = 2.0f / (float)lens->width, down = 2.0f / (float)lens->height, wide = lens->centred ? 0.0f : 1.0f;
+    float parallel = view.orthographic ? 1.0f : 0.0f, spread = 1.0f - parallel; /* of origins, or of directions */
     EACH(k, (size_t)n) {
         Point p = sampler_point(pixel, sample[k], SAMPLER_PIXEL);
         float x = (px + 0.5f + wide * filter_offset(filter, p.u)) * across - 1.0f;
         float y = 1.0f - (py + 0.5f + wide * filter_offset(filter, p.v)) * down;
         float ox = view.across.x * x + view.up.x * y, oy = view.across.y * x + view.up.y * y,
               oz = view.across.z * x + view.up.z * y;
-        float dx = view.forward.x + spread * ox, dy = view.forward.y + spread * oy,
-              dz = view.forward.z + spread * oz, r = 1.0f / sqrt(dx * dx + dy * dy + dz * dz);
+        float dx = view.forward.x + spread * ox, dy = view.forward.y + spread * oy, dz = view.forward.z + spread * oz,
+              r = 1.0f / sqrt(dx * dx + dy * dy + dz * dz);
         size_t j = (size_t)at + k;
         paths->origin[0][j] = view.eye.x + parallel * ox;
         paths->origin[1][j] = view.eye.y + parallel * oy;
@@ -63,8 +61,7 @@ LOOP(rays_of_pixel_n,
 
 int lens_rays(const Lens *lens, const LensPart *part, PathKeys *keys, Paths *paths) {
     int pixels = part->width * part->height, at = 0;
-    for (int k = 0; k < 1 << PATHS_SAMPLES_LOG2; k++)
-        keys->sample[k] = sampler_index((uint32_t)(part->first + k));
+    for (int k = 0; k < 1 << PATHS_SAMPLES_LOG2; k++) keys->sample[k] = sampler_index((uint32_t)(part->first + k));
     for (int p = 0; p < pixels; p++, at += part->count) {
         int x = part->x + p % part->width, y = part->y + p / part->width;
         keys->pixel[p] = sampler_key((uint32_t)x, (uint32_t)y, part->seed);

@@ -1,6 +1,5 @@
 /* lens.h - camera rays: where in a picture a sample is, and what the camera sees there */
-#ifndef WEFT_TRACE_LENS_H
-#define WEFT_TRACE_LENS_H
+#pragma once
 
 #include "scene/record/camera.h"
 #include "trace/path/chunk.h"
@@ -26,5 +25,3 @@ typedef struct LensPart {
 
 /* Fills keys, and paths with camera rays, pixel by pixel; returns how many. */
 int lens_rays(const Lens *lens, const LensPart *part, PathKeys *keys, Paths *paths);
-
-#endif

@@ -17,8 +17,8 @@ static float light_pdf(const Chunk *chunk, const ChunkSource *source, int k, flo
     return lights_triangle_pdf(
         source->context->lights, chunk->mesh[k], chunk->triangle[k],
         vec3(paths->origin[0][j], paths->origin[1][j], paths->origin[2][j]),
-        vec3(paths->horizon_normal[0][j], paths->horizon_normal[1][j], paths->horizon_normal[2][j]),
-        chunk->t[k], cosine);
+        vec3(paths->horizon_normal[0][j], paths->horizon_normal[1][j], paths->horizon_normal[2][j]), chunk->t[k],
+        cosine);
 }
 
 void chunk_add_emission(Chunk *chunk, const ChunkSource *source, PathRadiance *radiance) {
@@ -31,8 +31,8 @@ void chunk_add_emission(Chunk *chunk, const ChunkSource *source, PathRadiance *r
         for (int a = 0; a < 3; a++) cosine += chunk->wo[a][k] * chunk->geometric[a][k];
         if (!material->unlit) {
             float b = chunk->pdf[k] > 0.0f ? light_pdf(chunk, source, k, cosine) : 0.0f;
-            weight = surface->emission_strength[k] *
-                     lobe_weight(sampling_of(context, LIGHTS_EMITTERS), chunk->pdf[k], b);
+            weight =
+                surface->emission_strength[k] * lobe_weight(sampling_of(context, LIGHTS_EMITTERS), chunk->pdf[k], b);
             if (chunk->side[k] < 0.0f && !material->double_sided) weight = 0.0f;
         }
         for (int a = 0; a < 3; a++)
@@ -52,8 +52,7 @@ LOOP(weigh_n, (Chunk *restrict chunk, LightGroup group, bool mis, int n), (chunk
     EACH(k, (size_t)n) {
         float light_pdf = light->pdf[k], lobe = lobe_pdf[k], safe_pdf = light_pdf > 0.0f ? light_pdf : 1.0f;
         float weight = 1.0f / (safe_pdf + both * lobe * (lobe / safe_pdf)); /* MIS weight / light_pdf */
-        float up = light->wi[0][k] * horizon[0][k] + light->wi[1][k] * horizon[1][k] +
-                   light->wi[2][k] * horizon[2][k];
+        float up = light->wi[0][k] * horizon[0][k] + light->wi[1][k] * horizon[1][k] + light->wi[2][k] * horizon[2][k];
         float r = f_cos[0][k] * light->radiance[0][k], g = f_cos[1][k] * light->radiance[1][k],
               b = f_cos[2][k] * light->radiance[2][k];
         bool live = (light_pdf > 0.0f) & (up * z[k] > 0.0f) & (r + g + b > 0.0f);
@@ -83,13 +82,11 @@ FN void aim_each(Chunk *restrict chunk, LightGroup group, bool transmits, int n)
     const int *selected = chunk->selected;
     EACH(k, (size_t)n) {
         int j = selected[k];
-        float distance = chunk->shadow_distance[j], x = light->wi[0][j], y = light->wi[1][j],
-              z = light->wi[2][j];
+        float distance = chunk->shadow_distance[j], x = light->wi[0][j], y = light->wi[1][j], z = light->wi[2][j];
         float ox = chunk->origin[0][j], oy = chunk->origin[1][j], oz = chunk->origin[2][j];
         if (transmits) {
             bool below = chunk->vertices.i[group][2][j] < 0.0f;
-            float bx = chunk->origin_behind[0][j], by = chunk->origin_behind[1][j],
-                  bz = chunk->origin_behind[2][j];
+            float bx = chunk->origin_behind[0][j], by = chunk->origin_behind[1][j], bz = chunk->origin_behind[2][j];
             ox = below ? bx : ox;
             oy = below ? by : oy;
             oz = below ? bz : oz;
@@ -130,8 +127,7 @@ int chunk_add_light(Chunk *chunk, const ChunkSource *source, LightGroup group, P
         aim_n(chunk, group, context->materials[source->material].transmits, row_whole(count));
         const RayRows rays = {
             {chunk->shadow_rays.origin[0], chunk->shadow_rays.origin[1], chunk->shadow_rays.origin[2]},
-            {chunk->shadow_rays.direction[0], chunk->shadow_rays.direction[1],
-             chunk->shadow_rays.direction[2]},
+            {chunk->shadow_rays.direction[0], chunk->shadow_rays.direction[1], chunk->shadow_rays.direction[2]},
             chunk->shadow_rays.distance,
             chunk->shadow_rays.key,
             false,

@@ -1,6 +1,5 @@
 /* path_context.h - the scene as paths of light need it */
-#ifndef WEFT_TRACE_PATH_CONTEXT_H
-#define WEFT_TRACE_PATH_CONTEXT_H
+#pragma once
 
 #include "brdf/measured.h"
 #include "scene/record/material.h"
@@ -49,5 +48,3 @@ typedef struct PathContext {
 typedef struct PathKey {
     uint32_t pixel, sample;
 } PathKey;
-
-#endif

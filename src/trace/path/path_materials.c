@@ -4,8 +4,7 @@
 #include "scene/record/material_at.h"
 #include "shading/stack/frame.h"
 
-static void prepare(const WeftScene *scene, const Material *material, TableRef sheen_e,
-                    PathMaterial *prepared) {
+static void prepare(const WeftScene *scene, const Material *material, TableRef sheen_e, PathMaterial *prepared) {
     prepared->material = *material;
     prepared->material.inputs[INPUT_occlusion].texture = 0; /* paths trace it */
     prepared->material.inputs[INPUT_opacity].texture = 0;   /* a ray that hits has decided it */
@@ -30,9 +29,9 @@ static void prepare(const WeftScene *scene, const Material *material, TableRef s
     }
     prepared->kind = prepared->measured ? NULL : stack_kind(&prepared->stack, &prepared->choices);
     prepared->emits = material_emits(material);
-    prepared->needs_tangents =
-        !prepared->kind || prepared->cloth || prepared->material.inputs[INPUT_normal].texture ||
-        prepared->material.inputs[INPUT_clearcoat_normal].texture || prepared->untextured.anisotropy > 0.0f;
+    prepared->needs_tangents = !prepared->kind || prepared->cloth || prepared->material.inputs[INPUT_normal].texture ||
+                               prepared->material.inputs[INPUT_clearcoat_normal].texture ||
+                               prepared->untextured.anisotropy > 0.0f;
 }
 
 PathMaterial *path_materials_create(const WeftScene *scene, const SheenTables *tables) {

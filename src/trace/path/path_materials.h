@@ -1,6 +1,5 @@
 /* path_materials.h - the materials of a scene, prepared for all hits of paths on them */
-#ifndef WEFT_TRACE_PATH_MATERIALS_H
-#define WEFT_TRACE_PATH_MATERIALS_H
+#pragma once
 
 #include "scene/light/sheen_tables.h"
 #include "trace/path/path_context.h"
@@ -8,5 +7,3 @@
 /* Returns the scene's materials in their order, an array that the caller frees; NULL if memory is short. Their sheen_e
  * point into tables. */
 PathMaterial *path_materials_create(const WeftScene *scene, const SheenTables *tables);
-
-#endif

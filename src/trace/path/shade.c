@@ -43,8 +43,7 @@ static void sample_lights(Chunk *chunk, const ChunkSource *source, int n) {
         if (!lights_has_group(lights, (LightGroup)g)) continue;
         draw_numbers(chunk, pair + (uint32_t)g, n, vertices->u, vertices->v);
         stage_end(chunk->clock, STAGE_NUMBERS);
-        lights_sample_rows(lights, (LightGroup)g, n, point, normal, vertices->u, vertices->v,
-                           &chunk->light_samples[g]);
+        lights_sample_rows(lights, (LightGroup)g, n, point, normal, vertices->u, vertices->v, &chunk->light_samples[g]);
         to_frame_n(chunk, chunk->light_samples[g].wi, n, vertices->i[g]);
         stage_end(chunk->clock, (TraceStage)(STAGE_SKY + g)); /* in the order of LightGroup */
     }
@@ -62,12 +61,11 @@ static void put_value(Chunk *chunk, int direction, int k, const Rgb *f_cos, floa
 
 /* Returns f cos for light of the environment, from the f_cos that stack_eval returned with that seed: `ambient` times
  * what the diffuse lobe and dust reflect first, plus `reflection` times what the other lobes do. */
-static Rgb f_cos_of_sky(const PathContext *context, const Stack *stack, const StackView *view, Dir wi,
-                        uint32_t seed, Rgb f_cos) {
+static Rgb f_cos_of_sky(const PathContext *context, const Stack *stack, const StackView *view, Dir wi, uint32_t seed,
+                        Rgb f_cos) {
     const Environment *sky = &context->scene->environment;
     Slots others = slots_of(false, true, true, true, false);
-    Rgb rest = rgb_add(stack_eval_of(stack, view, others, wi).f_cos,
-                       layer_walk_bounces(stack, view, others, wi, seed));
+    Rgb rest = rgb_add(stack_eval_of(stack, view, others, wi).f_cos, layer_walk_bounces(stack, view, others, wi, seed));
     Rgb f = rgb_add(rgb_scale(f_cos, sky->ambient), rgb_scale(rest, sky->reflection - sky->ambient));
     return rgb(max(f.r, 0.0f), max(f.g, 0.0f), max(f.b, 0.0f));
 }
@@ -100,8 +98,8 @@ static void vertex_eval(const Measured *measured, const Stack *stack, const Stac
 }
 
 /* Samples wi by the stack, or for a measurement by either with equal probability. */
-static void vertex_sample(const Measured *measured, const Stack *stack, const StackView *view, float u,
-                          float v, Dir *wi) {
+static void vertex_sample(const Measured *measured, const Stack *stack, const StackView *view, float u, float v,
+                          Dir *wi) {
     if (measured && u < 0.5f)
         *wi = measured_sample(measured, view->o, 2.0f * u, v);
     else
@@ -109,8 +107,8 @@ static void vertex_sample(const Measured *measured, const Stack *stack, const St
 }
 
 /* Returns f cos for light of the environment. A measurement as a whole counts as reflection. */
-static Rgb vertex_sky(const PathContext *context, const Measured *measured, const Stack *stack,
-                      const StackView *view, Dir wi, uint32_t seed, Rgb f_cos) {
+static Rgb vertex_sky(const PathContext *context, const Measured *measured, const Stack *stack, const StackView *view,
+                      Dir wi, uint32_t seed, Rgb f_cos) {
     return measured ? rgb_scale(f_cos, context->scene->environment.reflection)
                     : f_cos_of_sky(context, stack, view, wi, seed, f_cos);
 }
@@ -136,8 +134,7 @@ static void shade_vertex(Chunk *chunk, const ChunkSource *source, const PathMate
     seed = hash32(chunk->key[k] ^ 0x68e31da4u);
     vertex_sample(measured, stack, &chunk->view, vertices->u[k], vertices->v[k], &wi);
     vertex_eval(measured, stack, &chunk->view, &wi, seed, &value);
-    vertices->i[KIND_DRAWN][0][k] = wi.x, vertices->i[KIND_DRAWN][1][k] = wi.y,
-    vertices->i[KIND_DRAWN][2][k] = wi.z;
+    vertices->i[KIND_DRAWN][0][k] = wi.x, vertices->i[KIND_DRAWN][1][k] = wi.y, vertices->i[KIND_DRAWN][2][k] = wi.z;
     put_value(chunk, KIND_DRAWN, k, &value.f_cos, value.pdf);
     if (!context->sky_in_parts) return;
     Rgb f = vertex_sky(context, measured, stack, &chunk->view, wi, seed, value.f_cos);
@@ -162,8 +159,7 @@ void chunk_shade(Chunk *chunk, const ChunkSource *source) {
 
 /* Weighs each path along the direction that was drawn, and decides if it continues. place: of the random number for
  * Russian roulette. */
-LOOP(weigh_paths_n, (Chunk *restrict chunk, bool roulette, uint32_t place, int n),
-     (chunk, roulette, place, n)) {
+LOOP(weigh_paths_n, (Chunk *restrict chunk, bool roulette, uint32_t place, int n), (chunk, roulette, place, n)) {
     KindVertices *vertices = &chunk->vertices;
     float(*wi)[ROW_CAPACITY] = vertices->i[KIND_DRAWN], (*f_cos)[ROW_CAPACITY] = vertices->f[KIND_DRAWN],
     *pdf = vertices->pdf[KIND_DRAWN];
@@ -176,8 +172,7 @@ LOOP(weigh_paths_n, (Chunk *restrict chunk, bool roulette, uint32_t place, int n
         float wz = x * chunk->frame[0][2][k] + y * chunk->frame[1][2][k] + z * chunk->frame[2][2][k];
         float up = wx * horizon[0][k] + wy * horizon[1][k] + wz * horizon[2][k];
         float weight = 1.0f / (p > 0.0f ? p : 1.0f);
-        float r = chunk->throughput[0][k] * f_cos[0][k] * weight,
-              g = chunk->throughput[1][k] * f_cos[1][k] * weight,
+        float r = chunk->throughput[0][k] * f_cos[0][k] * weight, g = chunk->throughput[1][k] * f_cos[1][k] * weight,
               b = chunk->throughput[2][k] * f_cos[2][k] * weight, strongest = max(r, max(g, b));
         /* the square root ends paths later than in proportion to their light, as the eye sees it */
         float survival = max(min(sqrt(max(strongest, 0.0f)), 1.0f), survival_min);
@@ -234,8 +229,7 @@ FN void append_each(const Chunk *chunk, bool transmits, int at, int n, Paths *re
     }
 }
 
-LOOP(append, (const Chunk *chunk, bool transmits, int at, int n, Paths *restrict to),
-     (chunk, transmits, at, n, to)) {
+LOOP(append, (const Chunk *chunk, bool transmits, int at, int n, Paths *restrict to), (chunk, transmits, at, n, to)) {
     if (transmits)
         append_each(chunk, true, at, n, to);
     else
@@ -255,20 +249,17 @@ static void append_sky(const Chunk *chunk, int at, int n, Paths *to) {
     for (int a = 0; a < 3; a++)
         for (int k = 0; k < n; k++) {
             int j = chunk->selected[k];
-            to->sky_throughput[a][at + k] =
-                chunk->throughput[a][j] * chunk->f_cos_sky[a][j] * chunk->sample_weight[j];
+            to->sky_throughput[a][at + k] = chunk->throughput[a][j] * chunk->f_cos_sky[a][j] * chunk->sample_weight[j];
         }
 }
 
 int chunk_continue(Chunk *chunk, const ChunkSource *source, Paths *paths, int count) {
     const PathContext *context = source->context;
     const PathMaterial *material = &context->materials[source->material];
-    weigh_paths_n(chunk, context->roulette && source->depth >= 1, (uint32_t)source->depth,
-                  row_whole(source->n));
+    weigh_paths_n(chunk, context->roulette && source->depth >= 1, (uint32_t)source->depth, row_whole(source->n));
     int added = select_continuing(chunk, source->n);
     append(chunk, material->transmits, count, added, paths);
     if (context->sky_in_parts) append_sky(chunk, count, added, paths);
-    if (lights_has_group(context->lights, LIGHTS_EMITTERS))
-        append_normals(chunk, material, count, added, paths);
+    if (lights_has_group(context->lights, LIGHTS_EMITTERS)) append_normals(chunk, material, count, added, paths);
     return count + added;
 }

@@ -1,6 +1,5 @@
 /* stages.h - time that the stages of following paths take */
-#ifndef WEFT_TRACE_STAGES_H
-#define WEFT_TRACE_STAGES_H
+#pragma once
 
 #include "base/steady_clock.h"
 
@@ -25,26 +24,26 @@
  *   OCCLUSIONS     traces the shadow rays
  *   CONTINUE       applies Russian roulette and writes the rays of the next depth
  *   FILM           adds what the paths brought to the film */
-#define TRACE_STAGES(S)                                                                                      \
-    S(CAMERA, "camera rays", false)                                                                          \
-    S(CAMERA_HITS, "camera hits", true)                                                                      \
-    S(ENTER, "floor and background", false)                                                                  \
-    S(HITS, "bounce hits", true)                                                                             \
-    S(SORT, "sort by material", false)                                                                       \
-    S(MISSES, "environment at misses", false)                                                                \
-    S(PLACE, "positions and normals", false)                                                                 \
-    S(INPUTS, "inputs and textures", false)                                                                  \
-    S(WEAVE, "threads of woven cloths", false)                                                               \
-    S(FRAMES, "emission and frames", false)                                                                  \
-    S(NUMBERS, "random numbers", false)                                                                      \
-    S(SKY, "samples of the environment", false)                                                              \
-    S(EMITTERS, "samples of emissive triangles", false)                                                      \
-    S(PUNCTUAL, "samples of punctual lights", false)                                                         \
-    S(SHADE, "stack: views, values, sample", false)                                                          \
-    S(SHADE_EACH, "stack, one vertex at a time", false)                                                      \
-    S(WEIGH, "weights and shadow rays", false)                                                               \
-    S(OCCLUSIONS, "shadow tests", true)                                                                      \
-    S(CONTINUE, "roulette and next rays", false)                                                             \
+#define TRACE_STAGES(S)                                                                                                \
+    S(CAMERA, "camera rays", false)                                                                                    \
+    S(CAMERA_HITS, "camera hits", true)                                                                                \
+    S(ENTER, "floor and background", false)                                                                            \
+    S(HITS, "bounce hits", true)                                                                                       \
+    S(SORT, "sort by material", false)                                                                                 \
+    S(MISSES, "environment at misses", false)                                                                          \
+    S(PLACE, "positions and normals", false)                                                                           \
+    S(INPUTS, "inputs and textures", false)                                                                            \
+    S(WEAVE, "threads of woven cloths", false)                                                                         \
+    S(FRAMES, "emission and frames", false)                                                                            \
+    S(NUMBERS, "random numbers", false)                                                                                \
+    S(SKY, "samples of the environment", false)                                                                        \
+    S(EMITTERS, "samples of emissive triangles", false)                                                                \
+    S(PUNCTUAL, "samples of punctual lights", false)                                                                   \
+    S(SHADE, "stack: views, values, sample", false)                                                                    \
+    S(SHADE_EACH, "stack, one vertex at a time", false)                                                                \
+    S(WEIGH, "weights and shadow rays", false)                                                                         \
+    S(OCCLUSIONS, "shadow tests", true)                                                                                \
+    S(CONTINUE, "roulette and next rays", false)                                                                       \
     S(FILM, "film", false)
 
 #define STAGE_ID(NAME, name, embree) STAGE_##NAME,
@@ -69,5 +68,3 @@ static inline void stage_end(StageClock *clock, TraceStage stage) {
     clock->spent[stage] += now - clock->since;
     clock->since = now;
 }
-
-#endif

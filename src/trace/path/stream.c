@@ -65,8 +65,7 @@ LOOP(gather_directions, (const Paths *paths, const int *order, int n, Row d[3]),
 
 /* Multiplies the environment's radiance along n paths by their throughputs and MIS weights. */
 LOOP(weigh_sky_n,
-     (const Paths *paths, bool in_parts, WeftSampling sampling, const int *order, int n,
-      LightRows *restrict sky),
+     (const Paths *paths, bool in_parts, WeftSampling sampling, const int *order, int n, LightRows *restrict sky),
      (paths, in_parts, sampling, order, n, sky)) {
     const float(*throughput)[PATHS_CAPACITY] = in_parts ? paths->sky_throughput : paths->throughput;
     const float *r = throughput[0], *g = throughput[1], *b = throughput[2], *pdf = paths->pdf;
@@ -104,8 +103,7 @@ static int shade_chunk(Stream *stream, const ChunkSource *source, Paths *next, i
     bool ends = source->depth == context->max_depth || material->material.unlit;
     if (!ends) chunk_make_frames(chunk, source);
     if (stream->first && source->depth == 0)
-        first_hits_take(stream->first, chunk, source->n, ends ? chunk->normal : chunk->frame[2],
-                        context->forward);
+        first_hits_take(stream->first, chunk, source->n, ends ? chunk->normal : chunk->frame[2], context->forward);
     stage_end(chunk->clock, STAGE_FRAMES);
     if (ends) return count;
     chunk_shade(chunk, source);

@@ -4,8 +4,7 @@
  * of one material at a time; the paths that continue are the rays of the next depth. The light that a path brings is
  * summed under its id, and each chunk adds to it in the same order. Sums therefore do not depend on where in an array a
  * path is. */
-#ifndef WEFT_TRACE_STREAM_H
-#define WEFT_TRACE_STREAM_H
+#pragma once
 
 #include "trace/path/first_hit.h"
 
@@ -18,7 +17,7 @@ enum {
 /* One thread's work on a tile. */
 typedef struct Stream {
     const PathContext *context;
-    Paths paths[2]; /* of this depth and of the next, alternately */
+    Paths paths[2];                                                /* of this depth and of the next, alternately */
     float t[PATHS_CAPACITY], u[PATHS_CAPACITY], v[PATHS_CAPACITY]; /* their hits, as in HitRows */
     uint32_t mesh[PATHS_CAPACITY], triangle[PATHS_CAPACITY];
     PathRadiance radiance;
@@ -42,5 +41,3 @@ HitRows stream_hits(Stream *stream);
  * ended already. */
 #define STREAM_DONE (GEOMETRY_NOTHING - 1)
 void stream_follow(Stream *stream, int n);
-
-#endif

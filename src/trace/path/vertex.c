@@ -98,8 +98,7 @@ FN void put_origin(Row to[3], size_t k, Dir lifted, Dir out) {
 /* Sets position, normals, the lifted point, and the origin of rays, all on the viewer's side. share: as for lift. */
 LOOP(place_n, (Chunk *restrict chunk, float share, int n), (chunk, share, n)) {
     EACH(k, (size_t)n) {
-        Dir a = ROW_DIR(chunk->corner[0], k), b = ROW_DIR(chunk->corner[1], k),
-            d = ROW_DIR(chunk->corner[2], k);
+        Dir a = ROW_DIR(chunk->corner[0], k), b = ROW_DIR(chunk->corner[1], k), d = ROW_DIR(chunk->corner[2], k);
         Dir wo = ROW_DIR(chunk->wo, k), up = dir(0.0f, 1.0f, 0.0f);
         float u = chunk->u[k], v = chunk->v[k];
         Dir winding = dir_cross(dir(b.x - a.x, b.y - a.y, b.z - a.z), dir(d.x - a.x, d.y - a.y, d.z - a.z));
@@ -152,8 +151,7 @@ static void gather_tangents(Chunk *chunk, const WeftScene *scene, int n) {
     for (int k = 0; k < n; k++) {
         const Mesh *mesh = &scene->meshes[chunk->mesh[k]];
         const uint32_t *index = mesh->index + 3 * (size_t)chunk->triangle[k];
-        float weight[3] = {1.0f - chunk->u[k] - chunk->v[k], chunk->u[k], chunk->v[k]}, t[3] = {0},
-              handedness = 1.0f;
+        float weight[3] = {1.0f - chunk->u[k] - chunk->v[k], chunk->u[k], chunk->v[k]}, t[3] = {0}, handedness = 1.0f;
         for (int corner = 0; mesh->tangent && corner < 3; corner++) {
             const float *of = mesh->tangent + 4 * (size_t)index[corner];
             for (int a = 0; a < 3; a++) t[a] += of[a] * weight[corner];

@@ -33,10 +33,9 @@ static void fetch(TexelRows *lookup, const Input *input, const SrgbTable *srgb) 
     const Input *last = lookup->last;
     if (last && lookup->last_srgb == srgb && input_same_texels(last, input)) return;
     const WeftScene *scene = lookup->scene;
-    place_uv_n((const Row *)lookup->uv[input->texcoord], input->transform, row_whole(lookup->n),
-               lookup->placed_uv);
-    texture_fetch_rows(&scene->textures[input->texture - 1], scene->images, srgb, lookup->n,
-                       lookup->placed_uv[0], lookup->placed_uv[1], lookup->texel[0]);
+    place_uv_n((const Row *)lookup->uv[input->texcoord], input->transform, row_whole(lookup->n), lookup->placed_uv);
+    texture_fetch_rows(&scene->textures[input->texture - 1], scene->images, srgb, lookup->n, lookup->placed_uv[0],
+                       lookup->placed_uv[1], lookup->texel[0]);
     lookup->last = input;
     lookup->last_srgb = srgb;
 }
@@ -119,9 +118,8 @@ void chunk_read_inputs(Chunk *chunk, const ChunkSource *source, int n) {
     lookup->n = n;
     for (int set = 0; set < 2; set++)
         if (material->texcoords[set]) gather_texcoords(chunk, scene, set, n, lookup->uv[set]);
-#define READ_INPUT(kind, name, label, initial, low, high, hard_low, hard_high, role, help)                   \
-    if (inputs[INPUT_##name].texture)                                                                        \
-        read_##kind(lookup, &inputs[INPUT_##name], chunk->vertices.surface.name);
+#define READ_INPUT(kind, name, label, initial, low, high, hard_low, hard_high, role, help)                             \
+    if (inputs[INPUT_##name].texture) read_##kind(lookup, &inputs[INPUT_##name], chunk->vertices.surface.name);
     SURFACE_INPUTS(READ_INPUT)
     if (material->colored) tint_base(chunk, scene, n);
 }

@@ -2,8 +2,7 @@
  *
  * A file has changed once it differs from its last report and has then stayed the same for a third of a
  * second: so that half-written files are not read. */
-#ifndef WEFT_VIEW_FILE_WATCH_H
-#define WEFT_VIEW_FILE_WATCH_H
+#pragma once
 
 typedef struct FileWatch FileWatch;
 
@@ -22,5 +21,3 @@ void file_watch_add(FileWatch *file_watch, const char *path, int id);
 /* Returns the number of a file that has changed, or -1. Looks at the disk at most four times a second. seconds: of a
  * steady clock. */
 int file_watch_poll(FileWatch *file_watch, double seconds);
-
-#endif

@@ -17,10 +17,9 @@ PathKind path_kind(const char *path) {
     static const struct {
         const char *suffix;
         PathKind kind;
-    } kinds[] = {{".gltf", PATH_SCENE},  {".glb", PATH_SCENE},     {".hdr", PATH_LIGHT},
-                 {".exr", PATH_LIGHT},   {".json", PATH_MATERIAL}, {".png", PATH_PICTURE},
-                 {".jpg", PATH_PICTURE}, {".jpeg", PATH_PICTURE},  {".tga", PATH_PICTURE},
-                 {".h", PATH_LOBE}};
+    } kinds[] = {{".gltf", PATH_SCENE},    {".glb", PATH_SCENE},   {".hdr", PATH_LIGHT},   {".exr", PATH_LIGHT},
+                 {".json", PATH_MATERIAL}, {".png", PATH_PICTURE}, {".jpg", PATH_PICTURE}, {".jpeg", PATH_PICTURE},
+                 {".tga", PATH_PICTURE},   {".h", PATH_LOBE}};
     struct stat s;
     if (strncmp(path, "builtin:", 8) == 0) return PATH_SCENE;
     if (strncmp(path, "preset:", 7) == 0) return PATH_MATERIAL;
@@ -41,8 +40,7 @@ bool path_is_cubemap(const char *folder) {
 }
 
 void path_stem(const char *path, char *stem, size_t size) {
-    const char *name = strncmp(path, "builtin:", 8) == 0 ? path + 8 : path_name(path),
-               *dot = strrchr(name, '.');
+    const char *name = strncmp(path, "builtin:", 8) == 0 ? path + 8 : path_name(path), *dot = strrchr(name, '.');
     snprintf(stem, size, "%.*s", dot && dot > name ? (int)(dot - name) : (int)strlen(name), name);
     for (char *p = stem; *p; p++)
         if (*p == '/' || iscntrl((unsigned char)*p)) *p = '-';

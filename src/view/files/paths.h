@@ -1,6 +1,5 @@
 /* paths.h - kinds of files, by their names */
-#ifndef WEFT_VIEW_PATHS_H
-#define WEFT_VIEW_PATHS_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -31,5 +30,3 @@ bool path_contains(const char *path, const char *word);
 
 /* Returns a number that changes with the time or the size of a file; 0 if it does not exist. */
 unsigned long long path_stamp(const char *path);
-
-#endif

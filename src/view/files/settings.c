@@ -12,9 +12,7 @@
 
 enum { SIZE_MOST = 1 << 20 };
 
-Settings settings_default(void) {
-    return (Settings){.width = 1280, .height = 720, .panel = 372.0f, .speed = 1.0f};
-}
+Settings settings_default(void) { return (Settings){.width = 1280, .height = 720, .panel = 372.0f, .speed = 1.0f}; }
 
 static bool place(char path[RECENT_PATH], bool make) {
     const char *config = getenv("XDG_CONFIG_HOME"), *home = getenv("HOME");
@@ -70,8 +68,7 @@ void settings_read(Settings *self) {
     const json_t *recent = json_object_get(root, "recent");
     for (size_t k = 0; k < json_array_size(recent) && self->recent_count < RECENT_MOST; k++) {
         const char *text = json_string_value(json_array_get(recent, k));
-        if (text && strlen(text) < RECENT_PATH)
-            snprintf(self->recent[self->recent_count++], RECENT_PATH, "%s", text);
+        if (text && strlen(text) < RECENT_PATH) snprintf(self->recent[self->recent_count++], RECENT_PATH, "%s", text);
     }
     json_decref(root);
 }

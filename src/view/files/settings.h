@@ -1,6 +1,5 @@
 /* settings.h - settings that persist between runs: a small JSON in the user's configuration */
-#ifndef WEFT_VIEW_SETTINGS_H
-#define WEFT_VIEW_SETTINGS_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -28,5 +27,3 @@ bool settings_write(const Settings *settings);
 
 /* Makes a path the first of the recent files. */
 void settings_opened(Settings *settings, const char *path);
-
-#endif

@@ -15,8 +15,7 @@ float *survey_take(const WeftPick *pick, const WeftScene *scene, const char *cam
         for (int x = 0; x < columns; x++) {
             WeftPicked at;
             if (!weft_pick_at(pick, camera, columns, ROWS, (float)x + 0.5f, (float)y + 0.5f, &at)) continue;
-            if (at.material >= 0 && at.material < count)
-                coverage[at.material] += 1.0f / (float)(ROWS * columns);
+            if (at.material >= 0 && at.material < count) coverage[at.material] += 1.0f / (float)(ROWS * columns);
         }
     return coverage;
 }

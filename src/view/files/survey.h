@@ -1,6 +1,5 @@
 /* survey.h - the fraction of a picture that each material covers */
-#ifndef WEFT_VIEW_SURVEY_H
-#define WEFT_VIEW_SURVEY_H
+#pragma once
 
 #include "weft/pick.h"
 
@@ -11,5 +10,3 @@ float *survey_take(const WeftPick *pick, const WeftScene *scene, const char *cam
 /* Returns the material with the largest share among those for which `of` is not 0 (NULL: all); -1 if none of them is
  * visible. */
 int survey_largest(const float *coverage, int count, const char *of);
-
-#endif

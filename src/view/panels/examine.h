@@ -1,6 +1,5 @@
 /* examine.h - the doctor's findings about a file, in a thread of its own */
-#ifndef WEFT_VIEW_EXAMINE_H
-#define WEFT_VIEW_EXAMINE_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -21,5 +20,3 @@ const char *examination_failure(const Examination *examination);
 
 /* Gives up what is not done. May be NULL. */
 void examination_free(Examination *examination);
-
-#endif

@@ -50,8 +50,7 @@ static void make_slice(Inspection *self) {
     for (int k = 0; k < SLICE; k++) direction(((float)k - 90.0f) * (float)RADIANS * 0.999f, 0.0f, wi[k]);
     for (int p = 0; p < PARTS; p++) {
         weft_reflection_eval(self->reflection, (int)parts[p], wo, SLICE, (const float(*)[3])wi, f);
-        for (int k = 0; k < SLICE; k++)
-            self->slice[p][k] = luminance(f[k]) * (self->cosine ? wi[k][2] : 1.0f);
+        for (int k = 0; k < SLICE; k++) self->slice[p][k] = luminance(f[k]) * (self->cosine ? wi[k][2] : 1.0f);
     }
 }
 
@@ -104,8 +103,7 @@ static void refresh(Inspection *self, const WeftMaterial *material) {
         self->sliced = self->angle;
     }
     for (int k = 0; k < 2 && self->angles < ANGLES; k++, self->angles++)
-        weft_reflection_albedo(self->reflection, WEFT_PART_ALL, cosine_of(self->angles),
-                               self->albedo[self->angles]);
+        weft_reflection_albedo(self->reflection, WEFT_PART_ALL, cosine_of(self->angles), self->albedo[self->angles]);
 }
 
 static const unsigned line_color = 0xFF4A4C50u, text_color = 0xFF9A9C9Fu, ground = 0xFF17181Au;
@@ -118,8 +116,8 @@ static float radius_of(const Inspection *self, float f, float most) {
 /* Draws words in the colours of their curves, from the top right of a box downwards. */
 static void draw_legend(const UiBox *box, const char *const *words, const unsigned *of, int count) {
     for (int k = 0; k < count; k++)
-        ui_label(box->x + box->width - ui_text_width(words[k]) - 6.0f,
-                 box->y + 4.0f + 15.0f * ui_scale() * (float)k, of[k], words[k]);
+        ui_label(box->x + box->width - ui_text_width(words[k]) - 6.0f, box->y + 4.0f + 15.0f * ui_scale() * (float)k,
+                 of[k], words[k]);
 }
 
 static void draw_slice(Inspection *self) {
@@ -127,8 +125,7 @@ static void draw_slice(Inspection *self) {
     UiBox box;
     float most = 1e-6f, xy[2 * SLICE];
     bool over = ui_canvas("##slice", 0.0f, 150.0f * ui_scale(), &box);
-    ui_tip(
-        "Light from the grey line, and where it goes: f, or f times the cosine, in the plane of incidence.");
+    ui_tip("Light from the grey line, and where it goes: f, or f times the cosine, in the plane of incidence.");
     (void)over;
     for (int p = 0; p < PARTS; p++)
         for (int k = 0; k < SLICE; k++) most = fmaxf(most, self->slice[p][k]);
@@ -263,12 +260,11 @@ static void draw_passport(const Inspection *self) {
     for (int k = 0; k < ANGLES; k++)
         for (int c = 0; c < 3; c++)
             if (self->albedo[k][c] > most) most = self->albedo[k][c], at = cosine_of(k);
-    snprintf(
-        text, sizeof text,
-        "furnace: %.3f  %.3f  %.3f of even light comes back\nE at most %.3f, at cosine %.2f%s\n%s to %.1g",
-        (double)mean_albedo(self, 0), (double)mean_albedo(self, 1), (double)mean_albedo(self, 2),
-        (double)most, (double)at, most > 1.01f ? ": it gains energy" : "",
-        self->reciprocity < 0.01f ? "reciprocal" : "not reciprocal:", (double)self->reciprocity);
+    snprintf(text, sizeof text,
+             "furnace: %.3f  %.3f  %.3f of even light comes back\nE at most %.3f, at cosine %.2f%s\n%s to %.1g",
+             (double)mean_albedo(self, 0), (double)mean_albedo(self, 1), (double)mean_albedo(self, 2), (double)most,
+             (double)at, most > 1.01f ? ": it gains energy" : "",
+             self->reciprocity < 0.01f ? "reciprocal" : "not reciprocal:", (double)self->reciprocity);
     if (most > 1.01f)
         ui_warning(text);
     else
@@ -283,23 +279,21 @@ static void draw_probe(const Viewer *v) {
     }
     const Probe *p = &v->requests->probe;
     const float(*c)[3] = p->value;
-    snprintf(
-        text, sizeof text,
-        "%s\nvalue     %.4f %.4f %.4f\ndiffuse   %.4f %.4f %.4f\nspecular  %.4f %.4f %.4f\nsheen     %.4f "
-        "%.4f "
-        "%.4f\nbase      %.3f %.3f %.3f\nroughness %.3f   normal %.3f %.3f %.3f\nuv %.4f %.4f   %.3f m away",
-        p->material >= 0 && p->material < v->shown->facts.info.material_count
-            ? v->shown->facts.materials[p->material]
-            : "",
-        (double)c[WEFT_PART_ALL][0], (double)c[WEFT_PART_ALL][1], (double)c[WEFT_PART_ALL][2],
-        (double)c[WEFT_PART_DIFFUSE][0], (double)c[WEFT_PART_DIFFUSE][1], (double)c[WEFT_PART_DIFFUSE][2],
-        (double)c[WEFT_PART_SPECULAR][0], (double)c[WEFT_PART_SPECULAR][1], (double)c[WEFT_PART_SPECULAR][2],
-        (double)c[WEFT_PART_SHEEN][0], (double)c[WEFT_PART_SHEEN][1], (double)c[WEFT_PART_SHEEN][2],
-        (double)c[WEFT_PART_BASE_COLOR][0], (double)c[WEFT_PART_BASE_COLOR][1],
-        (double)c[WEFT_PART_BASE_COLOR][2], (double)c[WEFT_PART_ROUGHNESS][0],
-        (double)(2.0f * c[WEFT_PART_NORMAL][0] - 1.0f), (double)(2.0f * c[WEFT_PART_NORMAL][1] - 1.0f),
-        (double)(2.0f * c[WEFT_PART_NORMAL][2] - 1.0f), (double)p->texcoord[0], (double)p->texcoord[1],
-        (double)p->distance);
+    snprintf(text, sizeof text,
+             "%s\nvalue     %.4f %.4f %.4f\ndiffuse   %.4f %.4f %.4f\nspecular  %.4f %.4f %.4f\nsheen     %.4f "
+             "%.4f "
+             "%.4f\nbase      %.3f %.3f %.3f\nroughness %.3f   normal %.3f %.3f %.3f\nuv %.4f %.4f   %.3f m away",
+             p->material >= 0 && p->material < v->shown->facts.info.material_count
+                 ? v->shown->facts.materials[p->material]
+                 : "",
+             (double)c[WEFT_PART_ALL][0], (double)c[WEFT_PART_ALL][1], (double)c[WEFT_PART_ALL][2],
+             (double)c[WEFT_PART_DIFFUSE][0], (double)c[WEFT_PART_DIFFUSE][1], (double)c[WEFT_PART_DIFFUSE][2],
+             (double)c[WEFT_PART_SPECULAR][0], (double)c[WEFT_PART_SPECULAR][1], (double)c[WEFT_PART_SPECULAR][2],
+             (double)c[WEFT_PART_SHEEN][0], (double)c[WEFT_PART_SHEEN][1], (double)c[WEFT_PART_SHEEN][2],
+             (double)c[WEFT_PART_BASE_COLOR][0], (double)c[WEFT_PART_BASE_COLOR][1], (double)c[WEFT_PART_BASE_COLOR][2],
+             (double)c[WEFT_PART_ROUGHNESS][0], (double)(2.0f * c[WEFT_PART_NORMAL][0] - 1.0f),
+             (double)(2.0f * c[WEFT_PART_NORMAL][1] - 1.0f), (double)(2.0f * c[WEFT_PART_NORMAL][2] - 1.0f),
+             (double)p->texcoord[0], (double)p->texcoord[1], (double)p->distance);
     ui_text(text);
 }
 

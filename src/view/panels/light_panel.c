@@ -41,9 +41,7 @@ static void add_light(Viewer *v, WeftLightKind kind) {
     float n = hypotf(hypotf(light.direction[0], light.direction[1]), light.direction[2]);
     for (int k = 0; k < 3; k++) light.direction[k] /= fmaxf(n, 1e-6f);
     for (int k = 0; k < 3; k++) light.position[k] = v->camera->home[k] - far * light.direction[k];
-    float color = kind == WEFT_LIGHT_DIRECTIONAL ? 2.0f
-                  : kind == WEFT_LIGHT_POLYGON   ? 12.0f
-                                                 : 3.0f * far * far;
+    float color = kind == WEFT_LIGHT_DIRECTIONAL ? 2.0f : kind == WEFT_LIGHT_POLYGON ? 12.0f : 3.0f * far * far;
     for (int k = 0; k < 3; k++) light.color[k] = color;
     if (kind == WEFT_LIGHT_POLYGON) light.size[0] = light.size[1] = 0.4f * far, light.corners = 4;
     if (kind == WEFT_LIGHT_SPOT) light.inner = 20.0f, light.outer = 30.0f;
@@ -61,8 +59,7 @@ static void draw_color(WeftLight *l) {
     changed |= ui_slider("intensity", &range, &most);
     ui_tip(kind_helps[l->kind]);
     float top = fmaxf(tint[0], fmaxf(tint[1], tint[2]));
-    for (int c = 0; c < 3 && changed; c++)
-        l->color[c] = fminf(fmaxf(most * tint[c] / fmaxf(top, 1e-6f), 0.0f), 1e6f);
+    for (int c = 0; c < 3 && changed; c++) l->color[c] = fminf(fmaxf(most * tint[c] / fmaxf(top, 1e-6f), 0.0f), 1e6f);
 }
 
 static void draw_place(WeftLight *l) {
@@ -107,8 +104,7 @@ static void draw_shape(WeftLight *l) {
 
 static void draw_lights(Viewer *v) {
     bool hidden = v->options->hide_lights;
-    if (ui_checkbox("Hide polygon lights", &hidden) && hidden != v->options->hide_lights)
-        options_toggle_lights(v);
+    if (ui_checkbox("Hide polygon lights", &hidden) && hidden != v->options->hide_lights) options_toggle_lights(v);
     ui_tip("They shine, but the camera looks through them.");
     for (int k = 0; k < 4; k++) {
         char label[32];
@@ -141,15 +137,13 @@ static const char *environment_name(const void *user, int k) {
 }
 static const char *environment_help(const void *user, int k) {
     static const char *const helps[] = {
-        "The built-in soft boxes.",
-        "A lat-long picture (.hdr, .exr), or the folder of a cubemap: open or drop one.",
+        "The built-in soft boxes.", "A lat-long picture (.hdr, .exr), or the folder of a cubemap: open or drop one.",
         "One radiance from everywhere: the furnace, when it is 1."};
     return helps[k];
 }
 
 static void draw_environment(Viewer *v) {
-    static const UiRange rotation = {-180.0f, 180.0f, 0.0f, "deg", false},
-                         strength = {0.0f, 4.0f, 1.0f, NULL, false};
+    static const UiRange rotation = {-180.0f, 180.0f, 0.0f, "deg", false}, strength = {0.0f, 4.0f, 1.0f, NULL, false};
     static const float grey[3] = {1.0f, 1.0f, 1.0f};
     const UiChoices rows = {3, environment_name, environment_help, NULL};
     EnvironmentState edited = v->edit->state.environment, *a = &edited;
@@ -177,12 +171,10 @@ static void draw_environment(Viewer *v) {
     ui_slider("strength", &strength, &a->strength);
     ui_tip("A factor on the environment's light.");
     ui_slider("ambient", &strength, &a->ambient);
-    ui_tip(
-        "A factor on what the diffuse lobe and dust reflect of it: 0 leaves reflections alone. In the path "
-        "tracer, too, though no light is so.");
+    ui_tip("A factor on what the diffuse lobe and dust reflect of it: 0 leaves reflections alone. In the path "
+           "tracer, too, though no light is so.");
     ui_slider("reflections", &strength, &a->reflection);
-    ui_tip(
-        "A factor on what the specular, sheen and coat lobes reflect of it: 0 leaves ambient light alone.");
+    ui_tip("A factor on what the specular, sheen and coat lobes reflect of it: 0 leaves ambient light alone.");
     a->rotation = remainderf(a->rotation, 360.0f);
     float *const factors[] = {&a->strength, &a->ambient, &a->reflection};
     for (int k = 0; k < 3; k++) *factors[k] = fminf(fmaxf(*factors[k], 0.0f), 1e6f);
@@ -194,12 +186,11 @@ static const char *ambient_name(const void *user, int k) {
     return names[k];
 }
 static const char *ambient_help(const void *user, int k) {
-    static const char *const helps[] = {
-        "For each lobe the one that is nearest to the path tracer.",
-        "Irradiance times albedo: the cheapest, and for many engines all there is.",
-        "One look-up where a mirror would look, as engines do.",
-        "Lights for what is bright, and a few look-ups fitted to the lobe.",
-        "No light from the environment."};
+    static const char *const helps[] = {"For each lobe the one that is nearest to the path tracer.",
+                                        "Irradiance times albedo: the cheapest, and for many engines all there is.",
+                                        "One look-up where a mirror would look, as engines do.",
+                                        "Lights for what is bright, and a few look-ups fitted to the lobe.",
+                                        "No light from the environment."};
     return helps[k];
 }
 

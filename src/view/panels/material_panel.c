@@ -106,8 +106,7 @@ static bool is_beyond(const WeftInputInfo *info, const WeftInput *input) {
     float scale = angle ? degrees : 1.0f;
     if (info->kind == WEFT_INPUT_DIRECTION) return false;
     for (int c = 0; c < (info->kind == WEFT_INPUT_COLOR ? 3 : 1); c++)
-        if (scale * input->value[c] > info->high * 1.0001f || scale * input->value[c] < info->low - 1e-6f)
-            return true;
+        if (scale * input->value[c] > info->high * 1.0001f || scale * input->value[c] < info->low - 1e-6f) return true;
     return false;
 }
 
@@ -176,8 +175,7 @@ static void draw_input(Viewer *v, WeftMaterial *m, int k, bool reads) {
     chart_swatches(m, info.name);
     if (is_beyond(&info, input)) {
         char text[96];
-        snprintf(text, sizeof text, "beyond what is plausible: %g .. %g", (double)info.low,
-                 (double)info.high);
+        snprintf(text, sizeof text, "beyond what is plausible: %g .. %g", (double)info.low, (double)info.high);
         ui_warning(text);
     }
 }
@@ -200,8 +198,7 @@ static const char *material_help(const void *user, int k) {
     if (coverage < 0.0f) snprintf(text, sizeof text, "Nothing uses it now: it is there for a variant.");
     if (coverage > 0.0f) {
         size_t used = strlen(text);
-        snprintf(text + used, sizeof text - used, "\n%.1f %% of the picture, at first.",
-                 100.0 * (double)coverage);
+        snprintf(text + used, sizeof text - used, "\n%.1f %% of the picture, at first.", 100.0 * (double)coverage);
     }
     return text;
 }
@@ -294,8 +291,7 @@ static void draw_inputs(Viewer *v, WeftMaterial *m, int group) {
         snprintf(label, sizeof label, "%d without influence now###idle %s", idle, groups[group].heading);
         if (pass && (!idle || !ui_fold(label))) return;
         for (int k = 0; weft_material_input_name(k); k++)
-            if (group_of(weft_material_input_name(k)) == group && reads[k] == !pass)
-                draw_input(v, m, k, reads[k]);
+            if (group_of(weft_material_input_name(k)) == group && reads[k] == !pass) draw_input(v, m, k, reads[k]);
     }
 }
 

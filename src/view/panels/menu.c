@@ -18,8 +18,7 @@ static void file_menu(Viewer *v) {
         for (int k = 0; k < v->frame->settings.recent_count; k++)
             if (ui_menu_item(v->frame->settings.recent[k], NULL, false, true)) {
                 char path[RECENT_PATH];
-                snprintf(path, sizeof path, "%s",
-                         v->frame->settings.recent[k]); /* the list is about to change */
+                snprintf(path, sizeof path, "%s", v->frame->settings.recent[k]); /* the list is about to change */
                 opening_open(v, path);
             }
         if (!v->frame->settings.recent_count) ui_menu_item("nothing yet", NULL, false, false);
@@ -44,8 +43,7 @@ static void file_menu(Viewer *v) {
 
 static void edit_menu(Viewer *v) {
     if (ui_menu_item("Undo", "Ctrl+Z", false, v->edit->history.now > 0)) edit_undo(v);
-    if (ui_menu_item("Redo", "Ctrl+Shift+Z", false, v->edit->history.now < v->edit->history.count))
-        edit_redo(v);
+    if (ui_menu_item("Redo", "Ctrl+Shift+Z", false, v->edit->history.now < v->edit->history.count)) edit_redo(v);
     ui_rule();
     if (ui_menu_item("Next material", "M", false, v->shown->any)) edit_next_material(v, 1);
     if (ui_menu_item("Material before", "Shift+M", false, v->shown->any)) edit_next_material(v, -1);
@@ -106,8 +104,7 @@ static void draw_menus(Viewer *v) {
 
 static void draw_modes(Viewer *v) {
     static const char *const modes[] = {"OpenGL", "Path traced", "Difference", NULL};
-    static const char *const tips[] = {"As an engine draws it.",
-                                       "The path tracer's answer to exactly this view (Tab).",
+    static const char *const tips[] = {"As an engine draws it.", "The path tracer's answer to exactly this view (Tab).",
                                        "How OpenGL differs from it, as a map and in numbers (Shift+Tab)."};
     int mode = (int)v->options->mode;
     if (ui_tabs("Mode", modes, tips, &mode)) options_set_mode(v, (Mode)mode);
@@ -127,8 +124,7 @@ static void draw_modes(Viewer *v) {
     if (ui_checkbox("Brush", &brush)) options_set_tool(v, brush ? TOOL_BRUSH : TOOL_ORBIT);
     ui_tip("Strokes lay the nap of a fibre sheen (B).");
     if (v->options->tool != TOOL_BRUSH || v->edit->material >= v->edit->state.material_count) return;
-    if (weft_material_reads(scene_state_material(&v->edit->state, v->edit->material),
-                            weft_material_input_find("nap")))
+    if (weft_material_reads(scene_state_material(&v->edit->state, v->edit->material), weft_material_input_find("nap")))
         return;
     ui_same_line();
     if (ui_button("Make it fibre")) edit_make_fibre(v);
@@ -176,9 +172,8 @@ void status_draw(Viewer *v) {
     ui_behind(true);
     ui_fill(bar, 0xFF1C1B1Au);
     snprintf(right, sizeof right, "%.0f fps  picture %.1f ms  %d x %d  %s",
-             v->frame->frame_seconds > 0.0 ? 1.0 / v->frame->frame_seconds : 0.0,
-             1e3 * v->frame->picture_seconds, v->requests->rendered.width, v->requests->rendered.height,
-             picture_status(v));
+             v->frame->frame_seconds > 0.0 ? 1.0 / v->frame->frame_seconds : 0.0, 1e3 * v->frame->picture_seconds,
+             v->requests->rendered.width, v->requests->rendered.height, picture_status(v));
     float width_left = (float)width - ui_text_width(right) - 40.0f * scale;
     int count = lines_of(v->shown->warnings);
     text[0] = '\0';

@@ -1,6 +1,5 @@
 /* panels.h - the panels, bars and keys of the window, one file each */
-#ifndef WEFT_VIEW_PANELS_H
-#define WEFT_VIEW_PANELS_H
+#pragma once
 
 #include "view/state/viewer.h"
 
@@ -23,5 +22,3 @@ void doctor_forget(Viewer *v);
 /* Returns true if measuring goes on in the next frame. */
 bool inspection_busy(const struct Inspection *inspection);
 void inspection_free(struct Inspection *inspection);
-
-#endif

@@ -42,8 +42,8 @@ static void put(Line *line, const char *format, ...) {
 
 /* Writes a word as a shell reads it. */
 static void put_word(Line *line, const char *word) {
-    if (word[0] && strspn(word, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./:=,-+%@") ==
-                       strlen(word)) {
+    if (word[0] &&
+        strspn(word, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./:=,-+%@") == strlen(word)) {
         put(line, " %s", word);
         return;
     }
@@ -83,15 +83,14 @@ static void put_material(Line *line, const Viewer *v, int index, bool *lost) {
         put(line, " --set %d.%s=%s", index, weft_material_choice_name(k), id);
         weft_material_choose(&was, k, is->choices[k]);
     }
-    *lost |= is->alpha_mode != was.alpha_mode &&
-             !differs(is->inputs[weft_material_input_find("opacity")].value[0],
-                      was.inputs[weft_material_input_find("opacity")].value[0]);
-    *lost |= is->unlit != was.unlit || is->double_sided != was.double_sided ||
-             differs(is->alpha_cutoff, was.alpha_cutoff);
+    *lost |= is->alpha_mode != was.alpha_mode && !differs(is->inputs[weft_material_input_find("opacity")].value[0],
+                                                          was.inputs[weft_material_input_find("opacity")].value[0]);
+    *lost |=
+        is->unlit != was.unlit || is->double_sided != was.double_sided || differs(is->alpha_cutoff, was.alpha_cutoff);
     for (int k = 0; weft_material_input_name(k); k++) {
         const WeftInput *a = &was.inputs[k], *b = &is->inputs[k];
-        bool changed = differs(a->value[0], b->value[0]) || differs(a->value[1], b->value[1]) ||
-                       differs(a->value[2], b->value[2]);
+        bool changed =
+            differs(a->value[0], b->value[0]) || differs(a->value[1], b->value[1]) || differs(a->value[2], b->value[2]);
         *lost |= b->texture && (changed || a->texture != b->texture); /* --set would drop the map */
         if ((changed || a->texture != b->texture) && !b->texture) put_input(line, index, k, b);
     }
@@ -107,8 +106,7 @@ static void put_light(Line *line, const WeftLight *l) {
     case WEFT_LIGHT_DIRECTIONAL: snprintf(word, sizeof word, "sun;%s;%s", way, color); break;
     case WEFT_LIGHT_POINT: snprintf(word, sizeof word, "point;%s;%s", place, color); break;
     case WEFT_LIGHT_SPOT:
-        snprintf(word, sizeof word, "spot;%s;%s;%s;%.9g,%.9g", place, way, color, (double)l->inner,
-                 (double)l->outer);
+        snprintf(word, sizeof word, "spot;%s;%s;%s;%.9g,%.9g", place, way, color, (double)l->inner, (double)l->outer);
         break;
     case WEFT_LIGHT_POLYGON:
         snprintf(word, sizeof word, "polygon;%s;%s;%.9g,%.9g;%s;%d,%.9g", place, way, (double)l->size[0],
@@ -156,15 +154,13 @@ static void put_view(Line *line, const Viewer *v) {
     else if (v->options->background != WEFT_BACKGROUND_AUTO)
         put(line, " --background %s", backs[v->options->background]);
     if (v->options->floor.on)
-        put(line, " --floor --floor-reflection %.9g --floor-roughness %.9g",
-            (double)v->options->floor.reflection, (double)v->options->floor.roughness);
+        put(line, " --floor --floor-reflection %.9g --floor-roughness %.9g", (double)v->options->floor.reflection,
+            (double)v->options->floor.roughness);
     if (v->options->hide_lights) put(line, " --hide-lights");
     if (differs(v->options->exposure, 0.0f)) put(line, " --exposure %.9g", (double)v->options->exposure);
-    if (v->options->tonemap != WEFT_TONEMAP_PBR_NEUTRAL)
-        put(line, " --tonemap %s", curves[v->options->tonemap]);
+    if (v->options->tonemap != WEFT_TONEMAP_PBR_NEUTRAL) put(line, " --tonemap %s", curves[v->options->tonemap]);
     if (v->options->mode != MODE_LIVE) {
-        put(line,
-            v->options->mode == MODE_DIFFERENCE ? " --engine both --halves --spp %d" : " --halves --spp %d",
+        put(line, v->options->mode == MODE_DIFFERENCE ? " --engine both --halves --spp %d" : " --halves --spp %d",
             v->requests->traced.samples >= 1.0 ? (int)v->requests->traced.samples : 64);
         return;
     }
@@ -215,8 +211,7 @@ void command_copy(Viewer *v) {
     const UiClipboard *clip = window_clipboard(v->window);
     clip->set(clip->user, line);
     viewer_report(v, lost,
-                  lost ? "copied, but for brushed nap and maps: save the scene and render that"
-                       : "copied: %.400s",
+                  lost ? "copied, but for brushed nap and maps: save the scene and render that" : "copied: %.400s",
                   line);
     free(line);
 }

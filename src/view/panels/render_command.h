@@ -1,6 +1,5 @@
 /* render_command.h - the command line that draws what the window shows */
-#ifndef WEFT_VIEW_RENDER_COMMAND_H
-#define WEFT_VIEW_RENDER_COMMAND_H
+#pragma once
 
 #include "view/state/viewer.h"
 
@@ -10,5 +9,3 @@ char *command_line(const Viewer *v, bool *lost);
 
 /* Copies the command line to the clipboard. */
 void command_copy(Viewer *v);
-
-#endif

@@ -104,8 +104,7 @@ static void draw_picture(Viewer *v) {
 
 static void draw_compare(Viewer *v) {
     static const char *const splits[] = {"Off", "Line", "Side by side", NULL};
-    static const char *const tips[] = {"One setting.",
-                                       "A on the left of a line that can be dragged, B on the right.",
+    static const char *const tips[] = {"One setting.", "A on the left of a line that can be dragged, B on the right.",
                                        "The same view twice."};
     int split = (int)v->edit->split;
     if (ui_tabs("A and B", splits, tips, &split)) edit_set_split(v, (Split)split);
@@ -125,8 +124,7 @@ static void draw_compare(Viewer *v) {
 
 static void draw_tools(Viewer *v) {
     static const char *const tools[] = {"Orbit", "Probe", "Brush nap", NULL};
-    static const UiRange radius = {0.002f, 0.5f, 0.05f, "m", true},
-                         strength = {0.0f, 1.0f, 0.7f, NULL, false};
+    static const UiRange radius = {0.002f, 0.5f, 0.05f, "m", true}, strength = {0.0f, 1.0f, 0.7f, NULL, false};
     static const char *const tips[] = {"The left button turns the camera.",
                                        "The left button asks what a pixel is made of.",
                                        "The left button strokes the fibres of a sheen."};

@@ -23,11 +23,7 @@ static const char *const systems[] = {"warp", "weft"};
 
 /* Weaves the material of the edited yarns; pick -1: of the same draft. */
 static void weave(Viewer *v, int warp, int pick) {
-    Task task = {.kind = TASK_WEAVE,
-                 .scene = v->shown->number,
-                 .index = v->edit->material,
-                 .warp = warp,
-                 .pick = pick};
+    Task task = {.kind = TASK_WEAVE, .scene = v->shown->number, .index = v->edit->material, .warp = warp, .pick = pick};
     task.stamp = edit_assign(v, v->edit->material);
     memcpy(task.yarns, v->weave->yarns, sizeof task.yarns);
     renderer_add_task(v->renderer, &task);

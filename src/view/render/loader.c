@@ -94,8 +94,8 @@ static void make_thumb(const WeftImage *image, unsigned char *out) {
 /* Makes the thumbnails; none if memory is short. */
 static void read_thumbs(Facts *facts, const WeftScene *scene) {
     int count = facts->map_count < FACTS_THUMBS ? facts->map_count : FACTS_THUMBS;
-    if (!count || weft_image_create(FACTS_THUMB, FACTS_THUMB * count, 3, WEFT_PIXEL_U8, &facts->thumbs,
-                                    NULL) != WEFT_OK)
+    if (!count ||
+        weft_image_create(FACTS_THUMB, FACTS_THUMB * count, 3, WEFT_PIXEL_U8, &facts->thumbs, NULL) != WEFT_OK)
         return;
     for (int k = 0; k < count; k++) {
         WeftImage image = weft_scene_texture(scene, k + 1);
@@ -226,8 +226,7 @@ static WeftResult load(Loader *self, WeftError *error) {
         result = desc->configure(desc->user, loaded->scene, &environment, &log, error);
     if (result != WEFT_OK) return result;
     bind_folders(loaded, &log);
-    if (!scene_state_read(&loaded->state, loaded->scene) ||
-        !facts_read(&loaded->facts, loaded->scene, loaded->path)) {
+    if (!scene_state_read(&loaded->state, loaded->scene) || !facts_read(&loaded->facts, loaded->scene, loaded->path)) {
         snprintf(error->text, sizeof error->text, "%.300s: out of memory", loaded->path);
         return WEFT_RESOURCES;
     }

@@ -1,6 +1,5 @@
 /* loader.h - reads a scene in a thread of its own, with progress */
-#ifndef WEFT_VIEW_LOADER_H
-#define WEFT_VIEW_LOADER_H
+#pragma once
 
 #include "view/render/scene_state.h"
 #include "view/render/view.h"
@@ -25,10 +24,8 @@ typedef struct Facts {
     int map_count;
     FactCloth *cloths; /* as WeftMaterial's `cloth` counts them, from 1; owned */
     int cloth_count;
-    WeftImage
-        thumbs; /* of the maps in the same order, FACTS_THUMB a side, one below the other: U8 RGB; owned */
-    float *
-        coverage; /* fraction of the picture by material, at the last survey (survey.h); owned, may be NULL */
+    WeftImage thumbs; /* of the maps in the same order, FACTS_THUMB a side, one below the other: U8 RGB; owned */
+    float *coverage;  /* fraction of the picture by material, at the last survey (survey.h); owned, may be NULL */
     WeftSceneInfo info;
 } Facts;
 
@@ -82,5 +79,3 @@ void loader_stop(Loader *loader);
 /* Gives up what is not done, and takes what is (loaded may be NULL: dropped). The loader is gone. */
 void loader_finish(Loader *loader, Loaded *loaded);
 void loaded_free(Loaded *loaded);
-
-#endif

@@ -127,8 +127,7 @@ const char *orbit_text(const Orbit *o, char text[ORBIT_TEXT]) {
         return text;
     }
     snprintf(text, ORBIT_TEXT, "%.7g,%.7g,%.7g;%.7g,%.7g,%.7g;%.7g", (double)o->eye[0], (double)o->eye[1],
-             (double)o->eye[2], (double)o->target[0], (double)o->target[1], (double)o->target[2],
-             (double)o->fov);
+             (double)o->eye[2], (double)o->target[0], (double)o->target[1], (double)o->target[2], (double)o->fov);
     return text;
 }
 
@@ -147,7 +146,7 @@ void orbit_ray(const Orbit *o, float aspect, float x, float y, float direction[3
     float right[3], up[3], forward[3], tangent = tanf(0.5f * o->fov * degree);
     orbit_axes(o, right, up, forward);
     for (int k = 0; k < 3; k++)
-        direction[k] = forward[k] + (2.0f * x - 1.0f) * tangent * aspect * right[k] +
-                       (1.0f - 2.0f * y) * tangent * up[k];
+        direction[k] =
+            forward[k] + (2.0f * x - 1.0f) * tangent * aspect * right[k] + (1.0f - 2.0f * y) * tangent * up[k];
     unit(direction);
 }

@@ -1,8 +1,7 @@
 /* orbit.h - a camera moved by hand: about a point, or through the scene
  *
  * Positions in metres, angles in radians; up is +y. */
-#ifndef WEFT_VIEW_ORBIT_H
-#define WEFT_VIEW_ORBIT_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -50,5 +49,3 @@ void orbit_ray(const Orbit *orbit, float aspect, float x, float y, float directi
 
 /* Computes the unit vectors right, up and forward. */
 void orbit_axes(const Orbit *orbit, float right[3], float up[3], float forward[3]);
-
-#endif

@@ -50,9 +50,8 @@ static bool read_again(Renderer *self, const SceneState *wanted, SceneState *is)
 }
 
 const char *frame_refusal(const Renderer *self, const SceneState *state) {
-    return self->refusal[0] && environment_state_same_source(&state->environment, &self->refused)
-               ? self->refusal
-               : NULL;
+    return self->refusal[0] && environment_state_same_source(&state->environment, &self->refused) ? self->refusal
+                                                                                                  : NULL;
 }
 
 /* Applies an environment. If its source cannot be read, the source before stays, and the reason is kept. */
@@ -93,16 +92,15 @@ WeftResult frame_apply_state(Renderer *self, const SceneState *wanted, WeftError
 }
 
 /* Draws one state into the rectangle `part` of a picture: x, y, width, height. */
-static WeftResult draw_one(Renderer *self, const FrameRequest *request, const SceneState *state,
-                           const int part[4], int target, WeftError *error) {
+static WeftResult draw_one(Renderer *self, const FrameRequest *request, const SceneState *state, const int part[4],
+                           int target, WeftError *error) {
     WeftRasterView view = request->view;
     view.camera = request->camera;
     bool sides = request->split == SPLIT_SIDES, numeric = request->view.part >= WEFT_PART_BASE_COLOR;
     int height = request->view.height;
     WeftResult result = frame_apply_state(self, state, error);
     if (sides) view.width = request->view.width / 2;
-    const int crop[4] = {sides ? 0 : part[0], part[1], sides && part[2] > view.width ? view.width : part[2],
-                         part[3]};
+    const int crop[4] = {sides ? 0 : part[0], part[1], sides && part[2] > view.width ? view.width : part[2], part[3]};
     memcpy(view.crop, crop, sizeof view.crop);
     if (result == WEFT_OK) result = weft_raster_draw(self->raster, &view, error);
     const WeftRasterShow show = {.framebuffer = self->targets[target],
@@ -124,9 +122,8 @@ static bool is_outdated(Renderer *self, unsigned number) {
 /* Draws part of a picture in strips of rows. A strip takes about `piece` seconds, so that another request does not wait
  * long, nor does the window if the driver draws for one context at a time. Time grows less than in proportion to the
  * rows; their number is therefore found by doubling and halving. *whole becomes false if newer work stops it. */
-static WeftResult draw_part(Renderer *self, const FrameRequest *request, const SceneState *state,
-                            const int part[4], unsigned number, int target, double expected, bool *whole,
-                            WeftError *error) {
+static WeftResult draw_part(Renderer *self, const FrameRequest *request, const SceneState *state, const int part[4],
+                            unsigned number, int target, double expected, bool *whole, WeftError *error) {
     const double piece = 0.05;
     int height = part[3], y = 0;
     int rows = expected < 3.0 * piece ? height : (int)(height * piece / expected);
@@ -160,11 +157,11 @@ static WeftResult draw_picture(Renderer *self, const FrameRequest *request, unsi
     middle = middle < 1 ? 1 : middle > width - 1 ? width - 1 : middle;
     const int left[4] = {0, 0, middle, height}, right[4] = {middle, 0, width - middle, height};
     bool last = request->edited == 1; /* the edited state is drawn last, so that tasks find it applied */
-    WeftResult result = draw_part(self, request, last ? &request->state : &request->other,
-                                  last ? left : right, number, target, 0.5 * expected, whole, error);
+    WeftResult result = draw_part(self, request, last ? &request->state : &request->other, last ? left : right, number,
+                                  target, 0.5 * expected, whole, error);
     if (result != WEFT_OK || !*whole) return result;
-    return draw_part(self, request, last ? &request->other : &request->state, last ? right : left, number,
-                     target, 0.5 * expected, whole, error);
+    return draw_part(self, request, last ? &request->other : &request->state, last ? right : left, number, target,
+                     0.5 * expected, whole, error);
 }
 
 /* Returns the effort that fits the time: smooth edges to compare with, if they take no longer than a frame may, or
@@ -218,15 +215,14 @@ static void focus(Renderer *self, const FrameRequest *request) {
     if (strchr(request->camera, ';')) return;
     if (!self->pick && weft_pick_create(self->scene, &self->pick, NULL) != WEFT_OK) return;
     int width = request->view.width, height = request->view.height;
-    bool hit = weft_pick_at(self->pick, request->camera, width, height, 0.5f * (float)width,
-                            0.5f * (float)height, &at) != 0;
+    bool hit =
+        weft_pick_at(self->pick, request->camera, width, height, 0.5f * (float)width, 0.5f * (float)height, &at) != 0;
     for (int k = 0; k < 3; k++) {
         d[k] = p->target[k] - p->eye[k];
         n += d[k] * d[k];
     }
     pthread_mutex_lock(&self->lock);
-    for (int k = 0; k < 3 && hit && n > 0.0f; k++)
-        self->rendered.target[k] = p->eye[k] + at.distance / sqrtf(n) * d[k];
+    for (int k = 0; k < 3 && hit && n > 0.0f; k++) self->rendered.target[k] = p->eye[k] + at.distance / sqrtf(n) * d[k];
     self->rendered.focused = true;
     self->fresh = true;
     pthread_mutex_unlock(&self->lock);
@@ -319,8 +315,8 @@ static void draw(Renderer *self, const FrameRequest *request, unsigned number) {
     const char *refusal = frame_refusal(self, &request->state);
     if (result == WEFT_OK) snprintf(error.text, sizeof error.text, "%s", refusal ? refusal : "");
     bool best = effort == EFFORT_WHOLE && self->smooth_seconds >= smooth_most; /* smooth is too slow */
-    publish(self, request, best || request->reference ? EFFORT_SMOOTH : effort, number, target,
-            clock_now() - start, &error);
+    publish(self, request, best || request->reference ? EFFORT_SMOOTH : effort, number, target, clock_now() - start,
+            &error);
     focus(self, request);
 }
 

@@ -70,8 +70,8 @@ static void fail_with(ReferenceView *self, const char *failure) {
 }
 
 /* Makes or changes the render, so that it fits this request and the current scene. */
-static bool begin(ReferenceView *self, const ReferenceRequest *request, const WeftScene *scene,
-                  unsigned changed, bool other) {
+static bool begin(ReferenceView *self, const ReferenceRequest *request, const WeftScene *scene, unsigned changed,
+                  bool other) {
     WeftError error = {0};
     WeftRenderDesc desc = request->desc;
     WeftResult result;
@@ -105,8 +105,7 @@ static WeftResult compare(ReferenceView *self, const ReferenceRequest *request, 
     WeftResult result = weft_difference(b, linear, &picture->difference, NULL);
     picture->scale = request->scale > 0.0f ? request->scale : fmaxf(picture->difference.high, 0.01f);
     picture->compared = result == WEFT_OK;
-    return result == WEFT_OK ? weft_difference_image(b, linear, picture->scale, &picture->image, NULL)
-                             : result;
+    return result == WEFT_OK ? weft_difference_image(b, linear, picture->scale, &picture->image, NULL) : result;
 }
 
 /* Denoises the picture whenever the samples have doubled, so that most of the time goes to samples. */
@@ -123,8 +122,7 @@ static void clean(ReferenceView *self) {
 
 /* Blends the denoised picture with the sampled one, whose weight is the fraction of samples taken. So its noise never
  * exceeds that of the last picture, which is the sampled one alone. */
-static WeftResult mix(ReferenceView *self, const ReferenceRequest *request, const WeftImage *linear,
-                      WeftImage *out) {
+static WeftResult mix(ReferenceView *self, const ReferenceRequest *request, const WeftImage *linear, WeftImage *out) {
     const WeftImage *denoised = &self->denoised;
     float share = fminf((float)(self->samples / request->samples), 1.0f);
     WeftResult result = weft_image_create(linear->width, linear->height, 4, WEFT_PIXEL_F32, out, NULL);
@@ -136,8 +134,7 @@ static WeftResult mix(ReferenceView *self, const ReferenceRequest *request, cons
     return WEFT_OK;
 }
 
-static WeftResult show(ReferenceView *self, const ReferenceRequest *request, const WeftImage *linear,
-                       WeftImage *out) {
+static WeftResult show(ReferenceView *self, const ReferenceRequest *request, const WeftImage *linear, WeftImage *out) {
     WeftImage mixed;
     WeftResult result = mix(self, request, linear, &mixed);
     if (result != WEFT_OK) return result;
@@ -149,10 +146,8 @@ static WeftResult show(ReferenceView *self, const ReferenceRequest *request, con
 /* Publishes the picture. The samples of a coarse one are counted per pixel of the whole resolution, and its radiance is
  * not kept. */
 static void publish(ReferenceView *self, const ReferenceRequest *request, unsigned number_for) {
-    ReferenceFrame picture = {.wanted_samples = request->samples,
-                              .number = number_for,
-                              .view = self->drawn_view,
-                              .state = self->drawn_state};
+    ReferenceFrame picture = {
+        .wanted_samples = request->samples, .number = number_for, .view = self->drawn_view, .state = self->drawn_state};
     bool kept = !number_for && self->finer;
     WeftImage linear;
     if (weft_render_image(self->render, &linear, NULL) != WEFT_OK) return;
@@ -160,8 +155,7 @@ static void publish(ReferenceView *self, const ReferenceRequest *request, unsign
     picture.samples = info.samples_per_pixel;
     if (!number_for && !self->finer) picture.samples /= COARSE * COARSE;
     picture.seconds = info.render_seconds;
-    picture.denoised =
-        !request->difference && self->denoised.pixels && self->samples < (double)request->samples;
+    picture.denoised = !request->difference && self->denoised.pixels && self->samples < (double)request->samples;
     bool made = request->difference ? compare(self, request, &linear, &picture) == WEFT_OK
                                     : show(self, request, &linear, &picture.image) == WEFT_OK;
     pthread_mutex_lock(&self->lock);
@@ -373,8 +367,7 @@ void reference_set_state(ReferenceView *self, unsigned state) {
     pthread_mutex_lock(&self->lock);
     if (state != self->state) {
         self->state = state;
-        if (!self->picture.failure[0])
-            self->number++; /* the picture is published once more with this number */
+        if (!self->picture.failure[0]) self->number++; /* the picture is published once more with this number */
         pthread_cond_broadcast(&self->change);
     }
     pthread_mutex_unlock(&self->lock);
@@ -383,8 +376,7 @@ void reference_set_state(ReferenceView *self, unsigned state) {
 unsigned reference_request(ReferenceView *self, const ReferenceRequest *request) {
     pthread_mutex_lock(&self->lock);
     if (memcmp((const char *)&self->request, (const char *)request, sizeof *request) != 0) {
-        bool same =
-            self->request.wanted == request->wanted && self->request.difference == request->difference;
+        bool same = self->request.wanted == request->wanted && self->request.difference == request->difference;
         bool moved = !same_view(&self->request, request);
         if (moved) weft_image_free(&self->linear);
         if (moved || !same) {
@@ -452,10 +444,8 @@ bool reference_has_frame(ReferenceView *self) {
 bool reference_image(ReferenceView *self, WeftImage *out) {
     pthread_mutex_lock(&self->lock);
     const WeftImage *from = &self->linear;
-    bool there =
-        from->pixels && weft_image_create(from->width, from->height, 4, WEFT_PIXEL_F32, out, NULL) == WEFT_OK;
-    if (there)
-        memcpy(out->pixels, from->pixels, (size_t)from->width * (size_t)from->height * 4 * sizeof(float));
+    bool there = from->pixels && weft_image_create(from->width, from->height, 4, WEFT_PIXEL_F32, out, NULL) == WEFT_OK;
+    if (there) memcpy(out->pixels, from->pixels, (size_t)from->width * (size_t)from->height * 4 * sizeof(float));
     pthread_mutex_unlock(&self->lock);
     return there;
 }

@@ -1,8 +1,7 @@
 /* reference_view.h - the thread that path traces the window's view (ground truth), sample upon sample
  *
  * The scene belongs to the renderer, which pauses this thread while it changes anything. */
-#ifndef WEFT_VIEW_REFERENCE_VIEW_H
-#define WEFT_VIEW_REFERENCE_VIEW_H
+#pragma once
 
 #include "view/render/orbit.h"
 #include "view/ui/window.h"
@@ -77,5 +76,3 @@ bool reference_image(ReferenceView *reference, WeftImage *out);
 
 /* Returns true if the path tracer is idle: it is not wanted, or has all of its samples. */
 bool reference_is_idle(ReferenceView *reference);
-
-#endif

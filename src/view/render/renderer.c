@@ -193,9 +193,7 @@ static void *work(void *user) {
     Renderer *self = user;
     bool good = window_worker_begin(self->window);
     pthread_mutex_lock(&self->lock);
-    if (!good)
-        snprintf(self->rendered.failure, sizeof self->rendered.failure,
-                 "cannot create a second OpenGL context");
+    if (!good) snprintf(self->rendered.failure, sizeof self->rendered.failure, "cannot create a second OpenGL context");
     while (!self->quit && good) {
         if (render_next(self)) continue;
         wait_a_little(self);
@@ -282,8 +280,7 @@ unsigned renderer_request(Renderer *self, const FrameRequest *request) {
 
 void renderer_add_task(Renderer *self, const Task *task) {
     pthread_mutex_lock(&self->lock);
-    bool picking =
-        task->kind == TASK_PICK && self->task_count && self->tasks[self->task_count - 1].kind == TASK_PICK;
+    bool picking = task->kind == TASK_PICK && self->task_count && self->tasks[self->task_count - 1].kind == TASK_PICK;
     if (picking) self->task_count--; /* the newer pick replaces the one that waits */
     if (self->task_count < TASKS) self->tasks[self->task_count++] = *task;
     pthread_cond_broadcast(&self->change);
@@ -329,8 +326,7 @@ bool renderer_is_idle(Renderer *self) {
     pthread_mutex_lock(&self->lock);
     bool idle = !self->working && !self->pending_scene && !self->task_count && !self->event_count &&
                 !self->study.under_way &&
-                (!self->requested || self->request.scene != self->scene_number ||
-                 self->number == self->drawn_number) &&
+                (!self->requested || self->request.scene != self->scene_number || self->number == self->drawn_number) &&
                 !self->stale;
     pthread_mutex_unlock(&self->lock);
     return idle;

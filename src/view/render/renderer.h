@@ -5,8 +5,7 @@
  * requested state to the scene and returns a finished picture as a texture that both OpenGL contexts share. Work that
  * is done once, such as writing a file or probing a pixel, is a task. Tasks are done in order and answered by
  * events. */
-#ifndef WEFT_VIEW_RENDERER_H
-#define WEFT_VIEW_RENDERER_H
+#pragma once
 
 #include "view/render/loader.h"
 #include "view/render/orbit.h"
@@ -97,8 +96,7 @@ typedef struct RenderEvent {
     char path[STATE_PATH]; /* TASK_BIND_MAPS: the folder */
     unsigned stamp;
     Probe probe;
-    WeftImage
-        image; /* TASK_PROFILES: the sheet, U8 RGB; TASK_PICK: the nap map, if none was brushed; owned */
+    WeftImage image;    /* TASK_PROFILES: the sheet, U8 RGB; TASK_PICK: the nap map, if none was brushed; owned */
     bool state_changed; /* `state` is then the state of the scene after the task; owned */
     SceneState state;
     Facts maps;      /* set if maps changed; only its maps and cloths are filled; owned */
@@ -156,5 +154,3 @@ bool renderer_is_idle(Renderer *renderer);
 
 /* Returns the warnings since the last call, one a line, or NULL if there are none. Release with free. */
 char *renderer_take_warnings(Renderer *renderer);
-
-#endif

@@ -1,6 +1,5 @@
 /* renderer_state.h - the renderer's data, for the files that run in its thread: renderer.c, pictures.c, tasks.c */
-#ifndef WEFT_VIEW_RENDERER_STATE_H
-#define WEFT_VIEW_RENDERER_STATE_H
+#pragma once
 
 #include <pthread.h>
 
@@ -23,8 +22,8 @@ struct Renderer {
     FrameRequest request; /* the latest one */
     unsigned number;      /* number of `request` */
     bool requested, quit;
-    bool working;             /* false while the thread waits and nothing is made in the background */
-    WeftScene *pending_scene; /* the scene to be taken over */
+    bool working;                          /* false while the thread waits and nothing is made in the background */
+    WeftScene *pending_scene;              /* the scene to be taken over */
     unsigned pending_number, scene_number; /* numbers of that scene and of the current one */
     SceneState pending_state;
     Folders pending_folders;
@@ -82,5 +81,3 @@ void tasks_do(Renderer *renderer, const Task *task, const FrameRequest *request)
 void tasks_study(Renderer *renderer); /* draws one more picture of the sheet under way */
 /* Rereads a texture file. If it cannot be read, the old picture stays until the next change of the file. */
 WeftResult tasks_reload(Renderer *renderer, int texture, WeftError *error);
-
-#endif

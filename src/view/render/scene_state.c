@@ -129,8 +129,7 @@ static bool same_environment(const EnvironmentState *a, const EnvironmentState *
 
 bool scene_state_same(const SceneState *a, const SceneState *b) {
     bool same = a->material_count == b->material_count && a->variant == b->variant && same_lights(a, b) &&
-                same_environment(&a->environment, &b->environment) &&
-                memcmp(a->naps, b->naps, sizeof a->naps) == 0;
+                same_environment(&a->environment, &b->environment) && memcmp(a->naps, b->naps, sizeof a->naps) == 0;
     for (int k = 0; same && k < a->material_count; k++) same = scene_state_same_material(a, b, k);
     return same;
 }
@@ -155,8 +154,7 @@ WeftMaterial material_merged(const WeftMaterial *was, const WeftMaterial *now, c
     for (int k = 0; k < WEFT_CHOICES_MAX; k++)
         if (now->choices[k] != was->choices[k]) merged.choices[k] = now->choices[k];
     for (int k = 0; k < WEFT_INPUTS_MAX; k++)
-        if (!same_bytes(&now->inputs[k], &was->inputs[k], sizeof now->inputs[k]))
-            merged.inputs[k] = now->inputs[k];
+        if (!same_bytes(&now->inputs[k], &was->inputs[k], sizeof now->inputs[k])) merged.inputs[k] = now->inputs[k];
     return merged;
 }
 
@@ -199,8 +197,7 @@ static float texel_of(const WeftImage *image, float u, float v, int channel) {
 
 /* Returns the map of an input; without pixels if it has none that can be brushed. */
 static WeftImage map_of(const WeftScene *scene, const WeftInput *input) {
-    return input->texture && input->texcoord == 0 ? weft_scene_texture(scene, input->texture)
-                                                  : (WeftImage){0};
+    return input->texture && input->texcoord == 0 ? weft_scene_texture(scene, input->texture) : (WeftImage){0};
 }
 
 static unsigned char coded(float x) { return (unsigned char)(fminf(fmaxf(x, 0.0f), 1.0f) * 255.0f + 0.5f); }
@@ -295,8 +292,8 @@ static WeftResult bind_nap(const BrushedNap *nap, BoundNaps *naps, WeftScene *sc
     return result;
 }
 
-static WeftResult apply_materials(const SceneState *state, const SceneState *is, BoundNaps *naps,
-                                  WeftScene *scene, unsigned *changed, WeftError *error) {
+static WeftResult apply_materials(const SceneState *state, const SceneState *is, BoundNaps *naps, WeftScene *scene,
+                                  unsigned *changed, WeftError *error) {
     WeftResult result = WEFT_OK;
     for (int k = 0; k < STATE_NAPS && result == WEFT_OK; k++)
         if (state->naps[k] && state->naps[k] != find_nap(is, state->naps[k]->material)) {
@@ -324,8 +321,8 @@ static WeftResult apply_materials(const SceneState *state, const SceneState *is,
     return result;
 }
 
-static WeftResult apply_lights(const SceneState *state, const SceneState *is, WeftScene *scene,
-                               unsigned *changed, WeftError *error) {
+static WeftResult apply_lights(const SceneState *state, const SceneState *is, WeftScene *scene, unsigned *changed,
+                               WeftError *error) {
     WeftResult result = WEFT_OK;
     if (same_lights(state, is)) return WEFT_OK;
     *changed |= WEFT_CHANGED_LIGHTS;
@@ -359,12 +356,11 @@ WeftResult environment_state_apply(const EnvironmentState *a, const EnvironmentS
     if (result != WEFT_OK) return result;
     *changed |= WEFT_CHANGED_LIGHTS;
     result = weft_scene_set_environment_placement(scene, a->rotation, a->strength, error);
-    return result == WEFT_OK ? weft_scene_set_environment_parts(scene, a->ambient, a->reflection, error)
-                             : result;
+    return result == WEFT_OK ? weft_scene_set_environment_parts(scene, a->ambient, a->reflection, error) : result;
 }
 
-static WeftResult apply_variant(const SceneState *state, const SceneState *is, WeftScene *scene,
-                                unsigned *changed, WeftError *error) {
+static WeftResult apply_variant(const SceneState *state, const SceneState *is, WeftScene *scene, unsigned *changed,
+                                WeftError *error) {
     if (state->variant == is->variant) return WEFT_OK;
     *changed |= ~0u;
     return weft_scene_set_variant(scene, weft_scene_variant_name(scene, state->variant), error);

@@ -3,22 +3,14 @@
  * A copy shares its parts, which never change once they are made. So a history of states is small, and equal
  * states are found by their pointers. States may be read, copied and released in any thread; one state is
  * changed by one thread. */
-#ifndef WEFT_VIEW_SCENE_STATE_H
-#define WEFT_VIEW_SCENE_STATE_H
+#pragma once
 
 #include <stdbool.h>
 
 #include "weft/material.h"
 #include "weft/render.h"
 
-enum {
-    STATE_LIGHTS = 64,
-    STATE_PATH = 1024,
-    STATE_NAPS = 16,
-    STATE_FOLDERS = 16,
-    STATE_LOBES = 8,
-    NAP_SIDE = 512
-};
+enum { STATE_LIGHTS = 64, STATE_PATH = 1024, STATE_NAPS = 16, STATE_FOLDERS = 16, STATE_LOBES = 8, NAP_SIDE = 512 };
 
 /* The last folder of maps that was put on each material; index -1 is the cloth of the scene. */
 typedef struct Folders {
@@ -28,11 +20,7 @@ typedef struct Folders {
 } Folders;
 
 /* The source of the environment's light. */
-typedef enum EnvironmentSource {
-    ENVIRONMENT_STUDIO = 0,
-    ENVIRONMENT_FILE,
-    ENVIRONMENT_COLOR
-} EnvironmentSource;
+typedef enum EnvironmentSource { ENVIRONMENT_STUDIO = 0, ENVIRONMENT_FILE, ENVIRONMENT_COLOR } EnvironmentSource;
 typedef struct EnvironmentState {
     EnvironmentSource kind;
     char path[STATE_PATH]; /* of a lat-long picture or of a cubemap */
@@ -114,7 +102,5 @@ typedef struct BoundNaps {
 WeftResult scene_state_apply(const SceneState *state, const SceneState *is, BoundNaps *naps, WeftScene *scene,
                              unsigned *changed, WeftError *error);
 /* Applies the environment likewise. If its source cannot be read the scene stays as it was. */
-WeftResult environment_state_apply(const EnvironmentState *environment, const EnvironmentState *is,
-                                   WeftScene *scene, unsigned *changed, const WeftLog *log, WeftError *error);
-
-#endif
+WeftResult environment_state_apply(const EnvironmentState *environment, const EnvironmentState *is, WeftScene *scene,
+                                   unsigned *changed, const WeftLog *log, WeftError *error);

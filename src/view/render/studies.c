@@ -7,8 +7,8 @@
 
 enum { WIDTH = 300, COLUMNS = 4 };
 
-void study_start(Study *self, const SceneState *state, int material, const WeftRasterView *view,
-                 const char *camera, WeftTonemap tonemap, float exposure, unsigned stamp) {
+void study_start(Study *self, const SceneState *state, int material, const WeftRasterView *view, const char *camera,
+                 WeftTonemap tonemap, float exposure, unsigned stamp) {
     study_stop(self);
     if (material < 0 || material >= state->material_count || !scene_state_copy(&self->state, state)) return;
     self->material = material;
@@ -54,16 +54,14 @@ void study_add(Study *self, WeftImage *linear) {
 
 bool study_done(const Study *self) {
     int profile = weft_material_choice_find("profile");
-    return self->next == STUDY_MOST ||
-           (self->next > 0 && !weft_material_choice_value(profile, self->next - 1));
+    return self->next == STUDY_MOST || (self->next > 0 && !weft_material_choice_value(profile, self->next - 1));
 }
 
 bool study_sheet(const Study *self, WeftImage *sheet) {
     WeftPanel panels[STUDY_MOST] = {0};
     for (int k = 0; k < self->next; k++) {
         panels[k].image = self->pictures[k].pixels ? &self->pictures[k] : NULL;
-        panels[k].title =
-            k ? weft_material_choice_value(weft_material_choice_find("profile"), k - 1) : "weft";
+        panels[k].title = k ? weft_material_choice_value(weft_material_choice_find("profile"), k - 1) : "weft";
     }
     const WeftSheetDesc desc = {.panels = panels, .count = self->next, .columns = COLUMNS};
     return weft_sheet_compose(&desc, sheet, NULL) == WEFT_OK;

@@ -1,7 +1,6 @@
 /* studies.h - a small picture of the scene with one material under every profile, one at a time, and the
  * sheet of them all */
-#ifndef WEFT_VIEW_STUDIES_H
-#define WEFT_VIEW_STUDIES_H
+#pragma once
 
 #include "view/render/orbit.h"
 #include "view/render/scene_state.h"
@@ -24,8 +23,8 @@ typedef struct Study {
 } Study;
 
 /* Starts a sheet of a state, and gives up one under way. */
-void study_start(Study *study, const SceneState *state, int material, const WeftRasterView *view,
-                 const char *camera, WeftTonemap tonemap, float exposure, unsigned stamp);
+void study_start(Study *study, const SceneState *state, int material, const WeftRasterView *view, const char *camera,
+                 WeftTonemap tonemap, float exposure, unsigned stamp);
 void study_stop(Study *study);
 
 /* Fills the state of the next picture; false, with an empty state, if memory is short. study_view returns its view. */
@@ -36,5 +35,3 @@ bool study_done(const Study *study);
 
 /* Composes the sheet, U8 RGB. False where memory is short. */
 bool study_sheet(const Study *study, WeftImage *sheet);
-
-#endif

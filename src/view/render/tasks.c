@@ -35,8 +35,7 @@ static WeftResult shot(Renderer *self, const Task *task, const FrameRequest *req
         image = &display;
     }
     if (result == WEFT_OK) result = weft_image_write(task->path, image, error);
-    snprintf(event->text, sizeof event->text, "wrote %.400s, %d x %d", task->path, linear.width,
-             linear.height);
+    snprintf(event->text, sizeof event->text, "wrote %.400s, %d x %d", task->path, linear.width, linear.height);
     weft_image_free(&linear);
     weft_image_free(&display);
     return result;
@@ -52,8 +51,7 @@ static WeftResult save(Renderer *self, const Task *task, const FrameRequest *req
     WeftResult result = frame_apply_state(self, frame_edited_state(request), error);
     if (result != WEFT_OK) return result;
     snprintf(event->text, sizeof event->text, "wrote %.450s", task->path);
-    if (ends_with(task->path, ".json"))
-        return weft_scene_save_material(self->scene, task->index, task->path, error);
+    if (ends_with(task->path, ".json")) return weft_scene_save_material(self->scene, task->index, task->path, error);
     return weft_scene_save(self->scene, task->path, error);
 }
 
@@ -118,8 +116,8 @@ static WeftResult weave_anew(Renderer *self, const Task *task, WeftError *error)
     return result;
 }
 
-static WeftResult assign_material(Renderer *self, const Task *task, const FrameRequest *request,
-                                  RenderEvent *event, WeftError *error) {
+static WeftResult assign_material(Renderer *self, const Task *task, const FrameRequest *request, RenderEvent *event,
+                                  WeftError *error) {
     const WeftLog log = renderer_log(self);
     char target[64];
     snprintf(target, sizeof target, "%d", task->index);
@@ -128,8 +126,8 @@ static WeftResult assign_material(Renderer *self, const Task *task, const FrameR
     reference_pause(self->reference);
     switch (task->kind) {
     case TASK_BIND_MAPS:
-        result = weft_scene_bind_maps(self->scene, task->index < 0 ? NULL : target, task->path, &event->index,
-                                      &log, error);
+        result =
+            weft_scene_bind_maps(self->scene, task->index < 0 ? NULL : target, task->path, &event->index, &log, error);
         snprintf(event->text, sizeof event->text, "%d maps of %.400s", event->index, task->path);
         snprintf(event->path, sizeof event->path, "%s", task->path);
         if (result == WEFT_OK) folders_keep(&self->folders, task->path, task->index);
@@ -141,8 +139,7 @@ static WeftResult assign_material(Renderer *self, const Task *task, const FrameR
             snprintf(target + used, sizeof target - used, ".%s", weft_material_input_name(task->input));
             result = weft_scene_set_texture(self->scene, target, task->path, &log, error);
         } else {
-            result = weft_scene_assign_material(self->scene, task->index < 0 ? NULL : target, task->path,
-                                                &log, error);
+            result = weft_scene_assign_material(self->scene, task->index < 0 ? NULL : target, task->path, &log, error);
             if (result == WEFT_OK && task->index >= 0)
                 scene_state_set_preset(&self->is, task->index, preset_of(task->path));
         }
@@ -190,8 +187,8 @@ static WeftResult pick(Renderer *self, const Task *task, const FrameRequest *req
     int width = request->view.width, half = width / 2;
     bool sides = request->split == SPLIT_SIDES;
     float x = sides && task->x >= (float)half ? task->x - (float)half : task->x;
-    probe->hit = weft_pick_at(self->pick, request->camera, sides ? half : width, request->view.height, x,
-                              task->y, &at) != 0;
+    probe->hit =
+        weft_pick_at(self->pick, request->camera, sides ? half : width, request->view.height, x, task->y, &at) != 0;
     if (!probe->hit) return WEFT_OK;
     probe->material = at.material;
     probe->distance = at.distance;
@@ -210,9 +207,8 @@ static WeftResult pick(Renderer *self, const Task *task, const FrameRequest *req
 /* Draws the pixel once for each part of its light that the window shows. */
 static WeftResult probe(Renderer *self, const Task *task, const FrameRequest *request, RenderEvent *event,
                         WeftError *error) {
-    static const WeftPart parts[] = {WEFT_PART_ALL,      WEFT_PART_DIFFUSE,    WEFT_PART_SPECULAR,
-                                     WEFT_PART_SHEEN,    WEFT_PART_BASE_COLOR, WEFT_PART_NORMAL,
-                                     WEFT_PART_ROUGHNESS};
+    static const WeftPart parts[] = {WEFT_PART_ALL,        WEFT_PART_DIFFUSE, WEFT_PART_SPECULAR, WEFT_PART_SHEEN,
+                                     WEFT_PART_BASE_COLOR, WEFT_PART_NORMAL,  WEFT_PART_ROUGHNESS};
     WeftResult result = pick(self, task, request, event, error);
     if (result == WEFT_OK) result = frame_apply_state(self, frame_edited_state(request), error);
     int x = (int)task->x, y = (int)task->y;
@@ -235,8 +231,7 @@ static WeftResult probe(Renderer *self, const Task *task, const FrameRequest *re
 
 void tasks_do(Renderer *self, const Task *task, const FrameRequest *request) {
     WeftError error = {0};
-    RenderEvent event = {
-        .kind = task->kind, .scene = task->scene, .stamp = task->stamp, .index = task->index};
+    RenderEvent event = {.kind = task->kind, .scene = task->scene, .stamp = task->stamp, .index = task->index};
     WeftResult result = WEFT_OK;
     switch (task->kind) {
     case TASK_SHOT: result = shot(self, task, request, &event, &error); break;
@@ -255,8 +250,7 @@ void tasks_do(Renderer *self, const Task *task, const FrameRequest *request) {
     case TASK_BIND_MAPS: result = assign_material(self, task, request, &event, &error); break;
     }
     event.failed = result != WEFT_OK;
-    if (event.failed)
-        snprintf(event.text, sizeof event.text, "%s", error.text[0] ? error.text : "out of memory");
+    if (event.failed) snprintf(event.text, sizeof event.text, "%s", error.text[0] ? error.text : "out of memory");
     renderer_post(self, &event);
 }
 

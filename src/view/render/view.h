@@ -1,6 +1,5 @@
 /* view.h - the window: open a cloth asset, edit every term, and compare with the path-traced reference */
-#ifndef WEFT_VIEW_VIEW_H
-#define WEFT_VIEW_VIEW_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -38,5 +37,3 @@ typedef struct ViewDesc {
 
 /* Runs until it is closed. Returns an exit code; what went wrong is one line in `why`. */
 int view_run(const ViewDesc *desc, char why[512]);
-
-#endif

@@ -1,6 +1,5 @@
 /* actions.h - tasks that menus, dialogs and replays send to the renderer */
-#ifndef WEFT_VIEW_ACTIONS_H
-#define WEFT_VIEW_ACTIONS_H
+#pragma once
 
 #include "view/state/viewer.h"
 
@@ -9,5 +8,3 @@ void actions_send(Viewer *v, TaskKind kind, const char *path, int index, int inp
 
 /* Lights the scene by a picture, or by the folder of a cubemap. */
 void actions_light_by(Viewer *v, const char *path);
-
-#endif

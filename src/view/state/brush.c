@@ -35,8 +35,7 @@ void brush_stroke(WeftImage *nap, const float at[2], float radius, const float a
             float du = ((float)x + 0.5f) / (float)width - u, dv = ((float)y + 0.5f) / (float)height - v;
             float d = sqrtf(du * du + dv * dv) / reach, fall = 1.0f - d * d;
             if (!(d < 1.0f)) continue;
-            rotate_towards(pixels +
-                               3 * ((size_t)wrapped(y, height) * (size_t)width + (size_t)wrapped(x, width)),
-                           unit, strength * fall * fall);
+            rotate_towards(pixels + 3 * ((size_t)wrapped(y, height) * (size_t)width + (size_t)wrapped(x, width)), unit,
+                           strength * fall * fall);
         }
 }

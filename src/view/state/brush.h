@@ -1,6 +1,5 @@
 /* brush.h - brushing the nap of a cloth by hand, in a picture of directions in texture space */
-#ifndef WEFT_VIEW_BRUSH_H
-#define WEFT_VIEW_BRUSH_H
+#pragma once
 
 #include "weft/image.h"
 
@@ -8,5 +7,3 @@
  * of any length but 0, is a direction of the fibres in tangent space. strength is the fraction of the way, 0 to 1. The
  * picture repeats: U8 RGB, (2 r - 1, 2 g - 1) is the direction, b the lean as a fraction of the nap's angle. */
 void brush_stroke(WeftImage *nap, const float at[2], float radius, const float along[2], float strength);
-
-#endif

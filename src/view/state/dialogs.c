@@ -28,14 +28,10 @@ void dialogs_end(Viewer *v) {
 }
 
 void dialogs_toggle_help(Viewer *v) { v->states->dialogs.help = !v->states->dialogs.help; }
-void dialogs_toggle_warnings(Viewer *v) {
-    v->states->dialogs.warnings_shown = !v->states->dialogs.warnings_shown;
-}
+void dialogs_toggle_warnings(Viewer *v) { v->states->dialogs.warnings_shown = !v->states->dialogs.warnings_shown; }
 void dialogs_close_windows(Viewer *v) { v->states->dialogs.help = v->states->dialogs.warnings_shown = false; }
 
-void dialogs_forget_paths(Viewer *v) {
-    v->states->dialogs.save_path[0] = v->states->dialogs.shot_path[0] = '\0';
-}
+void dialogs_forget_paths(Viewer *v) { v->states->dialogs.save_path[0] = v->states->dialogs.shot_path[0] = '\0'; }
 
 void dialogs_choose_use(Viewer *v, const char *path, int input) {
     snprintf(v->states->dialogs.dropped, sizeof v->states->dialogs.dropped, "%s", path);
@@ -132,16 +128,14 @@ static const struct {
     void (*use)(Viewer *v, const char *path);
     const char *folder, *tip; /* NULL: folders are not taken */
 } choosers[] = {
-    {"Open",
-     "Scenes (.glb .gltf), light (.hdr .exr), materials (.json), lobes (.h), pictures (.png .jpg .tga)",
-     1u << PATH_SCENE | 1u << PATH_LIGHT | 1u << PATH_MATERIAL | 1u << PATH_LOBE | 1u << PATH_PICTURE,
-     opening_open, "Use this folder as maps",
-     "Puts Albedo, Normal, Roughness ... files of this folder onto the cloth of the scene."},
+    {"Open", "Scenes (.glb .gltf), light (.hdr .exr), materials (.json), lobes (.h), pictures (.png .jpg .tga)",
+     1u << PATH_SCENE | 1u << PATH_LIGHT | 1u << PATH_MATERIAL | 1u << PATH_LOBE | 1u << PATH_PICTURE, opening_open,
+     "Use this folder as maps", "Puts Albedo, Normal, Roughness ... files of this folder onto the cloth of the scene."},
     {"Choose a light", "Lat-long pictures (.hdr .exr, or .png .jpg .tga); the folder of a cubemap",
      1u << PATH_LIGHT | 1u << PATH_PICTURE, actions_light_by, "Use this folder as a cubemap",
      "Six faces by their names: px, nx ... or posx, negx ..."},
-    {"Choose a map", "Pictures (.png .jpg .tga .hdr .exr)", 1u << PATH_LIGHT | 1u << PATH_PICTURE, use_map,
-     NULL, NULL}};
+    {"Choose a map", "Pictures (.png .jpg .tga .hdr .exr)", 1u << PATH_LIGHT | 1u << PATH_PICTURE, use_map, NULL,
+     NULL}};
 
 static void draw_chooser(Viewer *v, int k) {
     if (!ui_dialog(choosers[k].name, 640.0f * ui_scale(), 460.0f * ui_scale())) return;
@@ -170,15 +164,13 @@ static void draw_save(Viewer *v) {
            "material that is edited.");
     bool entered = ui_input("file", v->states->dialogs.save_path, STATE_PATH);
     ui_tip("Where to write; from the folder the program was started in.");
-    ui_dim(path_stamp(v->states->dialogs.save_path) ? "A file of this name is there: it will be replaced."
-                                                    : " ");
+    ui_dim(path_stamp(v->states->dialogs.save_path) ? "A file of this name is there: it will be replaced." : " ");
     bool pressed = ui_button("Save");
     ui_tip("Writes the file (Enter).");
     if (pressed || entered) {
         PathKind kind = path_kind(v->states->dialogs.save_path);
         if (kind == PATH_SCENE || kind == PATH_MATERIAL) {
-            if (v->shown->any)
-                actions_send(v, TASK_SAVE, v->states->dialogs.save_path, v->edit->material, -1);
+            if (v->shown->any) actions_send(v, TASK_SAVE, v->states->dialogs.save_path, v->edit->material, -1);
             ui_dialog_close();
         } else {
             viewer_report(v, true, "%.300s: is neither .glb, .gltf nor .json", v->states->dialogs.save_path);
@@ -208,12 +200,10 @@ static void draw_shot(Viewer *v) {
     v->states->dialogs.shot_width = v->states->dialogs.shot_width < 1       ? 1
                                     : v->states->dialogs.shot_width > 16384 ? 16384
                                                                             : v->states->dialogs.shot_width;
-    v->states->dialogs.shot_height = v->states->dialogs.shot_height < 1 ? 1
-                                     : v->states->dialogs.shot_height > 16384
-                                         ? 16384
-                                         : v->states->dialogs.shot_height;
-    ui_dim(path_stamp(v->states->dialogs.shot_path) ? "A file of this name is there: it will be replaced."
-                                                    : " ");
+    v->states->dialogs.shot_height = v->states->dialogs.shot_height < 1       ? 1
+                                     : v->states->dialogs.shot_height > 16384 ? 16384
+                                                                              : v->states->dialogs.shot_height;
+    ui_dim(path_stamp(v->states->dialogs.shot_path) ? "A file of this name is there: it will be replaced." : " ");
     bool pressed = ui_button("Save");
     ui_tip("Writes the file (Enter).");
     if (pressed || entered) {
@@ -239,8 +229,7 @@ static void draw_use(Viewer *v) {
     ui_choice("as", &inputs, &v->states->dialogs.dropped_input);
     ui_text(v->shown->any ? v->shown->facts.materials[v->edit->material] : "");
     if (ui_button("Use")) {
-        actions_send(v, TASK_ASSIGN, v->states->dialogs.dropped, v->edit->material,
-                     v->states->dialogs.dropped_input);
+        actions_send(v, TASK_ASSIGN, v->states->dialogs.dropped, v->edit->material, v->states->dialogs.dropped_input);
         ui_dialog_close();
     }
     ui_tip("Puts the picture in the place of this input's map.");
@@ -285,8 +274,7 @@ static const char *const help_lines[][2] = {
 static void draw_help(Viewer *v) {
     if (!v->states->dialogs.help) return;
     float s = ui_scale();
-    if (ui_window("Keys and mouse", (UiBox){60.0f * s, 80.0f * s, 640.0f * s, 540.0f * s},
-                  &v->states->dialogs.help))
+    if (ui_window("Keys and mouse", (UiBox){60.0f * s, 80.0f * s, 640.0f * s, 540.0f * s}, &v->states->dialogs.help))
         for (size_t k = 0; k < sizeof help_lines / sizeof *help_lines; k++) {
             ui_text(help_lines[k][0]);
             ui_column(0.55f);
@@ -330,8 +318,8 @@ static void draw_profiles(Viewer *v) {
         ui_disabled_end();
         if (v->states->dialogs.profiles_texture && v->states->dialogs.profiles.width) {
             UiBox box;
-            float width = ui_width_left(), height = width * (float)v->states->dialogs.profiles.height /
-                                                    (float)v->states->dialogs.profiles.width;
+            float width = ui_width_left(),
+                  height = width * (float)v->states->dialogs.profiles.height / (float)v->states->dialogs.profiles.width;
             ui_canvas("##sheet", width, height, &box);
             ui_picture(v->states->dialogs.profiles_texture, box, false);
         }

@@ -1,6 +1,5 @@
 /* dialogs.h - dialogs, and what is entered in them */
-#ifndef WEFT_VIEW_DIALOGS_H
-#define WEFT_VIEW_DIALOGS_H
+#pragma once
 
 #include "view/state/viewer.h"
 
@@ -47,5 +46,3 @@ void dialogs_show_profiles(Viewer *v);
 
 /* Takes over the sheet of profiles; NULL: the current one is out of date. */
 void dialogs_take_profiles(Viewer *v, WeftImage *sheet);
-
-#endif

@@ -30,8 +30,7 @@ void edit_forget_copy(Viewer *v) { v->states->edit.has_copied = false; }
 void edit_note_changes(Viewer *v, bool goes_on) {
     EditState *edit = &v->states->edit;
     if (v->shown->any && !scene_state_same(&edit->state, &edit->before)) {
-        if (edit->state.material_count == edit->before.material_count)
-            history_keep(&edit->history, &edit->before);
+        if (edit->state.material_count == edit->before.material_count) history_keep(&edit->history, &edit->before);
         SceneState copy;
         if (scene_state_copy(&copy, &edit->state)) {
             scene_state_free(&edit->before);
@@ -76,8 +75,7 @@ void edit_make_fibre(Viewer *v) {
     if (v->states->edit.material >= v->states->edit.state.material_count) return;
     WeftMaterial m = *scene_state_material(&v->states->edit.state, v->states->edit.material);
     int lobe = weft_material_choice_find("sheen_lobe"), value = 0;
-    while (weft_material_choice_value(lobe, value) &&
-           strcmp(weft_material_choice_value(lobe, value), "fibre") != 0)
+    while (weft_material_choice_value(lobe, value) && strcmp(weft_material_choice_value(lobe, value), "fibre") != 0)
         value++;
     weft_material_choose(&m, lobe, value);
     WeftInput *color = &m.inputs[weft_material_input_find("sheen_color")],
@@ -116,8 +114,7 @@ void edit_swap_sides(Viewer *v) {
 }
 
 void edit_set_material(Viewer *v, int index, const WeftMaterial *material) {
-    if (!scene_state_set_material(&v->states->edit.state, index, material))
-        viewer_report(v, true, "out of memory");
+    if (!scene_state_set_material(&v->states->edit.state, index, material)) viewer_report(v, true, "out of memory");
 }
 
 void edit_set_preset(Viewer *v, int material, int preset) {
@@ -130,9 +127,7 @@ void edit_set_environment(Viewer *v, const EnvironmentState *environment) {
     v->states->edit.state.environment = *environment;
 }
 
-void edit_set_light(Viewer *v, int index, const WeftLight *light) {
-    v->states->edit.state.lights[index] = *light;
-}
+void edit_set_light(Viewer *v, int index, const WeftLight *light) { v->states->edit.state.lights[index] = *light; }
 
 void edit_add_light(Viewer *v, const WeftLight *light) {
     EditState *edit = &v->states->edit;
@@ -177,16 +172,14 @@ static bool lit_by(const SceneState *state, const char *path) {
 void edit_take_light(Viewer *v, const EnvironmentState *environment) {
     EditState *edit = &v->states->edit;
     if (!lit_by(&edit->state, environment->path)) keep_step(v);
-    if (lit_by(&edit->other, environment->path))
-        environment_state_take_source(&edit->other.environment, environment);
+    if (lit_by(&edit->other, environment->path)) environment_state_take_source(&edit->other.environment, environment);
     environment_state_take_source(&edit->state.environment, environment);
     accept_state(v);
 }
 
 unsigned edit_assign(Viewer *v, int material) {
     EditState *edit = &v->states->edit;
-    if (edit->assignment_count == ASSIGNMENTS || material < 0 || material >= edit->state.material_count)
-        return 0;
+    if (edit->assignment_count == ASSIGNMENTS || material < 0 || material >= edit->state.material_count) return 0;
     const Assignment fresh = {++edit->stamp, material, *scene_state_material(&edit->state, material)};
     edit->assignments[edit->assignment_count++] = fresh;
     return fresh.stamp;

@@ -1,6 +1,5 @@
 /* edit.h - the edited state of the scene, or both of A and B: history, chosen material and light, changes by tasks */
-#ifndef WEFT_VIEW_EDIT_H
-#define WEFT_VIEW_EDIT_H
+#pragma once
 
 #include "view/state/history.h"
 #include "view/state/viewer.h"
@@ -87,5 +86,3 @@ void edit_end_assign(Viewer *v, unsigned stamp);
 /* Takes over the state that a task has made. If the stamp is that of an assignment, changes of its material since the
  * task was sent stay. */
 void edit_take_assigned(Viewer *v, SceneState *state, unsigned stamp);
-
-#endif

@@ -24,8 +24,7 @@ void requests_picture_size(const Viewer *v, int *width, int *height) {
 }
 
 Shows requests_shown(const Viewer *v) {
-    bool traced = v->options->mode != MODE_LIVE,
-         instead = v->requests->traced.number > v->requests->rendered.number;
+    bool traced = v->options->mode != MODE_LIVE, instead = v->requests->traced.number > v->requests->rendered.number;
     if (v->requests->reference_texture && (traced || instead)) return SHOWS_TRACED;
     return v->requests->rendered.texture && v->requests->rendered.scene == v->shown->number ? SHOWS_DRAWN
                                                                                             : SHOWS_NOTHING;
@@ -40,12 +39,10 @@ static bool same_request(const FrameRequest *a, const FrameRequest *b) {
     WeftRasterView x = a->view, y = b->view;
     x.camera = y.camera = NULL;
     bool same = a->split == b->split && a->scene == b->scene && a->tonemap == b->tonemap &&
-                a->reference == b->reference && a->compare == b->compare &&
-                strcmp(a->camera, b->camera) == 0 &&
+                a->reference == b->reference && a->compare == b->compare && strcmp(a->camera, b->camera) == 0 &&
                 memcmp((const char *)&x, (const char *)&y, sizeof x) == 0 &&
                 memcmp((const char *)a->behind, (const char *)b->behind, sizeof a->behind) == 0;
-    return same && !(a->at < b->at) && !(a->at > b->at) && !(a->exposure < b->exposure) &&
-           !(a->exposure > b->exposure);
+    return same && !(a->at < b->at) && !(a->at > b->at) && !(a->exposure < b->exposure) && !(a->exposure > b->exposure);
 }
 
 /* Makes a request of both states and the view; the states are borrowed. */
@@ -119,8 +116,7 @@ void requests_send(Viewer *v) {
         v->states->requests.traced.samples = 0.0; /* until there are some of this view and state */
     v->states->requests.requested = renderer_request(v->renderer, &request);
     scene_state_free(&v->states->requests.sent);
-    if (!scene_state_copy(&v->states->requests.sent, &v->edit->state))
-        v->states->requests.sent = (SceneState){0};
+    if (!scene_state_copy(&v->states->requests.sent, &v->edit->state)) v->states->requests.sent = (SceneState){0};
     request.state = request.other = (SceneState){0};
     v->states->requests.request = request;
     v->states->requests.due = false;
@@ -140,13 +136,12 @@ void requests_wait_frame(Viewer *v) {
     unsigned before = v->states->requests.rendered.number;
     renderer_take_frame(v->renderer, &v->states->requests.rendered);
     bool waits = v->shown->any && !v->states->requests.late && v->options->mode == MODE_LIVE;
-    while (waits && v->states->requests.rendered.number == before &&
-           before != v->states->requests.requested && clock_now() < until) {
+    while (waits && v->states->requests.rendered.number == before && before != v->states->requests.requested &&
+           clock_now() < until) {
         window_wait(v->window, 0.004);
         renderer_take_frame(v->renderer, &v->states->requests.rendered);
     }
-    v->states->requests.late =
-        v->states->requests.rendered.number == before && before != v->states->requests.requested;
+    v->states->requests.late = v->states->requests.rendered.number == before && before != v->states->requests.requested;
 }
 
 void requests_take_reference(Viewer *v) {
@@ -205,8 +200,7 @@ void requests_take_events(Viewer *v) {
             viewer_report(v, false, "shaders compile again");
     }
     if (strcmp(v->states->requests.failure, v->states->requests.rendered.failure) != 0) {
-        memcpy(v->states->requests.failure, v->states->requests.rendered.failure,
-               sizeof v->states->requests.failure);
+        memcpy(v->states->requests.failure, v->states->requests.rendered.failure, sizeof v->states->requests.failure);
         viewer_report(v, v->states->requests.failure[0] != '\0', "%s", v->states->requests.failure);
     }
 }

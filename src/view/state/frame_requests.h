@@ -1,6 +1,5 @@
 /* frame_requests.h - requests for frames, and their results */
-#ifndef WEFT_VIEW_FRAME_REQUESTS_H
-#define WEFT_VIEW_FRAME_REQUESTS_H
+#pragma once
 
 #include "view/state/viewer.h"
 
@@ -55,5 +54,3 @@ const char *shows_name(Shows shows); /* "nothing", "drawn", "traced" */
 
 /* Returns the size of requested frames: that of the stage, at least 16 pixels. */
 void requests_picture_size(const Viewer *v, int *width, int *height);
-
-#endif

@@ -1,6 +1,5 @@
 /* history.h - earlier and later states of a scene, for undo and redo */
-#ifndef WEFT_VIEW_HISTORY_H
-#define WEFT_VIEW_HISTORY_H
+#pragma once
 
 #include "view/render/scene_state.h"
 
@@ -24,5 +23,3 @@ bool history_undo(History *history, SceneState *state);
 bool history_redo(History *history, SceneState *state);
 
 void history_free(History *history);
-
-#endif

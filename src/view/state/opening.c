@@ -24,8 +24,7 @@ static void watch_files(Viewer *v) {
         file_watch_add(v->states->opening.file_watch, v->edit->state.environment.path, WATCH_LIGHT);
     for (int k = 0; k < v->states->opening.lobe_count; k++)
         file_watch_add(v->states->opening.file_watch, v->states->opening.lobes[k], WATCH_LOBES + k);
-    snprintf(v->states->opening.watched, sizeof v->states->opening.watched, "%s",
-             v->edit->state.environment.path);
+    snprintf(v->states->opening.watched, sizeof v->states->opening.watched, "%s", v->edit->state.environment.path);
 }
 
 /* Adds a lobe's file to those that are watched. */
@@ -63,8 +62,7 @@ static void start_reading(Viewer *v, const char *path, const char *lobe, bool re
     if (!v->states->opening.configured[0])
         snprintf(v->states->opening.configured, sizeof v->states->opening.configured, "%s", path);
     Folders folders = {0};
-    if (configured && !v->states->shown.any && v->desc->materials)
-        folders_keep(&folders, v->desc->materials, -1);
+    if (configured && !v->states->shown.any && v->desc->materials) folders_keep(&folders, v->desc->materials, -1);
     const Reading reading = {
         path, lobe, reread, configured, reread ? &v->states->shown.folders : &folders, viewer_aspect(v)};
     v->states->opening.loader = loader_start(v->window, v->desc, &reading);
@@ -99,11 +97,10 @@ bool opening_begin(Viewer *v) {
 
 /* Guesses the input that an image is for by its name, such as "velvet_normal.png". */
 static int guess_input(const char *path) {
-    static const char *const words[][2] = {{"normal", "normal"},     {"sheenrough", "sheen_roughness"},
-                                           {"sheen", "sheen_color"}, {"rough", "roughness"},
-                                           {"metal", "metallic"},    {"specular", "specular_color"},
-                                           {"emissi", "emission"},   {"opacity", "opacity"},
-                                           {"nap", "nap_direction"}, {"occlusion", "occlusion"}};
+    static const char *const words[][2] = {
+        {"normal", "normal"},     {"sheenrough", "sheen_roughness"}, {"sheen", "sheen_color"}, {"rough", "roughness"},
+        {"metal", "metallic"},    {"specular", "specular_color"},    {"emissi", "emission"},   {"opacity", "opacity"},
+        {"nap", "nap_direction"}, {"occlusion", "occlusion"}};
     for (size_t k = 0; k < sizeof words / sizeof *words; k++)
         if (path_contains(path, words[k][0])) return weft_material_input_find(words[k][1]);
     return weft_material_input_find("base_color");
@@ -128,10 +125,9 @@ void opening_open(Viewer *v, const char *path) {
             actions_send(v, TASK_BIND_MAPS, path, -1, -1);
         break;
     case PATH_UNKNOWN:
-        viewer_report(
-            v, true,
-            "%.300s: is not a scene (.gltf .glb), light (.hdr .exr), material (.json), lobe (.h) or picture",
-            path);
+        viewer_report(v, true,
+                      "%.300s: is not a scene (.gltf .glb), light (.hdr .exr), material (.json), lobe (.h) or picture",
+                      path);
         break;
     }
 }
@@ -224,8 +220,7 @@ void opening_varied(Viewer *v, float **coverage) {
     char *put_on = calloc((size_t)count + 1, 1);
     for (int k = 0; k < count && put_on && was; k++) put_on[k] = (char)(was[k] < 0.0f && is[k] >= 0.0f);
     int other = put_on ? survey_largest(is, count, put_on) : -1;
-    if (other < 0 && v->edit->material < count && is[v->edit->material] < 0.0f)
-        other = survey_largest(is, count, NULL);
+    if (other < 0 && v->edit->material < count && is[v->edit->material] < 0.0f) other = survey_largest(is, count, NULL);
     if (other >= 0) edit_choose_material(v, other);
     free(put_on);
     free(v->states->shown.facts.coverage);
@@ -248,8 +243,7 @@ bool opening_watch(Viewer *v, double seconds) {
 static void hand_over(Viewer *v, Loaded *loaded) {
     if (v->states->opening.has_pending) loaded_free(&v->states->opening.pending);
     if (!loaded->reread || !v->states->shown.any) camera_begin(v, loaded->scene, loaded->camera);
-    renderer_set_scene(v->renderer, loaded->scene, &loaded->state, &loaded->folders,
-                       ++v->states->opening.scenes);
+    renderer_set_scene(v->renderer, loaded->scene, &loaded->state, &loaded->folders, ++v->states->opening.scenes);
     loaded->scene = NULL;
     v->states->opening.pending = *loaded;
     v->states->opening.has_pending = true;

@@ -1,6 +1,5 @@
 /* opening.h - files: loading of scenes, lights, materials, images, and of files that change on disk; the shown scene */
-#ifndef WEFT_VIEW_OPENING_H
-#define WEFT_VIEW_OPENING_H
+#pragma once
 
 #include "view/files/file_watch.h"
 #include "view/render/loader.h"
@@ -67,5 +66,3 @@ void opening_warn(Viewer *v, const char *lines);
 
 /* Stops reading, and releases everything of the scene. */
 void opening_end(Viewer *v);
-
-#endif

@@ -58,15 +58,12 @@ static bool handle_at(const Viewer *v, int light, float at[2]) {
     return true;
 }
 
-static bool handles_shown(const Viewer *v) {
-    return v->options->panel == PANEL_LIGHT && v->options->mode == MODE_LIVE;
-}
+static bool handles_shown(const Viewer *v) { return v->options->panel == PANEL_LIGHT && v->options->mode == MODE_LIVE; }
 
 static int handle_under(const Viewer *v) {
     float at[2], most = 12.0f * ui_scale();
     for (int k = 0; k < v->edit->state.light_count && handles_shown(v); k++)
-        if (handle_at(v, k, at) && hypotf(at[0] - v->frame->input.x, at[1] - v->frame->input.y) < most)
-            return k;
+        if (handle_at(v, k, at) && hypotf(at[0] - v->frame->input.x, at[1] - v->frame->input.y) < most) return k;
     return -1;
 }
 
@@ -159,13 +156,11 @@ static void brush_at(Viewer *v, const Probe *at, const WeftImage *own) {
     }
     bool moved = goes_on && hypotf(d[0], d[1]) > 0.05f * v->options->brush_radius;
     WeftImage *image;
-    BrushedNap *nap =
-        moved ? nap_copy(&v->edit->state, at->material, own->pixels ? own : NULL, &image) : NULL;
+    BrushedNap *nap = moved ? nap_copy(&v->edit->state, at->material, own->pixels ? own : NULL, &image) : NULL;
     if (nap) {
         lay_along(v, image, at, d);
         begin_nap(v, at->material);
-        if (!edit_set_nap(v, nap))
-            viewer_report(v, true, "no more than %d materials can be brushed", STATE_NAPS);
+        if (!edit_set_nap(v, nap)) viewer_report(v, true, "no more than %d materials can be brushed", STATE_NAPS);
     }
     if (goes_on && !moved) return;
     memcpy(brush->at, at->position, sizeof brush->at);
@@ -194,8 +189,8 @@ static void begin_drag(Viewer *v, int button) {
     v->states->drag.split = button == LEFT && v->edit->split == SPLIT_LINE && v->options->mode == MODE_LIVE &&
                             fabsf(v->frame->input.x - middle) < 8.0f * ui_scale();
     if (v->states->drag.light >= 0) edit_choose_light(v, v->states->drag.light);
-    v->states->drag.stroke.down = button == LEFT && v->options->tool == TOOL_BRUSH &&
-                                  v->states->drag.light < 0 && !v->states->drag.split;
+    v->states->drag.stroke.down =
+        button == LEFT && v->options->tool == TOOL_BRUSH && v->states->drag.light < 0 && !v->states->drag.split;
     v->states->drag.stroke.started = false;
     if (v->states->drag.stroke.down) pick(v, TASK_PICK, PICK_BRUSH);
     v->states->drag.press_x = v->frame->input.x, v->states->drag.press_y = v->frame->input.y;
@@ -233,8 +228,7 @@ static void drag(Viewer *v, float dx, float dy) {
 }
 
 static void end_drag(Viewer *v, int button) {
-    bool clicked =
-        !v->states->drag.moved && button == LEFT && v->states->drag.light < 0 && !v->states->drag.split;
+    bool clicked = !v->states->drag.moved && button == LEFT && v->states->drag.light < 0 && !v->states->drag.split;
     if (clicked && v->options->tool == TOOL_PROBE) pick(v, TASK_PROBE, 0);
     if (clicked && v->options->tool == TOOL_ORBIT) pick(v, TASK_PICK, PICK_SELECT);
     v->states->drag.light = -1;
@@ -247,8 +241,8 @@ static void fly(Viewer *v) {
     float ahead = (float)key['W'] - (float)key['S'], right = (float)key['D'] - (float)key['A'];
     float rise = (float)key['E'] - (float)key['Q'];
     if (ahead == 0.0f && right == 0.0f && rise == 0.0f) return;
-    float step = v->camera->reach * v->frame->settings.speed * v->frame->input.seconds *
-                 (v->frame->input.shift ? 4.0f : 1.0f);
+    float step =
+        v->camera->reach * v->frame->settings.speed * v->frame->input.seconds * (v->frame->input.shift ? 4.0f : 1.0f);
     Orbit orbit = v->camera->orbit;
     orbit_fly(&orbit, step * ahead, step * right, step * rise);
     camera_set(v, &orbit);
@@ -306,10 +300,8 @@ static void draw_handles(const Viewer *v) {
  * they differ. */
 static void name_side(const Viewer *v, int side, char text[128]) {
     bool edited = v->edit->side == side;
-    const WeftMaterial *is = scene_state_material(edited ? &v->edit->state : &v->edit->other,
-                                                  v->edit->material),
-                       *beside = scene_state_material(edited ? &v->edit->other : &v->edit->state,
-                                                      v->edit->material);
+    const WeftMaterial *is = scene_state_material(edited ? &v->edit->state : &v->edit->other, v->edit->material),
+                       *beside = scene_state_material(edited ? &v->edit->other : &v->edit->state, v->edit->material);
     int k = 0, length = snprintf(text, 128, "%c", side == 0 ? 'A' : 'B');
     while (weft_material_choice_name(k) && is->choices[k] == beside->choices[k]) k++;
     if (weft_material_choice_name(k))
@@ -348,16 +340,15 @@ static void draw_tags(const Viewer *v) {
     const UiBox *s = &v->frame->stage;
     char text[128] = "";
     if (v->options->mode == MODE_REFERENCE)
-        snprintf(text, sizeof text, "path traced   %.0f of %d spp%s", v->requests->traced.samples,
-                 TRACE_SAMPLES, v->requests->traced.denoised ? ", denoised" : "");
+        snprintf(text, sizeof text, "path traced   %.0f of %d spp%s", v->requests->traced.samples, TRACE_SAMPLES,
+                 v->requests->traced.denoised ? ", denoised" : "");
     else if (v->options->mode == MODE_DIFFERENCE)
         snprintf(text, sizeof text, "%s",
                  requests_shown(v) != SHOWS_TRACED ? "OpenGL before it is compared"
                  : v->requests->traced.compared    ? "OpenGL less path traced"
                                                    : "path traced before it is compared");
     else if (requests_shown(v) == SHOWS_TRACED)
-        snprintf(text, sizeof text, "path traced while shaders compile   %.0f spp",
-                 v->requests->traced.samples);
+        snprintf(text, sizeof text, "path traced while shaders compile   %.0f spp", v->requests->traced.samples);
     else if (requests_shown(v) == SHOWS_NOTHING && v->shown->any)
         snprintf(text, sizeof text, "shaders compile");
     else if (v->options->part != WEFT_PART_ALL)

@@ -1,6 +1,5 @@
 /* stage.h - the picture in the middle of the window, and what the mouse does on it */
-#ifndef WEFT_VIEW_STAGE_H
-#define WEFT_VIEW_STAGE_H
+#pragma once
 
 #include "view/state/viewer.h"
 
@@ -28,5 +27,3 @@ void stage_draw(Viewer *v);
 
 /* Takes the surface point under the mouse, which the stage has requested. */
 void stage_picked(Viewer *v, const RenderEvent *event);
-
-#endif

@@ -1,6 +1,5 @@
 /* states.h - the window's state for those who write it: each member for the .c file named like the header of its record */
-#ifndef WEFT_VIEW_STATES_H
-#define WEFT_VIEW_STATES_H
+#pragma once
 
 #include "view/state/dialogs.h"
 #include "view/state/edit.h"
@@ -22,5 +21,3 @@ struct States {
     DialogsState dialogs;
     DragState drag;
 };
-
-#endif

@@ -27,8 +27,7 @@ void camera_begin(Viewer *v, const WeftScene *scene, const char *name) {
 
 void camera_frame_all(Viewer *v) {
     if (v->shown->any)
-        orbit_frame(&v->states->camera.orbit, v->shown->facts.info.low, v->shown->facts.info.high,
-                    viewer_aspect(v));
+        orbit_frame(&v->states->camera.orbit, v->shown->facts.info.low, v->shown->facts.info.high, viewer_aspect(v));
 }
 
 void camera_stand_at(Viewer *v, const char *name) {

@@ -1,6 +1,5 @@
 /* view_camera.h - the camera that the scene is seen through */
-#ifndef WEFT_VIEW_VIEW_CAMERA_H
-#define WEFT_VIEW_VIEW_CAMERA_H
+#pragma once
 
 #include "view/render/orbit.h"
 #include "view/state/viewer.h"
@@ -24,5 +23,3 @@ void camera_begin(Viewer *v, const WeftScene *scene, const char *name);
 void camera_found(Viewer *v, const RenderedFrame *frame);
 void camera_frame_all(Viewer *v);
 void camera_reset(Viewer *v);
-
-#endif

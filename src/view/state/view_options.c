@@ -15,8 +15,7 @@ void options_begin(Viewer *v) {
                                        .split_at = 0.5f,
                                        .brush_radius = 0.05f,
                                        .brush_strength = 0.7f};
-    memcpy(v->states->options.background_color, desc->background_color,
-           sizeof v->states->options.background_color);
+    memcpy(v->states->options.background_color, desc->background_color, sizeof v->states->options.background_color);
 }
 
 static float within(float x, float low, float high) { return fminf(fmaxf(x, low), high); }

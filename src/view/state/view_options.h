@@ -1,6 +1,5 @@
 /* view_options.h - the options of the view: mode, part, background, exposure, tool, open panel */
-#ifndef WEFT_VIEW_VIEW_OPTIONS_H
-#define WEFT_VIEW_VIEW_OPTIONS_H
+#pragma once
 
 #include "view/state/viewer.h"
 
@@ -43,5 +42,3 @@ void options_set_panel(Viewer *v, int panel);
 void options_set_tool(Viewer *v, Tool tool);
 void options_toggle_floor(Viewer *v);
 void options_toggle_lights(Viewer *v);
-
-#endif

@@ -2,8 +2,7 @@
  *
  * Every file may read the state through Viewer. Each part has one owner, which writes it through states.h: the .c file
  * of the header that declares the part's record. Another file changes it by a function of that header. */
-#ifndef WEFT_VIEW_VIEWER_H
-#define WEFT_VIEW_VIEWER_H
+#pragma once
 
 #include "view/files/settings.h"
 #include "view/render/renderer.h"
@@ -69,5 +68,3 @@ float viewer_aspect(const Viewer *v);
 
 /* Fills a texture, which it creates if it is 0, with U8 RGB or RGBA. */
 void viewer_upload(unsigned *texture, const WeftImage *image);
-
-#endif

@@ -151,8 +151,7 @@ const char *browser_draw(Browser *self, unsigned kinds, float height) {
             char label[NAME + 4];
             snprintf(label, sizeof label, "%s%s", entry->name, entry->folder ? "/" : "");
             if (!ui_selectable(label, false)) continue;
-            snprintf(path, sizeof path, "%s/%s", strcmp(self->folder, "/") == 0 ? "" : self->folder,
-                     entry->name);
+            snprintf(path, sizeof path, "%s/%s", strcmp(self->folder, "/") == 0 ? "" : self->folder, entry->name);
             chosen = choose(self, path);
             break; /* the list may have changed */
         }

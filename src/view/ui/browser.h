@@ -1,6 +1,5 @@
 /* browser.h - a file chooser: folders and files in a list */
-#ifndef WEFT_VIEW_BROWSER_H
-#define WEFT_VIEW_BROWSER_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -20,5 +19,3 @@ void browser_refresh(Browser *browser);
  * PathKind k. Returns a path once one is chosen that is there and of those kinds, valid until the next call;
  * what was typed stays until then. */
 const char *browser_draw(Browser *browser, unsigned kinds, float height);
-
-#endif

@@ -10,9 +10,8 @@
 /* The files of a choice: folder and the prefix of their names. */
 static const struct {
     const char *choice, *prefix;
-} places[] = {{"workflow", "workflows/"}, {"profile", "profiles/"}, {"diffuse", "lobes/"},
-              {"d", "terms/d_"},          {"v", "terms/v_"},        {"f", "terms/f_"},
-              {"sheen_lobe", "lobes/"},   {"layer", "layers/"}};
+} places[] = {{"workflow", "workflows/"}, {"profile", "profiles/"}, {"diffuse", "lobes/"},    {"d", "terms/d_"},
+              {"v", "terms/v_"},          {"f", "terms/f_"},        {"sheen_lobe", "lobes/"}, {"layer", "layers/"}};
 
 /* Copies the first comment without its stars, up to LINES lines. */
 static void first_comment(const char *text, char *out, size_t size) {
@@ -66,13 +65,11 @@ const char *help_input(int input) {
     text[0] = '\0';
     if (!weft_material_input_info(input, &info)) return text;
     bool angle = info.kind == WEFT_INPUT_ANGLE || info.kind == WEFT_INPUT_DIRECTION;
-    int used = snprintf(text, sizeof text, "%s: %s\n%g .. %g%s is plausible; it starts at %g.\n", info.name,
-                        info.help, (double)info.low, (double)info.high, angle ? " degrees" : "",
-                        (double)info.initial);
-    snprintf(
-        text + used, sizeof text - (size_t)used, "%s",
-        info.kind == WEFT_INPUT_COLOR
-            ? "Click the swatch to pick, drag a number, double-click it to type; right double-click resets."
-            : "Drag; Ctrl-click types a number, also beyond the range; double-click resets.");
+    int used = snprintf(text, sizeof text, "%s: %s\n%g .. %g%s is plausible; it starts at %g.\n", info.name, info.help,
+                        (double)info.low, (double)info.high, angle ? " degrees" : "", (double)info.initial);
+    snprintf(text + used, sizeof text - (size_t)used, "%s",
+             info.kind == WEFT_INPUT_COLOR
+                 ? "Click the swatch to pick, drag a number, double-click it to type; right double-click resets."
+                 : "Drag; Ctrl-click types a number, also beyond the range; double-click resets.");
     return text;
 }

@@ -1,6 +1,5 @@
 /* help.h - help on a choice from the catalogue's own files: appearance, formula, source */
-#ifndef WEFT_VIEW_HELP_H
-#define WEFT_VIEW_HELP_H
+#pragma once
 
 /* Returns the comment at the head of the file of that value, as lines of text; for value -1 (auto) what the choice is
  * about. "" if there is none. Valid until the next call. */
@@ -8,5 +7,3 @@ const char *help_choice(int choice, int value);
 
 /* Returns the help of an input: meaning, range and how to reset it. Valid until the next call. */
 const char *help_input(int input);
-
-#endif

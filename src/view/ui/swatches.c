@@ -11,8 +11,7 @@
 /* The input for the F0 of a dielectric in each workflow; the last row is for all others. */
 static const struct {
     const char *workflow, *input;
-} f0_inputs[] = {
-    {"disney", "specular"}, {"specular", "specular_color"}, {"free", "specular_color"}, {NULL, "ior"}};
+} f0_inputs[] = {{"disney", "specular"}, {"specular", "specular_color"}, {"free", "specular_color"}, {NULL, "ior"}};
 
 static const char *workflow_of(const WeftMaterial *m) {
     int choice = weft_material_choice_find("workflow"), value = m->choices[choice];

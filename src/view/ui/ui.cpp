@@ -226,8 +226,7 @@ void ui_begin(const UiInput *input) {
     io.MouseWheel = input->wheel;
     io.MouseWheelH = input->wheel_across;
     for (int k = 0; k < UI_KEYS; k++) io.KeysDown[k] = input->key[k];
-    if (!io.WantTextInput)
-        io.KeysDown[GLFW_KEY_TAB] = false; /* used by the window, except while text is typed */
+    if (!io.WantTextInput) io.KeysDown[GLFW_KEY_TAB] = false; /* used by the window, except while text is typed */
     io.KeyCtrl = input->control;
     io.KeyShift = input->shift;
     io.KeyAlt = input->alt;
@@ -256,9 +255,7 @@ void ui_end(void) {
 }
 
 bool ui_wants_mouse(void) { return ImGui::GetIO().WantCaptureMouse; }
-bool ui_wants_keys(void) {
-    return ImGui::GetIO().WantTextInput || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
-}
+bool ui_wants_keys(void) { return ImGui::GetIO().WantTextInput || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup); }
 bool ui_types(void) { return ImGui::GetIO().WantTextInput; }
 
 void ui_go_to_menus(void) { ui->navigates = ui->to_menus = true; }
@@ -286,14 +283,13 @@ float ui_text_width(const char *text) { return ImGui::CalcTextSize(text).x; }
 float ui_width_left(void) { return ImGui::GetContentRegionAvail().x; }
 
 bool ui_panel(const char *name, UiBox box, bool scrolls) {
-    ImGuiWindowFlags flags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
-                             ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
-                             ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoSavedSettings;
+    ImGuiWindowFlags flags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                             ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoBringToFrontOnFocus |
+                             ImGuiWindowFlags_NoSavedSettings;
     if (!scrolls)
         flags |= ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse;
     else
-        flags |=
-            ImGuiWindowFlags_AlwaysVerticalScrollbar; /* so that the width does not change with the length */
+        flags |= ImGuiWindowFlags_AlwaysVerticalScrollbar; /* so that the width does not change with the length */
     ImGui::SetNextWindowPos(at(box.x, box.y));
     ImGui::SetNextWindowSize(at(box.width, box.height));
     bool shown = ImGui::Begin(name, nullptr, flags);
@@ -321,9 +317,8 @@ bool ui_dialog(const char *name, float width, float height) {
     ImGui::SetNextWindowPos(at(0.5f * screen.x, 0.5f * screen.y), ImGuiCond_Always, at(0.5f, 0.5f));
     ImGui::SetNextWindowSize(
         at(std::fmin(width, screen.x - 20.0f), height > 0.0f ? std::fmin(height, screen.y - 20.0f) : 0.0f));
-    return ImGui::BeginPopupModal(name, nullptr,
-                                  ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
-                                      ImGuiWindowFlags_NoSavedSettings);
+    return ImGui::BeginPopupModal(
+        name, nullptr, ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
 }
 bool ui_escaped(void) { return !ImGui::GetIO().WantTextInput && ImGui::IsKeyPressed(GLFW_KEY_ESCAPE, false); }
 void ui_dialog_close(void) { ImGui::CloseCurrentPopup(); }
@@ -351,8 +346,7 @@ bool ui_section(const char *label, bool unfolded) {
 
 bool ui_fold(const char *label) {
     ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-    bool open =
-        ImGui::TreeNodeEx(label, ImGuiTreeNodeFlags_NoTreePushOnOpen | ImGuiTreeNodeFlags_SpanAvailWidth);
+    bool open = ImGui::TreeNodeEx(label, ImGuiTreeNodeFlags_NoTreePushOnOpen | ImGuiTreeNodeFlags_SpanAvailWidth);
     ImGui::PopStyleColor();
     note_spoken(label);
     return open;
@@ -388,8 +382,7 @@ void ui_same_line(void) { ImGui::SameLine(); }
 void ui_column(float fraction) { ImGui::SameLine(fraction * ImGui::GetWindowContentRegionMax().x); }
 void ui_beside(void) {
     float width = ImGui::CalcTextSize("...").x + 2.0f * ImGui::GetStyle().FramePadding.x;
-    ImGui::SameLine(0.40f * ImGui::GetWindowContentRegionMax().x - width -
-                    0.5f * ImGui::GetStyle().ItemSpacing.x);
+    ImGui::SameLine(0.40f * ImGui::GetWindowContentRegionMax().x - width - 0.5f * ImGui::GetStyle().ItemSpacing.x);
 }
 void ui_rule(void) { ImGui::Separator(); }
 void ui_disabled(bool disabled) { ImGui::BeginDisabled(disabled); }
@@ -484,8 +477,7 @@ bool ui_choice(const char *label, const UiChoices *choices, int *chosen) {
     bool open = ImGui::BeginCombo(hidden(label).c_str(), now, ImGuiComboFlags_HeightLarge);
     if (!open) {
         note(label);
-        if (choices->help && *chosen >= 0 && *chosen < choices->count)
-            ui_tip(choices->help(choices->user, *chosen));
+        if (choices->help && *chosen >= 0 && *chosen < choices->count) ui_tip(choices->help(choices->user, *chosen));
         return false;
     }
     ui_scope(label);
@@ -521,8 +513,7 @@ bool ui_slider(const char *label, const UiRange *range, float *value) {
     labelled(label);
     ImGuiSliderFlags flags = ImGuiSliderFlags_NoRoundToFormat;
     if (range->logarithmic) flags |= ImGuiSliderFlags_Logarithmic;
-    const float before = *value, number = 5.2f * ImGui::GetFontSize(),
-                width = ImGui::GetContentRegionAvail().x;
+    const float before = *value, number = 5.2f * ImGui::GetFontSize(), width = ImGui::GetContentRegionAvail().x;
     ImGui::SetNextItemWidth(std::fmax(width - number, 0.4f * width));
     ImGuiID id = ImGui::GetID(hidden(label).c_str());
     bool typed = ImGui::TempInputIsActive(id) || GImGui->NavActivateInputId == id ||
@@ -555,17 +546,15 @@ bool ui_slider_int(const char *label, int low, int high, int *value) {
 bool ui_numbers(const char *label, float step, float *values, int count) {
     const std::vector<float> before(values, values + count);
     labelled(label);
-    bool changed = ImGui::DragScalarN(hidden(label).c_str(), ImGuiDataType_Float, values, count, step,
-                                      nullptr, nullptr, "%.3g");
+    bool changed =
+        ImGui::DragScalarN(hidden(label).c_str(), ImGuiDataType_Float, values, count, step, nullptr, nullptr, "%.3g");
     for (int k = 0; k < count; k++)
         if (!(std::fabs(values[k]) <= 1e6f)) values[k] = before[static_cast<size_t>(k)];
     note(label);
     return changed;
 }
 
-static float encoded(float x) {
-    return x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1.0f / 2.4f) - 0.055f;
-}
+static float encoded(float x) { return x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1.0f / 2.4f) - 0.055f; }
 static float decoded(float x) { return x <= 0.04045f ? x / 12.92f : std::pow((x + 0.055f) / 1.055f, 2.4f); }
 
 bool ui_color(const char *label, const float initial[3], float color[3]) {
@@ -602,17 +591,16 @@ unsigned ui_shown(const float color[3]) { return ImGui::ColorConvertFloat4ToU32(
 
 bool ui_swatch(const char *label, const float color[3]) {
     float side = 1.1f * ImGui::GetFontSize();
-    bool pressed =
-        ImGui::ColorButton(label, shown_of(color),
-                           ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoDragDrop, at(side, side));
+    bool pressed = ImGui::ColorButton(label, shown_of(color),
+                                      ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoDragDrop, at(side, side));
     note(label);
     return pressed;
 }
 
 bool ui_input(const char *label, char *text, int size) {
     labelled(label);
-    bool entered = ImGui::InputText(hidden(label).c_str(), text, static_cast<size_t>(size),
-                                    ImGuiInputTextFlags_EnterReturnsTrue);
+    bool entered =
+        ImGui::InputText(hidden(label).c_str(), text, static_cast<size_t>(size), ImGuiInputTextFlags_EnterReturnsTrue);
     note(label);
     return entered;
 }
@@ -653,15 +641,11 @@ void ui_fill(UiBox b, unsigned color) {
 void ui_triangle(const float xy[6], unsigned color) {
     canvas()->AddTriangleFilled(at(xy[0], xy[1]), at(xy[2], xy[3]), at(xy[4], xy[5]), color);
 }
-void ui_disc(float x, float y, float radius, unsigned color) {
-    canvas()->AddCircleFilled(at(x, y), radius, color);
-}
+void ui_disc(float x, float y, float radius, unsigned color) { canvas()->AddCircleFilled(at(x, y), radius, color); }
 void ui_ring(float x, float y, float radius, unsigned color) {
     canvas()->AddCircle(at(x, y), radius, color, 0, 1.5f * ui->scale);
 }
-void ui_label(float x, float y, unsigned color, const char *text) {
-    canvas()->AddText(at(x, y), color, text);
-}
+void ui_label(float x, float y, unsigned color, const char *text) { canvas()->AddText(at(x, y), color, text); }
 void ui_picture(unsigned texture, UiBox b, bool flipped) {
     ui_picture_part(texture, b, 0.0f, flipped ? 1.0f : 0.0f, 1.0f, flipped ? 0.0f : 1.0f);
 }

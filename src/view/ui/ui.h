@@ -5,8 +5,7 @@
  * after "###" that is all of its name, regardless of what it shows: "Distribution D###d". A shown control can be found
  * by its name (ui_control_find), as scripts do. Colours are 0xAABBGGRR, places in
  * pixels from the top left. One thread, the one whose OpenGL context is current. */
-#ifndef WEFT_VIEW_UI_H
-#define WEFT_VIEW_UI_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -196,6 +195,4 @@ void ui_reveal(const char *name);
 
 #ifdef __cplusplus
 }
-#endif
-
 #endif

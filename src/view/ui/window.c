@@ -75,8 +75,7 @@ static void on_typed(GLFWwindow *w, unsigned code) {
     window_push(of(w), &(Event){.kind = EVENT_TYPED, .code = (int)code});
 }
 static void on_drop(GLFWwindow *w, int count, const char **paths) {
-    for (int k = 0; k < count; k++)
-        window_push(of(w), &(Event){.kind = EVENT_DROP, .path = (char *)paths[k]});
+    for (int k = 0; k < count; k++) window_push(of(w), &(Event){.kind = EVENT_DROP, .path = (char *)paths[k]});
 }
 static void on_size(GLFWwindow *w, int width, int height) {
     window_push(of(w), &(Event){.kind = EVENT_RESIZE, .x = (float)width, .y = (float)height});
@@ -129,8 +128,7 @@ static bool open_seen(Window *self, const WindowDesc *desc, char why[256]) {
     const char *reason = NULL;
     if (!glfwInit()) {
         glfwGetError(&reason);
-        snprintf(why, 256,
-                 "there is no display to open a window on; `weft render` makes pictures without one");
+        snprintf(why, 256, "there is no display to open a window on; `weft render` makes pictures without one");
         return false;
     }
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
@@ -148,15 +146,14 @@ static bool open_seen(Window *self, const WindowDesc *desc, char why[256]) {
     if (self->seen) self->worker = glfwCreateWindow(16, 16, desc->title, NULL, self->seen);
     if (!self->worker) {
         glfwGetError(&reason);
-        snprintf(why, 256, "cannot open a window with OpenGL 3.3%s%.120s; `weft render` needs none",
-                 reason ? ": " : "", reason ? reason : "");
+        snprintf(why, 256, "cannot open a window with OpenGL 3.3%s%.120s; `weft render` needs none", reason ? ": " : "",
+                 reason ? reason : "");
         return false;
     }
     glfwSetWindowUserPointer(self->seen, self);
     glfwSetWindowSizeLimits(self->seen, 320, 240, GLFW_DONT_CARE, GLFW_DONT_CARE);
     set_callbacks(self->seen);
-    static const int shapes[UI_CURSORS] = {GLFW_ARROW_CURSOR, GLFW_IBEAM_CURSOR, GLFW_HRESIZE_CURSOR,
-                                           GLFW_HAND_CURSOR};
+    static const int shapes[UI_CURSORS] = {GLFW_ARROW_CURSOR, GLFW_IBEAM_CURSOR, GLFW_HRESIZE_CURSOR, GLFW_HAND_CURSOR};
     for (int k = 0; k < UI_CURSORS; k++) self->cursors[k] = glfwCreateStandardCursor(shapes[k]);
     glfwMakeContextCurrent(self->seen);
     glfwSwapInterval(1);
@@ -168,20 +165,15 @@ static bool open_seen(Window *self, const WindowDesc *desc, char why[256]) {
 }
 
 static bool open_unseen(Window *self, const WindowDesc *desc, char why[256]) {
-    static const EGLint wanted[] = {EGL_CONTEXT_MAJOR_VERSION,
-                                    3,
-                                    EGL_CONTEXT_MINOR_VERSION,
-                                    3,
-                                    EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                    EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                    EGL_NONE};
+    static const EGLint wanted[] = {
+        EGL_CONTEXT_MAJOR_VERSION,           3,       EGL_CONTEXT_MINOR_VERSION, 3, EGL_CONTEXT_OPENGL_PROFILE_MASK,
+        EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
     snprintf(why, 256, "there is no OpenGL 3.3 without a display: EGL with surfaceless contexts is needed");
     if (!epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless") &&
         !epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_platform_base"))
         return false;
     self->display = eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, NULL);
-    if (!self->display || !eglInitialize(self->display, NULL, NULL) || !eglBindAPI(EGL_OPENGL_API))
-        return false;
+    if (!self->display || !eglInitialize(self->display, NULL, NULL) || !eglBindAPI(EGL_OPENGL_API)) return false;
     self->context = eglCreateContext(self->display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, wanted);
     self->second = eglCreateContext(self->display, EGL_NO_CONFIG_KHR, self->context, wanted);
     if (!self->context || !self->second ||
@@ -249,8 +241,7 @@ bool window_worker_begin(Window *self) {
         glfwMakeContextCurrent(self->worker);
         return glfwGetCurrentContext() == self->worker;
     }
-    return eglBindAPI(EGL_OPENGL_API) &&
-           eglMakeCurrent(self->display, EGL_NO_SURFACE, EGL_NO_SURFACE, self->second);
+    return eglBindAPI(EGL_OPENGL_API) && eglMakeCurrent(self->display, EGL_NO_SURFACE, EGL_NO_SURFACE, self->second);
 }
 
 void window_worker_end(Window *self) {
@@ -398,8 +389,7 @@ static void keep_frame(Window *self) {
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     unsigned char *pixels = out->pixels;
     for (int y = 0; y < self->height; y++)
-        glReadPixels(0, self->height - 1 - y, self->width, 1, GL_RGB, GL_UNSIGNED_BYTE,
-                     pixels + (size_t)y * row);
+        glReadPixels(0, self->height - 1 - y, self->width, 1, GL_RGB, GL_UNSIGNED_BYTE, pixels + (size_t)y * row);
     glPixelStorei(GL_PACK_ALIGNMENT, 4);
 }
 
@@ -417,9 +407,7 @@ void window_size(const Window *self, int *width, int *height) {
 }
 
 float window_scale(const Window *self) { return self->scale; }
-bool window_hidden(const Window *self) {
-    return self->seen && glfwGetWindowAttrib(self->seen, GLFW_ICONIFIED) != 0;
-}
+bool window_hidden(const Window *self) { return self->seen && glfwGetWindowAttrib(self->seen, GLFW_ICONIFIED) != 0; }
 bool window_closing(const Window *self) { return self->closing; }
 void window_request_close(Window *self) { self->closing = true; }
 

@@ -3,8 +3,7 @@
  *
  * Input arrives as events, in a queue to which a replay may add its own. All calls are for the thread that
  * opened it, except window_wake and those of the worker. */
-#ifndef WEFT_VIEW_WINDOW_H
-#define WEFT_VIEW_WINDOW_H
+#pragma once
 
 #include "view/ui/ui.h"
 #include "weft/image.h"
@@ -81,5 +80,3 @@ const UiClipboard *window_clipboard(Window *window);
 void window_keep(Window *window);
 /* Returns the frame that was kept last, U8 RGB; NULL if there is none. */
 const WeftImage *window_kept(const Window *window);
-
-#endif
