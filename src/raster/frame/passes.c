@@ -9,20 +9,20 @@
 #include "raster/frame/shader_keys.h"
 #include "raster/gl/gl_check.h"
 
-/* Uploads the block and binds it. */
-static void set_block(const WeftRaster *self, const Picture *picture) {
+/* Uploads `picture`, the uniform block that all shaders share, and binds it. */
+static void upload_picture(const WeftRaster *self, const Picture *picture) {
     glBindBuffer(GL_UNIFORM_BUFFER, self->picture_buffer);
     glBufferSubData(GL_UNIFORM_BUFFER, 0, sizeof *picture, picture);
     glBindBufferBase(GL_UNIFORM_BUFFER, BLOCK_PICTURE, self->picture_buffer);
 }
 
-/* Uploads and binds the block of a view of the scene. */
-static void set_picture(const WeftRaster *self, const View *view) {
+/* Fills that block for a view of the scene, uploads it and binds it. */
+static void upload_view(const WeftRaster *self, const View *view) {
     Picture picture;
     picture_make(self->scene, view, &self->polygons, &self->shadows, &self->floor, &picture);
     picture.floor_light[0] = self->sky_on_floor;
     picture.floor_light[2] = self->floor_shaded ? 1.0f : 0.0f;
-    set_block(self, &picture);
+    upload_picture(self, &picture);
 }
 
 void frame_reset_state(WeftRaster *self) {
@@ -37,12 +37,12 @@ void frame_reset_state(WeftRaster *self) {
     meshes_bind(&self->meshes);
 }
 
-/* Clears the whole target and then limits drawing to the crop, `box`. With several samples a pixel the limit is one
- * pixel wider, since drivers differ in the samples at its edge. */
-static void clear(const Target *target, const WeftRasterView *view, const int box[4]) {
+/* Clears the whole target, and then limits drawing to the crop: `box` holds x, y from below, width and height. With
+ * several samples a pixel the limit is one pixel outside the crop, since drivers differ in the samples at its edge. */
+static void clear_target(const Target *target, const WeftRasterView *view, const int box[4]) {
     bool several = target->drawn != target->resolved;
     int more = several ? 1 : 0;
-    if (several && (box[2] < view->width || box[3] < view->height)) {
+    if (several && (box[2] < view->width || box[3] < view->height)) { /* target_resolve writes only the crop */
         glBindFramebuffer(GL_FRAMEBUFFER, target->resolved);
         glClear(GL_COLOR_BUFFER_BIT);
     }
@@ -57,7 +57,7 @@ static bool shows_environment(const WeftRasterView *view) {
 }
 
 /* Clears the target to the background's colour and limits drawing to the crop. */
-static void begin(WeftRaster *self, const WeftRasterView *view, const int box[4]) {
+static void begin_picture(WeftRaster *self, const WeftRasterView *view, const int box[4]) {
     glViewport(0, 0, view->width, view->height);
     bool color = view->background == WEFT_BACKGROUND_COLOR;
     const Environment *e = &self->scene->environment;
@@ -69,10 +69,10 @@ static void begin(WeftRaster *self, const WeftRasterView *view, const int box[4]
         c = constant;
     }
     glClearColor(color ? c[0] : 0.0f, color ? c[1] : 0.0f, color ? c[2] : 0.0f, color ? 1.0f : 0.0f);
-    clear(&self->target, view, box);
+    clear_target(&self->target, view, box);
 }
 
-/* Binds the textures and blocks that all meshes share. */
+/* Binds the environment and the shadow maps, and switches the mipmaps of textures on or off as the view wants. */
 static void bind_light(WeftRaster *self, const WeftRasterView *view) {
     bool no_mipmaps = view->plain_textures != 0;
     if (no_mipmaps != self->no_mipmaps) textures_filter(&self->textures, !no_mipmaps);
@@ -82,7 +82,8 @@ static void bind_light(WeftRaster *self, const WeftRasterView *view) {
     if (self->shadows.count) shadows_bind(&self->shadows, UNIT_SHADOW, UNIT_SOFT_SHADOW);
 }
 
-/* Puts the key's program into use. Fails only if there is no earlier version to draw with. */
+/* Puts the program of a key into use; a key holds all that the text of a shader depends on. If the files of the text
+ * were edited and do not compile, the program from before is used. Fails if there is none. */
 static WeftResult use_program(WeftRaster *self, const ShaderKey *key, const Program **program, WeftError *error) {
     WeftError failure = {0};
     *program = programs_get(&self->programs, key, &failure);
@@ -99,7 +100,7 @@ static WeftResult draw_mesh(WeftRaster *self, int mesh, const ShaderKey *key, We
     if (result != WEFT_OK) return result;
     glActiveTexture(GL_TEXTURE0 + UNIT_TABLES);
     glBindTexture(GL_TEXTURE_2D_ARRAY, program->tables);
-    glActiveTexture(GL_TEXTURE0); /* leaves unit 0 active, where code between draws binds the objects it makes */
+    glActiveTexture(GL_TEXTURE0); /* code between draws binds textures to the active unit */
     if (material->key.double_sided)
         glDisable(GL_CULL_FACE);
     else
@@ -109,8 +110,8 @@ static WeftResult draw_mesh(WeftRaster *self, int mesh, const ShaderKey *key, We
     return WEFT_OK;
 }
 
-/* Compiles the shaders of a picture that are not compiled yet. */
-static WeftResult prepare(WeftRaster *self, const WeftRasterView *view, WeftError *error) {
+/* Compiles the shaders of a picture that are not compiled yet: programs_want records each key that it needs. */
+static WeftResult compile_shaders(WeftRaster *self, const WeftRasterView *view, WeftError *error) {
     bool kept = all_keys(self, view, self->floor.there, programs_want);
     double start = clock_now();
     int compiled = self->programs.compiled;
@@ -129,7 +130,8 @@ static WeftResult draw_depth(WeftRaster *self, WeftError *error) {
     return result;
 }
 
-/* Draws all shadow maps, unless they are up to date. */
+/* Draws all shadow maps, unless they are up to date. A polygon light has a map for each of `points` points on it; other
+ * lights have points = 0 and one map. */
 static WeftResult draw_shadows(WeftRaster *self, WeftError *error) {
     WeftResult result = WEFT_OK;
     for (int k = 0; k < self->shadows.count && !self->shadows.drawn && result == WEFT_OK; k++) {
@@ -137,17 +139,17 @@ static WeftResult draw_shadows(WeftRaster *self, WeftError *error) {
         for (int point = 0; point < (shadow->points ? shadow->points : 1) && result == WEFT_OK; point++) {
             Picture picture;
             picture_of_shadow(shadow, point, &picture);
-            set_block(self, &picture);
+            upload_picture(self, &picture);
             shadows_begin(&self->shadows, k, point);
             result = draw_depth(self, error);
-            glFinish(); /* otherwise Mesa's software renderer keeps the triangles of all passes until the last */
+            glFinish(); /* else Mesa's software renderer keeps the triangles of all maps in memory */
         }
     }
     self->shadows.drawn = result == WEFT_OK;
     return result;
 }
 
-/* Draws the environment where no solid mesh was drawn; called before blended meshes. */
+/* Draws the environment where no solid mesh was drawn. Blended meshes must not be drawn yet. */
 static WeftResult draw_background(WeftRaster *self, bool blurred, WeftError *error) {
     const Environment *e = &self->scene->environment;
     WeftError failure = {0};
@@ -175,7 +177,7 @@ static WeftResult draw_background(WeftRaster *self, bool blurred, WeftError *err
     return WEFT_OK;
 }
 
-/* Blends the floor over the picture; its colours are premultiplied. */
+/* Blends the floor over the picture; its colours are premultiplied. `ground` has its mirror image. */
 static WeftResult draw_floor(WeftRaster *self, const WeftRasterView *view, WeftError *error) {
     ShaderKey key = floor_key(self, view);
     const Program *program;
@@ -192,7 +194,8 @@ static WeftResult draw_floor(WeftRaster *self, const WeftRasterView *view, WeftE
     return WEFT_OK;
 }
 
-/* Draws solid meshes, the background, the floor and blended meshes into the framebuffer that is bound. */
+/* Draws solid meshes, the background, the floor and blended meshes into the framebuffer that is bound. The queue has
+ * `solid` solid meshes, then the blended ones. */
 static WeftResult draw_all(WeftRaster *self, const View *seen, const WeftRasterView *view, WeftError *error) {
     WeftResult result = WEFT_OK;
     bool behind = shows_environment(view) && self->environment_lit && self->environment.map;
@@ -209,7 +212,7 @@ static WeftResult draw_all(WeftRaster *self, const View *seen, const WeftRasterV
             glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA); /* colours are premultiplied */
             glDepthMask(GL_FALSE);
         }
-        if (view->hide_lights && mesh >= scene_own_meshes(self->scene)) continue;
+        if (view->hide_lights && mesh >= scene_own_meshes(self->scene)) continue; /* lights are the last meshes */
         const GlMaterial *material = &self->materials.all[self->scene->meshes[mesh].material];
         ShaderKey key = lit_key(self, view, material);
         result = draw_mesh(self, mesh, &key, error);
@@ -217,7 +220,8 @@ static WeftResult draw_all(WeftRaster *self, const View *seen, const WeftRasterV
     return result == WEFT_OK ? gl_check(error, "a picture") : result;
 }
 
-/* Sets the floor of a picture, which is there only if it is seen from above in a whole picture, and finds how much of the sky's light reaches it. */
+/* Finds the floor of a picture and the environment's light on it. A picture has a floor only if it shows all light, not
+ * one part such as the diffuse one, and if the camera sees the floor from above. */
 static WeftResult find_floor(WeftRaster *self, const View *seen, const WeftRasterView *view, WeftError *error) {
     Floor floor = floor_of(self->scene, &view->floor);
     bool above = seen->orthographic ? seen->forward.y < 0.0f : seen->eye.y > floor.middle.y;
@@ -227,7 +231,7 @@ static WeftResult find_floor(WeftRaster *self, const View *seen, const WeftRaste
     self->floor_shaded = !view->no_shadows;
     if (!floor.there || !self->environment_lit || view->ambient == WEFT_AMBIENT_NONE) return WEFT_OK;
     WeftResult result = ground_look(&self->ground, self->scene, &floor, self->desc.threads, error);
-    self->sky_on_floor = self->ground.light;
+    self->sky_on_floor = self->ground.light; /* ground.sky has the fraction of it that reaches each point */
     return result;
 }
 
@@ -241,16 +245,16 @@ static WeftResult draw_mirror(WeftRaster *self, const View *seen, const WeftRast
     alone.floor.on = 0;
     WeftResult result = ground_mirror(&self->ground, view->width, view->height, box, error);
     if (result != WEFT_OK) return result;
-    set_picture(self, &below);
+    upload_view(self, &below);
     bind_light(self, view);
     result = draw_all(self, &below, &alone, error);
-    ground_mirrored(&self->ground);
-    frame_reset_state(self); /* blended meshes have changed it */
+    ground_mirrored(&self->ground); /* makes the mipmaps of the mirror image */
+    frame_reset_state(self);        /* blended meshes have changed it */
     return result;
 }
 
-/* Returns free memory to the system after the first picture with new programs, or with a number of samples that
- * they have not drawn with: drivers then compile once more and free most of the memory that this takes. */
+/* Returns free memory to the system after the first picture with new programs, and after their first picture with each
+ * number of samples a pixel. Drivers compile for such a picture, and free most of the memory of it afterwards. */
 static void return_spare(WeftRaster *self) {
     const uint64_t samples = (uint64_t)1 << (self->target.samples & 63);
     if (self->programs.compiled != self->drawn_programs) self->drawn_samples = 0;
@@ -260,6 +264,7 @@ static void return_spare(WeftRaster *self) {
 }
 
 WeftResult frame_take_occlusion(WeftRaster *self, bool wait, WeftError *error) {
+    /* After shapes of lights have changed, an update uploads meshes first. `lookout` is the search for occlusion. */
     if (self->shape_version != self->scene->shape_version) return WEFT_OK;
     return lookout_take(&self->lookout, &self->meshes, wait, error);
 }
@@ -267,7 +272,7 @@ WeftResult frame_take_occlusion(WeftRaster *self, bool wait, WeftError *error) {
 WeftResult frame_draw_passes(WeftRaster *self, const WeftRasterView *view, const View *seen, WeftError *error) {
     frame_reset_state(self);
     WeftResult result = find_floor(self, seen, view, error);
-    if (result == WEFT_OK) result = prepare(self, view, error);
+    if (result == WEFT_OK) result = compile_shaders(self, view, error);
     if (result == WEFT_OK) result = frame_take_occlusion(self, false, error);
     if (result == WEFT_OK && !view->no_shadows) result = draw_shadows(self, error);
     if (result == WEFT_OK) result = target_resize(&self->target, view->width, view->height, view->samples, error);
@@ -275,8 +280,8 @@ WeftResult frame_draw_passes(WeftRaster *self, const WeftRasterView *view, const
     const int *c = view->crop, box[4] = {c[0], view->height - c[1] - c[3], c[2], c[3]};
     if (result == WEFT_OK) result = draw_mirror(self, seen, view, box, error);
     if (result == WEFT_OK) {
-        set_picture(self, seen);
-        begin(self, view, box);
+        upload_view(self, seen);
+        begin_picture(self, view, box);
         bind_light(self, view);
         result = draw_all(self, seen, view, error);
         glDisable(GL_SCISSOR_TEST);
