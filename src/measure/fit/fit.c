@@ -1,4 +1,4 @@
-/* fit.c - lobes over bases, or warp over weft, fitted to measured data and sorted by error; the distance of any model */
+/* fit.c - fits of all lobes over all bases, or of a weave, to measured data; the distance of any model from data */
 #include "weft/fit.h"
 
 #include <math.h>
@@ -20,6 +20,7 @@ typedef struct Candidate {
     WeftLobe lobe, base;
 } Candidate;
 
+/* The work of weft_fit. Items 0 to count - 1 are the candidates, and item `count` is the baseline, ggx over lambert. */
 typedef struct FitWork {
     const WeftFitDesc *desc;
     Samples samples;
@@ -28,13 +29,14 @@ typedef struct FitWork {
     int base_count;
     Candidate candidates[WEFT_FITTED_MOST];
     int count;
-    WeftFitted fitted[WEFT_FITTED_MOST + 1]; /* the last is the baseline */
+    WeftFitted fitted[WEFT_FITTED_MOST + 1];
     WeftResult results[WEFT_FITTED_MOST + 1];
-    bool isotropic, weave; /* weave: the only candidate is warp over weft, both of the same lobe */
-    LoopWatch watch;
+    bool isotropic;  /* the data are isotropic */
+    bool weave;      /* there is one candidate: lobe woven as the warp, and the same lobe as its base, the weft */
+    LoopWatch watch; /* progress of the loop over all items, and if it was interrupted */
 } FitWork;
 
-/* The lobes that deserve a search, the best first. */
+/* The combinations of choices with the least estimated errors, the best first. Only these are searched. */
 enum { FINALISTS = 4 };
 typedef struct Finalists {
     int count;
@@ -50,7 +52,7 @@ static void finalists_add(Finalists *self, const LobeFound *found) {
     self->found[at] = *found;
 }
 
-/* Steps the lobe to the next combination of its choices. Returns false after the last. */
+/* Steps the lobe to the next combination of its choices, such as of terms D, V and F. Returns false after the last. */
 static bool next_choices(WeftLobe *lobe) {
     const WeftLobeInfo *info = weft_lobe_info(lobe->lobe);
     for (int k = 0; k < info->param_count; k++) {
@@ -63,7 +65,7 @@ static bool next_choices(WeftLobe *lobe) {
     return false;
 }
 
-/* Picks the best combinations of choices of a composed lobe: D, V and F. */
+/* Picks the best combinations of choices by quick estimates of their errors. A lobe without choices has none. */
 static WeftResult pick_choices(const LobeSearch *search, const WeftLobe *lobe, Finalists *best) {
     const WeftLobeInfo *info = weft_lobe_info(lobe->lobe);
     LobeFound found = {.lobe = *lobe};
@@ -83,7 +85,7 @@ static WeftResult pick_choices(const LobeSearch *search, const WeftLobe *lobe, F
     return result;
 }
 
-/* Fits a lobe with the choices that it has and with the best FINALISTS of all combinations of choices. */
+/* Fits a lobe with the choices that it has, then with each of the best combinations, and keeps the best fit. */
 static WeftResult fit_lobe(const LobeSearch *search, LobeFound *out) {
     Finalists best;
     WeftResult result = pick_choices(search, &out->lobe, &best);
@@ -97,7 +99,8 @@ static WeftResult fit_lobe(const LobeSearch *search, LobeFound *out) {
     return result;
 }
 
-/* Fits one item of work: the last is the baseline. */
+/* Fits one item of work. `hold` has what stays as it is: f90 of the baseline and, if a material has to express the fit,
+ * parameters that no input of a material sets. */
 static WeftResult fit_item(FitWork *work, int item, ItemProgress *item_progress) {
     bool baseline = item == work->count;
     const WeftLobe *base = baseline ? &work->lambert : &work->candidates[item].base;
@@ -130,7 +133,7 @@ static void fit_one(void *user, int item, int thread) {
     progress_report(&item_progress, 1.0);
 }
 
-/* Finds the least error of a base without a lobe over it; for a weave, of lambert. */
+/* Finds the least error of the bases alone, or of lambert for a weave. The lobe over them is black and stays so. */
 static WeftResult bases_alone(const FitWork *work, double *error) {
     WeftResult result = WEFT_OK;
     *error = 1e30;
@@ -151,8 +154,8 @@ static int by_error(const void *a, const void *b) {
     return x->lobe.lobe != y->lobe.lobe ? x->lobe.lobe - y->lobe.lobe : x->base.lobe - y->base.lobe;
 }
 
-/* Sets the bases: the lobe of that name, or every diffuse one for "all". */
-static WeftResult bases(FitWork *work, const char *name, WeftError *error) {
+/* Sets the bases: the named lobe, or for "all" every diffuse one. A base that is a system of threads means a weave. */
+static WeftResult set_bases(FitWork *work, const char *name, WeftError *error) {
     bool all = strcmp(name, "all") == 0;
     WeftResult result = WEFT_OK;
     if (!all) {
@@ -182,11 +185,12 @@ static WeftResult candidates_add(FitWork *work, const char *id, WeftError *error
     return result;
 }
 
-static WeftResult candidates(FitWork *work, WeftError *error) {
+/* Lists the candidates: of lobe desc->only, of a weave's lobe, or of all but diffuse lobes and random-walk estimates. */
+static WeftResult list_candidates(FitWork *work, WeftError *error) {
     const WeftFitDesc *desc = work->desc;
     WeftResult result = weft_lobe_init("lambert", &work->lambert, error);
     if (result == WEFT_OK) result = weft_lobe_init("ggx", &work->ggx, error);
-    if (result == WEFT_OK) result = bases(work, desc->base ? desc->base : "lambert", error);
+    if (result == WEFT_OK) result = set_bases(work, desc->base ? desc->base : "lambert", error);
     WeftLobe only = {.lobe = -1};
     const char *id = work->weave && !desc->only ? weft_lobe_info(work->bases[0].lobe)->id : desc->only;
     if (result == WEFT_OK && id) result = weft_lobe_init(id, &only, error);
@@ -205,7 +209,7 @@ static WeftResult candidates(FitWork *work, WeftError *error) {
 }
 
 /* Orders candidates by their number of parameters, most first, since the largest fits take longest. */
-static int by_numbers(const void *a, const void *b) {
+static int by_param_count(const void *a, const void *b) {
     const Candidate *x = a, *y = b;
     int of_x = weft_lobe_info(x->lobe.lobe)->param_count + weft_lobe_info(x->base.lobe)->param_count;
     int of_y = weft_lobe_info(y->lobe.lobe)->param_count + weft_lobe_info(y->base.lobe)->param_count;
@@ -213,8 +217,9 @@ static int by_numbers(const void *a, const void *b) {
     return x->lobe.lobe != y->lobe.lobe ? x->lobe.lobe - y->lobe.lobe : x->base.lobe - y->base.lobe;
 }
 
+/* Fits all items in parallel and ranks the candidates. */
 static WeftResult work_run(FitWork *work, WeftFit *out, WeftError *error) {
-    qsort(work->candidates, (size_t)work->count, sizeof *work->candidates, by_numbers);
+    qsort(work->candidates, (size_t)work->count, sizeof *work->candidates, by_param_count);
     const WeftFitDesc *desc = work->desc;
     if (!watch_loop(&work->watch, desc->threads, work->count + 1, fit_one, work, desc->progress, desc->user))
         return WEFT_INTERRUPTED;
@@ -228,7 +233,7 @@ static WeftResult work_run(FitWork *work, WeftFit *out, WeftError *error) {
     return WEFT_OK;
 }
 
-/* Makes samples for the metric of desc, which must be log or cosine. Release them with samples_free in any case. */
+/* Makes samples of the data for the metric of desc, log or cosine. Release them with samples_free, even on failure. */
 static WeftResult samples_of(const WeftData *data, const WeftFitDesc *desc, Samples *samples, WeftError *error) {
     WeftBrdfMetric metric = desc->chosen ? desc->metric : WEFT_BRDF_METRIC_LOG;
     *samples = (Samples){0};
@@ -243,7 +248,7 @@ WeftResult weft_fit(const WeftData *data, const WeftFitDesc *desc, WeftFit *out,
     if (!work) return fail(error, WEFT_MESSAGE_MEMORY, "a fit", NULL);
     work->desc = desc;
     work->isotropic = data_isotropic(data);
-    WeftResult result = candidates(work, error);
+    WeftResult result = list_candidates(work, error);
     if (result == WEFT_OK) result = samples_of(data, desc, &work->samples, error);
     if (result == WEFT_OK && work->weave && (work->isotropic || !weave_search_sees(&work->samples)))
         result = fail(error, WEFT_MESSAGE_DESC, "woven over woven",
