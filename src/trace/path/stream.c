@@ -1,4 +1,4 @@
-#include <stdlib.h> /* before the dialect, whose abs() shadows that of C */
+#include <stdlib.h> /* before the dialect, which makes abs a macro */
 
 #include "trace/path/stream.h"
 
@@ -36,8 +36,9 @@ static int class_of(const Stream *stream, int k) {
     return mesh == GEOMETRY_NOTHING ? 0 : 1 + stream->context->scene->meshes[mesh].material;
 }
 
-/* Sorts those of n paths that are not done by their classes. Each class begins at a multiple of ROW_LANES; its last path is
- * repeated up to the next multiple. */
+/* Sorts n paths by their classes into `order`, without paths that have ended (their mesh is STREAM_DONE). Each class
+ * begins at a multiple of ROW_LANES, the width of loops, and its last path is repeated up to the next multiple. end[c]
+ * becomes the end of class c, before these copies. */
 static void sort_by_class(Stream *stream, int n, int classes) {
     int *end = stream->end, place = 0;
     for (int hit_class = 0; hit_class < classes; hit_class++) end[hit_class] = 0;
@@ -55,6 +56,8 @@ static void sort_by_class(Stream *stream, int n, int classes) {
     stage_end(stream->chunk.clock, STAGE_SORT);
 }
 
+/* Copies the directions of n paths into d. LOOP defines a function that is compiled once for each set of instructions,
+ * and EACH is a loop in it whose elements are independent. */
 LOOP(gather_directions, (const Paths *paths, const int *order, int n, Row d[3]), (paths, order, n, d)) {
     for (int c = 0; c < 3; c++) {
         const float *from = paths->direction[c];
@@ -63,7 +66,7 @@ LOOP(gather_directions, (const Paths *paths, const int *order, int n, Row d[3]),
     }
 }
 
-/* Multiplies the environment's radiance along n paths by their throughputs and MIS weights. */
+/* Multiplies the environment's radiance along n paths by their throughputs and MIS weights (lobe_weight). */
 LOOP(weigh_sky_n,
      (const Paths *paths, bool in_parts, WeftSampling sampling, const int *order, int n, LightRows *restrict sky),
      (paths, in_parts, sampling, order, n, sky)) {
@@ -78,11 +81,12 @@ LOOP(weigh_sky_n,
     }
 }
 
-/* Adds the environment's light along the rays of n paths. in_parts: their throughput for it is sky_throughput. */
+/* Adds the environment's light along the rays of n paths. in_parts: the scene scales diffuse and other reflections of
+ * this light by separate factors, so paths have a throughput for it alone, sky_throughput. */
 static void add_sky(Stream *stream, const Paths *paths, bool in_parts, const int *order, int n) {
     const PathContext *context = stream->context;
     LightRows *sky = &stream->chunk.light_samples[LIGHTS_SKY];
-    Row *d = stream->chunk.wo;
+    Row *d = stream->chunk.wo; /* not in use between chunks */
     int whole = row_whole(n);
     gather_directions(paths, order, whole, d);
     const float *const along[3] = {d[0], d[1], d[2]};
@@ -93,12 +97,13 @@ static void add_sky(Stream *stream, const Paths *paths, bool in_parts, const int
         for (int k = 0; k < n; k++) stream->radiance.rgba[c][paths->id[order[k]]] += sky->radiance[c][k];
 }
 
-/* Shades a chunk, and appends the surviving paths to `next`, which has `count`; returns how many it has then. */
+/* Shades a chunk, which is at most ROW_MOST paths of one class. Appends those that continue to `next`, which has
+ * `count` paths so far, and returns its new count. */
 static int shade_chunk(Stream *stream, const ChunkSource *source, Paths *next, int count) {
     const PathContext *context = source->context;
     const PathMaterial *material = &context->materials[source->material];
     Chunk *chunk = &stream->chunk;
-    chunk_place(chunk, source);
+    chunk_place(chunk, source); /* computes positions and normals, and reads the inputs of the material */
     if (material->emits || material->material.unlit) chunk_add_emission(chunk, source, &stream->radiance);
     bool ends = source->depth == context->max_depth || material->material.unlit;
     if (!ends) chunk_make_frames(chunk, source);
@@ -115,7 +120,7 @@ static int shade_chunk(Stream *stream, const ChunkSource *source, Paths *next, i
     return count;
 }
 
-/* Shades the paths order[begin .. end - 1], all of one class, chunk by chunk; count and result are shade_chunk's. */
+/* Shades the paths order[begin .. end - 1], all of one class, in chunks. count and result: as in shade_chunk. */
 static int shade_class(Stream *stream, ChunkSource source, int begin, int end, Paths *next, int count) {
     for (int first = begin; first < end; first += ROW_MOST) {
         source.order = stream->order + first;
@@ -129,18 +134,18 @@ static int shade_class(Stream *stream, ChunkSource source, int begin, int end, P
 static void trace(Stream *stream, const Paths *paths, int n) {
     const RayRows rays = {{paths->origin[0], paths->origin[1], paths->origin[2]},
                           {paths->direction[0], paths->direction[1], paths->direction[2]},
-                          NULL,
-                          paths->key,
-                          false,
-                          false};
+                          NULL,       /* no far end */
+                          paths->key, /* decides hits of partly transparent surfaces */
+                          false,      /* polygon lights are hit too */
+                          false};     /* neighbours have different directions */
     const HitRows hits = stream_hits(stream);
     geometry_hits(stream->context->geometry, &rays, n, &hits);
     stream->rays += n;
     stage_end(stream->chunk.clock, STAGE_HITS);
 }
 
-/* Adds the environment along the rays that leave the scene. Without shadows, scattered rays that hit something count as
- * leaving it too. */
+/* Adds the environment's light along the rays that leave the scene. If shadows are off, nothing hides the environment:
+ * scattered rays that hit something bring its light too. */
 static void add_misses(Stream *stream, const Paths *paths, int depth, int classes) {
     const PathContext *context = stream->context;
     const int *end = stream->end, reached = depth > 0 && !context->shadows ? classes : 1;
@@ -173,7 +178,7 @@ static int shade_hits(Stream *stream, const Paths *paths, int depth, int classes
 
 void stream_follow(Stream *stream, int n) {
     int classes = stream->context->scene->material_count + 1;
-    stream->chunk.filled_material = 0;
+    stream->chunk.filled_material = 0; /* the chunk has the inputs of no material */
     for (int depth = 0; n > 0; depth++) {
         const Paths *paths = &stream->paths[depth % 2];
         Paths *next = &stream->paths[(depth + 1) % 2];
