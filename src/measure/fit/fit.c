@@ -36,7 +36,7 @@ typedef struct FitWork {
     LoopWatch watch; /* progress of the loop over all items, and if it was interrupted */
 } FitWork;
 
-/* The combinations of choices with the least estimated errors, the best first. Only these are searched. */
+/* The combinations of choices with the least estimated errors, the best first. All of these are searched. */
 enum { FINALISTS = 4 };
 typedef struct Finalists {
     int count;
@@ -99,8 +99,8 @@ static WeftResult fit_lobe(const LobeSearch *search, LobeFound *out) {
     return result;
 }
 
-/* Fits one item of work. `hold` has what stays as it is: f90 of the baseline and, if a material has to express the fit,
- * parameters that no input of a material sets. */
+/* Fits one item of work. `hold` names what stays as it is: f90 of the baseline and, if a material has to express the
+ * fit, parameters that no input of a material sets. */
 static WeftResult fit_item(FitWork *work, int item, ItemProgress *item_progress) {
     bool baseline = item == work->count;
     const WeftLobe *base = baseline ? &work->lambert : &work->candidates[item].base;
@@ -185,7 +185,7 @@ static WeftResult candidates_add(FitWork *work, const char *id, WeftError *error
     return result;
 }
 
-/* Lists the candidates: of lobe desc->only, of a weave's lobe, or of all but diffuse lobes and random-walk estimates. */
+/* Lists the candidates: of desc->only, of a weave's lobe, or of all but diffuse lobes and random-walk estimates. */
 static WeftResult list_candidates(FitWork *work, WeftError *error) {
     const WeftFitDesc *desc = work->desc;
     WeftResult result = weft_lobe_init("lambert", &work->lambert, error);
