@@ -37,8 +37,8 @@ static int class_of(const Stream *stream, int k) {
 }
 
 /* Sorts n paths by their classes into `order`, without paths that have ended (their mesh is STREAM_DONE). Each class
- * begins at a multiple of ROW_LANES, the width of loops, and its last path is repeated up to the next multiple. end[c]
- * becomes the end of class c, before these copies. */
+ * begins at a multiple of ROW_LANES, the width of a vector, and its last path is repeated up to the next multiple.
+ * end[c] becomes the end of class c, before these copies. */
 static void sort_by_class(Stream *stream, int n, int classes) {
     int *end = stream->end, place = 0;
     for (int hit_class = 0; hit_class < classes; hit_class++) end[hit_class] = 0;
@@ -81,8 +81,8 @@ LOOP(weigh_sky_n,
     }
 }
 
-/* Adds the environment's light along the rays of n paths. in_parts: the scene scales diffuse and other reflections of
- * this light by separate factors, so paths have a throughput for it alone, sky_throughput. */
+/* Adds the environment's light along the rays of n paths. in_parts: this light has separate factors for diffuse
+ * and other reflections, which sky_throughput contains and throughput does not. */
 static void add_sky(Stream *stream, const Paths *paths, bool in_parts, const int *order, int n) {
     const PathContext *context = stream->context;
     LightRows *sky = &stream->chunk.light_samples[LIGHTS_SKY];
