@@ -4,27 +4,27 @@
  *   <single> = the mean over s and r in [-1, 1], with the weight (1 - 0.3 r^2) / 0.9, of single at the slopes
  *     s_x = roundness r  across the yarn,  s_y = tan(crimp) s |s|^(floats - 1)  along it
  *
- *   From afar a yarn shows all of its slopes at once. Where it passes over one other yarn it is an arc, on which s_y is
- * uniform (floats 1); where it passes over several it lies level in the middle and falls at its ends (floats above 1).
- * Its fibres run along it, or wind around it by the twist. So light that met one fibre makes streaks across the yarn:
- * Piti Irawan, Steve Marschner, "Specular Reflection from Woven Cloth", ACM TOG 31(1), 2012. The weight is our own:
+ *   From afar a yarn shows all of its slopes at once. A yarn that passes over one other yarn is an arc, on which s_y is
+ * uniform (floats 1). One that passes over several is level in the middle and falls at its ends (floats above 1). Its
+ * fibres run along it, or wind around it by the twist. So light that met one fibre makes streaks across the yarn: Piti
+ * Irawan, Steve Marschner, "Specular Reflection from Woven Cloth", ACM TOG 31(1), 2012. The weight is our own:
  * neighbours in a cloth hide more of a thread's sides than of its middle.
- *   single is light that met one fibre, multiple all other light (shading/media/yarn_medium.h). The fibres are flakes with
- * the distribution D of Eric Heitz, Jonathan Dupuy, Cyril Crassin, Carsten Dachsbacher, "The SGGX Microflake
- * Distribution", ACM TOG 34(4), 2015. Below, P is the area of a yarn that a direction sees, per area of cloth, and V
- * the mean of P over all yarns. R is the part of light that single scattering leaves to multiple scattering.
- *   The mean is a sum over 5 to 33 slopes s_y (shading/media/woven_bins.h), more for a steep yarn with a narrow highlight,
- * and for each of them over three s_x that face both wo and wi. Where 33 slopes are too few, D is wider instead.
- * docs/weave.md has the errors.
- *   color: the albedo A of the fibres. The first colour dims light that met one of them, the second, rho(A),
- *     all other light. A cloth of two yarns is two of these lobes, at right angles.
+ *   single is light that met one fibre, and multiple is all other light (shading/media/yarn_medium.h). The fibres are
+ * flakes with the distribution D of Eric Heitz, Jonathan Dupuy, Cyril Crassin, Carsten Dachsbacher, "The SGGX
+ * Microflake Distribution", ACM TOG 34(4), 2015. Below, P is the area of a yarn that a direction sees, per area of
+ * cloth. V is the mean of P over all yarns. R is the part of light that single scattering leaves to multiple.
+ *   The mean is a sum over 5 to 33 slopes s_y, which stand for bins of s (shading/media/woven_bins.h). A steep yarn
+ * with a narrow highlight has more of them. For each s_y, three s_x that face both wo and wi are summed. Where 33
+ * slopes are too few, a wider D fills the gaps between them. docs/weave.md has the errors.
+ *   color: the albedo A of the fibres. The first colour, A, dims light that met one of them. The second, rho(A),
+ *     dims all other light. A cloth of two yarns is two of these lobes, at right angles.
  *   roughness: alpha = roughness^2, the width of the highlight across the fibres' direction: silk 0.1, linen
  *     0.3, cotton 0.4, wool 0.5.
  *   reciprocal: yes.
  *   energy: E <= 1; what is missing is light that the yarns hide from each other.
- *   sampling: by flakes of a level surface, as wide as slopes and twist spread those of the yarns, and by the cosine
- * (shading/media/yarn_draw.h). Own.
- *   Not for: cloth so near that threads are told apart, which is yarn.
+ *   sampling: by the cosine, and by flakes of a level surface (shading/media/yarn_draw.h). The flakes' D is as
+ * wide as the slopes and the twist of the yarns make it. Own.
+ *   Not for: cloth so near that threads are told apart, for which there is lobe yarn.
  *   measured by weft check woven: E at most 0.98 (alpha 1, cos_o 1);
  *     reciprocal to 1e-3; weight variance 1.60 of the cosine's;
  *     half precision: finite for any cosines. */
@@ -34,6 +34,7 @@
 #include "shading/media/woven_bins.h"
 #include "shading/media/yarn_draw.h"
 
+/* Of each parameter: type, name, default, range, hard range, meaning. */
 #define WOVEN_PARAMS(P)                                                                                                \
     P(float, alpha, 0.4f, 0.05f, 1.0f, 0.05f, 1.0f, "what a fibre shows along its axis")                               \
     P(float, share, 1.0f, 0.0f, 1.0f, 0.0f, 1.0f, "of the cloth that these yarns cover")                               \
@@ -43,18 +44,19 @@
     P(float, roundness, 0.9f, 0.0f, 1.2f, 0.0f, 1.5f, "steepest slope across the yarn")                                \
     P(float, floats, 1.0f, 1.0f, 6.0f, 0.4f, 16.0f, "1 plain weave; more where yarns lie level longer")                \
     P(float, cross_crimp, 0.44f, 0.0f, 0.8f, 0.0f, 1.2f, "of the yarns at right angles, radians")
+/* TRAIT_SYSTEM: warp and weft, each with this lobe, make a cloth. */
 #define WOVEN_TRAITS (TRAIT_RECIPROCAL | TRAIT_CONSERVES | TRAIT_ANISOTROPIC | TRAIT_TWO_COLORS | TRAIT_SYSTEM)
 
 STRUCT(Woven){WOVEN_PARAMS(FIELD)};
 
-/* The numbers of a prepared lobe. Those of a cloth are fitted to its points (weave/woven_fit.c), and
- * differ from those that woven_prepare computes. */
+/* The numbers of a prepared lobe. woven_prepare computes them for a yarn alone. For the yarns of a draft,
+ * weave/woven_fit.c changes some of them, so that the lobe reflects as the points of the cloth do near by. */
 #define WOVEN_NUMBERS(N)                                                                                               \
     N(alpha)         /* of the fibres */                                                                               \
     N(share)         /* of the cloth that these yarns cover */                                                         \
     N(scale)         /* factor of f: the share, or 1 if the colours contain it */                                      \
     N(v_roundness)   /* for V: roundness of the yarns of both directions */                                            \
-    N(v_crimp)       /* for V: slope of evenly sloped yarns as steep in the mean */                                    \
+    N(v_crimp)       /* for V: uniform slopes up to it have the mean square of s_y */                                  \
     N(v_cross_crimp) /* the same of the yarns at right angles */                                                       \
     N(cos_a)         /* cosine of the yarn's azimuth */                                                                \
     N(sin_a)         /* sine of it */                                                                                  \
@@ -63,10 +65,10 @@ STRUCT(Woven){WOVEN_PARAMS(FIELD)};
     N(multiple)      /* factor of multiple that does not depend on directions */                                       \
     N(e)             /* (1 - a^2) / a^2, where a is the alpha of D, which may be wider than the fibres' */             \
     N(edge)          /* the weight of s_x is 1 + edge s_x^2 */                                                         \
-    N(steepest)      /* s_y of a bin with slope 1 */                                                                   \
+    N(steepest)      /* s_y of a bin with slope 1; the slope of a bin is 0 to 1 */                                     \
     N(width)         /* s_x of a level bin lies between -width and width */                                            \
-    N(taper)         /* at slope 1 the range of s_x is narrower by this on either side */                              \
-    N(lean)          /* at slope 1 the middle of the range */                                                          \
+    N(taper)         /* how much narrower the range of s_x is at slope 1, on either side */                            \
+    N(lean)          /* the middle of the range at slope 1 */                                                          \
     N(level)         /* weight of the level bin */                                                                     \
     N(count)         /* of bins, the level one among them */
 #define WOVEN_NUMBER(name) float name;
@@ -78,9 +80,10 @@ STRUCT(WovenPrepared) {
 /* Returns how many bins the yarn needs. */
 FN float woven_needed(Woven m) { return woven_bins_needed(m.alpha, m.crimp, m.floats); }
 
-/* Returns how many bins it has; the last may be a fraction of one. */
+/* Returns how many bins the lobe has. The last may be a fraction of one. */
 FN float woven_count(Woven m) { return min(woven_needed(m), to_float(WOVEN_BINS)); }
 
+/* Returns how the yarn is cut into n bins, whose ends s are even steps to that power (woven_bins.h). */
 FN WovenCut woven_cut(Woven m) {
     WovenCut c;
     c.floats = m.floats;
@@ -89,21 +92,21 @@ FN WovenCut woven_cut(Woven m) {
     return c;
 }
 
-/* Three s_x stand for the mean over a range of s_x: its middle, and the two at g of the way from there to its ends.
- * These have the weight 1 / (6 g^2), the middle has the rest, so that the mean is exact for cubic functions. Gauss has
- * g^2 = 0.6, exact up to fifth powers, but its error is at least 1.5 times as large where fibres are twisted by 30
- * degrees. Own fit. */
+/* Three s_x stand for a range of s_x: its middle, and one on either side, g of the way to the end. The outer two have
+ * the weight 1 / (6 g^2) each and the middle has the rest, so that the mean is exact for cubic functions. Gauss's rule
+ * has g^2 = 0.6 and is exact up to fifth powers. But its error is at least 1.5 times as large where fibres are twisted
+ * by 30 degrees. Own fit. */
 #define WOVEN_G2 0.545f
 
-/* <single> is this factor / (a^2 width) times the sum over bins of their widths in s times woven_across. It has
- * 1 / 2 for s from -1 to 1, 1 / (6 g^2) for the outer s_x, 1 / 0.9 for the weight of s_x, and 1 / (4 pi) for
+/* <single> is WOVEN_FACTOR / (a^2 width) times the sum over bins of woven_across times their width in s. The
+ * parts of WOVEN_FACTOR are 1 / 2 for the mean over s, 1 / (6 g^2) and 1 / 0.9 for that over s_x, and 1 / (4 pi) for
  * yarn_single. */
 #define WOVEN_FACTOR (0.5f / (6.0f * WOVEN_G2 * 0.9f) / (4.0f * PI))
 
-/* Prepares the lobe. The mean of s_y^2 is 1 / (2 floats + 1) of the largest, and that of the bins is smaller.
- * If the yarn has as many bins as it needs, all their slopes are scaled to the true mean square. If it needs 1.5 times
- * as many as it has, D is wider by the missing variance instead. `widening` blends from the first, 0, to the second,
- * 1. */
+/* Prepares the lobe. The mean of s_y^2 is tan(crimp)^2 / (2 floats + 1). Over bins it is smaller, since the slope of a
+ * bin is a mean itself. If the yarn has as many bins as it needs, their slopes are scaled up to the true mean square.
+ * If it needs 1.5 times as many, the slopes stay and D is wider by the missing variance. In between, `widening` blends
+ * from 0, the first case, to 1, the second. */
 FN void woven_prepare(Woven m, WovenPrepared *p) {
     float tan_crimp = sin(m.crimp) / cos(m.crimp), square = 1.0f / (2.0f * m.floats + 1.0f);
     WovenCut cut = woven_cut(m);
@@ -125,7 +128,7 @@ FN void woven_prepare(Woven m, WovenPrepared *p) {
     p->count = -floor(-cut.n);
 
     WovenBins bins = woven_bins_cut(cut);
-    float bins_square = woven_bins_square(&bins);
+    float bins_square = woven_bins_square(&bins); /* the mean of their squared slopes */
     float widening = clamp(2.0f * (woven_needed(m) / cut.n - 1.0f), 0.0f, 1.0f);
     p->steepest = tan_crimp * mix(sqrt(square / bins_square), 1.0f, widening);
     float a2 = max(m.alpha * m.alpha, 1e-6f);
@@ -133,9 +136,10 @@ FN void woven_prepare(Woven m, WovenPrepared *p) {
     a2 = a2 + (1.0f - a2) * widening * angle * angle * max(square - bins_square, 0.0f);
     p->e = (1.0f - a2) / a2;
     float factor = WOVEN_FACTOR / a2 / p->width;
-    p->level = 2.0f * factor * woven_bin_end(cut, 1.0f).s;
+    p->level = 2.0f * factor * woven_bin_end(cut, 1.0f).s; /* the level bin is from -s to s */
     p->bins = woven_bins_scaled(&bins, factor);
 }
+/* Returns the second colour, rho(A). f0: the first, A. */
 FN float woven_second(Woven m, float f0, float f90) { return yarn_reflectance(f0); }
 
 /* Returns a direction in the yarn's frame: x across the yarn, y along it. */
@@ -143,7 +147,7 @@ FN Dir woven_to_yarn(const WovenPrepared *p, Dir w) {
     return dir(p->sin_a * w.x - p->cos_a * w.y, p->cos_a * w.x + p->sin_a * w.y, w.z);
 }
 
-/* A direction over the cloth. */
+/* What depends on a single direction w. */
 STRUCT(WovenView) {
     Dir w;           /* in the yarn's frame */
     float per_x;     /* 1 / w.x */
@@ -151,7 +155,7 @@ STRUCT(WovenView) {
     float seen;      /* mean of P / V over these yarns */
     float remainder; /* R */
 };
-/* Returns the view of w. The mean of P over some yarns is w_z plus the mean area of them that faces away from w. */
+/* Returns the view of w. In the mean over some yarns, P is w_z plus the area that faces away from w. */
 FN WovenView woven_view_of(const WovenPrepared *p, Dir w) {
     WovenView v;
     v.w = woven_to_yarn(p, w);
@@ -165,7 +169,7 @@ FN WovenView woven_view_of(const WovenPrepared *p, Dir w) {
 }
 FN void woven_view(const WovenPrepared *p, Dir o, WovenView *w) { *w = woven_view_of(p, o); }
 
-/* The slopes of one side of a bin: one s_y, and s_x from middle - width to middle + width. */
+/* The slopes of a bin on one half of the yarn: one s_y, and s_x from middle - width to middle + width. */
 STRUCT(WovenSlopes) {
     float s_y, middle, width;
     float c; /* 1 / sqrt(1 + s_y^2) */
@@ -184,8 +188,8 @@ FN WovenSlopes woven_opposite(WovenSlopes b) {
     return b;
 }
 
-/* A direction w over the slopes of a bin. The yarn has the normal N = n (s_x, s_y, 1) and the direction
- * T = c (0, 1, -s_y), and its fibres run along t = cos twist T + sin twist (N x T). So P and t . w are, by s_x,
+/* A direction w and the slopes of a bin. The yarn has the normal N = n (s_x, s_y, 1) and the direction
+ * T = c (0, 1, -s_y). Its fibres run along t = cos twist T + sin twist (N x T). So P and t . w depend on s_x by
  *   P = p + s_x w_x,  t . w = t_along + n (s_x t_slope - t_side) */
 STRUCT(WovenLine) {
     float x;   /* w_x */
@@ -209,10 +213,10 @@ FN float woven_inverse_root(float q) {
     return 1.0f + q * (-0.483265f + q * (0.276777f + q * (-0.10213f + q * 0.0158065f)));
 }
 
-/* Returns single at s_x, times 4 pi a^2 V_i V_o and the weight of s_x. c: of the slopes; q: 1 / |wi + wo|^2. P is
- * positive where the facet counts; abs keeps it so where the range of s_x is empty. t . (wo + wi) is summed term by
- * term: so SIMD and scalar calls round alike where wi and wo nearly cancel, in light that goes straight on along the
- * cloth. */
+/* Returns single at s_x, times 4 pi a^2 V_i V_o and the weight of s_x. c: that of the slopes; q: 1 / |wi + wo|^2. P is
+ * positive at the s_x that woven_across takes, and abs ensures that even if there are none. m, which is t . (wo + wi),
+ * is summed part by part. So SIMD and scalar code round alike where wi and wo nearly cancel, which is light that goes
+ * straight on along the cloth. */
 FN float woven_facet(const WovenPrepared *p, float c, float s_x, const WovenLine *o, const WovenLine *i, float q) {
     float x2 = s_x * s_x, n = c * woven_inverse_root(c * c * x2);
     float p_o = abs(o->p + s_x * o->x), p_i = abs(i->p + s_x * i->x);
@@ -221,8 +225,8 @@ FN float woven_facet(const WovenPrepared *p, float c, float s_x, const WovenLine
     return (1.0f + p->edge * x2) * yarn_single(p->e, q, m, p_o, p_i, t_o, m - t_o);
 }
 
-/* Returns the integral of woven_facet over the s_x of a bin, times 3 g^2. Only the s_x that face wo and wi count: a sum
- * over all of them would have a step where the yarn faces away. */
+/* Returns the integral of woven_facet over the s_x of a bin, times 3 g^2. It covers only the s_x that face both wo and
+ * wi. Three samples of all s_x would give f a step wherever one of them turns away. */
 FN float woven_across(const WovenPrepared *p, WovenSlopes b, const WovenView *o, const WovenView *i, float q) {
     WovenLine l = woven_line(p, b, o), k = woven_line(p, b, i);
     float least = b.middle - b.width, most = b.middle + b.width;
@@ -233,7 +237,7 @@ FN float woven_across(const WovenPrepared *p, WovenSlopes b, const WovenView *o,
     return reach * (sides + (6.0f * WOVEN_G2 - 2.0f) * woven_facet(p, b.c, middle, &l, &k, q));
 }
 
-/* Returns <single>. The level bin has s_y, middle and c as constants, so that the compiler drops terms times zero. */
+/* Returns <single>. The s_y, middle and c of the level bin are constants, so that the compiler drops terms of 0. */
 FN float woven_single(const WovenPrepared *p, const WovenView *o, const WovenView *i, float q) {
     WovenSlopes level;
     level.s_y = 0.0f;
@@ -241,7 +245,7 @@ FN float woven_single(const WovenPrepared *p, const WovenView *o, const WovenVie
     level.width = p->width;
     level.c = 1.0f;
     float sum = p->level * woven_across(p, level, o, i, q);
-    ROUNDS_OF(k, to_int(p->count) - 1, WOVEN_BINS - 1) {
+    ROUNDS_OF(k, to_int(p->count) - 1, WOVEN_BINS - 1) { /* a loop over k, unrolled */
         WovenBin b = woven_bin_at(&p->bins, k);
         WovenSlopes s = woven_slopes(p, b.slope);
         sum = sum + b.weight * (woven_across(p, s, o, i, q) + woven_across(p, woven_opposite(s), o, i, q));
@@ -249,8 +253,8 @@ FN float woven_single(const WovenPrepared *p, const WovenView *o, const WovenVie
     return sum * o->per_v * i->per_v;
 }
 
-/* Returns the level surface on which directions are sampled. Slopes and twist spread its flakes:
- *   a'^2 = a^2 + (1 - a^2) (crimp^2 + (sin twist roundness)^2) / 3,  roundness and crimp those of V */
+/* Returns the level surface whose flakes are sampled. Its alpha a' has the spread by slopes and twist in it:
+ *   a'^2 = a^2 + (1 - a^2) (v_crimp^2 + (sin twist v_roundness)^2) / 3 */
 FN YarnSurface woven_surface(const WovenPrepared *p) {
     float a2 = p->alpha * p->alpha, twisted = p->sin_t * p->v_roundness;
     float spread = min((p->v_crimp * p->v_crimp + twisted * twisted) / 3.0f, 1.0f);
@@ -265,11 +269,12 @@ FN YarnSurface woven_surface(const WovenPrepared *p) {
 FN YarnProposal woven_proposal(YarnSurface s, const WovenView *w, Dir o) {
     YarnProposal d;
     d.along = dir_dot(o, s.axis);
-    d.c = yarn_flake_chance(s.alpha, o.z, w->remainder); /* of a sample by flakes */
-    d.q = 0.0f;                                          /* the others are a cosine about z */
+    d.c = yarn_flake_chance(s.alpha, o.z, w->remainder); /* chance of a flake */
+    d.q = 0.0f;                                          /* else a cosine about z */
     return d;
 }
 
+/* Returns f, the share of the second colour, and the pdf of woven_sample. */
 FN LobeValue woven_value(const WovenPrepared *p, const WovenView *w, Angles a) {
     WovenView v = woven_view_of(p, a.i);
     float single = woven_single(p, w, &v, yarn_per_sum2(a));
