@@ -2,24 +2,25 @@
  *
  *   z = +-(l / 2) m (1 - |s|^(k + 1)) / (k + 1) + (w / 4) q (1 - r^2)
  *
- * is the height of a thread, with + where it is on top and - where it is below. A thread alternates between runs of l
- * crossings on top and runs of l crossings below. s goes from -1 to 1 along a run, so the slope along the thread is
- * m |s|^k, and m at the ends of the run. k = 1 + floats (l - 1): a long float lies level but for its ends. r goes from
- * -1 to 1 across the thread, which is w wide and whose back has the slope q at both edges. Our own model.
- *   x counts warp threads from the left and y picks from the bottom. Among the threads at a place the highest is seen.
- * So threads that vary in width, place and height still cover each other as threads do.
- *   Near by a thread is a bundle of fibres along its twist. Each has a round back and dark crevices beside it, and some
- * have come loose and lie across the cloth. Details finer than the spacing of the points are left out, and their mean
- * stays. Slopes across fibres do not fade, since grazing light depends on them: for points far apart the caller chooses
- * the place across a fibre.
- *   Coordinates lose their fractions beyond a million threads, and fibres their shape beyond a hundred thousand. */
+ * is the height of a thread, with + where it is on top and - where it is below. A thread stays on top for a run of
+ * crossings, then below for the next run. l is the length of a run. s goes from -1 to 1 along it, so the slope along
+ * the thread is m |s|^k, and m at the ends of the run. With l in crossings, k = 1 + floats (l - 1): a long float is
+ * level except at its ends. r goes from -1 to 1 across the thread, which is w wide and whose back has the slope q at
+ * both edges. Our own model.
+ *   x counts warp threads from the left and y picks from the bottom. Of the threads at a place, the highest is seen. So
+ * threads that vary in width, place and height still cover each other as real ones do.
+ *   Near by a thread is a bundle of fibres along its twist. Each fibre has a round back and dark crevices beside it.
+ * Some fibres have come loose and lie across the cloth. Where points are too far apart for a detail, they have its mean
+ * instead. Only the slopes across fibres do not fade, since grazing light depends on them: for such points the caller
+ * chooses a place across a fibre.
+ *   Beyond a million threads coordinates lose their fractions. Beyond a hundred thousand, fibres lose their shape. */
 #pragma once
 
 #include "shading/lobe/table.h"
 #include "shading/weave/weave_cell.h"
 #include "shading/weave/weave_noise.h"
 
-/* The yarn of one system as it lies in a cloth. Pitches and heights have a common unit. */
+/* The yarn of one system, warp or weft, as it lies in a cloth. Pitches and heights have a common unit. */
 #define WEAVE_YARN_NUMBERS(N)                                                                                          \
     N(alpha)       /* of the fibres, as lobe yarn has it */                                                            \
     N(crimp)       /* m: tangent of the steepest angle along the yarn */                                               \
@@ -39,20 +40,20 @@
     N(per_width)   /* 1 / width */                                                                                     \
     N(cos_twist)   /* cosine of twist */                                                                               \
     N(sin_twist)   /* sine of twist */                                                                                 \
-    N(crossing)    /* from crossing to crossing along the thread, in pitches */
+    N(crossing)    /* distance from crossing to crossing along the thread, in pitches */
 
-/* One system from afar: lobe woven as it is fitted to the visible points (weave/woven_fit.c). V is the mean area of
+/* One system from afar: numbers of lobe woven, fitted to the visible points (weave/woven_fit.c). V is the mean area of
  * yarn that a direction sees, per area of cloth. */
 #define WEAVE_FAR_NUMBERS(N)                                                                                           \
     N(alpha)        /* of the lobe */                                                                                  \
     N(crimp)        /* tangent of the steepest angle along the yarn */                                                 \
     N(roundness)    /* steepest slope across the yarn */                                                               \
     N(floats)       /* power of the slope along the yarn */                                                            \
-    N(slope_across) /* for V: steepest slope across the yarn, if its visible slopes were uniform */                    \
+    N(slope_across) /* for V: uniform slopes up to it have the mean square of those seen across yarns */               \
     N(slope_along)  /* for V: the same along the yarn */                                                               \
     N(share)        /* of the cloth, seen from above; the shares of both systems and the gaps add up to 1 */           \
-    N(single)       /* factor on the colour of light that met one fibre; makes the mean that of points */              \
-    N(multiple)     /* factor on the colour of all other light */
+    N(single)       /* on the colour of light that met one fibre: gives the lobe the mean of points */                 \
+    N(multiple)     /* the same for all other light */
 
 #define WEAVE_NUMBER(name) float name;
 STRUCT(WeaveYarn){WEAVE_YARN_NUMBERS(WEAVE_NUMBER)};
@@ -66,8 +67,8 @@ STRUCT(Weave) {
     WeaveFar warp_far, weft_far;
     float low, high;        /* the lowest and the highest visible point */
     float openness;         /* the mean of weave_depth */
-    float cycle_x, cycle_y; /* threads after which all repeats, irregularities too; 0: never */
-    Table runs;             /* a row for each pick, and in it a WeaveCell for each warp thread */
+    float cycle_x, cycle_y; /* threads after which the cloth repeats, irregularities too; 0: never */
+    Table runs;             /* a row for each pick, and in it a WeaveCell, a crossing, for each warp thread */
     Table albedos;          /* a row of three channels for each thread, warp first: the fibres' albedo */
 };
 
@@ -77,14 +78,14 @@ STRUCT(WeavePoint) {
     float height;           /* z, or WEAVE_NONE */
     bool weft;              /* the thread is a pick */
     float thread;           /* number of the thread, through all repeats */
-    float r, s, k;          /* as above */
+    float r, s, k;          /* as at the top of this file */
     float slope_x, slope_y; /* how fast it falls along x and y of the cloth */
     Dir fibre;              /* along the fibres, unit */
     float dye;              /* factor on the amount of dye */
-    float lit;              /* light that reaches the place beside other fibres, in parts of its mean */
+    float lit;              /* light that reaches this place of a fibre, over its mean */
 };
 
-/* A shader has the tables of cloths in a texture of their own, and defines these. */
+/* A number and a crossing of a cloth's tables. A shader has these tables in a texture and defines both itself. */
 #ifndef weave_texel
 #define weave_texel(t, stride, row, column)  table_texel(t, stride, row, column)
 #define weave_cell_texel(t, stride, row, at) weave_cell_of(t, 4 * (stride), row, 4 * (at))
@@ -98,12 +99,13 @@ FN WeaveCell weave_cell_of(Table t, int stride, int row, int column) {
 }
 #endif
 
+/* Returns the crossing of two threads: where each is in its run. */
 FN WeaveCell weave_cell(const Weave *m, float warp, float pick) {
     int row = to_int(weave_mod(pick, to_float(m->picks))), at = to_int(weave_mod(warp, to_float(m->warps)));
     return weave_cell_texel(m->runs, m->warps, row, at);
 }
 
-/* Purposes of random numbers (weave_key). Where warp and weft differ, the weft has the next number. */
+/* Purposes of random numbers. weave_key hashes one with two whole numbers. If the weft has its own, it is the next. */
 #define WEAVE_OF_CROSSINGS 0
 #define WEAVE_OF_THREADS   1  /* place and width along a thread */
 #define WEAVE_OF_DYE       3  /* of a thread */
@@ -117,10 +119,12 @@ STRUCT(WeaveRun) {
     float length;     /* l, at least 1 */
     float per_length; /* 1 / l */
     float up;         /* 1 on top, -1 below */
-    float ends;       /* 1; 0 if the run never ends: a factor, since a branch around a load stops vectorisation */
-    float s, k;       /* as above */
+    float ends;       /* 1, or 0 if the run never ends; a factor, since a branch would stop vectorisation */
+    float s, k;       /* as at the top of this file */
     float s_k;        /* |s|^k */
 };
+/* Returns a thread's place v, in crossings, as a place in its run. since: crossings since the run began; run: its
+ * length, negative if the thread is below, 0 if the run never ends. */
 FN WeaveRun weave_run(float floats, float v, float since, float run) {
     WeaveRun a;
     a.ends = abs(run) > 0.5f ? 1.0f : 0.0f;
@@ -133,9 +137,9 @@ FN WeaveRun weave_run(float floats, float v, float since, float run) {
     return a;
 }
 
-/* Returns the point of thread c of a system, in the thread's frame: y along it, no fibres yet. u, v: the place across
- * the threads of the system and along them. since, run: as the WeaveCell there has them. bends: noise from crossing to
- * crossing, -1 to 1. */
+/* Returns the point of thread c of a system without its fibres, in the thread's frame, whose y is along it. u, v: the
+ * place across the threads of the system and along them. since, run: as for weave_run. bends: noise from crossing to
+ * crossing, -1 to 1. `slow` has two noises that change along the thread, from one node to the next 10 crossings on. */
 FN WeavePoint weave_thread(const Weave *m, WeaveYarn y, bool weft, float c, float u, float v, float since, float run,
                            float bends) {
     float side = weft ? m->cycle_y : m->cycle_x, cycle = weft ? m->cycle_x : m->cycle_y;
@@ -170,16 +174,16 @@ FN void weave_take_higher(WeavePoint *best, WeavePoint p) {
 }
 
 #define WEAVE_FIBRES      20.0f  /* side by side in a thread */
-#define WEAVE_FIBRES_OWN  40.0f  /* after so many of them their dye repeats */
-#define WEAVE_WAVES       8.0f   /* a third of a thread each; after so many of them fibres wind alike */
+#define WEAVE_FIBRES_OWN  40.0f  /* their dye repeats after so many */
+#define WEAVE_WAVES       8.0f   /* stripes a third of a thread wide; how fibres wind in them repeats after so many */
 #define WEAVE_HAIR_RADIUS 0.018f /* half of the width of a loose fibre, in threads */
 
-/* Returns how much of single fibres is left, 0 to 1. spacing: from point to point, in widths of the thread. Points a
- * fibre apart (1 / 20) show none. */
+/* Returns how much of single fibres is left, 0 to 1. spacing: from point to point, in widths of the thread. At a
+ * spacing of one fibre, 1 / 20, nothing is left. */
 FN float weave_fineness(float spacing) { return clamp(1.5f - 30.0f * spacing, 0.0f, 1.0f); }
 
-/* Returns half of the width of loose fibres. They fade at larger spacings than others do, since their colour differs
- * from what they cover. */
+/* Returns half of the width of loose fibres, 0 where they have faded. They fade at larger spacings than other fibres,
+ * since they differ in colour from what they cover. spacing: in threads. */
 FN float weave_hair_radius(float spacing) { return WEAVE_HAIR_RADIUS * clamp(1.75f - 25.0f * spacing, 0.0f, 1.0f); }
 
 /* Returns how the dye took on a thread, -1 to 1. cycle: number of threads after which that repeats. */
@@ -205,8 +209,10 @@ STRUCT(WeaveFibre) {
 };
 
 /* Returns the fibre at x, the place across the thread, and v, the place along it in crossings. Noise and fibres lie on
- * lattices along the twist. With X = x / w and Y = v crossing / w, both in widths of the thread, a place on them is
- *   cos twist Y - sin twist X  along the fibres,  cos twist X + sin twist Y  across them */
+ * lattices that are turned by the twist. With X = x / w and Y = v crossing / w, both in widths of the thread, these
+ * have the axes
+ *   cos twist Y - sin twist X  along the fibres,  cos twist X + sin twist Y  across them
+ * weave_frequency and weave_slant round the nodes per crossing, so that the lattices fit into a cycle. */
 FN WeaveFibre weave_fibre(const Weave *m, WeaveYarn y, float sin_twist, int weft, float thread, float x, float v,
                           float cycle) {
     float c = y.cos_twist * y.per_width, s = sin_twist * y.per_width;
@@ -225,17 +231,17 @@ FN WeaveFibre weave_fibre(const Weave *m, WeaveYarn y, float sin_twist, int weft
     return a;
 }
 
-/* Returns the direction of fibres on a surface with the slopes sx and sy, c T + s (N x T): c and s are cosine and sine
- * of the twist, N = n (sx, sy, 1) is the normal and T = q (0, 1, -sy) the direction of the yarn. */
+/* Returns c T + s (N x T), the direction of fibres on a surface with the slopes sx and sy. c and s are cosine and sine
+ * of the twist, N = n (sx, sy, 1) is the normal, and T = q (0, 1, -sy) is the direction of the yarn. */
 FN Dir weave_fibre_axis(float c, float s, float sx, float sy) {
     float n = 1.0f / sqrt(1.0f + sx * sx + sy * sy), q = 1.0f / sqrt(1.0f + sy * sy);
     return dir(-s * n * q * (1.0f + sy * sy), c * q + s * sx * sy * q * n, -c * q * sy + s * sx * q * n);
 }
 
-/* Adds fibres and the irregular dye to a point that weave_thread made, and rotates it from the thread's frame to the
- * cloth's. u, v: as for weave_thread. spacing: from point to point, in threads. across: place across a fibre, -1 to 1,
- * for points that are too far apart to have their own; at spacings in between both places are mixed, so that the
- * variance of slopes stays the same. A crevice takes a f^4 of the light at f, and the mean of all light is 1. */
+/* Adds fibres and the irregular dye to a point of weave_thread, and rotates it from the thread's frame to the cloth's.
+ * u, v: as for weave_thread. spacing: from point to point, in threads. across: the place across a fibre, -1 to 1, of
+ * points too far apart to have their own. At spacings in between it is mixed with their own, so that the variance of
+ * slopes stays the same. A crevice takes the part crevice f^4 of the light, and `lit` is divided by its mean over f. */
 FN void weave_add_fibres(const Weave *m, WeaveYarn y, float u, float v, float spacing, float across, WeavePoint *p) {
     float side = p->weft ? m->cycle_y : m->cycle_x, cycle = p->weft ? m->cycle_x : m->cycle_y;
     float thread = weave_wrap(p->thread, side);
@@ -259,14 +265,14 @@ FN void weave_add_fibres(const Weave *m, WeaveYarn y, float u, float v, float sp
     p->fibre = p->weft ? dir(fibre.y, fibre.x, fibre.z) : fibre;
 }
 
-/* Returns the hash of a crossing: its first number is for the warp, its second for the weft. */
+/* Returns the hash of a crossing. It has two random numbers: weave_first is for the warp, weave_second for the weft. */
 FN uint weave_crossing(const Weave *m, float i, float j) {
     return weave_key(m->seed, WEAVE_OF_CROSSINGS, weave_wrap(i, m->cycle_x), weave_wrap(j, m->cycle_y));
 }
 
 /* Returns the highest thread at x, y, in its own frame and without fibres. No thread reaches further than the middle of
- * its neighbour, so the two nearest of each system can be on top. Noise from crossing to crossing is interpolated among
- * the four nearest crossings, so that neighbours agree on it. */
+ * its neighbour, so only the two nearest of each system can be on top. Noise is smoothly interpolated (weave_ease)
+ * among the four nearest crossings, so that neighbouring threads agree on it. */
 FN WeavePoint weave_top(const Weave *m, float x, float y) {
     float i = floor(x), j = floor(y), near_x = x - i - 0.5f, near_y = y - j - 0.5f;
     float beside = i + (near_x < 0.0f ? -1.0f : 1.0f), above = j + (near_y < 0.0f ? -1.0f : 1.0f);
@@ -288,7 +294,7 @@ FN WeavePoint weave_top(const Weave *m, float x, float y) {
     return best;
 }
 
-/* Returns the yarn of a system, without a branch. */
+/* Returns the yarn of a system. It chooses number by number, without a branch. */
 #define WEAVE_CHOOSE(name) y.name = weft ? m->weft.name : m->warp.name;
 FN WeaveYarn weave_yarn_of(const Weave *m, bool weft) {
     WeaveYarn y;
@@ -312,20 +318,20 @@ STRUCT(WeaveHair) {
     float thread;        /* number of the thread that it comes from */
     float along, across; /* the point's place on it, -1 to 1 */
     float c, s;          /* cosine and sine of its angle to that thread */
-    float lean;          /* slope to that angle */
+    float lean;          /* db / da of weave_hair: its slope against its own axis */
 };
 
-/* The cloth has cells of about two threads by two, and each cell may have WEAVE_HAIRS loose fibres. None reaches
- * further than 0.9 threads, less than half a cell, at least 0.94. So those of the four nearest cells can be at a
- * point. */
+/* The cloth is divided into cells of about two threads by two, each with up to WEAVE_HAIRS loose fibres. They reach up
+ * to 0.95 threads from their middles. Half a cell is 1 thread, or at least 0.94 in a cloth with a cycle. So a place
+ * needs the fibres of its four nearest cells only: a few in a million lose 0.01 threads of a bend. */
 #define WEAVE_HAIRS      4
 #define WEAVE_HAIRS_NEAR (4 * WEAVE_HAIRS)
 
-/* Returns fibre n of WEAVE_HAIRS_NEAR at x, y. It comes from the thread at its middle, warp or weft in proportion to
- * their visible shares. With a along it and b across it, both from its middle in threads of the finer system, it has
- * the form of an S, l long to either side:
+/* Returns fibre n of the WEAVE_HAIRS_NEAR that can be at x, y. The thread at its middle is the one that it comes from,
+ * warp or weft in proportion to their visible shares. a along the fibre and b across it start at its middle and are in
+ * threads of the finer system. The fibre has the form of an S that is l long to either side:
  *   t = a / l,  b = l (bend + wave t) (1 - t^2),  lean = db / da = wave (1 - 3 t^2) - 2 bend t
- * and is radius (1 - t^4) wide to either side. */
+ * It is radius (1 - t^4) wide to either side. Each weave_bits is a random number from -1 to 1 out of a hash. */
 FN WeaveHair weave_hair(const Weave *m, int n, float x, float y, float radius) {
     float per_x = weave_frequency(0.5f, m->cycle_x), per_y = weave_frequency(0.5f, m->cycle_y);
     int cell_x = n / (2 * WEAVE_HAIRS), cell_y = n / WEAVE_HAIRS % 2;
@@ -363,7 +369,7 @@ FN WeaveHair weave_hair(const Weave *m, int n, float x, float y, float radius) {
     return h;
 }
 
-/* Lays a loose fibre over the point: arched, on top of what it crosses, and never below the middle of the cloth. */
+/* Lays a loose fibre over the point. It is arched, on top of what it crosses, never below the middle of the cloth. */
 FN void weave_lay(WeaveHair h, WeavePoint *p) {
     float rise = -0.4f * h.along, round = 0.8f * h.across;
     float fx = h.s + h.c * h.lean, fy = h.c - h.s * h.lean, n = 1.0f / sqrt(fx * fx + fy * fy);
@@ -380,7 +386,8 @@ FN void weave_lay(WeaveHair h, WeavePoint *p) {
     p->fibre = h.weft ? dir(fy * q, fx * q, rise * q) : dir(fx * q, fy * q, rise * q);
 }
 
-/* Returns the number of the loose fibre on top at x, y, among the first `count`; -1: there is none. */
+/* Returns the number of the loose fibre on top at x, y, among the first `count`, or -1 if there is none. ROUNDS is an
+ * unrolled loop. */
 FN int weave_hair_at(const Weave *m, float x, float y, float radius, int count) {
     int top = -1;
     ROUNDS(n, count) {
@@ -390,8 +397,7 @@ FN int weave_hair_at(const Weave *m, float x, float y, float radius, int count) 
     return top;
 }
 
-/* Returns the loose fibre on top itself, not its number: drivers that flatten branches would compute it a second time
- * from that. */
+/* Returns the loose fibre on top itself. From its number, drivers that flatten branches would compute it once more. */
 FN WeaveHair weave_hair_top(const Weave *m, float x, float y, float radius, int count) {
     WeaveHair top;
     top.here = false;
@@ -409,16 +415,16 @@ FN WeaveHair weave_hair_top(const Weave *m, float x, float y, float radius, int 
     return top;
 }
 
-/* Returns half of the width of loose fibres over a point of that height; 0: there are none, or they have faded. Over a gap they do not
- * fade: nothing else is there that could take their place. */
+/* Returns half of the width of loose fibres over a point of that height, or 0 if there are none or they have faded.
+ * They do not fade over a gap, where nothing else could take their place. */
 FN float weave_hair_radius_over(const Weave *m, float height, float spacing) {
     float radius = height > WEAVE_NONE ? weave_hair_radius(spacing) : WEAVE_HAIR_RADIUS;
     return max(m->warp.hairiness, m->weft.hairiness) > 0.0f ? radius : 0.0f;
 }
 
-/* Returns the point at x, y; a place without a thread has no slopes. spacing: from point to point, in threads. across:
- * place across a fibre, -1 to 1, for points that are too far apart to have their own. A cloth without loose fibres has
- * a loop of 0 rounds, since a driver that does not branch would run a branch around it. */
+/* Returns the point at x, y. A place without a thread has no slopes. spacing, across: as for weave_add_fibres. If there
+ * are no loose fibres, the loop over them has 0 rounds. A branch around the loop would not help, since some drivers run
+ * both sides of branches. */
 FN WeavePoint weave_point(const Weave *m, float x, float y, float spacing, float across) {
     WeavePoint p = weave_point_bound(m, x, y, spacing, across);
     float radius = weave_hair_radius_over(m, p.height, spacing);
@@ -427,15 +433,15 @@ FN WeavePoint weave_point(const Weave *m, float x, float y, float spacing, float
     return p;
 }
 
-/* Returns true where one looks through the cloth. */
+/* Returns true if the cloth is open at x, y: neither a thread nor a loose fibre is there. */
 FN bool weave_gap(const Weave *m, float x, float y) {
     float height = weave_top(m, x, y).height, radius = weave_hair_radius_over(m, WEAVE_NONE, 0.0f);
     bool open = height <= WEAVE_NONE;
     return open && weave_hair_at(m, x, y, radius, open && radius > 0.0f ? WEAVE_HAIRS_NEAR : 0) < 0;
 }
 
-/* Returns the albedo of the fibres at a point in one channel, without white. Fibres of albedo A absorb (1 - A) / A of
- * what they scatter, in proportion to their dye. */
+/* Returns the albedo of the fibres at a point in one channel, without the share `white`. Fibres of albedo A absorb
+ * (1 - A) / A times what they scatter, and this ratio is proportional to the dye. */
 FN float weave_albedo(const Weave *m, WeavePoint p, int channel) {
     float thread = weave_mod(p.thread, to_float(p.weft ? m->picks : m->warps));
     int row = to_int(thread) + (p.weft ? m->warps : 0);
@@ -445,11 +451,10 @@ FN float weave_albedo(const Weave *m, WeavePoint p, int channel) {
 
 #define WEAVE_SHADE 0.7f /* the part of light that does not reach the lowest places */
 
-/* Returns the light that reaches a point between threads, in parts of what reaches the highest. */
+/* Returns the light that reaches a point between threads, as a fraction of what reaches the highest point. */
 FN float weave_depth(const Weave *m, WeavePoint p) {
     float depth = clamp((m->high - p.height) / max(m->high - m->low, 1e-6f), 0.0f, 1.0f);
     return 1.0f - WEAVE_SHADE * depth * depth;
 }
-/* Returns the light that reaches a point, in parts of the mean over the cloth, so that no cloth becomes darker as a
- * whole. */
+/* Returns the light that reaches a point over its mean on the cloth, so that no cloth becomes darker as a whole. */
 FN float weave_open(const Weave *m, WeavePoint p) { return p.lit * weave_depth(m, p) / m->openness; }
