@@ -1,7 +1,9 @@
 /* ambient_fit.c - fits the weights of a lobe's look-ups, its mean direction and its width, at every node of a table
  *
- * The weights w_k >= 0 make sum_k w_k (look-up k of L) as close as possible to the light that a lobe reflects, in the
- * mean square over environments L. With G_k the filter of look-up k, the error in one environment is
+ * A look-up of L filters L about an axis; one with two axes is the mean of both. L is a residual, an environment
+ * without its small lights (ambient_lobe.h). The weights w_k >= 0 make sum_k w_k (look-up k of L) as close as possible
+ * to the light that a lobe reflects, in the mean square over all L. With G_k the filter of look-up k, the error for one
+ * L is
  *
  *   integral of L (f cos - sum_k w_k G_k)
  *
@@ -21,12 +23,14 @@
 #include "base/matrix.h"
 #include "base/thread.h"
 
+/* The planes of group SHAPE. A group is four planes (ambient_table.h): FIRST has w_1 / E to w_3 / E and E of the first
+ * colour, SECOND has w_0 to w_3 of the second. */
 enum { PLANE_AXIS = 4 * AMBIENT_GROUP_SHAPE, PLANE_KAPPA, PLANE_TAIL, PLANE_DENSITY };
 enum { LOOKUPS = 4, BANDS = 24, STEPS = 256, SAMPLES = 1024 };
 
-/* A look-up of the residual; one with two axes is the mean of both. */
+/* A look-up: its filter and its axes. */
 typedef struct AmbientLookup {
-    double kappa; /* 0: a cosine */
+    double kappa; /* the filter is exp(kappa (mu - 1)); 0: a cosine */
     int axes;
     Dir axis[2]; /* x towards wo */
 } AmbientLookup;
@@ -58,7 +62,7 @@ static void legendre(double mu, double p[BANDS]) {
     for (int l = 2; l < BANDS; l++) p[l] = ((2 * l - 1) * mu * p[l - 1] - (l - 1) * p[l - 2]) / l;
 }
 
-/* Returns (2l + 1) / (4 pi) C_l. */
+/* Returns (2l + 1) / (4 pi) C_l. (pow) and (exp) are those of C for doubles, not our macros for floats. */
 static double band_weight(int l) { return (2 * l + 1) / 12.5663706143592 * (pow)(l + 1.0, -2.5); }
 
 static double filter_at(double kappa, double mu) { return kappa > 0.0 ? (exp)(kappa * (mu - 1.0)) : fmax(mu, 0.0); }
@@ -99,8 +103,8 @@ static double a_of(const Fitter *fitter, int m, int n) {
     return sum / (x->axes * y->axes);
 }
 
-/* The light that a lobe reflects from one wo, as weighted directions: a mean over them stands for the integral of f
- * cos. */
+/* The light that a lobe reflects from one wo, as weighted directions. A sum over them stands for the integral of
+ * f cos. */
 typedef struct Reflected {
     int count;
     Dir i[SAMPLES];      /* x towards wo */
@@ -109,8 +113,8 @@ typedef struct Reflected {
     double log2_density; /* mean of log2(f cos_i) over the reflected light */
 } Reflected;
 
-/* Returns k with its binary digits mirrored at the point, the second coordinate of Hammersley's points. J. M.
- * Hammersley, "Monte Carlo Methods for Solving Multivariable Problems", 1960. */
+/* Returns k with its binary digits mirrored at the binary point. This is the second coordinate of J. M. Hammersley's
+ * points, "Monte Carlo Methods for Solving Multivariable Problems", 1960. */
 static float radical_inverse(uint32_t k) {
     float x = 0.0f;
     for (float place = 0.5f; k; k >>= 1, place *= 0.5f)
@@ -118,9 +122,9 @@ static float radical_inverse(uint32_t k) {
     return x;
 }
 
-/* Samples the light that a lobe reflects from wo. azimuth: of wo. If the lobe depends on it, half of the samples are
- * for the mirrored azimuth: tables are indexed by its cosine, so a node is the mean of both. A yarn across wo, for one,
- * reflects differently to its two sides. */
+/* Samples the light that a lobe reflects from wo. azimuth: of wo. If the lobe depends on it, half of the samples have
+ * the mirrored azimuth. Tables are indexed by its cosine, which both share, so a node is the mean of both. Yarns across
+ * wo, for example, reflect differently to their two sides. */
 static void reflect(Reflected *light, const Lobe *lobe, float cos_o, float azimuth, bool by_azimuth) {
     const float sin_o = sqrt(max(1.0f - cos_o * cos_o, 0.0f)), tx = cos(azimuth), side = sin(azimuth);
     light->count = 0;
@@ -137,7 +141,7 @@ static void reflect(Reflected *light, const Lobe *lobe, float cos_o, float azimu
         int n = light->count++;
         light->i[n] = dir(i.x * tx + i.y * ty, i.y * tx - i.x * ty, i.z);
         light->w[0][n] = w * (1.0f - fresnel_weight_uncolored(value.s));
-        light->w[1][n] = w * fresnel_weight_uncolored(value.s);
+        light->w[1][n] = w * fresnel_weight_uncolored(value.s); /* the share of the second colour */
         for (int c = 0; c < 2; c++) light->e[c] += (double)light->w[c][n];
         light->log2_density += (double)(w * log2(max(value.f * i.z, 1e-30f)));
     }
@@ -156,9 +160,9 @@ static void fill_b(const Fitter *fitter, const Reflected *light, double b[2][LOO
         }
 }
 
-/* Sets w to the least of w^T A w - 2 w^T b over w >= 0, then scales it to the sum e. One weight after the other is set
- * to its best value until they change by less than 1e-9 of e. C. L. Lawson, R. J. Hanson, "Solving Least Squares Problems", 1974, chapter 23,
- * has the problem. */
+/* Sets w to the minimum of w^T A w - 2 w^T b over w >= 0, then scales it to the sum e. It sets one weight after the
+ * other to its best value until all change by less than 1e-9 of e. The problem is that of C. L. Lawson, R. J. Hanson,
+ * "Solving Least Squares Problems", 1974, chapter 23. */
 static void solve(const Fitter *fitter, const double b[LOOKUPS], double e, double w[LOOKUPS]) {
     double sum = 0.0, moved = 1.0;
     for (int k = 0; k < LOOKUPS; k++) w[k] = e / LOOKUPS;
@@ -187,7 +191,7 @@ static Dir mean_direction(const Reflected *light) {
     return dir(mean.x * r, 0.0f, mean.z * r);
 }
 
-/* Returns the 1 - mu about the axis within which that part of the light is. */
+/* Returns the distance 1 - mu from the axis within which `part` of the light is. */
 static double distance_of_part(const Reflected *light, Dir axis, double part) {
     enum { BINS = 96 }; /* four an octave, from 2^-22 up */
     double bins[BINS] = {0}, all = 0.0, sum = 0.0;
@@ -206,17 +210,17 @@ static double distance_of_part(const Reflected *light, Dir axis, double part) {
 
 /* A node of a table. */
 typedef struct FitNode {
-    int heading, row, column;
+    int heading, row, column; /* azimuth of wo in steps of 45 degrees, parameter 0 of the lobe, cos_o */
 } FitNode;
 
 static float *entry(AmbientFit *fit, FitNode at, int plane) {
     return &fit->texels[(at.heading * AMBIENT_PLANES + plane) * fit->rows + at.row][at.column];
 }
 
-/* Sets the planes of the lobe's shape; a lobe that reflects nothing has none. exp(kappa (mu - 1)) has half of its
- * weight within kappa (1 - mu) = ln 2, and three quarters within twice that distance; ggx has them within three times
- * its distance of half. The tail is that ratio less 2. The density of exp(kappa (mu - 1)), scaled to a sum of 1,
- * has a logarithm of ln(kappa / (2 pi e)) on the mean over itself; 2 pi e = 17.079... */
+/* Sets the planes of the lobe's shape, which a lobe that reflects nothing does not have. exp(kappa (mu - 1)) has half
+ * of its weight within kappa (1 - mu) = ln 2. It has three quarters within twice that distance, ggx within three times.
+ * The tail is this factor less 2. If exp(kappa (mu - 1)) is scaled to a sum of 1, the mean of its own logarithm over it
+ * is ln(kappa / (2 pi e)). So the density plane has the kappa of the same mean; 2 pi e = 17.079... */
 static void fit_shape(AmbientFit *fit, const Reflected *light, FitNode at) {
     double e = light->e[0] + light->e[1];
     if (!(e > 0.0)) return;
@@ -296,8 +300,8 @@ void ambient_fit_shape(AmbientFit *fit, const Lobe *lobe, float low, float high)
 void ambient_fit_finish(AmbientFit *fit) {
     float denser = 0.0f, light = 1e-20f;
     fit->finest = -100.0f;
-    /* Headings 1 and 3 are left out: between along and across, the mean direction is beside the plane of wo, and a
-     * width about an axis in that plane means nothing. */
+    /* Headings 1 and 3 are left out, since wo is neither along the fibres nor across them there. The mean direction is
+     * then beside the plane of wo, and a width about an axis in that plane means nothing. */
     for (int heading = 0; heading < heading_count(fit); heading += 2)
         for (int row = 0; row < fit->rows; row++)
             for (int column = 0; column < AMBIENT_COLUMNS; column++) {
@@ -305,7 +309,7 @@ void ambient_fit_finish(AmbientFit *fit) {
                 float kappa = *entry(fit, at, PLANE_KAPPA);
                 float y = 1.0f - (float)column / (AMBIENT_COLUMNS - 1), x = root_cos_at(column);
                 float e = *entry(fit, at, AMBIENT_PLANE_E) + *entry(fit, at, AMBIENT_PLANE_E_SECOND);
-                float part = e * x * x * x * y; /* fraction of the light of a lit sphere: cos dcos goes as x^3 y */
+                float part = e * x * x * x * y; /* a lit sphere sends E cos_o d(cos_o), which goes as E x^3 y */
                 fit->finest = max(fit->finest, kappa);
                 denser += part * (*entry(fit, at, PLANE_DENSITY) - kappa);
                 light += part;
@@ -323,7 +327,8 @@ void ambient_fit(AmbientFit *fit, const Lobe *lobe, float low, float high, int t
     ambient_fit_finish(fit);
 }
 
-/* Returns true if both lobes have the same parameters from number `first` on, but for the azimuth of leaning fibres. */
+/* Returns true if both lobes have the same parameters from number `first` on. The azimuth of leaning fibres may differ:
+ * one table serves all. */
 static bool alike_from(const Lobe *a, const Lobe *b, int first) {
     if (a->id != b->id) return false;
     for (int k = first; k < weft_lobe_info(a->id)->param_count; k++)
@@ -355,16 +360,17 @@ AmbientTable ambient_table(const AmbientFit *fit, int strategy) {
                           .columns = AMBIENT_COLUMNS,
                           .low = fit->root_low,
                           .high = fit->root_high,
-                          .focus = fit->finest > AMBIENT_CLOSE - AMBIENT_BLEND,
+                          .focus = fit->finest > AMBIENT_CLOSE - AMBIENT_BLEND, /* some are too narrow for look-ups */
                           .narrow = true,
                           .second = second,
                           .lossless = !second && is_flat(fit),
-                          .strips = lobe_names(fit->lobe.id)->strips,
+                          .strips = lobe_names(fit->lobe.id)->strips, /* whether it is sampled in strips */
                           .by_azimuth = fit->by_azimuth,
                           .strategy = strategy,
-                          .baked = -1};
+                          .baked = -1 /* no coefficients */};
 }
 
+/* A baked table has polynomials along its columns instead of texels. */
 enum { TERMS = AMBIENT_DEGREE + 1, PLANES_BAKED = 4 * AMBIENT_GROUPS };
 
 /* Errors of E count relative to E, down to this part of the greatest E: where a lobe fades away, an absolute error that
@@ -378,8 +384,8 @@ static double albedo_at(const AmbientFit *fit, int heading, int column) {
     return value_at(fit, heading, AMBIENT_PLANE_E, column) + value_at(fit, heading, AMBIENT_PLANE_E_SECOND, column);
 }
 
-/* Sets the coefficients of planes first .. end - 1, by least squares with a weight for each column. Element k of out
- * has coefficient k % TERMS of the four planes of group k / TERMS. */
+/* Sets the coefficients of planes first .. end - 1, by least squares with a weight for each column. The members a to d
+ * of out[k] are for the four planes of group k / TERMS, and have coefficient k % TERMS of each. */
 static void bake_planes(const AmbientFit *fit, int heading, int first, int end, const double weight[AMBIENT_COLUMNS],
                         AmbientWeights out[AMBIENT_HEADING]) {
     double a[TERMS][TERMS] = {{0.0}}, b[PLANES_BAKED][TERMS] = {{0.0}};
@@ -402,10 +408,10 @@ static void bake_planes(const AmbientFit *fit, int heading, int first, int end, 
     }
 }
 
-/* Sets the coefficients of a heading. The division of E and the shape of the lobe count where the lobe is bright, and
- * only a little where it fades away. */
+/* Sets the coefficients of a heading. For the ratios w / E and the shape of the lobe, columns count where the lobe is
+ * bright, and only a little where it fades away. */
 static void bake_heading(const AmbientFit *fit, int heading, AmbientWeights out[AMBIENT_HEADING]) {
-    double most = 1e-9, value[AMBIENT_COLUMNS], shape[AMBIENT_COLUMNS]; /* weights for E, and for the rest */
+    double most = 1e-9, value[AMBIENT_COLUMNS], shape[AMBIENT_COLUMNS]; /* weights for E and w, and for these */
     for (int column = 0; column < AMBIENT_COLUMNS; column++) most = fmax(most, albedo_at(fit, heading, column));
     for (int column = 0; column < AMBIENT_COLUMNS; column++) {
         double e = albedo_at(fit, heading, column) / most;
