@@ -311,7 +311,7 @@ void ambient_fit_finish(AmbientFit *fit) {
                 float e = *entry(fit, at, AMBIENT_PLANE_E) + *entry(fit, at, AMBIENT_PLANE_E_SECOND);
                 float part = e * x * x * x * y; /* a lit sphere sends E cos_o d(cos_o), which goes as E x^3 y */
                 fit->finest = max(fit->finest, kappa);
-                denser += part * (*entry(fit, at, PLANE_DENSITY) - kappa);
+                denser += part * (*entry(fit, at, PLANE_DENSITY) - kappa); /* than one axis of that width */
                 light += part;
             }
     fit->denser = denser / light;
