@@ -478,7 +478,7 @@ static void text_outside_the_dialect_is_refused(void **state) {
         {"float a;\n#if 1 + 1\n#endif\n", "an #if of more", 2},
         {"\n#if 1\nfloat a;\n", "an #if without its #endif", 2},
         {"float a;\n\n#endif\n", "without its #if", 3},
-        {"#pragma once\n", "a directive", 1},
+        {"#pragma pack(1)\n", "a directive", 1},
         {"#define F(a, b) a\nfloat a;\nfloat x = F(1);\nfloat b;\n", "F is called with", 3},
         {"float a;\n#define F(a...) a\nfloat b;\n", "F has parameters", 2},
         {"float a;\ntypedef struct Own { float x; } Own;\n", "a record not made with STRUCT", 2},

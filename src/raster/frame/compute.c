@@ -102,7 +102,7 @@ static WeftResult reserve(Compute *self, size_t n, WeftError *error) {
         glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, WIDTH, height, 0, GL_RGBA, GL_FLOAT, NULL);
         glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0 + (GLenum)k, GL_TEXTURE_2D, self->targets[k], 0);
     }
-    WeftResult result = gl_check(error, "room for the samples");
+    WeftResult result = gl_check(error, "memory for the samples");
     if (result != WEFT_OK) return result;
     GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
     if (status != GL_FRAMEBUFFER_COMPLETE)

@@ -15,14 +15,12 @@
 #include "shading/weave/weave_base.h"
 #include "weave/weft_cloth.h"
 
-/* The block "Material" of shader.c. */
+/* The block "Material" of the shaders. */
 typedef struct Uniforms {
-    float inputs[INPUT_COUNT][4]; /* w: 1 where it has a map */
-    float places[INPUT_COUNT][2][4];
-    float e[4];    /* layer, low, high, tilt */
-    float more[4]; /* alpha cutoff */
-    float weave[CLOTH_NUMBERS];
-    AmbientWeights fits[SLOT_COUNT * AMBIENT_BAKED];
+    MaterialVector inputs[INPUT_COUNT];
+#define MEMBER(type, name, count) type name[count];
+    MATERIAL_BLOCK(MEMBER)
+#undef MEMBER
 } Uniforms;
 
 /* OpenGL ES 3.0 guarantees no more. */
@@ -48,8 +46,8 @@ static void add_map(GlMaterial *self, const GlTextures *textures, const Material
     self->key.inputs[k].channel = (int16_t)input->channel;
     self->key.inputs[k].texcoord = (int16_t)input->texcoord;
     for (int row = 0; row < 2; row++)
-        for (int c = 0; c < 3; c++) uniforms->places[k][row][c] = input->transform[3 * row + c];
-    uniforms->places[k][0][3] = (float)at.layer;
+        for (int c = 0; c < 3; c++) uniforms->places[2 * k + row][c] = input->transform[3 * row + c];
+    uniforms->places[2 * k][3] = (float)at.layer;
     uniforms->inputs[k][3] = 1.0f;
 }
 
@@ -73,7 +71,7 @@ static void add_table(GlMaterial *self, TableRef e, int layer, Uniforms *uniform
     self->key.table_columns = e.columns;
     self->key.table_tilts = e.tilts;
     const float place[4] = {(float)layer, e.low, e.high, e.tilt};
-    memcpy(uniforms->e, place, sizeof place);
+    memcpy(uniforms->e[0], place, sizeof place);
 }
 
 /* Returns the surface of a material with half of each textured number, the middle of what its textures may give. */
@@ -137,7 +135,7 @@ static void make_material(GlMaterial *self, const Material *material, const GlTe
     self->key.double_sided = material->double_sided;
     self->key.woven = material->cloth > 0;
     for (int k = 0; k < INPUT_COUNT; k++) add_input(self, textures, material, k, uniforms);
-    uniforms->more[0] = material->alpha_cutoff;
+    uniforms->more[0][0] = material->alpha_cutoff;
 }
 
 /* Makes keys and uniforms of all materials, with the fits of the old ones. Returns false if memory is short. */
@@ -164,7 +162,7 @@ static bool take(GlMaterials *self, const GlMaterials *old, const WeftScene *sce
             add_table(material, sheen_tables_of(self->sheens, k), sheen_tables_index(self->sheens, k), &uniforms);
             material->cloth = scene->materials[k].cloth;
             const WeftCloth *cloth = material->cloth ? scene->cloths[material->cloth - 1] : NULL;
-            if (cloth) cloth_numbers(cloth, uniforms.weave);
+            if (cloth) cloth_numbers(cloth, (float *)uniforms.weave);
             whole &= add_fits(material, &scene->materials[k], cloth, threads, &uniforms);
         }
         memcpy(self->blocks + at, &uniforms, sizeof uniforms);

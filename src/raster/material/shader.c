@@ -66,12 +66,10 @@ bool shader_bakes(const ShaderKey *key, int slot) {
 static void put_uniforms(Text *text, const ShaderKey *key) {
     text_line(text, "\nlayout(std140) uniform Material {");
     for (int k = 0; k < INPUT_COUNT; k++) text_line(text, "    highp vec4 material_%s;", input_infos[k].name);
-    text_line(text, "    highp vec4 material_places[%d];", 2 * INPUT_COUNT);
-    text_line(text, "    highp vec4 material_e;    /* layer, low, high, tilt */");
-    text_line(text, "    highp vec4 material_more; /* alpha cutoff */");
-    text_line(text, "    highp vec4 material_weave[%d]; /* cloths.h */", CLOTH_NUMBERS / 4);
-    text_line(text, "    highp vec4 material_fits[%d]; /* see shading/ambient/ambient.h */\n};",
-              SLOT_COUNT * AMBIENT_BAKED);
+#define MEMBER(type, name, count) text_line(text, "    highp vec4 material_" #name "[%d];", (int)(count));
+    MATERIAL_BLOCK(MEMBER)
+#undef MEMBER
+    text_line(text, "};");
     int slots = 0;
     for (int k = 0; k < INPUT_COUNT; k++)
         if (is_mapped(&key->inputs[k]) && key->inputs[k].slot >= slots) slots = key->inputs[k].slot + 1;
@@ -82,10 +80,11 @@ static void put_uniforms(Text *text, const ShaderKey *key) {
 
 static void put_table(Text *text, const ShaderKey *key) {
     text_line(text, "\nconst int SHEEN_TABLES = %d;", text->table_count);
-    text_line(text, "\nTableRef material_table() {\n    TableRef t;\n    t.texels = SHEEN_TABLES + int(material_e.x);");
+    text_line(text,
+              "\nTableRef material_table() {\n    TableRef t;\n    t.texels = SHEEN_TABLES + int(material_e[0].x);");
     text_line(text, "    t.kind = %d;\n    t.rows = %d;\n    t.columns = %d;\n    t.tilts = %d;", key->table_kind,
               key->table_rows, key->table_columns, key->table_tilts);
-    text_line(text, "    t.low = material_e.y;\n    t.high = material_e.z;\n    t.tilt = material_e.w;\n"
+    text_line(text, "    t.low = material_e[0].y;\n    t.high = material_e[0].z;\n    t.tilt = material_e[0].w;\n"
                     "    return t;\n}");
 }
 
@@ -175,7 +174,7 @@ static void put_surface(Text *text, const ShaderKey *key) {
               key->unlit ? "true" : "false", key->double_sided ? "true" : "false");
     text_line(text, "const bool MATERIAL_HOLED = %s;", key->alpha_mode != WEFT_ALPHA_OPAQUE ? "true" : "false");
     static const char *const coverage[] = {[WEFT_ALPHA_OPAQUE] = "1.0",
-                                           [WEFT_ALPHA_MASK] = "opacity < material_more.x ? 0.0 : 1.0",
+                                           [WEFT_ALPHA_MASK] = "opacity < material_more[0].x ? 0.0 : 1.0",
                                            [WEFT_ALPHA_BLEND] = "clamp(opacity, 0.0, 1.0)"};
     text_line(text, "\nfloat coverage_of(float opacity) { return %s; }", coverage[key->alpha_mode]);
     if (key->alpha_mode == WEFT_ALPHA_MASK) text_define(text, "MASKED", "1");

@@ -50,6 +50,18 @@ typedef struct ShaderKey {
     int table_kind, table_rows, table_columns, table_tilts; /* of the sheen's E */
 } ShaderKey;
 
+enum { FIT_VECTORS = AMBIENT_BAKED * SLOT_COUNT };
+typedef float MaterialVector[4];
+
+/* Lists the uniform block "Material" behind a vector for each input (w: 1 where it has a map): the type in C of a
+ * vector of four, name, number of vectors. */
+#define MATERIAL_BLOCK(M)                                                                                              \
+    M(MaterialVector, places, 2 * INPUT_COUNT) /* of each input: rows of its transform; layer of its map */            \
+    M(MaterialVector, e, 1)                    /* of the sheen's E: layer, low, high, tilt */                          \
+    M(MaterialVector, more, 1)                 /* alpha cutoff */                                                      \
+    M(MaterialVector, weave, CLOTH_NUMBERS / 4)                                                                        \
+    M(AmbientWeights, fits, FIT_VECTORS) /* shading/ambient/ambient.h */
+
 /* Makes *key a key that serves both: inputs that differ become INPUT_VALUE or INPUT_MAYBE, with `slot` and `like` left
  * to the caller. Returns false, with *key unchanged, if the text would then contain a part that one of the two
  * omits. */
