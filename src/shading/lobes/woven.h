@@ -34,7 +34,7 @@
 #include "shading/media/woven_bins.h"
 #include "shading/media/yarn_draw.h"
 
-/* Of each parameter: type, name, default, range, hard range, meaning. */
+/* Lists for each parameter: type, name, default, range, hard range, meaning. */
 #define WOVEN_PARAMS(P)                                                                                                \
     P(float, alpha, 0.4f, 0.05f, 1.0f, 0.05f, 1.0f, "what a fibre shows along its axis")                               \
     P(float, share, 1.0f, 0.0f, 1.0f, 0.0f, 1.0f, "of the cloth that these yarns cover")                               \
@@ -147,7 +147,7 @@ FN Dir woven_to_yarn(const WovenPrepared *p, Dir w) {
     return dir(p->sin_a * w.x - p->cos_a * w.y, p->cos_a * w.x + p->sin_a * w.y, w.z);
 }
 
-/* What depends on a single direction w. */
+/* The numbers that depend on a single direction w. */
 STRUCT(WovenView) {
     Dir w;           /* in the yarn's frame */
     float per_x;     /* 1 / w.x */
