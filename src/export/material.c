@@ -89,7 +89,8 @@ static void find_facts(Draft *draft, ExportModel *model) {
 #define SHOWN_FACT(name, NAME, Name, wo) draft_fact(draft, "only." #name, 1);
     SLOTS(SHOWN_FACT)
     Choices beside = *c;
-    beside.workflow = beside.profile = beside.convert = CHOICE_AUTO;
+    beside.workflow = beside.profile = CHOICE_AUTO;
+    if (!convert_wanted(*c)) beside.convert = CHOICE_AUTO;
 #define CHOICE_MADE(name, help) model->chosen |= beside.name != CHOICE_AUTO;
     SURFACE_CHOICES(CHOICE_MADE)
 }
@@ -184,6 +185,7 @@ static void put_shade(Draft *draft, const ExportModel *model) {
               draft->desc->fold_pi ? " times pi" : "",
               through ? "below the horizon, of the light that comes through" : "black below the horizon", draft->id[0],
               through ? "" : " || wi.z <= 0.0");
+    if (convert_wanted(model->choices)) text_line(text, "    s = convert_surface(s, material_choices());");
     if (model->chosen) text_line(text, "    compose_surface(s, material_choices());");
     text_line(text, "    Stack m;\n    stack_clear(m);\n    %s;", composition_stack(&model->choices));
     if (model->chosen) text_line(text, "    compose_choices(m, s, material_choices());");

@@ -67,14 +67,18 @@ static inline int models_profiles(Exported *out) {
 }
 
 /* Materials of choices beside a workflow: rules below the interface, a sheen of free terms with an F of its
- * colour, a round highlight on a brushed base, and light through cloth. */
+ * colour, a round highlight on a brushed base, light through cloth, and inputs of the other workflow. */
 static inline int models_choices(Exported *out) {
     static const struct {
-        const char *id, *workflow, *layer, *sheen_d, *sheen_v, *sheen_f, *d, *f, *through;
-    } rows[] = {{"a_seed", "metallic", "seed", "auto", "auto", "auto", "auto", "cook-torrance", "0"},
-                {"a_blend", "metallic", "side-by-side", "charlie", "conty-kulla-soft", "auto", "auto", "auto", "0.3"},
-                {"a_sheen", "disney", "albedo-view", "inverse-ggx", "implicit", "cook-torrance", "ggx", "auto", "0"},
-                {"a_thin", "cloth", "albedo-max", "auto", "auto", "auto", "auto", "auto", "0.6"}};
+        const char *id, *workflow, *layer, *sheen_d, *sheen_v, *sheen_f, *d, *f, *through, *metallic, *convert;
+    } rows[] = {{"a_seed", "metallic", "seed", "auto", "auto", "auto", "auto", "cook-torrance", "0", "0", "auto"},
+                {"a_blend", "metallic", "side-by-side", "charlie", "conty-kulla-soft", "auto", "auto", "auto", "0.3",
+                 "0", "auto"},
+                {"a_sheen", "disney", "albedo-view", "inverse-ggx", "implicit", "cook-torrance", "ggx", "auto", "0",
+                 "0", "auto"},
+                {"a_thin", "cloth", "albedo-max", "auto", "auto", "auto", "auto", "auto", "0.6", "0", "auto"},
+                {"a_gold", "metallic", "albedo-max", "auto", "auto", "auto", "auto", "auto", "0", "0.7", "specular"},
+                {"a_chrome", "specular", "albedo-max", "auto", "auto", "auto", "ggx", "auto", "0", "0", "metallic"}};
     enum { ROWS = sizeof rows / sizeof *rows };
     for (int k = 0; k < ROWS; k++) {
         const char *const choices[][2] = {{"workflow", rows[k].workflow},
@@ -85,6 +89,10 @@ static inline int models_choices(Exported *out) {
                                           {"d", rows[k].d},
                                           {"f", rows[k].f},
                                           {"diffuse_transmission", rows[k].through},
+                                          {"metallic", rows[k].metallic},
+                                          {"convert", rows[k].convert},
+                                          {"specular_color", "0.7,0.5,0.2"},
+                                          {"base_color", "0.8,0.4,0.1"},
                                           {"diffuse_transmission_color", "0.9,0.6,0.3"}};
         WeftScene *scene;
         assert_int_equal(weft_scene_load("builtin:ball", &scene, NULL, NULL), WEFT_OK);

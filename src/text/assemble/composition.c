@@ -50,9 +50,10 @@ Surface composition_surface(float x, const bool zero[INPUT_COUNT]) {
     return material_plain(&material);
 }
 
+/* Returns the workflow or profile that makes the stack, which is the target of a conversion (convert.h). */
 static const Composition *composition_of(const Choices *choices) {
-    return choices->profile > 0 ? &profiles[choices->profile]
-                                : &workflows[choices->workflow < 0 ? 0 : choices->workflow];
+    const Choices c = convert_choices(*choices);
+    return c.profile > 0 ? &profiles[c.profile] : &workflows[c.workflow < 0 ? 0 : c.workflow];
 }
 
 const char *composition_stack(const Choices *choices) { return composition_of(choices)->stack; }
@@ -121,7 +122,7 @@ void text_composition(Text *text, const Choices *choices) {
     const bool none[INPUT_COUNT] = {false};
     Surface s = composition_surface(0.5f, none);
     Stack m;
-    compose_begin(&m, &s, *choices);
+    compose_begin(&m, &s, convert_choices(*choices));
     const char *albedo = formula_of(albedos, m.albedo), *view = formula_of(views, m.view);
     const char *const formulas[] = {albedo, view};
     put_engines(text, formulas);
