@@ -85,6 +85,66 @@ static void alpha_mode_decides_the_coverage(void **state) {
     }
 }
 
+/* A double-sided ball under a light from above, which meets its front in the upper half and the inside of its back in the
+ * lower. */
+static WeftScene *lit_ball(WeftAlphaMode mode, float opacity) {
+    WeftScene *scene = test_scene();
+    Material *material = test_material(scene, 0.8f);
+    material->alpha_mode = mode;
+    material->inputs[INPUT_opacity].value[0] = opacity;
+    test_ball(scene, vec3(0.0f, 0.0f, 0.0f), 0.7f, 24);
+    scene->lights[scene->light_count++] = (Light){.name = "above",
+                                                  .kind = LIGHT_DIRECTIONAL,
+                                                  .direction = {0.0f, -0.9f, -0.436f},
+                                                  .color = {1, 1, 1},
+                                                  .intensity = PI_FLOAT};
+    scene_bounds(scene);
+    test_environment(scene, 0.0f);
+    return scene;
+}
+
+/* Returns the mean of green over a square of 16 pixels on the vertical line through the middle. */
+static double square_mean(const WeftImage *image, int y) {
+    double sum = 0.0;
+    for (int k = 0; k < 256; k++) sum += (double)pixel(image, SIDE / 2 - 8 + k % 16, y - 8 + k / 16)[1];
+    return sum / 256.0;
+}
+
+static void blended_surfaces_hide_what_is_behind_them(void **state) {
+    (void)state;
+    need_gl();
+    WeftRasterView view = front_view;
+    view.background = WEFT_BACKGROUND_COLOR;
+    view.no_shadows = 1;
+    for (int gl = 0; gl < 2; gl++) {
+        WeftScene *opaque = lit_ball(WEFT_ALPHA_OPAQUE, 1.0f), *blended = lit_ball(WEFT_ALPHA_BLEND, 1.0f);
+        WeftImage expected = picture_of(opaque, (WeftGl)gl, &view), image = picture_of(blended, (WeftGl)gl, &view);
+        assert_memory_equal(image.pixels, expected.pixels, (size_t)SIDE * SIDE * 4 * sizeof(float));
+        weft_image_free(&image);
+        weft_image_free(&expected);
+        weft_scene_free(opaque);
+        weft_scene_free(blended);
+    }
+    WeftScene *scene = lit_ball(WEFT_ALPHA_BLEND, 0.6f);
+    WeftImage image = picture_of(scene, WEFT_GL_DESKTOP, &view);
+    const WeftRenderDesc desc = {.width = SIDE,
+                                 .height = SIDE,
+                                 .max_depth = 1,
+                                 .camera = front_view.camera,
+                                 .background = WEFT_BACKGROUND_COLOR,
+                                 .no_shadows = 1};
+    WeftImage traced = test_render(scene, desc, 256);
+    for (int half = 0; half < 2; half++) {
+        const int y = half ? 2 * SIDE / 3 : SIDE / 3;
+        double expected = square_mean(&traced, y);
+        assert_true(expected > 0.05);
+        assert_true(fabs(square_mean(&image, y) / expected - 1.0) < 0.02);
+    }
+    weft_image_free(&traced);
+    weft_image_free(&image);
+    weft_scene_free(scene);
+}
+
 /* One square alone: what is behind it has the alpha and the colour that were asked for. */
 static void background_has_the_colour_and_alpha_of_its_kind(void **state) {
     (void)state;
@@ -353,6 +413,7 @@ static void shaders_compile_as_their_version(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(alpha_mode_decides_the_coverage),
+                                       cmocka_unit_test(blended_surfaces_hide_what_is_behind_them),
                                        cmocka_unit_test(background_has_the_colour_and_alpha_of_its_kind),
                                        cmocka_unit_test(blurred_background_is_smooth),
                                        cmocka_unit_test(picture_is_upright),

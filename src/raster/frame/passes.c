@@ -92,7 +92,14 @@ static WeftResult use_program(WeftRaster *self, const ShaderKey *key, const Prog
     return *program ? WEFT_OK : failure.result;
 }
 
-static WeftResult draw_mesh(WeftRaster *self, int mesh, const ShaderKey *key, WeftError *error) {
+/* A mesh is drawn once where it is solid, with depth. What is left of one that blends is then blended over: of a
+ * double-sided mesh the back faces first, since most of them lie behind. */
+typedef enum MeshPass { PASS_SOLID, PASS_BLENDED } MeshPass;
+
+/* The least opacity that counts as 1; texture filters round. */
+#define SOLID_OPACITY 0.999f
+
+static WeftResult draw_mesh(WeftRaster *self, int mesh, MeshPass pass, const ShaderKey *key, WeftError *error) {
     int k = self->scene->meshes[mesh].material;
     const GlMaterial *material = &self->materials.all[k];
     const Program *program;
@@ -100,12 +107,17 @@ static WeftResult draw_mesh(WeftRaster *self, int mesh, const ShaderKey *key, We
     if (result != WEFT_OK) return result;
     glActiveTexture(GL_TEXTURE0 + UNIT_TABLES);
     glBindTexture(GL_TEXTURE_2D_ARRAY, program->tables);
-    glActiveTexture(GL_TEXTURE0); /* code between draws binds textures to the active unit */
-    if (material->key.double_sided)
-        glDisable(GL_CULL_FACE);
-    else
-        glEnable(GL_CULL_FACE);
+    glActiveTexture(GL_TEXTURE0); /* leaves unit 0 active, where code between draws binds the objects it makes */
     materials_bind(&self->materials, &self->textures, k, BLOCK_MATERIAL);
+    glUniform1f(program->least_opacity, pass == PASS_SOLID ? SOLID_OPACITY : 0.0f); /* without effect at -1 */
+    glEnable(GL_CULL_FACE);
+    if (material->key.double_sided && pass == PASS_BLENDED) {
+        glCullFace(GL_FRONT);
+        meshes_draw(&self->meshes, mesh);
+        glCullFace(GL_BACK);
+    } else if (material->key.double_sided) {
+        glDisable(GL_CULL_FACE);
+    }
     meshes_draw(&self->meshes, mesh);
     return WEFT_OK;
 }
@@ -125,7 +137,7 @@ static WeftResult draw_depth(WeftRaster *self, WeftError *error) {
     WeftResult result = WEFT_OK;
     for (int m = 0; m < self->scene->mesh_count && result == WEFT_OK; m++) {
         ShaderKey key = depth_key(&self->materials.all[self->scene->meshes[m].material].key);
-        result = draw_mesh(self, m, &key, error);
+        result = draw_mesh(self, m, PASS_SOLID, &key, error);
     }
     return result;
 }
@@ -194,29 +206,43 @@ static WeftResult draw_floor(WeftRaster *self, const WeftRasterView *view, WeftE
     return WEFT_OK;
 }
 
-/* Draws solid meshes, the background, the floor and blended meshes into the framebuffer that is bound. The queue has
- * `solid` solid meshes, then the blended ones. */
-static WeftResult draw_all(WeftRaster *self, const View *seen, const WeftRasterView *view, WeftError *error) {
+/* Returns true if a mesh that blends may have points that this pass draws. */
+static bool takes_part(const WeftScene *scene, int mesh, MeshPass pass) {
+    const Mesh *m = &scene->meshes[mesh];
+    const Material *material = &scene->materials[m->material];
+    const Input *opacity = &material->inputs[INPUT_opacity];
+    bool solid = opacity->value[0] >= SOLID_OPACITY; /* maps, colours and gaps of cloth lower it */
+    return pass == PASS_SOLID ? solid : !solid || opacity->texture || m->color || material->cloth;
+}
+
+/* Draws a pass of the meshes from `first` on, of those in the queue's order before `end`. */
+static WeftResult draw_meshes(WeftRaster *self, int first, int end, MeshPass pass, const WeftRasterView *view,
+                              WeftError *error) {
     WeftResult result = WEFT_OK;
+    for (int k = first; k < end && result == WEFT_OK; k++) {
+        int mesh = self->queue.order[k];
+        if (view->hide_lights && mesh >= scene_own_meshes(self->scene)) continue;
+        if (k >= self->queue.solid && !takes_part(self->scene, mesh, pass)) continue;
+        ShaderKey key = lit_key(self, view, &self->materials.all[self->scene->meshes[mesh].material]);
+        result = draw_mesh(self, mesh, pass, &key, error);
+    }
+    return result;
+}
+
+/* Draws what is solid, the background, the floor and what blends into the framebuffer that is bound. */
+static WeftResult draw_all(WeftRaster *self, const View *seen, const WeftRasterView *view, WeftError *error) {
+    const Queue *queue = &self->queue;
     bool behind = shows_environment(view) && self->environment_lit && self->environment.map;
     queue_sort(&self->queue, self->scene, seen);
-    for (int k = 0; k <= self->queue.count && result == WEFT_OK; k++) {
-        if (k == self->queue.solid && behind)
-            result = draw_background(self, view->background == WEFT_BACKGROUND_BLURRED, error);
-        if (k == self->queue.solid && view->floor.on && self->floor.there && result == WEFT_OK)
-            result = draw_floor(self, view, error);
-        if (k == self->queue.count || result != WEFT_OK) break;
-        int mesh = self->queue.order[k];
-        if (k == self->queue.solid) {
-            glEnable(GL_BLEND);
-            glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA); /* colours are premultiplied */
-            glDepthMask(GL_FALSE);
-        }
-        if (view->hide_lights && mesh >= scene_own_meshes(self->scene)) continue; /* lights are the last meshes */
-        const GlMaterial *material = &self->materials.all[self->scene->meshes[mesh].material];
-        ShaderKey key = lit_key(self, view, material);
-        result = draw_mesh(self, mesh, &key, error);
-    }
+    WeftResult result = draw_meshes(self, 0, queue->count, PASS_SOLID, view, error);
+    if (behind && result == WEFT_OK) result = draw_background(self, view->background == WEFT_BACKGROUND_BLURRED, error);
+    if (view->floor.on && self->floor.there && result == WEFT_OK) result = draw_floor(self, view, error);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA); /* colours are premultiplied */
+    glDepthMask(GL_FALSE);
+    if (result == WEFT_OK) result = draw_meshes(self, queue->solid, queue->count, PASS_BLENDED, view, error);
+    glDisable(GL_BLEND);
+    glDepthMask(GL_TRUE);
     return result == WEFT_OK ? gl_check(error, "a picture") : result;
 }
 

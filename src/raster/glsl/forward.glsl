@@ -10,6 +10,9 @@ in highp vec4 vertex_tangent;
 const vec4 vertex_tangent = vec4(0.0, 0.0, 0.0, 1.0);
 #endif
 out highp vec4 fragment;
+#ifdef BLENDED
+uniform highp float least_opacity; /* 0, or SOLID_OPACITY of passes.c where solid points alone are drawn */
+#endif
 
 #include "raster/glsl/light.glsl"
 #include "shading/material/dust.h"
@@ -132,7 +135,11 @@ void main() {
     }
     fragment = vec4(vec_of(sum) * opacity, opacity);
 #endif
+    /* discard comes last, since derivatives of its neighbours need a fragment until here */
 #ifdef MASKED
-    if (opacity < 0.5) discard; /* last, since derivatives of its neighbours need it until here */
+    if (opacity < 0.5) discard;
+#endif
+#ifdef BLENDED
+    if (opacity < least_opacity) discard;
 #endif
 }

@@ -30,6 +30,7 @@ static void set_units(Program *self) {
     GLint maps = glGetUniformLocation(self->name, "material_maps");
     glUseProgram(self->name);
     self->samplers = 0;
+    self->least_opacity = glGetUniformLocation(self->name, "least_opacity");
     if (maps >= 0) {
         GLuint index;
         GLint size = 0;

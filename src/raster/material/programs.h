@@ -30,6 +30,7 @@ typedef struct Program {
     int own_count;
     unsigned sheens_version; /* of the sheens' tables behind its own */
     int samplers;            /* array elements counted one by one */
+    int least_opacity;       /* location of forward.glsl's uniform; -1 where the material does not blend */
     bool stale;              /* true if the text may have changed */
     bool wanted;             /* and it is to be compiled */
     unsigned used;           /* tick of the picture that it was last drawn with */

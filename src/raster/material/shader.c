@@ -178,6 +178,7 @@ static void put_surface(Text *text, const ShaderKey *key) {
                                            [WEFT_ALPHA_BLEND] = "clamp(opacity, 0.0, 1.0)"};
     text_line(text, "\nfloat coverage_of(float opacity) { return %s; }", coverage[key->alpha_mode]);
     if (key->alpha_mode == WEFT_ALPHA_MASK) text_define(text, "MASKED", "1");
+    if (key->alpha_mode == WEFT_ALPHA_BLEND) text_define(text, "BLENDED", "1");
 }
 
 static void put_lights(Text *text, const ShaderKey *key) {
