@@ -104,6 +104,62 @@ static double compare(int corners, bool shadows_drawn, bool shadows_traced, floa
     return off / sum;
 }
 
+/* A floor with a square above it, single-sided, under one light. */
+static WeftScene *sheet_scene(bool faces_floor, const WeftLight *light) {
+    WeftScene *scene = test_scene();
+    test_material(scene, 0.6f);
+    test_quad(scene, vec3(-1.5f, -0.5f, 1.5f), vec3(3.0f, 0.0f, 0.0f), vec3(0.0f, 0.0f, -3.0f));
+    test_material(scene, 0.6f)->double_sided = false;
+    const Vec3 across = vec3(0.6f, 0.0f, 0.0f), back = vec3(0.0f, 0.0f, -0.6f), corner = vec3(-0.3f, -0.2f, 0.3f);
+    test_quad(scene, corner, faces_floor ? back : across, faces_floor ? across : back);
+    scene_bounds(scene);
+    test_environment(scene, 0.0f);
+    assert_int_equal(weft_scene_add_light(scene, light, NULL), WEFT_OK);
+    return scene;
+}
+
+/* Returns the sum of |drawn - traced| over that of what is traced. */
+static double sheet_error(const WeftScene *scene) {
+    WeftRaster *raster = raster_of(scene);
+    const WeftRenderDesc desc = {.width = SIDE,
+                                 .height = SIDE,
+                                 .max_depth = 1,
+                                 .camera = view.camera,
+                                 .background = WEFT_BACKGROUND_COLOR,
+                                 .hide_lights = 1};
+    WeftRasterView how = view;
+    how.hide_lights = 1;
+    how.samples = 4;
+    WeftImage image = drawn(raster, &how), reference = test_render(scene, desc, 128);
+    double off = 0.0, sum = 0.0;
+    for (int k = 0; k < SIDE * SIDE * 4; k++) {
+        double x = (double)((float *)image.pixels)[k], y = (double)((float *)reference.pixels)[k];
+        if (k % 4 < 3) off += fabs(x - y), sum += y;
+    }
+    assert_true(sum > 10.0);
+    weft_image_free(&image);
+    weft_image_free(&reference);
+    weft_raster_free(raster);
+    return off / sum;
+}
+
+static void single_sided_surfaces_shade_what_they_face(void **state) {
+    (void)state;
+    need_gl();
+    const WeftLight sun = {.direction = {-0.3f, -1.0f, -0.2f}, .color = {2.0f, 2.0f, 2.0f}};
+    const WeftLight *const lights[] = {&sun, &lamp, &panel};
+    static const char *const names[] = {"sun", "spot", "polygon"};
+    for (int k = 0; k < 3; k++)
+        for (int faces_floor = 0; faces_floor < 2; faces_floor++) {
+            WeftScene *scene = sheet_scene(faces_floor, lights[k]);
+            double error = sheet_error(scene);
+            print_message("a sheet that faces the %s under a %s: %.3f\n", faces_floor ? "floor" : "light", names[k],
+                          error);
+            assert_true(error < 0.025);
+            weft_scene_free(scene);
+        }
+}
+
 enum { PANELS = 5 };
 
 /* Draws under one of some panels that do not touch each other in the picture, or under all where k is below 0. */
@@ -256,6 +312,7 @@ static void updated_lights_draw_as_new_ones(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(polygon_lights_agree_with_the_path_tracer),
                                        cmocka_unit_test(polygons_of_different_corners_add_up),
+                                       cmocka_unit_test(single_sided_surfaces_shade_what_they_face),
                                        cmocka_unit_test(soft_shadows_are_near_the_path_tracer),
                                        cmocka_unit_test(polygon_behind_shines_through_cloth),
                                        cmocka_unit_test(sky_behind_shines_through_cloth),

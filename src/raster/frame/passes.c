@@ -99,6 +99,13 @@ typedef enum MeshPass { PASS_SOLID, PASS_BLENDED } MeshPass;
 /* The least opacity that counts as 1; texture filters round. */
 #define SOLID_OPACITY 0.999f
 
+/* Draws the faces of a mesh but those of one side. */
+static void draw_side(const WeftRaster *self, int mesh, GLenum culled) {
+    glEnable(GL_CULL_FACE);
+    glCullFace(culled);
+    meshes_draw(&self->meshes, mesh);
+}
+
 static WeftResult draw_mesh(WeftRaster *self, int mesh, MeshPass pass, const ShaderKey *key, WeftError *error) {
     int k = self->scene->meshes[mesh].material;
     const GlMaterial *material = &self->materials.all[k];
@@ -110,15 +117,15 @@ static WeftResult draw_mesh(WeftRaster *self, int mesh, MeshPass pass, const Sha
     glActiveTexture(GL_TEXTURE0); /* leaves unit 0 active, where code between draws binds the objects it makes */
     materials_bind(&self->materials, &self->textures, k, BLOCK_MATERIAL);
     glUniform1f(program->least_opacity, pass == PASS_SOLID ? SOLID_OPACITY : 0.0f); /* without effect at -1 */
-    glEnable(GL_CULL_FACE);
     if (material->key.double_sided && pass == PASS_BLENDED) {
-        glCullFace(GL_FRONT);
-        meshes_draw(&self->meshes, mesh);
-        glCullFace(GL_BACK);
+        draw_side(self, mesh, GL_FRONT);
+        draw_side(self, mesh, GL_BACK);
     } else if (material->key.double_sided) {
         glDisable(GL_CULL_FACE);
+        meshes_draw(&self->meshes, mesh);
+    } else {
+        draw_side(self, mesh, key->depth ? GL_FRONT : GL_BACK); /* see draw_depth */
     }
-    meshes_draw(&self->meshes, mesh);
     return WEFT_OK;
 }
 
@@ -132,7 +139,9 @@ static WeftResult compile_shaders(WeftRaster *self, const WeftRasterView *view, 
     return kept ? WEFT_OK : fail(error, WEFT_MESSAGE_MEMORY, "shaders", NULL);
 }
 
-/* Draws the depths of all meshes. */
+/* Draws the depths of all meshes. A single-sided surface hides the light from what it faces, since it is seen from there,
+ * and has no shadow on the side of its back: so the faces that look away from the light are drawn, as the path tracer's
+ * rays to the light meet them. */
 static WeftResult draw_depth(WeftRaster *self, WeftError *error) {
     WeftResult result = WEFT_OK;
     for (int m = 0; m < self->scene->mesh_count && result == WEFT_OK; m++) {
