@@ -5,6 +5,8 @@
 
 #include "gltf/asset/material_fields.h"
 #include "gltf/read/gltf.h"
+#include "image/codec.h"
+#include "shading/material/choice.h"
 
 /* PNG, 2 x 1: sRGB bytes 255 128 0, then 0 64 255. */
 static const char png[] = "data:image/png;base64,"
@@ -154,6 +156,94 @@ static void light_through_cloth_is_read(void **state) {
         WEFT_MESSAGE_GLTF_SCHEMA,
         "materials[0].extensions.KHR_materials_diffuse_transmission.diffuseTransmissionFactor: expected a "
         "number");
+}
+
+/* Two texels of RGBA as a data URI. */
+static const char *picture(const unsigned char texels[8]) {
+    const WeftImageWriting how = {.data = 1};
+    WeftImage image;
+    WeftError error;
+    char *bytes = NULL;
+    size_t size = 0;
+    assert_int_equal(weft_image_create(2, 1, 4, WEFT_PIXEL_U8, &image, &error), WEFT_OK);
+    memcpy(image.pixels, texels, 8);
+    FILE *stream = open_memstream(&bytes, &size);
+    assert_int_equal(image_write_png(stream, "two texels", &image, &how, &error), WEFT_OK);
+    assert_int_equal(fclose(stream), 0);
+    const char *text = uri(bytes, size);
+    weft_image_free(&image);
+    free(bytes);
+    return text;
+}
+
+/* One number of an input at u, its factor times its picture. */
+static float number_at(const Reading *reading, InputId id, int channel, float u) {
+    const WeftScene *scene = reading->scene;
+    const Input *input = &scene->materials[0].inputs[id];
+    const bool color = input_infos[id].kind == WEFT_INPUT_COLOR;
+    const SrgbTable srgb = srgb_table();
+    if (!input->texture) return input->value[color ? channel : 0];
+    const Texel texel =
+        texture_fetch(&scene->textures[input->texture - 1], scene->images, color ? &srgb : NULL, u, 0.5f);
+    return input->value[color ? channel : 0] * texel.c[color ? channel : input->channel];
+}
+
+#define GLOSS(members) "'extensions':{'KHR_materials_pbrSpecularGlossiness':{" members "}}"
+
+/* Diffuse colour and F0 as they are written, and roughness is what glossiness lacks to 1; the fallback for
+ * readers without the extension does not count. */
+static void glossiness_is_read_as_workflow_specular(void **state) {
+    (void)state;
+    Reading *reading = read_material(
+        "'extensionsUsed':['KHR_materials_pbrSpecularGlossiness'],",
+        "'pbrMetallicRoughness':{'baseColorFactor':[1,0,1,1],'roughnessFactor':0.1}," GLOSS(
+            "'diffuseFactor':[0.6,0.05,0.04,0.5],'specularFactor':[0.04,0.05,0.06],'glossinessFactor':0.2"));
+    assert_read(reading);
+    assert_string_equal(reading->warning, "");
+    assert_string_equal(choice_id(CHOICE_workflow, reading->scene->materials[0].choices[CHOICE_workflow]), "specular");
+    assert_input(reading, INPUT_base_color, 0.6f, 0.05f, 0.04f, -1);
+    assert_input(reading, INPUT_opacity, 0.5f, 0, 0, -1);
+    assert_input(reading, INPUT_specular_color, 0.04f, 0.05f, 0.06f, -1);
+    assert_input(reading, INPUT_roughness, 0.8f, 0, 0, -1);
+    assert_input(reading, INPUT_metallic, 0, 0, 0, -1);
+    done(reading);
+    reading = read_material("", GLOSS(""));
+    assert_read(reading);
+    assert_input(reading, INPUT_base_color, 1, 1, 1, -1);
+    assert_input(reading, INPUT_specular_color, 1, 1, 1, -1);
+    assert_input(reading, INPUT_roughness, 0, 0, 0, -1);
+    done(reading);
+    assert_refused(read_material("", GLOSS("'glossinessFactor':'high'")), WEFT_MESSAGE_GLTF_SCHEMA,
+                   "KHR_materials_pbrSpecularGlossiness.glossinessFactor: expected a number");
+}
+
+/* Colours of the picture are decoded from sRGB, its alpha is glossiness, both are times their factors. */
+static void picture_of_glossiness_becomes_one_of_roughness(void **state) {
+    (void)state;
+    static const unsigned char texels[8] = {255, 0, 188, 255, 255, 0, 188, 51};
+    char *first = json("'images':[{'uri':'%s'},{'uri':'%s'}],'samplers':[{'magFilter':9728}],"
+                       "'textures':[{'source':0,'sampler':0},{'source':1,'sampler':0}],",
+                       picture(texels), png);
+    Reading *reading = read_material(
+        first, GLOSS("'specularFactor':[1,1,0.5],'glossinessFactor':0.5,'specularGlossinessTexture':{'index':0},"
+                     "'diffuseTexture':{'index':0}"));
+    assert_read(reading);
+    assert_int_equal(reading->scene->image_count, 2);
+    assert_near(number_at(reading, INPUT_roughness, 0, 0.25f), 0.5f, 1e-4f);
+    assert_near(number_at(reading, INPUT_roughness, 0, 0.75f), 0.9f, 1e-4f);
+    assert_near(number_at(reading, INPUT_specular_color, 0, 0.75f), 1.0f, 1e-5f);
+    assert_near(number_at(reading, INPUT_specular_color, 2, 0.75f), 0.5f * 0.5028865f, 1e-4f);
+    assert_near(number_at(reading, INPUT_base_color, 2, 0.25f), 0.5028865f, 1e-4f);
+    assert_near(number_at(reading, INPUT_opacity, 0, 0.75f), 0.2f, 1e-4f);
+    done(reading);
+    /* A picture without alpha has an alpha of 1. */
+    reading = read_material(first, GLOSS("'glossinessFactor':0.25,'specularGlossinessTexture':{'index':1}"));
+    free(first);
+    assert_read(reading);
+    assert_int_equal(reading->scene->image_count, 1);
+    assert_near(number_at(reading, INPUT_roughness, 0, 0.25f), 0.75f, 1e-6f);
+    assert_near(number_at(reading, INPUT_specular_color, 0, 0.25f), 1.0f, 1e-6f);
+    done(reading);
 }
 
 /* extras belong to whoever wrote them; ours are in extras.weft. */
@@ -461,7 +551,8 @@ static void saved_material_reads_as_it_was(void **state) {
 
 static int rows_of(int input) {
     int rows = 0;
-    for (const MaterialField *row = material_fields; row->factor; row++) rows += row->input == input;
+    for (const MaterialField *row = material_fields; row->factor; row++)
+        rows += row->input == input && !material_field_replaces(row);
     return rows;
 }
 
@@ -480,7 +571,7 @@ static void fields_of_an_object_and_of_a_texture_follow_one_another(void **state
         assert_true(a->low < a->high && a->absent >= a->low && a->absent <= a->high);
         if (a->input == NO_INPUT) continue;
         assert_int_equal(rows_of(a->input), 1);
-        assert_ptr_equal(material_field_of((InputId)a->input), a);
+        if (!material_field_replaces(a)) assert_ptr_equal(material_field_of((InputId)a->input), a);
         if (material_field_extends(a)) assert_true(gltf_supports(a->object));
     }
     assert_false(gltf_supports("KHR_materials_transmission"));
@@ -499,6 +590,8 @@ int main(void) {
         cmocka_unit_test(texture_of_an_unreadable_container_falls_back_to_its_source),
         cmocka_unit_test(material_variants_are_read),
         cmocka_unit_test(light_through_cloth_is_read),
+        cmocka_unit_test(glossiness_is_read_as_workflow_specular),
+        cmocka_unit_test(picture_of_glossiness_becomes_one_of_roughness),
         cmocka_unit_test(nap_of_the_extras_is_read),
         cmocka_unit_test(dust_of_the_extras_is_read),
         cmocka_unit_test(saved_material_reads_as_it_was),

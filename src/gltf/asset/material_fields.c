@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-const char pbr_object[] = "pbrMetallicRoughness";
+const char pbr_object[] = "pbrMetallicRoughness", gloss_object[] = "KHR_materials_pbrSpecularGlossiness";
 
 #define KHR(name) "KHR_materials_" name
 #define UNIT      0, 1
@@ -46,6 +46,9 @@ const MaterialField material_fields[] = {
     {NO_INPUT, KHR("volume"), "thicknessFactor", "thicknessTexture", CHANNEL_G, 0, POSITIVE},
     {NO_INPUT, KHR("volume"), "attenuationColor", NULL, CHANNELS_COLOR, 1, UNIT},
     {NO_INPUT, KHR("iridescence"), "iridescenceFactor", "iridescenceTexture", CHANNEL_R, 0, UNIT},
+    {INPUT_base_color, gloss_object, "diffuseFactor", "diffuseTexture", CHANNELS_COLOR_ALPHA, 1, UNIT},
+    {INPUT_specular_color, gloss_object, "specularFactor", "specularGlossinessTexture", CHANNELS_COLOR, 1, UNIT},
+    {INPUT_roughness, gloss_object, "glossinessFactor", "specularGlossinessTexture", CHANNEL_A_GLOSS, 1, UNIT},
     {.factor = NULL},
 };
 
@@ -62,6 +65,8 @@ int material_field_numbers(const MaterialField *field) {
 bool material_field_extends(const MaterialField *field) {
     return field->object && strcmp(field->object, pbr_object) != 0;
 }
+
+bool material_field_replaces(const MaterialField *field) { return field->object == gloss_object; }
 
 static bool same_text(const char *a, const char *b) { return a && b && strcmp(a, b) == 0; }
 

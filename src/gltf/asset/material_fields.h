@@ -14,6 +14,7 @@ typedef enum Channels {
     CHANNEL_G,
     CHANNEL_B,
     CHANNEL_A,
+    CHANNEL_A_GLOSS, /* alpha is glossiness, of which the roughness is 1 less */
     CHANNELS_COLOR,
     CHANNELS_COLOR_ALPHA, /* alpha is the input `opacity` */
     CHANNELS_NORMAL,      /* a vector; the factor scales x and y */
@@ -34,9 +35,13 @@ typedef struct MaterialField {
 
 /* Fields of one object follow one another, and so do those that share a texture. Ends with a row without a factor. */
 extern const MaterialField material_fields[];
-extern const char pbr_object[]; /* "pbrMetallicRoughness" */
+extern const char pbr_object[];   /* "pbrMetallicRoughness" */
+extern const char gloss_object[]; /* the extension with another workflow, whose fields replace those of others */
 
-/* Returns the row of an input that has one. */
+/* Returns true for a row of gloss_object. */
+bool material_field_replaces(const MaterialField *field);
+
+/* Returns the row of an input that has one, and does not replace another. */
 const MaterialField *material_field_of(InputId input);
 
 /* Returns how many numbers the factor has: 1, 3 or 4. */

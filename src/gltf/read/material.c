@@ -8,6 +8,7 @@
 
 #include "gltf/asset/field.h"
 #include "gltf/asset/material_fields.h"
+#include "gltf/read/glossiness.h"
 #include "scene/material/cloth_file.h"
 #include "scene/material/material_numbers.h"
 #include "scene/material/set.h"
@@ -62,7 +63,7 @@ static void row_read(const Field *object, const MaterialField *row, Input *input
         field_floats(&factor, numbers, (size_t)count, low, high);
     Input *input = &inputs[row->input];
     memcpy(input->value, numbers, (count == 1 ? 1 : 3) * sizeof *numbers);
-    texture_read(&texture, input, row->channels <= CHANNEL_A ? (int)row->channels : 0);
+    texture_read(&texture, input, row->channels <= CHANNEL_A_GLOSS ? (int)row->channels : 0);
     if (row->channels != CHANNELS_COLOR_ALPHA) return;
     inputs[INPUT_opacity] = *input;
     inputs[INPUT_opacity].channel = CHANNEL_A;
@@ -82,10 +83,10 @@ static void ior_repair(const Field *material, float *ior) {
 
 static void rows_read(const Field *material, Input *inputs) {
     for (const MaterialField *row = material_fields; row->factor; row++) {
-        if (row->input == NO_INPUT) continue;
         Field object = material_field_extends(row) ? field_extension(material, row->object)
                        : row->object               ? field_member(material, row->object)
                                                    : *material;
+        if (row->input == NO_INPUT || (material_field_replaces(row) && !object.json)) continue;
         row_read(&object, row, inputs);
     }
     ior_repair(material, inputs[INPUT_ior].value);
@@ -224,6 +225,7 @@ static Material material_read(const Field *field) {
     material.double_sided = field_bool(&sided, false);
     material.unlit = field_extension(field, "KHR_materials_unlit").json != NULL;
     rows_read(field, material.inputs);
+    if (field_extension(field, gloss_object).json) glossiness_begin(&material);
     extras_read(field, &material);
     return material;
 }

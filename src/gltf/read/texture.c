@@ -14,6 +14,7 @@
 #include "gltf/asset/extent.h"
 #include "gltf/asset/field.h"
 #include "gltf/asset/uri.h"
+#include "gltf/read/glossiness.h"
 
 /* Returns the image of a texture: its `source`. Extensions whose image format cannot be read here are ignored
  * with a warning. */
@@ -233,8 +234,9 @@ void textures_resolve(Asset *asset) {
     Jobs jobs = {.asset = asset};
     jobs.items = asset_array(asset, &asset->arena, asset->image_count, sizeof *jobs.items);
     jobs.order = asset_array(asset, &asset->arena, asset->image_count, sizeof *jobs.order);
-    scene->textures = asset_array(asset, &scene->arena, asset->texture_count, sizeof *scene->textures);
-    scene->images = asset_array(asset, &scene->arena, asset->image_count, sizeof *scene->images);
+    const size_t more = glossiness_count(scene);
+    scene->textures = asset_array(asset, &scene->arena, asset->texture_count + more, sizeof *scene->textures);
+    scene->images = asset_array(asset, &scene->arena, asset->image_count + more, sizeof *scene->images);
     int *image_of_source = asset_array(asset, &asset->arena, asset->image_count, sizeof(int));
     if (asset->result != WEFT_OK) return;
     for (size_t i = 0; i < asset->image_count; i++) image_of_source[i] = -1;
@@ -256,4 +258,5 @@ void textures_resolve(Asset *asset) {
     }
     for (int i = 0; i < scene->image_count; i++) free(jobs.items[i].owned);
     files_free(&asset->image_files);
+    glossiness_end(asset);
 }

@@ -106,6 +106,7 @@ static void row_save(Saving *saving, json_t *object, const Material *material, c
  * reader takes without it. */
 static bool is_wanted(const Material *material, const MaterialField *row) {
     const bool glows = strongest(&material->inputs[INPUT_emission]) > 0.0f;
+    if (material_field_replaces(row)) return false;
     switch (row->input) {
     case NO_INPUT: return false;
     case INPUT_specular:

@@ -29,7 +29,8 @@ static FirstUse *first_uses(const WeftDoctor *doctor) {
         json_t *material = doctor_item(doctor, "materials", m);
         for (const MaterialField *row = material_fields; row->factor; row++) {
             char path[FIELD_PATH];
-            if (!row->texture || row->channels == CHANNEL_A) continue; /* alpha has no encoding */
+            const bool alpha = row->channels == CHANNEL_A || row->channels == CHANNEL_A_GLOSS;
+            if (!row->texture || alpha) continue; /* alpha has no encoding */
             material_field_path(row, row->texture, path);
             int image = file_image(doctor, doctor_part(material, path));
             if (image < 0) continue;
