@@ -1,5 +1,4 @@
 /* map_folder.c - binding images on the inputs of materials: one by name, or those of a folder by their names */
-#include <ctype.h>
 #include <dirent.h>
 #include <errno.h>
 #include <stdio.h>
@@ -9,6 +8,8 @@
 
 #include "base/fail.h"
 #include "scene/material/assign.h"
+#include "scene/material/green.h"
+#include "scene/material/map_names.h"
 #include "scene/material/pictures.h"
 #include "scene/material/set.h"
 #include "scene/record/tangents.h"
@@ -20,13 +21,16 @@
 typedef struct MapPicture {
     char *path; /* owned */
     WeftImage image;
-    int texture; /* number, counted from 1, once it is taken over */
+    unsigned inverted; /* as in Texture */
+    int texture;       /* number, counted from 1, once it is taken over */
 } MapPicture;
 
-/* Returns the first texture of the image at that path, or -1. */
-static int find_path(const WeftScene *scene, const char *path) {
-    for (int k = 0; k < scene->texture_count; k++)
-        if (path && scene->textures[k].path && strcmp(scene->textures[k].path, path) == 0) return k;
+/* Returns the first texture of the image at a picture's path, inverted as it is, or -1. */
+static int find_path(const WeftScene *scene, const MapPicture *picture) {
+    for (int k = 0; k < scene->texture_count; k++) {
+        const Texture *t = &scene->textures[k];
+        if (t->path && t->inverted == picture->inverted && strcmp(t->path, picture->path) == 0) return k;
+    }
     return -1;
 }
 
@@ -41,15 +45,18 @@ static int find_plain(const WeftScene *scene, int image) {
 
 /* Gives a picture to the scene: in the place of what was read of that path before, if anything was. */
 static bool take_over(WeftScene *scene, MapPicture *picture) {
-    int before = find_path(scene, picture->path);
+    int before = find_path(scene, picture);
     if (before < 0) {
         const char *path = arena_text(&scene->arena, picture->path);
-        picture->texture = path ? picture_add(scene, &picture->image, (Texture){.path = path}) : 0;
+        picture->texture =
+            path ? picture_add(scene, &picture->image, (Texture){.path = path, .inverted = picture->inverted}) : 0;
         return picture->texture != 0;
     }
     int image = scene->textures[before].image, plain = find_plain(scene, image);
-    Texture texture = {
-        .image = image, .path = scene->textures[before].path, .version = scene->textures[before].version};
+    Texture texture = {.image = image,
+                       .path = scene->textures[before].path,
+                       .version = scene->textures[before].version,
+                       .inverted = picture->inverted};
     picture->texture = plain < 0 ? texture_number_of(scene, texture) : plain + 1;
     if (picture->texture) picture_replace(scene, image, &picture->image, texture.path);
     return picture->texture != 0;
@@ -117,87 +124,28 @@ WeftResult weft_scene_set_texture(WeftScene *scene, const char *text, const char
     return result == WEFT_OK ? tangents_complete(scene, error) : result;
 }
 
-/* The use of a file by the end of its name, without case, suffix, and '_', '-' and blanks between words. Each input is
- * also found by its own name. */
-typedef struct MapUse {
-    const char *name;
-    InputId input;
-    int channel;
-} MapUse;
-
-static const MapUse others[] = {
-    {"albedo", INPUT_base_color, 0},
-    {"diffuse", INPUT_base_color, 0},
-    {"color", INPUT_base_color, 0},
-    {"metalness", INPUT_metallic, 0},
-    {"specular", INPUT_specular_color, 0},
-    {"anisotropic", INPUT_anisotropy, 0},
-    {"sheen", INPUT_sheen_color, 0},
-    {"ao", INPUT_occlusion, 0},
-    {"ambientocclusion", INPUT_occlusion, 0},
-    {"emissive", INPUT_emission, 0},
-    {"alpha", INPUT_opacity, 0},
-    {"orm", INPUT_occlusion, 0},
-    {"orm", INPUT_roughness, 1},
-    {"orm", INPUT_metallic, 2},
-    {"metallicroughness", INPUT_roughness, 1},
-    {"metallicroughness", INPUT_metallic, 2},
-    {"nap", INPUT_nap_direction, 0},
-    {"nap", INPUT_nap, 2},
-};
-enum {
-    OTHERS = sizeof others / sizeof *others,
-    USES = OTHERS + INPUT_COUNT,
-    FILES_MOST = INPUT_COUNT,
-    NAMES_CAPACITY = 160
-};
-
-static MapUse use_at(int k) {
-    return k < OTHERS ? others[k] : (MapUse){input_infos[k - OTHERS].name, (InputId)(k - OTHERS), 0};
-}
-
-static bool is_separator(char c) { return c && strchr("_-. ", c); }
-
-/* Returns true if the name ends so, between its start and its suffix at dot, after a separator or nothing. */
-static bool ends_in(const char *file, const char *dot, const char *name) {
-    const char *at = dot, *letter = name + strlen(name);
-    while (letter > name && at > file) {
-        if (is_separator(letter[-1])) {
-            letter--;
-            continue;
-        }
-        at--;
-        if (is_separator(*at)) continue;
-        if (tolower((unsigned char)*at) != *--letter) return false;
-    }
-    return letter == name && (at == file || is_separator(at[-1]));
-}
-
-static bool is_picture(const char *file) {
-    static const char *const suffixes[] = {".tga", ".png", ".jpg", ".jpeg", ".exr", ".hdr"};
+static bool has_suffix(const char *file, const char *const *suffixes) {
     const char *dot = strrchr(file, '.');
-    bool picture = false;
-    for (size_t k = 0; dot && k < sizeof suffixes / sizeof *suffixes; k++) picture |= strcasecmp(dot, suffixes[k]) == 0;
-    return picture;
+    while (dot && *suffixes && strcasecmp(dot, *suffixes) != 0) suffixes++;
+    return dot && *suffixes;
 }
 
-/* Returns the use of the longest name that a file's name, cut at its suffix, is or ends in; -1 if there is none. */
-static int use_of(const char *file) {
-    int found = -1;
-    for (int k = 0; k < USES && is_picture(file); k++)
-        if (ends_in(file, strrchr(file, '.'), use_at(k).name) &&
-            (found < 0 || strlen(use_at(k).name) > strlen(use_at(found).name)))
-            found = k;
-    return found;
-}
+/* A picture of a folder. */
+typedef struct MapFile {
+    const char *file;
+    MapName name;
+    bool unreadable; /* of a format that weft does not read */
+    int picture;     /* where it is among those that are read, counted from 1 */
+} MapFile;
 
-/* Pictures of a folder that have a meaning, each input's by the first in the order of names. */
+enum { PICTURES_MOST = INPUT_COUNT, NAMES_CAPACITY = 160 };
+
+/* The maps of a folder. */
 typedef struct MapSet {
-    MapPicture pictures[FILES_MOST];
+    MapPicture pictures[PICTURES_MOST];
     int count;
     int of_input[INPUT_COUNT]; /* number of the picture, counted from 1 */
     int channel[INPUT_COUNT];
-    char unknown[NAMES_CAPACITY]; /* pictures without a meaning, comma between */
 } MapSet;
 
 static void free_map_set(MapSet *map_set) {
@@ -207,9 +155,47 @@ static void free_map_set(MapSet *map_set) {
     }
 }
 
-/* Notes a picture whose name says nothing. */
-static void note_unknown(MapSet *map_set, const char *file) {
-    char *names = map_set->unknown;
+/* Lists the pictures of a folder in the order of their names. Returns their number. */
+static int list_pictures(struct dirent **entries, int count, MapFile *files) {
+    static const char *const read[] = {".tga", ".png", ".jpg", ".jpeg", ".exr", ".hdr", NULL};
+    static const char *const unread[] = {".tif", ".tiff", ".bmp", ".webp", ".psd", ".dds", ".jp2", ".ktx2", NULL};
+    int found = 0;
+    for (int k = 0; k < count; k++) {
+        const char *file = entries[k]->d_name;
+        const bool unreadable = has_suffix(file, unread);
+        if (!unreadable && !has_suffix(file, read)) continue;
+        files[found++] = (MapFile){.file = file, .name = map_name(file), .unreadable = unreadable};
+    }
+    return found;
+}
+
+/* Returns the use of an input in a picture, or NULL. */
+static const MapUse *use_of(const MapFile *file, InputId input) {
+    for (int k = 0; k < file->name.count; k++)
+        if (file->name.uses[k].input == input) return &file->name.uses[k];
+    return NULL;
+}
+
+/* Returns how much there is to change in a picture before it is the map of an input: the less the better. */
+static int penalty(const MapFile *file, const MapUse *use) {
+    return 4 * (file->name.green == GREEN_DOWN) + 2 * use->inverted + (file->name.green == GREEN_UNSAID);
+}
+
+/* Returns the picture for an input, the first of those that are as good; NULL if there is none. */
+static MapFile *best_file(MapFile *files, int count, InputId input) {
+    MapFile *best = NULL;
+    int least = 0;
+    for (int k = 0; k < count; k++) {
+        const MapUse *use = use_of(&files[k], input);
+        if (!use || files[k].unreadable || (best && penalty(&files[k], use) >= least)) continue;
+        best = &files[k];
+        least = penalty(best, use);
+    }
+    return best;
+}
+
+/* Collects names, comma between; "..." stands for those that the text has no room for. */
+static void note(char *names, const char *file) {
     size_t used = strlen(names);
     const char *comma = used ? ", " : "";
     if (used + strlen(comma) + strlen(file) + sizeof ", ..." <= NAMES_CAPACITY)
@@ -218,21 +204,28 @@ static void note_unknown(MapSet *map_set, const char *file) {
         snprintf(names + used, NAMES_CAPACITY - used, "%s...", comma);
 }
 
-/* Takes a file in, unless all that it is for is taken. */
-static WeftResult take_file(MapSet *map_set, const char *folder, const char *file, const WeftLog *log,
-                            WeftError *error) {
-    const int use = use_of(file);
-    bool needed = false;
-    for (int k = use; use >= 0 && k < USES && strcmp(use_at(k).name, use_at(use).name) == 0; k++)
-        if (!map_set->of_input[use_at(k).input]) {
-            map_set->of_input[use_at(k).input] = map_set->count + 1;
-            map_set->channel[use_at(k).input] = use_at(k).channel;
-            needed = true;
-        }
-    if (use < 0 && is_picture(file)) note_unknown(map_set, file);
-    if (use >= 0 && !needed)
-        warn(log, WEFT_MESSAGE_GLTF_WARN_IGNORED, folder, "%s: there is a %s map before it", file, use_at(use).name);
-    if (!needed) return WEFT_OK;
+/* Says of each picture that is not read why it is not. */
+static void say_unused(MapFile *files, int count, const char *folder, const WeftLog *log) {
+    char unknown[NAMES_CAPACITY] = "", unread[NAMES_CAPACITY] = "";
+    for (int k = 0; k < count; k++) {
+        const MapFile *file = &files[k];
+        if (file->picture) continue;
+        const MapFile *taken = file->name.count ? best_file(files, count, file->name.uses[0].input) : NULL;
+        if (taken)
+            warn(log, WEFT_MESSAGE_GLTF_WARN_IGNORED, folder, "%s: the map of %s is %s", file->file,
+                 input_infos[file->name.uses[0].input].name, taken->file);
+        else
+            note(file->name.count ? unread : unknown, file->file);
+    }
+    if (unread[0])
+        warn(log, WEFT_MESSAGE_GLTF_WARN_IGNORED, folder, "maps of a format that is not read; convert to .png: %s",
+             unread);
+    if (unknown[0]) warn(log, WEFT_MESSAGE_GLTF_WARN_IGNORED, folder, "no input has a map of this name: %s", unknown);
+}
+
+/* Reads the picture of a file into the next place, with its path. */
+static WeftResult read_picture(const char *folder, const char *file, MapSet *map_set, const WeftLog *log,
+                               WeftError *error) {
     size_t length = strlen(folder), size = length + strlen(file) + 2;
     bool slash = length && folder[length - 1] == '/';
     MapPicture *picture = &map_set->pictures[map_set->count++]; /* of at most one an input */
@@ -242,20 +235,62 @@ static WeftResult take_file(MapSet *map_set, const char *folder, const char *fil
     return weft_image_read(picture->path, &picture->image, log, error);
 }
 
+/* Turns what a picture holds into what inputs take: gloss, and green that points down. */
+static void turn_picture(const MapFile *file, MapPicture *picture, const WeftLog *log) {
+    const MapName *name = &file->name;
+    for (int k = 0; k < name->count; k++) {
+        const int channel = name->uses[k].channel;
+        if (name->uses[k].inverted) picture->inverted |= name->count == 1 && channel == 0 ? 7u : 1u << channel;
+    }
+    const bool normals = name->count == 1 && input_infos[name->uses[0].input].kind == WEFT_INPUT_NORMAL;
+    const bool seen = normals && name->green == GREEN_UNSAID && normals_green_down(&picture->image);
+    if (name->green == GREEN_DOWN || seen) picture->inverted |= 2u;
+    if (name->green == GREEN_DOWN)
+        warn(log, WEFT_MESSAGE_GLTF_WARN_REPAIRED, picture->path, "its green points down, as in DirectX: turned up");
+    if (seen)
+        warn(log, WEFT_MESSAGE_GLTF_WARN_REPAIRED, picture->path,
+             "its normals are those of a surface only if green points down, as in DirectX: turned up; with \"gl\" at "
+             "the end of its name it stays");
+    picture_invert(&picture->image, picture->inverted);
+}
+
+/* Takes the map of an input from a file, which is read at its first one. A picture without alpha has no map there. */
+static WeftResult take_map(MapFile *file, InputId input, const char *folder, MapSet *map_set, const WeftLog *log,
+                           WeftError *error) {
+    const MapUse *use = use_of(file, input);
+    if (!file->picture) {
+        WeftResult result = read_picture(folder, file->file, map_set, log, error);
+        if (result != WEFT_OK) return result;
+        file->picture = map_set->count;
+        turn_picture(file, &map_set->pictures[map_set->count - 1], log);
+    }
+    if (use->channel == 3 && map_set->pictures[file->picture - 1].image.channels % 2) {
+        warn(log, WEFT_MESSAGE_GLTF_WARN_IGNORED, folder, "%s: it has no alpha, where by its name the map of %s is",
+             file->file, input_infos[input].name);
+        return WEFT_OK;
+    }
+    map_set->of_input[input] = file->picture;
+    map_set->channel[input] = use->channel;
+    return WEFT_OK;
+}
+
 static WeftResult read_folder(const char *folder, MapSet *map_set, const WeftLog *log, WeftError *error) {
     struct dirent **entries;
     int count = scandir(folder, &entries, NULL, alphasort);
-    WeftResult result = WEFT_OK;
     if (count < 0) return fail(error, WEFT_MESSAGE_FILE_OPEN, folder, "%s", strerror(errno));
-    for (int k = 0; k < count; k++) {
-        if (result == WEFT_OK) result = take_file(map_set, folder, entries[k]->d_name, log, error);
-        free(entries[k]);
+    MapFile *files = calloc((size_t)count + 1, sizeof *files);
+    WeftResult result = files ? WEFT_OK : fail(error, WEFT_MESSAGE_MEMORY, folder, NULL);
+    int pictures = files ? list_pictures(entries, count, files) : 0;
+    for (int k = 0; k < INPUT_COUNT && result == WEFT_OK; k++) {
+        MapFile *file = best_file(files, pictures, (InputId)k);
+        if (file) result = take_map(file, (InputId)k, folder, map_set, log, error);
     }
-    free(entries);
-    if (result == WEFT_OK && map_set->unknown[0])
-        warn(log, WEFT_MESSAGE_GLTF_WARN_IGNORED, folder, "no input has a map of this name: %s", map_set->unknown);
+    if (result == WEFT_OK) say_unused(files, pictures, folder, log);
     if (result == WEFT_OK && !map_set->count)
         result = fail(error, WEFT_MESSAGE_FILE_OPEN, folder, "no picture in it has the name of a map");
+    for (int k = 0; k < count; k++) free(entries[k]);
+    free(entries);
+    free(files);
     return result;
 }
 

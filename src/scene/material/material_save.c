@@ -115,14 +115,16 @@ static const char *write_picture(Writer *w, const WeftImage *image, InputId id) 
     return slash ? path + (slash + 1 - w->path) : path;
 }
 
-/* Returns the file of a texture relative to the material file. An image without a file is written once. */
+/* Returns the file of a texture relative to the material file. An image without a file, or that differs from its file, is
+ * written once. */
 static const char *file_of(Writer *w, const Material *material, InputId id) {
     const Texture *texture = &w->scene->textures[material->inputs[id].texture - 1];
     for (int k = 0; k < (int)id; k++) {
         int other = material->inputs[k].texture;
         if (other && w->scene->textures[other - 1].image == texture->image) return w->files[k];
     }
-    char *folder = folder_of(w->path), *full = texture->path ? realpath(texture->path, NULL) : NULL;
+    const bool own = texture->path && !texture->inverted;
+    char *folder = folder_of(w->path), *full = own ? realpath(texture->path, NULL) : NULL;
     const char *file =
         folder && full ? relative(w, folder, full) : write_picture(w, &w->scene->images[texture->image], id);
     free(folder);

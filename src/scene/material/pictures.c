@@ -39,6 +39,20 @@ void picture_replace(WeftScene *scene, int image, WeftImage *fresh, const char *
         if (scene->textures[k].image != image) continue;
         scene->textures[k].version++;
         scene->textures[k].path = path;
+        if (!path) scene->textures[k].inverted = 0;
+    }
+}
+
+void picture_invert(WeftImage *image, unsigned channels) {
+    const int count = image->channels, alpha = count % 2 ? -1 : count - 1;
+    const size_t values = (size_t)image->width * (size_t)image->height * (size_t)count;
+    for (int c = 0; c < count; c++) {
+        if (!(channels >> (c == alpha ? 3 : c) & 1)) continue;
+        for (size_t k = (size_t)c; k < values; k += (size_t)count) switch (image->type) {
+            case WEFT_PIXEL_U8: ((uint8_t *)image->pixels)[k] ^= 0xff; break;
+            case WEFT_PIXEL_U16: ((uint16_t *)image->pixels)[k] ^= 0xffff; break;
+            case WEFT_PIXEL_F32: ((float *)image->pixels)[k] = 1.0f - ((float *)image->pixels)[k]; break;
+            }
     }
 }
 
@@ -80,8 +94,10 @@ WeftResult weft_scene_read_texture(WeftScene *scene, int index, const WeftLog *l
     const char *path = weft_scene_texture_path(scene, index);
     if (!path) return fail(error, WEFT_MESSAGE_DESC, "texture", "number %d has no file of its own", index);
     WeftResult result = weft_image_read(path, &image, log, error);
-    if (result == WEFT_OK) picture_replace(scene, scene->textures[index - 1].image, &image, path);
-    return result;
+    if (result != WEFT_OK) return result;
+    picture_invert(&image, scene->textures[index - 1].inverted);
+    picture_replace(scene, scene->textures[index - 1].image, &image, path);
+    return WEFT_OK;
 }
 
 int weft_scene_add_texture(WeftScene *scene, WeftImage *image, WeftError *error) {

@@ -12,8 +12,9 @@ typedef struct Texture {
     TextureWrap wrap_u, wrap_v;
     bool nearest; /* no interpolation between texels */
     /* Properties of the image, equal for all textures of it: */
-    const char *path; /* path of its file; NULL if it is not a file of its own */
-    unsigned version; /* counts changes of the pixels */
+    const char *path;  /* path of its file; NULL if it is not a file of its own */
+    unsigned version;  /* counts changes of the pixels */
+    unsigned inverted; /* bit c: channel c is 1 - that of the file, as roughness is of a picture of gloss */
 } Texture;
 
 typedef struct Texel {
