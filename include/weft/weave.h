@@ -50,8 +50,8 @@ typedef struct WeftDraftInfo {
 } WeftDraftInfo;
 
 /* Makes a draft of a file or of notation. If `what` is the path of a file, it is read by content: a WIF (Weaving
- * Information File 1.1 and its common variants), or an image of two colours, one pixel a crossing, where the darker
- * colour has the warp on top. Anything else is notation (docs/weave.md): "plain", "twill 2/2 z", "satin 5/2",
+ * Information File 1.1 and its common variants), a .dtx of Fiberworks, or an image, one pixel a crossing, where the
+ * darker colour has the warp on top; more than two colours are parted by brightness, with a warning. Anything else is notation (docs/weave.md): "plain", "twill 2/2 z", "satin 5/2",
  * "herringbone 2/2 8; warp 24k 4r". log (may be NULL) receives a warning for each value that was completed. Fails with
  * WEFT_MESSAGE_DRAFT, _DRAFT_NOTATION, _MEMORY, and as weft_image_read does; *out is then NULL. */
 WEFT_API WeftResult weft_draft_read(const char *what, WeftDraft **out, const WeftLog *log, WeftError *error);

@@ -1,8 +1,13 @@
-/* draft_picture.c - a picture of two colours as a draft, one pixel a crossing, as for jacquard looms */
+/* draft_picture.c - a picture of two colours as a draft, one pixel a crossing, as for jacquard looms
+ *
+ * A picture of more colours, such as one that JPEG has made noisy, is parted in two by brightness: Nobuyuki Otsu, "A
+ * Threshold Selection Method from Gray-Level Histograms", IEEE Transactions on Systems, Man, and Cybernetics 9(1), 1979:
+ * of all thresholds, the one whose two classes are farthest apart for their size, w0 w1 (m0 - m1)^2. */
+#include <math.h>
+#include <stdbool.h>
 #include <stdint.h>
 #include <string.h>
 
-#include "base/equal.h"
 #include "base/fail.h"
 #include "weave/weave_draft.h"
 #include "weft/image.h"
@@ -26,45 +31,82 @@ static float brightness(const WeftImage *image, size_t pixel) {
     return sum;
 }
 
-/* Returns the first pixel that differs from pixel 0, or 0 if none does; *third is the first that differs from both, 0
- * without one. */
-static size_t second_color(const WeftImage *image, size_t pixels, size_t *third) {
+enum { LEVELS = 256 };
+
+/* What there is to know of a picture's pixels. */
+typedef struct Survey {
+    size_t pixels;
+    int colors;      /* 1, 2, or 3 for more */
+    float low, high; /* the least and the greatest brightness; both NaN where a pixel is no number */
+} Survey;
+
+static Survey survey_of(const WeftImage *image) {
     const char *bytes = image->pixels;
     const size_t size = pixel_size(image);
+    Survey survey = {.pixels = (size_t)image->width * (size_t)image->height, .colors = 1};
+    survey.low = survey.high = brightness(image, 0);
     size_t second = 0;
-    *third = 0;
-    for (size_t k = 1; k < pixels && !*third; k++) {
-        if (memcmp(bytes + k * size, bytes, size) == 0) continue;
-        if (!second)
-            second = k;
-        else if (memcmp(bytes + k * size, bytes + second * size, size) != 0)
-            *third = k;
+    for (size_t k = 0; k < survey.pixels; k++) {
+        const float value = brightness(image, k);
+        if (!(value >= survey.low)) survey.low = isfinite(value) ? value : NAN;
+        if (!(value <= survey.high)) survey.high = isfinite(value) ? value : NAN;
+        if (survey.colors == 3 || memcmp(bytes + k * size, bytes, size) == 0) continue;
+        if (!second) second = k;
+        survey.colors = memcmp(bytes + k * size, bytes + second * size, size) == 0 ? 2 : 3;
     }
-    return second;
+    return survey;
+}
+
+/* Returns the brightness below which pixels are dark: between the classes of Otsu, in the middle of the levels from the
+ * last dark to the first bright one. */
+static float threshold(const WeftImage *image, const Survey *survey) {
+    const float low = survey->low, range = survey->high - low;
+    double count[LEVELS] = {0}, sum = 0.0, dark = 0.0, dark_sum = 0.0, best = -1.0;
+    int first = 0, last = 0;
+    for (size_t k = 0; k < survey->pixels; k++) {
+        const int level = (int)((brightness(image, k) - low) / range * (float)(LEVELS - 1) + 0.5f);
+        count[level] += 1.0;
+        sum += (double)level;
+    }
+    for (int level = 0; level < LEVELS - 1; level++) {
+        dark += count[level];
+        dark_sum += (double)level * count[level];
+        const double bright = (double)survey->pixels - dark;
+        if (!(bright > 0.0)) break;
+        const double apart = dark_sum / dark - (sum - dark_sum) / bright, between = dark * bright * apart * apart;
+        if (between > best * (1.0 + 1e-12)) first = level;
+        if (between >= best * (1.0 - 1e-12)) last = level;
+        if (between > best) best = between;
+    }
+    return low + (0.5f * (float)(first + last) + 0.5f) / (float)(LEVELS - 1) * range;
 }
 
 /* Makes the draft; the warp is on top at the darker colour. */
-static WeftResult from_image(const char *path, const WeftImage *image, WeftDraft **out, WeftError *error) {
-    const size_t pixels = (size_t)image->width * (size_t)image->height;
-    size_t third, second = second_color(image, pixels, &third);
-    if (third)
-        return fail(error, WEFT_MESSAGE_DRAFT, path,
-                    "it has more than two colours, the third at pixel %zu, %zu; a draft has one for warp on "
-                    "top and one for weft",
-                    third % (size_t)image->width, third / (size_t)image->width);
+static WeftResult from_image(const char *path, const WeftImage *image, WeftDraft **out, const WeftLog *log,
+                             WeftError *error) {
+    const Survey survey = survey_of(image);
+    const bool is_even = survey.colors == 1;
+    if (!(survey.high >= survey.low) || !isfinite(survey.high - survey.low))
+        return fail(error, WEFT_MESSAGE_DRAFT, path, "it has pixels that are no number");
+    if (!is_even && !(survey.high > survey.low))
+        return fail(error, WEFT_MESSAGE_DRAFT, path, "its %scolours are equally bright",
+                    survey.colors == 2 ? "two " : "");
     WeftResult result = draft_create(path, image->width, image->height, WEFT_MESSAGE_DRAFT, out, error);
     if (result != WEFT_OK) return result;
-    const float first = brightness(image, 0), other = brightness(image, second);
-    if (second && is_equal(first, other)) {
-        weft_draft_free(*out);
-        *out = NULL;
-        return fail(error, WEFT_MESSAGE_DRAFT, path, "its two colours are equally bright");
-    }
-    const float limit = second ? 0.5f * (first + other) : 0.0f;
-    for (size_t k = 0; k < pixels; k++) {
+    const float limit = is_even ? survey.high : threshold(image, &survey);
+    size_t dark = 0;
+    for (size_t k = 0; k < survey.pixels; k++) {
         const size_t row = (size_t)image->height - 1 - k / (size_t)image->width, column = k % (size_t)image->width;
-        (*out)->up[row * (size_t)image->width + column] = brightness(image, k) <= limit;
+        const bool up = brightness(image, k) <= limit;
+        (*out)->up[row * (size_t)image->width + column] = up;
+        dark += up;
     }
+    if (survey.colors > 2)
+        warn(log, WEFT_MESSAGE_DRAFT_COMPLETED, path,
+             "it has more than two colours, not one for warp on top and one for weft: the %.3g %% of pixels that are "
+             "darker than %.3g %% of its brightness have the warp on top",
+             100.0 * (double)dark / (double)survey.pixels,
+             100.0 * (double)((limit - survey.low) / (survey.high - survey.low)));
     return WEFT_OK;
 }
 
@@ -84,7 +126,7 @@ WeftResult draft_from_picture(const char *path, bool text, WeftDraft **out, cons
                     format_suffix(&why));
     if (result != WEFT_OK && error) *error = why;
     if (result != WEFT_OK) return result;
-    result = from_image(path, &image, out, error);
+    result = from_image(path, &image, out, log, error);
     weft_image_free(&image);
     return result;
 }

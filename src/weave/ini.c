@@ -1,5 +1,6 @@
 #include "weave/ini.h"
 
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -19,8 +20,9 @@ static char *trim(char *text, char *end) {
 static int parse_line(Ini *ini, char *line, char *end, const char **section, int number) {
     char *text = trim(line, end);
     if (*text == '\0' || *text == ';') return 1;
-    if (*text == '[') {
-        char *close = strchr(text, ']');
+    char *close = *text == '[' ? strchr(text, ']') : NULL;
+    const bool stray = close && memchr(text, '=', (size_t)(close - text));
+    if (*text == '[' && !stray) {
         *section = trim(text + 1, close ? close : text + strlen(text));
         return 1;
     }
@@ -29,7 +31,7 @@ static int parse_line(Ini *ini, char *line, char *end, const char **section, int
         if (!grown) return 0;
         ini->lines = grown;
     }
-    char *equals = strchr(text, '='), *stop = text + strlen(text);
+    char *equals = stray ? NULL : strchr(text, '='), *stop = text + strlen(text);
     ini->lines[ini->count++] = (IniLine){.section = *section,
                                          .value = equals ? trim(equals + 1, stop) : NULL,
                                          .key = trim(text, equals ? equals : stop),

@@ -8,7 +8,8 @@
 
 #include "weft/result.h"
 
-/* One "key=value". value is NULL for a line without "=". */
+/* One line. value is NULL for a line without "=", and for one in brackets that has "=" in them and so is no section:
+ * key is then the whole line. section is "" before the first section. */
 typedef struct IniLine {
     const char *section, *key, *value;
     int number; /* of the line in the file, from 1 */

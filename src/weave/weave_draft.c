@@ -3,15 +3,17 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
 
 #include "base/fail.h"
 #include "base/file.h"
 #include "base/mark.h"
 #include "base/memory.h"
+#include "weave/dtx.h"
 #include "weave/loom.h"
 
-enum { FILE_MAX = 16 << 20 }; /* bytes of a WIF */
+enum { FILE_MAX = 16 << 20, START_MAX = 1 << 16 }; /* bytes of a WIF, and where [WIF] must stand */
 
 WeftResult draft_create(const char *name, long warps, long picks, WeftMessage refusal, WeftDraft **out,
                         WeftError *error) {
@@ -56,29 +58,53 @@ bool draft_same(const WeftDraft *a, const WeftDraft *b) {
     return same;
 }
 
-void draft_title(WeftDraft *draft, const char *text) {
-    size_t size = strlen(text), most = sizeof draft->title - 1;
-    if (size > most)
-        for (size = most; size && ((unsigned char)text[size] & 0xc0) == 0x80;) size--;
-    memcpy(draft->title, text, size);
-    draft->title[size] = '\0';
-    for (char *c = draft->title; *c; c++)
-        if ((unsigned char)*c < ' ' || *c == 0x7f) *c = ' ';
+/* Returns the size of the UTF-8 character at text, 0 if it is none. Markus Kuhn, "UTF-8 and Unicode FAQ", 1999-2009. */
+static size_t utf8_size(const unsigned char *text) {
+    const size_t size = text[0] < 0x80                      ? 1
+                        : text[0] >= 0xc2 && text[0] < 0xe0 ? 2
+                        : text[0] >= 0xe0 && text[0] < 0xf0 ? 3
+                        : text[0] >= 0xf0 && text[0] < 0xf5 ? 4
+                                                            : 0;
+    for (size_t k = 1; k < size; k++)
+        if ((text[k] & 0xc0) != 0x80) return 0;
+    const bool is_long = (text[0] == 0xe0 && text[1] < 0xa0) || (text[0] == 0xf0 && text[1] < 0x90);
+    const bool is_no_character = (text[0] == 0xed && text[1] > 0x9f) || (text[0] == 0xf4 && text[1] > 0x8f);
+    return is_long || is_no_character ? 0 : size;
 }
 
-/* Returns true if the first line that is neither blank nor a comment begins with [WIF]. */
+/* Bytes that are no UTF-8 are Latin-1, in which old files are. */
+void draft_title(WeftDraft *draft, const char *text) {
+    const unsigned char *from = (const unsigned char *)text;
+    bool is_utf8 = true;
+    for (const unsigned char *at = from; is_utf8 && *at; at += utf8_size(at)) is_utf8 = utf8_size(at) != 0;
+    size_t size = 0;
+    while (*from) {
+        const size_t read = is_utf8 ? utf8_size(from) : 1, written = read == 1 && *from >= 0x80 ? 2 : read;
+        if (size + written >= sizeof draft->title) break;
+        const bool is_control = *from < ' ' || *from == 0x7f || (!is_utf8 && *from >= 0x80 && *from < 0xa0);
+        if (is_control)
+            draft->title[size++] = ' ';
+        else if (written > read) {
+            draft->title[size++] = (char)(0xc0 | *from >> 6);
+            draft->title[size++] = (char)(0x80 | (*from & 0x3f));
+        } else
+            for (size_t k = 0; k < read; k++) draft->title[size++] = (char)from[k];
+        from += read;
+    }
+    draft->title[size] = '\0';
+}
+
+/* Returns true if a line of the text is [WIF]. Lines before it are for people. */
 static bool is_wif(const unsigned char *data, size_t size) {
     static const char mark[] = "[wif]";
     size_t at = mark_size(data, size);
     while (at < size) {
-        while (at < size && strchr(" \t\r\n", data[at]) && data[at]) at++;
-        if (at == size || data[at] != ';') break;
+        while (at < size && data[at] && strchr(" \t\r\n", data[at])) at++;
+        if (size - at >= sizeof mark - 1 && strncasecmp((const char *)data + at, mark, sizeof mark - 1) == 0)
+            return true;
         while (at < size && data[at] != '\n' && data[at] != '\r') at++;
     }
-    for (size_t k = 0; k < sizeof mark - 1; k++)
-        if (at + k >= size || (data[at + k] | (data[at + k] >= 'A' && data[at + k] <= 'Z' ? 32 : 0)) != mark[k])
-            return false;
-    return true;
+    return false;
 }
 
 static WeftResult read_wif(const char *path, WeftDraft **out, const WeftLog *log, WeftError *error) {
@@ -90,9 +116,7 @@ static WeftResult read_wif(const char *path, WeftDraft **out, const WeftLog *log
     return result;
 }
 
-/* Returns true if the words can only be a path: they end in a suffix that is no fraction, or are one word with a
- * slash. */
-static bool names_file(const char *what) {
+bool draft_names_file(const char *what) {
     const char *dot = strrchr(what, '.');
     if (dot && strspn(dot, ".0123456789") == strlen(dot)) return false;
     return dot ? !strpbrk(dot, " ;/") : strchr(what, '/') && !strchr(what, ' ');
@@ -105,16 +129,32 @@ static bool is_text(FileBytes bytes) {
     return at == bytes.size;
 }
 
+/* Returns the program that writes such files, which weft does not read; NULL for any other file. */
+static const char *other_program(const char *path, FileBytes start) {
+    static const struct {
+        const char *suffix, *program;
+    } programs[] = {{".wpo", "WeavePoint"}, {".twa", "TempoWeave"}, {".ada", "AdaCAD"}, {".dbw", "DB-WEAVE"}};
+    const char *dot = strrchr(path, '.');
+    for (size_t k = 0; dot && k < sizeof programs / sizeof *programs; k++)
+        if (strcasecmp(dot, programs[k].suffix) == 0) return programs[k].program;
+    const bool is_wpo = start.size > 2 && start.data[0] == 123 && start.data[1] < 32 && start.data[2] >= 100 &&
+                        start.data[2] <= 102; /* a mark, the version, the kind of draft */
+    return is_wpo ? programs[0].program : NULL;
+}
+
 WeftResult weft_draft_read(const char *what, WeftDraft **out, const WeftLog *log, WeftError *error) {
     *out = NULL;
     struct stat status;
-    if (!names_file(what) && stat(what, &status) != 0) return weft_draft_parse(what, out, error);
+    if (!draft_names_file(what) && stat(what, &status) != 0) return weft_draft_parse(what, out, error);
     FileBytes start;
-    WeftResult result = file_read_start(what, 4096, &start, error);
+    WeftResult result = file_read_start(what, START_MAX, &start, error);
     if (result != WEFT_OK) return result;
-    const bool wif = is_wif(start.data, start.size), text = is_text(start);
+    const bool lines = is_wif(start.data, start.size) || dtx_is(start.data, start.size), text = is_text(start);
+    const char *program = other_program(what, start);
     free(start.data);
-    return wif ? read_wif(what, out, log, error) : draft_from_picture(what, text, out, log, error);
+    if (lines) return read_wif(what, out, log, error);
+    if (program) return fail(error, WEFT_MESSAGE_DRAFT, what, "it is a file of %s: save it there as WIF", program);
+    return draft_from_picture(what, text, out, log, error);
 }
 
 /* Returns index modulo count, 0 .. count - 1. */

@@ -28,6 +28,10 @@ void draft_title(WeftDraft *draft, const char *text);
 /* Returns true if both have the same threads and crossings. */
 bool draft_same(const WeftDraft *a, const WeftDraft *b);
 
+/* Returns true if the words can only be a path: they end in a suffix that is no fraction, or are one word with a
+ * slash. */
+bool draft_names_file(const char *what);
+
 /* Reads a draft from a picture. text: the file begins with text, which changes the error of one that is no picture. */
 WeftResult draft_from_picture(const char *path, bool text, WeftDraft **out, const WeftLog *log, WeftError *error);
 

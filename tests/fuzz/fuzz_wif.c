@@ -1,15 +1,20 @@
-/* fuzz_wif - the reader of weaving drafts, and the notation of drafts
+/* fuzz_wif - the reader of weaving drafts (WIF, and the text of Fiberworks), and the notation of drafts
  *
  * Any input must be read or refused with one line. What is read has its threads in their ranges, and written
- * as a WIF and read again it is the same cloth. */
+ * as a WIF and read again it is the same cloth. A WIF that is read without a warning has in the sections of threads and
+ * looms nothing but keys and values of the format, by a second, simpler list of what these are. */
+#define _GNU_SOURCE /* strcasestr */
 #include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "base/cache.h"
+#include "weave/dtx.h"
+#include "weave/ini.h"
 #include "weave/weave_draft.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
@@ -53,6 +58,37 @@ static void check_cloth(const WeftDraft *draft) {
     weft_cloth_free(cloth);
 }
 
+static void count_warning(void *user, WeftMessage message, const char *text) {
+    demand(message == WEFT_MESSAGE_DRAFT_COMPLETED && text[0] && !strchr(text, '\n'));
+    ++*(int *)user;
+}
+
+/* Demands that a line is one that a reader can have understood. An empty value is a missing one. */
+static void check_line(const IniLine *line) {
+    static const char *const numbered[] = {"THREADING",    "TIEUP",          "TREADLING",     "LIFTPLAN",
+                                           "COLOR TABLE",  "WARP COLORS",    "WEFT COLORS",   "WARP SPACING",
+                                           "WEFT SPACING", "WARP THICKNESS", "WEFT THICKNESS"};
+    static const char numerals[] = "0123456789abcdefxpABCDEFXP.,+- \t", letters[] = "Thread Color Spacing Thickness";
+    demand(line->section[0] != '\0');
+    bool of_numbers = false;
+    for (size_t k = 0; k < sizeof numbered / sizeof *numbered; k++)
+        of_numbers |= strcasecmp(line->section, numbered[k]) == 0;
+    const bool of_threads = strcasecmp(line->section, "WARP") == 0 || strcasecmp(line->section, "WEFT") == 0;
+    if (!of_numbers && !of_threads) return;
+    demand(line->value != NULL);
+    const size_t size = strcspn(line->value, ";");
+    if (of_numbers) demand(line->key[0] >= '0' && line->key[0] <= '9');
+    if (of_numbers || (strcasestr(letters, line->key) && line->key[0])) demand(strspn(line->value, numerals) >= size);
+    if (strcasecmp(line->key, "Units") == 0 && size) demand(strchr("dicmDICM\"", line->value[0]) != NULL);
+}
+
+static void check_understood(const uint8_t *data, size_t size) {
+    Ini ini;
+    if (ini_read(data, size, "fuzz", &ini, NULL) == WEFT_OK)
+        for (int k = 0; k < ini.count; k++) check_line(&ini.lines[k]);
+    ini_free(&ini);
+}
+
 /* has_cloth: a cloth is made too, which takes ten thousand times as long as reading, so that one input in 4096 has one. */
 static void take(WeftResult result, WeftDraft *draft, bool has_cloth, const WeftError *error) {
     demand((result == WEFT_OK) == (draft != NULL));
@@ -70,7 +106,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     WeftDraft *draft;
     WeftError error;
     const bool has_cloth = cache_hash(CACHE_HASH, data, size) % 4096 == 100;
-    WeftResult result = weft_draft_read_memory(data, size, "fuzz", &draft, NULL, &error);
+    int warnings = 0;
+    const WeftLog log = {.fn = count_warning, .user = &warnings};
+    WeftResult result = weft_draft_read_memory(data, size, "fuzz", &draft, &log, &error);
+    if (result == WEFT_OK && !warnings && !dtx_is(data, size)) check_understood(data, size);
     take(result, draft, has_cloth, &error);
     char *words = malloc(size + 1);
     if (!words) return 0;
