@@ -78,7 +78,8 @@ static void weaves_are_plotted_as_any_model(void **state) {
     ran_free(&ran);
     assert_begins("shot.html", "<!DOCTYPE html>");
     file_of("none.json", "{\"weave\": {\"draft\": \"nowhere.wif\"}}");
-    assert_complaint(NULL, LIST("plot", "polar", "none.json", "-o", "none.svg"), 2, "nowhere.wif: is not a weave");
+    assert_complaint(NULL, LIST("plot", "polar", "none.json", "-o", "none.svg"), 3,
+                     "nowhere.wif: cannot be opened: No such file or directory (the draft of none.json)");
     unlink("none.json");
     unlink("shot.json");
 }

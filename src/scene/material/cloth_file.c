@@ -35,6 +35,16 @@ static void keep_first(ClothReader *r, WeftResult result) {
     if (r->result == WEFT_OK) r->result = result;
 }
 
+/* Fails with the error of the draft's file, and the name of the material file that asks for it. */
+static void keep_cause(ClothReader *r, const WeftError *why) {
+    if (r->result != WEFT_OK) return;
+    r->result = why->result;
+    if (!r->error) return;
+    *r->error = *why;
+    const size_t used = strlen(why->text);
+    snprintf(r->error->text + used, sizeof why->text - used, " (the draft of %s)", r->name);
+}
+
 /* Reads a draft: the text of a WIF, which has several lines, or words, or a file beside the material's. */
 static void read_draft(ClothReader *r, const json_t *json) {
     const char *text = json_string_value(json);
@@ -52,10 +62,12 @@ static void read_draft(ClothReader *r, const json_t *json) {
         return;
     }
     snprintf(r->path, sizeof r->path, "%.511s%s", text[0] == '/' || !r->folder ? "" : r->folder, text);
-    if (r->folder && stat(r->path, &file) == 0) {
-        keep_first(r, weft_draft_read(r->path, &r->draft, r->log, r->error));
+    WeftError why;
+    if (r->folder && (stat(r->path, &file) == 0 || draft_names_file(text))) {
+        const WeftResult result = weft_draft_read(r->path, &r->draft, r->log, &why);
+        if (result != WEFT_OK) keep_cause(r, &why);
     } else {
-        keep_first(r, weft_draft_parse(text, &r->draft, r->error));
+        if (weft_draft_parse(text, &r->draft, &why) != WEFT_OK) refuse(r, "draft", why.text);
         r->path[0] = '\0';
     }
 }
@@ -102,7 +114,8 @@ static void read_yarn(ClothReader *r, const json_t *json, WeftThreads threads) {
         refuse(r, "yarn", "expected the name of a yarn");
         return;
     }
-    keep_first(r, weft_yarn_find(name, yarn, r->error));
+    WeftError why;
+    if (weft_yarn_find(name, yarn, &why) != WEFT_OK) refuse(r, "yarn", why.text);
     if (!json_is_object(json)) return;
     json_object_foreach((json_t *)(uintptr_t)json, key, value) {
         if (strcmp(key, "yarn") == 0) continue;
