@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/printable.h"
 #include "weft/version.h"
 
 static const struct {
@@ -30,8 +31,7 @@ static void compose(char *line, size_t size, WeftMessage message, const char *su
         memcpy(line + used, ": ", 3);
         vsnprintf(line + used + 2, size - (size_t)used - 2, detail, arguments);
     }
-    for (char *c = line; *c; c++)
-        if ((unsigned char)*c < 0x20 || *c == 0x7f) *c = '?';
+    make_printable(line);
 }
 
 WeftResult fail(WeftError *error, WeftMessage message, const char *subject, const char *detail, ...) {

@@ -5,7 +5,7 @@
 
 /* Fills *error (may be NULL) with "subject: text" or, where detail is a printf format and not NULL,
  * "subject: text: detail", and returns the message's result: `return fail(error, WEFT_MESSAGE_X, path,
- * NULL);`. Control characters in the line become '?', so that a hostile name cannot break it. */
+ * NULL);`. Characters that a terminal obeys become '?', so that a hostile name cannot break it. */
 __attribute__((format(printf, 4, 5))) WeftResult fail(WeftError *error, WeftMessage message, const char *subject,
                                                       const char *detail, ...);
 

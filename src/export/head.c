@@ -1,6 +1,7 @@
 /* head.c - the comment that a text begins with: model, licence, conventions, and how to call it */
 #include <stdio.h>
 
+#include "base/printable.h"
 #include "export/draft.h"
 
 /* Returns the target's type for a direction. */
@@ -130,6 +131,7 @@ static void put_model(const WeftExportDesc *desc, Buffer *out) {
     snprintf(safe, sizeof safe, "%.70s", what);
     for (char *k = safe; *k; k++)
         if (*k == '*' || (unsigned char)*k < ' ') *k = '_';
+    make_printable(safe);
     buffer_put_text(out, safe);
     if (!desc->right) return;
     buffer_put_text(out, " | ");

@@ -3,36 +3,26 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/printable.h"
+
 void set_font(cairo_t *cairo, double size, bool bold) {
     cairo_select_font_face(cairo, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL,
                            bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
     cairo_set_font_size(cairo, size);
 }
 
-/* Returns the length of a well-formed UTF-8 sequence, or 0. Cairo accepts only well-formed text. */
-static size_t utf8_length(const unsigned char *s) {
-    static const unsigned least[5] = {0, 0, 0x80, 0x800, 0x10000};
-    if (s[0] < 0x80) return 1;
-    size_t length = s[0] >= 0xf0 ? 4 : s[0] >= 0xe0 ? 3 : 2;
-    unsigned code = s[0] & (0x7fu >> length);
-    if (s[0] < 0xc2 || s[0] > 0xf4) return 0;
-    for (size_t k = 1; k < length; k++) {
-        if ((s[k] & 0xc0) != 0x80) return 0;
-        code = code << 6 | (s[k] & 0x3f);
-    }
-    return code < least[length] || code > 0x10ffff || (code >= 0xd800 && code < 0xe000) ? 0 : length;
-}
-
 void drawable(const char *text, char line[TEXT_SIZE]) {
     size_t used = 0, length;
+    unsigned code;
     const unsigned char *s = (const unsigned char *)text;
     for (; *s && used + 4 <= TEXT_MAX; s += length ? length : 1) {
-        length = utf8_length(s);
-        if (length > 1 || (length == 1 && *s >= 0x20 && *s != 0x7f))
+        length = (size_t)utf8_read(s, &code); /* Cairo accepts only well-formed text */
+        const bool plain = length && !is_unprintable(code);
+        if (plain)
             memcpy(line + used, s, length);
         else
             line[used] = '?';
-        used += length ? length : 1;
+        used += plain ? length : 1;
     }
     memcpy(line + used, *s ? "\xe2\x80\xa6" : "", *s ? ELLIPSIS + 1 : 1);
 }

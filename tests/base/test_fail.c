@@ -51,6 +51,50 @@ static void see(void *user, WeftMessage message, const char *text) {
     strncpy(seen->text, text, sizeof seen->text - 1);
 }
 
+/* A terminal would obey some characters of a name, and turn the line around or hide a part of it by others; letters of
+ * any script stay. */
+static void names_cannot_command_a_terminal(void **state) {
+    (void)state;
+    static const struct {
+        const char *name, *shown;
+    } cases[] = {
+        {"a\xc2\x9b"
+         "31mb",
+         "a?31mb"}, /* U+009B, CSI in one character */
+        {"a\xc2\x85"
+         "b",
+         "a?b"}, /* U+0085, next line */
+        {"a\x9b"
+         "31mb",
+         "a?31mb"}, /* the same as a bare byte */
+        {"\xe2\x80\xae"
+         "fdp.exe",
+         "?fdp.exe"}, /* U+202E, from right to left */
+        {"a\xe2\x81\xa6"
+         "b\xe2\x81\xa9",
+         "a?b?"}, /* U+2066 and U+2069, isolates */
+        {"a\xe2\x80\x8b\xe2\x80\xa8"
+         "b\xef\xbb\xbf",
+         "a??b?"}, /* zero width, line separator, mark */
+        {"a\xf3\xa0\x81\x81"
+         "b",
+         "a?b"},                           /* a tag, U+E0041 */
+        {"\xc0\xaf\xed\xa0\x80", "?????"}, /* an overlong slash, a surrogate */
+        {"cut\xe2\x80", "cut??"},
+        {"sammet r\xc3\xb6"
+         "d \xe7\xbb\x92 \xf0\x9f\xa7\xb5",
+         "sammet r\xc3\xb6"
+         "d \xe7\xbb\x92 \xf0\x9f\xa7\xb5"},
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        WeftError error;
+        char line[200];
+        fail(&error, WEFT_MESSAGE_FILE_OPEN, "x", "%s", cases[k].name);
+        snprintf(line, sizeof line, "x: cannot be opened: %s", cases[k].shown);
+        assert_string_equal(error.text, line);
+    }
+}
+
 static void warnings_reach_the_log(void **state) {
     (void)state;
     Seen seen = {0};
@@ -88,9 +132,9 @@ static void version_string_and_numbers_agree(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(error_text_is_one_line),           cmocka_unit_test(hostile_names_leave_an_error_on_one_line),
-        cmocka_unit_test(warnings_reach_the_log),           cmocka_unit_test(every_message_has_a_text),
-        cmocka_unit_test(version_string_and_numbers_agree),
+        cmocka_unit_test(error_text_is_one_line),          cmocka_unit_test(hostile_names_leave_an_error_on_one_line),
+        cmocka_unit_test(names_cannot_command_a_terminal), cmocka_unit_test(warnings_reach_the_log),
+        cmocka_unit_test(every_message_has_a_text),        cmocka_unit_test(version_string_and_numbers_agree),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -107,7 +107,8 @@ static bool is_within(int at, const char *folder) {
 /* Returns true if a file of that folder may include "path". */
 static bool may_include(int at, const char *path) {
     if (strncmp(path, "weft/", 5) == 0) return true;
-    if (strcmp(path, "base/steady_clock.h") == 0 || strcmp(path, "base/pi.h") == 0 || strcmp(path, "base/path.h") == 0)
+    if (strcmp(path, "base/steady_clock.h") == 0 || strcmp(path, "base/pi.h") == 0 ||
+        strcmp(path, "base/path.h") == 0 || strcmp(path, "base/printable.h") == 0)
         return true;
     if (strncmp(path, "half/", 5) == 0) return is_within(at, "measure");  /* generated */
     if (!strchr(path, '/')) return true;                                  /* beside the file */

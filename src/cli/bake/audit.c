@@ -131,8 +131,9 @@ static void text_write(const Audit *audit) {
     enum { COLUMN = 18 };
     const WeftAudit *found = &audit->found;
     char text[400];
-    printf("%s: %d x %d, %s of %s%s\n", audit->path, audit->file.width, audit->file.height, part_words[found->part],
-           lobe_id(audit), audit->any ? ", the nearest of all lobes" : "");
+    print_name(audit->path);
+    printf(": %d x %d, %s of %s%s\n", audit->file.width, audit->file.height, part_words[found->part], lobe_id(audit),
+           audit->any ? ", the nearest of all lobes" : "");
     form_words(audit, text, sizeof text);
     layout_entry(stdout, COLUMN, "axes", text);
     place_words(audit, text, sizeof text);

@@ -26,7 +26,8 @@ static int comparison_print(const char *path, const WeftReflection *reflection) 
     WeftReflection *back;
     WeftError error;
     if (weft_reflection_read(path, &back, &error) != WEFT_OK) return report_error(&error);
-    printf("%s: f differs by %.5f of its mean, up to 80 degrees\n", path, weft_reflection_distance(reflection, back));
+    print_name(path);
+    printf(": f differs by %.5f of its mean, up to 80 degrees\n", weft_reflection_distance(reflection, back));
     weft_reflection_free(back);
     return 0;
 }

@@ -3,31 +3,23 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Returns the length in bytes, 1 to 4, of the well-formed UTF-8 sequence at s, or 0 if there is none (Unicode Standard,
- * Table 3-7). */
-static int utf8_length(const unsigned char *s) {
-    if (s[0] < 0x80) return 1;
-    int length = s[0] >= 0xc2 && s[0] <= 0xdf ? 2 : (s[0] & 0xf0) == 0xe0 ? 3 : s[0] >= 0xf0 && s[0] <= 0xf4 ? 4 : 0;
-    if (length == 0) return 0;
-    unsigned char low = s[0] == 0xe0 ? 0xa0 : s[0] == 0xf0 ? 0x90 : 0x80;
-    unsigned char high = s[0] == 0xed ? 0x9f : s[0] == 0xf4 ? 0x8f : 0xbf;
-    if (s[1] < low || s[1] > high) return 0;
-    for (int k = 2; k < length; k++)
-        if ((s[k] & 0xc0) != 0x80) return 0;
-    return length;
-}
+#include "base/printable.h"
 
+/* Writes a text in quotes. What a terminal would obey is escaped; a character beyond U+FFFF takes two escapes. */
 static void quoted(FILE *stream, const char *text) {
     const unsigned char *s = (const unsigned char *)text;
+    unsigned code;
     fputc('"', stream);
     while (*s) {
-        int length = utf8_length(s);
+        const int length = utf8_read(s, &code);
         if (length == 0)
             fputs("\\ufffd", stream);
         else if (*s == '"' || *s == '\\')
             fprintf(stream, "\\%c", *s);
-        else if (*s < 0x20 || *s == 0x7f)
-            fprintf(stream, "\\u%04x", *s);
+        else if (is_unprintable(code) && code > 0xffff)
+            fprintf(stream, "\\u%04x\\u%04x", 0xd7c0 + (code >> 10), 0xdc00 + (code & 0x3ff));
+        else if (is_unprintable(code))
+            fprintf(stream, "\\u%04x", code);
         else
             fwrite(s, 1, (size_t)length, stream);
         s += length ? length : 1;

@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/printable.h"
+
 static atomic_bool failed;
 
 int report(int result, const char *format, ...) {
@@ -15,10 +17,14 @@ int report(int result, const char *format, ...) {
     va_start(arguments, format);
     vsnprintf(line, sizeof line, format, arguments);
     va_end(arguments);
-    for (char *c = line; *c; c++)
-        if ((unsigned char)*c < 0x20 || *c == 0x7f) *c = '?';
+    make_printable(line);
     fprintf(stderr, "weft: %s\n", line);
     return result;
+}
+
+void print_name(const char *name) {
+    char line[1024];
+    fputs(printable(name, line, sizeof line), stdout);
 }
 
 bool report_failed(void) { return atomic_load(&failed); }

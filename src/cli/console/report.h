@@ -12,6 +12,9 @@ __attribute__((format(printf, 2, 3))) int report(int result, const char *format,
 /* Works as report, for a failure of the library. */
 int report_error(const WeftError *error);
 
+/* Prints a name that may come from a file on standard output, without what a terminal would obey. */
+void print_name(const char *name);
+
 /* Returns true if a failure was reported, in any thread. */
 bool report_failed(void);
 

@@ -32,8 +32,8 @@ static void asset_text(const WeftAssetMatch *matches, int count, WeftBrdfMetric 
     char was[48], now[48];
     for (int k = 0; k < count; k++) {
         const WeftAssetMatch *match = &matches[k];
-        printf("%s%s\n", match->name[0] ? match->name : "(no name)",
-               match->changed ? "" : ": has no sheen, or is unlit, and stays");
+        print_name(match->name[0] ? match->name : "(no name)");
+        printf("%s\n", match->changed ? "" : ": has no sheen, or is unlit, and stays");
         if (!match->changed) continue;
         printf("  %-18s %-22.4f %.4f\n", weft_brdf_metric_name(metric), match->found.copied, match->found.matched);
         for (int n = 0; weft_material_input_info(n, &info); n++) {
@@ -119,10 +119,11 @@ static void losses_write(const WeftScene *scene, const float *losses, int count,
             if (!(losses[k] < 0.0f)) json_float(&json, "loss", losses[k]);
             json_close(&json, '}');
         } else if (losses[k] < 0.0f) {
-            printf("%s: %s\n", name[0] ? name : "(no name)",
-                   losses[k] < -1.5f ? "is of that workflow already" : "is of another workflow and stays");
+            print_name(name[0] ? name : "(no name)");
+            printf(": %s\n", losses[k] < -1.5f ? "is of that workflow already" : "is of another workflow and stays");
         } else {
-            printf("%s: converted, off by %.4f at most\n", name[0] ? name : "(no name)", (double)losses[k]);
+            print_name(name[0] ? name : "(no name)");
+            printf(": converted, off by %.4f at most\n", (double)losses[k]);
         }
     }
     if (!as_json) return;

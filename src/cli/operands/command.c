@@ -3,6 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/printable.h"
+
 static const char safe[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./,=:+@%";
 
 static char *append(char *to, const char *text) {
@@ -16,7 +18,7 @@ static char *argument_write(char *to, const char *argument) {
     to = append(append(to, " "), quote);
     for (; *argument; argument++) {
         if (*argument == '\'') to = append(to, "'\\'");
-        *to++ = (unsigned char)*argument < 0x20 || *argument == 0x7f ? '?' : *argument;
+        *to++ = *argument;
     }
     return append(to, quote);
 }
@@ -29,6 +31,7 @@ char *command_text(const Options *options) {
     to = argument_write(append(to, "weft"), options->verb->name);
     for (int k = 0; k < options->argument_count; k++) to = argument_write(to, options->arguments[k]);
     *to = '\0';
+    make_printable(text);
     return text;
 }
 
@@ -47,5 +50,6 @@ char *command_assign_text(const Options *options) {
     }
     *to = '\0';
     if (text[0]) memmove(text, text + 1, strlen(text)); /* the blank before the first */
+    make_printable(text);
     return text;
 }

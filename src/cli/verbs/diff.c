@@ -75,7 +75,10 @@ static void text_write(const Diff *diff) {
     const WeftDiff *found = &diff->found;
     const char *metric = weft_metric_name(diff->desc.metric);
     char text[200];
-    printf("%s against %s: %d x %d\n", diff->paths[0], diff->paths[1], diff->map.width, diff->map.height);
+    print_name(diff->paths[0]);
+    printf(" against ");
+    print_name(diff->paths[1]);
+    printf(": %d x %d\n", diff->map.width, diff->map.height);
     snprintf(text, sizeof text, "%.6g (%g is the same)", found->value, (double)best(diff));
     layout_entry(stdout, COLUMN, metric, text);
     snprintf(text, sizeof text, "%.4g at pixel %d, %d", (double)found->worst, found->worst_x, found->worst_y);

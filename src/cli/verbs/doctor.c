@@ -114,6 +114,12 @@ static void counted(const char *word, int count, const char *more) {
     printf("%d %s%s%s", count, word, count == 1 ? "" : "s", more);
 }
 
+static void fixed_text(const Visit *visit) {
+    printf("\n%d fixed in ", visit->fixable);
+    print_name(visit->output);
+    printf(", where %d %s left", visit->left, visit->left == 1 ? "error or warning is" : "errors and warnings are");
+}
+
 static void summary_text(const Visit *visit) {
     const int *counts = visit->counts;
     int all = counts[0] + counts[1] + counts[2];
@@ -126,8 +132,7 @@ static void summary_text(const Visit *visit) {
     counted("warning", counts[WEFT_SEVERITY_WARNING], ", ");
     counted("note", counts[WEFT_SEVERITY_NOTE], "");
     if (visit->output)
-        printf("\n%d fixed in %s, where %d %s left", visit->fixable, visit->output, visit->left,
-               visit->left == 1 ? "error or warning is" : "errors and warnings are");
+        fixed_text(visit);
     else if (visit->fixable)
         printf("; --fix -o FILE repairs %d", visit->fixable);
     printf("\n");
@@ -136,7 +141,8 @@ static void summary_text(const Visit *visit) {
 static void text_write(const Visit *visit) {
     WeftDoctorInfo info = weft_doctor_info(visit->doctor);
     const WeftFinding *before = NULL;
-    printf("%s: ", visit->path);
+    print_name(visit->path);
+    printf(": ");
     counted("material", info.material_count, "");
     printf(" (%d with a sheen), %d mesh%s, ", info.sheen_count, info.mesh_count, info.mesh_count == 1 ? "" : "es");
     counted("image", info.image_count, "\n");

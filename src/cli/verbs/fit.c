@@ -107,8 +107,9 @@ static void row_write(const char *rank, const char *name, const WeftFitted *fitt
 static void text_write(const Fitting *fitting) {
     const WeftFit *fit = &fitting->fit;
     int all = 0, count = weft_data_count(fitting->data, &all), better = 0, idle = 0;
-    printf("%s: %d samples of %d; error is %s, relative; base %s\n\n", fitting->path, count, all,
-           weft_brdf_metric_name(fitting->metric), fitting->base);
+    print_name(fitting->path);
+    printf(": %d samples of %d; error is %s, relative; base %s\n\n", count, all, weft_brdf_metric_name(fitting->metric),
+           fitting->base);
     printf("%4s  %-44s %7s  %7s  %-19s  %-24s %s\n", "", "lobe over base", "error", "numbers", "base color",
            "lobe color", "parameters");
     for (int k = 0; k < fit->count; k++) {

@@ -105,7 +105,10 @@ static void text_write(const Match *match, double errors[PARTS][2]) {
     Row rows[ROWS_MOST];
     char text[2][64];
     int count = rows_of(match, rows);
-    printf("%s as %s\n\n  %-18s %-22s %s\n", match->from.words, match->to.words, "", "copied", "matched");
+    print_name(match->from.words);
+    printf(" as ");
+    print_name(match->to.words);
+    printf("\n\n  %-18s %-22s %s\n", "", "copied", "matched");
     for (int k = 0; k < count; k++)
         printf("  %-18s %-22s %s\n", rows[k].name, numbers_text(rows[k].copied, rows[k].count, text[0]),
                numbers_text(rows[k].matched, rows[k].count, text[1]));

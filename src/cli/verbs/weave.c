@@ -150,7 +150,8 @@ static void text_write(const Weaving *weaving) {
     enum { COLUMN = 14 };
     const WeftDraftInfo *info = &weaving->info;
     char text[160];
-    printf("%s\n", info->title[0] ? info->title : weaving->what);
+    print_name(info->title[0] ? info->title : weaving->what);
+    printf("\n");
     snprintf(text, sizeof text, "%d warp threads x %d picks", info->count[WEFT_WARP], info->count[WEFT_WEFT]);
     layout_entry(stdout, COLUMN, "repeat", text);
     snprintf(text, sizeof text, "shafts: %d, treadles: %d, at the least", info->shafts, info->treadles);
