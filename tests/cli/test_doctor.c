@@ -140,6 +140,24 @@ static void missing_image_is_a_finding(void **state) {
     json_decref(report);
 }
 
+/* Names of an asset reach neither the text nor the JSON with characters that a terminal obeys. */
+static void hostile_names_are_printed_harmlessly(void **state) {
+    (void)state;
+    static const char text[] = "{\"asset\":{\"version\":\"2.0\"},\"extensionsUsed\":[\"X\xc2\x9b"
+                               "5m\"],\"materials\":[{\"name\":"
+                               "\"red\xc2\x9b"
+                               "31m\xe2\x80\xae\",\"pbrMetallicRoughness\":{\"metallicFactor\":3}}]}";
+    file_make("hostile.gltf", text, sizeof text - 1);
+    for (int json = 0; json < 2; json++) {
+        Ran ran = json ? RUN("doctor", "hostile.gltf", "--json") : RUN("doctor", "hostile.gltf");
+        assert_int_equal(ran.code, 1);
+        assert_non_null(strstr(ran.out, "31m"));
+        assert_null(strstr(ran.out, "\xc2\x9b"));
+        assert_null(strstr(ran.out, "\xe2\x80\xae"));
+        ran_free(&ran);
+    }
+}
+
 static void fix_changes_only_what_a_finding_names(void **state) {
     (void)state;
     Ran ran = RUN("doctor", "sick.gltf", "--fix", "-o", "mended.gltf");
@@ -207,6 +225,7 @@ int main(void) {
         cmocka_unit_test(asset_without_findings_is_reported_as_healthy),
         cmocka_unit_test(warning_is_printed_beside_a_note_of_the_same_text),
         cmocka_unit_test(missing_image_is_a_finding),
+        cmocka_unit_test(hostile_names_are_printed_harmlessly),
         cmocka_unit_test(fix_changes_only_what_a_finding_names),
         cmocka_unit_test(list_option_prints_every_finding),
         cmocka_unit_test(docs_page_has_a_paragraph_for_every_finding),

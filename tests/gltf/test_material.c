@@ -361,13 +361,13 @@ static void material_members_of_wrong_type_are_named(void **state) {
         const char *part;
     } cases[] = {
         {"'pbrMetallicRoughness':{'roughnessFactor':'1'}", WEFT_MESSAGE_GLTF_SCHEMA,
-         "materials[0].pbrMetallicRoughness.roughnessFactor: expected a number"},
+         "materials[0].pbrMetallicRoughness.roughnessFactor: expected a number, not \"1\""},
         {"'pbrMetallicRoughness':{'baseColorFactor':[1,1,1]}", WEFT_MESSAGE_GLTF_SCHEMA,
          "materials[0].pbrMetallicRoughness.baseColorFactor: expected an array of 4 numbers"},
         {"'pbrMetallicRoughness':{'baseColorFactor':[1,1,null,1]}", WEFT_MESSAGE_GLTF_SCHEMA,
          "baseColorFactor[2]: expected a number"},
         {"'pbrMetallicRoughness':3", WEFT_MESSAGE_GLTF_SCHEMA, "pbrMetallicRoughness: expected an object"},
-        {"'alphaMode':'CUTOUT'", WEFT_MESSAGE_GLTF_SCHEMA, "materials[0].alphaMode: expected OPAQUE"},
+        {"'alphaMode':7", WEFT_MESSAGE_GLTF_SCHEMA, "materials[0].alphaMode: expected a string, not 7"},
         {"'doubleSided':1", WEFT_MESSAGE_GLTF_SCHEMA, "materials[0].doubleSided: expected true or false"},
         {"'name':7", WEFT_MESSAGE_GLTF_SCHEMA, "materials[0].name: expected a string"},
         {"'normalTexture':{}", WEFT_MESSAGE_GLTF_SCHEMA, "materials[0].normalTexture.index: missing"},
@@ -379,11 +379,51 @@ static void material_members_of_wrong_type_are_named(void **state) {
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
         assert_refused(read_material("", cases[i].material), cases[i].message, cases[i].part);
-    assert_refused(read_material("'samplers':[{'wrapS':1}],'images':[{}],'textures':[{'source':0,'sampler':0}],",
-                                 "'normalTexture':{'index':0}"),
-                   WEFT_MESSAGE_GLTF_SCHEMA, "samplers[0].wrapS: 1 is not");
+    assert_refused(read_material("'samplers':[{'wrapS':'clamp'}],", ""), WEFT_MESSAGE_GLTF_SCHEMA,
+                   "samplers[0].wrapS: expected an integer from 0, not \"clamp\"");
     assert_refused(read_material("'textures':[{'source':3}],", ""), WEFT_MESSAGE_GLTF_REFERENCE,
                    "textures[0].source: 3 of 0");
+}
+
+/* A value that is read, but is none of those that glTF has, is named with its place; so is a name that means nothing.
+ * The rest is shown. */
+static void unknown_values_are_named_in_a_warning(void **state) {
+    (void)state;
+    static const struct {
+        const char *first, *material, *warning;
+    } cases[] = {
+        {"", "'alphaMode':'CUTOUT'",
+         "materials[0].alphaMode: \"CUTOUT\" is none of OPAQUE, MASK, BLEND; it is taken as OPAQUE"},
+        {"", "'alphaMde':'MASK'", "materials[0].alphaMde"},
+        {"", "'pbrMetallicRoughness':{'metalicFactor':0}", "materials[0].pbrMetallicRoughness.metalicFactor"},
+        {"", "'extensions':{'KHR_materials_sheen':{'sheenColour':[1,1,1]}}",
+         "materials[0].extensions.KHR_materials_sheen.sheenColour"},
+        {"", "'extensions':{'KHR_materials_fuzz':{}}", "ignored: KHR_materials_fuzz"},
+        {"'textures':[{}],", "'emissiveTexture':{'index':0}",
+         "materials[0].emissiveTexture: textures[0] has no picture"},
+        {"'samplers':[{'wrapS':1}],", "", "samplers[0].wrapS: 1 is no value of glTF's; it is taken as 10497"},
+        {"'samplers':[{'wrapT':33070}],", "", "samplers[0].wrapT: 33070"},
+        {"'samplers':[{'magFilter':9984}],", "", "samplers[0].magFilter: 9984"},
+        {"'samplers':[{'minFilter':1}],", "", "samplers[0].minFilter: 1"},
+        {"'samplers':[{'wrapR':10497}],", "", "samplers[0].wrapR"},
+        {"", "'extras':{'weft':{'choices':{'colour':'red'}}}", "materials[0].extras.weft.choices.colour"},
+        {"", "'extras':{'weft':{'choices':{'workflow':'glossy'}}}", "\"glossy\" means nothing"},
+        {"", "'extras':{'weft':{'inputs':{'colour':{}}}}", "materials[0].extras.weft.inputs.colour"},
+        {"", "'extras':{'weft':{'inputs':{'nap':{'values':[1]}}}}", "materials[0].extras.weft.inputs.nap.values"},
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        Reading *reading = read_material(cases[k].first, cases[k].material);
+        assert_read(reading);
+        if (!strstr(reading->warning, cases[k].warning))
+            fail_msg("\"%s\" is not \"%s\"", reading->warning, cases[k].warning);
+        done(reading);
+    }
+    Reading *reading =
+        read_material("'samplers':[{'wrapS':10497,'wrapT':33648,'magFilter':9728,'minFilter':9987}],",
+                      "'alphaMode':'BLEND','extras':{'whatever':1},'extensions':{'KHR_materials_ior':{}}");
+    assert_read(reading);
+    assert_string_equal(reading->warning, "");
+    done(reading);
 }
 
 #define MAPPED "'normalTexture':{'index':0}"
@@ -578,6 +618,30 @@ static void fields_of_an_object_and_of_a_texture_follow_one_another(void **state
     assert_false(gltf_supports(pbr_object));
 }
 
+/* The channels of a row as docs/gltf.md writes them. */
+static const char *const channel_words[] = {"R", "G", "B", "A", "A", "RGB", "RGB, A", "RGB", "RG"};
+
+/* The page has a line for each texture that is read, with its channels. */
+static void page_lists_the_channels_of_every_texture(void **state) {
+    (void)state;
+    FILE *file = fopen(WEFT_SOURCE_DIR "/docs/gltf.md", "r");
+    assert_non_null(file);
+    char line[512], name[128];
+    for (const MaterialField *row = material_fields; row->factor; row++) {
+        bool listed = false;
+        if (row->input == NO_INPUT || !row->texture) continue;
+        snprintf(name, sizeof name, "`%s`", row->texture);
+        rewind(file);
+        while (!listed && fgets(line, sizeof line, file)) {
+            const char *cell = line[0] == '|' && strstr(line, name) ? strchr(line + 1, '|') : NULL;
+            listed = cell && strstr(cell, channel_words[row->channels]) != NULL;
+        }
+        if (!listed)
+            fail_msg("docs/gltf.md: %s is not said to be read from %s", row->texture, channel_words[row->channels]);
+    }
+    fclose(file);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(material_without_members_has_the_defaults),
@@ -585,6 +649,7 @@ int main(void) {
         cmocka_unit_test(texture_transform_is_applied),
         cmocka_unit_test(factors_outside_their_range_are_repaired_with_a_warning),
         cmocka_unit_test(material_members_of_wrong_type_are_named),
+        cmocka_unit_test(unknown_values_are_named_in_a_warning),
         cmocka_unit_test(images_in_views_uris_and_files_are_found),
         cmocka_unit_test(images_of_too_many_pixels_together_are_refused),
         cmocka_unit_test(texture_of_an_unreadable_container_falls_back_to_its_source),
@@ -595,6 +660,7 @@ int main(void) {
         cmocka_unit_test(nap_of_the_extras_is_read),
         cmocka_unit_test(dust_of_the_extras_is_read),
         cmocka_unit_test(saved_material_reads_as_it_was),
+        cmocka_unit_test(page_lists_the_channels_of_every_texture),
         cmocka_unit_test(fields_of_an_object_and_of_a_texture_follow_one_another),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

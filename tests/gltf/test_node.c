@@ -98,8 +98,13 @@ static void cameras_are_read(void **state) {
     assert_all_near(&b->forward.x, (const float[]){0, 1, 0}, 3, 1e-6f);
     assert_all_near(&b->up.x, (const float[]){0, 0, -1}, 3, 1e-6f);
     done(reading);
-    assert_refused(read_rest("'cameras':[{'type':'fisheye'}],'nodes':[{'camera':0}]"), WEFT_MESSAGE_GLTF_SCHEMA,
-                   "cameras[0].type");
+    reading = read_rest("'cameras':[{'type':'fisheye'}],'nodes':[{'camera':0}]");
+    assert_read(reading);
+    assert_int_equal(reading->scene->camera_count, 0);
+    assert_non_null(strstr(reading->warning, "cameras[0].type: \"fisheye\" is none of perspective, orthographic"));
+    done(reading);
+    assert_refused(read_rest("'cameras':[{}],'nodes':[{'camera':0}]"), WEFT_MESSAGE_GLTF_SCHEMA,
+                   "cameras[0].type: missing");
     assert_refused(read_rest("'cameras':[{'type':'perspective'}],'nodes':[{'camera':0}]"), WEFT_MESSAGE_GLTF_SCHEMA,
                    "cameras[0].perspective.yfov: missing");
     assert_refused(read_rest("'cameras':[{'type':'orthographic','orthographic':{'ymag':0}}],"
@@ -156,8 +161,20 @@ static void punctual_lights_are_read(void **state) {
     assert_near(l[3].cos_inner, 1.0f, 0.0f);
     assert_true(l[4].cos_inner >= l[4].cos_outer);
     done(reading);
-    assert_refused(read_rest(LIGHTS, "{'type':'area'}", LIGHT(0, "")), WEFT_MESSAGE_GLTF_SCHEMA,
-                   "extensions.KHR_lights_punctual.lights[0].type");
+    reading = read_rest(LIGHTS, "{'type':'area'},{'type':'point'}", LIGHT(0, "") "," LIGHT(1, ""));
+    assert_read(reading);
+    assert_int_equal(reading->scene->light_count, 1);
+    assert_int_equal(reading->scene->lights[0].kind, LIGHT_POINT);
+    assert_int_equal(reading->warnings[WEFT_MESSAGE_GLTF_WARN_IGNORED], 1);
+    assert_non_null(strstr(reading->warning, "lights[0].type: \"area\" is none of directional, point, spot"));
+    done(reading);
+    reading = read_rest(LIGHTS, "{'type':'spot','spot':{'innerConeAngle':0.9,'outerConeAngle':0.5}}", LIGHT(0, ""));
+    assert_read(reading);
+    assert_non_null(strstr(reading->warning, "lights[0].spot.innerConeAngle: 0.9"));
+    done(reading);
+    assert_refused(read_rest(LIGHTS, "{'type':7}", LIGHT(0, "")), WEFT_MESSAGE_GLTF_SCHEMA,
+                   "lights[0].type: expected a string, not 7");
+    assert_refused(read_rest(LIGHTS, "{}", LIGHT(0, "")), WEFT_MESSAGE_GLTF_SCHEMA, "lights[0].type: missing");
     assert_refused(read_rest(LIGHTS, "", LIGHT(0, "")), WEFT_MESSAGE_GLTF_REFERENCE,
                    "nodes[0].extensions.KHR_lights_punctual.light: 0 of 0");
 }

@@ -86,6 +86,7 @@ typedef struct Accessor {
 /* A glTF texture. `image` is -1 if only an extension such as KHR_texture_basisu names a source. */
 typedef struct TextureSource {
     int image, sampler;
+    const char *offer; /* the extension that names a picture of another format; NULL: none */
     int scene_texture; /* index into the scene's textures, -1 until something shown needs it */
 } TextureSource;
 
@@ -131,6 +132,7 @@ typedef struct Asset {
     bool examined;    /* for the doctor: no extension is refused, the textures of unused materials are read
                          too, and an image that cannot be read is a warning */
     const WeftLog *log;
+    const struct Field *place; /* while a warning is given: the value that it is about; NULL: the asset */
     WeftError *error;
     WeftResult result;     /* of the first failure */
     WeftProgress progress; /* may be NULL */
@@ -154,6 +156,7 @@ typedef struct Asset {
     AssetBuffer *buffers;
     BufferView *views;
     Accessor *accessors;
+    Texture *samplers; /* without images */
     TextureSource *textures;
     MeshSource *meshes;
     Skin *skins;

@@ -3,6 +3,7 @@
 #include <float.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/fail.h"
@@ -50,11 +51,26 @@ void field_warn(const Field *field, WeftMessage message, const char *detail, ...
     va_start(arguments, detail);
     place(field, line, detail, arguments);
     va_end(arguments);
+    field->asset->place = field;
     warn(field->asset->log, message, field->asset->name, "%s", line);
+    field->asset->place = NULL;
+}
+
+enum { SHOWN = 48 };
+
+/* Writes ", not VALUE", cut short where it is long; "" for an absent value. */
+static const char *but(const Field *field, char text[SHOWN]) {
+    char *value = field->json ? json_dumps(field->json, JSON_ENCODE_ANY | JSON_COMPACT) : NULL;
+    text[0] = 0;
+    if (value) snprintf(text, SHOWN, ", not %.36s%s", value, strlen(value) > 36 ? " ..." : "");
+    free(value);
+    return text;
 }
 
 static void expected(const Field *field, const char *what) {
-    field_fail(field, WEFT_MESSAGE_GLTF_SCHEMA, "%s %s", field->json ? "expected" : "missing", what);
+    char text[SHOWN];
+    field_fail(field, WEFT_MESSAGE_GLTF_SCHEMA, "%s %s%s", field->json ? "expected" : "missing", what,
+               but(field, text));
 }
 
 Field field_member(const Field *object, const char *key) {
@@ -98,10 +114,12 @@ size_t field_size(const Field *field, size_t absent, size_t low, size_t high) {
     /* 2^53: up to here a double holds every integer, and no size is larger. */
     bool fits = json_is_number(field->json) && value >= 0.0 && value <= 0x1p53;
     if (fits && value == (double)(size_t)value && (size_t)value >= low && (size_t)value <= high) return (size_t)value;
+    char text[64];
     if (high == SIZE_MAX)
-        field_fail(field, WEFT_MESSAGE_GLTF_SCHEMA, "expected an integer from %zu", low);
+        snprintf(text, sizeof text, "an integer from %zu", low);
     else
-        field_fail(field, WEFT_MESSAGE_GLTF_SCHEMA, "expected an integer from %zu to %zu", low, high);
+        snprintf(text, sizeof text, "an integer from %zu to %zu", low, high);
+    expected(field, text);
     return absent;
 }
 
@@ -131,6 +149,37 @@ const char *field_text(const Field *field, const char *absent) {
     return absent;
 }
 
+static int index_of(const char *text, const char *const *names) {
+    int k = 0;
+    while (names[k] && strcmp(text, names[k]) != 0) k++;
+    return names[k] ? k : -1;
+}
+
+int field_choice(const Field *field, const char *const *names, int absent, const char *what) {
+    const char *text = field_text(field, NULL);
+    int index = text ? index_of(text, names) : absent;
+    char list[160] = "";
+    if (!text || index >= 0) return index;
+    for (int k = 0; names[k]; k++)
+        snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", k ? ", " : "", names[k]);
+    if (absent < 0)
+        field_warn(field, WEFT_MESSAGE_GLTF_WARN_IGNORED, "\"%.40s\" is none of %s; the %s is left out", text, list,
+                   what);
+    else
+        field_warn(field, WEFT_MESSAGE_GLTF_WARN_REPAIRED, "\"%.40s\" is none of %s; it is taken as %s", text, list,
+                   names[absent]);
+    return absent;
+}
+
+void field_keys(const Field *object, const char *const *known) {
+    const char *key;
+    json_t *value;
+    json_object_foreach(object->json, key, value) {
+        Field member = {.asset = object->asset, .parent = object, .key = key, .json = value};
+        if (index_of(key, known) < 0) field_warn(&member, WEFT_MESSAGE_GLTF_WARN_IGNORED, "it means nothing here");
+    }
+}
+
 double field_number(const Field *field, double absent, double low, double high) {
     if (!field->json) return absent;
     if (!json_is_number(field->json)) {
@@ -148,7 +197,9 @@ double field_number(const Field *field, double absent, double low, double high) 
 static bool numbers(const Field *field, size_t count) {
     if (!field->json) return false;
     if (json_is_array(field->json) && json_array_size(field->json) == count) return true;
-    field_fail(field, WEFT_MESSAGE_GLTF_SCHEMA, "expected an array of %zu numbers", count);
+    char text[48];
+    snprintf(text, sizeof text, "an array of %zu numbers", count);
+    expected(field, text);
     return false;
 }
 

@@ -2,8 +2,9 @@
  *
  * A Field is a value on the stack that points at its parent's Field, which must outlive it. An absent field
  * reads as its default. A wrong type is a sticky GLTF_SCHEMA failure with the path, as in
- * "materials[3].pbrMetallicRoughness.roughnessFactor: expected a number"; a number outside the schema's range
- * is clamped with a warning. */
+ * "materials[3].pbrMetallicRoughness.roughnessFactor: expected a number, not "rough""; a number outside the schema's
+ * range is clamped with a warning, and one of a list's values that is none of them is named in a warning too. Nothing
+ * is passed over in silence. */
 #pragma once
 
 #include "gltf/asset/asset.h"
@@ -38,6 +39,14 @@ int field_needed_index(const Field *field, size_t count);
 
 bool field_bool(const Field *field, bool absent);
 const char *field_text(const Field *field, const char *absent);
+
+/* Returns the index of the text among names, which end with NULL. An absent field reads as `absent`, and so does any
+ * other text, with a warning; where that is -1 the warning says that `what` is left out. */
+int field_choice(const Field *field, const char *const *names, int absent, const char *what);
+
+/* Warns of every member of an object that is not among the known names, which end with NULL. */
+void field_keys(const Field *object, const char *const *known);
+
 double field_number(const Field *field, double absent, double low, double high);
 
 /* Reads exactly count numbers into out, which keeps its values if the field is absent. Returns true if it is

@@ -5,7 +5,6 @@
 
 #include <float.h>
 #include <math.h>
-#include <string.h>
 
 #include "gltf/asset/field.h"
 
@@ -71,21 +70,25 @@ static bool camera_place(const Transform *world, Camera *camera) {
     return true;
 }
 
-static void camera_read(const Field *field, const Node *node, Camera *camera) {
+/* Reads a camera. Returns false, with a warning, if it is of a type that glTF does not have. */
+static bool camera_read(const Field *field, const Node *node, Camera *camera) {
+    static const char *const types[] = {"perspective", "orthographic", NULL};
     Field name_field = field_member(field, "name"), type_field = field_member(field, "type"),
           perspective = field_member(field, "perspective"), orthographic = field_member(field, "orthographic");
     Field yfov = field_member(&perspective, "yfov"), ymag = field_member(&orthographic, "ymag");
-    const char *name = field_text(&name_field, ""), *type = field_text(&type_field, "");
+    const char *name = field_text(&name_field, "");
+    if (!type_field.json) field_fail(&type_field, WEFT_MESSAGE_GLTF_SCHEMA, "missing perspective or orthographic");
+    const int type = field_choice(&type_field, types, -1, "camera");
+    if (type < 0) return false;
     camera->name = asset_text(field->asset, *name ? name : node->name);
-    camera->orthographic = strcmp(type, "orthographic") == 0;
-    if (!camera->orthographic && strcmp(type, "perspective") != 0)
-        field_fail(&type_field, WEFT_MESSAGE_GLTF_SCHEMA, "expected perspective or orthographic");
+    camera->orthographic = type == 1;
     const Field *needed = camera->orthographic ? &ymag : &yfov;
     if (!needed->json) field_fail(needed, WEFT_MESSAGE_GLTF_SCHEMA, "missing a number");
     /* Files with negative magnifications exist; the sign does not matter here. */
     camera->ymag = (float)fabs(field_number(&ymag, 1.0, -1e15, 1e15));
     camera->yfov = (float)field_number(&yfov, 1.0, 1e-4, 3.1415);
     if (!(camera->ymag > 0.0f)) field_fail(&ymag, WEFT_MESSAGE_GLTF_SCHEMA, "must not be 0");
+    return true;
 }
 
 void cameras_read(Asset *asset) {
@@ -99,7 +102,7 @@ void cameras_read(Asset *asset) {
         if (!node->shown || node->camera < 0) continue;
         Field field = field_element(&list, (size_t)node->camera);
         Camera *camera = &scene->cameras[scene->camera_count];
-        camera_read(&field, node, camera);
+        if (!camera_read(&field, node, camera)) continue;
         bool placed = camera_place(&node->world, camera);
         if (!within_reach(camera->eye, SCENE_REACH))
             field_fail(&field, WEFT_MESSAGE_GLTF_TOO_LARGE, "its node is too far away");

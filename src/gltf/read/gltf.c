@@ -46,6 +46,24 @@ bool gltf_supports(const char *extension) {
     return false;
 }
 
+/* Warns of each extension below a value that neither weft knows nor `named` has, and adds it there. The reader limits
+ * the depth of JSON. */
+static void unnamed_check(Asset *asset, json_t *value, json_t *named) {
+    const char *key, *name;
+    json_t *part, *extension;
+    size_t k;
+    json_array_foreach(value, k, part) { unnamed_check(asset, part, named); }
+    json_object_foreach(value, key, part) {
+        if (strcmp(key, "extras") == 0) continue; /* extras belong to any application */
+        if (strcmp(key, "extensions") == 0) json_object_foreach(part, name, extension) {
+                if (gltf_supports(name) || json_object_get(named, name)) continue;
+                warn(asset->log, WEFT_MESSAGE_GLTF_WARN_EXTENSION, asset->name, "%.80s", name);
+                json_object_set_new(named, name, json_true());
+            }
+        unnamed_check(asset, part, named);
+    }
+}
+
 static void extensions_check(Asset *asset) {
     Field root = field_root(asset), required = field_member(&root, "extensionsRequired"),
           used = field_member(&root, "extensionsUsed");
@@ -55,12 +73,16 @@ static void extensions_check(Asset *asset) {
         const char *name = field_text(&field, "");
         if (!gltf_supports(name) && !asset->examined) asset_fail(asset, WEFT_MESSAGE_GLTF_EXTENSION, "%.80s", name);
     }
+    json_t *named = json_object();
     count = field_count(&used);
     for (size_t i = 0; i < count && asset->result == WEFT_OK; i++) {
         Field field = field_element(&used, i);
         const char *name = field_text(&field, "");
         if (!gltf_supports(name)) warn(asset->log, WEFT_MESSAGE_GLTF_WARN_EXTENSION, asset->name, "%.80s", name);
+        json_object_set_new(named, name, json_true());
     }
+    if (asset->result == WEFT_OK) unnamed_check(asset, asset->root, named);
+    json_decref(named);
     Field animations = field_member(&root, "animations");
     if (field_count(&animations)) field_warn(&animations, WEFT_MESSAGE_GLTF_WARN_IGNORED, "nothing moves");
 }

@@ -14,34 +14,33 @@ void lights_count(Asset *asset) {
     asset->light_count = field_count(&list);
 }
 
-static LightKind kind_read(const Field *field) {
-    static const char *const names[] = {"directional", "point", "spot"};
-    const char *text = field_text(field, "");
-    for (int i = 0; i < 3; i++)
-        if (strcmp(text, names[i]) == 0) return (LightKind)i;
-    field_fail(field, WEFT_MESSAGE_GLTF_SCHEMA, "expected directional, point or spot");
-    return LIGHT_POINT;
-}
-
 static void cone_read(const Field *field, Light *light) {
     Field spot = field_member(field, "spot"), inner_field = field_member(&spot, "innerConeAngle"),
           outer_field = field_member(&spot, "outerConeAngle");
     const double right_angle = 0.5 * PI_DOUBLE, narrowest = 1e-3;
     double outer = field_number(&outer_field, 0.5 * right_angle, narrowest, right_angle);
     double inner = field_number(&inner_field, 0.0, 0.0, right_angle);
-    if (inner > outer) inner = outer;
+    if (inner > outer) {
+        field_warn(&inner_field, WEFT_MESSAGE_GLTF_WARN_REPAIRED, "%g is beyond outerConeAngle and taken as %g", inner,
+                   outer);
+        inner = outer;
+    }
     light->cos_inner = (float)cos(inner);
     light->cos_outer = (float)cos(outer);
 }
 
-static void light_read(const Field *field, const Node *node, Light *light) {
+/* Reads a light. Returns false, with a warning, if it is of a type that the extension does not have. */
+static bool light_read(const Field *field, const Node *node, Light *light) {
+    static const char *const kinds[] = {"directional", "point", "spot", NULL}; /* as LightKind */
     Field name_field = field_member(field, "name"), type = field_member(field, "type"),
           color = field_member(field, "color"), intensity = field_member(field, "intensity"),
           range = field_member(field, "range");
     const char *name = field_text(&name_field, "");
+    if (!type.json) field_fail(&type, WEFT_MESSAGE_GLTF_SCHEMA, "missing directional, point or spot");
+    const int kind = field_choice(&type, kinds, -1, "light");
     const Transform *world = &node->world;
     *light = (Light){.name = asset_text(field->asset, *name ? name : node->name),
-                     .kind = kind_read(&type),
+                     .kind = kind < 0 ? LIGHT_POINT : (LightKind)kind,
                      .color = {1.0f, 1.0f, 1.0f},
                      .cos_inner = 1.0f};
     field_floats(&color, light->color, 3, 0.0f, 1.0f);
@@ -57,6 +56,7 @@ static void light_read(const Field *field, const Node *node, Light *light) {
         light->direction = (Vec3){(float)(x / size), (float)(y / size), (float)(z / size)};
     else
         light->direction = (Vec3){0.0f, 0.0f, -1.0f};
+    return kind >= 0;
 }
 
 void lights_read(Asset *asset) {
@@ -70,6 +70,6 @@ void lights_read(Asset *asset) {
         const Node *node = &asset->nodes[i];
         if (!node->shown || node->light < 0) continue;
         Field field = field_element(&list, (size_t)node->light);
-        light_read(&field, node, &scene->lights[scene->light_count++]);
+        if (light_read(&field, node, &scene->lights[scene->light_count])) scene->light_count++;
     }
 }

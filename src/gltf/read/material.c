@@ -17,9 +17,11 @@
 /* Reads KHR_texture_transform: T R S. The asset TextureTransformTest shows the sense of the rotation: v grows
  * downwards, so that counter-clockwise is (c u + s v, c v - s u). */
 static void transform_read(const Field *field, Input *input) {
+    static const char *const keys[] = {"offset", "rotation", "scale", "texCoord", "extensions", "extras", NULL};
     Field offset_field = field_member(field, "offset"), scale_field = field_member(field, "scale"),
           rotation = field_member(field, "rotation"), texcoord = field_member(field, "texCoord");
     float offset[2] = {0.0f, 0.0f}, scale[2] = {1.0f, 1.0f};
+    field_keys(field, keys);
     field_floats(&offset_field, offset, 2, -1e6f, 1e6f);
     field_floats(&scale_field, scale, 2, -1e6f, 1e6f);
     float angle = (float)field_number(&rotation, 0.0, -1e3, 1e3);
@@ -29,8 +31,18 @@ static void transform_read(const Field *field, Input *input) {
     input->texcoord = (int)field_size(&texcoord, (size_t)input->texcoord, 0, UINT8_MAX);
 }
 
+/* Warns of a texture, + 1, without a picture that can be read. textures_resolve drops it. */
+static void picture_check(const Field *field, int texture) {
+    const TextureSource *source = texture && field->asset->textures ? &field->asset->textures[texture - 1] : NULL;
+    if (!source || source->image >= 0) return;
+    const char *offer = source->offer ? source->offer : "";
+    field_warn(field, WEFT_MESSAGE_GLTF_WARN_IGNORED, "textures[%d] has no picture%s%s%s", texture - 1,
+               *offer ? " but that of " : "", offer, *offer ? ", which is not read" : "");
+}
+
 /* Reads a textureInfo, if there is one; channel matters to scalars only. */
 static void texture_read(const Field *field, Input *input, int channel) {
+    static const char *const keys[] = {"index", "texCoord", "scale", "strength", "extensions", "extras", NULL};
     if (!field->json) return;
     Field index = field_member(field, "index"), texcoord = field_member(field, "texCoord");
     Field transform = field_extension(field, "KHR_texture_transform");
@@ -38,11 +50,12 @@ static void texture_read(const Field *field, Input *input, int channel) {
     input->channel = channel;
     input->texcoord = (int)field_size(&texcoord, 0, 0, UINT8_MAX);
     if (transform.json) transform_read(&transform, input);
-    if (input->texcoord > 1) {
-        field_warn(field, WEFT_MESSAGE_GLTF_WARN_IGNORED, "TEXCOORD_%d, only 0 and 1 are read", input->texcoord);
-        input->texture = 0;
-        input->texcoord = 0;
-    }
+    field_keys(field, keys);
+    picture_check(field, input->texture);
+    if (input->texcoord <= 1) return;
+    field_warn(field, WEFT_MESSAGE_GLTF_WARN_IGNORED, "TEXCOORD_%d, only 0 and 1 are read", input->texcoord);
+    input->texture = 0;
+    input->texcoord = 0;
 }
 
 /* Beyond these, numbers that glTF leaves unlimited are clamped: angles and the strength of a normal map. */
@@ -72,21 +85,41 @@ static void row_read(const Field *object, const MaterialField *row, Input *input
 
 /* Repairs an ior: 0 is the extension's way to write that all is reflected; no other is below 1. */
 static void ior_repair(const Field *material, float *ior) {
-    Field extension = field_extension(material, material_field_of(INPUT_ior)->object);
+    Field extension = field_extension(material, material_field_of(INPUT_ior)->object),
+          field = field_member(&extension, "ior");
     if (*ior <= 0.0f) {
         *ior = 1e6f;
     } else if (*ior < 1.0f) {
-        field_warn(&extension, WEFT_MESSAGE_GLTF_WARN_REPAIRED, "ior %g is taken as 1", (double)*ior);
+        field_warn(&field, WEFT_MESSAGE_GLTF_WARN_REPAIRED, "%g is taken as 1", (double)*ior);
         *ior = 1.0f;
     }
 }
 
+/* Warns of members that neither the rows of an object have nor glTF has beside them. row: the first of them. */
+static void members_check(const Field *object, const MaterialField *row) {
+    static const char *const of_material[] = {"name", "pbrMetallicRoughness", "alphaMode", "doubleSided"};
+    enum { ROWS_MOST = 16, OF_MATERIAL = sizeof of_material / sizeof *of_material };
+    const char *known[2 * ROWS_MOST + OF_MATERIAL + 3] = {"extensions", "extras"};
+    size_t count = 2;
+    for (size_t k = 0; !row->object && k < OF_MATERIAL; k++) known[count++] = of_material[k];
+    for (const MaterialField *r = row; r->factor && count < 2 * ROWS_MOST; r++) {
+        if (row->object ? !material_fields_share(row, r) : r->object != NULL) continue;
+        if (!material_field_inside(r)) known[count++] = r->factor;
+        if (r->texture) known[count++] = r->texture;
+    }
+    field_keys(object, known);
+}
+
 static void rows_read(const Field *material, Input *inputs) {
+    const MaterialField *last = NULL;
     for (const MaterialField *row = material_fields; row->factor; row++) {
         Field object = material_field_extends(row) ? field_extension(material, row->object)
                        : row->object               ? field_member(material, row->object)
                                                    : *material;
+        const bool begins = !last || last->object != row->object;
+        last = row;
         if (row->input == NO_INPUT || (material_field_replaces(row) && !object.json)) continue;
+        if (begins) members_check(&object, row);
         row_read(&object, row, inputs);
     }
     ior_repair(material, inputs[INPUT_ior].value);
@@ -117,12 +150,14 @@ enum { OWN = sizeof own / sizeof own[0] };
 
 /* Reads a member of extras.weft.inputs, which describes a whole input: what it lacks has its default. */
 static void whole_input_read(const Field *field, InputId id, Input *input) {
+    static const char *const keys[] = {"value", "texture", "texCoord", "channel", "transform", "given", NULL};
     const float most = FLT_MAX;
     Field value = field_member(field, "value"), texture = field_member(field, "texture"),
           texcoord = field_member(field, "texCoord"), channel = field_member(field, "channel"),
           transform = field_member(field, "transform"), given = field_member(field, "given");
     const int count = input_value_count(id);
     *input = material_default().inputs[id];
+    field_keys(field, keys);
     field_floats(&value, input->value, (size_t)count, -most, most);
     for (int c = 0; c < count; c++) input->value[c] = input_clamped(id, input->value[c]);
     field_floats(&transform, input->transform, 6, -most, most);
@@ -145,14 +180,17 @@ static void choice_read(const Field *field, ChoiceId choice, Material *material)
 static void saved_read(const Field *weft, Material *material) {
     Field choices = field_member(weft, "choices"), list = field_member(weft, "inputs"),
           cutoff = field_member(weft, "alphaCutoff");
+    const char *choice_names[CHOICE_COUNT + 1] = {NULL}, *input_names[INPUT_COUNT + 1] = {NULL};
     for (int k = 0; k < CHOICE_COUNT; k++) {
-        Field field = field_member(&choices, weft_material_choice_name(k));
+        Field field = field_member(&choices, choice_names[k] = weft_material_choice_name(k));
         choice_read(&field, (ChoiceId)k, material);
     }
     for (int k = 0; k < INPUT_COUNT; k++) {
-        Field field = field_member(&list, input_infos[k].name);
+        Field field = field_member(&list, input_names[k] = input_infos[k].name);
         if (field.json) whole_input_read(&field, (InputId)k, &material->inputs[k]);
     }
+    field_keys(&choices, choice_names);
+    field_keys(&list, input_names);
     material->alpha_cutoff = (float)field_number(&cutoff, (double)material->alpha_cutoff, 0.0, (double)FLT_MAX);
 }
 
@@ -182,8 +220,9 @@ static void weave_read(const Field *weft, Material *material) {
 
 /* Reads extras.weft: what no extension of glTF can express. Other extras belong to other programs. */
 static void extras_read(const Field *field, Material *material) {
-    static const char *const keys[] = {"nap",     "napRotation", "napTexture",  "dustTexture",
-                                       "choices", "inputs",      "alphaCutoff", "weave"};
+    const char *keys[OWN + 9] = {"nap",     "napRotation", "napTexture",  "dustTexture",
+                                 "choices", "inputs",      "alphaCutoff", "weave"};
+    for (size_t k = 0; k < OWN; k++) keys[8 + k] = own[k].key;
     static const MaterialField nap[] = {
         {INPUT_nap, NULL, "nap", "napTexture", CHANNEL_B, 0.0f, 0.0f, 0.5f * PI_FLOAT},
         {INPUT_nap_direction, NULL, "napRotation", "napTexture", CHANNELS_DIRECTION, 0.0f, -INFINITY, INFINITY}};
@@ -196,31 +235,16 @@ static void extras_read(const Field *field, Material *material) {
     for (size_t k = 0; k < sizeof nap / sizeof *nap; k++) row_read(&weft, &nap[k], inputs);
     saved_read(&weft, material);
     weave_read(&weft, material);
-    const char *key;
-    json_t *value;
-    json_object_foreach(weft.json, key, value) {
-        bool known = false;
-        for (size_t k = 0; k < sizeof keys / sizeof *keys; k++) known |= strcmp(key, keys[k]) == 0;
-        for (size_t k = 0; k < OWN; k++) known |= strcmp(key, own[k].key) == 0;
-        if (!known) field_warn(&weft, WEFT_MESSAGE_GLTF_WARN_IGNORED, "\"%.40s\" means nothing", key);
-    }
-}
-
-static WeftAlphaMode alpha_mode_read(const Field *field) {
-    static const char *const names[] = {"OPAQUE", "MASK", "BLEND"};
-    const char *text = field_text(field, "OPAQUE");
-    for (int i = 0; i < 3; i++)
-        if (strcmp(text, names[i]) == 0) return (WeftAlphaMode)i;
-    field_fail(field, WEFT_MESSAGE_GLTF_SCHEMA, "expected OPAQUE, MASK or BLEND");
-    return WEFT_ALPHA_OPAQUE;
+    field_keys(&weft, keys);
 }
 
 /* Reads an object of "materials"; an absent field gives the default material. */
 static Material material_read(const Field *field) {
+    static const char *const modes[] = {"OPAQUE", "MASK", "BLEND", NULL}; /* as WeftAlphaMode */
     Field alpha = field_member(field, "alphaMode"), cutoff = field_member(field, "alphaCutoff"),
           sided = field_member(field, "doubleSided");
     Material material = material_default();
-    material.alpha_mode = alpha_mode_read(&alpha);
+    material.alpha_mode = (WeftAlphaMode)field_choice(&alpha, modes, WEFT_ALPHA_OPAQUE, "");
     material.alpha_cutoff = (float)field_number(&cutoff, 0.5, 0.0, (double)FLT_MAX);
     material.double_sided = field_bool(&sided, false);
     material.unlit = field_extension(field, "KHR_materials_unlit").json != NULL;

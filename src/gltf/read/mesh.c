@@ -3,6 +3,7 @@
 #include "gltf/read/mesh.h"
 
 #include <stdio.h>
+#include <string.h>
 
 #include "gltf/asset/field.h"
 
@@ -36,6 +37,21 @@ static int attribute_read(const Field *attributes, const char *name, int low, in
 
 static bool is_unsigned(const Accessor *a) {
     return a->component == COMPONENT_U8 || a->component == COMPONENT_U16 || a->component == COMPONENT_U32;
+}
+
+/* Warns of attributes that are not read, but for those that are an application's own, by their underscore, and for sets
+ * of coordinates or colours, which nothing shows unless a texture names them. */
+static void attributes_check(const Field *attributes) {
+    static const char *const read[] = {"POSITION", "NORMAL",   "TANGENT",   "TEXCOORD_", "COLOR_",
+                                       "JOINTS_0", "JOINTS_1", "WEIGHTS_0", "WEIGHTS_1", "_"};
+    const char *name;
+    json_t *value;
+    json_object_foreach(attributes->json, name, value) {
+        bool known = false;
+        for (size_t k = 0; k < sizeof read / sizeof *read; k++) known |= strncmp(name, read[k], strlen(read[k])) == 0;
+        Field field = field_member(attributes, name);
+        if (!known) field_warn(&field, WEFT_MESSAGE_GLTF_WARN_IGNORED, "this attribute is not read");
+    }
 }
 
 static void indices_read(const Field *field, Primitive *p) {
@@ -109,6 +125,7 @@ static void primitive_read(const Field *field, Primitive *p) {
     p->color = attribute_read(&attributes, "COLOR_0", 3, 4, count);
     skin_sets_read(&attributes, p, count);
     targets_read(&targets, p, count);
+    attributes_check(&attributes);
     indices_read(&indices, p);
     p->material = field_index(&material, asset->material_count);
     if (p->material < 0) p->material = (int)asset->material_count;

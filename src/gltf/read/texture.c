@@ -16,19 +16,47 @@
 #include "gltf/asset/uri.h"
 #include "gltf/read/glossiness.h"
 
-/* Returns the image of a texture: its `source`. Extensions whose image format cannot be read here are ignored
- * with a warning. */
-static int source_read(const Field *field) {
+/* Reads what a texture names. Extensions whose image format cannot be read here are passed over with a warning; where
+ * nothing else is named the warning comes from the material that has the texture. */
+static TextureSource source_read(const Field *field) {
     static const char *const offers[] = {"KHR_texture_basisu", "EXT_texture_webp", "EXT_texture_avif",
                                          "MSFT_texture_dds"};
-    Field source = field_member(field, "source");
+    Field source = field_member(field, "source"), sampler = field_member(field, "sampler");
+    TextureSource texture = {.image = field_index(&source, field->asset->image_count),
+                             .sampler = field_index(&sampler, field->asset->sampler_count),
+                             .scene_texture = -1};
     for (size_t i = 0; i < sizeof offers / sizeof *offers; i++) {
         Field offer = field_extension(field, offers[i]);
-        if (offer.json)
-            field_warn(field, WEFT_MESSAGE_GLTF_WARN_IGNORED, "%s, %s", offers[i],
-                       source.json ? "its plain source is used" : "which leaves the texture without an image");
+        if (!offer.json) continue;
+        texture.offer = offers[i];
+        if (source.json) field_warn(field, WEFT_MESSAGE_GLTF_WARN_IGNORED, "%s, its plain source is used", offers[i]);
     }
-    return field_index(&source, field->asset->image_count);
+    return texture;
+}
+
+/* Returns the place of a number among values, which ends with 0. An absent field reads as the first, and any other
+ * number too, with a warning. */
+static int constant_read(const Field *field, const size_t *values) {
+    const size_t value = field_size(field, values[0], 0, SIZE_MAX);
+    for (int k = 0; values[k]; k++)
+        if (values[k] == value) return k;
+    field_warn(field, WEFT_MESSAGE_GLTF_WARN_REPAIRED, "%zu is no value of glTF's; it is taken as %zu", value,
+               values[0]);
+    return 0;
+}
+
+static Texture sampler_read(const Field *field) {
+    static const size_t wraps[] = {10497, 33648, 33071, 0}; /* as TextureWrap */
+    static const size_t mags[] = {9729, 9728, 0}, mins[] = {9729, 9728, 9984, 9985, 9986, 9987, 0};
+    static const char *const keys[] = {"wrapS", "wrapT",      "magFilter", "minFilter",
+                                       "name",  "extensions", "extras",    NULL};
+    Field wrap_s = field_member(field, "wrapS"), wrap_t = field_member(field, "wrapT"),
+          mag = field_member(field, "magFilter"), min = field_member(field, "minFilter");
+    constant_read(&min, mins); /* the renderer minifies as it can */
+    field_keys(field, keys);
+    return (Texture){.wrap_u = (TextureWrap)constant_read(&wrap_s, wraps),
+                     .wrap_v = (TextureWrap)constant_read(&wrap_t, wraps),
+                     .nearest = constant_read(&mag, mags) == 1};
 }
 
 void textures_read(Asset *asset) {
@@ -42,40 +70,17 @@ void textures_read(Asset *asset) {
         field_text(&uri, NULL);
     }
     asset->sampler_count = field_count(&samplers);
-    for (size_t i = 0; i < asset->sampler_count; i++) {
+    asset->samplers = asset_array(asset, &asset->arena, asset->sampler_count, sizeof *asset->samplers);
+    for (size_t i = 0; i < asset->sampler_count && asset->result == WEFT_OK; i++) {
         Field field = field_element(&samplers, i);
-        field_member(&field, "wrapS");
+        asset->samplers[i] = sampler_read(&field);
     }
     asset->texture_count = field_count(&list);
     asset->textures = asset_array(asset, &asset->arena, asset->texture_count, sizeof *asset->textures);
     for (size_t i = 0; i < asset->texture_count && asset->result == WEFT_OK; i++) {
-        Field field = field_element(&list, i), sampler = field_member(&field, "sampler");
-        asset->textures[i] = (TextureSource){
-            .image = source_read(&field), .sampler = field_index(&sampler, asset->sampler_count), .scene_texture = -1};
+        Field field = field_element(&list, i);
+        asset->textures[i] = source_read(&field);
     }
-}
-
-static TextureWrap wrap_read(const Field *field) {
-    enum { CLAMP_TO_EDGE = 33071, MIRRORED_REPEAT = 33648, REPEAT = 10497 };
-    size_t value = field_size(field, REPEAT, 0, SIZE_MAX);
-    switch (value) {
-    case CLAMP_TO_EDGE: return WRAP_CLAMP;
-    case MIRRORED_REPEAT: return WRAP_MIRROR;
-    case REPEAT: return WRAP_REPEAT;
-    default: field_fail(field, WEFT_MESSAGE_GLTF_SCHEMA, "%zu is not a wrapping mode", value);
-    }
-    return WRAP_REPEAT;
-}
-
-static void sampler_read(Asset *asset, int index, Texture *texture) {
-    enum { NEAREST = 9728 };
-    if (index < 0) return;
-    Field root = field_root(asset), list = field_member(&root, "samplers"), field = field_element(&list, (size_t)index),
-          wrap_s = field_member(&field, "wrapS"), wrap_t = field_member(&field, "wrapT"),
-          filter = field_member(&field, "magFilter");
-    texture->wrap_u = wrap_read(&wrap_s);
-    texture->wrap_v = wrap_read(&wrap_t);
-    texture->nearest = field_size(&filter, 0, 0, SIZE_MAX) == NEAREST;
 }
 
 /* One image to decode, and the result. */
@@ -84,6 +89,7 @@ typedef struct DecodeJob {
     unsigned char *owned;
     const char *name;  /* named in messages */
     const char *path;  /* NULL: no file of its own */
+    int image;         /* its number in the file */
     WeftResult result; /* of finding its bytes, then of decoding them */
     WeftError error;
 } DecodeJob;
@@ -98,20 +104,34 @@ typedef struct Jobs {
     atomic_bool stopped;
 } Jobs;
 
+/* Hands a line about an image of the file to the asset's log. */
+static void image_log(Asset *asset, int image, WeftMessage message, const char *text) {
+    if (!asset->log || !asset->log->fn) return;
+    Field root = field_root(asset), list = field_member(&root, "images"), field = field_element(&list, (size_t)image);
+    asset->place = &field;
+    asset->log->fn(asset->log->user, message, text);
+    asset->place = NULL;
+}
+
+/* An image that a thread decodes, as the receiver of its warnings. */
+typedef struct Listener {
+    Jobs *jobs;
+    int image;
+} Listener;
+
 static void log_locked(void *user, WeftMessage message, const char *text) {
-    Jobs *jobs = user;
-    const WeftLog *log = jobs->asset->log;
-    if (!log || !log->fn) return;
-    pthread_mutex_lock(&jobs->log_lock);
-    log->fn(log->user, message, text);
-    pthread_mutex_unlock(&jobs->log_lock);
+    const Listener *listener = user;
+    pthread_mutex_lock(&listener->jobs->log_lock);
+    image_log(listener->jobs->asset, listener->image, message, text);
+    pthread_mutex_unlock(&listener->jobs->log_lock);
 }
 
 static void decode(void *user, int place, int thread) {
     Jobs *jobs = user;
     int item = jobs->order[place];
     DecodeJob *job = &jobs->items[item];
-    const WeftLog log = {log_locked, jobs};
+    Listener listener = {jobs, job->image};
+    const WeftLog log = {log_locked, &listener};
     if (atomic_load(&jobs->stopped) || job->result != WEFT_OK) return;
     job->result = weft_image_read_memory(job->bytes.data, job->bytes.size, job->name, &jobs->asset->scene->images[item],
                                          &log, &job->error);
@@ -156,7 +176,7 @@ static void images_decode(Jobs *jobs) {
     for (int i = 0; i < count && asset->result == WEFT_OK; i++) {
         const DecodeJob *job = &jobs->items[i];
         if (asset->examined && job->result == WEFT_INPUT) {
-            if (asset->log && asset->log->fn) asset->log->fn(asset->log->user, job->error.message, job->error.text);
+            image_log(asset, job->image, job->error.message, job->error.text);
             continue;
         }
         asset->result = job->result;
@@ -187,7 +207,7 @@ static int image_resolve(Jobs *jobs, int index) {
           view_field = field_member(&field, "bufferView"), uri_field = field_member(&field, "uri");
     const char *uri = field_text(&uri_field, NULL);
     int view = field_index(&view_field, asset->view_count), none = 0, *made = &none;
-    DecodeJob job = {.name = image_name(asset, index)};
+    DecodeJob job = {.name = image_name(asset, index), .image = index};
     if (uri && uri_is_data(uri)) {
         job.bytes.data = job.owned = uri_decode(&uri_field, uri, &job.bytes.size);
     } else if (uri) {
@@ -221,7 +241,7 @@ static int texture_resolve(Jobs *jobs, int texture, int *image_of_source) {
         source->scene_texture = scene->texture_count++;
         Texture *made = &scene->textures[source->scene_texture];
         int *image = &image_of_source[source->image];
-        sampler_read(asset, source->sampler, made);
+        if (source->sampler >= 0) *made = asset->samplers[source->sampler];
         if (*image < 0) *image = image_resolve(jobs, source->image);
         made->image = *image;
         if (jobs->items[*image].path) made->path = asset_text(asset, jobs->items[*image].path);

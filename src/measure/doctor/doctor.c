@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "base/fail.h"
-#include "gltf/asset/uri.h"
+#include "base/printable.h"
 #include "gltf/read/gltf.h"
 #include "gltf/save/rewrite.h"
 
@@ -51,8 +51,7 @@ static void name_subject(const WeftDoctor *doctor, WeftFinding *finding) {
         snprintf(finding->subject, sizeof finding->subject, "%s", name);
     else
         snprintf(finding->subject, sizeof finding->subject, "%s[%d]", list_name(finding->of), finding->index);
-    for (char *c = finding->subject; *c; c++) /* control characters must not break the line */
-        if ((unsigned char)*c < 0x20 || *c == 0x7f) *c = '?';
+    make_printable(finding->subject);
 }
 
 static void name_place(WeftFinding *finding, const char *path) {
@@ -64,6 +63,7 @@ static void name_place(WeftFinding *finding, const char *path) {
         snprintf(to, capacity, "%s%s", slash, path);
     else
         snprintf(to, capacity, "/%s/%d%s%s", list_name(finding->of), finding->index, slash, path);
+    make_printable(to);
 }
 
 /* Allocates space for one more finding. Returns false if there are too many or memory is short. */
@@ -97,6 +97,7 @@ void doctor_found(WeftDoctor *doctor, WeftFindingKind kind, Place place, unsigne
     va_start(arguments, words);
     vsnprintf(finding->words, sizeof finding->words, words, arguments);
     va_end(arguments);
+    make_printable(finding->words);
     name_subject(doctor, finding);
     name_place(finding, place.path);
 }
@@ -108,6 +109,7 @@ void doctor_advise(WeftDoctor *doctor, const char *fix, ...) {
     va_start(arguments, fix);
     vsnprintf(finding->fix, sizeof finding->fix, fix, arguments);
     va_end(arguments);
+    make_printable(finding->fix);
 }
 
 void doctor_soften(WeftDoctor *doctor) {
@@ -115,49 +117,6 @@ void doctor_soften(WeftDoctor *doctor) {
     doctor->items[doctor->count - 1].severity = WEFT_SEVERITY_NOTE;
     doctor->items[doctor->count - 1].fixable = 0;
     doctor->repairs[doctor->count - 1].act = REPAIR_NONE;
-}
-
-/* Returns true if a warning begins with the path of the image's file. fail.c cuts a path off at PATH_LENGTH
- * characters. */
-static bool begins_with_path(const WeftDoctor *doctor, int image, const char *text) {
-    enum { PATH_LENGTH = 200 };
-    char path[PATH_LENGTH * 4];
-    const char *asset = doctor->asset.name, *slash = strrchr(asset, '/');
-    const char *uri = json_string_value(json_object_get(doctor_item(doctor, "images", image), "uri"));
-    int folder = slash ? (int)(slash - asset) + 1 : 0;
-    if (!uri || folder >= PATH_LENGTH) return false;
-    snprintf(path, sizeof path, "%.*s%s", folder, asset, uri);
-    if (!uri_unescape(path + folder)) return false;
-    size_t length = strnlen(path, PATH_LENGTH);
-    return strncmp(text, path, length) == 0 && text[length] == ':';
-}
-
-/* Returns the index of the image that a warning names, by the path of its file or as "ASSET: images[3]: ..."; -1 if it
- * names none. */
-static int image_named(const WeftDoctor *doctor, const char *text) {
-    for (int k = 0; k < (int)doctor->asset.image_count; k++)
-        if (begins_with_path(doctor, k, text)) return k;
-    const char *images = strstr(text, "images[");
-    return images ? atoi(images + strlen("images[")) : -1;
-}
-
-/* Receives the warnings of the reader. A warning about an image becomes a finding. All go on to the caller's log,
- * except those about an image that cannot be read: the finding repeats their text. */
-static void on_warning(void *user, WeftMessage message, const char *text) {
-    WeftDoctor *doctor = user;
-    bool absent = message == WEFT_MESSAGE_FILE_OPEN || message == WEFT_MESSAGE_GLTF_URI,
-         unread = absent || message_result(message) == WEFT_INPUT;
-    if (unread || message == WEFT_MESSAGE_IMAGE_REPAIRED) {
-        int index = image_named(doctor, text);
-        Place place = {index < 0 ? WEFT_OF_ASSET : WEFT_OF_IMAGE, index < 0 ? 0 : index, NULL};
-        doctor_found(doctor, unread ? WEFT_FINDING_IMAGE_UNREAD : WEFT_FINDING_IMAGE_REPAIRED, place, 0, (double)NAN,
-                     NULL, "%s", text);
-        doctor_advise(doctor, "%s",
-                      absent   ? "put the file where the asset names it; its contents were not examined"
-                      : unread ? "write it as PNG or JPEG; its contents were not examined"
-                               : "write the image again: other readers may refuse it");
-    }
-    if (!unread && doctor->log.fn) doctor->log.fn(doctor->log.user, message, text);
 }
 
 /* Reports progress. Reading takes little time beside the checks and counts as 0. */
@@ -175,8 +134,8 @@ static bool goes_on(WeftDoctor *doctor, size_t done) {
 static void examine(WeftDoctor *doctor) {
     static void (*const of_asset[])(WeftDoctor *) = {check_extensions, check_glass, check_spaces};
     static void (*const of_material[])(WeftDoctor *, const Cloth *) = {
-        check_ranges,  check_factors, check_transforms, check_black,
-        check_channel, check_energy,  check_neighbours, check_plausible};
+        check_archived, check_ranges, check_factors,    check_transforms, check_black,
+        check_channels, check_energy, check_neighbours, check_plausible};
     for (size_t k = 0; k < sizeof of_asset / sizeof *of_asset; k++) of_asset[k](doctor);
     doctor->examining = true;
     int materials = (int)doctor->asset.material_count;
@@ -233,7 +192,7 @@ static WeftResult open_any(const char *path, const void *data, size_t size, Weft
     doctor->progress = progress;
     doctor->user = user;
     doctor->scene->srgb = srgb_table();
-    doctor->own = (WeftLog){on_warning, doctor};
+    doctor->own = (WeftLog){doctor_hear, doctor};
     doctor->asset = (Asset){.error = &doctor->error,
                             .scene = doctor->scene,
                             .examined = true,
@@ -246,6 +205,7 @@ static WeftResult open_any(const char *path, const void *data, size_t size, Weft
         doctor->pixels = alloc_array((size_t)doctor->scene->image_count, sizeof *doctor->pixels);
     if (doctor->asset.result == WEFT_OK && !doctor->pixels) doctor->failed = true;
     if (doctor->asset.result == WEFT_OK && !doctor->failed) examine(doctor);
+    if (doctor->asset.result == WEFT_OK && !doctor->failed) doctor_unite(doctor);
     if (doctor->asset.result == WEFT_OK && !doctor->failed) sort(doctor);
     if (doctor->failed) asset_fail(&doctor->asset, WEFT_MESSAGE_MEMORY, NULL);
     if (doctor->asset.result == WEFT_OK) {

@@ -69,6 +69,12 @@ __attribute__((format(printf, 2, 3))) void doctor_advise(WeftDoctor *doctor, con
 /* Makes the last finding a note without a repair: on a material that is no cloth the value may be intended. */
 void doctor_soften(WeftDoctor *doctor);
 
+/* Receives a warning of the reader and makes a finding of it: the fn of the asset's log, whose user is the doctor. */
+void doctor_hear(void *doctor, WeftMessage message, const char *text);
+
+/* Drops what the reader warned of where a check says more of the same value. */
+void doctor_unite(WeftDoctor *doctor);
+
 /* Returns the value at a path such as "a/b/c" below an object, or NULL if there is none. */
 json_t *doctor_part(json_t *object, const char *path);
 
@@ -99,6 +105,9 @@ void doctor_texel_linear(const WeftDoctor *doctor, const WeftImage *image, float
 /* Writes the factor of an input, clamped to 0 .. 1, times the mean of its texture: a linear colour, or one number. */
 void doctor_input(WeftDoctor *doctor, json_t *material, InputId input, float *out);
 
+/* Returns the field that an input of this material is read from. */
+const struct MaterialField *doctor_row(json_t *material, InputId input);
+
 /* Returns the bit of a profile by its id, and the bits of all profiles of engines that read
  * KHR_materials_sheen; doctor_readers are their ids. */
 unsigned doctor_engine(const char *profile);
@@ -124,6 +133,8 @@ void check_extensions(WeftDoctor *doctor);
 void check_spaces(WeftDoctor *doctor);
 /* Finds a sheen and a transmission in one asset. */
 void check_glass(WeftDoctor *doctor);
+/* Finds materials of an extension that Khronos has archived. */
+void check_archived(WeftDoctor *doctor, const Cloth *cloth);
 /* Finds factors outside their range. */
 void check_ranges(WeftDoctor *doctor, const Cloth *cloth);
 /* Finds textures that are multiplied by 0. */
@@ -132,8 +143,8 @@ void check_factors(WeftDoctor *doctor, const Cloth *cloth);
 void check_transforms(WeftDoctor *doctor, const Cloth *cloth);
 /* Finds sheens that are black. */
 void check_black(WeftDoctor *doctor, const Cloth *cloth);
-/* Finds a texture of roughness whose alpha is 1 everywhere. */
-void check_channel(WeftDoctor *doctor, const Cloth *cloth);
+/* Finds textures whose number is read from an alpha that is 1 everywhere. */
+void check_channels(WeftDoctor *doctor, const Cloth *cloth);
 /* Finds engines that return too much light, or that differ. */
 void check_energy(WeftDoctor *doctor, const Cloth *cloth);
 /* Finds inputs that conflict with a sheen. */

@@ -123,8 +123,21 @@ const Pixels *doctor_pixels(WeftDoctor *doctor, json_t *info) {
     return pixels;
 }
 
+const MaterialField *doctor_row(json_t *material, InputId input) {
+    const bool gloss = json_object_get(json_object_get(material, "extensions"), gloss_object) != NULL;
+    for (const MaterialField *row = material_fields; gloss && row->factor; row++)
+        if (material_field_replaces(row) && row->input == (int)input) return row;
+    return material_field_of(input);
+}
+
+/* Turns glossiness into roughness. */
+static float number_of(const MaterialField *row, float number) {
+    return row->channels == CHANNEL_A_GLOSS ? 1.0f - number : number;
+}
+
 void doctor_input(WeftDoctor *doctor, json_t *material, InputId input, float *out) {
-    const MaterialField *row = material_field_of(input);
+    const MaterialField *row = doctor_row(material, input);
+    const int alpha = (int)CHANNEL_A, channel = (int)row->channels > alpha ? alpha : (int)row->channels;
     const int count = material_field_numbers(row), given = count > 1 ? 3 : 1;
     const double absent = (double)row->absent;
     double numbers[3] = {absent, absent, absent};
@@ -135,7 +148,8 @@ void doctor_input(WeftDoctor *doctor, json_t *material, InputId input, float *ou
     const Pixels *pixels = doctor_pixels(doctor, doctor_part(material, path));
     for (int c = 0; c < given; c++) {
         out[c] = fminf(fmaxf((float)numbers[c], 0.0f), 1.0f);
-        if (pixels) out[c] *= given == 3 ? pixels->linear[c] : pixels->mean[row->channels];
+        if (pixels) out[c] *= given == 3 ? pixels->linear[c] : pixels->mean[channel];
+        out[c] = number_of(row, out[c]);
     }
 }
 
@@ -156,7 +170,8 @@ Cloth doctor_cloth(WeftDoctor *doctor, int material) {
     doctor_input(doctor, cloth.json, INPUT_sheen_color, cloth.color);
     doctor_input(doctor, cloth.json, INPUT_sheen_roughness, &cloth.roughness);
     doctor_input(doctor, cloth.json, INPUT_base_color, cloth.base);
-    doctor_input(doctor, cloth.json, INPUT_metallic, &cloth.metallic);
+    const bool metals = !material_field_replaces(doctor_row(cloth.json, INPUT_base_color));
+    if (metals) doctor_input(doctor, cloth.json, INPUT_metallic, &cloth.metallic);
     return cloth;
 }
 

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "gltf/asset/material_fields.h"
 #include "gltf/read/gltf.h"
 #include "measure/doctor/doctor.h"
 
@@ -61,6 +62,21 @@ void check_extensions(WeftDoctor *doctor) {
         doctor_advise(doctor, "check that every engine you mean to use has it, or export without");
     }
     declare_below(doctor, doctor->asset.root);
+}
+
+void check_archived(WeftDoctor *doctor, const Cloth *cloth) {
+    const MaterialField *row = doctor_row(cloth->json, INPUT_base_color);
+    if (!material_field_replaces(row)) return;
+    char path[FIELD_PATH];
+    material_field_path(row, row->factor, path);
+    *strrchr(path, '/') = '\0';
+    const bool fallback = json_object_get(cloth->json, pbr_object) != NULL;
+    doctor_found(
+        doctor, WEFT_FINDING_EXTENSION_ARCHIVED, (Place){WEFT_OF_MATERIAL, cloth->index, path}, doctor_engine("three"),
+        (double)NAN, NULL,
+        "%s is archived by Khronos: weft reads it, but three.js and others no longer do, and show %s", row->object,
+        fallback ? "what pbrMetallicRoughness has instead" : "a white metal, since pbrMetallicRoughness is missing");
+    doctor_advise(doctor, "`weft render ASSET --save FILE.glb` writes it with KHR_materials_specular");
 }
 
 static bool lets_light_through(json_t *material) {

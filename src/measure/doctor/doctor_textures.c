@@ -139,31 +139,49 @@ static int painted_channel(const Pixels *pixels) {
     return grey ? 0 : 1;
 }
 
-void check_channel(WeftDoctor *doctor, const Cloth *cloth) {
-    static const char path[] = "extensions/KHR_materials_sheen/sheenRoughnessTexture";
+/* Returns the texture of the colour beside a number in one extension, or NULL: both may share an image. */
+static json_t *color_beside(const Cloth *cloth, const MaterialField *row) {
+    char path[FIELD_PATH];
+    for (const MaterialField *other = material_fields; other->factor; other++) {
+        if (!material_fields_share(other, row) || other->channels != CHANNELS_COLOR || !other->texture) continue;
+        material_field_path(other, other->texture, path);
+        return doctor_part(cloth->json, path);
+    }
+    return NULL;
+}
+
+static void check_channel(WeftDoctor *doctor, const Cloth *cloth, const MaterialField *row) {
     static const char *const channels[] = {"grey", "green"};
-    json_t *info = json_object_get(cloth->sheen, "sheenRoughnessTexture");
+    char path[FIELD_PATH];
+    material_field_path(row, row->texture, path);
+    json_t *info = doctor_part(cloth->json, path);
     const Pixels *pixels = doctor_pixels(doctor, info);
     const Place place = {WEFT_OF_MATERIAL, cloth->index, path};
+    const bool sheen = row->input == INPUT_sheen_roughness;
+    const unsigned engines = sheen ? doctor_engines() : 0;
     if (!pixels || pixels->low[3] < 0.995f) return;
-    int channel = painted_channel(pixels),
-        colors = file_image(doctor, json_object_get(cloth->sheen, "sheenColorTexture"));
+    const int channel = painted_channel(pixels);
+    const bool shared = file_image(doctor, info) == file_image(doctor, color_beside(cloth, row));
     float spread = pixels->high[channel] - pixels->low[channel];
-    if (spread > 4.0f / 255.0f && file_image(doctor, info) != colors) {
+    if (spread > 4.0f / 255.0f && !shared) {
         const Repair repair = {.act = REPAIR_ALPHA, .texture = doctor_texture(doctor, info), .channel = channel};
-        doctor_found(doctor, WEFT_FINDING_SHEEN_ROUGHNESS_CHANNEL, place, doctor_engines(),
-                     (double)pixels->mean[channel], &repair,
-                     "sheenRoughnessTexture is read from alpha, which is 1 everywhere; what was painted "
-                     "(%.2g .. %.2g) is "
-                     "in its %s channel and not seen",
-                     (double)pixels->low[channel], (double)pixels->high[channel], channels[channel]);
-        doctor_advise(doctor, "move the roughness to alpha");
+        doctor_found(
+            doctor, sheen ? WEFT_FINDING_SHEEN_ROUGHNESS_CHANNEL : WEFT_FINDING_TEXTURE_CHANNEL, place, engines,
+            (double)pixels->mean[channel], &repair,
+            "%s is read from alpha, which is 1 everywhere; what was painted (%.2g .. %.2g) is in its %s channel "
+            "and not seen",
+            row->texture, (double)pixels->low[channel], (double)pixels->high[channel], channels[channel]);
+        doctor_advise(doctor, "move %s to alpha", sheen ? "the roughness" : "it");
         return;
     }
     const Repair repair = {.act = REPAIR_REMOVE};
-    doctor_found(doctor, WEFT_FINDING_SHEEN_ROUGHNESS_PLAIN, place, doctor_engines(), 1.0, &repair,
-                 "the alpha of sheenRoughnessTexture, which is all that is read of it, is 1 everywhere: the "
-                 "roughness is "
-                 "sheenRoughnessFactor alone");
-    doctor_advise(doctor, "drop sheenRoughnessTexture: the picture stays the same");
+    doctor_found(doctor, sheen ? WEFT_FINDING_SHEEN_ROUGHNESS_PLAIN : WEFT_FINDING_TEXTURE_PLAIN, place, engines, 1.0,
+                 &repair, "the alpha of %s, which is all that is read of it, is 1 everywhere: the %s is %s alone",
+                 row->texture, sheen ? "roughness" : "number", row->factor);
+    doctor_advise(doctor, "drop %s: the picture stays the same", row->texture);
+}
+
+void check_channels(WeftDoctor *doctor, const Cloth *cloth) {
+    for (const MaterialField *row = material_fields; row->factor; row++)
+        if (row->texture && row->channels == CHANNEL_A) check_channel(doctor, cloth, row);
 }

@@ -99,18 +99,26 @@ static const float CLOTH_LOW = 0.0130f, CLOTH_HIGH = 0.8963f, METAL_LOW = 0.4564
 
 static float luminance(const float c[3]) { return 0.2126f * c[0] + 0.7152f * c[1] + 0.0722f * c[2]; }
 
+/* Returns the textureInfo of the base colour, or NULL. */
+static json_t *base_texture(const Cloth *cloth) {
+    const MaterialField *row = doctor_row(cloth->json, INPUT_base_color);
+    char path[FIELD_PATH];
+    material_field_path(row, row->texture, path);
+    return doctor_part(cloth->json, path);
+}
+
 static void check_bright(WeftDoctor *doctor, const Cloth *cloth, Place place) {
     float most = fmaxf(cloth->base[0], fmaxf(cloth->base[1], cloth->base[2]));
-    bool textured = doctor_part(cloth->json, PBR("baseColorTexture")) != NULL;
+    bool textured = base_texture(cloth) != NULL;
     if (!(luminance(cloth->base) > CLOTH_HIGH) || most > 1.0f) return;
     Repair repair = {.act = REPAIR_NUMBERS, .numbers = {1.0, 1.0, 1.0, 1.0}, .count = 4};
-    doctor_numbers(cloth->json, PBR("baseColorFactor"), repair.numbers, 4);
+    doctor_numbers(cloth->json, place.path, repair.numbers, 4);
     for (int c = 0; c < 3; c++) repair.numbers[c] *= 0.8 / (double)luminance(cloth->base);
     doctor_found(doctor, WEFT_FINDING_BASE_BRIGHT, place, 0, (double)luminance(cloth->base), &repair,
                  "the base colour%s reflects %.3g, more than fresh snow (%.3g): nothing that a sheen or a highlight "
                  "adds finds room, and light in folds does not fade",
                  textured ? ", in the mean of its texture," : "", (double)luminance(cloth->base), (double)CLOTH_HIGH);
-    doctor_advise(doctor, "multiply baseColorFactor by %.3g: white cotton reflects about 0.8",
+    doctor_advise(doctor, "multiply %s by %.3g: white cotton reflects about 0.8", doctor_key(place.path),
                   0.8 / (double)luminance(cloth->base));
     if (!cloth->sheen) doctor_soften(doctor);
 }
@@ -163,9 +171,14 @@ static bool glows(json_t *material) {
 }
 
 static void check_base(WeftDoctor *doctor, const Cloth *cloth) {
-    const Place place = {WEFT_OF_MATERIAL, cloth->index, PBR("baseColorFactor")};
+    const MaterialField *row = doctor_row(cloth->json, INPUT_base_color);
+    char path[FIELD_PATH];
+    material_field_path(row, row->factor, path);
+    const Place place = {WEFT_OF_MATERIAL, cloth->index, path};
+    json_t *texture = base_texture(cloth);
     float y = luminance(cloth->base);
     if (doctor_part(cloth->json, "extensions/KHR_materials_unlit")) return;
+    if (texture && !doctor_pixels(doctor, texture)) return; /* without its picture the colour is not known */
     if (cloth->metallic > 0.5f) {
         check_metal_base(doctor, cloth, place);
         return;
