@@ -32,15 +32,10 @@ typedef enum WeftSeverity {
  * weft_doctor_fix can repair some of that kind; WeftFinding.fixable is set on those that it can. */
 #define WEFT_FINDINGS(F)                                                                                               \
     F(EXTENSION_REQUIRED, "extension-required", ERROR, 0, "an extension is required that weft does not know")          \
-    F(EXTENSION_ARCHIVED, "extension-archived", WARNING, 0, "an extension is used that Khronos has archived")          \
-    F(EXTENSION_IGNORED, "extension-ignored", NOTE, 0, "an extension is used that weft does not read")                 \
     F(EXTENSION_UNDECLARED, "extension-undeclared", ERROR, 1, "an extension is used that extensionsUsed leaves out")   \
     F(VALUE_RANGE, "value-range", ERROR, 1, "a number is outside what glTF allows")                                    \
     F(TEXTURE_TIMES_ZERO, "texture-times-zero", ERROR, 1, "a texture is multiplied by a factor that is 0 by default")  \
     F(TEXTURE_OFF, "texture-off", NOTE, 0, "a texture is multiplied by a factor that is set to 0")                     \
-    F(TEXTURE_UNSHOWN, "texture-unshown", ERROR, 0, "a texture has no picture or coordinates that weft reads")         \
-    F(TEXTURE_CHANNEL, "texture-channel", ERROR, 1, "a number is in a channel of a texture that no engine reads")      \
-    F(TEXTURE_PLAIN, "texture-plain", WARNING, 1, "the alpha that a number is read from is 1 everywhere")              \
     F(TEXTURE_TWO_SPACES, "texture-two-spaces", WARNING, 0, "one image is read as sRGB and as plain numbers")          \
     F(TEXTURE_SAYS_LINEAR, "texture-says-linear", WARNING, 0,                                                          \
       "a colour texture is marked as linear, and read as sRGB")                                                        \
@@ -69,6 +64,11 @@ typedef enum WeftSeverity {
     F(TANGENTS_MISSING, "tangents-missing", WARNING, 0, "a normal map or a stretched highlight without tangents")      \
     F(BACK_MISSING, "back-missing", NOTE, 0, "cloth with an open edge that has no back")                               \
     F(IMAGE_UNREAD, "image-unread", ERROR, 0, "an image cannot be read")                                               \
+    F(EXTENSION_ARCHIVED, "extension-archived", WARNING, 0, "an extension is used that Khronos has archived")          \
+    F(EXTENSION_IGNORED, "extension-ignored", NOTE, 0, "an extension is used that weft does not read")                 \
+    F(TEXTURE_UNSHOWN, "texture-unshown", ERROR, 0, "a texture has no picture or coordinates that weft reads")         \
+    F(TEXTURE_CHANNEL, "texture-channel", ERROR, 1, "a number is in a channel of a texture that no engine reads")      \
+    F(TEXTURE_PLAIN, "texture-plain", WARNING, 1, "the alpha that a number is read from is 1 everywhere")              \
     F(PART_IGNORED, "part-ignored", WARNING, 0, "a part of the file is left out")                                      \
     F(PART_REPAIRED, "part-repaired", WARNING, 0, "a value that makes no sense is read as another")                    \
     F(REST_POSE, "rest-pose", NOTE, 0, "skins or morph targets are there, of which the rest pose is seen")

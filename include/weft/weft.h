@@ -43,6 +43,7 @@
 #include "weft/reflection.h"
 #include "weft/render.h"
 #include "weft/result.h"
+#include "weft/root.h"
 #include "weft/save.h"
 #include "weft/scene.h"
 #include "weft/sheet.h"

@@ -10,6 +10,7 @@
 #include "cli/console/two_columns.h"
 #include "cli/console/uncaught.h"
 #include "cli/operands/lobes.h"
+#include "cli/operands/root.h"
 #include "cli/verbs/verbs.h"
 #include "man.h"
 #include "weft/version.h"
@@ -42,6 +43,7 @@ static int verb_run(const Verb *verb, int count, char **arguments) {
     Options options;
     int result = options_parse(verb, count, arguments, &options);
     if (result == 0) result = lobes_take(&options);
+    if (result == 0) result = root_take(&options);
     if (result == 0) result = verb->run(&options);
     options_free(&options);
     return result;

@@ -1,6 +1,7 @@
 /* GLB and JSON containers, versions, extensions, URIs. */
 #include "reading.h"
 #include "scratch.h"
+#include "weft/root.h"
 
 #include <sys/stat.h>
 #include <unistd.h>
@@ -227,6 +228,60 @@ static void uris_outside_the_folder_are_refused(void **state) {
     assert_refused(read_gltf("/nowhere/at/all.gltf", NULL, 0), WEFT_MESSAGE_FILE_OPEN, "all.gltf");
 }
 
+/* A link counts by what it points to; a folder that is opened on purpose lets in what lies below it, and nothing else. */
+static void files_are_read_from_the_opened_folder_alone(void **state) {
+    (void)state;
+    char from[256], to[256], opened[256];
+    WeftError error;
+    Reading *reading;
+    snprintf(from, sizeof from, "%s/outside.bin", folder);
+    snprintf(to, sizeof to, "%s/a b/link.bin", folder);
+    assert_int_equal(symlink(from, to), 0);
+    snprintf(to, sizeof to, "%s/a b/near.bin", folder);
+    assert_int_equal(symlink("in side.bin", to), 0);
+    reading = read_referring("near.bin");
+    assert_read(reading);
+    done(reading);
+    snprintf(opened, sizeof opened, "a link out of the asset's folder is refused; --root %s lets it in", folder);
+    assert_refused(read_referring("link.bin"), WEFT_MESSAGE_GLTF_URI, opened);
+    snprintf(opened, sizeof opened, "a path out of the asset's folder is refused; --root %s/a b/.. lets it in", folder);
+    assert_refused(read_referring("sub/../../outside.bin"), WEFT_MESSAGE_GLTF_URI, opened);
+    snprintf(opened, sizeof opened, "%s/a b/..", folder);
+    assert_int_equal(weft_root_use(opened, &error), WEFT_OK);
+    static const char *const good[] = {"../outside.bin", "link.bin", "in%20side.bin", "..\\\\outside.bin"};
+    for (size_t k = 0; k < sizeof good / sizeof *good; k++) {
+        reading = read_referring(good[k]);
+        assert_read(reading);
+        done(reading);
+    }
+    assert_refused(read_referring("../../../../../../../etc/passwd"), WEFT_MESSAGE_GLTF_URI,
+                   "out of the asset's folder");
+    assert_refused(read_referring("../absent.bin"), WEFT_MESSAGE_FILE_OPEN, "absent.bin");
+    assert_int_equal(weft_root_use("/nowhere/at/all", &error), WEFT_INPUT);
+    assert_int_equal(weft_root_use(NULL, &error), WEFT_OK);
+    assert_refused(read_referring("../outside.bin"), WEFT_MESSAGE_GLTF_URI, "--root");
+}
+
+/* Backslashes come from Windows; a file with one in its name is that file. */
+static void backslashes_are_taken_as_slashes(void **state) {
+    (void)state;
+    write_file("a b/sub/plain.bin", "1234", 4);
+    static const char *const names[] = {"sub\\\\plain.bin", "sub%5Cplain.bin"};
+    for (size_t k = 0; k < 2; k++) {
+        Reading *reading = read_referring(names[k]);
+        assert_read(reading);
+        assert_int_equal(reading->warnings[WEFT_MESSAGE_GLTF_WARN_REPAIRED], 1);
+        assert_non_null(strstr(reading->warning, "buffers[0].uri: sub\\plain.bin: its backslashes"));
+        done(reading);
+    }
+    assert_refused(read_referring("..\\\\outside.bin"), WEFT_MESSAGE_GLTF_URI, "out of the asset's folder");
+    write_file("a b/odd\\name.bin", "1234", 4);
+    Reading *reading = read_referring("odd%5Cname.bin");
+    assert_read(reading);
+    assert_string_equal(reading->warning, "");
+    done(reading);
+}
+
 /* Many names of one large file, of which little is wanted: it is read once, and no more than that of it. */
 static void file_used_twice_is_read_once(void **state) {
     (void)state;
@@ -276,6 +331,8 @@ int main(void) {
         cmocka_unit_test(base64_data_uri_is_decoded),
         cmocka_unit_test(relative_uris_find_their_files),
         cmocka_unit_test(uris_outside_the_folder_are_refused),
+        cmocka_unit_test(files_are_read_from_the_opened_folder_alone),
+        cmocka_unit_test(backslashes_are_taken_as_slashes),
         cmocka_unit_test(file_used_twice_is_read_once),
         cmocka_unit_test(scene_from_no_bytes_is_refused_whatever_its_name),
     };

@@ -10,6 +10,7 @@
 #include "cli/console/output.h"
 #include "cli/console/report.h"
 #include "cli/files/save.h"
+#include "cli/operands/root.h"
 #include "weft/isa.h"
 
 const Option request_options[] = {
@@ -23,6 +24,8 @@ const Option request_options[] = {
     OPTION_NUMBER("--width", "PIXELS", "960", 1, 65536, "width of the picture"),
     OPTION_NUMBER("--height", "PIXELS", "720", 1, 65536, "height of the picture"),
     OPTION_TEXT("--crop", "X,Y,W,H", NULL, "render these pixels only, from the top left"),
+
+    OPTION_ROOT,
 
     SCENE_OPTIONS,
 

@@ -15,6 +15,7 @@
 #include "cli/files/table_file.h"
 #include "cli/operands/command.h"
 #include "cli/operands/lobes.h"
+#include "cli/operands/root.h"
 #include "cli/verbs/verbs.h"
 
 /* A bake as the command line describes it. */
@@ -256,6 +257,7 @@ static const Option bake_options[] = {
     OPTION_NUMBER("--rounds", "COUNT", "120", 1, 1000, "of the search that makes a fibre-model"),
     OPTION_HEADING("Audit"),
     OPTION_LOBES_OR("whose E the table should hold, any: the lobe and axes it is nearest to"),
+    OPTION_ROOT,
     OPTION_TEXT("--channel", "CHANNEL", NULL, "r, g, b, a or its number from 0 [the only one]"),
     OPTION_NUMBER("--max", "ERROR", "0.01", 1e-9, 1e9, "exit 1 where a texel is off by more"),
     OPTION_HEADING("Reports"),

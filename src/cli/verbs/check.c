@@ -11,6 +11,7 @@
 #include "cli/operands/given_lobe.h"
 #include "cli/operands/lobes.h"
 #include "cli/operands/model.h"
+#include "cli/operands/root.h"
 #include "cli/passport/passports.h"
 #include "cli/verbs/verbs.h"
 #include "weft/weft.h"
@@ -201,6 +202,7 @@ static const Option check_options[] = {
     OPTION_HEADING("Options"),
     OPTION_PARAMS("; but not the first, over which the rows of the passport run"),
     OPTION_LOBES,
+    OPTION_ROOT,
     OPTION_SWITCH("--quick", "fewer rows, pairs and samples: a first look"),
     OPTION_SWITCH("--no-gpu", "do not compare with the GPU"),
     OPTION_NUMBER("--threads", "COUNT", "0", 0, 256, "processors to use; 0: all; no influence on the numbers"),

@@ -10,6 +10,7 @@
 #include "cli/console/progress.h"
 #include "cli/console/report.h"
 #include "cli/console/two_columns.h"
+#include "cli/operands/root.h"
 #include "cli/verbs/verbs.h"
 #include "weft/weft.h"
 
@@ -290,6 +291,7 @@ static const Option doctor_options[] = {
     OPTION_HEADING("Options"),
     OPTION_SWITCH("--fix", "write the asset with what can be fixed fixed, and nothing else changed"),
     OPTION_TEXT("-o", "FILE", NULL, "where --fix writes: a .gltf or a .glb; it may be ASSET itself"),
+    OPTION_ROOT,
     OPTION_SWITCH("--no-notes", "errors and warnings alone"),
     OPTION_SWITCH("--json", "findings as JSON on standard output"),
     OPTION_SWITCH("--list", "print the findings that there are, and end"),

@@ -13,6 +13,7 @@
 #include "cli/console/report.h"
 #include "cli/operands/given_lobe.h"
 #include "cli/operands/lobes.h"
+#include "cli/operands/root.h"
 #include "cli/verbs/verbs.h"
 #include "weft/weft.h"
 
@@ -214,6 +215,7 @@ static const Option eval_options[] = {
     OPTION_HEADING("Options"),
     OPTION_PARAMS(""),
     OPTION_LOBES,
+    OPTION_ROOT,
     OPTION_SWITCH("--albedo", "read cosines in (0, 1], write the directional albedo E by quadrature to 1e-4"),
     OPTION_SWITCH("--json", "one JSON object a line instead of numbers"),
     OPTION_END,

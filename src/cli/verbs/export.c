@@ -13,6 +13,7 @@
 #include "cli/operands/command.h"
 #include "cli/operands/lobes.h"
 #include "cli/operands/model.h"
+#include "cli/operands/root.h"
 #include "cli/verbs/verbs.h"
 
 typedef struct Export {
@@ -146,6 +147,7 @@ static const Option export_options[] = {
     OPTION_TEXT("--lut", "KIND", "c",
                 "tables as c arrays (inside the text where it can hold them), png16, exr, dds or npy"),
     OPTION_LOBES,
+    OPTION_ROOT,
     OPTION_HEADING("Text"),
     OPTION_TEXT("--light-pi", "HOW", "explicit",
                 "explicit: f has its 1/pi and lights are irradiances; folded: f times pi, for lights whose "

@@ -15,6 +15,7 @@
 #include "cli/fit/fit_sheet.h"
 #include "cli/operands/lobes.h"
 #include "cli/operands/model.h"
+#include "cli/operands/root.h"
 #include "cli/verbs/verbs.h"
 #include "weft/weft.h"
 
@@ -364,6 +365,7 @@ static const Option fit_options[] = {
     OPTION_TEXT("--base", "LOBE|all|woven", "lambert",
                 "the diffuse lobe below, or each of them; woven: fit warp and weft of a cloth alone"),
     OPTION_LOBES_OR("fit this lobe alone"),
+    OPTION_ROOT,
     OPTION_TEXT("--to", "PROFILE", NULL,
                 "find the nearest that this engine can do, too; of a preset or material file, how near it is"),
     OPTION_HEADING("Result"),

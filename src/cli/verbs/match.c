@@ -11,6 +11,7 @@
 #include "cli/console/report.h"
 #include "cli/console/two_columns.h"
 #include "cli/operands/lobes.h"
+#include "cli/operands/root.h"
 #include "cli/verbs/verbs.h"
 
 /* The parts that materials have, in the order of WeftPart. */
@@ -260,6 +261,7 @@ static const Option match_options[] = {
     OPTION_SWITCH("--maps", "match every sheen lobe to every other over a sweep of its width, and print a formula "
                             "where one adds no more than 0.03 to the error"),
     OPTION_LOBES,
+    OPTION_ROOT,
     OPTION_HEADING("A whole asset"),
     OPTION_TEXT("--from", "PROFILE", "khronos", "the engine it was made for"),
     OPTION_TEXT("--to", "PROFILE", NULL, "the engine it is for now: its sheens are rewritten"),

@@ -11,6 +11,7 @@
 #include "cli/console/two_columns.h"
 #include "cli/operands/lobes.h"
 #include "cli/operands/model.h"
+#include "cli/operands/root.h"
 #include "cli/pages/plot_numbers.h"
 #include "cli/verbs/verbs.h"
 
@@ -180,6 +181,7 @@ static const Option plot_options[] = {
     OPTION_HEADING("Options"),
     OPTION_TEXT("-o", "FILE", NULL, "write the figure: .png, .svg or .pdf; of report, .html"),
     OPTION_LOBES,
+    OPTION_ROOT,
     OPTION_LIST("--view", "DEGREES",
                 "angle of wo from the normal, below 90; of sphere, between light and viewer, below 180"),
     OPTION_SWITCH("--log", "f on a logarithmic scale; slice: in colours of a scale, not as a picture"),

@@ -9,6 +9,7 @@
 
 #include "cli/console/report.h"
 #include "cli/operands/command.h"
+#include "cli/operands/root.h"
 #include "cli/render/scene_options.h"
 #include "cli/verbs/verbs.h"
 
@@ -22,6 +23,7 @@ static const Option view_options[] = {
     OPTION_TEXT("--shader-dir", "DIR", NULL,
                 "shader text found here wins over the built-in one, and is compiled anew as it changes"),
 
+    OPTION_ROOT,
     SCENE_OPTIONS,
 
     OPTION_HEADING("Automation"),

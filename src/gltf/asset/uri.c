@@ -2,8 +2,12 @@
  * Base16, Base32, and Base64 Data Encodings", 2006. */
 #include "gltf/asset/uri.h"
 
+#include <stdio.h>
 #include <string.h>
 #include <strings.h>
+#include <unistd.h>
+
+#include "gltf/asset/enclosure.h"
 
 bool uri_is_data(const char *uri) { return strncasecmp(uri, "data:", 5) == 0; }
 
@@ -72,48 +76,67 @@ static bool has_scheme(const char *uri) {
     return name && uri[name] == ':';
 }
 
-/* Returns true if the path leaves the folder that it starts in, at any step. */
-static bool leaves_folder(const char *path) {
-    int depth = 0;
-    while (*path) {
-        size_t step = strcspn(path, "/");
-        if (step == 2 && path[0] == '.' && path[1] == '.')
-            depth--;
-        else if (step && !(step == 1 && path[0] == '.'))
-            depth++;
-        if (depth < 0) return true;
-        path += step;
-        if (*path) path++;
-    }
-    return false;
-}
-
-char *uri_path(const Field *field, const char *uri) {
+/* Returns uri behind the asset's folder, whose length is set, in the asset's arena; NULL after a sticky failure. */
+static char *joined(const Field *field, const char *uri, size_t *folder) {
     Asset *asset = field->asset;
     const char *slash = strrchr(asset->name, '/');
-    size_t folder = slash ? (size_t)(slash - asset->name) + 1 : 0, length = strlen(uri);
-    char *path = arena_array(&asset->arena, folder + length + 1, 1), *name = path + folder;
+    const size_t length = strlen(uri);
+    *folder = slash ? (size_t)(slash - asset->name) + 1 : 0;
+    char *path = arena_array(&asset->arena, *folder + length + 1, 1);
     if (!path) {
         asset_fail(asset, WEFT_MESSAGE_MEMORY, NULL);
         return NULL;
     }
-    memcpy(path, asset->name, folder);
-    memcpy(name, uri, length + 1);
+    memcpy(path, asset->name, *folder);
+    memcpy(path + *folder, uri, length + 1);
+    return path;
+}
 
-    const char *reason = NULL;
-    if (has_scheme(uri))
-        reason = "only files and data URIs can be read";
-    else if (!uri_unescape(name))
-        reason = "its percent-encoding is damaged";
-    else if (!*name)
-        reason = "it is empty";
-    else if (*name == '/')
-        reason = "an absolute path is refused";
-    else if (leaves_folder(name))
-        reason = "a path out of the asset's folder is refused";
-    else if (asset->in_memory)
-        reason = "an asset in memory cannot refer to files";
+/* Turns the backslashes of a name that a program for Windows wrote into slashes, with a warning, unless a file has just
+ * that name. */
+static void separators_repair(const Field *field, char *path, size_t folder) {
+    if (!strchr(path + folder, '\\') || access(path, F_OK) == 0) return;
+    field_warn(field, WEFT_MESSAGE_GLTF_WARN_REPAIRED, "%.80s: its backslashes are taken as slashes", path + folder);
+    for (char *c = path + folder; *c; c++)
+        if (*c == '\\') *c = '/';
+}
+
+/* Returns why the name, from which percent-encoding is removed, is not one of a file beside the asset; NULL if it is. */
+static const char *refusal(const Field *field, const char *uri, char *path, size_t folder) {
+    char *name = path + folder;
+    if (has_scheme(uri)) return "only files and data URIs can be read";
+    if (!uri_unescape(name)) return "its percent-encoding is damaged";
+    separators_repair(field, path, folder);
+    if (!*name) return "it is empty";
+    if (*name == '/') return "an absolute path is refused";
+    return NULL;
+}
+
+char *uri_path(const Field *field, const char *uri) {
+    char out[200], outside[300];
+    size_t folder;
+    char *path = joined(field, uri, &folder);
+    if (!path) return NULL;
+    const char *reason = refusal(field, uri, path, folder);
+    if (!reason && field->asset->in_memory)
+        reason = leaves_folder(path + folder) ? "a path out of the asset's folder is refused"
+                                              : "an asset in memory cannot refer to files";
+    if (!reason && !is_enclosed(path, folder, out, sizeof out)) {
+        snprintf(outside, sizeof outside, "a %s out of the asset's folder is refused; --root %s lets it in",
+                 leaves_folder(path + folder) ? "path" : "link", out);
+        reason = outside;
+    }
     if (!reason) return path;
+    field_fail(field, WEFT_MESSAGE_GLTF_URI, "%.80s: %s", uri, reason);
+    return NULL;
+}
+
+char *uri_path_to_write(const Field *field, const char *uri) {
+    size_t folder;
+    char *path = joined(field, uri, &folder);
+    const char *reason = path ? refusal(field, uri, path, folder) : NULL;
+    if (path && !reason && leaves_folder(path + folder)) reason = "a path out of the asset's folder is refused";
+    if (!path || !reason) return path;
     field_fail(field, WEFT_MESSAGE_GLTF_URI, "%.80s: %s", uri, reason);
     return NULL;
 }

@@ -1,8 +1,9 @@
 /* uri.h - URIs of buffers and images: data in the URI itself, or a file beside the asset
  *
- * Accepted: "data:...;base64,..." and relative references with percent-encoding whose path stays in the
- * asset's folder or below it. Refused with GLTF_URI: every other scheme, absolute paths, `..` that leads out,
- * names with a zero byte, and all files where the asset itself came from memory. */
+ * Accepted: "data:...;base64,..." and relative references with percent-encoding whose file lies in the asset's folder or
+ * below it, or in that of weft_root_use. Refused with GLTF_URI: every other scheme, absolute paths, `..` and links that
+ * lead out, names with a zero byte, and all files where the asset itself came from memory. Backslashes are taken as
+ * slashes, with a warning. */
 #pragma once
 
 #include "gltf/asset/field.h"
@@ -17,3 +18,6 @@ bool uri_unescape(char *text);
 
 /* Returns the path of a file URI, in the asset's arena; NULL after a sticky failure on field. */
 char *uri_path(const Field *field, const char *uri);
+
+/* Works so for a file that is about to be written: it lies below the asset's folder, whatever weft_root_use says. */
+char *uri_path_to_write(const Field *field, const char *uri);

@@ -165,8 +165,13 @@ static void uri_copy(Saving *saving, const Asset *asset, const char *uri) {
     WeftError unused;
     Asset here = folder_of(asset->name, asset->in_memory, &unused), there = folder_of(saving->path, false, &unused);
     const char *slash = strrchr(saving->path, '/');
-    char *from = file_path(&here, uri), *to = file_path(&there, uri);
-    if (from && to) file_copy(saving, from, to, slash ? (size_t)(slash - saving->path) + 1 : 0);
+    Field field = {.asset = &there};
+    char *from = file_path(&here, uri), *to = from ? uri_path_to_write(&field, uri) : NULL;
+    if (from && !to)
+        saving_fail(saving, WEFT_MESSAGE_FILE_WRITE, saving->path,
+                    "a file lies outside of the asset's folder: write a .glb, which packs it");
+    else if (from)
+        file_copy(saving, from, to, slash ? (size_t)(slash - saving->path) + 1 : 0);
     arena_free(&here.arena);
     arena_free(&there.arena);
 }

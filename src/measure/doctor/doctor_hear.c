@@ -20,8 +20,8 @@ static const Hearing hearings[] = {
     {WEFT_MESSAGE_FILE_OPEN, WEFT_FINDING_IMAGE_UNREAD, "",
      "put the file where the asset names it; its contents were not examined"},
     {WEFT_MESSAGE_GLTF_URI, WEFT_FINDING_IMAGE_UNREAD, "",
-     "move the file into the asset's folder or below it, and name it by its path from there; its contents were not "
-     "examined"},
+     "name the file by its path in the asset's folder, and move it there, or open the folder as the line says; its "
+     "contents were not examined"},
     {WEFT_MESSAGE_IMAGE_REPAIRED, WEFT_FINDING_IMAGE_REPAIRED, "",
      "write the image again: other readers may refuse it"},
     {WEFT_MESSAGE_GLTF_WARN_EXTENSION, WEFT_FINDING_EXTENSION_IGNORED,
