@@ -49,26 +49,43 @@ bool cache_folder_make(void) {
 
 bool cache_is_private(const char *path) {
     struct stat status;
-    return lstat(path, &status) == 0 && !S_ISLNK(status.st_mode) && status.st_uid == geteuid() &&
-           !(status.st_mode & (S_IWGRP | S_IWOTH));
+    return lstat(path, &status) == 0 && (S_ISREG(status.st_mode) || S_ISDIR(status.st_mode)) &&
+           status.st_uid == geteuid() && !(status.st_mode & (S_IWGRP | S_IWOTH));
+}
+
+/* Removes what stands at a path and is neither a plain file nor a folder. */
+static void clear(const char *path) {
+    struct stat status;
+    if (lstat(path, &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode)) unlink(path);
+}
+
+/* Writes a file in two pieces, and sets its path. Returns false after a warning. */
+static bool write_pieces(uint64_t key, const char *suffix, const void *const data[2], const size_t size[2],
+                         const WeftLog *log, char path[CACHE_PATH_SIZE]) {
+    OutputFile file;
+    if (!cache_path(path, key, suffix)) {
+        warn(log, WEFT_MESSAGE_CACHE_IGNORED, "$HOME", "it is not an absolute path; set $XDG_CACHE_HOME");
+        return false;
+    }
+    make_folders(path);
+    clear(path);
+    WeftError error;
+    WeftResult result = output_open(&file, path, &error);
+    if (result == WEFT_OK) {
+        for (int k = 0; k < 2; k++)
+            if (size[k]) fwrite(data[k], 1, size[k], file.stream);
+        result = output_commit(&file, &error);
+    }
+    if (result == WEFT_OK) return true;
+    const char *why = strstr(error.text, weft_message_text(error.message)); /* the path is told once */
+    warn(log, WEFT_MESSAGE_CACHE_IGNORED, path, "it %s; the next start will be slower",
+         why ? why : "cannot be written");
+    return false;
 }
 
 void cache_write(uint64_t key, const char *suffix, const void *data, size_t size, const WeftLog *log) {
     char path[CACHE_PATH_SIZE];
-    OutputFile file;
-    if (!cache_path(path, key, suffix)) {
-        warn(log, WEFT_MESSAGE_CACHE_IGNORED, "$HOME", "it is not an absolute path; set $XDG_CACHE_HOME");
-        return;
-    }
-    make_folders(path);
-    bool written = output_open(&file, path, NULL) == WEFT_OK;
-    if (written && fwrite(data, 1, size, file.stream) != size) {
-        output_discard(&file);
-        written = false;
-    } else if (written) {
-        written = output_commit(&file, NULL) == WEFT_OK;
-    }
-    if (!written) warn(log, WEFT_MESSAGE_CACHE_IGNORED, path, "it cannot be written; the next start will be slower");
+    write_pieces(key, suffix, (const void *const[2]){data, NULL}, (const size_t[2]){size, 0}, log, path);
 }
 
 /* The beginning of a file; the data and a hash of both follow. */
@@ -121,6 +138,41 @@ bool cache_find(uint64_t key, const char *suffix, void *data, size_t size, const
     free(file.data);
     if (!good) cache_distrust(key, suffix, log);
     return good;
+}
+
+/* What stands behind the bytes of a sealed file. Loaders of libraries do not look at it. */
+typedef struct Seal {
+    char magic[8];
+    uint64_t check;
+} Seal;
+
+static Seal seal_of(uint64_t key, const void *data, size_t size) {
+    const uint64_t start = cache_hash(CACHE_HASH, &key, sizeof key);
+    return (Seal){{'w', 'e', 'f', 't', '-', 'e', 'n', 'd'}, cache_hash(start, data, size)};
+}
+
+bool cache_seal(uint64_t key, const char *suffix, const void *data, size_t size, const WeftLog *log) {
+    char path[CACHE_PATH_SIZE];
+    const Seal seal = seal_of(key, data, size);
+    return write_pieces(key, suffix, (const void *const[2]){data, &seal}, (const size_t[2]){size, sizeof seal}, log,
+                        path) &&
+           chmod(path, 0700) == 0;
+}
+
+bool cache_is_sealed(uint64_t key, const char *suffix, const WeftLog *log) {
+    enum { SIZE_MOST = 1 << 28 };
+    char path[CACHE_PATH_SIZE];
+    FileBytes file;
+    if (!cache_path(path, key, suffix) || !cache_is_private(path)) return false;
+    if (file_read(path, SIZE_MOST, &file, NULL) != WEFT_OK) return false;
+    bool whole = file.size >= sizeof(Seal);
+    if (whole) {
+        const Seal seal = seal_of(key, file.data, file.size - sizeof seal);
+        whole = memcmp(file.data + file.size - sizeof seal, &seal, sizeof seal) == 0;
+    }
+    free(file.data);
+    if (!whole) cache_distrust(key, suffix, log);
+    return whole;
 }
 
 void cache_distrust(uint64_t key, const char *suffix, const WeftLog *log) {

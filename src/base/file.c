@@ -13,6 +13,7 @@
 #include "base/fail.h"
 #include "base/memory.h"
 #include "base/random.h"
+#include "base/stream_reason.h"
 
 /* Opens a regular file. A pipe would make the open wait for a writer and a device might never end, so both are
  * refused without waiting: the names come from assets and caches that anybody may have written. */
@@ -145,7 +146,9 @@ WeftResult output_open(OutputFile *file, const char *path, WeftError *error) {
 }
 
 WeftResult output_commit(OutputFile *file, WeftError *error) {
-    int failed = fflush(file->stream) != 0 || fsync(fileno(file->stream)) != 0;
+    int failed = ferror(file->stream) != 0;
+    const char *earlier = failed ? stream_reason(file->stream) : NULL;
+    failed = failed || fflush(file->stream) != 0 || fsync(fileno(file->stream)) != 0;
     int reason = errno;
     if (fclose(file->stream) != 0 && !failed) {
         failed = 1;
@@ -157,7 +160,7 @@ WeftResult output_commit(OutputFile *file, WeftError *error) {
     }
     WeftResult result = WEFT_OK;
     if (failed) {
-        result = fail(error, WEFT_MESSAGE_FILE_WRITE, file->path, "%s", strerror(reason));
+        result = fail(error, WEFT_MESSAGE_FILE_WRITE, file->path, "%s", earlier ? earlier : strerror(reason));
         unlink(file->temporary);
     }
     free(file->temporary);

@@ -11,6 +11,7 @@
 
 #include "base/fail.h"
 #include "base/memory.h"
+#include "base/stream_reason.h"
 #include "image/codec.h"
 #include "image/half.h"
 
@@ -516,7 +517,8 @@ WeftResult image_write_exr(FILE *stream, const char *name, const WeftImage *imag
         exr_result_t finished = exr_finish(&exr); /* writes the table of chunks */
         if (status == EXR_ERR_SUCCESS) status = finished;
     }
-    if (status == EXR_ERR_SUCCESS && !ferror(stream)) return WEFT_OK;
+    if (ferror(stream)) return fail(error, WEFT_MESSAGE_FILE_WRITE, name, "%s", stream_reason(stream));
+    if (status == EXR_ERR_SUCCESS) return WEFT_OK;
     return fail(error, memory_was_short() ? WEFT_MESSAGE_MEMORY : WEFT_MESSAGE_FILE_WRITE, name, "EXR: %s",
                 job.reason[0] ? job.reason : exr_get_default_error_message(status));
 }

@@ -8,6 +8,7 @@
 #include "base/fail.h"
 #include "base/memory.h"
 #include "base/number.h"
+#include "base/stream_reason.h"
 #include "image/codec.h"
 
 enum { HDR_LINE_MIN = 8, HDR_LINE_MAX = 32767 }; /* the line lengths that the new code can have */
@@ -245,5 +246,5 @@ WeftResult image_write_hdr(FILE *stream, const char *name, const WeftImage *imag
         for (int c = 0; c < 4; c++) component_write(stream, line, c, width);
     }
     free(line);
-    return ferror(stream) ? fail(error, WEFT_MESSAGE_FILE_WRITE, name, NULL) : WEFT_OK;
+    return ferror(stream) ? fail(error, WEFT_MESSAGE_FILE_WRITE, name, "%s", stream_reason(stream)) : WEFT_OK;
 }

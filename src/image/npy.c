@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "base/stream_reason.h"
 #include "image/codec.h"
 #include "image/half.h"
 
@@ -246,5 +247,5 @@ WeftResult image_write_npy(FILE *stream, const char *name, const WeftImage *imag
                                        (unsigned char)(bits >> 16 & 255), (unsigned char)(bits >> 24)};
         fwrite(bytes, 1, sizeof bytes, stream);
     }
-    return ferror(stream) ? fail(error, WEFT_MESSAGE_FILE_WRITE, name, NULL) : WEFT_OK;
+    return ferror(stream) ? fail(error, WEFT_MESSAGE_FILE_WRITE, name, "%s", stream_reason(stream)) : WEFT_OK;
 }

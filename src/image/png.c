@@ -7,6 +7,7 @@
 
 #include "base/fail.h"
 #include "base/memory.h"
+#include "base/stream_reason.h"
 #include "image/codec.h"
 
 /* State that outlives a longjmp, by which libpng reports errors. */
@@ -140,7 +141,9 @@ static void png_encode(png_structp png, png_infop info, const WeftImage *image, 
 
 static WeftResult png_write_guarded(PngJob *job, png_structp png, png_infop info, FILE *stream, const char *name,
                                     const WeftImage *image, WeftError *error) {
-    if (setjmp(job->escape)) return fail(error, WEFT_MESSAGE_FILE_WRITE, name, "PNG: %s", job->reason);
+    if (setjmp(job->escape))
+        return ferror(stream) ? fail(error, WEFT_MESSAGE_FILE_WRITE, name, "%s", stream_reason(stream))
+                              : fail(error, WEFT_MESSAGE_FILE_WRITE, name, "PNG: %s", job->reason);
     png_init_io(png, stream);
     png_encode(png, info, image, job);
     return WEFT_OK;

@@ -154,9 +154,8 @@ WeftResult plot_write_bytes(const char *path, const Vector *bytes, WeftError *er
     OutputFile file;
     WeftResult result = output_open(&file, path, error);
     if (result != WEFT_OK) return result;
-    if (fwrite(bytes->text, 1, bytes->size, file.stream) == bytes->size) return output_commit(&file, error);
-    output_discard(&file);
-    return fail(error, WEFT_MESSAGE_FILE_WRITE, path, NULL);
+    fwrite(bytes->text, 1, bytes->size, file.stream);
+    return output_commit(&file, error);
 }
 
 int weft_plot_suffix_known(const char *path) {

@@ -6,6 +6,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <cmocka.h>
 
@@ -66,18 +68,58 @@ static void damaged_file_is_ignored_with_a_warning(void **state) {
     }
 }
 
+/* A library is loaded by its path: its bytes stand at the beginning. */
+static void sealed_file_is_whole_or_distrusted(void **state) {
+    (void)state;
+    int warnings = 0;
+    const WeftLog log = {count, &warnings};
+    char path[CACHE_PATH_SIZE], bytes[64] = "";
+    assert_true(cache_path(path, 23, "lib"));
+    assert_false(cache_is_sealed(23, "lib", &log));
+    assert_int_equal(mkfifo(path, 0600), 0);
+    assert_false(cache_is_sealed(23, "lib", &log));         /* and nobody waits */
+    assert_true(cache_seal(23, "lib", "library", 7, &log)); /* in place of the pipe */
+    assert_true(cache_is_sealed(23, "lib", &log));
+    FILE *stream = fopen(path, "rb");
+    assert_non_null(stream);
+    size_t size = fread(bytes, 1, sizeof bytes, stream);
+    fclose(stream);
+    assert_memory_equal(bytes, "library", 7);
+    assert_int_equal(warnings, 0);
+    for (size_t k = 0; k < 2 * size; k++) {
+        stream = fopen(path, "r+b");
+        assert_non_null(stream);
+        if (k < size) bytes[k] ^= 4;
+        assert_int_equal(ftruncate(fileno(stream), k < size ? (off_t)size : (off_t)(k - size)), 0);
+        fwrite(bytes, 1, k < size ? size : k - size, stream);
+        if (k < size) bytes[k] ^= 4;
+        fclose(stream);
+        assert_false(cache_is_sealed(23, "lib", &log));
+        assert_int_equal(warnings, (int)k + 1);
+    }
+    assert_true(cache_seal(23, "lib", "library", 7, &log));
+    assert_int_equal(rename(path, "other"), 0);
+    assert_true(cache_path(path, 24, "lib"));
+    assert_int_equal(rename("other", path), 0);
+    assert_false(cache_is_sealed(24, "lib", &log)); /* made of something else */
+    assert_true(cache_seal(24, "lib", "library", 7, &log));
+    assert_int_equal(chmod(path, 0720), 0);
+    assert_false(cache_is_sealed(24, "lib", &log)); /* others can write it */
+}
+
 static int begin(void **state) {
     (void)state;
-    return scratch_cache(folder) ? 0 : -1;
+    return scratch_cache(folder) && chdir(folder) == 0 ? 0 : -1;
 }
 
 static int end(void **state) {
     (void)state;
-    return scratch_remove(folder) ? 0 : -1;
+    return chdir("/") == 0 && scratch_remove(folder) ? 0 : -1;
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(numbers_kept_under_a_key_are_found_again),
-                                       cmocka_unit_test(damaged_file_is_ignored_with_a_warning)};
+                                       cmocka_unit_test(damaged_file_is_ignored_with_a_warning),
+                                       cmocka_unit_test(sealed_file_is_whole_or_distrusted)};
     return cmocka_run_group_tests(tests, begin, end);
 }

@@ -19,4 +19,11 @@ void interrupt_watch(void) {
     if (sigaction(SIGHUP, NULL, &hangup) == 0 && hangup.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, NULL);
 }
 
+void interrupt_unwatch(void) {
+    static const int watched[] = {SIGINT, SIGTERM, SIGHUP};
+    struct sigaction action;
+    for (size_t k = 0; k < sizeof watched / sizeof *watched; k++)
+        if (sigaction(watched[k], NULL, &action) == 0 && action.sa_handler == note) signal(watched[k], SIG_DFL);
+}
+
 bool interrupt_seen(void) { return seen != 0; }

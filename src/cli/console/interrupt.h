@@ -7,5 +7,8 @@
  * SIGHUP that is ignored stays ignored. */
 void interrupt_watch(void);
 
+/* Leaves signals to end the program again, as before interrupt_watch. */
+void interrupt_unwatch(void);
+
 /* Returns true if the program was interrupted. */
 bool interrupt_seen(void);

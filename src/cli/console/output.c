@@ -8,11 +8,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/stream_reason.h"
 #include "cli/console/report.h"
 
-static int report_unwritten(const char *path) {
-    report(WEFT_RESOURCES, "%s: %s: %s", path, weft_message_text(WEFT_MESSAGE_FILE_WRITE), strerror(errno));
-    return WEFT_RESOURCES;
+static int report_unwritten(const char *path, const char *reason) {
+    return report(WEFT_RESOURCES, "%s: %s: %s", path, weft_message_text(WEFT_MESSAGE_FILE_WRITE), reason);
 }
 
 /* Returns the file that writing to path would replace, with links resolved so that they stay. Release with free; NULL
@@ -28,7 +28,7 @@ static char *find_target(const char *path) {
         return NULL;
     }
     char *target = there ? realpath(path, NULL) : strdup(path);
-    if (!target) report_unwritten(path);
+    if (!target) report_unwritten(path, strerror(errno));
     return target;
 }
 
@@ -46,7 +46,7 @@ int output_begin(Output *output, const char *path) {
     output->temporary = malloc(size);
     if (!output->temporary) {
         forget(output);
-        return report_unwritten(path);
+        return report_unwritten(path, strerror(ENOMEM));
     }
     snprintf(output->temporary, size, "%s.XXXXXX", output->target);
     int handle = mkstemp(output->temporary);
@@ -57,7 +57,7 @@ int output_begin(Output *output, const char *path) {
         output->stream = fdopen(handle, "w");
     }
     if (output->stream) return 0;
-    report_unwritten(path);
+    report_unwritten(path, strerror(errno));
     if (handle >= 0) {
         close(handle);
         unlink(output->temporary);
@@ -67,12 +67,11 @@ int output_begin(Output *output, const char *path) {
 }
 
 int output_end(Output *output) {
-    errno = 0;
-    bool written = !ferror(output->stream);
+    const char *earlier = ferror(output->stream) ? stream_reason(output->stream) : NULL;
     int result = 0;
-    written = fclose(output->stream) == 0 && written;
-    if (!written || rename(output->temporary, output->target) != 0) {
-        result = report_unwritten(output->path);
+    bool closed = fclose(output->stream) == 0;
+    if (earlier || !closed || rename(output->temporary, output->target) != 0) {
+        result = report_unwritten(output->path, earlier ? earlier : strerror(errno));
         unlink(output->temporary);
     }
     forget(output);

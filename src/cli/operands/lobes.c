@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "cli/console/interrupt.h"
 #include "cli/console/report.h"
 #include "weft/lobe.h"
 
@@ -19,9 +20,18 @@ static void keep(const char *path) {
     if (k < TAKEN_MOST) taken[k] = path;
 }
 
-int lobes_take(Options *options) {
+/* Loads a lobe. A signal meanwhile ends the compiler; it is an exit code, whatever the verb does about signals. */
+static int load(const char *path) {
     const WeftLog log = {.fn = report_warning};
     WeftError error;
+    interrupt_watch();
+    WeftResult result = weft_lobe_load(path, NULL, &log, &error);
+    interrupt_unwatch();
+    if (interrupt_seen()) return report(WEFT_INTERRUPTED, "%.200s: interrupted while it was compiled", path);
+    return result == WEFT_OK ? 0 : report_error(&error);
+}
+
+int lobes_take(Options *options) {
     int cursor = 0, ids = 0;
     for (const char *value; (value = option_next(options, "--lobe", &cursor));) {
         bool either = strchr(option_row(options, "--lobe")->value, '|') != NULL;
@@ -29,7 +39,8 @@ int lobes_take(Options *options) {
             if (ids++) return report(WEFT_USAGE, "--lobe: is given twice");
             continue;
         }
-        if (weft_lobe_load(value, NULL, &log, &error) != WEFT_OK) return report_error(&error);
+        int result = load(value);
+        if (result != 0) return result;
         keep(value);
         option_drop(options, --cursor);
     }

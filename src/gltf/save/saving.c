@@ -1,6 +1,5 @@
 #include "gltf/save/saving.h"
 
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -132,12 +131,7 @@ void saving_write(Saving *saving, const char *path, const void *head, size_t hea
     if (saving->result != WEFT_OK) return;
     saving->result = output_open(&file, path, saving->error);
     if (saving->result != WEFT_OK) return;
-    bool written = fwrite(head, 1, head_size, file.stream) == head_size &&
-                   (!body_size || fwrite(body, 1, body_size, file.stream) == body_size);
-    if (written) {
-        saving->result = output_commit(&file, saving->error);
-        return;
-    }
-    saving_fail(saving, WEFT_MESSAGE_FILE_WRITE, path, strerror(errno));
-    output_discard(&file);
+    fwrite(head, 1, head_size, file.stream);
+    if (body_size) fwrite(body, 1, body_size, file.stream);
+    saving->result = output_commit(&file, saving->error);
 }

@@ -149,9 +149,9 @@ static WeftResult file_write(const Rgl *rgl, const char *comment, const char *pa
     OutputFile file;
     WeftResult result = output_open(&file, path, error);
     if (result != WEFT_OK) return result;
-    if (rgl_write(rgl, comment, file.stream)) return output_commit(&file, error);
+    if (rgl_write(rgl, comment, file.stream) || ferror(file.stream)) return output_commit(&file, error);
     output_discard(&file);
-    return fail(error, WEFT_MESSAGE_FILE_WRITE, path, NULL);
+    return fail(error, WEFT_MESSAGE_MEMORY, path, NULL);
 }
 
 WeftResult weft_reflection_write(const WeftReflection *reflection, const char *path, const WeftBsdfDesc *desc,

@@ -220,11 +220,9 @@ static void write_file(Writer *w) {
     OutputFile file;
     if (!text) no_memory(w);
     if (w->result == WEFT_OK) w->result = output_open(&file, w->path, w->error);
-    if (w->result == WEFT_OK && fprintf(file.stream, "%s\n", text) > 0) {
+    if (w->result == WEFT_OK) {
+        fprintf(file.stream, "%s\n", text);
         w->result = output_commit(&file, w->error);
-    } else if (w->result == WEFT_OK) {
-        w->result = fail(w->error, WEFT_MESSAGE_FILE_WRITE, w->path, NULL);
-        output_discard(&file);
     }
     free(text);
 }

@@ -158,6 +158,7 @@ static const char *fault_of(const PluginParam *p, const char *const *choices) {
         if (!isfinite(numbers[k])) return "has a number that is not finite";
     if (!choices && strcmp(p->type, "float") != 0) return "is neither a float nor a term";
     if (choices && !is_choice(p, choices)) return "has a range or a default that its terms do not have";
+    if (!p->help || !p->help[0]) return "has no help text";
     return fits_comment(p->help) ? NULL : "has a help text with a control character or the end of a comment";
 }
 

@@ -1,5 +1,6 @@
 #include <dirent.h>
 #include <dlfcn.h>
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,6 +14,7 @@
 #include "base/fail.h"
 #include "base/file.h"
 #include "base/process.h"
+#include "base/stream_reason.h"
 #include "text/assemble/catalogue.h"
 #include "text/source/buffer.h"
 
@@ -45,9 +47,12 @@ static void put_file(Flat *flat, const char *file, const char *bytes) {
     int line = 1;
     buffer_print(&flat->text, "#line 1 \"%s\"\n", file);
     for (const char *c = bytes; *c; line++) {
-        size_t size = strcspn(c, "\n");
+        static const char include[] = "#include \"";
+        size_t size = strcspn(c, "\n"), start = sizeof include - 1;
         char name[128];
-        if (sscanf(c, "#include \"%127[^\"\n]\"", name) == 1) {
+        if (size > start && memcmp(c, include, start) == 0) {
+            size_t end = strcspn(c + start, "\"\n");
+            snprintf(name, sizeof name, "%.*s", (int)(end < sizeof name ? end : sizeof name - 1), c + start);
             put_included(flat, name);
             buffer_print(&flat->text, "#line %d \"%s\"\n", line + 1, file);
         } else {
@@ -106,51 +111,48 @@ static const char *const half_flags[2][20] = {{COMMON, "-fopenmp-simd", "-ffp-co
 
 enum { COMPILER_SIZE = 256, COMPILER_WORDS = 8, PATH_SIZE = CACHE_PATH_SIZE + 32 };
 
-/* A folder of a compilation and what is in it. */
+/* What a compiler may take. The lobes of the catalogue take seconds and 300 MiB. */
+static const ProcessBounds bounds = {.seconds = 60, .cpu_seconds = 30, .mebibytes = 4096};
+
+/* A folder of a compilation and what is in it, beside the compiler's own files. */
 typedef struct CompileWork {
     char folder[CACHE_PATH_SIZE];
     char text[PATH_SIZE], loops[PATH_SIZE], library[PATH_SIZE], log[PATH_SIZE];
 } CompileWork;
 
-static void work_name(CompileWork *work) {
+#define WORK_NAME "weft-lobe-"
+
+/* Makes the folder of a compilation in another. Returns false on failure, with errno. */
+static bool work_begin(CompileWork *work, const char *folder) {
+    snprintf(work->folder, sizeof work->folder, "%.*s/" WORK_NAME "XXXXXX", CACHE_PATH_SIZE - 64, folder);
+    if (!mkdtemp(work->folder)) return false;
     snprintf(work->text, sizeof work->text, "%s/lobe.c", work->folder);
     snprintf(work->loops, sizeof work->loops, "%s/loops.o", work->folder);
     snprintf(work->library, sizeof work->library, "%s/lobe.so", work->folder);
     snprintf(work->log, sizeof work->log, "%s/log", work->folder);
-}
-
-/* Makes the folder of a compilation, beside the cache's file, so that the library can be renamed to it; without one in
- * /tmp. Returns false on failure. */
-static bool work_begin(CompileWork *work, const char *cached) {
-    const char *slash = cached ? strrchr(cached, '/') : NULL;
-    snprintf(work->folder, sizeof work->folder, "%.*s/lobe-XXXXXX", slash ? (int)(slash - cached) : 4,
-             slash ? cached : "/tmp");
-    if (!mkdtemp(work->folder)) return false;
-    work_name(work);
     return true;
 }
 
-static void work_end(const CompileWork *work) {
-    unlink(work->text);
-    unlink(work->loops);
-    unlink(work->library);
-    unlink(work->log);
-    rmdir(work->folder);
+/* Removes a folder and the files in it. */
+static void remove_folder(const char *folder) {
+    DIR *entries = opendir(folder);
+    char path[PATH_SIZE + 256];
+    for (struct dirent *entry; entries && (entry = readdir(entries));)
+        if ((size_t)snprintf(path, sizeof path, "%s/%s", folder, entry->d_name) < sizeof path) unlink(path);
+    if (entries) closedir(entries);
+    rmdir(folder);
 }
 
-/* Removes what compilations have left that were interrupted more than an hour ago. */
+/* Removes what the user's compilations have left that were killed more than an hour ago. */
 static void sweep(const char *folder) {
     DIR *entries = opendir(folder);
-    CompileWork work;
+    char path[CACHE_PATH_SIZE];
     struct stat status;
-    for (struct dirent *entry; entries && (entry = readdir(entries));) {
-        if (strncmp(entry->d_name, "lobe-", 5) != 0) continue;
-        if ((size_t)snprintf(work.folder, sizeof work.folder, "%s/%s", folder, entry->d_name) >= sizeof work.folder ||
-            lstat(work.folder, &status) != 0 || status.st_mtime > time(NULL) - 3600)
-            continue;
-        work_name(&work);
-        work_end(&work);
-    }
+    for (struct dirent *entry; entries && (entry = readdir(entries));)
+        if (strncmp(entry->d_name, WORK_NAME, sizeof WORK_NAME - 1) == 0 &&
+            (size_t)snprintf(path, sizeof path, "%s/%s", folder, entry->d_name) < sizeof path &&
+            cache_is_private(path) && lstat(path, &status) == 0 && status.st_mtime < time(NULL) - 3600)
+            remove_folder(path);
     if (entries) closedir(entries);
 }
 
@@ -184,7 +186,7 @@ static int compile_half(const CompileWork *work, const Compiler *compiler, int h
     if (half) arguments[count++] = work->loops;
     arguments[count++] = "-o";
     arguments[count++] = half ? work->library : work->loops;
-    return process_run(arguments, work->log);
+    return process_run(arguments, bounds, work->folder, work->log);
 }
 
 /* Errors. */
@@ -205,40 +207,96 @@ static WeftResult fail_line(const char *line, const char *path, const char *file
     return fail(error, WEFT_MESSAGE_LOBE_COMPILE, place, "%s%s", words, others);
 }
 
-/* Fails with the compiler's first error, else its last line. */
+/* Returns true if a linker wrote a line: it begins with the linker's name or that of an object file. */
+static bool is_linkers(const char *line) {
+    size_t size = strcspn(line, ":");
+    const char *base = line;
+    for (const char *c = line; c < line + size; c++)
+        if (*c == '/') base = c + 1;
+    bool object = size > 2 && memcmp(line + size - 2, ".o", 2) == 0;
+    return object || (line[size] && memcmp(base, "ld", 2) == 0);
+}
+
+/* Fails with the part of a linker's line that names a symbol or a file. */
+static WeftResult fail_link(const char *line, const char *path, WeftError *error) {
+    static const char *const beginnings[] = {"undefined ", "hidden symbol", "multiple definition", "cannot find"};
+    const char *words = line;
+    for (size_t k = 0; k < sizeof beginnings / sizeof *beginnings; k++) {
+        const char *found = strstr(line, beginnings[k]);
+        if (found) words = found;
+    }
+    return fail(error, WEFT_MESSAGE_LOBE_COMPILE, path, "%s", words);
+}
+
+/* Returns the reason why a disk takes no more, if a line gives one; else NULL. */
+static const char *disk_reason(const char *line) {
+    static const int reasons[] = {ENOSPC, EDQUOT, EFBIG, EROFS};
+    for (size_t k = 0; k < sizeof reasons / sizeof *reasons; k++)
+        if (strstr(line, strerror(reasons[k]))) return strerror(reasons[k]);
+    return NULL;
+}
+
+/* Fails with the compiler's first error, or the linker's, else its last line. */
 static WeftResult fail_compile(const CompileWork *work, const char *path, const char *file, WeftError *error) {
     FileBytes log;
-    const char *first = NULL, *last = NULL;
+    const char *first = NULL, *link = NULL, *last = NULL, *disk = NULL;
     int count = 0;
-    if (file_read(work->log, 1 << 20, &log, NULL) != WEFT_OK) return fail(error, WEFT_MESSAGE_LOBE_COMPILE, path, NULL);
+    if (file_read_start(work->log, 1 << 20, &log, NULL) != WEFT_OK)
+        return fail(error, WEFT_MESSAGE_LOBE_COMPILE, path, NULL);
     char *rest = NULL;
     for (char *line = strtok_r((char *)log.data, "\n", &rest); line; line = strtok_r(NULL, "\n", &rest)) {
         last = line;
-        if (!strstr(line, "error: ")) continue;
-        if (!count++) first = line;
+        if (!disk) disk = disk_reason(line);
+        bool linkers = is_linkers(line) || strstr(line, "undefined reference to ");
+        if (!link && linkers && !strstr(line, "in function") && !strstr(line, "follow")) link = line;
+        if (strstr(line, "error: ") && !count++) first = line;
     }
-    WeftResult result = first ? fail_line(first, path, file, count - 1, error)
-                              : fail(error, WEFT_MESSAGE_LOBE_COMPILE, path, "the compiler fails%s%s", last ? ": " : "",
-                                     last ? last : "");
+    WeftResult result = disk    ? fail(error, WEFT_MESSAGE_FILE_WRITE, work->folder, "%s", disk)
+                        : link  ? fail_link(link, path, error)
+                        : first ? fail_line(first, path, file, count - 1, error)
+                                : fail(error, WEFT_MESSAGE_LOBE_COMPILE, path, "the compiler fails%s%s",
+                                       last ? ": " : "", last ? last : "");
     free(log.data);
     return result;
 }
 
+static WeftResult interrupted(const char *path, WeftError *error) {
+    if (!error) return WEFT_INTERRUPTED;
+    error->result = WEFT_INTERRUPTED;
+    error->message = WEFT_MESSAGE_NONE;
+    snprintf(error->text, sizeof error->text, "%.200s: interrupted while it was compiled", path);
+    return WEFT_INTERRUPTED;
+}
+
+static WeftResult write_text(const CompileWork *work, const Buffer *text, WeftError *error) {
+    FILE *stream = fopen(work->text, "wb");
+    if (!stream) return fail(error, WEFT_MESSAGE_FILE_WRITE, work->text, "%s", strerror(errno));
+    fwrite(text->bytes, 1, text->size, stream);
+    const char *earlier = ferror(stream) ? stream_reason(stream) : NULL;
+    if (fclose(stream) == 0 && !earlier) return WEFT_OK;
+    return fail(error, WEFT_MESSAGE_FILE_WRITE, work->text, "%s", earlier ? earlier : strerror(errno));
+}
+
 static WeftResult compile(const CompileWork *work, const Compiler *compiler, const Buffer *text, const char *path,
                           const char *file, WeftError *error) {
-    FILE *stream = fopen(work->text, "wb");
-    bool written = stream && fwrite(text->bytes, 1, text->size, stream) == text->size;
-    if (stream) written = fclose(stream) == 0 && written;
-    if (!written) return fail(error, WEFT_MESSAGE_FILE_WRITE, work->text, NULL);
-    for (int half = 0; half < 2; half++) {
+    WeftResult result = write_text(work, text, error);
+    for (int half = 0; half < 2 && result == WEFT_OK; half++) {
         int code = compile_half(work, compiler, half);
-        if (code == PROCESS_MISSING) return fail(error, WEFT_MESSAGE_COMPILER, path, "install one, or name it by $CC");
-        if (code == PROCESS_LOST)
-            return fail(error, WEFT_MESSAGE_LOBE_COMPILE, path,
-                        "the compiler cannot be waited for; is SIGCHLD ignored?");
-        if (code != 0) return fail_compile(work, path, file, error);
+        if (code == PROCESS_MISSING)
+            result = fail(error, WEFT_MESSAGE_COMPILER, path, "install one, or name it by $CC");
+        else if (code == PROCESS_LOST)
+            result =
+                fail(error, WEFT_MESSAGE_LOBE_COMPILE, path, "the compiler cannot be waited for; is SIGCHLD ignored?");
+        else if (code == PROCESS_LATE)
+            result = fail(error, WEFT_MESSAGE_LOBE_COMPILE, path,
+                          "the compiler takes more than %d s, or %d s of processor time", bounds.seconds,
+                          bounds.cpu_seconds);
+        else if (code == PROCESS_STOPPED)
+            result = interrupted(path, error);
+        else if (code != 0)
+            result = fail_compile(work, path, file, error);
     }
-    return WEFT_OK;
+    return result;
 }
 
 /* Loading it. */
@@ -253,7 +311,8 @@ static const Plugin *load(const char *library) {
 }
 
 static uint64_t key_of(const Buffer *text, const Compiler *compiler) {
-    uint64_t hash = cache_hash(CACHE_HASH, text->bytes, text->size);
+    static const char form[] = "sealed"; /* of the file; another form needs another word here */
+    uint64_t hash = cache_hash(cache_hash(CACHE_HASH, form, sizeof form), text->bytes, text->size);
     for (int k = 0; k < compiler->count; k++)
         hash = cache_hash(hash, compiler->words[k], strlen(compiler->words[k]) + 1);
     for (int half = 0; half < 2; half++)
@@ -262,38 +321,73 @@ static uint64_t key_of(const Buffer *text, const Compiler *compiler) {
     return hash;
 }
 
-/* Sets the library's path in the cache. Returns false if there is no cache, or others can write to it, since a loaded
- * file is run. */
-static bool find_place(char cached[CACHE_PATH_SIZE], uint64_t key) {
-    if (!cache_folder_make() || !cache_path(cached, key, "so")) return false;
-    char *slash = strrchr(cached, '/');
-    *slash = 0;
-    bool is_private = cache_is_private(cached);
-    if (is_private) sweep(cached);
-    *slash = '/';
-    return is_private;
+/* Returns true if there is a cache in which nobody else can write, since a loaded file is run. Sets its folder. */
+static bool find_cache(char folder[CACHE_PATH_SIZE]) {
+    if (!cache_folder_make() || !cache_path(folder, 0, "")) return false;
+    *strrchr(folder, '/') = 0;
+    return cache_is_private(folder);
 }
 
-/* Moves a library to the cache; warns on failure, since it is then compiled again each time. */
-static void keep(const char *library, const char *cached, const WeftLog *log) {
-    if (chmod(library, 0700) != 0 || rename(library, cached) != 0)
-        warn(log, WEFT_MESSAGE_CACHE_IGNORED, cached, "it cannot be written; the lobe is compiled at each start");
+/* Copies a compiled library to the cache. Returns true if it is there. */
+static bool keep(const char *library, uint64_t key, const WeftLog *log) {
+    FileBytes bytes;
+    if (file_read(library, 1 << 28, &bytes, NULL) != WEFT_OK) return false;
+    bool kept = cache_seal(key, "so", bytes.data, bytes.size, log);
+    free(bytes.data);
+    return kept;
 }
 
-static WeftResult make(const Compiler *compiler, const Buffer *text, const char *path, const char *file,
-                       const char *cached, const Plugin **out, const WeftLog *log, WeftError *error) {
+/* A library that is made. */
+typedef struct Making {
+    const Compiler *compiler;
+    const Buffer *text;
+    const char *path, *file; /* of the lobe, and its name in the text */
+    const char *cache;       /* the folder of the cache, or NULL */
+    uint64_t key;
+    const WeftLog *log;
+} Making;
+
+/* Fails with dlerror's reason, without the name of a file that is gone when it is read. */
+static WeftResult fail_load(const CompileWork *work, const char *path, WeftError *error) {
+    const char *why = dlerror();
+    size_t size = strlen(work->library);
+    if (why && strncmp(why, work->library, size) == 0 && strncmp(why + size, ": ", 2) == 0) why += size + 2;
+    return fail(error, WEFT_MESSAGE_LOBE_COMPILE, path, "it cannot be loaded%s%s", why ? ": " : "", why ? why : "");
+}
+
+/* Makes and loads a library in a folder of its own inside `folder`. */
+static WeftResult make_in(const Making *making, const char *folder, const Plugin **out, WeftError *error) {
     CompileWork work;
-    if (!work_begin(&work, cached)) return fail(error, WEFT_MESSAGE_FILE_WRITE, work.folder, NULL);
-    WeftResult result = compile(&work, compiler, text, path, file, error);
+    char cached[CACHE_PATH_SIZE];
+    if (!work_begin(&work, folder)) return fail(error, WEFT_MESSAGE_FILE_WRITE, folder, "%s", strerror(errno));
+    WeftResult result = compile(&work, making->compiler, making->text, making->path, making->file, error);
     if (result == WEFT_OK) {
-        *out = load(work.library);
-        const char *why = *out ? NULL : dlerror();
-        if (!*out)
-            result = fail(error, WEFT_MESSAGE_LOBE_COMPILE, path, "it cannot be loaded%s%s", why ? ": " : "",
-                          why ? why : "");
-        if (*out && cached) keep(work.library, cached, log);
+        if (making->cache && keep(work.library, making->key, making->log) && cache_path(cached, making->key, "so"))
+            *out = load(cached);
+        if (!*out) *out = load(work.library);
+        if (!*out) result = fail_load(&work, making->path, error);
     }
-    work_end(&work);
+    remove_folder(work.folder);
+    if (result == WEFT_INTERRUPTED) process_signal_pass();
+    return result;
+}
+
+/* Makes a library in the folder for temporary files, or in the cache where that folder takes none. */
+static WeftResult make(const Making *making, const Plugin **out, WeftError *error) {
+    const char *temporary = getenv("TMPDIR");
+    if (!temporary || temporary[0] != '/') temporary = "/tmp";
+    const char *const folders[] = {temporary, making->cache};
+    WeftResult result = WEFT_OK;
+    for (int k = 0; k < 2 && folders[k]; k++) {
+        WeftError failure = {0};
+        sweep(folders[k]);
+        WeftResult made = make_in(making, folders[k], out, &failure);
+        if (k == 0 || made == WEFT_OK || failure.message != WEFT_MESSAGE_FILE_WRITE) {
+            result = made;
+            if (error) *error = failure;
+        }
+        if (failure.message != WEFT_MESSAGE_FILE_WRITE || made == WEFT_OK) break;
+    }
     return result;
 }
 
@@ -301,7 +395,7 @@ WeftResult plugin_make(const LobeNames *names, const char *path, const char *byt
                        const WeftLog *log, WeftError *error) {
     Flat flat = {0};
     Compiler compiler;
-    char cached[CACHE_PATH_SIZE], file[128];
+    char cache[CACHE_PATH_SIZE], cached[CACHE_PATH_SIZE], file[128];
     if (!compiler_choose(&compiler))
         return fail(error, WEFT_MESSAGE_COMPILER, path, "$CC has more than %d characters or %d words",
                     COMPILER_SIZE - 1, COMPILER_WORDS);
@@ -311,11 +405,14 @@ WeftResult plugin_make(const LobeNames *names, const char *path, const char *byt
         return fail(error, WEFT_MESSAGE_MEMORY, path, NULL);
     }
     snprintf(file, sizeof file, "%s.h", names->prefix);
-    bool caches = find_place(cached, key_of(&flat.text, &compiler));
+    bool caches = find_cache(cache);
     if (!caches) warn(log, WEFT_MESSAGE_CACHE_IGNORED, path, "there is no folder of the user's own to keep it in");
+    const Making making = {&compiler, &flat.text, path, file, caches ? cache : NULL, key_of(&flat.text, &compiler),
+                           log};
     WeftResult result = WEFT_OK;
-    *out = caches && cache_is_private(cached) ? load(cached) : NULL;
-    if (!*out) result = make(&compiler, &flat.text, path, file, caches ? cached : NULL, out, log, error);
+    bool kept = caches && cache_is_sealed(making.key, "so", log) && cache_path(cached, making.key, "so");
+    *out = kept ? load(cached) : NULL;
+    if (!*out) result = make(&making, out, error);
     buffer_free(&flat.text);
     return result;
 }
