@@ -201,7 +201,35 @@ static char *take_word(char **text) {
 
 static bool is(const char *a, const char *b) { return strcmp(a, b) == 0; }
 
-static int button_of(const char *name) { return is(name, "right") ? 1 : is(name, "middle") ? 2 : 0; }
+/* Returns the number of a button, 0 without a name, or -1. */
+static int button_of(const char *name) {
+    static const char *const names[] = {"left", "right", "middle"};
+    for (int k = 0; k < 3; k++)
+        if (is(name, names[k])) return k;
+    return name[0] ? -1 : 0;
+}
+
+/* Reads exactly `count` finite numbers, with blanks between. */
+static bool numbers_of(const char *text, int count, float *numbers) {
+    for (int k = 0; k < count; k++) {
+        char *end;
+        numbers[k] = strtof(text, &end);
+        if (end == text || !isfinite(numbers[k]) || (*end && *end != ' ' && *end != '\t')) return false;
+        text = end + strspn(end, " \t");
+    }
+    return !*text;
+}
+
+/* Returns true if something can be waited for. */
+static bool is_wait(const char *what) {
+    float number;
+    const char *value = strchr(what, ' ');
+    if (is(what, "rest") || is(what, "shows drawn") || is(what, "shows traced")) return true;
+    if (strncmp(what, "message ", 8) == 0) return what[8] != 0;
+    if (value && (strncmp(what, "samples ", 8) == 0 || strncmp(what, "seconds ", 8) == 0))
+        return numbers_of(value + 1, 1, &number) && number >= 0.0f;
+    return numbers_of(what, 1, &number) && number >= 0.0f && !(number > floorf(number));
+}
 
 /* Returns true while a wait goes on. */
 static bool still_waiting(Replay *self, Viewer *v, const char *what) {
@@ -238,25 +266,25 @@ static bool do_input(Replay *self, Viewer *v, const char *word, char *rest, bool
         *good = add_key(self, rest, false, true);
     else if (is(word, "type"))
         add_text(self, rest);
-    else if (is(word, "wheel"))
-        add_event(self, (Event){.kind = EVENT_WHEEL, .y = (float)atof(rest)});
-    else if (is(word, "drop"))
+    else if (is(word, "wheel")) {
+        *good = numbers_of(rest, 1, way);
+        add_event(self, (Event){.kind = EVENT_WHEEL, .y = way[0]});
+    } else if (is(word, "drop"))
         add_drop(self, rest);
     else if (is(word, "drag")) {
         int button = button_of(take_word(&rest));
-        *good = sscanf(rest, "%f %f %f %f", &way[0], &way[1], &way[2], &way[3]) == 4;
+        *good = button >= 0 && numbers_of(rest, 4, way);
         if (*good) add_drag(self, v, button, way);
     } else if (is(word, "move")) {
-        *good = sscanf(rest, "%f %f", &way[0], &way[1]) == 2;
+        *good = numbers_of(rest, 2, way);
         add_event(self, (Event){.kind = EVENT_MOVE,
                                 .x = v->frame->stage.x + way[0] * v->frame->stage.width,
                                 .y = v->frame->stage.y + way[1] * v->frame->stage.height});
-    } else if (is(word, "press"))
-        add_button(self, button_of(rest), true);
-    else if (is(word, "release"))
-        add_button(self, button_of(rest), false);
-    else if (is(word, "resize")) {
-        *good = sscanf(rest, "%f %f", &way[0], &way[1]) == 2;
+    } else if (is(word, "press") || is(word, "release")) {
+        *good = button_of(rest) >= 0;
+        add_button(self, button_of(rest), is(word, "press"));
+    } else if (is(word, "resize")) {
+        *good = numbers_of(rest, 2, way);
         add_event(self, (Event){.kind = EVENT_RESIZE, .x = way[0], .y = way[1]});
         add_pause(self, 2);
     } else {
@@ -273,7 +301,9 @@ static bool do_action(Replay *self, Viewer *v, const char *word, char *rest, boo
         add_click(self, item, 0.5f);
     } else if (is(word, "slide")) {
         char *control = take_word(&rest);
-        add_click(self, control, (float)atof(rest));
+        float share;
+        *good = numbers_of(rest, 1, &share);
+        add_click(self, control, share);
     } else if (is(word, "set")) {
         char *control = take_word(&rest);
         add_value(self, control, rest);
@@ -289,9 +319,9 @@ static bool do_action(Replay *self, Viewer *v, const char *word, char *rest, boo
         *good = write_command(v, rest);
     else if (is(word, "camera"))
         camera_stand_at(v, rest);
-    else if (is(word, "stay"))
+    else if (is(word, "stay") && !*rest)
         self->stay = true;
-    else if (is(word, "quit"))
+    else if (is(word, "quit") && !*rest)
         viewer_quit(v);
     else
         return false;
@@ -354,6 +384,11 @@ bool replay_step(Replay *self, Viewer *v, char why[512]) {
         snprintf(copy, sizeof copy, "%.*s", (int)(length < 1100 ? length : 1100), line);
         char *rest = copy, *word = take_word(&rest);
         bool good = true, waits = is(word, "wait");
+        if (waits && !is_wait(rest)) {
+            snprintf(why, 512, "%.200s:%d: \"wait %.100s\" is nothing to wait for; docs/view.md lists what is",
+                     self->path, self->line + 1, rest);
+            return false;
+        }
         if (waits && still_waiting(self, v, rest)) {
             if (clock_now() - self->since < 120.0) return true;
             snprintf(why, 512, "%.200s:%d: \"%.100s\" did not finish within 120 s", self->path, self->line + 1, copy);
@@ -366,7 +401,8 @@ bool replay_step(Replay *self, Viewer *v, char why[512]) {
             if (self->count) return do_motion(self, v, why);
             return true;
         }
-        snprintf(why, 512, "%.200s:%d: \"%.100s\" is not an action, or failed", self->path, self->line, word);
+        snprintf(why, 512, "%.200s:%d: \"%.*s\" is not an action, or failed", self->path, self->line,
+                 (int)(length < 100 ? length : 100), line);
         return false;
     }
     return true;

@@ -206,7 +206,8 @@ static int run(Viewer *v, char why[512]) {
             report_state(v);
             v->states->frame.worst_seconds = 0.0;
         }
-        if (v->desc->frames && v->states->frame.number >= v->desc->frames) break;
+        bool enough = v->desc->frames && v->states->frame.number >= v->desc->frames;
+        if (enough && v->shown->any) break; /* before, what is asked for may yet fail */
     }
     return 0;
 }

@@ -119,6 +119,34 @@ static void a_file_beyond_its_limit_is_one_line_and_leaves_nothing(void **state)
     ran_free(&ran);
 }
 
+/* Every kind of file that is written: one line with the reason, which a stream does not keep by itself. */
+static void a_full_disk_is_told_by_every_writer(void **state) {
+    (void)state;
+    static const char *const lines[] = {"render scene.gltf --width 128 --height 128 --spp 1 --quiet -o a.png",
+                                        "render scene.gltf --width 128 --height 128 --spp 1 --quiet -o a.exr",
+                                        "render scene.gltf --width 128 --height 128 --spp 1 --quiet -o a.hdr",
+                                        "render scene.gltf --width 128 --height 128 --spp 1 --quiet -o a.npy",
+                                        "plot polar ggx -o a.svg",
+                                        "plot polar ggx -o a.png",
+                                        "bake bsdf ggx --size 4x16 --quiet -o a.bsdf",
+                                        "bake albedo ggx --size 64x64 --quiet -o a.dds",
+                                        "bake albedo ggx --size 64x64 --quiet -o a.csv",
+                                        "export ggx --target c --quiet -o a.h",
+                                        "weave 'plain; both 400k 400r' -o a.wif",
+                                        "weave 'plain; both 400k 400r' -o a.txt",
+                                        "render builtin:ball --save a.glb",
+                                        "render builtin:ball --save a.gltf"};
+    char line[400];
+    for (size_t k = 0; k < sizeof lines / sizeof *lines; k++) {
+        snprintf(line, sizeof line, "rm -f a.*; ulimit -f 4; $0 %s; e=$?; ls | grep '^a[.]'; exit $e", lines[k]);
+        Ran ran = run_shell(line);
+        if (ran.code != 4 || !one_complaint(ran.err) || !strstr(ran.err, "cannot be written: File too large") ||
+            ran.out[0])
+            fail_msg("%s: %d: %s%s", lines[k], ran.code, ran.err, ran.out);
+        ran_free(&ran);
+    }
+}
+
 static void unwritable_report_is_an_error(void **state) {
     (void)state;
     Ran found = run_shell("$0 doctor scene.gltf > /dev/null"), lost = run_shell("$0 doctor scene.gltf > /dev/full");
@@ -150,6 +178,7 @@ int main(void) {
         cmocka_unit_test(damaged_cache_is_a_warning),
         cmocka_unit_test(eval_waiting_for_a_pipe_ends_by_a_signal),
         cmocka_unit_test(a_file_beyond_its_limit_is_one_line_and_leaves_nothing),
+        cmocka_unit_test(a_full_disk_is_told_by_every_writer),
         cmocka_unit_test(unwritable_report_is_an_error),
         cmocka_unit_test(damaged_picture_is_not_reported_as_lack_of_memory),
     };

@@ -114,6 +114,17 @@ static void numbers_outside_their_range_are_refused(void **state) {
     }
 }
 
+/* A number that the command would not need is looked at all the same. */
+static void numbers_without_a_use_are_checked(void **state) {
+    (void)state;
+    static const char *const wrong[] = {"--size=0", "--size=1000000", "--size=20.5", "--seed=x", "--yarn=steel"};
+    for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++)
+        assert_complaint(NULL, LIST("weave", "plain", wrong[k]), 2, strchr(wrong[k], '=') + 1);
+    assert_complaint(NULL, LIST("weave", "plain; both 600k 600r", "--yarn=steel"), 2, "steel");
+    assert_complaint(NULL, LIST("render", "builtin:ball", "--engine=raster", "-o", "a.png", "--spp=0"), 2, "--spp");
+    assert_complaint(NULL, LIST("view", "--windowless", "--frames=0"), 2, "--frames");
+}
+
 /* Only options that the verb has are offered; fit has no samples a pixel. */
 static void words_of_other_renderers_are_understood(void **state) {
     (void)state;
@@ -172,6 +183,7 @@ int main(void) {
         cmocka_unit_test(full_disk_is_an_error),
         cmocka_unit_test(help_and_version_work_as_words_and_as_options),
         cmocka_unit_test(empty_argument_is_quoted_in_its_error),
+        cmocka_unit_test(numbers_without_a_use_are_checked),
         cmocka_unit_test(words_of_other_renderers_are_understood),
         cmocka_unit_test(floor_options_without_a_floor_are_refused),
     };

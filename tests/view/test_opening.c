@@ -10,8 +10,11 @@ static void first_scene_that_cannot_be_read_ends_the_window(void **state) {
     need_gl();
     file_make("bare.gltf", "{\"asset\":{\"version\":\"2.0\"}}", 27);
     static const char *const absent[][2] = {{"nofile.glb", "nofile.glb: "}, {"bare.gltf", "nothing to render"}};
-    for (int k = 0; k < 2; k++)
+    for (int k = 0; k < 2; k++) {
         assert_complaint(NULL, LIST("view", absent[k][0], "--windowless", "--forget"), WEFT_INPUT, absent[k][1]);
+        assert_complaint(NULL, LIST("view", absent[k][0], "--windowless", "--forget", "--frames", "1"), WEFT_INPUT,
+                         absent[k][1]);
+    }
 }
 
 static void window_is_idle_after_a_scene_with_nothing_to_render(void **state) {

@@ -274,8 +274,17 @@ static void wrong_script_ends_the_window_with_its_line(void **state) {
     static const char *const wrong[][2] = {{"wait rest\nclick \"Material/nonsense\"\n", "script:2: "},
                                            {"# one\n\nwait rest\nsing a song\n", "script:4: "},
                                            {"key nonsense\n", "script:1: "},
-                                           {"drag left 0.5\n", "script:1: "}};
-    for (int k = 0; k < 4; k++) {
+                                           {"drag left 0.5\n", "script:1: "},
+                                           {"drag left 0 0 1 1 1\n", "script:1: \"drag left 0 0 1 1 1\" is not"},
+                                           {"wait 2garbage\n", "script:1: \"wait 2garbage\" is nothing to wait for"},
+                                           {"wait 2\nwait 1 2 3\n", "script:2: \"wait 1 2 3\""},
+                                           {"wait\n", "script:1: "},
+                                           {"wait samples few\n", "script:1: "},
+                                           {"wait shows it\n", "script:1: "},
+                                           {"wheel up\n", "script:1: "},
+                                           {"press hard\n", "script:1: "},
+                                           {"quit now\n", "script:1: "}};
+    for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
         file_make("script", wrong[k][0], strlen(wrong[k][0]));
         assert_complaint(NULL, LIST("view", "--windowless", "--forget", CHEAP, "--script", "script"), WEFT_INPUT,
                          wrong[k][1]);

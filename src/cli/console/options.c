@@ -49,6 +49,28 @@ static int unknown_option(const Verb *verb, const char *argument, size_t length)
                   nearest_hint(&nearest, hint, sizeof hint));
 }
 
+bool numbers_parse(const char *text, int count, double *numbers) {
+    for (int k = 0; k < count; k++) {
+        char *end;
+        numbers[k] = strtod(text, &end);
+        if (end == text || !isfinite(numbers[k]) || *end != (k + 1 < count ? ',' : '\0')) return false;
+        text = end + 1;
+    }
+    return true;
+}
+
+static bool number_read(const Option *row, const char *text, double *number) {
+    double value;
+    if (numbers_parse(text, 1, &value) && value >= row->low && value <= row->high &&
+        !(row->whole && value > floor(value))) {
+        *number = value;
+        return true;
+    }
+    report(WEFT_USAGE, "%s: \"%.80s\" is not a %snumber from %.10g to %.10g", row->name, text,
+           row->whole ? "whole " : "", row->low, row->high);
+    return false;
+}
+
 /* Takes the option at arguments[0]; *used is the number of arguments it took. */
 static int option_take(Options *options, int count, char **arguments, int *used) {
     const char *argument = arguments[0], *equals = NULL;
@@ -69,6 +91,8 @@ static int option_take(Options *options, int count, char **arguments, int *used)
     }
     if (row->value && !value[0])
         return report(WEFT_USAGE, "%s: \"\" is no value: %s %s", row->name, row->name, row->value);
+    double number;
+    if (row->low < row->high && !number_read(row, value, &number)) return WEFT_USAGE;
     options->given[options->given_count++] = (Given){row, value};
     return 0;
 }
@@ -157,37 +181,14 @@ const char *option_text(const Options *options, const char *name) {
     return value ? value : option_row(options, name)->def;
 }
 
-bool numbers_parse(const char *text, int count, double *numbers) {
-    for (int k = 0; k < count; k++) {
-        char *end;
-        numbers[k] = strtod(text, &end);
-        if (end == text || !isfinite(numbers[k]) || *end != (k + 1 < count ? ',' : '\0')) return false;
-        text = end + 1;
-    }
-    return true;
-}
-
-static bool number_read(const Options *options, const char *name, bool whole, double *number) {
-    const Option *row = option_row(options, name);
-    const char *text = option_text(options, name);
-    double value;
-    if (!text) return true;
-    if (numbers_parse(text, 1, &value) && value >= row->low && value <= row->high && !(whole && value > floor(value))) {
-        *number = value;
-        return true;
-    }
-    report(WEFT_USAGE, "%s: \"%.80s\" is not a %snumber from %.10g to %.10g", name, text, whole ? "whole " : "",
-           row->low, row->high);
-    return false;
-}
-
 bool option_number(const Options *options, const char *name, double *number) {
-    return number_read(options, name, false, number);
+    const char *text = option_text(options, name);
+    return !text || number_read(option_row(options, name), text, number);
 }
 
 bool option_integer(const Options *options, const char *name, int *number) {
     double value = *number;
-    if (!number_read(options, name, true, &value)) return false;
+    if (!option_number(options, name, &value)) return false;
     *number = (int)value;
     return true;
 }

@@ -11,8 +11,9 @@ typedef struct Option {
     const char *value; /* stands for the value in help texts; NULL: a switch */
     const char *help;  /* NULL, with name NULL: the table's end */
     const char *def;   /* the default as one would type it; NULL: none */
-    double low, high;  /* numbers: the range, both ends included */
+    double low, high;  /* numbers: the range, both ends included; else equal */
     bool repeats;      /* may be given more than once */
+    bool whole;        /* numbers: without a fraction */
 } Option;
 
 /* Rows of a table. OPTION_HEADING is a heading for the rows that follow. */
@@ -21,11 +22,13 @@ typedef struct Option {
 #define OPTION_SWITCH(name_, help_)                                                                                    \
     { .name = (name_), .help = (help_) }
 #define OPTION_TEXT(name_, value_, def_, help_)                                                                        \
-    { name_, value_, help_, def_, 0, 0, false }
+    { name_, value_, help_, def_, 0, 0, false, false }
 #define OPTION_LIST(name_, value_, help_)                                                                              \
-    { name_, value_, help_, NULL, 0, 0, true }
+    { name_, value_, help_, NULL, 0, 0, true, false }
 #define OPTION_NUMBER(name_, value_, def_, low_, high_, help_)                                                         \
-    { name_, value_, help_, def_, low_, high_, false }
+    { name_, value_, help_, def_, low_, high_, false, false }
+#define OPTION_WHOLE(name_, value_, def_, low_, high_, help_)                                                          \
+    { name_, value_, help_, def_, low_, high_, false, true }
 #define OPTION_END                                                                                                     \
     { .name = NULL }
 
@@ -49,7 +52,7 @@ struct Options {
     int given_count, operand_count, argument_count;
 };
 
-/* Reads the arguments after the verb. Returns 0, or an exit code after one line on standard error. Release
+/* Reads the arguments after the verb, and checks each number by its range. Returns 0, or an exit code after one line on standard error. Release
  * with options_free in either case. */
 int options_parse(const Verb *verb, int count, char **arguments, Options *options);
 void options_free(Options *options);
@@ -72,8 +75,8 @@ const Option *option_row(const Options *options, const char *name);
 /* Forgets what option_next has returned before it set its cursor to at + 1. */
 void option_drop(Options *options, int at);
 
-/* Reads the value as a number in the table's range. Returns false after one line on standard error. An option with
- * neither value nor default leaves *number as it is. */
+/* Reads the value of an OPTION_WHOLE or an OPTION_NUMBER, which options_parse has checked. An option with neither value
+ * nor default leaves *number as it is. Returns false after one line on standard error if it is no such number. */
 bool option_integer(const Options *options, const char *name, int *number);
 bool option_number(const Options *options, const char *name, double *number);
 

@@ -21,8 +21,8 @@ const Option request_options[] = {
     OPTION_LIST("--save", "FILE",
                 "write the scene with its materials and lights, .glb or .gltf, or the cloth's material, .json; "
                 "without -o nothing else"),
-    OPTION_NUMBER("--width", "PIXELS", "960", 1, 65536, "width of the picture"),
-    OPTION_NUMBER("--height", "PIXELS", "720", 1, 65536, "height of the picture"),
+    OPTION_WHOLE("--width", "PIXELS", "960", 1, 65536, "width of the picture"),
+    OPTION_WHOLE("--height", "PIXELS", "720", 1, 65536, "height of the picture"),
     OPTION_TEXT("--crop", "X,Y,W,H", NULL, "render these pixels only, from the top left"),
 
     OPTION_ROOT,
@@ -30,20 +30,20 @@ const Option request_options[] = {
     SCENE_OPTIONS,
 
     OPTION_HEADING("Several pictures"),
-    OPTION_NUMBER("--turntable", "COUNT", NULL, 1, 10000,
+    OPTION_WHOLE("--turntable", "COUNT", NULL, 1, 10000,
                   "so many pictures on a circle around the scene; OUT gets a number before its suffix"),
 
     OPTION_HEADING("Engine"),
     OPTION_TEXT("--engine", "ENGINE", "trace",
                 "trace, the reference; raster, OpenGL; or both on a sheet, with their difference"),
     OPTION_TEXT("--gl", "KIND", "desktop", "raster: desktop, OpenGL 3.3, or es, OpenGL ES 3.0"),
-    OPTION_NUMBER("--msaa", "COUNT", "4", 1, 64, "raster: samples a pixel at edges, as far as the driver goes"),
+    OPTION_WHOLE("--msaa", "COUNT", "4", 1, 64, "raster: samples a pixel at edges, as far as the driver goes"),
     OPTION_TEXT("--ambient", "STRATEGY", "best",
                 "raster: light from the environment by irradiance, mirror or fitted, by the best of them for each "
                 "lobe, or none"),
-    OPTION_NUMBER("--occlusion", "RAYS", "64", 0, 4096,
+    OPTION_WHOLE("--occlusion", "RAYS", "64", 0, 4096,
                   "raster: look from each vertex along so many rays, for what lies in creases and in shadow of a map"),
-    OPTION_NUMBER("--polygons", "COUNT", "8", 0, WEFT_RASTER_POLYGONS,
+    OPTION_WHOLE("--polygons", "COUNT", "8", 0, WEFT_RASTER_POLYGONS,
                   "raster: light by so many of the scene's emissive polygons, the strongest"),
     OPTION_TEXT("--part", "PART", "all",
                 "raster: all, or the light of one slot: diffuse, specular, sheen, coat or dust; or a property: "
@@ -51,7 +51,7 @@ const Option request_options[] = {
     OPTION_TEXT("--shader-dir", "DIR", NULL, "raster: shader text found here wins over the built-in one"),
 
     OPTION_HEADING("Sampling of the path tracer"),
-    OPTION_NUMBER("--spp", "COUNT", "64", 1, REQUEST_SPP_MOST,
+    OPTION_WHOLE("--spp", "COUNT", "64", 1, REQUEST_SPP_MOST,
                   "samples a pixel; without end where only --time-limit is given"),
     OPTION_NUMBER("--time-limit", "SECONDS", NULL, 1e-3, 1e9, "stop then and write what there is"),
     OPTION_SWITCH("--halves", "take the samples in two independent halves, by which the picture's relMSE is estimated"),
@@ -59,10 +59,10 @@ const Option request_options[] = {
                   "stop as soon as the picture's relMSE, estimated from two halves of its samples, is at "
                   "most LEVEL; --spp is "
                   "then the most samples, without end where it is not given"),
-    OPTION_NUMBER("--max-depth", "COUNT", "9", 1, 1000, "scattering events on a path; 1 is direct light"),
+    OPTION_WHOLE("--max-depth", "COUNT", "9", 1, 1000, "scattering events on a path; 1 is direct light"),
     OPTION_TEXT("--sampling", "STRATEGY", "mis", "find lights by mis, light or lobe"),
-    OPTION_NUMBER("--seed", "NUMBER", "0", 0, 2147483647, "another seed, other noise"),
-    OPTION_NUMBER("--threads", "COUNT", NULL, 1, WEFT_THREADS_MAX,
+    OPTION_WHOLE("--seed", "NUMBER", "0", 0, 2147483647, "another seed, other noise"),
+    OPTION_WHOLE("--threads", "COUNT", NULL, 1, WEFT_THREADS_MAX,
                   "processors to use, 1 to 256; no influence on the picture [all]"),
     OPTION_TEXT("--isa", "NAME", NULL,
                 "instructions to use: sse2, avx2 or avx512; no influence but on last bits, an .exr names "

@@ -205,7 +205,7 @@ static const Option check_options[] = {
     OPTION_ROOT,
     OPTION_SWITCH("--quick", "fewer rows, pairs and samples: a first look"),
     OPTION_SWITCH("--no-gpu", "do not compare with the GPU"),
-    OPTION_NUMBER("--threads", "COUNT", "0", 0, 256, "processors to use; 0: all; no influence on the numbers"),
+    OPTION_WHOLE("--threads", "COUNT", "0", 0, 256, "processors to use; 0: all; no influence on the numbers"),
     OPTION_SWITCH("--json", "JSON instead of text; of all, an array"),
     OPTION_TEXT("--html", "FILE", NULL, "write one page with plots, which needs no other file"),
     OPTION_SWITCH("--header", "only the lines that the opening comment of the lobe's file ends with"),

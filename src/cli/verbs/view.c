@@ -15,11 +15,11 @@
 
 static const Option view_options[] = {
     OPTION_HEADING("Window"),
-    OPTION_NUMBER("--width", "PIXELS", NULL, 320, 16384, "width of the window [as it was last time, 1280]"),
-    OPTION_NUMBER("--height", "PIXELS", NULL, 240, 16384, "height of the window [as it was last time, 720]"),
+    OPTION_WHOLE("--width", "PIXELS", NULL, 320, 16384, "width of the window [as it was last time, 1280]"),
+    OPTION_WHOLE("--height", "PIXELS", NULL, 240, 16384, "height of the window [as it was last time, 720]"),
     OPTION_NUMBER("--scale", "FACTOR", NULL, 0.5, 4, "size of its panels and words [as the display asks, 1]"),
-    OPTION_NUMBER("--occlusion", "RAYS", "64", 0, 4096,
-                  "look from each vertex along so many rays, for what lies in creases and in shadow of a map"),
+    OPTION_WHOLE("--occlusion", "RAYS", "64", 0, 4096,
+                 "look from each vertex along so many rays, for what lies in creases and in shadow of a map"),
     OPTION_TEXT("--shader-dir", "DIR", NULL,
                 "shader text found here wins over the built-in one, and is compiled anew as it changes"),
 
@@ -28,7 +28,7 @@ static const Option view_options[] = {
 
     OPTION_HEADING("Automation"),
     OPTION_TEXT("--script", "FILE", NULL, "replay the actions in FILE; docs/view.md lists them"),
-    OPTION_NUMBER("--frames", "COUNT", NULL, 1, 1e9, "close after so many frames"),
+    OPTION_WHOLE("--frames", "COUNT", NULL, 1, 1e9, "close after so many frames, once the scene has been read"),
     OPTION_SWITCH("--windowless", "run without a window, for replays without a display"),
     OPTION_SWITCH("--forget", "neither read nor write what is remembered from run to run"),
     OPTION_SWITCH("--json", "print a line of JSON whenever the window comes to rest: what it shows, and where its "

@@ -84,13 +84,13 @@ static int yarns_read(const char *text, WeftYarn yarns[2]) {
 static int cloth_make(Weaving *weaving) {
     const Options *options = weaving->options;
     const bool asked = option_given(options, "--close") || option_given(options, "--bake");
-    if (!asked && (long)weaving->info.count[0] * weaving->info.count[1] > 1 << 18) return 0;
     WeftYarn yarns[2];
     WeftError error;
     int seed = 0;
     if (!option_integer(options, "--seed", &seed)) return WEFT_USAGE;
     const int result = yarns_read(option_text(options, "--yarn"), yarns);
     if (result != 0) return result;
+    if (!asked && (long)weaving->info.count[0] * weaving->info.count[1] > 1 << 18) return 0;
     if (weft_cloth_create(weaving->draft, yarns, (unsigned)seed, &weaving->cloth, &error) != WEFT_OK)
         return report_error(&error);
     return 0;
@@ -220,7 +220,7 @@ static const Option weave_options[] = {
     OPTION_SWITCH("--back", "the cloth turned over: left and right change places, and so do warp and weft on top"),
     OPTION_TEXT("--yarn", "WARP[,WEFT]", "cotton",
                 "yarn of warp and weft: cotton, linen, wool, silk, dupion, polyester"),
-    OPTION_NUMBER("--seed", "N", "0", 0, 288, "another cloth of the same draft and yarns"),
+    OPTION_WHOLE("--seed", "N", "0", 0, 288, "another cloth of the same draft and yarns"),
     OPTION_HEADING("Result"),
     OPTION_TEXT("-o", "OUT", NULL,
                 "write the draft: .wif for weaving programs and looms; .png, .svg or .pdf as weavers print it; "
@@ -229,8 +229,8 @@ static const Option weave_options[] = {
                   "draw the cloth itself, so many warp threads wide, as -o OUT.png"),
     OPTION_TEXT("--bake", "DIR", NULL,
                 "write textures that tile, a material file with them, and a draped cloth of it, cloth.glb"),
-    OPTION_NUMBER("--size", "PIXELS", "800", 16, 8192,
-                  "width of that picture; textures have as many texels as a square of that side"),
+    OPTION_WHOLE("--size", "PIXELS", "800", 16, 8192,
+                 "width of that picture; textures have as many texels as a square of that side"),
     OPTION_SWITCH("--json", "the figures as JSON on standard output"),
     OPTION_END,
 };
