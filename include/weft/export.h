@@ -67,7 +67,7 @@ typedef struct WeftExportDesc {
     WeftExportLut lut;            /* form of the tables */
     int albedo;                   /* not 0: with ID_albedo of a lobe, which reads a table */
     int fold_pi;                  /* not 0: f is multiplied by pi, for lights whose unit contains the 1/pi */
-    const char *prefix;           /* of every name, a C identifier of at most 24 characters; NULL: "weft_" */
+    const char *prefix;           /* of every name: a C identifier, 24 characters at most; NULL: weft_, in C weftx_ */
     const char *call;             /* the command that made the text, for its first lines; may be NULL */
 } WeftExportDesc;
 

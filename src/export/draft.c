@@ -16,7 +16,8 @@ void draft_begin(Draft *draft, const WeftExportDesc *desc, DraftTables *tables) 
         [WEFT_EXPORT_C] = SPELL_C,       [WEFT_EXPORT_SHADERTOY] = SPELL_GLSL, [WEFT_EXPORT_WGSL] = SPELL_WGSL,
     };
     *draft = (Draft){.desc = desc, .speller.language = languages[desc->target], .whole = {"Dir", "Rgb"}};
-    snprintf(draft->speller.prefix, SPELL_PREFIX, "%s", desc->prefix ? desc->prefix : "weft_");
+    const char *usual = desc->target == WEFT_EXPORT_C ? "weftx_" : "weft_"; /* weft.h, beside a text in C, has weft_ */
+    snprintf(draft->speller.prefix, SPELL_PREFIX, "%s", desc->prefix ? desc->prefix : usual);
     draft->tables = tables;
     text_begin(&draft->text, &(TextDesc){.language = TEXT_PLAIN,
                                          .before = tables->all,
@@ -56,9 +57,9 @@ AlbedoTable *draft_albedo(Draft *draft) {
 
 void draft_identifier(const char *name, char id[DRAFT_ID]) {
     int size = 0;
-    if (is_digit(*name)) id[size++] = 'm';
     for (; *name && size < DRAFT_ID - 1; name++) {
         bool letter = is_name(*name) && *name != '_';
+        if (!size && is_digit(*name)) id[size++] = 'm';
         if (letter)
             id[size++] = (char)(*name >= 'A' && *name <= 'Z' ? *name - 'A' + 'a' : *name);
         else if (size && id[size - 1] != '_')

@@ -2,6 +2,7 @@
  * nonsense is refused in one line */
 #include "run.h"
 
+#include <ctype.h>
 #include <math.h>
 
 #include <jansson.h>
@@ -35,15 +36,15 @@ static void assert_has(const char *path, const char *part) {
 
 static void export_finds_every_model(void **state) {
     (void)state;
-    static const char *const models[][2] = {{"charlie-neubelt", "weft_charlie_neubelt_eval"},
-                                            {"khronos", "weft_khronos_shade"},
-                                            {"metallic", "weft_metallic_shade"},
-                                            {"velvet", "weft_velvet_shade"},
-                                            {"preset:silk", "weft_silk_shade"},
-                                            {"scene.gltf", "weft_cloth_shade"},
-                                            {"scene.gltf:cloth", "weft_cloth_shade"},
-                                            {"scene.gltf:0", "weft_cloth_shade"},
-                                            {"own.json", "weft_own_shade"}};
+    static const char *const models[][2] = {{"charlie-neubelt", "weftx_charlie_neubelt_eval"},
+                                            {"khronos", "weftx_khronos_shade"},
+                                            {"metallic", "weftx_metallic_shade"},
+                                            {"velvet", "weftx_velvet_shade"},
+                                            {"preset:silk", "weftx_silk_shade"},
+                                            {"scene.gltf", "weftx_cloth_shade"},
+                                            {"scene.gltf:cloth", "weftx_cloth_shade"},
+                                            {"scene.gltf:0", "weftx_cloth_shade"},
+                                            {"own.json", "weftx_own_shade"}};
     static const char own[] = "{\"base_color\": [0.5, 0.25, 0.125], \"sheen_color\": [1, 0.5, 0.25]}";
     file_make("own.json", own, sizeof own - 1);
     for (size_t k = 0; k < sizeof models / sizeof models[0]; k++) {
@@ -242,6 +243,115 @@ static void two_lobes_share_one_record_of_values(void **state) {
     }
 }
 
+/* Fails if a shell line does, unless its compiler is not here. */
+static void compiles(const char *compiler, const char *line) {
+    char command[700];
+    snprintf(command, sizeof command, "command -v %s >/dev/null 2>&1 || exit 77; %s", compiler, line);
+    Ran ran = run_shell(command);
+    if (ran.code != 0 && ran.code != 77) fail_msg("%s: %s%s", line, ran.out, ran.err);
+    ran_free(&ran);
+}
+
+/* A program that uses the library may include what it exported. */
+static void c_text_stands_beside_the_header_of_the_library(void **state) {
+    (void)state;
+    static const char *const models[] = {"khronos", "metallic", "velvet",      "ltc-fibre",
+                                         "fibre",   "openpbr",  "preset:denim"};
+    static const char program[] = "#include <weft/weft.h>\n#include \"beside.h\"\nint main(void) { return 0; }\n";
+    file_make("beside.c", program, sizeof program - 1);
+    for (size_t k = 0; k < sizeof models / sizeof *models; k++) {
+        finish(done(LIST("export", models[k], "--target", "c", "--quiet", "-o", "beside.h")));
+        compiles("gcc", "gcc -std=c11 -Wall -Werror -fsyntax-only -I" WEFT_SOURCE_DIR "/include beside.c");
+        compiles("g++", "g++ -std=c++17 -Wall -Werror -fsyntax-only -I" WEFT_SOURCE_DIR "/include -x c++ beside.c");
+    }
+}
+
+static void assert_no_name_begins_with_a_digit(const char *path) {
+    size_t size;
+    char *text = file_bytes(path, &size);
+    assert_non_null(text);
+    for (const char *c = strstr(text, "*/"); *c; c++) /* behind the comment; a number may end in f, x or e3 */
+        if (*c >= '0' && *c <= '9' && !isalnum((unsigned char)c[-1]) && c[-1] != '_' && c[-1] != '.') {
+            const char *end = c;
+            while (isdigit((unsigned char)*end) || *end == '.') end++;
+            if (*end == '_' || (isalpha((unsigned char)*end) && !strchr("efux", *end))) fail_msg("%s: %.40s", path, c);
+        }
+    free(text);
+}
+
+/* Whatever a material is called, in each language. */
+static void material_of_any_name_gives_text_that_compiles(void **state) {
+    (void)state;
+    static const char *const names[] = {"#1 Cloth",
+                                        "(2)",
+                                        "_1",
+                                        "\xc3\xa9"
+                                        "1",
+                                        "3",
+                                        "float",
+                                        "in",
+                                        "texture",
+                                        "main",
+                                        "-",
+                                        "a__b",
+                                        "gl_1",
+                                        "A name of more than sixty-three letters, for which a record "
+                                        "in the exporter has no room at all, since it is cut"};
+    static const char *const shaders[][3] = {{"glsl", "frag", "#version 330 core"},
+                                             {"essl", "frag", "#version 300 es\nprecision highp float;"},
+                                             {"shadertoy", "frag",
+                                              "#version 330 core\nuniform vec3 iResolution; uniform float iTime; "
+                                              "uniform vec4 iMouse;"},
+                                             {"hlsl", "hlsl", ""}};
+    size_t size;
+    char *scene = file_bytes("scene.gltf", &size), *at = strstr(scene, "\"name\":\"cloth\""), *own = malloc(size + 256);
+    assert_true(at && own);
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
+        char line[600];
+        snprintf(own, size + 256, "%.*s\"name\":\"%s\"%s", (int)(at - scene), scene, names[k],
+                 at + strlen("\"name\":\"cloth\""));
+        file_make("named.gltf", own, strlen(own));
+        for (int t = 0; weft_export_target_name(t); t++) {
+            finish(done(
+                LIST("export", "named.gltf:0", "--target", weft_export_target_name(t), "--quiet", "-o", "named.h")));
+            assert_no_name_begins_with_a_digit("named.h");
+        }
+        for (size_t s = 0; s < sizeof shaders / sizeof *shaders; s++) {
+            finish(done(LIST("export", "named.gltf:0", "--target", shaders[s][0], "--quiet", "-o", "named.txt")));
+            snprintf(line, sizeof line,
+                     "{ printf '%%b\\n' '%s'; cat named.txt; echo 'void %s() {}'; } >named.%s && "
+                     "glslangValidator %s named.%s",
+                     shaders[s][2], strcmp(shaders[s][0], "shadertoy") == 0 ? "unused_" : "begin_", shaders[s][1],
+                     strcmp(shaders[s][1], "hlsl") == 0 ? "-D -e begin_ -S frag -V -o /dev/null" : "", shaders[s][1]);
+            compiles("glslangValidator", line);
+        }
+        finish(done(LIST("export", "named.gltf:0", "--target", "c", "--quiet", "-o", "named.h")));
+        compiles("gcc", "gcc -std=c99 -Wall -Werror -fsyntax-only -x c named.h");
+    }
+    free(scene);
+    free(own);
+}
+
+/* What the language cannot hold is a picture that engines load, unless another form is asked for. */
+static void tables_outside_the_text_are_exr_by_default(void **state) {
+    (void)state;
+    static const char *const targets[] = {"glsl", "essl", "hlsl"};
+    for (int k = 0; k < 3; k++) {
+        finish(done(LIST("export", "ltc-fibre", "--target", targets[k], "--quiet", "-o", "alone.txt")));
+        assert_int_equal(access("alone.weft_texels_ltc_fibre.exr", R_OK), 0);
+        assert_true(access("alone.weft_texels_ltc_fibre.h", R_OK) != 0);
+        finish(done(LIST("export", "ltc-fibre", "--target", targets[k], "--lut", "npy", "--quiet", "-o", "alone.txt")));
+        finish(done(LIST("diff", "alone.weft_texels_ltc_fibre.exr", "alone.weft_texels_ltc_fibre.npy", "--max", "1e-9")));
+        unlink("alone.weft_texels_ltc_fibre.exr");
+        unlink("alone.weft_texels_ltc_fibre.npy");
+    }
+    finish(done(LIST("export", "ltc-fibre", "--target", "c", "--quiet", "-o", "alone.txt")));
+    assert_has("alone.txt", "static const float weftx_texels_ltc_fibre[");
+    assert_true(access("alone.weftx_texels_ltc_fibre.exr", R_OK) != 0);
+    finish(done(LIST("export", "ltc-fibre", "--target", "glsl", "--lut", "c", "--quiet", "-o", "alone.txt")));
+    assert_int_equal(access("alone.weft_texels_ltc_fibre.h", R_OK), 0);
+}
+
 static void export_options_without_sense_are_refused(void **state) {
     (void)state;
     const struct {
@@ -288,6 +398,9 @@ int main(void) {
         cmocka_unit_test(several_models_make_one_file),
         cmocka_unit_test(exported_table_files_read_back_as_written),
         cmocka_unit_test(png_table_above_one_is_scaled),
+        cmocka_unit_test(c_text_stands_beside_the_header_of_the_library),
+        cmocka_unit_test(material_of_any_name_gives_text_that_compiles),
+        cmocka_unit_test(tables_outside_the_text_are_exr_by_default),
         cmocka_unit_test(export_options_without_sense_are_refused),
         cmocka_unit_test(set_parameter_leaves_other_defaults),
         cmocka_unit_test(two_lobes_share_one_record_of_values),

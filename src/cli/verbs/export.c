@@ -22,6 +22,7 @@ typedef struct Export {
     Model models[WEFT_EXPORT_MODELS_MAX], right;
     int count;
     WeftExport made;
+    WeftExportLut beside; /* the form of the tables outside the text */
     bool quiet;
 } Export;
 
@@ -75,7 +76,7 @@ static int read_models(Export *self, const WeftExportDesc *common) {
 static int export_read(const Options *options, Export *self) {
     static const char *const pis[] = {"explicit", "folded", NULL};
     const char *targets[WEFT_EXPORT_TARGETS + 1] = {NULL}, *luts[WEFT_EXPORT_LUTS + 1] = {NULL};
-    int target, lut = 0, pi;
+    int target, lut = WEFT_EXPORT_LUT_C, pi;
     self->options = options;
     self->quiet = option_given(options, "--quiet");
     for (int k = 0; k < WEFT_EXPORT_TARGETS; k++) targets[k] = weft_export_target_name(k);
@@ -83,9 +84,10 @@ static int export_read(const Options *options, Export *self) {
     if (!option_text(options, "--target"))
         return report(WEFT_USAGE, "export: needs --target glsl, essl, hlsl, wgsl, c or shadertoy");
     if (!option_text(options, "-o")) return report(WEFT_USAGE, "export: needs -o FILE");
-    if (!option_choice(options, "--target", targets, &target) || !option_choice(options, "--lut", luts, &lut) ||
-        !option_choice(options, "--light-pi", pis, &pi))
+    if (!option_choice(options, "--target", targets, &target) || !option_choice(options, "--light-pi", pis, &pi))
         return WEFT_USAGE;
+    if (option_given(options, "--lut") && !option_choice(options, "--lut", luts, &lut)) return WEFT_USAGE;
+    self->beside = option_given(options, "--lut") ? (WeftExportLut)lut : WEFT_EXPORT_LUT_EXR;
     return read_models(self, &(WeftExportDesc){.target = (WeftExportTarget)target,
                                                .lut = (WeftExportLut)lut,
                                                .albedo = option_given(options, "--albedo"),
@@ -98,7 +100,7 @@ static int files_write(const Export *self) {
     bool wanted = option_given(self->options, "--json");
     char *command = command_text(self->options);
     const ExportFiles files = {.made = &self->made,
-                               .lut = self->descs->lut,
+                               .lut = self->beside,
                                .path = option_text(self->options, "-o"),
                                .command = command,
                                .quiet = self->quiet};
@@ -144,8 +146,9 @@ static const Option export_options[] = {
     OPTION_HEADING("Output"),
     OPTION_TEXT("-o", "FILE", NULL, "write the text to FILE; tables go beside it, under their names in the text"),
     OPTION_TEXT("--target", "TARGET", NULL, "the language, below"),
-    OPTION_TEXT("--lut", "KIND", "c",
-                "tables as c arrays (inside the text where it can hold them), png16, exr, dds or npy"),
+    OPTION_TEXT("--lut", "KIND", NULL,
+                "tables as c arrays (inside the text where it can hold them), png16, exr, dds or npy [inside the text "
+                "where it can hold them, else exr]"),
     OPTION_LOBES,
     OPTION_ROOT,
     OPTION_HEADING("Text"),
@@ -153,7 +156,8 @@ static const Option export_options[] = {
                 "explicit: f has its 1/pi and lights are irradiances; folded: f times pi, for lights whose "
                 "unit has the 1/pi inside"),
     OPTION_SWITCH("--albedo", "of a lobe its directional albedo E too, from a table"),
-    OPTION_TEXT("--prefix", "NAME", "weft_", "what every name begins with; another one where two texts meet"),
+    OPTION_TEXT("--prefix", "NAME", NULL,
+                "what every name begins with; another one where two texts meet [weft_; in C weftx_]"),
     OPTION_HEADING("Reports"),
     OPTION_SWITCH("--quiet", "no summary"),
     OPTION_SWITCH("--json", "the files written as JSON on standard output"),
