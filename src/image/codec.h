@@ -39,6 +39,7 @@ WeftResult image_read_jpeg(const ImageSource *source, WeftImage *out, WeftError 
 WeftResult image_read_tga(const ImageSource *source, WeftImage *out, WeftError *error);
 WeftResult image_read_hdr(const ImageSource *source, WeftImage *out, WeftError *error);
 WeftResult image_read_exr(const ImageSource *source, WeftImage *out, WeftError *error);
+WeftResult image_read_dds(const ImageSource *source, WeftImage *out, WeftError *error);
 WeftResult image_read_npy(const ImageSource *source, WeftImage *out, WeftError *error);
 
 /* Writes an image whose pixel type the format supports; name is the subject of errors. */

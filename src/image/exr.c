@@ -1,4 +1,4 @@
-/* exr.c - OpenEXR through its C library; colours of a file are multiplied by alpha, those of a WeftImage are not */
+/* exr.c - OpenEXR through its C library, but for two compressions; colours of a file are multiplied by alpha, those of a WeftImage are not */
 #include <float.h>
 #include <limits.h>
 #include <math.h>
@@ -13,7 +13,10 @@
 #include "base/memory.h"
 #include "base/stream_reason.h"
 #include "image/codec.h"
+#include "image/exr_dwa.h"
+#include "image/exr_pick.h"
 #include "image/half.h"
+#include "image/primaries.h"
 
 /* The attribute with the denoiser of a picture. */
 static const char exr_denoised[] = "denoised";
@@ -85,8 +88,7 @@ typedef struct Exr {
     exr_attr_box2i_t data, display; /* windows, inclusive */
     exr_compression_t compression;
     const exr_attr_chlist_t *channels;
-    int from[4];         /* the file's channel for each channel of the image, -1: all 0 */
-    int count;           /* channels of the image */
+    ExrPick pick;
     int64_t pixel_bytes; /* of all the file's channels */
     bool tiled;
     int32_t chunk_width, chunk_height; /* of a tile, or of a block of lines; the last ones may be smaller */
@@ -99,11 +101,11 @@ static int64_t box_height(exr_attr_box2i_t box) { return (int64_t)box.max.y - bo
 
 static int value_bytes(exr_pixel_type_t type) { return type == EXR_PIXEL_HALF ? 2 : 4; }
 
-/* Returns the first part that is not deep, or -1. */
-static int flat_part(exr_context_t context) {
-    int count = 0;
-    exr_get_count(context, &count);
-    for (int part = 0; part < count; part++) {
+/* Returns the first part that is not deep, or -1; *count receives the number of parts. */
+static int flat_part(exr_context_t context, int *count) {
+    *count = 0;
+    exr_get_count(context, count);
+    for (int part = 0; part < *count; part++) {
         exr_storage_t storage;
         if (exr_get_storage(context, part, &storage) == EXR_ERR_SUCCESS &&
             (storage == EXR_STORAGE_SCANLINE || storage == EXR_STORAGE_TILED))
@@ -112,58 +114,26 @@ static int flat_part(exr_context_t context) {
     return -1;
 }
 
-/* Returns the length of "layer." in "layer.R"; 0 without a layer. */
-static size_t layer_length(const char *channel) {
-    const char *dot = strrchr(channel, '.');
-    return dot ? (size_t)(dot - channel) + 1 : 0;
-}
-
-/* Returns the index of channel `name` in the layer named by the first `length` characters of `of`, or -1. */
-static int channel_find(const exr_attr_chlist_t *channels, const char *of, size_t length, const char *name) {
-    for (int i = 0; i < channels->num_channels; i++) {
-        const char *full = channels->entries[i].name.str;
-        if (strncmp(full, of, length) == 0 && strcmp(full + length, name) == 0) return i;
-    }
-    return -1;
-}
-
-/* Picks R G B (A) or Y (A) of a layer; returns 0 if it has neither. */
-static int layer_pick(Exr *exr, const char *of, size_t length) {
-    static const char *const colors[] = {"R", "G", "B"};
-    int found = 0;
-    exr->count = 3;
-    for (int c = 0; c < 3; c++) {
-        exr->from[c] = channel_find(exr->channels, of, length, colors[c]);
-        if (exr->from[c] >= 0) found = 1;
-    }
-    if (!found) {
-        exr->from[0] = channel_find(exr->channels, of, length, "Y");
-        exr->count = 1;
-        if (exr->from[0] < 0) return 0;
-    }
-    exr->from[exr->count] = channel_find(exr->channels, of, length, "A");
-    if (exr->from[exr->count] >= 0) exr->count++;
-    return 1;
-}
-
-/* Picks the colours without a layer, else those of the first layer that has any. Refuses subsampled channels, which
- * luminance-chroma files have and which would change the order of the values in a chunk. */
+/* Picks the picture's channels. Refuses subsampled channels, which luminance-chroma files have and which would change the
+ * order of the values in a chunk. */
 static WeftResult exr_channels(Exr *exr, WeftError *error) {
     const char *name = exr->source->name;
     const exr_attr_chlist_t *channels = exr->channels;
     for (int i = 0; i < channels->num_channels; i++) {
         const exr_attr_chlist_entry_t *entry = channels->entries + i;
-        const char *channel = entry->name.str + layer_length(entry->name.str);
+        const char *channel = entry->name.str + exr_layer_length(entry->name.str);
         if (strcmp(channel, "RY") == 0 || strcmp(channel, "BY") == 0)
             return fail(error, WEFT_MESSAGE_IMAGE_UNSUPPORTED, name, "EXR: luminance-chroma pixels");
         if (entry->x_sampling != 1 || entry->y_sampling != 1)
             return fail(error, WEFT_MESSAGE_IMAGE_UNSUPPORTED, name, "EXR: subsampled channels");
         exr->pixel_bytes += value_bytes(entry->pixel_type);
     }
-    int picked = layer_pick(exr, "", 0);
-    for (int i = 0; !picked && i < channels->num_channels; i++)
-        picked = layer_pick(exr, channels->entries[i].name.str, layer_length(channels->entries[i].name.str));
-    return picked ? WEFT_OK : fail(error, WEFT_MESSAGE_IMAGE_UNSUPPORTED, name, "EXR: neither R G B nor Y channels");
+    if (!exr_pick(channels, &exr->pick))
+        return fail(error, WEFT_MESSAGE_IMAGE_UNSUPPORTED, name,
+                    "EXR: no channels R G B, red green blue, X Y Z, Y or V; rename those of its picture");
+    if (exr->pick.words[0])
+        warn(exr->source->log, WEFT_MESSAGE_IMAGE_REPAIRED, name, "EXR: it shows %s", exr->pick.words);
+    return WEFT_OK;
 }
 
 /* Returns an upper bound of the bytes of pixels that a byte of a file decodes to. Deflate has 1032 (258 bytes from 2
@@ -202,8 +172,11 @@ static exr_result_t exr_chunks(Exr *exr) {
 /* Fills *exr from the header and checks everything that sizes depend on. */
 static WeftResult exr_header(Exr *exr, WeftError *error) {
     const ImageSource *source = exr->source;
-    exr->part = flat_part(exr->context);
+    int parts;
+    exr->part = flat_part(exr->context, &parts);
     if (exr->part < 0) return fail(error, WEFT_MESSAGE_IMAGE_UNSUPPORTED, source->name, "EXR: deep pixels");
+    if (parts > 1)
+        warn(source->log, WEFT_MESSAGE_IMAGE_REPAIRED, source->name, "EXR: it shows the first of its %d parts", parts);
     if (exr_get_data_window(exr->context, exr->part, &exr->data) != EXR_ERR_SUCCESS ||
         exr_get_display_window(exr->context, exr->part, &exr->display) != EXR_ERR_SUCCESS ||
         exr_get_compression(exr->context, exr->part, &exr->compression) != EXR_ERR_SUCCESS ||
@@ -224,7 +197,7 @@ static WeftResult exr_header(Exr *exr, WeftError *error) {
         result = image_reachable(source, width * height * exr->pixel_bytes / ratio_most(exr->compression), error);
     if (result == WEFT_OK)
         result = image_check_header(source, box_width(exr->display), box_height(exr->display),
-                                    exr->count * (int64_t)sizeof(float), error);
+                                    exr->pick.count * (int64_t)sizeof(float), error);
     return result;
 }
 
@@ -244,10 +217,10 @@ static void line_place(const Exr *exr, const unsigned char *line, int64_t width,
     const int64_t first = x < 0 ? -x : 0, end = x + width > to_width ? to_width - x : width;
     for (int i = 0; i < exr->channels->num_channels; i++) {
         const exr_pixel_type_t type = exr->channels->entries[i].pixel_type;
-        for (int c = 0; c < exr->count; c++) {
-            if (exr->from[c] != i) continue;
+        for (int c = 0; c < exr->pick.count; c++) {
+            if (exr->pick.from[c] != i) continue;
             for (int64_t n = first; n < end; n++)
-                to[(x + n) * exr->count + c] = value_read(line + n * value_bytes(type), type);
+                to[(x + n) * exr->pick.count + c] = value_read(line + n * value_bytes(type), type);
         }
         line += width * value_bytes(type);
     }
@@ -278,7 +251,7 @@ static exr_result_t chunk_decode(Exr *exr, const exr_chunk_info_t *chunk, int64_
     for (int64_t row = 0; row < chunk->height; row++) {
         if (y + row < 0 || y + row >= image->height) continue;
         line_place(exr, (const unsigned char *)pipeline->unpacked_buffer + row * line_bytes, chunk->width, x,
-                   (float *)image->pixels + (y + row) * image->width * exr->count, image->width);
+                   (float *)image->pixels + (y + row) * image->width * exr->pick.count, image->width);
     }
     return EXR_ERR_SUCCESS;
 }
@@ -298,6 +271,49 @@ static exr_result_t chunks_decode(Exr *exr, int64_t left, int64_t top, WeftImage
             if (status != EXR_ERR_SUCCESS) return status;
         }
     return EXR_ERR_SUCCESS;
+}
+
+/* Reads a file of a compression that the C library lacks (3.1.5), as chunks_decode does. */
+static WeftResult whole_decode(Exr *exr, int64_t left, int64_t top, WeftImage *image, WeftError *error) {
+    const int64_t width = box_width(exr->data), height = box_height(exr->data);
+    const int count = exr->pick.count;
+    ExrPlanes planes = {.count = count, .left = exr->data.min.x, .top = exr->data.min.y, .width = (int)width};
+    char reason[128] = "";
+    for (int c = 0; c < count; c++)
+        if (exr->pick.from[c] >= 0) planes.names[c] = exr->channels->entries[exr->pick.from[c]].name.str;
+    planes.values = alloc_array((size_t)(width * height), (size_t)count * sizeof(float));
+    if (!planes.values) return fail(error, WEFT_MESSAGE_MEMORY, exr->source->name, NULL);
+    const ExrDwa status = exr_dwa_read(exr->source->data, exr->source->size, exr->part, &planes, reason, sizeof reason);
+    const int64_t first = left < 0 ? -left : 0, end = left + width > image->width ? image->width - left : width;
+    for (int64_t y = 0; status == EXR_DWA_READ && y < height; y++)
+        if (top + y >= 0 && top + y < image->height && first < end)
+            memcpy((float *)image->pixels + ((top + y) * image->width + left + first) * count,
+                   planes.values + (y * width + first) * count, (size_t)((end - first) * count) * sizeof(float));
+    free(planes.values);
+    if (status == EXR_DWA_READ) return WEFT_OK;
+    for (char *c = reason; *c; c++) /* the library quotes bytes of the file */
+        if ((unsigned char)*c >= 0x7f) *c = '?';
+    return fail(error, status == EXR_DWA_MEMORY ? WEFT_MESSAGE_MEMORY : WEFT_MESSAGE_IMAGE_DAMAGED, exr->source->name,
+                "EXR: %s", reason);
+}
+
+/* Turns colours into those of Rec. 709, where the file says that they are others. */
+static void colors_turn(const Exr *exr, WeftImage *image) {
+    exr_attr_chromaticities_t given;
+    ColorMatrix matrix = xyz_matrix();
+    if (image->channels < 3) return;
+    if (!exr->pick.xyz) {
+        if (exr_attr_get_chromaticities(exr->context, exr->part, "chromaticities", &given) != EXR_ERR_SUCCESS) return;
+        const Primaries primaries = {{(double)given.red_x, (double)given.red_y, (double)given.green_x,
+                                      (double)given.green_y, (double)given.blue_x, (double)given.blue_y,
+                                      (double)given.white_x, (double)given.white_y}};
+        if (primaries_rec709(&primaries)) return;
+        const bool spanned = primaries_matrix(&primaries, &matrix);
+        warn(exr->source->log, WEFT_MESSAGE_IMAGE_REPAIRED, exr->source->name, "EXR: its chromaticities are %s",
+             spanned ? "other than Rec. 709's, to which its colours were turned" : "those of no colours; Rec. 709's");
+        if (!spanned) return;
+    }
+    image_turn_colors(image, &matrix);
 }
 
 /* Divides colours by alpha. Where alpha is 0 they are light without coverage and stay. */
@@ -322,16 +338,22 @@ static WeftResult exr_refuse(const ExrJob *job, exr_result_t status, WeftError *
 static WeftResult exr_decode(Exr *exr, const ExrJob *job, WeftImage *out, WeftError *error) {
     WeftResult result = exr_header(exr, error);
     if (result != WEFT_OK) return result;
-    result = weft_image_create((int)box_width(exr->display), (int)box_height(exr->display), exr->count, WEFT_PIXEL_F32,
-                               out, error);
+    result = weft_image_create((int)box_width(exr->display), (int)box_height(exr->display), exr->pick.count,
+                               WEFT_PIXEL_F32, out, error);
     if (result != WEFT_OK) return result;
     const int64_t left = (int64_t)exr->data.min.x - exr->display.min.x;
     const int64_t top = (int64_t)exr->data.min.y - exr->display.min.y;
-    exr_result_t status = chunks_decode(exr, left, top, out);
-    if (exr->pipeline.channels) exr_decoding_destroy(exr->context, &exr->pipeline);
-    if (status != EXR_ERR_SUCCESS) return exr_refuse(job, status, error);
+    if (exr->compression == EXR_COMPRESSION_DWAA || exr->compression == EXR_COMPRESSION_DWAB) {
+        result = whole_decode(exr, left, top, out, error);
+        if (result != WEFT_OK) return result;
+    } else {
+        exr_result_t status = chunks_decode(exr, left, top, out);
+        if (exr->pipeline.channels) exr_decoding_destroy(exr->context, &exr->pipeline);
+        if (status != EXR_ERR_SUCCESS) return exr_refuse(job, status, error);
+    }
     alpha_straighten(out);
     image_repair(exr->source, out);
+    colors_turn(exr, out);
     const exr_attribute_t *denoised = NULL;
     if (exr_get_attribute_by_name(exr->context, exr->part, exr_denoised, &denoised) == EXR_ERR_SUCCESS)
         warn(exr->source->log, WEFT_MESSAGE_IMAGE_DENOISED, exr->source->name, NULL);

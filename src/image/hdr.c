@@ -2,14 +2,17 @@
  *
  * Greg Ward, "Real Pixels", Graphics Gems II, 1991, and the file formats chapter of the Radiance manual. */
 #include <math.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "base/fail.h"
 #include "base/memory.h"
 #include "base/number.h"
 #include "base/stream_reason.h"
 #include "image/codec.h"
+#include "image/primaries.h"
 
 enum { HDR_LINE_MIN = 8, HDR_LINE_MAX = 32767 }; /* the line lengths that the new code can have */
 
@@ -20,6 +23,8 @@ typedef struct Hdr {
     int lines, length;           /* of the file: a line is a column if x comes first */
     int x_first;                 /* lines run along y */
     int from_right, from_bottom; /* direction of x and of y */
+    bool xyz, turned;            /* its colours are X Y Z, or of other primaries */
+    ColorMatrix matrix;          /* from those */
 } Hdr;
 
 /* Reads the next line of the header, without its end, truncated to size - 1; returns 0 at the end of the file. */
@@ -37,19 +42,102 @@ static int text_line(Hdr *hdr, char *line, size_t size) {
     return 1;
 }
 
-/* Divides the gain by the numbers of an EXPOSURE (one for all) or COLORCORR (one each) line. Several such
- * lines multiply. */
-static int gain_divide(Hdr *hdr, const char *numbers, int count) {
-    float factor = 1.0f;
-    for (int c = 0; c < 3; c++) {
-        if (c < count) {
-            numbers = number_prefix(numbers, &factor);
-            if (!numbers || !(factor > 0.0f)) return 0;
-        }
-        hdr->gain[c] /= (double)factor;
-        if (!(hdr->gain[c] > 1e-30 && hdr->gain[c] < 1e30)) return 0;
+/* Reads `count` numbers with blanks between; returns what follows them, or NULL. */
+static const char *numbers_read(const char *text, int count, double *numbers) {
+    for (int k = 0; k < count; k++) {
+        float number = 0.0f;
+        text = number_prefix(text, &number);
+        if (!text) return NULL;
+        numbers[k] = (double)number;
     }
-    return 1;
+    return text;
+}
+
+static bool is_blank(const char *text) { return text[strspn(text, " \t\r")] == '\0'; }
+
+/* Divides the gain by the factors of an EXPOSURE (one for all) or COLORCORR (one each) line. Several such lines multiply.
+ * Returns what follows the factors, or NULL. */
+static const char *gain_divide(Hdr *hdr, const char *text, int count) {
+    double factors[3];
+    text = numbers_read(text, count, factors);
+    for (int c = 0; text && c < 3; c++) {
+        const double factor = factors[c < count ? c : 0];
+        if (!(factor > 0.0)) return NULL;
+        hdr->gain[c] /= factor;
+        if (!(hdr->gain[c] > 1e-30 && hdr->gain[c] < 1e30)) return NULL;
+    }
+    return text;
+}
+
+/* What a line of the header is about, if that changes the picture. */
+typedef enum HdrKey {
+    HDR_OTHER = 0,
+    HDR_FORMAT,
+    HDR_EXPOSURE,
+    HDR_COLORCORR,
+    HDR_PRIMARIES,
+    HDR_PIXASPECT,
+    HDR_GAMMA
+} HdrKey;
+
+/* Returns the key of a line KEY=VALUE, in any case, and its value. */
+static HdrKey key_of(const char *line, const char **value) {
+    static const char *const keys[] = {"", "FORMAT", "EXPOSURE", "COLORCORR", "PRIMARIES", "PIXASPECT", "GAMMA"};
+    const char *equals = strchr(line, '=');
+    if (!equals) return HDR_OTHER;
+    const size_t length = strcspn(line, " \t=");
+    *value = equals + 1 + strspn(equals + 1, " \t");
+    for (int k = HDR_FORMAT; k <= HDR_GAMMA; k++)
+        if (length == strlen(keys[k]) && strncasecmp(line, keys[k], length) == 0) return (HdrKey)k;
+    return HDR_OTHER;
+}
+
+/* Says that a line of the header does not change the picture as it asks. */
+static void line_left(const Hdr *hdr, const char *line, const char *why) {
+    warn(hdr->source->log, WEFT_MESSAGE_IMAGE_REPAIRED, hdr->source->name, "HDR: \"%.60s\" %s", line, why);
+}
+
+/* Takes the primaries of a line: eight chromaticities. */
+static void primaries_take(Hdr *hdr, const char *line, const char *value) {
+    Primaries given = {{0}};
+    const char *rest = numbers_read(value, 8, given.xy);
+    if (!rest || !is_blank(rest)) {
+        line_left(hdr, line, "is not understood; its colours are taken for Rec. 709's");
+    } else if (!primaries_rec709(&given)) {
+        hdr->turned = primaries_matrix(&given, &hdr->matrix);
+        line_left(hdr, line, hdr->turned ? "was applied: its colours are Rec. 709's now" : "are those of no colours");
+    }
+}
+
+/* Looks for a ratio that the picture would have to be changed by, which it is not. */
+static void ratio_check(const Hdr *hdr, const char *line, const char *value) {
+    double ratio;
+    const char *rest = numbers_read(value, 1, &ratio);
+    if (!rest || !is_blank(rest) || fabs(ratio - 1.0) > 0.02) line_left(hdr, line, "is passed over");
+}
+
+/* Takes one line of the header. */
+static WeftResult header_line(Hdr *hdr, const char *line, WeftError *error) {
+    const char *name = hdr->source->name, *value = "", *rest = NULL;
+    const HdrKey key = key_of(line, &value);
+    switch (key) {
+    case HDR_FORMAT:
+        hdr->xyz = strncmp(value, "32-bit_rle_xyze", 15) == 0 && is_blank(value + 15);
+        if (hdr->xyz || (strncmp(value, "32-bit_rle_rgbe", 15) == 0 && is_blank(value + 15))) break;
+        return fail(error, WEFT_MESSAGE_IMAGE_UNSUPPORTED, name,
+                    "HDR: a FORMAT other than 32-bit_rle_rgbe and 32-bit_rle_xyze");
+    case HDR_EXPOSURE:
+    case HDR_COLORCORR:
+        rest = gain_divide(hdr, value, key == HDR_EXPOSURE ? 1 : 3);
+        if (!rest) return fail(error, WEFT_MESSAGE_IMAGE_DAMAGED, name, "HDR: %.9s is not a positive factor", line);
+        if (!is_blank(rest)) line_left(hdr, line, "has more than its factors, which is passed over");
+        break;
+    case HDR_PRIMARIES: primaries_take(hdr, line, value); break;
+    case HDR_PIXASPECT:
+    case HDR_GAMMA: ratio_check(hdr, line, value); break;
+    default: break;
+    }
+    return WEFT_OK;
 }
 
 /* Reads the resolution, such as "-Y 512 +X 1024": the slower axis comes first; +Y is up, +X to the right. */
@@ -74,13 +162,8 @@ static WeftResult hdr_header(Hdr *hdr, WeftError *error) {
     const char *name = hdr->source->name;
     char line[256];
     while (text_line(hdr, line, sizeof line) && line[0]) {
-        if (strncmp(line, "FORMAT=", 7) == 0 && strcmp(line + 7, "32-bit_rle_rgbe") != 0)
-            return fail(error, WEFT_MESSAGE_IMAGE_UNSUPPORTED, name, "HDR: %s",
-                        strcmp(line + 7, "32-bit_rle_xyze") == 0 ? "XYZE colours"
-                                                                 : "a FORMAT other than 32-bit_rle_rgbe");
-        if ((strncmp(line, "EXPOSURE=", 9) == 0 && !gain_divide(hdr, line + 9, 1)) ||
-            (strncmp(line, "COLORCORR=", 10) == 0 && !gain_divide(hdr, line + 10, 3)))
-            return fail(error, WEFT_MESSAGE_IMAGE_DAMAGED, name, "HDR: %.9s is not a positive factor", line);
+        WeftResult result = header_line(hdr, line, error);
+        if (result != WEFT_OK) return result;
     }
     if (!text_line(hdr, line, sizeof line) || !resolution(hdr, line))
         return fail(error, WEFT_MESSAGE_IMAGE_DAMAGED, name, "HDR: it has no resolution after its header");
@@ -183,6 +266,8 @@ WeftResult image_read_hdr(const ImageSource *source, WeftImage *out, WeftError *
         weft_image_free(out);
     else
         image_repair(source, out);
+    if (result == WEFT_OK && hdr.xyz) hdr.matrix = xyz_matrix();
+    if (result == WEFT_OK && (hdr.xyz || hdr.turned)) image_turn_colors(out, &hdr.matrix);
     return result;
 }
 

@@ -82,36 +82,37 @@ typedef struct Format {
     bool linear;            /* written from F32; else from U8 or U16 */
     WeftResult (*write)(FILE *stream, const char *name, const WeftImage *image, const WeftImageWriting *how,
                         WeftError *error);
+    bool picture; /* a picture that is not read, which other programs convert */
 } Format;
 
 #define SIGNATURE(at, text) at, sizeof(text) - 1, text
 static const Format formats[] = {
-    {"PNG", SIGNATURE(0, "\x89PNG"), image_read_png, "image/png", ".png", false, image_write_png},
-    {"JPEG", SIGNATURE(0, "\xff\xd8\xff"), image_read_jpeg, "image/jpeg", NULL, false, NULL},
-    {"Radiance HDR", SIGNATURE(0, "#?"), image_read_hdr, NULL, ".hdr", true, image_write_hdr},
-    {"OpenEXR", SIGNATURE(0, "\x76\x2f\x31\x01"), image_read_exr, NULL, ".exr", true, image_write_exr},
-    {"NPY", SIGNATURE(0, "\x93NUMPY"), image_read_npy, NULL, ".npy", true, image_write_npy},
-    {"WebP", SIGNATURE(8, "WEBP"), NULL, "image/webp", NULL, false, NULL},
-    {"KTX 2", SIGNATURE(0, "\xabKTX 20\xbb"), NULL, "image/ktx2", NULL, false, NULL},
-    {"KTX", SIGNATURE(0, "\xabKTX 11\xbb"), NULL, NULL, NULL, false, NULL},
-    {"DDS", SIGNATURE(0, "DDS "), NULL, NULL, NULL, false, NULL},
-    {"GIF", SIGNATURE(0, "GIF8"), NULL, NULL, NULL, false, NULL},
-    {"BMP", SIGNATURE(0, "BM"), NULL, NULL, NULL, false, NULL},
-    {"TIFF", SIGNATURE(0, "II*\0"), NULL, NULL, NULL, false, NULL},
-    {"TIFF", SIGNATURE(0, "MM\0*"), NULL, NULL, NULL, false, NULL},
-    {"AVIF", SIGNATURE(4, "ftypavif"), NULL, NULL, NULL, false, NULL},
-    {"HEIF", SIGNATURE(4, "ftyphei"), NULL, NULL, NULL, false, NULL},
-    {"JPEG XL", SIGNATURE(0, "\xff\x0a"), NULL, NULL, NULL, false, NULL},
-    {"JPEG XL", SIGNATURE(4, "JXL \r\n"), NULL, NULL, NULL, false, NULL},
-    {"JPEG 2000", SIGNATURE(4, "jP  \r\n"), NULL, NULL, NULL, false, NULL},
-    {"Photoshop PSD", SIGNATURE(0, "8BPS"), NULL, NULL, NULL, false, NULL},
-    {"GLB", SIGNATURE(0, "glTF"), NULL, NULL, NULL, false, NULL},
-    {"HTML", SIGNATURE(0, "<!DOCTYPE"), NULL, NULL, NULL, false, NULL},
-    {"HTML", SIGNATURE(0, "<html"), NULL, NULL, NULL, false, NULL},
-    {"XML, perhaps SVG", SIGNATURE(0, "<?xml"), NULL, NULL, NULL, false, NULL},
-    {"SVG", SIGNATURE(0, "<svg"), NULL, NULL, NULL, false, NULL},
-    {"a Git LFS pointer", SIGNATURE(0, "version https://git-lfs"), NULL, NULL, NULL, false, NULL},
-    {"TGA", SIGNATURE(0, ""), image_read_tga, NULL, NULL, false, NULL}, /* the last: it has no signature */
+    {"PNG", SIGNATURE(0, "\x89PNG"), image_read_png, "image/png", ".png", false, image_write_png, false},
+    {"JPEG", SIGNATURE(0, "\xff\xd8\xff"), image_read_jpeg, "image/jpeg", NULL, false, NULL, false},
+    {"Radiance HDR", SIGNATURE(0, "#?"), image_read_hdr, NULL, ".hdr", true, image_write_hdr, false},
+    {"OpenEXR", SIGNATURE(0, "\x76\x2f\x31\x01"), image_read_exr, NULL, ".exr", true, image_write_exr, false},
+    {"NPY", SIGNATURE(0, "\x93NUMPY"), image_read_npy, NULL, ".npy", true, image_write_npy, false},
+    {"WebP", SIGNATURE(8, "WEBP"), NULL, "image/webp", NULL, false, NULL, true},
+    {"KTX 2", SIGNATURE(0, "\xabKTX 20\xbb"), NULL, "image/ktx2", NULL, false, NULL, true},
+    {"KTX", SIGNATURE(0, "\xabKTX 11\xbb"), NULL, NULL, NULL, false, NULL, true},
+    {"DDS", SIGNATURE(0, "DDS "), image_read_dds, NULL, NULL, false, NULL, false},
+    {"GIF", SIGNATURE(0, "GIF8"), NULL, NULL, NULL, false, NULL, true},
+    {"BMP", SIGNATURE(0, "BM"), NULL, NULL, NULL, false, NULL, true},
+    {"TIFF", SIGNATURE(0, "II*\0"), NULL, NULL, NULL, false, NULL, true},
+    {"TIFF", SIGNATURE(0, "MM\0*"), NULL, NULL, NULL, false, NULL, true},
+    {"AVIF", SIGNATURE(4, "ftypavif"), NULL, NULL, NULL, false, NULL, true},
+    {"HEIF", SIGNATURE(4, "ftyphei"), NULL, NULL, NULL, false, NULL, true},
+    {"JPEG XL", SIGNATURE(0, "\xff\x0a"), NULL, NULL, NULL, false, NULL, true},
+    {"JPEG XL", SIGNATURE(4, "JXL \r\n"), NULL, NULL, NULL, false, NULL, true},
+    {"JPEG 2000", SIGNATURE(4, "jP  \r\n"), NULL, NULL, NULL, false, NULL, true},
+    {"Photoshop PSD", SIGNATURE(0, "8BPS"), NULL, NULL, NULL, false, NULL, true},
+    {"GLB", SIGNATURE(0, "glTF"), NULL, NULL, NULL, false, NULL, false},
+    {"HTML", SIGNATURE(0, "<!DOCTYPE"), NULL, NULL, NULL, false, NULL, false},
+    {"HTML", SIGNATURE(0, "<html"), NULL, NULL, NULL, false, NULL, false},
+    {"XML, perhaps SVG", SIGNATURE(0, "<?xml"), NULL, NULL, NULL, false, NULL, false},
+    {"SVG", SIGNATURE(0, "<svg"), NULL, NULL, NULL, false, NULL, false},
+    {"a Git LFS pointer", SIGNATURE(0, "version https://git-lfs"), NULL, NULL, NULL, false, NULL, false},
+    {"TGA", SIGNATURE(0, ""), image_read_tga, NULL, NULL, false, NULL, false}, /* the last: it has no signature */
 };
 enum { FORMATS = sizeof formats / sizeof *formats };
 
@@ -140,7 +141,9 @@ WeftResult weft_image_read_memory(const void *data, size_t size, const char *nam
     *out = (WeftImage){0};
     ImageSource source = {.data = data, .size = size, .name = name, .log = log};
     const Format *format = format_of_bytes(data, size);
-    if (!format->read) return fail(error, WEFT_MESSAGE_IMAGE_FORMAT, name, "it is %s", format->name);
+    if (!format->read)
+        return fail(error, WEFT_MESSAGE_IMAGE_FORMAT, name, "it is %s%s", format->name,
+                    format->picture ? "; convert it to .png, or to .exr if its numbers are floats" : "");
     return format->read(&source, out, error);
 }
 

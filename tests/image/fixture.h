@@ -63,6 +63,23 @@ static inline WeftImage read_bytes(const Bytes *bytes) {
     return image;
 }
 
+static inline void keep_warning(void *user, WeftMessage message, const char *text) {
+    (void)message;
+    snprintf(user, 512, "%s", text);
+}
+
+/* Reads what must be readable, with a last warning that has this part. */
+static inline WeftImage read_bytes_said(const Bytes *bytes, const char *part) {
+    WeftImage image;
+    WeftError error = {0};
+    char said[512] = "";
+    const WeftLog log = {keep_warning, said};
+    if (weft_image_read_memory(bytes->data, bytes->size, "bytes", &image, &log, &error) != WEFT_OK)
+        fail_msg("%s", error.text);
+    if (!strstr(said, part)) fail_msg("\"%s\" has no \"%s\"", said, part);
+    return image;
+}
+
 /* Asserts that reading fails with this message, in one line that starts with the name, and leaves no image.
  * The bytes are copied to a block of their exact size, so that a sanitizer sees a step over their end. */
 static inline void refuse_bytes(const void *data, size_t size, WeftMessage message) {

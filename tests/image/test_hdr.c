@@ -135,10 +135,59 @@ static void hdr_values_that_are_not_finite_are_a_warning(void **state) {
     weft_image_free(&image);
 }
 
+/* A line of the header that would change the picture is applied, or named. */
+static void hdr_header_lines_are_applied_or_named(void **state) {
+    (void)state;
+    static const struct {
+        const char *line, *said;
+    } lines[] = {
+        {"PRIMARIES= 0.64 0.33 0.3 0.6 0.15 0.06 0.3127 0.329\n", NULL},
+        {"PRIMARIES=0.64 0.33\n", "\"PRIMARIES=0.64 0.33\" is not understood"},
+        {"PRIMARIES= .3 .3 .3 .3 .3 .3 .3 .3\n", "are those of no colours"},
+        {"PIXASPECT=1.000\n", NULL},
+        {"PIXASPECT=2\n", "\"PIXASPECT=2\" is passed over"},
+        {"GAMMA=1\n", NULL},
+        {"GAMMA=2.2\n", "\"GAMMA=2.2\" is passed over"},
+        {"EXPOSURE=1 stop\n", "has more than its factors"},
+        {"SOFTWARE=pfilt\nVIEW= -vtv\n", NULL},
+    };
+    for (size_t k = 0; k < sizeof lines / sizeof *lines; k++) {
+        Bytes bytes = header(lines[k].line, "-Y 1 +X 1");
+        put_pixel(&bytes, 0);
+        WeftImage image = lines[k].said ? read_bytes_said(&bytes, lines[k].said) : read_bytes(&bytes);
+        assert_near(pixel(&image, 0, 0)[0], 1.0f, 1e-6f);
+        weft_image_free(&image);
+    }
+    Bytes bytes = header("exposure = 2\n", "-Y 1 +X 1"); /* any case */
+    put_pixel(&bytes, 0);
+    WeftImage image = read_bytes(&bytes);
+    assert_near(pixel(&image, 0, 0)[0], 0.5f, 1e-6f);
+    weft_image_free(&image);
+    /* red and green of Display P3 are beyond Rec. 709; its white is white */
+    bytes = header("PRIMARIES= .68 .32 .265 .69 .15 .06 .3127 .329\n", "-Y 1 +X 2");
+    put(&bytes, (unsigned char[]){128, 0, 0, 129, 128, 128, 128, 129}, 8);
+    image = read_bytes_said(&bytes, "was applied");
+    assert_near(pixel(&image, 0, 0)[0], 1.2249f, 2e-3f);
+    assert_near(pixel(&image, 0, 0)[1], -0.0420f, 2e-3f);
+    assert_near(pixel(&image, 0, 0)[2], -0.0197f, 2e-3f);
+    for (int c = 0; c < 3; c++) assert_near(pixel(&image, 1, 0)[c], 1.0f, 1e-3f);
+    weft_image_free(&image);
+}
+
+static void hdr_of_xyz_becomes_rec709(void **state) {
+    (void)state;
+    Bytes bytes = {.size = 0};
+    put_text(&bytes, "#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1\n");
+    put(&bytes, (unsigned char[]){122, 128, 139, 129}, 4); /* X Y Z of white, as near as bytes come */
+    WeftImage image = read_bytes(&bytes);
+    for (int c = 0; c < 3; c++) assert_near(pixel(&image, 0, 0)[c], 1.0f, 0.02f);
+    weft_image_free(&image);
+}
+
 static void malformed_hdr_is_refused(void **state) {
     (void)state;
     Bytes bytes = {.size = 0};
-    put_text(&bytes, "#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1\n....");
+    put_text(&bytes, "#?RADIANCE\nFORMAT=32-bit_rle_yuve\n\n-Y 1 +X 1\n....");
     refuse(&bytes, WEFT_MESSAGE_IMAGE_UNSUPPORTED);
     static const char *const wrong[] = {"-Y 1 +Y 1", "-Y 1", "Y 1 X 1", "-Y 0 +X 1", "-Y -1 +X 1", "-Y 1 +X 1 1"};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
@@ -208,6 +257,8 @@ int main(void) {
         cmocka_unit_test(hdr_new_run_lengths_are_read),
         cmocka_unit_test(hdr_exposure_and_colour_correction_are_undone),
         cmocka_unit_test(hdr_values_that_are_not_finite_are_a_warning),
+        cmocka_unit_test(hdr_header_lines_are_applied_or_named),
+        cmocka_unit_test(hdr_of_xyz_becomes_rec709),
         cmocka_unit_test(malformed_hdr_is_refused),
         cmocka_unit_test(hdr_reads_what_it_wrote),
         cmocka_unit_test(hdr_writes_extreme_values_finite),

@@ -1,0 +1,83 @@
+#include "image/exr_dwa.h"
+
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <new>
+
+/* The library's headers convert without saying so. */
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wconversion"
+#pragma GCC diagnostic ignored "-Wdouble-promotion"
+#pragma GCC diagnostic ignored "-Wshadow"
+#include <Iex.h>
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfIO.h>
+#include <ImfInputPart.h>
+#include <ImfMultiPartInputFile.h>
+#pragma GCC diagnostic pop
+
+namespace {
+
+/* A whole file in memory. */
+class MemoryStream : public Imf::IStream {
+  public:
+    MemoryStream(const unsigned char *data, size_t size) : IStream("memory"), data_(data), size_(size), at_(0) {}
+
+    bool read(char to[], int count) override {
+        if (count < 0 || static_cast<size_t>(count) > size_ - at_) throw Iex::InputExc("it ends early");
+        std::memcpy(to, data_ + at_, static_cast<size_t>(count));
+        at_ += static_cast<size_t>(count);
+        return at_ < size_;
+    }
+    uint64_t tellg() override { return at_; }
+    void seekg(uint64_t to) override {
+        if (to > size_) throw Iex::InputExc("it ends early");
+        at_ = static_cast<size_t>(to);
+    }
+
+  private:
+    const unsigned char *data_;
+    size_t size_, at_;
+};
+
+void read(const unsigned char *data, size_t size, int part, const ExrPlanes &planes) {
+    MemoryStream stream(data, size);
+    Imf::MultiPartInputFile file(stream, 0, false); /* no threads; a table of chunks that is not there is no image */
+    Imf::InputPart input(file, part);
+    const Imath::Box2i window = input.header().dataWindow();
+    const size_t pixel = sizeof(float) * static_cast<size_t>(planes.count);
+    const size_t line = pixel * static_cast<size_t>(planes.width);
+    /* The library counts from pixel (0, 0), which need not be in the window. */
+    const intptr_t origin = reinterpret_cast<intptr_t>(planes.values) - static_cast<intptr_t>(pixel) * planes.left -
+                            static_cast<intptr_t>(line) * planes.top;
+    Imf::FrameBuffer buffer;
+    for (int c = 0; c < planes.count; c++)
+        if (planes.names[c])
+            buffer.insert(planes.names[c],
+                          Imf::Slice(Imf::FLOAT,
+                                     reinterpret_cast<char *>(origin + c * static_cast<intptr_t>(sizeof(float))), pixel,
+                                     line));
+    input.setFrameBuffer(buffer);
+    input.readPixels(window.min.y, window.max.y);
+}
+
+} // namespace
+
+ExrDwa exr_dwa_read(const unsigned char *data, size_t size, int part, const ExrPlanes *planes, char *reason,
+                    size_t reason_size) {
+    try {
+        read(data, size, part, *planes);
+        return EXR_DWA_READ;
+    } catch (const std::bad_alloc &) {
+        return EXR_DWA_MEMORY;
+    } catch (const std::exception &thrown) {
+        std::snprintf(reason, reason_size, "%s", thrown.what());
+    } catch (...) {
+        std::snprintf(reason, reason_size, "its pixels cannot be decompressed");
+    }
+    return EXR_DWA_DAMAGED;
+}

@@ -1,0 +1,28 @@
+/* primaries.h - colours of other primaries as linear Rec. 709, which all float images have */
+#pragma once
+
+#include <stdbool.h>
+
+#include "weft/image.h"
+
+/* Chromaticities x, y of red, green, blue and white. */
+typedef struct Primaries {
+    double xy[8];
+} Primaries;
+
+/* A matrix from colours of a file to Rec. 709, by rows. */
+typedef struct ColorMatrix {
+    double m[9];
+} ColorMatrix;
+
+/* Returns true if they are Rec. 709's, as far as files with four digits say. */
+bool primaries_rec709(const Primaries *primaries);
+
+/* Fills *matrix for colours of these primaries; their white becomes white. Returns false if they span no colours. */
+bool primaries_matrix(const Primaries *primaries, ColorMatrix *matrix);
+
+/* Returns the matrix for CIE X, Y and Z. */
+ColorMatrix xyz_matrix(void);
+
+/* Turns the colours of a float image of three or four channels. */
+void image_turn_colors(WeftImage *image, const ColorMatrix *matrix);
