@@ -9,11 +9,6 @@
 #include "cli/console/report.h"
 #include "cli/console/two_columns.h"
 
-typedef struct Given {
-    const Option *option;
-    const char *value; /* "" for a switch */
-} Given;
-
 static bool is_end(const Option *row) { return !row->name && !row->help; }
 
 /* Returns the row whose name is the first `length` characters of text, or NULL. */

@@ -43,10 +43,16 @@ typedef struct Verb {
     int (*run)(const Options *options);
 } Verb;
 
+/* An option that was given. */
+typedef struct Given {
+    const Option *option;
+    const char *value; /* "" for a switch */
+} Given;
+
 /* The command line, parsed. Strings are those of argv. */
 struct Options {
     const Verb *verb;
-    struct Given *given;
+    Given *given;
     const char **operands;
     char **arguments; /* all that follow the verb */
     int given_count, operand_count, argument_count;

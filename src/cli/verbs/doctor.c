@@ -10,6 +10,7 @@
 #include "cli/console/progress.h"
 #include "cli/console/report.h"
 #include "cli/console/two_columns.h"
+#include "cli/operands/each_asset.h"
 #include "cli/operands/root.h"
 #include "cli/verbs/verbs.h"
 #include "weft/weft.h"
@@ -270,7 +271,7 @@ static int visit_make(Visit *visit) {
     return visit->left ? WEFT_FAILED : 0;
 }
 
-static int doctor_run(const Options *options) {
+static int asset_run(const Options *options) {
     Visit visit = {.options = options,
                    .output = option_text(options, "-o"),
                    .no_notes = option_given(options, "--no-notes"),
@@ -281,10 +282,15 @@ static int doctor_run(const Options *options) {
         list_print();
         return 0;
     }
-    if (!visit.path) return report(WEFT_USAGE, "doctor: lacks an operand; weft doctor ASSET [options]");
+    if (!visit.path) return report(WEFT_USAGE, "doctor: lacks an operand; weft doctor ASSET... [options]");
     int result = visit_make(&visit);
     weft_doctor_close(visit.doctor);
     return result;
+}
+
+static int doctor_run(const Options *options) {
+    static const EachOutput outputs[] = {{"-o", NULL}, {NULL, NULL}};
+    return each_run(options, outputs, asset_run);
 }
 
 static const Option doctor_options[] = {
@@ -300,20 +306,23 @@ static const Option doctor_options[] = {
 
 const Verb verb_doctor = {
     .name = "doctor",
-    .operands = "ASSET [options]",
+    .operands = "ASSET... [options]",
     .help = "validates (lints) a cloth asset for each engine, and repairs it",
     .operands_least = 0,
-    .operands_most = 1,
+    .operands_most = EACH_MOST,
     .options = doctor_options,
     .lists = list_print,
     .notes = "ASSET is a .gltf or .glb file. It is examined as it is, before anything is clamped or\n"
              "repaired; what is said of light is measured on the lobes of the engine profiles.\n"
              "An error breaks glTF or shows nothing of what is there, a warning looks wrong in\n"
              "some engine, a note looks otherwise than one may think. docs/doctor.md has each.\n\n"
+             "Several assets are examined one after another, and FILE is then a folder, or\n"
+             "{} in it stands for the asset's name (docs/batches.md).\n\n"
              "Exit 0: no errors and warnings, or --fix left none; 1: there are some.\n\n"
              "Examples\n"
              "  weft doctor chair.gltf\n"
              "  weft doctor chair.gltf --fix -o mended.glb\n"
-             "  weft doctor chair.gltf --no-notes --json\n",
+             "  weft doctor chair.gltf --no-notes --json\n"
+             "  weft doctor assets/*.glb --fix -o mended/\n",
     .run = doctor_run,
 };

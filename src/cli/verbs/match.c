@@ -10,6 +10,7 @@
 #include "cli/console/output.h"
 #include "cli/console/report.h"
 #include "cli/console/two_columns.h"
+#include "cli/operands/each_asset.h"
 #include "cli/operands/lobes.h"
 #include "cli/operands/root.h"
 #include "cli/verbs/verbs.h"
@@ -210,8 +211,8 @@ typedef struct MatchMode {
 
 static const MatchMode modes[] = {{"--table", 0, "takes no names", {NULL}},
                                   {"--maps", 0, "takes no names", {NULL}},
-                                  {"--to", 1, "needs one asset, a .gltf or .glb", {"--from", "-o", NULL}},
-                                  {"--workflow", 1, "needs one asset, a .gltf or .glb", {"-o", NULL}},
+                                  {"--to", 1, "needs an asset, a .gltf or .glb", {"--from", "-o", NULL}},
+                                  {"--workflow", 1, "needs an asset, a .gltf or .glb", {"-o", NULL}},
                                   {NULL, 2, "match needs two names, FROM and TO", {"--hold", "-o", NULL}}};
 enum { MODES = sizeof modes / sizeof *modes };
 
@@ -232,22 +233,34 @@ static int mode_of(const Options *options) {
             report(WEFT_USAGE, "%s: does not go with %s", all[k], *name ? name : "FROM and TO");
             return -1;
         }
-    if (options->operand_count == modes[mode].operands) return mode;
+    const bool several = modes[mode].operands == 1 && options->operand_count > 1;
+    if (several || options->operand_count == modes[mode].operands) return mode;
     report(WEFT_USAGE, "%s%s%s; see weft match --help", name, *name ? ": " : "", modes[mode].needs);
     return -1;
 }
 
-static int match_run(const Options *options) {
+static bool metric_read(const Options *options, WeftBrdfMetric *metric) {
     static const char *const metrics[] = {"cosine", "log", "picture", NULL};
+    int index = 0;
+    if (!option_choice(options, "--metric", metrics, &index)) return false;
+    *metric = (WeftBrdfMetric)index;
+    return true;
+}
+
+static int asset_run(const Options *options) {
+    WeftBrdfMetric metric;
+    return metric_read(options, &metric) ? match_asset(options, metric) : WEFT_USAGE;
+}
+
+static int match_run(const Options *options) {
+    static const EachOutput outputs[] = {{"-o", NULL}, {NULL, NULL}};
     Match match = {.options = options};
-    int metric = 0;
-    if (!option_choice(options, "--metric", metrics, &metric)) return WEFT_USAGE;
-    match.metric = (WeftBrdfMetric)metric;
+    if (!metric_read(options, &match.metric)) return WEFT_USAGE;
     int mode = mode_of(options);
     if (mode < 0) return WEFT_USAGE;
     if (option_given(options, "--table")) return match_table(options, match.metric);
     if (option_given(options, "--maps")) return match_maps(options, match.metric);
-    if (option_given(options, "--to") || option_given(options, "--workflow")) return match_asset(options, match.metric);
+    if (modes[mode].operands == 1) return each_run(options, outputs, asset_run);
     int result = pair_run(&match);
     match_free(&match);
     return result;
@@ -276,10 +289,10 @@ static const Option match_options[] = {
 
 const Verb verb_match = {
     .name = "match",
-    .operands = "FROM TO [options]",
+    .operands = "FROM TO | ASSET... [options]",
     .help = "converts a model: finds the parameters closest to another model",
     .operands_least = 0,
-    .operands_most = 2,
+    .operands_most = EACH_MOST,
     .options = match_options,
     .notes = "FROM and TO are " MODEL_FORM ": a lobe, an engine profile, a\n"
              "preset, a material file, a material of a scene (chair.glb:fabric); FROM may be a\n"
@@ -289,6 +302,8 @@ const Verb verb_match = {
              "  cosine   sum of |x_to - x_from| over sum of x_from, as a sphere shows them\n"
              "  log      the same of ln(1 + x / mean of x_from)\n"
              "  picture  mean difference of display values, 0 .. 1, of a lit sphere\n\n"
+             "Several assets are converted one after another: OUT is then a folder, or {} in\n"
+             "it stands for the asset's name (docs/batches.md).\n\n"
              "docs/match.md has the formulas, and what is free in TO; docs/rosetta.md the\n"
              "tables of all pairs.\n\n"
              "Examples\n"
@@ -296,6 +311,7 @@ const Verb verb_match = {
              "  weft match khronos:sheen_roughness=0.4 three\n"
              "  weft match cotton.binary filament-cloth --metric log -o cotton.json\n"
              "  weft match chair.glb --from khronos --to three -o chair-three.glb\n"
-             "  weft match chair.glb --workflow specular -o chair-specular.glb\n",
+             "  weft match chair.glb --workflow specular -o chair-specular.glb\n"
+             "  weft match assets/*.glb --to three -o 'three/{}.glb'\n",
     .run = match_run,
 };

@@ -1,6 +1,7 @@
 /* render.c - `weft render`: a scene becomes pictures */
 #include "cli/console/interrupt.h"
 #include "cli/console/report.h"
+#include "cli/operands/each_asset.h"
 #include "cli/render/compare.h"
 #include "cli/render/turntable.h"
 #include "cli/verbs/verbs.h"
@@ -67,7 +68,7 @@ static int single_run(const Request *request, Warnings *warnings) {
     return (int)result;
 }
 
-static int render_run(const Options *options) {
+static int scene_run(const Options *options) {
     Request request;
     if (!request_read(options, &request)) return WEFT_USAGE;
     int result = request_outputs_check(&request);
@@ -81,12 +82,17 @@ static int render_run(const Options *options) {
     return result;
 }
 
+static int render_run(const Options *options) {
+    static const EachOutput outputs[] = {{"-o", ".png"}, {"--save", NULL}, {NULL, NULL}};
+    return each_run(options, outputs, scene_run);
+}
+
 const Verb verb_render = {
     .name = "render",
-    .operands = "SCENE -o OUT [options]",
+    .operands = "SCENE... -o OUT [options]",
     .help = "renders images: path traced ground truth, or real-time OpenGL",
     .operands_least = 1,
-    .operands_most = 1,
+    .operands_most = EACH_MOST,
     .options = request_options,
     .notes = "SCENE is a .gltf or .glb file (glTF 2.0; docs/gltf.md has the limits) or\n"
              "builtin:NAME. `weft models` lists all ids. --workflow, --profile, --diffuse,\n"
@@ -94,7 +100,9 @@ const Verb verb_render = {
              "picture for each and, below, how it differs from the first. Numbers and ids have\n"
              "a comma between them, colours a semicolon, as in --set '*.sheen_color=1;1,0,0'.\n"
              "Two such options make rows and columns. Ctrl-C writes what there is and exits\n"
-             "with 130. A picture appears under its name complete or not at all.\n\n"
+             "with 130. A picture appears under its name complete or not at all.\n"
+             "Several scenes are rendered one after another, each with files of its own: OUT\n"
+             "is then a folder, or {} in it stands for the scene's name (docs/batches.md).\n\n"
              "Examples\n"
              "  weft render builtin:cloth -o cloth.png\n"
              "  weft render SheenChair.glb -o chair.png -o chair.exr --spp 256\n"
@@ -111,6 +119,7 @@ const Verb verb_render = {
              "       --set '*.subsurface=0,0.25,0.5,0.75,1'\n"
              "  weft render velvet.glb -o sheet.png --layer additive,albedo-max,reciprocal\n"
              "  weft render velvet.glb -o both.png --engine both --light \"sun;-1,-2,-1;3,3,3\"\n"
-             "  weft render velvet.glb -o turn.png --engine raster --turntable 36\n",
+             "  weft render velvet.glb -o turn.png --engine raster --turntable 36\n"
+             "  weft render assets/*.glb -o 'pictures/{}.png' --preset velvet\n",
     .run = render_run,
 };

@@ -89,7 +89,7 @@ typedef struct DecodeJob {
     unsigned char *owned;
     const char *name;  /* named in messages */
     const char *path;  /* NULL: no file of its own */
-    int image;         /* its number in the file */
+    int image;         /* number of the image in the file */
     WeftResult result; /* of finding its bytes, then of decoding them */
     WeftError error;
 } DecodeJob;

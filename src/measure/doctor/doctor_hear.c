@@ -8,15 +8,15 @@
 #include "gltf/asset/material_fields.h"
 #include "measure/doctor/doctor.h"
 
-/* What becomes of a warning. */
-typedef struct Hearing {
+/* The finding that a warning becomes. */
+typedef struct Response {
     WeftMessage message;
     WeftFindingKind kind;
     const char *after; /* what follows the words of the reader */
     const char *fix;
-} Hearing;
+} Response;
 
-static const Hearing hearings[] = {
+static const Response responses[] = {
     {WEFT_MESSAGE_FILE_OPEN, WEFT_FINDING_IMAGE_UNREAD, "",
      "put the file where the asset names it; its contents were not examined"},
     {WEFT_MESSAGE_GLTF_URI, WEFT_FINDING_IMAGE_UNREAD, "",
@@ -33,13 +33,13 @@ static const Hearing hearings[] = {
      "write what was meant: other readers may refuse it, or read it in another way"},
     {WEFT_MESSAGE_GLTF_WARN_IGNORED, WEFT_FINDING_PART_IGNORED, "", "drop it, or write it as glTF has it"},
 };
-static const Hearing unread = {WEFT_MESSAGE_NONE, WEFT_FINDING_IMAGE_UNREAD, "",
-                               "write it as PNG or JPEG; its contents were not examined"},
-                     other = {WEFT_MESSAGE_NONE, WEFT_FINDING_PART_IGNORED, "", "see docs/gltf.md"};
+static const Response unread = {WEFT_MESSAGE_NONE, WEFT_FINDING_IMAGE_UNREAD, "",
+                                "write it as PNG or JPEG; its contents were not examined"},
+                      other = {WEFT_MESSAGE_NONE, WEFT_FINDING_PART_IGNORED, "", "see docs/gltf.md"};
 
-static const Hearing *hearing_of(WeftMessage message) {
-    for (size_t k = 0; k < sizeof hearings / sizeof *hearings; k++)
-        if (hearings[k].message == message) return &hearings[k];
+static const Response *response_of(WeftMessage message) {
+    for (size_t k = 0; k < sizeof responses / sizeof *responses; k++)
+        if (responses[k].message == message) return &responses[k];
     return message_result(message) == WEFT_INPUT ? &unread : &other;
 }
 
@@ -85,9 +85,9 @@ static Place place_told(const char *words) {
 }
 
 /* Returns the words of a warning: of one about an image all of them, of others those behind the message. */
-static const char *words_of(const Hearing *hearing, WeftMessage message, const char *text) {
+static const char *words_of(const Response *response, WeftMessage message, const char *text) {
     const char *told = weft_message_text(message), *words = *told ? strstr(text, told) : NULL;
-    if (hearing->kind == WEFT_FINDING_IMAGE_UNREAD || hearing->kind == WEFT_FINDING_IMAGE_REPAIRED || !words)
+    if (response->kind == WEFT_FINDING_IMAGE_UNREAD || response->kind == WEFT_FINDING_IMAGE_REPAIRED || !words)
         return text;
     words += strlen(told);
     return strncmp(words, ": ", 2) == 0 && words[2] ? words + 2 : words - strlen(told);
@@ -136,23 +136,23 @@ static bool is_repeated(const WeftDoctor *doctor, int count) {
 
 void doctor_hear(void *user, WeftMessage message, const char *text) {
     WeftDoctor *doctor = user;
-    const Hearing *hearing = hearing_of(message);
+    const Response *response = response_of(message);
     const Field *field = doctor->asset.place;
-    const char *words = words_of(hearing, message, text);
+    const char *words = words_of(response, message, text);
     char path[PATH] = "";
     const Place place = field ? place_of(field, path) : place_told(words);
     const MaterialField *row = place.of == WEFT_OF_MATERIAL ? row_of(field) : NULL;
     const int count = doctor->count;
     if (doctor->log.fn && message_result(message) != WEFT_INPUT) doctor->log.fn(doctor->log.user, message, text);
-    if (hearing->kind == WEFT_FINDING_EXTENSION_IGNORED && is_required(doctor, words)) return; /* an error says so */
-    if (hearing->kind == WEFT_FINDING_PART_IGNORED && row) {
+    if (response->kind == WEFT_FINDING_EXTENSION_IGNORED && is_required(doctor, words)) return; /* an error says so */
+    if (response->kind == WEFT_FINDING_PART_IGNORED && row) {
         texture_found(doctor, row, place, words);
     } else {
-        doctor_found(doctor, hearing->kind, place, 0, (double)NAN, NULL, "%s%s", words, hearing->after);
-        doctor_advise(doctor, "%s", hearing->fix);
+        doctor_found(doctor, response->kind, place, 0, (double)NAN, NULL, "%s%s", words, response->after);
+        doctor_advise(doctor, "%s", response->fix);
     }
     if (doctor->count == count) return; /* no room */
-    /* What moves, and a picture with a plain one beside it, is left out without harm. */
+    /* Animations, and pictures with a plain one beside them, are left out without harm. */
     if (place.of == WEFT_OF_ASSET && (strncmp(path, "animations", 10) == 0 || strncmp(path, "textures/", 9) == 0))
         doctor_soften(doctor);
     if (is_repeated(doctor, count)) doctor->count--;
