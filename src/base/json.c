@@ -1,6 +1,9 @@
 #include "base/json.h"
 
 #include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 /* The functions that jansson allocated with before: those of the C library or of the program. */
 static json_malloc_t allocate;
@@ -28,4 +31,12 @@ json_t *json_parse(const char *text, size_t size, size_t flags, json_error_t *wh
     if (!was_refused) return root;
     json_decref(root);
     return NULL;
+}
+
+const char *json_but(const json_t *value, char text[JSON_SHOWN]) {
+    char *words = value ? json_dumps(value, JSON_ENCODE_ANY | JSON_COMPACT) : NULL;
+    text[0] = 0;
+    if (words) snprintf(text, JSON_SHOWN, ", not %.36s%s", words, strlen(words) > 36 ? " ..." : "");
+    free(words);
+    return text;
 }

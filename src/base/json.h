@@ -10,3 +10,7 @@
 
 /* Parses as json_loadb does, but returns NULL with *starved = true if memory was short. starved must not be NULL. */
 json_t *json_parse(const char *text, size_t size, size_t flags, json_error_t *where, bool *starved);
+
+/* Writes ", not VALUE" for messages, cut short where the value is long; "" for NULL. Returns text. */
+enum { JSON_SHOWN = 48 };
+const char *json_but(const json_t *value, char text[JSON_SHOWN]);

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "gltf/asset/material_fields.h"
 #include "gltf/read/gltf.h"
 #include "gltf/save/patch.h"
 #include "measure/doctor/doctor.h"
@@ -52,6 +53,67 @@ static void check_scene(const WeftScene *scene) {
                scene->images[scene->textures[t].image].pixels);
 }
 
+/* Returns true if the member is absent, or one of the texts, which end with NULL. */
+static bool is_one_of(const json_t *object, const char *key, const char *const *texts) {
+    const json_t *value = json_object_get(object, key);
+    for (; value && *texts; texts++)
+        if (json_is_string(value) && strcmp(json_string_value(value), *texts) == 0) return true;
+    return !value;
+}
+
+static bool is_wrap(const json_t *value) {
+    double number = json_number_value(value);
+    return !value || number == 10497.0 || number == 33071.0 || number == 33648.0;
+}
+
+/* Demands of a number or an array of them what a row allows. */
+static void check_range(const json_t *value, const MaterialField *row) {
+    const size_t count = json_is_array(value) ? json_array_size(value) : 1;
+    for (size_t k = 0; value && k < count && row->low >= 0.0f; k++) {
+        const double number = json_number_value(json_is_array(value) ? json_array_get(value, k) : value);
+        demand(number >= (double)row->low && number <= (double)row->high);
+    }
+}
+
+/* Demands that a file which was read without a word is understood: its words, constants, numbers and extensions are those
+ * that there are. */
+static void check_understood(json_t *root) {
+    static const char *const modes[] = {"OPAQUE", "MASK", "BLEND", NULL};
+    size_t k;
+    json_t *value;
+    json_array_foreach(json_object_get(root, "materials"), k, value) {
+        const char *name;
+        json_t *extension;
+        demand(is_one_of(value, "alphaMode", modes));
+        json_object_foreach(json_object_get(value, "extensions"), name, extension) { demand(gltf_supports(name)); }
+        for (const MaterialField *row = material_fields; row->factor; row++) {
+            json_t *extensions = json_object_get(value, "extensions");
+            json_t *object = material_field_extends(row) ? json_object_get(extensions, row->object)
+                             : row->object               ? json_object_get(value, row->object)
+                                                         : value;
+            if (row->input != NO_INPUT && !material_field_inside(row))
+                check_range(json_object_get(object, row->factor), row);
+        }
+    }
+    json_array_foreach(json_object_get(root, "samplers"), k, value) {
+        demand(is_wrap(json_object_get(value, "wrapS")) && is_wrap(json_object_get(value, "wrapT")));
+    }
+}
+
+static void count_warning(void *user, WeftMessage message, const char *text) {
+    (void)message;
+    demand(text[0] && strchr(text, '\n') == NULL);
+    ++*(int *)user;
+}
+
+static void check_silence(const uint8_t *data, size_t size, int warnings) {
+    Asset asset = {0};
+    if (warnings) return;
+    gltf_open(&asset, "fuzz", data, size);
+    if (asset.result == WEFT_OK) check_understood(asset.root);
+    gltf_close(&asset);
+}
+
 /* Text that was not edited comes back as it was; text of which a part is gone means what is left. */
 static void check_patch(const Asset *asset) {
     size_t size = 0;
@@ -93,11 +155,15 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     WeftScene *scene = alloc_array(1, sizeof *scene);
     demand(scene != NULL);
     WeftError error;
-    WeftResult result = gltf_read("fuzz", data, size, scene, NULL, &error);
-    if (result == WEFT_OK)
+    int warnings = 0;
+    const WeftLog log = {count_warning, &warnings};
+    WeftResult result = gltf_read("fuzz", data, size, scene, &log, &error);
+    if (result == WEFT_OK) {
         check_scene(scene);
-    else
+        check_silence(data, size, warnings);
+    } else {
         demand(error.result == result && strchr(error.text, '\n') == NULL && error.text[0]);
+    }
     weft_scene_free(scene);
     return 0;
 }

@@ -169,7 +169,7 @@ static const struct {
     {"{\"base_color\":\"#12345\"}", "#12345"},
     {"{\"base_color\":\"#12345g\"}", "#12345g"},
     {"{\"base_color\":[1,1]}", "base_color"},
-    {"{\"base_color\":[1,1,\"x\"]}", "not a number"},
+    {"{\"base_color\":[1,1,\"x\"]}", "an element must be a number, not \"x\""},
     {"{\"base_color\":null}", "base_color"},
     {"{\"roughness\":[1,1,1]}", "roughness"},
     {"{\"roughness\":\"#ffffff\"}", "roughness"},
@@ -187,8 +187,8 @@ static const struct {
     {"{\"keep\":[\"norml\"]}", "norml"},
     {"{\"keep\":[1]}", "keep"},
     {"{\"keep\":[\"ior\"],\"ior\":1.5}", "both"},
-    {"{\"alpha_mode\":\"cut\"}", "opaque, mask, blend"},
-    {"{\"double_sided\":1}", "true or false"},
+    {"{\"alpha_mode\":\"cut\"}", "alpha_mode: it must be one of opaque, mask, blend, not \"cut\""},
+    {"{\"double_sided\":1}", "true or false, not 1"},
     {"{\"help\":1}", "help"},
     {"{\"roughness\":{}}", "texture"},
     {"{\"roughness\":{\"texture\":\"\"}}", "texture"},
@@ -199,11 +199,12 @@ static const struct {
     {"{\"roughness\":{\"texture\":\"a.png\",\"texture\":\"b.png\"}}", "duplicate"},
     {"{\"roughness\":{\"texture\":\"a.png\",\"texcoord\":2}}", "texcoord"},
     {"{\"roughness\":{\"texture\":\"a.png\",\"texcoord\":0.5}}", "texcoord"},
-    {"{\"roughness\":{\"texture\":\"a.png\",\"scale\":[1,2,3]}}", "scale is one number or two"},
+    {"{\"roughness\":{\"texture\":\"a.png\",\"scale\":[1,2,3]}}", "scale is one number or two, not [1,2,3]"},
     {"{\"roughness\":{\"texture\":\"a.png\",\"offset\":\"1\"}}", "offset is one number or two"},
     {"{\"roughness\":{\"texture\":\"a.png\",\"scale\":1e7}}", "1e6"},
-    {"{\"roughness\":{\"texture\":\"a.png\",\"wrap\":\"none\"}}", "repeat"},
-    {"{\"roughness\":{\"texture\":\"a.png\",\"nearest\":1}}", "nearest"},
+    {"{\"roughness\":{\"texture\":\"a.png\",\"wrap\":\"none\"}}",
+     "wrap must be one of repeat, mirror, clamp, not \"none\""},
+    {"{\"roughness\":{\"texture\":\"a.png\",\"nearest\":1}}", "nearest must be true or false, not 1"},
 };
 
 static void wrong_material_file_is_an_error_of_one_line(void **state) {
@@ -219,6 +220,26 @@ static void wrong_material_file_is_an_error_of_one_line(void **state) {
             fail_msg("%s: %d \"%s\"", wrong[k].text, result, error.text);
         material_file_free(&file);
     }
+}
+
+static void keep_text(void *user, WeftMessage message, const char *text) {
+    (void)message;
+    snprintf(user, 512, "%s", text);
+}
+
+/* What lies beyond its limit is taken as that, with a line that names the key and the number. */
+static void cutoff_below_zero_is_repaired_with_a_warning(void **state) {
+    (void)state;
+    static const char text[] = "{\"alpha_cutoff\":-3}";
+    char line[512] = "";
+    const WeftLog log = {keep_text, line};
+    MaterialFile file;
+    WeftError error;
+    assert_int_equal(material_file_read(text, sizeof text - 1, "mine.json", NULL, &file, &log, &error), WEFT_OK);
+    assert_true(file.material.alpha_cutoff <= 0.0f && file.material.alpha_cutoff >= 0.0f);
+    assert_non_null(strstr(line, "mine.json: alpha_cutoff"));
+    assert_non_null(strstr(line, "-3"));
+    material_file_free(&file);
 }
 
 static WeftScene *load(const char *name) {
@@ -375,6 +396,7 @@ int main(void) {
         cmocka_unit_test(choices_of_a_material_file_are_ids_and_aliases),
         cmocka_unit_test(implausible_values_of_a_file_are_named_in_warnings),
         cmocka_unit_test(wrong_material_file_is_an_error_of_one_line),
+        cmocka_unit_test(cutoff_below_zero_is_repaired_with_a_warning),
         cmocka_unit_test(material_file_changes_materials_and_keeps_meshes),
         cmocka_unit_test(failed_material_file_changes_nothing),
         cmocka_unit_test(textures_are_found_beside_the_material_file),

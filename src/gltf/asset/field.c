@@ -3,10 +3,10 @@
 #include <float.h>
 #include <stdarg.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/fail.h"
+#include "base/json.h"
 
 Field field_root(Asset *asset) { return (Field){.asset = asset, .json = asset->root}; }
 
@@ -56,21 +56,10 @@ void field_warn(const Field *field, WeftMessage message, const char *detail, ...
     field->asset->place = NULL;
 }
 
-enum { SHOWN = 48 };
-
-/* Writes ", not VALUE", cut short where it is long; "" for an absent value. */
-static const char *but(const Field *field, char text[SHOWN]) {
-    char *value = field->json ? json_dumps(field->json, JSON_ENCODE_ANY | JSON_COMPACT) : NULL;
-    text[0] = 0;
-    if (value) snprintf(text, SHOWN, ", not %.36s%s", value, strlen(value) > 36 ? " ..." : "");
-    free(value);
-    return text;
-}
-
 static void expected(const Field *field, const char *what) {
-    char text[SHOWN];
+    char text[JSON_SHOWN];
     field_fail(field, WEFT_MESSAGE_GLTF_SCHEMA, "%s %s%s", field->json ? "expected" : "missing", what,
-               but(field, text));
+               json_but(field->json, text));
 }
 
 Field field_member(const Field *object, const char *key) {

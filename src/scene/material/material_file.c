@@ -33,6 +33,17 @@ __attribute__((format(printf, 2, 3))) static void refuse(Reader *r, const char *
     r->result = fail(r->error, WEFT_MESSAGE_MATERIAL_FILE, r->name, "%.60s%s%s", r->key, r->key[0] ? ": " : "", text);
 }
 
+/* Refuses a value, which the message ends with. */
+__attribute__((format(printf, 3, 4))) static void refuse_value(Reader *r, const json_t *value, const char *format,
+                                                               ...) {
+    char text[200], shown[JSON_SHOWN];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    refuse(r, "%s%s", text, json_but(value, shown));
+}
+
 enum { SUBJECT = 160 };
 
 /* Writes "FILE: KEY", the subject of a warning. */
@@ -44,7 +55,7 @@ static const char *subject(const Reader *r, const char *key, char text[SUBJECT])
 /* Returns a number as a float; one that is too large becomes the largest. */
 static float number(Reader *r, const json_t *json, const char *what) {
     if (!json_is_number(json)) {
-        refuse(r, "%s is not a number", what);
+        refuse_value(r, json, "%s must be a number", what);
         return 0.0f;
     }
     double value = json_number_value(json);
@@ -81,8 +92,9 @@ static void read_value(Reader *r, const json_t *json, InputId id, float v[3]) {
         v[0] = number(r, json, "it");
         if (color) v[1] = v[2] = v[0];
     } else {
-        refuse(r, color ? "expected a number, [r, g, b], \"#rrggbb\" or an object with a texture"
-                        : "expected a number or an object with a texture");
+        refuse_value(r, json,
+                     color ? "expected a number, [r, g, b], \"#rrggbb\" or an object with a texture"
+                           : "expected a number or an object with a texture");
     }
     char about[SUBJECT];
     subject(r, r->key, about);
@@ -97,7 +109,7 @@ static int one_of(Reader *r, const json_t *json, const char *what, const char *c
         if (text && strcmp(names[k], text) == 0) return k;
         snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", k ? ", " : "", names[k]);
     }
-    refuse(r, "%s is not one of %s", what, list);
+    refuse_value(r, json, "%s must be one of %s", what, list);
     return 0;
 }
 
@@ -132,7 +144,7 @@ static void pair(Reader *r, const json_t *json, const char *what, float v[2]) {
     } else if (json_is_number(json)) {
         v[0] = v[1] = number(r, json, what);
     } else {
-        refuse(r, "%s is one number or two", what);
+        refuse_value(r, json, "%s is one number or two", what);
     }
 }
 
@@ -144,7 +156,7 @@ static void place(Input *input, const float scale[2], float degrees, const float
 }
 
 static void six(Reader *r, const json_t *json, const char *what, float m[6]) {
-    if (!json_is_array(json) || json_array_size(json) != 6) refuse(r, "%s is six numbers", what);
+    if (!json_is_array(json) || json_array_size(json) != 6) refuse_value(r, json, "%s must be six numbers", what);
     for (size_t k = 0; k < json_array_size(json) && k < 6; k++) m[k] = number(r, json_array_get(json, k), what);
 }
 
@@ -197,19 +209,21 @@ static void read_texture(Reader *r, json_t *object, InputId id, Input *input) {
     json_object_foreach(object, key, value) {
         if (strcmp(key, "texture") == 0) {
             file = json_string_value(value);
-            if (!file || !file[0] || strlen(file) > 4096) refuse(r, "texture is not the name of a file");
+            if (!file || !file[0] || strlen(file) > 4096) refuse_value(r, value, "texture must be the name of a file");
         } else if (strcmp(key, "factor") == 0) {
             read_value(r, value, id, input->value);
-        } else if (strcmp(key, "channel") == 0 &&
-                   (input_infos[id].kind == WEFT_INPUT_SCALAR || input_infos[id].kind == WEFT_INPUT_ANGLE)) {
+        } else if (strcmp(key, "channel") == 0) {
+            if (input_infos[id].kind != WEFT_INPUT_SCALAR && input_infos[id].kind != WEFT_INPUT_ANGLE)
+                refuse(r, "channel: its texture is read whole, not by a channel");
             input->channel = (uint8_t)one_of(r, value, key, channels);
         } else if (strcmp(key, "texcoord") == 0) {
             float set = number(r, value, key);
-            if (set < 0.0f || set > 1.0f || set > floorf(set)) refuse(r, "texcoord is 0 or 1");
+            if (set < 0.0f || set > 1.0f || set > floorf(set)) refuse_value(r, value, "texcoord must be 0 or 1");
             input->texcoord = set > 0.5f;
         } else if (strcmp(key, "wrap") == 0) {
             read_wrap(r, value, &texture);
-        } else if (strcmp(key, "nearest") == 0 && json_is_boolean(value)) {
+        } else if (strcmp(key, "nearest") == 0) {
+            if (!json_is_boolean(value)) refuse_value(r, value, "nearest must be true or false");
             texture.nearest = json_is_true(value);
         } else if (!read_placing(r, key, value, &placing)) {
             refuse(r, "\"%.40s\" is not a key of a texture", key);
@@ -244,7 +258,7 @@ static void read_choice(Reader *r, const json_t *json, ChoiceId id) {
     WeftError error;
     const char *text = json_string_value(json);
     if (!text)
-        refuse(r, "expected the id of a choice");
+        refuse_value(r, json, "expected the id of a choice");
     else if (choice_value(id, text, &value, &error) == WEFT_OK)
         material_choose(&r->out->material, id, value);
     else
@@ -252,7 +266,7 @@ static void read_choice(Reader *r, const json_t *json, ChoiceId id) {
 }
 
 static void read_keep(Reader *r, const json_t *json) {
-    if (!json_is_array(json)) refuse(r, "expected an array of inputs");
+    if (!json_is_array(json)) refuse_value(r, json, "expected an array of inputs");
     for (size_t k = 0; k < json_array_size(json); k++) {
         const char *name = json_string_value(json_array_get(json, k));
         int id = name ? weft_material_input_find(name) : -1;
@@ -268,7 +282,7 @@ static void read_measured(Reader *r, const json_t *json) {
     const char *text = json_string_value(json);
     char path[4096 + 512];
     if (!text || !text[0] || strlen(text) > 4096) {
-        refuse(r, "expected the name of a file");
+        refuse_value(r, json, "expected the name of a file");
     } else if (!r->folder || strlen(r->folder) > 511) {
         refuse(r, "a file can be named only by a material in a file");
     } else if (!r->out->measured) {
@@ -277,23 +291,32 @@ static void read_measured(Reader *r, const json_t *json) {
     }
 }
 
+/* Returns an alpha cutoff, which is no less than 0. */
+static float cutoff(const Reader *r, float value) {
+    char about[SUBJECT];
+    if (value >= 0.0f) return value;
+    warn(r->log, WEFT_MESSAGE_PARAM_RANGE, subject(r, r->key, about), "%g is beyond the limit, 0, which is used",
+         (double)value);
+    return 0.0f;
+}
+
 /* Reads the members of a material that are neither inputs nor choices. */
 static void read_rest(Reader *r, const json_t *json) {
     static const char *const modes[] = {"opaque", "mask", "blend", NULL}; /* as WeftAlphaMode */
     MaterialFile *out = r->out;
     const char *key = r->key;
     if (strcmp(key, "name") == 0 || strcmp(key, "help") == 0) {
-        if (!json_is_string(json)) refuse(r, "expected a text");
+        if (!json_is_string(json)) refuse_value(r, json, "expected a text");
     } else if (strcmp(key, "keep") == 0) {
         read_keep(r, json);
     } else if (strcmp(key, "alpha_mode") == 0) {
         out->material.alpha_mode = (WeftAlphaMode)one_of(r, json, "it", modes);
         out->alpha_named = true;
     } else if (strcmp(key, "alpha_cutoff") == 0) {
-        out->material.alpha_cutoff = number(r, json, "it");
+        out->material.alpha_cutoff = cutoff(r, number(r, json, "it"));
         out->alpha_named = true;
     } else if (strcmp(key, "double_sided") == 0) {
-        if (!json_is_boolean(json)) refuse(r, "expected true or false");
+        if (!json_is_boolean(json)) refuse_value(r, json, "expected true or false");
         out->material.double_sided = json_is_true(json);
         out->sided_named = true;
     } else if (strcmp(key, "weave") == 0) {
@@ -301,7 +324,7 @@ static void read_rest(Reader *r, const json_t *json) {
     } else if (strcmp(key, "measured") == 0) {
         read_measured(r, json);
     } else if (strcmp(key, "unlit") == 0) {
-        if (!json_is_boolean(json)) refuse(r, "expected true or false");
+        if (!json_is_boolean(json)) refuse_value(r, json, "expected true or false");
         out->material.unlit = json_is_true(json);
     } else {
         r->key = "";
