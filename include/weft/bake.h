@@ -116,7 +116,7 @@ WEFT_API WeftResult weft_bake_fibre_model(const WeftFibreModelDesc *desc, const 
     F(CLIPPED, "clipped")   /* right, but cut off where E goes on */                                                   \
     F(SCALED, "scaled")     /* right, but for one constant factor */                                                   \
     F(ENCODED, "encoded")   /* right, but sRGB-encoded */                                                              \
-    F(OTHER_LOBE, "lobe")   /* much nearer to the E of another lobe */                                                 \
+    F(OTHER_LOBE, "lobe")   /* of another lobe, or of none */                                                          \
     F(BIASED, "biased")     /* off by an error that neighbouring texels share */                                       \
     F(NOISY, "noisy")       /* off by an error that they do not share */                                               \
     F(CORNER, "corner")     /* off in a few texels only */
@@ -139,7 +139,7 @@ typedef enum WeftTablePart { WEFT_TABLE_SUM = 0, WEFT_TABLE_F0, WEFT_TABLE_F90, 
 typedef struct WeftAuditDesc {
     const WeftImage *image;    /* of any type; integers are linear, value / 255 or / 65535 */
     int channel;               /* of image */
-    const WeftLobe *lobe;      /* counts as white; NULL: the nearest of those with one parameter or none */
+    const WeftLobe *lobe;      /* counts as white; NULL: the nearest of those with at most four parameters */
     const WeftTableForm *form; /* NULL: the best of those that engines use, or of all there are */
     double scale;              /* multiplies the image's values; 0: 1 */
     double most;               /* the largest error that passes; 0: 0.01 */
@@ -178,7 +178,7 @@ typedef struct WeftAudit {
         WeftTableFault fault;
         char text[WEFT_AUDIT_TEXT]; /* one sentence */
     } found[WEFT_AUDIT_FINDINGS];   /* `faults` of them, the gravest first */
-    int other;                      /* OTHER_LOBE: the lobe; else -1 */
+    int other;                      /* OTHER_LOBE: the lobe, -1 where none is near; else -1 */
     int lobe;                       /* whose E it was compared with */
 } WeftAudit;
 
@@ -186,6 +186,38 @@ typedef struct WeftAudit {
  * of the table's size and three channels: error, table, E; all 0 where a texel is left out. Is interrupted and
  * fails as weft_bake. */
 WEFT_API WeftResult weft_audit(const WeftAuditDesc *desc, WeftAudit *out, WeftImage *errors, WeftError *error);
+
+/* A closed form of E, for shaders without a sampler to spare. */
+
+enum { WEFT_FORM_TERMS = 49 };
+
+/* E of a lobe over cos_o from 0 to 1 and roughness from `lowest` to 1: P(x, roughness), or exp P, cut off at 0, where x is
+ * cos_o or its square root and P is the sum of terms[j * (across + 1) + i] x^i roughness^j, i to `across`, j to `along`. */
+typedef struct WeftAlbedoForm {
+    int exponential, root; /* exp P in place of P; x is the root */
+    int across, along;     /* degrees */
+    float terms[WEFT_FORM_TERMS];
+    double error;           /* the largest, measured in floats on a grid other than that of the fit */
+    float cos_o, roughness; /* where */
+} WeftAlbedoForm;
+
+/* Zero means default, in every member but lobe and lowest. */
+typedef struct WeftAlbedoFormDesc {
+    const WeftLobe *lobe;  /* counts as white; its first parameter is alpha or roughness */
+    WeftTablePart part;    /* of a lobe of two colours */
+    double error;          /* the largest allowed; 0: 0.01 */
+    double lowest;         /* roughness from which it holds, 0 to 0.9 */
+    int threads;           /* 0: all; no influence on the numbers */
+    WeftProgress progress; /* may be NULL; a result other than 0 stops */
+    void *user;            /* of progress */
+} WeftAlbedoFormDesc;
+
+/* Finds the form of fewest terms within the error; where none of WEFT_FORM_TERMS terms is, that of the least error, which
+ * is above desc->error then. Is interrupted as weft_bake; fails with WEFT_MESSAGE_DESC or _MEMORY. */
+WEFT_API WeftResult weft_bake_form(const WeftAlbedoFormDesc *desc, WeftAlbedoForm *out, WeftError *error);
+
+/* Returns the value of a form. */
+WEFT_API float weft_form_at(const WeftAlbedoForm *form, float cos_o, float roughness);
 
 #ifdef __cplusplus
 }

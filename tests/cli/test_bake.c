@@ -132,6 +132,108 @@ static void every_file_format_holds_the_same_table(void **state) {
     weft_image_free(&png);
 }
 
+/* An audit reads what a bake writes, and arrays and rows of others. */
+static void audit_reads_every_format_that_is_baked(void **state) {
+    (void)state;
+    static const char *const files[] = {"a.h", "a.csv", "a.txt", "a.dds", "a.npy", "a.exr"};
+    finish(done(LIST("bake", "dfg", "charlie-neubelt", "--axes", "filament", "--size", "9x6", "-o", "a.h", "-o",
+                     "a.csv", "-o", "a.txt", "-o", "a.dds", "-o", "a.npy", "-o", "a.exr", "--quiet")));
+    for (size_t k = 0; k < sizeof files / sizeof *files; k++) {
+        Ran ran = done(LIST("bake", "audit", files[k], "--lobe", "charlie-neubelt", "--channel", "2", "--quiet"));
+        if (!strstr(ran.out, "9 x 6, E of charlie-neubelt")) fail_msg("%s: %s", files[k], ran.out);
+        assert_non_null(strstr(ran.out, "filament"));
+        assert_non_null(strstr(ran.out, "it is right"));
+        ran_free(&ran);
+    }
+    WeftImage table = image_of("a.npy");
+    char text[20000];
+    const float *e = table.pixels;
+    for (int nested = 0; nested < 3; nested++) {
+        static const char *const heads[] = {"const vec3 lut[6 * 9] = vec3[54](\n", "float3 lut[6][9] = {\n",
+                                            "/* { 1, 2 } */ const float lut[][9][3] = {\n"};
+        int used = snprintf(text, sizeof text, "#define N 54\n%s", heads[nested]);
+        for (int n = 0; n < 54; n++)
+            used += snprintf(text + used, sizeof text - (size_t)used,
+                             nested == 0   ? "vec3(%.7f, %.7f, %.7f), "
+                             : nested == 1 ? "float3(%.7ff, %.7ff, %.7ff),\n"
+                                           : "{%.7ff, %.7ff, %.7ff}, // c\n",
+                             (double)e[3 * n], (double)e[3 * n + 1], (double)e[3 * n + 2]);
+        snprintf(text + used, sizeof text - (size_t)used, "%s;\nconst int more[] = {1, 2};\n", nested ? "}" : ")");
+        file_make("other.hlsl", text, strlen(text));
+        Ran ran = run_with(
+            NULL, LIST("bake", "audit", "other.hlsl", "--lobe", "charlie-neubelt", "--channel", "b", "--quiet"));
+        if (nested == 2) { /* of rows that are not named */
+            assert_int_equal(ran.code, 3);
+            assert_non_null(strstr(ran.err, "does not say of how many rows and columns"));
+        } else if (ran.code != 0 || !strstr(ran.out, "9 x 6, E of charlie-neubelt")) {
+            fail_msg("%d: %s%s", nested, ran.out, ran.err);
+        }
+        ran_free(&ran);
+    }
+    weft_image_free(&table);
+    file_make("ragged.csv", "1,2,3\n1,2\n", 10);
+    assert_complaint(NULL, LIST("bake", "audit", "ragged.csv", "--lobe", "ggx"), 3, "line 2 has 2 numbers");
+    file_make("word.csv", "cos,e\n1,2\n1,x\n", 14);
+    assert_complaint(NULL, LIST("bake", "audit", "word.csv", "--lobe", "ggx"), 3, "line 3: no number begins at \"x\"");
+    file_make("empty.h", "int x;\n", 7);
+    assert_complaint(NULL, LIST("bake", "audit", "empty.h", "--lobe", "ggx"), 3, "has no array");
+}
+
+/* E as a function of a few terms: in C its values, elsewhere its text. */
+static void closed_form_of_an_albedo_is_within_its_error(void **state) {
+    (void)state;
+    Ran ran = done(LIST("bake", "albedo", "charlie-neubelt", "--form", "polynomial", "--error", "0.01", "-o", "form.h",
+                        "-o", "form.glsl", "-o", "form.hlsl", "-o", "form.wgsl"));
+    assert_non_null(strstr(ran.err, "charlie_neubelt_albedo: "));
+    ran_free(&ran);
+    size_t size;
+    char *text = file_bytes("form.glsl", &size);
+    assert_non_null(strstr(text, "// weft bake albedo charlie-neubelt --form polynomial"));
+    assert_non_null(strstr(text, "off by at most 0.00"));
+    assert_non_null(strstr(text, "float charlie_neubelt_albedo(float cos_o, float roughness) {"));
+    assert_true(size < 1500);
+    free(text);
+    text = file_bytes("form.wgsl", &size);
+    assert_non_null(strstr(text, "fn charlie_neubelt_albedo(cos_o: f32, roughness: f32) -> f32 {"));
+    free(text);
+    static const char source[] = "#include <stdio.h>\n#include \"form.h\"\nint main(void) {\n"
+                                 "    for (int k = 0; k < 400; k++) printf(\"%.9g\\n\", "
+                                 "(double)charlie_neubelt_albedo(((float)(k % 20) + 0.3f) / 20.0f,\n"
+                                 "        0.2f + 0.8f * (float)(k / 20) / 19.0f));\n    return 0;\n}\n";
+    file_make("main.c", source, sizeof source - 1);
+    ran = run_shell("command -v cc >/dev/null || exit 77; "
+                    "cc -std=c99 -Wall -Wextra -Werror -pedantic -o main main.c -lm && ./main");
+    if (ran.code == 77) {
+        ran_free(&ran);
+        skip();
+    }
+    assert_int_equal(ran.code, 0);
+    const char *at = ran.out;
+    WeftLobe lobe;
+    assert_int_equal(weft_lobe_init("charlie-neubelt", &lobe, NULL), WEFT_OK);
+    for (int k = 0; k < 400; k++) {
+        char *end;
+        float e[3], r = 0.2f + 0.8f * (float)(k / 20) / 19.0f;
+        const double value = strtod(at, &end);
+        at = end;
+        lobe.params[0] = r * r;
+        weft_lobe_albedo(&lobe, ((float)(k % 20) + 0.3f) / 20.0f, e);
+        assert_near(value, (double)e[0], 0.0105);
+    }
+    ran_free(&ran);
+    ran = done(LIST("bake", "albedo", "ggx", "--form", "polynomial", "--error", "0.02", "--quiet"));
+    assert_non_null(strstr(ran.out, "float ggx_albedo_f0(float cos_o, float roughness) {"));
+    assert_non_null(strstr(ran.out, "float ggx_albedo_f90(float cos_o, float roughness) {"));
+    ran_free(&ran);
+    assert_complaint(NULL, LIST("bake", "albedo", "ggx", "--form", "spline"), 2, "there is polynomial");
+    assert_complaint(NULL, LIST("bake", "albedo", "ggx", "--form", "polynomial", "-o", "f.png"), 2,
+                     "f.png: a function");
+    assert_complaint(NULL, LIST("bake", "albedo", "ggx", "--form", "polynomial", "--size=2x2"), 2, "--size");
+    assert_complaint(NULL, LIST("bake", "dfg", "--form", "polynomial", "-o", "f.h"), 2,
+                     "--form: does not go with bake dfg");
+    assert_complaint(NULL, LIST("bake", "albedo", "lambert", "--form", "polynomial"), 2, "no roughness");
+}
+
 /* What a C compiler makes of the array. */
 static void c_array_of_the_table_compiles(void **state) {
     (void)state;
@@ -474,6 +576,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bake_help_names_every_kind),
         cmocka_unit_test(every_file_format_holds_the_same_table),
+        cmocka_unit_test(audit_reads_every_format_that_is_baked),
+        cmocka_unit_test(closed_form_of_an_albedo_is_within_its_error),
         cmocka_unit_test(c_array_of_the_table_compiles),
         cmocka_unit_test(png_of_values_above_one_is_scaled_not_clipped),
         cmocka_unit_test(exr_is_rounded_to_half_only_with_half),

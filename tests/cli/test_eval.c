@@ -4,6 +4,8 @@
 
 #include <math.h>
 
+#include "weft/weft.h"
+
 typedef struct Vector {
     double x, y, z;
 } Vector;
@@ -245,6 +247,83 @@ static void albedo_of_charlie_neubelt_is_its_integral(void **state) {
 }
 
 /* The terms of two lobes of the catalogue give these lobes, by ids and by the names of sources. */
+/* Three numbers of one line. */
+static void three_of(const char *const *arguments, const char *input, double f[3]) {
+    Ran ran = run_with(input, arguments);
+    if (ran.code != 0) fail_msg("%s", ran.err);
+    int used = 0;
+    assert_int_equal(sscanf(ran.out, "%lf %lf %lf%n", &f[0], &f[1], &f[2], &used), 3);
+    assert_string_equal(ran.out + used, "\n"); /* no pdf */
+    ran_free(&ran);
+}
+
+/* Whatever plot and match take: presets, profiles, workflows, material files, measurements. */
+static void eval_of_any_model_is_its_reflection(void **state) {
+    (void)state;
+    static const char pair[] = "30 0 30 180\n";
+    const float wo[3] = {0.5f, 0.0f, 0.8660254f}, wi[1][3] = {{-0.5f, 0.0f, 0.8660254f}};
+    static const char *const names[] = {"preset:velvet", "satin", "profile:three", "metallic"};
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
+        double f[3];
+        three_of(LIST("eval", names[k]), pair, f);
+        for (int c = 0; c < 3; c++) assert_true(f[c] > 1e-4 && f[c] < 100.0);
+    }
+    WeftMaterial material;
+    WeftReflection *reflection;
+    float expected[1][3];
+    double f[3];
+    assert_int_equal(weft_material_read("preset:velvet", &material, NULL, NULL), WEFT_OK);
+    assert_int_equal(weft_reflection_create(&material, &reflection, NULL), WEFT_OK);
+    weft_reflection_eval(reflection, WEFT_PART_ALL, wo, 1, wi, expected);
+    weft_reflection_free(reflection);
+    three_of(LIST("eval", "preset:velvet"), pair, f);
+    for (int c = 0; c < 3; c++) assert_near(f[c], (double)expected[0][c], 1e-5, "velvet");
+    three_of(LIST("eval", "three:base_color=0.5,sheen_color=0,specular=0"), pair, f);
+    assert_near(f[0], 0.5 / PI_DOUBLE, 1e-2, "a grey base");
+
+    static const char grey[] = "{\"base_color\":0.5,\"specular\":0}";
+    file_make("grey.json", grey, sizeof grey - 1);
+    three_of(LIST("eval", "grey.json"), pair, f);
+    assert_near(f[1], 0.5 / PI_DOUBLE, 1e-2, "a material file");
+    Ran ran = run_shell("\"$0\" bake bsdf lambert -o grey.bsdf --quiet");
+    assert_int_equal(ran.code, 0);
+    ran_free(&ran);
+    three_of(LIST("eval", "grey.bsdf"), pair, f);
+    assert_near(f[2], 1.0 / PI_DOUBLE, 1e-2, "a measurement");
+    ran = run_with("0.8\n", LIST("eval", "grey.bsdf", "--albedo"));
+    assert_int_equal(ran.code, 0);
+    assert_near(strtod(ran.out, NULL), 1.0, 0.03, "its E");
+    ran_free(&ran);
+    ran = run_with(pair, LIST("eval", "ggx:alpha=0.3")); /* a lobe with settings has its pdf */
+    assert_int_equal(ran.code, 0);
+    assert_int_equal(sscanf(ran.out, "%lf %lf %lf %lf", &f[0], &f[1], &f[2], &f[2]), 4);
+    ran_free(&ran);
+    assert_complaint(pair, LIST("eval", "preset:velvet", "-p", "sheen=1"), 2, "write preset:velvet:KEY=VALUE");
+    assert_complaint(pair, LIST("eval", "none.bsdf"), 3, "none.bsdf: cannot be opened");
+    assert_complaint(pair, LIST("eval", "preset:vlvet"), 2, "velvet");
+}
+
+/* Other files of the same suffixes are named for what they are. */
+static void files_that_are_no_measurement_are_named(void **state) {
+    (void)state;
+    static const struct {
+        const char *name, *bytes, *said;
+    } files[] = {
+        {"layer.bsdf", "<?xml version=\"1.0\"?>\n<WindowElement xmlns=\"http://windows.lbl.gov\">\n",
+         "XML of a window layer"},
+        {"scatter.bsdf", "Source  Measured\nSymmetry  PlaneSymmetrical\nScatterAzimuth  4\n0 45 90 135\n",
+         "text of a scatterometer"},
+        {"lines.bsdf", "# theta phi value\n0 0 0.3\n10 0 0.29\n20 0 0.27\n", "it is text"},
+        {"cotton.binary", "<html><body>404 not found, sorry for that</body></html>", "it is HTML"},
+        {"cotton.bin", "PK\003\004 and so on and so on and so on", "zip archive"},
+    };
+    for (size_t k = 0; k < sizeof files / sizeof *files; k++) {
+        file_make(files[k].name, files[k].bytes, strlen(files[k].bytes));
+        assert_complaint("0 0 0 0\n", LIST("eval", files[k].name), 3, files[k].said);
+        assert_complaint(NULL, LIST("plot", "polar", files[k].name, "-o", "x.svg"), 3, files[k].said);
+    }
+}
+
 static void terms_given_to_cook_torrance_make_a_lobe(void **state) {
     (void)state;
     static double rows[ANGLES][4], same[ANGLES][4];
@@ -326,6 +405,8 @@ int main(void) {
         cmocka_unit_test(roughness_option_means_the_roughness_of_artists),
         cmocka_unit_test(albedo_of_lambert_is_one),
         cmocka_unit_test(albedo_of_charlie_neubelt_is_its_integral),
+        cmocka_unit_test(eval_of_any_model_is_its_reflection),
+        cmocka_unit_test(files_that_are_no_measurement_are_named),
         cmocka_unit_test(terms_given_to_cook_torrance_make_a_lobe),
         cmocka_unit_test(ambiguous_names_are_refused),
         cmocka_unit_test(implausible_parameter_is_a_warning),

@@ -85,7 +85,7 @@ static void usage_error_is_one_line(void **state) {
     assert_complaint(NULL, LIST("render", "a.glb", "-o", "o.png", "--spp", "3", "--spp=4"), 2, "given twice");
     assert_complaint(NULL, LIST("render", "a.glb", "-o", "o.jpg"), 2, "o.jpg: has no suffix");
     assert_complaint(NULL, LIST("models", "charlie-nuebelt"), 2, "did you mean charlie-neubelt?");
-    assert_complaint(NULL, LIST("eval"), 2, "LOBE");
+    assert_complaint(NULL, LIST("eval"), 2, "MODEL");
     assert_complaint(NULL, LIST("eval", "gx"), 2, "did you mean ggx?");
     assert_complaint(NULL, LIST("eval", "ggx", "-p", "alpha"), 2, "name=value");
     assert_complaint(NULL, LIST("eval", "ggx", "-p", "beta=1"), 2, "beta: is not a parameter");

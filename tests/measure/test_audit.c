@@ -495,6 +495,83 @@ static void table_of_no_lobe_has_a_nearest_one(void **state) {
     assert_true(audit.rms > 0.05 && audit.largest > 0.1);
 }
 
+/* A part of a lobe of two colours, as most tables of engines are of ggx. */
+static void a_part_of_an_unknown_lobe_is_recognised(void **state) {
+    (void)state;
+    static const char *const axes[] = {"three", "hdrp"};
+    for (int k = 0; k < 2; k++)
+        for (int part = 0; part < 2; part++) {
+            const WeftLobe lobe = lobe_of_id("ggx");
+            WeftTableForm form = form_of(axes[k]);
+            form.total = 0;
+            const WeftBakeDesc desc = {.kind = "albedo", .lobe = &lobe, .width = SIDE, .height = SIDE, .form = form};
+            WeftImage both, table = table_make(SIDE, SIDE);
+            assert_int_equal(weft_bake(&desc, NULL, &both, NULL), WEFT_OK);
+            assert_int_equal(both.channels, 2);
+            for (int n = 0; n < SIDE * SIDE; n++)
+                ((float *)table.pixels)[n] = ((const float *)both.pixels)[2 * n + part];
+            weft_image_free(&both);
+            const WeftAudit audit = audited_as_any(&table);
+            assert_string_equal(weft_lobe_info(audit.lobe)->id, "ggx");
+            assert_int_equal(audit.part, part ? WEFT_TABLE_F90 : WEFT_TABLE_F0);
+            assert_int_equal(weft_table_form_find(&audit.form), weft_table_form_find(&form));
+            assert_string_equal(weft_table_fault_name(audit.found[0].fault), "none");
+        }
+}
+
+/* What hides lobe and axes: a shift by a texel, or a factor. */
+static void a_cause_is_found_in_a_table_of_an_unknown_lobe(void **state) {
+    (void)state;
+    static const char *const axes[] = {"filament", "three"};
+    for (int k = 0; k < 2; k++) {
+        const WeftTableForm form = form_of(axes[k]);
+        WeftImage table = baked("charlie-neubelt", axes[k]);
+        float *values = table.pixels;
+        for (size_t n = 0; n < count_of(&table); n++) values[n] *= 0.31830989f;
+        const WeftAudit scaled = audited_as_any(&table);
+        assert_string_equal(weft_lobe_info(scaled.lobe)->id, "charlie-neubelt");
+        assert_int_equal(weft_table_form_find(&scaled.form), weft_table_form_find(&form));
+        assert_string_equal(weft_table_fault_name(scaled.found[0].fault), "scaled");
+        assert_non_null(strstr(scaled.found[0].text, "which is pi"));
+        assert_true(scaled.fits);
+
+        WeftImage shifted = table_make(SIDE, SIDE);
+        const WeftLobe lobe = lobe_of_id("charlie-neubelt");
+        const int step = form.flip_x || form.flip_y ? -1 : 1; /* towards more roughness */
+        for (int y = 0; y < SIDE; y++)
+            for (int x = 0; x < SIDE; x++) {
+                float cos_o, value, e[3];
+                const int at_x = x + (form.transposed ? step : 0), at_y = y + (form.transposed ? 0 : step);
+                WeftLobe here = lobe;
+                weft_table_form_texel(&form, lobe.lobe, SIDE, SIDE, at_x, at_y, &cos_o, &value);
+                here.params[0] = fminf(value, 1.0f);
+                weft_lobe_albedo(&here, cos_o, e);
+                ((float *)shifted.pixels)[y * SIDE + x] = e[0];
+            }
+        const WeftAudit late = audited_as_any(&shifted);
+        assert_string_equal(weft_lobe_info(late.lobe)->id, "charlie-neubelt");
+        assert_int_equal(weft_table_form_find(&late.form), weft_table_form_find(&form));
+        assert_string_equal(weft_table_fault_name(late.found[0].fault), "shifted");
+    }
+}
+
+/* A smooth table that is E of nothing, and one of a single value. */
+static void where_no_lobe_fits_that_is_said(void **state) {
+    (void)state;
+    WeftImage table = table_make(SIDE, SIDE);
+    for (int n = 0; n < SIDE * SIDE; n++)
+        ((float *)table.pixels)[n] = 0.5f + 0.4f * sinf(0.9f * (float)(n % SIDE)) * cosf(0.7f * (float)(n / SIDE));
+    WeftAudit audit = audited_as_any(&table);
+    assert_int_equal(audit.fits, 0);
+    assert_int_equal(audit.other, -1);
+    assert_string_equal(weft_table_fault_name(audit.found[0].fault), "lobe");
+    assert_non_null(strstr(audit.found[0].text, "no lobe fits it"));
+    table = table_make(SIDE, SIDE);
+    for (int n = 0; n < SIDE * SIDE; n++) ((float *)table.pixels)[n] = 0.37f;
+    audit = audited_as_any(&table);
+    assert_string_equal(weft_table_fault_name(audit.found[0].fault), "constant");
+}
+
 static bool is_judged(const WeftImage *errors, int x, int y) {
     return ((const float *)errors->pixels)[3 * ((size_t)y * (size_t)errors->width + (size_t)x) + 2] > 0.0f;
 }
@@ -564,6 +641,9 @@ int main(void) {
         cmocka_unit_test(audit_of_unsuitable_tables_is_refused),
         cmocka_unit_test(a_table_of_an_unknown_lobe_is_recognised),
         cmocka_unit_test(table_of_no_lobe_has_a_nearest_one),
+        cmocka_unit_test(a_part_of_an_unknown_lobe_is_recognised),
+        cmocka_unit_test(a_cause_is_found_in_a_table_of_an_unknown_lobe),
+        cmocka_unit_test(where_no_lobe_fits_that_is_said),
         cmocka_unit_test(albedo_of_a_large_table_has_the_stated_error),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -11,6 +11,7 @@
 #include "cli/console/output.h"
 #include "cli/console/report.h"
 #include "cli/console/two_columns.h"
+#include "cli/files/table_text.h"
 
 typedef struct Audit {
     const Options *options;
@@ -56,6 +57,8 @@ static int audit_read(const Options *options, Audit *audit) {
     if (!audit->any) result = bake_lobe(options, lobe, &audit->lobe);
     if (result == 0) result = outputs_check(options);
     if (result != 0) return result;
+    if (table_text_suffix(audit->path))
+        return table_text_read(audit->path, option_given(options, "--channel"), &audit->file);
     return weft_image_read(audit->path, &audit->file, &log, &error) == WEFT_OK ? 0 : report_error(&error);
 }
 

@@ -36,5 +36,8 @@ int bake_bsdf_run(const Options *options);
 /* Runs `weft bake lobe DATA`. */
 int bake_lobe_run(const Options *options);
 
+/* Runs `weft bake albedo LOBE --form FORM`. */
+int bake_form_run(const Options *options);
+
 /* Runs `weft bake audit FILE`. */
 int audit_run(const Options *options);

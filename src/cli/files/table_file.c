@@ -58,7 +58,8 @@ static void array_write(FILE *stream, const TableFile *file, const char *path) {
 /* Writes each row of the table as a line, with the channels of a texel side by side. */
 static void rows_write(FILE *stream, const TableFile *file, char separator) {
     const WeftImage *table = file->table;
-    fprintf(stream, "# %s\n# %s\n", file->command, file->about);
+    fprintf(stream, "# %s\n# %s; %d x %d texels, each %d value%s\n", file->command, file->about, table->width,
+            table->height, table->channels, table->channels > 1 ? "s" : "");
     for (int y = 0; y < table->height; y++)
         for (int n = 0; n < table->width * table->channels; n++) {
             char text[DECIMAL_SIZE + 2], *end = decimal_write(text, texel_at(table, 0, y)[n]);

@@ -197,11 +197,17 @@ static int table_run(const Options *options) {
 
 static int bake_run(const Options *options) {
     static const char *const others[] = {"--size", "--half", "--rounds", NULL};
+    static const char *const forms[] = {"--form", "--error", "--from", NULL};
     static const char *const tables[] = {"--size", "--half", "--axes", "--scale", "-p", "--lobe", "--json", NULL};
     static const char *const numbers[] = {"--half", "--axes", "--scale",   "--tolerance", "-p", "--rounds",
                                           "--lobe", "--max",  "--channel", "--json",      NULL};
     static const char *const sizes[] = {"--size", NULL};
+    static const char *const functions[] = {"--size", "--half", "--axes",    "--scale", "--tolerance", "--rounds",
+                                            "--lobe", "--max",  "--channel", "--json",  NULL};
     const char *kind = options->operands[0];
+    if (strcmp(kind, "albedo") == 0 && option_given(options, "--form"))
+        return none_given(options, functions, "albedo --form") ? bake_form_run(options) : WEFT_USAGE;
+    if (!none_given(options, forms, kind)) return WEFT_USAGE;
     if (strcmp(kind, "fibre-model") == 0)
         return none_given(options, tables, kind) ? fibre_model_run(options) : WEFT_USAGE;
     if (strcmp(kind, "bsdf") == 0) return none_given(options, numbers, kind) ? bake_bsdf_run(options) : WEFT_USAGE;
@@ -254,6 +260,12 @@ static const Option bake_options[] = {
     OPTION_LIST("-p", "NAME=VALUE",
                 "a parameter of the lobe, as `weft eval` has it; but neither the first, which is an axis, nor "
                 "a color"),
+    OPTION_TEXT(
+        "--form", "FORM", NULL,
+        "polynomial: of an albedo a short function instead of a table, .glsl .hlsl .metal .wgsl or .h [standard "
+        "output]"),
+    OPTION_NUMBER("--error", "ERROR", "0.01", 1e-6, 1, "the largest error of that function"),
+    OPTION_NUMBER("--from", "ROUGHNESS", "0.2", 0, 0.9, "the least roughness for which it holds"),
     OPTION_WHOLE("--rounds", "COUNT", "120", 1, 1000, "of the search that makes a fibre-model"),
     OPTION_HEADING("Audit"),
     OPTION_LOBES_OR("whose E the table should hold, any: the lobe and axes it is nearest to"),
@@ -286,6 +298,7 @@ const Verb verb_bake = {
              "the numbers.\n\n"
              "Examples\n"
              "  weft bake albedo charlie-neubelt -o charlie.h\n"
+             "  weft bake albedo charlie-neubelt --form polynomial -o charlie.glsl\n"
              "  weft bake dfg charlie-neubelt --axes filament -o dfg.exr\n"
              "  weft bake albedo patry -p density=2 --size 32x32 --axes zeltner -o patry.npy\n"
              "  weft bake lobe felt.binary -o felt_measured.h -o felt.json\n"

@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "base/equal.h"
 #include "base/fail.h"
 #include "base/memory.h"
 #include "measure/audit/audit_probe.h"
@@ -265,17 +266,19 @@ static double mean_value(const AuditWork *work) {
     return sum / (double)count;
 }
 
-/* Reports a table that is one value. */
-static bool find_constant(const AuditWork *work, WeftAudit *out) {
+/* Returns true if the table is one value. */
+static bool is_constant(const AuditWork *work) {
     const size_t count = (size_t)work->width * (size_t)work->height;
-    float low = work->values[0], high = low;
-    for (size_t n = 1; n < count; n++) {
-        low = fminf(low, work->values[n]);
-        high = fmaxf(high, work->values[n]);
-    }
-    if (high > low || probe_flat(&work->lobe, work->desc->threads)) return false;
+    bool same = true;
+    for (size_t n = 1; n < count && same; n++) same = is_equal(work->values[n], work->values[0]);
+    return same;
+}
+
+/* Reports a table that is one value, where E of the lobe that is given is not. */
+static bool find_constant(const AuditWork *work, WeftAudit *out) {
+    if (!is_constant(work) || (work->desc->lobe && probe_flat(&work->lobe, work->desc->threads))) return false;
     find(out, WEFT_TABLE_CONSTANT);
-    words_constant(last_text(out), (double)low, count);
+    words_constant(last_text(out), (double)work->values[0], (size_t)work->width * (size_t)work->height);
     return true;
 }
 
@@ -315,11 +318,18 @@ static void choose_form(AuditWork *work, WeftAudit *out) {
     }
 }
 
-/* Chooses the lobe and the axes to which the table is nearest, encoded or not; find_cause then decides which. */
-static void choose_lobe(AuditWork *work) {
-    const ProbeReading best = probe_any(&work->probe, work->desc->form);
+/* Chooses the lobe and the axes to which the table is nearest, encoded or not, or else shifted or times a factor;
+ * find_cause then decides which. Returns true if one of these is the whole difference. */
+static bool choose_lobe(AuditWork *work) {
+    const double enough = 1e-3 + work->probe.step;
+    ProbeReading best = probe_any(&work->probe, work->desc->form);
+    if (best.distance > enough && !is_constant(work)) {
+        const ProbeReading hidden = probe_any_hidden(&work->probe, work->desc->form);
+        if (hidden.distance <= enough) best = hidden;
+    }
     work->lobe = best.lobe;
     work->reading = (ProbeReading){.lobe = best.lobe, .form = best.form, .factor = 1.0};
+    return best.distance <= enough;
 }
 
 /* Reports values cut off at the largest of the table, if they are almost all of those that are wrong. */
@@ -401,9 +411,15 @@ static bool ratios_find(const AuditWork *work, double ratios[3]) {
 
 /* Classifies the errors by their pattern if nothing else explains them. */
 static bool find_kind(const AuditWork *work, WeftAudit *out) {
-    const double few = 0.02, both = 0.3;
+    const double few = 0.02, both = 0.3, far = 0.05;
     double ratios[3];
     if (out->largest <= work->most) return true;
+    if (!work->desc->lobe && !out->fits && out->together > both &&
+        work->reading.distance > far * fabs(mean_value(work))) {
+        find(out, WEFT_TABLE_OTHER_LOBE);
+        words_no_lobe(last_text(out), &work->reading);
+        return true;
+    }
     if (out->beyond < few) {
         find(out, WEFT_TABLE_CORNER);
         words_corner(last_text(out), out, work->most, work->lobe.id);
@@ -443,11 +459,11 @@ static WeftResult audit(AuditWork *work, WeftAudit *out, WeftError *error) {
     if (work->desc->lobe)
         work->reading = (ProbeReading){.lobe = work->lobe, .factor = 1.0};
     else
-        choose_lobe(work);
+        out->fits = choose_lobe(work);
     out->lobe = work->lobe.id;
     if (!work->desc->lobe) {
         probe_read(&work->probe, &work->reading);
-        out->fits = work->reading.distance <= 1e-3 + work->probe.step;
+        if (!out->fits) find_constant(work, out);
     } else if (!find_constant(work, out)) {
         choose_form(work, out);
     } else {

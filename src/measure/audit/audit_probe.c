@@ -109,6 +109,18 @@ static double distance(const TableProbe *probe, const Albedos *e, const ProbeRea
     return count ? sum / count : HUGE_VAL;
 }
 
+/* Returns the mean of E over the texels that are judged. */
+static double mean_albedo(const TableProbe *probe, const Albedos *e, const ProbeReading *reading) {
+    double sum = 0.0;
+    int count = 0;
+    for (int n = 0; n < probe->columns * probe->rows; n++)
+        if (judged(&e->at[n])) {
+            sum += fabs((double)e->at[n].part[reading->part]);
+            count++;
+        }
+    return count ? sum / count : 0.0;
+}
+
 /* Returns the factor that minimises the mean square of factor value - E. */
 static double factor_find(const TableProbe *probe, const Albedos *e, const ProbeReading *reading) {
     double across = 0.0, along = 0.0;
@@ -121,7 +133,8 @@ static double factor_find(const TableProbe *probe, const Albedos *e, const Probe
     return along > 0.0 ? across / along : 1.0;
 }
 
-/* Finds the nearest part, with the best factor if `scaled`. */
+/* Finds the nearest part, with the best factor if `scaled`. Then a distance counts by E where that is small, since any
+ * table times 0 is near to an E of nothing. */
 static void part_find(const TableProbe *probe, const Albedos *e, ProbeReading *reading, bool scaled) {
     const bool two = weft_lobe_info(reading->lobe.id)->traits & TRAIT_TWO_COLORS;
     ProbeReading best = *reading;
@@ -130,6 +143,7 @@ static void part_find(const TableProbe *probe, const Albedos *e, ProbeReading *r
         now.part = (WeftTablePart)part;
         if (scaled) now.factor = factor_find(probe, e, &now);
         now.distance = distance(probe, e, &now);
+        if (scaled) now.distance /= fmin(10.0 * mean_albedo(probe, e, &now) + 1e-9, 1.0);
         if (part == 0 || now.distance < best.distance) best = now;
     }
     *reading = best;
@@ -186,13 +200,20 @@ ProbeReading probe_best_form(const TableProbe *probe, const ProbeReading *readin
     return best;
 }
 
+/* Returns true for a lobe whose tables are looked for, with its later parameters at their defaults. Lobes of woven cloth
+ * have so many that no engine has a table of them. */
+static bool is_candidate(int id) {
+    enum { PARAMS_MOST = 4 };
+    const WeftLobeInfo *info = weft_lobe_info(id);
+    return !(info->traits & TRAIT_REFERENCE) && info->param_count <= PARAMS_MOST;
+}
+
 ProbeReading probe_best_lobe(const TableProbe *probe, const ProbeReading *reading, bool forms) {
     const TableProbe coarse = coarse_of(probe);
     ProbeReading best = *reading;
     best.distance = HUGE_VAL;
     for (int id = 0; id < weft_lobe_count() && best.distance > nothing(probe); id++) {
-        const WeftLobeInfo *info = weft_lobe_info(id);
-        if (id == reading->lobe.id || info->param_count > 1 || info->traits & TRAIT_REFERENCE) continue;
+        if (id == reading->lobe.id || !is_candidate(id)) continue;
         ProbeReading now = *reading, rough;
         now.lobe = lobe_default(id);
         rough = now;
@@ -245,8 +266,7 @@ ProbeReading probe_any(const TableProbe *probe, const WeftTableForm *form) {
     const TableProbe coarse = coarse_of(probe);
     ProbeReading best[2] = {{.distance = HUGE_VAL}, {.distance = HUGE_VAL}};
     for (int id = 0; id < weft_lobe_count(); id++) {
-        const WeftLobeInfo *info = weft_lobe_info(id);
-        if (info->param_count > 1 || info->traits & TRAIT_REFERENCE) continue;
+        if (!is_candidate(id)) continue;
         for (int base = 0; base < (form ? 1 : 8); base++) {
             ProbeReading now = {.lobe = lobe_default(id), .factor = 1.0};
             now.form = form ? *form : (WeftTableForm){.alpha = base & 1, .edges = base >> 1 & 1, .root = base >> 2};
@@ -254,6 +274,35 @@ ProbeReading probe_any(const TableProbe *probe, const WeftTableForm *form) {
         }
     }
     return best[best[1].distance < explained * best[0].distance];
+}
+
+/* Tries a form, scaled or as it is, and with `all` the one with its axes exchanged too, each in all flips. */
+static void try_hidden(const TableProbe *probe, ProbeReading now, bool all, bool scaled, ProbeReading *best) {
+    Albedos e;
+    WeftTableForm bare;
+    for (int k = 0; k < (all ? 8 : 1); k++) {
+        if (all) now.form.transposed = k >> 2, now.form.flip_x = k & 1, now.form.flip_y = k >> 1 & 1;
+        if (k == 0) albedos_find(probe, &now, &bare, &e);
+        if (k == 4) albedos_exchange(probe, &now, &bare, &e);
+        part_find(probe, &e, &now, scaled);
+        if (now.distance < 0.95 * best->distance - nothing(probe)) *best = now;
+    }
+}
+
+ProbeReading probe_any_hidden(const TableProbe *probe, const WeftTableForm *form) {
+    const TableProbe coarse = coarse_of(probe);
+    ProbeReading best = {.distance = HUGE_VAL};
+    for (int id = 0; id < weft_lobe_count(); id++)
+        for (int base = 0; is_candidate(id) && base < (form ? 1 : 8); base++)
+            for (int late = -1; late <= 1; late++) {
+                ProbeReading now = {.lobe = lobe_default(id), .factor = 1.0, .late = late};
+                now.form = form ? *form : (WeftTableForm){.alpha = base & 1, .edges = base >> 1 & 1, .root = base >> 2};
+                try_hidden(&coarse, now, !form, late == 0, &best);
+            }
+    if (!isfinite(best.distance)) return best;
+    if (best.late == 0) return probe_scaled(probe, &best);
+    probe_read(probe, &best);
+    return best;
 }
 
 bool probe_flat(const Lobe *lobe, int threads) {

@@ -37,12 +37,16 @@ void probe_read(const TableProbe *probe, ProbeReading *reading);
  * the factor that brings it nearest. */
 ProbeReading probe_best_form(const TableProbe *probe, const ProbeReading *reading, bool engines, bool scaled);
 
-/* Returns the nearest reading with another lobe of at most one parameter, in the same form, or with `forms`
- * in any form that engines use. */
+/* Returns the nearest reading with another lobe, its later parameters at their defaults, in the same form, or with
+ * `forms` in any form that engines use. */
 ProbeReading probe_best_lobe(const TableProbe *probe, const ProbeReading *reading, bool forms);
 
-/* Returns the nearest reading of all lobes of at most one parameter, in a form (NULL: in all forms), decoded or not. */
+/* Returns the nearest reading of all lobes, in a form (NULL: in all forms), decoded or not. */
 ProbeReading probe_any(const TableProbe *probe, const WeftTableForm *form);
+
+/* Returns the nearest reading of all lobes in all these forms, shifted by a texel along the parameter or times a factor:
+ * what hides lobe and axes from probe_any. It takes several times as long. */
+ProbeReading probe_any_hidden(const TableProbe *probe, const WeftTableForm *form);
 
 /* Returns the reading with the factor that brings its values nearest to E, in least squares. */
 ProbeReading probe_scaled(const TableProbe *probe, const ProbeReading *reading);

@@ -88,6 +88,13 @@ void words_lobe(char *text, const ProbeReading *stated, const ProbeReading *foun
         add(text, ", read as %s", weft_table_form_text(&found->form, elements));
 }
 
+void words_no_lobe(char *text, const ProbeReading *nearest) {
+    add(text,
+        "no lobe fits it, in any axes, shifted, times a factor or decoded: the nearest is %s, off by %.2g in the mean; "
+        "perhaps it is of other parameters, or holds something else than E",
+        weft_lobe_info(nearest->lobe.id)->id, nearest->distance);
+}
+
 void words_biased(char *text, const WeftAudit *audit, const double ratios[3]) {
     add(text,
         "it is biased: neighbouring texels err alike (correlation %.2f), so more samples would not cure it, "

@@ -20,6 +20,9 @@ void words_clipped(char *text, double top, double highest, size_t texels);
 void words_scaled(char *text, const ProbeReading *stated, const ProbeReading *found);
 void words_lobe(char *text, const ProbeReading *stated, const ProbeReading *found);
 
+/* Says that the nearest reading of all lobes is not near. */
+void words_no_lobe(char *text, const ProbeReading *nearest);
+
 /* Describes a bias. ratios: table / E at a tenth, half and nine tenths of the texels. */
 void words_biased(char *text, const WeftAudit *audit, const double ratios[3]);
 void words_noisy(char *text, const WeftAudit *audit);
