@@ -190,6 +190,30 @@ static void matched_chair_is_closer_in_the_other_engine_than_copied(void **state
     weft_image_free(&original);
 }
 
+/* An asset looks in the viewers as it does in Blender 4, whatever one calls that. */
+static void asset_of_blender_is_matched_under_any_of_its_names(void **state) {
+    (void)state;
+    static const char *const names[] = {"cycles-principled", "blender4", "blender-4"};
+    double matched[3];
+    for (int k = 0; k < 3; k++) {
+        json_t *json =
+            printed(LIST("match", "scene.gltf", "--from", names[k], "--to", "khronos", "-o", "b.gltf", "--json"));
+        const json_t *cloth = json_array_get(json_object_get(json, "materials"), 0);
+        assert_true(json_is_true(json_object_get(cloth, "changed")));
+        matched[k] = number(cloth, "matched");
+        assert_true(matched[k] < 0.7 * number(cloth, "copied"));
+        json_decref(json);
+    }
+    assert_true(fabs(matched[1] - matched[0]) < 1e-9 && fabs(matched[2] - matched[0]) < 1e-9);
+    assert_complaint(NULL, LIST("match", "scene.gltf", "--from", "blender", "--to", "three", "-o", "b.gltf"), 2,
+                     "blender: is not a profile; several have this name: blender-3 (cycles-velvet), blender-4 "
+                     "(cycles-principled)");
+    assert_complaint(NULL, LIST("render", "scene.gltf", "--profile", "blender", "-o", "b.png"), 2,
+                     "blender-4 (cycles-principled)");
+    assert_complaint(NULL, LIST("render", "scene.gltf", "--profile", "cycles", "-o", "b.png"), 2,
+                     "several have this name: cycles-velvet, cycles-principled");
+}
+
 static void match_options_without_sense_are_refused(void **state) {
     (void)state;
     assert_complaint(NULL, LIST("match", "ggx"), 2, "FROM and TO");
@@ -223,6 +247,7 @@ int main(void) {
                                        cmocka_unit_test(matched_asset_is_written),
                                        cmocka_unit_test(interrupted_match_of_many_materials_ends),
                                        cmocka_unit_test(matched_chair_is_closer_in_the_other_engine_than_copied),
+                                       cmocka_unit_test(asset_of_blender_is_matched_under_any_of_its_names),
                                        cmocka_unit_test(match_options_without_sense_are_refused)};
     return cmocka_run_group_tests(tests, scene_begin, work_end);
 }

@@ -19,6 +19,7 @@ enum {
     DISNEY,
     ORDER,
     OPENPBR,
+    PRINCIPLED,
     PROFILES
 };
 
@@ -351,11 +352,41 @@ static Color engine_openpbr(const Surface *s, Pair p) {
     return f;
 }
 
+/* f of the white fuzz and its E, set before cycles-principled is asked. */
+static double principled_fuzz[2];
+
+static Color engine_principled(const Surface *s, Pair p) {
+    Given g = given_of(s);
+    double a = sq(g.r), ax = lerp(a, 1.0, sq((double)s->anisotropy)), fc = schlick(p.vh);
+    double taken = lerp(max3(g.f0), g.weight, schlick(fmin(p.vh, fmin(p.v, p.l))));
+    double dv = ggx_two(ax, a, p) * smith_two(ax, a, p), f90 = lerp(g.weight, 1.0, g.metal);
+    double keep = fmax(1.0 - max3(g.sheen) * principled_fuzz[1], 0.0), ac = sq((double)s->clearcoat_roughness);
+    double coat = (double)s->clearcoat * lerp(0.04, 1.0, schlick(p.v));
+    Color f;
+    for (int k = 0; k < 3; k++) {
+        double diffuse = (1.0 - g.metal) * g.base.c[k] / PI_DOUBLE * (1.0 - taken);
+        f.c[k] = g.sheen.c[k] * principled_fuzz[0] + keep * (diffuse + dv * lerp(g.mixed.c[k], f90, fc));
+        f.c[k] = lerp(f.c[k], ggx(ac, p.nh) * smith(ac, p), coat);
+    }
+    return f;
+}
+
 static Color (*const engines[PROFILES])(const Surface *, Pair) = {
-    [UNREAL4] = engine_unreal4, [COTTON] = engine_cotton,       [SILK] = engine_silk,       [URP] = engine_urp,
-    [CLOTH] = engine_cloth,     [FILAMENT] = engine_filament,   [KHRONOS] = engine_khronos, [THREE] = engine_three,
-    [BABYLON] = engine_babylon, [MATERIALX] = engine_materialx, [VELVET] = engine_velvet,   [DISNEY] = engine_disney,
-    [ORDER] = engine_order,     [OPENPBR] = engine_openpbr,
+    [UNREAL4] = engine_unreal4,
+    [COTTON] = engine_cotton,
+    [SILK] = engine_silk,
+    [URP] = engine_urp,
+    [CLOTH] = engine_cloth,
+    [FILAMENT] = engine_filament,
+    [KHRONOS] = engine_khronos,
+    [THREE] = engine_three,
+    [BABYLON] = engine_babylon,
+    [MATERIALX] = engine_materialx,
+    [VELVET] = engine_velvet,
+    [DISNEY] = engine_disney,
+    [ORDER] = engine_order,
+    [OPENPBR] = engine_openpbr,
+    [PRINCIPLED] = engine_principled,
 };
 
 static Choices only_profile(int profile) {
@@ -387,14 +418,23 @@ static TableRef khronos_ref(void) {
     return albedo_table_ref(&khronos_table);
 }
 
-static AlbedoTable openpbr_table;
-
-static TableRef openpbr_ref(void) {
-    if (!openpbr_table.rows) {
-        Lobe lobe = lobe_default(LOBE_LTC_FIBRE);
-        albedo_table_fill(&openpbr_table, &lobe, 0.05f, 1.0f, 0);
+/* The tables of two fuzzes, whose parameter is their alpha. */
+static TableRef fuzz_ref(int id) {
+    static AlbedoTable tables[2];
+    AlbedoTable *table = &tables[id == LOBE_LTC_FIBRE_PUBLISHED];
+    if (!table->rows) {
+        Lobe lobe = lobe_default(id);
+        albedo_table_fill(table, &lobe, 0.05f, 1.0f, 0);
     }
-    return albedo_table_ref(&openpbr_table);
+    return albedo_table_ref(table);
+}
+
+/* Sets f of a white fuzz and its E. */
+static void fuzz_ask(int id, float alpha, Dir o, Dir i, double fuzz[2]) {
+    Lobe lobe = lobe_default(id);
+    lobe_set(&lobe, 0, alpha);
+    fuzz[0] = (double)lobe_eval(&lobe, angles_between(o, i));
+    fuzz[1] = (double)albedo_quadrature(&lobe, o, 1e-4).f0;
 }
 
 static void profiles_follow_the_formulas_of_their_engines(void **state) {
@@ -420,16 +460,13 @@ static void profiles_follow_the_formulas_of_their_engines(void **state) {
                 khronos_e[0] = fmin((double)albedo_quadrature(&lobe, o, 1e-4).f0, 1.0);
                 khronos_e[1] = fmin((double)albedo_quadrature(&lobe, i, 1e-4).f0, 1.0);
             }
-            if (profile == OPENPBR) {
-                Lobe lobe = lobe_default(LOBE_LTC_FIBRE);
-                lobe_set(&lobe, 0, s.sheen_roughness);
-                openpbr_fuzz[0] = (double)lobe_eval(&lobe, angles_between(o, i));
-                openpbr_fuzz[1] = (double)albedo_quadrature(&lobe, o, 1e-4).f0;
-            }
+            if (profile == OPENPBR) fuzz_ask(LOBE_LTC_FIBRE, s.sheen_roughness, o, i, openpbr_fuzz);
+            if (profile == PRINCIPLED) fuzz_ask(LOBE_LTC_FIBRE_PUBLISHED, s.sheen_roughness, o, i, principled_fuzz);
             seen_make(&stack, &s, &choices,
-                      profile == KHRONOS   ? khronos_ref()
-                      : profile == OPENPBR ? openpbr_ref()
-                                           : (TableRef){.kind = TABLE_NONE},
+                      profile == KHRONOS      ? khronos_ref()
+                      : profile == OPENPBR    ? fuzz_ref(LOBE_LTC_FIBRE)
+                      : profile == PRINCIPLED ? fuzz_ref(LOBE_LTC_FIBRE_PUBLISHED)
+                                              : (TableRef){.kind = TABLE_NONE},
                       o);
             Color got = times(color_of(seen_eval(&stack, i, 0).f_cos), 1.0 / p.l), want = engines[profile](&s, p);
             if (profile == KHRONOS) { /* 2e-3 of what E takes away */
@@ -441,6 +478,11 @@ static void profiles_follow_the_formulas_of_their_engines(void **state) {
                 Surface bare = s;
                 bare.sheen = 0.0f;
                 tolerance = 6e-3 * (double)s.sheen * max3(engine_openpbr(&bare, p));
+            }
+            if (profile == PRINCIPLED) {
+                Surface bare = s;
+                bare.sheen_color = (Rgb){0.0f, 0.0f, 0.0f};
+                tolerance = 6e-3 * max3(given_of(&s).sheen) * max3(engine_principled(&bare, p));
             }
             for (int k = 0; k < 3; k++) {
                 double error = fmax(fabs(got.c[k] - want.c[k]) - tolerance, 0.0) / fmax(fabs(want.c[k]), 1e-4);

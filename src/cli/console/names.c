@@ -77,8 +77,8 @@ const Kind kinds[] = {
     {"D term", "a", "d", "D terms: distributions", d_name, d_help, true, "terms/d_"},
     {"V term", "a", "v", "V terms: visibility, 1 / (4 cos cos) inside", v_name, v_help, true, "terms/v_"},
     {"F term", "an", "f", "F terms: Fresnel", f_name, f_help, true, "terms/f_"},
-    {"alias", "an", "aliases", "Aliases: names that sources use for terms", weft_alias_name, weft_alias_help, true,
-     NULL},
+    {"alias", "an", "aliases", "Aliases: names of terms in sources, of profiles by programs", weft_alias_name,
+     weft_alias_help, true, NULL},
     {"diffuse term", "a", "diffuse", "Diffuse lobes: for bases, and for anything a lobe is for", diffuse_name, no_help,
      true, "lobes/"},
     {"lobe", "a", "lobes", "Lobes", lobe_name, no_help, false, "lobes/"},
@@ -113,9 +113,18 @@ const Kind *kind_prefixed(const char *text, int length) {
     return NULL;
 }
 
+/* Returns the id in a kind that an alias stands for, if its help says so: "profile khronos"; else NULL. */
+static const char *alias_of(const Kind *kind, int alias) {
+    size_t length = strlen(kind->id);
+    const char *help = weft_alias_help(alias);
+    return strncmp(help, kind->id, length) == 0 && help[length] == ' ' ? help + length + 1 : NULL;
+}
+
 int kind_find(const Kind *kind, const char *id) {
     for (int k = 0; kind->name(k); k++)
         if (strcmp(kind->name(k), id) == 0) return k;
+    for (int a = 0; weft_alias_name(a); a++)
+        if (strcmp(weft_alias_name(a), id) == 0 && alias_of(kind, a)) return kind_find(kind, alias_of(kind, a));
     return -1;
 }
 
@@ -127,6 +136,11 @@ static const char *several_hint(const Kind *kind, const char *id, char *buffer, 
         const char *name = kind->name(k);
         if (strncmp(name, id, length) != 0 || name[length] != '-') continue;
         used += (size_t)snprintf(buffer + used, size - used, "%s%s", found++ ? ", " : "", name);
+    }
+    for (int a = 0; weft_alias_name(a) && used < size; a++) {
+        const char *name = weft_alias_name(a);
+        if (!alias_of(kind, a) || strncmp(name, id, length) != 0 || name[length] != '-') continue;
+        used += (size_t)snprintf(buffer + used, size - used, "%s%s (%s)", found++ ? ", " : "", name, alias_of(kind, a));
     }
     return length && found > 1 ? buffer : NULL;
 }

@@ -32,7 +32,7 @@ const Kind *kind_of(const char *id);
 /* Returns the kind whose key begins with `length` characters of text, as in "lobe:ggx"; NULL if there is none. */
 const Kind *kind_prefixed(const char *text, int length);
 
-/* Returns the index of an id in a kind, or -1. */
+/* Returns the index of an id in a kind, or of what an alias of that name stands for, or -1. */
 int kind_find(const Kind *kind, const char *id);
 
 /* Works as kind_find, but returns -1 after one line on standard error. */

@@ -186,7 +186,9 @@ static int report_unknown(const char *name) {
 
 static int of_kind(Model *model, const Kind *kind, const char *name) {
     char path[160];
-    if (kind_named(kind, name) < 0) return WEFT_USAGE;
+    const int index = kind_named(kind, name);
+    if (index < 0) return WEFT_USAGE;
+    name = kind->name(index); /* where an alias was typed */
     if (kind == kind_of("lobe")) return of_lobe(model, name);
     if (kind != kind_of("preset")) {
         model->kind = kind == kind_of("profile") ? MODEL_PROFILE : MODEL_WORKFLOW;

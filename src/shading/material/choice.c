@@ -26,7 +26,8 @@ const char *choice_id(ChoiceId choice, int k) {
     return NULL;
 }
 
-/* The names of papers and engines for the terms of the two sheens. The letter distinguishes D and V. */
+/* The names of papers and engines for the terms of the two sheens, whose letter distinguishes D and V; and those of
+ * programs for profiles. */
 static const struct {
     const char *name, *id, *help;
 } aliases[] = {
@@ -34,6 +35,10 @@ static const struct {
     {"ashikhmin-v", "neubelt", "v neubelt"},
     {"charlie-d", "charlie", "d charlie"},
     {"charlie-v", "conty-kulla", "v conty-kulla"},
+    {"blender-3", "cycles-velvet", "profile cycles-velvet"},
+    {"blender-4", "cycles-principled", "profile cycles-principled"},
+    {"blender3", "cycles-velvet", "profile cycles-velvet"},
+    {"blender4", "cycles-principled", "profile cycles-principled"},
 };
 enum { ALIASES = sizeof aliases / sizeof *aliases };
 
@@ -53,6 +58,16 @@ const char *choice_several(ChoiceId choice, const char *name, char text[SEVERAL_
     for (int k = 0; (id = choice_id(choice, k)); k++) {
         if (strncmp(id, name, length) != 0 || id[length] != '-' || !choice_fits(choice, k)) continue;
         int wrote = snprintf(text + used, SEVERAL_SIZE - used, "%s%s", found++ ? ", " : "", id);
+        if ((size_t)wrote >= SEVERAL_SIZE - used) break;
+        used += (size_t)wrote;
+    }
+    for (int k = 0; k < ALIASES; k++) {
+        if (strncmp(aliases[k].name, name, length) != 0 || aliases[k].name[length] != '-') continue;
+        bool there = false; /* in this list */
+        for (int j = 0; (id = choice_id(choice, j)); j++) there |= strcmp(id, aliases[k].id) == 0;
+        if (!there || choice != CHOICE_profile) continue;
+        int wrote = snprintf(text + used, SEVERAL_SIZE - used, "%s%s (%s)", found++ ? ", " : "", aliases[k].name,
+                             aliases[k].id);
         if ((size_t)wrote >= SEVERAL_SIZE - used) break;
         used += (size_t)wrote;
     }

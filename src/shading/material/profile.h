@@ -4,6 +4,7 @@
 #pragma once
 
 #include "shading/profiles/babylon.h"
+#include "shading/profiles/cycles_principled.h"
 #include "shading/profiles/cycles_velvet.h"
 #include "shading/profiles/disney_2012.h"
 #include "shading/profiles/filament_cloth.h"
@@ -47,7 +48,8 @@
     P("cycles-velvet", 11, cycles_velvet_stack(m, s), "Blender Cycles before 4.0, Velvet over Lambert")                \
     P("disney-2012", 12, disney_2012_stack(m, s), "the BRDF Explorer's disney.brdf")                                   \
     P("order-1886", 13, order_1886_stack(m, s), "The Order: 1886, a reconstruction")                                   \
-    P("openpbr", 14, openpbr_stack(m, s), "OpenPBR Surface: its fuzz, as ltc-fibre, over its base")
+    P("openpbr", 14, openpbr_stack(m, s), "OpenPBR Surface: its fuzz, as ltc-fibre, over its base")                    \
+    P("cycles-principled", 15, cycles_principled_stack(m, s), "Blender Cycles 4.0 and later, Principled: microfibres")
 
 /* The formulas of engines for E: A(name, source, true if it reads the table of the lobe itself, formula). */
 #define WEFT_ALBEDO_FORMULAS(A)                                                                                        \
