@@ -26,9 +26,13 @@ static const ExitCode codes[] = {{"0", "done"},
                                  {"130", "interrupted; what there was has been written"},
                                  {NULL, NULL}};
 
+static void list_verbs(FILE *stream) {
+    for (int k = 0; verbs[k]; k++) layout_entry(stream, 12, verbs[k]->name, verbs[k]->help);
+}
+
 static void program_help(void) {
     printf("weft %s - the cloth-shading workbench\n\nUsage: weft VERB ...\n\n", weft_version());
-    for (int k = 0; verbs[k]; k++) layout_entry(stdout, 12, verbs[k]->name, verbs[k]->help);
+    list_verbs(stdout);
     printf("\n`weft VERB --help` or `weft help VERB` explains a verb; `weft --version` prints the\n"
            "version.\n\nExit codes\n");
     for (const ExitCode *code = codes; code->code; code++) layout_entry(stdout, 12, code->code, code->words);
@@ -82,7 +86,12 @@ static int help_run(int count, char **arguments) {
 }
 
 static int dispatch(int count, char **arguments) {
-    if (count < 2) return report(WEFT_USAGE, "a verb is needed; see weft --help");
+    if (count < 2) {
+        report(WEFT_USAGE, "a verb is needed: weft VERB ...; see weft --help");
+        fputc('\n', stderr);
+        list_verbs(stderr);
+        return WEFT_USAGE;
+    }
     const char *word = arguments[1];
     if (strcmp(word, "help") == 0) return help_run(count - 2, arguments + 2);
     if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0) return help_run(0, arguments + count);

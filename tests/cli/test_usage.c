@@ -68,9 +68,20 @@ static void empty_argument_is_quoted_in_its_error(void **state) {
     assert_complaint(NULL, LIST("check", "lambert", "--html="), 2, "weft: --html: \"\" is no value");
 }
 
+/* To the error stream, as it is no answer; the first line says what is missing. */
+static void without_a_verb_the_verbs_are_listed(void **state) {
+    (void)state;
+    static const char *const names[] = {"\n  render ", "\n  view ", "\n  models ", "\n  weave ", "\n  match "};
+    Ran ran = run_with(NULL, (const char *const[]){NULL});
+    assert_int_equal(ran.code, 2);
+    assert_string_equal(ran.out, "");
+    assert_int_equal(strncmp(ran.err, "weft: a verb is needed", 22), 0);
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++) assert_non_null(strstr(ran.err, names[k]));
+    ran_free(&ran);
+}
+
 static void usage_error_is_one_line(void **state) {
     (void)state;
-    assert_complaint(NULL, (const char *const[]){NULL}, 2, "weft --help");
     assert_complaint(NULL, LIST("rendr"), 2, "did you mean render?");
     assert_complaint(NULL, LIST("x\ny"), 2, "x?y: is not a verb");
     assert_complaint(NULL, LIST("render"), 2, "SCENE... -o OUT");
@@ -178,6 +189,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(help_of_every_verb_names_its_options),
         cmocka_unit_test(usage_error_is_one_line),
+        cmocka_unit_test(without_a_verb_the_verbs_are_listed),
         cmocka_unit_test(numbers_outside_their_range_are_refused),
         cmocka_unit_test(closed_pipe_ends_a_command_quietly),
         cmocka_unit_test(full_disk_is_an_error),

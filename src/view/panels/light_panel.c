@@ -137,7 +137,9 @@ static const char *environment_name(const void *user, int k) {
 }
 static const char *environment_help(const void *user, int k) {
     static const char *const helps[] = {
-        "The built-in soft boxes.", "A lat-long picture (.hdr, .exr), or the folder of a cubemap: open or drop one.",
+        "The built-in soft boxes.",
+        "A lat-long picture (.hdr, .exr), or a cube map: a folder or one of its files posx, negx and so on. "
+        "Open or drop one.",
         "One radiance from everywhere: the furnace, when it is 1."};
     return helps[k];
 }
@@ -159,7 +161,7 @@ static void draw_environment(Viewer *v) {
     }
     ui_indent();
     if (ui_button("Choose a picture ...")) dialogs_open(v, "Choose a light");
-    ui_tip("Another lat-long picture, or the folder of a cubemap.");
+    ui_tip("Another lat-long picture, or a cube map of six files: posx, negx, posy, negy, posz, negz.");
     ui_indent_end();
     if (a->kind == ENVIRONMENT_FILE) ui_dim(a->path);
     if (a->kind == ENVIRONMENT_COLOR) {

@@ -131,9 +131,9 @@ static const struct {
     {"Open", "Scenes (.glb .gltf), light (.hdr .exr), materials (.json), lobes (.h), pictures (.png .jpg .tga)",
      1u << PATH_SCENE | 1u << PATH_LIGHT | 1u << PATH_MATERIAL | 1u << PATH_LOBE | 1u << PATH_PICTURE, opening_open,
      "Use this folder as maps", "Puts Albedo, Normal, Roughness ... files of this folder onto the cloth of the scene."},
-    {"Choose a light", "Lat-long pictures (.hdr .exr, or .png .jpg .tga); the folder of a cubemap",
+    {"Choose a light", "Lat-long pictures (.hdr .exr, or .png .jpg .tga); a cube map: a folder or one face",
      1u << PATH_LIGHT | 1u << PATH_PICTURE, actions_light_by, "Use this folder as a cubemap",
-     "Six faces by their names: px, nx ... or posx, negx ..."},
+     "Six faces by their names: posx, negx ... or px, nx ..."},
     {"Choose a map", "Pictures (.png .jpg .tga .hdr .exr)", 1u << PATH_LIGHT | 1u << PATH_PICTURE, use_map, NULL,
      NULL}};
 
@@ -238,7 +238,7 @@ static void draw_use(Viewer *v) {
         actions_light_by(v, v->states->dialogs.dropped);
         ui_dialog_close();
     }
-    ui_tip("Lights the scene by it, a lat-long picture.");
+    ui_tip("Lights the scene by it: a lat-long picture, or one of the six faces of a cube map (posx, negx ...).");
     ui_same_line();
     cancel();
     ui_scope_end();
