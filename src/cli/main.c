@@ -7,6 +7,7 @@
 
 #include "cli/console/names.h"
 #include "cli/console/report.h"
+#include "cli/console/stack.h"
 #include "cli/console/two_columns.h"
 #include "cli/console/uncaught.h"
 #include "cli/operands/lobes.h"
@@ -107,7 +108,7 @@ int main(int count, char **arguments) {
     uncaught_begin();
     signal(SIGXFSZ, SIG_IGN); /* a file beyond its limit is a write that fails, and is reported as one */
     signal(SIGCHLD, SIG_DFL); /* if the parent ignores it, compilers could not be waited for */
-    int result = dispatch(count, arguments);
+    int result = stack_run(dispatch, count, arguments);
     errno = 0;
     int flushed = fflush(stdout);
     if ((flushed != 0 || ferror(stdout)) && (result == 0 || result == WEFT_FAILED)) /* only stdout shows this */

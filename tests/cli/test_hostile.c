@@ -147,6 +147,29 @@ static void a_full_disk_is_told_by_every_writer(void **state) {
     }
 }
 
+/* As some programs that start others leave it; sanitizers need more for themselves. */
+static void a_small_stack_is_enough(void **state) {
+    (void)state;
+#if defined(__SANITIZE_ADDRESS__) || defined(__clang__)
+    skip();
+#endif
+    static const char *const lines[] = {"check lambert --quick --no-gpu",
+                                        "export khronos --target glsl --quiet -o small.glsl",
+                                        "doctor builtin:ball",
+                                        "render scene.gltf --width 16 --height 16 --spp 4 --quiet -o small.png",
+                                        "plot polar ggx -o small.svg",
+                                        "bake albedo ggx --size 8x8 --quiet -o small.npy"};
+    char line[300];
+    for (size_t k = 0; k < sizeof lines / sizeof *lines; k++) {
+        snprintf(line, sizeof line,
+                 "$0 %s >usual 2>&1; e=$?; ulimit -s 64; $0 %s >small 2>&1; [ $? = $e ] && cmp usual small", lines[k],
+                 lines[k]);
+        Ran ran = run_shell(line);
+        if (ran.code != 0) fail_msg("%s: %d: %s%s", lines[k], ran.code, ran.out, ran.err);
+        ran_free(&ran);
+    }
+}
+
 static void unwritable_report_is_an_error(void **state) {
     (void)state;
     Ran found = run_shell("$0 doctor scene.gltf > /dev/null"), lost = run_shell("$0 doctor scene.gltf > /dev/full");
@@ -179,6 +202,7 @@ int main(void) {
         cmocka_unit_test(eval_waiting_for_a_pipe_ends_by_a_signal),
         cmocka_unit_test(a_file_beyond_its_limit_is_one_line_and_leaves_nothing),
         cmocka_unit_test(a_full_disk_is_told_by_every_writer),
+        cmocka_unit_test(a_small_stack_is_enough),
         cmocka_unit_test(unwritable_report_is_an_error),
         cmocka_unit_test(damaged_picture_is_not_reported_as_lack_of_memory),
     };
