@@ -13,10 +13,10 @@
 #include "text/source/number_text.h"
 
 typedef struct Rule {
-    const char *id, *base, *needs_wi, *needs_average;
+    const char *id, *base, *needs_wi, *needs_average, *by;
 } Rule;
 
-#define RULE(id, index, base, needs_wi, needs_average, conserves, help) {id, #base, #needs_wi, #needs_average},
+#define RULE(id, index, base, needs_wi, needs_average, conserves, by, help) {id, #base, #needs_wi, #needs_average, #by},
 static const Rule rules[] = {WEFT_LAYERS(RULE)};
 
 typedef struct ExportModel {
@@ -145,6 +145,7 @@ static void put_layer(Text *text, int layer) {
               LAYER_BY_MAX, LAYER_BY_CHANNEL, rules[layer].base);
     text_define(text, "layer_needs_wi(layer)", rules[layer].needs_wi);
     text_define(text, "layer_needs_average(layer)", rules[layer].needs_average);
+    text_define(text, "layer_default_by(layer)", rules[layer].by);
 }
 
 static void put_value(Text *text, const Surface *s, int k) {

@@ -161,6 +161,35 @@ static void reflection_of_a_reciprocal_material_is_reciprocal(void **state) {
     weft_reflection_free(r);
 }
 
+/* Under rule multiplicative a red sheen makes a red rim: each channel of the base times 1 + its own colour times E. With
+ * by=max the rim is as grey as the base. */
+static void rim_of_rule_multiplicative_has_the_colour_of_the_sheen(void **state) {
+    (void)state;
+    const float wo[3] = {0.96f, 0.0f, 0.28f}, up[1][3] = {{0.0f, 0.0f, 1.0f}};
+    for (int by = -1; by < 2; by++) {
+        WeftMaterial m = plain();
+        float with[1][3], without[1][3];
+        set(&m, INPUT_base_color, 0.3f);
+        set(&m, INPUT_sheen_beta, 3.0f);
+        m.choices[CHOICE_workflow] = choice_find(CHOICE_workflow, "cloth");
+        m.choices[CHOICE_sheen_lobe] = choice_find(CHOICE_sheen_lobe, "exponential");
+        m.choices[CHOICE_layer] = choice_find(CHOICE_layer, "multiplicative");
+        m.choices[CHOICE_layer_by] = by;
+        WeftReflection *r = made(&m);
+        weft_reflection_eval(r, WEFT_PART_ALL, wo, 1, up, without);
+        weft_reflection_free(r);
+        set(&m, INPUT_sheen_color, 0.1f);
+        m.inputs[INPUT_sheen_color].value[0] = 1.0f;
+        r = made(&m);
+        weft_reflection_eval(r, WEFT_PART_ALL, wo, 1, up, with);
+        weft_reflection_free(r);
+        float red = with[0][0] / without[0][0] - 1.0f, green = with[0][1] / without[0][1] - 1.0f;
+        print_message("by %d: red gains %.4f, green %.4f\n", by, (double)red, (double)green);
+        assert_true(red > 0.05f);
+        assert_float_equal(green, by == LAYER_BY_MAX ? red : 0.1f * red, 2e-3f * red);
+    }
+}
+
 static void impossible_reflections_are_refused(void **state) {
     (void)state;
     WeftMaterial m = plain();
@@ -181,6 +210,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(parts_of_a_reflection_sum_to_the_whole),
                                        cmocka_unit_test(albedo_of_a_reflection_is_that_of_the_passport),
                                        cmocka_unit_test(reflection_of_a_reciprocal_material_is_reciprocal),
+                                       cmocka_unit_test(rim_of_rule_multiplicative_has_the_colour_of_the_sheen),
                                        cmocka_unit_test(impossible_reflections_are_refused)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

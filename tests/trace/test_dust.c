@@ -127,6 +127,37 @@ static void dusty_white_sphere_in_a_furnace_stays_white(void **state) {
     weft_scene_free(scene);
 }
 
+/* The sheen times the y of the normal, of whatever lobe: none of it below. Dust, whose amount is
+ * a number of layers, is thicker than that. */
+static void sheen_on_what_faces_up_is_multiplied_by_the_normals_y(void **state) {
+    (void)state;
+    static const char *const lobes[] = {"charlie-neubelt", "exponential", "ltc-fibre", "cook-torrance"};
+    for (size_t k = 0; k < sizeof lobes / sizeof *lobes; k++) {
+        WeftScene *scene = sphere();
+        test_color(&scene->materials[0], INPUT_sheen_color, 1.0f);
+        set(scene, "*.sheen_roughness", "0.8");
+        set(scene, "*.sheen_lobe", lobes[k]);
+        WeftImage whole = picture(scene);
+        set(scene, "*.sheen_upward", "1");
+        WeftImage up = picture(scene);
+        set(scene, "*.sheen_upward", "0.5");
+        WeftImage half = picture(scene);
+        const double y = 11.0 / 26.7, share = seen(&up, 24, 13) / seen(&whole, 24, 13); /* pixels, of a radius */
+        print_message("%s: %.3f of the sheen where n.y is %.3f\n", lobes[k], share, y);
+        assert_true(fabs(share - y) < 0.01);
+        assert_true(fabs(seen(&up, 24, 4) / seen(&whole, 24, 4) - y * 20.0 / 11.0) < 0.01);
+        assert_true(fabs(seen(&half, 24, 13) / seen(&whole, 24, 13) - 0.5 * (1.0 + y)) < 0.01);
+        assert_true(seen(&up, 24, 35) < 1e-6 && seen(&whole, 24, 35) > 1e-3);
+        set(scene, "*.sheen_upward", "1");
+        set(scene, "*.dust_falloff", "2");
+        assert_true(fabs(seen_of(scene, 24, 13) / seen(&whole, 24, 13) - y * y) < 0.01);
+        weft_image_free(&whole);
+        weft_image_free(&up);
+        weft_image_free(&half);
+        weft_scene_free(scene);
+    }
+}
+
 /* Values beyond what is possible are clamped, angles are in degrees, colours may be three numbers. */
 static void dust_values_are_set_by_name_and_clamped(void **state) {
     (void)state;
@@ -159,6 +190,7 @@ int main(void) {
         cmocka_unit_test(dust_lies_towards_its_given_direction),
         cmocka_unit_test(sheet_is_dusty_on_its_upper_side),
         cmocka_unit_test(dusty_white_sphere_in_a_furnace_stays_white),
+        cmocka_unit_test(sheen_on_what_faces_up_is_multiplied_by_the_normals_y),
         cmocka_unit_test(dust_values_are_set_by_name_and_clamped),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

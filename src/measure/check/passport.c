@@ -130,7 +130,7 @@ static void measure_furnace(void *user, int item, int thread) {
 }
 
 /* Which layer rules promise to conserve energy. */
-#define LAYER_PROMISE(id, index, base, needs_wi, needs_average, conserves, help) [index] = conserves,
+#define LAYER_PROMISE(id, index, base, needs_wi, needs_average, conserves, by, help) [index] = conserves,
 static const bool conserves[LAYER_COUNT] = {WEFT_LAYERS(LAYER_PROMISE)};
 
 static void find_furnace(PassportWork *work) {

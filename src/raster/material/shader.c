@@ -22,7 +22,8 @@ static void find_zeros(const ShaderKey *key, bool zero[INPUT_COUNT]) {
 static CompositionSlots find_slots(const ShaderKey *key) {
     bool zero[INPUT_COUNT];
     find_zeros(key, zero);
-    CompositionSlots found = composition_slots(&key->choices, zero, key->inputs[INPUT_sheen].state == INPUT_ONE);
+    const bool whole = key->inputs[INPUT_sheen].state == INPUT_ONE && zero[INPUT_sheen_upward];
+    CompositionSlots found = composition_slots(&key->choices, zero, whole);
     if (!key->woven) return found;
     found.slots[PLACE_DIFFUSE] = (TextSlot){.lobes = {LOBE_WOVEN, LOBE_YARN}, .count = 2};
     found.slots[PLACE_SPECULAR].count = 0;

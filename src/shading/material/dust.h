@@ -1,6 +1,6 @@
 /* dust - dust accumulated on a surface: most where it faces up, none below, in patches
  *
- *   lies  = dust max(n . d, 0)^falloff (1 - noise + noise N(p))
+ *   lies  = max(n . d, 0)^falloff (1 - noise + noise N(p)),  dust lies,  sheen mix(1, lies, sheen_upward)
  *   d     = (sin(tilt) cos(direction), cos(tilt), sin(tilt) sin(direction))
  *
  *   n is the shading normal and p the point in the world, whose +y is up. What falls along -d meets a surface
@@ -66,8 +66,9 @@ FN float dust_noise(Dir p, float scale) {
     return clamp(2.0f * n / 7.0f - 0.5f, 0.0f, 1.0f);
 }
 
-FN float dust_amount(float amount, float cosine, float falloff, float mask) {
-    return cosine > 0.0f ? amount * mask * pow(min(max(cosine, 1e-6f), 1.0f), falloff) : 0.0f;
+/* Returns the part of what falls that lies there. */
+FN float dust_lies(float cosine, float falloff, float mask) {
+    return cosine > 0.0f ? mask * pow(min(max(cosine, 1e-6f), 1.0f), falloff) : 0.0f;
 }
 
 /* Returns the direction from which dust falls, in the world. */
@@ -76,13 +77,18 @@ FN Dir dust_source(Surface s) {
     return dir(across * s.dust_direction.x, cos(s.dust_tilt), across * s.dust_direction.y);
 }
 
-/* Returns the surface at a point p of the world, metres, with the world's shading normal n there: its dust becomes the
- * amount at this point. Both renderers call this before they make the stack. */
+/* Tests whether the surface depends on where it faces. */
+FN bool dust_settles(Surface s) { return s.dust > 0.0f || s.sheen_upward > 0.0f; }
+
+/* Returns the surface at a point p of the world, metres, with the world's shading normal n there: its dust and its sheen
+ * become the amounts at this point. Both renderers call this before they make the stack. */
 FN Surface dust_accumulate(Surface s, Dir n, Dir p) {
-    if (s.dust <= 0.0f) return s;
+    if (!dust_settles(s)) return s;
     Surface t = s;
     float mask = 1.0f;
     if (s.dust_noise > 0.0f) mask = 1.0f - s.dust_noise + s.dust_noise * dust_noise(p, s.dust_scale);
-    t.dust = dust_amount(s.dust, dir_dot(n, dust_source(s)), s.dust_falloff, mask);
+    float lies = dust_lies(dir_dot(n, dust_source(s)), s.dust_falloff, mask);
+    t.dust = s.dust * lies;
+    t.sheen = s.sheen * mix(1.0f, lies, s.sheen_upward);
     return t;
 }

@@ -72,6 +72,8 @@
       "diffuse=body: the peak towards the light")                                                                      \
     P(SCALAR, diffuse_lift, "glow away from it", 0.3f, 0.0f, 8.0f, 0.0f, 8.0f, SHAPE,                                  \
       "diffuse=body: how much brighter it is where light and viewer part")                                             \
+    P(SCALAR, sheen_upward, "only on what faces up", 0.0f, 0.0f, 1.0f, 0.0f, 1.0f, NONE,                               \
+      "1: the sheen lies as dust does, its amount times max(n . d, 0)^dust_falloff")                                   \
     P(ANGLE, nap, "nap, lean of fibres", 0.0f, 0.0f, 45.0f, 0.0f, 90.0f, SHAPE,                                        \
       "how far the fibres of a sheen lean over, degrees")                                                              \
     P(DIRECTION, nap_direction, "nap direction", 0.0f, 0.0f, 360.0f, -1e6f, 1e6f, NONE,                                \
@@ -106,7 +108,8 @@
     C(sheen_v, "visibility of a sheen of free terms; auto is neubelt")                                                 \
     C(sheen_f, "Fresnel term of a sheen of free terms; auto is none")                                                  \
     C(layer, "the rule by which the sheen sits on the base")                                                           \
-    C(layer_by, "which colour the rule takes: max, the strongest channel, or channel, each its own")                   \
+    C(layer_by, "which colour the rule takes: max, the strongest channel, or channel, each its own; auto is max, of "  \
+                "rule multiplicative channel")                                                                         \
     C(convert, "turn the inputs of workflow metallic or specular into those of the other one first")
 
 #define CHOICE_AUTO (-1)

@@ -3,8 +3,9 @@
  *
  *   f = base_color diffuse + D V F + sheen,   f0 = specular_color specular, f90 = 1
  *
- *   For looking at terms; it may gain energy, for nothing is taken from anything. The layer rule is additive
- * unless another is chosen. */
+ *   For looking at terms, and the specular workflow of viewers that use each map directly: a coloured reflection beside a
+ * coloured diffuse lobe. It may gain energy, for nothing is taken from anything; workflow specular dims the diffuse lobe
+ * by 1 - max3 f0 in place of that. The layer rule is additive unless another is chosen. */
 #pragma once
 
 #include "shading/stack/workflow.h"

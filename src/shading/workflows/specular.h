@@ -4,7 +4,7 @@
  *
  *   Khronos Group, KHR_materials_pbrSpecularGlossiness, 2017 (Appendix: F0 = specular, diffuse dimmed by the
  * strongest channel of it). It can express more than metallic: any pair of colours. `convert.h` has what is lost
- * on the way to metallic. */
+ * on the way to metallic. Older viewers use each map directly, which is workflow free. */
 #pragma once
 
 #include "shading/stack/workflow.h"

@@ -27,7 +27,8 @@ static void prepare(const WeftScene *scene, const Material *material, TableRef s
         const Lobe yarn = lobe_default(LOBE_YARN);
         stack_put_base(&prepared->stack, &yarn, rgb_grey(1.0f), rgb_grey(1.0f));
     }
-    prepared->kind = prepared->measured ? NULL : stack_kind(&prepared->stack, &prepared->choices);
+    const bool settles = dust_settles(prepared->untextured);
+    prepared->kind = prepared->measured || settles ? NULL : stack_kind(&prepared->stack, &prepared->choices);
     prepared->emits = material_emits(material);
     prepared->needs_tangents = !prepared->kind || prepared->cloth || prepared->material.inputs[INPUT_normal].texture ||
                                prepared->material.inputs[INPUT_clearcoat_normal].texture ||

@@ -73,7 +73,7 @@ static Rgb f_cos_of_sky(const PathContext *context, const Stack *stack, const St
 /* Returns the stack at a vertex: the material's, or one of its own in chunk->stack. */
 static const Stack *stack_at(Chunk *chunk, const PathMaterial *material, int k) {
     Surface surface = surface_of_row(&chunk->vertices.surface, (size_t)k);
-    if (!material->textured && !(surface.dust > 0.0f)) return &material->stack;
+    if (!material->textured && !dust_settles(surface)) return &material->stack;
     Dir normal = dir(chunk->frame[2][0][k], chunk->frame[2][1][k], chunk->frame[2][2][k]);
     Dir position = dir(chunk->position[0][k], chunk->position[1][k], chunk->position[2][k]);
     surface = dust_accumulate(frame_surface(surface), normal, position);
