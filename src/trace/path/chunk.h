@@ -83,8 +83,9 @@ typedef struct Chunk {
     Row origin_behind[3];    /* of rays that leave on the far side, if the material transmits */
     Row geometric[3];        /* normal of the triangle on the viewer's side */
     Row normal[3];           /* interpolated normal on the viewer's side */
+    Row visible[3];          /* of the shading frame without a normal map: normal, where the viewer sees its side */
     Row side;                /* 1 if the viewer sees the triangle's front, else -1 */
-    Row *horizon_normal;     /* geometric or normal: light from below its plane does not count */
+    Row *horizon_normal;     /* geometric or visible: light from below its plane does not count */
     Row uv_edge[2][2];       /* differences of texture coordinates along two edges, on a woven material */
     ClothLooks cloth_points; /* where and how finely a woven material is looked up */
     Row frame[3][3];         /* x, y, z of the shading frame */

@@ -115,6 +115,7 @@ LOOP(place_n, (Chunk *restrict chunk, float share, int n), (chunk, share, n)) {
         Dir normal = dir_normal_or(blend(na, nb, nd, u, v), geometric);
         normal = dir_choose(dir_dot(normal, geometric) > 0.0f, normal, geometric); /* else damaged */
         put3(chunk->normal, k, normal);
+        put3(chunk->visible, k, frame_visible_normal(normal, wo));
         put3(chunk->position, k, p);
         put3(chunk->lifted, k, lifted);
         put_origin(chunk->origin, k, lifted, geometric);
@@ -134,8 +135,10 @@ void chunk_place(Chunk *chunk, const ChunkSource *source) {
     float share = source->context->lift ? 1.0f : 0.0f;
     gather_paths(chunk, source, n);
     gather_corners(chunk, source->context->scene, n);
-    /* a triangle that faces away from light which its smooth surface faces, lifted, does not shadow itself */
-    chunk->horizon_normal = source->context->lift ? chunk->normal : chunk->geometric;
+    /* A triangle that faces away from light which its smooth surface faces, lifted, does not shadow itself. Past a fold
+     * the smooth surface faces away from the viewer: the horizon then is that of the normal that is shaded, for else
+     * what is drawn between the two would be lost. */
+    chunk->horizon_normal = source->context->lift ? chunk->visible : chunk->geometric;
     place_n(chunk, share, n);
     if (source->context->materials[source->material].transmits) place_behind_n(chunk, share, n);
     stage_end(chunk->clock, STAGE_PLACE);
