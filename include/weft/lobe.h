@@ -125,9 +125,9 @@ WEFT_API float weft_lobe_pdf(const WeftLobe *lobe, const float wo[3], const floa
 /* Draws wi for u in [0, 1)^2 and returns its pdf; 0 means no sample, and wi must then not be used. */
 WEFT_API float weft_lobe_sample(const WeftLobe *lobe, const float wo[3], const float u[2], float wi[3]);
 
-/* Computes the directional albedo E per colour channel for wo = (sin, 0, cos_o): adaptive quadrature to 1e-4 absolute,
- * or to 4e-3 and 1e-3 where `silk` and `woven` have alpha below 0.1; with WEFT_LOBE_REFERENCE a mean whose standard
- * error is 0.0011 at most. cos_o is clamped to [1e-6, 1]. */
+/* Computes the directional albedo E per colour channel for wo = (sin, 0, cos_o): adaptive quadrature to 1e-4 absolute, or
+ * to 2e-4 of `charlie-khronos`, whose clamp is a crease; with WEFT_LOBE_REFERENCE a mean whose standard error is 0.0011
+ * at most. cos_o is clamped to [1e-6, 1]. */
 WEFT_API void weft_lobe_albedo(const WeftLobe *lobe, float cos_o, float e[3]);
 
 #ifdef __cplusplus
