@@ -4,7 +4,9 @@
  *
  * - the parameters of both that are numbers, within their plausible ranges;
  * - the choices of the lobe: every combination is evaluated, and the best ones are searched;
- * - the colours of both, at least 0. A colour above 1 is noted by weft_fitted_notes.
+ * - the colours of both, at least 0, and such that base and lobe together reflect no more light than they receive in
+ *   any direction and channel (E <= 1). WeftFitDesc.free lifts that bound. A colour above 1 may then still be within it,
+ *   since f90 is reached at the horizon alone; weft_fitted_notes notes it.
  *
  * Candidates are all lobes but diffuse ones and WEFT_LOBE_REFERENCE.
  *
@@ -81,6 +83,8 @@ typedef struct WeftFitted {
     WeftLobe base;         /* likewise; f0 and f90 are its colour, a factor on the white base; of a weave the weft */
     int numbers;           /* count of fitted numbers: parameters of both, and three a colour, or one if all is grey */
     double error;          /* by the metric that was chosen */
+    double free_error;     /* of the same fit without the bound on E; equal to error where that is not reached */
+    float albedo;          /* the largest E of both together, over directions and channels */
     long long evaluations; /* of the error during the search */
 } WeftFitted;
 
@@ -88,7 +92,8 @@ typedef struct WeftFitted {
 enum {
     WEFT_FITTED_NOTHING = 1 << 0, /* the lobe's colours are 0: only the base is left */
     WEFT_FITTED_BRIGHT = 1 << 1,  /* a colour, of the base, f0 or f90, is above 1 */
-    WEFT_FITTED_EDGE = 1 << 2     /* a number ends where its plausible range does */
+    WEFT_FITTED_EDGE = 1 << 2,    /* a number ends where its plausible range does */
+    WEFT_FITTED_GAINS = 1 << 3    /* albedo is above 1, by more than 0.002 */
 };
 
 /* Returns the notes on a fit, or-ed together; 0 without any. */
@@ -109,8 +114,9 @@ typedef struct WeftFit {
 typedef struct WeftFitDesc {
     WeftBrdfMetric metric; /* LOG where `chosen` is 0; PICTURE is refused */
     int chosen;            /* not 0: metric was chosen */
-    const char *base;      /* a diffuse lobe, or "all": over each of them; NULL: lambert; "woven": a weave */
+    const char *base;      /* a diffuse lobe, or "all": over each of them; NULL: body; "woven": a weave */
     const char *only;      /* one candidate instead of all; NULL: all */
+    int free;              /* not 0: without the bound on E */
     int expressible;       /* not 0: parameters that no material has an input for stay at their default */
     int threads;           /* 0: one a processor; no influence on the result */
     WeftProgress progress; /* may be NULL */

@@ -89,6 +89,7 @@ static const struct {
     {WEFT_FITTED_NOTHING, "adds nothing"},
     {WEFT_FITTED_BRIGHT, "a colour above 1"},
     {WEFT_FITTED_EDGE, "at an end of its range"},
+    {WEFT_FITTED_GAINS, "reflects more than it receives"},
 };
 enum { NOTES = sizeof notes / sizeof *notes };
 
@@ -98,8 +99,8 @@ static void row_write(const char *rank, const char *name, const WeftFitted *fitt
              (double)fitted->base.f0[2]);
     snprintf(color, sizeof color, "%.3g,%.3g,%.3g", (double)fitted->lobe.f0[0], (double)fitted->lobe.f0[1],
              (double)fitted->lobe.f0[2]);
-    printf("%4s  %-44s %7.4f  %7d  %-19s  %-24s %s", rank, name, fitted->error, fitted->numbers, base, color,
-           params_text(fitted, params, sizeof params));
+    printf("%4s  %-44s %7.4f  %7.4f  %5.3f  %7d  %-19s  %-24s %s", rank, name, fitted->error, fitted->free_error,
+           (double)fitted->albedo, fitted->numbers, base, color, params_text(fitted, params, sizeof params));
     for (int k = 0; k < NOTES; k++)
         if (weft_fitted_notes(fitted) & notes[k].note) printf("  (%s)", notes[k].words);
     putchar('\n');
@@ -111,8 +112,8 @@ static void text_write(const Fitting *fitting) {
     print_name(fitting->path);
     printf(": %d samples of %d; error is %s, relative; base %s\n\n", count, all, weft_brdf_metric_name(fitting->metric),
            fitting->base);
-    printf("%4s  %-44s %7s  %7s  %-19s  %-24s %s\n", "", "lobe over base", "error", "numbers", "base color",
-           "lobe color", "parameters");
+    printf("%4s  %-44s %7s  %7s  %5s  %7s  %-19s  %-24s %s\n", "", "lobe over base", "error", "free", "E", "numbers",
+           "base color", "lobe color", "parameters");
     for (int k = 0; k < fit->count; k++) {
         const WeftLobeInfo *info = weft_lobe_info(fit->fitted[k].lobe.lobe);
         char rank[16], name[96];
@@ -129,6 +130,8 @@ static void text_write(const Fitting *fitting) {
     printf("these are fits to a measurement: what they say of directions that it has not is a guess. "
            "Numbers: how "
            "many were free, three of each colour\n");
+    printf("E: the most that is reflected of uniform light%s; free: the error without that bound\n",
+           option_given(fitting->options, "--free") ? "" : ", which a fit keeps within 1");
     printf("%d of %d are closer than the baseline, which is ggx over lambert with f90 = 1\n", better, fit->count);
     if (fitting->engine)
         printf(fitting->stated.reflection ? "%s has an error of %.4f, %.2f times the best\n"
@@ -153,6 +156,8 @@ static void json_fitted(Json *json, const char *key, const WeftFitted *fitted) {
     json_open(json, key, '{');
     json_text(json, "lobe", info->id);
     json_number(json, "error", fitted->error);
+    json_number(json, "free_error", fitted->free_error);
+    json_float(json, "albedo", fitted->albedo);
     json_text(json, "base", weft_lobe_info(fitted->base.lobe)->id);
     json_whole(json, "numbers", fitted->numbers);
     json_floats(json, "base_color", fitted->base.f0, 3);
@@ -219,6 +224,7 @@ static WeftResult expressible_fit(const Fitting *fitting, WeftFit *refit, WeftMa
                               .chosen = 1,
                               .base = weft_lobe_info(best->base.lobe)->id,
                               .only = weft_lobe_info(best->lobe.lobe)->id,
+                              .free = option_given(fitting->options, "--free"),
                               .expressible = 1};
     WeftResult result = weft_fit(fitting->data, &desc, refit, error);
     if (result == WEFT_OK && weft_fitted_material(&refit->fitted[0], material))
@@ -238,9 +244,9 @@ static int material_write(const Fitting *fitting) {
     if (result != WEFT_OK) return report_error(&error);
     if (!weft_fitted_material(&refit.fitted[0], &material))
         return report(WEFT_FAILED, "%s: no fit can be expressed by the inputs of a material", fitting->path);
-    if (weft_fitted_notes(&refit.fitted[0]) & WEFT_FITTED_BRIGHT)
-        report(0, "warning: %s: a colour is above 1: the material may reflect more light than it receives",
-               fitting->path);
+    if (weft_fitted_notes(&refit.fitted[0]) & WEFT_FITTED_GAINS)
+        report(0, "warning: %s: the material reflects up to %.3f times the light it receives", fitting->path,
+               (double)refit.fitted[0].albedo);
     return fit_files_write(fitting->options, &material);
 }
 
@@ -321,6 +327,7 @@ static int fit_make(Fitting *fitting) {
                               .chosen = 1,
                               .base = fitting->base,
                               .only = only,
+                              .free = option_given(fitting->options, "--free"),
                               .progress = progress_heed,
                               .user = &progress};
     result = weft_fit(fitting->data, &desc, &fitting->fit, &error);
@@ -362,8 +369,9 @@ static int fit_run(const Options *options) {
 static const Option fit_options[] = {
     OPTION_HEADING("Fit"),
     OPTION_TEXT("--metric", "NAME", "log", "what is made least: log or cosine"),
-    OPTION_TEXT("--base", "LOBE|all|woven", "lambert",
+    OPTION_TEXT("--base", "LOBE|all|woven", "body",
                 "the diffuse lobe below, or each of them; woven: fit warp and weft of a cloth alone"),
+    OPTION_SWITCH("--free", "let base and lobe reflect more light than they receive, where that is closer"),
     OPTION_LOBES_OR("fit this lobe alone"),
     OPTION_ROOT,
     OPTION_TEXT("--to", "PROFILE", NULL,
@@ -391,7 +399,8 @@ const Verb verb_fit = {
              "tangent, f in 1/sr. Lines that start with # are passed over; one line of names\n"
              "may stand above. A negative number was not measured.\n\n"
              "Every lobe of the catalogue that is no diffuse term is fitted, over a diffuse\n"
-             "base: all parameters and colours of both. The baseline is ggx over lambert.\n"
+             "base: all parameters and colours of both, so that neither direction nor channel\n"
+             "reflects more light than it receives. The baseline is ggx over lambert.\n"
              "The error is the sum of |g(fit) - g(data)| over that of g(data), of x = f cos:\n"
              "  log      g = ln(1 + x / mean x)\n"
              "  cosine   g = x\n"

@@ -4,9 +4,11 @@
 
 #include "base/pi.h"
 
-/* Normal equations of one channel: A weights = b. */
+/* Normal equations of one channel: A weights = b; and the limits on the weights. */
 typedef struct Normal {
     double a[BLEND_MOST][BLEND_MOST], b[BLEND_MOST];
+    int limits;
+    double limit[BLEND_LIMITS][BLEND_MOST], room[BLEND_LIMITS];
 } Normal;
 
 /* Returns the sum of w x y, computed as LANES independent sums. */
@@ -21,6 +23,15 @@ static double dot(const float *w, const float *x, const float *y, int count) {
     return sum;
 }
 
+/* Copies the limits of channel c. */
+static void normal_limit(Normal *normal, const Blend *blend, int c) {
+    normal->limits = blend->limits;
+    for (int l = 0; l < blend->limits; l++) {
+        normal->room[l] = blend->room[l][c];
+        for (int j = 0; j < blend->columns; j++) normal->limit[l][j] = blend->limit[l][j];
+    }
+}
+
 static void normal_make(Normal *normal, int columns, const float *const column[], const float *w, const float *rest,
                         int count) {
     for (int j = 0; j < columns; j++) {
@@ -29,21 +40,34 @@ static void normal_make(Normal *normal, int columns, const float *const column[]
     }
 }
 
-/* Solves for the columns in `active`, a set of bits, by Gauss elimination. Returns false if they are linearly
- * dependent. */
-static bool solve_active(const Normal *normal, int columns, unsigned active, double *weights) {
-    double m[BLEND_MOST][BLEND_MOST + 1];
-    int index[BLEND_MOST], n = 0;
+/* Limits that hold with equality: their weights make the last rows of a system. */
+enum { HELD_MOST = 2, SYSTEM_MOST = BLEND_MOST + HELD_MOST };
+typedef struct Held {
+    int count, limit[HELD_MOST];
+} Held;
+
+/* Solves for the columns in `active`, a set of bits, under the held limits with a multiplier for each, by Gauss
+ * elimination. Returns false if they are linearly dependent. The multipliers come last, so that without held limits no
+ * pivot is small. */
+static bool solve_active(const Normal *normal, int columns, unsigned active, const Held *held, double *weights) {
+    double m[SYSTEM_MOST][SYSTEM_MOST + 1] = {{0.0}}, solved[SYSTEM_MOST];
+    int index[BLEND_MOST], free_columns = 0;
     for (int j = 0; j < columns; j++) {
         weights[j] = 0.0;
-        if (active >> j & 1u) index[n++] = j;
+        if (active >> j & 1u) index[free_columns++] = j;
     }
-    for (int r = 0; r < n; r++) {
-        for (int c = 0; c < n; c++) m[r][c] = normal->a[index[r]][index[c]];
+    const int n = free_columns + held->count;
+    for (int r = 0; r < free_columns; r++) {
+        for (int c = 0; c < free_columns; c++) m[r][c] = normal->a[index[r]][index[c]];
+        for (int h = 0; h < held->count; h++)
+            m[r][free_columns + h] = m[free_columns + h][r] = normal->limit[held->limit[h]][index[r]];
         m[r][n] = normal->b[index[r]];
     }
+    for (int h = 0; h < held->count; h++) m[free_columns + h][n] = normal->room[held->limit[h]];
     for (int p = 0; p < n; p++) {
-        if (!(m[p][p] > 1e-10 * normal->a[index[p]][index[p]])) return false;
+        const bool column = p < free_columns;
+        const double least = column ? 1e-10 * normal->a[index[p]][index[p]] : 1e-30;
+        if (!((column ? m[p][p] : -m[p][p]) > least)) return false;
         for (int r = p + 1; r < n; r++) {
             double t = m[r][p] / m[p][p];
             for (int c = p; c <= n; c++) m[r][c] -= t * m[p][c];
@@ -51,27 +75,62 @@ static bool solve_active(const Normal *normal, int columns, unsigned active, dou
     }
     for (int r = n - 1; r >= 0; r--) {
         double sum = m[r][n];
-        for (int c = r + 1; c < n; c++) sum -= m[r][c] * weights[index[c]];
-        weights[index[r]] = sum / m[r][r];
+        for (int c = r + 1; c < n; c++) sum -= m[r][c] * solved[c];
+        solved[r] = sum / m[r][r];
+        if (r < free_columns) weights[index[r]] = solved[r];
     }
     return true;
 }
 
-/* Solves least squares without negative weights, by trying every set of columns, since there are few. */
-static void solve_positive(const Normal *normal, int columns, double *weights) {
-    double least = 1e300;
+static double cost_of(const Normal *normal, int columns, const double *weights) {
+    double cost = 0.0;
+    for (int j = 0; j < columns; j++) {
+        for (int l = 0; l < columns; l++) cost += weights[j] * normal->a[j][l] * weights[l];
+        cost -= 2.0 * weights[j] * normal->b[j];
+    }
+    return cost;
+}
+
+/* Returns true if all weights are at least 0 and, if asked, all limits hold. */
+static bool is_allowed(const Normal *normal, int columns, const double *weights, bool limits) {
+    for (int j = 0; j < columns; j++)
+        if (weights[j] < 0.0) return false;
+    for (int l = 0; limits && l < normal->limits; l++) {
+        double sum = 0.0;
+        for (int j = 0; j < columns; j++) sum += normal->limit[l][j] * weights[j];
+        if (sum > normal->room[l] + 1e-9) return false;
+    }
+    return true;
+}
+
+/* Tries every set of columns with the held limits; improves on *least. */
+static void try_columns(const Normal *normal, int columns, const Held *held, bool limits, double *least,
+                        double *weights) {
     for (unsigned active = 0; active < 1u << columns; active++) {
-        double trial[BLEND_MOST], cost = 0.0;
-        bool good = solve_active(normal, columns, active, trial);
-        for (int j = 0; good && j < columns; j++) {
-            good = !(trial[j] < 0.0);
-            for (int l = 0; l < columns; l++) cost += trial[j] * normal->a[j][l] * trial[l];
-            cost -= 2.0 * trial[j] * normal->b[j];
-        }
-        if (!good || !(cost < least)) continue;
-        least = cost;
+        double trial[BLEND_MOST];
+        if (!solve_active(normal, columns, active, held, trial)) continue;
+        if (!is_allowed(normal, columns, trial, limits)) continue;
+        double cost = cost_of(normal, columns, trial);
+        if (!(cost < *least)) continue;
+        *least = cost;
         for (int j = 0; j < columns; j++) weights[j] = trial[j];
     }
+}
+
+/* Solves least squares without negative weights, by trying every set of columns, since there are few. If the result breaks
+ * a limit, tries every set with one or two limits held, too; without columns none is broken. */
+static void solve_positive(const Normal *normal, int columns, double *weights) {
+    double least = 1e300;
+    Held held = {0};
+    try_columns(normal, columns, &held, false, &least, weights);
+    if (is_allowed(normal, columns, weights, true)) return;
+    least = 1e300;
+    try_columns(normal, columns, &held, true, &least, weights);
+    for (int first = 0; first < normal->limits; first++)
+        for (int second = first; second < normal->limits; second++) {
+            held = (Held){second > first ? 2 : 1, {first, second}};
+            try_columns(normal, columns, &held, true, &least, weights);
+        }
 }
 
 /* Computes x of the blend. */
@@ -119,8 +178,9 @@ double blend_solve(const Samples *self, int count, int c, const Blend *blend, do
     const float *columns[BLEND_MOST];
     for (int j = 0; j < blend->columns; j++) columns[j] = blend->column[j][c], weights[j] = 0.0;
     for (int k = 0; k < count; k++) rest[k] = self->x[c][k] - (blend->fixed[c] ? blend->fixed[c][k] : 0.0f);
+    Normal normal;
+    normal_limit(&normal, blend, c);
     for (int round = 0; round < rounds && blend->columns > 0; round++, soft *= 0.3f) {
-        Normal normal;
         blend_add(blend, count, c, weights, x);
         if (round == 0)
             for (int k = 0; k < count; k++) w[k] = self->weight[k];

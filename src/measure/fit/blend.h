@@ -1,14 +1,17 @@
-/* blend.h - non-negative weights of sums of columns that come closest to samples, separately in each channel */
+/* blend.h - non-negative weights of sums of columns that come closest to samples, separately in each channel, and, if
+ * asked, within limits on other sums of the weights */
 #pragma once
 
 #include "measure/fit/samples.h"
 
-enum { BLEND_MOST = 4 };
+enum { BLEND_MOST = 4, BLEND_LIMITS = 10 };
 typedef struct Blend {
     int columns;
     const float *column[BLEND_MOST][3]; /* [column][channel]: x of the samples */
     const float *fixed[3];              /* [channel]: x without any column; NULL: 0 */
-    float *work;                        /* scratch of 3 count floats */
+    int limits;                         /* sum over columns of limit[l][column] weight <= room[l][channel] */
+    double limit[BLEND_LIMITS][BLEND_MOST], room[BLEND_LIMITS][3]; /* none below 0 */
+    float *work;                                                   /* scratch of 3 count floats */
 } Blend;
 
 /* Finds the weights that make the error of channel c least over the first count samples, and returns what

@@ -99,6 +99,18 @@ static WeftResult fit_lobe(const LobeSearch *search, LobeFound *out) {
     return result;
 }
 
+/* Fits once more, from what was found without a bound, so that E stays within 1. The start has the parameters of both, and
+ * colours that a lobe which is no factor of them is searched from. */
+static WeftResult keep_within_bound(LobeSearch search, LobeFound *found) {
+    const WeftLobe base = found->base;
+    LobeFound bound = {.lobe = found->lobe, .evaluations = found->evaluations};
+    search.base = &base;
+    search.bound = true;
+    WeftResult result = lobe_search_run(&search, &bound);
+    *found = bound;
+    return result;
+}
+
 /* Fits one item of work. `hold` names what stays as it is: f90 of the baseline and, if a material has to express the
  * fit, parameters that no input of a material sets. */
 static WeftResult fit_item(FitWork *work, int item, ItemProgress *item_progress) {
@@ -114,12 +126,20 @@ static WeftResult fit_item(FitWork *work, int item, ItemProgress *item_progress)
         search.hold |= params_without_input(&found.lobe);
         search.hold_base = params_without_input(base);
     }
-    WeftResult result =
-        work->weave && !baseline ? weave_search_run(&work->samples, item_progress, &found) : fit_lobe(&search, &found);
+    const bool weave = work->weave && !baseline;
+    WeftResult result = weave ? weave_search_run(&work->samples, item_progress, &found) : fit_lobe(&search, &found);
+    const double free_error = found.error;
+    float albedo = result == WEFT_OK ? lobe_search_albedo(&found.base, &found.lobe) : 0.0f;
+    if (result == WEFT_OK && !weave && !baseline && !work->desc->free && albedo > 1.0f) {
+        result = keep_within_bound(search, &found);
+        albedo = result == WEFT_OK ? lobe_search_albedo(&found.base, &found.lobe) : 0.0f;
+    }
     work->fitted[item] = (WeftFitted){.lobe = found.lobe,
                                       .base = found.base,
                                       .numbers = found.numbers,
                                       .error = found.error,
+                                      .free_error = free_error,
+                                      .albedo = albedo,
                                       .evaluations = found.evaluations};
     return result;
 }
@@ -190,7 +210,7 @@ static WeftResult list_candidates(FitWork *work, WeftError *error) {
     const WeftFitDesc *desc = work->desc;
     WeftResult result = weft_lobe_init("lambert", &work->lambert, error);
     if (result == WEFT_OK) result = weft_lobe_init("ggx", &work->ggx, error);
-    if (result == WEFT_OK) result = set_bases(work, desc->base ? desc->base : "lambert", error);
+    if (result == WEFT_OK) result = set_bases(work, desc->base ? desc->base : "body", error);
     WeftLobe only = {.lobe = -1};
     const char *id = work->weave && !desc->only ? weft_lobe_info(work->bases[0].lobe)->id : desc->only;
     if (result == WEFT_OK && id) result = weft_lobe_init(id, &only, error);

@@ -56,6 +56,7 @@ unsigned weft_fitted_notes(const WeftFitted *fitted) {
     }
     if (!(most > 1e-6f)) notes |= WEFT_FITTED_NOTHING;
     if (fmaxf(most, base) > 1.0f) notes |= WEFT_FITTED_BRIGHT;
+    if (fitted->albedo > 1.002f) notes |= WEFT_FITTED_GAINS;
     const bool weave = weft_fitted_is_weave(fitted) != 0;
     if (at_edge(lobe, weave) || at_edge(&fitted->base, weave)) notes |= WEFT_FITTED_EDGE;
     return notes;

@@ -62,6 +62,48 @@ static Blend blend_of(const LobeWalker *self, int count) {
     return blend;
 }
 
+/* Cosines at which E is kept within 1. E is smooth between them. */
+static const float bound_cosines[BLEND_LIMITS] = {1.0f, 0.8f, 0.6f, 0.4f, 0.25f, 0.15f, 0.1f, 0.05f, 0.02f, 0.005f};
+
+/* Limits the colours of a blend: E of base and lobe is at most 1 in each channel. The parts of a lobe are as in
+ * eval_parts, and its columns in the order of blend_of. */
+static void add_limits(const LobeWalker *self, Blend *blend, WeftLobe lobe) {
+    float e[3][BLEND_LIMITS], base[BLEND_LIMITS] = {0.0f};
+    const unsigned hold = self->search->hold;
+    const bool locked[2] = {(hold & WEFT_HOLD_COLOR) != 0, (hold & WEFT_HOLD_COLOR_2) != 0};
+    for (int c = 0; c < 3 && !self->tinted; c++) lobe.f0[c] = c == 0, lobe.f90[c] = c == 1;
+    weft_albedo_n(&lobe, BLEND_LIMITS, bound_cosines, (WeftColors){e[0], e[1], e[2]}, NULL);
+    if (self->search->base)
+        weft_albedo_n(&self->white_base, BLEND_LIMITS, bound_cosines, (WeftColors){base, NULL, NULL}, NULL);
+    blend->limits = BLEND_LIMITS;
+    for (int l = 0; l < BLEND_LIMITS; l++) {
+        int column = 0;
+        if (self->search->base) blend->limit[l][column++] = (double)base[l];
+        for (int c = 0; c < 3; c++) blend->room[l][c] = 1.0 - (double)e[self->tinted ? c : 2][l];
+        for (int part = 0; part < (self->tinted ? 0 : self->second ? 2 : 1); part++) {
+            const double of_part = fmax((double)e[part][l] - (double)e[2][l], 0.0);
+            const float *color = part ? self->start.f90 : self->start.f0;
+            if (!locked[part]) blend->limit[l][column++] = of_part;
+            for (int c = 0; c < 3 && locked[part]; c++) blend->room[l][c] -= (double)color[c] * of_part;
+        }
+        for (int c = 0; c < 3; c++) blend->room[l][c] = fmax(blend->room[l][c], 0.0);
+    }
+}
+
+float lobe_search_albedo(const WeftLobe *base, const WeftLobe *lobe) {
+    enum { COSINES = 4 * (BLEND_LIMITS - 1) + 1 };
+    float cosines[COSINES], of_base[3][COSINES] = {{0.0f}}, e[3][COSINES], most = 0.0f;
+    for (int k = 0; k < COSINES; k++) {
+        const float t = 0.25f * (float)(k % 4), low = bound_cosines[k / 4];
+        cosines[k] = k % 4 ? low + t * (bound_cosines[k / 4 + 1] - low) : low;
+    }
+    weft_albedo_n(lobe, COSINES, cosines, (WeftColors){e[0], e[1], e[2]}, NULL);
+    if (base) weft_albedo_n(base, COSINES, cosines, (WeftColors){of_base[0], of_base[1], of_base[2]}, NULL);
+    for (int c = 0; c < 3; c++)
+        for (int k = 0; k < COSINES; k++) most = fmaxf(most, of_base[c][k] + e[c][k]);
+    return most;
+}
+
 static WeftLobe lobe_at(const LobeWalker *self, const double *x) {
     WeftLobe lobe = self->start;
     for (int k = 0; k < self->frees; k++) lobe.params[self->free[k]] = (float)x[k];
@@ -123,6 +165,7 @@ static double error_at(void *user, double *x, SearchCare care) {
     else
         eval_parts(self, lobe, count);
     Blend blend = blend_of(self, count);
+    if (self->search->bound) add_limits(self, &blend, lobe);
     double sum = 0.0;
     for (int c = 0; c < s->channels && progress_report(self->search->item_progress, 0.0); c++)
         sum += blend_solve(s, count, c, &blend, self->weights[c]);

@@ -13,6 +13,7 @@ typedef struct LobeSearch {
     unsigned hold;               /* as in weft_match_lobe */
     unsigned hold_base;          /* bit k: parameter k of the base is locked */
     bool isotropic;              /* the goal is isotropic: an isotropic lobe stays so */
+    bool bound;                  /* base and lobe together reflect no more light than they receive */
     ItemProgress *item_progress; /* may be NULL */
 } LobeSearch;
 
@@ -23,6 +24,10 @@ typedef struct LobeFound {
     double start, error;
     long long evaluations;
 } LobeFound;
+
+/* Returns the largest directional albedo of a base (may be NULL) and a lobe in their colours, of any channel, over
+ * cosines down to 0.005; of an anisotropic one for wo along x. */
+float lobe_search_albedo(const WeftLobe *base, const WeftLobe *lobe);
 
 /* Searches from out->lobe. Fails with WEFT_RESOURCES if memory is short, WEFT_INTERRUPTED if item_progress stops it. */
 WeftResult lobe_search_run(const LobeSearch *search, LobeFound *out);
