@@ -31,7 +31,7 @@ FN Lobe compose_facets(Lobe lobe) {
         m.params[COOK_TORRANCE_D] = to_float(D_GGX_ANISO);
         m.params[COOK_TORRANCE_V] = to_float(V_SMITH_GGX_ANISO);
     }
-    m.params[COOK_TORRANCE_STRETCH] = clamp(p.ax / m.params[COOK_TORRANCE_ALPHA], 0.01f, 100.0f);
+    m.params[COOK_TORRANCE_STRETCH] = clamp(p.ax / p.ay, 0.01f, 100.0f); /* alpha has a floor, above that of ggx */
     return m;
 }
 

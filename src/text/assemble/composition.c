@@ -58,14 +58,25 @@ static const Composition *composition_of(const Choices *choices) {
 
 const char *composition_stack(const Choices *choices) { return composition_of(choices)->stack; }
 
-static void add_lobe(CompositionSlots *self, int slot, const Slot *from) {
-    TextSlot *to = &self->slots[slot];
+/* Adds the lobe of a slot to a list. Returns false if the slot is empty or the list has the lobe. */
+static bool add_lobe(TextSlot *to, const Slot *from) {
     int id = from->lobe.id;
-    if (weft_lobe_info(id)->traits & TRAIT_REFERENCE || !(from->normal > 0.0f)) return;
+    if (weft_lobe_info(id)->traits & TRAIT_REFERENCE || !(from->normal > 0.0f)) return false;
     for (int k = 0; k < to->count; k++)
-        if (to->lobes[k] == id) return;
-    if (!to->count) self->lobes[slot] = from->lobe;
+        if (to->lobes[k] == id) return false;
     to->lobes[to->count++] = id;
+    return true;
+}
+
+/* Adds the highlight as the workflow or profile makes it. compose_choices reads its alphas if terms are chosen. */
+static void add_begun(CompositionSlots *self, const Surface *s, const Choices *choices) {
+    const Choices c = convert_choices(*choices);
+    Surface t = convert_surface(*s, *choices);
+    Stack m;
+    if (c.d < 0 && c.v < 0 && c.f < 0) return;
+    compose_surface(&t, c);
+    compose_begin(&m, &t, c);
+    add_lobe(&self->begun, &m.specular);
 }
 
 CompositionSlots composition_slots(const Choices *choices, const bool zero[INPUT_COUNT], bool whole_sheen) {
@@ -75,7 +86,12 @@ CompositionSlots composition_slots(const Choices *choices, const bool zero[INPUT
         Surface s = composition_surface(0.5f * (float)(x % 3), zero);
         if (x > 2) s.sheen = 0.5f; /* a profile may blend from highlight to sheen by it */
         stack_make(&m, &s, choices, (TableRef){.kind = TABLE_NONE});
-        for (int k = 0; k < SLOT_COUNT; k++) add_lobe(&found, k, stack_slot(&m, k));
+        for (int k = 0; k < SLOT_COUNT; k++) {
+            const Slot *slot = stack_slot(&m, k);
+            const bool first = add_lobe(&found.slots[k], slot) && found.slots[k].count == 1;
+            if (first) found.lobes[k] = slot->lobe;
+        }
+        add_begun(&found, &s, choices);
         const Stack *made = &m;
         found.used &= !IS_BELOW_F(made);
         found.transmits |= HAS_TRANSMITTED(made);
@@ -87,9 +103,11 @@ CompositionSlots composition_slots(const Choices *choices, const bool zero[INPUT
 void text_composition_lobes(Text *text, const CompositionSlots *found, int table_kind, int table_tilts) {
 #define SLOT_HAS(name, NAME, Name, wo) "HAS_" #NAME "(m)",
     static const char *const has[] = {SLOTS(SLOT_HAS)};
-    int ids[3 + SLOT_COUNT * LOBE_MOST] = {LOBE_LAMBERT, LOBE_GGX}, count = 2;
-    for (int k = 0; k < SLOT_COUNT; k++)
-        for (int j = 0; j < found->slots[k].count; j++) ids[count++] = found->slots[k].lobes[j];
+    int ids[2 + (SLOT_COUNT + 1) * LOBE_MOST] = {LOBE_LAMBERT, LOBE_GGX}, count = 2;
+    for (int k = 0; k <= SLOT_COUNT; k++) {
+        const TextSlot *slot = k < SLOT_COUNT ? &found->slots[k] : &found->begun;
+        for (int j = 0; j < slot->count; j++) ids[count++] = slot->lobes[j];
+    }
     char kind[16], tilts[16];
     snprintf(kind, sizeof kind, "%d", table_kind);
     snprintf(tilts, sizeof tilts, "%d", table_tilts);

@@ -12,6 +12,7 @@ Surface composition_surface(float x, const bool zero[INPUT_COUNT]);
 typedef struct CompositionSlots {
     TextSlot slots[SLOT_COUNT];
     Lobe lobes[SLOT_COUNT];
+    TextSlot begun; /* highlights that choices of D, V and F then replace by one of the same alphas */
     bool used;      /* no layer rule may leave out a black sheen (IS_BELOW_F) */
     bool transmits; /* a base transmits light */
 } CompositionSlots;

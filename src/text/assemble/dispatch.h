@@ -22,7 +22,8 @@ bool text_weight_is_cosine(int id);
  *
  * and f, s and pdf of lobe_value alone as lobe_f, lobe_fresnel_weight and lobe_pdf. For another lobe lobe_value is 0,
  * lobe_second is f0, and there is no sample. A surface (compose.h) names LOBE_LAMBERT and LOBE_GGX even if its profile
- * replaces them, and DUST_LOBE if it has dust, which is not drawn without that lobe. */
+ * replaces them, DUST_LOBE if it has dust, which is not drawn without that lobe, and a highlight whose terms it
+ * replaces. */
 void text_dispatch(Text *text, const int *lobes, int lobe_count);
 
 /* The lobes that a slot of a stack may have. */
