@@ -38,13 +38,14 @@ typedef struct Part {
     float x[ROW_CAPACITY], y[ROW_CAPACITY];                     /* place, in threads */
     float footprint_x[ROW_CAPACITY], footprint_y[ROW_CAPACITY]; /* as ClothLooks has them */
     float facet[ROW_CAPACITY];   /* the random number; then the index among both systems' facets */
+    float coarser[ROW_CAPACITY]; /* far: random, in [0, 1): chooses between two levels of the colours */
     float spacing[ROW_CAPACITY]; /* near: from point to point, in threads */
     float height[ROW_CAPACITY];  /* near: of the thread */
     float hair[ROW_CAPACITY];    /* near: number of the loose fibre on top; -1: none */
     YarnRows yarn;
 } Part;
 
-/* Sets the places, and `far` to 1 where a facet is to stand for the cloth. */
+/* Sets the places, and `far` to a new random number in [0, 1) where a facet is to stand for the cloth, to -1 elsewhere. */
 LOOP(place_n,
      (const ClothLooks *looks, const float per_uv[2], int n, float *restrict x, float *restrict y, float *restrict far),
      (looks, per_uv, n, x, y, far)) {
@@ -57,7 +58,8 @@ LOOP(place_n,
         f.longest = looks->longest[k] / LATER;
         x[k] = at.x;
         y[k] = at.y;
-        far[k] = looks->level[k] < weave_far_weight(f) ? 1.0f : 0.0f;
+        float weight = weave_far_weight(f);
+        far[k] = looks->level[k] < weight ? min(looks->level[k] / max(weight, 1e-6f), 1.0f - 1e-6f) : -1.0f;
     }
 }
 
@@ -66,7 +68,7 @@ static void pad(Part *part) {
     for (int k = part->count; k < row_whole(part->count); k++) {
         part->x[k] = part->x[0], part->y[k] = part->y[0], part->facet[k] = part->facet[0];
         part->footprint_x[k] = part->footprint_x[0], part->footprint_y[k] = part->footprint_y[0];
-        part->spacing[k] = part->spacing[0];
+        part->spacing[k] = part->spacing[0], part->coarser[k] = part->coarser[0];
     }
 }
 
@@ -76,10 +78,10 @@ static void split(const WeftCloth *cloth, const ClothLooks *looks, int n, Part p
     place_n(looks, cloth->per_uv, n, x, y, far);
     parts[0].count = parts[1].count = 0;
     for (int k = 0; k < n; k++) {
-        Part *part = &parts[far[k] > 0.0f];
+        Part *part = &parts[far[k] >= 0.0f];
         const int to = part->count++;
         part->at[to] = k;
-        part->x[to] = x[k], part->y[to] = y[k], part->facet[to] = looks->facet[k];
+        part->x[to] = x[k], part->y[to] = y[k], part->facet[to] = looks->facet[k], part->coarser[to] = far[k];
         part->footprint_x[to] = looks->footprint_x[k], part->footprint_y[to] = looks->footprint_y[k];
         part->spacing[to] = looks->longest[k] / POINTS;
     }
@@ -152,8 +154,9 @@ FN Rgb dyed(const float *texels, int at, float covers, float dye, float scale) {
     return rgb_scale(weave_dyed_rgb(color_at(texels, at), covers, dye), scale);
 }
 
-/* Chooses a system by what it reflects, and one of its facets, and sets colours and the yarn without its slopes. A
- * system that is chosen with chance c has colours / c. scale: factor of all colours. */
+/* Chooses a level of the colours: t of the way to the coarser one, that one with the chance 1 - (1 - t)^2, so that the
+ * noise of the finer one fades evenly. Then a system by what it reflects, and one of its facets, and sets colours and
+ * the yarn without its slopes. A system that is chosen with chance c has colours / c. scale: factor of all colours. */
 LOOP(choose_n, (const WeftCloth *cloth, Part *restrict part, float scale, int n), (cloth, part, scale, n)) {
     Weave m = without_cycle(&cloth->weave);
     const float *texels = cloth->far.texels;
@@ -169,7 +172,8 @@ LOOP(choose_n, (const WeftCloth *cloth, Part *restrict part, float scale, int n)
         f.y = part->footprint_y[k];
         f.longest = 0.0f;
         float x = part->x[k], y = part->y[k];
-        int level = to_int(min(weave_far_level(f, finer_x, finer_y), last));
+        float fine = min(weave_far_level(f, finer_x, finer_y), last), between = fine - floor(fine);
+        int level = to_int(fine) + (part->coarser[k] < between * (2.0f - between) ? 1 : 0);
         int w = cloth_far_side(width, level), h = cloth_far_side(height, level);
         int layer = 4 * w * h, at = starts[level] + 4 * (texel_at(y / picks, h) * w + texel_at(x / warps, w));
         float warp_dye = weave_far_dye(&m, false, x, f.x / FINER), weft_dye = weave_far_dye(&m, true, y, f.y / FINER);

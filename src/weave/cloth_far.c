@@ -216,22 +216,24 @@ static void color_of_point(const Weave *m, WeavePoint p, double single[3], doubl
     }
 }
 
-/* Adds a point to the facets of its system, unless they are complete. single, multiple: its colours, which the facet
- * has in parts of its thread's. */
-static void add_facet(WeftCloth *cloth, WeavePoint p, double single, double multiple) {
-    const Weave *m = &cloth->weave;
+/* Facets of one system: all of its visible points, of which FACETS_MOST are kept. */
+typedef struct Facets {
+    ClothFacet *all;
+    int count;
+} Facets;
+
+/* Adds a point. single, multiple: its colours, which the facet has in parts of its thread's. */
+static void add_facet(Facets *to, const Weave *m, WeavePoint p, double single, double multiple) {
     const Yarn yarn = weave_yarn(m, p);
-    int *count = &cloth->facet_count[p.weft];
-    if (*count == FACETS_MOST) return;
     const int threads = p.weft ? m->picks : m->warps, thread = (int)weave_mod(p.thread, (float)threads);
     double own[2] = {0.0, 0.0}; /* colours of the thread */
     for (int c = 0; c < 3; c++)
         for (int kind = 0; kind < 2; kind++) own[kind] += (double)color_of(m, p.weft, thread, c, kind == 1) / 3.0;
-    cloth->facets[p.weft][(*count)++] = (ClothFacet){.slope_x = yarn.slope_x,
-                                                     .slope_y = yarn.slope_y,
-                                                     .azimuth = yarn.azimuth,
-                                                     .single = (float)(single / fmax(own[0], 1e-9)),
-                                                     .multiple = (float)(multiple / fmax(own[1], 1e-9))};
+    to->all[to->count++] = (ClothFacet){.slope_x = yarn.slope_x,
+                                        .slope_y = yarn.slope_y,
+                                        .azimuth = yarn.azimuth,
+                                        .single = (float)(single / fmax(own[0], 1e-9)),
+                                        .multiple = (float)(multiple / fmax(own[1], 1e-9))};
 }
 
 static int order_of(float a, float b) { return (a > b) - (a < b); }
@@ -267,19 +269,24 @@ static void order_facets(ClothFacet *facets, int count) {
     order_facets(facets + count / 2, count - count / 2);
 }
 
-/* Scales the factors to a mean of 1, and orders the facets. */
-static void finish_facets(ClothFacet *facets, int *count) {
+/* Orders all facets and keeps FACETS_MOST of them, evenly spread over that order: by chance alone the few steep facets
+ * of a narrow highlight would be some percent too few or too many. Scales the factors to a mean of 1. Returns how many
+ * there are. */
+static int keep_facets(Facets *from, ClothFacet kept[FACETS_MOST]) {
+    const int count = from->count < FACETS_MOST ? from->count : FACETS_MOST;
     double single = 0.0, multiple = 0.0;
-    for (int k = 0; k < *count; k++) {
-        single += (double)facets[k].single / *count;
-        multiple += (double)facets[k].multiple / *count;
+    order_facets(from->all, from->count);
+    for (int k = 0; k < count; k++) {
+        const double at = ((double)k + fmod(0.6180339887498949 * (k + 1), 1.0)) * from->count / count;
+        kept[k] = from->all[(int)at];
+        single += (double)kept[k].single / count;
+        multiple += (double)kept[k].multiple / count;
     }
-    for (int k = 0; k < *count; k++) {
-        facets[k].single /= (float)fmax(single, 1e-9);
-        facets[k].multiple /= (float)fmax(multiple, 1e-9);
+    for (int k = 0; k < count; k++) {
+        kept[k].single /= (float)fmax(single, 1e-9);
+        kept[k].multiple /= (float)fmax(multiple, 1e-9);
     }
-    order_facets(facets, *count);
-    if (*count == 0) *count = 1; /* of a system that is never seen, black */
+    return count > 0 ? count : 1; /* one of a system that is never seen is black */
 }
 
 /* Adds what a point reflects, as one of PLACES. */
@@ -293,8 +300,8 @@ static void light_point(Lit *near, const Weave *m, WeavePoint point) {
     lit_add(near, &pairs, channel_mean(single) / PLACES, channel_mean(multiple) / PLACES);
 }
 
-/* Adds what all points reflect, and makes the facets. */
-static void light_points(WeftCloth *cloth, SystemLit near[2]) {
+/* Adds what all points reflect, and their facets. */
+static void light_points(const WeftCloth *cloth, SystemLit near[2], Facets facets[2]) {
     const Weave *m = &cloth->weave;
     for (int at = 0; at < PLACES; at++) {
         float x, y;
@@ -306,11 +313,10 @@ static void light_points(WeftCloth *cloth, SystemLit near[2]) {
             near[bound.weft].single[c] += single[c] / PLACES;
             near[bound.weft].multiple[c] += multiple[c] / PLACES;
         }
-        add_facet(cloth, bound, channel_mean(single), channel_mean(multiple));
+        add_facet(&facets[bound.weft], m, bound, channel_mean(single), channel_mean(multiple));
         const WeavePoint point = weave_point(m, x, y, 0.0f, 0.0f); /* with loose fibres */
         light_point(&near[point.weft].lit, m, point);
     }
-    for (int t = 0; t < 2; t++) finish_facets(cloth->facets[t], &cloth->facet_count[t]);
 }
 
 /* Returns near / far, 0 if either is. */
@@ -341,11 +347,23 @@ static void fit_system(WeftCloth *cloth, bool weft, const SystemLit *near) {
     far->multiple = ratio(lit_sum(near->lit.multiple) * share, lit_sum(lobe.multiple) * channel_mean(near->multiple));
 }
 
-static void fit_far(WeftCloth *cloth) {
+/* Returns false where memory is short. seen: how many points of each system are visible. */
+static bool fit_far(WeftCloth *cloth, const SystemSeen seen[2]) {
     SystemLit near[2] = {{.single = {0.0}}};
-    for (int t = 0; t < 2; t++) lit_start(&near[t].lit);
-    light_points(cloth, near);
-    for (int t = 0; t < 2; t++) fit_system(cloth, t == 1, &near[t]);
+    Facets facets[2] = {{0}};
+    bool made = true;
+    for (int t = 0; t < 2; t++) {
+        lit_start(&near[t].lit);
+        facets[t].all = alloc_array((size_t)seen[t].count + 1, sizeof *facets[t].all);
+        made &= facets[t].all != NULL;
+    }
+    if (made) light_points(cloth, near, facets);
+    for (int t = 0; made && t < 2; t++) {
+        cloth->facet_count[t] = keep_facets(&facets[t], cloth->facets[t]);
+        fit_system(cloth, t == 1, &near[t]);
+    }
+    for (int t = 0; t < 2; t++) free(facets[t].all);
+    return made;
 }
 
 bool cloth_far_make(WeftCloth *cloth) {
@@ -355,7 +373,5 @@ bool cloth_far_make(WeftCloth *cloth) {
     m->openness = open_mean(m, seen);
     m->warp_far = far_of(&m->warp, &seen[0]);
     m->weft_far = far_of(&m->weft, &seen[1]);
-    if (!make_colors(cloth, seen)) return false;
-    fit_far(cloth);
-    return true;
+    return make_colors(cloth, seen) && fit_far(cloth, seen);
 }

@@ -20,7 +20,8 @@ typedef struct ClothFar {
 } ClothFar;
 
 /* A point of one system that may stand for all of them from afar. Points are evenly spread over a piece of the cloth,
- * and ordered as the leaves of a k-d tree of their slopes, so that neighbours have similar slopes. */
+ * and ordered as the leaves of a k-d tree of their slopes, so that neighbours have similar slopes; of many, every so
+ * manieth is kept. */
 typedef struct ClothFacet {
     float slope_x, slope_y, azimuth; /* as lobe yarn has them */
     float single, multiple;          /* factors on the colours, 1 on the mean */

@@ -188,6 +188,65 @@ static void a_cloth_is_as_bright_at_every_distance(void **state) {
     }
 }
 
+/* What n places look like from a distance of so many threads a pixel: the mean by pair, red and blue, and the deviation
+ * of the first pair's red, in parts of its mean. near: by points of threads. */
+static double see_many(const WeftCloth *cloth, float side, bool near, int n, double mean[PAIRS][2]) {
+    uint64_t random = stream_start((uint64_t)n, 37);
+    double square = 0.0;
+    for (int k = 0; k < PAIRS; k++) mean[k][0] = mean[k][1] = 0.0;
+    for (int k = 0; k < n; k++) {
+        double seen[PAIRS][2] = {{0.0}};
+        const ClothLook look = {.uv = {place_x(k) / cloth->per_uv[WEFT_WARP], place_y(k) / cloth->per_uv[WEFT_WEFT]},
+                                .footprint = {side, side, side},
+                                .level = near ? 1.0f : random_unit(&random),
+                                .facet = (float)fmod(0.6180339887498949 * (k + 1), 1.0)};
+        add_look(cloth, &look, 1.0, seen);
+        for (int pair = 0; pair < PAIRS; pair++)
+            for (int c = 0; c < 2; c++) mean[pair][c] += seen[pair][c] / n;
+        square += seen[0][0] * seen[0][0] / n;
+    }
+    return (sqrt)(fmax(square - mean[0][0] * mean[0][0], 0.0)) / mean[0][0];
+}
+
+/* Steep silk has its highlights from few facets: the four thousand that are kept have as many of these as all points. */
+static void far_facets_of_steep_silk_are_as_bright_as_its_points(void **state) {
+    (void)state;
+    WeftDraft *draft;
+    WeftYarn yarns[2];
+    WeftCloth *cloth;
+    WeftError error;
+    assert_int_equal(weft_draft_parse("satin 5/2; both 1#b8987e; sett 90 45", &draft, &error), WEFT_OK);
+    for (int t = 0; t < 2; t++) {
+        assert_int_equal(weft_yarn_find("silk", &yarns[t], &error), WEFT_OK);
+        yarns[t].crimp = (float)((t ? 60.0 : 40.0) * PI_DOUBLE / 180.0);
+    }
+    assert_int_equal(weft_cloth_create(draft, yarns, 0, &cloth, &error), WEFT_OK);
+    double near[PAIRS][2], far[PAIRS][2];
+    see_many(cloth, 32.0f, true, 100000, near);
+    see_many(cloth, 32.0f, false, 100000, far);
+    const Apart apart = apart_of(far, near);
+    print_message("steep silk: mean %.4f worst %.4f\n", apart.mean, apart.worst);
+    assert_true(apart.mean < 0.004 && apart.worst < 0.01);
+    weft_cloth_free(cloth);
+    weft_draft_free(draft);
+}
+
+/* On a plane that is seen at a slant, a pixel covers a few percent more from row to row: the noise of its samples may not
+ * jump between them, as it did where the colours go from crossings to the mean of four. */
+static void noise_fades_with_distance(void **state) {
+    (void)state;
+    WeftCloth *cloth = cloth_of(&cases[0]); /* denim: blue and white */
+    double before = 0.0, most = 1.0, mean[PAIRS][2];
+    for (float side = 5.0f; side < 50.0f; side *= 1.05f) {
+        const double noise = see_many(cloth, side, false, 20000, mean);
+        if (before > 0.0) most = fmax(most, fmax(noise / before, before / noise));
+        before = noise;
+    }
+    print_message("noise of a sample changes by a factor of at most %.3f\n", most);
+    assert_true(most < 1.15);
+    weft_cloth_free(cloth);
+}
+
 /* Points far apart leave loose fibres out and draw places across the others: at the same places, light stays nearly as it
  * is. */
 static void fibres_that_are_left_out_take_little_light(void **state) {
@@ -283,6 +342,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(places_without_a_number_are_the_first),
                                        cmocka_unit_test(looks_are_the_same_alone_and_among_others),
                                        cmocka_unit_test(fibres_that_are_left_out_take_little_light),
+                                       cmocka_unit_test(far_facets_of_steep_silk_are_as_bright_as_its_points),
+                                       cmocka_unit_test(noise_fades_with_distance),
                                        cmocka_unit_test(a_cloth_is_as_bright_at_every_distance)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
