@@ -107,7 +107,7 @@ void report_state(const Viewer *v) {
     json_object_set_new(root, "help", json_boolean(v->dialogs->help));
     json_object_set_new(root, "untold", unexplained_json());
     json_object_set_new(root, "controls", controls_json());
-    char *text = json_dumps(root, JSON_COMPACT);
+    char *text = json_dumps(root, JSON_COMPACT | JSON_ENSURE_ASCII);
     if (text) puts(text);
     fflush(stdout);
     free(text);

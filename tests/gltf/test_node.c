@@ -172,6 +172,10 @@ static void punctual_lights_are_read(void **state) {
     assert_read(reading);
     assert_non_null(strstr(reading->warning, "lights[0].spot.innerConeAngle: 0.9"));
     done(reading);
+    reading = read_rest(LIGHTS, "{'type':'point','intesity':7}", LIGHT(0, ""));
+    assert_read(reading);
+    assert_non_null(strstr(reading->warning, "lights[0].intesity"));
+    done(reading);
     assert_refused(read_rest(LIGHTS, "{'type':7}", LIGHT(0, "")), WEFT_MESSAGE_GLTF_SCHEMA,
                    "lights[0].type: expected a string, not 7");
     assert_refused(read_rest(LIGHTS, "{}", LIGHT(0, "")), WEFT_MESSAGE_GLTF_SCHEMA, "lights[0].type: missing");

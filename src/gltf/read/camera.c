@@ -73,6 +73,9 @@ static bool camera_place(const Transform *world, Camera *camera) {
 /* Reads a camera. Returns false, with a warning, if it is of a type that glTF does not have. */
 static bool camera_read(const Field *field, const Node *node, Camera *camera) {
     static const char *const types[] = {"perspective", "orthographic", NULL};
+    static const char *const keys[] = {"name", "type", "perspective", "orthographic", "extensions", "extras", NULL};
+    static const char *const lens_keys[] = {"yfov", "aspectRatio", "xmag",   "ymag", "znear",
+                                            "zfar", "extensions",  "extras", NULL};
     Field name_field = field_member(field, "name"), type_field = field_member(field, "type"),
           perspective = field_member(field, "perspective"), orthographic = field_member(field, "orthographic");
     Field yfov = field_member(&perspective, "yfov"), ymag = field_member(&orthographic, "ymag");
@@ -80,6 +83,9 @@ static bool camera_read(const Field *field, const Node *node, Camera *camera) {
     if (!type_field.json) field_fail(&type_field, WEFT_MESSAGE_GLTF_SCHEMA, "missing perspective or orthographic");
     const int type = field_choice(&type_field, types, -1, "camera");
     if (type < 0) return false;
+    field_keys(field, keys);
+    field_keys(&perspective, lens_keys);
+    field_keys(&orthographic, lens_keys);
     camera->name = asset_text(field->asset, *name ? name : node->name);
     camera->orthographic = type == 1;
     const Field *needed = camera->orthographic ? &ymag : &yfov;

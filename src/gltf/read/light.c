@@ -15,8 +15,10 @@ void lights_count(Asset *asset) {
 }
 
 static void cone_read(const Field *field, Light *light) {
+    static const char *const keys[] = {"innerConeAngle", "outerConeAngle", "extensions", "extras", NULL};
     Field spot = field_member(field, "spot"), inner_field = field_member(&spot, "innerConeAngle"),
           outer_field = field_member(&spot, "outerConeAngle");
+    field_keys(&spot, keys);
     const double right_angle = 0.5 * PI_DOUBLE, narrowest = 1e-3;
     double outer = field_number(&outer_field, 0.5 * right_angle, narrowest, right_angle);
     double inner = field_number(&inner_field, 0.0, 0.0, right_angle);
@@ -32,6 +34,8 @@ static void cone_read(const Field *field, Light *light) {
 /* Reads a light. Returns false, with a warning, if it is of a type that the extension does not have. */
 static bool light_read(const Field *field, const Node *node, Light *light) {
     static const char *const kinds[] = {"directional", "point", "spot", NULL}; /* as LightKind */
+    static const char *const keys[] = {"name", "type",       "color",  "intensity", "range",
+                                       "spot", "extensions", "extras", NULL};
     Field name_field = field_member(field, "name"), type = field_member(field, "type"),
           color = field_member(field, "color"), intensity = field_member(field, "intensity"),
           range = field_member(field, "range");
@@ -39,6 +43,7 @@ static bool light_read(const Field *field, const Node *node, Light *light) {
     if (!type.json) field_fail(&type, WEFT_MESSAGE_GLTF_SCHEMA, "missing directional, point or spot");
     const int kind = field_choice(&type, kinds, -1, "light");
     const Transform *world = &node->world;
+    field_keys(field, keys);
     *light = (Light){.name = asset_text(field->asset, *name ? name : node->name),
                      .kind = kind < 0 ? LIGHT_POINT : (LightKind)kind,
                      .color = {1.0f, 1.0f, 1.0f},
