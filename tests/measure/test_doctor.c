@@ -133,6 +133,14 @@ static const Case cases[] = {
     {WEFT_FINDING_TEXTURE_PLAIN,
      TWO_SIDED CLOTH ",'extensions':{'KHR_materials_specular':{'specularTexture':{'index':0}}}",
      "'KHR_materials_specular'", NULL, NULL, PLAIN},
+    {WEFT_FINDING_TEXTURE_PLAIN,
+     TWO_SIDED "'alphaMode':'BLEND','pbrMetallicRoughness':{'baseColorFactor':[0.9,0.9,0.9,1],'metallicFactor':0,"
+               "'baseColorTexture':{'index':0}}",
+     NULL, NULL, NULL, COLORS},
+    {-1,
+     TWO_SIDED "'alphaMode':'BLEND','pbrMetallicRoughness':{'baseColorFactor':[0.9,0.9,0.9,0.5],'metallicFactor':0,"
+               "'baseColorTexture':{'index':0}}",
+     NULL, NULL, NULL, COLORS},
     {WEFT_FINDING_PART_IGNORED, TWO_SIDED CLOTH ",'alphaCutof':0.5", NULL, NULL, NULL, COLORS},
     {WEFT_FINDING_PART_REPAIRED, TWO_SIDED CLOTH ",'alphaMode':'CUTOUT'", NULL, NULL, NULL, COLORS},
     {WEFT_FINDING_REST_POSE, TWO_SIDED CLOTH, NULL, ALL ",'targets':[{'POSITION':0}]", NULL, COLORS},

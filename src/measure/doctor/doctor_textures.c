@@ -181,7 +181,37 @@ static void check_channel(WeftDoctor *doctor, const Cloth *cloth, const Material
     doctor_advise(doctor, "drop %s: the picture stays the same", row->texture);
 }
 
+/* Returns true if vertices of the material have colours, whose alpha counts too. */
+static bool has_vertex_colors(const WeftDoctor *doctor, int material) {
+    for (size_t m = 0; m < doctor->asset.mesh_count; m++)
+        for (size_t k = 0; k < doctor->asset.meshes[m].primitive_count; k++) {
+            const Primitive *p = &doctor->asset.meshes[m].primitives[k];
+            if (p->material == material && p->color >= 0) return true;
+        }
+    return false;
+}
+
+/* Reports a material that is mixed or cut by its alpha, where alpha is 1 everywhere. */
+static void check_opacity(WeftDoctor *doctor, const Cloth *cloth) {
+    const MaterialField *row = doctor_row(cloth->json, INPUT_base_color);
+    const char *mode = json_string_value(json_object_get(cloth->json, "alphaMode"));
+    char path[FIELD_PATH], factor[FIELD_PATH];
+    double numbers[4] = {1.0, 1.0, 1.0, 1.0};
+    material_field_path(row, row->texture, path);
+    material_field_path(row, row->factor, factor);
+    const Pixels *pixels = doctor_pixels(doctor, doctor_part(cloth->json, path));
+    doctor_numbers(cloth->json, factor, numbers, 4);
+    if (!mode || (strcmp(mode, "MASK") != 0 && strcmp(mode, "BLEND") != 0)) return;
+    if (!pixels || pixels->low[3] < 0.995f || numbers[3] < 1.0 || has_vertex_colors(doctor, cloth->index)) return;
+    doctor_found(doctor, WEFT_FINDING_TEXTURE_PLAIN, (Place){WEFT_OF_MATERIAL, cloth->index, path}, 0, 1.0, NULL,
+                 "alphaMode is %s, but the alpha of %s is 1 everywhere, or missing: nothing shows through", mode,
+                 row->texture);
+    doctor_advise(doctor, "give the picture its alpha, or write alphaMode OPAQUE, which is faster");
+    doctor_soften(doctor);
+}
+
 void check_channels(WeftDoctor *doctor, const Cloth *cloth) {
+    check_opacity(doctor, cloth);
     for (const MaterialField *row = material_fields; row->factor; row++)
         if (row->texture && row->channels == CHANNEL_A) check_channel(doctor, cloth, row);
 }
