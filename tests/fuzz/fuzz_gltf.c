@@ -75,8 +75,8 @@ static void check_range(const json_t *value, const MaterialField *row) {
     }
 }
 
-/* Demands that a file which was read without a word is understood: its words, constants, numbers and extensions are those
- * that there are. */
+/* Demands that a file which was read without a word is understood: its words, constants, numbers and extensions are
+ * those that there are. */
 static void check_understood(json_t *root) {
     static const char *const modes[] = {"OPAQUE", "MASK", "BLEND", NULL};
     size_t k;

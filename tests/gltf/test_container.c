@@ -228,7 +228,7 @@ static void uris_outside_the_folder_are_refused(void **state) {
     assert_refused(read_gltf("/nowhere/at/all.gltf", NULL, 0), WEFT_MESSAGE_FILE_OPEN, "all.gltf");
 }
 
-/* A link counts by what it points to; a folder that is opened on purpose lets in what lies below it, and nothing else. */
+/* A link counts by what it points to; a folder that is opened on purpose lets in what lies below it, nothing else. */
 static void files_are_read_from_the_opened_folder_alone(void **state) {
     (void)state;
     char from[256], to[256], opened[256];

@@ -101,7 +101,7 @@ static void separators_repair(const Field *field, char *path, size_t folder) {
         if (*c == '\\') *c = '/';
 }
 
-/* Returns why the name, from which percent-encoding is removed, is not one of a file beside the asset; NULL if it is. */
+/* Removes percent-encoding from the name. Returns why it is not one of a file beside the asset; NULL if it is. */
 static const char *refusal(const Field *field, const char *uri, char *path, size_t folder) {
     char *name = path + folder;
     if (has_scheme(uri)) return "only files and data URIs can be read";
