@@ -7,7 +7,7 @@
 
 #define LINES "write lines theta_o phi_o theta_i phi_i r g b and fit them by `weft fit`"
 
-/* What a text or another container holds, by words near its beginning. A later row is a more general one. */
+/* Names of contents by words near their beginning. A later row is a more general one. */
 static const struct {
     const char *word, *name;
 } foreign_words[] = {

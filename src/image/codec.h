@@ -4,6 +4,7 @@
  * contain (image_check_header). */
 #pragma once
 
+#include <stdbool.h>
 #include <stdio.h>
 
 #include "weft/image.h"
@@ -21,6 +22,10 @@ enum { IMAGE_SIDE_MAX = 65536 };
 /* Returns the media type of an image by its first bytes, as in glTF and its extensions; NULL for a format that they do
  * not have. */
 const char *image_media_type(const unsigned char *data, size_t size);
+
+/* Returns true if the suffix of a path is that of pictures that are read: .png .jpg .jpeg .tga .hdr .exr, and .tif .tiff
+ * where libtiff is. */
+bool image_suffix_read(const char *path);
 
 /* Refuses (WEFT_MESSAGE_IMAGE_SIZE) sides outside 1 .. IMAGE_SIDE_MAX and images that are implausibly large for the
  * file: above 512 MiB of memory if the file has less than a sixteenth of that memory, and above 2 GiB always. A small
@@ -40,6 +45,7 @@ WeftResult image_read_tga(const ImageSource *source, WeftImage *out, WeftError *
 WeftResult image_read_hdr(const ImageSource *source, WeftImage *out, WeftError *error);
 WeftResult image_read_exr(const ImageSource *source, WeftImage *out, WeftError *error);
 WeftResult image_read_dds(const ImageSource *source, WeftImage *out, WeftError *error);
+WeftResult image_read_tiff(const ImageSource *source, WeftImage *out, WeftError *error); /* where libtiff is */
 WeftResult image_read_npy(const ImageSource *source, WeftImage *out, WeftError *error);
 
 /* Writes an image whose pixel type the format supports; name is the subject of errors. */

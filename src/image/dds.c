@@ -20,7 +20,7 @@ enum {
     IS_VOLUME = 0x200000
 };
 
-/* How the numbers of a texel are stored. */
+/* The type of the numbers of a texel. */
 typedef enum DdsKind { DDS_BYTE, DDS_WORD, DDS_HALF, DDS_SINGLE } DdsKind;
 
 typedef struct DdsFormat {

@@ -297,10 +297,10 @@ static WeftResult whole_decode(Exr *exr, int64_t left, int64_t top, WeftImage *i
                 "EXR: %s", reason);
 }
 
-/* Turns colours into those of Rec. 709, where the file says that they are others. */
-static void colors_turn(const Exr *exr, WeftImage *image) {
+/* Converts colours to those of Rec. 709, where the file says that they are others. */
+static void colors_convert(const Exr *exr, WeftImage *image) {
     exr_attr_chromaticities_t given;
-    ColorMatrix matrix = xyz_matrix();
+    ColorConversion matrix = xyz_matrix();
     if (image->channels < 3) return;
     if (!exr->pick.xyz) {
         if (exr_attr_get_chromaticities(exr->context, exr->part, "chromaticities", &given) != EXR_ERR_SUCCESS) return;
@@ -313,7 +313,7 @@ static void colors_turn(const Exr *exr, WeftImage *image) {
              spanned ? "other than Rec. 709's, to which its colours were turned" : "those of no colours; Rec. 709's");
         if (!spanned) return;
     }
-    image_turn_colors(image, &matrix);
+    image_convert_colors(image, &matrix);
 }
 
 /* Divides colours by alpha. Where alpha is 0 they are light without coverage and stay. */
@@ -353,7 +353,7 @@ static WeftResult exr_decode(Exr *exr, const ExrJob *job, WeftImage *out, WeftEr
     }
     alpha_straighten(out);
     image_repair(exr->source, out);
-    colors_turn(exr, out);
+    colors_convert(exr, out);
     const exr_attribute_t *denoised = NULL;
     if (exr_get_attribute_by_name(exr->context, exr->part, exr_denoised, &denoised) == EXR_ERR_SUCCESS)
         warn(exr->source->log, WEFT_MESSAGE_IMAGE_DENOISED, exr->source->name, NULL);

@@ -7,8 +7,7 @@
 extern "C" {
 #endif
 
-/* Where pixels go: channel names[c] of a part to planes + c, `stride` floats from pixel to pixel, for the pixels of its data
- * window. */
+/* The place of the pixels: channel names[c] of a part goes to values + c, `count` floats from pixel to pixel. */
 typedef struct ExrPlanes {
     const char *names[4]; /* NULL: not read */
     int count;

@@ -23,8 +23,8 @@ typedef struct Hdr {
     int lines, length;           /* of the file: a line is a column if x comes first */
     int x_first;                 /* lines run along y */
     int from_right, from_bottom; /* direction of x and of y */
-    bool xyz, turned;            /* its colours are X Y Z, or of other primaries */
-    ColorMatrix matrix;          /* from those */
+    bool xyz, converted;         /* the colours are X Y Z, or of other primaries */
+    ColorConversion matrix;      /* from those */
 } Hdr;
 
 /* Reads the next line of the header, without its end, truncated to size - 1; returns 0 at the end of the file. */
@@ -69,7 +69,7 @@ static const char *gain_divide(Hdr *hdr, const char *text, int count) {
     return text;
 }
 
-/* What a line of the header is about, if that changes the picture. */
+/* The key of a line of the header that changes the picture. */
 typedef enum HdrKey {
     HDR_OTHER = 0,
     HDR_FORMAT,
@@ -104,8 +104,9 @@ static void primaries_take(Hdr *hdr, const char *line, const char *value) {
     if (!rest || !is_blank(rest)) {
         line_left(hdr, line, "is not understood; its colours are taken for Rec. 709's");
     } else if (!primaries_rec709(&given)) {
-        hdr->turned = primaries_matrix(&given, &hdr->matrix);
-        line_left(hdr, line, hdr->turned ? "was applied: its colours are Rec. 709's now" : "are those of no colours");
+        hdr->converted = primaries_matrix(&given, &hdr->matrix);
+        line_left(hdr, line,
+                  hdr->converted ? "was applied: its colours are Rec. 709's now" : "are those of no colours");
     }
 }
 
@@ -267,7 +268,7 @@ WeftResult image_read_hdr(const ImageSource *source, WeftImage *out, WeftError *
     else
         image_repair(source, out);
     if (result == WEFT_OK && hdr.xyz) hdr.matrix = xyz_matrix();
-    if (result == WEFT_OK && (hdr.xyz || hdr.turned)) image_turn_colors(out, &hdr.matrix);
+    if (result == WEFT_OK && (hdr.xyz || hdr.converted)) image_convert_colors(out, &hdr.matrix);
     return result;
 }
 

@@ -9,6 +9,7 @@
 #include "base/fail.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/path.h"
 #include "image/codec.h"
 #include "image/pixel.h"
 #include "image/srgb.h"
@@ -85,6 +86,11 @@ typedef struct Format {
     bool picture; /* a picture that is not read, which other programs convert */
 } Format;
 
+#ifdef WEFT_HAS_TIFF
+#define READ_TIFF image_read_tiff
+#else
+#define READ_TIFF NULL
+#endif
 #define SIGNATURE(at, text) at, sizeof(text) - 1, text
 static const Format formats[] = {
     {"PNG", SIGNATURE(0, "\x89PNG"), image_read_png, "image/png", ".png", false, image_write_png, false},
@@ -98,8 +104,10 @@ static const Format formats[] = {
     {"DDS", SIGNATURE(0, "DDS "), image_read_dds, NULL, NULL, false, NULL, false},
     {"GIF", SIGNATURE(0, "GIF8"), NULL, NULL, NULL, false, NULL, true},
     {"BMP", SIGNATURE(0, "BM"), NULL, NULL, NULL, false, NULL, true},
-    {"TIFF", SIGNATURE(0, "II*\0"), NULL, NULL, NULL, false, NULL, true},
-    {"TIFF", SIGNATURE(0, "MM\0*"), NULL, NULL, NULL, false, NULL, true},
+    {"TIFF", SIGNATURE(0, "II*\0"), READ_TIFF, NULL, NULL, false, NULL, true},
+    {"TIFF", SIGNATURE(0, "MM\0*"), READ_TIFF, NULL, NULL, false, NULL, true},
+    {"TIFF", SIGNATURE(0, "II+\0"), READ_TIFF, NULL, NULL, false, NULL, true},
+    {"TIFF", SIGNATURE(0, "MM\0+"), READ_TIFF, NULL, NULL, false, NULL, true},
     {"AVIF", SIGNATURE(4, "ftypavif"), NULL, NULL, NULL, false, NULL, true},
     {"HEIF", SIGNATURE(4, "ftyphei"), NULL, NULL, NULL, false, NULL, true},
     {"JPEG XL", SIGNATURE(0, "\xff\x0a"), NULL, NULL, NULL, false, NULL, true},
@@ -155,6 +163,15 @@ WeftResult weft_image_read(const char *path, WeftImage *out, const WeftLog *log,
     result = weft_image_read_memory(file.data, file.size, path, out, log, error);
     free(file.data);
     return result;
+}
+
+bool image_suffix_read(const char *path) {
+    static const char *const suffixes[] = {".png", ".jpg", ".jpeg", ".tga", ".hdr", ".exr", ".tif", ".tiff"};
+    const bool tiff = format_of_bytes((const unsigned char *)"II*", 4)->read != NULL;
+    bool read = false;
+    for (size_t k = 0; k < sizeof suffixes / sizeof *suffixes - (tiff ? 0 : 2); k++)
+        read |= path_ends(path, suffixes[k]);
+    return read;
 }
 
 int weft_image_suffix_known(const char *path) { return format_of_path(path) != NULL; }

@@ -8,20 +8,20 @@
 
 static const Primaries rec709 = {{0.64, 0.33, 0.3, 0.6, 0.15, 0.06, 0.3127, 0.329}};
 
-static ColorMatrix product(const ColorMatrix *a, const ColorMatrix *b) {
-    ColorMatrix c = {{0}};
+static ColorConversion product(const ColorConversion *a, const ColorConversion *b) {
+    ColorConversion c = {{0}};
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
             for (int k = 0; k < 3; k++) c.m[3 * i + j] += a->m[3 * i + k] * b->m[3 * k + j];
     return c;
 }
 
-static void apply(const ColorMatrix *a, const double v[3], double to[3]) {
+static void apply(const ColorConversion *a, const double v[3], double to[3]) {
     for (int i = 0; i < 3; i++) to[i] = a->m[3 * i] * v[0] + a->m[3 * i + 1] * v[1] + a->m[3 * i + 2] * v[2];
 }
 
 /* Inverts by cofactors; returns false if the determinant is next to none. */
-static bool invert(const ColorMatrix *a, ColorMatrix *to) {
+static bool invert(const ColorConversion *a, ColorConversion *to) {
     const double *m = a->m;
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) {
@@ -34,7 +34,7 @@ static bool invert(const ColorMatrix *a, ColorMatrix *to) {
     return true;
 }
 
-/* X, Y, Z of a chromaticity where Y is 1. */
+/* Fills X, Y, Z of a chromaticity where Y is 1; returns false for one without light. */
 static bool xyz_of(const double xy[2], double xyz[3]) {
     if (!(fabs(xy[1]) > 1e-6) || !isfinite(xy[0])) return false;
     xyz[0] = xy[0] / xy[1];
@@ -44,9 +44,9 @@ static bool xyz_of(const double xy[2], double xyz[3]) {
 }
 
 /* Fills the matrix from R, G, B of primaries to X, Y, Z. */
-static bool to_xyz(const Primaries *primaries, ColorMatrix *to) {
+static bool to_xyz(const Primaries *primaries, ColorConversion *to) {
     double white[3], amounts[3];
-    ColorMatrix columns, inverse;
+    ColorConversion columns, inverse;
     for (int c = 0; c < 3; c++) {
         double xyz[3];
         if (!xyz_of(primaries->xy + 2 * c, xyz)) return false;
@@ -58,17 +58,18 @@ static bool to_xyz(const Primaries *primaries, ColorMatrix *to) {
     return true;
 }
 
-ColorMatrix xyz_matrix(void) {
-    ColorMatrix own, inverse = {{0}};
+ColorConversion xyz_matrix(void) {
+    ColorConversion own, inverse = {{0}};
     if (to_xyz(&rec709, &own)) invert(&own, &inverse);
     return inverse;
 }
 
 /* Fills the matrix that takes the white of primaries to Rec. 709's, in X, Y, Z. */
-static bool adaptation(const Primaries *primaries, ColorMatrix *to) {
-    static const ColorMatrix bradford = {{0.8951, 0.2664, -0.1614, -0.7502, 1.7135, 0.0367, 0.0389, -0.0685, 1.0296}};
+static bool adaptation(const Primaries *primaries, ColorConversion *to) {
+    static const ColorConversion bradford = {
+        {0.8951, 0.2664, -0.1614, -0.7502, 1.7135, 0.0367, 0.0389, -0.0685, 1.0296}};
     double from[3], own[3], a[3], b[3];
-    ColorMatrix back, scaled = bradford;
+    ColorConversion back, scaled = bradford;
     if (!xyz_of(primaries->xy + 6, from) || !xyz_of(rec709.xy + 6, own) || !invert(&bradford, &back)) return false;
     apply(&bradford, from, a);
     apply(&bradford, own, b);
@@ -83,17 +84,17 @@ bool primaries_rec709(const Primaries *primaries) {
     return most < 2e-3;
 }
 
-bool primaries_matrix(const Primaries *primaries, ColorMatrix *matrix) {
-    ColorMatrix own, adapted, last = xyz_matrix();
+bool primaries_matrix(const Primaries *primaries, ColorConversion *matrix) {
+    ColorConversion own, adapted, last = xyz_matrix();
     if (!to_xyz(primaries, &own) || !adaptation(primaries, &adapted)) return false;
-    const ColorMatrix both = product(&adapted, &own);
+    const ColorConversion both = product(&adapted, &own);
     *matrix = product(&last, &both);
     for (int k = 0; k < 9; k++)
         if (!(fabs(matrix->m[k]) < 1e3)) return false;
     return true;
 }
 
-void image_turn_colors(WeftImage *image, const ColorMatrix *matrix) {
+void image_convert_colors(WeftImage *image, const ColorConversion *matrix) {
     float *pixel = image->pixels;
     const size_t count = (size_t)image->width * (size_t)image->height;
     for (size_t n = 0; n < count; n++, pixel += image->channels) {

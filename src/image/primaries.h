@@ -11,18 +11,18 @@ typedef struct Primaries {
 } Primaries;
 
 /* A matrix from colours of a file to Rec. 709, by rows. */
-typedef struct ColorMatrix {
+typedef struct ColorConversion {
     double m[9];
-} ColorMatrix;
+} ColorConversion;
 
 /* Returns true if they are Rec. 709's, as far as files with four digits say. */
 bool primaries_rec709(const Primaries *primaries);
 
 /* Fills *matrix for colours of these primaries; their white becomes white. Returns false if they span no colours. */
-bool primaries_matrix(const Primaries *primaries, ColorMatrix *matrix);
+bool primaries_matrix(const Primaries *primaries, ColorConversion *matrix);
 
 /* Returns the matrix for CIE X, Y and Z. */
-ColorMatrix xyz_matrix(void);
+ColorConversion xyz_matrix(void);
 
-/* Turns the colours of a float image of three or four channels. */
-void image_turn_colors(WeftImage *image, const ColorMatrix *matrix);
+/* Converts the colours of a float image of three or four channels. */
+void image_convert_colors(WeftImage *image, const ColorConversion *matrix);

@@ -317,14 +317,15 @@ static void mask_map_has_three_inputs(void **state) {
     draw("u/sofa_BaseMap.png", 50, 60, 70, 255);
     draw("u/sofa_MaskMap.png", 10, 20, 30, 40);
     draw("u/sofa_Height.png", 1, 1, 1, 255);
-    FILE *stream = fopen(in_folder("u/sofa_Normal.tif"), "wb");
-    assert_true(stream && fputs("II*", stream) >= 0 && fclose(stream) == 0);
+    FILE *stream = fopen(in_folder("u/sofa_Normal.psd"), "wb");
+    assert_true(stream && fputs("8BPS", stream) >= 0 && fclose(stream) == 0);
     WeftScene *scene = bound("u", 2);
     assert_int_equal(texel(scene, INPUT_metallic, 0), 10);
     assert_int_equal(input_of(scene, INPUT_occlusion)->channel, 1);
     assert_int_equal(input_of(scene, INPUT_roughness)->channel, 3);
     assert_int_equal(texel(scene, INPUT_roughness, 3), 215);
     assert_non_null(strstr(said, "no input has a map of this name: sofa_Height.png"));
+    assert_non_null(strstr(said, "convert to .png: sofa_Normal.psd"));
     weft_scene_free(scene);
     draw("u/sofa_MaskMap.png", 10, 20, 30, 255); /* without alpha */
     scene = bound("u", 2);

@@ -14,7 +14,7 @@
 
 enum { FORMS_MOST = 2, NAME_SIZE = 96 };
 
-/* How a function is written in a language, which the suffix of a file names; the first is standard output's too. */
+/* A language of shaders, which the suffix of a file names; the first is standard output's too. */
 typedef struct Dialect {
     const char *suffix, *include, *head, *variable, *literal, *root, *exponential, *least;
 } Dialect;

@@ -1,4 +1,4 @@
-/* green.h - where green points in a picture of normals, by what the picture shows */
+/* green.h - the direction of green in a picture of normals, by what the picture shows */
 #pragma once
 
 #include <stdbool.h>

@@ -7,6 +7,7 @@
 #include <strings.h>
 
 #include "base/fail.h"
+#include "image/codec.h"
 #include "scene/material/assign.h"
 #include "scene/material/green.h"
 #include "scene/material/map_names.h"
@@ -157,14 +158,13 @@ static void free_map_set(MapSet *map_set) {
 
 /* Lists the pictures of a folder in the order of their names. Returns their number. */
 static int list_pictures(struct dirent **entries, int count, MapFile *files) {
-    static const char *const read[] = {".tga", ".png", ".jpg", ".jpeg", ".exr", ".hdr", NULL};
     static const char *const unread[] = {".tif", ".tiff", ".bmp", ".webp", ".psd", ".dds", ".jp2", ".ktx2", NULL};
     int found = 0;
     for (int k = 0; k < count; k++) {
         const char *file = entries[k]->d_name;
-        const bool unreadable = has_suffix(file, unread);
-        if (!unreadable && !has_suffix(file, read)) continue;
-        files[found++] = (MapFile){.file = file, .name = map_name(file), .unreadable = unreadable};
+        const bool readable = image_suffix_read(file);
+        if (!readable && !has_suffix(file, unread)) continue;
+        files[found++] = (MapFile){.file = file, .name = map_name(file), .unreadable = !readable};
     }
     return found;
 }
@@ -235,8 +235,8 @@ static WeftResult read_picture(const char *folder, const char *file, MapSet *map
     return weft_image_read(picture->path, &picture->image, log, error);
 }
 
-/* Turns what a picture holds into what inputs take: gloss, and green that points down. */
-static void turn_picture(const MapFile *file, MapPicture *picture, const WeftLog *log) {
+/* Inverts what a picture holds so that inputs take it: gloss, and green that points down. */
+static void invert_picture(const MapFile *file, MapPicture *picture, const WeftLog *log) {
     const MapName *name = &file->name;
     for (int k = 0; k < name->count; k++) {
         const int channel = name->uses[k].channel;
@@ -262,7 +262,7 @@ static WeftResult take_map(MapFile *file, InputId input, const char *folder, Map
         WeftResult result = read_picture(folder, file->file, map_set, log, error);
         if (result != WEFT_OK) return result;
         file->picture = map_set->count;
-        turn_picture(file, &map_set->pictures[map_set->count - 1], log);
+        invert_picture(file, &map_set->pictures[map_set->count - 1], log);
     }
     if (use->channel == 3 && map_set->pictures[file->picture - 1].image.channels % 2) {
         warn(log, WEFT_MESSAGE_GLTF_WARN_IGNORED, folder, "%s: it has no alpha, where by its name the map of %s is",

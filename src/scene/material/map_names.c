@@ -73,6 +73,7 @@ static const MapWord map_words[] = {
     {"spec", INPUT_specular_color, 0, false},
     {"spc", INPUT_specular_color, 0, false},
     {"reflection", INPUT_specular_color, 0, false},
+    {"reflect", INPUT_specular_color, 0, false},
     {"refl", INPUT_specular_color, 0, false},
     {"s", INPUT_specular_color, 0, false},
     {"specularsmoothness", INPUT_specular_color, 0, false},
@@ -87,6 +88,8 @@ static const MapWord map_words[] = {
     {"metallicroughness", INPUT_metallic, 2, false},
     {"metalroughness", INPUT_roughness, 1, false},
     {"metalroughness", INPUT_metallic, 2, false},
+    {"metalnessroughness", INPUT_roughness, 1, false},
+    {"metalnessroughness", INPUT_metallic, 2, false},
     {"metalrough", INPUT_roughness, 1, false},
     {"metalrough", INPUT_metallic, 2, false},
     {"metallicsmoothness", INPUT_metallic, 0, false}, /* as in Unity */
@@ -108,6 +111,8 @@ static const MapWord map_words[] = {
     {"coatnormal", INPUT_clearcoat_normal, 0, false},
     {"nap", INPUT_nap_direction, 0, false},
     {"nap", INPUT_nap, 2, false},
+    {"roughnessmetalness", NOTHING, 0, false},
+    {"roughnessmetal", NOTHING, 0, false},
     {"roughnessmetallic", NOTHING, 0, false}, /* red and green, or as in glTF: the name does not tell */
     {"coatcolor", NOTHING, 0, false},
     {"coatnormals", NOTHING, 0, false},
@@ -194,7 +199,7 @@ static bool is_listed(const char *list, const char *text) {
 /* Returns true for a size, a number, a format or a level of detail: "2k", "4096", "jpg", "16bit", "lod0", "var2". */
 static bool is_passed_over(const char *word) {
     static const char formats[] = "jpg jpeg png tif tiff exr tga hdr bmp bit bits srgb raw linear lin utility texture "
-                                  "tex seamless tileable tiling lod udim px cm pbr";
+                                  "tex seamless tileable tiling lod udim px cm pbr rec709 acescg aces";
     static const char before[] = "lod var variant variation version v u x", after[] = "k px bit bits b cm";
     char head[NAME_MOST], tail[NAME_MOST];
     const size_t letters = strcspn(word, "0123456789"), digits = strspn(word + letters, "0123456789");

@@ -1,4 +1,4 @@
-/* map_names.h - what a picture of a folder is for, told by its name */
+/* map_names.h - the use of a picture of a folder, told by its name */
 #pragma once
 
 #include <stdbool.h>
@@ -9,10 +9,10 @@
 typedef struct MapUse {
     InputId input;
     int channel;
-    bool inverted; /* it holds 1 - the input, as a picture of gloss does */
+    bool inverted; /* the picture holds 1 - the input, as one of gloss does */
 } MapUse;
 
-/* Where green points in a picture of normals. */
+/* The direction of green in a picture of normals. */
 typedef enum MapGreen { GREEN_UNSAID = 0, GREEN_UP, GREEN_DOWN } MapGreen;
 
 enum { MAP_USES = 4 };
