@@ -147,7 +147,7 @@ WEFT_API WeftImage weft_scene_texture(const WeftScene *scene, int index);
 WEFT_API int weft_scene_add_texture(WeftScene *scene, WeftImage *image, WeftError *error);
 
 /* Reads the maps in a folder onto `material`, named as in weft_scene_assign_material (NULL: the cloth of the scene).
- * Maps are found by file name, in any case, with any of the suffixes .tga .png .jpg .jpeg .exr .hdr; docs/materials.md
+ * Maps are found by file name, in any case, with the suffix of a picture that is read; docs/materials.md
  * lists the names. An input that already has its map keeps its factor, so that a folder can be read again. count (may
  * be NULL) receives the number of maps; none is WEFT_MESSAGE_FILE_OPEN. */
 WEFT_API WeftResult weft_scene_bind_maps(WeftScene *scene, const char *material, const char *folder, int *count,

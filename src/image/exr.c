@@ -123,9 +123,9 @@ static WeftResult exr_channels(Exr *exr, WeftError *error) {
         const exr_attr_chlist_entry_t *entry = channels->entries + i;
         const char *channel = entry->name.str + exr_layer_length(entry->name.str);
         if (strcmp(channel, "RY") == 0 || strcmp(channel, "BY") == 0)
-            return fail(error, WEFT_MESSAGE_IMAGE_UNSUPPORTED, name, "EXR: luminance-chroma pixels");
+            return fail(error, WEFT_MESSAGE_IMAGE_UNSUPPORTED, name, "EXR: luminance-chroma pixels; convert it to R G B");
         if (entry->x_sampling != 1 || entry->y_sampling != 1)
-            return fail(error, WEFT_MESSAGE_IMAGE_UNSUPPORTED, name, "EXR: subsampled channels");
+            return fail(error, WEFT_MESSAGE_IMAGE_UNSUPPORTED, name, "EXR: subsampled channels; convert it to R G B");
         exr->pixel_bytes += value_bytes(entry->pixel_type);
     }
     if (!exr_pick(channels, &exr->pick))
@@ -174,7 +174,7 @@ static WeftResult exr_header(Exr *exr, WeftError *error) {
     const ImageSource *source = exr->source;
     int parts;
     exr->part = flat_part(exr->context, &parts);
-    if (exr->part < 0) return fail(error, WEFT_MESSAGE_IMAGE_UNSUPPORTED, source->name, "EXR: deep pixels");
+    if (exr->part < 0) return fail(error, WEFT_MESSAGE_IMAGE_UNSUPPORTED, source->name, "EXR: deep pixels; flatten it");
     if (parts > 1)
         warn(source->log, WEFT_MESSAGE_IMAGE_REPAIRED, source->name, "EXR: it shows the first of its %d parts", parts);
     if (exr_get_data_window(exr->context, exr->part, &exr->data) != EXR_ERR_SUCCESS ||

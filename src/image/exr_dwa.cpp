@@ -44,7 +44,33 @@ class MemoryStream : public Imf::IStream {
     size_t size_, at_;
 };
 
+/* Returns true if every attribute of the headers lies within the file: the library allocates what they claim. */
+bool headers_fit(const unsigned char *data, size_t size) {
+    const bool parts = size > 8 && data[5] & 0x10; /* several headers, and an empty one behind them */
+    size_t at = 8;
+    for (bool ended = false; at < size;) {
+        for (int text = 0; text < 2; text++) { /* name and type */
+            const void *zero = std::memchr(data + at, 0, size - at);
+            if (!zero) return false;
+            const size_t length = static_cast<size_t>(static_cast<const unsigned char *>(zero) - (data + at));
+            at += length + 1;
+            if (text == 0 && length == 0 && (ended || !parts)) return true;
+            ended = text == 0 && length == 0;
+            if (ended) break;
+        }
+        if (ended) continue;
+        if (size - at < 4) return false;
+        const size_t bytes = static_cast<size_t>(data[at]) | static_cast<size_t>(data[at + 1]) << 8 |
+                             static_cast<size_t>(data[at + 2]) << 16 | static_cast<size_t>(data[at + 3]) << 24;
+        at += 4;
+        if (bytes > size - at) return false;
+        at += bytes;
+    }
+    return false;
+}
+
 void read(const unsigned char *data, size_t size, int part, const ExrPlanes &planes) {
+    if (!headers_fit(data, size)) throw Iex::InputExc("an attribute of its header is cut off");
     MemoryStream stream(data, size);
     Imf::MultiPartInputFile file(stream, 0, false); /* no threads; a table of chunks that is not there is no image */
     Imf::InputPart input(file, part);

@@ -2,6 +2,7 @@
  *
  * Numbers of 8 and 16 bits and floats of 16 and 32 are read as they are; pictures of other kinds, such as palettes, inks and
  * one bit, as libtiff converts them to 8 bits. */
+#include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
@@ -209,9 +210,9 @@ static void values_mend(const Tiff *tiff, WeftImage *out) {
         if (out->type == WEFT_PIXEL_F32)
             singles[n] = (float)value;
         else if (out->type == WEFT_PIXEL_U8)
-            bytes[n] = (uint8_t)(value < most ? value + 0.5 : most);
+            bytes[n] = (uint8_t)(fmax(fmin(value, most), 0.0) + 0.5);
         else
-            words[n] = (uint16_t)(value < most ? value + 0.5 : most);
+            words[n] = (uint16_t)(fmax(fmin(value, most), 0.0) + 0.5);
     }
 }
 

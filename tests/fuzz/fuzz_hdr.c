@@ -15,7 +15,8 @@ static bool is_one(const char *line, const char *key) {
 static bool understood(const WeftImage *image, const uint8_t *data, size_t size) {
     bool all = true;
     (void)image;
-    for (size_t at = 0; at < size && data[at] != '\n';) {
+    /* A line that is empty or begins with 0 is the last. */
+    for (size_t at = 0; at < size && !strchr("\n\r", data[at]);) {
         char line[64];
         const uint8_t *end = memchr(data + at, '\n', size - at);
         if (!end) break;

@@ -25,7 +25,7 @@ static double slope(const WeftImage *image, int x, int y, int channel) {
 
 bool normals_green_down(const WeftImage *image) {
     enum { SIDE = 512 }; /* points looked at along a side, at most */
-    const double relief = 1e-5, alike = 0.7;
+    const double relief = 1e-5, alike = 0.5;
     const int across = 1 + image->width / SIDE, down = 1 + image->height / SIDE;
     double both = 0.0, first = 0.0, second = 0.0, points = 0.0;
     for (int y = 1; image->channels >= 3 && y < image->height - 1; y += down)
