@@ -145,7 +145,7 @@ static void put_layer(Text *text, int layer) {
               LAYER_BY_MAX, LAYER_BY_CHANNEL, rules[layer].base);
     text_define(text, "layer_needs_wi(layer)", rules[layer].needs_wi);
     text_define(text, "layer_needs_average(layer)", rules[layer].needs_average);
-    text_define(text, "layer_default_by(layer)", rules[layer].by);
+    text_define(text, "layer_combine(layer)", rules[layer].by);
 }
 
 static void put_value(Text *text, const Surface *s, int k) {

@@ -113,7 +113,7 @@ FN void compose_choices(Stack *m, const Surface *s, Choices c) {
         m->albedo = ALBEDO_TABLE; /* these rules need E(wi) and its average; engines' formulas have neither */
         m->albedo_coord = m->sheen.lobe.params[0];
     }
-    m->combine = c.layer_by >= 0 ? c.layer_by : layer_default_by(m->layer);
+    m->combine = c.layer_by >= 0 ? c.layer_by : layer_combine(m->layer);
     if ((c.d >= 0 || c.v >= 0 || c.f >= 0) && HAS_SPECULAR(m)) {
         m->specular.lobe = compose_terms(compose_facets(m->specular.lobe), c.d, c.v, c.f, s);
     }

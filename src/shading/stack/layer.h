@@ -65,9 +65,9 @@ FN bool layer_needs_wi(int layer) { return false WEFT_LAYERS(LAYER_NEEDS_WI); }
 FN bool layer_needs_average(int layer) { return false WEFT_LAYERS(LAYER_NEEDS_AVERAGE); }
 
 /* Returns which colour of the sheen the rule takes where none is chosen. */
-#define LAYER_BY_OF(id, index, base, needs_wi, needs_average, conserves, by, help)                                     \
+#define LAYER_COMBINE(id, index, base, needs_wi, needs_average, conserves, by, help)                                   \
     if (layer == index) return by;
-FN int layer_default_by(int layer) {
-    WEFT_LAYERS(LAYER_BY_OF)
+FN int layer_combine(int layer) {
+    WEFT_LAYERS(LAYER_COMBINE)
     return LAYER_BY_MAX;
 }
