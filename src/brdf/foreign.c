@@ -31,12 +31,15 @@ static const struct {
     {"\x1f\x8b", 2, "it is compressed by gzip: unpack it"},
 };
 
-/* Returns true if the first bytes are those of a text. */
+/* Returns true if the first bytes are those of a text: no control characters, and few that are not ASCII. */
 static bool is_text(const unsigned char *data, size_t size) {
     enum { ENOUGH = 24 };
-    for (size_t k = 0; k < size; k++)
+    size_t others = 0;
+    for (size_t k = 0; k < size; k++) {
         if (data[k] == 0x7f || (data[k] < 0x20 && !strchr("\t\n\f\r", data[k])) || data[k] == 0) return false;
-    return size >= ENOUGH;
+        others += data[k] >= 0x80;
+    }
+    return size >= ENOUGH && others <= size / 8;
 }
 
 const char *foreign_name(const void *data, size_t size) {

@@ -18,17 +18,17 @@ MeasuredFormat measured_format(const char *name) {
 
 WeftResult measured_read_memory(const void *data, size_t size, const char *name, Measured *out, WeftError *error) {
     MeasuredFormat format = measured_format(name);
-    const char *foreign = foreign_name(data, size);
     *out = (Measured){.format = format == MEASURED_NONE ? MEASURED_MERL : format};
-    if (foreign)
-        return fail(error,
-                    format == MEASURED_RGL    ? WEFT_MESSAGE_BSDF
-                    : format == MEASURED_UTIA ? WEFT_MESSAGE_UTIA
-                                              : WEFT_MESSAGE_MEASURED,
-                    name, "%s", foreign);
-    return format == MEASURED_RGL    ? rgl_read_memory(data, size, name, &out->rgl, error)
-           : format == MEASURED_UTIA ? utia_read_memory(data, size, name, &out->utia, error)
-                                     : merl_read_memory(data, size, name, &out->merl, error);
+    WeftResult result = format == MEASURED_RGL    ? rgl_read_memory(data, size, name, &out->rgl, error)
+                        : format == MEASURED_UTIA ? utia_read_memory(data, size, name, &out->utia, error)
+                                                  : merl_read_memory(data, size, name, &out->merl, error);
+    const char *foreign = result == WEFT_INPUT ? foreign_name(data, size) : NULL;
+    if (!foreign) return result;
+    return fail(error,
+                format == MEASURED_RGL    ? WEFT_MESSAGE_BSDF
+                : format == MEASURED_UTIA ? WEFT_MESSAGE_UTIA
+                                          : WEFT_MESSAGE_MEASURED,
+                name, "%s", foreign);
 }
 
 WeftResult measured_read(const char *path, Measured *out, WeftError *error) {

@@ -5,7 +5,7 @@
  *   keep   = 1 - max3(c) R(cos_o)
  *   base   = that of workflow metallic
  *
- *   blender/blender, intern/cycles/kernel: closure/bsdf_sheen.h, svm/closure.h (the node Principled BSDF, its sheen
+ *   blender/blender, intern/cycles/kernel: closure/bsdf_sheen.h, svm/closure (the node Principled BSDF, its sheen
  * of distribution Microfiber), 4.0 of 2023 and later. Its table is that of tizian/ltc-sheen: Tizian Zeltner, Brent
  * Burley, Matt Jen-Yuan Chiang, "Practical Multiple-Scattering Sheen Using Linearly Transformed Cosines", SIGGRAPH Talks
  * 2022. Written from that code as it is known, not from a stored revision.
@@ -22,4 +22,6 @@ FN void cycles_principled_stack(Stack *m, const Surface *s) {
     Lobe fuzz = lobe_default(LOBE_LTC_FIBRE_PUBLISHED);
     fuzz.params[LTC_FIBRE_PUBLISHED_ALPHA] = clamp(s->sheen_roughness, 0.05f, 1.0f);
     metallic_with(m, s, fuzz, LAYER_ALBEDO_VIEW, BASE_FRESNEL_LEAST);
+    m->transmission = 0.0f; /* Blender's reader of glTF knows no diffuse transmission */
+    m->transmitted = rgb_grey(0.0f);
 }
