@@ -54,10 +54,6 @@ static bool is_sharp(const RandomMaterial *material, bool polygon) {
 static bool is_stretched(const RandomMaterial *material, bool polygon) {
     return polygon && strstr(material->text, "\"anisotropy\":");
 }
-static bool shines_through(const RandomMaterial *material, bool polygon) {
-    return polygon && strstr(material->text, "\"diffuse_transmission\":");
-}
-
 static const Exception exceptions[] = {
     {is_woven, 1.0, 0.03, "points of threads are chosen at random, others in each engine: only means agree"},
     {is_blended, 1.0, 0.02,
@@ -66,7 +62,6 @@ static const Exception exceptions[] = {
     {has_polygon, 0.04, 0.05, "24 to 32 points stand for a polygon: 1 to 5 % for highlights (docs/area-lights.md)"},
     {is_sharp, 0.06, 0.15, "the same: up to 14 % for coats and silk"},
     {is_stretched, 1.0, 1.0, "the same: streaks below roughness 0.15 fade, since they are cones"},
-    {shines_through, 0.2, 0.12, "layers dim the light of a polygon behind as at its middle (docs/materials.md)"},
 };
 enum { EXCEPTIONS = sizeof exceptions / sizeof *exceptions };
 

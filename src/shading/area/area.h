@@ -133,15 +133,32 @@ FN Rgb stack_polygon(const Stack *m, const StackView *view, Polygon p) {
     return sum;
 }
 
-/* Returns the light of a polygon of radiance 1 below the surface that comes through: the form factor of its mirror
- * image times the transmittance of the layers at the middle of that image. */
+/* Returns the light of a polygon of radiance 1 below the surface that comes through: that of its mirror image at the points
+ * of the cosine, each as the layers dim it. */
 FN Rgb stack_polygon_behind(const Stack *m, const StackView *view, Polygon p) {
     Polygon q = p;
     for (int k = 0; k < p.count; k++) q.corners[k] = dir(p.corners[k].x, p.corners[k].y, -p.corners[k].z);
     q = polygon_on_sphere(polygon_clip(q));
-    Dir flux = polygon_flux(q), c = polygon_middle(q, flux);
-    if (q.count < 3 || view->o.z <= 0.0f || c.z <= 0.0f) return rgb_grey(0.0f);
-    Angles a = angles_between(view->o, c);
-    StackValue value = stack_transmitted(m, view, &a);
-    return rgb_scale(value.f_cos, max(flux.z, 0.0f) / max(c.z, 1e-6f));
+    Rgb sum = rgb_grey(0.0f);
+    if (q.count < 3 || view->o.z <= 0.0f) return sum;
+    Dir flux = polygon_flux(q), c = polygon_middle(q, flux), a = polygon_last(q);
+    float seen = 0.0f;
+    int rays = polygon_rays(q.count), steps = polygon_steps(q.count);
+    for (int k = 0; k < q.count; k++) {
+        Dir b = q.corners[k];
+        for (int j = 0; j < rays; j++) {
+            PolygonRay ray = polygon_ray(c, a, b, j, rays);
+            for (int n = 0; n < steps; n++) {
+                PolygonPoint v = polygon_point(c, ray, n, steps);
+                if (v.w.z > 0.0f) {
+                    Angles angles = angles_between(view->o, v.w);
+                    StackValue value = stack_transmitted(m, view, &angles);
+                    seen = seen + v.area * v.w.z;
+                    sum = rgb_add(sum, rgb_scale(value.f_cos, v.area));
+                }
+            }
+        }
+        a = b;
+    }
+    return rgb_scale(sum, (max(flux.z, 0.0f) + POLYGON_SMALL) / (seen + POLYGON_SMALL));
 }
