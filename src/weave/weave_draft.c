@@ -12,6 +12,7 @@
 #include "base/memory.h"
 #include "weave/dtx.h"
 #include "weave/loom.h"
+#include "weave/wpo.h"
 
 enum { FILE_MAX = 16 << 20, START_MAX = 1 << 16 }; /* bytes of a WIF, and where [WIF] must stand */
 
@@ -129,17 +130,18 @@ static bool is_text(FileBytes bytes) {
     return at == bytes.size;
 }
 
-/* Returns the program that writes such files, which weft does not read; NULL for any other file. */
-static const char *other_program(const char *path, FileBytes start) {
+/* Returns the program that writes files of that name, which weft does not read; NULL for any other. */
+static const char *other_program(const char *path) {
     static const struct {
         const char *suffix, *program;
-    } programs[] = {{".wpo", "WeavePoint"}, {".twa", "TempoWeave"}, {".ada", "AdaCAD"}, {".dbw", "DB-WEAVE"}};
+    } programs[] = {{".wpo", "WeavePoint, of a kind that is not known"},
+                    {".twa", "TempoWeave"},
+                    {".ada", "AdaCAD"},
+                    {".dbw", "DB-WEAVE"}};
     const char *dot = strrchr(path, '.');
     for (size_t k = 0; dot && k < sizeof programs / sizeof *programs; k++)
         if (strcasecmp(dot, programs[k].suffix) == 0) return programs[k].program;
-    const bool is_wpo = start.size > 2 && start.data[0] == 123 && start.data[1] < 32 && start.data[2] >= 100 &&
-                        start.data[2] <= 102; /* a mark, the version, the kind of draft */
-    return is_wpo ? programs[0].program : NULL;
+    return NULL;
 }
 
 WeftResult weft_draft_read(const char *what, WeftDraft **out, const WeftLog *log, WeftError *error) {
@@ -149,10 +151,11 @@ WeftResult weft_draft_read(const char *what, WeftDraft **out, const WeftLog *log
     FileBytes start;
     WeftResult result = file_read_start(what, START_MAX, &start, error);
     if (result != WEFT_OK) return result;
-    const bool lines = is_wif(start.data, start.size) || dtx_is(start.data, start.size), text = is_text(start);
-    const char *program = other_program(what, start);
+    const bool text = is_text(start), known = is_wif(start.data, start.size) || dtx_is(start.data, start.size) ||
+                                              wpo_is(start.data, start.size);
+    const char *program = other_program(what);
     free(start.data);
-    if (lines) return read_wif(what, out, log, error);
+    if (known) return read_wif(what, out, log, error);
     if (program) return fail(error, WEFT_MESSAGE_DRAFT, what, "it is a file of %s: save it there as WIF", program);
     return draft_from_picture(what, text, out, log, error);
 }

@@ -19,6 +19,7 @@
 #include "base/fail.h"
 #include "base/memory.h"
 #include "weave/dtx.h"
+#include "weave/wpo.h"
 
 /* Sets of shafts or treadles, numbered from 1: `words` words of 64 each. */
 typedef struct Sets {
@@ -238,8 +239,9 @@ WeftResult weft_draft_read_memory(const void *data, size_t size, const char *nam
                                   WeftError *error) {
     Wif wif = {.log = log, .error = error};
     *out = NULL;
-    WeftResult result = dtx_is(data, size) ? dtx_read(data, size, name, log, &wif.ini, error)
-                                           : ini_read(data, size, name, &wif.ini, error);
+    WeftResult result = dtx_is(data, size)   ? dtx_read(data, size, name, log, &wif.ini, error)
+                        : wpo_is(data, size) ? wpo_read(data, size, name, &wif.ini, error)
+                                             : ini_read(data, size, name, &wif.ini, error);
     if (result == WEFT_OK) result = wif_draft(&wif, out);
     if (result != WEFT_OK) {
         weft_draft_free(*out);

@@ -678,10 +678,54 @@ static void assert_other_program(const char *path, const char *bytes, size_t siz
     if (!strstr(error.text, said)) fail_msg("%s", error.text);
 }
 
+/* 9 shafts, so that a set of them takes two bytes; 20 threads an inch; colours of 0 to 63. */
+static void drafts_of_weavepoint_are_read(void **state) {
+    (void)state;
+    static const unsigned char head[] = {123, 3, 0, 10, 9, 3, 0, 0, 0, 20, 10, 0, 0, 0, 3, 0, 4, 0, 0, 0,
+                                         0,   0, 0, 0,  0, 3, 1, 9, 2, 0,  3,  0, 1, 0, 0, 4, 1, 1, 1, 1},
+                               plan[] = {0, 4, 1, 0, 0, 1, 2, 0, 3, 1}, tied[] = {1, 0, 0, 1, 2, 0},
+                               single[] = {0, 4, 1, 2, 3, 2}, several[] = {0, 4, 1, 2, 4, 7},
+                               tail[] = {2, 63, 0, 0, 0, 0, 63};
+    for (int kind = 0; kind < 3; kind++) {
+        unsigned char file[256] = {0};
+        size_t size = 0;
+        const unsigned char *lift = kind == 0 ? plan : kind == 1 ? single : several;
+        const size_t lift_size = kind == 0 ? sizeof plan : sizeof single;
+        memcpy(file, head, sizeof head), size += sizeof head;
+        if (kind) memcpy(file + size, tied, sizeof tied), size += sizeof tied;
+        memcpy(file + size, lift, lift_size), size += lift_size + 66;
+        memcpy(file + size, tail, sizeof tail), size += sizeof tail;
+        file[2] = (unsigned char)(100 + kind);
+        WeftDraft *draft;
+        WeftError error;
+        warnings = 0;
+        if (weft_draft_read_memory(file, size, "draft.wpo", &draft, &counting, &error) != WEFT_OK)
+            fail_msg("%s", error.text);
+        assert_int_equal(warnings, 0);
+        if (kind == 1)
+            assert_rows(draft, ROWS(".#.", "..#", ".#.", "#.."));
+        else
+            assert_rows(draft, ROWS("###", "..#", ".#.", "#.."));
+        assert_true(weft_draft_thread(draft, WEFT_WARP, 1).color[2] > 0.999f);
+        assert_true(weft_draft_thread(draft, WEFT_WARP, 2).color[0] > 0.999f);
+        assert_true(fabsf(weft_draft_thread(draft, WEFT_WEFT, 0).spacing - 2.54e-3f) < 1e-7f);
+        weft_draft_free(draft);
+        for (size_t cut = 3; cut < size; cut++) {
+            assert_int_equal(weft_draft_read_memory(file, cut, "draft.wpo", &draft, NULL, &error), WEFT_INPUT);
+            assert_non_null(strstr(error.text, "cut short"));
+        }
+        file[7] = 1; /* it sinks */
+        assert_int_equal(weft_draft_read_memory(file, size, "draft.wpo", &draft, NULL, &error), WEFT_OK);
+        assert_int_equal(weft_draft_warp_up(draft, 0, 0), 0);
+        weft_draft_free(draft);
+    }
+}
+
 static void files_of_other_programs_are_named(void **state) {
     (void)state;
-    assert_other_program("draft.wpo", "\x7b\x07\x65\x0a\x04\x04", 6, "file of WeavePoint: save it there as WIF");
-    assert_other_program("a.txt", "\x7b\x07\x65\x0a\x04\x04", 6, "file of WeavePoint: save it there as WIF");
+    assert_other_program("draft.wpo", "\x7b\x07\x09\x0a\x04\x04", 6,
+                         "file of WeavePoint, of a kind that is not known: save");
+    assert_other_program("a.txt", "\x7b\x07\x65\x0a\x04\x04", 6, "it is a file of WeavePoint that is cut short");
     assert_other_program("draft.twa", "PK\3\4", 4, "file of TempoWeave: save it there as WIF");
     assert_other_program("a.txt", "{\x7b", 2, "that does not begin with [WIF]");
 }
@@ -796,6 +840,7 @@ int main(void) {
         cmocka_unit_test(a_written_draft_reads_as_the_same),
         cmocka_unit_test(a_picture_of_two_colours_is_a_jacquard_draft),
         cmocka_unit_test(a_picture_of_more_colours_is_parted_by_brightness),
+        cmocka_unit_test(drafts_of_weavepoint_are_read),
         cmocka_unit_test(files_of_other_programs_are_named),
         cmocka_unit_test(draft_is_drawn_and_written_in_every_form),
         cmocka_unit_test(real_drafts_give_the_crossings_worked_by_hand),

@@ -242,8 +242,8 @@ const Verb verb_weave = {
     .operands_least = 1,
     .operands_most = 1,
     .options = weave_options,
-    .notes = "DRAFT is a WIF file (.wif), a .dtx of Fiberworks, a picture (a pixel a\n"
-             "crossing, the darker of two colours where the warp is on top), or words:\n\n"
+    .notes = "DRAFT is a file (.wif, .dtx of Fiberworks, .wpo of WeavePoint), a picture (a\n"
+             "pixel a crossing, the darker of two colours where the warp is on top), or words:\n\n"
              "  plain | houndstooth | basket N [M] | twill A/B[/A/B...] [z|s] | satin N/C |\n"
              "  sateen N/C | herringbone A/B N | picks #.. .#. ..#\n\n"
              "and after it, each behind a semicolon,\n\n"
