@@ -336,6 +336,34 @@ static void cloth_conserves_energy_over_its_whole_range(void **state) {
     }
 }
 
+/* Where a norm is a fit, its worst corners: the ground of a high peak and no lift, from above; flat ribbons of any
+ * fibres, across them at grazing and from above. */
+static void fitted_norms_hold_in_their_worst_corners(void **state) {
+    (void)state;
+    double body = 0.0, woven = 0.0;
+    for (int k = 0; k <= 20; k++) {
+        Lobe lobe = lobe_default(LOBE_BODY);
+        lobe_set(&lobe, BODY_EDGE, 0.05f * (float)k);
+        lobe_set(&lobe, BODY_RETRO, 6.0f);
+        lobe_set(&lobe, BODY_LIFT, 0.0f);
+        const Albedo e = albedo_quadrature(&lobe, (Dir){0.0f, 0.0f, 1.0f}, 1e-4);
+        body = fmax(body, (double)(e.f0 + e.f90));
+    }
+    static const float sines[] = {0.0f, 0.37f, 0.987f, 0.995f};
+    for (int k = 0; k < 4 * 10; k++) {
+        Lobe lobe = lobe_default(LOBE_WOVEN);
+        lobe_set(&lobe, WOVEN_ALPHA, 0.1f * (float)(k / 4 + 1));
+        lobe_set(&lobe, WOVEN_CRIMP, 0.0f);
+        lobe_set(&lobe, WOVEN_ROUNDNESS, k % 3 ? 0.0f : 0.2f);
+        lobe_set(&lobe, WOVEN_FLOATS, 6.0f);
+        const float s = sines[k % 4];
+        const Albedo e = albedo_quadrature(&lobe, (Dir){0.0f, s, sqrtf(1.0f - s * s)}, 1e-4);
+        woven = fmax(woven, (double)(e.f0 + e.f90));
+    }
+    print_message("E at most: body %.4f, woven %.4f\n", body, woven);
+    assert_true(body <= 1.0002 && body > 0.98 && woven <= 1.0003 && woven > 0.98);
+}
+
 /* The weight f cos / pdf never passes the stated bound, nor what yarns send up the stated most. */
 static void sample_weights_of_sheens_are_bounded(void **state) {
     (void)state;
@@ -443,6 +471,7 @@ int main(void) {
         cmocka_unit_test(roughness_of_sheens_is_as_the_headers_state),
         cmocka_unit_test(exponential_lobes_follow_their_ramp),
         cmocka_unit_test(albedo_of_sheens_is_as_the_headers_state),
+        cmocka_unit_test(fitted_norms_hold_in_their_worst_corners),
         cmocka_unit_test(cloth_conserves_energy_over_its_whole_range),
         cmocka_unit_test(sample_weights_of_sheens_are_bounded),
         cmocka_unit_test(threads_shift_their_color),

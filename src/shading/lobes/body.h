@@ -1,7 +1,8 @@
 /* body - the ground of woven cloth and felt: a soft glow back towards the light, darker along the edge
  *
  *   f = color (cos_o cos_i)^edge (1 + retro exp(-tan d / 0.35) + lift sin_d^2) / (pi N)           [1/sr]
- *   cos d = wi . h,  N = 2 / (2 + edge) (1 + retro (0.346 + 0.064 edge) + lift m)
+ *   cos d = wi . h,  N = 2 / (2 + edge) (1 + retro q + lift m)
+ *   q = 0.34585 + 0.0733 edge - 0.0113 edge^2
  *   m = x^edge / (2 (1 + edge)),  x = edge (3 + edge) / ((1 + edge) (2 + edge))
  *
  *   Own fit to measured fabrics, docs/fabrics.md, 2026. Cosines to a power: M. Minnaert, "The Reciprocity
@@ -37,10 +38,11 @@ STRUCT(BodyPrepared) {
 FN void body_prepare(Body m, BodyPrepared *p) {
     float k = m.edge, x = k * (3.0f + k) / ((1.0f + k) * (2.0f + k));
     float lifted = pow(max(x, 1e-6f), k) / (2.0f * (1.0f + k));
+    float peak = 0.34585f + k * (0.0733f - 0.0113f * k); /* at most 0.0002 above the integral */
     p->edge = k;
     p->retro = m.retro;
     p->lift = m.lift;
-    p->scale = (2.0f + k) / (2.0f * PI * (1.0f + m.retro * (0.346f + 0.064f * k) + m.lift * lifted));
+    p->scale = (2.0f + k) / (2.0f * PI * (1.0f + m.retro * peak + m.lift * lifted));
 }
 SEEN_AS_IT_IS(body, Body)
 

@@ -120,7 +120,7 @@ FN void woven_prepare(Woven m, WovenPrepared *p) {
     p->sin_a = sin(m.azimuth);
     p->cos_t = cos(m.twist);
     p->sin_t = sin(m.twist);
-    p->multiple = 0.5f / (PI * yarn_remainder_mean(m.alpha));
+    p->multiple = yarn_multiple(m.alpha, m.roundness);
     p->edge = -0.3f / (p->v_roundness * p->v_roundness);
     p->width = p->v_roundness;
     p->taper = 0.0f;

@@ -54,7 +54,7 @@ FN void yarn_prepare(Yarn m, YarnPrepared *p) {
     p->e = (1.0f - a2) / a2;
     p->per_n = 1.0f / sqrt(1.0f + m.slope_x * m.slope_x + m.slope_y * m.slope_y);
     p->single = 1.0f / (4.0f * PI * a2);
-    p->multiple = 0.5f / (PI * yarn_remainder_mean(m.alpha));
+    p->multiple = yarn_multiple(m.alpha, m.roundness);
 }
 FN float yarn_second(Yarn m, float f0, float f90) { return yarn_reflectance(f0); }
 

@@ -82,6 +82,13 @@ FN float yarn_remainder(float a, float cosine) {
 /* Returns R_mean, the mean of R weighted by the cosine. */
 FN float yarn_remainder_mean(float a) { return 0.672f + 0.111f * a; }
 
+/* Returns the factor of multiple that does not depend on directions, 1 / (2 pi R_mean). Where threads are nearly flat
+ * ribbons, they hide no light from each other that would make up for the error of R, by which E would be up to 1.006:
+ * there it is up to 0.011 less. Own fit: E <= 1 for every alpha, crimp, twist and power of floats. */
+FN float yarn_multiple(float a, float roundness) {
+    return 0.5f * (1.0f - 0.011f * max(1.0f - roundness / 0.3f, 0.0f)) / (PI * yarn_remainder_mean(a));
+}
+
 /* Returns rho(A). */
 FN float yarn_reflectance(float albedo) {
     float g = sqrt(max(1.0f - albedo, 0.0f)), r = (1.0f - g) / (1.0f + 0.32f * g);
