@@ -44,12 +44,73 @@ class MemoryStream : public Imf::IStream {
     size_t size_, at_;
 };
 
-/* Returns true if every attribute of the headers lies within the file: the library allocates what they claim. */
+size_t long_at(const unsigned char *at) {
+    return static_cast<size_t>(at[0]) | static_cast<size_t>(at[1]) << 8 | static_cast<size_t>(at[2]) << 16 |
+           static_cast<size_t>(at[3]) << 24;
+}
+
+/* Returns true if a list of channels, of a name and 16 bytes each, ends where its attribute does. */
+bool channels_fit(const unsigned char *at, size_t size) {
+    enum { CHANNEL = 16 };
+    for (size_t k = 0; k < size;) {
+        const size_t start = k;
+        while (k < size && at[k]) k++;
+        if (k == size) return false;
+        if (k++ == start) return k == size;
+        if (size - k < CHANNEL) return false;
+        k += CHANNEL;
+    }
+    return false;
+}
+
+/* Returns true if the library reads as many bytes of an attribute of this type as it has. */
+bool attribute_fits(const char *type, const unsigned char *at, size_t size) {
+    static const struct {
+        const char *type;
+        size_t size;
+    } fixed[] = {{"box2i", 16},
+                 {"box2f", 16},
+                 {"chromaticities", 32},
+                 {"compression", 1},
+                 {"deepImageState", 1},
+                 {"double", 8},
+                 {"envmap", 1},
+                 {"float", 4},
+                 {"int", 4},
+                 {"keycode", 28},
+                 {"lineOrder", 1},
+                 {"m33f", 36},
+                 {"m33d", 72},
+                 {"m44f", 64},
+                 {"m44d", 128},
+                 {"rational", 8},
+                 {"tiledesc", 9},
+                 {"timecode", 8},
+                 {"v2f", 8},
+                 {"v2i", 8},
+                 {"v2d", 16},
+                 {"v3f", 12},
+                 {"v3i", 12},
+                 {"v3d", 24}};
+    for (const auto &row : fixed)
+        if (std::strcmp(type, row.type) == 0) return size == row.size;
+    if (std::strcmp(type, "chlist") == 0) return channels_fit(at, size);
+    if (std::strcmp(type, "floatvector") == 0) return size % 4 == 0;
+    if (std::strcmp(type, "preview") == 0)
+        return size >= 8 && long_at(at) < 1 << 14 && long_at(at + 4) < 1 << 14 &&
+               long_at(at) * long_at(at + 4) * 4 == size - 8;
+    return std::strcmp(type, "idmanifest") != 0;
+}
+
+/* Returns true if every attribute of the headers lies within the file and is read as a whole: the library allocates what
+ * they claim. */
 bool headers_fit(const unsigned char *data, size_t size) {
     const bool parts = size > 8 && data[5] & 0x10; /* several headers, and an empty one behind them */
     size_t at = 8;
     for (bool ended = false; at < size;) {
+        const char *type = "";
         for (int text = 0; text < 2; text++) { /* name and type */
+            type = reinterpret_cast<const char *>(data + at);
             const void *zero = std::memchr(data + at, 0, size - at);
             if (!zero) return false;
             const size_t length = static_cast<size_t>(static_cast<const unsigned char *>(zero) - (data + at));
@@ -60,10 +121,9 @@ bool headers_fit(const unsigned char *data, size_t size) {
         }
         if (ended) continue;
         if (size - at < 4) return false;
-        const size_t bytes = static_cast<size_t>(data[at]) | static_cast<size_t>(data[at + 1]) << 8 |
-                             static_cast<size_t>(data[at + 2]) << 16 | static_cast<size_t>(data[at + 3]) << 24;
+        const size_t bytes = long_at(data + at);
         at += 4;
-        if (bytes > size - at) return false;
+        if (bytes > size - at || !attribute_fits(type, data + at, bytes)) return false;
         at += bytes;
     }
     return false;

@@ -3,6 +3,7 @@
  * Another white is adapted as in King Lam, "Metamerism and Colour Constancy", 1985 (the Bradford transform). */
 #include "image/primaries.h"
 
+#include <float.h>
 #include <math.h>
 #include <stddef.h>
 
@@ -101,6 +102,6 @@ void image_convert_colors(WeftImage *image, const ColorConversion *matrix) {
         const double from[3] = {(double)pixel[0], (double)pixel[1], (double)pixel[2]};
         double to[3];
         apply(matrix, from, to);
-        for (int c = 0; c < 3; c++) pixel[c] = (float)to[c];
+        for (int c = 0; c < 3; c++) pixel[c] = (float)fmin(fmax(to[c], -(double)FLT_MAX), (double)FLT_MAX);
     }
 }

@@ -24,5 +24,5 @@ bool primaries_matrix(const Primaries *primaries, ColorConversion *matrix);
 /* Returns the matrix for CIE X, Y and Z. */
 ColorConversion xyz_matrix(void);
 
-/* Converts the colours of a float image of three or four channels. */
+/* Converts the colours of a float image of three or four channels; finite ones stay finite. */
 void image_convert_colors(WeftImage *image, const ColorConversion *matrix);
