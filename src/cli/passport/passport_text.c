@@ -191,12 +191,14 @@ static void header_half(const WeftPassport *p) {
     if (p->half_cosine) printf(".\n");
 }
 
-/* Prints the lines without numbers that differ between machines: the agreement of f(wo, wi) and f(wi, wo) to rounding,
+/* Prints the lines, which say if parameters were not varied, without numbers that differ between machines: the agreement of f(wo, wi) and f(wi, wo) to rounding,
  * and variances near zero. */
 void passport_header(const WeftPassport *p) {
     char place[96];
     bool reference = (p->traits & WEFT_LOBE_REFERENCE) != 0;
-    printf(" *   measured by weft check %s: E at most %.2f (%s);\n", p->id, (double)p->albedo_most,
+    const WeftLobeInfo *info = weft_lobe_info(weft_lobe_find(p->id));
+    printf(" *   measured by weft check %s%s: E at most %.2f (%s);\n", p->id,
+           info && info->param_count > 1 ? ", other parameters at default" : "", (double)p->albedo_most,
            place_text(p, &p->albedo_place, place, sizeof place));
     if (p->reciprocity < 1e-3f)
         printf(" *     reciprocal to 1e-3; ");

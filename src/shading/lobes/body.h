@@ -15,7 +15,7 @@
  *     last at cos_o = x.
  *   sampling: cosine; the weight is at most 9 / N.
  *   Not for: highlights and fuzz, which are lobe fabric over this.
- *   measured by weft check body: E at most 0.99 (edge 1, cos_o 1);
+ *   measured by weft check body, other parameters at default: E at most 0.99 (edge 1, cos_o 1);
  *     reciprocal to 1e-3; weight variance 1.00 of the cosine's;
  *     half precision: finite for any cosines. */
 #pragma once

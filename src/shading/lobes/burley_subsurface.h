@@ -12,7 +12,7 @@
  *   energy: no, E passes 1 at any roughness: at roughness 0 it is 0.749 at the normal and up to 1.211 on
  *     the way to grazing; at cos_o 0.02 it is 0.758 at roughness 0 and 1.504 at 1.
  *   sampling: half cosine, half uniform; the weight is at most 5.
- *   measured by weft check burley-subsurface: E at most 1.51 (roughness 1, cos_o 0.001);
+ *   measured by weft check burley-subsurface, other parameters at default: E at most 1.51 (roughness 1, cos_o 0.001);
  *     reciprocal to 1e-3; weight variance 0.71 of the cosine's;
  *     half precision: finite for cosines >= 2^-16. */
 #pragma once

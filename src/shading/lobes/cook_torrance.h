@@ -13,7 +13,7 @@
  *   sampling: half by D, visible normals for ggx and ggx-aniso, h from D cos_h else; half uniform, which
  *     bounds the weight where D finds nothing. 1/2 D cos_h / (4 d) bounds it by 8 V cos_i d / cos_h, the
  *     uniform half by 4 pi D V cos_i.
- *   measured by weft check cook-torrance: E at most 1.00 (alpha 0.01, cos_o 1);
+ *   measured by weft check cook-torrance, other parameters at default: E at most 1.00 (alpha 0.01, cos_o 1);
  *     reciprocal to 1e-3; weight variance 0.05 of the cosine's;
  *     half precision: finite for cosines >= 2^-7 and alpha >= 0.062. */
 #pragma once

@@ -17,7 +17,7 @@
  *     bounds it; the shape of that bound is fitted.
  *   sampling: two of three by D at cos d = 1, which is nowhere below D, the rest uniform.
  *   Not for: satin, whose highlight is stretched; that is silk or threads.
- *   measured by weft check fabric: E at most 0.98 (alpha 0.99, cos_o 0.001);
+ *   measured by weft check fabric, other parameters at default: E at most 0.98 (alpha 0.99, cos_o 0.001);
  *     reciprocal to 1e-3; weight variance 1.14 of the cosine's;
  *     half precision: finite for cosines >= 2^-13. */
 #pragma once

@@ -17,7 +17,7 @@
  *   sampling: by a linearly transformed cosine with A and b formulas of alpha and mu_o; where it falls short, at
  *     grazing and where fibres lean, by nu = -nu_o, give or take s, above the horizon; 4 % uniform.
  *   Not for: fibres spun into yarn, which are threads.
- *   measured by weft check fibre: E at most 0.79 (alpha 0.09, cos_o 0.001);
+ *   measured by weft check fibre, other parameters at default: E at most 0.79 (alpha 0.09, cos_o 0.001);
  *     reciprocal to 1e-3; weight variance under 0.01 of the cosine's;
  *     half precision: finite for cosines >= 2^-11. */
 #pragma once

@@ -19,7 +19,7 @@
  *   sampling: x = (wi + wo) . t by b / (b + |x|)^2, b = max(mu_o, s), and evenly around t; a share of
  *     alpha half by the cosine, half uniformly.
  *   Not for: the GPU, arrays and 16-bit floats. E has a standard error of 0.0025 in the tables of layer rules.
- *   measured by weft check fibre-walk: E at most 0.79 (alpha 0.09, cos_o 0.001);
+ *   measured by weft check fibre-walk, other parameters at default: E at most 0.79 (alpha 0.09, cos_o 0.001);
  *     reciprocal to 1e-3; weight variance 0.31 of the cosine's;
  *     half precision: not measured, since the lobe is for the path tracer only. */
 #pragma once

@@ -11,7 +11,7 @@
  *     alpha 0.25, 32 % at 0.5 and, at normal incidence, ln 2 = 69 % at alpha 1.
  *   sampling: visible normals; the weight is F G2 / G1 <= 1.
  *   Not for: cloth whose fibres stand up; those have no highlight in the mirror direction.
- *   measured by weft check ggx: E at most 1.00 (alpha 0.01, cos_o 1);
+ *   measured by weft check ggx, other parameters at default: E at most 1.00 (alpha 0.01, cos_o 1);
  *     reciprocal to 1e-3; weight variance under 0.01 of the cosine's;
  *     half precision: finite for cosines >= 2^-7 and alpha >= 0.062. */
 #pragma once

@@ -17,7 +17,7 @@
  *   energy: E <= 1/2, since half of p points down; at cos_o 0.02 it is 0.38 at roughness 0.5, and 0.46
  *     at 1.
  *   sampling: half by p, half uniform.
- *   measured by weft check patry: E at most 0.50 (roughness 1, cos_o 0.001);
+ *   measured by weft check patry, other parameters at default: E at most 0.50 (roughness 1, cos_o 0.001);
  *     f(wo, wi) and f(wi, wo) up to 0.91 of the larger apart; weight variance 0.15 of the cosine's;
  *     half precision: finite for cosines >= 2^-13. */
 #pragma once

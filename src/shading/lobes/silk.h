@@ -16,7 +16,7 @@
  *     0.5.
  *   sampling: visible normals; the weight is F G2 / G1 <= 1.
  *   Not for: two yarns of two colours; that is threads.
- *   measured by weft check silk: E at most 1.00 (alpha 0.01, cos_o 1);
+ *   measured by weft check silk, other parameters at default: E at most 1.00 (alpha 0.01, cos_o 1);
  *     reciprocal to 1e-3; weight variance under 0.01 of the cosine's;
  *     half precision: finite for cosines >= 2^-7 and alpha >= 0.088. */
 #pragma once

@@ -25,7 +25,7 @@
  *   sampling: a piece by what wo sees of it; along the yarn by g or evenly; around it by the cosine or
  *     evenly. The weight is at most pi.
  *   Not for: knits, and cloth so near that single yarns are visible.
- *   measured by weft check threads: E at most 0.35 (warp_width 0.1, cos_o 1);
+ *   measured by weft check threads, other parameters at default: E at most 0.35 (warp_width 0.1, cos_o 1);
  *     reciprocal to 1e-3; weight variance 0.55 of the cosine's;
  *     half precision: no floor keeps it finite (warp_width 1, cos_o 0.1, cos_i 0.1, phi 0). */
 #pragma once

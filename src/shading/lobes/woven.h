@@ -25,7 +25,7 @@
  *   sampling: by the cosine, and by flakes of a level surface (shading/media/yarn_draw.h). The flakes' D is as
  * wide as the slopes and the twist of the yarns make it. Own.
  *   Not for: cloth so near that threads are told apart, for which there is lobe yarn.
- *   measured by weft check woven: E at most 0.98 (alpha 1, cos_o 1);
+ *   measured by weft check woven, other parameters at default: E at most 0.98 (alpha 1, cos_o 1);
  *     reciprocal to 1e-3; weight variance 1.60 of the cosine's;
  *     half precision: finite for any cosines. */
 #pragma once

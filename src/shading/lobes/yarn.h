@@ -16,7 +16,7 @@
  *     thread E <= 1.
  *   sampling: by flakes and by cosines about the yarn and the cloth (shading/media/yarn_draw.h). Own.
  *   Not for: cloth from afar, which is woven.
- *   measured by weft check yarn: E at most 0.98 (alpha 0.36, cos_o 1);
+ *   measured by weft check yarn, other parameters at default: E at most 0.98 (alpha 0.36, cos_o 1);
  *     reciprocal to 1e-3; weight variance 0.78 of the cosine's;
  *     half precision: finite for any cosines. */
 #pragma once
