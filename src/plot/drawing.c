@@ -15,8 +15,7 @@ static WeftResult draw_on(cairo_surface_t *surface, double scale, const Drawing 
     cairo_scale(cairo, scale, scale);
     WeftResult result = drawing->draw(cairo, drawing->user, error);
     if (result == WEFT_OK) cairo_show_page(cairo);
-    if (result == WEFT_OK && cairo_status(cairo) != CAIRO_STATUS_SUCCESS)
-        result = fail(error, WEFT_MESSAGE_MEMORY, "plot", "%s", cairo_status_to_string(cairo_status(cairo)));
+    if (result == WEFT_OK) result = drawn(cairo, "plot", error);
     cairo_destroy(cairo);
     cairo_surface_flush(surface);
     return result;

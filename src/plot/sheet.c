@@ -252,10 +252,8 @@ WeftResult weft_sheet_compose(const WeftSheetDesc *desc, WeftImage *out, WeftErr
     cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, layout.width, layout.height);
     cairo_t *cairo = cairo_create(surface);
     draw(cairo, &layout, desc);
-    if (cairo_status(cairo) != CAIRO_STATUS_SUCCESS)
-        result = fail(error, WEFT_MESSAGE_MEMORY, "sheet", "%s", cairo_status_to_string(cairo_status(cairo)));
-    else
-        result = from_surface(surface, &layout, desc, out, error);
+    result = drawn(cairo, "sheet", error);
+    if (result == WEFT_OK) result = from_surface(surface, &layout, desc, out, error);
     cairo_destroy(cairo);
     cairo_surface_destroy(surface);
     return result;

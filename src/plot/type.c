@@ -1,14 +1,57 @@
 #include "plot/type.h"
 
 #include <math.h>
+#include <pthread.h>
 #include <string.h>
+#include <unistd.h>
 
+#include <cairo-ft.h>
+
+#include "base/fail.h"
 #include "base/printable.h"
 
+static pthread_mutex_t faces_lock = PTHREAD_MUTEX_INITIALIZER;
+static FT_Library library;
+static cairo_font_face_t *faces[2]; /* regular, bold; kept until the program ends */
+
+/* Opens a font file by FreeType. Its memory is given back only with the program. */
+static cairo_font_face_t *open_face(const char *path) {
+    FT_Face face;
+    if (!library && FT_Init_FreeType(&library) != 0) return NULL;
+    if (FT_New_Face(library, path, 0, &face) != 0) return NULL;
+    cairo_font_face_t *made = cairo_ft_font_face_create_for_ft_face(face, 0);
+    if (cairo_font_face_status(made) == CAIRO_STATUS_SUCCESS) return made;
+    FT_Done_Face(face);
+    return NULL;
+}
+
 void set_font(cairo_t *cairo, double size, bool bold) {
-    cairo_select_font_face(cairo, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL,
-                           bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
+    const char *path = bold ? WEFT_FONTS "/DejaVuSans-Bold.ttf" : WEFT_FONTS "/DejaVuSans.ttf";
+    pthread_mutex_lock(&faces_lock);
+    if (!faces[bold]) faces[bold] = open_face(path);
+    cairo_font_face_t *face = faces[bold];
+    pthread_mutex_unlock(&faces_lock);
+    /* Without the file fontconfig chooses; with it fontconfig, which does not survive lack of memory, is not asked. */
+    if (face || access(path, R_OK) == 0)
+        cairo_set_font_face(cairo, face ? face : cairo_toy_font_face_create(NULL, 0, 0)); /* an error of this drawing */
+    else
+        cairo_select_font_face(cairo, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL,
+                               bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
+    if (cairo_surface_get_type(cairo_get_target(cairo)) == CAIRO_SURFACE_TYPE_IMAGE) { /* vectors have no pixels */
+        cairo_font_options_t *options = cairo_font_options_create();
+        cairo_font_options_set_antialias(options, CAIRO_ANTIALIAS_GRAY);
+        cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_SLIGHT);
+        cairo_set_font_options(cairo, options);
+        cairo_font_options_destroy(options);
+    }
     cairo_set_font_size(cairo, size);
+}
+
+WeftResult drawn(cairo_t *cairo, const char *what, WeftError *error) {
+    const cairo_status_t status = cairo_status(cairo);
+    if (status == CAIRO_STATUS_SUCCESS) return WEFT_OK;
+    const bool plain = status == CAIRO_STATUS_NO_MEMORY || status == CAIRO_STATUS_NULL_POINTER; /* of set_font */
+    return fail(error, WEFT_MESSAGE_MEMORY, what, plain ? NULL : "%s", cairo_status_to_string(status));
 }
 
 void drawable(const char *text, char line[TEXT_SIZE]) {

@@ -212,6 +212,24 @@ static void plot_help_lists_the_kinds(void **state) {
     ran_free(&ran);
 }
 
+/* Text is drawn with a font that weft names: what fonts a user has, and whether fontconfig works, changes nothing. */
+static void figure_is_the_same_whatever_fonts_are_configured(void **state) {
+    (void)state;
+    if (access("/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf", R_OK) != 0) skip();
+    static const char *const suffixes[] = {"svg", "pdf", "png"};
+    char line[300];
+    for (int k = 0; k < 3; k++) {
+        snprintf(line, sizeof line,
+                 "$0 plot polar ggx -o usual.%s >/dev/null && FONTCONFIG_FILE=/nowhere FONTCONFIG_PATH=/nowhere "
+                 "$0 plot polar ggx -o fonts.%s >/dev/null && cmp usual.%s fonts.%s",
+                 suffixes[k], suffixes[k], suffixes[k], suffixes[k]);
+        Ran ran = run_shell(line);
+        if (ran.code != 0 || strstr(ran.err, "ontconfig"))
+            fail_msg("%s: %d: %s%s", suffixes[k], ran.code, ran.out, ran.err);
+        ran_free(&ran);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_kind_of_plot_is_written),
@@ -221,6 +239,7 @@ int main(void) {
         cmocka_unit_test(csv_has_one_row_for_each_sample),
         cmocka_unit_test(two_runs_write_the_same_bytes),
         cmocka_unit_test(plot_commands_without_sense_are_refused),
+        cmocka_unit_test(figure_is_the_same_whatever_fonts_are_configured),
         cmocka_unit_test(plot_help_lists_the_kinds),
     };
     return cmocka_run_group_tests(tests, work_begin, work_end);
