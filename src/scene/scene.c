@@ -11,6 +11,7 @@
 #include "brdf/measured.h"
 #include "scene/light/cubemap.h"
 #include "scene/light/environment.h"
+#include "scene/material/cloth_fit.h"
 #include "weave/weft_cloth.h"
 
 WeftScene *scene_create(const char *name) {
@@ -164,7 +165,7 @@ WeftResult weft_scene_set_variant(WeftScene *scene, const char *name, WeftError 
     if (name && v == scene->variant_count)
         return fail(error, WEFT_MESSAGE_VARIANT_NAME, name, "%s", scene_names(scene, weft_scene_variant_name, names));
     use_variant(scene, v);
-    return WEFT_OK;
+    return cloths_fit(scene, error);
 }
 
 int weft_scene_variant(const WeftScene *scene) { return scene->variant - 1; }

@@ -39,13 +39,19 @@ struct WeftCloth {
     WeftDraft *draft; /* as it was read; owned; NULL if no material has the cloth */
     char *path;       /* of the draft's file, absolute; NULL if the text contains the draft */
     double size[2];   /* of the repeat, metres */
+    double metres;    /* that a unit of texture coordinates spans */
+    bool automatic;   /* metres follows from the mesh (scene/material/cloth_fit.h) */
     float per_uv[2];  /* threads of warp and weft in one unit of texture coordinates */
 };
 
 /* Sets the length in metres of a unit of texture coordinates. */
 void cloth_spread(WeftCloth *cloth, double metres);
 
-/* Returns true if both came from the same text, and from the same draft if that is in a file. */
+/* Returns a copy that shares no memory with the cloth, or NULL if memory is short. */
+WeftCloth *cloth_copy(const WeftCloth *cloth);
+
+/* Returns true if both came from the same text, and from the same draft if that is in a file, and have the same
+ * metres. */
 bool cloth_same(const WeftCloth *a, const WeftCloth *b);
 
 /* Makes weave.warp_far and weft_far, far and facets. Returns false where memory is short. */

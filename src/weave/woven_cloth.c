@@ -143,6 +143,7 @@ WeftResult weft_cloth_create(const WeftDraft *draft, const WeftYarn yarns[2], un
 }
 
 void cloth_spread(WeftCloth *cloth, double metres) {
+    cloth->metres = metres;
     cloth->per_uv[WEFT_WARP] = (float)(metres * (double)cloth->weave.warps / cloth->size[WEFT_WARP]);
     cloth->per_uv[WEFT_WEFT] = (float)(metres * (double)cloth->weave.picks / cloth->size[WEFT_WEFT]);
 }
@@ -158,10 +159,44 @@ void weft_cloth_free(WeftCloth *cloth) {
     free(cloth);
 }
 
+/* Returns count numbers copied, or NULL if memory is short. */
+static float *copy_numbers(const float *numbers, size_t count) {
+    float *copy = alloc_array(count, sizeof *copy);
+    return copy ? memcpy(copy, numbers, count * sizeof *copy) : NULL;
+}
+
+static size_t far_size(const ClothFar *far) {
+    int width, height;
+    const float *last = cloth_far_level(far, far->levels - 1, &width, &height);
+    return (size_t)(last - far->texels) + (size_t)width * (size_t)height * FAR_LAYERS * 4;
+}
+
+WeftCloth *cloth_copy(const WeftCloth *cloth) {
+    WeftCloth *copy = alloc_array(1, sizeof *copy);
+    if (!copy) return NULL;
+    const size_t warps = (size_t)cloth->weave.warps, picks = (size_t)cloth->weave.picks;
+    *copy = *cloth;
+    copy->runs = copy_numbers(cloth->runs, 4 * warps * picks);
+    copy->albedos = copy_numbers(cloth->albedos, 3 * (warps + picks));
+    copy->far.texels = copy_numbers(cloth->far.texels, far_size(&cloth->far));
+    copy->text = cloth->text ? strdup(cloth->text) : NULL;
+    copy->path = cloth->path ? strdup(cloth->path) : NULL;
+    copy->draft = NULL;
+    const bool whole = copy->runs && copy->albedos && copy->far.texels && !copy->text == !cloth->text &&
+                       !copy->path == !cloth->path &&
+                       (!cloth->draft || weft_draft_copy(cloth->draft, &copy->draft, NULL) == WEFT_OK);
+    copy->weave.runs = copy->runs;
+    copy->weave.albedos = copy->albedos;
+    if (whole) return copy;
+    weft_cloth_free(copy);
+    return NULL;
+}
+
 static bool same_text(const char *a, const char *b) { return a && b ? strcmp(a, b) == 0 : a == b; }
 
 bool cloth_same(const WeftCloth *a, const WeftCloth *b) {
     if (!a->text || !same_text(a->text, b->text) || !same_text(a->path, b->path)) return false;
+    if (a->metres < b->metres || a->metres > b->metres) return false;
     return a->draft && b->draft ? draft_same(a->draft, b->draft) : a->draft == b->draft;
 }
 

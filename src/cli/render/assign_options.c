@@ -8,6 +8,7 @@
 #include "cli/console/names.h"
 #include "cli/console/report.h"
 #include "weft/material.h"
+#include "weft/weave.h"
 
 /* Options whose value is the id of a choice for all materials, in the order in which they are applied. */
 static const struct {
@@ -145,10 +146,25 @@ static bool check_operands(const Options *options, const char *option, bool is_f
     return true;
 }
 
+/* Returns the '=' before the value of a setting: the last one, but of a weave, whose value may contain others, the first
+ * one behind "MATERIAL.weave"; is_weave tells which. NULL if there is none. */
+static const char *setting_equals(const char *text, bool *is_weave) {
+    static const char mark[] = ".weave";
+    *is_weave = false;
+    for (const char *at = text; (at = strstr(at, mark)); at++) {
+        const char *key = at + sizeof mark - 1, *equals = strchr(key, '=');
+        if ((*key != '.' && *key != '=') || !equals || memchr(key, ' ', (size_t)(equals - key))) continue;
+        *is_weave = true;
+        return equals;
+    }
+    return strrchr(text, '=');
+}
+
 /* Copies the name in "MATERIAL.NAME=VALUE". Returns false after one line if text is not of that form or too long. A
  * material's name may contain '=' and '.', so the last of each divides. */
 static bool setting_name(const char *text, char name[ASSIGN_LABEL]) {
-    const char *equals = strrchr(text, '='), *point = equals;
+    bool is_weave;
+    const char *equals = setting_equals(text, &is_weave), *point = equals;
     while (point && point > text && *point != '.') point--;
     if (!equals || *point != '.') {
         report(WEFT_USAGE, "--set: \"%.80s\" is not MATERIAL.INPUT=VALUE", text);
@@ -189,9 +205,11 @@ static char separator_of(int input, const char *values) {
 static bool check_set(const char *text, Assignments *assignment) {
     char name[ASSIGN_LABEL], item[ASSIGN_LABEL];
     if (!setting_name(text, name)) return false;
+    bool is_weave;
+    const char *equals = setting_equals(text, &is_weave);
+    if (is_weave) return true; /* one value, which may have commas */
     int input = kind_find(kind_of("input"), name);
     if (input < 0 && kind_find(kind_of("choice"), name) < 0) return refuse_name(text, name);
-    const char *equals = strrchr(text, '=');
     Varied varied = {.option = "--set", .values = equals + 1, .separator = separator_of(input, equals + 1)};
     varied.count = item_count(varied.values, varied.separator);
     snprintf(varied.name, sizeof varied.name, "%.*s", (int)(equals - text), text);
@@ -232,7 +250,8 @@ bool assign_read(const Options *options, Assignments *assignment) {
         return false;
     }
     return check_operands(options, "--preset", false) && check_operands(options, "--material", true) &&
-           check_operands(options, "--materials", true) && check_textures(options) && check_sets(options, assignment) &&
+           check_operands(options, "--materials", true) && check_operands(options, "--weave", true) &&
+           check_textures(options) && check_sets(options, assignment) &&
            (!option_given(options, "--convert") || option_choice(options, "--convert", targets, &target));
 }
 
@@ -316,6 +335,11 @@ static WeftResult put_folder(WeftScene *scene, const char *material, const char 
     return weft_scene_bind_maps(scene, material, folder, NULL, log, error);
 }
 
+static WeftResult put_weave(WeftScene *scene, const char *material, const char *draft, const WeftLog *log,
+                            WeftError *error) {
+    return weft_scene_weave(scene, material, "draft", draft, log, error);
+}
+
 /* Options of the form [MAT=]NAME, or MAT.INPUT=NAME, in the order in which they are applied. */
 static const struct {
     const char *option;
@@ -324,6 +348,7 @@ static const struct {
 } operand_options[] = {{"--preset", false, put_preset},
                        {"--material", true, weft_scene_assign_material},
                        {"--materials", true, put_folder},
+                       {"--weave", true, put_weave},
                        {"--texture", true, weft_scene_set_texture}};
 enum { OPERAND_OPTIONS = sizeof operand_options / sizeof *operand_options };
 
@@ -351,7 +376,8 @@ static WeftResult apply_sets(const Assignments *assignment, int k, WeftScene *sc
     int cursor = 0;
     for (const char *text; result == WEFT_OK && (text = option_next(assignment->options, "--set", &cursor));) {
         char target[TARGET_SIZE], value[ASSIGN_LABEL];
-        const char *equals = strrchr(text, '=');
+        bool is_weave;
+        const char *equals = setting_equals(text, &is_weave);
         snprintf(target, sizeof target, "%.*s", (int)(equals - text), text);
         bool listed = value_of(assignment, equals + 1, k, value);
         result = weft_scene_set(scene, target, listed ? value : equals + 1, log, error);

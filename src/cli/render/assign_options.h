@@ -33,6 +33,9 @@ typedef struct Assignments {
         OPTION_LIST("--material", "[MAT=]FILE", "the same in a material file: a small JSON, see docs/materials.md"),   \
         OPTION_LIST("--materials", "[MAT=]DIR",                                                                        \
                     "put on it the maps of a folder by their names, as albedo.png or chair_Roughness.tga"),            \
+        OPTION_LIST("--weave", "[MAT=]DRAFT",                                                                          \
+                    "weave it of a draft: a .wif, a picture, or words such as \"twill 2/2; warp 1#26375c\"; of what "  \
+                    "yarns and size, --set MAT.weave.KEY says, see docs/weave.md"),                                    \
         OPTION_TEXT("--workflow", "NAME,...", NULL, "what the inputs of all materials mean"),                          \
         OPTION_TEXT("--profile", "NAME,...", NULL, "draw all materials as an engine does; none is weft's own way"),    \
         OPTION_TEXT("--diffuse", "LOBE,...", NULL, "the diffuse term of every base"),                                  \

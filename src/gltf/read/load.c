@@ -5,6 +5,7 @@
 #include "gltf/read/gltf.h"
 #include "scene/builtin/builtin.h"
 #include "scene/light/environment.h"
+#include "scene/material/cloth_fit.h"
 
 static const char builtin_prefix[] = "builtin:";
 
@@ -39,6 +40,7 @@ static WeftResult load(const char *path, const void *data, size_t size, Watcher 
     if (result == WEFT_OK) {
         scene_bounds(scene);
         environment_give_way(scene);
+        result = cloths_fit(scene, error);
     }
     if (result == WEFT_OK)
         *out = scene;

@@ -1,6 +1,7 @@
 /* assign.c - assigning the material of a file, or a preset, in a scene */
 #include "scene/material/assign.h"
 #include "base/fail.h"
+#include "scene/material/cloth_fit.h"
 #include "scene/material/material_file.h"
 #include "scene/material/pictures.h"
 #include "scene/material/set.h"
@@ -97,7 +98,8 @@ static WeftResult put_on(WeftScene *scene, const char *material, MaterialFile *f
         return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     for (int k = 0; k < scene_own_materials(scene); k++)
         if (selected[k]) scene->materials[k] = assigned(&scene->materials[k], file);
-    return tangents_complete(scene, error);
+    WeftResult result = cloths_fit(scene, error);
+    return result == WEFT_OK ? tangents_complete(scene, error) : result;
 }
 
 static WeftResult assign_from(WeftScene *scene, const char *material, MaterialFile *file, WeftResult read,

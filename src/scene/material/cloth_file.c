@@ -9,7 +9,9 @@
 
 #include "base/fail.h"
 #include "base/pi.h"
+#include "scene/material/cloth_fit.h"
 #include "scene/record/scene.h"
+#include "shading/dialect/tone.h"
 #include "weave/weave_draft.h"
 #include "weave/weft_cloth.h"
 
@@ -72,19 +74,33 @@ static void read_draft(ClothReader *r, const json_t *json) {
     }
 }
 
-/* Reads "#rrggbb" as the colour of all threads of a system. */
-static void read_color(ClothReader *r, const json_t *json, WeftThreads threads) {
+/* Reads "#rrggbb", or [r, g, b] in linear reflectance, into sRGB. Returns false for another value. */
+static bool read_rgb(const json_t *json, float color[3]) {
     const char *text = json_string_value(json);
-    char *end = NULL;
-    const bool hex = text && text[0] == '#' && strlen(text) == 7 && strspn(text + 1, "0123456789abcdefABCDEF") == 6;
-    const unsigned long rgb = hex ? strtoul(text + 1, &end, 16) : 0;
-    if (!end || *end) {
-        refuse(r, "color", "expected a colour such as \"#c02030\"");
+    if (text && text[0] == '#' && strlen(text) == 7 && strspn(text + 1, "0123456789abcdefABCDEF") == 6) {
+        const unsigned long rgb = strtoul(text + 1, NULL, 16);
+        for (int c = 0; c < 3; c++) color[c] = (float)(rgb >> (16 - 8 * c) & 255u) / 255.0f;
+        return true;
+    }
+    if (json_array_size(json) != 3) return false;
+    for (int c = 0; c < 3; c++) {
+        const json_t *number = json_array_get(json, (size_t)c);
+        const double linear = json_number_value(number);
+        if (!json_is_number(number) || !(linear >= 0.0 && linear <= 1.0)) return false;
+        color[c] = tone_encode((float)linear);
+    }
+    return true;
+}
+
+/* Reads the colour of all threads of a system. */
+static void read_color(ClothReader *r, const json_t *json, WeftThreads threads) {
+    float color[3];
+    if (!read_rgb(json, color)) {
+        refuse(r, "color", "expected a colour such as \"#c02030\", or [r, g, b] in linear reflectance, 0 to 1");
         return;
     }
     for (int k = 0; r->draft && k < r->draft->count[threads]; k++)
-        for (int c = 0; c < 3; c++)
-            r->draft->threads[threads][k].color[c] = (float)(rgb >> (16 - 8 * c) & 255u) / 255.0f;
+        memcpy(r->draft->threads[threads][k].color, color, sizeof color);
 }
 
 static float *number_in(WeftYarn *yarn, const WeftYarnNumber *number) {
@@ -126,6 +142,20 @@ static void read_yarn(ClothReader *r, const json_t *json, WeftThreads threads) {
     }
 }
 
+/* Sets the threads per centimetre: a number for both systems, or [WARP, WEFT]. */
+static void read_sett(ClothReader *r, const json_t *json) {
+    if (!json || !r->draft) return;
+    for (int t = 0; t < 2; t++) {
+        const json_t *number = json_is_array(json) ? json_array_get(json, (size_t)t) : json;
+        const double sett = json_number_value(number);
+        if (!json_is_number(number) || !(sett >= 1.0 && sett <= 1000.0) ||
+            (json_is_array(json) && json_array_size(json) != 2))
+            refuse(r, "sett", "expected threads per centimetre, 1 to 1000, or two of them for warp and weft");
+        else
+            keep_first(r, weft_draft_set_sett(r->draft, (WeftThreads)t, 100.0f * (float)sett, r->error));
+    }
+}
+
 static double positive(ClothReader *r, const json_t *root, const char *key, double otherwise, double high) {
     const json_t *json = json_object_get(root, key);
     if (!json) return otherwise;
@@ -135,7 +165,7 @@ static double positive(ClothReader *r, const json_t *root, const char *key, doub
 }
 
 static void read_keys(ClothReader *r, const json_t *json) {
-    static const char *const keys[] = {"draft", "warp", "weft", "metres", "seed"};
+    static const char *const keys[] = {"draft", "warp", "weft", "sett", "metres", "seed"};
     const char *key;
     json_t *value;
     if (!json_is_object(json)) refuse(r, "it", "expected an object with a \"draft\"");
@@ -172,12 +202,16 @@ WeftResult cloth_from_json(const json_t *json, const char *name, const char *fol
     }
     if (reader.draft && (long)reader.draft->count[0] * reader.draft->count[1] > CELLS_MAX)
         refuse(&reader, "draft", "it has more than a million crossings");
-    const double metres = positive(&reader, json, "metres", 1.0, 1e4),
+    read_sett(&reader, json_object_get(json, "sett"));
+    const json_t *given = json_object_get(json, "metres");
+    const bool automatic = !given || (json_is_string(given) && strcmp(json_string_value(given), "auto") == 0);
+    const double metres = automatic ? 1.0 : positive(&reader, json, "metres", 1.0, 1e4),
                  seed = positive(&reader, json, "seed", 0.0, 288.0);
     if (!(metres > 0.0)) refuse(&reader, "metres", "is 0");
     if (reader.result == WEFT_OK)
         reader.result = weft_cloth_create(reader.draft, reader.yarns, (unsigned)seed, out, error);
     if (*out) cloth_spread(*out, metres);
+    if (*out) (*out)->automatic = automatic;
     if (*out && !keep_source(&reader, json, *out)) {
         weft_cloth_free(*out);
         *out = NULL;
@@ -229,6 +263,16 @@ const WeftDraft *weft_scene_cloth(const WeftScene *scene, int cloth, WeftYarn ya
     return of->draft;
 }
 
+WeftResult cloth_put(WeftScene *scene, int material, WeftCloth *cloth, WeftError *error) {
+    const int number = scene_adopt_cloth(scene, cloth);
+    if (!number) {
+        weft_cloth_free(cloth);
+        return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    }
+    scene->materials[material].cloth = number;
+    return cloths_fit(scene, error);
+}
+
 WeftResult weft_scene_set_weave(WeftScene *scene, int material, const WeftDraft *draft, const WeftYarn yarns[2],
                                 WeftError *error) {
     const bool there = material >= 0 && material < scene_own_materials(scene);
@@ -244,11 +288,5 @@ WeftResult weft_scene_set_weave(WeftScene *scene, int material, const WeftDraft 
                             : fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     json_decref(json);
     if (result != WEFT_OK) return result;
-    const int fresh = scene_adopt_cloth(scene, cloth);
-    if (!fresh) {
-        weft_cloth_free(cloth);
-        return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
-    }
-    scene->materials[material].cloth = fresh;
-    return WEFT_OK;
+    return cloth_put(scene, material, cloth, error);
 }

@@ -130,6 +130,21 @@ static bool wants_sheen(const Setting *setting) {
     return wants && setting->value != CHOICE_AUTO;
 }
 
+/* Sets a weave if the target is "MATERIAL.weave" or "MATERIAL.weave.KEY". Returns false if it is neither. */
+static bool set_weave(WeftScene *scene, const char *target, const char *value, const WeftLog *log, WeftError *error,
+                      WeftResult *result) {
+    static const char mark[] = ".weave";
+    char name[256];
+    const char *at = NULL;
+    for (const char *next = target; (next = strstr(next, mark)); next++)
+        if (!next[sizeof mark - 1] || next[sizeof mark - 1] == '.') at = next;
+    if (!at || (size_t)(at - target) >= sizeof name) return false;
+    snprintf(name, sizeof name, "%.*s", (int)(at - target), target);
+    const char *key = at + sizeof mark - 1;
+    *result = weft_scene_weave(scene, name, *key ? key + 1 : key, value, log, error);
+    return true;
+}
+
 WeftResult weft_scene_set(WeftScene *scene, const char *target, const char *value, const WeftLog *log,
                           WeftError *error) {
     const char *point = strrchr(target, '.');
@@ -139,7 +154,9 @@ WeftResult weft_scene_set(WeftScene *scene, const char *target, const char *valu
     memcpy(name, target, (size_t)(point - target));
     name[point - target] = '\0';
     Setting setting;
-    WeftResult result = setting_read(point + 1, value, target, &setting, log, error);
+    WeftResult result;
+    if (set_weave(scene, target, value, log, error, &result)) return result;
+    result = setting_read(point + 1, value, target, &setting, log, error);
     if (result != WEFT_OK) return result;
     const Material *first = NULL;
     bool idle = wants_sheen(&setting); /* there is none */

@@ -1,0 +1,65 @@
+#include "scene/material/cloth_fit.h"
+
+#include <math.h> /* the dialect has sqrt() and log() of floats; in parentheses they are those of doubles */
+
+#include "base/fail.h"
+#include "weave/weft_cloth.h"
+
+static double twice_area(const Mesh *mesh, const uint32_t index[3]) {
+    double e[2][3];
+    for (int edge = 0; edge < 2; edge++)
+        for (int c = 0; c < 3; c++)
+            e[edge][c] = (double)mesh->position[3 * (size_t)index[edge + 1] + (size_t)c] -
+                         (double)mesh->position[3 * (size_t)index[0] + (size_t)c];
+    const double x = e[0][1] * e[1][2] - e[0][2] * e[1][1], y = e[0][2] * e[1][0] - e[0][0] * e[1][2],
+                 z = e[0][0] * e[1][1] - e[0][1] * e[1][0];
+    return (sqrt)(x * x + y * y + z * z);
+}
+
+static double twice_uv_area(const Mesh *mesh, const uint32_t index[3]) {
+    const float *a = mesh->texcoord[0] + 2 * (size_t)index[0], *b = mesh->texcoord[0] + 2 * (size_t)index[1],
+                *c = mesh->texcoord[0] + 2 * (size_t)index[2];
+    return fabs(((double)b[0] - (double)a[0]) * ((double)c[1] - (double)a[1]) -
+                ((double)b[1] - (double)a[1]) * ((double)c[0] - (double)a[0]));
+}
+
+double cloth_uv_metres(const WeftScene *scene, int material, double *uneven) {
+    double area = 0.0, uv_area = 0.0, sum = 0.0, squares = 0.0;
+    for (int m = 0; m < scene->mesh_count; m++) {
+        const Mesh *mesh = &scene->meshes[m];
+        if (mesh->material != material || !mesh->texcoord[0]) continue;
+        for (uint32_t k = 0; k < mesh->triangle_count; k++) {
+            const double a = twice_area(mesh, mesh->index + 3 * (size_t)k),
+                         uv = twice_uv_area(mesh, mesh->index + 3 * (size_t)k);
+            if (!(a > 0.0) || !(uv > 0.0)) continue;
+            const double log_metres = 0.5 * (log)(a / uv);
+            area += a;
+            uv_area += uv;
+            sum += a * log_metres;
+            squares += a * log_metres * log_metres;
+        }
+    }
+    const bool any = area > 0.0 && uv_area > 0.0 && isfinite(area) && isfinite(uv_area);
+    if (uneven) *uneven = any ? (sqrt)(fmax(squares / area - (sum / area) * (sum / area), 0.0)) : 0.0;
+    return any ? (sqrt)(area / uv_area) : 0.0;
+}
+
+WeftResult cloths_fit(WeftScene *scene, WeftError *error) {
+    for (int k = 0; k < scene_own_materials(scene); k++) {
+        Material *material = &scene->materials[k];
+        const WeftCloth *cloth = material->cloth ? scene->cloths[material->cloth - 1] : NULL;
+        if (!cloth || !cloth->automatic) continue;
+        const double metres = cloth_uv_metres(scene, k, NULL);
+        if (!(metres > 0.0) || fabs(metres / cloth->metres - 1.0) < 1e-6) continue;
+        WeftCloth *fitted = cloth_copy(cloth);
+        if (!fitted) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+        cloth_spread(fitted, metres);
+        const int number = scene_adopt_cloth(scene, fitted);
+        if (!number) {
+            weft_cloth_free(fitted);
+            return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+        }
+        material->cloth = number;
+    }
+    return WEFT_OK;
+}

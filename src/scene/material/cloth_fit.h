@@ -1,0 +1,15 @@
+/* cloth_fit.h - the size of threads on a mesh: metres that a unit of texture coordinates spans */
+#pragma once
+
+#include "scene/record/scene.h"
+
+/* Returns the metres that a unit of texture coordinates spans on the meshes of a material: the root of their area over
+ * that of their texture coordinates, set 0. Returns 0 where no triangle has an area in both. `uneven`, which may be
+ * NULL, gets the standard deviation of the logarithm of a triangle's own metres, weighted by area: 0 where threads have
+ * one size. */
+double cloth_uv_metres(const WeftScene *scene, int material, double *uneven);
+
+/* Gives cloths whose metres are automatic the size that suits the meshes of their material, and a copy to each of
+ * several materials that differ. Call it when materials, or the meshes that have them, have changed. Fails with
+ * WEFT_MESSAGE_MEMORY. */
+WeftResult cloths_fit(WeftScene *scene, WeftError *error);
