@@ -150,6 +150,10 @@ WEFT_API void weft_cloth_free(WeftCloth *cloth);
 typedef struct WeftClothInfo {
     float share[2]; /* visible area of warp and weft, as fractions of the cloth; the rest is gaps */
     float size[2];  /* of the repeat, metres */
+    float sett[2];  /* threads of warp and weft per centimetre, in the mean */
+    float metres;   /* that a unit of texture coordinates spans */
+    int automatic;  /* not 0: metres follows from the mesh */
+    int seed;       /* of the random variation */
 } WeftClothInfo;
 
 /* Returns the draft of a cloth of a scene by its number, WeftMaterial.cloth, and fills in its yarns (may be NULL). The
@@ -163,10 +167,11 @@ WEFT_API WeftResult weft_scene_set_weave(WeftScene *scene, int material, const W
                                          const WeftYarn yarns[2], WeftError *error);
 
 /* Sets a key of the weave of a material, named as in weft_scene_assign_material (NULL: the cloth of the scene); one that
- * is not woven becomes plain cotton first. Keys: draft (words, or a file: a WIF or a picture), sett (threads per
+ * is not woven becomes plain cotton without a sheen first. Keys: draft (words, or a file: a WIF or a picture), sett (threads per
  * centimetre, or WARP,WEFT), metres (that a unit of texture coordinates spans, or auto: as the mesh has it), seed, warp
  * and weft (names of yarns), and of these color ("#rrggbb", or r,g,b in linear reflectance) and the numbers of
- * weft_yarn_number, such as warp.alpha. An empty key sets the whole weave: a draft, or the JSON of a material file.
+ * weft_yarn_number, such as warp.alpha. An empty key sets the whole weave: a draft, or the JSON of a material file,
+ * which leaves all other inputs as they are.
  * weft_scene_set takes the same as MATERIAL.weave.KEY. Fails with WEFT_MESSAGE_MATERIAL_NAME, _PARAM_NAME, _PARAM_VALUE
  * and as reading a material file does. */
 WEFT_API WeftResult weft_scene_weave(WeftScene *scene, const char *material, const char *key, const char *value,
@@ -179,6 +184,9 @@ WEFT_API char *weft_scene_weave_text(const WeftScene *scene, int cloth);
 
 /* Returns the figures of a cloth. */
 WEFT_API WeftClothInfo weft_cloth_info(const WeftCloth *cloth);
+
+/* Returns the figures of a cloth of a scene by its number, WeftMaterial.cloth; all 0 where there is none. */
+WEFT_API WeftClothInfo weft_scene_cloth_info(const WeftScene *scene, int cloth);
 
 /* Writes a cloth as tiling textures into a folder, which is made if it does not exist: base_color.png (sRGB, coverage
  * in alpha), normal.png, occlusion_roughness.png (occlusion in red, roughness in green), anisotropy.png (encoded as in

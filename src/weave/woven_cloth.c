@@ -202,5 +202,10 @@ bool cloth_same(const WeftCloth *a, const WeftCloth *b) {
 
 WeftClothInfo weft_cloth_info(const WeftCloth *cloth) {
     return (WeftClothInfo){.share = {cloth->weave.warp_far.share, cloth->weave.weft_far.share},
-                           .size = {(float)cloth->size[0], (float)cloth->size[1]}};
+                           .size = {(float)cloth->size[0], (float)cloth->size[1]},
+                           .sett = {(float)(0.01 * (double)cloth->weave.warps / cloth->size[WEFT_WARP]),
+                                    (float)(0.01 * (double)cloth->weave.picks / cloth->size[WEFT_WEFT])},
+                           .metres = (float)cloth->metres,
+                           .automatic = cloth->automatic,
+                           .seed = (int)cloth->weave.seed};
 }

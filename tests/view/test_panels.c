@@ -95,6 +95,37 @@ static void the_menu_of_presets_follows_undo(void **state) {
     assert_true(pictures_most("worn.png", "again.png") < 0.5 / 255.0);
 }
 
+/* A draft that is typed or dropped weaves the material; the saved scene and the copied command draw the same cloth. */
+static void a_material_is_woven_of_a_draft(void **state) {
+    (void)state;
+    need_gl();
+    static const char wif[] = "[WIF]\nVersion=1.1\n[CONTENTS]\nTHREADING=1\nTREADLING=1\nTIEUP=1\nWEAVING=1\nWARP=1\n"
+                              "WEFT=1\n[WEAVING]\nShafts=2\nTreadles=2\n[WARP]\nThreads=2\n[WEFT]\nThreads=2\n"
+                              "[THREADING]\n1=1\n2=2\n[TREADLING]\n1=1\n2=2\n[TIEUP]\n1=1\n2=2\n";
+    file_make("own.wif", wif, sizeof wif - 1);
+    Ran ran = RUN("render", "builtin:ball", "--save", "ball.glb");
+    assert_int_equal(ran.code, 0);
+    ran_free(&ran);
+    script_begin();
+    say("wait rest\nclick Material/Weave\nwait 3\nclick Material/draft\n"
+        "type twill 3/1 z; warp 1#26375c; weft 1#d8d4c8\nwait 2\nclick \"Material/Weave it\"\nwait 5\n");
+    say_rested_picture("twill.png");
+    say("set Material/seed 9\nwait 5\nwait rest\nsave twill.glb\nwait message wrote twill.glb\ncommand twill.txt\n"
+        "drop own.wif\nwait 5\n");
+    say_rested_picture("own.png");
+    say("save own.glb\nwait message wrote own.glb\ncommand own.txt\n");
+    drive_through(script, LIST(UNSEEN, "ball.glb", FLAT));
+    assert_true(pictures_most("twill.png", "own.png") > 0.05);
+    ran = run_shell(
+        "for k in twill own; do"
+        " sed 's/ --engine raster//; s/ -o picture.png//; s/^weft//' $k.txt >$k.arguments;"
+        " eval \"\\\"$0\\\" $(cat $k.arguments) --crop 100,150,40,30 --spp 2 -o $k-command.npy\" &&"
+        " eval \"\\\"$0\\\" $(sed \"s/ ball.glb / $k.glb /; s/ --set '[^']*'//g; s/ --set [^ ]*//g\" $k.arguments)"
+        " --crop 100,150,40,30 --spp 2 -o $k-saved.npy\" && cmp $k-command.npy $k-saved.npy || exit 9; done");
+    if (ran.code != 0) fail_msg("%d %s", ran.code, ran.err);
+    ran_free(&ran);
+}
+
 /* A click turns a crossing over, a number changes a yarn: either is a cloth of its own, and undo brings the one before. */
 static void a_weave_is_changed_by_clicks_and_numbers(void **state) {
     (void)state;
@@ -231,6 +262,7 @@ static void a_finding_of_the_doctor_chooses_its_material(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(undo_restores_a_variant),
                                        cmocka_unit_test(the_menu_of_presets_follows_undo),
+                                       cmocka_unit_test(a_material_is_woven_of_a_draft),
                                        cmocka_unit_test(a_weave_is_changed_by_clicks_and_numbers),
                                        cmocka_unit_test(a_scene_that_is_read_again_keeps_its_folder),
                                        cmocka_unit_test(every_number_takes_a_map_and_shows_it),

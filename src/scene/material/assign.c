@@ -42,8 +42,10 @@ static bool adopt_textures(WeftScene *scene, MaterialFile *file) {
 }
 
 /* Gives the scene the cloth of the file, whose material then names it. */
-static bool adopt_cloth(WeftScene *scene, MaterialFile *file) {
+static bool adopt_cloth(WeftScene *scene, MaterialFile *file, const bool *selected) {
     if (!file->cloth) return true;
+    for (int k = scene_own_materials(scene) - 1; k >= 0; k--)
+        if (selected[k]) cloth_fit(scene, k, file->cloth); /* last, the first material */
     file->material.cloth = scene_adopt_cloth(scene, file->cloth);
     if (file->material.cloth) file->cloth = NULL;
     return file->material.cloth != 0;
@@ -94,7 +96,7 @@ static WeftResult put_on(WeftScene *scene, const char *material, MaterialFile *f
     const bool *selected = materials_matching(scene, material, &said);
     if (!selected && error) *error = said;
     if (!selected) return said.result;
-    if (!adopt_textures(scene, file) || !adopt_cloth(scene, file) || !adopt_measured(scene, file))
+    if (!adopt_textures(scene, file) || !adopt_cloth(scene, file, selected) || !adopt_measured(scene, file))
         return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     for (int k = 0; k < scene_own_materials(scene); k++)
         if (selected[k]) scene->materials[k] = assigned(&scene->materials[k], file);

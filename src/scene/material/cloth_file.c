@@ -264,6 +264,7 @@ const WeftDraft *weft_scene_cloth(const WeftScene *scene, int cloth, WeftYarn ya
 }
 
 WeftResult cloth_put(WeftScene *scene, int material, WeftCloth *cloth, WeftError *error) {
+    cloth_fit(scene, material, cloth);
     const int number = scene_adopt_cloth(scene, cloth);
     if (!number) {
         weft_cloth_free(cloth);

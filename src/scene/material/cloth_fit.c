@@ -44,6 +44,11 @@ double cloth_uv_metres(const WeftScene *scene, int material, double *uneven) {
     return any ? (sqrt)(area / uv_area) : 0.0;
 }
 
+void cloth_fit(const WeftScene *scene, int material, WeftCloth *cloth) {
+    const double metres = cloth->automatic ? cloth_uv_metres(scene, material, NULL) : 0.0;
+    if (metres > 0.0) cloth_spread(cloth, metres);
+}
+
 WeftResult cloths_fit(WeftScene *scene, WeftError *error) {
     for (int k = 0; k < scene_own_materials(scene); k++) {
         Material *material = &scene->materials[k];

@@ -9,6 +9,10 @@
  * one size. */
 double cloth_uv_metres(const WeftScene *scene, int material, double *uneven);
 
+/* Gives a cloth that the scene does not have yet the size that suits a material's meshes, if its metres are
+ * automatic. */
+void cloth_fit(const WeftScene *scene, int material, WeftCloth *cloth);
+
 /* Gives cloths whose metres are automatic the size that suits the meshes of their material, and a copy to each of
  * several materials that differ. Call it when materials, or the meshes that have them, have changed. Fails with
  * WEFT_MESSAGE_MEMORY. */

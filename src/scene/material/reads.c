@@ -42,7 +42,14 @@ static Dir incoming(Dir o, int k) {
     return dir(x, y, (k == INCOMING - 1 ? -1.0f : 1.0f) * sqrt(1.0f - x * x - y * y));
 }
 
-static void answer_at(const ReadProbe *probe, Surface s, const Choices *choices, Rgb f_cos[INCOMING]) {
+/* Replaces diffuse and specular as the threads of a cloth do. */
+static void put_threads(SeenStack *seen, Dir o) {
+    const Lobe yarn = lobe_default(LOBE_YARN);
+    stack_put_base(&seen->stack, &yarn, rgb_grey(1.0f), rgb_grey(1.0f));
+    seen_prepare(seen, o);
+}
+
+static void answer_at(const ReadProbe *probe, Surface s, const Choices *choices, bool woven, Rgb f_cos[INCOMING]) {
     enum { COLUMNS = 4 };
     const Facing at = {probe->normal, probe->normal, probe->tangent, 1.0f};
     const TableRef none = {.kind = TABLE_NONE};
@@ -55,15 +62,16 @@ static void answer_at(const ReadProbe *probe, Surface s, const Choices *choices,
     float same = stand_in(&seen.stack);
     for (int k = 0; k <= COLUMNS; k++) e[k] = same;
     seen_make(&seen, &s, choices, (TableRef){.texels = e, .kind = TABLE_ROOTS, .rows = 1, .columns = COLUMNS}, o);
+    if (woven) put_threads(&seen, o);
     for (int k = 0; k < INCOMING; k++) { /* the same directions in the world for any rotation of the frame */
         Dir i = frame_from(fixed, incoming(frame_to(fixed, probe->eye), k));
         f_cos[k] = seen_eval(&seen, frame_to(frame, i), 1).f_cos;
     }
 }
 
-static MaterialAnswer answer_of(const Surface *surface, const Choices *choices) {
+static MaterialAnswer answer_of(const Surface *surface, const Choices *choices, bool woven) {
     MaterialAnswer answer;
-    for (int k = 0; k < PROBES; k++) answer_at(&probes[k], *surface, choices, answer.f_cos + k * INCOMING);
+    for (int k = 0; k < PROBES; k++) answer_at(&probes[k], *surface, choices, woven, answer.f_cos + k * INCOMING);
     return answer;
 }
 
@@ -107,14 +115,15 @@ static bool moves_the_light(const Material *material, int input) {
     const float places[] = {0.0f, 1.0f, 0.37f};
     const Choices choices = material_choices(material);
     const Surface surface = middle_of(material);
-    const MaterialAnswer before = answer_of(&surface, &choices);
+    const bool woven = material->cloth > 0;
+    const MaterialAnswer before = answer_of(&surface, &choices, woven);
     bool reads = false;
     for (size_t k = 0; k < sizeof places / sizeof *places && !reads; k++) {
         Material moved = *material;
         move(&moved, input, places[k]);
         Surface other = middle_of(&moved);
         if (input == INPUT_clearcoat_normal) other.clearcoat_normal = dir(0.36f, 0.48f, 0.8f);
-        MaterialAnswer after = answer_of(&other, &choices);
+        MaterialAnswer after = answer_of(&other, &choices, woven);
         reads = differ(&before, &after);
     }
     return reads;

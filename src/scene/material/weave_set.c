@@ -115,9 +115,10 @@ static WeftResult begin_weave(WeftScene *scene, int material, WeftError *error) 
 
 /* Weaves the cloth of a material anew with the change. */
 static WeftResult reweave(WeftScene *scene, int material, const WeaveSetting *setting, const WeftLog *log) {
-    const WeftCloth *was = scene->cloths[scene->materials[material].cloth - 1];
+    const int number = scene->materials[material].cloth;
+    const WeftCloth *was = number ? scene->cloths[number - 1] : NULL;
     WeftCloth *cloth = NULL;
-    json_t *weave = cloth_to_json(was, was->path);
+    json_t *weave = was ? cloth_to_json(was, was->path) : json_object();
     if (!weave) return fail(setting->error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     WeftResult result = change(setting, weave);
     if (result == WEFT_OK) result = cloth_from_json(weave, "--set", "", &cloth, log, setting->error);
@@ -134,11 +135,17 @@ WeftResult weft_scene_weave(WeftScene *scene, const char *material, const char *
     for (int k = 0; k < scene_own_materials(scene) && result == WEFT_OK; k++) {
         if (!selected[k]) continue;
         const Material was = scene->materials[k];
-        result = begin_weave(scene, k, error);
+        const bool whole = !key[0] && value[strspn(value, " ")] == '{';
+        if (!whole) result = begin_weave(scene, k, error);
         if (result == WEFT_OK) result = reweave(scene, k, &setting, log);
         if (result != WEFT_OK) scene->materials[k] = was;
     }
     return result == WEFT_OK ? tangents_complete(scene, error) : result;
+}
+
+WeftClothInfo weft_scene_cloth_info(const WeftScene *scene, int cloth) {
+    if (cloth < 1 || cloth > scene->cloth_count) return (WeftClothInfo){0};
+    return weft_cloth_info(scene->cloths[cloth - 1]);
 }
 
 char *weft_scene_weave_text(const WeftScene *scene, int cloth) {

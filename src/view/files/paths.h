@@ -10,6 +10,7 @@ typedef enum PathKind {
     PATH_LIGHT,    /* .hdr .exr */
     PATH_MATERIAL, /* .json preset: */
     PATH_LOBE,     /* .h */
+    PATH_DRAFT,    /* .wif .dtx */
     PATH_PICTURE,  /* .png .jpg .jpeg .tga */
     PATH_FOLDER
 } PathKind;

@@ -6,7 +6,7 @@
 void menu_draw(Viewer *v);
 void status_draw(Viewer *v);
 void material_panel(Viewer *v);
-void weave_section(Viewer *v, const WeftMaterial *m); /* of the material's panel, if it is woven */
+void weave_section(Viewer *v, const WeftMaterial *m); /* of the material's panel */
 void light_panel(Viewer *v);
 void view_panel(Viewer *v);
 void inspect_panel(Viewer *v);

@@ -73,6 +73,20 @@ static void put_input(Line *line, int material, int k, const WeftInput *input) {
     put_word(line, word);
 }
 
+/* Writes the weave of a material. It replaces the material's other inputs, so it comes before these. */
+static void put_weave(Line *line, int material, const char *text) {
+    const size_t size = strlen(text) + 32;
+    char *word = malloc(size);
+    if (!word) {
+        line->short_of_memory = true;
+        return;
+    }
+    snprintf(word, size, "%d.weave=%s", material, text);
+    put(line, " --set");
+    put_word(line, word);
+    free(word);
+}
+
 /* Writes the changes of a material since it was read; choices first, since they move inputs. */
 static void put_material(Line *line, const Viewer *v, int index, bool *lost) {
     WeftMaterial was = *scene_state_material(&v->edit->first, index);
@@ -82,6 +96,12 @@ static void put_material(Line *line, const Viewer *v, int index, bool *lost) {
         const char *id = is->choices[k] < 0 ? "auto" : weft_material_choice_value(k, is->choices[k]);
         put(line, " --set %d.%s=%s", index, weft_material_choice_name(k), id);
         weft_material_choose(&was, k, is->choices[k]);
+    }
+    if (is->cloth != was.cloth) {
+        const Facts *facts = &v->shown->facts;
+        const char *text = is->cloth > 0 && is->cloth <= facts->cloth_count ? facts->cloths[is->cloth - 1].text : NULL;
+        if (text) put_weave(line, index, text);
+        *lost |= !text;
     }
     *lost |= is->alpha_mode != was.alpha_mode && !differs(is->inputs[weft_material_input_find("opacity")].value[0],
                                                           was.inputs[weft_material_input_find("opacity")].value[0]);

@@ -1,11 +1,14 @@
-/* The section of a woven material: the crossings of its draft, and the yarns of warp and weft. */
+/* The section of a material's weave: its draft, the crossings of it, its size, and the yarns of warp and weft. */
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/pi.h"
 #include "view/panels/panels.h"
+#include "view/state/actions.h"
+#include "view/state/dialogs.h"
 #include "view/state/edit.h"
 #include "view/state/opening.h"
 
@@ -17,6 +20,11 @@ typedef struct WeaveEdit {
     int cloth;      /* of the scene, as it is shown; 0: none */
     WeftYarn yarns[2];
     bool changed; /* and not yet woven */
+    WeftClothInfo info;
+    float color[2][3]; /* linear, of the first thread of warp and weft */
+    const char *key;   /* of the weave, changed and not yet woven; NULL: none */
+    char value[64];    /* of that key */
+    char draft[1024];  /* as it is typed */
 } WeaveEdit;
 
 static const char *const systems[] = {"warp", "weft"};
@@ -134,25 +142,97 @@ static bool draw_yarn(const char *system, WeftYarn *yarn) {
     return changed;
 }
 
-/* Draws the section of a woven material. A cloth is woven when the mouse releases a slider or a number is typed, since
+/* Keeps a key to be woven when the mouse is released. */
+static void keep_key(WeaveEdit *edit, const char *key, const char *format, ...) {
+    va_list list;
+    va_start(list, format);
+    vsnprintf(edit->value, sizeof edit->value, format, list);
+    va_end(list);
+    edit->key = key;
+}
+
+/* Draws the draft as it is typed, and the way to one in a file. */
+static void draw_new_draft(Viewer *v, WeaveEdit *edit) {
+    bool entered = ui_input("draft", edit->draft, sizeof edit->draft);
+    ui_tip("Words such as twill 2/2; warp 1#26375c; weft 1w (docs/weave.md), or a .wif file.");
+    bool pressed = ui_button("Weave it");
+    ui_tip("Weaves this material of the draft (Enter).");
+    if ((pressed || entered) && edit->draft[0]) actions_weave(v, "draft", edit->draft);
+    ui_same_line();
+    if (ui_button("Draft ...")) dialogs_open(v, "Choose a draft");
+    ui_tip("Weaves it of a WIF or a picture; dropping a WIF on the window does the same.");
+}
+
+static void draw_size(WeaveEdit *edit) {
+    WeftClothInfo *info = &edit->info;
+    if (ui_numbers("sett###sett", 0.1f, info->sett, 2))
+        keep_key(edit, "sett", "%.9g,%.9g", (double)info->sett[0], (double)info->sett[1]);
+    ui_tip("Threads per centimetre of warp and weft.");
+    bool automatic = info->automatic != 0;
+    if (ui_checkbox("size of the mesh", &automatic)) {
+        info->automatic = automatic;
+        if (automatic)
+            keep_key(edit, "metres", "auto");
+        else
+            keep_key(edit, "metres", "%.9g", (double)info->metres);
+    }
+    ui_tip("Threads have their true size: the metres follow from the texture coordinates of the mesh.");
+    const UiRange range = {0.01f, 10.0f, info->metres, "m", true};
+    ui_disabled(automatic);
+    if (ui_slider("metres", &range, &info->metres)) keep_key(edit, "metres", "%.9g", (double)info->metres);
+    ui_disabled_end();
+    ui_tip("Metres that a unit of texture coordinates spans: more metres, smaller threads.");
+    if (ui_slider_int("seed", 0, 288, &info->seed)) keep_key(edit, "seed", "%d", info->seed);
+    ui_tip("Another piece of the same cloth: other slubs and loose fibres.");
+}
+
+static void draw_color(WeaveEdit *edit, int threads) {
+    static const char *const keys[] = {"warp.color", "weft.color"}, *const labels[] = {"colour###warp colour",
+                                                                                       "colour###weft colour"};
+    float initial[3];
+    memcpy(initial, edit->color[threads], sizeof initial);
+    if (ui_color(labels[threads], initial, edit->color[threads])) {
+        float *c = edit->color[threads];
+        for (int k = 0; k < 3; k++) c[k] = fminf(fmaxf(c[k], 0.0f), 1.0f);
+        keep_key(edit, keys[threads], "%.9g,%.9g,%.9g", (double)c[0], (double)c[1], (double)c[2]);
+    }
+    ui_tip("One colour for all threads of the system; it replaces stripes.");
+}
+
+/* Takes a cloth of the scene as the one that is edited. */
+static void edit_cloth(WeaveEdit *edit, unsigned scene, int number, const FactCloth *cloth) {
+    WeaveEdit fresh = {.scene = scene, .cloth = number, .info = cloth->info};
+    memcpy(fresh.yarns, cloth->yarns, sizeof fresh.yarns);
+    memcpy(fresh.draft, edit->draft, sizeof fresh.draft);
+    for (int t = 0; t < 2; t++)
+        for (int c = 0; c < 3; c++)
+            fresh.color[t][c] = ui_linear(weft_draft_thread(cloth->draft, (WeftThreads)t, 0).color[c]);
+    *edit = fresh;
+}
+
+/* Draws the section of a material's weave. A cloth is woven when the mouse releases a slider or a number is typed, since
  * each adds a cloth to the scene. */
 void weave_section(Viewer *v, const WeftMaterial *m) {
     const Facts *facts = &v->shown->facts;
-    if (m->cloth < 1 || m->cloth > facts->cloth_count) return;
-    const FactCloth *cloth = &facts->cloths[m->cloth - 1];
+    const bool woven = m->cloth > 0 && m->cloth <= facts->cloth_count;
     if (!v->weave) v->weave = calloc(1, sizeof *v->weave);
     WeaveEdit *edit = v->weave;
-    if (!edit) return;
-    if (edit->cloth != m->cloth || edit->scene != v->shown->number) {
-        *edit = (WeaveEdit){.scene = v->shown->number, .cloth = m->cloth};
-        memcpy(edit->yarns, cloth->yarns, sizeof edit->yarns);
-    }
-    if (!ui_section("Weave", true)) return;
+    if (!edit || !ui_section("Weave", woven)) return;
+    draw_new_draft(v, edit);
+    if (!woven) return;
+    const FactCloth *cloth = &facts->cloths[m->cloth - 1];
+    if (edit->cloth != m->cloth || edit->scene != v->shown->number) edit_cloth(edit, v->shown->number, m->cloth, cloth);
     draw_draft(v, cloth->draft);
+    draw_size(edit);
     for (int t = 0; t < 2; t++) {
         char label[64];
         snprintf(label, sizeof label, "Yarn of the %s###yarn of %s", systems[t], systems[t]);
-        if (ui_fold(label)) edit->changed |= draw_yarn(systems[t], &edit->yarns[t]);
+        if (!ui_fold(label)) continue;
+        draw_color(edit, t);
+        edit->changed |= draw_yarn(systems[t], &edit->yarns[t]);
     }
-    if (edit->changed && !v->frame->input.button[0] && !ui_types()) weave(v, 0, -1);
+    if (v->frame->input.button[0] || ui_types()) return;
+    if (edit->changed) weave(v, 0, -1);
+    if (edit->key) actions_weave(v, edit->key, edit->value);
+    edit->key = NULL;
 }

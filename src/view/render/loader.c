@@ -104,7 +104,10 @@ static void read_thumbs(Facts *facts, const WeftScene *scene) {
 }
 
 static void free_cloths(Facts *facts) {
-    for (int k = 0; k < facts->cloth_count; k++) weft_draft_free(facts->cloths[k].draft);
+    for (int k = 0; k < facts->cloth_count; k++) {
+        weft_draft_free(facts->cloths[k].draft);
+        free(facts->cloths[k].text);
+    }
     free(facts->cloths);
     facts->cloths = NULL;
     facts->cloth_count = 0;
@@ -120,6 +123,8 @@ static void read_cloths(Facts *facts, const WeftScene *scene) {
         FactCloth *cloth = &facts->cloths[k];
         const WeftDraft *draft = weft_scene_cloth(scene, k + 1, cloth->yarns);
         if (weft_draft_copy(draft, &cloth->draft, NULL) != WEFT_OK) return;
+        cloth->info = weft_scene_cloth_info(scene, k + 1);
+        cloth->text = weft_scene_weave_text(scene, k + 1);
         facts->cloth_count++;
     }
 }

@@ -14,6 +14,8 @@ typedef char FactName[FACTS_NAME];
 typedef struct FactCloth {
     WeftDraft *draft;
     WeftYarn yarns[2];
+    WeftClothInfo info;
+    char *text; /* as weft_scene_weave_text has it; owned */
 } FactCloth;
 
 /* The contents of a scene: copies, since the scene belongs to the renderer. */

@@ -57,6 +57,7 @@ typedef enum TaskKind {
     TASK_ASSIGN,    /* `path`: a material file or "preset:NAME" for `index`; a picture, if `input` >= 0 */
     TASK_BIND_MAPS, /* puts the maps in folder `path` on material `index`; -1: on the cloth of the scene */
     TASK_WEAVE,     /* weaves material `index` of other yarns, and inverts a crossing of its draft */
+    TASK_WEAVE_KEY, /* sets `key` of the weave of material `index` to the text in `path` (weft_scene_weave) */
     TASK_LIGHT,     /* `path` is a picture, or the folder of a cubemap, that becomes the environment */
     TASK_SCENE,     /* no task, but an event: a new scene was taken over, or cannot be drawn */
     TASK_SURVEY     /* no task, but an event: coverage by each material, after a change of variant */
@@ -75,6 +76,7 @@ typedef struct Task {
     unsigned stamp;    /* any number; the event has the same */
     WeftYarn yarns[2]; /* TASK_WEAVE: of warp and weft */
     int warp, pick;    /* TASK_WEAVE: the crossing; pick -1: none */
+    char key[32];      /* TASK_WEAVE_KEY */
 } Task;
 
 /* The surface at a pixel, and the parts of its light. */

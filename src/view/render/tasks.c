@@ -133,6 +133,7 @@ static WeftResult assign_material(Renderer *self, const Task *task, const FrameR
         if (result == WEFT_OK) folders_keep(&self->folders, task->path, task->index);
         break;
     case TASK_WEAVE: result = weave_anew(self, task, error); break;
+    case TASK_WEAVE_KEY: result = weft_scene_weave(self->scene, target, task->key, task->path, &log, error); break;
     default:
         if (task->input >= 0) {
             size_t used = strlen(target);
@@ -247,6 +248,7 @@ void tasks_do(Renderer *self, const Task *task, const FrameRequest *request) {
         return;
     case TASK_ASSIGN:
     case TASK_WEAVE:
+    case TASK_WEAVE_KEY:
     case TASK_BIND_MAPS: result = assign_material(self, task, request, &event, &error); break;
     }
     event.failed = result != WEFT_OK;

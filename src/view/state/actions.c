@@ -17,4 +17,18 @@ void actions_send(Viewer *v, TaskKind kind, const char *path, int index, int inp
     renderer_add_task(v->renderer, &task);
 }
 
+void actions_weave(Viewer *v, const char *key, const char *value) {
+    Task task = {.kind = TASK_WEAVE_KEY, .scene = v->shown->number, .index = v->edit->material};
+    if (strlen(value) >= sizeof task.path) {
+        viewer_report(v, true, "%.100s...: is too long", value);
+        return;
+    }
+    snprintf(task.key, sizeof task.key, "%s", key);
+    snprintf(task.path, sizeof task.path, "%s", value);
+    task.stamp = edit_assign(v, task.index);
+    renderer_add_task(v->renderer, &task);
+}
+
+void actions_weave_file(Viewer *v, const char *path) { actions_weave(v, "draft", path); }
+
 void actions_light_by(Viewer *v, const char *path) { actions_send(v, TASK_LIGHT, path, -1, -1); }

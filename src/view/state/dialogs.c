@@ -127,15 +127,19 @@ static const struct {
     unsigned kinds;
     void (*use)(Viewer *v, const char *path);
     const char *folder, *tip; /* NULL: folders are not taken */
-} choosers[] = {
-    {"Open", "Scenes (.glb .gltf), light (.hdr .exr), materials (.json), lobes (.h), pictures (.png .jpg .tga)",
-     1u << PATH_SCENE | 1u << PATH_LIGHT | 1u << PATH_MATERIAL | 1u << PATH_LOBE | 1u << PATH_PICTURE, opening_open,
-     "Use this folder as maps", "Puts Albedo, Normal, Roughness ... files of this folder onto the cloth of the scene."},
-    {"Choose a light", "Lat-long pictures (.hdr .exr, or .png .jpg .tga); a cube map: a folder or one face",
-     1u << PATH_LIGHT | 1u << PATH_PICTURE, actions_light_by, "Use this folder as a cubemap",
-     "Six faces by their names: posx, negx ... or px, nx ..."},
-    {"Choose a map", "Pictures (.png .jpg .tga .hdr .exr)", 1u << PATH_LIGHT | 1u << PATH_PICTURE, use_map, NULL,
-     NULL}};
+} choosers[] = {{"Open",
+                 "Scenes (.glb .gltf), light (.hdr .exr), materials (.json), drafts (.wif .dtx), lobes (.h), pictures",
+                 1u << PATH_DRAFT | 1u << PATH_SCENE | 1u << PATH_LIGHT | 1u << PATH_MATERIAL | 1u << PATH_LOBE |
+                     1u << PATH_PICTURE,
+                 opening_open, "Use this folder as maps",
+                 "Puts Albedo, Normal, Roughness ... files of this folder onto the cloth of the scene."},
+                {"Choose a light", "Lat-long pictures (.hdr .exr, or .png .jpg .tga); a cube map: a folder or one face",
+                 1u << PATH_LIGHT | 1u << PATH_PICTURE, actions_light_by, "Use this folder as a cubemap",
+                 "Six faces by their names: posx, negx ... or px, nx ..."},
+                {"Choose a draft", "Drafts (.wif .dtx); pictures (.png .jpg .tga), a pixel a crossing",
+                 1u << PATH_DRAFT | 1u << PATH_PICTURE, actions_weave_file, NULL, NULL},
+                {"Choose a map", "Pictures (.png .jpg .tga .hdr .exr)", 1u << PATH_LIGHT | 1u << PATH_PICTURE, use_map,
+                 NULL, NULL}};
 
 static void draw_chooser(Viewer *v, int k) {
     if (!ui_dialog(choosers[k].name, 640.0f * ui_scale(), 460.0f * ui_scale())) return;

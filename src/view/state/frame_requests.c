@@ -177,7 +177,8 @@ void requests_take_events(Viewer *v) {
             edit_take_assigned(v, &event.state, event.stamp);
             event.state_changed = false;
         }
-        if (event.kind == TASK_ASSIGN || event.kind == TASK_WEAVE) edit_end_assign(v, event.stamp);
+        if (event.kind == TASK_ASSIGN || event.kind == TASK_WEAVE || event.kind == TASK_WEAVE_KEY)
+            edit_end_assign(v, event.stamp);
         if (event.kind == TASK_BIND_MAPS && !event.failed) opening_keep_folder(v, event.path);
         if (event.coverage) opening_varied(v, &event.coverage);
         if (event.kind == TASK_PROBE && !event.failed) {

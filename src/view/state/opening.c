@@ -117,6 +117,7 @@ void opening_open(Viewer *v, const char *path) {
     case PATH_LIGHT: actions_light_by(v, path); break;
     case PATH_MATERIAL: actions_send(v, TASK_ASSIGN, path, v->edit->material, -1); break;
     case PATH_LOBE: opening_lobe(v, path); break;
+    case PATH_DRAFT: actions_weave_file(v, path); break;
     case PATH_PICTURE: dialogs_choose_use(v, path, guess_input(path)); break;
     case PATH_FOLDER:
         if (path_is_cubemap(path))

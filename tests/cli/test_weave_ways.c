@@ -1,0 +1,227 @@
+/* A woven cloth is the same by every way that says it: options, keys, JSON, material files and saved scenes; and its
+ * threads have the size that they have on a loom, on meshes of any scale. */
+#include <math.h>
+
+#include "run.h"
+#include "weft/image.h"
+
+enum { DRAFTS = 10, DRAFTS_LONG = 200 };
+
+/* A random cloth: the words of its draft, and the keys beside it with their values as --set and as JSON have them. */
+typedef struct Cloth {
+    char draft[160];
+    struct {
+        char key[24], value[64], json[80];
+    } keys[8];
+    int count;
+} Cloth;
+
+static unsigned random_state;
+
+static int roll(int below) {
+    random_state = random_state * 1664525u + 1013904223u;
+    return (int)((random_state >> 8) % (unsigned)below);
+}
+
+static void add_key(Cloth *cloth, const char *key, const char *value, const char *json) {
+    snprintf(cloth->keys[cloth->count].key, sizeof cloth->keys[0].key, "%s", key);
+    snprintf(cloth->keys[cloth->count].value, sizeof cloth->keys[0].value, "%s", value);
+    snprintf(cloth->keys[cloth->count++].json, sizeof cloth->keys[0].json, "%s", json);
+}
+
+/* Adds a key whose number is written alike in both. */
+static void add_number(Cloth *cloth, const char *key, double number) {
+    char text[32];
+    snprintf(text, sizeof text, "%.4f", number);
+    add_key(cloth, key, text, text);
+}
+
+static Cloth random_cloth(int k) {
+    static const char *const weaves[] = {
+        "plain",    "twill 2/2 z",       "twill 3/1 s", "satin 5/2",        "sateen 8/3",
+        "basket 2", "herringbone 2/2 8", "houndstooth", "picks #.. .#. ..#"};
+    Cloth cloth = {.count = 0};
+    char value[64], json[80];
+    random_state = (unsigned)k * 2654435761u + 1u;
+    snprintf(cloth.draft, sizeof cloth.draft, "%s; warp 3#%06x 1#%06x; weft 2#%06x", weaves[roll(9)], roll(1 << 24),
+             roll(1 << 24), roll(1 << 24));
+    const int warp = 8 + roll(40), weft = 8 + roll(40);
+    snprintf(value, sizeof value, "%d,%d", warp, weft);
+    snprintf(json, sizeof json, "[%d, %d]", warp, weft);
+    add_key(&cloth, "sett", value, json);
+    if (roll(2)) add_number(&cloth, "metres", 0.05 * (1 + roll(40)));
+    add_number(&cloth, "seed", roll(289));
+    if (roll(2)) add_number(&cloth, "warp.alpha", 0.15 + 0.01 * roll(50));
+    if (roll(2)) add_number(&cloth, "weft.slub", 0.01 * roll(90));
+    snprintf(value, sizeof value, "%.2f,%.2f,%.2f", 0.01 * roll(99), 0.01 * roll(99), 0.01 * roll(99));
+    snprintf(json, sizeof json, "[%s]", value);
+    if (roll(2)) add_key(&cloth, "weft.color", value, json);
+    return cloth;
+}
+
+/* Writes the weave as JSON into text. */
+static void cloth_json(const Cloth *cloth, char *text, size_t size) {
+    static const char *const systems[] = {"warp", "weft"};
+    size_t used = (size_t)snprintf(text, size, "{\"draft\": \"%s\"", cloth->draft);
+    for (int k = 0; k < cloth->count; k++)
+        if (!strchr(cloth->keys[k].key, '.'))
+            used += (size_t)snprintf(text + used, size - used, ", \"%s\": %s", cloth->keys[k].key, cloth->keys[k].json);
+    for (int t = 0; t < 2; t++) {
+        used +=
+            (size_t)snprintf(text + used, size - used, ", \"%s\": {\"yarn\": \"%s\"", systems[t], t ? "wool" : "linen");
+        for (int k = 0; k < cloth->count; k++)
+            if (strncmp(cloth->keys[k].key, systems[t], 4) == 0)
+                used += (size_t)snprintf(text + used, size - used, ", \"%s\": %s", cloth->keys[k].key + 5,
+                                         cloth->keys[k].json);
+        used += (size_t)snprintf(text + used, size - used, "}");
+    }
+    snprintf(text + used, size - used, "}");
+}
+
+#define SMALL "--width", "40", "--height", "30", "--spp", "2", "--env", "1", "--light", "none", "--quiet"
+
+/* Renders and returns the bytes of the picture's numbers. */
+static char *drawn(const char *const *arguments, size_t *size) {
+    Ran ran = run_with(NULL, arguments);
+    if (ran.code != 0) fail_msg("%s", ran.err);
+    ran_free(&ran);
+    return file_bytes("drawn.npy", size);
+}
+
+static void assert_drawn(const char *way, int k, const char *bytes, size_t size, const char *const *arguments) {
+    size_t other_size;
+    char *other = drawn(arguments, &other_size);
+    if (size != other_size || memcmp(bytes, other, size) != 0) fail_msg("cloth %d is another %s", k, way);
+    free(other);
+}
+
+static void asset_make(void) {
+    Ran ran = RUN("render", "builtin:ball", "--save", "ball.glb");
+    if (ran.code != 0) fail_msg("%s", ran.err);
+    ran_free(&ran);
+}
+
+static void cloth_is_the_same_by_every_way(void **state) {
+    (void)state;
+    asset_make();
+    for (int k = 0; k < (getenv("WEFT_TEST_LONG") ? DRAFTS_LONG : DRAFTS); k++) {
+        const Cloth cloth = random_cloth(k);
+        char json[1024], file[1100], set[1100], draft[200], keys[10][128];
+        const char *arguments[64] = {"render", "ball.glb", SMALL, "-o", "drawn.npy", "--weave", draft};
+        int count = 0;
+        size_t size;
+        cloth_json(&cloth, json, sizeof json);
+        snprintf(file, sizeof file, "{\"weave\": %s}", json);
+        file_make("cloth.json", file, strlen(file));
+        char *bytes =
+            drawn(LIST("render", "ball.glb", SMALL, "-o", "drawn.npy", "--material", "ball=cloth.json"), &size);
+
+        snprintf(draft, sizeof draft, "ball=%s", cloth.draft);
+        while (arguments[count]) count++;
+        snprintf(keys[8], sizeof keys[8], "ball.weave.warp=linen");
+        snprintf(keys[9], sizeof keys[9], "ball.weave.weft=wool");
+        for (int n = 8; n < 10; n++) arguments[count++] = "--set", arguments[count++] = keys[n];
+        for (int n = 0; n < cloth.count; n++) {
+            snprintf(keys[n], sizeof keys[n], "ball.weave.%s=%s", cloth.keys[n].key, cloth.keys[n].value);
+            arguments[count++] = "--set", arguments[count++] = keys[n];
+        }
+        assert_drawn("by --weave and --set", k, bytes, size, arguments);
+
+        snprintf(set, sizeof set, "ball.weave=%s", json);
+        assert_drawn("by its JSON", k, bytes, size,
+                     LIST("render", "ball.glb", SMALL, "-o", "drawn.npy", "--weave", "ball=plain", "--set", set));
+        Ran ran =
+            RUN("render", "ball.glb", "--material", "ball=cloth.json", "--save", "saved.glb", "--save", "saved.json");
+        if (ran.code != 0) fail_msg("%s", ran.err);
+        ran_free(&ran);
+        assert_drawn("in a saved scene", k, bytes, size, LIST("render", "saved.glb", SMALL, "-o", "drawn.npy"));
+        free(bytes);
+    }
+}
+
+/* A quad of `side` metres whose texture coordinates span so many units, mirrored or not. */
+static void quad_make(const char *path, double side, double units, bool mirrored) {
+    char text[2048];
+    float numbers[20];
+    static const int corners[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    for (int k = 0; k < 4; k++) {
+        numbers[3 * k] = (float)(side * corners[k][0]);
+        numbers[3 * k + 1] = (float)(side * corners[k][1]);
+        numbers[3 * k + 2] = 0.0f;
+        numbers[12 + 2 * k] = (float)((mirrored ? -units : units) * corners[k][0]);
+        numbers[12 + 2 * k + 1] = (float)(units * corners[k][1]);
+    }
+    file_make("quad.bin", numbers, sizeof numbers);
+    int size = snprintf(
+        text, sizeof text,
+        "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],"
+        "\"materials\":[{\"name\":\"cloth\"}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,"
+        "\"TEXCOORD_0\":1},\"mode\":6,\"material\":0}]}],\"accessors\":[{\"bufferView\":0,\"componentType\":5126,"
+        "\"count\":4,\"type\":\"VEC3\",\"min\":[0,0,0],\"max\":[%.9g,%.9g,0]},{\"bufferView\":1,\"componentType\":5126,"
+        "\"count\":4,\"type\":\"VEC2\"}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":48},{\"buffer\":0,"
+        "\"byteOffset\":48,\"byteLength\":32}],\"buffers\":[{\"byteLength\":80,\"uri\":\"quad.bin\"}]}",
+        side, side);
+    file_make(path, text, (size_t)size);
+}
+
+/* Whatever the mesh and its coordinates, the threads that are seen are as many as in a quad whose units are metres. */
+static void threads_have_their_size_on_any_mesh(void **state) {
+    (void)state;
+    static const struct {
+        double side, units;
+        bool mirrored;
+    } meshes[] = {{0.02, 0.02, false}, {0.02, 1.0, false}, {0.02, 0.3, true}, {0.02, 7.5, false}, {0.02, 1e-3, true}};
+    double first = 0.0;
+    for (size_t k = 0; k < sizeof meshes / sizeof *meshes; k++) {
+        quad_make("quad.gltf", meshes[k].side, meshes[k].units, meshes[k].mirrored);
+        /* 20 threads a centimetre, every fourth white: 10 stripes over 2 cm */
+        Ran ran = RUN("render", "quad.gltf", "--weave", "plain; warp 1w 3k; weft 1k; sett 20", "--width", "240",
+                      "--height", "24", "--spp", "64", "--env", "1", "--quiet", "--camera",
+                      "0.01,0.01,1;0.01,0.01,0;0.11", "-o", "threads.npy");
+        if (ran.code != 0) fail_msg("%s", ran.err);
+        ran_free(&ran);
+        WeftImage image;
+        assert_int_equal(weft_image_read("threads.npy", &image, NULL, NULL), WEFT_OK);
+        const float *p = image.pixels;
+        double mean = 0.0;
+        int crossings = 0;
+        for (int x = 20; x < 220; x++)
+            for (int y = 8; y < 16; y++) mean += (double)p[image.channels * (y * image.width + x) + 1] / (200.0 * 8.0);
+        bool was = false;
+        for (int x = 20; x < 220; x++) {
+            double column = 0.0;
+            for (int y = 8; y < 16; y++) column += (double)p[image.channels * (y * image.width + x) + 1] / 8.0;
+            const bool is = column > mean;
+            crossings += x > 20 && is != was;
+            was = is;
+        }
+        weft_image_free(&image);
+        print_message("%g units over %g m: %d edges of stripes\n", meshes[k].units, meshes[k].side, crossings);
+        if (k == 0) first = crossings;
+        assert_true(first >= 10.0 && fabs(crossings - first) <= 2.0);
+    }
+}
+
+static void wrong_keys_are_refused_in_one_line(void **state) {
+    (void)state;
+    static const char *const bad[][2] = {{"*.weave.sett=a", "WARP,WEFT"},       {"*.weave.sett=0", "sett"},
+                                         {"*.weave.colour=1", "warp.color"},    {"*.weave.warp.foo=1", "foo"},
+                                         {"*.weave.metres=0", "metres"},        {"*.weave.metres=big", "metres"},
+                                         {"*.weave.draft=nothing", "nothing"},  {"*.weave.warp=nettle", "nettle"},
+                                         {"*.weave.seed=-1", "seed"},           {"*.weave={\"a\":1}", "not a key"},
+                                         {"*.weave.warp.color=2,0,0", "color"}, {"*.weave={", "JSON"},
+                                         {"*.weave.warp.color=#12", "color"},   {"nobody.weave.seed=1", "nobody"}};
+    for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
+        Ran ran = RUN("render", "builtin:ball", "--set", bad[k][0], "-o", "no.png");
+        if (ran.code == 0 || !one_complaint(ran.err) || !strstr(ran.err, bad[k][1]))
+            fail_msg("%s: %d: %s", bad[k][0], ran.code, ran.err);
+        ran_free(&ran);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(cloth_is_the_same_by_every_way),
+                                       cmocka_unit_test(threads_have_their_size_on_any_mesh),
+                                       cmocka_unit_test(wrong_keys_are_refused_in_one_line)};
+    return cmocka_run_group_tests(tests, work_begin, work_end);
+}
