@@ -165,7 +165,7 @@ WeftResult weft_scene_set_variant(WeftScene *scene, const char *name, WeftError 
     if (name && v == scene->variant_count)
         return fail(error, WEFT_MESSAGE_VARIANT_NAME, name, "%s", scene_names(scene, weft_scene_variant_name, names));
     use_variant(scene, v);
-    return cloths_fit(scene, error);
+    return cloths_fit(scene, false, error);
 }
 
 int weft_scene_variant(const WeftScene *scene) { return scene->variant - 1; }

@@ -145,6 +145,7 @@ static bool start(Viewer *v, char why[512]) {
 static void stop(Viewer *v) {
     Settings *settings = &v->states->frame.settings;
     doctor_forget(v);
+    stills_end(v);
     renderer_stop(v->renderer);
     reference_stop(v->reference);
     replay_close(v->replay);
@@ -183,7 +184,7 @@ static int run(Viewer *v, char why[512]) {
         bool any = window_take(v->window, &v->states->frame.input);
         for (char *path; (path = window_dropped(v->window)); free(path)) opening_open(v, path), any = true;
         opening_poll(v);
-        any |= opening_watch(v, started);
+        any |= opening_watch(v, started) | stills_poll(v);
         any |= renderer_has_output(v->renderer) || reference_has_frame(v->reference) || v->opening->loader ||
                v->requests->rendered.number != shown;
         any |= requests_can_refine(v) && v->options->mode == MODE_LIVE;
@@ -230,6 +231,7 @@ Viewer *viewer_create(const ViewDesc *desc) {
                             .requests = &states->requests,
                             .dialogs = &states->dialogs,
                             .drag = &states->drag,
+                            .stills = &states->stills,
                             .states = states};
     states->frame.settings = settings_default();
     options_begin(&both->viewer);

@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "run.h"
-#include "weft/image.h"
+#include "weft/weft.h"
 
 enum { DRAFTS = 10, DRAFTS_LONG = 200 };
 
@@ -202,6 +202,50 @@ static void threads_have_their_size_on_any_mesh(void **state) {
     }
 }
 
+/* Renders 2 m of a flat cloth from afar under an even sky, and returns its mean colour. */
+static void seen_from_afar(const char *option, const char *material, double mean[3]) {
+    quad_make("quad.gltf", 2.0, 2.0, false);
+    Ran ran = RUN("render", "quad.gltf", option, material, "--width", "24", "--height", "24", "--spp", "64", "--env",
+                  "1", "--quiet", "--camera", "1,1,3;1,1,0;20", "-o", "afar.npy");
+    if (ran.code != 0) fail_msg("%s", ran.err);
+    ran_free(&ran);
+    WeftImage image;
+    assert_int_equal(weft_image_read("afar.npy", &image, NULL, NULL), WEFT_OK);
+    const float *p = image.pixels;
+    const int count = image.width * image.height;
+    for (int c = 0; c < 3; c++) mean[c] = 0.0;
+    for (int k = 0; k < count; k++)
+        for (int c = 0; c < 3; c++) mean[c] += (double)p[image.channels * k + c] / (double)count;
+    weft_image_free(&image);
+}
+
+/* Denim shows 10 to 18 % of its weft, and its colour from afar has the hue of the warp, and the chroma (the largest channel
+ * less the smallest, linear) of a cloth all of warp times the share of the warp that is seen. */
+static void denim_is_as_blue_as_its_warp(void **state) {
+    (void)state;
+    static const char all_warp[] =
+        "{\"weave\": {\"draft\": \"twill 3/1 z; both 1#2a4478; sett 26 18\", \"warp\": {\"yarn\": \"cotton\", \"dye\": "
+        "0.3, \"slub\": 0.5, \"width\": 1.35, \"bulge\": 0.5}, \"weft\": {\"yarn\": \"cotton\", \"width\": 0.95}}}";
+    WeftScene *scene;
+    WeftMaterial material;
+    double denim[3], warp[3];
+    assert_int_equal(weft_scene_load("builtin:cloth", &scene, NULL, NULL), WEFT_OK);
+    assert_int_equal(weft_scene_assign_material(scene, "Cloth", "preset:woven-denim", NULL, NULL), WEFT_OK);
+    assert_int_equal(weft_scene_material(scene, 0, &material, NULL), WEFT_OK);
+    const WeftClothInfo info = weft_scene_cloth_info(scene, material.cloth);
+    weft_scene_free(scene);
+    file_make("warp.json", all_warp, sizeof all_warp - 1);
+    seen_from_afar("--preset", "woven-denim", denim);
+    seen_from_afar("--material", "warp.json", warp);
+    const double chroma = denim[2] - denim[0], expected = (double)info.share[WEFT_WARP] * (warp[2] - warp[0]),
+                 hue = (denim[1] - denim[0]) / chroma, warp_hue = (warp[1] - warp[0]) / (warp[2] - warp[0]);
+    print_message("weft seen %.3f, chroma %.4f of %.4f, hue %.3f of %.3f\n", (double)info.share[WEFT_WEFT], chroma,
+                  expected, hue, warp_hue);
+    assert_true(info.share[WEFT_WEFT] >= 0.10f && info.share[WEFT_WEFT] <= 0.18f);
+    assert_true(fabs(chroma / expected - 1.0) <= 0.1);
+    assert_true(fabs(hue - warp_hue) <= 0.1); /* of a sextant of the circle */
+}
+
 static void wrong_keys_are_refused_in_one_line(void **state) {
     (void)state;
     static const char *const bad[][2] = {{"*.weave.sett=a", "WARP,WEFT"},       {"*.weave.sett=0", "sett"},
@@ -220,8 +264,8 @@ static void wrong_keys_are_refused_in_one_line(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(cloth_is_the_same_by_every_way),
-                                       cmocka_unit_test(threads_have_their_size_on_any_mesh),
-                                       cmocka_unit_test(wrong_keys_are_refused_in_one_line)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(cloth_is_the_same_by_every_way), cmocka_unit_test(threads_have_their_size_on_any_mesh),
+        cmocka_unit_test(denim_is_as_blue_as_its_warp), cmocka_unit_test(wrong_keys_are_refused_in_one_line)};
     return cmocka_run_group_tests(tests, work_begin, work_end);
 }

@@ -40,7 +40,7 @@ static WeftResult load(const char *path, const void *data, size_t size, Watcher 
     if (result == WEFT_OK) {
         scene_bounds(scene);
         environment_give_way(scene);
-        result = cloths_fit(scene, error);
+        result = cloths_fit(scene, true, error);
     }
     if (result == WEFT_OK)
         *out = scene;

@@ -100,7 +100,7 @@ static WeftResult put_on(WeftScene *scene, const char *material, MaterialFile *f
         return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     for (int k = 0; k < scene_own_materials(scene); k++)
         if (selected[k]) scene->materials[k] = assigned(&scene->materials[k], file);
-    WeftResult result = cloths_fit(scene, error);
+    WeftResult result = cloths_fit(scene, false, error);
     return result == WEFT_OK ? tangents_complete(scene, error) : result;
 }
 

@@ -271,7 +271,7 @@ WeftResult cloth_put(WeftScene *scene, int material, WeftCloth *cloth, WeftError
         return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     }
     scene->materials[material].cloth = number;
-    return cloths_fit(scene, error);
+    return cloths_fit(scene, false, error);
 }
 
 WeftResult weft_scene_set_weave(WeftScene *scene, int material, const WeftDraft *draft, const WeftYarn yarns[2],

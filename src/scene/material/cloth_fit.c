@@ -49,13 +49,24 @@ void cloth_fit(const WeftScene *scene, int material, WeftCloth *cloth) {
     if (metres > 0.0) cloth_spread(cloth, metres);
 }
 
-WeftResult cloths_fit(WeftScene *scene, WeftError *error) {
+/* Returns true if a material before this one has the same cloth. */
+static bool has_earlier(const WeftScene *scene, int material) {
+    int k = 0;
+    while (scene->materials[k].cloth != scene->materials[material].cloth) k++;
+    return k < material;
+}
+
+WeftResult cloths_fit(WeftScene *scene, bool fresh, WeftError *error) {
     for (int k = 0; k < scene_own_materials(scene); k++) {
         Material *material = &scene->materials[k];
         const WeftCloth *cloth = material->cloth ? scene->cloths[material->cloth - 1] : NULL;
         if (!cloth || !cloth->automatic) continue;
         const double metres = cloth_uv_metres(scene, k, NULL);
         if (!(metres > 0.0) || fabs(metres / cloth->metres - 1.0) < 1e-6) continue;
+        if (fresh && !has_earlier(scene, k)) {
+            cloth_spread(scene->cloths[material->cloth - 1], metres);
+            continue;
+        }
         WeftCloth *fitted = cloth_copy(cloth);
         if (!fitted) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
         cloth_spread(fitted, metres);

@@ -14,6 +14,7 @@ double cloth_uv_metres(const WeftScene *scene, int material, double *uneven);
 void cloth_fit(const WeftScene *scene, int material, WeftCloth *cloth);
 
 /* Gives cloths whose metres are automatic the size that suits the meshes of their material, and a copy to each of
- * several materials that differ. Call it when materials, or the meshes that have them, have changed. Fails with
+ * several materials that differ. Call it when materials, or the meshes that have them, have changed. fresh: the
+ * scene was just read and nothing else refers to its cloths, so that the first material's needs no copy. Fails with
  * WEFT_MESSAGE_MEMORY. */
-WeftResult cloths_fit(WeftScene *scene, WeftError *error);
+WeftResult cloths_fit(WeftScene *scene, bool fresh, WeftError *error);

@@ -9,6 +9,7 @@
 #include "view/state/edit.h"
 #include "view/state/frame_requests.h"
 #include "view/state/opening.h"
+#include "view/state/stills.h"
 #include "view/state/view_camera.h"
 #include "view/state/view_options.h"
 
@@ -38,6 +39,7 @@ static void file_menu(Viewer *v) {
     if (ui_menu_item("Save a picture ...", "F12", false, v->shown->any)) dialogs_shot(v, NULL);
     if (ui_menu_item("Copy the command line", "Ctrl+Shift+C", false, v->shown->any)) command_copy(v);
     ui_rule();
+    if (ui_menu_item("Cancel the path-traced picture", NULL, false, v->stills->still != NULL)) stills_cancel(v);
     if (ui_menu_item("Quit", "Ctrl+Q", false, true)) viewer_quit(v);
 }
 
@@ -171,7 +173,9 @@ void status_draw(Viewer *v) {
     UiBox bar = {0.0f, top, (float)width, (float)height - top};
     ui_behind(true);
     ui_fill(bar, 0xFF1C1B1Au);
-    snprintf(right, sizeof right, "%.0f fps  picture %.1f ms  %d x %d  %s",
+    char still[64] = "";
+    if (v->stills->still) snprintf(still, sizeof still, "path tracing a picture: %.0f %%   ", 100.0 * v->stills->share);
+    snprintf(right, sizeof right, "%s%.0f fps  picture %.1f ms  %d x %d  %s", still,
              v->frame->frame_seconds > 0.0 ? 1.0 / v->frame->frame_seconds : 0.0, 1e3 * v->frame->picture_seconds,
              v->requests->rendered.width, v->requests->rendered.height, picture_status(v));
     float width_left = (float)width - ui_text_width(right) - 40.0f * scale;

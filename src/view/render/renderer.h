@@ -51,6 +51,7 @@ void frame_request_free(FrameRequest *request); /* frees its states */
 typedef enum TaskKind {
     TASK_SHOT,      /* writes a picture of `width` x `height` to `path` */
     TASK_SAVE,      /* writes the scene, or material `index`, to `path` */
+    TASK_COPY,      /* saves the scene to `path`, without a word, for a picture in the background */
     TASK_PROBE,     /* describes the point at x, y of the request's picture, with the parts of its light */
     TASK_PICK,      /* describes the point without its light */
     TASK_PROFILES,  /* draws a sheet with material `index` under every profile */
@@ -95,7 +96,7 @@ typedef struct RenderEvent {
     bool failed;
     WeftResult result;     /* TASK_SCENE */
     char text[512];        /* a line for people */
-    char path[STATE_PATH]; /* TASK_BIND_MAPS: the folder */
+    char path[STATE_PATH]; /* TASK_BIND_MAPS: the folder; TASK_COPY: the file */
     unsigned stamp;
     Probe probe;
     WeftImage image;    /* TASK_PROFILES: the sheet, U8 RGB; TASK_PICK: the nap map, if none was brushed; owned */

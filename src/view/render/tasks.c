@@ -55,6 +55,14 @@ static WeftResult save(Renderer *self, const Task *task, const FrameRequest *req
     return weft_scene_save(self->scene, task->path, error);
 }
 
+/* Saves the scene for a picture in the background. */
+static WeftResult copy(Renderer *self, const Task *task, const FrameRequest *request, RenderEvent *event,
+                       WeftError *error) {
+    snprintf(event->path, sizeof event->path, "%s", task->path);
+    WeftResult result = frame_apply_state(self, frame_edited_state(request), error);
+    return result == WEFT_OK ? weft_scene_save(self->scene, task->path, error) : result;
+}
+
 /* Sends the new state of the materials to the window. */
 static WeftResult finish_assign(Renderer *self, WeftResult result, RenderEvent *event, WeftError *error) {
     const WeftLog log = renderer_log(self);
@@ -237,6 +245,7 @@ void tasks_do(Renderer *self, const Task *task, const FrameRequest *request) {
     switch (task->kind) {
     case TASK_SHOT: result = shot(self, task, request, &event, &error); break;
     case TASK_SAVE: result = save(self, task, request, &event, &error); break;
+    case TASK_COPY: result = copy(self, task, request, &event, &error); break;
     case TASK_PICK: result = pick(self, task, request, &event, &error); break;
     case TASK_PROBE: result = probe(self, task, request, &event, &error); break;
     case TASK_LIGHT: result = light(self, task, request, &event, &error); break;

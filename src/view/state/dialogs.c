@@ -8,6 +8,7 @@
 #include "view/files/paths.h"
 #include "view/state/actions.h"
 #include "view/state/states.h"
+#include "view/state/stills.h"
 #include "view/ui/browser.h"
 
 bool dialogs_begin(Viewer *v) {
@@ -186,21 +187,40 @@ static void draw_save(Viewer *v) {
     ui_dialog_end();
 }
 
+static void draw_samples(DialogsState *dialogs) {
+    if (dialogs->shot_samples < 1) dialogs->shot_samples = 256;
+    ui_disabled(!dialogs->shot_traced);
+    ui_slider_int("samples", 1, 4096, &dialogs->shot_samples);
+    ui_tip("Per pixel: four times as many halve the noise.");
+    ui_checkbox("denoised", &dialogs->shot_denoised);
+    ui_tip("Smooths what noise is left; it may lose fine threads.");
+    ui_disabled_end();
+    if (dialogs->shot_samples > 65536) dialogs->shot_samples = 65536;
+}
+
+static void save_shot(Viewer *v) {
+    const DialogsState *dialogs = &v->states->dialogs;
+    if (dialogs->shot_traced)
+        stills_make(v, dialogs->shot_path, dialogs->shot_width, dialogs->shot_height, dialogs->shot_samples,
+                    dialogs->shot_denoised, dialogs->shot_transparent);
+    else
+        dialogs_shot(v, dialogs->shot_path);
+}
+
 static void draw_shot(Viewer *v) {
     if (!ui_dialog("Save a picture", 560.0f * ui_scale(), 0.0f)) return;
     ui_scope("Save a picture");
     bool entered = ui_input("file", v->states->dialogs.shot_path, STATE_PATH);
     ui_tip(".png as it is shown, .exr, .hdr or .npy linear.");
-    ui_disabled(v->states->dialogs.shot_traced);
     ui_slider_int("width", 16, 8192, &v->states->dialogs.shot_width);
     ui_tip("Pixels; any size, whatever the window's.");
     ui_slider_int("height", 16, 8192, &v->states->dialogs.shot_height);
     ui_tip("Pixels.");
     ui_checkbox("transparent", &v->states->dialogs.shot_transparent);
     ui_tip("Alpha 0 where nothing is.");
-    ui_disabled_end();
     ui_checkbox("path traced", &v->states->dialogs.shot_traced);
-    ui_tip("What the path tracer has gathered, in the size it is seen in.");
+    ui_tip("Ground truth, made in the background while you work on; the status bar shows how far it is.");
+    draw_samples(&v->states->dialogs);
     v->states->dialogs.shot_width = v->states->dialogs.shot_width < 1       ? 1
                                     : v->states->dialogs.shot_width > 16384 ? 16384
                                                                             : v->states->dialogs.shot_width;
@@ -211,7 +231,7 @@ static void draw_shot(Viewer *v) {
     bool pressed = ui_button("Save");
     ui_tip("Writes the file (Enter).");
     if (pressed || entered) {
-        dialogs_shot(v, v->states->dialogs.shot_path);
+        save_shot(v);
         ui_dialog_close();
     }
     ui_same_line();

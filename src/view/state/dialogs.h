@@ -9,7 +9,8 @@ typedef struct DialogsState {
     char due[32]; /* dialog to open in this frame */
     char save_path[STATE_PATH], shot_path[STATE_PATH];
     int shot_width, shot_height; /* pixels */
-    bool shot_transparent, shot_traced;
+    bool shot_transparent, shot_traced, shot_denoised;
+    int shot_samples;         /* of a path-traced picture; 0: not yet chosen */
     char dropped[STATE_PATH]; /* a picture whose input is still to be chosen */
     int dropped_input;
     bool profiles_open, profiles_made;

@@ -6,6 +6,7 @@
 #include "view/state/frame_requests.h"
 #include "view/state/opening.h"
 #include "view/state/stage.h"
+#include "view/state/stills.h"
 #include "view/state/view_camera.h"
 #include "view/state/view_options.h"
 #include "view/state/viewer.h"
@@ -20,4 +21,5 @@ struct States {
     RequestsState requests;
     DialogsState dialogs;
     DragState drag;
+    StillsState stills;
 };

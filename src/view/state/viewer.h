@@ -43,6 +43,7 @@ typedef struct Viewer {
     const struct RequestsState *requests;
     const struct DialogsState *dialogs;
     const struct DragState *drag;
+    const struct StillsState *stills;
     struct States *states; /* the same records, for their owners */
 } Viewer;
 

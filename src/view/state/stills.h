@@ -1,0 +1,25 @@
+/* stills.h - the path-traced picture that is made in the background */
+#pragma once
+
+#include "view/render/still.h"
+#include "view/state/viewer.h"
+
+typedef struct StillsState {
+    StillDesc due; /* sent to the renderer, which saves the scene first */
+    bool has_due;
+    unsigned scene; /* number of the scene that is being saved; a task of an earlier one is dropped */
+    Still *still;   /* NULL: none */
+    double share;   /* of its samples, 0 to 1 */
+} StillsState;
+
+/* Begins a picture of the edited scene: path, size, samples and whether to denoise are given, all else is as the window
+ * shows it. One picture is made at a time. */
+void stills_make(Viewer *v, const char *path, int width, int height, int samples, bool denoised, bool transparent);
+
+/* Starts the thread, when the scene was saved to `scene`; failed: it was not. */
+void stills_saved(Viewer *v, const char *scene, bool failed);
+
+/* Takes progress and end of the picture. Returns true if something changed. */
+bool stills_poll(Viewer *v);
+void stills_cancel(Viewer *v);
+void stills_end(Viewer *v);
