@@ -198,7 +198,7 @@ static void a_weave_of_a_draft_in_a_file_is_saved_with_it(void **state) {
 /* Memory does not grow with every weave that is tried again. */
 static void a_weave_that_the_scene_has_is_not_added(void **state) {
     (void)state;
-    static const char *const other = "{\"weave\": {\"draft\": \"plain\"}}";
+    static const char *const other = "{\"weave\": {\"draft\": \"plain\", \"metres\": 1}}";
     WeftScene *scene = scene_of_cloth();
     WeftError error;
     for (int k = 0; k < 40; k++) {

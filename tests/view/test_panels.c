@@ -126,6 +126,31 @@ static void a_material_is_woven_of_a_draft(void **state) {
     ran_free(&ran);
 }
 
+/* A path-traced picture of another size than the window's is made in the background, with the bytes of `weft render`; at the
+ * end of the window an unfinished one leaves no file. */
+static void picture_of_any_size_is_path_traced_in_the_background(void **state) {
+    (void)state;
+    need_gl();
+    Ran ran = RUN("render", "builtin:ball", "--save", "ball.glb");
+    assert_int_equal(ran.code, 0);
+    ran_free(&ran);
+    for (int finished = 1; finished >= 0; finished--) {
+        script_begin();
+        say("wait rest\nset Material/roughness 0.7\nwait rest\nkey f12\nwait 3\nclick \"Save a picture/path traced\"\n"
+            "set \"Save a picture/width\" %d\nset \"Save a picture/height\" 60\nset \"Save a picture/samples\" %d\n"
+            "wait 2\nclick \"Save a picture/Save\"\n",
+            finished ? 90 : 4000, finished ? 8 : 4000);
+        if (finished) say("wait message wrote ball-weft.png\nsave changed.glb\nwait message wrote changed.glb\n");
+        drive_through(script, LIST(UNSEEN, "ball.glb", FLAT));
+        if (!finished) break;
+        ran = run_shell("\"$0\" render changed.glb --env 1,1,1 --width 90 --height 60 --spp 8 -o again.png && "
+                        "cmp again.png ball-weft.png && rm ball-weft.png");
+        if (ran.code != 0) fail_msg("%s%s", ran.out, ran.err);
+        ran_free(&ran);
+    }
+    assert_int_equal(access("ball-weft.png", F_OK), -1);
+}
+
 /* A click turns a crossing over, a number changes a yarn: either is a cloth of its own, and undo brings the one before. */
 static void a_weave_is_changed_by_clicks_and_numbers(void **state) {
     (void)state;
@@ -263,6 +288,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(undo_restores_a_variant),
                                        cmocka_unit_test(the_menu_of_presets_follows_undo),
                                        cmocka_unit_test(a_material_is_woven_of_a_draft),
+                                       cmocka_unit_test(picture_of_any_size_is_path_traced_in_the_background),
                                        cmocka_unit_test(a_weave_is_changed_by_clicks_and_numbers),
                                        cmocka_unit_test(a_scene_that_is_read_again_keeps_its_folder),
                                        cmocka_unit_test(every_number_takes_a_map_and_shows_it),

@@ -312,12 +312,13 @@ void material_panel(Viewer *v) {
     WeftMaterial m = *scene_state_material(&v->edit->state, v->edit->material);
     draw_buttons(v, &m);
     draw_plausible(v, &m);
-    weave_section(v, &m);
+    if (m.cloth > 0) weave_section(v, &m);
     for (int g = 0; g < GROUPS; g++) {
         if (g == MODELS_BEFORE && ui_section("Models", false)) draw_models(&m);
         if (!ui_section(groups[g].heading, groups[g].unfolded)) continue;
         if (g == SHEEN) draw_choice(&m, weft_material_choice_find(sheen_choice));
         draw_inputs(v, &m, g);
     }
+    if (m.cloth <= 0) weave_section(v, &m);
     edit_set_material(v, v->edit->material, &m);
 }
