@@ -151,7 +151,7 @@ typedef struct WeftClothInfo {
     float share[2]; /* visible area of warp and weft, as fractions of the cloth; the rest is gaps */
     float size[2];  /* of the repeat, metres */
     float sett[2];  /* threads of warp and weft per centimetre, in the mean */
-    float metres;   /* that a unit of texture coordinates spans */
+    float metres;   /* spanned by a unit of texture coordinates */
     int automatic;  /* not 0: metres follows from the mesh */
     int seed;       /* of the random variation */
 } WeftClothInfo;

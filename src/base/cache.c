@@ -140,7 +140,7 @@ bool cache_find(uint64_t key, const char *suffix, void *data, size_t size, const
     return good;
 }
 
-/* What stands behind the bytes of a sealed file. Loaders of libraries do not look at it. */
+/* The seal behind the bytes of a sealed file. Loaders of libraries do not look at it. */
 typedef struct Seal {
     char magic[8];
     uint64_t check;

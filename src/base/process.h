@@ -3,18 +3,18 @@
 
 #include <stddef.h>
 
-/* What a program may take: seconds of the clock; seconds of processor time, which a busy machine stretches; MiB of
+/* The bounds of a program: seconds of the clock; seconds of processor time, which a busy machine stretches; MiB of
  * address space, for each process. */
 typedef struct ProcessBounds {
     int seconds, cpu_seconds, mebibytes;
 } ProcessBounds;
 
-/* What process_run returns beside an exit code. */
+/* The results of process_run beside an exit code. */
 enum {
     PROCESS_MISSING = 127, /* there is no such program, or it cannot be started */
-    PROCESS_LOST = -1,     /* its end cannot be waited for, as while SIGCHLD is ignored (waitpid, POSIX.1-2017) */
-    PROCESS_LATE = -2,     /* it took too long, and was ended */
-    PROCESS_STOPPED = -3   /* a signal came that ends programs, which ended it: see process_signal_pass */
+    PROCESS_LOST = -1, /* the program's end cannot be waited for, as while SIGCHLD is ignored (waitpid, POSIX.1-2017) */
+    PROCESS_LATE = -2, /* the program took too long, and was ended */
+    PROCESS_STOPPED = -3 /* a signal came that ends programs, which ended it: see process_signal_pass */
 };
 
 /* Runs arguments[0], found by $PATH, in the language "C"; arguments end with NULL. It reads nothing, and what

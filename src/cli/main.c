@@ -5,9 +5,9 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "cli/console/call_stack.h"
 #include "cli/console/names.h"
 #include "cli/console/report.h"
-#include "cli/console/stack.h"
 #include "cli/console/two_columns.h"
 #include "cli/console/uncaught.h"
 #include "cli/operands/lobes.h"

@@ -2,7 +2,7 @@
  *
  * A picture of more colours, such as one that JPEG has made noisy, is parted in two by brightness: Nobuyuki Otsu, "A
  * Threshold Selection Method from Gray-Level Histograms", IEEE Transactions on Systems, Man, and Cybernetics 9(1), 1979:
- * of all thresholds, the one whose two classes are farthest apart for their size, w0 w1 (m0 - m1)^2. */
+ * of all thresholds, the one whose two classes are farthest distance for their size, w0 w1 (m0 - m1)^2. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
@@ -33,7 +33,7 @@ static float brightness(const WeftImage *image, size_t pixel) {
 
 enum { LEVELS = 256 };
 
-/* What there is to know of a picture's pixels. */
+/* The figures of a picture's pixels. */
 typedef struct Survey {
     size_t pixels;
     int colors;      /* 1, 2, or 3 for more */
@@ -73,7 +73,8 @@ static float threshold(const WeftImage *image, const Survey *survey) {
         dark_sum += (double)level * count[level];
         const double bright = (double)survey->pixels - dark;
         if (!(bright > 0.0)) break;
-        const double apart = dark_sum / dark - (sum - dark_sum) / bright, between = dark * bright * apart * apart;
+        const double distance = dark_sum / dark - (sum - dark_sum) / bright,
+                     between = dark * bright * distance * distance;
         if (between > best * (1.0 + 1e-12)) first = level;
         if (between >= best * (1.0 - 1e-12)) last = level;
         if (between > best) best = between;

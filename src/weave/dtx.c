@@ -179,7 +179,7 @@ static void read_tieup(Dtx *dtx, const Section *section) {
     free(ties);
 }
 
-/* The first line is the title. */
+/* Reads the title, which is the first line. */
 static void read_title(Dtx *dtx, const Section *section) {
     put_section(dtx, section->wif);
     for (int k = 0; k < dtx->file.count; k++)

@@ -39,7 +39,7 @@ struct WeftCloth {
     WeftDraft *draft; /* as it was read; owned; NULL if no material has the cloth */
     char *path;       /* of the draft's file, absolute; NULL if the text contains the draft */
     double size[2];   /* of the repeat, metres */
-    double metres;    /* that a unit of texture coordinates spans */
+    double metres;    /* spanned by a unit of texture coordinates */
     bool automatic;   /* metres follows from the mesh (scene/material/cloth_fit.h) */
     float per_uv[2];  /* threads of warp and weft in one unit of texture coordinates */
 };

@@ -68,7 +68,7 @@ bool wif_whole(const char *text, long *number);
 bool wif_flag(const char *text, bool *flag);
 bool wif_unit(const char *text, double *metres);
 
-/* Read the colours, spacings and thicknesses of the threads of a draft. */
+/* Reads the colours, spacings and thicknesses of the threads of a draft. */
 WeftResult wif_read_colors(Wif *wif, WeftDraft *draft);
 void wif_read_lengths(Wif *wif, WeftDraft *draft);
 

@@ -13,16 +13,16 @@
 #include "base/number.h"
 #include "weave/wif.h"
 
-/* What a value may be. LIST, RGB and RANGE are refused by those who read them; TEXT is anything. */
-typedef enum Kind { TEXT, WHOLE, FLAG, UNIT, LENGTH, COLOR, FORM, LIST, RGB, RANGE } Kind;
+/* The kinds of values. LIST, RGB and RANGE are refused by those who read them; TEXT is anything. */
+typedef enum ValueKind { TEXT, WHOLE, FLAG, UNIT, LENGTH, COLOR, FORM, LIST, RGB, RANGE } ValueKind;
 
-typedef struct Row {
+typedef struct WifRow {
     const char *section, *key; /* key: "" stands for any, "#" for a number from 1 */
-    Kind kind;
-} Row;
+    ValueKind kind;
+} WifRow;
 
 /* The rows of a section follow one another. */
-static const Row rows[] = {
+static const WifRow rows[] = {
     {"WIF", "", TEXT},
     {"CONTENTS", "", TEXT},
     {"TEXT", "", TEXT},
@@ -154,7 +154,7 @@ bool wif_flag(const char *text, bool *flag) {
     return word >= 0;
 }
 
-/* A decipoint is a 720th of an inch. The format has the first of each line; the others can mean nothing else. */
+/* Reads a unit of length in metres; a decipoint is a 720th of an inch. The format has the first of each line; the others can mean nothing else. */
 bool wif_unit(const char *text, double *metres) {
     static const char *const words[] = {"decipoints",  "decipoint",                                     //
                                         "inches",      "inch",       "in",          "\"",               //
@@ -166,7 +166,7 @@ bool wif_unit(const char *text, double *metres) {
 }
 
 /* Returns true if the value is of the kind. */
-static bool is_understood(Kind kind, const char *text) {
+static bool is_understood(ValueKind kind, const char *text) {
     static const char *const forms[] = {"RGB", NULL};
     float values[4];
     long number;

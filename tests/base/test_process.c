@@ -83,7 +83,7 @@ static void a_program_beyond_its_bounds_is_ended(void **state) {
     assert_true(clock_now() - start < 60.0);
 }
 
-static void what_a_program_leaves_behind_is_ended(void **state) {
+static void program_left_behind_is_ended(void **state) {
     (void)state;
     assert_int_equal(sh("sleep 600 & echo $! >number", wide), 0);
     assert_false(is_running());
@@ -128,6 +128,6 @@ static int end(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(exit_codes_and_output_come_back), cmocka_unit_test(a_program_beyond_its_bounds_is_ended),
-        cmocka_unit_test(what_a_program_leaves_behind_is_ended), cmocka_unit_test(a_signal_ends_both_programs)};
+        cmocka_unit_test(program_left_behind_is_ended), cmocka_unit_test(a_signal_ends_both_programs)};
     return cmocka_run_group_tests(tests, begin, end);
 }

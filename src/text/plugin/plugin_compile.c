@@ -111,7 +111,7 @@ static const char *const half_flags[2][20] = {{COMMON, "-fopenmp-simd", "-ffp-co
 
 enum { COMPILER_SIZE = 256, COMPILER_WORDS = 8, PATH_SIZE = CACHE_PATH_SIZE + 32 };
 
-/* What a compiler may take. The lobes of the catalogue take seconds and 300 MiB. */
+/* The bounds of a compiler. The lobes of the catalogue take seconds and 300 MiB. */
 static const ProcessBounds bounds = {.seconds = 60, .cpu_seconds = 30, .mebibytes = 4096};
 
 /* A folder of a compilation and what is in it, beside the compiler's own files. */
@@ -338,14 +338,14 @@ static bool keep(const char *library, uint64_t key, const WeftLog *log) {
 }
 
 /* A library that is made. */
-typedef struct Making {
+typedef struct Compiling {
     const Compiler *compiler;
     const Buffer *text;
     const char *path, *file; /* of the lobe, and its name in the text */
     const char *cache;       /* the folder of the cache, or NULL */
     uint64_t key;
     const WeftLog *log;
-} Making;
+} Compiling;
 
 /* Fails with dlerror's reason, without the name of a file that is gone when it is read. */
 static WeftResult fail_load(const CompileWork *work, const char *path, WeftError *error) {
@@ -356,7 +356,7 @@ static WeftResult fail_load(const CompileWork *work, const char *path, WeftError
 }
 
 /* Makes and loads a library in a folder of its own inside `folder`. */
-static WeftResult make_in(const Making *making, const char *folder, const Plugin **out, WeftError *error) {
+static WeftResult make_in(const Compiling *making, const char *folder, const Plugin **out, WeftError *error) {
     CompileWork work;
     char cached[CACHE_PATH_SIZE];
     if (!work_begin(&work, folder)) return fail(error, WEFT_MESSAGE_FILE_WRITE, folder, "%s", strerror(errno));
@@ -373,7 +373,7 @@ static WeftResult make_in(const Making *making, const char *folder, const Plugin
 }
 
 /* Makes a library in the folder for temporary files, or in the cache where that folder takes none. */
-static WeftResult make(const Making *making, const Plugin **out, WeftError *error) {
+static WeftResult make(const Compiling *making, const Plugin **out, WeftError *error) {
     const char *temporary = getenv("TMPDIR");
     if (!temporary || temporary[0] != '/') temporary = "/tmp";
     const char *const folders[] = {temporary, making->cache};
@@ -407,8 +407,8 @@ WeftResult plugin_make(const LobeNames *names, const char *path, const char *byt
     snprintf(file, sizeof file, "%s.h", names->prefix);
     bool caches = find_cache(cache);
     if (!caches) warn(log, WEFT_MESSAGE_CACHE_IGNORED, path, "there is no folder of the user's own to keep it in");
-    const Making making = {&compiler, &flat.text, path, file, caches ? cache : NULL, key_of(&flat.text, &compiler),
-                           log};
+    const Compiling making = {&compiler, &flat.text, path, file, caches ? cache : NULL, key_of(&flat.text, &compiler),
+                              log};
     WeftResult result = WEFT_OK;
     bool kept = caches && cache_is_sealed(making.key, "so", log) && cache_path(cached, making.key, "so");
     *out = kept ? load(cached) : NULL;

@@ -1,4 +1,4 @@
-/* stack.h - enough stack, whatever the limit of the shell */
+/* call_stack.h - enough stack, whatever the limit of the shell */
 #pragma once
 
 /* Calls run(count, arguments) and returns its result. If the program's stack may be smaller than a mebibyte

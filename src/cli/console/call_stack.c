@@ -1,5 +1,5 @@
 #define _GNU_SOURCE /* pthread_setattr_default_np */
-#include "cli/console/stack.h"
+#include "cli/console/call_stack.h"
 
 #include <pthread.h>
 #include <stddef.h>
@@ -7,20 +7,20 @@
 
 enum { LEAST = 1 << 20, USUAL = 8 << 20 };
 
-typedef struct Call {
+typedef struct StackCall {
     int (*run)(int count, char **arguments);
     int count, result;
     char **arguments;
-} Call;
+} StackCall;
 
 static void *call_run(void *user) {
-    Call *call = user;
+    StackCall *call = user;
     call->result = call->run(call->count, call->arguments);
     return NULL;
 }
 
 int stack_run(int (*run)(int count, char **arguments), int count, char **arguments) {
-    Call call = {.run = run, .count = count, .arguments = arguments};
+    StackCall call = {.run = run, .count = count, .arguments = arguments};
     struct rlimit limit;
     pthread_attr_t attributes;
     pthread_t thread;
