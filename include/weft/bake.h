@@ -194,11 +194,11 @@ enum { WEFT_FORM_TERMS = 49 };
 /* E of a lobe over cos_o from 0 to 1 and roughness from `lowest` to 1: P(x, roughness), or exp P, cut off at 0, where x is
  * cos_o or its square root and P is the sum of terms[j * (across + 1) + i] x^i roughness^j, i to `across`, j to `along`. */
 typedef struct WeftAlbedoForm {
-    int exponential, root; /* exp P in place of P; x is the root */
-    int across, along;     /* degrees */
-    float terms[WEFT_FORM_TERMS];
-    double error;           /* the largest, measured in floats on a grid other than that of the fit */
-    float cos_o, roughness; /* where */
+    int exponential, root;        /* exp P in place of P; x is the root */
+    int across, along;            /* degrees */
+    float terms[WEFT_FORM_TERMS]; /* coefficients of P, by the index above */
+    double error;                 /* the largest, measured in floats on a grid other than that of the fit */
+    float cos_o, roughness;       /* where */
 } WeftAlbedoForm;
 
 /* Zero means default, in every member but lobe and lowest. */
