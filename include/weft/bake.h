@@ -191,8 +191,9 @@ WEFT_API WeftResult weft_audit(const WeftAuditDesc *desc, WeftAudit *out, WeftIm
 
 enum { WEFT_FORM_TERMS = 49 };
 
-/* E of a lobe over cos_o from 0 to 1 and roughness from `lowest` to 1: P(x, roughness), or exp P, cut off at 0, where x is
- * cos_o or its square root and P is the sum of terms[j * (across + 1) + i] x^i roughness^j, i to `across`, j to `along`. */
+/* E of a lobe over cos_o from 0 to 1 and roughness from `lowest` to 1: P(x, roughness), or exp P, cut off at 0, where
+ * x is cos_o or its square root and P is the sum of terms[j * (across + 1) + i] x^i roughness^j, i to `across`, j to
+ * `along`. */
 typedef struct WeftAlbedoForm {
     int exponential, root;        /* exp P in place of P; x is the root */
     int across, along;            /* degrees */
@@ -212,8 +213,8 @@ typedef struct WeftAlbedoFormDesc {
     void *user;            /* of progress */
 } WeftAlbedoFormDesc;
 
-/* Finds the form of fewest terms within the error; where none of WEFT_FORM_TERMS terms is, that of the least error, which
- * is above desc->error then. Is interrupted as weft_bake; fails with WEFT_MESSAGE_DESC or _MEMORY. */
+/* Finds the form of fewest terms within the error; where none of WEFT_FORM_TERMS terms is, that of the least error,
+ * which is above desc->error then. Is interrupted as weft_bake; fails with WEFT_MESSAGE_DESC or _MEMORY. */
 WEFT_API WeftResult weft_bake_form(const WeftAlbedoFormDesc *desc, WeftAlbedoForm *out, WeftError *error);
 
 /* Returns the value of a form. */

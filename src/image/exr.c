@@ -1,4 +1,5 @@
-/* exr.c - OpenEXR through its C library, but for two compressions; colours of a file are multiplied by alpha, those of a WeftImage are not */
+/* exr.c - OpenEXR through its C library, but for two compressions; colours of a file are multiplied by alpha, those
+ * of a WeftImage are not */
 #include <float.h>
 #include <limits.h>
 #include <math.h>
@@ -114,8 +115,8 @@ static int flat_part(exr_context_t context, int *count) {
     return -1;
 }
 
-/* Picks the picture's channels. Refuses subsampled channels, which luminance-chroma files have and which would change the
- * order of the values in a chunk. */
+/* Picks the picture's channels. Refuses subsampled channels, which luminance-chroma files have and which would change
+ * the order of the values in a chunk. */
 static WeftResult exr_channels(Exr *exr, WeftError *error) {
     const char *name = exr->source->name;
     const exr_attr_chlist_t *channels = exr->channels;
@@ -123,7 +124,8 @@ static WeftResult exr_channels(Exr *exr, WeftError *error) {
         const exr_attr_chlist_entry_t *entry = channels->entries + i;
         const char *channel = entry->name.str + exr_layer_length(entry->name.str);
         if (strcmp(channel, "RY") == 0 || strcmp(channel, "BY") == 0)
-            return fail(error, WEFT_MESSAGE_IMAGE_UNSUPPORTED, name, "EXR: luminance-chroma pixels; convert it to R G B");
+            return fail(error, WEFT_MESSAGE_IMAGE_UNSUPPORTED, name,
+                        "EXR: luminance-chroma pixels; convert it to R G B");
         if (entry->x_sampling != 1 || entry->y_sampling != 1)
             return fail(error, WEFT_MESSAGE_IMAGE_UNSUPPORTED, name, "EXR: subsampled channels; convert it to R G B");
         exr->pixel_bytes += value_bytes(entry->pixel_type);

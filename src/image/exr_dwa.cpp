@@ -102,8 +102,8 @@ bool attribute_fits(const char *type, const unsigned char *at, size_t size) {
     return std::strcmp(type, "idmanifest") != 0;
 }
 
-/* Returns true if every attribute of the headers lies within the file and is read as a whole: the library allocates what
- * they claim. */
+/* Returns true if every attribute of the headers lies within the file and is read as a whole: the library allocates
+ * what they claim. */
 bool headers_fit(const unsigned char *data, size_t size) {
     const bool parts = size > 8 && data[5] & 0x10; /* several headers, and an empty one behind them */
     size_t at = 8;

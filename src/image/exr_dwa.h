@@ -1,4 +1,5 @@
-/* exr_dwa.h - the pixels of an OpenEXR file by OpenEXR's C++ interface, which alone has the compressions DWAA and DWAB */
+/* exr_dwa.h - the pixels of an OpenEXR file by OpenEXR's C++ interface, which alone has the compressions DWAA and
+ * DWAB */
 #pragma once
 
 #include <stddef.h>

@@ -12,8 +12,8 @@ typedef struct ExrPick {
     char words[160]; /* what was taken, where the file alone does not say it: "channel V as grey"; else empty */
 } ExrPick;
 
-/* Picks the colours without a layer, else those of the first layer that has any, and alpha beside them: R G B, red green
- * blue, X Y Z, or one of Y, V, luminance, grey or a lone R, in any case. Returns false if there are none. */
+/* Picks the colours without a layer, else those of the first layer that has any, and alpha beside them: R G B, red
+ * green blue, X Y Z, or one of Y, V, luminance, grey or a lone R, in any case. Returns false if there are none. */
 bool exr_pick(const exr_attr_chlist_t *channels, ExrPick *pick);
 
 /* Returns the length of "layer." in "layer.R"; 0 without a layer. */

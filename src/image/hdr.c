@@ -55,8 +55,8 @@ static const char *numbers_read(const char *text, int count, double *numbers) {
 
 static bool is_blank(const char *text) { return text[strspn(text, " \t\r")] == '\0'; }
 
-/* Divides the gain by the factors of an EXPOSURE (one for all) or COLORCORR (one each) line. Several such lines multiply.
- * Returns what follows the factors, or NULL. */
+/* Divides the gain by the factors of an EXPOSURE (one for all) or COLORCORR (one each) line. Several such lines
+ * multiply. Returns what follows the factors, or NULL. */
 static const char *gain_divide(Hdr *hdr, const char *text, int count) {
     double factors[3];
     text = numbers_read(text, count, factors);

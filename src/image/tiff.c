@@ -1,7 +1,7 @@
 /* tiff.c - the first picture of a TIFF file, by libtiff
  *
- * Numbers of 8 and 16 bits and floats of 16 and 32 are read as they are; pictures of other kinds, such as palettes, inks and
- * one bit, as libtiff converts them to 8 bits. */
+ * Numbers of 8 and 16 bits and floats of 16 and 32 are read as they are; pictures of other kinds, such as palettes,
+ * inks and one bit, as libtiff converts them to 8 bits. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>

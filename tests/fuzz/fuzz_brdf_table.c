@@ -1,7 +1,7 @@
 /* fuzz_brdf_table - the reader of measurements that are lines of numbers
  *
- * Any input must be read or refused with one line; what is read must be finite and above the horizon, and every line but
- * comments and one of names is a sample. */
+ * Any input must be read or refused with one line; what is read must be finite and above the horizon, and every line
+ * but comments and one of names is a sample. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdint.h>

@@ -1,7 +1,7 @@
 /* fuzz_exr - the OpenEXR reader: the library behind our checks, windows, tiles, channels, every compression
  *
- * Any input must be read or refused with one line; sanitizers watch the rest. What is read without a word has the channels of
- * a picture: R G B, or Y. */
+ * Any input must be read or refused with one line; sanitizers watch the rest. What is read without a word has the
+ * channels of a picture: R G B, or Y. */
 #include "image_input.h"
 
 /* Returns true if the bytes have a channel of that name, with the zero behind it. */

@@ -1,7 +1,7 @@
 /* fuzz_hdr - the Radiance HDR reader: header lines, orientations, both run-length codes
  *
- * Any input must be read or refused with one line; sanitizers watch the rest. A header that is read without a word asks for
- * no gamma and no other shape of pixels. */
+ * Any input must be read or refused with one line; sanitizers watch the rest. A header that is read without a word
+ * asks for no gamma and no other shape of pixels. */
 #include "image_input.h"
 
 #include <stdio.h>

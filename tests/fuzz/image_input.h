@@ -21,8 +21,8 @@ static void image_warned(void *user, WeftMessage message, const char *text) {
     image_warnings++;
 }
 
-/* Reads an input. `understood`, which may be NULL, tells of one that was read without a word whether it holds nothing else
- * than what the reader knows. */
+/* Reads an input. `understood`, which may be NULL, tells of one that was read without a word whether it holds nothing
+ * else than what the reader knows. */
 static int image_input_understood(WeftResult (*read)(const ImageSource *, WeftImage *, WeftError *),
                                   bool (*understood)(const WeftImage *, const uint8_t *, size_t), const uint8_t *data,
                                   size_t size) {

@@ -1,4 +1,5 @@
-/* OpenEXR files of the compressions DWAA and DWAB, as OpenEXR's own interface writes them: lines and tiles, windows, damage. */
+/* OpenEXR files of the compressions DWAA and DWAB, as OpenEXR's own interface writes them: lines and tiles, windows,
+ * damage. */
 #include "image/fixture.h"
 
 #include <stdbool.h>

@@ -1,4 +1,5 @@
-/* TIFF files put together here: numbers of every type, little and big endian, one plane or several, alpha, palettes, damage. */
+/* TIFF files put together here: numbers of every type, little and big endian, one plane or several, alpha, palettes,
+ * damage. */
 #include "image/fixture.h"
 
 #include <stdbool.h>

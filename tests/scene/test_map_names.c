@@ -27,8 +27,8 @@ static int end(void **state) {
     return scratch_remove(folder) ? 0 : -1;
 }
 
-/* Writes uses as "base_color" or "occlusion roughness.g metallic.b", with '-' before an inverted one and the direction of
- * green behind normals. */
+/* Writes uses as "base_color" or "occlusion roughness.g metallic.b", with '-' before an inverted one and the
+ * direction of green behind normals. */
 static const char *uses_of(const char *file) {
     static const char *const channels[] = {"", ".g", ".b", ".a"}, *const greens[] = {"", "+", "-"};
     static char text[256];

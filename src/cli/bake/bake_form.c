@@ -1,4 +1,5 @@
-/* bake_form.c - `weft bake albedo LOBE --form polynomial`: E as a short function for shaders that have no sampler to spare */
+/* bake_form.c - `weft bake albedo LOBE --form polynomial`: E as a short function for shaders that have no sampler to
+ * spare */
 #include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -32,7 +32,8 @@ static void literal_write(FILE *stream, float value) {
     fprintf(stream, "%sf", text);
 }
 
-/* Writes the table as an array in C. The command stands in a // comment, since it may contain what ends the other kind. */
+/* Writes the table as an array in C. The command stands in a // comment, since it may contain what ends the other
+ * kind. */
 static void array_write(FILE *stream, const TableFile *file, const char *path) {
     enum { A_LINE = 6 };
     const WeftImage *table = file->table;

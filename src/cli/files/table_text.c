@@ -154,7 +154,8 @@ static void size_of_brackets(const char *at, const char *end, long size[3]) {
     if (count == 1) size[0] = 0; /* a length is no size */
 }
 
-/* Returns where the first array of numbers begins, behind its brace, or behind the "(" of GLSL's float[64](...), and reads the size that its brackets say. */
+/* Returns where the first array of numbers begins, behind its brace, or behind the "(" of GLSL's float[64](...), and
+ * reads the size that its brackets say. */
 static char *array_find(TableText *self) {
     char *brace = self->text;
     while ((brace = strpbrk(brace, "{(")) != NULL) {
@@ -210,7 +211,8 @@ static bool is_whole(const TableText *self, long rows, long columns, long channe
            (size_t)rows * (size_t)columns * (size_t)channels == self->count;
 }
 
-/* Finds the size: as it is named; by the length of lines; by the innermost braces; square. Returns false if none fits. */
+/* Finds the size: as it is named; by the length of lines; by the innermost braces; square. Returns false if none
+ * fits. */
 static bool size_find(TableText *self, bool several, bool *guessed) {
     long *size = self->size;
     const long count = (long)self->count;

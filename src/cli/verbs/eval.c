@@ -234,8 +234,8 @@ static int eval_file(const Options *options, const Model *model) {
     return result;
 }
 
-/* Returns true for the name of what is not a lobe alone: it has settings, a kind or a suffix, or is that of a profile, a
- * workflow or a preset. */
+/* Returns true for the name of what is not a lobe alone: it has settings, a kind or a suffix, or is that of a
+ * profile, a workflow or a preset. */
 static bool names_model(const char *name) {
     static const char *const others[] = {"profile", "workflow", "preset"};
     if (strpbrk(name, ":./")) return true;

@@ -200,8 +200,8 @@ ProbeReading probe_best_form(const TableProbe *probe, const ProbeReading *readin
     return best;
 }
 
-/* Returns true for a lobe whose tables are looked for, with its later parameters at their defaults. Lobes of woven cloth
- * have so many that no engine has a table of them. */
+/* Returns true for a lobe whose tables are looked for, with its later parameters at their defaults. Lobes of woven
+ * cloth have so many that no engine has a table of them. */
 static bool is_candidate(int id) {
     enum { PARAMS_MOST = 4 };
     const WeftLobeInfo *info = weft_lobe_info(id);

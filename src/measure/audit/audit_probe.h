@@ -44,8 +44,8 @@ ProbeReading probe_best_lobe(const TableProbe *probe, const ProbeReading *readin
 /* Returns the nearest reading of all lobes, in a form (NULL: in all forms), decoded or not. */
 ProbeReading probe_any(const TableProbe *probe, const WeftTableForm *form);
 
-/* Returns the nearest reading of all lobes in all these forms, shifted by a texel along the parameter or times a factor:
- * what hides lobe and axes from probe_any. It takes several times as long. */
+/* Returns the nearest reading of all lobes in all these forms, shifted by a texel along the parameter or times a
+ * factor: what hides lobe and axes from probe_any. It takes several times as long. */
 ProbeReading probe_any_hidden(const TableProbe *probe, const WeftTableForm *form);
 
 /* Returns the reading with the factor that brings its values nearest to E, in least squares. */

@@ -1,9 +1,9 @@
 /* green.c - the sign of green in a normal map
  *
  * The slopes p = dh/dx and q = dh/dy of a surface of height h have dp/dy = dq/dx; with the sign of q wrong they have
- * dp/dy = -dq/dx. So the correlation of the two derivatives over the picture tells, without a name: Robert Frankot, Rama
- * Chellappa, "A Method for Enforcing Integrability in Shape from Shading Algorithms", IEEE Transactions on Pattern Analysis
- * and Machine Intelligence 10, 1988, whose condition this is. */
+ * dp/dy = -dq/dx. So the correlation of the two derivatives over the picture tells, without a name: Robert Frankot,
+ * Rama Chellappa, "A Method for Enforcing Integrability in Shape from Shading Algorithms", IEEE Transactions on
+ * Pattern Analysis and Machine Intelligence 10, 1988, whose condition this is. */
 #include "scene/material/green.h"
 
 #include <math.h>

@@ -317,8 +317,8 @@ static int workflow_of(MapSet *map_set) {
     return map_set->of_input[INPUT_specular_color] && !map_set->of_input[INPUT_metallic] ? WORKFLOW_SPECULAR : -1;
 }
 
-/* Binds the maps to the inputs of a material. An input that has its map already keeps its factor; a folder without a new
- * map leaves the workflow as it is. */
+/* Binds the maps to the inputs of a material. An input that has its map already keeps its factor; a folder without a
+ * new map leaves the workflow as it is. */
 static void bind_map_set(Material *material, const MapSet *map_set, int workflow) {
     bool any = false;
     for (int k = 0; k < INPUT_COUNT; k++) {

@@ -8,8 +8,8 @@
 
 enum { NOTHING = INPUT_COUNT, WORDS_MOST = 32, NAME_MOST = 256 };
 
-/* A word, without separators and in small letters. A word of several inputs has a row for each; NOTHING is what no input
- * takes, which keeps its last word from being taken for another. */
+/* A word, without separators and in small letters. A word of several inputs has a row for each; NOTHING is what no
+ * input takes, which keeps its last word from being taken for another. */
 typedef struct MapWord {
     const char *word;
     int input, channel;
@@ -332,7 +332,7 @@ static bool take_from(const NameWords *words, int first, MapName *name) {
     return true;
 }
 
-/* Shortens the last word by an ending that says nothing, of digits only after other words; returns false without one. */
+/* Shortens the last word by an ending that says nothing, digits only after other words; returns false without one. */
 static bool drop_ending(NameWords *words) {
     static const char *const endings[] = {"map", "maps", "tex", "texture"};
     char *text = words->text;

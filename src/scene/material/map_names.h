@@ -23,7 +23,7 @@ typedef struct MapName {
     MapGreen green;
 } MapName;
 
-/* Returns what the picture of this name, with its suffix, is for. Case is ignored, and so are sizes, numbers of variants
- * and formats between its words; words are separated by '_', '-', '.', a blank or a capital letter. The use is the last
- * word, or as many of the last words as have one together. */
+/* Returns what the picture of this name, with its suffix, is for. Case is ignored, and so are sizes, numbers of
+ * variants and formats between its words; words are separated by '_', '-', '.', a blank or a capital letter. The use
+ * is the last word, or as many of the last words as have one together. */
 MapName map_name(const char *file);

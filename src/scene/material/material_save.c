@@ -115,8 +115,8 @@ static const char *write_picture(Writer *w, const WeftImage *image, InputId id) 
     return slash ? path + (slash + 1 - w->path) : path;
 }
 
-/* Returns the file of a texture relative to the material file. An image without a file, or that differs from its file, is
- * written once. */
+/* Returns the file of a texture relative to the material file. An image without a file, or that differs from its
+ * file, is written once. */
 static const char *file_of(Writer *w, const Material *material, InputId id) {
     const Texture *texture = &w->scene->textures[material->inputs[id].texture - 1];
     for (int k = 0; k < (int)id; k++) {

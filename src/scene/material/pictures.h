@@ -14,5 +14,6 @@ int texture_number_of(WeftScene *scene, Texture texture);
  * none if that is NULL. path must live as long as the scene. */
 void picture_replace(WeftScene *scene, int image, WeftImage *fresh, const char *path);
 
-/* Replaces v by 1 - v in channels: bits 0 to 2 are red, green and blue, which a grey image has as one, bit 3 is alpha. */
+/* Replaces v by 1 - v in channels: bits 0 to 2 are red, green and blue, which a grey image has as one, bit 3 is
+ * alpha. */
 void picture_invert(WeftImage *image, unsigned channels);
