@@ -153,8 +153,11 @@ WeftResult weft_draft_read(const char *what, WeftDraft **out, const WeftLog *log
     if (result != WEFT_OK) return result;
     const bool text = is_text(start), known = is_wif(start.data, start.size) || dtx_is(start.data, start.size) ||
                                               wpo_is(start.data, start.size);
+    const bool wide = start.size > 1 && ((start.data[0] == 0xff && start.data[1] == 0xfe) ||
+                                         (start.data[0] == 0xfe && start.data[1] == 0xff));
     const char *program = other_program(what);
     free(start.data);
+    if (wide) return fail(error, WEFT_MESSAGE_DRAFT, what, "it is text in UTF-16: save it as UTF-8");
     if (known) return read_wif(what, out, log, error);
     if (program) return fail(error, WEFT_MESSAGE_DRAFT, what, "it is a file of %s: save it there as WIF", program);
     return draft_from_picture(what, text, out, log, error);

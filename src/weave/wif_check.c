@@ -97,8 +97,7 @@ static const char *const reasons[] = {
     [WIF_TWICE] = "the key stands there twice; the last line counts",
     [WIF_VALUE] = "the value is not understood and counts as missing",
     [WIF_FLAG] = "it is neither yes nor no and counts as missing, which is yes",
-    [WIF_UNIT] = "it is not a unit (decipoints, inches, centimeters); lengths in it are not known, and 20 threads a "
-                 "centimetre were taken",
+    [WIF_UNIT] = "it is not a unit (decipoints, inches, centimeters); 20 threads a centimetre were taken",
     [WIF_UNIT_MISSING] = "there are no Units for it; centimeters were taken",
     [WIF_LENGTH] = "it is no length from a micrometre to a metre; the common one was taken",
     [WIF_COLOR] = "the [COLOR TABLE] has no such colour; the common one was taken",

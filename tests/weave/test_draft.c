@@ -726,6 +726,7 @@ static void files_of_other_programs_are_named(void **state) {
     assert_other_program("draft.wpo", "\x7b\x07\x09\x0a\x04\x04", 6,
                          "file of WeavePoint, of a kind that is not known: save");
     assert_other_program("a.txt", "\x7b\x07\x65\x0a\x04\x04", 6, "it is a file of WeavePoint that is cut short");
+    assert_other_program("a.txt", "\xff\xfe[\0W\0I\0F\0]\0", 12, "it is text in UTF-16: save it as UTF-8");
     assert_other_program("draft.twa", "PK\3\4", 4, "file of TempoWeave: save it there as WIF");
     assert_other_program("a.txt", "{\x7b", 2, "that does not begin with [WIF]");
 }
