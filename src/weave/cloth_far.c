@@ -216,14 +216,14 @@ static void color_of_point(const Weave *m, WeavePoint p, double single[3], doubl
     }
 }
 
-/* FarFacets of one system: all of its visible points, of which FACETS_MOST are kept. */
-typedef struct FarFacets {
+/* The facets of one system: all of its visible points, of which FACETS_MOST are kept. */
+typedef struct FacetList {
     ClothFacet *all;
     int count;
-} FarFacets;
+} FacetList;
 
 /* Adds a point. single, multiple: its colours, which the facet has in parts of its thread's. */
-static void add_facet(FarFacets *to, const Weave *m, WeavePoint p, double single, double multiple) {
+static void add_facet(FacetList *to, const Weave *m, WeavePoint p, double single, double multiple) {
     const Yarn yarn = weave_yarn(m, p);
     const int threads = p.weft ? m->picks : m->warps, thread = (int)weave_mod(p.thread, (float)threads);
     double own[2] = {0.0, 0.0}; /* colours of the thread */
@@ -254,7 +254,7 @@ static int by_slope_y(const void *p, const void *q) {
     return y ? y : by_slope_x(p, q);
 }
 
-/* Orders facets as the leaves of a k-d tree of their slopes. FarFacets side by side then have similar slopes, so that
+/* Orders facets as the leaves of a k-d tree of their slopes. Facets side by side then have similar slopes, so that
  * evenly spread numbers, as the samples of a pixel have them, choose evenly spread slopes. Jon Louis Bentley,
  * "Multidimensional Binary Search Trees Used for Associative Searching", 1975. */
 static void order_facets(ClothFacet *facets, int count) {
@@ -272,7 +272,7 @@ static void order_facets(ClothFacet *facets, int count) {
 /* Orders all facets and keeps FACETS_MOST of them, evenly spread over that order: by chance alone the few steep facets
  * of a narrow highlight would be some percent too few or too many. Scales the factors to a mean of 1. Returns how many
  * there are. */
-static int keep_facets(FarFacets *from, ClothFacet kept[FACETS_MOST]) {
+static int keep_facets(FacetList *from, ClothFacet kept[FACETS_MOST]) {
     const int count = from->count < FACETS_MOST ? from->count : FACETS_MOST;
     double single = 0.0, multiple = 0.0;
     order_facets(from->all, from->count);
@@ -301,7 +301,7 @@ static void light_point(Lit *near, const Weave *m, WeavePoint point) {
 }
 
 /* Adds what all points reflect, and their facets. */
-static void light_points(const WeftCloth *cloth, SystemLit near[2], FarFacets facets[2]) {
+static void light_points(const WeftCloth *cloth, SystemLit near[2], FacetList facets[2]) {
     const Weave *m = &cloth->weave;
     for (int at = 0; at < PLACES; at++) {
         float x, y;
@@ -350,7 +350,7 @@ static void fit_system(WeftCloth *cloth, bool weft, const SystemLit *near) {
 /* Returns false where memory is short. seen: how many points of each system are visible. */
 static bool fit_far(WeftCloth *cloth, const SystemSeen seen[2]) {
     SystemLit near[2] = {{.single = {0.0}}};
-    FarFacets facets[2] = {{0}};
+    FacetList facets[2] = {{0}};
     bool made = true;
     for (int t = 0; t < 2; t++) {
         lit_start(&near[t].lit);

@@ -33,7 +33,7 @@ static float brightness(const WeftImage *image, size_t pixel) {
 
 enum { LEVELS = 256 };
 
-/* The figures of a picture's pixels. */
+/* The figures of a picture that its draft depends on. */
 typedef struct Survey {
     size_t pixels;
     int colors;      /* 1, 2, or 3 for more */

@@ -179,7 +179,7 @@ static void read_tieup(Dtx *dtx, const Section *section) {
     free(ties);
 }
 
-/* Reads the title, which is the first line. */
+/* Takes the first line as the title. */
 static void read_title(Dtx *dtx, const Section *section) {
     put_section(dtx, section->wif);
     for (int k = 0; k < dtx->file.count; k++)

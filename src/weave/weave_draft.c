@@ -73,7 +73,7 @@ static size_t utf8_size(const unsigned char *text) {
     return is_long || is_no_character ? 0 : size;
 }
 
-/* Sets the title. Bytes that are no UTF-8 are read as Latin-1, in which old files are. */
+/* Takes bytes that are no UTF-8 for Latin-1, in which old files are. */
 void draft_title(WeftDraft *draft, const char *text) {
     const unsigned char *from = (const unsigned char *)text;
     bool is_utf8 = true;

@@ -13,16 +13,16 @@
 #include "base/number.h"
 #include "weave/wif.h"
 
-/* The kinds of values. LIST, RGB and RANGE are refused by those who read them; TEXT is anything. */
+/* The kinds of values: who reads a LIST, an RGB or a RANGE refuses what is none; a TEXT may be anything. */
 typedef enum ValueKind { TEXT, WHOLE, FLAG, UNIT, LENGTH, COLOR, FORM, LIST, RGB, RANGE } ValueKind;
 
-typedef struct WifRow {
+typedef struct KeyRow {
     const char *section, *key; /* key: "" stands for any, "#" for a number from 1 */
     ValueKind kind;
-} WifRow;
+} KeyRow;
 
 /* The rows of a section follow one another. */
-static const WifRow rows[] = {
+static const KeyRow rows[] = {
     {"WIF", "", TEXT},
     {"CONTENTS", "", TEXT},
     {"TEXT", "", TEXT},
@@ -153,7 +153,7 @@ bool wif_flag(const char *text, bool *flag) {
     return word >= 0;
 }
 
-/* Reads a unit of length in metres; a decipoint is a 720th of an inch. The format has the first of each line; the others can mean nothing else. */
+/* Knows a decipoint, a 720th of an inch, and the other units. The format has the first of each line; the others can mean nothing else. */
 bool wif_unit(const char *text, double *metres) {
     static const char *const words[] = {"decipoints",  "decipoint",                                     //
                                         "inches",      "inch",       "in",          "\"",               //
