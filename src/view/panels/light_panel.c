@@ -138,8 +138,7 @@ static const char *environment_name(const void *user, int k) {
 static const char *environment_help(const void *user, int k) {
     static const char *const helps[] = {
         "The built-in soft boxes.",
-        "A lat-long picture (.hdr, .exr), or a cube map: a folder or one of its files posx, negx and so on. "
-        "Open or drop one.",
+        "A lat-long picture (.hdr, .exr), or a cube map (a folder with posx, negx ...): open or drop one.",
         "One radiance from everywhere: the furnace, when it is 1."};
     return helps[k];
 }
