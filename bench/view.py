@@ -8,6 +8,11 @@ With --switches N it only switches terms, profiles and presets of the cloth N ti
 the memory that is resident meanwhile.
 
   bench/view.py --switches 200 [PROGRAM]
+
+With --memory it opens both built-in scenes with each sheen lobe, or those named, and prints the memory that is resident
+at rest and at most: where the driver compiles the shaders, and where it has them in its cache.
+
+  bench/view.py --memory all [PROGRAM]
 """
 import argparse
 import json
@@ -20,6 +25,7 @@ import time
 
 parser = argparse.ArgumentParser()
 parser.add_argument("--switches", type=int, metavar="N")
+parser.add_argument("--memory", nargs="?", const="all", metavar="LOBE,...")
 parser.add_argument("program", nargs="?", default="build/release/weft")
 arguments = parser.parse_args()
 program = arguments.program
@@ -124,11 +130,43 @@ def print_switches(environment, unseen):
           f"{memory[-1]:.0f} at the end, {memory[0]:.0f} at the start")
 
 
+def memory_of(scene_name, lobe, environment, unseen):
+    """MiB that are resident once the window has been at rest for two seconds, and the most until then."""
+    command = [program, "view", "builtin:" + scene_name, "--forget", "--json", "--width", "1280", "--height", "720"]
+    command += ["--windowless"] * unseen + (["--sheen", lobe] if lobe else [])
+    process = subprocess.Popen(command, env=environment, stdout=subprocess.PIPE)
+    for line in process.stdout:
+        if json.loads(line)["rest"]:
+            break
+    time.sleep(2.0)
+    status = dict(line.split(":", 1) for line in open(f"/proc/{process.pid}/status"))
+    process.terminate()
+    process.wait()
+    return [int(status[key].split()[0]) / 1024.0 for key in ("VmRSS", "VmHWM")]
+
+
+def print_memory(environment, unseen):
+    models = subprocess.run([program, "models", "lobe:", "--json"], stdout=subprocess.PIPE, check=True).stdout
+    lobes = [lobe["id"] for lobe in json.loads(models) if not {"diffuse", "reference"} & set(lobe["traits"])]
+    lobes = [""] + (lobes if arguments.memory == "all" else arguments.memory.split(","))
+    compiled = dict(environment, MESA_SHADER_CACHE_DISABLE="true")
+    print("MiB resident       sheen                          compiled:  at rest  at most   cached:  at rest  at most")
+    for name in ("cloth", "sewing"):
+        for lobe in lobes:
+            numbers = memory_of(name, lobe, compiled, unseen)
+            memory_of(name, lobe, environment, unseen) # fills the cache
+            numbers += memory_of(name, lobe, environment, unseen)
+            print("builtin:{:10} {:40} {:8.0f} {:8.0f} {:17.0f} {:8.0f}".format(name, lobe or "its own", *numbers), flush=True)
+
+
 server, environment = display()
 unseen = server is None
 try:
     if arguments.switches:
         print_switches(environment, unseen)
+        sys.exit()
+    if arguments.memory:
+        print_memory(environment, unseen)
         sys.exit()
     reports = replay(script, environment, unseen)
     orbits = max(zip(reports, reports[1:]), key=lambda pair: pair[1]["frame"] - pair[0]["frame"])

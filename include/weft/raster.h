@@ -152,6 +152,10 @@ WEFT_API int weft_raster_refresh(WeftRaster *raster);
 /* Waits until the driver has finished all its work, for timing. */
 WEFT_API void weft_raster_finish(WeftRaster *raster);
 
+/* Returns memory that loaders and the driver's compilers have freed to the system. It takes some milliseconds: call it
+ * when there is nothing to draw for a while. */
+WEFT_API void weft_raster_return_memory(void);
+
 /* The state of a raster. */
 typedef struct WeftRasterInfo {
     const char *driver;     /* name of the driver; lives as long as the raster */

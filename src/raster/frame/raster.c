@@ -357,6 +357,8 @@ void weft_raster_finish(WeftRaster *self) {
     context_leave(self->context, &outer);
 }
 
+void weft_raster_return_memory(void) { memory_return(); }
+
 WeftRasterInfo weft_raster_info(const WeftRaster *self) {
     WeftRasterInfo info = {.driver = context_driver(self->context),
                            .compiled = self->programs.compiled,

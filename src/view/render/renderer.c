@@ -1,6 +1,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "view/render/renderer.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -122,12 +123,14 @@ static bool reload_changes(Renderer *self) {
     return weft_raster_info(self->raster).made != 0;
 }
 
-static void wait_a_little(Renderer *self) {
+/* Waits for a change. Returns true if there was none for a quarter of a second, and nothing is being made. */
+static bool wait_a_little(Renderer *self) {
     bool making = self->raster && weft_raster_info(self->raster).making != 0;
     struct timespec until = clock_after(making ? 0.04 : 0.25);
     self->working = making;
-    pthread_cond_timedwait(&self->change, &self->lock, &until);
+    const bool waited = pthread_cond_timedwait(&self->change, &self->lock, &until) == ETIMEDOUT;
     self->working = true;
+    return waited && !making;
 }
 
 bool frame_request_copy(FrameRequest *copy, const FrameRequest *request) {
@@ -195,10 +198,17 @@ static void *work(void *user) {
     pthread_mutex_lock(&self->lock);
     if (!good) snprintf(self->rendered.failure, sizeof self->rendered.failure, "cannot create a second OpenGL context");
     while (!self->quit && good) {
-        if (render_next(self)) continue;
-        wait_a_little(self);
+        if (render_next(self)) {
+            self->spare = true;
+            continue;
+        }
+        const bool waited = wait_a_little(self);
         pthread_mutex_unlock(&self->lock);
         bool changed = reload_changes(self);
+        if (waited && !changed && self->spare) {
+            weft_raster_return_memory();
+            self->spare = false;
+        }
         pthread_mutex_lock(&self->lock);
         self->stale |= changed;
     }

@@ -47,6 +47,7 @@ struct Renderer {
     FrameRequest drawn;       /* a copy of the request that was drawn last */
     unsigned drawn_number;
     bool stale;            /* the same request would give another picture now */
+    bool spare;            /* memory was freed, perhaps, since some was last returned */
     bool started;          /* drawing of this scene has begun */
     Folders folders;       /* folders of maps in use, and watched */
     int surveyed;          /* variant whose coverage by materials the window has (TASK_SURVEY) */
