@@ -211,6 +211,8 @@ static void fill_dust(Random *random, int which, float *row) {
 
 static void answer_dust(int which, const float *row, float *answers) {
     Surface s = {.dust = row[11],
+                 .sheen = 1.0f,
+                 .sheen_upward = row[12],
                  .dust_tilt = row[3],
                  .dust_direction = {row[8], row[9], 0.0f},
                  .dust_falloff = row[10],
@@ -220,20 +222,23 @@ static void answer_dust(int which, const float *row, float *answers) {
     answers[0] = dust_accumulate(s, dir(row[0], row[1], row[2]), p).dust;
     answers[1] = dust_noise(p, row[7]);
     answers[2] = dust_hash(floorf(289.0f * row[12]));
+    answers[3] = dust_accumulate(s, dir(row[0], row[1], row[2]), p).sheen;
 }
 
-/* The noise has the same patches to 1e-4, the hash below it the same whole numbers. */
+/* The noise has the same patches to 1e-4, and so have dust and a sheen that lies as it does; the hash below it the same whole numbers. */
 static void dust_in_glsl_agrees_with_c(void **state) {
     (void)state;
     static const Model model = {
-        .body = "    Surface s;\n    s.dust = in2.w;\n    s.dust_tilt = in0.w;\n"
+        .body = "    Surface s;\n    s.sheen = 1.0;\n    s.sheen_upward = in3.x;\n    s.dust = in2.w;\n    s.dust_tilt "
+                "= in0.w;\n"
                 "    s.dust_direction = dir(in2.x, in2.y, 0.0);\n    s.dust_falloff = in2.z;\n"
                 "    s.dust_noise = in3.x;\n    s.dust_scale = in1.w;\n    Dir p = dir(in1.x, in1.y, in1.z);\n"
                 "    out0.x = dust_accumulate(s, dir(in0.x, in0.y, in0.z), p).dust;\n"
                 "    out0.y = dust_noise(p, in1.w);\n"
-                "    out0.z = dust_hash(floor(289.0 * in3.x));\n",
+                "    out0.z = dust_hash(floor(289.0 * in3.x));\n"
+                "    out0.w = dust_accumulate(s, dir(in0.x, in0.y, in0.z), p).sheen;\n",
         .inputs = 4,
-        .answers = "ppn",
+        .answers = "ppnp",
         .put = put_dust,
         .fill = fill_dust,
         .answer = answer_dust,
