@@ -225,7 +225,7 @@ static void denim_is_as_blue_as_its_warp(void **state) {
     (void)state;
     static const char all_warp[] =
         "{\"weave\": {\"draft\": \"twill 3/1 z; both 1#2a4478; sett 26 18\", \"warp\": {\"yarn\": \"cotton\", \"dye\": "
-        "0.3, \"slub\": 0.5, \"width\": 1.35, \"bulge\": 0.5}, \"weft\": {\"yarn\": \"cotton\", \"width\": 0.95}}}";
+        "0.3, \"slub\": 0.5, \"width\": 1.3, \"bulge\": 0.5}, \"weft\": {\"yarn\": \"cotton\", \"width\": 0.95}}}";
     WeftScene *scene;
     WeftMaterial material;
     double denim[3], warp[3];
