@@ -18,8 +18,9 @@ enum {
 };
 
 /* Runs arguments[0], found by $PATH, in the language "C"; arguments end with NULL. It reads nothing, and what
- * it prints goes to the file `log`; $TMPDIR is `folder` for it. It and the processes that it starts are a group of their own. Returns its exit
- * code, 128 and more where a signal ended it, or one of the above. Two threads run programs one after the other. */
+ * it prints goes to the file `log`; $TMPDIR is `folder` for it. It and the processes that it starts are a group of their
+ * own. Returns its exit code, 128 and more where a signal ended it, or one of the above. Two threads run programs one
+ * after the other. */
 int process_run(const char *const *arguments, ProcessBounds bounds, const char *folder, const char *log);
 
 /* Hands on the signal that made process_run return PROCESS_STOPPED: SIGHUP, SIGINT, SIGQUIT or SIGTERM. Ends the

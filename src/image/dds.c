@@ -107,12 +107,19 @@ static void number_put(const unsigned char *at, DdsKind kind, size_t to, WeftIma
     }
 }
 
+/* Returns the channels of the picture: red and green get a blue of 0, since two channels are grey and alpha, which only
+ * bytes of the first header are. */
+static int channels_of(const DdsFormat *format) {
+    const bool has_alpha = format->kind == DDS_BYTE && !format->dxgi;
+    return format->channels == 2 && !has_alpha ? 3 : format->channels;
+}
+
 static void pixels_put(const unsigned char *at, const DdsFormat *format, WeftImage *out) {
     static const size_t bytes[] = {1, 2, 2, 4};
     const size_t channels = (size_t)format->channels, count = (size_t)out->width * (size_t)out->height;
     for (size_t n = 0; n < count; n++)
         for (size_t c = 0; c < channels; c++, at += bytes[format->kind])
-            number_put(at, format->kind, n * channels + (format->reversed && c < 3 ? 2 - c : c), out);
+            number_put(at, format->kind, n * (size_t)out->channels + (format->reversed && c < 3 ? 2 - c : c), out);
 }
 
 /* Says that there are more pictures than the one that is read. */
@@ -140,7 +147,7 @@ WeftResult image_read_dds(const ImageSource *source, WeftImage *out, WeftError *
         result =
             image_reachable(source, (int64_t)start + width * height * format->channels * bytes[format->kind], error);
     if (result == WEFT_OK)
-        result = weft_image_create((int)width, (int)height, format->channels, types[format->kind], out, error);
+        result = weft_image_create((int)width, (int)height, channels_of(format), types[format->kind], out, error);
     if (result != WEFT_OK) return result;
     pixels_put(source->data + start, format, out);
     if (out->type == WEFT_PIXEL_F32) image_repair(source, out);

@@ -105,7 +105,8 @@ static void header_take(Tiff *tiff) {
     TIFFGetFieldDefaulted(tiff->file, TIFFTAG_SAMPLESPERPIXEL, &tiff->samples);
     TIFFGetFieldDefaulted(tiff->file, TIFFTAG_SAMPLEFORMAT, &tiff->kind);
     TIFFGetFieldDefaulted(tiff->file, TIFFTAG_PLANARCONFIG, &tiff->planes);
-    TIFFGetField(tiff->file, TIFFTAG_PHOTOMETRIC, &tiff->photometric);
+    if (!TIFFGetField(tiff->file, TIFFTAG_PHOTOMETRIC, &tiff->photometric)) /* required, yet left out by some */
+        tiff->photometric = tiff->samples >= 3 ? PHOTOMETRIC_RGB : PHOTOMETRIC_MINISBLACK;
     TIFFGetFieldDefaulted(tiff->file, TIFFTAG_EXTRASAMPLES, &extra, &types);
     tiff->colors = tiff->photometric == PHOTOMETRIC_RGB ? 3 : 1;
     tiff->alpha = -1;

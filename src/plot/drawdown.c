@@ -131,8 +131,8 @@ static int larger(int a, int b) { return a > b ? a : b; }
 static WeftResult write_page(const WeftDraft *draft, const char *path, WeftError *error) {
     const int warps = draft->count[WEFT_WARP], picks = draft->count[WEFT_WEFT];
     if ((long)warps * picks > CELLS_MAX || larger(warps, picks) > WEFT_PLOT_SIDE_MAX / 4)
-        return fail(error, WEFT_MESSAGE_DESC, path,
-                    "%d x %d threads are too many to draw; write a .txt or .wif", warps, picks);
+        return fail(error, WEFT_MESSAGE_DESC, path, "%d x %d threads are too many to draw; write a .txt or .wif", warps,
+                    picks);
     DraftPage page = {.draft = draft, .info = weft_draft_info(draft)};
     if (!loom_of(draft, &page.loom)) {
         loom_free(&page.loom);

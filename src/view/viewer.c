@@ -148,8 +148,8 @@ static bool start(Viewer *v, char why[512]) {
 static void stop(Viewer *v) {
     Settings *settings = &v->states->frame.settings;
     doctor_forget(v);
-    stills_end(v);
     renderer_stop(v->renderer);
+    stills_end(v); /* afterwards, since the renderer may be saving its scene */
     reference_stop(v->reference);
     replay_close(v->replay);
     dialogs_end(v);
@@ -187,7 +187,8 @@ static int run(Viewer *v, char why[512]) {
         bool any = window_take(v->window, &v->states->frame.input);
         for (char *path; (path = window_dropped(v->window)); free(path)) opening_open(v, path), any = true;
         opening_poll(v);
-        any |= opening_watch(v, started) | stills_poll(v);
+        any |= opening_watch(v, started);
+        any |= stills_poll(v);
         any |= renderer_has_output(v->renderer) || reference_has_frame(v->reference) || v->opening->loader ||
                v->requests->rendered.number != shown;
         any |= requests_can_refine(v) && v->options->mode == MODE_LIVE;

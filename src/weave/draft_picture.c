@@ -37,19 +37,21 @@ enum { LEVELS = 256 };
 typedef struct Survey {
     size_t pixels;
     int colors;      /* 1, 2, or 3 for more */
-    float low, high; /* the least and the greatest brightness; both NaN where a pixel is no number */
+    float low, high; /* the least and the greatest brightness */
+    bool finite;     /* every pixel is a number */
 } Survey;
 
 static Survey survey_of(const WeftImage *image) {
     const char *bytes = image->pixels;
     const size_t size = pixel_size(image);
-    Survey survey = {.pixels = (size_t)image->width * (size_t)image->height, .colors = 1};
+    Survey survey = {.pixels = (size_t)image->width * (size_t)image->height, .colors = 1, .finite = true};
     survey.low = survey.high = brightness(image, 0);
     size_t second = 0;
     for (size_t k = 0; k < survey.pixels; k++) {
         const float value = brightness(image, k);
-        if (!(value >= survey.low)) survey.low = isfinite(value) ? value : NAN;
-        if (!(value <= survey.high)) survey.high = isfinite(value) ? value : NAN;
+        survey.finite &= isfinite(value) != 0;
+        survey.low = fminf(survey.low, value);
+        survey.high = fmaxf(survey.high, value);
         if (survey.colors == 3 || memcmp(bytes + k * size, bytes, size) == 0) continue;
         if (!second) second = k;
         survey.colors = memcmp(bytes + k * size, bytes + second * size, size) == 0 ? 2 : 3;
@@ -87,7 +89,7 @@ static WeftResult from_image(const char *path, const WeftImage *image, WeftDraft
                              WeftError *error) {
     const Survey survey = survey_of(image);
     const bool is_even = survey.colors == 1;
-    if (!(survey.high >= survey.low) || !isfinite(survey.high - survey.low))
+    if (!survey.finite || !isfinite(survey.high - survey.low))
         return fail(error, WEFT_MESSAGE_DRAFT, path, "it has pixels that are no number");
     if (!is_even && !(survey.high > survey.low))
         return fail(error, WEFT_MESSAGE_DRAFT, path, "its %scolours are equally bright",

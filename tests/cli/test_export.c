@@ -341,7 +341,8 @@ static void tables_outside_the_text_are_exr_by_default(void **state) {
         assert_int_equal(access("alone.weft_texels_ltc_fibre.exr", R_OK), 0);
         assert_true(access("alone.weft_texels_ltc_fibre.h", R_OK) != 0);
         finish(done(LIST("export", "ltc-fibre", "--target", targets[k], "--lut", "npy", "--quiet", "-o", "alone.txt")));
-        finish(done(LIST("diff", "alone.weft_texels_ltc_fibre.exr", "alone.weft_texels_ltc_fibre.npy", "--max", "1e-9")));
+        finish(
+            done(LIST("diff", "alone.weft_texels_ltc_fibre.exr", "alone.weft_texels_ltc_fibre.npy", "--max", "1e-9")));
         unlink("alone.weft_texels_ltc_fibre.exr");
         unlink("alone.weft_texels_ltc_fibre.npy");
     }

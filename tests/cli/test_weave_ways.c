@@ -2,6 +2,8 @@
  * threads have the size that they have on a loom, on meshes of any scale. */
 #include <math.h>
 
+#include <sys/stat.h>
+
 #include "run.h"
 #include "weft/weft.h"
 
@@ -246,6 +248,17 @@ static void denim_is_as_blue_as_its_warp(void **state) {
     assert_true(fabs(hue - warp_hue) <= 0.1); /* of a sextant of the circle */
 }
 
+/* A folder that has the name of a weave is no draft. */
+static void names_in_the_folder_do_not_disturb(void **state) {
+    (void)state;
+    assert_int_equal(mkdir("plain", 0700), 0);
+    Ran ran = RUN("render", "builtin:ball", "--weave", "ball=twill 2/2", "--set", "ball.weave.warp=silk", "--set",
+                  "ball.weave.draft=plain", "--save", "plain.json");
+    if (ran.code != 0) fail_msg("%s", ran.err);
+    ran_free(&ran);
+    assert_int_equal(rmdir("plain"), 0);
+}
+
 static void wrong_keys_are_refused_in_one_line(void **state) {
     (void)state;
     static const char *const bad[][2] = {{"*.weave.sett=a", "WARP,WEFT"},       {"*.weave.sett=0", "sett"},
@@ -266,6 +279,7 @@ static void wrong_keys_are_refused_in_one_line(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(cloth_is_the_same_by_every_way), cmocka_unit_test(threads_have_their_size_on_any_mesh),
-        cmocka_unit_test(denim_is_as_blue_as_its_warp), cmocka_unit_test(wrong_keys_are_refused_in_one_line)};
+        cmocka_unit_test(names_in_the_folder_do_not_disturb), cmocka_unit_test(denim_is_as_blue_as_its_warp),
+        cmocka_unit_test(wrong_keys_are_refused_in_one_line)};
     return cmocka_run_group_tests(tests, work_begin, work_end);
 }

@@ -90,7 +90,8 @@ static Lobe lobe_with(const char *id, float value) {
 static double paper_body(Pair p, const float *n) {
     double k = (double)n[0], x = k * (3.0 + k) / ((1.0 + k) * (2.0 + k)), d = acos(fmin(p.d, 1.0));
     double lifted = k > 0.0 ? (pow)(x, k) / (2.0 + 2.0 * k) : 0.5;
-    double norm = 2.0 / (2.0 + k) * (1.0 + (double)n[1] * (0.34585 + 0.0733 * k - 0.0113 * k * k) + (double)n[2] * lifted);
+    double norm =
+        2.0 / (2.0 + k) * (1.0 + (double)n[1] * (0.34585 + 0.0733 * k - 0.0113 * k * k) + (double)n[2] * lifted);
     double body = 1.0 + (double)n[1] * (exp)(-tan(d) / 0.35) + (double)n[2] * (pow)((sin)(d), 2.0);
     return (pow)((cos)(p.theta_o) * (cos)(p.theta_i), k) * body / (unit_pi * norm);
 }

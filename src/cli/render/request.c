@@ -31,7 +31,7 @@ const Option request_options[] = {
 
     OPTION_HEADING("Several pictures"),
     OPTION_WHOLE("--turntable", "COUNT", NULL, 1, 10000,
-                  "so many pictures on a circle around the scene; OUT gets a number before its suffix"),
+                 "so many pictures on a circle around the scene; OUT gets a number before its suffix"),
 
     OPTION_HEADING("Engine"),
     OPTION_TEXT("--engine", "ENGINE", "trace",
@@ -42,9 +42,9 @@ const Option request_options[] = {
                 "raster: light from the environment by irradiance, mirror or fitted, by the best of them for each "
                 "lobe, or none"),
     OPTION_WHOLE("--occlusion", "RAYS", "64", 0, 4096,
-                  "raster: look from each vertex along so many rays, for what lies in creases and in shadow of a map"),
+                 "raster: look from each vertex along so many rays, for what lies in creases and in shadow of a map"),
     OPTION_WHOLE("--polygons", "COUNT", "8", 0, WEFT_RASTER_POLYGONS,
-                  "raster: light by so many of the scene's emissive polygons, the strongest"),
+                 "raster: light by so many of the scene's emissive polygons, the strongest"),
     OPTION_TEXT("--part", "PART", "all",
                 "raster: all, or the light of one slot: diffuse, specular, sheen, coat or dust; or a property: "
                 "base-color, normal, roughness, sheen-color, sheen-roughness or texcoord"),
@@ -52,7 +52,7 @@ const Option request_options[] = {
 
     OPTION_HEADING("Sampling of the path tracer"),
     OPTION_WHOLE("--spp", "COUNT", "64", 1, REQUEST_SPP_MOST,
-                  "samples a pixel; without end where only --time-limit is given"),
+                 "samples a pixel; without end where only --time-limit is given"),
     OPTION_NUMBER("--time-limit", "SECONDS", NULL, 1e-3, 1e9, "stop then and write what there is"),
     OPTION_SWITCH("--halves", "take the samples in two independent halves, by which the picture's relMSE is estimated"),
     OPTION_NUMBER("--noise", "LEVEL", NULL, 1e-9, 1e9,
@@ -63,7 +63,7 @@ const Option request_options[] = {
     OPTION_TEXT("--sampling", "STRATEGY", "mis", "find lights by mis, light or lobe"),
     OPTION_WHOLE("--seed", "NUMBER", "0", 0, 2147483647, "another seed, other noise"),
     OPTION_WHOLE("--threads", "COUNT", NULL, 1, WEFT_THREADS_MAX,
-                  "processors to use, 1 to 256; no influence on the picture [all]"),
+                 "processors to use, 1 to 256; no influence on the picture [all]"),
     OPTION_TEXT("--isa", "NAME", NULL,
                 "instructions to use: sse2, avx2 or avx512; no influence but on last bits, an .exr names "
                 "them [the widest that the processor has]"),

@@ -57,6 +57,9 @@ static bool starts(Span image, const char *signature, size_t size) {
 size_t extent_bytes(Span image) {
     if (starts(image, "\x89PNG", 4)) return png_bytes(image);
     if (starts(image, "\xff\xd8\xff", 3)) return jpeg_bytes(image);
-    if (starts(image, "#?", 2) || starts(image, "\x76\x2f\x31\x01", 4)) return header_bytes(image);
+    static const char *const others[] = {"\x76\x2f\x31\x01", "DDS ", "II*", "II+", "MM"}; /* EXR, DDS, TIFF */
+    if (starts(image, "#?", 2)) return header_bytes(image);
+    for (size_t k = 0; k < sizeof others / sizeof *others; k++)
+        if (starts(image, others[k], strlen(others[k]))) return header_bytes(image);
     return tga_bytes(image);
 }

@@ -149,9 +149,10 @@ void doctor_hear(void *user, WeftMessage message, const char *text) {
         texture_found(doctor, row, place, words);
     } else {
         doctor_found(doctor, response->kind, place, 0, (double)NAN, NULL, "%s%s", words, response->after);
+        if (doctor->count == count) return; /* the list is full */
         doctor_advise(doctor, "%s", response->fix);
     }
-    if (doctor->count == count) return; /* no room */
+    if (doctor->count == count) return; /* the list is full */
     /* Animations, and pictures with a plain one beside them, are left out without harm. */
     if (place.of == WEFT_OF_ASSET && (strncmp(path, "animations", 10) == 0 || strncmp(path, "textures/", 9) == 0))
         doctor_soften(doctor);

@@ -1,5 +1,8 @@
 /* assign.c - assigning the material of a file, or a preset, in a scene */
 #include "scene/material/assign.h"
+
+#include <string.h>
+
 #include "base/fail.h"
 #include "scene/material/cloth_fit.h"
 #include "scene/material/material_file.h"
@@ -91,17 +94,31 @@ bool *materials_matching(WeftScene *scene, const char *material, WeftError *erro
     return NULL;
 }
 
-static WeftResult put_on(WeftScene *scene, const char *material, MaterialFile *file, WeftError *error) {
-    WeftError said = {.result = WEFT_RESOURCES};
-    const bool *selected = materials_matching(scene, material, &said);
-    if (!selected && error) *error = said;
-    if (!selected) return said.result;
+static WeftResult put_on_selected(WeftScene *scene, const bool *selected, MaterialFile *file, WeftError *error) {
     if (!adopt_textures(scene, file) || !adopt_cloth(scene, file, selected) || !adopt_measured(scene, file))
         return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     for (int k = 0; k < scene_own_materials(scene); k++)
         if (selected[k]) scene->materials[k] = assigned(&scene->materials[k], file);
     WeftResult result = cloths_fit(scene, false, error);
     return result == WEFT_OK ? tangents_complete(scene, error) : result;
+}
+
+static WeftResult put_on(WeftScene *scene, const char *material, MaterialFile *file, WeftError *error) {
+    WeftError said = {.result = WEFT_RESOURCES};
+    const bool *selected = materials_matching(scene, material, &said);
+    if (!selected && error) *error = said;
+    return selected ? put_on_selected(scene, selected, file, error) : said.result;
+}
+
+WeftResult material_assign_text(WeftScene *scene, int material, const char *text, WeftError *error) {
+    MaterialFile file;
+    bool *selected = arena_array(&scene->arena, (size_t)scene->material_count, sizeof *selected);
+    if (!selected) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    selected[material] = true;
+    WeftResult result = material_file_read(text, strlen(text), "--set", NULL, &file, NULL, error);
+    if (result == WEFT_OK) result = put_on_selected(scene, selected, &file, error);
+    material_file_free(&file);
+    return result;
 }
 
 static WeftResult assign_from(WeftScene *scene, const char *material, MaterialFile *file, WeftResult read,

@@ -7,3 +7,6 @@
  * sheen or, if none has, all that emit no light. The flags live as long as the scene. Returns NULL on
  * failure: MATERIAL_NAME or MEMORY. */
 bool *materials_matching(WeftScene *scene, const char *material, WeftError *error);
+
+/* Assigns a material to one by its index, from the text of a material file without pictures. */
+WeftResult material_assign_text(WeftScene *scene, int material, const char *text, WeftError *error);

@@ -65,7 +65,8 @@ static void read_draft(ClothReader *r, const json_t *json) {
     }
     snprintf(r->path, sizeof r->path, "%.511s%s", text[0] == '/' || !r->folder ? "" : r->folder, text);
     WeftError why;
-    if (r->folder && (stat(r->path, &file) == 0 || draft_names_file(text))) {
+    const bool there = r->folder && stat(r->path, &file) == 0 && !S_ISDIR(file.st_mode);
+    if (there || (r->folder && draft_names_file(text))) {
         const WeftResult result = weft_draft_read(r->path, &r->draft, r->log, &why);
         if (result != WEFT_OK) keep_cause(r, &why);
     } else {
@@ -251,6 +252,7 @@ static bool put_yarn(json_t *weave, const char *system, WeftYarn *yarn) {
 
 static bool put_draft(json_t *weave, const WeftDraft *draft) {
     char *text = wif_text(draft);
+    json_object_del(weave, "sett"); /* the draft has its own */
     const bool put = text && json_object_set_new(weave, "draft", json_string(text)) == 0;
     free(text);
     return put;

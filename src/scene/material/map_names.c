@@ -212,6 +212,12 @@ static bool is_passed_over(const char *word) {
     return (!head[0] || is_listed(before, head)) && (!tail[0] || is_listed(after, tail));
 }
 
+static void forget_first(NameWords *words) {
+    words->count--;
+    memmove(words->start, words->start + 1, (size_t)words->count * sizeof *words->start);
+    memmove(words->glued, words->glued + 1, (size_t)words->count * sizeof *words->glued);
+}
+
 /* Cuts a name, as far as its suffix, into words. Of a name of very many words the last ones are kept. */
 static NameWords cut(const char *file) {
     NameWords words = {.count = 0};
@@ -229,8 +235,9 @@ static NameWords cut(const char *file) {
         while (at < end && !is_separator(*at) && !(at > start + 1 && begins_word(at)) && used + length + 1 < NAME_MOST)
             word[length++] = (char)tolower((unsigned char)*at++);
         word[length] = '\0';
-        if (!length || words.count == WORDS_MOST) break;
+        if (!length) break;
         if (is_passed_over(word)) continue;
+        if (words.count == WORDS_MOST) forget_first(&words);
         words.glued[words.count] = glued;
         words.start[words.count++] = (int)used;
         used += length;

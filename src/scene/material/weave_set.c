@@ -51,7 +51,8 @@ static WeftResult put_yarn(const WeaveSetting *setting, json_t *weave, const cha
     json_t *yarn = yarn_object(weave, system), *color = json_incref(json_object_get(yarn, "color"));
     json_object_clear(yarn);
     WeftResult result = put(setting, yarn, "yarn", json_string(setting->value), "the name of a yarn");
-    if (color && result == WEFT_OK) result = put(setting, yarn, "color", color, "the name of a yarn");
+    if (color && result == WEFT_OK) return put(setting, yarn, "color", color, "the name of a yarn");
+    json_decref(color);
     return result;
 }
 
@@ -107,10 +108,8 @@ static WeftResult change(const WeaveSetting *setting, json_t *weave) {
 /* Makes a material that is not woven a plain one of cotton, as a material file does: without a sheen. */
 static WeftResult begin_weave(WeftScene *scene, int material, WeftError *error) {
     static const char plain[] = "{\"weave\": {\"draft\": \"plain\"}}";
-    char index[16];
     if (scene->materials[material].cloth) return WEFT_OK;
-    snprintf(index, sizeof index, "%d", material);
-    return weft_scene_assign_material_memory(scene, index, plain, sizeof plain - 1, "--set", NULL, error);
+    return material_assign_text(scene, material, plain, error);
 }
 
 /* Weaves the cloth of a material anew with the change. */
@@ -120,8 +119,10 @@ static WeftResult reweave(WeftScene *scene, int material, const WeaveSetting *se
     WeftCloth *cloth = NULL;
     json_t *weave = was ? cloth_to_json(was, was->path) : json_object();
     if (!weave) return fail(setting->error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    /* A draft is looked for among files if it is new, or was a file before, whose path is absolute. */
+    const bool file = !setting->key[0] || strcmp(setting->key, "draft") == 0 || (was && was->path);
     WeftResult result = change(setting, weave);
-    if (result == WEFT_OK) result = cloth_from_json(weave, "--set", "", &cloth, log, setting->error);
+    if (result == WEFT_OK) result = cloth_from_json(weave, "--set", file ? "" : NULL, &cloth, log, setting->error);
     json_decref(weave);
     return result == WEFT_OK ? cloth_put(scene, material, cloth, setting->error) : result;
 }

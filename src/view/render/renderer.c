@@ -288,13 +288,15 @@ unsigned renderer_request(Renderer *self, const FrameRequest *request) {
     return number;
 }
 
-void renderer_add_task(Renderer *self, const Task *task) {
+bool renderer_add_task(Renderer *self, const Task *task) {
     pthread_mutex_lock(&self->lock);
     bool picking = task->kind == TASK_PICK && self->task_count && self->tasks[self->task_count - 1].kind == TASK_PICK;
     if (picking) self->task_count--; /* the newer pick replaces the one that waits */
-    if (self->task_count < TASKS) self->tasks[self->task_count++] = *task;
+    const bool taken = self->task_count < TASKS;
+    if (taken) self->tasks[self->task_count++] = *task;
     pthread_cond_broadcast(&self->change);
     pthread_mutex_unlock(&self->lock);
+    return taken;
 }
 
 bool renderer_take_frame(Renderer *self, RenderedFrame *rendered) {

@@ -139,7 +139,7 @@ void renderer_set_scene(Renderer *renderer, WeftScene *scene, const SceneState *
 
 /* Copies the request and returns its number, or the number of the request before if memory is short. */
 unsigned renderer_request(Renderer *renderer, const FrameRequest *request);
-void renderer_add_task(Renderer *renderer, const Task *task);
+bool renderer_add_task(Renderer *renderer, const Task *task);
 
 /* Copies the newest picture; returns true if it is newer than the last. Its texture stays as it is until the next
  * call. */

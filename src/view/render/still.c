@@ -27,10 +27,11 @@ bool still_folder(char path[STATE_PATH]) {
     return true;
 }
 
-static void remove_copy(char path[STATE_PATH]) {
+void still_discard(const char path[STATE_PATH]) {
+    char folder[STATE_PATH];
     unlink(path);
-    *strrchr(path, '/') = '\0';
-    rmdir(path);
+    snprintf(folder, sizeof folder, "%.*s", (int)(strrchr(path, '/') - path), path);
+    rmdir(folder);
 }
 
 /* Notes the progress. Returns true if the picture was stopped. */
@@ -85,7 +86,7 @@ static void *run(void *user) {
         if (result == WEFT_OK) result = render(self, scene);
         weft_scene_free(scene);
     }
-    remove_copy(self->desc.scene);
+    still_discard(self->desc.scene);
     pthread_mutex_lock(&self->lock);
     self->result = result;
     self->ended = true;
@@ -101,7 +102,7 @@ Still *still_start(const StillDesc *desc, Window *window) {
     self->window = window;
     pthread_mutex_init(&self->lock, NULL);
     if (pthread_create(&self->thread, NULL, run, self) == 0) return self;
-    remove_copy(self->desc.scene);
+    still_discard(self->desc.scene);
     pthread_mutex_destroy(&self->lock);
     free(self);
     return NULL;

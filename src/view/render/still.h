@@ -26,6 +26,9 @@ typedef struct Still Still;
 /* Makes a folder for a scene, and writes the name of a .glb in it into path. Returns false if there is none. */
 bool still_folder(char path[STATE_PATH]);
 
+/* Removes the file and its folder. */
+void still_discard(const char path[STATE_PATH]);
+
 /* Starts the thread, which wakes the window (may be NULL) as it goes on. NULL where memory is short. */
 Still *still_start(const StillDesc *desc, Window *window);
 
