@@ -103,8 +103,8 @@ int process_run(const char *const *arguments, ProcessBounds bounds, const char *
     const char *words[ARGUMENTS_MAX + 7] = {
         "sh",
         "-c",
-        "(ulimit -t $0) 2>/dev/null && ulimit -t $0; (ulimit -v $1) 2>/dev/null && ulimit -v $1; "
-        "LC_ALL=C TMPDIR=$2; export LC_ALL TMPDIR; shift 2; exec \"$@\"",
+        ("(ulimit -t $0) 2>/dev/null && ulimit -t $0; (ulimit -v $1) 2>/dev/null && ulimit -v $1; "
+         "LC_ALL=C TMPDIR=$2; export LC_ALL TMPDIR; shift 2; exec \"$@\""),
         seconds,
         kibibytes,
         folder};

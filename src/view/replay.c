@@ -255,7 +255,7 @@ static bool write_command(const Viewer *v, const char *path) {
 
 /* Adds events of mouse and keyboard. Returns false if the word is none of these. */
 static bool do_input(Replay *self, Viewer *v, const char *word, char *rest, bool *good) {
-    float way[4];
+    float way[4] = {0};
     if (is(word, "click"))
         add_click(self, take_word(&rest), 0.5f);
     else if (is(word, "key"))

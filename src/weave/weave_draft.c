@@ -1,5 +1,6 @@
 #include "weave/weave_draft.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -119,8 +120,12 @@ static WeftResult read_wif(const char *path, WeftDraft **out, const WeftLog *log
 
 bool draft_names_file(const char *what) {
     const char *dot = strrchr(what, '.');
-    if (dot && strspn(dot, ".0123456789") == strlen(dot)) return false;
-    return dot ? !strpbrk(dot, " ;/") : strchr(what, '/') && !strchr(what, ' ');
+    size_t letters = 0;
+    for (const char *at = dot ? dot + 1 : ""; *at; at++) {
+        if (!isalnum((unsigned char)*at)) return false; /* a pattern of # and . */
+        letters += isalpha((unsigned char)*at) != 0;
+    }
+    return dot ? letters > 0 : strchr(what, '/') && !strchr(what, ' ');
 }
 
 /* Returns true if the bytes contain no control characters but white space. */

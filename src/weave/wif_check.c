@@ -259,7 +259,7 @@ WeftResult wif_check(Wif *wif) {
         section = line->section;
         if (from < ROWS)
             check_line(wif, line, from, seen);
-        else if (section[0] == '\0')
+        else if (!section || section[0] == '\0')
             note(wif, ROWS, line, WIF_OUTSIDE);
         else if (strncasecmp(section, "PRIVATE", 7) != 0)
             note(wif, ROWS, line, WIF_SECTION);

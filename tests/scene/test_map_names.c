@@ -63,6 +63,9 @@ static void names_of_many_makers_are_understood(void **state) {
         {"FabricPlain001_GLOSS_3K.jpg", "-roughness"},
         {"FabricPlain001_REFL_3K.jpg", "specular_color"},
         {"FabricPlain001_DISP16_3K.png", ""},
+        {"Fabric_AO_1K_METALNESS.jpg", "occlusion"},
+        {"Fabric_METALNESS_1K_METALNESS.jpg", "metallic"},
+        {"Fabric_COL_VAR1_3K_SPECULAR.jpg", "base_color"},
         {"Poliigon_FabricRope_7432_Metallic.jpg", "metallic"},
         {"Poliigon_FabricRope_7432_AmbientOcclusion.jpg", "occlusion"},
         /* ambientCG, and CC0 Textures before it */

@@ -79,7 +79,7 @@ int output_end(Output *output) {
 }
 
 void output_drop(Output *output) {
-    fclose(output->stream);
+    if (output->stream) fclose(output->stream);
     unlink(output->temporary);
     forget(output);
 }

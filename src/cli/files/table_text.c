@@ -52,7 +52,8 @@ static int text_read(TableText *self) {
     if (self->text && fread(self->text, 1, size, stream) != size)
         result = report(WEFT_INPUT, "%s: cannot be read", self->path);
     if (self->text) self->text[size] = '\0';
-    if (result == 0 && strlen(self->text) != size) result = report(WEFT_INPUT, "%s: is not text", self->path);
+    if (result == 0 && self->text && strlen(self->text) != size)
+        result = report(WEFT_INPUT, "%s: is not text", self->path);
     fclose(stream);
     return result;
 }
@@ -72,7 +73,7 @@ static int add_value(TableText *self, double value) {
 
 /* Reads a size as "8 x 8 texels, each 3 value", which `weft bake` writes. */
 static void size_of_words(const char *text, long size[3]) {
-    const char *at = strstr(text, " texels, each ");
+    const char *at = text ? strstr(text, " texels, each ") : NULL;
     int columns, rows, channels;
     if (!at) return;
     const char *start = at;
@@ -132,7 +133,7 @@ static int rows_read(TableText *self) {
 
 /* Overwrites the comments of a program by blanks. */
 static void blank_comments(char *text) {
-    for (char *at = text; (at = strchr(at, '/')) != NULL;) {
+    for (char *at = text; at && (at = strchr(at, '/')) != NULL;) {
         const char *end = at[1] == '*' ? strstr(at + 2, "*/") : at[1] == '/' ? at + strcspn(at, "\n") : NULL;
         if (!end) {
             at++;

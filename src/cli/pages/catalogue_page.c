@@ -27,7 +27,7 @@ char *page_text(const Kind *kind, const char *id) {
         size_t length = strcspn(line, "\n");
         if (line + length > end) length = (size_t)(end - line);
         const char *next = line + length + 1;
-        size_t mark = line == text ? 3 : length < 3 ? length : 3; /* "/" "* " and " * " */
+        size_t mark = length < 3 ? length : 3; /* "/" "* " and " * " */
         memcpy(to, line + mark, length - mark);
         for (to += length - mark; to > page && to[-1] == ' ';) to--;
         *to++ = '\n';

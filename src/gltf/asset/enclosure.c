@@ -57,8 +57,8 @@ static bool lies_in(const char *path, const char *folder) {
 static void outside_write(const char *path, size_t folder, const char *real, char *out, size_t size) {
     int depth = depth_out(path + folder);
     if (depth == 0) {
-        const char *slash = strrchr(real, '/');
-        snprintf(out, size, "%.*s", slash > real ? (int)(slash - real) : 1, real);
+        const char *slash = real ? strrchr(real, '/') : NULL;
+        snprintf(out, size, "%.*s", slash && slash > real ? (int)(slash - real) : 1, real ? real : "/");
         return;
     }
     snprintf(out, size, "%.*s", (int)folder, path);

@@ -2,6 +2,7 @@
 #include "scene/material/map_names.h"
 
 #include <ctype.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "scene/record/material.h"
@@ -207,7 +208,7 @@ static bool is_passed_over(const char *word) {
     if (!digits) return false;
     memcpy(head, word, letters);
     head[letters] = '\0';
-    strcpy(tail, word + letters + digits);
+    snprintf(tail, sizeof tail, "%s", word + letters + digits);
     if (tail[0] == 'x' && isdigit((unsigned char)tail[1])) return is_passed_over(tail + 1);
     return (!head[0] || is_listed(before, head)) && (!tail[0] || is_listed(after, tail));
 }
@@ -223,6 +224,7 @@ static NameWords cut(const char *file) {
     NameWords words = {.count = 0};
     const char *dot = strrchr(file, '.'), *end = dot ? dot : file + strlen(file);
     size_t used = 0;
+    int sized = 0; /* words before the last size, such as "1k" */
     for (const char *at = file; at < end;) {
         if (is_separator(*at)) {
             at++;
@@ -236,13 +238,20 @@ static NameWords cut(const char *file) {
             word[length++] = (char)tolower((unsigned char)*at++);
         word[length] = '\0';
         if (!length) break;
-        if (is_passed_over(word)) continue;
+        if (is_passed_over(word)) {
+            sized = words.count;
+            continue;
+        }
         if (words.count == WORDS_MOST) forget_first(&words);
         words.glued[words.count] = glued;
         words.start[words.count++] = (int)used;
         used += length;
     }
     words.text[used] = '\0';
+    /* Poliigon writes the workflow behind the size: Fabric_COL_3K_METALNESS. */
+    const bool is_workflow = sized > 0 && words.count == sized + 1 &&
+                             is_listed("metalness metallic specular", words.text + words.start[sized]);
+    if (is_workflow) words.text[words.start[--words.count]] = '\0';
     return words;
 }
 
