@@ -1,7 +1,9 @@
 /* A cloth at every distance: the mean over pixels of what is looked up near, far and between is that of many points of
  * threads as far apart, to 0.5 % up to two threads a pixel and to 1 % beyond, where chance is as much; the long run looks at
  * more pixels, and finds 0.5 %. Pixels vary as those of many points do up to there, and hardly at all beyond. A pixel is a
- * square of so many threads. */
+ * square of so many threads.
+ *
+ * Labels: unsanitized */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

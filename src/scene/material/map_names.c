@@ -219,6 +219,16 @@ static void forget_first(NameWords *words) {
     memmove(words->glued, words->glued + 1, (size_t)words->count * sizeof *words->glued);
 }
 
+/* Returns true if word k, which is not the last, names a map by itself. */
+static bool is_map_word(const NameWords *words, int k) {
+    const size_t length = (size_t)(words->start[k + 1] - words->start[k]);
+    for (int n = 0; n < MAP_WORDS; n++)
+        if (strlen(map_words[n].word) == length &&
+            strncmp(words->text + words->start[k], map_words[n].word, length) == 0)
+            return true;
+    return false;
+}
+
 /* Cuts a name, as far as its suffix, into words. Of a name of very many words the last ones are kept. */
 static NameWords cut(const char *file) {
     NameWords words = {.count = 0};
@@ -249,7 +259,7 @@ static NameWords cut(const char *file) {
     }
     words.text[used] = '\0';
     /* Poliigon writes the workflow behind the size: Fabric_COL_3K_METALNESS. */
-    const bool is_workflow = sized > 0 && words.count == sized + 1 &&
+    const bool is_workflow = sized > 0 && words.count == sized + 1 && is_map_word(&words, sized - 1) &&
                              is_listed("metalness metallic specular", words.text + words.start[sized]);
     if (is_workflow) words.text[words.start[--words.count]] = '\0';
     return words;
