@@ -80,7 +80,7 @@ int output_end(Output *output) {
 
 void output_drop(Output *output) {
     if (output->stream) fclose(output->stream);
-    unlink(output->temporary);
+    if (output->temporary) unlink(output->temporary);
     forget(output);
 }
 

@@ -159,7 +159,7 @@ static void size_of_brackets(const char *at, const char *end, long size[3]) {
  * reads the size that its brackets say. */
 static char *array_find(TableText *self) {
     char *brace = self->text;
-    while ((brace = strpbrk(brace, "{(")) != NULL) {
+    while (brace && (brace = strpbrk(brace, "{(")) != NULL) {
         const char *equals = brace;
         while (equals > self->text && !strchr("=;}{(", equals[-1])) equals--;
         const char *name = equals;
