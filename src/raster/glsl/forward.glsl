@@ -108,7 +108,7 @@ void main() {
     float opacity = coverage_of(s.opacity);
     Frame f = frame_of(at, s, wo);
 #ifdef AMBIENT
-    smooth_normal = facing_normal(at);
+    smooth_normal = frame_visible_normal(facing_normal(at), wo); /* as the path tracer has its horizon */
 #endif
 #ifdef PROPERTY
     fragment = vec4(PROPERTY * opacity, opacity);

@@ -11,14 +11,13 @@ in highp vec4 vertex_lights_1;
 /* Visible fraction of the sky by the occlusion texture, which has the material's own bumps. */
 float texture_occlusion = 1.0;
 
-/* The interpolated normal, not perturbed by a map, on the viewer's side. */
+/* The normal of the shading frame without a map: the interpolated one, where the viewer sees its side. */
 Dir smooth_normal;
 
 vec4 fragment_open() { return gl_FrontFacing ? vertex_open_front : vertex_open_back; }
 
 /* Returns the fraction of the light about d that comes from above the smooth surface, if the shading normal is rotated
- * away from its normal, as at a silhouette, whose smooth normal faces away from the eye. blur: cosine over which it
- * fades. */
+ * away from its normal by a map. blur: cosine over which it fades. */
 float above_smooth(Frame f, Dir d, float blur) {
     return clamp((dir_dot(d, smooth_normal) + blur) / (max(dir_dot(d, f.z), 0.0) + blur), 0.0, 1.0);
 }
