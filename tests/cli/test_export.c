@@ -1,5 +1,7 @@
 /* `weft export`: the text and its tables are there and hold the same numbers, whatever file holds them;
- * nonsense is refused in one line */
+ * nonsense is refused in one line
+ *
+ * Labels: unsanitized */
 #include "run.h"
 
 #include <ctype.h>

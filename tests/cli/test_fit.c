@@ -1,4 +1,6 @@
-/* `weft fit`: what it prints and writes, and how it ends. */
+/* `weft fit`: what it prints and writes, and how it ends.
+ *
+ * Labels: unsanitized */
 #include "run.h"
 
 #include <math.h>

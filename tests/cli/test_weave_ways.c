@@ -1,5 +1,7 @@
 /* A woven cloth is the same by every way that says it: options, keys, JSON, material files and saved scenes; and its
- * threads have the size that they have on a loom, on meshes of any scale. */
+ * threads have the size that they have on a loom, on meshes of any scale.
+ *
+ * Labels: unsanitized */
 #include <math.h>
 
 #include <sys/stat.h>

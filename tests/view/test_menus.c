@@ -56,7 +56,7 @@ static void every_menu_goes_through_all_its_values(void **state) {
     say_picture("end.png");
     say("wait rest\n");
     Drive drive = drive_start(
-        script, LIST("view", "--windowless", "--forget", "--json", "--width", "320", "--height", "240", CHEAP));
+        script, LIST("view", "--windowless", "--forget", "--json", "--width", "320", "--height", "360", CHEAP));
     json_t *last = NULL;
     for (bool ended = false; !ended || last;) {
         json_decref(last);
