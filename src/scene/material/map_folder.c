@@ -30,7 +30,8 @@ typedef struct MapPicture {
 static int find_path(const WeftScene *scene, const MapPicture *picture) {
     for (int k = 0; k < scene->texture_count; k++) {
         const Texture *t = &scene->textures[k];
-        if (t->path && picture->path && t->inverted == picture->inverted && strcmp(t->path, picture->path) == 0) return k;
+        if (t->path && picture->path && t->inverted == picture->inverted && strcmp(t->path, picture->path) == 0)
+            return k;
     }
     return -1;
 }
