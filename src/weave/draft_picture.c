@@ -2,20 +2,18 @@
  *
  * A picture of more colours, such as one that JPEG has made noisy, is parted in two by brightness: Nobuyuki Otsu, "A
  * Threshold Selection Method from Gray-Level Histograms", IEEE Transactions on Systems, Man, and Cybernetics 9(1), 1979:
- * of all thresholds, the one whose two classes are farthest distance for their size, w0 w1 (m0 - m1)^2. */
+ * of all thresholds, the one whose two classes are farthest from each other for their size, w0 w1 (m0 - m1)^2. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <string.h>
 
 #include "base/fail.h"
+#include "image/pixel.h"
 #include "weave/weave_draft.h"
 #include "weft/image.h"
 
-static size_t pixel_size(const WeftImage *image) {
-    static const size_t sizes[] = {[WEFT_PIXEL_U8] = 1, [WEFT_PIXEL_U16] = 2, [WEFT_PIXEL_F32] = 4};
-    return sizes[image->type] * (size_t)image->channels;
-}
+static size_t pixel_size(const WeftImage *image) { return pixel_type_size(image->type) * (size_t)image->channels; }
 
 static float value_at(const WeftImage *image, size_t k) {
     if (image->type == WEFT_PIXEL_U8) return ((const uint8_t *)image->pixels)[k];

@@ -3,6 +3,7 @@
 #include "base/equal.h"
 #include "base/fail.h"
 #include "gltf/asset/material_fields.h"
+#include "image/pixel.h"
 #include "shading/material/convert.h"
 
 static bool waits(const Material *material) {
@@ -31,10 +32,7 @@ size_t glossiness_count(const WeftScene *scene) {
 }
 
 static float alpha_of(const WeftImage *image, size_t pixel) {
-    size_t at = (pixel + 1) * (size_t)image->channels - 1;
-    if (image->type == WEFT_PIXEL_U8) return (float)((const uint8_t *)image->pixels)[at] / 255.0f;
-    if (image->type == WEFT_PIXEL_U16) return (float)((const uint16_t *)image->pixels)[at] / 65535.0f;
-    return ((const float *)image->pixels)[at];
+    return (float)pixel_value(image, (pixel + 1) * (size_t)image->channels - 1);
 }
 
 /* Makes a grey image of 1 - factor alpha, of 16 bits since the product has more than 8. */

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "gltf/asset/material_fields.h"
+#include "image/pixel.h"
 #include "measure/doctor/doctor.h"
 #include "shading/material/choice.h"
 
@@ -60,18 +61,12 @@ const WeftImage *doctor_image(WeftDoctor *doctor, json_t *info) {
     return image < 0 || !doctor->scene->images[image].pixels ? NULL : &doctor->scene->images[image];
 }
 
-static float pixel_value(const WeftImage *image, size_t k) {
-    if (image->type == WEFT_PIXEL_U8) return (float)((const uint8_t *)image->pixels)[k] / 255.0f;
-    if (image->type == WEFT_PIXEL_U16) return (float)((const uint16_t *)image->pixels)[k] / 65535.0f;
-    return ((const float *)image->pixels)[k];
-}
-
 /* Reads one pixel as R G B A. */
 static void pixel_read(const WeftImage *image, size_t pixel, float rgba[4]) {
     size_t at = pixel * (size_t)image->channels;
     bool grey = image->channels < 3;
-    for (int c = 0; c < 3; c++) rgba[c] = pixel_value(image, at + (grey ? 0 : (size_t)c));
-    rgba[3] = image->channels % 2 ? 1.0f : pixel_value(image, at + (size_t)image->channels - 1);
+    for (int c = 0; c < 3; c++) rgba[c] = (float)pixel_value(image, at + (grey ? 0 : (size_t)c));
+    rgba[3] = image->channels % 2 ? 1.0f : (float)pixel_value(image, at + (size_t)image->channels - 1);
 }
 
 static size_t nearest_pixel(const WeftImage *image, float u, float v) {

@@ -9,6 +9,7 @@
 #include "gltf/asset/material_fields.h"
 #include "gltf/read/gltf.h"
 #include "gltf/save/rewrite.h"
+#include "image/pixel.h"
 #include "measure/bsdf/material_key.h"
 #include "measure/match/match.h"
 #include "scene/record/scene.h"
@@ -35,10 +36,7 @@ static double texture_mean(WeftImage image, int channel, bool color) {
     int at = place_of(channel, image.channels);
     if (at < 0 || pixels == 0) return 1.0;
     for (size_t k = 0; k < pixels; k++) {
-        size_t place = k * (size_t)image.channels + (size_t)at;
-        double x = image.type == WEFT_PIXEL_U8    ? ((const uint8_t *)image.pixels)[place] / 255.0
-                   : image.type == WEFT_PIXEL_U16 ? ((const uint16_t *)image.pixels)[place] / 65535.0
-                                                  : (double)((const float *)image.pixels)[place];
+        double x = pixel_value(&image, k * (size_t)image.channels + (size_t)at);
         sum += color && image.type != WEFT_PIXEL_F32 ? linear_of(x) : x;
     }
     return sum / (double)pixels;

@@ -8,14 +8,11 @@
 
 #include <math.h>
 
-/* Returns a value of a picture from 0 to 1. */
+#include "image/pixel.h"
+
 static double value_at(const WeftImage *image, int x, int y, int channel) {
-    const size_t at = ((size_t)y * (size_t)image->width + (size_t)x) * (size_t)image->channels + (size_t)channel;
-    switch (image->type) {
-    case WEFT_PIXEL_U8: return ((const uint8_t *)image->pixels)[at] / 255.0;
-    case WEFT_PIXEL_U16: return ((const uint16_t *)image->pixels)[at] / 65535.0;
-    default: return (double)((const float *)image->pixels)[at];
-    }
+    const size_t pixel = (size_t)y * (size_t)image->width + (size_t)x;
+    return pixel_value(image, pixel * (size_t)image->channels + (size_t)channel);
 }
 
 /* Returns the slope along x (channel 0) or along y (channel 1) as it is with green down: y grows downwards. */
