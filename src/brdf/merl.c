@@ -3,9 +3,9 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "base/little_endian.h"
 #include "base/memory.h"
 #include "base/pi.h"
-#include "brdf/little_endian.h"
 #include "brdf/merl.h"
 
 enum { HEADER = 12 };

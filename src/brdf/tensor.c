@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/fail.h"
-#include "brdf/little_endian.h"
+#include "base/little_endian.h"
 
 static const char magic[12] = "tensor_file";
 static const size_t sizes[TENSOR_TYPES] = {0, 1, 1, 2, 2, 4, 4, 8, 8, 2, 4, 8};

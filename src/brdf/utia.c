@@ -5,9 +5,9 @@
 #include "brdf/utia.h"
 
 #include "base/fail.h"
+#include "base/little_endian.h"
 #include "base/memory.h"
 #include "base/pi.h"
-#include "brdf/little_endian.h"
 
 enum { BINS = UTIA_SIDE * UTIA_SIDE, FILE_SIZE = 3 * 8 * BINS };
 

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "base/little_endian.h"
 #include "image/codec.h"
 #include "image/half.h"
 #include "image/pixel.h"
@@ -53,12 +54,10 @@ static const struct {
     {HAS_LUMINANCE, 16, 0x000000ff, 0, 0x0000ff00, {0, 0, 2, DDS_BYTE, false}},
 };
 
-static uint32_t word_at(const unsigned char *at) {
-    return (uint32_t)at[0] | (uint32_t)at[1] << 8 | (uint32_t)at[2] << 16 | (uint32_t)at[3] << 24;
-}
-
 /* Returns word k of the headers. */
-static uint32_t header_word(const ImageSource *source, int k) { return word_at(source->data + 4 * k); }
+static uint32_t header_word(const ImageSource *source, int k) {
+    return (uint32_t)little_endian(source->data + 4 * k, 4);
+}
 
 static bool has_second_header(const ImageSource *source) {
     return header_word(source, 20) & HAS_FOURCC && memcmp(source->data + 84, "DX10", 4) == 0;
@@ -95,15 +94,11 @@ static WeftResult format_refuse(const ImageSource *source, WeftError *error) {
 
 /* Converts one number of the file. */
 static void number_put(const unsigned char *at, DdsKind kind, size_t to, WeftImage *out) {
-    uint32_t bits;
     switch (kind) {
     case DDS_BYTE: ((uint8_t *)out->pixels)[to] = at[0]; break;
-    case DDS_WORD: ((uint16_t *)out->pixels)[to] = (uint16_t)(at[0] | at[1] << 8); break;
-    case DDS_HALF: ((float *)out->pixels)[to] = half_value((unsigned)at[0] | (unsigned)at[1] << 8); break;
-    case DDS_SINGLE:
-        bits = word_at(at);
-        memcpy((float *)out->pixels + to, &bits, sizeof bits);
-        break;
+    case DDS_WORD: ((uint16_t *)out->pixels)[to] = (uint16_t)little_endian(at, 2); break;
+    case DDS_HALF: ((float *)out->pixels)[to] = half_value((unsigned)little_endian(at, 2)); break;
+    case DDS_SINGLE: ((float *)out->pixels)[to] = little_endian_float(at); break;
     }
 }
 

@@ -11,6 +11,7 @@
 #include <openexr.h>
 
 #include "base/fail.h"
+#include "base/little_endian.h"
 #include "base/memory.h"
 #include "base/stream_reason.h"
 #include "image/codec.h"
@@ -205,11 +206,8 @@ static WeftResult exr_header(Exr *exr, WeftError *error) {
 
 /* Returns one value of the file, which is little-endian. */
 static float value_read(const unsigned char *at, exr_pixel_type_t type) {
-    if (type == EXR_PIXEL_HALF) return half_value((unsigned)at[0] | (unsigned)at[1] << 8);
-    const uint32_t bits = (uint32_t)at[0] | (uint32_t)at[1] << 8 | (uint32_t)at[2] << 16 | (uint32_t)at[3] << 24;
-    float value;
-    memcpy(&value, &bits, sizeof value);
-    return type == EXR_PIXEL_UINT ? (float)bits : value;
+    if (type == EXR_PIXEL_HALF) return half_value((unsigned)little_endian(at, 2));
+    return type == EXR_PIXEL_UINT ? (float)(uint32_t)little_endian(at, 4) : little_endian_float(at);
 }
 
 /* Copies the channels of the image from a line of the file, which contains one channel after another. Its first pixel

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/little_endian.h"
 #include "gltf/asset/buffer_views.h"
 #include "gltf/asset/field.h"
 
@@ -127,11 +128,7 @@ void accessors_read(Asset *asset) {
 }
 
 static uint32_t load_integer(const unsigned char *p, Component component) {
-    switch (component_size(component)) {
-    case 1: return p[0];
-    case 2: return (uint32_t)p[0] | (uint32_t)p[1] << 8;
-    default: return (uint32_t)p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24;
-    }
+    return (uint32_t)little_endian(p, component_size(component));
 }
 
 static float load_float(const unsigned char *p, Component component, bool normalized) {

@@ -5,6 +5,7 @@
 
 #include "base/fail.h"
 #include "base/json.h"
+#include "base/little_endian.h"
 #include "base/mark.h"
 
 /* A parsed value takes up to some 150 bytes, and each but the first follows one of , [ { in the text: so this
@@ -30,9 +31,7 @@ static void json_read(Asset *asset, Span text) {
         asset_fail(asset, WEFT_MESSAGE_GLTF_JSON, "the outermost value is not an object");
 }
 
-static uint32_t word(const unsigned char *p) {
-    return (uint32_t)p[0] | (uint32_t)p[1] << 8 | (uint32_t)p[2] << 16 | (uint32_t)p[3] << 24;
-}
+static uint32_t word(const unsigned char *p) { return (uint32_t)little_endian(p, 4); }
 
 enum { HEADER_SIZE = 12, CHUNK_HEADER_SIZE = 8, CHUNK_JSON = 0x4e4f534a, CHUNK_BIN = 0x004e4942 };
 
