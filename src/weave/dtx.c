@@ -292,12 +292,7 @@ static bool cut(Dtx *dtx, const void *data, size_t size) {
         line += strspn(line, " \t");
         if (line[0] == '@' && line[1] == '@') section = line + 2 + strspn(line + 2, " \t");
         if (*line == '\0' || (line[0] == '@' && line[1] == '@')) continue;
-        if ((file->count & (file->count - 1)) == 0) { /* full at each power of two */
-            IniLine *grown = realloc_array(file->lines, file->count ? 2 * (size_t)file->count : 1, sizeof *grown);
-            if (!grown) return false;
-            file->lines = grown;
-        }
-        file->lines[file->count++] = (IniLine){.section = section, .key = line, .number = number};
+        if (!ini_add(file, (IniLine){.section = section, .key = line, .number = number})) return false;
     }
     return true;
 }

@@ -1,6 +1,5 @@
 #include "weave/ini.h"
 
-#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
@@ -16,27 +15,31 @@ static char *trim(char *text, char *end) {
     return text + strspn(text, " \t");
 }
 
-/* Parses one line; returns 0 if memory is short. */
-static int parse_line(Ini *ini, char *line, char *end, const char **section, int number) {
+bool ini_add(Ini *ini, IniLine line) {
+    if ((ini->count & (ini->count - 1)) == 0) { /* full at each power of two */
+        IniLine *grown = realloc_array(ini->lines, ini->count ? 2 * (size_t)ini->count : 1, sizeof *grown);
+        if (!grown) return false;
+        ini->lines = grown;
+    }
+    ini->lines[ini->count++] = line;
+    return true;
+}
+
+/* Parses one line; returns false if memory is short. */
+static bool parse_line(Ini *ini, char *line, char *end, const char **section, int number) {
     char *text = trim(line, end);
-    if (*text == '\0' || *text == ';') return 1;
+    if (*text == '\0' || *text == ';') return true;
     char *close = *text == '[' ? strchr(text, ']') : NULL;
     const bool stray = close && memchr(text, '=', (size_t)(close - text));
     if (*text == '[' && !stray) {
         *section = trim(text + 1, close ? close : text + strlen(text));
-        return 1;
-    }
-    if ((ini->count & (ini->count - 1)) == 0) { /* full at each power of two */
-        IniLine *grown = realloc_array(ini->lines, ini->count ? 2 * (size_t)ini->count : 1, sizeof *grown);
-        if (!grown) return 0;
-        ini->lines = grown;
+        return true;
     }
     char *equals = stray ? NULL : strchr(text, '='), *stop = text + strlen(text);
-    ini->lines[ini->count++] = (IniLine){.section = *section,
-                                         .value = equals ? trim(equals + 1, stop) : NULL,
-                                         .key = trim(text, equals ? equals : stop),
-                                         .number = number};
-    return 1;
+    return ini_add(ini, (IniLine){.section = *section,
+                                  .value = equals ? trim(equals + 1, stop) : NULL,
+                                  .key = trim(text, equals ? equals : stop),
+                                  .number = number});
 }
 
 WeftResult ini_read(const void *data, size_t size, const char *name, Ini *out, WeftError *error) {

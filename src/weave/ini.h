@@ -4,11 +4,12 @@
  * Lines that begin with ; are comments. There is no limit on the length of a line. */
 #pragma once
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #include "weft/result.h"
 
-/* One line. value is NULL for a line without "=", and for one in brackets that has "=" in them and so is no section:
+/* A line of a file. value is NULL for a line without "=", and for one in brackets that has "=" in them and so is no section:
  * key is then the whole line. section is "" before the first section. */
 typedef struct IniLine {
     const char *section, *key, *value;
@@ -26,6 +27,9 @@ typedef struct Ini {
  * ini_free in either case. */
 WeftResult ini_read(const void *data, size_t size, const char *name, Ini *out, WeftError *error);
 void ini_free(Ini *ini);
+
+/* Adds a line. Returns false if memory is short. */
+bool ini_add(Ini *ini, IniLine line);
 
 /* Returns the last line of that section and key, or of that section if key is NULL; NULL without one. */
 const IniLine *ini_find(const Ini *ini, const char *section, const char *key);

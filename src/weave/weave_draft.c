@@ -11,6 +11,7 @@
 #include "base/file.h"
 #include "base/mark.h"
 #include "base/memory.h"
+#include "base/printable.h"
 #include "weave/dtx.h"
 #include "weave/loom.h"
 #include "weave/wpo.h"
@@ -60,18 +61,9 @@ bool draft_same(const WeftDraft *a, const WeftDraft *b) {
     return same;
 }
 
-/* Returns the size of the UTF-8 character at text, 0 if it is none. Markus Kuhn, "UTF-8 and Unicode FAQ", 1999-2009. */
 static size_t utf8_size(const unsigned char *text) {
-    const size_t size = text[0] < 0x80                      ? 1
-                        : text[0] >= 0xc2 && text[0] < 0xe0 ? 2
-                        : text[0] >= 0xe0 && text[0] < 0xf0 ? 3
-                        : text[0] >= 0xf0 && text[0] < 0xf5 ? 4
-                                                            : 0;
-    for (size_t k = 1; k < size; k++)
-        if ((text[k] & 0xc0) != 0x80) return 0;
-    const bool is_long = (text[0] == 0xe0 && text[1] < 0xa0) || (text[0] == 0xf0 && text[1] < 0x90);
-    const bool is_no_character = (text[0] == 0xed && text[1] > 0x9f) || (text[0] == 0xf4 && text[1] > 0x8f);
-    return is_long || is_no_character ? 0 : size;
+    unsigned code;
+    return (size_t)utf8_read(text, &code);
 }
 
 /* Takes bytes that are no UTF-8 for Latin-1, in which old files are. */
