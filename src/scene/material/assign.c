@@ -47,8 +47,9 @@ static bool adopt_textures(WeftScene *scene, MaterialFile *file) {
 /* Gives the scene the cloth of the file, whose material then names it. */
 static bool adopt_cloth(WeftScene *scene, MaterialFile *file, const bool *selected) {
     if (!file->cloth) return true;
-    for (int k = scene_own_materials(scene) - 1; k >= 0; k--)
-        if (selected[k]) cloth_fit(scene, k, file->cloth); /* last, the first material */
+    int first = 0; /* the others have copies by cloths_fit if they differ */
+    while (first < scene_own_materials(scene) && !selected[first]) first++;
+    cloth_fit(scene, first, file->cloth);
     file->material.cloth = scene_adopt_cloth(scene, file->cloth);
     if (file->material.cloth) file->cloth = NULL;
     return file->material.cloth != 0;

@@ -265,17 +265,6 @@ const WeftDraft *weft_scene_cloth(const WeftScene *scene, int cloth, WeftYarn ya
     return of->draft;
 }
 
-WeftResult cloth_put(WeftScene *scene, int material, WeftCloth *cloth, WeftError *error) {
-    cloth_fit(scene, material, cloth);
-    const int number = scene_adopt_cloth(scene, cloth);
-    if (!number) {
-        weft_cloth_free(cloth);
-        return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
-    }
-    scene->materials[material].cloth = number;
-    return cloths_fit(scene, false, error);
-}
-
 WeftResult weft_scene_set_weave(WeftScene *scene, int material, const WeftDraft *draft, const WeftYarn yarns[2],
                                 WeftError *error) {
     const bool there = material >= 0 && material < scene_own_materials(scene);

@@ -49,6 +49,17 @@ void cloth_fit(const WeftScene *scene, int material, WeftCloth *cloth) {
     if (metres > 0.0) cloth_spread(cloth, metres);
 }
 
+WeftResult cloth_put(WeftScene *scene, int material, WeftCloth *cloth, WeftError *error) {
+    cloth_fit(scene, material, cloth);
+    const int number = scene_adopt_cloth(scene, cloth);
+    if (number) {
+        scene->materials[material].cloth = number;
+        return WEFT_OK;
+    }
+    weft_cloth_free(cloth);
+    return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+}
+
 /* Returns true if a material before this one has the same cloth. */
 static bool has_earlier(const WeftScene *scene, int material) {
     int k = 0;
@@ -58,24 +69,19 @@ static bool has_earlier(const WeftScene *scene, int material) {
 
 WeftResult cloths_fit(WeftScene *scene, bool fresh, WeftError *error) {
     for (int k = 0; k < scene_own_materials(scene); k++) {
-        Material *material = &scene->materials[k];
-        const WeftCloth *cloth = material->cloth ? scene->cloths[material->cloth - 1] : NULL;
+        const int number = scene->materials[k].cloth;
+        const WeftCloth *cloth = number ? scene->cloths[number - 1] : NULL;
         if (!cloth || !cloth->automatic) continue;
         const double metres = cloth_uv_metres(scene, k, NULL);
         if (!(metres > 0.0) || fabs(metres / cloth->metres - 1.0) < 1e-6) continue;
         if (fresh && !has_earlier(scene, k)) {
-            cloth_spread(scene->cloths[material->cloth - 1], metres);
+            cloth_spread(scene->cloths[number - 1], metres);
             continue;
         }
         WeftCloth *fitted = cloth_copy(cloth);
         if (!fitted) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
-        cloth_spread(fitted, metres);
-        const int number = scene_adopt_cloth(scene, fitted);
-        if (!number) {
-            weft_cloth_free(fitted);
-            return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
-        }
-        material->cloth = number;
+        WeftResult result = cloth_put(scene, k, fitted, error);
+        if (result != WEFT_OK) return result;
     }
     return WEFT_OK;
 }

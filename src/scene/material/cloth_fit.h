@@ -13,6 +13,10 @@ double cloth_uv_metres(const WeftScene *scene, int material, double *uneven);
  * automatic. */
 void cloth_fit(const WeftScene *scene, int material, WeftCloth *cloth);
 
+/* Gives a material a cloth of the size that suits it, which the scene then owns, also on failure:
+ * WEFT_MESSAGE_MEMORY. */
+WeftResult cloth_put(WeftScene *scene, int material, WeftCloth *cloth, WeftError *error);
+
 /* Gives cloths whose metres are automatic the size that suits the meshes of their material, and a copy to each of
  * several materials that differ. Call it when materials, or the meshes that have them, have changed. fresh: the
  * scene was just read and nothing else refers to its cloths, so that the first material's needs no copy. Fails with

@@ -7,6 +7,7 @@
 #include "base/number.h"
 #include "scene/material/assign.h"
 #include "scene/material/cloth_file.h"
+#include "scene/material/cloth_fit.h"
 #include "scene/record/tangents.h"
 #include "weave/weft_cloth.h"
 
@@ -18,6 +19,11 @@ typedef struct WeaveSetting {
 
 static WeftResult refuse(const WeaveSetting *setting, const char *expected) {
     return fail(setting->error, WEFT_MESSAGE_PARAM_VALUE, setting->value, "weave.%s is %s", setting->key, expected);
+}
+
+/* Returns true if the value is the JSON of a whole weave. */
+static bool is_whole(const WeaveSetting *setting) {
+    return !setting->key[0] && setting->value[strspn(setting->value, " ")] == '{';
 }
 
 static json_t *read_numbers(const char *text, int count) {
@@ -71,9 +77,8 @@ static WeftResult put_yarn_key(const WeaveSetting *setting, json_t *weave, const
 
 /* Sets the whole weave: its JSON, or the draft of a new one in cotton. */
 static WeftResult put_weave(const WeaveSetting *setting, json_t *weave) {
-    const bool is_json = setting->value[strspn(setting->value, " ")] == '{';
-    json_t *fresh = is_json ? json_loads(setting->value, JSON_REJECT_DUPLICATES, NULL)
-                            : json_pack("{s:s}", "draft", setting->value);
+    json_t *fresh = is_whole(setting) ? json_loads(setting->value, JSON_REJECT_DUPLICATES, NULL)
+                                      : json_pack("{s:s}", "draft", setting->value);
     if (!json_is_object(fresh)) {
         json_decref(fresh);
         return refuse(setting, "a draft, or the JSON of a weave");
@@ -136,8 +141,7 @@ WeftResult weft_scene_weave(WeftScene *scene, const char *material, const char *
     for (int k = 0; k < scene_own_materials(scene) && result == WEFT_OK; k++) {
         if (!selected[k]) continue;
         const Material was = scene->materials[k];
-        const bool whole = !key[0] && value[strspn(value, " ")] == '{';
-        if (!whole) result = begin_weave(scene, k, error);
+        if (!is_whole(&setting)) result = begin_weave(scene, k, error);
         if (result == WEFT_OK) result = reweave(scene, k, &setting, log);
         if (result != WEFT_OK) scene->materials[k] = was;
     }
