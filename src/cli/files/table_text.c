@@ -73,7 +73,7 @@ static int add_value(TableText *self, double value) {
 
 /* Reads a size as "8 x 8 texels, each 3 value", which `weft bake` writes. */
 static void size_of_words(const char *text, long size[3]) {
-    const char *at = text ? strstr(text, " texels, each ") : NULL;
+    const char *at = strstr(text, " texels, each ");
     int columns, rows, channels;
     if (!at) return;
     const char *start = at;
@@ -133,7 +133,7 @@ static int rows_read(TableText *self) {
 
 /* Overwrites the comments of a program by blanks. */
 static void blank_comments(char *text) {
-    for (char *at = text; at && (at = strchr(at, '/')) != NULL;) {
+    for (char *at = text; (at = strchr(at, '/')) != NULL;) {
         const char *end = at[1] == '*' ? strstr(at + 2, "*/") : at[1] == '/' ? at + strcspn(at, "\n") : NULL;
         if (!end) {
             at++;
@@ -159,7 +159,7 @@ static void size_of_brackets(const char *at, const char *end, long size[3]) {
  * reads the size that its brackets say. */
 static char *array_find(TableText *self) {
     char *brace = self->text;
-    while (brace && (brace = strpbrk(brace, "{(")) != NULL) {
+    while ((brace = strpbrk(brace, "{(")) != NULL) {
         const char *equals = brace;
         while (equals > self->text && !strchr("=;}{(", equals[-1])) equals--;
         const char *name = equals;
@@ -262,7 +262,7 @@ int table_text_read(const char *path, bool several, WeftImage *table) {
     TableText self = {.path = path};
     *table = (WeftImage){0};
     int result = text_read(&self);
-    if (result == 0) result = ends_in_one(path, array_suffixes) ? array_read(&self) : rows_read(&self);
+    if (result == 0 && self.text) result = ends_in_one(path, array_suffixes) ? array_read(&self) : rows_read(&self);
     if (result == 0) result = table_make(&self, several, table);
     free(self.text);
     free(self.values);

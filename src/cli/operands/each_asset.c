@@ -44,6 +44,28 @@ static char *file_of(const EachOutput *output, const char *value, const char *as
     return file;
 }
 
+/* Checks that no two assets have one file. */
+static int names_check(const Options *options, const EachOutput *output, const Given *given) {
+    const int count = options->operand_count;
+    int result = 0;
+    char **files = calloc((size_t)count, sizeof *files);
+    if (!files) return report(WEFT_RESOURCES, "out of memory");
+    for (int a = 0; a < count && result == 0; a++) {
+        files[a] = file_of(output, given->value, options->operands[a]);
+        if (!files[a]) {
+            result = report(WEFT_RESOURCES, "out of memory");
+            break;
+        }
+        for (int b = 0; b < a && result == 0; b++)
+            if (strcmp(files[a], files[b]) == 0)
+                result = report(WEFT_USAGE, "%s: \"%.200s\" would be written for %.200s and for %.200s",
+                                given->option->name, files[a], options->operands[b], options->operands[a]);
+    }
+    for (int a = 0; a < count; a++) free(files[a]);
+    free(files);
+    return result;
+}
+
 /* Checks the outputs of several assets: each has a file of its own. */
 static int outputs_check(const Options *options, const EachOutput *outputs) {
     for (int g = 0; g < options->given_count; g++) {
@@ -56,18 +78,8 @@ static int outputs_check(const Options *options, const EachOutput *outputs) {
                           "name of each, as in %s 'new/{}%s'",
                           given->option->name, given->value, options->operand_count, given->option->name,
                           output->suffix ? output->suffix : ".glb");
-        for (int a = 0; a < options->operand_count; a++)
-            for (int b = 0; b < a; b++) {
-                char *one = file_of(output, given->value, options->operands[a]),
-                     *other = file_of(output, given->value, options->operands[b]);
-                const bool same = one && other && strcmp(one, other) == 0;
-                if (same)
-                    report(WEFT_USAGE, "%s: \"%.200s\" would be written for %.200s and for %.200s", given->option->name,
-                           one, options->operands[b], options->operands[a]);
-                free(one);
-                free(other);
-                if (same) return WEFT_USAGE;
-            }
+        const int result = names_check(options, output, given);
+        if (result != 0) return result;
     }
     return 0;
 }
