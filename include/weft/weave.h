@@ -51,7 +51,8 @@ typedef struct WeftDraftInfo {
 
 /* Makes a draft of a file or of notation. If `what` is the path of a file, it is read by content: a WIF (Weaving
  * Information File 1.1 and its common variants), a .dtx of Fiberworks, or an image, one pixel a crossing, where the
- * darker colour has the warp on top; more than two colours are parted by brightness, with a warning. Anything else is notation (docs/weave.md): "plain", "twill 2/2 z", "satin 5/2",
+ * darker colour has the warp on top; more than two colours are parted by brightness, with a warning. Anything else is
+ * notation (docs/weave.md): "plain", "twill 2/2 z", "satin 5/2",
  * "herringbone 2/2 8; warp 24k 4r". log (may be NULL) receives a warning for each value that was completed. Fails with
  * WEFT_MESSAGE_DRAFT, _DRAFT_NOTATION, _MEMORY, and as weft_image_read does; *out is then NULL. */
 WEFT_API WeftResult weft_draft_read(const char *what, WeftDraft **out, const WeftLog *log, WeftError *error);
@@ -166,20 +167,20 @@ WEFT_API const WeftDraft *weft_scene_cloth(const WeftScene *scene, int cloth, We
 WEFT_API WeftResult weft_scene_set_weave(WeftScene *scene, int material, const WeftDraft *draft,
                                          const WeftYarn yarns[2], WeftError *error);
 
-/* Sets a key of the weave of a material, named as in weft_scene_assign_material (NULL: the cloth of the scene); one that
- * is not woven becomes plain cotton without a sheen first. Keys: draft (words, or a file: a WIF or a picture), sett (threads per
- * centimetre, or WARP,WEFT), metres (that a unit of texture coordinates spans, or auto: as the mesh has it), seed, warp
- * and weft (names of yarns), and of these color ("#rrggbb", or r,g,b in linear reflectance) and the numbers of
- * weft_yarn_number, such as warp.alpha. An empty key sets the whole weave: a draft, or the JSON of a material file,
+/* Sets a key of the weave of a material, named as in weft_scene_assign_material (NULL: the cloth of the scene). One
+ * that is not woven becomes plain cotton without a sheen first. Keys: draft (words, or a file: a WIF or a picture), sett
+ * (threads per centimetre, or WARP,WEFT), metres (that a unit of texture coordinates spans, or auto: as the mesh has
+ * it), seed, warp and weft (names of yarns), and of these color ("#rrggbb", or r,g,b in linear reflectance) and the
+ * numbers of weft_yarn_number, such as warp.alpha. An empty key sets the whole weave: a draft, or the JSON of a material file,
  * which leaves all other inputs as they are.
  * weft_scene_set takes the same as MATERIAL.weave.KEY. Fails with WEFT_MESSAGE_MATERIAL_NAME, _PARAM_NAME, _PARAM_VALUE
  * and as reading a material file does. */
 WEFT_API WeftResult weft_scene_weave(WeftScene *scene, const char *material, const char *key, const char *value,
                                      const WeftLog *log, WeftError *error);
 
-/* Returns the weave of a cloth of a scene, WeftMaterial.cloth, as the JSON of a material file, in which a draft that was
- * a file is its path. weft_scene_weave with an empty key makes the same cloth of it. Release with free; NULL where there
- * is none of that number, or memory is short. */
+/* Returns the weave of a cloth of a scene, WeftMaterial.cloth, as the JSON of a material file, in which a draft that
+ * was a file is its path. weft_scene_weave with an empty key makes the same cloth of it. Release with free; NULL where
+ * there is none of that number, or memory is short. */
 WEFT_API char *weft_scene_weave_text(const WeftScene *scene, int cloth);
 
 /* Returns the figures of a cloth. */

@@ -30,7 +30,8 @@ typedef struct OutputFile {
  * file: a folder, a device, a pipe. */
 WeftResult output_open(OutputFile *file, const char *path, WeftError *error);
 
-/* Closes and renames. Fails, with the reason, if a write to the stream has failed too; the temporary file is then removed and the old file stays. */
+/* Closes and renames. Fails, with the reason, if a write to the stream has failed too; the temporary file is then
+ * removed and the old file stays. */
 WeftResult output_commit(OutputFile *file, WeftError *error);
 
 /* Closes and removes the temporary file. */

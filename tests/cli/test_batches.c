@@ -39,7 +39,7 @@ static void assets_are_examined_one_after_another(void **state) {
     ran = RUN("doctor", "sound.gltf", "sound.gltf");
     assert_int_equal(ran.code, 0);
     ran_free(&ran);
-    /* What fails is named, and the next is taken; the gravest code counts, wherever it is. */
+    /* An asset that fails is named, and the next is taken; the gravest code counts, wherever it is. */
     ran = RUN("doctor", "absent.gltf", "wrong.gltf", "sound.gltf");
     assert_int_equal(ran.code, 3);
     assert_non_null(strstr(ran.err, "absent.gltf: cannot be opened"));

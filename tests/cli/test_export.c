@@ -334,7 +334,7 @@ static void material_of_any_name_gives_text_that_compiles(void **state) {
     free(own);
 }
 
-/* What the language cannot hold is a picture that engines load, unless another form is asked for. */
+/* A table that the language cannot hold is a picture that engines load, unless another form is asked for. */
 static void tables_outside_the_text_are_exr_by_default(void **state) {
     (void)state;
     static const char *const targets[] = {"glsl", "essl", "hlsl"};

@@ -284,7 +284,7 @@ static void fit_of_bad_data_or_options_is_refused(void **state) {
     assert_complaint(NULL, LIST("fit", "table.csv", "--metric", "picture"), 2, "picture");
 }
 
-/* In the midst of the longest fit, of a table so large that no machine ends it first. */
+/* Interrupts the longest fit, of a table so large that no machine ends it first. */
 static void interrupted_fit_ends(void **state) {
     (void)state;
     Ran made = run_shell("for k in $(seq 200); do cat table.csv; done >long.csv");

@@ -119,7 +119,7 @@ static void a_file_beyond_its_limit_is_one_line_and_leaves_nothing(void **state)
     ran_free(&ran);
 }
 
-/* Every kind of file that is written: one line with the reason, which a stream does not keep by itself. */
+/* Each kind of file that cannot be written is one line with the reason, which a stream does not keep by itself. */
 static void a_full_disk_is_told_by_every_writer(void **state) {
     (void)state;
     static const char *const lines[] = {"render scene.gltf --width 128 --height 128 --spp 1 --quiet -o a.png",
@@ -147,7 +147,7 @@ static void a_full_disk_is_told_by_every_writer(void **state) {
     }
 }
 
-/* As some programs that start others leave it; sanitizers need more for themselves. */
+/* Runs with the small stack that some programs leave to those they start; sanitizers need more for themselves. */
 static void a_small_stack_is_enough(void **state) {
     (void)state;
 #if defined(__SANITIZE_ADDRESS__) || defined(__clang__)

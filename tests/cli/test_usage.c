@@ -68,7 +68,7 @@ static void empty_argument_is_quoted_in_its_error(void **state) {
     assert_complaint(NULL, LIST("check", "lambert", "--html="), 2, "weft: --html: \"\" is no value");
 }
 
-/* To the error stream, as it is no answer; the first line says what is missing. */
+/* Lists the verbs on the error stream, as that is no answer; the first line says what is missing. */
 static void without_a_verb_the_verbs_are_listed(void **state) {
     (void)state;
     static const char *const names[] = {"\n  render ", "\n  view ", "\n  models ", "\n  weave ", "\n  match "};

@@ -58,8 +58,8 @@ struct Options {
     int given_count, operand_count, argument_count;
 };
 
-/* Reads the arguments after the verb, and checks each number by its range. Returns 0, or an exit code after one line on standard error. Release
- * with options_free in either case. */
+/* Reads the arguments after the verb, and checks each number by its range. Returns 0, or an exit code after one line on
+ * standard error. Release with options_free in either case. */
 int options_parse(const Verb *verb, int count, char **arguments, Options *options);
 void options_free(Options *options);
 

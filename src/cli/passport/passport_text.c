@@ -191,7 +191,8 @@ static void header_half(const WeftPassport *p) {
     if (p->half_cosine) printf(".\n");
 }
 
-/* Prints the lines, which say if parameters were not varied, without numbers that differ between machines: the agreement of f(wo, wi) and f(wi, wo) to rounding,
+/* Prints the lines, which say if parameters were not varied, without numbers that differ between machines: the
+ * agreement of f(wo, wi) and f(wi, wo) to rounding,
  * and variances near zero. */
 void passport_header(const WeftPassport *p) {
     char place[96];

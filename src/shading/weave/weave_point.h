@@ -42,7 +42,7 @@
     N(sin_twist)   /* sine of twist */                                                                                 \
     N(crossing)    /* distance from crossing to crossing along the thread, in pitches */
 
-/* One system from afar: numbers of lobe woven, fitted to the visible points (weave/woven_fit.c). V is the mean area of
+/* A system from afar: numbers of lobe woven, fitted to the visible points (weave/woven_fit.c). V is the mean area of
  * yarn that a direction sees, per area of cloth. */
 #define WEAVE_FAR_NUMBERS(N)                                                                                           \
     N(alpha)        /* of the lobe */                                                                                  \
