@@ -77,9 +77,12 @@ Rgb polygon_light(Stack m, StackView w, PolygonReach reach, Frame f) { return rg
 #endif
 
 #ifdef AMBIENT
-/* Returns the visible fraction of the sky on this side and behind. The texture has the material's own bumps, the vertex
- * the rest of the scene. If both contain the same crease the smaller is right. */
-vec2 sky_open() { return min(vec2(texture_occlusion), gl_FrontFacing ? vertex_occlusion : vertex_occlusion.yx); }
+/* Returns the visible fraction of the sky on this side and behind. Of an even sky about the shading normal, (1 + cos) / 2
+ * lies above the smooth surface. */
+vec2 sky_open(Frame f) {
+    vec2 rays = gl_FrontFacing ? vertex_occlusion.xy : vertex_occlusion.yx;
+    return (0.5 + 0.5 * dir_dot(smooth_normal, f.z)) * min(vec2(texture_occlusion), rays);
+}
 #endif
 
 #ifdef WOVEN
@@ -92,8 +95,8 @@ Rgb stack_light(Stack m, Dir o, Facing at, Frame f, float occlusion) {
     Rgb sum = punctual_light(m, w, SHOWN, at, f);
     sum = rgb_add(sum, polygon_light(m, w, polygon_reach(HAS_TRANSMITTED(m) && SHOWS_DIFFUSE, at), f));
 #ifdef AMBIENT
-    texture_occlusion = occlusion;
-    vec2 open = sky_open();
+    occlude_by_texture(occlusion);
+    vec2 open = sky_open(f);
     sum = rgb_add(sum, stack_ambient(m, w, material_ambient(), f, open.x, open.y));
 #endif
     return sum;

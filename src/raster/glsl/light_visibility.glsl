@@ -2,24 +2,33 @@
  * (raster/geometry/occlusion.h) */
 #include "shading/ambient/occlusion_cone.h"
 
-in highp vec2 vertex_occlusion;
+in highp vec3 vertex_occlusion; /* of the sky, from front and back; 1 if no rays were traced, else 0 */
 in highp vec4 vertex_open_front;
 in highp vec4 vertex_open_back;
 in highp vec4 vertex_lights_0;
 in highp vec4 vertex_lights_1;
 
-/* Visible fraction of the sky by the occlusion texture, which has the material's own bumps. */
+/* Visible fraction of the sky by the occlusion texture. */
 float texture_occlusion = 1.0;
+
+/* Sets the fraction. A texture holds what its author's program found of the same creases that rays find, often with a
+ * floor that is not there; the path tracer has no use for it either. So it counts until there are values of rays. */
+void occlude_by_texture(float occlusion) { texture_occlusion = mix(1.0, occlusion, vertex_occlusion.z); }
 
 /* The normal of the shading frame without a map: the interpolated one, where the viewer sees its side. */
 Dir smooth_normal;
 
 vec4 fragment_open() { return gl_FrontFacing ? vertex_open_front : vertex_open_back; }
 
-/* Returns the fraction of the light about d that comes from above the smooth surface, if the shading normal is rotated
- * away from its normal by a map. blur: cosine over which it fades. */
-float above_smooth(Frame f, Dir d, float blur) {
-    return clamp((dir_dot(d, smooth_normal) + blur) / (max(dir_dot(d, f.z), 0.0) + blur), 0.0, 1.0);
+/* Returns the fraction of the light about d that lies above a plane: half of it where the cosine to the plane's normal
+ * is 0. width: half the cosine that the light spans. */
+float above_plane(float cosine, float width) { return clamp(0.5 + 0.5 * cosine / width, 0.0, 1.0); }
+
+/* Returns the fraction of the light about d, of what the shading normal sees, that comes from above the smooth surface,
+ * as the path tracer counts it. Without a map the two are one plane. */
+float above_smooth(Frame f, Dir d, float width) {
+    float smooth_part = above_plane(dir_dot(d, smooth_normal), width), part = above_plane(dir_dot(d, f.z), width);
+    return smooth_part < part ? smooth_part / part : 1.0;
 }
 
 /* Returns the factor by which a ramp is steepened for a filter of concentration kappa. A vertex has its visibility as a
@@ -37,7 +46,7 @@ float ambient_sky_visibility(Frame f, Dir w, float kappa, float cos_i, float occ
     Dir d = frame_from(f, w);
     float ramp = c.x + c.y * d.x + c.z * d.y + c.w * d.z;
     float seen = clamp(0.5 + steepness(c.yzw, kappa) * (ramp - 0.5), 0.0, 1.0);
-    return min(seen * above_smooth(f, d, 0.02), occlusion_cone(texture_occlusion, cos_i));
+    return min(seen * above_smooth(f, d, clamp(inversesqrt(kappa), 0.02, 1.0)), occlusion_cone(texture_occlusion, cos_i));
 }
 
 /* Returns direction w deflected towards the visible sky. A Gaussian of variance 1 / kappa times V = open + c . x has
@@ -57,6 +66,7 @@ float env_light_seen(int k) { return k < 0 ? -1.0 : k < 4 ? vertex_lights_0[k] :
 float ambient_light_visibility(Frame f, int k, float occlusion) {
     float seen = env_light_seen(k);
     vec3 d = environment_world(environment_lights[2 * k].xyz);
-    float above = above_smooth(f, dir(d.x, d.y, d.z), 0.045);
+    float width = 1.732 * exp2(-0.5 * environment_terms[0].w); /* even light of the lights' mean spread */
+    float above = above_smooth(f, dir(d.x, d.y, d.z), width);
     return seen < -0.5 ? occlusion : clamp(seen, 0.0, 1.0) * texture_occlusion * above;
 }

@@ -7,7 +7,7 @@ layout(location = 2) in highp vec4 at_tangent;
 layout(location = 3) in highp vec2 at_texcoord_0;
 layout(location = 4) in highp vec2 at_texcoord_1;
 layout(location = 5) in highp vec4 at_color;
-layout(location = 6) in highp vec2 at_occlusion;
+layout(location = 6) in highp vec3 at_occlusion; /* z: 1 where the buffer, which has two numbers, is not there */
 layout(location = 7) in highp vec4 at_open_front;
 layout(location = 8) in highp vec4 at_open_back;
 layout(location = 9) in highp vec4 at_lights_0;
@@ -19,7 +19,7 @@ out highp vec4 vertex_tangent;
 out highp vec2 texcoord_0;
 out highp vec2 texcoord_1;
 out highp vec4 vertex_color;
-out highp vec2 vertex_occlusion;
+out highp vec3 vertex_occlusion;
 out highp vec4 vertex_open_front;
 out highp vec4 vertex_open_back;
 out highp vec4 vertex_lights_0;

@@ -116,7 +116,7 @@ void woven_add(inout WovenSum sum, Stack n, StackView w, WeaveBase b, float weig
     sum.direct = rgb_add(sum.direct, rgb_scale(direct, weight));
 #ifdef AMBIENT
     v.scale.diffuse = 1.0;
-    Rgb around = ambient_reflect_lights(n, v, base, frame, sky_open().x);
+    Rgb around = ambient_reflect_lights(n, v, base, frame, sky_open(frame).x);
     sum.around = rgb_add(sum.around, rgb_scale(around, weight));
 #endif
     sum.single = rgb_add(sum.single, rgb_scale(b.single, weight));
@@ -134,7 +134,7 @@ Rgb woven_rest(WovenSum sum, Stack m, StackView w, Facing at, Frame frame) {
     mean.multiple = sum.multiple;
     StackView lights;
     Slots only;
-    vec2 open = sky_open();
+    vec2 open = sky_open(frame);
     Stack n = woven_stack(m, mean);
     rest = rgb_add(rest, ambient_smooth(n, w, material_ambient(), frame, open.x, open.y, lights, only));
     rest = rgb_add(rest, rgb_scale(sum.around, lights.scale.diffuse));
@@ -157,7 +157,7 @@ vec4 woven_light(Stack m, Dir o, Facing at, Frame frame, float occlusion) {
     StackView w;
     stack_view(m, o, w);
 #ifdef AMBIENT
-    texture_occlusion = occlusion;
+    occlude_by_texture(occlusion);
 #endif
     PolygonReach reach = polygon_reach(HAS_TRANSMITTED(m), at);
     WovenSum sum = WovenSum(rgb_grey(0.0), rgb_grey(0.0), rgb_grey(0.0), rgb_grey(0.0), far);
