@@ -36,7 +36,7 @@ foreach(name cloth sewing)
 endforeach()
 weft_embedded(embedded ${files})
 
-# presets.c holds the material files of scenes/presets, with their names and the line "help" of each.
+# presets.c holds the material files of scenes/presets, with their names and the lines "group" and "help" of each.
 file(GLOB files CONFIGURE_DEPENDS scenes/presets/*.json)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${files})
 set(assembly "")
@@ -45,11 +45,12 @@ set(rows "")
 foreach(file ${files})
   get_filename_component(name ${file} NAME_WE)
   file(READ ${file} json)
+  string(JSON group GET "${json}" group)
   string(JSON help GET "${json}" help)
   string(REPLACE "-" "_" symbol "embedded_preset_${name}")
   weft_embed(${symbol} ${file})
   string(APPEND names "extern const char ${symbol}[];\n")
-  string(APPEND rows "    {\"${name}\", \"${help}\", ${symbol}},\n")
+  string(APPEND rows "    {\"${name}\", \"${group}\", \"${help}\", ${symbol}},\n")
 endforeach()
 set(code "#include \"scene/material/presets.h\"
 

@@ -80,10 +80,16 @@ WEFT_API WeftResult weft_scene_assign_material_memory(WeftScene *scene, const ch
                                                       size_t size, const char *name, const WeftLog *log,
                                                       WeftError *error);
 
-/* Returns the name of a preset, a line on its appearance, and the text of its material file; NULL past the end. */
+/* Returns the name of a preset, the name of its group, a line on its appearance, and the text of its material file; NULL
+ * past the end. */
 WEFT_API const char *weft_preset_name(int index);
+WEFT_API const char *weft_preset_group(int index);
 WEFT_API const char *weft_preset_help(int index);
 WEFT_API const char *weft_preset_text(int index);
+
+/* Returns the name of a group of presets and what they have in common, in the order to show them; NULL past the end. */
+WEFT_API const char *weft_preset_group_name(int index);
+WEFT_API const char *weft_preset_group_help(int index);
 
 /* Converts every material of workflow "metallic" to "specular", or the other way round. The conversion is done at each
  * shaded point, so that textures are converted as exactly as numbers. losses (may be NULL) has a number for each

@@ -64,6 +64,10 @@ WEFT_API WeftResult weft_draft_read_memory(const void *data, size_t size, const 
 /* Makes a draft of notation. Fails with WEFT_MESSAGE_DRAFT_NOTATION, for too many threads too, or _MEMORY. */
 WEFT_API WeftResult weft_draft_parse(const char *notation, WeftDraft **out, WeftError *error);
 
+/* Returns the word by which notation names a weave, and what may follow it with what it means; NULL past the end. */
+WEFT_API const char *weft_weave_name(int index);
+WEFT_API const char *weft_weave_help(int index);
+
 /* Makes the draft of the back, flipped about the warp: left and right change places, and threads on top lie below.
  * Fails with WEFT_MESSAGE_MEMORY. */
 WEFT_API WeftResult weft_draft_back(const WeftDraft *draft, WeftDraft **out, WeftError *error);

@@ -56,6 +56,23 @@ static int runs_of(const char *word, int runs[RUNS_MAX]) {
 
 /* ---- weaves ---- */
 
+static const struct {
+    const char *name, *help;
+} weaves[] = {
+    {"plain", "over one, under one"},
+    {"basket", "basket N [M]: N warp threads and M picks go together"},
+    {"twill", "twill A/B[/A/B...] [z|s]: over A, under B; the line rises to the right (z) or to the left (s)"},
+    {"satin", "satin N/C: of N crossings the weft is on top at one, which moves by C threads from pick to pick"},
+    {"sateen", "sateen N/C: the same with the weft on top at all but one"},
+    {"herringbone", "herringbone A/B N: N threads of a twill, then N of its mirror image"},
+    {"houndstooth", "a twill 2/2 of four black threads and four white ones, both ways"},
+    {"picks", "picks #.. .#. ..#: any weave, a word a pick, where # has the warp on top"},
+};
+enum { WEAVES = sizeof weaves / sizeof *weaves };
+
+const char *weft_weave_name(int index) { return index >= 0 && index < WEAVES ? weaves[index].name : NULL; }
+const char *weft_weave_help(int index) { return index >= 0 && index < WEAVES ? weaves[index].help : NULL; }
+
 static WeftResult make_basket(const Notation *notation, int ends, int picks, WeftDraft **out) {
     WeftResult result =
         draft_create(notation->text, 2L * ends, 2L * picks, WEFT_MESSAGE_DRAFT_NOTATION, out, notation->error);

@@ -195,6 +195,61 @@ static void id_of_several_catalogues_prints_all_pages(void **state) {
     assert_complaint(NULL, LIST("models", ":ggx"), 2, "is not a kind");
 }
 
+/* Presets stand under the heading of their group, each once, with a line that no other has. */
+static void presets_are_listed_by_groups(void **state) {
+    (void)state;
+    Ran ran = RUN("models", "presets");
+    const char *headings[16] = {ran.out};
+    int groups = 0;
+    for (; weft_preset_group_name(groups); groups++) {
+        char heading[64];
+        snprintf(heading, sizeof heading, "\n %s: ", weft_preset_group_name(groups));
+        headings[groups + 1] = strstr(headings[groups], heading);
+        assert_non_null(headings[groups + 1]);
+    }
+    assert_true(groups > 4);
+    for (int k = 0; weft_preset_name(k); k++) {
+        char row[64];
+        int g = 0;
+        while (weft_preset_group_name(g) && strcmp(weft_preset_group_name(g), weft_preset_group(k)) != 0) g++;
+        if (g == groups) fail_msg("%s: no group is called %s", weft_preset_name(k), weft_preset_group(k));
+        snprintf(row, sizeof row, "\n  %s ", weft_preset_name(k));
+        const char *at = strstr(ran.out, row);
+        if (!at || at < headings[g + 1] || (g + 1 < groups && at > headings[g + 2]) || strstr(at + 1, row))
+            fail_msg("%s is not once in %s", weft_preset_name(k), weft_preset_group(k));
+        for (int j = 0; j < k; j++) assert_string_not_equal(weft_preset_help(j), weft_preset_help(k));
+    }
+    ran_free(&ran);
+    assert_null(weft_preset_group(-1));
+    assert_null(weft_preset_group_name(groups));
+}
+
+/* Each weave that is listed can be written as its line says, and so can each yarn. */
+static void weaves_and_yarns_are_listed(void **state) {
+    (void)state;
+    static const char *const examples[][2] = {{"plain", "plain"},
+                                              {"basket", "basket 2 3"},
+                                              {"twill", "twill 2/1 s"},
+                                              {"satin", "satin 8/3"},
+                                              {"sateen", "sateen 5/2"},
+                                              {"herringbone", "herringbone 2/2 8"},
+                                              {"houndstooth", "houndstooth"},
+                                              {"picks", "picks #.. .#. ..#"}};
+    Ran ran = RUN("models");
+    size_t k = 0;
+    for (; weft_weave_name((int)k); k++) {
+        WeftDraft *draft;
+        assert_true(k < sizeof examples / sizeof *examples && has_row(ran.out, weft_weave_name((int)k)));
+        assert_string_equal(weft_weave_name((int)k), examples[k][0]);
+        assert_int_equal(weft_draft_parse(examples[k][1], &draft, NULL), WEFT_OK);
+        weft_draft_free(draft);
+    }
+    assert_int_equal(k, sizeof examples / sizeof *examples);
+    for (int y = 0; weft_yarn_name(y); y++) assert_true(has_row(ran.out, weft_yarn_name(y)));
+    ran_free(&ran);
+    assert_complaint(NULL, LIST("models", "weave:tvill"), 2, "is not a weave; did you mean twill?");
+}
+
 /* What preset:NAME prints is a material file that dresses a scene just so. */
 static void printed_preset_is_a_material_file_with_the_same_picture(void **state) {
     (void)state;
@@ -218,6 +273,8 @@ int main(void) {
                                        cmocka_unit_test(json_has_every_number_of_the_parameter_tables),
                                        cmocka_unit_test(every_listed_id_has_a_page),
                                        cmocka_unit_test(id_of_several_catalogues_prints_all_pages),
+                                       cmocka_unit_test(presets_are_listed_by_groups),
+                                       cmocka_unit_test(weaves_and_yarns_are_listed),
                                        cmocka_unit_test(printed_preset_is_a_material_file_with_the_same_picture)};
     return cmocka_run_group_tests(tests, work_begin, work_end);
 }

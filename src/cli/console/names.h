@@ -15,13 +15,19 @@ void nearest_offer(Nearest *nearest, const char *name);
 /* Writes "; did you mean NAME?" to the caller's buffer, or "" when no name is near. Returns buffer. */
 const char *nearest_hint(const Nearest *nearest, char *buffer, int size);
 
+/* The groups of a list: their names, ended by NULL, what is in them, and the name of an entry's group. */
+typedef struct KindGroups {
+    const char *(*name)(int index), *(*help)(int index), *(*of)(int index);
+} KindGroups;
+
 /* A list of the catalogue. name and help end with NULL. */
 typedef struct Kind {
     const char *id;                      /* what one of them is: "lobe" */
     const char *article, *key, *heading; /* "a", "lobes" as in JSON, "Lobes" over a list */
     const char *(*name)(int index), *(*help)(int index);
-    bool shown;       /* in the list of all kinds; else part of another kind */
-    const char *file; /* how the paths of its files begin, "terms/d_"; NULL: it has none */
+    bool shown;               /* in the list of all kinds; else part of another kind */
+    const char *file;         /* how the paths of its files begin, "terms/d_"; NULL: it has none */
+    const KindGroups *groups; /* NULL: the list has none */
 } Kind;
 
 extern const Kind kinds[]; /* ends with an id of NULL */

@@ -85,9 +85,19 @@ static void print_entry(const Kind *kind, int k) {
     layout_entry(stdout, COLUMN, kind->name(k), line);
 }
 
+/* Prints the entries of a group; NULL: all. */
+static void print_group(const Kind *kind, const char *group) {
+    for (int k = 0; kind->name(k); k++)
+        if (!group || strcmp(kind->groups->of(k), group) == 0) print_entry(kind, k);
+}
+
 static void print_kind(const Kind *kind) {
     printf("%s\n", kind->heading);
-    for (int k = 0; kind->name(k); k++) print_entry(kind, k);
+    if (!kind->groups) print_group(kind, NULL);
+    for (int g = 0; kind->groups && kind->groups->name(g); g++) {
+        printf("%s %s: %s\n", g ? "\n" : "", kind->groups->name(g), kind->groups->help(g));
+        print_group(kind, kind->groups->name(g));
+    }
 }
 
 static void print_all(void) {
@@ -184,6 +194,7 @@ static void json_entry(Json *json, const Kind *kind, int k, bool with_kind) {
         json_lobe(json, lobe);
     else
         json_text(json, "help", kind->help(k));
+    if (kind->groups) json_text(json, "group", kind->groups->of(k));
     if (entry_choice(kind, k) >= 0) json_values(json, k);
     if (entry_chart(kind, k)) json_chart(json, entry_chart(kind, k));
     if (strcmp(kind->id, "preset") == 0) json_text(json, "text", weft_preset_text(k));
@@ -324,7 +335,7 @@ static const Option models_options[] = {
 const Verb verb_models = {
     .name = "models",
     .operands = "[ID] [options]",
-    .help = "lists terms, lobes, layers, workflows, profiles, presets, chart",
+    .help = "lists terms, lobes, layers, workflows, profiles, presets, weaves, chart",
     .operands_most = 1,
     .options = models_options,
     .notes = "Without ID everything is listed, by kind; with it, all that has that id: what\n"
@@ -332,7 +343,8 @@ const Verb verb_models = {
              "of a preset its material file, of a reference material who measured it. KIND:ID\n"
              "is one of them: lobe:cook-torrance, d:charlie, layer:seed, profile:three; KIND:\n"
              "or its plural alone lists all of a kind. preset:NAME prints a material file and\n"
-             "nothing else; chart: with -o draws the reference materials as swatches.\n\n"
+             "nothing else; chart: with -o draws the reference materials as swatches. Presets\n"
+             "are listed by groups: woven, pile, smooth and so on.\n\n"
              "Examples\n"
              "  weft models\n"
              "  weft models charlie-neubelt\n"

@@ -12,8 +12,21 @@
 #include "scene/material/set.h"
 
 const char *weft_preset_name(int index) { return preset_at(index) ? preset_at(index)->name : NULL; }
+const char *weft_preset_group(int index) { return preset_at(index) ? preset_at(index)->group : NULL; }
 const char *weft_preset_help(int index) { return preset_at(index) ? preset_at(index)->help : NULL; }
 const char *weft_preset_text(int index) { return preset_at(index) ? preset_at(index)->text : NULL; }
+
+static const struct {
+    const char *name, *help;
+} groups[] = {
+#define ROW(name, help) {name, help},
+    PRESET_GROUPS(ROW)
+#undef ROW
+};
+enum { GROUPS = sizeof groups / sizeof *groups };
+
+const char *weft_preset_group_name(int index) { return index >= 0 && index < GROUPS ? groups[index].name : NULL; }
+const char *weft_preset_group_help(int index) { return index >= 0 && index < GROUPS ? groups[index].help : NULL; }
 
 static WeftResult load_preset(const char *name, MaterialFile *out, WeftError *error) {
     for (int k = 0; preset_at(k); k++) {

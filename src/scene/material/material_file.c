@@ -305,7 +305,7 @@ static void read_rest(Reader *r, const json_t *json) {
     static const char *const modes[] = {"opaque", "mask", "blend", NULL}; /* as WeftAlphaMode */
     MaterialFile *out = r->out;
     const char *key = r->key;
-    if (strcmp(key, "name") == 0 || strcmp(key, "help") == 0) {
+    if (strcmp(key, "name") == 0 || strcmp(key, "group") == 0 || strcmp(key, "help") == 0) {
         if (!json_is_string(json)) refuse_value(r, json, "expected a text");
     } else if (strcmp(key, "keep") == 0) {
         read_keep(r, json);
