@@ -35,6 +35,12 @@ typedef struct WeftFloor {
     float roughness;  /* of the mirror, as a material has it, in [0, 1] */
 } WeftFloor;
 
+/* Returns the floor that suits a scene which came with neither light nor floor, as most assets do: a matte one, under
+ * the studio. It is not on (all 0) for a built-in scene, for one with a punctual, polygon or emissive light or another
+ * environment than the studio, and for one that stands on a floor of its own: upward faces, within a hundredth of the
+ * scene's extent of its lowest point, whose area is at least half of that of the bounding box seen from above. */
+WEFT_API WeftFloor weft_scene_stage(const WeftScene *scene);
+
 /* The strategy that finds lights; anything but MIS is for tests and teaching. */
 typedef enum WeftSampling { WEFT_SAMPLING_MIS = 0, WEFT_SAMPLING_LIGHT, WEFT_SAMPLING_LOBE } WeftSampling;
 

@@ -4,6 +4,8 @@
  * Labels: slow unsanitized */
 #include "drive.h"
 
+#include "box.h"
+
 static const char quads[] =
     "{\"asset\":{\"version\":\"2.0\"},\"extensionsUsed\":[\"KHR_materials_variants\",\"KHR_materials_sheen\"]"
     ","
@@ -93,6 +95,30 @@ static void the_menu_of_presets_follows_undo(void **state) {
     drive_finish(&drive);
     assert_true(pictures_most("worn.png", "undone.png") > 0.02);
     assert_true(pictures_most("worn.png", "again.png") < 0.5 / 255.0);
+}
+
+/* An asset without light and floor has the stage of `weft render` until G is pressed; a scene with its own has none. */
+static void a_bare_asset_stands_on_a_stage(void **state) {
+    (void)state;
+    need_gl();
+    box_write("box.gltf", BOX_BARE);
+    script_begin();
+    say_rested_picture("staged.png");
+    say("command staged.txt\nopen builtin:ball\nwait message builtin:ball\nwait rest\ncommand ball.txt\n"
+        "open box.gltf\nwait message box.gltf\nkey g\nwait 3\n");
+    say_rested_picture("bare.png");
+    say("command bare.txt\nopen box.gltf\nwait message box.gltf\nwait rest\ncommand again.txt\n");
+    drive_through(script, LIST(UNSEEN, "box.gltf", "--occlusion", "0"));
+    assert_true(pictures_most("staged.png", "bare.png") > 0.1);
+    Ran ran = run_shell(
+        "grep -q -- '--floor --floor-reflection 0 ' staged.txt && ! grep -q -- '--floor' ball.txt &&"
+        " grep -q -- '--stage none' bare.txt && grep -q -- '--stage none' again.txt && for k in staged bare; do"
+        " eval \"\\\"$0\\\" $(sed \"s/^weft//; s/picture.png/$k-command.png/\" $k.txt) --occlusion 0\""
+        " || exit 9; done");
+    if (ran.code != 0) fail_msg("%d %s", ran.code, ran.err);
+    ran_free(&ran);
+    assert_true(pictures_most("staged.png", "staged-command.png") < 2.5 / 255.0);
+    assert_true(pictures_most("bare.png", "bare-command.png") < 2.5 / 255.0);
 }
 
 /* A draft that is typed or dropped weaves the material; the saved scene and the copied command draw the same cloth. */
@@ -286,6 +312,7 @@ static void a_finding_of_the_doctor_chooses_its_material(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(undo_restores_a_variant),
+                                       cmocka_unit_test(a_bare_asset_stands_on_a_stage),
                                        cmocka_unit_test(the_menu_of_presets_follows_undo),
                                        cmocka_unit_test(a_material_is_woven_of_a_draft),
                                        cmocka_unit_test(picture_of_any_size_is_path_traced_in_the_background),

@@ -54,6 +54,12 @@ static const char *camera_of(const Job *job, const char *camera) {
     return !camera && builtin && weft_scene_info(job->scene).camera_count > 0 ? "0" : camera;
 }
 
+/* Returns the floor to draw; a sheet has none of its own accord, since its pictures are compared pixel by pixel. */
+static WeftFloor floor_of(const Job *job) {
+    const SceneOptions *scene_options = &job->request->scene_options;
+    return request_count(job->request) > 1 ? scene_options->floor : scene_options_floor(scene_options, job->scene);
+}
+
 /* Takes the requested images from the render. */
 static WeftResult develop(Job *job, const WeftRender *render, WeftError *error) {
     const Request *request = job->request;
@@ -69,6 +75,7 @@ static WeftResult trace(Job *job, const char *camera, WeftError *error) {
     WeftRenderDesc desc = job->request->desc;
     WeftRender *render = NULL;
     desc.camera = camera;
+    desc.floor = floor_of(job);
     if (interrupt_seen()) return nothing_gathered(error);
     WeftResult result = weft_render_create(job->scene, &desc, &render, error);
     if (result == WEFT_OK && interrupt_seen()) result = nothing_gathered(error);
@@ -119,7 +126,7 @@ static WeftResult raster(Job *job, const char *camera, WeftError *error) {
                            .polygons = job->request->polygons ? job->request->polygons : -1,
                            .camera = camera,
                            .part = job->request->part,
-                           .floor = desc->floor,
+                           .floor = floor_of(job),
                            .hide_lights = desc->hide_lights,
                            .background = desc->background};
     memcpy(view.crop, desc->crop, sizeof view.crop);

@@ -217,7 +217,6 @@ bool request_read(const Options *options, Request *request) {
     request->desc.camera = request->scene_options.camera;
     bool laid_behind = request->scene_options.background == WEFT_BACKGROUND_COLOR; /* by job_draw */
     request->desc.background = laid_behind ? WEFT_BACKGROUND_TRANSPARENT : request->scene_options.background;
-    request->desc.floor = request->scene_options.floor;
     request->desc.hide_lights = request->scene_options.hide_lights;
     if (option_given(options, "--time-limit") && !option_given(options, "--spp")) request->spp = 0;
     return good;

@@ -127,14 +127,23 @@ static bool needs_floor(const Options *options, const char *name) {
     return false;
 }
 
+/* Reads --floor and what else decides over a floor, after --background. */
 static bool read_floor(const Options *options, SceneOptions *scene_options) {
+    static const char *const stages[] = {"auto", "none", NULL};
     double reflection = 0.0, roughness = 0.0;
-    bool good = needs_floor(options, "--floor-reflection") && needs_floor(options, "--floor-roughness") &&
+    int stage = 0;
+    bool good = option_choice(options, "--stage", stages, &stage) && needs_floor(options, "--floor-reflection") &&
+                needs_floor(options, "--floor-roughness") &&
                 option_number(options, "--floor-reflection", &reflection) &&
                 option_number(options, "--floor-roughness", &roughness);
     scene_options->floor = (WeftFloor){option_given(options, "--floor"), (float)reflection, (float)roughness};
+    scene_options->stage = stage == 0 && !scene_options->floor.on && scene_options->background == WEFT_BACKGROUND_AUTO;
     scene_options->hide_lights = option_given(options, "--hide-lights");
     return good;
+}
+
+WeftFloor scene_options_floor(const SceneOptions *scene_options, const WeftScene *scene) {
+    return scene_options->stage ? weft_scene_stage(scene) : scene_options->floor;
 }
 
 bool scene_options_read(const Options *options, const char *scene, SceneOptions *scene_options) {

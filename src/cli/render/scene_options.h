@@ -31,6 +31,9 @@ enum { SCENE_LIGHTS_MOST = 64 };
         OPTION_TEXT("--background", "WHAT", "auto",                                                                    \
                     "auto, environment, blurred, transparent or r,g,b, linear, which is shown as it is: "              \
                     "1,1,1 is white"),                                                                                 \
+        OPTION_TEXT("--stage", "WHAT", "auto",                                                                         \
+                    "auto: a matte floor, where the scene has neither light nor floor of its own, none is given, and " \
+                    "the background is auto; none: nothing but what is given"),                                        \
         OPTION_SWITCH("--floor", "a floor that only catches the scene's shadow and mirrors it"),                       \
         OPTION_NUMBER("--floor-reflection", "SHARE", "0.1", 0, 1, "of the scene that the floor mirrors"),              \
         OPTION_NUMBER("--floor-roughness", "ROUGHNESS", "0.3", 0, 1, "of the floor's mirror"),                         \
@@ -50,6 +53,7 @@ typedef struct SceneOptions {
     WeftBackground background;
     float background_color[3];
     WeftFloor floor;
+    bool stage; /* weft_scene_stage says whether there is a floor */
     bool hide_lights;
     WeftLight lights[SCENE_LIGHTS_MOST];
     int light_count;
@@ -58,6 +62,9 @@ typedef struct SceneOptions {
 
 /* Reads and checks all that can be judged without the scene. False after one line on standard error. */
 bool scene_options_read(const Options *options, const char *scene, SceneOptions *scene_options);
+
+/* Returns the floor to draw under a scene to which the options were applied. */
+WeftFloor scene_options_floor(const SceneOptions *scene_options, const WeftScene *scene);
 
 /* Applies the options of picture number k to a fresh scene, from the asset to its details. */
 WeftResult scene_options_apply(const SceneOptions *scene_options, int k, WeftScene *scene, const WeftLog *log,

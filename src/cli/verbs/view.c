@@ -90,6 +90,7 @@ static int view_verb_run(const Options *options) {
     desc.background = scene_options.background;
     memcpy(desc.background_color, scene_options.background_color, sizeof desc.background_color);
     desc.floor = scene_options.floor;
+    desc.stage = scene_options.stage;
     desc.hide_lights = scene_options.hide_lights;
     desc.tonemap = (WeftTonemap)scene_options.tonemap;
     desc.exposure = (float)scene_options.exposure;

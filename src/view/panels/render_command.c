@@ -176,6 +176,8 @@ static void put_view(Line *line, const Viewer *v) {
     if (v->options->floor.on)
         put(line, " --floor --floor-reflection %.9g --floor-roughness %.9g", (double)v->options->floor.reflection,
             (double)v->options->floor.roughness);
+    else if (strncmp(v->shown->facts.path, "builtin:", 8) != 0)
+        put(line, " --stage none");
     if (v->options->hide_lights) put(line, " --hide-lights");
     if (differs(v->options->exposure, 0.0f)) put(line, " --exposure %.9g", (double)v->options->exposure);
     if (v->options->tonemap != WEFT_TONEMAP_PBR_NEUTRAL) put(line, " --tonemap %s", curves[v->options->tonemap]);

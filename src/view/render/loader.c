@@ -143,7 +143,7 @@ void facts_read_maps(Facts *facts, const WeftScene *scene) {
 }
 
 bool facts_read(Facts *facts, const WeftScene *scene, const char *path) {
-    *facts = (Facts){.info = weft_scene_info(scene)};
+    *facts = (Facts){.info = weft_scene_info(scene), .stage = weft_scene_stage(scene)};
     snprintf(facts->path, sizeof facts->path, "%s", path);
     facts->materials = copy_names(scene, facts->info.material_count, weft_scene_material_name, "material");
     facts->cameras = copy_names(scene, facts->info.camera_count, weft_scene_camera_name, "camera");

@@ -29,6 +29,7 @@ typedef struct Facts {
     WeftImage thumbs; /* of the maps in the same order, FACTS_THUMB a side, one below the other: U8 RGB; owned */
     float *coverage;  /* fraction of the picture by material, at the last survey (survey.h); owned, may be NULL */
     WeftSceneInfo info;
+    WeftFloor stage; /* weft_scene_stage */
 } Facts;
 
 /* Reads the facts of a scene from path. Returns false if memory is short. */

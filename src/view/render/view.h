@@ -19,6 +19,7 @@ typedef struct ViewDesc {
     WeftBackground background;
     float background_color[3];
     WeftFloor floor;
+    bool stage; /* scenes have the floor of weft_scene_stage, until the user decides */
     bool hide_lights;
     WeftTonemap tonemap;
     float exposure;

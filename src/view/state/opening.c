@@ -269,6 +269,7 @@ static void show_scene(Viewer *v, Loaded *loaded) {
     show_maps(v);
     loaded->state = (SceneState){0};
     loaded->facts = (Facts){0};
+    if (!reread) options_set_stage(v, &v->states->shown.facts.stage);
     if (!reread) choose_first(v, &v->edit->state);
     v->states->shown.any = true;
     requests_due(v);

@@ -11,6 +11,7 @@ void options_begin(Viewer *v) {
                                        .exposure = desc->exposure,
                                        .background = desc->background,
                                        .floor = desc->floor,
+                                       .stage = desc->stage,
                                        .hide_lights = desc->hide_lights,
                                        .split_at = 0.5f,
                                        .brush_radius = 0.05f,
@@ -22,7 +23,9 @@ static float within(float x, float low, float high) { return fminf(fmaxf(x, low)
 
 void options_set(Viewer *v, const ViewOptions *options) {
     ViewOptions *own = &v->states->options;
+    const bool decided = own->floor.on != options->floor.on;
     *own = *options;
+    own->stage = own->stage && !decided;
     own->split_at = within(own->split_at, 0.02f, 0.98f);
     own->exposure = within(own->exposure, -32.0f, 32.0f);
     own->floor.reflection = within(own->floor.reflection, 0.0f, 1.0f);
@@ -44,5 +47,15 @@ void options_set_tool(Viewer *v, Tool tool) {
     if (tool == TOOL_PROBE) v->states->options.panel = PANEL_INSPECT;
 }
 
-void options_toggle_floor(Viewer *v) { v->states->options.floor.on = !v->states->options.floor.on; }
+void options_toggle_floor(Viewer *v) {
+    v->states->options.floor.on = !v->states->options.floor.on;
+    v->states->options.stage = false;
+}
+
+void options_set_stage(Viewer *v, const WeftFloor *floor) {
+    ViewOptions *own = &v->states->options;
+    if (!own->stage) return;
+    own->floor.on = floor->on && own->background == WEFT_BACKGROUND_AUTO;
+    if (own->floor.on) own->floor = *floor;
+}
 void options_toggle_lights(Viewer *v) { v->states->options.hide_lights = !v->states->options.hide_lights; }

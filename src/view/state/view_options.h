@@ -16,6 +16,7 @@ typedef struct ViewOptions {
     WeftBackground background;
     float background_color[3];
     WeftFloor floor;
+    bool stage; /* the floor follows the scene: the user has not decided on one */
     bool hide_lights;
     WeftTonemap tonemap;
     float exposure; /* stops */
@@ -41,4 +42,7 @@ void options_set_panel(Viewer *v, int panel);
 /* Sets the tool; the probe opens the panel that shows its results. */
 void options_set_tool(Viewer *v, Tool tool);
 void options_toggle_floor(Viewer *v);
+
+/* Gives a new scene the floor that suits it, unless the user has decided on one. */
+void options_set_stage(Viewer *v, const WeftFloor *floor);
 void options_toggle_lights(Viewer *v);
