@@ -321,6 +321,8 @@ static bool do_action(Replay *self, Viewer *v, const char *word, char *rest, boo
         camera_stand_at(v, rest);
     else if (is(word, "stay") && !*rest)
         self->stay = true;
+    else if (is(word, "close") && !*rest)
+        window_request_close(v->window);
     else if (is(word, "quit") && !*rest)
         viewer_quit(v);
     else

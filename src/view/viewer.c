@@ -145,9 +145,10 @@ static bool start(Viewer *v, char why[512]) {
     return opening_begin(v);
 }
 
-static void stop(Viewer *v) {
+static void stop(Viewer *v, bool interrupted) {
     Settings *settings = &v->states->frame.settings;
     doctor_forget(v);
+    sessions_end(v, interrupted);
     renderer_stop(v->renderer);
     stills_end(v); /* afterwards, since the renderer may be saving its scene */
     reference_stop(v->reference);
@@ -179,14 +180,20 @@ static double patience(const Viewer *v, int due) {
 static int run(Viewer *v, char why[512]) {
     int due = 3; /* frames until all widgets have settled */
     why[0] = '\0';
-    while (!window_closing(v->window) && !v->states->frame.ending) {
+    while (!v->states->frame.ending) {
         unsigned shown = v->requests->rendered.number;
         window_wait(v->window, patience(v, due));
         double started = clock_now();
         if (v->replay && !replay_step(v->replay, v, why)) return WEFT_INPUT;
+        if (v->desc->interrupted && v->desc->interrupted()) {
+            snprintf(why, 512, "interrupted: %s", v->sessions->file.path[0] ? "the session is kept" : "the window ends");
+            return WEFT_INTERRUPTED;
+        }
         bool any = window_take(v->window, &v->states->frame.input);
-        for (char *path; (path = window_dropped(v->window)); free(path)) opening_open(v, path), any = true;
+        if (window_take_close(v->window)) leaving_quit(v), any = true;
+        for (char *path; (path = window_dropped(v->window)); free(path)) opening_ask(v, path), any = true;
         opening_poll(v);
+        sessions_poll(v, started);
         any |= opening_watch(v, started);
         any |= stills_poll(v);
         any |= renderer_has_output(v->renderer) || reference_has_frame(v->reference) || v->opening->loader ||
@@ -236,6 +243,8 @@ Viewer *viewer_create(const ViewDesc *desc) {
                             .dialogs = &states->dialogs,
                             .drag = &states->drag,
                             .stills = &states->stills,
+                            .leaving = &states->leaving,
+                            .sessions = &states->sessions,
                             .states = states};
     states->frame.settings = settings_default();
     options_begin(&both->viewer);
@@ -262,7 +271,7 @@ int view_run(const ViewDesc *desc, char why[512]) {
     int code = WEFT_INPUT;
     if (!desc->script || (v->replay = replay_open(desc->script, why)))
         code = start(v, why) ? run(v, why) : WEFT_RESOURCES;
-    stop(v);
+    stop(v, code == WEFT_INTERRUPTED);
     free(v);
     return code;
 }

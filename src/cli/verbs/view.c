@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "cli/console/interrupt.h"
 #include "cli/console/report.h"
 #include "cli/operands/command.h"
 #include "cli/operands/root.h"
@@ -30,7 +31,7 @@ static const Option view_options[] = {
     OPTION_TEXT("--script", "FILE", NULL, "replay the actions in FILE; docs/view.md lists them"),
     OPTION_WHOLE("--frames", "COUNT", NULL, 1, 1e9, "close after so many frames, once the scene has been read"),
     OPTION_SWITCH("--windowless", "run without a window, for replays without a display"),
-    OPTION_SWITCH("--forget", "neither read nor write what is remembered from run to run"),
+    OPTION_SWITCH("--forget", "neither read nor write settings and sessions"),
     OPTION_SWITCH("--json", "print a line of JSON whenever the window comes to rest: what it shows, and where its "
                             "controls are"),
     OPTION_END,
@@ -103,6 +104,8 @@ static int view_verb_run(const Options *options) {
     desc.report = option_given(options, "--json");
     char *configured = command_assign_text(options);
     desc.options = configured;
+    desc.interrupted = interrupt_seen;
+    interrupt_watch();
     int code = view_run(&desc, why);
     free(configured);
     return code ? report(code, "%s", why) : 0;

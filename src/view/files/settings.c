@@ -1,31 +1,16 @@
-#define _POSIX_C_SOURCE 200809L
 #include "view/files/settings.h"
 
-#include <fcntl.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
-#include <jansson.h>
+#include "view/files/json_file.h"
 
 enum { SIZE_MOST = 1 << 20 };
 
 Settings settings_default(void) { return (Settings){.width = 1280, .height = 720, .panel = 372.0f, .speed = 1.0f}; }
 
 static bool place(char path[RECENT_PATH], bool make) {
-    const char *config = getenv("XDG_CONFIG_HOME"), *home = getenv("HOME");
-    char folder[RECENT_PATH - 16];
-    int used = config && config[0] == '/' ? snprintf(folder, sizeof folder, "%s", config)
-               : home                     ? snprintf(folder, sizeof folder, "%s/.config", home)
-                                          : -1;
-    if (used < 0 || used >= (int)sizeof folder - 8) return false;
-    if (make) mkdir(folder, 0755);
-    snprintf(path, RECENT_PATH, "%s/weft", folder);
-    if (make) mkdir(path, 0755);
-    snprintf(path, RECENT_PATH, "%s/weft/view.json", folder);
-    return true;
+    return json_file_place("XDG_CONFIG_HOME", ".config", "view.json", make, path, RECENT_PATH);
 }
 
 static void read_number(const json_t *root, const char *key, double low, double high, float *value) {
@@ -34,28 +19,10 @@ static void read_number(const json_t *root, const char *key, double low, double 
     if (json_is_number(v) && x >= low && x <= high) *value = (float)x;
 }
 
-/* Reads a regular file of a sensible size, or returns NULL; reading a pipe would block. */
-static json_t *read_regular(const char *path) {
-    struct stat s;
-    int file = open(path, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
-    bool regular = file >= 0 && fstat(file, &s) == 0 && S_ISREG(s.st_mode) && s.st_size <= SIZE_MOST;
-    json_t *root = regular ? json_loadfd(file, 0, NULL) : NULL;
-    if (file >= 0) close(file);
-    return root;
-}
-
-/* Writes a new file; a file with that name is removed, not opened. */
-static bool write_new(const char *path, const json_t *root) {
-    unlink(path);
-    int file = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    bool good = file >= 0 && json_dumpfd(root, file, JSON_INDENT(2)) == 0;
-    return file >= 0 && close(file) == 0 && good;
-}
-
 void settings_read(Settings *self) {
     char path[RECENT_PATH];
     if (!place(path, false)) return;
-    json_t *root = read_regular(path);
+    json_t *root = json_file_read(path, SIZE_MOST);
     float width = (float)self->width, height = (float)self->height;
     read_number(root, "width", 320.0, 16384.0, &width);
     read_number(root, "height", 240.0, 16384.0, &height);
@@ -86,12 +53,10 @@ static json_t *as_json(const Settings *self) {
 }
 
 bool settings_write(const Settings *self) {
-    char path[RECENT_PATH], part[RECENT_PATH + 8];
+    char path[RECENT_PATH];
     if (!place(path, true)) return false;
     json_t *root = as_json(self);
-    snprintf(part, sizeof part, "%s.part", path);
-    bool good = root && write_new(part, root) && rename(part, path) == 0;
-    if (!good) unlink(part);
+    bool good = root && json_file_write(path, root);
     json_decref(root);
     return good;
 }

@@ -9,6 +9,7 @@
 #include "view/panels/render_command.h"
 #include "view/state/dialogs.h"
 #include "view/state/edit.h"
+#include "view/state/leaving.h"
 #include "view/state/view_camera.h"
 #include "view/state/view_options.h"
 
@@ -20,7 +21,7 @@ static void with_control(Viewer *v, const UiPress *p) {
     case 's': dialogs_save(v, NULL); break;
     case 'c': p->shift ? command_copy(v) : edit_copy_material(v); break;
     case 'v': edit_paste_material(v); break;
-    case 'q': viewer_quit(v); break;
+    case 'q': leaving_quit(v); break;
     default: break;
     }
 }

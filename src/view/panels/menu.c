@@ -8,6 +8,7 @@
 #include "view/state/dialogs.h"
 #include "view/state/edit.h"
 #include "view/state/frame_requests.h"
+#include "view/state/leaving.h"
 #include "view/state/opening.h"
 #include "view/state/stills.h"
 #include "view/state/view_camera.h"
@@ -20,7 +21,7 @@ static void file_menu(Viewer *v) {
             if (ui_menu_item(v->frame->settings.recent[k], NULL, false, true)) {
                 char path[RECENT_PATH];
                 snprintf(path, sizeof path, "%s", v->frame->settings.recent[k]); /* the list is about to change */
-                opening_open(v, path);
+                opening_ask(v, path);
             }
         if (!v->frame->settings.recent_count) ui_menu_item("nothing yet", NULL, false, false);
         ui_menu_end();
@@ -29,7 +30,7 @@ static void file_menu(Viewer *v) {
         for (int k = 0; weft_builtin_name(k); k++) {
             char path[96];
             snprintf(path, sizeof path, "builtin:%s", weft_builtin_name(k));
-            if (ui_menu_item(path, NULL, false, true)) opening_open(v, path);
+            if (ui_menu_item(path, NULL, false, true)) opening_ask(v, path);
             ui_tip(weft_builtin_help(k));
         }
         ui_menu_end();
@@ -40,7 +41,7 @@ static void file_menu(Viewer *v) {
     if (ui_menu_item("Copy the command line", "Ctrl+Shift+C", false, v->shown->any)) command_copy(v);
     ui_rule();
     if (ui_menu_item("Cancel the path-traced picture", NULL, false, v->stills->still != NULL)) stills_cancel(v);
-    if (ui_menu_item("Quit", "Ctrl+Q", false, true)) viewer_quit(v);
+    if (ui_menu_item("Quit", "Ctrl+Q", false, true)) leaving_quit(v);
 }
 
 static void edit_menu(Viewer *v) {

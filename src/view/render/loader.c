@@ -9,7 +9,9 @@
 #include <string.h>
 
 #include "view/files/paths.h"
+#include "view/files/session_file.h"
 #include "view/files/survey.h"
+#include "view/render/session_state.h"
 #include "weft/weft.h"
 
 struct Loader {
@@ -20,6 +22,7 @@ struct Loader {
     pthread_t thread;
     atomic_int thousandths; /* done; -1: unknown */
     atomic_bool done, stop;
+    char session[SESSION_PATH];
     Loaded loaded;
 };
 
@@ -103,6 +106,21 @@ static void read_thumbs(Facts *facts, const WeftScene *scene) {
     }
 }
 
+static void free_paths(Facts *facts) {
+    for (int k = 0; k < facts->map_count && facts->map_paths; k++) free(facts->map_paths[k]);
+    free(facts->map_paths);
+    facts->map_paths = NULL;
+}
+
+static char **copy_paths(const WeftScene *scene, int count) {
+    char **paths = calloc((size_t)count + 1, sizeof *paths);
+    for (int k = 0; k < count && paths; k++) {
+        const char *path = weft_scene_texture_path(scene, k + 1);
+        if (path) paths[k] = strdup(path);
+    }
+    return paths;
+}
+
 static void free_cloths(Facts *facts) {
     for (int k = 0; k < facts->cloth_count; k++) {
         weft_draft_free(facts->cloths[k].draft);
@@ -129,13 +147,25 @@ static void read_cloths(Facts *facts, const WeftScene *scene) {
     }
 }
 
-void facts_read_maps(Facts *facts, const WeftScene *scene) {
+static int count_maps(const WeftScene *scene) {
     int count = 0;
     while (weft_scene_texture(scene, count + 1).pixels) count++;
+    return count;
+}
+
+void facts_read_maps(Facts *facts, const WeftScene *scene) {
+    const int count = count_maps(scene);
     FactName *names = copy_names(scene, count, file_name, "map");
-    if (!names) return;
+    char **paths = copy_paths(scene, count);
+    if (!names || !paths) {
+        free(names);
+        free(paths);
+        return;
+    }
+    free_paths(facts);
     free(facts->maps);
     facts->maps = names;
+    facts->map_paths = paths;
     facts->map_count = count;
     weft_image_free(&facts->thumbs);
     read_thumbs(facts, scene);
@@ -159,6 +189,7 @@ void facts_free(Facts *facts) {
     free(facts->cameras);
     free(facts->variants);
     free(facts->maps);
+    free_paths(facts);
     weft_image_free(&facts->thumbs);
     free(facts->coverage);
     free_cloths(facts);
@@ -217,6 +248,71 @@ static void bind_folders(Loaded *loaded, const WeftLog *log) {
     folders->count = kept;
 }
 
+/* Returns true if the session is that of the file as it is now. */
+static bool belongs(const json_t *session, const Facts *facts) {
+    const json_t *names = json_object_get(session, "names");
+    bool same = json_integer_value(json_object_get(session, "maps")) == facts->own_maps &&
+                json_array_size(names) == (size_t)facts->info.material_count;
+    for (int k = 0; same && k < facts->info.material_count; k++) {
+        const char *name = json_string_value(json_array_get(names, (size_t)k));
+        same = name && strcmp(name, facts->materials[k]) == 0;
+    }
+    return same;
+}
+
+static void restored_free(Restored *restored) {
+    json_decref(restored->session);
+    scene_state_free(&restored->state);
+    scene_state_free(&restored->other);
+    restored->session = NULL;
+}
+
+/* Loads the lobes of a session that the program does not have. One that fails leaves choices unknown, which is reported
+ * then. */
+static void load_lobes(const Loader *self, const json_t *session, const WeftLog *log) {
+    const json_t *lobes = json_object_get(session, "lobes");
+    for (size_t k = 0; k < json_array_size(lobes); k++) {
+        const char *path = json_string_value(json_array_get(lobes, k));
+        const char *const *has = self->desc->lobes;
+        while (path && has && *has && strcmp(*has, path) != 0) has++;
+        if (path && !(has && *has)) weft_lobe_load(path, NULL, log, NULL);
+    }
+}
+
+/* Reads the session, if there is one, before the scene is read. */
+static void read_session(Loader *self, const WeftLog *log) {
+    Restored *restored = &self->loaded.restored;
+    bool damaged = false;
+    if (!self->session[0]) return;
+    restored->session = session_file_read(self->session, &damaged);
+    if (damaged)
+        snprintf(restored->complaint, sizeof restored->complaint, "%.300s: is damaged: nothing is restored of it",
+                 self->session);
+    load_lobes(self, restored->session, log);
+}
+
+/* Restores the states of the session. */
+static void restore(Loader *self) {
+    Loaded *loaded = &self->loaded;
+    Restored *restored = &loaded->restored;
+    WeftError error = {.text = "out of memory"};
+    if (!restored->session) return;
+    const json_t *other = json_object_get(restored->session, "other");
+    WeftResult result = WEFT_INPUT;
+    if (!belongs(restored->session, &loaded->facts))
+        snprintf(error.text, sizeof error.text, "the file of the scene has changed since");
+    else
+        result = session_state_read(json_object_get(restored->session, "state"), self->session, 0, loaded->scene,
+                                    &loaded->state, &restored->state, &error);
+    if (result == WEFT_OK && other)
+        result = session_state_read(other, self->session, STATE_NAPS, loaded->scene, &loaded->state, &restored->other,
+                                    &error);
+    facts_read_maps(&loaded->facts, loaded->scene);
+    if (result == WEFT_OK) return;
+    snprintf(restored->complaint, sizeof restored->complaint, "what was not saved is not restored: %.400s", error.text);
+    restored_free(restored);
+}
+
 static WeftResult load(Loader *self, WeftError *error) {
     Loaded *loaded = &self->loaded;
     const WeftLog log = {on_warning, loaded};
@@ -225,8 +321,10 @@ static WeftResult load(Loader *self, WeftError *error) {
     WeftResult result = loaded->lobe[0] ? weft_lobe_load(loaded->lobe, NULL, &log, error) : WEFT_OK;
     if (result != WEFT_OK) return result;
     loaded->taken = loaded->lobe[0] != 0;
+    read_session(self, &log);
     result = weft_scene_load_watched(loaded->path, on_progress, self, &loaded->scene, &log, error);
     if (result == WEFT_OK && atomic_load(&self->stop)) result = WEFT_INTERRUPTED;
+    const int own_maps = result == WEFT_OK ? count_maps(loaded->scene) : 0;
     if (result == WEFT_OK && self->configured && desc->configure)
         result = desc->configure(desc->user, loaded->scene, &environment, &log, error);
     if (result != WEFT_OK) return result;
@@ -235,7 +333,9 @@ static WeftResult load(Loader *self, WeftError *error) {
         snprintf(error->text, sizeof error->text, "%.300s: out of memory", loaded->path);
         return WEFT_RESOURCES;
     }
+    loaded->facts.own_maps = own_maps;
     loaded->state.environment = environment;
+    restore(self);
     loaded->camera = first_camera(self);
     survey(self);
     return WEFT_OK;
@@ -266,6 +366,7 @@ Loader *loader_start(Window *window, const ViewDesc *desc, const Reading *readin
     self->loaded.folders = *reading->folders;
     snprintf(self->loaded.path, sizeof self->loaded.path, "%s", reading->path);
     snprintf(self->loaded.lobe, sizeof self->loaded.lobe, "%s", reading->lobe ? reading->lobe : "");
+    snprintf(self->session, sizeof self->session, "%s", reading->session);
     atomic_init(&self->thousandths, -1);
     atomic_init(&self->done, false);
     atomic_init(&self->stop, false);
@@ -299,6 +400,7 @@ void loaded_free(Loaded *loaded) {
     weft_scene_free(loaded->scene);
     scene_state_free(&loaded->state);
     facts_free(&loaded->facts);
+    restored_free(&loaded->restored);
     free(loaded->warnings);
     *loaded = (Loaded){0};
 }

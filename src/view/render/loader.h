@@ -1,6 +1,8 @@
 /* loader.h - reads a scene in a thread of its own, with progress */
 #pragma once
 
+#include <jansson.h>
+
 #include "view/render/scene_state.h"
 #include "view/render/view.h"
 #include "view/ui/window.h"
@@ -23,8 +25,9 @@ typedef struct Facts {
     char path[STATE_PATH];
     FactName *materials, *cameras, *variants; /* owned */
     FactName *maps;                           /* files of textures, as it was read; owned */
-    int map_count;
-    FactCloth *cloths; /* as WeftMaterial's `cloth` counts them, from 1; owned */
+    char **map_paths;                         /* of the same; NULL where there is no file; owned */
+    int map_count, own_maps;                  /* own_maps: those that the file of the scene has, which come first */
+    FactCloth *cloths;                        /* as WeftMaterial's `cloth` counts them, from 1; owned */
     int cloth_count;
     WeftImage thumbs; /* of the maps in the same order, FACTS_THUMB a side, one below the other: U8 RGB; owned */
     float *coverage;  /* fraction of the picture by material, at the last survey (survey.h); owned, may be NULL */
@@ -37,6 +40,13 @@ bool facts_read(Facts *facts, const WeftScene *scene, const char *path);
 void facts_free(Facts *facts);
 /* Reads maps and cloths again, after textures or weaves were added. */
 void facts_read_maps(Facts *facts, const WeftScene *scene);
+
+/* The session of a window that was killed, restored (session_state.h). */
+typedef struct Restored {
+    json_t *session;         /* all that was kept; owned; NULL: nothing */
+    SceneState state, other; /* edited, and the other of A and B, empty without one; owned */
+    char complaint[512];     /* the reason why nothing was restored; "": none */
+} Restored;
 
 typedef struct Loader Loader;
 
@@ -54,6 +64,7 @@ typedef struct Loaded {
     Folders folders;       /* folders of maps that are in use */
     char lobe[STATE_PATH]; /* file of a lobe loaded before the scene; "": none */
     bool taken;            /* the lobe was loaded, even if the scene failed */
+    Restored restored;
 } Loaded;
 
 /* A load as it is requested. */
@@ -64,6 +75,7 @@ typedef struct Reading {
     bool configured;        /* desc.configure is called, in that thread */
     const Folders *folders; /* to be put on materials; those that fail are dropped with a warning */
     float aspect;           /* width / height of the picture that it will be seen in */
+    const char *session;    /* path of a session to restore; "": none */
 } Reading;
 
 /* Starts to read. NULL where memory is short. */

@@ -33,7 +33,9 @@ typedef struct ViewDesc {
     const char *script; /* file of actions to replay; may be NULL */
     bool unseen;        /* without a window */
     bool report;        /* a line of JSON on standard output whenever it comes to rest */
-    bool forget;        /* settings are neither read nor written */
+    bool forget;        /* settings and sessions are neither read nor written */
+    /* Returns true if the program was told to end: the window then keeps its session and closes. May be NULL. */
+    bool (*interrupted)(void);
 } ViewDesc;
 
 /* Runs until it is closed. Returns an exit code; what went wrong is one line in `why`. */

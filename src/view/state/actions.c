@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "view/files/paths.h"
 #include "view/state/edit.h"
 #include "view/state/opening.h"
 
@@ -14,6 +15,7 @@ void actions_send(Viewer *v, TaskKind kind, const char *path, int index, int inp
     }
     if (path) snprintf(task.path, sizeof task.path, "%s", path);
     if (kind == TASK_ASSIGN) task.stamp = edit_assign(v, index);
+    if (kind == TASK_SAVE) task.stamp = edit_saving(v, path_kind(path) == PATH_MATERIAL ? index : -1);
     renderer_add_task(v->renderer, &task);
 }
 

@@ -112,10 +112,13 @@ void dialogs_shot_stage(Viewer *v, const char *path) {
     dialogs_shot(v, path);
 }
 
-static void cancel(void) {
+/* Draws the button that closes a dialog; returns true if it was closed by it. */
+static bool cancel(void) {
     bool pressed = ui_button("Cancel");
     ui_tip("Closes this without doing anything (Escape).");
-    if (pressed || ui_escaped()) ui_dialog_close();
+    if (!pressed && !ui_escaped()) return false;
+    ui_dialog_close();
+    return true;
 }
 
 static void use_map(Viewer *v, const char *path) {
@@ -132,7 +135,7 @@ static const struct {
                  "Scenes (.glb .gltf), light (.hdr .exr), materials (.json), drafts (.wif .dtx), lobes (.h), pictures",
                  1u << PATH_DRAFT | 1u << PATH_SCENE | 1u << PATH_LIGHT | 1u << PATH_MATERIAL | 1u << PATH_LOBE |
                      1u << PATH_PICTURE,
-                 opening_open, "Use this folder as maps",
+                 opening_ask, "Use this folder as maps",
                  "Puts Albedo, Normal, Roughness ... files of this folder onto the cloth of the scene."},
                 {"Choose a light", "Lat-long pictures (.hdr .exr, or .png .jpg .tga); a cube map: a folder or one face",
                  1u << PATH_LIGHT | 1u << PATH_PICTURE, actions_light_by, "Use this folder as a cubemap",
@@ -182,7 +185,7 @@ static void draw_save(Viewer *v) {
         }
     }
     ui_same_line();
-    cancel();
+    if (cancel()) leaving_cancel(v);
     ui_scope_end();
     ui_dialog_end();
 }
@@ -359,6 +362,7 @@ void dialogs_draw(Viewer *v) {
     draw_save(v);
     draw_shot(v);
     draw_use(v);
+    leaving_draw(v);
     draw_help(v);
     draw_warnings(v);
     draw_profiles(v);

@@ -10,6 +10,39 @@ void edit_begin(Viewer *v, const SceneState *state, const SceneState *before, co
     v->states->edit.first = *first;
     v->states->edit.split = SPLIT_NONE;
     v->states->edit.side = 0;
+    if (!scene_state_copy(&v->states->edit.saved, first)) v->states->edit.saved = (SceneState){0};
+}
+
+void edit_restore_other(Viewer *v, const SceneState *other, Split split, int side) {
+    EditState *edit = &v->states->edit;
+    scene_state_free(&edit->other);
+    if (!other->materials || !scene_state_copy(&edit->other, other)) edit->other = (SceneState){0};
+    if (!edit->other.materials) return;
+    edit->split = split;
+    edit->side = side;
+}
+
+bool edit_is_unsaved(const Viewer *v) { return v->shown->any && !scene_state_same(&v->edit->state, &v->edit->saved); }
+
+unsigned edit_saving(Viewer *v, int material) {
+    EditState *edit = &v->states->edit;
+    scene_state_free(&edit->saving);
+    if (!scene_state_copy(&edit->saving, &edit->state)) edit->saving = (SceneState){0};
+    edit->saving_material = material;
+    return ++edit->saving_stamp;
+}
+
+void edit_end_saving(Viewer *v, unsigned stamp, bool failed) {
+    EditState *edit = &v->states->edit;
+    const int k = edit->saving_material;
+    if (failed || stamp != edit->saving_stamp || !edit->saving.materials) return;
+    if (k < 0) {
+        scene_state_free(&edit->saved);
+        edit->saved = edit->saving;
+        edit->saving = (SceneState){0};
+    } else if (k < edit->saved.material_count && k < edit->saving.material_count) {
+        scene_state_set_material(&edit->saved, k, scene_state_material(&edit->saving, k));
+    }
 }
 
 void edit_forget(Viewer *v) {
@@ -18,6 +51,8 @@ void edit_forget(Viewer *v) {
     scene_state_free(&edit->first);
     scene_state_free(&edit->before);
     scene_state_free(&edit->other);
+    scene_state_free(&edit->saved);
+    scene_state_free(&edit->saving);
     history_free(&edit->history);
     history_free(&edit->other_history);
     edit->assignment_count = 0;

@@ -26,12 +26,26 @@ typedef struct EditState {
     bool has_copied;
     Assignment assignments[ASSIGNMENTS]; /* under way, in the order they were sent */
     int assignment_count;
-    unsigned stamp; /* of the last assignment */
+    unsigned stamp;    /* of the last assignment */
+    SceneState saved;  /* as it was saved last, or read */
+    SceneState saving; /* as it was when the last task that saves was sent */
+    unsigned saving_stamp;
+    int saving_material; /* the one that it saves; -1: the scene */
 } EditState;
 
 /* Begins with the states of a scene, which it takes over. Call edit_forget before. */
 void edit_begin(Viewer *v, const SceneState *state, const SceneState *before, const SceneState *first);
 void edit_forget(Viewer *v);
+
+/* Takes the other of A and B of a session, of which a copy is made; empty: there was none. */
+void edit_restore_other(Viewer *v, const SceneState *other, Split split, int side);
+
+/* Returns true if the scene differs from what was read, or saved last. */
+bool edit_is_unsaved(const Viewer *v);
+
+/* Notes that the edited state is about to be saved, or one material of it (-1: all); returns a stamp for the task. */
+unsigned edit_saving(Viewer *v, int material);
+void edit_end_saving(Viewer *v, unsigned stamp, bool failed);
 
 /* Keeps what differs at the end of a frame as a step of history. goes_on: a drag or typing continues in the next frame,
  * whose changes belong to the same step. */

@@ -63,8 +63,13 @@ static void start_reading(Viewer *v, const char *path, const char *lobe, bool re
         snprintf(v->states->opening.configured, sizeof v->states->opening.configured, "%s", path);
     Folders folders = {0};
     if (configured && !v->states->shown.any && v->desc->materials) folders_keep(&folders, v->desc->materials, -1);
-    const Reading reading = {
-        path, lobe, reread, configured, reread ? &v->states->shown.folders : &folders, viewer_aspect(v)};
+    const Reading reading = {.path = path,
+                             .lobe = lobe,
+                             .reread = reread,
+                             .configured = configured,
+                             .folders = reread ? &v->states->shown.folders : &folders,
+                             .aspect = viewer_aspect(v),
+                             .session = reread ? "" : sessions_claim(v, path)};
     v->states->opening.loader = loader_start(v->window, v->desc, &reading);
     if (v->states->opening.loader) return;
     v->states->opening.opened = WEFT_RESOURCES;
@@ -91,7 +96,9 @@ bool opening_begin(Viewer *v) {
     v->states->opening.file_watch = file_watch_start();
     if (!v->states->opening.file_watch) return false;
     for (const char *const *lobe = v->desc->lobes; lobe && *lobe; lobe++) keep_lobe(v, *lobe);
-    opening_start(v, v->desc->scene ? v->desc->scene : "builtin:cloth", false);
+    char last[STATE_PATH];
+    const bool plain = !v->desc->scene && !v->desc->forget && !(v->desc->options && v->desc->options[0]);
+    opening_start(v, v->desc->scene ? v->desc->scene : plain && sessions_last(last) ? last : "builtin:cloth", false);
     return true;
 }
 
@@ -104,6 +111,10 @@ static int guess_input(const char *path) {
     for (size_t k = 0; k < sizeof words / sizeof *words; k++)
         if (path_contains(path, words[k][0])) return weft_material_input_find(words[k][1]);
     return weft_material_input_find("base_color");
+}
+
+void opening_ask(Viewer *v, const char *path) {
+    if (path_kind(path) != PATH_SCENE || !leaving_asks(v, path)) opening_open(v, path);
 }
 
 void opening_open(Viewer *v, const char *path) {
@@ -167,9 +178,11 @@ void opening_take_maps(Viewer *v, RenderEvent *event) {
     Facts *facts = &v->states->shown.facts;
     const Facts was = *facts;
     facts->maps = event->maps.maps, facts->map_count = event->maps.map_count;
+    facts->map_paths = event->maps.map_paths;
     facts->thumbs = event->maps.thumbs;
     facts->cloths = event->maps.cloths, facts->cloth_count = event->maps.cloth_count;
     event->maps.maps = was.maps, event->maps.thumbs = was.thumbs;
+    event->maps.map_paths = was.map_paths, event->maps.map_count = was.map_count;
     event->maps.cloths = was.cloths, event->maps.cloth_count = was.cloth_count;
     show_maps(v);
 }
@@ -251,14 +264,24 @@ static void hand_over(Viewer *v, Loaded *loaded) {
     *loaded = (Loaded){0};
 }
 
+/* Takes the lobes that a session has loaded. */
+static void keep_lobes(Viewer *v, const json_t *session) {
+    const json_t *lobes = json_object_get(session, "lobes");
+    for (size_t k = 0; k < json_array_size(lobes); k++)
+        if (json_is_string(json_array_get(lobes, k))) keep_lobe(v, json_string_value(json_array_get(lobes, k)));
+}
+
+/* Shows the scene that was read. What a session restores differs from the state before, and so becomes a step of
+ * history: undo gives the scene of the file. */
 static void show_scene(Viewer *v, Loaded *loaded) {
     SceneState state, before;
     bool reread = loaded->reread && v->states->shown.any &&
                   loaded->state.material_count == v->edit->state.material_count &&
                   strcmp(loaded->path, v->states->shown.facts.path) == 0;
-    if (!scene_state_copy(&state, &loaded->state)) return;
+    const SceneState *shown = loaded->restored.session ? &loaded->restored.state : &loaded->state;
+    if (!scene_state_copy(&state, shown)) return;
     if (reread) keep_edits(v, &state);
-    if (!scene_state_copy(&before, &state)) {
+    if (!scene_state_copy(&before, loaded->restored.session ? &loaded->state : &state)) {
         scene_state_free(&state);
         return;
     }
@@ -277,6 +300,8 @@ static void show_scene(Viewer *v, Loaded *loaded) {
     snprintf(v->states->shown.warnings, sizeof v->states->shown.warnings, "%s",
              loaded->warnings ? loaded->warnings : "");
     viewer_add_recent(v, v->states->shown.facts.path);
+    keep_lobes(v, loaded->restored.session);
+    if (!reread) sessions_begin(v, loaded);
     watch_files(v);
 }
 
@@ -292,6 +317,10 @@ void opening_take(Viewer *v, const RenderEvent *event) {
                       v->states->shown.facts.info.triangle_count, v->states->shown.facts.info.material_count,
                       v->states->shown.folders.count ? ", maps of " : "",
                       v->states->shown.folders.count ? v->states->shown.folders.paths[0] : "");
+        if (loaded.restored.session)
+            viewer_report(v, false, "%.200s: restored what was not saved; undo (Ctrl+Z) gives the file as it is",
+                          path_name(v->states->shown.facts.path));
+        if (loaded.restored.complaint[0]) viewer_report(v, true, "%s", loaded.restored.complaint);
         if (loaded.lobe[0]) viewer_report(v, false, "%.300s: read again, with the scene", loaded.lobe);
         snprintf(title, sizeof title, "weft - %.200s", path_name(v->states->shown.facts.path));
         window_title(v->window, title);

@@ -36,6 +36,9 @@ bool opening_begin(Viewer *v);
  * assigned, a lobe is loaded, for a picture a dialog opens, the maps of a folder are bound. */
 void opening_open(Viewer *v, const char *path);
 
+/* Opens a path likewise, but asks first if it would end the scene that is shown with changes that are not saved. */
+void opening_ask(Viewer *v, const char *path);
+
 /* Begins to read a scene; reread: the one that is shown, whose file has changed. */
 void opening_start(Viewer *v, const char *path, bool reread);
 

@@ -4,7 +4,9 @@
 #include "view/state/dialogs.h"
 #include "view/state/edit.h"
 #include "view/state/frame_requests.h"
+#include "view/state/leaving.h"
 #include "view/state/opening.h"
+#include "view/state/sessions.h"
 #include "view/state/stage.h"
 #include "view/state/stills.h"
 #include "view/state/view_camera.h"
@@ -22,4 +24,6 @@ struct States {
     DialogsState dialogs;
     DragState drag;
     StillsState stills;
+    LeavingState leaving;
+    SessionsState sessions;
 };

@@ -44,6 +44,8 @@ typedef struct Viewer {
     const struct DialogsState *dialogs;
     const struct DragState *drag;
     const struct StillsState *stills;
+    const struct LeavingState *leaving;
+    const struct SessionsState *sessions;
     struct States *states; /* the same records, for their owners */
 } Viewer;
 

@@ -317,8 +317,11 @@ bool ui_dialog(const char *name, float width, float height) {
     ImGui::SetNextWindowPos(at(0.5f * screen.x, 0.5f * screen.y), ImGuiCond_Always, at(0.5f, 0.5f));
     ImGui::SetNextWindowSize(
         at(std::fmin(width, screen.x - 20.0f), height > 0.0f ? std::fmin(height, screen.y - 20.0f) : 0.0f));
-    return ImGui::BeginPopupModal(
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1.0f);
+    bool shown = ImGui::BeginPopupModal(
         name, nullptr, ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
+    ImGui::PopStyleVar();
+    return shown;
 }
 bool ui_escaped(void) { return !ImGui::GetIO().WantTextInput && ImGui::IsKeyPressed(GLFW_KEY_ESCAPE, false); }
 void ui_dialog_close(void) { ImGui::CloseCurrentPopup(); }

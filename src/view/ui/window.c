@@ -408,7 +408,14 @@ void window_size(const Window *self, int *width, int *height) {
 
 float window_scale(const Window *self) { return self->scale; }
 bool window_hidden(const Window *self) { return self->seen && glfwGetWindowAttrib(self->seen, GLFW_ICONIFIED) != 0; }
-bool window_closing(const Window *self) { return self->closing; }
+
+bool window_take_close(Window *self) {
+    const bool closing = self->closing;
+    self->closing = false;
+    if (self->seen) glfwSetWindowShouldClose(self->seen, GLFW_FALSE);
+    return closing;
+}
+
 void window_request_close(Window *self) { self->closing = true; }
 
 void window_cursor(Window *self, UiCursor cursor) {

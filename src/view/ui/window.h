@@ -70,7 +70,8 @@ void window_present(Window *window);
 void window_size(const Window *window, int *width, int *height);
 float window_scale(const Window *window);
 bool window_hidden(const Window *window); /* minimised: nothing can be seen */
-bool window_closing(const Window *window);
+/* Returns true if the window was asked to close since the last call. */
+bool window_take_close(Window *window);
 void window_request_close(Window *window);
 void window_cursor(Window *window, UiCursor cursor);
 void window_title(Window *window, const char *title);
