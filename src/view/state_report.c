@@ -8,6 +8,7 @@
 
 #include <jansson.h>
 
+#include "view/panels/panels.h"
 #include "view/panels/render_command.h"
 #include "view/state/dialogs.h"
 #include "view/state/edit.h"
@@ -103,6 +104,10 @@ void report_state(const Viewer *v) {
     json_object_set_new(root, "frame_ms", json_real(1e3 * v->frame->frame_seconds));
     json_object_set_new(root, "worst_ms", json_real(1e3 * v->frame->worst_seconds));
     json_object_set_new(root, "resident_mib", json_real(resident()));
+    float share[3];
+    if (inspection_furnace(v->inspection, share))
+        json_object_set_new(root, "furnace",
+                            json_pack("[f,f,f]", (double)share[0], (double)share[1], (double)share[2]));
     json_object_set_new(root, "stage", box_json(&v->frame->stage));
     json_object_set_new(root, "help", json_boolean(v->dialogs->help));
     json_object_set_new(root, "untold", unexplained_json());

@@ -186,7 +186,8 @@ static int run(Viewer *v, char why[512]) {
         double started = clock_now();
         if (v->replay && !replay_step(v->replay, v, why)) return WEFT_INPUT;
         if (v->desc->interrupted && v->desc->interrupted()) {
-            snprintf(why, 512, "interrupted: %s", v->sessions->file.path[0] ? "the session is kept" : "the window ends");
+            snprintf(why, 512, "interrupted: %s",
+                     v->sessions->file.path[0] ? "the session is kept" : "the window ends");
             return WEFT_INTERRUPTED;
         }
         bool any = window_take(v->window, &v->states->frame.input);

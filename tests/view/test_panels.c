@@ -178,6 +178,54 @@ static void picture_of_any_size_is_path_traced_in_the_background(void **state) {
 }
 
 /* A click turns a crossing over, a number changes a yarn: either is a cloth of its own, and undo brings the one before. */
+/* The share of even light that a preset reflects: 2 times the integral of E mu over mu, of the woven cloth. */
+static void furnace_of(const char *preset, bool woven, double share[3]) {
+    enum { STEPS = 40 };
+    WeftMaterial material;
+    WeftCloth *cloth;
+    WeftReflection *reflection;
+    WeftError error;
+    if (weft_material_read_woven(preset, &material, &cloth, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
+    assert_int_equal(weft_reflection_create_woven(&material, woven ? cloth : NULL, &reflection, &error), WEFT_OK);
+    for (int c = 0; c < 3; c++) share[c] = 0.0;
+    for (int k = 0; k < STEPS; k++) {
+        const float mu = ((float)k + 0.5f) / STEPS;
+        float albedo[3];
+        weft_reflection_albedo(reflection, WEFT_PART_ALL, mu, albedo);
+        for (int c = 0; c < 3; c++) share[c] += 2.0 * (double)(albedo[c] * mu) / STEPS;
+    }
+    weft_reflection_free(reflection);
+    weft_cloth_free(cloth);
+}
+
+static void inspect_plots_the_cloth_of_a_woven_material(void **state) {
+    (void)state;
+    need_gl();
+    script_begin();
+    say("wait rest\nchoose Material/preset woven-tartan\nwait rest\nclick Panel/Inspect\nwait seconds 2\nwait rest\n");
+    say("window inspect.png\nstay\n");
+    Drive drive = drive_start(script, LIST(UNSEEN, CHEAP));
+    json_t *now = drive_rest(&drive);
+    for (double start = clock_now(); !json_object_get(now, "furnace") && clock_now() - start < 60.0;) {
+        json_decref(now);
+        now = drive_rest(&drive);
+    }
+    double cloth[3], grey[3], far = 0.0;
+    furnace_of("preset:woven-tartan", true, cloth);
+    furnace_of("preset:woven-tartan", false, grey);
+    for (int c = 0; c < 3; c++) {
+        const double share = json_number_value(json_array_get(json_object_get(now, "furnace"), (size_t)c));
+        if (fabs(share - cloth[c]) > 0.02 * cloth[c])
+            fail_msg("%d: %g is not %g (grey: %g)", c, share, cloth[c], grey[c]);
+        far = fmax(far, fabs(grey[c] - cloth[c]) / cloth[c]);
+    }
+    assert_true(far > 0.5); /* the base alone is another material */
+    json_decref(now);
+    kill(drive.child, SIGKILL);
+    Ran ran = program_end(drive.child);
+    ran_free(&ran);
+}
+
 static void a_weave_is_changed_by_clicks_and_numbers(void **state) {
     (void)state;
     need_gl();
@@ -316,6 +364,7 @@ int main(void) {
                                        cmocka_unit_test(the_menu_of_presets_follows_undo),
                                        cmocka_unit_test(a_material_is_woven_of_a_draft),
                                        cmocka_unit_test(picture_of_any_size_is_path_traced_in_the_background),
+                                       cmocka_unit_test(inspect_plots_the_cloth_of_a_woven_material),
                                        cmocka_unit_test(a_weave_is_changed_by_clicks_and_numbers),
                                        cmocka_unit_test(a_scene_that_is_read_again_keeps_its_folder),
                                        cmocka_unit_test(every_number_takes_a_map_and_shows_it),

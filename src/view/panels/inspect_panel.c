@@ -6,6 +6,7 @@
 
 #include "base/pi.h"
 #include "view/panels/panels.h"
+#include "view/render/cloth_reflection.h"
 #include "view/state/edit.h"
 #include "view/state/frame_requests.h"
 #include "view/state/opening.h"
@@ -19,10 +20,11 @@ static const unsigned colors[PARTS] = {0xFFE8E8E8u, 0xFF5EA8E8u, 0xFFE0A858u,
 
 typedef struct Inspection {
     WeftMaterial of;
-    bool valid; /* `reflection` is that of `of` */
+    bool known, valid; /* `of` is set; `reflection` is that of `of` */
     WeftReflection *reflection;
-    float angle; /* of wo from the normal, degrees */
-    bool cosine; /* f cos rather than f */
+    ClothReflection *woven; /* of `of`, under way; NULL: none */
+    float angle;            /* of wo from the normal, degrees */
+    bool cosine;            /* f cos rather than f */
     bool logarithmic;
     float slice[PARTS][SLICE]; /* luminance of f in the plane of wo, from -90 to 90 degrees */
     float lobe[RINGS + 1][SECTORS];
@@ -34,7 +36,9 @@ typedef struct Inspection {
 } Inspection;
 
 void inspection_free(Inspection *self) {
-    if (self) weft_reflection_free(self->reflection);
+    if (!self) return;
+    weft_reflection_free(cloth_reflection_end(self->woven));
+    weft_reflection_free(self->reflection);
     free(self);
 }
 
@@ -85,17 +89,37 @@ static void measure_reciprocity(Inspection *self) {
 
 static float cosine_of(int k) { return fmaxf(1.0f - (float)k / (ANGLES - 1), 0.01f); }
 
+/* Takes a reflection, or NULL, for the material. */
+static void take(Inspection *self, WeftReflection *reflection) {
+    weft_reflection_free(self->reflection);
+    self->reflection = reflection;
+    self->valid = reflection != NULL;
+    self->angles = 0;
+    self->sliced = -1.0f;
+    if (self->valid) measure_reciprocity(self);
+}
+
+/* Begins anew for a material; cloth: the one that it is woven as, or NULL. */
+static void inspect(Inspection *self, const WeftMaterial *material, const FactCloth *cloth, Window *window) {
+    WeftReflection *reflection = NULL;
+    self->of = *material;
+    self->known = true;
+    self->woven = cloth ? cloth_reflection_start(material, cloth, window) : NULL;
+    if (!cloth) weft_reflection_create(material, &reflection, NULL);
+    take(self, reflection);
+}
+
 /* Measures a part of what is left, so that the window does not wait. */
-static void refresh(Inspection *self, const WeftMaterial *material) {
-    if (!self->valid || memcmp((const char *)&self->of, (const char *)material, sizeof *material) != 0) {
-        weft_reflection_free(self->reflection);
-        self->reflection = NULL;
-        self->of = *material;
-        self->valid = weft_reflection_create(material, &self->reflection, NULL) == WEFT_OK;
-        self->angles = 0;
-        self->sliced = -1.0f;
-        if (self->valid) measure_reciprocity(self);
+static void refresh(Inspection *self, const Viewer *v) {
+    const WeftMaterial *material = scene_state_material(&v->edit->state, v->edit->material);
+    const Facts *facts = &v->shown->facts;
+    const bool woven = material->cloth > 0 && material->cloth <= facts->cloth_count;
+    if (self->woven && cloth_reflection_done(self->woven)) {
+        take(self, cloth_reflection_end(self->woven));
+        self->woven = NULL;
     }
+    const bool other = !self->known || memcmp((const char *)&self->of, (const char *)material, sizeof *material) != 0;
+    if (other && !self->woven) inspect(self, material, woven ? &facts->cloths[material->cloth - 1] : NULL, v->window);
     if (!self->valid) return;
     if (self->sliced < self->angle || self->sliced > self->angle) {
         make_slice(self);
@@ -306,7 +330,7 @@ void inspect_panel(Viewer *v) {
     }
     Inspection *self = v->inspection;
     if (v->edit->material >= v->edit->state.material_count) return;
-    refresh(self, scene_state_material(&v->edit->state, v->edit->material));
+    refresh(self, v);
     if (ui_section("Lobes", true)) {
         ui_slider("light from", &angles, &self->angle);
         ui_tip("The angle between light and normal.");
@@ -317,6 +341,7 @@ void inspect_panel(Viewer *v) {
         ui_checkbox("logarithmic", &self->logarithmic);
         ui_tip("Three decades.");
         if (anew) self->sliced = -1.0f;
+        if (self->woven) ui_dim("weaving ...");
         if (self->valid) {
             draw_slice(self);
             draw_lobe(self);
@@ -325,9 +350,16 @@ void inspect_panel(Viewer *v) {
     if (ui_section("Energy", true)) {
         draw_albedo(self);
         draw_passport(self);
-        ui_dim("Of the numbers of this material, without its maps.");
+        ui_dim(self->of.cloth ? "Of the whole cloth seen from afar, both threads together, without maps."
+                              : "Of the numbers of this material, without its maps.");
     }
     if (ui_section("Pixel", true)) draw_probe(v);
 }
 
-bool inspection_busy(const Inspection *self) { return self && self->valid && self->angles < ANGLES; }
+bool inspection_busy(const Inspection *self) { return self && (self->woven || (self->valid && self->angles < ANGLES)); }
+
+bool inspection_furnace(const Inspection *self, float share[3]) {
+    if (!self || !self->valid || inspection_busy(self)) return false;
+    for (int c = 0; c < 3; c++) share[c] = mean_albedo(self, c);
+    return true;
+}

@@ -22,3 +22,6 @@ void doctor_forget(Viewer *v);
 /* Returns true if measuring goes on in the next frame. */
 bool inspection_busy(const struct Inspection *inspection);
 void inspection_free(struct Inspection *inspection);
+
+/* Writes the share of even light that the inspected material reflects; false while it is not measured. */
+bool inspection_furnace(const struct Inspection *inspection, float share[3]);
