@@ -101,7 +101,10 @@ void dialogs_show_profiles(Viewer *v) {
 }
 
 void dialogs_open(Viewer *v, const char *name) {
-    browser_refresh(v->states->dialogs.browser);
+    DialogsState *dialogs = &v->states->dialogs;
+    places_read(&dialogs->places, v->shown->any ? v->shown->facts.path : NULL, &v->frame->settings);
+    browser_refresh(dialogs->browser, &dialogs->places);
+    dialogs->asked[0] = '\0';
     snprintf(v->states->dialogs.due, sizeof v->states->dialogs.due, "%s", name);
 }
 
@@ -146,13 +149,16 @@ static const struct {
                  NULL, NULL}};
 
 static void draw_chooser(Viewer *v, int k) {
-    if (!ui_dialog(choosers[k].name, 640.0f * ui_scale(), 460.0f * ui_scale())) return;
+    Browser *browser = v->states->dialogs.browser;
+    if (!ui_dialog(choosers[k].name, 720.0f * ui_scale(), 480.0f * ui_scale())) return;
     ui_scope(choosers[k].name);
     ui_dim(choosers[k].words);
-    const char *path =
-        browser_draw(v->states->dialogs.browser, choosers[k].kinds, 400.0f * ui_scale() - ui_line_height());
+    const char *path = browser_draw(browser, choosers[k].kinds, ui_height_left() - ui_line_height());
+    if (ui_button("Open")) path = browser_open(browser);
+    ui_tip("Opens what is chosen above, as a double click does.");
+    ui_same_line();
     if (choosers[k].folder) {
-        if (ui_button(choosers[k].folder)) path = browser_folder(v->states->dialogs.browser);
+        if (ui_button(choosers[k].folder)) path = browser_folder(browser);
         ui_tip(choosers[k].tip);
         ui_same_line();
     }
@@ -165,26 +171,45 @@ static void draw_chooser(Viewer *v, int k) {
     ui_dialog_end();
 }
 
+/* Draws the button that saves; it asks first if a file would be replaced. Returns true if the file is to be written:
+ * `path` is then its path. entered: Enter was pressed in the name. */
+static bool draw_save_button(Viewer *v, const char *name, bool entered, char path[STATE_PATH]) {
+    DialogsState *dialogs = &v->states->dialogs;
+    const bool fits = browser_place(dialogs->browser, name, path, STATE_PATH), there = fits && path_stamp(path);
+    bool asks = there && strcmp(dialogs->asked, path) == 0;
+    if (asks)
+        ui_warning("A file of this name is there. Replace it?");
+    else
+        ui_dim(there ? "A file of this name is there." : " ");
+    const bool pressed = ui_button(asks ? "Replace###Save" : "Save###Save") || entered;
+    ui_tip("Writes the file (Enter); asks before it replaces one.");
+    ui_same_line();
+    if (!pressed || !fits) return false;
+    if (there && !asks) snprintf(dialogs->asked, sizeof dialogs->asked, "%s", path);
+    return !there || asks;
+}
+
 static void draw_save(Viewer *v) {
-    if (!ui_dialog("Save the scene", 560.0f * ui_scale(), 0.0f)) return;
+    DialogsState *dialogs = &v->states->dialogs;
+    char path[STATE_PATH];
+    if (!ui_dialog("Save the scene", 640.0f * ui_scale(), 460.0f * ui_scale())) return;
     ui_scope("Save the scene");
-    ui_dim(".glb or .gltf: the scene as it is now; reading the file gives the same picture.\n.json: the "
-           "material that is edited.");
-    bool entered = ui_input("file", v->states->dialogs.save_path, STATE_PATH);
-    ui_tip("Where to write; from the folder the program was started in.");
-    ui_dim(path_stamp(v->states->dialogs.save_path) ? "A file of this name is there: it will be replaced." : " ");
-    bool pressed = ui_button("Save");
-    ui_tip("Writes the file (Enter).");
-    if (pressed || entered) {
-        PathKind kind = path_kind(v->states->dialogs.save_path);
+    ui_dim(
+        ".glb or .gltf: the scene as it is now; reading the file gives the same picture. .json: the material that is "
+        "edited.");
+    browser_draw_saving(dialogs->browser, 1u << PATH_SCENE | 1u << PATH_MATERIAL,
+                        ui_height_left() - 3.2f * ui_line_height(), dialogs->save_path, sizeof dialogs->save_path);
+    bool entered = ui_input_path("file", dialogs->save_path, STATE_PATH);
+    ui_tip("The name of the file, in the folder above, or a path.");
+    if (draw_save_button(v, dialogs->save_path, entered, path)) {
+        PathKind kind = path_kind(path);
         if (kind == PATH_SCENE || kind == PATH_MATERIAL) {
-            if (v->shown->any) actions_send(v, TASK_SAVE, v->states->dialogs.save_path, v->edit->material, -1);
+            if (v->shown->any) actions_send(v, TASK_SAVE, path, v->edit->material, -1);
             ui_dialog_close();
         } else {
-            viewer_report(v, true, "%.300s: is neither .glb, .gltf nor .json", v->states->dialogs.save_path);
+            viewer_report(v, true, "%.300s: is neither .glb, .gltf nor .json", path);
         }
     }
-    ui_same_line();
     if (cancel()) leaving_cancel(v);
     ui_scope_end();
     ui_dialog_end();
@@ -201,43 +226,49 @@ static void draw_samples(DialogsState *dialogs) {
     if (dialogs->shot_samples > 65536) dialogs->shot_samples = 65536;
 }
 
-static void save_shot(Viewer *v) {
+static void save_shot(Viewer *v, const char *path) {
     const DialogsState *dialogs = &v->states->dialogs;
     if (dialogs->shot_traced)
-        stills_make(v, dialogs->shot_path, dialogs->shot_width, dialogs->shot_height, dialogs->shot_samples,
-                    dialogs->shot_denoised, dialogs->shot_transparent);
+        stills_make(v, path, dialogs->shot_width, dialogs->shot_height, dialogs->shot_samples, dialogs->shot_denoised,
+                    dialogs->shot_transparent);
     else
-        dialogs_shot(v, dialogs->shot_path);
+        dialogs_shot(v, path);
+}
+
+static int pixels_within(int pixels) { return pixels < 1 ? 1 : pixels > 16384 ? 16384 : pixels; }
+
+/* Draws the folder that pictures go to; it can be unfolded to go to another. */
+static void draw_folder(DialogsState *dialogs) {
+    char text[1100];
+    snprintf(text, sizeof text, "in %.1000s###folder", browser_folder(dialogs->browser));
+    if (!ui_fold(text)) return;
+    browser_draw_saving(dialogs->browser, 1u << PATH_LIGHT | 1u << PATH_PICTURE, 220.0f * ui_scale(),
+                        dialogs->shot_path, sizeof dialogs->shot_path);
 }
 
 static void draw_shot(Viewer *v) {
+    DialogsState *dialogs = &v->states->dialogs;
+    char path[STATE_PATH];
     if (!ui_dialog("Save a picture", 560.0f * ui_scale(), 0.0f)) return;
     ui_scope("Save a picture");
-    bool entered = ui_input("file", v->states->dialogs.shot_path, STATE_PATH);
+    bool entered = ui_input_path("file", dialogs->shot_path, STATE_PATH);
     ui_tip(".png as it is shown, .exr, .hdr or .npy linear.");
-    ui_slider_int("width", 16, 8192, &v->states->dialogs.shot_width);
+    draw_folder(dialogs);
+    ui_slider_int("width", 16, 8192, &dialogs->shot_width);
     ui_tip("Pixels; any size, whatever the window's.");
-    ui_slider_int("height", 16, 8192, &v->states->dialogs.shot_height);
+    ui_slider_int("height", 16, 8192, &dialogs->shot_height);
     ui_tip("Pixels.");
-    ui_checkbox("transparent", &v->states->dialogs.shot_transparent);
+    ui_checkbox("transparent", &dialogs->shot_transparent);
     ui_tip("Alpha 0 where nothing is.");
-    ui_checkbox("path traced", &v->states->dialogs.shot_traced);
+    ui_checkbox("path traced", &dialogs->shot_traced);
     ui_tip("Ground truth, made in the background while you work on; the status bar shows how far it is.");
-    draw_samples(&v->states->dialogs);
-    v->states->dialogs.shot_width = v->states->dialogs.shot_width < 1       ? 1
-                                    : v->states->dialogs.shot_width > 16384 ? 16384
-                                                                            : v->states->dialogs.shot_width;
-    v->states->dialogs.shot_height = v->states->dialogs.shot_height < 1       ? 1
-                                     : v->states->dialogs.shot_height > 16384 ? 16384
-                                                                              : v->states->dialogs.shot_height;
-    ui_dim(path_stamp(v->states->dialogs.shot_path) ? "A file of this name is there: it will be replaced." : " ");
-    bool pressed = ui_button("Save");
-    ui_tip("Writes the file (Enter).");
-    if (pressed || entered) {
-        save_shot(v);
+    draw_samples(dialogs);
+    dialogs->shot_width = pixels_within(dialogs->shot_width);
+    dialogs->shot_height = pixels_within(dialogs->shot_height);
+    if (draw_save_button(v, dialogs->shot_path, entered, path)) {
+        save_shot(v, path);
         ui_dialog_close();
     }
-    ui_same_line();
     cancel();
     ui_scope_end();
     ui_dialog_end();

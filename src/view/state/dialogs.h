@@ -1,10 +1,13 @@
 /* dialogs.h - dialogs, and what is entered in them */
 #pragma once
 
+#include "view/files/places.h"
 #include "view/state/viewer.h"
 
 typedef struct DialogsState {
     struct Browser *browser;
+    Places places;          /* that the browser offers */
+    char asked[STATE_PATH]; /* file that the dialog has asked whether to replace; "": none */
     bool help, warnings_shown;
     char due[32]; /* dialog to open in this frame */
     char save_path[STATE_PATH], shot_path[STATE_PATH];

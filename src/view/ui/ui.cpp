@@ -27,8 +27,9 @@ struct Ui {
     std::string panel;                       /* panel with the keyboard; "": none */
     bool to_menus = false, to_panel = false; /* moves the keyboard there in the next frame */
     bool navigates = false;
-    bool noted = false;         /* the previous widget is the last control recorded */
-    ImDrawList *list = nullptr; /* target of drawing; NULL: the current window's */
+    bool noted = false;                      /* the previous widget is the last control recorded */
+    bool searches = false, searched = false; /* the field of ui_search is edited; and was, a frame ago */
+    ImDrawList *list = nullptr;              /* target of drawing; NULL: the current window's */
     ImVec4 accent = ImVec4(0.86f, 0.55f, 0.30f, 1.0f);
 };
 
@@ -243,6 +244,8 @@ void ui_begin(const UiInput *input) {
     ImGui_ImplOpenGL3_NewFrame();
     ImGui::NewFrame();
     ui->panels.clear();
+    ui->searched = ui->searches;
+    ui->searches = false;
     ui->last.swap(ui->shown);
     ui->shown.clear();
     ui->list = nullptr;
@@ -281,6 +284,7 @@ float ui_scale(void) { return ui->scale; }
 float ui_line_height(void) { return ImGui::GetFrameHeightWithSpacing(); }
 float ui_text_width(const char *text) { return ImGui::CalcTextSize(text).x; }
 float ui_width_left(void) { return ImGui::GetContentRegionAvail().x; }
+float ui_height_left(void) { return ImGui::GetContentRegionAvail().y; }
 
 bool ui_panel(const char *name, UiBox box, bool scrolls) {
     ImGuiWindowFlags flags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
@@ -323,11 +327,13 @@ bool ui_dialog(const char *name, float width, float height) {
     ImGui::PopStyleVar();
     return shown;
 }
-bool ui_escaped(void) { return !ImGui::GetIO().WantTextInput && ImGui::IsKeyPressed(GLFW_KEY_ESCAPE, false); }
+bool ui_escaped(void) {
+    return (!ImGui::GetIO().WantTextInput || ui->searched) && ImGui::IsKeyPressed(GLFW_KEY_ESCAPE, false);
+}
 void ui_dialog_close(void) { ImGui::CloseCurrentPopup(); }
 void ui_dialog_end(void) { ImGui::EndPopup(); }
 
-bool ui_list(const char *name, float height) { return ImGui::BeginChild(name, at(0.0f, height), true); }
+bool ui_list(const char *name, float width, float height) { return ImGui::BeginChild(name, at(width, height), true); }
 void ui_list_end(void) { ImGui::EndChild(); }
 
 void ui_scope(const char *name) {
@@ -473,6 +479,14 @@ bool ui_selectable(const char *label, bool chosen) {
     return pressed;
 }
 
+int ui_row(const char *label, bool chosen) {
+    bool pressed =
+        ImGui::Selectable(label, chosen, ImGuiSelectableFlags_DontClosePopups | ImGuiSelectableFlags_AllowDoubleClick);
+    note_spoken(label);
+    return !pressed ? 0 : ImGui::IsMouseDoubleClicked(0) ? 2 : 1;
+}
+void ui_scroll_here(void) { ImGui::SetScrollHereY(0.5f); }
+
 bool ui_choice(const char *label, const UiChoices *choices, int *chosen) {
     bool changed = false;
     labelled(label);
@@ -604,6 +618,32 @@ bool ui_input(const char *label, char *text, int size) {
     labelled(label);
     bool entered =
         ImGui::InputText(hidden(label).c_str(), text, static_cast<size_t>(size), ImGuiInputTextFlags_EnterReturnsTrue);
+    note(label);
+    return entered;
+}
+
+bool ui_input_path(const char *label, char *text, int size) {
+    labelled(label);
+    bool entered = ImGui::InputText(hidden(label).c_str(), text, static_cast<size_t>(size),
+                                    ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+    note(label);
+    return entered;
+}
+
+static int on_arrow(ImGuiInputTextCallbackData *data) {
+    int *step = static_cast<int *>(data->UserData);
+    *step = data->EventKey == ImGuiKey_UpArrow ? -1 : 1;
+    return 0;
+}
+
+bool ui_search(const char *label, const char *hint, char *text, int size, bool focus, int *step) {
+    *step = 0;
+    ImGui::SetNextItemWidth(-1.0f);
+    if (focus || ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+    bool entered = ImGui::InputTextWithHint(hidden(label).c_str(), hint, text, static_cast<size_t>(size),
+                                            ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackHistory,
+                                            on_arrow, step);
+    ui->searches = ImGui::IsItemActive();
     note(label);
     return entered;
 }

@@ -71,7 +71,8 @@ UiCursor ui_cursor(void);
 float ui_scale(void);
 float ui_line_height(void); /* of a row of widgets */
 float ui_text_width(const char *text);
-float ui_width_left(void); /* of this row */
+float ui_width_left(void);  /* of this row */
+float ui_height_left(void); /* of this panel or dialog */
 
 typedef struct UiBox {
     float x, y, width, height;
@@ -86,11 +87,11 @@ void ui_window_end(void);
 /* Opens a dialog above all else; ui_dialog is then called every frame until it is closed. */
 void ui_dialog_open(const char *name);
 bool ui_dialog(const char *name, float width, float height);
-bool ui_escaped(void); /* Escape was pressed, and not in a text field */
+bool ui_escaped(void); /* Escape was pressed, and not in a text field other than that of ui_search */
 void ui_dialog_close(void);
 void ui_dialog_end(void);
-/* Begins a scrolling box within a panel. */
-bool ui_list(const char *name, float height);
+/* Begins a scrolling box within a panel; width 0: all that is left of this row. */
+bool ui_list(const char *name, float width, float height);
 void ui_list_end(void);
 
 /* Adds a prefix to the names of the controls that follow. */
@@ -134,6 +135,10 @@ bool ui_checkbox(const char *label, bool *on);
 /* Draws a row of buttons of which one is chosen; names ends with NULL, and each has a tip. */
 bool ui_tabs(const char *label, const char *const *names, const char *const *tips, int *chosen);
 bool ui_selectable(const char *label, bool chosen);
+/* Draws a row of a list. Returns 0, or 1 if it was clicked, 2 if twice. */
+int ui_row(const char *label, bool chosen);
+/* Scrolls the list so that the preceding row is visible. */
+void ui_scroll_here(void);
 
 /* A menu of count values; name and help (may be NULL) return them by number. */
 typedef struct UiChoices {
@@ -164,6 +169,11 @@ unsigned ui_shown(const float color[3]);
 /* Draws a small square of that linear colour; returns true if it was clicked. */
 bool ui_swatch(const char *label, const float color[3]);
 bool ui_input(const char *label, char *text, int size);
+/* Edits a path likewise: a click selects all of it. */
+bool ui_input_path(const char *label, char *text, int size);
+/* Edits words to search for, shown as `hint` while there are none; it takes the keyboard in a dialog that opens, or where
+ * `focus` is set. step receives -1 or 1 if an arrow up or down was pressed, else 0. Returns true if Enter was pressed. */
+bool ui_search(const char *label, const char *hint, char *text, int size, bool focus, int *step);
 void ui_progress(float fraction, const char *text); /* fraction below 0: under way */
 
 /* Reserves a region to draw in, which `box` receives. Returns true while the mouse is over it or drags it. */
