@@ -14,6 +14,7 @@
 #include "view/state/edit.h"
 #include "view/state/frame_requests.h"
 #include "view/state/opening.h"
+#include "view/state/photographs.h"
 #include "view/state/view_camera.h"
 #include "view/state/view_options.h"
 
@@ -104,6 +105,9 @@ void report_state(const Viewer *v) {
     json_object_set_new(root, "frame_ms", json_real(1e3 * v->frame->frame_seconds));
     json_object_set_new(root, "worst_ms", json_real(1e3 * v->frame->worst_seconds));
     json_object_set_new(root, "resident_mib", json_real(resident()));
+    const UiBox photograph = photographs_box(v);
+    json_object_set_new(root, "photograph", json_string(v->photographs->path));
+    json_object_set_new(root, "photograph_box", box_json(&photograph));
     float share[3];
     if (inspection_furnace(v->inspection, share))
         json_object_set_new(root, "furnace",

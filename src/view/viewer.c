@@ -51,7 +51,7 @@ void viewer_upload(unsigned *texture, const WeftImage *image) {
 }
 
 bool viewer_is_idle(const Viewer *v) {
-    return !v->opening->loader && !v->opening->has_pending && renderer_is_idle(v->renderer) &&
+    return !v->opening->loader && !v->opening->has_pending && !v->photographs->load && renderer_is_idle(v->renderer) &&
            (!v->shown->any || v->requests->rendered.number == v->requests->requested) && !v->requests->rendered.busy &&
            !doctor_busy(v) && (v->options->mode != MODE_LIVE || v->requests->rendered.effort == EFFORT_SMOOTH) &&
            !v->requests->due && (v->options->mode == MODE_LIVE || reference_is_idle(v->reference));
@@ -69,8 +69,15 @@ static void lay_out(Viewer *v) {
     float scale = ui_scale(), bar = 22.0f * scale,
           side = fminf(v->states->frame.settings.panel * scale, 0.6f * (float)width);
     float top = 2.0f * ui_line_height() - 4.0f * scale;
-    v->states->frame.stage =
-        (UiBox){0.0f, top, floorf((float)width - side), floorf(fmaxf((float)height - top - bar, 1.0f))};
+    UiBox stage = {0.0f, top, floorf((float)width - side), floorf(fmaxf((float)height - top - bar, 1.0f))},
+          beside = {stage.width, top, 0.0f, stage.height};
+    if (v->photographs->view.place == PHOTOGRAPH_BESIDE) {
+        beside.x = floorf(0.5f * stage.width);
+        beside.width = stage.width - beside.x;
+        stage.width = beside.x;
+    }
+    v->states->frame.stage = stage;
+    v->states->frame.beside = beside;
 }
 
 static void draw_side(Viewer *v) {
@@ -82,7 +89,8 @@ static void draw_side(Viewer *v) {
     static void (*const panels[])(Viewer * v) = {material_panel, light_panel, view_panel, inspect_panel, doctor_panel};
     int width, height;
     window_size(v->window, &width, &height);
-    float x = v->states->frame.stage.width + 1.0f, y = v->states->frame.stage.y, row = ui_line_height();
+    float x = v->states->frame.beside.x + v->states->frame.beside.width + 1.0f, y = v->states->frame.stage.y,
+          row = ui_line_height();
     UiBox head = {x, y, (float)width - x, row + 8.0f * ui_scale()};
     UiBox body = {x, y + head.height, head.width, fmaxf(v->states->frame.stage.height - head.height, 1.0f)};
     int panel = v->options->panel;
@@ -160,6 +168,7 @@ static void stop(Viewer *v, bool interrupted) {
     }
     requests_end(v);
     opening_end(v);
+    photographs_end(v);
     if (v->window) ui_destroy();
     window_close(v->window);
     inspection_free(v->inspection);
@@ -197,6 +206,7 @@ static int run(Viewer *v, char why[512]) {
         sessions_poll(v, started);
         any |= opening_watch(v, started);
         any |= stills_poll(v);
+        any |= photographs_poll(v);
         any |= renderer_has_output(v->renderer) || reference_has_frame(v->reference) || v->opening->loader ||
                v->requests->rendered.number != shown;
         any |= requests_can_refine(v) && v->options->mode == MODE_LIVE;
@@ -246,10 +256,12 @@ Viewer *viewer_create(const ViewDesc *desc) {
                             .stills = &states->stills,
                             .leaving = &states->leaving,
                             .sessions = &states->sessions,
+                            .photographs = &states->photographs,
                             .states = states};
     states->frame.settings = settings_default();
     options_begin(&both->viewer);
     stage_begin(&both->viewer);
+    photographs_begin(&both->viewer);
     return &both->viewer;
 }
 

@@ -52,8 +52,9 @@ static void kill_now(Drive *drive) {
 
 /* What a state tells of the scene and the view. */
 static void assert_same(const json_t *is, const json_t *was) {
-    static const char *const keys[] = {"scene",     "camera", "mode",     "split",   "part",    "material",
-                                       "materials", "lights", "rotation", "variant", "command", "lost"};
+    static const char *const keys[] = {"scene",    "camera",    "mode",       "split",         "part",
+                                       "material", "materials", "lights",     "rotation",      "variant",
+                                       "command",  "lost",      "photograph", "photograph_box"};
     for (size_t k = 0; k < sizeof keys / sizeof *keys; k++) {
         const json_t *a = json_object_get(is, keys[k]), *b = json_object_get(was, keys[k]);
         assert_non_null(a);
@@ -84,6 +85,8 @@ static void a_killed_window_comes_back_with_its_state(void **state) {
     say("key b\ndrag left 0.45 0.45 0.55 0.5\nwait rest\nkey b\n");          /* a nap that was brushed */
     say("drag left 0.8 0.8 0.9 0.85\nwait rest\n");
     say("click Panel/View\nwait 3\nset View/exposure 1.25\nclick View/Floor\nwait 2\n");
+    say("drop rough.png\nwait 3\nclick \"Use a picture/As photograph\"\nwait rest\n");
+    say("click View/place/Over\nwait rest\n");
     say("key c\nwait rest\nclick Panel/Light\nwait 2\nwait seconds 3\nwait rest\nstay\n");
     Drive drive = drive_start(script, LIST(REMEMBERS, CHEAP));
     await_session(&drive);

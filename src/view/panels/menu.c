@@ -10,6 +10,7 @@
 #include "view/state/frame_requests.h"
 #include "view/state/leaving.h"
 #include "view/state/opening.h"
+#include "view/state/photographs.h"
 #include "view/state/stills.h"
 #include "view/state/view_camera.h"
 #include "view/state/view_options.h"
@@ -67,6 +68,19 @@ static void view_menu(Viewer *v) {
     }
 }
 
+static void photograph_menu(Viewer *v) {
+    static const char *const places[] = {"Photograph off", "Photograph beside", "Photograph behind a line",
+                                         "Photograph over the picture"};
+    PhotographView view = v->photographs->view;
+    const bool any = v->photographs->path[0] != '\0';
+    if (ui_menu_item("Photograph ...", NULL, false, v->shown->any)) dialogs_open(v, "Choose a photograph");
+    for (int k = 0; k < 4; k++) {
+        if (!ui_menu_item(places[k], NULL, any && (int)view.place == k, any)) continue;
+        view.place = (PhotographPlace)k;
+        photographs_set(v, &view);
+    }
+}
+
 static void compare_menu(Viewer *v) {
     if (ui_menu_item("A | B, with a line", "C", v->edit->split == SPLIT_LINE, v->shown->any))
         edit_set_split(v, v->edit->split == SPLIT_LINE ? SPLIT_NONE : SPLIT_LINE);
@@ -80,6 +94,8 @@ static void compare_menu(Viewer *v) {
         options_toggle_mode(v, MODE_DIFFERENCE);
     ui_rule();
     if (ui_menu_item("All profiles", NULL, false, v->shown->any)) dialogs_show_profiles(v);
+    ui_rule();
+    photograph_menu(v);
 }
 
 static void draw_menus(Viewer *v) {

@@ -9,6 +9,7 @@ void material_panel(Viewer *v);
 void weave_section(Viewer *v, const WeftMaterial *m); /* of the material's panel */
 void light_panel(Viewer *v);
 void view_panel(Viewer *v);
+void photograph_section(Viewer *v); /* of the view's panel */
 void inspect_panel(Viewer *v);
 void doctor_panel(Viewer *v);
 void keys_input(Viewer *v);

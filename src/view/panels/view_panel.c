@@ -6,6 +6,7 @@
 #include "view/panels/panels.h"
 #include "view/state/edit.h"
 #include "view/state/opening.h"
+#include "view/state/photographs.h"
 #include "view/state/view_camera.h"
 #include "view/state/view_options.h"
 
@@ -147,5 +148,6 @@ void view_panel(Viewer *v) {
     if (ui_section("Picture", true)) draw_picture(v);
     if (ui_section("Camera", true)) draw_camera(v);
     if (ui_section("A | B", true)) draw_compare(v);
+    if (ui_section("Photograph", v->photographs->path[0] != '\0')) photograph_section(v);
     if (ui_section("Tool", true)) draw_tools(v);
 }

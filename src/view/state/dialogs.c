@@ -145,6 +145,8 @@ static const struct {
                  "Six faces by their names: posx, negx ... or px, nx ..."},
                 {"Choose a draft", "Drafts (.wif .dtx); pictures (.png .jpg .tga), a pixel a crossing",
                  1u << PATH_DRAFT | 1u << PATH_PICTURE, actions_weave_file, NULL, NULL},
+                {"Choose a photograph", "Pictures (.png .jpg .tga .hdr .exr), to compare with",
+                 1u << PATH_LIGHT | 1u << PATH_PICTURE, photographs_open, NULL, NULL},
                 {"Choose a map", "Pictures (.png .jpg .tga .hdr .exr)", 1u << PATH_LIGHT | 1u << PATH_PICTURE, use_map,
                  NULL, NULL}};
 
@@ -297,6 +299,12 @@ static void draw_use(Viewer *v) {
         ui_dialog_close();
     }
     ui_tip("Lights the scene by it: a lat-long picture, or one of the six faces of a cube map (posx, negx ...).");
+    ui_same_line();
+    if (ui_button("As photograph")) {
+        photographs_open(v, v->states->dialogs.dropped);
+        ui_dialog_close();
+    }
+    ui_tip("Shows it beside the picture, to compare with.");
     ui_same_line();
     cancel();
     ui_scope_end();

@@ -32,6 +32,13 @@ static const Member option_members[] = {RECORD_WHOLE(ViewOptions, mode, MODE_DIF
                                         RECORD_FLOATS(ViewOptions, brush_radius, 1),
                                         RECORD_FLOATS(ViewOptions, brush_strength, 1),
                                         RECORD_WHOLE(ViewOptions, panel, PANEL_DOCTOR)};
+static const Member photograph_members[] = {RECORD_WHOLE(PhotographView, place, PHOTOGRAPH_OVER),
+                                            RECORD_FLOATS(PhotographView, at, 1),
+                                            RECORD_FLOATS(PhotographView, opacity, 1),
+                                            RECORD_FLOATS(PhotographView, size, 1),
+                                            RECORD_FLOATS(PhotographView, shift, 2),
+                                            RECORD_SWITCH(PhotographView, follows),
+                                            RECORD_FLOATS(PhotographView, reach, 1)};
 static const Member orbit_members[] = {RECORD_FLOATS(Orbit, eye, 3), RECORD_FLOATS(Orbit, target, 3),
                                        RECORD_FLOATS(Orbit, fov, 1)};
 
@@ -83,8 +90,22 @@ static json_t *session_json(const Viewer *v) {
     json_object_set_new(root, "light", json_integer(v->edit->light));
     json_object_set_new(root, "camera", camera_json(&v->camera->orbit));
     json_object_set_new(root, "options", record_write(v->options, option_members, LENGTH(option_members)));
+    if (v->photographs->path[0]) {
+        json_t *photograph = record_write(&v->photographs->view, photograph_members, LENGTH(photograph_members));
+        json_object_set_new(photograph, "path", json_string(v->photographs->path));
+        json_object_set_new(root, "photograph", photograph);
+    }
     free(real);
     return root;
+}
+
+static void restore_photograph(Viewer *v, const json_t *photograph) {
+    const char *path = json_string_value(json_object_get(photograph, "path"));
+    PhotographView view = v->photographs->view;
+    if (!path || !record_read(photograph, photograph_members, LENGTH(photograph_members), &view)) return;
+    photographs_open(v, path);
+    photographs_set(v, &view);
+    photographs_reach(v, view.reach);
 }
 
 static bool is_camera(const Orbit *orbit) {
@@ -114,6 +135,7 @@ static void restore_view(Viewer *v, const Restored *restored) {
     restore_camera(v, json_object_get(session, "camera"));
     if (record_whole(session, "split", 0, SPLIT_SIDES, &split) && record_whole(session, "side", 0, 1, &side))
         edit_restore_other(v, &restored->other, (Split)split, side);
+    restore_photograph(v, json_object_get(session, "photograph"));
     if (record_whole(session, "material", 0, v->edit->state.material_count - 1, &chosen))
         edit_choose_material(v, chosen);
     if (record_whole(session, "light", 0, v->edit->state.light_count - 1, &chosen)) edit_choose_light(v, chosen);

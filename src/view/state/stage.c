@@ -183,14 +183,21 @@ void stage_picked(Viewer *v, const RenderEvent *event) {
     if (why == PICK_BRUSH) brush_at(v, at, &event->image);
 }
 
+static bool line_dragged(const Viewer *v) { return v->drag->split || v->drag->wipe; }
+
 static void begin_drag(Viewer *v, int button) {
     float middle = v->frame->stage.x + v->options->split_at * v->frame->stage.width;
     v->states->drag.light = button == LEFT ? handle_under(v) : -1;
-    v->states->drag.split = button == LEFT && v->edit->split == SPLIT_LINE && v->options->mode == MODE_LIVE &&
-                            fabsf(v->frame->input.x - middle) < 8.0f * ui_scale();
+    const PhotographView *photograph = &v->photographs->view;
+    const float line = v->frame->stage.x + photograph->at * v->frame->stage.width;
+    v->states->drag.wipe = button == LEFT && photograph->place == PHOTOGRAPH_WIPE && v->photographs->width &&
+                           fabsf(v->frame->input.x - line) < 8.0f * ui_scale();
+    v->states->drag.split = !v->states->drag.wipe && button == LEFT && v->edit->split == SPLIT_LINE &&
+                            v->options->mode == MODE_LIVE && fabsf(v->frame->input.x - middle) < 8.0f * ui_scale();
+    if (v->states->drag.wipe) v->states->drag.light = -1;
     if (v->states->drag.light >= 0) edit_choose_light(v, v->states->drag.light);
     v->states->drag.stroke.down =
-        button == LEFT && v->options->tool == TOOL_BRUSH && v->states->drag.light < 0 && !v->states->drag.split;
+        button == LEFT && v->options->tool == TOOL_BRUSH && v->states->drag.light < 0 && !line_dragged(v);
     v->states->drag.stroke.started = false;
     if (v->states->drag.stroke.down) pick(v, TASK_PICK, PICK_BRUSH);
     v->states->drag.press_x = v->frame->input.x, v->states->drag.press_y = v->frame->input.y;
@@ -207,7 +214,11 @@ static void drag(Viewer *v, float dx, float dy) {
     float across = dx / v->frame->stage.height, down = dy / v->frame->stage.height, speed = 3.5f;
     Orbit orbit = v->camera->orbit;
     bool pans = v->states->drag.pressed[MIDDLE] || (v->states->drag.pressed[LEFT] && v->frame->input.shift);
-    if (v->states->drag.split) {
+    if (v->states->drag.wipe) {
+        PhotographView view = v->photographs->view;
+        view.at = (v->frame->input.x - v->frame->stage.x) / v->frame->stage.width;
+        photographs_set(v, &view);
+    } else if (v->states->drag.split) {
         ViewOptions options = *v->options;
         options.split_at = (v->frame->input.x - v->frame->stage.x) / v->frame->stage.width;
         options_set(v, &options);
@@ -228,11 +239,11 @@ static void drag(Viewer *v, float dx, float dy) {
 }
 
 static void end_drag(Viewer *v, int button) {
-    bool clicked = !v->states->drag.moved && button == LEFT && v->states->drag.light < 0 && !v->states->drag.split;
+    bool clicked = !v->states->drag.moved && button == LEFT && v->states->drag.light < 0 && !line_dragged(v);
     if (clicked && v->options->tool == TOOL_PROBE) pick(v, TASK_PROBE, 0);
     if (clicked && v->options->tool == TOOL_ORBIT) pick(v, TASK_PICK, PICK_SELECT);
     v->states->drag.light = -1;
-    v->states->drag.split = v->states->drag.stroke.down = false;
+    v->states->drag.split = v->states->drag.wipe = v->states->drag.stroke.down = false;
 }
 
 static void fly(Viewer *v) {
@@ -393,6 +404,7 @@ void stage_draw(Viewer *v) {
         ui_picture(v->requests->reference_texture, v->frame->stage, false);
     else if (requests_shown(v) == SHOWS_DRAWN)
         ui_picture(v->requests->rendered.texture, v->frame->stage, true);
+    photographs_draw(v);
     ui_clip(&v->frame->stage);
     draw_split(v);
     draw_handles(v);

@@ -15,8 +15,8 @@ typedef struct Stroke {
 typedef struct DragState {
     bool pressed[3], moved;
     float press_x, press_y, last_x, last_y;
-    int light; /* whose handle is dragged; -1: none */
-    bool split;
+    int light;        /* whose handle is dragged; -1: none */
+    bool split, wipe; /* the line between A and B, or before a photograph, is dragged */
     unsigned stamps;
     Stroke stroke;
 } DragState;

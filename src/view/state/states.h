@@ -6,6 +6,7 @@
 #include "view/state/frame_requests.h"
 #include "view/state/leaving.h"
 #include "view/state/opening.h"
+#include "view/state/photographs.h"
 #include "view/state/sessions.h"
 #include "view/state/stage.h"
 #include "view/state/stills.h"
@@ -25,5 +26,6 @@ struct States {
     DragState drag;
     StillsState stills;
     LeavingState leaving;
+    PhotographsState photographs;
     SessionsState sessions;
 };

@@ -17,7 +17,8 @@ typedef struct WindowState {
     double clock; /* of this frame, s */
     long long number;
     bool ending;
-    UiBox stage; /* the picture, pixels of the window */
+    UiBox stage;  /* the picture, pixels of the window */
+    UiBox beside; /* at its right, for a photograph; empty without one */
     char message[MESSAGE_SIZE];
     bool message_grave;
     double frame_seconds; /* mean over recent frames */
@@ -46,6 +47,7 @@ typedef struct Viewer {
     const struct StillsState *stills;
     const struct LeavingState *leaving;
     const struct SessionsState *sessions;
+    const struct PhotographsState *photographs;
     struct States *states; /* the same records, for their owners */
 } Viewer;
 
