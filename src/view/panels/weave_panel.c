@@ -186,6 +186,28 @@ static void draw_size(WeaveEdit *edit) {
     ui_tip("Another piece of the same cloth: other slubs and loose fibres.");
 }
 
+/* Draws a row of colours that yarns are dyed in, to be clicked. */
+static void draw_dyes(WeaveEdit *edit, int threads, const char *key) {
+    static const char *const dyes[][2] = {
+        {"white", "#f2efe6"},  {"ecru", "#d9c9a3"},  {"yellow", "#e0b21b"}, {"orange", "#d2691e"}, {"red", "#b3191f"},
+        {"wine", "#5e1224"},   {"pink", "#d98a9b"},  {"green", "#2f6b3a"},  {"teal", "#1f6f78"},   {"blue", "#26508c"},
+        {"indigo", "#26375c"}, {"brown", "#5a3a24"}, {"grey", "#6b6d70"},   {"black", "#151518"}};
+    for (size_t k = 0; k < sizeof dyes / sizeof *dyes; k++) {
+        char label[64];
+        unsigned rgb = 0;
+        float color[3];
+        sscanf(dyes[k][1] + 1, "%6x", &rgb);
+        for (int c = 0; c < 3; c++) color[c] = ui_linear((float)(rgb >> (16 - 8 * c) & 255u) / 255.0f);
+        snprintf(label, sizeof label, "###%s %s", systems[threads], dyes[k][0]);
+        if (k) ui_same_line();
+        if (ui_swatch(label, color)) {
+            memcpy(edit->color[threads], color, sizeof color);
+            keep_key(edit, key, "%s", dyes[k][1]);
+        }
+        ui_tip(dyes[k][0]);
+    }
+}
+
 static void draw_color(WeaveEdit *edit, int threads) {
     static const char *const keys[] = {"warp.color", "weft.color"}, *const labels[] = {"colour###warp colour",
                                                                                        "colour###weft colour"};
@@ -197,6 +219,7 @@ static void draw_color(WeaveEdit *edit, int threads) {
         keep_key(edit, keys[threads], "%.9g,%.9g,%.9g", (double)c[0], (double)c[1], (double)c[2]);
     }
     ui_tip("One colour for all threads of the system; it replaces stripes.");
+    draw_dyes(edit, threads, keys[threads]);
 }
 
 /* Takes a cloth of the scene as the one that is edited. */
