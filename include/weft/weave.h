@@ -119,6 +119,11 @@ typedef struct WeftYarn {
     float slub;      /* variation of thickness along a thread */
     float wander;    /* variation of a thread's place */
     float hairiness; /* loose fibres on the cloth: 1 is about one for each crossing */
+    float slub_length; /* distance along a thread from a thin place to a thick one, millimetres */
+    float barre;       /* variation of dye from lot to lot of the yarn: bars over many threads */
+    float barre_width; /* of the widest bars, millimetres */
+    float uneven;      /* variation of dye over the cloth, in patches */
+    float uneven_size; /* of the largest patches, millimetres */
 } WeftYarn;
 
 /* Returns the name of a named yarn, and a line on it; NULL past the end. */

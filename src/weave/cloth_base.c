@@ -149,11 +149,6 @@ FN int texel_at(float part, int side) {
     return texel < side ? texel : side - 1;
 }
 
-/* Returns a texel's colour for dye times as much dye, times scale. */
-FN Rgb dyed(const float *texels, int at, float covers, float dye, float scale) {
-    return rgb_scale(weave_dyed_rgb(color_at(texels, at), covers, dye), scale);
-}
-
 /* Chooses a level of the colours: t of the way to the coarser one, that one with the chance 1 - (1 - t)^2, so that the
  * noise of the finer one fades evenly. Then a system by what it reflects, and one of its facets, and sets colours and
  * the yarn without its slopes. A system that is chosen with chance c has colours / c. scale: factor of all colours. */
@@ -176,12 +171,19 @@ LOOP(choose_n, (const WeftCloth *cloth, Part *restrict part, float scale, int n)
         int level = to_int(fine) + (part->coarser[k] < between * (2.0f - between) ? 1 : 0);
         int w = cloth_far_side(width, level), h = cloth_far_side(height, level);
         int layer = 4 * w * h, at = starts[level] + 4 * (texel_at(y / picks, h) * w + texel_at(x / warps, w));
-        float warp_dye = weave_far_dye(&m, false, x, f.x / FINER), weft_dye = weave_far_dye(&m, true, y, f.y / FINER);
+        WeaveFootprint finer;
+        finer.x = f.x / FINER;
+        finer.y = f.y / FINER;
+        finer.longest = 0.0f;
+        float warp_dye = weave_far_dye(&m, false, x, y, finer), weft_dye = weave_far_dye(&m, true, x, y, finer);
         float warp_covers = texels[at + 3], weft_covers = texels[at + FAR_WEFT_SINGLE * layer + 3];
-        Rgb warp_single = dyed(texels, at, warp_covers, warp_dye, scale),
-            warp_multiple = dyed(texels, at + FAR_WARP_MULTIPLE * layer, warp_covers, warp_dye, scale),
-            weft_single = dyed(texels, at + FAR_WEFT_SINGLE * layer, weft_covers, weft_dye, scale),
-            weft_multiple = dyed(texels, at + FAR_WEFT_MULTIPLE * layer, weft_covers, weft_dye, scale);
+        Rgb warp_single = weave_dyed_single_rgb(color_at(texels, at), warp_covers, m.warp.white, warp_dye),
+            warp_multiple =
+                weave_dyed_multiple_rgb(color_at(texels, at + FAR_WARP_MULTIPLE * layer), warp_covers, warp_dye),
+            weft_single = weave_dyed_single_rgb(color_at(texels, at + FAR_WEFT_SINGLE * layer), weft_covers,
+                                                m.weft.white, weft_dye),
+            weft_multiple =
+                weave_dyed_multiple_rgb(color_at(texels, at + FAR_WEFT_MULTIPLE * layer), weft_covers, weft_dye);
         float a = 0.3f * rgb_mean(warp_single) + 0.7f * rgb_mean(warp_multiple),
               b = 0.3f * rgb_mean(weft_single) + 0.7f * rgb_mean(weft_multiple);
         float chance = a + b > 0.0f ? a / (a + b) : 1.0f, u = part->facet[k];
@@ -198,7 +200,8 @@ LOOP(choose_n, (const WeftCloth *cloth, Part *restrict part, float scale, int n)
                          weft ? weft_single.b : warp_single.b);
         Rgb multiple = rgb(weft ? weft_multiple.r : warp_multiple.r, weft ? weft_multiple.g : warp_multiple.g,
                            weft ? weft_multiple.b : warp_multiple.b);
-        put_base(yarn, k, weave_yarn(&m, p), rgb_scale(single, per_chance), rgb_scale(multiple, per_chance));
+        put_base(yarn, k, weave_yarn(&m, p), rgb_scale(single, scale * per_chance),
+                 rgb_scale(multiple, scale * per_chance));
     }
 }
 

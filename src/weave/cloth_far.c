@@ -366,7 +366,8 @@ static bool fit_far(WeftCloth *cloth, const SystemSeen seen[2]) {
     return made;
 }
 
-bool cloth_far_make(WeftCloth *cloth) {
+/* Makes all for the amounts of dye that the yarns have on the mean over many threads. */
+static bool make_even(WeftCloth *cloth) {
     Weave *m = &cloth->weave;
     SystemSeen seen[2] = {{0}};
     see(m, seen);
@@ -374,4 +375,16 @@ bool cloth_far_make(WeftCloth *cloth) {
     m->warp_far = far_of(&m->warp, &seen[0]);
     m->weft_far = far_of(&m->weft, &seen[1]);
     return make_colors(cloth, seen) && fit_far(cloth, seen);
+}
+
+bool cloth_far_make(WeftCloth *cloth) {
+    WeaveYarn *yarns[2] = {&cloth->weave.warp, &cloth->weave.weft};
+    float barre[2], uneven[2];
+    for (int t = 0; t < 2; t++) {
+        barre[t] = yarns[t]->barre, uneven[t] = yarns[t]->uneven;
+        yarns[t]->barre = yarns[t]->uneven = 0.0f;
+    }
+    const bool made = make_even(cloth);
+    for (int t = 0; t < 2; t++) yarns[t]->barre = barre[t], yarns[t]->uneven = uneven[t];
+    return made;
 }

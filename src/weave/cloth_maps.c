@@ -14,6 +14,7 @@
 #include "shading/media/yarn_medium.h"
 #include "weave/weft_cloth.h"
 
+static const float SLUB_NODES_LEAST = 0.1f; /* per crossing: of a slub that is no longer than a tile */
 enum { MAP_COLOR, MAP_NORMAL, MAP_ROUGHNESS, MAP_ANISOTROPY, MAP_HEIGHT, MAP_COUNT };
 enum {
     FINE = 2,         /* points along a texel's side */
@@ -192,6 +193,8 @@ WeftResult weft_cloth_bake(const WeftCloth *cloth, int pixels, double metres, co
     MapBake bake = {.weave = cloth->weave, .width = sides[0], .height = sides[1]};
     bake.weave.cycle_x = (float)across;
     bake.weave.cycle_y = (float)along;
+    bake.weave.warp.slub_nodes = fmaxf(bake.weave.warp.slub_nodes, SLUB_NODES_LEAST);
+    bake.weave.weft.slub_nodes = fmaxf(bake.weave.weft.slub_nodes, SLUB_NODES_LEAST);
     WeftResult result = WEFT_OK;
     for (int k = 0; k < MAP_COUNT && result == WEFT_OK; k++)
         result = weft_image_create(bake.width, bake.height, kinds[k].channels, WEFT_PIXEL_U8, &bake.maps[k], error);

@@ -61,9 +61,9 @@ static void put_albedos(WeftCloth *cloth, const WeftDraft *draft) {
                 *albedo++ = albedo_of(srgb_decode(draft->threads[t][k].color[c]), cloth->yarns[t].alpha);
 }
 
-/* Returns the yarn of a system in the cloth. Lengths are in units of the mean pitch; width: of the draft, in
- * pitches. */
-static WeaveYarn yarn_in_cloth(const WeftYarn *yarn, float pitch, float cross_pitch, float width) {
+/* Returns the yarn of a system in the cloth. Pitches are in units of `unit` millimetres, the mean pitch; width: of the
+ * draft, in pitches. */
+static WeaveYarn yarn_in_cloth(const WeftYarn *yarn, float pitch, float cross_pitch, float width, float unit) {
     const float own = yarn->width * width;
     return (WeaveYarn){.alpha = yarn->alpha,
                        .crimp = tanf(yarn->crimp),
@@ -80,6 +80,11 @@ static WeaveYarn yarn_in_cloth(const WeftYarn *yarn, float pitch, float cross_pi
                        .slub = yarn->slub,
                        .wander = yarn->wander,
                        .hairiness = yarn->hairiness,
+                       .slub_nodes = cross_pitch * unit / yarn->slub_length,
+                       .barre = yarn->barre,
+                       .barre_nodes = pitch * unit / yarn->barre_width,
+                       .uneven = yarn->uneven,
+                       .uneven_nodes = pitch * unit / yarn->uneven_size,
                        .per_width = 1.0f / own,
                        .cos_twist = cosf(yarn->twist),
                        .sin_twist = sinf(yarn->twist),
@@ -125,11 +130,11 @@ WeftResult weft_cloth_create(const WeftDraft *draft, const WeftYarn yarns[2], un
     }
     put_albedos(cloth, draft);
     const double unit = 0.5 * (pitch[0] + pitch[1]);
-    const float warp = (float)(pitch[0] / unit), weft = (float)(pitch[1] / unit);
+    const float warp = (float)(pitch[0] / unit), weft = (float)(pitch[1] / unit), millimetres = (float)(1e3 * unit);
     cloth->weave = (Weave){.warps = warps,
                            .picks = picks,
-                           .warp = yarn_in_cloth(&yarns[WEFT_WARP], warp, weft, (float)width[0]),
-                           .weft = yarn_in_cloth(&yarns[WEFT_WEFT], weft, warp, (float)width[1]),
+                           .warp = yarn_in_cloth(&yarns[WEFT_WARP], warp, weft, (float)width[0], millimetres),
+                           .weft = yarn_in_cloth(&yarns[WEFT_WEFT], weft, warp, (float)width[1], millimetres),
                            .seed = (float)(seed % 289u),
                            .runs = cloth->runs,
                            .albedos = cloth->albedos};

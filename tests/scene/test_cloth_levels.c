@@ -310,6 +310,10 @@ static void looks_are_the_same_alone_and_among_others(void **state) {
     weft_cloth_free(cloth);
 }
 
+static float dye_over(const WeftCloth *cloth, bool weft, float side) {
+    return weave_far_dye(&cloth->weave, weft, 7.0f, 7.0f, (WeaveFootprint){side, side, side});
+}
+
 /* A place that is too far out to count its threads, or is none, is the first thread, whatever is seen of it; a pixel
  * without bounds has the mean dye. */
 static void places_without_a_number_are_the_first(void **state) {
@@ -332,10 +336,9 @@ static void places_without_a_number_are_the_first(void **state) {
         }
     }
     for (int weft = 0; weft < 2; weft++) {
-        assert_true(weave_far_dye(&cloth->weave, weft == 1, 7.0f, 1e30f) == 1.0f);
-        assert_true(weave_far_dye(&cloth->weave, weft == 1, 7.0f, INFINITY) == 1.0f);
-        assert_true(weave_far_dye(&cloth->weave, weft == 1, 7.0f, NAN) ==
-                    weave_far_dye(&cloth->weave, weft == 1, 7.0f, 1.0f));
+        assert_true(dye_over(cloth, weft == 1, 1e30f) == 1.0f);
+        assert_true(dye_over(cloth, weft == 1, INFINITY) == 1.0f);
+        assert_true(dye_over(cloth, weft == 1, NAN) == dye_over(cloth, weft == 1, 1.0f));
     }
     weft_cloth_free(cloth);
 }

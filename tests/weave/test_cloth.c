@@ -13,11 +13,12 @@
 #include <cmocka.h>
 
 #include "scratch.h"
+#include "shading/weave/weave_base.h"
 #include "shading/weave/weave_light.h"
 #include "weave/weft_cloth.h"
 #include "weft/weft.h"
 
-static WeftYarn yarn_of(const char *name) {
+static WeftYarn named_yarn(const char *name) {
     WeftYarn yarn;
     WeftError error;
     if (weft_yarn_find(name, &yarn, &error) != WEFT_OK) fail_msg("%s", error.text);
@@ -26,8 +27,8 @@ static WeftYarn yarn_of(const char *name) {
 
 /* Returns the yarn of a name without anything that varies. */
 static WeftYarn even_yarn(const char *name) {
-    WeftYarn yarn = yarn_of(name);
-    yarn.streaks = yarn.dye = yarn.slub = yarn.wander = yarn.hairiness = 0.0f;
+    WeftYarn yarn = named_yarn(name);
+    yarn.streaks = yarn.dye = yarn.slub = yarn.wander = yarn.hairiness = yarn.barre = yarn.uneven = 0.0f;
     return yarn;
 }
 
@@ -51,7 +52,7 @@ static void the_draft_says_what_lies_on_top(void **state) {
     for (size_t d = 0; d < sizeof drafts / sizeof *drafts; d++) {
         WeftDraft *draft;
         WeftError error;
-        WeftCloth *cloth = woven(drafts[d], yarn_of("cotton"), 3);
+        WeftCloth *cloth = woven(drafts[d], named_yarn("cotton"), 3);
         assert_int_equal(weft_draft_parse(drafts[d], &draft, &error), WEFT_OK);
         for (int pick = -20; pick < 40; pick++)
             for (int warp = -20; warp < 40; warp++) {
@@ -93,7 +94,7 @@ static int changes(const Weave *m, float x, float y) {
 
 static void variation_does_not_tile_unless_it_is_to(void **state) {
     (void)state;
-    WeftCloth *even = woven("twill 2/2", even_yarn("wool"), 0), *real = woven("twill 2/2", yarn_of("wool"), 0);
+    WeftCloth *even = woven("twill 2/2", even_yarn("wool"), 0), *real = woven("twill 2/2", named_yarn("wool"), 0);
     assert_int_equal(changes(&even->weave, 4.0f, 8.0f), 0);
     assert_true(changes(&real->weave, 4.0f, 0.0f) > 300);
     assert_true(changes(&real->weave, 0.0f, 4.0f) > 300);
@@ -141,8 +142,8 @@ static float dye_of(const Weave *m, bool weft, float thread) {
 static void variation_has_no_period(void **state) {
     (void)state;
     static float dye[THREADS], turn[THREADS];
-    WeftYarn yarn = yarn_of("wool");
-    yarn.streaks = yarn.slub = yarn.wander = 0.0f;
+    WeftYarn yarn = named_yarn("wool");
+    yarn.streaks = yarn.slub = yarn.wander = yarn.barre = yarn.uneven = 0.0f;
     WeftCloth *cloth = woven("plain", yarn, 7);
     for (int weft = 0; weft < 2; weft++) {
         double sum = 0.0, square = 0.0;
@@ -162,10 +163,110 @@ static void variation_has_no_period(void **state) {
     weft_cloth_free(cloth);
 }
 
+/* Squares of 4 mm, a pixel of a sofa that is seen whole, 8 by 8 threads at 20 a centimetre, side by side over 2.4 m. */
+enum { SQUARES = 600, SQUARE = 8 };
+
+/* Returns the mean amount of dye of a system's points in a square about x, y. */
+static double dye_seen(const Weave *m, bool weft, float x, float y) {
+    enum { POINTS = 24 };
+    double sum = 0.0;
+    int count = 0;
+    for (int k = 0; k < POINTS * POINTS; k++) {
+        const float right = ((float)(k % POINTS) + 0.5f) / POINTS - 0.5f,
+                    up = ((float)(k / POINTS) + 0.5f) / POINTS - 0.5f;
+        const WeavePoint p = weave_point_bound(m, x + SQUARE * right, y + SQUARE * up, 0.1f, 0.0f);
+        if (p.weft != weft || p.height <= WEAVE_NONE) continue;
+        sum += (double)p.dye;
+        count++;
+    }
+    return sum / count;
+}
+
+/* How squares side by side vary, across the threads of a system or along them. */
+typedef struct Lots {
+    double mean, deviation; /* of the dye of points */
+    double apart;           /* of that and the dye from afar: the root of the mean square */
+} Lots;
+
+static Lots lots_of(const Weave *m, bool weft, bool along) {
+    Lots lots = {0.0, 0.0, 0.0};
+    for (int k = 0; k < SQUARES; k++) {
+        const float at = (float)(SQUARE * k) + 3.3f, x = weft == along ? at : 31.7f, y = weft == along ? 31.7f : at;
+        const double near = dye_seen(m, weft, x, y),
+                     far = (double)weave_far_dye(m, weft, x, y, (WeaveFootprint){SQUARE, SQUARE, SQUARE});
+        lots.mean += near / SQUARES;
+        lots.deviation += near * near / SQUARES;
+        lots.apart += (near - far) * (near - far) / SQUARES;
+    }
+    lots.deviation = (sqrt)(fmax(lots.deviation - lots.mean * lots.mean, 0.0));
+    lots.apart = (sqrt)(lots.apart);
+    return lots;
+}
+
+/* Lots of yarn make bars across their system that do not end along it, uneven dye makes patches in both directions. Seen
+ * from afar both are where they are near by. The mean stays: 2.4 m of the coarsest bars are 60, whose mean is uncertain by
+ * an eighth of their deviation. */
+static void dye_varies_over_centimetres(void **state) {
+    (void)state;
+    WeftYarn barred = even_yarn("cotton"), patched = barred;
+    barred.barre = 0.2f, barred.barre_width = 40.0f;
+    patched.uneven = 0.2f, patched.uneven_size = 40.0f;
+    WeftCloth *bars = woven("plain", barred, 3), *patches = woven("plain", patched, 3),
+              *even = woven("plain", even_yarn("cotton"), 3);
+    for (int k = 0; k < 4; k++) {
+        const bool weft = k % 2, along = k / 2;
+        const Lots b = lots_of(&bars->weave, weft, along), p = lots_of(&patches->weave, weft, along),
+                   e = lots_of(&even->weave, weft, along);
+        print_message("%s %s: bars %.3f deviation %.3f, from afar %.3f off; patches %.3f %.3f %.3f\n",
+                      weft ? "weft" : "warp", along ? "along" : "across", b.mean, b.deviation, b.apart, p.mean,
+                      p.deviation, p.apart);
+        assert_true(along ? b.deviation < 0.002 : b.deviation > 0.05 && b.deviation < 0.15);
+        assert_true(p.deviation > 0.05 && p.deviation < 0.15);
+        assert_true(b.apart < 0.02 && p.apart < 0.02);
+        if (!along) assert_true(fabs(b.mean - 1.0) < 0.03);
+        assert_true(fabs(p.mean - 1.0) < 0.03);
+        assert_true(e.deviation < 1e-6 && e.apart < 1e-6);
+    }
+    weft_cloth_free(bars);
+    weft_cloth_free(patches);
+    weft_cloth_free(even);
+}
+
+/* Returns over how many crossings the width of a thread goes from one node of its noise to the next: half of the mean
+ * distance between its extremes is less than that, twice it is more. */
+static double slub_length_of(const Weave *m) {
+    double before = 0.0, slope = 0.0;
+    int extremes = 0;
+    enum { LENGTH = 20000 };
+    for (int k = 0; k < LENGTH; k++) {
+        const WeaveNoise n =
+            weave_noise(m->seed, WEAVE_OF_THREADS, 5.0f, weave_nodes_along(m->warp.slub_nodes, (float)k, 0.0f));
+        const double now = (double)n.second - before;
+        extremes += k > 1 && now * slope < 0.0;
+        slope = now;
+        before = (double)n.second;
+    }
+    return (double)LENGTH / extremes;
+}
+
+/* A slub is as long as its yarn says, in millimetres, whatever the sett. */
+static void slubs_are_millimetres_long(void **state) {
+    (void)state;
+    WeftYarn yarn = even_yarn("linen");
+    yarn.slub_length = 40.0f;
+    WeftCloth *coarse = woven("plain; sett 10", yarn, 0), *fine = woven("plain; sett 40", yarn, 0);
+    const double c = slub_length_of(&coarse->weave) / 1.0, f = slub_length_of(&fine->weave) / 4.0; /* millimetres */
+    print_message("slubs of 40 mm: extremes are %.1f mm apart at 10 threads/cm, %.1f mm at 40\n", c, f);
+    assert_true(c > 40.0 && c < 90.0);
+    assert_true(f > 40.0 && f < 90.0);
+    weft_cloth_free(coarse);
+    weft_cloth_free(fine);
+}
+
 static void a_seed_makes_a_cloth(void **state) {
     (void)state;
-    WeftCloth *one = woven("plain", yarn_of("linen"), 1), *again = woven("plain", yarn_of("linen"), 1),
-              *other = woven("plain", yarn_of("linen"), 2);
+    WeftCloth *one = woven("plain", named_yarn("linen"), 1), *again = woven("plain", named_yarn("linen"), 1),
+              *other = woven("plain", named_yarn("linen"), 2);
     int apart = 0;
     for (int k = 0; k < 300; k++) {
         const float x = 0.37f * (float)k, y = 0.11f * (float)k;
@@ -185,7 +286,7 @@ static void every_point_is_sound(void **state) {
     static const char *const yarns[] = {"cotton", "linen", "wool", "silk", "dupion", "polyester"};
     for (size_t d = 0; d < sizeof drafts / sizeof *drafts; d++)
         for (size_t n = 0; n < sizeof yarns / sizeof *yarns; n++) {
-            WeftCloth *cloth = woven(drafts[d], yarn_of(yarns[n]), (unsigned)n);
+            WeftCloth *cloth = woven(drafts[d], named_yarn(yarns[n]), (unsigned)n);
             for (int k = 0; k < 500; k++) {
                 const float x = 1.618f * (float)k - 100.0f, y = 0.7071f * (float)k - 50.0f;
                 const WeavePoint p = weave_point(&cloth->weave, x, y, 0.0f, 0.0f);
@@ -347,10 +448,10 @@ static void numbers_that_no_yarn_has_are_refused_in_one_line(void **state) {
     assert_int_equal(weft_draft_parse("plain", &draft, &error), WEFT_OK);
     assert_int_equal(weft_yarn_find("nettle", &yarn, &error), WEFT_USAGE);
     assert_non_null(strstr(error.text, "nettle"));
-    const WeftYarn good = yarn_of("cotton");
+    const WeftYarn good = named_yarn("cotton");
     const size_t count = sizeof good / sizeof(float);
     for (size_t k = 0; k < count; k++) {
-        static const float wrong[] = {-9.0f, 99.0f, NAN, INFINITY};
+        static const float wrong[] = {-9.0f, 9999.0f, NAN, INFINITY};
         for (size_t w = 0; w < sizeof wrong / sizeof *wrong; w++) {
             WeftYarn bad = good;
             memcpy((char *)&bad + k * sizeof(float), &wrong[w], sizeof(float));
@@ -393,7 +494,7 @@ static void maps_repeat_without_a_seam(void **state) {
     char folder[64];
     WeftError error;
     snprintf(folder, sizeof folder, "/tmp/weft-maps-%ld", (long)getpid());
-    WeftCloth *cloth = woven("twill 2/2; both 1#a08050", yarn_of("wool"), 5);
+    WeftCloth *cloth = woven("twill 2/2; both 1#a08050", named_yarn("wool"), 5);
     if (weft_cloth_bake(cloth, 256, 0.5, folder, &error) != WEFT_OK) fail_msg("%s", error.text);
     for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
         WeftImage map = read_map(folder, names[k]);
@@ -424,7 +525,7 @@ static void failed_bake_leaves_no_folder(void **state) {
     char folder[SCRATCH_SIZE], maps[SCRATCH_SIZE + 8];
     WeftError error;
     struct rlimit was, small;
-    WeftCloth *cloth = woven("plain", yarn_of("cotton"), 0);
+    WeftCloth *cloth = woven("plain", named_yarn("cotton"), 0);
     assert_true(scratch_make(folder));
     snprintf(maps, sizeof maps, "%s/maps", folder);
     assert_int_equal(getrlimit(RLIMIT_FSIZE, &was), 0);
@@ -446,7 +547,7 @@ static void failed_bake_leaves_no_folder(void **state) {
 
 static void a_picture_shows_the_colours_of_its_threads(void **state) {
     (void)state;
-    WeftCloth *cloth = woven("plain; both 1#c02020", yarn_of("cotton"), 0);
+    WeftCloth *cloth = woven("plain; both 1#c02020", named_yarn("cotton"), 0);
     WeftImage image;
     WeftError error;
     assert_int_equal(weft_cloth_draw(cloth, 48, 6.0f, &image, &error), WEFT_OK);
@@ -466,6 +567,8 @@ int main(void) {
         cmocka_unit_test(shares_are_of_what_is_seen),
         cmocka_unit_test(variation_does_not_tile_unless_it_is_to),
         cmocka_unit_test(variation_has_no_period),
+        cmocka_unit_test(dye_varies_over_centimetres),
+        cmocka_unit_test(slubs_are_millimetres_long),
         cmocka_unit_test(a_seed_makes_a_cloth),
         cmocka_unit_test(every_point_is_sound),
         cmocka_unit_test(fibres_leave_the_mean_as_it_is),

@@ -122,7 +122,10 @@ static WeftCloth *cloth_of(const YarnCase *yarn, int kind) {
                           .roundness = (float)yarn_roundness,
                           .twist = (float)(yarn->twist * RADIANS),
                           .width = (float)yarn->width,
-                          .floats = (float)yarn->floats};
+                          .floats = (float)yarn->floats,
+                          .slub_length = 10.0f,
+                          .barre_width = 10.0f,
+                          .uneven_size = 10.0f};
     const WeftYarn both[2] = {one, one};
     char words[128];
     WeftDraft *draft;

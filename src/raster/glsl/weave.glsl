@@ -58,7 +58,7 @@ WeaveBase woven_far(Weave c, bool weft, vec2 place, vec2 across, vec2 up, WeaveF
         single += textureLod(weave_colors, vec3(at, layer), level) / float(places);
         multiple += textureLod(weave_colors, vec3(at, layer + 1.0), level) / float(places);
     }
-    float dye = weave_far_dye(c, weft, weft ? place.y : place.x, weft ? f.y : f.x);
+    float dye = weave_far_dye(c, weft, place.x, place.y, f);
     float scale = MATERIAL_HOLED ? 2.0 / max(c.warp_far.share + c.weft_far.share, 1e-3) : 2.0;
     WeaveBase b = weave_far(c, weft, rgb(single.r, single.g, single.b), rgb(multiple.r, multiple.g, multiple.b),
                             single.a, dye);
@@ -70,7 +70,7 @@ WeaveBase woven_far(Weave c, bool weft, vec2 place, vec2 across, vec2 up, WeaveF
 /* The uniform block has the numbers of two WovenPrepared, of warp and weft, from CLOTH_AFAR on. */
 #define ONE_NUMBER(name)  +1
 #define TWO_NUMBERS(name) +2
-const int CLOTH_AFAR = 68, CLOTH_AFAR_EACH = 0 WOVEN_NUMBERS(ONE_NUMBER) WOVEN_EACH_BIN(TWO_NUMBERS);
+const int CLOTH_AFAR = 76, CLOTH_AFAR_EACH = 0 WOVEN_NUMBERS(ONE_NUMBER) WOVEN_EACH_BIN(TWO_NUMBERS);
 #define TAKE_NUMBER(to)                                                                                      \
     to = weft ? weave_number(k + CLOTH_AFAR_EACH) : weave_number(k);                                         \
     k++;

@@ -4,8 +4,8 @@ uniform highp sampler2D weave_cells;
 #include "shading/weave/weave_cell.h"
 
 /* Indices in cloth_numbers (raster/material/cloths.h), after the yarns. */
-const int CLOTH_SEED = 56, CLOTH_LOW = 57, CLOTH_HIGH = 58, CLOTH_OPENNESS = 59, CLOTH_WARPS = 60, CLOTH_PICKS = 61,
-          CLOTH_FAR_WIDTH = 62, CLOTH_FAR_HEIGHT = 63, CLOTH_PER_U = 64, CLOTH_PER_V = 65;
+const int CLOTH_SEED = 66, CLOTH_LOW = 67, CLOTH_HIGH = 68, CLOTH_OPENNESS = 69, CLOTH_WARPS = 70, CLOTH_PICKS = 71,
+          CLOTH_FAR_WIDTH = 72, CLOTH_FAR_HEIGHT = 73, CLOTH_PER_U = 74, CLOTH_PER_V = 75;
 
 float weave_number(int k) { return material_weave[k / 4][k - 4 * (k / 4)]; }
 

@@ -40,17 +40,23 @@ FN float weave_far_level(WeaveFootprint f, float warps, float picks) {
     return log2(max(max(f.x / warps, f.y / picks), 1.0f));
 }
 
-/* Returns the factor on the amount of dye, as a mean over a footprint of so many threads about the thread at u. Four
- * threads stand for all, scaled so that the mean varies as that of all does. It fades to 1 from 8 to 16 threads. */
-FN float weave_far_dye(const Weave *m, bool weft, float u, float threads) {
-    float side = weft ? m->cycle_y : m->cycle_x, sum = 0.0f;
-    float dye = weft ? m->weft.dye : m->warp.dye, width = clamp(threads, 1.0f, 16.0f);
+/* Returns the factor on the amount of dye of a system, as a mean over a footprint of f about x, y. Four threads stand
+ * for all that it covers, scaled so that the mean varies as that of all does, which fades from 8 to 16 threads. What
+ * varies over many threads does not. */
+FN float weave_far_dye(const Weave *m, bool weft, float x, float y, WeaveFootprint f) {
+    WeaveYarn yarn = weave_yarn_of(m, weft);
+    float side = weft ? m->cycle_y : m->cycle_x, cycle = weft ? m->cycle_x : m->cycle_y, sum = 0.0f;
+    float u = weft ? y : x, v = weft ? x : y;
+    float threads = clamp(weft ? f.y : f.x, 1.0f, 1e6f), crossings = clamp(weft ? f.x : f.y, 1.0f, 1e6f);
+    float width = min(threads, 16.0f);
+    WeaveNodes thick = weave_nodes_along(yarn.slub_nodes, v, cycle);
     ROUNDS(k, 4) {
         float c = floor(u + (0.25f * to_float(k) - 0.375f) * width);
-        sum = sum + weave_thread_dye(m->seed, weft, c, side);
+        float slub = weave_noise(m->seed, WEAVE_OF_THREADS + (weft ? 1 : 0), weave_wrap(c, side), thick).second;
+        sum = sum + weave_slub_dye(yarn, slub) - 1.0f - 0.7f * yarn.dye * weave_thread_dye(m->seed, weft, c, side);
     }
     float fades = clamp((16.0f - width) / 8.0f, 0.0f, 1.0f) * min(2.0f / sqrt(width), 1.0f);
-    return 1.0f - dye * 0.7f * 0.25f * sum * fades;
+    return (1.0f + 0.25f * sum * fades) * weave_lot_dye(m, yarn, weft, u, v, threads, crossings);
 }
 
 /* The content of the diffuse slot of a stack. */
@@ -78,14 +84,24 @@ FN WeaveBase weave_near(const Weave *m, WeavePoint p) {
     return b;
 }
 
-/* Returns the part c of a colour with dye times as much dye, as if c / covers were the albedo of the fibres. covers:
- * the share of the cloth that reflects c. Crowns get more than their share of light, so c may be greater. */
-FN float weave_dyed(float c, float covers, float dye) {
-    float most = max(covers, c);
-    return c * most / max(c + (most - c) * dye, 1e-6f);
+/* Return the part c of a colour with dye times as much dye: of light that met one fibre, whose share `white` has no dye,
+ * and of all other light, in which rho(A) of yarn_medium.h is solved for the albedo A. covers: the share of the cloth
+ * that reflects c. Crowns get more than their share of light, so c may be greater. */
+FN float weave_dyed_single(float c, float covers, float white, float dye) {
+    float most = max(max(covers, c), 1e-6f), undyed = min(white, c / most);
+    return most * (undyed + weave_dyed(c / most - undyed, dye));
 }
-FN Rgb weave_dyed_rgb(Rgb c, float covers, float dye) {
-    return rgb(weave_dyed(c.r, covers, dye), weave_dyed(c.g, covers, dye), weave_dyed(c.b, covers, dye));
+FN float weave_dyed_multiple(float c, float covers, float dye) {
+    float most = max(max(covers, c), 1e-6f), root = sqrt(c / most), g = (1.0f - root) / (1.0f + 0.32f * root);
+    return most * yarn_reflectance(weave_dyed(1.0f - g * g, dye));
+}
+FN Rgb weave_dyed_single_rgb(Rgb c, float covers, float white, float dye) {
+    return rgb(weave_dyed_single(c.r, covers, white, dye), weave_dyed_single(c.g, covers, white, dye),
+               weave_dyed_single(c.b, covers, white, dye));
+}
+FN Rgb weave_dyed_multiple_rgb(Rgb c, float covers, float dye) {
+    return rgb(weave_dyed_multiple(c.r, covers, dye), weave_dyed_multiple(c.g, covers, dye),
+               weave_dyed_multiple(c.b, covers, dye));
 }
 
 /* Returns the threads of one system. single, multiple: the colours that the cloth has of these threads, which cover so
@@ -102,7 +118,10 @@ FN WeaveBase weave_far(const Weave *m, bool weft, Rgb single, Rgb multiple, floa
     b.lobe.params[WOVEN_ROUNDNESS] = w.roundness;
     b.lobe.params[WOVEN_FLOATS] = w.floats;
     b.lobe.params[WOVEN_CROSS_CRIMP] = w.cross_crimp;
-    b.single = rgb_scale(weave_dyed_rgb(single, covers, dye), weft ? m->weft_far.single : m->warp_far.single);
-    b.multiple = rgb_scale(weave_dyed_rgb(multiple, covers, dye), weft ? m->weft_far.multiple : m->warp_far.multiple);
+    float white = weft ? m->weft.white : m->warp.white;
+    b.single =
+        rgb_scale(weave_dyed_single_rgb(single, covers, white, dye), weft ? m->weft_far.single : m->warp_far.single);
+    b.multiple =
+        rgb_scale(weave_dyed_multiple_rgb(multiple, covers, dye), weft ? m->weft_far.multiple : m->warp_far.multiple);
     return b;
 }

@@ -22,25 +22,30 @@
 
 /* The yarn of one system, warp or weft, as it lies in a cloth. Pitches and heights have a common unit. */
 #define WEAVE_YARN_NUMBERS(N)                                                                                          \
-    N(alpha)       /* of the fibres, as lobe yarn has it */                                                            \
-    N(crimp)       /* m: tangent of the steepest angle along the yarn */                                               \
-    N(roundness)   /* q: slope at the edges of the yarn */                                                             \
-    N(twist)       /* angle of the fibres to the yarn, radians */                                                      \
-    N(white)       /* share of light that a fibre reflects whatever its dye */                                         \
-    N(pitch)       /* distance between neighbouring threads of this system */                                          \
-    N(cross_pitch) /* distance between neighbouring threads of the other system */                                     \
-    N(width)       /* w, in pitches */                                                                                 \
-    N(bulge)       /* fraction by which the middle of a long float is wider */                                         \
-    N(floats)      /* k = 1 + floats (l - 1) */                                                                        \
-    N(streaks)     /* slope at the edges of a fibre */                                                                 \
-    N(dye)         /* how much the amount of dye varies */                                                             \
-    N(slub)        /* how much the width varies */                                                                     \
-    N(wander)      /* how much place and crimp vary */                                                                 \
-    N(hairiness)   /* fraction of the places for loose fibres that have one */                                         \
-    N(per_width)   /* 1 / width */                                                                                     \
-    N(cos_twist)   /* cosine of twist */                                                                               \
-    N(sin_twist)   /* sine of twist */                                                                                 \
-    N(crossing)    /* distance from crossing to crossing along the thread, in pitches */
+    N(alpha)        /* of the fibres, as lobe yarn has it */                                                           \
+    N(crimp)        /* m: tangent of the steepest angle along the yarn */                                              \
+    N(roundness)    /* q: slope at the edges of the yarn */                                                            \
+    N(twist)        /* angle of the fibres to the yarn, radians */                                                     \
+    N(white)        /* share of light that a fibre reflects whatever its dye */                                        \
+    N(pitch)        /* distance between neighbouring threads of this system */                                         \
+    N(cross_pitch)  /* distance between neighbouring threads of the other system */                                    \
+    N(width)        /* w, in pitches */                                                                                \
+    N(bulge)        /* fraction by which the middle of a long float is wider */                                        \
+    N(floats)       /* k = 1 + floats (l - 1) */                                                                       \
+    N(streaks)      /* slope at the edges of a fibre */                                                                \
+    N(dye)          /* how much the amount of dye varies */                                                            \
+    N(slub)         /* how much the width varies */                                                                    \
+    N(wander)       /* how much place and crimp vary */                                                                \
+    N(hairiness)    /* fraction of the places for loose fibres that have one */                                        \
+    N(slub_nodes)   /* nodes of the noise of width and place, per crossing */                                          \
+    N(barre)        /* how much the amount of dye varies in bars over many threads */                                  \
+    N(barre_nodes)  /* nodes of the widest bars, per thread */                                                         \
+    N(uneven)       /* how much the amount of dye varies in patches */                                                 \
+    N(uneven_nodes) /* nodes of the largest patches, per thread */                                                     \
+    N(per_width)    /* 1 / width */                                                                                    \
+    N(cos_twist)    /* cosine of twist */                                                                              \
+    N(sin_twist)    /* sine of twist */                                                                                \
+    N(crossing)     /* distance from crossing to crossing along the thread, in pitches */
 
 /* A system from afar: numbers of lobe woven, fitted to the visible points (weave/woven_fit.c). V is the mean area of
  * yarn that a direction sees, per area of cloth. */
@@ -113,6 +118,7 @@ FN WeaveCell weave_cell(const Weave *m, float warp, float pick) {
 #define WEAVE_OF_WAVES     7  /* how fibres wind */
 #define WEAVE_OF_FIBRES    9  /* dye of a fibre */
 #define WEAVE_OF_HAIRS     11 /* and three more: the loose fibres of a cell */
+#define WEAVE_OF_LOTS      15 /* dye over many threads, of both systems */
 
 /* A place in a run. */
 STRUCT(WeaveRun) {
@@ -137,15 +143,53 @@ FN WeaveRun weave_run(float floats, float v, float since, float run) {
     return a;
 }
 
+/* Returns the factor on the amount of dye at a place of a thread that is thick by noise `thick`: its softer yarn takes
+ * up more. */
+FN float weave_slub_dye(WeaveYarn y, float thick) { return 1.0f + 0.15f * y.slub * thick; }
+
+/* Returns the part of noise that is left over a footprint of so many of its nodes. */
+FN float weave_unblurred(float nodes) { return clamp(1.25f - 0.5f * nodes, 0.0f, 1.0f); }
+
+/* Returns noise of two dimensions, -1 to 1, over a lattice of which x and y count the nodes. */
+FN float weave_noise_over(float seed, float octave, float x, float y) {
+    WeaveNodes across = weave_nodes(x, 0.0f), along = weave_nodes(y, 0.0f);
+    float row = 1048576.0f * (octave + 1.0f); /* beyond those of the bars */
+    return mix(weave_noise(seed, WEAVE_OF_LOTS, row + along.low, across).first,
+               weave_noise(seed, WEAVE_OF_LOTS, row + along.high, across).first, along.part);
+}
+
+/* Returns the factor on the amount of dye at u, v, as for weave_thread, that varies over many threads: in bars across
+ * the system, where one lot of the yarn ends and the next begins, and in patches, which both systems share. Bars have
+ * three octaves and patches two. A cloth that repeats has neither. width, length: of the footprint across the threads and
+ * along them, in threads and in crossings. */
+FN float weave_lot_dye(const Weave *m, WeaveYarn y, bool weft, float u, float v, float width, float length) {
+    float bars = 0.0f, nodes = y.barre_nodes, row = weft ? 3.0f : 0.0f;
+    ROUNDS(k, 3) {
+        float octave = to_float(k);
+        bars = bars + (0.7f - 0.1f * octave) * weave_unblurred(width * nodes) *
+                          weave_noise(m->seed, WEAVE_OF_LOTS, row + octave, weave_nodes(u * nodes, 0.0f)).first;
+        nodes = 3.0f * nodes;
+    }
+    float patches = 0.0f, across = y.uneven_nodes, along = y.uneven_nodes * y.crossing;
+    ROUNDS(k, 2) {
+        float a = u * across, b = v * along, octave = to_float(k);
+        patches = patches + (0.9f - 0.3f * octave) * weave_unblurred(max(width * across, length * along)) *
+                                weave_noise_over(m->seed, octave, weft ? b : a, weft ? a : b);
+        across = 3.0f * across;
+        along = 3.0f * along;
+    }
+    return 1.0f + (m->cycle_x > 0.0f ? 0.0f : y.barre * bars + y.uneven * patches);
+}
+
 /* Returns the point of thread c of a system without its fibres, in the thread's frame, whose y is along it. u, v: the
  * place across the threads of the system and along them. since, run: as for weave_run. bends: noise from crossing to
- * crossing, -1 to 1. `slow` has two noises that change along the thread, from one node to the next 10 crossings on. */
+ * crossing, -1 to 1. `slow` has two noises that change along the thread over the length of a slub. */
 FN WeavePoint weave_thread(const Weave *m, WeaveYarn y, bool weft, float c, float u, float v, float since, float run,
                            float bends) {
     float side = weft ? m->cycle_y : m->cycle_x, cycle = weft ? m->cycle_x : m->cycle_y;
     WeaveRun a = weave_run(y.floats, v, since, run);
-    WeaveNoise slow =
-        weave_noise(m->seed, WEAVE_OF_THREADS + (weft ? 1 : 0), weave_wrap(c, side), weave_nodes_along(0.1f, v, cycle));
+    WeaveNoise slow = weave_noise(m->seed, WEAVE_OF_THREADS + (weft ? 1 : 0), weave_wrap(c, side),
+                                  weave_nodes_along(y.slub_nodes, v, cycle));
     float crimp = a.ends * y.crimp * (1.0f + 0.5f * y.wander * bends);
     float aside = 0.12f * y.wander * slow.first;
     float thick = 1.0f + y.slub * (0.35f * slow.second + 0.12f * bends);
@@ -164,7 +208,7 @@ FN WeavePoint weave_thread(const Weave *m, WeaveYarn y, bool weft, float c, floa
     p.slope_x = y.roundness * r;
     p.slope_y = a.up * crimp * (a.s < 0.0f ? -a.s_k : a.s_k);
     p.fibre = dir(0.0f, 1.0f, 0.0f);
-    p.dye = 1.0f;
+    p.dye = weave_slub_dye(y, slow.second);
     p.lit = 1.0f;
     return p;
 }
@@ -257,8 +301,9 @@ FN void weave_add_fibres(const Weave *m, WeaveYarn y, float u, float v, float sp
     Dir fibre = weave_fibre_axis(c, s, sx, sy);
     float crevice = min(2.0f * streaks, 0.6f);
     WeaveNoise along = weave_noise(m->seed, WEAVE_OF_STREAKS + weft, thread, weave_nodes_along(0.35f, v, cycle));
-    p->dye = 1.0f - y.dye * (0.7f * weave_thread_dye(m->seed, p->weft, p->thread, side) + 0.3f * along.first) -
+    p->dye = p->dye - y.dye * (0.7f * weave_thread_dye(m->seed, p->weft, p->thread, side) + 0.3f * along.first) -
              0.5f * min(streaks, 0.5f) * a.dye;
+    p->dye = p->dye * weave_lot_dye(m, y, p->weft, u, v, 0.0f, 0.0f);
     p->lit = (1.0f - crevice * f * f * f * f) / (1.0f - 0.2f * crevice);
     p->slope_x = p->weft ? sy : sx;
     p->slope_y = p->weft ? sx : sy;
@@ -440,13 +485,15 @@ FN bool weave_gap(const Weave *m, float x, float y) {
     return open && weave_hair_at(m, x, y, radius, open && radius > 0.0f ? WEAVE_HAIRS_NEAR : 0) < 0;
 }
 
-/* Returns the albedo of the fibres at a point in one channel, without the share `white`. Fibres of albedo A absorb
- * (1 - A) / A times what they scatter, and this ratio is proportional to the dye. */
+/* Returns the albedo of fibres with dye times as much dye. Fibres of albedo A absorb (1 - A) / A times what they
+ * scatter, and this ratio is proportional to the dye. */
+FN float weave_dyed(float albedo, float dye) { return albedo / max(albedo + (1.0f - albedo) * max(dye, 0.1f), 1e-6f); }
+
+/* Returns the albedo of the fibres at a point in one channel, without the share `white`. */
 FN float weave_albedo(const Weave *m, WeavePoint p, int channel) {
     float thread = weave_mod(p.thread, to_float(p.weft ? m->picks : m->warps));
     int row = to_int(thread) + (p.weft ? m->warps : 0);
-    float a = weave_texel(m->albedos, 3, row, channel);
-    return a / max(a + (1.0f - a) * max(p.dye, 0.1f), 1e-6f);
+    return weave_dyed(weave_texel(m->albedos, 3, row, channel), p.dye);
 }
 
 #define WEAVE_SHADE 0.7f /* the part of light that does not reach the lowest places */
