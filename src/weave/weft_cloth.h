@@ -41,6 +41,7 @@ struct WeftCloth {
     double size[2];   /* of the repeat, metres */
     double metres;    /* spanned by a unit of texture coordinates */
     bool automatic;   /* metres follows from the mesh (scene/material/cloth_fit.h) */
+    float relief;     /* of the asset: smoothed over so many metres (scene/material/relief.h); infinite: flat */
     float per_uv[2];  /* threads of warp and weft in one unit of texture coordinates */
 };
 

@@ -212,5 +212,6 @@ WeftClothInfo weft_cloth_info(const WeftCloth *cloth) {
                                     (float)(0.01 * (double)cloth->weave.picks / cloth->size[WEFT_WEFT])},
                            .metres = (float)cloth->metres,
                            .automatic = cloth->automatic,
+                           .relief = cloth->relief,
                            .seed = (int)cloth->weave.seed};
 }

@@ -16,7 +16,7 @@ typedef struct Cloth {
     char draft[160];
     struct {
         char key[24], value[64], json[80];
-    } keys[8];
+    } keys[12];
     int count;
 } Cloth;
 
@@ -55,6 +55,7 @@ static Cloth random_cloth(int k) {
     add_key(&cloth, "sett", value, json);
     if (roll(2)) add_number(&cloth, "metres", 0.05 * (1 + roll(40)));
     add_number(&cloth, "seed", roll(289));
+    if (roll(2)) add_number(&cloth, "relief", 0.001 * roll(100));
     if (roll(2)) add_number(&cloth, "warp.alpha", 0.15 + 0.01 * roll(50));
     if (roll(2)) add_number(&cloth, "weft.slub", 0.01 * roll(90));
     snprintf(value, sizeof value, "%.2f,%.2f,%.2f", 0.01 * roll(99), 0.01 * roll(99), 0.01 * roll(99));
@@ -110,7 +111,7 @@ static void cloth_is_the_same_by_every_way(void **state) {
     asset_make();
     for (int k = 0; k < (getenv("WEFT_TEST_LONG") ? DRAFTS_LONG : DRAFTS); k++) {
         const Cloth cloth = random_cloth(k);
-        char json[1024], file[1100], set[1100], draft[200], keys[10][128];
+        char json[1024], file[1100], set[1100], draft[200], keys[16][128];
         const char *arguments[64] = {"render", "ball.glb", SMALL, "-o", "drawn.npy", "--weave", draft};
         int count = 0;
         size_t size;
@@ -122,9 +123,9 @@ static void cloth_is_the_same_by_every_way(void **state) {
 
         snprintf(draft, sizeof draft, "ball=%s", cloth.draft);
         while (arguments[count]) count++;
-        snprintf(keys[8], sizeof keys[8], "ball.weave.warp=linen");
-        snprintf(keys[9], sizeof keys[9], "ball.weave.weft=wool");
-        for (int n = 8; n < 10; n++) arguments[count++] = "--set", arguments[count++] = keys[n];
+        snprintf(keys[14], sizeof keys[14], "ball.weave.warp=linen");
+        snprintf(keys[15], sizeof keys[15], "ball.weave.weft=wool");
+        for (int n = 14; n < 16; n++) arguments[count++] = "--set", arguments[count++] = keys[n];
         for (int n = 0; n < cloth.count; n++) {
             snprintf(keys[n], sizeof keys[n], "ball.weave.%s=%s", cloth.keys[n].key, cloth.keys[n].value);
             arguments[count++] = "--set", arguments[count++] = keys[n];

@@ -13,6 +13,7 @@
 #include "gltf/save/saving.h"
 #include "scene/material/cloth_file.h"
 #include "scene/material/material_numbers.h"
+#include "scene/material/relief.h"
 #include "scene/record/material_at.h"
 #include "shading/material/choice.h"
 #include "shading/stack/workflow.h"
@@ -221,9 +222,15 @@ static const char *name_of(const WeftScene *scene, int material) {
 void materials_save(Saving *saving) {
     const WeftScene *scene = saving->scene;
     if (!scene->material_count) return;
+    Material *given = arena_array(&saving->arena, (size_t)scene->material_count, sizeof *given);
+    if (!given) {
+        saving_fail(saving, WEFT_MESSAGE_MEMORY, saving->path, NULL);
+        return;
+    }
+    for (int k = 0; k < scene->material_count; k++) given[k] = relief_given(scene, k);
     json_t *list = saving_list(saving, "materials");
     for (int k = 0; k < scene->material_count && saving->result == WEFT_OK; k++)
-        saving_append(saving, list, material_save(saving, name_of(scene, k), &scene->materials[k]));
+        saving_append(saving, list, material_save(saving, name_of(scene, k), &given[k]));
     WeftScene read = {0};
     Asset asset = {.name = saving->path,
                    .scene = &read,
@@ -233,7 +240,7 @@ void materials_save(Saving *saving) {
     if (saving->result == WEFT_OK) materials_read(&asset);
     if (asset.result != WEFT_OK) saving_fail(saving, WEFT_MESSAGE_MEMORY, saving->path, NULL);
     for (int k = 0; k < scene->material_count && saving->result == WEFT_OK; k++)
-        extras_save(saving, json_array_get(list, (size_t)k), &scene->materials[k], &read.materials[k]);
+        extras_save(saving, json_array_get(list, (size_t)k), &given[k], &read.materials[k]);
     arena_free(&asset.arena);
     arena_free(&read.arena);
 }

@@ -5,6 +5,7 @@
 
 #include "gltf/save/saving.h"
 #include "image/codec.h"
+#include "scene/material/relief.h"
 
 /* Gives numbers to the texture and the image of an input, in the order in which a reader finds them, so that
  * it numbers them alike. */
@@ -17,6 +18,11 @@ static void number_texture(Saving *saving, const Input *input) {
     if (saving->image_number[image] >= 0) return;
     saving->image_number[image] = saving->image_count;
     saving->image_order[saving->image_count++] = image;
+}
+
+static void number_material(Saving *saving, int material) {
+    const Material given = relief_given(saving->scene, material);
+    for (int k = 0; k < INPUT_COUNT; k++) number_texture(saving, &given.inputs[k]);
 }
 
 static bool number_all(Saving *saving) {
@@ -39,8 +45,7 @@ static bool number_all(Saving *saving) {
     }
     for (int idle = 0; idle < 2; idle++) /* unused materials come last */
         for (int m = 0; m < scene->material_count; m++)
-            for (int k = 0; k < INPUT_COUNT && used[m] == !idle; k++)
-                number_texture(saving, &scene->materials[m].inputs[k]);
+            if (used[m] == !idle) number_material(saving, m);
     return true;
 }
 

@@ -7,8 +7,8 @@
 #include "scene/material/cloth_fit.h"
 #include "scene/material/material_file.h"
 #include "scene/material/pictures.h"
+#include "scene/material/relief.h"
 #include "scene/material/set.h"
-#include "scene/record/tangents.h"
 
 static bool shows(const Material *material, InputId color) {
     const Input *input = &material->inputs[color];
@@ -101,7 +101,7 @@ static WeftResult put_on_selected(WeftScene *scene, const bool *selected, Materi
     for (int k = 0; k < scene_own_materials(scene); k++)
         if (selected[k]) scene->materials[k] = assigned(&scene->materials[k], file);
     WeftResult result = cloths_fit(scene, false, error);
-    return result == WEFT_OK ? tangents_complete(scene, error) : result;
+    return result == WEFT_OK ? materials_complete(scene, error) : result;
 }
 
 static WeftResult put_on(WeftScene *scene, const char *material, MaterialFile *file, WeftError *error) {

@@ -17,6 +17,10 @@
 
 enum { CELLS_MAX = 1 << 20 }; /* of a draft: a cloth takes 16 bytes a crossing */
 
+/* The length that the relief of an asset is smoothed over unless the file says another, metres: waves of 10 cm keep half
+ * of their height, threads and piles nothing. */
+#define RELIEF_FOLDS 0.02f
+
 /* A weave being read. The first failure stays. */
 typedef struct ClothReader {
     const char *name, *folder;
@@ -165,8 +169,24 @@ static double positive(ClothReader *r, const json_t *root, const char *key, doub
     return value;
 }
 
+/* Returns the length that the relief of the asset is smoothed over, metres: 0 for all of it, infinite for none. */
+static float read_relief(ClothReader *r, const json_t *json) {
+    static const struct {
+        const char *name;
+        float metres;
+    } choices[] = {{"folds", RELIEF_FOLDS}, {"all", 0.0f}, {"none", INFINITY}};
+    if (!json) return RELIEF_FOLDS;
+    const char *name = json_string_value(json);
+    for (size_t k = 0; name && k < sizeof choices / sizeof *choices; k++)
+        if (strcmp(name, choices[k].name) == 0) return choices[k].metres;
+    const double metres = json_number_value(json);
+    if (!json_is_number(json) || !(metres >= 0.0 && metres <= 10.0))
+        refuse(r, "relief", "expected folds, all, none, or the metres that it is smoothed over, 0 to 10");
+    return (float)metres;
+}
+
 static void read_keys(ClothReader *r, const json_t *json) {
-    static const char *const keys[] = {"draft", "warp", "weft", "sett", "metres", "seed"};
+    static const char *const keys[] = {"draft", "warp", "weft", "sett", "metres", "seed", "relief"};
     const char *key;
     json_t *value;
     if (!json_is_object(json)) refuse(r, "it", "expected an object with a \"draft\"");
@@ -208,11 +228,13 @@ WeftResult cloth_from_json(const json_t *json, const char *name, const char *fol
     const bool automatic = !given || (json_is_string(given) && strcmp(json_string_value(given), "auto") == 0);
     const double metres = automatic ? 1.0 : positive(&reader, json, "metres", 1.0, 1e4),
                  seed = positive(&reader, json, "seed", 0.0, 288.0);
+    const float relief = read_relief(&reader, json_object_get(json, "relief"));
     if (!(metres > 0.0)) refuse(&reader, "metres", "is 0");
     if (reader.result == WEFT_OK)
         reader.result = weft_cloth_create(reader.draft, reader.yarns, (unsigned)seed, out, error);
     if (*out) cloth_spread(*out, metres);
     if (*out) (*out)->automatic = automatic;
+    if (*out) (*out)->relief = relief;
     if (*out && !keep_source(&reader, json, *out)) {
         weft_cloth_free(*out);
         *out = NULL;

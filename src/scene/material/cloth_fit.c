@@ -3,6 +3,7 @@
 #include <math.h> /* the dialect has sqrt() and log() of floats; in parentheses they are those of doubles */
 
 #include "base/fail.h"
+#include "scene/material/relief.h"
 #include "weave/weft_cloth.h"
 
 static double twice_area(const Mesh *mesh, const uint32_t index[3]) {
@@ -16,21 +17,20 @@ static double twice_area(const Mesh *mesh, const uint32_t index[3]) {
     return (sqrt)(x * x + y * y + z * z);
 }
 
-static double twice_uv_area(const Mesh *mesh, const uint32_t index[3]) {
-    const float *a = mesh->texcoord[0] + 2 * (size_t)index[0], *b = mesh->texcoord[0] + 2 * (size_t)index[1],
-                *c = mesh->texcoord[0] + 2 * (size_t)index[2];
+static double twice_uv_area(const float *uv, const uint32_t index[3]) {
+    const float *a = uv + 2 * (size_t)index[0], *b = uv + 2 * (size_t)index[1], *c = uv + 2 * (size_t)index[2];
     return fabs(((double)b[0] - (double)a[0]) * ((double)c[1] - (double)a[1]) -
                 ((double)b[1] - (double)a[1]) * ((double)c[0] - (double)a[0]));
 }
 
-double cloth_uv_metres(const WeftScene *scene, int material, double *uneven) {
+double cloth_uv_metres(const WeftScene *scene, int material, int set, double *uneven) {
     double area = 0.0, uv_area = 0.0, sum = 0.0, squares = 0.0;
     for (int m = 0; m < scene->mesh_count; m++) {
         const Mesh *mesh = &scene->meshes[m];
-        if (mesh->material != material || !mesh->texcoord[0]) continue;
+        if (mesh->material != material || !mesh->texcoord[set]) continue;
         for (uint32_t k = 0; k < mesh->triangle_count; k++) {
             const double a = twice_area(mesh, mesh->index + 3 * (size_t)k),
-                         uv = twice_uv_area(mesh, mesh->index + 3 * (size_t)k);
+                         uv = twice_uv_area(mesh->texcoord[set], mesh->index + 3 * (size_t)k);
             if (!(a > 0.0) || !(uv > 0.0)) continue;
             const double log_metres = 0.5 * (log)(a / uv);
             area += a;
@@ -45,7 +45,7 @@ double cloth_uv_metres(const WeftScene *scene, int material, double *uneven) {
 }
 
 void cloth_fit(const WeftScene *scene, int material, WeftCloth *cloth) {
-    const double metres = cloth->automatic ? cloth_uv_metres(scene, material, NULL) : 0.0;
+    const double metres = cloth->automatic ? cloth_uv_metres(scene, material, 0, NULL) : 0.0;
     if (metres > 0.0) cloth_spread(cloth, metres);
 }
 
@@ -72,7 +72,7 @@ WeftResult cloths_fit(WeftScene *scene, bool fresh, WeftError *error) {
         const int number = scene->materials[k].cloth;
         const WeftCloth *cloth = number ? scene->cloths[number - 1] : NULL;
         if (!cloth || !cloth->automatic) continue;
-        const double metres = cloth_uv_metres(scene, k, NULL);
+        const double metres = cloth_uv_metres(scene, k, 0, NULL);
         if (!(metres > 0.0) || fabs(metres / cloth->metres - 1.0) < 1e-6) continue;
         if (fresh && !has_earlier(scene, k)) {
             cloth_spread(scene->cloths[number - 1], metres);
@@ -83,5 +83,5 @@ WeftResult cloths_fit(WeftScene *scene, bool fresh, WeftError *error) {
         WeftResult result = cloth_put(scene, k, fitted, error);
         if (result != WEFT_OK) return result;
     }
-    return WEFT_OK;
+    return reliefs_fit(scene, error);
 }

@@ -3,11 +3,11 @@
 
 #include "scene/record/scene.h"
 
-/* Returns the metres that a unit of texture coordinates spans on the meshes of a material: the root of their area over
- * that of their texture coordinates, set 0. Returns 0 where no triangle has an area in both. `uneven`, which may be
+/* Returns the metres that a unit of texture coordinates, set 0 or 1, spans on the meshes of a material: the root of
+ * their area over that of their texture coordinates. Returns 0 where no triangle has an area in both. `uneven`, which may be
  * NULL, gets the standard deviation of the logarithm of a triangle's own metres, weighted by area: 0 where threads have
  * one size. */
-double cloth_uv_metres(const WeftScene *scene, int material, double *uneven);
+double cloth_uv_metres(const WeftScene *scene, int material, int set, double *uneven);
 
 /* Gives a cloth that the scene does not have yet the size that suits a material's meshes, if its metres are
  * automatic. */

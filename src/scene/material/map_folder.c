@@ -12,8 +12,8 @@
 #include "scene/material/green.h"
 #include "scene/material/map_names.h"
 #include "scene/material/pictures.h"
+#include "scene/material/relief.h"
 #include "scene/material/set.h"
-#include "scene/record/tangents.h"
 #include "shading/material/choice.h"
 #include "shading/material/convert.h"
 #include "weft/material.h"
@@ -123,7 +123,7 @@ WeftResult weft_scene_set_texture(WeftScene *scene, const char *text, const char
             put_on_input(&scene->materials[k], target.input, picture.texture, target.channel < 0 ? 0 : target.channel);
     weft_image_free(&picture.image);
     free(picture.path);
-    return result == WEFT_OK ? tangents_complete(scene, error) : result;
+    return result == WEFT_OK ? materials_complete(scene, error) : result;
 }
 
 static bool has_suffix(const char *file, const char *const *suffixes) {
@@ -320,13 +320,13 @@ static int workflow_of(MapSet *map_set) {
 
 /* Binds the maps to the inputs of a material. An input that has its map already keeps its factor; a folder without a
  * new map leaves the workflow as it is. */
-static void bind_map_set(Material *material, const MapSet *map_set, int workflow) {
+static void bind_map_set(const WeftScene *scene, Material *material, const MapSet *map_set, int workflow) {
     bool any = false;
     for (int k = 0; k < INPUT_COUNT; k++) {
         if (!map_set->of_input[k]) continue;
         int texture = map_set->pictures[map_set->of_input[k] - 1].texture, channel = map_set->channel[k];
         const Input *input = &material->inputs[k];
-        if (input->texture == texture && input->channel == channel) continue;
+        if (relief_source(scene, input->texture) == texture && input->channel == channel) continue;
         put_on_input(material, (InputId)k, texture, channel);
         any = true;
     }
@@ -346,8 +346,8 @@ WeftResult weft_scene_bind_maps(WeftScene *scene, const char *material, const ch
         if (!take_over(scene, &map_set.pictures[k])) result = fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     int workflow = workflow_of(&map_set);
     for (int k = 0; k < scene->material_count && result == WEFT_OK; k++)
-        if (selected[k]) bind_map_set(&scene->materials[k], &map_set, workflow);
+        if (selected[k]) bind_map_set(scene, &scene->materials[k], &map_set, workflow);
     if (count && result == WEFT_OK) *count = map_set.count;
     free_map_set(&map_set);
-    return result == WEFT_OK ? tangents_complete(scene, error) : result;
+    return result == WEFT_OK ? materials_complete(scene, error) : result;
 }

@@ -6,9 +6,9 @@
 
 #include "base/fail.h"
 #include "base/pi.h"
+#include "scene/material/relief.h"
 #include "scene/material/set.h"
 #include "scene/record/material_at.h"
-#include "scene/record/tangents.h"
 #include "shading/material/choice.h"
 
 static bool is_choice(int choice, int value) {
@@ -96,7 +96,7 @@ static WeftResult no_material(const WeftScene *scene, int index, WeftError *erro
 WeftResult weft_scene_material(const WeftScene *scene, int index, WeftMaterial *out, WeftError *error) {
     memset(out, 0, sizeof *out);
     if (index < 0 || index >= scene_own_materials(scene)) return no_material(scene, index, error);
-    *out = scene->materials[index];
+    *out = relief_given(scene, index);
     return WEFT_OK;
 }
 
@@ -106,7 +106,7 @@ WeftResult weft_scene_put_material(WeftScene *scene, int index, const WeftMateri
     if (result != WEFT_OK) return result;
     Material before = scene->materials[index];
     scene->materials[index] = material_sound(numbers);
-    result = tangents_complete(scene, error);
+    result = materials_complete(scene, error);
     if (result != WEFT_OK) scene->materials[index] = before;
     return result;
 }
@@ -116,7 +116,7 @@ WeftResult weft_scene_put_measured(WeftScene *scene, int index, const char *path
     if (index < 0 || index >= scene_own_materials(scene)) return no_material(scene, index, error);
     WeftResult result = scene_measured_read(path, &measured, error);
     if (result != WEFT_OK) return result;
-    Material material = scene->materials[index];
+    Material material = relief_given(scene, index);
     material.measured = scene_adopt_measured(scene, measured);
     if (material.measured) return weft_scene_put_material(scene, index, &material, error);
     scene_measured_free(measured);

@@ -12,6 +12,7 @@
 #include "base/pi.h"
 #include "brdf/measured.h"
 #include "scene/material/cloth_file.h"
+#include "scene/material/relief.h"
 #include "scene/record/scene.h"
 #include "shading/material/choice.h"
 #include "weave/weft_cloth.h"
@@ -234,8 +235,9 @@ WeftResult weft_scene_save_material(const WeftScene *scene, int index, const cha
         return fail(error, WEFT_MESSAGE_MATERIAL_NAME, text, "%s", scene_names(scene, weft_scene_material_name, names));
     }
     Writer writer = {.scene = scene, .path = path, .error = error, .root = json_object()};
-    write_inputs(&writer, &scene->materials[index]);
-    write_rest(&writer, &scene->materials[index]);
+    const Material given = relief_given(scene, index);
+    write_inputs(&writer, &given);
+    write_rest(&writer, &given);
     if (writer.result == WEFT_OK) write_file(&writer);
     json_decref(writer.root);
     arena_free(&writer.arena);

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "scene/material/relief.h"
 #include "weft/material.h"
 
 int texture_number_of(WeftScene *scene, Texture texture) {
@@ -41,6 +42,7 @@ void picture_replace(WeftScene *scene, int image, WeftImage *fresh, const char *
         scene->textures[k].path = path;
         if (!path) scene->textures[k].inverted = 0;
     }
+    reliefs_renew(scene, image);
 }
 
 void picture_invert(WeftImage *image, unsigned channels) {

@@ -7,8 +7,8 @@
 #include "base/fail.h"
 #include "base/number.h"
 #include "base/pi.h"
+#include "scene/material/relief.h"
 #include "scene/record/material_at.h"
-#include "scene/record/tangents.h"
 #include "shading/material/choice.h"
 #include "shading/material/compose.h"
 
@@ -171,7 +171,7 @@ WeftResult weft_scene_set(WeftScene *scene, const char *target, const char *valu
         warn(log, WEFT_MESSAGE_PLAUSIBLE, target, "it changes nothing as long as none of these has a sheen");
     else if (first)
         plausible_check(first, setting.input, setting.choice, target, log);
-    if (first) return tangents_complete(scene, error);
+    if (first) return materials_complete(scene, error);
     char names[NAMES_SIZE];
     return fail(error, WEFT_MESSAGE_MATERIAL_NAME, name, "%s", scene_names(scene, weft_scene_material_name, names));
 }

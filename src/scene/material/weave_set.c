@@ -1,4 +1,5 @@
 /* weave_set.c - setting a key of a material's weave by its name and a text */
+#include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,7 +9,7 @@
 #include "scene/material/assign.h"
 #include "scene/material/cloth_file.h"
 #include "scene/material/cloth_fit.h"
-#include "scene/record/tangents.h"
+#include "scene/material/relief.h"
 #include "weave/weft_cloth.h"
 
 /* A change of a weave. */
@@ -97,6 +98,9 @@ static WeftResult change(const WeaveSetting *setting, json_t *weave) {
     if (strcmp(key, "metres") == 0)
         return put(setting, weave, key, strcmp(value, "auto") == 0 ? json_string(value) : read_number(value),
                    "a number of metres, or auto");
+    if (strcmp(key, "relief") == 0)
+        return put(setting, weave, key, isalpha((unsigned char)value[0]) ? json_string(value) : read_number(value),
+                   "folds, all, none, or a number of metres");
     if (strcmp(key, "sett") == 0)
         return put(setting, weave, key, strchr(value, ',') ? read_numbers(value, 2) : read_number(value),
                    "threads per centimetre, WARP,WEFT");
@@ -106,8 +110,9 @@ static WeftResult change(const WeaveSetting *setting, json_t *weave) {
         if (!key[4]) return put_yarn(setting, weave, system);
         if (key[4] == '.') return put_yarn_key(setting, weave, system, key + 5);
     }
-    return fail(setting->error, WEFT_MESSAGE_PARAM_NAME, key,
-                "a weave has draft, sett, metres, seed, warp and weft, and a yarn color and its numbers: warp.color");
+    return fail(
+        setting->error, WEFT_MESSAGE_PARAM_NAME, key,
+        "a weave has draft, sett, metres, seed, relief, warp and weft, and a yarn color and its numbers: warp.color");
 }
 
 /* Makes a material that is not woven a plain one of cotton, as a material file does: without a sheen. */
@@ -145,7 +150,7 @@ WeftResult weft_scene_weave(WeftScene *scene, const char *material, const char *
         if (result == WEFT_OK) result = reweave(scene, k, &setting, log);
         if (result != WEFT_OK) scene->materials[k] = was;
     }
-    return result == WEFT_OK ? tangents_complete(scene, error) : result;
+    return result == WEFT_OK ? materials_complete(scene, error) : result;
 }
 
 WeftClothInfo weft_scene_cloth_info(const WeftScene *scene, int cloth) {

@@ -10,7 +10,9 @@ typedef enum TextureWrap { WRAP_REPEAT = 0, WRAP_MIRROR, WRAP_CLAMP } TextureWra
 typedef struct Texture {
     int image; /* index into the scene's images */
     TextureWrap wrap_u, wrap_v;
-    bool nearest; /* no interpolation between texels */
+    bool nearest;   /* no interpolation between texels */
+    int source;     /* number of the texture that this one was smoothed from (scene/material/relief.h); 0: none */
+    float sigma[2]; /* of that Gaussian along u and v, as parts of the sides; infinite: flat */
     /* Properties of the image, equal for all textures of it: */
     const char *path;  /* path of its file; NULL if it is not a file of its own */
     unsigned version;  /* counts changes of the pixels */

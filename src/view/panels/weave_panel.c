@@ -163,6 +163,37 @@ static void draw_new_draft(Viewer *v, WeaveEdit *edit) {
     ui_tip("Weaves it of a WIF or a picture; dropping a WIF on the window does the same.");
 }
 
+/* The words for the relief of the asset, in the order of their rows. */
+static const char *const relief_names[] = {"folds", "all", "none"},
+                         *const relief_helps[] = {
+                             "Folds and seams stay; threads and pile of the cloth that the asset was "
+                             "made with go.",
+                             "The whole normal map of the asset.", "A smooth surface under the cloth."};
+static const char *relief_name(const void *user, int row) {
+    (void)user;
+    return relief_names[row];
+}
+static const char *relief_help(const void *user, int row) {
+    (void)user;
+    return relief_helps[row];
+}
+
+/* Draws the choice of how much relief of the asset is seen, and the length that is smoothed away. */
+static void draw_relief(WeaveEdit *edit) {
+    WeftClothInfo *info = &edit->info;
+    const UiChoices names = {3, relief_name, relief_help, NULL};
+    int row = isinf(info->relief) ? 2 : info->relief > 0.0f ? 0 : 1;
+    if (ui_choice("relief of the asset###relief", &names, &row)) keep_key(edit, "relief", "%s", relief_names[row]);
+    if (row) return;
+    float millimetres = 1000.0f * info->relief;
+    const UiRange range = {0.1f, 200.0f, millimetres, "mm", true};
+    if (ui_slider("smoothed over###relief length", &range, &millimetres)) {
+        info->relief = 0.001f * fminf(fmaxf(millimetres, 0.1f), 1e4f);
+        keep_key(edit, "relief", "%.9g", (double)info->relief);
+    }
+    ui_tip("Length over which the normal map of the asset is smoothed: more hides larger details.");
+}
+
 static void draw_size(WeaveEdit *edit) {
     WeftClothInfo *info = &edit->info;
     if (ui_numbers("sett###sett", 0.1f, info->sett, 2))
@@ -182,6 +213,7 @@ static void draw_size(WeaveEdit *edit) {
     if (ui_slider("metres", &range, &info->metres)) keep_key(edit, "metres", "%.9g", (double)info->metres);
     ui_disabled_end();
     ui_tip("Metres that a unit of texture coordinates spans: more metres, smaller threads.");
+    draw_relief(edit);
     if (ui_slider_int("seed", 0, 288, &info->seed)) keep_key(edit, "seed", "%d", info->seed);
     ui_tip("Another piece of the same cloth: other slubs and loose fibres.");
 }
