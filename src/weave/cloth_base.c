@@ -8,13 +8,14 @@
  * FINER-th of the pixel. Fibres fade as if points were a POINTS-th of the pixel apart. */
 enum { LATER = 2, FINER = 4, POINTS = 4 };
 
-/* Returns the place of texture coordinates, in threads. Picks count up the cloth, v runs down. */
-FN Dir place_of(const float per_uv[2], float u, float v) {
-    return dir(weave_in_range(u * per_uv[WEFT_WARP]), weave_in_range(-v * per_uv[WEFT_WEFT]), 0.0f);
+/* Returns the place of texture coordinates, in threads. */
+FN Dir place_of(ClothPlacing placing, float u, float v) {
+    Dir at = cloth_threads(placing, u, v);
+    return dir(weave_in_range(at.x), weave_in_range(at.y), 0.0f);
 }
 
 bool cloth_is_gap(const WeftCloth *cloth, const float uv[2]) {
-    const Dir at = place_of(cloth->per_uv, uv[0], uv[1]);
+    const Dir at = place_of(cloth_placing(cloth), uv[0], uv[1]);
     return weave_gap(&cloth->weave, at.x, at.y);
 }
 
@@ -47,11 +48,12 @@ typedef struct Part {
 
 /* Sets the places, and `far` to a new random number in [0, 1) where a facet is to stand for the cloth, to -1 elsewhere. */
 LOOP(place_n,
-     (const ClothLooks *looks, const float per_uv[2], int n, float *restrict x, float *restrict y, float *restrict far),
-     (looks, per_uv, n, x, y, far)) {
-    float per_u[2] = {per_uv[0], per_uv[1]};
+     (const ClothLooks *looks, const WeftCloth *cloth, int n, float *restrict x, float *restrict y,
+      float *restrict far),
+     (looks, cloth, n, x, y, far)) {
+    ClothPlacing placing = cloth_placing(cloth);
     EACH(k, (size_t)n) {
-        Dir at = place_of(per_u, looks->uv[0][k], looks->uv[1][k]);
+        Dir at = place_of(placing, looks->uv[0][k], looks->uv[1][k]);
         WeaveFootprint f;
         f.x = looks->footprint_x[k] / LATER;
         f.y = looks->footprint_y[k] / LATER;
@@ -75,7 +77,7 @@ static void pad(Part *part) {
 /* Sorts points into near (0) and far (1). */
 static void split(const WeftCloth *cloth, const ClothLooks *looks, int n, Part parts[2]) {
     float x[ROW_CAPACITY], y[ROW_CAPACITY], far[ROW_CAPACITY];
-    place_n(looks, cloth->per_uv, n, x, y, far);
+    place_n(looks, cloth, n, x, y, far);
     parts[0].count = parts[1].count = 0;
     for (int k = 0; k < n; k++) {
         Part *part = &parts[far[k] >= 0.0f];

@@ -16,6 +16,21 @@ typedef struct ClothLooks {
     bool holed;                /* gaps between threads are holes, not black */
 } ClothLooks;
 
+/* The way from texture coordinates to threads: their numbers in a unit, and the turn of the weave. */
+typedef struct ClothPlacing {
+    float warps, picks, turn_cos, turn_sin;
+} ClothPlacing;
+
+FN ClothPlacing cloth_placing(const WeftCloth *cloth) {
+    return (ClothPlacing){cloth->per_uv[WEFT_WARP], cloth->per_uv[WEFT_WEFT], cloth->turned[0], cloth->turned[1]};
+}
+
+/* Returns a step in texture coordinates in threads: across the warp (x), and along it in picks (y). Picks count up the
+ * cloth, v runs down. */
+FN Dir cloth_threads(ClothPlacing p, float u, float v) {
+    return dir((p.turn_cos * u - p.turn_sin * v) * p.warps, (-p.turn_cos * v - p.turn_sin * u) * p.picks, 0.0f);
+}
+
 /* Sets the bases at the first n points. Near, a base is the point of a thread. From afar it is a random facet of one
  * system in the colours of all its threads; a system is chosen in proportion to what it reflects. The mean over the
  * random numbers is the cloth. */

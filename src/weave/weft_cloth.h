@@ -41,12 +41,17 @@ struct WeftCloth {
     double size[2];   /* of the repeat, metres */
     double metres;    /* spanned by a unit of texture coordinates */
     bool automatic;   /* metres follows from the mesh (scene/material/cloth_fit.h) */
+    double turn;      /* of the weave on texture coordinates, degrees */
+    float turned[2];  /* cosine and sine of that */
     float relief;     /* of the asset: smoothed over so many metres (scene/material/relief.h); infinite: flat */
     float per_uv[2];  /* threads of warp and weft in one unit of texture coordinates */
 };
 
 /* Sets the length in metres of a unit of texture coordinates. */
 void cloth_spread(WeftCloth *cloth, double metres);
+
+/* Turns the weave on texture coordinates by an angle in degrees, from u towards -v. */
+void cloth_turn(WeftCloth *cloth, double degrees);
 
 /* Returns a copy that shares no memory with the cloth, or NULL if memory is short. */
 WeftCloth *cloth_copy(const WeftCloth *cloth);

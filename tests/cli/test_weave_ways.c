@@ -1,7 +1,7 @@
 /* A woven cloth is the same by every way that says it: options, keys, JSON, material files and saved scenes; and its
  * threads have the size that they have on a loom, on meshes of any scale.
  *
- * Labels: unsanitized */
+ * Labels: slow unsanitized */
 #include <math.h>
 
 #include <sys/stat.h>
@@ -55,6 +55,7 @@ static Cloth random_cloth(int k) {
     add_key(&cloth, "sett", value, json);
     if (roll(2)) add_number(&cloth, "metres", 0.05 * (1 + roll(40)));
     add_number(&cloth, "seed", roll(289));
+    if (roll(2)) add_number(&cloth, "turn", roll(720) - 360);
     if (roll(2)) add_number(&cloth, "relief", 0.001 * roll(100));
     if (roll(2)) add_number(&cloth, "warp.alpha", 0.15 + 0.01 * roll(50));
     if (roll(2)) add_number(&cloth, "weft.slub", 0.01 * roll(90));
@@ -144,8 +145,10 @@ static void cloth_is_the_same_by_every_way(void **state) {
     }
 }
 
-/* A quad of `side` metres whose texture coordinates span so many units, mirrored or not. */
-static void quad_make(const char *path, double side, double units, bool mirrored) {
+/* A quad of `side` metres whose texture coordinates span so many units, mirrored or not, and are turned by so many degrees,
+ * counter-clockwise on an upright texture. */
+static void turned_quad_make(const char *path, double side, double units, bool mirrored, double degrees) {
+    const double c = cos(degrees * acos(-1.0) / 180.0), s = sin(degrees * acos(-1.0) / 180.0);
     char text[2048];
     float numbers[20];
     static const int corners[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
@@ -153,8 +156,9 @@ static void quad_make(const char *path, double side, double units, bool mirrored
         numbers[3 * k] = (float)(side * corners[k][0]);
         numbers[3 * k + 1] = (float)(side * corners[k][1]);
         numbers[3 * k + 2] = 0.0f;
-        numbers[12 + 2 * k] = (float)((mirrored ? -units : units) * corners[k][0]);
-        numbers[12 + 2 * k + 1] = (float)(units * corners[k][1]);
+        const double u = (mirrored ? -units : units) * corners[k][0], v = units * (1 - corners[k][1]);
+        numbers[12 + 2 * k] = (float)(c * u + s * v);
+        numbers[12 + 2 * k + 1] = (float)(c * v - s * u);
     }
     file_make("quad.bin", numbers, sizeof numbers);
     int size = snprintf(
@@ -167,6 +171,10 @@ static void quad_make(const char *path, double side, double units, bool mirrored
         "\"byteOffset\":48,\"byteLength\":32}],\"buffers\":[{\"byteLength\":80,\"uri\":\"quad.bin\"}]}",
         side, side);
     file_make(path, text, (size_t)size);
+}
+
+static void quad_make(const char *path, double side, double units, bool mirrored) {
+    turned_quad_make(path, side, units, mirrored, 0.0);
 }
 
 /* Whatever the mesh and its coordinates, the threads that are seen are as many as in a quad whose units are metres. */
@@ -205,6 +213,61 @@ static void threads_have_their_size_on_any_mesh(void **state) {
         if (k == 0) first = crossings;
         assert_true(first >= 10.0 && fabs(crossings - first) <= 2.0);
     }
+}
+
+/* Renders satin near by with an engine, and reads the picture. */
+static WeftImage satin(const char *engine, const char *turn) {
+    WeftImage image;
+    char set[64];
+    snprintf(set, sizeof set, "cloth.weave.turn=%s", turn);
+    Ran ran = RUN("render", "quad.gltf", "--weave", "satin 5/2; warp 3#c0a040 1#203080; weft 1#802020; sett 12",
+                  "--set", "cloth.weave.warp=silk", "--set", set, "--engine", engine, "--occlusion", "0", "--light",
+                  "sun;-1,-0.4,-1;3,3,3", "--env", "0.2", "--width", "96", "--height", "96", "--quiet", "--camera",
+                  "0.014,0.006,0.05;0.01,0.01,0;14", "-o", "satin.npy");
+    if (ran.code != 0) fail_msg("%s", ran.err);
+    ran_free(&ran);
+    assert_int_equal(weft_image_read("satin.npy", &image, NULL, NULL), WEFT_OK);
+    return image;
+}
+
+/* Returns the mean difference of two pictures as a part of the first one's mean. */
+static double satins_differ(WeftImage a, WeftImage b) {
+    const float *p = a.pixels, *q = b.pixels;
+    double sum = 0.0, mean = 0.0;
+    for (int k = 0; k < a.width * a.height * a.channels; k++)
+        sum += fabs((double)p[k] - (double)q[k]), mean += (double)p[k];
+    return sum / mean;
+}
+
+/* A weave that is turned as the texture coordinates are lies as it did before, with its threads and its highlight. */
+static void a_turned_weave_lies_as_it_says(const char *engine) {
+    turned_quad_make("quad.gltf", 0.02, 0.02, false, 0.0);
+    WeftImage straight = satin(engine, "0"), askew = satin(engine, "33");
+    turned_quad_make("quad.gltf", 0.02, 0.02, false, 33.0);
+    WeftImage back = satin(engine, "33"), other = satin(engine, "-33");
+    print_message("%s: turned with its coordinates %.4f, turned alone %.3f, turned the other way %.3f\n", engine,
+                  satins_differ(straight, back), satins_differ(straight, askew), satins_differ(straight, other));
+    assert_true(satins_differ(straight, back) < 0.02);
+    assert_true(satins_differ(straight, askew) > 0.1);
+    assert_true(satins_differ(straight, other) > 0.1);
+    weft_image_free(&straight);
+    weft_image_free(&askew);
+    weft_image_free(&back);
+    weft_image_free(&other);
+}
+
+static void weaves_turn_in_the_path_tracer(void **state) {
+    (void)state;
+    a_turned_weave_lies_as_it_says("trace");
+}
+
+static void weaves_turn_in_the_raster_engine(void **state) {
+    (void)state;
+    Ran ran = RUN("render", "builtin:ball", "--engine", "raster", "--width", "8", "--height", "8", "-o", "probe.npy");
+    const bool gl = ran.code == 0;
+    ran_free(&ran);
+    if (!gl) skip();
+    a_turned_weave_lies_as_it_says("raster");
 }
 
 /* Renders 2 m of a flat cloth from afar under an even sky, and returns its mean colour. */
@@ -264,13 +327,22 @@ static void names_in_the_folder_do_not_disturb(void **state) {
 
 static void wrong_keys_are_refused_in_one_line(void **state) {
     (void)state;
-    static const char *const bad[][2] = {{"*.weave.sett=a", "WARP,WEFT"},       {"*.weave.sett=0", "sett"},
-                                         {"*.weave.colour=1", "warp.color"},    {"*.weave.warp.foo=1", "foo"},
-                                         {"*.weave.metres=0", "metres"},        {"*.weave.metres=big", "metres"},
-                                         {"*.weave.draft=nothing", "nothing"},  {"*.weave.warp=nettle", "nettle"},
-                                         {"*.weave.seed=-1", "seed"},           {"*.weave={\"a\":1}", "not a key"},
-                                         {"*.weave.warp.color=2,0,0", "color"}, {"*.weave={", "JSON"},
-                                         {"*.weave.warp.color=#12", "color"},   {"nobody.weave.seed=1", "nobody"}};
+    static const char *const bad[][2] = {{"*.weave.sett=a", "WARP,WEFT"},
+                                         {"*.weave.sett=0", "sett"},
+                                         {"*.weave.colour=1", "warp.color"},
+                                         {"*.weave.warp.foo=1", "foo"},
+                                         {"*.weave.turn=a", "turn"},
+                                         {"*.weave.turn=361", "turn"},
+                                         {"*.weave.metres=0", "metres"},
+                                         {"*.weave.metres=big", "metres"},
+                                         {"*.weave.draft=nothing", "nothing"},
+                                         {"*.weave.warp=nettle", "nettle"},
+                                         {"*.weave.seed=-1", "seed"},
+                                         {"*.weave={\"a\":1}", "not a key"},
+                                         {"*.weave.warp.color=2,0,0", "color"},
+                                         {"*.weave={", "JSON"},
+                                         {"*.weave.warp.color=#12", "color"},
+                                         {"nobody.weave.seed=1", "nobody"}};
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
         Ran ran = RUN("render", "builtin:ball", "--set", bad[k][0], "-o", "no.png");
         if (ran.code == 0 || !one_complaint(ran.err) || !strstr(ran.err, bad[k][1]))
@@ -281,7 +353,8 @@ static void wrong_keys_are_refused_in_one_line(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(cloth_is_the_same_by_every_way), cmocka_unit_test(threads_have_their_size_on_any_mesh),
+        cmocka_unit_test(cloth_is_the_same_by_every_way),     cmocka_unit_test(threads_have_their_size_on_any_mesh),
+        cmocka_unit_test(weaves_turn_in_the_path_tracer),     cmocka_unit_test(weaves_turn_in_the_raster_engine),
         cmocka_unit_test(names_in_the_folder_do_not_disturb), cmocka_unit_test(denim_is_as_blue_as_its_warp),
         cmocka_unit_test(wrong_keys_are_refused_in_one_line)};
     return cmocka_run_group_tests(tests, work_begin, work_end);

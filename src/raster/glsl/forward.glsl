@@ -110,6 +110,9 @@ void main() {
     Surface s = material_surface();
     float opacity = coverage_of(s.opacity);
     Frame f = frame_of(at, s, wo);
+#ifdef WOVEN
+    f = frame_turned(f, weave_number(CLOTH_TURN_COS), weave_number(CLOTH_TURN_SIN));
+#endif
 #ifdef AMBIENT
     smooth_normal = frame_visible_normal(facing_normal(at), wo); /* as the path tracer has its horizon */
 #endif

@@ -70,7 +70,7 @@ WeaveBase woven_far(Weave c, bool weft, vec2 place, vec2 across, vec2 up, WeaveF
 /* The uniform block has the numbers of two WovenPrepared, of warp and weft, from CLOTH_AFAR on. */
 #define ONE_NUMBER(name)  +1
 #define TWO_NUMBERS(name) +2
-const int CLOTH_AFAR = 76, CLOTH_AFAR_EACH = 0 WOVEN_NUMBERS(ONE_NUMBER) WOVEN_EACH_BIN(TWO_NUMBERS);
+const int CLOTH_AFAR = 80, CLOTH_AFAR_EACH = 0 WOVEN_NUMBERS(ONE_NUMBER) WOVEN_EACH_BIN(TWO_NUMBERS);
 #define TAKE_NUMBER(to)                                                                                      \
     to = weft ? weave_number(k + CLOTH_AFAR_EACH) : weave_number(k);                                         \
     k++;

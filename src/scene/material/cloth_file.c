@@ -186,7 +186,7 @@ static float read_relief(ClothReader *r, const json_t *json) {
 }
 
 static void read_keys(ClothReader *r, const json_t *json) {
-    static const char *const keys[] = {"draft", "warp", "weft", "sett", "metres", "seed", "relief"};
+    static const char *const keys[] = {"draft", "warp", "weft", "sett", "metres", "seed", "turn", "relief"};
     const char *key;
     json_t *value;
     if (!json_is_object(json)) refuse(r, "it", "expected an object with a \"draft\"");
@@ -228,6 +228,10 @@ WeftResult cloth_from_json(const json_t *json, const char *name, const char *fol
     const bool automatic = !given || (json_is_string(given) && strcmp(json_string_value(given), "auto") == 0);
     const double metres = automatic ? 1.0 : positive(&reader, json, "metres", 1.0, 1e4),
                  seed = positive(&reader, json, "seed", 0.0, 288.0);
+    const json_t *angle = json_object_get(json, "turn");
+    const double turn = angle ? json_number_value(angle) : 0.0;
+    if (angle && !(json_is_number(angle) && fabs(turn) <= 360.0))
+        refuse(&reader, "turn", "expected degrees, -360 to 360");
     const float relief = read_relief(&reader, json_object_get(json, "relief"));
     if (!(metres > 0.0)) refuse(&reader, "metres", "is 0");
     if (reader.result == WEFT_OK)
@@ -235,6 +239,7 @@ WeftResult cloth_from_json(const json_t *json, const char *name, const char *fol
     if (*out) cloth_spread(*out, metres);
     if (*out) (*out)->automatic = automatic;
     if (*out) (*out)->relief = relief;
+    if (*out) cloth_turn(*out, turn);
     if (*out && !keep_source(&reader, json, *out)) {
         weft_cloth_free(*out);
         *out = NULL;

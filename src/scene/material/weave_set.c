@@ -95,6 +95,7 @@ static WeftResult change(const WeaveSetting *setting, json_t *weave) {
     if (!key[0]) return put_weave(setting, weave);
     if (strcmp(key, "draft") == 0) return put(setting, weave, key, json_string(value), "words, or a file");
     if (strcmp(key, "seed") == 0) return put(setting, weave, key, read_number(value), "a number");
+    if (strcmp(key, "turn") == 0) return put(setting, weave, key, read_number(value), "a number of degrees");
     if (strcmp(key, "metres") == 0)
         return put(setting, weave, key, strcmp(value, "auto") == 0 ? json_string(value) : read_number(value),
                    "a number of metres, or auto");
@@ -110,9 +111,9 @@ static WeftResult change(const WeaveSetting *setting, json_t *weave) {
         if (!key[4]) return put_yarn(setting, weave, system);
         if (key[4] == '.') return put_yarn_key(setting, weave, system, key + 5);
     }
-    return fail(
-        setting->error, WEFT_MESSAGE_PARAM_NAME, key,
-        "a weave has draft, sett, metres, seed, relief, warp and weft, and a yarn color and its numbers: warp.color");
+    return fail(setting->error, WEFT_MESSAGE_PARAM_NAME, key,
+                "a weave has draft, sett, metres, seed, turn, relief, warp and weft, and a yarn color and its numbers: "
+                "warp.color");
 }
 
 /* Makes a material that is not woven a plain one of cotton, as a material file does: without a sheen. */

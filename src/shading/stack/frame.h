@@ -38,6 +38,15 @@ FN Frame frame_about(Dir n, Dir tangent, float handedness) {
     return f;
 }
 
+/* Returns the frame turned about z by the angle whose cosine and sine are c and s, from x towards y. */
+FN Frame frame_turned(Frame f, float c, float s) {
+    Frame turned;
+    turned.x = dir_add(dir_scale(f.x, c), dir_scale(f.y, s));
+    turned.y = dir_add(dir_scale(f.y, c), dir_scale(f.x, -s));
+    turned.z = f.z;
+    return turned;
+}
+
 /* Returns the normal nearest to n for which the mirror direction of wo is not below the surface; otherwise a normal map
  * would show black where it should reflect. Alexander Keller et al., "The Iray Light Transport Simulation and Rendering
  * System", 2017, A.3. */

@@ -73,13 +73,19 @@ static void gather_uv_edges(Chunk *chunk, const WeftScene *scene, int n) {
     }
 }
 
-/* Fills where and how finely the cloth is looked up. per_uv: threads per unit of texture coordinates. */
-LOOP(footprints_n, (Chunk *restrict chunk, const PathContext *context, const float per_uv[2], int depth, int n),
-     (chunk, context, per_uv, depth, n)) {
+/* Returns the footprint of a pixel with edges a and b on the cloth. */
+FN WeaveFootprint footprint_of(ClothPlacing cloth, UvEdge a, UvEdge b) {
+    Dir first = cloth_threads(cloth, a.u, a.v), second = cloth_threads(cloth, b.u, b.v);
+    return weave_footprint(first.x, first.y, second.x, second.y);
+}
+
+/* Fills where and how finely the cloth is looked up. */
+LOOP(footprints_n, (Chunk *restrict chunk, const PathContext *context, const WeftCloth *cloth, int depth, int n),
+     (chunk, context, cloth, depth, n)) {
     ClothLooks *to = &chunk->cloth_points;
     const float forward[3] = {context->forward[0], context->forward[1], context->forward[2]};
     const float pixel[2] = {context->pixel_width[0], context->pixel_width[1]};
-    float per_u = per_uv[0], per_v = per_uv[1];
+    ClothPlacing placing = cloth_placing(cloth);
     uint32_t pair = SAMPLER_CLOTH + (uint32_t)depth;
     EACH(k, (size_t)n) {
         UvPlane plane = plane_of(chunk, k);
@@ -89,7 +95,7 @@ LOOP(footprints_n, (Chunk *restrict chunk, const PathContext *context, const flo
         float width = width_of(chunk, forward, pixel, depth > 0, k);
         UvEdge a = project(plane, d, dir_scale(side, width)),
                b = project(plane, d, dir_scale(dir_cross(side, d), width));
-        WeaveFootprint f = weave_footprint(a.u * per_u, a.v * per_v, b.u * per_u, b.v * per_v);
+        WeaveFootprint f = footprint_of(placing, a, b);
         to->uv[0][k] = chunk->textures.uv[0][0][k];
         to->uv[1][k] = chunk->textures.uv[0][1][k];
         to->footprint_x[k] = f.x;
@@ -104,7 +110,7 @@ LOOP(footprints_n, (Chunk *restrict chunk, const PathContext *context, const flo
 void chunk_find_threads(Chunk *chunk, const ChunkSource *source, int n) {
     const PathMaterial *material = &source->context->materials[source->material];
     gather_uv_edges(chunk, source->context->scene, n);
-    footprints_n(chunk, source->context, material->cloth->per_uv, source->depth, n);
+    footprints_n(chunk, source->context, material->cloth, source->depth, n);
     chunk->cloth_points.holed = material->material.alpha_mode != WEFT_ALPHA_OPAQUE;
     cloth_bases(material->cloth, &chunk->cloth_points, n, &chunk->vertices.yarn);
 }

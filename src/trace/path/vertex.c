@@ -165,26 +165,27 @@ static void gather_tangents(Chunk *chunk, const WeftScene *scene, int n) {
     }
 }
 
-/* Sets frame k and wo in it. A surface seen from behind is mirrored: bumps of a normal map are dents there. */
-FN void put_frame(Chunk *chunk, size_t k, Surface s, Dir tangent, float handedness) {
+/* Sets frame k, turned with the weave of its cloth, and wo in it. A surface seen from behind is mirrored: bumps of a normal map are dents there. */
+FN void put_frame(Chunk *chunk, size_t k, Surface s, Dir tangent, float handedness, float turn_cos, float turn_sin) {
     Dir wo = ROW_DIR(chunk->wo, k);
     Facing at;
     at.geometric = ROW_DIR(chunk->geometric, k);
     at.normal = ROW_DIR(chunk->normal, k);
     at.tangent = tangent;
     at.handedness = handedness;
-    Frame f = frame_of(at, s, wo);
+    Frame f = frame_turned(frame_of(at, s, wo), turn_cos, turn_sin);
     put3(chunk->frame[0], k, f.x);
     put3(chunk->frame[1], k, f.y);
     put3(chunk->frame[2], k, f.z);
     put3(chunk->vertices.o, k, frame_to(f, wo));
 }
 
-/* Makes frames that may depend on the inputs and the mesh's tangents. */
-LOOP(frames_with_tangents_n, (Chunk *restrict chunk, int n), (chunk, n)) {
+/* Makes frames that may depend on the inputs and the mesh's tangents. turn: cosine and sine. */
+LOOP(frames_with_tangents_n, (Chunk *restrict chunk, const float turn[2], int n), (chunk, turn, n)) {
+    float c = turn[0], s = turn[1];
     EACH(k, (size_t)n) {
         put_frame(chunk, k, surface_of_row(&chunk->vertices.surface, k), ROW_DIR(chunk->tangent, k),
-                  chunk->handedness[k]);
+                  chunk->handedness[k], c, s);
     }
 }
 
@@ -194,15 +195,17 @@ LOOP(frames_n, (Chunk *restrict chunk, int n), (chunk, n)) {
         Surface s = surface_of_row(&chunk->vertices.surface, k);
         s.normal = dir(0.0f, 0.0f, 1.0f);
         s.anisotropy = 0.0f;
-        put_frame(chunk, k, s, dir(0.0f, 0.0f, 0.0f), 1.0f);
+        put_frame(chunk, k, s, dir(0.0f, 0.0f, 0.0f), 1.0f, 1.0f, 0.0f);
     }
 }
 
 void chunk_make_frames(Chunk *chunk, const ChunkSource *source) {
+    static const float straight[2] = {1.0f, 0.0f};
     int n = row_whole(source->n);
-    if (source->context->materials[source->material].needs_tangents) {
+    const PathMaterial *material = &source->context->materials[source->material];
+    if (material->needs_tangents) {
         gather_tangents(chunk, source->context->scene, n);
-        frames_with_tangents_n(chunk, n);
+        frames_with_tangents_n(chunk, material->cloth ? material->cloth->turned : straight, n);
     } else
         frames_n(chunk, n);
 }
