@@ -45,35 +45,8 @@ void stack_eval(const Stack *stack, const StackView *view, const Dir *i, uint32_
         value->f_cos = rgb_add(value->f_cos, layer_walk_bounces(stack, view, slots_all(), *i, seed));
 }
 
-#define TAKE_SLOT(name, NAME, Name, wo)                                                                                \
-    if (view->select_p.name > 0.0f && (slot < 0 || *u >= at)) {                                                        \
-        slot = PLACE_##NAME;                                                                                           \
-        begin = at;                                                                                                    \
-        width = view->select_p.name;                                                                                   \
-        at += width;                                                                                                   \
-    }
-int stack_select_slot(const StackView *view, float *u) {
-    int slot = PLACE_NONE;
-    float begin = 0.0f, at = 0.0f, width = 1.0f;
-    SLOTS(TAKE_SLOT)
-    *u = min(max((*u - begin) / max(width, 1e-12f), 0.0f), 0x1.fffffep-1f); /* the rest is as good as new */
-    return slot;
-}
+int stack_select_slot(const StackView *view, float *u) { return stack_slot_of(view, u); }
 
-#define SAMPLE_SLOT(name, NAME, Name, wo)                                                                              \
-    case PLACE_##NAME:                                                                                                 \
-        if (view->wo.z > 0.0f) IN_SLOT(name, sample_at)                                                                \
-        (stack->name.lobe.id, &stack->name##_prepared, &view->name##_view, &view->wo, u, v, i);                        \
-        break;
 void stack_sample(const Stack *stack, const StackView *view, float u, float v, Dir *i) {
-    *i = dir(0.0f, 0.0f, -1.0f);
-    int slot = stack_select_slot(view, &u);
-    if (HAS_TRANSMITTED(stack) && slot == PLACE_DIFFUSE && stack_takes_transmitted(stack, &u)) {
-        Dir above = warp_cosine(u, v);
-        *i = dir(above.x, above.y, -above.z);
-        return;
-    }
-    switch (slot) { SLOTS(SAMPLE_SLOT) }
-    if (slot == PLACE_COAT && i->z > 0.0f) *i = stack_from_coat(stack, *i);
-    if (HAS_TRANSMITTED(stack)) i->z = max(i->z, 0.0f); /* what a lobe draws below is no sample */
+    stack_draw_direction(stack, view, u, v, i);
 }

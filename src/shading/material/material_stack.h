@@ -2,13 +2,10 @@
 #pragma once
 
 #include "shading/catalogue/albedo.h"
-#include "shading/material/stack_value.h"
+#include "shading/material/stack_sample.h"
 
-/* The slots by number, in the order of SLOTS. */
-#define SLOT_PLACE(name, NAME, Name, wo) PLACE_##NAME,
-#define SLOT_NAME(name, NAME, Name, wo)  #name,
-#define SLOT_AT(name, NAME, Name, wo)    &m->name,
-enum { PLACE_NONE = -1, SLOTS(SLOT_PLACE) SLOT_COUNT };
+#define SLOT_NAME(name, NAME, Name, wo) #name,
+#define SLOT_AT(name, NAME, Name, wo)   &m->name,
 
 static inline const char *slot_name(int place) {
     static const char *const names[] = {SLOTS(SLOT_NAME)};
@@ -47,21 +44,6 @@ int stack_select_slot(const StackView *view, float *u);
 /* Returns, for layer rule stochastic, the light from wi that the slots in `last` reflected first and that then bounced
  * at least once between the base and the sheen's underside, times the cosine of wi; 0 for other rules. */
 ONE_COPY Rgb layer_walk_bounces(const Stack *stack, const StackView *view, Slots last, Dir i, uint32_t seed);
-
-/* Transforms a direction from the coat's frame into the shading frame, the inverse of stack_to_coat. */
-FN Dir stack_from_coat(const Stack *s, Dir w) {
-    return dir(w.x * s->coat_x.x + w.y * s->coat_y.x + w.z * s->coat_z.x,
-               w.x * s->coat_x.y + w.y * s->coat_y.y + w.z * s->coat_z.y,
-               w.x * s->coat_x.z + w.y * s->coat_y.z + w.z * s->coat_z.z);
-}
-
-/* Returns true for the share of the diffuse slot's samples that is transmitted. Rescales u to [0, 1). */
-FN bool stack_takes_transmitted(const Stack *stack, float *u) {
-    float p = stack->transmitted_p, x = *u;
-    bool through = x < p;
-    *u = min(max((through ? x : x - p) / max(through ? p : 1.0f - p, 1e-12f), 0.0f), 0x1.fffffep-1f);
-    return through;
-}
 
 /* A stack and its view from one direction. */
 typedef struct SeenStack {

@@ -117,7 +117,7 @@ void text_composition_lobes(Text *text, const CompositionSlots *found, int table
     text_define(text, "HAS_LAYERED_SHEEN(m)", found->used ? "true" : "(m.color.r + m.color.g + m.color.b > 0.0)");
     text_define(text, "HAS_TRANSMITTED(m)", found->transmits ? "true" : "false");
     text_dispatch(text, ids, count);
-    text_slots(text, found->slots);
+    text_slots(text, found->slots, found->sampled);
 }
 
 /* Appends those of the engines' tables that the composition names, since each takes a while to make. */

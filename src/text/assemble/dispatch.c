@@ -77,10 +77,11 @@ static void put_lines(Text *text, const char *file, const char *first, const cha
     buffer_free(&chosen);
 }
 
-void text_slots(Text *text, const TextSlot slots[SLOT_COUNT]) {
+void text_slots(Text *text, const TextSlot slots[SLOT_COUNT], bool sampled) {
 #define SLOT_NAMES(name, NAME, Name, wo)                                                                               \
-    {#Name "Prepared", #Name "View", #name "_prepare", #name "_view", #name "_reflect"},
-    static const char *const names[] = {"LobePrepared", "LobeView", "lobe_prepare", "lobe_view", "lobe_reflect"};
+    {#Name "Prepared", #Name "View", #name "_prepare", #name "_view", #name "_reflect", #name "_sample_at"},
+    static const char *const names[] = {"LobePrepared", "LobeView",     "lobe_prepare",
+                                        "lobe_view",    "lobe_reflect", "lobe_sample_at"};
     enum { NAMES = sizeof names / sizeof *names };
     static const char *const own[SLOT_COUNT][NAMES] = {SLOTS(SLOT_NAMES)};
     for (int k = 0; k < SLOT_COUNT; k++) {
@@ -90,6 +91,8 @@ void text_slots(Text *text, const TextSlot slots[SLOT_COUNT]) {
         put_lines(text, "shading/lobes.gen.h", "UNION(LobePrepared)", NULL, there);
         put_lines(text, "shading/dispatch.gen.h", "LOBE_FN void lobe_prepare(", "/* The view is that", there);
         put_lines(text, "shading/dispatch.gen.h", "LOBE_FN void lobe_reflect(", "/* A wi for", there);
+        if (sampled)
+            put_lines(text, "shading/dispatch.gen.h", "LOBE_FN void lobe_sample_at(", "/* For one pair", there);
         for (int n = 0; n < NAMES; n++) text_undefine(text, names[n]);
     }
     text_define(text, "OF_SLOT(Name, Record)", "Name##Record");

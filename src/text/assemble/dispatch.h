@@ -33,5 +33,5 @@ typedef struct TextSlot {
 } TextSlot;
 
 /* Writes the records and functions of shading/stack/slots.h for each slot, in the order of SLOTS, with only these
- * lobes. Call it once, after text_dispatch, which has all of them. */
-void text_slots(Text *text, const TextSlot slots[SLOT_COUNT]);
+ * lobes, and if `sampled` those of stack_sample.h too. Call it once, after text_dispatch, which has all of them. */
+void text_slots(Text *text, const TextSlot slots[SLOT_COUNT], bool sampled);

@@ -1,0 +1,60 @@
+/* stack_sample.h - directions of light drawn by the lobes of a stack */
+#pragma once
+
+#include "shading/dialect/warp.h"
+#include "shading/material/stack_value.h"
+
+/* The slots by number, in the order of SLOTS. */
+#define PLACE_NONE                       (-1)
+#define SLOT_PLACE(name, NAME, Name, wo) PLACE_##NAME,
+enum { SLOTS(SLOT_PLACE) SLOT_COUNT };
+
+/* Transforms a direction from the coat's frame into the shading frame, the inverse of stack_to_coat. */
+FN Dir stack_from_coat(const Stack *s, Dir w) {
+    return dir(w.x * s->coat_x.x + w.y * s->coat_y.x + w.z * s->coat_z.x,
+               w.x * s->coat_x.y + w.y * s->coat_y.y + w.z * s->coat_z.y,
+               w.x * s->coat_x.z + w.y * s->coat_y.z + w.z * s->coat_z.z);
+}
+
+/* Returns true for the share of the diffuse slot's samples that is transmitted. Rescales u to [0, 1). */
+FN bool stack_takes_transmitted(const Stack *stack, float *u) {
+    float p = stack->transmitted_p, x = *u;
+    bool through = x < p;
+    *u = min(max((through ? x : x - p) / max(through ? p : 1.0f - p, 1e-12f), 0.0f), 0.99999994f);
+    return through;
+}
+
+#define TAKE_SLOT(name, NAME, Name, wo)                                                                                \
+    if (view->select_p.name > 0.0f && (slot < 0 || *u >= at)) {                                                        \
+        slot = PLACE_##NAME;                                                                                           \
+        begin = at;                                                                                                    \
+        width = view->select_p.name;                                                                                   \
+        at = at + width;                                                                                               \
+    }
+/* Returns the slot that u in [0, 1) selects, by its place in SLOTS, or PLACE_NONE. Rescales u to [0, 1). */
+FN int stack_slot_of(const StackView *view, float *u) {
+    int slot = PLACE_NONE;
+    float begin = 0.0f, at = 0.0f, width = 1.0f;
+    SLOTS(TAKE_SLOT)
+    *u = min(max((*u - begin) / max(width, 1e-12f), 0.0f), 0.99999994f); /* the rest is as good as new */
+    return slot;
+}
+
+#define SAMPLE_SLOT(name, NAME, Name, wo)                                                                              \
+    if (HAS_##NAME(stack) && slot == PLACE_##NAME && view->wo.z > 0.0f)                                                \
+        IN_SLOT(name, sample_at)(stack->name.lobe.id, &stack->name##_prepared, &view->name##_view, &view->wo, u, v, i);
+/* Works as stack_sample of material_stack.h. */
+FN void stack_draw_direction(const Stack *stack, const StackView *view, float u, float v, Dir *i) {
+    int slot = stack_slot_of(view, &u);
+    bool through = false;
+    *i = dir(0.0f, 0.0f, -1.0f);
+    if (HAS_TRANSMITTED(stack) && slot == PLACE_DIFFUSE) through = stack_takes_transmitted(stack, &u);
+    if (through) {
+        Dir above = warp_cosine(u, v);
+        *i = dir(above.x, above.y, -above.z);
+        return;
+    }
+    SLOTS(SAMPLE_SLOT)
+    if (HAS_COAT(stack) && slot == PLACE_COAT && i->z > 0.0f) *i = stack_from_coat(stack, *i);
+    if (HAS_TRANSMITTED(stack)) i->z = max(i->z, 0.0f); /* what a lobe draws below is no sample */
+}
