@@ -115,6 +115,27 @@ typedef struct WeftRasterView {
  * _GL_COMPILE, _TEXT_DIALECT, _GL_MEMORY, _GL_CONTEXT. */
 WEFT_API WeftResult weft_raster_draw(WeftRaster *raster, const WeftRasterView *view, WeftError *error);
 
+/* Most frames of a sum. */
+enum { WEFT_RASTER_FRAMES_MOST = 1 << 20 };
+
+/* Begins a picture that is the mean of so many frames. Each frame has random samples of the light, with shadow rays
+ * that a shader traces, and is moved by a fraction of a pixel: the mean converges to the path tracer's direct light
+ * (max_depth 1), for every lobe and light, with smooth edges. Of the view, `ambient`, `polygons`, `no_shadows` and
+ * `samples` count only for a floor. If the last picture was drawn with the same view, it counts as a few frames at
+ * first. Compiles the shaders that it needs. Fails as weft_raster_draw does, with WEFT_MESSAGE_GL_MEMORY also where the
+ * scene has more than about two million triangles.
+ *
+ * DOES NOT: masks of opacity along shadow rays, where each triangle has its mean opacity; the floor, which is the same
+ * as in other pictures; measured BRDFs; layer rule "stochastic", drawn without its bounces. */
+WEFT_API WeftResult weft_raster_accumulate_begin(WeftRaster *raster, const WeftRasterView *view, int frames,
+                                                 WeftError *error);
+
+/* Draws frames of the picture that was begun until all are drawn, or for so many seconds: it then returns after at
+ * most a part of a frame, which is continued next time. *done: the number of frames so far. The last picture is then
+ * their mean. Fails with WEFT_MESSAGE_DESC if no picture was begun, or if another was drawn or the scene was updated
+ * since; else as weft_raster_draw does. */
+WEFT_API WeftResult weft_raster_accumulate(WeftRaster *raster, double seconds, int *done, WeftError *error);
+
 /* Returns 1 if a picture can be drawn with the existing programs, 0 if weft_raster_draw would compile first, which on
  * a driver without a GPU may take many seconds; show something else meanwhile. Returns 1 for a view that
  * weft_raster_draw refuses. Does not query the driver, and counts the floor even where it is not visible. */

@@ -72,6 +72,25 @@ static void white_background_is_white_in_both(void **state) {
     }
 }
 
+/* The path tracer's picture of direct light is nearer with more frames. */
+static void accumulated_frames_come_near_the_path_tracer(void **state) {
+    (void)state;
+    need_gl();
+    static const char *const frames[] = {"--accumulate=1", "--accumulate=24"};
+    double off[2];
+    for (int k = 0; k < 2; k++) {
+        Ran ran = run_with(NULL, LIST("render", "builtin:spheres", TINY, "-o", "both.png", "--engine=both", "--spp=64",
+                                      "--max-depth=1", "--json", frames[k]));
+        if (ran.code != 0) fail_msg("exit %d: %s", ran.code, ran.err);
+        json_t *all = json_loads(ran.out, 0, NULL), *raster = json_array_get(all, 1);
+        assert_true(json_number_value(json_object_get(raster, "samples_per_pixel")) > (k ? 23.0 : 0.0));
+        off[k] = json_number_value(json_object_get(json_object_get(raster, "difference"), "relmse"));
+        json_decref(all);
+        ran_free(&ran);
+    }
+    assert_true(off[1] < 0.25 * off[0]);
+}
+
 static void turntable_numbers_its_pictures(void **state) {
     (void)state;
     need_gl();
@@ -118,6 +137,8 @@ static void engine_options_without_sense_are_refused(void **state) {
     refuses(LIST("render", "builtin:spheres", "-o", "x.png", "--engine=raster", "--part=gloss"), "--part");
     refuses(LIST("render", "builtin:spheres", "-o", "x.png", "--part=sheen"), "--part");
     refuses(LIST("render", "builtin:spheres", "-o", "x.png", "--ambient=dark"), "--ambient");
+    refuses(LIST("render", "builtin:spheres", "-o", "x.png", "--accumulate=8"), "--accumulate: needs --engine raster");
+    refuses(LIST("render", "builtin:spheres", "-o", "x.png", "--engine=raster", "--accumulate=0"), "--accumulate");
     refuses(LIST("render", "builtin:spheres", "-o", "x.png", "--engine=both", "--layer", "additive,seed"), "both");
     refuses(LIST("render", "builtin:spheres", "-o", "x.exr", "--engine=both"), "sheet");
     refuses(LIST("render", "builtin:spheres", "-o", "x.png", "--engine=both", "--turntable=3"), "--turntable");
@@ -127,6 +148,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(engine_raster_writes_a_picture),
                                        cmocka_unit_test(engine_both_writes_both_pictures_and_their_difference),
                                        cmocka_unit_test(white_background_is_white_in_both),
+                                       cmocka_unit_test(accumulated_frames_come_near_the_path_tracer),
                                        cmocka_unit_test(turntable_numbers_its_pictures),
                                        cmocka_unit_test(engine_options_without_sense_are_refused)};
     return cmocka_run_group_tests(tests, work_begin, work_end);

@@ -116,6 +116,21 @@ static void compile_early(WeftRaster *raster, WeftRasterView view) {
     weft_raster_draw(raster, &view, NULL);
 }
 
+/* Draws frames of a sum until all are drawn or an interruption ends it. */
+static WeftResult accumulate(Job *job, const WeftRasterView *view, int *done, WeftError *error) {
+    const double piece = 0.25;
+    const int frames = job->request->accumulate;
+    const Request *request = job->request;
+    Progress progress = progress_start(request->quiet, "", frames, frames, job_pixels(job), 0.0);
+    WeftResult result = weft_raster_accumulate_begin(job->raster, view, frames, error);
+    while (result == WEFT_OK && *done < frames && !job->interrupted) {
+        result = weft_raster_accumulate(job->raster, piece, done, error);
+        job->interrupted = progress_heed(&progress, (double)*done / frames) != 0;
+    }
+    progress_finish(&progress);
+    return result == WEFT_OK && !*done ? nothing_gathered(error) : result;
+}
+
 static WeftResult raster(Job *job, const char *camera, WeftError *error) {
     const WeftRenderDesc *desc = &job->request->desc;
     const WeftLog log = {.fn = warnings_log, .user = job->warnings};
@@ -133,14 +148,20 @@ static WeftResult raster(Job *job, const char *camera, WeftError *error) {
     WeftResult result = WEFT_OK;
     if (!job->raster) result = weft_raster_create(job->scene, &job->request->raster, &job->raster, &log, error);
     double started = clock_now();
-    if (result == WEFT_OK) compile_early(job->raster, view);
-    if (result == WEFT_OK) result = weft_raster_wait(job->raster, error);
-    if (result == WEFT_OK) result = weft_raster_draw(job->raster, &view, error);
+    int frames = 0;
+    if (job->request->accumulate) {
+        if (result == WEFT_OK) result = accumulate(job, &view, &frames, error);
+    } else {
+        if (result == WEFT_OK) compile_early(job->raster, view);
+        if (result == WEFT_OK) result = weft_raster_wait(job->raster, error);
+        if (result == WEFT_OK) result = weft_raster_draw(job->raster, &view, error);
+    }
     if (result == WEFT_OK) result = weft_raster_image(job->raster, &job->linear, error);
     if (result != WEFT_OK) return result;
     const WeftRasterInfo drawn = weft_raster_info(job->raster);
-    job->info = (WeftRenderInfo){
-        .samples_per_pixel = drawn.samples, .render_seconds = clock_now() - started, .camera_fov = drawn.camera_fov};
+    job->info = (WeftRenderInfo){.samples_per_pixel = frames ? frames : drawn.samples,
+                                 .render_seconds = clock_now() - started,
+                                 .camera_fov = drawn.camera_fov};
     memcpy(job->info.camera_eye, drawn.camera_eye, sizeof job->info.camera_eye);
     memcpy(job->info.camera_target, drawn.camera_target, sizeof job->info.camera_target);
     snprintf(job->driver, sizeof job->driver, "%s", drawn.driver);

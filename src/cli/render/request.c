@@ -38,6 +38,9 @@ const Option request_options[] = {
                 "trace, the reference; raster, OpenGL; or both on a sheet, with their difference"),
     OPTION_TEXT("--gl", "KIND", "desktop", "raster: desktop, OpenGL 3.3, or es, OpenGL ES 3.0"),
     OPTION_WHOLE("--msaa", "COUNT", "4", 1, 64, "raster: samples a pixel at edges, as far as the driver goes"),
+    OPTION_WHOLE("--accumulate", "COUNT", NULL, 1, WEFT_RASTER_FRAMES_MOST,
+                 "raster: the mean of so many frames with random light and shadow rays, which converges to the path "
+                 "tracer's --max-depth 1"),
     OPTION_TEXT("--ambient", "STRATEGY", "best",
                 "raster: light from the environment by irradiance, mirror or fitted, by the best of them for each "
                 "lobe, or none"),
@@ -108,6 +111,7 @@ static bool read_engine(const Options *options, Request *request) {
                 option_choice(options, "--gl", gl_versions, &kind) &&
                 option_choice(options, "--ambient", ambients, &ambient) &&
                 option_choice(options, "--part", parts, &part) && option_integer(options, "--msaa", &request->msaa) &&
+                option_integer(options, "--accumulate", &request->accumulate) &&
                 option_integer(options, "--polygons", &request->polygons) &&
                 option_integer(options, "--occlusion", &occlusion) &&
                 option_integer(options, "--turntable", &request->turntable);
@@ -117,7 +121,11 @@ static bool read_engine(const Options *options, Request *request) {
     request->raster = (WeftRasterDesc){.gl = (WeftGl)kind,
                                        .shader_dir = option_text(options, "--shader-dir"),
                                        .threads = request->desc.threads,
-                                       .occlusion = occlusion};
+                                       .occlusion = request->accumulate ? 0 : occlusion};
+    if (good && request->accumulate && request->engine == ENGINE_TRACE) {
+        report(WEFT_USAGE, "--accumulate: needs --engine raster or both; the path tracer has --spp");
+        return false;
+    }
     if (good && part && request->engine != ENGINE_RASTER) {
         report(WEFT_USAGE, "--part: needs --engine raster, the path tracer has no parts");
         return false;

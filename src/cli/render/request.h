@@ -24,6 +24,7 @@ typedef struct Request {
     Engine engine;
     WeftRasterDesc raster;
     int msaa, polygons;
+    int accumulate; /* frames of a sum; 0: one picture */
     WeftAmbient ambient;
     WeftPart part;
     int turntable; /* pictures around the scene; 0: one */

@@ -16,12 +16,30 @@ static void upload_picture(const WeftRaster *self, const Picture *picture) {
     glBindBufferBase(GL_UNIFORM_BUFFER, BLOCK_PICTURE, self->picture_buffer);
 }
 
+static void put_row(float row[4], float x, float y, float z, float w) {
+    row[0] = x, row[1] = y, row[2] = z, row[3] = w;
+}
+
+/* Writes the uniforms of reference.glsl. */
+static void put_reference(const WeftRaster *self, Picture *out) {
+    const Environment *e = &self->scene->environment;
+    const RayScene *rays = &self->rays;
+    const float kind = !self->environment_lit ? 0.0f : e->kind == ENVIRONMENT_CONSTANT ? 1.0f : 2.0f;
+    put_row(out->sky_place, cosf(e->rotation), sinf(e->rotation), e->strength, kind);
+    put_row(out->sky_color, e->color[0] * e->strength, e->color[1] * e->strength, e->color[2] * e->strength, 0.0f);
+    put_row(out->sky_parts, e->ambient, e->reflection, 0.0f, 0.0f);
+    put_row(out->ray_first, (float)rays->tree.node_count, (float)rays->first[1], (float)rays->first[2],
+            (float)rays->first[3]);
+    put_row(out->ray_count, (float)rays->lamps, (float)self->sums.done, 0.0f, 0.0f);
+}
+
 /* Fills that block for a view of the scene, uploads it and binds it. */
 static void upload_view(const WeftRaster *self, const View *view) {
     Picture picture;
     picture_make(self->scene, view, &self->polygons, &self->shadows, &self->floor, &picture);
     picture.floor_light[0] = self->sky_on_floor;
     picture.floor_light[2] = self->floor_shaded ? 1.0f : 0.0f;
+    put_reference(self, &picture);
     upload_picture(self, &picture);
 }
 
@@ -56,9 +74,8 @@ static bool shows_environment(const WeftRasterView *view) {
     return view->background == WEFT_BACKGROUND_ENVIRONMENT || view->background == WEFT_BACKGROUND_BLURRED;
 }
 
-/* Clears the target to the background's colour and limits drawing to the crop. */
-static void begin_picture(WeftRaster *self, const WeftRasterView *view, const int box[4]) {
-    glViewport(0, 0, view->width, view->height);
+/* Sets the colour that clears a target to that of the background. */
+static void set_clear_color(const WeftRaster *self, const WeftRasterView *view) {
     bool color = view->background == WEFT_BACKGROUND_COLOR;
     const Environment *e = &self->scene->environment;
     const float *c = view->background_color;
@@ -69,6 +86,12 @@ static void begin_picture(WeftRaster *self, const WeftRasterView *view, const in
         c = constant;
     }
     glClearColor(color ? c[0] : 0.0f, color ? c[1] : 0.0f, color ? c[2] : 0.0f, color ? 1.0f : 0.0f);
+}
+
+/* Clears the target to the background's colour and limits drawing to the crop. */
+static void begin_picture(WeftRaster *self, const WeftRasterView *view, const int box[4]) {
+    glViewport(0, 0, view->width, view->height);
+    set_clear_color(self, view);
     clear_target(&self->target, view, box);
 }
 
@@ -80,6 +103,18 @@ static void bind_light(WeftRaster *self, const WeftRasterView *view) {
     if (self->environment_lit) environment_bind(&self->environment, UNIT_ENVIRONMENT, BLOCK_ENVIRONMENT);
     glActiveTexture(GL_TEXTURE0);
     if (self->shadows.count) shadows_bind(&self->shadows, UNIT_SHADOW, UNIT_SOFT_SHADOW);
+}
+
+/* Binds the triangles and the environment for rays, and textures without smaller copies. */
+static void bind_rays(WeftRaster *self) {
+    if (!self->no_mipmaps) textures_filter(&self->textures, false);
+    self->no_mipmaps = true;
+    ray_scene_bind(&self->rays, UNIT_RAYS);
+    glActiveTexture(GL_TEXTURE0 + UNIT_SKY);
+    glBindTexture(GL_TEXTURE_2D, self->sky.table);
+    glActiveTexture(GL_TEXTURE0 + UNIT_BACKGROUND);
+    glBindTexture(GL_TEXTURE_2D, self->environment_lit ? self->environment.map : 0);
+    glActiveTexture(GL_TEXTURE0);
 }
 
 /* Puts the program of a key into use; a key holds all that the text of a shader depends on. If the files of the text
@@ -231,21 +266,24 @@ static WeftResult draw_meshes(WeftRaster *self, int first, int end, MeshPass pas
     for (int k = first; k < end && result == WEFT_OK; k++) {
         int mesh = self->queue.order[k];
         if (view->hide_lights && mesh >= scene_own_meshes(self->scene)) continue;
-        if (k >= self->queue.solid && !takes_part(self->scene, mesh, pass)) continue;
+        if (k >= self->queue.solid && !self->summing && !takes_part(self->scene, mesh, pass)) continue;
         ShaderKey key = lit_key(self, view, &self->materials.all[self->scene->meshes[mesh].material]);
         result = draw_mesh(self, mesh, pass, &key, error);
     }
     return result;
 }
 
-/* Draws what is solid, the background, the floor and what blends into the framebuffer that is bound. */
+/* Draws what is solid, the background, the floor and what blends into the framebuffer that is bound. Nothing blends in
+ * a frame of a sum, where a random number decides partial opacity. */
 static WeftResult draw_all(WeftRaster *self, const View *seen, const WeftRasterView *view, WeftError *error) {
     const Queue *queue = &self->queue;
     bool behind = shows_environment(view) && self->environment_lit && self->environment.map;
     queue_sort(&self->queue, self->scene, seen);
     WeftResult result = draw_meshes(self, 0, queue->count, PASS_SOLID, view, error);
     if (behind && result == WEFT_OK) result = draw_background(self, view->background == WEFT_BACKGROUND_BLURRED, error);
+    if (self->summing && self->floor.there) bind_light(self, view);
     if (view->floor.on && self->floor.there && result == WEFT_OK) result = draw_floor(self, view, error);
+    if (self->summing) return result == WEFT_OK ? gl_check(error, "a frame") : result;
     glEnable(GL_BLEND);
     glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA); /* colours are premultiplied */
     glDepthMask(GL_FALSE);
@@ -324,4 +362,67 @@ WeftResult frame_draw_passes(WeftRaster *self, const WeftRasterView *view, const
     }
     return_spare(self);
     return result;
+}
+
+WeftResult frame_begin_sum(WeftRaster *self, const View *seen, WeftError *error) {
+    Sums *sums = &self->sums;
+    const WeftRasterView *view = &sums->view;
+    frame_reset_state(self);
+    WeftResult result = find_floor(self, seen, view, error);
+    if (result == WEFT_OK && self->floor.there) result = compile_shaders(self, view, error); /* of its mirror */
+    if (result == WEFT_OK && self->floor.there && !view->no_shadows) result = draw_shadows(self, error);
+    self->summing = true;
+    if (result == WEFT_OK) result = compile_shaders(self, view, error);
+    self->summing = false;
+    if (result == WEFT_OK) result = ray_scene_make(&self->rays, self->scene, error);
+    if (result == WEFT_OK && self->environment_lit)
+        result = sky_table_make(&self->sky, &self->scene->environment, error);
+    if (result == WEFT_OK)
+        result = sums_begin(sums, &self->programs.desc, view->width, view->height, sums->starts ? &self->target : NULL,
+                            error);
+    if (result == WEFT_OK && (self->target.width != view->width || self->target.height != view->height))
+        result = target_resize(&self->target, view->width, view->height, 1, error);
+    return_spare(self);
+    return result;
+}
+
+/* Draws `rows` rows of the frame, from `row` on. */
+static WeftResult draw_strip(WeftRaster *self, const View *seen, int row, int rows, WeftError *error) {
+    const WeftRasterView *view = &self->sums.view;
+    const int *c = view->crop, bottom = view->height - c[1] - c[3];
+    const int low = row > bottom ? row : bottom, high = row + rows < bottom + c[3] ? row + rows : bottom + c[3];
+    const int box[4] = {c[0], low, c[2], high > low ? high - low : 0};
+    WeftResult result = WEFT_OK;
+    frame_reset_state(self);
+    if (row == 0) result = draw_mirror(self, seen, view, (const int[4]){c[0], bottom, c[2], c[3]}, error);
+    if (result != WEFT_OK) return result;
+    upload_view(self, seen);
+    glViewport(0, 0, view->width, view->height);
+    glBindFramebuffer(GL_FRAMEBUFFER, self->sums.frame.drawn);
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(0, row, view->width, rows);
+    glClearColor(0.0f, 0.0f, 0.0f, 0.0f); /* outside the crop */
+    glClear(GL_COLOR_BUFFER_BIT);
+    glScissor(box[0], box[1], box[2], box[3]);
+    set_clear_color(self, view);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    bind_rays(self);
+    self->summing = true;
+    result = draw_all(self, seen, view, error);
+    self->summing = false;
+    glDisable(GL_SCISSOR_TEST);
+    return result;
+}
+
+WeftResult frame_draw_sum(WeftRaster *self, int rows, WeftError *error) {
+    Sums *sums = &self->sums;
+    const View seen = sums_view(sums);
+    const int left = sums->height - sums->row;
+    rows = rows < left ? rows : left;
+    WeftResult result = draw_strip(self, &seen, sums->row, rows, error);
+    if (result != WEFT_OK) return result;
+    sums->row += rows;
+    if (sums->row == sums->height) sums_add(sums, &self->target);
+    glFinish();
+    return gl_check(error, "a sum of frames");
 }

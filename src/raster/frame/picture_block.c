@@ -87,6 +87,23 @@ static void put_shadow(const Shadow *shadow, int k, int first, Picture *out) {
     }
 }
 
+/* Writes the probabilities with which reference.glsl draws the punctual lights: by power, as trace/light/lights.c. */
+static void put_chances(const WeftScene *scene, int lights, Picture *out) {
+    float radius = 0.5f * vec3_length(vec3_sub(scene->high, scene->low)), power[PICTURE_LIGHTS], sum = 0.0f, end = 0.0f;
+    if (!(radius > 1e-6f && radius < INFINITY)) radius = 1.0f;
+    for (int k = 0; k < lights; k++) {
+        const Light *light = &scene->lights[k];
+        const float *c = light->color, spread = light->kind == LIGHT_DIRECTIONAL ? radius * radius : 4.0f;
+        power[k] = fmaxf((c[0] + c[1] + c[2]) / 3.0f * light->intensity, 1e-6f) * spread;
+        sum += power[k];
+    }
+    for (int k = 0; k < lights; k++) {
+        end += power[k] / sum;
+        out->lights[4 * k + 3][2] = end;
+        out->lights[4 * k + 3][3] = power[k] / sum;
+    }
+}
+
 /* Writes the uniforms of the floor. The cone of its mirror has slope 2 alpha, since a facet of slope alpha deflects a
  * ray by twice its own angle. */
 static void put_floor(const WeftScene *scene, const View *view, const Floor *floor, Picture *out) {
@@ -112,6 +129,7 @@ void picture_make(const WeftScene *scene, const View *view, const LightPolygons 
     memcpy(out->forward, forward, sizeof forward);
     if (floor->there) put_floor(scene, view, floor, out);
     for (int k = 0; k < lights; k++) put_light(&scene->lights[k], &out->lights[4 * k]);
+    put_chances(scene, lights, out);
     for (int k = 0; k < polygons->count; k++) put_polygon(&polygons->items[k], k, out);
     for (int k = 0; k < shadows->count; k++) {
         int light = shadows->of_light[k];

@@ -7,13 +7,17 @@
 
 #include <epoxy/gl.h>
 
+#include "base/equal.h"
 #include "base/fail.h"
+#include "base/steady_clock.h"
 #include "raster/frame/passes.h"
 #include "raster/frame/picture_block.h"
 #include "raster/frame/shader_keys.h"
 #include "raster/gl/gl_check.h"
 
 enum { DEFAULT_WIDTH = 960, DEFAULT_HEIGHT = 720, DEFAULT_SAMPLES = 4, SIDE_MAX = 16384 };
+enum { FIRST_PIXELS = 20000 }; /* of the first strip of a sum */
+static const double strip_seconds = 0.04;
 
 typedef struct Watched {
     WeftProgress progress;
@@ -90,6 +94,9 @@ static void release(WeftRaster *self) {
     ground_destroy(&self->ground);
     glDeleteProgram(self->background_program);
     target_destroy(&self->target);
+    sums_destroy(&self->sums);
+    ray_scene_destroy(&self->rays);
+    sky_table_destroy(&self->sky);
     display_destroy(&self->display);
     glDeleteBuffers(1, &self->picture_buffer);
 }
@@ -269,6 +276,7 @@ WeftResult weft_raster_update(WeftRaster *self, const WeftLog *log, WeftError *e
     if (result == WEFT_OK) self->ground.stale |= change.coverage;
     if (result == WEFT_OK) result = update_lights(self, &change, error);
     if (result == WEFT_OK) result = update_environment(self, log, error);
+    self->rays.filled = self->sums.begun = self->drawn = false;
     if (result == WEFT_OK) result = lookout_update(&self->lookout, lit_environment(self), &self->meshes, log, error);
     queue_update(&self->queue, self->scene);
     context_leave(self->context, &outer);
@@ -287,8 +295,82 @@ WeftResult weft_raster_draw(WeftRaster *self, const WeftRasterView *wanted, Weft
     View seen = view_of(&self->camera, aspect);
     result = enter(self, &outer, error);
     if (result != WEFT_OK) return result;
+    self->sums.begun = false;
     result = frame_draw_passes(self, &view, &seen, error);
+    self->drawn = result == WEFT_OK;
+    self->drawn_view = view;
+    self->drawn_from = seen;
     context_leave(self->context, &outer);
+    return result;
+}
+
+static bool same_place(Vec3 a, Vec3 b) { return is_equal(a.x, b.x) && is_equal(a.y, b.y) && is_equal(a.z, b.z); }
+
+/* Returns true if the last picture shows what this view does, so that it may begin a sum. */
+static bool shows(const WeftRaster *self, const WeftRasterView *view, const View *seen) {
+    const WeftRasterView *last = &self->drawn_view;
+    const View *from = &self->drawn_from;
+    return self->drawn && last->width == view->width && last->height == view->height && last->part == view->part &&
+           last->background == view->background && last->floor.on == view->floor.on &&
+           memcmp(last->crop, view->crop, sizeof view->crop) == 0 && same_place(from->eye, seen->eye) &&
+           same_place(from->forward, seen->forward) && same_place(from->across, seen->across) &&
+           same_place(from->up, seen->up);
+}
+
+WeftResult weft_raster_accumulate_begin(WeftRaster *self, const WeftRasterView *wanted, int frames, WeftError *error) {
+    WeftRasterView view = *wanted;
+    GlOuter outer;
+    set_defaults(self->scene, &view);
+    WeftResult result = check_view(&view, error);
+    if (result != WEFT_OK) return result;
+    if (frames < 1 || frames > WEFT_RASTER_FRAMES_MOST)
+        return fail(error, WEFT_MESSAGE_DESC, "frames", "%d; 1 to %d", frames, WEFT_RASTER_FRAMES_MOST);
+    float aspect = (float)view.width / (float)view.height;
+    result = camera_find(self->scene, view.camera, aspect, &self->camera, error);
+    if (result != WEFT_OK) return result;
+    Sums *sums = &self->sums;
+    sums->seen = view_of(&self->camera, aspect);
+    sums->starts = shows(self, &view, &sums->seen);
+    view.camera = NULL; /* it is the caller's */
+    sums->view = view;
+    sums->frames = frames;
+    sums->rows = FIRST_PIXELS / view.width > 0 ? FIRST_PIXELS / view.width : 1;
+    result = enter(self, &outer, error);
+    if (result != WEFT_OK) return result;
+    result = frame_begin_sum(self, &sums->seen, error);
+    sums->begun = result == WEFT_OK;
+    self->drawn = false;
+    context_leave(self->context, &outer);
+    return result;
+}
+
+/* Draws a strip of a frame and adjusts the height of the next to strip_seconds. */
+static WeftResult draw_strip(WeftRaster *self, WeftError *error) {
+    Sums *sums = &self->sums;
+    const double start = clock_now();
+    const WeftResult result = frame_draw_sum(self, sums->rows, error);
+    const double took = clock_now() - start;
+    if (took < 0.5 * strip_seconds && sums->rows < sums->height) sums->rows *= 2;
+    if (took > 1.5 * strip_seconds && sums->rows > 4) sums->rows /= 2;
+    return result;
+}
+
+WeftResult weft_raster_accumulate(WeftRaster *self, double seconds, int *done, WeftError *error) {
+    const Sums *sums = &self->sums;
+    const double until = clock_now() + seconds;
+    GlOuter outer;
+    *done = 0;
+    if (!sums->begun)
+        return fail(error, WEFT_MESSAGE_DESC, "a sum of frames", "was not begun, or something else was drawn since");
+    WeftResult result = enter(self, &outer, error);
+    if (result != WEFT_OK) return result;
+    while (result == WEFT_OK && sums->done < sums->frames) {
+        result = draw_strip(self, error);
+        if (clock_now() >= until) break;
+    }
+    context_leave(self->context, &outer);
+    *done = sums->done;
+    if (result != WEFT_OK) self->sums.begun = false;
     return result;
 }
 
@@ -345,6 +427,7 @@ int weft_raster_refresh(WeftRaster *self) {
     int changes = folder ? watch_poll(&self->watch, folder) : 0;
     if (!changes) return 0;
     programs_refresh(&self->programs);
+    self->sums.begun = self->drawn = false;
     self->display.stale = true;
     self->shadows.drawn = false;
     return changes;

@@ -2,14 +2,17 @@
  * targets */
 #pragma once
 
+#include "raster/frame/sums.h"
 #include "raster/geometry/meshes.h"
 #include "raster/gl/context.h"
 #include "raster/gl/display.h"
 #include "raster/gl/queue.h"
 #include "raster/gl/target.h"
 #include "raster/light/gl_environment.h"
+#include "raster/light/gl_sky.h"
 #include "raster/light/ground.h"
 #include "raster/light/lookout.h"
+#include "raster/light/ray_scene.h"
 #include "raster/light/shadow.h"
 #include "raster/material/materials.h"
 #include "raster/material/programs.h"
@@ -38,6 +41,13 @@ struct WeftRaster {
     float sky_on_floor; /* luminance of the environment's light on the floor */
     bool floor_shaded;  /* the scene shades the floor */
     Target target;
+    RayScene rays;
+    GlSky sky;
+    Sums sums;
+    bool drawn;                /* the picture is that of drawn_view through drawn_from, and the scene is the same */
+    WeftRasterView drawn_view; /* of the last picture, complete */
+    View drawn_from;
+    bool summing; /* what is drawn is a frame of the sum */
     Display display;
     unsigned picture_buffer; /* uniform buffer of the block Picture */
     Queue queue;

@@ -55,6 +55,11 @@ ShaderKey lit_key(const WeftRaster *self, const WeftRasterView *view, const GlMa
     ShaderKey key = material->key;
     key.part = (int)view->part;
     if (part_is_property(key.part)) return key;
+    if (self->summing) {
+        const Environment *e = &self->scene->environment;
+        key.reference = e->ambient < e->reflection || e->ambient > e->reflection ? 2 : 1;
+        return key;
+    }
     add_lights(self, view, &key);
     if (key.ambient) material_in_light(material, self->environment.parts.env_light_kappa, &key);
     return key;
@@ -62,7 +67,7 @@ ShaderKey lit_key(const WeftRaster *self, const WeftRasterView *view, const GlMa
 
 bool all_keys(WeftRaster *self, const WeftRasterView *view, bool with_floor,
               bool (*test)(Programs *programs, const ShaderKey *key)) {
-    bool all = true, shadows = self->shadows.count && !self->shadows.drawn && !view->no_shadows;
+    bool all = true, shadows = self->shadows.count && !self->shadows.drawn && !view->no_shadows && !self->summing;
     for (int k = 0; k < self->materials.count && all; k++) {
         if (!self->materials.all[k].used) continue;
         const GlMaterial *material = &self->materials.all[k];

@@ -5,7 +5,7 @@
 
 #include "raster/frame/raster_state.h"
 
-/* Returns the key of a material in a picture, with the scene's lights. */
+/* Returns the key of a material in a picture, with the scene's lights, or in a frame of a sum, without. */
 ShaderKey lit_key(const WeftRaster *self, const WeftRasterView *view, const GlMaterial *material);
 
 /* Returns the key of a material, whose own key is given, in a shadow map. */

@@ -20,9 +20,10 @@ struct Beam {
     Rgb radiance;
 };
 
-Beam light_beam(int k, int kind) {
+/* Returns the light of punctual light k at a place. */
+Beam light_beam_at(int k, int kind, vec3 here) {
     vec4 along = lights[4 * k + 1];
-    vec3 to = lights[4 * k].xyz - eye.xyz - from_eye;
+    vec3 to = lights[4 * k].xyz - here;
     float d2 = dot(to, to), scale = 1.0;
     Beam beam;
     beam.wi = dir_of(-along.xyz);
@@ -38,6 +39,7 @@ Beam light_beam(int k, int kind) {
     beam.radiance = rgb(c.r, c.g, c.b);
     return beam;
 }
+Beam light_beam(int k, int kind) { return light_beam_at(k, kind, eye.xyz + from_eye); }
 
 #ifdef SHADOWED
 float light_reaches(int map, vec3 normal, float cosine) {

@@ -15,7 +15,7 @@
  *
  * half is half the width of a shadow map at distance 1. A light in `lights` has four vectors: position and kind (0
  * directional, 1 point, 2 spot); direction of travel and range; colour times intensity, and shadow map or -1; cosines
- * of the cones. A point of shadow_points is an offset from shadow_eye: x and y over half, z along w in m; w is the
+ * of the cones, and for reference.glsl the sum of the probabilities of the lights up to it, and its own. A point of shadow_points is an offset from shadow_eye: x and y over half, z along w in m; w is the
  * shift of what it sees, over its x and y, 1/m. The floor's mirror has, with floor_lens.xy, depth x + y / w, or x w + y
  * without perspective. */
 /* clang-format off */
@@ -33,5 +33,10 @@
     MANY(vec4, polygon_radiance, PICTURE_POLYGONS)                                                           \
     ONE(vec4, floor_place) /* middle and radius */                                                           \
     ONE(vec4, floor_light) /* luminance of the sky on it, share mirrored, 1 if the scene shades it */        \
-    ONE(vec4, floor_lens)  /* z: half width of the mirror's cone, w: width over height, both of the picture */
+    ONE(vec4, floor_lens)  /* z: half width of the mirror's cone, w: width over height, both of the picture */ \
+    ONE(vec4, sky_place)   /* cosine and sine of its rotation, factor; 0 none, 1 one colour, 2 a map */       \
+    ONE(vec4, sky_color)   /* radiance of one colour */                                                      \
+    ONE(vec4, sky_parts)   /* factor on diffuse lobe and dust, on the other lobes */                         \
+    ONE(vec4, ray_first)   /* number of nodes; first texel of triangles, normals, lamps */                   \
+    ONE(vec4, ray_count)   /* number of lamps, number of the frame */
 /* clang-format on */

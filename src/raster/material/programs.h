@@ -17,7 +17,9 @@ enum {
     UNIT_SOFT_SHADOW,
     UNIT_CLOTH_CELLS,
     UNIT_CLOTH_COLORS,
-    UNIT_COUNT
+    UNIT_COUNT,
+    UNIT_RAYS = UNIT_SOFT_SHADOW, /* of frames of a sum, which need neither soft shadows nor the filtered cube */
+    UNIT_SKY = UNIT_ENVIRONMENT
 };
 enum { BLOCK_PICTURE, BLOCK_MATERIAL, BLOCK_ENVIRONMENT };
 

@@ -24,10 +24,12 @@ static CompositionSlots find_slots(const ShaderKey *key) {
     find_zeros(key, zero);
     const bool whole = key->inputs[INPUT_sheen].state == INPUT_ONE && zero[INPUT_sheen_upward];
     CompositionSlots found = composition_slots(&key->choices, zero, whole);
+    found.sampled = key->reference != 0;
     if (!key->woven) return found;
-    found.slots[PLACE_DIFFUSE] = (TextSlot){.lobes = {LOBE_WOVEN, LOBE_YARN}, .count = 2};
+    found.slots[PLACE_DIFFUSE] = found.sampled ? (TextSlot){.lobes = {LOBE_YARN}, .count = 1}
+                                               : (TextSlot){.lobes = {LOBE_WOVEN, LOBE_YARN}, .count = 2};
     found.slots[PLACE_SPECULAR].count = 0;
-    found.lobes[PLACE_DIFFUSE] = lobe_default(LOBE_WOVEN);
+    found.lobes[PLACE_DIFFUSE] = lobe_default(found.slots[PLACE_DIFFUSE].lobes[0]);
     return found;
 }
 
@@ -413,7 +415,9 @@ void shader_text(const ShaderKey *key, const TextDesc *desc, Fits *fits, Text *t
     if (key->ambient) put_ambient(text, key, &found, fits);
     put_table(text, key);
     put_surface(text, key);
-    text_include(text, "raster/glsl/forward.glsl");
+    if (key->reference && key->part != WEFT_PART_ALL) text_define(text, "SHOWS_PART", "1");
+    if (key->reference > 1) text_define(text, "SKY_IN_PARTS", "1");
+    text_include(text, key->reference ? "raster/glsl/reference.glsl" : "raster/glsl/forward.glsl");
 }
 
 void shader_vertex_text(const ShaderKey *key, const TextDesc *desc, Text *text) {

@@ -33,10 +33,11 @@ enum { SHADER_LIGHTS = 8 };
 typedef struct ShaderKey {
     Choices choices;
     ShaderInput inputs[INPUT_COUNT];
-    int depth;    /* 1: only coverage, for shadow maps */
-    int floor;    /* 1: no material, but the floor under the scene */
-    int shadowed; /* 1: with shadow maps */
-    int lights;   /* number of punctual lights; kind and shadow map, or -1, of each up to SHADER_LIGHTS */
+    int depth;     /* 1: only coverage, for shadow maps */
+    int floor;     /* 1: no material, but the floor under the scene */
+    int reference; /* 1: a frame of a sum (glsl/reference.glsl); 2: with two factors on light of the environment */
+    int shadowed;  /* 1: with shadow maps */
+    int lights;    /* number of punctual lights; kind and shadow map, or -1, of each up to SHADER_LIGHTS */
     int16_t light_kind[SHADER_LIGHTS], light_map[SHADER_LIGHTS];
     int focus, narrow, by_azimuth; /* bit k: those of AmbientTable for slot k, whose table is baked */
     int dense;                     /* bit k: the lobe of slot k, whose table is baked, exceeds AMBIENT_DENSER */

@@ -1,0 +1,87 @@
+/* rays.glsl - rays against the scene's triangles, which raster/light/ray_scene.h has put into a texture
+ *
+ * Triangles are met as by Tomas Moeller and Ben Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", Journal of
+ * Graphics Tools 2(1), 1997. */
+#include "raster/glsl/picture.glsl"
+#include "shading/dialect/points.h"
+
+uniform highp sampler2D ray_texels;
+
+/* Returns a texel of the texture, RAY_ROW a row. */
+vec4 ray_texel(int k) { return texelFetch(ray_texels, ivec2(k & 2047, k >> 11), 0); }
+
+struct Ray {
+    vec3 origin, direction; /* unit */
+    float near, far;        /* distances between which hits count */
+};
+
+struct RayHit {
+    float t;      /* distance */
+    int triangle; /* below 0: none */
+    float u, v;   /* weights of the second and third corner */
+};
+
+/* The corners of a triangle, and the last numbers of its texels. */
+struct RayTriangle {
+    vec3 a, b, c;
+    float surface, lamp;
+};
+
+RayTriangle ray_triangle(int k) {
+    int at = int(ray_first.y) + 3 * k;
+    vec4 a = ray_texel(at), b = ray_texel(at + 1), c = ray_texel(at + 2);
+    return RayTriangle(a.xyz, b.xyz, c.xyz, a.w, b.w);
+}
+
+vec3 ray_normal(int triangle, int corner) { return ray_texel(int(ray_first.z) + 3 * triangle + corner).xyz; }
+
+/* Returns the hit of the plane of a triangle, with t below 0 if it is beside the triangle. */
+RayHit ray_meet(Ray r, RayTriangle p) {
+    vec3 ab = p.b - p.a, ac = p.c - p.a, h = cross(r.direction, ac), s = r.origin - p.a, q = cross(s, ab);
+    float det = dot(ab, h), inverse = 1.0 / (det == 0.0 ? 1e-38 : det);
+    float u = dot(s, h) * inverse, v = dot(r.direction, q) * inverse, t = dot(ac, q) * inverse;
+    bool beside = det == 0.0 || u < 0.0 || v < 0.0 || u + v > 1.0;
+    return RayHit(beside ? -1.0 : t, -1, u, v);
+}
+
+/* Returns true if the ray meets a triangle from a side that it has, at a point that is not transparent: a random number
+ * that depends on the ray and the triangle decides partial opacity. */
+bool ray_counts(Ray r, RayTriangle p, int triangle, uint key) {
+    bool single = p.surface >= 4.0;
+    float opacity = single ? p.surface - 4.0 : p.surface;
+    if (single && dot(cross(p.b - p.a, p.c - p.a), r.direction) > 0.0) return false;
+    return opacity >= 1.0 || point_fraction(point_hash_two(key, uint(triangle))) < opacity;
+}
+
+/* Returns the nearest hit, or if `any` the first one that is found. near_to: the distance to which hits are to be near,
+ * or 0; all triangles count if it is more. */
+RayHit ray_trace(Ray r, bool any, float near_to, uint key) {
+    vec3 safe = mix(r.direction, vec3(1e-20), lessThan(abs(r.direction), vec3(1e-20)));
+    vec3 inverse = 1.0 / safe;
+    int node = 0, count = int(ray_first.x);
+    RayHit found = RayHit(r.far, -1, 0.0, 0.0);
+    float near = r.near, far = r.far;
+    while (node < count) {
+        vec4 low = ray_texel(2 * node), high = ray_texel(2 * node + 1);
+        vec3 x = (low.xyz - r.origin) * inverse, y = (high.xyz - r.origin) * inverse;
+        vec3 least = min(x, y), most = max(x, y);
+        float enter = max(max(least.x, least.y), max(least.z, near));
+        float leave = min(min(most.x, most.y), min(most.z, far));
+        bool inside = enter <= leave * 1.0000004;
+        bool leaf = high.w >= 0.0;
+        int first = int(high.w), end = inside && leaf ? first + int(low.w) : first;
+        for (int k = first; k < end; k++) {
+            RayTriangle p = ray_triangle(k);
+            RayHit hit = ray_meet(r, p);
+            if (hit.t < near || hit.t > far) continue;
+            if (near_to == 0.0 && !ray_counts(r, p, k, key)) continue;
+            found = RayHit(hit.t, k, hit.u, hit.v);
+            float off = abs(hit.t - near_to);
+            far = near_to > 0.0 ? near_to + off : hit.t;
+            near = near_to > 0.0 ? near_to - off : near;
+        }
+        node = inside || leaf ? node + 1 : int(low.w);
+        if (any && found.triangle >= 0) node = count;
+    }
+    return found;
+}

@@ -1,0 +1,185 @@
+#include "raster/light/ray_scene.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include <epoxy/gl.h>
+
+#include "base/fail.h"
+#include "raster/gl/gl_check.h"
+#include "scene/record/material_at.h"
+
+enum { NODES, TRIANGLES, NORMALS, LAMPS };
+
+/* The place of a triangle, counted through all meshes. */
+typedef struct Place {
+    uint32_t mesh, triangle;
+} Place;
+
+static uint32_t count_triangles(const WeftScene *scene) {
+    uint64_t count = 0;
+    for (int m = 0; m < scene->mesh_count; m++) count += scene->meshes[m].triangle_count;
+    return count < RAY_NUMBER_MOST ? (uint32_t)count : RAY_NUMBER_MOST;
+}
+
+static Vec3 corner_of(const Mesh *mesh, uint32_t triangle, int corner) {
+    return vec3_load(mesh->position + 3 * (size_t)mesh->index[3 * (size_t)triangle + (size_t)corner]);
+}
+
+static bool make_tree(RayScene *self, const WeftScene *scene) {
+    const uint32_t count = count_triangles(scene);
+    RayBox *boxes = alloc_array(count, sizeof *boxes), *to = boxes;
+    if (!boxes) return false;
+    for (int m = 0; m < scene->mesh_count; m++)
+        for (uint32_t t = 0; t < scene->meshes[m].triangle_count; t++) {
+            const Vec3 a = corner_of(&scene->meshes[m], t, 0), b = corner_of(&scene->meshes[m], t, 1),
+                       c = corner_of(&scene->meshes[m], t, 2);
+            *to++ = (RayBox){vec3_least(a, vec3_least(b, c)), vec3_most(a, vec3_most(b, c))};
+        }
+    ray_tree_free(&self->tree);
+    const bool made = ray_tree_make(&self->tree, boxes, count);
+    free(boxes);
+    self->shape_version = scene->shape_version;
+    return made;
+}
+
+/* Returns the mean opacity of a triangle. */
+static float opacity_of(const WeftScene *scene, const Mesh *mesh, uint32_t triangle) {
+    static const float points[4][2] = {{0.333f, 0.333f}, {0.2f, 0.2f}, {0.6f, 0.2f}, {0.2f, 0.6f}};
+    const Material *material = &scene->materials[mesh->material];
+    const uint32_t *index = mesh->index + 3 * (size_t)triangle;
+    float mean = 0.0f;
+    if (material->alpha_mode == WEFT_ALPHA_OPAQUE) return 1.0f;
+    for (int k = 0; k < 4; k++) {
+        const float w[3] = {1.0f - points[k][0] - points[k][1], points[k][0], points[k][1]};
+        float uv[2][2] = {{0}}, alpha = mesh->color ? 0.0f : 1.0f;
+        for (int c = 0; c < 3; c++) {
+            for (int set = 0; set < 2 && mesh->texcoord[set]; set++)
+                for (int a = 0; a < 2; a++) uv[set][a] += w[c] * mesh->texcoord[set][2 * (size_t)index[c] + (size_t)a];
+            if (mesh->color) alpha += w[c] * mesh->color[4 * (size_t)index[c] + 3];
+        }
+        mean += 0.25f * material_opacity(scene, material, uv, alpha);
+    }
+    return mean;
+}
+
+static void put(float *texel, Vec3 v, float w) { texel[0] = v.x, texel[1] = v.y, texel[2] = v.z, texel[3] = w; }
+
+static void put_triangle(const WeftScene *scene, Place at, float *triangle, float *normals) {
+    const Mesh *mesh = &scene->meshes[at.mesh];
+    const float side = scene->materials[mesh->material].double_sided ? 0.0f : 4.0f;
+    const float last[3] = {side + opacity_of(scene, mesh, at.triangle), 0.0f, 0.0f};
+    for (int k = 0; k < 3; k++) {
+        put(triangle + 4 * k, corner_of(mesh, at.triangle, k), last[k]);
+        const uint32_t vertex = mesh->index[3 * (size_t)at.triangle + (size_t)k];
+        if (mesh->normal) put(normals + 4 * k, vec3_load(mesh->normal + 3 * (size_t)vertex), 0.0f);
+    }
+}
+
+/* Returns the place of each triangle in the order of the meshes; NULL if memory is short. */
+static Place *find_places(const WeftScene *scene, uint32_t count) {
+    Place *places = alloc_array(count, sizeof *places), *to = places;
+    for (int m = 0; places && m < scene->mesh_count; m++)
+        for (uint32_t t = 0; t < scene->meshes[m].triangle_count; t++) *to++ = (Place){(uint32_t)m, t};
+    return places;
+}
+
+/* Notes at each triangle of the texture the lamp that it is. at: where in the tree's order each triangle is. */
+static void put_lamps(const RayScene *self, const WeftScene *scene, const Lamps *lamps, const uint32_t *at,
+                      float *texels) {
+    uint32_t *first = alloc_array((size_t)scene->mesh_count, sizeof *first), count = 0;
+    for (int m = 0; first && m < scene->mesh_count; m++) {
+        first[m] = count;
+        count += scene->meshes[m].triangle_count;
+    }
+    for (int k = 0; first && k < lamps->count; k++) {
+        const Lamp *lamp = &lamps->all[k];
+        float *to = texels + 4 * ((size_t)self->first[LAMPS] + 4 * (size_t)k);
+        put(to, lamp->a, lamp->until);
+        put(to + 4, lamp->ab, lamp->two_sided ? 1.0f : 0.0f);
+        put(to + 8, lamp->ac, lamp->area);
+        put(to + 12, vec3_load(lamp->radiance), lamp->probability);
+        const size_t triangle = at[first[lamp->mesh] + lamp->triangle];
+        texels[4 * ((size_t)self->first[TRIANGLES] + 3 * triangle + 1) + 3] = (float)(k + 1);
+    }
+    free(first);
+}
+
+/* Fills the texels. Returns false if memory is short. */
+static bool fill(const RayScene *self, const WeftScene *scene, const Lamps *lamps, float *texels) {
+    const RayTree *tree = &self->tree;
+    Place *places = find_places(scene, tree->count);
+    uint32_t *at = alloc_array(tree->count, sizeof *at);
+    const bool made = places && at;
+    memcpy(texels, tree->nodes, tree->node_count * sizeof *tree->nodes);
+    for (uint32_t k = 0; made && k < tree->count; k++) {
+        at[tree->order[k]] = k;
+        put_triangle(scene, places[tree->order[k]], texels + 4 * ((size_t)self->first[TRIANGLES] + 3 * (size_t)k),
+                     texels + 4 * ((size_t)self->first[NORMALS] + 3 * (size_t)k));
+    }
+    if (made) put_lamps(self, scene, lamps, at, texels);
+    free(places);
+    free(at);
+    return made;
+}
+
+/* Uploads texels into the texture, which keeps its size if that is enough. */
+static WeftResult upload(RayScene *self, int rows, const float *texels, WeftError *error) {
+    const bool fresh = !self->texture || rows != self->rows;
+    if (!self->texture) glGenTextures(1, &self->texture);
+    glBindTexture(GL_TEXTURE_2D, self->texture);
+    texture_unfiltered(GL_TEXTURE_2D);
+    if (fresh)
+        glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, RAY_ROW, rows, 0, GL_RGBA, GL_FLOAT, texels);
+    else
+        glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, RAY_ROW, rows, GL_RGBA, GL_FLOAT, texels);
+    self->rows = rows;
+    return gl_check(error, "triangles for rays");
+}
+
+static WeftResult fill_texture(RayScene *self, const WeftScene *scene, WeftError *error) {
+    Lamps lamps;
+    GLint most = 0;
+    if (!lamps_find(&lamps, scene)) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    const size_t sizes[] = {2 * (size_t)self->tree.node_count, 3 * (size_t)self->tree.count,
+                            3 * (size_t)self->tree.count, 4 * (size_t)lamps.count};
+    size_t texels = 0;
+    for (int k = 0; k < 4; k++) {
+        self->first[k] = (int)texels;
+        texels += sizes[k];
+    }
+    self->lamps = lamps.count;
+    const size_t rows = (texels + RAY_ROW - 1) / RAY_ROW;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
+    WeftResult result = WEFT_OK;
+    if (texels > RAY_NUMBER_MOST || rows > (size_t)most)
+        result = fail(error, WEFT_MESSAGE_GL_MEMORY, scene->name, "too many triangles to trace rays in a shader");
+    float *all = result == WEFT_OK ? alloc_array(rows * RAY_ROW, 4 * sizeof *all) : NULL;
+    if (result == WEFT_OK && (!all || !fill(self, scene, &lamps, all)))
+        result = fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    if (result == WEFT_OK) result = upload(self, (int)rows, all, error);
+    free(all);
+    lamps_free(&lamps);
+    self->filled = result == WEFT_OK;
+    return result;
+}
+
+WeftResult ray_scene_make(RayScene *self, const WeftScene *scene, WeftError *error) {
+    const bool stale = !self->tree.nodes || self->shape_version != scene->shape_version;
+    if (count_triangles(scene) >= RAY_NUMBER_MOST / 2)
+        return fail(error, WEFT_MESSAGE_GL_MEMORY, scene->name, "too many triangles to trace rays in a shader");
+    if (stale && !make_tree(self, scene)) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    return stale || !self->filled ? fill_texture(self, scene, error) : WEFT_OK;
+}
+
+void ray_scene_destroy(RayScene *self) {
+    glDeleteTextures(1, &self->texture);
+    ray_tree_free(&self->tree);
+    *self = (RayScene){0};
+}
+
+void ray_scene_bind(const RayScene *self, int unit) {
+    glActiveTexture((GLenum)(GL_TEXTURE0 + unit));
+    glBindTexture(GL_TEXTURE_2D, self->texture);
+    glActiveTexture(GL_TEXTURE0);
+}

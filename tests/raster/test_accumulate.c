@@ -1,0 +1,225 @@
+/* Sums of frames converge to the path tracer's direct light: pixels and means over 8 x 8 pixels, of balls under an
+ * environment, a polygon and punctual lights; and what a caller sees of a sum
+ *
+ * Labels: slow unsanitized */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "raster/gl.h"
+#include "trace/scenes.h"
+
+enum { WIDTH = 96, HEIGHT = 64, FRAMES = 256, SPP = 2048 };
+
+static const WeftRasterView view = {
+    .width = WIDTH, .height = HEIGHT, .camera = "0,1.3,3.4;0,0.1,0;26", .background = WEFT_BACKGROUND_TRANSPARENT};
+
+/* The sums of the absolute differences over the sum of the path traced picture. */
+typedef struct Off {
+    double pixels, blocks, mean;
+} Off;
+
+static Off compare(const WeftImage *a, const WeftImage *b) {
+    double sum = 0.0, pixels = 0.0, blocks = 0.0, all = 0.0;
+    const float *p = a->pixels, *q = b->pixels;
+    for (int by = 0; by < HEIGHT / 8; by++)
+        for (int bx = 0; bx < WIDTH / 8; bx++)
+            for (int c = 0; c < 3; c++) {
+                double block = 0.0;
+                for (int k = 0; k < 64; k++) {
+                    const int at = 4 * ((8 * by + k / 8) * WIDTH + 8 * bx + k % 8);
+                    const double x = (double)(p[at + c] * p[at + 3]), y = (double)(q[at + c] * q[at + 3]);
+                    sum += y;
+                    pixels += fabs(x - y);
+                    block += x - y;
+                }
+                blocks += fabs(block);
+                all += block;
+            }
+    return (Off){pixels / sum, blocks / sum, all / sum};
+}
+
+static WeftImage summed(WeftRaster *raster, const WeftRasterView *how, int frames) {
+    WeftImage image;
+    WeftError error;
+    int done = 0;
+    if (weft_raster_accumulate_begin(raster, how, frames, &error) != WEFT_OK) fail_msg("%s", error.text);
+    while (done < frames)
+        if (weft_raster_accumulate(raster, 1.0, &done, &error) != WEFT_OK) fail_msg("%s", error.text);
+    if (weft_raster_image(raster, &image, &error) != WEFT_OK) fail_msg("%s", error.text);
+    return image;
+}
+
+static WeftRaster *raster_of(const WeftScene *scene) {
+    WeftRaster *raster;
+    WeftError error;
+    const WeftRasterDesc desc = {.threads = 1, .no_cache = 1};
+    if (weft_raster_create(scene, &desc, &raster, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
+    return raster;
+}
+
+/* A ball of material 0 and a smaller, glossy one on a floor. */
+static WeftScene *balls(void) {
+    WeftScene *scene = test_scene();
+    test_environment(scene, 0.0f);
+    Material *ball = test_material(scene, 0.4f);
+    ball->inputs[INPUT_specular].value[0] = 1.0f;
+    test_ball(scene, vec3(-0.3f, 0.0f, 0.0f), 0.5f, 24);
+    Material *metal = test_material(scene, 0.8f);
+    metal->inputs[INPUT_metallic].value[0] = 1.0f;
+    metal->inputs[INPUT_roughness].value[0] = 0.25f;
+    test_ball(scene, vec3(0.5f, -0.2f, 0.3f), 0.3f, 24);
+    test_material(scene, 0.5f);
+    test_quad(scene, vec3(-2.0f, -0.5f, 2.0f), vec3(4.0f, 0.0f, 0.0f), vec3(0.0f, 0.0f, -4.0f));
+    scene_bounds(scene);
+    return scene;
+}
+
+static void agrees(WeftScene *scene, const char *what, double pixels, double blocks) {
+    WeftRaster *raster = raster_of(scene);
+    const WeftRenderDesc desc = {
+        .width = WIDTH, .height = HEIGHT, .max_depth = 1, .camera = view.camera, .background = view.background};
+    WeftImage image = summed(raster, &view, FRAMES), reference = test_render(scene, desc, SPP);
+    const Off off = compare(&image, &reference);
+    print_message("%-24s pixels %.2f %%, means of 8 x 8 %.2f %%, mean %+.2f %%\n", what, 100.0 * off.pixels,
+                  100.0 * off.blocks, 100.0 * off.mean);
+    assert_true(off.pixels < pixels && off.blocks < blocks);
+    weft_image_free(&image);
+    weft_image_free(&reference);
+    weft_raster_free(raster);
+    weft_scene_free(scene);
+}
+
+static void under_a_studio(void **state) {
+    (void)state;
+    need_gl();
+    WeftScene *scene = balls();
+    assert_int_equal(weft_scene_set_environment_studio(scene, NULL), WEFT_OK);
+    agrees(scene, "studio", 0.025, 0.005);
+}
+
+static void under_a_polygon(void **state) {
+    (void)state;
+    need_gl();
+    static const WeftLight panel = {.kind = WEFT_LIGHT_POLYGON,
+                                    .position = {-0.9f, 1.4f, 0.4f},
+                                    .direction = {0.5f, -1.0f, -0.2f},
+                                    .color = {6.0f, 5.0f, 4.0f},
+                                    .size = {0.9f, 0.7f}};
+    WeftScene *scene = balls();
+    assert_int_equal(weft_scene_add_light(scene, &panel, NULL), WEFT_OK);
+    agrees(scene, "polygon", 0.02, 0.005);
+}
+
+static void under_punctual_lights(void **state) {
+    (void)state;
+    need_gl();
+    WeftScene *scene = balls();
+    static const Light lights[] = {{.name = "sun",
+                                    .kind = LIGHT_DIRECTIONAL,
+                                    .direction = {0.48f, -0.8f, -0.36f},
+                                    .color = {1.0f, 0.9f, 0.8f},
+                                    .intensity = 2.0f},
+                                   {.name = "point",
+                                    .kind = LIGHT_POINT,
+                                    .position = {1.0f, 1.0f, 0.8f},
+                                    .color = {0.5f, 0.7f, 1.0f},
+                                    .intensity = 2.0f},
+                                   {.name = "spot",
+                                    .kind = LIGHT_SPOT,
+                                    .position = {-1.0f, 2.0f, 0.6f},
+                                    .direction = {0.42f, -0.88f, -0.22f},
+                                    .color = {1.0f, 1.0f, 1.0f},
+                                    .intensity = 6.0f,
+                                    .cos_inner = 0.97f,
+                                    .cos_outer = 0.92f}};
+    for (size_t k = 0; k < sizeof lights / sizeof *lights; k++) scene->lights[scene->light_count++] = lights[k];
+    agrees(scene, "sun, point and spot", 0.03, 0.007);
+}
+
+static void half_transparent_and_single_sided(void **state) {
+    (void)state;
+    need_gl();
+    WeftScene *scene = balls();
+    test_environment(scene, 0.3f);
+    scene->lights[scene->light_count++] = (Light){.name = "sun",
+                                                  .kind = LIGHT_DIRECTIONAL,
+                                                  .direction = {0.48f, -0.8f, -0.36f},
+                                                  .color = {1.0f, 1.0f, 1.0f},
+                                                  .intensity = 2.0f};
+    Material *veil = test_material(scene, 0.7f);
+    veil->alpha_mode = WEFT_ALPHA_BLEND;
+    veil->inputs[INPUT_opacity].value[0] = 0.4f;
+    veil->inputs[INPUT_diffuse_transmission].value[0] = 0.5f;
+    test_quad(scene, vec3(-1.1f, 0.7f, 0.7f), vec3(1.0f, 0.0f, 0.0f), vec3(0.0f, 0.3f, -0.6f));
+    test_material(scene, 0.7f)->double_sided = false;
+    test_quad(scene, vec3(0.1f, 0.5f, 0.6f), vec3(0.6f, 0.0f, 0.0f), vec3(0.0f, 0.0f, -0.5f));
+    agrees(scene, "veil and single side", 0.025, 0.006);
+}
+
+/* A sum goes on over many calls, ends as in one, stops when something else is drawn, and refuses what is no number. */
+static void a_sum_in_pieces(void **state) {
+    (void)state;
+    need_gl();
+    WeftScene *scene = balls();
+    test_environment(scene, 1.0f);
+    WeftRaster *raster = raster_of(scene);
+    WeftError error;
+    int done = 0, calls = 0;
+    WeftImage whole = summed(raster, &view, 6), pieces;
+    assert_int_equal(weft_raster_accumulate_begin(raster, &view, 6, &error), WEFT_OK);
+    for (; done < 6; calls++) assert_int_equal(weft_raster_accumulate(raster, 0.0, &done, &error), WEFT_OK);
+    assert_true(calls >= 6);
+    assert_int_equal(weft_raster_image(raster, &pieces, &error), WEFT_OK);
+    assert_memory_equal(whole.pixels, pieces.pixels, (size_t)WIDTH * HEIGHT * 4 * sizeof(float));
+    assert_int_equal(weft_raster_draw(raster, &view, &error), WEFT_OK);
+    assert_int_not_equal(weft_raster_accumulate(raster, 0.0, &done, &error), WEFT_OK);
+    assert_int_equal(done, 0);
+    assert_int_not_equal(weft_raster_accumulate_begin(raster, &view, 0, &error), WEFT_OK);
+    weft_image_free(&whole);
+    weft_image_free(&pieces);
+    weft_raster_free(raster);
+    weft_scene_free(scene);
+}
+
+/* The first frame differs little from the picture before it, which in the end has no weight. */
+static void begins_without_a_jump(void **state) {
+    (void)state;
+    need_gl();
+    WeftScene *scene = balls();
+    test_environment(scene, 1.0f);
+    WeftRaster *raster = raster_of(scene);
+    WeftError error;
+    WeftImage before, first, after = summed(raster, &view, 64), alone;
+    int done = 0;
+    assert_int_equal(weft_raster_draw(raster, &view, &error), WEFT_OK);
+    assert_int_equal(weft_raster_image(raster, &before, &error), WEFT_OK);
+    assert_int_equal(weft_raster_accumulate_begin(raster, &view, 64, &error), WEFT_OK);
+    while (done < 1) assert_int_equal(weft_raster_accumulate(raster, 0.0, &done, &error), WEFT_OK);
+    assert_int_equal(weft_raster_image(raster, &first, &error), WEFT_OK);
+    while (done < 64) assert_int_equal(weft_raster_accumulate(raster, 1.0, &done, &error), WEFT_OK);
+    assert_int_equal(weft_raster_image(raster, &alone, &error), WEFT_OK);
+    const Off jump = compare(&first, &before);
+    print_message("first frame: %.2f %% from the picture before\n", 100.0 * jump.pixels);
+    assert_true(jump.pixels > 0.0 && jump.pixels < 0.1);
+    assert_memory_equal(alone.pixels, after.pixels, (size_t)WIDTH * HEIGHT * 4 * sizeof(float));
+    weft_image_free(&before);
+    weft_image_free(&first);
+    weft_image_free(&after);
+    weft_image_free(&alone);
+    weft_raster_free(raster);
+    weft_scene_free(scene);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(under_a_studio),        cmocka_unit_test(under_a_polygon),
+        cmocka_unit_test(under_punctual_lights), cmocka_unit_test(half_transparent_and_single_sided),
+        cmocka_unit_test(a_sum_in_pieces),       cmocka_unit_test(begins_without_a_jump),
+    };
+    return cmocka_run_group_tests(tests, gl_begin, NULL);
+}
