@@ -226,7 +226,8 @@ static bool is_wait(const char *what) {
     const char *value = strchr(what, ' ');
     if (is(what, "rest") || is(what, "shows drawn") || is(what, "shows traced")) return true;
     if (strncmp(what, "message ", 8) == 0) return what[8] != 0;
-    if (value && (strncmp(what, "samples ", 8) == 0 || strncmp(what, "seconds ", 8) == 0))
+    if (value &&
+        (strncmp(what, "samples ", 8) == 0 || strncmp(what, "seconds ", 8) == 0 || strncmp(what, "summed ", 7) == 0))
         return numbers_of(value + 1, 1, &number) && number >= 0.0f;
     return numbers_of(what, 1, &number) && number >= 0.0f && !(number > floorf(number));
 }
@@ -236,6 +237,7 @@ static bool still_waiting(Replay *self, Viewer *v, const char *what) {
     double start = self->since > 0.0 ? self->since : (self->since = clock_now());
     bool done = is(what, "rest")                    ? viewer_is_idle(v) && v->shown->any && ++self->tries > 4
                 : strncmp(what, "samples ", 8) == 0 ? v->requests->traced.samples >= atof(what + 8)
+                : strncmp(what, "summed ", 7) == 0  ? v->requests->rendered.summed >= atoi(what + 7)
                 : strncmp(what, "shows ", 6) == 0   ? is(what + 6, shows_name(requests_shown(v)))
                 : strncmp(what, "message ", 8) == 0 ? strstr(v->frame->message, what + 8) != NULL
                 : strncmp(what, "seconds ", 8) == 0 ? clock_now() - start > atof(what + 8)

@@ -92,6 +92,7 @@ void report_state(const Viewer *v) {
     json_object_set_new(root, "lights", json_integer(v->edit->state.light_count));
     json_object_set_new(root, "rotation", json_real((double)v->edit->state.environment.rotation));
     json_object_set_new(root, "samples", json_real(v->requests->traced.samples));
+    json_object_set_new(root, "summed", json_integer(v->requests->rendered.summed));
     bool compared = v->requests->traced.compared && v->requests->traced.samples > 0.0;
     json_object_set_new(root, "relmse", json_real(compared ? v->requests->traced.difference.relmse : -1.0));
     json_object_set_new(root, "message", json_string(v->frame->message));

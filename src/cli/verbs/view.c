@@ -14,6 +14,8 @@
 #include "cli/render/scene_options.h"
 #include "cli/verbs/verbs.h"
 
+enum { FRAMES = 256 }; /* default of --accumulate */
+
 static const Option view_options[] = {
     OPTION_HEADING("Window"),
     OPTION_WHOLE("--width", "PIXELS", NULL, 320, 16384, "width of the window [as it was last time, 1280]"),
@@ -21,6 +23,9 @@ static const Option view_options[] = {
     OPTION_NUMBER("--scale", "FACTOR", NULL, 0.5, 4, "size of its panels and words [as the display asks, 1]"),
     OPTION_WHOLE("--occlusion", "RAYS", "64", 0, 4096,
                  "look from each vertex along so many rays, for what lies in creases and in shadow of a map"),
+    OPTION_WHOLE("--accumulate", "COUNT", NULL, 0, WEFT_RASTER_FRAMES_MOST,
+                 "while nothing changes, take the mean of so many frames, which converges to the path tracer's direct "
+                 "light; 0: never [256; 0 with --script]"),
     OPTION_TEXT("--shader-dir", "DIR", NULL,
                 "shader text found here wins over the built-in one, and is compiled anew as it changes"),
 
@@ -72,6 +77,7 @@ static bool read_sizes(const Options *options, ViewDesc *desc) {
     desc->scale = (float)scale;
     return option_integer(options, "--width", &desc->width) && option_integer(options, "--height", &desc->height) &&
            option_integer(options, "--frames", &desc->frames) &&
+           option_integer(options, "--accumulate", &desc->accumulate) &&
            option_integer(options, "--occlusion", &desc->occlusion);
 }
 
@@ -99,6 +105,7 @@ static int view_verb_run(const Options *options) {
     if (!option_given(options, "--materials")) desc.materials = materials_beside(beside);
     desc.lobes = lobes_taken();
     desc.script = option_text(options, "--script");
+    if (!desc.script && !option_given(options, "--accumulate")) desc.accumulate = FRAMES;
     desc.unseen = option_given(options, "--windowless");
     desc.forget = option_given(options, "--forget");
     desc.report = option_given(options, "--json");

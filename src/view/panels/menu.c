@@ -172,19 +172,23 @@ static int lines_of(const char *text) {
     return count;
 }
 
-/* Returns the status of the picture. */
-static const char *picture_status(const Viewer *v) {
+/* Returns the status of the picture; text: of a sum of frames. */
+static const char *picture_status(const Viewer *v, char text[64]) {
+    const RenderedFrame *p = &v->requests->rendered;
+    bool sums = v->options->mode == MODE_LIVE && p->summed < p->sum_frames;
+    snprintf(text, 64, "%d of %d frames", p->summed, p->sum_frames);
     bool instead = v->options->mode == MODE_LIVE && requests_shown(v) == SHOWS_TRACED;
-    return v->opening->has_pending      ? "preparing"
-           : instead                    ? "compiling, path tracing meanwhile"
-           : v->requests->late          ? "compiling, showing the previous picture"
-           : v->requests->rendered.busy ? "preparing shaders and occlusion"
-                                        : "ready";
+    return v->opening->has_pending ? "preparing"
+           : instead               ? "compiling, path tracing meanwhile"
+           : v->requests->late     ? "compiling, showing the previous picture"
+           : p->busy               ? "preparing shaders and occlusion"
+           : sums                  ? text
+                                   : "ready";
 }
 
 void status_draw(Viewer *v) {
     int width, height;
-    char text[200], right[200];
+    char text[200], right[200], sum[64];
     window_size(v->window, &width, &height);
     float top = v->frame->stage.y + v->frame->stage.height, scale = ui_scale();
     UiBox bar = {0.0f, top, (float)width, (float)height - top};
@@ -194,7 +198,7 @@ void status_draw(Viewer *v) {
     if (v->stills->still) snprintf(still, sizeof still, "path tracing a picture: %.0f %%   ", 100.0 * v->stills->share);
     snprintf(right, sizeof right, "%s%.0f fps  picture %.1f ms  %d x %d  %s", still,
              v->frame->frame_seconds > 0.0 ? 1.0 / v->frame->frame_seconds : 0.0, 1e3 * v->frame->picture_seconds,
-             v->requests->rendered.width, v->requests->rendered.height, picture_status(v));
+             v->requests->rendered.width, v->requests->rendered.height, picture_status(v, sum));
     float width_left = (float)width - ui_text_width(right) - 40.0f * scale;
     int count = lines_of(v->shown->warnings);
     text[0] = '\0';

@@ -12,7 +12,6 @@
 
 enum { COARSE_MOST = 8 }; /* greatest `coarse` */
 
-static const double smooth_most = 4.0;     /* s; smooth edges that would take longer are left out */
 static const double frame_seconds = 0.036; /* s, for a picture while the mouse moves */
 
 /* Returns the index of a texture that is neither shown nor newest, and gives it this size. */
@@ -164,11 +163,16 @@ static WeftResult draw_picture(Renderer *self, const FrameRequest *request, unsi
                      0.5 * expected, whole, error);
 }
 
+/* Returns true if frames are summed for a request: of one state, where OpenGL shows it. */
+static bool is_summed(const FrameRequest *request) {
+    return request->accumulate && request->split == SPLIT_NONE && !request->reference && !request->compare;
+}
+
 /* Returns the effort that fits the time: smooth edges to compare with, if they take no longer than a frame may, or
- * if they are requested and take less than smooth_most; else all pixels if they are requested or quick enough. */
+ * if they are requested and no sum of frames will have them; else all pixels if they are requested or quick enough. */
 static Effort effort_of(const Renderer *self, const FrameRequest *request) {
     if (request->compare || self->smooth_seconds < frame_seconds) return EFFORT_SMOOTH;
-    if (request->effort == EFFORT_SMOOTH && self->smooth_seconds < smooth_most) return EFFORT_SMOOTH;
+    if (request->effort == EFFORT_SMOOTH && !is_summed(request)) return EFFORT_SMOOTH;
     return request->effort > EFFORT_COARSE || self->coarse == 1 ? EFFORT_WHOLE : EFFORT_COARSE;
 }
 
@@ -242,6 +246,8 @@ static void publish(Renderer *self, const FrameRequest *request, Effort effort, 
         p->whole_seconds = (float)self->whole_seconds;
         self->newest = target;
     }
+    p->summed = self->summed;
+    p->sum_frames = self->sums ? request->accumulate : 0;
     p->number = number;
     p->effort = target >= 0 ? effort : EFFORT_SMOOTH; /* the window need not request a finer one */
     memcpy(p->eye, info.camera_eye, sizeof p->eye);
@@ -253,6 +259,20 @@ static void publish(Renderer *self, const FrameRequest *request, Effort effort, 
     snprintf(p->complaint, sizeof p->complaint, "%s", info.complaint);
     snprintf(p->failure, sizeof p->failure, "%s", error->text);
     snprintf(p->driver, sizeof p->driver, "%s", info.driver);
+    self->fresh = true;
+    pthread_mutex_unlock(&self->lock);
+    window_wake(self->window);
+}
+
+/* Publishes a mean of frames in place of the picture of the same request. */
+static void publish_sum(Renderer *self, const FrameRequest *request, int target) {
+    pthread_mutex_lock(&self->lock);
+    RenderedFrame *p = &self->rendered;
+    p->texture = self->textures[target];
+    p->width = request->view.width, p->height = request->view.height;
+    p->summed = self->summed;
+    p->sum_frames = request->accumulate;
+    self->newest = target;
     self->fresh = true;
     pthread_mutex_unlock(&self->lock);
     window_wake(self->window);
@@ -292,6 +312,8 @@ static void draw(Renderer *self, const FrameRequest *request, unsigned number) {
     Effort effort = effort_of(self, request);
     FrameRequest drawn = with_effort(self, request, effort);
     double expected = *seconds_of(self, effort);
+    self->sums = self->sum_begun = false;
+    self->summed = 0;
     WeftResult result = frame_apply_state(self, &request->state, &error);
     bool edited = frame_edited_state(request) == &request->state;
     reference_set_state(self->reference, edited ? request->state_number : 0);
@@ -314,9 +336,10 @@ static void draw(Renderer *self, const FrameRequest *request, unsigned number) {
     if (!whole) return; /* interrupted by another request */
     const char *refusal = frame_refusal(self, &request->state);
     if (result == WEFT_OK) snprintf(error.text, sizeof error.text, "%s", refusal ? refusal : "");
-    bool best = effort == EFFORT_WHOLE && self->smooth_seconds >= smooth_most; /* smooth is too slow */
-    publish(self, request, best || request->reference ? EFFORT_SMOOTH : effort, number, target, clock_now() - start,
-            &error);
+    bool best = effort == EFFORT_SMOOTH || (effort == EFFORT_WHOLE && is_summed(request)) || request->reference;
+    self->sums = best && result == WEFT_OK && is_summed(request);
+    self->drawn_at = clock_now();
+    publish(self, request, best ? EFFORT_SMOOTH : effort, number, target, clock_now() - start, &error);
     focus(self, request);
 }
 
@@ -324,4 +347,41 @@ void frame_draw(Renderer *self, const FrameRequest *request, unsigned number) {
     draw(self, request, number);
     reference_stand_in(self->reference, 0);
     survey(self, request);
+}
+
+/* Shows the mean of the frames so far. */
+static WeftResult show_sum(Renderer *self, const FrameRequest *request, WeftError *error) {
+    const int target = take_target(self, request->view.width, request->view.height);
+    const bool numeric = request->view.part >= WEFT_PART_BASE_COLOR;
+    const WeftRasterShow show = {.framebuffer = self->targets[target],
+                                 .background = {request->behind[0], request->behind[1], request->behind[2]},
+                                 .tonemap = numeric ? WEFT_TONEMAP_NONE : request->tonemap,
+                                 .exposure = numeric ? 0.0f : request->exposure};
+    const WeftResult result = weft_raster_show(self->raster, &show, error);
+    glFinish();
+    if (result == WEFT_OK) publish_sum(self, request, target);
+    return result;
+}
+
+void frame_sum(Renderer *self) {
+    const FrameRequest *request = &self->drawn;
+    WeftRasterView view = request->view;
+    WeftError error = {0};
+    WeftResult result = WEFT_OK;
+    int done = 0;
+    view.camera = request->camera;
+    if (!self->sum_begun) {
+        result = weft_raster_accumulate_begin(self->raster, &view, request->accumulate, &error);
+        self->summed = 0;
+    } else if (weft_raster_accumulate(self->raster, 0.0, &done, NULL) != WEFT_OK) {
+        self->sum_begun = false; /* a task has drawn something else */
+        return;
+    }
+    self->sum_begun = result == WEFT_OK;
+    if (result == WEFT_OK && done > self->summed) {
+        self->summed = done;
+        result = show_sum(self, request, &error);
+    }
+    self->sums = result == WEFT_OK && self->summed < request->accumulate;
+    if (result != WEFT_OK) renderer_log(self).fn(self, error.message, error.text); /* the picture stays as it is */
 }

@@ -31,6 +31,8 @@ void renderer_post(Renderer *self, RenderEvent *event) {
     window_wake(self->window);
 }
 
+static const double rest_seconds = 0.3; /* without a change before frames are summed, which may compile first */
+
 enum { FIRST_FOLDER = 1 << 24 }; /* id of the first folder in the file watch; smaller ids are textures */
 
 void renderer_watch_files(Renderer *self) {
@@ -83,6 +85,7 @@ static void replace_scene(Renderer *self, WeftScene *scene, SceneState *state, c
         self->whole_seconds = 2.0;
         self->smooth_seconds = 8.0;
         self->smooth_timed = false;
+        self->sums = false;
         renderer_watch_files(self);
     } else {
         weft_scene_free(scene);
@@ -151,10 +154,12 @@ void frame_request_free(FrameRequest *request) {
     scene_state_free(&request->other);
 }
 
-/* Does the most urgent pending work: a new scene, then a frame, then a task, then one more picture of a profile sheet.
+/* Does the most urgent pending work: a new scene, then a frame, then a task, then one more picture of a profile sheet,
+ * then a part of a sum of frames.
  * Returns false if nothing is pending or memory is short. The lock is held on entry and on return, not in between. */
 static bool render_next(Renderer *self) {
     bool requested = self->requested && self->raster && self->request.scene == self->scene_number;
+    self->working = true;
     if (self->pending_scene) {
         WeftScene *scene = self->pending_scene;
         SceneState state = self->pending_state;
@@ -185,6 +190,10 @@ static bool render_next(Renderer *self) {
     } else if (requested && self->study.under_way) {
         pthread_mutex_unlock(&self->lock);
         tasks_study(self);
+    } else if (requested && self->sums && clock_now() > self->drawn_at + rest_seconds) {
+        self->working = false; /* whoever waits for the picture has it already */
+        pthread_mutex_unlock(&self->lock);
+        frame_sum(self);
     } else {
         return false;
     }

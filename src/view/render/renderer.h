@@ -38,7 +38,8 @@ typedef struct FrameRequest {
     bool laid_behind; /* saved pictures have this colour too; otherwise they stay transparent */
     WeftTonemap tonemap;
     float exposure; /* stops */
-    Effort effort;  /* the requested quality; smooth edges that would take too long are left out */
+    Effort effort;  /* the requested quality */
+    int accumulate; /* frames to sum once the picture is at rest (weft_raster_accumulate_begin); 0: none */
     bool reference; /* the path tracer shows this view: OpenGL draws only what `compare` needs */
     bool compare;   /* a linear copy of the picture goes to the path tracer */
 } FrameRequest;
@@ -115,6 +116,7 @@ typedef struct RenderedFrame {
     unsigned number;              /* number of the request that is shown (renderer_request) */
     bool focused;                 /* `target` is the surface point in the middle of the picture */
     Effort effort;                /* quality; a coarse picture has a smaller texture, which is stretched */
+    int summed, sum_frames;       /* frames of a sum that the picture has, and will have; 0: it is not one */
     float seconds;                /* s, for this picture */
     float whole_seconds;          /* s, for a picture with all pixels */
     float eye[3], target[3], fov; /* m; fov in degrees, vertical */

@@ -56,6 +56,10 @@ struct Renderer {
     double coarse_seconds, whole_seconds, smooth_seconds; /* s, that a picture of each effort took */
     bool smooth_timed;                                    /* smooth_seconds was measured, not estimated */
     bool surprised;                         /* the last picture took so long that its time was not counted */
+    bool sums;                              /* frames are to be summed for the picture that was drawn last */
+    bool sum_begun;                         /* the raster has begun to */
+    double drawn_at;                        /* when that picture was drawn */
+    int summed;                             /* frames in the sum */
     Study study;                            /* the sheet under way, of one material under every profile */
     unsigned textures[RING], targets[RING]; /* one shown, one newest, one to draw into; their framebuffers */
     int widths[RING], heights[RING];
@@ -75,6 +79,8 @@ const char *frame_refusal(const Renderer *renderer, const SceneState *state); /*
 /* Returns the state that the panels edit. */
 const SceneState *frame_edited_state(const FrameRequest *request);
 void frame_draw(Renderer *renderer, const FrameRequest *request, unsigned number);
+/* Draws a part of a frame of the sum, and publishes the mean whenever a frame is complete. */
+void frame_sum(Renderer *renderer);
 
 /* Sends the coverage by each material (tasks.c, as the next three). */
 void tasks_survey(Renderer *renderer, const FrameRequest *request);

@@ -52,7 +52,8 @@ static FrameRequest make_request(const Viewer *v) {
                             .split = v->edit->split,
                             .at = v->options->split_at,
                             .tonemap = v->options->tonemap,
-                            .exposure = v->options->exposure};
+                            .exposure = v->options->exposure,
+                            .accumulate = v->desc->accumulate};
     request.state = v->edit->side == 0 || v->edit->split == SPLIT_NONE ? v->edit->state : v->edit->other;
     request.other = v->edit->side == 0 || v->edit->split == SPLIT_NONE ? v->edit->other : v->edit->state;
     requests_picture_size(v, &request.view.width, &request.view.height);
