@@ -13,7 +13,7 @@ endif()
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_CONTACT "The weft maintainers <maintainers@weft.invalid>")
-string(CONCAT CPACK_PACKAGE_DESCRIPTION
+string(CONCAT CPACK_COMPONENT_WEFT_DESCRIPTION
   "Shows cloth under the shading models that engines use, in real time and path\n"
   "traced, measures each model, and hands over the shader text and the tables\n"
   "that an engine needs. With the C library, its headers, and the documents.")
@@ -26,4 +26,10 @@ set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON) # and the trigger by which the link
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "fonts-dejavu-core, libegl1, libgl1") # loaded by name, and so seen by no tool
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libgl1-mesa-dri")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "cmake, gcc, libc6-dev, pkg-config")
+# Two packages: the components weft, of all that names no other, and python.
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_ALL weft python)
+set(CPACK_COMPONENTS_GROUPING IGNORE)
+set(CPACK_DEBIAN_WEFT_PACKAGE_NAME weft)
+include(cmake/python.cmake)
 include(CPack)
