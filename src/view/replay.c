@@ -10,6 +10,7 @@
 #include <GLFW/glfw3.h>
 
 #include "base/steady_clock.h"
+#include "view/panels/panels.h"
 #include "view/panels/render_command.h"
 #include "view/state/dialogs.h"
 #include "view/state/frame_requests.h"
@@ -224,7 +225,7 @@ static bool numbers_of(const char *text, int count, float *numbers) {
 static bool is_wait(const char *what) {
     float number;
     const char *value = strchr(what, ' ');
-    if (is(what, "rest") || is(what, "shows drawn") || is(what, "shows traced")) return true;
+    if (is(what, "rest") || is(what, "shows drawn") || is(what, "shows traced") || is(what, "thumbnails")) return true;
     if (strncmp(what, "message ", 8) == 0) return what[8] != 0;
     if (value &&
         (strncmp(what, "samples ", 8) == 0 || strncmp(what, "seconds ", 8) == 0 || strncmp(what, "summed ", 7) == 0))
@@ -236,6 +237,7 @@ static bool is_wait(const char *what) {
 static bool still_waiting(Replay *self, Viewer *v, const char *what) {
     double start = self->since > 0.0 ? self->since : (self->since = clock_now());
     bool done = is(what, "rest")                    ? viewer_is_idle(v) && v->shown->any && ++self->tries > 4
+                : is(what, "thumbnails")            ? v->presets && ++self->tries > 4 && !presets_busy(v)
                 : strncmp(what, "samples ", 8) == 0 ? v->requests->traced.samples >= atof(what + 8)
                 : strncmp(what, "summed ", 7) == 0  ? v->requests->rendered.summed >= atoi(what + 7)
                 : strncmp(what, "shows ", 6) == 0   ? is(what + 6, shows_name(requests_shown(v)))

@@ -108,6 +108,7 @@ static void draw_frame(Viewer *v) {
     stage_draw(v);
     menu_draw(v);
     draw_side(v);
+    presets_draw(v);
     status_draw(v);
     dialogs_draw(v);
     ui_end();
@@ -167,6 +168,7 @@ static void stop(Viewer *v, bool interrupted) {
         if (v->shown->any && !v->desc->forget) settings_write(settings);
     }
     requests_end(v);
+    presets_free(v->presets);
     opening_end(v);
     photographs_end(v);
     if (v->window) ui_destroy();
@@ -207,6 +209,7 @@ static int run(Viewer *v, char why[512]) {
         any |= opening_watch(v, started);
         any |= stills_poll(v);
         any |= photographs_poll(v);
+        any |= presets_poll(v);
         any |= renderer_has_output(v->renderer) || reference_has_frame(v->reference) || v->opening->loader ||
                v->requests->rendered.number != shown;
         any |= requests_can_refine(v) && v->options->mode == MODE_LIVE;

@@ -3,6 +3,7 @@
 #include "scene/builtin/lampshade.h"
 #include "scene/builtin/loom_scene.h"
 #include "scene/builtin/spheres.h"
+#include "scene/builtin/swatch_scene.h"
 
 extern const unsigned char embedded_cloth_glb[], embedded_cloth_glb_end[], embedded_sewing_glb[],
     embedded_sewing_glb_end[];
@@ -16,6 +17,8 @@ static const Builtin builtins[] = {
     {"sewing", "an old sewing machine that has gathered dust, cloth under its needle", embedded_sewing_glb,
      embedded_sewing_glb_end, NULL},
     {"spheres", "sheen roughness 0.1 to 1 in five steps, over a dark and a light base", NULL, NULL, spheres_make},
+    {"swatch", "a cloth over a bend, so near that its threads are seen: the window's pictures of presets", NULL, NULL,
+     swatch_make},
 };
 
 const Builtin *builtin_at(int index) {

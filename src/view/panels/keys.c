@@ -53,6 +53,7 @@ static void named(Viewer *v, const UiPress *p) {
     case GLFW_KEY_ESCAPE:
         options_set_tool(v, TOOL_ORBIT);
         dialogs_close_windows(v);
+        presets_hide(v);
         options_set_mode(v, MODE_LIVE);
         break;
     default: break;

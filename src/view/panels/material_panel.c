@@ -205,29 +205,21 @@ static const char *material_help(const void *user, int k) {
 static const char *variant_name(const void *user, int k) {
     return k ? ((const Viewer *)user)->shown->facts.variants[k - 1] : "the file's own";
 }
-static const char *preset_name(const void *user, int k) { return k ? weft_preset_name(k - 1) : "none"; }
-static const char *preset_help(const void *user, int k) {
-    return k ? weft_preset_help(k - 1) : "Replaces the material by a preset.";
-}
 
 static void draw_which(Viewer *v) {
     const UiChoices materials = {v->edit->state.material_count, material_name, material_help, v};
     const UiChoices variants = {v->shown->facts.info.variant_count + 1, variant_name, NULL, v};
-    int count = 0, variant = v->edit->state.variant + 1,
-        preset = scene_state_preset(&v->edit->state, v->edit->material);
-    while (weft_preset_name(count)) count++;
-    const UiChoices presets = {count + 1, preset_name, preset_help, v};
+    int variant = v->edit->state.variant + 1;
+    const int preset = scene_state_preset(&v->edit->state, v->edit->material);
     int material = v->edit->material;
     if (ui_choice("material", &materials, &material)) edit_choose_material(v, material);
     if (v->shown->facts.info.variant_count) {
         if (ui_choice("variant", &variants, &variant)) edit_set_variant(v, variant - 1);
         ui_tip("Other materials that the file has for the same shapes: the choice follows them.");
     }
-    if (ui_choice("preset", &presets, &preset) && preset > 0) {
-        char path[128];
-        snprintf(path, sizeof path, "preset:%s", weft_preset_name(preset - 1));
-        actions_send(v, TASK_ASSIGN, path, v->edit->material, -1);
-    }
+    if (ui_field("preset", preset ? weft_preset_name(preset - 1) : "choose ...")) presets_show(v);
+    ui_tip(preset ? weft_preset_help(preset - 1)
+                  : "Replaces the material by a preset, or by one of your own: pictures of all.");
 }
 
 static void draw_buttons(Viewer *v, WeftMaterial *m) {

@@ -49,6 +49,7 @@ static void edit_menu(Viewer *v) {
     if (ui_menu_item("Undo", "Ctrl+Z", false, v->edit->history.now > 0)) edit_undo(v);
     if (ui_menu_item("Redo", "Ctrl+Shift+Z", false, v->edit->history.now < v->edit->history.count)) edit_redo(v);
     ui_rule();
+    if (ui_menu_item("Presets ...", NULL, false, v->shown->any)) presets_show(v);
     if (ui_menu_item("Next material", "M", false, v->shown->any)) edit_next_material(v, 1);
     if (ui_menu_item("Material before", "Shift+M", false, v->shown->any)) edit_next_material(v, -1);
 }

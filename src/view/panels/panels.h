@@ -14,6 +14,16 @@ void inspect_panel(Viewer *v);
 void doctor_panel(Viewer *v);
 void keys_input(Viewer *v);
 
+/* Shows the window of presets, which is drawn in every frame, or hides it. */
+void presets_show(Viewer *v);
+void presets_hide(Viewer *v);
+void presets_draw(Viewer *v);
+
+/* Takes pictures of presets that were made; returns true if there were any. presets_busy: more are being made. */
+bool presets_poll(Viewer *v);
+bool presets_busy(const Viewer *v);
+void presets_free(struct PresetWindow *presets);
+
 /* Returns true if the examination goes on in the next frame. */
 bool doctor_busy(const Viewer *v);
 

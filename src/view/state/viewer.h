@@ -35,6 +35,7 @@ typedef struct Viewer {
     struct Inspection *inspection;   /* of inspect_panel.c; NULL: not yet needed */
     struct Examination *examination; /* of doctor_panel.c, for the open file; NULL: not yet requested */
     struct WeaveEdit *weave;         /* of weave_panel.c; NULL: not yet needed */
+    struct PresetWindow *presets;    /* of preset_window.c; NULL: not yet needed */
     const WindowState *frame;
     const struct OpeningState *opening;
     const struct ShownScene *shown;

@@ -86,6 +86,16 @@ void note_spoken(const char *label) {
     if (ui->noted) ui->shown.back().explained = true;
 }
 
+/* Records the panel or window that has begun, and gives it the keyboard if it is its turn. */
+void note_panel(const char *name) {
+    ui->panels.push_back(name);
+    if (!ui->to_panel || ui->panel != name) return;
+    ui->to_panel = false;
+    ImGui::FocusWindow(ImGui::GetCurrentWindow());
+    ImGui::NavInitWindow(ImGui::GetCurrentWindow(), true);
+    GImGui->NavDisableHighlight = false;
+}
+
 /* Labels stand left of widgets: a column of names, one of values. */
 void labelled(const char *label) {
     float left = 0.40f * ImGui::GetWindowContentRegionMax().x;
@@ -297,13 +307,7 @@ bool ui_panel(const char *name, UiBox box, bool scrolls) {
     ImGui::SetNextWindowPos(at(box.x, box.y));
     ImGui::SetNextWindowSize(at(box.width, box.height));
     bool shown = ImGui::Begin(name, nullptr, flags);
-    ui->panels.push_back(name);
-    if (ui->to_panel && ui->panel == name) {
-        ui->to_panel = false;
-        ImGui::FocusWindow(ImGui::GetCurrentWindow());
-        ImGui::NavInitWindow(ImGui::GetCurrentWindow(), true);
-        GImGui->NavDisableHighlight = false;
-    }
+    note_panel(name);
     return shown;
 }
 void ui_panel_end(void) { ImGui::End(); }
@@ -311,7 +315,9 @@ void ui_panel_end(void) { ImGui::End(); }
 bool ui_window(const char *name, UiBox first, bool *open) {
     ImGui::SetNextWindowPos(at(first.x, first.y), ImGuiCond_FirstUseEver);
     ImGui::SetNextWindowSize(at(first.width, first.height), ImGuiCond_FirstUseEver);
-    return ImGui::Begin(name, open, ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings);
+    bool shown = ImGui::Begin(name, open, ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings);
+    note_panel(name);
+    return shown;
 }
 void ui_window_end(void) { ImGui::End(); }
 
@@ -422,11 +428,13 @@ void ui_warning(const char *text) {
     ImGui::PopStyleColor();
 }
 
-void ui_tip(const char *text) {
+void ui_tip(const char *text) { ui_tip_picture(text, 0, 0.0f); }
+void ui_tip_picture(const char *text, unsigned texture, float side) {
     if (text && *text && ui->noted) ui->shown.back().explained = true;
     if (!text || !*text || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
     if (ImGui::IsMouseDown(0)) return;
     ImGui::BeginTooltip();
+    if (texture) ImGui::Image(reinterpret_cast<ImTextureID>(static_cast<size_t>(texture)), at(side, side));
     ImGui::PushTextWrapPos(26.0f * ImGui::GetFontSize());
     ImGui::TextUnformatted(text);
     ImGui::PopTextWrapPos();
@@ -486,6 +494,48 @@ int ui_row(const char *label, bool chosen) {
     return !pressed ? 0 : ImGui::IsMouseDoubleClicked(0) ? 2 : 1;
 }
 void ui_scroll_here(void) { ImGui::SetScrollHereY(0.5f); }
+bool ui_field(const char *label, const char *value) {
+    labelled(label);
+    ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_FrameBg));
+    ImGui::PushStyleVar(ImGuiStyleVar_ButtonTextAlign, at(0.0f, 0.5f));
+    bool pressed = ImGui::Button((std::string(value) + "###" + label).c_str(), at(-1.0f, 0.0f));
+    ImGui::PopStyleVar();
+    ImGui::PopStyleColor();
+    note(label);
+    return pressed;
+}
+
+bool ui_tile(const char *label, unsigned texture, float side, const char *caption, bool chosen) {
+    const ImVec2 low = ImGui::GetCursorScreenPos(), high = at(low.x + side, low.y + side);
+    const float line = ImGui::GetTextLineHeight(), gap = 2.0f * ui->scale;
+    bool pressed = ImGui::InvisibleButton(label, at(side, side + gap + line));
+    note(label);
+    ImDrawList *list = ImGui::GetWindowDrawList();
+    if (texture)
+        list->AddImage(reinterpret_cast<ImTextureID>(static_cast<size_t>(texture)), low, high);
+    else
+        list->AddRectFilled(low, high, ImGui::GetColorU32(ImGuiCol_FrameBg));
+    const bool marked = ImGui::IsItemHovered() || ImGui::IsItemFocused();
+    if (chosen || marked)
+        list->AddRect(low, high, ImGui::GetColorU32(chosen ? ui->accent : ImGui::GetStyleColorVec4(ImGuiCol_Text)),
+                      0.0f, 0, 2.0f * ui->scale);
+    const ImVec2 text = at(low.x, high.y + gap), end = at(high.x, high.y + gap + line);
+    ImGui::PushStyleColor(ImGuiCol_Text,
+                          ImGui::GetStyleColorVec4(chosen || marked ? ImGuiCol_Text : ImGuiCol_TextDisabled));
+    ImGui::RenderTextEllipsis(list, text, end, end.x, end.x, caption, nullptr, nullptr);
+    ImGui::PopStyleColor();
+    return pressed;
+}
+
+void ui_words_beside(const char *title, const char *words) {
+    ImGui::SameLine();
+    ImGui::BeginGroup();
+    ui_wrapped(title);
+    ui_dim(words);
+    ImGui::EndGroup();
+}
+
+bool ui_will_be_seen(float width, float height) { return ImGui::IsRectVisible(at(width, height)); }
 
 bool ui_choice(const char *label, const UiChoices *choices, int *chosen) {
     bool changed = false;
@@ -646,8 +696,6 @@ bool ui_search(const char *label, const char *hint, char *text, int size, bool f
     ui->searches = ImGui::IsItemActive();
     note(label);
     return entered;
-}
-
 void ui_progress(float fraction, const char *text) {
     float phase = static_cast<float>(std::fmod(ImGui::GetTime(), 1.0));
     ImGui::ProgressBar(fraction >= 0.0f ? fraction : phase, at(-1.0f, 0.0f), text);

@@ -126,8 +126,10 @@ void ui_wrapped(const char *text);
 void ui_dim(const char *text);
 void ui_warning(const char *text);
 
-/* Shows help for the preceding widget when the mouse rests on it; NULL: none. */
+/* Shows help for the preceding widget when the mouse rests on it; NULL: none. The second shows a square picture above it,
+ * texture 0: none. */
 void ui_tip(const char *text);
+void ui_tip_picture(const char *text, unsigned texture, float side);
 
 bool ui_button(const char *label);
 bool ui_small_button(const char *label);
@@ -139,6 +141,14 @@ bool ui_selectable(const char *label, bool chosen);
 int ui_row(const char *label, bool chosen);
 /* Scrolls the list so that the preceding row is visible. */
 void ui_scroll_here(void);
+/* Draws a name and a button that shows a value, as a row of a menu does. */
+bool ui_field(const char *label, const char *value);
+/* Draws a square picture with a line below it, which is cut if it is too long; texture 0: none yet. */
+bool ui_tile(const char *label, unsigned texture, float side, const char *caption, bool chosen);
+/* Writes a title and, dimmed, what is said of it, to the right of the preceding widget. */
+void ui_words_beside(const char *title, const char *words);
+/* Returns true if the next widget will be seen, should it be of that size. */
+bool ui_will_be_seen(float width, float height);
 
 /* A menu of count values; name and help (may be NULL) return them by number. */
 typedef struct UiChoices {
