@@ -121,7 +121,7 @@ static bool has_stage(const char *scene, const char *option) {
     return !same;
 }
 
-static void nothing_is_added_to_what_was_chosen(void **state) {
+static void chosen_light_and_background_have_no_stage(void **state) {
     (void)state;
     static const char *const options[] = {"--env=0.5",
                                           "--light=sun;-1,-2,-1;3,3,3",
@@ -150,6 +150,6 @@ static void nothing_is_added_to_what_was_chosen(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(bare_asset_is_lit_framed_and_on_a_floor),
                                        cmocka_unit_test(opengl_has_the_same_stage),
-                                       cmocka_unit_test(nothing_is_added_to_what_was_chosen)};
+                                       cmocka_unit_test(chosen_light_and_background_have_no_stage)};
     return cmocka_run_group_tests(tests, work_begin, work_end);
 }

@@ -18,24 +18,24 @@
 static const char own_group[] = "own";
 
 /* A material to choose. */
-typedef struct Row {
+typedef struct PresetRow {
     char name[64], path[USER_PATH];
     const char *group, *help;
     unsigned long long stamp; /* of the file; 0: a preset */
     unsigned texture;         /* owned; 0: not yet made */
     char failure[512];        /* the reason why there will be none */
-} Row;
+} PresetRow;
 
 typedef struct PresetWindow {
     bool open;
-    Row *rows; /* those of the user come after the presets */
+    PresetRow *rows; /* those of the user come after the presets */
     int count;
     Thumbs *thumbs;
     double read; /* when the user's folder was read, s */
     char search[64], name[64];
 } PresetWindow;
 
-static void free_rows(Row *rows, int count) {
+static void free_rows(PresetRow *rows, int count) {
     for (int k = 0; k < count; k++) glDeleteTextures(1, &rows[k].texture);
     free(rows);
 }
@@ -47,25 +47,25 @@ void presets_free(PresetWindow *self) {
     free(self);
 }
 
-static Row preset_row(int k) {
-    Row row = {.group = weft_preset_group(k), .help = weft_preset_help(k)};
+static PresetRow preset_row(int k) {
+    PresetRow row = {.group = weft_preset_group(k), .help = weft_preset_help(k)};
     snprintf(row.name, sizeof row.name, "%s", weft_preset_name(k));
     snprintf(row.path, sizeof row.path, "preset:%s", weft_preset_name(k));
     return row;
 }
 
-static Row own_row(const OwnMaterial *own) {
-    Row row = {.group = own_group, .help = "", .stamp = own->stamp};
+static PresetRow own_row(const OwnMaterial *own) {
+    PresetRow row = {.group = own_group, .help = "", .stamp = own->stamp};
     snprintf(row.name, sizeof row.name, "%s", own->name);
     snprintf(row.path, sizeof row.path, "%s", own->path);
     return row;
 }
 
 /* Moves the pictures of files that have not changed to the new rows. */
-static void keep_pictures(PresetWindow *self, Row *rows, int count) {
+static void keep_pictures(PresetWindow *self, PresetRow *rows, int count) {
     for (int k = 0; k < count; k++)
         for (int j = 0; j < self->count; j++) {
-            Row *was = &self->rows[j];
+            PresetRow *was = &self->rows[j];
             if (was->stamp != rows[k].stamp || strcmp(was->path, rows[k].path) != 0) continue;
             rows[k].texture = was->texture;
             memcpy(rows[k].failure, was->failure, sizeof was->failure);
@@ -87,7 +87,7 @@ static void read_rows(Viewer *v, PresetWindow *self) {
     OwnMaterial *own = user_materials_list(&own_count);
     while (weft_preset_name(presets)) presets++;
     const int count = presets + own_count;
-    Row *rows = calloc((size_t)count + 1, sizeof *rows);
+    PresetRow *rows = calloc((size_t)count + 1, sizeof *rows);
     for (int k = 0; rows && k < count; k++) rows[k] = k < presets ? preset_row(k) : own_row(&own[k - presets]);
     free(own);
     bool same = rows && count == self->count;
@@ -122,7 +122,7 @@ bool presets_poll(Viewer *v) {
     Thumb thumb;
     bool changed = false;
     while (self && self->thumbs && thumbs_take(self->thumbs, &thumb)) {
-        Row *row = &self->rows[thumb.index];
+        PresetRow *row = &self->rows[thumb.index];
         if (thumb.image.pixels) viewer_upload(&row->texture, &thumb.image);
         snprintf(row->failure, sizeof row->failure, "%s", thumb.failure);
         weft_image_free(&thumb.image);
@@ -139,7 +139,7 @@ static bool has_word(const char *text, const char *begin) {
 }
 
 /* Returns true if the row's name, group and help have every word of the search. */
-static bool is_found(const Row *row, const char *search) {
+static bool is_found(const PresetRow *row, const char *search) {
     char words[64], about[512], *rest = words;
     snprintf(words, sizeof words, "%s", search);
     snprintf(about, sizeof about, "%s %s %s", row->name, row->group, row->help);
@@ -148,7 +148,7 @@ static bool is_found(const Row *row, const char *search) {
     return true;
 }
 
-static void choose(Viewer *v, const Row *row) {
+static void choose(Viewer *v, const PresetRow *row) {
     if (row->failure[0])
         viewer_report(v, true, "%s", row->failure);
     else
@@ -156,7 +156,7 @@ static void choose(Viewer *v, const Row *row) {
 }
 
 /* Draws a picture with its name, or words beside it in the list that a search leaves. */
-static void draw_row(Viewer *v, Row *row, int k, float side, bool listed) {
+static void draw_row(Viewer *v, PresetRow *row, int k, float side, bool listed) {
     char label[96], tip[1024];
     const int preset = scene_state_preset(&v->edit->state, v->edit->material);
     const bool own = row->stamp != 0;
@@ -193,7 +193,7 @@ static void draw_group(Viewer *v, const char *group, const char *help) {
     const int across = listed ? 1 : (int)fmaxf((ui_width_left() + gap) / (least + gap), 1.0f);
     const float side = listed ? least : floorf((ui_width_left() + gap) / (float)across - gap);
     for (int k = 0; k < self->count; k++) {
-        Row *row = &self->rows[k];
+        PresetRow *row = &self->rows[k];
         if (strcmp(row->group, group) != 0 || !is_found(row, self->search)) continue;
         if (shown++ % across) ui_same_line();
         draw_row(v, row, k, side, listed);

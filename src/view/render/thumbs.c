@@ -14,11 +14,11 @@
 
 enum { FILE_MOST = 1 << 20, LOWEST_PRIORITY = 19 };
 
-typedef enum Stage { IDLE, WANTED, IN_WORK, MADE, TAKEN } Stage;
+typedef enum ThumbStage { IDLE, WANTED, IN_WORK, MADE, TAKEN } ThumbStage;
 
 typedef struct Entry {
     char *path;
-    Stage stage;
+    ThumbStage stage;
     Thumb thumb;
 } Entry;
 
