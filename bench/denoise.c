@@ -89,14 +89,16 @@ static void row(const WeftScene *scene, const WeftImage *reference, int spp) {
     WeftError error;
     if (weft_image_create(320, 240, 4, WEFT_PIXEL_F32, &mean, &error) != WEFT_OK) give_up(&error);
     for (unsigned seed = 1; seed <= SEEDS; seed++) {
-        Shot a = shoot(scene, spp, seed, 0), b = shoot(scene, spp, seed, 1);
+        Shot a = shoot(scene, spp, seed, 0), b = shoot(scene, spp, seed, WEFT_HALVES_INDEPENDENT),
+             c = shoot(scene, spp, seed, WEFT_HALVES_SHARED);
         plain += relmse(&a.image, reference) / SEEDS;
         halves += relmse(&b.image, reference) / SEEDS;
-        denoised += relmse(&b.denoised, reference) / SEEDS;
-        noise += b.noise / SEEDS, seconds += b.seconds / SEEDS;
-        add(&mean, &b.denoised, 1.0f / SEEDS);
+        denoised += relmse(&c.denoised, reference) / SEEDS;
+        noise += b.noise / SEEDS, seconds += c.seconds / SEEDS;
+        add(&mean, &c.denoised, 1.0f / SEEDS);
         shot_free(&a);
         shot_free(&b);
+        shot_free(&c);
     }
     double of_mean = relmse(&mean, reference), bias = of_mean - (denoised - of_mean) / (SEEDS - 1);
     printf("%5d  %.2e  %.2e  %.2e  %.2e  %.3f  %.2e  %.5f  %.2f\n", spp, plain, halves, noise, denoised,
@@ -123,7 +125,7 @@ static double adaptive_gain(const WeftScene *scene, const WeftImage *reference) 
     Shot last = {0};
     for (unsigned seed = 1; v && seed <= SEEDS; seed++) {
         shot_free(&last);
-        last = shoot(scene, 64, seed, 1);
+        last = shoot(scene, 64, seed, WEFT_HALVES_INDEPENDENT);
         add_relative(v, &last, reference);
     }
     for (int y = R; v && y < h - R; y++)

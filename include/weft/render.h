@@ -44,6 +44,16 @@ WEFT_API WeftFloor weft_scene_stage(const WeftScene *scene);
 /* The strategy that finds lights; anything but MIS is for tests and teaching. */
 typedef enum WeftSampling { WEFT_SAMPLING_MIS = 0, WEFT_SAMPLING_LIGHT, WEFT_SAMPLING_LOBE } WeftSampling;
 
+/* How the samples of a pixel are divided into two halves, whose difference shows the error. */
+enum {
+    /* each half is stratified on its own: the estimate of the error is right on average, and the picture has a little
+     * more noise */
+    WEFT_HALVES_INDEPENDENT = 1,
+    /* the samples of a picture without halves, 16 by 16 in turn: its noise is that of such a picture, and the estimate
+     * of the error is too large */
+    WEFT_HALVES_SHARED = 2
+};
+
 /* Zero means default, in every member. */
 typedef struct WeftRenderDesc {
     int width, height; /* pixels, 1 .. 65536; 0: 960 x 720 */
@@ -64,9 +74,7 @@ typedef struct WeftRenderDesc {
     int no_shadows;
     WeftFloor floor;
     int hide_lights; /* not 0: polygon lights emit, but the camera looks through them */
-    /* not 0: samples are taken as two independent halves, whose difference shows the error; needed by noise,
-     * WEFT_AOV_VARIANCE and weft_render_denoised. Each half is stratified on its own, which adds a little noise. */
-    int halves;
+    int halves; /* WEFT_HALVES_...; weft_render_denoised needs either, noise and WEFT_AOV_VARIANCE independent ones */
     int first_hits; /* not 0: albedo, normal and depth are recorded, which weft_render_denoised needs too */
     float noise;    /* weft_render_run stops when the estimated relMSE is at most this; 0: it does not */
     int stages;     /* not 0: stages are timed for weft_render_stage */

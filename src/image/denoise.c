@@ -9,7 +9,19 @@
  *
  * The colours u are those of one half of the samples and c those of the other, so that weights do not depend on the
  * noise that they average. v is half the mean square of the halves' difference over a patch. exp(-x) is approximated by
- * (1 - x / 8)^8, which is 0 from 8 on. Squares and variances are summed over the channels. */
+ * (1 - x / 8)^8, which is 0 from 8 on. Squares and variances are summed over the channels.
+ *
+ * Features with noise of their own, such as the albedo of threads that are a pixel wide, are averaged first, with such
+ * weights from their own patches.
+ *
+ * Given the weights the fit F is linear in the picture Y, with the factor h of the pixel itself. So with the variance
+ * s^2 of Y, Charles Stein's unbiased estimate ("Estimation of the Mean of a Multivariate Normal Distribution", Annals of
+ * Statistics 9(6), 1981) of the error of F + t (Y - F) is least where
+ *
+ *   t = 1 - (1 - h) s^2 / E[(Y - F)^2]
+ *
+ * with means over the pixels around, and that is the picture which is returned. t is 0 where F and Y differ by noise
+ * alone, and near 1 where F has lost what the features do not tell. */
 #include "image/denoise.h"
 
 #include <stdlib.h>
@@ -29,11 +41,13 @@ enum {
     TILE_H = 32,
     WIDE = TILE_W + 2 * PATCH,
     TERMS = 1 + DENOISE_FEATURES,
+    BLEND = 7, /* radius of the means for t */
 };
+_Static_assert((int)BLEND <= (int)MARGIN, "");
 
 /* A value between 0.25 and 1, the two widths among which the paper chooses for each pixel. */
 static const float k_squared = 0.6f;
-static const float ridge = 1e-4f; /* keeps the slope of a feature that does not vary at 0 */
+static const float ridge = 1e-5f; /* keeps the slope of a feature that does not vary at 0 */
 
 typedef float Line[TILE_W];
 
@@ -45,6 +59,12 @@ typedef struct Scratch {
     Line moment[TERMS][TERMS], side[DENOISE_COLORS][TERMS];
 } Scratch;
 
+/* Pictures of three channels whose patches are compared, and the variance of them all. */
+typedef struct Compared {
+    const float *u[3];
+    const float *variance;
+} Compared;
+
 /* A part of the picture. */
 typedef struct Area {
     int x, y, width, height;
@@ -54,10 +74,11 @@ typedef struct Denoising {
     const DenoisePlanes *planes;
     Scratch *scratch; /* one a thread */
     int tiles_across;
+    int group; /* of noisy features, three each */
 } Denoising;
 
 bool denoise_planes_create(DenoisePlanes *planes, int width, int height) {
-    enum { COUNT = 3 * DENOISE_COLORS + DENOISE_FEATURES + 1 };
+    enum { COUNT = 3 * DENOISE_COLORS + 2 * DENOISE_NOISY + DENOISE_FEATURES + 2 };
     *planes = (DenoisePlanes){.width = width, .height = height, .stride = (size_t)width + 2 * MARGIN};
     size_t size = planes->stride * ((size_t)height + 2 * MARGIN);
     planes->memory = alloc_array(size, COUNT * sizeof(float));
@@ -65,9 +86,12 @@ bool denoise_planes_create(DenoisePlanes *planes, int width, int height) {
     float *next = planes->memory + MARGIN * planes->stride + MARGIN;
     for (int h = 0; h < 2; h++)
         for (int c = 0; c < DENOISE_COLORS; c++, next += size) planes->color[h][c] = next;
+    for (int h = 0; h < 2; h++)
+        for (int f = 0; f < DENOISE_NOISY; f++, next += size) planes->noisy[h][f] = next;
     for (int f = 0; f < DENOISE_FEATURES; f++, next += size) planes->feature[f] = next;
     for (int c = 0; c < DENOISE_COLORS; c++, next += size) planes->out[c] = next;
     planes->variance = next;
+    planes->own = next + size;
     return true;
 }
 
@@ -96,15 +120,15 @@ static void extend(const DenoisePlanes *planes, float *plane) {
     }
 }
 
-/* Computes the variance of a half's pixels; a plane of `out` serves as scratch. */
-static void find_variance(DenoisePlanes *planes) {
+/* Computes the variance of a half's pixels from two halves of three channels; a plane of `out` serves as scratch. */
+static void find_variance(DenoisePlanes *planes, float *const a[3], float *const b[3]) {
     float *square = planes->out[0];
     for (int y = 0; y < planes->height; y++)
         for (int x = 0; x < planes->width; x++) {
             ptrdiff_t p = place_of(planes, x, y);
             square[p] = 0.0f;
             for (int c = 0; c < 3; c++) {
-                float off = planes->color[0][c][p] - planes->color[1][c][p];
+                float off = a[c][p] - b[c][p];
                 square[p] += 0.5f * off * off;
             }
         }
@@ -149,16 +173,14 @@ LOOP(weights_n, (int n, const float (*restrict distance)[WIDE], float *restrict 
     }
 }
 
-/* Computes the weights of the pixels of all windows of an area from the colours of a half. Pixels outside the picture
- * have weight 0. */
-static void weigh(const DenoisePlanes *planes, int half, const Area *area, Scratch *s) {
+/* Computes the weights of the pixels of all windows of an area. Pixels outside the picture have weight 0. */
+static void weigh(const DenoisePlanes *planes, Compared by, const Area *area, Scratch *s) {
     for (int offset = 0; offset < SIDE * SIDE; offset++) {
         int dx = offset % SIDE - WINDOW, dy = offset / SIDE - WINDOW;
         for (int y = 0; y < area->height + 2 * PATCH; y++) {
             ptrdiff_t p = place_of(planes, area->x - PATCH, area->y - PATCH + y);
-            const float *const u[3] = {planes->color[half][0] + p, planes->color[half][1] + p,
-                                       planes->color[half][2] + p};
-            distance_n(area->width + 2 * PATCH, u, planes->variance + p, place_of(planes, dx, dy), s->distance[y]);
+            const float *const u[3] = {by.u[0] + p, by.u[1] + p, by.u[2] + p};
+            distance_n(area->width + 2 * PATCH, u, by.variance + p, place_of(planes, dx, dy), s->distance[y]);
         }
         for (int y = 0; y < area->height; y++) {
             float *weight = s->weight[offset][y];
@@ -231,34 +253,149 @@ static void fit(const DenoisePlanes *planes, int half, const Area *area, Scratch
         solve_n(area->width, s);
         for (int c = 0; c < DENOISE_COLORS; c++)
             for (int x = 0; x < area->width; x++) planes->out[c][p + x] += 0.5f * s->side[c][0][x];
+        const float *centre = s->weight[SIDE * SIDE / 2][y];
+        for (int x = 0; x < area->width; x++)
+            planes->own[p + x] += 0.5f * min(centre[x] / max(s->moment[0][0][x], 1e-20f), 1.0f);
     }
 }
 
-static void denoise_tile(void *user, int item, int thread) {
-    const Denoising *d = user;
+/* Adds the weighted means of three noisy features of a half. */
+static void average(const DenoisePlanes *planes, int half, int group, const Area *area, Scratch *s) {
+    for (int y = 0; y < area->height; y++) {
+        ptrdiff_t p = place_of(planes, area->x, area->y + y);
+        memset(s->side, 0, sizeof s->side);
+        for (int offset = 0; offset < SIDE * SIDE; offset++) {
+            ptrdiff_t q = place_of(planes, offset % SIDE - WINDOW, offset / SIDE - WINDOW);
+            const float *weight = s->weight[offset][y];
+            for (int x = 0; x < area->width; x++) s->side[3][0][x] += weight[x];
+            for (int c = 0; c < 3; c++) {
+                const float *of_q = planes->noisy[half][3 * group + c] + p + q;
+                for (int x = 0; x < area->width; x++) s->side[c][0][x] += weight[x] * of_q[x];
+            }
+        }
+        for (int c = 0; c < 3; c++)
+            for (int x = 0; x < area->width; x++)
+                planes->feature[3 * group + c][p + x] += 0.5f * s->side[c][0][x] / s->side[3][0][x];
+    }
+}
+
+static Area area_of(const Denoising *d, int item) {
     const DenoisePlanes *planes = d->planes;
     Area area = {item % d->tiles_across * TILE_W, item / d->tiles_across * TILE_H, TILE_W, TILE_H};
     if (area.width > planes->width - area.x) area.width = planes->width - area.x;
     if (area.height > planes->height - area.y) area.height = planes->height - area.y;
+    return area;
+}
+
+static Compared compared(float *const u[3], const float *variance) { return (Compared){{u[0], u[1], u[2]}, variance}; }
+
+static void denoise_tile(void *user, int item, int thread) {
+    const Denoising *d = user;
+    const Area area = area_of(d, item);
     for (int half = 0; half < 2; half++) {
-        weigh(planes, 1 - half, &area, &d->scratch[thread]);
-        fit(planes, half, &area, &d->scratch[thread]);
+        weigh(d->planes, compared(d->planes->color[1 - half], d->planes->variance), &area, &d->scratch[thread]);
+        fit(d->planes, half, &area, &d->scratch[thread]);
     }
+}
+
+static void average_tile(void *user, int item, int thread) {
+    const Denoising *d = user;
+    const Area area = area_of(d, item);
+    for (int half = 0; half < 2; half++) {
+        float *const *other = d->planes->noisy[1 - half] + 3 * d->group;
+        weigh(d->planes, compared(other, d->planes->variance), &area, &d->scratch[thread]);
+        average(d->planes, half, d->group, &area, &d->scratch[thread]);
+    }
+}
+
+/* Sets a plane to 0, without its margin. */
+static void clear(const DenoisePlanes *planes, float *plane) {
+    for (int y = 0; y < planes->height; y++)
+        memset(plane + place_of(planes, 0, y), 0, (size_t)planes->width * sizeof(float));
+}
+
+/* Fills a plane with the sums over the squares of pixels about each pixel; to and plane are different. */
+static void sum_around(const DenoisePlanes *planes, float *plane, float *across, float *to) {
+    extend(planes, plane);
+    for (int y = -BLEND; y < planes->height + BLEND; y++)
+        for (int x = 0; x < planes->width; x++) {
+            float sum = 0.0f;
+            for (int i = -BLEND; i <= BLEND; i++) sum += plane[place_of(planes, x + i, y)];
+            across[place_of(planes, x, y)] = sum;
+        }
+    for (int y = 0; y < planes->height; y++)
+        for (int x = 0; x < planes->width; x++) {
+            float sum = 0.0f;
+            for (int j = -BLEND; j <= BLEND; j++) sum += across[place_of(planes, x, y + j)];
+            to[place_of(planes, x, y)] = sum;
+        }
+}
+
+/* Returns the mean of both halves of a channel. */
+static float sampled(const DenoisePlanes *planes, int c, ptrdiff_t p) {
+    return 0.5f * (planes->color[0][c][p] + planes->color[1][c][p]);
+}
+
+/* Keeps of the picture what the fit has lost. Squares are relative to the brightness, as in relMSE. The planes of the
+ * features serve as scratch. */
+static void blend(DenoisePlanes *planes) {
+    float *noise = planes->feature[0], *off = planes->feature[1], *across = planes->feature[2];
+    float *noise_around = planes->feature[3], *off_around = planes->feature[4];
+    for (int y = 0; y < planes->height; y++)
+        for (int x = 0; x < planes->width; x++) {
+            ptrdiff_t p = place_of(planes, x, y);
+            float square = 3e-2f, variance = 0.0f, difference = 0.0f;
+            for (int c = 0; c < 3; c++) {
+                float halves = planes->color[0][c][p] - planes->color[1][c][p];
+                float lost = sampled(planes, c, p) - planes->out[c][p];
+                square += planes->out[c][p] * planes->out[c][p];
+                variance += 0.25f * halves * halves;
+                difference += lost * lost;
+            }
+            noise[p] = (1.0f - planes->own[p]) * variance / square;
+            off[p] = difference / square;
+        }
+    sum_around(planes, noise, across, noise_around);
+    sum_around(planes, off, across, off_around);
+    for (int y = 0; y < planes->height; y++)
+        for (int x = 0; x < planes->width; x++) {
+            ptrdiff_t p = place_of(planes, x, y);
+            float t = clamp(1.0f - noise_around[p] / max(off_around[p], 1e-20f), 0.0f, 1.0f);
+            for (int c = 0; c < DENOISE_COLORS; c++)
+                planes->out[c][p] += t * (sampled(planes, c, p) - planes->out[c][p]);
+        }
+}
+
+/* Averages the features that have noise of their own. */
+static void smooth_features(Denoising *d, DenoisePlanes *planes, int threads, int tiles) {
+    for (d->group = 0; d->group < DENOISE_NOISY / 3; d->group++) {
+        float *const *a = planes->noisy[0] + 3 * d->group, *const *b = planes->noisy[1] + 3 * d->group;
+        find_variance(planes, a, b);
+        for (int c = 0; c < 3; c++) {
+            extend(planes, a[c]);
+            extend(planes, b[c]);
+            clear(planes, planes->feature[3 * d->group + c]);
+        }
+        parallel_for(threads, tiles, average_tile, d);
+    }
+    for (int f = 0; f < DENOISE_FEATURES; f++) extend(planes, planes->feature[f]);
 }
 
 bool denoise(DenoisePlanes *planes, int threads) {
     Denoising d = {.planes = planes, .tiles_across = (planes->width + TILE_W - 1) / TILE_W};
+    const int tiles = d.tiles_across * ((planes->height + TILE_H - 1) / TILE_H);
     d.scratch = alloc_array((size_t)threads, sizeof *d.scratch);
     if (!d.scratch) return false;
-    find_variance(planes);
+    smooth_features(&d, planes, threads, tiles);
+    find_variance(planes, planes->color[0], planes->color[1]);
+    clear(planes, planes->own);
     for (int c = 0; c < DENOISE_COLORS; c++) {
         extend(planes, planes->color[0][c]);
         extend(planes, planes->color[1][c]);
-        for (int y = 0; y < planes->height; y++)
-            memset(planes->out[c] + place_of(planes, 0, y), 0, (size_t)planes->width * sizeof(float));
+        clear(planes, planes->out[c]);
     }
-    for (int f = 0; f < DENOISE_FEATURES; f++) extend(planes, planes->feature[f]);
-    parallel_for(threads, d.tiles_across * ((planes->height + TILE_H - 1) / TILE_H), denoise_tile, &d);
+    parallel_for(threads, tiles, denoise_tile, &d);
+    blend(planes);
     free(d.scratch);
     return true;
 }

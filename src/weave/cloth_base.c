@@ -5,8 +5,9 @@
 
 /* The samples of a pixel average points without an error. So facets stand for points only at LATER times the pixel size
  * at which the raster engine goes over: from 1.7 threads a pixel on, completely at 4. Their colours are averaged over a
- * FINER-th of the pixel. Fibres fade as if points were a POINTS-th of the pixel apart. */
-enum { LATER = 2, FINER = 4, POINTS = 4 };
+ * FINER-th of the pixel, and those that guide a denoiser over a SHOWN-th, which has less noise. Fibres fade as if points
+ * were a POINTS-th of the pixel apart. */
+enum { LATER = 2, FINER = 4, POINTS = 4, SHOWN = 2 };
 
 /* Returns the place of texture coordinates, in threads. */
 FN Dir place_of(ClothPlacing placing, float u, float v) {
@@ -151,6 +152,27 @@ FN int texel_at(float part, int side) {
     return texel < side ? texel : side - 1;
 }
 
+/* The colours of both systems at a texel. */
+typedef struct FarColors {
+    Rgb warp_single, warp_multiple, weft_single, weft_multiple;
+} FarColors;
+
+/* Returns the colours of the texel at `at` of a level whose layers have so many floats, with dye times as much dye. */
+FN FarColors far_colors(const Weave *m, const float *texels, int at, int layer, float warp_dye, float weft_dye) {
+    float warp_covers = texels[at + 3], weft_covers = texels[at + FAR_WEFT_SINGLE * layer + 3];
+    FarColors c;
+    c.warp_single = weave_dyed_single_rgb(color_at(texels, at), warp_covers, m->warp.white, warp_dye);
+    c.warp_multiple = weave_dyed_multiple_rgb(color_at(texels, at + FAR_WARP_MULTIPLE * layer), warp_covers, warp_dye);
+    c.weft_single =
+        weave_dyed_single_rgb(color_at(texels, at + FAR_WEFT_SINGLE * layer), weft_covers, m->weft.white, weft_dye);
+    c.weft_multiple = weave_dyed_multiple_rgb(color_at(texels, at + FAR_WEFT_MULTIPLE * layer), weft_covers, weft_dye);
+    return c;
+}
+
+/* Returns the part of light from all around that comes back from fibres of these colours. Three tenths of it met one
+ * fibre, about as at the default roughness. */
+FN Rgb reflected(Rgb single, Rgb multiple) { return rgb_add(rgb_scale(single, 0.3f), rgb_scale(multiple, 0.7f)); }
+
 /* Chooses a level of the colours: t of the way to the coarser one, that one with the chance 1 - (1 - t)^2, so that the
  * noise of the finer one fades evenly. Then a system by what it reflects, and one of its facets, and sets colours and
  * the yarn without its slopes. A system that is chosen with chance c has colours / c. scale: factor of all colours. */
@@ -178,16 +200,9 @@ LOOP(choose_n, (const WeftCloth *cloth, Part *restrict part, float scale, int n)
         finer.y = f.y / FINER;
         finer.longest = 0.0f;
         float warp_dye = weave_far_dye(&m, false, x, y, finer), weft_dye = weave_far_dye(&m, true, x, y, finer);
-        float warp_covers = texels[at + 3], weft_covers = texels[at + FAR_WEFT_SINGLE * layer + 3];
-        Rgb warp_single = weave_dyed_single_rgb(color_at(texels, at), warp_covers, m.warp.white, warp_dye),
-            warp_multiple =
-                weave_dyed_multiple_rgb(color_at(texels, at + FAR_WARP_MULTIPLE * layer), warp_covers, warp_dye),
-            weft_single = weave_dyed_single_rgb(color_at(texels, at + FAR_WEFT_SINGLE * layer), weft_covers,
-                                                m.weft.white, weft_dye),
-            weft_multiple =
-                weave_dyed_multiple_rgb(color_at(texels, at + FAR_WEFT_MULTIPLE * layer), weft_covers, weft_dye);
-        float a = 0.3f * rgb_mean(warp_single) + 0.7f * rgb_mean(warp_multiple),
-              b = 0.3f * rgb_mean(weft_single) + 0.7f * rgb_mean(weft_multiple);
+        FarColors c = far_colors(&m, texels, at, layer, warp_dye, weft_dye);
+        float a = rgb_mean(reflected(c.warp_single, c.warp_multiple)),
+              b = rgb_mean(reflected(c.weft_single, c.weft_multiple));
         float chance = a + b > 0.0f ? a / (a + b) : 1.0f, u = part->facet[k];
         bool weft = u >= chance;
         float per_chance = 1.0f / max(weft ? 1.0f - chance : chance, 1e-6f),
@@ -198,10 +213,10 @@ LOOP(choose_n, (const WeftCloth *cloth, Part *restrict part, float scale, int n)
         p.weft = weft;
         p.slope_x = p.slope_y = 0.0f;
         p.fibre = dir(1.0f, 0.0f, 0.0f);
-        Rgb single = rgb(weft ? weft_single.r : warp_single.r, weft ? weft_single.g : warp_single.g,
-                         weft ? weft_single.b : warp_single.b);
-        Rgb multiple = rgb(weft ? weft_multiple.r : warp_multiple.r, weft ? weft_multiple.g : warp_multiple.g,
-                           weft ? weft_multiple.b : warp_multiple.b);
+        Rgb single = rgb(weft ? c.weft_single.r : c.warp_single.r, weft ? c.weft_single.g : c.warp_single.g,
+                         weft ? c.weft_single.b : c.warp_single.b);
+        Rgb multiple = rgb(weft ? c.weft_multiple.r : c.warp_multiple.r, weft ? c.weft_multiple.g : c.warp_multiple.g,
+                           weft ? c.weft_multiple.b : c.warp_multiple.b);
         put_base(yarn, k, weave_yarn(&m, p), rgb_scale(single, scale * per_chance),
                  rgb_scale(multiple, scale * per_chance));
     }
@@ -236,7 +251,61 @@ static void put_all(const Part *part, YarnRows *out) {
         }
 }
 
-void cloth_bases(const WeftCloth *cloth, const ClothLooks *looks, int n, YarnRows *out) {
+/* Returns what both systems reflect at a level of the colours, with dye times as much dye. */
+FN Rgb level_albedo(const Weave *m, const ClothFar *far, int level, float across, float along, const float dye[2]) {
+    int w = cloth_far_side(far->width, level), h = cloth_far_side(far->height, level), layer = 4 * w * h;
+    int at = far->starts[level] + 4 * (texel_at(along, h) * w + texel_at(across, w));
+    FarColors c = far_colors(m, far->texels, at, layer, dye[0], dye[1]);
+    return rgb_add(reflected(c.warp_single, c.warp_multiple), reflected(c.weft_single, c.weft_multiple));
+}
+
+/* Sets what is seen where pixels see several threads: the colours of the crossings in half a pixel, between two levels
+ * of them, and no slope; and `far`, the part of it that counts beside what the point itself shows. */
+LOOP(guide_n, (const WeftCloth *cloth, const ClothLooks *looks, float scale, int n, float *far, ClothGuide *guide),
+     (cloth, looks, scale, n, far, guide)) {
+    Weave m = without_cycle(&cloth->weave);
+    ClothPlacing placing = cloth_placing(cloth);
+    float last = to_float(cloth->far.levels - 1), warps = to_float(m.warps), picks = to_float(m.picks);
+    float finer_x = SHOWN * warps / to_float(cloth->far.width), finer_y = SHOWN * picks / to_float(cloth->far.height);
+    EACH(k, (size_t)n) {
+        Dir at = place_of(placing, looks->uv[0][k], looks->uv[1][k]);
+        WeaveFootprint f, shown;
+        f.x = looks->footprint_x[k];
+        f.y = looks->footprint_y[k];
+        f.longest = looks->longest[k];
+        float fine = min(weave_far_level(f, finer_x, finer_y), last), between = fine - floor(fine);
+        int level = to_int(fine), coarser = level + (between > 0.0f ? 1 : 0);
+        shown.x = f.x / SHOWN;
+        shown.y = f.y / SHOWN;
+        shown.longest = 0.0f;
+        float dye[2] = {weave_far_dye(&m, false, at.x, at.y, shown), weave_far_dye(&m, true, at.x, at.y, shown)};
+        Rgb a = level_albedo(&m, &cloth->far, level, at.x / warps, at.y / picks, dye),
+            b = level_albedo(&m, &cloth->far, coarser, at.x / warps, at.y / picks, dye);
+        Rgb albedo = rgb_scale(rgb_add(rgb_scale(a, 1.0f - between), rgb_scale(b, between)), scale);
+        far[k] = weave_far_weight(f);
+        guide->albedo[0][k] = albedo.r;
+        guide->albedo[1][k] = albedo.g;
+        guide->albedo[2][k] = albedo.b;
+        guide->slope[0][k] = guide->slope[1][k] = 0.0f;
+    }
+}
+
+/* Adds what near points show. */
+static void add_near_guide(const Part *part, const float *far, ClothGuide *guide) {
+    const YarnRows *yarn = &part->yarn;
+    for (size_t k = 0; k < (size_t)part->count; k++) {
+        const int at = part->at[k];
+        const float near = 1.0f - far[at];
+        Rgb albedo = reflected(ROW_RGB(yarn->single, k), ROW_RGB(yarn->multiple, k));
+        guide->albedo[0][at] = far[at] * guide->albedo[0][at] + near * albedo.r;
+        guide->albedo[1][at] = far[at] * guide->albedo[1][at] + near * albedo.g;
+        guide->albedo[2][at] = far[at] * guide->albedo[2][at] + near * albedo.b;
+        guide->slope[0][at] = near * yarn->params[YARN_SLOPE_X][k];
+        guide->slope[1][at] = near * yarn->params[YARN_SLOPE_Y][k];
+    }
+}
+
+void cloth_bases(const WeftCloth *cloth, const ClothLooks *looks, int n, YarnRows *out, ClothGuide *guide) {
     Part parts[2];
     Part *near = &parts[0], *far = &parts[1];
     const Weave *m = &cloth->weave;
@@ -248,4 +317,8 @@ void cloth_bases(const WeftCloth *cloth, const ClothLooks *looks, int n, YarnRow
     if (far->count) lay_n(cloth->facets[0], far, row_whole(far->count));
     put_all(near, out);
     put_all(far, out);
+    if (!guide) return;
+    float part[ROW_CAPACITY];
+    guide_n(cloth, looks, scale, n, part, guide);
+    add_near_guide(near, part, guide);
 }

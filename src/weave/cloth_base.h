@@ -31,10 +31,16 @@ FN Dir cloth_threads(ClothPlacing p, float u, float v) {
     return dir((p.turn_cos * u - p.turn_sin * v) * p.warps, (-p.turn_cos * v - p.turn_sin * u) * p.picks, 0.0f);
 }
 
+/* What cloth looks like at its points without light on it, to guide a denoiser: the part of light from all around that
+ * comes back, and the slopes of lobe yarn. From afar both are those of the cloth, whatever facet stands for it. */
+typedef struct ClothGuide {
+    float albedo[3][ROW_CAPACITY], slope[2][ROW_CAPACITY];
+} ClothGuide;
+
 /* Sets the bases at the first n points. Near, a base is the point of a thread. From afar it is a random facet of one
  * system in the colours of all its threads; a system is chosen in proportion to what it reflects. The mean over the
- * random numbers is the cloth. */
-void cloth_bases(const WeftCloth *cloth, const ClothLooks *looks, int n, YarnRows *out);
+ * random numbers is the cloth. guide may be NULL. */
+void cloth_bases(const WeftCloth *cloth, const ClothLooks *looks, int n, YarnRows *out, ClothGuide *guide);
 
 /* Returns lobe woven of one system and its mean colours over the whole repeat. The lobes of both systems add up to the
  * cloth. */

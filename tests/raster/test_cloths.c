@@ -189,7 +189,7 @@ static void see_pixel(const WeftCloth *cloth, float x, float y, float side, Dir 
         looks.uv[0][n] = u / cloth->per_uv[WEFT_WARP];
         looks.uv[1][n] = -v / cloth->per_uv[WEFT_WEFT];
     }
-    cloth_bases(cloth, &looks, POINTS, &yarn);
+    cloth_bases(cloth, &looks, POINTS, &yarn, NULL);
     for (int n = 0; n < POINTS; n++) {
         const Lobe lobe = yarn_of_row(&yarn, (size_t)n);
         const LobeValue value = lobe_value(&lobe, a);

@@ -54,7 +54,7 @@ static void cloth_base(const WeftCloth *cloth, const ClothLook *look, Stack *sta
     looks.footprint_y[0] = look->footprint.y;
     looks.longest[0] = look->footprint.longest;
     looks.level[0] = look->level, looks.facet[0] = look->facet;
-    cloth_bases(cloth, &looks, 1, &yarn);
+    cloth_bases(cloth, &looks, 1, &yarn, NULL);
     const Lobe lobe = yarn_of_row(&yarn, 0);
     stack_put_base(stack, &lobe, ROW_RGB(yarn.single, 0), ROW_RGB(yarn.multiple, 0));
 }
@@ -287,7 +287,7 @@ static void looks_are_the_same_alone_and_among_others(void **state) {
                 (k % 2 ? 6.0f : 0.25f) * random_unit(&random);
             looks.level[k] = random_unit(&random), looks.facet[k] = random_unit(&random);
         }
-        cloth_bases(cloth, &looks, ROW_MOST, &rows);
+        cloth_bases(cloth, &looks, ROW_MOST, &rows, NULL);
         for (int k = 0; k < ROW_MOST; k++) {
             static Stack stack;
             const float side = looks.longest[k];

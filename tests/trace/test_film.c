@@ -110,6 +110,30 @@ static void noise_level_ends_a_render_on_any_threads(void **state) {
     weft_scene_free(scene);
 }
 
+/* Shared halves are those of a picture without halves, added in another order; and they show no unbiased error. */
+static void shared_halves_are_the_plain_picture(void **state) {
+    (void)state;
+    WeftScene *scene = noisy_scene();
+    WeftRenderDesc desc = halved;
+    desc.halves = 0;
+    WeftImage plain = test_render(scene, desc, 64);
+    desc.halves = WEFT_HALVES_SHARED;
+    WeftImage shared = test_render(scene, desc, 64);
+    for (int k = 0; k < 60 * 44 * 4; k++)
+        if (fabsf(((const float *)plain.pixels)[k] - ((const float *)shared.pixels)[k]) > 1e-5f)
+            fail_msg("number %d is %g of shared halves", k, (double)((const float *)shared.pixels)[k]);
+    WeftRender *r = rendered(scene, desc, 64), *none = NULL;
+    assert_true(weft_render_noise(r) > 0.0);
+    desc.noise = 0.1f;
+    assert_int_equal(weft_render_create(scene, &desc, &none, NULL), WEFT_USAGE);
+    desc.noise = 0.0f, desc.halves = 3;
+    assert_int_equal(weft_render_create(scene, &desc, &none, NULL), WEFT_USAGE);
+    weft_render_free(r);
+    weft_image_free(&plain);
+    weft_image_free(&shared);
+    weft_scene_free(scene);
+}
+
 static const float *at(const WeftImage *image, int x, int y) {
     return (const float *)image->pixels + (y * image->width + x) * image->channels;
 }
@@ -191,6 +215,7 @@ static WeftImage denoised(const WeftScene *scene, int threads, int spp) {
     WeftImage image;
     desc.threads = threads;
     desc.width = 170; /* more than a tile of the denoiser */
+    desc.halves = WEFT_HALVES_SHARED;
     WeftRender *r = rendered(scene, desc, spp);
     if (weft_render_denoised(r, WEFT_DENOISER_REGRESSION, &image, &error) != WEFT_OK) fail_msg("%s", error.text);
     weft_render_free(r);
@@ -226,6 +251,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(estimated_noise_is_the_error),
         cmocka_unit_test(noise_level_ends_a_render_on_any_threads),
+        cmocka_unit_test(shared_halves_are_the_plain_picture),
         cmocka_unit_test(aovs_hold_what_the_camera_sees),
         cmocka_unit_test(first_hits_change_no_byte_of_the_picture),
         cmocka_unit_test(aovs_that_were_not_gathered_are_refused),

@@ -209,8 +209,9 @@ static bool read_extras(const Options *options, Request *request) {
     }
     if (option_given(options, "--noise") && !option_given(options, "--spp")) request->spp = 0;
     request->desc.noise = option_given(options, "--noise") ? (float)noise : 0.0f;
-    request->desc.halves = option_given(options, "--halves") || request->denoise || request->desc.noise > 0.0f ||
-                           (request->aovs & 1u << WEFT_AOV_VARIANCE);
+    bool judged = option_given(options, "--halves") || request->desc.noise > 0.0f ||
+                  (request->aovs & 1u << WEFT_AOV_VARIANCE) != 0;
+    request->desc.halves = judged ? WEFT_HALVES_INDEPENDENT : request->denoise ? WEFT_HALVES_SHARED : 0;
     request->desc.first_hits = request->denoise || (request->aovs & ((2u << WEFT_AOV_DEPTH) - 1u));
     return true;
 }

@@ -6,7 +6,7 @@
 #include "image/difference.h"
 
 bool film_create(Film *film, int width, int height, bool halves, bool hits, bool floor) {
-    *film = (Film){.width = width, .height = height, .halves = halves ? 2 : 1};
+    *film = (Film){.width = width, .height = height, .halves = halves ? 2 : 1, .hits = hits};
     film->tiles_across = (width + STREAM_TILE - 1) / STREAM_TILE;
     film->tile_count = film->tiles_across * ((height + STREAM_TILE - 1) / STREAM_TILE);
     size_t pixels = (size_t)width * (size_t)height;
@@ -16,10 +16,10 @@ bool film_create(Film *film, int width, int height, bool halves, bool hits, bool
         half->samples = alloc_array((size_t)film->tile_count, sizeof(int));
         half->sums = alloc_array(pixels, 4 * sizeof(float));
         half->caught = floor ? alloc_array(pixels, sizeof(Caught)) : NULL;
-        made &= half->samples && half->sums && !half->caught == !floor;
+        half->hits = hits ? alloc_array(pixels, FIRST_NUMBERS * sizeof(float)) : NULL;
+        made &= half->samples && half->sums && !half->caught == !floor && !half->hits == !hits;
     }
-    film->hits = hits ? alloc_array(pixels, FIRST_NUMBERS * sizeof(float)) : NULL;
-    return made && !film->hits == !hits;
+    return made;
 }
 
 void film_free(Film *film) {
@@ -27,8 +27,8 @@ void film_free(Film *film) {
         free(film->half[h].samples);
         free(film->half[h].sums);
         free(film->half[h].caught);
+        free(film->half[h].hits);
     }
-    free(film->hits);
     *film = (Film){0};
 }
 
@@ -50,9 +50,9 @@ int film_add(Film *film, int half, size_t pixel, const Stream *stream, int first
         }
         for (int a = 0; a < 4; a++) sum[a] += c[a];
     }
-    for (int a = 0; film->hits && a < FIRST_NUMBERS; a++)
+    for (int a = 0; to->hits && a < FIRST_NUMBERS; a++)
         for (int id = first_id; id < first_id + count; id++)
-            film->hits[FIRST_NUMBERS * pixel + (size_t)a] += stream->first->number[a][id];
+            to->hits[FIRST_NUMBERS * pixel + (size_t)a] += stream->first->number[a][id];
     return non_finite;
 }
 
@@ -90,10 +90,15 @@ int film_pixel(const Film *film, int half, int x, int y, float rgba[4]) {
     return n;
 }
 
-void film_hits(const Film *film, int x, int y, float numbers[FIRST_NUMBERS]) {
-    int n = samples_at(film, FILM_BOTH, x, y);
-    const float *sums = film->hits + FIRST_NUMBERS * pixel_at(film, x, y);
-    for (int a = 0; a < FIRST_NUMBERS; a++) numbers[a] = n ? sums[a] / (float)n : 0.0f;
+int film_hits(const Film *film, int half, int x, int y, float numbers[FIRST_NUMBERS]) {
+    int n = samples_at(film, half, x, y);
+    for (int a = 0; a < FIRST_NUMBERS; a++) numbers[a] = 0.0f;
+    for (int h = 0; n && h < film->halves; h++) {
+        if (half != FILM_BOTH && h != half) continue;
+        const float *sums = film->half[h].hits + FIRST_NUMBERS * pixel_at(film, x, y);
+        for (int a = 0; a < FIRST_NUMBERS; a++) numbers[a] += sums[a] / (float)n;
+    }
+    return n;
 }
 
 WeftResult film_image(const Film *film, WeftImage *out, WeftError *error) {
@@ -147,7 +152,7 @@ static const float nowhere = 1e10f;
 
 static void aov_pixel(const Film *film, WeftAov aov, int x, int y, float *to) {
     float hits[FIRST_NUMBERS] = {0};
-    if (film->hits) film_hits(film, x, y, hits);
+    if (film->hits) film_hits(film, FILM_BOTH, x, y, hits);
     switch (aov) {
     case WEFT_AOV_ALBEDO:
         for (int c = 0; c < 3; c++) to[c] = hits[FIRST_ALBEDO + c];

@@ -17,13 +17,14 @@ typedef struct FilmHalf {
     int *samples;   /* of each pixel, by tile of STREAM_TILE pixels a side, row by row */
     float *sums;    /* RGBA by pixel: radiance times coverage, coverage */
     Caught *caught; /* shadow and reflection of the floor by pixel; NULL without a floor */
+    float *hits;    /* sums, FIRST_NUMBERS a pixel; NULL if first hits are not recorded */
 } FilmHalf;
 
 typedef struct Film {
     int width, height, tiles_across, tile_count;
     int halves; /* 1 or 2 */
     FilmHalf half[2];
-    float *hits; /* sums over both halves, FIRST_NUMBERS a pixel; NULL if first hits are not recorded */
+    bool hits; /* first hits are recorded */
 } Film;
 
 /* Makes an empty film; returns false if memory is short. The film is to be freed either way. */
@@ -38,8 +39,9 @@ int film_add(Film *film, int half, size_t pixel, const Stream *stream, int first
  * samples. Returns how many samples there are. */
 int film_pixel(const Film *film, int half, int x, int y, float rgba[4]);
 
-/* Gives the means of a pixel's first hits over all samples, so that FIRST_SEEN is the fraction that met a surface. */
-void film_hits(const Film *film, int x, int y, float numbers[FIRST_NUMBERS]);
+/* Gives the means of a pixel's first hits over the samples of one half or FILM_BOTH, so that FIRST_SEEN is the fraction
+ * that met a surface; 0 without samples. Returns how many samples there are. */
+int film_hits(const Film *film, int half, int x, int y, float numbers[FIRST_NUMBERS]);
 
 /* Makes the picture, with straight alpha. */
 WeftResult film_image(const Film *film, WeftImage *out, WeftError *error);

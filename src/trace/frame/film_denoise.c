@@ -25,9 +25,11 @@ static void put_planes(const Film *film, int x, int y, DenoisePlanes *planes) {
     for (int h = 0; h < 2; h++) {
         if (!film_pixel(film, h, x, y, rgba)) film_pixel(film, 1 - h, x, y, rgba);
         for (int c = 0; c < 4; c++) planes->color[h][c][at] = rgba[c];
+        if (!film_hits(film, h, x, y, hits)) film_hits(film, 1 - h, x, y, hits);
+        for (int f = 0; f < DENOISE_NOISY; f++) planes->noisy[h][f][at] = hits[f];
     }
-    film_hits(film, x, y, hits);
-    for (int f = 0; f < DENOISE_FEATURES; f++) planes->feature[f][at] = hits[f];
+    film_hits(film, FILM_BOTH, x, y, hits);
+    planes->feature[FIRST_DEPTH][at] = hits[FIRST_DEPTH];
 }
 
 /* Scales depths so that the greatest is 1. */
@@ -74,7 +76,7 @@ static WeftResult by_oidn(const Film *film, int threads, WeftImage *out, WeftErr
     for (size_t k = 0; k < pixels; k++) {
         int x = (int)(k % (size_t)film->width), y = (int)(k / (size_t)film->width);
         film_pixel(film, FILM_BOTH, x, y, rgba);
-        film_hits(film, x, y, hits);
+        film_hits(film, FILM_BOTH, x, y, hits);
         memcpy(picture.color + 3 * k, rgba, 3 * sizeof(float));
         memcpy(picture.albedo + 3 * k, hits + FIRST_ALBEDO, 3 * sizeof(float));
         memcpy(picture.normal + 3 * k, hits + FIRST_NORMAL, 3 * sizeof(float));

@@ -55,8 +55,9 @@ static WeftResult check_desc(const WeftRenderDesc *d, WeftError *error) {
         return fail(error, WEFT_MESSAGE_DESC, "background or sampling", NULL);
     for (int k = 0; k < 3; k++)
         if (!isfinite(d->background_color[k])) return fail(error, WEFT_MESSAGE_DESC, "background color", NULL);
-    if (!(d->noise >= 0.0f) || (d->noise > 0.0f && !d->halves))
-        return fail(error, WEFT_MESSAGE_DESC, "noise", "%g; above 0 it needs halves", (double)d->noise);
+    if (!(d->noise >= 0.0f) || (d->noise > 0.0f && d->halves != WEFT_HALVES_INDEPENDENT))
+        return fail(error, WEFT_MESSAGE_DESC, "noise", "%g; above 0 it needs independent halves", (double)d->noise);
+    if ((unsigned)d->halves > WEFT_HALVES_SHARED) return fail(error, WEFT_MESSAGE_DESC, "halves", "%d", d->halves);
     if (d->threads < 0 || d->threads > WEFT_THREADS_MAX)
         return fail(error, WEFT_MESSAGE_DESC, "threads", "%d", d->threads);
     return floor_check(&d->floor, error);

@@ -21,13 +21,15 @@ static void add_background(const TracedPicture *picture, Vec3 direction, float *
 static LensPart part_of(const TracedPicture *picture, int item, int half, int count) {
     int x = item % picture->film.tiles_across * STREAM_TILE, y = item / picture->film.tiles_across * STREAM_TILE;
     int w = picture->film.width - x, h = picture->film.height - y;
-    return (LensPart){picture->desc.crop[0] + x,
-                      picture->desc.crop[1] + y,
-                      w < STREAM_TILE ? w : STREAM_TILE,
-                      h < STREAM_TILE ? h : STREAM_TILE,
-                      picture->film.half[half].samples[item],
-                      count,
-                      half ? hash32(picture->desc.seed + 0x9e3779b9u) : picture->desc.seed};
+    bool shared = picture->desc.halves == WEFT_HALVES_SHARED;
+    return (LensPart){.x = picture->desc.crop[0] + x,
+                      .y = picture->desc.crop[1] + y,
+                      .width = w < STREAM_TILE ? w : STREAM_TILE,
+                      .height = h < STREAM_TILE ? h : STREAM_TILE,
+                      .first = picture->film.half[half].samples[item],
+                      .count = count,
+                      .half = shared ? half : -1,
+                      .seed = half && !shared ? hash32(picture->desc.seed + 0x9e3779b9u) : picture->desc.seed};
 }
 
 /* Returns the index in the film of a pixel of a tile. */

@@ -88,6 +88,7 @@ typedef struct Chunk {
     Row *horizon_normal;     /* geometric or visible: light from below its plane does not count */
     Row uv_edge[2][2];       /* differences of texture coordinates along two edges, on a woven material */
     ClothLooks cloth_points; /* where and how finely a woven material is looked up */
+    ClothGuide cloth_guide;  /* of camera rays, if first hits are recorded */
     Row frame[3][3];         /* x, y, z of the shading frame */
     KindVertices vertices;   /* inputs, directions, f cos and pdf in the shading frame */
 

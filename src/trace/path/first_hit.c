@@ -1,14 +1,29 @@
 #include "trace/path/first_hit.h"
 
-void first_hits_take(FirstHits *hits, const Chunk *chunk, int n, Row normal[3], const float forward[3]) {
+#include "shading/stack/frame.h"
+
+/* Returns the normal of a thread at vertex k, turned towards the viewer where it faces away. */
+static Dir thread_normal(const Chunk *chunk, size_t k) {
+    Frame f = {ROW_DIR(chunk->frame[0], k), ROW_DIR(chunk->frame[1], k), ROW_DIR(chunk->frame[2], k)};
+    Dir local = {chunk->cloth_guide.slope[0][k], chunk->cloth_guide.slope[1][k], 1.0f};
+    return frame_visible_normal(dir_normal_or(frame_from(f, local), f.z), ROW_DIR(chunk->wo, k));
+}
+
+void first_hits_take(FirstHits *hits, const Chunk *chunk, int n, FirstLook look, const float forward[3]) {
+    bool woven = look == FIRST_LOOK_WOVEN;
+    const Row *albedo = woven ? chunk->cloth_guide.albedo : chunk->vertices.surface.base_color;
+    const Row *level = look == FIRST_LOOK_UNSHADED ? chunk->normal : chunk->frame[2];
     for (int k = 0; k < n; k++) {
         uint32_t id = chunk->id[k];
+        Dir normal = woven ? thread_normal(chunk, (size_t)k) : ROW_DIR(level, k);
         float seen = hits->number[FIRST_SEEN][id], cosine = 0.0f;
         for (int a = 0; a < 3; a++) {
             cosine -= chunk->wo[a][k] * forward[a];
-            hits->number[FIRST_ALBEDO + a][id] = seen * chunk->vertices.surface.base_color[a][k];
-            hits->number[FIRST_NORMAL + a][id] = seen * normal[a][k];
+            hits->number[FIRST_ALBEDO + a][id] = seen * albedo[a][k];
         }
+        hits->number[FIRST_NORMAL][id] = seen * normal.x;
+        hits->number[FIRST_NORMAL + 1][id] = seen * normal.y;
+        hits->number[FIRST_NORMAL + 2][id] = seen * normal.z;
         hits->number[FIRST_DEPTH][id] = seen * chunk->t[k] * cosine;
     }
 }

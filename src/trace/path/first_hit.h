@@ -11,5 +11,9 @@ typedef struct FirstHits {
     float number[FIRST_NUMBERS][PATHS_CAPACITY];
 } FirstHits;
 
-/* Records the first hits of a chunk, of paths that are seen. normal: in world space. */
-void first_hits_take(FirstHits *hits, const Chunk *chunk, int n, Row normal[3], const float forward[3]);
+/* What a surface shows of itself: its base colour and shading normal, those of its threads where it is woven, or the
+ * interpolated normal where no shading frame is made. */
+typedef enum FirstLook { FIRST_LOOK_PLAIN, FIRST_LOOK_WOVEN, FIRST_LOOK_UNSHADED } FirstLook;
+
+/* Records the first hits of a chunk, of paths that are seen. */
+void first_hits_take(FirstHits *hits, const Chunk *chunk, int n, FirstLook look, const float forward[3]);

@@ -112,5 +112,6 @@ void chunk_find_threads(Chunk *chunk, const ChunkSource *source, int n) {
     gather_uv_edges(chunk, source->context->scene, n);
     footprints_n(chunk, source->context, material->cloth, source->depth, n);
     chunk->cloth_points.holed = material->material.alpha_mode != WEFT_ALPHA_OPAQUE;
-    cloth_bases(material->cloth, &chunk->cloth_points, n, &chunk->vertices.yarn);
+    bool seen = source->context->first_hits && source->depth == 0;
+    cloth_bases(material->cloth, &chunk->cloth_points, n, &chunk->vertices.yarn, seen ? &chunk->cloth_guide : NULL);
 }

@@ -59,9 +59,16 @@ LOOP(rays_of_pixel_n,
     }
 }
 
+/* Returns the number of sample k of a part. Blocks of a power of two of the sequence are stratified by themselves. */
+static uint32_t number_of(const LensPart *part, int k) {
+    enum { BLOCK = 1 << PATHS_SAMPLES_LOG2 };
+    int n = part->first + k;
+    return (uint32_t)(part->half < 0 ? n : n + (n / BLOCK + part->half) * BLOCK);
+}
+
 int lens_rays(const Lens *lens, const LensPart *part, PathKeys *keys, Paths *paths) {
     int pixels = part->width * part->height, at = 0;
-    for (int k = 0; k < 1 << PATHS_SAMPLES_LOG2; k++) keys->sample[k] = sampler_index((uint32_t)(part->first + k));
+    for (int k = 0; k < 1 << PATHS_SAMPLES_LOG2; k++) keys->sample[k] = sampler_index(number_of(part, k));
     for (int p = 0; p < pixels; p++, at += part->count) {
         int x = part->x + p % part->width, y = part->y + p / part->width;
         keys->pixel[p] = sampler_key((uint32_t)x, (uint32_t)y, part->seed);

@@ -20,6 +20,7 @@ void lens_make(Lens *lens);
 typedef struct LensPart {
     int x, y, width, height; /* width height <= 256 */
     int first, count;        /* count <= 1 << PATHS_SAMPLES_LOG2 */
+    int half;                /* -1, or 0 or 1: of the samples take those 16 by 16 in turn */
     uint32_t seed;
 } LensPart;
 

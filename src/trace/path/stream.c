@@ -107,8 +107,10 @@ static int shade_chunk(Stream *stream, const ChunkSource *source, Paths *next, i
     if (material->emits || material->material.unlit) chunk_add_emission(chunk, source, &stream->radiance);
     bool ends = source->depth == context->max_depth || material->material.unlit;
     if (!ends) chunk_make_frames(chunk, source);
-    if (stream->first && source->depth == 0)
-        first_hits_take(stream->first, chunk, source->n, ends ? chunk->normal : chunk->frame[2], context->forward);
+    if (stream->first && source->depth == 0) {
+        FirstLook look = ends ? FIRST_LOOK_UNSHADED : material->cloth ? FIRST_LOOK_WOVEN : FIRST_LOOK_PLAIN;
+        first_hits_take(stream->first, chunk, source->n, look, context->forward);
+    }
     stage_end(chunk->clock, STAGE_FRAMES);
     if (ends) return count;
     chunk_shade(chunk, source);

@@ -61,7 +61,8 @@ static WeftResult render(Still *self, const WeftScene *scene) {
     WeftRenderDesc traced = desc->desc;
     WeftRender *render;
     traced.camera = desc->camera;
-    traced.halves = traced.first_hits = desc->denoised;
+    traced.first_hits = desc->denoised;
+    traced.halves = desc->denoised ? WEFT_HALVES_SHARED : 0;
     WeftResult result = weft_render_create(scene, &traced, &render, &self->error);
     if (result != WEFT_OK) return result;
     result = weft_render_run(render, desc->samples, 0.0, note, self);
