@@ -48,6 +48,7 @@ static const char *const folders[] = {
     "text/source",
     "text/assemble",
     "text/passes",
+    "text/flat",
     "text/plugin",
     "trace/geometry",
     "trace/light",

@@ -11,6 +11,7 @@
 #include "base/thread.h"
 #include "raster/gl/program.h"
 #include "raster/material/gl_tables.h"
+#include "text/flat/flatten.h"
 #include "weft/progress.h"
 
 typedef struct TextureSampler {
@@ -95,6 +96,7 @@ static void drop(Program *self) {
 typedef struct CompileJob {
     Program *program;
     Text vertex, fragment;
+    bool as_written; /* the text is not flattened: messages then name its lines */
     WeftError error;
     GLuint made;
 } CompileJob;
@@ -108,11 +110,27 @@ typedef struct CompileBatch {
 static void write_text(Programs *programs, CompileJob *job) {
     shader_vertex_text(&job->program->key, &programs->desc, &job->vertex);
     shader_text(&job->program->key, &programs->desc, &programs->fits, &job->fragment);
+    job->as_written = programs->desc.folder != NULL;
     if (text_end(&job->vertex, &job->error) == WEFT_OK) text_end(&job->fragment, &job->error);
 }
 
+/* Compiles the flat text (text/flat/flatten.h), which takes drivers a fraction of the time. Returns 0 if there is none,
+ * or if it does not compile: the text as it is written then says why. */
+static unsigned compile_flat(const CompileJob *job) {
+    Buffer flat = {0};
+    WeftError error = {0};
+    unsigned made = 0;
+    if (!job->as_written && flatten_text(job->fragment.bytes, &flat, NULL))
+        made = program_create("flat shader", (ShaderSource){job->vertex.bytes, NULL}, (ShaderSource){flat.bytes, NULL},
+                              &error);
+    buffer_free(&flat);
+    return made;
+}
+
 static void compile(CompileJob *job) {
-    if (job->error.result == WEFT_OK)
+    if (job->error.result != WEFT_OK) return;
+    job->made = compile_flat(job);
+    if (!job->made)
         job->made = program_create("material shader", (ShaderSource){job->vertex.bytes, &job->vertex},
                                    (ShaderSource){job->fragment.bytes, &job->fragment}, &job->error);
 }

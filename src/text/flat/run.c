@@ -1,0 +1,83 @@
+#include "text/flat/run.h"
+
+#include <stdlib.h>
+
+/* Adds a record, or the members of a block, which are names of their own. */
+static void add_fields(Run *run, const Declaration *declaration, bool record) {
+    Member members[128];
+    int count = 0;
+    for (const Field *field = declaration->fields; field && !run->wrong; field = field->next) {
+        const Kind kind = run_kind(run, field->type, field->size);
+        if (!record) {
+            run->outside[field->name] = kind;
+            continue;
+        }
+        if (count == 128) {
+            run_wrong(run, "a record of too many members");
+            return;
+        }
+        members[count++] = (Member){field->name, kind, 0};
+    }
+    if (record && !run->wrong) kinds_record(&run->kinds, declaration->name, members, count);
+}
+
+static void add_variable(Run *run, const Declaration *declaration) {
+    const Kind kind = run_kind(run, declaration->type, declaration->size);
+    const Value value = declaration->value ? run_value(run, declaration->value) : (Value){.kind = KIND_NONE};
+    if (run->wrong) return;
+    if (declaration->constant && value.kind == kind) {
+        run->constants[declaration->name] = value;
+        return;
+    }
+    const int slot = run_declare(run, declaration->name, kind);
+    if (declaration->value && !run->wrong) run_write(run, &(Place){.kind = kind, .slot = slot}, value);
+    run->global_count = run->frame.variables = run->variable_count;
+}
+
+static void add(Run *run, Declaration *declaration) {
+    switch (declaration->kind) {
+    case DECLARATION_RECORD: add_fields(run, declaration, true); break;
+    case DECLARATION_BLOCK: add_fields(run, declaration, false); break;
+    case DECLARATION_FUNCTION: run->functions[declaration->name] = declaration; break;
+    case DECLARATION_OUTSIDE:
+        run->outside[declaration->name] = run_kind(run, declaration->type, declaration->size);
+        break;
+    case DECLARATION_VARIABLE:
+    case DECLARATION_OUTPUT: add_variable(run, declaration); break;
+    }
+}
+
+/* Appends what main left in the outputs. */
+static void put_outputs(Run *run) {
+    for (const Declaration *one = run->syntax.first; one && !run->wrong; one = one->next) {
+        if (one->kind != DECLARATION_OUTPUT) continue;
+        for (int k = 0; k < run->global_count; k++)
+            if (run->variables[k].name == one->name)
+                graph_flow(&run->graph, run->region, FLOW_OUTPUT, run->slots[run->variables[k].slot])->name = one->name;
+    }
+}
+
+bool run_text(const char *text, Run *run) {
+    memset(run, 0, sizeof *run);
+    syntax_read(text, &run->syntax);
+    kinds_begin(&run->kinds, &run->syntax.symbols);
+    run_builtins(run);
+    run->frame = (Frame){.result = -1, .returned = -1, .broken = -1, .continued = -1};
+    run->wrong = run->syntax.wrong;
+    if (!graph_begin(&run->graph, &run->kinds) && !run->wrong) run->wrong = "memory is short";
+    run->region = run->graph.whole;
+    for (Declaration *one = run->syntax.first; one && !run->wrong; one = one->next) add(run, one);
+    const Expr call = {.kind = EXPR_CALL, .name = run->main_name};
+    if (!run->wrong) run_value(run, &call);
+    put_outputs(run);
+    if (!run->wrong && (run->graph.failed || run->kinds.failed)) run->wrong = "too large";
+    return !run->wrong;
+}
+
+void run_free(Run *run) {
+    free(run->changes);
+    arena_free(&run->arena);
+    graph_free(&run->graph);
+    kinds_free(&run->kinds);
+    syntax_free(&run->syntax);
+}
