@@ -125,8 +125,8 @@ enum { WEFT_RASTER_FRAMES_MOST = 1 << 20 };
  * first. Compiles the shaders that it needs. Fails as weft_raster_draw does, with WEFT_MESSAGE_GL_MEMORY also where the
  * scene has more than about two million triangles.
  *
- * DOES NOT: masks of opacity along shadow rays, where each triangle has its mean opacity; the floor, which is the same
- * as in other pictures; measured BRDFs; layer rule "stochastic", drawn without its bounces. */
+ * DOES NOT: the floor, which is the same as in other pictures; measured BRDFs; gaps of a woven cloth along shadow rays,
+ * where they have their mean; layer rule "stochastic", drawn without its bounces. */
 WEFT_API WeftResult weft_raster_accumulate_begin(WeftRaster *raster, const WeftRasterView *view, int frames,
                                                  WeftError *error);
 

@@ -161,6 +161,39 @@ static void half_transparent_and_single_sided(void **state) {
     agrees(scene, "veil and single side", 0.025, 0.006);
 }
 
+/* A lattice of holes above the floor: a map of opacity of 4 x 4 texels, repeated and mirrored, whose edges lie between
+ * texels. */
+static void holes_of_a_map(void **state) {
+    (void)state;
+    need_gl();
+    enum { SIDE = 4 };
+    WeftScene *scene = balls();
+    test_environment(scene, 0.3f);
+    scene->lights[scene->light_count++] = (Light){.name = "sun",
+                                                  .kind = LIGHT_DIRECTIONAL,
+                                                  .direction = {0.3f, -0.9f, -0.3f},
+                                                  .color = {1.0f, 1.0f, 1.0f},
+                                                  .intensity = 3.0f};
+    scene->images = arena_array(&scene->arena, 1, sizeof *scene->images);
+    scene->textures = arena_array(&scene->arena, 1, sizeof *scene->textures);
+    assert_true(scene->images && scene->textures);
+    assert_int_equal(weft_image_create(SIDE, SIDE, 4, WEFT_PIXEL_U8, &scene->images[0], NULL), WEFT_OK);
+    for (int k = 0; k < SIDE * SIDE; k++)
+        ((unsigned char *)scene->images[0].pixels)[4 * k + 3] = k % SIDE < 2 && k / SIDE < 3 ? 255 : 20;
+    scene->textures[0] = (Texture){.wrap_u = WRAP_REPEAT, .wrap_v = WRAP_MIRROR};
+    scene->image_count = scene->texture_count = 1;
+    Material *lattice = test_material(scene, 0.7f);
+    lattice->alpha_mode = WEFT_ALPHA_MASK;
+    lattice->alpha_cutoff = 0.5f;
+    lattice->inputs[INPUT_opacity].texture = 1;
+    lattice->inputs[INPUT_opacity].channel = 3;
+    Mesh *mesh = test_quad(scene, vec3(-1.1f, 0.6f, 0.9f), vec3(1.6f, 0.0f, 0.0f), vec3(0.0f, 0.2f, -0.9f));
+    static const float uv[8] = {0.0f, 0.0f, 5.0f, 0.0f, 5.0f, 3.0f, 0.0f, 3.0f};
+    mesh->texcoord[0] = arena_array(&scene->arena, 4, 2 * sizeof(float));
+    memcpy(mesh->texcoord[0], uv, sizeof uv);
+    agrees(scene, "holes of a map", 0.025, 0.006);
+}
+
 /* A sum goes on over many calls, ends as in one, stops when something else is drawn, and refuses what is no number. */
 static void a_sum_in_pieces(void **state) {
     (void)state;
@@ -219,7 +252,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(under_a_studio),        cmocka_unit_test(under_a_polygon),
         cmocka_unit_test(under_punctual_lights), cmocka_unit_test(half_transparent_and_single_sided),
-        cmocka_unit_test(a_sum_in_pieces),       cmocka_unit_test(begins_without_a_jump),
+        cmocka_unit_test(holes_of_a_map),        cmocka_unit_test(a_sum_in_pieces),
+        cmocka_unit_test(begins_without_a_jump),
     };
     return cmocka_run_group_tests(tests, gl_begin, NULL);
 }

@@ -38,5 +38,5 @@
     ONE(vec4, sky_color)   /* radiance of one colour */                                                      \
     ONE(vec4, sky_parts)   /* factor on diffuse lobe and dust, on the other lobes */                         \
     ONE(vec4, ray_first)   /* number of nodes; first texel of triangles, normals, lamps */                   \
-    ONE(vec4, ray_count)   /* number of lamps, number of the frame */
+    ONE(vec4, ray_count)   /* number of lamps, number of the frame, first texel of masks */
 /* clang-format on */

@@ -6,6 +6,7 @@
 #include "shading/dialect/points.h"
 
 uniform highp sampler2D ray_texels;
+uniform highp sampler2DArray ray_masks; /* raster/light/ray_masks.h */
 
 /* Returns a texel of the texture, RAY_ROW a row. */
 vec4 ray_texel(int k) { return texelFetch(ray_texels, ivec2(k & 2047, k >> 11), 0); }
@@ -24,13 +25,13 @@ struct RayHit {
 /* The corners of a triangle, and the last numbers of its texels. */
 struct RayTriangle {
     vec3 a, b, c;
-    float surface, lamp;
+    float surface, lamp, mask;
 };
 
 RayTriangle ray_triangle(int k) {
     int at = int(ray_first.y) + 3 * k;
     vec4 a = ray_texel(at), b = ray_texel(at + 1), c = ray_texel(at + 2);
-    return RayTriangle(a.xyz, b.xyz, c.xyz, a.w, b.w);
+    return RayTriangle(a.xyz, b.xyz, c.xyz, a.w, b.w, c.w);
 }
 
 vec3 ray_normal(int triangle, int corner) { return ray_texel(int(ray_first.z) + 3 * triangle + corner).xyz; }
@@ -44,11 +45,31 @@ RayHit ray_meet(Ray r, RayTriangle p) {
     return RayHit(beside ? -1.0 : t, -1, u, v);
 }
 
+/* Wraps a coordinate: 0 repeats, 1 mirrors, 2 clamps. */
+float ray_wrap(float x, float how) {
+    float mirrored = 1.0 - abs(fract(0.5 * x) * 2.0 - 1.0);
+    return how > 1.5 ? clamp(x, 0.0005, 0.9995) : how > 0.5 ? mirrored : x;
+}
+
+/* Returns the opacity of mask k at a hit. */
+float ray_opacity(int k, RayHit hit) {
+    int at = int(ray_count.z) + 3 * k;
+    vec4 p = ray_texel(at), q = ray_texel(at + 1), r = ray_texel(at + 2);
+    float w = 1.0 - hit.u - hit.v, wraps = floor(r.w / 64.0);
+    vec2 uv = w * p.xy + hit.u * p.zw + hit.v * q.xy;
+    uv.x = ray_wrap(uv.x, mod(wraps, 3.0));
+    uv.y = ray_wrap(uv.y, floor(wraps / 3.0));
+    float alpha = w * q.z + hit.u * q.w + hit.v * r.x;
+    float opacity = textureLod(ray_masks, vec3(uv, mod(r.w, 64.0)), 0.0).r * r.y * alpha;
+    return r.z < 0.0 ? opacity : opacity < r.z ? 0.0 : 1.0;
+}
+
 /* Returns true if the ray meets a triangle from a side that it has, at a point that is not transparent: a random number
  * that depends on the ray and the triangle decides partial opacity. */
-bool ray_counts(Ray r, RayTriangle p, int triangle, uint key) {
+bool ray_counts(Ray r, RayTriangle p, RayHit hit, int triangle, uint key) {
     bool single = p.surface >= 4.0;
     float opacity = single ? p.surface - 4.0 : p.surface;
+    if (p.mask > 0.5) opacity = ray_opacity(int(p.mask) - 1, hit);
     if (single && dot(cross(p.b - p.a, p.c - p.a), r.direction) > 0.0) return false;
     return opacity >= 1.0 || point_fraction(point_hash_two(key, uint(triangle))) < opacity;
 }
@@ -74,7 +95,7 @@ RayHit ray_trace(Ray r, bool any, float near_to, uint key) {
             RayTriangle p = ray_triangle(k);
             RayHit hit = ray_meet(r, p);
             if (hit.t < near || hit.t > far) continue;
-            if (near_to == 0.0 && !ray_counts(r, p, k, key)) continue;
+            if (near_to == 0.0 && !ray_counts(r, p, hit, k, key)) continue;
             found = RayHit(hit.t, k, hit.u, hit.v);
             float off = abs(hit.t - near_to);
             far = near_to > 0.0 ? near_to + off : hit.t;

@@ -7,9 +7,8 @@
 
 #include "base/fail.h"
 #include "raster/gl/gl_check.h"
-#include "scene/record/material_at.h"
 
-enum { NODES, TRIANGLES, NORMALS, LAMPS };
+enum { NODES, TRIANGLES, NORMALS, LAMPS, MASKS, KINDS };
 
 /* The place of a triangle, counted through all meshes. */
 typedef struct Place {
@@ -43,32 +42,12 @@ static bool make_tree(RayScene *self, const WeftScene *scene) {
     return made;
 }
 
-/* Returns the mean opacity of a triangle. */
-static float opacity_of(const WeftScene *scene, const Mesh *mesh, uint32_t triangle) {
-    static const float points[4][2] = {{0.333f, 0.333f}, {0.2f, 0.2f}, {0.6f, 0.2f}, {0.2f, 0.6f}};
-    const Material *material = &scene->materials[mesh->material];
-    const uint32_t *index = mesh->index + 3 * (size_t)triangle;
-    float mean = 0.0f;
-    if (material->alpha_mode == WEFT_ALPHA_OPAQUE) return 1.0f;
-    for (int k = 0; k < 4; k++) {
-        const float w[3] = {1.0f - points[k][0] - points[k][1], points[k][0], points[k][1]};
-        float uv[2][2] = {{0}}, alpha = mesh->color ? 0.0f : 1.0f;
-        for (int c = 0; c < 3; c++) {
-            for (int set = 0; set < 2 && mesh->texcoord[set]; set++)
-                for (int a = 0; a < 2; a++) uv[set][a] += w[c] * mesh->texcoord[set][2 * (size_t)index[c] + (size_t)a];
-            if (mesh->color) alpha += w[c] * mesh->color[4 * (size_t)index[c] + 3];
-        }
-        mean += 0.25f * material_opacity(scene, material, uv, alpha);
-    }
-    return mean;
-}
-
 static void put(float *texel, Vec3 v, float w) { texel[0] = v.x, texel[1] = v.y, texel[2] = v.z, texel[3] = w; }
 
 static void put_triangle(const WeftScene *scene, Place at, float *triangle, float *normals) {
     const Mesh *mesh = &scene->meshes[at.mesh];
     const float side = scene->materials[mesh->material].double_sided ? 0.0f : 4.0f;
-    const float last[3] = {side + opacity_of(scene, mesh, at.triangle), 0.0f, 0.0f};
+    const float last[3] = {side + ray_masks_mean(scene, mesh, at.triangle), 0.0f, 0.0f};
     for (int k = 0; k < 3; k++) {
         put(triangle + 4 * k, corner_of(mesh, at.triangle, k), last[k]);
         const uint32_t vertex = mesh->index[3 * (size_t)at.triangle + (size_t)k];
@@ -105,17 +84,32 @@ static void put_lamps(const RayScene *self, const WeftScene *scene, const Lamps 
     free(first);
 }
 
+/* Returns the number of triangles with a mask. */
+static size_t count_masks(const RayScene *self, const WeftScene *scene) {
+    float numbers[RAY_MASK_FLOATS];
+    size_t count = 0;
+    for (int m = 0; m < scene->mesh_count; m++)
+        if (scene->meshes[m].triangle_count && ray_masks_triangle(&self->masks, scene, &scene->meshes[m], 0, numbers))
+            count += scene->meshes[m].triangle_count;
+    return count;
+}
+
 /* Fills the texels. Returns false if memory is short. */
 static bool fill(const RayScene *self, const WeftScene *scene, const Lamps *lamps, float *texels) {
     const RayTree *tree = &self->tree;
     Place *places = find_places(scene, tree->count);
     uint32_t *at = alloc_array(tree->count, sizeof *at);
     const bool made = places && at;
+    size_t masks = 0;
     memcpy(texels, tree->nodes, tree->node_count * sizeof *tree->nodes);
     for (uint32_t k = 0; made && k < tree->count; k++) {
+        const Place place = places[tree->order[k]];
+        float *triangle = texels + 4 * ((size_t)self->first[TRIANGLES] + 3 * (size_t)k);
         at[tree->order[k]] = k;
-        put_triangle(scene, places[tree->order[k]], texels + 4 * ((size_t)self->first[TRIANGLES] + 3 * (size_t)k),
-                     texels + 4 * ((size_t)self->first[NORMALS] + 3 * (size_t)k));
+        put_triangle(scene, place, triangle, texels + 4 * ((size_t)self->first[NORMALS] + 3 * (size_t)k));
+        if (ray_masks_triangle(&self->masks, scene, &scene->meshes[place.mesh], place.triangle,
+                               texels + 4 * ((size_t)self->first[MASKS] + 3 * masks)))
+            triangle[11] = (float)++masks;
     }
     if (made) put_lamps(self, scene, lamps, at, texels);
     free(places);
@@ -142,9 +136,9 @@ static WeftResult fill_texture(RayScene *self, const WeftScene *scene, WeftError
     GLint most = 0;
     if (!lamps_find(&lamps, scene)) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     const size_t sizes[] = {2 * (size_t)self->tree.node_count, 3 * (size_t)self->tree.count,
-                            3 * (size_t)self->tree.count, 4 * (size_t)lamps.count};
+                            3 * (size_t)self->tree.count, 4 * (size_t)lamps.count, 3 * count_masks(self, scene)};
     size_t texels = 0;
-    for (int k = 0; k < 4; k++) {
+    for (int k = 0; k < KINDS; k++) {
         self->first[k] = (int)texels;
         texels += sizes[k];
     }
@@ -168,18 +162,25 @@ WeftResult ray_scene_make(RayScene *self, const WeftScene *scene, WeftError *err
     const bool stale = !self->tree.nodes || self->shape_version != scene->shape_version;
     if (count_triangles(scene) >= RAY_NUMBER_MOST / 2)
         return fail(error, WEFT_MESSAGE_GL_MEMORY, scene->name, "too many triangles to trace rays in a shader");
+    if (!self->filled) {
+        const WeftResult result = ray_masks_make(&self->masks, scene, error);
+        if (result != WEFT_OK) return result;
+    }
     if (stale && !make_tree(self, scene)) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     return stale || !self->filled ? fill_texture(self, scene, error) : WEFT_OK;
 }
 
 void ray_scene_destroy(RayScene *self) {
     glDeleteTextures(1, &self->texture);
+    ray_masks_destroy(&self->masks);
     ray_tree_free(&self->tree);
     *self = (RayScene){0};
 }
 
-void ray_scene_bind(const RayScene *self, int unit) {
+void ray_scene_bind(const RayScene *self, int unit, int masks_unit) {
     glActiveTexture((GLenum)(GL_TEXTURE0 + unit));
     glBindTexture(GL_TEXTURE_2D, self->texture);
+    glActiveTexture((GLenum)(GL_TEXTURE0 + masks_unit));
+    glBindTexture(GL_TEXTURE_2D_ARRAY, self->masks.texture);
     glActiveTexture(GL_TEXTURE0);
 }

@@ -3,18 +3,21 @@
  * The texture has four floats a texel, and RAY_ROW texels a row. One after the other it has
  *
  *   nodes      two texels each: low, skip; high, first (ray_tree.h)
- *   triangles  three each, in the order of the tree: corner a and its surface; b and 1 + its lamp, or 0; c
+ *   triangles  three each, in the order of the tree: corner a and its surface; b and 1 + its lamp, or 0; c and 1 + its
+ *              mask, or 0
  *   normals    three each: at the corners, 0 if the mesh has none
  *   lamps      four each: a, until; ab, 1 if both sides emit; ac, area; radiance, probability (lamps.h)
+ *   masks      three each: the numbers of ray_masks.h
  *
- * A surface is its opacity, plus 4 if it has only a front side. Departures: the opacity of masks and of what blends is
- * the mean over a triangle.
+ * A surface is its opacity, plus 4 if it has only a front side. Departures: gaps of a woven cloth and alphas of vertex
+ * colours count with their mean over a triangle without a map of opacity.
  *
  * All calls are for the context that is current. */
 #pragma once
 
 #include "raster/geometry/ray_tree.h"
 #include "raster/light/lamps.h"
+#include "raster/light/ray_masks.h"
 
 enum { RAY_ROW = 2048 };
 
@@ -24,12 +27,14 @@ typedef struct RayScene {
     bool filled;            /* the texture has the scene as it is; set it to false when materials change */
     unsigned texture;       /* 0: none */
     int rows;               /* of the texture */
-    int first[4];           /* texel of the first node, triangle, normal and lamp */
+    int first[5];           /* texel of the first node, triangle, normal, lamp and mask */
     int lamps;
+    RayMasks masks;
 } RayScene;
 
 /* Makes what is missing. Fails with WEFT_MESSAGE_MEMORY, or _GL_MEMORY if the scene is too large for a texture. */
 WeftResult ray_scene_make(RayScene *self, const WeftScene *scene, WeftError *error);
 void ray_scene_destroy(RayScene *self);
 
-void ray_scene_bind(const RayScene *self, int unit);
+/* Binds the triangles and the maps of opacity. */
+void ray_scene_bind(const RayScene *self, int unit, int masks_unit);

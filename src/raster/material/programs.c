@@ -19,17 +19,12 @@ typedef struct TextureSampler {
     int unit;
 } TextureSampler;
 
-static const TextureSampler samplers[] = {{"weft_tables", UNIT_TABLES},
-                                          {"environment_cube", UNIT_ENVIRONMENT},
-                                          {"shadow_map", UNIT_SHADOW},
-                                          {"soft_map", UNIT_SOFT_SHADOW},
-                                          {"weave_cells", UNIT_CLOTH_CELLS},
-                                          {"weave_colors", UNIT_CLOTH_COLORS},
-                                          {"ray_texels", UNIT_RAYS},
-                                          {"sky_table", UNIT_SKY},
-                                          {"environment_map", UNIT_BACKGROUND},
-                                          {"floor_sky", UNIT_FLOOR},
-                                          {"floor_mirror", UNIT_FLOOR + 1},
+static const TextureSampler samplers[] = {{"weft_tables", UNIT_TABLES},      {"environment_cube", UNIT_ENVIRONMENT},
+                                          {"shadow_map", UNIT_SHADOW},       {"soft_map", UNIT_SOFT_SHADOW},
+                                          {"weave_cells", UNIT_CLOTH_CELLS}, {"weave_colors", UNIT_CLOTH_COLORS},
+                                          {"ray_texels", UNIT_RAYS},         {"sky_table", UNIT_SKY},
+                                          {"ray_masks", UNIT_MASKS},         {"environment_map", UNIT_BACKGROUND},
+                                          {"floor_sky", UNIT_FLOOR},         {"floor_mirror", UNIT_FLOOR + 1},
                                           {"floor_depth", UNIT_FLOOR + 2}};
 
 /* Sets the texture units of a program's samplers and counts these. Leaves the program in use, since the one in use

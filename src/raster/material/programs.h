@@ -18,7 +18,8 @@ enum {
     UNIT_CLOTH_CELLS,
     UNIT_CLOTH_COLORS,
     UNIT_COUNT,
-    UNIT_RAYS = UNIT_SOFT_SHADOW, /* of frames of a sum, which need neither soft shadows nor the filtered cube */
+    UNIT_RAYS = UNIT_SOFT_SHADOW, /* of frames of a sum, which need neither shadow maps nor the filtered cube */
+    UNIT_MASKS = UNIT_SHADOW,
     UNIT_SKY = UNIT_ENVIRONMENT
 };
 enum { BLOCK_PICTURE, BLOCK_MATERIAL, BLOCK_ENVIRONMENT };
