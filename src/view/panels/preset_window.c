@@ -253,7 +253,7 @@ void presets_draw(Viewer *v) {
         ui_search("search", "search: denim, pile, Irawan ...", self->search, sizeof self->search, false, &step);
         ui_tip("Shows those whose name, group or line has words that begin so.");
         ui_scope_end();
-        if (ui_list("rows", -below)) draw_rows(v);
+        if (ui_list("rows", 0.0f, -below)) draw_rows(v);
         ui_list_end();
         ui_scope("Presets");
         draw_save(v);
