@@ -696,6 +696,8 @@ bool ui_search(const char *label, const char *hint, char *text, int size, bool f
     ui->searches = ImGui::IsItemActive();
     note(label);
     return entered;
+}
+
 void ui_progress(float fraction, const char *text) {
     float phase = static_cast<float>(std::fmod(ImGui::GetTime(), 1.0));
     ImGui::ProgressBar(fraction >= 0.0f ? fraction : phase, at(-1.0f, 0.0f), text);
