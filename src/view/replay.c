@@ -249,9 +249,9 @@ static bool still_waiting(Replay *self, Viewer *v, const char *what) {
 }
 
 static bool write_command(const Viewer *v, const char *path) {
-    char *line = command_line(v, NULL);
+    char *line = command_said(v);
     FILE *file = fopen(path, "w");
-    bool good = line && file && fprintf(file, "%s\n", line) > 0;
+    bool good = line && file && fputs(line, file) >= 0;
     if (file) good = fclose(file) == 0 && good;
     free(line);
     return good;

@@ -72,8 +72,7 @@ void report_state(const Viewer *v) {
     char camera[ORBIT_TEXT];
     json_t *materials = json_array();
     for (int k = 0; k < v->edit->state.material_count; k++) json_array_append_new(materials, material_json(v, k));
-    bool lost = false;
-    char *command = v->shown->any ? command_line(v, &lost) : NULL;
+    char *unsaid = NULL, *command = v->shown->any ? command_line(v, &unsaid) : NULL;
     json_t *root = json_object();
     json_object_set_new(root, "frame", json_integer(v->frame->number));
     json_object_set_new(root, "clock", json_real(v->frame->clock));
@@ -98,7 +97,7 @@ void report_state(const Viewer *v) {
     json_object_set_new(root, "message", json_string(v->frame->message));
     json_object_set_new(root, "complaint", json_string(v->requests->shader_complaint));
     json_object_set_new(root, "variant", json_integer(v->shown->any ? v->edit->state.variant : -1));
-    json_object_set_new(root, "lost", json_boolean(lost));
+    json_object_set_new(root, "unsaid", json_string(unsaid ? unsaid : ""));
     json_object_set_new(root, "command", json_string(command ? command : ""));
     json_object_set_new(root, "driver", json_string(v->requests->rendered.driver));
     json_object_set_new(root, "picture", json_integer((json_int_t)v->requests->rendered.number));
@@ -122,5 +121,6 @@ void report_state(const Viewer *v) {
     fflush(stdout);
     free(text);
     free(command);
+    free(unsaid);
     json_decref(root);
 }

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/pi.h"
+#include "view/state/dialogs.h"
 #include "view/state/edit.h"
 #include "view/state/frame_requests.h"
 #include "view/state/opening.h"
@@ -87,8 +88,68 @@ static void put_weave(Line *line, int material, const char *text) {
     free(word);
 }
 
+/* Returns true if an input is what --texture makes of it: its map alone. */
+static bool is_map_alone(int k, const WeftInput *input) {
+    static const float identity[6] = {1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f};
+    WeftInputInfo info;
+    weft_material_input_info(k, &info);
+    const float one = info.kind == WEFT_INPUT_DIRECTION ? 0.0f : 1.0f;
+    bool alone = input->texcoord == 0 && memcmp(input->transform, identity, sizeof identity) == 0;
+    for (int c = 0; c < (info.kind == WEFT_INPUT_COLOR ? 3 : 1); c++) alone = alone && !differs(input->value[c], one);
+    return alone;
+}
+
+/* Writes the map of an input that was put on since; false if --texture cannot say it. */
+static bool put_map(Line *line, const Facts *facts, int material, int k, const WeftInput *input) {
+    char word[STATE_PATH + 96];
+    const int map = input->texture - 1;
+    const char *path = map < facts->map_count && facts->map_paths ? facts->map_paths[map] : NULL;
+    if (!path || !is_map_alone(k, input)) return false;
+    const char channel[3] = {'.', "rgba"[input->channel & 3], '\0'};
+    snprintf(word, sizeof word, "%d.%s%s=%s", material, weft_material_input_name(k), input->channel ? channel : "",
+             path);
+    put(line, " --texture");
+    put_word(line, word);
+    return true;
+}
+
+/* Writes the inputs of a material that differ from those that it has by then. woven: it is woven on the way. */
+static void put_inputs(Line *line, Line *unsaid, const Viewer *v, int index, const WeftMaterial *was, bool woven) {
+    const WeftMaterial *is = scene_state_material(&v->edit->state, index);
+    for (int k = 0; weft_material_input_name(k); k++) {
+        const WeftInput *a = &was->inputs[k], *b = &is->inputs[k];
+        const bool other = a->texture != b->texture;
+        bool changed = other;
+        for (int c = 0; c < 3; c++) changed = changed || differs(a->value[c], b->value[c]);
+        if (!changed) continue;
+        if (!b->texture)
+            put_input(line, index, k, b);
+        else if (!other) /* --set would drop the map */
+            put(unsaid, "%s of %s, by which its map is multiplied\n", weft_material_input_name(k),
+                v->shown->facts.materials[index]);
+        else if (woven || !put_map(line, &v->shown->facts, index, k, b))
+            put(unsaid, "the map of %s of %s\n", weft_material_input_name(k), v->shown->facts.materials[index]);
+    }
+}
+
+/* Notes what no option of a command line sets. */
+static void note_unsaid(Line *unsaid, const Viewer *v, int index) {
+    const WeftMaterial *was = scene_state_material(&v->edit->first, index),
+                       *is = scene_state_material(&v->edit->state, index);
+    const int opacity = weft_material_input_find("opacity");
+    const char *name = v->shown->facts.materials ? v->shown->facts.materials[index] : "";
+    if (is->alpha_mode != was->alpha_mode && !differs(is->inputs[opacity].value[0], was->inputs[opacity].value[0]))
+        put(unsaid, "that %s is %s\n", name, is->alpha_mode == WEFT_ALPHA_OPAQUE ? "opaque" : "cut out or blended");
+    if (differs(is->alpha_cutoff, was->alpha_cutoff)) put(unsaid, "where %s is cut out\n", name);
+    if (is->unlit != was->unlit) put(unsaid, "that %s is %s\n", name, is->unlit ? "unlit" : "lit");
+    if (is->double_sided != was->double_sided)
+        put(unsaid, "that %s has %s\n", name, is->double_sided ? "two sides" : "one side");
+    if (is->measured != was->measured) put(unsaid, "the measurement of %s\n", name);
+    if (scene_state_nap(&v->edit->state, index)) put(unsaid, "the brushed nap of %s\n", name);
+}
+
 /* Writes the changes of a material since it was read; choices first, since they move inputs. */
-static void put_material(Line *line, const Viewer *v, int index, bool *lost) {
+static void put_material(Line *line, Line *unsaid, const Viewer *v, int index) {
     WeftMaterial was = *scene_state_material(&v->edit->first, index);
     const WeftMaterial *is = scene_state_material(&v->edit->state, index);
     for (int k = 0; weft_material_choice_name(k); k++) {
@@ -97,23 +158,17 @@ static void put_material(Line *line, const Viewer *v, int index, bool *lost) {
         put(line, " --set %d.%s=%s", index, weft_material_choice_name(k), id);
         weft_material_choose(&was, k, is->choices[k]);
     }
-    if (is->cloth != was.cloth) {
+    const bool woven = is->cloth != was.cloth;
+    if (woven) {
         const Facts *facts = &v->shown->facts;
         const char *text = is->cloth > 0 && is->cloth <= facts->cloth_count ? facts->cloths[is->cloth - 1].text : NULL;
-        if (text) put_weave(line, index, text);
-        *lost |= !text;
+        if (text)
+            put_weave(line, index, text);
+        else
+            put(unsaid, is->cloth ? "the weave of %s\n" : "that %s is no longer woven\n", facts->materials[index]);
     }
-    *lost |= is->alpha_mode != was.alpha_mode && !differs(is->inputs[weft_material_input_find("opacity")].value[0],
-                                                          was.inputs[weft_material_input_find("opacity")].value[0]);
-    *lost |=
-        is->unlit != was.unlit || is->double_sided != was.double_sided || differs(is->alpha_cutoff, was.alpha_cutoff);
-    for (int k = 0; weft_material_input_name(k); k++) {
-        const WeftInput *a = &was.inputs[k], *b = &is->inputs[k];
-        bool changed =
-            differs(a->value[0], b->value[0]) || differs(a->value[1], b->value[1]) || differs(a->value[2], b->value[2]);
-        *lost |= b->texture && (changed || a->texture != b->texture); /* --set would drop the map */
-        if ((changed || a->texture != b->texture) && !b->texture) put_input(line, index, k, b);
-    }
+    note_unsaid(unsaid, v, index);
+    put_inputs(line, unsaid, v, index, &was, woven);
 }
 
 static void put_light(Line *line, const WeftLight *l) {
@@ -191,49 +246,78 @@ static void put_view(Line *line, const Viewer *v) {
     if (v->options->ambient != WEFT_AMBIENT_BEST) put(line, " --ambient %s", ambients[v->options->ambient]);
 }
 
-char *command_line(const Viewer *v, bool *lost) {
-    Line line = {.text = calloc(1, 1024), .size = 1024};
-    bool gone = false;
-    if (!line.text) return NULL;
-    put(&line, "weft render");
-    put_word(&line, v->shown->facts.path);
+/* Writes all of the line, but what it cannot say. */
+static void put_line(Line *line, Line *unsaid, const Viewer *v) {
+    const SceneState *is = &v->edit->state, *was = &v->edit->first;
+    const bool configured = strcmp(v->opening->configured, v->shown->facts.path) == 0;
+    put(line, "weft render");
+    put_word(line, v->shown->facts.path);
     for (int k = 0; k < v->opening->lobe_count; k++) {
-        put(&line, " --lobe");
-        put_word(&line, v->opening->lobes[k]);
+        put(line, " --lobe");
+        put_word(line, v->opening->lobes[k]);
     }
-    if (v->desc->options && v->desc->options[0] && strcmp(v->opening->configured, v->shown->facts.path) == 0)
-        put(&line, " %s", v->desc->options);
-    if (v->desc->materials &&
-        strcmp(v->opening->configured, v->shown->facts.path) == 0) { /* these are put on at the start */
-        put(&line, " --materials");
-        put_word(&line, v->desc->materials);
+    if (v->desc->options && v->desc->options[0] && configured) put(line, " %s", v->desc->options);
+    if (v->desc->materials && configured) { /* these are put on at the start */
+        put(line, " --materials");
+        put_word(line, v->desc->materials);
     }
-    gone |= v->edit->state.variant < 0 && v->edit->first.variant >= 0;
-    if (v->edit->state.variant != v->edit->first.variant && v->edit->state.variant >= 0) {
-        put(&line, " --variant");
-        put_word(&line, v->shown->facts.variants[v->edit->state.variant]);
+    if (is->variant < 0 && was->variant >= 0) put(unsaid, "that no variant is worn\n");
+    if (is->variant != was->variant && is->variant >= 0) {
+        put(line, " --variant");
+        put_word(line, v->shown->facts.variants[is->variant]);
     }
-    for (int k = 0; k < v->edit->state.material_count && k < v->edit->first.material_count; k++)
-        put_material(&line, v, k, &gone);
-    for (int k = 0; k < STATE_NAPS; k++) gone |= v->edit->state.naps[k] != NULL;
-    put_lights(&line, v);
-    put_environment(&line, &v->edit->state.environment);
-    put_view(&line, v);
-    put(&line, " -o picture.png");
-    if (lost) *lost = gone;
-    if (!line.short_of_memory) return line.text;
+    for (int k = 0; k < is->material_count && k < was->material_count; k++) put_material(line, unsaid, v, k);
+    put_lights(line, v);
+    put_environment(line, &is->environment);
+    put_view(line, v);
+    if (v->edit->split != SPLIT_NONE && v->options->mode == MODE_LIVE)
+        put(unsaid, "%c of A and B, beside which it is shown\n", v->edit->side ? 'A' : 'B');
+    put(line, " -o picture.png");
+}
+
+char *command_line(const Viewer *v, char **unsaid) {
+    Line line = {.text = calloc(1, 1024), .size = 1024}, left = {.text = calloc(1, 256), .size = 256};
+    if (unsaid) *unsaid = NULL;
+    if (line.text && left.text) put_line(&line, &left, v);
+    const bool good = line.text && left.text && !line.short_of_memory && !left.short_of_memory;
+    if (!good || !unsaid) {
+        free(left.text);
+        left.text = NULL;
+    }
+    if (good && unsaid) *unsaid = left.text;
+    if (good) return line.text;
     free(line.text);
     return NULL;
 }
 
-void command_copy(Viewer *v) {
-    bool lost = false;
-    char *line = command_line(v, &lost);
-    if (!line) return;
-    const UiClipboard *clip = window_clipboard(v->window);
-    clip->set(clip->user, line);
-    viewer_report(v, lost,
-                  lost ? "copied, but for brushed nap and maps: save the scene and render that" : "copied: %.400s",
-                  line);
+char *command_said(const Viewer *v) {
+    char *unsaid, *line = command_line(v, &unsaid);
+    Line text = {.text = calloc(1, 1024), .size = 1024};
+    if (line && text.text) {
+        put(&text, "%s\n", line);
+        for (char *from = unsaid, *end; (end = strchr(from, '\n')); from = end + 1)
+            put(&text, "# not in this line: %.*s\n", (int)(end - from), from);
+    }
+    const bool good = line && text.text && !text.short_of_memory;
     free(line);
+    free(unsaid);
+    if (good) return text.text;
+    free(text.text);
+    return NULL;
+}
+
+void command_copy(Viewer *v) {
+    char *unsaid, *line = command_line(v, &unsaid), *text = command_said(v);
+    if (line && text) {
+        const UiClipboard *clip = window_clipboard(v->window);
+        clip->set(clip->user, text);
+        dialogs_show_unsaid(v, unsaid);
+        viewer_report(v, unsaid[0] != '\0',
+                      unsaid[0] ? "copied, but for what the window lists: save the scene and render that"
+                                : "copied: %.400s",
+                      line);
+    }
+    free(line);
+    free(unsaid);
+    free(text);
 }

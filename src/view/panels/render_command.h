@@ -3,9 +3,12 @@
 
 #include "view/state/viewer.h"
 
-/* Returns the command line. `lost` (may be NULL) is set if a painted nap or a map is not in it. Release with free; NULL
- * where memory is short. */
-char *command_line(const Viewer *v, bool *lost);
+/* Returns the command line. `unsaid` (may be NULL) receives what changes the picture and no command line can say, each a
+ * line; "" if that is nothing. Release both with free; NULL where memory is short. */
+char *command_line(const Viewer *v, char **unsaid);
 
-/* Copies the command line to the clipboard. */
+/* Returns the command line with what it cannot say as comments, each on a line of its own. */
+char *command_said(const Viewer *v);
+
+/* Copies that text to the clipboard, and shows what the line cannot say. */
 void command_copy(Viewer *v);

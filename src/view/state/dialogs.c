@@ -30,7 +30,16 @@ void dialogs_end(Viewer *v) {
 
 void dialogs_toggle_help(Viewer *v) { v->states->dialogs.help = !v->states->dialogs.help; }
 void dialogs_toggle_warnings(Viewer *v) { v->states->dialogs.warnings_shown = !v->states->dialogs.warnings_shown; }
-void dialogs_close_windows(Viewer *v) { v->states->dialogs.help = v->states->dialogs.warnings_shown = false; }
+void dialogs_close_windows(Viewer *v) {
+    DialogsState *dialogs = &v->states->dialogs;
+    dialogs->help = dialogs->warnings_shown = dialogs->unsaid_shown = false;
+}
+
+void dialogs_show_unsaid(Viewer *v, const char *unsaid) {
+    DialogsState *dialogs = &v->states->dialogs;
+    snprintf(dialogs->unsaid, sizeof dialogs->unsaid, "%s", unsaid);
+    dialogs->unsaid_shown = unsaid[0] != '\0';
+}
 
 void dialogs_forget_paths(Viewer *v) { v->states->dialogs.save_path[0] = v->states->dialogs.shot_path[0] = '\0'; }
 
@@ -362,6 +371,22 @@ static void draw_warnings(Viewer *v) {
     ui_window_end();
 }
 
+static void draw_unsaid(Viewer *v) {
+    DialogsState *dialogs = &v->states->dialogs;
+    const float s = ui_scale();
+    if (!dialogs->unsaid_shown) return;
+    if (ui_window("Not in the command line", (UiBox){60.0f * s, 140.0f * s, 520.0f * s, 240.0f * s},
+                  &dialogs->unsaid_shown)) {
+        ui_scope("Not in the command line");
+        ui_wrapped("The line that was copied draws the picture but for:");
+        ui_warning(dialogs->unsaid);
+        if (ui_button("Save the scene ...")) dialogs_save(v, NULL);
+        ui_tip("A saved .glb or .gltf has maps, naps and weaves: weft render draws it as it is.");
+        ui_scope_end();
+    }
+    ui_window_end();
+}
+
 static void draw_profiles(Viewer *v) {
     if (!v->states->dialogs.profiles_open) return;
     float s = ui_scale();
@@ -404,5 +429,6 @@ void dialogs_draw(Viewer *v) {
     leaving_draw(v);
     draw_help(v);
     draw_warnings(v);
+    draw_unsaid(v);
     draw_profiles(v);
 }

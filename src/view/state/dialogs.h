@@ -8,8 +8,9 @@ typedef struct DialogsState {
     struct Browser *browser;
     Places places;          /* that the browser offers */
     char asked[STATE_PATH]; /* file that the dialog has asked whether to replace; "": none */
-    bool help, warnings_shown;
-    char due[32]; /* dialog to open in this frame */
+    bool help, warnings_shown, unsaid_shown;
+    char unsaid[4096]; /* what the copied command line cannot say, a line each */
+    char due[32];      /* dialog to open in this frame */
     char save_path[STATE_PATH], shot_path[STATE_PATH];
     int shot_width, shot_height; /* pixels */
     bool shot_transparent, shot_traced, shot_denoised;
@@ -29,6 +30,8 @@ void dialogs_draw(Viewer *v);
 
 /* Opens the dialog of that name in this frame. */
 void dialogs_open(Viewer *v, const char *name);
+/* Opens a window with what the copied command line cannot say, each a line; "" closes it. */
+void dialogs_show_unsaid(Viewer *v, const char *unsaid);
 void dialogs_toggle_help(Viewer *v);
 void dialogs_toggle_warnings(Viewer *v);
 void dialogs_close_windows(Viewer *v);
