@@ -10,45 +10,17 @@
 #include <unistd.h>
 
 #include "base/path.h"
+#include "view/files/json_file.h"
 #include "view/files/paths.h"
 
-/* Writes VARIABLE/weft, or ~/otherwise/weft. Returns false if there is no such place. */
-static bool folder_of(char folder[USER_PATH], const char *variable, const char *otherwise) {
-    const char *set = getenv(variable), *home = getenv("HOME");
-    int used = -1;
-    if (set && set[0] == '/')
-        used = snprintf(folder, USER_PATH, "%s/weft", set);
-    else if (home && home[0] == '/')
-        used = snprintf(folder, USER_PATH, "%s/%s/weft", home, otherwise);
-    return used > 0 && used < USER_PATH - 300;
-}
-
-/* Makes a folder and its parents. */
-static void make_folders(const char *folder) {
-    char path[USER_PATH];
-    snprintf(path, sizeof path, "%s", folder);
-    for (char *p = path + 1; *p; p++) {
-        if (*p != '/') continue;
-        *p = '\0';
-        mkdir(path, 0755);
-        *p = '/';
-    }
-    mkdir(path, 0755);
-}
-
 bool user_materials(char folder[USER_PATH], bool make) {
-    if (!folder_of(folder, "XDG_DATA_HOME", ".local/share")) return false;
-    strcat(folder, "/materials");
-    if (make) make_folders(folder);
+    if (!json_file_place("XDG_DATA_HOME", ".local/share", "materials/", make, folder, USER_PATH)) return false;
+    folder[strlen(folder) - 1] = '\0';
     return true;
 }
 
 bool user_cache(char path[USER_PATH], const char *name) {
-    if (!folder_of(path, "XDG_CACHE_HOME", ".cache")) return false;
-    make_folders(path);
-    const size_t used = strlen(path);
-    snprintf(path + used, USER_PATH - used, "/%s", name);
-    return true;
+    return json_file_place("XDG_CACHE_HOME", ".cache", name, true, path, USER_PATH);
 }
 
 static int by_name(const void *a, const void *b) {

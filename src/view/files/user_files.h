@@ -1,7 +1,4 @@
-/* user_files.h - files that belong to the user: materials of their own, and pictures in the cache
- *
- * Folders are those of the XDG Base Directory Specification (freedesktop.org, version 0.8, 2021), which ignores a path
- * that is not absolute. */
+/* user_files.h - files that belong to the user: materials of their own, and pictures in the cache */
 #pragma once
 
 #include <stdbool.h>
