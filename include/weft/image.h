@@ -90,12 +90,30 @@ WEFT_API WeftResult weft_image_convert_f32(const WeftImage *in, int srgb, WeftIm
 typedef enum WeftTonemap {
     WEFT_TONEMAP_PBR_NEUTRAL = 0, /* Khronos PBR Neutral, 2024: keeps base colours, for products */
     WEFT_TONEMAP_ACES = 1,        /* Narkowicz, "ACES Filmic Tone Mapping Curve", 2015 */
-    WEFT_TONEMAP_NONE = 2         /* clamp */
+    WEFT_TONEMAP_NONE = 2,        /* clamp */
+    WEFT_TONEMAP_AGX = 3,         /* Sobotka's AgX as fitted by Wrensch, "Minimal AgX Implementation", 2023 */
+    WEFT_TONEMAP_COUNT
 } WeftTonemap;
 
-/* Makes a display-referred U8 image (sRGB-encoded, alpha kept) of a linear F32 image of 3 or 4 channels; each
- * colour is first multiplied by 2^exposure. A tiny ordered dither breaks up banding; the same input gives the
- * same bytes. */
+/* Returns "pbr-neutral", "aces", "none" or "agx"; NULL beyond. */
+WEFT_API const char *weft_tonemap_name(int tonemap);
+
+/* How radiance becomes what a display shows. Zero means the default, in every member. */
+typedef struct WeftTone {
+    WeftTonemap curve;
+    float exposure; /* stops: colours are first multiplied by 2^exposure */
+    /* chromaticity x, y (CIE 1931) of the light that shows as white; 0, 0: D65, the display's own. Colours are adapted
+     * as in King Lam, "Metamerism and Colour Constancy", 1985 (the Bradford transform) */
+    float white[2];
+} WeftTone;
+
+/* Makes a display-referred U8 image (sRGB-encoded) of a linear F32 image of 3 or 4 channels. A tiny ordered dither
+ * breaks up banding; the same input gives the same bytes. behind may be NULL: alpha is kept; else the image becomes
+ * opaque over this background, as weft_image_tonemap_over has it. Fails with WEFT_MESSAGE_DESC or _MEMORY. */
+WEFT_API WeftResult weft_image_show(const WeftImage *linear, const WeftTone *tone, const float behind[3],
+                                    WeftImage *out, WeftError *error);
+
+/* Works as weft_image_show with this curve and exposure; alpha is kept. */
 WEFT_API WeftResult weft_image_tonemap(const WeftImage *linear, WeftTonemap tonemap, float exposure, WeftImage *out,
                                        WeftError *error);
 
@@ -104,6 +122,27 @@ WEFT_API WeftResult weft_image_tonemap(const WeftImage *linear, WeftTonemap tone
  * image without alpha hides the background. */
 WEFT_API WeftResult weft_image_tonemap_over(const WeftImage *linear, WeftTonemap tonemap, float exposure,
                                             const float behind[3], WeftImage *out, WeftError *error);
+
+/* Returns the exposure in stops, -32 to 32, that shows the mean of a linear F32 image of 3 or 4 channels as middle grey,
+ * 0.18: the geometric mean of the luminance, without the darkest and the brightest twentieth of what is covered. Erik
+ * Reinhard, Michael Stark, Peter Shirley, James Ferwerda, "Photographic Tone Reproduction for Digital Images", 2002,
+ * Equations 1 and 2. Returns 0 for an image without light, or not of such channels. */
+WEFT_API float weft_image_meter(const WeftImage *linear);
+
+/* Estimates the chromaticity of the light on a linear F32 image of 3 or 4 channels from its colours, which are taken to
+ * be grey in the mean of their sixth powers: Graham Finlayson, Elisabetta Trezzi, "Shades of Gray and Colour
+ * Constancy", 2004. The darkest and the brightest twentieth are left out. 0, 0 for an image without light. */
+WEFT_API void weft_image_find_white(const WeftImage *linear, float white[2]);
+
+/* Fills the chromaticity of light of a correlated colour temperature, 1700 to 25000 K: that of daylight from 5000 K on
+ * (CIE 15:2004, Equations 3.1 to 3.4; 6504 K is D65), that of a black body up to 3000 K (Michael Krystek, "An Algorithm
+ * to Calculate Correlated Colour Temperature", 1985), and mixed between. tint moves it at right angles to this curve, in
+ * thousandths of CIE 1960 u, v: above 0 the light is greener, so that pictures become more purple. */
+WEFT_API void weft_white(float kelvin, float tint, float white[2]);
+
+/* Fills the matrix, by rows, that takes linear Rec. 709 colours under light of that chromaticity to those under D65; of
+ * 0, 0 and of what no light has the unit matrix. */
+WEFT_API void weft_white_matrix(const float white[2], float matrix[9]);
 
 #ifdef __cplusplus
 }

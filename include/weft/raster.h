@@ -157,6 +157,7 @@ typedef struct WeftRasterShow {
     float background[3];  /* light of the display, linear, in [0, 1], where the picture is transparent */
     WeftTonemap tonemap;  /* before the sRGB curve */
     float exposure;       /* stops */
+    float white[2];       /* as WeftTone has it */
 } WeftRasterShow;
 
 /* Shows the last picture on screen, tone-mapped and dithered as by weft_image_tonemap_over. It converts to sRGB

@@ -31,7 +31,7 @@ static WeftResult check(const WeftDiffDesc *desc, WeftError *error) {
         return fail(error, WEFT_MESSAGE_DESC, "images to compare", "one is %d x %d pixels, the other %d x %d", a->width,
                     a->height, b->width, b->height);
     if ((unsigned)desc->metric >= WEFT_METRIC_COUNT || desc->threads < 0 || !isfinite(desc->exposure) ||
-        (unsigned)desc->tonemap > WEFT_TONEMAP_NONE)
+        (unsigned)desc->tonemap >= WEFT_TONEMAP_COUNT)
         return fail(error, WEFT_MESSAGE_DESC, "comparison", "metric %d, %d threads, curve %d, exposure %g",
                     (int)desc->metric, desc->threads, (int)desc->tonemap, (double)desc->exposure);
     if (!(sight >= 1.0f && sight <= 500.0f) && (sight < 0.0f || sight > 0.0f || isnan(sight)))

@@ -85,6 +85,26 @@ bool primaries_rec709(const Primaries *primaries) {
     return most < 2e-3;
 }
 
+bool primaries_adapted(const double white[2], ColorConversion *matrix) {
+    ColorConversion own, taken;
+    Primaries lit = rec709;
+    lit.xy[6] = white[0], lit.xy[7] = white[1];
+    if (!to_xyz(&rec709, &own) || !adaptation(&lit, &taken)) return false;
+    const ColorConversion back = xyz_matrix(), there = product(&taken, &own);
+    *matrix = product(&back, &there);
+    return true;
+}
+
+bool primaries_chromaticity(const double rgb[3], double xy[2]) {
+    ColorConversion own;
+    double xyz[3] = {0};
+    if (to_xyz(&rec709, &own)) apply(&own, rgb, xyz);
+    const double sum = xyz[0] + xyz[1] + xyz[2];
+    if (!(sum > 0.0) || !isfinite(sum)) return false;
+    xy[0] = xyz[0] / sum, xy[1] = xyz[1] / sum;
+    return true;
+}
+
 bool primaries_matrix(const Primaries *primaries, ColorConversion *matrix) {
     ColorConversion own, adapted, last = xyz_matrix();
     if (!to_xyz(primaries, &own) || !adaptation(primaries, &adapted)) return false;

@@ -24,5 +24,12 @@ bool primaries_matrix(const Primaries *primaries, ColorConversion *matrix);
 /* Returns the matrix for CIE X, Y and Z. */
 ColorConversion xyz_matrix(void);
 
+/* Fills the matrix that takes Rec. 709 colours under light of chromaticity x, y to those under D65. Returns false for one
+ * without light. */
+bool primaries_adapted(const double white[2], ColorConversion *matrix);
+
+/* Fills the chromaticity of a Rec. 709 colour; returns false for one without light. */
+bool primaries_chromaticity(const double rgb[3], double xy[2]);
+
 /* Converts the colours of a float image of three or four channels; finite ones stay finite. */
 void image_convert_colors(WeftImage *image, const ColorConversion *matrix);

@@ -7,7 +7,8 @@
 #define WEFT_LIBM /* as tonemap.c has it */
 #include "shading/dialect/tone.h"
 
-static const WeftTonemap curves[] = {WEFT_TONEMAP_PBR_NEUTRAL, WEFT_TONEMAP_ACES, WEFT_TONEMAP_NONE};
+static const WeftTonemap curves[WEFT_TONEMAP_COUNT] = {WEFT_TONEMAP_PBR_NEUTRAL, WEFT_TONEMAP_ACES, WEFT_TONEMAP_NONE,
+                                                       WEFT_TONEMAP_AGX};
 
 static WeftImage tonemapped(const WeftImage *image, WeftTonemap curve, float exposure) {
     WeftImage out;
@@ -41,7 +42,7 @@ static void mean(float r, float g, float b, WeftTonemap curve, float exposure, d
 
 static void tone_curves_are_monotone_and_keep_grey(void **state) {
     (void)state;
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < WEFT_TONEMAP_COUNT; k++) {
         WeftImage before = flat(0.0f, 0.0f, 0.0f), last = tonemapped(&before, curves[k], 0.0f);
         weft_image_free(&before);
         for (int step = -270; step < 240; step++) {
@@ -68,7 +69,7 @@ static void tone_mapped_background_is_unchanged(void **state) {
     const WeftImage image = {.width = 3, .height = 1, .channels = 4, .type = WEFT_PIXEL_F32, .pixels = pixels};
     const int half = (int)(255.0f * tone_encode(0.5f)), quarter = (int)(255.0f * tone_encode(0.25f));
     WeftImage over, alone;
-    for (int k = 0; k < 3; k++)
+    for (int k = 0; k < WEFT_TONEMAP_COUNT; k++)
         for (float exposure = -2.0f; exposure < 3.0f; exposure += 1.0f) {
             assert_int_equal(weft_image_tonemap_over(&image, curves[k], exposure, white, &over, NULL), WEFT_OK);
             assert_int_equal(weft_image_tonemap(&image, curves[k], exposure, &alone, NULL), WEFT_OK);
@@ -116,6 +117,138 @@ static void tone_curves_have_their_published_values(void **state) {
     assert_true(fabs(shown[2] - 1.0) < 1e-9);
 }
 
+/* AgX in double precision from its published matrices and polynomial, as light of a display. */
+static void agx(const double rgb[3], double out[3]) {
+    static const double inset[9] = {0.842479062253094,  0.0784335999999992, 0.0792237451477643,
+                                    0.0423282422610123, 0.878468636469772,  0.0791661274605434,
+                                    0.0423756549057051, 0.0784336,          0.879142973793104};
+    static const double outset[9] = {1.19687900512017,    -0.0980208811401368, -0.0990297440797205,
+                                     -0.0528968517574562, 1.15190312990417,    -0.0989611768448433,
+                                     -0.0529716355144438, -0.0980434501171241, 1.15107367264116};
+    double curved[3];
+    for (int c = 0; c < 3; c++) {
+        const double v = inset[3 * c] * rgb[0] + inset[3 * c + 1] * rgb[1] + inset[3 * c + 2] * rgb[2];
+        const double x = (fmin(fmax((log2)(fmax(v, 1e-10)), -12.47393), 4.026069) + 12.47393) / 16.5;
+        const double x2 = x * x, x4 = x2 * x2;
+        curved[c] = 15.5 * x4 * x2 - 40.14 * x4 * x + 31.96 * x4 - 6.868 * x2 * x + 0.4298 * x2 + 0.1191 * x - 0.00232;
+    }
+    for (int c = 0; c < 3; c++) {
+        const double v = outset[3 * c] * curved[0] + outset[3 * c + 1] * curved[1] + outset[3 * c + 2] * curved[2];
+        out[c] = (pow)(fmin(fmax(v, 0.0), 1.0), 2.2);
+    }
+}
+
+/* To a step of 8 bits: black and white are those of the display, which the published polynomial misses by 0.0023 and
+ * 0.0014. */
+static void agx_has_its_published_values(void **state) {
+    (void)state;
+    static const double colors[][3] = {{0.18, 0.18, 0.18}, {1.0, 1.0, 1.0},    {0.9, 0.1, 0.05}, {0.02, 0.3, 0.9},
+                                       {4.0, 2.0, 0.5},    {0.01, 0.02, 0.01}, {0.0, 0.6, 0.0},  {12.0, 0.2, 9.0}};
+    for (size_t k = 0; k < sizeof colors / sizeof *colors; k++) {
+        double want[3], shown[3];
+        agx(colors[k], want);
+        mean((float)colors[k][0], (float)colors[k][1], (float)colors[k][2], WEFT_TONEMAP_AGX, 0.0f, shown);
+        for (int c = 0; c < 3; c++) {
+            const double display = (double)tone_encode((float)want[c]);
+            if (fabs(shown[c] - display) > 1.0 / 255.0)
+                fail_msg("colour %d, channel %d is %g, and AgX has %g", (int)k, c, shown[c], display);
+        }
+    }
+}
+
+static const float none[2] = {0.0f, 0.0f};
+
+/* Fills the Rec. 709 colour, with a greatest channel of 1, of white paper in light of a chromaticity. */
+static void light_of(const float white[2], float rgb[3]) {
+    const double x = (double)(white[0] / white[1]), z = (double)((1.0f - white[0] - white[1]) / white[1]);
+    static const double from_xyz[9] = {3.2404542, -1.5371385, -0.4985314, -0.9692660, 1.8760108,
+                                       0.0415560, 0.0556434,  -0.2040259, 1.0572252};
+    double most = 0.0, c[3];
+    for (int k = 0; k < 3; k++) {
+        c[k] = from_xyz[3 * k] * x + from_xyz[3 * k + 1] + from_xyz[3 * k + 2] * z;
+        most = fmax(most, c[k]);
+    }
+    for (int k = 0; k < 3; k++) rgb[k] = (float)(c[k] / most);
+}
+
+/* A grey card under a lamp is grey when the lamp's light is white, by its temperature and as it is found. */
+static void grey_card_under_a_lamp_is_grey(void **state) {
+    (void)state;
+    static const float lamps[][2] = {{2200, 0}, {2856, 0}, {2856, 12}, {4000, -8}, {5003, 0}, {6504, 5}, {20000, 0}};
+    for (size_t k = 0; k < sizeof lamps / sizeof *lamps; k++) {
+        float white[2], rgb[3], found[2], m[9];
+        weft_white(lamps[k][0], lamps[k][1], white);
+        light_of(white, rgb);
+        if (rgb[0] < 0.0f || rgb[1] < 0.0f || rgb[2] < 0.0f)
+            fail_msg("%g K is no colour of Rec. 709", (double)lamps[k][0]);
+        WeftImage card = flat(0.3f * rgb[0], 0.3f * rgb[1], 0.3f * rgb[2]);
+        weft_image_find_white(&card, found);
+        assert_true(fabsf(found[0] - white[0]) < 1e-4f && fabsf(found[1] - white[1]) < 1e-4f);
+        for (int way = 0; way < 2; way++) {
+            weft_white_matrix(way ? found : white, m);
+            float c[3];
+            for (int a = 0; a < 3; a++) c[a] = m[3 * a] * rgb[0] + m[3 * a + 1] * rgb[1] + m[3 * a + 2] * rgb[2];
+            if (fabsf(c[0] / c[1] - 1.0f) > 2e-3f || fabsf(c[2] / c[1] - 1.0f) > 2e-3f)
+                fail_msg("under %g K grey is %g %g %g", (double)lamps[k][0], (double)c[0], (double)c[1], (double)c[2]);
+        }
+        WeftImage shown;
+        assert_int_equal(weft_image_show(&card, &(WeftTone){.white = {white[0], white[1]}}, NULL, &shown, NULL),
+                         WEFT_OK);
+        const unsigned char *p = shown.pixels;
+        assert_in_range(p[0], p[1] - 1, p[1] + 1);
+        assert_in_range(p[2], p[1] - 1, p[1] + 1);
+        weft_image_free(&shown);
+        weft_image_free(&card);
+    }
+}
+
+/* D65 and illuminant A by their published chromaticities; greener light is above the curve; and there is no jump. */
+static void temperatures_are_those_of_lights(void **state) {
+    (void)state;
+    float w[2], other[2], m[9];
+    weft_white(6504.0f, 0.0f, w);
+    assert_true(fabsf(w[0] - 0.3127f) < 2e-4f && fabsf(w[1] - 0.3290f) < 2e-4f);
+    weft_white_matrix(w, m);
+    for (int k = 0; k < 9; k++) assert_true(fabsf(m[k] - (k % 4 == 0 ? 1.0f : 0.0f)) < 2e-3f);
+    weft_white(2856.0f, 0.0f, w);
+    assert_true(fabsf(w[0] - 0.4476f) < 5e-4f && fabsf(w[1] - 0.4074f) < 5e-4f);
+    weft_white(2856.0f, 10.0f, other);
+    assert_true(other[1] > w[1] + 0.005f);
+    weft_white(1700.0f, 0.0f, w);
+    for (float t = 1710.0f; t < 25000.0f; t += 10.0f) {
+        weft_white(t, 0.0f, other);
+        assert_true(other[0] < w[0] && fabsf(other[1] - w[1]) < 2e-3f);
+        w[0] = other[0], w[1] = other[1];
+    }
+    weft_white_matrix(none, m);
+    for (int k = 0; k < 9; k++) assert_true(m[k] == (k % 4 == 0 ? 1.0f : 0.0f));
+}
+
+/* Whatever the brightness of a picture, its mean is shown as middle grey; lamps and black corners in it do not count. */
+static void metered_pictures_are_middle_grey(void **state) {
+    (void)state;
+    for (float light = 1e-6f; light < 1e7f; light *= 30.0f) {
+        WeftImage image = flat(light, light, light);
+        float *values = image.pixels;
+        assert_true(fabsf(light * exp2f(weft_image_meter(&image)) / 0.18f - 1.0f) < 1e-3f);
+        for (int k = 0; k < 3 * SIDE * SIDE / 30; k++)
+            values[k] = 1e12f, values[value_total(&image) - 1 - (size_t)k] = 1e-9f;
+        assert_true(fabsf(light * exp2f(weft_image_meter(&image)) / 0.18f - 1.0f) < 1e-3f);
+        weft_image_free(&image);
+    }
+    WeftImage black = flat(0.0f, 0.0f, 0.0f);
+    float white[2] = {1.0f, 1.0f};
+    assert_true(weft_image_meter(&black) == 0.0f);
+    weft_image_find_white(&black, white);
+    assert_true(white[0] == 0.0f && white[1] == 0.0f);
+    weft_image_free(&black);
+    /* the geometric mean of 1 and 16 */
+    WeftImage two = flat(1.0f, 1.0f, 1.0f);
+    for (int k = 0; k < 3 * SIDE * SIDE / 2; k++) ((float *)two.pixels)[k] = 16.0f;
+    assert_true(fabsf(weft_image_meter(&two) - log2f(0.18f / 4.0f)) < 1e-3f);
+    weft_image_free(&two);
+}
+
 /* A bright colour goes to white, and no curve gives a grey a hue. */
 static void neutral_desaturates_bright_colours(void **state) {
     (void)state;
@@ -128,7 +261,7 @@ static void neutral_desaturates_bright_colours(void **state) {
 
 static void exposure_is_in_stops(void **state) {
     (void)state;
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < WEFT_TONEMAP_COUNT; k++) {
         WeftImage one = flat(0.2f, 0.05f, 0.11f), two = flat(0.4f, 0.1f, 0.22f);
         WeftImage pushed = tonemapped(&one, curves[k], 1.0f), plain = tonemapped(&two, curves[k], 0.0f);
         assert_memory_equal(pushed.pixels, plain.pixels, value_total(&plain));
@@ -168,7 +301,7 @@ static void dither_is_even_exact_and_repeatable(void **state) {
 static void tone_curves_of_odd_numbers_are_finite(void **state) {
     (void)state;
     static const float odd[] = {NAN, -NAN, -INFINITY, -3.0f, -1e-30f, INFINITY, 3e38f, 1e-40f};
-    for (int k = 0; k < 3; k++)
+    for (int k = 0; k < WEFT_TONEMAP_COUNT; k++)
         for (int stop = -200; stop <= 200; stop += 100)
             for (size_t i = 0; i < sizeof odd / sizeof *odd; i++) {
                 WeftImage image = make_image(2, 1, 4, WEFT_PIXEL_F32);
@@ -205,9 +338,14 @@ static void tone_mapping_of_unsuitable_images_is_refused(void **state) {
     assert_int_equal(weft_image_tonemap(&grey, WEFT_TONEMAP_NONE, 0.0f, &out, &error), WEFT_USAGE);
     assert_int_equal(error.message, WEFT_MESSAGE_DESC);
     assert_int_equal(weft_image_tonemap(&bytes, WEFT_TONEMAP_NONE, 0.0f, &out, NULL), WEFT_USAGE);
-    assert_int_equal(weft_image_tonemap(&good, (WeftTonemap)3, 0.0f, &out, NULL), WEFT_USAGE);
+    assert_int_equal(weft_image_tonemap(&good, WEFT_TONEMAP_COUNT, 0.0f, &out, NULL), WEFT_USAGE);
     assert_int_equal(weft_image_tonemap(&good, WEFT_TONEMAP_NONE, NAN, &out, NULL), WEFT_USAGE);
+    assert_int_equal(weft_image_show(&good, &(WeftTone){.white = {0.7f, 0.7f}}, NULL, &out, &error), WEFT_USAGE);
+    assert_int_equal(weft_image_show(&good, &(WeftTone){.white = {0.3f, 0.0f}}, NULL, &out, &error), WEFT_USAGE);
+    assert_int_equal(weft_image_show(&good, &(WeftTone){.white = {NAN, 0.3f}}, NULL, &out, &error), WEFT_USAGE);
     assert_null(out.pixels);
+    assert_null(weft_tonemap_name(WEFT_TONEMAP_COUNT));
+    assert_null(weft_tonemap_name(-1));
     weft_image_free(&grey);
     weft_image_free(&bytes);
     weft_image_free(&good);
@@ -219,6 +357,10 @@ int main(void) {
         cmocka_unit_test(tone_curves_are_monotone_and_keep_grey),
         cmocka_unit_test(neutral_keeps_base_colours),
         cmocka_unit_test(tone_curves_have_their_published_values),
+        cmocka_unit_test(agx_has_its_published_values),
+        cmocka_unit_test(grey_card_under_a_lamp_is_grey),
+        cmocka_unit_test(temperatures_are_those_of_lights),
+        cmocka_unit_test(metered_pictures_are_middle_grey),
         cmocka_unit_test(neutral_desaturates_bright_colours),
         cmocka_unit_test(exposure_is_in_stops),
         cmocka_unit_test(dither_is_even_exact_and_repeatable),

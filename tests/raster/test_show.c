@@ -171,19 +171,21 @@ static void shows_what_tonemap_makes(WeftGl gl) {
     assert_non_null(pixels);
     draw(raster);
     assert_int_equal(weft_raster_image(raster, &image, &error), WEFT_OK);
-    for (int curve = WEFT_TONEMAP_PBR_NEUTRAL; curve <= WEFT_TONEMAP_NONE; curve++)
+    for (int curve = WEFT_TONEMAP_PBR_NEUTRAL; curve < WEFT_TONEMAP_COUNT; curve++)
         for (float exposure = -3.0f; exposure <= 2.0f; exposure += 1.25f) {
+            WeftTone tone = {.curve = (WeftTonemap)curve, .exposure = exposure};
+            if (exposure > 0.0f) weft_white(3200.0f, 8.0f, tone.white);
             WeftRasterShow how = shown_in(&w);
             how.tonemap = (WeftTonemap)curve;
             how.exposure = exposure;
+            memcpy(how.white, tone.white, sizeof how.white);
             how.background[0] = 0.2f;
             how.background[1] = 0.4f;
             how.background[2] = 1.0f;
             clear_window(&w);
             show(raster, &how);
             read_window(&w, pixels);
-            assert_int_equal(weft_image_tonemap_over(&image, how.tonemap, exposure, how.background, &mapped, &error),
-                             WEFT_OK);
+            assert_int_equal(weft_image_show(&image, &tone, how.background, &mapped, &error), WEFT_OK);
             off += compare(pixels, &mapped);
             weft_image_free(&mapped);
             pictures++;
@@ -469,8 +471,8 @@ static void show_descriptors_without_sense_are_refused(void **state) {
     WeftRasterShow how = shown_in(&w);
     assert_int_equal(weft_raster_show(raster, &how, &error), WEFT_USAGE); /* nothing was drawn */
     draw(raster);
-    const WeftRasterShow wrong[] = {
-        {.width = -1}, {.height = 1 << 20}, {.tonemap = (WeftTonemap)3}, {.exposure = NAN}, {.clip = {0, 0, -1, 0}}};
+    const WeftRasterShow wrong[] = {{.width = -1},     {.height = 1 << 20},     {.tonemap = WEFT_TONEMAP_COUNT},
+                                    {.exposure = NAN}, {.white = {1.0f, 1.0f}}, {.clip = {0, 0, -1, 0}}};
     for (size_t k = 0; k < sizeof wrong / sizeof wrong[0]; k++) {
         assert_int_equal(weft_raster_show(raster, &wrong[k], &error), WEFT_USAGE);
         assert_int_equal(error.message, WEFT_MESSAGE_DESC);
@@ -497,7 +499,7 @@ static void steady_shows_create_no_objects(void **state) {
     made = 0;
     for (int k = 0; k < 5; k++) {
         how.exposure = (float)k;
-        how.tonemap = (WeftTonemap)(k % 3);
+        how.tonemap = (WeftTonemap)(k % WEFT_TONEMAP_COUNT);
         assert_int_equal(weft_raster_update(raster, NULL, &error), WEFT_OK);
         draw(raster);
         show(raster, &how);

@@ -190,17 +190,25 @@ static void lay_behind(WeftImage *linear, const float color[3]) {
     }
 }
 
+/* Decides how the picture is shown; those of a turntable are shown as the first of them. */
+static void meter(Job *job) {
+    const SceneOptions *scene_options = &job->request->scene_options;
+    if (job->metered) return;
+    job->tone = scene_options->tone;
+    if (scene_options->meter_exposure) job->tone.exposure = weft_image_meter(&job->linear);
+    if (scene_options->find_white) weft_image_find_white(&job->linear, job->tone.white);
+    job->metered = true;
+}
+
 /* Makes the picture as displayed; a colour is laid behind what is displayed, where neither curve nor exposure
  * changes it, and behind what is linear. */
 static WeftResult finish(Job *job, WeftError *error) {
     const SceneOptions *scene_options = &job->request->scene_options;
     bool color = scene_options->background == WEFT_BACKGROUND_COLOR && job->request->part == WEFT_PART_ALL;
-    WeftTonemap curve = (WeftTonemap)scene_options->tonemap;
-    float exposure = (float)scene_options->exposure;
-    if (!color) return weft_image_tonemap(&job->linear, curve, exposure, &job->display, error);
+    meter(job);
     WeftResult result =
-        weft_image_tonemap_over(&job->linear, curve, exposure, scene_options->background_color, &job->display, error);
-    lay_behind(&job->linear, scene_options->background_color);
+        weft_image_show(&job->linear, &job->tone, color ? scene_options->background_color : NULL, &job->display, error);
+    if (color) lay_behind(&job->linear, scene_options->background_color);
     return result;
 }
 

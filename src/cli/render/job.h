@@ -16,6 +16,8 @@ typedef struct Job {
     WeftRaster *raster;                 /* owned; NULL of the path tracer */
     WeftImage linear;                   /* owned, see job_free */
     WeftImage display;                  /* owned */
+    WeftTone tone;                      /* of it */
+    bool metered;                       /* tone has what --exposure auto and --white-balance auto found */
     WeftImage aovs[WEFT_AOV_COUNT];     /* owned; only those requested */
     double noise;                       /* relMSE, estimated; below 0: unknown */
     WeftRenderStage stages[JOB_STAGES]; /* of --stages */

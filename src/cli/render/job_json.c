@@ -54,6 +54,11 @@ void job_json(const Job *job, Json *json) {
     json_floats(json, "target", info->camera_target, 3);
     json_float(json, "fov", info->camera_fov);
     json_close(json, '}');
+    json_open(json, "tone", '{');
+    json_text(json, "curve", weft_tonemap_name((int)job->tone.curve));
+    json_float(json, "exposure", job->tone.exposure);
+    if (job->tone.white[1] > 0.0f) json_floats(json, "white", job->tone.white, 2);
+    json_close(json, '}');
     json_whole(json, "peak_memory_bytes", peak_memory());
     json_open(json, "outputs", '[');
     for (const char *path; (path = option_next(request->options, "-o", &cursor));) json_text(json, NULL, path);

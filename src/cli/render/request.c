@@ -135,6 +135,12 @@ static bool read_engine(const Options *options, Request *request) {
                request->scene_options.assignment.varied[0].option);
         return false;
     }
+    const bool metered = request->scene_options.meter_exposure || request->scene_options.find_white;
+    if (good && metered && request_count(request) > 1) {
+        report(WEFT_USAGE, "%s auto: not for a sheet, whose pictures have to be shown alike",
+               request->scene_options.meter_exposure ? "--exposure" : "--white-balance");
+        return false;
+    }
     if (good && request->turntable && request_count(request) > 1) {
         report(WEFT_USAGE, "--turntable: turns one picture, not a sheet of several");
         return false;

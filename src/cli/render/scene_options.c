@@ -146,17 +146,53 @@ WeftFloor scene_options_floor(const SceneOptions *scene_options, const WeftScene
     return scene_options->stage ? weft_scene_stage(scene) : scene_options->floor;
 }
 
+static bool read_exposure(const Options *options, SceneOptions *scene_options) {
+    const char *text = option_text(options, "--exposure");
+    double stops = 0.0;
+    scene_options->meter_exposure = strcmp(text, "auto") == 0;
+    if (scene_options->meter_exposure) return true;
+    const bool good = numbers_parse(text, 1, &stops) && stops >= -32.0 && stops <= 32.0;
+    if (!good) report(WEFT_USAGE, "--exposure: \"%.80s\" is not auto or stops from -32 to 32", text);
+    scene_options->tone.exposure = (float)stops;
+    return good;
+}
+
+static bool read_white(const Options *options, SceneOptions *scene_options) {
+    const char *text = option_text(options, "--white-balance");
+    double v[2] = {0.0, 0.0};
+    scene_options->find_white = text && strcmp(text, "auto") == 0;
+    if (!text || scene_options->find_white) return true;
+    if ((!numbers_parse(text, 1, v) && !numbers_parse(text, 2, v)) || !(v[0] >= 1700.0 && v[0] <= 25000.0) ||
+        !(fabs(v[1]) <= 50.0)) {
+        report(WEFT_USAGE, "--white-balance: \"%.80s\" is not auto or KELVIN[,TINT], 1700 to 25000 and -50 to 50",
+               text);
+        return false;
+    }
+    scene_options->kelvin = (float)v[0], scene_options->tint = (float)v[1];
+    weft_white(scene_options->kelvin, scene_options->tint, scene_options->tone.white);
+    return true;
+}
+
+/* Reads how the picture is shown. */
+static bool read_tone(const Options *options, SceneOptions *scene_options) {
+    const char *curves[WEFT_TONEMAP_COUNT + 1];
+    int curve = 0;
+    for (int k = 0; k <= WEFT_TONEMAP_COUNT; k++) curves[k] = weft_tonemap_name(k);
+    const bool good = option_choice(options, "--tonemap", curves, &curve);
+    scene_options->tone.curve = (WeftTonemap)curve;
+    return good && read_exposure(options, scene_options) && read_white(options, scene_options);
+}
+
 bool scene_options_read(const Options *options, const char *scene, SceneOptions *scene_options) {
-    static const char *const curves[] = {"pbr-neutral", "aces", "none", NULL}; /* as WeftTonemap */
     *scene_options = (SceneOptions){.options = options, .scene = scene, .camera = option_text(options, "--camera")};
     return check_scene(scene) && read_background(options, scene_options) && read_env(options, scene_options) &&
-           option_number(options, "--exposure", &scene_options->exposure) &&
+           read_tone(options, scene_options) &&
            option_number(options, "--env-rotation", &scene_options->env_rotation) &&
            option_number(options, "--env-strength", &scene_options->env_strength) &&
            option_number(options, "--env-ambient", &scene_options->env_ambient) &&
            option_number(options, "--env-reflection", &scene_options->env_reflection) &&
-           option_choice(options, "--tonemap", curves, &scene_options->tonemap) && read_floor(options, scene_options) &&
-           assign_read(options, &scene_options->assignment) && read_lights(options, scene_options);
+           read_floor(options, scene_options) && assign_read(options, &scene_options->assignment) &&
+           read_lights(options, scene_options);
 }
 
 WeftResult scene_options_apply(const SceneOptions *scene_options, int k, WeftScene *scene, const WeftLog *log,

@@ -25,9 +25,13 @@ enum { SCENE_LIGHTS_MOST = 64 };
                     "\"spot;POSITION;DIRECTION;COLOR;INNER,OUTER\" or "                                                \
                     "\"polygon;POSITION;DIRECTION;W,H;COLOR;CORNERS,ROLL\", each x,y,z or r,g,b, cones and roll in "   \
                     "degrees, 3 to 8 corners; none drops those before it, the file's too"),                            \
-        OPTION_NUMBER("--exposure", "STOPS", "0", -32, 32, "brighten a .png by 2^STOPS"),                              \
+        OPTION_TEXT("--exposure", "STOPS|auto", "0",                                                                   \
+                    "brighten a .png by 2^STOPS, -32 to 32; auto: so that the mean of the picture is middle grey"),    \
+        OPTION_TEXT("--white-balance", "KELVIN[,TINT]|auto", NULL,                                                     \
+                    "show light of this temperature, 1700 to 25000, as white in a .png; a tint above 0, -50 to 50, "   \
+                    "is of greener light; auto: the light of the picture [6504]"),                                     \
         OPTION_TEXT("--tonemap", "CURVE", "pbr-neutral",                                                               \
-                    "of a .png: none, pbr-neutral or aces, which is Narkowicz' fit of the ACES curve"),                \
+                    "of a .png: none, pbr-neutral, agx, or aces, which is Narkowicz' fit of the ACES curve"),          \
         OPTION_TEXT("--background", "WHAT", "auto",                                                                    \
                     "auto, environment, blurred, transparent or r,g,b, linear, which is shown as it is: "              \
                     "1,1,1 is white"),                                                                                 \
@@ -46,8 +50,10 @@ typedef struct SceneOptions {
     const char *scene;
     Assignments assignment;
     const char *camera, *env; /* NULL: none was named */
-    double exposure, env_rotation, env_strength, env_ambient, env_reflection;
-    int tonemap; /* WeftTonemap */
+    WeftTone tone;
+    float kelvin, tint;              /* of tone.white; 0: that of the display */
+    bool meter_exposure, find_white; /* tone has them when the picture is there */
+    double env_rotation, env_strength, env_ambient, env_reflection;
     bool env_is_color;
     float env_color[3];
     WeftBackground background;

@@ -48,10 +48,11 @@ static int images_read(Diff *diff) {
 }
 
 static int diff_read(Diff *diff) {
-    static const char *const metrics[] = {"relmse", "flip", "ssim", NULL}, *const curves[] = {"pbr-neutral", "aces",
-                                                                                              "none", NULL};
+    static const char *const metrics[] = {"relmse", "flip", "ssim", NULL};
+    const char *curves[WEFT_TONEMAP_COUNT + 1];
     const Options *options = diff->options;
     int metric = 0, curve = 0;
+    for (int k = 0; k <= WEFT_TONEMAP_COUNT; k++) curves[k] = weft_tonemap_name(k);
     double sight = 0.0, exposure = 0.0;
     if (!option_choice(options, "--metric", metrics, &metric) || !option_choice(options, "--tonemap", curves, &curve) ||
         !option_number(options, "--ppd", &sight) || !option_number(options, "--exposure", &exposure) ||
@@ -195,7 +196,7 @@ static const Option diff_options[] = {
                   "show linear pictures after 2^STOPS, where they are shown at all [0]; flip of two linear "
                   "pictures then is of this exposure alone"),
     OPTION_TEXT("--tonemap", "CURVE", "pbr-neutral",
-                "and through this curve: none, pbr-neutral or aces (Narkowicz' fit)"),
+                "and through this curve: none, pbr-neutral, agx or aces (Narkowicz' fit)"),
     OPTION_HEADING("Result"),
     OPTION_NUMBER("--max", "X", NULL, -1, 1e9,
                   "exit with 1 where the number is above X; of ssim, whose best is 1, where it is below X"),

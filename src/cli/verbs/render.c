@@ -7,9 +7,20 @@
 #include "cli/verbs/verbs.h"
 #include "weft/weft.h"
 
+/* Prints what was metered, as options that show the same. */
+static void print_metered(const Job *job) {
+    const SceneOptions *scene_options = &job->request->scene_options;
+    if (scene_options->meter_exposure) report(0, "metered: --exposure %.9g", (double)job->tone.exposure);
+    if (scene_options->find_white && !(job->tone.white[1] > 0.0f))
+        report(0, "no light to balance");
+    else if (scene_options->find_white)
+        report(0, "white is x %.4f, y %.4f", (double)job->tone.white[0], (double)job->tone.white[1]);
+}
+
 static void summary(const Job *job) {
     char files[REQUEST_FILES];
     request_outputs_text(job->request, files);
+    print_metered(job);
     if (job->engine == ENGINE_RASTER) {
         report(0, "drawn in %.2f s by %s; wrote %s", job->info.render_seconds, job->driver, files);
         return;

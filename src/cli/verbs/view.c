@@ -99,8 +99,8 @@ static int view_verb_run(const Options *options) {
     desc.floor = scene_options.floor;
     desc.stage = scene_options.stage;
     desc.hide_lights = scene_options.hide_lights;
-    desc.tonemap = (WeftTonemap)scene_options.tonemap;
-    desc.exposure = (float)scene_options.exposure;
+    desc.tonemap = scene_options.tone.curve;
+    desc.exposure = scene_options.tone.exposure;
     desc.shader_dir = option_text(options, "--shader-dir");
     if (!option_given(options, "--materials")) desc.materials = materials_beside(beside);
     desc.lobes = lobes_taken();

@@ -10,6 +10,7 @@
 #include "base/equal.h"
 #include "base/fail.h"
 #include "base/steady_clock.h"
+#include "image/tone_check.h"
 #include "raster/frame/passes.h"
 #include "raster/frame/picture_block.h"
 #include "raster/frame/shader_keys.h"
@@ -402,10 +403,8 @@ static WeftResult check_show(const WeftRaster *self, const WeftRasterShow *show,
                     SIDE_MAX);
     if (show->clip[2] < 0 || show->clip[3] < 0)
         return fail(error, WEFT_MESSAGE_DESC, subject, "clip %d x %d", show->clip[2], show->clip[3]);
-    if ((unsigned)show->tonemap > WEFT_TONEMAP_NONE || !isfinite(show->exposure))
-        return fail(error, WEFT_MESSAGE_DESC, subject, "curve %d, exposure %g", (int)show->tonemap,
-                    (double)show->exposure);
-    return WEFT_OK;
+    const WeftTone tone = {show->tonemap, show->exposure, {show->white[0], show->white[1]}};
+    return tone_check(&tone, subject, error);
 }
 
 WeftResult weft_raster_show(WeftRaster *self, const WeftRasterShow *wanted, WeftError *error) {

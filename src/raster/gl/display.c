@@ -13,6 +13,7 @@ static void set_program(Display *self, GLuint program) {
     self->place = glGetUniformLocation(program, "show_place");
     self->back = glGetUniformLocation(program, "show_back");
     self->curve = glGetUniformLocation(program, "show_curve");
+    self->white = glGetUniformLocation(program, "show_white");
     glUseProgram(program);
     glUniform1i(glGetUniformLocation(program, "picture_mean"), 0);
 }
@@ -43,6 +44,8 @@ WeftResult display_draw(Display *self, const TextDesc *desc, const Target *targe
         if (error) *error = self->error;
         return self->error.result;
     }
+    float white[9];
+    weft_white_matrix(show->white, white);
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, show->framebuffer);
     glViewport(show->x, show->y, show->width, show->height);
     glDisable(GL_DEPTH_TEST);
@@ -56,6 +59,7 @@ WeftResult display_draw(Display *self, const TextDesc *desc, const Target *targe
     glUniform4f(self->place, (float)show->x, (float)show->y, (float)show->width, (float)show->height);
     glUniform4f(self->back, show->background[0], show->background[1], show->background[2], exp2f(show->exposure));
     glUniform1i(self->curve, (int)show->tonemap);
+    glUniform3fv(self->white, 3, white);
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, target->mean);
     glDrawArrays(GL_TRIANGLES, 0, 3);

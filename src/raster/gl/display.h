@@ -9,10 +9,10 @@
 
 /* Zero-initialise. */
 typedef struct Display {
-    unsigned program;       /* 0 until it is needed */
-    int place, back, curve; /* locations of its uniforms */
-    bool stale;             /* true if the text may have changed */
-    WeftError error;        /* of the last attempt; the program before stays in use */
+    unsigned program;              /* 0 until it is needed */
+    int place, back, curve, white; /* locations of its uniforms */
+    bool stale;                    /* true if the text may have changed */
+    WeftError error;               /* of the last attempt; the program before stays in use */
 } Display;
 
 /* Draws a target's picture. The vertex shader makes the vertices, so any vertex array may be bound. Leaves the
