@@ -9,8 +9,8 @@
 static const struct {
     const char *prefix;
     int promised;
-} woven_families[] = {{"woven-", 10}, {"irawan-", 6}, {"sadeghi-", 6}};
-enum { WOVEN_FAMILIES = sizeof woven_families / sizeof *woven_families, WOVEN_PRESETS = 10 + 6 + 6 };
+} woven_families[] = {{"woven-", 12}, {"irawan-", 6}, {"sadeghi-", 6}};
+enum { WOVEN_FAMILIES = sizeof woven_families / sizeof *woven_families, WOVEN_PRESETS = 12 + 6 + 6 };
 
 /* Returns the family of a preset; -1: it is not woven. */
 static inline int woven_family(const char *preset) {

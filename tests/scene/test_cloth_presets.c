@@ -163,6 +163,92 @@ static void presets_are_reflections_that_reflect_as_their_points_do(void **state
     assert_true(WOVEN_PRESETS - well_met <= 1);
 }
 
+/* What a preset's cloth is made of, and what is seen of it, as handbooks have it. Setts are threads per centimetre. */
+static const struct {
+    const char *preset;
+    float warps[2], picks[2], weft_seen[2]; /* least and most */
+} constructions[] = {
+    {"woven-denim", {24, 30}, {16, 20}, {0.10f, 0.18f}},  {"woven-charmeuse", {60, 130}, {40, 60}, {0, 0.12f}},
+    {"woven-linen", {12, 20}, {11, 18}, {0.45f, 0.55f}},  {"woven-wool", {16, 26}, {14, 24}, {0.45f, 0.55f}},
+    {"woven-poplin", {45, 60}, {24, 34}, {0.15f, 0.45f}}, {"woven-gabardine", {35, 60}, {20, 32}, {0.2f, 0.4f}},
+    {"woven-corduroy", {20, 36}, {30, 80}, {0.6f, 1}},    {"woven-tartan", {16, 28}, {16, 28}, {0.45f, 0.55f}},
+};
+
+static const WeftCloth *cloth_named(const char *preset) {
+    for (int k = 0; weft_preset_name(k); k++)
+        if (strcmp(weft_preset_name(k), preset) == 0) return woven_cloth(k);
+    fail_msg("no preset %s", preset);
+    return NULL;
+}
+
+static void assert_between(const char *preset, const char *what, float value, const float range[2]) {
+    if (value < range[0] || value > range[1])
+        fail_msg("%s: %s %g is not from %g to %g", preset, what, (double)value, (double)range[0], (double)range[1]);
+}
+
+/* No cloth of these lets light through that is on a sofa. */
+static void presets_are_constructed_as_real_cloth_is(void **state) {
+    (void)state;
+    for (size_t k = 0; k < sizeof constructions / sizeof *constructions; k++) {
+        const char *preset = constructions[k].preset;
+        const WeftClothInfo info = weft_cloth_info(cloth_named(preset));
+        const float gaps = 1.0f - info.share[0] - info.share[1];
+        print_message("%-18s %3.0f x %2.0f per cm, weft seen %.3f, gaps %.4f\n", preset, (double)info.sett[0],
+                      (double)info.sett[1], (double)info.share[WEFT_WEFT], (double)gaps);
+        assert_between(preset, "sett of the warp", info.sett[WEFT_WARP], constructions[k].warps);
+        assert_between(preset, "sett of the weft", info.sett[WEFT_WEFT], constructions[k].picks);
+        assert_between(preset, "weft seen", info.share[WEFT_WEFT], constructions[k].weft_seen);
+        assert_true(gaps < 0.02f);
+    }
+}
+
+/* Sets E of the denim preset from afar, with the colour of its weft changed or NULL. Returns the share of the warp. */
+static double denim_from_afar(const char *weft_color, double e[3]) {
+    WeftScene *scene;
+    WeftError error;
+    WeftMaterial bare;
+    WeftReflection *reflection;
+    float albedo[3];
+    int number = 0;
+    while (strcmp(weft_preset_name(number), "woven-denim") != 0) number++;
+    const char *text = weft_preset_text(number);
+    weft_material_default(&bare);
+    assert_int_equal(weft_scene_load("builtin:cloth", &scene, NULL, &error), WEFT_OK);
+    assert_int_equal(weft_scene_assign_material_memory(scene, NULL, text, strlen(text), "denim", NULL, &error),
+                     WEFT_OK);
+    if (weft_color) assert_int_equal(weft_scene_weave(scene, NULL, "weft.color", weft_color, NULL, &error), WEFT_OK);
+    const WeftCloth *cloth = scene->cloths[scene->materials[0].cloth - 1];
+    assert_int_equal(weft_reflection_create_woven(&bare, cloth, &reflection, &error), WEFT_OK);
+    weft_reflection_albedo(reflection, WEFT_PART_ALL, 0.7f, albedo);
+    for (int c = 0; c < 3; c++) e[c] = (double)albedo[c];
+    const double share = (double)weft_cloth_info(cloth).share[WEFT_WARP];
+    weft_reflection_free(reflection);
+    weft_scene_free(scene);
+    return share;
+}
+
+/* Two coordinates of a linear colour against grey: colours that are mixed add up. */
+static void chroma_of(const double e[3], double out[2]) {
+    out[0] = e[0] - e[1];
+    out[1] = 0.5 * (e[0] + e[1]) - e[2];
+}
+
+/* The blue of denim from afar is that of its warp, as pale as the share of white weft between makes it: hue within a
+ * tenth of the way to the next of six hues, chroma within a tenth. */
+static void denim_from_afar_is_as_blue_as_its_warp(void **state) {
+    (void)state;
+    double all[3], mixed[3], warp[2], seen[2];
+    denim_from_afar("#28385c", all);
+    const double share = denim_from_afar(NULL, mixed);
+    chroma_of(all, warp), chroma_of(mixed, seen);
+    const double turned = fabs(atan2(seen[0], seen[1]) - atan2(warp[0], warp[1])) * 180.0 / PI_DOUBLE,
+                 kept = hypot(seen[0], seen[1]) / hypot(warp[0], warp[1]);
+    print_message("denim: warp seen %.3f, chroma %.3f of its warp's, hue %.1f degrees off; E %.3f %.3f %.3f\n", share,
+                  kept, turned, mixed[0], mixed[1], mixed[2]);
+    assert_true(turned < 6.0);
+    assert_true(fabs(kept / share - 1.0) < 0.1);
+}
+
 /* f cos / pdf of fibres of albedo 0.9. */
 static double carried(LobeValue v, float cosine) {
     const double again = (double)v.s;
@@ -383,6 +469,8 @@ static void maps_of_presets_have_one_weight(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(presets_are_constructed_as_real_cloth_is),
+        cmocka_unit_test(denim_from_afar_is_as_blue_as_its_warp),
         cmocka_unit_test(presets_are_reflections_that_reflect_as_their_points_do),
         cmocka_unit_test(presets_from_afar_are_symmetric_and_keep_energy),
         cmocka_unit_test(points_send_back_what_falls_on_the_cloth_with_little_variance),
