@@ -71,7 +71,9 @@ typedef enum WeftSeverity {
     F(TEXTURE_PLAIN, "texture-plain", WARNING, 1, "the alpha that a number is read from is 1 everywhere")              \
     F(PART_IGNORED, "part-ignored", WARNING, 0, "a part of the file is left out")                                      \
     F(PART_REPAIRED, "part-repaired", WARNING, 0, "a value that makes no sense is read as another")                    \
-    F(REST_POSE, "rest-pose", NOTE, 0, "skins or morph targets are there, of which the rest pose is seen")
+    F(REST_POSE, "rest-pose", NOTE, 0, "skins or morph targets are there, of which the rest pose is seen")             \
+    F(SCENE_EMPTY, "scene-empty", WARNING, 0, "the scene has no surface")                                              \
+    F(UV_UNEVEN, "uv-uneven", NOTE, 0, "the texture coordinates of a cloth have several scales")
 
 /* The kinds of findings: WEFT_FINDING_EXTENSION_REQUIRED and the rest of WEFT_FINDINGS. */
 typedef enum WeftFindingKind {

@@ -163,7 +163,7 @@ typedef struct WeftClothInfo {
     float sett[2];  /* threads of warp and weft per centimetre, in the mean */
     float metres;   /* spanned by a unit of texture coordinates */
     int automatic;  /* not 0: metres follows from the mesh */
-    float turn;     /* of the weave on the texture coordinates, degrees, from u towards -v */
+    float rotation; /* of the weave on the texture coordinates, degrees, from u towards -v */
     float relief;   /* length over which the normal map of the asset is smoothed, metres; infinite: it is flat */
     int seed;       /* of the random variation */
 } WeftClothInfo;
@@ -181,7 +181,7 @@ WEFT_API WeftResult weft_scene_set_weave(WeftScene *scene, int material, const W
 /* Sets a key of the weave of a material, named as in weft_scene_assign_material (NULL: the cloth of the scene). One
  * that is not woven becomes plain cotton without a sheen first. Keys: draft (words, or a file: a WIF or a picture), sett
  * (threads per centimetre, or WARP,WEFT), metres (that a unit of texture coordinates spans, or auto: as the mesh has
- * it), seed, turn (of the weave, degrees), relief (of the normal map under the cloth: folds, all, none, or the metres that it is smoothed over), warp
+ * it), seed, rotation (of the weave, degrees), relief (of the normal map under the cloth: folds, all, none, or the metres that it is smoothed over), warp
  * and weft (names of yarns), and of these color ("#rrggbb", or r,g,b in linear reflectance) and the
  * numbers of weft_yarn_number, such as warp.alpha. An empty key sets the whole weave: a draft, or the JSON of a material file,
  * which leaves all other inputs as they are.

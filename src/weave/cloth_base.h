@@ -16,19 +16,21 @@ typedef struct ClothLooks {
     bool holed;                /* gaps between threads are holes, not black */
 } ClothLooks;
 
-/* The way from texture coordinates to threads: their numbers in a unit, and the turn of the weave. */
+/* The way from texture coordinates to threads: their numbers in a unit, and the rotation of the weave. */
 typedef struct ClothPlacing {
-    float warps, picks, turn_cos, turn_sin;
+    float warps, picks, rotation_cos, rotation_sin;
 } ClothPlacing;
 
 FN ClothPlacing cloth_placing(const WeftCloth *cloth) {
-    return (ClothPlacing){cloth->per_uv[WEFT_WARP], cloth->per_uv[WEFT_WEFT], cloth->turned[0], cloth->turned[1]};
+    return (ClothPlacing){cloth->per_uv[WEFT_WARP], cloth->per_uv[WEFT_WEFT], cloth->rotation_parts[0],
+                          cloth->rotation_parts[1]};
 }
 
 /* Returns a step in texture coordinates in threads: across the warp (x), and along it in picks (y). Picks count up the
  * cloth, v runs down. */
 FN Dir cloth_threads(ClothPlacing p, float u, float v) {
-    return dir((p.turn_cos * u - p.turn_sin * v) * p.warps, (-p.turn_cos * v - p.turn_sin * u) * p.picks, 0.0f);
+    return dir((p.rotation_cos * u - p.rotation_sin * v) * p.warps,
+               (-p.rotation_cos * v - p.rotation_sin * u) * p.picks, 0.0f);
 }
 
 /* What cloth looks like at its points without light on it, to guide a denoiser: the part of light from all around that

@@ -32,6 +32,7 @@ static bool parse_line(Ini *ini, char *line, char *end, const char **section, in
     char *close = *text == '[' ? strchr(text, ']') : NULL;
     const bool stray = close && memchr(text, '=', (size_t)(close - text));
     if (*text == '[' && !stray) {
+        if (!close && !ini->unclosed) ini->unclosed = number;
         *section = trim(text + 1, close ? close : text + strlen(text));
         return true;
     }

@@ -21,6 +21,7 @@ typedef struct Ini {
     char *text;       /* the file, cut into strings */
     IniLine *lines;
     int count;
+    int unclosed; /* number of the first line with a section without its closing bracket; 0: none */
 } Ini;
 
 /* Reads size bytes. Fails with WEFT_MESSAGE_DRAFT for bytes that are not text, or _MEMORY. Release with

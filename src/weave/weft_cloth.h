@@ -35,23 +35,23 @@ struct WeftCloth {
     ClothFacet facets[2][FACETS_MOST];
     float *runs, *albedos;
     WeftYarn yarns[2];
-    char *text;       /* JSON: the weave of the material that it came from; NULL without a material */
-    WeftDraft *draft; /* as it was read; owned; NULL if no material has the cloth */
-    char *path;       /* of the draft's file, absolute; NULL if the text contains the draft */
-    double size[2];   /* of the repeat, metres */
-    double metres;    /* spanned by a unit of texture coordinates */
-    bool automatic;   /* metres follows from the mesh (scene/material/cloth_fit.h) */
-    double turn;      /* of the weave on texture coordinates, degrees */
-    float turned[2];  /* cosine and sine of that */
-    float relief;     /* of the asset: smoothed over so many metres (scene/material/relief.h); infinite: flat */
-    float per_uv[2];  /* threads of warp and weft in one unit of texture coordinates */
+    char *text;              /* JSON: the weave of the material that it came from; NULL without a material */
+    WeftDraft *draft;        /* as it was read; owned; NULL if no material has the cloth */
+    char *path;              /* of the draft's file, absolute; NULL if the text contains the draft */
+    double size[2];          /* of the repeat, metres */
+    double metres;           /* spanned by a unit of texture coordinates */
+    bool automatic;          /* metres follows from the mesh (scene/material/cloth_fit.h) */
+    double rotation;         /* of the weave on texture coordinates, degrees */
+    float rotation_parts[2]; /* cosine and sine of that */
+    float relief;            /* of the asset: smoothed over so many metres (scene/material/relief.h); infinite: flat */
+    float per_uv[2];         /* threads of warp and weft in one unit of texture coordinates */
 };
 
 /* Sets the length in metres of a unit of texture coordinates. */
 void cloth_spread(WeftCloth *cloth, double metres);
 
-/* Turns the weave on texture coordinates by an angle in degrees, from u towards -v. */
-void cloth_turn(WeftCloth *cloth, double degrees);
+/* Rotates the weave on texture coordinates by an angle in degrees, from u towards -v. */
+void cloth_rotate(WeftCloth *cloth, double degrees);
 
 /* Returns a copy that shares no memory with the cloth, or NULL if memory is short. */
 WeftCloth *cloth_copy(const WeftCloth *cloth);

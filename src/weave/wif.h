@@ -26,6 +26,7 @@ typedef enum WifReason {
     WIF_RANGE,
     WIF_BEYOND,
     WIF_FEWER,
+    WIF_VERSION,
     WIF_REASONS
 } WifReason;
 

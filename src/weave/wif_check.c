@@ -104,6 +104,7 @@ static const char *const reasons[] = {
     [WIF_CLIPPED] = "it is outside the Range of the [COLOR PALETTE] and was clipped",
     [WIF_RANGE] = "two numbers are expected; from 0 to this one was taken",
     [WIF_BEYOND] = "there are fewer threads; it was left out",
+    [WIF_VERSION] = "weft knows 1.0 to 1.2; it was read as 1.1",
     [WIF_FEWER] = "more are used than it says; those that are used were taken",
 };
 
@@ -248,6 +249,18 @@ static void check_line(Wif *wif, IniLine *line, int from, unsigned char *seen) {
     if (!has_value || (row < ROWS && rows[row].kind != TEXT && line->value[0] == ';')) line->value = "";
 }
 
+/* Notes a version of the format that is not known, and a section whose bracket is missing. */
+static void check_version(Wif *wif) {
+    const IniLine *line = ini_find(&wif->ini, "WIF", "Version");
+    float version;
+    if (line && line->value[0] != '\0' && wif_numbers(line->value, 1, &version) == 1 &&
+        !(version >= 1.0f && version < 1.25f))
+        wif_note(wif, line, WIF_VERSION);
+    if (wif->ini.unclosed)
+        warn(wif->log, WEFT_MESSAGE_DRAFT_COMPLETED, wif->ini.name,
+             "line %d: the section has no closing bracket; it was read as if there were one", wif->ini.unclosed);
+}
+
 WeftResult wif_check(Wif *wif) {
     unsigned char *seen = alloc_array(ROWS, INDEX_MAX / 8 + 1);
     wif->notes = alloc_array(ROWS + 1, sizeof *wif->notes);
@@ -265,6 +278,7 @@ WeftResult wif_check(Wif *wif) {
             note(wif, ROWS, line, WIF_SECTION);
     }
     const bool done = seen && wif->notes;
+    if (done) check_version(wif);
     free(seen);
     return done ? WEFT_OK : wif_memory(wif);
 }

@@ -38,10 +38,30 @@ static void encode(Wif *wif, const IniLine *line, const Palette *palette, const 
     if (clipped) wif_note(wif, line, WIF_CLIPPED);
 }
 
+/* Returns true if all colours of the table are of numbers from 0 to 1, and one of these is no whole number. */
+static bool has_fractions(const Wif *wif) {
+    bool fractions = false, within = true;
+    for (int k = 0; k < wif->ini.count; k++) {
+        float values[3];
+        const IniLine *line = &wif->ini.lines[k];
+        if (strcasecmp(line->section, "COLOR TABLE") != 0 || wif_numbers(line->value, 3, values) != 3) continue;
+        for (int c = 0; c < 3; c++) {
+            within = within && values[c] >= 0.0f && values[c] <= 1.0f;
+            fractions = fractions || (values[c] > 0.0f && values[c] < 1.0f);
+        }
+    }
+    return fractions && within;
+}
+
 /* Reads the Range "low,high" of colours. Programs that leave out the lower end mean 0. */
 static WeftResult read_range(Wif *wif, Palette *palette) {
     const IniLine *line = ini_find(&wif->ini, "COLOR PALETTE", "Range");
     float ends[2] = {0.0f, 255.0f};
+    if ((!line || line->value[0] == '\0') && has_fractions(wif)) {
+        ends[1] = 1.0f;
+        warn(wif->log, WEFT_MESSAGE_DRAFT_COMPLETED, wif->ini.name,
+             "[COLOR PALETTE] has no Range and [COLOR TABLE] fractions of 1; 0 to 1 was taken");
+    }
     if (line && line->value[0] != '\0') {
         const int count = wif_numbers(line->value, 2, ends);
         if (count == 1 && ends[0] > 0.0f) {
@@ -188,7 +208,22 @@ static double unit_of(Wif *wif, WeftThreads threads) {
     return 0.01;
 }
 
+/* Says what is taken where a file does not say how far apart threads are. */
+static void tell_of_spacing(const Wif *wif) {
+    bool missing[2];
+    for (int t = 0; t < 2; t++) {
+        const IniLine *common = ini_find(&wif->ini, systems[t], "Spacing");
+        missing[t] = (!common || common->value[0] == '\0') && !ini_find(&wif->ini, spacings[t], NULL);
+    }
+    if (missing[WEFT_WARP] || missing[WEFT_WEFT])
+        warn(wif->log, WEFT_MESSAGE_DRAFT_COMPLETED, wif->ini.name, "%s no Spacing: 20 threads a centimetre were taken",
+             missing[WEFT_WARP] && missing[WEFT_WEFT] ? "[WARP] and [WEFT] have"
+             : missing[WEFT_WARP]                     ? "[WARP] has"
+                                                      : "[WEFT] has");
+}
+
 void wif_read_lengths(Wif *wif, WeftDraft *draft) {
+    tell_of_spacing(wif);
     for (int t = 0; t < 2; t++) {
         const double unit = unit_of(wif, (WeftThreads)t);
         float spacing = DRAFT_SPACING, thickness = 0.0f;

@@ -144,7 +144,7 @@ WeftResult weft_cloth_create(const WeftDraft *draft, const WeftYarn yarns[2], un
         return fail(error, WEFT_MESSAGE_MEMORY, draft->title, NULL);
     }
     cloth_spread(cloth, 1.0);
-    cloth_turn(cloth, 0.0);
+    cloth_rotate(cloth, 0.0);
     *out = cloth;
     return WEFT_OK;
 }
@@ -155,13 +155,13 @@ void cloth_spread(WeftCloth *cloth, double metres) {
     cloth->per_uv[WEFT_WEFT] = (float)(metres * (double)cloth->weave.picks / cloth->size[WEFT_WEFT]);
 }
 
-void cloth_turn(WeftCloth *cloth, double degrees) {
-    /* quarter turns are exact: cos 90 degrees is not 6e-17 */
+void cloth_rotate(WeftCloth *cloth, double degrees) {
+    /* multiples of a right angle are exact: cos 90 degrees is not 6e-17 */
     const double quarters = degrees / 90.0, angle = degrees * RADIANS;
     const bool exact = !(quarters < (floor)(quarters) || quarters > (floor)(quarters));
-    cloth->turn = degrees;
-    cloth->turned[0] = (float)(exact ? (round)((cos)(angle)) : (cos)(angle));
-    cloth->turned[1] = (float)(exact ? (round)((sin)(angle)) : (sin)(angle));
+    cloth->rotation = degrees;
+    cloth->rotation_parts[0] = (float)(exact ? (round)((cos)(angle)) : (cos)(angle));
+    cloth->rotation_parts[1] = (float)(exact ? (round)((sin)(angle)) : (sin)(angle));
 }
 
 void weft_cloth_free(WeftCloth *cloth) {
@@ -223,7 +223,7 @@ WeftClothInfo weft_cloth_info(const WeftCloth *cloth) {
                                     (float)(0.01 * (double)cloth->weave.picks / cloth->size[WEFT_WEFT])},
                            .metres = (float)cloth->metres,
                            .automatic = cloth->automatic,
-                           .turn = (float)cloth->turn,
+                           .rotation = (float)cloth->rotation,
                            .relief = cloth->relief,
                            .seed = (int)cloth->weave.seed};
 }

@@ -137,7 +137,7 @@ static void a_length_says_what_is_fine(void **state) {
 
 /* A saved scene and a saved material draw the same and still have the whole relief: a cloth that asks for it, and a
  * material without a weave, show it again. */
-static void what_is_saved_keeps_the_map_of_the_asset(void **state) {
+static void a_saved_cloth_keeps_the_map_of_the_asset(void **state) {
     (void)state;
     static const char *const ways[] = {"none", "0.004"};
     for (int k = 0; k < 2; k++) {
@@ -219,7 +219,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(a_cloth_keeps_folds_and_hides_a_pile),
                                        cmocka_unit_test(the_raster_engine_does_so_too),
                                        cmocka_unit_test(a_length_says_what_is_fine),
-                                       cmocka_unit_test(what_is_saved_keeps_the_map_of_the_asset),
+                                       cmocka_unit_test(a_saved_cloth_keeps_the_map_of_the_asset),
                                        cmocka_unit_test(a_map_that_is_replaced_is_smoothed_anew),
                                        cmocka_unit_test(a_wrong_relief_is_refused_in_one_line)};
     return cmocka_run_group_tests(tests, assets_begin, work_end);

@@ -259,17 +259,25 @@ static const Case cases[] = {
     {WEFT_FINDING_TANGENTS_MISSING,
      TWO_SIDED CLOTH ",'extensions':{'KHR_materials_anisotropy':{'anisotropyStrength':0.5}}",
      "'KHR_materials_anisotropy'", NULL, NULL, COLORS},
+    {WEFT_FINDING_SCENE_EMPTY, TWO_SIDED CLOTH, NULL, NULL, NULL, COLORS},
+    {WEFT_FINDING_UV_UNEVEN, TWO_SIDED CLOTH ",'extensions':{" SHEEN "}", NULL, NULL, NULL, COLORS},
     {WEFT_FINDING_BACK_MISSING, CLOTH ",'extensions':{" SHEEN "}", NULL, NULL, NULL, COLORS},
 };
 enum { CASES = sizeof cases / sizeof *cases };
+
+/* The nodes of a case: its square; for texture coordinates of two scales, once more and four times as large. */
+static const char *nodes_of(const Case *c) {
+    if (c->kind == WEFT_FINDING_UV_UNEVEN) return "{'mesh':0},{'mesh':0,'scale':[4,4,4]}";
+    return c->kind == WEFT_FINDING_SCENE_EMPTY ? "{}" : "{'mesh':0}";
+}
 
 static char *case_text(const Case *c) {
     char used[300] = "";
     if (!c->rest) snprintf(used, sizeof used, "'extensionsUsed':[%s],", c->used ? c->used : USED);
     return json("{'asset':{'version':'2.0'},%s%s" SQUARE_DATA ",'images':[{'uri':'%s'}],'textures':[{'source':0}],"
-                "'materials':[{%s}],'meshes':[{'primitives':[{%s}]}],'nodes':[{'mesh':0}]}\n",
+                "'materials':[{%s}],'meshes':[{'primitives':[{%s}]}],'nodes':[%s]}\n",
                 used, c->rest ? c->rest : "", SQUARE_URI, picture_uri(c->picture), c->material,
-                c->primitive ? c->primitive : ALL);
+                c->primitive ? c->primitive : ALL, nodes_of(c));
 }
 
 static WeftDoctor *examine(const char *text) {

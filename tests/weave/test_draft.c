@@ -213,7 +213,13 @@ static void back_of_a_draft_is_its_inverse(void **state) {
 static int warnings;
 static char told[4096]; /* the warnings of one draft, a line each */
 
+/* Counts all warnings but the one that most small files here would have: a line for their Spacing. */
+static int spacings_told;
 static void count_warning(void *user, WeftMessage message, const char *text) {
+    if (strstr(text, "no Spacing: 20 threads a centimetre were taken")) {
+        spacings_told++;
+        return;
+    }
     (void)user;
     assert_true(message == WEFT_MESSAGE_DRAFT_COMPLETED && text[0] && !strchr(text, '\n'));
     if (warnings++ == 0) told[0] = '\0';
@@ -579,6 +585,32 @@ static int folder_end(void **state) {
     return scratch_remove_empty(folder) ? 0 : -1;
 }
 
+static void missing_lengths_and_ranges_are_told_with_what_was_taken(void **state) {
+    (void)state;
+    static const char *const heads[] = {"[WIF]\nVersion=1.1\n", "[WIF]\nVersion=2.0\n", "[WIF\nVersion=1.1\n"},
+                             *const said[] = {NULL, "line 2: [WIF] Version=2.0", "line 1: the section has no closing"};
+    char text[1024];
+    for (int k = 0; k < 3; k++) {
+        spacings_told = 0;
+        snprintf(text, sizeof text, "%s" TWO_BY_TWO "[LIFTPLAN]\n1=1\n2=2\n", heads[k]);
+        assert_text(text, said[k] != NULL, ROWS(".#", "#."));
+        assert_int_equal(spacings_told, 1);
+        if (said[k] && !strstr(told, said[k])) fail_msg("%s", told);
+    }
+    snprintf(text, sizeof text,
+             "[WIF]\nVersion=1.1\n" TWO_BY_TWO "[LIFTPLAN]\n1=1\n2=2\n[COLOR TABLE]\n1=%s\n2=1,1,0\n"
+             "[WARP COLORS]\n1=1\n2=2\n[WARP]\nUnits=cm\nSpacing=0.1\n[WEFT]\nUnits=cm\nSpacing=0.1\n",
+             "0.5,0,0.25");
+    spacings_told = 0;
+    WeftDraft *draft = read_text(text);
+    assert_int_equal(spacings_told, 0);
+    assert_int_equal(warnings, 1);
+    if (!strstr(told, "0 to 1 was taken")) fail_msg("%s", told);
+    assert_float_equal(weft_draft_thread(draft, WEFT_WARP, 0).color[0], 0.5f, 1e-6f);
+    assert_float_equal(weft_draft_thread(draft, WEFT_WARP, 1).color[1], 1.0f, 1e-6f);
+    weft_draft_free(draft);
+}
+
 /* A draft written as a WIF and read again is the same cloth, with the same threads. */
 static void a_written_draft_reads_as_the_same(void **state) {
     (void)state;
@@ -838,6 +870,7 @@ int main(void) {
         cmocka_unit_test(colours_follow_the_rules_of_each_program),
         cmocka_unit_test(lengths_are_metres_whatever_their_unit),
         cmocka_unit_test(broken_draft_files_are_errors_of_one_line),
+        cmocka_unit_test(missing_lengths_and_ranges_are_told_with_what_was_taken),
         cmocka_unit_test(a_written_draft_reads_as_the_same),
         cmocka_unit_test(a_picture_of_two_colours_is_a_jacquard_draft),
         cmocka_unit_test(a_picture_of_more_colours_is_parted_by_brightness),

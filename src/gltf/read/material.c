@@ -208,7 +208,9 @@ static void weave_read(const Field *weft, Material *material) {
         field_warn(&field, WEFT_MESSAGE_GLTF_WARN_IGNORED, "there are more than %d", WEAVES_MOST);
         return;
     }
-    WeftResult result = cloth_from_json(field.json, field.asset->name, NULL, &cloth, field.asset->log, &error);
+    const ClothSource source = {
+        .name = field.asset->name, .refusal = WEFT_MESSAGE_MATERIAL_FILE, .log = field.asset->log, .error = &error};
+    WeftResult result = cloth_from_json(field.json, &source, &cloth);
     if (result != WEFT_OK && result != WEFT_RESOURCES)
         field_warn(&field, WEFT_MESSAGE_GLTF_WARN_IGNORED, "%s", error.text);
     const bool paid =

@@ -133,6 +133,10 @@ void check_extensions(WeftDoctor *doctor);
 void check_spaces(WeftDoctor *doctor);
 /* Finds a sheen and a transmission in one asset. */
 void check_glass(WeftDoctor *doctor);
+/* Finds a scene without a surface. */
+void check_empty(WeftDoctor *doctor);
+/* Finds cloth whose texture coordinates have several scales. */
+void check_scale(WeftDoctor *doctor, const Cloth *cloth);
 /* Finds materials of an extension that Khronos has archived. */
 void check_archived(WeftDoctor *doctor, const Cloth *cloth);
 /* Finds factors outside their range. */

@@ -6,6 +6,7 @@
 
 #include "gltf/asset/accessor.h"
 #include "measure/doctor/doctor.h"
+#include "scene/material/cloth_fit.h"
 
 enum { TRIANGLES = 4, STRIP = 5, FAN = 6 };
 
@@ -193,6 +194,36 @@ static void check_back(WeftDoctor *doctor, int mesh) {
                  "behind there is nothing",
                  100.0 * share, cloth);
     doctor_advise(doctor, "write doubleSided true, unless no back can be seen");
+}
+
+void check_empty(WeftDoctor *doctor) {
+    const size_t meshes = doctor->asset.mesh_count;
+    if (scene_own_meshes(doctor->scene) || (!meshes && doctor->asset.material_count))
+        return; /* or a set of materials */
+    doctor_found(doctor, WEFT_FINDING_SCENE_EMPTY, (Place){WEFT_OF_ASSET, 0, NULL}, 0, (double)meshes, NULL,
+                 meshes ? "none of its %zu meshes is in the scene as a surface: there is nothing to see"
+                        : "the file has %zu meshes: there is nothing to see",
+                 meshes);
+    doctor_advise(doctor, "put a node with a mesh of triangles into the scene");
+}
+
+/* Returns true for what is woven here, or shows a sheen and is likely to be. */
+static bool may_be_woven(const WeftDoctor *doctor, const Cloth *cloth) {
+    return cloth_shows(cloth) ||
+           (cloth->index < doctor->scene->material_count && doctor->scene->materials[cloth->index].cloth);
+}
+
+void check_scale(WeftDoctor *doctor, const Cloth *cloth) {
+    double uneven;
+    if (!may_be_woven(doctor, cloth)) return;
+    const double metres = cloth_uv_metres(doctor->scene, cloth->index, 0, &uneven);
+    if (!(uneven > CLOTH_UNEVEN)) return;
+    doctor_found(
+        doctor, WEFT_FINDING_UV_UNEVEN, (Place){WEFT_OF_MATERIAL, cloth->index, NULL}, 0, uneven, NULL,
+        "a unit of its texture coordinates spans %.2g to %.2g m on most of its surface: threads of a weave, and "
+        "whatever else a texture repeats, differ as much in size",
+        metres * (exp)(-uneven), metres * (exp)(uneven));
+    doctor_advise(doctor, "unwrap it with one density of texels, or give parts materials of their own");
 }
 
 void check_mesh(WeftDoctor *doctor, int mesh) {

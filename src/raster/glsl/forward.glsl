@@ -111,7 +111,7 @@ void main() {
     float opacity = coverage_of(s.opacity);
     Frame f = frame_of(at, s, wo);
 #ifdef WOVEN
-    f = frame_turned(f, weave_number(CLOTH_TURN_COS), weave_number(CLOTH_TURN_SIN));
+    f = frame_rotate(f, weave_number(CLOTH_ROTATION_COS), weave_number(CLOTH_ROTATION_SIN));
 #endif
 #ifdef AMBIENT
     smooth_normal = frame_visible_normal(facing_normal(at), wo); /* as the path tracer has its horizon */

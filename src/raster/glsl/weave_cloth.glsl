@@ -5,8 +5,8 @@ uniform highp sampler2D weave_cells;
 
 /* Indices in cloth_numbers (raster/material/cloths.h), after the yarns. */
 const int CLOTH_SEED = 66, CLOTH_LOW = 67, CLOTH_HIGH = 68, CLOTH_OPENNESS = 69, CLOTH_WARPS = 70, CLOTH_PICKS = 71,
-          CLOTH_FAR_WIDTH = 72, CLOTH_FAR_HEIGHT = 73, CLOTH_PER_U = 74, CLOTH_PER_V = 75, CLOTH_TURN_COS = 76,
-          CLOTH_TURN_SIN = 77;
+          CLOTH_FAR_WIDTH = 72, CLOTH_FAR_HEIGHT = 73, CLOTH_PER_U = 74, CLOTH_PER_V = 75, CLOTH_ROTATION_COS = 76,
+          CLOTH_ROTATION_SIN = 77;
 
 float weave_number(int k) { return material_weave[k / 4][k - 4 * (k / 4)]; }
 
@@ -62,7 +62,7 @@ Weave material_cloth() {
 
 /* Returns the place of a fragment on the cloth, in warp threads from the left and picks from the bottom. */
 vec2 weave_place() {
-    float c = weave_number(CLOTH_TURN_COS), s = weave_number(CLOTH_TURN_SIN);
+    float c = weave_number(CLOTH_ROTATION_COS), s = weave_number(CLOTH_ROTATION_SIN);
     vec2 uv = texcoord_0;
     return vec2(weave_in_range((c * uv.x - s * uv.y) * weave_number(CLOTH_PER_U)),
                 weave_in_range((-c * uv.y - s * uv.x) * weave_number(CLOTH_PER_V)));

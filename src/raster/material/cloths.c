@@ -96,8 +96,8 @@ void cloth_numbers(const WeftCloth *cloth, float numbers[CLOTH_NUMBERS]) {
                           (float)cloth->far.height,
                           cloth->per_uv[WEFT_WARP],
                           cloth->per_uv[WEFT_WEFT],
-                          cloth->turned[0],
-                          cloth->turned[1]};
+                          cloth->rotation_parts[0],
+                          cloth->rotation_parts[1]};
     enum { AFAR = 80 }; /* index of the numbers of far.woven: CLOTH_AFAR of glsl/weave.glsl */
     _Static_assert((2 * sizeof(WeaveYarn) + 2 * sizeof(WeaveFar) + sizeof rest + 3 * sizeof(float)) /
                            (4 * sizeof(float)) ==

@@ -104,11 +104,16 @@ static WeftResult put_on_selected(WeftScene *scene, const bool *selected, Materi
     return result == WEFT_OK ? materials_complete(scene, error) : result;
 }
 
-static WeftResult put_on(WeftScene *scene, const char *material, MaterialFile *file, WeftError *error) {
+static WeftResult put_on(WeftScene *scene, const char *material, MaterialFile *file, const WeftLog *log,
+                         WeftError *error) {
     WeftError said = {.result = WEFT_RESOURCES};
     const bool *selected = materials_matching(scene, material, &said);
     if (!selected && error) *error = said;
-    return selected ? put_on_selected(scene, selected, file, error) : said.result;
+    if (!selected) return said.result;
+    const WeftResult result = put_on_selected(scene, selected, file, error);
+    for (int k = 0; result == WEFT_OK && file->material.cloth && k < scene_own_materials(scene); k++)
+        if (selected[k]) cloth_check(scene, k, log);
+    return result;
 }
 
 WeftResult material_assign_text(WeftScene *scene, int material, const char *text, WeftError *error) {
@@ -123,8 +128,8 @@ WeftResult material_assign_text(WeftScene *scene, int material, const char *text
 }
 
 static WeftResult assign_from(WeftScene *scene, const char *material, MaterialFile *file, WeftResult read,
-                              WeftError *error) {
-    WeftResult result = read == WEFT_OK ? put_on(scene, material, file, error) : read;
+                              const WeftLog *log, WeftError *error) {
+    WeftResult result = read == WEFT_OK ? put_on(scene, material, file, log, error) : read;
     material_file_free(file);
     return result;
 }
@@ -133,12 +138,12 @@ WeftResult weft_scene_assign_material_memory(WeftScene *scene, const char *mater
                                              const char *name, const WeftLog *log, WeftError *error) {
     MaterialFile file;
     WeftResult read = material_file_read(data ? data : "", data ? size : 0, name, NULL, &file, log, error);
-    return assign_from(scene, material, &file, read, error);
+    return assign_from(scene, material, &file, read, log, error);
 }
 
 WeftResult weft_scene_assign_material(WeftScene *scene, const char *material, const char *path, const WeftLog *log,
                                       WeftError *error) {
     MaterialFile file;
     WeftResult read = material_file_load(path, &file, log, error);
-    return assign_from(scene, material, &file, read, error);
+    return assign_from(scene, material, &file, read, log, error);
 }

@@ -23,9 +23,7 @@ enum { CELLS_MAX = 1 << 20 }; /* of a draft: a cloth takes 16 bytes a crossing *
 
 /* A weave being read. The first failure stays. */
 typedef struct ClothReader {
-    const char *name, *folder;
-    const WeftLog *log;
-    WeftError *error;
+    const ClothSource *source;
     WeftResult result;
     WeftDraft *draft;
     char path[4096 + 512]; /* of the draft's file; "": none */
@@ -34,47 +32,55 @@ typedef struct ClothReader {
 
 static void refuse(ClothReader *r, const char *key, const char *what) {
     if (r->result == WEFT_OK)
-        r->result = fail(r->error, WEFT_MESSAGE_MATERIAL_FILE, r->name, "weave: %.40s: %s", key, what);
+        r->result = fail(r->source->error, r->source->refusal, r->source->name, "weave: %.40s: %s", key, what);
 }
 
 static void keep_first(ClothReader *r, WeftResult result) {
     if (r->result == WEFT_OK) r->result = result;
 }
 
-/* Fails with the error of the draft's file, and the name of the material file that asks for it. */
+/* Fails with the error of a draft, and the name of the material file that asks for it. */
 static void keep_cause(ClothReader *r, const WeftError *why) {
     if (r->result != WEFT_OK) return;
     r->result = why->result;
-    if (!r->error) return;
-    *r->error = *why;
+    WeftError *error = r->source->error;
+    if (!error) return;
+    *error = *why;
     const size_t used = strlen(why->text);
-    snprintf(r->error->text + used, sizeof why->text - used, " (the draft of %s)", r->name);
+    if (r->source->refusal == WEFT_MESSAGE_MATERIAL_FILE)
+        snprintf(error->text + used, sizeof why->text - used, " (the draft of %s)", r->source->name);
 }
+
+static bool is_setting(const ClothReader *r) { return r->source->refusal == WEFT_MESSAGE_PARAM_VALUE; }
 
 /* Reads a draft: the text of a WIF, which has several lines, or words, or a file beside the material's. */
 static void read_draft(ClothReader *r, const json_t *json) {
     const char *text = json_string_value(json);
+    const char *folder = r->source->folder;
     struct stat file;
     if (text && strchr(text, '\n')) {
-        keep_first(r, weft_draft_read_memory(text, strlen(text), r->name, &r->draft, r->log, r->error));
+        keep_first(r, weft_draft_read_memory(text, strlen(text), r->source->name, &r->draft, r->source->log,
+                                             r->source->error));
         return;
     }
     if (!text || strlen(text) > 4096) {
         refuse(r, "draft", "expected words such as \"twill 2/2\", or a file");
         return;
     }
-    if (r->folder && strlen(r->folder) > 511) {
+    if (folder && strlen(folder) > 511) {
         refuse(r, "draft", "lies in a folder whose name is too long");
         return;
     }
-    snprintf(r->path, sizeof r->path, "%.511s%s", text[0] == '/' || !r->folder ? "" : r->folder, text);
+    snprintf(r->path, sizeof r->path, "%.511s%s", text[0] == '/' || !folder ? "" : folder, text);
     WeftError why;
-    const bool there = r->folder && stat(r->path, &file) == 0 && !S_ISDIR(file.st_mode);
-    if (there || (r->folder && draft_names_file(text))) {
-        const WeftResult result = weft_draft_read(r->path, &r->draft, r->log, &why);
+    const bool there = folder && stat(r->path, &file) == 0 && !S_ISDIR(file.st_mode);
+    if (there || (folder && draft_names_file(text))) {
+        const WeftResult result = weft_draft_read(r->path, &r->draft, r->source->log, &why);
         if (result != WEFT_OK) keep_cause(r, &why);
     } else {
-        if (weft_draft_parse(text, &r->draft, &why) != WEFT_OK) refuse(r, "draft", why.text);
+        const WeftResult result = weft_draft_parse(text, &r->draft, &why);
+        if (result != WEFT_OK && is_setting(r)) keep_cause(r, &why);
+        if (result != WEFT_OK) refuse(r, "draft", why.text);
         r->path[0] = '\0';
     }
 }
@@ -157,7 +163,7 @@ static void read_sett(ClothReader *r, const json_t *json) {
             (json_is_array(json) && json_array_size(json) != 2))
             refuse(r, "sett", "expected threads per centimetre, 1 to 1000, or two of them for warp and weft");
         else
-            keep_first(r, weft_draft_set_sett(r->draft, (WeftThreads)t, 100.0f * (float)sett, r->error));
+            keep_first(r, weft_draft_set_sett(r->draft, (WeftThreads)t, 100.0f * (float)sett, r->source->error));
     }
 }
 
@@ -186,7 +192,7 @@ static float read_relief(ClothReader *r, const json_t *json) {
 }
 
 static void read_keys(ClothReader *r, const json_t *json) {
-    static const char *const keys[] = {"draft", "warp", "weft", "sett", "metres", "seed", "turn", "relief"};
+    static const char *const keys[] = {"draft", "warp", "weft", "sett", "metres", "seed", "rotation", "relief"};
     const char *key;
     json_t *value;
     if (!json_is_object(json)) refuse(r, "it", "expected an object with a \"draft\"");
@@ -207,10 +213,10 @@ static bool keep_source(ClothReader *r, const json_t *json, WeftCloth *cloth) {
     return cloth->text && cloth->path;
 }
 
-WeftResult cloth_from_json(const json_t *json, const char *name, const char *folder, WeftCloth **out,
-                           const WeftLog *log, WeftError *error) {
+WeftResult cloth_from_json(const json_t *json, const ClothSource *source, WeftCloth **out) {
     static const char *const systems[] = {"warp", "weft"};
-    ClothReader reader = {.name = name, .folder = folder, .log = log, .error = error};
+    ClothReader reader = {.source = source};
+    WeftError *error = source->error;
     *out = NULL;
     read_keys(&reader, json);
     if (reader.result == WEFT_OK) read_draft(&reader, json_object_get(json, "draft"));
@@ -228,10 +234,11 @@ WeftResult cloth_from_json(const json_t *json, const char *name, const char *fol
     const bool automatic = !given || (json_is_string(given) && strcmp(json_string_value(given), "auto") == 0);
     const double metres = automatic ? 1.0 : positive(&reader, json, "metres", 1.0, 1e4),
                  seed = positive(&reader, json, "seed", 0.0, 288.0);
-    const json_t *angle = json_object_get(json, "turn");
-    const double turn = angle ? json_number_value(angle) : 0.0;
-    if (angle && !(json_is_number(angle) && fabs(turn) <= 360.0))
-        refuse(&reader, "turn", "expected degrees, -360 to 360");
+    if (seed > (floor)(seed)) refuse(&reader, "seed", "expected a whole number, 0 to 288");
+    const json_t *angle = json_object_get(json, "rotation");
+    const double rotation = angle ? json_number_value(angle) : 0.0;
+    if (angle && !(json_is_number(angle) && fabs(rotation) <= 360.0))
+        refuse(&reader, "rotation", "expected degrees, -360 to 360");
     const float relief = read_relief(&reader, json_object_get(json, "relief"));
     if (!(metres > 0.0)) refuse(&reader, "metres", "is 0");
     if (reader.result == WEFT_OK)
@@ -239,11 +246,11 @@ WeftResult cloth_from_json(const json_t *json, const char *name, const char *fol
     if (*out) cloth_spread(*out, metres);
     if (*out) (*out)->automatic = automatic;
     if (*out) (*out)->relief = relief;
-    if (*out) cloth_turn(*out, turn);
+    if (*out) cloth_rotate(*out, rotation);
     if (*out && !keep_source(&reader, json, *out)) {
         weft_cloth_free(*out);
         *out = NULL;
-        reader.result = fail(error, WEFT_MESSAGE_MEMORY, name, NULL);
+        reader.result = fail(error, WEFT_MESSAGE_MEMORY, source->name, NULL);
     }
     weft_draft_free(reader.draft);
     return reader.result;
@@ -300,11 +307,13 @@ WeftResult weft_scene_set_weave(WeftScene *scene, int material, const WeftDraft 
     const WeftCloth *was = scene->cloths[number - 1];
     WeftYarn both[2] = {yarns[0], yarns[1]};
     WeftCloth *cloth = NULL;
+    const ClothSource source = {
+        .name = scene->material_names[material], .refusal = WEFT_MESSAGE_MATERIAL_FILE, .error = error};
     json_t *json = cloth_to_json(was, NULL);
     bool put = json && put_yarn(json, "warp", &both[0]) && put_yarn(json, "weft", &both[1]);
     if (put && !draft_same(draft, was->draft)) put = put_draft(json, draft);
-    WeftResult result = put ? cloth_from_json(json, scene->material_names[material], NULL, &cloth, NULL, error)
-                            : fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    WeftResult result =
+        put ? cloth_from_json(json, &source, &cloth) : fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     json_decref(json);
     if (result != WEFT_OK) return result;
     return cloth_put(scene, material, cloth, error);

@@ -5,11 +5,19 @@
 
 #include "weft/weave.h"
 
-/* Weaves {"draft": DRAFT, "warp": YARN, "weft": YARN, "sett": [20, 20], "metres": "auto", "seed": 0}. name is the
- * subject of errors, folder ("" or with a slash at its end) that of files of drafts; NULL: drafts may only be words or
- * the text of a WIF. Fails with WEFT_MESSAGE_MATERIAL_FILE, _MEMORY and as weft_draft_read does. */
-WeftResult cloth_from_json(const json_t *json, const char *name, const char *folder, WeftCloth **out,
-                           const WeftLog *log, WeftError *error);
+/* The source of a weave that is read. */
+typedef struct ClothSource {
+    const char *name;    /* the subject of errors: the file, or the value of a setting */
+    WeftMessage refusal; /* WEFT_MESSAGE_MATERIAL_FILE or _PARAM_VALUE */
+    const char *folder; /* of files of drafts: "" or with a slash at its end; NULL: drafts may only be words or the text
+                            of a WIF */
+    const WeftLog *log;
+    WeftError *error;
+} ClothSource;
+
+/* Weaves {"draft": DRAFT, "warp": YARN, "weft": YARN, "sett": [20, 20], "metres": "auto", "seed": 0, "rotation": 0, "relief": "folds"}.
+ * Fails with the source's message, WEFT_MESSAGE_MEMORY and as weft_draft_read does. */
+WeftResult cloth_from_json(const json_t *json, const ClothSource *source, WeftCloth **out);
 
 /* Returns the weave of a cloth as cloth_from_json reads it, or NULL if memory is short. draft: file of its draft; NULL:
  * the draft is written in words or as the text of a WIF. */

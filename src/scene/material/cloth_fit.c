@@ -49,6 +49,24 @@ void cloth_fit(const WeftScene *scene, int material, WeftCloth *cloth) {
     if (metres > 0.0) cloth_spread(cloth, metres);
 }
 
+void cloth_check(const WeftScene *scene, int material, const WeftLog *log) {
+    const char *name = scene->material_names[material];
+    double uneven;
+    int meshes = 0;
+    for (int m = 0; m < scene_own_meshes(scene); m++) meshes += scene->meshes[m].material == material;
+    const double metres = cloth_uv_metres(scene, material, 0, &uneven);
+    if (meshes && !(metres > 0.0))
+        warn(
+            log, WEFT_MESSAGE_PLAUSIBLE, name,
+            "its mesh has no texture coordinates, which say where threads lie: all of it shows one place of the weave");
+    else if (uneven > CLOTH_UNEVEN)
+        warn(
+            log, WEFT_MESSAGE_PLAUSIBLE, name,
+            "its texture coordinates are uneven: a unit spans %.2g to %.2g m on most of it, and threads differ as much "
+            "in size",
+            metres * (exp)(-uneven), metres * (exp)(uneven));
+}
+
 WeftResult cloth_put(WeftScene *scene, int material, WeftCloth *cloth, WeftError *error) {
     cloth_fit(scene, material, cloth);
     const int number = scene_adopt_cloth(scene, cloth);

@@ -13,6 +13,12 @@ double cloth_uv_metres(const WeftScene *scene, int material, int set, double *un
  * automatic. */
 void cloth_fit(const WeftScene *scene, int material, WeftCloth *cloth);
 
+/* Warns where a woven material has meshes without texture coordinates, or such that threads differ in size. */
+void cloth_check(const WeftScene *scene, int material, const WeftLog *log);
+
+/* The standard deviation of cloth_uv_metres from which on threads differ visibly. */
+#define CLOTH_UNEVEN 0.25
+
 /* Gives a material a cloth of the size that suits it, which the scene then owns, also on failure:
  * WEFT_MESSAGE_MEMORY. */
 WeftResult cloth_put(WeftScene *scene, int material, WeftCloth *cloth, WeftError *error);

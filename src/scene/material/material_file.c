@@ -63,29 +63,13 @@ static float number(Reader *r, const json_t *json, const char *what) {
     return (float)fmin(fmax(value, -1e30), 1e30);
 }
 
-static int hex_digit(char c) {
-    const char *digits = "0123456789abcdef", *at = c ? strchr(digits, c | 0x20) : NULL;
-    return at ? (int)(at - digits) : -1;
-}
-
-/* Reads "#rrggbb", which is encoded in sRGB. */
-static void hex_color(Reader *r, const char *text, float v[3]) {
-    SrgbTable srgb = srgb_table();
-    bool good = strlen(text) == 7 && text[0] == '#';
-    for (int c = 0; c < 3 && good; c++) {
-        int high = hex_digit(text[1 + 2 * c]), low = hex_digit(text[2 + 2 * c]);
-        good = high >= 0 && low >= 0;
-        if (good) v[c] = srgb.linear[16 * high + low];
-    }
-    if (!good) refuse(r, "\"%.40s\" is not a color such as \"#c02030\"", text);
-}
-
 /* Reads a value without a texture: a number or, for a colour, [r, g, b] or "#rrggbb". */
 static void read_value(Reader *r, const json_t *json, InputId id, float v[3]) {
     const WeftInputInfo *info = &input_infos[id];
     bool color = info->kind == WEFT_INPUT_COLOR;
     if (color && json_is_string(json)) {
-        hex_color(r, json_string_value(json), v);
+        if (!hex_color(json_string_value(json), v))
+            refuse(r, "\"%.40s\" is not a color such as \"#c02030\"", json_string_value(json));
     } else if (color && json_is_array(json) && json_array_size(json) == 3) {
         for (size_t c = 0; c < 3; c++) v[c] = number(r, json_array_get(json, c), "an element");
     } else if (json_is_number(json)) {
@@ -320,7 +304,8 @@ static void read_rest(Reader *r, const json_t *json) {
         out->material.double_sided = json_is_true(json);
         out->sided_named = true;
     } else if (strcmp(key, "weave") == 0) {
-        if (!out->cloth) r->result = cloth_from_json(json, r->name, r->folder, &out->cloth, r->log, r->error);
+        const ClothSource source = {r->name, WEFT_MESSAGE_MATERIAL_FILE, r->folder, r->log, r->error};
+        if (!out->cloth) r->result = cloth_from_json(json, &source, &out->cloth);
     } else if (strcmp(key, "measured") == 0) {
         read_measured(r, json);
     } else if (strcmp(key, "unlit") == 0) {

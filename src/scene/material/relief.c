@@ -14,17 +14,17 @@
 #include "weave/weft_cloth.h"
 
 /* One side of an image and of its smoothed copy, which has fewer texels where these are enough. */
-typedef struct Side {
+typedef struct SmoothedSide {
     int from, to;  /* texels */
     int taps;      /* texels of the image that one of the copy is the mean of */
     int *texels;   /* taps for each texel of the copy, wrapped */
     float *weight; /* of each; the sum of a texel's is 1 */
-} Side;
+} SmoothedSide;
 
 typedef struct Smoothing {
     const WeftScene *scene;
     Texture source; /* of the scene, read without interpolation */
-    Side across, down;
+    SmoothedSide across, down;
     float *decoded;   /* a row of the image for each thread, 3 numbers a texel */
     float *narrowed;  /* all rows of the image, smoothed across */
     uint16_t *texels; /* of the copy */
@@ -38,9 +38,9 @@ static int wrapped(int texel, int count, TextureWrap wrap) {
 
 /* Makes the taps of a side. sigma: of the Gaussian, as a part of the side. Two texels of the copy are as far apart as
  * sigma at most, more than its detail needs. Returns false if memory is short. */
-static bool side_make(Side *side, int from, float sigma, TextureWrap wrap) {
+static bool smoothed_side_make(SmoothedSide *side, int from, float sigma, TextureWrap wrap) {
     const float texels = fminf(sigma * (float)from, (float)from);
-    *side = (Side){.from = from, .to = from, .taps = 2 * (int)ceilf(3.0f * texels) + 1};
+    *side = (SmoothedSide){.from = from, .to = from, .taps = 2 * (int)ceilf(3.0f * texels) + 1};
     if (texels > 2.0f) side->to = (int)ceilf(2.0f * (float)from / texels);
     side->texels = alloc_array((size_t)side->to * (size_t)side->taps, sizeof *side->texels);
     side->weight = alloc_array((size_t)side->to * (size_t)side->taps, sizeof *side->weight);
@@ -60,7 +60,7 @@ static bool side_make(Side *side, int from, float sigma, TextureWrap wrap) {
 }
 
 /* Computes texel k of the copy from a line of the image; `step` numbers lie between neighbours. */
-static void take_mean(const Side *side, int k, const float *line, size_t step, float mean[3]) {
+static void take_mean(const SmoothedSide *side, int k, const float *line, size_t step, float mean[3]) {
     mean[0] = mean[1] = mean[2] = 0.0f;
     for (int tap = k * side->taps; tap < (k + 1) * side->taps; tap++)
         for (int c = 0; c < 3; c++) mean[c] += side->weight[tap] * line[step * (size_t)side->texels[tap] + (size_t)c];
@@ -69,7 +69,7 @@ static void take_mean(const Side *side, int k, const float *line, size_t step, f
 /* Decodes a row of the image and smooths it across. */
 static void narrow_row(void *user, int row, int thread) {
     Smoothing *self = user;
-    const Side *across = &self->across;
+    const SmoothedSide *across = &self->across;
     float *line = self->decoded + 3 * (size_t)across->from * (size_t)thread;
     for (int x = 0; x < across->from; x++) {
         const Texel t = texture_fetch(&self->source, self->scene->images, NULL, ((float)x + 0.5f) / (float)across->from,
@@ -122,8 +122,8 @@ static bool smooth(const WeftScene *scene, const Texture *source, const float si
     const size_t width = (size_t)image->width, height = (size_t)image->height;
     Smoothing self = {.scene = scene, .source = *source};
     self.source.nearest = true;
-    bool whole = side_make(&self.across, image->width, sigma[0], source->wrap_u) &&
-                 side_make(&self.down, image->height, sigma[1], source->wrap_v);
+    bool whole = smoothed_side_make(&self.across, image->width, sigma[0], source->wrap_u) &&
+                 smoothed_side_make(&self.down, image->height, sigma[1], source->wrap_v);
     if (whole) {
         self.decoded = alloc_array(3 * width * (size_t)thread_count(), sizeof *self.decoded);
         self.narrowed = alloc_array(3 * (size_t)self.across.to * height, sizeof *self.narrowed);

@@ -2,11 +2,13 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/fail.h"
 #include "base/number.h"
 #include "base/pi.h"
+#include "image/srgb.h"
 #include "scene/material/relief.h"
 #include "scene/record/material_at.h"
 #include "shading/material/choice.h"
@@ -68,8 +70,15 @@ bool material_matches(const WeftScene *scene, int k, const char *name) {
     return strcmp(name, "*") == 0 || strcmp(scene->material_names[k], name) == 0 || strcmp(index, name) == 0;
 }
 
+bool hex_color(const char *text, float color[3]) {
+    if (text[0] != '#' || strlen(text) != 7 || strspn(text + 1, "0123456789abcdefABCDEF") != 6) return false;
+    const unsigned long rgb = strtoul(text + 1, NULL, 16);
+    for (int c = 0; c < 3; c++) color[c] = srgb_decode((float)(rgb >> (16 - 8 * c) & 255u) / 255.0f);
+    return true;
+}
+
 static bool parse_input(const WeftInputInfo *info, const char *text, float value[3]) {
-    if (info->kind == WEFT_INPUT_COLOR) return parse_color(text, value);
+    if (info->kind == WEFT_INPUT_COLOR) return text[0] == '#' ? hex_color(text, value) : parse_color(text, value);
     return parse_number(text, value);
 }
 
@@ -95,7 +104,7 @@ WeftResult setting_read(const char *name, const char *value, const char *target,
     const WeftInputInfo *info = &input_infos[setting->input];
     if (!parse_input(info, value, setting->v))
         return fail(error, WEFT_MESSAGE_PARAM_VALUE, value, "%s is %s", info->name,
-                    info->kind == WEFT_INPUT_COLOR ? "a number or r,g,b" : "a number");
+                    info->kind == WEFT_INPUT_COLOR ? "a number, r,g,b (linear) or #rrggbb (sRGB)" : "a number");
     for (int c = 0; c < input_value_count((InputId)setting->input); c++)
         setting->v[c] = input_ranged((InputId)setting->input, setting->v[c], target, log);
     return WEFT_OK;
@@ -160,15 +169,20 @@ WeftResult weft_scene_set(WeftScene *scene, const char *target, const char *valu
     if (result != WEFT_OK) return result;
     const Material *first = NULL;
     bool idle = wants_sheen(&setting); /* there is none */
+    bool woven = setting.input >= 0;   /* all are, and do not read it */
     for (int k = 0; k < scene_own_materials(scene); k++) {
         Material *material = &scene->materials[k];
         if (!material_matches(scene, k, name)) continue;
         material_set(material, &setting);
         idle = idle && !has_sheen(material);
+        woven = woven && material->cloth && !weft_material_reads(material, setting.input);
         if (!first) first = material;
     }
     if (first && idle)
         warn(log, WEFT_MESSAGE_PLAUSIBLE, target, "it changes nothing as long as none of these has a sheen");
+    else if (first && woven)
+        warn(log, WEFT_MESSAGE_PLAUSIBLE, target,
+             "it changes nothing on what is woven; colours are those of its yarns: weave.warp.color, weave.weft.color");
     else if (first)
         plausible_check(first, setting.input, setting.choice, target, log);
     if (first) return materials_complete(scene, error);

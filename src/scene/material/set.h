@@ -9,6 +9,9 @@ bool material_matches(const WeftScene *scene, int k, const char *name);
 /* Sets the value of a choice from an id, an alias or "auto". Fails with WEFT_MESSAGE_PARAM_VALUE. */
 WeftResult choice_value(ChoiceId choice, const char *id, int *value, WeftError *error);
 
+/* Reads "#rrggbb", encoded in sRGB, as a linear colour. Returns false for anything else. */
+bool hex_color(const char *text, float color[3]);
+
 /* Converts a number given for an input: clamps it to the hard range, warns about target if it is beyond the plausible
  * range or the limit, and converts degrees to radians. Any DIRECTION is plausible. */
 float input_ranged(InputId input, float value, const char *target, const WeftLog *log);

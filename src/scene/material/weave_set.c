@@ -65,6 +65,7 @@ static WeftResult put_yarn(const WeaveSetting *setting, json_t *weave, const cha
 
 static WeftResult put_yarn_key(const WeaveSetting *setting, json_t *weave, const char *system, const char *key) {
     json_t *yarn = yarn_object(weave, system);
+    if (strcmp(key, "yarn") == 0) return put_yarn(setting, weave, system);
     if (strcmp(key, "color") == 0) {
         const bool hex = setting->value[0] == '#';
         return put(setting, yarn, key, hex ? json_string(setting->value) : read_numbers(setting->value, 3),
@@ -73,7 +74,7 @@ static WeftResult put_yarn_key(const WeaveSetting *setting, json_t *weave, const
     for (int k = 0; weft_yarn_number(k); k++)
         if (strcmp(weft_yarn_number(k)->name, key) == 0)
             return put(setting, yarn, key, read_number(setting->value), "a number");
-    return fail(setting->error, WEFT_MESSAGE_PARAM_NAME, setting->key, "is not color or a number of a yarn");
+    return fail(setting->error, WEFT_MESSAGE_PARAM_NAME, setting->key, "is not yarn, color or a number of a yarn");
 }
 
 /* Sets the whole weave: its JSON, or the draft of a new one in cotton. */
@@ -95,7 +96,7 @@ static WeftResult change(const WeaveSetting *setting, json_t *weave) {
     if (!key[0]) return put_weave(setting, weave);
     if (strcmp(key, "draft") == 0) return put(setting, weave, key, json_string(value), "words, or a file");
     if (strcmp(key, "seed") == 0) return put(setting, weave, key, read_number(value), "a number");
-    if (strcmp(key, "turn") == 0) return put(setting, weave, key, read_number(value), "a number of degrees");
+    if (strcmp(key, "rotation") == 0) return put(setting, weave, key, read_number(value), "a number of degrees");
     if (strcmp(key, "metres") == 0)
         return put(setting, weave, key, strcmp(value, "auto") == 0 ? json_string(value) : read_number(value),
                    "a number of metres, or auto");
@@ -111,9 +112,10 @@ static WeftResult change(const WeaveSetting *setting, json_t *weave) {
         if (!key[4]) return put_yarn(setting, weave, system);
         if (key[4] == '.') return put_yarn_key(setting, weave, system, key + 5);
     }
-    return fail(setting->error, WEFT_MESSAGE_PARAM_NAME, key,
-                "a weave has draft, sett, metres, seed, turn, relief, warp and weft, and a yarn color and its numbers: "
-                "warp.color");
+    return fail(
+        setting->error, WEFT_MESSAGE_PARAM_NAME, key,
+        "a weave has draft, sett, metres, seed, rotation, relief, warp and weft, and these yarn, color and numbers: "
+        "warp.color");
 }
 
 /* Makes a material that is not woven a plain one of cotton, as a material file does: without a sheen. */
@@ -133,9 +135,19 @@ static WeftResult reweave(WeftScene *scene, int material, const WeaveSetting *se
     /* A draft is looked for among files if it is new, or was a file before, whose path is absolute. */
     const bool file = !setting->key[0] || strcmp(setting->key, "draft") == 0 || (was && was->path);
     WeftResult result = change(setting, weave);
-    if (result == WEFT_OK) result = cloth_from_json(weave, "--set", file ? "" : NULL, &cloth, log, setting->error);
+    const ClothSource source = {setting->value, WEFT_MESSAGE_PARAM_VALUE, file ? "" : NULL, log, setting->error};
+    if (result == WEFT_OK) result = cloth_from_json(weave, &source, &cloth);
     json_decref(weave);
     return result == WEFT_OK ? cloth_put(scene, material, cloth, setting->error) : result;
+}
+
+/* Warns of what a material loses that is now woven. */
+static void warn_of_change(const WeftScene *scene, int material, const Material *was, const WeftLog *log) {
+    const char *name = scene->material_names[material];
+    if (was->inputs[INPUT_base_color].texture)
+        warn(log, WEFT_MESSAGE_GLTF_WARN_IGNORED, name,
+             "the texture of its base colour: a weave has the colours of its yarns");
+    cloth_check(scene, material, log);
 }
 
 WeftResult weft_scene_weave(WeftScene *scene, const char *material, const char *key, const char *value,
@@ -150,6 +162,7 @@ WeftResult weft_scene_weave(WeftScene *scene, const char *material, const char *
         if (!is_whole(&setting)) result = begin_weave(scene, k, error);
         if (result == WEFT_OK) result = reweave(scene, k, &setting, log);
         if (result != WEFT_OK) scene->materials[k] = was;
+        if (result == WEFT_OK && !was.cloth) warn_of_change(scene, k, &was, log);
     }
     return result == WEFT_OK ? materials_complete(scene, error) : result;
 }

@@ -38,13 +38,13 @@ FN Frame frame_about(Dir n, Dir tangent, float handedness) {
     return f;
 }
 
-/* Returns the frame turned about z by the angle whose cosine and sine are c and s, from x towards y. */
-FN Frame frame_turned(Frame f, float c, float s) {
-    Frame turned;
-    turned.x = dir_add(dir_scale(f.x, c), dir_scale(f.y, s));
-    turned.y = dir_add(dir_scale(f.y, c), dir_scale(f.x, -s));
-    turned.z = f.z;
-    return turned;
+/* Returns the frame rotated about z by the angle whose cosine and sine are c and s, from x towards y. */
+FN Frame frame_rotate(Frame f, float c, float s) {
+    Frame r;
+    r.x = dir_add(dir_scale(f.x, c), dir_scale(f.y, s));
+    r.y = dir_add(dir_scale(f.y, c), dir_scale(f.x, -s));
+    r.z = f.z;
+    return r;
 }
 
 /* Returns the normal nearest to n for which the mirror direction of wo is not below the surface; otherwise a normal map

@@ -165,24 +165,25 @@ static void gather_tangents(Chunk *chunk, const WeftScene *scene, int n) {
     }
 }
 
-/* Sets frame k, turned with the weave of its cloth, and wo in it. A surface seen from behind is mirrored: bumps of a normal map are dents there. */
-FN void put_frame(Chunk *chunk, size_t k, Surface s, Dir tangent, float handedness, float turn_cos, float turn_sin) {
+/* Sets frame k, rotated with the weave of its cloth, and wo in it. A surface seen from behind is mirrored: bumps of a normal map are dents there. */
+FN void put_frame(Chunk *chunk, size_t k, Surface s, Dir tangent, float handedness, float rotation_cos,
+                  float rotation_sin) {
     Dir wo = ROW_DIR(chunk->wo, k);
     Facing at;
     at.geometric = ROW_DIR(chunk->geometric, k);
     at.normal = ROW_DIR(chunk->normal, k);
     at.tangent = tangent;
     at.handedness = handedness;
-    Frame f = frame_turned(frame_of(at, s, wo), turn_cos, turn_sin);
+    Frame f = frame_rotate(frame_of(at, s, wo), rotation_cos, rotation_sin);
     put3(chunk->frame[0], k, f.x);
     put3(chunk->frame[1], k, f.y);
     put3(chunk->frame[2], k, f.z);
     put3(chunk->vertices.o, k, frame_to(f, wo));
 }
 
-/* Makes frames that may depend on the inputs and the mesh's tangents. turn: cosine and sine. */
-LOOP(frames_with_tangents_n, (Chunk *restrict chunk, const float turn[2], int n), (chunk, turn, n)) {
-    float c = turn[0], s = turn[1];
+/* Makes frames that may depend on the inputs and the mesh's tangents. rotation: cosine and sine. */
+LOOP(frames_with_tangents_n, (Chunk *restrict chunk, const float rotation[2], int n), (chunk, rotation, n)) {
+    float c = rotation[0], s = rotation[1];
     EACH(k, (size_t)n) {
         put_frame(chunk, k, surface_of_row(&chunk->vertices.surface, k), ROW_DIR(chunk->tangent, k),
                   chunk->handedness[k], c, s);
@@ -205,7 +206,7 @@ void chunk_make_frames(Chunk *chunk, const ChunkSource *source) {
     const PathMaterial *material = &source->context->materials[source->material];
     if (material->needs_tangents) {
         gather_tangents(chunk, source->context->scene, n);
-        frames_with_tangents_n(chunk, material->cloth ? material->cloth->turned : straight, n);
+        frames_with_tangents_n(chunk, material->cloth ? material->cloth->rotation_parts : straight, n);
     } else
         frames_n(chunk, n);
 }

@@ -214,12 +214,12 @@ static void draw_size(WeaveEdit *edit) {
     ui_disabled_end();
     ui_tip("Metres that a unit of texture coordinates spans: more metres, smaller threads.");
     draw_relief(edit);
-    const UiRange degrees = {-180.0f, 180.0f, info->turn, "deg", false};
-    if (ui_slider("turn", &degrees, &info->turn)) {
-        info->turn = fminf(fmaxf(info->turn, -360.0f), 360.0f);
-        keep_key(edit, "turn", "%.9g", (double)info->turn);
+    const UiRange degrees = {-180.0f, 180.0f, info->rotation, "deg", false};
+    if (ui_slider("rotation###weave rotation", &degrees, &info->rotation)) {
+        info->rotation = fminf(fmaxf(info->rotation, -360.0f), 360.0f);
+        keep_key(edit, "rotation", "%.9g", (double)info->rotation);
     }
-    ui_tip("Turns the weave on the mesh: 90 lays the warp where the weft was.");
+    ui_tip("Rotates the weave on the mesh: 90 lays the warp where the weft was.");
     if (ui_slider_int("seed", 0, 288, &info->seed)) keep_key(edit, "seed", "%d", info->seed);
     ui_tip("Another piece of the same cloth: other slubs and loose fibres.");
 }
