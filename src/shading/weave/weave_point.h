@@ -307,7 +307,7 @@ FN void weave_add_fibres(const Weave *m, WeaveYarn y, float u, float v, float sp
     p->lit = (1.0f - crevice * f * f * f * f) / (1.0f - 0.2f * crevice);
     p->slope_x = p->weft ? sy : sx;
     p->slope_y = p->weft ? sx : sy;
-    p->fibre = p->weft ? dir(fibre.y, fibre.x, fibre.z) : fibre;
+    p->fibre = dir(p->weft ? fibre.y : fibre.x, p->weft ? fibre.x : fibre.y, fibre.z);
 }
 
 /* Returns the hash of a crossing. It has two random numbers: weave_first is for the warp, weave_second for the weft. */
@@ -428,7 +428,7 @@ FN void weave_lay(WeaveHair h, WeavePoint *p) {
     p->lit = 1.0f;
     p->slope_x = h.weft ? sy : sx;
     p->slope_y = h.weft ? sx : sy;
-    p->fibre = h.weft ? dir(fy * q, fx * q, rise * q) : dir(fx * q, fy * q, rise * q);
+    p->fibre = dir((h.weft ? fy : fx) * q, (h.weft ? fx : fy) * q, rise * q);
 }
 
 /* Returns the number of the loose fibre on top at x, y, among the first `count`, or -1 if there is none. ROUNDS is an
