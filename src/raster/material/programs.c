@@ -6,6 +6,7 @@
 
 #include <epoxy/gl.h>
 
+#include "base/cache.h"
 #include "base/fail.h"
 #include "base/memory.h"
 #include "base/thread.h"
@@ -82,8 +83,11 @@ static GLuint make_tables(const Programs *programs, const TextTable *own, int ow
     return texture;
 }
 
-static void drop(Program *self) {
-    glDeleteProgram(self->name);
+/* Deletes what a program has in the driver, but for a name that another program has too. */
+static void drop(const Programs *programs, const Program *self) {
+    bool shared = false;
+    for (const Program *p = programs->first; p; p = p->next) shared |= p != self && p->name == self->name;
+    if (!shared) glDeleteProgram(self->name);
     glDeleteTextures(1, &self->tables);
 }
 
@@ -92,6 +96,9 @@ typedef struct CompileJob {
     Program *program;
     Text vertex, fragment;
     bool as_written; /* the text is not flattened: messages then name its lines */
+    Buffer flat;     /* the fragment's flat text, which drivers compile in a fraction of the time; may be empty */
+    uint64_t text;   /* hash of it and the vertex's text, until it fails to compile; 0: none */
+    bool waits;      /* for a job before it that compiles the same text */
     WeftError error;
     GLuint made;
 } CompileJob;
@@ -109,31 +116,56 @@ static void write_text(Programs *programs, CompileJob *job) {
     if (text_end(&job->vertex, &job->error) == WEFT_OK) text_end(&job->fragment, &job->error);
 }
 
-/* Compiles the flat text (text/flat/flatten.h), which takes drivers a fraction of the time. Returns 0 if there is none,
- * or if it does not compile: the text as it is written then says why. */
-static unsigned compile_flat(const CompileJob *job) {
-    Buffer flat = {0};
+static void flatten_in_thread(void *user, int item, int thread) {
+    CompileJob *job = &((CompileJob *)user)[item];
+    if (job->error.result != WEFT_OK || job->as_written || !flatten_text(job->fragment.bytes, &job->flat, NULL)) return;
+    job->text = cache_hash(CACHE_HASH, job->flat.bytes, job->flat.size);
+    job->text = cache_hash(job->text, job->vertex.bytes, job->vertex.size);
+}
+
+/* Compiles the flat text. If that fails, the text as it is written says why. */
+static void compile_flat(CompileJob *job) {
     WeftError error = {0};
-    unsigned made = 0;
-    if (!job->as_written && flatten_text(job->fragment.bytes, &flat, NULL))
-        made = program_create("flat shader", (ShaderSource){job->vertex.bytes, NULL}, (ShaderSource){flat.bytes, NULL},
-                              &error);
-    buffer_free(&flat);
-    return made;
+    job->made = program_create("flat shader", (ShaderSource){job->vertex.bytes, NULL},
+                               (ShaderSource){job->flat.bytes, NULL}, &error);
+    if (!job->made) job->text = 0;
 }
 
 static void compile(CompileJob *job) {
     if (job->error.result != WEFT_OK) return;
-    job->made = compile_flat(job);
+    if (job->text) compile_flat(job);
     if (!job->made)
         job->made = program_create("material shader", (ShaderSource){job->vertex.bytes, &job->vertex},
                                    (ShaderSource){job->fragment.bytes, &job->fragment}, &job->error);
+}
+
+/* Returns the name that a text was compiled to before, or 0. A stale program may drop its own. */
+static GLuint find_text(const Programs *programs, uint64_t text) {
+    for (const Program *p = programs->first; p && text; p = p->next)
+        if (p->text == text && !p->stale) return p->name;
+    return 0;
+}
+
+/* Gives jobs whose flat text was compiled before that program, and lets jobs of one text wait for the first. */
+static void share_texts(const Programs *programs, CompileJob *jobs, int count) {
+    for (int k = 0; k < count; k++) {
+        jobs[k].made = find_text(programs, jobs[k].text);
+        for (int j = 0; j < k && jobs[k].text; j++) jobs[k].waits |= jobs[j].text == jobs[k].text;
+    }
+}
+
+/* Returns what the first job of a text made. */
+static GLuint made_before(const CompileJob *jobs, int job) {
+    for (int k = 0; k < job; k++)
+        if (jobs[k].text == jobs[job].text) return jobs[k].made;
+    return 0;
 }
 
 static void compile_in_thread(void *user, int item, int thread) {
     const CompileBatch *batch = user;
     GlContext *context = batch->contexts[thread];
     GlOuter outer;
+    if (batch->jobs[item].made || batch->jobs[item].waits) return;
     if (!context_enter(context, &outer)) return;
     compile(&batch->jobs[item]);
     glFinish();
@@ -151,8 +183,10 @@ static void take(Programs *programs, CompileJob *job) {
     self->stale = false;
     self->error = job->error;
     if (job->error.result == WEFT_OK) {
-        drop(self);
+        const Program before = *self;
         self->name = job->made;
+        self->text = job->text;
+        drop(programs, &before);
         self->tables = tables;
         self->own_count = text->table_count;
         self->sheens_version = programs->sheens_version;
@@ -160,10 +194,12 @@ static void take(Programs *programs, CompileJob *job) {
         bind_blocks(self->name);
         set_units(self);
     } else {
-        glDeleteProgram(job->made);
+        drop(programs, &(Program){.name = job->made});
+        job->made = 0;
     }
     text_free(&job->vertex);
     text_free(&job->fragment);
+    buffer_free(&job->flat);
 }
 
 /* Makes the tables of a program again, with changed ones of the sheens behind its own. */
@@ -210,10 +246,13 @@ static void compile_all(void *user) {
 static void build(Programs *programs, const GlContext *context, CompileJob *jobs, int count) {
     CompileBatch batch = {.jobs = jobs, .count = count};
     for (int k = 0; k < count; k++) write_text(programs, &jobs[k]);
+    parallel_for(programs->fits.threads, count, flatten_in_thread, jobs);
+    share_texts(programs, jobs, count);
     share_contexts(&batch, context, programs->fits.threads);
     if (batch.threads) run_in_thread(compile_all, &batch);
     for (int k = 0; k < batch.threads; k++) context_destroy(batch.contexts[k]);
     for (int k = 0; k < count; k++) {
+        if (jobs[k].waits) jobs[k].made = made_before(jobs, k);
         /* where no context is shared, or a thread could not enter its own */
         if (!jobs[k].made) compile(&jobs[k]);
         take(programs, &jobs[k]);
@@ -263,7 +302,7 @@ static bool forget_oldest(Programs *programs) {
     if (!oldest || programs->tick - (*oldest)->used < PROGRAMS_LATE) return false;
     Program *p = *oldest;
     *oldest = p->next;
-    drop(p);
+    drop(programs, p);
     free(p);
     return true;
 }
@@ -312,12 +351,11 @@ const char *programs_complaint(const Programs *programs) {
 }
 
 void programs_destroy(Programs *programs) {
-    for (Program *p = programs->first, *next; p; p = next) {
-        next = p->next;
-        drop(p);
+    for (Program *p = programs->first; p; p = programs->first) {
+        programs->first = p->next;
+        drop(programs, p);
         free(p);
     }
-    programs->first = NULL;
     fits_destroy(&programs->fits);
 }
 

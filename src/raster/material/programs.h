@@ -3,6 +3,8 @@
  * All calls are for the context that is current. */
 #pragma once
 
+#include <stdint.h>
+
 #include "raster/gl/context.h"
 #include "raster/material/shader.h"
 #include "scene/light/sheen_tables.h"
@@ -27,7 +29,8 @@ enum { BLOCK_PICTURE, BLOCK_MATERIAL, BLOCK_ENVIRONMENT };
 typedef struct Program {
     struct Program *next;
     ShaderKey key;
-    unsigned name;                  /* 0: it never compiled */
+    unsigned name;                  /* 0: it never compiled; shared by programs of one flat text */
+    uint64_t text;                  /* hash of its flat text; 0: it was compiled from another */
     unsigned tables;                /* array texture for weft_tables, 0 where the program has none */
     TextTable own[TEXT_TABLES_MAX]; /* the first of its layers; the sheens' are behind them */
     int own_count;

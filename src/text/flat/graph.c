@@ -5,6 +5,8 @@
 #include "base/equal.h"
 #include "text/flat/constants.h"
 
+enum { ROW_MOST = 6 };
+
 bool graph_begin(Graph *graph, const Kinds *kinds) {
     memset(graph, 0, sizeof *graph);
     graph->kinds = kinds;
@@ -167,6 +169,13 @@ static bool is_all(const Graph *graph, const Node *node, float x) {
     return true;
 }
 
+/* Returns true if `one` is among the operands of a row of one operator: a || b || c. */
+static bool is_among(const Node *one, const Node *row, Operator op, int depth) {
+    if (one == row) return true;
+    if (!depth || row->op != NODE_BINARY || row->word != op) return false;
+    return is_among(one, node_operand(row, 0), op, depth - 1) || is_among(one, node_operand(row, 1), op, depth - 1);
+}
+
 /* Returns 0 in each component. */
 static Node *zero_of(Graph *graph, Kind kind) {
     Node *zero = kind_base(kind) == BASE_FLOAT || kind_matrix(kind)
@@ -192,11 +201,11 @@ static Node *simpler(Graph *graph, Kind kind, Operator op, Node *a, Node *b) {
         if (as_a && is_all(graph, a, 0.0f)) return a;
         return as_a && is_all(graph, b, 1.0f) ? a : NULL;
     case OPERATOR('&', '&'):
-        if (node_is_bool(a, true) || node_is_bool(b, false) || a == b) return b;
-        return node_is_bool(b, true) || node_is_bool(a, false) ? a : NULL;
+        if (node_is_bool(a, true) || node_is_bool(b, false) || is_among(a, b, op, ROW_MOST)) return b;
+        return node_is_bool(b, true) || node_is_bool(a, false) || is_among(b, a, op, ROW_MOST) ? a : NULL;
     case OPERATOR('|', '|'):
-        if (node_is_bool(a, false) || node_is_bool(b, true) || a == b) return b;
-        return node_is_bool(b, false) || node_is_bool(a, true) ? a : NULL;
+        if (node_is_bool(a, false) || node_is_bool(b, true) || is_among(a, b, op, ROW_MOST)) return b;
+        return node_is_bool(b, false) || node_is_bool(a, true) || is_among(b, a, op, ROW_MOST) ? a : NULL;
     case OPERATOR('=', '='):
     case OPERATOR('!', '='):
         if (kind_base(a->kind) != BASE_FLOAT && a == b) return graph_bool(graph, op == OPERATOR('=', '='));
@@ -219,11 +228,11 @@ Node *graph_binary(Graph *graph, Kind kind, Operator op, Node *a, Node *b) {
 
 static Node *negation(Graph *graph, Node *a) { return graph_unary(graph, KIND_BOOL, '!', a); }
 
-/* Returns the choice between bools of which one is constant, or NULL. */
+/* Returns the choice between bools of which one is constant or the condition, or NULL. */
 static Node *select_bool(Graph *graph, Node *c, Node *a, Node *b) {
     const Operator both = OPERATOR('&', '&'), either = OPERATOR('|', '|');
-    if (node_is_bool(a, true)) return graph_binary(graph, KIND_BOOL, either, c, b);
-    if (node_is_bool(b, false)) return graph_binary(graph, KIND_BOOL, both, c, a);
+    if (a == c || node_is_bool(a, true)) return graph_binary(graph, KIND_BOOL, either, c, b);
+    if (b == c || node_is_bool(b, false)) return graph_binary(graph, KIND_BOOL, both, c, a);
     if (node_is_bool(a, false)) return graph_binary(graph, KIND_BOOL, both, negation(graph, c), b);
     if (node_is_bool(b, true)) return graph_binary(graph, KIND_BOOL, either, negation(graph, c), a);
     return NULL;

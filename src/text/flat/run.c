@@ -2,9 +2,11 @@
 
 #include <stdlib.h>
 
+enum { MEMBERS_MOST = 512 };
+
 /* Adds a record, or the members of a block, which are names of their own. */
 static void add_fields(Run *run, const Declaration *declaration, bool record) {
-    Member members[128];
+    Member members[MEMBERS_MOST];
     int count = 0;
     for (const Field *field = declaration->fields; field && !run->wrong; field = field->next) {
         const Kind kind = run_kind(run, field->type, field->size);
@@ -12,7 +14,7 @@ static void add_fields(Run *run, const Declaration *declaration, bool record) {
             run->outside[field->name] = kind;
             continue;
         }
-        if (count == 128) {
+        if (count == MEMBERS_MOST) {
             run_wrong(run, "a record of too many members");
             return;
         }

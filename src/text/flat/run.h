@@ -44,6 +44,13 @@ typedef struct Change {
     Node *before;
 } Change;
 
+/* A bool that has a known value in the branch being run. */
+typedef struct Fact {
+    const Node *node;
+    bool value;
+} Fact;
+
+enum { FACTS_MOST = 256 };
 enum { VARIABLES_MOST = 4096, SLOTS_MOST = 1 << 15, CALLS_MOST = 64 };
 
 typedef struct Run {
@@ -63,6 +70,8 @@ typedef struct Run {
     int slot_count;
     Change *changes; /* of slots, to be undone */
     int change_count, change_capacity;
+    Fact facts[FACTS_MOST]; /* more are not noted */
+    int fact_count;
     Region *region;
     Frame frame;
     int depth;                            /* of calls */

@@ -6,6 +6,36 @@
 /* Two branches with few new values are computed both: a choice costs less than an if. */
 enum { VALUES_FEW = 24 };
 
+/* Notes that a bool has a value, and what follows for its parts. */
+static void learn(Run *run, const Node *node, bool value) {
+    const bool all = node->op == NODE_BINARY && node->word == OPERATOR('&', '&') && value;
+    const bool none = node->op == NODE_BINARY && node->word == OPERATOR('|', '|') && !value;
+    if (node->op == NODE_UNARY) {
+        learn(run, node_operand(node, 0), !value);
+        return;
+    }
+    if (all || none)
+        for (int k = 0; k < 2; k++) learn(run, node_operand(node, k), value);
+    if (run->fact_count < FACTS_MOST) run->facts[run->fact_count++] = (Fact){node, value};
+}
+
+/* Returns 1 or 0 for a bool whose value is known here, else -1. */
+static int known(const Run *run, const Node *node) {
+    if (node_is_constant(node)) return node->integer != 0;
+    if (node->op == NODE_UNARY) {
+        const int inner = known(run, node_operand(node, 0));
+        return inner < 0 ? -1 : !inner;
+    }
+    for (int k = run->fact_count - 1; k >= 0; k--)
+        if (run->facts[k].node == node) return run->facts[k].value;
+    if (node->op != NODE_BINARY) return -1;
+    const bool both = node->word == OPERATOR('&', '&'), either = node->word == OPERATOR('|', '|');
+    if (!both && !either) return -1;
+    const int a = known(run, node_operand(node, 0)), b = known(run, node_operand(node, 1));
+    if (a == (int)either || b == (int)either) return either;
+    return a == (int)both && b == (int)both ? both : -1;
+}
+
 /* What a branch left in slots. */
 typedef struct Left {
     Change *all; /* the value after the branch in place of the one before */
@@ -23,13 +53,16 @@ typedef struct Join {
 } Join;
 
 /* Runs a branch, and takes its changes back. */
-static Left tried(Run *run, Region *region, Branch *branch, const void *what, int slots) {
+static Left tried(Run *run, const Join *join, bool side, Branch *branch, const void *what) {
     const int mark = run->change_count, variables = run->variable_count, slot_count = run->slot_count;
+    const int facts = run->fact_count, slots = join->slots;
     Region *outer = run->region;
     Left left = {NULL, 0};
-    run->region = region;
+    run->region = side ? join->then : join->other;
+    learn(run, join->condition, side);
     if (branch) branch(run, what);
     run->region = outer;
+    run->fact_count = facts;
     run->variable_count = variables;
     run->slot_count = slot_count;
     run->stamp++;
@@ -67,8 +100,9 @@ static Node *joined(Join *join, Node *a, Node *b) {
     if (a->kind && b->kind && a->kind != b->kind) run_wrong(run, "a choice between types");
     if (a == b || (a_out && b->op == NODE_UNKNOWN)) return a;
     if (b_out && a->op == NODE_UNKNOWN) return b;
-    const bool known = a->kind == KIND_BOOL && (node_is_constant(a) || node_is_constant(b));
-    if (a_out && b_out && (join->select || known)) return graph_select(&run->graph, join->condition, a, b);
+    const bool simple = a->kind == KIND_BOOL &&
+                        (node_is_constant(a) || node_is_constant(b) || a == join->condition || b == join->condition);
+    if (a_out && b_out && (join->select || simple)) return graph_select(&run->graph, join->condition, a, b);
     Flow *flow = flow_of(join);
     Node *phi = graph_phi(&run->graph, NODE_PHI, a->kind ? a->kind : b->kind, run->region, a, b);
     phi->flow = flow;
@@ -95,16 +129,18 @@ static void join_left(Join *join, int side) {
 }
 
 void run_branch(Run *run, Node *condition, Branch *then, const void *a, Branch *other, const void *b, bool select) {
-    if (node_is_constant(condition)) {
-        if (condition->integer ? then : other) (condition->integer ? then : other)(run, condition->integer ? a : b);
+    const int value = known(run, condition);
+    if (value >= 0) {
+        Branch *taken = value ? then : other;
+        if (taken) taken(run, value ? a : b);
         return;
     }
     const int before = run->graph.count, slots = run->slot_count;
     Join join = {.run = run, .condition = condition, .slots = slots};
     join.then = graph_region(&run->graph, run->region, false);
     join.other = graph_region(&run->graph, run->region, false);
-    join.left[0] = tried(run, join.then, then, a, slots);
-    join.left[1] = tried(run, join.other, other, b, slots);
+    join.left[0] = tried(run, &join, true, then, a);
+    join.left[1] = tried(run, &join, false, other, b);
     if (run->wrong) return;
     join.select = is_empty(join.then) && is_empty(join.other) && (select || run->graph.count - before <= VALUES_FEW);
     if (join.then->first || join.other->first) flow_of(&join);

@@ -56,7 +56,13 @@ static void run_one(Run *run, const Statement *statement) {
     }
 }
 
-static void rest(Run *run, const void *what) { run_statements(run, what); }
+/* Runs what follows a statement that may have jumped, where it has not. */
+static void rest(Run *run, const void *what) {
+    const int flags[] = {run->frame.returned, run->frame.broken, run->frame.continued};
+    for (int k = 0; k < 3; k++)
+        if (flags[k] >= 0) run_set(run, flags[k], graph_bool(&run->graph, false));
+    run_statements(run, what);
+}
 
 void run_statements(Run *run, const Statement *first) {
     for (const Statement *one = first; one && !run->wrong; one = one->next) {
