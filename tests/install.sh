@@ -49,6 +49,10 @@ weft bake audit "$work/e.npy" --lobe charlie-neubelt --axes cos,alpha,centres --
 "$work/opengl/build/velvet" "$work/points.png" 8
 weft diff "$work/tables.png" "$work/points.png" --max 1e-3 >/dev/null
 
+# the Python package that was installed finds the library that was installed
+PYTHONPATH="$work/prefix/lib/python3/dist-packages" python3 -c 'import weft; print(weft.version(), weft.__file__)' |
+    grep -q "$work/prefix/lib/python3"
+
 env -u LD_LIBRARY_PATH "$work/prefix/bin/weft" --version >/dev/null # finds its library beside it
 for header in "$work"/prefix/include/weft/*.h; do # every public header stands alone, in C and in C++
     printf '#include "%s"\n' "$header" >"$work/one.c"

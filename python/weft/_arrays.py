@@ -27,6 +27,7 @@ else:
     Arrays = Floats = Array = Any
 
 Shape = tuple[int, ...]
+_FLOAT = np.dtype(np.float32) if np else None  # of this machine's byte order
 
 HAVE_NUMPY = np is not None
 FORMATS = {"B": 1, "H": 2, "f": 4}
@@ -49,17 +50,14 @@ class Given:
             raise _wrong(name, shape, width)
         self.lead: Shape = shape[:-1] if width else shape
 
-    def addresses(self, lead: Shape) -> tuple[list[int], Any]:
+    def addresses(self, lead: Shape) -> tuple[Sequence[int], Any]:
         """Returns the address of each component of an array of that shape, and what has to live as long."""
-        width = self.width or 1
-        data = self.data
+        width, data = self.width, self.data
         if HAVE_NUMPY:
-            if self.width:
-                if self.lead != lead:
-                    data = np.broadcast_to(data, lead + (width,))
+            if self.lead != lead:
+                data = np.broadcast_to(data, lead + (width,) if width else lead)
+            if width:
                 data = data.T if len(lead) == 1 else np.moveaxis(data, -1, 0)
-            elif self.lead != lead:
-                data = np.broadcast_to(data, lead)
             flags = data.flags
             if not (flags.c_contiguous and flags.aligned):
                 data = data.copy("C")
@@ -71,12 +69,17 @@ class Given:
             if self.width:
                 data = sum((data[k::width] for k in range(width)), array("f"))
             start = data.buffer_info()[0]
-        step = 4 * prod(lead)
-        return [start + step * k for k in range(width)], data
+        return _components(start, width, lead), data
+
+
+def _components(start: int, width: int, lead: Shape) -> tuple[int, ...]:
+    """Returns the addresses of components that lie one after the other: of none, two or three numbers."""
+    step = 4 * (lead[0] if len(lead) == 1 else prod(lead))
+    return (start, start + step, start + 2 * step)[:width or 1]
 
 
 def _numpy_floats(value: Any, name: str) -> tuple[Shape, Any]:
-    if type(value) is np.ndarray and value.dtype == np.float32 and value.dtype.isnative:
+    if type(value) is np.ndarray and value.dtype == _FLOAT:
         return value.shape, value
     try:
         found = np.asarray(value)
@@ -137,7 +140,10 @@ def _plain_lists(value: Any, name: str) -> tuple[Shape, array[float]]:
 def common(*given: Given) -> Shape:
     """Returns the shape that all arrays are broadcast to; without NumPy they have one shape, or are single."""
     first = given[0].lead
-    if all(g.lead == first for g in given):
+    for other in given:
+        if other.lead != first:
+            break
+    else:
         return first
     if HAVE_NUMPY:
         try:
@@ -159,22 +165,21 @@ class Made:
 
     def __init__(self, lead: Shape, width: int, out: Any = None, name: str = "out", given: Sequence[Any] = ()) -> None:
         self._lead, self._width, self._out = lead, width, None
-        count = prod(lead)
+        data: Any = None
         if HAVE_NUMPY:
-            data: Any = None
             if out is not None:
                 data = self._numpy_out(out, name, given)
             if data is None:
-                data = np.empty(((width,) + lead) if width else lead, np.float32)
+                data = np.empty((width,) + lead if width else lead, _FLOAT)
             start = data.ctypes.data
         else:
-            data = array("f", bytes(4 * count * (width or 1)))
+            data = array("f", bytes(4 * prod(lead) * (width or 1)))
             if out is not None:
                 self._out = out
                 self._view = self._plain_out(out, name)
             start = data.buffer_info()[0]
         self._data = data
-        self.addresses = [start + 4 * count * k for k in range(width or 1)]
+        self.addresses = _components(start, width, lead)
 
     def _shape(self) -> Shape:
         return self._lead + ((self._width,) if self._width else ())

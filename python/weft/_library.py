@@ -176,7 +176,7 @@ def raise_error(error: Any) -> None:
 def call(name: str, *arguments: Any) -> None:
     """Makes a call whose last parameter is a WeftError."""
     error = _abi.WeftError()
-    if getattr(lib, name)(*arguments, ctypes.byref(error)) != OK:
+    if getattr(lib, name)(*arguments, ctypes.byref(error)):
         raise_error(error)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 import ctypes
 import os
 from concurrent.futures import ThreadPoolExecutor
+from math import prod
 from typing import Any, Mapping, Optional, Union
 
 from . import _abi
@@ -247,10 +248,7 @@ class Lobe:
 
 
 def _count(lead: tuple[int, ...]) -> int:
-    count = 1
-    for n in lead:
-        count *= n
-    return count
+    return lead[0] if len(lead) == 1 else prod(lead)
 
 
 def _unpickled(id: str, params: Mapping[str, Any], color: Any, f90: Any) -> Lobe:

@@ -4,7 +4,7 @@ from __future__ import annotations
 import ctypes
 from array import array
 from math import prod
-from typing import Any, Optional, Union
+from typing import Any, Optional, Sequence, Union
 
 from . import _abi
 from ._arrays import HAVE_NUMPY, Array, Arrays, Floats, Given, Made, common
@@ -141,7 +141,7 @@ def _spread(given: Given, lead: tuple[int, ...], single: bool, data: Any) -> tup
     return _interleaved(spread, prod(lead)), spread
 
 
-def _parted(rows: array[float], addresses: list[int], count: int) -> None:
+def _parted(rows: array[float], addresses: Sequence[int], count: int) -> None:
     """Writes x y z x y z as an array of components."""
     for k, address in enumerate(addresses):
         part = rows[k::3]
