@@ -12,8 +12,8 @@ the library a weft.WeftWarning. What owns memory of the library is freed by clos
 release Python's lock, take a function `progress`, and stop at Ctrl+C where they take one."""
 from ._library import Error, Handle, WeftWarning
 from ._records import Record
-from .catalogue import (ChartEntry, aliases, builtins, catalogue_text, chart, isa, layers, presets, profiles, terms, use_isa,
-                        use_root, version, workflows)
+from .catalogue import (ChartEntry, aliases, builtins, catalogue_text, chart, isa, layers, preset_groups, preset_text, presets,
+                        profiles, terms, use_isa, use_root, version, workflows)
 from .doctors import Doctor, Finding, doctor, finding_kinds
 from .exports import Export, export, export_targets
 from .images import (Difference, diff, difference_image, heat_image, read_image, sheet, to_linear, tonemap, write_image)
@@ -23,8 +23,8 @@ from .measures import Data, Fit, Fitted, Match, Passport, distance, match, match
 from .plots import PlotData, PlotPanel, plot, plot_data, plot_kinds, plot_report
 from .reflections import Model, Reflection
 from .scenes import (Camera, Light, Picked, Picker, Raster, RasterInfo, Render, RenderInfo, Scene, SceneInfo, raster, render)
-from .tables import AlbedoForm, Audit, BakeKind, Ltc, LtcLobe, Table, audit, bake, bake_form, bake_kinds, table_forms
-from .weaves import Cloth, ClothInfo, Draft, DraftInfo, Thread, Yarn, parse_draft, yarns
+from .tables import AlbedoForm, Audit, BakeKind, Ltc, LtcLobe, Table, audit, bake, bake_form, bake_kinds, table_axes, table_forms
+from .weaves import Cloth, ClothInfo, Draft, DraftInfo, Thread, Yarn, parse_draft, weaves, yarns
 
 __all__ = [
     "AlbedoForm", "Audit", "BakeKind", "Camera", "ChartEntry", "Cloth", "ClothInfo", "Data", "Difference", "Doctor", "Draft",
@@ -34,7 +34,7 @@ __all__ = [
     "Yarn", "aliases", "audit", "bake", "bake_form", "bake_kinds", "builtins", "catalogue_text", "chart", "diff",
     "difference_image", "distance", "doctor", "export", "export_targets", "finding_kinds", "heat_image", "isa", "layers",
     "load_lobe", "lobe_info", "lobes", "match", "match_asset", "material_choices", "material_inputs", "parse_draft",
-    "passport", "plot", "plot_data", "plot_kinds", "plot_report", "presets", "profiles", "raster", "read_image", "render",
-    "sheet", "table_forms", "terms", "to_linear", "tonemap", "use_isa", "use_root", "version", "workflows", "write_image",
-    "yarns",
+    "passport", "plot", "plot_data", "plot_kinds", "plot_report", "preset_groups", "preset_text", "presets",
+    "profiles", "raster", "read_image", "render", "sheet", "table_axes", "table_forms", "terms", "to_linear", "tonemap",
+    "use_isa", "use_root", "version", "weaves", "workflows", "write_image", "yarns",
 ]

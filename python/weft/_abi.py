@@ -386,6 +386,11 @@ class WeftYarn(Structure):
         ("slub", c_float),
         ("wander", c_float),
         ("hairiness", c_float),
+        ("slub_length", c_float),
+        ("barre", c_float),
+        ("barre_width", c_float),
+        ("uneven", c_float),
+        ("uneven_size", c_float),
     ]
 
 
@@ -407,6 +412,8 @@ class WeftClothInfo(Structure):
         ("sett", (c_float * 2)),
         ("metres", c_float),
         ("automatic", c_int),
+        ("turn", c_float),
+        ("relief", c_float),
         ("seed", c_int),
     ]
 
@@ -998,10 +1005,13 @@ CONSTANTS = {
     "WEFT_PLOT_FIGURES_MAX": 6,
     "WEFT_PLOT_MARKS_MAX": 4,
     "WEFT_PLOT_LEGEND_MAX": 24,
+    "WEFT_HALVES_INDEPENDENT": 1,
+    "WEFT_HALVES_SHARED": 2,
     "WEFT_CHANGED_MATERIALS": 1,
     "WEFT_CHANGED_LIGHTS": 2,
     "WEFT_CHANGED_SHAPES": 4,
     "WEFT_RASTER_POLYGONS": 8,
+    "WEFT_RASTER_FRAMES_MOST": 1048576,
     "WEFT_SHEET_PANELS_MAX": 256,
 }
 
@@ -1422,8 +1432,11 @@ CALLS = {
     "weft_scene_assign_material": (c_int, (c_void_p, c_char_p, c_char_p, POINTER(WeftLog), POINTER(WeftError),)),
     "weft_scene_assign_material_memory": (c_int, (c_void_p, c_char_p, c_void_p, c_size_t, c_char_p, POINTER(WeftLog), POINTER(WeftError),)),
     "weft_preset_name": (c_char_p, (c_int,)),
+    "weft_preset_group": (c_char_p, (c_int,)),
     "weft_preset_help": (c_char_p, (c_int,)),
     "weft_preset_text": (c_char_p, (c_int,)),
+    "weft_preset_group_name": (c_char_p, (c_int,)),
+    "weft_preset_group_help": (c_char_p, (c_int,)),
     "weft_scene_convert": (c_int, (c_void_p, c_char_p, c_void_p, POINTER(WeftError),)),
     "weft_material_input_name": (c_char_p, (c_int,)),
     "weft_material_input_help": (c_char_p, (c_int,)),
@@ -1460,6 +1473,8 @@ CALLS = {
     "weft_draft_read": (c_int, (c_char_p, c_void_p, POINTER(WeftLog), POINTER(WeftError),)),
     "weft_draft_read_memory": (c_int, (c_void_p, c_size_t, c_char_p, c_void_p, POINTER(WeftLog), POINTER(WeftError),)),
     "weft_draft_parse": (c_int, (c_char_p, c_void_p, POINTER(WeftError),)),
+    "weft_weave_name": (c_char_p, (c_int,)),
+    "weft_weave_help": (c_char_p, (c_int,)),
     "weft_draft_back": (c_int, (c_void_p, c_void_p, POINTER(WeftError),)),
     "weft_draft_copy": (c_int, (c_void_p, c_void_p, POINTER(WeftError),)),
     "weft_draft_free": (None, (c_void_p,)),
@@ -1571,6 +1586,7 @@ CALLS = {
     "weft_plot_suffix_known": (c_int, (c_char_p,)),
     "weft_plot_write": (c_int, (POINTER(WeftPlotDesc), c_char_p, POINTER(WeftError),)),
     "weft_plot_report": (c_int, (POINTER(WeftPlotDesc), c_char_p, POINTER(WeftError),)),
+    "weft_scene_stage": (WeftFloor, (c_void_p,)),
     "weft_render_create": (c_int, (c_void_p, POINTER(WeftRenderDesc), c_void_p, POINTER(WeftError),)),
     "weft_render_restart": (c_int, (c_void_p, POINTER(WeftRenderDesc), c_uint, POINTER(WeftError),)),
     "weft_render_free": (None, (c_void_p,)),
@@ -1588,6 +1604,8 @@ CALLS = {
     "weft_raster_free": (None, (c_void_p,)),
     "weft_raster_update": (c_int, (c_void_p, POINTER(WeftLog), POINTER(WeftError),)),
     "weft_raster_draw": (c_int, (c_void_p, POINTER(WeftRasterView), POINTER(WeftError),)),
+    "weft_raster_accumulate_begin": (c_int, (c_void_p, POINTER(WeftRasterView), c_int, POINTER(WeftError),)),
+    "weft_raster_accumulate": (c_int, (c_void_p, c_double, c_void_p, POINTER(WeftError),)),
     "weft_raster_ready": (c_int, (c_void_p, POINTER(WeftRasterView),)),
     "weft_raster_wait": (c_int, (c_void_p, POINTER(WeftError),)),
     "weft_raster_image": (c_int, (c_void_p, POINTER(WeftImage), POINTER(WeftError),)),

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 from typing import Optional
 
-from ._library import PathLike, call, choice, lib, names, path, text
+from ._library import PathLike, call, choice, index_of, lib, names, path, text
 from ._records import Record, record
 
 
@@ -34,6 +34,19 @@ def profiles() -> dict[str, str]:
 def presets() -> dict[str, str]:
     """Returns the presets of materials, each with a line on it."""
     return _with_help("weft_preset")
+
+
+def preset_groups() -> dict[str, list[str]]:
+    """Returns the groups of presets, in the order to show them, and the presets of each."""
+    groups: dict[str, list[str]] = {name: [] for name in names("weft_preset_group_name")}
+    for preset, group in zip(names("weft_preset_name"), names("weft_preset_group")):
+        groups.setdefault(group, []).append(preset)
+    return groups
+
+
+def preset_text(name: str) -> str:
+    """Returns the material file of a preset, JSON."""
+    return names("weft_preset_text")[index_of("weft_preset_name", name, "name")]
 
 
 def builtins() -> dict[str, str]:
@@ -90,5 +103,5 @@ def use_root(folder: Optional[PathLike]) -> None:
     call("weft_root_use", None if folder is None else path(folder, "folder"))
 
 
-__all__ = ["ChartEntry", "aliases", "builtins", "catalogue_text", "chart", "isa", "layers", "presets", "profiles", "terms",
+__all__ = ["ChartEntry", "aliases", "builtins", "catalogue_text", "chart", "isa", "layers", "preset_groups", "preset_text", "presets", "profiles", "terms",
            "use_isa", "use_root", "version", "workflows"]

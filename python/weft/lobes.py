@@ -185,11 +185,12 @@ class Lobe:
         a, b, own = Given(wo, "wo", 3), Given(wi, "wi", 3), self._each(each)
         lead = common(a, b, *own.given) if own else common(a, b)
         (o, keep_o), (i, keep_i) = a.addresses(lead), b.addresses(lead)
-        made = Made(lead, 3, out, "out", (keep_o, keep_i))
+        lobes_ = own.filled(lead) if own else None
+        made = Made(lead, 3, out, "out", (keep_o, keep_i, *own.keep) if own else (keep_o, keep_i))
         colors = _abi.WeftColors(*made.addresses)
         pair = _count(lead), _abi.WeftDirections(*o), _abi.WeftDirections(*i), colors
         if own:
-            call("weft_eval_each", own.filled(lead), *pair, None)
+            call("weft_eval_each", lobes_, *pair, None)
         else:
             call("weft_eval_n", ctypes.byref(self._lobe), *pair)
         return made.result()  # type: ignore[no-any-return]
@@ -199,10 +200,11 @@ class Lobe:
         a, b, own = Given(wo, "wo", 3), Given(wi, "wi", 3), self._each(each)
         lead = common(a, b, *own.given) if own else common(a, b)
         (o, keep_o), (i, keep_i) = a.addresses(lead), b.addresses(lead)
-        made = Made(lead, 0, out, "out", (keep_o, keep_i))
+        lobes_ = own.filled(lead) if own else None
+        made = Made(lead, 0, out, "out", (keep_o, keep_i, *own.keep) if own else (keep_o, keep_i))
         pair = _count(lead), _abi.WeftDirections(*o), _abi.WeftDirections(*i)
         if own:
-            call("weft_eval_each", own.filled(lead), *pair, _abi.WeftColors(), made.addresses[0])
+            call("weft_eval_each", lobes_, *pair, _abi.WeftColors(), made.addresses[0])
         else:
             call("weft_pdf_n", ctypes.byref(self._lobe), *pair, made.addresses[0])
         return made.result()  # type: ignore[no-any-return]
@@ -275,13 +277,13 @@ class _Each:
                 given = Given(value, name, 0)
                 self._slots.append((given, [index], "params"))
             self.given.append(given)
-        self._keep: list[Any] = []
+        self.keep: list[Any] = []
 
     def filled(self, lead: tuple[int, ...]) -> Any:
         """Returns the record, whose arrays live as long as this object."""
         for given, places, member in self._slots:
             addresses, keep = given.addresses(lead)
-            self._keep.append(keep)
+            self.keep.append(keep)
             for place, address in zip(places, addresses):
                 getattr(self._record, member)[place] = address
         return ctypes.byref(self._record)

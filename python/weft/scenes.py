@@ -135,6 +135,12 @@ class Scene(Handle):
             raise TypeError(f"new: must be a Material, not {type(new).__name__}")
         self._change("weft_scene_put_material", self._index(material), ctypes.byref(new._material), log=False)
 
+    def used(self, material: Union[int, str]) -> bool:
+        """Returns True if any surface has that material in the present variant."""
+        index = self._index(material)
+        with self._use() as pointer:
+            return bool(lib.weft_scene_material_used(pointer, index))
+
     def put_measured(self, material: Union[int, str], file: PathLike) -> None:
         """Gives a material a measurement, which the path tracer evaluates in place of its lobes."""
         self._change("weft_scene_put_measured", self._index(material), path(file, "file"), log=False)
@@ -251,6 +257,13 @@ class Scene(Handle):
                          number(1.0 if reflection is None else reflection, "reflection"), log=False)
 
     @property
+    def stage(self) -> Optional[tuple[float, float]]:
+        """The floor (reflectance, roughness) that suits a scene which came with neither light nor floor; else None."""
+        with self._use() as pointer:
+            floor = lib.weft_scene_stage(pointer)
+        return (floor.reflection, floor.roughness) if floor.on else None
+
+    @property
     def lights(self) -> list[Light]:
         """Its lights: first those of the file, then those that were added. Copies."""
         found = []
@@ -326,16 +339,26 @@ def _floor(desc: Any, floor: Any) -> None:
 def _render_desc(*, width: int = 0, height: int = 0, crop: Optional[Sequence[int]] = None, max_depth: int = 0,
                  seed: int = 0, threads: int = 0, camera: Optional[str] = None, background: Any = None,
                  sampling: str = "mis", pixel_centre: bool = False, roulette: bool = True, shadows: bool = True,
-                 floor: Any = None, hide_lights: bool = False, halves: bool = False, first_hits: bool = False,
+                 floor: Any = None, hide_lights: bool = False, halves: Union[bool, str] = False, first_hits: bool = False,
                  noise: float = 0.0, stages: bool = False, lift: bool = True) -> Any:
     desc = fill(_abi.WeftRenderDesc(), width=width, height=height, crop=crop, max_depth=max_depth, seed=seed,
                 threads=threads, camera=camera, sampling=sampling, pixel_centre=int(bool(pixel_centre)),
                 no_roulette=int(not roulette), no_shadows=int(not shadows), hide_lights=int(bool(hide_lights)),
-                halves=int(bool(halves)), first_hits=int(bool(first_hits)), noise=noise, stages=int(bool(stages)),
+                halves=_halves(halves), first_hits=int(bool(first_hits)), noise=noise, stages=int(bool(stages)),
                 no_lift=int(not lift))
     _background(desc, background)
     _floor(desc, floor)
     return desc
+
+
+def _halves(halves: Union[bool, str]) -> int:
+    """Returns how samples are divided: True is independent."""
+    ways: dict[Any, str] = {True: "INDEPENDENT", "independent": "INDEPENDENT", "shared": "SHARED"}
+    if not halves:
+        return 0
+    if halves not in ways:
+        raise ValueError(f"halves: is {halves!r:.40}, and must be False, True, independent or shared")
+    return _abi.CONSTANTS["WEFT_HALVES_" + ways[halves]]
 
 
 class RenderInfo(Record):
@@ -353,8 +376,9 @@ class Render(Handle):
     Keyword arguments, each with a default: width and height (960 x 720); crop (x, y, width, height); max_depth (9); seed;
     threads (all); camera (None frames the scene; a name or index; "eye;target;fov"); background ("auto", "environment",
     "transparent", "blurred", or three numbers); sampling ("mis", "light", "lobe"); pixel_centre, roulette, shadows, lift;
-    floor (True, or reflectance and roughness of its mirror); hide_lights; halves, for noise and "variance"; first_hits,
-    for "albedo", "normal" and "depth"; noise, the relMSE at which run() stops; stages.
+    floor (True, or reflectance and roughness of its mirror, such as Scene.stage); hide_lights; halves, for noise,
+    "variance" and denoised() (True, or "shared" where only the last needs them: the picture is then as without);
+    first_hits, for "albedo", "normal" and "depth"; noise, the relMSE at which run() stops; stages.
 
     After a change of the scene the next run() begins anew. The same arguments give the same bytes, on any number of
     threads."""
@@ -456,8 +480,10 @@ def render(scene: Union[Scene, PathLike] = "builtin:cloth", spp: int = 64, *, se
         choice("WeftAov", name, "aovs")
     if denoise or {"albedo", "normal", "depth"} & set(wanted):
         options["first_hits"] = True
-    if denoise or "variance" in wanted:
+    if "variance" in wanted or options.get("noise"):
         options["halves"] = True
+    elif denoise:
+        options.setdefault("halves", "shared")
     loaded, mine = _scene(scene)
     try:
         with Render(loaded, **options) as picture:
@@ -500,9 +526,11 @@ class Raster(Handle):
     def draw(self, *, width: int = 0, height: int = 0, samples: int = 0, camera: Optional[str] = None,
              background: Any = None, ambient: str = "best", polygons: int = 0, shadows: bool = True, part: str = "all",
              crop: Optional[Sequence[int]] = None, plain_textures: bool = False, floor: Any = None,
-             hide_lights: bool = False, wait: bool = True) -> Array:
+             hide_lights: bool = False, wait: bool = True, frames: int = 0) -> Array:
         """Draws a picture: shape (height, width, 4), float32, linear. part: "all", "diffuse", "sheen", "normal" and so on;
-        ambient: "best", "irradiance", "mirror", "fitted", "none"; samples a pixel 1 to 8; wait: for occlusion."""
+        ambient: "best", "irradiance", "mirror", "fitted", "none"; samples a pixel 1 to 8; wait: for occlusion; frames: the
+        mean of so many frames with random samples of the light, which converges to the path tracer's direct light."""
+        frames = integer(frames, "frames", 0, _abi.CONSTANTS["WEFT_RASTER_FRAMES_MOST"])
         view = fill(_abi.WeftRasterView(), width=width, height=height, samples=samples, camera=camera, ambient=ambient,
                     polygons=polygons, no_shadows=int(not shadows), part=part, crop=crop,
                     plain_textures=int(bool(plain_textures)), hide_lights=int(bool(hide_lights)))
@@ -515,9 +543,20 @@ class Raster(Handle):
                 self._revision = self._scene._revision
             if wait:
                 call("weft_raster_wait", pointer)
-            call("weft_raster_draw", pointer, ctypes.byref(view))
+            if frames:
+                self._accumulate(pointer, view, frames)
+            else:
+                call("weft_raster_draw", pointer, ctypes.byref(view))
             call("weft_raster_image", pointer, ctypes.byref(image))
         return taken(image)
+
+    @staticmethod
+    def _accumulate(pointer: Any, view: Any, frames: int) -> None:
+        """Draws frames, a tenth of a second a call, so that Ctrl+C is heard between two."""
+        done = ctypes.c_int()
+        call("weft_raster_accumulate_begin", pointer, ctypes.byref(view), frames)
+        while done.value < frames:
+            call("weft_raster_accumulate", pointer, 0.1, ctypes.byref(done))
 
     @property
     def info(self) -> RasterInfo:

@@ -8,7 +8,7 @@ from typing import Any, Optional, Union
 
 from . import _abi
 from ._arrays import Array, Arrays, Floats, Given, Made, copied, shaped
-from ._library import (Handle, Log, Progress, Watch, call, created, fill, lib, names, number, text)
+from ._library import (Handle, Log, Progress, Watch, call, created, fill, integer, lib, names, number, text)
 from ._records import Record, record
 from .images import given as image_given
 from .images import taken
@@ -55,6 +55,26 @@ def _lobe(lobe: Optional[Union[Lobe, str]]) -> Any:
     if not isinstance(lobe, Lobe):
         raise TypeError(f"lobe: must be a Lobe or its id, not {type(lobe).__name__}")
     return ctypes.pointer(_abi.WeftLobe.from_buffer_copy(lobe._lobe))
+
+
+def table_axes(axes: Optional[str], lobe: Union[Lobe, str], width: int, height: int) -> tuple[Floats, Floats]:
+    """Returns what the texels of a table of that size stand for: the cosine of wo and the lobe's first parameter, which may
+    be beyond its possible range; each of shape (height, width)."""
+    form, pointer = _form(axes), _lobe(lobe)
+    if pointer is None:
+        raise TypeError("lobe: must be a Lobe or its id, not None")
+    width, height = integer(width, "width", 1, 65536), integer(height, "height", 1, 65536)
+    if width * height > _abi.CONSTANTS["WEFT_BAKE_TEXELS_MAX"]:
+        raise ValueError(f"width: a table has at most {_abi.CONSTANTS['WEFT_BAKE_TEXELS_MAX']} texels")
+    cosines, values = array("f"), array("f")
+    cos_o, value = ctypes.c_float(), ctypes.c_float()
+    for y in range(height):
+        for x in range(width):
+            lib.weft_table_form_texel(ctypes.byref(form), pointer.contents.lobe, width, height, x, y, ctypes.byref(cos_o),
+                                      ctypes.byref(value))
+            cosines.append(cos_o.value)
+            values.append(value.value)
+    return shaped(cosines, (height, width)), shaped(values, (height, width))
 
 
 class Table(Record):
@@ -218,6 +238,19 @@ class LtcLobe:
         del keep
         return copied(ctypes.addressof(m), "f", (3, 3))  # type: ignore[no-any-return]
 
+    def sample(self, wo: Arrays, u: Arrays) -> tuple[Floats, float]:
+        """Draws one wi, shape (3,), for a wo of shape (3,) and u of shape (2,) in [0, 1); returns it and its pdf, 1/sr; 0
+        means no sample."""
+        eye, keep = _single(wo, "wo")
+        pair = Given(u, "u", 2)
+        if pair.lead != ():
+            raise ValueError("u: must have the shape (2,)")
+        [first, _], keep_u = pair.addresses(())
+        wi = (ctypes.c_float * 3)()
+        pdf: float = lib.weft_ltc_sample(ctypes.byref(self._lobe), eye, first, wi)
+        del keep, keep_u
+        return copied(ctypes.addressof(wi), "f", (3,)), pdf
+
     def pdf(self, wo: Arrays, wi: Arrays) -> Floats:
         """Returns D, shape (...), 1/sr, for a wo of shape (3,) and wi of shape (..., 3)."""
         eye, keep = _single(wo, "wo")
@@ -241,4 +274,4 @@ def _single(value: Arrays, name: str) -> tuple[int, Any]:
 
 
 __all__ = ["AlbedoForm", "Audit", "BakeKind", "Ltc", "LtcLobe", "Table", "audit", "bake", "bake_form", "bake_kinds",
-           "table_forms"]
+           "table_axes", "table_forms"]

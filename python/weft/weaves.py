@@ -107,15 +107,20 @@ def _yarn_numbers() -> list[Any]:
         found.append(entry.contents)
 
 
-def yarns() -> list[str]:
-    """Returns the names of yarns."""
-    return names("weft_yarn_name")
+def yarns() -> dict[str, str]:
+    """Returns the names of yarns, each with a line on it."""
+    return dict(zip(names("weft_yarn_name"), names("weft_yarn_help")))
+
+
+def weaves() -> dict[str, str]:
+    """Returns the words by which notation names a weave, each with what may follow it."""
+    return dict(zip(names("weft_weave_name"), names("weft_weave_help")))
 
 
 class Yarn:
-    """The yarn of one system, as it lies in a cloth, by name; keyword arguments change its numbers: `alpha` (of its fibres),
-    `crimp` (radians), `roundness`, `twist` (radians), `white`, `width`, `bulge`, `floats`, `streaks`, `dye`, `slub`,
-    `wander`, `hairiness`. `Yarn.numbers()` has their ranges."""
+    """The yarn of one system, as it lies in a cloth, by name; keyword arguments change its numbers, such as `alpha` (of its
+    fibres), `crimp` and `twist` (radians), `roundness`, `dye`, `slub`, `hairiness`. `Yarn.numbers()` has all of them, with
+    their ranges."""
 
     __slots__ = ("_yarn",)
 
@@ -205,4 +210,4 @@ def parse_draft(notation: str) -> Draft:
     return Draft._of(created("weft_draft_parse", text(notation, "notation")))
 
 
-__all__ = ["Cloth", "ClothInfo", "Draft", "DraftInfo", "Thread", "Yarn", "parse_draft", "yarns"]
+__all__ = ["Cloth", "ClothInfo", "Draft", "DraftInfo", "Thread", "Yarn", "parse_draft", "weaves", "yarns"]

@@ -61,8 +61,11 @@ def test_an_array_that_is_written_is_checked():
     with pytest.raises(ValueError, match="out: is read-only"):
         LOBE.eval(WO, WI, out=frozen)
     wo = np.array(WO, np.float32).T.copy().T
-    with pytest.raises(ValueError, match="out: overlaps"):
-        LOBE.eval(wo, WI, out=wo)
+    alphas = out[:, 0]
+    for given in (lambda: LOBE.eval(wo, WI, out=wo), lambda: LOBE.eval(WO, WI, alpha=first.T[0], out=first)):
+        with pytest.raises(ValueError, match="out: overlaps"):
+            given()
+    assert LOBE.eval(WO, WI, alpha=alphas.clip(0.1, 1), out=out) is out
 
 
 def test_layouts_and_types_change_nothing():

@@ -100,6 +100,10 @@ def test_a_baked_table_passes_its_audit():
     assert tuple(table.texels.shape) == (8, 8) and table.axes.startswith("cos,alpha")
     audit = weft.audit(table.texels, "charlie-neubelt", axes="cos,alpha,centres")
     assert [f.fault for f in audit.found] == ["none"] and audit.lobe == "charlie-neubelt" and audit.fits
+    cosines, values = weft.table_axes("cos,alpha,centres", "charlie-neubelt", 8, 8)
+    assert close(listed(cosines)[0], [(k + 0.5) / 8 for k in range(8)])
+    e = weft.Lobe("charlie-neubelt", alpha=listed(values)[5][0]).albedo(listed(cosines)[5])
+    assert close([c[0] for c in listed(e)], listed(table.texels)[5], 2e-4)
     other = weft.audit(table.texels, "ggx")
     assert other.found[0].fault != "none"
     assert "filament" in weft.table_forms() and "dfg" in [k.id for k in weft.bake_kinds()]
@@ -118,6 +122,8 @@ def test_linearly_transformed_cosines_integrate_to_one():
         lobe = table.at(0.8, 0.5)
         assert lobe.z > 0 and len(listed(lobe.inverse(ASIDE))) == 3
         density = listed(lobe.pdf(ASIDE, WI))
+        wi, pdf = lobe.sample(ASIDE, [0.3, 0.6])
+        assert close(listed(lobe.pdf(ASIDE, [listed(wi)])), [pdf], 1e-3)
         assert len(density) == 30 and min(density) >= 0
         with pytest.raises(ValueError, match="must be one of z, q"):
             table.channel("x")
@@ -142,8 +148,11 @@ def test_a_figure_has_numbers_and_a_picture(tmp_path):
 
 def test_the_catalogue_has_a_line_on_everything():
     for found in (weft.terms("d"), weft.layers(), weft.workflows(), weft.profiles(), weft.presets(), weft.builtins(),
-                  weft.aliases()):
+                  weft.aliases(), weft.yarns(), weft.weaves(), weft.preset_groups()):
         assert found and all(found.values())
+    assert '"sheen_color"' in weft.preset_text("velvet")
+    with pytest.raises(ValueError, match="must be one of"):
+        weft.preset_text("felt-of-lead")
     assert any(e.kind == "metal" and e.name == "gold" for e in weft.chart())
     assert weft.catalogue_text("lobes/ggx.h").startswith("/* ggx")
     with pytest.raises(KeyError):

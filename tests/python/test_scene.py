@@ -35,6 +35,8 @@ def test_other_pictures_come_beside_it(cloth):
     with pytest.raises(ValueError, match="aovs"):
         weft.render(cloth, 1, aovs="beauty", **SMALL)
     assert tuple(weft.render(cloth, 8, denoise="regression", **SMALL).shape) == (36, 48, 4)
+    with pytest.raises(ValueError, match="halves"):
+        weft.render(cloth, 1, halves="thirds", **SMALL)
 
 
 def test_samples_are_added_and_a_change_begins_anew():
@@ -127,6 +129,7 @@ def test_a_scene_is_not_changed_while_it_is_read(cloth):
 
 def test_materials_lights_and_cameras_are_read_and_put():
     scene = weft.Scene()
+    assert scene.used("Cloth") and scene.stage is None
     assert scene.materials[0] == "Cloth" and scene.info.material_count == len(scene.materials)
     material = scene.material("Cloth")
     material["base_color"] = (0.5, 0.1, 0.1)
@@ -249,3 +252,7 @@ def test_opengl_draws_the_scene(cloth):
         assert mean(drawn.draw(**SMALL))[0] < mean(picture)[0]
         with pytest.raises(weft.Error):
             drawn.draw(width=-1)
+        lit, traced = drawn.draw(frames=16, **SMALL), weft.render(drawn._scene, 64, max_depth=1, **SMALL)
+        assert close(mean(lit), mean(traced), 0.05)
+        with pytest.raises(ValueError, match="frames"):
+            drawn.draw(frames=-1)
