@@ -83,6 +83,12 @@ typedef struct WeftRenderDesc {
     int no_lift;
 } WeftRenderDesc;
 
+/* Writes the camera of picture `index` of `count` on a circle, as WeftRenderDesc.camera: that of eye and target, m, and fov,
+ * degrees, vertical, turned about the vertical through the target, counter-clockwise seen from above. */
+enum { WEFT_CAMERA_TEXT = 256 };
+WEFT_API void weft_camera_turned(const float eye[3], const float target[3], float fov, int index, int count,
+                                 char text[WEFT_CAMERA_TEXT]);
+
 /* A picture in progress. */
 typedef struct WeftRender WeftRender;
 

@@ -228,6 +228,62 @@ static void inspect_plots_the_cloth_of_a_woven_material(void **state) {
     ran_free(&ran);
 }
 
+/* A turntable with a floor, stopped at a noise level, denoised and of a colour behind has the bytes of `weft render
+ * --turntable`; one that is cancelled keeps what was written. */
+static void a_turntable_is_path_traced_in_the_background(void **state) {
+    (void)state;
+    need_gl();
+    box_write("box.gltf", BOX_BARE);
+    script_begin();
+    say("wait rest\ncommand turn.txt\nkey f12\nwait 3\nclick \"Save a picture/path traced\"\n"
+        "set \"Save a picture/width\" 60\nset \"Save a picture/height\" 40\nset \"Save a picture/samples\" 64\n"
+        "click \"Save a picture/stop at a noise level\"\nset \"Save a picture/noise level\" 0.01\n"
+        "click \"Save a picture/denoised\"\nset \"Save a picture/turntable\" 3\nwait 2\nwindow dialog.png\n"
+        "click \"Save a picture/Save\"\nwait message wrote box-weft.png, 3 of 3 pictures\n"
+        "key f12\nwait 3\nclick \"Save a picture/path traced\"\nclick \"Save a picture/file\"\nkey control+a\ntype "
+        "long.png\n"
+        "set \"Save a picture/samples\" 3000\nclick \"Save a picture/stop at a noise level\"\n"
+        "set \"Save a picture/turntable\" 100\nwait 2\nclick \"Save a picture/Save\"\nwait seconds 4\n"
+        "click Menu/File\nclick \"Menu/File/Cancel the path-traced pictures\"\nwait message cancelled: \n");
+    drive_through(script, LIST(UNSEEN, "box.gltf", "--occlusion", "0", "--background", "0.2,0.3,0.4", "--floor"));
+    Ran ran = run_shell(
+        "eval \"\\\"$0\\\" $(sed 's/^weft//; s/--engine raster//; s/picture.png/again.png/; s/--width [0-9]*//;"
+        " s/--height [0-9]*//' turn.txt) --width 60 --height 40 --spp 64 --noise 0.01 --denoise --turntable 3\" &&"
+        " for k in 0 1 2; do cmp box-weft-00$k.png again-00$k.png || exit 9; done && ! cmp box-weft-000.png "
+        "box-weft-001.png && ! ls long-099.png && ! ls long.png");
+    if (ran.code != 0) fail_msg("%d %s%s", ran.code, ran.out, ran.err);
+    ran_free(&ran);
+}
+
+/* A still picture is taken with or without a floor, whatever the window shows. */
+static void a_picture_has_the_floor_that_is_chosen(void **state) {
+    (void)state;
+    need_gl();
+    box_write("box.gltf", BOX_BARE);
+    for (int traced = 0; traced < 2; traced++) {
+        const char *const path = traced ? "traced.png" : "drawn.png";
+        script_begin();
+        say("wait rest\nkey f12\nwait 3\n%sset \"Save a picture/width\" 60\nset \"Save a picture/height\" 40\n"
+            "click \"Save a picture/floor\"\nclick \"Save a picture/transparent\"\nset \"Save a picture/samples\" 8\n"
+            "click \"Save a picture/file\"\nkey control+a\ntype %s\nwait 2\n"
+            "click \"Save a picture/Save\"\nwait message wrote %s\nwait rest\n",
+            traced ? "click \"Save a picture/path traced\"\n" : "", path, path);
+        if (!traced) /* samples are for the path tracer alone */
+            *strstr(script, "set \"Save a picture/samples\"") = '#';
+        drive_through(script, LIST(UNSEEN, "box.gltf", "--occlusion", "0"));
+        WeftImage image = picture_read(path);
+        int shadow = 0, solid = 0;
+        for (int k = 0; k < 60 * 40; k++) {
+            const unsigned char alpha = ((const unsigned char *)image.pixels)[4 * k + 3];
+            shadow += k / 60 > 36 && alpha > 0;
+            solid += alpha == 255;
+        }
+        assert_int_equal(image.channels, 4);
+        assert_true(shadow < 30 && solid > 600);
+        weft_image_free(&image);
+    }
+}
+
 static void a_weave_is_changed_by_clicks_and_numbers(void **state) {
     (void)state;
     need_gl();
@@ -367,6 +423,8 @@ int main(void) {
                                        cmocka_unit_test(the_menu_of_presets_follows_undo),
                                        cmocka_unit_test(a_material_is_woven_of_a_draft),
                                        cmocka_unit_test(picture_of_any_size_is_path_traced_in_the_background),
+                                       cmocka_unit_test(a_turntable_is_path_traced_in_the_background),
+                                       cmocka_unit_test(a_picture_has_the_floor_that_is_chosen),
                                        cmocka_unit_test(inspect_plots_the_cloth_of_a_woven_material),
                                        cmocka_unit_test(a_weave_is_changed_by_clicks_and_numbers),
                                        cmocka_unit_test(a_scene_that_is_read_again_keeps_its_folder),

@@ -268,11 +268,9 @@ int request_outputs_check(const Request *request) {
 
 /* Makes "out-007.png" of "out.png" and "007". Release with free; NULL where memory is short. */
 static char *numbered(const char *path, const char *number) {
-    const char *slash = strrchr(path, '/'), *dot = strrchr(path, '.');
-    size_t size = strlen(path) + strlen(number) + 2;
-    int stem = dot && (!slash || dot > slash) ? (int)(dot - path) : (int)strlen(path);
+    const size_t size = strlen(path) + strlen(number) + 2;
     char *name = malloc(size);
-    if (name) snprintf(name, size, "%.*s-%s%s", stem, path, number, path + stem);
+    if (name) path_numbered(path, number, name, size);
     return name;
 }
 

@@ -7,6 +7,7 @@
 #include "base/fail.h"
 #include "base/number.h"
 #include "base/pi.h"
+#include "weft/render.h"
 
 Camera camera_towards(const char *name, Vec3 eye, Vec3 target, float yfov) {
     const Vec3 forward = vec3_normal_or(vec3_sub(target, eye), vec3(0.0f, 0.0f, -1.0f));
@@ -41,6 +42,15 @@ static Camera frame_scene(const WeftScene *scene, float aspect) {
     if (vec3_length(vec3_sub(scene->high, scene->low)) <= 0.0f) /* a single point: any distance will do */
         camera.eye = vec3_sub(camera.eye, camera.forward);
     return camera;
+}
+
+void weft_camera_turned(const float eye[3], const float target[3], float fov, int index, int count,
+                        char text[WEFT_CAMERA_TEXT]) {
+    const double angle = 2.0 * PI_DOUBLE * index / count, c = cos(angle), s = sin(angle);
+    const double x = (double)eye[0] - (double)target[0], z = (double)eye[2] - (double)target[2];
+    snprintf(text, WEFT_CAMERA_TEXT, "%.9g,%.9g,%.9g;%.9g,%.9g,%.9g;%.9g", (double)target[0] + c * x + s * z,
+             (double)eye[1], (double)target[2] - s * x + c * z, (double)target[0], (double)target[1], (double)target[2],
+             (double)fov);
 }
 
 /* Returns true if text has the form "eye;target;fov". *wrong then names what is invalid in it, or is NULL

@@ -41,7 +41,7 @@ static void file_menu(Viewer *v) {
     if (ui_menu_item("Save a picture ...", "F12", false, v->shown->any)) dialogs_shot(v, NULL);
     if (ui_menu_item("Copy the command line", "Ctrl+Shift+C", false, v->shown->any)) command_copy(v);
     ui_rule();
-    if (ui_menu_item("Cancel the path-traced picture", NULL, false, v->stills->still != NULL)) stills_cancel(v);
+    if (ui_menu_item("Cancel the path-traced pictures", NULL, false, v->stills->still != NULL)) stills_cancel(v);
     if (ui_menu_item("Quit", "Ctrl+Q", false, true)) leaving_quit(v);
 }
 
@@ -196,7 +196,9 @@ void status_draw(Viewer *v) {
     ui_behind(true);
     ui_fill(bar, 0xFF1C1B1Au);
     char still[64] = "";
-    if (v->stills->still) snprintf(still, sizeof still, "path tracing a picture: %.0f %%   ", 100.0 * v->stills->share);
+    if (v->stills->still)
+        snprintf(still, sizeof still, "path tracing %s: %.0f %%   ",
+                 v->stills->due.choice.around ? "a turntable" : "a picture", 100.0 * v->stills->share);
     snprintf(right, sizeof right, "%s%.0f fps  picture %.1f ms  %d x %d  %s", still,
              v->frame->frame_seconds > 0.0 ? 1.0 / v->frame->frame_seconds : 0.0, 1e3 * v->frame->picture_seconds,
              v->requests->rendered.width, v->requests->rendered.height, picture_status(v, sum));

@@ -73,6 +73,7 @@ typedef struct Task {
     float x, y;        /* pixels of the request's picture, from the top left */
     int width, height; /* pixels; 0: as the request */
     bool transparent;  /* TASK_SHOT: the background of the file stays transparent */
+    bool floor;        /* TASK_SHOT: with the floor of the request's view */
     bool reference;    /* TASK_SHOT: writes the path-traced picture with the samples that it has so far */
     bool nap;          /* TASK_PICK: the event has the material's own nap map too */
     unsigned stamp;    /* any number; the event has the same */

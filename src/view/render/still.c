@@ -7,12 +7,17 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/path.h"
+#include "weft/isa.h"
+
 struct Still {
     StillDesc desc;
     Window *window;
     pthread_t thread;
     pthread_mutex_t lock; /* of what follows */
     double share;
+    int written;    /* pictures */
+    double samples; /* a pixel, of the last picture */
     bool ended, stopped;
     WeftResult result;
     WeftError error;
@@ -34,45 +39,88 @@ void still_discard(const char path[STATE_PATH]) {
     rmdir(folder);
 }
 
-/* Notes the progress. Returns true if the picture was stopped. */
+static int count_of(const Still *self) { return self->desc.choice.around > 0 ? self->desc.choice.around : 1; }
+
+/* Notes the progress of a picture. Returns true if it was stopped. */
 static int note(void *user, double fraction) {
     Still *self = user;
     pthread_mutex_lock(&self->lock);
-    const bool seen = fraction - self->share >= 0.01 || fraction >= 1.0, stopped = self->stopped;
-    if (seen) self->share = fraction;
+    const double share = (self->written + fraction) / count_of(self);
+    const bool seen = share - self->share >= 0.01 || share >= 1.0, stopped = self->stopped;
+    if (seen) self->share = share;
     pthread_mutex_unlock(&self->lock);
     if (seen && self->window) window_wake(self->window);
     return stopped;
 }
 
-static WeftResult write_picture(const StillDesc *desc, const WeftImage *linear, WeftError *error) {
-    if (weft_image_suffix_linear(desc->path)) return weft_image_write(desc->path, linear, error);
+/* Lays the background's colour behind a linear picture, as `weft render --background` does. */
+static void lay_behind(const StillDesc *desc, WeftImage *linear) {
+    float *p = linear->pixels;
+    for (size_t k = 0; k < (size_t)linear->width * (size_t)linear->height; k++, p += 4) {
+        for (int c = 0; c < 3; c++) p[c] = p[c] * p[3] + desc->desc.background_color[c] * (1.0f - p[3]);
+        p[3] = 1.0f;
+    }
+}
+
+static WeftResult write_picture(const StillDesc *desc, WeftImage *linear, const char *path, WeftError *error) {
+    const WeftImageWriting how = {.denoised =
+                                      desc->choice.denoised ? weft_denoiser_name((int)WEFT_DENOISER_REGRESSION) : NULL,
+                                  .isa = weft_isa()};
+    if (weft_image_suffix_linear(path)) {
+        if (desc->laid_behind) lay_behind(desc, linear);
+        return weft_image_write_as(path, linear, &how, error);
+    }
     WeftImage display;
-    WeftResult result = weft_image_tonemap(linear, desc->tonemap, desc->exposure, &display, error);
+    WeftResult result = desc->laid_behind ? weft_image_tonemap_over(linear, desc->tonemap, desc->exposure,
+                                                                    desc->desc.background_color, &display, error)
+                                          : weft_image_tonemap(linear, desc->tonemap, desc->exposure, &display, error);
     if (result != WEFT_OK) return result;
-    result = weft_image_write(desc->path, &display, error);
+    result = weft_image_write_as(path, &display, &how, error);
     weft_image_free(&display);
     return result;
 }
 
-/* Renders the scene and writes the picture. */
-static WeftResult render(Still *self, const WeftScene *scene) {
+/* Renders the scene through a camera and writes the picture. *info receives the camera in numbers. */
+static WeftResult render(Still *self, const WeftScene *scene, const char *camera, const char *path,
+                         WeftRenderInfo *info) {
     const StillDesc *desc = &self->desc;
     WeftRenderDesc traced = desc->desc;
     WeftRender *render;
-    traced.camera = desc->camera;
-    traced.first_hits = desc->denoised;
-    traced.halves = desc->denoised ? WEFT_HALVES_SHARED : 0;
+    traced.camera = camera;
+    traced.noise = desc->choice.noise;
+    traced.first_hits = desc->choice.denoised;
+    traced.halves = traced.noise > 0.0f ? WEFT_HALVES_INDEPENDENT : desc->choice.denoised ? WEFT_HALVES_SHARED : 0;
     WeftResult result = weft_render_create(scene, &traced, &render, &self->error);
     if (result != WEFT_OK) return result;
-    result = weft_render_run(render, desc->samples, 0.0, note, self);
+    result = weft_render_run(render, desc->choice.samples, 0.0, note, self);
+    *info = weft_render_info(render);
     WeftImage linear = {0};
     if (result == WEFT_OK)
-        result = desc->denoised ? weft_render_denoised(render, WEFT_DENOISER_REGRESSION, &linear, &self->error)
-                                : weft_render_image(render, &linear, &self->error);
-    if (result == WEFT_OK) result = write_picture(desc, &linear, &self->error);
+        result = desc->choice.denoised ? weft_render_denoised(render, WEFT_DENOISER_REGRESSION, &linear, &self->error)
+                                       : weft_render_image(render, &linear, &self->error);
+    if (result == WEFT_OK) result = write_picture(desc, &linear, path, &self->error);
     weft_image_free(&linear);
     weft_render_free(render);
+    return result;
+}
+
+/* Makes all pictures. The cameras of a turntable are that of the first one, turned. */
+static WeftResult render_all(Still *self, const WeftScene *scene) {
+    const int around = self->desc.choice.around;
+    WeftRenderInfo first = {0}, info = {0};
+    WeftResult result = WEFT_OK;
+    for (int k = 0; k < count_of(self) && result == WEFT_OK; k++) {
+        char camera[WEFT_CAMERA_TEXT], number[PATH_NUMBER], path[STATE_PATH + PATH_NUMBER];
+        if (k) weft_camera_turned(first.camera_eye, first.camera_target, first.camera_fov, k, around, camera);
+        snprintf(path, sizeof path, "%s", self->desc.path);
+        if (around) path_numbered(self->desc.path, path_number(k, around, number), path, sizeof path);
+        result = render(self, scene, k ? camera : self->desc.camera, path, &info);
+        if (!k) first = info;
+        pthread_mutex_lock(&self->lock);
+        self->written += result == WEFT_OK;
+        self->samples = info.samples_per_pixel;
+        pthread_mutex_unlock(&self->lock);
+    }
     return result;
 }
 
@@ -84,7 +132,7 @@ static void *run(void *user) {
     WeftResult result = weft_scene_load(self->desc.scene, &scene, NULL, &self->error);
     if (result == WEFT_OK) {
         result = environment_state_apply(&self->desc.environment, &studio, scene, &changed, NULL, &self->error);
-        if (result == WEFT_OK) result = render(self, scene);
+        if (result == WEFT_OK) result = render_all(self, scene);
         weft_scene_free(scene);
     }
     still_discard(self->desc.scene);
@@ -123,9 +171,14 @@ bool still_end(Still *self, char line[512]) {
     pthread_mutex_unlock(&self->lock);
     pthread_join(self->thread, NULL);
     const bool made = self->result == WEFT_OK;
+    const StillChoice *choice = &self->desc.choice;
+    char several[48] = "";
+    if (choice->around) snprintf(several, sizeof several, "%d of %d pictures, ", self->written, choice->around);
     if (made)
-        snprintf(line, 512, "wrote %.400s, %d x %d, %d samples", self->desc.path, self->desc.desc.width,
-                 self->desc.desc.height, self->desc.samples);
+        snprintf(line, 512, "wrote %.380s, %s%d x %d, %.4g samples", self->desc.path, several, choice->width,
+                 choice->height, self->samples);
+    else if (self->result == WEFT_INTERRUPTED && choice->around)
+        snprintf(line, 512, "cancelled: %swere written, %.380s", several, self->desc.path);
     else if (self->result == WEFT_INTERRUPTED)
         snprintf(line, 512, "cancelled: %.400s was not written", self->desc.path);
     else

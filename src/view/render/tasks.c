@@ -13,6 +13,7 @@ static WeftResult shot(Renderer *self, const Task *task, const FrameRequest *req
     WeftResult result = WEFT_OK;
     view.camera = request->camera;
     if (task->width > 0) view.width = task->width, view.height = task->height;
+    view.floor.on = task->floor;
     if (task->transparent) view.background = WEFT_BACKGROUND_TRANSPARENT;
     if (task->reference) {
         if (!reference_image(self->reference, &linear)) {

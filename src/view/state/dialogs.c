@@ -5,6 +5,7 @@
 
 #include <epoxy/gl.h>
 
+#include "base/path.h"
 #include "view/files/paths.h"
 #include "view/state/actions.h"
 #include "view/state/states.h"
@@ -71,20 +72,27 @@ static void offer_path(Viewer *v, char *path, const char *suffix) {
     snprintf(path, STATE_PATH, "%s%s", stem, suffix);
 }
 
+/* Chooses a picture of the stage's size, of what it shows. */
+static void take_stage(Viewer *v) {
+    DialogsState *dialogs = &v->states->dialogs;
+    dialogs->shot.width = (int)v->frame->stage.width, dialogs->shot.height = (int)v->frame->stage.height;
+    dialogs->shot.floor = v->options->floor.on != 0;
+    dialogs->shot_traced = v->options->mode == MODE_REFERENCE;
+}
+
 void dialogs_shot(Viewer *v, const char *path) {
     if (!path) {
         offer_path(v, v->states->dialogs.shot_path, "-weft.png");
-        v->states->dialogs.shot_width = (int)v->frame->stage.width,
-        v->states->dialogs.shot_height = (int)v->frame->stage.height;
-        v->states->dialogs.shot_traced = v->options->mode == MODE_REFERENCE;
+        take_stage(v);
         dialogs_open(v, "Save a picture");
         return;
     }
     Task task = {.kind = TASK_SHOT,
                  .scene = v->shown->number,
-                 .width = v->states->dialogs.shot_width,
-                 .height = v->states->dialogs.shot_height,
-                 .transparent = v->states->dialogs.shot_transparent,
+                 .width = v->states->dialogs.shot.width,
+                 .height = v->states->dialogs.shot.height,
+                 .transparent = v->states->dialogs.shot.transparent,
+                 .floor = v->states->dialogs.shot.floor,
                  .reference = v->states->dialogs.shot_traced};
     snprintf(task.path, sizeof task.path, "%s", path);
     if (!weft_image_suffix_known(path))
@@ -118,9 +126,7 @@ void dialogs_open(Viewer *v, const char *name) {
 }
 
 void dialogs_shot_stage(Viewer *v, const char *path) {
-    DialogsState *dialogs = &v->states->dialogs;
-    dialogs->shot_width = (int)v->frame->stage.width, dialogs->shot_height = (int)v->frame->stage.height;
-    dialogs->shot_traced = v->options->mode == MODE_REFERENCE;
+    take_stage(v);
     dialogs_shot(v, path);
 }
 
@@ -226,27 +232,44 @@ static void draw_save(Viewer *v) {
     ui_dialog_end();
 }
 
+static int within(int value, int low, int high) { return value < low ? low : value > high ? high : value; }
+
+/* Draws what only path-traced pictures have. */
 static void draw_samples(DialogsState *dialogs) {
-    if (dialogs->shot_samples < 1) dialogs->shot_samples = 256;
+    static const UiRange noise = {1e-3f, 1e-1f, 3e-3f, NULL, true};
+    StillChoice *shot = &dialogs->shot;
+    if (shot->samples < 1) shot->samples = 256, shot->noise = noise.initial;
     ui_disabled(!dialogs->shot_traced);
-    ui_slider_int("samples", 1, 4096, &dialogs->shot_samples);
-    ui_tip("Per pixel: four times as many halve the noise.");
-    ui_checkbox("denoised", &dialogs->shot_denoised);
-    ui_tip("Smooths what noise is left; it may lose fine threads.");
+    ui_slider_int("samples", 1, 4096, &shot->samples);
+    ui_tip("Per pixel, at most: four times as many halve the noise.");
+    ui_checkbox("stop at a noise level", &dialogs->shot_to_noise);
+    ui_tip("Ends before the samples are taken, as soon as the picture is good enough.");
+    ui_disabled(!dialogs->shot_to_noise);
+    ui_slider("noise level", &noise, &shot->noise);
+    ui_tip(
+        "The picture's relMSE, estimated from two halves of its samples: 0.001 is clean to the eye, smaller ones can "
+        "be typed.");
     ui_disabled_end();
-    if (dialogs->shot_samples > 65536) dialogs->shot_samples = 65536;
+    ui_checkbox("denoised", &shot->denoised);
+    ui_tip("Smooths what noise is left; it may lose fine threads. The file is marked: .png or .exr.");
+    ui_slider_int("turntable", 0, 120, &shot->around);
+    ui_tip("So many pictures on a circle about the scene, each with a number before its suffix; 0: one picture of this "
+           "view.");
+    ui_disabled_end();
+    shot->samples = within(shot->samples, 1, 65536);
+    shot->around = within(shot->around, 0, 10000);
+    if (!(shot->noise >= 1e-9f)) shot->noise = 1e-9f;
 }
 
 static void save_shot(Viewer *v, const char *path) {
     const DialogsState *dialogs = &v->states->dialogs;
+    StillChoice choice = dialogs->shot;
+    if (!dialogs->shot_to_noise) choice.noise = 0.0f;
     if (dialogs->shot_traced)
-        stills_make(v, path, dialogs->shot_width, dialogs->shot_height, dialogs->shot_samples, dialogs->shot_denoised,
-                    dialogs->shot_transparent);
+        stills_make(v, path, &choice);
     else
         dialogs_shot(v, path);
 }
-
-static int pixels_within(int pixels) { return pixels < 1 ? 1 : pixels > 16384 ? 16384 : pixels; }
 
 /* Draws the folder that pictures go to; it can be unfolded to go to another. */
 static void draw_folder(DialogsState *dialogs) {
@@ -257,26 +280,38 @@ static void draw_folder(DialogsState *dialogs) {
                         dialogs->shot_path, sizeof dialogs->shot_path);
 }
 
+/* Returns the name of the first file that will be written. */
+static const char *first_file(const DialogsState *dialogs, char first[STATE_PATH]) {
+    char number[PATH_NUMBER];
+    const int around = dialogs->shot.around;
+    const bool several = dialogs->shot_traced && around > 0;
+    if (several && path_numbered(dialogs->shot_path, path_number(0, around, number), first, STATE_PATH)) return first;
+    return dialogs->shot_path;
+}
+
 static void draw_shot(Viewer *v) {
     DialogsState *dialogs = &v->states->dialogs;
-    char path[STATE_PATH];
+    char path[STATE_PATH], first[STATE_PATH];
     if (!ui_dialog("Save a picture", 560.0f * ui_scale(), 0.0f)) return;
     ui_scope("Save a picture");
     bool entered = ui_input_path("file", dialogs->shot_path, STATE_PATH);
     ui_tip(".png as it is shown, .exr, .hdr or .npy linear.");
     draw_folder(dialogs);
-    ui_slider_int("width", 16, 8192, &dialogs->shot_width);
+    ui_slider_int("width", 16, 8192, &dialogs->shot.width);
     ui_tip("Pixels; any size, whatever the window's.");
-    ui_slider_int("height", 16, 8192, &dialogs->shot_height);
+    ui_slider_int("height", 16, 8192, &dialogs->shot.height);
     ui_tip("Pixels.");
-    ui_checkbox("transparent", &dialogs->shot_transparent);
-    ui_tip("Alpha 0 where nothing is.");
+    ui_checkbox("transparent", &dialogs->shot.transparent);
+    ui_tip("Alpha 0 where nothing is; a floor leaves its shadow.");
+    ui_checkbox("floor", &dialogs->shot.floor);
+    ui_tip("A floor that catches the shadow of the scene.");
     ui_checkbox("path traced", &dialogs->shot_traced);
     ui_tip("Ground truth, made in the background while you work on; the status bar shows how far it is.");
     draw_samples(dialogs);
-    dialogs->shot_width = pixels_within(dialogs->shot_width);
-    dialogs->shot_height = pixels_within(dialogs->shot_height);
-    if (draw_save_button(v, dialogs->shot_path, entered, path)) {
+    dialogs->shot.width = within(dialogs->shot.width, 1, 16384);
+    dialogs->shot.height = within(dialogs->shot.height, 1, 16384);
+    if (draw_save_button(v, first_file(dialogs, first), entered, path) &&
+        browser_place(dialogs->browser, dialogs->shot_path, path, STATE_PATH)) {
         save_shot(v, path);
         ui_dialog_close();
     }

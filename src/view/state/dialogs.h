@@ -2,6 +2,7 @@
 #pragma once
 
 #include "view/files/places.h"
+#include "view/render/still.h"
 #include "view/state/viewer.h"
 
 typedef struct DialogsState {
@@ -12,9 +13,9 @@ typedef struct DialogsState {
     char unsaid[4096]; /* what the copied command line cannot say, a line each */
     char due[32];      /* dialog to open in this frame */
     char save_path[STATE_PATH], shot_path[STATE_PATH];
-    int shot_width, shot_height; /* pixels */
-    bool shot_transparent, shot_traced, shot_denoised;
-    int shot_samples;         /* of a path-traced picture; 0: not yet chosen */
+    StillChoice shot; /* samples 0: not yet chosen */
+    bool shot_traced;
+    bool shot_to_noise;       /* stops at the noise level of the choice */
     char dropped[STATE_PATH]; /* a picture whose input is still to be chosen */
     int dropped_input;
     bool profiles_open, profiles_made;

@@ -11,25 +11,33 @@ static void forget_due(StillsState *stills) {
     stills->has_due = false;
 }
 
-void stills_make(Viewer *v, const char *path, int width, int height, int samples, bool denoised, bool transparent) {
+/* Returns what the window shows, in the size and quality of a choice. */
+static StillDesc desc_of(const Viewer *v, const StillChoice *choice) {
+    const bool color = v->options->background == WEFT_BACKGROUND_COLOR;
+    StillDesc desc = {
+        .choice = *choice,
+        .environment = v->edit->state.environment,
+        .tonemap = v->options->tonemap,
+        .exposure = v->options->exposure,
+        .laid_behind = color && !choice->transparent,
+        .desc = {.width = choice->width,
+                 .height = choice->height,
+                 .background = color || choice->transparent ? WEFT_BACKGROUND_TRANSPARENT : v->options->background,
+                 .floor = v->options->floor,
+                 .hide_lights = v->options->hide_lights}};
+    desc.desc.floor.on = choice->floor;
+    memcpy(desc.desc.background_color, v->options->background_color, sizeof desc.desc.background_color);
+    orbit_text(&v->camera->orbit, desc.camera);
+    return desc;
+}
+
+void stills_make(Viewer *v, const char *path, const StillChoice *choice) {
     StillsState *stills = &v->states->stills;
-    const FrameRequest *shown = &v->requests->request;
     if (stills->still || (stills->has_due && stills->scene == v->shown->number)) {
         viewer_report(v, true, "a picture is being made; cancel it, or wait for it");
         return;
     }
-    StillDesc due = {.environment = v->edit->state.environment,
-                     .samples = samples,
-                     .denoised = denoised,
-                     .tonemap = v->options->tonemap,
-                     .exposure = v->options->exposure,
-                     .desc = {.width = width,
-                              .height = height,
-                              .background = transparent ? WEFT_BACKGROUND_TRANSPARENT : v->options->background,
-                              .floor = shown->view.floor,
-                              .hide_lights = shown->view.hide_lights}};
-    memcpy(due.desc.background_color, v->options->background_color, sizeof due.desc.background_color);
-    orbit_text(&v->camera->orbit, due.camera);
+    StillDesc due = desc_of(v, choice);
     snprintf(due.path, sizeof due.path, "%s", path);
     if (!weft_image_suffix_known(path)) {
         viewer_report(v, true, "%.300s: %s", path, weft_message_text(WEFT_MESSAGE_OUTPUT_SUFFIX));

@@ -1,4 +1,4 @@
-/* stills.h - the path-traced picture that is made in the background */
+/* stills.h - the path-traced pictures that are made in the background */
 #pragma once
 
 #include "view/render/still.h"
@@ -12,9 +12,9 @@ typedef struct StillsState {
     double share;   /* of its samples, 0 to 1 */
 } StillsState;
 
-/* Begins a picture of the edited scene: path, size, samples and whether to denoise are given, all else is as the window
- * shows it. One picture is made at a time. */
-void stills_make(Viewer *v, const char *path, int width, int height, int samples, bool denoised, bool transparent);
+/* Begins a picture of the edited scene, or a turntable: what the choice leaves open is as the window shows it. One request
+ * is carried out at a time. */
+void stills_make(Viewer *v, const char *path, const StillChoice *choice);
 
 /* Starts the thread, when the scene was saved to `scene`; failed: it was not. */
 void stills_saved(Viewer *v, const char *scene, bool failed);
