@@ -199,6 +199,30 @@ static void copied_command_line_makes_the_shown_picture(void **state) {
     assert_true(pictures_differ("0.exr", "1.exr") > 0.01);
 }
 
+/* Tone curve, white and metered exposure go along, and the picture of a lamp of 4000 K becomes bluer. */
+static void copied_command_line_shows_the_same_tone(void **state) {
+    (void)state;
+    need_gl();
+    script_begin();
+    say("wait rest\nclick Panel/View\nset View/exposure -3\n");
+    say_picture("dark.png");
+    say("wait rest\nclick \"View/Automatic exposure\"\nset View/white 4000\nchoose \"View/tone map\" agx\nwait 300\n"
+        "wait rest\n");
+    say_picture("tone.png");
+    say("command tone.txt\n");
+    drive_through(script, LIST(UNSEEN, CHEAP));
+    size_t size;
+    char *line = file_bytes("tone.txt", &size);
+    assert_non_null(line);
+    const char *exposure = strstr(line, " --exposure ");
+    if (!exposure || !strstr(line, " --tonemap agx") || !strstr(line, " --white-balance 4000,0")) fail_msg("%s", line);
+    assert_true(strtod(exposure + strlen(" --exposure "), NULL) > -1.5);
+    free(line);
+    render_as("tone.txt", "same.png");
+    assert_true(pictures_most("tone.png", "same.png") < 1.1 / 255.0);
+    assert_true(pictures_most("tone.png", "dark.png") > 0.15);
+}
+
 /* ---- comparing ---- */
 
 static void a_b_comparison_shows_two_settings_and_their_difference(void **state) {
@@ -310,6 +334,7 @@ int main(void) {
                                        cmocka_unit_test(a_saved_scene_looks_the_same),
                                        cmocka_unit_test(full_disk_is_a_message),
                                        cmocka_unit_test(copied_command_line_makes_the_shown_picture),
+                                       cmocka_unit_test(copied_command_line_shows_the_same_tone),
                                        cmocka_unit_test(copied_command_line_has_the_folder_of_maps),
                                        cmocka_unit_test(a_b_comparison_shows_two_settings_and_their_difference),
                                        cmocka_unit_test(panels_and_menus_are_reached_by_keys),

@@ -216,7 +216,6 @@ static void put_environment(Line *line, const EnvironmentState *a) {
 
 static void put_view(Line *line, const Viewer *v) {
     static const char *const backs[] = {"auto", "environment", "transparent", "", "blurred"};
-    static const char *const curves[] = {"pbr-neutral", "aces", "none"};
     static const char *const ambients[] = {"best", "irradiance", "mirror", "fitted", "none"};
     char camera[ORBIT_TEXT];
     int width, height;
@@ -235,7 +234,11 @@ static void put_view(Line *line, const Viewer *v) {
         put(line, " --stage none");
     if (v->options->hide_lights) put(line, " --hide-lights");
     if (differs(v->options->exposure, 0.0f)) put(line, " --exposure %.9g", (double)v->options->exposure);
-    if (v->options->tonemap != WEFT_TONEMAP_PBR_NEUTRAL) put(line, " --tonemap %s", curves[v->options->tonemap]);
+    if (v->options->tonemap != WEFT_TONEMAP_PBR_NEUTRAL)
+        put(line, " --tonemap %s", weft_tonemap_name((int)v->options->tonemap));
+    float white[2];
+    options_white(v->options, white);
+    if (white[1] > 0.0f) put(line, " --white-balance %.9g,%.9g", (double)v->options->kelvin, (double)v->options->tint);
     if (v->options->mode != MODE_LIVE) {
         put(line, v->options->mode == MODE_DIFFERENCE ? " --engine both --halves --spp %d" : " --halves --spp %d",
             v->requests->traced.samples >= 1.0 ? (int)v->requests->traced.samples : 64);

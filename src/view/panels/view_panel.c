@@ -45,13 +45,11 @@ static void draw_camera(Viewer *v) {
     viewer_set_settings(v, &settings);
 }
 
-static const char *curve_name(const void *user, int k) {
-    static const char *const names[] = {"pbr-neutral", "aces", "none"};
-    return names[k];
-}
+static const char *curve_name(const void *user, int k) { return weft_tonemap_name(k); }
 static const char *curve_help(const void *user, int k) {
     static const char *const helps[] = {"Khronos PBR Neutral, 2024: keeps base colours.",
-                                        "Narkowicz, ACES Filmic Tone Mapping Curve, 2015.", "Clamps at 1."};
+                                        "Narkowicz, ACES Filmic Tone Mapping Curve, 2015.", "Clamps at 1.",
+                                        "Sobotka's AgX: soft, and bright colours become white."};
     return helps[k];
 }
 static const char *back_name(const void *user, int k) {
@@ -85,14 +83,22 @@ static void draw_floor(WeftFloor *floor) {
 
 static void draw_picture(Viewer *v) {
     static const UiRange stops = {-6.0f, 6.0f, 0.0f, "stops", false};
+    static const UiRange kelvin = {1700.0f, 25000.0f, WHITE_NONE, "K", true}, tint = {-50.0f, 50.0f, 0.0f, NULL, false};
     static const float grey[3] = {0.18f, 0.18f, 0.18f};
-    const UiChoices curves = {3, curve_name, curve_help, NULL}, backs = {5, back_name, back_help, NULL};
+    const UiChoices curves = {WEFT_TONEMAP_COUNT, curve_name, curve_help, NULL},
+                    backs = {5, back_name, back_help, NULL};
     const UiChoices parts = {WEFT_PART_COUNT, part_name, part_help, NULL};
     ViewOptions options = *v->options;
     int curve = (int)options.tonemap, back = (int)options.background, part = (int)options.part;
-    ui_slider("exposure", &stops, &options.exposure);
+    if (ui_slider("exposure", &stops, &options.exposure)) options.metered = false;
     ui_tip("Brightens by 2^stops.");
+    ui_checkbox("Automatic exposure", &options.metered);
+    ui_tip("Shows the mean of the picture as middle grey.");
     if (ui_choice("tone map", &curves, &curve)) options.tonemap = (WeftTonemap)curve;
+    ui_slider("white", &kelvin, &options.kelvin);
+    ui_tip("Temperature of the light that shows as white. 6504 K changes nothing, less makes the picture bluer.");
+    ui_slider("tint", &tint, &options.tint);
+    ui_tip("Above 0, greener light shows as white, and the picture becomes more purple.");
     if (ui_choice("background", &backs, &back)) options.background = (WeftBackground)back;
     if (options.background == WEFT_BACKGROUND_COLOR) {
         ui_color("colour", grey, options.background_color);

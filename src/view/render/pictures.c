@@ -107,7 +107,8 @@ static WeftResult draw_one(Renderer *self, const FrameRequest *request, const Sc
                                  .clip = {part[0], height - part[1] - part[3], part[2], part[3]},
                                  .background = {request->behind[0], request->behind[1], request->behind[2]},
                                  .tonemap = numeric ? WEFT_TONEMAP_NONE : request->tonemap,
-                                 .exposure = numeric ? 0.0f : request->exposure};
+                                 .exposure = numeric ? 0.0f : request->exposure,
+                                 .white = {numeric ? 0.0f : request->white[0], numeric ? 0.0f : request->white[1]}};
     return result == WEFT_OK ? weft_raster_show(self->raster, &show, error) : result;
 }
 
@@ -131,7 +132,7 @@ static WeftResult draw_part(Renderer *self, const FrameRequest *request, const S
         double start = clock_now();
         int left = height - y;
         if (rows < 8) rows = 8;
-        if (request->compare || rows > left || left - rows < rows / 4) rows = left;
+        if (request->compare || request->metered || rows > left || left - rows < rows / 4) rows = left;
         const int strip[4] = {part[0], part[1] + y, part[2], rows};
         result = draw_one(self, request, state, strip, target, error);
         glFinish();
@@ -285,6 +286,18 @@ static void hand_linear(Renderer *self, const FrameRequest *request) {
         reference_set_comparison(self->reference, request->view_number, &linear);
 }
 
+/* Meters the picture that was drawn last, with all of its rows. */
+static void meter(Renderer *self) {
+    WeftImage linear;
+    if (weft_raster_image(self->raster, &linear, NULL) != WEFT_OK) return;
+    const float stops = weft_image_meter(&linear);
+    weft_image_free(&linear);
+    pthread_mutex_lock(&self->lock);
+    self->rendered.metered = true;
+    self->rendered.exposure = stops;
+    pthread_mutex_unlock(&self->lock);
+}
+
 /* Returns true if the path tracer is to stand in for a whole picture whose shaders are not compiled yet. */
 static bool needs_stand_in(Renderer *self, const FrameRequest *request) {
     WeftRasterView view = request->view;
@@ -329,6 +342,7 @@ static void draw(Renderer *self, const FrameRequest *request, unsigned number) {
             draw_picture(self, &drawn, number, target, expected, &whole, result == WEFT_OK ? &error : NULL);
         if (result == WEFT_OK) result = done;
         if (done == WEFT_OK && request->compare) hand_linear(self, request);
+        if (done == WEFT_OK && request->metered && effort > EFFORT_COARSE) meter(self);
         if (done != WEFT_OK) target = -1;
         bool fair = done == WEFT_OK && whole && weft_raster_info(self->raster).compiled == compiled;
         if (fair) learn(self, request, effort, clock_now() - start);
@@ -356,7 +370,8 @@ static WeftResult show_sum(Renderer *self, const FrameRequest *request, WeftErro
     const WeftRasterShow show = {.framebuffer = self->targets[target],
                                  .background = {request->behind[0], request->behind[1], request->behind[2]},
                                  .tonemap = numeric ? WEFT_TONEMAP_NONE : request->tonemap,
-                                 .exposure = numeric ? 0.0f : request->exposure};
+                                 .exposure = numeric ? 0.0f : request->exposure,
+                                 .white = {numeric ? 0.0f : request->white[0], numeric ? 0.0f : request->white[1]}};
     const WeftResult result = weft_raster_show(self->raster, &show, error);
     glFinish();
     if (result == WEFT_OK) publish_sum(self, request, target);

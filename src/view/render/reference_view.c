@@ -138,7 +138,8 @@ static WeftResult show(ReferenceView *self, const ReferenceRequest *request, con
     WeftImage mixed;
     WeftResult result = mix(self, request, linear, &mixed);
     if (result != WEFT_OK) return result;
-    result = weft_image_tonemap_over(&mixed, request->tonemap, request->exposure, request->behind, out, NULL);
+    const WeftTone tone = {request->tonemap, request->exposure, {request->white[0], request->white[1]}};
+    result = weft_image_show(&mixed, &tone, request->behind, out, NULL);
     weft_image_free(&mixed);
     return result;
 }
@@ -155,6 +156,7 @@ static void publish(ReferenceView *self, const ReferenceRequest *request, unsign
     picture.samples = info.samples_per_pixel;
     if (!number_for && !self->finer) picture.samples /= COARSE * COARSE;
     picture.seconds = info.render_seconds;
+    picture.exposure = weft_image_meter(&linear);
     picture.denoised = !request->difference && self->denoised.pixels && self->samples < (double)request->samples;
     bool made = request->difference ? compare(self, request, &linear, &picture) == WEFT_OK
                                     : show(self, request, &linear, &picture.image) == WEFT_OK;

@@ -16,6 +16,7 @@ typedef struct ReferenceRequest {
     char camera[ORBIT_TEXT];
     WeftTonemap tonemap;
     float exposure;
+    float white[2];  /* as WeftTone has it */
     float behind[3]; /* colour behind transparent pixels, after tone mapping */
     bool difference; /* show the difference from reference_set_comparison's picture instead */
     float scale;     /* end of the heat map; 0: the 99th percentile */
@@ -30,6 +31,7 @@ typedef struct ReferenceFrame {
     unsigned view, state;    /* numbers of what it shows: reference_request, reference_set_state */
     double samples, seconds; /* samples: below 1 while the resolution is reduced */
     bool denoised;           /* at least partly */
+    float exposure;          /* as metered, stops */
     int wanted_samples;
     WeftDifference difference; /* if `compared` */
     bool compared;

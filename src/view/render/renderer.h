@@ -38,6 +38,8 @@ typedef struct FrameRequest {
     bool laid_behind; /* saved pictures have this colour too; otherwise they stay transparent */
     WeftTonemap tonemap;
     float exposure; /* stops */
+    float white[2]; /* as WeftTone has it */
+    bool metered;   /* the picture's exposure is metered */
     Effort effort;  /* the requested quality */
     int accumulate; /* frames to sum once the picture is at rest (weft_raster_accumulate_begin); 0: none */
     bool reference; /* the path tracer shows this view: OpenGL draws only what `compare` needs */
@@ -123,6 +125,8 @@ typedef struct RenderedFrame {
     float eye[3], target[3], fov; /* m; fov in degrees, vertical */
     int programs, compiled;       /* shader programs in use, and compiled since the start */
     bool busy;                    /* shaders, tables or occlusion are still being computed */
+    bool metered;                 /* `exposure` is that of the picture (weft_image_meter) */
+    float exposure;               /* stops */
     char complaint[512];          /* the compiler's message about changed shader text; "" if all compiles */
     char failure[512];            /* the reason why there is no newer picture */
     char driver[128];

@@ -71,9 +71,9 @@ static WeftResult write_picture(const StillDesc *desc, WeftImage *linear, const 
         return weft_image_write_as(path, linear, &how, error);
     }
     WeftImage display;
-    WeftResult result = desc->laid_behind ? weft_image_tonemap_over(linear, desc->tonemap, desc->exposure,
-                                                                    desc->desc.background_color, &display, error)
-                                          : weft_image_tonemap(linear, desc->tonemap, desc->exposure, &display, error);
+    const WeftTone tone = {desc->tonemap, desc->exposure, {desc->white[0], desc->white[1]}};
+    const float *behind = desc->laid_behind ? desc->desc.background_color : NULL;
+    WeftResult result = weft_image_show(linear, &tone, behind, &display, error);
     if (result != WEFT_OK) return result;
     result = weft_image_write_as(path, &display, &how, error);
     weft_image_free(&display);

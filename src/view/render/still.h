@@ -28,6 +28,7 @@ typedef struct StillDesc {
     WeftTonemap tonemap; /* of a file for display */
     float exposure;      /* stops */
     bool laid_behind;    /* background_color of desc is of the display, laid behind a transparent picture */
+    float white[2];      /* as WeftTone has it */
 } StillDesc;
 
 typedef struct Still Still;

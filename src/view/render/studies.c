@@ -8,7 +8,7 @@
 enum { WIDTH = 300, COLUMNS = 4 };
 
 void study_start(Study *self, const SceneState *state, int material, const WeftRasterView *view, const char *camera,
-                 WeftTonemap tonemap, float exposure, unsigned stamp) {
+                 const WeftTone *tone, unsigned stamp) {
     study_stop(self);
     if (material < 0 || material >= state->material_count || !scene_state_copy(&self->state, state)) return;
     self->material = material;
@@ -21,8 +21,7 @@ void study_start(Study *self, const SceneState *state, int material, const WeftR
     if (self->view.height < 1) self->view.height = 1;
     if (self->view.height > 2 * WIDTH) self->view.height = 2 * WIDTH;
     snprintf(self->camera, sizeof self->camera, "%s", camera);
-    self->tonemap = tonemap;
-    self->exposure = exposure;
+    self->tone = *tone;
 }
 
 void study_stop(Study *self) {
@@ -48,7 +47,7 @@ WeftRasterView study_view(const Study *self) {
 }
 
 void study_add(Study *self, WeftImage *linear) {
-    weft_image_tonemap(linear, self->tonemap, self->exposure, &self->pictures[self->next++], NULL);
+    weft_image_show(linear, &self->tone, NULL, &self->pictures[self->next++], NULL);
     weft_image_free(linear);
 }
 

@@ -16,15 +16,14 @@ typedef struct Study {
     int material;
     WeftRasterView view;
     char camera[ORBIT_TEXT];
-    WeftTonemap tonemap;
-    float exposure;
+    WeftTone tone;
     int next; /* picture: 0 is without a profile, k that of profile k - 1 */
     WeftImage pictures[STUDY_MOST];
 } Study;
 
 /* Starts a sheet of a state, and gives up one under way. */
 void study_start(Study *study, const SceneState *state, int material, const WeftRasterView *view, const char *camera,
-                 WeftTonemap tonemap, float exposure, unsigned stamp);
+                 const WeftTone *tone, unsigned stamp);
 void study_stop(Study *study);
 
 /* Fills the state of the next picture; false, with an empty state, if memory is short. study_view returns its view. */

@@ -28,11 +28,10 @@ static WeftResult shot(Renderer *self, const Task *task, const FrameRequest *req
     const WeftImage *image = &linear;
     if (result == WEFT_OK && !weft_image_suffix_linear(task->path)) {
         bool numeric = request->view.part >= WEFT_PART_BASE_COLOR && !task->reference;
-        WeftTonemap curve = numeric ? WEFT_TONEMAP_NONE : request->tonemap;
-        float exposure = numeric ? 0.0f : request->exposure;
-        result = request->laid_behind && !task->transparent
-                     ? weft_image_tonemap_over(&linear, curve, exposure, request->behind, &display, error)
-                     : weft_image_tonemap(&linear, curve, exposure, &display, error);
+        const WeftTone tone = {request->tonemap, request->exposure, {request->white[0], request->white[1]}};
+        const WeftTone numbers = {.curve = WEFT_TONEMAP_NONE};
+        const float *behind = request->laid_behind && !task->transparent ? request->behind : NULL;
+        result = weft_image_show(&linear, numeric ? &numbers : &tone, behind, &display, error);
         image = &display;
     }
     if (result == WEFT_OK) result = weft_image_write(task->path, image, error);
@@ -254,7 +253,8 @@ void tasks_do(Renderer *self, const Task *task, const FrameRequest *request) {
     case TASK_SURVEY: return;
     case TASK_PROFILES:
         study_start(&self->study, frame_edited_state(request), task->index, &request->view, request->camera,
-                    request->tonemap, request->exposure, task->stamp);
+                    &(WeftTone){request->tonemap, request->exposure, {request->white[0], request->white[1]}},
+                    task->stamp);
         return;
     case TASK_ASSIGN:
     case TASK_WEAVE:

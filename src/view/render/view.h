@@ -23,6 +23,8 @@ typedef struct ViewDesc {
     bool hide_lights;
     WeftTonemap tonemap;
     float exposure;
+    bool metered;             /* exposure follows the picture */
+    float kelvin, tint;       /* of the light that shows as white (weft_white); 0: that of the display */
     const char *shader_dir;   /* may be NULL */
     const char *const *lobes; /* files of the user's lobes that were taken, ended by NULL */
     const char *materials;    /* folder of maps to put onto the cloth; NULL: none */

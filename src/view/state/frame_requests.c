@@ -39,7 +39,9 @@ static bool same_request(const FrameRequest *a, const FrameRequest *b) {
     WeftRasterView x = a->view, y = b->view;
     x.camera = y.camera = NULL;
     bool same = a->split == b->split && a->scene == b->scene && a->tonemap == b->tonemap &&
-                a->reference == b->reference && a->compare == b->compare && strcmp(a->camera, b->camera) == 0 &&
+                a->reference == b->reference && a->metered == b->metered &&
+                memcmp((const char *)a->white, (const char *)b->white, sizeof a->white) == 0 &&
+                a->compare == b->compare && strcmp(a->camera, b->camera) == 0 &&
                 memcmp((const char *)&x, (const char *)&y, sizeof x) == 0 &&
                 memcmp((const char *)a->behind, (const char *)b->behind, sizeof a->behind) == 0;
     return same && !(a->at < b->at) && !(a->at > b->at) && !(a->exposure < b->exposure) && !(a->exposure > b->exposure);
@@ -53,9 +55,11 @@ static FrameRequest make_request(const Viewer *v) {
                             .at = v->options->split_at,
                             .tonemap = v->options->tonemap,
                             .exposure = v->options->exposure,
+                            .metered = v->options->metered,
                             .accumulate = v->desc->accumulate};
     request.state = v->edit->side == 0 || v->edit->split == SPLIT_NONE ? v->edit->state : v->edit->other;
     request.other = v->edit->side == 0 || v->edit->split == SPLIT_NONE ? v->edit->other : v->edit->state;
+    options_white(v->options, request.white);
     requests_picture_size(v, &request.view.width, &request.view.height);
     static const float dark[3] = {0.0219f, 0.0219f, 0.0246f};
     bool color = v->options->background == WEFT_BACKGROUND_COLOR;
@@ -90,6 +94,7 @@ static unsigned send_reference(Viewer *v, const FrameRequest *request) {
     t.desc.halves = t.desc.first_hits = 1; /* to show it denoised */
     snprintf(t.camera, sizeof t.camera, "%s", request->camera);
     t.tonemap = request->tonemap, t.exposure = request->exposure;
+    memcpy(t.white, request->white, sizeof t.white);
     memcpy(t.behind, request->behind, sizeof t.behind);
     t.difference = v->options->mode == MODE_DIFFERENCE;
     t.samples = TRACE_SAMPLES;
@@ -130,6 +135,13 @@ void requests_read_camera(Viewer *v) {
     camera_found(v, p);
 }
 
+/* Takes the exposure that was metered in the picture that is seen, if it shows the last request. */
+static void take_exposure(Viewer *v) {
+    const RenderedFrame *p = &v->states->requests.rendered;
+    const bool seen = v->options->mode == MODE_LIVE && p->metered && p->number == v->states->requests.requested;
+    if (seen) options_take_exposure(v, p->exposure);
+}
+
 /* Waits up to 0.04 s for a picture newer than the last, which may be that of the previous frame while the renderer
  * works on this one. So window and renderer work in parallel, and no picture is more than two frames old. */
 void requests_wait_frame(Viewer *v) {
@@ -143,6 +155,7 @@ void requests_wait_frame(Viewer *v) {
         renderer_take_frame(v->renderer, &v->states->requests.rendered);
     }
     v->states->requests.late = v->states->requests.rendered.number == before && before != v->states->requests.requested;
+    take_exposure(v);
 }
 
 void requests_take_reference(Viewer *v) {
@@ -152,6 +165,7 @@ void requests_take_reference(Viewer *v) {
         viewer_upload(&v->states->requests.reference_texture, &picture.image);
         weft_image_free(&picture.image);
     }
+    if (picture.image.pixels && v->options->mode == MODE_REFERENCE) options_take_exposure(v, picture.exposure);
     const FrameRequest *last = &v->states->requests.request;
     bool current = picture.view == last->view_number && picture.state == last->state_number;
     if (!current) picture.samples = 0.0; /* they are of an earlier view or state */

@@ -27,6 +27,7 @@ static StillDesc desc_of(const Viewer *v, const StillChoice *choice) {
                  .hide_lights = v->options->hide_lights}};
     desc.desc.floor.on = choice->floor;
     memcpy(desc.desc.background_color, v->options->background_color, sizeof desc.desc.background_color);
+    options_white(v->options, desc.white);
     orbit_text(&v->camera->orbit, desc.camera);
     return desc;
 }

@@ -9,6 +9,9 @@ void options_begin(Viewer *v) {
     const ViewDesc *desc = v->desc;
     v->states->options = (ViewOptions){.tonemap = desc->tonemap,
                                        .exposure = desc->exposure,
+                                       .metered = desc->metered,
+                                       .kelvin = desc->kelvin > 0.0f ? desc->kelvin : WHITE_NONE,
+                                       .tint = desc->tint,
                                        .background = desc->background,
                                        .floor = desc->floor,
                                        .stage = desc->stage,
@@ -28,10 +31,24 @@ void options_set(Viewer *v, const ViewOptions *options) {
     own->stage = own->stage && !decided;
     own->split_at = within(own->split_at, 0.02f, 0.98f);
     own->exposure = within(own->exposure, -32.0f, 32.0f);
+    own->kelvin = within(own->kelvin, 1700.0f, 25000.0f);
+    own->tint = within(own->tint, -50.0f, 50.0f);
     own->floor.reflection = within(own->floor.reflection, 0.0f, 1.0f);
     own->floor.roughness = within(own->floor.roughness, 0.0f, 1.0f);
     own->brush_radius = within(own->brush_radius, 1e-4f, 100.0f);
     own->brush_strength = within(own->brush_strength, 0.0f, 1.0f);
+}
+
+void options_white(const ViewOptions *options, float white[2]) {
+    white[0] = white[1] = 0.0f;
+    const bool none = fabsf(options->kelvin - WHITE_NONE) < 0.5f && fabsf(options->tint) < 1e-3f;
+    if (!none) weft_white(options->kelvin, options->tint, white);
+}
+
+void options_take_exposure(Viewer *v, float stops) {
+    const float noise = 0.02f; /* stops */
+    ViewOptions *own = &v->states->options;
+    if (own->metered && fabsf(stops - own->exposure) > noise) own->exposure = within(stops, -32.0f, 32.0f);
 }
 
 void options_toggle_mode(Viewer *v, Mode mode) {

@@ -20,6 +20,9 @@ typedef struct ViewOptions {
     bool hide_lights;
     WeftTonemap tonemap;
     float exposure; /* stops */
+    bool metered;   /* exposure follows the picture */
+    float kelvin;   /* of the light that shows as white; WHITE_NONE with tint 0: that of the display */
+    float tint;     /* of it, as weft_white has it */
     WeftPart part;
     WeftAmbient ambient;
     Tool tool;
@@ -29,6 +32,14 @@ typedef struct ViewOptions {
 } ViewOptions;
 
 void options_begin(Viewer *v);
+
+#define WHITE_NONE 6504.0f
+
+/* Fills the white of the options, as WeftTone has it. */
+void options_white(const ViewOptions *options, float white[2]);
+
+/* Takes the exposure of a picture in which it was metered, unless that differs by less than the picture's noise. */
+void options_take_exposure(Viewer *v, float stops);
 
 /* Sets all options, clamped to their ranges. */
 void options_set(Viewer *v, const ViewOptions *options);
