@@ -58,7 +58,12 @@ typedef struct WeftImageLayer {
     const char *channels[4]; /* full names, such as "albedo.R", one for each channel of image */
 } WeftImageLayer;
 
-enum { WEFT_IMAGE_LAYERS = 16 };
+enum { WEFT_IMAGE_LAYERS = 32 };
+
+/* An attribute of an .exr: a name of at most 31 characters, and its text. */
+typedef struct WeftImageText {
+    const char *name, *text;
+} WeftImageText;
 
 /* Options of weft_image_write_as. All zero: as weft_image_write does. */
 typedef struct WeftImageWriting {
@@ -70,6 +75,8 @@ typedef struct WeftImageWriting {
                              where readers warn of it; may be NULL */
     const WeftImageLayer *layers; /* of an .exr; the other formats leave them out */
     int layer_count;              /* at most WEFT_IMAGE_LAYERS */
+    const WeftImageText *texts;   /* of an .exr; the other formats leave them out */
+    int text_count;
     const char *isa; /* the instruction set that made it (weft_isa), kept in an .exr ("isa"); may be NULL */
 } WeftImageWriting;
 

@@ -76,6 +76,8 @@ typedef struct WeftRenderDesc {
     int hide_lights; /* not 0: polygon lights emit, but the camera looks through them */
     int halves; /* WEFT_HALVES_...; weft_render_denoised needs either, noise and WEFT_AOV_VARIANCE independent ones */
     int first_hits; /* not 0: albedo, normal and depth are recorded, which weft_render_denoised needs too */
+    int places;     /* not 0: position and texture coordinates of the same surfaces are recorded too */
+    int mattes;     /* not 0: which objects and materials a pixel shows is recorded */
     float noise;    /* weft_render_run stops when the estimated relMSE is at most this; 0: it does not */
     int stages;     /* not 0: stages are timed for weft_render_stage */
     /* not 0: light and rays meet the flat triangles and not the smooth surface that their normals describe, so that
@@ -156,15 +158,37 @@ typedef enum WeftAov {
     WEFT_AOV_DEPTH,      /* m along the camera's axis, over samples that hit a surface; 1e10 without any */
     WEFT_AOV_VARIANCE,   /* RGB: squared error, estimated from the halves: unbiased, but noisy */
     WEFT_AOV_SAMPLES,    /* number of samples */
+    WEFT_AOV_POSITION,   /* XYZ in the world, metres, over samples that hit a surface; 0 without any */
+    WEFT_AOV_UV,         /* first texture coordinates, likewise */
+    WEFT_AOV_OBJECT,     /* names of objects as a Cryptomatte: id and coverage of rank 0, then of rank 1 */
+    WEFT_AOV_MATERIAL,   /* names of materials likewise */
     WEFT_AOV_COUNT
 } WeftAov;
 
-/* Returns "albedo", "normal", "depth", "variance" or "samples"; NULL beyond. */
+/* Returns "albedo", "normal", "depth", "variance", "samples", "position", "uv", "object" or "material"; NULL beyond. */
 WEFT_API const char *weft_aov_name(int aov);
 
-/* Makes one of them from the samples so far: F32 of 3 channels or 1. Fails with WEFT_MESSAGE_DESC if the descriptor
- * lacks the halves or first_hits that it needs, or with _MEMORY. */
+/* Switches on in a descriptor what AOVs need to be recorded: a set of 1 << WEFT_AOV_ALBEDO and so on. */
+WEFT_API void weft_render_record(WeftRenderDesc *desc, unsigned aovs);
+
+/* Makes one of them from the samples so far: F32 of 1 to 4 channels. Fails with WEFT_MESSAGE_DESC if the descriptor
+ * lacks what it needs, or with _MEMORY. */
 WEFT_API WeftResult weft_render_aov(const WeftRender *render, WeftAov aov, WeftImage *out, WeftError *error);
+
+/* AOVs as channels and attributes of an .exr, for WeftImageWriting. Objects and materials are Cryptomattes of six ranks
+ * (version 1.2.0 of their specification) with a manifest, named CryptoObject and CryptoMaterial. */
+typedef struct WeftRenderLayers {
+    WeftImageLayer *layers;
+    int layer_count;
+    WeftImageText *texts;
+    int text_count;
+} WeftRenderLayers;
+
+/* Makes the layers of a set of AOVs, 1 << WEFT_AOV_ALBEDO and so on. Release with weft_render_layers_free. Fails as
+ * weft_render_aov does. */
+WEFT_API WeftResult weft_render_layers(const WeftRender *render, unsigned aovs, WeftRenderLayers *out,
+                                       WeftError *error);
+WEFT_API void weft_render_layers_free(WeftRenderLayers *layers);
 
 /* The denoisers. */
 typedef enum WeftDenoiser {

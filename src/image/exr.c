@@ -447,6 +447,8 @@ static exr_result_t exr_describe(exr_context_t exr, const WeftImage *image, cons
     if (status == EXR_ERR_SUCCESS && how->comment) status = exr_attr_set_string(exr, part, "comments", how->comment);
     if (status == EXR_ERR_SUCCESS && how->denoised)
         status = exr_attr_set_string(exr, part, exr_denoised, how->denoised);
+    for (int k = 0; status == EXR_ERR_SUCCESS && k < how->text_count; k++)
+        status = exr_attr_set_string(exr, part, how->texts[k].name, how->texts[k].text);
     if (status == EXR_ERR_SUCCESS && how->isa) status = exr_attr_set_string(exr, part, "isa", how->isa);
     if (status == EXR_ERR_SUCCESS) status = exr_set_version(exr, part, 1);
     return status == EXR_ERR_SUCCESS ? exr_write_header(exr) : status;

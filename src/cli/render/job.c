@@ -65,8 +65,7 @@ static WeftResult develop(Job *job, const WeftRender *render, WeftError *error) 
     const Request *request = job->request;
     WeftResult result = request->denoise ? weft_render_denoised(render, request->denoiser, &job->linear, error)
                                          : weft_render_image(render, &job->linear, error);
-    for (int k = 0; k < WEFT_AOV_COUNT && result == WEFT_OK; k++)
-        if (request->aovs & 1u << k) result = weft_render_aov(render, (WeftAov)k, &job->aovs[k], error);
+    if (result == WEFT_OK && request->aovs) result = weft_render_layers(render, request->aovs, &job->layers, error);
     job->noise = weft_render_noise(render);
     return result;
 }
@@ -215,7 +214,7 @@ static WeftResult finish(Job *job, WeftError *error) {
 static void free_images(Job *job) {
     weft_image_free(&job->linear);
     weft_image_free(&job->display);
-    for (int k = 0; k < WEFT_AOV_COUNT; k++) weft_image_free(&job->aovs[k]);
+    weft_render_layers_free(&job->layers);
 }
 
 WeftResult job_draw(Job *job, const char *camera, WeftError *error) {
@@ -243,26 +242,15 @@ void job_free(Job *job) {
     free_images(job);
 }
 
-/* The channels of an AOV, by the names that Nuke, Blender and OpenEXR's own tools use. */
-static const char *const aov_channels[WEFT_AOV_COUNT][4] = {
-    {"albedo.R", "albedo.G", "albedo.B"},       {"N.X", "N.Y", "N.Z"}, {"Z"},
-    {"variance.R", "variance.G", "variance.B"}, {"sampleCount"},
-};
-
 WeftResult job_write(const Job *job, const char *number, WeftError *error) {
     const Request *request = job->request;
-    WeftImageLayer layers[WEFT_AOV_COUNT];
-    int count = 0;
-    for (int k = 0; k < WEFT_AOV_COUNT; k++) {
-        if (!job->aovs[k].pixels) continue;
-        layers[count].image = &job->aovs[k];
-        memcpy(layers[count++].channels, aov_channels[k], sizeof aov_channels[k]);
-    }
     const Outputs outputs = {&job->linear,
                              &job->display,
                              {.denoised = request->denoise ? weft_denoiser_name((int)request->denoiser) : NULL,
                               .isa = job->engine == ENGINE_TRACE ? weft_isa() : NULL,
-                              .layers = layers,
-                              .layer_count = count}};
+                              .layers = job->layers.layers,
+                              .layer_count = job->layers.layer_count,
+                              .texts = job->layers.texts,
+                              .text_count = job->layers.text_count}};
     return request_outputs_write(request, number, &outputs, error);
 }

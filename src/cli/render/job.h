@@ -18,7 +18,7 @@ typedef struct Job {
     WeftImage display;                  /* owned */
     WeftTone tone;                      /* of it */
     bool metered;                       /* tone has what --exposure auto and --white-balance auto found */
-    WeftImage aovs[WEFT_AOV_COUNT];     /* owned; only those requested */
+    WeftRenderLayers layers;            /* owned: the AOVs that were asked for */
     double noise;                       /* relMSE, estimated; below 0: unknown */
     WeftRenderStage stages[JOB_STAGES]; /* of --stages */
     int stage_count;

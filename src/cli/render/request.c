@@ -73,7 +73,8 @@ const Option request_options[] = {
 
     OPTION_HEADING("Output of the path tracer"),
     OPTION_TEXT("--aov", "NAMES", NULL,
-                "more channels in an .exr: albedo, normal, depth, variance, samples, with a comma between"),
+                "more channels in an .exr, with a comma between: albedo, normal, depth, position, uv, variance, "
+                "samples; object and material, as Cryptomattes; or all"),
     OPTION_SWITCH("--denoise", "take noise out of the picture; to look at, never to measure by"),
     OPTION_TEXT("--denoiser", "NAME", "regression", "and how: regression, or oidn where it is installed"),
 
@@ -171,10 +172,13 @@ static bool read_aovs(const char *text, unsigned *aovs) {
     while (text && *text) {
         size_t length = strcspn(text, ",");
         int found = -1;
-        for (int k = 0; k < WEFT_AOV_COUNT; k++)
+        if (length == 3 && strncmp(text, "all", 3) == 0) *aovs |= (1u << WEFT_AOV_COUNT) - 1u, found = 0;
+        for (int k = 0; k < WEFT_AOV_COUNT && found < 0; k++)
             if (strlen(weft_aov_name(k)) == length && strncmp(text, weft_aov_name(k), length) == 0) found = k;
         if (found < 0) {
-            report(WEFT_USAGE, "--aov: \"%.*s\" is not albedo, normal, depth, variance or samples",
+            report(WEFT_USAGE,
+                   "--aov: \"%.*s\" is not albedo, normal, depth, position, uv, variance, samples, object, material or "
+                   "all",
                    (int)(length < 80 ? length : 80), text);
             return false;
         }
@@ -215,10 +219,10 @@ static bool read_extras(const Options *options, Request *request) {
     }
     if (option_given(options, "--noise") && !option_given(options, "--spp")) request->spp = 0;
     request->desc.noise = option_given(options, "--noise") ? (float)noise : 0.0f;
-    bool judged = option_given(options, "--halves") || request->desc.noise > 0.0f ||
-                  (request->aovs & 1u << WEFT_AOV_VARIANCE) != 0;
+    bool judged = option_given(options, "--halves") || request->desc.noise > 0.0f;
     request->desc.halves = judged ? WEFT_HALVES_INDEPENDENT : request->denoise ? WEFT_HALVES_SHARED : 0;
-    request->desc.first_hits = request->denoise || (request->aovs & ((2u << WEFT_AOV_DEPTH) - 1u));
+    request->desc.first_hits = request->denoise;
+    weft_render_record(&request->desc, request->aovs);
     return true;
 }
 

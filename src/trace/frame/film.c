@@ -5,8 +5,8 @@
 #include "base/fail.h"
 #include "image/difference.h"
 
-bool film_create(Film *film, int width, int height, bool halves, bool hits, bool floor) {
-    *film = (Film){.width = width, .height = height, .halves = halves ? 2 : 1, .hits = hits};
+bool film_create(Film *film, int width, int height, FilmWants wants) {
+    *film = (Film){.width = width, .height = height, .halves = wants.halves ? 2 : 1, .hits = wants.hits};
     film->tiles_across = (width + STREAM_TILE - 1) / STREAM_TILE;
     film->tile_count = film->tiles_across * ((height + STREAM_TILE - 1) / STREAM_TILE);
     size_t pixels = (size_t)width * (size_t)height;
@@ -15,11 +15,16 @@ bool film_create(Film *film, int width, int height, bool halves, bool hits, bool
         FilmHalf *half = &film->half[h];
         half->samples = alloc_array((size_t)film->tile_count, sizeof(int));
         half->sums = alloc_array(pixels, 4 * sizeof(float));
-        half->caught = floor ? alloc_array(pixels, sizeof(Caught)) : NULL;
-        half->hits = hits ? alloc_array(pixels, FIRST_NUMBERS * sizeof(float)) : NULL;
-        made &= half->samples && half->sums && !half->caught == !floor && !half->hits == !hits;
+        half->caught = wants.floor ? alloc_array(pixels, sizeof(Caught)) : NULL;
+        half->hits = wants.hits ? alloc_array(pixels, FIRST_NUMBERS * sizeof(float)) : NULL;
+        made &= half->samples && half->sums && !half->caught == !wants.floor && !half->hits == !wants.hits;
     }
-    return made;
+    film->places = wants.places ? alloc_array(pixels, PLACE_NUMBERS * sizeof(float)) : NULL;
+    for (int m = 0; m < FILM_MATTES; m++) {
+        film->matte[m] = wants.mattes ? alloc_array(pixels, sizeof(Matte)) : NULL;
+        made &= !film->matte[m] == !wants.mattes;
+    }
+    return made && !film->places == !wants.places;
 }
 
 void film_free(Film *film) {
@@ -29,12 +34,24 @@ void film_free(Film *film) {
         free(film->half[h].caught);
         free(film->half[h].hits);
     }
+    for (int m = 0; m < FILM_MATTES; m++) free(film->matte[m]);
+    free(film->places);
     *film = (Film){0};
 }
 
 static bool finite(const float c[4]) {
     float sum = c[0] + c[1] + c[2];
     return sum < INFINITY && sum > -INFINITY;
+}
+
+/* Adds where the samples of a pixel are, and what they show. */
+static void add_places(Film *film, size_t pixel, const FirstHits *first, int first_id, int count) {
+    for (int a = 0; film->places && a < PLACE_NUMBERS; a++)
+        for (int id = first_id; id < first_id + count; id++)
+            film->places[PLACE_NUMBERS * pixel + (size_t)a] += first->place[a][id];
+    for (int m = 0; m < FILM_MATTES && film->matte[m]; m++)
+        for (int id = first_id; id < first_id + count; id++)
+            if (first->mesh[id] != GEOMETRY_NOTHING) matte_add(&film->matte[m][pixel], film->names[m][first->mesh[id]]);
 }
 
 int film_add(Film *film, int half, size_t pixel, const Stream *stream, int first_id, int count) {
@@ -53,6 +70,7 @@ int film_add(Film *film, int half, size_t pixel, const Stream *stream, int first
     for (int a = 0; to->hits && a < FIRST_NUMBERS; a++)
         for (int id = first_id; id < first_id + count; id++)
             to->hits[FIRST_NUMBERS * pixel + (size_t)a] += stream->first->number[a][id];
+    if (film->places || film->matte[0]) add_places(film, pixel, stream->first, first_id, count);
     return non_finite;
 }
 
@@ -101,6 +119,13 @@ int film_hits(const Film *film, int half, int x, int y, float numbers[FIRST_NUMB
     return n;
 }
 
+void film_matte(const Film *film, int matte, int pair, int x, int y, float rgba[4]) {
+    float ranks[2 * MATTE_RANKS] = {0};
+    const int samples = samples_at(film, FILM_BOTH, x, y);
+    if (samples) matte_rank(&film->matte[matte][pixel_at(film, x, y)], samples, ranks);
+    memcpy(rgba, ranks + 4 * pair, 4 * sizeof(float));
+}
+
 WeftResult film_image(const Film *film, WeftImage *out, WeftError *error) {
     WeftResult result = weft_image_create(film->width, film->height, 4, WEFT_PIXEL_F32, out, error);
     if (result != WEFT_OK) return result;
@@ -143,12 +168,20 @@ double film_noise(const Film *film) {
 static const struct {
     const char *name;
     int channels;
-} aovs[WEFT_AOV_COUNT] = {{"albedo", 3}, {"normal", 3}, {"depth", 1}, {"variance", 3}, {"samples", 1}};
+} aovs[WEFT_AOV_COUNT] = {{"albedo", 3},   {"normal", 3}, {"depth", 1},  {"variance", 3}, {"samples", 1},
+                          {"position", 3}, {"uv", 2},     {"object", 4}, {"material", 4}};
 
 const char *weft_aov_name(int aov) { return aov >= 0 && aov < WEFT_AOV_COUNT ? aovs[aov].name : NULL; }
 
 /* The depth if nothing is hit, which compositing programs treat as the background. */
 static const float nowhere = 1e10f;
+
+/* Gives means over the samples that hit a surface, which are the part `seen` of all. */
+static void mean_place(const Film *film, int x, int y, float seen, int from, int count, float *to) {
+    const float *sums = film->places + PLACE_NUMBERS * pixel_at(film, x, y) + from;
+    const float hits = seen * (float)samples_at(film, FILM_BOTH, x, y);
+    for (int a = 0; a < count; a++) to[a] = hits > 0.0f ? sums[a] / hits : 0.0f;
+}
 
 static void aov_pixel(const Film *film, WeftAov aov, int x, int y, float *to) {
     float hits[FIRST_NUMBERS] = {0};
@@ -162,6 +195,10 @@ static void aov_pixel(const Film *film, WeftAov aov, int x, int y, float *to) {
         break;
     case WEFT_AOV_DEPTH: *to = hits[FIRST_SEEN] > 0.0f ? hits[FIRST_DEPTH] / hits[FIRST_SEEN] : nowhere; break;
     case WEFT_AOV_VARIANCE: pixel_variance(film, x, y, to); break;
+    case WEFT_AOV_POSITION: mean_place(film, x, y, hits[FIRST_SEEN], PLACE_POSITION, 3, to); break;
+    case WEFT_AOV_UV: mean_place(film, x, y, hits[FIRST_SEEN], PLACE_UV, 2, to); break;
+    case WEFT_AOV_OBJECT: film_matte(film, FILM_OBJECTS, 0, x, y, to); break;
+    case WEFT_AOV_MATERIAL: film_matte(film, FILM_MATERIALS, 0, x, y, to); break;
     default: *to = (float)samples_at(film, FILM_BOTH, x, y);
     }
 }
@@ -171,6 +208,10 @@ WeftResult film_aov(const Film *film, WeftAov aov, WeftImage *out, WeftError *er
     if ((unsigned)aov >= WEFT_AOV_COUNT) return fail(error, WEFT_MESSAGE_DESC, "aov", "%d", (int)aov);
     if (aov <= WEFT_AOV_DEPTH && !film->hits)
         return fail(error, WEFT_MESSAGE_DESC, aovs[aov].name, "it was not gathered (first_hits)");
+    if ((aov == WEFT_AOV_POSITION || aov == WEFT_AOV_UV) && !film->places)
+        return fail(error, WEFT_MESSAGE_DESC, aovs[aov].name, "it was not gathered (places)");
+    if ((aov == WEFT_AOV_OBJECT || aov == WEFT_AOV_MATERIAL) && !film->matte[0])
+        return fail(error, WEFT_MESSAGE_DESC, aovs[aov].name, "it was not gathered (mattes)");
     if (aov == WEFT_AOV_VARIANCE && film->halves < 2)
         return fail(error, WEFT_MESSAGE_DESC, aovs[aov].name, "it was not gathered (halves)");
     int channels = aovs[aov].channels;

@@ -7,11 +7,13 @@
  *   (A - B)^2 n m / (n + m)^2 */
 #pragma once
 
+#include "trace/frame/matte.h"
 #include "trace/path/catcher.h"
 #include "trace/path/first_hit.h"
 #include "trace/path/stream.h"
 
 enum { FILM_BOTH = 2 };
+enum { FILM_OBJECTS, FILM_MATERIALS, FILM_MATTES };
 
 typedef struct FilmHalf {
     int *samples;   /* of each pixel, by tile of STREAM_TILE pixels a side, row by row */
@@ -24,11 +26,19 @@ typedef struct Film {
     int width, height, tiles_across, tile_count;
     int halves; /* 1 or 2 */
     FilmHalf half[2];
-    bool hits; /* first hits are recorded */
+    bool hits;                          /* first hits are recorded */
+    float *places;                      /* sums over both halves, PLACE_NUMBERS a pixel; NULL if not recorded */
+    Matte *matte[FILM_MATTES];          /* of both halves, by pixel; NULL if not recorded */
+    const uint32_t *names[FILM_MATTES]; /* ids of the meshes' objects and materials; not owned */
 } Film;
 
+/* What a film records beside the picture. */
+typedef struct FilmWants {
+    bool halves, hits, places, mattes, floor;
+} FilmWants;
+
 /* Makes an empty film; returns false if memory is short. The film is to be freed either way. */
-bool film_create(Film *film, int width, int height, bool halves, bool hits, bool floor);
+bool film_create(Film *film, int width, int height, FilmWants wants);
 void film_free(Film *film);
 
 /* Adds the samples of a pixel, ids from first_id on, in their order; returns how many were not finite. Those count as
@@ -42,6 +52,9 @@ int film_pixel(const Film *film, int half, int x, int y, float rgba[4]);
 /* Gives the means of a pixel's first hits over the samples of one half or FILM_BOTH, so that FIRST_SEEN is the fraction
  * that met a surface; 0 without samples. Returns how many samples there are. */
 int film_hits(const Film *film, int half, int x, int y, float numbers[FIRST_NUMBERS]);
+
+/* Gives the channels of ranks 2 * pair and 2 * pair + 1 of a matte: id and coverage of each. */
+void film_matte(const Film *film, int matte, int pair, int x, int y, float rgba[4]);
 
 /* Makes the picture, with straight alpha. */
 WeftResult film_image(const Film *film, WeftImage *out, WeftError *error);

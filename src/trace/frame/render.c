@@ -9,7 +9,7 @@
 #include "scene/light/backdrop.h"
 #include "scene/light/polygons.h"
 #include "scene/record/camera.h"
-#include "trace/frame/tile.h"
+#include "trace/frame/traced.h"
 #include "trace/path/path_materials.h"
 
 enum {
@@ -38,7 +38,8 @@ struct WeftRender {
     int stream_count;
     unsigned blurred_version; /* of the environment that picture.blurred was made from */
     Tile *tiles;
-    int samples_done[2]; /* samples a pixel that all tiles of a half have */
+    uint32_t *names[FILM_MATTES]; /* ids of the meshes' objects and materials; NULL without mattes */
+    int samples_done[2];          /* samples a pixel that all tiles of a half have */
     double build_seconds, render_seconds;
 };
 
@@ -57,6 +58,8 @@ static WeftResult check_desc(const WeftRenderDesc *d, WeftError *error) {
         if (!isfinite(d->background_color[k])) return fail(error, WEFT_MESSAGE_DESC, "background color", NULL);
     if (!(d->noise >= 0.0f) || (d->noise > 0.0f && d->halves != WEFT_HALVES_INDEPENDENT))
         return fail(error, WEFT_MESSAGE_DESC, "noise", "%g; above 0 it needs independent halves", (double)d->noise);
+    if ((d->places || d->mattes) && !d->first_hits)
+        return fail(error, WEFT_MESSAGE_DESC, "places and mattes", "they need first_hits");
     if ((unsigned)d->halves > WEFT_HALVES_SHARED) return fail(error, WEFT_MESSAGE_DESC, "halves", "%d", d->halves);
     if (d->threads < 0 || d->threads > WEFT_THREADS_MAX)
         return fail(error, WEFT_MESSAGE_DESC, "threads", "%d", d->threads);
@@ -107,6 +110,22 @@ static WeftResult make_streams(WeftRender *render, WeftError *error) {
     return fail(error, WEFT_MESSAGE_MEMORY, render->scene->name, NULL);
 }
 
+/* Gives the film the ids of the meshes' objects and materials. Returns false if memory is short. */
+static bool name_meshes(WeftRender *render, bool wanted) {
+    const WeftScene *scene = render->scene;
+    for (int m = 0; m < FILM_MATTES; m++) {
+        free(render->names[m]);
+        render->names[m] = wanted ? alloc_array((size_t)scene->mesh_count, sizeof(uint32_t)) : NULL;
+        render->picture.film.names[m] = render->names[m];
+        if (wanted && !render->names[m]) return false;
+    }
+    for (int k = 0; wanted && k < scene->mesh_count; k++) {
+        render->names[FILM_OBJECTS][k] = matte_id(matte_object(scene, k));
+        render->names[FILM_MATERIALS][k] = matte_id(matte_material(scene, scene->meshes[k].material));
+    }
+    return true;
+}
+
 /* Begins a picture: finds its camera and makes an empty film. */
 static WeftResult begin_picture(WeftRender *render, WeftError *error) {
     TracedPicture *picture = &render->picture;
@@ -123,7 +142,12 @@ static WeftResult begin_picture(WeftRender *render, WeftError *error) {
     picture->floor = floor_of(render->scene, &d->floor);
     render->render_seconds = 0.0;
     render->samples_done[0] = render->samples_done[1] = 0;
-    bool made = film_create(film, d->crop[2], d->crop[3], d->halves, d->first_hits, picture->floor.there);
+    const FilmWants wants = {.halves = d->halves != 0,
+                             .hits = d->first_hits != 0,
+                             .places = d->places != 0,
+                             .mattes = d->mattes != 0,
+                             .floor = picture->floor.there};
+    bool made = film_create(film, d->crop[2], d->crop[3], wants) && name_meshes(render, wants.mattes);
     render->tiles = alloc_array((size_t)film->tile_count, sizeof(Tile));
     if (made && render->tiles) return WEFT_OK;
     film->tile_count = 0;
@@ -172,6 +196,7 @@ static void set_context(WeftRender *render) {
                              .stages = d->stages != 0,
                              .sky_in_parts = in_parts(&render->scene->environment),
                              .first_hits = d->first_hits != 0,
+                             .places = d->places || d->mattes,
                              .forward = {view->forward.x, view->forward.y, view->forward.z}};
     context->pixel_width[view->orthographic ? 0 : 1] = 2.0f * sqrtf(vec3_dot(view->up, view->up)) / (float)d->height;
 }
@@ -246,6 +271,7 @@ void weft_render_free(WeftRender *render) {
     geometry_free(render->geometry);
     weft_image_free(&render->picture.blurred);
     free(render->tiles);
+    for (int m = 0; m < FILM_MATTES; m++) free(render->names[m]);
     film_free(&render->picture.film);
     free(render);
 }
@@ -370,3 +396,5 @@ WeftResult weft_render_aov(const WeftRender *render, WeftAov aov, WeftImage *out
 WeftResult weft_render_denoised(const WeftRender *render, WeftDenoiser denoiser, WeftImage *out, WeftError *error) {
     return film_denoise(&render->picture.film, denoiser, render->picture.desc.threads, out, error);
 }
+
+const TracedPicture *render_picture(const WeftRender *render) { return &render->picture; }

@@ -95,6 +95,13 @@ static bool add_floor(TracedPicture *picture, Stream *stream, const LensPart *pa
     return true;
 }
 
+/* Starts the first hit of a path: seen is 1 if it may meet a surface. */
+static void begin_first(FirstHits *first, uint32_t id, float seen) {
+    for (int a = 0; a < FIRST_NUMBERS; a++) first->number[a][id] = a == FIRST_SEEN ? seen : 0.0f;
+    for (int a = 0; a < PLACE_NUMBERS; a++) first->place[a][id] = 0.0f;
+    first->mesh[id] = GEOMETRY_NOTHING;
+}
+
 /* Starts the sums of n paths with what camera rays meet before any surface: the floor or the background. The stream
  * adds the environment as a background. */
 static void enter(TracedPicture *picture, Stream *stream, const LensPart *part, Caught *caught, int n) {
@@ -111,8 +118,7 @@ static void enter(TracedPicture *picture, Stream *stream, const LensPart *part, 
             }
         }
         for (int c = 0; c < 4; c++) stream->radiance.rgba[c][stream->paths[0].id[k]] = sum[c];
-        for (int a = 0; stream->first && a < FIRST_NUMBERS; a++)
-            stream->first->number[a][stream->paths[0].id[k]] = a == FIRST_SEEN ? seen : 0.0f;
+        if (stream->first) begin_first(stream->first, stream->paths[0].id[k], seen);
     }
 }
 

@@ -27,3 +27,19 @@ void first_hits_take(FirstHits *hits, const Chunk *chunk, int n, FirstLook look,
         hits->number[FIRST_DEPTH][id] = seen * chunk->t[k] * cosine;
     }
 }
+
+void first_hits_place(FirstHits *hits, const Chunk *chunk, int n, const WeftScene *scene) {
+    for (int k = 0; k < n; k++) {
+        uint32_t id = chunk->id[k];
+        if (!(hits->number[FIRST_SEEN][id] > 0.0f)) continue;
+        const Hit hit = {.t = chunk->t[k],
+                         .mesh = chunk->mesh[k],
+                         .triangle = chunk->triangle[k],
+                         .u = chunk->u[k],
+                         .v = chunk->v[k]};
+        const Attributes at = geometry_attributes(&scene->meshes[hit.mesh], &hit);
+        hits->mesh[id] = hit.mesh;
+        for (int a = 0; a < 3; a++) hits->place[PLACE_POSITION + a][id] = chunk->position[a][k];
+        for (int a = 0; a < 2; a++) hits->place[PLACE_UV + a][id] = at.uv[0][a];
+    }
+}

@@ -40,6 +40,7 @@ typedef struct PathContext {
     bool stages;          /* stages are timed */
     bool sky_in_parts;    /* the environment's factors `ambient` and `reflection` are not both 1 */
     bool first_hits;      /* first hits are recorded */
+    bool places;          /* where they are, and on which meshes, too */
     float forward[3];     /* the camera's axis, along which their depth is measured */
     float pixel_width[2]; /* at the eye, and how much wider it becomes with depth */
 } PathContext;

@@ -110,6 +110,7 @@ static int shade_chunk(Stream *stream, const ChunkSource *source, Paths *next, i
     if (stream->first && source->depth == 0) {
         FirstLook look = ends ? FIRST_LOOK_UNSHADED : material->cloth ? FIRST_LOOK_WOVEN : FIRST_LOOK_PLAIN;
         first_hits_take(stream->first, chunk, source->n, look, context->forward);
+        if (context->places) first_hits_place(stream->first, chunk, source->n, context->scene);
     }
     stage_end(chunk->clock, STAGE_FRAMES);
     if (ends) return count;
