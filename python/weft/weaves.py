@@ -23,7 +23,7 @@ class DraftInfo(Record):
 
 class ClothInfo(Record):
     """The figures of a cloth: `share` of warp and weft of its area, `size` of the repeat (m), `sett` (threads per cm),
-    `metres` that a unit of texture coordinates spans, `automatic`, `seed`."""
+    `metres` that a unit of texture coordinates spans, `automatic`, `rotation` (degrees), `relief` (m), `seed`."""
 
 
 class Draft(Handle):

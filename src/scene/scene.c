@@ -170,6 +170,20 @@ WeftResult weft_scene_set_variant(WeftScene *scene, const char *name, WeftError 
 
 int weft_scene_variant(const WeftScene *scene) { return scene->variant - 1; }
 
+/* Raises values below 0, which light cannot be, to 0, and says so. */
+static void raise_to_zero(WeftImage *image, const char *path, const WeftLog *log) {
+    const size_t count = (size_t)image->width * (size_t)image->height * (size_t)image->channels;
+    float *values = image->pixels;
+    size_t below = 0;
+    for (size_t k = 0; k < count; k++) {
+        below += values[k] < 0.0f;
+        values[k] = fmaxf(values[k], 0.0f);
+    }
+    if (below)
+        warn(log, WEFT_MESSAGE_IMAGE_REPAIRED, path, "%zu of %zu values were below 0, which light cannot be; 0 now",
+             below, count);
+}
+
 WeftResult weft_scene_set_environment_file(WeftScene *scene, const char *path, const WeftLog *log, WeftError *error) {
     WeftImage raw, linear;
     WeftResult result;
@@ -182,6 +196,7 @@ WeftResult weft_scene_set_environment_file(WeftScene *scene, const char *path, c
         weft_image_free(&raw);
     }
     if (result != WEFT_OK) return result;
+    raise_to_zero(&linear, path, log);
     weft_image_free(&scene->environment.image);
     scene->environment.image = linear;
     scene->environment.kind = ENVIRONMENT_IMAGE;

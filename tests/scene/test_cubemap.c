@@ -164,12 +164,37 @@ static void scene_takes_a_cubemap_as_environment(void **state) {
     weft_scene_free(scene);
 }
 
+static void keep_text(void *user, WeftMessage message, const char *text) {
+    assert_int_equal(message, WEFT_MESSAGE_IMAGE_REPAIRED);
+    snprintf(user, 256, "%s", text);
+}
+
+static void sky_below_zero_is_raised_and_told(void **state) {
+    (void)state;
+    static const float numbers[] = {1.0f, -2.0f, 0.5f, 0.25f, 0.5f, -0.125f};
+    char said[256] = "";
+    const WeftLog log = {keep_text, said};
+    WeftImage image;
+    clear();
+    assert_int_equal(weft_image_create(2, 1, 3, WEFT_PIXEL_F32, &image, NULL), WEFT_OK);
+    memcpy(image.pixels, numbers, sizeof numbers);
+    assert_int_equal(weft_image_write(name_of("sky.exr"), &image, NULL), WEFT_OK);
+    weft_image_free(&image);
+    WeftScene *scene = scene_create("sky");
+    assert_int_equal(weft_scene_set_environment_file(scene, name_of("sky.exr"), &log, NULL), WEFT_OK);
+    const float *values = scene->environment.image.pixels;
+    for (int k = 0; k < 6; k++) assert_float_equal(values[k], fmaxf(numbers[k], 0.0f), 1e-3f);
+    if (!strstr(said, "2 of 6 values were below 0")) fail_msg("%s", said);
+    weft_scene_free(scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(cubemap_faces_land_where_opengl_has_them),
         cmocka_unit_test(cubemap_names_may_be_short_and_of_any_case),
         cmocka_unit_test(wrong_cubemap_is_an_error),
         cmocka_unit_test(scene_takes_a_cubemap_as_environment),
+        cmocka_unit_test(sky_below_zero_is_raised_and_told),
     };
     return cmocka_run_group_tests(tests, begin, end);
 }

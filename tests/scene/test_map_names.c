@@ -56,6 +56,14 @@ static void names_of_many_makers_are_understood(void **state) {
         {"twill_arm_1k.png", "occlusion roughness.g metallic.b"},
         {"twill_disp_1k.png", ""},
         {"twill_spec_1k.png", "specular_color"},
+        /* OpenPBR, and the back of a cloth */
+        {"wool_fuzz_color.png", "sheen_color"},
+        {"wool_FuzzRoughness_2K.png", "sheen_roughness"},
+        {"wool_fuzz_weight.png", "sheen"},
+        {"wool_base_diffuse_roughness.png", ""},
+        {"wool_back_color.png", ""},
+        {"wool_back_normal.png", ""},
+        {"wool_comeback_color.png", "base_color"},
         /* Poliigon */
         {"FabricPlain001_COL_VAR1_3K.jpg", "base_color"},
         {"FabricPlain001_NRM_3K.png", "normal"},

@@ -110,11 +110,23 @@ static const MapWord map_words[] = {
     {"coatopacity", INPUT_clearcoat, 0, false},
     {"coatroughness", INPUT_clearcoat_roughness, 0, false},
     {"coatnormal", INPUT_clearcoat_normal, 0, false},
+    {"fuzz", INPUT_sheen_color, 0, false}, /* as in OpenPBR */
+    {"fuzzcolor", INPUT_sheen_color, 0, false},
+    {"fuzzcolour", INPUT_sheen_color, 0, false},
+    {"fuzzweight", INPUT_sheen, 0, false},
+    {"fuzzroughness", INPUT_sheen_roughness, 0, false},
     {"nap", INPUT_nap_direction, 0, false},
     {"nap", INPUT_nap, 2, false},
     {"roughnessmetalness", NOTHING, 0, false},
     {"roughnessmetal", NOTHING, 0, false},
     {"roughnessmetallic", NOTHING, 0, false}, /* red and green, or as in glTF: the name does not tell */
+    {"diffuseroughness", NOTHING, 0, false},
+    {"backcolor", NOTHING, 0, false}, /* of the back of a cloth */
+    {"backcolour", NOTHING, 0, false},
+    {"backdiffuse", NOTHING, 0, false},
+    {"backalbedo", NOTHING, 0, false},
+    {"backroughness", NOTHING, 0, false},
+    {"backnormal", NOTHING, 0, false},
     {"coatcolor", NOTHING, 0, false},
     {"coatnormals", NOTHING, 0, false},
     {"detailalbedo", NOTHING, 0, false},
