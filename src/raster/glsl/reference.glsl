@@ -155,6 +155,14 @@ bool has_kind(int kind) {
            (kind == BY_LIGHT && forward.w > 0.5);
 }
 
+/* Returns the first kind of samples from `kind` on that the scene has. A software driver runs the whole body of a loop
+ * for a kind that is left out inside. */
+int kind_from(int kind) {
+    int k = kind;
+    while (k < BY_LOBE && !has_kind(k)) k++;
+    return k;
+}
+
 /* Returns the light along a ray that the material drew with density pdf, weighted against the draw of the same light. Eric Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997,
  * power heuristic, Equation 9.13. */
 vec3 light_met(Ray r, RayHit hit, float pdf) {
@@ -191,8 +199,7 @@ Ray ray_towards(Place place, vec3 wi, float distance, bool below) {
 vec3 direct_light(Stack m, StackView w, Frame f, Place place) {
     uint key = pixel_key(), index = frame_index(), ray_key = point_hash(key ^ index);
     vec3 sum = vec3(0.0);
-    for (int kind = 0; kind < KINDS; kind++) {
-        if (!has_kind(kind)) continue;
+    for (int kind = kind_from(0); kind < KINDS; kind = kind_from(kind + 1)) {
         Point at = sampler_point(key, index, PAIR_VERTEX + uint(kind));
         Arriving light = Arriving(vec3(0.0), vec3(0.0), 1.0, FAR);
         Dir i;
@@ -211,15 +218,15 @@ vec3 direct_light(Stack m, StackView w, Frame f, Place place) {
         float mis = kind == BY_LOBE || kind == BY_LIGHT ? 0.0 : value.pdf * (value.pdf / max(density, 1e-30));
         float weight = 1.0 / (max(density, 1e-30) + mis);
         bool live = density > 0.0 && up > 0.0 && dot(of_sky + of_lights, vec3(1.0)) > 0.0;
-        if (!live) continue;
         Ray r = ray_towards(place, light.wi, light.distance, i.z < 0.0);
+        r.far = live ? r.far : -1.0;
         RayHit hit = ray_trace(r, kind != BY_LOBE, 0.0, kind == BY_LOBE ? point_hash(ray_key + 1u) : ray_key);
         if (kind == BY_LOBE)
             light.radiance = light_met(r, hit, value.pdf);
-        else if (hit.triangle >= 0)
-            light.radiance = vec3(0.0);
         bool from_sky = kind == BY_SKY || (kind == BY_LOBE && hit.triangle < 0);
-        sum += (from_sky ? of_sky : of_lights) * light.radiance * weight;
+        bool arrives = live && (kind == BY_LOBE || hit.triangle < 0);
+        vec3 added = (from_sky ? of_sky : of_lights) * light.radiance * weight;
+        sum += arrives ? added : vec3(0.0);
     }
     return sum;
 }
