@@ -411,12 +411,44 @@ static void shaders_compile_as_their_version(void **state) {
     assert_int_equal(status, 0);
 }
 
+/* The facets of a coarse ball do not shade themselves where its smooth surface faces a grazing sun. */
+static void facets_at_the_terminator_are_not_black(void **state) {
+    (void)state;
+    need_gl();
+    for (uint32_t rings = 6; rings <= 24; rings *= 2) {
+        WeftScene *scene = test_grazed_ball(rings, 1.0f, 0.0f);
+        const WeftRasterView view = {.width = SIDE, .height = SIDE, .samples = 1, .camera = "0,0,10;0,0,0;8"};
+        WeftImage image = picture_of(scene, WEFT_GL_DESKTOP, &view);
+        WeftImage traced = test_render(
+            scene,
+            (WeftRenderDesc){.width = SIDE, .height = SIDE, .camera = view.camera, .max_depth = 1, .pixel_centre = 1},
+            1);
+        double off = 0.0, sum = 0.0;
+        int black = 0, lit = 0;
+        for (int y = 0; y < SIDE; y++)
+            for (int x = 0; x < SIDE; x++) {
+                const float a = pixel(&image, x, y)[1], b = pixel(&traced, x, y)[1];
+                off += fabs((double)(a - b));
+                sum += (double)b;
+                lit += b > 0.01f;
+                black += b > 0.01f && a <= 0.0f;
+            }
+        print_message("%u rings: %d of %d lit pixels black, %.2f %% off\n", (unsigned)rings, black, lit,
+                      100.0 * off / sum);
+        assert_true(lit > 1000 && black < lit / 200 && off < 0.02 * sum);
+        weft_image_free(&image);
+        weft_image_free(&traced);
+        weft_scene_free(scene);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(alpha_mode_decides_the_coverage),
                                        cmocka_unit_test(blended_surfaces_hide_what_is_behind_them),
                                        cmocka_unit_test(background_has_the_colour_and_alpha_of_its_kind),
                                        cmocka_unit_test(blurred_background_is_smooth),
                                        cmocka_unit_test(picture_is_upright),
+                                       cmocka_unit_test(facets_at_the_terminator_are_not_black),
                                        cmocka_unit_test(polygon_light_agrees_with_the_path_tracer),
                                        cmocka_unit_test(steady_frames_create_no_objects),
                                        cmocka_unit_test(raster_descriptors_without_sense_are_refused),

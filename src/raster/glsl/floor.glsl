@@ -21,7 +21,8 @@ void add_light(float light, float reaches) {
 
 #define ONE_LIGHT(k, kind, map)                                                                              \
     beam = light_beam(k, kind);                                                                              \
-    add_light(rgb_luminance(beam.radiance) * max(beam.wi.y, 0.0), light_reaches(map, vec3(0.0, 1.0, 0.0), beam.wi.y));
+    float reaches = light_reaches(map, from_eye, vec3(0.0, 1.0, 0.0), beam.wi.y);
+    add_light(rgb_luminance(beam.radiance) * max(beam.wi.y, 0.0), reaches);
 void add_lights() {
     Beam beam;
     EACH_LIGHT(ONE_LIGHT)
@@ -38,7 +39,7 @@ void add_polygon(int k, int corners, bool two_sided, int map) {
         p.corners[j] = dir(to.x, to.z, to.y);
     }
     if (!two_sided && dot(polygon_normals[k].xyz, here - polygon_corners[PICTURE_CORNERS * k].xyz) <= 0.0) return;
-    float reaches = polygon_reaches(map, vec3(0.0, 1.0, 0.0), polygon_normals[k].xyz);
+    float reaches = polygon_reaches(map, from_eye, vec3(0.0, 1.0, 0.0), polygon_normals[k].xyz);
     add_light(rgb_luminance(rgb(c.r, c.g, c.b)) * PI * polygon_cosine(p), reaches);
 }
 #define ONE_POLYGON(k, corners, two_sided, map) add_polygon(k, corners, two_sided, map);

@@ -15,6 +15,8 @@ uniform highp float least_opacity; /* 0, or SOLID_OPACITY of passes.c where soli
 #endif
 
 #include "raster/glsl/light.glsl"
+#include "raster/glsl/horizon.glsl"
+#include "raster/glsl/lifted.glsl"
 #include "shading/material/dust.h"
 
 /* Returns normals and tangent of the side that is seen. The geometric normal is that of the plane through neighbouring
@@ -40,7 +42,7 @@ StackValue stack_seen_through(Stack m, StackView w, Slots only, Angles a) {
 Rgb light_from(int k, int kind, int map, Stack m, StackView w, Slots only, Facing at, Frame f) {
     Beam beam = light_beam(k, kind);
     Dir i = frame_to(f, beam.wi);
-    float cosine = dir_dot(beam.wi, at.geometric);
+    float cosine = dir_dot(beam.wi, smooth_normal);
     bool behind = HAS_TRANSMITTED(m) && cosine < 0.0;
     float side = behind ? -1.0 : 1.0;
     i.z = side * i.z;
@@ -51,7 +53,8 @@ Rgb light_from(int k, int kind, int map, Stack m, StackView w, Slots only, Facin
     if (HAS_COAT(m)) coat = angles_between(w.coat_o, stack_to_coat(m, i));
     StackValue v = stack_value_of(m, w, only, a, coat);
     if (behind) v = stack_seen_through(m, w, only, a);
-    float reaches = light_reaches(map, side * vec_of_dir(at.geometric), cosine);
+    vec3 normal = side * vec_of_dir(smooth_normal);
+    float reaches = light_reaches(map, lifted(normal), normal, cosine);
     Rgb sum = rgb_scale(rgb_mul(v.f_cos, beam.radiance), reaches);
     return rgb(lit ? sum.r : 0.0, lit ? sum.g : 0.0, lit ? sum.b : 0.0);
 }
@@ -113,9 +116,7 @@ void main() {
 #ifdef WOVEN
     f = frame_rotate(f, weave_number(CLOTH_ROTATION_COS), weave_number(CLOTH_ROTATION_SIN));
 #endif
-#ifdef AMBIENT
-    smooth_normal = frame_visible_normal(facing_normal(at), wo); /* as the path tracer has its horizon */
-#endif
+    smooth_normal = frame_visible_normal(facing_normal(at), wo);
 #ifdef PROPERTY
     fragment = vec4(PROPERTY * opacity, opacity);
 #else

@@ -41,14 +41,16 @@ Beam light_beam_at(int k, int kind, vec3 here) {
 }
 Beam light_beam(int k, int kind) { return light_beam_at(k, kind, eye.xyz + from_eye); }
 
+/* Return the fraction of a light, punctual or of a polygon, that reaches a place, less eye, on a surface of that normal.
+ * cosine: of the light to the normal. */
 #ifdef SHADOWED
-float light_reaches(int map, vec3 normal, float cosine) {
-    return map < 0 ? 1.0 : shadow_light(map, normal, cosine);
+float light_reaches(int map, vec3 place, vec3 normal, float cosine) {
+    return map < 0 ? 1.0 : shadow_light(map, place, normal, cosine);
 }
-float polygon_reaches(int map, vec3 normal, vec3 light_normal) {
-    return map < 0 ? 1.0 : soft_shadow(map, normal, light_normal);
+float polygon_reaches(int map, vec3 place, vec3 normal, vec3 light_normal) {
+    return map < 0 ? 1.0 : soft_shadow(map, place, normal, light_normal);
 }
 #else
-float light_reaches(int map, vec3 normal, float cosine) { return 1.0; }
-float polygon_reaches(int map, vec3 normal, vec3 light_normal) { return 1.0; }
+float light_reaches(int map, vec3 place, vec3 normal, float cosine) { return 1.0; }
+float polygon_reaches(int map, vec3 place, vec3 normal, vec3 light_normal) { return 1.0; }
 #endif

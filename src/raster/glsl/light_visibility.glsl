@@ -1,6 +1,7 @@
 /* light_visibility.glsl - the visibility of the sky and of the environment's lights, of which there are eight
  * (raster/geometry/occlusion.h) */
 #include "shading/ambient/occlusion_cone.h"
+#include "raster/glsl/horizon.glsl"
 
 in highp vec3 vertex_occlusion; /* of the sky, from front and back; 1 if no rays were traced, else 0 */
 in highp vec4 vertex_open_front;
@@ -14,9 +15,6 @@ float texture_occlusion = 1.0;
 /* Sets the fraction. A texture holds what its author's program found of the same creases that rays find, often with a
  * floor that is not there; the path tracer has no use for it either. So it counts until there are values of rays. */
 void occlude_by_texture(float occlusion) { texture_occlusion = mix(1.0, occlusion, vertex_occlusion.z); }
-
-/* The normal of the shading frame without a map: the interpolated one, where the viewer sees its side. */
-Dir smooth_normal;
 
 vec4 fragment_open() { return gl_FrontFacing ? vertex_open_front : vertex_open_back; }
 

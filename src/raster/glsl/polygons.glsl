@@ -14,11 +14,12 @@ struct PolygonReach {
 #define ONE_REACH(k, corners, two_sided, map)                                                                \
     if (two_sided ||                                                                                         \
         dot(polygon_normals[k].xyz, here - polygon_corners[PICTURE_CORNERS * k].xyz) > 0.0) {                \
-        reach.front[k] = polygon_reaches(map, normal, polygon_normals[k].xyz);                               \
-        if (transmits) reach.behind[k] = polygon_reaches(map, -normal, polygon_normals[k].xyz);              \
+        reach.front[k] = polygon_reaches(map, lifted(normal), normal, polygon_normals[k].xyz);              \
+        if (transmits)                                                                                       \
+            reach.behind[k] = polygon_reaches(map, lifted(-normal), -normal, polygon_normals[k].xyz);        \
     }
 PolygonReach polygon_reach(bool transmits, Facing at) {
-    vec3 here = eye.xyz + from_eye, normal = vec_of_dir(at.geometric);
+    vec3 here = eye.xyz + from_eye, normal = vec_of_dir(smooth_normal);
     PolygonReach reach;
     for (int k = 0; k < POLYGONS; k++) reach.front[k] = reach.behind[k] = 0.0;
     EACH_POLYGON(ONE_REACH)

@@ -6,8 +6,8 @@ uniform highp sampler2DArrayShadow shadow_map;
 /* Returns the mean of four comparisons on a rotated square, each itself a mean of four texels. The point is moved out
  * along its normal, further for grazing light, so that a surface does not shade itself: Daniel Holbert, "Normal Offset
  * Shadows", GDC 2011. */
-float shadow_light(int map, vec3 normal, float cosine) {
-    vec3 p = eye.xyz + from_eye - shadow_eye[map].xyz;
+float shadow_light(int map, vec3 place, vec3 normal, float cosine) {
+    vec3 p = eye.xyz + place - shadow_eye[map].xyz;
     float texel = shadow_eye[map].w;
     if (texel < 0.0) texel = -texel * (shadow_clip[map] * vec4(p, 1.0)).w;
     p = p + normal * (texel * (1.0 + 2.5 * sqrt(max(1.0 - cosine * cosine, 0.0))));

@@ -11,11 +11,11 @@ uniform highp sampler2DArrayShadow soft_map;
  * the map at distance 1, h, a point o of the light sees q at ((q - o).xy / (q - o).z + o.xy / (d - o.z)), d the
  * distance of the plane that all maps have at the same place; the depth in clip space is a + b / (q - o).z, stored in
  * steps of 1 / 65535. */
-float soft_shadow(int map, vec3 normal, vec3 light_normal) {
+float soft_shadow(int map, vec3 place, vec3 normal, vec3 light_normal) {
     float h = shadow_soft[map].x;
     mat4 m = shadow_clip[map];
     vec3 x = vec3(m[0].x, m[1].x, m[2].x), y = vec3(m[0].y, m[1].y, m[2].y), z = vec3(m[0].w, m[1].w, m[2].w);
-    vec3 p = eye.xyz + from_eye - shadow_eye[map].xyz;
+    vec3 p = eye.xyz + place - shadow_eye[map].xyz;
     float cosine = dot(normal, p) * inversesqrt(max(dot(p, p), 1e-12));
     p += normal * (-shadow_eye[map].w * dot(z, p) * (0.5 + 1.5 * sqrt(max(1.0 - cosine * cosine, 0.0))));
     vec3 q = vec3(dot(x, p), dot(y, p), dot(z, p)), scale = vec3(h * h, h * h, 1.0);

@@ -20,6 +20,12 @@ out highp vec2 texcoord_0;
 out highp vec2 texcoord_1;
 out highp vec4 vertex_color;
 out highp vec3 vertex_occlusion;
+#ifdef SHADOWED
+/* Rows of n n^T, and n n^T times the place: lifted.glsl. */
+out highp vec3 lift_x;
+out highp vec3 lift_yz;
+out highp vec3 lift_from;
+#endif
 out highp vec4 vertex_open_front;
 out highp vec4 vertex_open_back;
 out highp vec4 vertex_lights_0;
@@ -33,6 +39,11 @@ void main() {
     texcoord_1 = at_texcoord_1;
     vertex_color = at_color;
     vertex_occlusion = at_occlusion;
+#ifdef SHADOWED
+    lift_x = at_normal.x * at_normal;
+    lift_yz = at_normal.yzz * at_normal.yyz;
+    lift_from = dot(at_normal, from_eye) * at_normal;
+#endif
     vertex_open_front = at_open_front;
     vertex_open_back = at_open_back;
     vertex_lights_0 = at_lights_0;

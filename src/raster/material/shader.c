@@ -422,6 +422,7 @@ void shader_text(const ShaderKey *key, const TextDesc *desc, Fits *fits, Text *t
 
 void shader_vertex_text(const ShaderKey *key, const TextDesc *desc, Text *text) {
     text_begin(text, &(TextDesc){.language = desc->language, .folder = desc->folder});
+    if (key->shadowed && !key->floor) text_define(text, "SHADOWED", "1");
     text_include(text, key->floor ? "raster/glsl/floor_vertex.glsl" : "raster/glsl/vertex.glsl");
 }
 
