@@ -124,6 +124,7 @@ typedef struct WeftYarn {
     float barre_width; /* of the widest bars, millimetres */
     float uneven;      /* variation of dye over the cloth, in patches */
     float uneven_size; /* of the largest patches, millimetres */
+    float core;        /* reflectance inside the thread, which the material's input wear lays bare */
 } WeftYarn;
 
 /* Returns the name of a named yarn, and a line on it; NULL past the end. */

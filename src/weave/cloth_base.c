@@ -26,7 +26,7 @@ WeaveBase cloth_base_far(const WeftCloth *cloth, bool weft) {
                           4 * (weft ? FAR_WEFT_SINGLE : FAR_WARP_SINGLE),
                 *multiple = single + 4;
     WeaveBase base = weave_far(&cloth->weave, weft, rgb(single[0], single[1], single[2]),
-                               rgb(multiple[0], multiple[1], multiple[2]), single[3], 1.0f);
+                               rgb(multiple[0], multiple[1], multiple[2]), single[3], 1.0f, 0.0f);
     const float part =
         1.0f / base.lobe.params[WOVEN_SHARE]; /* the colours contain the share, which the lobe applies too */
     base.single = rgb_scale(base.single, part);
@@ -40,6 +40,7 @@ typedef struct Part {
     float x[ROW_CAPACITY], y[ROW_CAPACITY];                     /* place, in threads */
     float footprint_x[ROW_CAPACITY], footprint_y[ROW_CAPACITY]; /* as ClothLooks has them */
     float facet[ROW_CAPACITY];   /* the random number; then the index among both systems' facets */
+    float wear[ROW_CAPACITY];    /* as ClothLooks has it */
     float coarser[ROW_CAPACITY]; /* far: random, in [0, 1): chooses between two levels of the colours */
     float spacing[ROW_CAPACITY]; /* near: from point to point, in threads */
     float height[ROW_CAPACITY];  /* near: of the thread */
@@ -71,7 +72,7 @@ static void pad(Part *part) {
     for (int k = part->count; k < row_whole(part->count); k++) {
         part->x[k] = part->x[0], part->y[k] = part->y[0], part->facet[k] = part->facet[0];
         part->footprint_x[k] = part->footprint_x[0], part->footprint_y[k] = part->footprint_y[0];
-        part->spacing[k] = part->spacing[0], part->coarser[k] = part->coarser[0];
+        part->spacing[k] = part->spacing[0], part->coarser[k] = part->coarser[0], part->wear[k] = part->wear[0];
     }
 }
 
@@ -86,7 +87,7 @@ static void split(const WeftCloth *cloth, const ClothLooks *looks, int n, Part p
         part->at[to] = k;
         part->x[to] = x[k], part->y[to] = y[k], part->facet[to] = looks->facet[k], part->coarser[to] = far[k];
         part->footprint_x[to] = looks->footprint_x[k], part->footprint_y[to] = looks->footprint_y[k];
-        part->spacing[to] = looks->longest[k] / POINTS;
+        part->spacing[to] = looks->longest[k] / POINTS, part->wear[to] = looks->wear[k];
     }
     pad(&parts[0]), pad(&parts[1]);
 }
@@ -106,8 +107,8 @@ FN Weave without_cycle(const Weave *weave) {
     return m;
 }
 
-FN void put_point(YarnRows *restrict out, size_t k, const Weave *m, WeavePoint p) {
-    put_base(out, k, weave_yarn(m, p), weave_single_rgb(m, p), weave_multiple_rgb(m, p));
+FN void put_point(YarnRows *restrict out, size_t k, const Weave *m, WeavePoint p, float wear) {
+    put_base(out, k, weave_yarn(m, p), weave_worn_single(m, p, wear), weave_worn_multiple(m, p, wear));
 }
 
 /* Sets points of threads, without loose fibres. */
@@ -116,7 +117,7 @@ LOOP(bind_n, (const Weave *weave, Part *restrict part, int n), (weave, part, n))
     EACH(k, (size_t)n) {
         WeavePoint p = weave_point_bound(&m, part->x[k], part->y[k], part->spacing[k], 2.0f * part->facet[k] - 1.0f);
         part->height[k] = p.height;
-        put_point(&part->yarn, k, &m, p);
+        put_point(&part->yarn, k, &m, p, part->wear[k]);
     }
 }
 
@@ -140,7 +141,7 @@ static void add_hairs(const Weave *m, Part *part) {
         if (part->hair[k] < 0.0f) continue;
         const float radius = weave_hair_radius_over(m, p.height, part->spacing[k]);
         weave_lay(weave_hair(m, (int)part->hair[k], part->x[k], part->y[k], radius), &p);
-        put_point(&part->yarn, (size_t)k, m, p);
+        put_point(&part->yarn, (size_t)k, m, p, part->wear[k]);
     }
 }
 
@@ -157,15 +158,18 @@ typedef struct FarColors {
     Rgb warp_single, warp_multiple, weft_single, weft_multiple;
 } FarColors;
 
-/* Returns the colours of the texel at `at` of a level whose layers have so many floats, with dye times as much dye. */
-FN FarColors far_colors(const Weave *m, const float *texels, int at, int layer, float warp_dye, float weft_dye) {
+/* Returns the colours of the texel at `at` of a level whose layers have so many floats, with dye times as much dye, worn. */
+FN FarColors far_colors(const Weave *m, const float *texels, int at, int layer, float warp_dye, float weft_dye,
+                        float wear) {
     float warp_covers = texels[at + 3], weft_covers = texels[at + FAR_WEFT_SINGLE * layer + 3];
+    Rgb warp_multiple = color_at(texels, at + FAR_WARP_MULTIPLE * layer),
+        weft_single = color_at(texels, at + FAR_WEFT_SINGLE * layer),
+        weft_multiple = color_at(texels, at + FAR_WEFT_MULTIPLE * layer);
     FarColors c;
-    c.warp_single = weave_dyed_single_rgb(color_at(texels, at), warp_covers, m->warp.white, warp_dye);
-    c.warp_multiple = weave_dyed_multiple_rgb(color_at(texels, at + FAR_WARP_MULTIPLE * layer), warp_covers, warp_dye);
-    c.weft_single =
-        weave_dyed_single_rgb(color_at(texels, at + FAR_WEFT_SINGLE * layer), weft_covers, m->weft.white, weft_dye);
-    c.weft_multiple = weave_dyed_multiple_rgb(color_at(texels, at + FAR_WEFT_MULTIPLE * layer), weft_covers, weft_dye);
+    c.warp_single = weave_far_single(m, false, color_at(texels, at), warp_covers, warp_dye, wear);
+    c.warp_multiple = weave_far_multiple(m, false, warp_multiple, warp_covers, warp_dye, wear);
+    c.weft_single = weave_far_single(m, true, weft_single, weft_covers, weft_dye, wear);
+    c.weft_multiple = weave_far_multiple(m, true, weft_multiple, weft_covers, weft_dye, wear);
     return c;
 }
 
@@ -190,7 +194,7 @@ LOOP(choose_n, (const WeftCloth *cloth, Part *restrict part, float scale, int n)
         f.x = part->footprint_x[k];
         f.y = part->footprint_y[k];
         f.longest = 0.0f;
-        float x = part->x[k], y = part->y[k];
+        float x = part->x[k], y = part->y[k], wear = part->wear[k];
         float fine = min(weave_far_level(f, finer_x, finer_y), last), between = fine - floor(fine);
         int level = to_int(fine) + (part->coarser[k] < between * (2.0f - between) ? 1 : 0);
         int w = cloth_far_side(width, level), h = cloth_far_side(height, level);
@@ -200,7 +204,7 @@ LOOP(choose_n, (const WeftCloth *cloth, Part *restrict part, float scale, int n)
         finer.y = f.y / FINER;
         finer.longest = 0.0f;
         float warp_dye = weave_far_dye(&m, false, x, y, finer), weft_dye = weave_far_dye(&m, true, x, y, finer);
-        FarColors c = far_colors(&m, texels, at, layer, warp_dye, weft_dye);
+        FarColors c = far_colors(&m, texels, at, layer, warp_dye, weft_dye, wear);
         float a = rgb_mean(reflected(c.warp_single, c.warp_multiple)),
               b = rgb_mean(reflected(c.weft_single, c.weft_multiple));
         float chance = a + b > 0.0f ? a / (a + b) : 1.0f, u = part->facet[k];
@@ -251,11 +255,12 @@ static void put_all(const Part *part, YarnRows *out) {
         }
 }
 
-/* Returns what both systems reflect at a level of the colours, with dye times as much dye. */
-FN Rgb level_albedo(const Weave *m, const ClothFar *far, int level, float across, float along, const float dye[2]) {
+/* Returns what both systems reflect at a level of the colours, with dye times as much dye, worn. */
+FN Rgb level_albedo(const Weave *m, const ClothFar *far, int level, float across, float along, const float dye[2],
+                    float wear) {
     int w = cloth_far_side(far->width, level), h = cloth_far_side(far->height, level), layer = 4 * w * h;
     int at = far->starts[level] + 4 * (texel_at(along, h) * w + texel_at(across, w));
-    FarColors c = far_colors(m, far->texels, at, layer, dye[0], dye[1]);
+    FarColors c = far_colors(m, far->texels, at, layer, dye[0], dye[1], wear);
     return rgb_add(reflected(c.warp_single, c.warp_multiple), reflected(c.weft_single, c.weft_multiple));
 }
 
@@ -279,8 +284,8 @@ LOOP(guide_n, (const WeftCloth *cloth, const ClothLooks *looks, float scale, int
         shown.y = f.y / SHOWN;
         shown.longest = 0.0f;
         float dye[2] = {weave_far_dye(&m, false, at.x, at.y, shown), weave_far_dye(&m, true, at.x, at.y, shown)};
-        Rgb a = level_albedo(&m, &cloth->far, level, at.x / warps, at.y / picks, dye),
-            b = level_albedo(&m, &cloth->far, coarser, at.x / warps, at.y / picks, dye);
+        Rgb a = level_albedo(&m, &cloth->far, level, at.x / warps, at.y / picks, dye, looks->wear[k]),
+            b = level_albedo(&m, &cloth->far, coarser, at.x / warps, at.y / picks, dye, looks->wear[k]);
         Rgb albedo = rgb_scale(rgb_add(rgb_scale(a, 1.0f - between), rgb_scale(b, between)), scale);
         far[k] = weave_far_weight(f);
         guide->albedo[0][k] = albedo.r;

@@ -13,6 +13,7 @@ typedef struct ClothLooks {
     float footprint_x[ROW_CAPACITY], footprint_y[ROW_CAPACITY], longest[ROW_CAPACITY]; /* WeaveFootprint of the pixel */
     float level[ROW_CAPACITY]; /* random, in [0, 1): chooses between near and far */
     float facet[ROW_CAPACITY]; /* random, in [0, 1): near, the place across a fibre; far, the facet */
+    float wear[ROW_CAPACITY];  /* the material's input, 0 to 1 */
     bool holed;                /* gaps between threads are holes, not black */
 } ClothLooks;
 

@@ -25,15 +25,24 @@ _Static_assert(1 << (FAR_LEVELS_MOST - 1) == FAR_SIDE_MAX, "a level for each hal
 /* Spacing of the points, in threads: so far apart that single fibres fade. */
 static const float FAR_SPACING = 1.0f;
 
+/* Heights of visible points: how many, and sums of them and of their squares. */
+typedef struct Heights {
+    int count;
+    double sum, square;
+} Heights;
+
+enum { RUN_MOST = 32 }; /* crossings of a run that are told apart */
+
 /* One system at all places. [0] is where it is below at the crossing, [1] where it is on top. */
 typedef struct SystemSeen {
-    int count;            /* visible points */
-    int crossings[2];     /* places by crossing */
-    int on[2];            /* visible points by crossing */
-    double k_sum;         /* of k, the power of the slope along the yarn */
-    double across2_sum;   /* of the squared slope across the yarn, */
-    double along2_sum;    /* and along it */
-    double z_sum, z2_sum; /* of heights, and of their squares */
+    int count;          /* visible points */
+    int crossings[2];   /* places by crossing */
+    int on[2];          /* visible points by crossing */
+    double k_sum;       /* of k, the power of the slope along the yarn */
+    double across2_sum; /* of the squared slope across the yarn, */
+    double along2_sum;  /* and along it */
+    Heights heights;
+    Heights places[RUN_MOST + 1][RUN_MOST]; /* by the length of the run on top and the crossing in it; [0][0]: below */
 } SystemSeen;
 
 /* Returns the threads along a side of the piece: whole repeats, at least PIECE. */
@@ -57,6 +66,20 @@ static int is_up(const Weave *m, float x, float y, int weft) {
     return (weft ? cell.weft_run : cell.warp_run) > 0.0f;
 }
 
+/* Returns the heights of a system where it is at that place of its run. */
+static Heights *heights_at(SystemSeen *seen, const Weave *m, float x, float y, int weft) {
+    const WeaveCell cell = weave_cell(m, floorf(x), floorf(y));
+    const int run = (int)(weft ? cell.weft_run : cell.warp_run),
+              since = (int)(weft ? cell.weft_since : cell.warp_since);
+    return run > 0 && run <= RUN_MOST ? &seen->places[run][since] : &seen->places[0][0];
+}
+
+static void add_height(Heights *to, float z) {
+    to->count++;
+    to->sum += (double)z;
+    to->square += (double)z * (double)z;
+}
+
 /* Fills seen, and sets the heights of m. */
 static void see(Weave *m, SystemSeen seen[2]) {
     m->low = HUGE_VALF;
@@ -73,21 +96,26 @@ static void see(Weave *m, SystemSeen seen[2]) {
         of->k_sum += (double)p.k;
         of->across2_sum += (double)(across * across);
         of->along2_sum += (double)(along * along);
-        of->z_sum += (double)p.height;
-        of->z2_sum += (double)p.height * (double)p.height;
+        add_height(&of->heights, p.height);
+        add_height(heights_at(of, m, x, y, p.weft), p.height);
         m->low = fminf(m->low, p.height);
         m->high = fmaxf(m->high, p.height);
     }
     if (m->low > m->high) m->low = m->high = 0.0f;
 }
 
-/* Returns the mean of weave_depth, 1 - WEAVE_SHADE ((high - z) / (high - low))^2, from the sums of z and z^2. */
-static float open_mean(const Weave *m, const SystemSeen seen[2]) {
-    const double count = (double)(seen[0].count + seen[1].count), high = (double)m->high;
-    const double range = fmax(high - (double)m->low, 1e-6);
-    if (count < 1.0) return 1.0f;
-    const double z = (seen[0].z_sum + seen[1].z_sum) / count, z2 = (seen[0].z2_sum + seen[1].z2_sum) / count;
+/* Returns the mean of weave_depth, 1 - WEAVE_SHADE ((high - z) / (high - low))^2, over points of these heights. */
+static float depth_mean(const Weave *m, const Heights *heights) {
+    const double high = (double)m->high, range = fmax(high - (double)m->low, 1e-6);
+    if (heights->count < 1) return 1.0f;
+    const double z = heights->sum / heights->count, z2 = heights->square / heights->count;
     return (float)(1.0 - (double)WEAVE_SHADE * (high * high - 2.0 * high * z + z2) / (range * range));
+}
+
+static float open_mean(const Weave *m, const SystemSeen seen[2]) {
+    const Heights *a = &seen[0].heights, *b = &seen[1].heights;
+    const Heights all = {a->count + b->count, a->sum + b->sum, a->square + b->square};
+    return depth_mean(m, &all);
 }
 
 /* Returns the moments of visible points as parameters of lobe woven, or those of the yarn if no point is visible.
@@ -124,15 +152,17 @@ static float color_of(const Weave *m, int t, int thread, int c, bool multiple) {
     return multiple ? yarn_reflectance(a) : fminf(a + white, 1.0f);
 }
 
-/* Adds a crossing to the texels of level 0 that it overlaps, in proportion to the overlap. */
-static void add_crossing(ClothFar *far, const Weave *m, const SystemSeen seen[2], int i, int j) {
+/* Adds a crossing to the texels of level 0 that it overlaps, in proportion to the overlap. A long float is in the light
+ * where it is high and in the shade where it dives, as the ribs of corduroy. */
+static void add_crossing(ClothFar *far, const Weave *m, SystemSeen seen[2], int i, int j) {
     const float across = (float)far->width / (float)m->warps, along = (float)far->height / (float)m->picks;
     const float x0 = (float)i * across, x1 = x0 + across, y0 = (float)j * along, y1 = y0 + along;
     float color[FAR_LAYERS][4];
     for (int layer = 0; layer < FAR_LAYERS; layer++) {
         const int t = layer / 2;
         const float part = covers(&seen[t], is_up(m, (float)i, (float)j, t));
-        for (int c = 0; c < 3; c++) color[layer][c] = part * color_of(m, t, t ? j : i, c, layer % 2 == 1);
+        const float light = depth_mean(m, heights_at(&seen[t], m, (float)i, (float)j, t)) / m->openness;
+        for (int c = 0; c < 3; c++) color[layer][c] = part * light * color_of(m, t, t ? j : i, c, layer % 2 == 1);
         color[layer][3] = part;
     }
     for (int row = (int)y0; row < far->height && (float)row < y1; row++)
@@ -179,7 +209,7 @@ static int far_side(int threads) {
 }
 
 /* Allocates and fills the colours. Returns false where memory is short. */
-static bool make_colors(WeftCloth *cloth, const SystemSeen seen[2]) {
+static bool make_colors(WeftCloth *cloth, SystemSeen seen[2]) {
     const Weave *m = &cloth->weave;
     ClothFar *far = &cloth->far;
     far->width = far_side(m->warps);
@@ -205,6 +235,7 @@ static void yarn_pairs(YarnPrepared p, const Lit *lit, PairsLit *restrict out) {
 typedef struct SystemLit {
     Lit lit; /* with loose fibres, the mean over channels */
     double single[3], multiple[3];
+    double open, raised; /* sums of weave_open, and of that times weave_raised */
 } SystemLit;
 
 static double channel_mean(const double color[3]) { return (color[0] + color[1] + color[2]) / 3.0; }
@@ -313,6 +344,8 @@ static void light_points(const WeftCloth *cloth, SystemLit near[2], FacetList fa
             near[bound.weft].single[c] += single[c] / PLACES;
             near[bound.weft].multiple[c] += multiple[c] / PLACES;
         }
+        near[bound.weft].open += (double)weave_open(m, bound);
+        near[bound.weft].raised += (double)(weave_open(m, bound) * weave_raised(m, bound));
         add_facet(&facets[bound.weft], m, bound, channel_mean(single), channel_mean(multiple));
         const WeavePoint point = weave_point(m, x, y, 0.0f, 0.0f); /* with loose fibres */
         light_point(&near[point.weft].lit, m, point);
@@ -361,6 +394,9 @@ static bool fit_far(WeftCloth *cloth, const SystemSeen seen[2]) {
     for (int t = 0; made && t < 2; t++) {
         cloth->facet_count[t] = keep_facets(&facets[t], cloth->facets[t]);
         fit_system(cloth, t == 1, &near[t]);
+        WeaveFar *far = t ? &cloth->weave.weft_far : &cloth->weave.warp_far;
+        far->open = seen[t].count ? (float)(near[t].open / seen[t].count) : 1.0f;
+        far->raised = ratio(near[t].raised, near[t].open);
     }
     for (int t = 0; t < 2; t++) free(facets[t].all);
     return made;

@@ -86,6 +86,7 @@ static WeaveYarn yarn_in_cloth(const WeftYarn *yarn, float pitch, float cross_pi
                        .barre_nodes = pitch * unit / yarn->barre_width,
                        .uneven = yarn->uneven,
                        .uneven_nodes = pitch * unit / yarn->uneven_size,
+                       .core = albedo_of(yarn->core, yarn->alpha),
                        .per_width = 1.0f / own,
                        .cos_twist = cosf(yarn->twist),
                        .sin_twist = sinf(yarn->twist),

@@ -9,31 +9,31 @@
 #define DEGREES ((float)RADIANS)
 
 /* Y(name, help, alpha, crimp, roundness, twist, white, width, bulge, floats, streaks, dye, slub, wander, hairiness,
- * slub_length, barre, barre_width, uneven, uneven_size), crimp and twist in degrees, lengths in millimetres. */
+ * slub_length, barre, barre_width, uneven, uneven_size, core), crimp and twist in degrees, lengths in millimetres. */
 #define YARNS(Y)                                                                                                       \
     Y("cotton", "spun, matt, slightly uneven", 0.4f, 25, 0.95f, -24, 0.04f, 0.96f, 0.1f, 1.2f, 0.25f, 0.12f, 0.3f,     \
-      0.35f, 0.7f, 12, 0.06f, 25, 0.06f, 90)                                                                           \
+      0.35f, 0.7f, 12, 0.06f, 25, 0.06f, 90, 0.6f)                                                                     \
     Y("linen", "dry and straight, with slubs and small gaps", 0.3f, 20, 0.95f, -12, 0.05f, 0.86f, 0.05f, 1.2f, 0.3f,   \
-      0.16f, 0.9f, 0.7f, 0.5f, 30, 0.12f, 12, 0.08f, 120)                                                              \
+      0.16f, 0.9f, 0.7f, 0.5f, 30, 0.12f, 12, 0.08f, 120, 0.5f)                                                        \
     Y("wool", "soft and full", 0.5f, 26, 0.9f, -28, 0.03f, 1.02f, 0.2f, 1.2f, 0.35f, 0.12f, 0.35f, 0.5f, 1.0f, 20,     \
-      0.05f, 30, 0.06f, 120)                                                                                           \
+      0.05f, 30, 0.06f, 120, 0.5f)                                                                                     \
     Y("silk", "filament with hardly any twist", 0.12f, 22, 0.9f, 0, 0.12f, 1.0f, 0.55f, 1.6f, 0.1f, 0.05f, 0.06f,      \
-      0.15f, 0.0f, 40, 0.05f, 15, 0.03f, 150)                                                                          \
+      0.15f, 0.0f, 40, 0.05f, 15, 0.03f, 150, 0.7f)                                                                    \
     Y("dupion", "raw silk of uneven thickness", 0.14f, 24, 0.95f, -4, 0.12f, 0.95f, 0.2f, 1.4f, 0.2f, 0.1f, 1.3f,      \
-      0.6f, 0.1f, 40, 0.15f, 10, 0.05f, 120)                                                                           \
+      0.6f, 0.1f, 40, 0.15f, 10, 0.05f, 120, 0.6f)                                                                     \
     Y("polyester", "smooth filament", 0.16f, 20, 0.9f, 0, 0.1f, 0.98f, 0.35f, 1.5f, 0.06f, 0.02f, 0.03f, 0.08f, 0.0f,  \
-      60, 0.04f, 20, 0.02f, 200)
+      60, 0.04f, 20, 0.02f, 200, 0.75f)
 
 static const struct {
     const char *name, *help;
     WeftYarn yarn;
 } yarns[] = {
 #define ROW(name, help, alpha, crimp, roundness, twist, white, width, bulge, floats, streaks, dye, slub, wander,       \
-            hairiness, slub_length, barre, barre_width, uneven, uneven_size)                                           \
+            hairiness, slub_length, barre, barre_width, uneven, uneven_size, core)                                     \
     {name,                                                                                                             \
      help,                                                                                                             \
      {alpha, (crimp)*DEGREES, roundness, (twist)*DEGREES, white, width, bulge, floats, streaks, dye, slub, wander,     \
-      hairiness, slub_length, barre, barre_width, uneven, uneven_size}},
+      hairiness, slub_length, barre, barre_width, uneven, uneven_size, core}},
     YARNS(ROW)
 #undef ROW
 };
@@ -74,6 +74,7 @@ static const WeftYarnNumber numbers[] = {
     NUMBER(barre_width, 2.0f, 500.0f, 0, "Of the widest bars, millimetres."),
     NUMBER(uneven, 0.0f, 0.5f, 0, "How unevenly the cloth took its dye, in patches."),
     NUMBER(uneven_size, 2.0f, 1000.0f, 0, "Of the largest patches, millimetres."),
+    NUMBER(core, 0.0f, 1.0f, 0, "Reflectance inside the thread, seen where wear has taken the dye off."),
 #undef NUMBER
 };
 

@@ -74,6 +74,8 @@ static void draw(const WeftScene *scene, WeftGl gl, const char *camera, WeftImag
 
 static const char *const denim = "{\"weave\": {\"draft\": \"twill 3/1 z; warp 1#26375c; weft 1#d8d4c8; sett 26 18\", "
                                  "\"warp\": \"cotton\", \"weft\": \"cotton\", \"metres\": 0.5}}";
+static const char *const worn = "{\"weave\": {\"draft\": \"twill 3/1 z; warp 1#26375c; weft 1#d8d4c8; sett 26 18\", "
+                                "\"warp\": \"cotton\", \"weft\": \"cotton\", \"metres\": 0.5}, \"wear\": 0.7}";
 static const char *const tartan = "{\"weave\": {\"draft\": \"twill 2/2; both 8b 4r 8g 2w; sett 22\", "
                                   "\"warp\": \"wool\", \"weft\": \"wool\", \"metres\": 0.5}}";
 static const WeftGl gls[] = {WEFT_GL_DESKTOP, WEFT_GL_ES};
@@ -124,10 +126,10 @@ static double mean_of(const WeftImage *image, int c) {
 static void a_cloth_is_as_bright_in_both_engines(void **state) {
     (void)state;
     need_gl();
-    static const char *const weaves[] = {denim, tartan};
+    static const char *const weaves[] = {denim, tartan, worn};
     static const char *const cameras[] = {"0.25,0.62,0.65;0.03,0.42,0.15;1.5", "0.25,0.62,0.65;0.03,0.42,0.15;4",
                                           "0.25,0.62,0.65;0.03,0.42,0.15;14"};
-    for (size_t w = 0; w < 2; w++) {
+    for (size_t w = 0; w < sizeof weaves / sizeof *weaves; w++) {
         WeftScene *scene = scene_of(weaves[w]);
         for (size_t d = 0; d < sizeof cameras / sizeof *cameras; d++) {
             WeftImage reference = {0}, picture = {0};

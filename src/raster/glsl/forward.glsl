@@ -129,7 +129,7 @@ void main() {
         Stack m;
         surface_stack(m, s, material_choices(), material_table());
 #ifdef WOVEN
-        vec4 woven = woven_light(m, o, at, f, s.occlusion);
+        vec4 woven = woven_light(m, o, at, f, s.occlusion, s.wear);
         sum = rgb_add(sum, rgb(woven.r, woven.g, woven.b));
 #ifdef MASKED
         opacity = woven.a < 0.5 ? 0.0 : opacity;

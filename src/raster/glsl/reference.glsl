@@ -232,14 +232,14 @@ vec3 direct_light(Stack m, StackView w, Frame f, Place place) {
 }
 
 #ifdef WOVEN
-/* Puts a point of a thread in the place of the base; returns its coverage. */
-float weave_base(inout Stack m) {
+/* Puts a point of a thread in the place of the base; returns its coverage. wear: the input of the material. */
+float weave_base(inout Stack m, float wear) {
     Weave c = material_cloth();
     vec2 place = weave_place(), across = dFdx(place), up = dFdy(place);
     WeaveFootprint f = weave_footprint(across.x, across.y, up.x, up.y);
     Point random = sampler_point(pixel_key(), frame_index(), PAIR_CLOTH);
     WeavePoint p = weave_point(c, place.x, place.y, 0.25 * f.longest, 2.0 * random.v - 1.0);
-    WeaveBase b = weave_near(c, p);
+    WeaveBase b = weave_near(c, p, wear);
     compose_base(m, b.lobe, b.single, b.multiple);
     m.diffuse_prepared.yarn.axis = p.fibre; /* exactly, instead of through the azimuth */
     return p.height > WEAVE_NONE ? 1.0 : 0.0;
@@ -266,7 +266,7 @@ void main() {
         Stack m;
         surface_stack(m, s, material_choices(), material_table());
 #ifdef WOVEN
-        float covered = weave_base(m);
+        float covered = weave_base(m, s.wear);
         if (MATERIAL_HOLED) opacity *= covered;
 #endif
         StackView w;

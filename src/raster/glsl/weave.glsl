@@ -45,7 +45,7 @@ float pixel_across(vec2 from, vec3 random) { return 2.0 * fract(from.y + random.
  * as the pixel would blur neighbours that the picture still resolves. On the last level, one texel, one is enough. Two
  * bases stand for the cloth, each with half of the weight, so each reflects twice as much. Then one table for the light
  * of the environment, made for a whole cloth, serves all bases. */
-WeaveBase woven_far(Weave c, bool weft, vec2 place, vec2 across, vec2 up, WeaveFootprint f) {
+WeaveBase woven_far(Weave c, bool weft, vec2 place, vec2 across, vec2 up, WeaveFootprint f, float wear) {
     vec2 repeat = vec2(weave_number(CLOTH_WARPS), weave_number(CLOTH_PICKS));
     vec2 texel = repeat / vec2(weave_number(CLOTH_FAR_WIDTH), weave_number(CLOTH_FAR_HEIGHT));
     float level = weave_far_level(f, 2.0 * texel.x, 2.0 * texel.y), layer = weft ? 2.0 : 0.0;
@@ -61,7 +61,7 @@ WeaveBase woven_far(Weave c, bool weft, vec2 place, vec2 across, vec2 up, WeaveF
     float dye = weave_far_dye(c, weft, place.x, place.y, f);
     float scale = MATERIAL_HOLED ? 2.0 / max(c.warp_far.share + c.weft_far.share, 1e-3) : 2.0;
     WeaveBase b = weave_far(c, weft, rgb(single.r, single.g, single.b), rgb(multiple.r, multiple.g, multiple.b),
-                            single.a, dye);
+                            single.a, dye, wear);
     b.single = rgb_scale(b.single, scale);
     b.multiple = rgb_scale(b.multiple, scale);
     return b;
@@ -70,7 +70,7 @@ WeaveBase woven_far(Weave c, bool weft, vec2 place, vec2 across, vec2 up, WeaveF
 /* The uniform block has the numbers of two WovenPrepared, of warp and weft, from CLOTH_AFAR on. */
 #define ONE_NUMBER(name)  +1
 #define TWO_NUMBERS(name) +2
-const int CLOTH_AFAR = 80, CLOTH_AFAR_EACH = 0 WOVEN_NUMBERS(ONE_NUMBER) WOVEN_EACH_BIN(TWO_NUMBERS);
+const int CLOTH_AFAR = 84, CLOTH_AFAR_EACH = 0 WOVEN_NUMBERS(ONE_NUMBER) WOVEN_EACH_BIN(TWO_NUMBERS);
 #define TAKE_NUMBER(to)                                                                                      \
     to = weft ? weave_number(k + CLOTH_AFAR_EACH) : weave_number(k);                                         \
     k++;
@@ -146,7 +146,7 @@ Rgb woven_rest(WovenSum sum, Stack m, StackView w, Facing at, Frame frame) {
 
 /* Returns the light (rgb) and the part of the pixel that threads cover (a). Loops may have 0 rounds: a driver that does
  * not branch would run a branch around them. */
-vec4 woven_light(Stack m, Dir o, Facing at, Frame frame, float occlusion) {
+vec4 woven_light(Stack m, Dir o, Facing at, Frame frame, float occlusion, float wear) {
     Weave c = material_cloth();
     vec2 place = weave_place();
     vec2 across = dFdx(place), up = dFdy(place);
@@ -168,13 +168,13 @@ vec4 woven_light(Stack m, Dir o, Facing at, Frame frame, float occlusion) {
         float spacing = f.longest * inversesqrt(float(points));
         WeavePoint p = weave_point(c, spot.x, spot.y, spacing, pixel_across(lattice, random));
         sum.covered = sum.covered + (p.height > WEAVE_NONE ? weight : 0.0);
-        WeaveBase b = weave_near(c, p);
+        WeaveBase b = weave_near(c, p, wear);
         Stack n = woven_stack(m, b);
         n.diffuse_prepared.yarn.axis = p.fibre; /* exactly, instead of through the azimuth */
         woven_add(sum, n, w, b, weight, reach, at, frame);
     }
     for (int k = 0; k < systems; k++) {
-        WeaveBase b = woven_far(c, k > 0, place, across, up, f);
+        WeaveBase b = woven_far(c, k > 0, place, across, up, f, wear);
         Stack n = woven_stack(m, b);
         n.diffuse_prepared.woven = woven_afar(k > 0);
         woven_add(sum, n, w, b, 0.5 * far, reach, at, frame);

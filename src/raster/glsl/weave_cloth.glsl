@@ -4,9 +4,9 @@ uniform highp sampler2D weave_cells;
 #include "shading/weave/weave_cell.h"
 
 /* Indices in cloth_numbers (raster/material/cloths.h), after the yarns. */
-const int CLOTH_SEED = 66, CLOTH_LOW = 67, CLOTH_HIGH = 68, CLOTH_OPENNESS = 69, CLOTH_WARPS = 70, CLOTH_PICKS = 71,
-          CLOTH_FAR_WIDTH = 72, CLOTH_FAR_HEIGHT = 73, CLOTH_PER_U = 74, CLOTH_PER_V = 75, CLOTH_ROTATION_COS = 76,
-          CLOTH_ROTATION_SIN = 77;
+const int CLOTH_SEED = 72, CLOTH_LOW = 73, CLOTH_HIGH = 74, CLOTH_OPENNESS = 75, CLOTH_WARPS = 76, CLOTH_PICKS = 77,
+          CLOTH_FAR_WIDTH = 78, CLOTH_FAR_HEIGHT = 79, CLOTH_PER_U = 80, CLOTH_PER_V = 81, CLOTH_ROTATION_COS = 82,
+          CLOTH_ROTATION_SIN = 83;
 
 float weave_number(int k) { return material_weave[k / 4][k - 4 * (k / 4)]; }
 

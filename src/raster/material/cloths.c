@@ -98,7 +98,7 @@ void cloth_numbers(const WeftCloth *cloth, float numbers[CLOTH_NUMBERS]) {
                           cloth->per_uv[WEFT_WEFT],
                           cloth->rotation_parts[0],
                           cloth->rotation_parts[1]};
-    enum { AFAR = 80 }; /* index of the numbers of far.woven: CLOTH_AFAR of glsl/weave.glsl */
+    enum { AFAR = 84 }; /* index of the numbers of far.woven: CLOTH_AFAR of glsl/weave.glsl */
     _Static_assert((2 * sizeof(WeaveYarn) + 2 * sizeof(WeaveFar) + sizeof rest + 3 * sizeof(float)) /
                            (4 * sizeof(float)) ==
                        AFAR / 4,

@@ -25,7 +25,7 @@ void cloths_bind(const GlCloths *cloths, int cloth, int cells_unit, int colors_u
 
 void cloths_destroy(GlCloths *cloths);
 
-enum { CLOTH_NUMBERS = 184 }; /* rounded up to vectors of four */
+enum { CLOTH_NUMBERS = 188 }; /* rounded up to vectors of four */
 
 /* Writes the numbers of a cloth in the order in which weave_cloth.glsl and weave.glsl read them. */
 void cloth_numbers(const WeftCloth *cloth, float numbers[CLOTH_NUMBERS]);

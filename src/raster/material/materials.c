@@ -87,7 +87,8 @@ static Surface middle_surface(const Material *material) {
  * environment alike. */
 static Lobe cloth_lobe(const WeftCloth *cloth) {
     const Weave *m = &cloth->weave;
-    Lobe lobe = weave_far(m, m->weft_far.share > m->warp_far.share, rgb_grey(0.0f), rgb_grey(0.0f), 1.0f, 1.0f).lobe;
+    Lobe lobe =
+        weave_far(m, m->weft_far.share > m->warp_far.share, rgb_grey(0.0f), rgb_grey(0.0f), 1.0f, 1.0f, 0.0f).lobe;
     lobe.params[WOVEN_SHARE] = 1.0f;
     lobe.params[WOVEN_AZIMUTH] = 0.25f * PI;
     return lobe;

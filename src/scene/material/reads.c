@@ -42,10 +42,11 @@ static Dir incoming(Dir o, int k) {
     return dir(x, y, (k == INCOMING - 1 ? -1.0f : 1.0f) * sqrt(1.0f - x * x - y * y));
 }
 
-/* Replaces diffuse and specular as the threads of a cloth do. */
-static void put_threads(SeenStack *seen, Dir o) {
+/* Replaces diffuse and specular as the threads of a cloth do, which wear makes paler. */
+static void put_threads(SeenStack *seen, float wear, Dir o) {
     const Lobe yarn = lobe_default(LOBE_YARN);
-    stack_put_base(&seen->stack, &yarn, rgb_grey(1.0f), rgb_grey(1.0f));
+    const Rgb color = rgb_grey(0.5f + 0.5f * wear);
+    stack_put_base(&seen->stack, &yarn, color, color);
     seen_prepare(seen, o);
 }
 
@@ -62,7 +63,7 @@ static void answer_at(const ReadProbe *probe, Surface s, const Choices *choices,
     float same = stand_in(&seen.stack);
     for (int k = 0; k <= COLUMNS; k++) e[k] = same;
     seen_make(&seen, &s, choices, (TableRef){.texels = e, .kind = TABLE_ROOTS, .rows = 1, .columns = COLUMNS}, o);
-    if (woven) put_threads(&seen, o);
+    if (woven) put_threads(&seen, s.wear, o);
     for (int k = 0; k < INCOMING; k++) { /* the same directions in the world for any rotation of the frame */
         Dir i = frame_from(fixed, incoming(frame_to(fixed, probe->eye), k));
         f_cos[k] = seen_eval(&seen, frame_to(frame, i), 1).f_cos;

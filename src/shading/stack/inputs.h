@@ -92,7 +92,9 @@
     P(SCALAR, dust_noise, "dust noise", 0.0f, 0.0f, 1.0f, 0.0f, 1.0f, NONE,                                            \
       "strength of its patches: 0 even, 1 bare between")                                                               \
     P(SCALAR, dust_scale, "dust scale", 0.05f, 0.001f, 10.0f, 1e-4f, 1e4f, NONE,                                       \
-      "distance of its largest patches, metres")
+      "distance of its largest patches, metres")                                                                       \
+    P(SCALAR, wear, "wear of threads", 0.0f, 0.0f, 1.0f, 0.0f, 1.0f, NONE,                                             \
+      "of a weave: how far its raised threads have lost their dye, as at edges and folds")
 
 /* C(name, help). The value is an index into a list of the catalogue, or CHOICE_AUTO: what the workflow, or
  * the profile, says. So a choice that is made wins over a profile. */

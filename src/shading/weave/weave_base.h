@@ -66,8 +66,18 @@ STRUCT(WeaveBase) {
     Rgb multiple; /* colour of all other light */
 };
 
-/* Returns a point of a thread. */
-FN WeaveBase weave_near(const Weave *m, WeavePoint p) {
+/* Return the colours of a point of which wear has taken the dye as far as it lies high. */
+FN Rgb weave_worn_single(const Weave *m, WeavePoint p, float wear) {
+    return weave_worn(weave_single_rgb(m, p), weave_core_single(weave_yarn_of(m, p.weft)) * weave_open(m, p),
+                      wear * weave_raised(m, p));
+}
+FN Rgb weave_worn_multiple(const Weave *m, WeavePoint p, float wear) {
+    return weave_worn(weave_multiple_rgb(m, p), weave_core_multiple(weave_yarn_of(m, p.weft)) * weave_open(m, p),
+                      wear * weave_raised(m, p));
+}
+
+/* Returns a point of a thread. wear: the input of the material. */
+FN WeaveBase weave_near(const Weave *m, WeavePoint p, float wear) {
     Yarn y = weave_yarn(m, p);
     WeaveBase b;
     b.lobe = lobe_default(LOBE_YARN);
@@ -79,8 +89,8 @@ FN WeaveBase weave_near(const Weave *m, WeavePoint p) {
     b.lobe.params[YARN_CRIMP] = y.crimp;
     b.lobe.params[YARN_CROSS_CRIMP] = y.cross_crimp;
     b.lobe.params[YARN_SHARE] = y.share;
-    b.single = weave_single_rgb(m, p);
-    b.multiple = weave_multiple_rgb(m, p);
+    b.single = weave_worn_single(m, p, wear);
+    b.multiple = weave_worn_multiple(m, p, wear);
     return b;
 }
 
@@ -104,9 +114,23 @@ FN Rgb weave_dyed_multiple_rgb(Rgb c, float covers, float dye) {
                weave_dyed_multiple(c.b, covers, dye));
 }
 
+/* Return the colours that the cloth has of a system that covers so much of it: c with dye times as much dye, and worn.
+ * What shows instead of the dye is as much in the shade of other threads as the system is. */
+FN Rgb weave_far_single(const Weave *m, bool weft, Rgb c, float covers, float dye, float wear) {
+    WeaveYarn y = weave_yarn_of(m, weft);
+    float open = weft ? m->weft_far.open : m->warp_far.open, raised = weft ? m->weft_far.raised : m->warp_far.raised;
+    return weave_worn(weave_dyed_single_rgb(c, covers, y.white, dye), covers * open * weave_core_single(y),
+                      wear * raised);
+}
+FN Rgb weave_far_multiple(const Weave *m, bool weft, Rgb c, float covers, float dye, float wear) {
+    WeaveYarn y = weave_yarn_of(m, weft);
+    float open = weft ? m->weft_far.open : m->warp_far.open, raised = weft ? m->weft_far.raised : m->warp_far.raised;
+    return weave_worn(weave_dyed_multiple_rgb(c, covers, dye), covers * open * weave_core_multiple(y), wear * raised);
+}
+
 /* Returns the threads of one system. single, multiple: the colours that the cloth has of these threads, which cover so
  * much of it. So the colours of the base contain the share, which the lobe must not apply a second time. */
-FN WeaveBase weave_far(const Weave *m, bool weft, Rgb single, Rgb multiple, float covers, float dye) {
+FN WeaveBase weave_far(const Weave *m, bool weft, Rgb single, Rgb multiple, float covers, float dye, float wear) {
     Woven w = weave_woven(m, weft);
     WeaveBase b;
     b.lobe = lobe_default(LOBE_WOVEN);
@@ -118,10 +142,9 @@ FN WeaveBase weave_far(const Weave *m, bool weft, Rgb single, Rgb multiple, floa
     b.lobe.params[WOVEN_ROUNDNESS] = w.roundness;
     b.lobe.params[WOVEN_FLOATS] = w.floats;
     b.lobe.params[WOVEN_CROSS_CRIMP] = w.cross_crimp;
-    float white = weft ? m->weft.white : m->warp.white;
     b.single =
-        rgb_scale(weave_dyed_single_rgb(single, covers, white, dye), weft ? m->weft_far.single : m->warp_far.single);
-    b.multiple =
-        rgb_scale(weave_dyed_multiple_rgb(multiple, covers, dye), weft ? m->weft_far.multiple : m->warp_far.multiple);
+        rgb_scale(weave_far_single(m, weft, single, covers, dye, wear), weft ? m->weft_far.single : m->warp_far.single);
+    b.multiple = rgb_scale(weave_far_multiple(m, weft, multiple, covers, dye, wear),
+                           weft ? m->weft_far.multiple : m->warp_far.multiple);
     return b;
 }

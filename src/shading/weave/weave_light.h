@@ -48,6 +48,13 @@ FN float weave_multiple(const Weave *m, WeavePoint p, int channel) {
     return yarn_reflectance(weave_albedo(m, p, channel)) * weave_open(m, p);
 }
 
+/* Returns colour c with the part `worn` of it replaced by a white. */
+FN Rgb weave_worn(Rgb c, float white, float worn) { return rgb_mix(c, rgb_grey(white), worn); }
+
+/* Return what undyed fibres inside a yarn reflect of light that met one of them, and of all other light. */
+FN float weave_core_single(WeaveYarn y) { return min(y.core + y.white, 1.0f); }
+FN float weave_core_multiple(WeaveYarn y) { return yarn_reflectance(y.core); }
+
 /* Returns the same in all channels; black where there is no thread. */
 FN Rgb weave_single_rgb(const Weave *m, WeavePoint p) {
     float there = p.height > WEAVE_NONE ? 1.0f : 0.0f;

@@ -42,6 +42,7 @@
     N(barre_nodes)  /* nodes of the widest bars, per thread */                                                         \
     N(uneven)       /* how much the amount of dye varies in patches */                                                 \
     N(uneven_nodes) /* nodes of the largest patches, per thread */                                                     \
+    N(core)         /* albedo of the fibres inside, which wear lays bare */                                            \
     N(per_width)    /* 1 / width */                                                                                    \
     N(cos_twist)    /* cosine of twist */                                                                              \
     N(sin_twist)    /* sine of twist */                                                                                \
@@ -58,7 +59,9 @@
     N(slope_along)  /* for V: the same along the yarn */                                                               \
     N(share)        /* of the cloth, seen from above; the shares of both systems and the gaps add up to 1 */           \
     N(single)       /* on the colour of light that met one fibre: gives the lobe the mean of points */                 \
-    N(multiple)     /* the same for all other light */
+    N(multiple)     /* the same for all other light */                                                                 \
+    N(open)         /* the mean of weave_open */                                                                       \
+    N(raised)       /* the mean of weave_raised, by the light that reaches a point */
 
 #define WEAVE_NUMBER(name) float name;
 STRUCT(WeaveYarn){WEAVE_YARN_NUMBERS(WEAVE_NUMBER)};
@@ -503,5 +506,11 @@ FN float weave_depth(const Weave *m, WeavePoint p) {
     float depth = clamp((m->high - p.height) / max(m->high - m->low, 1e-6f), 0.0f, 1.0f);
     return 1.0f - WEAVE_SHADE * depth * depth;
 }
+/* Returns how far a point rises to where wear takes the dye off: 1 at the highest. */
+FN float weave_raised(const Weave *m, WeavePoint p) {
+    float t = clamp((p.height - m->low) / max(m->high - m->low, 1e-6f), 0.0f, 1.0f);
+    return t * t * t;
+}
+
 /* Returns the light that reaches a point over its mean on the cloth, so that no cloth becomes darker as a whole. */
 FN float weave_open(const Weave *m, WeavePoint p) { return p.lit * weave_depth(m, p) / m->openness; }

@@ -104,6 +104,7 @@ LOOP(footprints_n, (Chunk *restrict chunk, const PathContext *context, const Wef
         Point p = sampler_point(chunk->pixel[k], chunk->sample[k], pair);
         to->level[k] = p.u;
         to->facet[k] = p.v;
+        to->wear[k] = chunk->vertices.surface.wear[k];
     }
 }
 
