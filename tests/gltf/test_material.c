@@ -240,6 +240,7 @@ static void picture_of_glossiness_becomes_one_of_roughness(void **state) {
     reading = read_material(first, GLOSS("'glossinessFactor':0.25,'specularGlossinessTexture':{'index':1}"));
     free(first);
     assert_read(reading);
+    assert_non_null(strstr(reading->warning, "specularGlossinessTexture: its picture has no alpha"));
     assert_int_equal(reading->scene->image_count, 1);
     assert_near(number_at(reading, INPUT_roughness, 0, 0.25f), 0.75f, 1e-6f);
     assert_near(number_at(reading, INPUT_specular_color, 0, 0.25f), 1.0f, 1e-6f);

@@ -2,6 +2,7 @@
 
 #include "base/equal.h"
 #include "base/fail.h"
+#include "gltf/asset/field.h"
 #include "gltf/asset/material_fields.h"
 #include "image/pixel.h"
 #include "shading/material/convert.h"
@@ -70,6 +71,16 @@ static int roughness_texture(Asset *asset, const Input *gloss) {
     return ++scene->texture_count;
 }
 
+/* Says that a picture has no glossiness. */
+static void warn_of_alpha(Asset *asset, int material) {
+    Field root = field_root(asset), list = field_member(&root, "materials"),
+          of = field_element(&list, (size_t)material),
+          extension = field_extension(&of, "KHR_materials_pbrSpecularGlossiness"),
+          texture = field_member(&extension, "specularGlossinessTexture");
+    field_warn(&texture, WEFT_MESSAGE_GLTF_WARN_REPAIRED,
+               "its picture has no alpha, which is the glossiness: that is 1, times glossinessFactor");
+}
+
 void glossiness_end(Asset *asset) {
     WeftScene *scene = asset->scene;
     if (asset->result != WEFT_OK || !glossiness_count(scene)) return;
@@ -80,6 +91,7 @@ void glossiness_end(Asset *asset) {
         const int texture = roughness->texture;
         const WeftImage *image = texture ? &scene->images[scene->textures[texture - 1].image] : NULL;
         if (!image || !image->pixels || image->channels % 2) {
+            if (image && image->pixels) warn_of_alpha(asset, m);
             settle(roughness);
             continue;
         }
