@@ -345,6 +345,20 @@ static void mask_map_has_three_inputs(void **state) {
     weft_scene_free(scene);
 }
 
+static void sets_that_are_mixed_are_told(void **state) {
+    (void)state;
+    assert_int_equal(mkdir(in_folder("sets"), 0700), 0);
+    draw("sets/red_wool_Albedo.png", 200, 20, 30, 255);
+    draw("sets/red_wool_mixed_AO_2K.png", 10, 20, 30, 255);
+    WeftScene *scene = bound("sets", 2);
+    if (strstr(said, "two sets")) fail_msg("%s", said);
+    weft_scene_free(scene);
+    draw("sets/blue_silk_Roughness.png", 10, 20, 30, 255);
+    scene = bound("sets", 3);
+    if (!strstr(said, "blue_silk_Roughness.png and red_wool_Albedo.png seem to be of two sets")) fail_msg("%s", said);
+    weft_scene_free(scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(names_of_many_makers_are_understood),
@@ -353,6 +367,7 @@ int main(void) {
         cmocka_unit_test(green_of_an_unsaid_normal_map_is_seen),
         cmocka_unit_test(gloss_becomes_roughness_and_is_saved_as_such),
         cmocka_unit_test(mask_map_has_three_inputs),
+        cmocka_unit_test(sets_that_are_mixed_are_told),
     };
     return cmocka_run_group_tests(tests, begin, end);
 }

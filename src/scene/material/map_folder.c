@@ -275,6 +275,26 @@ static WeftResult take_map(MapFile *file, InputId input, const char *folder, Map
     return WEFT_OK;
 }
 
+/* Returns true if neither stem begins with the other: pictures of one set may say more of themselves than others do. */
+static bool is_other_set(const char *a, const char *b) {
+    const size_t x = strlen(a), y = strlen(b);
+    return strncmp(a, b, x < y ? x : y) != 0;
+}
+
+/* Warns of pictures of several sets that would make one material. */
+static void say_mixed(const MapFile *files, int count, const char *folder, const WeftLog *log) {
+    const MapFile *first = NULL;
+    for (int k = 0; k < count; k++) {
+        if (!files[k].picture) continue;
+        if (!first) first = &files[k];
+        if (!is_other_set(first->name.stem, files[k].name.stem)) continue;
+        warn(log, WEFT_MESSAGE_PLAUSIBLE, folder,
+             "%.80s and %.80s seem to be of two sets, of which one material is made: put each into a folder",
+             first->file, files[k].file);
+        return;
+    }
+}
+
 static WeftResult read_folder(const char *folder, MapSet *map_set, const WeftLog *log, WeftError *error) {
     struct dirent **entries;
     int count = scandir(folder, &entries, NULL, alphasort);
@@ -287,6 +307,7 @@ static WeftResult read_folder(const char *folder, MapSet *map_set, const WeftLog
         if (file) result = take_map(file, (InputId)k, folder, map_set, log, error);
     }
     if (result == WEFT_OK) say_unused(files, pictures, folder, log);
+    if (result == WEFT_OK) say_mixed(files, pictures, folder, log);
     if (result == WEFT_OK && !map_set->count)
         result = fail(error, WEFT_MESSAGE_FILE_OPEN, folder, "no picture in it has the name of a map");
     for (int k = 0; k < count; k++) free(entries[k]);

@@ -393,7 +393,9 @@ MapName map_name(const char *file) {
         while (words.count && words.start[words.count - 1] >= length) words.count--;
         for (int first = 0; first < words.count; first++) {
             MapName name = {.count = 0};
-            if (take_from(&words, first, &name)) return name;
+            if (!take_from(&words, first, &name)) continue;
+            snprintf(name.stem, sizeof name.stem, "%.*s", words.start[first], words.text);
+            return name;
         }
     } while (words.count && drop_ending(&words));
     return (MapName){.count = 0};

@@ -21,6 +21,8 @@ typedef struct MapName {
     MapUse uses[MAP_USES]; /* none for a name without a meaning, and for one that no input takes, as height */
     int count;
     MapGreen green;
+    char
+        stem[64]; /* the words before the use, in small letters and joined: the name of the set, cut where it is long */
 } MapName;
 
 /* Returns what the picture of this name, with its suffix, is for. Case is ignored, and so are sizes, numbers of
