@@ -11,28 +11,15 @@
 
 #include <cmocka.h>
 
-#include "raster/gl.h"
+#include "raster/flat.h"
 #include "trace/scenes.h"
 
 #include "raster/frame/raster_state.h"
 #include "raster/material/shader.h"
-#include "scratch.h"
-#include "shading/cases.h"
-#include "shading/material/choice.h"
 #include "text/flat/flatten.h"
-#include "weft/weft.h"
 
 static Fits fits;
-static char folder[SCRATCH_SIZE];
 static int written;
-
-static const ChoiceId choices[] = {
-#define ONE_CHOICE(name, help) CHOICE_##name,
-    SURFACE_CHOICES(ONE_CHOICE)};
-static const char *const choice_names[] = {
-#define ONE_NAME(name, help) #name,
-    SURFACE_CHOICES(ONE_NAME)};
-enum { CHOICES = sizeof choices / sizeof choices[0] };
 
 /* A material with maps under all kinds of light. */
 static ShaderKey whole_key(void) {
@@ -56,13 +43,6 @@ static void make_choice(Choices *made, int choice, int value) {
 #define ONE_MEMBER(name, help) &made->name,
         SURFACE_CHOICES(ONE_MEMBER)};
     *all[choice] = value;
-}
-
-/* The pointer of the choice's value: a lobe of the reference alone has no text for GPUs. */
-static bool is_on_gpu(int choice, int value) {
-    if (!choice_fits(choices[choice], value)) return false;
-    const bool lobe = choices[choice] == CHOICE_sheen_lobe || choices[choice] == CHOICE_diffuse;
-    return !lobe || !(weft_lobe_info(value)->traits & WEFT_LOBE_REFERENCE);
 }
 
 static void write_file(const char *bytes, TextLanguage language) {
@@ -202,81 +182,6 @@ static void every_kind_of_light_and_part_has_a_flat_text(void **state) {
     compile_files();
 }
 
-enum { WIDTH = 96, HEIGHT = 54 };
-
-static void set(WeftScene *scene, const char *target, const char *value) {
-    WeftError error;
-    if (weft_scene_set(scene, target, value, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
-}
-
-/* Spheres under a sun, a polygon and a coloured sky. */
-static WeftScene *spheres(void) {
-    WeftScene *scene;
-    WeftError error;
-    if (weft_scene_load("builtin:spheres", &scene, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
-    const WeftLight sun = {.direction = {-1.0f, -2.0f, -1.0f}, .color = {3.0f, 2.8f, 2.5f}};
-    assert_int_equal(weft_scene_add_light(scene, &sun, &error), WEFT_OK);
-    assert_int_equal(weft_scene_set_environment_color(scene, (const float[]){0.3f, 0.4f, 0.5f}, &error), WEFT_OK);
-    return scene;
-}
-
-/* Draws a scene, by the texts as they are written if `plain`: a folder without files does that. */
-static WeftImage draw(const WeftScene *scene, WeftGl gl, bool plain) {
-    WeftRaster *raster;
-    WeftImage image;
-    WeftError error;
-    const WeftRasterDesc desc = {.gl = gl, .shader_dir = plain ? folder : NULL, .occlusion = 8};
-    const WeftRasterView view = {
-        .width = WIDTH, .height = HEIGHT, .samples = 1, .background = WEFT_BACKGROUND_COLOR, .plain_textures = 1};
-    if (weft_raster_create(scene, &desc, &raster, NULL, &error) != WEFT_OK ||
-        weft_raster_draw(raster, &view, &error) != WEFT_OK || weft_raster_image(raster, &image, &error) != WEFT_OK)
-        fail_msg("%s", error.text);
-    assert_string_equal(weft_raster_info(raster).complaint, "");
-    weft_raster_free(raster);
-    return image;
-}
-
-/* Asserts that both pictures are the same to 1e-4 of their light, and at each pixel to a step of their 16 bits. */
-static void expect_same_pictures(const WeftScene *scene, WeftGl gl, const char *name) {
-    WeftImage flat = draw(scene, gl, false), plain = draw(scene, gl, true);
-    const float *a = flat.pixels, *b = plain.pixels;
-    double difference = 0.0, sum = 0.0, worst = 0.0;
-    for (int k = 0; k < 4 * WIDTH * HEIGHT; k++) {
-        if (k % 4 == 3) continue;
-        const double x = (double)a[k], y = (double)b[k];
-        difference += fabs(x - y);
-        sum += fabs(y);
-        worst = fmax(worst, fabs(x - y) / (fabs(y) + 0.01));
-    }
-    print_message("%s: %.2g of the light, a pixel %.2g\n", name, difference / sum, worst);
-    assert_true(sum > 100.0);
-    assert_true(difference <= 1e-4 * sum);
-    assert_true(worst < 4e-3);
-    weft_image_free(&flat);
-    weft_image_free(&plain);
-}
-
-static void flat_texts_draw_the_same_pictures(void **state) {
-    (void)state;
-    need_gl();
-    const int step = test_long() ? 1 : test_short() ? 47 : 23;
-    int count = 0;
-    for (int choice = 0; choice < CHOICES; choice++)
-        for (int value = 0; choice_id(choices[choice], value); value++) {
-            char target[64], name[96];
-            const char *id = choice_id(choices[choice], value);
-            if (!is_on_gpu(choice, value) || strcmp(id, "stochastic") == 0 || count++ % step) continue;
-            WeftScene *scene = spheres();
-            snprintf(target, sizeof target, "*.%s", choice_names[choice]);
-            if (choices[choice] == CHOICE_convert)
-                set(scene, "*.workflow", strcmp(id, "metallic") == 0 ? "specular" : "metallic");
-            set(scene, target, id);
-            snprintf(name, sizeof name, "%s %s", choice_names[choice], id);
-            expect_same_pictures(scene, count % 2 ? WEFT_GL_DESKTOP : WEFT_GL_ES, name);
-            weft_scene_free(scene);
-        }
-}
-
 /* Two materials that differ in what their flat text does not have are drawn by one program; a third has its own. */
 static void one_flat_text_is_one_program(void **state) {
     (void)state;
@@ -314,17 +219,20 @@ static void one_flat_text_is_one_program(void **state) {
     weft_scene_free(scene);
 }
 
-static int begin(void **state) { return scratch_make(folder) ? gl_begin(state) : 1; }
+static void flat_texts_draw_the_same_pictures(void **state) {
+    (void)state;
+    need_gl();
+    expect_same_pictures_of_choices(test_short() ? 61 : 41); /* raster/flat_choices takes all */
+}
 
 static int end(void **state) {
-    (void)state;
     fits_destroy(&fits);
-    return scratch_remove(folder) ? 0 : 1;
+    return flat_end(state);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_choice_has_a_flat_text), cmocka_unit_test(every_kind_of_light_and_part_has_a_flat_text),
         cmocka_unit_test(flat_texts_draw_the_same_pictures), cmocka_unit_test(one_flat_text_is_one_program)};
-    return cmocka_run_group_tests(tests, begin, end);
+    return cmocka_run_group_tests(tests, flat_begin, end);
 }

@@ -47,6 +47,10 @@ static void records_and_calls_are_followed(void **state) {
                   "Out o;\no.a = filled(2.0);\no.v = vec2(1.0);\no.v.y = o.a.x[2];\n"
                   "fragment = vec4(o.a.x[1], o.v.yx, o.v.x);",
                   "vec4(2.0, 4.0, 1.0, 1.0)");
+    expect_answer(
+        "float taken(inout int k) { return float(k++); }",
+        "int k = 3;\nfloat a = taken(k), b = float(++k), c = float(k--);\nfragment = vec4(a, b, c, float(k));",
+        "vec4(3.0, 5.0, 5.0, 4.0)");
     expect_answer("const int N = 2, M = N * 3;\nfloat more = 1.0;\nfloat next() { more += 1.0; return more; }",
                   "float a = next(), b = next();\nfragment = vec4(a, b, more, float(M));", "vec4(2.0, 3.0, 3.0, 6.0)");
 }

@@ -217,17 +217,17 @@ static Value binary(Run *run, const Expr *expr) {
 }
 
 static Value assign(Run *run, const Expr *expr) {
-    Value value = run_value(run, expr->b);
+    Value value = run_value(run, expr->b), before = value;
     Place place;
     if (run->wrong || !run_place(run, expr->a, &place)) return run_wrong(run, "an assignment to no variable");
     if (expr->op) {
-        Value before = run_read(run, &place);
+        before = run_read(run, &place);
         if (before.kind == KIND_UINT && value.kind == KIND_INT && value.leaves[0]->op == NODE_NUMBER)
             value = run_of_node(run, graph_integer(&run->graph, KIND_UINT, value.leaves[0]->integer)); /* k++ */
         value = binary_of(run, expr->op, before, value);
     }
     if (!run->wrong) run_write(run, &place, value);
-    return value;
+    return expr->before ? before : value;
 }
 
 Value run_value(Run *run, const Expr *expr) {

@@ -158,7 +158,6 @@ static Expr *make_step(Reader *reader, Expr *to, Token mark) {
 
 static bool is_step(Token token) { return token_is(token, "++") || token_is(token, "--"); }
 
-/* A step is a statement of its own in shading text, so its value is never read and its side does not matter. */
 static Expr *read_postfix(Reader *reader) {
     Expr *expr = read_primary(reader);
     while (next_is(reader, ".") || next_is(reader, "[") || is_step(peek(reader, 0))) {
@@ -167,6 +166,7 @@ static Expr *read_postfix(Reader *reader) {
         outer->a = expr;
         if (is_step(mark)) {
             outer = make_step(reader, expr, mark);
+            outer->before = true;
         } else if (token_is(mark, ".")) {
             outer->name = take_name(reader);
         } else {

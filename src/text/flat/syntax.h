@@ -35,7 +35,7 @@ typedef enum ExprKind {
     EXPR_UNARY,  /* op a */
     EXPR_BINARY, /* a op b */
     EXPR_SELECT, /* a ? b : c */
-    EXPR_ASSIGN  /* a = b; op is 0, or that of "+=" without its "="; a step such as k++ is k += 1 */
+    EXPR_ASSIGN  /* a = b; op is 0, or that of "+=" without its "="; ++k is k += 1, and k++ has the value before */
 } ExprKind;
 
 typedef struct Expr {
@@ -45,6 +45,7 @@ typedef struct Expr {
     Token word;
     struct Expr *a, *b, *c;
     struct Expr *next; /* argument */
+    bool before;       /* an assignment's value is that before it */
 } Expr;
 
 typedef enum StatementKind {
