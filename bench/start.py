@@ -2,8 +2,9 @@
 
     python3 bench/start.py [--quick] [WEFT]
 
-Cold: weft's own cache and the driver's cache of shaders (Mesa's) are empty, and the files of the programs are in memory.
-Warm: an earlier run has filled both. The best of some runs, which take turns; behind it the seconds of processor.
+Cold: weft's own cache and the driver's cache of shaders (Mesa's) are empty, and the files of the programs are in
+memory. Warm: an earlier run has filled both. Plain: cold, and the shaders are compiled as they are written, not
+flattened, which --shader-dir asks for. The best of some runs, which take turns; behind it the seconds of processor.
 """
 
 import os
@@ -33,9 +34,9 @@ def processor_seconds():
     return used.ru_utime + used.ru_stime
 
 
-def start(scene, folder):
+def start(scene, folder, more=()):
     command = [WEFT, "render", *scene, "-o", f"{folder}/picture.png", "--engine", "raster", "--quiet",
-               "--width", "960", "--height", "720", "--msaa", "4"]
+               "--width", "960", "--height", "720", "--msaa", "4", *more]
     caches = {**os.environ, "XDG_CACHE_HOME": f"{folder}/cache", "MESA_SHADER_CACHE_DIR": f"{folder}/mesa"}
     used, begin = processor_seconds(), time.monotonic()
     subprocess.run(command, check=True, env=caches)
@@ -45,16 +46,19 @@ def start(scene, folder):
 def main():
     with tempfile.TemporaryDirectory() as folder:
         start(SCENES[0], folder)  # so that the files are in memory
-    print("start to picture, s            cold   (processor)      warm   (processor)")
+    print("start to picture, s            cold   (processor)      warm   (processor)     plain   (processor)")
     for scene in SCENES:
-        cold, warm = [], []
+        cold, warm, plain = [], [], []
         for _ in range(ROUNDS):
             with tempfile.TemporaryDirectory() as folder:
                 cold.append(start(scene, folder))
                 warm.append(start(scene, folder))
+            with tempfile.TemporaryDirectory() as folder:
+                os.mkdir(f"{folder}/none")
+                plain.append(start(scene, folder, ("--shader-dir", f"{folder}/none")))
         name = pathlib.Path(scene[0]).stem + (f" {scene[1]}" if len(scene) > 1 else "")
-        print(f"{name:26} {min(cold)[0]:8.2f} {min(c for _, c in cold):13.2f} {min(warm)[0]:9.2f} "
-              f"{min(c for _, c in warm):13.2f}")
+        best = (f"{min(each)[0]:9.2f} {min(c for _, c in each):13.2f}" for each in (cold, warm, plain))
+        print(f"{name:26}" + "".join(best))
 
 
 main()

@@ -132,17 +132,20 @@ static void gap_is_named(void **state) {
     (void)state;
     static const struct {
         const char *declarations, *body, *gap;
-    } cases[] = {{"", "fragment = vec4(unheard_of(1.0));", "a function: unheard_of"},
-                 {"", "fragment = vec4(nothing);", "a name: nothing"},
-                 {"", "fragment = vec4(2 * 1.5);", "an operator between these types"},
-                 {"", "float x = 1;\nfragment = vec4(x);", "an assignment of another type"},
-                 {"struct A { float x; };\nuniform bool b;",
-                  "A p = A(1.0), q = A(2.0), r = b ? p : q;\nfragment = vec4(r.x);", "?: between records"},
-                 {"float f(float x) { return f(x); }", "fragment = vec4(f(1.0));", "a call with other arguments: f"},
-                 {"uniform int n;", "switch (n) { case 1: fragment = vec4(1.0); case 2: fragment = vec4(2.0); break; }",
-                  "a case that runs into the next"},
-                 {"", "fragment = vec4(1.0, 2.0);", "a value of other parts"},
-                 {"", "fragment = vec4(0.0)", "a mark is missing"}};
+    } cases[] = {
+        {"", "fragment = vec4(unheard_of(1.0));", "a function: unheard_of"},
+        {"", "fragment = vec4(nothing);", "a name: nothing"},
+        {"", "fragment = vec4(2 * 1.5);", "an operator between these types"},
+        {"", "float x = 1;\nfragment = vec4(x);", "an assignment of another type"},
+        {"struct A { float x; };\nuniform bool b;", "A p = A(1.0), q = A(2.0), r = b ? p : q;\nfragment = vec4(r.x);",
+         "?: between records"},
+        {"struct A { float x; };\nuniform A a;", "fragment = vec4(a.x);", "a record from outside: a"},
+        {"struct A { float x; };\nuniform B { A a[2]; };", "fragment = vec4(a[1].x);", "a record from outside: a"},
+        {"float f(float x) { return f(x); }", "fragment = vec4(f(1.0));", "a call with other arguments: f"},
+        {"uniform int n;", "switch (n) { case 1: fragment = vec4(1.0); case 2: fragment = vec4(2.0); break; }",
+         "a case that runs into the next"},
+        {"", "fragment = vec4(1.0, 2.0);", "a value of other parts"},
+        {"", "fragment = vec4(0.0)", "a mark is missing"}};
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
         char text[1024];
         Buffer out = {0};

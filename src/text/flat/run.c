@@ -4,16 +4,23 @@
 
 enum { MEMBERS_MOST = 512 };
 
+/* Adds a name of what the shader reads: a number, vector, matrix or sampler, or an array of them. */
+static void add_outside(Run *run, Symbol name, Symbol type, const Expr *size) {
+    const Kind kind = run_kind(run, type, size), element = run->kinds.shapes[kind].element;
+    if ((element ? element : kind) >= KIND_OWN) run_wrong_name(run, "a record from outside", name);
+    run->outside[name] = kind;
+}
+
 /* Adds a record, or the members of a block, which are names of their own. */
 static void add_fields(Run *run, const Declaration *declaration, bool record) {
     Member members[MEMBERS_MOST];
     int count = 0;
     for (const Field *field = declaration->fields; field && !run->wrong; field = field->next) {
-        const Kind kind = run_kind(run, field->type, field->size);
         if (!record) {
-            run->outside[field->name] = kind;
+            add_outside(run, field->name, field->type, field->size);
             continue;
         }
+        const Kind kind = run_kind(run, field->type, field->size);
         if (count == MEMBERS_MOST) {
             run_wrong(run, "a record of too many members");
             return;
@@ -41,9 +48,7 @@ static void add(Run *run, Declaration *declaration) {
     case DECLARATION_RECORD: add_fields(run, declaration, true); break;
     case DECLARATION_BLOCK: add_fields(run, declaration, false); break;
     case DECLARATION_FUNCTION: run->functions[declaration->name] = declaration; break;
-    case DECLARATION_OUTSIDE:
-        run->outside[declaration->name] = run_kind(run, declaration->type, declaration->size);
-        break;
+    case DECLARATION_OUTSIDE: add_outside(run, declaration->name, declaration->type, declaration->size); break;
     case DECLARATION_VARIABLE:
     case DECLARATION_OUTPUT: add_variable(run, declaration); break;
     }
