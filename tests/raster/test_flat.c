@@ -107,6 +107,12 @@ typedef struct Variant {
     void (*change)(ShaderKey *key);
 } Variant;
 
+static void reference(ShaderKey *key) { key->reference = 1; }
+static void reference_in_parts(ShaderKey *key) {
+    key->reference = 2;
+    key->part = WEFT_PART_SHEEN;
+}
+static void reference_woven(ShaderKey *key) { key->reference = key->woven = 1; }
 static void no_lights(ShaderKey *key) { key->lights = key->polygons = key->ambient = key->shadowed = 0; }
 static void many_lights(ShaderKey *key) { key->lights = 40; }
 static void polygons(ShaderKey *key) {
@@ -168,7 +174,10 @@ static void every_kind_of_light_and_part_has_a_flat_text(void **state) {
                                        {"depth", depth},
                                        {"woven depth", depth_woven},
                                        {"maps of some", maybe},
-                                       {"zeros", zeros}};
+                                       {"zeros", zeros},
+                                       {"reference", reference},
+                                       {"a part of the reference", reference_in_parts},
+                                       {"the reference of a woven cloth", reference_woven}};
     for (size_t k = 0; k < sizeof variants / sizeof variants[0]; k++) {
         ShaderKey key = whole_key();
         variants[k].change(&key);

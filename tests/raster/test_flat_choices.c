@@ -1,5 +1,5 @@
-/* The flat text of every value of every choice draws the picture of the text as it is written, and so does that of woven
- * cloth, near and from afar.
+/* The flat text of every value of every choice draws the picture of the text as it is written, and so does that of
+ * woven cloth, near and from afar.
  *
  * Labels: slow unsanitized */
 #include "raster/flat.h"

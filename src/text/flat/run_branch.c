@@ -3,8 +3,19 @@
 
 #include "text/flat/run.h"
 
-/* Two branches with few new values are computed both: a choice costs less than an if. */
-enum { VALUES_FEW = 24 };
+/* Two branches with few new values are computed both: a choice costs less than an if. A look-up counts as many. */
+enum { VALUES_FEW = 24, VALUES_LOOKUP = 25 };
+
+/* Returns what nodes from `before` on cost, in values. */
+static int cost_since(const Graph *graph, int before) {
+    int cost = 0;
+    for (int k = before; k < graph->count; k++) {
+        const Node *node = graph->nodes[k];
+        const bool looks = node->op == NODE_CALL && kind_is_sampler(node_operand(node, 0)->kind);
+        cost += looks ? VALUES_LOOKUP : 1;
+    }
+    return cost;
+}
 
 /* Notes that a bool has a value, and what follows for its parts. */
 static void learn(Run *run, const Node *node, bool value) {
@@ -142,7 +153,8 @@ void run_branch(Run *run, Node *condition, Branch *then, const void *a, Branch *
     join.left[0] = tried(run, &join, true, then, a);
     join.left[1] = tried(run, &join, false, other, b);
     if (run->wrong) return;
-    join.select = is_empty(join.then) && is_empty(join.other) && (select || run->graph.count - before <= VALUES_FEW);
+    join.select =
+        is_empty(join.then) && is_empty(join.other) && (select || cost_since(&run->graph, before) <= VALUES_FEW);
     if (join.then->first || join.other->first) flow_of(&join);
     join_left(&join, 0);
     join_left(&join, 1);

@@ -5,10 +5,12 @@ typedef enum Result {
     AS_FIRST, /* the type of argument 0, 1 or 2 */
     AS_SECOND,
     AS_THIRD,
+    A_MIX, /* the type of argument 0; argument 2 may be bools */
     A_FLOAT,
     A_BOOL,
     SOME_BOOLS, /* one for each component of argument 0 */
     SOME_FLOATS,
+    SOME_INTS,
     SOME_UINTS,
     A_TEXEL, /* of the sampler that argument 0 is */
     A_SIZE   /* of that sampler */
@@ -39,24 +41,29 @@ static const Builtin builtins[] = {{"abs", 1, AS_FIRST, false},
                                    {"equal", 2, SOME_BOOLS, false},
                                    {"exp", 1, AS_FIRST, false},
                                    {"exp2", 1, AS_FIRST, false},
+                                   {"floatBitsToInt", 1, SOME_INTS, false},
                                    {"floatBitsToUint", 1, SOME_UINTS, false},
                                    {"floor", 1, AS_FIRST, false},
                                    {"fract", 1, AS_FIRST, false},
                                    {"fwidth", 1, AS_FIRST, true},
                                    {"greaterThan", 2, SOME_BOOLS, false},
+                                   {"greaterThanEqual", 2, SOME_BOOLS, false},
+                                   {"intBitsToFloat", 1, SOME_FLOATS, false},
                                    {"inversesqrt", 1, AS_FIRST, false},
                                    {"isinf", 1, SOME_BOOLS, false},
                                    {"isnan", 1, SOME_BOOLS, false},
                                    {"length", 1, A_FLOAT, false},
                                    {"lessThan", 2, SOME_BOOLS, false},
+                                   {"lessThanEqual", 2, SOME_BOOLS, false},
                                    {"log", 1, AS_FIRST, false},
                                    {"log2", 1, AS_FIRST, false},
                                    {"max", 2, AS_FIRST, false},
                                    {"min", 2, AS_FIRST, false},
-                                   {"mix", 3, AS_FIRST, false},
+                                   {"mix", 3, A_MIX, false},
                                    {"mod", 2, AS_FIRST, false},
                                    {"normalize", 1, AS_FIRST, false},
                                    {"not", 1, AS_FIRST, false},
+                                   {"notEqual", 2, SOME_BOOLS, false},
                                    {"pow", 2, AS_FIRST, false},
                                    {"radians", 1, AS_FIRST, false},
                                    {"reflect", 2, AS_FIRST, false},
@@ -72,6 +79,7 @@ static const Builtin builtins[] = {{"abs", 1, AS_FIRST, false},
                                    {"textureGrad", 4, A_TEXEL, false},
                                    {"textureLod", 3, A_TEXEL, false},
                                    {"textureSize", 2, A_SIZE, false},
+                                   {"trunc", 1, AS_FIRST, false},
                                    {"uintBitsToFloat", 1, SOME_FLOATS, false}};
 
 enum { ARGUMENTS_MOST = 6 };
@@ -102,16 +110,20 @@ static Kind result_kind(const Builtin *self, Node *const *arguments, int count) 
     if (self->result == A_TEXEL) return kinds_texel(first);
     if (self->result == A_SIZE)
         return kind_is_sampler(first) ? kind_vector(BASE_INT, kinds_dimensions(first)) : KIND_NONE;
-    for (int k = 0; k < count; k++)
+    const bool chooses = self->result == A_MIX && kind_base(arguments[2]->kind) == BASE_BOOL;
+    if (chooses && kind_size(arguments[2]->kind) != size) return KIND_NONE;
+    for (int k = 0; k < (chooses ? 2 : count); k++)
         if (!kind_base(first) || kind_base(arguments[k]->kind) != kind_base(first)) return KIND_NONE;
     switch (self->result) {
-    case AS_FIRST: return first;
+    case AS_FIRST:
+    case A_MIX: return first;
     case AS_SECOND: return arguments[1]->kind;
     case AS_THIRD: return arguments[2]->kind;
     case A_FLOAT: return KIND_FLOAT;
     case A_BOOL: return KIND_BOOL;
     case SOME_BOOLS: return kind_vector(BASE_BOOL, size);
     case SOME_FLOATS: return kind_vector(BASE_FLOAT, size);
+    case SOME_INTS: return kind_vector(BASE_INT, size);
     case SOME_UINTS: return kind_vector(BASE_UINT, size);
     default: return KIND_NONE;
     }
