@@ -83,7 +83,7 @@ static void expect_in(const char *text, const char *const *there, const char *co
     buffer_free(&out);
 }
 
-static void what_is_not_needed_is_left_out(void **state) {
+static void flat_text_lacks_what_is_not_needed(void **state) {
     (void)state;
     expect_in(HEAD "layout(std140) uniform Numbers {\n highp vec4 a, b;\n highp vec4 rows[2 * 3];\n};\n"
                    "layout(std140) uniform Others { highp vec4 z; };\n"
@@ -217,7 +217,7 @@ static void deep_texts_are_refused_long_ones_are_not(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(records_and_calls_are_followed),
                                        cmocka_unit_test(jumps_skip_what_they_skip),
-                                       cmocka_unit_test(what_is_not_needed_is_left_out),
+                                       cmocka_unit_test(flat_text_lacks_what_is_not_needed),
                                        cmocka_unit_test(equal_values_are_computed_once_and_outside_loops),
                                        cmocka_unit_test(derivatives_stay_where_they_are),
                                        cmocka_unit_test(gap_is_named),

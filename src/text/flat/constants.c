@@ -57,7 +57,7 @@ static Constant compared(Operator op, long long a, long long b) {
     }
 }
 
-/* Whole numbers wrap at 32 bits. */
+/* Computes with whole numbers, which wrap at 32 bits. */
 static Constant whole(Operator op, Kind kind, int x, int y) {
     const bool is_signed = kind == KIND_INT;
     const unsigned a = (unsigned)x, b = (unsigned)y;

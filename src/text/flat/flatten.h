@@ -6,7 +6,7 @@
 
 #include "text/source/buffer.h"
 
-/* What a text has that is not understood: "a name: gl_SampleID". */
+/* The first thing in a text that is not understood: "a name: gl_SampleID". */
 typedef struct FlattenGap {
     char what[128];
 } FlattenGap;

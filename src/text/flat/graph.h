@@ -17,7 +17,7 @@ typedef struct Region {
     int depth;
     int pinned; /* nodes that belong to it and no other */
     struct Flow *first, **last;
-    struct Node *nodes, **end; /* set by placement_of: those with names, in the order of their making */
+    struct GraphNode *nodes, **end; /* set by placement_of: those with names, in the order of their making */
 } Region;
 
 typedef enum NodeOp {
@@ -35,7 +35,7 @@ typedef enum NodeOp {
     NODE_UNKNOWN   /* of a variable that has no value yet */
 } NodeOp;
 
-typedef struct Node {
+typedef struct GraphNode {
     NodeOp op;
     Kind kind;
     int word;
@@ -43,22 +43,22 @@ typedef struct Node {
         float number;
         int integer; /* bits of uint, and 0 or 1 of bool */
     };
-    struct Node *operands[4], **more; /* more: all of them, if there are over 4 */
+    struct GraphNode *operands[4], **more; /* more: all of them, if there are over 4 */
     int count;
-    Region *home;      /* the innermost region without which the value does not exist */
-    bool pinned;       /* belongs to `home` and no other region */
-    struct Flow *flow; /* of a phi */
-    struct Node *next; /* with the same hash */
+    Region *home;           /* the innermost region without which the value does not exist */
+    bool pinned;            /* belongs to `home` and no other region */
+    struct Flow *flow;      /* of a phi */
+    struct GraphNode *next; /* with the same hash */
     unsigned hash;
     int serial;
     /* Set by placement_of (text/flat/placement.h). */
     bool live;
-    int uses, length;   /* length: operations in the text of its value */
-    int name;           /* of the variable that has its value; 0: none */
-    Region *place;      /* where it is computed */
-    Region *user;       /* of a use; the only one if there is one */
-    struct Node *after; /* the next of the nodes with names that are computed in the same region */
-} Node;
+    int uses, length;        /* length: operations in the text of its value */
+    int name;                /* of the variable that has its value; 0: none */
+    Region *place;           /* where it is computed */
+    Region *user;            /* of a use; the only one if there is one */
+    struct GraphNode *after; /* the next of the nodes with names that are computed in the same region */
+} GraphNode;
 
 typedef enum FlowKind {
     FLOW_IF,
@@ -70,11 +70,11 @@ typedef enum FlowKind {
 
 typedef struct Flow {
     FlowKind kind;
-    Region *region; /* that it belongs to */
-    Node *condition;
+    Region *region; /* around this flow */
+    GraphNode *condition;
     Region *body, *other;
     int after; /* the serial of the first node made after it */
-    Node **phis;
+    GraphNode **phis;
     int phi_count;
     Symbol name; /* of an output */
     bool live;
@@ -86,12 +86,12 @@ enum { GRAPH_BUCKETS = 1 << 14, GRAPH_MOST = 1 << 18 };
 typedef struct Graph {
     Arena arena;
     const Kinds *kinds;
-    Node *buckets[GRAPH_BUCKETS];
-    Node **nodes; /* in the order of their making: operands first */
+    GraphNode *buckets[GRAPH_BUCKETS];
+    GraphNode **nodes; /* in the order of their making: operands first */
     int count, capacity;
     Region *whole;
-    bool failed; /* too many nodes, or memory is short */
-    Node spare;  /* for what is made then, and never read */
+    bool failed;     /* too many nodes, or memory is short */
+    GraphNode spare; /* for what is made then, and never read */
     Region spare_region;
     Flow spare_flow;
 } Graph;
@@ -105,30 +105,33 @@ void graph_rewind(Graph *graph, int count);
 Region *graph_region(Graph *graph, Region *parent, bool loop);
 
 /* Appends a flow to a region. */
-Flow *graph_flow(Graph *graph, Region *region, FlowKind kind, Node *condition);
+Flow *graph_flow(Graph *graph, Region *region, FlowKind kind, GraphNode *condition);
 
-Node *graph_float(Graph *graph, float x);
-Node *graph_integer(Graph *graph, Kind kind, int x); /* int, uint or bool */
-static inline Node *graph_bool(Graph *graph, bool x) { return graph_integer(graph, KIND_BOOL, x); }
-Node *graph_outside(Graph *graph, Kind kind, Symbol name);
-Node *graph_unknown(Graph *graph, Kind kind);
-Node *graph_unary(Graph *graph, Kind kind, Operator op, Node *a);
-Node *graph_binary(Graph *graph, Kind kind, Operator op, Node *a, Node *b);
-Node *graph_select(Graph *graph, Node *condition, Node *a, Node *b);
-Node *graph_part(Graph *graph, Kind kind, int word, Node *of);
-Node *graph_index(Graph *graph, Kind kind, Node *of, Node *at);
-Node *graph_phi(Graph *graph, NodeOp op, Kind kind, Region *home, Node *a, Node *b); /* never one with another */
+GraphNode *graph_float(Graph *graph, float x);
+GraphNode *graph_integer(Graph *graph, Kind kind, int x); /* int, uint or bool */
+static inline GraphNode *graph_bool(Graph *graph, bool x) { return graph_integer(graph, KIND_BOOL, x); }
+GraphNode *graph_outside(Graph *graph, Kind kind, Symbol name);
+GraphNode *graph_unknown(Graph *graph, Kind kind);
+GraphNode *graph_unary(Graph *graph, Kind kind, Operator op, GraphNode *a);
+GraphNode *graph_binary(Graph *graph, Kind kind, Operator op, GraphNode *a, GraphNode *b);
+GraphNode *graph_select(Graph *graph, GraphNode *condition, GraphNode *a, GraphNode *b);
+GraphNode *graph_part(Graph *graph, Kind kind, int word, GraphNode *of);
+GraphNode *graph_index(Graph *graph, Kind kind, GraphNode *of, GraphNode *at);
+GraphNode *graph_phi(Graph *graph, NodeOp op, Kind kind, Region *home, GraphNode *a,
+                     GraphNode *b); /* never one with another */
 
 /* Returns a call of GLSL's own. pinned: the region to which it belongs, since neighbouring pixels take part; else
  * NULL. */
-Node *graph_call(Graph *graph, Kind kind, Symbol name, const char *spelled, Node *const *operands, int count,
-                 Region *pinned);
+GraphNode *graph_call(Graph *graph, Kind kind, Symbol name, const char *spelled, GraphNode *const *operands, int count,
+                      Region *pinned);
 
-static inline Node *node_operand(const Node *node, int k) { return node->more ? node->more[k] : node->operands[k]; }
+static inline GraphNode *node_operand(const GraphNode *node, int k) {
+    return node->more ? node->more[k] : node->operands[k];
+}
 
 /* Return true for a constant, for that bool, and for a number or a vector all of whose components are x. */
-static inline bool node_is_constant(const Node *node) { return node->op == NODE_NUMBER; }
-static inline bool node_is_bool(const Node *node, bool x) {
+static inline bool node_is_constant(const GraphNode *node) { return node->op == NODE_NUMBER; }
+static inline bool node_is_bool(const GraphNode *node, bool x) {
     return node->op == NODE_NUMBER && node->kind == KIND_BOOL && node->integer == (int)x;
 }
 

@@ -44,7 +44,7 @@ int kinds_dimensions(Kind sampler) {
     }
 }
 
-void kinds_begin(Kinds *kinds, Symbols *symbols) {
+void kinds_begin(Kinds *kinds, SymbolTable *symbols) {
     memset(kinds, 0, sizeof *kinds);
     kinds->count = KIND_OWN;
     static const Kind same[KIND_OWN] = {
@@ -94,10 +94,10 @@ Kind kinds_array(Kinds *kinds, Kind element, int count) {
     return kinds->count - 1;
 }
 
-void kinds_record(Kinds *kinds, Symbol name, const Member *members, int count) {
+void kinds_record(Kinds *kinds, Symbol name, const ShapeMember *members, int count) {
     int total = 0;
     for (int k = 0; k < count; k++) total += kinds->shapes[members[k].kind].leaf_count;
-    Member *own = arena_array(&kinds->arena, (size_t)count + 1, sizeof *own);
+    ShapeMember *own = arena_array(&kinds->arena, (size_t)count + 1, sizeof *own);
     Kind *leaves = own ? add(kinds, (Shape){.name = name, .count = count, .members = own}, total) : NULL;
     if (!leaves) {
         kinds->failed = true;

@@ -8,7 +8,7 @@
 
 typedef int Kind;
 
-typedef enum Base { BASE_NONE, BASE_BOOL, BASE_INT, BASE_UINT, BASE_FLOAT } Base;
+typedef enum BaseType { BASE_NONE, BASE_BOOL, BASE_INT, BASE_UINT, BASE_FLOAT } BaseType;
 
 enum {
     KIND_NONE, /* of what is not understood */
@@ -25,9 +25,9 @@ enum {
 };
 
 /* Return the kind of a vector (1 component: a number), its base (BASE_NONE of anything else), its size (0). */
-static inline Kind kind_vector(Base base, int size) { return (int)base * 4 + size; }
-static inline Base kind_base(Kind kind) {
-    return kind > KIND_VECTORS && kind <= KIND_MATRICES ? (Base)((kind - 1) / 4) : BASE_NONE;
+static inline Kind kind_vector(BaseType base, int size) { return (int)base * 4 + size; }
+static inline BaseType kind_base(Kind kind) {
+    return kind > KIND_VECTORS && kind <= KIND_MATRICES ? (BaseType)((kind - 1) / 4) : BASE_NONE;
 }
 static inline int kind_size(Kind kind) { return kind_base(kind) ? (kind - 1) % 4 + 1 : 0; }
 static inline int kind_matrix(Kind kind) {
@@ -35,18 +35,18 @@ static inline int kind_matrix(Kind kind) {
 }
 static inline bool kind_is_sampler(Kind kind) { return kind >= KIND_SAMPLERS && kind < KIND_OWN; }
 
-typedef struct Member {
+typedef struct ShapeMember {
     Symbol name;
     Kind kind;
-    int first; /* its first leaf */
-} Member;
+    int first; /* index of the first leaf */
+} ShapeMember;
 
 typedef struct Shape {
-    Symbol name;        /* of a record, else 0 */
-    Kind element;       /* of an array, else KIND_NONE */
-    int count;          /* of elements or members */
-    Member *members;    /* of a record */
-    const Kind *leaves; /* the kind of each leaf */
+    Symbol name;          /* of a record, else 0 */
+    Kind element;         /* of an array, else KIND_NONE */
+    int count;            /* of elements or members */
+    ShapeMember *members; /* of a record */
+    const Kind *leaves;   /* the kind of each leaf */
     int leaf_count;
 } Shape;
 
@@ -62,7 +62,7 @@ typedef struct Kinds {
 } Kinds;
 
 /* Begins the list with the kinds of GLSL. Call kinds_free. */
-void kinds_begin(Kinds *kinds, Symbols *symbols);
+void kinds_begin(Kinds *kinds, SymbolTable *symbols);
 void kinds_free(Kinds *kinds);
 
 /* Returns the kind of that name, KIND_NONE if there is none. */
@@ -72,7 +72,7 @@ Kind kinds_named(const Kinds *kinds, Symbol name);
 Kind kinds_array(Kinds *kinds, Kind element, int count);
 
 /* Adds a record; its members' names and kinds are given, and copied. */
-void kinds_record(Kinds *kinds, Symbol name, const Member *members, int count);
+void kinds_record(Kinds *kinds, Symbol name, const ShapeMember *members, int count);
 
 /* Returns the result of a look-up with coordinates in a sampler, KIND_NONE if it is none. */
 Kind kinds_texel(Kind sampler);

@@ -2,16 +2,16 @@
 
 enum { LENGTH_MOST = 40 };
 
-static bool is_phi(const Node *node) {
+static bool is_phi(const GraphNode *node) {
     return node->op == NODE_PHI || node->op == NODE_LOOP_PHI || node->op == NODE_EXIT;
 }
 
-static bool is_leaf(const Node *node) {
+static bool is_leaf(const GraphNode *node) {
     return node->op == NODE_NUMBER || node->op == NODE_OUTSIDE || node->op == NODE_UNKNOWN;
 }
 
 /* Marks something as needed. Returns true if it was not marked before. */
-static bool need(Node *node) {
+static bool need(GraphNode *node) {
     const bool found = node && !node->live;
     if (found) node->live = true;
     return found;
@@ -42,7 +42,7 @@ static void need_effects(Region *region) {
     }
 }
 
-static bool need_operands(Node *node) {
+static bool need_operands(GraphNode *node) {
     bool found = need_flow(node->flow);
     found |= need_flow(node->home->owner);
     for (int k = 0; k < node->count; k++) found |= need(node_operand(node, k));
@@ -69,14 +69,14 @@ static Region *common(Region *a, Region *b) {
     return a;
 }
 
-static void use(Node *node, Region *region) {
+static void use(GraphNode *node, Region *region) {
     node->uses++;
     node->user = region;
     node->place = node->place ? common(node->place, region) : region;
 }
 
-bool placement_before(const Node *phi) {
-    const Node *other = node_operand(phi, 1);
+bool placement_before(const GraphNode *phi) {
+    const GraphNode *other = node_operand(phi, 1);
     return (is_leaf(other) || is_phi(other)) && region_within(phi->flow->region, other->home);
 }
 
@@ -84,7 +84,7 @@ bool placement_before(const Node *phi) {
 static void use_flow(Flow *flow) {
     if (flow->condition) use(flow->condition, flow->region);
     for (int k = 0; k < flow->phi_count; k++) {
-        Node *phi = flow->phis[k];
+        GraphNode *phi = flow->phis[k];
         if (!phi->live) continue;
         if (flow->kind == FLOW_LOOP) {
             use(phi->operands[0], flow->region);
@@ -106,7 +106,7 @@ static void use_flows(Region *region) {
 }
 
 /* Sets the place of a node all of whose uses are known, and adds its uses of others. */
-static void place(Node *node) {
+static void place(GraphNode *node) {
     if (node->pinned) {
         node->place = node->home;
     } else {
@@ -119,21 +119,21 @@ static void place(Node *node) {
 }
 
 /* Returns true for what is as short as a name. */
-static bool is_short(const Node *node) {
+static bool is_short(const GraphNode *node) {
     if (is_leaf(node) || is_phi(node) || node->name) return true;
-    const Node *first = node_operand(node, 0);
+    const GraphNode *first = node_operand(node, 0);
     if (node->op == NODE_PART || node->op == NODE_UNARY) return is_short(first);
     return node->op == NODE_INDEX && is_short(first) && is_leaf(node_operand(node, 1));
 }
 
 /* Decides whether a node gets a variable. */
-static void name(Node *node, int *names) {
+static void name(GraphNode *node, int *names) {
     node->length = 1;
     for (int k = 0; k < node->count; k++)
         if (!node_operand(node, k)->name) node->length += node_operand(node, k)->length;
     if (is_short(node)) return;
-    const bool apart = node->uses > 1 || node->user != node->place;
-    if (!apart && node->length <= LENGTH_MOST) return;
+    const bool shared = node->uses > 1 || node->user != node->place;
+    if (!shared && node->length <= LENGTH_MOST) return;
     Region *region = node->place;
     node->name = ++*names;
     if (!region->end) region->end = &region->nodes;
@@ -146,11 +146,11 @@ void placement_of(Graph *graph) {
     mark(graph);
     use_flows(graph->whole);
     for (int k = graph->count - 1; k >= 0; k--) {
-        Node *node = graph->nodes[k];
+        GraphNode *node = graph->nodes[k];
         if (node->live && !is_phi(node) && !is_leaf(node)) place(node);
     }
     for (int k = 0; k < graph->count; k++) {
-        Node *node = graph->nodes[k];
+        GraphNode *node = graph->nodes[k];
         if (!node->live) continue;
         if (node->op == NODE_PHI || node->op == NODE_LOOP_PHI)
             node->name = ++names;

@@ -10,7 +10,7 @@ typedef struct Printer {
     bool used[SYMBOLS_MOST]; /* what the shader reads from outside, by name */
 } Printer;
 
-/* How tightly an expression binds: a choice least, an operator as in syntax.c, a sign, a name most. */
+/* The strengths with which expressions bind: a choice least, an operator as in syntax.c, a sign, a name most. */
 enum { BINDS_SELECT = 0, BINDS_SIGN = 11, BINDS_NAME = 12 };
 
 static int binding(Operator op) {
@@ -43,7 +43,7 @@ static void put_token(const Printer *self, Symbol name) {
 
 static void put_kind(const Printer *self, Kind kind) { put_token(self, self->run->kinds.shapes[kind].name); }
 
-static void put_number(const Printer *self, const Node *node) {
+static void put_number(const Printer *self, const GraphNode *node) {
     switch (node->kind) {
     case KIND_FLOAT: buffer_put_text(self->out, number(node->number).text); break;
     case KIND_BOOL: buffer_put_text(self->out, node->integer ? "true" : "false"); break;
@@ -52,23 +52,23 @@ static void put_number(const Printer *self, const Node *node) {
     }
 }
 
-static bool is_negative(const Node *node) {
+static bool is_negative(const GraphNode *node) {
     if (node->op != NODE_NUMBER) return false;
     return node->kind == KIND_FLOAT ? node->number < 0.0f || 1.0f / node->number < 0.0f
                                     : node->kind == KIND_INT && node->integer < 0;
 }
 
-static int binds(const Node *node) {
+static int binds(const GraphNode *node) {
     if (node->name) return BINDS_NAME;
     if (node->op == NODE_BINARY) return binding(node->word);
     if (node->op == NODE_SELECT) return BINDS_SELECT;
     return node->op == NODE_UNARY || is_negative(node) ? BINDS_SIGN : BINDS_NAME;
 }
 
-static void put_value(const Printer *self, const Node *node);
+static void put_value(const Printer *self, const GraphNode *node);
 
 /* Puts an operand, in brackets if it binds less than `least`. */
-static void put_operand(const Printer *self, const Node *node, int least) {
+static void put_operand(const Printer *self, const GraphNode *node, int least) {
     const bool brackets = binds(node) < least;
     if (brackets) buffer_put(self->out, "(", 1);
     put_value(self, node);
@@ -80,7 +80,7 @@ static void put_operator(const Printer *self, Operator op) {
     buffer_put(self->out, op > 255 ? marks : marks + 1, op > 255 ? 2 : 1);
 }
 
-static void put_binary(const Printer *self, const Node *node) {
+static void put_binary(const Printer *self, const GraphNode *node) {
     const int bound = binding(node->word);
     put_operand(self, node_operand(node, 0), bound);
     buffer_put(self->out, " ", 1);
@@ -89,7 +89,7 @@ static void put_binary(const Printer *self, const Node *node) {
     put_operand(self, node_operand(node, 1), bound + 1);
 }
 
-static void put_call(const Printer *self, const Node *node) {
+static void put_call(const Printer *self, const GraphNode *node) {
     put_token(self, node->word);
     buffer_put(self->out, "(", 1);
     for (int k = 0; k < node->count; k++) {
@@ -99,7 +99,7 @@ static void put_call(const Printer *self, const Node *node) {
     buffer_put(self->out, ")", 1);
 }
 
-static void put_part(const Printer *self, const Node *node) {
+static void put_part(const Printer *self, const GraphNode *node) {
     put_operand(self, node_operand(node, 0), BINDS_NAME);
     buffer_put(self->out, ".", 1);
     for (int k = 0; k < kind_size(node->kind); k++) buffer_put(self->out, &"xyzw"[node->word >> 2 * k & 3], 1);
@@ -111,10 +111,10 @@ static void put_unknown(const Printer *self, Kind kind) {
     buffer_put_text(self->out, kind == KIND_BOOL ? "false" : kind_base(kind) == BASE_BOOL ? "(false)" : "(0)");
 }
 
-static void put_variable(const Printer *self, const Node *node) { buffer_print(self->out, "v%d", node->name); }
+static void put_variable(const Printer *self, const GraphNode *node) { buffer_print(self->out, "v%d", node->name); }
 
 /* Puts the expression of a node, even if it has a variable. */
-static void put_expression(const Printer *self, const Node *node) {
+static void put_expression(const Printer *self, const GraphNode *node) {
     switch (node->op) {
     case NODE_NUMBER: put_number(self, node); break;
     case NODE_OUTSIDE: put_token(self, node->word); break;
@@ -145,7 +145,7 @@ static void put_expression(const Printer *self, const Node *node) {
     }
 }
 
-static void put_value(const Printer *self, const Node *node) {
+static void put_value(const Printer *self, const GraphNode *node) {
     if (node->name)
         put_variable(self, node);
     else
@@ -164,7 +164,7 @@ static void put_line(const Printer *self, const char *line) {
 }
 
 /* Puts "float v7 = ...;", or without a value. */
-static void put_declaration(const Printer *self, const Node *node, const Node *value) {
+static void put_declaration(const Printer *self, const GraphNode *node, const GraphNode *value) {
     put_indent(self);
     put_kind(self, node->kind);
     buffer_put(self->out, " ", 1);
@@ -179,7 +179,7 @@ static void put_declaration(const Printer *self, const Node *node, const Node *v
     buffer_put(self->out, ";\n", 2);
 }
 
-static void put_assignment(const Printer *self, const Node *to, const Node *value) {
+static void put_assignment(const Printer *self, const GraphNode *to, const GraphNode *value) {
     if (value->op == NODE_UNKNOWN) return;
     put_indent(self);
     put_variable(self, to);
@@ -189,7 +189,7 @@ static void put_assignment(const Printer *self, const Node *to, const Node *valu
 }
 
 /* Puts the variables of a region that were made before a serial number, and returns the next. */
-static const Node *put_nodes(const Printer *self, const Node *node, int before) {
+static const GraphNode *put_nodes(const Printer *self, const GraphNode *node, int before) {
     for (; node && node->serial < before; node = node->after) put_declaration(self, node, node);
     return node;
 }
@@ -201,7 +201,7 @@ static void put_branch(Printer *self, const Flow *flow, int side) {
     self->indent++;
     put_region(self, side ? flow->other : flow->body);
     for (int k = 0; k < flow->phi_count; k++) {
-        const Node *phi = flow->phis[k];
+        const GraphNode *phi = flow->phis[k];
         if (phi->live && !(side && placement_before(phi))) put_assignment(self, phi, node_operand(phi, side));
     }
     self->indent--;
@@ -214,7 +214,7 @@ static bool is_empty(const Flow *flow, int side) {
     for (const Flow *one = region->first; one; one = one->next)
         if (one->live) return false;
     for (int k = 0; k < flow->phi_count; k++) {
-        const Node *phi = flow->phis[k], *value = node_operand(phi, side);
+        const GraphNode *phi = flow->phis[k], *value = node_operand(phi, side);
         if (phi->live && value->op != NODE_UNKNOWN && !(side && placement_before(phi))) return false;
     }
     return true;
@@ -222,22 +222,22 @@ static bool is_empty(const Flow *flow, int side) {
 
 static void put_if(Printer *self, const Flow *flow) {
     for (int k = 0; k < flow->phi_count; k++) {
-        const Node *phi = flow->phis[k];
+        const GraphNode *phi = flow->phis[k];
         if (phi->live) put_declaration(self, phi, placement_before(phi) ? node_operand(phi, 1) : NULL);
     }
-    const bool other = !is_empty(flow, 1), turned = is_empty(flow, 0);
+    const bool other = !is_empty(flow, 1), inverse = is_empty(flow, 0);
     put_indent(self);
-    buffer_put_text(self->out, turned ? "if (!" : "if (");
-    put_operand(self, flow->condition, turned ? BINDS_NAME : BINDS_SELECT);
+    buffer_put_text(self->out, inverse ? "if (!" : "if (");
+    put_operand(self, flow->condition, inverse ? BINDS_NAME : BINDS_SELECT);
     buffer_put_text(self->out, ") {\n");
-    if (!turned) put_branch(self, flow, 0);
-    if (other && !turned) put_line(self, "} else {");
+    if (!inverse) put_branch(self, flow, 0);
+    if (other && !inverse) put_line(self, "} else {");
     if (other) put_branch(self, flow, 1);
     put_line(self, "}");
 }
 
 /* Returns true if the text of a value reads a phi of the loop other than this one. */
-static bool reads_others(const Node *value, const Flow *loop, const Node *own) {
+static bool reads_others(const GraphNode *value, const Flow *loop, const GraphNode *own) {
     if (value->op == NODE_LOOP_PHI) return value->flow == loop && value != own;
     if (value->name || value->op == NODE_PHI || value->op == NODE_EXIT) return false;
     for (int k = 0; k < value->count; k++)
@@ -249,16 +249,16 @@ static bool reads_others(const Node *value, const Flow *loop, const Node *own) {
 static void put_next(const Printer *self, const Flow *flow) {
     for (int pass = 0; pass < 2; pass++)
         for (int k = 0; k < flow->phi_count; k++) {
-            const Node *phi = flow->phis[k], *next = phi->operands[1];
+            const GraphNode *phi = flow->phis[k], *next = phi->operands[1];
             if (!phi->live || next->op == NODE_UNKNOWN) continue;
-            const bool apart = reads_others(next, flow, phi);
-            if (!pass && apart) {
+            const bool ahead = reads_others(next, flow, phi);
+            if (!pass && ahead) {
                 put_indent(self);
                 put_kind(self, phi->kind);
                 buffer_print(self->out, " n%d = ", phi->name);
                 put_value(self, next);
                 buffer_put(self->out, ";\n", 2);
-            } else if (pass && apart) {
+            } else if (pass && ahead) {
                 put_indent(self);
                 buffer_print(self->out, "v%d = n%d;\n", phi->name, phi->name);
             } else if (pass) {
@@ -296,7 +296,7 @@ static void put_output(const Printer *self, const Flow *flow) {
 }
 
 static void put_region(Printer *self, const Region *region) {
-    const Node *node = region->nodes;
+    const GraphNode *node = region->nodes;
     for (const Flow *one = region->first; one; one = one->next) {
         if (!one->live) continue;
         node = put_nodes(self, node, one->after);
@@ -328,13 +328,13 @@ static void put_outside(const Printer *self, const char *at, const char *end, Sy
 
 static void put_block(const Printer *self, const Declaration *block) {
     bool used = false;
-    for (const Field *field = block->fields; field; field = field->next) used |= self->used[field->name];
+    for (const FieldSyntax *field = block->fields; field; field = field->next) used |= self->used[field->name];
     if (!used) return;
     const char *end = block->end;
     while (end > block->at && is_blank(end[-1])) end--;
     buffer_put(self->out, block->at, (size_t)(end - block->at));
     buffer_put(self->out, " {\n", 3);
-    for (const Field *field = block->fields; field; field = field->next)
+    for (const FieldSyntax *field = block->fields; field; field = field->next)
         put_outside(self, field->at, field->end, field->name);
     buffer_put(self->out, "};\n", 3);
 }
@@ -342,7 +342,7 @@ static void put_block(const Printer *self, const Declaration *block) {
 void print_shader(const Run *run, Buffer *out) {
     Printer self = {.run = run, .out = out};
     for (int k = 0; k < run->graph.count; k++) {
-        const Node *node = run->graph.nodes[k];
+        const GraphNode *node = run->graph.nodes[k];
         if (node->live && node->op == NODE_OUTSIDE) self.used[node->word] = true;
     }
     buffer_put(out, run->syntax.head, (size_t)(run->syntax.head_end - run->syntax.head));

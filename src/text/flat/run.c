@@ -13,9 +13,9 @@ static void add_outside(Run *run, Symbol name, Symbol type, const Expr *size) {
 
 /* Adds a record, or the members of a block, which are names of their own. */
 static void add_fields(Run *run, const Declaration *declaration, bool record) {
-    Member members[MEMBERS_MOST];
+    ShapeMember members[MEMBERS_MOST];
     int count = 0;
-    for (const Field *field = declaration->fields; field && !run->wrong; field = field->next) {
+    for (const FieldSyntax *field = declaration->fields; field && !run->wrong; field = field->next) {
         if (!record) {
             add_outside(run, field->name, field->type, field->size);
             continue;
@@ -25,21 +25,22 @@ static void add_fields(Run *run, const Declaration *declaration, bool record) {
             run_wrong(run, "a record of too many members");
             return;
         }
-        members[count++] = (Member){field->name, kind, 0};
+        members[count++] = (ShapeMember){field->name, kind, 0};
     }
     if (record && !run->wrong) kinds_record(&run->kinds, declaration->name, members, count);
 }
 
 static void add_variable(Run *run, const Declaration *declaration) {
     const Kind kind = run_kind(run, declaration->type, declaration->size);
-    const Value value = declaration->value ? run_value(run, declaration->value) : (Value){.kind = KIND_NONE};
+    const ShaderValue value =
+        declaration->value ? run_value(run, declaration->value) : (ShaderValue){.kind = KIND_NONE};
     if (run->wrong) return;
     if (declaration->constant && value.kind == kind) {
         run->constants[declaration->name] = value;
         return;
     }
     const int slot = run_declare(run, declaration->name, kind);
-    if (declaration->value && !run->wrong) run_write(run, &(Place){.kind = kind, .slot = slot}, value);
+    if (declaration->value && !run->wrong) run_write(run, &(VariablePlace){.kind = kind, .slot = slot}, value);
     run->global_count = run->frame.variables = run->variable_count;
 }
 
@@ -69,7 +70,7 @@ bool run_text(const char *text, Run *run) {
     syntax_read(text, &run->syntax);
     kinds_begin(&run->kinds, &run->syntax.symbols);
     run_builtins(run);
-    run->frame = (Frame){.result = -1, .returned = -1, .broken = -1, .continued = -1};
+    run->frame = (CallFrame){.result = -1, .returned = -1, .broken = -1, .continued = -1};
     run->wrong = run->syntax.wrong;
     if (!graph_begin(&run->graph, &run->kinds) && !run->wrong) run->wrong = "memory is short";
     run->region = run->graph.whole;

@@ -10,7 +10,7 @@ enum { VALUES_FEW = 24, VALUES_LOOKUP = 25 };
 static int cost_since(const Graph *graph, int before) {
     int cost = 0;
     for (int k = before; k < graph->count; k++) {
-        const Node *node = graph->nodes[k];
+        const GraphNode *node = graph->nodes[k];
         const bool looks = node->op == NODE_CALL && kind_is_sampler(node_operand(node, 0)->kind);
         cost += looks ? VALUES_LOOKUP : 1;
     }
@@ -18,7 +18,7 @@ static int cost_since(const Graph *graph, int before) {
 }
 
 /* Notes that a bool has a value, and what follows for its parts. */
-static void learn(Run *run, const Node *node, bool value) {
+static void learn(Run *run, const GraphNode *node, bool value) {
     const bool all = node->op == NODE_BINARY && node->word == OPERATOR('&', '&') && value;
     const bool none = node->op == NODE_BINARY && node->word == OPERATOR('|', '|') && !value;
     if (node->op == NODE_UNARY) {
@@ -31,7 +31,7 @@ static void learn(Run *run, const Node *node, bool value) {
 }
 
 /* Returns 1 or 0 for a bool whose value is known here, else -1. */
-static int known(const Run *run, const Node *node) {
+static int known(const Run *run, const GraphNode *node) {
     if (node_is_constant(node)) return node->integer != 0;
     if (node->op == NODE_UNARY) {
         const int inner = known(run, node_operand(node, 0));
@@ -47,24 +47,24 @@ static int known(const Run *run, const Node *node) {
     return a == (int)both && b == (int)both ? both : -1;
 }
 
-/* What a branch left in slots. */
+/* The slots that a branch changed. */
 typedef struct Left {
     Change *all; /* the value after the branch in place of the one before */
     int count;
 } Left;
 
-typedef struct Join {
+typedef struct BranchJoin {
     Run *run;
-    Node *condition;
+    GraphNode *condition;
     Region *then, *other;
     int slots; /* those there before */
     Left left[2];
     bool select;
     Flow *flow;
-} Join;
+} BranchJoin;
 
 /* Runs a branch, and takes its changes back. */
-static Left tried(Run *run, const Join *join, bool side, Branch *branch, const void *what) {
+static Left tried(Run *run, const BranchJoin *join, bool side, Branch *branch, const void *what) {
     const int mark = run->change_count, variables = run->variable_count, slot_count = run->slot_count;
     const int facts = run->fact_count, slots = join->slots;
     Region *outer = run->region;
@@ -91,7 +91,7 @@ static Left tried(Run *run, const Join *join, bool side, Branch *branch, const v
 
 static bool is_empty(const Region *region) { return !region->first && !region->pinned; }
 
-static Flow *flow_of(Join *join) {
+static Flow *flow_of(BranchJoin *join) {
     if (join->flow) return join->flow;
     Run *run = join->run;
     join->flow = graph_flow(&run->graph, run->region, FLOW_IF, join->condition);
@@ -105,7 +105,7 @@ static Flow *flow_of(Join *join) {
 }
 
 /* Returns the value after both branches: a where the condition held, else b. */
-static Node *joined(Join *join, Node *a, Node *b) {
+static GraphNode *joined(BranchJoin *join, GraphNode *a, GraphNode *b) {
     Run *run = join->run;
     const bool a_out = region_within(run->region, a->home), b_out = region_within(run->region, b->home);
     if (a->kind && b->kind && a->kind != b->kind) run_wrong(run, "a choice between types");
@@ -115,31 +115,32 @@ static Node *joined(Join *join, Node *a, Node *b) {
                         (node_is_constant(a) || node_is_constant(b) || a == join->condition || b == join->condition);
     if (a_out && b_out && (join->select || simple)) return graph_select(&run->graph, join->condition, a, b);
     Flow *flow = flow_of(join);
-    Node *phi = graph_phi(&run->graph, NODE_PHI, a->kind ? a->kind : b->kind, run->region, a, b);
+    GraphNode *phi = graph_phi(&run->graph, NODE_PHI, a->kind ? a->kind : b->kind, run->region, a, b);
     phi->flow = flow;
     if (!run->wrong) flow->phis[flow->phi_count++] = phi;
     return phi;
 }
 
 /* Sets the slots that the first branch left, or those that the second left alone. */
-static void join_left(Join *join, int side) {
+static void join_left(BranchJoin *join, int side) {
     Run *run = join->run;
     const Left *mine = &join->left[side], *others = &join->left[!side];
     for (int k = 0; k < mine->count && !run->wrong; k++) {
         const int slot = mine->all[k].slot;
-        Node *other = run->slots[slot];
+        GraphNode *other = run->slots[slot];
         bool both = false;
         for (int j = 0; j < others->count && !both; j++) {
             both = others->all[j].slot == slot;
             if (both) other = others->all[j].before;
         }
         if (side && both) continue;
-        Node *own = mine->all[k].before;
+        GraphNode *own = mine->all[k].before;
         run_set(run, slot, side ? joined(join, other, own) : joined(join, own, other));
     }
 }
 
-void run_branch(Run *run, Node *condition, Branch *then, const void *a, Branch *other, const void *b, bool select) {
+void run_branch(Run *run, GraphNode *condition, Branch *then, const void *a, Branch *other, const void *b,
+                bool select) {
     const int value = known(run, condition);
     if (value >= 0) {
         Branch *taken = value ? then : other;
@@ -147,7 +148,7 @@ void run_branch(Run *run, Node *condition, Branch *then, const void *a, Branch *
         return;
     }
     const int before = run->graph.count, slots = run->slot_count;
-    Join join = {.run = run, .condition = condition, .slots = slots};
+    BranchJoin join = {.run = run, .condition = condition, .slots = slots};
     join.then = graph_region(&run->graph, run->region, false);
     join.other = graph_region(&run->graph, run->region, false);
     join.left[0] = tried(run, &join, true, then, a);

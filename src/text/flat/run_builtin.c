@@ -16,71 +16,71 @@ typedef enum Result {
     A_SIZE   /* of that sampler */
 } Result;
 
-typedef struct Builtin {
+typedef struct GlslFunction {
     const char *name;
     int arguments; /* the least */
     Result result;
     bool pinned; /* neighbouring pixels take part */
-} Builtin;
+} GlslFunction;
 
-static const Builtin builtins[] = {{"abs", 1, AS_FIRST, false},
-                                   {"acos", 1, AS_FIRST, false},
-                                   {"all", 1, A_BOOL, false},
-                                   {"any", 1, A_BOOL, false},
-                                   {"asin", 1, AS_FIRST, false},
-                                   {"atan", 1, AS_FIRST, false},
-                                   {"ceil", 1, AS_FIRST, false},
-                                   {"clamp", 3, AS_FIRST, false},
-                                   {"cos", 1, AS_FIRST, false},
-                                   {"cross", 2, AS_FIRST, false},
-                                   {"dFdx", 1, AS_FIRST, true},
-                                   {"dFdy", 1, AS_FIRST, true},
-                                   {"degrees", 1, AS_FIRST, false},
-                                   {"distance", 2, A_FLOAT, false},
-                                   {"dot", 2, A_FLOAT, false},
-                                   {"equal", 2, SOME_BOOLS, false},
-                                   {"exp", 1, AS_FIRST, false},
-                                   {"exp2", 1, AS_FIRST, false},
-                                   {"floatBitsToInt", 1, SOME_INTS, false},
-                                   {"floatBitsToUint", 1, SOME_UINTS, false},
-                                   {"floor", 1, AS_FIRST, false},
-                                   {"fract", 1, AS_FIRST, false},
-                                   {"fwidth", 1, AS_FIRST, true},
-                                   {"greaterThan", 2, SOME_BOOLS, false},
-                                   {"greaterThanEqual", 2, SOME_BOOLS, false},
-                                   {"intBitsToFloat", 1, SOME_FLOATS, false},
-                                   {"inversesqrt", 1, AS_FIRST, false},
-                                   {"isinf", 1, SOME_BOOLS, false},
-                                   {"isnan", 1, SOME_BOOLS, false},
-                                   {"length", 1, A_FLOAT, false},
-                                   {"lessThan", 2, SOME_BOOLS, false},
-                                   {"lessThanEqual", 2, SOME_BOOLS, false},
-                                   {"log", 1, AS_FIRST, false},
-                                   {"log2", 1, AS_FIRST, false},
-                                   {"max", 2, AS_FIRST, false},
-                                   {"min", 2, AS_FIRST, false},
-                                   {"mix", 3, A_MIX, false},
-                                   {"mod", 2, AS_FIRST, false},
-                                   {"normalize", 1, AS_FIRST, false},
-                                   {"not", 1, AS_FIRST, false},
-                                   {"notEqual", 2, SOME_BOOLS, false},
-                                   {"pow", 2, AS_FIRST, false},
-                                   {"radians", 1, AS_FIRST, false},
-                                   {"reflect", 2, AS_FIRST, false},
-                                   {"round", 1, AS_FIRST, false},
-                                   {"sign", 1, AS_FIRST, false},
-                                   {"sin", 1, AS_FIRST, false},
-                                   {"smoothstep", 3, AS_THIRD, false},
-                                   {"sqrt", 1, AS_FIRST, false},
-                                   {"step", 2, AS_SECOND, false},
-                                   {"tan", 1, AS_FIRST, false},
-                                   {"texelFetch", 3, A_TEXEL, false},
-                                   {"texture", 2, A_TEXEL, true},
-                                   {"textureGrad", 4, A_TEXEL, false},
-                                   {"textureLod", 3, A_TEXEL, false},
-                                   {"textureSize", 2, A_SIZE, false},
-                                   {"trunc", 1, AS_FIRST, false},
-                                   {"uintBitsToFloat", 1, SOME_FLOATS, false}};
+static const GlslFunction builtins[] = {{"abs", 1, AS_FIRST, false},
+                                        {"acos", 1, AS_FIRST, false},
+                                        {"all", 1, A_BOOL, false},
+                                        {"any", 1, A_BOOL, false},
+                                        {"asin", 1, AS_FIRST, false},
+                                        {"atan", 1, AS_FIRST, false},
+                                        {"ceil", 1, AS_FIRST, false},
+                                        {"clamp", 3, AS_FIRST, false},
+                                        {"cos", 1, AS_FIRST, false},
+                                        {"cross", 2, AS_FIRST, false},
+                                        {"dFdx", 1, AS_FIRST, true},
+                                        {"dFdy", 1, AS_FIRST, true},
+                                        {"degrees", 1, AS_FIRST, false},
+                                        {"distance", 2, A_FLOAT, false},
+                                        {"dot", 2, A_FLOAT, false},
+                                        {"equal", 2, SOME_BOOLS, false},
+                                        {"exp", 1, AS_FIRST, false},
+                                        {"exp2", 1, AS_FIRST, false},
+                                        {"floatBitsToInt", 1, SOME_INTS, false},
+                                        {"floatBitsToUint", 1, SOME_UINTS, false},
+                                        {"floor", 1, AS_FIRST, false},
+                                        {"fract", 1, AS_FIRST, false},
+                                        {"fwidth", 1, AS_FIRST, true},
+                                        {"greaterThan", 2, SOME_BOOLS, false},
+                                        {"greaterThanEqual", 2, SOME_BOOLS, false},
+                                        {"intBitsToFloat", 1, SOME_FLOATS, false},
+                                        {"inversesqrt", 1, AS_FIRST, false},
+                                        {"isinf", 1, SOME_BOOLS, false},
+                                        {"isnan", 1, SOME_BOOLS, false},
+                                        {"length", 1, A_FLOAT, false},
+                                        {"lessThan", 2, SOME_BOOLS, false},
+                                        {"lessThanEqual", 2, SOME_BOOLS, false},
+                                        {"log", 1, AS_FIRST, false},
+                                        {"log2", 1, AS_FIRST, false},
+                                        {"max", 2, AS_FIRST, false},
+                                        {"min", 2, AS_FIRST, false},
+                                        {"mix", 3, A_MIX, false},
+                                        {"mod", 2, AS_FIRST, false},
+                                        {"normalize", 1, AS_FIRST, false},
+                                        {"not", 1, AS_FIRST, false},
+                                        {"notEqual", 2, SOME_BOOLS, false},
+                                        {"pow", 2, AS_FIRST, false},
+                                        {"radians", 1, AS_FIRST, false},
+                                        {"reflect", 2, AS_FIRST, false},
+                                        {"round", 1, AS_FIRST, false},
+                                        {"sign", 1, AS_FIRST, false},
+                                        {"sin", 1, AS_FIRST, false},
+                                        {"smoothstep", 3, AS_THIRD, false},
+                                        {"sqrt", 1, AS_FIRST, false},
+                                        {"step", 2, AS_SECOND, false},
+                                        {"tan", 1, AS_FIRST, false},
+                                        {"texelFetch", 3, A_TEXEL, false},
+                                        {"texture", 2, A_TEXEL, true},
+                                        {"textureGrad", 4, A_TEXEL, false},
+                                        {"textureLod", 3, A_TEXEL, false},
+                                        {"textureSize", 2, A_SIZE, false},
+                                        {"trunc", 1, AS_FIRST, false},
+                                        {"uintBitsToFloat", 1, SOME_FLOATS, false}};
 
 enum { ARGUMENTS_MOST = 6 };
 
@@ -104,7 +104,7 @@ void run_builtins(Run *run) {
 }
 
 /* Returns the kind of a call's result, KIND_NONE if its arguments are no numbers of one base. */
-static Kind result_kind(const Builtin *self, Node *const *arguments, int count) {
+static Kind result_kind(const GlslFunction *self, GraphNode *const *arguments, int count) {
     const Kind first = arguments[0]->kind;
     const int size = kind_size(first);
     if (self->result == A_TEXEL) return kinds_texel(first);
@@ -129,13 +129,13 @@ static Kind result_kind(const Builtin *self, Node *const *arguments, int count) 
     }
 }
 
-Value run_builtin(Run *run, const Expr *call) {
-    const Builtin *self = run->builtins[call->name];
-    Node *arguments[ARGUMENTS_MOST];
+ShaderValue run_builtin(Run *run, const Expr *call) {
+    const GlslFunction *self = run->builtins[call->name];
+    GraphNode *arguments[ARGUMENTS_MOST];
     int count = 0;
     if (!self) return run_wrong_name(run, "a function", call->name);
     for (const Expr *one = call->a; one; one = one->next) {
-        const Value value = run_value(run, one);
+        const ShaderValue value = run_value(run, one);
         if (run->wrong || value.whole || count == ARGUMENTS_MOST) return run_wrong(run, "an argument");
         if (value.kind >= KIND_OWN || value.kind <= KIND_VOID) return run_wrong(run, "a record as an argument");
         arguments[count++] = value.leaves[0];

@@ -3,27 +3,27 @@
 
 enum { ROUNDS_MOST = 8, ROUND_VALUES_MOST = 160, TRIES_MOST = 24, CARRIED_MOST = 1024 };
 
-static Node *condition_of(Run *run, const Statement *loop) {
+static GraphNode *condition_of(Run *run, const StatementSyntax *loop) {
     return loop->value ? run_number(run, loop->value, KIND_BOOL) : graph_bool(&run->graph, true);
 }
 
 static void lower_flag(Run *run, int slot) { run_set(run, slot, graph_bool(&run->graph, false)); }
 
-static void step(Run *run, const Statement *loop) {
+static void step(Run *run, const StatementSyntax *loop) {
     if (loop->step && !run->wrong) run_value(run, loop->step);
 }
 
 typedef enum Round { ROUND_DONE, ROUND_LAST, ROUND_UNKNOWN } Round;
 
 /* Runs one round if it is known to take place, and whether it is the last. */
-static Round one_round(Run *run, const Statement *loop) {
-    const Node *condition = condition_of(run, loop);
+static Round one_round(Run *run, const StatementSyntax *loop) {
+    const GraphNode *condition = condition_of(run, loop);
     if (run->wrong || node_is_bool(condition, false)) return ROUND_LAST;
     if (!node_is_constant(condition)) return ROUND_UNKNOWN;
     run_scoped(run, loop->body);
     if (run->wrong) return ROUND_LAST;
     lower_flag(run, run->frame.continued);
-    Node *stopped = run_stopped(run);
+    GraphNode *stopped = run_stopped(run);
     if (node_is_bool(stopped, true)) return ROUND_LAST;
     if (!node_is_constant(stopped)) return ROUND_UNKNOWN;
     step(run, loop);
@@ -31,7 +31,7 @@ static Round one_round(Run *run, const Statement *loop) {
 }
 
 /* Runs all rounds one by one. Returns false, and leaves everything as it was, if they are too many or too long. */
-static bool unrolled(Run *run, Statement *loop) {
+static bool unrolled(Run *run, StatementSyntax *loop) {
     Graph *graph = &run->graph;
     const int values = graph->count, mark = run->change_count;
     Flow **last = run->region->last;
@@ -53,7 +53,7 @@ static bool unrolled(Run *run, Statement *loop) {
 /* The slots that a round hands to the next. */
 typedef struct Carried {
     int slots[CARRIED_MOST];
-    Node *phis[CARRIED_MOST];
+    GraphNode *phis[CARRIED_MOST];
     int count;
 } Carried;
 
@@ -70,7 +70,7 @@ static void drop(Carried *carried, int place) {
 }
 
 /* Adds changed slots to those that are carried. Returns true if there are new ones. */
-static bool grow(Run *run, Carried *carried, int mark, int slots, Node *const *heads) {
+static bool grow(Run *run, Carried *carried, int mark, int slots, GraphNode *const *heads) {
     bool grown = false;
     for (int k = mark; k < run->change_count && !run->wrong; k++) {
         const int slot = run->changes[k].slot;
@@ -86,16 +86,16 @@ static bool grow(Run *run, Carried *carried, int mark, int slots, Node *const *h
 }
 
 /* Runs a round whose carried slots have phis in a region of its own. */
-static Region *try_round(Run *run, const Statement *loop, Carried *carried) {
+static Region *try_round(Run *run, const StatementSyntax *loop, Carried *carried) {
     Region *region = graph_region(&run->graph, run->region, true), *outer = run->region;
     for (int k = 0; k < carried->count; k++) {
-        Node *first = run->slots[carried->slots[k]];
+        GraphNode *first = run->slots[carried->slots[k]];
         carried->phis[k] = graph_phi(&run->graph, NODE_LOOP_PHI, first->kind, region, first, NULL);
         run_set(run, carried->slots[k], carried->phis[k]);
     }
     run->region = region;
-    Node *going = graph_unary(&run->graph, KIND_BOOL, '!', run_stopped(run));
-    Node *condition = condition_of(run, loop);
+    GraphNode *going = graph_unary(&run->graph, KIND_BOOL, '!', run_stopped(run));
+    GraphNode *condition = condition_of(run, loop);
     if (!run->wrong) {
         condition = graph_binary(&run->graph, KIND_BOOL, OPERATOR('&', '&'), going, condition);
         graph_flow(&run->graph, region, FLOW_STAY, condition);
@@ -108,7 +108,7 @@ static Region *try_round(Run *run, const Statement *loop, Carried *carried) {
 }
 
 /* Appends the loop, and sets what it leaves behind. */
-static void accept(Run *run, Region *region, const Carried *carried, Node *const *nexts) {
+static void accept(Run *run, Region *region, const Carried *carried, GraphNode *const *nexts) {
     Flow *flow = graph_flow(&run->graph, run->region, FLOW_LOOP, NULL);
     flow->body = region;
     region->owner = flow;
@@ -118,11 +118,11 @@ static void accept(Run *run, Region *region, const Carried *carried, Node *const
         return;
     }
     for (int k = 0; k < carried->count; k++) {
-        Node *phi = carried->phis[k];
+        GraphNode *phi = carried->phis[k];
         phi->operands[1] = nexts[k];
         phi->flow = flow;
         flow->phis[flow->phi_count++] = phi;
-        Node *after = graph_phi(&run->graph, NODE_EXIT, phi->kind, run->region, phi, NULL);
+        GraphNode *after = graph_phi(&run->graph, NODE_EXIT, phi->kind, run->region, phi, NULL);
         after->home = run->region;
         after->flow = flow;
         run_set(run, carried->slots[k], after);
@@ -130,11 +130,11 @@ static void accept(Run *run, Region *region, const Carried *carried, Node *const
 }
 
 /* Finds the slots that rounds hand on, by trying until a round changes no others. */
-static void rolled(Run *run, const Statement *loop) {
+static void rolled(Run *run, const StatementSyntax *loop) {
     const int slots = run->slot_count, values = run->graph.count, mark = run->change_count;
     Carried *carried = arena_array(&run->arena, 1, sizeof *carried);
-    Node **heads = arena_array(&run->arena, (size_t)slots + 1, sizeof *heads);
-    Node *nexts[CARRIED_MOST];
+    GraphNode **heads = arena_array(&run->arena, (size_t)slots + 1, sizeof *heads);
+    GraphNode *nexts[CARRIED_MOST];
     if (!carried || !heads) run_wrong(run, "memory is short");
     memcpy(heads, run->slots, (size_t)slots * sizeof *heads);
     for (int k = 0; k < TRIES_MOST && !run->wrong; k++) {
@@ -156,12 +156,12 @@ static void rolled(Run *run, const Statement *loop) {
     run_wrong(run, "a loop");
 }
 
-void run_loop(Run *run, Statement *loop) {
+void run_loop(Run *run, StatementSyntax *loop) {
     const int variables = run->variable_count, slots = run->slot_count;
-    const Frame frame = run->frame;
-    for (const Statement *one = loop->start; one && !run->wrong; one = one->next)
+    const CallFrame frame = run->frame;
+    for (const StatementSyntax *one = loop->start; one && !run->wrong; one = one->next)
         run_statements(
-            run, &(Statement){
+            run, &(StatementSyntax){
                      .kind = one->kind, .type = one->type, .name = one->name, .size = one->size, .value = one->value});
     run->frame.broken = run_declare(run, 0, KIND_BOOL);
     run->frame.continued = run_declare(run, 0, KIND_BOOL);

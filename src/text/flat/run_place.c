@@ -3,7 +3,7 @@
 
 #include <stdlib.h>
 
-void run_set(Run *run, int slot, Node *node) {
+void run_set(Run *run, int slot, GraphNode *node) {
     if (run->change_count == run->change_capacity) {
         const int more = run->change_capacity ? 2 * run->change_capacity : 1024;
         Change *grown = realloc_array(run->changes, (size_t)more, sizeof *grown);
@@ -42,7 +42,7 @@ int run_declare(Run *run, Symbol name, Kind kind) {
 Kind run_kind(Run *run, Symbol name, const Expr *size) {
     Kind kind = kinds_named(&run->kinds, name);
     if (kind && size) {
-        const Node *count = run_number(run, size, KIND_INT);
+        const GraphNode *count = run_number(run, size, KIND_INT);
         kind = node_is_constant(count) ? kinds_array(&run->kinds, kind, count->integer) : KIND_NONE;
     }
     if (!kind) run_wrong_name(run, "a type", name);
@@ -77,7 +77,7 @@ int run_components(const Run *run, Symbol name, Kind vector, int *count) {
     return 0;
 }
 
-static bool place_member(Run *run, const Expr *expr, Place *place) {
+static bool place_member(Run *run, const Expr *expr, VariablePlace *place) {
     if (place->part) return false;
     const Shape *shape = &run->kinds.shapes[place->kind];
     for (int k = 0; shape->members && k < shape->count; k++)
@@ -96,10 +96,10 @@ static bool place_member(Run *run, const Expr *expr, Place *place) {
     return true;
 }
 
-static bool place_element(Run *run, const Expr *expr, Place *place) {
+static bool place_element(Run *run, const Expr *expr, VariablePlace *place) {
     const Shape *shape = &run->kinds.shapes[place->kind];
     if (place->part || !shape->element) return false;
-    Node *at = run_number(run, expr->b, KIND_INT);
+    GraphNode *at = run_number(run, expr->b, KIND_INT);
     const int stride = run->kinds.shapes[shape->element].leaf_count;
     if (node_is_constant(at)) {
         if (at->integer < 0 || at->integer >= shape->count) return false;
@@ -114,10 +114,10 @@ static bool place_element(Run *run, const Expr *expr, Place *place) {
     return true;
 }
 
-bool run_place(Run *run, const Expr *expr, Place *out) {
+bool run_place(Run *run, const Expr *expr, VariablePlace *out) {
     if (expr->kind == EXPR_NAME) {
         const Variable *variable = find(run, expr->name);
-        if (variable) *out = (Place){.kind = variable->kind, .slot = variable->slot};
+        if (variable) *out = (VariablePlace){.kind = variable->kind, .slot = variable->slot};
         return variable != NULL;
     }
     if (expr->kind != EXPR_MEMBER && expr->kind != EXPR_INDEX) return false;
@@ -125,36 +125,36 @@ bool run_place(Run *run, const Expr *expr, Place *out) {
     return expr->kind == EXPR_MEMBER ? place_member(run, expr, out) : place_element(run, expr, out);
 }
 
-static Node *is_at(Run *run, const Place *place, int k) {
+static GraphNode *is_at(Run *run, const VariablePlace *place, int k) {
     return graph_binary(&run->graph, KIND_BOOL, OPERATOR('=', '='), place->at, graph_integer(&run->graph, KIND_INT, k));
 }
 
 /* Returns the leaf of a place that lies in that slot of the first element. */
-static Node *read_leaf(Run *run, const Place *place, int slot) {
+static GraphNode *read_leaf(Run *run, const VariablePlace *place, int slot) {
     if (!place->at) return run->slots[slot];
-    Node *value = run->slots[slot + (place->count - 1) * place->stride];
+    GraphNode *value = run->slots[slot + (place->count - 1) * place->stride];
     for (int k = place->count - 2; k >= 0; k--)
         value = graph_select(&run->graph, is_at(run, place, k), run->slots[slot + k * place->stride], value);
     return value;
 }
 
-Value run_read(Run *run, const Place *place) {
+ShaderValue run_read(Run *run, const VariablePlace *place) {
     if (place->part)
         return run_of_node(run, graph_part(&run->graph, place->kind, place->word, read_leaf(run, place, place->slot)));
-    Value value = run_leaves(run, place->kind);
+    ShaderValue value = run_leaves(run, place->kind);
     for (int k = 0; k < run->kinds.shapes[place->kind].leaf_count; k++)
         value.leaves[k] = read_leaf(run, place, place->slot + k);
     return value;
 }
 
-static void write_leaf(Run *run, const Place *place, int slot, Node *node) {
+static void write_leaf(Run *run, const VariablePlace *place, int slot, GraphNode *node) {
     if (!place->at) {
         run_set(run, slot, node);
         return;
     }
     for (int k = 0; k < place->count; k++) {
         const int at = slot + k * place->stride;
-        Node *before = run->slots[at];
+        GraphNode *before = run->slots[at];
         if (before->op == NODE_UNKNOWN)
             run_set(run, at, node);
         else
@@ -163,10 +163,10 @@ static void write_leaf(Run *run, const Place *place, int slot, Node *node) {
 }
 
 /* Returns a vector with some components replaced by those of `with`. */
-static Node *replaced(Run *run, const Place *place, Node *before, Node *with) {
-    const Base base = kind_base(place->vector);
+static GraphNode *replaced(Run *run, const VariablePlace *place, GraphNode *before, GraphNode *with) {
+    const BaseType base = kind_base(place->vector);
     const int size = kind_size(place->vector), count = kind_size(place->kind);
-    Node *all[4];
+    GraphNode *all[4];
     for (int k = 0; k < size; k++) all[k] = graph_part(&run->graph, kind_vector(base, 1), k, before);
     for (int k = 0; k < count; k++)
         all[place->word >> 2 * k & 3] = graph_part(&run->graph, kind_vector(base, 1), k, with);
@@ -174,13 +174,13 @@ static Node *replaced(Run *run, const Place *place, Node *before, Node *with) {
     return graph_call(&run->graph, place->vector, name, "", all, size, NULL);
 }
 
-void run_write(Run *run, const Place *place, Value value) {
+void run_write(Run *run, const VariablePlace *place, ShaderValue value) {
     if (value.kind != place->kind || value.whole) {
         run_wrong(run, "an assignment of another type");
         return;
     }
     if (place->part) {
-        Node *before = read_leaf(run, place, place->slot);
+        GraphNode *before = read_leaf(run, place, place->slot);
         write_leaf(run, place, place->slot, replaced(run, place, before, value.leaves[0]));
         return;
     }

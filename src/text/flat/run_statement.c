@@ -1,9 +1,9 @@
 /* run_statement.c - statements, one after the other */
 #include "text/flat/run.h"
 
-Node *run_stopped(Run *run) {
+GraphNode *run_stopped(Run *run) {
     const int flags[] = {run->frame.returned, run->frame.broken, run->frame.continued};
-    Node *stopped = graph_bool(&run->graph, false);
+    GraphNode *stopped = graph_bool(&run->graph, false);
     for (int k = 0; k < 3; k++)
         if (flags[k] >= 0)
             stopped = graph_binary(&run->graph, KIND_BOOL, OPERATOR('|', '|'), stopped, run->slots[flags[k]]);
@@ -17,36 +17,36 @@ static void raise_flag(Run *run, int slot) {
         run_set(run, slot, graph_bool(&run->graph, true));
 }
 
-static void declare(Run *run, const Statement *statement) {
+static void declare(Run *run, const StatementSyntax *statement) {
     const Kind kind = run_kind(run, statement->type, statement->size);
-    const Value value = statement->value ? run_value(run, statement->value) : (Value){.kind = KIND_NONE};
+    const ShaderValue value = statement->value ? run_value(run, statement->value) : (ShaderValue){.kind = KIND_NONE};
     const int slot = run_declare(run, statement->name, kind);
-    if (statement->value && !run->wrong) run_write(run, &(Place){.kind = kind, .slot = slot}, value);
+    if (statement->value && !run->wrong) run_write(run, &(VariablePlace){.kind = kind, .slot = slot}, value);
 }
 
-static void leave(Run *run, const Statement *statement) {
+static void leave(Run *run, const StatementSyntax *statement) {
     if (statement->value) {
-        const Value value = run_value(run, statement->value);
-        if (!run->wrong) run_write(run, &(Place){.kind = run->frame.kind, .slot = run->frame.result}, value);
+        const ShaderValue value = run_value(run, statement->value);
+        if (!run->wrong) run_write(run, &(VariablePlace){.kind = run->frame.kind, .slot = run->frame.result}, value);
     }
     raise_flag(run, run->frame.returned);
 }
 
 static void scoped(Run *run, const void *what) { run_scoped(run, what); }
 
-static void branch(Run *run, const Statement *statement) {
-    Node *condition = run_number(run, statement->value, KIND_BOOL);
+static void branch(Run *run, const StatementSyntax *statement) {
+    GraphNode *condition = run_number(run, statement->value, KIND_BOOL);
     if (run->wrong) return;
     run_branch(run, condition, scoped, statement->body, statement->other ? scoped : NULL, statement->other, false);
 }
 
-static void run_one(Run *run, const Statement *statement) {
+static void run_one(Run *run, const StatementSyntax *statement) {
     switch (statement->kind) {
     case STATEMENT_BLOCK: run_scoped(run, statement); break;
     case STATEMENT_DECLARE: declare(run, statement); break;
     case STATEMENT_EXPR: run_value(run, statement->value); break;
     case STATEMENT_IF: branch(run, statement); break;
-    case STATEMENT_FOR: run_loop(run, (Statement *)statement); break;
+    case STATEMENT_FOR: run_loop(run, (StatementSyntax *)statement); break;
     case STATEMENT_SWITCH: run_switch(run, statement); break;
     case STATEMENT_CASE: run_wrong(run, "a case outside a switch"); break;
     case STATEMENT_RETURN: leave(run, statement); break;
@@ -64,18 +64,18 @@ static void rest(Run *run, const void *what) {
     run_statements(run, what);
 }
 
-void run_statements(Run *run, const Statement *first) {
-    for (const Statement *one = first; one && !run->wrong; one = one->next) {
+void run_statements(Run *run, const StatementSyntax *first) {
+    for (const StatementSyntax *one = first; one && !run->wrong; one = one->next) {
         run_one(run, one);
         if (run->wrong) return;
-        Node *stopped = run_stopped(run);
+        GraphNode *stopped = run_stopped(run);
         if (node_is_bool(stopped, false)) continue;
         if (one->next) run_branch(run, stopped, NULL, NULL, rest, one->next, false);
         return;
     }
 }
 
-void run_scoped(Run *run, const Statement *statement) {
+void run_scoped(Run *run, const StatementSyntax *statement) {
     const int variables = run->variable_count, slots = run->slot_count;
     if (statement->kind == STATEMENT_BLOCK)
         run_statements(run, statement->body);
@@ -88,23 +88,23 @@ void run_scoped(Run *run, const Statement *statement) {
 static bool is_jump(StatementKind kind) { return kind == STATEMENT_BREAK || kind == STATEMENT_RETURN; }
 
 /* Returns true if what follows a statement is never reached. */
-static bool ends(const Statement *statement) {
+static bool ends(const StatementSyntax *statement) {
     if (is_jump(statement->kind)) return true;
     if (statement->kind != STATEMENT_BLOCK || !statement->body) return false;
-    const Statement *last = statement->body;
+    const StatementSyntax *last = statement->body;
     while (last->next) last = last->next;
     return ends(last);
 }
 
 /* Cases of a switch that share statements. */
-typedef struct Case {
-    const Statement *labels; /* the first of them */
-    const Statement *body;
-    const Statement *after; /* the label after the body, or NULL */
-} Case;
+typedef struct SwitchCase {
+    const StatementSyntax *labels; /* the first of them */
+    const StatementSyntax *body;
+    const StatementSyntax *after; /* the label after the body, or NULL */
+} SwitchCase;
 
-static Case case_at(const Statement *label) {
-    Case one = {.labels = label, .body = label};
+static SwitchCase case_at(const StatementSyntax *label) {
+    SwitchCase one = {.labels = label, .body = label};
     while (one.body && one.body->kind == STATEMENT_CASE) one.body = one.body->next;
     one.after = one.body;
     while (one.after && one.after->kind != STATEMENT_CASE) one.after = one.after->next;
@@ -112,17 +112,17 @@ static Case case_at(const Statement *label) {
 }
 
 typedef struct Switch {
-    Node *value;
-    const Statement *label;    /* of the next cases */
-    const Statement *standard; /* the label of the default's cases, NULL: none so far */
+    GraphNode *value;
+    const StatementSyntax *label;    /* of the next cases */
+    const StatementSyntax *standard; /* the label of the default's cases, NULL: none so far */
 } Switch;
 
 /* Runs statements up to a label. */
 static void run_case(Run *run, const void *what) {
-    const Case one = case_at(what);
-    Statement copies[64];
+    const SwitchCase one = case_at(what);
+    StatementSyntax copies[64];
     int count = 0;
-    for (const Statement *k = one.body; k != one.after && count < 64; k = k->next) {
+    for (const StatementSyntax *k = one.body; k != one.after && count < 64; k = k->next) {
         copies[count] = *k;
         copies[count].next = NULL;
         if (count) copies[count - 1].next = &copies[count];
@@ -141,15 +141,15 @@ static void run_cases(Run *run, const void *what) {
         if (self->standard) run_case(run, self->standard);
         return;
     }
-    const Case one = case_at(self->label);
+    const SwitchCase one = case_at(self->label);
     Switch next = {self->value, one.after, self->standard};
-    Node *here = graph_bool(&run->graph, false);
+    GraphNode *here = graph_bool(&run->graph, false);
     bool standard = false;
-    for (const Statement *label = one.labels; label != one.body; label = label->next) {
+    for (const StatementSyntax *label = one.labels; label != one.body; label = label->next) {
         standard |= !label->value;
         if (!label->value) continue;
-        Node *is = graph_binary(&run->graph, KIND_BOOL, OPERATOR('=', '='), self->value,
-                                run_number(run, label->value, self->value->kind));
+        GraphNode *is = graph_binary(&run->graph, KIND_BOOL, OPERATOR('=', '='), self->value,
+                                     run_number(run, label->value, self->value->kind));
         here = graph_binary(&run->graph, KIND_BOOL, OPERATOR('|', '|'), here, is);
     }
     if (standard) {
@@ -159,9 +159,9 @@ static void run_cases(Run *run, const void *what) {
     if (!run->wrong) run_branch(run, here, run_case, self->label, run_cases, &next, false);
 }
 
-void run_switch(Run *run, const Statement *statement) {
+void run_switch(Run *run, const StatementSyntax *statement) {
     const int variables = run->variable_count, slots = run->slot_count, broken = run->frame.broken;
-    const Value value = run_value(run, statement->value);
+    const ShaderValue value = run_value(run, statement->value);
     if (run->wrong || (value.kind != KIND_INT && value.kind != KIND_UINT)) {
         run_wrong(run, "a switch of what is no whole number");
         return;

@@ -3,37 +3,37 @@
 
 #include "text/flat/run.h"
 
-Value run_wrong(Run *run, const char *what) {
+ShaderValue run_wrong(Run *run, const char *what) {
     if (!run->wrong) run->wrong = what;
-    run->nothing = (Node){.op = NODE_UNKNOWN, .home = run->graph.whole};
+    run->nothing = (GraphNode){.op = NODE_UNKNOWN, .home = run->graph.whole};
     for (int k = 0; k < LEAVES_MOST; k++) run->nothings[k] = &run->nothing;
-    return (Value){KIND_NONE, run->nothings, false};
+    return (ShaderValue){KIND_NONE, run->nothings, false};
 }
 
-Value run_wrong_name(Run *run, const char *what, Symbol name) {
+ShaderValue run_wrong_name(Run *run, const char *what, Symbol name) {
     if (!run->wrong) run->wrong_name = name;
     return run_wrong(run, what);
 }
 
-Value run_leaves(Run *run, Kind kind) {
+ShaderValue run_leaves(Run *run, Kind kind) {
     const int count = run->kinds.shapes[kind].leaf_count;
-    Node **leaves = arena_array(&run->arena, (size_t)count + 1, sizeof *leaves);
-    return leaves ? (Value){kind, leaves, false} : run_wrong(run, "memory is short");
+    GraphNode **leaves = arena_array(&run->arena, (size_t)count + 1, sizeof *leaves);
+    return leaves ? (ShaderValue){kind, leaves, false} : run_wrong(run, "memory is short");
 }
 
-Value run_of_node(Run *run, Node *node) {
-    Value value = run_leaves(run, node->kind);
+ShaderValue run_of_node(Run *run, GraphNode *node) {
+    ShaderValue value = run_leaves(run, node->kind);
     value.leaves[0] = node;
     return value;
 }
 
-Node *run_number(Run *run, const Expr *expr, Kind kind) {
-    const Value value = run_value(run, expr);
+GraphNode *run_number(Run *run, const Expr *expr, Kind kind) {
+    const ShaderValue value = run_value(run, expr);
     if (value.kind != kind || value.whole) run_wrong(run, "a number of another type");
     return run->wrong ? graph_unknown(&run->graph, kind) : value.leaves[0];
 }
 
-static Value literal(Run *run, Token word) {
+static ShaderValue literal(Run *run, Token word) {
     char text[40];
     if (word.size >= sizeof text) return run_wrong(run, "a number");
     memcpy(text, word.at, word.size);
@@ -51,23 +51,23 @@ static Value literal(Run *run, Token word) {
     return run_of_node(run, graph_integer(&run->graph, natural ? KIND_UINT : KIND_INT, (int)(unsigned)x));
 }
 
-static Value named(Run *run, Symbol name) {
+static ShaderValue named(Run *run, Symbol name) {
     if (name == run->true_name || name == run->false_name)
         return run_of_node(run, graph_bool(&run->graph, name == run->true_name));
     if (run->constants[name].kind) return run->constants[name];
     const Kind kind = run->outside[name];
     if (!kind) return run_wrong_name(run, "a name", name);
-    Value value = run_of_node(run, graph_outside(&run->graph, kind, name));
+    ShaderValue value = run_of_node(run, graph_outside(&run->graph, kind, name));
     value.whole = run->kinds.shapes[kind].element != KIND_NONE;
     return value;
 }
 
-static Value member(Run *run, const Expr *expr) {
-    const Value value = run_value(run, expr->a);
+static ShaderValue member(Run *run, const Expr *expr) {
+    const ShaderValue value = run_value(run, expr->a);
     const Shape *shape = &run->kinds.shapes[value.kind];
     for (int k = 0; shape->members && k < shape->count; k++)
         if (shape->members[k].name == expr->name)
-            return (Value){shape->members[k].kind, value.leaves + shape->members[k].first, false};
+            return (ShaderValue){shape->members[k].kind, value.leaves + shape->members[k].first, false};
     int count;
     const int word = run_components(run, expr->name, value.kind, &count);
     if (!count || kind_size(value.kind) < 2 || value.whole) return run_wrong_name(run, "a member", expr->name);
@@ -83,17 +83,17 @@ static Kind element_kind(const Run *run, Kind kind) {
 }
 
 /* Returns an element of an array that is taken apart. */
-static Value element_of(Run *run, Value array, Kind kind, Node *at) {
+static ShaderValue element_of(Run *run, ShaderValue array, Kind kind, GraphNode *at) {
     const int stride = run->kinds.shapes[kind].leaf_count, count = run->kinds.shapes[array.kind].count;
     if (node_is_constant(at)) {
         if (at->integer < 0 || at->integer >= count) return run_wrong(run, "an index beyond its array");
-        return (Value){kind, array.leaves + stride * at->integer, false};
+        return (ShaderValue){kind, array.leaves + stride * at->integer, false};
     }
-    Value value = run_leaves(run, kind);
+    ShaderValue value = run_leaves(run, kind);
     for (int j = 0; j < stride && !run->wrong; j++) {
         value.leaves[j] = array.leaves[(count - 1) * stride + j];
         for (int k = count - 2; k >= 0; k--) {
-            Node *is =
+            GraphNode *is =
                 graph_binary(&run->graph, KIND_BOOL, OPERATOR('=', '='), at, graph_integer(&run->graph, KIND_INT, k));
             value.leaves[j] = graph_select(&run->graph, is, array.leaves[k * stride + j], value.leaves[j]);
         }
@@ -101,10 +101,10 @@ static Value element_of(Run *run, Value array, Kind kind, Node *at) {
     return value;
 }
 
-static Value element(Run *run, const Expr *expr) {
-    const Value value = run_value(run, expr->a);
+static ShaderValue element(Run *run, const Expr *expr) {
+    const ShaderValue value = run_value(run, expr->a);
     const Kind kind = element_kind(run, value.kind);
-    Node *at = run_number(run, expr->b, KIND_INT);
+    GraphNode *at = run_number(run, expr->b, KIND_INT);
     if (!kind || run->wrong) return run_wrong(run, "an index");
     const Shape *shape = &run->kinds.shapes[value.kind];
     if (shape->element && !value.whole) {
@@ -113,9 +113,9 @@ static Value element(Run *run, const Expr *expr) {
     return run_of_node(run, graph_index(&run->graph, kind, value.leaves[0], at));
 }
 
-static Value unary(Run *run, const Expr *expr) {
-    const Value a = run_value(run, expr->a);
-    const Base base = kind_base(a.kind);
+static ShaderValue unary(Run *run, const Expr *expr) {
+    const ShaderValue a = run_value(run, expr->a);
+    const BaseType base = kind_base(a.kind);
     const bool negates = expr->op == '-' && (base == BASE_FLOAT || base == BASE_INT);
     const bool flips = expr->op == '~' && (base == BASE_INT || base == BASE_UINT);
     if (!negates && !flips && !(expr->op == '!' && a.kind == KIND_BOOL)) return run_wrong(run, "a sign");
@@ -139,7 +139,7 @@ static Kind product_kind(Operator op, Kind a, Kind b) {
 
 /* Returns the kind of a op b, KIND_NONE if GLSL has no such operation. */
 static Kind binary_kind(Operator op, Kind a, Kind b) {
-    const Base base = kind_base(a);
+    const BaseType base = kind_base(a);
     const int m = kind_size(a), n = kind_size(b);
     const bool whole = base == BASE_INT || base == BASE_UINT;
     if (kind_matrix(a) || kind_matrix(b)) return product_kind(op, a, b);
@@ -152,7 +152,7 @@ static Kind binary_kind(Operator op, Kind a, Kind b) {
     return m > n ? a : b;
 }
 
-static Value binary_of(Run *run, Operator op, Value a, Value b) {
+static ShaderValue binary_of(Run *run, Operator op, ShaderValue a, ShaderValue b) {
     const Kind kind = a.whole || b.whole ? KIND_NONE : binary_kind(op, a.kind, b.kind);
     if (!kind) return run_wrong(run, "an operator between these types");
     return run_of_node(run, graph_binary(&run->graph, kind, op, a.leaves[0], b.leaves[0]));
@@ -161,22 +161,22 @@ static Value binary_of(Run *run, Operator op, Value a, Value b) {
 /* An expression of which one branch is wanted, and the slot for its value. */
 typedef struct Arm {
     const Expr *expr;
-    Node *node; /* the value, if there is no expression */
+    GraphNode *node; /* the value, if there is no expression */
     int slot;
 } Arm;
 
 static void run_arm(Run *run, const void *what) {
     const Arm *arm = what;
-    Node *node = arm->node;
+    GraphNode *node = arm->node;
     if (arm->expr) {
-        const Value value = run_value(run, arm->expr);
+        const ShaderValue value = run_value(run, arm->expr);
         if (value.kind >= KIND_OWN || value.whole) {
             run_wrong(run, "?: between records");
             return;
         }
         node = value.leaves[0];
     }
-    const Node *before = run->slots[arm->slot];
+    const GraphNode *before = run->slots[arm->slot];
     if (before->kind && before->kind != node->kind) {
         run_wrong(run, "?: between types");
         return;
@@ -185,7 +185,7 @@ static void run_arm(Run *run, const void *what) {
 }
 
 /* Returns condition ? a : b, of which an expression is computed only where it is needed. */
-static Value choice(Run *run, Node *condition, Arm a, Arm b) {
+static ShaderValue choice(Run *run, GraphNode *condition, Arm a, Arm b) {
     const int slot = run->slot_count;
     if (slot == SLOTS_MOST) return run_wrong(run, "too many variables");
     run->slots[run->slot_count++] = graph_unknown(&run->graph, KIND_NONE);
@@ -195,30 +195,30 @@ static Value choice(Run *run, Node *condition, Arm a, Arm b) {
     return run->wrong ? run_wrong(run, "") : run_of_node(run, run->slots[slot]);
 }
 
-static Value selected(Run *run, const Expr *expr) {
-    Node *condition = run_number(run, expr->a, KIND_BOOL);
+static ShaderValue selected(Run *run, const Expr *expr) {
+    GraphNode *condition = run_number(run, expr->a, KIND_BOOL);
     if (run->wrong) return run_wrong(run, "");
     return choice(run, condition, (Arm){.expr = expr->b}, (Arm){.expr = expr->c});
 }
 
-static Value both(Run *run, const Expr *expr, bool all) {
-    Node *a = run_number(run, expr->a, KIND_BOOL);
+static ShaderValue both(Run *run, const Expr *expr, bool all) {
+    GraphNode *a = run_number(run, expr->a, KIND_BOOL);
     if (run->wrong) return run_wrong(run, "");
     const Arm right = {.expr = expr->b}, left = {.node = graph_bool(&run->graph, !all)};
-    const Value value = choice(run, a, all ? right : left, all ? left : right);
+    const ShaderValue value = choice(run, a, all ? right : left, all ? left : right);
     return value.kind == KIND_BOOL ? value : run_wrong(run, "&& of what is no bool");
 }
 
-static Value binary(Run *run, const Expr *expr) {
+static ShaderValue binary(Run *run, const Expr *expr) {
     if (expr->op == OPERATOR('&', '&')) return both(run, expr, true);
     if (expr->op == OPERATOR('|', '|')) return both(run, expr, false);
-    const Value a = run_value(run, expr->a), b = run_value(run, expr->b);
+    const ShaderValue a = run_value(run, expr->a), b = run_value(run, expr->b);
     return binary_of(run, expr->op, a, b);
 }
 
-static Value assign(Run *run, const Expr *expr) {
-    Value value = run_value(run, expr->b), before = value;
-    Place place;
+static ShaderValue assign(Run *run, const Expr *expr) {
+    ShaderValue value = run_value(run, expr->b), before = value;
+    VariablePlace place;
     if (run->wrong || !run_place(run, expr->a, &place)) return run_wrong(run, "an assignment to no variable");
     if (expr->op) {
         before = run_read(run, &place);
@@ -230,8 +230,8 @@ static Value assign(Run *run, const Expr *expr) {
     return expr->before ? before : value;
 }
 
-Value run_value(Run *run, const Expr *expr) {
-    Place place;
+ShaderValue run_value(Run *run, const Expr *expr) {
+    VariablePlace place;
     if (run->wrong || run->graph.failed) return run_wrong(run, "too large");
     if (run_place(run, expr, &place)) return run_read(run, &place);
     switch (expr->kind) {

@@ -2,19 +2,19 @@
 
 enum { DEPTH_MOST = 200 };
 
-typedef struct Reader {
+typedef struct SyntaxReader {
     Syntax *out;
     const Token *tokens;
     int count, at;
     int depth;         /* of expressions and statements inside each other */
     Declaration spare; /* what is written there is never read: the text is wrong */
-} Reader;
+} SyntaxReader;
 
-_Static_assert(sizeof(Declaration) >= sizeof(Statement) && sizeof(Declaration) >= sizeof(Expr) &&
-                   sizeof(Declaration) >= sizeof(Field),
+_Static_assert(sizeof(Declaration) >= sizeof(StatementSyntax) && sizeof(Declaration) >= sizeof(Expr) &&
+                   sizeof(Declaration) >= sizeof(FieldSyntax),
                "a spare declaration holds each of the others");
 
-Symbol symbol_of(Symbols *symbols, Token name) {
+Symbol symbol_of(SymbolTable *symbols, Token name) {
     unsigned hash = 2166136261u;
     for (size_t k = 0; k < name.size; k++) hash = (hash ^ (unsigned char)name.at[k]) * 16777619u;
     int *bucket = &symbols->buckets[hash % SYMBOLS_MOST];
@@ -28,42 +28,42 @@ Symbol symbol_of(Symbols *symbols, Token name) {
     return made;
 }
 
-static void *make(Reader *reader, size_t size) {
+static void *make(SyntaxReader *reader, size_t size) {
     void *made = arena_array(&reader->out->arena, 1, size);
     if (made) return made;
     reader->out->wrong = "memory is short";
     return &reader->spare;
 }
 
-static void wrong(Reader *reader, const char *what) {
+static void wrong(SyntaxReader *reader, const char *what) {
     if (!reader->out->wrong) reader->out->wrong = what;
-    reader->at = reader->count; /* which ends every loop */
+    reader->at = reader->count; /* ends every loop of the reader */
 }
 
-static Token peek(const Reader *reader, int ahead) {
+static Token peek(const SyntaxReader *reader, int ahead) {
     static const Token none = {TOKEN_NONE, "", 0};
     return reader->at + ahead < reader->count ? reader->tokens[reader->at + ahead] : none;
 }
 
-static Token take(Reader *reader) {
+static Token take(SyntaxReader *reader) {
     const Token token = peek(reader, 0);
     reader->at++;
     return token;
 }
 
-static bool next_is(const Reader *reader, const char *text) { return token_is(peek(reader, 0), text); }
+static bool next_is(const SyntaxReader *reader, const char *text) { return token_is(peek(reader, 0), text); }
 
-static bool take_if(Reader *reader, const char *text) {
+static bool take_if(SyntaxReader *reader, const char *text) {
     const bool found = next_is(reader, text);
     reader->at += found;
     return found;
 }
 
-static void expect(Reader *reader, const char *text) {
+static void expect(SyntaxReader *reader, const char *text) {
     if (!take_if(reader, text)) wrong(reader, "a mark is missing");
 }
 
-static Symbol take_name(Reader *reader) {
+static Symbol take_name(SyntaxReader *reader) {
     const Token token = take(reader);
     if (token.kind != TOKEN_NAME) wrong(reader, "a name is missing");
     const Symbol name = symbol_of(&reader->out->symbols, token);
@@ -101,16 +101,16 @@ static int binding(Operator op) {
     }
 }
 
-static Expr *read_expr(Reader *reader);
+static Expr *read_expr(SyntaxReader *reader);
 
-static Expr *make_expr(Reader *reader, ExprKind kind) {
+static Expr *make_expr(SyntaxReader *reader, ExprKind kind) {
     Expr *expr = make(reader, sizeof *expr);
     expr->kind = kind;
     return expr;
 }
 
 /* Reads the arguments after an opening parenthesis. */
-static Expr *read_arguments(Reader *reader) {
+static Expr *read_arguments(SyntaxReader *reader) {
     Expr *first = NULL, **last = &first;
     if (take_if(reader, ")")) return NULL;
     if (next_is(reader, "void"))
@@ -124,7 +124,7 @@ static Expr *read_arguments(Reader *reader) {
     return first;
 }
 
-static Expr *read_primary(Reader *reader) {
+static Expr *read_primary(SyntaxReader *reader) {
     const Token token = peek(reader, 0);
     Expr *expr = make_expr(reader, EXPR_NUMBER);
     expr->word = token;
@@ -146,7 +146,7 @@ static Expr *read_primary(Reader *reader) {
 }
 
 /* Returns `to` increased or decreased by one. */
-static Expr *make_step(Reader *reader, Expr *to, Token mark) {
+static Expr *make_step(SyntaxReader *reader, Expr *to, Token mark) {
     static const Token one = {TOKEN_NUMBER, "1", 1};
     Expr *step = make_expr(reader, EXPR_ASSIGN), *by = make_expr(reader, EXPR_NUMBER);
     by->word = one;
@@ -158,7 +158,7 @@ static Expr *make_step(Reader *reader, Expr *to, Token mark) {
 
 static bool is_step(Token token) { return token_is(token, "++") || token_is(token, "--"); }
 
-static Expr *read_postfix(Reader *reader) {
+static Expr *read_postfix(SyntaxReader *reader) {
     Expr *expr = read_primary(reader);
     while (next_is(reader, ".") || next_is(reader, "[") || is_step(peek(reader, 0))) {
         const Token mark = take(reader);
@@ -178,7 +178,7 @@ static Expr *read_postfix(Reader *reader) {
     return expr;
 }
 
-static Expr *read_unary(Reader *reader) {
+static Expr *read_unary(SyntaxReader *reader) {
     const Token mark = peek(reader, 0);
     if (reader->depth > DEPTH_MOST) wrong(reader, "too deep");
     if (reader->out->wrong) return make_expr(reader, EXPR_NUMBER);
@@ -197,7 +197,7 @@ static Expr *read_unary(Reader *reader) {
     return expr;
 }
 
-static Expr *read_binary(Reader *reader, int least) {
+static Expr *read_binary(SyntaxReader *reader, int least) {
     Expr *left = read_unary(reader);
     for (;;) {
         const Operator op = operator_of(peek(reader, 0));
@@ -220,7 +220,7 @@ static Operator assigned_by(Token token) {
     return assigns ? token.at[0] : -1;
 }
 
-static Expr *read_expr(Reader *reader) {
+static Expr *read_expr(SyntaxReader *reader) {
     reader->depth++;
     Expr *expr = read_binary(reader, 1);
     const Operator assigned = assigned_by(peek(reader, 0));
@@ -244,32 +244,32 @@ static Expr *read_expr(Reader *reader) {
 }
 
 /* Takes words that say nothing which the tree needs. */
-static void skip_qualifiers(Reader *reader) {
+static void skip_qualifiers(SyntaxReader *reader) {
     while (next_is(reader, "const") || next_is(reader, "highp") || next_is(reader, "mediump") ||
            next_is(reader, "lowp"))
         reader->at++;
 }
 
-static Expr *read_size(Reader *reader) {
+static Expr *read_size(SyntaxReader *reader) {
     if (!take_if(reader, "[")) return NULL;
     Expr *size = read_expr(reader);
     expect(reader, "]");
     return size;
 }
 
-static Statement *make_statement(Reader *reader, StatementKind kind) {
-    Statement *statement = make(reader, sizeof *statement);
+static StatementSyntax *make_statement(SyntaxReader *reader, StatementKind kind) {
+    StatementSyntax *statement = make(reader, sizeof *statement);
     statement->kind = kind;
     return statement;
 }
 
 /* Reads "T a = 1, b[2];" as a chain of declarations. */
-static Statement *read_declarations(Reader *reader) {
-    Statement *first = NULL, **last = &first;
+static StatementSyntax *read_declarations(SyntaxReader *reader) {
+    StatementSyntax *first = NULL, **last = &first;
     skip_qualifiers(reader);
     const Symbol type = take_name(reader);
     do {
-        Statement *one = make_statement(reader, STATEMENT_DECLARE);
+        StatementSyntax *one = make_statement(reader, STATEMENT_DECLARE);
         one->type = type;
         one->name = take_name(reader);
         one->size = read_size(reader);
@@ -281,15 +281,15 @@ static Statement *read_declarations(Reader *reader) {
     return first;
 }
 
-static bool declares(const Reader *reader) {
+static bool declares(const SyntaxReader *reader) {
     if (next_is(reader, "const") || next_is(reader, "highp")) return true;
     return peek(reader, 0).kind == TOKEN_NAME && peek(reader, 1).kind == TOKEN_NAME;
 }
 
-static Statement *read_statement(Reader *reader);
+static StatementSyntax *read_statement(SyntaxReader *reader);
 
-static Statement *read_block(Reader *reader) {
-    Statement *block = make_statement(reader, STATEMENT_BLOCK), **last = &block->body;
+static StatementSyntax *read_block(SyntaxReader *reader) {
+    StatementSyntax *block = make_statement(reader, STATEMENT_BLOCK), **last = &block->body;
     expect(reader, "{");
     while (!next_is(reader, "}") && reader->at < reader->count) {
         *last = read_statement(reader);
@@ -299,8 +299,8 @@ static Statement *read_block(Reader *reader) {
     return block;
 }
 
-static Statement *read_if(Reader *reader) {
-    Statement *statement = make_statement(reader, STATEMENT_IF);
+static StatementSyntax *read_if(SyntaxReader *reader) {
+    StatementSyntax *statement = make_statement(reader, STATEMENT_IF);
     expect(reader, "(");
     statement->value = read_expr(reader);
     expect(reader, ")");
@@ -309,8 +309,8 @@ static Statement *read_if(Reader *reader) {
     return statement;
 }
 
-static Statement *read_for(Reader *reader, bool is_for) {
-    Statement *statement = make_statement(reader, STATEMENT_FOR);
+static StatementSyntax *read_for(SyntaxReader *reader, bool is_for) {
+    StatementSyntax *statement = make_statement(reader, STATEMENT_FOR);
     expect(reader, "(");
     if (is_for && !take_if(reader, ";")) {
         if (declares(reader)) {
@@ -331,8 +331,8 @@ static Statement *read_for(Reader *reader, bool is_for) {
     return statement;
 }
 
-static Statement *read_switch(Reader *reader) {
-    Statement *statement = make_statement(reader, STATEMENT_SWITCH);
+static StatementSyntax *read_switch(SyntaxReader *reader) {
+    StatementSyntax *statement = make_statement(reader, STATEMENT_SWITCH);
     expect(reader, "(");
     statement->value = read_expr(reader);
     expect(reader, ")");
@@ -340,22 +340,22 @@ static Statement *read_switch(Reader *reader) {
     return statement;
 }
 
-static Statement *read_case(Reader *reader, bool valued) {
-    Statement *statement = make_statement(reader, STATEMENT_CASE);
+static StatementSyntax *read_case(SyntaxReader *reader, bool valued) {
+    StatementSyntax *statement = make_statement(reader, STATEMENT_CASE);
     if (valued) statement->value = read_expr(reader);
     expect(reader, ":");
     return statement;
 }
 
 /* Reads what is left of a statement of one word and perhaps a value. */
-static Statement *read_jump(Reader *reader, StatementKind kind) {
-    Statement *statement = make_statement(reader, kind);
+static StatementSyntax *read_jump(SyntaxReader *reader, StatementKind kind) {
+    StatementSyntax *statement = make_statement(reader, kind);
     if (kind == STATEMENT_RETURN && !next_is(reader, ";")) statement->value = read_expr(reader);
     expect(reader, ";");
     return statement;
 }
 
-static Statement *read_one(Reader *reader) {
+static StatementSyntax *read_one(SyntaxReader *reader) {
     if (next_is(reader, "{")) return read_block(reader);
     if (take_if(reader, ";")) return make_statement(reader, STATEMENT_BLOCK);
     if (take_if(reader, "if")) return read_if(reader);
@@ -369,22 +369,22 @@ static Statement *read_one(Reader *reader) {
     if (take_if(reader, "continue")) return read_jump(reader, STATEMENT_CONTINUE);
     if (take_if(reader, "discard")) return read_jump(reader, STATEMENT_DISCARD);
     if (declares(reader)) return read_declarations(reader);
-    Statement *statement = make_statement(reader, STATEMENT_EXPR);
+    StatementSyntax *statement = make_statement(reader, STATEMENT_EXPR);
     statement->value = read_expr(reader);
     expect(reader, ";");
     return statement;
 }
 
-static Statement *read_statement(Reader *reader) {
+static StatementSyntax *read_statement(SyntaxReader *reader) {
     if (++reader->depth > DEPTH_MOST) wrong(reader, "too deep");
-    Statement *statement = reader->out->wrong ? make_statement(reader, STATEMENT_BLOCK) : read_one(reader);
+    StatementSyntax *statement = reader->out->wrong ? make_statement(reader, STATEMENT_BLOCK) : read_one(reader);
     reader->depth--;
     return statement;
 }
 
 /* Reads the members of a record or block, to its closing brace. */
-static Field *read_members(Reader *reader) {
-    Field *first = NULL, **last = &first;
+static FieldSyntax *read_members(SyntaxReader *reader) {
+    FieldSyntax *first = NULL, **last = &first;
     expect(reader, "{");
     while (!take_if(reader, "}") && reader->at < reader->count) {
         const char *at = peek(reader, 0).at;
@@ -392,7 +392,7 @@ static Field *read_members(Reader *reader) {
         const Symbol type = take_name(reader);
         const char *end = peek(reader, 0).at;
         do {
-            Field *field = make(reader, sizeof *field);
+            FieldSyntax *field = make(reader, sizeof *field);
             field->type = type;
             field->at = at;
             field->end = end;
@@ -406,15 +406,15 @@ static Field *read_members(Reader *reader) {
     return first;
 }
 
-static Field *read_parameters(Reader *reader) {
-    Field *first = NULL, **last = &first;
+static FieldSyntax *read_parameters(SyntaxReader *reader) {
+    FieldSyntax *first = NULL, **last = &first;
     if (take_if(reader, ")")) return NULL;
     if (next_is(reader, "void") && token_is(peek(reader, 1), ")")) {
         reader->at += 2;
         return NULL;
     }
     do {
-        Field *field = make(reader, sizeof *field);
+        FieldSyntax *field = make(reader, sizeof *field);
         skip_qualifiers(reader);
         field->fresh = take_if(reader, "out");
         field->written = take_if(reader, "inout") || field->fresh;
@@ -431,7 +431,7 @@ static Field *read_parameters(Reader *reader) {
 }
 
 /* Reads names after a type: "a = 1, b[2];". */
-static Declaration **read_variables(Reader *reader, const Declaration *like, Declaration **last) {
+static Declaration **read_variables(SyntaxReader *reader, const Declaration *like, Declaration **last) {
     do {
         Declaration *one = make(reader, sizeof *one);
         *one = *like;
@@ -446,7 +446,7 @@ static Declaration **read_variables(Reader *reader, const Declaration *like, Dec
 }
 
 /* Takes qualifiers, and returns what they declare. */
-static DeclarationKind take_qualifiers(Reader *reader, bool *constant) {
+static DeclarationKind take_qualifiers(SyntaxReader *reader, bool *constant) {
     DeclarationKind kind = DECLARATION_VARIABLE;
     for (;; reader->at++) {
         *constant |= next_is(reader, "const");
@@ -464,7 +464,7 @@ static DeclarationKind take_qualifiers(Reader *reader, bool *constant) {
 }
 
 /* Reads a function after its name. One without a body comes with it elsewhere. */
-static Declaration **read_function(Reader *reader, Declaration *function, Declaration **last) {
+static Declaration **read_function(SyntaxReader *reader, Declaration *function, Declaration **last) {
     function->kind = DECLARATION_FUNCTION;
     function->fields = read_parameters(reader);
     if (take_if(reader, ";")) return last;
@@ -473,7 +473,7 @@ static Declaration **read_function(Reader *reader, Declaration *function, Declar
     return &function->next;
 }
 
-static Declaration **read_declaration(Reader *reader, Declaration **last) {
+static Declaration **read_declaration(SyntaxReader *reader, Declaration **last) {
     Declaration *one = make(reader, sizeof *one);
     one->at = peek(reader, 0).at;
     if (take_if(reader, "struct")) {
@@ -537,7 +537,7 @@ void syntax_read(const char *text, Syntax *out) {
         out->wrong = "memory is short";
         return;
     }
-    Reader reader = {.out = out, .tokens = tokens, .count = cut(out->head_end, out->head_end + size, tokens)};
+    SyntaxReader reader = {.out = out, .tokens = tokens, .count = cut(out->head_end, out->head_end + size, tokens)};
     for (Declaration **last = &out->first; reader.at < reader.count;) last = read_declaration(&reader, last);
 }
 

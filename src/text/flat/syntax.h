@@ -12,15 +12,15 @@ typedef int Symbol;
 
 enum { SYMBOLS_MOST = 8192 };
 
-typedef struct Symbols {
+typedef struct SymbolTable {
     Token names[SYMBOLS_MOST];
     int next[SYMBOLS_MOST];    /* the symbol before it with the same hash */
     int buckets[SYMBOLS_MOST]; /* 0: empty */
     int count;                 /* the first is no name */
-} Symbols;
+} SymbolTable;
 
 /* Returns the number of a name, 0 if there are too many. */
-Symbol symbol_of(Symbols *symbols, Token name);
+Symbol symbol_of(SymbolTable *symbols, Token name);
 
 /* A two-character operator is its first character times 256 plus the second, and "<<=" the same of "<<" plus 65536. */
 typedef int Operator;
@@ -62,25 +62,25 @@ typedef enum StatementKind {
     STATEMENT_DISCARD
 } StatementKind;
 
-typedef struct Statement {
+typedef struct StatementSyntax {
     StatementKind kind;
     Expr *value, *step;
-    struct Statement *start, *body, *other;
+    struct StatementSyntax *start, *body, *other;
     Symbol type, name;
     Expr *size; /* of an array; NULL: none */
-    struct Statement *next;
+    struct StatementSyntax *next;
     bool rolled; /* a loop that was found too long to be unrolled */
-} Statement;
+} StatementSyntax;
 
 /* A member of a record or block, or a parameter. */
-typedef struct Field {
+typedef struct FieldSyntax {
     Symbol type, name;
     Expr *size;
     bool written;         /* a parameter that is "inout" or "out" */
     bool fresh;           /* "out" */
     const char *at, *end; /* qualifiers and type, as they are written */
-    struct Field *next;
-} Field;
+    struct FieldSyntax *next;
+} FieldSyntax;
 
 typedef enum DeclarationKind {
     DECLARATION_RECORD,
@@ -93,10 +93,10 @@ typedef enum DeclarationKind {
 
 typedef struct Declaration {
     DeclarationKind kind;
-    Symbol type, name;  /* a function's type is its result's */
-    Field *fields;      /* members or parameters */
-    Statement *body;    /* of a function */
-    Expr *value, *size; /* of a variable */
+    Symbol type, name;     /* a function's type is its result's */
+    FieldSyntax *fields;   /* members or parameters */
+    StatementSyntax *body; /* of a function */
+    Expr *value, *size;    /* of a variable */
     bool constant;
     const char *at, *end; /* qualifiers and type of a variable, or a block's line, as they are written */
     struct Declaration *next;
@@ -104,7 +104,7 @@ typedef struct Declaration {
 
 typedef struct Syntax {
     Arena arena;
-    Symbols symbols;
+    SymbolTable symbols;
     Declaration *first;
     const char *head, *head_end; /* the lines before the first declaration: version and precision */
     const char *wrong;           /* what was not understood; NULL: all was */
