@@ -21,8 +21,8 @@ void add_light(float light, float reaches) {
 
 #define ONE_LIGHT(k, kind, map)                                                                              \
     beam = light_beam(k, kind);                                                                              \
-    float reaches = light_reaches(map, from_eye, vec3(0.0, 1.0, 0.0), beam.wi.y);
-    add_light(rgb_luminance(beam.radiance) * max(beam.wi.y, 0.0), reaches);
+    add_light(rgb_luminance(beam.radiance) * max(beam.wi.y, 0.0),                                            \
+              light_reaches(map, from_eye, vec3(0.0, 1.0, 0.0), beam.wi.y));
 void add_lights() {
     Beam beam;
     EACH_LIGHT(ONE_LIGHT)
