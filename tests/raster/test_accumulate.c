@@ -10,57 +10,12 @@
 
 #include <cmocka.h>
 
-#include "raster/gl.h"
-#include "trace/scenes.h"
+#include "raster/sums.h"
 
-enum { WIDTH = 96, HEIGHT = 64, FRAMES = 256, SPP = 2048 };
+enum { FRAMES = 256, SPP = 2048 };
 
 static const WeftRasterView view = {
     .width = WIDTH, .height = HEIGHT, .camera = "0,1.3,3.4;0,0.1,0;26", .background = WEFT_BACKGROUND_TRANSPARENT};
-
-/* The sums of the absolute differences over the sum of the path traced picture. */
-typedef struct Off {
-    double pixels, blocks, mean;
-} Off;
-
-static Off compare(const WeftImage *a, const WeftImage *b) {
-    double sum = 0.0, pixels = 0.0, blocks = 0.0, all = 0.0;
-    const float *p = a->pixels, *q = b->pixels;
-    for (int by = 0; by < HEIGHT / 8; by++)
-        for (int bx = 0; bx < WIDTH / 8; bx++)
-            for (int c = 0; c < 3; c++) {
-                double block = 0.0;
-                for (int k = 0; k < 64; k++) {
-                    const int at = 4 * ((8 * by + k / 8) * WIDTH + 8 * bx + k % 8);
-                    const double x = (double)(p[at + c] * p[at + 3]), y = (double)(q[at + c] * q[at + 3]);
-                    sum += y;
-                    pixels += fabs(x - y);
-                    block += x - y;
-                }
-                blocks += fabs(block);
-                all += block;
-            }
-    return (Off){pixels / sum, blocks / sum, all / sum};
-}
-
-static WeftImage summed(WeftRaster *raster, const WeftRasterView *how, int frames) {
-    WeftImage image;
-    WeftError error;
-    int done = 0;
-    if (weft_raster_accumulate_begin(raster, how, frames, &error) != WEFT_OK) fail_msg("%s", error.text);
-    while (done < frames)
-        if (weft_raster_accumulate(raster, 1.0, &done, &error) != WEFT_OK) fail_msg("%s", error.text);
-    if (weft_raster_image(raster, &image, &error) != WEFT_OK) fail_msg("%s", error.text);
-    return image;
-}
-
-static WeftRaster *raster_of(const WeftScene *scene) {
-    WeftRaster *raster;
-    WeftError error;
-    const WeftRasterDesc desc = {.threads = 1, .no_cache = 1};
-    if (weft_raster_create(scene, &desc, &raster, NULL, &error) != WEFT_OK) fail_msg("%s", error.text);
-    return raster;
-}
 
 /* A ball of material 0 and a smaller, glossy one on a floor. */
 static WeftScene *balls(void) {
@@ -79,27 +34,12 @@ static WeftScene *balls(void) {
     return scene;
 }
 
-static void agrees(WeftScene *scene, const char *what, double pixels, double blocks) {
-    WeftRaster *raster = raster_of(scene);
-    const WeftRenderDesc desc = {
-        .width = WIDTH, .height = HEIGHT, .max_depth = 1, .camera = view.camera, .background = view.background};
-    WeftImage image = summed(raster, &view, FRAMES), reference = test_render(scene, desc, SPP);
-    const Off off = compare(&image, &reference);
-    print_message("%-24s pixels %.2f %%, means of 8 x 8 %.2f %%, mean %+.2f %%\n", what, 100.0 * off.pixels,
-                  100.0 * off.blocks, 100.0 * off.mean);
-    assert_true(off.pixels < pixels && off.blocks < blocks);
-    weft_image_free(&image);
-    weft_image_free(&reference);
-    weft_raster_free(raster);
-    weft_scene_free(scene);
-}
-
 static void under_a_studio(void **state) {
     (void)state;
     need_gl();
     WeftScene *scene = balls();
     assert_int_equal(weft_scene_set_environment_studio(scene, NULL), WEFT_OK);
-    agrees(scene, "studio", 0.025, 0.005);
+    agrees(scene, &view, FRAMES, SPP, "studio", 0.025, 0.005);
 }
 
 static void under_a_polygon(void **state) {
@@ -112,7 +52,7 @@ static void under_a_polygon(void **state) {
                                     .size = {0.9f, 0.7f}};
     WeftScene *scene = balls();
     assert_int_equal(weft_scene_add_light(scene, &panel, NULL), WEFT_OK);
-    agrees(scene, "polygon", 0.02, 0.005);
+    agrees(scene, &view, FRAMES, SPP, "polygon", 0.02, 0.005);
 }
 
 static void under_punctual_lights(void **state) {
@@ -138,7 +78,7 @@ static void under_punctual_lights(void **state) {
                                     .cos_inner = 0.97f,
                                     .cos_outer = 0.92f}};
     for (size_t k = 0; k < sizeof lights / sizeof *lights; k++) scene->lights[scene->light_count++] = lights[k];
-    agrees(scene, "sun, point and spot", 0.03, 0.007);
+    agrees(scene, &view, FRAMES, SPP, "sun, point and spot", 0.03, 0.007);
 }
 
 static void half_transparent_and_single_sided(void **state) {
@@ -158,7 +98,7 @@ static void half_transparent_and_single_sided(void **state) {
     test_quad(scene, vec3(-1.1f, 0.7f, 0.7f), vec3(1.0f, 0.0f, 0.0f), vec3(0.0f, 0.3f, -0.6f));
     test_material(scene, 0.7f)->double_sided = false;
     test_quad(scene, vec3(0.1f, 0.5f, 0.6f), vec3(0.6f, 0.0f, 0.0f), vec3(0.0f, 0.0f, -0.5f));
-    agrees(scene, "veil and single side", 0.025, 0.006);
+    agrees(scene, &view, FRAMES, SPP, "veil and single side", 0.025, 0.006);
 }
 
 /* A lattice of holes above the floor: a map of opacity of 4 x 4 texels, repeated and mirrored, whose edges lie between
@@ -191,7 +131,7 @@ static void holes_of_a_map(void **state) {
     static const float uv[8] = {0.0f, 0.0f, 5.0f, 0.0f, 5.0f, 3.0f, 0.0f, 3.0f};
     mesh->texcoord[0] = arena_array(&scene->arena, 4, 2 * sizeof(float));
     memcpy(mesh->texcoord[0], uv, sizeof uv);
-    agrees(scene, "holes of a map", 0.025, 0.006);
+    agrees(scene, &view, FRAMES, SPP, "holes of a map", 0.025, 0.006);
 }
 
 /* A sum goes on over many calls, ends as in one, stops when something else is drawn, and refuses what is no number. */
