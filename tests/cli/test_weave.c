@@ -62,6 +62,7 @@ static void impossible_weave_commands_are_errors_of_one_line(void **state) {
     assert_ends(LIST("weave", "plain; both 8000k 8000w"), 2, "threads are too many");
     assert_ends(LIST("weave", "twill 200/200; both 4001k 4000w"), 2, "threads are too many");
     assert_ends(LIST("weave", "velvet"), 2, "is not a weave");
+    assert_ends(LIST("weave", "none.wif"), 3, "words such as twill 2/2 need no file");
     assert_ends(LIST("weave", "plain", "-o", "plain.jpg"), 2, ".wif, .png");
     assert_ends(LIST("weave", "plain", "--sett", "0"), 2, "sett");
     assert_ends(LIST("weave", "plain", "--yarn", "nettle"), 2, "nettle: is not a yarn");

@@ -345,6 +345,10 @@ static void wrong_keys_are_refused_in_one_line(void **state) {
                                          {"*.weave.seed=1.5", "whole number"},
                                          {"*.weave.warp.yarn=nettle", "nettle"},
                                          {"*.base_color=#12345", "#rrggbb"},
+                                         {"*.weave.scale=2", "did you mean metres?"},
+                                         {"*.weave.EPI=20", "did you mean sett?"},
+                                         {"*.weave={\"draft\":\"plain\",\"scale\":2}", "did you mean metres?"},
+                                         {"*.weave.draft=none.wif", "words such as twill 2/2 need no file"},
                                          {"nobody.weave.seed=1", "nobody"}};
     for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
         Ran ran = RUN("render", "builtin:ball", "--set", bad[k][0], "-o", "no.png");

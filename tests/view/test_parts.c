@@ -18,6 +18,7 @@
 #include "view/panels/render_command.h"
 #include "view/state/brush.h"
 #include "view/state/states.h"
+#include "view/ui/help.h"
 
 static char folder[SCRATCH_SIZE];
 
@@ -638,6 +639,21 @@ static void settings_file_that_is_a_pipe_is_ignored(void **state) {
     assert_int_equal(rmdir("config/weft") | rmdir("config"), 0);
 }
 
+/* Tips wrap paragraphs by themselves: a line that goes on with a small letter was wrapped before. */
+static void tips_of_models_have_whole_paragraphs(void **state) {
+    (void)state;
+    int told = 0;
+    for (int choice = 0; weft_material_choice_name(choice); choice++)
+        for (int value = 0; weft_material_choice_value(choice, value); value++) {
+            const char *text = help_choice(choice, value);
+            told += strchr(text, ' ') != NULL;
+            for (const char *line = strchr(text, '\n'); line; line = strchr(line + 1, '\n'))
+                if (line[1] >= 'a' && line[1] <= 'z')
+                    fail_msg("%s: %.60s", weft_material_choice_value(choice, value), line + 1);
+        }
+    assert_true(told > 50);
+}
+
 /* ---- the command line ---- */
 
 /* The maps of a folder are said by its name; one that was chosen since is not. */
@@ -695,9 +711,10 @@ static void copied_command_line_is_read_by_a_shell_as_meant(void **state) {
         snprintf(v->states->edit.state.environment.path, sizeof v->states->edit.state.environment.path, "%s", names[k]);
         char *unsaid, *line = command_line(v, &unsaid), shell[2048], word[512], camera[ORBIT_TEXT];
         const char *const expected[] = {
-            "render",   names[k],   "--env", names[k],     "--width",
-            "320",      "--height", "200",   "--camera",   orbit_text(&v->states->camera.orbit, camera),
-            "--engine", "raster",   "-o",    "picture.png"};
+            "render",     names[k],   "--env",    names[k],   "--width",
+            "320",        "--height", "200",      "--camera", orbit_text(&v->states->camera.orbit, camera),
+            "--stage",    "none",     "--engine", "raster",   "-o",
+            "picture.png"};
         assert_non_null(line);
         assert_string_equal(unsaid, "");
         free(unsaid);
@@ -730,6 +747,7 @@ int main(void) {
                                        cmocka_unit_test(folder_of_maps_replaces_the_one_before),
                                        cmocka_unit_test(brushing_begins_with_the_map_of_the_material),
                                        cmocka_unit_test(settings_file_that_is_a_pipe_is_ignored),
+                                       cmocka_unit_test(tips_of_models_have_whole_paragraphs),
                                        cmocka_unit_test(map_replaced_by_a_folder_is_not_in_the_command_line),
                                        cmocka_unit_test(frame_request_is_copied_whole_or_not_at_all),
                                        cmocka_unit_test(a_key_keeps_its_modifiers_in_a_slow_frame),

@@ -53,7 +53,10 @@ static int sett_apply(Weaving *weaving) {
 static int draft_make(Weaving *weaving) {
     const WeftLog log = {.fn = report_warning};
     WeftError error;
-    if (weft_draft_read(weaving->what, &weaving->draft, &log, &error) != WEFT_OK) return report_error(&error);
+    if (weft_draft_read(weaving->what, &weaving->draft, &log, &error) != WEFT_OK) {
+        if (error.message != WEFT_MESSAGE_FILE_OPEN) return report_error(&error);
+        return report((int)error.result, "%s; words such as twill 2/2 need no file", error.text);
+    }
     if (option_given(weaving->options, "--back")) {
         WeftDraft *back;
         if (weft_draft_back(weaving->draft, &back, &error) != WEFT_OK) return report_error(&error);

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
 
 #include "base/fail.h"
@@ -47,8 +48,12 @@ static void keep_cause(ClothReader *r, const WeftError *why) {
     if (!error) return;
     *error = *why;
     const size_t used = strlen(why->text);
+    struct stat file;
+    const char *hint = stat(r->path, &file) == 0 ? "" : "; words such as twill 2/2 need no file";
     if (r->source->refusal == WEFT_MESSAGE_MATERIAL_FILE)
-        snprintf(error->text + used, sizeof why->text - used, " (the draft of %s)", r->source->name);
+        snprintf(error->text + used, sizeof why->text - used, " (the draft of %s)%s", r->source->name, hint);
+    else
+        snprintf(error->text + used, sizeof why->text - used, "%s", hint);
 }
 
 static bool is_setting(const ClothReader *r) { return r->source->refusal == WEFT_MESSAGE_PARAM_VALUE; }
@@ -191,6 +196,20 @@ static float read_relief(ClothReader *r, const json_t *json) {
     return (float)metres;
 }
 
+const char *cloth_key_meant(const char *word) {
+    static const char *const meanings[][2] = {
+        {"scale", "metres"},     {"size", "metres"},           {"meters", "metres"},  {"metre", "metres"},
+        {"repeat", "metres"},    {"density", "sett"},          {"epi", "sett"},       {"threads", "sett"},
+        {"pattern", "draft"},    {"weave", "draft"},           {"wif", "draft"},      {"file", "draft"},
+        {"turn", "rotation"},    {"rotate", "rotation"},       {"angle", "rotation"}, {"random", "seed"},
+        {"bumps", "relief"},     {"normal", "relief"},         {"ends", "warp"},      {"picks", "weft"},
+        {"color", "warp.color"}, {"colour", "warp.color"},     {"yarn", "warp"},      {"weft.colour", "weft.color"},
+        {"woof", "weft"},        {"warp.colour", "warp.color"}};
+    for (size_t k = 0; k < sizeof meanings / sizeof *meanings; k++)
+        if (strcasecmp(word, meanings[k][0]) == 0) return meanings[k][1];
+    return NULL;
+}
+
 static void read_keys(ClothReader *r, const json_t *json) {
     static const char *const keys[] = {"draft", "warp", "weft", "sett", "metres", "seed", "rotation", "relief"};
     const char *key;
@@ -199,7 +218,11 @@ static void read_keys(ClothReader *r, const json_t *json) {
     json_object_foreach((json_t *)(uintptr_t)json, key, value) {
         bool exists = false;
         for (size_t k = 0; k < sizeof keys / sizeof *keys; k++) exists |= strcmp(key, keys[k]) == 0;
-        if (!exists) refuse(r, key, "is not a key of a weave");
+        char what[96];
+        const char *meant = cloth_key_meant(key);
+        snprintf(what, sizeof what, "is not a key of a weave%s%s%s", meant ? "; did you mean " : "", meant ? meant : "",
+                 meant ? "?" : "");
+        if (!exists) refuse(r, key, what);
     }
 }
 

@@ -19,6 +19,9 @@ typedef struct ClothSource {
  * Fails with the source's message, WEFT_MESSAGE_MEMORY and as weft_draft_read does. */
 WeftResult cloth_from_json(const json_t *json, const ClothSource *source, WeftCloth **out);
 
+/* Returns the key of a weave that another word is likely to mean, such as metres by scale; NULL if none is. */
+const char *cloth_key_meant(const char *word);
+
 /* Returns the weave of a cloth as cloth_from_json reads it, or NULL if memory is short. draft: file of its draft; NULL:
  * the draft is written in words or as the text of a WIF. */
 json_t *cloth_to_json(const WeftCloth *cloth, const char *draft);

@@ -74,7 +74,9 @@ static WeftResult put_yarn_key(const WeaveSetting *setting, json_t *weave, const
     for (int k = 0; weft_yarn_number(k); k++)
         if (strcmp(weft_yarn_number(k)->name, key) == 0)
             return put(setting, yarn, key, read_number(setting->value), "a number");
-    return fail(setting->error, WEFT_MESSAGE_PARAM_NAME, setting->key, "is not yarn, color or a number of a yarn");
+    const char *meant = cloth_key_meant(setting->key);
+    return fail(setting->error, WEFT_MESSAGE_PARAM_NAME, setting->key, "is not yarn, color or a number of a yarn%s%s%s",
+                meant ? "; did you mean " : "", meant ? meant : "", meant ? "?" : "");
 }
 
 /* Sets the whole weave: its JSON, or the draft of a new one in cotton. */
@@ -112,10 +114,12 @@ static WeftResult change(const WeaveSetting *setting, json_t *weave) {
         if (!key[4]) return put_yarn(setting, weave, system);
         if (key[4] == '.') return put_yarn_key(setting, weave, system, key + 5);
     }
-    return fail(
-        setting->error, WEFT_MESSAGE_PARAM_NAME, key,
-        "a weave has draft, sett, metres, seed, rotation, relief, warp and weft, and these yarn, color and numbers: "
-        "warp.color");
+    const char *meant = cloth_key_meant(key);
+    return fail(setting->error, WEFT_MESSAGE_PARAM_NAME, key,
+                "%s%s%sa weave has draft, sett, metres, seed, rotation, relief, warp and weft, and these yarn, color "
+                "and numbers: "
+                "warp.color",
+                meant ? "did you mean " : "", meant ? meant : "", meant ? "? " : "");
 }
 
 /* Makes a material that is not woven a plain one of cotton, as a material file does: without a sheen. */

@@ -148,6 +148,7 @@ static void draw_map(const Viewer *v, WeftInput *input, const char *name) {
     snprintf(label, sizeof label, "times %.60s",
              texture <= v->shown->facts.map_count ? v->shown->facts.maps[texture - 1] : "a map");
     ui_text(label);
+    ui_tip(texture <= v->shown->facts.map_count ? v->shown->facts.maps[texture - 1] : NULL);
     ui_indent_end();
 }
 
@@ -159,6 +160,7 @@ static void draw_input(Viewer *v, WeftMaterial *m, int k, bool reads) {
     label_make(info.name, weft_material_input_label(k), label);
     const float initial[3] = {info.initial, info.initial, info.initial};
     ui_faint(!reads);
+    ui_leave_room();
     bool changed = info.kind == WEFT_INPUT_COLOR ? ui_color(label, initial, input->value)
                                                  : draw_number(&info, label, input->value);
     ui_faint_end();

@@ -362,7 +362,7 @@ static const char *const help_lines[][2] = {
     {"Right drag", "look around"},
     {"Ctrl + left drag", "turn the environment"},
     {"Click", "choose the material that is there"},
-    {"W A S D, Q E (by place: Z Q S D, A E on AZERTY)", "fly; Q and E go down and up"},
+    {"W A S D, Q E by their places (AZERTY: Z Q S D, A E)", "fly; Q and E go down and up"},
     {"Shift", "flies four times as fast"},
     {"F, Home", "frame all; the first camera"},
     {"F6, F10", "next panel, menus: then arrows, Space, Enter; Escape ends"},
@@ -384,11 +384,11 @@ static const char *const help_lines[][2] = {
 static void draw_help(Viewer *v) {
     if (!v->states->dialogs.help) return;
     float s = ui_scale();
-    if (ui_window("Keys and mouse", (UiBox){60.0f * s, 80.0f * s, 640.0f * s, 540.0f * s}, &v->states->dialogs.help))
+    if (ui_window("Keys and mouse", (UiBox){60.0f * s, 60.0f * s, 800.0f * s, 560.0f * s}, &v->states->dialogs.help))
         for (size_t k = 0; k < sizeof help_lines / sizeof *help_lines; k++) {
             ui_text(help_lines[k][0]);
-            ui_column(0.55f);
-            ui_text(help_lines[k][1]);
+            ui_column(0.5f);
+            ui_wrapped(help_lines[k][1]);
         }
     ui_window_end();
 }

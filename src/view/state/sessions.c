@@ -23,6 +23,7 @@ static const Member option_members[] = {RECORD_WHOLE(ViewOptions, mode, MODE_DIF
                                         RECORD_SWITCH(ViewOptions, floor.on),
                                         RECORD_FLOATS(ViewOptions, floor.reflection, 1),
                                         RECORD_FLOATS(ViewOptions, floor.roughness, 1),
+                                        RECORD_SWITCH(ViewOptions, stage),
                                         RECORD_SWITCH(ViewOptions, hide_lights),
                                         RECORD_WHOLE(ViewOptions, tonemap, WEFT_TONEMAP_COUNT - 1),
                                         RECORD_FLOATS(ViewOptions, exposure, 1),

@@ -13,7 +13,15 @@ static const struct {
 } places[] = {{"workflow", "workflows/"}, {"profile", "profiles/"}, {"diffuse", "lobes/"},    {"d", "terms/d_"},
               {"v", "terms/v_"},          {"f", "terms/f_"},        {"sheen_lobe", "lobes/"}, {"layer", "layers/"}};
 
-/* Copies the first comment without its stars, up to LINES lines. */
+/* Returns what follows a line's end in a comment: past the blanks and the star. */
+static const char *next_line(const char *p) {
+    while (*p == ' ') p++;
+    if (*p == '*' && p[1] != '/') p += p[1] == ' ' ? 2 : 1;
+    return p;
+}
+
+/* Copies the first comment without its stars, up to LINES lines. Lines of one paragraph become one, since the tip wraps it;
+ * lines that are indented, such as formulas, stay. */
 static void first_comment(const char *text, char *out, size_t size) {
     enum { LINES = 16 };
     size_t used = 0;
@@ -22,12 +30,10 @@ static void first_comment(const char *text, char *out, size_t size) {
     out[0] = '\0';
     while (*p && strncmp(p, "*/", 2) != 0 && used + 2 < size && lines < LINES) {
         if (*p == '\n') {
-            out[used++] = '\n';
+            p = next_line(p + 1);
+            const bool blank = used && out[used - 1] == '\n';
+            out[used++] = blank || *p == '\n' || *p == ' ' ? '\n' : ' ';
             lines++;
-            p++;
-            while (*p == ' ') p++;
-            if (strncmp(p, "*/", 2) == 0) break;
-            if (*p == '*') p += p[1] == ' ' ? 2 : 1;
         } else {
             out[used++] = *p++;
         }

@@ -27,6 +27,7 @@ struct Ui {
     std::string panel;                       /* panel with the keyboard; "": none */
     bool to_menus = false, to_panel = false; /* moves the keyboard there in the next frame */
     bool navigates = false;
+    bool leaves_room = false;                /* the next label leaves it for a small button */
     bool noted = false;                      /* the previous widget is the last control recorded */
     bool searches = false, searched = false; /* the field of ui_search is edited; and was, a frame ago */
     ImDrawList *list = nullptr;              /* target of drawing; NULL: the current window's */
@@ -34,6 +35,8 @@ struct Ui {
 };
 
 Ui *ui;
+
+const float names_share = 0.45f; /* of the width, for the column of names */
 
 ImDrawList *canvas() { return ui->list ? ui->list : ImGui::GetWindowDrawList(); }
 
@@ -96,16 +99,44 @@ void note_panel(const char *name) {
     GImGui->NavDisableHighlight = false;
 }
 
-/* Labels stand left of widgets: a column of names, one of values. */
+float dots_width() { return ImGui::CalcTextSize("...").x + 2.0f * ImGui::GetStyle().FramePadding.x; }
+
+void show_tip(const char *text, unsigned texture, float side) {
+    ImGui::BeginTooltip();
+    if (texture) ImGui::Image(reinterpret_cast<ImTextureID>(static_cast<size_t>(texture)), at(side, side));
+    const float widest = 0.6f * ImGui::GetIO().DisplaySize.x;
+    ImGui::PushTextWrapPos(std::fmin(36.0f * ImGui::GetFontSize(), widest));
+    ImGui::TextUnformatted(text);
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+}
+
+/* Shortens a text, which is UTF-8, to a width; an ellipsis marks that it is. */
+std::string shortened(const std::string &text, float width) {
+    std::string part = text;
+    if (ImGui::CalcTextSize(part.c_str()).x <= width) return part;
+    while (!part.empty() && ImGui::CalcTextSize((part + "\u2026").c_str()).x > width) {
+        while (!part.empty() && (part.back() & 0xC0) == 0x80) part.pop_back();
+        if (!part.empty()) part.pop_back();
+    }
+    return part + "\u2026";
+}
+
+/* Labels stand left of widgets: a column of names, one of values. A name that is too long is shortened, and shown in full
+ * where the mouse rests on it. */
 void labelled(const char *label) {
-    float left = 0.40f * ImGui::GetWindowContentRegionMax().x;
+    float left = names_share * ImGui::GetWindowContentRegionMax().x;
     std::string text = visible(label);
     if (text.empty()) {
         ImGui::SetNextItemWidth(-1.0f);
         return;
     }
+    const float gap = ImGui::GetStyle().ItemSpacing.x, room = left - ImGui::GetCursorPosX() - 0.75f * gap;
+    const std::string part = shortened(text, ui->leaves_room ? room - dots_width() : room);
+    ui->leaves_room = false;
     ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted(text.c_str());
+    ImGui::TextUnformatted(part.c_str());
+    if (part != text && ImGui::IsItemHovered() && !ImGui::IsMouseDown(0)) show_tip(text.c_str(), 0, 0.0f);
     ImGui::SameLine(left);
     ImGui::SetNextItemWidth(-1.0f);
 }
@@ -313,8 +344,12 @@ bool ui_panel(const char *name, UiBox box, bool scrolls) {
 void ui_panel_end(void) { ImGui::End(); }
 
 bool ui_window(const char *name, UiBox first, bool *open) {
-    ImGui::SetNextWindowPos(at(first.x, first.y), ImGuiCond_FirstUseEver);
-    ImGui::SetNextWindowSize(at(first.width, first.height), ImGuiCond_FirstUseEver);
+    const ImVec2 screen = ImGui::GetIO().DisplaySize;
+    const float width = std::fmin(first.width, screen.x - 20.0f), height = std::fmin(first.height, screen.y - 20.0f);
+    ImGui::SetNextWindowPos(
+        at(std::fmin(first.x, screen.x - width - 10.0f), std::fmin(first.y, screen.y - height - 10.0f)),
+        ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowSize(at(width, height), ImGuiCond_FirstUseEver);
     bool shown = ImGui::Begin(name, open, ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings);
     note_panel(name);
     return shown;
@@ -395,9 +430,10 @@ bool ui_menu_item(const char *label, const char *shortcut, bool checked, bool en
 
 void ui_same_line(void) { ImGui::SameLine(); }
 void ui_column(float fraction) { ImGui::SameLine(fraction * ImGui::GetWindowContentRegionMax().x); }
+void ui_leave_room(void) { ui->leaves_room = true; }
 void ui_beside(void) {
-    float width = ImGui::CalcTextSize("...").x + 2.0f * ImGui::GetStyle().FramePadding.x;
-    ImGui::SameLine(0.40f * ImGui::GetWindowContentRegionMax().x - width - 0.5f * ImGui::GetStyle().ItemSpacing.x);
+    ImGui::SameLine(names_share * ImGui::GetWindowContentRegionMax().x - dots_width() -
+                    0.5f * ImGui::GetStyle().ItemSpacing.x);
 }
 void ui_rule(void) { ImGui::Separator(); }
 void ui_disabled(bool disabled) { ImGui::BeginDisabled(disabled); }
@@ -405,10 +441,10 @@ void ui_disabled_end(void) { ImGui::EndDisabled(); }
 void ui_faint(bool faint) { ImGui::PushStyleVar(ImGuiStyleVar_Alpha, faint ? 0.42f : 1.0f); }
 void ui_faint_end(void) { ImGui::PopStyleVar(); }
 void ui_indent(void) {
-    ImGui::Indent(0.40f * ImGui::GetWindowContentRegionMax().x - ImGui::GetStyle().WindowPadding.x);
+    ImGui::Indent(names_share * ImGui::GetWindowContentRegionMax().x - ImGui::GetStyle().WindowPadding.x);
 }
 void ui_indent_end(void) {
-    ImGui::Unindent(0.40f * ImGui::GetWindowContentRegionMax().x - ImGui::GetStyle().WindowPadding.x);
+    ImGui::Unindent(names_share * ImGui::GetWindowContentRegionMax().x - ImGui::GetStyle().WindowPadding.x);
 }
 
 void ui_text(const char *text) { ImGui::TextUnformatted(text); }
@@ -432,13 +468,7 @@ void ui_tip(const char *text) { ui_tip_picture(text, 0, 0.0f); }
 void ui_tip_picture(const char *text, unsigned texture, float side) {
     if (text && *text && ui->noted) ui->shown.back().explained = true;
     if (!text || !*text || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
-    if (ImGui::IsMouseDown(0)) return;
-    ImGui::BeginTooltip();
-    if (texture) ImGui::Image(reinterpret_cast<ImTextureID>(static_cast<size_t>(texture)), at(side, side));
-    ImGui::PushTextWrapPos(26.0f * ImGui::GetFontSize());
-    ImGui::TextUnformatted(text);
-    ImGui::PopTextWrapPos();
-    ImGui::EndTooltip();
+    if (!ImGui::IsMouseDown(0)) show_tip(text, texture, side);
 }
 
 bool ui_button(const char *label) {

@@ -112,6 +112,7 @@ bool ui_menu_item(const char *label, const char *shortcut, bool checked, bool en
 
 void ui_same_line(void);
 void ui_column(float fraction); /* continues in this row at that fraction of the width */
+void ui_leave_room(void);       /* the next name leaves room for what ui_beside puts there */
 void ui_beside(void);           /* puts the next, a small button, at the end of this row's column of names */
 void ui_rule(void);
 void ui_disabled(bool disabled);
