@@ -158,7 +158,8 @@ typedef struct FarColors {
     Rgb warp_single, warp_multiple, weft_single, weft_multiple;
 } FarColors;
 
-/* Returns the colours of the texel at `at` of a level whose layers have so many floats, with dye times as much dye, worn. */
+/* Returns the colours of the texel at `at` of a level whose layers have so many floats, with dye times as much dye, and
+ * worn. */
 FN FarColors far_colors(const Weave *m, const float *texels, int at, int layer, float warp_dye, float weft_dye,
                         float wear) {
     float warp_covers = texels[at + 3], weft_covers = texels[at + FAR_WEFT_SINGLE * layer + 3];

@@ -94,9 +94,9 @@ FN WeaveBase weave_near(const Weave *m, WeavePoint p, float wear) {
     return b;
 }
 
-/* Return the part c of a colour with dye times as much dye: of light that met one fibre, whose share `white` has no dye,
- * and of all other light, in which rho(A) of yarn_medium.h is solved for the albedo A. covers: the share of the cloth
- * that reflects c. Crowns get more than their share of light, so c may be greater. */
+/* Return the part c of a colour with dye times as much dye: of light that met one fibre, whose share `white` has no
+ * dye, and of all other light, in which rho(A) of yarn_medium.h is solved for the albedo A. covers: the share of the
+ * cloth that reflects c. Crowns get more than their share of light, so c may be greater. */
 FN float weave_dyed_single(float c, float covers, float white, float dye) {
     float most = max(max(covers, c), 1e-6f), undyed = min(white, c / most);
     return most * (undyed + weave_dyed(c / most - undyed, dye));

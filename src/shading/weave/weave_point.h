@@ -163,8 +163,8 @@ FN float weave_noise_over(float seed, float octave, float x, float y) {
 
 /* Returns the factor on the amount of dye at u, v, as for weave_thread, that varies over many threads: in bars across
  * the system, where one lot of the yarn ends and the next begins, and in patches, which both systems share. Bars have
- * three octaves and patches two. A cloth that repeats has neither. width, length: of the footprint across the threads and
- * along them, in threads and in crossings. */
+ * three octaves and patches two. A cloth that repeats has neither. width, length: of the footprint across the threads
+ * and along them, in threads and in crossings. */
 FN float weave_lot_dye(const Weave *m, WeaveYarn y, bool weft, float u, float v, float width, float length) {
     float bars = 0.0f, nodes = y.barre_nodes, row = weft ? 3.0f : 0.0f;
     ROUNDS(k, 3) {
