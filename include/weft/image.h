@@ -48,6 +48,13 @@ WEFT_API WeftResult weft_image_read(const char *path, WeftImage *out, const Weft
 WEFT_API WeftResult weft_image_read_memory(const void *data, size_t size, const char *name, WeftImage *out,
                                            const WeftLog *log, WeftError *error);
 
+/* Reads count channels, 1 to 4, of an .exr by their full names, such as "albedo.R", as the floats of the file: nothing
+ * is divided by alpha, converted or repaired, so that what WeftImageLayer wrote is read bit by bit. comment (may be
+ * NULL) becomes the attribute "comments", NULL where there is none; release it with free. Fails as weft_image_read, and
+ * with WEFT_MESSAGE_IMAGE_FORMAT where the file is no .exr or _IMAGE_UNSUPPORTED where it lacks a channel. */
+WEFT_API WeftResult weft_image_read_channels(const char *path, const char *const *channels, int count, WeftImage *out,
+                                             char **comment, WeftError *error);
+
 /* Writes by suffix: .png (U8 or U16 as the image is; F32 is refused: tone-map first), .exr (F32, half float,
  * ZIP), .hdr (F32, RGBE, no alpha), .npy (F32, as it is). The file appears complete or not at all. */
 WEFT_API WeftResult weft_image_write(const char *path, const WeftImage *image, WeftError *error);

@@ -6,6 +6,7 @@
 #define WEFT_SCENE_PUBLIC_H
 
 #include <stddef.h>
+#include <stdint.h>
 
 #include "weft/progress.h"
 #include "weft/result.h"
@@ -45,6 +46,10 @@ typedef struct WeftSceneInfo {
 
 /* Returns the present counts and extent of a scene. */
 WEFT_API WeftSceneInfo weft_scene_info(const WeftScene *scene);
+
+/* Returns a hash of all that a picture of the scene depends on, as it is now: shapes, materials and their textures,
+ * lights, environment and cameras. Equal scenes have equal hashes on every machine of one byte order. */
+WEFT_API uint64_t weft_scene_hash(const WeftScene *scene);
 
 /* Returns names by index; "" where the file gives none, NULL out of range. Owned by the scene. */
 WEFT_API const char *weft_scene_material_name(const WeftScene *scene, int index);

@@ -2,7 +2,7 @@
 # flake8: noqa
 # mypy: ignore-errors
 from ctypes import (CFUNCTYPE, POINTER, Structure, c_char, c_char_p, c_double, c_float, c_int,
-                    c_longlong, c_size_t, c_uint, c_uint32, c_void_p)
+                    c_longlong, c_size_t, c_uint, c_uint32, c_uint64, c_void_p)
 
 VERSION = "0.1.0"
 ABI = 0
@@ -98,6 +98,13 @@ class WeftImageLayer(Structure):
     ]
 
 
+class WeftImageText(Structure):
+    _fields_ = [
+        ("name", c_char_p),
+        ("text", c_char_p),
+    ]
+
+
 class WeftImageWriting(Structure):
     _fields_ = [
         ("data", c_int),
@@ -106,7 +113,17 @@ class WeftImageWriting(Structure):
         ("denoised", c_char_p),
         ("layers", POINTER(WeftImageLayer)),
         ("layer_count", c_int),
+        ("texts", POINTER(WeftImageText)),
+        ("text_count", c_int),
         ("isa", c_char_p),
+    ]
+
+
+class WeftTone(Structure):
+    _fields_ = [
+        ("curve", c_int),
+        ("exposure", c_float),
+        ("white", (c_float * 2)),
     ]
 
 
@@ -412,7 +429,7 @@ class WeftClothInfo(Structure):
         ("sett", (c_float * 2)),
         ("metres", c_float),
         ("automatic", c_int),
-        ("turn", c_float),
+        ("rotation", c_float),
         ("relief", c_float),
         ("seed", c_int),
     ]
@@ -840,6 +857,8 @@ class WeftRenderDesc(Structure):
         ("hide_lights", c_int),
         ("halves", c_int),
         ("first_hits", c_int),
+        ("places", c_int),
+        ("mattes", c_int),
         ("noise", c_float),
         ("stages", c_int),
         ("no_lift", c_int),
@@ -864,6 +883,15 @@ class WeftRenderStage(Structure):
         ("name", c_char_p),
         ("seconds", c_double),
         ("embree", c_int),
+    ]
+
+
+class WeftRenderLayers(Structure):
+    _fields_ = [
+        ("layers", POINTER(WeftImageLayer)),
+        ("layer_count", c_int),
+        ("texts", POINTER(WeftImageText)),
+        ("text_count", c_int),
     ]
 
 
@@ -910,6 +938,7 @@ class WeftRasterShow(Structure):
         ("background", (c_float * 3)),
         ("tonemap", c_int),
         ("exposure", c_float),
+        ("white", (c_float * 2)),
     ]
 
 
@@ -970,7 +999,7 @@ CONSTANTS = {
     "WEFT_LOBE_TABLE": 128,
     "WEFT_LOBE_TINTED": 256,
     "WEFT_LOBE_SYSTEM": 512,
-    "WEFT_IMAGE_LAYERS": 16,
+    "WEFT_IMAGE_LAYERS": 32,
     "WEFT_THREADS_MAX": 256,
     "WEFT_TABLE_FORM_TEXT": 80,
     "WEFT_BAKE_TEXELS_MAX": 16777216,
@@ -1007,6 +1036,7 @@ CONSTANTS = {
     "WEFT_PLOT_LEGEND_MAX": 24,
     "WEFT_HALVES_INDEPENDENT": 1,
     "WEFT_HALVES_SHARED": 2,
+    "WEFT_CAMERA_TEXT": 256,
     "WEFT_CHANGED_MATERIALS": 1,
     "WEFT_CHANGED_LIGHTS": 2,
     "WEFT_CHANGED_SHAPES": 4,
@@ -1114,6 +1144,7 @@ ENUMS = {
         "pbr-neutral": 0,
         "aces": 1,
         "none": 2,
+        "agx": 3,
     },
     "WeftTableFault": {
         "none": 0,
@@ -1195,6 +1226,8 @@ ENUMS = {
         "part-ignored": 36,
         "part-repaired": 37,
         "rest-pose": 38,
+        "scene-empty": 39,
+        "uv-uneven": 40,
     },
     "WeftFindingOf": {
         "asset": 0,
@@ -1303,6 +1336,10 @@ ENUMS = {
         "depth": 2,
         "variance": 3,
         "samples": 4,
+        "position": 5,
+        "uv": 6,
+        "object": 7,
+        "material": 8,
     },
     "WeftDenoiser": {
         "regression": 0,
@@ -1325,6 +1362,7 @@ CHOICES = {
     ("WeftError", "result"): "WeftResult",
     ("WeftError", "message"): "WeftMessage",
     ("WeftImage", "type"): "WeftPixelType",
+    ("WeftTone", "curve"): "WeftTonemap",
     ("WeftAudit", "part"): "WeftTablePart",
     ("WeftAudit_found", "fault"): "WeftTableFault",
     ("WeftAlbedoFormDesc", "part"): "WeftTablePart",
@@ -1390,13 +1428,20 @@ CALLS = {
     "weft_image_free": (None, (POINTER(WeftImage),)),
     "weft_image_read": (c_int, (c_char_p, POINTER(WeftImage), POINTER(WeftLog), POINTER(WeftError),)),
     "weft_image_read_memory": (c_int, (c_void_p, c_size_t, c_char_p, POINTER(WeftImage), POINTER(WeftLog), POINTER(WeftError),)),
+    "weft_image_read_channels": (c_int, (c_char_p, c_void_p, c_int, POINTER(WeftImage), c_void_p, POINTER(WeftError),)),
     "weft_image_write": (c_int, (c_char_p, POINTER(WeftImage), POINTER(WeftError),)),
     "weft_image_write_as": (c_int, (c_char_p, POINTER(WeftImage), POINTER(WeftImageWriting), POINTER(WeftError),)),
     "weft_image_suffix_known": (c_int, (c_char_p,)),
     "weft_image_suffix_linear": (c_int, (c_char_p,)),
     "weft_image_convert_f32": (c_int, (POINTER(WeftImage), c_int, POINTER(WeftImage), POINTER(WeftError),)),
+    "weft_tonemap_name": (c_char_p, (c_int,)),
+    "weft_image_show": (c_int, (POINTER(WeftImage), POINTER(WeftTone), c_void_p, POINTER(WeftImage), POINTER(WeftError),)),
     "weft_image_tonemap": (c_int, (POINTER(WeftImage), c_int, c_float, POINTER(WeftImage), POINTER(WeftError),)),
     "weft_image_tonemap_over": (c_int, (POINTER(WeftImage), c_int, c_float, c_void_p, POINTER(WeftImage), POINTER(WeftError),)),
+    "weft_image_meter": (c_float, (POINTER(WeftImage),)),
+    "weft_image_find_white": (None, (POINTER(WeftImage), c_void_p,)),
+    "weft_white": (None, (c_float, c_float, c_void_p,)),
+    "weft_white_matrix": (None, (c_void_p, c_void_p,)),
     "weft_table_form_name": (c_char_p, (c_int,)),
     "weft_table_form_help": (c_char_p, (c_int,)),
     "weft_table_form_at": (WeftTableForm, (c_int,)),
@@ -1422,6 +1467,7 @@ CALLS = {
     "weft_builtin_name": (c_char_p, (c_int,)),
     "weft_builtin_help": (c_char_p, (c_int,)),
     "weft_scene_info": (WeftSceneInfo, (c_void_p,)),
+    "weft_scene_hash": (c_uint64, (c_void_p,)),
     "weft_scene_material_name": (c_char_p, (c_void_p, c_int,)),
     "weft_scene_camera_name": (c_char_p, (c_void_p, c_int,)),
     "weft_scene_variant_name": (c_char_p, (c_void_p, c_int,)),
@@ -1587,6 +1633,7 @@ CALLS = {
     "weft_plot_write": (c_int, (POINTER(WeftPlotDesc), c_char_p, POINTER(WeftError),)),
     "weft_plot_report": (c_int, (POINTER(WeftPlotDesc), c_char_p, POINTER(WeftError),)),
     "weft_scene_stage": (WeftFloor, (c_void_p,)),
+    "weft_camera_turned": (None, (c_void_p, c_void_p, c_float, c_int, c_int, c_void_p,)),
     "weft_render_create": (c_int, (c_void_p, POINTER(WeftRenderDesc), c_void_p, POINTER(WeftError),)),
     "weft_render_restart": (c_int, (c_void_p, POINTER(WeftRenderDesc), c_uint, POINTER(WeftError),)),
     "weft_render_free": (None, (c_void_p,)),
@@ -1596,7 +1643,10 @@ CALLS = {
     "weft_render_image": (c_int, (c_void_p, POINTER(WeftImage), POINTER(WeftError),)),
     "weft_render_noise": (c_double, (c_void_p,)),
     "weft_aov_name": (c_char_p, (c_int,)),
+    "weft_render_record": (None, (POINTER(WeftRenderDesc), c_uint,)),
     "weft_render_aov": (c_int, (c_void_p, c_int, POINTER(WeftImage), POINTER(WeftError),)),
+    "weft_render_layers": (c_int, (c_void_p, c_uint, POINTER(WeftRenderLayers), POINTER(WeftError),)),
+    "weft_render_layers_free": (None, (POINTER(WeftRenderLayers),)),
     "weft_denoiser_name": (c_char_p, (c_int,)),
     "weft_denoiser_check": (c_int, (c_int, POINTER(WeftError),)),
     "weft_render_denoised": (c_int, (c_void_p, c_int, POINTER(WeftImage), POINTER(WeftError),)),

@@ -44,6 +44,10 @@ WeftResult image_read_jpeg(const ImageSource *source, WeftImage *out, WeftError 
 WeftResult image_read_tga(const ImageSource *source, WeftImage *out, WeftError *error);
 WeftResult image_read_hdr(const ImageSource *source, WeftImage *out, WeftError *error);
 WeftResult image_read_exr(const ImageSource *source, WeftImage *out, WeftError *error);
+
+/* Reads channels of an OpenEXR file by name, as weft_image_read_channels does. */
+WeftResult image_read_exr_channels(const ImageSource *source, const char *const *channels, int count, WeftImage *out,
+                                   char **comment, WeftError *error);
 WeftResult image_read_dds(const ImageSource *source, WeftImage *out, WeftError *error);
 WeftResult image_read_tiff(const ImageSource *source, WeftImage *out, WeftError *error); /* where libtiff is */
 WeftResult image_read_npy(const ImageSource *source, WeftImage *out, WeftError *error);

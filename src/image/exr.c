@@ -90,6 +90,8 @@ typedef struct Exr {
     exr_attr_box2i_t data, display; /* windows, inclusive */
     exr_compression_t compression;
     const exr_attr_chlist_t *channels;
+    const char *const *wanted; /* names of the channels to read, as they are; NULL: those of the picture */
+    int wanted_count;
     ExrPick pick;
     int64_t pixel_bytes; /* of all the file's channels */
     bool tiled;
@@ -116,7 +118,20 @@ static int flat_part(exr_context_t context, int *count) {
     return -1;
 }
 
-/* Picks the picture's channels. Refuses subsampled channels, which luminance-chroma files have and which would change
+/* Picks the channels that are wanted, by their full names. */
+static WeftResult wanted_pick(Exr *exr, WeftError *error) {
+    exr->pick = (ExrPick){.from = {-1, -1, -1, -1}, .count = exr->wanted_count};
+    for (int c = 0; c < exr->wanted_count; c++) {
+        for (int i = 0; i < exr->channels->num_channels; i++)
+            if (strcmp(exr->channels->entries[i].name.str, exr->wanted[c]) == 0) exr->pick.from[c] = i;
+        if (exr->pick.from[c] < 0)
+            return fail(error, WEFT_MESSAGE_IMAGE_UNSUPPORTED, exr->source->name, "EXR: it has no channel %s",
+                        exr->wanted[c]);
+    }
+    return WEFT_OK;
+}
+
+/* Picks the picture's channels, or those that are wanted. Refuses subsampled channels, which luminance-chroma files have and which would change
  * the order of the values in a chunk. */
 static WeftResult exr_channels(Exr *exr, WeftError *error) {
     const char *name = exr->source->name;
@@ -131,6 +146,7 @@ static WeftResult exr_channels(Exr *exr, WeftError *error) {
             return fail(error, WEFT_MESSAGE_IMAGE_UNSUPPORTED, name, "EXR: subsampled channels; convert it to R G B");
         exr->pixel_bytes += value_bytes(entry->pixel_type);
     }
+    if (exr->wanted) return wanted_pick(exr, error);
     if (!exr_pick(channels, &exr->pick))
         return fail(error, WEFT_MESSAGE_IMAGE_UNSUPPORTED, name,
                     "EXR: no channels R G B, red green blue, X Y Z, Y or V; rename those of its picture");
@@ -351,6 +367,7 @@ static WeftResult exr_decode(Exr *exr, const ExrJob *job, WeftImage *out, WeftEr
         if (exr->pipeline.channels) exr_decoding_destroy(exr->context, &exr->pipeline);
         if (status != EXR_ERR_SUCCESS) return exr_refuse(job, status, error);
     }
+    if (exr->wanted) return WEFT_OK;
     alpha_straighten(out);
     image_repair(exr->source, out);
     colors_convert(exr, out);
@@ -360,9 +377,23 @@ static WeftResult exr_decode(Exr *exr, const ExrJob *job, WeftImage *out, WeftEr
     return WEFT_OK;
 }
 
-WeftResult image_read_exr(const ImageSource *source, WeftImage *out, WeftError *error) {
+/* Copies the attribute of comments, NULL where there is none; returns false if memory is short. */
+static bool comment_copy(const Exr *exr, char **comment) {
+    const exr_attribute_t *attribute = NULL;
+    *comment = NULL;
+    if (exr_get_attribute_by_name(exr->context, exr->part, "comments", &attribute) != EXR_ERR_SUCCESS ||
+        attribute->type != EXR_ATTR_STRING || !attribute->string->str)
+        return true;
+    const size_t length = (size_t)attribute->string->length;
+    *comment = alloc_array(length + 1, 1);
+    if (*comment) memcpy(*comment, attribute->string->str, length);
+    return *comment != NULL;
+}
+
+/* Reads the picture, or the channels that are wanted and the comment. */
+static WeftResult exr_read(Exr *exr, WeftImage *out, char **comment, WeftError *error) {
+    const ImageSource *source = exr->source;
     ExrJob job = {.source = source};
-    Exr exr = {.source = source};
     exr_context_initializer_t setup = exr_job_setup(&job);
     setup.read_fn = exr_job_read;
     setup.size_fn = exr_job_size;
@@ -370,12 +401,25 @@ WeftResult image_read_exr(const ImageSource *source, WeftImage *out, WeftError *
     setup.max_tile_width = setup.max_tile_height = IMAGE_SIDE_MAX;
     setup.flags = EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION; /* a cut file is damaged, not half an image */
     memory_begin();
-    exr_result_t status = exr_start_read(&exr.context, source->name, &setup);
+    exr_result_t status = exr_start_read(&exr->context, source->name, &setup);
     if (status != EXR_ERR_SUCCESS) return exr_refuse(&job, status, error);
-    WeftResult result = exr_decode(&exr, &job, out, error);
-    exr_finish(&exr.context);
+    WeftResult result = exr_decode(exr, &job, out, error);
+    if (result == WEFT_OK && comment && !comment_copy(exr, comment))
+        result = fail(error, WEFT_MESSAGE_MEMORY, source->name, NULL);
+    exr_finish(&exr->context);
     if (result != WEFT_OK) weft_image_free(out);
     return result;
+}
+
+WeftResult image_read_exr(const ImageSource *source, WeftImage *out, WeftError *error) {
+    Exr exr = {.source = source};
+    return exr_read(&exr, out, NULL, error);
+}
+
+WeftResult image_read_exr_channels(const ImageSource *source, const char *const *channels, int count, WeftImage *out,
+                                   char **comment, WeftError *error) {
+    Exr exr = {.source = source, .wanted = channels, .wanted_count = count};
+    return exr_read(&exr, out, comment, error);
 }
 
 /* Writing. */

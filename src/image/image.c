@@ -165,6 +165,23 @@ WeftResult weft_image_read(const char *path, WeftImage *out, const WeftLog *log,
     return result;
 }
 
+WeftResult weft_image_read_channels(const char *path, const char *const *channels, int count, WeftImage *out,
+                                    char **comment, WeftError *error) {
+    *out = (WeftImage){0};
+    if (comment) *comment = NULL;
+    if (count < 1 || count > 4) return fail(error, WEFT_MESSAGE_DESC, path, "%d channels; 1 to 4", count);
+    FileBytes file;
+    WeftResult result = file_read(path, (size_t)1 << 30, &file, error);
+    if (result != WEFT_OK) return result;
+    const ImageSource source = {.data = file.data, .size = file.size, .name = path};
+    const Format *format = format_of_bytes(file.data, file.size);
+    result = format->read == image_read_exr
+                 ? image_read_exr_channels(&source, channels, count, out, comment, error)
+                 : fail(error, WEFT_MESSAGE_IMAGE_FORMAT, path, "only an .exr has channels with names");
+    free(file.data);
+    return result;
+}
+
 bool image_suffix_read(const char *path) {
     static const char *const suffixes[] = {".png", ".jpg", ".jpeg", ".tga", ".hdr", ".exr", ".tif", ".tiff"};
     const bool tiff = format_of_bytes((const unsigned char *)"II*", 4)->read != NULL;

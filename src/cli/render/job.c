@@ -8,6 +8,7 @@
 #include "cli/console/interrupt.h"
 #include "cli/console/progress.h"
 #include "cli/files/save.h"
+#include "cli/render/picture_part.h"
 #include "weft/weft.h"
 
 /* Loads the scene, and assigns its materials and lights. */
@@ -76,6 +77,7 @@ static WeftResult trace(Job *job, const char *camera, WeftError *error) {
     desc.camera = camera;
     desc.floor = floor_of(job);
     if (interrupt_seen()) return nothing_gathered(error);
+    if (job->request->chunk_count) return picture_part_trace(job, &desc, error);
     WeftResult result = weft_render_create(job->scene, &desc, &render, error);
     if (result == WEFT_OK && interrupt_seen()) result = nothing_gathered(error);
     if (result == WEFT_OK) result = gather(job, render, error);
@@ -201,7 +203,7 @@ static void meter(Job *job) {
 
 /* Makes the picture as displayed; a colour is laid behind what is displayed, where neither curve nor exposure
  * changes it, and behind what is linear. */
-static WeftResult finish(Job *job, WeftError *error) {
+WeftResult job_finish(Job *job, WeftError *error) {
     const SceneOptions *scene_options = &job->request->scene_options;
     bool color = scene_options->background == WEFT_BACKGROUND_COLOR && job->request->part == WEFT_PART_ALL;
     meter(job);
@@ -215,6 +217,7 @@ static void free_images(Job *job) {
     weft_image_free(&job->linear);
     weft_image_free(&job->display);
     weft_render_layers_free(&job->layers);
+    picture_part_free(&job->part);
 }
 
 WeftResult job_draw(Job *job, const char *camera, WeftError *error) {
@@ -222,7 +225,7 @@ WeftResult job_draw(Job *job, const char *camera, WeftError *error) {
     job->noise = -1.0;
     camera = camera_of(job, camera);
     WeftResult result = job->engine == ENGINE_RASTER ? raster(job, camera, error) : trace(job, camera, error);
-    return result == WEFT_OK ? finish(job, error) : result;
+    return result == WEFT_OK && !job->request->chunk_count ? job_finish(job, error) : result;
 }
 
 WeftResult job_run(Job *job, WeftError *error) {
@@ -244,12 +247,17 @@ void job_free(Job *job) {
 
 WeftResult job_write(const Job *job, const char *number, WeftError *error) {
     const Request *request = job->request;
+    WeftImageLayer merged[WEFT_IMAGE_LAYERS];
+    if (request->chunk_count) return picture_part_write(job, error);
+    const int count = picture_part_layers(&job->part, merged);
     const Outputs outputs = {&job->linear,
                              &job->display,
                              {.denoised = request->denoise ? weft_denoiser_name((int)request->denoiser) : NULL,
-                              .isa = job->engine == ENGINE_TRACE ? weft_isa() : NULL,
-                              .layers = job->layers.layers,
-                              .layer_count = job->layers.layer_count,
+                              .isa = *job->part.isa                ? job->part.isa
+                                     : job->engine == ENGINE_TRACE ? weft_isa()
+                                                                   : NULL,
+                              .layers = count ? merged : job->layers.layers,
+                              .layer_count = count ? count : job->layers.layer_count,
                               .texts = job->layers.texts,
                               .text_count = job->layers.text_count}};
     return request_outputs_write(request, number, &outputs, error);

@@ -5,7 +5,16 @@
 #include "cli/console/report.h"
 #include "cli/render/request.h"
 
-enum { JOB_STAGES = 32 };
+enum { JOB_STAGES = 32, PART_LAYERS = WEFT_IMAGE_LAYERS - 1, PART_NAME = 32 };
+
+/* What picture_part.h knows of a part of a picture, or of a picture that was merged. */
+typedef struct PicturePart {
+    char words[2048]; /* of the picture that it belongs to */
+    char isa[16];     /* the instruction set of a picture that was merged; empty: that in use */
+    int layer_count;
+    WeftImage layers[PART_LAYERS]; /* AOVs, owned, of the whole picture's size */
+    char names[PART_LAYERS][4][PART_NAME];
+} PicturePart;
 
 typedef struct Job {
     const Request *request;
@@ -28,10 +37,14 @@ typedef struct Job {
     double load_seconds;
     int width, height; /* of the picture after cropping */
     bool interrupted;
+    PicturePart part; /* of a picture in parts */
 } Job;
 
 /* Loads the scene and applies materials and lights. */
 WeftResult job_open(Job *job, WeftError *error);
+
+/* Makes the picture as displayed from the linear one, of the options of the request. */
+WeftResult job_finish(Job *job, WeftError *error);
 
 /* Writes the picture; number as for request_outputs_write. */
 WeftResult job_write(const Job *job, const char *number, WeftError *error);

@@ -33,6 +33,12 @@ const Option request_options[] = {
     OPTION_WHOLE("--turntable", "COUNT", NULL, 1, 10000,
                  "so many pictures on a circle around the scene; OUT gets a number before its suffix"),
 
+    OPTION_HEADING("Several machines"),
+    OPTION_TEXT(
+        "--chunk", "I/N", NULL,
+        "path trace part I of N of the picture, counted from 1, to an .exr; `weft merge` joins the parts to the "
+        "bytes of one run"),
+
     OPTION_HEADING("Engine"),
     OPTION_TEXT("--engine", "ENGINE", "trace",
                 "trace, the reference; raster, OpenGL; or both on a sheet, with their difference"),
@@ -226,13 +232,47 @@ static bool read_extras(const Options *options, Request *request) {
     return true;
 }
 
+/* Reads the part of the picture, and refuses what cannot be done in parts. */
+static bool read_chunk(const Options *options, Request *request) {
+    static const char *const whole[] = {"--noise", "--time-limit", "--denoise", "--denoiser", "--turntable"};
+    const char *text = option_text(options, "--chunk");
+    int index = 0, count = 0, end = 0;
+    if (!text) return true;
+    if (sscanf(text, "%5d/%5d%n", &index, &count, &end) != 2 || text[end] || index < 1 || count < 1 || index > count ||
+        count > CHUNKS_MOST) {
+        report(WEFT_USAGE, "--chunk: \"%.40s\" is not I/N, part I of N parts, 1 to %d", text, CHUNKS_MOST);
+        return false;
+    }
+    for (size_t k = 0; k < sizeof whole / sizeof *whole; k++)
+        if (option_given(options, whole[k])) {
+            report(WEFT_USAGE, "--chunk: not with %s, which needs the whole picture", whole[k]);
+            return false;
+        }
+    if (request->aovs & (1u << WEFT_AOV_OBJECT | 1u << WEFT_AOV_MATERIAL)) {
+        report(WEFT_USAGE, "--chunk: not with --aov object or material, whose lists of names are the whole picture's");
+        return false;
+    }
+    const int height = request->desc.crop[3] ? request->desc.crop[3] : request->desc.height, most = (height + 15) / 16;
+    if (count > most) {
+        report(WEFT_USAGE, "--chunk: a picture of %d rows of pixels has at most %d parts", height, most);
+        return false;
+    }
+    if (request->engine != ENGINE_TRACE || request_count(request) > 1) {
+        report(WEFT_USAGE, "--chunk: needs one picture of --engine trace");
+        return false;
+    }
+    request->chunk_index = index - 1;
+    request->chunk_count = count;
+    return true;
+}
+
 bool request_read(const Options *options, Request *request) {
     *request = (Request){.options = options, .quiet = option_given(options, "--quiet")};
     bool good = read_desc(options, &request->desc) &&
                 scene_options_read(options, options->operands[0], &request->scene_options) &&
                 option_integer(options, "--spp", &request->spp) &&
                 option_number(options, "--time-limit", &request->time_limit) && read_engine(options, request) &&
-                read_extras(options, request) && use_isa(options);
+                read_extras(options, request) && read_chunk(options, request) && use_isa(options);
     request->desc.camera = request->scene_options.camera;
     bool laid_behind = request->scene_options.background == WEFT_BACKGROUND_COLOR; /* by job_draw */
     request->desc.background = laid_behind ? WEFT_BACKGROUND_TRANSPARENT : request->scene_options.background;
@@ -256,6 +296,9 @@ int request_outputs_check(const Request *request) {
             return report(WEFT_USAGE, "%s: %s", path, weft_message_text(WEFT_MESSAGE_OUTPUT_SUFFIX));
         else if (request_count(request) > 1 && weft_image_suffix_linear(path))
             return report(WEFT_USAGE, "%s: a sheet of several images must be a .png", path);
+        else if (request->chunk_count && !path_ends(path, ".exr"))
+            return report(WEFT_USAGE, "%s: a part of a picture must be an .exr, which weft merge makes others of",
+                          path);
         else if (request->denoise && !path_ends(path, ".png") && !path_ends(path, ".exr"))
             return report(WEFT_USAGE, "%s: cannot say that it was denoised; .png and .exr can", path);
         else if (path_ends(path, ".exr"))

@@ -4,6 +4,8 @@
 #include "cli/render/scene_options.h"
 #include "weft/raster.h"
 
+enum { CHUNKS_MOST = 4096 }; /* parts of a picture */
+
 enum { REQUEST_SPP_MOST = 1 << 24 }; /* in effect "until the time is up" */
 
 extern const Option request_options[];
@@ -27,7 +29,8 @@ typedef struct Request {
     int accumulate; /* frames of a sum; 0: one picture */
     WeftAmbient ambient;
     WeftPart part;
-    int turntable; /* pictures around the scene; 0: one */
+    int turntable;                /* pictures around the scene; 0: one */
+    int chunk_index, chunk_count; /* part of the picture, counted from 0, and parts; count 0: the whole picture */
 } Request;
 
 /* Returns the number of images side by side. */

@@ -12,6 +12,7 @@
 /* V(name): verb_name of the file NAME.c, in the order of `weft --help`. */
 #define VERBS(V)                                                                                                       \
     V(render)                                                                                                          \
+    V(merge)                                                                                                           \
     VERB_VIEW(V)                                                                                                       \
     V(models)                                                                                                          \
     V(eval)                                                                                                            \
