@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Prints what eval of each lobe takes from Python over what it takes from C, for arrays of several lengths, each the best of
-runs in turn: bench/python.py [--quick]. Arrays are components first, as the library reads them; the last column has them
-pair by pair, as NumPy makes them, which are copied.
+"""Prints what eval of each lobe takes from Python over what it takes from C, for arrays of several lengths, each the
+best of runs in turn: bench/python.py [--quick]. Arrays are components first, as the library reads them; the last
+column has them pair by pair, as NumPy makes them, which are copied.
 
 With --most X the exit status is 1 where a ratio of the longest arrays is above X."""
 import os
@@ -41,8 +41,12 @@ class InC:
     """A program in C that evaluates as many pairs."""
 
     def __init__(self, count):
-        self._process = subprocess.Popen([os.path.join(BUILD, "bench", "bench_python"), str(count)], text=True,
-                                         stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+        self._process = subprocess.Popen(
+            [os.path.join(BUILD, "bench", "bench_python"), str(count)],
+            text=True,
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+        )
 
     def seconds(self, id):
         self._process.stdin.write(id + "\n")
@@ -59,8 +63,12 @@ def ratios(lobe, count, program, rounds):
     pairs = [np.ascontiguousarray(d.T) for d in (wo, wi)]
     least = [float("inf")] * 3
     for _ in range(rounds):
-        least = [min(a, b) for a, b in zip(least, (program.seconds(lobe.id), best(lambda: lobe.eval(wo.T, wi.T)),
-                                                   best(lambda: lobe.eval(*pairs))))]
+        least = [
+            min(a, b)
+            for a, b in zip(
+                least, (program.seconds(lobe.id), best(lambda: lobe.eval(wo.T, wi.T)), best(lambda: lobe.eval(*pairs)))
+            )
+        ]
     return least
 
 
@@ -68,8 +76,12 @@ def main():
     rounds = 3 if "--quick" in sys.argv else 20
     most = float(sys.argv[sys.argv.index("--most") + 1]) if "--most" in sys.argv else None
     programs = {count: InC(count) for count in COUNTS}
-    print("python: eval of Python over that of C, pairs at once\n" + "lobe".ljust(28)
-          + "".join(f"{count:>10,}" for count in COUNTS) + "  by pairs     ns in C")
+    print(
+        "python: eval of Python over that of C, pairs at once\n"
+        + "lobe".ljust(28)
+        + "".join(f"{count:>10,}" for count in COUNTS)
+        + "  by pairs     ns in C"
+    )
     worst = 0.0
     for id in weft.lobes():
         lobe, row = weft.Lobe(id), []
@@ -79,7 +91,10 @@ def main():
             c, components, pairs = ratios(lobe, count, programs[count], rounds)
             row.append(components / c)
         worst = max(worst, row[-1])
-        print(id.ljust(28) + "".join(f"{r:10.2f}" for r in row) + f"{pairs / c:10.2f}{1e9 * c / COUNTS[-1]:12.2f}", flush=True)
+        print(
+            id.ljust(28) + "".join(f"{r:10.2f}" for r in row) + f"{pairs / c:10.2f}{1e9 * c / COUNTS[-1]:12.2f}",
+            flush=True,
+        )
     for program in programs.values():
         program.close()
     print(f"the greatest of {COUNTS[-1]:,}: {worst:.2f}")

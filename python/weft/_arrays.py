@@ -1,8 +1,8 @@
 """Arrays of numbers that calls read and write: NumPy's where it is installed, else any buffer.
 
 The library takes structures of arrays: all x, then all y, then all z. An array of directions or colours has the shape
-(..., 3), and is passed without a copy where it lies in memory like that, as all arrays that this package makes do: they are
-views with the last index first. Other layouts and types are copied."""
+(..., 3), and is passed without a copy where it lies in memory like that, as all arrays that this package makes do:
+they are views with the last index first. Other layouts and types are copied."""
 from __future__ import annotations
 
 import ctypes
@@ -75,7 +75,7 @@ class Given:
 def _components(start: int, width: int, lead: Shape) -> tuple[int, ...]:
     """Returns the addresses of components that lie one after the other: of none, two or three numbers."""
     step = 4 * (lead[0] if len(lead) == 1 else prod(lead))
-    return (start, start + step, start + 2 * step)[:width or 1]
+    return (start, start + step, start + 2 * step)[: width or 1]
 
 
 def _numpy_floats(value: Any, name: str) -> tuple[Shape, Any]:
@@ -230,7 +230,7 @@ class Made:
         if self._width:
             flat, count = array("f", bytes(4 * len(flat))), prod(self._lead)
             for k in range(self._width):
-                flat[k::self._width] = self._data[k * count:(k + 1) * count]
+                flat[k :: self._width] = self._data[k * count : (k + 1) * count]
         if self._out is not None:
             if len(flat):
                 self._view.cast("B")[:] = memoryview(flat).cast("B")
@@ -258,7 +258,8 @@ def copied(address: Optional[int], typecode: str, shape: Shape) -> Any:
 
 
 class Pixels:
-    """An image that a caller gave: rows, columns and 1 to 4 channels of uint8, uint16 or float32 (float64 is converted)."""
+    """An image that a caller gave: rows, columns and 1 to 4 channels of uint8, uint16 or float32 (float64 is
+    converted)."""
 
     __slots__ = ("shape", "typecode", "address", "_keep")
     _keep: Any

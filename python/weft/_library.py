@@ -49,17 +49,25 @@ class _Library:
         try:
             self._dll = ctypes.CDLL(name)
         except OSError as error:
-            raise ImportError(f"{name}: the library of weft cannot be loaded: {error}. Install the package weft, or set "
-                              "WEFT_LIBRARY to the path of libweft.so") from None
+            raise ImportError(
+                f"{name}: the library of weft cannot be loaded: {error}. Install the package weft, or set "
+                "WEFT_LIBRARY to the path of libweft.so"
+            ) from None
         version: bytes = self.weft_version()
         mine = _abi.VERSION.split(".")[:2]
         if version.decode().split(".")[:2] != mine:
-            raise ImportError(f"{name}: is version {version.decode()} of weft, and this package was made for "
-                              f"{'.'.join(mine)}")
+            raise ImportError(
+                f"{name}: is version {version.decode()} of weft, and this package was made for " f"{'.'.join(mine)}"
+            )
 
     def __getattr__(self, name: str) -> Any:
+        if name not in _abi.CALLS:
+            raise AttributeError(name)
         result, parameters = _abi.CALLS[name]
-        function = getattr(self._dll, name)
+        try:
+            function = getattr(self._dll, name)
+        except AttributeError:
+            raise Error(f"{self._dll._name}: lacks {name}: it is older than this package", 4) from None
         function.restype, function.argtypes = result, parameters
         setattr(self, name, function)
         return function
@@ -103,7 +111,7 @@ def number(value: Any, name: str) -> float:
         raise ValueError(f"{name}: is too large") from None
 
 
-def integer(value: Any, name: str, low: int = -2**31, high: int = 2**31 - 1) -> int:
+def integer(value: Any, name: str, low: int = -(2**31), high: int = 2**31 - 1) -> int:
     """Returns a whole number within a range."""
     try:
         whole = operator.index(value)
@@ -244,8 +252,10 @@ class Watch:
 
     def __enter__(self) -> Watch:
         self._failure, self._pressed, self.stopped, self._earlier = None, False, False, None
-        if (threading.current_thread() is threading.main_thread()
-                and signal.getsignal(signal.SIGINT) is signal.default_int_handler):
+        if (
+            threading.current_thread() is threading.main_thread()
+            and signal.getsignal(signal.SIGINT) is signal.default_int_handler
+        ):
             self._earlier = signal.signal(signal.SIGINT, self._note)
         return self
 

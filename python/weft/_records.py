@@ -33,6 +33,7 @@ class Record:
         def short(value: Any) -> str:
             shape = getattr(value, "shape", None)
             return f"<array {'x'.join(map(str, shape))}>" if shape else f"{value!r:.120}"
+
         return f"{type(self).__name__}({', '.join(f'{k}={short(v)}' for k, v in self.__dict__.items() if k[0] != '_')})"
 
     def __eq__(self, other: Any) -> bool:
@@ -42,10 +43,12 @@ class Record:
 
     def as_dict(self) -> dict[str, Any]:
         """Returns the members, those of members that are records too."""
+
         def plain(value: Any) -> Any:
             if isinstance(value, Record):
                 return value.as_dict()
             return [plain(v) for v in value] if isinstance(value, list) else value
+
         return {name: plain(value) for name, value in self.__dict__.items() if name[0] != "_"}
 
 

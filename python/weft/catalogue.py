@@ -73,7 +73,8 @@ def chart() -> list[ChartEntry]:
 
 
 def catalogue_text(file: str) -> str:
-    """Returns the text of a file of the catalogue as it was compiled, such as "lobes/ggx.h", with formula and source."""
+    """Returns the text of a file of the catalogue as it was compiled, such as "lobes/ggx.h", with formula and
+    source."""
     found: Optional[bytes] = lib.weft_catalogue_text(text(file, "file"))
     if found is None:
         raise KeyError(file)
@@ -103,5 +104,21 @@ def use_root(folder: Optional[PathLike]) -> None:
     call("weft_root_use", None if folder is None else path(folder, "folder"))
 
 
-__all__ = ["ChartEntry", "aliases", "builtins", "catalogue_text", "chart", "isa", "layers", "preset_groups", "preset_text", "presets", "profiles", "terms",
-           "use_isa", "use_root", "version", "workflows"]
+__all__ = [
+    "ChartEntry",
+    "aliases",
+    "builtins",
+    "catalogue_text",
+    "chart",
+    "isa",
+    "layers",
+    "preset_groups",
+    "preset_text",
+    "presets",
+    "profiles",
+    "terms",
+    "use_isa",
+    "use_root",
+    "version",
+    "workflows",
+]

@@ -10,9 +10,9 @@ from ._records import NAMES, Record, record
 
 
 class Finding(Record):
-    """One thing that is wrong: `kind`, `severity` ("note", "warning", "error"), `of` ("asset", "material", "mesh", "image")
-    with `index` and `subject`, `words`, `fix`, `fixable`, the `engines` that are affected (none: any reader), the `figure`
-    that was measured (NaN: none), `place` (a JSON pointer into the file)."""
+    """One thing that is wrong: `kind`, `severity` ("note", "warning", "error"), `of` ("asset", "material", "mesh",
+    "image") with `index` and `subject`, `words`, `fix`, `fixable`, the `engines` that are affected (none: any reader),
+    the `figure` that was measured (NaN: none), `place` (a JSON pointer into the file)."""
 
 
 class Doctor(Handle):
@@ -26,10 +26,11 @@ class Doctor(Handle):
         self._source = file if isinstance(file, bytes) else ctypes.create_string_buffer(path(file, "file"))
         with self._watch:
             if isinstance(self._source, bytes):
-                pointer = created("weft_doctor_open_memory", self._source, len(self._source), text(name, "name"), after=(None,))
+                pointer = created(
+                    "weft_doctor_open_memory", self._source, len(self._source), text(name, "name"), after=(None,)
+                )
             else:
-                pointer = created("weft_doctor_open_watched", self._source, self._watch.callback, None,
-                                  after=(None,))
+                pointer = created("weft_doctor_open_watched", self._source, self._watch.callback, None, after=(None,))
         super().__init__(pointer)
 
     @property
@@ -40,8 +41,15 @@ class Doctor(Handle):
         with self._use() as pointer:
             for k in range(lib.weft_doctor_count(pointer)):
                 source = lib.weft_doctor_finding(pointer, k).contents
-                found.append(record(source, Finding, kind=kinds[source.kind], fixable=bool(source.fixable),
-                                    engines=[p for bit, p in enumerate(profiles) if source.engines >> bit & 1]))
+                found.append(
+                    record(
+                        source,
+                        Finding,
+                        kind=kinds[source.kind],
+                        fixable=bool(source.fixable),
+                        engines=[p for bit, p in enumerate(profiles) if source.engines >> bit & 1],
+                    )
+                )
         return found
 
     @property
@@ -66,9 +74,14 @@ def doctor(file: Union[PathLike, bytes], *, progress: Progress = None) -> list[F
 def finding_kinds() -> dict[str, Record]:
     """Returns every kind of finding: `severity`, `fixable` and `help`."""
     severities = NAMES["WeftSeverity"]
-    return {name: Record(severity=severities[lib.weft_finding_severity(k)], fixable=bool(lib.weft_finding_fixable(k)),
-                         help=lib.weft_finding_help(k).decode())
-            for name, k in _abi.ENUMS["WeftFindingKind"].items()}
+    return {
+        name: Record(
+            severity=severities[lib.weft_finding_severity(k)],
+            fixable=bool(lib.weft_finding_fixable(k)),
+            help=lib.weft_finding_help(k).decode(),
+        )
+        for name, k in _abi.ENUMS["WeftFindingKind"].items()
+    }
 
 
 __all__ = ["Doctor", "Finding", "doctor", "finding_kinds"]

@@ -44,19 +44,35 @@ def _desc(model: Any, keep: list[Any], right: Optional[Lobe], members: dict[str,
     return desc
 
 
-def export(model: Union[str, Lobe, Material, Sequence[Union[str, Lobe, Material]]], target: str = "glsl", *,
-           lut: str = "c", right: Optional[Lobe] = None, name: Optional[str] = None, albedo: bool = False,
-           fold_pi: bool = False, prefix: Optional[str] = None, call_line: Optional[str] = None) -> Export:
+def export(
+    model: Union[str, Lobe, Material, Sequence[Union[str, Lobe, Material]]],
+    target: str = "glsl",
+    *,
+    lut: str = "c",
+    right: Optional[Lobe] = None,
+    name: Optional[str] = None,
+    albedo: bool = False,
+    fold_pi: bool = False,
+    prefix: Optional[str] = None,
+    call_line: Optional[str] = None,
+) -> Export:
     """Makes the text of a model, or of up to 16 together: lobes, engine profiles and workflows by name, materials.
 
-    target: "glsl", "essl", "hlsl", "c", "shadertoy" or "wgsl"; lut: the form of tables, "c", "png16", "exr", "dds", "npy";
-    right: for a Shadertoy, a second lobe; name: of a material in the text; albedo: with E of a lobe; fold_pi: f times pi;
-    prefix: of every name; call_line: the command that made it, for the first lines."""
+    target: "glsl", "essl", "hlsl", "c", "shadertoy" or "wgsl"; lut: the form of tables, "c", "png16", "exr", "dds",
+    "npy"; right: for a Shadertoy, a second lobe; name: of a material in the text; albedo: with E of a lobe; fold_pi: f
+    times pi; prefix: of every name; call_line: the command that made it, for the first lines."""
     models = list(model) if isinstance(model, (list, tuple)) else [model]
     if not 1 <= len(models) <= _abi.CONSTANTS["WEFT_EXPORT_MODELS_MAX"]:
         raise ValueError(f"model: are {len(models)}, and must be 1 to {_abi.CONSTANTS['WEFT_EXPORT_MODELS_MAX']}")
-    members = dict(target=target, lut=lut, name=name, albedo=int(bool(albedo)), fold_pi=int(bool(fold_pi)), prefix=prefix,
-                   call=call_line)
+    members = dict(
+        target=target,
+        lut=lut,
+        name=name,
+        albedo=int(bool(albedo)),
+        fold_pi=int(bool(fold_pi)),
+        prefix=prefix,
+        call=call_line,
+    )
     keep: list[Any] = []
     descs = (_abi.WeftExportDesc * len(models))(*(_desc(m, keep, right, members) for m in models))
     out = _abi.WeftExport()
@@ -65,7 +81,7 @@ def export(model: Union[str, Lobe, Material, Sequence[Union[str, Lobe, Material]
     else:
         call("weft_export_all", descs, len(models), ctypes.byref(out))
     try:
-        tables = [record(t, leave=("texels",), texels=seen(t.texels)) for t in out.tables[:out.table_count]]
+        tables = [record(t, leave=("texels",), texels=seen(t.texels)) for t in out.tables[: out.table_count]]
         return Export(text=ctypes.string_at(out.text, out.size).decode(), tables=tables)
     finally:
         lib.weft_export_free(ctypes.byref(out))

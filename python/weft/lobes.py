@@ -12,15 +12,28 @@ from ._arrays import Array, Arrays, Floats, Given, Made, common
 from ._library import PathLike, call, integer, lib, logged, number, path, text, triple
 from ._records import Record, record, tidy
 
-_TRAITS = {name[10:].lower().replace("_", "-"): value for name, value in _abi.CONSTANTS.items()
-           if name in ("WEFT_LOBE_RECIPROCAL", "WEFT_LOBE_CONSERVES", "WEFT_LOBE_LOSSLESS", "WEFT_LOBE_TWO_COLORS",
-                       "WEFT_LOBE_ANISOTROPIC", "WEFT_LOBE_REFERENCE", "WEFT_LOBE_DIFFUSE", "WEFT_LOBE_TABLE",
-                       "WEFT_LOBE_TINTED", "WEFT_LOBE_SYSTEM")}
+_TRAITS = {
+    name[10:].lower().replace("_", "-"): value
+    for name, value in _abi.CONSTANTS.items()
+    if name
+    in (
+        "WEFT_LOBE_RECIPROCAL",
+        "WEFT_LOBE_CONSERVES",
+        "WEFT_LOBE_LOSSLESS",
+        "WEFT_LOBE_TWO_COLORS",
+        "WEFT_LOBE_ANISOTROPIC",
+        "WEFT_LOBE_REFERENCE",
+        "WEFT_LOBE_DIFFUSE",
+        "WEFT_LOBE_TABLE",
+        "WEFT_LOBE_TINTED",
+        "WEFT_LOBE_SYSTEM",
+    )
+}
 
 
 class ParamInfo(Record):
-    """A parameter of a lobe: `name`, `help`, `default`, the plausible range `low` to `high`, the possible range `hard_low`
-    to `hard_high`, and `choices`, the ids of a choice, or None for a number."""
+    """A parameter of a lobe: `name`, `help`, `default`, the plausible range `low` to `high`, the possible range
+    `hard_low` to `hard_high`, and `choices`, the ids of a choice, or None for a number."""
 
 
 class LobeInfo(Record):
@@ -53,8 +66,8 @@ def lobe_info(id: str) -> LobeInfo:
 
 
 def load_lobe(file: PathLike) -> str:
-    """Adds a lobe of your own from a file NAME.h, for the whole process, and returns its id. The file runs as native code,
-    and the machine's C compiler makes it; docs/adding-a-lobe.md has the language."""
+    """Adds a lobe of your own from a file NAME.h, for the whole process, and returns its id. The file runs as native
+    code, and the machine's C compiler makes it; docs/adding-a-lobe.md has the language."""
     index = ctypes.c_int()
     logged("weft_lobe_load", path(file, "file"), ctypes.byref(index))
     name: bytes = lib.weft_lobe_info(index.value).contents.id
@@ -73,15 +86,15 @@ def _words(value: Any, name: str) -> bytes:
 class Lobe:
     """A lobe with its parameters and colours.
 
-    Directions are in the shading frame: +z the normal, +x the tangent, unit length, away from the surface; wo towards the
-    viewer, wi towards the light. f is in 1/sr and without the cosine, pdf in 1/sr over solid angle.
+    Directions are in the shading frame: +z the normal, +x the tangent, unit length, away from the surface; wo towards
+    the viewer, wi towards the light. f is in 1/sr and without the cosine, pdf in 1/sr over solid angle.
 
     >>> lobe = Lobe("charlie-neubelt", alpha=0.3)
     >>> f = lobe.eval(wo, wi)                     # shapes (n, 3), (n, 3) -> (n, 3)
     >>> f = lobe.eval(wo, wi, alpha=alphas)       # each pair with a parameter of its own, shape (n,)
 
-    Shapes are broadcast. Arrays of another type than float32 are converted. Results are arrays whose components lie one
-    after the other in memory, as `numpy.empty((3, n)).T`; arrays of that layout are read without a copy."""
+    Shapes are broadcast. Arrays of another type than float32 are converted. Results are arrays whose components lie
+    one after the other in memory, as `numpy.empty((3, n)).T`; arrays of that layout are read without a copy."""
 
     __slots__ = ("_lobe",)
 
@@ -145,8 +158,8 @@ class Lobe:
         return info.choices[int(value)].decode() if info.choices else tidy(value)
 
     def __setitem__(self, name: str, value: Any) -> None:
-        """Sets a parameter, "color" or "f90". A number beyond the plausible range is a WeftWarning and is clamped to the
-        possible one. "roughness", where no parameter has that name, sets the first one as a material does."""
+        """Sets a parameter, "color" or "f90". A number beyond the plausible range is a WeftWarning and is clamped to
+        the possible one. "roughness", where no parameter has that name, sets the first one as a material does."""
         logged("weft_lobe_set", ctypes.byref(self._lobe), text(name, "parameter"), _words(value, name))
 
     @property
@@ -210,8 +223,8 @@ class Lobe:
         return made.result()  # type: ignore[no-any-return]
 
     def sample(self, wo: Arrays, u: Arrays, **each: Arrays) -> tuple[Floats, Floats]:
-        """Draws wi for each wo, shape (..., 3), and u, shape (..., 2) in [0, 1). Returns wi, shape (..., 3), and its pdf,
-        shape (...), 1/sr; where the pdf is 0 there is no sample, and wi must not be used."""
+        """Draws wi for each wo, shape (..., 3), and u, shape (..., 2) in [0, 1). Returns wi, shape (..., 3), and its
+        pdf, shape (...), 1/sr; where the pdf is 0 there is no sample, and wi must not be used."""
         a, b, own = Given(wo, "wo", 3), Given(u, "u", 2), self._each(each)
         lead = common(a, b, *own.given) if own else common(a, b)
         (o, keep_o), (uv, keep_u) = a.addresses(lead), b.addresses(lead)

@@ -31,9 +31,14 @@ def material_inputs() -> dict[str, InputInfo]:
 
 def material_choices() -> dict[str, list[str]]:
     """Returns the choices of a material, by name, such as "layer" or "profile", and the ids that each may take."""
-    return {name: [value for k, value in enumerate(names("weft_material_choice_value", index))
-                   if lib.weft_material_choice_fits(index, k)]
-            for index, name in enumerate(names("weft_material_choice_name"))}
+    return {
+        name: [
+            value
+            for k, value in enumerate(names("weft_material_choice_value", index))
+            if lib.weft_material_choice_fits(index, k)
+        ]
+        for index, name in enumerate(names("weft_material_choice_name"))
+    }
 
 
 class Material:
@@ -42,8 +47,9 @@ class Material:
     >>> velvet = Material("preset:velvet", profile="three")
     >>> velvet["sheen_color"] = (1, 0.7, 0.7)
 
-    Of a file (docs/materials.md), of "preset:NAME", or without one a grey dielectric. Inputs are numbers or three of them,
-    linear Rec. 709, angles in degrees; choices are ids, or "auto". `cloth` is the Cloth that it is woven of, or None."""
+    Of a file (docs/materials.md), of "preset:NAME", or without one a grey dielectric. Inputs are numbers or three of
+    them, linear Rec. 709, angles in degrees; choices are ids, or "auto". `cloth` is the Cloth that it is woven of, or
+    None."""
 
     __slots__ = ("_material", "cloth")
 
@@ -69,7 +75,9 @@ class Material:
         """Returns a grey cloth with a white sheen under an engine profile or a workflow, as the program takes their
         names."""
         kind = "profile" if profile in names("weft_profile_name") else "workflow"
-        return cls(None, **{kind: profile}, base_color=0.2, sheen_color=1.0, sheen_roughness=0.5, roughness=1.0, **inputs)
+        return cls(
+            None, **{kind: profile}, base_color=0.2, sheen_color=1.0, sheen_roughness=0.5, roughness=1.0, **inputs
+        )
 
     def copy(self) -> Material:
         """Returns a material with the same numbers and the same cloth."""
@@ -78,8 +86,11 @@ class Material:
     __copy__ = copy
 
     def __eq__(self, other: Any) -> bool:
-        return (isinstance(other, Material) and bytes(self._material) == bytes(other._material)
-                and self.cloth is other.cloth)
+        return (
+            isinstance(other, Material)
+            and bytes(self._material) == bytes(other._material)
+            and self.cloth is other.cloth
+        )
 
     __hash__ = None  # type: ignore[assignment]
 
@@ -99,7 +110,9 @@ class Material:
             kind, value = NAMES["WeftInputKind"][source.kind], self._material.inputs[index].value
             if kind == "color":
                 return tuple(map(tidy, value))  # type: ignore[return-value]
-            return tidy(ctypes.c_float(math.degrees(value[0])).value) if kind in ("direction", "angle") else tidy(value[0])
+            return (
+                tidy(ctypes.c_float(math.degrees(value[0])).value) if kind in ("direction", "angle") else tidy(value[0])
+            )
         index = lib.weft_material_choice_find(text(name, "name"))
         if index < 0:
             raise KeyError(name)
@@ -107,8 +120,8 @@ class Material:
         return chosen.decode() if chosen else "auto"
 
     def __setitem__(self, name: str, value: Any) -> None:
-        """Sets an input or a choice. A number beyond the plausible range is a WeftWarning and is clamped to the possible
-        one."""
+        """Sets an input or a choice. A number beyond the plausible range is a WeftWarning and is clamped to the
+        possible one."""
         logged("weft_material_set", ctypes.byref(self._material), text(name, "name"), _words(value, name))
 
     def reads(self, name: str) -> bool:
@@ -138,7 +151,7 @@ class Material:
 
     @property
     def alpha_mode(self) -> str:
-        """"opaque", "mask" or "blend"."""
+        """ "opaque", "mask" or "blend"."""
         return str(NAMES["WeftAlphaMode"].get(self._material.alpha_mode))
 
     @alpha_mode.setter

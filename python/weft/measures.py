@@ -8,8 +8,24 @@ from typing import Any, Iterable, Optional, Union
 
 from . import _abi
 from ._arrays import Array, Arrays, Given, common, shaped
-from ._library import (Handle, PathLike, Progress, Watch, call, choice, created, fill, index_of, integer, lib, logged,
-                       owned_text, path, raise_error, text)
+from ._library import (
+    Handle,
+    PathLike,
+    Progress,
+    Watch,
+    call,
+    choice,
+    created,
+    fill,
+    index_of,
+    integer,
+    lib,
+    logged,
+    owned_text,
+    path,
+    raise_error,
+    text,
+)
 from ._records import Record, record
 from .lobes import Lobe
 from .materials import Material
@@ -30,13 +46,15 @@ class Passport(Record):
         return found
 
 
-def passport(model: Union[str, Lobe, Material], *, quick: bool = False, gpu: bool = False, brief: bool = False,
-             threads: int = 0) -> Passport:
-    """Measures the energy, reciprocity and sampling of a lobe, of an engine profile by name, or of a woven material. Takes
-    seconds with `quick`, else up to minutes, which Ctrl+C does not interrupt. gpu: also the shader text on the GPU;
-    brief: only E, reciprocity, variance and half precision."""
-    desc = fill(_abi.WeftPassportDesc(), threads=threads, quick=int(bool(quick)), no_gpu=int(not gpu),
-                brief=int(bool(brief)))
+def passport(
+    model: Union[str, Lobe, Material], *, quick: bool = False, gpu: bool = False, brief: bool = False, threads: int = 0
+) -> Passport:
+    """Measures the energy, reciprocity and sampling of a lobe, of an engine profile by name, or of a woven material.
+    Takes seconds with `quick`, else up to minutes, which Ctrl+C does not interrupt. gpu: also the shader text on the
+    GPU; brief: only E, reciprocity, variance and half precision."""
+    desc = fill(
+        _abi.WeftPassportDesc(), threads=threads, quick=int(bool(quick)), no_gpu=int(not gpu), brief=int(bool(brief))
+    )
     out, kept = _abi.WeftPassport(), None  # type: Any, Any
     if isinstance(model, Lobe):
         kept = _abi.WeftLobe.from_buffer_copy(model._lobe)
@@ -59,12 +77,27 @@ def passport(model: Union[str, Lobe, Material], *, quick: bool = False, gpu: boo
 def _passport_record(out: Any) -> Passport:
     found: Passport = record(out, Passport)
     members = found.__dict__
-    for name in ("values", "albedo", "albedo_half", "variance", "variance_cosine", "half_floor", "half_zero", "half_off"):
-        members[name] = members[name][:found.rows] if not isinstance(members[name], memoryview) else _first(
-            members[name], found.rows)
+    for name in (
+        "values",
+        "albedo",
+        "albedo_half",
+        "variance",
+        "variance_cosine",
+        "half_floor",
+        "half_zero",
+        "half_off",
+    ):
+        members[name] = (
+            members[name][: found.rows]
+            if not isinstance(members[name], memoryview)
+            else _first(members[name], found.rows)
+        )
     for name in ("furnace", "furnace_noise"):
-        members[name] = members[name][:found.layers] if not isinstance(members[name], memoryview) else _first(
-            members[name], found.layers)
+        members[name] = (
+            members[name][: found.layers]
+            if not isinstance(members[name], memoryview)
+            else _first(members[name], found.layers)
+        )
     return found
 
 
@@ -72,7 +105,7 @@ def _first(view: memoryview, rows: int) -> Any:
     """Returns the first rows of an array without NumPy."""
     shape = (rows,) + (view.shape or ())[1:]
     flat = array("f")
-    flat.frombytes(view.cast("B")[:4 * prod(shape)])
+    flat.frombytes(view.cast("B")[: 4 * prod(shape)])
     return shaped(flat, shape) if rows else memoryview(flat)
 
 
@@ -80,13 +113,19 @@ def _first(view: memoryview, rows: int) -> Any:
 
 
 def distance(to: Model, source: Model, metric: str = "cosine", *, part: str = "all") -> float:
-    """Returns the distance of two models, 0: equal; `source` is the reference. metric: "cosine", "log" or "picture", see
-    include/weft/match.h; part: of a material, "all" or "diffuse", "specular", "sheen", "coat", "dust"."""
+    """Returns the distance of two models, 0: equal; `source` is the reference. metric: "cosine", "log" or "picture",
+    see include/weft/match.h; part: of a material, "all" or "diffuse", "specular", "sheen", "coat", "dust"."""
     out = ctypes.c_double()
     a, b = reflection(to), reflection(source)
     with a._use() as mine, b._use() as theirs:
-        call("weft_brdf_distance", mine, theirs, choice("WeftPart", part, "part"),
-             choice("WeftBrdfMetric", metric, "metric"), ctypes.byref(out))
+        call(
+            "weft_brdf_distance",
+            mine,
+            theirs,
+            choice("WeftPart", part, "part"),
+            choice("WeftBrdfMetric", metric, "metric"),
+            ctypes.byref(out),
+        )
     return out.value
 
 
@@ -95,10 +134,17 @@ class Match(Record):
     `evaluations`."""
 
 
-def match(source: Model, to: Union[Lobe, Material, str], metric: str = "cosine", *, hold: Iterable[str] = (),
-          threads: int = 0, progress: Progress = None) -> Match:
-    """Finds the parameters of `to`, a lobe or material that the search begins at and that stays as it is, that come closest
-    to `source`. hold: names of parameters or inputs that stay, "color" and "f90" of a lobe among them."""
+def match(
+    source: Model,
+    to: Union[Lobe, Material, str],
+    metric: str = "cosine",
+    *,
+    hold: Iterable[str] = (),
+    threads: int = 0,
+    progress: Progress = None,
+) -> Match:
+    """Finds the parameters of `to`, a lobe or material that the search begins at and that stays as it is, that come
+    closest to `source`. hold: names of parameters or inputs that stay, "color" and "f90" of a lobe among them."""
     if isinstance(to, str):
         named = named_model(to)
         if isinstance(named, str):
@@ -123,8 +169,15 @@ def match(source: Model, to: Union[Lobe, Material, str], metric: str = "cosine",
     error = _abi.WeftError()
     with from_._use() as pointer, Watch(progress) as watch:
         setattr(job, "from", pointer)
-        if lib.weft_match_many(ctypes.byref(job), 1, choice("WeftBrdfMetric", metric, "metric"),
-                               integer(threads, "threads", 0, 256), watch.callback, None, ctypes.byref(error)):
+        if lib.weft_match_many(
+            ctypes.byref(job),
+            1,
+            choice("WeftBrdfMetric", metric, "metric"),
+            integer(threads, "threads", 0, 256),
+            watch.callback,
+            None,
+            ctypes.byref(error),
+        ):
             raise_error(error)
     model = Lobe._of(job.lobe) if isinstance(to, Lobe) else Material._of(job.material, to.cloth)
     return record(job.found, Match, model=model)  # type: ignore[no-any-return]
@@ -139,20 +192,32 @@ def _hold_bit(lobe: Lobe, name: str) -> int:
     return 1 << index
 
 
-def match_asset(file: PathLike, out: PathLike, source: str, to: str, metric: str = "cosine", *,
-                progress: Progress = None) -> list[Record]:
-    """Converts a glTF file for another engine and writes it to out; source and to are ids of profiles. Returns a record of
-    each material: `name`, `changed`, `clipped`, `search`, `found` (`copied`, `matched`), and the Material `copied` and
-    `matched`."""
+def match_asset(
+    file: PathLike, out: PathLike, source: str, to: str, metric: str = "cosine", *, progress: Progress = None
+) -> list[Record]:
+    """Converts a glTF file for another engine and writes it to out; source and to are ids of profiles. Returns a
+    record of each material: `name`, `changed`, `clipped`, `search`, `found` (`copied`, `matched`), and the Material
+    `copied` and `matched`."""
     report = ctypes.POINTER(_abi.WeftAssetMatch)()
     count = ctypes.c_int()
     with Watch(progress) as watch:
-        logged("weft_match_asset", path(file, "file"), path(out, "out"), index_of("weft_profile_name", source, "source"),
-               index_of("weft_profile_name", to, "to"), choice("WeftBrdfMetric", metric, "metric"), watch.callback, None,
-               ctypes.byref(report), ctypes.byref(count))
+        logged(
+            "weft_match_asset",
+            path(file, "file"),
+            path(out, "out"),
+            index_of("weft_profile_name", source, "source"),
+            index_of("weft_profile_name", to, "to"),
+            choice("WeftBrdfMetric", metric, "metric"),
+            watch.callback,
+            None,
+            ctypes.byref(report),
+            ctypes.byref(count),
+        )
     try:
-        return [record(r, leave=("copied", "matched"), copied=Material._of(r.copied), matched=Material._of(r.matched))
-                for r in (report[k] for k in range(count.value))]
+        return [
+            record(r, leave=("copied", "matched"), copied=Material._of(r.copied), matched=Material._of(r.matched))
+            for r in (report[k] for k in range(count.value))
+        ]
     finally:
         lib.weft_match_report_free(report)
 
@@ -179,21 +244,27 @@ class Fitted(Record):
 
 def _fitted(source: Any) -> Fitted:
     notes: int = lib.weft_fitted_notes(ctypes.byref(source))
-    found: Fitted = record(source, Fitted, leave=("lobe", "base"), lobe=Lobe._of(source.lobe), base=Lobe._of(source.base),
-                           notes={n for k, n in enumerate(_NOTES) if notes >> k & 1},
-                           weave=bool(lib.weft_fitted_is_weave(ctypes.byref(source))))
+    found: Fitted = record(
+        source,
+        Fitted,
+        leave=("lobe", "base"),
+        lobe=Lobe._of(source.lobe),
+        base=Lobe._of(source.base),
+        notes={n for k, n in enumerate(_NOTES) if notes >> k & 1},
+        weave=bool(lib.weft_fitted_is_weave(ctypes.byref(source))),
+    )
     found._fitted = _abi.WeftFitted.from_buffer_copy(source)
     return found
 
 
 class Fit(Record):
-    """A ranking: `fitted`, a list of Fitted, the best first; `baseline`, ggx over lambert; `base_alone`, the error of the
-    base without a lobe."""
+    """A ranking: `fitted`, a list of Fitted, the best first; `baseline`, ggx over lambert; `base_alone`, the error of
+    the base without a lobe."""
 
 
 class Data(Handle):
-    """A measurement: pairs of directions and f. Of a file (.binary, .bsdf, .bin, else a table of theta_o, phi_o, theta_i,
-    phi_i, r, g, b in degrees and 1/sr), of its bytes and name, or by `Data.of_pairs`."""
+    """A measurement: pairs of directions and f. Of a file (.binary, .bsdf, .bin, else a table of theta_o, phi_o,
+    theta_i, phi_i, r, g, b in degrees and 1/sr), of its bytes and name, or by `Data.of_pairs`."""
 
     _free, _noun = "weft_data_free", "measurement"
 
@@ -206,15 +277,16 @@ class Data(Handle):
 
     @classmethod
     def of_pairs(cls, wo: Arrays, wi: Arrays, f: Arrays, *, isotropic: bool = False) -> Data:
-        """Makes data of unit directions and f, 1/sr, each of shape (..., 3). isotropic: rotating both directions about the
-        normal leaves f unchanged."""
+        """Makes data of unit directions and f, 1/sr, each of shape (..., 3). isotropic: rotating both directions about
+        the normal leaves f unchanged."""
         arrays = [Given(wo, "wo", 3), Given(wi, "wi", 3), Given(f, "f", 3)]
         lead = common(*arrays)
         count = integer(prod(lead), "the number of pairs", 1)
         rows = [_interleaved(given.addresses(lead)[1], count) for given in arrays]
         data = cls.__new__(cls)
-        Handle.__init__(data, created("weft_data_create", count, *(r.buffer_info()[0] for r in rows),
-                                      int(bool(isotropic))))
+        Handle.__init__(
+            data, created("weft_data_create", count, *(r.buffer_info()[0] for r in rows), int(bool(isotropic)))
+        )
         return data
 
     def __len__(self) -> int:
@@ -243,19 +315,37 @@ class Data(Handle):
     def _desc(self, metric: Optional[str]) -> Any:
         return fill(_abi.WeftFitDesc(), metric=metric, chosen=int(metric is not None))
 
-    def fit(self, *, base: Optional[str] = None, only: Optional[str] = None, metric: Optional[str] = None,
-            free: bool = False, expressible: bool = False, threads: int = 0, progress: Progress = None) -> Fit:
+    def fit(
+        self,
+        *,
+        base: Optional[str] = None,
+        only: Optional[str] = None,
+        metric: Optional[str] = None,
+        free: bool = False,
+        expressible: bool = False,
+        threads: int = 0,
+        progress: Progress = None,
+    ) -> Fit:
         """Fits all lobes over a diffuse base, and ranks them. base: a diffuse lobe (body), "all", or "woven"; only: one
         candidate; metric: "log" or "cosine"; free: without the bound E <= 1; expressible: only what a material can
         express. Takes minutes for all lobes of a large measurement; progress (of a fraction) returns True to stop."""
         out = _abi.WeftFit()
         with self._use() as pointer, Watch(progress) as watch:
-            desc = fill(self._desc(metric), base=base, only=only, free=int(bool(free)), expressible=int(bool(expressible)),
-                        threads=threads)
+            desc = fill(
+                self._desc(metric),
+                base=base,
+                only=only,
+                free=int(bool(free)),
+                expressible=int(bool(expressible)),
+                threads=threads,
+            )
             desc.progress = watch.callback
             call("weft_fit", pointer, ctypes.byref(desc), ctypes.byref(out))
-        return Fit(fitted=[_fitted(out.fitted[k]) for k in range(out.count)], baseline=_fitted(out.baseline),
-                   base_alone=out.base_alone)
+        return Fit(
+            fitted=[_fitted(out.fitted[k]) for k in range(out.count)],
+            baseline=_fitted(out.baseline),
+            base_alone=out.base_alone,
+        )
 
     def fit_material(self, material: Material, *, metric: Optional[str] = None) -> Match:
         """Finds the inputs of a material that come closest, from those given on; `matched` is the error."""
@@ -277,8 +367,14 @@ class Data(Handle):
         """Returns the text of a lobe's file NAME.h for `load_lobe`, and its `error`, `f0` and `f90`."""
         out, made = ctypes.c_void_p(), _abi.WeftDataLobe()
         with self._use() as pointer:
-            call("weft_data_lobe", pointer, text(name, "name"), text(about, "about"), ctypes.byref(out),
-                 ctypes.byref(made))
+            call(
+                "weft_data_lobe",
+                pointer,
+                text(name, "name"),
+                text(about, "about"),
+                ctypes.byref(out),
+                ctypes.byref(made),
+            )
         return owned_text(out.value), record(made)
 
 

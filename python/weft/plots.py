@@ -15,9 +15,9 @@ from .reflections import Model, Reflection, reflection
 
 
 class PlotPanel(Record):
-    """One panel: `form` ("curves", "rose", "map", "surface", "picture"), `title`, the axes `x`, `y`, `z` (`label`, `unit`,
-    `low`, `high`, `logarithmic`), `series` of curves (`name`, `x`, `y`; NaN is a gap), `values` of a grid of shape (rows,
-    columns) or (rows, columns, 3), and others of include/weft/plot.h."""
+    """One panel: `form` ("curves", "rose", "map", "surface", "picture"), `title`, the axes `x`, `y`, `z` (`label`,
+    `unit`, `low`, `high`, `logarithmic`), `series` of curves (`name`, `x`, `y`; NaN is a gap), `values` of a grid of
+    shape (rows, columns) or (rows, columns, 3), and others of include/weft/plot.h."""
 
 
 class PlotData(Record):
@@ -32,7 +32,9 @@ def plot_kinds() -> list[str]:
 class _Figure:
     """A description of a figure, and what it points to."""
 
-    def __init__(self, kind: str, models: Any, labels: Optional[Sequence[str]], views: Sequence[float], members: Any) -> None:
+    def __init__(
+        self, kind: str, models: Any, labels: Optional[Sequence[str]], views: Sequence[float], members: Any
+    ) -> None:
         given = list(models) if isinstance(models, (list, tuple)) else [models]
         if not 1 <= len(given) <= _abi.CONSTANTS["WEFT_PLOT_MODELS_MAX"]:
             raise ValueError(f"models: are {len(given)}, and must be 1 to {_abi.CONSTANTS['WEFT_PLOT_MODELS_MAX']}")
@@ -48,7 +50,7 @@ class _Figure:
             label = labels[k] if labels is not None else _label(given[k], one)
             fill(row, label=label)
         self.desc = fill(_abi.WeftPlotDesc(), kind=kind, view_count=len(views), **members)
-        self.desc.views[:len(views)] = triple(views, "views", len(views))
+        self.desc.views[: len(views)] = triple(views, "views", len(views))
         self.desc.models, self.desc.count = self.rows, len(given)
 
     def _model(self, row: Any, one: Reflection) -> None:
@@ -75,21 +77,40 @@ def _label(given: Any, one: Reflection) -> Optional[str]:
     return one.model.id if isinstance(one.model, Lobe) else None
 
 
-def _members(logarithmic: bool, quick: bool, cosine: bool, channel: str, title: Optional[str], width: int,
-             height: int) -> dict[str, Any]:
-    return dict(logarithmic=int(bool(logarithmic)), quick=int(bool(quick)), cosine=int(bool(cosine)), channel=channel,
-                title=title, width=width, height=height)
+def _members(
+    logarithmic: bool, quick: bool, cosine: bool, channel: str, title: Optional[str], width: int, height: int
+) -> dict[str, Any]:
+    return dict(
+        logarithmic=int(bool(logarithmic)),
+        quick=int(bool(quick)),
+        cosine=int(bool(cosine)),
+        channel=channel,
+        title=title,
+        width=width,
+        height=height,
+    )
 
 
-def plot(kind: str, models: Union[Model, Sequence[Model]], file: Optional[PathLike] = None, *,
-         labels: Optional[Sequence[str]] = None, views: Sequence[float] = (), logarithmic: bool = False,
-         quick: bool = False, cosine: bool = False, channel: str = "luminance", title: Optional[str] = None,
-         width: int = 0, height: int = 0) -> Optional[Array]:
+def plot(
+    kind: str,
+    models: Union[Model, Sequence[Model]],
+    file: Optional[PathLike] = None,
+    *,
+    labels: Optional[Sequence[str]] = None,
+    views: Sequence[float] = (),
+    logarithmic: bool = False,
+    quick: bool = False,
+    cosine: bool = False,
+    channel: str = "luminance",
+    title: Optional[str] = None,
+    width: int = 0,
+    height: int = 0,
+) -> Optional[Array]:
     """Draws a figure of one to eight models: an array of uint8, shape (height, width, 3); with file, written by suffix
     (.png, .svg, .pdf) instead.
 
-    kind: a name of plot_kinds(), such as "polar", "albedo" or "sphere"; views: theta_o in degrees; channel: "luminance",
-    "red", "green", "blue"; quick: fewer values."""
+    kind: a name of plot_kinds(), such as "polar", "albedo" or "sphere"; views: theta_o in degrees; channel:
+    "luminance", "red", "green", "blue"; quick: fewer values."""
     figure = _Figure(kind, models, labels, views, _members(logarithmic, quick, cosine, channel, title, width, height))
     if file is not None:
         figure.call("weft_plot_write", path(file, "file"))
@@ -99,25 +120,43 @@ def plot(kind: str, models: Union[Model, Sequence[Model]], file: Optional[PathLi
     return taken(image)
 
 
-def plot_report(models: Union[Model, Sequence[Model]], file: PathLike, *, labels: Optional[Sequence[str]] = None,
-                quick: bool = False) -> None:
+def plot_report(
+    models: Union[Model, Sequence[Model]],
+    file: PathLike,
+    *,
+    labels: Optional[Sequence[str]] = None,
+    quick: bool = False,
+) -> None:
     """Writes a page of HTML with every kind of figure."""
     figure = _Figure("polar", models, labels, (), dict(quick=int(bool(quick))))
     figure.call("weft_plot_report", path(file, "file"))
 
 
-def plot_data(kind: str, models: Union[Model, Sequence[Model]], *, labels: Optional[Sequence[str]] = None,
-              views: Sequence[float] = (), logarithmic: bool = False, quick: bool = False, cosine: bool = False,
-              channel: str = "luminance") -> PlotData:
+def plot_data(
+    kind: str,
+    models: Union[Model, Sequence[Model]],
+    *,
+    labels: Optional[Sequence[str]] = None,
+    views: Sequence[float] = (),
+    logarithmic: bool = False,
+    quick: bool = False,
+    cosine: bool = False,
+    channel: str = "luminance",
+) -> PlotData:
     """Returns the numbers that a figure shows; arguments are those of plot."""
     figure = _Figure(kind, models, labels, views, _members(logarithmic, quick, cosine, channel, None, 0, 0))
     data = _abi.WeftPlotData()
     figure.call("weft_plot_data", ctypes.byref(data))
     try:
-        legend = [row.value.decode("utf-8", "replace") for row in data.legend[:data.legend_count]]
+        legend = [row.value.decode("utf-8", "replace") for row in data.legend[: data.legend_count]]
         panels = [_panel(data.panels[k], legend) for k in range(data.count)]
-        return PlotData(title=data.title.decode("utf-8", "replace"), columns=data.columns, panels=panels, legend=legend,
-                        note=data.note.decode("utf-8", "replace"))
+        return PlotData(
+            title=data.title.decode("utf-8", "replace"),
+            columns=data.columns,
+            panels=panels,
+            legend=legend,
+            note=data.note.decode("utf-8", "replace"),
+        )
     finally:
         lib.weft_plot_data_free(ctypes.byref(data))
 
@@ -132,11 +171,16 @@ def _panel(source: Any, legend: list[str]) -> PlotPanel:
     if source.values:
         shape = (source.rows, source.columns) + ((source.channels,) if source.channels > 1 else ())
         values = copied(source.values, "f", shape)
-    panel: PlotPanel = record(source, PlotPanel, leave=("series_count", "figure_count", "mark_count", "cell_count"),
-                              series=series, values=values)
-    panel.__dict__["figures"] = [record(f) for f in source.figures[:source.figure_count]]
-    panel.__dict__["marks"] = [record(m) for m in source.marks[:source.mark_count]]
-    panel.__dict__["cells"] = [c.value.decode("utf-8", "replace") for c in source.cells[:source.cell_count]]
+    panel: PlotPanel = record(
+        source,
+        PlotPanel,
+        leave=("series_count", "figure_count", "mark_count", "cell_count"),
+        series=series,
+        values=values,
+    )
+    panel.__dict__["figures"] = [record(f) for f in source.figures[: source.figure_count]]
+    panel.__dict__["marks"] = [record(m) for m in source.marks[: source.mark_count]]
+    panel.__dict__["cells"] = [c.value.decode("utf-8", "replace") for c in source.cells[: source.cell_count]]
     return panel
 
 

@@ -18,9 +18,9 @@ _SUFFIXES = (".binary", ".bsdf", ".bin")
 
 
 class Reflection(Handle):
-    """A prepared BRDF, which never changes. Of a Lobe, of a Material (woven of its cloth, seen from afar), or of a name: a
-    lobe, an engine profile or workflow on a grey cloth, "preset:NAME", a material file, or a measurement (.binary of MERL,
-    .bsdf of RGL, .bin of UTIA)."""
+    """A prepared BRDF, which never changes. Of a Lobe, of a Material (woven of its cloth, seen from afar), or of a
+    name: a lobe, an engine profile or workflow on a grey cloth, "preset:NAME", a material file, or a measurement
+    (.binary of MERL, .bsdf of RGL, .bin of UTIA)."""
 
     _free, _noun = "weft_reflection_free", "reflection"
 
@@ -57,8 +57,9 @@ class Reflection(Handle):
         return f"<Reflection of {self.model!r}>" if self.model is not None else "<Reflection, measured>"
 
     def eval(self, wo: Arrays, wi: Arrays, *, part: str = "all") -> Floats:
-        """Returns f, shape (..., 3), 1/sr, for unit directions of shape (..., 3), which are broadcast. A call of the library
-        takes one wo and many wi: a single wo of shape (3,) is fast, each further one takes about 2 microseconds.
+        """Returns f, shape (..., 3), 1/sr, for unit directions of shape (..., 3), which are broadcast. A call of the
+        library takes one wo and many wi: a single wo of shape (3,) is fast, each further one takes about 2
+        microseconds.
 
         part: "all", or "diffuse", "specular", "sheen", "coat", "dust" of a material."""
         which = choice("WeftPart", part, "part")
@@ -72,17 +73,22 @@ class Reflection(Handle):
         read, written = rows.buffer_info()[0], out.buffer_info()[0]
         with self._use() as pointer:
             for first in range(0, count, 1 << 24 if single else 1):
-                lib.weft_reflection_eval(pointer, which, eyes.buffer_info()[0] + (0 if single else 12 * first),
-                                         min(1 << 24, count - first) if single else 1, read + 12 * first,
-                                         written + 12 * first)
+                lib.weft_reflection_eval(
+                    pointer,
+                    which,
+                    eyes.buffer_info()[0] + (0 if single else 12 * first),
+                    min(1 << 24, count - first) if single else 1,
+                    read + 12 * first,
+                    written + 12 * first,
+                )
         made = Made(lead, 3)
         _parted(out, made.addresses, count)
         del eye, light
         return made.result()  # type: ignore[no-any-return]
 
     def albedo(self, cos_o: Arrays, *, part: str = "all") -> Floats:
-        """Returns E, shape (..., 3), for cosines of wo in the plane of the tangent, shape (...), above 0 to 1; exact to about
-        1 %, of a lobe to 1e-4."""
+        """Returns E, shape (..., 3), for cosines of wo in the plane of the tangent, shape (...), above 0 to 1; exact
+        to about 1 %, of a lobe to 1e-4."""
         which = choice("WeftPart", part, "part")
         given = Given(cos_o, "cos_o", 0)
         count = prod(given.lead)
@@ -105,10 +111,19 @@ class Reflection(Handle):
             call("weft_reflection_sphere", pointer, integer(size, "size"), ctypes.byref(image))
         return taken(image)
 
-    def write(self, file: PathLike, *, thetas: int = 0, phis: int = 0, side: int = 0, comment: Optional[str] = None,
-              threads: int = 0) -> None:
-        """Tabulates f as a .bsdf in RGL's format. thetas (2 to 256) and phis (3 to 256): polar and azimuthal angles of wo;
-        side (8 to 512): points along each side of a table; all 0: until f is reproduced within 1e-3 of its mean."""
+    def write(
+        self,
+        file: PathLike,
+        *,
+        thetas: int = 0,
+        phis: int = 0,
+        side: int = 0,
+        comment: Optional[str] = None,
+        threads: int = 0,
+    ) -> None:
+        """Tabulates f as a .bsdf in RGL's format. thetas (2 to 256) and phis (3 to 256): polar and azimuthal angles of
+        wo; side (8 to 512): points along each side of a table; all 0: until f is reproduced within 1e-3 of its
+        mean."""
         desc = fill(_abi.WeftBsdfDesc(), thetas=thetas, phis=phis, side=side, comment=comment, threads=threads)
         with self._use() as pointer:
             call("weft_reflection_write", pointer, path(file, "file"), ctypes.byref(desc))
@@ -129,7 +144,7 @@ def _interleaved(data: Any, count: int) -> array[float]:
         parts.frombytes(flat)
     rows = array("f", bytes(12 * count))
     for k in range(3):
-        rows[k::3] = parts[k * count:(k + 1) * count]
+        rows[k::3] = parts[k * count : (k + 1) * count]
     return rows
 
 

@@ -6,8 +6,28 @@ from typing import Any, Iterable, Mapping, Optional, Sequence, Union
 
 from . import _abi
 from ._arrays import Array, Arrays
-from ._library import (INTERRUPTED, OK, Error, Handle, PathLike, Progress, Watch, call, choice, created, fill, integer, lib,
-                       logged, names, number, owned_text, path, text, triple)
+from ._library import (
+    INTERRUPTED,
+    OK,
+    Error,
+    Handle,
+    PathLike,
+    Progress,
+    Watch,
+    call,
+    choice,
+    created,
+    fill,
+    integer,
+    lib,
+    logged,
+    names,
+    number,
+    owned_text,
+    path,
+    text,
+    triple,
+)
 from ._records import Record, record
 from .images import given as image_given
 from .images import seen, taken
@@ -27,8 +47,8 @@ class SceneInfo(Record):
 
 class Light(Record):
     """A light: `kind` ("directional", "point", "spot", "polygon"), `position` (m), `direction` in which light travels,
-    `color` (W/m^2 across a beam, W/sr, or radiance), `range`, `inner` and `outer` (degrees), and of a polygon `size` (m),
-    `corners`, `roll` (degrees)."""
+    `color` (W/m^2 across a beam, W/sr, or radiance), `range`, `inner` and `outer` (degrees), and of a polygon `size`
+    (m), `corners`, `roll` (degrees)."""
 
 
 class Camera(Record):
@@ -36,15 +56,17 @@ class Camera(Record):
 
 
 class Scene(Handle):
-    """A scene of a .gltf or .glb, of "builtin:NAME", or of the bytes of a .glb. World space is right-handed, +y up, metres.
+    """A scene of a .gltf or .glb, of "builtin:NAME", or of the bytes of a .glb. World space is right-handed, +y up,
+    metres.
 
     MATERIAL is a name, an index as a text, "*" for all, or None for the cloth of the scene: what has a sheen or, where
     nothing has, all that does not emit. A change while another call uses the scene is a RuntimeError."""
 
     _free, _noun = "weft_scene_free", "scene"
 
-    def __init__(self, file: Union[PathLike, bytes] = "builtin:cloth", *, name: str = "scene.glb",
-                 progress: Progress = None) -> None:
+    def __init__(
+        self, file: Union[PathLike, bytes] = "builtin:cloth", *, name: str = "scene.glb", progress: Progress = None
+    ) -> None:
         if isinstance(file, bytes):
             pointer = created("weft_scene_load_memory", file, len(file), text(name, "name"), log=True)
         else:
@@ -67,6 +89,12 @@ class Scene(Handle):
         """Its counts and extent."""
         with self._use() as pointer:
             return record(lib.weft_scene_info(pointer), SceneInfo)  # type: ignore[no-any-return]
+
+    @property
+    def hash(self) -> int:
+        """A hash of all that pictures of it depend on, as it is now."""
+        with self._use() as pointer:
+            return int(lib.weft_scene_hash(pointer))
 
     def _names(self, call_name: str) -> list[str]:
         with self._use() as pointer:
@@ -111,7 +139,9 @@ class Scene(Handle):
         """Sets "MATERIAL.INPUT" to a number, three of them or a choice, and drops its texture."""
         self._change("weft_scene_set", text(target, "target"), _words(value, "value"))
 
-    def assign(self, file: Union[PathLike, bytes], material: Optional[str] = None, *, name: str = "material.json") -> None:
+    def assign(
+        self, file: Union[PathLike, bytes], material: Optional[str] = None, *, name: str = "material.json"
+    ) -> None:
         """Replaces materials by that of a file, of "preset:NAME", or of the bytes of a material file."""
         which = None if material is None else text(material, "material")
         if isinstance(file, bytes):
@@ -146,11 +176,11 @@ class Scene(Handle):
         self._change("weft_scene_put_measured", self._index(material), path(file, "file"), log=False)
 
     def convert(self, workflow: str) -> list[float]:
-        """Converts materials between workflows "metallic" and "specular". Returns of each the greatest change of a colour, or
-        -1 (another workflow) or -2 (it is that one already) where it stays."""
+        """Converts materials between workflows "metallic" and "specular". Returns of each the greatest change of a
+        colour, or -1 (another workflow) or -2 (it is that one already) where it stays."""
         losses = (ctypes.c_float * max(self.info.material_count, 1))()
         self._change("weft_scene_convert", text(workflow, "workflow"), losses, log=False)
-        return list(losses)[:self.info.material_count]
+        return list(losses)[: self.info.material_count]
 
     def save(self, file: PathLike) -> None:
         """Writes the scene as .glb, or as .gltf with files beside it."""
@@ -198,21 +228,29 @@ class Scene(Handle):
     def bind_maps(self, folder: PathLike, material: Optional[str] = None) -> int:
         """Reads the maps in a folder onto materials, by file name; returns how many there were."""
         count = ctypes.c_int()
-        self._change("weft_scene_bind_maps", None if material is None else text(material, "material"),
-                     path(folder, "folder"), ctypes.byref(count))
+        self._change(
+            "weft_scene_bind_maps",
+            None if material is None else text(material, "material"),
+            path(folder, "folder"),
+            ctypes.byref(count),
+        )
         return count.value
 
     # ---- weave
 
     def weave(self, material: Union[int, str] = 0) -> Optional[tuple[Draft, tuple[Yarn, Yarn], ClothInfo]]:
-        """Returns the draft, the yarns of warp and weft and the figures of a woven material; None where it is not woven."""
+        """Returns the draft, the yarns of warp and weft and the figures of a woven material; None where it is not
+        woven."""
         number, pair = self.material(material)._material.cloth, (_abi.WeftYarn * 2)()
         with self._use() as pointer:
             draft = lib.weft_scene_cloth(pointer, number, pair)
             if not draft:
                 return None
-            return (Draft._of(created("weft_draft_copy", draft)), (Yarn._of(pair[0]), Yarn._of(pair[1])),
-                    record(lib.weft_scene_cloth_info(pointer, number), ClothInfo))
+            return (
+                Draft._of(created("weft_draft_copy", draft)),
+                (Yarn._of(pair[0]), Yarn._of(pair[1])),
+                record(lib.weft_scene_cloth_info(pointer, number), ClothInfo),
+            )
 
     def set_weave(self, material: Union[int, str], draft: Union[Draft, str], yarns: Any) -> None:
         """Weaves a new cloth for a material that is woven."""
@@ -224,10 +262,14 @@ class Scene(Handle):
             self._change("weft_scene_set_weave", index, pointer, pair, log=False)
 
     def set_weave_key(self, key: str, value: Any, material: Optional[str] = None) -> None:
-        """Sets a key of the weave, such as "draft", "sett" or "warp.alpha"; what is not woven becomes plain cotton first.
-        An empty key takes the whole weave, as the JSON of weave_text() or a draft."""
-        self._change("weft_scene_weave", None if material is None else text(material, "material"), text(key, "key"),
-                     _words(value, "value"))
+        """Sets a key of the weave, such as "draft", "sett" or "warp.alpha"; what is not woven becomes plain cotton
+        first. An empty key takes the whole weave, as the JSON of weave_text() or a draft."""
+        self._change(
+            "weft_scene_weave",
+            None if material is None else text(material, "material"),
+            text(key, "key"),
+            _words(value, "value"),
+        )
 
     def weave_text(self, material: Union[int, str] = 0) -> Optional[str]:
         """Returns the weave of a material as JSON; None where it is not woven."""
@@ -238,11 +280,18 @@ class Scene(Handle):
 
     # ---- light and camera
 
-    def set_environment(self, light: Any = None, *, rotation: Optional[float] = None, strength: Optional[float] = None,
-                        ambient: Optional[float] = None, reflection: Optional[float] = None) -> None:
-        """Lights the scene. light: the path of a lat-long image or a cube; three numbers, uniform radiance; "studio"; None:
-        what there is. rotation about +y in degrees and strength are both set where one is given (0, 1); ambient and
-        reflection scale the environment's light at its first reflection by diffuse and by other lobes."""
+    def set_environment(
+        self,
+        light: Any = None,
+        *,
+        rotation: Optional[float] = None,
+        strength: Optional[float] = None,
+        ambient: Optional[float] = None,
+        reflection: Optional[float] = None,
+    ) -> None:
+        """Lights the scene. light: the path of a lat-long image or a cube; three numbers, uniform radiance; "studio";
+        None: what there is. rotation about +y in degrees and strength are both set where one is given (0, 1); ambient
+        and reflection scale the environment's light at its first reflection by diffuse and by other lobes."""
         if isinstance(light, str) and light == "studio":
             self._change("weft_scene_set_environment_studio", log=False)
         elif light is not None and (isinstance(light, (str, bytes)) or hasattr(light, "__fspath__")):
@@ -250,11 +299,19 @@ class Scene(Handle):
         elif light is not None:
             self._change("weft_scene_set_environment_color", (ctypes.c_float * 3)(*triple(light, "light")), log=False)
         if rotation is not None or strength is not None:
-            self._change("weft_scene_set_environment_placement", number(rotation or 0.0, "rotation"),
-                         number(1.0 if strength is None else strength, "strength"), log=False)
+            self._change(
+                "weft_scene_set_environment_placement",
+                number(rotation or 0.0, "rotation"),
+                number(1.0 if strength is None else strength, "strength"),
+                log=False,
+            )
         if ambient is not None or reflection is not None:
-            self._change("weft_scene_set_environment_parts", number(1.0 if ambient is None else ambient, "ambient"),
-                         number(1.0 if reflection is None else reflection, "reflection"), log=False)
+            self._change(
+                "weft_scene_set_environment_parts",
+                number(1.0 if ambient is None else ambient, "ambient"),
+                number(1.0 if reflection is None else reflection, "reflection"),
+                log=False,
+            )
 
     @property
     def stage(self) -> Optional[tuple[float, float]]:
@@ -288,11 +345,17 @@ class Scene(Handle):
         self._change("weft_scene_remove_light", integer(index, "index"), log=False)
 
     def camera(self, camera: Optional[str] = None, *, aspect: float = 4 / 3) -> Camera:
-        """Returns a camera in numbers: of the file by name or index, "eye;target;fov", or None, which frames the scene."""
+        """Returns a camera in numbers: of the file by name or index, "eye;target;fov", or None, which frames the
+        scene."""
         out = _abi.WeftCamera()
         with self._use() as pointer:
-            call("weft_scene_camera", pointer, None if camera is None else text(camera, "camera"),
-                 number(aspect, "aspect"), ctypes.byref(out))
+            call(
+                "weft_scene_camera",
+                pointer,
+                None if camera is None else text(camera, "camera"),
+                number(aspect, "aspect"),
+                ctypes.byref(out),
+            )
         return record(out, Camera)  # type: ignore[no-any-return]
 
 
@@ -336,16 +399,48 @@ def _floor(desc: Any, floor: Any) -> None:
     desc.floor.on, desc.floor.reflection, desc.floor.roughness = 1, values[0], values[1]
 
 
-def _render_desc(*, width: int = 0, height: int = 0, crop: Optional[Sequence[int]] = None, max_depth: int = 0,
-                 seed: int = 0, threads: int = 0, camera: Optional[str] = None, background: Any = None,
-                 sampling: str = "mis", pixel_centre: bool = False, roulette: bool = True, shadows: bool = True,
-                 floor: Any = None, hide_lights: bool = False, halves: Union[bool, str] = False, first_hits: bool = False,
-                 noise: float = 0.0, stages: bool = False, lift: bool = True) -> Any:
-    desc = fill(_abi.WeftRenderDesc(), width=width, height=height, crop=crop, max_depth=max_depth, seed=seed,
-                threads=threads, camera=camera, sampling=sampling, pixel_centre=int(bool(pixel_centre)),
-                no_roulette=int(not roulette), no_shadows=int(not shadows), hide_lights=int(bool(hide_lights)),
-                halves=_halves(halves), first_hits=int(bool(first_hits)), noise=noise, stages=int(bool(stages)),
-                no_lift=int(not lift))
+def _render_desc(
+    *,
+    width: int = 0,
+    height: int = 0,
+    crop: Optional[Sequence[int]] = None,
+    max_depth: int = 0,
+    seed: int = 0,
+    threads: int = 0,
+    camera: Optional[str] = None,
+    background: Any = None,
+    sampling: str = "mis",
+    pixel_centre: bool = False,
+    roulette: bool = True,
+    shadows: bool = True,
+    floor: Any = None,
+    hide_lights: bool = False,
+    halves: Union[bool, str] = False,
+    first_hits: bool = False,
+    noise: float = 0.0,
+    stages: bool = False,
+    lift: bool = True,
+) -> Any:
+    desc = fill(
+        _abi.WeftRenderDesc(),
+        width=width,
+        height=height,
+        crop=crop,
+        max_depth=max_depth,
+        seed=seed,
+        threads=threads,
+        camera=camera,
+        sampling=sampling,
+        pixel_centre=int(bool(pixel_centre)),
+        no_roulette=int(not roulette),
+        no_shadows=int(not shadows),
+        hide_lights=int(bool(hide_lights)),
+        halves=_halves(halves),
+        first_hits=int(bool(first_hits)),
+        noise=noise,
+        stages=int(bool(stages)),
+        no_lift=int(not lift),
+    )
     _background(desc, background)
     _floor(desc, floor)
     return desc
@@ -373,12 +468,13 @@ class Render(Handle):
     ...     render.run(64)
     ...     picture = render.image()              # shape (240, 320, 4), float32, linear
 
-    Keyword arguments, each with a default: width and height (960 x 720); crop (x, y, width, height); max_depth (9); seed;
-    threads (all); camera (None frames the scene; a name or index; "eye;target;fov"); background ("auto", "environment",
-    "transparent", "blurred", or three numbers); sampling ("mis", "light", "lobe"); pixel_centre, roulette, shadows, lift;
-    floor (True, or reflectance and roughness of its mirror, such as Scene.stage); hide_lights; halves, for noise,
-    "variance" and denoised() (True, or "shared" where only the last needs them: the picture is then as without);
-    first_hits, for "albedo", "normal" and "depth"; noise, the relMSE at which run() stops; stages.
+    Keyword arguments, each with a default: width and height (960 x 720); crop (x, y, width, height); max_depth (9);
+    seed; threads (all); camera (None frames the scene; a name or index; "eye;target;fov"); background ("auto",
+    "environment", "transparent", "blurred", or three numbers); sampling ("mis", "light", "lobe"); pixel_centre,
+    roulette, shadows, lift; floor (True, or reflectance and roughness of its mirror, such as Scene.stage);
+    hide_lights; halves, for noise, "variance" and denoised() (True, or "shared" where only the last needs them: the
+    picture is then as without); first_hits, for "albedo", "normal" and "depth"; noise, the relMSE at which run()
+    stops; stages.
 
     After a change of the scene the next run() begins anew. The same arguments give the same bytes, on any number of
     threads."""
@@ -401,9 +497,9 @@ class Render(Handle):
         self._broken, self._revision = False, self._scene._revision
 
     def run(self, spp: int, *, seconds: float = 0.0, progress: Progress = None) -> bool:
-        """Adds up to spp samples to every pixel; stops early after so many seconds (0: no limit), or when progress, called
-        with the finished fraction, returns True. Returns False where progress stopped it. The samples are kept, after
-        Ctrl+C too."""
+        """Adds up to spp samples to every pixel; stops early after so many seconds (0: no limit), or when progress,
+        called with the finished fraction, returns True. Returns False where progress stopped it. The samples are kept,
+        after Ctrl+C too."""
         spp, seconds = integer(spp, "spp", 1), number(seconds, "seconds")
         with self._use(alone=True) as pointer, self._scene._use():
             if self._broken or self._revision != self._scene._revision:
@@ -470,11 +566,19 @@ def _scene(scene: Union[Scene, PathLike]) -> tuple[Scene, bool]:
     return (scene, False) if isinstance(scene, Scene) else (Scene(scene), True)
 
 
-def render(scene: Union[Scene, PathLike] = "builtin:cloth", spp: int = 64, *, seconds: float = 0.0,
-           aovs: Iterable[str] = (), denoise: Optional[str] = None, progress: Progress = None, **options: Any) -> Any:
-    """Path traces a scene, or the file of one, and returns the picture, shape (height, width, 4), float32, linear; with aovs
-    a pair of it and a dict of them by name. Options are those of Render; denoise: "regression" or "oidn". Where progress
-    stops it, what there is is returned."""
+def render(
+    scene: Union[Scene, PathLike] = "builtin:cloth",
+    spp: int = 64,
+    *,
+    seconds: float = 0.0,
+    aovs: Iterable[str] = (),
+    denoise: Optional[str] = None,
+    progress: Progress = None,
+    **options: Any,
+) -> Any:
+    """Path traces a scene, or the file of one, and returns the picture, shape (height, width, 4), float32, linear;
+    with aovs a pair of it and a dict of them by name. Options are those of Render; denoise: "regression" or "oidn".
+    Where progress stops it, what there is is returned."""
     wanted = [aovs] if isinstance(aovs, str) else list(aovs)
     for name in wanted:
         choice("WeftAov", name, "aovs")
@@ -503,17 +607,31 @@ class RasterInfo(Record):
 class Raster(Handle):
     """A scene uploaded to OpenGL, in a context of its own. Takes up changes of the scene at the next picture.
 
-    shader_dir: a folder whose files replace the library's shader text; occlusion: rays a vertex, traced for its visibility
-    of the sky; es: OpenGL ES 3.0; cache: of the user's folder; threads: 0: all."""
+    shader_dir: a folder whose files replace the library's shader text; occlusion: rays a vertex, traced for its
+    visibility of the sky; es: OpenGL ES 3.0; cache: of the user's folder; threads: 0: all."""
 
     _free, _noun = "weft_raster_free", "raster"
 
-    def __init__(self, scene: Scene, *, shader_dir: Optional[PathLike] = None, threads: int = 0, occlusion: int = 0,
-                 es: bool = False, cache: bool = True, progress: Progress = None) -> None:
+    def __init__(
+        self,
+        scene: Scene,
+        *,
+        shader_dir: Optional[PathLike] = None,
+        threads: int = 0,
+        occlusion: int = 0,
+        es: bool = False,
+        cache: bool = True,
+        progress: Progress = None,
+    ) -> None:
         if not isinstance(scene, Scene):
             raise TypeError(f"scene: must be a Scene, not {type(scene).__name__}")
-        desc = fill(_abi.WeftRasterDesc(), gl="es" if es else "desktop", threads=threads, occlusion=occlusion,
-                    no_cache=int(not cache))
+        desc = fill(
+            _abi.WeftRasterDesc(),
+            gl="es" if es else "desktop",
+            threads=threads,
+            occlusion=occlusion,
+            no_cache=int(not cache),
+        )
         if shader_dir is not None:
             desc.shader_dir = path(shader_dir, "shader_dir")
         self._scene, self._watch = scene, Watch(progress)
@@ -523,17 +641,44 @@ class Raster(Handle):
             self._revision = scene._revision
         super().__init__(made, scene)
 
-    def draw(self, *, width: int = 0, height: int = 0, samples: int = 0, camera: Optional[str] = None,
-             background: Any = None, ambient: str = "best", polygons: int = 0, shadows: bool = True, part: str = "all",
-             crop: Optional[Sequence[int]] = None, plain_textures: bool = False, floor: Any = None,
-             hide_lights: bool = False, wait: bool = True, frames: int = 0) -> Array:
-        """Draws a picture: shape (height, width, 4), float32, linear. part: "all", "diffuse", "sheen", "normal" and so on;
-        ambient: "best", "irradiance", "mirror", "fitted", "none"; samples a pixel 1 to 8; wait: for occlusion; frames: the
-        mean of so many frames with random samples of the light, which converges to the path tracer's direct light."""
+    def draw(
+        self,
+        *,
+        width: int = 0,
+        height: int = 0,
+        samples: int = 0,
+        camera: Optional[str] = None,
+        background: Any = None,
+        ambient: str = "best",
+        polygons: int = 0,
+        shadows: bool = True,
+        part: str = "all",
+        crop: Optional[Sequence[int]] = None,
+        plain_textures: bool = False,
+        floor: Any = None,
+        hide_lights: bool = False,
+        wait: bool = True,
+        frames: int = 0,
+    ) -> Array:
+        """Draws a picture: shape (height, width, 4), float32, linear. part: "all", "diffuse", "sheen", "normal" and so
+        on; ambient: "best", "irradiance", "mirror", "fitted", "none"; samples a pixel 1 to 8; wait: for occlusion;
+        frames: the mean of so many frames with random samples of the light, which converges to the path tracer's
+        direct light."""
         frames = integer(frames, "frames", 0, _abi.CONSTANTS["WEFT_RASTER_FRAMES_MOST"])
-        view = fill(_abi.WeftRasterView(), width=width, height=height, samples=samples, camera=camera, ambient=ambient,
-                    polygons=polygons, no_shadows=int(not shadows), part=part, crop=crop,
-                    plain_textures=int(bool(plain_textures)), hide_lights=int(bool(hide_lights)))
+        view = fill(
+            _abi.WeftRasterView(),
+            width=width,
+            height=height,
+            samples=samples,
+            camera=camera,
+            ambient=ambient,
+            polygons=polygons,
+            no_shadows=int(not shadows),
+            part=part,
+            crop=crop,
+            plain_textures=int(bool(plain_textures)),
+            hide_lights=int(bool(hide_lights)),
+        )
         _background(view, background)
         _floor(view, floor)
         image = _abi.WeftImage()
@@ -578,8 +723,8 @@ def raster(scene: Union[Scene, PathLike] = "builtin:cloth", **options: Any) -> A
 
 
 class Picked(Record):
-    """A point of a surface: `mesh`, `material`, `position`, `normal`, `tangent`, `bitangent`, `texcoord`, `distance` (m),
-    `uv_per_metre`."""
+    """A point of a surface: `mesh`, `material`, `position`, `normal`, `tangent`, `bitangent`, `texcoord`, `distance`
+    (m), `uv_per_metre`."""
 
 
 class Picker(Handle):
@@ -596,13 +741,33 @@ class Picker(Handle):
         super().__init__(made, scene)
 
     def at(self, x: float, y: float, *, width: int, height: int, camera: Optional[str] = None) -> Optional[Picked]:
-        """Returns the surface at a point of a picture of that size, pixels from the top left; None where there is none."""
+        """Returns the surface at a point of a picture of that size, pixels from the top left; None where there is
+        none."""
         out, where = _abi.WeftPicked(), None if camera is None else text(camera, "camera")
         with self._use(alone=True) as pointer, self._scene._use():
-            hit = lib.weft_pick_at(pointer, where, integer(width, "width", 1, 65536), integer(height, "height", 1, 65536),
-                                   number(x, "x"), number(y, "y"), ctypes.byref(out))
+            hit = lib.weft_pick_at(
+                pointer,
+                where,
+                integer(width, "width", 1, 65536),
+                integer(height, "height", 1, 65536),
+                number(x, "x"),
+                number(y, "y"),
+                ctypes.byref(out),
+            )
         return record(out, Picked) if hit else None
 
 
-__all__ = ["Camera", "Light", "Picked", "Picker", "Raster", "RasterInfo", "Render", "RenderInfo", "Scene", "SceneInfo",
-           "raster", "render"]
+__all__ = [
+    "Camera",
+    "Light",
+    "Picked",
+    "Picker",
+    "Raster",
+    "RasterInfo",
+    "Render",
+    "RenderInfo",
+    "Scene",
+    "SceneInfo",
+    "raster",
+    "render",
+]

@@ -8,7 +8,7 @@ from typing import Any, Optional, Union
 
 from . import _abi
 from ._arrays import Array, Arrays, Floats, Given, Made, copied, shaped
-from ._library import (Handle, Log, Progress, Watch, call, created, fill, integer, lib, names, number, text)
+from ._library import Handle, Log, Progress, Watch, call, created, fill, integer, lib, names, number, text
 from ._records import Record, record
 from .images import given as image_given
 from .images import taken
@@ -16,8 +16,8 @@ from .lobes import Lobe
 
 
 class BakeKind(Record):
-    """A kind of table: `id`, `help`, `lobe` (0: none is taken, 1: one may be, 2: one must be given), `formed` (heeds axes),
-    and the default `width` and `height`, texels."""
+    """A kind of table: `id`, `help`, `lobe` (0: none is taken, 1: one may be, 2: one must be given), `formed` (heeds
+    axes), and the default `width` and `height`, texels."""
 
 
 def bake_kinds() -> list[BakeKind]:
@@ -58,8 +58,8 @@ def _lobe(lobe: Optional[Union[Lobe, str]]) -> Any:
 
 
 def table_axes(axes: Optional[str], lobe: Union[Lobe, str], width: int, height: int) -> tuple[Floats, Floats]:
-    """Returns what the texels of a table of that size stand for: the cosine of wo and the lobe's first parameter, which may
-    be beyond its possible range; each of shape (height, width)."""
+    """Returns what the texels of a table of that size stand for: the cosine of wo and the lobe's first parameter,
+    which may be beyond its possible range; each of shape (height, width)."""
     form, pointer = _form(axes), _lobe(lobe)
     if pointer is None:
         raise TypeError("lobe: must be a Lobe or its id, not None")
@@ -70,23 +70,33 @@ def table_axes(axes: Optional[str], lobe: Union[Lobe, str], width: int, height: 
     cos_o, value = ctypes.c_float(), ctypes.c_float()
     for y in range(height):
         for x in range(width):
-            lib.weft_table_form_texel(ctypes.byref(form), pointer.contents.lobe, width, height, x, y, ctypes.byref(cos_o),
-                                      ctypes.byref(value))
+            lib.weft_table_form_texel(
+                ctypes.byref(form), pointer.contents.lobe, width, height, x, y, ctypes.byref(cos_o), ctypes.byref(value)
+            )
             cosines.append(cos_o.value)
             values.append(value.value)
     return shaped(cosines, (height, width)), shaped(values, (height, width))
 
 
 class Table(Record):
-    """A table: `texels`, float32, shape (height, width) or (height, width, channels); `axes`, what they mean; `words` and
-    `channels`; the quadrature's `error`, `unmet` and `beyond`; `low` and `high`."""
+    """A table: `texels`, float32, shape (height, width) or (height, width, channels); `axes`, what they mean; `words`
+    and `channels`; the quadrature's `error`, `unmet` and `beyond`; `low` and `high`."""
 
 
-def bake(kind: str, lobe: Optional[Union[Lobe, str]] = None, *, width: int = 0, height: int = 0,
-         axes: Optional[str] = None, tolerance: float = 0.0, threads: int = 0, progress: Progress = None) -> Table:
-    """Makes a table, such as bake("e", "charlie-neubelt", axes="filament"). kind: an id of bake_kinds(); width and height:
-    texels, 0: as the kind has it; axes: a name of table_forms() or elements such as "cos,alpha,centres"; tolerance: of
-    each value's quadrature, 0: 1e-4. progress gets the finished fraction, and returns True to stop."""
+def bake(
+    kind: str,
+    lobe: Optional[Union[Lobe, str]] = None,
+    *,
+    width: int = 0,
+    height: int = 0,
+    axes: Optional[str] = None,
+    tolerance: float = 0.0,
+    threads: int = 0,
+    progress: Progress = None,
+) -> Table:
+    """Makes a table, such as bake("e", "charlie-neubelt", axes="filament"). kind: an id of bake_kinds(); width and
+    height: texels, 0: as the kind has it; axes: a name of table_forms() or elements such as "cos,alpha,centres";
+    tolerance: of each value's quadrature, 0: 1e-4. progress gets the finished fraction, and returns True to stop."""
     desc = fill(_abi.WeftBakeDesc(), kind=kind, width=width, height=height, tolerance=tolerance, threads=threads)
     desc.form, pointer = _form(axes), _lobe(lobe)
     if pointer is not None:
@@ -99,15 +109,24 @@ def bake(kind: str, lobe: Optional[Union[Lobe, str]] = None, *, width: int = 0, 
 
 
 class Audit(Record):
-    """What is wrong with a table: `found`, a list of `fault` ("none", "biased", ...) and `text`, the gravest first; `fits`,
-    `part`, `texels`, `left_out`, the `largest` error and its `place`, `rms`, `mean`, `beyond`, `together`, `step`, `error`;
-    `axes` and `lobe` that it was compared by, `other` where it is of another lobe; `errors`, an array (height, width, 3) of
-    error, table and E."""
+    """What is wrong with a table: `found`, a list of `fault` ("none", "biased", ...) and `text`, the gravest first;
+    `fits`, `part`, `texels`, `left_out`, the `largest` error and its `place`, `rms`, `mean`, `beyond`, `together`,
+    `step`, `error`; `axes` and `lobe` that it was compared by, `other` where it is of another lobe; `errors`, an array
+    (height, width, 3) of error, table and E."""
 
 
-def audit(image: Arrays, lobe: Optional[Union[Lobe, str]] = None, *, channel: int = 0, axes: Optional[str] = None,
-          scale: float = 0.0, most: float = 0.0, tolerance: float = 0.0, threads: int = 0,
-          progress: Progress = None) -> Audit:
+def audit(
+    image: Arrays,
+    lobe: Optional[Union[Lobe, str]] = None,
+    *,
+    channel: int = 0,
+    axes: Optional[str] = None,
+    scale: float = 0.0,
+    most: float = 0.0,
+    tolerance: float = 0.0,
+    threads: int = 0,
+    progress: Progress = None,
+) -> Audit:
     """Compares a table of E with the quadrature of a lobe (None: the nearest) at its own texels. scale multiplies the
     table, 0: 1; most: the largest error that passes, 0: 0.01."""
     source, keep = image_given(image, "image")
@@ -127,8 +146,17 @@ def audit(image: Arrays, lobe: Optional[Union[Lobe, str]] = None, *, channel: in
     def lobe_id(index: int) -> Optional[str]:
         return lib.weft_lobe_info(index).contents.id.decode() if index >= 0 else None
 
-    return record(out, Audit, leave=("form", "faults"), found=found, axes=_form_text(out.form),  # type: ignore[no-any-return]
-                  lobe=lobe_id(out.lobe), other=lobe_id(out.other), errors=taken(errors))
+    result: Audit = record(
+        out,
+        Audit,
+        leave=("form", "faults"),
+        found=found,
+        axes=_form_text(out.form),
+        lobe=lobe_id(out.lobe),
+        other=lobe_id(out.other),
+        errors=taken(errors),
+    )
+    return result
 
 
 class AlbedoForm(Record):
@@ -140,12 +168,21 @@ class AlbedoForm(Record):
 
     def at(self, cos_o: float, roughness: float) -> float:
         """Returns E."""
-        value: float = lib.weft_form_at(ctypes.byref(self._form), number(cos_o, "cos_o"), number(roughness, "roughness"))
+        value: float = lib.weft_form_at(
+            ctypes.byref(self._form), number(cos_o, "cos_o"), number(roughness, "roughness")
+        )
         return value
 
 
-def bake_form(lobe: Union[Lobe, str], *, part: str = "sum", error: float = 0.0, lowest: float = 0.0, threads: int = 0,
-              progress: Progress = None) -> AlbedoForm:
+def bake_form(
+    lobe: Union[Lobe, str],
+    *,
+    part: str = "sum",
+    error: float = 0.0,
+    lowest: float = 0.0,
+    threads: int = 0,
+    progress: Progress = None,
+) -> AlbedoForm:
     """Finds the polynomial of fewest terms that is E of a lobe within an error (0: 0.01), from a roughness on."""
     desc = fill(_abi.WeftAlbedoFormDesc(), part=part, error=error, lowest=lowest, threads=threads)
     desc.lobe = _lobe(lobe)
@@ -167,11 +204,35 @@ class Ltc(Handle):
 
     _free, _noun = "weft_ltc_free", "table"
 
-    def __init__(self, lobe: Union[Lobe, str], *, rows: int = 0, columns: int = 0, low: float = 0.0, high: float = 0.0,
-                 f0: float = 0.0, f90: float = 0.0, norm: int = 0, level: bool = False, threads: int = 0,
-                 cache: bool = True, progress: Progress = None) -> None:
-        desc = fill(_abi.WeftLtcDesc(), rows=rows, columns=columns, low=low, high=high, f0=f0, f90=f90, norm=norm,
-                    level=int(bool(level)), threads=threads, no_cache=int(not cache))
+    def __init__(
+        self,
+        lobe: Union[Lobe, str],
+        *,
+        rows: int = 0,
+        columns: int = 0,
+        low: float = 0.0,
+        high: float = 0.0,
+        f0: float = 0.0,
+        f90: float = 0.0,
+        norm: int = 0,
+        level: bool = False,
+        threads: int = 0,
+        cache: bool = True,
+        progress: Progress = None,
+    ) -> None:
+        desc = fill(
+            _abi.WeftLtcDesc(),
+            rows=rows,
+            columns=columns,
+            low=low,
+            high=high,
+            f0=f0,
+            f90=f90,
+            norm=norm,
+            level=int(bool(level)),
+            threads=threads,
+            no_cache=int(not cache),
+        )
         pointer = _lobe(lobe)
         with Watch(progress) as watch:
             desc.progress = ctypes.cast(watch.callback, type(desc.progress))
@@ -239,8 +300,8 @@ class LtcLobe:
         return copied(ctypes.addressof(m), "f", (3, 3))  # type: ignore[no-any-return]
 
     def sample(self, wo: Arrays, u: Arrays) -> tuple[Floats, float]:
-        """Draws one wi, shape (3,), for a wo of shape (3,) and u of shape (2,) in [0, 1); returns it and its pdf, 1/sr; 0
-        means no sample."""
+        """Draws one wi, shape (3,), for a wo of shape (3,) and u of shape (2,) in [0, 1); returns it and its pdf,
+        1/sr; 0 means no sample."""
         eye, keep = _single(wo, "wo")
         pair = Given(u, "u", 2)
         if pair.lead != ():
@@ -273,5 +334,17 @@ def _single(value: Arrays, name: str) -> tuple[int, Any]:
     return starts[0], keep
 
 
-__all__ = ["AlbedoForm", "Audit", "BakeKind", "Ltc", "LtcLobe", "Table", "audit", "bake", "bake_form", "bake_kinds",
-           "table_axes", "table_forms"]
+__all__ = [
+    "AlbedoForm",
+    "Audit",
+    "BakeKind",
+    "Ltc",
+    "LtcLobe",
+    "Table",
+    "audit",
+    "bake",
+    "bake_form",
+    "bake_kinds",
+    "table_axes",
+    "table_forms",
+]

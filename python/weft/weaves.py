@@ -7,7 +7,7 @@ from typing import Any, Iterable, Union
 
 from . import _abi
 from ._arrays import Array, shaped
-from ._library import (Handle, PathLike, call, choice, created, integer, lib, names, number, path, text)
+from ._library import Handle, PathLike, call, choice, created, integer, lib, names, number, path, text
 from ._records import Record, record, tidy
 from .images import taken
 
@@ -80,7 +80,9 @@ class Draft(Handle):
     def set_sett(self, system: str, per_metre: float) -> None:
         """Sets the number of threads per metre, 1 to 1e6, of "warp" or "weft"."""
         with self._use(alone=True) as pointer:
-            call("weft_draft_set_sett", pointer, choice("WeftThreads", system, "system"), number(per_metre, "per_metre"))
+            call(
+                "weft_draft_set_sett", pointer, choice("WeftThreads", system, "system"), number(per_metre, "per_metre")
+            )
 
     def back(self) -> Draft:
         """Returns the draft of the back."""
@@ -118,9 +120,9 @@ def weaves() -> dict[str, str]:
 
 
 class Yarn:
-    """The yarn of one system, as it lies in a cloth, by name; keyword arguments change its numbers, such as `alpha` (of its
-    fibres), `crimp` and `twist` (radians), `roundness`, `dye`, `slub`, `hairiness`. `Yarn.numbers()` has all of them, with
-    their ranges."""
+    """The yarn of one system, as it lies in a cloth, by name; keyword arguments change its numbers, such as `alpha`
+    (of its fibres), `crimp` and `twist` (radians), `roundness`, `dye`, `slub`, `hairiness`. `Yarn.numbers()` has all
+    of them, with their ranges."""
 
     __slots__ = ("_yarn",)
 
@@ -166,7 +168,8 @@ def _yarn_pair(given: Any) -> Any:
 
 
 class Cloth(Handle):
-    """A draft woven of yarns: one for both systems, or a pair (warp, weft), as names or Yarn. seed selects the variation."""
+    """A draft woven of yarns: one for both systems, or a pair (warp, weft), as names or Yarn. seed selects the
+    variation."""
 
     _free, _noun = "weft_cloth_free", "cloth"
 
@@ -200,9 +203,12 @@ class Cloth(Handle):
         return taken(image)
 
     def bake(self, folder: PathLike, *, pixels: int = 1024, metres: float = 1.0) -> None:
-        """Writes tiling textures and a material file into a folder; metres: that one unit of texture coordinates spans."""
+        """Writes tiling textures and a material file into a folder; metres: that one unit of texture coordinates
+        spans."""
         with self._use() as pointer:
-            call("weft_cloth_bake", pointer, integer(pixels, "pixels"), number(metres, "metres"), path(folder, "folder"))
+            call(
+                "weft_cloth_bake", pointer, integer(pixels, "pixels"), number(metres, "metres"), path(folder, "folder")
+            )
 
 
 def parse_draft(notation: str) -> Draft:

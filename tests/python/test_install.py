@@ -23,11 +23,15 @@ def run(*command, fails=False, cwd=None, **changed):
 @pytest.fixture
 def copy(tmp_path):
     """A copy of the package's sources, in which pip may leave files."""
-    return shutil.copytree(SOURCE, tmp_path / "python", ignore=shutil.ignore_patterns("__pycache__", "build", "*.egg-info"))
+    return shutil.copytree(
+        SOURCE, tmp_path / "python", ignore=shutil.ignore_patterns("__pycache__", "build", "*.egg-info")
+    )
 
 
 @pytest.mark.skipif("WEFT_LIBRARY" not in os.environ, reason="WEFT_LIBRARY does not name the library that was built")
-@pytest.mark.skipif("WEFT_PRELOAD" in os.environ, reason="pip under sanitizers takes minutes, and tests nothing of ours")
+@pytest.mark.skipif(
+    "WEFT_PRELOAD" in os.environ, reason="pip under sanitizers takes minutes, and tests nothing of ours"
+)
 def test_pip_installs_it_beside_an_installed_library(tmp_path, copy):
     for module in ("venv", "ensurepip", "setuptools", "wheel"):
         if importlib.util.find_spec(module) is None:
@@ -40,19 +44,31 @@ def test_pip_installs_it_beside_an_installed_library(tmp_path, copy):
     assert re.match(r"\d+\.\d+\.\d+ lambert .*/env/lib/python3.*/site-packages/weft/__init__\.py", shown)
     assert "lambert" in run(python, "-c", SHOW, WEFT_LIBRARY=library)
     assert re.search(r"Version: \d+\.\d+\.\d+", run(python, "-m", "pip", "show", "weft"))
-    assert (tmp_path / "env").joinpath("lib", f"python3.{sys.version_info[1]}", "site-packages", "weft", "py.typed").exists()
+    assert (
+        (tmp_path / "env")
+        .joinpath("lib", f"python3.{sys.version_info[1]}", "site-packages", "weft", "py.typed")
+        .exists()
+    )
 
 
 def test_a_library_that_is_missing_is_named(copy):
-    said = run(sys.executable, "-c", "import weft", fails=True, PYTHONPATH=str(copy), WEFT_LIBRARY="/nowhere/libweft.so")
+    said = run(
+        sys.executable, "-c", "import weft", fails=True, PYTHONPATH=str(copy), WEFT_LIBRARY="/nowhere/libweft.so"
+    )
     assert "ImportError: /nowhere/libweft.so: the library of weft cannot be loaded" in said and "WEFT_LIBRARY" in said
 
 
 def test_a_library_of_another_version_is_refused(copy):
     file = copy / "weft" / "_abi.py"
     file.write_text(re.sub(r'VERSION = "\d+\.\d+', 'VERSION = "77.7', file.read_text()))
-    said = run(sys.executable, "-c", "import weft", fails=True, PYTHONPATH=str(copy),
-               **{k: os.environ[k] for k in ("WEFT_LIBRARY",) if k in os.environ})
+    said = run(
+        sys.executable,
+        "-c",
+        "import weft",
+        fails=True,
+        PYTHONPATH=str(copy),
+        **{k: os.environ[k] for k in ("WEFT_LIBRARY",) if k in os.environ},
+    )
     assert re.search(r"ImportError: .*: is version \d+\.\d+\.\d+ of weft, and this package was made for 77\.7", said)
 
 
@@ -67,6 +83,7 @@ def test_types_are_complete():
 def test_everything_public_says_what_it_is():
     import inspect
     import weft
+
     for name in weft.__all__:
         thing = getattr(weft, name)
         if inspect.isclass(thing) or inspect.isfunction(thing):

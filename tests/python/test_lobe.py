@@ -129,16 +129,27 @@ def test_records_are_those_of_the_c_compiler(tmp_path):
     include = os.environ.get("WEFT_INCLUDE")
     if not compiler or not include:
         pytest.skip("there is no C compiler, or WEFT_INCLUDE does not say where the headers are")
-    records = {name: kind for name, kind in vars(_abi).items()
-               if name.startswith("Weft") and isinstance(kind, type) and issubclass(kind, ctypes.Structure)
-               and "_" not in name}
-    lines = [f'printf("%zu\\n", sizeof({name}));' + "".join(
-        f'printf("%zu\\n", offsetof({name}, {field[0]}));' for field in kind._fields_) for name, kind in records.items()]
+    records = {
+        name: kind
+        for name, kind in vars(_abi).items()
+        if name.startswith("Weft") and isinstance(kind, type) and issubclass(kind, ctypes.Structure) and "_" not in name
+    }
+    lines = [
+        f'printf("%zu\\n", sizeof({name}));'
+        + "".join(f'printf("%zu\\n", offsetof({name}, {field[0]}));' for field in kind._fields_)
+        for name, kind in records.items()
+    ]
     source = tmp_path / "records.c"
-    source.write_text('#include <stddef.h>\n#include <stdio.h>\n#include "weft/weft.h"\nint main(void) {\n'
-                      + "\n".join(lines) + "\nreturn 0; }\n")
+    source.write_text(
+        '#include <stddef.h>\n#include <stdio.h>\n#include "weft/weft.h"\nint main(void) {\n'
+        + "\n".join(lines)
+        + "\nreturn 0; }\n"
+    )
     subprocess.run([compiler, "-std=c11", f"-I{include}", str(source), "-o", str(tmp_path / "records")], check=True)
     printed = subprocess.run([str(tmp_path / "records")], check=True, capture_output=True, text=True).stdout.split()
-    ours = [str(n) for kind in records.values()
-            for n in (ctypes.sizeof(kind), *(getattr(kind, f[0]).offset for f in kind._fields_))]
+    ours = [
+        str(n)
+        for kind in records.values()
+        for n in (ctypes.sizeof(kind), *(getattr(kind, f[0]).offset for f in kind._fields_))
+    ]
     assert len(records) > 60 and printed == ours

@@ -147,8 +147,18 @@ def test_a_figure_has_numbers_and_a_picture(tmp_path):
 
 
 def test_the_catalogue_has_a_line_on_everything():
-    for found in (weft.terms("d"), weft.layers(), weft.workflows(), weft.profiles(), weft.presets(), weft.builtins(),
-                  weft.aliases(), weft.yarns(), weft.weaves(), weft.preset_groups()):
+    for found in (
+        weft.terms("d"),
+        weft.layers(),
+        weft.workflows(),
+        weft.profiles(),
+        weft.presets(),
+        weft.builtins(),
+        weft.aliases(),
+        weft.yarns(),
+        weft.weaves(),
+        weft.preset_groups(),
+    ):
         assert found and all(found.values())
     assert '"sheen_color"' in weft.preset_text("velvet")
     with pytest.raises(ValueError, match="must be one of"):

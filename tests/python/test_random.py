@@ -1,5 +1,5 @@
-"""Ten thousand random calls: each returns or raises an exception that is meant for the caller, and nothing crashes. Under
-sanitizers the library's memory is watched too."""
+"""Ten thousand random calls: each returns or raises an exception that is meant for the caller, and nothing crashes.
+Under sanitizers the library's memory is watched too."""
 import random
 import warnings
 from array import array
@@ -16,14 +16,70 @@ ALLOWED = (weft.Error, TypeError, ValueError, KeyError, RuntimeError, IndexError
 
 
 def numbers(chance):
-    return chance.choice([0, 1, -1, 0.3, 0.5, 7, 1e30, -1e-30, float("nan"), float("inf"), 2**31, 2**63, 10**400, True, None, "0.5",
-                          "x", b"1", 1j, [], chance.random(), chance.gauss(0, 1)])
+    return chance.choice(
+        [
+            0,
+            1,
+            -1,
+            0.3,
+            0.5,
+            7,
+            1e30,
+            -1e-30,
+            float("nan"),
+            float("inf"),
+            2**31,
+            2**63,
+            10**400,
+            True,
+            None,
+            "0.5",
+            "x",
+            b"1",
+            1j,
+            [],
+            chance.random(),
+            chance.gauss(0, 1),
+        ]
+    )
 
 
 def words(chance):
-    return chance.choice(["ggx", "lambert", "charlie-neubelt", "alpha", "color", "f90", "all", "sheen", "", "x" * 2000, "a\0b", "\ud800",
-                          "é", "twill 2/2", "plain", "preset:velvet", "three", "*.roughness", "Cloth.base_color", "albedo", "flip", None, 5,
-                          b"bytes", "profile", "silk", "warp", "builtin:cloth", "-1", "../x", "picture"])
+    return chance.choice(
+        [
+            "ggx",
+            "lambert",
+            "charlie-neubelt",
+            "alpha",
+            "color",
+            "f90",
+            "all",
+            "sheen",
+            "",
+            "x" * 2000,
+            "a\0b",
+            "\ud800",
+            "é",
+            "twill 2/2",
+            "plain",
+            "preset:velvet",
+            "three",
+            "*.roughness",
+            "Cloth.base_color",
+            "albedo",
+            "flip",
+            None,
+            5,
+            b"bytes",
+            "profile",
+            "silk",
+            "warp",
+            "builtin:cloth",
+            "-1",
+            "../x",
+            "picture",
+        ]
+    )
 
 
 def arrays(chance):
@@ -39,8 +95,10 @@ def arrays(chance):
             return memoryview(array(chance.choice("fdBl"), [1] * count)).cast("B")
         if kind % 3 == 2 and count:
             return memoryview(array("f", values)).cast("B").cast("f", shape or (1,))
-        return [values[3 * k:3 * k + 3] for k in range(count // 3)]
-    made = np.reshape(values, shape).astype(chance.choice(["f4", "f4", "f4", "f8", "i4", "u1", "u2", "c8", "?", ">f4", "f2", "O"]))
+        return [values[3 * k : 3 * k + 3] for k in range(count // 3)]
+    made = np.reshape(values, shape).astype(
+        chance.choice(["f4", "f4", "f4", "f8", "i4", "u1", "u2", "c8", "?", ">f4", "f2", "O"])
+    )
     if kind == 1:
         made = made[::-1] if made.ndim else made
     if kind == 2:
@@ -78,7 +136,9 @@ def test_random_calls_never_crash(tmp_path, monkeypatch):
         lambda: chance.choice(lobes).__setitem__(words(chance), something()),
         lambda: chance.choice(lobes).__getitem__(words(chance)),
         lambda: weft.Lobe(words(chance), alpha=numbers(chance)),
-        lambda: material.__setitem__(chance.choice([words(chance), "roughness", "sheen_color", "profile"]), something()),
+        lambda: material.__setitem__(
+            chance.choice([words(chance), "roughness", "sheen_color", "profile"]), something()
+        ),
         lambda: material.__getitem__(words(chance)),
         lambda: material.reads(words(chance)),
         lambda: weft.Reflection(something()),
@@ -97,7 +157,9 @@ def test_random_calls_never_crash(tmp_path, monkeypatch):
         lambda: weft.difference_image(arrays(chance), arrays(chance), numbers(chance)),
         lambda: weft.sheet([arrays(chance)], [words(chance)], columns=numbers(chance)),
         lambda: weft.read_image(chance.choice([b"", b"\x89PNG\r\n\x1a\n", b"\x93NUMPY", bytes(chance.randrange(200))])),
-        lambda: weft.write_image(chance.choice(["a.exr", "a.png", "a.npy", "a.hdr", "a"]), arrays(chance), comment=words(chance)),
+        lambda: weft.write_image(
+            chance.choice(["a.exr", "a.png", "a.npy", "a.hdr", "a"]), arrays(chance), comment=words(chance)
+        ),
         lambda: weft.Draft(chance.choice([words(chance), b"", b"[WIF]\n"])),
         lambda: draft.set_up(numbers(chance), numbers(chance), True),
         lambda: draft.threads(words(chance)),
@@ -108,7 +170,9 @@ def test_random_calls_never_crash(tmp_path, monkeypatch):
         lambda: scene.assign(chance.choice([b"{}", b"{", words(chance)]), words(chance)),
         lambda: scene.material(chance.choice([numbers(chance), words(chance)])),
         lambda: scene.put_material(chance.choice([0, numbers(chance)]), chance.choice([material, something()])),
-        lambda: scene.add_light(chance.choice(["point", words(chance)]), position=something(), color=something(), range=numbers(chance)),
+        lambda: scene.add_light(
+            chance.choice(["point", words(chance)]), position=something(), color=something(), range=numbers(chance)
+        ),
         lambda: scene.remove_light(numbers(chance)),
         lambda: scene.texture(numbers(chance)),
         lambda: scene.put_texture(numbers(chance), arrays(chance)),
@@ -118,9 +182,19 @@ def test_random_calls_never_crash(tmp_path, monkeypatch):
         lambda: render.run(chance.choice([1, 1, numbers(chance)]), seconds=0.05),
         lambda: render.image(),
         lambda: render.aov(chance.choice(["albedo", "variance", words(chance)])),
-        lambda: render.restart(width=chance.choice([8, 16]), height=8, threads=1, crop=chance.choice([None, something()]),
-                               background=something(), camera=words(chance), halves=True, first_hits=True),
-        lambda: weft.export(chance.choice(["lambert", words(chance)]), chance.choice(["c", words(chance)]), prefix=words(chance)),
+        lambda: render.restart(
+            width=chance.choice([8, 16]),
+            height=8,
+            threads=1,
+            crop=chance.choice([None, something()]),
+            background=something(),
+            camera=words(chance),
+            halves=True,
+            first_hits=True,
+        ),
+        lambda: weft.export(
+            chance.choice(["lambert", words(chance)]), chance.choice(["c", words(chance)]), prefix=words(chance)
+        ),
         lambda: weft.catalogue_text(words(chance)),
         lambda: weft.Scene(chance.choice([b"", b"glTF", b"{}", words(chance)])),
         lambda: weft.doctor(chance.choice([b"", b"glTF\2\0\0\0", b"{}"])),

@@ -30,7 +30,12 @@ def test_a_picture_is_an_array_and_the_same_twice(cloth):
 def test_other_pictures_come_beside_it(cloth):
     picture, others = weft.render(cloth, 4, aovs=["albedo", "normal", "depth", "variance", "samples"], **SMALL)
     assert {n: tuple(a.shape) for n, a in others.items()} == {
-        "albedo": (36, 48, 3), "normal": (36, 48, 3), "depth": (36, 48), "variance": (36, 48, 3), "samples": (36, 48)}
+        "albedo": (36, 48, 3),
+        "normal": (36, 48, 3),
+        "depth": (36, 48),
+        "variance": (36, 48, 3),
+        "samples": (36, 48),
+    }
     assert all(s == 4 for row in listed(others["samples"]) for s in row)
     with pytest.raises(ValueError, match="aovs"):
         weft.render(cloth, 1, aovs="beauty", **SMALL)
@@ -151,7 +156,10 @@ def test_materials_lights_and_cameras_are_read_and_put():
         scene.material(99)
     camera = scene.camera("0,1,3;0,1,0;40")
     assert close(list(camera.eye), [0, 1, 3]) and close(camera.fov, 40, 1e-4)
+    before = scene.hash
+    assert before == scene.hash
     scene.assign("preset:velvet")
+    assert before != scene.hash
     scene.set_environment((1, 1, 1), rotation=90, strength=2)
     scene.set_environment("studio", ambient=0.5)
     with pytest.raises(weft.Error):
@@ -191,6 +199,16 @@ def test_images_are_written_and_read(tmp_path):
     picture = weft.render(spp=1, **SMALL)
     weft.write_image(tmp_path / "a.exr", picture, single=True, layers={"depth": weft.to_linear(picture)})
     assert close(listed(weft.read_image(tmp_path / "a.exr")), listed(picture), 1e-5)
+    assert listed(weft.read_channels(tmp_path / "a.exr", ["depth.R", "depth.A"])) == [
+        [[p[0], p[3]] for p in row] for row in listed(picture)
+    ]
+    with pytest.raises(weft.Error, match="it has no channel Z"):
+        weft.read_channels(tmp_path / "a.exr", ["Z"])
+    warm, metered = weft.tonemap(picture, white=3000), weft.tonemap(picture, "agx", exposure="auto", white="auto")
+    assert mean(warm)[2] > mean(weft.tonemap(picture))[2] and tuple(metered.shape) == (36, 48, 4)
+    for wrong in (900, "noon", (1, 2, 3)):
+        with pytest.raises(ValueError, match="white"):
+            weft.tonemap(picture, white=wrong)
     shown = weft.tonemap(picture, background=(1, 1, 1), exposure=1)
     weft.write_image(tmp_path / "a.png", shown, comment="a test")
     assert listed(weft.read_image(tmp_path / "a.png")) == listed(shown)
