@@ -62,6 +62,7 @@ from .scenes import (
     SceneInfo,
     raster,
     render,
+    turned_camera,
 )
 from .tables import (
     AlbedoForm,
@@ -170,6 +171,7 @@ __all__ = [
     "terms",
     "to_linear",
     "tonemap",
+    "turned_camera",
     "use_isa",
     "use_root",
     "version",

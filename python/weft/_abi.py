@@ -408,6 +408,7 @@ class WeftYarn(Structure):
         ("barre_width", c_float),
         ("uneven", c_float),
         ("uneven_size", c_float),
+        ("core", c_float),
     ]
 
 

@@ -420,6 +420,7 @@ def _render_desc(
     noise: float = 0.0,
     stages: bool = False,
     lift: bool = True,
+    record: Iterable[str] = (),
 ) -> Any:
     desc = fill(
         _abi.WeftRenderDesc(),
@@ -443,6 +444,8 @@ def _render_desc(
     )
     _background(desc, background)
     _floor(desc, floor)
+    aovs = [record] if isinstance(record, str) else list(record)
+    lib.weft_render_record(ctypes.byref(desc), sum({1 << choice("WeftAov", name, "record") for name in aovs}))
     return desc
 
 
@@ -473,8 +476,8 @@ class Render(Handle):
     "environment", "transparent", "blurred", or three numbers); sampling ("mis", "light", "lobe"); pixel_centre,
     roulette, shadows, lift; floor (True, or reflectance and roughness of its mirror, such as Scene.stage);
     hide_lights; halves, for noise, "variance" and denoised() (True, or "shared" where only the last needs them: the
-    picture is then as without); first_hits, for "albedo", "normal" and "depth"; noise, the relMSE at which run()
-    stops; stages.
+    picture is then as without); first_hits, which denoised() needs too; record, the names of the AOVs that are wanted,
+    which sets what they need; noise, the relMSE at which run() stops; stages.
 
     After a change of the scene the next run() begins anew. The same arguments give the same bytes, on any number of
     threads."""
@@ -531,7 +534,8 @@ class Render(Handle):
         return self._read("weft_render_image")
 
     def aov(self, name: str) -> Array:
-        """Returns "albedo", "normal" (first_hits), "depth" (m, first_hits), "variance" (halves) or "samples"."""
+        """Returns what was recorded: "albedo", "normal", "depth" (m), "variance", "position" (m), "uv", "object" or
+        "material" (id and coverage of the first two, as a Cryptomatte), each with the channels last; or "samples"."""
         return self._read("weft_render_aov", choice("WeftAov", name, "name"))
 
     def denoised(self, denoiser: str = "regression") -> Array:
@@ -562,6 +566,21 @@ class Render(Handle):
         return found
 
 
+def turned_camera(eye: Sequence[float], target: Sequence[float], fov: float, index: int, count: int) -> str:
+    """Returns the camera of picture `index` of `count` on a circle about the vertical through target, from that of eye
+    and target, m, and the vertical fov, degrees."""
+    out = ctypes.create_string_buffer(_abi.CONSTANTS["WEFT_CAMERA_TEXT"])
+    lib.weft_camera_turned(
+        (ctypes.c_float * 3)(*triple(eye, "eye")),
+        (ctypes.c_float * 3)(*triple(target, "target")),
+        number(fov, "fov"),
+        integer(index, "index"),
+        integer(count, "count", 1),
+        out,
+    )
+    return out.value.decode()
+
+
 def _scene(scene: Union[Scene, PathLike]) -> tuple[Scene, bool]:
     return (scene, False) if isinstance(scene, Scene) else (Scene(scene), True)
 
@@ -582,11 +601,12 @@ def render(
     wanted = [aovs] if isinstance(aovs, str) else list(aovs)
     for name in wanted:
         choice("WeftAov", name, "aovs")
-    if denoise or {"albedo", "normal", "depth"} & set(wanted):
+    options["record"] = wanted
+    if denoise:
         options["first_hits"] = True
-    if "variance" in wanted or options.get("noise"):
+    if options.get("noise"):
         options["halves"] = True
-    elif denoise:
+    elif denoise and "variance" not in wanted:
         options.setdefault("halves", "shared")
     loaded, mine = _scene(scene)
     try:
@@ -770,4 +790,5 @@ __all__ = [
     "SceneInfo",
     "raster",
     "render",
+    "turned_camera",
 ]

@@ -37,6 +37,14 @@ def test_other_pictures_come_beside_it(cloth):
         "samples": (36, 48),
     }
     assert all(s == 4 for row in listed(others["samples"]) for s in row)
+    with weft.Render(cloth, record=["position", "uv", "object"], **SMALL) as render:
+        render.run(2)
+        shapes = [tuple(render.aov(n).shape) for n in ("position", "uv", "object", "albedo")]
+        assert shapes == [(36, 48, 3), (36, 48, 2), (36, 48, 4), (36, 48, 3)]
+        with pytest.raises(weft.Error):
+            render.aov("variance")
+    turned = weft.turned_camera((0, 1, 3), (0, 1, 0), 40, 1, 4)
+    assert close(list(cloth.camera(turned).eye), [3, 1, 0], 1e-4)
     with pytest.raises(ValueError, match="aovs"):
         weft.render(cloth, 1, aovs="beauty", **SMALL)
     assert tuple(weft.render(cloth, 8, denoise="regression", **SMALL).shape) == (36, 48, 4)
