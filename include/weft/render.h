@@ -78,8 +78,11 @@ typedef struct WeftRenderDesc {
     int first_hits; /* not 0: albedo, normal and depth are recorded, which weft_render_denoised needs too */
     int places;     /* not 0: position and texture coordinates of the same surfaces are recorded too */
     int mattes;     /* not 0: which objects and materials a pixel shows is recorded */
-    float noise;    /* weft_render_run stops when the estimated relMSE is at most this; 0: it does not */
-    int stages;     /* not 0: stages are timed for weft_render_stage */
+    /* not 0: the light that each slot of the visible surface reflects is recorded; needs first_hits, and an environment
+     * whose `ambient` and `reflection` are equal */
+    int slots;
+    float noise; /* weft_render_run stops when the estimated relMSE is at most this; 0: it does not */
+    int stages;  /* not 0: stages are timed for weft_render_stage */
     /* not 0: light and rays meet the flat triangles and not the smooth surface that their normals describe, so that
      * coarse meshes are dark where light grazes them; to show the effect of the shading-terminator offset */
     int no_lift;
@@ -162,10 +165,17 @@ typedef enum WeftAov {
     WEFT_AOV_UV,         /* first texture coordinates, likewise */
     WEFT_AOV_OBJECT,     /* names of objects as a Cryptomatte: id and coverage of rank 0, then of rank 1 */
     WEFT_AOV_MATERIAL,   /* names of materials likewise */
+    WEFT_AOV_DIFFUSE, /* RGB: light that the diffuse slot of the visible surface reflects or lets through, or that is */
+    WEFT_AOV_SPECULAR, /* reflected by its specular slot, a measurement included, */
+    WEFT_AOV_SHEEN,    /* its sheen, */
+    WEFT_AOV_COAT,     /* its coat, */
+    WEFT_AOV_DUST,     /* its dust; */
+    WEFT_AOV_OTHER,    /* and the rest: emission and background. The six add up to radiance times coverage */
     WEFT_AOV_COUNT
 } WeftAov;
 
-/* Returns "albedo", "normal", "depth", "variance", "samples", "position", "uv", "object" or "material"; NULL beyond. */
+/* Returns "albedo", "normal", "depth", "variance", "samples", "position", "uv", "object", "material", "diffuse",
+ * "specular", "sheen", "coat", "dust" or "other"; NULL beyond. */
 WEFT_API const char *weft_aov_name(int aov);
 
 /* Switches on in a descriptor what AOVs need to be recorded: a set of 1 << WEFT_AOV_ALBEDO and so on. */

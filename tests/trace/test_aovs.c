@@ -9,6 +9,7 @@
 #include <openexr.h>
 
 #include "scratch.h"
+#include "shading/stack/layer.h"
 #include "trace/frame/matte.h"
 #include "trace/scenes.h"
 
@@ -303,6 +304,120 @@ static void aovs_are_the_same_on_any_threads_and_change_no_byte(void **state) {
     weft_scene_free(scene);
 }
 
+/* A ball with all slots under a lamp, before a matt wall. */
+static WeftScene *slotted_scene(void) {
+    WeftScene *scene = test_scene();
+    Material *ball = test_material(scene, 0.5f);
+    test_color(ball, INPUT_specular, 1.0f);
+    test_color(ball, INPUT_sheen_color, 0.6f);
+    ball->inputs[INPUT_sheen_roughness].value[0] = 0.5f;
+    ball->inputs[INPUT_clearcoat].value[0] = 0.5f;
+    test_sphere(scene, vec3(0, 0, 0), 1);
+    test_material(scene, 0.4f);
+    test_quad(scene, vec3(-4, -4, -1.5f), vec3(8, 0, 0), vec3(0, 8, 0));
+    Material *lamp = test_material(scene, 0.0f);
+    test_color(lamp, INPUT_emission, 6.0f);
+    scene->material_names[2] = "lamp";
+    test_quad(scene, vec3(0.9f, 0.5f, -1.2f), vec3(0, 0.6f, 0), vec3(-0.5f, 0, 0.6f));
+    test_environment(scene, 0.3f);
+    scene_bounds(scene);
+    return scene;
+}
+
+static WeftImage aov_of(const WeftRender *r, WeftAov aov) {
+    WeftImage image;
+    WeftError error;
+    if (weft_render_aov(r, aov, &image, &error) != WEFT_OK) fail_msg("%s", error.text);
+    return image;
+}
+
+/* All slots of the ball have light, the wall has diffuse light alone, and only the lamp has other light. */
+static void light_of_slots_adds_up_to_the_picture(void **state) {
+    (void)state;
+    WeftScene *scene = slotted_scene();
+    WeftRender *r = rendered(scene, 3);
+    WeftImage image, slot[6];
+    double all[6] = {0};
+    const uint32_t id = matte_id("lamp");
+    assert_int_equal(weft_render_image(r, &image, NULL), WEFT_OK);
+    for (int k = 0; k < 6; k++) slot[k] = aov_of(r, (WeftAov)(WEFT_AOV_DIFFUSE + k));
+    WeftImage materials = aov_of(r, WEFT_AOV_MATERIAL);
+    for (int p = 0; p < WIDTH * HEIGHT; p++)
+        for (int c = 0; c < 3; c++) {
+            const float *pixel = (const float *)image.pixels + 4 * p, light = pixel[c] * pixel[3];
+            float sum = 0.0f;
+            for (int k = 0; k < 6; k++) {
+                const float part = ((const float *)slot[k].pixels)[3 * p + c];
+                if (k < 5) assert_true(part >= 0.0f);
+                sum += part, all[k] += (double)part;
+            }
+            assert_true(fabsf(sum - light) < 1e-5f * (1.0f + light));
+            const float other = ((const float *)slot[5].pixels)[3 * p + c];
+            const float *ranks = (const float *)materials.pixels + 4 * p;
+            const float lamp = memcmp(&ranks[0], &id, sizeof id) == 0   ? ranks[1]
+                               : memcmp(&ranks[2], &id, sizeof id) == 0 ? ranks[3]
+                                                                        : 0.0f;
+            if (fabsf(other - 6.0f * lamp) > 1e-4f * (1.0f + light))
+                fail_msg("pixel %d: other light %g where %g of it is the lamp", p, (double)other, (double)lamp);
+        }
+    assert_true(all[0] > 50.0 && all[1] > 1.0 && all[2] > 1.0 && all[3] > 1.0 && all[4] == 0.0 && all[5] > 10.0);
+    for (int k = 0; k < 6; k++) weft_image_free(&slot[k]);
+    weft_image_free(&materials);
+    weft_image_free(&image);
+    weft_render_free(r);
+    weft_scene_free(scene);
+}
+
+/* Returns the mean light of a ball with an additive sheen, all of it or of one AOV. */
+static double sheen_ball(float base, int aov) {
+    WeftScene *scene = test_scene();
+    Material *ball = test_material(scene, base);
+    test_color(ball, INPUT_sheen_color, 0.5f);
+    ball->inputs[INPUT_sheen_roughness].value[0] = 0.6f;
+    material_choose(ball, CHOICE_layer, LAYER_ADDITIVE);
+    test_sphere(scene, vec3(0, 0, 0), 1);
+    test_environment(scene, 1.0f);
+    scene_bounds(scene);
+    WeftRender *r = rendered(scene, 2);
+    WeftImage image;
+    double sum = 0.0;
+    if (aov >= 0)
+        image = aov_of(r, (WeftAov)aov);
+    else
+        assert_int_equal(weft_render_image(r, &image, NULL), WEFT_OK);
+    const int channels = image.channels;
+    for (int p = 0; p < WIDTH * HEIGHT; p++) {
+        const float *pixel = (const float *)image.pixels + channels * p;
+        sum += (double)(pixel[1] * (aov < 0 ? pixel[3] : 1.0f));
+    }
+    weft_image_free(&image);
+    weft_render_free(r);
+    weft_scene_free(scene);
+    return sum / (WIDTH * HEIGHT);
+}
+
+/* Where a sheen only adds, its light is that of the same sheen on black. */
+static void light_of_a_slot_is_that_of_its_lobe(void **state) {
+    (void)state;
+    const double alone = sheen_ball(0.0f, -1), beside = sheen_ball(0.5f, WEFT_AOV_SHEEN),
+                 under = sheen_ball(0.5f, WEFT_AOV_DIFFUSE), whole = sheen_ball(0.5f, -1);
+    if (fabs(beside / alone - 1.0) > 0.02) fail_msg("sheen %g, and alone it is %g", beside, alone);
+    assert_true(fabs((beside + under) / whole - 1.0) < 1e-4 && under > beside);
+}
+
+static void slots_of_an_environment_in_parts_are_refused(void **state) {
+    (void)state;
+    WeftScene *scene = slotted_scene();
+    WeftRenderDesc desc = {.width = WIDTH, .height = HEIGHT, .camera = "0,0,4;0,0,0;40"};
+    WeftRender *r = NULL;
+    WeftError error;
+    weft_render_record(&desc, 1u << WEFT_AOV_COAT);
+    assert_int_equal(weft_scene_set_environment_parts(scene, 0.5f, 1.0f, NULL), WEFT_OK);
+    assert_int_equal(weft_render_create(scene, &desc, &r, &error), WEFT_USAGE);
+    assert_non_null(strstr(error.text, "ambient"));
+    weft_scene_free(scene);
+}
+
 static void layers_that_were_not_gathered_are_refused(void **state) {
     (void)state;
     WeftScene *scene = quads();
@@ -330,6 +445,9 @@ int main(void) {
         cmocka_unit_test(mattes_cover_what_the_picture_covers),
         cmocka_unit_test(places_are_those_of_the_surface),
         cmocka_unit_test(aovs_are_the_same_on_any_threads_and_change_no_byte),
+        cmocka_unit_test(light_of_slots_adds_up_to_the_picture),
+        cmocka_unit_test(light_of_a_slot_is_that_of_its_lobe),
+        cmocka_unit_test(slots_of_an_environment_in_parts_are_refused),
         cmocka_unit_test(layers_that_were_not_gathered_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -78,9 +78,11 @@ const Option request_options[] = {
                 "them [the widest that the processor has]"),
 
     OPTION_HEADING("Output of the path tracer"),
-    OPTION_TEXT("--aov", "NAMES", NULL,
-                "more channels in an .exr, with a comma between: albedo, normal, depth, position, uv, variance, "
-                "samples; object and material, as Cryptomattes; or all"),
+    OPTION_TEXT(
+        "--aov", "NAMES", NULL,
+        "more channels in an .exr, with a comma between: albedo, normal, depth, position, uv, variance, "
+        "samples; object and material, as Cryptomattes; diffuse, specular, sheen, coat, dust, other, whose light "
+        "adds up to the picture; or all"),
     OPTION_SWITCH("--denoise", "take noise out of the picture; to look at, never to measure by"),
     OPTION_TEXT("--denoiser", "NAME", "regression", "and how: regression, or oidn where it is installed"),
 
@@ -183,8 +185,8 @@ static bool read_aovs(const char *text, unsigned *aovs) {
             if (strlen(weft_aov_name(k)) == length && strncmp(text, weft_aov_name(k), length) == 0) found = k;
         if (found < 0) {
             report(WEFT_USAGE,
-                   "--aov: \"%.*s\" is not albedo, normal, depth, position, uv, variance, samples, object, material or "
-                   "all",
+                   "--aov: \"%.*s\" is not albedo, normal, depth, position, uv, variance, samples, object, "
+                   "material, diffuse, specular, sheen, coat, dust, other or all",
                    (int)(length < 80 ? length : 80), text);
             return false;
         }

@@ -24,7 +24,8 @@ bool film_create(Film *film, int width, int height, FilmWants wants) {
         film->matte[m] = wants.mattes ? alloc_array(pixels, sizeof(Matte)) : NULL;
         made &= !film->matte[m] == !wants.mattes;
     }
-    return made && !film->places == !wants.places;
+    film->slots = wants.slots ? alloc_array(pixels, LIT_SLOTS * 3 * sizeof(float)) : NULL;
+    return made && !film->places == !wants.places && !film->slots == !wants.slots;
 }
 
 void film_free(Film *film) {
@@ -36,6 +37,7 @@ void film_free(Film *film) {
     }
     for (int m = 0; m < FILM_MATTES; m++) free(film->matte[m]);
     free(film->places);
+    free(film->slots);
     *film = (Film){0};
 }
 
@@ -54,6 +56,12 @@ static void add_places(Film *film, size_t pixel, const FirstHits *first, int fir
             if (first->mesh[id] != GEOMETRY_NOTHING) matte_add(&film->matte[m][pixel], film->names[m][first->mesh[id]]);
 }
 
+/* Adds the light of a sample by slots. */
+static void add_slots(float *sum, const SlotLight *light, int id) {
+    for (int slot = 0; slot < LIT_SLOTS; slot++)
+        for (int c = 0; c < 3; c++) sum[3 * slot + c] += light->direct[slot][c][id];
+}
+
 int film_add(Film *film, int half, size_t pixel, const Stream *stream, int first_id, int count) {
     FilmHalf *to = &film->half[half];
     float *sum = to->sums + 4 * pixel;
@@ -61,10 +69,12 @@ int film_add(Film *film, int half, size_t pixel, const Stream *stream, int first
     for (int id = first_id; id < first_id + count; id++) {
         float c[4] = {stream->radiance.rgba[0][id], stream->radiance.rgba[1][id], stream->radiance.rgba[2][id],
                       stream->radiance.rgba[3][id]};
-        if (!finite(c)) {
+        const bool counts = finite(c);
+        if (!counts) {
             non_finite++;
             c[0] = c[1] = c[2] = 0.0f;
         }
+        if (film->slots && counts) add_slots(film->slots + 3 * LIT_SLOTS * pixel, stream->slots, id);
         for (int a = 0; a < 4; a++) sum[a] += c[a];
     }
     for (int a = 0; to->hits && a < FIRST_NUMBERS; a++)
@@ -169,7 +179,8 @@ static const struct {
     const char *name;
     int channels;
 } aovs[WEFT_AOV_COUNT] = {{"albedo", 3},   {"normal", 3}, {"depth", 1},  {"variance", 3}, {"samples", 1},
-                          {"position", 3}, {"uv", 2},     {"object", 4}, {"material", 4}};
+                          {"position", 3}, {"uv", 2},     {"object", 4}, {"material", 4}, {"diffuse", 3},
+                          {"specular", 3}, {"sheen", 3},  {"coat", 3},   {"dust", 3},     {"other", 3}};
 
 const char *weft_aov_name(int aov) { return aov >= 0 && aov < WEFT_AOV_COUNT ? aovs[aov].name : NULL; }
 
@@ -181,6 +192,18 @@ static void mean_place(const Film *film, int x, int y, float seen, int from, int
     const float *sums = film->places + PLACE_NUMBERS * pixel_at(film, x, y) + from;
     const float hits = seen * (float)samples_at(film, FILM_BOTH, x, y);
     for (int a = 0; a < count; a++) to[a] = hits > 0.0f ? sums[a] / hits : 0.0f;
+}
+
+/* Gives the light of a slot, or of LIT_SLOTS what the slots leave of the picture. */
+static void slot_pixel(const Film *film, int slot, int x, int y, float to[3]) {
+    const float *sums = film->slots + 3 * LIT_SLOTS * pixel_at(film, x, y);
+    float rgba[4];
+    const int n = film_pixel(film, FILM_BOTH, x, y, rgba);
+    for (int c = 0; c < 3; c++) {
+        float all = 0.0f;
+        for (int k = 0; k < LIT_SLOTS; k++) all += n ? sums[3 * k + c] / (float)n : 0.0f;
+        to[c] = slot == LIT_SLOTS ? rgba[c] - all : n ? sums[3 * slot + c] / (float)n : 0.0f;
+    }
 }
 
 static void aov_pixel(const Film *film, WeftAov aov, int x, int y, float *to) {
@@ -199,6 +222,12 @@ static void aov_pixel(const Film *film, WeftAov aov, int x, int y, float *to) {
     case WEFT_AOV_UV: mean_place(film, x, y, hits[FIRST_SEEN], PLACE_UV, 2, to); break;
     case WEFT_AOV_OBJECT: film_matte(film, FILM_OBJECTS, 0, x, y, to); break;
     case WEFT_AOV_MATERIAL: film_matte(film, FILM_MATERIALS, 0, x, y, to); break;
+    case WEFT_AOV_DIFFUSE:
+    case WEFT_AOV_SPECULAR:
+    case WEFT_AOV_SHEEN:
+    case WEFT_AOV_COAT:
+    case WEFT_AOV_DUST:
+    case WEFT_AOV_OTHER: slot_pixel(film, (int)aov - WEFT_AOV_DIFFUSE, x, y, to); break;
     default: *to = (float)samples_at(film, FILM_BOTH, x, y);
     }
 }
@@ -212,6 +241,8 @@ WeftResult film_aov(const Film *film, WeftAov aov, WeftImage *out, WeftError *er
         return fail(error, WEFT_MESSAGE_DESC, aovs[aov].name, "it was not gathered (places)");
     if ((aov == WEFT_AOV_OBJECT || aov == WEFT_AOV_MATERIAL) && !film->matte[0])
         return fail(error, WEFT_MESSAGE_DESC, aovs[aov].name, "it was not gathered (mattes)");
+    if (aov >= WEFT_AOV_DIFFUSE && !film->slots)
+        return fail(error, WEFT_MESSAGE_DESC, aovs[aov].name, "it was not gathered (slots)");
     if (aov == WEFT_AOV_VARIANCE && film->halves < 2)
         return fail(error, WEFT_MESSAGE_DESC, aovs[aov].name, "it was not gathered (halves)");
     int channels = aovs[aov].channels;

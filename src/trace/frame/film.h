@@ -27,6 +27,7 @@ typedef struct Film {
     int halves; /* 1 or 2 */
     FilmHalf half[2];
     bool hits;                          /* first hits are recorded */
+    float *slots;                       /* sums over both halves, RGB of each slot; NULL if not recorded */
     float *places;                      /* sums over both halves, PLACE_NUMBERS a pixel; NULL if not recorded */
     Matte *matte[FILM_MATTES];          /* of both halves, by pixel; NULL if not recorded */
     const uint32_t *names[FILM_MATTES]; /* ids of the meshes' objects and materials; not owned */
@@ -34,7 +35,7 @@ typedef struct Film {
 
 /* What a film records beside the picture. */
 typedef struct FilmWants {
-    bool halves, hits, places, mattes, floor;
+    bool halves, hits, places, mattes, slots, floor;
 } FilmWants;
 
 /* Makes an empty film; returns false if memory is short. The film is to be freed either way. */

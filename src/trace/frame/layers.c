@@ -12,7 +12,9 @@ void weft_render_record(WeftRenderDesc *desc, unsigned aovs) {
     const unsigned hits = 1u << WEFT_AOV_ALBEDO | 1u << WEFT_AOV_NORMAL | 1u << WEFT_AOV_DEPTH;
     const unsigned places = 1u << WEFT_AOV_POSITION | 1u << WEFT_AOV_UV;
     const unsigned mattes = 1u << WEFT_AOV_OBJECT | 1u << WEFT_AOV_MATERIAL;
-    if (aovs & (hits | places | mattes)) desc->first_hits = 1;
+    const unsigned slots = (2u << WEFT_AOV_OTHER) - (1u << WEFT_AOV_DIFFUSE);
+    if (aovs & (hits | places | mattes | slots)) desc->first_hits = 1;
+    if (aovs & slots) desc->slots = 1;
     if (aovs & places) desc->places = 1;
     if (aovs & mattes) desc->mattes = 1;
     if (aovs & 1u << WEFT_AOV_VARIANCE) desc->halves = WEFT_HALVES_INDEPENDENT;
@@ -27,6 +29,12 @@ static const char *const channels[WEFT_AOV_COUNT][4] = {
     {"sampleCount"},
     {"P.X", "P.Y", "P.Z"},
     {"UV.U", "UV.V"},
+    [WEFT_AOV_DIFFUSE] = {"diffuse.R", "diffuse.G", "diffuse.B"},
+    [WEFT_AOV_SPECULAR] = {"specular.R", "specular.G", "specular.B"},
+    [WEFT_AOV_SHEEN] = {"sheen.R", "sheen.G", "sheen.B"},
+    [WEFT_AOV_COAT] = {"coat.R", "coat.G", "coat.B"},
+    [WEFT_AOV_DUST] = {"dust.R", "dust.G", "dust.B"},
+    [WEFT_AOV_OTHER] = {"other.R", "other.G", "other.B"},
 };
 
 enum { PAIRS = MATTE_RANKS / 2 };

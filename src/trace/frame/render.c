@@ -58,8 +58,8 @@ static WeftResult check_desc(const WeftRenderDesc *d, WeftError *error) {
         if (!isfinite(d->background_color[k])) return fail(error, WEFT_MESSAGE_DESC, "background color", NULL);
     if (!(d->noise >= 0.0f) || (d->noise > 0.0f && d->halves != WEFT_HALVES_INDEPENDENT))
         return fail(error, WEFT_MESSAGE_DESC, "noise", "%g; above 0 it needs independent halves", (double)d->noise);
-    if ((d->places || d->mattes) && !d->first_hits)
-        return fail(error, WEFT_MESSAGE_DESC, "places and mattes", "they need first_hits");
+    if ((d->places || d->mattes || d->slots) && !d->first_hits)
+        return fail(error, WEFT_MESSAGE_DESC, "places, mattes and slots", "they need first_hits");
     if ((unsigned)d->halves > WEFT_HALVES_SHARED) return fail(error, WEFT_MESSAGE_DESC, "halves", "%d", d->halves);
     if (d->threads < 0 || d->threads > WEFT_THREADS_MAX)
         return fail(error, WEFT_MESSAGE_DESC, "threads", "%d", d->threads);
@@ -146,6 +146,7 @@ static WeftResult begin_picture(WeftRender *render, WeftError *error) {
                              .hits = d->first_hits != 0,
                              .places = d->places != 0,
                              .mattes = d->mattes != 0,
+                             .slots = d->slots != 0,
                              .floor = picture->floor.there};
     bool made = film_create(film, d->crop[2], d->crop[3], wants) && name_meshes(render, wants.mattes);
     render->tiles = alloc_array((size_t)film->tile_count, sizeof(Tile));
@@ -197,6 +198,7 @@ static void set_context(WeftRender *render) {
                              .sky_in_parts = in_parts(&render->scene->environment),
                              .first_hits = d->first_hits != 0,
                              .places = d->places || d->mattes,
+                             .slots = d->slots != 0,
                              .forward = {view->forward.x, view->forward.y, view->forward.z}};
     context->pixel_width[view->orthographic ? 0 : 1] = 2.0f * sqrtf(vec3_dot(view->up, view->up)) / (float)d->height;
 }
@@ -234,6 +236,10 @@ WeftResult weft_render_restart(WeftRender *render, const WeftRenderDesc *desc, u
     set_defaults(&d);
     WeftResult result = check_desc(&d, error);
     if (result != WEFT_OK) return result;
+    const Environment *sky = &scene->environment;
+    if (d.slots && (sky->ambient < sky->reflection || sky->ambient > sky->reflection))
+        return fail(error, WEFT_MESSAGE_DESC, "light by slots",
+                    "the environment's ambient and reflection differ, so that slots reflect different light");
     if (!d.threads) d.threads = thread_count();
     if (d.background == WEFT_BACKGROUND_AUTO)
         d.background =

@@ -1,5 +1,5 @@
 /* lit.c - light that the vertices of paths emit, or receive and reflect */
-#include "trace/path/chunk.h"
+#include "trace/path/slot_light.h"
 
 #include "shading/dialect/loop.h"
 #include "shading/dialect/rgb.h"
@@ -140,6 +140,7 @@ int chunk_add_light(Chunk *chunk, const ChunkSource *source, LightGroup group, P
         int j = chunk->selected[k];
         if (context->shadows && chunk->occluded[k]) continue;
         for (int a = 0; a < 3; a++) radiance->rgba[a][chunk->id[j]] += chunk->contribution[a][j];
+        if (chunk->slots && source->depth == 0) slot_light_add(chunk->slots, chunk, group, j);
     }
     stage_end(chunk->clock, STAGE_WEIGH);
     return context->shadows ? count : 0;

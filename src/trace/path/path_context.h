@@ -41,6 +41,7 @@ typedef struct PathContext {
     bool sky_in_parts;    /* the environment's factors `ambient` and `reflection` are not both 1 */
     bool first_hits;      /* first hits are recorded */
     bool places;          /* where they are, and on which meshes, too */
+    bool slots;           /* light is divided by the slots that reflect it there */
     float forward[3];     /* the camera's axis, along which their depth is measured */
     float pixel_width[2]; /* at the eye, and how much wider it becomes with depth */
 } PathContext;

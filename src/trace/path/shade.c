@@ -1,5 +1,5 @@
 /* shade.c - light samples and materials at the vertices of a chunk, and the rays that go on */
-#include "trace/path/chunk.h"
+#include "trace/path/slot_light.h"
 
 #include "shading/dialect/loop.h"
 #include "shading/stack/frame.h"
@@ -141,6 +141,41 @@ static void shade_vertex(Chunk *chunk, const ChunkSource *source, const PathMate
     chunk->f_cos_sky[0][k] = f.r, chunk->f_cos_sky[1][k] = f.g, chunk->f_cos_sky[2][k] = f.b;
 }
 
+/* Divides one among the slots of a stack, as they reflect light from a direction. What comes through is diffuse. */
+static void put_shares(const Stack *stack, const StackView *view, Dir wi, float share[LIT_SLOTS][3][ROW_CAPACITY],
+                       size_t k) {
+    Rgb f[LIT_SLOTS], sum = rgb_grey(0.0f);
+    for (int slot = 0; slot < LIT_SLOTS; slot++) {
+        const Slots only =
+            slots_of(slot == LIT_DIFFUSE, slot == LIT_SPECULAR, slot == LIT_SHEEN, slot == LIT_COAT, slot == LIT_DUST);
+        f[slot] =
+            wi.z > 0.0f ? stack_eval_of(stack, view, only, wi).f_cos : rgb_grey(slot == LIT_DIFFUSE ? 1.0f : 0.0f);
+        f[slot] = rgb(max(f[slot].r, 0.0f), max(f[slot].g, 0.0f), max(f[slot].b, 0.0f));
+        sum = rgb_add(sum, f[slot]);
+    }
+    for (int slot = 0; slot < LIT_SLOTS; slot++) {
+        share[slot][0][k] = sum.r > 0.0f ? f[slot].r / sum.r : 0.0f;
+        share[slot][1][k] = sum.g > 0.0f ? f[slot].g / sum.g : 0.0f;
+        share[slot][2][k] = sum.b > 0.0f ? f[slot].b / sum.b : 0.0f;
+    }
+}
+
+/* Divides the light of all directions of vertex k among the slots. A measurement is specular. */
+static void share_vertex(Chunk *chunk, const ChunkSource *source, const PathMaterial *material, size_t k) {
+    SlotLight *light = chunk->slots;
+    const Stack *stack = stack_at(chunk, material, (int)k);
+    const Dir o = ROW_DIR(chunk->vertices.o, k);
+    stack_see(stack, &o, &chunk->view);
+    for (int d = 0; d < KIND_DIRECTIONS; d++) {
+        if (d < LIGHT_GROUPS && !lights_has_group(source->context->lights, (LightGroup)d)) continue;
+        put_shares(stack, &chunk->view, ROW_DIR(chunk->vertices.i[d], k), light->share[d], k);
+        for (int slot = 0; material->measured && slot < LIT_SLOTS; slot++)
+            for (int c = 0; c < 3; c++) light->share[d][slot][c][k] = slot == LIT_SPECULAR ? 1.0f : 0.0f;
+    }
+    for (int slot = 0; slot < LIT_SLOTS; slot++)
+        for (int c = 0; c < 3; c++) light->onward[slot][c][chunk->id[k]] = light->share[KIND_DRAWN][slot][c][k];
+}
+
 void chunk_shade(Chunk *chunk, const ChunkSource *source) {
     const PathContext *context = source->context;
     const PathMaterial *material = &context->materials[source->material];
@@ -155,6 +190,8 @@ void chunk_shade(Chunk *chunk, const ChunkSource *source) {
         for (int k = 0; k < source->n; k++) shade_vertex(chunk, source, material, k);
         stage_end(chunk->clock, STAGE_SHADE_EACH);
     }
+    for (int k = 0; chunk->slots && source->depth == 0 && k < source->n; k++)
+        share_vertex(chunk, source, material, (size_t)k);
 }
 
 /* Weighs each path along the direction that was drawn, and decides if it continues. place: of the random number for

@@ -13,7 +13,10 @@ Stream *stream_create(const PathContext *context, int materials) {
     stream->end = alloc_array(classes, sizeof(int));
     stream->order = alloc_array(PATHS_MAX + classes * ROW_LANES, sizeof(int));
     stream->first = context->first_hits ? alloc_array(1, sizeof(FirstHits)) : NULL;
-    if (stream->end && stream->order && !stream->first == !context->first_hits) return stream;
+    stream->slots = context->slots ? alloc_array(1, sizeof(SlotLight)) : NULL;
+    stream->chunk.slots = stream->slots;
+    if (stream->end && stream->order && !stream->first == !context->first_hits && !stream->slots == !context->slots)
+        return stream;
     stream_free(stream);
     return NULL;
 }
@@ -23,6 +26,7 @@ void stream_free(Stream *stream) {
     free(stream->end);
     free(stream->order);
     free(stream->first);
+    free(stream->slots);
     free(stream);
 }
 
@@ -182,6 +186,7 @@ static int shade_hits(Stream *stream, const Paths *paths, int depth, int classes
 void stream_follow(Stream *stream, int n) {
     int classes = stream->context->scene->material_count + 1;
     stream->chunk.filled_material = 0; /* the chunk has the inputs of no material */
+    if (stream->slots) slot_light_begin(stream->slots);
     for (int depth = 0; n > 0; depth++) {
         const Paths *paths = &stream->paths[depth % 2];
         Paths *next = &stream->paths[(depth + 1) % 2];
@@ -189,5 +194,7 @@ void stream_follow(Stream *stream, int n) {
         sort_by_class(stream, n, classes);
         add_misses(stream, paths, depth, classes);
         n = shade_hits(stream, paths, depth, classes, next);
+        if (stream->slots && depth == 0) slot_light_note(stream->slots, &stream->radiance);
     }
+    if (stream->slots) slot_light_end(stream->slots, &stream->radiance);
 }

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "trace/path/first_hit.h"
+#include "trace/path/slot_light.h"
 
 enum {
     STREAM_TILE = 16, /* pixels a side */
@@ -22,6 +23,7 @@ typedef struct Stream {
     uint32_t mesh[PATHS_CAPACITY], triangle[PATHS_CAPACITY];
     PathRadiance radiance;
     FirstHits *first; /* NULL if first hits are not recorded */
+    SlotLight *slots; /* NULL if light is not divided by slots */
     PathKeys keys;
     Chunk chunk;
     StageClock clock; /* the chunk has its address if stages are timed */
