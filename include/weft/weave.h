@@ -106,19 +106,19 @@ WEFT_API int weft_draft_suffix_known(const char *path);
 
 /* The yarn of one system, as it lies in a cloth; weft_yarn_number lists the ranges. */
 typedef struct WeftYarn {
-    float alpha;     /* of its fibres, as in lobe yarn: silk 0.1, linen 0.3, cotton 0.4, wool 0.5 */
-    float crimp;     /* steepest angle along the thread, where it dives below another, radians */
-    float roundness; /* slope at the edges of a thread */
-    float twist;     /* of the fibres about the thread, radians: 0 filament, below 0 a Z twist, above 0 an S twist */
-    float white;     /* fraction of the light that one fibre reflects at its surface, without its dye */
-    float width;     /* of a thread, relative to the draft's; below 1 there are gaps */
-    float bulge;     /* extra width in the middle of a long float */
-    float floats;    /* flatness of floats: the power of the slope is 1 + floats (crossings - 1) */
-    float streaks;   /* slope at the edges of a fibre, with variation of its direction and dye */
-    float dye;       /* variation of colour from thread to thread */
-    float slub;      /* variation of thickness along a thread */
-    float wander;    /* variation of a thread's place */
-    float hairiness; /* loose fibres on the cloth: 1 is about one for each crossing */
+    float alpha;       /* of its fibres, as in lobe yarn: silk 0.1, linen 0.3, cotton 0.4, wool 0.5 */
+    float crimp;       /* steepest angle along the thread, where it dives below another, radians */
+    float roundness;   /* slope at the edges of a thread */
+    float twist;       /* of the fibres about the thread, radians: 0 filament, below 0 a Z twist, above 0 an S twist */
+    float white;       /* fraction of the light that one fibre reflects at its surface, without its dye */
+    float width;       /* of a thread, relative to the draft's; below 1 there are gaps */
+    float bulge;       /* extra width in the middle of a long float */
+    float floats;      /* flatness of floats: the power of the slope is 1 + floats (crossings - 1) */
+    float streaks;     /* slope at the edges of a fibre, with variation of its direction and dye */
+    float dye;         /* variation of colour from thread to thread */
+    float slub;        /* variation of thickness along a thread */
+    float wander;      /* variation of a thread's place */
+    float hairiness;   /* loose fibres on the cloth: 1 is about one for each crossing */
     float slub_length; /* distance along a thread from a thin place to a thick one, millimetres */
     float barre;       /* variation of dye from lot to lot of the yarn: bars over many threads */
     float barre_width; /* of the widest bars, millimetres */
