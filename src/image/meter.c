@@ -1,4 +1,4 @@
-/* meter.c - what a picture says of its light: its exposure and its white */
+/* meter.c - metering of pictures: exposure and white */
 #include <math.h>
 #include <stdbool.h>
 #include <stddef.h>

@@ -5,8 +5,8 @@
 #include "base/fail.h"
 #include "image/difference.h"
 
-bool film_create(Film *film, int width, int height, FilmWants wants) {
-    *film = (Film){.width = width, .height = height, .halves = wants.halves ? 2 : 1, .hits = wants.hits};
+bool film_create(Film *film, int width, int height, FilmRecords records) {
+    *film = (Film){.width = width, .height = height, .halves = records.halves ? 2 : 1, .hits = records.hits};
     film->tiles_across = (width + STREAM_TILE - 1) / STREAM_TILE;
     film->tile_count = film->tiles_across * ((height + STREAM_TILE - 1) / STREAM_TILE);
     size_t pixels = (size_t)width * (size_t)height;
@@ -15,17 +15,17 @@ bool film_create(Film *film, int width, int height, FilmWants wants) {
         FilmHalf *half = &film->half[h];
         half->samples = alloc_array((size_t)film->tile_count, sizeof(int));
         half->sums = alloc_array(pixels, 4 * sizeof(float));
-        half->caught = wants.floor ? alloc_array(pixels, sizeof(Caught)) : NULL;
-        half->hits = wants.hits ? alloc_array(pixels, FIRST_NUMBERS * sizeof(float)) : NULL;
-        made &= half->samples && half->sums && !half->caught == !wants.floor && !half->hits == !wants.hits;
+        half->caught = records.floor ? alloc_array(pixels, sizeof(Caught)) : NULL;
+        half->hits = records.hits ? alloc_array(pixels, FIRST_NUMBERS * sizeof(float)) : NULL;
+        made &= half->samples && half->sums && !half->caught == !records.floor && !half->hits == !records.hits;
     }
-    film->places = wants.places ? alloc_array(pixels, PLACE_NUMBERS * sizeof(float)) : NULL;
+    film->places = records.places ? alloc_array(pixels, PLACE_NUMBERS * sizeof(float)) : NULL;
     for (int m = 0; m < FILM_MATTES; m++) {
-        film->matte[m] = wants.mattes ? alloc_array(pixels, sizeof(Matte)) : NULL;
-        made &= !film->matte[m] == !wants.mattes;
+        film->matte[m] = records.mattes ? alloc_array(pixels, sizeof(Matte)) : NULL;
+        made &= !film->matte[m] == !records.mattes;
     }
-    film->slots = wants.slots ? alloc_array(pixels, LIT_SLOTS * 3 * sizeof(float)) : NULL;
-    return made && !film->places == !wants.places && !film->slots == !wants.slots;
+    film->slots = records.slots ? alloc_array(pixels, LIT_SLOTS * 3 * sizeof(float)) : NULL;
+    return made && !film->places == !records.places && !film->slots == !records.slots;
 }
 
 void film_free(Film *film) {
@@ -57,7 +57,7 @@ static void add_places(Film *film, size_t pixel, const FirstHits *first, int fir
 }
 
 /* Adds the light of a sample by slots. */
-static void add_slots(float *sum, const SlotLight *light, int id) {
+static void add_slots(float *sum, const LightBySlot *light, int id) {
     for (int slot = 0; slot < LIT_SLOTS; slot++)
         for (int c = 0; c < 3; c++) sum[3 * slot + c] += light->direct[slot][c][id];
 }

@@ -33,13 +33,13 @@ typedef struct Film {
     const uint32_t *names[FILM_MATTES]; /* ids of the meshes' objects and materials; not owned */
 } Film;
 
-/* What a film records beside the picture. */
-typedef struct FilmWants {
+/* The records of a film beside the picture. */
+typedef struct FilmRecords {
     bool halves, hits, places, mattes, slots, floor;
-} FilmWants;
+} FilmRecords;
 
 /* Makes an empty film; returns false if memory is short. The film is to be freed either way. */
-bool film_create(Film *film, int width, int height, FilmWants wants);
+bool film_create(Film *film, int width, int height, FilmRecords records);
 void film_free(Film *film);
 
 /* Adds the samples of a pixel, ids from first_id on, in their order; returns how many were not finite. Those count as

@@ -142,13 +142,13 @@ static WeftResult begin_picture(WeftRender *render, WeftError *error) {
     picture->floor = floor_of(render->scene, &d->floor);
     render->render_seconds = 0.0;
     render->samples_done[0] = render->samples_done[1] = 0;
-    const FilmWants wants = {.halves = d->halves != 0,
-                             .hits = d->first_hits != 0,
-                             .places = d->places != 0,
-                             .mattes = d->mattes != 0,
-                             .slots = d->slots != 0,
-                             .floor = picture->floor.there};
-    bool made = film_create(film, d->crop[2], d->crop[3], wants) && name_meshes(render, wants.mattes);
+    const FilmRecords records = {.halves = d->halves != 0,
+                                 .hits = d->first_hits != 0,
+                                 .places = d->places != 0,
+                                 .mattes = d->mattes != 0,
+                                 .slots = d->slots != 0,
+                                 .floor = picture->floor.there};
+    bool made = film_create(film, d->crop[2], d->crop[3], records) && name_meshes(render, records.mattes);
     render->tiles = alloc_array((size_t)film->tile_count, sizeof(Tile));
     if (made && render->tiles) return WEFT_OK;
     film->tile_count = 0;

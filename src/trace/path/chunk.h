@@ -56,7 +56,7 @@ typedef struct TexelRows {
     Row texel[4];               /* RGBA */
 } TexelRows;
 
-typedef struct SlotLight SlotLight; /* slot_light.h */
+typedef struct LightBySlot LightBySlot; /* slot_light.h */
 
 /* Directions are unit, and they and positions are in world space but for those of `vertices`, which are in the shading
  * frame. At all times only the members that the stages so far have filled are valid. */
@@ -117,8 +117,8 @@ typedef struct Chunk {
     TexelRows textures;
     Stack stack; /* of the vertex that is shaded by itself, and its view */
     StackView view;
-    StageClock *clock; /* NULL: stages are not timed */
-    SlotLight *slots;  /* NULL: light is not divided by slots */
+    StageClock *clock;  /* NULL: stages are not timed */
+    LightBySlot *slots; /* NULL: light is not divided by slots */
 } Chunk;
 
 /* The vertices of a chunk: those of n paths that hit the material, picked by `order`, which is valid up to

@@ -15,7 +15,7 @@ typedef struct FirstHits {
     uint32_t mesh[PATHS_CAPACITY];              /* GEOMETRY_NOTHING: no surface */
 } FirstHits;
 
-/* What a surface shows of itself: its base colour and shading normal, those of its threads where it is woven, or the
+/* The look of a surface: its base colour and shading normal, those of its threads where it is woven, or the
  * interpolated normal where no shading frame is made. */
 typedef enum FirstLook { FIRST_LOOK_PLAIN, FIRST_LOOK_WOVEN, FIRST_LOOK_UNSHADED } FirstLook;
 

@@ -162,7 +162,7 @@ static void put_shares(const Stack *stack, const StackView *view, Dir wi, float 
 
 /* Divides the light of all directions of vertex k among the slots. A measurement is specular. */
 static void share_vertex(Chunk *chunk, const ChunkSource *source, const PathMaterial *material, size_t k) {
-    SlotLight *light = chunk->slots;
+    LightBySlot *light = chunk->slots;
     const Stack *stack = stack_at(chunk, material, (int)k);
     const Dir o = ROW_DIR(chunk->vertices.o, k);
     stack_see(stack, &o, &chunk->view);

@@ -9,7 +9,7 @@
 
 enum { LIT_DIFFUSE, LIT_SPECULAR, LIT_SHEEN, LIT_COAT, LIT_DUST, LIT_SLOTS };
 
-struct SlotLight {
+struct LightBySlot {
     float share[KIND_DIRECTIONS][LIT_SLOTS][3][ROW_CAPACITY]; /* of the vertices of a chunk */
     float direct[LIT_SLOTS][3][PATHS_CAPACITY];               /* by the id of a path */
     float onward[LIT_SLOTS][3][PATHS_CAPACITY];               /* share of the direction in which the path goes on */
@@ -17,11 +17,11 @@ struct SlotLight {
 };
 
 /* Starts all paths with no light. */
-void slot_light_begin(SlotLight *light);
+void slot_light_begin(LightBySlot *light);
 
 /* Adds a contribution of a light sample of a group at a vertex of a chunk. */
-void slot_light_add(SlotLight *light, const Chunk *chunk, LightGroup group, int vertex);
+void slot_light_add(LightBySlot *light, const Chunk *chunk, LightGroup group, int vertex);
 
 /* Notes the radiance of all paths, and later divides what was added since. */
-void slot_light_note(SlotLight *light, const PathRadiance *radiance);
-void slot_light_end(SlotLight *light, const PathRadiance *radiance);
+void slot_light_note(LightBySlot *light, const PathRadiance *radiance);
+void slot_light_end(LightBySlot *light, const PathRadiance *radiance);

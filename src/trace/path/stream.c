@@ -13,7 +13,7 @@ Stream *stream_create(const PathContext *context, int materials) {
     stream->end = alloc_array(classes, sizeof(int));
     stream->order = alloc_array(PATHS_MAX + classes * ROW_LANES, sizeof(int));
     stream->first = context->first_hits ? alloc_array(1, sizeof(FirstHits)) : NULL;
-    stream->slots = context->slots ? alloc_array(1, sizeof(SlotLight)) : NULL;
+    stream->slots = context->slots ? alloc_array(1, sizeof(LightBySlot)) : NULL;
     stream->chunk.slots = stream->slots;
     if (stream->end && stream->order && !stream->first == !context->first_hits && !stream->slots == !context->slots)
         return stream;

@@ -22,8 +22,8 @@ typedef struct Stream {
     float t[PATHS_CAPACITY], u[PATHS_CAPACITY], v[PATHS_CAPACITY]; /* their hits, as in HitRows */
     uint32_t mesh[PATHS_CAPACITY], triangle[PATHS_CAPACITY];
     PathRadiance radiance;
-    FirstHits *first; /* NULL if first hits are not recorded */
-    SlotLight *slots; /* NULL if light is not divided by slots */
+    FirstHits *first;   /* NULL if first hits are not recorded */
+    LightBySlot *slots; /* NULL if light is not divided by slots */
     PathKeys keys;
     Chunk chunk;
     StageClock clock; /* the chunk has its address if stages are timed */
