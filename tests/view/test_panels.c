@@ -228,6 +228,28 @@ static void inspect_plots_the_cloth_of_a_woven_material(void **state) {
     ran_free(&ran);
 }
 
+/* A denoised picture with layers has the bytes of the same command. */
+static void denoised_picture_with_layers_is_that_of_its_command(void **state) {
+    (void)state;
+    need_gl();
+    Ran ran = RUN("render", "builtin:ball", "--preset", "woven-denim", "--save", "denim.glb");
+    if (ran.code != 0) fail_msg("%s", ran.err);
+    ran_free(&ran);
+    script_begin();
+    say("wait rest\nkey f12\nwait 3\nclick \"Save a picture/path traced\"\nset \"Save a picture/width\" 90\n"
+        "set \"Save a picture/height\" 60\nset \"Save a picture/samples\" 4\nclick \"Save a picture/denoised\"\n"
+        "click \"Save a picture/layers\"\nclick \"Save a picture/file\"\ntype layers.exr\nwait 2\n"
+        "click \"Save a picture/Save\"\nwait message wrote layers.exr\nsave denim2.glb\nwait message wrote "
+        "denim2.glb\n");
+    drive_through(script, LIST(UNSEEN, "denim.glb", FLAT));
+    ran = run_shell(
+        "\"$0\" render denim2.glb --env 1,1,1 --width 90 --height 60 --spp 4 --denoise -o again.exr --aov albedo,"
+        "normal,depth,samples,position,uv,object,material,diffuse,specular,sheen,coat,dust,other && "
+        "cmp again.exr layers.exr && grep -aq CryptoMaterial00 layers.exr");
+    if (ran.code != 0) fail_msg("%s%s", ran.out, ran.err);
+    ran_free(&ran);
+}
+
 /* A turntable with a floor, stopped at a noise level, denoised and of a colour behind has the bytes of `weft render
  * --turntable`; one that is cancelled keeps what was written. */
 static void a_turntable_is_path_traced_in_the_background(void **state) {
@@ -422,6 +444,7 @@ int main(void) {
                                        cmocka_unit_test(a_bare_asset_stands_on_a_stage),
                                        cmocka_unit_test(the_menu_of_presets_follows_undo),
                                        cmocka_unit_test(a_material_is_woven_of_a_draft),
+                                       cmocka_unit_test(denoised_picture_with_layers_is_that_of_its_command),
                                        cmocka_unit_test(picture_of_any_size_is_path_traced_in_the_background),
                                        cmocka_unit_test(a_turntable_is_path_traced_in_the_background),
                                        cmocka_unit_test(a_picture_has_the_floor_that_is_chosen),

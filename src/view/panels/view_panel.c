@@ -83,7 +83,8 @@ static void draw_floor(WeftFloor *floor) {
 
 static void draw_picture(Viewer *v) {
     static const UiRange stops = {-6.0f, 6.0f, 0.0f, "stops", false};
-    static const UiRange kelvin = {1700.0f, 25000.0f, WHITE_NONE, "K", true}, tint = {-50.0f, 50.0f, 0.0f, NULL, false};
+    static const UiRange kelvin = {2000.0f, 12000.0f, WHITE_NONE, "K", false},
+                         tint = {-50.0f, 50.0f, 0.0f, NULL, false};
     static const float grey[3] = {0.18f, 0.18f, 0.18f};
     const UiChoices curves = {WEFT_TONEMAP_COUNT, curve_name, curve_help, NULL},
                     backs = {5, back_name, back_help, NULL};

@@ -62,10 +62,25 @@ static void lay_behind(const StillDesc *desc, WeftImage *linear) {
     }
 }
 
-static WeftResult write_picture(const StillDesc *desc, WeftImage *linear, const char *path, WeftError *error) {
+/* Returns the AOVs of a picture. The light of slots cannot be told where these reflect different environments. */
+static unsigned aovs_of(const StillDesc *desc) {
+    const unsigned slots = (2u << WEFT_AOV_OTHER) - (1u << WEFT_AOV_DIFFUSE), variance = 1u << WEFT_AOV_VARIANCE;
+    const EnvironmentState *sky = &desc->environment;
+    const bool one = !(sky->ambient < sky->reflection) && !(sky->ambient > sky->reflection);
+    const size_t length = strlen(desc->path);
+    if (!desc->choice.layered || length < 4 || strcmp(desc->path + length - 4, ".exr") != 0) return 0;
+    return ((1u << WEFT_AOV_COUNT) - 1u) & ~variance & (one ? ~0u : ~slots);
+}
+
+static WeftResult write_picture(const StillDesc *desc, WeftImage *linear, const WeftRenderLayers *layers,
+                                const char *path, WeftError *error) {
     const WeftImageWriting how = {.denoised =
                                       desc->choice.denoised ? weft_denoiser_name((int)WEFT_DENOISER_REGRESSION) : NULL,
-                                  .isa = weft_isa()};
+                                  .isa = weft_isa(),
+                                  .layers = layers->layers,
+                                  .layer_count = layers->layer_count,
+                                  .texts = layers->texts,
+                                  .text_count = layers->text_count};
     if (weft_image_suffix_linear(path)) {
         if (desc->laid_behind) lay_behind(desc, linear);
         return weft_image_write_as(path, linear, &how, error);
@@ -90,6 +105,7 @@ static WeftResult render(Still *self, const WeftScene *scene, const char *camera
     traced.noise = desc->choice.noise;
     traced.first_hits = desc->choice.denoised;
     traced.halves = traced.noise > 0.0f ? WEFT_HALVES_INDEPENDENT : desc->choice.denoised ? WEFT_HALVES_SHARED : 0;
+    weft_render_record(&traced, aovs_of(desc));
     WeftResult result = weft_render_create(scene, &traced, &render, &self->error);
     if (result != WEFT_OK) return result;
     result = weft_render_run(render, desc->choice.samples, 0.0, note, self);
@@ -98,7 +114,10 @@ static WeftResult render(Still *self, const WeftScene *scene, const char *camera
     if (result == WEFT_OK)
         result = desc->choice.denoised ? weft_render_denoised(render, WEFT_DENOISER_REGRESSION, &linear, &self->error)
                                        : weft_render_image(render, &linear, &self->error);
-    if (result == WEFT_OK) result = write_picture(desc, &linear, path, &self->error);
+    WeftRenderLayers layers = {0};
+    if (result == WEFT_OK) result = weft_render_layers(render, aovs_of(desc), &layers, &self->error);
+    if (result == WEFT_OK) result = write_picture(desc, &linear, &layers, path, &self->error);
+    weft_render_layers_free(&layers);
     weft_image_free(&linear);
     weft_render_free(render);
     return result;

@@ -15,6 +15,7 @@ typedef struct StillChoice {
     float noise; /* relMSE at which it stops earlier; 0: it does not */
     int around;  /* pictures on a circle about the scene, numbered before their suffix; 0: one picture */
     bool denoised, transparent, floor;
+    bool layered; /* an .exr has all AOVs but `variance`, as layers */
 } StillChoice;
 
 /* Pictures to make. */

@@ -251,7 +251,10 @@ static void draw_samples(DialogsState *dialogs) {
         "be typed.");
     ui_disabled_end();
     ui_checkbox("denoised", &shot->denoised);
-    ui_tip("Smooths what noise is left; it may lose fine threads. The file is marked: .png or .exr.");
+    ui_tip("Smooths what noise is left; threads are kept. The file is marked: .png or .exr.");
+    ui_checkbox("layers", &shot->layered);
+    ui_tip("An .exr then has colour, normal, depth, position, the light of each lobe, and mattes of objects and "
+           "materials.");
     ui_slider_int("turntable", 0, 120, &shot->around);
     ui_tip("So many pictures on a circle about the scene, each with a number before its suffix; 0: one picture of this "
            "view.");
