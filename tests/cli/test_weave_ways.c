@@ -393,6 +393,8 @@ static void settings_without_effect_on_a_weave_are_told(void **state) {
               sheen = ball_of("ball.weave=plain", "ball.sheen_color=#a02030", NULL);
     weft_image_free(&idle);
     weft_image_free(&sheen);
+    WeftImage reset = ball_of("ball.weave=plain", "ball.base_color=0.8", NULL);
+    weft_image_free(&reset);
     scene_make(); /* a triangle without texture coordinates */
     Ran ran = RUN("render", "scene.gltf", "--weave", "cloth=plain", "--width", "8", "--height", "8", "--spp", "1", "-o",
                   "no.npy");

@@ -154,6 +154,14 @@ static bool set_weave(WeftScene *scene, const char *target, const char *value, c
     return true;
 }
 
+/* Returns true if an input is set to its initial value, as commands do that restate a material. */
+static bool is_reset(const Setting *setting) {
+    bool same = setting->input >= 0;
+    for (int c = 0; same && c < input_value_count((InputId)setting->input); c++)
+        same = fabsf(setting->v[c] - input_infos[setting->input].initial) < 1e-6f;
+    return same;
+}
+
 WeftResult weft_scene_set(WeftScene *scene, const char *target, const char *value, const WeftLog *log,
                           WeftError *error) {
     const char *point = strrchr(target, '.');
@@ -168,8 +176,8 @@ WeftResult weft_scene_set(WeftScene *scene, const char *target, const char *valu
     result = setting_read(point + 1, value, target, &setting, log, error);
     if (result != WEFT_OK) return result;
     const Material *first = NULL;
-    bool idle = wants_sheen(&setting); /* there is none */
-    bool woven = setting.input >= 0;   /* all are, and do not read it */
+    bool idle = wants_sheen(&setting);                      /* there is none */
+    bool woven = setting.input >= 0 && !is_reset(&setting); /* all are, and do not read it */
     for (int k = 0; k < scene_own_materials(scene); k++) {
         Material *material = &scene->materials[k];
         if (!material_matches(scene, k, name)) continue;
