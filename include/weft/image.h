@@ -112,7 +112,7 @@ typedef enum WeftTonemap {
 /* Returns "pbr-neutral", "aces", "none" or "agx"; NULL beyond. */
 WEFT_API const char *weft_tonemap_name(int tonemap);
 
-/* How radiance becomes what a display shows. Zero means the default, in every member. */
+/* The rendering of radiance for a display. Zero means the default, in every member. */
 typedef struct WeftTone {
     WeftTonemap curve;
     float exposure; /* stops: colours are first multiplied by 2^exposure */

@@ -44,7 +44,7 @@ WEFT_API WeftFloor weft_scene_stage(const WeftScene *scene);
 /* The strategy that finds lights; anything but MIS is for tests and teaching. */
 typedef enum WeftSampling { WEFT_SAMPLING_MIS = 0, WEFT_SAMPLING_LIGHT, WEFT_SAMPLING_LOBE } WeftSampling;
 
-/* How the samples of a pixel are divided into two halves, whose difference shows the error. */
+/* The two ways to divide the samples of a pixel into halves, whose difference shows the error. */
 enum {
     /* each half is stratified on its own: the estimate of the error is right on average, and the picture has a little
      * more noise */
@@ -91,8 +91,8 @@ typedef struct WeftRenderDesc {
 /* Writes the camera of picture `index` of `count` on a circle, as WeftRenderDesc.camera: that of eye and target, m, and fov,
  * degrees, vertical, turned about the vertical through the target, counter-clockwise seen from above. */
 enum { WEFT_CAMERA_TEXT = 256 };
-WEFT_API void weft_camera_turned(const float eye[3], const float target[3], float fov, int index, int count,
-                                 char text[WEFT_CAMERA_TEXT]);
+WEFT_API void weft_camera_rotated(const float eye[3], const float target[3], float fov, int index, int count,
+                                  char text[WEFT_CAMERA_TEXT]);
 
 /* A picture in progress. */
 typedef struct WeftRender WeftRender;
@@ -165,12 +165,12 @@ typedef enum WeftAov {
     WEFT_AOV_UV,         /* first texture coordinates, likewise */
     WEFT_AOV_OBJECT,     /* names of objects as a Cryptomatte: id and coverage of rank 0, then of rank 1 */
     WEFT_AOV_MATERIAL,   /* names of materials likewise */
-    WEFT_AOV_DIFFUSE, /* RGB: light that the diffuse slot of the visible surface reflects or lets through, or that is */
-    WEFT_AOV_SPECULAR, /* reflected by its specular slot, a measurement included, */
-    WEFT_AOV_SHEEN,    /* its sheen, */
-    WEFT_AOV_COAT,     /* its coat, */
-    WEFT_AOV_DUST,     /* its dust; */
-    WEFT_AOV_OTHER,    /* and the rest: emission and background. The six add up to radiance times coverage */
+    WEFT_AOV_DIFFUSE,    /* RGB: light that the diffuse slot of the visible surface reflects or lets through */
+    WEFT_AOV_SPECULAR,   /* the specular slot's likewise, a measurement included */
+    WEFT_AOV_SHEEN,      /* the sheen's likewise */
+    WEFT_AOV_COAT,       /* the coat's likewise */
+    WEFT_AOV_DUST,       /* the light of dust likewise */
+    WEFT_AOV_OTHER,      /* the rest: emission and background. The six add up to radiance times coverage */
     WEFT_AOV_COUNT
 } WeftAov;
 

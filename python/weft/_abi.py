@@ -1634,7 +1634,7 @@ CALLS = {
     "weft_plot_write": (c_int, (POINTER(WeftPlotDesc), c_char_p, POINTER(WeftError),)),
     "weft_plot_report": (c_int, (POINTER(WeftPlotDesc), c_char_p, POINTER(WeftError),)),
     "weft_scene_stage": (WeftFloor, (c_void_p,)),
-    "weft_camera_turned": (None, (c_void_p, c_void_p, c_float, c_int, c_int, c_void_p,)),
+    "weft_camera_rotated": (None, (c_void_p, c_void_p, c_float, c_int, c_int, c_void_p,)),
     "weft_render_create": (c_int, (c_void_p, POINTER(WeftRenderDesc), c_void_p, POINTER(WeftError),)),
     "weft_render_restart": (c_int, (c_void_p, POINTER(WeftRenderDesc), c_uint, POINTER(WeftError),)),
     "weft_render_free": (None, (c_void_p,)),

@@ -570,7 +570,7 @@ def turned_camera(eye: Sequence[float], target: Sequence[float], fov: float, ind
     """Returns the camera of picture `index` of `count` on a circle about the vertical through target, from that of eye
     and target, m, and the vertical fov, degrees."""
     out = ctypes.create_string_buffer(_abi.CONSTANTS["WEFT_CAMERA_TEXT"])
-    lib.weft_camera_turned(
+    lib.weft_camera_rotated(
         (ctypes.c_float * 3)(*triple(eye, "eye")),
         (ctypes.c_float * 3)(*triple(target, "target")),
         number(fov, "fov"),

@@ -34,8 +34,8 @@ FN Dir cloth_threads(ClothPlacing p, float u, float v) {
                (-p.rotation_cos * v - p.rotation_sin * u) * p.picks, 0.0f);
 }
 
-/* What cloth looks like at its points without light on it, to guide a denoiser: the part of light from all around that
- * comes back, and the slopes of lobe yarn. From afar both are those of the cloth, whatever facet stands for it. */
+/* The features of cloth at its points that guide a denoiser: the part of light from all around that comes back, and
+ * the slopes of lobe yarn. From afar both are those of the cloth, whatever facet stands for it. */
 typedef struct ClothGuide {
     float albedo[3][ROW_CAPACITY], slope[2][ROW_CAPACITY];
 } ClothGuide;

@@ -62,7 +62,7 @@ static void every_sheen_lobe(void **state) {
     }
 }
 
-static void presets(void **state) {
+static void presets_are_as_traced(void **state) {
     (void)state;
     need_gl();
     static const char *const names[] = {"silk",        "semi-glossy-copper", "velvet",
@@ -79,6 +79,6 @@ static void presets(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(every_sheen_lobe), cmocka_unit_test(presets)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(every_sheen_lobe), cmocka_unit_test(presets_are_as_traced)};
     return cmocka_run_group_tests(tests, gl_begin, NULL);
 }

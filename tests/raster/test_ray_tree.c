@@ -152,9 +152,9 @@ static void check_scene(WeftScene *scene) {
     weft_scene_free(scene);
 }
 
-static void builtin_scenes(void **state) {
+static void builtin_scenes_are_met_as_by_embree(void **state) {
     (void)state;
-    static const char *const names[] = {"builtin:spheres", "builtin:cloth", "builtin:lampshade"};
+    static const char *const names[] = {"builtin:spheres", "builtin:cloth", "builtin:emittershade"};
     for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
         WeftScene *scene;
         WeftError error;
@@ -173,7 +173,7 @@ static void flat_boxes_and_one_triangle(void **state) {
 }
 
 /* Triangles at one place cannot be told apart: the tree halves them by number. */
-static void equal_boxes(void **state) {
+static void equal_boxes_are_divided(void **state) {
     (void)state;
     enum { SAME = 1000 };
     RayBox boxes[SAME];
@@ -193,7 +193,8 @@ static void equal_boxes(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(builtin_scenes), cmocka_unit_test(flat_boxes_and_one_triangle),
-                                       cmocka_unit_test(equal_boxes)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(builtin_scenes_are_met_as_by_embree),
+                                       cmocka_unit_test(flat_boxes_and_one_triangle),
+                                       cmocka_unit_test(equal_boxes_are_divided)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -7,7 +7,7 @@
 
 enum { JOB_STAGES = 32, PART_LAYERS = WEFT_IMAGE_LAYERS - 1, PART_NAME = 32 };
 
-/* What picture_part.h knows of a part of a picture, or of a picture that was merged. */
+/* The record that a part of a picture keeps beside its rows, and that of a picture that was merged. */
 typedef struct PicturePart {
     char words[2048]; /* of the picture that it belongs to */
     char isa[16];     /* the instruction set of a picture that was merged; empty: that in use */

@@ -10,7 +10,7 @@ WeftResult turntable_run(Job *job, WeftError *error) {
     WeftResult result = job_open(job, error);
     for (int k = 0; k < count && result == WEFT_OK && !job->interrupted; k++) {
         char camera[WEFT_CAMERA_TEXT], number[PATH_NUMBER];
-        if (k) weft_camera_turned(first.camera_eye, first.camera_target, first.camera_fov, k, count, camera);
+        if (k) weft_camera_rotated(first.camera_eye, first.camera_target, first.camera_fov, k, count, camera);
         result = job_draw(job, k ? camera : NULL, error);
         if (!k) first = job->info;
         seconds += job->info.render_seconds;

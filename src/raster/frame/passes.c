@@ -30,7 +30,7 @@ static void put_reference(const WeftRaster *self, Picture *out) {
     put_row(out->sky_parts, e->ambient, e->reflection, 0.0f, 0.0f);
     put_row(out->ray_first, (float)rays->tree.node_count, (float)rays->first[1], (float)rays->first[2],
             (float)rays->first[3]);
-    put_row(out->ray_count, (float)rays->lamps, (float)self->sums.done, (float)rays->first[4], 0.0f);
+    put_row(out->ray_count, (float)rays->emitters, (float)self->sums.done, (float)rays->first[4], 0.0f);
 }
 
 /* Fills that block for a view of the scene, uploads it and binds it. */

@@ -332,7 +332,7 @@ WeftResult weft_raster_accumulate_begin(WeftRaster *self, const WeftRasterView *
     Sums *sums = &self->sums;
     sums->seen = view_of(&self->camera, aspect);
     sums->starts = shows(self, &view, &sums->seen);
-    view.camera = NULL; /* it is the caller's */
+    view.camera = NULL; /* the text is the caller's */
     sums->view = view;
     sums->frames = frames;
     sums->rows = FIRST_PIXELS / view.width > 0 ? FIRST_PIXELS / view.width : 1;

@@ -21,7 +21,7 @@ typedef struct Sums {
     int weights; /* location of a uniform of it */
     int width, height;
     WeftRasterView view; /* complete, without the camera's name */
-    View seen;           /* its camera */
+    View seen;           /* the camera of the sum */
     bool begun;          /* what is summed is still what was asked for */
     bool starts;         /* from a picture */
     int frames, done;    /* to be drawn, and drawn */

@@ -7,10 +7,10 @@
 
 enum { BINS = 16, DEEP = 48 /* from this depth on nodes are halved by number, so that recursion ends */ };
 
-typedef struct Builder {
+typedef struct RayTreeBuilder {
     const RayBox *boxes;
     RayTree *tree;
-} Builder;
+} RayTreeBuilder;
 
 static const RayBox nothing = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
 
@@ -28,10 +28,10 @@ static float middle_of(const RayBox *b, int axis) {
 }
 
 /* A plane between two bins of an axis, and what it costs to split there. */
-typedef struct Split {
+typedef struct RaySplit {
     int axis, bin; /* boxes of the bins up to `bin` are on the first side */
     float cost;    /* area times number, of both sides */
-} Split;
+} RaySplit;
 
 /* The bins along an axis, between the least and the greatest middle of the boxes. */
 typedef struct Bins {
@@ -46,7 +46,7 @@ static int bin_of(const Bins *bins, const RayBox *box, int axis) {
 }
 
 /* Returns false if all middles are at one place. */
-static bool fill_bins(const Builder *self, uint32_t first, uint32_t end, int axis, Bins *bins) {
+static bool fill_bins(const RayTreeBuilder *self, uint32_t first, uint32_t end, int axis, Bins *bins) {
     float low = INFINITY, high = -INFINITY;
     const uint32_t *order = self->tree->order;
     for (uint32_t k = first; k < end; k++) {
@@ -67,7 +67,7 @@ static bool fill_bins(const Builder *self, uint32_t first, uint32_t end, int axi
 }
 
 /* Improves the split by the planes of one axis. */
-static void try_planes(const Bins *bins, int axis, Split *best) {
+static void try_planes(const Bins *bins, int axis, RaySplit *best) {
     float right_cost[BINS];
     RayBox box = nothing;
     int count = 0;
@@ -82,12 +82,12 @@ static void try_planes(const Bins *bins, int axis, Split *best) {
         box = join(box, bins->box[k]);
         count += bins->count[k];
         const float cost = half_area(box) * (float)count + right_cost[k + 1];
-        if (count && cost < best->cost) *best = (Split){axis, k, cost};
+        if (count && cost < best->cost) *best = (RaySplit){axis, k, cost};
     }
 }
 
 /* Moves the boxes of the first side to the front; returns where the other side begins. */
-static uint32_t part(const Builder *self, uint32_t first, uint32_t end, const Bins *bins, Split split) {
+static uint32_t part(const RayTreeBuilder *self, uint32_t first, uint32_t end, const Bins *bins, RaySplit split) {
     uint32_t *order = self->tree->order, middle = first;
     for (uint32_t k = first; k < end; k++) {
         const uint32_t box = order[k];
@@ -99,11 +99,11 @@ static uint32_t part(const Builder *self, uint32_t first, uint32_t end, const Bi
 }
 
 /* Returns where the second child of a node begins, or `first` if it is to be a leaf. */
-static uint32_t split_node(const Builder *self, RayBox box, uint32_t first, uint32_t end, int depth) {
+static uint32_t split_node(const RayTreeBuilder *self, RayBox box, uint32_t first, uint32_t end, int depth) {
     Bins bins[3];
     const uint32_t count = end - first, half = first + count / 2;
     const float area = half_area(box);
-    Split best = {-1, 0, INFINITY};
+    RaySplit best = {-1, 0, INFINITY};
     if (count == 1) return first;
     for (int axis = 0; axis < 3 && depth < DEEP; axis++)
         if (fill_bins(self, first, end, axis, &bins[axis])) try_planes(&bins[axis], axis, &best);
@@ -114,7 +114,7 @@ static uint32_t split_node(const Builder *self, RayBox box, uint32_t first, uint
     return middle > first && middle < end ? middle : half;
 }
 
-static void build(const Builder *self, uint32_t first, uint32_t end, int depth) {
+static void build(const RayTreeBuilder *self, uint32_t first, uint32_t end, int depth) {
     RayTree *tree = self->tree;
     RayBox box = nothing;
     for (uint32_t k = first; k < end; k++) box = join(box, self->boxes[tree->order[k]]);
@@ -140,7 +140,7 @@ bool ray_tree_make(RayTree *tree, const RayBox *boxes, uint32_t count) {
         return false;
     }
     for (uint32_t k = 0; k < count; k++) tree->order[k] = k;
-    const Builder builder = {boxes, tree};
+    const RayTreeBuilder builder = {boxes, tree};
     if (count) build(&builder, 0, count, 0);
     return true;
 }

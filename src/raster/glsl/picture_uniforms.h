@@ -37,6 +37,6 @@
     ONE(vec4, sky_place)   /* cosine and sine of its rotation, factor; 0 none, 1 one colour, 2 a map */       \
     ONE(vec4, sky_color)   /* radiance of one colour */                                                      \
     ONE(vec4, sky_parts)   /* factor on diffuse lobe and dust, on the other lobes */                         \
-    ONE(vec4, ray_first)   /* number of nodes; first texel of triangles, normals, lamps */                   \
-    ONE(vec4, ray_count)   /* number of lamps, number of the frame, first texel of masks */
+    ONE(vec4, ray_first)   /* number of nodes; first texel of triangles, normals, emitters */                   \
+    ONE(vec4, ray_count)   /* number of emitters, number of the frame, first texel of masks */
 /* clang-format on */

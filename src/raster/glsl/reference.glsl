@@ -13,7 +13,7 @@ const vec4 vertex_tangent = vec4(0.0, 0.0, 0.0, 1.0);
 out highp vec4 fragment;
 
 #include "raster/glsl/light.glsl"
-#include "raster/glsl/lamps.glsl"
+#include "raster/glsl/ray_emitters.glsl"
 #include "raster/glsl/sky.glsl"
 #include "shading/material/dust.h"
 #include "shading/material/stack_sample.h"
@@ -23,7 +23,7 @@ out highp vec4 fragment;
 #endif
 
 /* The kinds of samples, and their pairs of dimensions (trace/geometry/sampler.h); the last is that of the material. */
-const int BY_SKY = 0, BY_LAMP = 1, BY_LIGHT = 2, BY_LOBE = 3, KINDS = 4;
+const int BY_SKY = 0, BY_EMITTER = 1, BY_LIGHT = 2, BY_LOBE = 3, KINDS = 4;
 const uint PAIR_VERTEX = 5u, PAIR_CLOTH = 65536u;
 const float FAR = 1e30;
 
@@ -141,8 +141,8 @@ Arriving light_sample(vec3 here, float u) {
 }
 
 Arriving arriving_by(int kind, vec3 here, Point at) {
-    if (kind == BY_LAMP) {
-        LampPoint p = lamp_sample(here, at.u, at.v);
+    if (kind == BY_EMITTER) {
+        EmitterPoint p = emitter_sample(here, at.u, at.v);
         return Arriving(p.wi, p.radiance, p.pdf, p.distance);
     }
     if (kind == BY_LIGHT) return light_sample(here, at.u);
@@ -151,7 +151,7 @@ Arriving arriving_by(int kind, vec3 here, Point at) {
 }
 
 bool has_kind(int kind) {
-    return kind == BY_LOBE || (kind == BY_SKY && sky_place.w > 0.5) || (kind == BY_LAMP && ray_count.x > 0.5) ||
+    return kind == BY_LOBE || (kind == BY_SKY && sky_place.w > 0.5) || (kind == BY_EMITTER && ray_count.x > 0.5) ||
            (kind == BY_LIGHT && forward.w > 0.5);
 }
 
@@ -173,14 +173,14 @@ vec3 light_met(Ray r, RayHit hit, float pdf) {
         other = sky_pdf(r.direction);
     }
     RayTriangle t = ray_triangle(max(hit.triangle, 0));
-    if (hit.triangle >= 0 && t.lamp > 0.5) {
-        int lamp = int(t.lamp) - 1;
-        vec4 light = lamp_texel(lamp, 3);
+    if (hit.triangle >= 0 && t.emitter > 0.5) {
+        int emitter = int(t.emitter) - 1;
+        vec4 light = emitter_texel(emitter, 3);
         vec3 normal = cross(t.b - t.a, t.c - t.a);
         float cosine = -dot(normal, r.direction) * inversesqrt(max(dot(normal, normal), 1e-38));
-        bool lit = cosine > 0.0 || lamp_texel(lamp, 1).w > 0.5;
+        bool lit = cosine > 0.0 || emitter_texel(emitter, 1).w > 0.5;
         radiance = lit ? light.rgb : vec3(0.0);
-        other = lamp_pdf(light.w, lamp_texel(lamp, 2).w, hit.t, cosine);
+        other = emitter_pdf(light.w, emitter_texel(emitter, 2).w, hit.t, cosine);
     }
     return radiance * (pdf / (pdf + other * (other / pdf)));
 }

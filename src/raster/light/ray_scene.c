@@ -8,12 +8,12 @@
 #include "base/fail.h"
 #include "raster/gl/gl_check.h"
 
-enum { NODES, TRIANGLES, NORMALS, LAMPS, MASKS, KINDS };
+enum { NODES, TRIANGLES, NORMALS, EMITTERS, MASKS, KINDS };
 
 /* The place of a triangle, counted through all meshes. */
-typedef struct Place {
+typedef struct TrianglePlace {
     uint32_t mesh, triangle;
-} Place;
+} TrianglePlace;
 
 static uint32_t count_triangles(const WeftScene *scene) {
     uint64_t count = 0;
@@ -44,7 +44,7 @@ static bool make_tree(RayScene *self, const WeftScene *scene) {
 
 static void put(float *texel, Vec3 v, float w) { texel[0] = v.x, texel[1] = v.y, texel[2] = v.z, texel[3] = w; }
 
-static void put_triangle(const WeftScene *scene, Place at, float *triangle, float *normals) {
+static void put_triangle(const WeftScene *scene, TrianglePlace at, float *triangle, float *normals) {
     const Mesh *mesh = &scene->meshes[at.mesh];
     const float side = scene->materials[mesh->material].double_sided ? 0.0f : 4.0f;
     const float last[3] = {side + ray_masks_mean(scene, mesh, at.triangle), 0.0f, 0.0f};
@@ -56,29 +56,29 @@ static void put_triangle(const WeftScene *scene, Place at, float *triangle, floa
 }
 
 /* Returns the place of each triangle in the order of the meshes; NULL if memory is short. */
-static Place *find_places(const WeftScene *scene, uint32_t count) {
-    Place *places = alloc_array(count, sizeof *places), *to = places;
+static TrianglePlace *find_places(const WeftScene *scene, uint32_t count) {
+    TrianglePlace *places = alloc_array(count, sizeof *places), *to = places;
     for (int m = 0; places && m < scene->mesh_count; m++)
-        for (uint32_t t = 0; t < scene->meshes[m].triangle_count; t++) *to++ = (Place){(uint32_t)m, t};
+        for (uint32_t t = 0; t < scene->meshes[m].triangle_count; t++) *to++ = (TrianglePlace){(uint32_t)m, t};
     return places;
 }
 
-/* Notes at each triangle of the texture the lamp that it is. at: where in the tree's order each triangle is. */
-static void put_lamps(const RayScene *self, const WeftScene *scene, const Lamps *lamps, const uint32_t *at,
-                      float *texels) {
+/* Notes at each triangle of the texture the emitter that it is. at: where in the tree's order each triangle is. */
+static void put_emitters(const RayScene *self, const WeftScene *scene, const RayEmitters *emitters, const uint32_t *at,
+                         float *texels) {
     uint32_t *first = alloc_array((size_t)scene->mesh_count, sizeof *first), count = 0;
     for (int m = 0; first && m < scene->mesh_count; m++) {
         first[m] = count;
         count += scene->meshes[m].triangle_count;
     }
-    for (int k = 0; first && k < lamps->count; k++) {
-        const Lamp *lamp = &lamps->all[k];
-        float *to = texels + 4 * ((size_t)self->first[LAMPS] + 4 * (size_t)k);
-        put(to, lamp->a, lamp->until);
-        put(to + 4, lamp->ab, lamp->two_sided ? 1.0f : 0.0f);
-        put(to + 8, lamp->ac, lamp->area);
-        put(to + 12, vec3_load(lamp->radiance), lamp->probability);
-        const size_t triangle = at[first[lamp->mesh] + lamp->triangle];
+    for (int k = 0; first && k < emitters->count; k++) {
+        const RayEmitter *emitter = &emitters->all[k];
+        float *to = texels + 4 * ((size_t)self->first[EMITTERS] + 4 * (size_t)k);
+        put(to, emitter->a, emitter->until);
+        put(to + 4, emitter->ab, emitter->two_sided ? 1.0f : 0.0f);
+        put(to + 8, emitter->ac, emitter->area);
+        put(to + 12, vec3_load(emitter->radiance), emitter->probability);
+        const size_t triangle = at[first[emitter->mesh] + emitter->triangle];
         texels[4 * ((size_t)self->first[TRIANGLES] + 3 * triangle + 1) + 3] = (float)(k + 1);
     }
     free(first);
@@ -95,15 +95,15 @@ static size_t count_masks(const RayScene *self, const WeftScene *scene) {
 }
 
 /* Fills the texels. Returns false if memory is short. */
-static bool fill(const RayScene *self, const WeftScene *scene, const Lamps *lamps, float *texels) {
+static bool fill(const RayScene *self, const WeftScene *scene, const RayEmitters *emitters, float *texels) {
     const RayTree *tree = &self->tree;
-    Place *places = find_places(scene, tree->count);
+    TrianglePlace *places = find_places(scene, tree->count);
     uint32_t *at = alloc_array(tree->count, sizeof *at);
     const bool made = places && at;
     size_t masks = 0;
     memcpy(texels, tree->nodes, tree->node_count * sizeof *tree->nodes);
     for (uint32_t k = 0; made && k < tree->count; k++) {
-        const Place place = places[tree->order[k]];
+        const TrianglePlace place = places[tree->order[k]];
         float *triangle = texels + 4 * ((size_t)self->first[TRIANGLES] + 3 * (size_t)k);
         at[tree->order[k]] = k;
         put_triangle(scene, place, triangle, texels + 4 * ((size_t)self->first[NORMALS] + 3 * (size_t)k));
@@ -111,7 +111,7 @@ static bool fill(const RayScene *self, const WeftScene *scene, const Lamps *lamp
                                texels + 4 * ((size_t)self->first[MASKS] + 3 * masks)))
             triangle[11] = (float)++masks;
     }
-    if (made) put_lamps(self, scene, lamps, at, texels);
+    if (made) put_emitters(self, scene, emitters, at, texels);
     free(places);
     free(at);
     return made;
@@ -132,28 +132,28 @@ static WeftResult upload(RayScene *self, int rows, const float *texels, WeftErro
 }
 
 static WeftResult fill_texture(RayScene *self, const WeftScene *scene, WeftError *error) {
-    Lamps lamps;
+    RayEmitters emitters;
     GLint most = 0;
-    if (!lamps_find(&lamps, scene)) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
+    if (!ray_emitters_find(&emitters, scene)) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     const size_t sizes[] = {2 * (size_t)self->tree.node_count, 3 * (size_t)self->tree.count,
-                            3 * (size_t)self->tree.count, 4 * (size_t)lamps.count, 3 * count_masks(self, scene)};
+                            3 * (size_t)self->tree.count, 4 * (size_t)emitters.count, 3 * count_masks(self, scene)};
     size_t texels = 0;
     for (int k = 0; k < KINDS; k++) {
         self->first[k] = (int)texels;
         texels += sizes[k];
     }
-    self->lamps = lamps.count;
+    self->emitters = emitters.count;
     const size_t rows = (texels + RAY_ROW - 1) / RAY_ROW;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
     WeftResult result = WEFT_OK;
     if (texels > RAY_NUMBER_MOST || rows > (size_t)most)
         result = fail(error, WEFT_MESSAGE_GL_MEMORY, scene->name, "too many triangles to trace rays in a shader");
     float *all = result == WEFT_OK ? alloc_array(rows * RAY_ROW, 4 * sizeof *all) : NULL;
-    if (result == WEFT_OK && (!all || !fill(self, scene, &lamps, all)))
+    if (result == WEFT_OK && (!all || !fill(self, scene, &emitters, all)))
         result = fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     if (result == WEFT_OK) result = upload(self, (int)rows, all, error);
     free(all);
-    lamps_free(&lamps);
+    ray_emitters_free(&emitters);
     self->filled = result == WEFT_OK;
     return result;
 }

@@ -1,12 +1,12 @@
-/* ray_scene.h - the scene's triangles and lamps in a texture, for rays in shaders (glsl/rays.glsl)
+/* ray_scene.h - the scene's triangles and emitters in a texture, for rays in shaders (glsl/rays.glsl)
  *
  * The texture has four floats a texel, and RAY_ROW texels a row. One after the other it has
  *
  *   nodes      two texels each: low, skip; high, first (ray_tree.h)
- *   triangles  three each, in the order of the tree: corner a and its surface; b and 1 + its lamp, or 0; c and 1 + its
+ *   triangles  three each, in the order of the tree: corner a and its surface; b and 1 + its emitter, or 0; c and 1 + its
  *              mask, or 0
  *   normals    three each: at the corners, 0 if the mesh has none
- *   lamps      four each: a, until; ab, 1 if both sides emit; ac, area; radiance, probability (lamps.h)
+ *   emitters      four each: a, until; ab, 1 if both sides emit; ac, area; radiance, probability (emitters.h)
  *   masks      three each: the numbers of ray_masks.h
  *
  * A surface is its opacity, plus 4 if it has only a front side. Departures: gaps of a woven cloth and alphas of vertex
@@ -16,7 +16,7 @@
 #pragma once
 
 #include "raster/geometry/ray_tree.h"
-#include "raster/light/lamps.h"
+#include "raster/light/ray_emitters.h"
 #include "raster/light/ray_masks.h"
 
 enum { RAY_ROW = 2048 };
@@ -27,8 +27,8 @@ typedef struct RayScene {
     bool filled;            /* the texture has the scene as it is; set it to false when materials change */
     unsigned texture;       /* 0: none */
     int rows;               /* of the texture */
-    int first[5];           /* texel of the first node, triangle, normal, lamp and mask */
-    int lamps;
+    int first[5];           /* texel of the first node, triangle, normal, emitter and mask */
+    int emitters;
     RayMasks masks;
 } RayScene;
 

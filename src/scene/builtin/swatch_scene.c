@@ -26,9 +26,9 @@ static Vec3 section_at(float length) {
     Vec3 p = {0.0f, 0.0f, 0.0f};
     for (int k = 0; k < ARCS; k++) {
         const float heading = k % 2 ? -steepness : steepness, curvature = k % 2 ? 1.0f / trough : -1.0f / crest;
-        const float turned = heading + curvature * fmaxf(fminf(length, arc_length(k)), 0.0f);
-        p.x += (sinf(turned) - sinf(heading)) / curvature;
-        p.z += (cosf(heading) - cosf(turned)) / curvature;
+        const float angle = heading + curvature * fmaxf(fminf(length, arc_length(k)), 0.0f);
+        p.x += (sinf(angle) - sinf(heading)) / curvature;
+        p.z += (cosf(heading) - cosf(angle)) / curvature;
         length -= arc_length(k);
     }
     return p;

@@ -44,8 +44,8 @@ static Camera frame_scene(const WeftScene *scene, float aspect) {
     return camera;
 }
 
-void weft_camera_turned(const float eye[3], const float target[3], float fov, int index, int count,
-                        char text[WEFT_CAMERA_TEXT]) {
+void weft_camera_rotated(const float eye[3], const float target[3], float fov, int index, int count,
+                         char text[WEFT_CAMERA_TEXT]) {
     const double angle = 2.0 * PI_DOUBLE * index / count, c = cos(angle), s = sin(angle);
     const double x = (double)eye[0] - (double)target[0], z = (double)eye[2] - (double)target[2];
     snprintf(text, WEFT_CAMERA_TEXT, "%.9g,%.9g,%.9g;%.9g,%.9g,%.9g;%.9g", (double)target[0] + c * x + s * z,

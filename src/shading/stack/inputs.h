@@ -22,7 +22,7 @@
     P(SCALAR, roughness, "roughness", 0.5f, 0.0f, 1.0f, 0.0f, 2.0f, SHAPE, "of the base; alpha = roughness^2")         \
     P(NORMAL, normal, "bumps, normal", 1.0f, 0.0f, 2.0f, -8.0f, 8.0f, NONE, "strength of the normal map")              \
     P(SCALAR, occlusion, "creases, occlusion", 1.0f, 0.0f, 1.0f, 0.0f, 1.0f, NONE,                                     \
-      "strength of baked occlusion (real-time renderer only)")                                                         \
+      "strength of baked occlusion, which the raster engine has until it has traced rays")                             \
     P(COLOR, emission, "glow, emission", 0.0f, 0.0f, 1.0f, 0.0f, 1e6f, NONE,                                           \
       "radiance sent out, before emission_strength")                                                                   \
     P(SCALAR, emission_strength, "emission strength", 1.0f, 0.0f, 100.0f, 0.0f, 1e6f, NONE, "factor on emission")      \

@@ -141,7 +141,7 @@ WeftResult weft_render_layers(const WeftRender *render, unsigned aovs, WeftRende
         result = film_aov(&picture->film, (WeftAov)aov, &first, error);
         if (result == WEFT_OK && !matte) *add_layer(out, channels[aov]) = first;
         if (!matte) continue;
-        weft_image_free(&first); /* its making showed that the matte was recorded */
+        weft_image_free(&first); /* the matte was recorded, as the first layer showed */
         if (result == WEFT_OK) result = add_matte(picture, aov - WEFT_AOV_OBJECT, out, error);
     }
     if (result != WEFT_OK) weft_render_layers_free(out);

@@ -10,23 +10,23 @@
 #include "view/files/paths.h"
 
 /* Adds a folder by its path, by the name or else by its own. */
-static void add_real(Places *self, const char *path, const char *name) {
+static void add_real(FilePlaces *self, const char *path, const char *name) {
     if (self->count == PLACES_MOST || strlen(path) >= PLACE_PATH) return;
     for (int k = 0; k < self->count; k++)
         if (strcmp(self->places[k].path, path) == 0) return;
-    Place *place = &self->places[self->count++];
+    FilePlace *place = &self->places[self->count++];
     snprintf(place->path, sizeof place->path, "%s", path);
     snprintf(place->name, sizeof place->name, "%.63s", name && name[0] ? name : path_name(path));
 }
 
 /* Adds a folder if it is there. */
-static void add(Places *self, const char *path, const char *name) {
+static void add(FilePlaces *self, const char *path, const char *name) {
     char real[4096];
     struct stat s;
     if (stat(path, &s) == 0 && S_ISDIR(s.st_mode) && realpath(path, real)) add_real(self, real, name);
 }
 
-static void add_folder_of(Places *self, const char *path, const char *name) {
+static void add_folder_of(FilePlaces *self, const char *path, const char *name) {
     char folder[PLACE_PATH];
     const char *slash = strrchr(path, '/');
     if (strncmp(path, "builtin:", 8) == 0 || strlen(path) >= sizeof folder) return;
@@ -53,7 +53,7 @@ static void decode(char *text) {
     *to = '\0';
 }
 
-void places_read_bookmarks(Places *self, const char *path) {
+void places_read_bookmarks(FilePlaces *self, const char *path) {
     char line[4096];
     FILE *file = fopen(path, "r");
     while (file && fgets(line, sizeof line, file)) {
@@ -69,7 +69,7 @@ void places_read_bookmarks(Places *self, const char *path) {
 
 /* Adds what is mounted where desktops mount drives and shares of a user, without a look at it: a share whose computer is
  * gone would keep the window waiting. */
-static void read_volumes(Places *self) {
+static void read_volumes(FilePlaces *self) {
     static const char *const roots[] = {"/media/", "/run/media/", "/mnt/", "/Volumes/"};
     FILE *file = setmntent("/proc/self/mounts", "r");
     for (const struct mntent *m; file && (m = getmntent(file));)
@@ -78,7 +78,7 @@ static void read_volumes(Places *self) {
     if (file) endmntent(file);
 }
 
-void places_read(Places *self, const char *scene, const Settings *settings) {
+void places_read(FilePlaces *self, const char *scene, const Settings *settings) {
     char path[PLACE_PATH];
     const char *home = getenv("HOME"), *config = getenv("XDG_CONFIG_HOME");
     self->count = 0;

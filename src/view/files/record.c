@@ -5,7 +5,7 @@
 
 enum { FLOATS_MOST = 8 };
 
-static json_t *member_json(const char *at, const Member *member) {
+static json_t *member_json(const char *at, const RecordMember *member) {
     float x[FLOATS_MOST];
     int whole;
     bool on;
@@ -23,7 +23,7 @@ static json_t *member_json(const char *at, const Member *member) {
     return array;
 }
 
-json_t *record_write(const void *record, const Member *members, size_t count) {
+json_t *record_write(const void *record, const RecordMember *members, size_t count) {
     json_t *object = json_object();
     for (size_t k = 0; k < count; k++)
         json_object_set_new(object, members[k].name,
@@ -51,7 +51,7 @@ static bool read_floats(const json_t *array, int count, char *at) {
     return true;
 }
 
-bool record_read(const json_t *object, const Member *members, size_t count, void *record) {
+bool record_read(const json_t *object, const RecordMember *members, size_t count, void *record) {
     for (size_t k = 0; k < count; k++) {
         const json_t *value = json_object_get(object, members[k].name);
         char *at = (char *)record + members[k].offset;

@@ -7,26 +7,26 @@
 #include "view/files/record.h"
 #include "view/files/session_file.h"
 
-static const Member light_members[] = {RECORD_WHOLE(WeftLight, kind, WEFT_LIGHT_POLYGON),
-                                       RECORD_FLOATS(WeftLight, position, 3),
-                                       RECORD_FLOATS(WeftLight, direction, 3),
-                                       RECORD_FLOATS(WeftLight, color, 3),
-                                       RECORD_FLOATS(WeftLight, range, 1),
-                                       RECORD_FLOATS(WeftLight, inner, 1),
-                                       RECORD_FLOATS(WeftLight, outer, 1),
-                                       RECORD_FLOATS(WeftLight, size, 2),
-                                       RECORD_WHOLE(WeftLight, corners, 8),
-                                       RECORD_FLOATS(WeftLight, roll, 1)};
-static const Member environment_members[] = {RECORD_WHOLE(EnvironmentState, kind, ENVIRONMENT_COLOR),
-                                             RECORD_FLOATS(EnvironmentState, color, 3),
-                                             RECORD_FLOATS(EnvironmentState, rotation, 1),
-                                             RECORD_FLOATS(EnvironmentState, strength, 1),
-                                             RECORD_FLOATS(EnvironmentState, ambient, 1),
-                                             RECORD_FLOATS(EnvironmentState, reflection, 1)};
-static const Member input_members[] = {RECORD_FLOATS(WeftInput, value, 3), RECORD_WHOLE(WeftInput, texcoord, 1),
-                                       RECORD_WHOLE(WeftInput, channel, 3), RECORD_WHOLE(WeftInput, given, 1),
-                                       RECORD_FLOATS(WeftInput, transform, 6)};
-static const Member material_members[] = {
+static const RecordMember light_members[] = {RECORD_WHOLE(WeftLight, kind, WEFT_LIGHT_POLYGON),
+                                             RECORD_FLOATS(WeftLight, position, 3),
+                                             RECORD_FLOATS(WeftLight, direction, 3),
+                                             RECORD_FLOATS(WeftLight, color, 3),
+                                             RECORD_FLOATS(WeftLight, range, 1),
+                                             RECORD_FLOATS(WeftLight, inner, 1),
+                                             RECORD_FLOATS(WeftLight, outer, 1),
+                                             RECORD_FLOATS(WeftLight, size, 2),
+                                             RECORD_WHOLE(WeftLight, corners, 8),
+                                             RECORD_FLOATS(WeftLight, roll, 1)};
+static const RecordMember environment_members[] = {RECORD_WHOLE(EnvironmentState, kind, ENVIRONMENT_COLOR),
+                                                   RECORD_FLOATS(EnvironmentState, color, 3),
+                                                   RECORD_FLOATS(EnvironmentState, rotation, 1),
+                                                   RECORD_FLOATS(EnvironmentState, strength, 1),
+                                                   RECORD_FLOATS(EnvironmentState, ambient, 1),
+                                                   RECORD_FLOATS(EnvironmentState, reflection, 1)};
+static const RecordMember input_members[] = {RECORD_FLOATS(WeftInput, value, 3), RECORD_WHOLE(WeftInput, texcoord, 1),
+                                             RECORD_WHOLE(WeftInput, channel, 3), RECORD_WHOLE(WeftInput, given, 1),
+                                             RECORD_FLOATS(WeftInput, transform, 6)};
+static const RecordMember material_members[] = {
     RECORD_WHOLE(WeftMaterial, alpha_mode, WEFT_ALPHA_BLEND), RECORD_FLOATS(WeftMaterial, alpha_cutoff, 1),
     RECORD_WHOLE(WeftMaterial, double_sided, 1), RECORD_WHOLE(WeftMaterial, unlit, 1)};
 

@@ -130,7 +130,7 @@ static WeftResult render_all(Still *self, const WeftScene *scene) {
     WeftResult result = WEFT_OK;
     for (int k = 0; k < count_of(self) && result == WEFT_OK; k++) {
         char camera[WEFT_CAMERA_TEXT], number[PATH_NUMBER], path[STATE_PATH + PATH_NUMBER];
-        if (k) weft_camera_turned(first.camera_eye, first.camera_target, first.camera_fov, k, around, camera);
+        if (k) weft_camera_rotated(first.camera_eye, first.camera_target, first.camera_fov, k, around, camera);
         snprintf(path, sizeof path, "%s", self->desc.path);
         if (around) path_numbered(self->desc.path, path_number(k, around, number), path, sizeof path);
         result = render(self, scene, k ? camera : self->desc.camera, path, &info);

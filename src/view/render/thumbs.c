@@ -32,7 +32,7 @@ struct Thumbs {
     bool stopped;
 };
 
-/* The hash FNV-1a: Glenn Fowler, Landon Curt Noll, Kiem-Phong Vo, 1991. */
+/* Continues the hash FNV-1a over bytes: Glenn Fowler, Landon Curt Noll, Kiem-Phong Vo, 1991. */
 static uint64_t hashed(uint64_t hash, const char *bytes, size_t size) {
     for (size_t k = 0; k < size; k++) hash = (hash ^ (unsigned char)bytes[k]) * 0x100000001b3u;
     return hash;
@@ -55,7 +55,7 @@ static bool place(const char *path, char out[USER_PATH]) {
     snprintf(about, sizeof about, "thumb %d %d %s", THUMB_SIDE, THUMB_SAMPLES, weft_version());
     uint64_t hash = hashed(0xcbf29ce484222325u, about, strlen(about) + 1);
     hash = hashed(hash, preset ? preset : file, size + 1);
-    if (file) hash = hashed(hash, path, strlen(path)); /* its textures are found beside it */
+    if (file) hash = hashed(hash, path, strlen(path)); /* a file's textures are found beside it */
     free(file);
     snprintf(name, sizeof name, "%016llx.png", (unsigned long long)hash);
     return user_cache(out, name);

@@ -7,7 +7,7 @@
 
 typedef struct DialogsState {
     struct Browser *browser;
-    Places places;          /* that the browser offers */
+    FilePlaces places;      /* the places of the browser */
     char asked[STATE_PATH]; /* file that the dialog has asked whether to replace; "": none */
     bool help, warnings_shown, unsaid_shown;
     char unsaid[4096]; /* what the copied command line cannot say, a line each */

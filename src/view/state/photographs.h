@@ -6,14 +6,14 @@
 
 typedef enum PhotographPlace { PHOTOGRAPH_OFF, PHOTOGRAPH_BESIDE, PHOTOGRAPH_WIPE, PHOTOGRAPH_OVER } PhotographPlace;
 
-/* How it is seen. */
+/* The view of a photograph. */
 typedef struct PhotographView {
     PhotographPlace place;
     float at;       /* WIPE: the line, a fraction of the width */
     float opacity;  /* OVER: 0 to 1 */
     float size;     /* 1: as large as fits */
     float shift[2]; /* right and down, fractions of the height of the picture */
-    bool follows;   /* it grows as the camera comes nearer */
+    bool follows;   /* the photograph grows as the camera comes nearer */
     float reach;    /* height of what the camera sees at its target where the size is as it is given, m; 0: as now */
 } PhotographView;
 

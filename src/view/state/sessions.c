@@ -16,35 +16,35 @@ static const double rest_seconds = 2.0;
 
 #define LENGTH(array) (sizeof(array) / sizeof *(array))
 
-static const Member option_members[] = {RECORD_WHOLE(ViewOptions, mode, MODE_DIFFERENCE),
-                                        RECORD_FLOATS(ViewOptions, split_at, 1),
-                                        RECORD_WHOLE(ViewOptions, background, WEFT_BACKGROUND_BLURRED),
-                                        RECORD_FLOATS(ViewOptions, background_color, 3),
-                                        RECORD_SWITCH(ViewOptions, floor.on),
-                                        RECORD_FLOATS(ViewOptions, floor.reflection, 1),
-                                        RECORD_FLOATS(ViewOptions, floor.roughness, 1),
-                                        RECORD_SWITCH(ViewOptions, stage),
-                                        RECORD_SWITCH(ViewOptions, hide_lights),
-                                        RECORD_WHOLE(ViewOptions, tonemap, WEFT_TONEMAP_COUNT - 1),
-                                        RECORD_FLOATS(ViewOptions, exposure, 1),
-                                        RECORD_SWITCH(ViewOptions, metered),
-                                        RECORD_FLOATS(ViewOptions, kelvin, 1),
-                                        RECORD_FLOATS(ViewOptions, tint, 1),
-                                        RECORD_WHOLE(ViewOptions, part, WEFT_PART_COUNT - 1),
-                                        RECORD_WHOLE(ViewOptions, ambient, WEFT_AMBIENT_NONE),
-                                        RECORD_WHOLE(ViewOptions, tool, TOOL_BRUSH),
-                                        RECORD_FLOATS(ViewOptions, brush_radius, 1),
-                                        RECORD_FLOATS(ViewOptions, brush_strength, 1),
-                                        RECORD_WHOLE(ViewOptions, panel, PANEL_DOCTOR)};
-static const Member photograph_members[] = {RECORD_WHOLE(PhotographView, place, PHOTOGRAPH_OVER),
-                                            RECORD_FLOATS(PhotographView, at, 1),
-                                            RECORD_FLOATS(PhotographView, opacity, 1),
-                                            RECORD_FLOATS(PhotographView, size, 1),
-                                            RECORD_FLOATS(PhotographView, shift, 2),
-                                            RECORD_SWITCH(PhotographView, follows),
-                                            RECORD_FLOATS(PhotographView, reach, 1)};
-static const Member orbit_members[] = {RECORD_FLOATS(Orbit, eye, 3), RECORD_FLOATS(Orbit, target, 3),
-                                       RECORD_FLOATS(Orbit, fov, 1)};
+static const RecordMember option_members[] = {RECORD_WHOLE(ViewOptions, mode, MODE_DIFFERENCE),
+                                              RECORD_FLOATS(ViewOptions, split_at, 1),
+                                              RECORD_WHOLE(ViewOptions, background, WEFT_BACKGROUND_BLURRED),
+                                              RECORD_FLOATS(ViewOptions, background_color, 3),
+                                              RECORD_SWITCH(ViewOptions, floor.on),
+                                              RECORD_FLOATS(ViewOptions, floor.reflection, 1),
+                                              RECORD_FLOATS(ViewOptions, floor.roughness, 1),
+                                              RECORD_SWITCH(ViewOptions, stage),
+                                              RECORD_SWITCH(ViewOptions, hide_lights),
+                                              RECORD_WHOLE(ViewOptions, tonemap, WEFT_TONEMAP_COUNT - 1),
+                                              RECORD_FLOATS(ViewOptions, exposure, 1),
+                                              RECORD_SWITCH(ViewOptions, metered),
+                                              RECORD_FLOATS(ViewOptions, kelvin, 1),
+                                              RECORD_FLOATS(ViewOptions, tint, 1),
+                                              RECORD_WHOLE(ViewOptions, part, WEFT_PART_COUNT - 1),
+                                              RECORD_WHOLE(ViewOptions, ambient, WEFT_AMBIENT_NONE),
+                                              RECORD_WHOLE(ViewOptions, tool, TOOL_BRUSH),
+                                              RECORD_FLOATS(ViewOptions, brush_radius, 1),
+                                              RECORD_FLOATS(ViewOptions, brush_strength, 1),
+                                              RECORD_WHOLE(ViewOptions, panel, PANEL_DOCTOR)};
+static const RecordMember photograph_members[] = {RECORD_WHOLE(PhotographView, place, PHOTOGRAPH_OVER),
+                                                  RECORD_FLOATS(PhotographView, at, 1),
+                                                  RECORD_FLOATS(PhotographView, opacity, 1),
+                                                  RECORD_FLOATS(PhotographView, size, 1),
+                                                  RECORD_FLOATS(PhotographView, shift, 2),
+                                                  RECORD_SWITCH(PhotographView, follows),
+                                                  RECORD_FLOATS(PhotographView, reach, 1)};
+static const RecordMember orbit_members[] = {RECORD_FLOATS(Orbit, eye, 3), RECORD_FLOATS(Orbit, target, 3),
+                                             RECORD_FLOATS(Orbit, fov, 1)};
 
 const char *sessions_claim(Viewer *v, const char *scene) {
     SessionsState *sessions = &v->states->sessions;

@@ -22,7 +22,7 @@ typedef struct FolderEntry {
 struct Browser {
     char folder[PATH], typed[PATH], words[NAME], chosen[2 * PATH];
     FolderEntry *entries;
-    const Places *places; /* NULL: none */
+    const FilePlaces *places; /* NULL: none */
     int count;
     int row;        /* the entry that is chosen; -1: none */
     bool moved;     /* to a row that may be out of sight */
@@ -101,7 +101,7 @@ void browser_free(Browser *self) {
     free(self);
 }
 
-void browser_refresh(Browser *self, const Places *places) {
+void browser_refresh(Browser *self, const FilePlaces *places) {
     self->places = places;
     self->words[0] = '\0';
     list(self);
@@ -161,7 +161,7 @@ static void draw_places(Browser *self, float height) {
     ui_scope("places");
     if (ui_list("##places", 150.0f * ui_scale(), height)) {
         for (int k = 0; self->places && k < self->places->count; k++) {
-            const Place *place = &self->places->places[k];
+            const FilePlace *place = &self->places->places[k];
             char label[PLACE_NAME + 16];
             snprintf(label, sizeof label, "%s##%d", place->name, k);
             if (ui_row(label, strcmp(place->path, self->folder) == 0)) choose(self, place->path);

@@ -16,7 +16,7 @@ void browser_free(Browser *browser);
 const char *browser_folder(const Browser *browser);
 
 /* Rereads the folder, forgets what was searched for, and offers these places, which must outlive it. */
-void browser_refresh(Browser *browser, const Places *places);
+void browser_refresh(Browser *browser, const FilePlaces *places);
 
 /* Draws it in what is left of a dialog, `height` pixels high: folders, and files of some kinds, bit k for PathKind k. A
  * double click, Enter, or browser_open opens the chosen one. Returns a path once one is opened that is there and of

@@ -1,6 +1,6 @@
 #include <stdlib.h> /* before the dialect, whose abs() shadows its own */
 
-#include "raster/light/lamps.h"
+#include "raster/light/ray_emitters.h"
 
 #include "base/memory.h"
 #include "scene/light/polygons.h"
@@ -30,47 +30,47 @@ static void add_emission(const WeftScene *scene, const Mesh *mesh, const uint32_
 }
 
 /* Sets the mean radiance over a triangle, by points at the middles of its parts. */
-static void find_radiance(const WeftScene *scene, const Mesh *mesh, Lamp *lamp) {
+static void find_radiance(const WeftScene *scene, const Mesh *mesh, RayEmitter *emitter) {
     const Material *material = &scene->materials[mesh->material];
     const bool even =
         !material->inputs[INPUT_emission].texture && !material->inputs[INPUT_emission_strength].texture &&
         (material->alpha_mode == WEFT_ALPHA_OPAQUE || (!material->inputs[INPUT_opacity].texture && !mesh->color));
     const int steps = even ? 1 : STEPS;
-    const uint32_t *index = mesh->index + 3 * (size_t)lamp->triangle;
+    const uint32_t *index = mesh->index + 3 * (size_t)emitter->triangle;
     for (int k = 0; k < steps * steps; k++) {
         const int row = (int)sqrtf((float)k), in_row = k - row * row, up = in_row % 2;
         const float n = 3.0f * (float)steps;
         const float b1 = (float)(3 * row + (up ? 1 : 2)) / n, b2 = (float)(3 * (in_row / 2) + (up ? 2 : 1)) / n;
         const float weight[3] = {1.0f - b1, b1 - b2, b2};
-        add_emission(scene, mesh, index, weight, lamp->radiance);
+        add_emission(scene, mesh, index, weight, emitter->radiance);
     }
-    for (int c = 0; c < 3; c++) lamp->radiance[c] /= (float)(steps * steps);
+    for (int c = 0; c < 3; c++) emitter->radiance[c] /= (float)(steps * steps);
 }
 
-static Lamp lamp_of(const WeftScene *scene, uint32_t m, uint32_t triangle) {
+static RayEmitter emitter_of(const WeftScene *scene, uint32_t m, uint32_t triangle) {
     const Mesh *mesh = &scene->meshes[m];
     const uint32_t *index = mesh->index + 3 * (size_t)triangle;
     const Vec3 a = vec3_load(mesh->position + 3 * (size_t)index[0]);
-    Lamp lamp = {.mesh = m,
-                 .triangle = triangle,
-                 .a = a,
-                 .ab = vec3_sub(vec3_load(mesh->position + 3 * (size_t)index[1]), a),
-                 .ac = vec3_sub(vec3_load(mesh->position + 3 * (size_t)index[2]), a),
-                 .two_sided = scene->materials[mesh->material].double_sided};
-    lamp.area = 0.5f * vec3_length(vec3_cross(lamp.ab, lamp.ac));
-    find_radiance(scene, mesh, &lamp);
-    return lamp;
+    RayEmitter emitter = {.mesh = m,
+                          .triangle = triangle,
+                          .a = a,
+                          .ab = vec3_sub(vec3_load(mesh->position + 3 * (size_t)index[1]), a),
+                          .ac = vec3_sub(vec3_load(mesh->position + 3 * (size_t)index[2]), a),
+                          .two_sided = scene->materials[mesh->material].double_sided};
+    emitter.area = 0.5f * vec3_length(vec3_cross(emitter.ab, emitter.ac));
+    find_radiance(scene, mesh, &emitter);
+    return emitter;
 }
 
-/* Sets the probabilities. Returns false if no lamp has any power. */
-static bool distribute(Lamps *self) {
+/* Sets the probabilities. Returns false if no emitter has any power. */
+static bool distribute(RayEmitters *self) {
     double sum = 0.0, running = 0.0;
     for (int k = 0; k < self->count; k++) {
-        Lamp *lamp = &self->all[k];
-        const float *c = lamp->radiance;
-        lamp->probability =
-            lamp->area * (0.2126f * c[0] + 0.7152f * c[1] + 0.0722f * c[2]) * (lamp->two_sided ? 2.0f : 1.0f);
-        sum += (double)lamp->probability;
+        RayEmitter *emitter = &self->all[k];
+        const float *c = emitter->radiance;
+        emitter->probability =
+            emitter->area * (0.2126f * c[0] + 0.7152f * c[1] + 0.0722f * c[2]) * (emitter->two_sided ? 2.0f : 1.0f);
+        sum += (double)emitter->probability;
     }
     for (int k = 0; k < self->count; k++) {
         self->all[k].probability = (float)((double)self->all[k].probability / sum);
@@ -80,24 +80,24 @@ static bool distribute(Lamps *self) {
     return sum > 0.0;
 }
 
-bool lamps_find(Lamps *self, const WeftScene *scene) {
+bool ray_emitters_find(RayEmitters *self, const WeftScene *scene) {
     size_t count = 0;
-    *self = (Lamps){0};
+    *self = (RayEmitters){0};
     for (int m = 0; m < scene->mesh_count; m++)
         if (material_emits(&scene->materials[scene->meshes[m].material])) count += scene->meshes[m].triangle_count;
     if (!count) return true;
-    self->all = count < INT32_MAX ? alloc_array(count, sizeof(Lamp)) : NULL;
+    self->all = count < INT32_MAX ? alloc_array(count, sizeof(RayEmitter)) : NULL;
     if (!self->all) return false;
     for (int m = 0; m < scene->mesh_count; m++) {
         const Mesh *mesh = &scene->meshes[m];
         for (uint32_t t = 0; material_emits(&scene->materials[mesh->material]) && t < mesh->triangle_count; t++)
-            self->all[self->count++] = lamp_of(scene, (uint32_t)m, t);
+            self->all[self->count++] = emitter_of(scene, (uint32_t)m, t);
     }
-    if (!distribute(self)) lamps_free(self);
+    if (!distribute(self)) ray_emitters_free(self);
     return true;
 }
 
-void lamps_free(Lamps *self) {
+void ray_emitters_free(RayEmitters *self) {
     free(self->all);
-    *self = (Lamps){0};
+    *self = (RayEmitters){0};
 }
