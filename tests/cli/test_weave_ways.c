@@ -292,8 +292,10 @@ static void seen_from_afar(const char *option, const char *material, double mean
 static void denim_is_as_blue_as_its_warp(void **state) {
     (void)state;
     static const char all_warp[] =
-        "{\"weave\": {\"draft\": \"twill 3/1 z; both 1#2a4478; sett 26 18\", \"warp\": {\"yarn\": \"cotton\", \"dye\": "
-        "0.3, \"slub\": 0.5, \"width\": 1.3, \"bulge\": 0.5}, \"weft\": {\"yarn\": \"cotton\", \"width\": 0.95}}}";
+        "{\"weave\": {\"draft\": \"twill 3/1 z; both 1#28385c; sett 26 18\", \"warp\": {\"yarn\": \"cotton\", \"dye\": "
+        "0.3, \"slub\": 0.5, \"slub_length\": 40, \"width\": 1.3, \"bulge\": 0.5, \"barre\": 0.2, \"barre_width\": "
+        "40}, "
+        "\"weft\": {\"yarn\": \"cotton\", \"dye\": 0.05, \"width\": 0.95}}}";
     WeftScene *scene;
     WeftMaterial material;
     double denim[3], warp[3];
