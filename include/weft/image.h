@@ -69,7 +69,8 @@ enum { WEFT_IMAGE_LAYERS = 32 };
 
 /* An attribute of an .exr: a name of at most 31 characters, and its text. */
 typedef struct WeftImageText {
-    const char *name, *text;
+    const char *name; /* at most 31 characters */
+    const char *text; /* of one line or several */
 } WeftImageText;
 
 /* Options of weft_image_write_as. All zero: as weft_image_write does. */
@@ -83,7 +84,7 @@ typedef struct WeftImageWriting {
     const WeftImageLayer *layers; /* of an .exr; the other formats leave them out */
     int layer_count;              /* at most WEFT_IMAGE_LAYERS */
     const WeftImageText *texts;   /* of an .exr; the other formats leave them out */
-    int text_count;
+    int text_count;               /* of texts */
     const char *isa; /* the instruction set that made it (weft_isa), kept in an .exr ("isa"); may be NULL */
 } WeftImageWriting;
 
@@ -114,8 +115,8 @@ WEFT_API const char *weft_tonemap_name(int tonemap);
 
 /* The rendering of radiance for a display. Zero means the default, in every member. */
 typedef struct WeftTone {
-    WeftTonemap curve;
-    float exposure; /* stops: colours are first multiplied by 2^exposure */
+    WeftTonemap curve; /* from exposed radiance to the display */
+    float exposure;    /* stops: colours are first multiplied by 2^exposure */
     /* chromaticity x, y (CIE 1931) of the light that shows as white; 0, 0: D65, the display's own. Colours are adapted
      * as in King Lam, "Metamerism and Colour Constancy", 1985 (the Bradford transform) */
     float white[2];

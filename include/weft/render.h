@@ -188,10 +188,10 @@ WEFT_API WeftResult weft_render_aov(const WeftRender *render, WeftAov aov, WeftI
 /* AOVs as channels and attributes of an .exr, for WeftImageWriting. Objects and materials are Cryptomattes of six ranks
  * (version 1.2.0 of their specification) with a manifest, named CryptoObject and CryptoMaterial. */
 typedef struct WeftRenderLayers {
-    WeftImageLayer *layers;
-    int layer_count;
-    WeftImageText *texts;
-    int text_count;
+    WeftImageLayer *layers; /* layer_count of them, owned */
+    int layer_count;        /* up to WEFT_IMAGE_LAYERS */
+    WeftImageText *texts;   /* text_count of them, owned: manifests of Cryptomattes */
+    int text_count;         /* four for each Cryptomatte */
 } WeftRenderLayers;
 
 /* Makes the layers of a set of AOVs, 1 << WEFT_AOV_ALBEDO and so on. Release with weft_render_layers_free. Fails as

@@ -167,7 +167,7 @@ static void mistyped_material_option_is_named_in_its_error(void **state) {
     refused(LIST("--set=*.roughness=0,x"), 2, "x: is not a value");
     refused(LIST("--set=*.roughness=0,0.1,0.2,0.3,0.4,0.5,0.6,0.7,0.8", "--set=*.metallic=0,1,2,3,4,5,6,7,8"), 2,
             "--set: makes more than 64 pictures");
-    refused(LIST("--set=*.base_color=1,0,0,1"), 2, "a number or r,g,b");
+    refused(LIST("--set=*.base_color=1,0,0,1"), 2, "a number, r,g,b (linear) or #rrggbb");
     refused(LIST("--preset=velvt"), 2, "did you mean velvet?");
     refused(LIST("--preset=wool=velvet"), 2, "available: cloth");
     refused(LIST("--material=none.json"), 3, "none.json: ");

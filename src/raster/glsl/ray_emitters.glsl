@@ -31,7 +31,7 @@ float emitter_pdf(float probability, float area, float t, float cosine) {
 EmitterPoint emitter_sample(vec3 here, float u, float v) {
     int emitter = emitter_find(u);
     vec4 a = emitter_texel(emitter, 0), ab = emitter_texel(emitter, 1), ac = emitter_texel(emitter, 2), light = emitter_texel(emitter, 3);
-    float before = a.w - light.w, part = cemitter((u - before) / max(light.w, 1e-20), 0.0, 0.99999994);
+    float before = a.w - light.w, part = clamp((u - before) / max(light.w, 1e-20), 0.0, 0.99999994);
     float half_least = 0.5 * min(part, v);
     vec3 to = a.xyz + (part - half_least) * ab.xyz + (v - half_least) * ac.xyz - here;
     float t2 = dot(to, to), t = sqrt(max(t2, 1e-30));

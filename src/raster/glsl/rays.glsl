@@ -45,10 +45,10 @@ RayHit ray_meet(Ray r, RayTriangle p) {
     return RayHit(beside ? -1.0 : t, -1, u, v);
 }
 
-/* Wraps a coordinate: 0 repeats, 1 mirrors, 2 cemitters. */
+/* Wraps a coordinate: 0 repeats, 1 mirrors, 2 clamps. */
 float ray_wrap(float x, float how) {
     float mirrored = 1.0 - abs(fract(0.5 * x) * 2.0 - 1.0);
-    return how > 1.5 ? cemitter(x, 0.0005, 0.9995) : how > 0.5 ? mirrored : x;
+    return how > 1.5 ? clamp(x, 0.0005, 0.9995) : how > 0.5 ? mirrored : x;
 }
 
 /* Returns the opacity of mask k at a hit. */
