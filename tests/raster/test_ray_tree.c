@@ -154,7 +154,7 @@ static void check_scene(WeftScene *scene) {
 
 static void builtin_scenes_are_met_as_by_embree(void **state) {
     (void)state;
-    static const char *const names[] = {"builtin:spheres", "builtin:cloth", "builtin:emittershade"};
+    static const char *const names[] = {"builtin:spheres", "builtin:cloth", "builtin:lampshade"};
     for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
         WeftScene *scene;
         WeftError error;
