@@ -182,10 +182,10 @@ WEFT_API WeftResult weft_scene_set_weave(WeftScene *scene, int material, const W
 /* Sets a key of the weave of a material, named as in weft_scene_assign_material (NULL: the cloth of the scene). One
  * that is not woven becomes plain cotton without a sheen first. Keys: draft (words, or a file: a WIF or a picture), sett
  * (threads per centimetre, or WARP,WEFT), metres (that a unit of texture coordinates spans, or auto: as the mesh has
- * it), seed, rotation (of the weave, degrees), relief (of the normal map under the cloth: folds, all, none, or the metres that it is smoothed over), warp
- * and weft (names of yarns), and of these color ("#rrggbb", or r,g,b in linear reflectance) and the
- * numbers of weft_yarn_number, such as warp.alpha. An empty key sets the whole weave: a draft, or the JSON of a material file,
- * which leaves all other inputs as they are.
+ * it), seed, rotation (of the weave, degrees), relief (of the normal map under the cloth: folds, all, none, or the metres
+ * that it is smoothed over), warp and weft (names of yarns), and of these color ("#rrggbb", or r,g,b in linear
+ * reflectance) and the numbers of weft_yarn_number, such as warp.alpha. An empty key sets the whole weave: a draft, or
+ * the JSON of a material file, which leaves all other inputs as they are.
  * weft_scene_set takes the same as MATERIAL.weave.KEY. Fails with WEFT_MESSAGE_MATERIAL_NAME, _PARAM_NAME, _PARAM_VALUE
  * and as reading a material file does. */
 WEFT_API WeftResult weft_scene_weave(WeftScene *scene, const char *material, const char *key, const char *value,

@@ -43,7 +43,8 @@ static uint64_t hash_cloth(uint64_t hash, const WeftScene *scene, int cloth) {
     const WeftDraft *draft = weft_scene_cloth(scene, cloth, yarns);
     const WeftClothInfo info = weft_scene_cloth_info(scene, cloth);
     const WeftDraftInfo repeat = weft_draft_info(draft);
-    const float numbers[] = {info.size[0], info.size[1], info.metres, (float)info.automatic, (float)info.seed};
+    const float numbers[] = {info.size[0],  info.size[1], info.metres,     (float)info.automatic,
+                             info.rotation, info.relief,  (float)info.seed};
     hash = hash_floats(cache_hash(hash, yarns, sizeof yarns), numbers, sizeof numbers / sizeof *numbers);
     for (int system = 0; system < 2; system++)
         for (int k = 0; k < repeat.count[system]; k++) {

@@ -203,7 +203,7 @@ static void draw_group(Viewer *v, const char *group, const char *help) {
 /* Draws what saves the edited material into the user's folder. */
 static void draw_save(Viewer *v) {
     PresetWindow *self = v->presets;
-    char folder[USER_PATH], path[USER_PATH + 80], tip[USER_PATH + 80];
+    char folder[USER_PATH] = "", path[USER_PATH + 80], tip[USER_PATH + 80];
     const bool there = user_materials(folder, false);
     snprintf(path, sizeof path, "%s/%s.json", folder, self->name);
     snprintf(tip, sizeof tip, "Keeps the edited material as a file of %s; remove it there.", there ? folder : "yours");

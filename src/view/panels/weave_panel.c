@@ -165,10 +165,9 @@ static void draw_new_draft(Viewer *v, WeaveEdit *edit) {
 
 /* The words for the relief of the asset, in the order of their rows. */
 static const char *const relief_names[] = {"folds", "all", "none"},
-                         *const relief_helps[] = {
-                             "Folds and seams stay; threads and pile of the cloth that the asset was "
-                             "made with go.",
-                             "The whole normal map of the asset.", "A smooth surface under the cloth."};
+                         *const relief_helps[] = {"Folds and seams stay; the asset's own threads and pile go.",
+                                                  "The whole normal map of the asset.",
+                                                  "A smooth surface under the cloth."};
 static const char *relief_name(const void *user, int row) {
     (void)user;
     return relief_names[row];

@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "view/files/paths.h"
 #include "view/files/session_file.h"
@@ -279,12 +280,21 @@ static void load_lobes(const Loader *self, const json_t *session, const WeftLog 
     }
 }
 
+/* Keeps a session that cannot be restored beside its file, which the window writes anew. */
+static void keep_aside(const char *session) {
+    char aside[SESSION_PATH + 16];
+    snprintf(aside, sizeof aside, "%s.unrestored", session);
+    unlink(aside);
+    if (link(session, aside) != 0) return; /* a file system without links: nothing better can be done */
+}
+
 /* Reads the session, if there is one, before the scene is read. */
 static void read_session(Loader *self, const WeftLog *log) {
     Restored *restored = &self->loaded.restored;
     bool damaged = false;
     if (!self->session[0]) return;
     restored->session = session_file_read(self->session, &damaged);
+    if (damaged) keep_aside(self->session);
     if (damaged)
         snprintf(restored->complaint, sizeof restored->complaint, "%.300s: is damaged: nothing is restored of it",
                  self->session);
@@ -309,6 +319,7 @@ static void restore(Loader *self) {
                                     &error);
     facts_read_maps(&loaded->facts, loaded->scene);
     if (result == WEFT_OK) return;
+    keep_aside(self->session);
     snprintf(restored->complaint, sizeof restored->complaint, "what was not saved is not restored: %.400s", error.text);
     restored_free(restored);
 }

@@ -241,7 +241,7 @@ WeftResult session_state_read(const json_t *root, const char *session, int nap, 
     return result;
 }
 
-static bool same_naps(const SceneState *a, const SceneState *b) {
+bool session_state_same_naps(const SceneState *a, const SceneState *b) {
     for (int k = 0; k < a->material_count; k++)
         if (scene_state_nap(a, k) != (k < b->material_count ? scene_state_nap(b, k) : NULL)) return false;
     return true;
@@ -249,7 +249,7 @@ static bool same_naps(const SceneState *a, const SceneState *b) {
 
 bool session_state_write_naps(const SceneState *state, const SceneState *kept, const char *session, int nap) {
     bool good = true;
-    if (same_naps(state, kept)) return true;
+    if (session_state_same_naps(state, kept)) return true;
     for (int k = 0; k < state->material_count; k++) {
         const WeftImage *image = scene_state_nap(state, k);
         char path[SESSION_PATH];

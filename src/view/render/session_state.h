@@ -19,6 +19,9 @@ json_t *session_state_write(const SceneState *state, const SceneState *first, co
 WeftResult session_state_read(const json_t *root, const char *session, int nap, WeftScene *scene,
                               const SceneState *first, SceneState *state, WeftError *error);
 
+/* Returns true if two states have the same brushed naps; either may be empty. */
+bool session_state_same_naps(const SceneState *a, const SceneState *b);
+
 /* Writes the brushed naps of a state as pictures beside the session, from number `nap` on, unless `kept` has the same.
  * Returns false if one cannot be written. */
 bool session_state_write_naps(const SceneState *state, const SceneState *kept, const char *session, int nap);

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <unistd.h>
 
 #include "base/path.h"
@@ -68,7 +69,7 @@ static unsigned aovs_of(const StillDesc *desc) {
     const EnvironmentState *sky = &desc->environment;
     const bool one = !(sky->ambient < sky->reflection) && !(sky->ambient > sky->reflection);
     const size_t length = strlen(desc->path);
-    if (!desc->choice.layered || length < 4 || strcmp(desc->path + length - 4, ".exr") != 0) return 0;
+    if (!desc->choice.layered || length < 4 || strcasecmp(desc->path + length - 4, ".exr") != 0) return 0;
     return ((1u << WEFT_AOV_COUNT) - 1u) & ~variance & (one ? ~0u : ~slots);
 }
 

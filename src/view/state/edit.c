@@ -22,7 +22,11 @@ void edit_restore_other(Viewer *v, const SceneState *other, Split split, int sid
     edit->side = side;
 }
 
-bool edit_is_unsaved(const Viewer *v) { return v->shown->any && !scene_state_same(&v->edit->state, &v->edit->saved); }
+bool edit_is_unsaved(const Viewer *v) {
+    const EditState *edit = v->edit;
+    const bool other = edit->other.materials && !scene_state_same(&edit->other, &edit->saved);
+    return v->shown->any && (other || !scene_state_same(&edit->state, &edit->saved));
+}
 
 unsigned edit_saving(Viewer *v, int material) {
     EditState *edit = &v->states->edit;

@@ -164,8 +164,8 @@ void requests_take_reference(Viewer *v) {
     if (picture.image.pixels) {
         viewer_upload(&v->states->requests.reference_texture, &picture.image);
         weft_image_free(&picture.image);
+        if (v->options->mode == MODE_REFERENCE) options_take_exposure(v, picture.exposure);
     }
-    if (picture.image.pixels && v->options->mode == MODE_REFERENCE) options_take_exposure(v, picture.exposure);
     const FrameRequest *last = &v->states->requests.request;
     bool current = picture.view == last->view_number && picture.state == last->state_number;
     if (!current) picture.samples = 0.0; /* they are of an earlier view or state */

@@ -21,7 +21,7 @@ static void leave(Viewer *v) {
 void leaving_cancel(Viewer *v) { v->states->leaving = (LeavingState){0}; }
 
 void leaving_quit(Viewer *v) {
-    if (!edit_is_unsaved(v) && !v->stills->still) {
+    if (!edit_is_unsaved(v) && !v->stills->still && !v->stills->has_due) {
         viewer_quit(v);
         return;
     }

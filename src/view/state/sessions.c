@@ -20,7 +20,7 @@ static const RecordMember option_members[] = {RECORD_WHOLE(ViewOptions, mode, MO
                                               RECORD_FLOATS(ViewOptions, split_at, 1),
                                               RECORD_WHOLE(ViewOptions, background, WEFT_BACKGROUND_BLURRED),
                                               RECORD_FLOATS(ViewOptions, background_color, 3),
-                                              RECORD_SWITCH(ViewOptions, floor.on),
+                                              RECORD_WHOLE(ViewOptions, floor.on, 1),
                                               RECORD_FLOATS(ViewOptions, floor.reflection, 1),
                                               RECORD_FLOATS(ViewOptions, floor.roughness, 1),
                                               RECORD_SWITCH(ViewOptions, stage),
@@ -108,6 +108,9 @@ static void restore_photograph(Viewer *v, const json_t *photograph) {
     PhotographView view = v->photographs->view;
     if (!path || !record_read(photograph, photograph_members, LENGTH(photograph_members), &view)) return;
     photographs_open(v, path);
+    PhotographView first = v->photographs->view;
+    first.follows = view.follows; /* so that the size below is not converted once more */
+    photographs_set(v, &first);
     photographs_set(v, &view);
     photographs_reach(v, view.reach);
 }
@@ -170,7 +173,8 @@ void sessions_begin(Viewer *v, const Loaded *loaded) {
 static void keep(Viewer *v) {
     SessionsState *sessions = &v->states->sessions;
     json_t *now = session_json(v);
-    if (json_equal(now, sessions->kept)) {
+    if (json_equal(now, sessions->kept) && session_state_same_naps(&v->edit->state, &sessions->state) &&
+        session_state_same_naps(&v->edit->other, &sessions->other)) {
         json_decref(now);
         return;
     }
