@@ -1,6 +1,6 @@
 /* Denoised pictures of woven cloth keep threads and checks: near and far, with few samples and with many, they are
  * nearer to the truth than the picture as it was sampled.
- * Labels: slow */
+ * Labels: slow unsanitized */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
