@@ -126,7 +126,9 @@ enum { WEFT_RASTER_FRAMES_MOST = 1 << 20 };
  * scene has more than about two million triangles.
  *
  * DOES NOT: the floor, which is the same as in other pictures; measured BRDFs; gaps of a woven cloth along shadow rays,
- * where they have their mean; layer rule "stochastic", drawn without its bounces. */
+ * where they have their mean; maps of emission in mirrors, where a triangle has its mean; unlit surfaces in mirrors,
+ * which are black; opacity maps beyond the first 64 along shadow rays, which are opaque; layer rule "stochastic", drawn
+ * without its bounces. */
 WEFT_API WeftResult weft_raster_accumulate_begin(WeftRaster *raster, const WeftRasterView *view, int frames,
                                                  WeftError *error);
 

@@ -312,7 +312,9 @@ static bool shows(const WeftRaster *self, const WeftRasterView *view, const View
     const WeftRasterView *last = &self->drawn_view;
     const View *from = &self->drawn_from;
     return self->drawn && last->width == view->width && last->height == view->height && last->part == view->part &&
-           last->background == view->background && last->floor.on == view->floor.on &&
+           last->background == view->background && last->hide_lights == view->hide_lights &&
+           memcmp(last->background_color, view->background_color, sizeof view->background_color) == 0 &&
+           memcmp(&last->floor, &view->floor, sizeof view->floor) == 0 &&
            memcmp(last->crop, view->crop, sizeof view->crop) == 0 && same_place(from->eye, seen->eye) &&
            same_place(from->forward, seen->forward) && same_place(from->across, seen->across) &&
            same_place(from->up, seen->up);
@@ -331,6 +333,7 @@ WeftResult weft_raster_accumulate_begin(WeftRaster *self, const WeftRasterView *
     if (result != WEFT_OK) return result;
     Sums *sums = &self->sums;
     sums->seen = view_of(&self->camera, aspect);
+    sums->begun = false;
     sums->starts = shows(self, &view, &sums->seen);
     view.camera = NULL; /* the text is the caller's */
     sums->view = view;

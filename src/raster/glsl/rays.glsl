@@ -45,10 +45,11 @@ RayHit ray_meet(Ray r, RayTriangle p) {
     return RayHit(beside ? -1.0 : t, -1, u, v);
 }
 
-/* Wraps a coordinate: 0 repeats, 1 mirrors, 2 clamps. */
+/* Wraps a coordinate: 0 repeats, 1 mirrors, 2 clamps. The last two end half a texel from the edges, past which the array
+ * of masks repeats. */
 float ray_wrap(float x, float how) {
-    float mirrored = 1.0 - abs(fract(0.5 * x) * 2.0 - 1.0);
-    return how > 1.5 ? clamp(x, 0.0005, 0.9995) : how > 0.5 ? mirrored : x;
+    float mirrored = 1.0 - abs(fract(0.5 * x) * 2.0 - 1.0), edge = 0.5 / float(textureSize(ray_masks, 0).x);
+    return how > 0.5 ? clamp(how > 1.5 ? x : mirrored, edge, 1.0 - edge) : x;
 }
 
 /* Returns the opacity of mask k at a hit. */

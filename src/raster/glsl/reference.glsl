@@ -254,6 +254,9 @@ void main() {
     Surface s = material_surface();
     float opacity = coverage_of(s.opacity);
     Frame f = frame_of(at, s, dir_of(wo));
+#ifdef WOVEN
+    f = frame_rotate(f, weave_number(CLOTH_ROTATION_COS), weave_number(CLOTH_ROTATION_SIN));
+#endif
 #ifdef PROPERTY
     vec3 sum = PROPERTY;
 #else

@@ -64,7 +64,7 @@ static TrianglePlace *find_places(const WeftScene *scene, uint32_t count) {
 }
 
 /* Notes at each triangle of the texture the emitter that it is. at: where in the tree's order each triangle is. */
-static void put_emitters(const RayScene *self, const WeftScene *scene, const RayEmitters *emitters, const uint32_t *at,
+static bool put_emitters(const RayScene *self, const WeftScene *scene, const RayEmitters *emitters, const uint32_t *at,
                          float *texels) {
     uint32_t *first = alloc_array((size_t)scene->mesh_count, sizeof *first), count = 0;
     for (int m = 0; first && m < scene->mesh_count; m++) {
@@ -81,7 +81,9 @@ static void put_emitters(const RayScene *self, const WeftScene *scene, const Ray
         const size_t triangle = at[first[emitter->mesh] + emitter->triangle];
         texels[4 * ((size_t)self->first[TRIANGLES] + 3 * triangle + 1) + 3] = (float)(k + 1);
     }
+    const bool made = first != NULL;
     free(first);
+    return made;
 }
 
 /* Returns the number of triangles with a mask. */
@@ -111,10 +113,10 @@ static bool fill(const RayScene *self, const WeftScene *scene, const RayEmitters
                                texels + 4 * ((size_t)self->first[MASKS] + 3 * masks)))
             triangle[11] = (float)++masks;
     }
-    if (made) put_emitters(self, scene, emitters, at, texels);
+    const bool lit = made && put_emitters(self, scene, emitters, at, texels);
     free(places);
     free(at);
-    return made;
+    return lit;
 }
 
 /* Uploads texels into the texture, which keeps its size if that is enough. */

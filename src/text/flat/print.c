@@ -1,5 +1,7 @@
 #include "text/flat/print.h"
 
+#include <math.h>
+
 #include "text/flat/placement.h"
 #include "text/source/number_text.h"
 
@@ -54,7 +56,7 @@ static void put_number(const Printer *self, const GraphNode *node) {
 
 static bool is_negative(const GraphNode *node) {
     if (node->op != NODE_NUMBER) return false;
-    return node->kind == KIND_FLOAT ? node->number < 0.0f || 1.0f / node->number < 0.0f
+    return node->kind == KIND_FLOAT ? signbit(node->number) != 0
                                     : node->kind == KIND_INT && node->integer < 0;
 }
 

@@ -135,7 +135,10 @@ static void rolled(Run *run, const StatementSyntax *loop) {
     Carried *carried = arena_array(&run->arena, 1, sizeof *carried);
     GraphNode **heads = arena_array(&run->arena, (size_t)slots + 1, sizeof *heads);
     GraphNode *nexts[CARRIED_MOST];
-    if (!carried || !heads) run_wrong(run, "memory is short");
+    if (!carried || !heads) {
+        run_wrong(run, "memory is short");
+        return;
+    }
     memcpy(heads, run->slots, (size_t)slots * sizeof *heads);
     for (int k = 0; k < TRIES_MOST && !run->wrong; k++) {
         Region *region = try_round(run, loop, carried);

@@ -1,5 +1,7 @@
 #include "text/flat/syntax.h"
 
+#include <string.h>
+
 enum { DEPTH_MOST = 200 };
 
 typedef struct SyntaxReader {
@@ -28,16 +30,17 @@ Symbol symbol_of(SymbolTable *symbols, Token name) {
     return made;
 }
 
-static void *make(SyntaxReader *reader, size_t size) {
-    void *made = arena_array(&reader->out->arena, 1, size);
-    if (made) return made;
-    reader->out->wrong = "memory is short";
-    return &reader->spare;
-}
-
 static void wrong(SyntaxReader *reader, const char *what) {
     if (!reader->out->wrong) reader->out->wrong = what;
     reader->at = reader->count; /* ends every loop of the reader */
+}
+
+static void *make(SyntaxReader *reader, size_t size) {
+    void *made = arena_array(&reader->out->arena, 1, size);
+    if (made) return made;
+    wrong(reader, "memory is short");
+    memset(&reader->spare, 0, sizeof reader->spare);
+    return &reader->spare;
 }
 
 static Token peek(const SyntaxReader *reader, int ahead) {
