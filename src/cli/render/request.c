@@ -236,7 +236,8 @@ static bool read_extras(const Options *options, Request *request) {
 
 /* Reads the part of the picture, and refuses what cannot be done in parts. */
 static bool read_chunk(const Options *options, Request *request) {
-    static const char *const whole[] = {"--noise", "--time-limit", "--denoise", "--denoiser", "--turntable", "--stages"};
+    static const char *const whole[] = {"--noise",    "--time-limit", "--denoise",
+                                        "--denoiser", "--turntable",  "--stages"};
     const char *text = option_text(options, "--chunk");
     int index = 0, count = 0, end = 0;
     if (!text) return true;
