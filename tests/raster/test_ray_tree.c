@@ -55,7 +55,7 @@ static bool holds(const RayNode *node, const RayBox *box) {
 static uint32_t check_node(const RayTree *tree, const Soup *soup, uint32_t at, int *seen) {
     const RayNode *node = &tree->nodes[at];
     const bool leaf = node->first >= 0.0f;
-    const uint32_t first = (uint32_t)node->first, count = (uint32_t)node->skip;
+    const uint32_t first = leaf ? (uint32_t)node->first : 0, count = leaf ? (uint32_t)node->skip : 0;
     if (leaf) assert_true(count >= 1 && count <= RAY_LEAF_MOST && first + count <= tree->count);
     for (uint32_t k = 0; leaf && k < count; k++) {
         seen[tree->order[first + k]]++;

@@ -54,8 +54,9 @@ static bool fill_bins(const RayTreeBuilder *self, uint32_t first, uint32_t end, 
         low = fminf(low, at);
         high = fmaxf(high, at);
     }
+    if (!(high > low)) return false;
     *bins = (Bins){.low = low, .scale = BINS / (high - low)};
-    if (!(high > low) || !(bins->scale < INFINITY)) return false;
+    if (!(bins->scale < INFINITY)) return false;
     for (int k = 0; k < BINS; k++) bins->box[k] = nothing;
     for (uint32_t k = first; k < end; k++) {
         const RayBox *box = &self->boxes[order[k]];
