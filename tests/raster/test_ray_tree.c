@@ -84,15 +84,18 @@ static float random_in(uint32_t key, float low, float high) { return low + (high
 
 static bool meets(const Vec3 c[3], Vec3 origin, Vec3 d) {
     const Vec3 ab = vec3_sub(c[1], c[0]), ac = vec3_sub(c[2], c[0]), h = vec3_cross(d, ac), s = vec3_sub(origin, c[0]);
-    const float det = vec3_dot(ab, h), u = vec3_dot(s, h) / det, v = vec3_dot(d, vec3_cross(s, ab)) / det;
-    return det * det > 0.0f && u >= 0.0f && v >= 0.0f && u + v <= 1.0f && vec3_dot(ac, vec3_cross(s, ab)) / det > 0.0f;
+    const float det = vec3_dot(ab, h);
+    if (!(det * det > 0.0f)) return false;
+    const float u = vec3_dot(s, h) / det, v = vec3_dot(d, vec3_cross(s, ab)) / det;
+    return u >= 0.0f && v >= 0.0f && u + v <= 1.0f && vec3_dot(ac, vec3_cross(s, ab)) / det > 0.0f;
 }
 
 static bool enters(const RayNode *n, Vec3 o, Vec3 d) {
-    const float from[3] = {o.x, o.y, o.z}, along[3] = {d.x, d.y, d.z};
+    const float least = 1e-30f, from[3] = {o.x, o.y, o.z}, way[3] = {d.x, d.y, d.z};
     float near = 0.0f, far = INFINITY;
     for (int k = 0; k < 3; k++) {
-        const float a = (n->low[k] - from[k]) / along[k], b = (n->high[k] - from[k]) / along[k];
+        const float along = fabsf(way[k]) > least ? way[k] : least;
+        const float a = (n->low[k] - from[k]) / along, b = (n->high[k] - from[k]) / along;
         near = fmaxf(near, fminf(a, b));
         far = fminf(far, fmaxf(a, b));
     }
