@@ -286,6 +286,12 @@ static void hand_linear(Renderer *self, const FrameRequest *request) {
         reference_set_comparison(self->reference, request->view_number, &linear);
 }
 
+/* Returns true if no finer picture of a request follows. Only such a one is metered: a coarser one has another exposure,
+ * and the two would follow each other without end. */
+static bool is_best(const FrameRequest *request, Effort effort) {
+    return effort == EFFORT_SMOOTH || (effort == EFFORT_WHOLE && is_summed(request));
+}
+
 /* Meters the picture that was drawn last, with all of its rows. */
 static void meter(Renderer *self) {
     WeftImage linear;
@@ -342,7 +348,7 @@ static void draw(Renderer *self, const FrameRequest *request, unsigned number) {
             draw_picture(self, &drawn, number, target, expected, &whole, result == WEFT_OK ? &error : NULL);
         if (result == WEFT_OK) result = done;
         if (done == WEFT_OK && request->compare) hand_linear(self, request);
-        if (done == WEFT_OK && request->metered && effort > EFFORT_COARSE) meter(self);
+        if (done == WEFT_OK && request->metered && is_best(request, effort)) meter(self);
         if (done != WEFT_OK) target = -1;
         bool fair = done == WEFT_OK && whole && weft_raster_info(self->raster).compiled == compiled;
         if (fair) learn(self, request, effort, clock_now() - start);
@@ -350,7 +356,7 @@ static void draw(Renderer *self, const FrameRequest *request, unsigned number) {
     if (!whole) return; /* interrupted by another request */
     const char *refusal = frame_refusal(self, &request->state);
     if (result == WEFT_OK) snprintf(error.text, sizeof error.text, "%s", refusal ? refusal : "");
-    bool best = effort == EFFORT_SMOOTH || (effort == EFFORT_WHOLE && is_summed(request)) || request->reference;
+    bool best = is_best(request, effort) || request->reference;
     self->sums = best && result == WEFT_OK && is_summed(request);
     self->drawn_at = clock_now();
     publish(self, request, best ? EFFORT_SMOOTH : effort, number, target, clock_now() - start, &error);
