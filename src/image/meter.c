@@ -20,7 +20,7 @@ typedef struct Metered {
 static int bin_of(const float *pixel, double *stop) {
     const double light = 0.2126 * (double)pixel[0] + 0.7152 * (double)pixel[1] + 0.0722 * (double)pixel[2];
     *stop = light > 0.0 && isfinite(light) ? log2(light) : -STOPS;
-    const double bin = (*stop + STOPS / 2) * BINS_A_STOP;
+    const double bin = (*stop + 0.5 * STOPS) * BINS_A_STOP;
     return bin >= 0.0 && bin < BINS ? (int)bin : -1;
 }
 
@@ -63,7 +63,7 @@ void weft_image_find_white(const WeftImage *linear, float white[2]) {
     white[0] = white[1] = 0.0f;
     if (!meter(linear, &m)) return;
     const float *pixel = linear->pixels;
-    const double scale = exp2(-((double)m.last / BINS_A_STOP - STOPS / 2)); /* keeps sixth powers in range */
+    const double scale = exp2(-((double)m.last / BINS_A_STOP - 0.5 * STOPS)); /* keeps sixth powers in range */
     for (size_t k = 0; k < (size_t)linear->width * (size_t)linear->height; k++, pixel += linear->channels) {
         const int bin = bin_of(pixel, &stop);
         if (bin < m.first || bin > m.last) continue;

@@ -61,7 +61,8 @@ static uint64_t hash_cloth(uint64_t hash, const WeftScene *scene, int cloth) {
 static uint64_t hash_measured(uint64_t hash, const Measured *measured) {
     enum { SIDE = 12 };
     for (int k = 0; k < SIDE * SIDE; k++) {
-        const float a = (float)(k % SIDE) / SIDE, b = (float)(k / SIDE) / SIDE, s = 0.9f * a, t = 0.9f * b;
+        const int column = k % SIDE, row = k / SIDE;
+        const float a = (float)column / SIDE, b = (float)row / SIDE, s = 0.9f * a, t = 0.9f * b;
         float f[3];
         measured_at(measured, (Dir){s, 0.0f, sqrtf(1.0f - s * s)},
                     (Dir){-t * b, t * sqrtf(1.0f - b * b), sqrtf(1.0f - t * t)}, f);

@@ -375,7 +375,7 @@ static WeftResult missing_refuse(const char *const *seen, int count, WeftError *
         const size_t used = strlen(list);
         if (used < sizeof list - 24)
             snprintf(list + used, sizeof list - used, "%s%d", missing ? ", " : "", k + 1);
-        else if (strcmp(list + used - 3, "..."))
+        else if (strcmp(list + used - 3, "...") != 0)
             snprintf(list + used, sizeof list - used, ", ...");
         missing++;
     }

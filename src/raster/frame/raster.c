@@ -307,14 +307,20 @@ WeftResult weft_raster_draw(WeftRaster *self, const WeftRasterView *wanted, Weft
 
 static bool same_place(Vec3 a, Vec3 b) { return is_equal(a.x, b.x) && is_equal(a.y, b.y) && is_equal(a.z, b.z); }
 
+static bool same_colors(const float a[3], const float b[3]) {
+    return is_equal(a[0], b[0]) && is_equal(a[1], b[1]) && is_equal(a[2], b[2]);
+}
+static bool same_floors(const WeftFloor *a, const WeftFloor *b) {
+    return a->on == b->on && is_equal(a->reflection, b->reflection) && is_equal(a->roughness, b->roughness);
+}
+
 /* Returns true if the last picture shows what this view does, so that it may begin a sum. */
 static bool shows(const WeftRaster *self, const WeftRasterView *view, const View *seen) {
     const WeftRasterView *last = &self->drawn_view;
     const View *from = &self->drawn_from;
     return self->drawn && last->width == view->width && last->height == view->height && last->part == view->part &&
            last->background == view->background && last->hide_lights == view->hide_lights &&
-           memcmp(last->background_color, view->background_color, sizeof view->background_color) == 0 &&
-           memcmp(&last->floor, &view->floor, sizeof view->floor) == 0 &&
+           same_colors(last->background_color, view->background_color) && same_floors(&last->floor, &view->floor) &&
            memcmp(last->crop, view->crop, sizeof view->crop) == 0 && same_place(from->eye, seen->eye) &&
            same_place(from->forward, seen->forward) && same_place(from->across, seen->across) &&
            same_place(from->up, seen->up);

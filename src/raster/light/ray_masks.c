@@ -42,7 +42,8 @@ static int side_of(const RayMasks *self, const WeftScene *scene) {
 
 static void fill(const WeftScene *scene, const RayMask *mask, int side, unsigned char *texels) {
     for (int k = 0; k < side * side; k++) {
-        const float u = ((float)(k % side) + 0.5f) / (float)side, v = ((float)(k / side) + 0.5f) / (float)side;
+        const int column = k % side, row = k / side;
+        const float u = ((float)column + 0.5f) / (float)side, v = ((float)row + 0.5f) / (float)side;
         const Texel t = texture_fetch(&scene->textures[mask->texture], scene->images, NULL, u, v);
         texels[k] = (unsigned char)(fminf(fmaxf(t.c[mask->channel], 0.0f), 1.0f) * 255.0f + 0.5f);
     }

@@ -168,7 +168,7 @@ static int fitting(WeftScene *scene, int material, int source) {
     if (!wanted(scene, material, &scene->images[from.image], sigma)) return source;
     for (int k = 0; k < scene->texture_count; k++) {
         const Texture *t = &scene->textures[k];
-        if (t->source == source && memcmp(t->sigma, sigma, sizeof sigma) == 0) return k + 1;
+        if (t->source == source && is_equal(t->sigma[0], sigma[0]) && is_equal(t->sigma[1], sigma[1])) return k + 1;
     }
     WeftImage image;
     if (!smooth(scene, &from, sigma, &image)) return 0;

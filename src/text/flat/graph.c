@@ -85,7 +85,7 @@ static void set_home(const Graph *graph, GraphNode *node) {
 static GraphNode *store(Graph *graph, const GraphNode *node) {
     if (graph->count == graph->capacity) {
         const int more = graph->capacity ? 2 * graph->capacity : 4096;
-        GraphNode **grown = more <= GRAPH_MOST ? realloc_array(graph->nodes, (size_t)more, sizeof *grown) : NULL;
+        GraphNode **grown = more <= GRAPH_MOST ? realloc_array(graph->nodes, (size_t)more, sizeof(GraphNode *)) : NULL;
         if (grown) {
             graph->nodes = grown;
             graph->capacity = more;
@@ -332,14 +332,14 @@ GraphNode *graph_call(Graph *graph, Kind kind, Symbol name, const char *spelled,
     if (folded) return folded;
     GraphNode node = {.op = NODE_CALL, .kind = kind, .word = name, .count = count, .home = pinned};
     if (count > 4) {
-        node.more = arena_array(&graph->arena, (size_t)count, sizeof *node.more);
+        node.more = arena_array(&graph->arena, (size_t)count, sizeof(GraphNode *));
         if (!node.more) {
             graph->failed = true;
             return graph_unknown(graph, kind);
         }
-        memcpy(node.more, operands, (size_t)count * sizeof *operands);
+        memcpy(node.more, operands, (size_t)count * sizeof(GraphNode *));
     } else if (count) {
-        memcpy(node.operands, operands, (size_t)count * sizeof *operands);
+        memcpy(node.operands, operands, (size_t)count * sizeof(GraphNode *));
     }
     return find_or_store(graph, &node);
 }

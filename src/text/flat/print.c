@@ -56,8 +56,7 @@ static void put_number(const Printer *self, const GraphNode *node) {
 
 static bool is_negative(const GraphNode *node) {
     if (node->op != NODE_NUMBER) return false;
-    return node->kind == KIND_FLOAT ? signbit(node->number) != 0
-                                    : node->kind == KIND_INT && node->integer < 0;
+    return node->kind == KIND_FLOAT ? signbit(node->number) != 0 : node->kind == KIND_INT && node->integer < 0;
 }
 
 static int binds(const GraphNode *node) {

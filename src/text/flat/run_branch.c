@@ -98,8 +98,8 @@ static Flow *flow_of(BranchJoin *join) {
     join->flow->body = join->then;
     join->flow->other = join->other;
     join->then->owner = join->other->owner = join->flow;
-    join->flow->phis = arena_array(&run->graph.arena, (size_t)(join->left[0].count + join->left[1].count) + 1,
-                                   sizeof *join->flow->phis);
+    join->flow->phis =
+        arena_array(&run->graph.arena, (size_t)(join->left[0].count + join->left[1].count) + 1, sizeof(GraphNode *));
     if (!join->flow->phis) run_wrong(run, "memory is short");
     return join->flow;
 }

@@ -105,20 +105,22 @@ void run_builtins(Run *run) {
 
 /* Returns the kind of a call's result, KIND_NONE if its arguments are no numbers of one base. */
 static Kind result_kind(const GlslFunction *self, GraphNode *const *arguments, int count) {
+    if (count < 1 || count < self->arguments) return KIND_NONE;
     const Kind first = arguments[0]->kind;
+    const Kind second = count > 1 ? arguments[1]->kind : KIND_NONE, third = count > 2 ? arguments[2]->kind : KIND_NONE;
     const int size = kind_size(first);
     if (self->result == A_TEXEL) return kinds_texel(first);
     if (self->result == A_SIZE)
         return kind_is_sampler(first) ? kind_vector(BASE_INT, kinds_dimensions(first)) : KIND_NONE;
-    const bool chooses = self->result == A_MIX && kind_base(arguments[2]->kind) == BASE_BOOL;
-    if (chooses && kind_size(arguments[2]->kind) != size) return KIND_NONE;
+    const bool chooses = self->result == A_MIX && kind_base(third) == BASE_BOOL;
+    if (chooses && kind_size(third) != size) return KIND_NONE;
     for (int k = 0; k < (chooses ? 2 : count); k++)
         if (!kind_base(first) || kind_base(arguments[k]->kind) != kind_base(first)) return KIND_NONE;
     switch (self->result) {
     case AS_FIRST:
     case A_MIX: return first;
-    case AS_SECOND: return arguments[1]->kind;
-    case AS_THIRD: return arguments[2]->kind;
+    case AS_SECOND: return second;
+    case AS_THIRD: return third;
     case A_FLOAT: return KIND_FLOAT;
     case A_BOOL: return KIND_BOOL;
     case SOME_BOOLS: return kind_vector(BASE_BOOL, size);
@@ -140,7 +142,7 @@ ShaderValue run_builtin(Run *run, const Expr *call) {
         if (value.kind >= KIND_OWN || value.kind <= KIND_VOID) return run_wrong(run, "a record as an argument");
         arguments[count++] = value.leaves[0];
     }
-    const Kind kind = count >= self->arguments ? result_kind(self, arguments, count) : KIND_NONE;
+    const Kind kind = result_kind(self, arguments, count);
     if (!kind) return run_wrong_name(run, "arguments of a function of GLSL", call->name);
     return run_of_node(run, graph_call(&run->graph, kind, call->name, self->name, arguments, count,
                                        self->pinned ? run->region : NULL));

@@ -47,7 +47,7 @@ ShaderValue run_made(Run *run, const Expr *call, Kind kind) {
             return run_wrong(run, "a record of other members");
         if (record)
             memcpy(made.leaves + shape->members[count].first, value.leaves,
-                   (size_t)run->kinds.shapes[value.kind].leaf_count * sizeof *value.leaves);
+                   (size_t)run->kinds.shapes[value.kind].leaf_count * sizeof(GraphNode *));
         else
             add_part(run, &parts, value.leaves[0], split && kind_base(value.leaves[0]->kind) == kind_base(kind));
         if (run->wrong) return run_wrong(run, "");

@@ -112,7 +112,7 @@ static void accept(Run *run, Region *region, const Carried *carried, GraphNode *
     Flow *flow = graph_flow(&run->graph, run->region, FLOW_LOOP, NULL);
     flow->body = region;
     region->owner = flow;
-    flow->phis = arena_array(&run->graph.arena, (size_t)carried->count + 1, sizeof *flow->phis);
+    flow->phis = arena_array(&run->graph.arena, (size_t)carried->count + 1, sizeof(GraphNode *));
     if (!flow->phis) {
         run_wrong(run, "memory is short");
         return;
@@ -133,19 +133,20 @@ static void accept(Run *run, Region *region, const Carried *carried, GraphNode *
 static void rolled(Run *run, const StatementSyntax *loop) {
     const int slots = run->slot_count, values = run->graph.count, mark = run->change_count;
     Carried *carried = arena_array(&run->arena, 1, sizeof *carried);
-    GraphNode **heads = arena_array(&run->arena, (size_t)slots + 1, sizeof *heads);
+    GraphNode **heads = arena_array(&run->arena, (size_t)slots + 1, sizeof(GraphNode *));
     GraphNode *nexts[CARRIED_MOST];
     if (!carried || !heads) {
         run_wrong(run, "memory is short");
         return;
     }
-    memcpy(heads, run->slots, (size_t)slots * sizeof *heads);
+    memcpy(heads, run->slots, (size_t)slots * sizeof(GraphNode *));
     for (int k = 0; k < TRIES_MOST && !run->wrong; k++) {
         Region *region = try_round(run, loop, carried);
         bool again = grow(run, carried, mark, slots, heads);
+        if (run->wrong) return; /* the slots may be of no value */
         for (int j = 0; j < carried->count; j++) nexts[j] = run->slots[carried->slots[j]];
         for (int j = carried->count - 1; j >= 0 && !again; j--)
-            if (carried->phis[j] == nexts[j]) {
+            if (carried->phis[j] == run->slots[carried->slots[j]]) {
                 drop(carried, j);
                 again = true;
             }

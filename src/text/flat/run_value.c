@@ -17,7 +17,7 @@ ShaderValue run_wrong_name(Run *run, const char *what, Symbol name) {
 
 ShaderValue run_leaves(Run *run, Kind kind) {
     const int count = run->kinds.shapes[kind].leaf_count;
-    GraphNode **leaves = arena_array(&run->arena, (size_t)count + 1, sizeof *leaves);
+    GraphNode **leaves = arena_array(&run->arena, (size_t)count + 1, sizeof(GraphNode *));
     return leaves ? (ShaderValue){kind, leaves, false} : run_wrong(run, "memory is short");
 }
 

@@ -153,7 +153,7 @@ static Expr *make_step(SyntaxReader *reader, Expr *to, Token mark) {
     static const Token one = {TOKEN_NUMBER, "1", 1};
     Expr *step = make_expr(reader, EXPR_ASSIGN), *by = make_expr(reader, EXPR_NUMBER);
     by->word = one;
-    step->op = mark.at[0];
+    step->op = (unsigned char)mark.at[0];
     step->a = to;
     step->b = by;
     return step;
@@ -193,7 +193,7 @@ static Expr *read_unary(SyntaxReader *reader) {
         return read_postfix(reader);
     reader->at++;
     Expr *expr = make_expr(reader, EXPR_UNARY);
-    expr->op = mark.at[0];
+    expr->op = (unsigned char)mark.at[0];
     reader->depth++;
     expr->a = read_unary(reader);
     reader->depth--;

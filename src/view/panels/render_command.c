@@ -94,7 +94,8 @@ static bool is_map_alone(int k, const WeftInput *input) {
     WeftInputInfo info;
     weft_material_input_info(k, &info);
     const float one = info.kind == WEFT_INPUT_DIRECTION ? 0.0f : 1.0f;
-    bool alone = input->texcoord == 0 && memcmp(input->transform, identity, sizeof identity) == 0;
+    bool alone = input->texcoord == 0;
+    for (int c = 0; c < 6; c++) alone = alone && !differs(input->transform[c], identity[c]);
     for (int c = 0; c < (info.kind == WEFT_INPUT_COLOR ? 3 : 1); c++) alone = alone && !differs(input->value[c], one);
     return alone;
 }
