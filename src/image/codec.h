@@ -23,8 +23,8 @@ enum { IMAGE_SIDE_MAX = 65536 };
  * not have. */
 const char *image_media_type(const unsigned char *data, size_t size);
 
-/* Returns true if the suffix of a path is that of pictures that are read: .png .jpg .jpeg .tga .hdr .exr, and .tif
- * .tiff where libtiff is. */
+/* Returns true if the suffix of a path is that of pictures that are read: .png .jpg .jpeg .webp .tga .hdr .exr, and
+ * .tif .tiff where libtiff is. */
 bool image_suffix_read(const char *path);
 
 /* Refuses (WEFT_MESSAGE_IMAGE_SIZE) sides outside 1 .. IMAGE_SIDE_MAX and images that are implausibly large for the
@@ -41,6 +41,7 @@ void image_repair(const ImageSource *source, WeftImage *image);
 
 WeftResult image_read_png(const ImageSource *source, WeftImage *out, WeftError *error);
 WeftResult image_read_jpeg(const ImageSource *source, WeftImage *out, WeftError *error);
+WeftResult image_read_webp(const ImageSource *source, WeftImage *out, WeftError *error);
 WeftResult image_read_tga(const ImageSource *source, WeftImage *out, WeftError *error);
 WeftResult image_read_hdr(const ImageSource *source, WeftImage *out, WeftError *error);
 WeftResult image_read_exr(const ImageSource *source, WeftImage *out, WeftError *error);

@@ -49,9 +49,9 @@ static void impossible_weave_commands_are_errors_of_one_line(void **state) {
     wif_make("broken.wif", "[WIF]\nVersion=1.1\n[THREADING]\n1=x\n");
     assert_ends(LIST("weave", "broken.wif"), 3, "line 4");
     assert_ends(LIST("weave", "none.wif"), 3, "none.wif: cannot be opened");
-    file_make("cloth.png", "RIFF\x10\0\0\0WEBPVP8 and more", 24);
+    file_make("cloth.png", "BM\x10\0\0\0 and more", 15);
     assert_ends(LIST("weave", "cloth.png"), 3,
-                "neither a WIF nor a picture: it is WebP; convert it to .png, "
+                "neither a WIF nor a picture: it is BMP; convert it to .png, "
                 "or to .exr if its numbers are floats\n");
     wif_make("notes.txt", "warp 24k\nweft 24w\n");
     assert_ends(LIST("weave", "notes.txt"), 3, "it is text that does not begin with [WIF]\n");

@@ -127,6 +127,30 @@ void accessors_read(Asset *asset) {
     }
 }
 
+/* Returns the array with room for one more item: itself, or a copy of twice the size. */
+static void *grown(Asset *asset, void *items, size_t count, size_t size, size_t *room) {
+    if (count < *room) return items;
+    const size_t more = 2 * count + 16;
+    void *copy = asset_array(asset, &asset->arena, more, size);
+    if (copy && count) memcpy(copy, items, count * size);
+    if (copy) *room = more;
+    return copy;
+}
+
+int accessor_add(Asset *asset, Accessor accessor, Span bytes) {
+    BufferView *views = grown(asset, asset->views, asset->view_count, sizeof *views, &asset->view_room);
+    Accessor *accessors =
+        grown(asset, asset->accessors, asset->accessor_count, sizeof *accessors, &asset->accessor_room);
+    if (!views || !accessors) return 0;
+    asset->views = views;
+    asset->accessors = accessors;
+    accessor.view = (int)asset->view_count;
+    accessor.offset = accessor.sparse_count = 0;
+    views[asset->view_count++] = (BufferView){.span = bytes};
+    accessors[asset->accessor_count] = accessor;
+    return (int)asset->accessor_count++;
+}
+
 static uint32_t load_integer(const unsigned char *p, Component component) {
     return (uint32_t)little_endian(p, component_size(component));
 }

@@ -83,14 +83,20 @@ typedef struct Accessor {
     Component index_component;
 } Accessor;
 
-/* A glTF texture. `image` is -1 if only an extension such as KHR_texture_basisu names a source. */
+/* A glTF texture. `image` is -1 if only an extension such as EXT_texture_avif names a source. */
 typedef struct TextureSource {
     int image, sampler;
     const char *offer; /* the extension that names a picture of another format; NULL: none */
     int scene_texture; /* index into the scene's textures, -1 until something shown needs it */
 } TextureSource;
 
-enum { SKIN_SETS = 2, TARGET_ATTRIBUTES = 3 };
+enum { SKIN_SETS = 2, TARGET_ATTRIBUTES = 3, DRACO_ATTRIBUTES = 10 };
+
+/* KHR_draco_mesh_compression of a primitive. */
+typedef struct DracoSource {
+    int view;
+    int64_t id[DRACO_ATTRIBUTES]; /* unique ids; -1: not compressed */
+} DracoSource;
 
 typedef struct Primitive {
     int mode; /* of the specification: 4 triangles, 5 strip, 6 fan; the others have no surface */
@@ -100,6 +106,7 @@ typedef struct Primitive {
     int *variant_material;             /* as in Mesh */
     int (*targets)[TARGET_ATTRIBUTES]; /* position, normal, tangent of each morph target */
     size_t target_count;
+    DracoSource *draco; /* until it is decoded; NULL: none */
 } Primitive;
 
 typedef struct MeshSource {
@@ -162,6 +169,7 @@ typedef struct Asset {
     Skin *skins;
     Node *nodes;
     int *node_order; /* parents before children */
+    size_t view_room, accessor_room;
     size_t buffer_count, view_count, accessor_count, image_count, sampler_count, texture_count, material_count,
         mesh_count, skin_count, camera_count, light_count, node_count;
     bool *material_shown; /* material_count + 1, the last for surfaces without a material */

@@ -1,5 +1,5 @@
 /* Specifications: W3C, "Portable Network Graphics (PNG) Specification", 2003, section 11.2.2; ITU-T T.81,
- * 1992, annex B (JPEG). */
+ * 1992, annex B (JPEG); Google, "WebP Container Specification", 2010. */
 #include "gltf/asset/extent.h"
 
 #include <string.h>
@@ -34,6 +34,22 @@ static size_t jpeg_bytes(Span image) {
     return 0;
 }
 
+/* Reads the first chunk, of one of three kinds, which has the size of the picture. Counts an alpha. */
+static size_t webp_bytes(Span image) {
+    enum { HEADER = 30, SIDE = 0x3fff };
+    const unsigned char *p = image.data + 12;
+    if (image.size < HEADER) return 0;
+    size_t width = (p[14] | (size_t)p[15] << 8) & SIDE, height = (p[16] | (size_t)p[17] << 8) & SIDE; /* "VP8 " */
+    if (p[3] == 'L') {
+        width = ((p[9] | (size_t)p[10] << 8) & SIDE) + 1;
+        height = ((size_t)p[10] >> 6 | (size_t)p[11] << 2 | ((size_t)p[12] & 15) << 10) + 1;
+    } else if (p[3] == 'X') {
+        width = (p[12] | (size_t)p[13] << 8 | (size_t)p[14] << 16) + 1;
+        height = (p[15] | (size_t)p[16] << 8 | (size_t)p[17] << 16) + 1;
+    }
+    return width * height * 4;
+}
+
 /* Counts four bytes a pixel, because a colour map has at most four bytes an entry. */
 static size_t tga_bytes(Span image) {
     enum { HEADER = 18, RUNS = 8 };
@@ -57,6 +73,8 @@ static bool starts(Span image, const char *signature, size_t size) {
 size_t extent_bytes(Span image) {
     if (starts(image, "\x89PNG", 4)) return png_bytes(image);
     if (starts(image, "\xff\xd8\xff", 3)) return jpeg_bytes(image);
+    if (starts(image, "RIFF", 4) && image.size >= 12 && memcmp(image.data + 8, "WEBP", 4) == 0)
+        return webp_bytes(image);
     static const char *const others[] = {"\x76\x2f\x31\x01", "DDS ", "II*", "II+", "MM"}; /* EXR, DDS, TIFF */
     if (starts(image, "#?", 2)) return header_bytes(image);
     for (size_t k = 0; k < sizeof others / sizeof *others; k++)

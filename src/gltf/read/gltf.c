@@ -36,11 +36,12 @@ static void version_check(Asset *asset) {
 bool gltf_supports(const char *extension) {
     /* beside those of material_fields.h */
     static const char *const names[] = {
-        "EXT_meshopt_compression", "KHR_lights_punctual",   "KHR_materials_unlit",
-        "KHR_materials_variants",  "KHR_mesh_quantization", "KHR_texture_transform",
+        "EXT_meshopt_compression", "KHR_draco_mesh_compression", "KHR_lights_punctual",   "KHR_materials_unlit",
+        "KHR_materials_variants",  "KHR_mesh_quantization",      "KHR_texture_transform",
     };
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (strcmp(extension, names[i]) == 0) return true;
+    if (texture_extension_read(extension)) return true;
     for (const MaterialField *row = material_fields; row->factor; row++)
         if (row->input != NO_INPUT && material_field_extends(row) && strcmp(extension, row->object) == 0) return true;
     return false;

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "gltf/asset/field.h"
+#include "gltf/read/draco_primitive.h"
 
 void variants_read(Asset *asset) {
     WeftScene *scene = asset->scene;
@@ -127,6 +128,7 @@ static void primitive_read(const Field *field, Primitive *p) {
     targets_read(&targets, p, count);
     attributes_check(&attributes);
     indices_read(&indices, p);
+    draco_read(field, p);
     p->material = field_index(&material, asset->material_count);
     if (p->material < 0) p->material = (int)asset->material_count;
     variants_map(&variants, p);

@@ -16,21 +16,44 @@
 #include "gltf/asset/uri.h"
 #include "gltf/read/glossiness.h"
 
-/* Reads what a texture names. Extensions whose image format cannot be read here are passed over with a warning; where
- * nothing else is named the warning comes from the material that has the texture. */
+/* The extensions by which a texture names a picture of another format, and whether that is read here. */
+static const struct {
+    const char *extension;
+    bool read;
+} offers[] = {
+    {"EXT_texture_webp", true},
+    {"KHR_texture_basisu", false},
+    {"EXT_texture_avif", false},
+    {"MSFT_texture_dds", false},
+};
+enum { OFFERS = sizeof offers / sizeof *offers };
+
+bool texture_extension_read(const char *extension) {
+    for (size_t i = 0; i < OFFERS; i++)
+        if (strcmp(extension, offers[i].extension) == 0) return offers[i].read;
+    return false;
+}
+
+/* Reads what a texture names: the picture of the first extension whose format is read, else its plain source.
+ * Extensions with other formats are passed over with a warning; where nothing else is named the warning comes from the
+ * material that has the texture. */
 static TextureSource source_read(const Field *field) {
-    static const char *const offers[] = {"KHR_texture_basisu", "EXT_texture_webp", "EXT_texture_avif",
-                                         "MSFT_texture_dds"};
     Field source = field_member(field, "source"), sampler = field_member(field, "sampler");
-    TextureSource texture = {.image = field_index(&source, field->asset->image_count),
-                             .sampler = field_index(&sampler, field->asset->sampler_count),
-                             .scene_texture = -1};
-    for (size_t i = 0; i < sizeof offers / sizeof *offers; i++) {
-        Field offer = field_extension(field, offers[i]);
+    TextureSource texture = {
+        .image = -1, .sampler = field_index(&sampler, field->asset->sampler_count), .scene_texture = -1};
+    const int plain = field_index(&source, field->asset->image_count);
+    for (size_t i = 0; i < OFFERS; i++) {
+        Field offer = field_extension(field, offers[i].extension), offered = field_member(&offer, "source");
         if (!offer.json) continue;
-        texture.offer = offers[i];
-        if (source.json) field_warn(field, WEFT_MESSAGE_GLTF_WARN_IGNORED, "%s, its plain source is used", offers[i]);
+        if (offers[i].read && texture.image < 0) {
+            texture.image = field_needed_index(&offered, field->asset->image_count);
+        } else if (!offers[i].read) {
+            texture.offer = offers[i].extension;
+            if (source.json)
+                field_warn(field, WEFT_MESSAGE_GLTF_WARN_IGNORED, "%s, its plain source is used", texture.offer);
+        }
     }
+    if (texture.image < 0) texture.image = plain;
     return texture;
 }
 
@@ -167,6 +190,13 @@ static void order_find(Jobs *jobs) {
     }
 }
 
+/* Says why a picture cannot be read and, to whom the asset is shown, what becomes of its textures. */
+static void image_unread(Asset *asset, const DecodeJob *job) {
+    char line[sizeof job->error.text + 64];
+    snprintf(line, sizeof line, "%s%s", job->error.text, asset->examined ? "" : "; its textures are left out");
+    image_log(asset, job->image, job->error.message, line);
+}
+
 static void images_decode(Jobs *jobs) {
     Asset *asset = jobs->asset;
     int count = asset->scene->image_count;
@@ -175,8 +205,8 @@ static void images_decode(Jobs *jobs) {
     if (asset->result == WEFT_OK) parallel_for(0, count, decode, jobs);
     for (int i = 0; i < count && asset->result == WEFT_OK; i++) {
         const DecodeJob *job = &jobs->items[i];
-        if (asset->examined && job->result == WEFT_INPUT) {
-            image_log(asset, job->image, job->error.message, job->error.text);
+        if (job->result == WEFT_INPUT) {
+            image_unread(asset, job);
             continue;
         }
         asset->result = job->result;
@@ -192,12 +222,18 @@ static const char *image_name(Asset *asset, int index) {
     return name;
 }
 
-/* Reports an image whose bytes cannot be read to a caller that examines the asset, and goes on. */
-static void image_excuse(Asset *asset, DecodeJob *job) {
-    if (!asset->examined || asset->result != WEFT_INPUT) return;
-    job->result = asset->result;
-    if (asset->error) job->error = *asset->error;
-    asset->result = WEFT_OK;
+/* Goes on after an image whose bytes cannot be read. An asset that breaks glTF's rules is forgiven only while it is
+ * examined. */
+static void image_excuse(Asset *asset, DecodeJob *job, WeftError *error) {
+    const bool rules = error->message == WEFT_MESSAGE_GLTF_SCHEMA || error->message == WEFT_MESSAGE_GLTF_REFERENCE ||
+                       error->message == WEFT_MESSAGE_GLTF_BOUNDS || error->message == WEFT_MESSAGE_GLTF_TOO_LARGE;
+    if (asset->result == WEFT_INPUT && (asset->examined || !rules)) {
+        job->result = asset->result;
+        job->error = *error;
+        asset->result = WEFT_OK;
+    } else if (asset->result != WEFT_OK && asset->error) {
+        *asset->error = *error;
+    }
 }
 
 /* Returns the scene's image for glTF image number index: that of its view or file if they have one already. */
@@ -207,6 +243,8 @@ static int image_resolve(Jobs *jobs, int index) {
           view_field = field_member(&field, "bufferView"), uri_field = field_member(&field, "uri");
     const char *uri = field_text(&uri_field, NULL);
     int view = field_index(&view_field, asset->view_count), none = 0, *made = &none;
+    WeftError why = {0}, *const told = asset->error;
+    asset->error = &why;
     DecodeJob job = {.name = image_name(asset, index), .image = index};
     if (uri && uri_is_data(uri)) {
         job.bytes.data = job.owned = uri_decode(&uri_field, uri, &job.bytes.size);
@@ -223,12 +261,40 @@ static int image_resolve(Jobs *jobs, int index) {
     } else {
         field_fail(&field, WEFT_MESSAGE_GLTF_SCHEMA, "it has neither uri nor bufferView");
     }
-    image_excuse(asset, &job);
+    asset->error = told;
+    image_excuse(asset, &job, &why);
     if (!*made) {
         jobs->items[asset->scene->image_count] = job;
         *made = ++asset->scene->image_count;
     }
     return *made - 1;
+}
+
+/* Takes out the images without pixels, the textures that have them, and what inputs read of those. */
+static void unread_drop(Asset *asset) {
+    WeftScene *scene = asset->scene;
+    int *image_place = asset_array(asset, &asset->arena, (size_t)scene->image_count, sizeof(int));
+    int *texture_place = asset_array(asset, &asset->arena, (size_t)scene->texture_count, sizeof(int));
+    int images = 0, textures = 0;
+    if (asset->result != WEFT_OK) return;
+    for (int i = 0; i < scene->image_count; i++) {
+        image_place[i] = scene->images[i].pixels ? images : -1;
+        if (scene->images[i].pixels) scene->images[images++] = scene->images[i];
+    }
+    for (int t = 0; t < scene->texture_count; t++) {
+        const int place = image_place[scene->textures[t].image];
+        texture_place[t] = place < 0 ? -1 : textures;
+        if (place < 0) continue;
+        scene->textures[textures] = scene->textures[t];
+        scene->textures[textures++].image = place;
+    }
+    scene->image_count = images;
+    scene->texture_count = textures;
+    for (int m = 0; m < scene->material_count; m++)
+        for (int i = 0; i < INPUT_COUNT; i++) {
+            int *texture = &scene->materials[m].inputs[i].texture;
+            if (*texture) *texture = texture_place[*texture - 1] + 1;
+        }
 }
 
 /* Returns the scene texture for a glTF texture, made on first use: 0 or its index + 1, as in Input. */
@@ -277,6 +343,7 @@ void textures_resolve(Asset *asset) {
         pthread_mutex_destroy(&jobs.log_lock);
     }
     for (int i = 0; i < scene->image_count; i++) free(jobs.items[i].owned);
+    if (asset->result == WEFT_OK && !asset->examined) unread_drop(asset);
     files_free(&asset->image_files);
     glossiness_end(asset);
 }

@@ -3,6 +3,7 @@
 
 #include "base/fail.h"
 #include "gltf/asset/accessor.h"
+#include "gltf/read/draco_primitive.h"
 #include "gltf/read/gather.h"
 #include "gltf/read/mesh.h"
 #include "gltf/read/pose.h"
@@ -298,6 +299,8 @@ void meshes_bake(Asset *asset) {
         const Node *node = &asset->nodes[i];
         size_t primitives = node->shown && node->mesh >= 0 ? asset->meshes[node->mesh].primitive_count : 0;
         for (size_t p = 0; p < primitives && asset->result == WEFT_OK; p++) {
+            draco_unpack(asset, node->mesh, &asset->meshes[node->mesh].primitives[p]);
+            if (asset->result != WEFT_OK) break;
             MeshBake bake = {.asset = asset,
                              .node = node,
                              .primitive = &asset->meshes[node->mesh].primitives[p],
