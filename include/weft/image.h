@@ -35,10 +35,10 @@ WEFT_API WeftResult weft_image_create(int width, int height, int channels, WeftP
 /* Releases the pixels and zeroes the struct. image may be NULL or all zero. */
 WEFT_API void weft_image_free(WeftImage *image);
 
-/* Reads PNG, JPEG, WebP, TGA, Radiance HDR, OpenEXR, DDS, TIFF (where libtiff is) or NumPy's .npy, told by content
- * (TGA last). PNG gives U8 or U16, JPEG, WebP and TGA U8, HDR F32 RGB, EXR F32 of its display window, DDS and TIFF any of the
- * three. An .npy is an array of rows by columns, by 1 to 4 channels where it has three indices: f2, f4 and f8 give
- * F32, u1 U8, u2 U16. Float values are finite. log (may be NULL) receives a warning for each repair, and
+/* Reads PNG, JPEG, WebP, TGA, Radiance HDR, OpenEXR, DDS, KTX 2, TIFF (where libtiff is) or NumPy's .npy, told by
+ * content (TGA last). PNG gives U8 or U16, JPEG, WebP and TGA U8, HDR F32 RGB, EXR F32 of its display window, DDS, KTX 2
+ * and TIFF any of the three. An .npy is an array of rows by columns, by 1 to 4 channels where it has three indices: f2,
+ * f4 and f8 give F32, u1 U8, u2 U16. Float values are finite. log (may be NULL) receives a warning for each repair, and
  * WEFT_MESSAGE_IMAGE_DENOISED where the file states that it was denoised. Fails with WEFT_MESSAGE_FILE_OPEN,
  * _FILE_READ, _FILE_LARGE, _IMAGE_FORMAT, _IMAGE_SIZE, _IMAGE_DAMAGED, _IMAGE_UNSUPPORTED or _MEMORY; *out is then
  * zero. */

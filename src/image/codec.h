@@ -23,8 +23,8 @@ enum { IMAGE_SIDE_MAX = 65536 };
  * not have. */
 const char *image_media_type(const unsigned char *data, size_t size);
 
-/* Returns true if the suffix of a path is that of pictures that are read: .png .jpg .jpeg .webp .tga .hdr .exr, and
- * .tif .tiff where libtiff is. */
+/* Returns true if the suffix of a path is that of pictures that are read: .png .jpg .jpeg .webp .tga .hdr .exr .ktx2,
+ * and .tif .tiff where libtiff is. */
 bool image_suffix_read(const char *path);
 
 /* Refuses (WEFT_MESSAGE_IMAGE_SIZE) sides outside 1 .. IMAGE_SIDE_MAX and images that are implausibly large for the
@@ -51,6 +51,9 @@ WeftResult image_read_exr_channels(const ImageSource *source, const char *const 
                                    char **comment, WeftError *error);
 WeftResult image_read_dds(const ImageSource *source, WeftImage *out, WeftError *error);
 WeftResult image_read_tiff(const ImageSource *source, WeftImage *out, WeftError *error); /* where libtiff is */
+
+/* Reads level 0 of a KTX 2 file: the first face of the first layer, with a warning where there are more. */
+WeftResult image_read_ktx2(const ImageSource *source, WeftImage *out, WeftError *error);
 WeftResult image_read_npy(const ImageSource *source, WeftImage *out, WeftError *error);
 
 /* Writes an image whose pixel type the format supports; name is the subject of errors. */

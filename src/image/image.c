@@ -99,7 +99,7 @@ static const Format formats[] = {
     {"OpenEXR", SIGNATURE(0, "\x76\x2f\x31\x01"), image_read_exr, NULL, ".exr", true, image_write_exr, false},
     {"NPY", SIGNATURE(0, "\x93NUMPY"), image_read_npy, NULL, ".npy", true, image_write_npy, false},
     {"WebP", SIGNATURE(8, "WEBP"), image_read_webp, "image/webp", NULL, false, NULL, false},
-    {"KTX 2", SIGNATURE(0, "\xabKTX 20\xbb"), NULL, "image/ktx2", NULL, false, NULL, true},
+    {"KTX 2", SIGNATURE(0, "\xabKTX 20\xbb"), image_read_ktx2, "image/ktx2", NULL, false, NULL, false},
     {"KTX", SIGNATURE(0, "\xabKTX 11\xbb"), NULL, NULL, NULL, false, NULL, true},
     {"DDS", SIGNATURE(0, "DDS "), image_read_dds, NULL, NULL, false, NULL, false},
     {"GIF", SIGNATURE(0, "GIF8"), NULL, NULL, NULL, false, NULL, true},
@@ -183,7 +183,8 @@ WeftResult weft_image_read_channels(const char *path, const char *const *channel
 }
 
 bool image_suffix_read(const char *path) {
-    static const char *const suffixes[] = {".png", ".jpg", ".jpeg", ".webp", ".tga", ".hdr", ".exr", ".tif", ".tiff"};
+    static const char *const suffixes[] = {".png", ".jpg", ".jpeg", ".webp", ".tga",
+                                           ".hdr", ".exr", ".ktx2", ".tif",  ".tiff"};
     const bool tiff = format_of_bytes((const unsigned char *)"II*", 4)->read != NULL;
     bool read = false;
     for (size_t k = 0; k < sizeof suffixes / sizeof *suffixes - (tiff ? 0 : 2); k++)

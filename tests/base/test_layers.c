@@ -34,6 +34,7 @@ static const char *const folders[] = {
     "shading/area",
     "shading/api",
     "image",
+    "image/ktx2",
     "weave",
     "fibre",
     "brdf",

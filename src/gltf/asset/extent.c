@@ -1,8 +1,11 @@
 /* Specifications: W3C, "Portable Network Graphics (PNG) Specification", 2003, section 11.2.2; ITU-T T.81,
- * 1992, annex B (JPEG); Google, "WebP Container Specification", 2010. */
+ * 1992, annex B (JPEG); Google, "WebP Container Specification", 2010; Khronos, "KTX File Format Specification", version
+ * 2.0.4, 2024, section 2.1 (KTX 2). */
 #include "gltf/asset/extent.h"
 
 #include <string.h>
+
+#include "base/little_endian.h"
 
 static size_t big16(const unsigned char *p) { return (size_t)p[0] << 8 | p[1]; }
 
@@ -60,6 +63,15 @@ static size_t tga_bytes(Span image) {
     return (p[12] | (size_t)p[13] << 8) * (p[14] | (size_t)p[15] << 8) * 4;
 }
 
+/* Counts four bytes a pixel of bytes and blocks, sixteen of words and floats, whose formats have numbers from 70 on. */
+static size_t ktx2_bytes(Span image) {
+    enum { HEADER = 28, FIRST_WORD = 70 };
+    if (image.size < HEADER) return 0;
+    const size_t format = (size_t)little_endian(image.data + 12, 4), width = (size_t)little_endian(image.data + 20, 4),
+                 height = (size_t)little_endian(image.data + 24, 4);
+    return width < 1 << 17 && height < 1 << 17 ? width * height * (format < FIRST_WORD ? 4 : 16) : 0;
+}
+
 /* Returns the most pixel bytes that the image readers accept for a file of this size. */
 static size_t header_bytes(Span image) {
     const size_t always = (size_t)512 << 20;
@@ -75,6 +87,7 @@ size_t extent_bytes(Span image) {
     if (starts(image, "\xff\xd8\xff", 3)) return jpeg_bytes(image);
     if (starts(image, "RIFF", 4) && image.size >= 12 && memcmp(image.data + 8, "WEBP", 4) == 0)
         return webp_bytes(image);
+    if (starts(image, "\xabKTX 20\xbb", 8)) return ktx2_bytes(image);
     static const char *const others[] = {"\x76\x2f\x31\x01", "DDS ", "II*", "II+", "MM"}; /* EXR, DDS, TIFF */
     if (starts(image, "#?", 2)) return header_bytes(image);
     for (size_t k = 0; k < sizeof others / sizeof *others; k++)

@@ -159,7 +159,7 @@ static void free_map_set(MapSet *map_set) {
 
 /* Lists the pictures of a folder in the order of their names. Returns their number. */
 static int list_pictures(struct dirent **entries, int count, MapFile *files) {
-    static const char *const unread[] = {".tif", ".tiff", ".bmp", ".psd", ".dds", ".jp2", ".ktx2", NULL};
+    static const char *const unread[] = {".tif", ".tiff", ".bmp", ".psd", ".dds", ".jp2", NULL};
     int found = 0;
     for (int k = 0; k < count; k++) {
         const char *file = entries[k]->d_name;

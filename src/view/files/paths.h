@@ -11,7 +11,7 @@ typedef enum PathKind {
     PATH_MATERIAL, /* .json preset: */
     PATH_LOBE,     /* .h */
     PATH_DRAFT,    /* .wif .dtx */
-    PATH_PICTURE,  /* .png .jpg .jpeg .webp .tga .tif .tiff */
+    PATH_PICTURE,  /* .png .jpg .jpeg .webp .tga .tif .tiff .ktx2 */
     PATH_FOLDER
 } PathKind;
 
