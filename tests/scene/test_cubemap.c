@@ -122,6 +122,49 @@ static void cubemap_names_may_be_short_and_of_any_case(void **state) {
     assert_false(cubemap_named("studio.hdr"));
 }
 
+static void put_number(FILE *file, uint64_t number, int size) {
+    for (int k = 0; k < size; k++) fputc((int)(number >> 8 * k & 255), file);
+}
+
+/* Writes the faces of write_face as one KTX 2 file of floats, VkFormat 106, of which `faces` are there. */
+static void write_ktx2(const char *name, int faces) {
+    const uint32_t header[] = {106, 4, SIDE, SIDE, 0, 0, 6, 1, 0, 104, 44, 0, 0, 0, 0, 0, 0};
+    const uint64_t size = 6 * SIDE * SIDE * 3 * 4;
+    const uint32_t descriptor[] = {44, 0, 2 | 40 << 16, 0x00010101, 0, 0, 0, 0, 0, 0, 0};
+    FILE *file = fopen(name_of(name), "wb");
+    assert_non_null(file);
+    fwrite("\xabKTX 20\xbb\r\n\x1a\n", 1, 12, file);
+    for (size_t k = 0; k < sizeof header / sizeof *header; k++) put_number(file, header[k], 4);
+    put_number(file, 148, 8);
+    put_number(file, size, 8);
+    put_number(file, size, 8);
+    for (size_t k = 0; k < sizeof descriptor / sizeof *descriptor; k++) put_number(file, descriptor[k], 4);
+    for (int face = 0; face < faces; face++)
+        for (int k = 0; k < SIDE * SIDE; k++) {
+            const float pixel[] = {((float)(k % SIDE) + 0.5f) / SIDE, ((float)(k / SIDE) + 0.5f) / SIDE,
+                                   (float)(face + 1)};
+            fwrite(pixel, sizeof *pixel, 3, file);
+        }
+    assert_int_equal(fclose(file), 0);
+}
+
+static void cubemap_of_one_file_lands_as_that_of_six(void **state) {
+    (void)state;
+    clear();
+    write_ktx2("sky.ktx2", 6);
+    assert_true(cubemap_named(name_of("sky.ktx2")));
+    looks_right(name_of("sky.ktx2"));
+    WeftScene *scene = scene_create("cube");
+    WeftError error = {0};
+    if (weft_scene_set_environment_file(scene, name_of("sky.ktx2"), NULL, &error) != WEFT_OK)
+        fail_msg("%s", error.text);
+    assert_int_equal(scene->environment.image.width, 4 * SIDE);
+    write_ktx2("sky.ktx2", 5);
+    assert_int_equal(weft_scene_set_environment_file(scene, name_of("sky.ktx2"), NULL, &error), WEFT_INPUT);
+    assert_int_equal(error.message, WEFT_MESSAGE_IMAGE_SIZE);
+    weft_scene_free(scene);
+}
+
 static void wrong_cubemap_is_an_error(void **state) {
     (void)state;
     write_all(plain);
@@ -192,6 +235,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(cubemap_faces_land_where_opengl_has_them),
         cmocka_unit_test(cubemap_names_may_be_short_and_of_any_case),
+        cmocka_unit_test(cubemap_of_one_file_lands_as_that_of_six),
         cmocka_unit_test(wrong_cubemap_is_an_error),
         cmocka_unit_test(scene_takes_a_cubemap_as_environment),
         cmocka_unit_test(sky_below_zero_is_raised_and_told),

@@ -13,8 +13,8 @@ enum { SCENE_LIGHTS_MOST = 64 };
                     "auto, which frames the scene, a camera's name or index, or \"eye;target;fov\" as "                \
                     "\"x,y,z;x,y,z;degrees\" [auto; the first camera of a built-in scene]"),                           \
         OPTION_TEXT("--env", "FILE|r,g,b", NULL,                                                                       \
-                    "light from a lat-long picture or a cube map, a folder or one of six files posx negx posy negy "   \
-                    "posz negz; or one radiance (r,g,b or a number) from everywhere [a studio]"),                      \
+                    "light from a lat-long picture or a cube map, a KTX 2 file, a folder or one of six files posx "    \
+                    "negx posy negy posz negz; or one radiance (r,g,b or a number) from everywhere [a studio]"),       \
         OPTION_NUMBER("--env-rotation", "DEGREES", "0", -1e6, 1e6, "turn the environment about the vertical"),         \
         OPTION_NUMBER("--env-strength", "FACTOR", "1", 0, 1e6, "scale the environment"),                               \
         OPTION_NUMBER("--env-ambient", "FACTOR", "1", 0, 1e6, "scale what diffuse lobes and dust reflect of it"),      \

@@ -9,7 +9,10 @@
 #include "scene/light/cubemap.h"
 
 #include "base/fail.h"
+#include "base/file.h"
+#include "base/little_endian.h"
 #include "base/memory.h"
+#include "image/ktx2/ktx2.h"
 #include "scene/light/env_split.h"
 
 enum { FACES = 6, NAME_SIZE = 1024 };
@@ -18,7 +21,7 @@ static const char *const long_names[FACES] = {"posx", "negx", "posy", "negy", "p
 static const char *const short_names[FACES] = {"px", "nx", "py", "ny", "pz", "nz"};
 
 /* The formats of image/, without .npy, which no camera makes. */
-static const char *const suffixes[] = {"exr", "hdr", "png", "jpg", "jpeg", "tga"};
+static const char *const suffixes[] = {"exr", "hdr", "png", "jpg", "jpeg", "tga", "ktx2"};
 
 typedef struct Faces {
     char paths[FACES][NAME_SIZE];
@@ -48,9 +51,18 @@ static const char *file_name(const char *path) {
     return slash ? slash + 1 : path;
 }
 
+/* Returns true if the path is a KTX 2 file of six faces. */
+static bool is_ktx2_cube(const char *path) {
+    unsigned char start[40] = {0};
+    FILE *file = is_folder(path) ? NULL : fopen(path, "rb");
+    const size_t got = file ? fread(start, 1, sizeof start, file) : 0;
+    if (file) fclose(file);
+    return got == sizeof start && ktx2_starts(start, got) && little_endian(start + 36, 4) == FACES;
+}
+
 bool cubemap_named(const char *path) {
     const char *name = file_name(path);
-    return is_folder(path) || face_named(name, false) >= 0 || face_named(name, true) >= 0;
+    return is_folder(path) || is_ktx2_cube(path) || face_named(name, false) >= 0 || face_named(name, true) >= 0;
 }
 
 /* Finds the faces in a folder by one kind of names. Returns their number, or -1 after a failure. */
@@ -120,6 +132,35 @@ static WeftResult read_face(const char *path, int side, WeftImage *out, const We
     return result;
 }
 
+/* Reads the faces of six files. */
+static WeftResult read_files(const char *path, WeftImage faces[FACES], const WeftLog *log, WeftError *error) {
+    Faces *names = alloc_array(1, sizeof *names);
+    if (!names) return fail(error, WEFT_MESSAGE_MEMORY, path, NULL);
+    WeftResult result = find_faces(path, names, error);
+    for (int k = 0; k < FACES && result == WEFT_OK; k++)
+        result = read_face(names->paths[k], k ? faces[0].width : 0, &faces[k], log, error);
+    free(names);
+    return result;
+}
+
+/* Reads the faces of one KTX 2 file, of its first level. */
+static WeftResult read_ktx2(const char *path, WeftImage faces[FACES], const WeftLog *log, WeftError *error) {
+    FileBytes bytes;
+    Ktx2 file;
+    WeftResult result = file_read(path, (size_t)1 << 30, &bytes, error);
+    if (result != WEFT_OK) return result;
+    const ImageSource source = {.data = bytes.data, .size = bytes.size, .name = path, .log = log};
+    result = ktx2_open(&source, &file, error);
+    for (int k = 0; k < FACES && result == WEFT_OK; k++) {
+        WeftImage raw;
+        result = ktx2_picture(&file, 0, k, &raw, error);
+        if (result == WEFT_OK) result = weft_image_convert_f32(&raw, !file.linear, &faces[k], error);
+        weft_image_free(&raw);
+    }
+    free(bytes.data);
+    return result;
+}
+
 /* Returns the face that direction d meets, and sets the place on it, from -1 to 1 towards the right and down. */
 static int face_at(Vec3 d, float *right, float *down) {
     float x = fabsf(d.x), y = fabsf(d.y), z = fabsf(d.z);
@@ -168,19 +209,14 @@ static void resample(const WeftImage faces[FACES], WeftImage *out) {
 }
 
 WeftResult cubemap_read(const char *path, WeftImage *out, const WeftLog *log, WeftError *error) {
-    Faces *names = alloc_array(1, sizeof *names);
     WeftImage faces[FACES] = {{0}};
     *out = (WeftImage){0};
-    if (!names) return fail(error, WEFT_MESSAGE_MEMORY, path, NULL);
-    WeftResult result = find_faces(path, names, error);
-    for (int k = 0; k < FACES && result == WEFT_OK; k++)
-        result = read_face(names->paths[k], k ? faces[0].width : 0, &faces[k], log, error);
+    WeftResult result = is_ktx2_cube(path) ? read_ktx2(path, faces, log, error) : read_files(path, faces, log, error);
     if (result == WEFT_OK) {
         int width = faces[0].width < CUBEMAP_WIDTH / 4 ? 4 * faces[0].width : CUBEMAP_WIDTH;
         result = weft_image_create(width, width / 2, 3, WEFT_PIXEL_F32, out, error);
     }
     if (result == WEFT_OK) resample(faces, out);
     for (int k = 0; k < FACES; k++) weft_image_free(&faces[k]);
-    free(names);
     return result;
 }

@@ -138,7 +138,7 @@ static const char *environment_name(const void *user, int k) {
 static const char *environment_help(const void *user, int k) {
     static const char *const helps[] = {
         "The built-in soft boxes.",
-        "A lat-long picture (.hdr, .exr), or a cube map (a folder with posx, negx ...): open or drop one.",
+        "A lat-long picture (.hdr, .exr), or a cube map (.ktx2, or a folder with posx, negx ...): open or drop one.",
         "One radiance from everywhere: the furnace, when it is 1."};
     return helps[k];
 }
@@ -160,7 +160,7 @@ static void draw_environment(Viewer *v) {
     }
     ui_indent();
     if (ui_button("Choose a picture ...")) dialogs_open(v, "Choose a light");
-    ui_tip("Another lat-long picture, or a cube map of six files: posx, negx, posy, negy, posz, negz.");
+    ui_tip("Another lat-long picture, or a cube map: a KTX 2 file, or six files posx, negx, posy, negy, posz, negz.");
     ui_indent_end();
     if (a->kind == ENVIRONMENT_FILE) ui_dim(a->path);
     if (a->kind == ENVIRONMENT_COLOR) {
