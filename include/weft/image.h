@@ -56,7 +56,8 @@ WEFT_API WeftResult weft_image_read_channels(const char *path, const char *const
                                              char **comment, WeftError *error);
 
 /* Writes by suffix: .png (U8 or U16 as the image is; F32 is refused: tone-map first), .exr (F32, half float,
- * ZIP), .hdr (F32, RGBE, no alpha), .npy (F32, as it is). The file appears complete or not at all. */
+ * ZIP), .hdr (F32, RGBE, no alpha), .npy (F32, as it is), .ktx2 (U8 or U16 as 8 bits: UASTC in Zstandard, with mip
+ * levels). The file appears complete or not at all. */
 WEFT_API WeftResult weft_image_write(const char *path, const WeftImage *image, WeftError *error);
 
 /* Channels of an .exr beside the picture's, written as 32 bit floats, not multiplied by alpha. */
@@ -75,17 +76,20 @@ typedef struct WeftImageText {
 
 /* Options of weft_image_write_as. All zero: as weft_image_write does. */
 typedef struct WeftImageWriting {
-    int data;             /* not 0: linear data: a .png is not marked sRGB, an .exr not multiplied by its alpha */
-    int single;           /* not 0: .exr of 32 bit floats in place of half */
-    const char *comment;  /* one line kept in a .png (text chunk "Comment") or .exr (attribute "comments");
+    int data;   /* not 0: linear data: a .png or .ktx2 is not marked sRGB, an .exr not multiplied by its alpha */
+    int single; /* not 0: .exr of 32 bit floats in place of half */
+    const char *comment;          /* one line kept in a .png (text chunk "Comment") or .exr (attribute "comments");
                              the other formats have no place for it; may be NULL */
-    const char *denoised; /* how the picture was denoised, kept in a .png ("Denoised") or .exr ("denoised"),
+    const char *denoised;         /* how the picture was denoised, kept in a .png ("Denoised") or .exr ("denoised"),
                              where readers warn of it; may be NULL */
     const WeftImageLayer *layers; /* of an .exr; the other formats leave them out */
     int layer_count;              /* at most WEFT_IMAGE_LAYERS */
     const WeftImageText *texts;   /* of an .exr; the other formats leave them out */
     int text_count;               /* of texts */
-    const char *isa; /* the instruction set that made it (weft_isa), kept in an .exr ("isa"); may be NULL */
+    const WeftImage *levels; /* of a .ktx2: its mip levels after the first, U8 or U16, each side half of that before,
+                                rounded down and at least 1; NULL: means of the picture, of linear light unless `data` */
+    int level_count;         /* of levels; 0: all, down to a single texel */
+    const char *isa;         /* the instruction set that made it (weft_isa), kept in an .exr ("isa"); may be NULL */
 } WeftImageWriting;
 
 /* Works as weft_image_write, with options. */

@@ -30,7 +30,7 @@ typedef enum WeftResult {
     M(FILE_READ, INPUT, "cannot be read")                                                                              \
     M(FILE_LARGE, INPUT, "is too large")                                                                               \
     M(FILE_WRITE, RESOURCES, "cannot be written")                                                                      \
-    M(OUTPUT_SUFFIX, USAGE, "has no suffix that names an image format (.png .exr .hdr .npy)")                          \
+    M(OUTPUT_SUFFIX, USAGE, "has no suffix that names an image format (.png .exr .hdr .npy .ktx2)")                    \
     M(IMAGE_FORMAT, INPUT, "is not an image of a known format (PNG JPEG TGA TIFF DDS KTX2 HDR EXR NPY)")               \
     M(IMAGE_SIZE, INPUT, "is truncated, or its header is wrong")                                                       \
     M(CUBEMAP, INPUT, "is not a cubemap whose six faces are named as posx or px")                                      \

@@ -63,5 +63,9 @@ WeftResult image_write_hdr(FILE *stream, const char *name, const WeftImage *imag
                            WeftError *error);
 WeftResult image_write_exr(FILE *stream, const char *name, const WeftImage *image, const WeftImageWriting *how,
                            WeftError *error);
+
+/* Writes UASTC, packed by Zstandard, with all mip levels. */
+WeftResult image_write_ktx2(FILE *stream, const char *name, const WeftImage *image, const WeftImageWriting *how,
+                            WeftError *error);
 WeftResult image_write_npy(FILE *stream, const char *name, const WeftImage *image, const WeftImageWriting *how,
                            WeftError *error);

@@ -99,7 +99,7 @@ static const Format formats[] = {
     {"OpenEXR", SIGNATURE(0, "\x76\x2f\x31\x01"), image_read_exr, NULL, ".exr", true, image_write_exr, false},
     {"NPY", SIGNATURE(0, "\x93NUMPY"), image_read_npy, NULL, ".npy", true, image_write_npy, false},
     {"WebP", SIGNATURE(8, "WEBP"), image_read_webp, "image/webp", NULL, false, NULL, false},
-    {"KTX 2", SIGNATURE(0, "\xabKTX 20\xbb"), image_read_ktx2, "image/ktx2", NULL, false, NULL, false},
+    {"KTX 2", SIGNATURE(0, "\xabKTX 20\xbb"), image_read_ktx2, "image/ktx2", ".ktx2", false, image_write_ktx2, false},
     {"KTX", SIGNATURE(0, "\xabKTX 11\xbb"), NULL, NULL, NULL, false, NULL, true},
     {"DDS", SIGNATURE(0, "DDS "), image_read_dds, NULL, NULL, false, NULL, false},
     {"GIF", SIGNATURE(0, "GIF8"), NULL, NULL, NULL, false, NULL, true},

@@ -183,10 +183,10 @@ static WeftResult shape_read(Ktx2 *file, WeftError *error) {
  * is counted as 65536 texels a byte, so that a small file cannot ask for much. */
 static WeftResult size_check(const Ktx2 *file, WeftError *error) {
     static const int64_t bytes[] = {1, 2, 4, 4, 4, 4, 1, 1}, fewest[] = {1, 2, 2, 4, 4, 4, 1, 1};
-    const int64_t texels = (int64_t)file->width * file->height;
     WeftResult result = image_check_header(file->source, file->width, file->height,
                                            bytes[file->coding] * file->channels * file->faces, error);
     if (result != WEFT_OK) return result;
+    const int64_t texels = (int64_t)file->width * file->height;
     const bool packed = file->coding >= KTX2_B10G11R11;
     int64_t least = texels * (packed ? 1 : file->stored) * fewest[file->coding];
     if (file->coding == KTX2_UASTC) least = (int64_t)((file->width + 3) / 4) * ((file->height + 3) / 4) * 16;

@@ -45,7 +45,8 @@ int uastc_subset(int mode, int pattern, int texel) {
     return (mode == 7 ? merged : pairs)[pattern] >> texel & 1;
 }
 
-/* The digit counts for factor, and its bits but the lowest lie at both ends of 9 bits; the lowest turns the result over. */
+/* Returns an endpoint whose digit counts for factor, and whose bits but the lowest are spread over 9 bits; the lowest
+ * turns the result over. */
 static unsigned endpoint_turned(unsigned digit, unsigned factor, unsigned spread, unsigned bits) {
     const unsigned turn = bits & 1 ? 0x1ff : 0;
     return (turn & 0x80) | ((digit * factor + spread) ^ turn) >> 2;
