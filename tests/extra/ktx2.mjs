@@ -1,4 +1,5 @@
-// Makes KTX 2 files and compares texels: node ktx2.mjs make FOLDER writes files of each kind, and blocks of random bits;
+// Makes KTX 2 files and compares texels: node ktx2.mjs make FOLDER writes files of each kind, pictures as .tga, and blocks
+// of random bits;
 // node ktx2.mjs compare FOLDER has the texels of FILE.ktx2.rgba equal those of three.js' transcoder, bit for bit.
 import fs from 'fs'
 import path from 'path'
@@ -30,11 +31,24 @@ const pictures = {
         v => Math.max(0, Math.min(255, v + random() * 9 - 4))).concat(255),
 }
 
+// Returns the bytes of a TGA file of 32 bits a texel, from the top.
+function targa(data) {
+    const file = Buffer.alloc(18 + data.length)
+    file[2] = 2
+    file.writeUInt16LE(width, 12)
+    file.writeUInt16LE(height, 14)
+    file[16] = 32
+    file[17] = 0x28
+    for (let k = 0; k < data.length; k += 4) file.set([data[k + 2], data[k + 1], data[k], data[k + 3]], 18 + k)
+    return file
+}
+
 const log = console.log
 async function make() {
     for (const [name, color] of Object.entries(pictures)) {
         const data = new Uint8Array(width * height * 4)
         for (let n = 0; n < width * height; n++) data.set(color(n % width, Math.floor(n / width)), 4 * n)
+        fs.writeFileSync(path.join(folder, `${name}.tga`), targa(data))
         for (const [kind, options] of Object.entries({
             'uastc-fast': { isUASTC: true, uastcLDRQualityLevel: 0, needSupercompression: false },
             'uastc-zstd': { isUASTC: true, uastcLDRQualityLevel: 3, needSupercompression: true },

@@ -23,6 +23,7 @@
     V(match)                                                                                                           \
     V(fit)                                                                                                             \
     V(diff)                                                                                                            \
+    V(convert)                                                                                                         \
     V(doctor)                                                                                                          \
     V(weave)
 
