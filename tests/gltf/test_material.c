@@ -541,8 +541,8 @@ static void images_of_too_many_pixels_together_are_refused(void **state) {
 /* Containers that cannot be read are offers: the plain source counts. */
 static void texture_of_an_unreadable_container_falls_back_to_its_source(void **state) {
     (void)state;
-    char *first = json("'extensionsUsed':['KHR_texture_basisu'],'images':[{'uri':'%s'},{'uri':'x.ktx2'}],"
-                       "'textures':[{'source':0,'extensions':{'KHR_texture_basisu':{'source':1}}}],",
+    char *first = json("'extensionsUsed':['MSFT_texture_dds'],'images':[{'uri':'%s'},{'uri':'x.dds'}],"
+                       "'textures':[{'source':0,'extensions':{'MSFT_texture_dds':{'source':1}}}],",
                        png);
     Reading *reading = read_material(first, MAPPED);
     free(first);
@@ -580,6 +580,38 @@ static void pictures_of_webp_are_read(void **state) {
     first = json("'images':[{'uri':'%s'}],'textures':[{'extensions':{'EXT_texture_webp':{'source':1}}}],", png);
     assert_refused(read_material(first, MAPPED), WEFT_MESSAGE_GLTF_REFERENCE, "EXT_texture_webp.source: 1 of 1");
     free(first);
+}
+
+/* The picture of KHR_texture_basisu is taken in place of the plain one, and may be required; a damaged one is named. */
+static void pictures_of_ktx2_are_read(void **state) {
+    (void)state;
+    static const unsigned char texel[] = {10, 200, 30};
+    WeftImage image;
+    char *bytes = NULL;
+    size_t size = 0;
+    assert_int_equal(weft_image_create(8, 4, 3, WEFT_PIXEL_U8, &image, NULL), WEFT_OK);
+    for (size_t n = 0; n < 32; n++) memcpy((unsigned char *)image.pixels + 3 * n, texel, 3);
+    FILE *stream = open_memstream(&bytes, &size);
+    assert_non_null(stream);
+    assert_int_equal(image_write_ktx2(stream, "made", &image, &(WeftImageWriting){0}, NULL), WEFT_OK);
+    assert_int_equal(fclose(stream), 0);
+    static const char form[] = "'extensionsUsed':['KHR_texture_basisu'],'extensionsRequired':['KHR_texture_basisu'],"
+                               "'images':[{'uri':'%s'},{'uri':'%s'}],"
+                               "'textures':[{'source':0,'extensions':{'KHR_texture_basisu':{'source':1}}}],";
+    for (int damaged = 0; damaged < 2; damaged++) {
+        char *first = json(form, png, uri((unsigned char *)bytes, damaged ? 150 : size));
+        Reading *reading = read_material(first, MAPPED);
+        free(first);
+        assert_read(reading);
+        assert_int_equal(reading->scene->image_count, damaged ? 0 : 1);
+        if (damaged)
+            assert_non_null(strstr(reading->warning, "images[1]"));
+        else
+            assert_memory_equal(reading->scene->images[0].pixels, image.pixels, 96);
+        done(reading);
+    }
+    free(bytes);
+    weft_image_free(&image);
 }
 
 static void material_variants_are_read(void **state) {
@@ -711,6 +743,7 @@ int main(void) {
         cmocka_unit_test(images_of_too_many_pixels_together_are_refused),
         cmocka_unit_test(textures_whose_picture_cannot_be_read_are_left_out),
         cmocka_unit_test(pictures_of_webp_are_read),
+        cmocka_unit_test(pictures_of_ktx2_are_read),
         cmocka_unit_test(texture_of_an_unreadable_container_falls_back_to_its_source),
         cmocka_unit_test(material_variants_are_read),
         cmocka_unit_test(light_through_cloth_is_read),

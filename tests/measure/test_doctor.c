@@ -798,7 +798,7 @@ static void warnings_of_a_read_are_findings(void **state) {
     char *text =
         json("{'asset':{'version':'2.0'},'extensionsUsed':['KHR_materials_fuzz','EXT_texture_avif'],'animations':[{}]"
              "," SQUARE_DATA ",'images':[{'uri':'%s'}],'samplers':[{'wrapS':7}],'textures':[{'source':0,'sampler':0},"
-             "{'extensions':{'EXT_texture_avif':{'source':0}}},{'source':0,'extensions':{'KHR_texture_basisu':{'source'"
+             "{'extensions':{'EXT_texture_avif':{'source':0}}},{'source':0,'extensions':{'MSFT_texture_dds':{'source'"
              ":0}}}],"
              "'materials':[{'alphaMode':'FOO','what':1,'pbrMetallicRoughness':{'roughnessFactor':2,'baseColorFactor':"
              "[0.4,3,0.4,1],'baseColorTexture':{'index':1},'metallicRoughnessTexture':{'index':2}},'emissiveTexture':"

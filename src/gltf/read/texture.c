@@ -22,7 +22,7 @@ static const struct {
     bool read;
 } offers[] = {
     {"EXT_texture_webp", true},
-    {"KHR_texture_basisu", false},
+    {"KHR_texture_basisu", true},
     {"EXT_texture_avif", false},
     {"MSFT_texture_dds", false},
 };
