@@ -122,6 +122,41 @@ WEFT_API void weft_render_free(WeftRender *render); /* may be NULL */
  * their like read what it writes. */
 WEFT_API WeftResult weft_render_run(WeftRender *render, int spp, double seconds, WeftProgress progress, void *user);
 
+/* Returns how many samples every pixel has, at least. A run of the rest goes on where an interrupted one stopped. */
+WEFT_API int weft_render_samples(const WeftRender *render);
+
+/* Several processes can render one picture, and a process can go on where another stopped: the picture is made of tiles,
+ * which know nothing of each other, and the sums of a tile can be copied. The result has the same bytes as one run if
+ * the samples that a tile had when it was copied are a multiple of WEFT_RENDER_BLOCK, twice that of a render with
+ * halves, or all that it gets, and the instruction set (weft/isa.h) is the same. */
+enum {
+    WEFT_RENDER_TILE = 16,  /* pixels a side; tiles are counted row by row in the crop, from the top left */
+    WEFT_RENDER_BLOCK = 16, /* samples of a pixel that are traced together */
+    /* Before the sums of a tile: the number of samples of a pixel in each half, and of samples that were not finite. */
+    WEFT_RENDER_TILE_HEAD = 3
+};
+
+/* Returns the number of tiles. */
+WEFT_API int weft_render_tile_count(const WeftRender *render);
+
+/* Adds samples to tiles until each has spp in all, one tile after another. wanted (may be NULL: all) has a byte for each
+ * tile, 0 if it is to be left alone. When progress (may be NULL) stops it, with WEFT_INTERRUPTED, another call goes on.
+ * `fraction` is that of the tiles. While this runs, no other call on the render is allowed. */
+WEFT_API WeftResult weft_render_tiles_run(WeftRender *render, const unsigned char *wanted, int spp,
+                                          WeftProgress progress, void *user);
+
+/* Returns how many sums each pixel of a tile has, which the descriptor decides; at most WEFT_RENDER_NUMBERS. */
+enum { WEFT_RENDER_NUMBERS = 104 };
+WEFT_API int weft_render_tile_numbers(const WeftRender *render);
+
+/* Copies the sums of a tile: WEFT_RENDER_TILE_HEAD numbers, then for each of the WEFT_RENDER_TILE * WEFT_RENDER_TILE
+ * pixels, row by row, weft_render_tile_numbers; pixels beyond the picture have 0. */
+WEFT_API void weft_render_tile(const WeftRender *render, int tile, float *numbers);
+
+/* Replaces the sums of a tile by those of a render of the same scene and descriptor. Fails with WEFT_MESSAGE_DESC, and
+ * leaves the tile as it was, if a number is not finite, or is no number of samples where there has to be one. */
+WEFT_API WeftResult weft_render_tile_set(WeftRender *render, int tile, const float *numbers, WeftError *error);
+
 /* The progress of an image and its costs. */
 typedef struct WeftRenderInfo {
     double samples_per_pixel; /* mean over the picture */

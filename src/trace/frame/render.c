@@ -1,5 +1,6 @@
 /* render.c - the API of the path tracer (weft/render.h): what a render owns, when it is rebuilt, and its passes */
 #define _POSIX_C_SOURCE 200809L
+#include <limits.h>
 #include <stdatomic.h>
 #include <stdlib.h>
 
@@ -9,6 +10,7 @@
 #include "scene/light/backdrop.h"
 #include "scene/light/polygons.h"
 #include "scene/record/camera.h"
+#include "trace/frame/film_tile.h"
 #include "trace/frame/traced.h"
 #include "trace/path/path_materials.h"
 
@@ -282,14 +284,15 @@ void weft_render_free(WeftRender *render) {
     free(render);
 }
 
-/* Samples that are added to all tiles between two looks at progress, noise and deadline. */
+/* Samples that are added to tiles between two looks at progress, noise and deadline. */
 typedef struct Pass {
     WeftRender *render;
-    int samples;         /* a pixel, <= STREAM_SAMPLES */
-    int half;            /* of the film */
-    atomic_int stop;     /* 1: no tile is started any more */
-    atomic_int finished; /* tiles */
-    double deadline;     /* of clock_now(); INFINITY: none */
+    int half, target;            /* each tile gets samples until it has so many of a half of the film */
+    const unsigned char *wanted; /* of tiles_run, by tile: not 0 if it is to be rendered; NULL: all */
+    int spp, tile_count;         /* of tiles_run: samples in all, tiles that are to be rendered */
+    atomic_int stop;             /* 1: no tile is started any more */
+    atomic_int finished;         /* tiles */
+    double deadline;             /* of clock_now(); INFINITY: none */
     WeftProgress progress;
     void *user;
     double done_before, share; /* progress before this pass, and what this pass adds */
@@ -298,36 +301,72 @@ typedef struct Pass {
 
 /* Reports progress to the caller, in the thread that called weft_render_run. */
 static void report_progress(Pass *pass, int finished) {
-    double fraction = pass->done_before + pass->share * finished / pass->render->picture.film.tile_count;
+    double fraction = pass->done_before + pass->share * finished / pass->tile_count;
     if (!pass->progress || !pass->progress(pass->user, fraction)) return;
     pass->interrupted = true;
     atomic_store(&pass->stop, 1);
 }
 
-/* Renders one tile in a thread of parallel_for; user is the Pass. */
+/* Adds samples of a half to a tile. */
+static void add_samples(WeftRender *render, int tile, int half, int samples, int thread) {
+    Stream *stream = render->streams[thread];
+    int non_finite = tile_render(&render->picture, stream, tile, half, samples);
+    render->tiles[tile].non_finite += non_finite;
+    render->tiles[tile].rays += stream->rays;
+}
+
+/* Renders one tile in a thread of parallel_for; user is the Pass. A tile that is ahead, since an earlier run was
+ * stopped, waits for the others. */
 static void render_tile(void *user, int item, int thread) {
     Pass *pass = user;
-    WeftRender *render = pass->render;
     if (atomic_load(&pass->stop)) return;
-    Stream *stream = render->streams[thread];
-    int non_finite = tile_render(&render->picture, stream, item, pass->half, pass->samples);
-    render->tiles[item].non_finite += non_finite;
-    render->tiles[item].rays += stream->rays;
+    const int missing = pass->target - pass->render->picture.film.half[pass->half].samples[item];
+    if (missing > 0) add_samples(pass->render, item, pass->half, missing, thread);
     int finished = atomic_fetch_add(&pass->finished, 1) + 1;
     if (pass->done_before > 0.0 && clock_now() > pass->deadline) atomic_store(&pass->stop, 1);
     if (thread == 0) report_progress(pass, finished);
 }
 
-/* Chooses the next pass of those that add `rest` samples. The first of a run is one sample without a deadline, so that
- * even a short time shows the whole picture. Halves alternate, and end equal. */
-static void choose_pass(Pass *pass, bool first, int rest) {
-    const WeftRender *render = pass->render;
-    int most = first ? 1 : STREAM_SAMPLES, ahead = render->samples_done[0] - render->samples_done[1];
-    if (render->picture.film.halves > 1) {
-        pass->half = ahead > 0 ? 1 : 0;
+/* Chooses the next samples of those that have done[half] and get `rest` more: returns their number, and their half.
+ * The first is alone, so that even a short time shows the whole picture. Then samples go up to the next multiple of
+ * STREAM_SAMPLES, which are thus the same, bit by bit, whether or not earlier ones were rendered by another run. Halves
+ * alternate, and end equal. */
+static int next_samples(const int done[2], int halves, int rest, int *half) {
+    const int ahead = done[0] - done[1];
+    *half = 0;
+    if (halves > 1) {
+        *half = ahead > 0 ? 1 : 0;
         rest = ahead > 0 && rest > ahead ? ahead : ahead > 0 ? rest : rest - rest / 2;
     }
-    pass->samples = rest < most ? rest : most;
+    const int most = done[*half] ? STREAM_SAMPLES - done[*half] % STREAM_SAMPLES : 1;
+    return rest < most ? rest : most;
+}
+
+/* Renders all samples of one tile in a thread of parallel_for; user is the Pass. */
+static void render_whole_tile(void *user, int item, int thread) {
+    Pass *pass = user;
+    Film *film = &pass->render->picture.film;
+    if (pass->wanted && !pass->wanted[item]) return;
+    while (!atomic_load(&pass->stop)) {
+        const int done[2] = {film->half[0].samples[item], film->halves > 1 ? film->half[1].samples[item] : 0};
+        int half, rest = pass->spp - done[0] - done[1];
+        if (rest <= 0) break;
+        const int samples = next_samples(done, film->halves, rest, &half);
+        add_samples(pass->render, item, half, samples, thread);
+        if (thread == 0) report_progress(pass, atomic_load(&pass->finished));
+    }
+    atomic_fetch_add(&pass->finished, 1);
+}
+
+/* Counts the samples that all tiles of a half have. */
+static void count_done(WeftRender *render) {
+    const Film *film = &render->picture.film;
+    for (int half = 0; half < film->halves; half++) {
+        int least = film->half[half].samples[0];
+        for (int k = 1; k < film->tile_count; k++)
+            if (film->half[half].samples[k] < least) least = film->half[half].samples[k];
+        render->samples_done[half] = least;
+    }
 }
 
 enum { NOISE_SAMPLES = 16 }; /* fewer do not suffice to estimate the error */
@@ -342,25 +381,75 @@ static bool noise_reached(const WeftRender *render) {
 
 WeftResult weft_render_run(WeftRender *render, int spp, double seconds, WeftProgress progress, void *user) {
     double start = clock_now();
+    const int tiles = render->picture.film.tile_count;
     Pass pass = {.render = render,
+                 .tile_count = tiles,
                  .deadline = seconds > 0.0 ? start + seconds : (double)INFINITY,
                  .progress = progress,
                  .user = user};
+    if (tiles) count_done(render);
     bool quiet = noise_reached(render);
     atomic_init(&pass.stop, 0);
-    for (int done = 0; done < spp && !quiet && !atomic_load(&pass.stop); done += pass.samples) {
-        choose_pass(&pass, done == 0, spp - done);
+    for (int done = 0, samples; done < spp && !quiet && !atomic_load(&pass.stop); done += samples) {
+        samples = next_samples(render->samples_done, render->picture.film.halves, spp - done, &pass.half);
+        pass.target = render->samples_done[pass.half] + samples;
         pass.done_before = (double)done / spp;
-        pass.share = (double)pass.samples / spp;
+        pass.share = (double)samples / spp;
         atomic_init(&pass.finished, 0);
-        parallel_for(render->stream_count, render->picture.film.tile_count, render_tile, &pass);
+        parallel_for(render->stream_count, tiles, render_tile, &pass);
         if (atomic_load(&pass.stop)) break;
-        report_progress(&pass, render->picture.film.tile_count); /* the tiles that other threads finished last */
-        render->samples_done[pass.half] += pass.samples;
+        report_progress(&pass, tiles); /* those that other threads finished last */
+        render->samples_done[pass.half] += samples;
         quiet = noise_reached(render);
     }
     render->render_seconds += clock_now() - start;
     return pass.interrupted ? WEFT_INTERRUPTED : WEFT_OK;
+}
+
+int weft_render_samples(const WeftRender *render) {
+    const Film *film = &render->picture.film;
+    int least = INT_MAX;
+    for (int k = 0; k < film->tile_count; k++) {
+        const int samples = film->half[0].samples[k] + (film->halves > 1 ? film->half[1].samples[k] : 0);
+        if (samples < least) least = samples;
+    }
+    return film->tile_count ? least : 0;
+}
+
+int weft_render_tile_count(const WeftRender *render) { return render->picture.film.tile_count; }
+
+WeftResult weft_render_tiles_run(WeftRender *render, const unsigned char *wanted, int spp, WeftProgress progress,
+                                 void *user) {
+    double start = clock_now();
+    const int tiles = render->picture.film.tile_count;
+    Pass pass = {.render = render,
+                 .wanted = wanted,
+                 .spp = spp,
+                 .deadline = (double)INFINITY,
+                 .progress = progress,
+                 .user = user,
+                 .share = 1.0};
+    for (int k = 0; k < tiles; k++) pass.tile_count += !wanted || wanted[k];
+    if (!pass.tile_count) return WEFT_OK;
+    atomic_init(&pass.stop, 0);
+    atomic_init(&pass.finished, 0);
+    parallel_for(render->stream_count, tiles, render_whole_tile, &pass);
+    if (!pass.interrupted) report_progress(&pass, pass.tile_count);
+    render->render_seconds += clock_now() - start;
+    return pass.interrupted ? WEFT_INTERRUPTED : WEFT_OK;
+}
+
+int weft_render_tile_numbers(const WeftRender *render) { return film_pixel_numbers(&render->picture.film); }
+
+void weft_render_tile(const WeftRender *render, int tile, float *numbers) {
+    film_tile_get(&render->picture.film, tile, render->tiles[tile].non_finite, numbers);
+}
+
+WeftResult weft_render_tile_set(WeftRender *render, int tile, const float *numbers, WeftError *error) {
+    if (tile < 0 || tile >= render->picture.film.tile_count)
+        return fail(error, WEFT_MESSAGE_DESC, "tile", "%d; there are %d", tile, render->picture.film.tile_count);
+    if (film_tile_set(&render->picture.film, tile, numbers, &render->tiles[tile].non_finite)) return WEFT_OK;
+    return fail(error, WEFT_MESSAGE_DESC, "sums of a tile", "a number is not finite, or is no number of samples");
 }
 
 WeftRenderInfo weft_render_info(const WeftRender *render) {
