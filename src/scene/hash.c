@@ -1,9 +1,12 @@
 /* hash.c - a hash of a scene's contents, by which pictures of two processes are known to be of one scene */
 #include <math.h>
+#include <string.h>
 
 #include "base/cache.h"
 #include "brdf/measured.h"
 #include "scene/record/scene.h"
+#include "shading/catalogue/outside.h"
+#include "shading/catalogue/registry.h"
 
 static uint64_t hash_floats(uint64_t hash, const float *values, size_t count) {
     return cache_hash(cache_hash(hash, &count, sizeof count), values, values ? count * sizeof *values : 0);
@@ -86,8 +89,17 @@ static uint64_t hash_environment(uint64_t hash, const Environment *e) {
     return hash_image(hash_floats(hash, numbers, sizeof numbers / sizeof *numbers), &e->image);
 }
 
+/* Hashes the files of lobes from outside the catalogue, which materials name by number. */
+static uint64_t hash_outside(uint64_t hash) {
+    for (int k = 0; k < outside_count(); k++) {
+        const char *text = outside_lobe(LOBE_COUNT + k)->text;
+        hash = cache_hash(hash, text, strlen(text));
+    }
+    return hash;
+}
+
 uint64_t weft_scene_hash(const WeftScene *scene) {
-    uint64_t hash = CACHE_HASH;
+    uint64_t hash = hash_outside(CACHE_HASH);
     WeftLight light;
     for (int k = 0; k < scene->mesh_count; k++) hash = hash_mesh(hash, &scene->meshes[k]);
     hash = hash_environment(hash_surfaces(hash, scene), &scene->environment);

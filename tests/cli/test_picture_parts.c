@@ -113,7 +113,7 @@ static void parts_that_do_not_belong_together_are_refused_by_name(void **state) 
         const char *spp, *exposure, *option, *words;
     } others[] = {
         {"--spp=21", "--exposure=0.5", NULL,
-         "part-2.exr: is of another picture than part-1.exr: spp=21, and not spp=20"},
+         "of 2 parts 1 is missing: 1 of 21 samples a pixel; part-1.exr has 20 (weft render --from adds samples)"},
         {"--spp=20", "--exposure=1", NULL, "tone=0,1,0,0,0,1, and not tone=0,0.5,0,0,0,1"},
         {"--spp=20", "--exposure=0.5", "--seed=3", "seed=3, and not seed=0"},
         {"--spp=20", "--exposure=0.5", "--set=cloth.sheen_roughness=0.4", "scene="},
@@ -156,7 +156,7 @@ static void part_forge(const char *words) {
 static void hostile_part_is_refused_by_name(void **state) {
     (void)state;
 #define WORDS(part, crop, layers)                                                                                      \
-    "weft-part=1 part=" part " isa=sse2 crop=" crop " tone=0,0,0,0,0,0 behind=0,0,0,0 layers=" layers
+    "weft-part=1 part=" part " isa=sse2 spp=1 crop=" crop " tone=0,0,0,0,0,0 behind=0,0,0,0 layers=" layers
     static const char good[] = WORDS("1 of=1", "0,0,16,16", "");
     static const struct {
         const char *words;
@@ -168,6 +168,8 @@ static void hostile_part_is_refused_by_name(void **state) {
                   {WORDS("2 of=1", "0,0,16,16", ""), 3, "is no part"},
                   {WORDS("0 of=1", "0,0,16,16", ""), 3, "is no part"},
                   {WORDS("nan of=nan", "0,0,16,16", ""), 3, "is no part"},
+                  {WORDS("1 of=1 spp=-1", "0,0,16,16", ""), 3, "is no part"},
+                  {WORDS("1 of=1 spp=1e9", "0,0,16,16", ""), 3, "is no part"},
                   {WORDS("1 of=1", "0,0,16", ""), 3, "is no part"},
                   {WORDS("1 of=1", "0,0,1e9,16", ""), 3, "is no part"},
                   {WORDS("1 of=1", "0,0,17,16", ""), 3, "has not the size that it says"},
@@ -254,7 +256,8 @@ static void part_forge_raw(const char *words, float value) {
 
 static void part_with_a_number_that_is_not_finite_is_refused(void **state) {
     (void)state;
-    static const char words[] = "weft-part=1 part=1 of=1 isa=sse2 crop=0,0,1,1 layers= tone=0,0,0,0,0,0 behind=0,0,0,0";
+    static const char words[] =
+        "weft-part=1 part=1 of=1 isa=sse2 spp=1 crop=0,0,1,1 layers= tone=0,0,0,0,0,0 behind=0,0,0,0";
     const float wrong[] = {NAN, INFINITY, -INFINITY};
     part_forge_raw(words, 0.5f);
     Ran ran = RUN("merge", "forged.exr", "-o", "merged.png");

@@ -8,6 +8,8 @@
 #include "cli/console/interrupt.h"
 #include "cli/console/progress.h"
 #include "cli/files/save.h"
+#include "cli/render/gather.h"
+#include "cli/render/picture_merge.h"
 #include "cli/render/picture_part.h"
 #include "weft/weft.h"
 
@@ -21,31 +23,24 @@ static WeftResult scene_open(Job *job, WeftScene **scene, WeftError *error) {
     return result;
 }
 
-static double job_pixels(const Job *job) { return (double)job->width * job->height; }
+double job_pixels(const Job *job) {
+    return job->part.pixels > 0.0 ? job->part.pixels : (double)job->width * job->height;
+}
 
 static WeftResult nothing_gathered(WeftError *error) {
     return failure(error, WEFT_INTERRUPTED, "interrupted before the first sample; nothing was written");
 }
 
-/* Gathers the samples. */
-static WeftResult gather(Job *job, WeftRender *render, WeftError *error) {
-    const Request *request = job->request;
-    int spp = request->spp ? request->spp : REQUEST_SPP_MOST;
-    double limit = request->time_limit / request_count(request);
-    char prefix[32] = "";
-    if (request_count(request) > 1) snprintf(prefix, sizeof prefix, "%d/%d ", job->number + 1, request_count(request));
-    Progress progress = progress_start(request->quiet, prefix, request->spp, spp, job_pixels(job), limit);
-    WeftResult result = weft_render_run(render, spp, limit, progress_heed, &progress);
-    progress_finish(&progress);
+/* Gathers the samples, and the figures of the render. */
+static WeftResult gather(Job *job, WeftRender *render, const WeftRenderDesc *desc, WeftError *error) {
+    Gather all = {.job = job, .render = render, .desc = *desc};
+    WeftResult result = gather_samples(&all, error);
     job->info = weft_render_info(render);
     job->stage_count = 0;
     while (job->request->desc.stages && job->stage_count < JOB_STAGES &&
            weft_render_stage(render, job->stage_count, &job->stages[job->stage_count]))
         job->stage_count++;
-    job->interrupted = result == WEFT_INTERRUPTED;
-    if (job->interrupted && !(job->info.samples_per_pixel > 0.0)) return nothing_gathered(error);
-    if (job->interrupted) result = WEFT_OK;
-    return result == WEFT_OK ? result : failure(error, result, "the render could not be finished");
+    return job->interrupted && !(job->info.samples_per_pixel > 0.0) ? nothing_gathered(error) : result;
 }
 
 /* Returns the camera to use: a built-in scene has one that shows it best. */
@@ -77,11 +72,15 @@ static WeftResult trace(Job *job, const char *camera, WeftError *error) {
     desc.camera = camera;
     desc.floor = floor_of(job);
     if (interrupt_seen()) return nothing_gathered(error);
-    if (job->request->chunk_count) return picture_part_trace(job, &desc, error);
+    if (!desc.crop[2]) desc.crop[2] = job->width, desc.crop[3] = job->height;
     WeftResult result = weft_render_create(job->scene, &desc, &render, error);
     if (result == WEFT_OK && interrupt_seen()) result = nothing_gathered(error);
-    if (result == WEFT_OK) result = gather(job, render, error);
-    if (result == WEFT_OK) result = develop(job, render, error);
+    if (result == WEFT_OK && job->request->chunk_count) {
+        result = picture_part_trace(job, render, &desc, error);
+    } else {
+        if (result == WEFT_OK) result = gather(job, render, &desc, error);
+        if (result == WEFT_OK) result = develop(job, render, error);
+    }
     weft_render_free(render);
     if (result == WEFT_OK && job->info.non_finite > 0) {
         char text[96];
@@ -249,7 +248,7 @@ WeftResult job_write(const Job *job, const char *number, WeftError *error) {
     const Request *request = job->request;
     WeftImageLayer merged[WEFT_IMAGE_LAYERS];
     if (request->chunk_count) return picture_part_write(job, error);
-    const int count = picture_part_layers(&job->part, merged);
+    const int count = picture_merged_layers(&job->part, merged);
     const Outputs outputs = {&job->linear,
                              &job->display,
                              {.denoised = request->denoise ? weft_denoiser_name((int)request->denoiser) : NULL,

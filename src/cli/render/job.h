@@ -5,14 +5,17 @@
 #include "cli/console/report.h"
 #include "cli/render/request.h"
 
-enum { JOB_STAGES = 32, PART_LAYERS = WEFT_IMAGE_LAYERS - 1, PART_NAME = 32 };
+enum { JOB_STAGES = 32, PART_LAYERS = WEFT_IMAGE_LAYERS - 1, PART_NAME = 32, PART_WORDS = 2048 };
 
 /* The record that a part of a picture keeps beside its rows, and that of a picture that was merged. */
 typedef struct PicturePart {
-    char words[2048]; /* of the picture that it belongs to */
-    char isa[16];     /* the instruction set of a picture that was merged; empty: that in use */
+    char words[PART_WORDS]; /* of the picture that it belongs to, picture_words.h */
+    double pixels;          /* of a part; 0: the whole picture */
+    struct Sums *sums;      /* of a part, owned; NULL: none */
+    char isa[16];           /* the instruction set of a picture that was merged; empty: that in use */
+    int spp, left;          /* of a picture that was merged: its samples a pixel, and parts with fewer that were left */
     int layer_count;
-    WeftImage layers[PART_LAYERS]; /* AOVs, owned, of the whole picture's size */
+    WeftImage layers[PART_LAYERS]; /* AOVs of a picture that was merged, owned */
     char names[PART_LAYERS][4][PART_NAME];
 } PicturePart;
 
@@ -59,6 +62,9 @@ WeftResult job_run(Job *job, WeftError *error);
 /* Releases the scene, and keeps the picture and its report. */
 void job_close(Job *job);
 void job_free(Job *job);
+
+/* Returns the number of pixels of the picture, or of the part of it that this job renders. */
+double job_pixels(const Job *job);
 
 double job_samples_per_second(const Job *job);
 

@@ -4,16 +4,14 @@
 #include "cli/render/job.h"
 #include "weft/weft.h"
 
-static double pixels(const Job *job) { return (double)job->width * job->height; }
-
 static double rate(double count, double seconds) { return seconds > 0.0 ? count / seconds : 0.0; }
 
 double job_samples_per_second(const Job *job) {
-    return rate(job->info.samples_per_pixel * pixels(job), job->info.render_seconds);
+    return rate(job->info.samples_per_pixel * job_pixels(job), job->info.render_seconds);
 }
 
 double job_stage_ns(const Job *job, int stage) {
-    return rate(1e9 * job->stages[stage].seconds, job->info.samples_per_pixel * pixels(job));
+    return rate(1e9 * job->stages[stage].seconds, job->info.samples_per_pixel * job_pixels(job));
 }
 
 static long long peak_memory(void) {
@@ -31,6 +29,13 @@ void job_json(const Job *job, Json *json) {
     json_whole(json, "triangles", job->triangles);
     json_whole(json, "width", job->width);
     json_whole(json, "height", job->height);
+    if (request->chunk_count) {
+        json_open(json, "part", '{');
+        json_whole(json, "index", request->chunk_index + 1);
+        json_whole(json, "of", request->chunk_count);
+        json_number(json, "pixels", job->part.pixels);
+        json_close(json, '}');
+    }
     json_number(json, "samples_per_pixel", info->samples_per_pixel);
     json_bool(json, "interrupted", job->interrupted);
     json_open(json, "seconds", '{');
@@ -54,11 +59,13 @@ void job_json(const Job *job, Json *json) {
     json_floats(json, "target", info->camera_target, 3);
     json_float(json, "fov", info->camera_fov);
     json_close(json, '}');
-    json_open(json, "tone", '{');
-    json_text(json, "curve", weft_tonemap_name((int)job->tone.curve));
-    json_float(json, "exposure", job->tone.exposure);
-    if (job->tone.white[1] > 0.0f) json_floats(json, "white", job->tone.white, 2);
-    json_close(json, '}');
+    if (!request->chunk_count) { /* the tone of parts is that of the picture which is merged */
+        json_open(json, "tone", '{');
+        json_text(json, "curve", weft_tonemap_name((int)job->tone.curve));
+        json_float(json, "exposure", job->tone.exposure);
+        if (job->tone.white[1] > 0.0f) json_floats(json, "white", job->tone.white, 2);
+        json_close(json, '}');
+    }
     json_whole(json, "peak_memory_bytes", peak_memory());
     json_open(json, "outputs", '[');
     for (const char *path; (path = option_next(request->options, "-o", &cursor));) json_text(json, NULL, path);

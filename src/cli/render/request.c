@@ -38,6 +38,13 @@ const Option request_options[] = {
         "--chunk", "I/N", NULL,
         "path trace part I of N of the picture, counted from 1, to an .exr; `weft merge` joins the parts to the "
         "bytes of one run"),
+    OPTION_LIST("--from", "PART",
+                "begin with the samples of a part of the same picture with a smaller --spp, a multiple of 16, and "
+                "render only those that it lacks"),
+    OPTION_TEXT("--checkpoint", "FILE", NULL,
+                "keep what there is in FILE, an .exr, from which the same command goes on after it was stopped; "
+                "removed at the end"),
+    OPTION_NUMBER("--checkpoint-every", "SECONDS", "60", 1e-3, 1e6, "and how often"),
 
     OPTION_HEADING("Engine"),
     OPTION_TEXT("--engine", "ENGINE", "trace",
@@ -269,13 +276,39 @@ static bool read_chunk(const Options *options, Request *request) {
     return true;
 }
 
+/* Reads what to go on from. */
+static bool read_earlier(const Options *options, Request *request) {
+    const char *const option = option_given(options, "--from") ? "--from" : "--checkpoint";
+    request->checkpoint = option_text(options, "--checkpoint");
+    if (!option_number(options, "--checkpoint-every", &request->checkpoint_every)) return false;
+    if (option_given(options, "--checkpoint-every") && !request->checkpoint) {
+        report(WEFT_USAGE, "--checkpoint-every: needs --checkpoint FILE");
+        return false;
+    }
+    if (!option_given(options, option)) return true;
+    if (request->engine != ENGINE_TRACE || request_count(request) > 1 || request->turntable) {
+        report(WEFT_USAGE, "%s: needs one picture of --engine trace", option);
+        return false;
+    }
+    if (option_given(options, "--time-limit")) {
+        report(WEFT_USAGE, "%s: not with --time-limit, by which the samples differ from run to run", option);
+        return false;
+    }
+    if (request->checkpoint && !path_ends(request->checkpoint, ".exr")) {
+        report(WEFT_USAGE, "--checkpoint: \"%.200s\" must be an .exr", request->checkpoint);
+        return false;
+    }
+    return true;
+}
+
 bool request_read(const Options *options, Request *request) {
     *request = (Request){.options = options, .quiet = option_given(options, "--quiet")};
     bool good = read_desc(options, &request->desc) &&
                 scene_options_read(options, options->operands[0], &request->scene_options) &&
                 option_integer(options, "--spp", &request->spp) &&
                 option_number(options, "--time-limit", &request->time_limit) && read_engine(options, request) &&
-                read_extras(options, request) && read_chunk(options, request) && use_isa(options);
+                read_extras(options, request) && read_chunk(options, request) && read_earlier(options, request) &&
+                use_isa(options);
     request->desc.camera = request->scene_options.camera;
     bool laid_behind = request->scene_options.background == WEFT_BACKGROUND_COLOR; /* by job_draw */
     request->desc.background = laid_behind ? WEFT_BACKGROUND_TRANSPARENT : request->scene_options.background;
@@ -311,8 +344,11 @@ int request_outputs_check(const Request *request) {
     for (cursor = 0; result == 0;) {
         const char *path = option_next(options, "-o", &cursor);
         if (!path) break;
+        if (request->checkpoint && strcmp(path, request->checkpoint) == 0)
+            return report(WEFT_USAGE, "%s: is both -o and --checkpoint", path);
         result = output_probe(path);
     }
+    if (result == 0 && request->checkpoint) result = output_probe(request->checkpoint);
     return result;
 }
 

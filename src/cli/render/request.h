@@ -31,6 +31,8 @@ typedef struct Request {
     WeftPart part;
     int turntable;                /* pictures around the scene; 0: one */
     int chunk_index, chunk_count; /* part of the picture, counted from 0, and parts; count 0: the whole picture */
+    const char *checkpoint;       /* file; NULL: none */
+    double checkpoint_every;      /* s */
 } Request;
 
 /* Returns the number of images side by side. */

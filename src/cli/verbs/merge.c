@@ -2,7 +2,7 @@
 #include "base/path.h"
 #include "cli/console/output.h"
 #include "cli/console/report.h"
-#include "cli/render/picture_part.h"
+#include "cli/render/picture_merge.h"
 #include "cli/verbs/verbs.h"
 #include "weft/weft.h"
 
@@ -29,6 +29,10 @@ static int merge_run(const Options *options) {
     if (result == WEFT_OK) result = job_write(&job, NULL, &error);
     if (result != WEFT_OK)
         report_error(&error);
+    else if (!request.quiet && job.part.left)
+        report(0, "merged %d parts of %d samples/pixel, and left %d of fewer; wrote %s",
+               options->operand_count - job.part.left, job.part.spp, job.part.left,
+               request_outputs_text(&request, files));
     else if (!request.quiet)
         report(0, "merged %d parts; wrote %s", options->operand_count, request_outputs_text(&request, files));
     job_free(&job);
@@ -51,7 +55,8 @@ const Verb verb_merge = {
     .notes = "PART is a file of weft render --chunk I/N; all N are needed, in any order. OUT is,\n"
              "byte for byte, what one process would have written with the same options, for\n"
              "whatever N. A part that is damaged, is there twice, or is of another scene, other\n"
-             "options, another version or instruction set (--isa) is refused by name.\n\n"
+             "options, another version or instruction set (--isa) is refused by name. Of parts\n"
+             "with different --spp those with the most are merged.\n\n"
              "Examples\n"
              "  for i in 1 2 3; do weft render chair.glb --chunk $i/3 -o part-$i.exr; done\n"
              "  weft merge part-*.exr -o chair.png -o chair.exr\n",

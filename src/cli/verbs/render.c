@@ -3,6 +3,7 @@
 #include "cli/console/report.h"
 #include "cli/operands/each_asset.h"
 #include "cli/render/compare.h"
+#include "cli/render/gather.h"
 #include "cli/render/turntable.h"
 #include "cli/verbs/verbs.h"
 #include "weft/weft.h"
@@ -62,6 +63,7 @@ static int single_run(const Request *request, Warnings *warnings) {
     WeftError error = {0};
     WeftResult result = request->turntable ? turntable_run(&job, &error) : job_run(&job, &error);
     if (result == WEFT_OK && !request->turntable) result = job_write(&job, NULL, &error);
+    if (result == WEFT_OK && !job.interrupted) gather_forget(request);
     if (result != WEFT_OK) {
         report_error(&error);
     } else {
@@ -94,7 +96,7 @@ static int scene_run(const Options *options) {
 }
 
 static int render_run(const Options *options) {
-    static const EachOutput outputs[] = {{"-o", ".png"}, {"--save", NULL}, {NULL, NULL}};
+    static const EachOutput outputs[] = {{"-o", ".png"}, {"--save", NULL}, {"--checkpoint", ".exr"}, {NULL, NULL}};
     return each_run(options, outputs, scene_run);
 }
 
