@@ -26,9 +26,19 @@ set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON) # and the trigger by which the link
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "fonts-dejavu-core, libegl1, libgl1") # loaded by name, and so seen by no tool
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libgl1-mesa-dri")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "cmake, gcc, libc6-dev, pkg-config")
-# Two packages: the components weft, of all that names no other, and python.
+# Packages: the components weft, of all that names no other, and python; and mpi, of what was built with MPI.
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_ALL weft python)
+if(TARGET weft_mpi)
+  list(APPEND CPACK_COMPONENTS_ALL mpi)
+  string(CONCAT CPACK_COMPONENT_MPI_DESCRIPTION
+    "Renders one picture by all processes that mpirun starts, on one machine or\n"
+    "many, with the bytes that one process would write.")
+  set(CPACK_DEBIAN_MPI_PACKAGE_NAME weft-mpi)
+  set(CPACK_DEBIAN_MPI_PACKAGE_DEPENDS "weft (= ${PROJECT_VERSION})")
+  set(CPACK_DEBIAN_MPI_PACKAGE_RECOMMENDS "openmpi-bin")
+  install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/weft-mpi RENAME copyright COMPONENT mpi)
+endif()
 set(CPACK_COMPONENTS_GROUPING IGNORE)
 set(CPACK_DEBIAN_WEFT_PACKAGE_NAME weft)
 include(cmake/python.cmake)

@@ -88,6 +88,7 @@ static const char *const folders[] = {
     "cli/fit",
     "cli/verbs",
     "cli",
+    "mpi",
 };
 enum { FOLDERS = sizeof folders / sizeof folders[0], FILES_MOST = 40 };
 
@@ -119,7 +120,8 @@ static bool may_include(int at, const char *path) {
     int target = folder_index(path);
     if (target < 0 || target > at) return false;
     if (is_within(at, "view")) return is_within(target, "view"); /* programs use include/weft/ alone */
-    return !is_within(at, "cli") || is_within(target, "cli") || strcmp(path, "view/render/view.h") == 0;
+    return !(is_within(at, "cli") || is_within(at, "mpi")) || is_within(target, "mpi") || is_within(target, "cli") ||
+           strcmp(path, "view/render/view.h") == 0;
 }
 
 static bool next_line(const char **cursor, char line[512]) {

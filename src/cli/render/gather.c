@@ -8,6 +8,7 @@
 
 #include "base/steady_clock.h"
 #include "cli/console/interrupt.h"
+#include "cli/render/crew.h"
 #include "cli/render/picture_words.h"
 #include "cli/render/sums_file.h"
 #include "weft/weft.h"
@@ -122,7 +123,7 @@ static WeftResult earlier_begin(Gather *gather, WeftError *error) {
 
 /* ---- checkpoints */
 
-static WeftResult checkpoint_write(Gather *gather, WeftError *error) {
+WeftResult gather_checkpoint(Gather *gather, WeftError *error) {
     char words[PART_WORDS];
     Sums sums = {.count = 0};
     WeftImage image = {0};
@@ -163,25 +164,39 @@ static WeftResult run(Gather *gather, int spp, double limit) {
     return done < spp ? weft_render_run(gather->render, spp - done, limit, gather_heed, gather) : WEFT_OK;
 }
 
+/* Runs alone, with checkpoints. */
+static WeftResult run_alone(Gather *gather, int spp, double limit, WeftError *error) {
+    WeftResult result = WEFT_OK;
+    do {
+        result = run(gather, spp, limit);
+        if (result != WEFT_INTERRUPTED || !gather->job->request->checkpoint) break;
+        const WeftResult written = gather_checkpoint(gather, error);
+        if (written != WEFT_OK) return written;
+    } while (gather->due);
+    return result == WEFT_OK || result == WEFT_INTERRUPTED ? result
+                                                           : failure(error, result, "the render could not be finished");
+}
+
+/* Runs with the other processes of a crew. */
+static WeftResult run_together(Gather *gather, int spp, WeftError *error) {
+    char words[PART_WORDS];
+    WeftResult result = words_of(gather, "weft-part", words, error);
+    return result == WEFT_OK ? crew_place()->run(gather, words, spp, error) : result;
+}
+
 WeftResult gather_samples(Gather *gather, WeftError *error) {
     const Request *request = gather->job->request;
     const int spp = request->spp ? request->spp : REQUEST_SPP_MOST;
     const double limit = request->time_limit / request_count(request);
     char prefix[32] = "";
-    WeftResult result = earlier_begin(gather, error);
+    WeftResult result = crew_follows() ? WEFT_OK : earlier_begin(gather, error);
     if (result != WEFT_OK) return result;
     if (request_count(request) > 1)
         snprintf(prefix, sizeof prefix, "%d/%d ", gather->job->number + 1, request_count(request));
     gather->progress = progress_start(request->quiet, prefix, request->spp, spp, job_pixels(gather->job), limit);
     gather->next = request->checkpoint ? clock_now() + request->checkpoint_every : (double)INFINITY;
-    do {
-        result = run(gather, spp, limit);
-        if (result != WEFT_INTERRUPTED || !request->checkpoint) break;
-        const WeftResult written = checkpoint_write(gather, error);
-        if (written != WEFT_OK) return progress_finish(&gather->progress), written;
-    } while (gather->due);
+    result = crew_place() ? run_together(gather, spp, error) : run_alone(gather, spp, limit, error);
     progress_finish(&gather->progress);
     gather->job->interrupted = result == WEFT_INTERRUPTED;
-    if (result == WEFT_OK || result == WEFT_INTERRUPTED) return WEFT_OK;
-    return failure(error, result, "the render could not be finished");
+    return result == WEFT_INTERRUPTED ? WEFT_OK : result;
 }

@@ -15,14 +15,18 @@ typedef struct Gather {
     WeftRenderDesc desc;         /* of the render, with a crop */
     const unsigned char *wanted; /* the tiles of a part, borrowed; NULL: all, in passes over the whole picture */
     Progress progress;
-    double base; /* progress before the present run */
-    double next; /* time of the next checkpoint, of clock_now(); INFINITY: none */
-    bool due;    /* the present run was stopped for a checkpoint */
+    double base;    /* progress before the present run */
+    double next;    /* time of the next checkpoint, of clock_now(); INFINITY: none */
+    bool due;       /* the present run was stopped for a checkpoint */
+    long long rays; /* of other processes */
 } Gather;
 
 /* Adds samples until there are as many as requested, or an interruption, which is noted in the job. What an interrupted
  * one has is in the checkpoint, if there is one. */
 WeftResult gather_samples(Gather *gather, WeftError *error);
+
+/* Writes the checkpoint, and sets the time of the next. */
+WeftResult gather_checkpoint(Gather *gather, WeftError *error);
 
 /* Removes the checkpoint of a request, after its picture was written. */
 void gather_forget(const Request *request);

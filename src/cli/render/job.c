@@ -8,6 +8,7 @@
 #include "cli/console/interrupt.h"
 #include "cli/console/progress.h"
 #include "cli/files/save.h"
+#include "cli/render/crew.h"
 #include "cli/render/gather.h"
 #include "cli/render/picture_merge.h"
 #include "cli/render/picture_part.h"
@@ -34,13 +35,17 @@ static WeftResult nothing_gathered(WeftError *error) {
 /* Gathers the samples, and the figures of the render. */
 static WeftResult gather(Job *job, WeftRender *render, const WeftRenderDesc *desc, WeftError *error) {
     Gather all = {.job = job, .render = render, .desc = *desc};
+    const double start = clock_now();
     WeftResult result = gather_samples(&all, error);
     job->info = weft_render_info(render);
+    job->info.rays += all.rays;
+    if (crew_place()) job->info.render_seconds = clock_now() - start;
     job->stage_count = 0;
     while (job->request->desc.stages && job->stage_count < JOB_STAGES &&
            weft_render_stage(render, job->stage_count, &job->stages[job->stage_count]))
         job->stage_count++;
-    return job->interrupted && !(job->info.samples_per_pixel > 0.0) ? nothing_gathered(error) : result;
+    return job->interrupted && !crew_follows() && !(job->info.samples_per_pixel > 0.0) ? nothing_gathered(error)
+                                                                                       : result;
 }
 
 /* Returns the camera to use: a built-in scene has one that shows it best. */
@@ -79,7 +84,7 @@ static WeftResult trace(Job *job, const char *camera, WeftError *error) {
         result = picture_part_trace(job, render, &desc, error);
     } else {
         if (result == WEFT_OK) result = gather(job, render, &desc, error);
-        if (result == WEFT_OK) result = develop(job, render, error);
+        if (result == WEFT_OK && !crew_follows()) result = develop(job, render, error);
     }
     weft_render_free(render);
     if (result == WEFT_OK && job->info.non_finite > 0) {
@@ -177,7 +182,8 @@ WeftResult job_open(Job *job, WeftError *error) {
     WeftResult result = scene_open(job, &job->scene, error);
     job->load_seconds = clock_now() - started;
     if (result == WEFT_OK) job->triangles = weft_scene_info(job->scene).triangle_count;
-    if (result == WEFT_OK && job->number == 0) result = save_all(job->request->options, job->scene, error);
+    if (result == WEFT_OK && job->number == 0 && !crew_follows())
+        result = save_all(job->request->options, job->scene, error);
     return result;
 }
 
@@ -224,7 +230,7 @@ WeftResult job_draw(Job *job, const char *camera, WeftError *error) {
     job->noise = -1.0;
     camera = camera_of(job, camera);
     WeftResult result = job->engine == ENGINE_RASTER ? raster(job, camera, error) : trace(job, camera, error);
-    return result == WEFT_OK && !job->request->chunk_count ? job_finish(job, error) : result;
+    return result == WEFT_OK && !job->request->chunk_count && !crew_follows() ? job_finish(job, error) : result;
 }
 
 WeftResult job_run(Job *job, WeftError *error) {

@@ -11,6 +11,7 @@
 #include "cli/console/report.h"
 #include "cli/files/save.h"
 #include "cli/operands/root.h"
+#include "cli/render/crew.h"
 #include "weft/isa.h"
 
 const Option request_options[] = {
@@ -278,14 +279,18 @@ static bool read_chunk(const Options *options, Request *request) {
 
 /* Reads what to go on from. */
 static bool read_earlier(const Options *options, Request *request) {
-    const char *const option = option_given(options, "--from") ? "--from" : "--checkpoint";
+    const char *const option = crew_place() ? "weft-mpi" : option_given(options, "--from") ? "--from" : "--checkpoint";
     request->checkpoint = option_text(options, "--checkpoint");
     if (!option_number(options, "--checkpoint-every", &request->checkpoint_every)) return false;
     if (option_given(options, "--checkpoint-every") && !request->checkpoint) {
         report(WEFT_USAGE, "--checkpoint-every: needs --checkpoint FILE");
         return false;
     }
-    if (!option_given(options, option)) return true;
+    if (!crew_place() && !option_given(options, option)) return true;
+    if (crew_place() && (request->chunk_count || request->desc.noise > 0.0f || !option_given(options, "-o"))) {
+        report(WEFT_USAGE, "weft-mpi: needs -o OUT, and has neither --chunk nor --noise");
+        return false;
+    }
     if (request->engine != ENGINE_TRACE || request_count(request) > 1 || request->turntable) {
         report(WEFT_USAGE, "%s: needs one picture of --engine trace", option);
         return false;
@@ -302,7 +307,7 @@ static bool read_earlier(const Options *options, Request *request) {
 }
 
 bool request_read(const Options *options, Request *request) {
-    *request = (Request){.options = options, .quiet = option_given(options, "--quiet")};
+    *request = (Request){.options = options, .quiet = option_given(options, "--quiet") || crew_follows()};
     bool good = read_desc(options, &request->desc) &&
                 scene_options_read(options, options->operands[0], &request->scene_options) &&
                 option_integer(options, "--spp", &request->spp) &&

@@ -3,6 +3,7 @@
 #include "cli/console/report.h"
 #include "cli/operands/each_asset.h"
 #include "cli/render/compare.h"
+#include "cli/render/crew.h"
 #include "cli/render/gather.h"
 #include "cli/render/turntable.h"
 #include "cli/verbs/verbs.h"
@@ -62,6 +63,7 @@ static int single_run(const Request *request, Warnings *warnings) {
     Job job = {.request = request, .warnings = warnings, .engine = request->engine};
     WeftError error = {0};
     WeftResult result = request->turntable ? turntable_run(&job, &error) : job_run(&job, &error);
+    if (result == WEFT_OK && crew_follows()) return job_free(&job), (int)result;
     if (result == WEFT_OK && !request->turntable) result = job_write(&job, NULL, &error);
     if (result == WEFT_OK && !job.interrupted) gather_forget(request);
     if (result != WEFT_OK) {
@@ -84,7 +86,7 @@ static int single_run(const Request *request, Warnings *warnings) {
 static int scene_run(const Options *options) {
     Request request;
     if (!request_read(options, &request)) return WEFT_USAGE;
-    int result = request_outputs_check(&request);
+    int result = crew_follows() ? 0 : request_outputs_check(&request);
     if (result != 0) return result;
     interrupt_watch();
     Warnings warnings = {.quiet = request.quiet};
