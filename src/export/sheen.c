@@ -10,7 +10,7 @@ void sheen_table_fill(const Surface *surface, const Choices *choices, AlbedoTabl
     stack_make(&m, &s, choices, (TableRef){.kind = TABLE_NONE});
     Lobe lobe = m.sheen.lobe;
     for (int ends = 0; ends < 1 << INPUTS; ends++) {
-        s.sheen_roughness = (float)(ends & 1);
+        s.sheen_roughness = s.fuzz_roughness = (float)(ends & 1);
         s.roughness = (float)(ends >> 1 & 1);
         s.anisotropy = (float)(ends >> 2 & 1);
         s.sheen_beta = ends >> 3 & 1 ? surface->sheen_beta : 0.0f;

@@ -118,8 +118,16 @@ static const Case cases[] = {
      TWO_SIDED "'extensions':{'KHR_materials_pbrSpecularGlossiness':{'diffuseFactor':[0.5,0.4,0.4,1],"
                "'specularFactor':[0.04,0.04,0.04],'glossinessFactor':0.2,'diffuseTexture':{'index':0}}}",
      "'KHR_materials_pbrSpecularGlossiness'", NULL, NULL, COLORS},
-    {WEFT_FINDING_EXTENSION_IGNORED, TWO_SIDED CLOTH ",'extensions':{'KHR_materials_fuzz':{'fuzzFactor':1}}",
+    {WEFT_FINDING_EXTENSION_IGNORED, TWO_SIDED CLOTH ",'extensions':{'EXT_materials_lustre':{'lustreFactor':1}}",
+     "'EXT_materials_lustre'", NULL, NULL, COLORS},
+    {-1, TWO_SIDED CLOTH ",'extensions':{'KHR_materials_fuzz':{'fuzzFactor':1,'fuzzRoughnessFactor':0.4}}",
      "'KHR_materials_fuzz'", NULL, NULL, COLORS},
+    {WEFT_FINDING_DEFAULT_DISPUTED, TWO_SIDED CLOTH ",'extensions':{'KHR_materials_fuzz':{'fuzzFactor':1}}",
+     "'KHR_materials_fuzz'", NULL, NULL, COLORS},
+    {WEFT_FINDING_DEFAULT_DISPUTED, TWO_SIDED CLOTH ",'extensions':{'KHR_materials_diffuse_roughness':{}}",
+     "'KHR_materials_diffuse_roughness'", NULL, NULL, COLORS},
+    {WEFT_FINDING_VALUE_RANGE, TWO_SIDED CLOTH ",'extensions':{'KHR_materials_coat':{'coatFactor':1,'coatIor':0.5}}",
+     "'KHR_materials_coat'", NULL, NULL, COLORS},
     {WEFT_FINDING_TEXTURE_UNSHOWN,
      TWO_SIDED "'pbrMetallicRoughness':{'metallicFactor':0,'baseColorTexture':{'index':0,'texCoord':2}}", NULL,
      "'attributes':{'POSITION':0,'NORMAL':1,'TEXCOORD_2':2},'indices':3,'material':0", NULL, COLORS},
@@ -796,13 +804,13 @@ static void warnings_of_sample_assets_are_findings(void **state) {
 static void warnings_of_a_read_are_findings(void **state) {
     (void)state;
     char *text =
-        json("{'asset':{'version':'2.0'},'extensionsUsed':['KHR_materials_fuzz','EXT_texture_avif'],'animations':[{}]"
+        json("{'asset':{'version':'2.0'},'extensionsUsed':['EXT_materials_lustre','EXT_texture_avif'],'animations':[{}]"
              "," SQUARE_DATA ",'images':[{'uri':'%s'}],'samplers':[{'wrapS':7}],'textures':[{'source':0,'sampler':0},"
              "{'extensions':{'EXT_texture_avif':{'source':0}}},{'source':0,'extensions':{'MSFT_texture_dds':{'source'"
              ":0}}}],"
              "'materials':[{'alphaMode':'FOO','what':1,'pbrMetallicRoughness':{'roughnessFactor':2,'baseColorFactor':"
              "[0.4,3,0.4,1],'baseColorTexture':{'index':1},'metallicRoughnessTexture':{'index':2}},'emissiveTexture':"
-             "{'index':0,'texCoord':4},'extensions':{'KHR_materials_fuzz':{},'KHR_materials_ior':{'ior':0.5},"
+             "{'index':0,'texCoord':4},'extensions':{'EXT_materials_lustre':{},'KHR_materials_ior':{'ior':0.5},"
              "'KHR_other':{}}}],'meshes':[{'primitives':[{%s,'targets':[{'POSITION':0}]},{'attributes':{'POSITION':0,"
              "'UV':2},'mode':0}]}],'nodes':[{'mesh':0}]}\n",
              SQUARE_URI, picture_uri(COLORS), ALL);

@@ -197,6 +197,10 @@ static inline Surface random_surface(Random *random, bool tilt) {
     s.sheen_tail = 0.6f;
     s.sheen_rise = 3.0f;
     s.diffuse_retro = s.diffuse_lift = 0.3f;
+    s.coat_ior = 1.5f;
+    s.coat_color = s.fuzz_color = (Rgb){1.0f, 1.0f, 1.0f};
+    s.coat_anisotropy_direction = dir(1.0f, 0.0f, 0.0f);
+    s.fuzz_roughness = 0.5f;
     return s;
 }
 

@@ -20,6 +20,9 @@ enum {
     ORDER,
     OPENPBR,
     PRINCIPLED,
+    KHR_FUZZ,
+    KHR_FUZZ_EXACT,
+    CORE,
     PROFILES
 };
 
@@ -342,12 +345,13 @@ static Color engine_openpbr(const Surface *s, Pair p) {
     double ior = (double)s->ior, strength = fmin((double)s->specular, 1.0);
     double f0 = sq((ior - 1.0) / (ior + 1.0)) * strength;
     double dv = ggx(a, p.nh) * smith(a, p), least = schlick(fmin(p.vh, fmin(p.v, p.l)));
+    double ac = sq((double)s->clearcoat_roughness), coat = (double)s->clearcoat * lerp(0.04, 1.0, schlick(p.v));
     Color f, tint = color_of(s->specular_color), fuzz = color_of(s->sheen_color);
     for (int k = 0; k < 3; k++) {
         double dielectric = g.base.c[k] / PI_DOUBLE * (1.0 - lerp(f0, 1.0, least)) + dv * tint.c[k] * lerp(f0, 1.0, fc);
         double metal = dv * strength * lerp(g.base.c[k], 1.0, fc);
-        f.c[k] =
-            weight * fuzz.c[k] * openpbr_fuzz[0] + (1.0 - weight * openpbr_fuzz[1]) * lerp(dielectric, metal, g.metal);
+        double below = lerp(lerp(dielectric, metal, g.metal), ggx(ac, p.nh) * smith(ac, p), coat);
+        f.c[k] = weight * fuzz.c[k] * openpbr_fuzz[0] + (1.0 - weight * openpbr_fuzz[1]) * below;
     }
     return f;
 }
@@ -371,6 +375,36 @@ static Color engine_principled(const Surface *s, Pair p) {
     return f;
 }
 
+/* f of the white fuzz and its E, set before khr-fuzz and khr-fuzz-exact are asked. */
+static double khr_fuzz[2];
+
+/* The base of glTF with its clear coat, under fuzz. */
+static Color engine_khr_fuzz(const Surface *s, Pair p) {
+    Given g = given_of(s);
+    double a = sq(g.r), ax = lerp(a, 1.0, sq((double)s->anisotropy)), fc = schlick(p.vh);
+    double dv = ggx_two(ax, a, p) * smith_two(ax, a, p), weight = fmin((double)s->sheen, 1.0);
+    double ac = sq((double)s->clearcoat_roughness), coat = (double)s->clearcoat * lerp(0.04, 1.0, schlick(p.v));
+    Color f, fuzz = color_of(s->sheen_color);
+    for (int k = 0; k < 3; k++) {
+        double fd = lerp(g.f0.c[k], g.weight, fc), fm = lerp(g.base.c[k], 1.0, fc);
+        double dielectric = lerp(g.base.c[k] / PI_DOUBLE, dv, fd);
+        f.c[k] = (1.0 - weight * khr_fuzz[1]) * lerp(dielectric, dv * fm, g.metal) + weight * fuzz.c[k] * khr_fuzz[0];
+        f.c[k] = lerp(f.c[k], ggx(ac, p.nh) * smith(ac, p), coat);
+    }
+    return f;
+}
+
+static Color engine_core(const Surface *s, Pair p) {
+    Given g = given_of(s);
+    double dv = ggx(sq(g.r), p.nh) * smith(sq(g.r), p), fd = lerp(0.04, 1.0, schlick(p.vh));
+    Color f;
+    for (int k = 0; k < 3; k++) {
+        double fm = lerp(g.base.c[k], 1.0, schlick(p.vh));
+        f.c[k] = lerp(lerp(g.base.c[k] / PI_DOUBLE, dv, fd), dv * fm, g.metal);
+    }
+    return f;
+}
+
 static Color (*const engines[PROFILES])(const Surface *, Pair) = {
     [UNREAL4] = engine_unreal4,
     [COTTON] = engine_cotton,
@@ -387,6 +421,9 @@ static Color (*const engines[PROFILES])(const Surface *, Pair) = {
     [ORDER] = engine_order,
     [OPENPBR] = engine_openpbr,
     [PRINCIPLED] = engine_principled,
+    [KHR_FUZZ] = engine_khr_fuzz,
+    [KHR_FUZZ_EXACT] = engine_khr_fuzz,
+    [CORE] = engine_core,
 };
 
 static Choices only_profile(int profile) {
@@ -437,6 +474,12 @@ static void fuzz_ask(int id, float alpha, Dir o, Dir i, double fuzz[2]) {
     fuzz[1] = (double)albedo_quadrature(&lobe, o, 1e-4).f0;
 }
 
+/* The lobe of a profile's fuzz; -1: it has none. */
+static int fuzz_of(int profile) {
+    if (profile == OPENPBR || profile == KHR_FUZZ_EXACT) return LOBE_LTC_FIBRE;
+    return profile == PRINCIPLED || profile == KHR_FUZZ ? LOBE_LTC_FIBRE_PUBLISHED : -1;
+}
+
 static void profiles_follow_the_formulas_of_their_engines(void **state) {
     (void)state;
     Random random = {71};
@@ -460,13 +503,16 @@ static void profiles_follow_the_formulas_of_their_engines(void **state) {
                 khronos_e[0] = fmin((double)albedo_quadrature(&lobe, o, 1e-4).f0, 1.0);
                 khronos_e[1] = fmin((double)albedo_quadrature(&lobe, i, 1e-4).f0, 1.0);
             }
-            if (profile == OPENPBR) fuzz_ask(LOBE_LTC_FIBRE, s.sheen_roughness, o, i, openpbr_fuzz);
-            if (profile == PRINCIPLED) fuzz_ask(LOBE_LTC_FIBRE_PUBLISHED, s.sheen_roughness, o, i, principled_fuzz);
+            const int fuzz = fuzz_of(profile);
+            if (fuzz >= 0)
+                fuzz_ask(fuzz, s.sheen_roughness, o, i,
+                         profile == OPENPBR      ? openpbr_fuzz
+                         : profile == PRINCIPLED ? principled_fuzz
+                                                 : khr_fuzz);
             seen_make(&stack, &s, &choices,
-                      profile == KHRONOS      ? khronos_ref()
-                      : profile == OPENPBR    ? fuzz_ref(LOBE_LTC_FIBRE)
-                      : profile == PRINCIPLED ? fuzz_ref(LOBE_LTC_FIBRE_PUBLISHED)
-                                              : (TableRef){.kind = TABLE_NONE},
+                      profile == KHRONOS ? khronos_ref()
+                      : fuzz >= 0        ? fuzz_ref(fuzz)
+                                         : (TableRef){.kind = TABLE_NONE},
                       o);
             Color got = times(color_of(seen_eval(&stack, i, 0).f_cos), 1.0 / p.l), want = engines[profile](&s, p);
             if (profile == KHRONOS) { /* 2e-3 of what E takes away */
@@ -483,6 +529,11 @@ static void profiles_follow_the_formulas_of_their_engines(void **state) {
                 Surface bare = s;
                 bare.sheen_color = (Rgb){0.0f, 0.0f, 0.0f};
                 tolerance = 6e-3 * max3(given_of(&s).sheen) * max3(engine_principled(&bare, p));
+            }
+            if (profile == KHR_FUZZ || profile == KHR_FUZZ_EXACT) {
+                Surface bare = s;
+                bare.sheen = 0.0f;
+                tolerance = 6e-3 * (double)s.sheen * max3(engine_khr_fuzz(&bare, p));
             }
             for (int k = 0; k < 3; k++) {
                 double error = fmax(fabs(got.c[k] - want.c[k]) - tolerance, 0.0) / fmax(fabs(want.c[k]), 1e-4);

@@ -145,7 +145,7 @@ static void other_workflows_and_engines_let_nothing_through(void **state) {
         if (n == 0) choices.workflow = workflow_named("disney");
         seen_make(&seen, &s, &choices, albedo_table_ref(sheen_table()), random_direction(&random));
         bool through = seen_eval(&seen, dir(0.0f, 0.0f, -1.0f), 1).f_cos.g > 0.0f;
-        assert_int_equal(through, strcmp(weft_profile_name(n), "khronos") == 0);
+        assert_int_equal(through, strncmp(weft_profile_name(n), "khr", 3) == 0);
     }
 }
 

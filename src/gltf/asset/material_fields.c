@@ -1,5 +1,8 @@
 /* Khronos Group, "glTF 2.0 Specification", 2021, section 3.9, and the schemas of the extensions in its registry.
  *
+ * Of KHR_materials_fuzz, _coat, _diffuse_roughness and _retroreflection, which are not ratified, the texts of their
+ * pull requests to KhronosGroup/glTF: 2538, 2534, 2481, 2610.
+ *
  * ior, which is 0 or at least 1, has a rule of its own in the reader, the writer and the doctor.
  * KHR_texture_transform is part of any textureInfo. */
 #include "gltf/asset/material_fields.h"
@@ -8,12 +11,14 @@
 #include <stdio.h>
 #include <string.h>
 
-const char pbr_object[] = "pbrMetallicRoughness", gloss_object[] = "KHR_materials_pbrSpecularGlossiness";
-
 #define KHR(name) "KHR_materials_" name
-#define UNIT      0, 1
-#define POSITIVE  0, INFINITY
-#define ANY       -INFINITY, INFINITY
+
+const char pbr_object[] = "pbrMetallicRoughness", gloss_object[] = KHR("pbrSpecularGlossiness"),
+           coat_object[] = KHR("coat");
+
+#define UNIT     0, 1
+#define POSITIVE 0, INFINITY
+#define ANY      -INFINITY, INFINITY
 
 const MaterialField material_fields[] = {
     /* input, object, factor, texture, channels, absent, low and high */
@@ -42,6 +47,22 @@ const MaterialField material_fields[] = {
      "diffuseTransmissionColorTexture", CHANNELS_COLOR, 1, UNIT},
     {INPUT_sheen_color, KHR("sheen"), "sheenColorFactor", "sheenColorTexture", CHANNELS_COLOR, 0, UNIT},
     {INPUT_sheen_roughness, KHR("sheen"), "sheenRoughnessFactor", "sheenRoughnessTexture", CHANNEL_A, 0, UNIT},
+    {INPUT_fuzz, KHR("fuzz"), "fuzzFactor", "fuzzTexture", CHANNEL_R, 0, UNIT},
+    {INPUT_fuzz_color, KHR("fuzz"), "fuzzColorFactor", "fuzzColorTexture", CHANNELS_COLOR, 1, UNIT},
+    {INPUT_fuzz_roughness, KHR("fuzz"), "fuzzRoughnessFactor", "fuzzRoughnessTexture", CHANNEL_A, 0.5f, UNIT},
+    {INPUT_diffuse_roughness, KHR("diffuse_roughness"), "diffuseRoughnessFactor", "diffuseRoughnessTexture", CHANNEL_R,
+     0, UNIT},
+    {INPUT_retroreflection, KHR("retroreflection"), "retroreflectionFactor", "retroreflectionTexture", CHANNEL_R, 0,
+     UNIT},
+    {INPUT_clearcoat, coat_object, "coatFactor", "coatTexture", CHANNEL_R, 0, UNIT},
+    {INPUT_clearcoat_roughness, coat_object, "coatRoughnessFactor", "coatRoughnessTexture", CHANNEL_G, 0, UNIT},
+    {INPUT_clearcoat_normal, coat_object, "coatNormalTexture/scale", "coatNormalTexture", CHANNELS_NORMAL, 1, ANY},
+    {INPUT_coat_ior, coat_object, "coatIor", NULL, CHANNEL_R, 1.5f, 1, INFINITY},
+    {INPUT_coat_color, coat_object, "coatColorFactor", "coatColorTexture", CHANNELS_COLOR, 1, UNIT},
+    {INPUT_coat_darkening, coat_object, "coatDarkeningFactor", NULL, CHANNEL_R, 1, UNIT},
+    {INPUT_coat_anisotropy, coat_object, "coatAnisotropyStrength", "coatAnisotropyTexture", CHANNEL_B, 0, UNIT},
+    {INPUT_coat_anisotropy_direction, coat_object, "coatAnisotropyRotation", "coatAnisotropyTexture",
+     CHANNELS_DIRECTION, 0, ANY},
     {NO_INPUT, KHR("transmission"), "transmissionFactor", "transmissionTexture", CHANNEL_R, 0, UNIT},
     {NO_INPUT, KHR("volume"), "thicknessFactor", "thicknessTexture", CHANNEL_G, 0, POSITIVE},
     {NO_INPUT, KHR("volume"), "attenuationColor", NULL, CHANNELS_COLOR, 1, UNIT},
@@ -66,7 +87,9 @@ bool material_field_extends(const MaterialField *field) {
     return field->object && strcmp(field->object, pbr_object) != 0;
 }
 
-bool material_field_replaces(const MaterialField *field) { return field->object == gloss_object; }
+bool material_field_replaces(const MaterialField *field) {
+    return field->object == gloss_object || field->object == coat_object;
+}
 
 static bool same_text(const char *a, const char *b) { return a && b && strcmp(a, b) == 0; }
 

@@ -37,11 +37,12 @@ typedef struct MaterialField {
 extern const MaterialField material_fields[];
 extern const char pbr_object[];   /* "pbrMetallicRoughness" */
 extern const char gloss_object[]; /* the extension with another workflow, whose fields replace those of others */
+extern const char coat_object[];  /* the extension whose coat replaces the clear coat of KHR_materials_clearcoat */
 
-/* Returns true for a row of gloss_object. */
+/* Returns true for a row of gloss_object or coat_object, which is read where its object is there. */
 bool material_field_replaces(const MaterialField *field);
 
-/* Returns the row of an input that has one, and does not replace another. */
+/* Returns the row of an input that has one: of several, the one that does not replace another. */
 const MaterialField *material_field_of(InputId input);
 
 /* Returns how many numbers the factor has: 1, 3 or 4. */

@@ -10,6 +10,7 @@
 #include "base/equal.h"
 #include "gltf/asset/material_fields.h"
 #include "gltf/read/gltf_material.h"
+#include "gltf/save/fuzz_sheen.h"
 #include "gltf/save/saving.h"
 #include "scene/material/cloth_file.h"
 #include "scene/material/material_numbers.h"
@@ -103,11 +104,24 @@ static void row_save(Saving *saving, json_t *object, const Material *material, c
     if (info) saving_put(saving, object, row->texture, info);
 }
 
+/* Returns true if the material's coat has what KHR_materials_clearcoat cannot express; it is then written as both. */
+static bool coat_is_wanted(const Material *material) {
+    static const InputId coming[] = {INPUT_coat_ior, INPUT_coat_color, INPUT_coat_darkening, INPUT_coat_anisotropy};
+    const Material plain = material_default();
+    bool wanted = false;
+    for (size_t k = 0; k < sizeof coming / sizeof *coming; k++) {
+        const Input *input = &material->inputs[coming[k]], *as = &plain.inputs[coming[k]];
+        wanted |= input->texture != 0;
+        for (int c = 0; c < 3; c++) wanted |= !is_equal(input->value[c], as->value[c]);
+    }
+    return wanted && value(material, INPUT_clearcoat) > 0.0f;
+}
+
 /* Returns true if the object that begins with this row is written: an extension where its first number is not what a
  * reader takes without it. */
 static bool is_wanted(const Material *material, const MaterialField *row) {
     const bool glows = strongest(&material->inputs[INPUT_emission]) > 0.0f;
-    if (material_field_replaces(row)) return false;
+    if (material_field_replaces(row)) return row->object == coat_object && coat_is_wanted(material);
     switch (row->input) {
     case NO_INPUT: return false;
     case INPUT_specular:
@@ -227,7 +241,10 @@ void materials_save(Saving *saving) {
         saving_fail(saving, WEFT_MESSAGE_MEMORY, saving->path, NULL);
         return;
     }
-    for (int k = 0; k < scene->material_count; k++) given[k] = relief_given(scene, k);
+    for (int k = 0; k < scene->material_count; k++) {
+        given[k] = relief_given(scene, k);
+        fuzz_sheen_put(&given[k]);
+    }
     json_t *list = saving_list(saving, "materials");
     for (int k = 0; k < scene->material_count && saving->result == WEFT_OK; k++)
         saving_append(saving, list, material_save(saving, name_of(scene, k), &given[k]));

@@ -80,7 +80,7 @@ static void widest(const Whole *self, float *low, float *high) {
     for (int ends = 0; ends < 4; ends++) {
         Whole end = *self;
         Stack stack;
-        end.surface.sheen_roughness = ends & 1 ? 1.0f : 0.0f;
+        end.surface.sheen_roughness = end.surface.fuzz_roughness = ends & 1 ? 1.0f : 0.0f;
         end.surface.roughness = ends & 2 ? 1.0f : 0.0f;
         needs_table(&end, &stack);
         *low = fminf(*low, stack.albedo_coord);

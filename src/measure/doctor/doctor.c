@@ -134,8 +134,8 @@ static bool goes_on(WeftDoctor *doctor, size_t done) {
 static void examine(WeftDoctor *doctor) {
     static void (*const of_asset[])(WeftDoctor *) = {check_extensions, check_empty, check_glass, check_spaces};
     static void (*const of_material[])(WeftDoctor *, const Cloth *) = {
-        check_archived, check_ranges, check_factors,    check_transforms, check_black,
-        check_channels, check_energy, check_neighbours, check_plausible,  check_scale};
+        check_archived, check_ranges, check_defaults,   check_factors,   check_transforms, check_black,
+        check_channels, check_energy, check_neighbours, check_plausible, check_scale};
     for (size_t k = 0; k < sizeof of_asset / sizeof *of_asset; k++) of_asset[k](doctor);
     doctor->examining = true;
     int materials = (int)doctor->asset.material_count;

@@ -141,6 +141,8 @@ void check_scale(WeftDoctor *doctor, const Cloth *cloth);
 void check_archived(WeftDoctor *doctor, const Cloth *cloth);
 /* Finds factors outside their range. */
 void check_ranges(WeftDoctor *doctor, const Cloth *cloth);
+/* Finds numbers that are left out and whose default readers do not agree on. */
+void check_defaults(WeftDoctor *doctor, const Cloth *cloth);
 /* Finds textures that are multiplied by 0. */
 void check_factors(WeftDoctor *doctor, const Cloth *cloth);
 /* Finds textures whose transform has a scale of 0. */

@@ -119,9 +119,10 @@ const Pixels *doctor_pixels(WeftDoctor *doctor, json_t *info) {
 }
 
 const MaterialField *doctor_row(json_t *material, InputId input) {
-    const bool gloss = json_object_get(json_object_get(material, "extensions"), gloss_object) != NULL;
-    for (const MaterialField *row = material_fields; gloss && row->factor; row++)
-        if (material_field_replaces(row) && row->input == (int)input) return row;
+    const json_t *extensions = json_object_get(material, "extensions");
+    for (const MaterialField *row = material_fields; row->factor; row++)
+        if (material_field_replaces(row) && row->input == (int)input && json_object_get(extensions, row->object))
+            return row;
     return material_field_of(input);
 }
 

@@ -14,7 +14,7 @@ static double clamped(double value, double low, double high) { return fmin(fmax(
 
 static void check_range(WeftDoctor *doctor, const Cloth *cloth, const char *path, int count, double low, double high) {
     Repair repair = {.act = count == 1 ? REPAIR_NUMBER : REPAIR_NUMBERS, .count = count};
-    double worst = 0.0, values[4];
+    double worst = clamped(0.0, low, high), values[4];
     if (!doctor_numbers(cloth->json, path, values, count)) return;
     for (int k = 0; k < count; k++) {
         repair.numbers[k] = clamped(values[k], low, high);
@@ -58,6 +58,33 @@ void check_ranges(WeftDoctor *doctor, const Cloth *cloth) {
             check_ior_range(doctor, cloth);
         else if (row->low >= 0.0f)
             check_range(doctor, cloth, path, material_field_numbers(row), (double)row->low, (double)row->high);
+    }
+}
+
+/* Numbers whose default is one in the text of an extension and another in its schema, or in an earlier text. other: the
+ * one that weft does not take. */
+static const struct {
+    InputId input;
+    float other;
+    const char *where;
+} disputed[] = {
+    {INPUT_fuzz_roughness, 0.0f, "the extension's text has 0.5, its schema 0"},
+    {INPUT_diffuse_roughness, 1.0f, "the extension's text has 0, its first version 1"},
+};
+
+void check_defaults(WeftDoctor *doctor, const Cloth *cloth) {
+    const json_t *extensions = json_object_get(cloth->json, "extensions");
+    for (size_t k = 0; k < sizeof disputed / sizeof *disputed; k++) {
+        const MaterialField *row = material_field_of(disputed[k].input);
+        char path[FIELD_PATH];
+        material_field_path(row, row->factor, path);
+        if (!json_object_get(extensions, row->object) || doctor_part(cloth->json, path)) continue;
+        const Repair repair = {.act = REPAIR_NUMBER, .numbers = {(double)row->absent}, .count = 1};
+        doctor_found(doctor, WEFT_FINDING_DEFAULT_DISPUTED, (Place){WEFT_OF_MATERIAL, cloth->index, path}, 0,
+                     (double)row->absent, &repair,
+                     "%s is not there, and readers do not agree what it then is: %s; weft takes %g, others %g",
+                     row->factor, disputed[k].where, (double)row->absent, (double)disputed[k].other);
+        doctor_advise(doctor, "write %s %g, so that all take the same", row->factor, (double)row->absent);
     }
 }
 

@@ -215,7 +215,8 @@ static void put_lights(Text *text, const ShaderKey *key) {
 
 /* Returns true if a pixel depends on the tangent. */
 static bool needs_tangent(const ShaderKey *key, const CompositionSlots *found) {
-    static const InputId inputs[] = {INPUT_normal, INPUT_clearcoat_normal, INPUT_anisotropy, INPUT_nap};
+    static const InputId inputs[] = {INPUT_normal, INPUT_clearcoat_normal, INPUT_anisotropy, INPUT_nap,
+                                     INPUT_coat_anisotropy};
     if (key->woven) return true;
     for (size_t k = 0; k < sizeof inputs / sizeof inputs[0]; k++) {
         const ShaderInput *input = &key->inputs[inputs[k]];
@@ -226,7 +227,7 @@ static bool needs_tangent(const ShaderKey *key, const CompositionSlots *found) {
 }
 
 static bool same_slots(const CompositionSlots *a, const CompositionSlots *b) {
-    bool same = a->used == b->used && a->transmits == b->transmits;
+    bool same = a->used == b->used && a->transmits == b->transmits && a->retro == b->retro;
     for (int k = 0; k < SLOT_COUNT; k++) {
         const TextSlot *s = &a->slots[k], *t = &b->slots[k];
         same = same && s->count == t->count;

@@ -28,6 +28,7 @@ static const struct {
     size_t member; /* of Surface */
     float least;
 } shapes[] = {{INPUT_sheen_roughness, offsetof(Surface, sheen_roughness), 0.0f},
+              {INPUT_fuzz_roughness, offsetof(Surface, fuzz_roughness), 0.0f},
               {INPUT_roughness, offsetof(Surface, roughness), 0.0f},
               {INPUT_anisotropy, offsetof(Surface, anisotropy), 0.0f},
               {INPUT_sheen_beta, offsetof(Surface, sheen_beta), 1e-6f}};

@@ -102,7 +102,7 @@ static void move(Material *material, int input, float t) {
  * directions, so that neither hides an influence. */
 static Surface middle_of(const Material *material) {
     static const InputId widths[] = {INPUT_roughness, INPUT_clearcoat_roughness, INPUT_sheen_roughness,
-                                     INPUT_dust_roughness};
+                                     INPUT_fuzz_roughness, INPUT_dust_roughness};
     Material middle = *material;
     for (size_t k = 0; k < sizeof widths / sizeof *widths; k++)
         middle.inputs[widths[k]].value[0] = max(middle.inputs[widths[k]].value[0], 0.5f);
@@ -124,7 +124,8 @@ static bool moves_the_light(const Material *material, int input) {
         move(&moved, input, places[k]);
         Surface other = middle_of(&moved);
         if (input == INPUT_clearcoat_normal) other.clearcoat_normal = dir(0.36f, 0.48f, 0.8f);
-        MaterialAnswer after = answer_of(&other, &choices, woven);
+        const Choices then = material_choices(&moved); /* an amount above 0 may choose a model */
+        MaterialAnswer after = answer_of(&other, &then, woven);
         reads = differ(&before, &after);
     }
     return reads;

@@ -111,7 +111,9 @@ void material_choose(Material *material, ChoiceId choice, int value) {
 
 Choices material_choices(const Material *material) {
 #define CHOICE_OF(name, help) .name = material->choices[CHOICE_##name],
-    return (Choices){SURFACE_CHOICES(CHOICE_OF)};
+    Choices choices = {SURFACE_CHOICES(CHOICE_OF)};
+    if (choices.rim == CHOICE_AUTO && material->inputs[INPUT_fuzz].value[0] > 0.0f) choices.rim = RIM_FUZZ;
+    return choices;
 }
 
 /* One point of a material: inputs that share a texture and its placement share the fetch. */

@@ -10,7 +10,8 @@ Surface material_plain(const Material *material);
 /* Returns the surface of a material of defaults. */
 Surface surface_default(void);
 
-/* Returns the choices of a material. */
+/* Returns the choices of a material. Auto for the rim becomes fuzz if the material has some, even where a texture of it
+ * is black: the sheen is then what engines without fuzz show. */
 Choices material_choices(const Material *material);
 
 /* Sets the textured inputs of a surface at a point, and multiplies base_color and opacity by the linear vertex colour.

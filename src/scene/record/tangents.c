@@ -5,12 +5,13 @@
 
 const Input *tangents_input(const Material *material) {
     static const InputId maps[] = {INPUT_normal, INPUT_clearcoat_normal, INPUT_anisotropy_direction,
-                                   INPUT_nap_direction};
+                                   INPUT_nap_direction, INPUT_coat_anisotropy_direction};
     const Input *inputs = material->inputs;
     for (size_t k = 0; k < sizeof maps / sizeof *maps; k++)
         if (inputs[maps[k]].texture) return &inputs[maps[k]];
     if (material->cloth || material->measured) return &inputs[INPUT_normal];
     if (inputs[INPUT_anisotropy].value[0] > 0.0f) return &inputs[INPUT_anisotropy];
+    if (inputs[INPUT_coat_anisotropy].value[0] > 0.0f) return &inputs[INPUT_coat_anisotropy];
     return inputs[INPUT_nap].value[0] > 0.0f ? &inputs[INPUT_nap] : NULL;
 }
 

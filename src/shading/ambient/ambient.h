@@ -143,6 +143,14 @@ FN Rgb ambient_smooth(const Stack *m, const StackView *w, AmbientTables t, Ambie
     if (HAS_SPECULAR(m)) {
         SlotLight light =
             LIGHT_OF_SLOT(specular)(t.specular, s, v, residual, m->specular.lobe, ambient_untinted(), -1.0f);
+        if (HAS_RETRO(m)) {
+            AmbientView b = ambient_view(dir_turned(w->o), dir(1.0f, 0.0f, 0.0f), dir(0.0f, 1.0f, 0.0f),
+                                         dir(0.0f, 0.0f, 1.0f), v.occlusion);
+            SlotLight back = LIGHT_OF_SLOT(specular)(t.specular, s, b, ambient_residual_lookups(s, b), m->specular.lobe,
+                                                     ambient_untinted(), -1.0f);
+            light.reflected = lobe_light_mix(light.reflected, back.reflected, m->retro);
+            light.light_fraction = mix(light.light_fraction, back.light_fraction, m->retro);
+        }
         AmbientSlot a =
             ambient_slot(stack_specular_colors(m, w), untinted, w->scale.specular, light, reflection_factor);
         if (SHOWS_SPECULAR) sum = rgb_add(sum, rgb_mul(through.specular, a.reflected));
@@ -171,6 +179,7 @@ FN Rgb ambient_smooth(const Stack *m, const StackView *w, AmbientTables t, Ambie
             SlotLight light = LIGHT_OF_SLOT(coat)(t.coat, s, c, ambient_residual_lookups(s, c), m->coat.lobe,
                                                   ambient_untinted(), -1.0f);
             AmbientSlot a = ambient_slot(slot_colors(&m->coat), untinted, w->scale.coat, light, reflection_factor);
+            if (m->sheen_over_coat) a.reflected = rgb_mul(a.reflected, through.specular);
             if (SHOWS_COAT) sum = rgb_add(sum, a.reflected);
             lights->scale.coat = a.lights_scale;
             only->coat = SHOWS_COAT && a.lights_scale > 0.0f;

@@ -62,9 +62,9 @@ FN AreaDensity area_density(const Lobe *m, Dir o) {
     return area_cosine(o);
 }
 
-/* Returns the light that the slots reflect together, integrated at the points of one D. o and the polygon, which is
+/* Returns the light that the slots reflect together, integrated at the points of one D, without retroreflection. o and the polygon, which is
  * above the horizon, are in the frame of the slots. */
-FN Rgb area_slots(const Stack *m, const StackView *view, Slots only, AreaDensity d, Dir o, Polygon p) {
+FN Rgb area_slots_of(const Stack *m, const StackView *view, Slots only, AreaDensity d, Dir o, Polygon p) {
     Polygon q = p;
     for (int k = 0; k < p.count; k++) {
         Dir v = ltc_inverse(d.m, o, p.corners[k]);
@@ -94,6 +94,20 @@ FN Rgb area_slots(const Stack *m, const StackView *view, Slots only, AreaDensity
         a = b;
     }
     return rgb_scale(sum, (max(flux.z, 0.0f) + POLYGON_SMALL) / (seen + POLYGON_SMALL));
+}
+
+/* Works as area_slots_of, with the light that the base turns back: that of the polygon turned about the normal. */
+FN Rgb area_slots(const Stack *m, const StackView *view, Slots only, AreaDensity d, Dir o, Polygon p) {
+    if (!HAS_RETRO(m) || !(only.diffuse || only.specular)) return area_slots_of(m, view, only, d, o, p);
+    Stack plain = *m;
+    Polygon turned = p;
+    plain.retro = 0.0f;
+    for (int k = 0; k < p.count; k++) turned.corners[k] = dir_turned(p.corners[k]);
+    Slots base = slots_of(only.diffuse, only.specular, false, false, false);
+    Slots rest = slots_of(false, false, only.sheen, false, only.dust);
+    Rgb f =
+        rgb_mix(area_slots_of(&plain, view, base, d, o, p), area_slots_of(&plain, view, base, d, o, turned), m->retro);
+    return rgb_add(f, area_slots_of(&plain, view, rest, d, o, p));
 }
 
 FN Polygon area_to_coat(const Stack *m, Polygon p) {

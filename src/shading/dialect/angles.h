@@ -44,6 +44,9 @@ FN Angles angles_between(Dir o, Dir i) {
     return a;
 }
 
+/* Returns w turned about the normal by half a turn, the mirror direction of w. */
+FN Dir dir_turned(Dir w) { return dir(-w.x, -w.y, w.z); }
+
 /* Returns wo mirrored about the unit half vector h. */
 FN Dir dir_mirror(Dir o, Dir h) {
     float d = 2.0f * dir_dot(o, h);

@@ -18,6 +18,7 @@ const char *choice_id(ChoiceId choice, int k) {
     case CHOICE_v: return weft_term_name(WEFT_TERM_V, k);
     case CHOICE_sheen_f:
     case CHOICE_f: return weft_term_name(WEFT_TERM_F, k);
+    case CHOICE_rim: return k == RIM_SHEEN ? "sheen" : k == RIM_FUZZ ? "fuzz" : NULL;
     case CHOICE_layer: return weft_layer_name(k);
     case CHOICE_layer_by: return k == LAYER_BY_MAX ? "max" : k == LAYER_BY_CHANNEL ? "channel" : NULL;
     case CHOICE_convert: return k == CONVERT_METALLIC ? "metallic" : k == CONVERT_SPECULAR ? "specular" : NULL;

@@ -98,7 +98,7 @@ FN void compose_choices(Stack *m, const Surface *s, Choices c) {
     if (c.sheen_lobe >= 0 || free) {
         Lobe lobe = m->sheen.lobe;
         if (c.sheen_lobe >= 0) {
-            lobe = lobe_rough(c.sheen_lobe, s->sheen_roughness);
+            lobe = lobe_rough(c.sheen_lobe, m->has_fuzz ? s->fuzz_roughness : s->sheen_roughness);
             lobe = lobe_named(lobe, compose_sheen_named(s));
         }
         if (free) lobe = compose_sheen(lobe, s, c);
@@ -159,6 +159,7 @@ FN void compose_stack(Stack *m, const Surface *s, Choices c, TableRef e) {
 FN void compose_base(Stack *m, Lobe lobe, Rgb single, Rgb multiple) {
     m->specular.normal = 0.0f;
     m->base_fresnel = BASE_FRESNEL_NONE;
+    m->retro = 0.0f; /* threads lean: half a turn would make another lobe of them */
     m->diffuse.lobe = lobe;
     m->diffuse.f0 = single;
     m->diffuse.f90 = multiple;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "shading/profiles/babylon.h"
+#include "shading/profiles/core.h"
 #include "shading/profiles/cycles_principled.h"
 #include "shading/profiles/cycles_velvet.h"
 #include "shading/profiles/disney_2012.h"
@@ -11,6 +12,8 @@
 #include "shading/profiles/filament_sheen.h"
 #include "shading/profiles/hdrp_cotton.h"
 #include "shading/profiles/hdrp_silk.h"
+#include "shading/profiles/khr_fuzz.h"
+#include "shading/profiles/khr_fuzz_exact.h"
 #include "shading/profiles/khronos.h"
 #include "shading/profiles/materialx.h"
 #include "shading/profiles/openpbr.h"
@@ -49,7 +52,10 @@
     P("disney-2012", 12, disney_2012_stack(m, s), "the BRDF Explorer's disney.brdf")                                   \
     P("order-1886", 13, order_1886_stack(m, s), "The Order: 1886, a reconstruction")                                   \
     P("openpbr", 14, openpbr_stack(m, s), "OpenPBR Surface: its fuzz, as ltc-fibre, over its base")                    \
-    P("cycles-principled", 15, cycles_principled_stack(m, s), "Blender Cycles 4.0 and later, Principled: microfibres")
+    P("cycles-principled", 15, cycles_principled_stack(m, s), "Blender Cycles 4.0 and later, Principled: microfibres") \
+    P("khr-fuzz", 16, khr_fuzz_stack(m, s), "glTF's coming fuzz as written, by the published table")                   \
+    P("khr-fuzz-exact", 17, khr_fuzz_exact_stack(m, s), "the same by a table without bias")                            \
+    P("core", 18, core_stack(m, s), "engines without extensions: metalness and roughness alone")
 
 /* The formulas of engines for E: A(name, source, true if it reads the table of the lobe itself, formula). */
 #define WEFT_ALBEDO_FORMULAS(A)                                                                                        \
@@ -79,7 +85,7 @@
         return;                                                                                                        \
     }
 FN void compose_begin(Stack *m, const Surface *s, Choices c) {
-    stack_clear(m);
+    workflow_begin(m, c);
     if (c.profile > 0) {
         WEFT_PROFILES(PROFILE_CASE)
     }

@@ -16,13 +16,16 @@ FN Dir stack_from_coat(const Stack *s, Dir w) {
                w.x * s->coat_x.z + w.y * s->coat_y.z + w.z * s->coat_z.z);
 }
 
-/* Returns true for the share of the diffuse slot's samples that is transmitted. Rescales u to [0, 1). */
-FN bool stack_takes_transmitted(const Stack *stack, float *u) {
-    float p = stack->transmitted_p, x = *u;
+/* Returns true for a share p of samples. Rescales u to [0, 1). */
+FN bool stack_takes(float p, float *u) {
+    float x = *u;
     bool through = x < p;
     *u = min(max((through ? x : x - p) / max(through ? p : 1.0f - p, 1e-12f), 0.0f), 0.99999994f);
     return through;
 }
+
+/* Returns true for the share of the diffuse slot's samples that is transmitted. Rescales u to [0, 1). */
+FN bool stack_takes_transmitted(const Stack *stack, float *u) { return stack_takes(stack->transmitted_p, u); }
 
 #define TAKE_SLOT(name, NAME, Name, wo)                                                                                \
     if (view->select_p.name > 0.0f && (slot < 0 || *u >= at)) {                                                        \
@@ -54,7 +57,10 @@ FN void stack_draw_direction(const Stack *stack, const StackView *view, float u,
         *i = dir(above.x, above.y, -above.z);
         return;
     }
+    bool of_base = slot == PLACE_DIFFUSE || slot == PLACE_SPECULAR, turned = false;
+    if (HAS_RETRO(stack) && of_base) turned = stack_takes(stack->retro, &u);
     SLOTS(SAMPLE_SLOT)
+    if (HAS_RETRO(stack) && turned) *i = dir_turned(*i);
     if (HAS_COAT(stack) && slot == PLACE_COAT && i->z > 0.0f) *i = stack_from_coat(stack, *i);
     if (HAS_TRANSMITTED(stack)) i->z = max(i->z, 0.0f); /* what a lobe draws below is no sample */
 }

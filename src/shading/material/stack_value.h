@@ -27,10 +27,11 @@ FN Rgb stack_under_sheen(const Stack *m, const StackView *w, const Angles *a, Rg
     return rgb_mul(f, base_scale);
 }
 
-/* Works as stack_value, for the slots `only`. The other slots still dim them. */
-FN StackValue stack_value_of(const Stack *m, const StackView *w, Slots only, const Angles *a, const Angles *coat) {
-    bool layered = HAS_LAYERED_SHEEN(m), below_f = IS_BELOW_F(m) && layered;
-    Rgb f = rgb_grey(0.0f), through = f; /* transmittance of the interface over diffuse and sheen */
+/* Returns f and the pdf of the base, the diffuse and the specular slot, before the layer rule and without retroreflection.
+ * below_f: the interface is that of a rule that puts it over the sheen too. */
+FN StackValue stack_base_value(const Stack *m, const StackView *w, Slots only, const Angles *a, bool below_f) {
+    StackValue base;
+    Rgb f = rgb_grey(0.0f), through = f;
     float pdf = 0.0f;
     LobeReflected v;
     if (below_f) through = stack_interface_transmittance(m, w, a);
@@ -53,11 +54,29 @@ FN StackValue stack_value_of(const Stack *m, const StackView *w, Slots only, con
         f = rgb_add(f, rgb_scale(v.f, w->scale.specular));
         pdf = pdf + w->select_p.specular * v.pdf;
     }
+    base.f_cos = f;
+    base.pdf = pdf;
+    return base;
+}
+
+/* Works as stack_value, for the slots `only`. The other slots still dim them. */
+FN StackValue stack_value_of(const Stack *m, const StackView *w, Slots only, const Angles *a, const Angles *coat) {
+    bool layered = HAS_LAYERED_SHEEN(m), below_f = IS_BELOW_F(m) && layered;
+    StackValue base = stack_base_value(m, w, only, a, below_f);
+    if (HAS_RETRO(m)) {
+        Angles turned = angles_between(w->o, dir_turned(a->i));
+        StackValue back = stack_base_value(m, w, only, &turned, below_f);
+        base.f_cos = rgb_mix(base.f_cos, back.f_cos, m->retro);
+        base.pdf = mix(base.pdf, back.pdf, m->retro);
+    }
+    Rgb f = base.f_cos;
+    float pdf = base.pdf;
+    LobeReflected v;
     if (layered && !below_f) f = stack_under_sheen(m, w, a, f);
     if (only.sheen && HAS_SHEEN(m)) {
         SLOT_VALUE(sheen, a)
         v.f = rgb_scale(v.f, w->scale.sheen);
-        if (below_f) v.f = rgb_mul(v.f, through);
+        if (below_f) v.f = rgb_mul(v.f, stack_interface_transmittance(m, w, a));
         f = rgb_add(f, v.f);
         pdf = pdf + w->select_p.sheen * v.pdf;
     }
@@ -69,7 +88,9 @@ FN StackValue stack_value_of(const Stack *m, const StackView *w, Slots only, con
     f = rgb_scale(f, a->i.z);
     if (only.coat && HAS_COAT(m) && coat->o.z > 0.0f && coat->i.z > 0.0f) {
         SLOT_VALUE(coat, coat)
-        f = rgb_add(f, rgb_scale(v.f, w->scale.coat * coat->i.z));
+        v.f = rgb_scale(v.f, w->scale.coat * coat->i.z);
+        if (m->sheen_over_coat && layered) v.f = stack_under_sheen(m, w, a, v.f);
+        f = rgb_add(f, v.f);
         pdf = pdf + w->select_p.coat * v.pdf;
     }
     StackValue sum;

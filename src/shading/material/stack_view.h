@@ -19,7 +19,7 @@ FN void view_coat(const Stack *m, StackView *w) {
     if (m->coat_rule == COAT_BARE) return;
     float cosine = w->coat_o.z, f = 0.0f; /* stays 0 where the coat's normal map faces away */
     float s = m->coat_rule == COAT_GAUSSIAN ? schlick_gaussian_s(cosine) : schlick_s(cosine);
-    if (cosine > 1e-4f) f = m->coat_weight * mix(0.04f, 1.0f, s);
+    if (cosine > 1e-4f) f = m->coat_weight * mix(m->coat_f0, 1.0f, s);
     w->coat_transmittance = 1.0f - f;
     w->select_p.coat = f;
     w->scale.coat = m->coat_rule == COAT_SCHLICK ? f : cosine > 1e-4f ? 1.0f : 0.0f;
@@ -63,7 +63,7 @@ FN void view_begin(const Stack *m, Dir o, StackView *w) {
         float transmittance_above = w->coat_transmittance * w->dust_transmittance;
         w->scale.diffuse = w->scale.diffuse * transmittance_above;
         w->scale.specular = w->scale.specular * transmittance_above;
-        w->scale.sheen = w->scale.sheen * transmittance_above;
+        w->scale.sheen = w->scale.sheen * (m->sheen_over_coat ? w->dust_transmittance : transmittance_above);
         w->scale.coat = w->scale.coat * w->dust_transmittance;
     }
     stack_view_lobes(m, w);
@@ -94,7 +94,7 @@ FN void view_select_p(const Stack *m, StackView *w) {
     if (HAS_COAT(m)) {
         w->select_p.diffuse = w->select_p.diffuse * w->coat_transmittance;
         w->select_p.specular = w->select_p.specular * w->coat_transmittance;
-        w->select_p.sheen = w->select_p.sheen * w->coat_transmittance;
+        if (!m->sheen_over_coat) w->select_p.sheen = w->select_p.sheen * w->coat_transmittance;
     }
     SLOTS(SELECT_P_OF)
     if (HAS_DUST(m)) {
@@ -109,6 +109,7 @@ FN void view_select_p(const Stack *m, StackView *w) {
         p.sheen = sampled ? max(p.sheen * w->e_o.e, 1e-3f) : 0.0f;
         p.diffuse = p.diffuse * base_scale;
         if (!IS_BELOW_F(m)) p.specular = p.specular * base_scale;
+        if (m->sheen_over_coat) p.coat = p.coat * base_scale;
     }
     float sum = 0.0f SLOTS(SELECT_P_SUM), used = 0.0f SLOTS(SELECT_P_USED);
     float least = 1.0f / (60.0f + used), most = 60.0f * least / max(sum, 1e-30f);

@@ -93,8 +93,9 @@ FN Frame frame_of(Facing at, Surface s, Dir wo) {
 /* Returns the surface with directions relative to x of its frame instead of the tangent. */
 FN Surface frame_surface(Surface s) {
     if (s.anisotropy > 0.0f) {
-        Dir a = s.anisotropy_direction, b = s.nap_direction;
+        Dir a = s.anisotropy_direction, b = s.nap_direction, c = s.coat_anisotropy_direction;
         s.nap_direction = dir(a.x * b.x + a.y * b.y, a.x * b.y - a.y * b.x, 0.0f);
+        s.coat_anisotropy_direction = dir(a.x * c.x + a.y * c.y, a.x * c.y - a.y * c.x, 0.0f);
     }
     return s;
 }

@@ -38,6 +38,10 @@
       "tint of the dielectric's reflection; specular workflow: its F0")                                                \
     P(SCALAR, specular_tint, "specular tint", 0.0f, 0.0f, 1.0f, 0.0f, 1.0f, SHAPE,                                     \
       "disney: base colour in the reflection")                                                                         \
+    P(SCALAR, diffuse_roughness, "matt roughness", 0.0f, 0.0f, 1.0f, 0.0f, 1.0f, WHOLE,                                \
+      "of the diffuse lobe: 0 as lambert, above it as eon")                                                            \
+    P(SCALAR, retroreflection, "light turned back", 0.0f, 0.0f, 1.0f, 0.0f, 1.0f, WHOLE,                               \
+      "share of the base's light that returns towards the lamp, as of high-visibility cloth")                          \
     P(SCALAR, subsurface, "subsurface", 0.0f, 0.0f, 1.0f, 0.0f, 1.0f, MIX,                                             \
       "disney: flattened subsurface; diffuse=wrap: the amount of wrap")                                                \
     P(SCALAR, diffuse_transmission, "light through cloth", 0.0f, 0.0f, 1.0f, 0.0f, 1.0f, HALF,                         \
@@ -48,11 +52,20 @@
       "stretch of the highlight along anisotropy_direction")                                                           \
     P(DIRECTION, anisotropy_direction, "stretch direction", 0.0f, 0.0f, 360.0f, -1e6f, 1e6f, NONE,                     \
       "angle from the tangent, degrees")                                                                               \
-    P(SCALAR, clearcoat, "coat amount", 0.0f, 0.0f, 1.0f, 0.0f, 1.0f, WHOLE, "amount of clear coat, ior 1.5")          \
+    P(SCALAR, clearcoat, "coat amount", 0.0f, 0.0f, 1.0f, 0.0f, 1.0f, WHOLE, "amount of clear coat")                   \
     P(SCALAR, clearcoat_roughness, "clearcoat roughness", 0.0f, 0.0f, 1.0f, 0.0f, 2.0f, NONE, "of the coat")           \
     P(SCALAR, clearcoat_gloss, "clearcoat gloss", 1.0f, 0.0f, 1.0f, 0.0f, 1.0f, NONE, "disney: gloss of the coat")     \
     P(NORMAL, clearcoat_normal, "clearcoat normal", 1.0f, 0.0f, 2.0f, -8.0f, 8.0f, NONE,                               \
       "strength of the coat's own normal map")                                                                         \
+    P(SCALAR, coat_ior, "coat ior", 1.5f, 1.0f, 2.5f, 1.0f, 100.0f, NONE, "index of refraction of the coat")           \
+    P(COLOR, coat_color, "coat colour", 1.0f, 0.0f, 1.0f, 0.0f, 1.0f, NONE,                                            \
+      "what the coat lets through, down and up again")                                                                 \
+    P(SCALAR, coat_darkening, "coat darkening", 0.0f, 0.0f, 1.0f, 0.0f, 1.0f, NONE,                                    \
+      "how much the base darkens by light that the coat throws back to it")                                            \
+    P(SCALAR, coat_anisotropy, "coat stretch", 0.0f, 0.0f, 1.0f, 0.0f, 1.0f, NONE,                                     \
+      "stretch of the coat's highlight along coat_anisotropy_direction")                                               \
+    P(DIRECTION, coat_anisotropy_direction, "coat stretch direction", 0.0f, 0.0f, 360.0f, -1e6f, 1e6f, NONE,           \
+      "angle from the tangent, degrees")                                                                               \
     P(SCALAR, sheen, "sheen amount", 1.0f, 0.0f, 1.0f, 0.0f, 10.0f, SHAPE, "amount of sheen, a factor on its colour")  \
     P(SCALAR, sheen_tint, "sheen tint", 0.5f, 0.0f, 1.0f, 0.0f, 1.0f, SHAPE, "disney: base colour in the sheen")       \
     P(COLOR, sheen_second, "second colour", 1.0f, 0.0f, 1.0f, 0.0f, 1000.0f, SHAPE,                                    \
@@ -60,6 +73,10 @@
     P(COLOR, sheen_color, "sheen colour", 0.0f, 0.0f, 1.0f, 0.0f, 1000.0f, HALF, "colour of the sheen; black is none") \
     P(SCALAR, sheen_roughness, "sheen roughness", 0.0f, 0.0f, 1.0f, 0.0f, 2.0f, HALF,                                  \
       "of the sheen; each lobe says what alpha it becomes")                                                            \
+    P(SCALAR, fuzz, "fuzz amount", 0.0f, 0.0f, 1.0f, 0.0f, 1.0f, WHOLE,                                                \
+      "amount of fuzz, fibres that stand up over everything but dust; it takes the place of the sheen")                \
+    P(COLOR, fuzz_color, "fuzz colour", 1.0f, 0.0f, 1.0f, 0.0f, 1.0f, HALF, "colour of the fuzz; black darkens")       \
+    P(SCALAR, fuzz_roughness, "fuzz roughness", 0.5f, 0.0f, 1.0f, 0.0f, 1.0f, HALF, "of the fuzz: its alpha itself")   \
     P(SCALAR, sheen_beta, "sheen beta", 0.0f, 0.0f, 20.0f, 0.0f, 100.0f, SHAPE,                                        \
       "beta of an exponential sheen; 0: mix(0.5, 20, sheen_roughness)")                                                \
     P(SCALAR, sheen_density, "density of fibres", 1.0f, 0.25f, 4.0f, 0.01f, 8.0f, SHAPE,                               \
@@ -109,6 +126,7 @@
     C(sheen_d, "distribution of a sheen of free terms; auto is charlie")                                               \
     C(sheen_v, "visibility of a sheen of free terms; auto is neubelt")                                                 \
     C(sheen_f, "Fresnel term of a sheen of free terms; auto is none")                                                  \
+    C(rim, "what lies over the base: auto is fuzz where the material has some, else sheen")                            \
     C(layer, "the rule by which the sheen sits on the base")                                                           \
     C(layer_by, "which colour the rule takes: max, the strongest channel, or channel, each its own; auto is max, of "  \
                 "rule multiplicative channel")                                                                         \

@@ -1,11 +1,17 @@
 /* stack.h - a material at one point: dust over a coat over a sheen over a specular and a diffuse lobe
  *
  *   f cos = T_dust (T_coat (sheen + base_scale (specular + (1 - F) diffuse)) + coat) + dust
+ *         = T_dust (sheen + base_scale (T_coat (specular + (1 - F) diffuse) + coat)) + dust   if the sheen is on the coat
  *   pdf   = sum select_p_k pdf_k,  sum select_p_k = 1
  *
  * Cloth transmits light: a share of the diffuse lobe's energy goes to a Lambert lobe below the surface. It is dimmed
  * by everything that is over the diffuse lobe as if wi were its mirror image above, since the layers in front are
  * behind too: so f is as reciprocal as the layers are, and both sides together reflect what one did.
+ *
+ * A retroreflective base turns a share of its light back: specular and diffuse lobe are blended linearly with themselves
+ * for the mirror direction of wo. All lobes but those of threads are the same for both directions turned about the
+ * normal by half a turn, so wi is turned in place of wo: f is as reciprocal and E the same. Jamie Portsmouth, Matthias
+ * Raab, Laurent Belcour, Francis Liu, JCGT 15(1), 2026.
  *
  * A Stack holds what does not depend on directions. It is made once for a material, or for each point if textures
  * change its inputs. A StackView holds what depends on wo alone. It serves sampling and every wi. Two factors depend
@@ -73,19 +79,22 @@ STRUCT(Stack) {
     /* F of the specular slot, with s = schlick_s and the view's `extra`, is f0 (1 - s) + f90 s
      * + extra (extra_f0 (1 - s) + extra_f90 s - extra_f_quadratic s (1 - s)). */
     Rgb extra_f0, extra_f90, extra_f_quadratic;
-    float gloss;   /* roughness or alpha of the specular slot, as the engine's steps in `view` need it */
-    int view;      /* VIEW_NONE ... */
-    int coat_rule; /* COAT_BARE ... */
-    float coat_weight;
-    float dust_amount;   /* 0: no dust */
-    float transmission;  /* the share of the diffuse slot's energy that goes through */
-    Rgb transmitted;     /* the colour of that light, times its share */
-    float transmitted_p; /* the share of the diffuse slot's samples */
-    int layer, combine;  /* LAYER_ADDITIVE ...; LAYER_BY_MAX or LAYER_BY_CHANNEL */
-    Rgb color;           /* colour of the sheen in the layer rule */
-    Rgb sheen_color;     /* colour, times weight, of a lobe that is chosen for the sheen */
-    float amount;        /* k of layer rule seed: the amount of the sheen */
-    int albedo;          /* source of E: ALBEDO_TABLE ... */
+    float gloss;                /* roughness or alpha of the specular slot, as the engine's steps in `view` need it */
+    int view;                   /* VIEW_NONE ... */
+    int coat_rule;              /* COAT_BARE ... */
+    float coat_weight, coat_f0; /* amount; reflectance at normal incidence */
+    bool has_fuzz;              /* the material has fuzz in place of a sheen */
+    bool sheen_over_coat;       /* the sheen is on the coat, and dims it */
+    float retro;                /* the share of the base's light that is turned back */
+    float dust_amount;          /* 0: no dust */
+    float transmission;         /* the share of the diffuse slot's energy that goes through */
+    Rgb transmitted;            /* the colour of that light, times its share */
+    float transmitted_p;        /* the share of the diffuse slot's samples */
+    int layer, combine;         /* LAYER_ADDITIVE ...; LAYER_BY_MAX or LAYER_BY_CHANNEL */
+    Rgb color;                  /* colour of the sheen in the layer rule */
+    Rgb sheen_color;            /* colour, times weight, of a lobe that is chosen for the sheen */
+    float amount;               /* k of layer rule seed: the amount of the sheen */
+    int albedo;                 /* source of E: ALBEDO_TABLE ... */
     TableRef table;
     Nap nap;                    /* lean of the sheen's fibres */
     float albedo_coord;         /* the sheen's shape parameter at which E is looked up */
@@ -129,7 +138,8 @@ STRUCT(StackValue) {
 };
 
 /* HAS_DIFFUSE and so on test whether a slot holds a lobe, HAS_LAYERED_SHEEN whether the layer rule has a
- * sheen that is not black, HAS_TRANSMITTED whether the base lets light through. A shader, whose slots are fixed,
+ * sheen that is not black, HAS_TRANSMITTED whether the base lets light through, HAS_RETRO whether it turns light
+ * back. A shader, whose slots are fixed,
  * defines them as constants: an empty slot costs nothing. */
 #ifndef HAS_DIFFUSE
 #define HAS_DIFFUSE(m)       ((m)->diffuse.normal > 0.0f)
@@ -139,6 +149,9 @@ STRUCT(StackValue) {
 #define HAS_DUST(m)          ((m)->dust.normal > 0.0f)
 #define HAS_LAYERED_SHEEN(m) ((m)->color.r + (m)->color.g + (m)->color.b > 0.0f)
 #define HAS_TRANSMITTED(m)   ((m)->transmission > 0.0f)
+#endif
+#ifndef HAS_RETRO
+#define HAS_RETRO(m) ((m)->retro > 0.0f)
 #endif
 
 /* Tests whether the layer rule puts the sheen too below F of the specular interface. Such a rule needs no E. */
@@ -192,6 +205,10 @@ FN void stack_clear(Stack *m) {
     m->view = VIEW_NONE;
     m->coat_rule = COAT_BARE;
     m->coat_weight = 0.0f;
+    m->coat_f0 = 0.04f;
+    m->has_fuzz = false;
+    m->sheen_over_coat = false;
+    m->retro = 0.0f;
     m->dust_amount = 0.0f;
     m->transmission = 0.0f;
     m->transmitted = rgb_grey(0.0f);

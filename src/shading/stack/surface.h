@@ -24,3 +24,16 @@ FN Choices choices_unmade(void) {
     SURFACE_CHOICES(CHOICE_UNMADE)
     return c;
 }
+
+/* Returns the surface without what only glTF's coming extensions have, but for fuzz, which a choice decides. */
+FN Surface surface_without_coming(Surface s) {
+    s.diffuse_roughness = 0.0f;
+    s.retroreflection = 0.0f;
+    s.coat_ior = 1.5f;
+    s.coat_color.r = 1.0f;
+    s.coat_color.g = 1.0f;
+    s.coat_color.b = 1.0f;
+    s.coat_darkening = 0.0f;
+    s.coat_anisotropy = 0.0f;
+    return s;
+}

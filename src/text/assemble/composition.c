@@ -95,6 +95,7 @@ CompositionSlots composition_slots(const Choices *choices, const bool zero[INPUT
         const Stack *made = &m;
         found.used &= !IS_BELOW_F(made);
         found.transmits |= HAS_TRANSMITTED(made);
+        found.retro |= HAS_RETRO(made);
     }
     return found;
 }
@@ -116,6 +117,7 @@ void text_composition_lobes(Text *text, const CompositionSlots *found, int table
     for (int k = 0; k < SLOT_COUNT; k++) text_define(text, has[k], found->slots[k].count ? "true" : "false");
     text_define(text, "HAS_LAYERED_SHEEN(m)", found->used ? "true" : "(m.color.r + m.color.g + m.color.b > 0.0)");
     text_define(text, "HAS_TRANSMITTED(m)", found->transmits ? "true" : "false");
+    text_define(text, "HAS_RETRO(m)", found->retro ? "true" : "false");
     text_dispatch(text, ids, count);
     text_slots(text, found->slots, found->sampled);
 }
@@ -147,7 +149,7 @@ void text_composition(Text *text, const Choices *choices) {
     text_provide(text, "shading/material/profile.h");
     text_include(text, "shading/stack/workflow.h");
     text_include(text, file);
-    text_line(text, "\nvoid compose_begin(inout Stack m, Surface s, Choices c) {\n    stack_clear(m);\n    %s;\n}",
+    text_line(text, "\nvoid compose_begin(inout Stack m, Surface s, Choices c) {\n    workflow_begin(m, c);\n    %s;\n}",
               c->stack);
     text_define(text, "WEFT_ALBEDO_FORMULAS(F)", albedo);
     text_define(text, "WEFT_VIEWS(F)", view);

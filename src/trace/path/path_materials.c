@@ -1,8 +1,23 @@
 #include "trace/path/path_materials.h"
 
+#include "base/equal.h"
 #include "scene/light/polygons.h"
 #include "scene/record/material_at.h"
 #include "shading/stack/frame.h"
+
+/* Returns true if no input of a coat, a matt base or a base that turns light back is in use that kinds leave out. */
+static bool is_without_coming(const PathMaterial *prepared) {
+    static const InputId coming[] = {INPUT_diffuse_roughness, INPUT_retroreflection, INPUT_coat_ior,
+                                     INPUT_coat_color,        INPUT_coat_darkening,  INPUT_coat_anisotropy};
+    const Material plain = material_default();
+    bool without = true;
+    for (size_t k = 0; k < sizeof coming / sizeof *coming; k++) {
+        const Input *input = &prepared->material.inputs[coming[k]], *as = &plain.inputs[coming[k]];
+        without &= !input->texture;
+        for (int c = 0; c < 3; c++) without &= is_equal(input->value[c], as->value[c]);
+    }
+    return without;
+}
 
 static void prepare(const WeftScene *scene, const Material *material, TableRef sheen_e, PathMaterial *prepared) {
     prepared->material = *material;
@@ -28,7 +43,8 @@ static void prepare(const WeftScene *scene, const Material *material, TableRef s
         stack_put_base(&prepared->stack, &yarn, rgb_grey(1.0f), rgb_grey(1.0f));
     }
     const bool settles = dust_settles(prepared->untextured);
-    prepared->kind = prepared->measured || settles ? NULL : stack_kind(&prepared->stack, &prepared->choices);
+    const bool usual = !prepared->measured && !settles && is_without_coming(prepared);
+    prepared->kind = usual ? stack_kind(&prepared->stack, &prepared->choices) : NULL;
     prepared->emits = material_emits(material);
     prepared->needs_tangents = !prepared->kind || prepared->cloth || prepared->material.inputs[INPUT_normal].texture ||
                                prepared->material.inputs[INPUT_clearcoat_normal].texture ||

@@ -19,8 +19,8 @@ static const struct {
     const char *heading, *prefixes[4];
     bool unfolded;
 } groups[] = {{"Base", {NULL}, true},
-              {"Sheen", {"sheen", "nap", NULL}, true},
-              {"Coat", {"clearcoat", NULL}, false},
+              {"Sheen", {"sheen", "nap", "fuzz", NULL}, true},
+              {"Coat", {"clearcoat", "coat", NULL}, false},
               {"Dust", {"dust", NULL}, false},
               {"Emission", {"emission", NULL}, false}};
 enum { GROUPS = sizeof groups / sizeof *groups, SHEEN = 1, MODELS_BEFORE = 2 };
@@ -57,10 +57,10 @@ static const char *choice_help(const void *user, int row) {
 }
 
 /* Words of artists, with the term beside them where it is another one; other choices are called as they are. */
-static const char *const words[][2] = {{"d", "distribution D"},      {"v", "shadowing V"},
-                                       {"f", "Fresnel F"},           {"profile", "engine, profile"},
-                                       {"diffuse", "diffuse model"}, {"layer", "layering rule"},
-                                       {"layer_by", "rule goes by"}, {"convert", "convert from"}};
+static const char *const words[][2] = {
+    {"d", "distribution D"},        {"v", "shadowing V"},         {"f", "Fresnel F"},
+    {"profile", "engine, profile"}, {"diffuse", "diffuse model"}, {"layer", "layering rule"},
+    {"layer_by", "rule goes by"},   {"convert", "convert from"},  {"rim", "sheen or fuzz"}};
 
 /* Makes a label of the words shown, NULL for the name. Scripts find the control by its name, with blanks for '_'. */
 static void label_make(const char *name, const char *shown, char label[96]) {
