@@ -18,8 +18,8 @@ extern "C" {
 /* Meshes, materials, lights, cameras and an environment. */
 typedef struct WeftScene WeftScene;
 
-/* Loads path: a .gltf or .glb file, or "builtin:NAME". log (may be NULL) receives warnings. On success *out
- * is owned by the caller: release it with weft_scene_free. */
+/* Loads path: a .gltf or .glb file, "builtin:NAME", or a material .u3m or .u3ma, which builtin:cloth then has. log (may
+ * be NULL) receives warnings. On success *out is owned by the caller: release it with weft_scene_free. */
 WEFT_API WeftResult weft_scene_load(const char *path, WeftScene **out, const WeftLog *log, WeftError *error);
 
 /* Works as weft_scene_load, with progress (may be NULL), which can stop it: WEFT_INTERRUPTED. */

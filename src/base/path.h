@@ -1,4 +1,4 @@
-/* path.h - suffixes of file names, and numbers before them */
+/* path.h - suffixes of file names, what they stand for, and numbers before them */
 #pragma once
 
 #include <stdbool.h>
@@ -11,6 +11,12 @@ static inline bool path_ends(const char *path, const char *suffix) {
     size_t length = strlen(path), size = strlen(suffix);
     return length > size && strcasecmp(path + length - size, suffix) == 0;
 }
+
+/* Returns true for a material of the textile industry, .u3m or .u3ma, which is a scene too: the built-in cloth in it. */
+static inline bool path_is_u3m(const char *path) { return path_ends(path, ".u3m") || path_ends(path, ".u3ma"); }
+
+/* Returns true if the path names a scene that the program has: builtin:NAME, or a U3M. */
+static inline bool path_is_built_in(const char *path) { return strncmp(path, "builtin:", 8) == 0 || path_is_u3m(path); }
 
 enum { PATH_NUMBER = 16 };
 

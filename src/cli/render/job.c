@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/path.h"
 #include "base/steady_clock.h"
 #include "cli/console/interrupt.h"
 #include "cli/console/progress.h"
@@ -51,7 +52,7 @@ static WeftResult gather(Job *job, WeftRender *render, const WeftRenderDesc *des
 /* Returns the camera to use: a built-in scene has one that shows it best. */
 static const char *camera_of(const Job *job, const char *camera) {
     if (!camera) camera = job->request->desc.camera;
-    bool builtin = strncmp(job->request->scene_options.scene, "builtin:", 8) == 0;
+    bool builtin = path_is_built_in(job->request->scene_options.scene);
     return !camera && builtin && weft_scene_info(job->scene).camera_count > 0 ? "0" : camera;
 }
 

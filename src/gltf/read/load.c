@@ -2,10 +2,12 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "base/path.h"
 #include "gltf/read/gltf.h"
 #include "scene/builtin/builtin.h"
 #include "scene/light/environment.h"
 #include "scene/material/cloth_fit.h"
+#include "weft/scene.h"
 
 static const char builtin_prefix[] = "builtin:";
 
@@ -33,8 +35,9 @@ static WeftResult load(const char *path, const void *data, size_t size, Watcher 
     WeftScene *scene = scene_create(path);
     if (!scene) return fail(error, WEFT_MESSAGE_MEMORY, path, NULL);
     WeftResult result;
-    if (!data && strncmp(path, builtin_prefix, strlen(builtin_prefix)) == 0)
-        result = load_builtin(path, watcher, scene, error);
+    const bool alone = !data && path_is_u3m(path); /* a material, which the built-in cloth is of */
+    if (alone || (!data && strncmp(path, builtin_prefix, strlen(builtin_prefix)) == 0))
+        result = load_builtin(alone ? "builtin:cloth" : path, watcher, scene, error);
     else
         result = gltf_read_watched(path, data, size, scene, watcher.progress, watcher.user, log, error);
     if (result == WEFT_OK) {
@@ -42,6 +45,7 @@ static WeftResult load(const char *path, const void *data, size_t size, Watcher 
         environment_give_way(scene);
         result = cloths_fit(scene, true, error);
     }
+    if (result == WEFT_OK && alone) result = weft_scene_assign_material(scene, NULL, path, log, error);
     if (result == WEFT_OK)
         *out = scene;
     else

@@ -29,9 +29,9 @@ static bool adopt_textures(WeftScene *scene, MaterialFile *file) {
     for (int k = 0; k < file->texture_count; k++) {
         Texture texture = file->textures[k];
         int from = texture.image;
-        texture.path = arena_text(&scene->arena, file->paths[from]);
+        texture.path = file->paths[from] ? arena_text(&scene->arena, file->paths[from]) : NULL;
         texture.image = image[from];
-        if (!texture.path) return false;
+        if (file->paths[from] && !texture.path) return false;
         number[k] =
             image[from] < 0 ? picture_add(scene, &file->images[from], texture) : texture_number_of(scene, texture);
         if (!number[k]) return false;
@@ -78,6 +78,26 @@ static Material assigned(const Material *old, const MaterialFile *file) {
     return fresh;
 }
 
+/* Places the pictures whose size is known in metres on the meshes of a material. */
+static void span_pictures(const WeftScene *scene, int material, const MaterialFile *file) {
+    for (int k = 0; k < INPUT_COUNT; k++) {
+        const float *span = file->span[k];
+        Input *input = &scene->materials[material].inputs[k];
+        if (!(span[0] > 0.0f && span[1] > 0.0f) || !input->texture || file->keep[k]) continue;
+        const double metres = cloth_uv_metres(scene, material, input->texcoord, NULL);
+        for (int c = 0; c < 6 && metres > 0.0; c++) input->transform[c] *= (float)(metres / (double)span[c / 3]);
+    }
+}
+
+/* Warns where pictures have a size in metres and the meshes have no texture coordinates to measure it by. */
+static void span_check(const WeftScene *scene, int material, const MaterialFile *file, const WeftLog *log) {
+    bool sized = false;
+    for (int k = 0; k < INPUT_COUNT; k++) sized |= file->span[k][0] > 0.0f;
+    if (sized && weft_scene_material_used(scene, material) && !(cloth_uv_metres(scene, material, 0, NULL) > 0.0))
+        warn(log, WEFT_MESSAGE_PLAUSIBLE, scene->material_names[material],
+             "its mesh has no texture coordinates, by which the material's pictures lie in millimetres");
+}
+
 bool *materials_matching(WeftScene *scene, const char *material, WeftError *error) {
     int matched = 0;
     bool *selected = arena_array(&scene->arena, (size_t)scene->material_count, sizeof *selected);
@@ -99,7 +119,10 @@ static WeftResult put_on_selected(WeftScene *scene, const bool *selected, Materi
     if (!adopt_textures(scene, file) || !adopt_cloth(scene, file, selected) || !adopt_measured(scene, file))
         return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
     for (int k = 0; k < scene_own_materials(scene); k++)
-        if (selected[k]) scene->materials[k] = assigned(&scene->materials[k], file);
+        if (selected[k]) {
+            scene->materials[k] = assigned(&scene->materials[k], file);
+            span_pictures(scene, k, file);
+        }
     WeftResult result = cloths_fit(scene, false, error);
     return result == WEFT_OK ? materials_complete(scene, error) : result;
 }
@@ -113,6 +136,8 @@ static WeftResult put_on(WeftScene *scene, const char *material, MaterialFile *f
     const WeftResult result = put_on_selected(scene, selected, file, error);
     for (int k = 0; result == WEFT_OK && file->material.cloth && k < scene_own_materials(scene); k++)
         if (selected[k]) cloth_check(scene, k, log);
+    for (int k = 0; result == WEFT_OK && k < scene_own_materials(scene); k++)
+        if (selected[k]) span_check(scene, k, file, log);
     return result;
 }
 

@@ -6,10 +6,12 @@
 
 #include "base/fail.h"
 #include "base/file.h"
+#include "base/path.h"
 #include "scene/material/material_file.h"
 #include "scene/material/material_numbers.h"
 #include "scene/material/presets.h"
 #include "scene/material/set.h"
+#include "scene/material/u3m.h"
 
 const char *weft_preset_name(int index) { return preset_at(index) ? preset_at(index)->name : NULL; }
 const char *weft_preset_group(int index) { return preset_at(index) ? preset_at(index)->group : NULL; }
@@ -41,6 +43,7 @@ WeftResult material_file_load(const char *path, MaterialFile *out, const WeftLog
     static const char prefix[] = "preset:";
     const size_t limit = (size_t)1 << 20;
     memset(out, 0, sizeof *out);
+    if (path_is_u3m(path)) return u3m_load(path, out, log, error);
     if (strncmp(path, prefix, strlen(prefix)) == 0) return load_preset(path + strlen(prefix), out, error);
     FileBytes bytes;
     WeftResult result = file_read(path, limit, &bytes, error);
@@ -55,6 +58,12 @@ WeftResult material_file_load(const char *path, MaterialFile *out, const WeftLog
 }
 
 void weft_material_default(WeftMaterial *out) { *out = material_default(); }
+
+/* Takes the texture from an input, which then has the value that the file gives for this case, or the factor. */
+static void leave_texture(const MaterialFile *file, InputId id, Input *input) {
+    if (input->texture && file->has_constants) memcpy(input->value, file->constant[id], sizeof input->value);
+    input->texture = 0;
+}
 
 /* Reads the material of a file or preset. cloth: NULL leaves out a weave. */
 static WeftResult read_alone(const char *path, WeftMaterial *out, WeftCloth **cloth, const WeftLog *log,
@@ -73,7 +82,7 @@ static WeftResult read_alone(const char *path, WeftMaterial *out, WeftCloth **cl
         if (file.measured)
             warn(log, WEFT_MESSAGE_GLTF_WARN_IGNORED, path, "its measurement; only its numbers count here");
         *out = file.material;
-        for (int k = 0; k < INPUT_COUNT; k++) out->inputs[k].texture = 0;
+        for (int k = 0; k < INPUT_COUNT; k++) leave_texture(&file, (InputId)k, &out->inputs[k]);
     }
     material_file_free(&file);
     return result;

@@ -11,8 +11,11 @@ typedef struct MaterialFile {
     bool alpha_named, sided_named;
     Texture textures[INPUT_COUNT];
     WeftImage images[INPUT_COUNT]; /* owned */
-    char *paths[INPUT_COUNT];      /* owned; of images */
+    char *paths[INPUT_COUNT];      /* owned; of images; NULL: an image that is none of a file */
     int texture_count, image_count;
+    float span[INPUT_COUNT][2];     /* metres that the picture of an input spans; 0: as its transform says */
+    float constant[INPUT_COUNT][3]; /* the value of an input with a texture where textures are not read */
+    bool has_constants;             /* the file gives these; otherwise the factor of the texture stands for it */
     WeftCloth *cloth;   /* owned; NULL: none */
     Measured *measured; /* owned; NULL: none */
 } MaterialFile;

@@ -11,7 +11,7 @@
  *   Brent Burley, "Physically Based Shading at Disney", SIGGRAPH 2012 course "Practical Physically Based
  * Shading in Film and Game Production", section 5 and the addenda of its later revisions (V without the
  * remapped roughness, diffuse as published). Nothing dims the diffuse lobe but its own Fresnel factor, so
- * energy is not conserved. */
+ * energy is not conserved. Light that goes through the diffuse lobe (diffuse_transmission) is glTF's, not his. */
 #pragma once
 
 #include "shading/lobes/burley_subsurface.h"
@@ -53,4 +53,7 @@ FN void disney_tinted(Stack *m, const Surface *s, Rgb tint) {
     slot_make(&m->coat, coat, rgb_grey(0.04f), rgb_grey(1.0f), amount, 0.04f * amount, amount);
 }
 
-FN void disney_stack(Stack *m, const Surface *s) { disney_tinted(m, s, disney_tint(s->base_color)); }
+FN void disney_stack(Stack *m, const Surface *s) {
+    disney_tinted(m, s, disney_tint(s->base_color));
+    workflow_transmission(m, s, 1.0f - s->metallic);
+}

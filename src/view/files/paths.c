@@ -17,10 +17,11 @@ PathKind path_kind(const char *path) {
     static const struct {
         const char *suffix;
         PathKind kind;
-    } kinds[] = {{".gltf", PATH_SCENE},    {".glb", PATH_SCENE},   {".hdr", PATH_LIGHT},   {".exr", PATH_LIGHT},
-                 {".json", PATH_MATERIAL}, {".png", PATH_PICTURE}, {".jpg", PATH_PICTURE}, {".jpeg", PATH_PICTURE},
-                 {".webp", PATH_PICTURE},  {".tga", PATH_PICTURE}, {".tif", PATH_PICTURE}, {".tiff", PATH_PICTURE},
-                 {".ktx2", PATH_PICTURE},  {".h", PATH_LOBE},      {".wif", PATH_DRAFT},   {".dtx", PATH_DRAFT}};
+    } kinds[] = {{".gltf", PATH_SCENE},    {".glb", PATH_SCENE},    {".hdr", PATH_LIGHT},   {".exr", PATH_LIGHT},
+                 {".json", PATH_MATERIAL}, {".png", PATH_PICTURE},  {".jpg", PATH_PICTURE}, {".jpeg", PATH_PICTURE},
+                 {".webp", PATH_PICTURE},  {".tga", PATH_PICTURE},  {".tif", PATH_PICTURE}, {".tiff", PATH_PICTURE},
+                 {".ktx2", PATH_PICTURE},  {".h", PATH_LOBE},       {".wif", PATH_DRAFT},   {".dtx", PATH_DRAFT},
+                 {".u3m", PATH_MATERIAL},  {".u3ma", PATH_MATERIAL}};
     struct stat s;
     if (strncmp(path, "builtin:", 8) == 0) return PATH_SCENE;
     if (strncmp(path, "preset:", 7) == 0) return PATH_MATERIAL;

@@ -9,6 +9,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/path.h"
 #include "view/files/paths.h"
 #include "view/files/session_file.h"
 #include "view/files/survey.h"
@@ -217,7 +218,7 @@ static int on_progress(void *user, double fraction) {
 /* Returns the camera of the command line if it was given for this scene, else the first of a built-in scene, else one
  * that frames everything. */
 static const char *first_camera(const Loader *self) {
-    bool builtin = strncmp(self->loaded.path, "builtin:", 8) == 0;
+    bool builtin = path_is_built_in(self->loaded.path);
     if (self->configured && self->desc->camera) return self->desc->camera;
     return builtin && self->loaded.facts.info.camera_count ? "0" : "auto";
 }
