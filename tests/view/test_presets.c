@@ -90,7 +90,10 @@ static void materials_of_ones_own_are_kept_beside_files_that_are_none(void **sta
     script_begin();
     say("wait rest\nset Material/roughness 0.31\nwait rest\nclick Material/preset\nwait 5\nclick Presets/name\n"
         "type my/cloth\nkey enter\nwait message is no name\nclick Presets/name\nkey control+a\ntype mine\nwait 3\n"
-        "click \"Presets/Save as preset\"\nwait message wrote\nwait seconds 1\nclick Presets/search\ntype own\nwait 5\n"
+        "click \"Presets/Save as preset\"\nwait message wrote\nwait seconds 1\nset Material/roughness 0.5\nclick "
+        "Presets/name\n"
+        "key control+a\ntype mine\nkey enter\nwait message is there: press Replace\nclick Presets/search\ntype "
+        "own\nwait 5\n"
         "wait thumbnails\nwait 3\nwindow own.png\nset Material/roughness 0.9\nwait rest\n"
         "click Material/preset/own/torn\nwait message torn.json\nwait 5\n");
     say_rested_picture("torn.png");

@@ -147,6 +147,14 @@ static void a_cloth_and_the_last_scene_come_back_without_an_argument(void **stat
     assert_string_equal(again, weave);
     kill_now(&drive);
 
+    /* A scene that can no longer be read is said, and another is shown. */
+    file_make("scene.gltf", "{", 1);
+    drive = drive_start("wait rest\nstay\n", LIST(REMEMBERS));
+    json_decref(later);
+    later = drive_until(&drive, "scene", "builtin:cloth");
+    assert_string_equal(word_of(later, "scene"), "builtin:cloth");
+    kill_now(&drive);
+
     /* With a scene or --forget on the command line it is not there. */
     drive = drive_start("wait rest\nstay\n", LIST(UNSEEN));
     json_decref(later);
@@ -184,6 +192,30 @@ static void a_damaged_session_is_one_line_and_no_more(void **state) {
         if (fabs(rough - 0.5) > 1e-6) fail_msg("%s: %g", texts[k], rough);
         json_decref(said);
         drive_finish(&drive);
+    }
+}
+
+/* A name that is longer than what the window keeps of it is cut, and its last character with it. */
+static void a_session_has_names_that_were_cut(void **state) {
+    (void)state;
+    need_gl();
+    Ran ran = run_shell(
+        "n=$(printf '\\303\\251%.0s' $(seq 100)); for s in '' x; do sed \"s/\\\"name\\\": *\\\"cloth\\\"/"
+        "\\\"name\\\":\\\"$s$n\\\"/\" scene.gltf >\"cut$s.gltf\" && grep -q \"$n\" \"cut$s.gltf\" || exit 9; done");
+    if (ran.code != 0) fail_msg("%d %s", ran.code, ran.err);
+    ran_free(&ran);
+    static const char *const scenes[] = {"cut.gltf", "cutx.gltf"};
+    for (size_t k = 0; k < 2; k++) {
+        Drive drive = drive_start("wait rest\nset \"Material/sheen roughness\" 0.7\nwait rest\nstay\n",
+                                  LIST(REMEMBERS, scenes[k]));
+        await_session(&drive);
+        kill_now(&drive);
+        drive = drive_start("wait rest\nstay\n", LIST(REMEMBERS, scenes[k]));
+        json_t *later = drive_until(&drive, "message", "restored what was not saved");
+        assert_float_equal(input_of(later, 0, "sheen_roughness", 0), 0.7, 1e-6);
+        json_decref(later);
+        kill_now(&drive);
+        forget_sessions(NULL);
     }
 }
 
@@ -257,6 +289,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {TEST(a_killed_window_comes_back_with_its_state),
                                        TEST(a_cloth_and_the_last_scene_come_back_without_an_argument),
                                        TEST(a_damaged_session_is_one_line_and_no_more),
+                                       TEST(a_session_has_names_that_were_cut),
                                        TEST(closing_asks_if_changes_are_not_saved),
                                        TEST(opening_another_scene_asks_too),
                                        TEST(a_second_window_of_a_scene_leaves_the_session_alone)};

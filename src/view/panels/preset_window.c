@@ -217,7 +217,9 @@ static void draw_save(Viewer *v) {
     ui_disabled_end();
     ui_tip(tip);
     if (!(pressed || entered)) return;
-    if (!good) {
+    if (known && !pressed) {
+        viewer_report(v, true, "a preset \"%.60s\" of yours is there: press Replace, or give another name", self->name);
+    } else if (!good) {
         viewer_report(v, true, "\"%.60s\" is no name for a file: no / in it, and no . before it", self->name);
     } else if (user_materials(folder, true)) {
         actions_send(v, TASK_SAVE, path, v->edit->material, -1);

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "base/path.h"
+#include "base/printable.h"
 #include "view/files/paths.h"
 #include "view/files/session_file.h"
 #include "view/files/survey.h"
@@ -36,10 +37,15 @@ static const char *file_name(const WeftScene *scene, int k) {
     return path ? path_name(path) : NULL;
 }
 
-/* Replaces control characters and those that have a meaning in a label. */
+/* Replaces control characters, those that have a meaning in a label, and bytes that are no UTF-8, such as a character
+ * that was cut. */
 static void make_fit(char *name) {
-    for (; *name; name++)
-        if ((unsigned char)*name < 0x20 || *name == '/' || *name == '#') *name = ' ';
+    for (int length; *name; name += length ? length : 1) {
+        unsigned code;
+        length = utf8_read((const unsigned char *)name, &code);
+        if (length == 0) *name = '?';
+        if (length == 1 && (code < 0x20 || code == '/' || code == '#')) *name = ' ';
+    }
 }
 
 /* Appends a number to names that occur already. */
@@ -49,6 +55,7 @@ static void make_unique(FactName *names, int k) {
         char stem[FACTS_NAME];
         memcpy(stem, names[k], sizeof stem);
         snprintf(names[k], FACTS_NAME, "%.48s (%d)", stem, k);
+        make_fit(names[k]);
         return;
     }
 }

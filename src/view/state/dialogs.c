@@ -122,6 +122,7 @@ void dialogs_open(Viewer *v, const char *name) {
     places_read(&dialogs->places, v->shown->any ? v->shown->facts.path : NULL, &v->frame->settings);
     browser_refresh(dialogs->browser, &dialogs->places);
     dialogs->asked[0] = '\0';
+    leaving_stop_waiting(v);
     snprintf(v->states->dialogs.due, sizeof v->states->dialogs.due, "%s", name);
 }
 
@@ -283,13 +284,18 @@ static void draw_folder(DialogsState *dialogs) {
                         dialogs->shot_path, sizeof dialogs->shot_path);
 }
 
-/* Returns the name of the first file that will be written. */
-static const char *first_file(const DialogsState *dialogs, char first[STATE_PATH]) {
-    char number[PATH_NUMBER];
-    const int around = dialogs->shot.around;
-    const bool several = dialogs->shot_traced && around > 0;
-    if (several && path_numbered(dialogs->shot_path, path_number(0, around, number), first, STATE_PATH)) return first;
-    return dialogs->shot_path;
+/* Returns the name of the first file that would be replaced, or else of the first that will be written. */
+static const char *first_file(const DialogsState *dialogs, char name[STATE_PATH]) {
+    char number[PATH_NUMBER], path[STATE_PATH];
+    const int around = dialogs->shot_traced ? dialogs->shot.around : 0;
+    bool fits = around > 0;
+    for (int k = 0; fits && k < around; k++) {
+        fits = path_numbered(dialogs->shot_path, path_number(k, around, number), name, STATE_PATH);
+        if (fits && browser_place(dialogs->browser, name, path, STATE_PATH) && path_stamp(path)) return name;
+    }
+    return fits && path_numbered(dialogs->shot_path, path_number(0, around, number), name, STATE_PATH)
+               ? name
+               : dialogs->shot_path;
 }
 
 static void draw_shot(Viewer *v) {

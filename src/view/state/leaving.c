@@ -20,6 +20,8 @@ static void leave(Viewer *v) {
 
 void leaving_cancel(Viewer *v) { v->states->leaving = (LeavingState){0}; }
 
+void leaving_stop_waiting(Viewer *v) { v->states->leaving.saves = false; }
+
 void leaving_quit(Viewer *v) {
     if (!edit_is_unsaved(v) && !v->stills->still && !v->stills->has_due) {
         viewer_quit(v);
@@ -109,7 +111,7 @@ void leaving_draw(Viewer *v) {
     } else if (discard) {
         leave(v);
     } else if (save && edit_is_unsaved(v)) {
-        v->states->leaving.saves = true;
         dialogs_save(v, NULL);
+        v->states->leaving.saves = true;
     }
 }

@@ -18,6 +18,9 @@ bool leaving_asks(Viewer *v, const char *path);
 /* Leaves after a scene or material was saved, if that was the answer; asks again if changes remain. */
 void leaving_saved(Viewer *v, bool failed);
 
+/* Ends the wait for the dialog that saves, since another one opens. */
+void leaving_stop_waiting(Viewer *v);
+
 /* Stays. */
 void leaving_cancel(Viewer *v);
 void leaving_draw(Viewer *v);

@@ -98,7 +98,8 @@ bool opening_begin(Viewer *v) {
     for (const char *const *lobe = v->desc->lobes; lobe && *lobe; lobe++) keep_lobe(v, *lobe);
     char last[STATE_PATH];
     const bool plain = !v->desc->scene && !v->desc->forget && !(v->desc->options && v->desc->options[0]);
-    opening_start(v, v->desc->scene ? v->desc->scene : plain && sessions_last(last) ? last : "builtin:cloth", false);
+    v->states->opening.resumes = plain && sessions_last(last);
+    opening_start(v, v->desc->scene ? v->desc->scene : v->states->opening.resumes ? last : "builtin:cloth", false);
     return true;
 }
 
@@ -337,9 +338,12 @@ void opening_poll(Viewer *v) {
     v->states->opening.loader = NULL;
     v->states->opening.opened = loaded.result;
     if (loaded.taken) keep_lobe(v, loaded.lobe);
+    const bool instead = v->states->opening.resumes && !loaded.scene && !v->states->shown.any;
+    v->states->opening.resumes = false;
     if (loaded.scene)
         hand_over(v, &loaded);
     else
         viewer_report(v, true, "%s", loaded.failure);
+    if (instead) v->states->opening.opened = WEFT_OK, opening_start(v, "builtin:cloth", false);
     loaded_free(&loaded);
 }

@@ -17,6 +17,7 @@ typedef struct OpeningState {
     unsigned scenes; /* number of the last scene that was read */
     Loaded pending;  /* state and facts of the scene that the renderer prepares */
     bool has_pending;
+    bool resumes; /* the first scene is that of the last session, which nobody has asked for by its name */
 } OpeningState;
 
 /* The scene that is shown. */
