@@ -51,6 +51,22 @@ typedef struct WeftInput {
     float transform[6]; /* (u', v') = (m0 u + m1 v + m2, m3 u + m4 v + m5) before the texture is read */
 } WeftInput;
 
+/* The numbers of the hair of a cloth: loose fibres that stand off its front and break its outline. Both engines draw them
+ * as ribbons of triangles. Without length, density or thickness there is none. */
+enum {
+    WEFT_HAIR_LENGTH = 0, /* of the longest fibres, m; they are half as long and more */
+    WEFT_HAIR_DENSITY,    /* fibres that stand on 1 m2 */
+    WEFT_HAIR_THICKNESS,  /* width of a fibre, m */
+    WEFT_HAIR_NUMBERS
+};
+
+/* Fills in the number of hair at index, and returns 1; returns 0 past the end. weft_scene_set takes its name. */
+WEFT_API int weft_material_hair_info(int index, WeftInputInfo *out);
+
+/* Returns the name of a number of hair and its help; NULL past the end. */
+WEFT_API const char *weft_material_hair_name(int index);
+WEFT_API const char *weft_material_hair_help(int index);
+
 /* The effect of opacity: none, a cut-out, or blending with the background. */
 typedef enum WeftAlphaMode { WEFT_ALPHA_OPAQUE = 0, WEFT_ALPHA_MASK, WEFT_ALPHA_BLEND } WeftAlphaMode;
 
@@ -62,6 +78,7 @@ typedef struct WeftMaterial {
     int unlit;                     /* not 0: base_color is shown as it is */
     int cloth;                     /* of the scene, counted from 1, in place of diffuse and specular; 0: none */
     int measured;                  /* of the scene, counted from 1, in place of all lobes in the path tracer; 0: none */
+    float hair[WEFT_HAIR_NUMBERS]; /* length, density and thickness of loose fibres; length 0: there are none */
     int choices[WEFT_CHOICES_MAX]; /* as weft_material_choice_value counts; -1: auto */
     WeftInput inputs[WEFT_INPUTS_MAX]; /* in the order of weft_material_input_name */
 } WeftMaterial;

@@ -12,6 +12,7 @@
 #include "scene/light/cubemap.h"
 #include "scene/light/environment.h"
 #include "scene/material/cloth_fit.h"
+#include "scene/material/hair.h"
 #include "weave/weft_cloth.h"
 
 WeftScene *scene_create(const char *name) {
@@ -31,6 +32,7 @@ void weft_scene_free(WeftScene *scene) {
     for (int k = 0; k < scene->cloth_count; k++) weft_cloth_free(scene->cloths[k]);
     for (int k = 0; k < scene->measured_count; k++) scene_measured_free(scene->measured[k]);
     weft_image_free(&scene->environment.image);
+    hairs_free(scene);
     arena_free(&scene->arena);
     free(scene);
 }

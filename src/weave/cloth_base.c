@@ -20,6 +20,13 @@ bool cloth_is_gap(const WeftCloth *cloth, const float uv[2]) {
     return weave_gap(&cloth->weave, at.x, at.y);
 }
 
+Rgb cloth_fibre_albedo(const WeftCloth *cloth, const float uv[2]) {
+    const Weave *m = &cloth->weave;
+    const Dir at = place_of(cloth_placing(cloth), uv[0], uv[1]);
+    const WeavePoint p = weave_top(m, at.x, at.y);
+    return rgb(weave_albedo(m, p, 0), weave_albedo(m, p, 1), weave_albedo(m, p, 2));
+}
+
 WeaveBase cloth_base_far(const WeftCloth *cloth, bool weft) {
     int w, h;
     const float *single = cloth_far_level(&cloth->far, cloth->far.levels - 1, &w, &h) +

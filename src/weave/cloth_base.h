@@ -49,5 +49,8 @@ void cloth_bases(const WeftCloth *cloth, const ClothLooks *looks, int n, YarnRow
  * cloth. */
 WeaveBase cloth_base_far(const WeftCloth *cloth, bool weft);
 
+/* Returns the albedo of the fibres of the thread on top. Alone they reflect more than packed in the thread. */
+Rgb cloth_fibre_albedo(const WeftCloth *cloth, const float uv[2]);
+
 /* Returns true if there is no thread. */
 bool cloth_is_gap(const WeftCloth *cloth, const float uv[2]);

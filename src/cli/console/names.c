@@ -73,6 +73,21 @@ static const char *chart_help(int k) { return weft_chart(k) ? weft_chart(k)->hel
 /* Returns an empty help text, since the list of lobes prints a table instead. */
 static const char *no_help(int k) { return k < 0 ? NULL : ""; }
 
+/* Count the numbers of hair after the inputs. */
+static int input_count(void) {
+    int count = 0;
+    while (weft_material_input_name(count)) count++;
+    return count;
+}
+static const char *set_name(int k) {
+    const char *name = weft_material_input_name(k);
+    return name || k < 0 ? name : weft_material_hair_name(k - input_count());
+}
+static const char *set_help(int k) {
+    const char *help = weft_material_input_help(k);
+    return help || k < 0 ? help : weft_material_hair_help(k - input_count());
+}
+
 static const KindGroups preset_groups = {weft_preset_group_name, weft_preset_group_help, weft_preset_group};
 
 const Kind kinds[] = {
@@ -91,8 +106,8 @@ const Kind kinds[] = {
      "workflows/", NULL},
     {"profile", "a", "profiles", "Profiles: exact compositions of engines", weft_profile_name, weft_profile_help, true,
      "profiles/", NULL},
-    {"input", "an", "inputs", "Material inputs: render --set MATERIAL.INPUT=VALUE", weft_material_input_name,
-     weft_material_input_help, true, NULL, NULL},
+    {"input", "an", "inputs", "Material inputs: render --set MATERIAL.INPUT=VALUE", set_name, set_help, true, NULL,
+     NULL},
     {"choice", "a", "choices", "Material choices: render --set MATERIAL.CHOICE=ID", weft_material_choice_name,
      weft_material_choice_help, true, NULL, NULL},
     {"preset", "a", "presets", "Presets: render --preset NAME", weft_preset_name, weft_preset_help, true, NULL,

@@ -191,6 +191,11 @@ static void saved_read(const Field *weft, Material *material) {
     }
     field_keys(&choices, choice_names);
     field_keys(&list, input_names);
+    for (int k = 0; k < WEFT_HAIR_NUMBERS; k++) {
+        const Field field = field_member(weft, hair_infos[k].name);
+        material->hair[k] = (float)field_number(&field, (double)material->hair[k], (double)hair_infos[k].hard_low,
+                                                (double)hair_infos[k].hard_high);
+    }
     material->alpha_cutoff = (float)field_number(&cutoff, (double)material->alpha_cutoff, 0.0, (double)FLT_MAX);
 }
 
@@ -222,9 +227,11 @@ static void weave_read(const Field *weft, Material *material) {
 
 /* Reads extras.weft: what no extension of glTF can express. Other extras belong to other programs. */
 static void extras_read(const Field *field, Material *material) {
-    const char *keys[OWN + 9] = {"nap",     "napRotation", "napTexture",  "dustTexture",
-                                 "choices", "inputs",      "alphaCutoff", "weave"};
-    for (size_t k = 0; k < OWN; k++) keys[8 + k] = own[k].key;
+    enum { OTHERS = 8 };
+    const char *keys[OTHERS + OWN + WEFT_HAIR_NUMBERS + 1] = {"nap",     "napRotation", "napTexture",  "dustTexture",
+                                                              "choices", "inputs",      "alphaCutoff", "weave"};
+    for (size_t k = 0; k < OWN; k++) keys[OTHERS + k] = own[k].key;
+    for (int k = 0; k < WEFT_HAIR_NUMBERS; k++) keys[OTHERS + OWN + (size_t)k] = hair_infos[k].name;
     static const MaterialField nap[] = {
         {INPUT_nap, NULL, "nap", "napTexture", CHANNEL_B, 0.0f, 0.0f, 0.5f * PI_FLOAT},
         {INPUT_nap_direction, NULL, "napRotation", "napTexture", CHANNELS_DIRECTION, 0.0f, -INFINITY, INFINITY}};

@@ -214,6 +214,9 @@ static void extras_save(Saving *saving, json_t *object, const Material *material
     if (json_object_size(inputs)) saving_put(saving, weft, "inputs", json_incref(inputs));
     if (material->cloth)
         saving_put(saving, weft, "weave", cloth_to_json(saving->scene->cloths[material->cloth - 1], NULL));
+    for (int k = 0; k < WEFT_HAIR_NUMBERS; k++)
+        if (!is_equal(material->hair[k], read->hair[k]))
+            number_put(saving, weft, hair_infos[k].name, material->hair[k]);
     if (material->alpha_cutoff < read->alpha_cutoff || material->alpha_cutoff > read->alpha_cutoff)
         number_put(saving, weft, "alphaCutoff", fmaxf(material->alpha_cutoff, 0.0f));
     json_decref(choices);

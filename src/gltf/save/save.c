@@ -10,6 +10,7 @@
 #include "base/path.h"
 #include "gltf/asset/container.h"
 #include "gltf/save/saving.h"
+#include "scene/material/hair.h"
 #include "weft/version.h"
 
 static void root_save(Saving *saving) {
@@ -65,8 +66,10 @@ WeftResult weft_scene_save(const WeftScene *scene, const char *path, WeftError *
     bool packed = path_ends(path, ".glb");
     if (!packed && !path_ends(path, ".gltf"))
         return fail(error, WEFT_MESSAGE_SCENE_KIND, path, "write a .glb or a .gltf");
-    Saving saving = {.scene = scene, .path = path, .packed = packed, .error = error, .root = json_object()};
-    if (!saving.root) saving_fail(&saving, WEFT_MESSAGE_MEMORY, path, NULL);
+    WeftScene bald; /* hair grows anew when the scene is loaded */
+    Saving saving = {.scene = &bald, .path = path, .packed = packed, .error = error, .root = json_object()};
+    if (!hairs_left_out(scene, &saving.arena, &bald) || !saving.root)
+        saving_fail(&saving, WEFT_MESSAGE_MEMORY, path, NULL);
     if (saving.result == WEFT_OK) root_save(&saving);
     if (saving.result == WEFT_OK) buffer_save(&saving);
     if (saving.result == WEFT_OK) file_write(&saving);

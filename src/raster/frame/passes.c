@@ -174,12 +174,13 @@ static WeftResult compile_shaders(WeftRaster *self, const WeftRasterView *view, 
     return kept ? WEFT_OK : fail(error, WEFT_MESSAGE_MEMORY, "shaders", NULL);
 }
 
-/* Draws the depths of all meshes. A single-sided surface hides the light from what it faces, since it is seen from there,
+/* Draws the depths of all meshes but hair, which is finer than a texel of the maps. A single-sided surface hides the light from what it faces, since it is seen from there,
  * and has no shadow on the side of its back: so the faces that look away from the light are drawn, as the path tracer's
  * rays to the light meet them. */
 static WeftResult draw_depth(WeftRaster *self, WeftError *error) {
     WeftResult result = WEFT_OK;
     for (int m = 0; m < self->scene->mesh_count && result == WEFT_OK; m++) {
+        if (m >= scene_own_meshes(self->scene) && m < scene_light_meshes(self->scene)) continue;
         ShaderKey key = depth_key(&self->materials.all[self->scene->meshes[m].material].key);
         result = draw_mesh(self, m, PASS_SOLID, &key, error);
     }
@@ -265,7 +266,7 @@ static WeftResult draw_meshes(WeftRaster *self, int first, int end, MeshPass pas
     WeftResult result = WEFT_OK;
     for (int k = first; k < end && result == WEFT_OK; k++) {
         int mesh = self->queue.order[k];
-        if (view->hide_lights && mesh >= scene_own_meshes(self->scene)) continue;
+        if (view->hide_lights && mesh >= scene_light_meshes(self->scene)) continue;
         if (k >= self->queue.solid && !self->summing && !takes_part(self->scene, mesh, pass)) continue;
         ShaderKey key = lit_key(self, view, &self->materials.all[self->scene->meshes[mesh].material]);
         result = draw_mesh(self, mesh, pass, &key, error);

@@ -101,6 +101,7 @@ WeftResult meshes_create(const WeftScene *scene, const Refinement *refinement, G
     for (int a = 0; a < AT_COUNT && result == WEFT_OK; a++) result = upload(out, scene, a, error);
     glBindVertexArray(0);
     out->mesh_count = scene->mesh_count;
+    out->hair_version = scene->hair_version;
     out->tangents = tangents_of(scene);
     if (result != WEFT_OK) meshes_destroy(out);
     return result;
@@ -164,7 +165,7 @@ void meshes_forget_lights(GlMeshes *self) {
 
 static bool same_counts(const GlMeshes *self, const WeftScene *scene) {
     uint32_t vertices = self->own_count;
-    bool same = self->mesh_count == scene->mesh_count;
+    bool same = self->mesh_count == scene->mesh_count && self->hair_version == scene->hair_version;
     for (int m = scene_own_meshes(scene); m < scene->mesh_count && same; m++) {
         same = self->first[m + 1] - self->first[m] == 3 * scene->meshes[m].triangle_count;
         vertices += scene->meshes[m].vertex_count;
@@ -174,8 +175,10 @@ static bool same_counts(const GlMeshes *self, const WeftScene *scene) {
 
 static void move_lights(const GlMeshes *self, const WeftScene *scene) {
     GLsizeiptr at = (GLsizeiptr)self->own_count * 3 * (GLsizeiptr)sizeof(float);
+    for (int m = scene_own_meshes(scene); m < scene_light_meshes(scene); m++)
+        at += (GLsizeiptr)scene->meshes[m].vertex_count * 3 * (GLsizeiptr)sizeof(float);
     glBindBuffer(GL_ARRAY_BUFFER, self->attributes[AT_POSITION]);
-    for (int m = scene_own_meshes(scene); m < scene->mesh_count; m++) {
+    for (int m = scene_light_meshes(scene); m < scene->mesh_count; m++) {
         GLsizeiptr size = (GLsizeiptr)scene->meshes[m].vertex_count * 3 * (GLsizeiptr)sizeof(float);
         glBufferSubData(GL_ARRAY_BUFFER, at, size, scene->meshes[m].position);
         at += size;

@@ -25,6 +25,7 @@ typedef struct GlMeshes {
     bool env_lights;                  /* true if values for the environment's lights are there */
     uint32_t vertex_count, own_count; /* own: of the scene's own meshes, which come first */
     int mesh_count, tangents;         /* tangents: of how many meshes they are uploaded */
+    unsigned hair_version;            /* of the uploaded hair, as in WeftScene */
     uint32_t *first;                  /* a mesh's first index; mesh_count + 1 entries, owned */
     const Refinement *refinement;     /* of the scene's own meshes */
 } GlMeshes;
@@ -49,8 +50,8 @@ void meshes_forget_lights(GlMeshes *meshes);
  * then as they were. */
 WeftResult meshes_update(GlMeshes *meshes, const WeftScene *scene, WeftError *error);
 
-/* Uploads changed shapes of lights and keeps the vertices' occlusion. If numbers of vertices and triangles are
- * unchanged, only the positions of the lights' vertices are uploaded. Fails as meshes_create does; the meshes are then
+/* Uploads changed shapes of lights and hair, and keeps the vertices' occlusion. If there is no new hair, and numbers of
+ * vertices and triangles are unchanged, only the positions of the lights' vertices are uploaded. Fails as meshes_create does; the meshes are then
  * as they were. */
 WeftResult meshes_reshape(GlMeshes *meshes, const WeftScene *scene, WeftError *error);
 

@@ -25,10 +25,12 @@ static inline void depths_add_box(Depths *depths, const View *view, Box box) {
     for (int k = 0; k < 8; k++) depths_add(depths, view, box_corner(box, k));
 }
 
-/* Adds a scene and its lights. */
+/* Adds a scene, its hair and its lights. */
 static inline void depths_add_scene(Depths *depths, const View *view, const WeftScene *scene) {
-    depths_add_box(depths, view, (Box){scene->low, scene->high});
-    for (int m = scene_own_meshes(scene); m < scene->mesh_count; m++)
+    const float reach = scene_hair_reach(scene);
+    const Vec3 around = {reach, reach, reach};
+    depths_add_box(depths, view, (Box){vec3_sub(scene->low, around), vec3_add(scene->high, around)});
+    for (int m = scene_light_meshes(scene); m < scene->mesh_count; m++)
         for (uint32_t k = 0; k < scene->meshes[m].vertex_count; k++)
             depths_add(depths, view, vec3_load(scene->meshes[m].position + 3 * (size_t)k));
 }

@@ -98,8 +98,8 @@ static Material light_material(const float color[3]) {
 
 /* Fills mesh k of the polygon lights in its own memory. */
 static void shape(WeftScene *scene, int k, const WeftLight *l, const Vec3 corners[LIGHT_CORNERS]) {
-    int material = scene_own_materials(scene) + k;
-    Mesh *mesh = &scene->meshes[scene_own_meshes(scene) + k];
+    int material = scene_light_materials(scene) + k;
+    Mesh *mesh = &scene->meshes[scene_light_meshes(scene) + k];
     mesh->vertex_count = (uint32_t)l->corners;
     mesh->triangle_count = (uint32_t)l->corners - 2;
     mesh->material = material;
@@ -153,15 +153,15 @@ static void add_polygon(WeftScene *scene, int place, const WeftLight *l, const V
 
 /* Removes polygon light k. Its mesh moves behind the others, where the next light reuses its memory. */
 static void drop_polygon(WeftScene *scene, int k) {
-    int last = scene->polygon_light_count - 1, own_materials = scene_own_materials(scene);
-    Mesh *meshes = scene->meshes + scene_own_meshes(scene), gone = meshes[k];
-    Material *materials = scene->materials + own_materials;
+    int last = scene->polygon_light_count - 1, first_material = scene_light_materials(scene);
+    Mesh *meshes = scene->meshes + scene_light_meshes(scene), gone = meshes[k];
+    Material *materials = scene->materials + first_material;
     size_t behind = (size_t)(last - k);
     memmove(meshes + k, meshes + k + 1, behind * sizeof *meshes);
     memmove(materials + k, materials + k + 1, behind * sizeof *materials);
     memmove(scene->polygon_lights + k, scene->polygon_lights + k + 1, behind * sizeof *scene->polygon_lights);
     meshes[last] = gone;
-    for (int j = k; j < last; j++) meshes[j].material = own_materials + j;
+    for (int j = k; j < last; j++) meshes[j].material = first_material + j;
     scene->polygon_light_count--;
     scene->mesh_count--;
     scene->material_count--;

@@ -3,6 +3,7 @@
 #include <math.h> /* the dialect has sqrt() and log() of floats; in parentheses they are those of doubles */
 
 #include "base/fail.h"
+#include "scene/material/hair.h"
 #include "scene/material/relief.h"
 #include "weave/weft_cloth.h"
 
@@ -101,5 +102,6 @@ WeftResult cloths_fit(WeftScene *scene, bool fresh, WeftError *error) {
         WeftResult result = cloth_put(scene, k, fitted, error);
         if (result != WEFT_OK) return result;
     }
-    return reliefs_fit(scene, error);
+    const WeftResult result = reliefs_fit(scene, error);
+    return result == WEFT_OK ? hairs_fit(scene, error) : result;
 }

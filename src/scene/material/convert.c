@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "scene/material/hair.h"
 #include "scene/material/set.h"
 #include "scene/record/material_at.h"
 #include "shading/material/choice.h"
@@ -42,5 +43,5 @@ WeftResult weft_scene_convert(WeftScene *scene, const char *workflow, float *los
                                                 (target == CONVERT_SPECULAR && choices.workflow == WORKFLOW_SPECULAR));
         if (losses) losses[k] = already ? -2.0f : convert_wanted(choices) ? greatest_loss(scene, material) : -1.0f;
     }
-    return WEFT_OK;
+    return hairs_fit(scene, error);
 }

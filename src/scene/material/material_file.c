@@ -82,7 +82,7 @@ static void read_value(Reader *r, const json_t *json, InputId id, float v[3]) {
     }
     char about[SUBJECT];
     subject(r, r->key, about);
-    for (int c = 0; c < (color ? 3 : 1) && r->result == WEFT_OK; c++) v[c] = input_ranged(id, v[c], about, r->log);
+    for (int c = 0; c < (color ? 3 : 1) && r->result == WEFT_OK; c++) v[c] = number_ranged(info, v[c], about, r->log);
 }
 
 /* Returns the index of a text among names, which end with NULL. Fails if it is none of them. */
@@ -289,7 +289,12 @@ static void read_rest(Reader *r, const json_t *json) {
     static const char *const modes[] = {"opaque", "mask", "blend", NULL}; /* as WeftAlphaMode */
     MaterialFile *out = r->out;
     const char *key = r->key;
-    if (strcmp(key, "name") == 0 || strcmp(key, "group") == 0 || strcmp(key, "help") == 0) {
+    const int hair = hair_find(key);
+    if (hair >= 0) {
+        char about[SUBJECT];
+        out->material.hair[hair] =
+            number_ranged(&hair_infos[hair], number(r, json, "it"), subject(r, key, about), r->log);
+    } else if (strcmp(key, "name") == 0 || strcmp(key, "group") == 0 || strcmp(key, "help") == 0) {
         if (!json_is_string(json)) refuse_value(r, json, "expected a text");
     } else if (strcmp(key, "keep") == 0) {
         read_keep(r, json);

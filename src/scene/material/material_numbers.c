@@ -19,7 +19,7 @@ static bool is_choice(int choice, int value) {
 float input_clamped(InputId input, float value) {
     const WeftInputInfo *info = &input_infos[input];
     bool angle = info->kind == WEFT_INPUT_DIRECTION || info->kind == WEFT_INPUT_ANGLE;
-    float unit = angle ? PI_FLOAT / 180.0f : 1.0f; /* as input_ranged converts the hard range */
+    float unit = angle ? PI_FLOAT / 180.0f : 1.0f; /* as number_ranged converts the hard range */
     return fminf(fmaxf(value, info->hard_low * unit), info->hard_high * unit);
 }
 
@@ -31,6 +31,8 @@ Material material_sound(const WeftMaterial *numbers) {
     material.unlit = numbers->unlit != 0;
     material.cloth = numbers->cloth;
     material.measured = numbers->measured;
+    for (int k = 0; k < WEFT_HAIR_NUMBERS; k++)
+        material.hair[k] = fminf(fmaxf(numbers->hair[k], hair_infos[k].hard_low), hair_infos[k].hard_high);
     for (int k = 0; k < CHOICE_COUNT; k++)
         if (is_choice(k, numbers->choices[k])) material.choices[k] = numbers->choices[k];
     for (int k = 0; k < INPUT_COUNT; k++) {
@@ -56,6 +58,8 @@ WeftResult numbers_sound(const WeftMaterial *m, WeftError *error) {
         if (!is_choice(k, m->choices[k]))
             return fail(error, WEFT_MESSAGE_PARAM_VALUE, weft_material_choice_name(k), "it has no value of number %d",
                         m->choices[k]);
+    for (int k = 0; k < WEFT_HAIR_NUMBERS; k++)
+        if (!isfinite(m->hair[k])) return fail(error, WEFT_MESSAGE_PARAM_VALUE, hair_infos[k].name, "it is not finite");
     for (int k = 0; k < INPUT_COUNT; k++)
         if (!all_finite(m->inputs[k].value, input_value_count((InputId)k)))
             return fail(error, WEFT_MESSAGE_PARAM_VALUE, input_infos[k].name, "its value is not finite");

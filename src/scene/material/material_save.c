@@ -213,6 +213,9 @@ static void write_rest(Writer *w, const Material *material) {
     if (material->unlit) put(w, w->root, "unlit", json_true());
     if (material->cloth) put(w, w->root, "weave", weave_json(w, w->scene->cloths[material->cloth - 1]));
     if (material->measured) put(w, w->root, "measured", measured_json(w, w->scene->measured[material->measured - 1]));
+    for (int k = 0; k < WEFT_HAIR_NUMBERS; k++)
+        if (!is_equal(material->hair[k], hair_infos[k].initial))
+            put(w, w->root, hair_infos[k].name, number(material->hair[k]));
     put(w, w->root, "double_sided", json_boolean(material->double_sided));
 }
 

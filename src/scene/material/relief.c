@@ -8,6 +8,7 @@
 #include "base/fail.h"
 #include "base/thread.h"
 #include "scene/material/cloth_fit.h"
+#include "scene/material/hair.h"
 #include "scene/material/pictures.h"
 #include "scene/record/tangents.h"
 #include "shading/dialect/texel.h"
@@ -202,7 +203,8 @@ void reliefs_renew(WeftScene *scene, int image) {
 
 WeftResult materials_complete(WeftScene *scene, WeftError *error) {
     const WeftResult result = reliefs_fit(scene, error);
-    return result == WEFT_OK ? tangents_complete(scene, error) : result;
+    const WeftResult whole = result == WEFT_OK ? tangents_complete(scene, error) : result;
+    return whole == WEFT_OK ? hairs_fit(scene, error) : whole;
 }
 
 Material relief_given(const WeftScene *scene, int material) {

@@ -16,7 +16,8 @@ WeftResult reliefs_fit(WeftScene *scene, WeftError *error);
 /* Smooths anew what came from an image whose pixels have changed. It stays as it was where memory is short. */
 void reliefs_renew(WeftScene *scene, int image);
 
-/* Completes materials that have changed: reliefs_fit, and tangents_complete (scene/record/tangents.h). */
+/* Completes materials that have changed: reliefs_fit, tangents_complete (scene/record/tangents.h),
+ * and hairs_fit (scene/material/hair.h). */
 WeftResult materials_complete(WeftScene *scene, WeftError *error);
 
 /* Returns a texture's source, or the texture itself if it has none; both are numbers counted from 1. */

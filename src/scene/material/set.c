@@ -82,8 +82,7 @@ static bool parse_input(const WeftInputInfo *info, const char *text, float value
     return parse_number(text, value);
 }
 
-float input_ranged(InputId input, float value, const char *target, const WeftLog *log) {
-    const WeftInputInfo *info = &input_infos[input];
+float number_ranged(const WeftInputInfo *info, float value, const char *target, const WeftLog *log) {
     float taken = fminf(fmaxf(value, info->hard_low), info->hard_high);
     if (taken < value || taken > value)
         warn(log, WEFT_MESSAGE_PARAM_RANGE, target, "%g is beyond the limit, %g, which is used", (double)value,
@@ -97,24 +96,24 @@ float input_ranged(InputId input, float value, const char *target, const WeftLog
 
 WeftResult setting_read(const char *name, const char *value, const char *target, Setting *setting, const WeftLog *log,
                         WeftError *error) {
-    *setting = (Setting){.input = weft_material_input_find(name), .choice = weft_material_choice_find(name)};
-    if (setting->input < 0 && setting->choice < 0)
+    *setting = (Setting){
+        .input = weft_material_input_find(name), .choice = weft_material_choice_find(name), .hair = hair_find(name)};
+    if (setting->input < 0 && setting->choice < 0 && setting->hair < 0)
         return fail(error, WEFT_MESSAGE_PARAM_NAME, name, "`weft models` lists inputs and choices");
-    if (setting->input < 0) return choice_value((ChoiceId)setting->choice, value, &setting->value, error);
-    const WeftInputInfo *info = &input_infos[setting->input];
+    if (setting->choice >= 0) return choice_value((ChoiceId)setting->choice, value, &setting->value, error);
+    const WeftInputInfo *info = setting->hair >= 0 ? &hair_infos[setting->hair] : &input_infos[setting->input];
     if (!parse_input(info, value, setting->v))
         return fail(error, WEFT_MESSAGE_PARAM_VALUE, value, "%s is %s", info->name,
                     info->kind == WEFT_INPUT_COLOR ? "a number, r,g,b (linear) or #rrggbb (sRGB)" : "a number");
-    for (int c = 0; c < input_value_count((InputId)setting->input); c++)
-        setting->v[c] = input_ranged((InputId)setting->input, setting->v[c], target, log);
+    for (int c = 0; c < (info->kind == WEFT_INPUT_COLOR ? 3 : 1); c++)
+        setting->v[c] = number_ranged(info, setting->v[c], target, log);
     return WEFT_OK;
 }
 
 void material_set(Material *material, const Setting *setting) {
-    if (setting->input < 0) {
-        material_choose(material, (ChoiceId)setting->choice, setting->value);
-        return;
-    }
+    if (setting->choice >= 0) material_choose(material, (ChoiceId)setting->choice, setting->value);
+    if (setting->hair >= 0) material->hair[setting->hair] = setting->v[0];
+    if (setting->input < 0) return;
     Input *slot = &material->inputs[setting->input];
     memcpy(slot->value, setting->v, sizeof setting->v);
     slot->given = true;

@@ -12,17 +12,17 @@ WeftResult choice_value(ChoiceId choice, const char *id, int *value, WeftError *
 /* Reads "#rrggbb", encoded in sRGB, as a linear colour. Returns false for anything else. */
 bool hex_color(const char *text, float color[3]);
 
-/* Converts a number given for an input: clamps it to the hard range, warns about target if it is beyond the plausible
+/* Converts a number given for an input or of hair: clamps it to the hard range, warns about target if it is beyond the plausible
  * range or the limit, and converts degrees to radians. Any DIRECTION is plausible. */
-float input_ranged(InputId input, float value, const char *target, const WeftLog *log);
+float number_ranged(const WeftInputInfo *info, float value, const char *target, const WeftLog *log);
 
-/* The input or the choice that a setting names; the other is -1. */
+/* The input, the choice or the number of hair that a setting names; the others are -1. */
 typedef struct Setting {
-    int input, choice, value; /* value: of the choice */
+    int input, choice, hair, value; /* value: of the choice */
     float v[3];
 } Setting;
 
-/* Reads the value for an input or choice called name. Fails with WEFT_MESSAGE_PARAM_NAME or _PARAM_VALUE; target is the
+/* Reads the value for an input, choice or number of hair called name. Fails with WEFT_MESSAGE_PARAM_NAME or _PARAM_VALUE; target is the
  * subject of warnings. */
 WeftResult setting_read(const char *name, const char *value, const char *target, Setting *setting, const WeftLog *log,
                         WeftError *error);

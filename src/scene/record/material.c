@@ -47,8 +47,39 @@ int weft_material_input_info(int index, WeftInputInfo *out) {
     return 1;
 }
 
+const WeftInputInfo hair_infos[WEFT_HAIR_NUMBERS] = {
+    {"hair_length", "length of the longest loose fibres that stand off the cloth, m; 0: none", WEFT_INPUT_SCALAR, 0.0f,
+     0.0f, 0.02f, 0.0f, 1.0f},
+    {"hair_density", "loose fibres that stand on a square metre", WEFT_INPUT_SCALAR, 200000.0f, 0.0f, 2e6f, 0.0f,
+     1e12f},
+    {"hair_thickness", "width of a loose fibre, m: of wool about 3e-5, of a wisp 1e-4", WEFT_INPUT_SCALAR, 6e-5f, 0.0f,
+     5e-4f, 0.0f, 0.01f},
+};
+
+int weft_material_hair_info(int index, WeftInputInfo *out) {
+    *out = (WeftInputInfo){0};
+    if (index < 0 || index >= WEFT_HAIR_NUMBERS) return 0;
+    *out = hair_infos[index];
+    return 1;
+}
+
+const char *weft_material_hair_name(int index) {
+    return index >= 0 && index < WEFT_HAIR_NUMBERS ? hair_infos[index].name : NULL;
+}
+
+const char *weft_material_hair_help(int index) {
+    return index >= 0 && index < WEFT_HAIR_NUMBERS ? hair_infos[index].help : NULL;
+}
+
+int hair_find(const char *name) {
+    for (int k = 0; k < WEFT_HAIR_NUMBERS; k++)
+        if (strcmp(hair_infos[k].name, name) == 0) return k;
+    return -1;
+}
+
 Material material_default(void) {
     Material material = {.alpha_cutoff = 0.5f};
+    for (int k = 0; k < WEFT_HAIR_NUMBERS; k++) material.hair[k] = hair_infos[k].initial;
     for (int k = 0; k < CHOICE_COUNT; k++) material.choices[k] = CHOICE_AUTO;
     for (int k = 0; k < INPUT_COUNT; k++) {
         Input *input = &material.inputs[k];

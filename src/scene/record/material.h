@@ -16,6 +16,10 @@ _Static_assert((int)INPUT_COUNT <= (int)WEFT_INPUTS_MAX && (int)CHOICE_COUNT <= 
 
 extern const WeftInputInfo input_infos[INPUT_COUNT];
 extern const InputRole input_roles[INPUT_COUNT];
+extern const WeftInputInfo hair_infos[WEFT_HAIR_NUMBERS];
+
+/* Returns the index of a number of hair by its name, or -1. */
+int hair_find(const char *name);
 
 /* Returns the count of numbers in the value of an input: 3 for a colour, else 1. */
 int input_value_count(InputId input);

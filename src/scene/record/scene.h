@@ -42,6 +42,15 @@ typedef struct Mesh {
     int *variant_material; /* variant_count entries, -1: its own; NULL: all -1 */
 } Mesh;
 
+/* Hair on one of the scene's own meshes, as it was grown (scene/material/hair.h). */
+typedef struct Hair {
+    int mesh, cloth;                  /* cloth: of the material then, counted from 1; 0: none */
+    float numbers[WEFT_HAIR_NUMBERS]; /* of the material then */
+    WeftAlphaMode alpha_mode;         /* of the material then, as is its opacity */
+    float alpha_cutoff;
+    Input opacity;
+} Hair;
+
 typedef enum LightKind { LIGHT_DIRECTIONAL, LIGHT_POINT, LIGHT_SPOT } LightKind;
 
 /* Radiometric: color * intensity is W/(m^2) across the beam (directional) or W/sr (point, spot). */
@@ -104,15 +113,37 @@ struct WeftScene {
     int image_count, texture_count, material_count, mesh_count, light_count, camera_count, variant_count;
     int light_capacity, polygon_light_count, polygon_light_capacity; /* capacity: entries that a list has memory for */
     PolygonLight *polygon_lights;
-    unsigned shape_version; /* counts changes of shapes; only those of lights may change */
+    Hair *hairs;    /* owned, as are the vertices of its meshes; NULL without any */
+    int hair_count; /* meshes of hair, each with a material: after the scene's own ones and before those of lights */
+    unsigned hair_version;  /* counts how often hair was grown */
+    unsigned shape_version; /* counts changes of shapes; only those of lights and hair may change */
     Environment environment;
     Vec3 low, high; /* bounding box of its own vertices; low > high when there are none */
 };
 
-/* Return the counts of the scene's own meshes and materials, without those of its lights. */
-static inline int scene_own_meshes(const WeftScene *scene) { return scene->mesh_count - scene->polygon_light_count; }
-static inline int scene_own_materials(const WeftScene *scene) {
+/* Return the numbers of the first mesh and of the first material of its lights. */
+static inline int scene_light_meshes(const WeftScene *scene) { return scene->mesh_count - scene->polygon_light_count; }
+static inline int scene_light_materials(const WeftScene *scene) {
     return scene->material_count - scene->polygon_light_count;
+}
+
+/* Return the counts of the scene's own meshes and materials, without those of its hair and lights. */
+static inline int scene_own_meshes(const WeftScene *scene) { return scene_light_meshes(scene) - scene->hair_count; }
+static inline int scene_own_materials(const WeftScene *scene) {
+    return scene_light_materials(scene) - scene->hair_count;
+}
+
+/* Returns the material that a material of hair was made of, or the material itself if it is no hair's. */
+static inline int scene_grown_from(const WeftScene *scene, int material) {
+    const int hair = material - scene_own_materials(scene);
+    return hair < 0 || hair >= scene->hair_count ? material : scene->meshes[scene->hairs[hair].mesh].material;
+}
+
+/* Returns how far hair may reach from the scene's own meshes, m. */
+static inline float scene_hair_reach(const WeftScene *scene) {
+    float reach = 0.0f;
+    for (int k = 0; k < scene->hair_count; k++) reach = fmaxf(reach, scene->hairs[k].numbers[WEFT_HAIR_LENGTH]);
+    return reach;
 }
 
 /* Returns an empty scene with the studio environment, or NULL if memory is short. */

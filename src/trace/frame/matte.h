@@ -22,9 +22,10 @@ static inline const char *matte_object(const WeftScene *scene, int mesh) {
     return *scene->meshes[mesh].name ? scene->meshes[mesh].name : "unnamed";
 }
 
-/* Returns that of a material; polygon lights have materials without names. */
+/* Returns that of a material; polygon lights have materials without names, hair that of its cloth. */
 static inline const char *matte_material(const WeftScene *scene, int material) {
-    if (material >= scene_own_materials(scene)) return "light";
+    material = scene_grown_from(scene, material);
+    if (material >= scene_light_materials(scene)) return "light";
     return *scene->material_names[material] ? scene->material_names[material] : "unnamed";
 }
 

@@ -17,7 +17,8 @@ struct Geometry {
     RTCScene accel;
     unsigned char *checks; /* by mesh, see checks_of */
     int meshes, threads;
-    atomic_int error; /* the first RTCError, which may come from Embree's own threads */
+    unsigned shape_version; /* of the scene then */
+    atomic_int error;       /* the first RTCError, which may come from Embree's own threads */
     bool built;
 };
 
@@ -57,7 +58,7 @@ static unsigned char checks_of(const WeftScene *scene, int mesh) {
  * a random number that depends on the ray's key and the triangle. */
 static bool hit_counts(const Geometry *geometry, const Hit *hit, Vec3 direction, uint32_t key, bool past_lights) {
     const WeftScene *scene = geometry->scene;
-    if (past_lights && hit->mesh >= (uint32_t)scene_own_meshes(scene)) return false;
+    if (past_lights && hit->mesh >= (uint32_t)scene_light_meshes(scene)) return false;
     int checks = checks_of(scene, (int)hit->mesh);
     if (checks & CHECK_SIDE && vec3_dot(hit->facing, direction) > 0.0f) return false;
     if (!(checks & CHECK_OPACITY)) return true;
@@ -108,7 +109,7 @@ static void filter(const struct RTCFilterFunctionNArguments *a) {
 }
 
 bool geometry_serves(const Geometry *geometry) {
-    bool serves = true;
+    bool serves = geometry->shape_version == geometry->scene->shape_version;
     for (int k = 0; k < geometry->meshes && serves; k++) serves = geometry->checks[k] == checks_of(geometry->scene, k);
     return serves;
 }
@@ -184,7 +185,7 @@ static void release(void *user) {
 WeftResult geometry_create(const WeftScene *scene, int meshes, int threads, Geometry **out, WeftError *error) {
     Geometry *geometry = alloc_array(1, sizeof *geometry);
     if (!geometry) return fail(error, WEFT_MESSAGE_MEMORY, scene->name, NULL);
-    *geometry = (Geometry){.scene = scene, .meshes = meshes, .threads = threads};
+    *geometry = (Geometry){.scene = scene, .meshes = meshes, .threads = threads, .shape_version = scene->shape_version};
     geometry->checks = alloc_array((size_t)meshes, sizeof *geometry->checks);
     if (!geometry->checks) {
         free(geometry);

@@ -9,8 +9,8 @@ typedef struct Geometry Geometry;
 WeftResult geometry_create(const WeftScene *scene, int meshes, int threads, Geometry **out, WeftError *error);
 void geometry_free(Geometry *geometry);
 
-/* Returns true if the acceleration structure is still valid: it depends on which materials are single-sided or have an
- * opacity. */
+/* Returns true if the acceleration structure is still valid: it depends on the shapes, and on which materials are
+ * single-sided or have an opacity. */
 bool geometry_serves(const Geometry *geometry);
 
 typedef struct Ray {

@@ -289,6 +289,26 @@ static void draw_inputs(Viewer *v, WeftMaterial *m, int group) {
     }
 }
 
+/* Draws the numbers of hair in units of their size. */
+static void draw_hair(WeftMaterial *m) {
+    static const struct {
+        const char *label, *unit;
+        float scale;
+    } shown[WEFT_HAIR_NUMBERS] = {{"length###hair_length", "mm", 1e3f},
+                                  {"density###hair_density", "per cm2", 1e-4f},
+                                  {"thickness###hair_thickness", "um", 1e6f}};
+    for (int k = 0; k < WEFT_HAIR_NUMBERS; k++) {
+        WeftInputInfo info;
+        weft_material_hair_info(k, &info);
+        const float scale = shown[k].scale;
+        const UiRange range = {scale * info.low, scale * info.high, scale * info.initial, shown[k].unit, false};
+        float value = scale * m->hair[k];
+        if (ui_slider(shown[k].label, &range, &value))
+            m->hair[k] = fminf(fmaxf(value / scale, info.hard_low), info.hard_high);
+        ui_tip(info.help);
+    }
+}
+
 static const char *const sheen_choice = "sheen_lobe"; /* stands with the sheen */
 
 static void draw_models(WeftMaterial *m) {
@@ -313,6 +333,7 @@ void material_panel(Viewer *v) {
         if (g == SHEEN) draw_choice(&m, weft_material_choice_find(sheen_choice));
         draw_inputs(v, &m, g);
     }
+    if (ui_section("Hair", false)) draw_hair(&m);
     if (m.cloth <= 0) weave_section(v, &m);
     edit_set_material(v, v->edit->material, &m);
 }

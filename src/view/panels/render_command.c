@@ -168,6 +168,9 @@ static void put_material(Line *line, Line *unsaid, const Viewer *v, int index) {
         else
             put(unsaid, is->cloth ? "the weave of %s\n" : "that %s is no longer woven\n", facts->materials[index]);
     }
+    for (int k = 0; k < WEFT_HAIR_NUMBERS; k++)
+        if (differs(is->hair[k], was.hair[k]))
+            put(line, " --set %d.%s=%.9g", index, weft_material_hair_name(k), (double)is->hair[k]);
     note_unsaid(unsaid, v, index);
     put_inputs(line, unsaid, v, index, &was, woven);
 }

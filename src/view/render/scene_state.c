@@ -155,6 +155,8 @@ WeftMaterial material_merged(const WeftMaterial *was, const WeftMaterial *now, c
         if (now->choices[k] != was->choices[k]) merged.choices[k] = now->choices[k];
     for (int k = 0; k < WEFT_INPUTS_MAX; k++)
         if (!same_bytes(&now->inputs[k], &was->inputs[k], sizeof now->inputs[k])) merged.inputs[k] = now->inputs[k];
+    for (int k = 0; k < WEFT_HAIR_NUMBERS; k++)
+        if (!same_bytes(&now->hair[k], &was->hair[k], sizeof now->hair[k])) merged.hair[k] = now->hair[k];
     return merged;
 }
 

@@ -28,7 +28,8 @@ static const RecordMember input_members[] = {RECORD_FLOATS(WeftInput, value, 3),
                                              RECORD_FLOATS(WeftInput, transform, 6)};
 static const RecordMember material_members[] = {
     RECORD_WHOLE(WeftMaterial, alpha_mode, WEFT_ALPHA_BLEND), RECORD_FLOATS(WeftMaterial, alpha_cutoff, 1),
-    RECORD_WHOLE(WeftMaterial, double_sided, 1), RECORD_WHOLE(WeftMaterial, unlit, 1)};
+    RECORD_WHOLE(WeftMaterial, double_sided, 1), RECORD_WHOLE(WeftMaterial, unlit, 1),
+    RECORD_FLOATS(WeftMaterial, hair, WEFT_HAIR_NUMBERS)};
 
 #define LENGTH(array) (sizeof(array) / sizeof *(array))
 
