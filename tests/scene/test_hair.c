@@ -187,7 +187,7 @@ static void count_warning(void *user, WeftMessage message, const char *text) {
     ++*(int *)user;
 }
 
-static void what_cannot_grow_is_refused(void **state) {
+static void hair_beyond_reason_is_refused(void **state) {
     (void)state;
     WeftScene *scene = square();
     WeftError error = {0};
@@ -227,6 +227,6 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(fibres_are_as_many_and_as_long_as_asked), cmocka_unit_test(holes_have_no_hair),
         cmocka_unit_test(lights_come_and_go_beside_hair), cmocka_unit_test(saved_scene_has_the_hair_again),
-        cmocka_unit_test(what_cannot_grow_is_refused)};
+        cmocka_unit_test(hair_beyond_reason_is_refused)};
     return cmocka_run_group_tests(tests, begin, end);
 }

@@ -154,6 +154,31 @@ static void a_material_is_woven_of_a_draft(void **state) {
     ran_free(&ran);
 }
 
+/* Hair grows by its sliders, goes with undo, and the copied command and the saved scene have the same. */
+static void hair_of_the_sliders_is_copied_saved_and_undone(void **state) {
+    (void)state;
+    need_gl();
+    box_write("box.gltf", BOX_BARE);
+    script_begin();
+    say_rested_picture("bare.png");
+    say("click Material/Hair\nwait 3\nset Material/hair_density 1\nset Material/hair_thickness 500\n"
+        "set Material/hair_length 20\nwait 5\n");
+    say_rested_picture("hairy.png");
+    say("save hairy.glb\nwait message wrote hairy.glb\ncommand hairy.txt\n"
+        "key control+z\nwait 5\n");
+    say_rested_picture("undone.png");
+    drive_through(script, LIST(UNSEEN, "box.gltf", "--occlusion", "0"));
+    assert_true(pictures_most("bare.png", "hairy.png") > 0.1);
+    assert_true(pictures_most("bare.png", "undone.png") < 0.5 / 255.0);
+    Ran ran = run_shell("grep -q -- '--set 0.hair_length=0.0' hairy.txt || exit 8;"
+                        " sed 's/ --engine raster//; s/ -o picture.png//; s/^weft//' hairy.txt >arguments;"
+                        " eval \"\\\"$0\\\" $(cat arguments) --crop 100,150,40,30 --spp 2 -o command.npy\" &&"
+                        " eval \"\\\"$0\\\" $(sed \"s/ box.gltf / hairy.glb /; s/ --set [^ ]*//g\" arguments)"
+                        " --crop 100,150,40,30 --spp 2 -o saved.npy\" && cmp command.npy saved.npy");
+    if (ran.code != 0) fail_msg("%d %s", ran.code, ran.err);
+    ran_free(&ran);
+}
+
 /* A path-traced picture of another size than the window's is made in the background, with the bytes of `weft render`; at the
  * end of the window an unfinished one leaves no file. */
 static void picture_of_any_size_is_path_traced_in_the_background(void **state) {
@@ -444,6 +469,7 @@ static void a_finding_of_the_doctor_chooses_its_material(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(undo_restores_a_variant),
+                                       cmocka_unit_test(hair_of_the_sliders_is_copied_saved_and_undone),
                                        cmocka_unit_test(a_bare_asset_stands_on_a_stage),
                                        cmocka_unit_test(the_menu_of_presets_follows_undo),
                                        cmocka_unit_test(a_material_is_woven_of_a_draft),

@@ -73,7 +73,7 @@ static const char *chart_help(int k) { return weft_chart(k) ? weft_chart(k)->hel
 /* Returns an empty help text, since the list of lobes prints a table instead. */
 static const char *no_help(int k) { return k < 0 ? NULL : ""; }
 
-/* Count the numbers of hair after the inputs. */
+/* Returns the number of inputs, after which those of hair are counted. */
 static int input_count(void) {
     int count = 0;
     while (weft_material_input_name(count)) count++;
