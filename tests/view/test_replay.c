@@ -223,6 +223,30 @@ static void copied_command_line_shows_the_same_tone(void **state) {
     assert_true(pictures_most("tone.png", "dark.png") > 0.15);
 }
 
+/* An automatic white makes a picture of a lamp of 3000 K greyer, as the copied command does, until a slider ends it. */
+static void automatic_white_is_that_of_the_command(void **state) {
+    (void)state;
+    need_gl();
+    script_begin();
+    say("wait rest\nclick Panel/View\n");
+    say_picture("warm.png");
+    say("wait rest\nclick \"View/Automatic white\"\nwait 300\nwait rest\n");
+    say_picture("white.png");
+    say("command white.txt\nset View/white 6504\nwait 20\nwait rest\n");
+    say_picture("ended.png");
+    say("command ended.txt\n");
+    drive_through(script, LIST("view", "--windowless", "--forget", "--json", "--width", "640", "--height", "420",
+                               "builtin:cloth", "--set", "Softbox.emission=0", "--env", "0,0,0", "--light",
+                               "sun;-1,-2,-1;3,1.6,0.6", "--occlusion", "0"));
+    Ran ran = run_shell("grep -q -- '--white-balance auto' white.txt && ! grep -q -- --white-balance ended.txt");
+    if (ran.code != 0) fail_msg("%d %s", ran.code, ran.err);
+    ran_free(&ran);
+    render_as("white.txt", "same.png");
+    assert_true(pictures_most("white.png", "same.png") < 2.5 / 255.0);
+    assert_true(pictures_most("white.png", "warm.png") > 0.1);
+    assert_true(pictures_most("ended.png", "warm.png") < 1.1 / 255.0);
+}
+
 /* ---- comparing ---- */
 
 static void a_b_comparison_shows_two_settings_and_their_difference(void **state) {
@@ -335,6 +359,7 @@ int main(void) {
                                        cmocka_unit_test(full_disk_is_a_message),
                                        cmocka_unit_test(copied_command_line_makes_the_shown_picture),
                                        cmocka_unit_test(copied_command_line_shows_the_same_tone),
+                                       cmocka_unit_test(automatic_white_is_that_of_the_command),
                                        cmocka_unit_test(copied_command_line_has_the_folder_of_maps),
                                        cmocka_unit_test(a_b_comparison_shows_two_settings_and_their_difference),
                                        cmocka_unit_test(panels_and_menus_are_reached_by_keys),

@@ -91,9 +91,6 @@ static int view_verb_run(const Options *options) {
     if (scene_options.assignment.count > 1)
         return report(WEFT_USAGE, "%s: the window shows one picture: give one value",
                       scene_options.assignment.varied[0].option);
-    if (scene_options.find_white)
-        return report(WEFT_USAGE,
-                      "--white-balance auto: not in the window, which shows a picture in the making: give KELVIN");
     desc.configure = configure_scene;
     desc.user = &scene_options;
     desc.camera = scene_options.camera;
@@ -106,6 +103,7 @@ static int view_verb_run(const Options *options) {
     desc.exposure = scene_options.tone.exposure;
     desc.metered = scene_options.meter_exposure;
     desc.kelvin = scene_options.kelvin, desc.tint = scene_options.tint;
+    desc.balanced = scene_options.find_white;
     desc.shader_dir = option_text(options, "--shader-dir");
     if (!option_given(options, "--materials")) desc.materials = materials_beside(beside);
     desc.lobes = lobes_taken();

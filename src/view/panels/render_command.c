@@ -242,7 +242,10 @@ static void put_view(Line *line, const Viewer *v) {
         put(line, " --tonemap %s", weft_tonemap_name((int)v->options->tonemap));
     float white[2];
     options_white(v->options, white);
-    if (white[1] > 0.0f) put(line, " --white-balance %.9g,%.9g", (double)v->options->kelvin, (double)v->options->tint);
+    if (v->options->balanced)
+        put(line, " --white-balance auto");
+    else if (white[1] > 0.0f)
+        put(line, " --white-balance %.9g,%.9g", (double)v->options->kelvin, (double)v->options->tint);
     if (v->options->mode != MODE_LIVE) {
         put(line, v->options->mode == MODE_DIFFERENCE ? " --engine both --halves --spp %d" : " --halves --spp %d",
             v->requests->traced.samples >= 1.0 ? (int)v->requests->traced.samples : 64);

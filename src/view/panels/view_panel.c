@@ -96,10 +96,12 @@ static void draw_picture(Viewer *v) {
     ui_checkbox("Automatic exposure", &options.metered);
     ui_tip("Shows the mean of the picture as middle grey.");
     if (ui_choice("tone map", &curves, &curve)) options.tonemap = (WeftTonemap)curve;
-    ui_slider("white", &kelvin, &options.kelvin);
+    if (ui_slider("white", &kelvin, &options.kelvin)) options.balanced = false;
     ui_tip("Temperature of the light that shows as white. 6504 K changes nothing, less makes the picture bluer.");
-    ui_slider("tint", &tint, &options.tint);
+    if (ui_slider("tint", &tint, &options.tint)) options.balanced = false;
     ui_tip("Above 0, greener light shows as white, and the picture becomes more purple.");
+    ui_checkbox("Automatic white", &options.balanced);
+    ui_tip("Shows the light that most of the picture is lit by as white.");
     if (ui_choice("background", &backs, &back)) options.background = (WeftBackground)back;
     if (options.background == WEFT_BACKGROUND_COLOR) {
         ui_color("colour", grey, options.background_color);

@@ -296,11 +296,14 @@ static bool is_best(const FrameRequest *request, Effort effort) {
 static void meter(Renderer *self) {
     WeftImage linear;
     if (weft_raster_image(self->raster, &linear, NULL) != WEFT_OK) return;
+    float white[2];
     const float stops = weft_image_meter(&linear);
+    weft_image_find_white(&linear, white);
     weft_image_free(&linear);
     pthread_mutex_lock(&self->lock);
     self->rendered.metered = true;
     self->rendered.exposure = stops;
+    memcpy(self->rendered.white, white, sizeof white);
     pthread_mutex_unlock(&self->lock);
 }
 

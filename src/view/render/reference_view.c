@@ -157,6 +157,7 @@ static void publish(ReferenceView *self, const ReferenceRequest *request, unsign
     if (!number_for && !self->finer) picture.samples /= COARSE * COARSE;
     picture.seconds = info.render_seconds;
     picture.exposure = weft_image_meter(&linear);
+    weft_image_find_white(&linear, picture.white);
     picture.denoised = !request->difference && self->denoised.pixels && self->samples < (double)request->samples;
     bool made = request->difference ? compare(self, request, &linear, &picture) == WEFT_OK
                                     : show(self, request, &linear, &picture.image) == WEFT_OK;

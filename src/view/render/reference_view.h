@@ -32,6 +32,7 @@ typedef struct ReferenceFrame {
     double samples, seconds; /* samples: below 1 while the resolution is reduced */
     bool denoised;           /* at least partly */
     float exposure;          /* as metered, stops */
+    float white[2];          /* as metered */
     int wanted_samples;
     WeftDifference difference; /* if `compared` */
     bool compared;

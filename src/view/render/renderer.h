@@ -39,7 +39,7 @@ typedef struct FrameRequest {
     WeftTonemap tonemap;
     float exposure; /* stops */
     float white[2]; /* as WeftTone has it */
-    bool metered;   /* the picture's exposure is metered */
+    bool metered;   /* the picture's exposure and white are metered */
     Effort effort;  /* the requested quality */
     int accumulate; /* frames to sum once the picture is at rest (weft_raster_accumulate_begin); 0: none */
     bool reference; /* the path tracer shows this view: OpenGL draws only what `compare` needs */
@@ -125,8 +125,9 @@ typedef struct RenderedFrame {
     float eye[3], target[3], fov; /* m; fov in degrees, vertical */
     int programs, compiled;       /* shader programs in use, and compiled since the start */
     bool busy;                    /* shaders, tables or occlusion are still being computed */
-    bool metered;                 /* `exposure` is that of the picture (weft_image_meter) */
+    bool metered;                 /* exposure and white are those of the picture (weft_image_meter) */
     float exposure;               /* stops */
+    float white[2];               /* as weft_image_find_white has it */
     char complaint[512];          /* the compiler's message about changed shader text; "" if all compiles */
     char failure[512];            /* the reason why there is no newer picture */
     char driver[128];

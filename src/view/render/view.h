@@ -25,6 +25,7 @@ typedef struct ViewDesc {
     float exposure;
     bool metered;             /* exposure follows the picture */
     float kelvin, tint;       /* of the light that shows as white (weft_white); 0: that of the display */
+    bool balanced;            /* white follows the picture, in place of both */
     const char *shader_dir;   /* may be NULL */
     const char *const *lobes; /* files of the user's lobes that were taken, ended by NULL */
     const char *materials;    /* folder of maps to put onto the cloth; NULL: none */

@@ -55,7 +55,7 @@ static FrameRequest make_request(const Viewer *v) {
                             .at = v->options->split_at,
                             .tonemap = v->options->tonemap,
                             .exposure = v->options->exposure,
-                            .metered = v->options->metered,
+                            .metered = v->options->metered || v->options->balanced,
                             .accumulate = v->desc->accumulate};
     request.state = v->edit->side == 0 || v->edit->split == SPLIT_NONE ? v->edit->state : v->edit->other;
     request.other = v->edit->side == 0 || v->edit->split == SPLIT_NONE ? v->edit->other : v->edit->state;
@@ -135,11 +135,11 @@ void requests_read_camera(Viewer *v) {
     camera_found(v, p);
 }
 
-/* Takes the exposure that was metered in the picture that is seen, if it shows the last request. */
-static void take_exposure(Viewer *v) {
+/* Takes what was metered in the picture that is seen, if it shows the last request. */
+static void take_metered(Viewer *v) {
     const RenderedFrame *p = &v->states->requests.rendered;
     const bool seen = v->options->mode == MODE_LIVE && p->metered && p->number == v->states->requests.requested;
-    if (seen) options_take_exposure(v, p->exposure);
+    if (seen) options_take_metered(v, p->exposure, p->white);
 }
 
 /* Waits up to 0.04 s for a picture newer than the last, which may be that of the previous frame while the renderer
@@ -155,7 +155,7 @@ void requests_wait_frame(Viewer *v) {
         renderer_take_frame(v->renderer, &v->states->requests.rendered);
     }
     v->states->requests.late = v->states->requests.rendered.number == before && before != v->states->requests.requested;
-    take_exposure(v);
+    take_metered(v);
 }
 
 void requests_take_reference(Viewer *v) {
@@ -164,7 +164,7 @@ void requests_take_reference(Viewer *v) {
     if (picture.image.pixels) {
         viewer_upload(&v->states->requests.reference_texture, &picture.image);
         weft_image_free(&picture.image);
-        if (v->options->mode == MODE_REFERENCE) options_take_exposure(v, picture.exposure);
+        if (v->options->mode == MODE_REFERENCE) options_take_metered(v, picture.exposure, picture.white);
     }
     const FrameRequest *last = &v->states->requests.request;
     bool current = picture.view == last->view_number && picture.state == last->state_number;

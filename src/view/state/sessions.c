@@ -30,6 +30,7 @@ static const RecordMember option_members[] = {RECORD_WHOLE(ViewOptions, mode, MO
                                               RECORD_SWITCH(ViewOptions, metered),
                                               RECORD_FLOATS(ViewOptions, kelvin, 1),
                                               RECORD_FLOATS(ViewOptions, tint, 1),
+                                              RECORD_SWITCH(ViewOptions, balanced),
                                               RECORD_WHOLE(ViewOptions, part, WEFT_PART_COUNT - 1),
                                               RECORD_WHOLE(ViewOptions, ambient, WEFT_AMBIENT_NONE),
                                               RECORD_WHOLE(ViewOptions, tool, TOOL_BRUSH),

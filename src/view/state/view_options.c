@@ -12,6 +12,7 @@ void options_begin(Viewer *v) {
                                        .metered = desc->metered,
                                        .kelvin = desc->kelvin > 0.0f ? desc->kelvin : WHITE_NONE,
                                        .tint = desc->tint,
+                                       .balanced = desc->balanced,
                                        .background = desc->background,
                                        .floor = desc->floor,
                                        .stage = desc->stage,
@@ -41,14 +42,20 @@ void options_set(Viewer *v, const ViewOptions *options) {
 
 void options_white(const ViewOptions *options, float white[2]) {
     white[0] = white[1] = 0.0f;
+    if (options->balanced) {
+        memcpy(white, options->white, sizeof options->white);
+        return;
+    }
     const bool none = fabsf(options->kelvin - WHITE_NONE) < 0.5f && fabsf(options->tint) < 1e-3f;
     if (!none) weft_white(options->kelvin, options->tint, white);
 }
 
-void options_take_exposure(Viewer *v, float stops) {
-    const float noise = 0.02f; /* stops */
+void options_take_metered(Viewer *v, float stops, const float white[2]) {
+    const float noise = 0.02f, color_noise = 5e-4f; /* stops; of x and y */
     ViewOptions *own = &v->states->options;
     if (own->metered && fabsf(stops - own->exposure) > noise) own->exposure = within(stops, -32.0f, 32.0f);
+    if (own->balanced && fabsf(white[0] - own->white[0]) + fabsf(white[1] - own->white[1]) > color_noise)
+        memcpy(own->white, white, sizeof own->white);
 }
 
 void options_toggle_mode(Viewer *v, Mode mode) {

@@ -23,6 +23,8 @@ typedef struct ViewOptions {
     bool metered;   /* exposure follows the picture */
     float kelvin;   /* of the light that shows as white; WHITE_NONE with tint 0: that of the display */
     float tint;     /* of it, as weft_white has it */
+    bool balanced;  /* the white is that of the picture, in place of both */
+    float white[2]; /* as it was found there; 0: not yet, or it has no light to balance */
     WeftPart part;
     WeftAmbient ambient;
     Tool tool;
@@ -38,8 +40,9 @@ void options_begin(Viewer *v);
 /* Fills the white of the options, as WeftTone has it. */
 void options_white(const ViewOptions *options, float white[2]);
 
-/* Takes the exposure of a picture in which it was metered, unless that differs by less than the picture's noise. */
-void options_take_exposure(Viewer *v, float stops);
+/* Takes the exposure and the white of a picture in which they were metered, where the options follow it, unless they differ
+ * by less than the picture's noise. */
+void options_take_metered(Viewer *v, float stops, const float white[2]);
 
 /* Sets all options, clamped to their ranges. */
 void options_set(Viewer *v, const ViewOptions *options);
