@@ -18,8 +18,7 @@ out highp vec4 fragment;
 #include "shading/material/dust.h"
 #include "shading/material/stack_sample.h"
 #ifdef WOVEN
-#include "raster/glsl/weave_cloth.glsl"
-#include "shading/weave/weave_base.h"
+#include "raster/glsl/weave_far.glsl"
 #endif
 
 /* The kinds of samples, and their pairs of dimensions (trace/geometry/sampler.h); the last is that of the material. */
@@ -232,17 +231,50 @@ vec3 direct_light(Stack m, StackView w, Frame f, Place place) {
 }
 
 #ifdef WOVEN
-/* Puts a point of a thread in the place of the base; returns its coverage. wear: the input of the material. */
+/* From LATER times the size of a pixel on, at which one picture alone goes over to the cloth from afar, the path tracer
+ * does (weave/cloth_base.c), with colours over a FINER-th of the pixel. */
+const float LATER = 2.0, FINER = 4.0;
+
+WeaveFootprint footprint_over(WeaveFootprint f, float by) { return WeaveFootprint(f.x / by, f.y / by, f.longest / by); }
+
+/* Returns the mean of what fibres of these colours reflect of light from all around, as weave/cloth_base.c has it. */
+float weave_reflected(WeaveBase b) { return 0.3 * rgb_mean(b.single) + 0.7 * rgb_mean(b.multiple); }
+
+/* Puts one of the systems from afar in the place of the base, chosen with u by what it reflects. */
+void weave_base_far(inout Stack m, Weave c, vec2 place, vec2 across, vec2 up, WeaveFootprint f, float wear, float u) {
+    WeaveFootprint finer = footprint_over(f, FINER);
+    WeaveBase warp = woven_far(c, false, place, across / FINER, up / FINER, finer, wear);
+    WeaveBase b = woven_far(c, true, place, across / FINER, up / FINER, finer, wear);
+    float shown = weave_reflected(warp), all = shown + weave_reflected(b), chance = all > 0.0 ? shown / all : 1.0;
+    bool weft = u >= chance;
+    if (!weft) b = warp;
+    float scale = 0.5 / max(weft ? 1.0 - chance : chance, 1e-6); /* the colours are those of half a cloth */
+    compose_base(m, b.lobe, rgb_scale(b.single, scale), rgb_scale(b.multiple, scale));
+    m.diffuse_prepared.woven = woven_afar(weft);
+}
+
+/* Puts a point of a thread in the place of the base, or a system from afar, by chance where the path tracer mixes
+ * both. Returns its coverage. wear: the input of the material. Loops may have 0 rounds, as in weave.glsl. */
 float weave_base(inout Stack m, float wear) {
     Weave c = material_cloth();
     vec2 place = weave_place(), across = dFdx(place), up = dFdy(place);
     WeaveFootprint f = weave_footprint(across.x, across.y, up.x, up.y);
     Point random = sampler_point(pixel_key(), frame_index(), PAIR_CLOTH);
-    WeavePoint p = weave_point(c, place.x, place.y, 0.25 * f.longest, 2.0 * random.v - 1.0);
-    WeaveBase b = weave_near(c, p, wear);
-    compose_base(m, b.lobe, b.single, b.multiple);
-    m.diffuse_prepared.yarn.axis = p.fibre; /* exactly, instead of through the azimuth */
-    return p.height > WEAVE_NONE ? 1.0 : 0.0;
+    bool far = random.u < weave_far_weight(footprint_over(f, LATER));
+    int points = far ? 0 : 1, systems = far ? 1 : 0;
+    float covered = 1.0;
+    for (int k = 0; k < systems; k++) {
+        weave_base_far(m, c, place, across, up, f, wear, random.v);
+        if (MATERIAL_HOLED) covered = weave_is_gap() ? 0.0 : 1.0;
+    }
+    for (int k = 0; k < points; k++) {
+        WeavePoint p = weave_point(c, place.x, place.y, 0.25 * f.longest, 2.0 * random.v - 1.0);
+        WeaveBase b = weave_near(c, p, wear);
+        compose_base(m, b.lobe, b.single, b.multiple);
+        m.diffuse_prepared.yarn.axis = p.fibre; /* exactly, instead of through the azimuth */
+        covered = p.height > WEAVE_NONE ? 1.0 : 0.0;
+    }
+    return covered;
 }
 #endif
 

@@ -26,8 +26,7 @@ static CompositionSlots find_slots(const ShaderKey *key) {
     CompositionSlots found = composition_slots(&key->choices, zero, whole);
     found.sampled = key->reference != 0;
     if (!key->woven) return found;
-    found.slots[PLACE_DIFFUSE] = found.sampled ? (TextSlot){.lobes = {LOBE_YARN}, .count = 1}
-                                               : (TextSlot){.lobes = {LOBE_WOVEN, LOBE_YARN}, .count = 2};
+    found.slots[PLACE_DIFFUSE] = (TextSlot){.lobes = {LOBE_WOVEN, LOBE_YARN}, .count = 2};
     found.slots[PLACE_SPECULAR].count = 0;
     found.lobes[PLACE_DIFFUSE] = lobe_default(found.slots[PLACE_DIFFUSE].lobes[0]);
     return found;
