@@ -9,6 +9,7 @@
 #include <zstd.h>
 
 #include "image/ktx2/ktx2.h"
+#include "image/ktx2/uastc_etc1.h"
 
 /* What a file says of itself; 0 is what a plain picture of one level has. */
 typedef struct Plan {
@@ -560,6 +561,30 @@ static void written_levels_are_means_or_given(void **state) {
     weft_image_free(&image);
 }
 
+/* Halves of one colour each are cut where they meet; the base and step of a solid block give its colour. */
+static void hints_for_etc1_are_near(void **state) {
+    (void)state;
+    static const uint8_t halves[2][4] = {{240, 30, 20, 255}, {16, 40, 200, 255}};
+    for (int flip = 0; flip < 2; flip++) {
+        uint8_t texels[16][4];
+        for (int t = 0; t < 16; t++) memcpy(texels[t], halves[flip ? t / 8 : t % 4 / 2], 4);
+        const UastcEtc1 hint = uastc_etc1_find(texels);
+        assert_int_equal(hint.flip, flip);
+        assert_int_equal(hint.differential, 0); /* the colours are too far apart for a difference */
+    }
+    static const int steps[8][2] = {{2, 8}, {5, 17}, {9, 29}, {13, 42}, {18, 60}, {24, 80}, {33, 106}, {47, 183}};
+    for (int k = 0; k < 512; k++) {
+        const uint8_t color[4] = {(uint8_t)(k % 8 * 36), (uint8_t)(k / 8 % 8 * 36), (uint8_t)(k / 64 * 36), 255};
+        const UastcEtc1Solid solid = uastc_etc1_solid(color);
+        const int step = (solid.selector < 2 ? -1 : 1) * steps[solid.intensity][solid.selector % 3 == 0];
+        for (int c = 0; c < 3; c++) {
+            const int base = (int)solid.base[c],
+                      value = step + (solid.differential ? base << 3 | base >> 2 : base * 17);
+            assert_in_range(abs((value < 0 ? 0 : value > 255 ? 255 : value) - color[c]), 0, 5);
+        }
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(numbers_of_every_format_are_read),
@@ -574,6 +599,7 @@ int main(void) {
         cmocka_unit_test(zstandard_that_lies_is_refused),
         cmocka_unit_test(written_picture_is_near),
         cmocka_unit_test(written_levels_are_means_or_given),
+        cmocka_unit_test(hints_for_etc1_are_near),
     };
     return cmocka_run_group_tests_name("ktx2", tests, NULL, NULL);
 }

@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "image/ktx2/uastc_etc1.h"
+
 enum { AXIS_STEPS = 6, REFINEMENTS = 3, PATTERNS_TRIED = 3, WEIGHTS_MOST = 32, GOOD_ENOUGH = 8 };
 
 /* A block in the channels of a mode: luminance and alpha, or colours, or colours and alpha. */
@@ -286,12 +288,37 @@ static void digits_put(Writer *writer, UastcDigit digit, const uint8_t *digits, 
     }
 }
 
-static void coded_write(const Coded *coded, unsigned char block[UASTC_BYTES]) {
+/* Writes the hints for ETC1 behind those for BC1, which stay 0. Modes 10 to 12 have one of the latter and no bias; the bias
+ * that changes nothing is 13. */
+static void hints_put(Writer *writer, int mode, uint8_t texels[UASTC_TEXELS][4]) {
+    enum { NO_BIAS = 13 };
+    const bool few = mode >= 10 && mode <= 12;
+    const UastcEtc1 hint = uastc_etc1_find(texels);
+    writer->at += few ? 1 : 2;
+    bits_put(writer, hint.flip, 1);
+    bits_put(writer, hint.differential, 1);
+    for (int half = 0; half < 2; half++) bits_put(writer, hint.intensity[half], 3);
+    if (!few) bits_put(writer, NO_BIAS, 5);
+}
+
+static void solid_write(const uint8_t color[4], unsigned char block[UASTC_BYTES]) {
+    const UastcEtc1Solid solid = uastc_etc1_solid(color);
+    Writer writer = {.block = block, .at = 0};
+    bits_put(&writer, uastc_modes[UASTC_SOLID].code, uastc_modes[UASTC_SOLID].start);
+    for (int c = 0; c < 4; c++) bits_put(&writer, color[c], 8);
+    bits_put(&writer, solid.differential, 1);
+    bits_put(&writer, solid.intensity, 3);
+    bits_put(&writer, solid.selector, 2);
+    for (int c = 0; c < 3; c++) bits_put(&writer, solid.base[c], 5);
+}
+
+static void coded_write(const Coded *coded, uint8_t texels[UASTC_TEXELS][4], unsigned char block[UASTC_BYTES]) {
     const UastcMode *mode = &uastc_modes[coded->mode];
     const int ends = 2 * mode->channels * mode->subsets;
     bool anchored[3] = {false};
     Writer writer = {.block = block, .at = 0};
     bits_put(&writer, mode->code, mode->code_bits);
+    hints_put(&writer, coded->mode, texels);
     writer.at = mode->start;
     bits_put(&writer, (unsigned)coded->selector, mode->selector_bits);
     bits_put(&writer, (unsigned)coded->pattern, mode->pattern_bits);
@@ -313,9 +340,7 @@ void uastc_encode(const UastcEnds *ends, uint8_t texels[UASTC_TEXELS][4], unsign
     }
     memset(block, 0, UASTC_BYTES);
     if (flat) {
-        Writer writer = {.block = block, .at = 0};
-        bits_put(&writer, uastc_modes[UASTC_SOLID].code, uastc_modes[UASTC_SOLID].start);
-        for (int c = 0; c < 4; c++) bits_put(&writer, texels[0][c], 8);
+        solid_write(texels[0], block);
         return;
     }
     const Source sources[5] = {[2] = source_of(texels, 2), [3] = source_of(texels, 3), [4] = source_of(texels, 4)};
@@ -326,5 +351,5 @@ void uastc_encode(const UastcEnds *ends, uint8_t texels[UASTC_TEXELS][4], unsign
             if (m == UASTC_SOLID || (uastc_modes[m].subsets > 1) != (many == 1) || !best.error) continue;
             if (channels == 2 ? grey : channels == 3 ? opaque : !opaque) mode_try(ends, &sources[channels], m, &best);
         }
-    coded_write(&best, block);
+    coded_write(&best, texels, block);
 }

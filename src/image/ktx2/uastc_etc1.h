@@ -1,0 +1,22 @@
+/* uastc_etc1.h - what a block of UASTC tells a decoder that makes a block of ETC1 of it, where a GPU has nothing else */
+#pragma once
+
+#include <stdint.h>
+
+#include "image/ktx2/uastc.h"
+
+/* How the texels are cut in two, how the base colours are kept, and the row of intensities of either half. */
+typedef struct UastcEtc1 {
+    unsigned flip, differential; /* 1: an upper and a lower half; 1: 5 bits and a difference, 0: 4 bits each */
+    unsigned intensity[2];
+} UastcEtc1;
+
+/* Returns the hint whose block of ETC1 is nearest to the texels. */
+UastcEtc1 uastc_etc1_find(uint8_t texels[UASTC_TEXELS][4]);
+
+/* A block of one colour in ETC1: its base of 5 bits, or 4, and the intensity and selector of all its texels. */
+typedef struct UastcEtc1Solid {
+    unsigned differential, intensity, selector, base[3];
+} UastcEtc1Solid;
+
+UastcEtc1Solid uastc_etc1_solid(const uint8_t color[4]);
