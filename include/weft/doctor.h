@@ -34,8 +34,7 @@ typedef enum WeftSeverity {
     F(EXTENSION_REQUIRED, "extension-required", ERROR, 0, "an extension is required that weft does not know")          \
     F(EXTENSION_UNDECLARED, "extension-undeclared", ERROR, 1, "an extension is used that extensionsUsed leaves out")   \
     F(VALUE_RANGE, "value-range", ERROR, 1, "a number is outside what glTF allows")                                    \
-    F(DEFAULT_DISPUTED, "default-disputed", WARNING, 1,                                                                \
-      "a number is left out whose default readers do not agree on")                                                    \
+    F(DEFAULT_DISPUTED, "default-disputed", WARNING, 1, "a number is left out whose default readers do not agree on")  \
     F(TEXTURE_TIMES_ZERO, "texture-times-zero", ERROR, 1, "a texture is multiplied by a factor that is 0 by default")  \
     F(TEXTURE_OFF, "texture-off", NOTE, 0, "a texture is multiplied by a factor that is set to 0")                     \
     F(TEXTURE_TWO_SPACES, "texture-two-spaces", WARNING, 0, "one image is read as sRGB and as plain numbers")          \

@@ -16,8 +16,8 @@ typedef struct MaterialFile {
     float span[INPUT_COUNT][2];     /* metres that the picture of an input spans; 0: as its transform says */
     float constant[INPUT_COUNT][3]; /* the value of an input with a texture where textures are not read */
     bool has_constants;             /* the file gives these; otherwise the factor of the texture stands for it */
-    WeftCloth *cloth;   /* owned; NULL: none */
-    Measured *measured; /* owned; NULL: none */
+    WeftCloth *cloth;               /* owned; NULL: none */
+    Measured *measured;             /* owned; NULL: none */
 } MaterialFile;
 
 /* Reads size bytes of JSON. name is the subject of errors and warnings; folder ("" or with a slash at its end) that of

@@ -235,7 +235,8 @@ static void set_input(U3mReader *r, const U3mField *field, const float v[3]) {
     r->out->named[field->input] = true;
     if (field->kind == U3M_NORMAL) return; /* a flat normal needs no map */
     for (int c = 0; c < (field->kind == U3M_COLOR ? 3 : 1); c++)
-        input->value[c] = input_ranged((InputId)field->input, field->offset + field->scale * v[c], subject, r->log);
+        input->value[c] =
+            number_ranged(&input_infos[field->input], field->offset + field->scale * v[c], subject, r->log);
 }
 
 /* Returns true if a member that no input shows would be seen elsewhere. */

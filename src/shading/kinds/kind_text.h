@@ -18,7 +18,7 @@ static Choices kind_choices(void) {
 
 /* A coat of a kind that has one is always made, since a loop has no branches, and hidden where there is none. */
 #define TAKE_STACK(m, v)                                                                                               \
-    Surface s = surface_without_coming(surface_of_row(&(v)->surface, k));                                                                      \
+    Surface s = surface_without_coming(surface_of_row(&(v)->surface, k));                                              \
     bool coated = s.clearcoat > 0.0f;                                                                                  \
     s.clearcoat = coat_lobe < 0 ? 0.0f : max(s.clearcoat, 1e-20f);                                                     \
     if (dust_lobe < 0) s.dust = 0.0f;                                                                                  \

@@ -149,7 +149,8 @@ void text_composition(Text *text, const Choices *choices) {
     text_provide(text, "shading/material/profile.h");
     text_include(text, "shading/stack/workflow.h");
     text_include(text, file);
-    text_line(text, "\nvoid compose_begin(inout Stack m, Surface s, Choices c) {\n    workflow_begin(m, c);\n    %s;\n}",
+    text_line(text,
+              "\nvoid compose_begin(inout Stack m, Surface s, Choices c) {\n    workflow_begin(m, c);\n    %s;\n}",
               c->stack);
     text_define(text, "WEFT_ALBEDO_FORMULAS(F)", albedo);
     text_define(text, "WEFT_VIEWS(F)", view);
