@@ -101,6 +101,7 @@ WeftResult meshes_create(const WeftScene *scene, const Refinement *refinement, G
     for (int a = 0; a < AT_COUNT && result == WEFT_OK; a++) result = upload(out, scene, a, error);
     glBindVertexArray(0);
     out->mesh_count = scene->mesh_count;
+    out->own_meshes = scene_own_meshes(scene);
     out->hair_version = scene->hair_version;
     out->tangents = tangents_of(scene);
     if (result != WEFT_OK) meshes_destroy(out);
@@ -128,31 +129,39 @@ WeftResult meshes_update(GlMeshes *self, const WeftScene *scene, WeftError *erro
 
 static const GLsizeiptr seen_size = OCCLUSION_VALUES * sizeof(float);
 
-/* Makes the buffer of what vertices see, all but what those of the own meshes do, and has it looked up. */
-static WeftResult begin_occlusion(GlMeshes *self, bool env_lights, WeftError *error) {
-    size_t others = self->vertex_count - self->own_count;
-    float *unknown = alloc_array(others, (size_t)seen_size);
-    if (!unknown) return fail(error, WEFT_MESSAGE_MEMORY, "occlusion", NULL);
-    for (size_t k = 0; k < others; k++) occlusion_nothing(unknown + k * OCCLUSION_VALUES);
+/* Has what vertices see looked up in the buffer, or not. */
+static void look_up(const GlMeshes *self, bool in_buffer) {
+    for (GLuint k = 0; k < (self->env_lights ? 5 : 3); k++)
+        if (in_buffer)
+            glEnableVertexAttribArray(AT_OCCLUSION + k);
+        else
+            glDisableVertexAttribArray(AT_OCCLUSION + k);
+}
+
+/* Sets what vertices see that have no values of their own: the whole sky, and of lights nothing is known. */
+static void see_all(void) {
+    glVertexAttrib4f(AT_OCCLUSION, 1.0f, 1.0f, 1.0f, 1.0f);
+    for (GLuint k = 0; k < 2; k++) glVertexAttrib4f(AT_OPEN + k, 1.0f, 0.0f, 0.0f, 0.0f);
+    for (GLuint k = 0; k < 2; k++) glVertexAttrib4f(AT_LIGHTS + k, -1.0f, -1.0f, -1.0f, -1.0f);
+}
+
+/* Makes the buffer of what vertices of own meshes see, without its values, and has it looked up. */
+static void begin_occlusion(GlMeshes *self, bool env_lights) {
     if (!self->occlusion) glGenBuffers(1, &self->occlusion);
     glBindVertexArray(self->vertices);
     glBindBuffer(GL_ARRAY_BUFFER, self->occlusion);
-    glBufferData(GL_ARRAY_BUFFER, seen_size * (GLsizeiptr)self->vertex_count, NULL, GL_STATIC_DRAW);
-    glBufferSubData(GL_ARRAY_BUFFER, seen_size * (GLsizeiptr)self->own_count, seen_size * (GLsizeiptr)others, unknown);
-    free(unknown);
+    glBufferData(GL_ARRAY_BUFFER, seen_size * (GLsizeiptr)self->own_count, NULL, GL_STATIC_DRAW);
     for (size_t k = 0, at = 0; k < (env_lights ? 5 : 3); at += k++ ? 4 : 2) {
         GLuint attribute = (GLuint)(AT_OCCLUSION + k);
         glVertexAttribPointer(attribute, k ? 4 : 2, GL_FLOAT, GL_FALSE, (GLsizei)seen_size,
                               (const void *)(at * sizeof(float)));
-        glEnableVertexAttribArray(attribute);
     }
     self->env_lights = env_lights;
-    return WEFT_OK;
+    look_up(self, true);
 }
 
 WeftResult meshes_occlusion(GlMeshes *self, const float *values, WeftError *error) {
-    WeftResult result = begin_occlusion(self, true, error);
-    if (result != WEFT_OK) return result;
+    begin_occlusion(self, true);
     glBufferSubData(GL_ARRAY_BUFFER, 0, seen_size * (GLsizeiptr)self->own_count, values);
     return gl_check(error, "occlusion");
 }
@@ -192,8 +201,8 @@ WeftResult meshes_reshape(GlMeshes *self, const WeftScene *scene, WeftError *err
         return gl_check(error, "lights");
     }
     WeftResult result = meshes_create(scene, self->refinement, &fresh, error);
-    if (result == WEFT_OK && self->occlusion) result = begin_occlusion(&fresh, self->env_lights, error);
     if (result == WEFT_OK && self->occlusion) {
+        begin_occlusion(&fresh, self->env_lights);
         glBindBuffer(GL_COPY_READ_BUFFER, self->occlusion);
         glBindBuffer(GL_COPY_WRITE_BUFFER, fresh.occlusion);
         glCopyBufferSubData(GL_COPY_READ_BUFFER, GL_COPY_WRITE_BUFFER, 0, 0, seen_size * (GLsizeiptr)self->own_count);
@@ -223,12 +232,17 @@ void meshes_bind(const GlMeshes *self) {
         const float constant = a == AT_COLOR ? 1.0f : 0.0f;
         glVertexAttrib4f(a, constant, constant, constant, constant);
     }
-    glVertexAttrib4f(AT_OCCLUSION, 1.0f, 1.0f, 1.0f, 1.0f);
-    for (GLuint k = 0; k < 2; k++) glVertexAttrib4f(AT_OPEN + k, 1.0f, 0.0f, 0.0f, 0.0f);
-    for (GLuint k = 0; k < 2; k++) glVertexAttrib4f(AT_LIGHTS + k, -1.0f, -1.0f, -1.0f, -1.0f);
+    see_all();
 }
 
 void meshes_draw(const GlMeshes *self, int mesh) {
     uint32_t first = self->first[mesh], count = self->first[mesh + 1] - first;
-    if (count) glDrawElements(GL_TRIANGLES, (GLsizei)count, GL_UNSIGNED_INT, (const void *)(first * sizeof(uint32_t)));
+    const bool sees_all = self->occlusion && mesh >= self->own_meshes;
+    if (!count) return;
+    if (sees_all) {
+        look_up(self, false);
+        see_all();
+    }
+    glDrawElements(GL_TRIANGLES, (GLsizei)count, GL_UNSIGNED_INT, (const void *)(first * sizeof(uint32_t)));
+    if (sees_all) look_up(self, true);
 }

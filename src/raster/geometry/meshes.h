@@ -21,13 +21,14 @@ enum {
 typedef struct GlMeshes {
     unsigned vertices; /* vertex array object */
     unsigned attributes[AT_COUNT], index;
-    unsigned occlusion;               /* buffer, 0 until there is one */
+    unsigned occlusion;               /* buffer for the vertices of own meshes, 0 until there is one */
     bool env_lights;                  /* true if values for the environment's lights are there */
     uint32_t vertex_count, own_count; /* own: of the scene's own meshes, which come first */
-    int mesh_count, tangents;         /* tangents: of how many meshes they are uploaded */
-    unsigned hair_version;            /* of the uploaded hair, as in WeftScene */
-    uint32_t *first;                  /* a mesh's first index; mesh_count + 1 entries, owned */
-    const Refinement *refinement;     /* of the scene's own meshes */
+    int mesh_count, own_meshes;
+    int tangents;                 /* of how many meshes they are uploaded */
+    unsigned hair_version;        /* of the uploaded hair, as in WeftScene */
+    uint32_t *first;              /* a mesh's first index; mesh_count + 1 entries, owned */
+    const Refinement *refinement; /* of the scene's own meshes */
 } GlMeshes;
 
 /* Uploads all meshes, the scene's own as they are refined; the refinement must live as long. Fails with

@@ -244,7 +244,8 @@ static float env_light_visibility(const Occlusion *self, int light, Vec3 p, Vec3
     return above ? (float)seen / (float)above : 1.0f;
 }
 
-void occlusion_nothing(float values[OCCLUSION_VALUES]) {
+/* Writes the values of a vertex that sees the whole sky and has no values for lights. */
+static void see_all(float values[OCCLUSION_VALUES]) {
     for (int k = 0; k < OCCLUSION_VALUES; k++) values[k] = k < OCCLUSION_LIGHT ? 0.0f : -1.0f;
     values[0] = values[1] = values[OCCLUSION_OPEN] = values[OCCLUSION_OPEN + 4] = 1.0f;
 }
@@ -263,7 +264,7 @@ static void search_block(void *user, int item, int thread) {
         if (k - at->first[m] < at->solved[m]) continue;
         bool two_sided = scene->materials[scene->meshes[m].material].double_sided;
         float *to = at->values + OCCLUSION_VALUES * (size_t)k;
-        occlusion_nothing(to);
+        see_all(to);
         Vec3 p = vec3_load(at->position + 3 * (size_t)k), n = vec3_load(at->normal + 3 * (size_t)k);
         if (!(vec3_dot(n, n) > 0.0f)) continue;
         Vec3 back = vec3_scale(n, -1.0f);

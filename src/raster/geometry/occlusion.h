@@ -39,9 +39,6 @@ typedef struct OcclusionHow {
 WeftResult occlusion_start(const WeftScene *scene, const Refinement *refinement, const OcclusionHow *how,
                            Occlusion **out, const WeftLog *log, WeftError *error);
 
-/* Writes the values of a vertex that sees the whole sky and has no values for lights. */
-void occlusion_nothing(float values[OCCLUSION_VALUES]);
-
 /* Returns OCCLUSION_VALUES a vertex, for the scene's own meshes one after the other, or NULL if the search is not done
  * and not waited for. Sky: 1 is all of it. Light: visible fraction of its part above the horizon of the front, or of
  * the side that faces it if the material has two; below 0 if it was not searched for. Lives until occlusion_free. */
